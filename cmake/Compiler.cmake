@@ -1,0 +1,46 @@
+# Warnings, ccache, sanitizers and the CUDA toolkit, found once for all targets.
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_CUDA_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+add_library(lsdcd_options INTERFACE)
+# No contraction: a fused multiply-add on one backend alone would let cell lists
+# and forces differ between CPU and GPU in the last bits.
+target_compile_options(lsdcd_options INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -ffp-contract=off>)
+
+if(LSDCD_SANITIZE)
+  target_compile_options(lsdcd_options INTERFACE
+    $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer>)
+  target_link_options(lsdcd_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+set(LSDCD_HAVE_CUDA OFF)
+if(LSDCD_CUDA)
+  include(CheckLanguage)
+  if(NOT CMAKE_CUDA_COMPILER)
+    find_program(NVCC nvcc HINTS $ENV{CUDA_HOME}/bin /usr/local/cuda/bin)
+    if(NVCC)
+      set(CMAKE_CUDA_COMPILER ${NVCC})
+    endif()
+  endif()
+  if(NOT CMAKE_CUDA_ARCHITECTURES)
+    set(CMAKE_CUDA_ARCHITECTURES 80 90)
+  endif()
+  check_language(CUDA)
+  if(CMAKE_CUDA_COMPILER)
+    enable_language(CUDA)
+    set(CMAKE_CUDA_STANDARD 17)
+    set(CMAKE_CUDA_STANDARD_REQUIRED ON)
+    set(LSDCD_HAVE_CUDA ON)
+    target_compile_options(lsdcd_options INTERFACE
+      $<$<COMPILE_LANGUAGE:CUDA>:--fmad=false --extended-lambda -Xcompiler=-Wall,-Wextra,-ffp-contract=off>)
+    message(STATUS "CUDA engine: yes, nvcc ${CMAKE_CUDA_COMPILER_VERSION}")
+  endif()
+endif()
+if(NOT LSDCD_HAVE_CUDA)
+  message(STATUS "CUDA engine: no (CPU only)")
+endif()

@@ -1,0 +1,14 @@
+// What the core throws when something the user gave cannot be used.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace lsdcd {
+
+// The message names the file, line or facet, the value found, and the remedy.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}    // namespace lsdcd

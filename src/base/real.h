@@ -1,0 +1,17 @@
+// Number type and function marker shared by host and device code.
+#pragma once
+
+#if defined(__CUDACC__)
+#define LSDCD_FN __host__ __device__ inline
+#else
+#define LSDCD_FN inline
+#endif
+
+namespace lsdcd {
+
+using Real = double;
+
+// Unit round-off of Real, for tolerances that are derived from it.
+constexpr Real kRoundoff = 2.220446049250313e-16;
+
+}    // namespace lsdcd

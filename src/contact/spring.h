@@ -1,0 +1,37 @@
+// One tangential spring and where it sits.
+#pragma once
+
+#include "base/vec3.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// Which part of the wall a contact is on: kind in the two top bits, index below.
+using FeatureCode = std::uint32_t;
+enum class FeatureKind : std::uint32_t { face = 0, edge = 1, vertex = 2 };
+
+constexpr FeatureCode kFeatureIndexMask = 0x3fffffffu;
+constexpr std::size_t kMaxFeatures = kFeatureIndexMask;
+
+LSDCD_FN FeatureCode feature_code(FeatureKind kind, std::uint32_t index)
+{
+  return (static_cast<std::uint32_t>(kind) << 30) | index;
+}
+LSDCD_FN FeatureKind feature_kind(FeatureCode code)
+{
+  return static_cast<FeatureKind>(code >> 30);
+}
+LSDCD_FN std::uint32_t feature_index(FeatureCode code)
+{
+  return code & kFeatureIndexMask;
+}
+
+struct Spring {
+  Vec3 stretch;           // length; lies in the contact's tangent plane
+  Vec3 normal;            // unit, wall -> centre, when the spring was last moved
+  FeatureCode feature;
+  std::uint32_t pad;      // keeps the record free of indeterminate bytes
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,109 @@
+// The limit-space grid: for every cell near the wall, a complete list of the
+// features that a sphere with its centre in that cell can touch.
+#pragma once
+
+#include "base/vec3.h"
+#include "contact/spring.h"
+#include "mesh/wall_features.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+constexpr int kBrickSide = 8;                                  // cells along a brick edge
+constexpr int kBrickCells = kBrickSide * kBrickSide * kBrickSide;
+constexpr int kMaskWords = kBrickCells / 64;                   // one 64-bit word per z layer
+
+// An entry of a cell's list: the feature, and a lower bound of its distance from
+// the cell centre. Lists ascend in (bound, feature).
+struct Candidate {
+  FeatureCode feature;
+  float bound;    // length
+};
+
+// A cell with one candidate holds it inline (count 1, first = its feature code).
+struct Cell {
+  std::uint32_t first;
+  std::uint32_t count;
+};
+
+// Cells of a brick that have candidates, as bits in cell order x, then y, then z;
+// below[w] counts the bits set in words before w.
+struct Brick {
+  std::uint64_t mask[kMaskWords];
+  std::uint32_t first_cell;
+  std::uint16_t below[kMaskWords];
+  std::uint32_t pad;
+};
+
+// Borrowed view of a grid on the host or on a device; trivially copyable.
+struct GridView {
+  WallFeaturesView wall;
+  Vec3 origin;                     // corner of brick (0, 0, 0); length
+  Real length, inv_length;         // cell edge
+  Real reach;                      // largest radius that the lists are complete for
+  Real slack;                      // tolerance that closes face, edge and vertex regions; length
+  std::int32_t n_bricks[3];
+  const std::int32_t *brick_of;    // x fastest; -1 where no brick is near the wall
+  const Brick *bricks;
+  const Cell *cells;
+  const Candidate *candidates;
+};
+
+struct GridSettings {
+  Real length = 0;                             // 0: chosen from the mesh, the reach and the budget
+  Real reach = 0;                              // > 0
+  std::size_t memory_budget = 1ull << 30;      // bytes
+};
+
+struct GridReport {
+  Real length = 0, reach = 0;
+  bool length_chosen = false;
+  std::size_t bricks = 0, cells = 0, candidates = 0;    // cells that have candidates
+  std::size_t bytes = 0;
+  std::size_t longest_list = 0;
+  std::size_t distance_tests = 0;    // feature against cell, after bricking
+  Real mean_list = 0;
+  double seconds = 0;
+  std::string device;
+};
+
+// Owns a grid and the wall records that it points to, on the host. Bitwise the
+// same whichever device built it.
+struct TriangleGrid {
+  WallFeatures wall;
+  Vec3 origin = {0, 0, 0};
+  Real length = 0, reach = 0, slack = 0;
+  std::int32_t n_bricks[3] = {0, 0, 0};
+  std::vector<std::int32_t> brick_of;
+  std::vector<Brick> bricks;
+  std::vector<Cell> cells;
+  std::vector<Candidate> candidates;
+  GridReport report;
+
+  GridView view() const;
+};
+
+// Throws InputError when the grid would not fit the budget; the message says
+// which cell length would.
+TriangleGrid build_grid(const WallMesh &mesh, const GridSettings &settings, bool on_cuda = false);
+
+// The report as lines for the log.
+std::string describe(const GridReport &report);
+
+// One flat, relocatable block of bytes for a whole grid, so that the processes of
+// a node can share one: pack into memory of flat_bytes(), view it anywhere.
+// The block must be 64-byte aligned.
+std::size_t flat_bytes(const TriangleGrid &grid);
+void flatten(const TriangleGrid &grid, char *block);
+GridView flat_view(const char *block);
+
+// Is there any candidate in the cell that holds q? Most spheres stop here.
+LSDCD_FN bool near_wall(const GridView &grid, const Vec3 &q);
+
+}    // namespace lsdcd
+
+#include "grid/locate.h"

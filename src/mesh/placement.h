@@ -1,0 +1,32 @@
+// Where a mesh stands in the simulation box: scale, rotate and move, in the order given.
+#pragma once
+
+#include "base/vec3.h"
+#include "mesh/triangle_soup.h"
+
+namespace lsdcd {
+
+// An affine map x -> m x + t, built up one word at a time; later words act on
+// the result of earlier ones.
+class Placement {
+ public:
+  // Factors per axis; none may be zero.
+  void scale(const Vec3 &factors);
+  // Right-handed rotation about an axis through the origin; `axis` need not be unit.
+  void rotate(const Vec3 &axis, Real degrees);
+  void move(const Vec3 &shift);
+
+  bool is_identity() const;
+  Vec3 apply(const Vec3 &x) const;
+
+  // Applies the map to every corner. A mirror (negative determinant) also swaps
+  // two corners of each triangle, so that orientation is kept.
+  // Throws InputError if a coordinate overflows.
+  void apply(TriangleSoup &soup) const;
+
+ private:
+  Vec3 row_[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  Vec3 shift_ = {0, 0, 0};
+};
+
+}    // namespace lsdcd

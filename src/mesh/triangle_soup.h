@@ -1,0 +1,30 @@
+// Triangles as a file gives them: no sharing, no order, nothing dropped.
+#pragma once
+
+#include "base/vec3.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// Corners of triangle t are corners[3t], corners[3t+1], corners[3t+2], in the
+// file's winding; units are the file's until a placement is applied. The facet
+// number in messages is t + 1.
+struct TriangleSoup {
+  std::vector<Vec3> corners;
+  std::string source;    // file name, for messages
+
+  std::size_t n_triangles() const { return corners.size() / 3; }
+};
+
+// Reads an STL file, ASCII or binary, told apart by structure (a binary header
+// may begin with "solid"). ASCII: several solids, any case, CR LF accepted.
+// Throws InputError naming the file, the line or facet, the value and the remedy.
+TriangleSoup read_stl(const std::string &path);
+
+// The same from a buffer already in memory; `source` is used in messages.
+TriangleSoup read_stl_bytes(const char *bytes, std::size_t size, const std::string &source);
+
+}    // namespace lsdcd

@@ -1,0 +1,70 @@
+// Faces, edges and vertices of a wall as records that a contact query reads.
+#pragma once
+
+#include "base/vec3.h"
+#include "contact/spring.h"
+#include "mesh/wall_mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace lsdcd {
+
+// A face as its plane and three in-plane half-spaces; no division by an area.
+// inward[k] is the unit in-plane normal of edge k that points into the face.
+// With d = q - anchor, the signed distances from the edges are dot(inward[0], d),
+// dot(inward[1], d) + height and dot(inward[2], d).
+struct FaceRecord {
+  Vec3 anchor;       // corner 0
+  Vec3 normal;       // unit, by the winding
+  Vec3 inward[3];
+  Real height;       // distance of corner 0 from edge 1
+};
+
+// An edge as a segment and the in-plane inward normals of its faces: a foot
+// point on it is a local minimum of distance if no face lets the distance fall.
+struct EdgeRecord {
+  Vec3 anchor;             // its first vertex
+  Vec3 direction;          // unit, towards the second
+  Real length;
+  Vec3 inward[2];          // of the first two faces
+  std::uint32_t n_faces;
+  std::uint32_t more;      // faces past the second: edge_inward[more ...]
+};
+
+// A vertex with the unit directions of its edges: vertex_direction[first ...].
+struct VertexRecord {
+  Vec3 position;
+  std::uint32_t first, count;
+};
+
+struct WallFeaturesView {
+  const FaceRecord *faces;
+  const EdgeRecord *edges;
+  const VertexRecord *vertices;
+  const Vec3 *edge_inward;
+  const Vec3 *vertex_direction;
+  const std::array<std::int32_t, 3> *face_vertex;
+  const std::array<std::int32_t, 2> *edge_vertex;
+  const Vec3 *edge_out;      // angle-weighted pseudonormals; only read where a side is set
+  const Vec3 *vertex_out;
+};
+
+// Records of every face and of the edges and vertices that can hold a contact of
+// their own. A flat edge cannot: its faces, closed by a tolerance, cover it.
+struct WallFeatures {
+  std::vector<FaceRecord> faces;
+  std::vector<EdgeRecord> edges;
+  std::vector<VertexRecord> vertices;
+  std::vector<Vec3> edge_inward;
+  std::vector<Vec3> vertex_direction;
+  std::vector<std::array<std::int32_t, 3>> face_vertex;
+  std::vector<std::array<std::int32_t, 2>> edge_vertex;
+  std::vector<Vec3> edge_out, vertex_out;
+  std::vector<FeatureCode> contact_features;    // what a grid has to sort into cells
+};
+
+WallFeatures make_features(const WallMesh &mesh);
+
+}    // namespace lsdcd
