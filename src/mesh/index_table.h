@@ -1,0 +1,85 @@
+// An open-addressing hash table from keys that the caller keeps to their indices.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace lsdcd {
+
+inline std::uint64_t mix_bits(std::uint64_t h)
+{
+  h ^= h >> 32;
+  h *= 0x9e3779b97f4a7c15u;
+  h ^= h >> 29;
+  h *= 0xd6e8feb86659fd93u;
+  return h ^ (h >> 32);
+}
+
+template <class Word>
+std::uint64_t hash_three(Word a, Word b, Word c)
+{
+  static_assert(sizeof(Word) == 8, "hashed as bits");
+  std::uint64_t bits[3];
+  const Word words[3] = {a, b, c};
+  std::memcpy(bits, words, sizeof bits);
+  return mix_bits(mix_bits(mix_bits(bits[0]) + bits[1]) + bits[2]);
+}
+
+class IndexTable {
+ public:
+  IndexTable() : slots_(1024, Slot{0, kNone}) {}
+
+  static constexpr int kNone = -1;
+
+  // The index stored under this hash for which is_same(index) holds, or kNone.
+  template <class IsSame>
+  int find(std::uint64_t hash, IsSame is_same) const
+  {
+    return slots_[find_slot(static_cast<std::uint32_t>(hash), is_same)].index;
+  }
+
+  // The same, but stores `fresh` where there is none, and returns it.
+  template <class IsSame>
+  int find_or_insert(std::uint64_t hash, int fresh, IsSame is_same)
+  {
+    const auto tag = static_cast<std::uint32_t>(hash);
+    Slot &slot = slots_[find_slot(tag, is_same)];
+    if (slot.index != kNone) return slot.index;
+    slot = {tag, fresh};
+    if (++n_used_ > slots_.size() / 2) grow();
+    return fresh;
+  }
+
+ private:
+  struct Slot {
+    std::uint32_t tag;
+    int index;
+  };
+
+  template <class IsSame>
+  std::size_t find_slot(std::uint32_t tag, IsSame is_same) const
+  {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = tag & mask;
+    while (slots_[at].index != kNone && !(slots_[at].tag == tag && is_same(slots_[at].index)))
+      at = (at + 1) & mask;
+    return at;
+  }
+
+  void grow()
+  {
+    std::vector<Slot> old(2 * slots_.size(), Slot{0, kNone});
+    std::swap(old, slots_);
+    const auto never = [](int) { return false; };
+    for (const Slot &slot : old)
+      if (slot.index != kNone) slots_[find_slot(slot.tag, never)] = slot;
+  }
+
+  std::vector<Slot> slots_;    // a power of two of them
+  std::size_t n_used_ = 0;
+};
+
+}    // namespace lsdcd

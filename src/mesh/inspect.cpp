@@ -1,0 +1,64 @@
+#include "mesh/wall_mesh.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace lsdcd {
+namespace {
+
+std::string text(Real value)
+{
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g", value);
+  return buffer;
+}
+
+std::string text(const Vec3 &a)
+{
+  return "(" + text(a.x) + ", " + text(a.y) + ", " + text(a.z) + ")";
+}
+
+std::string counted(std::size_t n, const char *one, const char *many)
+{
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+std::string surface(const MeshReport &report)
+{
+  if (!report.closed) return "open";
+  if (!report.oriented) return "closed, not all facets face the same side";
+  return report.volume > 0 ? "closed, normals point out" : "closed, normals point in";
+}
+
+}    // namespace
+
+std::string describe(const MeshReport &report, const std::string &source)
+{
+  std::string block = "mesh " + source;
+  const auto line = [&](const char *name, const std::string &value) {
+    char label[24];
+    std::snprintf(label, sizeof label, "\n  %-12s", name);
+    block += label + value;
+  };
+  line("facets", std::to_string(report.facets) + ", " + std::to_string(report.degenerate_facets) +
+                     " degenerate and " +
+                     counted(report.duplicate_facets, "duplicate", "duplicates") + " dropped");
+  line("vertices", std::to_string(report.vertices) + ", welded from " +
+                       counted(report.corners, "corner", "corners") + " (tolerance " +
+                       text(report.weld_tolerance) + ")");
+  line("edges", std::to_string(report.edges) + ", " + std::to_string(report.open_edges) +
+                    " open, " + std::to_string(report.nonmanifold_edges) + " non-manifold, " +
+                    std::to_string(report.misoriented_edges) + " misoriented");
+  line("surface", surface(report));
+  line("area", text(report.area));
+  if (report.oriented) line("volume", text(std::fabs(report.volume)));
+  line("box", text(report.lo) + " to " + text(report.hi));
+  line("edge length", text(report.smallest_edge) + " smallest, " + text(report.median_edge) +
+                          " median, " + text(report.largest_edge) + " largest");
+  line("thinnest", "face " + text(report.smallest_height) + " high");
+  line("folds", text(report.largest_fold) + " degrees at most, " +
+                    counted(report.feature_edges, "edge", "edges") + " above 30");
+  return block;
+}
+
+}    // namespace lsdcd

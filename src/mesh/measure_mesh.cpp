@@ -1,0 +1,97 @@
+#include "mesh/measure_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kDegrees = 180 / 3.14159265358979323846;
+constexpr Real kFeatureFold = 30;    // degrees
+
+void measure_bounds(WallMesh &mesh)
+{
+  MeshReport &report = mesh.report;
+  report.lo = report.hi = mesh.vertices[0];
+  for (const Vec3 &x : mesh.vertices)
+    for (int i = 0; i < 3; ++i) {
+      report.lo[i] = std::min(report.lo[i], x[i]);
+      report.hi[i] = std::max(report.hi[i], x[i]);
+    }
+}
+
+void measure_edge_lengths(WallMesh &mesh)
+{
+  if (mesh.edges.empty()) return;
+  MeshReport &report = mesh.report;
+  std::vector<Real> lengths;
+  lengths.reserve(mesh.edges.size());
+  for (const auto &edge : mesh.edges)
+    lengths.push_back(norm(mesh.vertices[edge[1]] - mesh.vertices[edge[0]]));
+  const auto ends = std::minmax_element(lengths.begin(), lengths.end());
+  report.smallest_edge = *ends.first;
+  report.largest_edge = *ends.second;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  report.median_edge = *middle;
+}
+
+void measure_faces(WallMesh &mesh, const std::vector<FacePlane> &plane)
+{
+  if (mesh.faces.empty()) return;
+  MeshReport &report = mesh.report;
+  // About the middle of the box: far from the origin the terms would be large and cancel.
+  const Vec3 middle = 0.5 * report.lo + 0.5 * report.hi;
+  long double area = 0, volume = 0;
+  report.smallest_height = plane[0].height;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    area += plane[f].area;
+    volume += plane[f].area * dot(plane[f].normal, mesh.vertices[mesh.faces[f][0]] - middle) / 3;
+    report.smallest_height = std::min(report.smallest_height, plane[f].height);
+  }
+  report.area = static_cast<Real>(area);
+  report.volume = static_cast<Real>(volume);
+}
+
+// Whether the face runs along the edge from its lower to its higher vertex.
+bool runs_along(const WallMesh &mesh, int face, int edge)
+{
+  int k = 0;
+  while (mesh.face_edges[face][k] != edge) ++k;
+  return mesh.faces[face][k] == mesh.edges[edge][0];
+}
+
+void measure_adjacency(WallMesh &mesh, const std::vector<FacePlane> &plane)
+{
+  MeshReport &report = mesh.report;
+  for (int e = 0; e < static_cast<int>(mesh.edges.size()); ++e) {
+    const int n_faces = mesh.edge_first[e + 1] - mesh.edge_first[e];
+    if (n_faces == 1) ++report.open_edges;
+    if (n_faces > 2) ++report.nonmanifold_edges;
+    if (n_faces != 2) continue;
+    const int f = mesh.edge_face[mesh.edge_first[e]], g = mesh.edge_face[mesh.edge_first[e] + 1];
+    const bool misoriented = runs_along(mesh, f, e) == runs_along(mesh, g, e);
+    if (misoriented) ++report.misoriented_edges;
+    const Vec3 n = misoriented ? -plane[g].normal : plane[g].normal;
+    const Real fold =
+        std::atan2(norm(cross(plane[f].normal, n)), dot(plane[f].normal, n)) * kDegrees;
+    report.largest_fold = std::max(report.largest_fold, fold);
+    if (fold > kFeatureFold) ++report.feature_edges;
+  }
+  report.closed = !mesh.faces.empty() && report.open_edges == 0 && report.nonmanifold_edges == 0;
+  report.oriented = report.closed && report.misoriented_edges == 0;
+}
+
+}    // namespace
+
+void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane)
+{
+  mesh.report.vertices = mesh.vertices.size();
+  mesh.report.edges = mesh.edges.size();
+  measure_bounds(mesh);
+  measure_edge_lengths(mesh);
+  measure_faces(mesh, plane);
+  measure_adjacency(mesh, plane);
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,15 @@
+// The counts and sizes of a welded mesh.
+#pragma once
+
+#include "mesh/face_plane.h"
+#include "mesh/wall_mesh.h"
+
+#include <vector>
+
+namespace lsdcd {
+
+// Fills the edge counts, sizes, folds, area and volume of mesh.report; `plane`
+// holds one entry per face. What was dropped on the way is the welder's to count.
+void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane);
+
+}    // namespace lsdcd

@@ -1,0 +1,194 @@
+#include "mesh/wall_mesh.h"
+
+#include "base/input_error.h"
+#include "mesh/face_plane.h"
+#include "mesh/index_table.h"
+#include "mesh/measure_mesh.h"
+#include "mesh/weld_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+namespace lsdcd {
+namespace {
+
+using Triple = std::array<int, 3>;
+using Pair = std::array<int, 2>;
+
+// Squares of lengths outside 1e-100 .. 1e100 would leave the range of Real.
+constexpr Real kLargestLength = 1e100;
+
+std::string text(Real value)
+{
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%g", value);
+  return buffer;
+}
+
+// The diagonal of the bounding box, once every coordinate has been checked.
+Real checked_diagonal(const TriangleSoup &soup)
+{
+  if (soup.corners.empty())
+    throw InputError(soup.source + ": the mesh has no facets; give a mesh with triangles");
+  if (soup.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw InputError(soup.source + ": " + std::to_string(soup.n_triangles()) +
+                     " facets are more than vertex numbers can count (715 million); use a coarser "
+                     "mesh");
+  Vec3 lo = soup.corners[0], hi = lo;
+  for (std::size_t c = 0; c < soup.corners.size(); ++c)
+    for (int i = 0; i < 3; ++i) {
+      const Real x = soup.corners[c][i];
+      if (!(std::fabs(x) <= kLargestLength))    // also false for NaN
+        throw InputError(soup.source + ", facet " + std::to_string(c / 3 + 1) + ": coordinate " +
+                         "xyz"[i] + " is " + text(x) +
+                         ", beyond 1e100; repair the mesh or give a smaller scale");
+      lo[i] = std::min(lo[i], x);
+      hi[i] = std::max(hi[i], x);
+    }
+  const Real diagonal = std::hypot(hi.x - lo.x, hi.y - lo.y, hi.z - lo.z);
+  if (diagonal > 0 && diagonal < 1 / kLargestLength)
+    throw InputError(soup.source + ": the mesh is only " + text(diagonal) +
+                     " across; give a larger scale");
+  return diagonal;
+}
+
+Real checked_tolerance(Real tolerance, Real diagonal, const std::string &source)
+{
+  if (tolerance < 0) return kDefaultWeld * diagonal;
+  if (std::isnan(tolerance) || (diagonal > 0 && tolerance >= diagonal))
+    throw InputError(source + ": a weld tolerance of " + text(tolerance) +
+                     " would weld the whole mesh, " + text(diagonal) +
+                     " across, into one point; give a smaller one");
+  return tolerance;
+}
+
+Triple sorted(Triple t)
+{
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+// Sorts facets into faces and what is left of degenerate ones: their edges.
+void sort_facets(const std::vector<int> &corner_point, WallMesh &mesh,
+                 std::vector<FacePlane> &plane, std::vector<Pair> &bare_edges)
+{
+  const std::size_t n_facets = corner_point.size() / 3;
+  IndexTable seen;
+  for (std::size_t facet = 0; facet < n_facets; ++facet) {
+    const Triple face = {corner_point[3 * facet], corner_point[3 * facet + 1],
+                         corner_point[3 * facet + 2]};
+    const auto &x = mesh.vertices;
+    const FacePlane its_plane = face_plane(x[face[0]], x[face[1]], x[face[2]]);
+    if (its_plane.degenerate) {
+      ++mesh.report.degenerate_facets;
+      for (int k = 0; k < 3; ++k)
+        if (face[k] != face[(k + 1) % 3]) bare_edges.push_back({face[k], face[(k + 1) % 3]});
+      continue;
+    }
+    const Triple key = sorted(face);
+    const int fresh = static_cast<int>(mesh.faces.size());
+    const auto hash = hash_three<std::int64_t>(key[0], key[1], key[2]);
+    const auto is_same = [&](int f) { return sorted(mesh.faces[f]) == key; };
+    if (seen.find_or_insert(hash, fresh, is_same) != fresh) {
+      ++mesh.report.duplicate_facets;
+      continue;
+    }
+    mesh.faces.push_back(face);
+    mesh.face_facet.push_back(facet);
+    plane.push_back(its_plane);
+  }
+}
+
+// Turns counts per row, each stored one place further on, into first indices.
+void accumulate(std::vector<int> &first)
+{
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+}
+
+// Every side of a face, and every bare edge, goes into the bucket of its lower
+// vertex; sorted by the higher one, equal sides are neighbours and make an edge.
+void build_edges(WallMesh &mesh, const std::vector<Pair> &bare_edges)
+{
+  constexpr std::uint32_t kNoSide = 0xffffffff;
+  const auto key = [](int higher, std::uint32_t side) {
+    return static_cast<std::uint64_t>(higher) << 32 | side;
+  };
+  // Calls put(lower vertex, key) for all of them; side 3 f + k is side k of face f.
+  const auto for_each_side = [&](auto put) {
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        const int a = mesh.faces[f][k], b = mesh.faces[f][(k + 1) % 3];
+        put(std::min(a, b), key(std::max(a, b), static_cast<std::uint32_t>(3 * f) + k));
+      }
+    for (const Pair &edge : bare_edges)
+      put(std::min(edge[0], edge[1]), key(std::max(edge[0], edge[1]), kNoSide));
+  };
+
+  const std::size_t n_vertices = mesh.vertices.size();
+  std::vector<int> first(n_vertices + 1, 0);
+  for_each_side([&](int lower, std::uint64_t) { ++first[lower + 1]; });
+  accumulate(first);
+  std::vector<std::uint64_t> sides(first.back());
+  std::vector<int> fill(first.begin(), first.end() - 1);
+  for_each_side([&](int lower, std::uint64_t side) { sides[fill[lower]++] = side; });
+
+  mesh.face_edges.resize(mesh.faces.size());
+  mesh.edge_face.reserve(3 * mesh.faces.size());
+  for (std::size_t lower = 0; lower < n_vertices; ++lower) {
+    std::sort(sides.begin() + first[lower], sides.begin() + first[lower + 1]);
+    int last = -1;
+    for (int s = first[lower]; s < first[lower + 1]; ++s) {
+      const int higher = static_cast<int>(sides[s] >> 32);
+      const auto side = static_cast<std::uint32_t>(sides[s]);
+      if (higher != last) {
+        mesh.edge_first.push_back(static_cast<int>(mesh.edge_face.size()));
+        mesh.edges.push_back({static_cast<int>(lower), higher});
+        last = higher;
+      }
+      if (side == kNoSide) continue;
+      mesh.face_edges[side / 3][side % 3] = static_cast<int>(mesh.edges.size()) - 1;
+      mesh.edge_face.push_back(static_cast<int>(side / 3));
+    }
+  }
+  mesh.edge_first.push_back(static_cast<int>(mesh.edge_face.size()));
+}
+
+void build_vertex_edges(WallMesh &mesh)
+{
+  mesh.vertex_first.assign(mesh.vertices.size() + 1, 0);
+  for (const Pair &edge : mesh.edges)
+    for (const int v : edge) ++mesh.vertex_first[v + 1];
+  accumulate(mesh.vertex_first);
+  mesh.vertex_edge.resize(mesh.vertex_first.back());
+  std::vector<int> fill(mesh.vertex_first.begin(), mesh.vertex_first.end() - 1);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    for (const int v : mesh.edges[e]) mesh.vertex_edge[fill[v]++] = static_cast<int>(e);
+}
+
+}    // namespace
+
+WallMesh weld(const TriangleSoup &soup, Real tolerance)
+{
+  const Real diagonal = checked_diagonal(soup);
+  WallMesh mesh;
+  mesh.source = soup.source;
+  mesh.report.facets = soup.n_triangles();
+  mesh.report.corners = soup.corners.size();
+  mesh.report.weld_tolerance = checked_tolerance(tolerance, diagonal, soup.source);
+
+  WeldedPoints welded = weld_points(soup.corners, mesh.report.weld_tolerance);
+  mesh.vertices = std::move(welded.points);
+  std::vector<FacePlane> plane;
+  std::vector<Pair> bare_edges;
+  sort_facets(welded.corner_point, mesh, plane, bare_edges);
+  build_edges(mesh, bare_edges);
+  build_vertex_edges(mesh);
+  measure_mesh(mesh, plane);
+  return mesh;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,164 @@
+#include "mesh/weld_points.h"
+
+#include "mesh/index_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace lsdcd {
+namespace {
+
+WeldedPoints weld_equal(const std::vector<Vec3> &corners)
+{
+  WeldedPoints out;
+  out.corner_point.reserve(corners.size());
+  IndexTable table;
+  for (const Vec3 &corner : corners) {
+    const Vec3 x = corner + Vec3{0, 0, 0};    // -0.0 becomes 0.0, which has other bits
+    const int fresh = static_cast<int>(out.points.size());
+    const int point = table.find_or_insert(hash_three(x.x, x.y, x.z), fresh,
+                                           [&](int i) { return out.points[i] == x; });
+    if (point == fresh) out.points.push_back(x);
+    out.corner_point.push_back(point);
+  }
+  return out;
+}
+
+struct Box {
+  Vec3 lo, hi;
+};
+
+Box bounds(const std::vector<Vec3> &points)
+{
+  Box box = {points[0], points[0]};
+  for (const Vec3 &x : points)
+    for (int i = 0; i < 3; ++i) {
+      box.lo[i] = std::min(box.lo[i], x[i]);
+      box.hi[i] = std::max(box.hi[i], x[i]);
+    }
+  return box;
+}
+
+struct Cell {
+  std::int64_t i, j, k;
+};
+
+bool operator==(const Cell &a, const Cell &b)
+{
+  return a.i == b.i && a.j == b.j && a.k == b.k;
+}
+
+// Points, none within `tolerance` of another, in the cells of a hashed grid.
+class PointGrid {
+ public:
+  PointGrid(const std::vector<Vec3> &points, Real tolerance) : points_(points)
+  {
+    const Box box = bounds(points);
+    lo_ = box.lo;
+    const Real extent = std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z});
+    // A little more than the tolerance, for the rounding of cell coordinates.
+    reach_ = 1.001 * tolerance;
+    // Several tolerances wide, so that a search seldom leaves its cell; and wide
+    // enough for cell numbers to be exact integers.
+    cell_ = std::max(8 * tolerance, std::ldexp(extent, -50));
+    tolerance_ = tolerance;
+    next_.assign(points.size(), IndexTable::kNone);
+  }
+
+  void insert(int point)
+  {
+    const Cell cell = cell_of(points_[point]);
+    const int head =
+        table_.find_or_insert(hash(cell), n_cells(), [&](int c) { return cells_[c] == cell; });
+    if (head == n_cells()) {
+      cells_.push_back(cell);
+      first_.push_back(IndexTable::kNone);
+    }
+    next_[point] = first_[head];
+    first_[head] = point;
+  }
+
+  // The nearest point within the tolerance, the lowest of equals; kNone without one.
+  int nearest(const Vec3 &x) const
+  {
+    const Vec3 reach = {reach_, reach_, reach_};
+    const Cell lo = cell_of(x - reach), hi = cell_of(x + reach);
+    int best = IndexTable::kNone;
+    Real best_distance = tolerance_;
+    for (std::int64_t i = lo.i; i <= hi.i; ++i)
+      for (std::int64_t j = lo.j; j <= hi.j; ++j)
+        for (std::int64_t k = lo.k; k <= hi.k; ++k) {
+          const Cell cell = {i, j, k};
+          const int head = table_.find(hash(cell), [&](int c) { return cells_[c] == cell; });
+          if (head == IndexTable::kNone) continue;
+          for (int p = first_[head]; p != IndexTable::kNone; p = next_[p]) {
+            const Vec3 d = points_[p] - x;
+            const Real distance = std::hypot(d.x, d.y, d.z);    // squares might underflow
+            if (distance > best_distance) continue;
+            if (distance == best_distance && best != IndexTable::kNone && p > best) continue;
+            best = p;
+            best_distance = distance;
+          }
+        }
+    return best;
+  }
+
+ private:
+  Cell cell_of(const Vec3 &x) const
+  {
+    const auto number = [&](int axis) {
+      return static_cast<std::int64_t>(std::floor((x[axis] - lo_[axis]) / cell_));
+    };
+    return {number(0), number(1), number(2)};
+  }
+
+  static std::uint64_t hash(const Cell &c) { return hash_three(c.i, c.j, c.k); }
+
+  int n_cells() const { return static_cast<int>(cells_.size()); }
+
+  const std::vector<Vec3> &points_;
+  Vec3 lo_;
+  Real reach_, cell_, tolerance_;
+  IndexTable table_;    // of cells_
+  std::vector<Cell> cells_;
+  std::vector<int> first_;    // point in each cell, and from it
+  std::vector<int> next_;     // to the others
+};
+
+}    // namespace
+
+WeldedPoints weld_points(const std::vector<Vec3> &corners, Real tolerance)
+{
+  WeldedPoints exact = weld_equal(corners);
+  if (tolerance == 0 || corners.empty()) return exact;
+
+  // Exact copies are gone: what is left is a sixth of the corners of a usual mesh.
+  const std::vector<Vec3> &points = exact.points;
+  PointGrid grid(points, tolerance);
+  std::vector<int> moved;
+  for (int p = 0; p < static_cast<int>(points.size()); ++p) {
+    if (grid.nearest(points[p]) == IndexTable::kNone)
+      grid.insert(p);
+    else
+      moved.push_back(p);
+  }
+  if (moved.empty()) return exact;
+
+  // Only now are all points known, so that the nearest does not depend on order.
+  std::vector<int> target(points.size(), IndexTable::kNone);
+  for (const int p : moved) target[p] = grid.nearest(points[p]);
+  WeldedPoints out;
+  std::vector<int> renumbered(points.size());
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (target[p] != IndexTable::kNone) continue;
+    renumbered[p] = static_cast<int>(out.points.size());
+    out.points.push_back(points[p]);
+  }
+  for (const int p : moved) renumbered[p] = renumbered[target[p]];
+  out.corner_point = std::move(exact.corner_point);
+  for (int &point : out.corner_point) point = renumbered[point];
+  return out;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,21 @@
+// The first step of welding: which corners are the same point.
+#pragma once
+
+#include "base/vec3.h"
+
+#include <vector>
+
+namespace lsdcd {
+
+struct WeldedPoints {
+  std::vector<Vec3> points;         // coordinates of a corner of the file, never an average
+  std::vector<int> corner_point;    // for each corner, its point
+};
+
+// Going through the corners in order, one that has no point within `tolerance`
+// becomes a point; every other corner goes to the nearest point. No corner moves
+// by more than `tolerance` and no two points are closer, so that a chain of close
+// corners cannot collapse into one. Coordinates must be finite; tolerance >= 0.
+WeldedPoints weld_points(const std::vector<Vec3> &corners, Real tolerance);
+
+}    // namespace lsdcd
