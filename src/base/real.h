@@ -3,8 +3,10 @@
 
 #if defined(__CUDACC__)
 #define LSDCD_FN __host__ __device__ inline
+#define LSDCD_LAMBDA __host__ __device__
 #else
 #define LSDCD_FN inline
+#define LSDCD_LAMBDA
 #endif
 
 namespace lsdcd {

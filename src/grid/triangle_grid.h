@@ -46,17 +46,21 @@ struct GridView {
   Real length, inv_length;         // cell edge
   Real reach;                      // largest radius that the lists are complete for
   Real slack;                      // tolerance that closes face, edge and vertex regions; length
+  Real outside;                    // +1 where normals point out of a closed wall, -1 where in
   std::int32_t n_bricks[3];
   const std::int32_t *brick_of;    // x fastest; -1 where no brick is near the wall
   const Brick *bricks;
   const Cell *cells;
   const Candidate *candidates;
+  const char *block;               // the flat block all of this lies in, or null
+  std::size_t block_bytes;
 };
 
 struct GridSettings {
   Real length = 0;                             // 0: chosen from the mesh, the reach and the budget
   Real reach = 0;                              // > 0
   std::size_t memory_budget = 1ull << 30;      // bytes
+  bool sides = false;                          // keep what `side in|out` needs
 };
 
 struct GridReport {
@@ -76,7 +80,7 @@ struct GridReport {
 struct TriangleGrid {
   WallFeatures wall;
   Vec3 origin = {0, 0, 0};
-  Real length = 0, reach = 0, slack = 0;
+  Real length = 0, reach = 0, slack = 0, outside = 1;
   std::int32_t n_bricks[3] = {0, 0, 0};
   std::vector<std::int32_t> brick_of;
   std::vector<Brick> bricks;
@@ -96,7 +100,7 @@ std::string describe(const GridReport &report);
 
 // One flat, relocatable block of bytes for a whole grid, so that the processes of
 // a node can share one: pack into memory of flat_bytes(), view it anywhere.
-// The block must be 64-byte aligned.
+// The block must be 64-byte aligned. A CUDA engine takes views of flat blocks only.
 std::size_t flat_bytes(const TriangleGrid &grid);
 void flatten(const TriangleGrid &grid, char *block);
 GridView flat_view(const char *block);

@@ -5,7 +5,6 @@
 #include "contact/spring.h"
 #include "mesh/wall_mesh.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -39,14 +38,21 @@ struct VertexRecord {
   std::uint32_t first, count;
 };
 
+struct FaceVertices {
+  std::int32_t v[3];
+};
+struct EdgeVertices {
+  std::int32_t v[2];
+};
+
 struct WallFeaturesView {
   const FaceRecord *faces;
   const EdgeRecord *edges;
   const VertexRecord *vertices;
   const Vec3 *edge_inward;
   const Vec3 *vertex_direction;
-  const std::array<std::int32_t, 3> *face_vertex;
-  const std::array<std::int32_t, 2> *edge_vertex;
+  const FaceVertices *face_vertex;
+  const EdgeVertices *edge_vertex;
   const Vec3 *edge_out;      // angle-weighted pseudonormals; only read where a side is set
   const Vec3 *vertex_out;
 };
@@ -59,12 +65,13 @@ struct WallFeatures {
   std::vector<VertexRecord> vertices;
   std::vector<Vec3> edge_inward;
   std::vector<Vec3> vertex_direction;
-  std::vector<std::array<std::int32_t, 3>> face_vertex;
-  std::vector<std::array<std::int32_t, 2>> edge_vertex;
+  std::vector<FaceVertices> face_vertex;
+  std::vector<EdgeVertices> edge_vertex;
   std::vector<Vec3> edge_out, vertex_out;
   std::vector<FeatureCode> contact_features;    // what a grid has to sort into cells
 };
 
-WallFeatures make_features(const WallMesh &mesh);
+// `with_sides` adds the pseudonormals that tell inside from outside.
+WallFeatures make_features(const WallMesh &mesh, bool with_sides);
 
 }    // namespace lsdcd

@@ -1,0 +1,188 @@
+// The corner rule: how overlaps of neighbouring contacts share one force.
+#pragma once
+
+#include "contact/contact_set.h"
+
+namespace lsdcd {
+
+// One minus the cosine between two unit normals, without cancellation.
+LSDCD_FN Real one_minus_cos(const Vec3 &a, const Vec3 &b)
+{
+  return Real(0.5) * norm_sq(a - b);
+}
+
+// Weights w_i = l_i / d_i where l solves
+//   minimise 1/2 l'Gl - d'l  subject to l >= 0,  G_ij = max(0, n_i . n_j),
+// with overlaps d_i = radius - distance_i > 0. Right-angled or sharper corners
+// give w = 1 exactly, parallel duplicates weights that sum to 1, and everything
+// between is continuous. Solved exactly by an active set: a contact enters while
+// the gradient d_i - (Gl)_i is positive, and leaves when its l would be negative.
+template <int kPlaces> class CornerRule {
+ public:
+  LSDCD_FN void solve(const ContactSet<kPlaces> &set, Real radius, Real *weight)
+  {
+    for (int i = 0; i < set.n; i++) weight[i] = 1;
+    if (set.n < 2) return;
+    if (set.n == 2) {
+      solve_two(set, radius, weight);
+      return;
+    }
+    bool apart = true;
+    for (int i = 0; i < set.n && apart; i++)
+      for (int j = i + 1; j < set.n && apart; j++)
+        apart = dot(set.normal[i], set.normal[j]) <= 0;
+    if (!apart) solve_many(set, radius, weight);
+  }
+
+ private:
+  LSDCD_FN static void solve_two(const ContactSet<kPlaces> &set, Real radius, Real *weight)
+  {
+    const Real d0 = radius - set.distance[0], d1 = radius - set.distance[1];
+    if (dot(set.normal[0], set.normal[1]) <= 0) return;
+    const Real u = one_minus_cos(set.normal[0], set.normal[1]), g = 1 - u;
+    // Gradients with the other contact alone active, free of cancellation.
+    const Real g0 = (d0 - d1) + u * d1, g1 = (d1 - d0) + u * d0;
+    if (g1 <= 0 && g0 <= 0) {    // parallel and equally deep, to the last bits
+      weight[0] = weight[1] = Real(0.5);
+    } else if (g1 <= 0) {
+      weight[1] = 0;
+    } else if (g0 <= 0) {
+      weight[0] = 0;
+    } else {
+      const Real scale = 1 / (u * (1 + g));
+      weight[0] = g0 * scale / d0;
+      weight[1] = g1 * scale / d1;
+    }
+  }
+
+  // The active contacts' rows of G are kept as a Cholesky factor, so that adding
+  // one costs a forward substitution; leaving is rare and factors afresh.
+  LSDCD_FN void solve_many(const ContactSet<kPlaces> &set, Real radius, Real *weight)
+  {
+    const int n = set.n;
+    n_active_ = 0;
+    bool refused[kPlaces];
+    for (int i = 0; i < n; i++) {
+      l_[i] = 0;
+      refused[i] = false;
+    }
+    // Each round enters one contact; the objective falls strictly, so that no
+    // active set comes back. The bound only guards against round-off.
+    for (int round = 0; round < 4 * n + 8; round++) {
+      int enter = -1;
+      Real steepest = 0;
+      for (int i = 0; i < n; i++) {
+        if (is_active(i) || refused[i]) continue;
+        const Real slope = gradient(set, radius, i);
+        const Real d = radius - set.distance[i];
+        if (slope > kTiny * d && slope > steepest) {
+          steepest = slope;
+          enter = i;
+        }
+      }
+      if (enter < 0) break;
+      if (!push(set, enter)) {    // parallel to those already in: adds nothing
+        refused[enter] = true;
+        continue;
+      }
+      while (!step(set, radius)) {}
+      for (int i = 0; i < n; i++) refused[i] = false;
+    }
+    for (int i = 0; i < n; i++) weight[i] = l_[i] / (radius - set.distance[i]);
+  }
+
+  LSDCD_FN Real &at(int row, int column) { return factor_[row * (row + 1) / 2 + column]; }
+
+  LSDCD_FN bool is_active(int i) const
+  {
+    for (int k = 0; k < n_active_; k++)
+      if (active_[k] == i) return true;
+    return false;
+  }
+
+  LSDCD_FN static Real overlap_cos(const ContactSet<kPlaces> &set, int i, int j)
+  {
+    if (i == j) return 1;
+    if (dot(set.normal[i], set.normal[j]) <= 0) return 0;
+    return 1 - one_minus_cos(set.normal[i], set.normal[j]);
+  }
+
+  LSDCD_FN Real gradient(const ContactSet<kPlaces> &set, Real radius, int i) const
+  {
+    Real slope = radius - set.distance[i];
+    for (int k = 0; k < n_active_; k++)
+      slope -= overlap_cos(set, i, active_[k]) * l_[active_[k]];
+    return slope;
+  }
+
+  // Appends a row to the factor; false if G would become singular.
+  LSDCD_FN bool push(const ContactSet<kPlaces> &set, int i)
+  {
+    const int m = n_active_;
+    Real pivot = 1;
+    for (int k = 0; k < m; k++) {
+      Real sum = overlap_cos(set, i, active_[k]);
+      for (int p = 0; p < k; p++) sum -= at(m, p) * at(k, p);
+      at(m, k) = sum / at(k, k);
+      pivot -= at(m, k) * at(m, k);
+    }
+    if (!(pivot > kTiny)) return false;
+    at(m, m) = sqrt(pivot);
+    active_[n_active_++] = i;
+    return true;
+  }
+
+  // Moves l to the solution on the active set, or as far towards it as l >= 0
+  // allows and drops the contact that stopped it. True when it arrived.
+  LSDCD_FN bool step(const ContactSet<kPlaces> &set, Real radius)
+  {
+    const int m = n_active_;
+    for (int k = 0; k < m; k++) {
+      Real sum = radius - set.distance[active_[k]];
+      for (int p = 0; p < k; p++) sum -= at(k, p) * target_[p];
+      target_[k] = sum / at(k, k);
+    }
+    for (int k = m - 1; k >= 0; k--) {
+      for (int p = k + 1; p < m; p++) target_[k] -= at(p, k) * target_[p];
+      target_[k] /= at(k, k);
+    }
+    int blocking = -1;
+    Real part = 1;
+    for (int k = 0; k < m; k++) {
+      if (target_[k] > 0) continue;
+      const Real from = l_[active_[k]];
+      const Real reach = from / (from - target_[k]);
+      if (reach < part || blocking < 0) {
+        part = reach;
+        blocking = k;
+      }
+    }
+    if (blocking < 0) {
+      for (int k = 0; k < m; k++) l_[active_[k]] = target_[k];
+      return true;
+    }
+    for (int k = 0; k < m; k++) {
+      Real &l = l_[active_[k]];
+      l += part * (target_[k] - l);
+    }
+    l_[active_[blocking]] = 0;
+    int kept[kPlaces];
+    int n_kept = 0;
+    for (int k = 0; k < m; k++)
+      if (k != blocking) kept[n_kept++] = active_[k];
+    n_active_ = 0;
+    for (int k = 0; k < n_kept; k++)
+      if (!push(set, kept[k])) l_[kept[k]] = 0;
+    return n_active_ == 0;
+  }
+
+  // Below this share of a unit, a pivot or a slope is round-off.
+  static constexpr Real kTiny = 1e-13;
+
+  int n_active_ = 0;
+  int active_[kPlaces];
+  Real l_[kPlaces], target_[kPlaces];
+  Real factor_[kPlaces * (kPlaces + 1) / 2];    // lower triangle, row by row
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,95 @@
+// From a sphere to its contacts: one for each local minimum of distance.
+#pragma once
+
+#include "contact/closest_point.h"
+#include "contact/contact_set.h"
+#include "grid/locate.h"
+
+namespace lsdcd {
+
+// Two tests closed by the slack can both answer at a seam; then their foot
+// points lie this many slacks apart at most (each is off by one, twice).
+constexpr Real kSamePoint = 4;
+
+// Adds a contact unless the set already has one at the same point of the wall.
+template <int kPlaces>
+LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const Foot &foot, Real slack)
+{
+  for (int i = 0; i < set.n; i++) {
+    const Vec3 apart = set.distance[i] * set.normal[i] - foot.distance * foot.normal;
+    if (norm_sq(apart) > kSamePoint * kSamePoint * slack * slack) continue;
+    // Same point: the nearer answer, then the lower feature, whatever the order.
+    if (foot.distance < set.distance[i] ||
+        (foot.distance == set.distance[i] && feature < set.feature[i])) {
+      set.feature[i] = feature;
+      set.normal[i] = foot.normal;
+      set.distance[i] = foot.distance;
+    }
+    return;
+  }
+  set.add(feature, foot.normal, foot.distance);
+}
+
+// Every local minimum of the distance from q to the wall that is below `radius`
+// (length, at most grid.reach).
+template <int kPlaces>
+LSDCD_FN void find_contacts(const GridView &grid, const Vec3 &q, Real radius,
+                            ContactSet<kPlaces> &set)
+{
+  const CellAddress at = locate(grid, q);
+  if (!at.brick || !has_candidates(*at.brick, at.cell)) return;
+  const Cell cell = grid.cells[cell_index(*at.brick, at.cell)];
+  if (cell.count == 1) {
+    const Foot foot = foot_on(grid.wall, cell.first, q, grid.slack);
+    if (foot.found && foot.distance < radius) set.add(cell.first, foot.normal, foot.distance);
+    return;
+  }
+  // A list ascends in distance from the cell's centre: past this bound no
+  // feature can be within the radius.
+  const Real enough = radius + norm(at.from_centre);
+  for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
+    const Candidate candidate = grid.candidates[i];
+    if (candidate.bound > enough) break;
+    const Foot foot = foot_on(grid.wall, candidate.feature, q, grid.slack);
+    if (foot.found && foot.distance < radius) add_once(set, candidate.feature, foot, grid.slack);
+  }
+}
+
+// The outward pseudonormal of a feature: its dot product with (q - foot point)
+// tells on which side of a closed wall q is (Baerentzen and Aanaes 2005).
+LSDCD_FN Vec3 outward(const WallFeaturesView &wall, FeatureCode feature)
+{
+  const std::uint32_t i = feature_index(feature);
+  switch (feature_kind(feature)) {
+    case FeatureKind::face:
+      return wall.faces[i].normal;
+    case FeatureKind::edge:
+      return wall.edge_out[i];
+    default:
+      return wall.vertex_out[i];
+  }
+}
+
+// Keeps the spheres on one side of a closed wall: sign +1 outside, -1 inside.
+// The nearest foot point says on which side the centre is. On the right side,
+// contacts with the wall's far face are dropped. On the wrong side, the nearest
+// contact is turned round, with the overlap radius + distance, and pushes back.
+template <int kPlaces>
+LSDCD_FN void keep_side(const WallFeaturesView &wall, Real sign, ContactSet<kPlaces> &set)
+{
+  int nearest = 0;
+  for (int i = 1; i < set.n; i++)
+    if (set.distance[i] < set.distance[nearest]) nearest = i;
+  for (int i = set.n - 1; i >= 0; i--) {
+    if (sign * dot(outward(wall, set.feature[i]), set.normal[i]) >= 0) continue;
+    if (i == nearest) {
+      set.normal[i] = -set.normal[i];
+      set.distance[i] = -set.distance[i];
+    } else {
+      if (nearest == set.n - 1) nearest = i;
+      set.remove(i);
+    }
+  }
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,84 @@
+// Handing springs on from the contacts of one step to those of the next.
+#pragma once
+
+#include "contact/contact_set.h"
+#include "contact/spring.h"
+#include "mesh/wall_features.h"
+
+namespace lsdcd {
+
+// Turns a tangent vector with the rotation that takes unit `from` to unit `to`
+// the shortest way (not opposite). Length is kept; equal normals change no bit.
+LSDCD_FN Vec3 transport(const Vec3 &h, const Vec3 &from, const Vec3 &to)
+{
+  const Vec3 axis = cross(from, to);
+  const Vec3 turned = cross(axis, h);
+  return h + turned + (1 / (1 + dot(from, to))) * cross(axis, turned);
+}
+
+// Number of vertices of a feature, and the vertices.
+LSDCD_FN int feature_vertices(const WallFeaturesView &wall, FeatureCode feature, std::int32_t *v)
+{
+  const std::uint32_t i = feature_index(feature);
+  switch (feature_kind(feature)) {
+    case FeatureKind::face:
+      for (int k = 0; k < 3; k++) v[k] = wall.face_vertex[i].v[k];
+      return 3;
+    case FeatureKind::edge:
+      for (int k = 0; k < 2; k++) v[k] = wall.edge_vertex[i].v[k];
+      return 2;
+    default:
+      v[0] = static_cast<std::int32_t>(i);
+      return 1;
+  }
+}
+
+LSDCD_FN bool are_adjacent(const WallFeaturesView &wall, FeatureCode a, FeatureCode b)
+{
+  std::int32_t va[3], vb[3];
+  const int na = feature_vertices(wall, a, va), nb = feature_vertices(wall, b, vb);
+  for (int i = 0; i < na; i++)
+    for (int j = 0; j < nb; j++)
+      if (va[i] == vb[j]) return true;
+  return false;
+}
+
+// The stretch with which contact `i` of `set` begins this step.
+// 1. The spring of the same feature, turned with the normal.
+// 2. Else one whose feature was left this step, next to this one and nearly
+//    aligned: the contact moved across a seam, the spring goes with it, whole.
+// 3. Else the best aligned spring times max(0, n.n): a contact born beside
+//    others takes over as much of their force as it will carry in their stead.
+template <int kPlaces>
+LSDCD_FN Vec3 inherited_stretch(const WallFeaturesView &wall, const ContactSet<kPlaces> &set, int i,
+                                const Spring *old, int n_old)
+{
+  // Cosine above which a contact that changed features is still the same contact.
+  constexpr Real kMoved = 0.7;
+
+  const Spring *best = nullptr, *moved = nullptr;
+  Real best_cos = 0, moved_cos = kMoved;
+  for (int k = 0; k < n_old; k++) {
+    const Real c = dot(old[k].normal, set.normal[i]);
+    if (old[k].feature == set.feature[i])
+      return c > -kMoved ? transport(old[k].stretch, old[k].normal, set.normal[i])
+                         : Vec3{0, 0, 0};
+    if (c > best_cos) {
+      best_cos = c;
+      best = old + k;
+    }
+    if (c > moved_cos && are_adjacent(wall, old[k].feature, set.feature[i])) {
+      bool left = true;
+      for (int j = 0; j < set.n && left; j++) left = set.feature[j] != old[k].feature;
+      if (left) {
+        moved_cos = c;
+        moved = old + k;
+      }
+    }
+  }
+  if (moved) return transport(moved->stretch, moved->normal, set.normal[i]);
+  if (best) return best_cos * transport(best->stretch, best->normal, set.normal[i]);
+  return {0, 0, 0};
+}
+
+}    // namespace lsdcd

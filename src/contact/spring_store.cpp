@@ -1,0 +1,84 @@
+#include "contact/spring_store.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+void SpringStore::grow(int n_spheres)
+{
+  if (n_spheres <= static_cast<int>(count_.size())) return;
+  first_.resize(n_spheres, 0);
+  count_.resize(n_spheres, 0);
+}
+
+void SpringStore::clear_all()
+{
+  std::fill(count_.begin(), count_.end(), 0);
+  pool_.clear();
+}
+
+void SpringStore::set(int i, const Spring *springs, int n)
+{
+  first_[i] = static_cast<int>(pool_.size());
+  count_[i] = n;
+  pool_.insert(pool_.end(), springs, springs + n);
+}
+
+int SpringStore::pack(int i, double *buffer) const
+{
+  int at = 0;
+  buffer[at++] = count_[i];
+  for (int k = 0; k < count_[i]; k++) {
+    const Spring &s = pool_[first_[i] + k];
+    buffer[at++] = s.feature;    // 32 bits are exact in a double
+    for (int c = 0; c < 3; c++) buffer[at++] = s.normal[c];
+    for (int c = 0; c < 3; c++) buffer[at++] = s.stretch[c];
+  }
+  return at;
+}
+
+int SpringStore::unpack(int i, const double *buffer)
+{
+  int at = 0;
+  const int n = static_cast<int>(buffer[at++]);
+  first_[i] = static_cast<int>(pool_.size());
+  count_[i] = n;
+  for (int k = 0; k < n; k++) {
+    Spring s = {};
+    s.feature = static_cast<FeatureCode>(buffer[at++]);
+    for (int c = 0; c < 3; c++) s.normal[c] = buffer[at++];
+    for (int c = 0; c < 3; c++) s.stretch[c] = buffer[at++];
+    pool_.push_back(s);
+  }
+  return at;
+}
+
+int SpringStore::largest_packed_size() const
+{
+  int most = 0;
+  for (int n : count_) most = std::max(most, n);
+  return 1 + kDoublesPerSpring * most;
+}
+
+std::size_t SpringStore::bytes() const
+{
+  return (first_.capacity() + count_.capacity()) * sizeof(int) +
+      (pool_.capacity() + next_.capacity()) * sizeof(Spring);
+}
+
+void SpringStore::replace(const int *which, int n, const int *counts, const Spring *springs,
+                          int stride)
+{
+  next_.clear();
+  std::fill(count_.begin(), count_.end(), 0);
+  for (int k = 0; k < n; k++) {
+    const int i = which[k];
+    first_[i] = static_cast<int>(next_.size());
+    count_[i] = counts[k];
+    const Spring *from = springs + static_cast<std::size_t>(k) * stride;
+    next_.insert(next_.end(), from, from + counts[k]);
+  }
+  pool_.swap(next_);
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,30 @@
+#include "base/input_error.h"
+#include "engine/wall_engine.h"
+
+namespace lsdcd {
+
+std::unique_ptr<WallEngine> make_cpu_engine(const EngineSettings &settings);
+
+#if defined(LSDCD_HAVE_CUDA)
+std::unique_ptr<WallEngine> make_cuda_engine(const EngineSettings &settings);
+#else
+bool cuda_available(std::string *why)
+{
+  if (why) *why = "built without the CUDA toolkit";
+  return false;
+}
+#endif
+
+std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings)
+{
+  std::string why;
+  const bool cuda = settings.device != Device::cpu && cuda_available(&why);
+#if defined(LSDCD_HAVE_CUDA)
+  if (cuda) return make_cuda_engine(settings);
+#endif
+  if (!cuda && settings.device == Device::cuda)
+    throw InputError("device cuda: " + why + "; use device auto or cpu");
+  return make_cpu_engine(settings);
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,61 @@
+#include "engine/select_near.h"
+
+#include "base/input_error.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#if defined(_OPENMP)
+#include <omp.h>
+#endif
+
+namespace lsdcd {
+
+namespace {
+
+[[noreturn]] void throw_too_large(const Spheres &spheres, int i, Real reach)
+{
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "sphere %d has radius %.9g, more than the grid's reach %.9g; set rmax to the "
+                "largest radius that will occur",
+                i, spheres.radius[i], reach);
+  throw InputError(text);
+}
+
+}    // namespace
+
+void select_near(const GridView &grid, const Spheres &spheres, std::vector<int> &near)
+{
+  // Blocks of one size whatever the number of threads, so that order is fixed.
+  constexpr int kBlock = 4096;
+  const int n_blocks = (spheres.n + kBlock - 1) / kBlock;
+  near.resize(spheres.n);
+  std::vector<int> found(n_blocks + 1, 0);
+  int too_large = -1;
+#pragma omp parallel for schedule(static) if (n_blocks > 1)
+  for (int b = 0; b < n_blocks; b++) {
+    const int lo = b * kBlock, hi = std::min(lo + kBlock, spheres.n);
+    int n = 0;
+    for (int i = lo; i < hi; i++) {
+      if (spheres.mask && !(spheres.mask[i] & spheres.group_bit)) continue;
+      if (!(spheres.radius[i] <= grid.reach)) {
+#pragma omp critical
+        too_large = too_large < 0 ? i : std::min(too_large, i);
+      }
+      if (near_wall(grid, {spheres.x[3 * i], spheres.x[3 * i + 1], spheres.x[3 * i + 2]}))
+        near[lo + n++] = i;
+    }
+    found[b] = n;
+  }
+  if (too_large >= 0) throw_too_large(spheres, too_large, grid.reach);
+  int total = 0;
+  for (int b = 0; b < n_blocks; b++) {
+    std::copy(near.begin() + std::size_t(b) * kBlock,
+              near.begin() + std::size_t(b) * kBlock + found[b], near.begin() + total);
+    total += found[b];
+  }
+  near.resize(total);
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,326 @@
+// Building the grid: rasterise -> sort -> per brick, one source for every backend.
+#pragma once
+
+#include "base/input_error.h"
+#include "contact/closest_point.h"
+#include "grid/grid_plan.h"
+#include "grid/triangle_grid.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace lsdcd {
+
+// What the kernels of the build share.
+struct BuildView {
+  WallFeaturesView wall;
+  const FeatureCode *features;    // all that can hold a contact
+  GridPlan plan;
+};
+
+// Can a sphere of the grid's reach, centred within `around` of c, have a contact
+// on this feature? Every region relaxed by `around` contains the true one.
+LSDCD_FN Foot meets(const BuildView &b, FeatureCode feature, const Vec3 &c, Real around)
+{
+  Foot foot = foot_on(b.wall, feature, c, around + b.plan.slack);
+  foot.found = foot.found && foot.distance <= b.plan.reach + around;
+  return foot;
+}
+
+LSDCD_FN void grow_box(Vec3 &lo, Vec3 &hi, const Vec3 &p)
+{
+  for (int k = 0; k < 3; k++) {
+    if (p[k] < lo[k]) lo[k] = p[k];
+    if (p[k] > hi[k]) hi[k] = p[k];
+  }
+}
+
+LSDCD_FN void feature_box(const WallFeaturesView &wall, FeatureCode feature, Vec3 &lo, Vec3 &hi)
+{
+  const std::uint32_t i = feature_index(feature);
+  switch (feature_kind(feature)) {
+    case FeatureKind::face:
+      lo = hi = wall.vertices[wall.face_vertex[i].v[0]].position;
+      grow_box(lo, hi, wall.vertices[wall.face_vertex[i].v[1]].position);
+      grow_box(lo, hi, wall.vertices[wall.face_vertex[i].v[2]].position);
+      return;
+    case FeatureKind::edge:
+      lo = hi = wall.vertices[wall.edge_vertex[i].v[0]].position;
+      grow_box(lo, hi, wall.vertices[wall.edge_vertex[i].v[1]].position);
+      return;
+    default:
+      lo = hi = wall.vertices[i].position;
+  }
+}
+
+// Calls visit(brick number) for every brick that the feature meets.
+template <class Visit> LSDCD_FN void rasterise(const BuildView &b, FeatureCode feature, Visit visit)
+{
+  Vec3 lo, hi;
+  feature_box(b.wall, feature, lo, hi);
+  std::int32_t first[3], last[3];
+  for (int k = 0; k < 3; k++) {
+    // Half a cell more than the reach, so that rounding cannot lose a brick.
+    const Real margin = b.plan.reach + b.plan.slack + Real(0.5) * b.plan.length;
+    const Real inv = 1 / (kBrickSide * b.plan.length);
+    first[k] = static_cast<std::int32_t>(fmax(Real(0), (lo[k] - margin - b.plan.origin[k]) * inv));
+    last[k] = static_cast<std::int32_t>((hi[k] + margin - b.plan.origin[k]) * inv);
+    if (last[k] >= b.plan.n_bricks[k]) last[k] = b.plan.n_bricks[k] - 1;
+  }
+  for (std::int32_t z = first[2]; z <= last[2]; z++)
+    for (std::int32_t y = first[1]; y <= last[1]; y++)
+      for (std::int32_t x = first[0]; x <= last[0]; x++)
+        if (meets(b, feature, b.plan.brick_centre(x, y, z), kBrickSide * b.plan.half_diagonal).found)
+          visit(static_cast<std::uint32_t>((std::size_t(z) * b.plan.n_bricks[1] + y) *
+                                               b.plan.n_bricks[0] + x));
+}
+
+LSDCD_FN Candidate make_candidate(FeatureCode feature, Real distance)
+{
+  // Rounded down, so that a query that trusts the bound never stops early.
+  return {feature, static_cast<float>(distance * (1 - Real(1e-6)))};
+}
+
+LSDCD_FN bool comes_before(const Candidate &a, const Candidate &b)
+{
+  return a.bound < b.bound || (a.bound == b.bound && a.feature < b.feature);
+}
+
+template <class B> class GridBuilder {
+  template <class T> using Array = typename B::template Array<T>;
+
+ public:
+  GridBuilder(B backend, const WallFeatures &wall) :
+      b_(std::move(backend)), faces_(b_.from_host(wall.faces)), edges_(b_.from_host(wall.edges)),
+      vertices_(b_.from_host(wall.vertices)), edge_inward_(b_.from_host(wall.edge_inward)),
+      vertex_direction_(b_.from_host(wall.vertex_direction)),
+      face_vertex_(b_.from_host(wall.face_vertex)), edge_vertex_(b_.from_host(wall.edge_vertex)),
+      features_(b_.from_host(wall.contact_features))
+  {
+    view_.wall = {faces_.data(), edges_.data(), vertices_.data(), edge_inward_.data(),
+                  vertex_direction_.data(), face_vertex_.data(), edge_vertex_.data(), nullptr,
+                  nullptr};
+    view_.features = features_.data();
+  }
+
+  // Sorts features into bricks. Returns the number of bricks near the wall.
+  std::size_t rasterise_all(const GridPlan &plan)
+  {
+    view_.plan = plan;
+    const BuildView view = view_;
+    const std::size_t n = features_.size();
+    Array<std::uint64_t> offset(n + 1);
+    std::uint64_t *offsets = offset.data();
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      std::uint64_t count = 0;
+      rasterise(view, view.features[i], [&](std::uint32_t) { count++; });
+      offsets[i] = count;
+    });
+    const std::uint64_t n_pairs = b_.exclusive_scan(offsets, n);
+    if (n_pairs >= 0xffffffffull) return too_many_;
+    pair_brick_ = Array<std::uint32_t>(n_pairs);
+    pair_feature_ = Array<std::uint32_t>(n_pairs);
+    std::uint32_t *keys = pair_brick_.data(), *values = pair_feature_.data();
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      std::uint64_t at = offsets[i];
+      rasterise(view, view.features[i], [&](std::uint32_t brick) {
+        keys[at] = brick;
+        values[at++] = view.features[i];
+      });
+    });
+    const std::size_t table = plan.table_size();
+    b_.sort_pairs(pair_brick_, pair_feature_, static_cast<std::uint32_t>(table - 1));
+
+    // A brick is a run of equal keys.
+    const std::uint32_t *sorted = pair_brick_.data();
+    Array<std::uint32_t> run(n_pairs);
+    std::uint32_t *runs = run.data();
+    b_.for_each(n_pairs, [=] LSDCD_LAMBDA(std::size_t i) {
+      runs[i] = i == 0 || sorted[i] != sorted[i - 1];
+    });
+    n_bricks_ = b_.exclusive_scan(runs, n_pairs);
+    brick_key_ = Array<std::uint32_t>(n_bricks_);
+    brick_pair_ = Array<std::uint32_t>(n_bricks_ + 1);
+    std::uint32_t *key = brick_key_.data(), *first = brick_pair_.data();
+    const std::uint32_t n_runs = static_cast<std::uint32_t>(n_bricks_);
+    b_.for_each(n_pairs, [=] LSDCD_LAMBDA(std::size_t i) {
+      if (i == 0 || sorted[i] != sorted[i - 1]) {
+        key[runs[i]] = sorted[i];
+        first[runs[i]] = static_cast<std::uint32_t>(i);
+      }
+      if (i == n_pairs - 1) first[n_runs] = static_cast<std::uint32_t>(n_pairs);
+    });
+    return n_bricks_;
+  }
+
+  static bool too_many(std::size_t n_bricks) { return n_bricks == too_many_; }
+
+  // Fills cells, brick by brick; rasterise_all() must have been called.
+  // Returns false, with grid untouched, if lists would not fit `budget` bytes.
+  bool fill(TriangleGrid &grid, std::size_t budget)
+  {
+    const BuildView view = view_;
+    const std::size_t n_cells = n_bricks_ * kBrickCells;
+    Array<std::uint32_t> count(n_cells), offset(n_cells);
+    std::uint32_t *counts = count.data(), *offsets = offset.data();
+    const std::uint32_t *key = brick_key_.data(), *first = brick_pair_.data(),
+                        *features = pair_feature_.data();
+    b_.for_each(n_cells, [=] LSDCD_LAMBDA(std::size_t i) {
+      const std::size_t b = i / kBrickCells;
+      const Vec3 centre = view.plan.cell_centre(key[b], static_cast<int>(i % kBrickCells));
+      std::uint32_t n = 0;
+      for (std::uint32_t p = first[b]; p < first[b + 1]; p++)
+        n += meets(view, features[p], centre, view.plan.half_diagonal).found;
+      counts[i] = n;
+    });
+
+    // Per brick: the occupancy mask, and where its cells and lists begin.
+    Array<Brick> brick(n_bricks_);
+    Array<std::uint32_t> cell_first(n_bricks_), list_first(n_bricks_), longest(n_bricks_);
+    Array<std::uint64_t> tests(n_bricks_);
+    Brick *bricks = brick.data();
+    std::uint32_t *cells_of = cell_first.data(), *lists_of = list_first.data(),
+                  *longests = longest.data();
+    std::uint64_t *n_tests = tests.data();
+    b_.for_each(n_bricks_, [=] LSDCD_LAMBDA(std::size_t b) {
+      Brick out = {};
+      std::uint32_t cells = 0, list = 0, most = 0;
+      for (int w = 0; w < kMaskWords; w++) {
+        out.below[w] = static_cast<std::uint16_t>(cells);
+        for (int c = 0; c < 64; c++) {
+          const std::size_t i = b * kBrickCells + w * 64 + c;
+          const std::uint32_t n = counts[i];
+          offsets[i] = list;
+          if (n == 0) continue;
+          out.mask[w] |= std::uint64_t(1) << c;
+          cells++;
+          if (n > 1) list += n;
+          if (n > most) most = n;
+        }
+      }
+      bricks[b] = out;
+      cells_of[b] = cells;
+      lists_of[b] = list;
+      longests[b] = most;
+      n_tests[b] = std::uint64_t(first[b + 1] - first[b]) * kBrickCells;
+    });
+    const std::vector<std::uint32_t> longest_host = b_.to_host(longest, n_bricks_);
+    const std::vector<std::uint32_t> list_host = b_.to_host(list_first, n_bricks_);
+    std::uint64_t n_list = 0;
+    for (std::uint32_t n : list_host) n_list += n;
+    const std::size_t n_occupied = b_.exclusive_scan(cells_of, n_bricks_);
+    if (n_list >= 0xffffffffull ||
+        grid_bytes(view.plan, n_bricks_, n_occupied, n_list) > budget)
+      return false;
+    b_.exclusive_scan(lists_of, n_bricks_);
+
+    b_.for_each(n_bricks_, [=] LSDCD_LAMBDA(std::size_t b) { bricks[b].first_cell = cells_of[b]; });
+
+    Array<Cell> cell(n_occupied);
+    Array<Candidate> list(n_list);
+    Cell *cells = cell.data();
+    Candidate *lists = list.data();
+    b_.for_each(n_cells, [=] LSDCD_LAMBDA(std::size_t i) {
+      const std::size_t b = i / kBrickCells;
+      const int c = static_cast<int>(i % kBrickCells);
+      const std::uint32_t n = counts[i];
+      if (n == 0) return;
+      const std::uint32_t start = lists_of[b] + offsets[i];
+      Cell out = {start, n};
+      const Vec3 centre = view.plan.cell_centre(key[b], c);
+      std::uint32_t at = 0;
+      for (std::uint32_t p = first[b]; p < first[b + 1]; p++) {
+        const Foot foot = meets(view, features[p], centre, view.plan.half_diagonal);
+        if (!foot.found) continue;
+        if (n == 1) {
+          out.first = features[p];
+          break;
+        }
+        // Insertion keeps the list sorted; lists are short.
+        const Candidate c_new = make_candidate(features[p], foot.distance);
+        std::uint32_t slot = at++;
+        while (slot > 0 && comes_before(c_new, lists[start + slot - 1])) {
+          lists[start + slot] = lists[start + slot - 1];
+          slot--;
+        }
+        lists[start + slot] = c_new;
+      }
+      cells[cell_index(bricks[b], c)] = out;
+    });
+
+    grid.bricks = b_.to_host(brick, n_bricks_);
+    grid.cells = b_.to_host(cell, n_occupied);
+    grid.candidates = b_.to_host(list, n_list);
+    const std::vector<std::uint32_t> keys = b_.to_host(brick_key_, n_bricks_);
+    grid.brick_of.assign(view.plan.table_size(), -1);
+    for (std::size_t b = 0; b < n_bricks_; b++)
+      grid.brick_of[keys[b]] = static_cast<std::int32_t>(b);
+
+    grid.report.bricks = n_bricks_;
+    grid.report.cells = n_occupied;
+    std::size_t inlined = 0;
+    for (const Cell &c : grid.cells) inlined += c.count == 1;
+    grid.report.candidates = n_list + inlined;
+    grid.report.mean_list = n_occupied ? Real(grid.report.candidates) / n_occupied : 0;
+    for (std::uint32_t n : longest_host)
+      if (n > grid.report.longest_list) grid.report.longest_list = n;
+    grid.report.distance_tests = b_.sum(n_tests, n_bricks_);
+    grid.report.device = b_.name();
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t too_many_ = ~std::size_t(0);
+
+  B b_;
+  Array<FaceRecord> faces_;
+  Array<EdgeRecord> edges_;
+  Array<VertexRecord> vertices_;
+  Array<Vec3> edge_inward_, vertex_direction_;
+  Array<FaceVertices> face_vertex_;
+  Array<EdgeVertices> edge_vertex_;
+  Array<FeatureCode> features_;
+  BuildView view_ = {};
+  Array<std::uint32_t> pair_brick_, pair_feature_, brick_key_, brick_pair_;
+  std::size_t n_bricks_ = 0;
+};
+
+// Plans, builds, and where the length was left to us tries coarser ones until
+// the budget holds.
+template <class B>
+TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &settings)
+{
+  const auto start = std::chrono::steady_clock::now();
+  TriangleGrid grid;
+  grid.wall = make_features(mesh, settings.sides);
+  GridBuilder<B> builder(std::move(backend), grid.wall);
+  GridPlan plan = plan_grid(mesh, settings);
+  const Real asked = plan.length;
+  bool fits = false;
+  while (!fits) {
+    fits = plan.table_fits(settings.memory_budget);
+    if (fits) {
+      const std::size_t n = builder.rasterise_all(plan);
+      fits = !GridBuilder<B>::too_many(n) && bricks_fit(plan, n, settings.memory_budget) &&
+             builder.fill(grid, settings.memory_budget);
+    }
+    if (!fits) plan = coarser(plan, mesh, settings);
+  }
+  if (settings.length > 0 && plan.length != asked) throw_over_budget(settings, asked, plan.length);
+
+  grid.origin = plan.origin;
+  grid.length = plan.length;
+  grid.reach = plan.reach;
+  grid.slack = plan.slack;
+  grid.outside = mesh.report.volume < 0 ? -1 : 1;
+  for (int k = 0; k < 3; k++) grid.n_bricks[k] = plan.n_bricks[k];
+  grid.report.length = plan.length;
+  grid.report.reach = plan.reach;
+  grid.report.length_chosen = settings.length <= 0;
+  grid.report.bytes = flat_bytes(grid);
+  grid.report.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return grid;
+}
+
+}    // namespace lsdcd

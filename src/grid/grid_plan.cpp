@@ -1,0 +1,93 @@
+#include "grid/grid_plan.h"
+
+#include "base/input_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace lsdcd {
+
+namespace {
+
+std::string number(Real value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+GridPlan plan_with_length(const WallMesh &mesh, Real reach, Real length)
+{
+  const Vec3 extent = mesh.report.hi - mesh.report.lo;
+  const Real diagonal = norm(extent);
+  GridPlan plan;
+  plan.length = length;
+  // A point at the rim of a cell may be rounded into its neighbour.
+  plan.half_diagonal = Real(0.5) * std::sqrt(Real(3)) * length * (1 + Real(1e-6));
+  plan.reach = reach;
+  // Covers the regions that flat edges leave out (four times their largest
+  // angle, times reach) and the rounding of dot products over a whole face.
+  plan.slack = 4e-12 * reach + 16 * kRoundoff * (diagonal + reach);
+  const Real pad = reach + plan.slack + Real(0.5) * length;
+  plan.origin = mesh.report.lo - Vec3{pad, pad, pad};
+  for (int k = 0; k < 3; k++) {
+    const Real n = std::ceil((extent[k] + 2 * pad) / (kBrickSide * length));
+    plan.n_bricks[k] = static_cast<std::int32_t>(std::clamp(n, Real(1), Real(1 << 27)));
+  }
+  return plan;
+}
+
+}    // namespace
+
+bool GridPlan::table_fits(std::size_t budget) const
+{
+  // Counted in floating point: a hopeless length overflows the integer product.
+  const double entries = double(n_bricks[0]) * n_bricks[1] * n_bricks[2];
+  return entries * sizeof(std::int32_t) <= double(budget) && entries < 4e9;
+}
+
+std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cells,
+                       std::size_t candidates)
+{
+  return plan.table_size() * sizeof(std::int32_t) + bricks * sizeof(Brick) + cells * sizeof(Cell) +
+      candidates * sizeof(Candidate);
+}
+
+bool bricks_fit(const GridPlan &plan, std::size_t bricks, std::size_t budget)
+{
+  // While it is built, every cell of a brick has two counters.
+  return grid_bytes(plan, bricks, 0, 0) + bricks * kBrickCells * 2 * sizeof(std::uint32_t) <= budget;
+}
+
+GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
+{
+  if (!(settings.reach > 0) || !std::isfinite(settings.reach))
+    throw InputError("grid reach is " + number(settings.reach) +
+                     "; it must be the largest particle radius, above 0");
+  Real length = settings.length;
+  // A third of an edge keeps lists at one or two entries; past the radius a
+  // longer cell saves nothing, below a fifth of it memory grows without gain.
+  if (length <= 0)
+    length = std::clamp(Real(0.3) * mesh.report.median_edge, Real(0.2) * settings.reach,
+                        settings.reach);
+  return plan_with_length(mesh, settings.reach, length);
+}
+
+GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings)
+{
+  const Vec3 extent = mesh.report.hi - mesh.report.lo;
+  if (plan.length > norm(extent) + 2 * settings.reach)
+    throw InputError("no grid of this mesh fits a memory budget of " +
+                     number(settings.memory_budget / 1048576.0) + " MB; raise the budget");
+  return plan_with_length(mesh, settings.reach, plan.length * Real(1.25));
+}
+
+void throw_over_budget(const GridSettings &settings, Real asked, Real would_fit)
+{
+  throw InputError("grid " + number(asked) + " does not fit the memory budget of " +
+                   number(settings.memory_budget / 1048576.0) + " MB; grid " + number(would_fit) +
+                   " would fit, or raise the budget");
+}
+
+}    // namespace lsdcd

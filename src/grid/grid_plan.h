@@ -1,0 +1,53 @@
+// Where the cells of a grid lie, and what it will weigh, before any is made.
+#pragma once
+
+#include "base/vec3.h"
+#include "grid/triangle_grid.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lsdcd {
+
+struct GridPlan {
+  Vec3 origin;
+  Real length, half_diagonal;    // of a cell; the second with room for rounding
+  Real reach, slack;
+  std::int32_t n_bricks[3];
+
+  std::size_t table_size() const
+  {
+    return std::size_t(n_bricks[0]) * n_bricks[1] * n_bricks[2];
+  }
+  bool table_fits(std::size_t budget) const;
+
+  LSDCD_FN Vec3 brick_centre(std::int32_t x, std::int32_t y, std::int32_t z) const
+  {
+    const Real side = kBrickSide * length, half = Real(0.5);
+    return origin + side * Vec3{x + half, y + half, z + half};
+  }
+  LSDCD_FN Vec3 cell_centre(std::uint32_t brick, int cell) const
+  {
+    const std::uint32_t nx = n_bricks[0], ny = n_bricks[1];
+    const Real half = Real(0.5);
+    return origin + length * Vec3{(brick % nx) * kBrickSide + (cell & 7) + half,
+                                  (brick / nx % ny) * kBrickSide + (cell >> 3 & 7) + half,
+                                  (brick / nx / ny) * kBrickSide + (cell >> 6) + half};
+  }
+};
+
+// From the settings, or where they leave the length open from the mesh and reach.
+GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
+
+// The next coarser plan of a search for one that fits the budget. Throws
+// InputError once a cell is larger than the whole mesh and still too much.
+GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings);
+
+// Bytes of the finished arrays, and whether those a build needs at its peak fit.
+std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cells,
+                       std::size_t candidates);
+bool bricks_fit(const GridPlan &plan, std::size_t bricks, std::size_t budget);
+
+[[noreturn]] void throw_over_budget(const GridSettings &settings, Real asked, Real would_fit);
+
+}    // namespace lsdcd

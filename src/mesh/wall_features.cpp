@@ -1,0 +1,190 @@
+#include "mesh/wall_features.h"
+
+#include "base/input_error.h"
+
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+// Vectors in a wider type: unit normals of slivers lose one digit for each power
+// of ten of their aspect ratio, and double has none to spare.
+template <class T> struct Wide {
+  T x, y, z;
+};
+template <class T> Wide<T> difference(const Vec3 &a, const Vec3 &b)
+{
+  return {T(a.x) - T(b.x), T(a.y) - T(b.y), T(a.z) - T(b.z)};
+}
+template <class T> T dot(const Wide<T> &a, const Wide<T> &b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T> Wide<T> cross(const Wide<T> &a, const Wide<T> &b)
+{
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class T> T root(T a)
+{
+  T r = std::sqrt(static_cast<long double>(a));
+  return r > 0 ? (r + a / r) / 2 : r;    // one Newton step takes 64 bits to 113
+}
+template <class T> Wide<T> unit(const Wide<T> &a)
+{
+  // Scaled first: squares of lengths near 1e-200 or 1e200 leave the range.
+  T m = a.x < 0 ? -a.x : a.x;
+  for (T c : {a.y, a.z}) {
+    if (c < 0) c = -c;
+    if (c > m) m = c;
+  }
+  const Wide<T> s = {a.x / m, a.y / m, a.z / m};
+  const T n = root<T>(dot(s, s));
+  return {s.x / n, s.y / n, s.z / n};
+}
+template <class T> Vec3 narrow(const Wide<T> &a)
+{
+  return {static_cast<Real>(a.x), static_cast<Real>(a.y), static_cast<Real>(a.z)};
+}
+
+template <class T> FaceRecord face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c)
+{
+  const Wide<T> edge[3] = {difference<T>(b, a), difference<T>(c, b), difference<T>(a, c)};
+  const Wide<T> normal = unit(cross(edge[0], edge[1]));
+  FaceRecord f;
+  f.anchor = a;
+  f.normal = narrow(normal);
+  Wide<T> inward[3];
+  for (int k = 0; k < 3; k++) {
+    inward[k] = cross(normal, unit(edge[k]));
+    f.inward[k] = narrow(inward[k]);
+  }
+  f.height = static_cast<Real>(-dot(inward[1], edge[0]));
+  return f;
+}
+
+// Thinner than this, long double's spare bits no longer cover the loss.
+constexpr Real kSliver = 1e-3;
+
+FaceRecord make_face(const Vec3 &a, const Vec3 &b, const Vec3 &c)
+{
+  const FaceRecord f = face_record<long double>(a, b, c);
+  const Real longest = std::sqrt(
+      std::fmax(norm_sq(b - a), std::fmax(norm_sq(c - b), norm_sq(a - c))));
+  const Real shortest_height = f.height * norm(c - b) / longest;
+  if (shortest_height < kSliver * longest) return face_record<__float128>(a, b, c);
+  return f;
+}
+
+EdgeRecord make_edge(const Vec3 &a, const Vec3 &b)
+{
+  const Wide<long double> d = difference<long double>(b, a);
+  EdgeRecord e = {};
+  e.anchor = a;
+  e.direction = narrow(unit(d));
+  e.length = static_cast<Real>(root<long double>(dot(d, d)));
+  return e;
+}
+
+// Two faces in one plane leave the edge between them no region of its own wider
+// than this angle; the grid's slack is four times wider.
+constexpr Real kFlat = 1e-12;
+
+bool is_flat(const EdgeRecord &e)
+{
+  return e.n_faces == 2 && norm(e.inward[0] + e.inward[1]) <= kFlat;
+}
+
+// A vertex inside a plane, or inside a straight fold, is covered by its edges.
+bool is_straight(const Vec3 *direction, int n)
+{
+  constexpr int kTooMany = 32;    // keeping a vertex is always right, only slower
+  if (n > kTooMany) return false;
+  for (int i = 0; i < n; i++)
+    for (int j = i + 1; j < n; j++)
+      if (norm(direction[i] + direction[j]) <= kFlat) return true;
+  return false;
+}
+
+// Angle between two edges of a face at their common corner, in (0, pi).
+Real corner_angle(const Vec3 &at, const Vec3 &b, const Vec3 &c)
+{
+  return std::atan2(norm(cross(b - at, c - at)), dot(b - at, c - at));
+}
+
+}    // namespace
+
+WallFeatures make_features(const WallMesh &mesh, bool with_sides)
+{
+  const std::size_t n_faces = mesh.faces.size(), n_edges = mesh.edges.size(),
+                    n_vertices = mesh.vertices.size();
+  if (n_faces > kMaxFeatures || n_edges > kMaxFeatures || n_vertices > kMaxFeatures)
+    throw InputError(mesh.source + ": " + std::to_string(n_edges) + " edges, at most " +
+                     std::to_string(kMaxFeatures) + " can be used; coarsen the mesh");
+
+  WallFeatures out;
+  out.faces.reserve(n_faces);
+  out.face_vertex.reserve(n_faces);
+  for (const auto &f : mesh.faces) {
+    out.faces.push_back(make_face(mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]));
+    out.face_vertex.push_back({{f[0], f[1], f[2]}});
+    out.contact_features.push_back(
+        feature_code(FeatureKind::face, static_cast<std::uint32_t>(out.faces.size() - 1)));
+  }
+
+  out.edges.reserve(n_edges);
+  out.edge_vertex.reserve(n_edges);
+  if (with_sides) out.edge_out.reserve(n_edges);
+  for (std::size_t i = 0; i < n_edges; i++) {
+    const auto &ends = mesh.edges[i];
+    EdgeRecord e = make_edge(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
+    e.more = static_cast<std::uint32_t>(out.edge_inward.size());
+    Vec3 outward = {0, 0, 0};
+    for (int k = mesh.edge_first[i]; k < mesh.edge_first[i + 1]; k++) {
+      const int face = mesh.edge_face[k];
+      int side = 0;
+      while (mesh.face_edges[face][side] != static_cast<int>(i)) side++;
+      const Vec3 inward = out.faces[face].inward[side];
+      if (e.n_faces < 2)
+        e.inward[e.n_faces] = inward;
+      else
+        out.edge_inward.push_back(inward);
+      e.n_faces++;
+      outward += out.faces[face].normal;
+    }
+    out.edges.push_back(e);
+    out.edge_vertex.push_back({{ends[0], ends[1]}});
+    if (with_sides) out.edge_out.push_back(outward);
+    if (!is_flat(e))
+      out.contact_features.push_back(
+          feature_code(FeatureKind::edge, static_cast<std::uint32_t>(i)));
+  }
+
+  out.vertices.reserve(n_vertices);
+  for (std::size_t i = 0; i < n_vertices; i++) {
+    VertexRecord v = {mesh.vertices[i], static_cast<std::uint32_t>(out.vertex_direction.size()), 0};
+    for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1]; k++) {
+      const int edge = mesh.vertex_edge[k];
+      const Vec3 along = out.edges[edge].direction;
+      out.vertex_direction.push_back(mesh.edges[edge][0] == static_cast<int>(i) ? along : -along);
+      v.count++;
+    }
+    out.vertices.push_back(v);
+    if (!is_straight(out.vertex_direction.data() + v.first, static_cast<int>(v.count)))
+      out.contact_features.push_back(
+          feature_code(FeatureKind::vertex, static_cast<std::uint32_t>(i)));
+  }
+  if (with_sides) {
+    out.vertex_out.assign(n_vertices, Vec3{0, 0, 0});
+    for (std::size_t f = 0; f < n_faces; f++)
+      for (int k = 0; k < 3; k++) {
+        const auto &c = mesh.faces[f];
+        const Real angle = corner_angle(mesh.vertices[c[k]], mesh.vertices[c[(k + 1) % 3]],
+                                        mesh.vertices[c[(k + 2) % 3]]);
+        out.vertex_out[c[k]] += angle * out.faces[f].normal;
+      }
+  }
+  return out;
+}
+
+}    // namespace lsdcd
