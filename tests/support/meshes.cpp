@@ -1,0 +1,174 @@
+#include "support/meshes.h"
+
+#include "support/device.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace lsdcd {
+
+namespace {
+
+void triangle(TriangleSoup &soup, const Vec3 &a, const Vec3 &b, const Vec3 &c)
+{
+  soup.corners.insert(soup.corners.end(), {a, b, c});
+}
+
+void quad(TriangleSoup &soup, const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d)
+{
+  triangle(soup, a, b, c);
+  triangle(soup, a, c, d);
+}
+
+}    // namespace
+
+TriangleSoup floor_mesh(int n, Real half, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<Real> jitter(-0.3, 0.3);
+  const Real side = 2 * half / n;
+  std::vector<Vec3> node((n + 1) * (n + 1));
+  for (int j = 0; j <= n; j++)
+    for (int i = 0; i <= n; i++) {
+      Vec3 &p = node[j * (n + 1) + i];
+      p = {-half + i * side, -half + j * side, 0};
+      if (seed && i > 0 && i < n) p.x += side * jitter(random);
+      if (seed && j > 0 && j < n) p.y += side * jitter(random);
+    }
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (int j = 0; j < n; j++)
+    for (int i = 0; i < n; i++) {
+      const Vec3 a = node[j * (n + 1) + i], b = node[j * (n + 1) + i + 1];
+      const Vec3 c = node[(j + 1) * (n + 1) + i + 1], d = node[(j + 1) * (n + 1) + i];
+      triangles.push_back({a, b, c});
+      triangles.push_back({a, c, d});
+    }
+  if (seed) {
+    std::shuffle(triangles.begin(), triangles.end(), random);
+    for (auto &t : triangles)
+      if (random() & 1) std::swap(t[1], t[2]);
+  }
+  TriangleSoup soup;
+  soup.source = "floor";
+  for (const auto &t : triangles) triangle(soup, t[0], t[1], t[2]);
+  return soup;
+}
+
+TriangleSoup cylinder_mesh(int n, int m, Real r, Real h)
+{
+  TriangleSoup soup;
+  soup.source = "cylinder";
+  const auto rim = [&](int i, int k) {
+    const Real a = 2 * M_PI * (i % n) / n;
+    return Vec3{r * std::cos(a), r * std::sin(a), h * k / m};
+  };
+  for (int i = 0; i < n; i++) {
+    for (int k = 0; k < m; k++)
+      quad(soup, rim(i, k), rim(i + 1, k), rim(i + 1, k + 1), rim(i, k + 1));
+    triangle(soup, {0, 0, 0}, rim(i + 1, 0), rim(i, 0));
+    triangle(soup, {0, 0, h}, rim(i, m), rim(i + 1, m));
+  }
+  return soup;
+}
+
+TriangleSoup box_mesh(const Vec3 &lo, const Vec3 &hi)
+{
+  TriangleSoup soup;
+  soup.source = "box";
+  const auto p = [&](int x, int y, int z) {
+    return Vec3{x ? hi.x : lo.x, y ? hi.y : lo.y, z ? hi.z : lo.z};
+  };
+  quad(soup, p(0, 0, 0), p(0, 1, 0), p(1, 1, 0), p(1, 0, 0));
+  quad(soup, p(0, 0, 1), p(1, 0, 1), p(1, 1, 1), p(0, 1, 1));
+  quad(soup, p(0, 0, 0), p(1, 0, 0), p(1, 0, 1), p(0, 0, 1));
+  quad(soup, p(0, 1, 0), p(0, 1, 1), p(1, 1, 1), p(1, 1, 0));
+  quad(soup, p(0, 0, 0), p(0, 0, 1), p(0, 1, 1), p(0, 1, 0));
+  quad(soup, p(1, 0, 0), p(1, 1, 0), p(1, 1, 1), p(1, 0, 1));
+  return soup;
+}
+
+TriangleSoup hinge_mesh(Real degrees, Real half)
+{
+  TriangleSoup soup;
+  soup.source = "hinge";
+  const Real a = degrees * M_PI / 180;
+  const Real x = half * std::cos(a), z = half * std::sin(a);
+  quad(soup, {-half, -half, 0}, {0, -half, 0}, {0, half, 0}, {-half, half, 0});
+  quad(soup, {0, -half, 0}, {x, -half, z}, {x, half, z}, {0, half, 0});
+  return soup;
+}
+
+void append(TriangleSoup &soup, const TriangleSoup &more)
+{
+  soup.corners.insert(soup.corners.end(), more.corners.begin(), more.corners.end());
+}
+
+Scene::Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real grid_length,
+             Real weld_tolerance) :
+    mesh(weld(soup, weld_tolerance))
+{
+  settings.device = test_device();
+  GridSettings g;
+  g.length = grid_length;
+  g.reach = reach;
+  g.sides = settings.side != Side::both;
+  grid = build_grid(mesh, g, test_on_cuda());
+  block_.resize(flat_bytes(grid) + 64);
+  char *block = block_.data() + (64 - reinterpret_cast<std::uintptr_t>(block_.data()) % 64) % 64;
+  flatten(grid, block);
+  engine = make_engine(settings);
+  engine->set_grid(flat_view(block));
+}
+
+int Scene::add_sphere(const Vec3 &x, Real radius, Real mass, const Vec3 &v, const Vec3 &omega)
+{
+  const int i = n();
+  for (std::vector<Real> *a : {&x_, &v_, &omega_, &f_, &torque_}) a->resize(3 * (i + 1), 0);
+  put(x_, i, x);
+  put(v_, i, v);
+  put(omega_, i, omega);
+  radius_.push_back(radius);
+  mass_.push_back(mass);
+  springs.grow(i + 1);
+  return i;
+}
+
+void Scene::compute(Real dt, bool update, bool per_sphere)
+{
+  std::fill(f_.begin(), f_.end(), 0);
+  std::fill(torque_.begin(), torque_.end(), 0);
+  Spheres s;
+  s.n = n();
+  s.x = x_.data();
+  s.v = v_.data();
+  s.omega = omega_.data();
+  s.radius = radius_.data();
+  s.mass = mass_.data();
+  s.force = f_.data();
+  s.torque = torque_.data();
+  StepSettings step;
+  step.dt = dt;
+  step.update_history = update;
+  step.per_sphere = per_sphere;
+  engine->start(s, step, &springs);
+  engine->collect();
+}
+
+void Scene::step(Real dt, const Vec3 &gravity)
+{
+  const auto kick = [&] {
+    for (int i = 0; i < n(); i++) {
+      put(v_, i, v(i) + (0.5 * dt) * ((1 / mass_[i]) * force(i) + gravity));
+      const Real inertia = 0.4 * mass_[i] * radius_[i] * radius_[i];
+      put(omega_, i, omega(i) + (0.5 * dt / inertia) * torque(i));
+    }
+  };
+  kick();
+  for (int i = 0; i < n(); i++) put(x_, i, x(i) + dt * v(i));
+  compute(dt);
+  kick();
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,71 @@
+// Meshes and walls that tests share.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "grid/triangle_grid.h"
+#include "mesh/triangle_soup.h"
+#include "mesh/wall_mesh.h"
+
+#include <memory>
+#include <vector>
+
+namespace lsdcd {
+
+// A floor at z = 0 over [-half, half]^2 in 2 n^2 triangles. With a seed the
+// inner nodes are moved in the plane, the triangles shuffled, and every winding
+// chosen at random; z stays exactly 0.
+TriangleSoup floor_mesh(int n, Real half, unsigned seed = 0);
+
+// A closed cylinder along z, radius r, 0 <= z <= h, n segments round, m along.
+TriangleSoup cylinder_mesh(int n, int m, Real r, Real h);
+
+// A closed box between two corners, normals out, 12 triangles.
+TriangleSoup box_mesh(const Vec3 &lo, const Vec3 &hi);
+
+// Two half-planes that meet along the y axis at z = 0: the left one flat at
+// z = 0 for x < 0, the right one rising by `degrees` (negative: falling).
+TriangleSoup hinge_mesh(Real degrees, Real half);
+
+void append(TriangleSoup &soup, const TriangleSoup &more);
+
+// A wall and an engine on it, ready for steps on one or more spheres.
+class Scene {
+ public:
+  Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real grid_length = 0,
+        Real weld_tolerance = -1);
+
+  int add_sphere(const Vec3 &x, Real radius, Real mass, const Vec3 &v = {0, 0, 0},
+                 const Vec3 &omega = {0, 0, 0});
+  // Clears forces and computes them; springs move unless `update` is false.
+  void compute(Real dt, bool update = true, bool per_sphere = false);
+  // One velocity-Verlet step of spheres under gravity and the wall, as fix
+  // nve/sphere does it.
+  void step(Real dt, const Vec3 &gravity);
+
+  Vec3 force(int i) const { return vec(f_, i); }
+  Vec3 torque(int i) const { return vec(torque_, i); }
+  Vec3 x(int i) const { return vec(x_, i); }
+  Vec3 v(int i) const { return vec(v_, i); }
+  Vec3 omega(int i) const { return vec(omega_, i); }
+  void set_x(int i, const Vec3 &value) { put(x_, i, value); }
+  void set_v(int i, const Vec3 &value) { put(v_, i, value); }
+  Real mass(int i) const { return mass_[i]; }
+  Real radius(int i) const { return radius_[i]; }
+  int n() const { return static_cast<int>(radius_.size()); }
+
+  WallMesh mesh;
+  TriangleGrid grid;
+  SpringStore springs;
+  std::unique_ptr<WallEngine> engine;
+
+ private:
+  static Vec3 vec(const std::vector<Real> &a, int i) { return {a[3 * i], a[3 * i + 1], a[3 * i + 2]}; }
+  static void put(std::vector<Real> &a, int i, const Vec3 &value)
+  {
+    for (int k = 0; k < 3; k++) a[3 * i + k] = value[k];
+  }
+  std::vector<char> block_;
+  std::vector<Real> x_, v_, omega_, f_, torque_, radius_, mass_;
+};
+
+}    // namespace lsdcd
