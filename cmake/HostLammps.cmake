@@ -1,0 +1,70 @@
+# The LAMMPS that the plugin and the launcher are built for.
+#   LSDCD_HOST_INCLUDE   its headers (an installed include/lammps or a source tree's src)
+#   LSDCD_HOST_LIBRARY   its shared library, for the launcher only
+#   LSDCD_HOST_VERSION   its version as a number, 20210929 for 29 Sep 2021
+#   LSDCD_HOST_SIZES     LAMMPS_SMALLBIG, LAMMPS_BIGBIG or LAMMPS_SMALLSMALL
+# What is not given is found; LSDCD_HAVE_HOST tells whether the plugin can be built.
+set(LSDCD_HAVE_HOST OFF)
+if(NOT LSDCD_LAMMPS)
+  message(STATUS "LAMMPS plugin: no (LSDCD_LAMMPS is OFF)")
+  return()
+endif()
+
+find_path(LSDCD_HOST_INCLUDE lammps.h PATH_SUFFIXES lammps DOC "LAMMPS headers")
+find_library(LSDCD_HOST_LIBRARY lammps DOC "LAMMPS shared library")
+find_package(MPI QUIET COMPONENTS CXX)
+
+# An installed package has its version and integer sizes in its CMake files, a
+# source tree has its version in version.h.
+if(LSDCD_HOST_INCLUDE AND EXISTS ${LSDCD_HOST_INCLUDE}/version.h)
+  file(STRINGS ${LSDCD_HOST_INCLUDE}/version.h version REGEX "LAMMPS_VERSION")
+  if(version MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9]+)")
+    set(day ${CMAKE_MATCH_1})
+    set(year ${CMAKE_MATCH_3})
+    string(FIND "JanFebMarAprMayJunJulAugSepOctNovDec" ${CMAKE_MATCH_2} month)
+    math(EXPR version "${year} * 10000 + (${month} / 3 + 1) * 100 + ${day}")
+    set(LSDCD_HOST_VERSION ${version} CACHE STRING "LAMMPS version as a number")
+  endif()
+elseif(LSDCD_HOST_INCLUDE)
+  get_filename_component(prefix ${LSDCD_HOST_INCLUDE} DIRECTORY)
+  get_filename_component(prefix ${prefix} DIRECTORY)
+  file(GLOB config ${prefix}/lib/cmake/LAMMPS ${prefix}/lib/*/cmake/LAMMPS ${prefix}/lib64/cmake/LAMMPS)
+  foreach(dir ${config})
+    file(STRINGS ${dir}/LAMMPSConfigVersion.cmake version REGEX "^set\\(PACKAGE_VERSION ")
+    if(version MATCHES "\"([0-9]+)\"")
+      set(LSDCD_HOST_VERSION ${CMAKE_MATCH_1} CACHE STRING "LAMMPS version as a number")
+    endif()
+    file(STRINGS ${dir}/LAMMPS_Targets.cmake sizes REGEX "INTERFACE_COMPILE_DEFINITIONS")
+    if(sizes MATCHES "(LAMMPS_(SMALLBIG|BIGBIG|SMALLSMALL))")
+      set(LSDCD_HOST_SIZES ${CMAKE_MATCH_1} CACHE STRING "LAMMPS integer sizes")
+    endif()
+  endforeach()
+endif()
+set(LSDCD_HOST_SIZES LAMMPS_SMALLBIG CACHE STRING "LAMMPS integer sizes")
+
+if(NOT LSDCD_HOST_INCLUDE)
+  message(STATUS "LAMMPS plugin: no (headers not found; Debian: liblammps-dev)")
+  return()
+elseif(NOT LSDCD_HOST_VERSION)
+  message(STATUS "LAMMPS plugin: no (version of ${LSDCD_HOST_INCLUDE} unknown; set LSDCD_HOST_VERSION)")
+  return()
+elseif(NOT MPI_CXX_FOUND)
+  message(STATUS "LAMMPS plugin: no (MPI not found; Debian: libopenmpi-dev)")
+  return()
+endif()
+
+# Shims only for what this host's own headers lack.
+add_library(lsdcd_host INTERFACE)
+foreach(shim fmt/format.h command.h)
+  if(NOT EXISTS ${LSDCD_HOST_INCLUDE}/${shim})
+    string(REGEX REPLACE "[/.].*" "" name ${shim})
+    target_include_directories(lsdcd_host INTERFACE ${PROJECT_SOURCE_DIR}/cmake/compat/no_${name})
+  endif()
+endforeach()
+target_include_directories(lsdcd_host SYSTEM INTERFACE ${LSDCD_HOST_INCLUDE})
+target_compile_definitions(lsdcd_host INTERFACE
+  ${LSDCD_HOST_SIZES} LSDCD_HOST_VERSION=${LSDCD_HOST_VERSION} OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+target_link_libraries(lsdcd_host INTERFACE MPI::MPI_CXX)
+
+set(LSDCD_HAVE_HOST ON)
+message(STATUS "LAMMPS plugin: yes, for version ${LSDCD_HOST_VERSION} (${LSDCD_HOST_INCLUDE})")

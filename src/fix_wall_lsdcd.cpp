@@ -1,0 +1,291 @@
+#include "fix_wall_lsdcd.h"
+
+#include "base/input_error.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+// LAMMPS does not install respa.h. These two functions have had this name since
+// 2005 and no data of the class is touched.
+namespace LAMMPS_NS {
+class Respa {
+ public:
+  void copy_f_flevel(int);
+  void copy_flevel_f(int);
+};
+}    // namespace LAMMPS_NS
+
+static constexpr int kTotals = 9;
+static constexpr int kContactColumns = 8;
+static constexpr double kHeadroom = 1.1;    // in reach, once radii are known to grow
+
+FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+    refuse("atoms need a radius, omega and torque: use atom_style sphere");
+
+  try {
+    settings = lsdcd::parse_settings(std::vector<std::string>(arg + 3, arg + narg));
+    if (settings.draw_type > atom->ntypes)
+      throw lsdcd::InputError("in 'draw', there is no atom type " +
+                              std::to_string(settings.draw_type));
+    // A pressure in some unit systems is not a force per area in the same units.
+    if (settings.law.style == lsdcd::LawStyle::hertz_history) {
+      settings.law.k_normal /= force->nktv2p;
+      settings.law.k_tangent /= force->nktv2p;
+    }
+    wall = std::make_unique<lsdcd::NodeWall>(world, settings);
+    check_side();
+
+    lsdcd::EngineSettings want;
+    want.law = settings.law;
+    want.corner = settings.corner;
+    want.side = settings.side;
+    want.device = settings.device;
+    want.device_rank = wall->shared().node_rank();
+    std::string problem;
+    try {
+      engine = lsdcd::make_engine(want);
+    } catch (const std::exception &e) {
+      problem = e.what();
+    }
+    lsdcd::throw_together(world, problem);
+  } catch (const lsdcd::InputError &e) {
+    refuse(e.what());
+  }
+
+  history = settings.law.has_history();
+  create_attribute = history || settings.contacts;
+  restart_peratom = history;
+  maxexchange_dynamic = history;
+  dynamic_group_allow = 1;
+
+  scalar_flag = vector_flag = 1;
+  size_vector = kTotals;
+  global_freq = 1;
+  extscalar = 1;
+  extvector = -1;
+  extlist = new int[kTotals];
+  std::fill(extlist, extlist + kTotals, 1);
+  extlist[7] = 0;    // the largest overlap is not a sum
+  energy_global_flag = 1;
+  energy = 0;
+  std::fill(totals, totals + kTotals, 0.0);
+
+  if (settings.contacts) {
+    peratom_flag = 1;
+    size_peratom_cols = kContactColumns;
+    peratom_freq = 1;
+  }
+  if (history || settings.contacts) {
+    FixWallLsdcd::grow_arrays(atom->nmax);
+    for (int i = 0; i < atom->nlocal; i++) FixWallLsdcd::set_arrays(i);
+    atom->add_callback(Atom::GROW);
+    if (history) atom->add_callback(Atom::RESTART);
+    callbacks = true;
+  }
+
+  // Without spheres there is no telling how far outside is too far.
+  double reach = largest_radius();
+  MPI_Allreduce(MPI_IN_PLACE, &reach, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (settings.rmax > 0) reach = settings.rmax;
+  if (reach > 0) check_box(reach);
+  log_creation();
+}
+
+FixWallLsdcd::~FixWallLsdcd()
+{
+  if (callbacks) {
+    atom->delete_callback(id, Atom::GROW);
+    if (history) atom->delete_callback(id, Atom::RESTART);
+  }
+  memory->destroy(array_atom);
+  delete[] extlist;
+  extlist = nullptr;
+}
+
+int FixWallLsdcd::setmask()
+{
+  return PRE_FORCE | POST_FORCE | POST_FORCE_RESPA | POST_RUN | (history ? PRE_EXCHANGE : 0);
+}
+
+void FixWallLsdcd::init()
+{
+  nlevels_respa = 0;
+  rigid = false;
+  for (int i = 0; i < modify->nfix; i++)
+    if (modify->fix[i]->rigid_flag) rigid = true;
+  if (!rigid) std::vector<double>().swap(mass_seen);
+  if (wall->reach() > 0) check_box(wall->reach());
+}
+
+// Respa calls this once per level before setup(): the only way to its number of
+// levels without its header.
+void FixWallLsdcd::setup_pre_force_respa(int /*vflag*/, int ilevel)
+{
+  nlevels_respa = ilevel + 1;
+}
+
+void FixWallLsdcd::setup(int /*vflag*/)
+{
+  if (restarted) check_springs();
+  update_reach();
+  check_timestep();
+  if (rigid) fill_masses();
+
+  Respa *respa = reinterpret_cast<Respa *>(update->integrate);
+  const int outer = nlevels_respa - 1;
+  if (nlevels_respa) respa->copy_flevel_f(outer);
+  start();
+  collect();
+  if (nlevels_respa) respa->copy_f_flevel(outer);
+}
+
+void FixWallLsdcd::min_setup(int /*vflag*/)
+{
+  if (wall_in_minimize_warned) return;
+  wall_in_minimize_warned = true;
+  if (comm->me == 0)
+    error->warning(FLERR, std::string("Fix wall/lsdcd has no effect in a minimization, as fix "
+                                      "wall/gran has none"));
+}
+
+// An atom that arrives may leave again in the next direction: room for the
+// largest of all processes.
+void FixWallLsdcd::pre_exchange()
+{
+  if (!history) return;
+  int largest = springs.largest_packed_size();
+  MPI_Allreduce(&largest, &maxexchange, 1, MPI_INT, MPI_MAX, world);
+}
+
+void FixWallLsdcd::pre_force(int /*vflag*/)
+{
+  if (neighbor->ago == 0) {
+    update_reach();
+    if (rigid) fill_masses();
+  }
+  start();
+}
+
+void FixWallLsdcd::post_force(int /*vflag*/)
+{
+  collect();
+}
+
+void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
+{
+  if (ilevel != nlevels_respa - 1) return;
+  pre_force(vflag);
+  collect();
+}
+
+void FixWallLsdcd::post_run()
+{
+  double worst = worst_overlap;
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, world);
+  check_overlap(worst);
+}
+
+void FixWallLsdcd::start()
+{
+  if (wall->reach() == 0) return;    // no spheres yet
+
+  lsdcd::Spheres s;
+  s.n = atom->nlocal;
+  if (s.n) {
+    s.x = atom->x[0];
+    s.v = atom->v[0];
+    s.omega = atom->omega[0];
+    s.force = atom->f[0];
+    s.torque = atom->torque[0];
+  }
+  s.radius = atom->radius;
+  s.mass = rigid ? mass_seen.data() : atom->rmass;
+  s.mask = igroup ? atom->mask : nullptr;
+  s.group_bit = groupbit;
+
+  lsdcd::StepSettings step;
+  step.dt = update->dt;
+  step.update_history = !update->setupflag;
+  step.per_sphere = settings.contacts;
+  try {
+    engine->start(s, step, history ? &springs : nullptr);
+  } catch (const std::exception &e) {
+    error->one(FLERR, std::string("Fix wall/lsdcd: ") + e.what());
+  }
+  running = true;
+}
+
+void FixWallLsdcd::collect()
+{
+  reduced = false;
+  if (running) {
+    try {
+      engine->collect();
+    } catch (const std::exception &e) {
+      error->one(FLERR, std::string("Fix wall/lsdcd: ") + e.what());
+    }
+    running = false;
+    const lsdcd::WallTotals &t = engine->totals();
+    if (t.largest_overlap_sphere >= 0 && t.largest_overlap_ratio > worst_overlap) {
+      worst_overlap = t.largest_overlap_ratio;
+      worst_tag = atom->tag ? atom->tag[t.largest_overlap_sphere] : 0;
+      worst_step = update->ntimestep;
+    }
+  }
+  if (settings.contacts) fill_contacts();
+}
+
+// Builds the grid when the first spheres come, and again when larger ones do.
+void FixWallLsdcd::update_reach()
+{
+  double most[2] = {largest_radius(), worst_overlap};
+  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
+  check_overlap(most[1]);
+
+  const double radius = most[0], old = wall->reach();
+  if (radius <= old) return;
+  if (settings.rmax > 0 && radius > settings.rmax)
+    refuse("a particle has radius " + std::to_string(radius) + ", more than rmax " +
+           std::to_string(settings.rmax) + ": raise rmax or use rmax auto");
+
+  const double reach = settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius);
+  check_box(reach);
+  try {
+    wall->build(reach);
+    engine->set_grid(wall->view());
+  } catch (const lsdcd::InputError &e) {
+    refuse(e.what());
+  }
+  log_build(old > 0);
+}
+
+// What damping sees of an atom in a rigid body is the mass of the body.
+void FixWallLsdcd::fill_masses()
+{
+  const int nlocal = atom->nlocal;
+  mass_seen.assign(atom->rmass, atom->rmass + nlocal);
+  for (int k = 0; k < modify->nfix; k++) {
+    Fix *fix = modify->fix[k];
+    if (!fix->rigid_flag) continue;
+    int dim;
+    const int *body = (const int *) fix->extract("body", dim);
+    const double *mass = (const double *) fix->extract("masstotal", dim);
+    if (!body || !mass) continue;
+    for (int i = 0; i < nlocal; i++)
+      if (body[i] >= 0 && mass[body[i]] > 0.0) mass_seen[i] = mass[body[i]];
+  }
+}

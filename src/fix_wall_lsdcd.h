@@ -1,0 +1,100 @@
+// fix wall/lsdcd: forces of a triangle mesh on spheres, in LAMMPS's schedule.
+#ifndef LMP_FIX_WALL_LSDCD_H
+#define LMP_FIX_WALL_LSDCD_H
+
+#include "fix.h"
+
+#include "node_wall.h"
+
+#include <memory>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixWallLsdcd : public Fix {
+ public:
+  FixWallLsdcd(class LAMMPS *, int, char **);
+  ~FixWallLsdcd() override;
+
+  // schedule: fix_wall_lsdcd.cpp
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void min_setup(int) override;
+  void setup_pre_exchange() override { pre_exchange(); }
+  void setup_pre_force_respa(int, int) override;
+  void pre_exchange() override;
+  void pre_force(int) override;
+  void post_force(int) override;
+  void post_force_respa(int, int, int) override;
+  void post_run() override;
+
+  // springs on the move and in restart files: fix_wall_lsdcd_exchange.cpp
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+
+  // outputs: fix_wall_lsdcd_output.cpp
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  double memory_usage() override;
+  int image(int *&, double **&) override;
+
+ private:
+  lsdcd::WallSettings settings;
+  std::unique_ptr<lsdcd::NodeWall> wall;
+  std::unique_ptr<lsdcd::WallEngine> engine;
+  lsdcd::SpringStore springs;
+  bool history;
+  bool callbacks = false;    // registered with Atom
+  bool restarted = false;    // springs came from a restart file and are not checked yet
+  bool running = false;      // between start and collect
+  int nlevels_respa = 0;     // 0 under verlet
+
+  bool rigid = false;    // some rigid fix holds atoms: mass_seen replaces rmass
+  std::vector<double> mass_seen;
+
+  double worst_overlap = 0;    // overlap / radius since the last look, on this process
+  tagint worst_tag = 0;
+  bigint worst_step = 0;
+  bool overlap_warned = false, wall_in_minimize_warned = false;
+  double checked_dt = 0;
+
+  double totals[9], energy;    // over all processes, of the last step
+  bool reduced = false;
+
+  std::vector<lsdcd::Stroke> strokes;
+  std::vector<int> image_kind;
+  std::vector<double> image_data;
+  std::vector<double *> image_rows;
+
+  void start();
+  void collect();
+  void update_reach();
+  void fill_masses();
+  void fill_contacts();
+  void reduce_totals();
+
+  // fix_wall_lsdcd_checks.cpp
+  double largest_radius() const;    // of the group, on this process
+  void check_box(double) const;
+  void check_side() const;
+  void check_overlap(double);
+  void check_timestep();
+  void check_springs();
+  double contact_time(double, double) const;
+  void log_creation() const;
+  void log_build(bool) const;
+  void log(const std::string &) const;
+  [[noreturn]] void refuse(const std::string &) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,211 @@
+// What the fix refuses, warns of, and writes to the log.
+
+#include "fix_wall_lsdcd.h"
+
+#include "base/input_error.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "group.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+using namespace LAMMPS_NS;
+using lsdcd::LawStyle;
+
+static constexpr double kLargeOverlap = 0.1;    // of a radius
+static constexpr double kStepsPerContact = 10;
+
+static std::string text(double value)
+{
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%g", value);
+  return buffer;
+}
+
+void FixWallLsdcd::refuse(const std::string &problem) const
+{
+  error->all(FLERR, std::string("Fix wall/lsdcd: ") + problem);
+}
+
+void FixWallLsdcd::log(const std::string &lines) const
+{
+  if (comm->me == 0) utils::logmesg(lmp, lines + "\n");
+}
+
+double FixWallLsdcd::largest_radius() const
+{
+  // Atoms may enter a dynamic group between two looks.
+  const bool all = group->dynamic[igroup];
+  double largest = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (all || (atom->mask[i] & groupbit)) largest = std::max(largest, atom->radius[i]);
+  return largest;
+}
+
+void FixWallLsdcd::check_side() const
+{
+  const lsdcd::MeshReport &r = wall->report();
+  if (settings.side == lsdcd::Side::both || r.oriented) return;
+  throw lsdcd::InputError("side in and side out need a closed, oriented mesh; '" +
+                          settings.mesh_file + "' has " + std::to_string(r.open_edges) + " open, " +
+                          std::to_string(r.nonmanifold_edges) + " non-manifold and " +
+                          std::to_string(r.misoriented_edges) +
+                          " misoriented edges: repair the mesh or use side both");
+}
+
+// A sphere sees the mesh where the mesh stands, not its periodic images.
+void FixWallLsdcd::check_box(double reach) const
+{
+  const lsdcd::MeshReport &r = wall->report();
+  const double *boxlo = domain->triclinic ? domain->boxlo_bound : domain->boxlo;
+  const double *boxhi = domain->triclinic ? domain->boxhi_bound : domain->boxhi;
+  const char name[] = "xyz";
+  for (int d = 0; d < 3; d++) {
+    const double lo = r.lo[d], hi = r.hi[d];
+    const std::string where = std::string(1, name[d]) + " from " + text(lo) + " to " + text(hi);
+    const std::string box = "the box from " + text(boxlo[d]) + " to " + text(boxhi[d]);
+    // A shrink-wrapped face follows the atoms, wherever the mesh is.
+    const bool lo_stays = domain->boundary[d][0] < 2, hi_stays = domain->boundary[d][1] < 2;
+    if ((hi < boxlo[d] - reach && lo_stays) || (lo > boxhi[d] + reach && hi_stays))
+      refuse("the mesh is outside the box: it spans " + where + ", " + box +
+             "; check the units of the file (scale) and the position (move)");
+
+    if (!domain->periodicity[d]) continue;
+    const bool clear = lo >= boxlo[d] + reach && hi <= boxhi[d] - reach;
+    const bool spans = lo <= boxlo[d] - reach && hi >= boxhi[d] + reach;
+    if (clear || (spans && settings.periodic)) continue;
+    std::string remedy =
+        ": make the boundary fixed, keep the mesh a radius (" + text(reach) + ") inside the box";
+    if (spans)
+      remedy += ", or add the keyword periodic if the mesh continues itself there";
+    else
+      remedy += ", or let it continue itself past both faces by a radius and add the keyword "
+                "periodic";
+    refuse("the mesh meets a periodic boundary: it spans " + where + ", " + box + remedy);
+  }
+}
+
+// Collective where `worst` is the largest of all processes.
+void FixWallLsdcd::check_overlap(double worst)
+{
+  if (overlap_warned || worst <= kLargeOverlap) return;
+  overlap_warned = true;
+  struct {
+    double value;
+    int rank;
+  } most = {worst_overlap, comm->me};
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+  bigint which[2] = {worst_tag, worst_step};
+  MPI_Bcast(which, 2, MPI_LMP_BIGINT, most.rank, world);
+  if (comm->me == 0)
+    error->warning(FLERR, "Fix wall/lsdcd: atom " + std::to_string(which[0]) +
+                              " sank into the wall by " + text(100 * most.value) +
+                              " % of its radius at step " + std::to_string(which[1]) +
+                              ": stiffen the contact (kn) or lower speeds; shown once");
+}
+
+// Duration of a binary contact: half a period of the damped spring between a
+// sphere and the wall. A hertz spring is taken at an overlap of 1 % of the radius.
+double FixWallLsdcd::contact_time(double mass, double radius) const
+{
+  double k = settings.law.k_normal, gamma = settings.law.gamma_normal;
+  if (settings.law.style == LawStyle::hertz_history) {
+    const double root = std::sqrt(0.01 * radius * radius);
+    k *= 1.5 * root;
+    gamma *= root;
+  }
+  const double omega_sq = force->ftm2v * k / mass, half = 0.5 * force->ftm2v * gamma;
+  const double damped_sq = omega_sq - half * half;
+  return M_PI / std::sqrt(damped_sq > 0 ? damped_sq : omega_sq);
+}
+
+void FixWallLsdcd::check_timestep()
+{
+  if (update->dt == checked_dt || wall->reach() == 0 || settings.law.k_normal == 0) return;
+  double shortest = INFINITY;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit)
+      shortest = std::min(shortest, contact_time(atom->rmass[i], atom->radius[i]));
+  MPI_Allreduce(MPI_IN_PLACE, &shortest, 1, MPI_DOUBLE, MPI_MIN, world);
+  checked_dt = update->dt;
+  if (update->dt <= shortest / kStepsPerContact || comm->me) return;
+  error->warning(FLERR, "Fix wall/lsdcd: timestep " + text(update->dt) +
+                            " is more than a tenth of the shortest contact time " + text(shortest) +
+                            (settings.law.style == LawStyle::hertz_history
+                                 ? " (hertz, at an overlap of 1 % of the radius)"
+                                 : "") +
+                            ": contacts will not be resolved");
+}
+
+// Springs of a restart file name features of the mesh it was written with.
+void FixWallLsdcd::check_springs()
+{
+  restarted = false;
+  int foreign = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < springs.count(i); k++)
+      if (!wall->has(springs.of(i)[k].feature)) {
+        foreign++;
+        springs.clear(i);
+        break;
+      }
+  MPI_Allreduce(MPI_IN_PLACE, &foreign, 1, MPI_INT, MPI_SUM, world);
+  if (foreign && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix wall/lsdcd: " + std::to_string(foreign) +
+                       " atoms lose their springs: the restart file was written with another mesh");
+}
+
+void FixWallLsdcd::log_creation() const
+{
+  if (comm->me) return;
+  const lsdcd::ContactLaw &l = settings.law;
+  std::string t = "Fix " + std::string(id) + " wall/lsdcd\n" + wall->mesh_text() + "\n";
+  if (!settings.placement_words.empty()) t += "  placement: " + settings.placement_words + "\n";
+  t += "  contact: " + settings.law_name + ", kn " + text(l.k_normal) + ", kt " +
+       text(l.k_tangent) + ", gamman " + text(l.gamma_normal) + ", gammat " +
+       text(l.gamma_tangent) + ", xmu " + text(l.mu) + (l.limit_damping ? ", limit_damping" : "") +
+       "\n";
+  t += "  effects on: normal spring";
+  if (l.gamma_normal > 0) t += ", normal damping";
+  if (history && l.k_tangent > 0) t += ", tangential spring";
+  if (l.gamma_tangent > 0) t += ", tangential damping";
+  t += l.mu > 0 ? ", sliding limit\n" : "; no friction\n";
+  t += "  per atom: ";
+  if (history)
+    t += "8 bytes and " + std::to_string(sizeof(lsdcd::Spring)) +
+         " per contact for springs, which move and restart with it";
+  else
+    t += "nothing stored, exchanged or restarted";
+  if (settings.contacts)
+    t += "; " + std::to_string(size_peratom_cols * sizeof(double)) + " bytes for contacts";
+  t += "\n  corners: " + std::string(settings.corner == lsdcd::Corner::blend ? "blend" : "sum") +
+       ", side " +
+       (settings.side == lsdcd::Side::both ? "both"
+        : settings.side == lsdcd::Side::in ? "in"
+                                           : "out");
+  t += "\n  device: " + engine->backend();
+  std::string why;
+  if (settings.device == lsdcd::Device::automatic && !lsdcd::cuda_available(&why))
+    t += " (no CUDA: " + why + ")";
+  log(t);
+}
+
+void FixWallLsdcd::log_build(bool again) const
+{
+  std::string t = "Fix " + std::string(id) + " wall/lsdcd: ";
+  if (again)
+    t += "larger particles, grid rebuilt for radius " + text(wall->reach());
+  else
+    t += "grid for radius " + text(wall->reach()) + "\n" + wall->grid_text();
+  if (!again && wall->shared().node_size() > 1)
+    t += wall->shared().is_shared() ? "\n  one copy per node" : "\n  one copy per process";
+  log(t);
+}

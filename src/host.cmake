@@ -1,0 +1,21 @@
+# Plugin and launcher; included from src/CMakeLists.txt where LAMMPS was found.
+
+add_library(lsdcdplugin MODULE
+  lsdcdplugin.cpp fix_wall_lsdcd.cpp fix_wall_lsdcd_checks.cpp fix_wall_lsdcd_exchange.cpp
+  fix_wall_lsdcd_output.cpp node_wall.cpp node_shared.cpp)
+# LAMMPS itself is not linked: its symbols come from the host that loads the file.
+# Only the entry point is exported. The file is never unmapped: threads that it
+# started may outlive `plugin unload`.
+target_link_libraries(lsdcdplugin PRIVATE lsdcd_core lsdcd_host ${CMAKE_DL_LIBS})
+target_link_options(lsdcdplugin PRIVATE -Wl,--exclude-libs,ALL -Wl,-z,nodelete)
+set_target_properties(lsdcdplugin PROPERTIES PREFIX "" VISIBILITY_INLINES_HIDDEN ON)
+
+if(LSDCD_HOST_LIBRARY)
+  add_executable(lmp-lsdcd launcher/main.cpp launcher/plugins.cpp)
+  target_link_libraries(lmp-lsdcd PRIVATE lsdcd_core lsdcd_host ${LSDCD_HOST_LIBRARY} ${CMAKE_DL_LIBS})
+  # It replaces a function of the library, which must see it.
+  set_target_properties(lmp-lsdcd PROPERTIES CXX_VISIBILITY_PRESET default ENABLE_EXPORTS ON)
+  add_dependencies(lmp-lsdcd lsdcdplugin)
+else()
+  message(STATUS "Launcher lmp-lsdcd: no (liblammps not found)")
+endif()

@@ -1,0 +1,52 @@
+// One block of memory per node, written by one process and read by all of them.
+#pragma once
+
+#include <cstddef>
+#include <mpi.h>
+#include <string>
+
+namespace lsdcd {
+
+// All calls are collective over the communicator given at construction.
+class NodeShared {
+ public:
+  explicit NodeShared(MPI_Comm world);
+  ~NodeShared();
+  NodeShared(const NodeShared &) = delete;
+  NodeShared &operator=(const NodeShared &) = delete;
+
+  MPI_Comm world() const { return world_; }
+  MPI_Comm node() const { return node_; }
+  MPI_Comm writers() const { return writers_; }    // null where writes() is false
+  bool writes() const { return node_rank_ == 0; }
+  int node_rank() const { return node_rank_; }
+  int node_size() const { return node_size_; }
+
+  // Gives up the last block and makes one of `bytes` (the writer's number counts),
+  // 64-byte aligned, all zero. Only the writer may write, before publish().
+  char *allocate(std::size_t bytes);
+  void publish();
+  const char *block() const { return block_; }
+  bool is_shared() const { return window_ != MPI_WIN_NULL; }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  void release();
+
+  MPI_Comm world_, node_, writers_;
+  int node_rank_, node_size_;
+  MPI_Win window_ = MPI_WIN_NULL;
+  char *own_ = nullptr;    // where sharing is not possible, or not needed
+  char *block_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+// If `error` is not empty on any process, throws InputError with the text of the
+// lowest such rank on all of them.
+void throw_together(MPI_Comm comm, const std::string &error);
+
+// A broadcast of more bytes than an int can count.
+void broadcast_bytes(void *data, std::size_t bytes, int root, MPI_Comm comm);
+void broadcast_text(std::string &text, int root, MPI_Comm comm);
+
+}    // namespace lsdcd

@@ -1,0 +1,48 @@
+// The wall of a simulation: mesh and grid, made once per node and read by all.
+#pragma once
+
+#include "grid/triangle_grid.h"
+#include "mesh/wall_mesh.h"
+#include "node_shared.h"
+#include "settings.h"
+
+#include <memory>
+#include <string>
+
+namespace lsdcd {
+
+// Making and building are collective over `world` and throw the same InputError
+// on every process.
+class NodeWall {
+ public:
+  NodeWall(MPI_Comm world, const WallSettings &settings);
+
+  // Makes the grid for particles up to radius `reach`.
+  void build(Real reach);
+
+  const MeshReport &report() const { return report_; }
+  const std::string &mesh_text() const { return mesh_text_; }    // of the process that read it
+  const std::string &grid_text() const { return grid_text_; }    // on every process
+  GridView view() const { return flat_view(shared_.block()); }
+  Real reach() const { return reach_; }    // 0 before the first build
+  const NodeShared &shared() const { return shared_; }
+
+  // False where a spring names a feature that this mesh does not have.
+  bool has(FeatureCode feature) const;
+
+  const WallMesh *mesh() const { return mesh_.get(); }    // null but on one process per node
+
+  std::size_t bytes() const;    // held by this process
+
+ private:
+  void read();
+
+  WallSettings settings_;
+  NodeShared shared_;
+  std::unique_ptr<WallMesh> mesh_;    // where shared_.writes()
+  MeshReport report_;
+  std::string mesh_text_, grid_text_;
+  Real reach_ = 0;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,23 @@
+// A mesh as few strokes that show its shape and leave the grains visible.
+#pragma once
+
+#include "mesh/wall_mesh.h"
+
+#include <vector>
+
+namespace lsdcd {
+
+enum class Draw {
+  edges,    // open edges and folds above 30 degrees; contours where there are none
+  faces,
+  contours    // cuts by planes across the bounding box
+};
+
+// A line (two corners) or, for Draw::faces, a triangle (three).
+struct Stroke {
+  Vec3 corner[3];
+};
+
+std::vector<Stroke> draw_mesh(const WallMesh &mesh, Draw what);
+
+}    // namespace lsdcd

@@ -1,0 +1,329 @@
+#include "settings.h"
+
+#include "base/input_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+namespace lsdcd {
+
+namespace {
+
+constexpr Real kHuge = std::numeric_limits<Real>::max();
+constexpr Real kTiny = std::numeric_limits<Real>::min();
+
+bool is_number(const std::string &word, Real *value)
+{
+  char *end = nullptr;
+  *value = std::strtod(word.c_str(), &end);
+  return end != word.c_str() && *end == '\0' && std::isfinite(*value);
+}
+
+// Reads words one after another; errors show the syntax of the row in hand.
+class Words {
+ public:
+  explicit Words(const std::vector<std::string> &words) : words_(words) {}
+
+  bool done() const { return at_ == words_.size(); }
+  const std::string &peek() const { return words_[at_]; }
+  std::string take() { return words_[at_++]; }
+  void expect(const std::string &name, const std::string &syntax)
+  {
+    name_ = name, syntax_ = syntax;
+  }
+
+  bool number_follows() const
+  {
+    Real value;
+    return !done() && is_number(peek(), &value);
+  }
+
+  // A number in [low, high]; `what` is its name in messages.
+  Real number(const char *what, Real low = -kHuge, Real high = kHuge)
+  {
+    Real value = 0;
+    if (done()) fail(std::string("the value of ") + what + " is missing");
+    if (!is_number(peek(), &value))
+      fail(std::string(what) + " must be a number, not '" + peek() + "'");
+    if (value < low || value > high) fail(std::string(what) + " = " + peek() + " is out of range");
+    ++at_;
+    return value;
+  }
+
+  Real number_or(const char *instead, Real otherwise, const char *what, Real low)
+  {
+    if (done() || peek() != instead) return number(what, low);
+    ++at_;
+    return otherwise;
+  }
+
+  // The index of the word among `choices`.
+  int choice(const std::vector<std::string> &choices)
+  {
+    if (done()) fail("its value is missing");
+    for (std::size_t i = 0; i < choices.size(); i++)
+      if (peek() == choices[i]) return ++at_, static_cast<int>(i);
+    fail("'" + peek() + "' is not one of its values");
+  }
+
+  [[noreturn]] void fail(const std::string &problem) const
+  {
+    throw InputError("in '" + name_ + "', " + problem + ". Syntax: " + syntax_);
+  }
+
+ private:
+  const std::vector<std::string> &words_;
+  std::size_t at_ = 0;
+  std::string name_, syntax_;
+};
+
+struct Keyword {
+  const char *name;
+  const char *values;
+  const char *unit;
+  const char *range;
+  const char *fallback;
+  const char *help;
+  void (*read)(Words &, WallSettings &);
+};
+
+void read_mesh(Words &w, WallSettings &s)
+{
+  if (w.done()) w.fail("the file name is missing");
+  s.mesh_file = w.take();
+}
+
+std::string text(Real value)
+{
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%g", value);
+  return buffer;
+}
+
+void note_placement(WallSettings &s, const std::string &words)
+{
+  s.placement_words += (s.placement_words.empty() ? "" : ", ") + words;
+}
+
+Real nonzero(Words &w, const char *what)
+{
+  const Real value = w.number(what);
+  if (value == 0) w.fail(std::string(what) + " must not be zero");
+  return value;
+}
+
+void read_scale(Words &w, WallSettings &s)
+{
+  Vec3 f;
+  f.x = f.y = f.z = nonzero(w, "the factor");
+  if (w.number_follows()) {
+    f.y = nonzero(w, "the y factor");
+    f.z = nonzero(w, "the z factor (give one factor or three)");
+  }
+  s.placement.scale(f);
+  note_placement(s, "scale " + text(f.x) +
+                        (f.x == f.y && f.y == f.z ? "" : " " + text(f.y) + " " + text(f.z)));
+}
+
+void read_rotate(Words &w, WallSettings &s)
+{
+  Vec3 axis;
+  axis.x = w.number("the axis (x)");
+  axis.y = w.number("the axis (y)");
+  axis.z = w.number("the axis (z)");
+  const Real degrees = w.number("the angle");
+  if (norm_sq(axis) == 0) w.fail("the axis must not be 0 0 0");
+  s.placement.rotate(axis, degrees);
+  note_placement(s, "rotate " + text(axis.x) + " " + text(axis.y) + " " + text(axis.z) + " " +
+                        text(degrees));
+}
+
+void read_move(Words &w, WallSettings &s)
+{
+  Vec3 shift;
+  shift.x = w.number("x");
+  shift.y = w.number("y");
+  shift.z = w.number("z");
+  s.placement.move(shift);
+  note_placement(s, "move " + text(shift.x) + " " + text(shift.y) + " " + text(shift.z));
+}
+
+void read_memory(Words &w, WallSettings &s)
+{
+  s.memory_budget = static_cast<std::size_t>(w.number("the budget", 1, 1e9) * 1024 * 1024);
+}
+
+void read_draw(Words &w, WallSettings &s)
+{
+  s.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
+  if (!w.number_follows()) return;
+  const Real type = w.number("the atom type", 1, 1e6);
+  s.draw_type = static_cast<int>(type);
+  if (s.draw_type != type) w.fail("the atom type must be a whole number");
+}
+
+void read_cut(Words &w, WallSettings &s)
+{
+  s.cut = true;
+  s.cut_normal.x = w.number("the normal (x)");
+  s.cut_normal.y = w.number("the normal (y)");
+  s.cut_normal.z = w.number("the normal (z)");
+  s.cut_offset = w.number("the offset");
+}
+
+const Keyword kKeywords[] = {
+    {"mesh", "FILE", "", "STL file", "required", "the wall, ASCII or binary STL", read_mesh},
+    {"scale", "s | sx sy sz", "", "not 0", "1",
+     "multiply coordinates; scale, rotate and move act in the order given", read_scale},
+    {"rotate", "ax ay az degrees", "degrees", "axis not 0 0 0", "none",
+     "right-handed rotation about an axis through the origin", read_rotate},
+    {"move", "x y z", "length", "", "0 0 0", "shift", read_move},
+    {"weld", "tol", "length", ">= 0", "1e-6 of the mesh diagonal",
+     "corners closer than this are one vertex; 0: only equal ones",
+     [](Words &w, WallSettings &s) { s.weld = w.number("the tolerance", 0); }},
+    {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",
+     [](Words &w, WallSettings &s) { s.grid_length = w.number_or("auto", 0, "L", kTiny); }},
+    {"rmax", "R | auto", "length", "> 0", "auto: the largest radius in the group",
+     "largest particle radius that the grid is built for",
+     [](Words &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kTiny); }},
+    {"memory", "MB", "MiB", ">= 1", "1024", "budget for the grid", read_memory},
+    {"corner", "blend | sum", "", "", "blend",
+     "contacts at one place share their overlap, or their forces simply add",
+     [](Words &w, WallSettings &s) {
+       s.corner = static_cast<Corner>(w.choice({"blend", "sum"}));
+     }},
+    {"side", "both | in | out", "", "", "both",
+     "where particles belong; in and out need a closed, oriented mesh",
+     [](Words &w, WallSettings &s) {
+       s.side = static_cast<Side>(w.choice({"both", "in", "out"}));
+     }},
+    {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
+     [](Words &w, WallSettings &s) {
+       s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));
+     }},
+    {"contacts", "", "", "", "off", "per-atom array of 8 columns, as fix wall/gran's",
+     [](Words &, WallSettings &s) { s.contacts = true; }},
+    {"periodic", "", "", "", "off",
+     "the mesh continues itself across periodic faces and reaches past them by R",
+     [](Words &, WallSettings &s) { s.periodic = true; }},
+    {"draw", "edges | faces | contours [type]", "", "", "edges 1",
+     "what dump image shows, in the colour of an atom type", read_draw},
+    {"cut", "nx ny nz d", "", "", "none", "dump image leaves out the part with n.x > d", read_cut},
+};
+
+std::string syntax_of(const Keyword &row)
+{
+  return std::string(row.name) + (*row.values ? " " : "") + row.values;
+}
+
+const char *const kLawSyntax =
+    "hooke|hooke/history|hertz/history kn kt|NULL gamman gammat|NULL xmu dampflag [limit_damping] "
+    "mesh FILE [keywords]";
+
+// Letters to insert, delete or change to turn a into b.
+std::size_t edit_distance(const std::string &a, const std::string &b)
+{
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); j++) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); i++) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); j++) {
+      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string nearest(const std::string &word, const std::vector<std::string> &names)
+{
+  return *std::min_element(names.begin(), names.end(),
+                           [&](const std::string &a, const std::string &b) {
+                             return edit_distance(word, a) < edit_distance(word, b);
+                           });
+}
+
+void read_law(Words &w, WallSettings &s)
+{
+  const std::vector<std::string> names = {"hooke", "hooke/history", "hertz/history"};
+  w.expect("fix wall/lsdcd", kLawSyntax);
+  if (w.done()) w.fail("the contact style is missing");
+  const auto found = std::find(names.begin(), names.end(), w.peek());
+  if (found == names.end())
+    w.fail("'" + w.peek() + "' is not a contact style; the nearest is '" +
+           nearest(w.peek(), names) + "'");
+  s.law_name = w.take();
+  s.law.style = static_cast<LawStyle>(found - names.begin());
+
+  // The numbers, NULLs and limits of fix wall/gran.
+  w.expect(s.law_name, kLawSyntax);
+  ContactLaw &law = s.law;
+  law.k_normal = w.number("kn", 0);
+  law.k_tangent = w.number_or("NULL", law.k_normal * 2 / 7, "kt", 0);
+  law.gamma_normal = w.number("gamman", 0);
+  law.gamma_tangent = w.number_or("NULL", law.gamma_normal / 2, "gammat", 0);
+  law.mu = w.number("xmu", 0, 10000);
+  const Real dampflag = w.number("dampflag", 0, 1);
+  if (dampflag != 0 && dampflag != 1) w.fail("dampflag must be 0 or 1");
+  if (dampflag == 0) law.gamma_tangent = 0;
+  if (!w.done() && w.peek() == "limit_damping") {
+    law.limit_damping = true;
+    w.take();
+  }
+}
+
+}    // namespace
+
+WallSettings parse_settings(const std::vector<std::string> &words)
+{
+  WallSettings settings;
+  Words w(words);
+  read_law(w, settings);
+
+  std::vector<std::string> seen, names;
+  for (const Keyword &row : kKeywords) names.push_back(row.name);
+  while (!w.done()) {
+    const std::string word = w.take();
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end())
+      throw InputError(
+          "'" + word + "' is not a keyword; the nearest is '" +
+          syntax_of(kKeywords[std::find(names.begin(), names.end(), nearest(word, names)) -
+                              names.begin()]) +
+          "'");
+    const Keyword &row = kKeywords[found - names.begin()];
+    w.expect(row.name, syntax_of(row));
+    const bool repeats = word == "scale" || word == "rotate" || word == "move";
+    if (!repeats && std::find(seen.begin(), seen.end(), word) != seen.end())
+      w.fail("the keyword is given twice");
+    seen.push_back(word);
+    row.read(w, settings);
+  }
+  if (settings.mesh_file.empty()) {
+    w.expect("fix wall/lsdcd", kLawSyntax);
+    w.fail("mesh FILE is missing");
+  }
+  return settings;
+}
+
+std::string settings_help()
+{
+  std::string help = std::string("fix ID group wall/lsdcd ") + kLawSyntax + "\n";
+  for (const Keyword &row : kKeywords) {
+    std::string line = "  " + syntax_of(row);
+    line.resize(std::max<std::size_t>(line.size() + 1, 38), ' ');
+    line += row.help;
+    std::string facts;
+    for (const char *fact : {row.unit, row.range})
+      if (*fact) facts += std::string(fact) + "; ";
+    help += line + " (" + facts + "default " + row.fallback + ")\n";
+  }
+  return help;
+}
+
+}    // namespace lsdcd

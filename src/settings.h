@@ -1,0 +1,43 @@
+// Input words of fix wall/lsdcd -> WallSettings. One row per keyword.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "mesh/placement.h"
+#include "output/mesh_image.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+struct WallSettings {
+  ContactLaw law;    // NULLs resolved; hertz stiffnesses still in pressure units
+  std::string law_name;
+  std::string mesh_file;
+  Placement placement;
+  std::string placement_words;    // for the log: "scale 0.001, move 0 0 1"
+  Real weld = -1;                 // length; < 0: kDefaultWeld of the diagonal
+  Real grid_length = 0;           // length; 0: auto
+  Real rmax = 0;                  // length; 0: auto
+  std::size_t memory_budget = GridSettings().memory_budget;    // bytes
+  Corner corner = Corner::blend;
+  Side side = Side::both;
+  Device device = Device::automatic;
+  bool contacts = false;
+  bool periodic = false;
+  Draw draw = Draw::edges;
+  int draw_type = 1;    // atom type whose colour the mesh takes
+  bool cut = false;     // dump image leaves out centres with dot(normal, x) > offset
+  Vec3 cut_normal = {0, 0, 0};
+  Real cut_offset = 0;
+};
+
+// `words` begin with FSTYLE. Throws InputError that names the word, what was
+// expected and the syntax.
+WallSettings parse_settings(const std::vector<std::string> &words);
+
+// The command with every keyword, its unit, range and default; several lines.
+std::string settings_help();
+
+}    // namespace lsdcd
