@@ -1,84 +1,15 @@
 #include "settings.h"
 
-#include "base/input_error.h"
+#include "input_words.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <limits>
 
 namespace lsdcd {
 
 namespace {
 
-constexpr Real kHuge = std::numeric_limits<Real>::max();
-constexpr Real kTiny = std::numeric_limits<Real>::min();
-
-bool is_number(const std::string &word, Real *value)
-{
-  char *end = nullptr;
-  *value = std::strtod(word.c_str(), &end);
-  return end != word.c_str() && *end == '\0' && std::isfinite(*value);
-}
-
-// Reads words one after another; errors show the syntax of the row in hand.
-class Words {
- public:
-  explicit Words(const std::vector<std::string> &words) : words_(words) {}
-
-  bool done() const { return at_ == words_.size(); }
-  const std::string &peek() const { return words_[at_]; }
-  std::string take() { return words_[at_++]; }
-  void expect(const std::string &name, const std::string &syntax)
-  {
-    name_ = name, syntax_ = syntax;
-  }
-
-  bool number_follows() const
-  {
-    Real value;
-    return !done() && is_number(peek(), &value);
-  }
-
-  // A number in [low, high]; `what` is its name in messages.
-  Real number(const char *what, Real low = -kHuge, Real high = kHuge)
-  {
-    Real value = 0;
-    if (done()) fail(std::string("the value of ") + what + " is missing");
-    if (!is_number(peek(), &value))
-      fail(std::string(what) + " must be a number, not '" + peek() + "'");
-    if (value < low || value > high) fail(std::string(what) + " = " + peek() + " is out of range");
-    ++at_;
-    return value;
-  }
-
-  Real number_or(const char *instead, Real otherwise, const char *what, Real low)
-  {
-    if (done() || peek() != instead) return number(what, low);
-    ++at_;
-    return otherwise;
-  }
-
-  // The index of the word among `choices`.
-  int choice(const std::vector<std::string> &choices)
-  {
-    if (done()) fail("its value is missing");
-    for (std::size_t i = 0; i < choices.size(); i++)
-      if (peek() == choices[i]) return ++at_, static_cast<int>(i);
-    fail("'" + peek() + "' is not one of its values");
-  }
-
-  [[noreturn]] void fail(const std::string &problem) const
-  {
-    throw InputError("in '" + name_ + "', " + problem + ". Syntax: " + syntax_);
-  }
-
- private:
-  const std::vector<std::string> &words_;
-  std::size_t at_ = 0;
-  std::string name_, syntax_;
-};
+constexpr Real kTiny = 1e-300;    // the smallest number that counts as > 0
 
 struct Keyword {
   const char *name;
@@ -223,40 +154,13 @@ const char *const kLawSyntax =
     "hooke|hooke/history|hertz/history kn kt|NULL gamman gammat|NULL xmu dampflag [limit_damping] "
     "mesh FILE [keywords]";
 
-// Letters to insert, delete or change to turn a into b.
-std::size_t edit_distance(const std::string &a, const std::string &b)
-{
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); j++) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); i++) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); j++) {
-      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
-std::string nearest(const std::string &word, const std::vector<std::string> &names)
-{
-  return *std::min_element(names.begin(), names.end(),
-                           [&](const std::string &a, const std::string &b) {
-                             return edit_distance(word, a) < edit_distance(word, b);
-                           });
-}
-
 void read_law(Words &w, WallSettings &s)
 {
   const std::vector<std::string> names = {"hooke", "hooke/history", "hertz/history"};
   w.expect("fix wall/lsdcd", kLawSyntax);
   if (w.done()) w.fail("the contact style is missing");
   const auto found = std::find(names.begin(), names.end(), w.peek());
-  if (found == names.end())
-    w.fail("'" + w.peek() + "' is not a contact style; the nearest is '" +
-           nearest(w.peek(), names) + "'");
+  if (found == names.end()) w.fail("'" + w.peek() + "' is not a contact style");
   s.law_name = w.take();
   s.law.style = static_cast<LawStyle>(found - names.begin());
 

@@ -1,0 +1,46 @@
+// Input words read one after another, with errors that show the right syntax.
+#pragma once
+
+#include "base/input_error.h"
+#include "base/real.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+bool is_number(const std::string &word, Real *value);    // finite, nothing after it
+
+// The name that takes the fewest inserted, deleted or changed letters.
+std::string nearest(const std::string &word, const std::vector<std::string> &names);
+
+class Words {
+ public:
+  explicit Words(const std::vector<std::string> &words) : words_(words) {}
+
+  bool done() const { return at_ == words_.size(); }
+  const std::string &peek() const { return words_[at_]; }
+  std::string take() { return words_[at_++]; }
+  bool number_follows() const;
+
+  // What is being read, for the errors of what follows.
+  void expect(const std::string &name, const std::string &syntax);
+
+  // A number in [low, high]; `what` is its name in messages.
+  Real number(const char *what, Real low = -kHuge, Real high = kHuge);
+  // The same, or `otherwise` where the word is `instead`.
+  Real number_or(const char *instead, Real otherwise, const char *what, Real low);
+  // The index of the word among `choices`.
+  int choice(const std::vector<std::string> &choices);
+
+  [[noreturn]] void fail(const std::string &problem) const;
+
+  static constexpr Real kHuge = 1.7976931348623157e308;
+
+ private:
+  const std::vector<std::string> &words_;
+  std::size_t at_ = 0;
+  std::string name_, syntax_;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,265 @@
+#include "base/input_error.h"
+#include "settings.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace lsdcd {
+namespace {
+
+std::vector<std::string> words(const std::string &line)
+{
+  std::istringstream stream(line);
+  std::vector<std::string> list;
+  for (std::string word; stream >> word;) list.push_back(word);
+  return list;
+}
+
+WallSettings parse(const std::string &line)
+{
+  return parse_settings(words(line));
+}
+
+// A valid command with more words at its end.
+WallSettings with(const std::string &more)
+{
+  return parse("hooke 1e5 NULL 50 NULL 0.5 1 mesh a.stl " + more);
+}
+
+std::string error_of(const std::string &line)
+{
+  try {
+    parse(line);
+  } catch (const InputError &e) {
+    return e.what();
+  }
+  return "";
+}
+
+std::string error_with(const std::string &more)
+{
+  return error_of("hooke 1e5 NULL 50 NULL 0.5 1 mesh a.stl " + more);
+}
+
+::testing::AssertionResult names(const std::string &message, const std::string &word)
+{
+  if (message.find(word) != std::string::npos) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "'" << message << "' does not name '" << word << "'";
+}
+
+TEST(settings, kt_null_is_two_sevenths_of_kn)
+{
+  EXPECT_EQ(parse("hooke 7e4 NULL 50 NULL 0.5 1 mesh a.stl").law.k_tangent, 2e4);
+}
+
+TEST(settings, gammat_null_is_half_of_gamman)
+{
+  EXPECT_EQ(parse("hooke 1e5 NULL 50 NULL 0.5 1 mesh a.stl").law.gamma_tangent, 25);
+}
+
+TEST(settings, dampflag_zero_switches_tangential_damping_off)
+{
+  EXPECT_EQ(parse("hooke 1e5 NULL 50 20 0.5 0 mesh a.stl").law.gamma_tangent, 0);
+}
+
+TEST(settings, limit_damping_follows_the_numbers)
+{
+  EXPECT_TRUE(parse("hooke 1 1 1 1 0.5 1 limit_damping mesh a.stl").law.limit_damping);
+}
+
+TEST(settings, styles_keep_history_but_hooke)
+{
+  EXPECT_FALSE(parse("hooke 1 1 1 1 0.5 1 mesh a.stl").law.has_history());
+  EXPECT_TRUE(parse("hooke/history 1 1 1 1 0.5 1 mesh a.stl").law.has_history());
+  EXPECT_TRUE(parse("hertz/history 1 1 1 1 0.5 1 mesh a.stl").law.has_history());
+}
+
+TEST(settings, defaults_hold_where_nothing_is_said)
+{
+  const WallSettings s = with("");
+  EXPECT_LT(s.weld, 0);
+  EXPECT_EQ(s.grid_length, 0);
+  EXPECT_EQ(s.rmax, 0);
+  EXPECT_EQ(s.memory_budget, GridSettings().memory_budget);
+  EXPECT_EQ(s.corner, Corner::blend);
+  EXPECT_EQ(s.side, Side::both);
+  EXPECT_EQ(s.device, Device::automatic);
+  EXPECT_FALSE(s.contacts);
+  EXPECT_FALSE(s.periodic);
+  EXPECT_FALSE(s.cut);
+}
+
+TEST(settings, scale_takes_one_factor)
+{
+  const Vec3 x = with("scale 2 contacts").placement.apply({1, 1, 1});
+  EXPECT_EQ(x.x, 2);
+  EXPECT_EQ(x.z, 2);
+}
+
+TEST(settings, scale_takes_three_factors)
+{
+  const Vec3 x = with("scale 2 3 4 contacts").placement.apply({1, 1, 1});
+  EXPECT_EQ(x.x, 2);
+  EXPECT_EQ(x.y, 3);
+  EXPECT_EQ(x.z, 4);
+}
+
+TEST(settings, scale_refuses_two_factors)
+{
+  EXPECT_TRUE(names(error_with("scale 2 3 contacts"), "one factor or three"));
+}
+
+TEST(settings, scale_and_move_act_in_the_order_given)
+{
+  EXPECT_EQ(with("scale 2 move 1 0 0").placement.apply({1, 0, 0}).x, 3);
+  EXPECT_EQ(with("move 1 0 0 scale 2").placement.apply({1, 0, 0}).x, 4);
+}
+
+TEST(settings, placement_words_may_repeat)
+{
+  EXPECT_EQ(with("move 1 0 0 move 1 0 0").placement.apply({0, 0, 0}).x, 2);
+}
+
+TEST(settings, the_placement_is_told_in_words)
+{
+  EXPECT_EQ(with("scale 0.001 move 0 0 1").placement_words, "scale 0.001, move 0 0 1");
+}
+
+TEST(settings, rotate_turns_right_handed)
+{
+  const Vec3 x = with("rotate 0 0 1 90").placement.apply({1, 0, 0});
+  EXPECT_NEAR(x.x, 0, 1e-15);    // a few roundings of numbers up to 1
+  EXPECT_NEAR(x.y, 1, 1e-15);
+}
+
+TEST(settings, rotate_refuses_a_zero_axis)
+{
+  EXPECT_TRUE(names(error_with("rotate 0 0 0 90"), "axis"));
+}
+
+TEST(settings, auto_means_chosen_by_the_grid)
+{
+  const WallSettings s = with("grid auto rmax auto");
+  EXPECT_EQ(s.grid_length, 0);
+  EXPECT_EQ(s.rmax, 0);
+}
+
+TEST(settings, memory_is_given_in_mebibytes)
+{
+  EXPECT_EQ(with("memory 2").memory_budget, std::size_t(2) * 1024 * 1024);
+}
+
+TEST(settings, every_choice_is_read)
+{
+  EXPECT_EQ(with("corner sum").corner, Corner::sum);
+  EXPECT_EQ(with("side in").side, Side::in);
+  EXPECT_EQ(with("side out").side, Side::out);
+  EXPECT_EQ(with("device cpu").device, Device::cpu);
+  EXPECT_EQ(with("device cuda").device, Device::cuda);
+  EXPECT_EQ(with("draw faces").draw, Draw::faces);
+  EXPECT_EQ(with("draw contours").draw, Draw::contours);
+}
+
+TEST(settings, draw_takes_the_colour_of_an_atom_type)
+{
+  EXPECT_EQ(with("draw edges 2 contacts").draw_type, 2);
+}
+
+TEST(settings, cut_takes_a_plane)
+{
+  const WallSettings s = with("cut 0 1 0 0.5");
+  EXPECT_TRUE(s.cut);
+  EXPECT_EQ(s.cut_normal.y, 1);
+  EXPECT_EQ(s.cut_offset, 0.5);
+}
+
+TEST(settings, an_unknown_keyword_names_the_nearest)
+{
+  EXPECT_TRUE(names(error_with("sclae 2"), "'scale s | sx sy sz'"));
+  EXPECT_TRUE(names(error_with("rmxa 2"), "'rmax"));
+}
+
+TEST(settings, an_unknown_style_shows_the_known_ones)
+{
+  EXPECT_TRUE(
+      names(error_of("hertz 1 1 1 1 0.5 1 mesh a.stl"), "hooke|hooke/history|hertz/history"));
+}
+
+TEST(settings, no_style_is_an_error)
+{
+  EXPECT_TRUE(names(error_of(""), "contact style is missing"));
+}
+
+TEST(settings, a_word_for_a_number_is_named)
+{
+  EXPECT_TRUE(names(error_of("hooke 1e5 NULL fifty NULL 0.5 1 mesh a.stl"), "'fifty'"));
+}
+
+TEST(settings, too_few_numbers_show_the_syntax)
+{
+  const std::string error = error_of("hooke 1e5 NULL 50 NULL 0.5 mesh a.stl");
+  EXPECT_TRUE(names(error, "dampflag must be a number, not 'mesh'"));
+  EXPECT_TRUE(names(error, "Syntax: hooke|"));
+}
+
+TEST(settings, a_value_missing_at_the_end_is_named)
+{
+  EXPECT_TRUE(names(error_with("move 1 2"), "the value of z is missing"));
+}
+
+TEST(settings, a_number_with_a_tail_is_not_a_number)
+{
+  EXPECT_TRUE(names(error_with("weld 1e-6m"), "'1e-6m'"));
+}
+
+TEST(settings, infinite_and_nan_are_not_numbers)
+{
+  EXPECT_TRUE(names(error_with("grid inf"), "'inf'"));
+  EXPECT_TRUE(names(error_with("grid nan"), "'nan'"));
+}
+
+TEST(settings, negative_stiffness_is_out_of_range)
+{
+  EXPECT_TRUE(names(error_of("hooke -1 NULL 50 NULL 0.5 1 mesh a.stl"), "out of range"));
+}
+
+TEST(settings, friction_above_10000_is_out_of_range)
+{
+  EXPECT_TRUE(names(error_of("hooke 1 NULL 50 NULL 10001 1 mesh a.stl"), "xmu = 10001"));
+}
+
+TEST(settings, dampflag_is_0_or_1)
+{
+  EXPECT_TRUE(names(error_of("hooke 1 NULL 50 NULL 1 0.5 mesh a.stl"), "0 or 1"));
+}
+
+TEST(settings, a_zero_cell_is_out_of_range)
+{
+  EXPECT_TRUE(names(error_with("grid 0"), "out of range"));
+}
+
+TEST(settings, a_wrong_choice_shows_the_right_ones)
+{
+  EXPECT_TRUE(names(error_with("corner round"), "blend | sum"));
+}
+
+TEST(settings, a_keyword_given_twice_is_an_error)
+{
+  EXPECT_TRUE(names(error_with("rmax 1 rmax 2"), "twice"));
+}
+
+TEST(settings, no_mesh_is_an_error)
+{
+  EXPECT_TRUE(names(error_of("hooke 1 1 1 1 0.5 1 contacts"), "mesh FILE is missing"));
+}
+
+TEST(settings, help_lists_every_keyword)
+{
+  for (const char *name : {"mesh", "scale", "rotate", "move", "weld", "grid", "rmax", "memory",
+                           "corner", "side", "device", "contacts", "periodic", "draw", "cut"})
+    EXPECT_TRUE(names(settings_help(), std::string("\n  ") + name));
+}
+
+}    // namespace
+}    // namespace lsdcd
