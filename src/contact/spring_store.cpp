@@ -75,7 +75,8 @@ void SpringStore::replace(const int *which, int n, const int *counts, const Spri
     const int i = which[k];
     first_[i] = static_cast<int>(next_.size());
     count_[i] = counts[k];
-    const Spring *from = springs + static_cast<std::size_t>(k) * stride;
+    const Spring *from =
+        springs + (stride == kPacked ? next_.size() : static_cast<std::size_t>(k) * stride);
     next_.insert(next_.end(), from, from + counts[k]);
   }
   pool_.swap(next_);

@@ -8,6 +8,8 @@
 
 namespace lsdcd {
 
+constexpr int kPacked = 0;    // a stride: no gaps
+
 // Springs of sphere i are pool[first[i]] .. pool[first[i] + count[i] - 1].
 // Two ints per sphere, one Spring per contact. The engine rebuilds the pool
 // every step; between steps spheres may be copied, packed, unpacked and reset.
@@ -37,7 +39,7 @@ class SpringStore {
   std::size_t bytes() const;
 
   // Replaces everything: spheres which[k] get counts[k] springs found at
-  // springs + k * stride; all others get none.
+  // springs + k * stride, or with kPacked one after another; all others get none.
   void replace(const int *which, int n, const int *counts, const Spring *springs, int stride);
 
  private:

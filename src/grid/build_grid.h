@@ -53,26 +53,51 @@ LSDCD_FN void feature_box(const WallFeaturesView &wall, FeatureCode feature, Vec
   }
 }
 
-// Calls visit(brick number) for every brick that the feature meets.
+// A brick's octants: what features are sorted into, finer than a brick so that a
+// cell has few to try. A key is the brick's number in the table times 8 plus the
+// octant; the sort then leaves a brick's octants side by side.
+constexpr int kOctantSide = kBrickSide / 2;
+constexpr int kOctantCells = kOctantSide * kOctantSide * kOctantSide;
+
+// The cell in its brick of the i-th cell of an octant, x fastest.
+LSDCD_FN int cell_of_octant(int octant, int i)
+{
+  const int x = (octant & 1) * kOctantSide + (i & 3);
+  const int y = (octant >> 1 & 1) * kOctantSide + (i >> 2 & 3);
+  const int z = (octant >> 2) * kOctantSide + (i >> 4);
+  return (z * kBrickSide + y) * kBrickSide + x;
+}
+
+// Calls visit(key) for every octant that the feature meets.
 template <class Visit> LSDCD_FN void rasterise(const BuildView &b, FeatureCode feature, Visit visit)
 {
   Vec3 lo, hi;
   feature_box(b.wall, feature, lo, hi);
+  const GridPlan &plan = b.plan;
   std::int32_t first[3], last[3];
   for (int k = 0; k < 3; k++) {
     // Half a cell more than the reach, so that rounding cannot lose a brick.
-    const Real margin = b.plan.reach + b.plan.slack + Real(0.5) * b.plan.length;
-    const Real inv = 1 / (kBrickSide * b.plan.length);
-    first[k] = static_cast<std::int32_t>(fmax(Real(0), (lo[k] - margin - b.plan.origin[k]) * inv));
-    last[k] = static_cast<std::int32_t>((hi[k] + margin - b.plan.origin[k]) * inv);
-    if (last[k] >= b.plan.n_bricks[k]) last[k] = b.plan.n_bricks[k] - 1;
+    const Real margin = plan.reach + plan.slack + Real(0.5) * plan.length;
+    const Real inv = 1 / (kBrickSide * plan.length);
+    first[k] = static_cast<std::int32_t>(fmax(Real(0), (lo[k] - margin - plan.origin[k]) * inv));
+    last[k] = static_cast<std::int32_t>((hi[k] + margin - plan.origin[k]) * inv);
+    if (last[k] >= plan.n_bricks[k]) last[k] = plan.n_bricks[k] - 1;
   }
+  const Real quarter = Real(0.5) * kOctantSide * plan.length;
   for (std::int32_t z = first[2]; z <= last[2]; z++)
     for (std::int32_t y = first[1]; y <= last[1]; y++)
-      for (std::int32_t x = first[0]; x <= last[0]; x++)
-        if (meets(b, feature, b.plan.brick_centre(x, y, z), kBrickSide * b.plan.half_diagonal).found)
-          visit(static_cast<std::uint32_t>((std::size_t(z) * b.plan.n_bricks[1] + y) *
-                                               b.plan.n_bricks[0] + x));
+      for (std::int32_t x = first[0]; x <= last[0]; x++) {
+        const Vec3 centre = plan.brick_centre(x, y, z);
+        if (!meets(b, feature, centre, kBrickSide * plan.half_diagonal).found) continue;
+        const std::uint32_t brick = static_cast<std::uint32_t>(
+            (std::size_t(z) * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
+        for (std::uint32_t o = 0; o < 8; o++) {
+          const Vec3 at = centre + quarter * Vec3{o & 1 ? Real(1) : Real(-1),
+                                                  o & 2 ? Real(1) : Real(-1),
+                                                  o & 4 ? Real(1) : Real(-1)};
+          if (meets(b, feature, at, kOctantSide * plan.half_diagonal).found) visit(brick * 8 + o);
+        }
+      }
 }
 
 LSDCD_FN Candidate make_candidate(FeatureCode feature, Real distance)
@@ -103,7 +128,7 @@ template <class B> class GridBuilder {
     view_.features = features_.data();
   }
 
-  // Sorts features into bricks. Returns the number of bricks near the wall.
+  // Sorts features into octants. Returns the number of bricks near the wall.
   std::size_t rasterise_all(const GridPlan &plan)
   {
     view_.plan = plan;
@@ -118,37 +143,45 @@ template <class B> class GridBuilder {
     });
     const std::uint64_t n_pairs = b_.exclusive_scan(offsets, n);
     if (n_pairs >= 0xffffffffull) return too_many_;
-    pair_brick_ = Array<std::uint32_t>(n_pairs);
+    Array<std::uint32_t> pair_key(n_pairs);
     pair_feature_ = Array<std::uint32_t>(n_pairs);
-    std::uint32_t *keys = pair_brick_.data(), *values = pair_feature_.data();
+    std::uint32_t *keys = pair_key.data(), *values = pair_feature_.data();
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
       std::uint64_t at = offsets[i];
-      rasterise(view, view.features[i], [&](std::uint32_t brick) {
-        keys[at] = brick;
+      rasterise(view, view.features[i], [&](std::uint32_t octant) {
+        keys[at] = octant;
         values[at++] = view.features[i];
       });
     });
-    const std::size_t table = plan.table_size();
-    b_.sort_pairs(pair_brick_, pair_feature_, static_cast<std::uint32_t>(table - 1));
+    b_.sort_pairs(pair_key, pair_feature_, static_cast<std::uint32_t>(plan.table_size() * 8 - 1));
 
-    // A brick is a run of equal keys.
-    const std::uint32_t *sorted = pair_brick_.data();
+    // A brick is a run of keys that agree but for the octant.
+    const std::uint32_t *sorted = pair_key.data();
     Array<std::uint32_t> run(n_pairs);
     std::uint32_t *runs = run.data();
     b_.for_each(n_pairs, [=] LSDCD_LAMBDA(std::size_t i) {
-      runs[i] = i == 0 || sorted[i] != sorted[i - 1];
+      runs[i] = i == 0 || sorted[i] >> 3 != sorted[i - 1] >> 3;
     });
     n_bricks_ = b_.exclusive_scan(runs, n_pairs);
     brick_key_ = Array<std::uint32_t>(n_bricks_);
-    brick_pair_ = Array<std::uint32_t>(n_bricks_ + 1);
-    std::uint32_t *key = brick_key_.data(), *first = brick_pair_.data();
-    const std::uint32_t n_runs = static_cast<std::uint32_t>(n_bricks_);
+    octant_pair_ = Array<std::uint32_t>(n_bricks_ * 8 + 1);
+    std::uint32_t *key = brick_key_.data(), *first = octant_pair_.data();
+    const std::size_t n_octants = n_bricks_ * 8;
+    // Each pair opens the octants from after its forerunner's up to its own.
     b_.for_each(n_pairs, [=] LSDCD_LAMBDA(std::size_t i) {
-      if (i == 0 || sorted[i] != sorted[i - 1]) {
-        key[runs[i]] = sorted[i];
-        first[runs[i]] = static_cast<std::uint32_t>(i);
+      const bool new_brick = i == 0 || sorted[i] >> 3 != sorted[i - 1] >> 3;
+      const std::size_t b = new_brick ? runs[i] : runs[i] - 1;
+      if (new_brick) key[b] = sorted[i] >> 3;
+      const std::size_t own = b * 8 + (sorted[i] & 7);
+      std::size_t from = 0;
+      if (i > 0) {
+        const std::size_t before = new_brick ? b - 1 : b;
+        from = before * 8 + (sorted[i - 1] & 7) + 1;
       }
-      if (i == n_pairs - 1) first[n_runs] = static_cast<std::uint32_t>(n_pairs);
+      for (std::size_t o = from; o <= own; o++) first[o] = static_cast<std::uint32_t>(i);
+      if (i == n_pairs - 1)
+        for (std::size_t o = own + 1; o <= n_octants; o++)
+          first[o] = static_cast<std::uint32_t>(n_pairs);
     });
     return n_bricks_;
   }
@@ -163,15 +196,16 @@ template <class B> class GridBuilder {
     const std::size_t n_cells = n_bricks_ * kBrickCells;
     Array<std::uint32_t> count(n_cells), offset(n_cells);
     std::uint32_t *counts = count.data(), *offsets = offset.data();
-    const std::uint32_t *key = brick_key_.data(), *first = brick_pair_.data(),
+    const std::uint32_t *key = brick_key_.data(), *first = octant_pair_.data(),
                         *features = pair_feature_.data();
     b_.for_each(n_cells, [=] LSDCD_LAMBDA(std::size_t i) {
-      const std::size_t b = i / kBrickCells;
-      const Vec3 centre = view.plan.cell_centre(key[b], static_cast<int>(i % kBrickCells));
+      const std::size_t octant = i / kOctantCells, b = octant / 8;
+      const int c = cell_of_octant(static_cast<int>(octant % 8), static_cast<int>(i % kOctantCells));
+      const Vec3 centre = view.plan.cell_centre(key[b], c);
       std::uint32_t n = 0;
-      for (std::uint32_t p = first[b]; p < first[b + 1]; p++)
+      for (std::uint32_t p = first[octant]; p < first[octant + 1]; p++)
         n += meets(view, features[p], centre, view.plan.half_diagonal).found;
-      counts[i] = n;
+      counts[b * kBrickCells + c] = n;
     });
 
     // Per brick: the occupancy mask, and where its cells and lists begin.
@@ -202,7 +236,7 @@ template <class B> class GridBuilder {
       cells_of[b] = cells;
       lists_of[b] = list;
       longests[b] = most;
-      n_tests[b] = std::uint64_t(first[b + 1] - first[b]) * kBrickCells;
+      n_tests[b] = std::uint64_t(first[b * 8 + 8] - first[b * 8]) * kOctantCells;
     });
     const std::vector<std::uint32_t> longest_host = b_.to_host(longest, n_bricks_);
     const std::vector<std::uint32_t> list_host = b_.to_host(list_first, n_bricks_);
@@ -221,15 +255,15 @@ template <class B> class GridBuilder {
     Cell *cells = cell.data();
     Candidate *lists = list.data();
     b_.for_each(n_cells, [=] LSDCD_LAMBDA(std::size_t i) {
-      const std::size_t b = i / kBrickCells;
-      const int c = static_cast<int>(i % kBrickCells);
-      const std::uint32_t n = counts[i];
+      const std::size_t octant = i / kOctantCells, b = octant / 8;
+      const int c = cell_of_octant(static_cast<int>(octant % 8), static_cast<int>(i % kOctantCells));
+      const std::uint32_t n = counts[b * kBrickCells + c];
       if (n == 0) return;
-      const std::uint32_t start = lists_of[b] + offsets[i];
+      const std::uint32_t start = lists_of[b] + offsets[b * kBrickCells + c];
       Cell out = {start, n};
       const Vec3 centre = view.plan.cell_centre(key[b], c);
       std::uint32_t at = 0;
-      for (std::uint32_t p = first[b]; p < first[b + 1]; p++) {
+      for (std::uint32_t p = first[octant]; p < first[octant + 1]; p++) {
         const Foot foot = meets(view, features[p], centre, view.plan.half_diagonal);
         if (!foot.found) continue;
         if (n == 1) {
@@ -281,7 +315,7 @@ template <class B> class GridBuilder {
   Array<EdgeVertices> edge_vertex_;
   Array<FeatureCode> features_;
   BuildView view_ = {};
-  Array<std::uint32_t> pair_brick_, pair_feature_, brick_key_, brick_pair_;
+  Array<std::uint32_t> pair_feature_, brick_key_, octant_pair_;
   std::size_t n_bricks_ = 0;
 };
 

@@ -44,7 +44,7 @@ bool GridPlan::table_fits(std::size_t budget) const
 {
   // Counted in floating point: a hopeless length overflows the integer product.
   const double entries = double(n_bricks[0]) * n_bricks[1] * n_bricks[2];
-  return entries * sizeof(std::int32_t) <= double(budget) && entries < 4e9;
+  return entries * sizeof(std::int32_t) <= double(budget) && entries < 5e8;    // octant keys have 32 bits
 }
 
 std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cells,

@@ -1,0 +1,170 @@
+// The five verbs of a backend on an NVIDIA GPU: allocate, copy, for_each, reduce, scan/sort.
+#pragma once
+
+#include "base/input_error.h"
+
+#include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_reduce.cuh>
+#include <cub/device/device_scan.cuh>
+#include <cuda_runtime.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsdcd {
+
+inline void cuda_check(cudaError_t status, const char *what)
+{
+  if (status == cudaSuccess) return;
+  throw InputError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status) +
+                   (status == cudaErrorMemoryAllocation
+                        ? "; use a coarser grid, fewer processes per GPU, or device cpu"
+                        : ""));
+}
+
+template <class F> __global__ void cuda_for_each(std::size_t n, const F f)
+{
+  const std::size_t i = std::size_t(blockIdx.x) * blockDim.x + threadIdx.x;
+  if (i < n) f(i);
+}
+
+struct CudaBackend {
+  static constexpr bool kIsDevice = true;
+
+  cudaStream_t stream = nullptr;
+
+  // allocate: contents are undefined until written.
+  template <class T> class Array {
+   public:
+    Array() = default;
+    explicit Array(std::size_t n) : n_(n)
+    {
+      if (n > 0) cuda_check(cudaMalloc(&data_, n * sizeof(T)), "allocating device memory");
+    }
+    ~Array() { cudaFree(data_); }
+    Array(Array &&other) noexcept { swap(other); }
+    Array &operator=(Array &&other) noexcept
+    {
+      swap(other);
+      return *this;
+    }
+    Array(const Array &) = delete;
+    Array &operator=(const Array &) = delete;
+    T *data() { return data_; }
+    const T *data() const { return data_; }
+    std::size_t size() const { return n_; }
+
+   private:
+    void swap(Array &other)
+    {
+      std::swap(data_, other.data_);
+      std::swap(n_, other.n_);
+    }
+    T *data_ = nullptr;
+    std::size_t n_ = 0;
+  };
+
+  // copy
+  template <class T> Array<T> from_host(const std::vector<T> &host)
+  {
+    Array<T> a(host.size());
+    if (!host.empty())
+      cuda_check(cudaMemcpyAsync(a.data(), host.data(), host.size() * sizeof(T),
+                                 cudaMemcpyHostToDevice, stream),
+                 "copying to the device");
+    return a;
+  }
+  template <class T> std::vector<T> to_host(const Array<T> &a, std::size_t n)
+  {
+    std::vector<T> host(n);
+    if (n > 0)
+      cuda_check(cudaMemcpyAsync(host.data(), a.data(), n * sizeof(T), cudaMemcpyDeviceToHost,
+                                 stream),
+                 "copying from the device");
+    wait();
+    return host;
+  }
+  template <class T> T read_one(const T *at)
+  {
+    T value;
+    cuda_check(cudaMemcpyAsync(&value, at, sizeof(T), cudaMemcpyDeviceToHost, stream),
+               "copying from the device");
+    wait();
+    return value;
+  }
+  void wait() { cuda_check(cudaStreamSynchronize(stream), "running on the device"); }
+
+  // for_each: f(i) for i in [0, n), in any order and at once.
+  template <class F> void for_each(std::size_t n, const F &f, unsigned block = 256)
+  {
+    if (n == 0) return;
+    cuda_for_each<<<static_cast<unsigned>((n + block - 1) / block), block, 0, stream>>>(n, f);
+    cuda_check(cudaGetLastError(), "starting a kernel");
+  }
+
+  // reduce
+  template <class T> T sum(const T *values, std::size_t n)
+  {
+    if (n == 0) return T(0);
+    Array<T> out(1);
+    with_scratch([&](void *scratch, std::size_t &bytes) {
+      return cub::DeviceReduce::Sum(scratch, bytes, values, out.data(), n, stream);
+    });
+    return read_one(out.data());
+  }
+
+  // scan: values become the sums of what was before them; returns the total.
+  template <class T> T exclusive_scan(T *values, std::size_t n)
+  {
+    if (n == 0) return T(0);
+    const T last = read_one(values + n - 1);
+    with_scratch([&](void *scratch, std::size_t &bytes) {
+      return cub::DeviceScan::ExclusiveSum(scratch, bytes, values, values, n, stream);
+    });
+    return last + read_one(values + n - 1);
+  }
+
+  // sort: stable, by key, over the bits of the largest one.
+  void sort_pairs(Array<std::uint32_t> &keys, Array<std::uint32_t> &values, std::uint32_t largest)
+  {
+    const std::size_t n = keys.size();
+    if (n == 0) return;
+    int bits = 1;
+    while (bits < 32 && (largest >> bits) > 0) bits++;
+    Array<std::uint32_t> sorted_keys(n), sorted_values(n);
+    with_scratch([&](void *scratch, std::size_t &bytes) {
+      return cub::DeviceRadixSort::SortPairs(scratch, bytes, keys.data(), sorted_keys.data(),
+                                             values.data(), sorted_values.data(), n, 0, bits,
+                                             stream);
+    });
+    wait();
+    std::swap(keys, sorted_keys);
+    std::swap(values, sorted_values);
+  }
+
+  std::string name() const
+  {
+    int device = 0;
+    cudaDeviceProp prop;
+    if (cudaGetDevice(&device) != cudaSuccess ||
+        cudaGetDeviceProperties(&prop, device) != cudaSuccess)
+      return "CUDA";
+    return std::string("CUDA, ") + prop.name;
+  }
+
+ private:
+  // CUB asks twice: for the size of its scratch memory, then to run.
+  template <class Call> void with_scratch(Call call)
+  {
+    std::size_t bytes = 0;
+    cuda_check(call(nullptr, bytes), "sizing scratch memory");
+    Array<char> scratch(bytes);
+    cuda_check(call(scratch.data(), bytes), "scan, sort or reduce");
+    wait();
+  }
+};
+
+}    // namespace lsdcd
