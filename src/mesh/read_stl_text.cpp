@@ -132,13 +132,14 @@ class Reader {
 
   Real read_coordinate(int corner, int axis)
   {
+    const std::string_view here(at_, 0);
     const auto word = next_word();
     const auto name = [&] {
       return std::string("coordinate ") + "xyz"[axis] + " of vertex " + std::to_string(corner);
     };
     if (word.empty()) fail_word(word, name());
     if (is_stl_word(word))
-      fail(word, name() + " is missing: " + quoted(word) + " found",
+      fail(here, name() + " is missing: " + quoted(word) + " found",
            "complete the line or export the mesh again");
 
     auto digits = word;
