@@ -1,0 +1,202 @@
+#include "base/input_error.h"
+#include "mesh/placement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lsdcd {
+namespace {
+
+// Distance of two points, for the cases that round.
+Real apart(const Vec3 &a, const Vec3 &b)
+{
+  return norm(a - b);
+}
+
+TriangleSoup one_triangle()
+{
+  TriangleSoup soup;
+  soup.source = "part.stl";
+  soup.corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  return soup;
+}
+
+Vec3 normal_of(const TriangleSoup &soup)
+{
+  return cross(soup.corners[1] - soup.corners[0], soup.corners[2] - soup.corners[0]);
+}
+
+TEST(placement, is_the_identity_at_first)
+{
+  EXPECT_TRUE(Placement().is_identity());
+  EXPECT_EQ(Placement().apply(Vec3{1, 2, 3}), (Vec3{1, 2, 3}));
+}
+
+TEST(placement, scales_each_axis)
+{
+  Placement p;
+  p.scale({2, 3, 4});
+  EXPECT_EQ(p.apply(Vec3{1, 1, 1}), (Vec3{2, 3, 4}));
+  EXPECT_FALSE(p.is_identity());
+}
+
+TEST(placement, later_words_act_on_earlier_results)
+{
+  Placement move_first, scale_first;
+  move_first.move({1, 0, 0});
+  move_first.scale({10, 10, 10});
+  scale_first.scale({10, 10, 10});
+  scale_first.move({1, 0, 0});
+  EXPECT_EQ(move_first.apply(Vec3{1, 0, 0}), (Vec3{20, 0, 0}));
+  EXPECT_EQ(scale_first.apply(Vec3{1, 0, 0}), (Vec3{11, 0, 0}));
+}
+
+TEST(placement, rotation_turns_an_earlier_shift)
+{
+  Placement p;
+  p.move({1, 0, 0});
+  p.rotate({0, 0, 1}, 90);
+  EXPECT_EQ(p.apply(Vec3{0, 0, 0}), (Vec3{0, 1, 0}));
+}
+
+TEST(placement, quarter_turns_are_exact)
+{
+  const Vec3 axes[3] = {{0.1, 0, 0}, {0, 0.3, 0}, {0, 0, 7}};
+  for (const Vec3 &axis : axes)
+    for (const Real degrees : {-450., -270., -90., 90., 180., 270., 360., 36000090.}) {
+      Placement p;
+      p.rotate(axis, degrees);
+      for (int i = 0; i < 3; ++i) {
+        Vec3 unit = {0, 0, 0};
+        unit[i] = 1;
+        const Vec3 image = p.apply(unit);
+        for (int j = 0; j < 3; ++j)
+          EXPECT_TRUE(image[j] == 0 || image[j] == 1 || image[j] == -1) << image[j];
+      }
+    }
+}
+
+TEST(placement, four_quarter_turns_are_the_identity)
+{
+  Placement p;
+  for (int i = 0; i < 4; ++i) p.rotate({0, -2, 0}, 90);
+  EXPECT_TRUE(p.is_identity());
+}
+
+TEST(placement, rotation_is_right_handed)
+{
+  Placement p;
+  p.rotate({0, 0, 5}, 90);
+  EXPECT_EQ(p.apply(Vec3{1, 0, 0}), (Vec3{0, 1, 0}));
+  Placement q;
+  q.rotate({1, 0, 0}, -90);
+  EXPECT_EQ(q.apply(Vec3{0, 1, 0}), (Vec3{0, 0, -1}));
+}
+
+TEST(placement, the_length_of_the_axis_does_not_matter)
+{
+  for (const Real length : {1e-200, 0.7, 1e200}) {
+    Placement p;
+    p.rotate({0, 0, length}, 90);
+    EXPECT_EQ(p.apply(Vec3{1, 0, 0}), (Vec3{0, 1, 0}));
+  }
+}
+
+TEST(placement, rotation_about_a_diagonal_permutes_the_axes)
+{
+  Placement p;
+  p.rotate({1, 1, 1}, 120);
+  EXPECT_LT(apart(p.apply(Vec3{1, 2, 3}), {3, 1, 2}), 16 * kRoundoff);    // 9 rounded products
+}
+
+TEST(placement, rotation_keeps_the_axis_and_lengths)
+{
+  Placement p;
+  p.rotate({1, -2, 3}, 37);
+  EXPECT_LT(apart(p.apply(Vec3{1, -2, 3}), {1, -2, 3}), 32 * kRoundoff);
+  EXPECT_NEAR(norm(p.apply(Vec3{3, 1, -2})), std::sqrt(14.), 32 * kRoundoff);
+}
+
+TEST(placement, a_mirror_keeps_orientation)
+{
+  auto soup = one_triangle();    // its normal is +z
+  Placement p;
+  p.scale({-1, 1, 1});
+  p.apply(soup);
+  EXPECT_GT(normal_of(soup).z, 0);
+  EXPECT_EQ(soup.corners[2], (Vec3{-1, 0, 0}));
+}
+
+TEST(placement, two_mirrors_swap_no_corners)
+{
+  auto soup = one_triangle();
+  Placement p;
+  p.scale({-1, -1, 1});
+  p.apply(soup);
+  EXPECT_EQ(soup.corners[1], (Vec3{-1, 0, 0}));
+}
+
+TEST(placement, a_mirror_at_a_tiny_scale_is_seen)
+{
+  auto soup = one_triangle();
+  Placement p;
+  p.scale({-1e-150, 1e-150, 1e-150});    // the determinant is below the smallest double
+  p.apply(soup);
+  EXPECT_EQ(soup.corners[2].x, -1e-150);
+}
+
+TEST(placement, the_identity_leaves_every_bit)
+{
+  auto soup = one_triangle();
+  soup.corners[0] = {-0.0, 5e-324, 1e308};
+  Placement().apply(soup);
+  EXPECT_TRUE(std::signbit(soup.corners[0].x));
+  EXPECT_EQ(soup.corners[0].y, 5e-324);
+}
+
+std::string error_of(void (*act)(Placement &))
+{
+  Placement p;
+  try {
+    act(p);
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(placement, a_zero_factor_is_refused)
+{
+  const auto error = error_of([](Placement &p) { p.scale({1, 0, 1}); });
+  EXPECT_NE(error.find("scale 1 0 1"), std::string::npos) << error;
+}
+
+TEST(placement, a_zero_axis_is_refused)
+{
+  const auto error = error_of([](Placement &p) { p.rotate({0, 0, 0}, 90); });
+  EXPECT_NE(error.find("the axis is zero"), std::string::npos) << error;
+}
+
+TEST(placement, numbers_that_are_not_finite_are_refused)
+{
+  EXPECT_NE(error_of([](Placement &p) { p.scale({1, NAN, 1}); }), "accepted");
+  EXPECT_NE(error_of([](Placement &p) { p.rotate({INFINITY, 0, 0}, 90); }), "accepted");
+  EXPECT_NE(error_of([](Placement &p) { p.rotate({1, 0, 0}, NAN); }), "accepted");
+  EXPECT_NE(error_of([](Placement &p) { p.move({0, 0, INFINITY}); }), "accepted");
+}
+
+TEST(placement, overflow_names_the_file_and_the_facet)
+{
+  const auto error = error_of([](Placement &p) {
+    auto soup = one_triangle();
+    soup.corners.insert(soup.corners.end(), {{0, 0, 0}, {1e300, 0, 0}, {0, 1, 0}});
+    p.scale({1e10, 1, 1});
+    p.apply(soup);
+  });
+  EXPECT_NE(error.find("part.stl, facet 2: the corner 1e+300 0 0 overflows"), std::string::npos)
+      << error;
+}
+
+}    // namespace
+}    // namespace lsdcd

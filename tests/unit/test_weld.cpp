@@ -1,0 +1,480 @@
+#include "base/input_error.h"
+#include "mesh/wall_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace lsdcd {
+namespace {
+
+using Triangles = std::vector<std::array<Vec3, 3>>;
+
+TriangleSoup soup_of(const Triangles &triangles)
+{
+  TriangleSoup soup;
+  soup.source = "part.stl";
+  for (const auto &t : triangles) soup.corners.insert(soup.corners.end(), t.begin(), t.end());
+  return soup;
+}
+
+WallMesh weld(const Triangles &triangles, Real tolerance = -1)
+{
+  return lsdcd::weld(soup_of(triangles), tolerance);
+}
+
+// Twelve facets, normals out.
+Triangles box(const Vec3 &lo, const Vec3 &hi)
+{
+  const auto corner = [&](int i) {
+    return Vec3{i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z};
+  };
+  const int sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                           {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  Triangles out;
+  for (const auto &s : sides) {
+    out.push_back({corner(s[0]), corner(s[1]), corner(s[2])});
+    out.push_back({corner(s[0]), corner(s[2]), corner(s[3])});
+  }
+  return out;
+}
+
+const Triangles kCube = box({0, 0, 0}, {1, 1, 1});
+const Vec3 kA = {0, 0, 0}, kB = {1, 0, 0}, kC = {0, 1, 0}, kD = {0, 0, 1};
+
+TEST(weld, cube_has_8_vertices_18_edges_12_faces)
+{
+  const auto mesh = weld(kCube);
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_EQ(mesh.edges.size(), 18u);
+  EXPECT_EQ(mesh.faces.size(), 12u);
+}
+
+TEST(weld, cube_is_closed_and_oriented)
+{
+  const auto report = weld(kCube).report;
+  EXPECT_TRUE(report.closed);
+  EXPECT_TRUE(report.oriented);
+  EXPECT_EQ(report.open_edges + report.nonmanifold_edges + report.misoriented_edges, 0u);
+}
+
+TEST(weld, seam_of_a_rounding_error_is_closed_by_default)
+{
+  Triangles cube = kCube;
+  cube[0][0].x += 5e-17;
+  cube[3][1].z -= 1e-16;
+  EXPECT_EQ(weld(cube).vertices.size(), 8u);
+  EXPECT_TRUE(weld(cube).report.closed);
+}
+
+TEST(weld, tolerance_zero_welds_equal_corners_only)
+{
+  Triangles cube = kCube;
+  cube[0][0].x += 5e-17;
+  EXPECT_EQ(weld(kCube, 0).vertices.size(), 8u);
+  EXPECT_EQ(weld(cube, 0).vertices.size(), 9u);
+}
+
+TEST(weld, minus_zero_equals_zero)
+{
+  Triangles cube = kCube;
+  for (auto &c : cube[4])
+    for (int i = 0; i < 3; ++i)
+      if (c[i] == 0) c[i] = -0.0;
+  EXPECT_EQ(weld(cube, 0).vertices.size(), 8u);
+}
+
+TEST(weld, default_tolerance_is_a_millionth_of_the_diagonal)
+{
+  EXPECT_DOUBLE_EQ(weld(kCube).report.weld_tolerance, 1e-6 * std::sqrt(3.));
+}
+
+TEST(weld, a_vertex_keeps_the_coordinates_of_its_first_corner)
+{
+  const Vec3 first = {0.1, 0.2, 0.3}, second = {0.1 + 1e-9, 0.2, 0.3};
+  const auto mesh = weld({{first, kB, kC}, {second, kC, kD}}, 1e-6);
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(mesh.vertices[0], first);
+}
+
+TEST(weld, a_distance_equal_to_the_tolerance_is_welded)
+{
+  const Triangles pair = {{kA, kB, kC}, {Vec3{0, 0, -0.25}, kC, kB}};
+  EXPECT_EQ(weld(pair, 0.25).vertices.size(), 3u);
+  EXPECT_EQ(weld(pair, 0.2499).vertices.size(), 4u);
+}
+
+TEST(weld, a_chain_of_close_corners_does_not_collapse)
+{
+  Triangles chain;
+  for (int i = 0; i < 100; ++i) chain.push_back({Vec3{0.01 * i, 0, 0}, {0, 9, 0}, {9, 9, 0}});
+  const auto mesh = weld(chain, 0.015);
+  EXPECT_EQ(mesh.vertices.size(), 52u);    // every second link, and the two others
+}
+
+TEST(weld, a_corner_goes_to_the_nearest_point)
+{
+  // The middle one comes before the right one, to which it is nearer.
+  const auto mesh =
+      weld({{kA, {0.8, 0, 0}, {5, 0, 5}}, {Vec3{1.5, 0, 0}, {5, 0, 5}, {5, 5, 5}}}, 1);
+  EXPECT_EQ(mesh.report.degenerate_facets, 0u);
+  EXPECT_EQ(mesh.faces[0][1], mesh.faces[1][0]);
+}
+
+TEST(weld, a_large_sheet_has_no_vertex_twice)
+{
+  Triangles sheet;
+  const int n = 100;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Real x = i, y = j;
+      sheet.push_back({Vec3{x, y, 0}, {x + 1, y, 0}, {x, y + 1, 0}});
+      sheet.push_back({Vec3{x + 1, y + 1, 1e-5}, {x, y + 1, 0}, {x + 1, y, 1e-5}});
+    }
+  EXPECT_EQ(weld(sheet).vertices.size(), 101u * 101u);
+  EXPECT_EQ(weld(sheet).report.open_edges, 4u * n);
+}
+
+// Clusters of corners at random places, against a search of all pairs.
+TEST(weld, points_of_a_random_cloud_agree_with_a_search_of_all_pairs)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<Real> place(-1, 1);
+  Triangles cloud;
+  for (int i = 0; i < 700; ++i) {
+    std::array<Vec3, 3> t;
+    for (auto &c : t) c = {place(random), place(random), 0.1 * place(random)};
+    cloud.push_back(t);
+  }
+  const Real tolerance = 0.05;
+  const auto mesh = weld(cloud, tolerance);
+  std::vector<Vec3> points;    // the greedy choice
+  for (const auto &t : cloud)
+    for (const auto &c : t)
+      if (std::none_of(points.begin(), points.end(),
+                       [&](const Vec3 &p) { return norm(p - c) <= tolerance; }))
+        points.push_back(c);
+  ASSERT_EQ(mesh.vertices.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(mesh.vertices[i], points[i]);
+  const auto distance = [&](const Vec3 &c, int v) { return norm(mesh.vertices[v] - c); };
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 c = cloud[mesh.face_facet[f]][k];
+      for (int v = 0; v < static_cast<int>(points.size()); ++v)
+        EXPECT_LE(distance(c, mesh.faces[f][k]), distance(c, v));
+    }
+}
+
+TEST(weld, counts_do_not_depend_on_the_order_of_facets)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<Real> jitter(-1e-7, 1e-7);
+  Triangles cubes = kCube;
+  for (int i = 1; i < 20; ++i) {
+    const auto next = box({1. * i, 0, 0}, {i + 1., 1, 1});
+    cubes.insert(cubes.end(), next.begin(), next.end());
+  }
+  for (auto &t : cubes)
+    for (auto &c : t) c += Vec3{jitter(random), jitter(random), jitter(random)};
+  const auto sorted = weld(cubes).report;
+  std::shuffle(cubes.begin(), cubes.end(), random);
+  const auto shuffled = weld(cubes).report;
+  EXPECT_EQ(sorted.vertices, 84u);
+  EXPECT_EQ(shuffled.vertices, sorted.vertices);
+  EXPECT_EQ(shuffled.edges, sorted.edges);
+  EXPECT_EQ(shuffled.nonmanifold_edges, sorted.nonmanifold_edges);
+  EXPECT_EQ(shuffled.duplicate_facets, sorted.duplicate_facets);
+}
+
+TEST(weld, facet_with_two_equal_corners_leaves_its_edge)
+{
+  const auto mesh = weld({{kA, kB, kB}});
+  EXPECT_EQ(mesh.report.degenerate_facets, 1u);
+  EXPECT_TRUE(mesh.faces.empty());
+  ASSERT_EQ(mesh.edges.size(), 1u);
+  EXPECT_EQ(mesh.vertices.size(), 2u);
+}
+
+TEST(weld, facet_that_is_a_point_leaves_its_vertex)
+{
+  const auto mesh = weld({{kB, kB, kB}});
+  EXPECT_EQ(mesh.vertices.size(), 1u);
+  EXPECT_TRUE(mesh.edges.empty());
+  EXPECT_EQ(mesh.vertex_first, (std::vector<int>{0, 0}));
+}
+
+TEST(weld, isolated_collinear_facet_leaves_three_edges)
+{
+  const auto mesh = weld({{kA, {0.25, 0, 0}, kB}});
+  EXPECT_EQ(mesh.report.degenerate_facets, 1u);
+  EXPECT_EQ(mesh.edges.size(), 3u);
+}
+
+TEST(weld, points_on_a_line_up_to_rounding_are_collinear)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<Real> place(-1, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 a = {place(random), place(random), place(random)};
+    const Vec3 b = {place(random), place(random), place(random)};
+    EXPECT_EQ(weld({{a, a + 0.3 * (b - a), b}}, 0).report.degenerate_facets, 1u);
+  }
+}
+
+TEST(weld, rounding_far_from_the_origin_is_collinear_too)
+{
+  const Vec3 a = {1000.1, 2000.2, 3000.3}, b = {1001.4, 2000.9, 3000.8};
+  for (int i = 1; i < 100; ++i)
+    EXPECT_EQ(weld({{a, a + 0.01 * i * (b - a), b}}, 0).report.degenerate_facets, 1u) << i;
+}
+
+TEST(weld, a_facet_a_billion_times_longer_than_high_is_a_face)
+{
+  const auto mesh = weld({{kA, {0.5, 1e-9, 0}, kB}, {kA, kB, {0, -1e-9, 0}}}, 0);
+  EXPECT_EQ(mesh.faces.size(), 2u);
+  EXPECT_DOUBLE_EQ(mesh.report.smallest_height, 1e-9);
+}
+
+TEST(weld, a_small_mesh_has_no_absolute_limit)
+{
+  Triangles tiny = kCube;
+  for (auto &t : tiny)
+    for (auto &c : t) c = 1e-60 * c;
+  const auto report = weld(tiny).report;
+  EXPECT_TRUE(report.oriented);
+  EXPECT_DOUBLE_EQ(report.area, 6e-120);
+}
+
+TEST(weld, edge_without_faces_is_neither_open_nor_nonmanifold)
+{
+  auto cube = kCube;
+  cube.push_back({Vec3{5, 5, 5}, {6, 5, 5}, {7, 5, 5}});
+  const auto report = weld(cube).report;
+  EXPECT_EQ(report.edges, 21u);
+  EXPECT_EQ(report.open_edges, 0u);
+  EXPECT_EQ(report.nonmanifold_edges, 0u);
+}
+
+TEST(weld, collapsed_facet_on_an_edge_of_a_face_adds_no_edge)
+{
+  const auto mesh = weld({{kA, kB, kC}, {kB, kA, kA}});
+  EXPECT_EQ(mesh.edges.size(), 3u);
+  EXPECT_EQ(mesh.report.open_edges, 3u);
+}
+
+TEST(weld, duplicates_of_either_winding_are_dropped)
+{
+  const auto mesh = weld({{kA, kB, kC}, {kB, kC, kA}, {kC, kB, kA}, {kA, kB, kD}});
+  EXPECT_EQ(mesh.report.duplicate_facets, 2u);
+  EXPECT_EQ(mesh.face_facet, (std::vector<std::size_t>{0, 3}));
+}
+
+TEST(weld, faces_keep_the_winding_of_the_file)
+{
+  const auto mesh = weld({{kA, kC, kB}});
+  EXPECT_EQ(mesh.vertices[mesh.faces[0][1]], kC);
+}
+
+TEST(weld, missing_facet_leaves_three_open_edges)
+{
+  auto cube = kCube;
+  cube.pop_back();
+  const auto report = weld(cube).report;
+  EXPECT_EQ(report.open_edges, 3u);
+  EXPECT_FALSE(report.closed);
+  EXPECT_FALSE(report.oriented);
+}
+
+TEST(weld, turned_facet_leaves_three_misoriented_edges)
+{
+  auto cube = kCube;
+  std::swap(cube[5][0], cube[5][1]);
+  const auto report = weld(cube).report;
+  EXPECT_EQ(report.misoriented_edges, 3u);
+  EXPECT_TRUE(report.closed);
+  EXPECT_FALSE(report.oriented);
+}
+
+TEST(weld, three_faces_on_an_edge_are_nonmanifold)
+{
+  const auto report = weld({{kA, kB, kC}, {kA, kB, kD}, {kA, kB, {0, -1, 0}}}).report;
+  EXPECT_EQ(report.nonmanifold_edges, 1u);
+  EXPECT_EQ(report.open_edges, 6u);
+}
+
+// A strip of triangles in random order, with a third sheet and bare edges.
+WallMesh tangled_mesh()
+{
+  Triangles strip;
+  for (int i = 0; i < 50; ++i) {
+    const Real x = i;
+    strip.push_back({Vec3{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}});
+    strip.push_back({Vec3{x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}});
+    strip.push_back({Vec3{x, 0, 0}, {x + 1, 0, 0}, {x, 0, 1}});
+    strip.push_back({Vec3{x, 0, 0}, {x + 1, 0, 0}, {x, 0, -1}});
+    strip.push_back({Vec3{x, 0, 0}, {x, 5, 5}, {x, 5, 5}});
+  }
+  std::shuffle(strip.begin(), strip.end(), std::mt19937(5));
+  return weld(strip);
+}
+
+TEST(weld, edge_k_of_a_face_joins_corners_k_and_k_plus_1)
+{
+  const auto mesh = tangled_mesh();
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.faces[f][k], b = mesh.faces[f][(k + 1) % 3];
+      EXPECT_EQ(mesh.edges[mesh.face_edges[f][k]],
+                (std::array<int, 2>{std::min(a, b), std::max(a, b)}));
+    }
+}
+
+TEST(weld, faces_of_an_edge_are_those_that_name_it)
+{
+  const auto mesh = tangled_mesh();
+  for (int e = 0; e < static_cast<int>(mesh.edges.size()); ++e) {
+    std::vector<int> expected;
+    for (int f = 0; f < static_cast<int>(mesh.faces.size()); ++f)
+      for (const int its : mesh.face_edges[f])
+        if (its == e) expected.push_back(f);
+    EXPECT_EQ(std::vector<int>(mesh.edge_face.begin() + mesh.edge_first[e],
+                               mesh.edge_face.begin() + mesh.edge_first[e + 1]),
+              expected);
+  }
+}
+
+TEST(weld, edges_of_a_vertex_are_those_that_end_there)
+{
+  const auto mesh = tangled_mesh();
+  for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v) {
+    std::vector<int> expected;
+    for (int e = 0; e < static_cast<int>(mesh.edges.size()); ++e)
+      if (mesh.edges[e][0] == v || mesh.edges[e][1] == v) expected.push_back(e);
+    EXPECT_EQ(std::vector<int>(mesh.vertex_edge.begin() + mesh.vertex_first[v],
+                               mesh.vertex_edge.begin() + mesh.vertex_first[v + 1]),
+              expected);
+  }
+}
+
+TEST(weld, no_edge_is_listed_twice)
+{
+  auto edges = tangled_mesh().edges;
+  std::sort(edges.begin(), edges.end());
+  EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end());
+}
+
+TEST(weld, area_and_volume_of_a_box)
+{
+  const auto report = weld(box({-1, 0, 2}, {1, 3, 6})).report;
+  EXPECT_DOUBLE_EQ(report.area, 2 * (2 * 3 + 3 * 4 + 4 * 2));
+  EXPECT_DOUBLE_EQ(report.volume, 24);
+}
+
+TEST(weld, volume_is_negative_when_normals_point_in)
+{
+  auto cube = kCube;
+  for (auto &t : cube) std::swap(t[0], t[1]);
+  EXPECT_DOUBLE_EQ(weld(cube).report.volume, -1);
+}
+
+TEST(weld, volume_far_from_the_origin_keeps_its_digits)
+{
+  const Real far = 1 << 30;    // corners are exact there
+  EXPECT_DOUBLE_EQ(weld(box({far, far, far}, {far + 1, far + 1, far + 1}), 0).report.volume, 1);
+}
+
+TEST(weld, bounding_box_encloses_the_vertices)
+{
+  const auto report = weld(box({-1, 0, 2}, {1, 3, 6})).report;
+  EXPECT_EQ(report.lo, (Vec3{-1, 0, 2}));
+  EXPECT_EQ(report.hi, (Vec3{1, 3, 6}));
+}
+
+TEST(weld, cube_folds_at_twelve_edges)
+{
+  const auto report = weld(kCube).report;
+  EXPECT_EQ(report.feature_edges, 12u);
+  EXPECT_DOUBLE_EQ(report.largest_fold, 90);
+}
+
+TEST(weld, fold_is_the_angle_between_face_planes_whatever_the_winding)
+{
+  const Real slope = std::tan(std::acos(-1.) / 18);    // 10 degrees
+  const std::array<Vec3, 3> flat = {kA, kB, {0, -1, 0}};
+  EXPECT_NEAR(weld({flat, {kA, kB, {0, 1, slope}}}).report.largest_fold, 10, 1e-13);
+  EXPECT_NEAR(weld({flat, {kB, kA, {0, 1, slope}}}).report.largest_fold, 10, 1e-13);
+}
+
+TEST(weld, edge_lengths_and_height_of_a_3_4_5_triangle)
+{
+  const auto report = weld({{kA, {3, 0, 0}, {0, 4, 0}}}).report;
+  EXPECT_EQ(report.smallest_edge, 3);
+  EXPECT_EQ(report.median_edge, 4);
+  EXPECT_EQ(report.largest_edge, 5);
+  EXPECT_DOUBLE_EQ(report.smallest_height, 2.4);
+}
+
+std::string error_of(const Triangles &triangles, Real tolerance = -1)
+{
+  try {
+    weld(triangles, tolerance);
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(weld, a_mesh_without_facets_is_refused)
+{
+  EXPECT_NE(error_of({}).find("part.stl: the mesh has no facets"), std::string::npos);
+}
+
+TEST(weld, a_tolerance_that_swallows_the_mesh_is_refused)
+{
+  EXPECT_NE(error_of(kCube, 2).find("weld tolerance of 2"), std::string::npos);
+  EXPECT_NE(error_of(kCube, NAN), "accepted");
+}
+
+TEST(weld, a_coordinate_out_of_range_names_the_facet)
+{
+  for (const Real bad : {Real(NAN), Real(INFINITY), 1e200}) {
+    auto cube = kCube;
+    cube[3][1].y = bad;
+    EXPECT_NE(error_of(cube).find("part.stl, facet 4: coordinate y"), std::string::npos);
+  }
+}
+
+TEST(weld, a_mesh_too_small_to_square_is_refused)
+{
+  EXPECT_NE(error_of({{kA, {1e-200, 0, 0}, {0, 1e-200, 0}}}).find("larger scale"),
+            std::string::npos);
+}
+
+TEST(inspect, description_of_a_cube)
+{
+  const auto report = weld(kCube, 1e-5).report;
+  EXPECT_EQ(describe(report, "cube.stl"),
+            "mesh cube.stl\n"
+            "  facets      12, 0 degenerate and 0 duplicates dropped\n"
+            "  vertices    8, welded from 36 corners (tolerance 1e-05)\n"
+            "  edges       18, 0 open, 0 non-manifold, 0 misoriented\n"
+            "  surface     closed, normals point out\n"
+            "  area        6\n"
+            "  volume      1\n"
+            "  box         (0, 0, 0) to (1, 1, 1)\n"
+            "  edge length 1 smallest, 1 median, 1.41421 largest\n"
+            "  thinnest    face 0.707107 high\n"
+            "  folds       90 degrees at most, 12 edges above 30");
+}
+
+TEST(inspect, an_open_mesh_shows_no_volume)
+{
+  const auto block = describe(weld({{kA, kB, kC}}).report, "sheet.stl");
+  EXPECT_NE(block.find("surface     open"), std::string::npos);
+  EXPECT_EQ(block.find("volume"), std::string::npos);
+}
+
+}    // namespace
+}    // namespace lsdcd
