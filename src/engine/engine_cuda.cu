@@ -112,6 +112,30 @@ template <class Law> class CudaEngine : public EngineBase<Law> {
         offset_.size() * sizeof(std::uint32_t) + scratch_.size();
   }
 
+  // Most spheres have one spring or none of the kPlaces they have room for: only
+  // what is there crosses to the host.
+  void pack_springs(std::size_t n)
+  {
+    const SphereResult *result = result_.device();
+    const Spring *from = new_spring_.data();
+    std::uint32_t *offset = offset_.data();
+    Spring *to = packed_.device();
+    backend_.for_each(n, [=] __device__(std::size_t k) {
+      offset[k] = result[k].n_contacts > 0 ? result[k].n_contacts : 0;
+    });
+    std::size_t bytes = 0;
+    cuda_check(cub::DeviceScan::ExclusiveSum(nullptr, bytes, offset, offset, n, backend_.stream),
+               "sizing a scan");
+    if (scratch_.size() < bytes) scratch_ = CudaBackend::Array<char>(2 * bytes);
+    bytes = scratch_.size();
+    cuda_check(cub::DeviceScan::ExclusiveSum(scratch_.data(), bytes, offset, offset, n,
+                                             backend_.stream),
+               "scanning");
+    backend_.for_each(n, [=] __device__(std::size_t k) {
+      for (int i = 0; i < result[k].n_contacts; i++) to[offset[k] + i] = from[k * kPlaces + i];
+    });
+  }
+
  private:
   // The same view over a copy of the block at another address.
   static GridView moved_view(const GridView &view, const char *to)
@@ -159,30 +183,6 @@ template <class Law> class CudaEngine : public EngineBase<Law> {
         std::memcpy(old_spring_.host() + to[k].first_spring,
                     this->springs_->of(this->results_.near[k]), to[k].n_springs * sizeof(Spring));
     if (n_springs > 0) old_spring_.to_device(n_springs, backend_.stream);
-  }
-
-  // Most spheres have one spring or none of the kPlaces they have room for: only
-  // what is there crosses to the host.
-  void pack_springs(std::size_t n)
-  {
-    const SphereResult *result = result_.device();
-    const Spring *from = new_spring_.data();
-    std::uint32_t *offset = offset_.data();
-    Spring *to = packed_.device();
-    backend_.for_each(n, [=] __device__(std::size_t k) {
-      offset[k] = result[k].n_contacts > 0 ? result[k].n_contacts : 0;
-    });
-    std::size_t bytes = 0;
-    cuda_check(cub::DeviceScan::ExclusiveSum(nullptr, bytes, offset, offset, n, backend_.stream),
-               "sizing a scan");
-    if (scratch_.size() < bytes) scratch_ = CudaBackend::Array<char>(2 * bytes);
-    bytes = scratch_.size();
-    cuda_check(cub::DeviceScan::ExclusiveSum(scratch_.data(), bytes, offset, offset, n,
-                                             backend_.stream),
-               "scanning");
-    backend_.for_each(n, [=] __device__(std::size_t k) {
-      for (int i = 0; i < result[k].n_contacts; i++) to[offset[k] + i] = from[k * kPlaces + i];
-    });
   }
 
   // Back to kPlaces springs each, as redo_crowded wants them.
