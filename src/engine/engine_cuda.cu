@@ -189,9 +189,10 @@ template <class Law> class CudaEngine : public EngineBase<Law> {
   void spread(const Spring *springs, std::size_t n)
   {
     crowded_.assign(Law::kHistory ? n * kPlaces : 0, Spring{});
-    if (!Law::kHistory) return;
-    for (std::size_t k = 0; k < n; k++)
-      for (int i = 0; i < result_.host()[k].n_contacts; i++) crowded_[k * kPlaces + i] = *springs++;
+    if constexpr (Law::kHistory)
+      for (std::size_t k = 0; k < n; k++)
+        for (int i = 0; i < result_.host()[k].n_contacts; i++)
+          crowded_[k * kPlaces + i] = *springs++;
   }
 
   bool any_crowded(std::size_t n)

@@ -1,0 +1,195 @@
+// The CUDA engine against the CPU engine: one source, so the same bits.
+#include "support/meshes.h"
+
+#include "support/device.h"
+
+#include <cstring>
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace lsdcd;
+
+namespace {
+
+TriangleSoup random_soup(int n, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<Real> at(-5, 5), size(-1, 1);
+  TriangleSoup soup;
+  soup.source = "random";
+  for (int i = 0; i < n; i++) {
+    const Vec3 p = {at(random), at(random), at(random)};
+    for (int k = 0; k < 3; k++)
+      soup.corners.push_back(p + Vec3{size(random), size(random), size(random)});
+  }
+  return soup;
+}
+
+struct Case {
+  const char *name;
+  TriangleSoup soup;
+  Real reach, length;
+};
+
+std::vector<Case> cases()
+{
+  return {{"cylinder of 160", cylinder_mesh(40, 1, 50, 100), 1, 0.4},
+          {"cylinder of 10 000", cylinder_mesh(100, 49, 50, 100), 1, 0},
+          {"cylinder of 100 000", cylinder_mesh(400, 124, 50, 100), 1, 0.4},
+          {"floor of 20 000", floor_mesh(100, 10, 7), 0.3, 0},
+          {"box", box_mesh({0, 0, 0}, {10, 10, 10}), 0.5, 0},
+          {"random soup", random_soup(500, 3), 0.7, 0}};
+}
+
+template <class T> bool same_bytes(const std::vector<T> &a, const std::vector<T> &b)
+{
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+EngineSettings settings_for(LawStyle style)
+{
+  EngineSettings e;
+  e.law.style = style;
+  e.law.k_normal = 1e5;
+  e.law.k_tangent = 2e4;
+  e.law.gamma_normal = 50;
+  e.law.gamma_tangent = 25;
+  e.law.mu = 0.4;
+  return e;
+}
+
+// Spheres all over the box of a wall, some in motion, for a few steps on one backend.
+struct Outcome {
+  std::vector<Vec3> force, torque;
+  WallTotals totals;
+  std::vector<Spring> springs;
+  std::vector<SphereOutput> outputs;
+};
+
+Outcome run_steps(const Case &c, LawStyle style, Device device, int n_spheres)
+{
+  const WallMesh mesh = weld(c.soup, -1);
+  GridSettings g;
+  g.reach = c.reach;
+  g.length = c.length;
+  const TriangleGrid grid = build_grid(mesh, g);
+  std::vector<char> block(flat_bytes(grid) + 64);
+  char *at = block.data() + (64 - reinterpret_cast<std::uintptr_t>(block.data()) % 64) % 64;
+  flatten(grid, at);
+
+  EngineSettings e = settings_for(style);
+  e.device = device;
+  auto engine = make_engine(e);
+  engine->set_grid(flat_view(at));
+
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<Real> unit(0, 1), speed(-3, 3);
+  std::vector<Real> x, v, omega, radius, mass, force(3 * n_spheres), torque(3 * n_spheres);
+  const Vec3 lo = mesh.report.lo - c.reach * Vec3{1, 1, 1};
+  const Vec3 extent = mesh.report.hi + c.reach * Vec3{1, 1, 1} - lo;
+  for (int i = 0; i < n_spheres; i++) {
+    for (int k = 0; k < 3; k++) {
+      x.push_back(lo[k] + extent[k] * unit(random));
+      v.push_back(speed(random));
+      omega.push_back(speed(random));
+    }
+    radius.push_back(c.reach * (0.2 + 0.8 * unit(random)));
+    mass.push_back(1 + unit(random));
+  }
+  SpringStore springs;
+  springs.grow(n_spheres);
+  Spheres s;
+  s.n = n_spheres;
+  s.x = x.data();
+  s.v = v.data();
+  s.omega = omega.data();
+  s.radius = radius.data();
+  s.mass = mass.data();
+  s.force = force.data();
+  s.torque = torque.data();
+  StepSettings step;
+  step.dt = 1e-2;
+  step.per_sphere = true;
+  for (int k = 0; k < 5; k++) {
+    std::fill(force.begin(), force.end(), 0);
+    std::fill(torque.begin(), torque.end(), 0);
+    engine->start(s, step, &springs);
+    engine->collect();
+    for (int i = 0; i < 3 * n_spheres; i++) x[i] += step.dt * v[i];
+  }
+  Outcome out;
+  for (int i = 0; i < n_spheres; i++) {
+    out.force.push_back({force[3 * i], force[3 * i + 1], force[3 * i + 2]});
+    out.torque.push_back({torque[3 * i], torque[3 * i + 1], torque[3 * i + 2]});
+    for (int k = 0; k < springs.count(i); k++) out.springs.push_back(springs.of(i)[k]);
+  }
+  out.totals = engine->totals();
+  out.outputs.assign(engine->sphere_output(), engine->sphere_output() + engine->n_touching());
+  return out;
+}
+
+constexpr LawStyle kStyles[] = {LawStyle::hooke, LawStyle::hooke_history, LawStyle::hertz_history};
+
+TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
+{
+  for (const Case &c : cases()) {
+    const WallMesh mesh = weld(c.soup, -1);
+    GridSettings g;
+    g.reach = c.reach;
+    g.length = c.length;
+    const TriangleGrid cpu = build_grid(mesh, g, false), cuda = build_grid(mesh, g, true);
+    EXPECT_TRUE(same_bytes(cpu.brick_of, cuda.brick_of)) << c.name;
+    EXPECT_TRUE(same_bytes(cpu.bricks, cuda.bricks)) << c.name;
+    EXPECT_TRUE(same_bytes(cpu.cells, cuda.cells)) << c.name;
+    EXPECT_TRUE(same_bytes(cpu.candidates, cuda.candidates)) << c.name;
+    EXPECT_GT(cuda.candidates.size() + cuda.cells.size(), 0u) << c.name;
+  }
+}
+
+TEST(cuda_engine, gives_the_forces_of_the_cpu_engine)
+{
+  // Same source, no contraction, IEEE division and root on both: no tolerance.
+  for (const Case &c : cases())
+    for (LawStyle style : kStyles) {
+      const Outcome cpu = run_steps(c, style, Device::cpu, 20000);
+      const Outcome cuda = run_steps(c, style, Device::cuda, 20000);
+      EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << c.name;
+      EXPECT_TRUE(same_bytes(cpu.torque, cuda.torque)) << c.name;
+      EXPECT_GT(cpu.totals.contacts, 0) << c.name;
+    }
+}
+
+TEST(cuda_engine, gives_the_springs_of_the_cpu_engine)
+{
+  for (const Case &c : cases()) {
+    const Outcome cpu = run_steps(c, LawStyle::hertz_history, Device::cpu, 20000);
+    const Outcome cuda = run_steps(c, LawStyle::hertz_history, Device::cuda, 20000);
+    EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << c.name;
+    EXPECT_GT(cpu.springs.size(), 0u) << c.name;
+  }
+}
+
+TEST(cuda_engine, gives_the_totals_and_outputs_of_the_cpu_engine)
+{
+  for (const Case &c : cases()) {
+    const Outcome cpu = run_steps(c, LawStyle::hooke_history, Device::cpu, 20000);
+    const Outcome cuda = run_steps(c, LawStyle::hooke_history, Device::cuda, 20000);
+    EXPECT_EQ(cpu.totals.contacts, cuda.totals.contacts) << c.name;
+    EXPECT_EQ(cpu.totals.energy, cuda.totals.energy) << c.name;
+    EXPECT_TRUE(cpu.totals.force == cuda.totals.force) << c.name;
+    EXPECT_TRUE(cpu.totals.torque == cuda.totals.torque) << c.name;
+    EXPECT_TRUE(same_bytes(cpu.outputs, cuda.outputs)) << c.name;
+  }
+}
+
+TEST(cuda_engine, gives_the_same_bits_twice)
+{
+  const Case c = cases()[5];
+  const Outcome once = run_steps(c, LawStyle::hertz_history, Device::cuda, 20000);
+  const Outcome twice = run_steps(c, LawStyle::hertz_history, Device::cuda, 20000);
+  EXPECT_TRUE(same_bytes(once.force, twice.force));
+  EXPECT_TRUE(same_bytes(once.springs, twice.springs));
+  EXPECT_EQ(once.totals.energy, twice.totals.energy);
+}
+
+}    // namespace
