@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""Runs benchmark programs, keeps their CSV and prints it as a table.
+
+usage: run.py BUILD_DIR [NAME ...]     NAME: build, step (default: both)
+
+Rows go to BUILD_DIR/bench/NAME.csv, written whole or not at all.
+"""
+import csv
+import os
+import subprocess
+import sys
+
+NAMES = ["build", "step"]
+HIDDEN = {"bench", "compiler", "commit"}    # the same in every row; printed once
+
+
+def table(rows, columns):
+    width = [max(len(c), *(len(r[c]) for r in rows)) for c in columns]
+    lines = ["  ".join(c.rjust(w) for c, w in zip(columns, width))]
+    for r in rows:
+        lines.append("  ".join(r[c].rjust(w) for c, w in zip(columns, width)))
+    return "\n".join(lines)
+
+
+def main():
+    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__)
+        return 0 if len(sys.argv) > 1 else 2
+    build, names = sys.argv[1], sys.argv[2:] or NAMES
+    for name in names:
+        if name not in NAMES:
+            print(f"no benchmark '{name}'; there are: {', '.join(NAMES)}", file=sys.stderr)
+            return 2
+    out = os.path.join(build, "bench")
+    os.makedirs(out, exist_ok=True)
+    for name in names:
+        print(f"running bench_{name} ...", flush=True)
+        done = subprocess.run([os.path.join(build, "bin", "bench_" + name)],
+                              stdout=subprocess.PIPE, text=True)
+        if done.returncode != 0:
+            print(f"bench_{name} failed with status {done.returncode}", file=sys.stderr)
+            return 1
+        path = os.path.join(out, name + ".csv")
+        with open(path + ".part", "w") as f:
+            f.write(done.stdout)
+        os.replace(path + ".part", path)
+        rows = list(csv.DictReader(done.stdout.splitlines()))
+        columns = [c for c in rows[0] if c not in HIDDEN]
+        print(f"{name}: commit {rows[0]['commit']}, {rows[0]['compiler']}; {path}")
+        print(table(rows, columns))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,137 @@
+// lsdcd: looks at a mesh and its grid before a simulation does.
+#include "base/input_error.h"
+#include "grid/triangle_grid.h"
+#include "mesh/placement.h"
+#include "mesh/triangle_soup.h"
+#include "mesh/wall_mesh.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+using namespace lsdcd;
+
+namespace {
+
+struct Options {
+  std::string file;
+  std::vector<double> scale;
+  double weld = -1, radius = 0, length = 0, memory = 1024;
+  bool json = false;
+};
+
+WallMesh load(const Options &o)
+{
+  TriangleSoup soup = read_stl(o.file);
+  Placement placement;
+  if (o.scale.size() == 1) placement.scale({o.scale[0], o.scale[0], o.scale[0]});
+  if (o.scale.size() == 3) placement.scale({o.scale[0], o.scale[1], o.scale[2]});
+  placement.apply(soup);
+  return weld(soup, o.weld);
+}
+
+nlohmann::json as_json(const Vec3 &v)
+{
+  return {v.x, v.y, v.z};
+}
+
+nlohmann::json as_json(const MeshReport &r)
+{
+  return {{"facets", r.facets},
+          {"vertices", r.vertices},
+          {"degenerate_facets", r.degenerate_facets},
+          {"duplicate_facets", r.duplicate_facets},
+          {"edges", r.edges},
+          {"open_edges", r.open_edges},
+          {"nonmanifold_edges", r.nonmanifold_edges},
+          {"misoriented_edges", r.misoriented_edges},
+          {"closed", r.closed},
+          {"oriented", r.oriented},
+          {"weld_tolerance", r.weld_tolerance},
+          {"area", r.area},
+          {"volume", r.volume},
+          {"lo", as_json(r.lo)},
+          {"hi", as_json(r.hi)},
+          {"smallest_edge", r.smallest_edge},
+          {"median_edge", r.median_edge},
+          {"largest_edge", r.largest_edge},
+          {"smallest_height", r.smallest_height},
+          {"largest_fold_degrees", r.largest_fold},
+          {"feature_edges", r.feature_edges}};
+}
+
+nlohmann::json as_json(const GridReport &r)
+{
+  return {{"length", r.length},         {"reach", r.reach},
+          {"bricks", r.bricks},         {"cells", r.cells},
+          {"candidates", r.candidates}, {"mean_list", r.mean_list},
+          {"longest_list", r.longest_list}, {"bytes", r.bytes},
+          {"distance_tests", r.distance_tests}, {"seconds", r.seconds},
+          {"device", r.device}};
+}
+
+void inspect(const Options &o)
+{
+  const WallMesh mesh = load(o);
+  if (o.json)
+    std::printf("%s\n", as_json(mesh.report).dump(2).c_str());
+  else
+    std::printf("%s\n", describe(mesh.report, o.file).c_str());
+}
+
+void grid(const Options &o)
+{
+  const WallMesh mesh = load(o);
+  GridSettings settings;
+  settings.length = o.length;
+  settings.reach = o.radius;
+  settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
+  const TriangleGrid g = build_grid(mesh, settings);
+  if (o.json)
+    std::printf("%s\n", as_json(g.report).dump(2).c_str());
+  else
+    std::printf("%s\n%s\n", describe(mesh.report, o.file).c_str(), describe(g.report).c_str());
+}
+
+void add_mesh_options(CLI::App *command, Options &o)
+{
+  command->add_option("file", o.file, "STL file, ASCII or binary")->required();
+  command->add_option("--scale", o.scale, "one factor, or three (x y z)")->expected(1, 3);
+  command->add_option("--weld", o.weld,
+                      "weld corners closer than this (default: 1e-6 of the box diagonal)");
+  command->add_flag("--json", o.json, "print JSON");
+}
+
+}    // namespace
+
+int main(int argc, char **argv)
+{
+  CLI::App app{"lsdcd: looks at the mesh of a `fix wall/lsdcd` and at its grid"};
+  app.require_subcommand(1);
+  Options o;
+  CLI::App *inspect_command =
+      app.add_subcommand("inspect", "what the mesh is: facets, welds, holes, folds, area, volume");
+  add_mesh_options(inspect_command, o);
+  inspect_command->callback([&] { inspect(o); });
+
+  CLI::App *grid_command =
+      app.add_subcommand("grid", "what a grid for spheres up to a radius would cost");
+  add_mesh_options(grid_command, o);
+  grid_command->add_option("--radius", o.radius, "largest sphere radius")->required();
+  grid_command->add_option("--grid", o.length, "cell length (default: chosen)");
+  grid_command->add_option("--memory", o.memory, "budget in MB")->capture_default_str();
+  grid_command->callback([&] { grid(o); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError &e) {
+    return app.exit(e);
+  } catch (const std::exception &e) {
+    std::fprintf(stderr, "lsdcd: %s\n", e.what());
+    return 1;
+  }
+  return 0;
+}
