@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Runs benchmark programs, keeps their CSV and prints it as a table.
 
-usage: run.py BUILD_DIR [NAME ...]     NAME: build, step (default: both)
+usage: run.py [--build DIR] [NAME ...]     NAME: build, step (default: both)
 
-Rows go to BUILD_DIR/bench/NAME.csv, written whole or not at all.
+Rows go to DIR/bench/NAME.csv, written whole or not at all.
 """
+import argparse
 import csv
 import os
 import subprocess
@@ -23,10 +24,12 @@ def table(rows, columns):
 
 
 def main():
-    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
-        print(__doc__)
-        return 0 if len(sys.argv) > 1 else 2
-    build, names = sys.argv[1], sys.argv[2:] or NAMES
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default="build", metavar="DIR", help="where bin/ is")
+    parser.add_argument("names", nargs="*", metavar="NAME")
+    args = parser.parse_args()
+    build, names = args.build, args.names or NAMES
     for name in names:
         if name not in NAMES:
             print(f"no benchmark '{name}'; there are: {', '.join(NAMES)}", file=sys.stderr)
