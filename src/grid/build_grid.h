@@ -332,7 +332,7 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   const Real asked = plan.length;
   bool fits = false;
   while (!fits) {
-    fits = plan.table_fits(settings.memory_budget);
+    fits = plan.may_fit(settings.memory_budget);
     if (fits) {
       const std::size_t n = builder.rasterise_all(plan);
       fits = !GridBuilder<B>::too_many(n) && bricks_fit(plan, n, settings.memory_budget) &&
