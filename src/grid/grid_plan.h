@@ -13,13 +13,10 @@ struct GridPlan {
   Vec3 origin;
   Real length, half_diagonal;    // of a cell; the second with room for rounding
   Real reach, slack;
-  Real least_volume;               // of the space within reach of the wall: no less than this
+  Real least_volume;    // of the space within reach of the wall: no less than this
   std::int32_t n_bricks[3];
 
-  std::size_t table_size() const
-  {
-    return std::size_t(n_bricks[0]) * n_bricks[1] * n_bricks[2];
-  }
+  std::size_t table_size() const { return std::size_t(n_bricks[0]) * n_bricks[1] * n_bricks[2]; }
   // False where the table, or the bricks that the least volume needs, cannot fit.
   bool may_fit(std::size_t budget) const;
 

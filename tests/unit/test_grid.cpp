@@ -1,0 +1,389 @@
+#include "contact/find_contacts.h"
+#include "grid/triangle_grid.h"
+#include "base/input_error.h"
+#include "support/brute_force.h"
+#include "support/device.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#if defined(_OPENMP)
+#include <omp.h>
+#endif
+
+namespace lsdcd {
+namespace {
+
+constexpr int kPlaces = 256;
+using Random = std::mt19937_64;
+
+Real uniform(Random &random, Real lo, Real hi)
+{
+  return std::uniform_real_distribution<Real>(lo, hi)(random);
+}
+
+Vec3 uniform(Random &random, const Vec3 &lo, const Vec3 &hi)
+{
+  return {uniform(random, lo.x, hi.x), uniform(random, lo.y, hi.y), uniform(random, lo.z, hi.z)};
+}
+
+// Triangles between random points: edges with one, two and more faces, faces
+// that cross, all angles.
+TriangleSoup tangle(int n_points, int n_triangles, unsigned seed)
+{
+  Random random(seed);
+  std::vector<Vec3> p(n_points);
+  for (Vec3 &x : p) x = uniform(random, {-1, -1, -1}, {1, 1, 1});
+  TriangleSoup soup;
+  soup.source = "tangle";
+  while (static_cast<int>(soup.corners.size()) < 3 * n_triangles) {
+    const auto pick = [&] { return p[random() % p.size()]; };
+    const Vec3 a = pick(), b = pick(), c = pick();
+    if (norm(cross(b - a, c - a)) > 1e-3) soup.corners.insert(soup.corners.end(), {a, b, c});
+  }
+  return soup;
+}
+
+TriangleSoup moved(TriangleSoup soup, const Vec3 &by)
+{
+  for (Vec3 &x : soup.corners) x += by;
+  return soup;
+}
+
+TriangleGrid grid_of(const TriangleSoup &soup, Real reach, Real length = 0)
+{
+  GridSettings settings;
+  settings.reach = reach;
+  settings.length = length;
+  return build_grid(weld(soup, -1), settings, test_on_cuda());
+}
+
+// A point of the wall, or a point anywhere in the box that spheres can reach.
+Vec3 query_point(Random &random, const TriangleSoup &soup, const Vec3 &lo, const Vec3 &hi,
+                 Real reach)
+{
+  const std::size_t t = 3 * (random() % soup.n_triangles());
+  Real u = uniform(random, 0, 1), v = uniform(random, 0, 1);
+  if (u + v > 1) u = 1 - u, v = 1 - v;
+  if (random() % 8 == 0) u = 0;
+  if (random() % 8 == 0) v = 0;
+  const Vec3 on = soup.corners[t] + u * (soup.corners[t + 1] - soup.corners[t]) +
+                  v * (soup.corners[t + 2] - soup.corners[t]);
+  const Vec3 e = {reach, reach, reach};
+  switch (random() % 4) {
+    case 0:
+      return uniform(random, lo - 1.5 * e, hi + 1.5 * e);
+    case 1:
+      return on + uniform(random, -0.01 * e, 0.01 * e);
+    default:
+      return on + uniform(random, -1. * e, e);
+  }
+}
+
+// The same contacts through the grid as by trying every feature. Feet that the
+// slack lets two features report are one contact on both sides of the comparison;
+// both see the same feature records, so that only rounding of q - foot is left.
+void expect_complete(const TriangleSoup &soup, Real reach, Real length, int n, unsigned seed)
+{
+  const TriangleGrid grid = grid_of(soup, reach, length);
+  const GridView view = grid.view();
+  Vec3 lo = soup.corners[0], hi = lo;
+  for (const Vec3 &x : soup.corners)
+    for (int k = 0; k < 3; k++) lo[k] = std::fmin(lo[k], x[k]), hi[k] = std::fmax(hi[k], x[k]);
+  const Real far = std::fmax(norm(lo), norm(hi));
+  const Real same = kSamePoint * grid.slack, close = 2 * same + 16 * kRoundoff * far;
+  Random random(seed);
+  long found = 0;
+  for (int i = 0; i < n; i++) {
+    const Vec3 q = query_point(random, soup, lo, hi, reach);
+    const Real r = random() % 4 ? uniform(random, 0, reach) : reach;
+    const auto expected =
+        brute_contacts(view.wall, grid.wall.contact_features, q, r, grid.slack, same);
+    ContactSet<kPlaces> set;
+    find_contacts(view, q, r, set);
+    ASSERT_FALSE(set.overflow);
+    ASSERT_EQ(set.n, static_cast<int>(expected.size()))
+        << "at " << q.x << " " << q.y << " " << q.z << ", radius " << r;
+    found += set.n;
+    for (const BruteContact &c : expected) {
+      Real nearest = 1e300;
+      for (int k = 0; k < set.n; k++)
+        nearest = std::fmin(nearest, norm(q - set.distance[k] * set.normal[k] - c.foot));
+      ASSERT_LE(nearest, close);
+    }
+  }
+  EXPECT_GT(found, n / 4) << "the points tried nothing";
+}
+
+TEST(grid, is_complete_on_a_floor_of_two_triangles)
+{
+  expect_complete(floor_mesh(1, 2), 0.3, 0, 20000, 1);
+}
+
+TEST(grid, is_complete_on_a_shuffled_floor)
+{
+  expect_complete(floor_mesh(10, 1, 7), 0.3, 0, 20000, 2);
+}
+
+TEST(grid, is_complete_on_a_cylinder)
+{
+  expect_complete(cylinder_mesh(40, 3, 1, 1.5), 0.25, 0, 20000, 3);
+}
+
+TEST(grid, is_complete_on_a_box)
+{
+  expect_complete(box_mesh({0, 0, 0}, {1, 2, 3}), 0.4, 0, 20000, 4);
+}
+
+TEST(grid, is_complete_on_hinges_of_all_angles)
+{
+  for (Real degrees : {-170., -90., -1., -1e-6, 1e-9, 1e-6, 1., 30., 90., 150., 179.})
+    expect_complete(hinge_mesh(degrees, 1), 0.4, 0, 4000, 5);
+}
+
+TEST(grid, is_complete_on_a_tangle_with_free_and_nonmanifold_edges)
+{
+  const TriangleSoup soup = tangle(14, 40, 6);
+  ASSERT_GT(weld(soup, -1).report.nonmanifold_edges, 0u);
+  ASSERT_GT(weld(soup, -1).report.open_edges, 0u);
+  expect_complete(soup, 0.3, 0, 20000, 6);
+}
+
+TEST(grid, is_complete_at_every_cell_length)
+{
+  for (Real length : {0.013, 0.05, 0.1, 0.29, 0.6, 3.0}) {
+    expect_complete(tangle(12, 20, 8), 0.2, length, 4000, 8);
+    expect_complete(cylinder_mesh(24, 2, 0.5, 0.6), 0.2, length, 4000, 9);
+  }
+}
+
+TEST(grid, is_complete_for_spheres_much_larger_than_the_mesh)
+{
+  expect_complete(box_mesh({0, 0, 0}, {1, 1, 1}), 30, 0, 10000, 10);
+}
+
+TEST(grid, is_complete_for_spheres_much_smaller_than_the_triangles)
+{
+  expect_complete(box_mesh({0, 0, 0}, {1, 1, 1}), 0.01, 0, 10000, 11);
+}
+
+TEST(grid, is_complete_a_million_radii_from_the_origin)
+{
+  const Real reach = 0.25;
+  const Vec3 away = {1e6 * reach, -0.7e6 * reach, 0.3e6 * reach};
+  expect_complete(moved(cylinder_mesh(40, 3, 1, 1.5), away), reach, 0, 20000, 12);
+  expect_complete(moved(floor_mesh(10, 1, 7), away), reach, 0.04, 20000, 13);
+}
+
+TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
+{
+  for (const TriangleSoup &soup : {tangle(14, 40, 6), cylinder_mesh(40, 3, 1, 1.5)}) {
+    const TriangleGrid grid = grid_of(soup, 0.3);
+    const GridView view = grid.view();
+    std::size_t lists = 0;
+    for (std::size_t at = 0; at < grid.brick_of.size(); at++) {
+      if (grid.brick_of[at] < 0) continue;
+      const Brick &brick = grid.bricks[grid.brick_of[at]];
+      for (int c = 0; c < kBrickCells; c++) {
+        if (!has_candidates(brick, c)) continue;
+        const Cell cell = grid.cells[cell_index(brick, c)];
+        if (cell.count == 1) continue;
+        lists++;
+        const std::size_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
+        const Vec3 centre =
+            grid.origin + grid.length * Vec3{Real(at % nx * 8 + c % 8) + 0.5,
+                                             Real(at / nx % ny * 8 + c / 8 % 8) + 0.5,
+                                             Real(at / nx / ny * 8 + c / 64) + 0.5};
+        for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
+          const Candidate a = grid.candidates[i];
+          // A slack of the whole world asks for the distance wherever the foot is.
+          ASSERT_LE(a.bound, foot_on(view.wall, a.feature, centre, 1e9).distance);
+          if (i == cell.first) continue;
+          const Candidate before = grid.candidates[i - 1];
+          ASSERT_TRUE(before.bound < a.bound ||
+                      (before.bound == a.bound && before.feature < a.feature));
+        }
+      }
+    }
+    EXPECT_GT(lists, 100u);
+  }
+}
+
+// A block of bytes on a 64-byte boundary, zero before it is written.
+struct Block {
+  explicit Block(const TriangleGrid &grid) : bytes_(flat_bytes(grid) + 64, 0)
+  {
+    flatten(grid, at());
+  }
+  char *at()
+  {
+    return bytes_.data() + (64 - reinterpret_cast<std::uintptr_t>(bytes_.data()) % 64) % 64;
+  }
+
+ private:
+  std::vector<char> bytes_;
+};
+
+TEST(grid, flat_view_gives_the_contacts_of_view)
+{
+  const TriangleSoup soup = tangle(14, 40, 6);
+  const TriangleGrid grid = grid_of(soup, 0.3);
+  Block block(grid);
+  const GridView a = grid.view(), b = flat_view(block.at());
+  EXPECT_EQ(b.block, block.at());
+  EXPECT_EQ(b.block_bytes, flat_bytes(grid));
+  Random random(1);
+  for (int i = 0; i < 10000; i++) {
+    const Vec3 q = query_point(random, soup, {-1, -1, -1}, {1, 1, 1}, 0.3);
+    ContactSet<kPlaces> s, t;
+    find_contacts(a, q, 0.3, s);
+    find_contacts(b, q, 0.3, t);
+    ASSERT_EQ(s.n, t.n);
+    for (int k = 0; k < s.n; k++) {
+      ASSERT_EQ(s.feature[k], t.feature[k]);
+      ASSERT_EQ(s.normal[k], t.normal[k]);
+      ASSERT_EQ(s.distance[k], t.distance[k]);
+    }
+  }
+}
+
+TEST(grid, flat_block_can_be_moved)
+{
+  const TriangleGrid grid = grid_of(box_mesh({0, 0, 0}, {1, 1, 1}), 0.3);
+  Block first(grid), second(grid);
+  std::memset(second.at(), 0, flat_bytes(grid));
+  std::memcpy(second.at(), first.at(), flat_bytes(grid));
+  std::memset(first.at(), 0xff, flat_bytes(grid));
+  ContactSet<kPlaces> set;
+  find_contacts(flat_view(second.at()), {0.5, 0.5, 1.2}, 0.3, set);
+  ASSERT_EQ(set.n, 1);
+  EXPECT_NEAR(set.distance[0], 0.2, 1e-15);
+}
+
+#if defined(_OPENMP)
+TEST(grid, one_and_two_threads_build_the_same_bytes)
+{
+  const int before = omp_get_max_threads();
+  for (const TriangleSoup &soup : {tangle(14, 40, 6), cylinder_mesh(40, 3, 1, 1.5)}) {
+    omp_set_num_threads(1);
+    const TriangleGrid one = grid_of(soup, 0.3);
+    omp_set_num_threads(2);
+    const TriangleGrid two = grid_of(soup, 0.3);
+    omp_set_num_threads(before);
+    ASSERT_EQ(flat_bytes(one), flat_bytes(two));
+    Block a(one), b(two);
+    EXPECT_EQ(std::memcmp(a.at(), b.at(), flat_bytes(one)), 0);
+  }
+}
+#endif
+
+TEST(grid, over_budget_message_names_a_length_that_fits)
+{
+  const WallMesh mesh = weld(cylinder_mesh(40, 3, 1, 1.5), -1);
+  for (std::size_t budget : {200u << 10, 1u << 20, 5u << 20}) {
+    GridSettings settings;
+    settings.reach = 0.2;
+    settings.length = 0.004;
+    settings.memory_budget = budget;
+    std::string message;
+    try {
+      build_grid(mesh, settings, test_on_cuda());
+    } catch (const InputError &e) {
+      message = e.what();
+    }
+    const std::string before = "; grid ";
+    const std::size_t at = message.find(before);
+    ASSERT_NE(at, std::string::npos) << message;
+    settings.length = std::stod(message.substr(at + before.size()));
+    EXPECT_GT(settings.length, 0.004);
+    EXPECT_NO_THROW(build_grid(mesh, settings, test_on_cuda())) << message;
+  }
+}
+
+TEST(grid, chosen_length_keeps_to_the_budget)
+{
+  const WallMesh mesh = weld(floor_mesh(60, 1, 3), -1);
+  GridSettings settings;
+  settings.reach = 0.05;
+  settings.memory_budget = 2 << 20;
+  const TriangleGrid grid = build_grid(mesh, settings, test_on_cuda());
+  const std::size_t bytes = grid.brick_of.size() * sizeof(std::int32_t) +
+                            grid.bricks.size() * sizeof(Brick) + grid.cells.size() * sizeof(Cell) +
+                            grid.candidates.size() * sizeof(Candidate);
+  EXPECT_LE(bytes, settings.memory_budget);
+  EXPECT_TRUE(grid.report.length_chosen);
+}
+
+TEST(grid, hopeless_length_is_refused)
+{
+  GridSettings settings;
+  settings.reach = 0.1;
+  settings.length = 1e-12;
+  settings.memory_budget = 32 << 20;
+  EXPECT_THROW(build_grid(weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1), settings, test_on_cuda()),
+               InputError);
+}
+
+TEST(grid, pieces_very_far_apart_are_both_covered_or_refused)
+{
+  TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
+  append(soup, moved(box_mesh({0, 0, 0}, {1, 1, 1}), {4e9, 0, 0}));
+  GridSettings settings;
+  settings.reach = 0.25;
+  try {
+    const TriangleGrid grid = build_grid(weld(soup, 0), settings, test_on_cuda());
+    for (Real x : {0.5, 4e9 + 0.5}) {
+      ContactSet<kPlaces> set;
+      find_contacts(grid.view(), {x, 0.5, 1.125}, 0.25, set);
+      EXPECT_EQ(set.n, 1);
+    }
+  } catch (const InputError &) {
+    SUCCEED();
+  }
+}
+
+TEST(grid, reach_that_is_not_a_length_is_refused)
+{
+  const WallMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1);
+  for (Real reach : {0., -1., HUGE_VAL, std::nan("")}) {
+    GridSettings settings;
+    settings.reach = reach;
+    EXPECT_THROW(build_grid(mesh, settings, test_on_cuda()), InputError);
+  }
+}
+
+TEST(grid, points_outside_its_box_touch_nothing)
+{
+  const TriangleGrid grid = grid_of(box_mesh({0, 0, 0}, {1, 1, 1}), 0.3);
+  const Real inf = std::numeric_limits<Real>::infinity();
+  for (Real far : {1.35, 2.0, 10.0, 1e6, 1e12, 1e300, inf})
+    for (int k = 0; k < 6; k++) {
+      Vec3 q = {0.5, 0.5, 0.5};
+      q[k / 2] = k % 2 ? far : 1 - far;
+      ContactSet<kPlaces> set;
+      find_contacts(grid.view(), q, 0.3, set);
+      EXPECT_EQ(set.n, 0);
+    }
+}
+
+TEST(grid, position_that_is_not_a_number_touches_nothing)
+{
+  const TriangleGrid grid = grid_of(box_mesh({0, 0, 0}, {1, 1, 1}), 0.3);
+  for (int k = 0; k < 3; k++) {
+    Vec3 q = {0.5, 0.5, 1.1};
+    q[k] = std::nan("");
+    ContactSet<kPlaces> set;
+    find_contacts(grid.view(), q, 0.3, set);
+    EXPECT_EQ(set.n, 0);
+    EXPECT_FALSE(near_wall(grid.view(), q));
+  }
+}
+
+}    // namespace
+}    // namespace lsdcd
