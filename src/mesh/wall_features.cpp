@@ -95,7 +95,7 @@ bool is_flat(const EdgeRecord &e)
   return e.n_faces == 2 && norm(e.inward[0] + e.inward[1]) <= kFlat;
 }
 
-// A vertex inside a plane, or inside a straight fold, is covered by its edges.
+// A vertex inside a straight fold is covered by the two edges along it.
 bool is_straight(const Vec3 *direction, int n)
 {
   constexpr int kTooMany = 32;    // keeping a vertex is always right, only slower
@@ -170,7 +170,12 @@ WallFeatures make_features(const WallMesh &mesh, bool with_sides)
       v.count++;
     }
     out.vertices.push_back(v);
-    if (!is_straight(out.vertex_direction.data() + v.first, static_cast<int>(v.count)))
+    // A vertex inside a plane is covered by its faces.
+    bool inside_plane = v.count > 0;
+    for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1] && inside_plane; k++)
+      inside_plane = is_flat(out.edges[mesh.vertex_edge[k]]);
+    if (!inside_plane &&
+        !is_straight(out.vertex_direction.data() + v.first, static_cast<int>(v.count)))
       out.contact_features.push_back(
           feature_code(FeatureKind::vertex, static_cast<std::uint32_t>(i)));
   }

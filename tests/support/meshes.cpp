@@ -27,7 +27,8 @@ void quad(TriangleSoup &soup, const Vec3 &a, const Vec3 &b, const Vec3 &c, const
 TriangleSoup floor_mesh(int n, Real half, unsigned seed)
 {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<Real> jitter(-0.3, 0.3);
+  // Below a sixth of a side no triangle can fold over.
+  std::uniform_real_distribution<Real> jitter(-0.16, 0.16);
   const Real side = 2 * half / n;
   std::vector<Vec3> node((n + 1) * (n + 1));
   for (int j = 0; j <= n; j++)
