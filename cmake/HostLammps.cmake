@@ -31,8 +31,11 @@ elseif(LSDCD_HOST_INCLUDE)
   file(GLOB config ${prefix}/lib/cmake/LAMMPS ${prefix}/lib/*/cmake/LAMMPS ${prefix}/lib64/cmake/LAMMPS)
   foreach(dir ${config})
     file(STRINGS ${dir}/LAMMPSConfigVersion.cmake version REGEX "^set\\(PACKAGE_VERSION ")
-    if(version MATCHES "\"([0-9]+)\"")
+    if(version MATCHES "\"([0-9]+)\"")                             # 20210929
       set(LSDCD_HOST_VERSION ${CMAKE_MATCH_1} CACHE STRING "LAMMPS version as a number")
+    elseif(version MATCHES "\"([0-9]+)[.]([0-9]+)[.]([0-9]+)")    # 2026.7.4.0
+      math(EXPR version "${CMAKE_MATCH_1} * 10000 + ${CMAKE_MATCH_2} * 100 + ${CMAKE_MATCH_3}")
+      set(LSDCD_HOST_VERSION ${version} CACHE STRING "LAMMPS version as a number")
     endif()
     file(STRINGS ${dir}/LAMMPS_Targets.cmake sizes REGEX "INTERFACE_COMPILE_DEFINITIONS")
     if(sizes MATCHES "(LAMMPS_(SMALLBIG|BIGBIG|SMALLSMALL))")

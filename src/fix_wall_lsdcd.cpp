@@ -1,6 +1,6 @@
 #include "fix_wall_lsdcd.h"
 
-#include "base/input_error.h"
+#include "input_words.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -259,8 +259,8 @@ void FixWallLsdcd::update_reach()
   const double radius = most[0], old = wall->reach();
   if (radius <= old) return;
   if (settings.rmax > 0 && radius > settings.rmax)
-    refuse("a particle has radius " + std::to_string(radius) + ", more than rmax " +
-           std::to_string(settings.rmax) + ": raise rmax or use rmax auto");
+    refuse("a particle has radius " + lsdcd::number_text(radius) + ", more than rmax " +
+           lsdcd::number_text(settings.rmax) + ": raise rmax or use rmax auto");
 
   const double reach = settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius);
   check_box(reach);

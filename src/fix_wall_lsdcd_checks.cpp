@@ -2,7 +2,7 @@
 
 #include "fix_wall_lsdcd.h"
 
-#include "base/input_error.h"
+#include "input_words.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -14,20 +14,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 using namespace LAMMPS_NS;
 using lsdcd::LawStyle;
+using lsdcd::number_text;
 
 static constexpr double kLargeOverlap = 0.1;    // of a radius
 static constexpr double kStepsPerContact = 10;
-
-static std::string text(double value)
-{
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", value);
-  return buffer;
-}
 
 void FixWallLsdcd::refuse(const std::string &problem) const
 {
@@ -69,8 +62,10 @@ void FixWallLsdcd::check_box(double reach) const
   const char name[] = "xyz";
   for (int d = 0; d < 3; d++) {
     const double lo = r.lo[d], hi = r.hi[d];
-    const std::string where = std::string(1, name[d]) + " from " + text(lo) + " to " + text(hi);
-    const std::string box = "the box from " + text(boxlo[d]) + " to " + text(boxhi[d]);
+    const std::string where =
+        std::string(1, name[d]) + " from " + number_text(lo) + " to " + number_text(hi);
+    const std::string box =
+        "the box from " + number_text(boxlo[d]) + " to " + number_text(boxhi[d]);
     // A shrink-wrapped face follows the atoms, wherever the mesh is.
     const bool lo_stays = domain->boundary[d][0] < 2, hi_stays = domain->boundary[d][1] < 2;
     if ((hi < boxlo[d] - reach && lo_stays) || (lo > boxhi[d] + reach && hi_stays))
@@ -81,8 +76,8 @@ void FixWallLsdcd::check_box(double reach) const
     const bool clear = lo >= boxlo[d] + reach && hi <= boxhi[d] - reach;
     const bool spans = lo <= boxlo[d] - reach && hi >= boxhi[d] + reach;
     if (clear || (spans && settings.periodic)) continue;
-    std::string remedy =
-        ": make the boundary fixed, keep the mesh a radius (" + text(reach) + ") inside the box";
+    std::string remedy = ": make the boundary fixed, keep the mesh a radius (" +
+                         number_text(reach) + ") inside the box";
     if (spans)
       remedy += ", or add the keyword periodic if the mesh continues itself there";
     else
@@ -106,7 +101,7 @@ void FixWallLsdcd::check_overlap(double worst)
   MPI_Bcast(which, 2, MPI_LMP_BIGINT, most.rank, world);
   if (comm->me == 0)
     error->warning(FLERR, "Fix wall/lsdcd: atom " + std::to_string(which[0]) +
-                              " sank into the wall by " + text(100 * most.value) +
+                              " sank into the wall by " + number_text(100 * most.value) +
                               " % of its radius at step " + std::to_string(which[1]) +
                               ": stiffen the contact (kn) or lower speeds; shown once");
 }
@@ -136,8 +131,9 @@ void FixWallLsdcd::check_timestep()
   MPI_Allreduce(MPI_IN_PLACE, &shortest, 1, MPI_DOUBLE, MPI_MIN, world);
   checked_dt = update->dt;
   if (update->dt <= shortest / kStepsPerContact || comm->me) return;
-  error->warning(FLERR, "Fix wall/lsdcd: timestep " + text(update->dt) +
-                            " is more than a tenth of the shortest contact time " + text(shortest) +
+  error->warning(FLERR, "Fix wall/lsdcd: timestep " + number_text(update->dt) +
+                            " is more than a tenth of the shortest contact time " +
+                            number_text(shortest) +
                             (settings.law.style == LawStyle::hertz_history
                                  ? " (hertz, at an overlap of 1 % of the radius)"
                                  : "") +
@@ -163,22 +159,23 @@ void FixWallLsdcd::check_springs()
                        " atoms lose their springs: the restart file was written with another mesh");
 }
 
+// In the columns of the mesh report.
 void FixWallLsdcd::log_creation() const
 {
   if (comm->me) return;
   const lsdcd::ContactLaw &l = settings.law;
-  std::string t = "Fix " + std::string(id) + " wall/lsdcd\n" + wall->mesh_text() + "\n";
-  if (!settings.placement_words.empty()) t += "  placement: " + settings.placement_words + "\n";
-  t += "  contact: " + settings.law_name + ", kn " + text(l.k_normal) + ", kt " +
-       text(l.k_tangent) + ", gamman " + text(l.gamma_normal) + ", gammat " +
-       text(l.gamma_tangent) + ", xmu " + text(l.mu) + (l.limit_damping ? ", limit_damping" : "") +
-       "\n";
-  t += "  effects on: normal spring";
+  std::string t = "Fix " + std::string(id) + " wall/lsdcd: " + wall->mesh_text();
+  if (!settings.placement_words.empty()) t += "\n  placement   " + settings.placement_words;
+  t += "\n  contact     " + settings.law_name + ", kn " + number_text(l.k_normal) + ", kt " +
+       number_text(l.k_tangent) + ", gamman " + number_text(l.gamma_normal) + ", gammat " +
+       number_text(l.gamma_tangent) + ", xmu " + number_text(l.mu) +
+       (l.limit_damping ? ", limit_damping" : "");
+  t += "\n  effects     normal spring";
   if (l.gamma_normal > 0) t += ", normal damping";
-  if (history && l.k_tangent > 0) t += ", tangential spring";
-  if (l.gamma_tangent > 0) t += ", tangential damping";
-  t += l.mu > 0 ? ", sliding limit\n" : "; no friction\n";
-  t += "  per atom: ";
+  if (l.mu > 0 && history && l.k_tangent > 0) t += ", tangential spring";
+  if (l.mu > 0 && l.gamma_tangent > 0) t += ", tangential damping";
+  t += l.mu > 0 ? ", sliding limit" : "; no friction";
+  t += "\n  per atom    ";
   if (history)
     t += "8 bytes and " + std::to_string(sizeof(lsdcd::Spring)) +
          " per contact for springs, which move and restart with it";
@@ -186,12 +183,11 @@ void FixWallLsdcd::log_creation() const
     t += "nothing stored, exchanged or restarted";
   if (settings.contacts)
     t += "; " + std::to_string(size_peratom_cols * sizeof(double)) + " bytes for contacts";
-  t += "\n  corners: " + std::string(settings.corner == lsdcd::Corner::blend ? "blend" : "sum") +
-       ", side " +
-       (settings.side == lsdcd::Side::both ? "both"
-        : settings.side == lsdcd::Side::in ? "in"
-                                           : "out");
-  t += "\n  device: " + engine->backend();
+  const char *const sides[] = {"both", "in", "out"};
+  t += std::string("\n  corners     ") +
+       (settings.corner == lsdcd::Corner::blend ? "blend" : "sum") + ", side " +
+       sides[static_cast<int>(settings.side)];
+  t += "\n  device      " + engine->backend();
   std::string why;
   if (settings.device == lsdcd::Device::automatic && !lsdcd::cuda_available(&why))
     t += " (no CUDA: " + why + ")";
@@ -202,9 +198,9 @@ void FixWallLsdcd::log_build(bool again) const
 {
   std::string t = "Fix " + std::string(id) + " wall/lsdcd: ";
   if (again)
-    t += "larger particles, grid rebuilt for radius " + text(wall->reach());
+    t += "larger particles, grid rebuilt for radius " + number_text(wall->reach());
   else
-    t += "grid for radius " + text(wall->reach()) + "\n" + wall->grid_text();
+    t += "grid for radius " + number_text(wall->reach()) + "\n" + wall->grid_text();
   if (!again && wall->shared().node_size() > 1)
     t += wall->shared().is_shared() ? "\n  one copy per node" : "\n  one copy per process";
   log(t);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 namespace lsdcd {
@@ -11,6 +12,13 @@ bool is_number(const std::string &word, Real *value)
   char *end = nullptr;
   *value = std::strtod(word.c_str(), &end);
   return end != word.c_str() && *end == '\0' && std::isfinite(*value);
+}
+
+std::string number_text(Real value)
+{
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%g", value);
+  return buffer;
 }
 
 namespace {

@@ -11,6 +11,8 @@ namespace lsdcd {
 
 bool is_number(const std::string &word, Real *value);    // finite, nothing after it
 
+std::string number_text(Real value);    // "0.001", six digits
+
 // The name that takes the fewest inserted, deleted or changed letters.
 std::string nearest(const std::string &word, const std::vector<std::string> &names);
 

@@ -3,7 +3,6 @@
 #include "input_words.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace lsdcd {
 
@@ -27,13 +26,6 @@ void read_mesh(Words &w, WallSettings &s)
   s.mesh_file = w.take();
 }
 
-std::string text(Real value)
-{
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", value);
-  return buffer;
-}
-
 void note_placement(WallSettings &s, const std::string &words)
 {
   s.placement_words += (s.placement_words.empty() ? "" : ", ") + words;
@@ -55,8 +47,9 @@ void read_scale(Words &w, WallSettings &s)
     f.z = nonzero(w, "the z factor (give one factor or three)");
   }
   s.placement.scale(f);
-  note_placement(s, "scale " + text(f.x) +
-                        (f.x == f.y && f.y == f.z ? "" : " " + text(f.y) + " " + text(f.z)));
+  note_placement(
+      s, "scale " + number_text(f.x) +
+             (f.x == f.y && f.y == f.z ? "" : " " + number_text(f.y) + " " + number_text(f.z)));
 }
 
 void read_rotate(Words &w, WallSettings &s)
@@ -68,8 +61,8 @@ void read_rotate(Words &w, WallSettings &s)
   const Real degrees = w.number("the angle");
   if (norm_sq(axis) == 0) w.fail("the axis must not be 0 0 0");
   s.placement.rotate(axis, degrees);
-  note_placement(s, "rotate " + text(axis.x) + " " + text(axis.y) + " " + text(axis.z) + " " +
-                        text(degrees));
+  note_placement(s, "rotate " + number_text(axis.x) + " " + number_text(axis.y) + " " +
+                        number_text(axis.z) + " " + number_text(degrees));
 }
 
 void read_move(Words &w, WallSettings &s)
@@ -79,7 +72,8 @@ void read_move(Words &w, WallSettings &s)
   shift.y = w.number("y");
   shift.z = w.number("z");
   s.placement.move(shift);
-  note_placement(s, "move " + text(shift.x) + " " + text(shift.y) + " " + text(shift.z));
+  note_placement(s, "move " + number_text(shift.x) + " " + number_text(shift.y) + " " +
+                        number_text(shift.z));
 }
 
 void read_memory(Words &w, WallSettings &s)
@@ -141,7 +135,9 @@ const Keyword kKeywords[] = {
      "the mesh continues itself across periodic faces and reaches past them by R",
      [](Words &, WallSettings &s) { s.periodic = true; }},
     {"draw", "edges | faces | contours [type]", "", "", "edges 1",
-     "what dump image shows, in the colour of an atom type", read_draw},
+     "what dump image shows, in the colour of an atom type: fix ID type DIAMETER 0 for lines, "
+     "fix ID type 1 0 for faces",
+     read_draw},
     {"cut", "nx ny nz d", "", "", "none", "dump image leaves out the part with n.x > d", read_cut},
 };
 

@@ -1,0 +1,108 @@
+"""Runs input decks under lmp-lsdcd and reads what they dump. Standard library only."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+LMP = os.environ.get("LSDCD_LMP", str(HERE.parent.parent / "build" / "bin" / "lmp-lsdcd"))
+
+
+def environment():
+    env = dict(os.environ, OMP_NUM_THREADS="1")
+    # Open MPI refuses root, more ranks than cores, and binding in some containers.
+    env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+               OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_hwloc_base_binding_policy="none",
+               OMPI_MCA_btl_vader_single_copy_mechanism="none")
+    return env
+
+
+def run(deck, folder, ranks=1, timeout=300, env=None, **variables):
+    """Runs a deck (a path, or text) in `folder`; returns the finished process."""
+    deck, folder = str(deck), pathlib.Path(folder)
+    if "\n" in deck:
+        (folder / "in.deck").write_text(deck)
+        deck = str(folder / "in.deck")
+    command = [LMP, "-in", deck, "-log", "none", "-nocite"]
+    for name, value in variables.items():
+        command += ["-var", name, str(value)]
+    if ranks > 1:
+        command = ["mpirun", "-np", str(ranks), "--oversubscribe", *command]
+    return subprocess.run(command, cwd=folder, env={**environment(), **(env or {})}, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
+
+
+def run_well(*args, **kwargs):
+    """The same; the deck must succeed."""
+    done = run(*args, **kwargs)
+    if done.returncode:
+        sys.exit(f"deck failed with {done.returncode}:\n{done.stdout[-4000:]}")
+    return done.stdout
+
+
+def scratch():
+    return pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+
+
+def read_dump(path):
+    """{step: {atom: [numbers after the id]}} of a text dump whose first column is id."""
+    steps, lines = {}, pathlib.Path(path).read_text().split("\n")
+    at = 0
+    while at < len(lines) and lines[at].startswith("ITEM: TIMESTEP"):
+        step, count = int(lines[at + 1]), int(lines[at + 3])
+        rows = [line.split() for line in lines[at + 9:at + 9 + count]]
+        steps[step] = {int(row[0]): [float(word) for word in row[1:]] for row in rows}
+        at += 9 + count
+    return steps
+
+
+def read_thermo(output):
+    """Rows of numbers of the last thermo table."""
+    rows = []
+    for line in output.split("\n"):
+        if re.match(r"^\s*Step\b", line):
+            rows = []
+        elif re.match(r"^\s*\d+(\s+[-+\d.einaf]+)+\s*$", line):
+            rows.append([float(word) for word in line.split()])
+    return rows
+
+
+def largest_difference(a, b):
+    """Of two dumps of the same steps and atoms, relative to the largest value of each column."""
+    if a.keys() != b.keys():
+        sys.exit(f"steps differ: {sorted(a)[:3]}... and {sorted(b)[:3]}...")
+    columns = len(next(iter(next(iter(a.values())).values())))
+    size, apart = [0.0] * columns, [0.0] * columns
+    for step in a:
+        if a[step].keys() != b[step].keys():
+            sys.exit(f"atoms differ at step {step}")
+        for atom, row in a[step].items():
+            for k, (u, v) in enumerate(zip(row, b[step][atom])):
+                size[k] = max(size[k], abs(u))
+                apart[k] = max(apart[k], abs(u - v))
+    return max(d / s if s else d for d, s in zip(apart, size))
+
+
+class Checks:
+    """Counts facts; the exit status of the test is whether all held."""
+
+    def __init__(self):
+        self.failed = 0
+
+    def fact(self, name, holds, detail=""):
+        print(f"{'PASS' if holds else 'FAIL'} {name}{': ' + detail if detail else ''}")
+        self.failed += not holds
+
+    def at_most(self, name, value, limit):
+        self.fact(name, value <= limit, f"{value:.3g} (at most {limit:g})")
+
+    def done(self, folder=None):
+        if folder and not self.failed:
+            shutil.rmtree(folder)
+        elif folder:
+            print("files are in", folder)
+        sys.exit(1 if self.failed else 0)

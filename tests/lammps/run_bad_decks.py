@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+"""Every deck in bad_decks/ ends with one clear error, on one rank and on two.
+
+The first line of a deck gives words that the message must have, split by " | "
+between bars; a bar inside a word is written with spaces around it.
+"""
+
+import re
+
+import deck
+
+CRASHES = ("Segmentation", "signal", "Backtrace", "backtrace", "terminate called", "Aborted")
+
+
+def check(checks, path, ranks, folder):
+    expected = re.split(r"(?<! )\|(?! )", path.read_text().split("\n")[0].split(":", 1)[1].strip())
+    done = deck.run(path, folder, ranks=ranks, timeout=60)
+    name = f"{path.name[3:]} on {ranks} rank{'s' if ranks > 1 else ''}"
+    errors = [line for line in done.stdout.split("\n") if line.startswith("ERROR")]
+    message = errors[0] if errors else done.stdout[-500:]
+    checks.fact(f"{name}: stops", done.returncode != 0)
+    checks.fact(f"{name}: one error", len(errors) == 1, message)
+    for words in expected:
+        checks.fact(f"{name}: says '{words}'", words in message)
+    for crash in CRASHES:
+        if crash in done.stdout:
+            checks.fact(f"{name}: does not crash", False, crash)
+
+
+def main():
+    checks, folder = deck.Checks(), deck.scratch()
+    floor = (deck.HERE / "decks" / "floor.stl").read_bytes()
+    (folder / "floor.stl").write_bytes(floor)
+    (folder / "truncated.stl").write_bytes(floor[:len(floor) // 2])
+    for path in sorted((deck.HERE / "bad_decks").glob("in.*")):
+        for ranks in (1, 2):
+            check(checks, path, ranks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()

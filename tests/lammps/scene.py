@@ -1,0 +1,76 @@
+"""Spheres that slide, stick, hop and cross seams on a rough floor in tilted gravity."""
+
+import math
+
+BOX = "block -6 6 -6 6 -1.5 8"
+
+
+def write_floor(path, side=6.5, cells=26):
+    """A bumpy sheet of 2 x cells^2 triangles: height 0.15 sin x cos y, so that spheres roll
+    over edges both ways."""
+    step = 2 * side / cells
+
+    def point(i, j):
+        x, y = -side + i * step, -side + j * step
+        return f"vertex {x:.17g} {y:.17g} {0.15 * math.sin(x) * math.cos(y):.17g}\n"
+
+    with open(path, "w") as stl:
+        stl.write("solid floor\n")
+        for i in range(cells):
+            for j in range(cells):
+                a, b, c, d = point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)
+                for corners in (a + b + c, a + c + d):
+                    stl.write("facet normal 0 0 1\nouter loop\n" + corners +
+                              "endloop\nendfacet\n")
+        stl.write("endsolid floor\n")
+
+
+SETTINGS = """\
+units           lj
+atom_style      sphere
+atom_modify     map array sort 40 1.5
+boundary        f f f
+newton          off
+comm_modify     vel yes
+"""
+
+# Sizes differ, so that exchange sees springs of some and none of others.
+CREATE = SETTINGS + f"""\
+region          box {BOX}
+create_box      2 box
+lattice         sc 0.6
+region          fill block -5 5 -5 5 1.0 1.4 units box
+create_atoms    1 region fill
+set             group all type/fraction 2 0.4 771
+set             type 1 diameter 1.0
+set             type 2 diameter 0.7
+set             group all density 2.0
+velocity        all create 4.0 4711 loop geom
+velocity        all set NULL NULL -2.0 sum yes
+"""
+
+
+def forces(law, mesh="mesh floor.stl", pair=False, more="", sides="hooke 1e4 NULL 20 NULL 0.1 1"):
+    pair_style = "gran/hooke 2e4 NULL 20 NULL 0.5 1" if pair else "zero 1.2"
+    return f"""\
+pair_style      {pair_style}
+pair_coeff      * *
+neighbor        0.3 bin
+neigh_modify    delay 0 every 1 check yes
+fix             move all nve/sphere
+fix             pull all gravity 8.0 vector 0.5 0.2 -1.0
+fix             wall all wall/lsdcd {law} {mesh} contacts
+fix             sides all wall/gran {sides} xplane -6 6
+fix             sides2 all wall/gran {sides} yplane -6 6
+fix             lid all wall/gran {sides} zplane -1.5 8
+timestep        0.001
+{more}
+"""
+
+
+def dump(name, every, first=0):
+    return f"""\
+dump            {name} all custom {every} {name} id x y z vx vy vz omegax omegay omegaz &
+                f_wall[1] f_wall[2] f_wall[3] f_wall[4] f_wall[5] f_wall[6] f_wall[7]
+dump_modify     {name} format float %.17g sort id
+"""

@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""Scalar, vector, contacts array and picture of the fix, from step 0 on."""
+
+import math
+
+import deck
+import scene
+
+HEAD = """\
+units           lj
+atom_style      sphere
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block -3 3 -3 3 -1 5
+create_box      2 box
+"""
+SPHERES = "set group all diameter 1.0 density 2.0\n"
+TAIL = """\
+pair_style      zero 1.2
+pair_coeff      * *
+fix             move all nve/sphere
+fix             wall {group} wall/lsdcd {law} mesh floor.stl {more}
+timestep        1e-4
+thermo_style    custom step f_wall f_wall[1] f_wall[2] f_wall[3] f_wall[4] f_wall[5] f_wall[6] &
+                f_wall[7] f_wall[8] f_wall[9] pe
+thermo_modify   format float %.17g norm no
+dump            d all custom 1 contacts id fx fy fz tqx tqy tqz {columns}
+dump_modify     d format float %.17g sort id
+{extra}
+run             {steps}
+"""
+CONTACTS = " ".join(f"f_wall[{k}]" for k in range(1, 9))
+TWO = """\
+create_atoms    1 single 1.0 0.5 0.49 units box
+create_atoms    2 single -1.0 0.25 0.45 units box
+""" + SPHERES
+
+
+def go(folder, atoms=TWO, law="hooke 1e4 NULL 0 NULL 0 0", group="all", more="contacts", steps=0,
+       extra="", columns=CONTACTS, ranks=1):
+    text = deck.run_well(HEAD + atoms + TAIL.format(law=law, group=group, more=more, steps=steps,
+                                                    extra=extra, columns=columns), folder, ranks)
+    return deck.read_thermo(text), deck.read_dump(folder / "contacts"), text
+
+
+def close(a, b):
+    return math.isclose(a, b, rel_tol=1e-13, abs_tol=1e-13)    # a few roundings
+
+
+def main():
+    checks, folder = deck.Checks(), deck.scratch()
+    (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+
+    for ranks in (1, 2):
+        # Overlaps 0.01 and 0.05: forces 100 and 500, energies 0.5 and 12.5.
+        thermo, dump, _ = go(folder, ranks=ranks)
+        row, on = thermo[0], f"on {ranks} rank{'s' if ranks > 1 else ''}"
+        checks.fact(f"step 0 {on}: energy", close(row[1], 13.0), str(row[1]))
+        checks.fact(f"step 0 {on}: force on the mesh",
+                    row[2] == 0 and row[3] == 0 and close(row[4], -600), str(row[2:5]))
+        # r x F with F = -100 z at (1, 0.5) and -500 z at (-1, 0.25)
+        checks.fact(f"step 0 {on}: torque on the mesh about the origin",
+                    close(row[5], -175) and close(row[6], -400) and close(row[7], 0), str(row[5:8]))
+        checks.fact(f"step 0 {on}: contacts", row[8] == 2, str(row[8]))
+        checks.fact(f"step 0 {on}: largest overlap", close(row[9], 0.1), str(row[9]))
+        checks.fact(f"step 0 {on}: all certified", row[10] == 0, str(row[10]))
+        one = dump[0][2]
+        checks.fact(f"step 0 {on}: contacts array",
+                    one[6] == 1 and close(one[9], 500) and close(one[10], -1) and
+                    close(one[11], 0.25) and close(one[12], 0) and one[13] == 0.5, str(one[6:]))
+
+    thermo, dump, _ = go(folder, group="some", atoms=TWO + "group some type 1\n")
+    checks.fact("group: only its spheres feel the wall",
+                thermo[0][8] == 1 and dump[0][2][2] == 0, str(thermo[0][8]))
+
+    thermo, dump, text = go(folder, atoms="", steps=2)
+    checks.fact("no atoms: runs, totals are zero", not any(thermo[0][1:]))
+
+    late = ("run 5\ncreate_atoms 1 single 0 0 0.49 units box\n" + SPHERES +
+            "run 2\ncreate_atoms 1 single 2 0 0.78 units box\nset atom 2 diameter 1.6 density 2.0")
+    thermo, dump, text = go(folder, atoms="", extra=late)
+    checks.fact("atoms that come later find the wall", thermo[-1][8] == 2, str(thermo[-1][8]))
+    checks.fact("a larger atom rebuilds the grid, with a line in the log",
+                "grid rebuilt for radius 0.88" in text)
+
+    thermo, _, _ = go(folder, extra="fix_modify wall energy yes")
+    checks.fact("fix_modify energy adds the elastic energy", close(thermo[0][11], 13.0),
+                str(thermo[0][11]))
+
+    # A bounce without friction or damping: kinetic + elastic energy stays.
+    thermo, _, _ = go(folder, law="hertz/history 1e5 NULL 0 NULL 0 0",
+                      atoms="create_atoms 1 single 0 0 0.6 units box\n" + SPHERES + "velocity all set 0.3 0 -1.0\n",
+                      extra="fix_modify wall energy yes\nvariable e equal pe+0.5*mass(all)*vcm(all,z)^2\n"
+                            "thermo_style custom step v_e f_wall pe\nthermo 10\n"
+                            "thermo_modify format float %.17g norm no", steps=2500)
+    energies = [row[1] for row in thermo]
+    checks.fact("the bounce happens", max(row[2] for row in thermo) > 0.4)
+    # Velocity Verlet: (omega dt)^2 / 4 with omega^2 = 1.5 kn sqrt(R d) / m at the deepest
+    # overlap d = 0.0128: 2.9e-5.
+    checks.at_most("elastic energy is the integral of the force",
+                   (max(energies) - min(energies)) / max(energies), 3e-5)
+
+    _, _, text = go(folder, extra="timestep 0.1", steps=0)
+    checks.fact("a timestep above a tenth of the contact time is warned of",
+                "WARNING: Fix wall/lsdcd: timestep 0.1 is more than a tenth" in text)
+    # Dropped at speed 10 the sphere sinks v sqrt(m/k) = 0.1, a fifth of its radius.
+    fast = "create_atoms 1 single 0 0 0.51 units box\n" + SPHERES + "velocity all set 0 0 -10\n"
+    _, _, text = go(folder, atoms=fast, steps=400)
+    checks.fact("a large overlap is warned of once", text.count("sank into the wall by") == 1)
+    checks.fact("hooke stores nothing per atom", "nothing stored, exchanged or restarted" in
+                go(folder, more="", columns="")[2])
+
+    # dump image takes the diameter of lines, or 1 for filled triangles, from the same word.
+    for what, flags in (("edges", "0.05 0"), ("faces 2", "1 0"), ("contours", "0.05 0"),
+                        ("faces cut 1 0 0 0", "1 0")):
+        pictures = []
+        for wall in ("", f"fix wall type {flags}"):
+            go(folder, more="contacts draw " + what,
+               extra=f"dump pic all image 1 wall.*.ppm type type {wall} view 60 30 size 200 200\n")
+            pictures.append((folder / "wall.0.ppm").read_bytes())
+        checks.fact(f"dump image shows the mesh: draw {what}", pictures[0] != pictures[1])
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()

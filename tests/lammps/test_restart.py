@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""A run continued from a restart file in mid-slide equals the unbroken one.
+
+LAMMPS evaluates forces once more where a run begins, with velocities of the full
+step; damping sees the difference, so a run in two pieces is compared with the same
+two pieces through a file (equal to the last bit), and a run in one piece only
+without damping (equal but for rounding of the repeated evaluation).
+"""
+
+import deck
+import scene
+
+LAWS = {"hooke_history": "hooke/history 1e4 NULL 120 NULL 0.4 1",
+        "hertz_history": "hertz/history 1e5 NULL 1500 NULL 0.4 1",
+        "hooke": "hooke 1e4 NULL 120 NULL 0.4 1"}
+UNDAMPED = "hooke/history 1e4 NULL 0 NULL 0.4 0"
+UNDAMPED_SIDES = "hooke 1e4 NULL 0 NULL 0 0"
+FIRST, SECOND = 700, 800
+
+
+def write(law, folder, ranks=1, name="two"):
+    deck.run_well(scene.CREATE + scene.forces(law) + f"run {FIRST}\nwrite_restart {name}.restart\n" +
+                  scene.dump(name, 50) + f"run {SECOND}\n", folder, ranks)
+    return deck.read_dump(folder / name)
+
+
+def proceed(law, folder, ranks=1, restart="two.restart", name="continued", **more):
+    text = deck.run_well(scene.SETTINGS + f"read_restart {restart}\n" + scene.forces(law, **more) +
+                         scene.dump(name, 50) + f"run {SECOND}\n", folder, ranks)
+    return deck.read_dump(folder / name), text
+
+
+def main():
+    checks, folder = deck.Checks(), deck.scratch()
+    scene.write_floor(folder / "floor.stl")
+    for name, law in LAWS.items():
+        two = write(law, folder)
+        touching = sum(row[9] > 0 for row in two[FIRST].values())
+        checks.fact(f"{name}: spheres touch where it breaks", touching > 20, str(touching))
+        continued, text = proceed(law, folder)
+        checks.at_most(f"{name}: continued as in one input", deck.largest_difference(two, continued),
+                       0)
+        # LAMMPS says so when it hands restart data to a fix.
+        checks.fact(f"{name}: springs in the file only where there are any",
+                    ("Resetting peratom fix info" in text) == (name != "hooke"))
+    law = LAWS["hooke_history"]
+    two = write(law, folder)
+    for ranks in (2, 4):
+        checks.at_most(f"written on 1 rank, read on {ranks}",
+                       deck.largest_difference(two, proceed(law, folder, ranks)[0]), 0)
+    spread = write(law, folder, 4, "spread")
+    checks.at_most("written on 4 ranks, read on 1",
+                   deck.largest_difference(spread, proceed(law, folder, 1, "spread.restart")[0]), 0)
+
+    # Springs of another mesh are dropped with a warning, not followed.
+    scene.write_floor(folder / "floor.stl", cells=4)
+    text = proceed(law, folder)[1]
+    checks.fact("another mesh: springs are dropped with a warning", "lose their springs" in text)
+
+    # Settled with damping, then without it: in one piece, and in two through a file.
+    scene.write_floor(folder / "floor.stl")
+    write(law, folder)
+    begin = scene.SETTINGS + "read_restart two.restart\n" + scene.forces(UNDAMPED, sides=UNDAMPED_SIDES)
+    deck.run_well(begin + scene.dump("one", 50) + f"run {FIRST + SECOND}\n", folder)
+    deck.run_well(begin + f"run {FIRST}\nwrite_restart later.restart\n", folder)
+    continued = proceed(UNDAMPED, folder, restart="later.restart", sides=UNDAMPED_SIDES)[0]
+    one = {s: rows for s, rows in deck.read_dump(folder / "one").items() if s >= 2 * FIRST}
+    touching = sum(row[9] > 0 for row in one[2 * FIRST].values())
+    checks.fact("undamped: spheres touch where it breaks", touching > 20, str(touching))
+    # 800 steps of contacts that part neighbouring paths: a factor of 1e4 on 1e-16 at most.
+    checks.at_most("undamped: continued as unbroken", deck.largest_difference(one, continued), 1e-11)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
