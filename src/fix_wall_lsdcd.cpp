@@ -118,7 +118,8 @@ FixWallLsdcd::~FixWallLsdcd()
 
 int FixWallLsdcd::setmask()
 {
-  return PRE_FORCE | POST_FORCE | POST_FORCE_RESPA | POST_RUN | (history ? PRE_EXCHANGE : 0);
+  return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN |
+         (history ? PRE_EXCHANGE : 0);
 }
 
 void FixWallLsdcd::init()

@@ -26,11 +26,11 @@ CASES = {
 REAL = {"hertz_history_in_real_units": "hertz/history 1e7 NULL 10 NULL 0.5 1"}
 
 
-def compare(checks, folder, name, law, **settings):
+def compare(checks, folder, name, law, scene="in.one_sphere", **settings):
     dumps = []
     for wall in (f"wall/gran {law} zplane 0.0 NULL", f"wall/lsdcd {law} mesh floor.stl"):
         dumps.append(folder / f"{name}.{len(dumps)}")
-        deck.run_well(deck.HERE / "decks" / "in.one_sphere", folder, wall=wall,
+        deck.run_well(deck.HERE / "decks" / scene, folder, wall=wall,
                       out=dumps[-1].name, **settings)
     a, b = (deck.read_dump(d) for d in dumps)
     touched = sum(abs(row[1][11]) > 0 for row in a.values())
@@ -42,9 +42,13 @@ def main():
     checks, folder = deck.Checks(), deck.scratch()
     (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
     for name, law in CASES.items():
-        compare(checks, folder, name, law, unit="lj", kick=1, dt=1e-4, steps=1000)
+        compare(checks, folder, name, law, unit="lj", kick=1, dt=1e-4, steps=1000, style="verlet")
     for name, law in REAL.items():
-        compare(checks, folder, name, law, unit="real", kick=1e-2, dt=0.01, steps=2000)
+        compare(checks, folder, name, law, unit="real", kick=1e-2, dt=0.01, steps=2000, style="verlet")
+    compare(checks, folder, "hooke_history_respa", CASES["hooke_history"], unit="lj", kick=1, dt=2e-4,
+            steps=600, style="respa 2 2 pair 2")
+    for name in ("hooke_history", "hertz_history"):
+        compare(checks, folder, f"{name}_rigid_body", CASES[name], "in.rigid")
     checks.done(folder)
 
 
