@@ -15,7 +15,8 @@ struct Timing {
 };
 
 // Runs f once to warm up, then `repeats` times.
-template <class F> Timing time_it(int repeats, F f)
+template <class F>
+Timing time_it(int repeats, F f)
 {
   f();
   std::vector<double> ms;

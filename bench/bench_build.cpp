@@ -18,8 +18,8 @@ namespace {
 double brute_force_ms(const TriangleGrid &grid)
 {
   const GridView view = grid.view();
-  const double n_cells = double(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2] *
-      kBrickCells;
+  const double n_cells =
+      double(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2] * kBrickCells;
   const std::size_t n_features = grid.wall.contact_features.size();
   const std::size_t sample = std::max<std::size_t>(1, 40000000 / n_features);
   const Real h = 0.5 * std::sqrt(3.0) * grid.length;
@@ -27,9 +27,8 @@ double brute_force_ms(const TriangleGrid &grid)
   const Timing t = time_it(1, [&] {
     for (std::size_t i = 0; i < sample; i++) {
       const Vec3 c = grid.origin +
-          grid.length * Vec3{double(i % 97), double(i * 31 % 89), double(i * 17 % 83)};
-      for (FeatureCode f : grid.wall.contact_features)
-        found += foot_on(view.wall, f, c, h).found;
+                     grid.length * Vec3{double(i % 97), double(i * 31 % 89), double(i * 17 % 83)};
+      for (FeatureCode f : grid.wall.contact_features) found += foot_on(view.wall, f, c, h).found;
     }
   });
   if (found == ~std::size_t(0)) std::puts("");    // keeps the loop
@@ -63,8 +62,8 @@ int main(int argc, char **argv)
         const Timing t = time_it(on_cuda ? repeats : std::min(repeats, 2),
                                  [&] { grid = build_grid(mesh, settings, on_cuda); });
         const GridReport &r = grid.report;
-        const double cells = double(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2] *
-            kBrickCells;
+        const double cells =
+            double(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2] * kBrickCells;
         std::printf("build,%zu,%.6g,%g,\"%s\",%zu,%zu,%zu,%.3f,%zu,%zu,%zu,%.4g,%d,%.3f,%.3f,%.3f,"
                     "%.4g,\"%s\",%s\n",
                     mesh.faces.size(), grid.length, grid.reach, r.device.c_str(), r.bricks, r.cells,

@@ -30,7 +30,7 @@ Bodies make_bodies(int n, bool sorted)
   if (sorted) {
     const auto bin = [](const Vec3 &p) {
       return (std::int64_t((p.z + 1) / 2) * 64 + std::int64_t((p.y + 51) / 2)) * 64 +
-          std::int64_t((p.x + 51) / 2);
+             std::int64_t((p.x + 51) / 2);
     };
     std::sort(x.begin(), x.end(), [&](const Vec3 &a, const Vec3 &b) { return bin(a) < bin(b); });
   }

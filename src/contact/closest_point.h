@@ -46,8 +46,8 @@ LSDCD_FN Foot foot_on_edge(const EdgeRecord &edge, const Vec3 *edge_inward, cons
   const Real along = dot(edge.direction, d);
   const Vec3 radial = d - along * edge.direction;
   const Real distance = norm(radial);
-  const bool found = along >= -slack && along <= edge.length + slack &&
-                     inside_wedge(edge, edge_inward, d, slack);
+  const bool found =
+      along >= -slack && along <= edge.length + slack && inside_wedge(edge, edge_inward, d, slack);
   if (distance > 0) return {found, distance, (1 / distance) * radial};
   // On the edge itself: away from its faces, or across a flat pair of them.
   Vec3 away = {0, 0, 0};

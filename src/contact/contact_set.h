@@ -9,7 +9,8 @@ namespace lsdcd {
 // A fixed number of places, so that it can live in registers and local memory.
 // `overflow` is set when more contacts were found than there are places; the
 // caller then repeats the sphere with a larger set and drops nothing.
-template <int kPlaces> struct ContactSet {
+template <int kPlaces>
+struct ContactSet {
   int n = 0;
   bool overflow = false;
   FeatureCode feature[kPlaces];

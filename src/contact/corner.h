@@ -17,7 +17,8 @@ LSDCD_FN Real one_minus_cos(const Vec3 &a, const Vec3 &b)
 // give w = 1 exactly, parallel duplicates weights that sum to 1, and everything
 // between is continuous. Solved exactly by an active set: a contact enters while
 // the gradient d_i - (Gl)_i is positive, and leaves when its l would be negative.
-template <int kPlaces> class CornerRule {
+template <int kPlaces>
+class CornerRule {
  public:
   LSDCD_FN void solve(const ContactSet<kPlaces> &set, Real radius, Real *weight)
   {
@@ -29,8 +30,7 @@ template <int kPlaces> class CornerRule {
     }
     bool apart = true;
     for (int i = 0; i < set.n && apart; i++)
-      for (int j = i + 1; j < set.n && apart; j++)
-        apart = dot(set.normal[i], set.normal[j]) <= 0;
+      for (int j = i + 1; j < set.n && apart; j++) apart = dot(set.normal[i], set.normal[j]) <= 0;
     if (!apart) solve_many(set, radius, weight);
   }
 
@@ -85,7 +85,8 @@ template <int kPlaces> class CornerRule {
         refused[enter] = true;
         continue;
       }
-      while (!step(set, radius)) {}
+      while (!step(set, radius)) {
+      }
       for (int i = 0; i < n; i++) refused[i] = false;
     }
     for (int i = 0; i < n; i++) weight[i] = l_[i] / (radius - set.distance[i]);
@@ -110,8 +111,7 @@ template <int kPlaces> class CornerRule {
   LSDCD_FN Real gradient(const ContactSet<kPlaces> &set, Real radius, int i) const
   {
     Real slope = radius - set.distance[i];
-    for (int k = 0; k < n_active_; k++)
-      slope -= overlap_cos(set, i, active_[k]) * l_[active_[k]];
+    for (int k = 0; k < n_active_; k++) slope -= overlap_cos(set, i, active_[k]) * l_[active_[k]];
     return slope;
   }
 

@@ -61,8 +61,7 @@ LSDCD_FN Vec3 inherited_stretch(const WallFeaturesView &wall, const ContactSet<k
   for (int k = 0; k < n_old; k++) {
     const Real c = dot(old[k].normal, set.normal[i]);
     if (old[k].feature == set.feature[i])
-      return c > -kMoved ? transport(old[k].stretch, old[k].normal, set.normal[i])
-                         : Vec3{0, 0, 0};
+      return c > -kMoved ? transport(old[k].stretch, old[k].normal, set.normal[i]) : Vec3{0, 0, 0};
     if (c > best_cos) {
       best_cos = c;
       best = old + k;

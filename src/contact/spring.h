@@ -28,10 +28,10 @@ LSDCD_FN std::uint32_t feature_index(FeatureCode code)
 }
 
 struct Spring {
-  Vec3 stretch;           // length; lies in the contact's tangent plane
-  Vec3 normal;            // unit, wall -> centre, when the spring was last moved
+  Vec3 stretch;    // length; lies in the contact's tangent plane
+  Vec3 normal;     // unit, wall -> centre, when the spring was last moved
   FeatureCode feature;
-  std::uint32_t pad;      // keeps the record free of indeterminate bytes
+  std::uint32_t pad;    // keeps the record free of indeterminate bytes
 };
 
 }    // namespace lsdcd

@@ -1,5 +1,7 @@
 #include "contact/spring_store.h"
 
+#include "base/threads.h"
+
 #include <algorithm>
 
 namespace lsdcd {
@@ -63,21 +65,25 @@ int SpringStore::largest_packed_size() const
 std::size_t SpringStore::bytes() const
 {
   return (first_.capacity() + count_.capacity()) * sizeof(int) +
-      (pool_.capacity() + next_.capacity()) * sizeof(Spring);
+         (pool_.capacity() + next_.capacity()) * sizeof(Spring);
 }
 
 void SpringStore::replace(const int *which, int n, const int *counts, const Spring *springs,
                           int stride)
 {
-  next_.clear();
   std::fill(count_.begin(), count_.end(), 0);
+  int total = 0;
   for (int k = 0; k < n; k++) {
-    const int i = which[k];
-    first_[i] = static_cast<int>(next_.size());
-    count_[i] = counts[k];
-    const Spring *from =
-        springs + (stride == kPacked ? next_.size() : static_cast<std::size_t>(k) * stride);
-    next_.insert(next_.end(), from, from + counts[k]);
+    first_[which[k]] = total;
+    count_[which[k]] = counts[k];
+    total += counts[k];
+  }
+  next_.resize(total);
+#pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
+  for (int k = 0; k < n; k++) {
+    const int to = first_[which[k]];
+    const Spring *from = springs + (stride == kPacked ? to : static_cast<std::size_t>(k) * stride);
+    std::copy(from, from + counts[k], next_.begin() + to);
   }
   pool_.swap(next_);
 }

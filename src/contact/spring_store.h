@@ -17,7 +17,7 @@ class SpringStore {
  public:
   static constexpr int kDoublesPerSpring = 7;    // feature, normal, stretch
 
-  void grow(int n_spheres);                // keeps what is there, new spheres have none
+  void grow(int n_spheres);    // keeps what is there, new spheres have none
   void copy(int from, int to) { first_[to] = first_[from], count_[to] = count_[from]; }
   void clear(int i) { count_[i] = 0; }
   void clear_all();
@@ -28,9 +28,9 @@ class SpringStore {
 
   // Exchange and restart: a count, then kDoublesPerSpring numbers for each.
   int packed_size(int i) const { return 1 + kDoublesPerSpring * count_[i]; }
-  int pack(int i, double *buffer) const;        // returns packed_size(i)
-  int unpack(int i, const double *buffer);      // returns the numbers taken
-  int largest_packed_size() const;              // over all spheres
+  int pack(int i, double *buffer) const;      // returns packed_size(i)
+  int unpack(int i, const double *buffer);    // returns the numbers taken
+  int largest_packed_size() const;            // over all spheres
 
   const int *first() const { return first_.data(); }
   const int *count() const { return count_.data(); }

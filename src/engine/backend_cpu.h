@@ -1,6 +1,8 @@
 // The five verbs of a backend on the host: allocate, copy, for_each, reduce, scan/sort.
 #pragma once
 
+#include "base/threads.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -9,17 +11,14 @@
 #include <utility>
 #include <vector>
 
-#if defined(_OPENMP)
-#include <omp.h>
-#endif
-
 namespace lsdcd {
 
 struct CpuBackend {
   static constexpr bool kIsDevice = false;
 
   // allocate: contents are undefined until written.
-  template <class T> class Array {
+  template <class T>
+  class Array {
    public:
     Array() = default;
     explicit Array(std::size_t n) : data_(new T[n]), n_(n) {}
@@ -47,34 +46,43 @@ struct CpuBackend {
   };
 
   // copy
-  template <class T> Array<T> from_host(const std::vector<T> &host)
+  template <class T>
+  Array<T> from_host(const std::vector<T> &host)
   {
     Array<T> a(host.size());
     std::copy(host.begin(), host.end(), a.data());
     return a;
   }
-  template <class T> std::vector<T> to_host(const Array<T> &a, std::size_t n)
+  template <class T>
+  std::vector<T> to_host(const Array<T> &a, std::size_t n)
   {
     return std::vector<T>(a.data(), a.data() + n);
   }
-  template <class T> T read_one(const T *at) { return *at; }
+  template <class T>
+  T read_one(const T *at)
+  {
+    return *at;
+  }
 
   // for_each: f(i) for i in [0, n), in any order and possibly at once.
-  template <class F> void for_each(std::size_t n, const F &f)
+  template <class F>
+  void for_each(std::size_t n, const F &f)
   {
     const std::int64_t m = static_cast<std::int64_t>(n);
-#pragma omp parallel for schedule(dynamic, 64) if (m > 256)
+#pragma omp parallel for schedule(dynamic, 64) num_threads(threads()) if (m > 256)
     for (std::int64_t i = 0; i < m; i++) f(static_cast<std::size_t>(i));
   }
 
   // reduce
-  template <class T> T sum(const T *values, std::size_t n)
+  template <class T>
+  T sum(const T *values, std::size_t n)
   {
     return std::accumulate(values, values + n, T(0));
   }
 
   // scan: values become the sums of what was before them; returns the total.
-  template <class T> T exclusive_scan(T *values, std::size_t n)
+  template <class T>
+  T exclusive_scan(T *values, std::size_t n)
   {
     T total = 0;
     for (std::size_t i = 0; i < n; i++) total += std::exchange(values[i], total);
@@ -100,14 +108,6 @@ struct CpuBackend {
     }
   }
 
-  static int threads()
-  {
-#if defined(_OPENMP)
-    return omp_get_max_threads();
-#else
-    return 1;
-#endif
-  }
   std::string name() const
   {
     const int n = threads();

@@ -25,7 +25,8 @@ inline void cuda_check(cudaError_t status, const char *what)
                         : ""));
 }
 
-template <class F> __global__ void cuda_for_each(std::size_t n, const F f)
+template <class F>
+__global__ void cuda_for_each(std::size_t n, const F f)
 {
   const std::size_t i = std::size_t(blockIdx.x) * blockDim.x + threadIdx.x;
   if (i < n) f(i);
@@ -37,7 +38,8 @@ struct CudaBackend {
   cudaStream_t stream = nullptr;
 
   // allocate: contents are undefined until written.
-  template <class T> class Array {
+  template <class T>
+  class Array {
    public:
     Array() = default;
     explicit Array(std::size_t n) : n_(n)
@@ -68,7 +70,8 @@ struct CudaBackend {
   };
 
   // copy
-  template <class T> Array<T> from_host(const std::vector<T> &host)
+  template <class T>
+  Array<T> from_host(const std::vector<T> &host)
   {
     Array<T> a(host.size());
     if (!host.empty())
@@ -77,17 +80,19 @@ struct CudaBackend {
                  "copying to the device");
     return a;
   }
-  template <class T> std::vector<T> to_host(const Array<T> &a, std::size_t n)
+  template <class T>
+  std::vector<T> to_host(const Array<T> &a, std::size_t n)
   {
     std::vector<T> host(n);
     if (n > 0)
-      cuda_check(cudaMemcpyAsync(host.data(), a.data(), n * sizeof(T), cudaMemcpyDeviceToHost,
-                                 stream),
-                 "copying from the device");
+      cuda_check(
+          cudaMemcpyAsync(host.data(), a.data(), n * sizeof(T), cudaMemcpyDeviceToHost, stream),
+          "copying from the device");
     wait();
     return host;
   }
-  template <class T> T read_one(const T *at)
+  template <class T>
+  T read_one(const T *at)
   {
     T value;
     cuda_check(cudaMemcpyAsync(&value, at, sizeof(T), cudaMemcpyDeviceToHost, stream),
@@ -98,7 +103,8 @@ struct CudaBackend {
   void wait() { cuda_check(cudaStreamSynchronize(stream), "running on the device"); }
 
   // for_each: f(i) for i in [0, n), in any order and at once.
-  template <class F> void for_each(std::size_t n, const F &f, unsigned block = 256)
+  template <class F>
+  void for_each(std::size_t n, const F &f, unsigned block = 256)
   {
     if (n == 0) return;
     cuda_for_each<<<static_cast<unsigned>((n + block - 1) / block), block, 0, stream>>>(n, f);
@@ -106,7 +112,8 @@ struct CudaBackend {
   }
 
   // reduce
-  template <class T> T sum(const T *values, std::size_t n)
+  template <class T>
+  T sum(const T *values, std::size_t n)
   {
     if (n == 0) return T(0);
     Array<T> out(1);
@@ -117,7 +124,8 @@ struct CudaBackend {
   }
 
   // scan: values become the sums of what was before them; returns the total.
-  template <class T> T exclusive_scan(T *values, std::size_t n)
+  template <class T>
+  T exclusive_scan(T *values, std::size_t n)
   {
     if (n == 0) return T(0);
     const T last = read_one(values + n - 1);
@@ -157,7 +165,8 @@ struct CudaBackend {
 
  private:
   // CUB asks twice: for the size of its scratch memory, then to run.
-  template <class Call> void with_scratch(Call call)
+  template <class Call>
+  void with_scratch(Call call)
   {
     std::size_t bytes = 0;
     cuda_check(call(nullptr, bytes), "sizing scratch memory");

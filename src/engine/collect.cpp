@@ -1,5 +1,7 @@
 #include "engine/collect.h"
 
+#include "base/threads.h"
+
 #include <algorithm>
 
 namespace lsdcd {
@@ -7,7 +9,7 @@ namespace lsdcd {
 void add_forces(const StepResults &results, const Spheres &spheres)
 {
   const int n = static_cast<int>(results.near.size());
-#pragma omp parallel for schedule(static) if (n > 4096)
+#pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
   for (int k = 0; k < n; k++) {
     const SphereResult &r = results.result[k];
     if (r.n_contacts == 0) continue;
@@ -25,7 +27,7 @@ WallTotals sum_totals(const StepResults &results, const Spheres &spheres)
   const int n = static_cast<int>(results.near.size());
   const int n_blocks = (n + kBlock - 1) / kBlock;
   std::vector<WallTotals> block(n_blocks);
-#pragma omp parallel for schedule(static) if (n_blocks > 16)
+#pragma omp parallel for schedule(static) num_threads(threads()) if (n_blocks > 16)
   for (int b = 0; b < n_blocks; b++) {
     WallTotals t;
     for (int k = b * kBlock; k < std::min(n, (b + 1) * kBlock); k++) {
@@ -69,8 +71,8 @@ void fill_sphere_output(const StepResults &results, const Spheres &spheres,
     const int i = results.near[k];
     // Contacts that exert no force still have a place: that of the sphere.
     const Vec3 point = r.weight > 0
-        ? (1 / r.weight) * r.weighted_point
-        : Vec3{spheres.x[3 * i], spheres.x[3 * i + 1], spheres.x[3 * i + 2]};
+                           ? (1 / r.weight) * r.weighted_point
+                           : Vec3{spheres.x[3 * i], spheres.x[3 * i + 1], spheres.x[3 * i + 2]};
     touching.push_back(i);
     output.push_back({Real(r.n_contacts), r.force, point, spheres.radius[i]});
   }

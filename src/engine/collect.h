@@ -10,7 +10,7 @@ namespace lsdcd {
 
 // Results of the spheres near the wall, in ascending sphere order.
 struct StepResults {
-  std::vector<int> near;               // sphere of each result
+  std::vector<int> near;    // sphere of each result
   const SphereResult *result = nullptr;
 };
 

@@ -16,7 +16,8 @@ constexpr int kPlaces = 8;
 constexpr int kMorePlaces = 64;
 constexpr int kMostPlaces = 512;
 
-template <class Law> class EngineBase : public WallEngine {
+template <class Law>
+class EngineBase : public WallEngine {
  public:
   EngineBase(const EngineSettings &settings, const Law &law) : settings_(settings), law_(law) {}
 
@@ -34,7 +35,7 @@ template <class Law> class EngineBase : public WallEngine {
     springs_ = springs;
     step_ = step;
     force_settings_ = force_settings(settings_, step);
-    select_near(grid, spheres, results_.near);
+    select_near(grid, spheres, results_.near, scratch_);
   }
 
   // Spheres whose contacts did not fit are done again on the host with more
@@ -50,8 +51,8 @@ template <class Law> class EngineBase : public WallEngine {
       if (result[k].n_contacts == kOverflow)
         result[k] = wall_force<Law, kMostPlaces>(grid, law_, force_settings_, s, more.data());
       if (result[k].n_contacts == kOverflow)
-        throw InputError("sphere " + std::to_string(results_.near[k]) + " touches the wall in more than " +
-                         std::to_string(kMostPlaces) +
+        throw InputError("sphere " + std::to_string(results_.near[k]) +
+                         " touches the wall in more than " + std::to_string(kMostPlaces) +
                          " separate places; the mesh is far finer than its overlap");
       if constexpr (Law::kHistory) {
         const int n = result[k].n_contacts;
@@ -84,8 +85,13 @@ template <class Law> class EngineBase : public WallEngine {
   SphereState state_of(int i) const
   {
     const auto at = [i](const Real *a) { return Vec3{a[3 * i], a[3 * i + 1], a[3 * i + 2]}; };
-    SphereState s = {at(spheres_.x), at(spheres_.v), at(spheres_.omega), spheres_.radius[i],
-                     spheres_.mass[i], nullptr, 0};
+    SphereState s = {at(spheres_.x),
+                     at(spheres_.v),
+                     at(spheres_.omega),
+                     spheres_.radius[i],
+                     spheres_.mass[i],
+                     nullptr,
+                     0};
     if constexpr (Law::kHistory) {
       s.springs = springs_->of(i);
       s.n_springs = springs_->count(i);
@@ -95,8 +101,9 @@ template <class Law> class EngineBase : public WallEngine {
 
   std::size_t shared_bytes() const
   {
-    return results_.near.capacity() * sizeof(int) + counts_.capacity() * sizeof(int) +
-        touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput);
+    return (results_.near.capacity() + scratch_.capacity()) * sizeof(int) +
+           counts_.capacity() * sizeof(int) + touching_.capacity() * sizeof(int) +
+           output_.capacity() * sizeof(SphereOutput);
   }
 
   EngineSettings settings_;
@@ -119,7 +126,7 @@ template <class Law> class EngineBase : public WallEngine {
   }
 
   WallTotals totals_;
-  std::vector<int> touching_, counts_;
+  std::vector<int> touching_, counts_, scratch_;
   std::vector<SphereOutput> output_;
 };
 

@@ -5,7 +5,8 @@ namespace lsdcd {
 
 namespace {
 
-template <class Law> class CpuEngine : public EngineBase<Law> {
+template <class Law>
+class CpuEngine : public EngineBase<Law> {
   using Base = EngineBase<Law>;
 
  public:
@@ -36,7 +37,7 @@ template <class Law> class CpuEngine : public EngineBase<Law> {
   std::size_t bytes() const override
   {
     return this->shared_bytes() + result_.capacity() * sizeof(SphereResult) +
-        spring_.capacity() * sizeof(Spring);
+           spring_.capacity() * sizeof(Spring);
   }
 
  private:

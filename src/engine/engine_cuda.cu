@@ -1,3 +1,4 @@
+#include "base/threads.h"
 #include "engine/backend_cuda.h"
 #include "engine/engine_base.h"
 #include "engine/pinned.h"
@@ -15,7 +16,8 @@ struct NearSphere {
   std::int32_t first_spring, n_springs;
 };
 
-template <class Law> class CudaEngine : public EngineBase<Law> {
+template <class Law>
+class CudaEngine : public EngineBase<Law> {
   using Base = EngineBase<Law>;
 
  public:
@@ -70,9 +72,8 @@ template <class Law> class CudaEngine : public EngineBase<Law> {
         n,
         [=] __device__(std::size_t k) {
           const NearSphere &s = in[k];
-          const SphereState state = {s.x,      s.v,    s.omega,
-                                     s.radius, s.mass, old + s.first_spring,
-                                     s.n_springs};
+          const SphereState state = {
+              s.x, s.v, s.omega, s.radius, s.mass, old + s.first_spring, s.n_springs};
           out[k] = wall_force<Law, kPlaces>(grid, law, settings, state,
                                             Law::kHistory ? springs_out + k * kPlaces : nullptr);
         },
@@ -89,7 +90,8 @@ template <class Law> class CudaEngine : public EngineBase<Law> {
     const Spring *springs = nullptr;
     if (Law::kHistory && n > 0) {
       std::size_t n_springs = 0;
-      for (std::size_t k = 0; k < n; k++) n_springs += result[k].n_contacts > 0 ? result[k].n_contacts : 0;
+      for (std::size_t k = 0; k < n; k++)
+        n_springs += result[k].n_contacts > 0 ? result[k].n_contacts : 0;
       if (n_springs > 0) {
         packed_.to_host(n_springs, backend_.stream);
         backend_.wait();
@@ -108,8 +110,8 @@ template <class Law> class CudaEngine : public EngineBase<Law> {
   std::size_t bytes() const override
   {
     return this->shared_bytes() + block_.size() + sphere_.bytes() + result_.bytes() +
-        old_spring_.bytes() + packed_.bytes() + new_spring_.size() * sizeof(Spring) +
-        offset_.size() * sizeof(std::uint32_t) + scratch_.size();
+           old_spring_.bytes() + packed_.bytes() + new_spring_.size() * sizeof(Spring) +
+           offset_.size() * sizeof(std::uint32_t) + scratch_.size();
   }
 
   // Most spheres have one spring or none of the kPlaces they have room for: only
@@ -128,9 +130,9 @@ template <class Law> class CudaEngine : public EngineBase<Law> {
                "sizing a scan");
     if (scratch_.size() < bytes) scratch_ = CudaBackend::Array<char>(2 * bytes);
     bytes = scratch_.size();
-    cuda_check(cub::DeviceScan::ExclusiveSum(scratch_.data(), bytes, offset, offset, n,
-                                             backend_.stream),
-               "scanning");
+    cuda_check(
+        cub::DeviceScan::ExclusiveSum(scratch_.data(), bytes, offset, offset, n, backend_.stream),
+        "scanning");
     backend_.for_each(n, [=] __device__(std::size_t k) {
       for (int i = 0; i < result[k].n_contacts; i++) to[offset[k] + i] = from[k * kPlaces + i];
     });
@@ -164,25 +166,32 @@ template <class Law> class CudaEngine : public EngineBase<Law> {
 
   void gather(std::size_t n)
   {
-    std::int32_t n_springs = 0;
     NearSphere *to = sphere_.host();
-    for (std::size_t k = 0; k < n; k++) {
+    const std::int64_t m = static_cast<std::int64_t>(n);
+#pragma omp parallel for schedule(static) num_threads(threads()) if (m > 4096)
+    for (std::int64_t k = 0; k < m; k++) {
       const SphereState s = this->state_of(this->results_.near[k]);
-      to[k] = {s.x, s.v, s.omega, s.radius, s.mass, n_springs, s.n_springs};
-      n_springs += s.n_springs;
+      to[k] = {s.x, s.v, s.omega, s.radius, s.mass, 0, s.n_springs};
     }
-    if (!Law::kHistory) return;
-    old_spring_.reserve(n_springs > 0 ? n_springs : 1);
-    packed_.reserve(n * kPlaces);
-    if (new_spring_.size() < n * kPlaces) {
-      new_spring_ = CudaBackend::Array<Spring>(packed_.room());
-      offset_ = CudaBackend::Array<std::uint32_t>(packed_.room() / kPlaces);
+    if constexpr (Law::kHistory) {
+      std::int32_t n_springs = 0;
+      for (std::size_t k = 0; k < n; k++) {
+        to[k].first_spring = n_springs;
+        n_springs += to[k].n_springs;
+      }
+      old_spring_.reserve(n_springs > 0 ? n_springs : 1);
+      packed_.reserve(n * kPlaces);
+      if (new_spring_.size() < n * kPlaces) {
+        new_spring_ = CudaBackend::Array<Spring>(packed_.room());
+        offset_ = CudaBackend::Array<std::uint32_t>(packed_.room() / kPlaces);
+      }
+#pragma omp parallel for schedule(static) num_threads(threads()) if (m > 4096)
+      for (std::int64_t k = 0; k < m; k++)
+        if (to[k].n_springs > 0)
+          std::memcpy(old_spring_.host() + to[k].first_spring,
+                      this->springs_->of(this->results_.near[k]), to[k].n_springs * sizeof(Spring));
+      if (n_springs > 0) old_spring_.to_device(n_springs, backend_.stream);
     }
-    for (std::size_t k = 0; k < n; k++)
-      if (to[k].n_springs > 0)
-        std::memcpy(old_spring_.host() + to[k].first_spring,
-                    this->springs_->of(this->results_.near[k]), to[k].n_springs * sizeof(Spring));
-    if (n_springs > 0) old_spring_.to_device(n_springs, backend_.stream);
   }
 
   // Back to kPlaces springs each, as redo_crowded wants them.

@@ -8,7 +8,8 @@
 namespace lsdcd {
 
 // Calls make(law) with the one compiled law that the parameters ask for.
-template <class Make> auto with_law(const ContactLaw &p, Make make)
+template <class Make>
+auto with_law(const ContactLaw &p, Make make)
 {
   const MassVelocityDamping damping = {p.gamma_normal};
   const LinearHistory history = {p.k_tangent, p.gamma_tangent, p.mu};
@@ -18,8 +19,8 @@ template <class Make> auto with_law(const ContactLaw &p, Make make)
     case LawStyle::hertz_history:
       return make(HertzHistoryLaw{p.k_normal, damping, history, p.limit_damping});
     default:
-      return make(HookeLaw{p.k_normal, damping, LinearNoHistory{p.gamma_tangent, p.mu},
-                           p.limit_damping});
+      return make(
+          HookeLaw{p.k_normal, damping, LinearNoHistory{p.gamma_tangent, p.mu}, p.limit_damping});
   }
 }
 

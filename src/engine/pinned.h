@@ -8,7 +8,8 @@
 namespace lsdcd {
 
 // A pair of buffers, one on the host, one on the device, of the same size.
-template <class T> class Mirrored {
+template <class T>
+class Mirrored {
  public:
   Mirrored() = default;
   ~Mirrored()

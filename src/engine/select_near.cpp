@@ -1,13 +1,10 @@
 #include "engine/select_near.h"
 
+#include "base/threads.h"
 #include "base/input_error.h"
 
 #include <algorithm>
 #include <cstdio>
-
-#if defined(_OPENMP)
-#include <omp.h>
-#endif
 
 namespace lsdcd {
 
@@ -25,15 +22,16 @@ namespace {
 
 }    // namespace
 
-void select_near(const GridView &grid, const Spheres &spheres, std::vector<int> &near)
+void select_near(const GridView &grid, const Spheres &spheres, std::vector<int> &near,
+                 std::vector<int> &scratch)
 {
   // Blocks of one size whatever the number of threads, so that order is fixed.
   constexpr int kBlock = 4096;
   const int n_blocks = (spheres.n + kBlock - 1) / kBlock;
-  near.resize(spheres.n);
-  std::vector<int> found(n_blocks + 1, 0);
+  if (static_cast<int>(scratch.size()) < spheres.n) scratch.resize(spheres.n);
+  std::vector<int> found(n_blocks, 0);
   int too_large = -1;
-#pragma omp parallel for schedule(static) if (n_blocks > 1)
+#pragma omp parallel for schedule(static) num_threads(threads()) if (n_blocks > 1)
   for (int b = 0; b < n_blocks; b++) {
     const int lo = b * kBlock, hi = std::min(lo + kBlock, spheres.n);
     int n = 0;
@@ -44,18 +42,14 @@ void select_near(const GridView &grid, const Spheres &spheres, std::vector<int> 
         too_large = too_large < 0 ? i : std::min(too_large, i);
       }
       if (near_wall(grid, {spheres.x[3 * i], spheres.x[3 * i + 1], spheres.x[3 * i + 2]}))
-        near[lo + n++] = i;
+        scratch[lo + n++] = i;
     }
     found[b] = n;
   }
   if (too_large >= 0) throw_too_large(spheres, too_large, grid.reach);
-  int total = 0;
-  for (int b = 0; b < n_blocks; b++) {
-    std::copy(near.begin() + std::size_t(b) * kBlock,
-              near.begin() + std::size_t(b) * kBlock + found[b], near.begin() + total);
-    total += found[b];
-  }
-  near.resize(total);
+  near.clear();
+  for (int b = 0; b < n_blocks; b++)
+    near.insert(near.end(), scratch.begin() + b * kBlock, scratch.begin() + b * kBlock + found[b]);
 }
 
 }    // namespace lsdcd

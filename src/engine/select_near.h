@@ -10,6 +10,8 @@ namespace lsdcd {
 
 // Indices, ascending, of the spheres in the group whose cell has candidates.
 // Throws InputError if one in the group is larger than the grid's reach.
-void select_near(const GridView &grid, const Spheres &spheres, std::vector<int> &near);
+// `scratch` keeps its memory from call to call.
+void select_near(const GridView &grid, const Spheres &spheres, std::vector<int> &near,
+                 std::vector<int> &scratch);
 
 }    // namespace lsdcd

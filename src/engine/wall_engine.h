@@ -36,22 +36,22 @@ struct EngineSettings {
   Corner corner = Corner::blend;
   Side side = Side::both;
   Device device = Device::automatic;
-  int device_rank = 0;     // which of the GPUs this process takes (node-local rank, wrapped)
+  int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
 };
 
 // Sphere data of a host code, borrowed for one step. Three-vectors are packed
 // x y z x y z; n is the number of owned spheres.
 struct Spheres {
   int n = 0;
-  const Real *x = nullptr;        // length
-  const Real *v = nullptr;        // length/time
-  const Real *omega = nullptr;    // 1/time
-  const Real *radius = nullptr;   // length
-  const Real *mass = nullptr;     // mass that damping sees (a rigid member's body mass)
-  const int *mask = nullptr;      // group bits, or null: all spheres
+  const Real *x = nullptr;         // length
+  const Real *v = nullptr;         // length/time
+  const Real *omega = nullptr;     // 1/time
+  const Real *radius = nullptr;    // length
+  const Real *mass = nullptr;      // mass that damping sees (a rigid member's body mass)
+  const int *mask = nullptr;       // group bits, or null: all spheres
   int group_bit = 0;
-  Real *force = nullptr;          // added to
-  Real *torque = nullptr;         // added to
+  Real *force = nullptr;     // added to
+  Real *torque = nullptr;    // added to
 };
 
 struct StepSettings {
@@ -62,21 +62,21 @@ struct StepSettings {
 
 // Sums over the spheres of the last step on this process.
 struct WallTotals {
-  Real energy = 0;                   // elastic energy in normal overlaps and tangential springs
-  Vec3 force = {0, 0, 0};            // on the mesh
-  Vec3 torque = {0, 0, 0};           // on the mesh, about the origin
+  Real energy = 0;            // elastic energy in normal overlaps and tangential springs
+  Vec3 force = {0, 0, 0};     // on the mesh
+  Vec3 torque = {0, 0, 0};    // on the mesh, about the origin
   std::int64_t contacts = 0;
-  std::int64_t uncertified = 0;      // spheres whose answer was not certified exact
-  Real largest_overlap_ratio = 0;    // overlap / radius
-  int largest_overlap_sphere = -1;   // index in Spheres, -1 if none touches
+  std::int64_t uncertified = 0;       // spheres whose answer was not certified exact
+  Real largest_overlap_ratio = 0;     // overlap / radius
+  int largest_overlap_sphere = -1;    // index in Spheres, -1 if none touches
 };
 
 // One sphere's contacts in the columns of `fix wall/gran ... contacts`.
 struct SphereOutput {
-  Real contacts;      // number of contacts
-  Vec3 force;         // sum over them, on the sphere
-  Vec3 point;         // mean contact point on the wall, weighted by normal force
-  Real radius;        // 0 where nothing touches
+  Real contacts;    // number of contacts
+  Vec3 force;       // sum over them, on the sphere
+  Vec3 point;       // mean contact point on the wall, weighted by normal force
+  Real radius;      // 0 where nothing touches
 };
 
 // Computes wall forces for the spheres of one process. A step is start() then

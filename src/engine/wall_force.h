@@ -22,9 +22,9 @@ struct SphereState {
 struct SphereResult {
   Vec3 force, torque;
   Real energy;
-  Real overlap_ratio;    // largest overlap / radius
-  Vec3 weighted_point;   // sum of |normal force| * contact point
-  Real weight;           // sum of |normal force|
+  Real overlap_ratio;     // largest overlap / radius
+  Vec3 weighted_point;    // sum of |normal force| * contact point
+  Real weight;            // sum of |normal force|
   int n_contacts;
 };
 constexpr int kOverflow = -1;
@@ -32,16 +32,17 @@ constexpr int kOverflow = -1;
 struct ForceSettings {
   Real dt;
   bool update;
-  bool blend;        // corner rule; false: plain sum
-  int side;          // 0 both, +1 outside, -1 inside
-  bool with_point;   // fill weighted_point and weight
+  bool blend;         // corner rule; false: plain sum
+  int side;           // 0 both, +1 outside, -1 inside
+  bool with_point;    // fill weighted_point and weight
 };
 
 // `springs_out` has room for kPlaces springs; it is written only where the law
 // has history.
 template <class Law, int kPlaces>
-LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law, const ForceSettings &settings,
-                                 const SphereState &s, Spring *springs_out)
+LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
+                                 const ForceSettings &settings, const SphereState &s,
+                                 Spring *springs_out)
 {
   SphereResult out = {};
   ContactSet<kPlaces> set;

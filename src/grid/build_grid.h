@@ -69,7 +69,8 @@ LSDCD_FN int cell_of_octant(int octant, int i)
 }
 
 // Calls visit(key) for every octant that the feature meets.
-template <class Visit> LSDCD_FN void rasterise(const BuildView &b, FeatureCode feature, Visit visit)
+template <class Visit>
+LSDCD_FN void rasterise(const BuildView &b, FeatureCode feature, Visit visit)
 {
   Vec3 lo, hi;
   feature_box(b.wall, feature, lo, hi);
@@ -92,9 +93,9 @@ template <class Visit> LSDCD_FN void rasterise(const BuildView &b, FeatureCode f
         const std::uint32_t brick = static_cast<std::uint32_t>(
             (std::size_t(z) * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
         for (std::uint32_t o = 0; o < 8; o++) {
-          const Vec3 at = centre + quarter * Vec3{o & 1 ? Real(1) : Real(-1),
-                                                  o & 2 ? Real(1) : Real(-1),
-                                                  o & 4 ? Real(1) : Real(-1)};
+          const Vec3 at =
+              centre + quarter * Vec3{o & 1 ? Real(1) : Real(-1), o & 2 ? Real(1) : Real(-1),
+                                      o & 4 ? Real(1) : Real(-1)};
           if (meets(b, feature, at, kOctantSide * plan.half_diagonal).found) visit(brick * 8 + o);
         }
       }
@@ -111,8 +112,10 @@ LSDCD_FN bool comes_before(const Candidate &a, const Candidate &b)
   return a.bound < b.bound || (a.bound == b.bound && a.feature < b.feature);
 }
 
-template <class B> class GridBuilder {
-  template <class T> using Array = typename B::template Array<T>;
+template <class B>
+class GridBuilder {
+  template <class T>
+  using Array = typename B::template Array<T>;
 
  public:
   GridBuilder(B backend, const WallFeatures &wall) :
@@ -122,8 +125,14 @@ template <class B> class GridBuilder {
       face_vertex_(b_.from_host(wall.face_vertex)), edge_vertex_(b_.from_host(wall.edge_vertex)),
       features_(b_.from_host(wall.contact_features))
   {
-    view_.wall = {faces_.data(), edges_.data(), vertices_.data(), edge_inward_.data(),
-                  vertex_direction_.data(), face_vertex_.data(), edge_vertex_.data(), nullptr,
+    view_.wall = {faces_.data(),
+                  edges_.data(),
+                  vertices_.data(),
+                  edge_inward_.data(),
+                  vertex_direction_.data(),
+                  face_vertex_.data(),
+                  edge_vertex_.data(),
+                  nullptr,
                   nullptr};
     view_.features = features_.data();
   }
@@ -200,7 +209,8 @@ template <class B> class GridBuilder {
                         *features = pair_feature_.data();
     b_.for_each(n_cells, [=] LSDCD_LAMBDA(std::size_t i) {
       const std::size_t octant = i / kOctantCells, b = octant / 8;
-      const int c = cell_of_octant(static_cast<int>(octant % 8), static_cast<int>(i % kOctantCells));
+      const int c =
+          cell_of_octant(static_cast<int>(octant % 8), static_cast<int>(i % kOctantCells));
       const Vec3 centre = view.plan.cell_centre(key[b], c);
       std::uint32_t n = 0;
       for (std::uint32_t p = first[octant]; p < first[octant + 1]; p++)
@@ -243,8 +253,7 @@ template <class B> class GridBuilder {
     std::uint64_t n_list = 0;
     for (std::uint32_t n : list_host) n_list += n;
     const std::size_t n_occupied = b_.exclusive_scan(cells_of, n_bricks_);
-    if (n_list >= 0xffffffffull ||
-        grid_bytes(view.plan, n_bricks_, n_occupied, n_list) > budget)
+    if (n_list >= 0xffffffffull || grid_bytes(view.plan, n_bricks_, n_occupied, n_list) > budget)
       return false;
     b_.exclusive_scan(lists_of, n_bricks_);
 
@@ -256,7 +265,8 @@ template <class B> class GridBuilder {
     Candidate *lists = list.data();
     b_.for_each(n_cells, [=] LSDCD_LAMBDA(std::size_t i) {
       const std::size_t octant = i / kOctantCells, b = octant / 8;
-      const int c = cell_of_octant(static_cast<int>(octant % 8), static_cast<int>(i % kOctantCells));
+      const int c =
+          cell_of_octant(static_cast<int>(octant % 8), static_cast<int>(i % kOctantCells));
       const std::uint32_t n = counts[b * kBrickCells + c];
       if (n == 0) return;
       const std::uint32_t start = lists_of[b] + offsets[b * kBrickCells + c];

@@ -9,7 +9,7 @@ namespace lsdcd {
 struct CellAddress {
   const Brick *brick;    // null: no wall within reach
   std::int32_t cell;
-  Vec3 from_centre;      // q - cell centre
+  Vec3 from_centre;    // q - cell centre
 };
 
 LSDCD_FN int count_bits(std::uint64_t word)

@@ -24,7 +24,8 @@ struct FlatHeader {
 };
 
 // The one list of a grid's arrays; flat_bytes, flatten and flat_view follow it.
-template <class Visit> void each_array(const TriangleGrid &g, Visit visit)
+template <class Visit>
+void each_array(const TriangleGrid &g, Visit visit)
 {
   visit(0, g.wall.faces);
   visit(1, g.wall.edges);
@@ -41,7 +42,8 @@ template <class Visit> void each_array(const TriangleGrid &g, Visit visit)
   visit(12, g.candidates);
 }
 
-template <class T> std::size_t array_bytes(const std::vector<T> &a)
+template <class T>
+std::size_t array_bytes(const std::vector<T> &a)
 {
   return a.size() * sizeof(T);
 }
@@ -61,9 +63,15 @@ std::string amount(double bytes)
 GridView TriangleGrid::view() const
 {
   GridView v;
-  v.wall = {wall.faces.data(),       wall.edges.data(),       wall.vertices.data(),
-            wall.edge_inward.data(), wall.vertex_direction.data(), wall.face_vertex.data(),
-            wall.edge_vertex.data(), wall.edge_out.data(),    wall.vertex_out.data()};
+  v.wall = {wall.faces.data(),
+            wall.edges.data(),
+            wall.vertices.data(),
+            wall.edge_inward.data(),
+            wall.vertex_direction.data(),
+            wall.face_vertex.data(),
+            wall.edge_vertex.data(),
+            wall.edge_out.data(),
+            wall.vertex_out.data()};
   v.origin = origin;
   v.length = length;
   v.inv_length = 1 / length;
@@ -113,15 +121,12 @@ GridView flat_view(const char *block)
   const char *at[13];
   for (int i = 0; i < 13; i++) at[i] = block + header.offset[i];
   GridView v;
-  v.wall = {reinterpret_cast<const FaceRecord *>(at[0]),
-            reinterpret_cast<const EdgeRecord *>(at[1]),
-            reinterpret_cast<const VertexRecord *>(at[2]),
-            reinterpret_cast<const Vec3 *>(at[3]),
-            reinterpret_cast<const Vec3 *>(at[4]),
-            reinterpret_cast<const FaceVertices *>(at[5]),
-            reinterpret_cast<const EdgeVertices *>(at[6]),
-            reinterpret_cast<const Vec3 *>(at[7]),
-            reinterpret_cast<const Vec3 *>(at[8])};
+  v.wall = {
+      reinterpret_cast<const FaceRecord *>(at[0]),   reinterpret_cast<const EdgeRecord *>(at[1]),
+      reinterpret_cast<const VertexRecord *>(at[2]), reinterpret_cast<const Vec3 *>(at[3]),
+      reinterpret_cast<const Vec3 *>(at[4]),         reinterpret_cast<const FaceVertices *>(at[5]),
+      reinterpret_cast<const EdgeVertices *>(at[6]), reinterpret_cast<const Vec3 *>(at[7]),
+      reinterpret_cast<const Vec3 *>(at[8])};
   v.origin = header.origin;
   v.length = header.length;
   v.inv_length = 1 / header.length;

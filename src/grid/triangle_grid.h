@@ -13,9 +13,9 @@
 
 namespace lsdcd {
 
-constexpr int kBrickSide = 8;                                  // cells along a brick edge
+constexpr int kBrickSide = 8;    // cells along a brick edge
 constexpr int kBrickCells = kBrickSide * kBrickSide * kBrickSide;
-constexpr int kMaskWords = kBrickCells / 64;                   // one 64-bit word per z layer
+constexpr int kMaskWords = kBrickCells / 64;    // one 64-bit word per z layer
 
 // An entry of a cell's list: the feature, and a lower bound of its distance from
 // the cell centre. Lists ascend in (bound, feature).
@@ -42,25 +42,25 @@ struct Brick {
 // Borrowed view of a grid on the host or on a device; trivially copyable.
 struct GridView {
   WallFeaturesView wall;
-  Vec3 origin;                     // corner of brick (0, 0, 0); length
-  Real length, inv_length;         // cell edge
-  Real reach;                      // largest radius that the lists are complete for
-  Real slack;                      // tolerance that closes face, edge and vertex regions; length
-  Real outside;                    // +1 where normals point out of a closed wall, -1 where in
+  Vec3 origin;                // corner of brick (0, 0, 0); length
+  Real length, inv_length;    // cell edge
+  Real reach;                 // largest radius that the lists are complete for
+  Real slack;                 // tolerance that closes face, edge and vertex regions; length
+  Real outside;               // +1 where normals point out of a closed wall, -1 where in
   std::int32_t n_bricks[3];
   const std::int32_t *brick_of;    // x fastest; -1 where no brick is near the wall
   const Brick *bricks;
   const Cell *cells;
   const Candidate *candidates;
-  const char *block;               // the flat block all of this lies in, or null
+  const char *block;    // the flat block all of this lies in, or null
   std::size_t block_bytes;
 };
 
 struct GridSettings {
-  Real length = 0;                             // 0: chosen from the mesh, the reach and the budget
-  Real reach = 0;                              // > 0
-  std::size_t memory_budget = 1ull << 30;      // bytes
-  bool sides = false;                          // keep what `side in|out` needs
+  Real length = 0;                           // 0: chosen from the mesh, the reach and the budget
+  Real reach = 0;                            // > 0
+  std::size_t memory_budget = 1ull << 30;    // bytes
+  bool sides = false;                        // keep what `side in|out` needs
 };
 
 struct GridReport {

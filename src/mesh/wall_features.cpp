@@ -10,27 +10,33 @@ namespace {
 
 // Vectors in a wider type: unit normals of slivers lose one digit for each power
 // of ten of their aspect ratio, and double has none to spare.
-template <class T> struct Wide {
+template <class T>
+struct Wide {
   T x, y, z;
 };
-template <class T> Wide<T> difference(const Vec3 &a, const Vec3 &b)
+template <class T>
+Wide<T> difference(const Vec3 &a, const Vec3 &b)
 {
   return {T(a.x) - T(b.x), T(a.y) - T(b.y), T(a.z) - T(b.z)};
 }
-template <class T> T dot(const Wide<T> &a, const Wide<T> &b)
+template <class T>
+T dot(const Wide<T> &a, const Wide<T> &b)
 {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-template <class T> Wide<T> cross(const Wide<T> &a, const Wide<T> &b)
+template <class T>
+Wide<T> cross(const Wide<T> &a, const Wide<T> &b)
 {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-template <class T> T root(T a)
+template <class T>
+T root(T a)
 {
   T r = std::sqrt(static_cast<long double>(a));
   return r > 0 ? (r + a / r) / 2 : r;    // one Newton step takes 64 bits to 113
 }
-template <class T> Wide<T> unit(const Wide<T> &a)
+template <class T>
+Wide<T> unit(const Wide<T> &a)
 {
   // Scaled first: squares of lengths near 1e-200 or 1e200 leave the range.
   T m = a.x < 0 ? -a.x : a.x;
@@ -42,12 +48,14 @@ template <class T> Wide<T> unit(const Wide<T> &a)
   const T n = root<T>(dot(s, s));
   return {s.x / n, s.y / n, s.z / n};
 }
-template <class T> Vec3 narrow(const Wide<T> &a)
+template <class T>
+Vec3 narrow(const Wide<T> &a)
 {
   return {static_cast<Real>(a.x), static_cast<Real>(a.y), static_cast<Real>(a.z)};
 }
 
-template <class T> FaceRecord face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c)
+template <class T>
+FaceRecord face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c)
 {
   const Wide<T> edge[3] = {difference<T>(b, a), difference<T>(c, b), difference<T>(a, c)};
   const Wide<T> normal = unit(cross(edge[0], edge[1]));
@@ -69,8 +77,8 @@ constexpr Real kSliver = 1e-3;
 FaceRecord make_face(const Vec3 &a, const Vec3 &b, const Vec3 &c)
 {
   const FaceRecord f = face_record<long double>(a, b, c);
-  const Real longest = std::sqrt(
-      std::fmax(norm_sq(b - a), std::fmax(norm_sq(c - b), norm_sq(a - c))));
+  const Real longest =
+      std::sqrt(std::fmax(norm_sq(b - a), std::fmax(norm_sq(c - b), norm_sq(a - c))));
   const Real shortest_height = f.height * norm(c - b) / longest;
   if (shortest_height < kSliver * longest) return face_record<__float128>(a, b, c);
   return f;

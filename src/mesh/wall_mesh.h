@@ -22,7 +22,7 @@ struct MeshReport {
   std::size_t open_edges = 0;            // one face
   std::size_t nonmanifold_edges = 0;     // more than two faces
   std::size_t misoriented_edges = 0;     // two faces that run along it the same way
-  bool closed = false;                   // every edge has exactly two faces
+  bool closed = false;                   // every edge that has faces has two of them
   bool oriented = false;                 // closed, no misoriented edge
   Real weld_tolerance = 0;               // length
   Real area = 0;                         // length^2

@@ -10,7 +10,8 @@ namespace lsdcd {
 
 // An effect that is not among the template arguments costs no instruction and no
 // memory. `stretch` is read and written only where kHistory.
-template <class Normal, class Damping, class Tangential> struct ContactModel {
+template <class Normal, class Damping, class Tangential>
+struct ContactModel {
   static constexpr bool kHistory = Tangential::kHistory;
 
   Real k_normal;

@@ -39,8 +39,7 @@ struct LinearHistory {
     if (!(size > limit)) return f;
     if (!(stretched > 0)) return {0, 0, 0};
     const Real part = limit / size;
-    if (c.update && k > 0)
-      stretch = part * (stretch + (1 / k) * viscous) - (1 / k) * viscous;
+    if (c.update && k > 0) stretch = part * (stretch + (1 / k) * viscous) - (1 / k) * viscous;
     return part * f;
   }
   LSDCD_FN Real energy(Real scale, const Vec3 &stretch) const

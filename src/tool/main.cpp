@@ -65,11 +65,16 @@ nlohmann::json as_json(const MeshReport &r)
 
 nlohmann::json as_json(const GridReport &r)
 {
-  return {{"length", r.length},         {"reach", r.reach},
-          {"bricks", r.bricks},         {"cells", r.cells},
-          {"candidates", r.candidates}, {"mean_list", r.mean_list},
-          {"longest_list", r.longest_list}, {"bytes", r.bytes},
-          {"distance_tests", r.distance_tests}, {"seconds", r.seconds},
+  return {{"length", r.length},
+          {"reach", r.reach},
+          {"bricks", r.bricks},
+          {"cells", r.cells},
+          {"candidates", r.candidates},
+          {"mean_list", r.mean_list},
+          {"longest_list", r.longest_list},
+          {"bytes", r.bytes},
+          {"distance_tests", r.distance_tests},
+          {"seconds", r.seconds},
           {"device", r.device}};
 }
 

@@ -59,7 +59,10 @@ class Scene {
   std::unique_ptr<WallEngine> engine;
 
  private:
-  static Vec3 vec(const std::vector<Real> &a, int i) { return {a[3 * i], a[3 * i + 1], a[3 * i + 2]}; }
+  static Vec3 vec(const std::vector<Real> &a, int i)
+  {
+    return {a[3 * i], a[3 * i + 1], a[3 * i + 2]};
+  }
   static void put(std::vector<Real> &a, int i, const Vec3 &value)
   {
     for (int k = 0; k < 3; k++) a[3 * i + k] = value[k];

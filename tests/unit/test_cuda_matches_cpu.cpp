@@ -41,7 +41,8 @@ std::vector<Case> cases()
           {"random soup", random_soup(500, 3), 0.7, 0}};
 }
 
-template <class T> bool same_bytes(const std::vector<T> &a, const std::vector<T> &b)
+template <class T>
+bool same_bytes(const std::vector<T> &a, const std::vector<T> &b)
 {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }

@@ -1,0 +1,24 @@
+// How many threads this process may use.
+#pragma once
+
+#include <cstdlib>
+
+#if defined(_OPENMP)
+#include <omp.h>
+#endif
+
+namespace lsdcd {
+
+// OMP_NUM_THREADS where it is set. Otherwise one: with several MPI processes on a
+// node, all the cores for each of them would be far too many.
+inline int threads()
+{
+#if defined(_OPENMP)
+  static const bool asked = std::getenv("OMP_NUM_THREADS") != nullptr;
+  return asked ? omp_get_max_threads() : 1;
+#else
+  return 1;
+#endif
+}
+
+}    // namespace lsdcd
