@@ -1,6 +1,7 @@
 #include "contact/find_contacts.h"
 #include "grid/triangle_grid.h"
 #include "base/input_error.h"
+#include "base/threads.h"
 #include "support/brute_force.h"
 #include "support/device.h"
 #include "support/meshes.h"
@@ -274,6 +275,7 @@ TEST(grid, one_and_two_threads_build_the_same_bytes)
     omp_set_num_threads(1);
     const TriangleGrid one = grid_of(soup, 0.3);
     omp_set_num_threads(2);
+    ASSERT_EQ(threads(), 2) << "set OMP_NUM_THREADS, or only one thread is used";
     const TriangleGrid two = grid_of(soup, 0.3);
     omp_set_num_threads(before);
     ASSERT_EQ(flat_bytes(one), flat_bytes(two));
