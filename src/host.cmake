@@ -7,8 +7,10 @@ add_library(lsdcdplugin MODULE
 # Only the entry point is exported. The file is never unmapped: threads that it
 # started may outlive `plugin unload`.
 target_link_libraries(lsdcdplugin PRIVATE lsdcd_core lsdcd_host ${CMAKE_DL_LIBS})
-target_link_options(lsdcdplugin PRIVATE -Wl,--exclude-libs,ALL -Wl,-z,nodelete)
-set_target_properties(lsdcdplugin PROPERTIES PREFIX "" VISIBILITY_INLINES_HIDDEN ON)
+target_link_options(lsdcdplugin PRIVATE
+  -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/plugin.map -Wl,-z,nodelete)
+set_target_properties(lsdcdplugin PROPERTIES PREFIX ""
+  LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/plugin.map)
 
 if(LSDCD_HOST_LIBRARY)
   add_executable(lmp-lsdcd launcher/main.cpp launcher/plugins.cpp)
