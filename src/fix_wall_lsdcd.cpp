@@ -55,13 +55,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
     want.side = settings.side;
     want.device = settings.device;
     want.device_rank = wall->shared().node_rank();
-    std::string problem;
-    try {
-      engine = lsdcd::make_engine(want);
-    } catch (const std::exception &e) {
-      problem = e.what();
-    }
-    lsdcd::throw_together(world, problem);
+    lsdcd::together(world, true, [&] { engine = lsdcd::make_engine(want); });
   } catch (const lsdcd::InputError &e) {
     refuse(e.what());
   }
@@ -267,7 +261,7 @@ void FixWallLsdcd::update_reach()
   check_box(reach);
   try {
     wall->build(reach);
-    engine->set_grid(wall->view());
+    lsdcd::together(world, true, [&] { engine->set_grid(wall->view()); });
   } catch (const lsdcd::InputError &e) {
     refuse(e.what());
   }

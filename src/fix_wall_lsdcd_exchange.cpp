@@ -57,6 +57,7 @@ int FixWallLsdcd::pack_restart(int i, double *buf)
 
 void FixWallLsdcd::unpack_restart(int i, int nth)
 {
+  if (!history) return;    // the file's fix had springs, this one has none
   const double *extra = atom->extra[i];
   for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
   springs.unpack(i, extra + 1);

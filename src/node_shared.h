@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <mpi.h>
+#include <new>
 #include <string>
 
 namespace lsdcd {
@@ -44,6 +46,23 @@ class NodeShared {
 // If `error` is not empty on any process, throws InputError with the text of the
 // lowest such rank on all of them.
 void throw_together(MPI_Comm comm, const std::string &error);
+
+// Runs `work` where `here`; whatever it throws is thrown on every process of `comm`.
+template <class Work>
+void together(MPI_Comm comm, bool here, Work &&work)
+{
+  std::string error;
+  if (here) {
+    try {
+      work();
+    } catch (const std::bad_alloc &) {
+      error = "out of memory";
+    } catch (const std::exception &e) {
+      error = *e.what() ? e.what() : "unknown error";
+    }
+  }
+  throw_together(comm, error);
+}
 
 // A broadcast of more bytes than an int can count.
 void broadcast_bytes(void *data, std::size_t bytes, int root, MPI_Comm comm);

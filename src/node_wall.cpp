@@ -1,34 +1,9 @@
 #include "node_wall.h"
 
-#include "base/input_error.h"
-
-#include <algorithm>
-#include <cmath>
-#include <new>
+#include <cstdint>
 #include <type_traits>
 
 namespace lsdcd {
-
-namespace {
-
-// Runs `work` where `here`; whatever it throws is thrown on every process of `comm`.
-template <class Work>
-void together(MPI_Comm comm, bool here, Work &&work)
-{
-  std::string error;
-  if (here) {
-    try {
-      work();
-    } catch (const std::bad_alloc &) {
-      error = "out of memory";
-    } catch (const std::exception &e) {
-      error = *e.what() ? e.what() : "unknown error";
-    }
-  }
-  throw_together(comm, error);
-}
-
-}    // namespace
 
 NodeWall::NodeWall(MPI_Comm world, const WallSettings &settings) :
     settings_(settings), shared_(world)

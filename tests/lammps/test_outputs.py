@@ -20,7 +20,7 @@ TAIL = """\
 pair_style      zero 1.2
 pair_coeff      * *
 fix             move all nve/sphere
-fix             wall {group} wall/lsdcd {law} mesh floor.stl {more}
+fix             wall {group} wall/lsdcd {law} mesh {mesh} {more}
 timestep        1e-4
 thermo_style    custom step f_wall f_wall[1] f_wall[2] f_wall[3] f_wall[4] f_wall[5] f_wall[6] &
                 f_wall[7] f_wall[8] f_wall[9] pe
@@ -38,10 +38,27 @@ create_atoms    2 single -1.0 0.25 0.45 units box
 
 
 def go(folder, atoms=TWO, law="hooke 1e4 NULL 0 NULL 0 0", group="all", more="contacts", steps=0,
-       extra="", columns=CONTACTS, ranks=1):
+       extra="", columns=CONTACTS, ranks=1,
+       mesh="floor.stl"):
     text = deck.run_well(HEAD + atoms + TAIL.format(law=law, group=group, more=more, steps=steps,
-                                                    extra=extra, columns=columns), folder, ranks)
+                                                    extra=extra, columns=columns,
+                                                    mesh=mesh), folder, ranks)
     return deck.read_thermo(text), deck.read_dump(folder / "contacts"), text
+
+
+def write_cube(path, inward=False):
+    """The cube from -2 to 2 in x and y and 0 to 4 in z, wound outwards or inwards."""
+    corners = [(x, y, z) for x in (-2, 2) for y in (-2, 2) for z in (0, 4)]
+    quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    with open(path, "w") as stl:
+        stl.write("solid cube\n")
+        for a, b, c, d in quads:
+            for face in ((a, b, c), (a, c, d)):
+                face = face[::-1] if inward else face
+                stl.write("facet normal 0 0 0\nouter loop\n" +
+                          "".join("vertex %g %g %g\n" % corners[k] for k in face) +
+                          "endloop\nendfacet\n")
+        stl.write("endsolid cube\n")
 
 
 def close(a, b):
@@ -110,6 +127,15 @@ def main():
     checks.fact("a large overlap is warned of once", text.count("sank into the wall by") == 1)
     checks.fact("hooke stores nothing per atom", "nothing stored, exchanged or restarted" in
                 go(folder, more="", columns="")[2])
+
+    # A centre 0.1 below the bottom of the cube: inside it belongs 0.6 higher, outside 0.4 lower.
+    low = "create_atoms 1 single 0.3 0.1 -0.1 units box\n" + SPHERES
+    for inward in (False, True):
+        write_cube(folder / "cube.stl", inward)
+        for side, force in (("in", 6000), ("out", -4000)):
+            thermo, _, _ = go(folder, atoms=low, mesh="cube.stl", more=f"side {side} contacts")
+            checks.fact(f"side {side}, wound {'in' if inward else 'out'}wards: back to its side",
+                        close(thermo[0][4], -force), str(thermo[0][4]))
 
     # dump image takes the diameter of lines, or 1 for filled triangles, from the same word.
     for what, flags in (("edges", "0.05 0"), ("faces 2", "1 0"), ("contours", "0.05 0"),

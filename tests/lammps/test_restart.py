@@ -52,6 +52,9 @@ def main():
     checks.at_most("written on 4 ranks, read on 1",
                    deck.largest_difference(spread, proceed(law, folder, 1, "spread.restart")[0]), 0)
 
+    text = proceed(LAWS["hooke"], folder)[1]
+    checks.fact("springs in the file do not disturb a style without them", "ERROR" not in text)
+
     # Springs of another mesh are dropped with a warning, not followed.
     scene.write_floor(folder / "floor.stl", cells=4)
     text = proceed(law, folder)[1]
