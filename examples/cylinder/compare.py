@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""fix wall/gran zcylinder against fix wall/lsdcd on cylinders of N flat segments.
+
+A mesh is another shape than the cylinder: what it does must tend to what the
+cylinder does as N grows. Needs build/bin/lmp-lsdcd and numpy.
+"""
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from make_cylinder import cylinder, write_stl                              # noqa: E402
+from trajectories import largest_difference, read_dump, read_thermo, run_deck    # noqa: E402
+
+DIAMETER, RADIUS = 0.003, 0.02
+LAWS = {
+    "hooke": "hooke 2000 NULL 1700 NULL 0.3 1",
+    "hooke/history": "hooke/history 2000 NULL 1700 NULL 0.3 1",
+    "hertz/history": "hertz/history 8e6 NULL 1e7 NULL 0.3 1",
+}
+EXACT = {"wall": "wall/gran", "at": "zcylinder 0.02"}
+
+
+def mesh(path):
+    return {"wall": "wall/lsdcd", "at": f"mesh {path}"}
+
+
+def single(work, walls):
+    print("One sphere, 3000 steps: cylinder against mesh")
+    print(f"{'law':16s}{'segments':>9s}{'sagitta/diameter':>18s}{'largest |dF|/max|F|':>21s}{'largest |dx|/diameter':>23s}")
+    for name, law in LAWS.items():
+        tag = name.replace("/", "-")
+        run_deck(HERE / "in.single", work / f"single-{tag}-exact", law=law, **EXACT)
+        _, exact = read_dump(work / f"single-{tag}-exact/dump.txt")
+        for n, path in walls.items():
+            folder = work / f"single-{tag}-{n}"
+            run_deck(HERE / "in.single", folder, law=law, **mesh(path))
+            _, ours = read_dump(folder / "dump.txt")
+            d_force, d_place = largest_difference(exact, ours, DIAMETER)
+            sagitta = RADIUS * (1 - np.cos(np.pi / n)) / DIAMETER
+            print(f"{name:16s}{n:9d}{sagitta:18.1e}{d_force:21.2e}{d_place:23.2e}")
+
+
+def bed(work, walls):
+    print("\n1000 spheres in a standing cylinder: mean over the last quarter (standard deviation)")
+    print(f"{'wall':20s}{'mean height / diameter':>30s}{'kinetic energy per grain, J':>34s}")
+    for name, wall in {"cylinder": EXACT, **{f"{n} segments": mesh(p) for n, p in walls.items()}}.items():
+        folder = work / ("bed-" + name.replace(" ", "-"))
+        run_deck(HERE / "in.bed", folder, **wall)
+        rows = read_thermo(folder / "log.lammps")
+        last = slice(3 * len(rows["Step"]) // 4, None)
+        height, ke = rows["c_height"][last] / DIAMETER, rows["KinEng"][last]
+        print(f"{name:20s}{height.mean():18.4f} ({height.std():.1e}){ke.mean():22.2e} ({ke.std():.0e})")
+
+
+def main():
+    p = argparse.ArgumentParser(description=__doc__)
+    p.add_argument("--work", default="compare-cylinder", help="folder for the runs")
+    p.add_argument("--only", choices=("single", "bed"))
+    arg = p.parse_args()
+    work = Path(arg.work).resolve()
+    work.mkdir(parents=True, exist_ok=True)
+    walls = {}
+    for n in (64, 256, 1024, 4096):
+        path = work / f"cylinder{n}.stl"
+        write_stl(path, cylinder(RADIUS, 0.2, n))
+        walls[n] = path
+    if arg.only != "bed":
+        single(work, walls)
+    if arg.only != "single":
+        bed(work, walls)
+
+
+if __name__ == "__main__":
+    main()
