@@ -8,7 +8,7 @@ namespace lsdcd {
 
 // The local minimum of the distance from q to one feature, if there is one.
 struct Foot {
-  bool found;
+  bool found;       // false: the rest is not set
   Real distance;    // length, >= 0
   Vec3 normal;      // unit, wall -> q; a fixed choice where q lies on the wall
 };
@@ -16,17 +16,22 @@ struct Foot {
 // Each of the three tests has a tolerance `slack` (length) that widens the
 // region of space in which the feature is a local minimum, so that neighbouring
 // regions overlap and no point falls between them. With slack = 0 they are the
-// exact regions: face prism, edge wedge, vertex cone.
+// exact regions: face prism, edge wedge, vertex cone. Feet farther than `within`
+// (length) are not found.
+constexpr Real kAnyDistance = 1e300;
+constexpr Foot kNoFoot = {false, 0, {0, 0, 0}};
 
-LSDCD_FN Foot foot_on_face(const FaceRecord &face, const Vec3 &q, Real slack)
+LSDCD_FN Foot foot_on_face(const FaceRecord &face, const Vec3 &q, Real slack,
+                           Real within = kAnyDistance)
 {
   const Vec3 d = q - face.anchor;
   const Real h = dot(face.normal, d);
-  const bool found = dot(face.inward[0], d) >= -slack &&
+  const bool found = fabs(h) <= within && dot(face.inward[0], d) >= -slack &&
                      dot(face.inward[1], d) + face.height >= -slack &&
                      dot(face.inward[2], d) >= -slack;
-  if (h < 0) return {found, -h, -face.normal};
-  return {found, h, face.normal};
+  if (!found) return kNoFoot;
+  if (h < 0) return {true, -h, -face.normal};
+  return {true, h, face.normal};
 }
 
 LSDCD_FN bool inside_wedge(const EdgeRecord &edge, const Vec3 *edge_inward, const Vec3 &d,
@@ -40,23 +45,24 @@ LSDCD_FN bool inside_wedge(const EdgeRecord &edge, const Vec3 *edge_inward, cons
 }
 
 LSDCD_FN Foot foot_on_edge(const EdgeRecord &edge, const Vec3 *edge_inward, const Vec3 &q,
-                           Real slack)
+                           Real slack, Real within = kAnyDistance)
 {
   const Vec3 d = q - edge.anchor;
   const Real along = dot(edge.direction, d);
+  if (!(along >= -slack && along <= edge.length + slack)) return kNoFoot;
+  if (!inside_wedge(edge, edge_inward, d, slack)) return kNoFoot;
   const Vec3 radial = d - along * edge.direction;
   const Real distance = norm(radial);
-  const bool found =
-      along >= -slack && along <= edge.length + slack && inside_wedge(edge, edge_inward, d, slack);
-  if (distance > 0) return {found, distance, (1 / distance) * radial};
+  if (!(distance <= within)) return kNoFoot;
+  if (distance > 0) return {true, distance, (1 / distance) * radial};
   // On the edge itself: away from its faces, or across a flat pair of them.
   Vec3 away = {0, 0, 0};
   if (edge.n_faces > 0) away -= edge.inward[0];
   if (edge.n_faces > 1) away -= edge.inward[1];
   const Real length = norm(away);
-  if (length > Real(1e-6)) return {found, 0, (1 / length) * away};
-  if (edge.n_faces > 0) return {found, 0, cross(edge.direction, edge.inward[0])};
-  return {found, 0, any_perpendicular(edge.direction)};
+  if (length > Real(1e-6)) return {true, 0, (1 / length) * away};
+  if (edge.n_faces > 0) return {true, 0, cross(edge.direction, edge.inward[0])};
+  return {true, 0, any_perpendicular(edge.direction)};
 }
 
 LSDCD_FN bool inside_cone(const VertexRecord &vertex, const Vec3 *direction, const Vec3 &d,
@@ -68,30 +74,31 @@ LSDCD_FN bool inside_cone(const VertexRecord &vertex, const Vec3 *direction, con
 }
 
 LSDCD_FN Foot foot_on_vertex(const VertexRecord &vertex, const Vec3 *direction, const Vec3 &q,
-                             Real slack)
+                             Real slack, Real within = kAnyDistance)
 {
   const Vec3 d = q - vertex.position;
   const Real distance = norm(d);
-  const bool found = inside_cone(vertex, direction, d, slack);
-  if (distance > 0) return {found, distance, (1 / distance) * d};
+  if (!(distance <= within) || !inside_cone(vertex, direction, d, slack)) return kNoFoot;
+  if (distance > 0) return {true, distance, (1 / distance) * d};
   // On the vertex itself: away from its edges, or across a flat fan of them.
   Vec3 away = {0, 0, 0};
   for (std::uint32_t k = 0; k < vertex.count; k++) away -= direction[vertex.first + k];
   const Real length = norm(away);
-  if (length > Real(1e-6)) return {found, 0, (1 / length) * away};
-  return {found, 0, any_perpendicular(vertex.count > 0 ? direction[vertex.first] : away)};
+  if (length > Real(1e-6)) return {true, 0, (1 / length) * away};
+  return {true, 0, any_perpendicular(vertex.count > 0 ? direction[vertex.first] : away)};
 }
 
-LSDCD_FN Foot foot_on(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &q, Real slack)
+LSDCD_FN Foot foot_on(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &q, Real slack,
+                      Real within = kAnyDistance)
 {
   const std::uint32_t i = feature_index(feature);
   switch (feature_kind(feature)) {
     case FeatureKind::face:
-      return foot_on_face(wall.faces[i], q, slack);
+      return foot_on_face(wall.faces[i], q, slack, within);
     case FeatureKind::edge:
-      return foot_on_edge(wall.edges[i], wall.edge_inward, q, slack);
+      return foot_on_edge(wall.edges[i], wall.edge_inward, q, slack, within);
     default:
-      return foot_on_vertex(wall.vertices[i], wall.vertex_direction, q, slack);
+      return foot_on_vertex(wall.vertices[i], wall.vertex_direction, q, slack, within);
   }
 }
 

@@ -40,7 +40,7 @@ LSDCD_FN void find_contacts(const GridView &grid, const Vec3 &q, Real radius,
   if (!at.brick || !has_candidates(*at.brick, at.cell)) return;
   const Cell cell = grid.cells[cell_index(*at.brick, at.cell)];
   if (cell.count == 1) {
-    const Foot foot = foot_on(grid.wall, cell.first, q, grid.slack);
+    const Foot foot = foot_on(grid.wall, cell.first, q, grid.slack, radius);
     if (foot.found && foot.distance < radius) set.add(cell.first, foot.normal, foot.distance);
     return;
   }
@@ -50,7 +50,7 @@ LSDCD_FN void find_contacts(const GridView &grid, const Vec3 &q, Real radius,
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
     const Candidate candidate = grid.candidates[i];
     if (candidate.bound > enough) break;
-    const Foot foot = foot_on(grid.wall, candidate.feature, q, grid.slack);
+    const Foot foot = foot_on(grid.wall, candidate.feature, q, grid.slack, radius);
     if (foot.found && foot.distance < radius) add_once(set, candidate.feature, foot, grid.slack);
   }
 }

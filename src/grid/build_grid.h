@@ -22,9 +22,7 @@ struct BuildView {
 // on this feature? Every region relaxed by `around` contains the true one.
 LSDCD_FN Foot meets(const BuildView &b, FeatureCode feature, const Vec3 &c, Real around)
 {
-  Foot foot = foot_on(b.wall, feature, c, around + b.plan.slack);
-  foot.found = foot.found && foot.distance <= b.plan.reach + around;
-  return foot;
+  return foot_on(b.wall, feature, c, around + b.plan.slack, b.plan.reach + around);
 }
 
 LSDCD_FN void grow_box(Vec3 &lo, Vec3 &hi, const Vec3 &p)

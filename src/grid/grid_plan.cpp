@@ -46,7 +46,7 @@ GridPlan plan_with_length(const WallMesh &mesh, Real reach, Real length, Real le
   plan.least_volume = least_volume;
   // Covers the regions that flat edges leave out (four times their largest
   // angle, times reach) and the rounding of dot products over a whole face.
-  plan.slack = 4e-12 * reach + 16 * kRoundoff * (diagonal + reach);
+  plan.slack = 4e-13 * reach + 16 * kRoundoff * (diagonal + reach);
   const Real pad = reach + plan.slack + Real(0.5) * length;
   plan.origin = mesh.report.lo - Vec3{pad, pad, pad};
   for (int k = 0; k < 3; k++) {
