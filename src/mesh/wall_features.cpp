@@ -96,7 +96,7 @@ EdgeRecord make_edge(const Vec3 &a, const Vec3 &b)
 
 // Two faces in one plane leave the edge between them no region of its own wider
 // than this angle; the grid's slack is four times wider.
-constexpr Real kFlat = 1e-12;
+constexpr Real kFlat = 1e-13;
 
 bool is_flat(const EdgeRecord &e)
 {

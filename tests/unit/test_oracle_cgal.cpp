@@ -1,0 +1,454 @@
+// Contacts against CGAL's AABB tree over the bare triangles, in long double.
+// Its own program: CGAL takes long to compile. LSDCD_QUICK=1 tries a tenth.
+#include "contact/find_contacts.h"
+#include "grid/triangle_grid.h"
+#include "support/meshes.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <random>
+
+namespace lsdcd {
+namespace {
+
+constexpr int kPlaces = 512;
+using Wide = long double;
+using Random = std::mt19937_64;
+using Kernel = CGAL::Simple_cartesian<Wide>;
+using Triangles = std::vector<Kernel::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+Real uniform(Random &random, Real lo, Real hi)
+{
+  return std::uniform_real_distribution<Real>(lo, hi)(random);
+}
+
+long n_points(long full)
+{
+  const char *quick = std::getenv("LSDCD_QUICK");
+  return quick && *quick == '1' ? full / 10 : full;
+}
+
+// A mesh on both sides of the comparison.
+struct Case {
+  TriangleSoup soup;
+  Triangles triangles;
+  std::unique_ptr<Tree> tree;
+  TriangleGrid grid;
+  Vec3 lo, hi;
+  Real diagonal, reach;
+
+  explicit Case(TriangleSoup given, Real reach_share = 0.05) : soup(std::move(given))
+  {
+    lo = hi = soup.corners[0];
+    for (const Vec3 &p : soup.corners)
+      for (int k = 0; k < 3; k++) lo[k] = std::fmin(lo[k], p[k]), hi[k] = std::fmax(hi[k], p[k]);
+    diagonal = norm(hi - lo);
+    reach = reach_share * diagonal;
+    const auto point = [](const Vec3 &p) { return Kernel::Point_3(p.x, p.y, p.z); };
+    for (std::size_t t = 0; t < soup.corners.size(); t += 3)
+      triangles.emplace_back(point(soup.corners[t]), point(soup.corners[t + 1]),
+                             point(soup.corners[t + 2]));
+    tree = std::make_unique<Tree>(triangles.begin(), triangles.end());
+    tree->build();
+    tree->accelerate_distance_queries();
+    GridSettings settings;
+    settings.reach = reach;
+    grid = build_grid(weld(soup, 0), settings);    // exact: the same wall, not one welded
+  }
+
+  // Every second point anywhere within reach, the others near edges and vertices.
+  Vec3 query(Random &random) const
+  {
+    if (random() % 2)
+      return {uniform(random, lo.x - reach, hi.x + reach),
+              uniform(random, lo.y - reach, hi.y + reach),
+              uniform(random, lo.z - reach, hi.z + reach)};
+    const std::size_t t = 3 * (random() % soup.n_triangles()), k = random() % 3;
+    const Vec3 a = soup.corners[t + k], b = soup.corners[t + (k + 1) % 3];
+    const Vec3 p = random() % 2 ? a : a + uniform(random, 0, 1) * (b - a);
+    const Real away = diagonal * std::pow(10., uniform(random, -12, -3));
+    const Vec3 d = {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+    return p + away * d;
+  }
+};
+
+// Calls f(random, i) for n points in blocks with a seed each, whatever the threads.
+template <class F>
+void for_points(long n, unsigned seed, F f)
+{
+  constexpr long kBlock = 1000;
+#pragma omp parallel for schedule(dynamic)
+  for (long b = 0; b < n / kBlock; b++) {
+    Random random(seed * 1000003ul + b);
+    for (long i = 0; i < kBlock; i++) f(random);
+  }
+}
+
+// The tolerance asked for: 1e-13 of the diagonal. CGAL's projection onto a
+// triangle loses its aspect ratio times 1e-19, far less for meshes below 1e4.
+void expect_same_distance(const Case &c)
+{
+  const Real tolerance = 1e-13 * c.diagonal;
+  const GridView view = c.grid.view();
+  long missed = 0, wrong = 0, false_ones = 0, touching = 0;
+  Real largest = 0;
+  Vec3 worst = {0, 0, 0};
+  for_points(n_points(1000000), 1, [&](Random &random) {
+    const Vec3 q = c.query(random);
+    const Wide d_sq = c.tree->squared_distance(Kernel::Point_3(q.x, q.y, q.z));
+    const Wide d = std::sqrt(d_sq);
+    ContactSet<kPlaces> set;
+    find_contacts(view, q, c.reach, set);
+    Real nearest = HUGE_VAL;
+    for (int k = 0; k < set.n; k++) nearest = std::fmin(nearest, set.distance[k]);
+    const bool miss = set.n == 0 && d < c.reach - tolerance;
+    const bool extra = set.n > 0 && d > c.reach + tolerance;
+    const Real error = set.n > 0 && !extra ? static_cast<Real>(std::fabs(nearest - d)) : 0;
+#pragma omp critical
+    {
+      missed += miss;
+      false_ones += extra;
+      wrong += error > tolerance;
+      touching += set.n > 0;
+      if (error > largest || miss || extra) {
+        largest = std::fmax(largest, error);
+        worst = q;
+      }
+    }
+  });
+  std::printf("  %zu triangles: %ld contacts, largest error %.2g of the diagonal\n",
+              c.soup.n_triangles(), touching, largest / c.diagonal);
+  EXPECT_EQ(missed, 0) << worst.x << " " << worst.y << " " << worst.z;
+  EXPECT_EQ(false_ones, 0) << worst.x << " " << worst.y << " " << worst.z;
+  EXPECT_EQ(wrong, 0) << largest << " at " << worst.x << " " << worst.y << " " << worst.z;
+  EXPECT_GT(touching, n_points(1000000) / 10);
+}
+
+// ---- an independent definition of local minima --------------------------------------
+
+struct WideVec {
+  Wide x, y, z;
+};
+WideVec operator-(const WideVec &a, const WideVec &b)
+{
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Wide dot(const WideVec &a, const WideVec &b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+WideVec along(const WideVec &a, Wide t, const WideVec &d)
+{
+  return {a.x + t * d.x, a.y + t * d.y, a.z + t * d.z};
+}
+WideVec wide(const Vec3 &a)
+{
+  return {a.x, a.y, a.z};
+}
+Wide length(const WideVec &a)
+{
+  return std::sqrt(dot(a, a));
+}
+
+// The closest point of a triangle: the foot on its plane where that lies inside,
+// else the nearest to it of the three sides' closest points.
+WideVec closest(const WideVec (&p)[3], const WideVec &q)
+{
+  const WideVec u = p[1] - p[0], v = p[2] - p[0], w = q - p[0];
+  const Wide uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
+  const Wide det = uu * vv - uv * uv, s = (vv * wu - uv * wv) / det, t = (uu * wv - uv * wu) / det;
+  const WideVec foot = along(along(p[0], s, u), t, v);
+  if (s >= 0 && t >= 0 && s + t <= 1) return foot;
+  WideVec best = p[0];
+  Wide least = HUGE_VALL;
+  for (int k = 0; k < 3; k++) {
+    const WideVec e = p[(k + 1) % 3] - p[k];
+    Wide at = dot(q - p[k], e) / dot(e, e);
+    at = at < 0 ? 0 : (at > 1 ? 1 : at);
+    const WideVec x = along(p[k], at, e);
+    if (length(foot - x) < least) {    // in the plane: from q, offsets below 1e-10 are lost
+      least = length(foot - x);
+      best = x;
+    }
+  }
+  return best;
+}
+
+struct Minimum {
+  WideVec foot;
+  int seen;    // in how many of the positions tried
+};
+
+// Faces within the radius by CGAL; the closest point on each. It is a local
+// minimum of the wall if it is the closest point of every face that contains it.
+// Position is only good to the slack, so the minima of q are those of its corners,
+// a little way off: sure where every one has it, possible where one has.
+class Minima {
+ public:
+  static constexpr int kCorners = 8;
+
+  explicit Minima(const Case &c) : c_(c)
+  {
+    for (std::size_t i = 0; i < c.soup.corners.size(); i++) {
+      const Vec3 &p = c.soup.corners[i];
+      faces_at_[{p.x, p.y, p.z}].push_back(i / 3);
+    }
+  }
+
+  // A hundred times the slack, and feet that far apart for faces of any angle.
+  Real shift() const { return 2e-12 * c_.diagonal; }
+  Real close() const { return 1e-10 * c_.diagonal; }
+
+  // By the faces that hold the foot.
+  using Map = std::map<std::vector<std::size_t>, Minimum>;
+  Map around(const Vec3 &q, Real radius) const
+  {
+    const Wide r = radius + 1e-6 * c_.diagonal;
+    const Kernel::Iso_cuboid_3 box(q.x - r, q.y - r, q.z - r, q.x + r, q.y + r, q.z + r);
+    std::vector<Primitive::Id> near;
+    c_.tree->all_intersected_primitives(box, std::back_inserter(near));
+    Map out;
+    for (int k = 0; k < kCorners; k++) {
+      const Real s = shift();
+      add_minima(near, q + Vec3{k & 1 ? s : -s, k & 2 ? s : -s, k & 4 ? s : -s},
+                 radius + (k & 1 ? s : -s), out);
+    }
+    return out;
+  }
+
+ private:
+  using Key = std::array<Real, 3>;
+
+  void add_minima(const std::vector<Primitive::Id> &near, const Vec3 &q, Real radius,
+                  Map &out) const
+  {
+    std::vector<std::vector<std::size_t>> known;
+    for (const auto &id : near) {
+      const std::size_t face = id - c_.triangles.begin();
+      const WideVec foot = closest_on(face, q);
+      if (length(wide(q) - foot) >= radius) continue;
+      std::vector<std::size_t> holding = {face};
+      bool is_minimum = true;
+      for (int k = 0; k < 3 && is_minimum; k++)
+        for (std::size_t other : faces_at_.at(key(face, k))) {
+          if (std::find(holding.begin(), holding.end(), other) != holding.end()) continue;
+          if (!on_face(other, foot)) continue;
+          holding.push_back(other);
+          is_minimum = is_minimum && length(closest_on(other, q) - foot) <= round_off();
+        }
+      if (!is_minimum) continue;
+      std::sort(holding.begin(), holding.end());
+      if (std::find(known.begin(), known.end(), holding) != known.end()) continue;
+      known.push_back(holding);
+      out.insert({holding, {foot, 0}}).first->second.seen++;
+    }
+  }
+  // Long double leaves 1e-19 of the coordinates, times the aspect ratio.
+  Wide round_off() const { return 1e-15L * c_.diagonal; }
+  bool on_face(std::size_t face, const WideVec &x) const
+  {
+    WideVec p[3];
+    corners(face, p);
+    return length(closest(p, x) - x) <= round_off();
+  }
+  void corners(std::size_t face, WideVec (&p)[3]) const
+  {
+    for (int k = 0; k < 3; k++) p[k] = wide(c_.soup.corners[3 * face + k]);
+  }
+  WideVec closest_on(std::size_t face, const Vec3 &q) const
+  {
+    WideVec p[3];
+    corners(face, p);
+    return closest(p, wide(q));
+  }
+  Key key(std::size_t face, int k) const
+  {
+    const Vec3 &p = c_.soup.corners[3 * face + k];
+    return {p.x, p.y, p.z};
+  }
+
+  const Case &c_;
+  std::map<Key, std::vector<std::size_t>> faces_at_;
+};
+
+// Our contacts are the local minima: every sure one is there, nothing is that is
+// not one, and none is there twice.
+void expect_same_minima(const Case &c)
+{
+  const Minima minima(c);
+  const GridView view = c.grid.view();
+  long missing = 0, extra = 0, doubled = 0, unsure = 0, sure = 0;
+  Vec3 where = {0, 0, 0};
+  for_points(n_points(100000), 2, [&](Random &random) {
+    const Vec3 q = c.query(random);
+    const Minima::Map expected = minima.around(q, c.reach);
+    ContactSet<kPlaces> set;
+    find_contacts(view, q, c.reach, set);
+    long not_there = 0, not_one = 0, twice = 0, n_sure = 0;
+    const auto foot = [&](int k) { return wide(q - set.distance[k] * set.normal[k]); };
+    for (const auto &m : expected) {
+      if (m.second.seen < Minima::kCorners) continue;
+      n_sure++;
+      int ours = 0, possible = 0;
+      for (int k = 0; k < set.n; k++) ours += length(foot(k) - m.second.foot) <= minima.close();
+      for (const auto &o : expected)
+        possible += length(o.second.foot - m.second.foot) <= 2 * minima.close();
+      not_there += ours == 0;
+      twice += ours > possible;
+    }
+    for (int k = 0; k < set.n; k++) {
+      bool is_one = false;
+      for (const auto &m : expected)
+        is_one = is_one || length(foot(k) - m.second.foot) <= minima.close();
+      not_one += !is_one;
+    }
+#pragma omp critical
+    {
+      missing += not_there;
+      extra += not_one;
+      doubled += twice;
+      sure += n_sure;
+      unsure += static_cast<long>(expected.size()) - n_sure;
+      if (not_there || not_one || twice) where = q;
+    }
+  });
+  std::printf("  %zu triangles: %ld minima, %ld more for a shift of 2e-12\n", c.soup.n_triangles(),
+              sure, unsure);
+  EXPECT_EQ(missing, 0) << where.x << " " << where.y << " " << where.z;
+  EXPECT_EQ(extra, 0) << where.x << " " << where.y << " " << where.z;
+  EXPECT_EQ(doubled, 0) << where.x << " " << where.y << " " << where.z;
+  EXPECT_GT(sure, n_points(100000) / 10);
+}
+
+// ---- made meshes -------------------------------------------------------------------
+
+TriangleSoup cylinder_of(int n_triangles)
+{
+  // 2 n m + 2 n triangles; segments along as long as those round.
+  if (n_triangles == 160) return cylinder_mesh(20, 3, 5, 10);
+  if (n_triangles == 10000) return cylinder_mesh(100, 49, 5, 10);
+  return cylinder_mesh(250, 199, 5, 10);
+}
+
+TEST(made, cylinder_of_160_triangles_has_the_distance_that_cgal_finds)
+{
+  expect_same_distance(Case(cylinder_of(160)));
+}
+TEST(made, cylinder_of_1e4_triangles_has_the_distance_that_cgal_finds)
+{
+  expect_same_distance(Case(cylinder_of(10000)));
+}
+TEST(made, cylinder_of_1e5_triangles_has_the_distance_that_cgal_finds)
+{
+  expect_same_distance(Case(cylinder_of(100000)));
+}
+TEST(made, cylinder_of_160_triangles_has_a_contact_per_local_minimum)
+{
+  expect_same_minima(Case(cylinder_of(160), 0.1));
+}
+TEST(made, cylinder_of_1e4_triangles_has_a_contact_per_local_minimum)
+{
+  expect_same_minima(Case(cylinder_of(10000), 0.02));
+}
+TEST(made, box_has_a_contact_per_local_minimum)
+{
+  expect_same_minima(Case(box_mesh({0, 0, 0}, {1, 2, 3}), 0.3));
+}
+
+// ---- real meshes --------------------------------------------------------------------
+
+constexpr const char *kArchive = LSDCD_CGAL_DATA;
+constexpr const char *kMeshes[] = {"lion", "elephant", "fandisk"};
+
+std::string mesh_path(const std::string &name)
+{
+  return std::string(LSDCD_UNPACKED) + "/data/meshes/" + name + ".off";
+}
+
+// Unpacks the meshes into the build directory. False where the archive is missing.
+bool unpack()
+{
+  bool there = true;
+  for (const char *name : kMeshes) there = there && std::filesystem::exists(mesh_path(name));
+  if (there) return true;
+  if (!std::filesystem::exists(kArchive)) return false;
+  std::filesystem::create_directories(LSDCD_UNPACKED);
+  std::string command = std::string("tar xzf '") + kArchive + "' -C '" + LSDCD_UNPACKED + "'";
+  for (const char *name : kMeshes) command += std::string(" data/meshes/") + name + ".off";
+  return std::system(command.c_str()) == 0;
+}
+
+TriangleSoup read_off(const std::string &name)
+{
+  if (!unpack()) throw std::runtime_error(std::string(kArchive) + " is missing");
+  std::ifstream in(mesh_path(name));
+  std::string word;
+  std::size_t n_vertices = 0, n_faces = 0, n_edges = 0;
+  in >> word >> n_vertices >> n_faces >> n_edges;
+  std::vector<Vec3> p(n_vertices);
+  for (Vec3 &x : p) in >> x.x >> x.y >> x.z;
+  TriangleSoup soup;
+  soup.source = name;
+  for (std::size_t f = 0; f < n_faces; f++) {
+    std::size_t n = 0, v[3] = {0, 0, 0};
+    in >> n >> v[0] >> v[1] >> v[2];
+    if (!in || n != 3) throw std::runtime_error(name + ".off is not all triangles");
+    in.ignore(1000, '\n');
+    for (std::size_t k : v) soup.corners.push_back(p.at(k));
+  }
+  return soup;
+}
+
+TEST(real, lion_has_the_distance_that_cgal_finds)
+{
+  expect_same_distance(Case(read_off("lion")));
+}
+TEST(real, elephant_has_the_distance_that_cgal_finds)
+{
+  expect_same_distance(Case(read_off("elephant")));
+}
+TEST(real, fandisk_has_the_distance_that_cgal_finds)
+{
+  expect_same_distance(Case(read_off("fandisk")));
+}
+TEST(real, lion_has_a_contact_per_local_minimum)
+{
+  expect_same_minima(Case(read_off("lion"), 0.02));
+}
+TEST(real, elephant_has_a_contact_per_local_minimum)
+{
+  expect_same_minima(Case(read_off("elephant"), 0.02));
+}
+TEST(real, fandisk_has_a_contact_per_local_minimum)
+{
+  expect_same_minima(Case(read_off("fandisk"), 0.02));
+}
+
+}    // namespace
+}    // namespace lsdcd
+
+int main(int argc, char **argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  if (testing::GTEST_FLAG(filter) == "real.*" && !lsdcd::unpack()) {
+    std::printf("skipped: %s is missing; install libcgal-demo\n", lsdcd::kArchive);
+    return 77;
+  }
+  return RUN_ALL_TESTS();
+}
