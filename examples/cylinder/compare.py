@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """fix wall/gran zcylinder against fix wall/lsdcd on cylinders of N flat segments.
 
-A mesh is another shape than the cylinder: what it does must tend to what the
-cylinder does as N grows. Needs build/bin/lmp-lsdcd and numpy.
+A mesh is another shape than the cylinder: its places differ by the sagitta, 1/N^2,
+its normals by half a segment, 1/N. What it does must tend to what the cylinder does
+as N grows. Needs build/bin/lmp-lsdcd and numpy.
 """
 import argparse
 import sys
@@ -28,9 +29,16 @@ def mesh(path):
     return {"wall": "wall/lsdcd", "at": f"mesh {path}"}
 
 
+def energy(data):
+    """Of the one sphere per unit mass, with gravity along -y: motion, spin and height."""
+    x, v, spin = data[:, 0, :3], data[:, 0, 6:9], data[:, 0, 9:12]
+    return ((v**2).sum(1) / 2 + 0.2 * (DIAMETER / 2)**2 * (spin**2).sum(1) + 9.81 * (x[:, 1] + RADIUS))
+
+
 def single(work, walls):
     print("One sphere, 3000 steps: cylinder against mesh")
-    print(f"{'law':16s}{'segments':>9s}{'sagitta/diameter':>18s}{'largest |dF|/max|F|':>21s}{'largest |dx|/diameter':>23s}")
+    print(f"{'law':16s}{'segments':>9s}{'sagitta/diameter':>18s}{'largest |dF|/max|F|':>21s}{'largest |dx|/diameter':>23s}"
+          f"{'energy left':>13s}{'cylinder':>10s}")
     for name, law in LAWS.items():
         tag = name.replace("/", "-")
         run_deck(HERE / "in.single", work / f"single-{tag}-exact", law=law, **EXACT)
@@ -41,7 +49,8 @@ def single(work, walls):
             _, ours = read_dump(folder / "dump.txt")
             d_force, d_place = largest_difference(exact, ours, DIAMETER)
             sagitta = RADIUS * (1 - np.cos(np.pi / n)) / DIAMETER
-            print(f"{name:16s}{n:9d}{sagitta:18.1e}{d_force:21.2e}{d_place:23.2e}")
+            print(f"{name:16s}{n:9d}{sagitta:18.1e}{d_force:21.2e}{d_place:23.2e}"
+                  f"{energy(ours)[-1] / energy(ours)[0]:13.4f}{energy(exact)[-1] / energy(exact)[0]:10.4f}")
 
 
 def bed(work, walls):

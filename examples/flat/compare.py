@@ -23,8 +23,8 @@ LAWS = {
 PLANE = {"wall": "wall/gran", "at": "zplane 0 NULL"}
 
 
-def mesh(path):
-    return {"wall": "wall/lsdcd", "at": f"mesh {path}"}
+def mesh(path, words=""):
+    return {"wall": "wall/lsdcd", "at": f"mesh {path} {words}"}
 
 
 def single(work, floors):
@@ -44,7 +44,7 @@ def single(work, floors):
 
 def bed(work, path, n, plot):
     runs = {"plane, 1 process": (1, PLANE), "plane, 2 processes": (2, PLANE),
-            "mesh, 1 process": (1, mesh(path)), "mesh, 2 processes": (2, mesh(path))}
+            "mesh, 1 process": (1, mesh(path, "periodic")), "mesh, 2 processes": (2, mesh(path, "periodic"))}
     data, thermo = {}, {}
     for name, (ranks, wall) in runs.items():
         folder = work / ("bed-" + name.replace(", ", "-").replace(" ", "-"))
