@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+"""One deck gives the same numbers under lmp-lsdcd and under a LAMMPS with PLUGIN.
+
+LSDCD_PLUGIN_HOST names that LAMMPS, of the version that the plugin is built for;
+without it there is nothing to run (exit status 77).
+"""
+
+import os
+import pathlib
+import sys
+
+import deck
+import scene
+
+HOST = os.environ.get("LSDCD_PLUGIN_HOST", "")
+PLUGIN = pathlib.Path(deck.LMP).resolve().parent.parent / "lib" / "lsdcdplugin.so"
+LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
+
+
+def main():
+    if not HOST:
+        print("SKIPPED: LSDCD_PLUGIN_HOST names no LAMMPS with PLUGIN")
+        sys.exit(77)
+    checks, folder = deck.Checks(), deck.scratch()
+    scene.write_floor(folder / "floor.stl")
+    own, moves = deck.LMP, []
+    body = scene.CREATE + scene.forces(LAW) + scene.dump("moves", 100) + "run 1000\n"
+    for program in (own, HOST):
+        deck.LMP = program
+        deck.run_well(f"plugin load {PLUGIN}\n" + body, folder)
+        moves.append(deck.read_dump(folder / "moves"))
+    # Another compiler or flags may round the integrator otherwise.
+    checks.at_most("same trajectory", deck.largest_difference(*moves), 1e-9)
+
+    deck.LMP = HOST
+    text = deck.run_well(f"plugin load {PLUGIN}\nplugin list\n" + body +
+                         f"clear\nplugin load {PLUGIN}\n" + body +
+                         "undump moves\nplugin unload fix wall/lsdcd\nplugin list\nrun 10\n", folder)
+    checks.fact("load, clear, load, unload", text.count("Loading plugin: fix wall/lsdcd") == 2)
+    checks.fact("on 2 ranks", "Loop time" in deck.run_well(f"plugin load {PLUGIN}\n" + body, folder, 2))
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
