@@ -81,7 +81,9 @@ class CornerRule {
         }
       }
       if (enter < 0) break;
-      if (!push(set, enter)) {    // parallel to those already in: adds nothing
+      bool is_in = push(set, enter);
+      while (!is_in && make_room(set, enter)) is_in = push(set, enter);
+      if (!is_in) {    // round-off only: nothing that it could take the place of
         refused[enter] = true;
         continue;
       }
@@ -132,6 +134,51 @@ class CornerRule {
     return true;
   }
 
+  // Contact i is a combination of the active ones, to rounding: its share can grow
+  // while theirs keep the sum, which lowers the energy, until one of them is used
+  // up and leaves. False if none shrinks. push() of i must just have failed.
+  LSDCD_FN bool make_room(const ContactSet<kPlaces> &set, int i)
+  {
+    const int m = n_active_;
+    for (int k = m - 1; k >= 0; k--) {    // the combination, from push()'s new row
+      target_[k] = at(m, k);
+      for (int p = k + 1; p < m; p++) target_[k] -= at(p, k) * target_[p];
+      target_[k] /= at(k, k);
+    }
+    int leaving = -1;
+    Real most = 0;
+    for (int k = 0; k < m; k++) {
+      if (!(target_[k] > kTiny)) continue;
+      const Real reach = l_[active_[k]] / target_[k];
+      if (leaving < 0 || reach < most) {
+        most = reach;
+        leaving = k;
+      }
+    }
+    if (leaving < 0) return false;
+    l_[i] += most;
+    for (int k = 0; k < m; k++) {
+      const Real rest = l_[active_[k]] - most * target_[k];
+      l_[active_[k]] = rest > 0 ? rest : 0;
+    }
+    leave(set, leaving);
+    return true;
+  }
+
+  // Takes the k-th active contact out and factors the others afresh.
+  LSDCD_FN void leave(const ContactSet<kPlaces> &set, int leaving)
+  {
+    const int m = n_active_;
+    int kept[kPlaces];
+    int n_kept = 0;
+    for (int k = 0; k < m; k++)
+      if (k != leaving) kept[n_kept++] = active_[k];
+    l_[active_[leaving]] = 0;
+    n_active_ = 0;
+    for (int k = 0; k < n_kept; k++)
+      if (!push(set, kept[k])) l_[kept[k]] = 0;
+  }
+
   // Moves l to the solution on the active set, or as far towards it as l >= 0
   // allows and drops the contact that stopped it. True when it arrived.
   LSDCD_FN bool step(const ContactSet<kPlaces> &set, Real radius)
@@ -151,7 +198,7 @@ class CornerRule {
     for (int k = 0; k < m; k++) {
       if (target_[k] > 0) continue;
       const Real from = l_[active_[k]];
-      const Real reach = from / (from - target_[k]);
+      const Real reach = from > 0 ? from / (from - target_[k]) : 0;
       if (reach < part || blocking < 0) {
         part = reach;
         blocking = k;
@@ -165,19 +212,13 @@ class CornerRule {
       Real &l = l_[active_[k]];
       l += part * (target_[k] - l);
     }
-    l_[active_[blocking]] = 0;
-    int kept[kPlaces];
-    int n_kept = 0;
-    for (int k = 0; k < m; k++)
-      if (k != blocking) kept[n_kept++] = active_[k];
-    n_active_ = 0;
-    for (int k = 0; k < n_kept; k++)
-      if (!push(set, kept[k])) l_[kept[k]] = 0;
+    leave(set, blocking);
     return n_active_ == 0;
   }
 
-  // Below this share of a unit, a pivot or a slope is round-off.
-  static constexpr Real kTiny = 1e-13;
+  // Below this share of a unit, a pivot or a slope is round-off. Leaving a slope
+  // of it unused shifts the force by sqrt(2 kTiny) of the overlap at most.
+  static constexpr Real kTiny = 5e-15;
 
   int n_active_ = 0;
   int active_[kPlaces];
