@@ -46,9 +46,9 @@ void add_contour(const WallMesh &mesh, int axis, Real level, std::vector<Stroke>
 void add_contours(const WallMesh &mesh, std::vector<Stroke> &strokes)
 {
   const Vec3 lo = mesh.report.lo, side = mesh.report.hi - mesh.report.lo;
-  int longest = 0;
-  for (int axis = 1; axis < 3; axis++)
-    if (side[axis] > side[longest]) longest = axis;
+  int longest = 2;    // level cuts where sides are about equal
+  for (int axis = 0; axis < 2; axis++)
+    if (side[axis] > Real(1.01) * side[longest]) longest = axis;
   for (int axis = 0; axis < 3; axis++) {
     const int cuts = axis == longest ? kLongCuts : 1;
     for (int k = 0; k < cuts; k++)
