@@ -1,0 +1,501 @@
+// Feet on faces, edges and vertices against closed forms and quad precision.
+#include "contact/closest_point.h"
+#include "mesh/wall_features.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <utility>
+
+namespace lsdcd {
+namespace {
+
+using Random = std::mt19937_64;
+
+Real uniform(Random &random, Real lo, Real hi)
+{
+  return std::uniform_real_distribution<Real>(lo, hi)(random);
+}
+
+// The records of a soup, with the view that a query takes.
+struct Wall {
+  WallMesh mesh;
+  WallFeatures features;
+  WallFeaturesView view;
+
+  explicit Wall(const std::vector<Vec3> &corners, bool sides = false) :
+      mesh(weld({corners, "test"}, 0)),
+      features(make_features(mesh, sides)), view{features.faces.data(),
+                                                 features.edges.data(),
+                                                 features.vertices.data(),
+                                                 features.edge_inward.data(),
+                                                 features.vertex_direction.data(),
+                                                 features.face_vertex.data(),
+                                                 features.edge_vertex.data(),
+                                                 features.edge_out.data(),
+                                                 features.vertex_out.data()}
+  {
+  }
+  explicit Wall(const TriangleSoup &soup) : Wall(soup.corners) {}
+
+  int vertex_at(const Vec3 &p) const
+  {
+    for (std::size_t i = 0; i < mesh.vertices.size(); i++)
+      if (mesh.vertices[i] == p) return static_cast<int>(i);
+    return -1;
+  }
+  int edge_between(const Vec3 &a, const Vec3 &b) const
+  {
+    const int i = vertex_at(a), j = vertex_at(b);
+    for (std::size_t e = 0; e < mesh.edges.size(); e++)
+      if (mesh.edges[e][0] == std::min(i, j) && mesh.edges[e][1] == std::max(i, j))
+        return static_cast<int>(e);
+    return -1;
+  }
+  Foot on_face(int i, const Vec3 &q, Real slack = 0) const
+  {
+    return foot_on(view, feature_code(FeatureKind::face, i), q, slack);
+  }
+  Foot on_edge(const Vec3 &a, const Vec3 &b, const Vec3 &q, Real slack = 0) const
+  {
+    return foot_on(view, feature_code(FeatureKind::edge, edge_between(a, b)), q, slack);
+  }
+  Foot on_vertex(const Vec3 &p, const Vec3 &q, Real slack = 0) const
+  {
+    return foot_on(view, feature_code(FeatureKind::vertex, vertex_at(p)), q, slack);
+  }
+  // The nearest foot on any feature, flat ones too.
+  Real nearest(const Vec3 &q, Real slack) const
+  {
+    Real least = HUGE_VAL;
+    const auto try_one = [&](FeatureKind kind, std::size_t n) {
+      for (std::size_t i = 0; i < n; i++) {
+        const Foot f = foot_on(view, feature_code(kind, static_cast<std::uint32_t>(i)), q, slack);
+        if (f.found) least = std::fmin(least, f.distance);
+      }
+    };
+    try_one(FeatureKind::face, features.faces.size());
+    try_one(FeatureKind::edge, features.edges.size());
+    try_one(FeatureKind::vertex, features.vertices.size());
+    return least;
+  }
+  int kept(FeatureKind kind) const
+  {
+    return static_cast<int>(std::count_if(features.contact_features.begin(),
+                                          features.contact_features.end(),
+                                          [&](FeatureCode f) { return feature_kind(f) == kind; }));
+  }
+};
+
+const Vec3 kA = {0, 0, 0}, kB = {4, 0, 0}, kC = {0, 3, 0};    // 3-4-5
+
+// ---- regions -------------------------------------------------------------------------
+
+TEST(face, holds_the_points_of_its_prism)
+{
+  const Wall wall({kA, kB, kC});
+  EXPECT_TRUE(wall.on_face(0, {1, 1, 0.5}).found);
+  EXPECT_TRUE(wall.on_face(0, {1, 1, -0.5}).found);
+  EXPECT_FALSE(wall.on_face(0, {-0.001, 1, 0.5}).found);
+  EXPECT_FALSE(wall.on_face(0, {1, -0.001, 0.5}).found);
+  EXPECT_FALSE(wall.on_face(0, {2, 1.501, 0.5}).found);
+  EXPECT_TRUE(wall.on_face(0, {2, 1.499, 0.5}).found);
+}
+
+TEST(face, has_the_height_as_distance_and_a_normal_towards_the_centre)
+{
+  const Wall wall({kA, kB, kC});
+  for (Real z : {0.5, -0.25, 1e-12, -1e-300}) {
+    const Foot f = wall.on_face(0, {1, 1, z});
+    EXPECT_EQ(f.distance, std::fabs(z));
+    EXPECT_EQ(f.normal, (Vec3{0, 0, z > 0 ? 1. : -1.}));
+  }
+}
+
+TEST(face, slack_widens_its_prism_by_a_length)
+{
+  const Wall wall({kA, kB, kC});
+  for (const Vec3 &q : {Vec3{1, -0.1, 1}, Vec3{-0.1, 1, 1}, Vec3{2 + 0.06, 1.5 + 0.08, 1}}) {
+    EXPECT_FALSE(wall.on_face(0, q, 0.0999).found);
+    EXPECT_TRUE(wall.on_face(0, q, 0.1001).found);
+  }
+}
+
+TEST(edge, free_one_holds_the_half_cylinder_away_from_its_face)
+{
+  const Wall wall({kA, kB, kC});
+  const Foot f = wall.on_edge(kA, kB, {1, -0.3, 0.4});
+  ASSERT_TRUE(f.found);
+  EXPECT_NEAR(f.distance, 0.5, 2 * kRoundoff);
+  EXPECT_LE(norm(f.normal - Vec3{0, -0.6, 0.8}), 4 * kRoundoff);
+  EXPECT_FALSE(wall.on_edge(kA, kB, {1, 0.001, 0.4}).found);
+  EXPECT_FALSE(wall.on_edge(kA, kB, {-0.001, -0.3, 0.4}).found);
+  EXPECT_FALSE(wall.on_edge(kA, kB, {4.001, -0.3, 0.4}).found);
+}
+
+TEST(edge, convex_one_holds_its_wedge)
+{
+  const Wall wall(box_mesh({0, 0, 0}, {1, 1, 1}));
+  const Vec3 a = {1, 0, 1}, b = {1, 1, 1};
+  EXPECT_TRUE(wall.on_edge(a, b, {1.3, 0.5, 1.4}).found);
+  EXPECT_NEAR(wall.on_edge(a, b, {1.3, 0.5, 1.4}).distance, 0.5, 4 * kRoundoff);
+  EXPECT_FALSE(wall.on_edge(a, b, {0.999, 0.5, 1.4}).found);
+  EXPECT_FALSE(wall.on_edge(a, b, {1.3, 0.5, 0.999}).found);
+  // From inside the two faces are nearer, however near the edge.
+  EXPECT_FALSE(wall.on_edge(a, b, {0.99, 0.5, 0.99}).found);
+}
+
+TEST(vertex, convex_one_holds_its_cone)
+{
+  const Wall wall(box_mesh({0, 0, 0}, {1, 1, 1}));
+  const Foot f = wall.on_vertex({1, 1, 1}, {3, 4, 7});
+  ASSERT_TRUE(f.found);
+  EXPECT_NEAR(f.distance, 7, 8 * kRoundoff);
+  EXPECT_LE(norm(f.normal - Vec3{2. / 7, 3. / 7, 6. / 7}), 4 * kRoundoff);
+  for (int k = 0; k < 3; k++) {
+    Vec3 q = {1.1, 1.1, 1.1};
+    q[k] = 0.999;
+    EXPECT_FALSE(wall.on_vertex({1, 1, 1}, q).found);
+  }
+}
+
+TEST(vertex, slack_widens_its_cone_by_a_length)
+{
+  const Wall wall(box_mesh({0, 0, 0}, {1, 1, 1}));
+  EXPECT_FALSE(wall.on_vertex({1, 1, 1}, {0.9, 2, 2}, 0.099).found);
+  EXPECT_TRUE(wall.on_vertex({1, 1, 1}, {0.9, 2, 2}, 0.101).found);
+}
+
+// ---- the paper's formula (5) is neither sufficient nor necessary ------------------------
+
+TEST(face, point_below_an_equilateral_triangle_is_outside)
+{
+  // All six products of formula (5) are >= 0 here, the distance is not 0 but 0.577.
+  const Vec3 a = {0, 0, 0}, b = {2, 0, 0}, c = {1, 1.732, 0}, o = {1, -0.577, 0};
+  const Wall wall({a, b, c});
+  EXPECT_FALSE(wall.on_face(0, o).found);
+  EXPECT_TRUE(wall.on_edge(a, b, o).found);
+  EXPECT_EQ(wall.on_edge(a, b, o).distance, 0.577);
+}
+
+TEST(face, point_in_an_obtuse_triangle_is_inside)
+{
+  // Formula (5) wants AO.AB >= 0, which is -220.
+  const Wall wall({{0, 0, 0}, {20, 0, 0}, {-20, 20, 0}});
+  const Foot f = wall.on_face(0, {-11, 13, 0});
+  EXPECT_TRUE(f.found);
+  EXPECT_EQ(f.distance, 0);
+}
+
+// ---- slivers against quad precision ----------------------------------------------------
+
+using Quad = __float128;
+struct QuadVec {
+  Quad x, y, z;
+};
+QuadVec operator-(const QuadVec &a, const QuadVec &b)
+{
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+QuadVec plus(const QuadVec &a, Quad t, const QuadVec &d)
+{
+  return {a.x + t * d.x, a.y + t * d.y, a.z + t * d.z};
+}
+Quad dot(const QuadVec &a, const QuadVec &b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+QuadVec quad(const Vec3 &a)
+{
+  return {a.x, a.y, a.z};
+}
+Real length(const QuadVec &a)
+{
+  return static_cast<Real>(std::sqrt(static_cast<long double>(dot(a, a))));
+}
+
+// Distance to a triangle: to the plane where the foot is inside, else to the
+// nearest side.
+Real quad_distance(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &q)
+{
+  const QuadVec p[3] = {quad(a), quad(b), quad(c)}, x = quad(q);
+  const QuadVec u = p[1] - p[0], v = p[2] - p[0], w = x - p[0];
+  const Quad uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
+  const Quad det = uu * vv - uv * uv;
+  const Quad s = (vv * wu - uv * wv) / det, t = (uu * wv - uv * wu) / det;
+  if (s >= 0 && t >= 0 && s + t <= 1) return length(x - plus(plus(p[0], s, u), t, v));
+  Real least = HUGE_VAL;
+  for (int k = 0; k < 3; k++) {
+    const QuadVec e = p[(k + 1) % 3] - p[k];
+    Quad at = dot(x - p[k], e) / dot(e, e);
+    at = at < 0 ? Quad(0) : (at > 1 ? Quad(1) : at);
+    least = std::fmin(least, length(x - plus(p[k], at, e)));
+  }
+  return least;
+}
+
+Vec3 random_unit(Random &random)
+{
+  std::normal_distribution<Real> normal;
+  const Vec3 a = {normal(random), normal(random), normal(random)};
+  return (1 / norm(a)) * a;
+}
+
+// A triangle of length 1 and height 1 / aspect, its apex anywhere along it.
+std::array<Vec3, 3> sliver(Random &random, Real aspect)
+{
+  const Vec3 u = random_unit(random);
+  Vec3 v = cross(u, random_unit(random));
+  v = (1 / norm(v)) * v;
+  const Vec3 at = {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+  std::array<Vec3, 3> p = {at, at + u, at + uniform(random, -0.2, 1.2) * u + (1 / aspect) * v};
+  std::shuffle(p.begin(), p.end(), random);
+  return p;
+}
+
+// Distances of slivers are those of quad precision to `tolerance`, the slack: a
+// point within it of a region may be answered by the neighbouring one.
+void expect_exact_slivers(Real aspect, Real tolerance)
+{
+  Random random(1);
+  Real largest = 0;
+  for (int i = 0; i < 300; i++) {
+    const auto p = sliver(random, aspect);
+    const Wall wall({p[0], p[1], p[2]});
+    ASSERT_EQ(wall.features.faces.size(), 1u);
+    for (int k = 0; k < 300; k++) {
+      Real s = uniform(random, 0, 1), t = uniform(random, 0, 1);
+      if (s + t > 1) s = 1 - s, t = 1 - t;
+      const Real away = std::pow(10., uniform(random, -10, 0));
+      const Vec3 q = p[0] + s * (p[1] - p[0]) + t * (p[2] - p[0]) + away * random_unit(random);
+      const Real d = wall.nearest(q, tolerance / 4);
+      ASSERT_LT(d, HUGE_VAL) << "no feature answers";
+      largest = std::fmax(largest, std::fabs(d - quad_distance(p[0], p[1], p[2], q)));
+    }
+  }
+  std::printf("  aspect %g: largest error %.2g of the length\n", aspect, largest);
+  EXPECT_LE(largest, tolerance);
+}
+
+// What the grid takes for the rounding of dot products, 16 roundings of a size of
+// 1 to 2, times four.
+constexpr Real kSliverTolerance = 4 * 32 * kRoundoff;
+
+TEST(sliver, of_aspect_10_has_exact_distances)
+{
+  expect_exact_slivers(10, kSliverTolerance);
+}
+TEST(sliver, of_aspect_1e4_has_exact_distances)
+{
+  expect_exact_slivers(1e4, kSliverTolerance);
+}
+TEST(sliver, of_aspect_1e8_has_exact_distances)
+{
+  expect_exact_slivers(1e8, kSliverTolerance);
+}
+
+TEST(sliver, of_aspect_1e8_has_a_normal_square_to_its_sides)
+{
+  Random random(2);
+  for (int i = 0; i < 1000; i++) {
+    const auto p = sliver(random, 1e8);
+    const Wall wall({p[0], p[1], p[2]});
+    const Vec3 n = wall.features.faces[0].normal;
+    EXPECT_NEAR(norm(n), 1, 2 * kRoundoff);
+    for (int k = 0; k < 3; k++) {
+      const QuadVec e = quad(p[(k + 1) % 3]) - quad(p[k]);
+      // The rounding of the normal's own components.
+      EXPECT_LE(std::fabs(static_cast<Real>(dot(quad(n), e))), 2 * kRoundoff * length(e));
+    }
+  }
+}
+
+// ---- centres on the wall -----------------------------------------------------------------
+
+void expect_unit(const Foot &f)
+{
+  EXPECT_TRUE(f.found);
+  EXPECT_LE(f.distance, 2 * kRoundoff);    // the middle of an edge may be off it by a rounding
+  EXPECT_NEAR(norm(f.normal), 1, 4 * kRoundoff);
+}
+
+TEST(centre_on_a_face, has_the_normal_of_the_winding)
+{
+  const Wall wall({kA, kB, kC}), turned({kA, kC, kB});
+  expect_unit(wall.on_face(0, {1, 1, 0}));
+  EXPECT_EQ(wall.on_face(0, {1, 1, 0}).normal, (Vec3{0, 0, 1}));
+  EXPECT_EQ(turned.on_face(0, {1, 1, 0}).normal, (Vec3{0, 0, -1}));
+}
+
+TEST(centre_on_an_edge, has_a_unit_normal)
+{
+  for (const TriangleSoup &soup : {box_mesh({0, 0, 0}, {1, 1, 1}), floor_mesh(2, 1),
+                                   hinge_mesh(30, 1), hinge_mesh(-1e-9, 1)}) {
+    const Wall wall(soup);
+    for (const auto &e : wall.mesh.edges) {
+      const Vec3 a = wall.mesh.vertices[e[0]], b = wall.mesh.vertices[e[1]];
+      expect_unit(wall.on_edge(a, b, 0.5 * (a + b), 1e-15));
+    }
+  }
+}
+
+TEST(centre_on_an_edge, is_pushed_away_from_its_faces)
+{
+  const Wall box(box_mesh({0, 0, 0}, {1, 1, 1}));
+  const Real s = std::sqrt(0.5);
+  EXPECT_LE(norm(box.on_edge({1, 0, 1}, {1, 1, 1}, {1, 0.5, 1}).normal - Vec3{s, 0, s}),
+            4 * kRoundoff);
+  const Wall one({kA, kB, kC});
+  EXPECT_LE(norm(one.on_edge(kA, kB, {1, 0, 0}).normal - Vec3{0, -1, 0}), 4 * kRoundoff);
+}
+
+TEST(centre_on_a_vertex, has_a_unit_normal)
+{
+  for (const TriangleSoup &soup : {box_mesh({0, 0, 0}, {1, 1, 1}), floor_mesh(2, 1),
+                                   floor_mesh(3, 1, 5), cylinder_mesh(7, 2, 1, 1)}) {
+    const Wall wall(soup);
+    for (const Vec3 &p : wall.mesh.vertices) expect_unit(wall.on_vertex(p, p));
+  }
+}
+
+TEST(centre_on_a_bare_edge, has_a_unit_normal)
+{
+  // A facet of two points leaves an edge without faces.
+  const Wall wall({kA, kB, kB, kA, kB, kC});
+  Wall bare({kA, kB, kB});
+  ASSERT_EQ(bare.features.faces.size(), 0u);
+  expect_unit(bare.on_edge(kA, kB, {1, 0, 0}));
+  expect_unit(bare.on_vertex(kA, kA));
+}
+
+// ---- which features are kept ----------------------------------------------------------------
+
+TEST(wall_features, of_a_floor_are_its_faces_rim_and_corners)
+{
+  for (unsigned seed : {0, 1, 2}) {
+    const Wall wall(floor_mesh(5, 1, seed));
+    EXPECT_EQ(wall.kept(FeatureKind::face), 50);
+    EXPECT_EQ(wall.kept(FeatureKind::edge), 20);
+    EXPECT_EQ(wall.kept(FeatureKind::vertex), 4);
+  }
+}
+
+TEST(wall_features, of_a_box_leave_out_the_diagonals)
+{
+  const Wall wall(box_mesh({0, 0, 0}, {1, 2, 3}));
+  EXPECT_EQ(wall.kept(FeatureKind::face), 12);
+  EXPECT_EQ(wall.kept(FeatureKind::edge), 12);
+  EXPECT_EQ(wall.kept(FeatureKind::vertex), 8);
+}
+
+TEST(wall_features, of_a_cylinder_leave_out_vertices_inside_straight_folds)
+{
+  const Wall wall(cylinder_mesh(16, 4, 1, 2));
+  EXPECT_EQ(wall.kept(FeatureKind::edge), 16 * 4 + 2 * 16);
+  EXPECT_EQ(wall.kept(FeatureKind::vertex), 2 * 16);
+}
+
+TEST(wall_features, keep_a_fold_of_a_millionth_of_a_degree)
+{
+  EXPECT_EQ(Wall(hinge_mesh(1e-6, 1)).kept(FeatureKind::edge), 6 + 1);
+  EXPECT_EQ(Wall(hinge_mesh(-1e-6, 1)).kept(FeatureKind::edge), 6 + 1);
+  EXPECT_EQ(Wall(hinge_mesh(0, 1)).kept(FeatureKind::edge), 6);
+}
+
+TEST(wall_features, do_not_depend_on_winding)
+{
+  TriangleSoup soup = cylinder_mesh(16, 4, 1, 2);
+  const Wall as_given(soup);
+  for (std::size_t t = 0; t < soup.n_triangles(); t += 3)
+    std::swap(soup.corners[3 * t], soup.corners[3 * t + 1]);
+  const Wall mixed(soup);
+  EXPECT_EQ(as_given.kept(FeatureKind::edge), mixed.kept(FeatureKind::edge));
+  EXPECT_EQ(as_given.kept(FeatureKind::vertex), mixed.kept(FeatureKind::vertex));
+  Random random(3);
+  for (int i = 0; i < 2000; i++) {
+    const Vec3 q = {uniform(random, -2, 2), uniform(random, -2, 2), uniform(random, -1, 3)};
+    ASSERT_NEAR(as_given.nearest(q, 1e-14), mixed.nearest(q, 1e-14), 4e-15);
+  }
+}
+
+// Three faces on the x axis, at 0, 100 and 200 degrees about it.
+std::vector<Vec3> three_on_an_edge()
+{
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 3; k++) {
+    const Real a = 100 * k * M_PI / 180;
+    corners.insert(corners.end(), {{0, 0, 0}, {1, 0, 0}, {0.3, std::cos(a), std::sin(a)}});
+  }
+  return corners;
+}
+
+TEST(nonmanifold_edge, keeps_the_inward_normals_of_all_its_faces)
+{
+  const Wall wall(three_on_an_edge());
+  const EdgeRecord &e = wall.features.edges[wall.edge_between({0, 0, 0}, {1, 0, 0})];
+  ASSERT_EQ(e.n_faces, 3u);
+  std::vector<Vec3> inward = {e.inward[0], e.inward[1], wall.features.edge_inward[e.more]};
+  for (int k = 0; k < 3; k++) {
+    const Real a = 100 * k * M_PI / 180;
+    Real nearest = 2;
+    for (const Vec3 &v : inward)
+      nearest = std::fmin(nearest, norm(v - Vec3{0, std::cos(a), std::sin(a)}));
+    EXPECT_LE(nearest, 4 * kRoundoff);
+  }
+}
+
+TEST(nonmanifold_edge, is_a_minimum_only_away_from_every_face)
+{
+  const Wall wall(three_on_an_edge());
+  int found = 0;
+  for (int degrees = 0; degrees < 360; degrees += 5) {
+    const Real b = degrees * M_PI / 180;
+    bool away = true;
+    for (int k = 0; k < 3; k++) away = away && std::cos(b - 100 * k * M_PI / 180) < -1e-9;
+    const bool is = wall.on_edge({0, 0, 0}, {1, 0, 0}, {0.5, std::cos(b), std::sin(b)}).found;
+    EXPECT_EQ(is, away) << degrees;
+    found += is;
+  }
+  EXPECT_EQ(found, 0);    // three faces leave no gap of more than 160 degrees: none is away
+}
+
+TEST(nonmanifold_edge, with_its_faces_on_one_side_answers_from_the_other)
+{
+  std::vector<Vec3> corners;
+  for (int k = -1; k <= 1; k++) {
+    const Real a = 30 * k * M_PI / 180;
+    corners.insert(corners.end(), {{0, 0, 0}, {1, 0, 0}, {0.3, std::cos(a), std::sin(a)}});
+  }
+  const Wall wall(corners);
+  for (int degrees = 0; degrees < 360; degrees += 7) {
+    const Real b = degrees * M_PI / 180;
+    EXPECT_EQ(wall.on_edge({0, 0, 0}, {1, 0, 0}, {0.5, std::cos(b), std::sin(b)}).found,
+              degrees > 120 && degrees < 240)
+        << degrees;
+  }
+}
+
+TEST(wall_features, sides_point_out_of_a_box)
+{
+  const Wall wall(box_mesh({0, 0, 0}, {1, 1, 1}).corners, true);
+  const Vec3 middle = {0.5, 0.5, 0.5};
+  for (std::size_t i = 0; i < wall.mesh.vertices.size(); i++) {
+    const Vec3 out = wall.features.vertex_out[i];
+    // Angle-weighted: the three sides count alike whatever their diagonals.
+    const Vec3 expected = wall.mesh.vertices[i] - middle;
+    EXPECT_LE(norm((1 / norm(out)) * out - (1 / norm(expected)) * expected), 1e-15);
+  }
+  for (std::size_t i = 0; i < wall.mesh.edges.size(); i++) {
+    const auto &e = wall.mesh.edges[i];
+    const Vec3 mid = 0.5 * (wall.mesh.vertices[e[0]] + wall.mesh.vertices[e[1]]);
+    EXPECT_GT(dot(wall.features.edge_out[i], mid - middle), 0.5);
+  }
+}
+
+}    // namespace
+}    // namespace lsdcd

@@ -1,0 +1,232 @@
+// How springs are handed on from one step's contacts to the next's.
+#include "contact/history.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace lsdcd {
+namespace {
+
+using Random = std::mt19937_64;
+
+Vec3 random_unit(Random &random)
+{
+  std::normal_distribution<Real> normal;
+  const Vec3 a = {normal(random), normal(random), normal(random)};
+  return (1 / norm(a)) * a;
+}
+
+Vec3 tangent_to(const Vec3 &n, Random &random)
+{
+  const Vec3 t = cross(n, random_unit(random));
+  return (0.01 / norm(t)) * t;
+}
+
+// ---- transport -------------------------------------------------------------------------
+
+TEST(transport, keeps_length_and_tangency)
+{
+  Random random(1);
+  for (int i = 0; i < 10000; i++) {
+    const Vec3 from = random_unit(random), to = random_unit(random);
+    const Real c = dot(from, to);
+    if (c < -0.9) continue;
+    const Vec3 h = tangent_to(from, random), turned = transport(h, from, to);
+    // Ten roundings, and the division by 1 + cos.
+    const Real tolerance = 0.01 * 16 * kRoundoff / (1 + c);
+    ASSERT_NEAR(norm(turned), norm(h), tolerance);
+    ASSERT_NEAR(dot(turned, to), 0, tolerance);
+  }
+}
+
+TEST(transport, turns_no_more_than_the_normal)
+{
+  Random random(2);
+  for (int i = 0; i < 1000; i++) {
+    const Vec3 from = random_unit(random), h = tangent_to(from, random);
+    const Vec3 n = from + 1e-3 * random_unit(random), to = (1 / norm(n)) * n;
+    ASSERT_LE(norm(transport(h, from, to) - h), norm(h) * norm(to - from) * (1 + 1e-6));
+    // Along the axis of the rotation nothing moves.
+    const Vec3 axis = cross(from, to);
+    ASSERT_LE(norm(transport(axis, from, to) - axis), 1e-12 * norm(axis));
+  }
+}
+
+TEST(transport, to_an_equal_normal_changes_no_bit)
+{
+  Random random(3);
+  for (int i = 0; i < 1000; i++) {
+    const Vec3 n = random_unit(random), h = tangent_to(n, random);
+    ASSERT_EQ(transport(h, n, n), h);
+  }
+}
+
+TEST(transport, there_and_back_is_the_identity)
+{
+  Random random(4);
+  for (int i = 0; i < 1000; i++) {
+    const Vec3 from = random_unit(random), to = random_unit(random), h = tangent_to(from, random);
+    if (dot(from, to) < -0.9) continue;
+    const Vec3 back = transport(transport(h, from, to), to, from);
+    ASSERT_LE(norm(back - h), 0.01 * 32 * kRoundoff / (1 + dot(from, to)));
+  }
+}
+
+TEST(transport, quarter_turn_takes_the_old_normal_to_the_opposite_side)
+{
+  const Vec3 h = transport({1, 0, 0}, {0, 0, 1}, {1, 0, 0});
+  EXPECT_EQ(h, (Vec3{0, 0, -1}));
+}
+
+// ---- the three rules -------------------------------------------------------------------
+
+// A cube: faces 0 and 1 make its bottom, and so on; all of it adjacent in pairs.
+struct Cube {
+  WallMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), 0);
+  WallFeatures f = make_features(mesh, false);
+  WallFeaturesView view = {f.faces.data(),
+                           f.edges.data(),
+                           f.vertices.data(),
+                           f.edge_inward.data(),
+                           f.vertex_direction.data(),
+                           f.face_vertex.data(),
+                           f.edge_vertex.data(),
+                           nullptr,
+                           nullptr};
+};
+
+Vec3 leaning(Real degrees)
+{
+  const Real a = degrees * M_PI / 180;
+  return {std::sin(a), 0, std::cos(a)};
+}
+
+// Adjacent and not: bottom's first triangle with the top's, or with its twin.
+constexpr FeatureCode kHere = 0, kNext = 1, kFar = 2;
+
+ContactSet<8> contacts(std::initializer_list<std::pair<FeatureCode, Vec3>> list)
+{
+  ContactSet<8> set;
+  for (const auto &c : list) set.add(c.first, c.second, 0.9);
+  return set;
+}
+
+const Vec3 kUp = {0, 0, 1}, kStretch = {0.01, -0.02, 0};
+
+TEST(features, of_a_cube_are_adjacent_where_they_share_a_vertex)
+{
+  const Cube cube;
+  EXPECT_TRUE(are_adjacent(cube.view, kHere, kNext));
+  EXPECT_FALSE(are_adjacent(cube.view, kHere, kFar));
+  const FeatureCode v = feature_code(FeatureKind::vertex, cube.f.face_vertex[0].v[1]);
+  EXPECT_TRUE(are_adjacent(cube.view, kHere, v));
+  EXPECT_FALSE(are_adjacent(cube.view, kFar, v));
+  const FeatureCode e = feature_code(FeatureKind::edge, cube.mesh.face_edges[0][0]);
+  EXPECT_TRUE(are_adjacent(cube.view, kHere, e));
+  EXPECT_TRUE(are_adjacent(cube.view, v, e));
+  EXPECT_FALSE(are_adjacent(cube.view, kFar, e));
+}
+
+TEST(inheritance, without_old_springs_starts_at_zero)
+{
+  const Cube cube;
+  const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, kUp}}), 0, nullptr, 0);
+  EXPECT_EQ(h, (Vec3{0, 0, 0}));
+}
+
+TEST(inheritance, of_the_same_feature_is_the_whole_spring)
+{
+  const Cube cube;
+  const Spring old = {kStretch, kUp, kHere, 0};
+  EXPECT_EQ(inherited_stretch(cube.view, contacts({{kHere, kUp}}), 0, &old, 1), kStretch);
+}
+
+TEST(inheritance, of_the_same_feature_turns_with_the_normal)
+{
+  const Cube cube;
+  const Spring old = {kStretch, kUp, kHere, 0};
+  const Vec3 n = leaning(40);
+  const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, n}}), 0, &old, 1);
+  EXPECT_NEAR(norm(h), norm(kStretch), 1e-16);
+  EXPECT_NEAR(dot(h, n), 0, 1e-17);
+  EXPECT_EQ(h.y, kStretch.y);
+}
+
+TEST(inheritance, of_the_same_feature_goes_before_a_better_aligned_one)
+{
+  const Cube cube;
+  const Spring old[2] = {{{1, 0, 0}, kUp, kNext, 0}, {kStretch, leaning(30), kHere, 0}};
+  const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, kUp}}), 0, old, 2);
+  EXPECT_NEAR(norm(h), norm(kStretch), 1e-16);
+}
+
+TEST(inheritance, of_the_same_feature_ends_where_the_centre_crossed_to_the_other_side)
+{
+  const Cube cube;
+  const Spring old = {kStretch, kUp, kHere, 0};
+  EXPECT_EQ(inherited_stretch(cube.view, contacts({{kHere, -kUp}}), 0, &old, 1), (Vec3{0, 0, 0}));
+}
+
+TEST(inheritance, across_a_seam_is_the_whole_spring)
+{
+  const Cube cube;
+  const Spring old = {kStretch, kUp, kHere, 0};
+  // Aligned or leaning, the length stays: the contact moved, it was not born.
+  for (Real degrees : {0., 1e-3, 10., 40.}) {
+    const Vec3 h = inherited_stretch(cube.view, contacts({{kNext, leaning(degrees)}}), 0, &old, 1);
+    EXPECT_NEAR(norm(h), norm(kStretch), 1e-16) << degrees;
+  }
+}
+
+TEST(inheritance, across_a_seam_to_the_next_feature_changes_no_bit_on_a_plane)
+{
+  const Cube cube;
+  const Spring old = {kStretch, kUp, kHere, 0};
+  EXPECT_EQ(inherited_stretch(cube.view, contacts({{kNext, kUp}}), 0, &old, 1), kStretch);
+}
+
+TEST(inheritance, of_a_contact_born_beside_one_that_stays_is_the_cosine_of_its_spring)
+{
+  const Cube cube;
+  const Spring old = {kStretch, kUp, kHere, 0};
+  for (Real degrees : {0., 20., 44., 46., 60., 89.}) {
+    const Vec3 n = leaning(degrees);
+    const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, kUp}, {kNext, n}}), 1, &old, 1);
+    EXPECT_NEAR(norm(h), std::cos(degrees * M_PI / 180) * norm(kStretch), 1e-16) << degrees;
+    EXPECT_NEAR(dot(h, n), 0, 1e-17);
+  }
+}
+
+TEST(inheritance, in_a_right_angled_corner_is_nothing)
+{
+  const Cube cube;
+  const Spring old = {kStretch, kUp, kHere, 0};
+  const Vec3 across = {1, 0, 0}, under = {0.6, 0, -0.8};
+  for (const Vec3 &n : {across, under})
+    EXPECT_EQ(inherited_stretch(cube.view, contacts({{kHere, kUp}, {kNext, n}}), 1, &old, 1),
+              (Vec3{0, 0, 0}));
+}
+
+TEST(inheritance, from_a_feature_far_away_is_the_cosine_of_its_spring)
+{
+  const Cube cube;
+  const Spring old = {kStretch, kUp, kFar, 0};
+  const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, leaning(20)}}), 0, &old, 1);
+  EXPECT_NEAR(norm(h), std::cos(20 * M_PI / 180) * norm(kStretch), 1e-16);
+}
+
+TEST(inheritance, takes_the_best_aligned_spring)
+{
+  const Cube cube;
+  const Spring old[3] = {{{1, 0, 0}, leaning(50), kFar, 0},
+                         {kStretch, leaning(10), kFar + 1, 0},
+                         {{2, 0, 0}, leaning(-30), kFar, 0}};
+  const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, kUp}}), 0, old, 3);
+  EXPECT_NEAR(norm(h), std::cos(10 * M_PI / 180) * norm(kStretch), 1e-16);
+}
+
+}    // namespace
+}    // namespace lsdcd

@@ -1,0 +1,218 @@
+#include "contact/spring_store.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace lsdcd {
+namespace {
+
+Spring spring(Real seed, FeatureCode feature)
+{
+  return {{seed, -seed / 3, seed * 1e-12}, {0.6, 0, 0.8}, feature, 0};
+}
+
+bool same(const Spring &a, const Spring &b)
+{
+  return a.stretch == b.stretch && a.normal == b.normal && a.feature == b.feature;
+}
+
+void expect_springs(const SpringStore &store, int i, const std::vector<Spring> &expected)
+{
+  ASSERT_EQ(store.count(i), static_cast<int>(expected.size()));
+  for (int k = 0; k < store.count(i); k++) EXPECT_TRUE(same(store.of(i)[k], expected[k]));
+}
+
+const std::vector<Spring> kTwo = {spring(0.1, 7), spring(-2, feature_code(FeatureKind::edge, 3))};
+const std::vector<Spring> kThree = {spring(1, 1), spring(2, 2), spring(3, 3)};
+
+TEST(spring_store, new_spheres_have_none)
+{
+  SpringStore store;
+  store.grow(5);
+  for (int i = 0; i < 5; i++) EXPECT_EQ(store.count(i), 0);
+}
+
+TEST(spring_store, growing_keeps_what_is_there)
+{
+  SpringStore store;
+  store.grow(2);
+  store.set(1, kTwo.data(), 2);
+  store.grow(1000);
+  expect_springs(store, 1, kTwo);
+  EXPECT_EQ(store.count(999), 0);
+  store.grow(3);    // never shrinks
+  expect_springs(store, 1, kTwo);
+}
+
+TEST(spring_store, pack_and_unpack_are_a_round_trip)
+{
+  SpringStore from, to;
+  from.grow(3);
+  to.grow(9);
+  from.set(0, kTwo.data(), 2);
+  from.set(2, kThree.data(), 3);
+  std::vector<double> buffer(100, -7);
+  int n = from.pack(0, buffer.data());
+  EXPECT_EQ(n, from.packed_size(0));
+  n += from.pack(1, buffer.data() + n);
+  n += from.pack(2, buffer.data() + n);
+  EXPECT_EQ(n, 3 + 5 * SpringStore::kDoublesPerSpring);
+  EXPECT_EQ(buffer[n], -7);
+  int m = to.unpack(8, buffer.data());
+  m += to.unpack(4, buffer.data() + m);
+  m += to.unpack(0, buffer.data() + m);
+  EXPECT_EQ(m, n);
+  expect_springs(to, 8, kTwo);
+  expect_springs(to, 4, {});
+  expect_springs(to, 0, kThree);
+}
+
+TEST(spring_store, packs_every_feature_code_exactly)
+{
+  SpringStore from, to;
+  from.grow(1);
+  to.grow(1);
+  for (FeatureKind kind : {FeatureKind::face, FeatureKind::edge, FeatureKind::vertex})
+    for (std::uint32_t i : {0u, 1u, 0x3ffffffeu, kFeatureIndexMask}) {
+      const Spring s = spring(1, feature_code(kind, i));
+      from.set(0, &s, 1);
+      std::vector<double> buffer(from.packed_size(0));
+      from.pack(0, buffer.data());
+      to.unpack(0, buffer.data());
+      EXPECT_EQ(to.of(0)->feature, s.feature);
+      EXPECT_EQ(feature_kind(to.of(0)->feature), kind);
+      EXPECT_EQ(feature_index(to.of(0)->feature), i);
+    }
+}
+
+TEST(spring_store, packs_the_last_bit_of_a_stretch)
+{
+  SpringStore from, to;
+  from.grow(1);
+  to.grow(1);
+  const Real tiny = std::numeric_limits<Real>::denorm_min();
+  const Spring s = {{std::nextafter(1.0, 2.0), -tiny, -0.0}, {1, 0, 0}, 5, 0};
+  from.set(0, &s, 1);
+  std::vector<double> buffer(from.packed_size(0));
+  from.pack(0, buffer.data());
+  to.unpack(0, buffer.data());
+  EXPECT_EQ(to.of(0)->stretch.x, std::nextafter(1.0, 2.0));
+  EXPECT_EQ(to.of(0)->stretch.y, -tiny);
+  EXPECT_TRUE(std::signbit(to.of(0)->stretch.z));
+}
+
+TEST(spring_store, copy_gives_a_sphere_the_springs_of_another)
+{
+  SpringStore store;
+  store.grow(3);
+  store.set(0, kTwo.data(), 2);
+  store.set(2, kThree.data(), 3);
+  store.copy(2, 0);
+  expect_springs(store, 0, kThree);
+  store.copy(1, 2);    // a sphere without any
+  expect_springs(store, 2, {});
+  expect_springs(store, 0, kThree);
+}
+
+TEST(spring_store, unpacking_into_a_sphere_leaves_its_copies_alone)
+{
+  SpringStore store;
+  store.grow(3);
+  store.set(0, kTwo.data(), 2);
+  store.copy(0, 1);
+  std::vector<double> buffer(100);
+  store.set(2, kThree.data(), 3);
+  store.pack(2, buffer.data());
+  store.unpack(0, buffer.data());
+  expect_springs(store, 0, kThree);
+  expect_springs(store, 1, kTwo);
+}
+
+TEST(spring_store, clear_takes_the_springs_of_one_sphere)
+{
+  SpringStore store;
+  store.grow(2);
+  store.set(0, kTwo.data(), 2);
+  store.set(1, kThree.data(), 3);
+  store.clear(0);
+  expect_springs(store, 0, {});
+  expect_springs(store, 1, kThree);
+  store.clear_all();
+  expect_springs(store, 1, {});
+  EXPECT_EQ(store.pool_size(), 0u);
+}
+
+TEST(spring_store, knows_the_largest_packed_size)
+{
+  SpringStore store;
+  store.grow(4);
+  EXPECT_EQ(store.largest_packed_size(), 1);
+  store.set(0, kTwo.data(), 2);
+  store.set(3, kThree.data(), 3);
+  EXPECT_EQ(store.largest_packed_size(), 1 + 3 * SpringStore::kDoublesPerSpring);
+}
+
+// Spheres 3, 0 and 2 get two, none and three springs.
+struct Replaced {
+  SpringStore store;
+  explicit Replaced(int stride)
+  {
+    const bool packed = stride == kPacked;
+    const int which[3] = {3, 0, 2}, counts[3] = {2, 0, 3};
+    std::vector<Spring> springs(30, spring(99, 99));
+    std::copy(kTwo.begin(), kTwo.end(), springs.begin());
+    std::copy(kThree.begin(), kThree.end(), springs.begin() + (packed ? 2 : 2 * stride));
+    store.grow(5);
+    store.set(1, kThree.data(), 3);
+    store.set(3, kThree.data(), 3);
+    store.replace(which, 3, counts, springs.data(), stride);
+  }
+};
+
+TEST(spring_store, replace_gives_the_named_spheres_their_springs_and_all_others_none)
+{
+  for (int stride : {kPacked, 3, 8}) {
+    const Replaced r(stride);
+    expect_springs(r.store, 0, {});
+    expect_springs(r.store, 1, {});
+    expect_springs(r.store, 2, kThree);
+    expect_springs(r.store, 3, kTwo);
+    expect_springs(r.store, 4, {});
+    EXPECT_EQ(r.store.pool_size(), 5u);
+  }
+}
+
+TEST(spring_store, replace_with_nothing_clears)
+{
+  Replaced r(4);
+  r.store.replace(nullptr, 0, nullptr, nullptr, 8);
+  for (int i = 0; i < 5; i++) expect_springs(r.store, i, {});
+  EXPECT_EQ(r.store.pool_size(), 0u);
+}
+
+TEST(spring_store, replaced_many_times_holds_the_last_only)
+{
+  SpringStore store;
+  store.grow(1000);
+  std::vector<int> which(1000), counts(1000);
+  std::vector<Spring> springs(3000);
+  for (int round = 0; round < 5; round++) {
+    for (int i = 0; i < 1000; i++) {
+      which[i] = i;
+      counts[i] = (i + round) % 4;
+      for (int k = 0; k < 3; k++) springs[3 * i + k] = spring(1000 * round + i + 0.25 * k, i);
+    }
+    store.replace(which.data(), 1000, counts.data(), springs.data(), 3);
+    for (int i = 0; i < 1000; i++) {
+      ASSERT_EQ(store.count(i), (i + round) % 4);
+      for (int k = 0; k < store.count(i); k++)
+        ASSERT_TRUE(same(store.of(i)[k], springs[3 * i + k]));
+    }
+  }
+}
+
+}    // namespace
+}    // namespace lsdcd
