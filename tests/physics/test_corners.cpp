@@ -1,0 +1,431 @@
+// Edges, corners, grooves, seams and drums against their closed forms.
+#include "support/laws.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kStiffness = 1e5, kRadius = 0.5;
+using Random = std::mt19937_64;
+
+Real uniform(Random &random, Real lo, Real hi)
+{
+  return std::uniform_real_distribution<Real>(lo, hi)(random);
+}
+
+Real radians(Real degrees)
+{
+  return degrees * M_PI / 180;
+}
+
+Vec3 unit(const Vec3 &a)
+{
+  return (1 / norm(a)) * a;
+}
+
+// The wall's force on one sphere that is put here and there.
+class Probe {
+ public:
+  explicit Probe(const TriangleSoup &soup, const EngineSettings &settings = hooke(kStiffness),
+                 Real length = 0) :
+      scene_(soup, kRadius, settings, length, 0)
+  {
+    scene_.add_sphere({1e3, 1e3, 1e3}, kRadius, 1);
+  }
+  Vec3 force(const Vec3 &x)
+  {
+    scene_.set_x(0, x);
+    scene_.compute(1e-4, true, true);
+    return scene_.force(0);
+  }
+  int contacts() const
+  {
+    return scene_.engine->n_touching() ? int(scene_.engine->sphere_output()[0].contacts) : 0;
+  }
+
+ private:
+  Scene scene_;
+};
+
+// Unit normals and distances carry a few roundings; the overlap is the radius less
+// one of them, so that its error counts radius / overlap times.
+Real tolerance(Real overlap)
+{
+  return 16 * kRoundoff * kRadius / overlap;
+}
+
+// ---- a cube from outside ---------------------------------------------------------------
+
+TEST(cube_edge, from_outside_is_one_contact_along_centre_minus_edge)
+{
+  Probe probe(box_mesh({0, 0, 0}, {1, 1, 1}));
+  for (int degrees = 1; degrees < 90; degrees += 4)
+    for (Real depth : {1e-4, 1e-2, 0.2}) {
+      const Real a = radians(degrees);
+      const Vec3 n = {std::cos(a), 0, std::sin(a)};
+      const Vec3 f = probe.force(Vec3{1, 0.37, 1} + (kRadius - depth) * n);
+      EXPECT_LE(norm(f - kStiffness * depth * n), kStiffness * depth * tolerance(depth));
+      EXPECT_EQ(probe.contacts(), 1);
+    }
+}
+
+TEST(cube_corner, from_outside_is_one_contact_along_centre_minus_corner)
+{
+  Probe probe(box_mesh({0, 0, 0}, {1, 1, 1}));
+  Random random(1);
+  for (int i = 0; i < 300; i++) {
+    const Vec3 n =
+        unit({uniform(random, 0.01, 1), uniform(random, 0.01, 1), uniform(random, 0.01, 1)});
+    const Real depth = 0.5 * std::pow(10., uniform(random, -4, -0.5));
+    const Vec3 f = probe.force(Vec3{1, 1, 1} + (kRadius - depth) * n);
+    EXPECT_LE(norm(f - kStiffness * depth * n), kStiffness * depth * tolerance(depth));
+    EXPECT_EQ(probe.contacts(), 1);
+  }
+}
+
+// ---- resting in grooves and corners -------------------------------------------------------
+
+// A groove along y of half angle a about the z axis, its bottom at z = 0.
+TriangleSoup groove(Real a)
+{
+  const Real s = 4 * std::sin(a), c = 4 * std::cos(a);
+  TriangleSoup soup;
+  soup.source = "groove";
+  for (Real side : {-s, s})
+    soup.corners.insert(
+        soup.corners.end(),
+        {{0, -4, 0}, {side, -4, c}, {side, 4, c}, {0, -4, 0}, {side, 4, c}, {0, 4, 0}});
+  return soup;
+}
+
+TEST(groove, up_to_a_right_angle_bears_mg_over_2_sin_a_on_each_side)
+{
+  // mg = 1: each side is overlapped by N/k, and the two forces add up to the weight.
+  for (Real degrees : {20., 30., 40., 44.9, 45.}) {
+    const Real a = radians(degrees), weight = 50, n = weight / (2 * std::sin(a));
+    Probe probe(groove(a));
+    const Real overlap = n / kStiffness;
+    const Vec3 f = probe.force({0, 0.1, (kRadius - overlap) / std::sin(a)});
+    EXPECT_NEAR(f.z, weight, 4 * weight * tolerance(overlap)) << degrees;
+    EXPECT_NEAR(f.x, 0, 4 * weight * tolerance(overlap));
+    EXPECT_EQ(probe.contacts(), 2);
+  }
+}
+
+TEST(groove, wider_than_a_right_angle_bears_the_weight_of_one_wall)
+{
+  // l = d / (1 + n.n) = d / (2 sin^2 a), so that F = 2 k l sin a = k d / sin a: the
+  // stiffness k against sinking, as on a flat wall.
+  for (Real degrees : {45., 45.1, 60., 80., 89.9, 89.9999}) {
+    const Real a = radians(degrees), sunk = 0.01;
+    Probe probe(groove(a));
+    const Vec3 f = probe.force({0, 0.1, kRadius / std::sin(a) - sunk});
+    EXPECT_NEAR(f.z, kStiffness * sunk, 4 * kStiffness * sunk * tolerance(sunk)) << degrees;
+  }
+}
+
+TEST(box_corner, bears_mg_over_root_3_on_each_side)
+{
+  Probe probe(box_mesh({0, 0, 0}, {4, 4, 4}));
+  for (Real depth : {1e-4, 1e-2}) {
+    const Real at = kRadius - depth;
+    const Vec3 f = probe.force({at, at, at});
+    for (int k = 0; k < 3; k++)
+      EXPECT_NEAR(f[k], kStiffness * depth, kStiffness * depth * tolerance(depth));
+    // Exactly the sum: the corner rule leaves right angles alone.
+    Probe sum(box_mesh({0, 0, 0}, {4, 4, 4}), [] {
+      EngineSettings s = hooke(kStiffness);
+      s.corner = Corner::sum;
+      return s;
+    }());
+    EXPECT_EQ(sum.force({at, at, at}), f);
+    EXPECT_EQ(probe.contacts(), 3);
+  }
+}
+
+TEST(box, that_holds_a_sphere_on_all_six_sides_pushes_nowhere)
+{
+  Probe probe(box_mesh({0, 0, 0}, {0.96, 0.96, 0.96}));
+  EXPECT_LE(norm(probe.force({0.48, 0.48, 0.48})), kStiffness * 4 * kRoundoff);
+  EXPECT_EQ(probe.contacts(), 6);
+  // Off the middle it is six springs, two of them along the way.
+  const Vec3 f = probe.force({0.49, 0.48, 0.48});
+  EXPECT_NEAR(f.x, -kStiffness * 0.02, kStiffness * 0.02 * tolerance(0.01));
+}
+
+// ---- a hinge, both ways -------------------------------------------------------------------
+
+// The corner rule for two contacts, and the distance to two half-planes, in long
+// double and without the core.
+using Wide = long double;
+struct Force {
+  Wide x, z;
+};
+
+Force hinge_force(Wide degrees, Wide x, Wide z)
+{
+  const Wide a = degrees * static_cast<Wide>(M_PI) / 180, c = std::cos(a), s = std::sin(a);
+  struct Contact {
+    Wide overlap, nx, nz;
+  };
+  std::vector<Contact> contacts;
+  const auto add = [&](Wide fx, Wide fz) {
+    const Wide d = std::hypot(x - fx, z - fz);
+    if (d < kRadius) contacts.push_back({kRadius - d, (x - fx) / d, (z - fz) / d});
+  };
+  const Wide along = x * c + z * s;    // on the right half
+  if (x < 0) add(x, 0);
+  if (along > 0) add(along * c, along * s);
+  if (x >= 0 && along <= 0) add(0, 0);
+  if (contacts.empty()) return {0, 0};
+  if (contacts.size() == 1) {
+    const Contact &p = contacts[0];
+    return {kStiffness * p.overlap * p.nx, kStiffness * p.overlap * p.nz};
+  }
+  const Contact &p = contacts[0], &q = contacts[1];
+  const Wide g = std::fmax(0.0L, c);
+  Wide l0 = (p.overlap - g * q.overlap) / (1 - g * g),
+       l1 = (q.overlap - g * p.overlap) / (1 - g * g);
+  if (l0 < 0) l0 = 0, l1 = q.overlap;
+  if (l1 < 0) l1 = 0, l0 = p.overlap;
+  return {kStiffness * (l0 * p.nx + l1 * q.nx), kStiffness * (l0 * p.nz + l1 * q.nz)};
+}
+
+// Walks over the seam at a height and compares with the closed form everywhere.
+void expect_hinge(Real degrees)
+{
+  Probe probe(hinge_mesh(degrees, 3));
+  Random random(2);
+  const Real a = std::fabs(radians(degrees));
+  for (int i = 0; i < 2000; i++) {
+    const Real z = kRadius - 0.5 * std::pow(10., uniform(random, -3, -0.7));
+    const Real size = random() % 2 ? 0.4 : std::pow(10., uniform(random, -9, -1));
+    const Real x = uniform(random, -size, size);
+    const Vec3 f = probe.force({x, 0.2, z});
+    const Force expected = hinge_force(degrees, x, z);
+    const Real off = static_cast<Real>(std::hypot(f.x - expected.x, f.z - expected.z));
+    const Real scale = kStiffness * kRadius;
+    // Roundings of positions and normals; on a shallow seam the way that two
+    // overlaps share a force hangs on their difference over the angle, which turns
+    // the force by the rounding over the angle, and never by more than the angle.
+    const Real turned = std::fmin(a, 64 * kRoundoff / a);
+    ASSERT_LE(off, scale * (32 * kRoundoff + turned))
+        << "angle " << degrees << " x " << x << " z " << z;
+    ASSERT_EQ(f.y, 0);
+  }
+}
+
+TEST(concave_hinge, has_the_closed_form_at_every_angle)
+{
+  for (Real degrees : {1e-6, 1e-4, 1e-2, 1., 10., 30., 60., 90.}) expect_hinge(degrees);
+}
+
+TEST(convex_hinge, has_the_closed_form_at_every_angle)
+{
+  for (Real degrees : {-1e-6, -1e-4, -1e-2, -1., -10., -30., -60., -90.}) expect_hinge(degrees);
+}
+
+// The largest change of force between neighbouring positions over the seam.
+Real largest_step(Real degrees, Real z, Real from, Real to, int n)
+{
+  Probe probe(hinge_mesh(degrees, 3));
+  Vec3 last = {0, 0, 0};
+  Real largest = 0;
+  for (int i = 0; i <= n; i++) {
+    const Vec3 f = probe.force({from + (to - from) * i / n, 0.2, z});
+    if (i > 0) largest = std::fmax(largest, norm(f - last));
+    last = f;
+  }
+  return largest;
+}
+
+TEST(hinge, has_a_continuous_force_across_the_seam)
+{
+  // Steps of the force shrink with the steps of the position. A shallow seam acts
+  // over z times the angle; into a steep one the sphere goes up to half its radius.
+  const Real z = 0.46;
+  for (Real degrees : {-90., -30., -1., -1e-3, 1e-3, 1., 5., 30., 60., 89.}) {
+    const Real a = std::fabs(radians(degrees)), half = std::fmin(0.6, 3 * z * a);
+    const Real to =
+        degrees > 0 ? std::fmin(half, (z * std::cos(a) - kRadius / 2) / std::sin(a)) : half;
+    const Real coarse = largest_step(degrees, z, -half, to, 500);
+    const Real fine = largest_step(degrees, z, -half, to, 5000);
+    EXPECT_LE(fine, 0.2 * coarse) << degrees;
+  }
+}
+
+TEST(hinge, has_one_walls_force_in_the_limit_of_no_angle)
+{
+  const Real overlap = 0.02, z = kRadius - overlap;
+  for (Real degrees : {1e-6, 1e-4, 1e-2, -1e-6, -1e-4, -1e-2}) {
+    Probe probe(hinge_mesh(degrees, 3));
+    const Real a = std::fabs(radians(degrees));
+    for (Real x : {-0.3, -1e-3, -1e-9, 0., 1e-12, 1e-6, 1e-3, 0.3}) {
+      const Vec3 f = probe.force({x, 0.2, z});
+      // The right half is x a away from flat, and leans by a.
+      EXPECT_LE(norm(f - Vec3{0, 0, kStiffness * overlap}),
+                kStiffness * (a * std::fabs(x) + a * overlap * 1.01 + 32 * kRoundoff * kRadius))
+          << degrees << " " << x;
+    }
+  }
+}
+
+TEST(hinge, force_is_continuous_in_the_angle)
+{
+  for (Real x : {-0.1, -1e-3, 0., 1e-3, 0.1}) {
+    const Vec3 at = {x, 0.2, 0.47};
+    for (Real degrees : {-60., -1., 0., 1., 30., 88.}) {
+      const Vec3 f = Probe(hinge_mesh(degrees, 3)).force(at);
+      for (Real more : {1e-2, 1e-4, 1e-6}) {
+        const Vec3 g = Probe(hinge_mesh(degrees + more, 3)).force(at);
+        // A wall turned by da moves by R da at most, and its normal turns by da; two
+        // walls share it.
+        EXPECT_LE(norm(g - f), 4 * kStiffness * kRadius * radians(more)) << x << " " << degrees;
+      }
+    }
+  }
+}
+
+TEST(convex_seam, never_lets_go_of_a_sphere_that_overlaps)
+{
+  Random random(3);
+  for (Real degrees : {-1e-9, -1e-6, -1e-3, -1., -45., -135., -179.}) {
+    Probe probe(hinge_mesh(degrees, 3));
+    for (int i = 0; i < 2000; i++) {
+      const Real x = std::pow(10., uniform(random, -17, -1.4)) * (random() % 2 ? 1 : -1),
+                 depth = 0.01;
+      // The foot at x on one half or the other, or on the edge, seen along the bisector.
+      const Vec3 f = probe.force({x, 0.2, kRadius - depth});
+      ASSERT_GT(norm(f), 0) << degrees << " " << x;
+      ASSERT_GE(probe.contacts(), 1);
+    }
+  }
+}
+
+// ---- thin bodies --------------------------------------------------------------------------
+
+TEST(thin_plate, is_one_wall)
+{
+  const Real t = 1e-3 * kRadius;
+  Probe probe(box_mesh({-2, -2, -t}, {2, 2, 0}));
+  Random random(4);
+  for (int i = 0; i < 300; i++) {
+    const Real depth = 0.5 * std::pow(10., uniform(random, -4, -0.5));
+    const Vec3 f = probe.force({uniform(random, -1, 1), uniform(random, -1, 1), kRadius - depth});
+    EXPECT_LE(norm(f - Vec3{0, 0, kStiffness * depth}), kStiffness * depth * tolerance(depth));
+    const Vec3 g =
+        probe.force({uniform(random, -1, 1), uniform(random, -1, 1), -t - kRadius + depth});
+    EXPECT_LE(norm(g + Vec3{0, 0, kStiffness * depth}), kStiffness * depth * tolerance(depth));
+  }
+}
+
+TEST(thin_plate, has_a_rim_that_pushes_along_the_nearest_way)
+{
+  const Real t = 1e-3 * kRadius, depth = 0.02;
+  Probe probe(box_mesh({-2, -2, -t}, {2, 2, 0}));
+  for (int degrees = -90; degrees <= 90; degrees += 3) {
+    const Real a = radians(degrees);
+    const Vec3 n = {std::cos(a), 0, std::sin(a)};
+    const Vec3 p = {2, 0.1, degrees > 0 ? 0 : (degrees < 0 ? -t : -t / 2)};
+    const Vec3 f = probe.force(p + (kRadius - depth) * n);
+    // The other rim, t away, answers nowhere that this one is nearer.
+    EXPECT_LE(norm(f - kStiffness * depth * n), kStiffness * depth * tolerance(depth)) << degrees;
+  }
+}
+
+TEST(thin_sheet, pushes_from_both_sides)
+{
+  Probe probe(floor_mesh(3, 2, 1));
+  const Real depth = 0.03, h = kRadius - depth;
+  EXPECT_NEAR(probe.force({0.3, 0.2, h}).z, kStiffness * depth,
+              kStiffness * depth * tolerance(depth));
+  EXPECT_NEAR(probe.force({0.3, 0.2, -h}).z, -kStiffness * depth,
+              kStiffness * depth * tolerance(depth));
+}
+
+TriangleSoup cone(int n, Real radius, Real height)
+{
+  TriangleSoup soup;
+  soup.source = "cone";
+  for (int i = 0; i < n; i++) {
+    const Real a = 2 * M_PI * i / n, b = 2 * M_PI * ((i + 1) % n) / n;
+    soup.corners.insert(soup.corners.end(),
+                        {{0, 0, 0},
+                         {radius * std::cos(a), radius * std::sin(a), -height},
+                         {radius * std::cos(b), radius * std::sin(b), -height}});
+  }
+  return soup;
+}
+
+TEST(cone_tip, is_one_contact)
+{
+  for (int n : {10, 50, 200})
+    for (Real height : {0.2, 1., 5.}) {
+      Probe probe(cone(n, 1, height));
+      for (Real lean : {0., 0.3, 0.9})
+        for (Real depth : {1e-3, 0.1}) {
+          // Leaning towards the cone's side, but not into the prism of a facet.
+          const Real a = lean * std::atan2(height, 1) * std::cos(M_PI / n);
+          const Vec3 n_tip = {std::sin(a) * std::cos(0.7), std::sin(a) * std::sin(0.7),
+                              std::cos(a)};
+          const Vec3 f = probe.force((kRadius - depth) * n_tip);
+          EXPECT_EQ(probe.contacts(), 1) << n << " " << height << " " << lean;
+          EXPECT_LE(norm(f - kStiffness * depth * n_tip), kStiffness * depth * tolerance(depth));
+        }
+    }
+}
+
+// ---- a drum ---------------------------------------------------------------------------------
+
+// rms and mean of N / N_analytic - 1 over positions all round, in a drum of n segments.
+std::array<Real, 2> drum_noise(int n, Corner corner)
+{
+  constexpr Real kDrum = 5, kOverlap = 0.02;
+  EngineSettings settings = hooke(kStiffness);
+  settings.corner = corner;
+  Probe probe(cylinder_mesh(n, 1, kDrum, 2), settings);
+  Real sum = 0, sum_sq = 0;
+  constexpr int kPositions = 3000;
+  for (int i = 0; i < kPositions; i++) {
+    const Real a = 2 * M_PI * (i * 0.6180339887498949 - std::floor(i * 0.6180339887498949));
+    const Vec3 out = {std::cos(a), std::sin(a), 0};
+    const Vec3 f = probe.force((kDrum - kRadius + kOverlap) * out + Vec3{0, 0, 1});
+    const Real off = -dot(f, out) / (kStiffness * kOverlap) - 1;
+    sum += off;
+    sum_sq += off * off;
+  }
+  return {std::sqrt(sum_sq / kPositions), sum / kPositions};
+}
+
+TEST(drum, of_1024_segments_bears_a_sphere_within_one_percent)
+{
+  EXPECT_LE(drum_noise(1024, Corner::blend)[0], 0.01);
+}
+
+TEST(drum, noise_falls_with_refinement)
+{
+  Real last = HUGE_VAL;
+  for (int n : {64, 128, 256, 512, 1024, 2048}) {
+    const auto noise = drum_noise(n, Corner::blend);
+    std::printf("  %d segments: rms %.4f, mean %+.4f; sum rule %.4f\n", n, noise[0], noise[1],
+                drum_noise(n, Corner::sum)[0]);
+    EXPECT_LE(noise[0], 0.75 * last);
+    last = noise[0];
+  }
+}
+
+TEST(drum, noise_of_the_plain_sum_does_not_fall)
+{
+  // What the corner rule is for; and proof that this test sees the noise.
+  EXPECT_GT(drum_noise(1024, Corner::sum)[0], 0.1);
+}
+
+}    // namespace
+}    // namespace lsdcd
