@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/input_error.h"
-#include "contact/closest_point.h"
 #include "grid/grid_plan.h"
+#include "grid/meets.h"
 #include "grid/triangle_grid.h"
 
 #include <chrono>
@@ -19,10 +19,11 @@ struct BuildView {
 };
 
 // Can a sphere of the grid's reach, centred within `around` of c, have a contact
-// on this feature? Every region relaxed by `around` contains the true one.
-LSDCD_FN Foot meets(const BuildView &b, FeatureCode feature, const Vec3 &c, Real around)
+// on this feature? If so, `distance` is how far the feature is from c.
+LSDCD_FN bool meets(const BuildView &b, FeatureCode feature, const Vec3 &c, Real around,
+                    Real &distance)
 {
-  return foot_on(b.wall, feature, c, around + b.plan.slack, b.plan.reach + around);
+  return feature_meets(b.wall, feature, c, around + b.plan.slack, b.plan.reach, distance);
 }
 
 LSDCD_FN void grow_box(Vec3 &lo, Vec3 &hi, const Vec3 &p)
@@ -87,14 +88,16 @@ LSDCD_FN void rasterise(const BuildView &b, FeatureCode feature, Visit visit)
     for (std::int32_t y = first[1]; y <= last[1]; y++)
       for (std::int32_t x = first[0]; x <= last[0]; x++) {
         const Vec3 centre = plan.brick_centre(x, y, z);
-        if (!meets(b, feature, centre, kBrickSide * plan.half_diagonal).found) continue;
+        Real distance;
+        if (!meets(b, feature, centre, kBrickSide * plan.half_diagonal, distance)) continue;
         const std::uint32_t brick = static_cast<std::uint32_t>(
             (std::size_t(z) * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
         for (std::uint32_t o = 0; o < 8; o++) {
           const Vec3 at =
               centre + quarter * Vec3{o & 1 ? Real(1) : Real(-1), o & 2 ? Real(1) : Real(-1),
                                       o & 4 ? Real(1) : Real(-1)};
-          if (meets(b, feature, at, kOctantSide * plan.half_diagonal).found) visit(brick * 8 + o);
+          if (meets(b, feature, at, kOctantSide * plan.half_diagonal, distance))
+            visit(brick * 8 + o);
         }
       }
 }
@@ -211,8 +214,9 @@ class GridBuilder {
           cell_of_octant(static_cast<int>(octant % 8), static_cast<int>(i % kOctantCells));
       const Vec3 centre = view.plan.cell_centre(key[b], c);
       std::uint32_t n = 0;
+      Real distance;
       for (std::uint32_t p = first[octant]; p < first[octant + 1]; p++)
-        n += meets(view, features[p], centre, view.plan.half_diagonal).found;
+        n += meets(view, features[p], centre, view.plan.half_diagonal, distance);
       counts[b * kBrickCells + c] = n;
     });
 
@@ -272,14 +276,14 @@ class GridBuilder {
       const Vec3 centre = view.plan.cell_centre(key[b], c);
       std::uint32_t at = 0;
       for (std::uint32_t p = first[octant]; p < first[octant + 1]; p++) {
-        const Foot foot = meets(view, features[p], centre, view.plan.half_diagonal);
-        if (!foot.found) continue;
+        Real distance;
+        if (!meets(view, features[p], centre, view.plan.half_diagonal, distance)) continue;
         if (n == 1) {
           out.first = features[p];
           break;
         }
         // Insertion keeps the list sorted; lists are short.
-        const Candidate c_new = make_candidate(features[p], foot.distance);
+        const Candidate c_new = make_candidate(features[p], distance);
         std::uint32_t slot = at++;
         while (slot > 0 && comes_before(c_new, lists[start + slot - 1])) {
           lists[start + slot] = lists[start + slot - 1];
