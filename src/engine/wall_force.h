@@ -75,7 +75,10 @@ LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
     if constexpr (Law::kHistory)
       stretch = inherited_stretch(grid.wall, set, i, s.springs, s.n_springs);
     const ContactForce f = law.evaluate(c, stretch);
-    if constexpr (Law::kHistory) springs_out[i] = {stretch, n, set.feature[i], 0};
+    // A contact that bears nothing has no spring yet: cut to the friction limit of
+    // its own slight overlap, it would have none when it takes over the force.
+    if constexpr (Law::kHistory)
+      springs_out[i] = weight[i] > 0 ? Spring{stretch, n, set.feature[i], 0} : kNoSpring;
 
     const Vec3 tangential = weight[i] * f.tangential;
     out.force += (weight[i] * f.normal) * n + tangential;

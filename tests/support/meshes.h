@@ -49,6 +49,7 @@ class Scene {
   Vec3 omega(int i) const { return vec(omega_, i); }
   void set_x(int i, const Vec3 &value) { put(x_, i, value); }
   void set_v(int i, const Vec3 &value) { put(v_, i, value); }
+  void set_omega(int i, const Vec3 &value) { put(omega_, i, value); }
   Real mass(int i) const { return mass_[i]; }
   Real radius(int i) const { return radius_[i]; }
   int n() const { return static_cast<int>(radius_.size()); }
