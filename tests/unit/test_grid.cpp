@@ -156,6 +156,27 @@ TEST(grid, is_complete_on_a_tangle_with_free_and_nonmanifold_edges)
   expect_complete(soup, 0.3, 0, 20000, 6);
 }
 
+// Needles of length 1 round a point, 1e-3 to 1e-6 thick, folded up and down.
+TriangleSoup needles()
+{
+  Random random(14);
+  TriangleSoup soup;
+  soup.source = "needles";
+  for (int i = 0; i < 60; i++) {
+    const Real a = uniform(random, 0, 2 * M_PI), up = uniform(random, -0.5, 0.5);
+    const Real thick = std::pow(10., uniform(random, -6, -3));
+    const Vec3 end = {std::cos(a), std::sin(a), up};
+    const Vec3 aside = {-std::sin(a) * thick, std::cos(a) * thick, uniform(random, -1, 1) * thick};
+    soup.corners.insert(soup.corners.end(), {{0, 0, 0}, end, end + aside});
+  }
+  return soup;
+}
+
+TEST(grid, is_complete_on_needles)
+{
+  for (Real length : {0., 0.02, 0.3}) expect_complete(needles(), 0.3, length, 10000, 14);
+}
+
 TEST(grid, is_complete_at_every_cell_length)
 {
   for (Real length : {0.013, 0.05, 0.1, 0.29, 0.6, 3.0}) {
