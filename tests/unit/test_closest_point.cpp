@@ -157,11 +157,15 @@ TEST(vertex, convex_one_holds_its_cone)
   ASSERT_TRUE(f.found);
   EXPECT_NEAR(f.distance, 7, 8 * kRoundoff);
   EXPECT_LE(norm(f.normal - Vec3{2. / 7, 3. / 7, 6. / 7}), 4 * kRoundoff);
-  for (int k = 0; k < 3; k++) {
-    Vec3 q = {1.1, 1.1, 1.1};
-    q[k] = 0.999;
-    EXPECT_FALSE(wall.on_vertex({1, 1, 1}, q).found);
-  }
+  // At every corner: out along two axes but not along the third.
+  for (const Vec3 &p : wall.mesh.vertices)
+    for (int k = 0; k < 3; k++) {
+      const Vec3 out = 2 * p - Vec3{1, 1, 1};
+      Vec3 q = p + 0.1 * out;
+      EXPECT_TRUE(wall.on_vertex(p, q).found);
+      q[k] = p[k] - 0.001 * out[k];
+      EXPECT_FALSE(wall.on_vertex(p, q).found);
+    }
 }
 
 TEST(vertex, slack_widens_its_cone_by_a_length)
