@@ -282,6 +282,31 @@ TEST(spring, of_one_wall_is_not_given_to_the_other_of_a_right_angle)
   EXPECT_NEAR(scene.force(0).y, on_floor, 1e-9);
 }
 
+// ---- a drum -------------------------------------------------------------------------------------
+
+// Lets a sphere roll down from 45 degrees in a drum of n facets; its kinetic energy
+// at the bottom over that of rolling in the true cylinder.
+Real roll_down_drum(int n)
+{
+  const Real drum = 5, g = 10, dt = 2e-5;
+  const EngineSettings law = hooke_history(kStiffness, 2. / 7 * kStiffness, 50, 25, 0.5);
+  Scene scene(cylinder_mesh(n, 1, drum, 2), kRadius, law);
+  // At rest against the wall: overlap of the weight's part along the normal.
+  const Real s = std::sqrt(0.5), at = drum - kRadius + kMass * g * s / kStiffness;
+  scene.add_sphere({-at * s, -at * s, 1}, kRadius, kMass);
+  scene.compute(dt, false);
+  for (int i = 0; i < 200000 && scene.x(0).x < 0; i++) scene.step(dt, {0, -g, 0});
+  const Real inertia = 0.4 * kMass * kRadius * kRadius;
+  const Real kinetic = 0.5 * kMass * norm_sq(scene.v(0)) + 0.5 * inertia * norm_sq(scene.omega(0));
+  return kinetic / (kMass * g * (drum - kRadius) * (1 - s));
+}
+
+TEST(rolling, down_a_drum_of_1024_facets_loses_no_energy)
+{
+  // Flat facets brake: 3 % at 64, 1 % at 256.
+  EXPECT_NEAR(roll_down_drum(1024), 1, 0.002);
+}
+
 // ---- sides ---------------------------------------------------------------------------------------
 
 EngineSettings sided(Side side)
