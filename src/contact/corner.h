@@ -17,41 +17,67 @@ LSDCD_FN Real one_minus_cos(const Vec3 &a, const Vec3 &b)
 // give w = 1 exactly, parallel duplicates weights that sum to 1, and everything
 // between is continuous. Solved exactly by an active set: a contact enters while
 // the gradient d_i - (Gl)_i is positive, and leaves when its l would be negative.
+//
+// A foot that lies in the tangent plane of another contact has a gradient of
+// (s - h) (R - s - h) / s, s and h being the two distances: it bears nothing. Close
+// to the other foot that is less than the rounding of s - h, so feet of edges on
+// faces' planes, and of vertices on theirs, to `slack` (length), are left out
+// first. Else rims of T-junctions would turn the force by the root of a rounding.
 template <int kPlaces>
 class CornerRule {
  public:
-  LSDCD_FN void solve(const ContactSet<kPlaces> &set, Real radius, Real *weight)
+  LSDCD_FN void solve(const ContactSet<kPlaces> &set, Real radius, Real *weight, Real slack = 0)
   {
     for (int i = 0; i < set.n; i++) weight[i] = 1;
     if (set.n < 2) return;
-    if (set.n == 2) {
-      solve_two(set, radius, weight);
-      return;
-    }
     bool apart = true;
-    for (int i = 0; i < set.n && apart; i++)
-      for (int j = i + 1; j < set.n && apart; j++) apart = dot(set.normal[i], set.normal[j]) <= 0;
-    if (!apart) solve_many(set, radius, weight);
+    n_ = 0;
+    for (int i = 0; i < set.n; i++) {
+      if (is_level(set, radius, i, slack)) {
+        weight[i] = 0;
+        continue;
+      }
+      for (int k = 0; k < n_ && apart; k++) apart = dot(set.normal[i], set.normal[used_[k]]) <= 0;
+      used_[n_++] = i;
+    }
+    if (apart) return;
+    if (n_ == 2)
+      solve_two(set, radius, weight, used_[0], used_[1]);
+    else
+      solve_many(set, radius, weight);
   }
 
  private:
-  LSDCD_FN static void solve_two(const ContactSet<kPlaces> &set, Real radius, Real *weight)
+  // Does foot i lie in the tangent plane of a contact on a larger kind of feature?
+  LSDCD_FN static bool is_level(const ContactSet<kPlaces> &set, Real radius, int i, Real slack)
   {
-    const Real d0 = radius - set.distance[0], d1 = radius - set.distance[1];
-    if (dot(set.normal[0], set.normal[1]) <= 0) return;
-    const Real u = one_minus_cos(set.normal[0], set.normal[1]), g = 1 - u;
+    const FeatureKind kind = feature_kind(set.feature[i]);
+    if (kind == FeatureKind::face) return false;
+    for (int k = 0; k < set.n; k++) {
+      if (!(feature_kind(set.feature[k]) < kind)) continue;
+      const Real rise = set.distance[k] - set.distance[i] * dot(set.normal[i], set.normal[k]);
+      if (fabs(rise) <= slack && set.distance[i] + set.distance[k] >= radius) return true;
+    }
+    return false;
+  }
+
+  LSDCD_FN static void solve_two(const ContactSet<kPlaces> &set, Real radius, Real *weight, int a,
+                                 int b)
+  {
+    const Real d0 = radius - set.distance[a], d1 = radius - set.distance[b];
+    const Real u = one_minus_cos(set.normal[a], set.normal[b]), g = 1 - u;
     // Gradients with the other contact alone active, free of cancellation.
     const Real g0 = (d0 - d1) + u * d1, g1 = (d1 - d0) + u * d0;
     if (g1 <= 0 && g0 <= 0) {    // parallel and equally deep, to the last bits
-      weight[0] = weight[1] = Real(0.5);
+      weight[a] = weight[b] = Real(0.5);
     } else if (g1 <= 0) {
-      weight[1] = 0;
+      weight[b] = 0;
     } else if (g0 <= 0) {
-      weight[0] = 0;
+      weight[a] = 0;
     } else {
       const Real scale = 1 / (u * (1 + g));
-      weight[0] = g0 * scale / d0;
-      weight[1] = g1 * scale / d1;
+      weight[a] = g0 * scale / d0;
+      weight[b] = g1 * scale / d1;
     }
   }
 
@@ -59,19 +85,20 @@ class CornerRule {
   // one costs a forward substitution; leaving is rare and factors afresh.
   LSDCD_FN void solve_many(const ContactSet<kPlaces> &set, Real radius, Real *weight)
   {
-    const int n = set.n;
+    const int n = n_;
     n_active_ = 0;
     bool refused[kPlaces];
-    for (int i = 0; i < n; i++) {
-      l_[i] = 0;
-      refused[i] = false;
+    for (int k = 0; k < n; k++) {
+      l_[used_[k]] = 0;
+      refused[used_[k]] = false;
     }
     // Each round enters one contact; the objective falls strictly, so that no
     // active set comes back. The bound only guards against round-off.
     for (int round = 0; round < 4 * n + 8; round++) {
       int enter = -1;
       Real steepest = 0;
-      for (int i = 0; i < n; i++) {
+      for (int k = 0; k < n; k++) {
+        const int i = used_[k];
         if (is_active(i) || refused[i]) continue;
         const Real slope = gradient(set, radius, i);
         const Real d = radius - set.distance[i];
@@ -89,9 +116,9 @@ class CornerRule {
       }
       while (!step(set, radius)) {
       }
-      for (int i = 0; i < n; i++) refused[i] = false;
+      for (int k = 0; k < n; k++) refused[used_[k]] = false;
     }
-    for (int i = 0; i < n; i++) weight[i] = l_[i] / (radius - set.distance[i]);
+    for (int k = 0; k < n; k++) weight[used_[k]] = l_[used_[k]] / (radius - set.distance[used_[k]]);
   }
 
   LSDCD_FN Real &at(int row, int column) { return factor_[row * (row + 1) / 2 + column]; }
@@ -220,6 +247,8 @@ class CornerRule {
   // of it unused shifts the force by sqrt(2 kTiny) of the overlap at most.
   static constexpr Real kTiny = 5e-15;
 
+  int n_ = 0;    // contacts that take part
+  int used_[kPlaces];
   int n_active_ = 0;
   int active_[kPlaces];
   Real l_[kPlaces], target_[kPlaces];

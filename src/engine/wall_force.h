@@ -54,7 +54,7 @@ LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
   Real weight[kPlaces];
   if (settings.blend && set.n > 1) {
     CornerRule<kPlaces> rule;
-    rule.solve(set, s.radius, weight);
+    rule.solve(set, s.radius, weight, grid.slack);
   } else {
     for (int i = 0; i < set.n; i++) weight[i] = 1;
   }
