@@ -260,6 +260,12 @@ TEST(grid, flat_view_gives_the_contacts_of_view)
   const GridView a = grid.view(), b = flat_view(block.at());
   EXPECT_EQ(b.block, block.at());
   EXPECT_EQ(b.block_bytes, flat_bytes(grid));
+  EXPECT_EQ(a.origin, b.origin);
+  EXPECT_EQ(a.length, b.length);
+  EXPECT_EQ(a.inv_length, b.inv_length);
+  EXPECT_EQ(a.reach, b.reach);
+  EXPECT_EQ(a.slack, b.slack);
+  EXPECT_EQ(a.outside, b.outside);
   Random random(1);
   for (int i = 0; i < 10000; i++) {
     const Vec3 q = query_point(random, soup, {-1, -1, -1}, {1, 1, 1}, 0.3);
