@@ -65,7 +65,7 @@ def main():
     for line in log.splitlines():
         if line.startswith("Fix "):
             fix = line.split()[1]
-        if fix == "wall" and re.match(r"mesh |  (facets|edges|area|box|device|grid|[\d.]+ .?B, built)", line):
+        if fix == "wall" and re.match(r"Fix .*: mesh|  (facets|edges|area|box|device|grid|[\d.]+ .?B, built)", line):
             print(line.replace(sys.path[0] + "/", ""))
 
 
