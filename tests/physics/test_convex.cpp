@@ -1,0 +1,234 @@
+// Convex edges, corners and cone tips are one contact, whatever meets there and in
+// whatever order. (test_corners: a cube, and cones of equal facets.)
+#include "support/hard_case.h"
+#include "support/laws.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2;
+constexpr const char *kTheme = "Convex edges, corners and tips";
+using Random = std::mt19937_64;
+
+Real uniform(Random &random, Real lo, Real hi)
+{
+  return std::uniform_real_distribution<Real>(lo, hi)(random);
+}
+Vec3 unit(const Vec3 &a)
+{
+  return (1 / norm(a)) * a;
+}
+
+// A fan of n facets around a tip at the origin. Its edges fall by `height` over a
+// radius of 2; uneven ones by up to twice that, at angles unevenly spread: a star
+// with ridges and grooves.
+TriangleSoup fan(int n, Real height, bool even, Random &random)
+{
+  std::vector<Vec3> rim;
+  for (int i = 0; i < n; i++) {
+    const Real a = 2 * M_PI * (i + (even ? 0 : uniform(random, -0.45, 0.45))) / n;
+    const Real r = even ? 2 : uniform(random, 1, 2), steeper = even ? 1 : uniform(random, 1, 2);
+    rim.push_back({r * std::cos(a), r * std::sin(a), -height * steeper * r / 2});
+  }
+  TriangleSoup soup;
+  soup.source = "fan";
+  for (int i = 0; i < n; i++)
+    soup.corners.insert(soup.corners.end(), {{0, 0, 0}, rim[i], rim[(i + 1) % n]});
+  return soup;
+}
+
+// Facets in random order, each starting at any corner and wound either way.
+TriangleSoup shuffled(const TriangleSoup &soup, Random &random)
+{
+  std::vector<std::size_t> order(soup.n_triangles());
+  for (std::size_t i = 0; i < order.size(); i++) order[i] = i;
+  std::shuffle(order.begin(), order.end(), random);
+  TriangleSoup out;
+  out.source = soup.source;
+  for (std::size_t t : order) {
+    const std::size_t k = random() % 3, step = 1 + random() % 2;
+    for (std::size_t c = 0; c < 3; c++)
+      out.corners.push_back(soup.corners[3 * t + (k + c * step) % 3]);
+  }
+  return out;
+}
+
+struct Answer {
+  Real off = 0;    // largest |F - k d n| over k d
+  int most = 0, least = 1 << 20;
+};
+
+// Spheres that overlap the point p by `depth` along the unit normals given.
+Answer at_point(const TriangleSoup &soup, const Vec3 &p, const std::vector<Vec3> &normals,
+                Real depth)
+{
+  Scene scene(soup, kRadius, hooke(kStiffness), 0, 0);
+  for (const Vec3 &n : normals) scene.add_sphere(p + (kRadius - depth) * n, kRadius, kMass);
+  scene.compute(1e-4, true, true);
+  Answer out;
+  EXPECT_EQ(scene.engine->n_touching(), scene.n());
+  for (int i = 0; i < scene.n(); i++) {
+    const Real off = norm(scene.force(i) - kStiffness * depth * normals[i]) / (kStiffness * depth);
+    if (!(off <= out.off)) out.off = off;
+    const int n = static_cast<int>(scene.engine->sphere_output()[i].contacts);
+    out.most = std::max(out.most, n);
+    out.least = std::min(out.least, n);
+  }
+  return out;
+}
+
+// The overlap is the radius less a distance of a few roundings.
+constexpr Real kDepth = 0.02 * kRadius, kExact = 16 * kRoundoff * kRadius / kDepth;
+
+void expect_one(const char *id, const std::string &what, const Answer &a)
+{
+  expect_at_most({kTheme, id, what + ": |F/F0 - n|"}, a.off, kExact, "roundings: 16 eps R / d");
+  expect_answer({kTheme, id, what + ": most contacts"}, 1, a.most, 0, "one local minimum");
+  EXPECT_EQ(a.least, 1);
+}
+
+TEST(tip, of_any_fan_in_any_order_is_one_contact)
+{
+  Random random(1);
+  for (int n : {3, 5, 50, 200, 2000})
+    for (bool even : {true, false}) {
+      Answer worst;
+      for (Real height : {0.05, 1., 20.}) {
+        const TriangleSoup soup = shuffled(fan(n, height, even, random), random);
+        // Normals that lean from the axis by less than the flattest edge falls.
+        const Real least = std::atan2(height, 2);
+        std::vector<Vec3> normals = {{0, 0, 1}};
+        for (int i = 0; i < 200; i++) {
+          const Real lean = least * uniform(random, 0, 0.99), b = uniform(random, 0, 2 * M_PI);
+          normals.push_back(
+              {std::sin(lean) * std::cos(b), std::sin(lean) * std::sin(b), std::cos(lean)});
+        }
+        const Answer a = at_point(soup, {0, 0, 0}, normals, kDepth);
+        worst.off = std::fmax(worst.off, a.off);
+        worst.most = std::max(worst.most, a.most);
+        worst.least = std::min(worst.least, a.least);
+      }
+      expect_one("1", (even ? "even fan of " : "uneven fan of ") + std::to_string(n) + " facets",
+                 worst);
+    }
+}
+
+TEST(corner_of_a_body, is_one_contact_in_any_order)
+{
+  Random random(2);
+  const Vec3 lo = {0, 0, 0}, hi = {1, 1, 1};
+  Answer worst;
+  for (int k = 0; k < 10; k++) {
+    const TriangleSoup soup = shuffled(box_mesh(lo, hi), random);
+    std::vector<Vec3> normals;
+    for (int i = 0; i < 200; i++)
+      normals.push_back(
+          unit({uniform(random, 0.01, 1), uniform(random, 0.01, 1), uniform(random, 0.01, 1)}));
+    const Answer a = at_point(soup, hi, normals, kDepth);
+    worst.off = std::fmax(worst.off, a.off);
+    worst.most = std::max(worst.most, a.most);
+    worst.least = std::min(worst.least, a.least);
+  }
+  expect_one("2", "a box's corner, facets shuffled and turned", worst);
+}
+
+TEST(edge_of_a_body, is_one_contact_however_it_is_cut)
+{
+  // The ridge of a roof: its two sides in n and m strips, so that the ridge is cut by
+  // vertices of one side or of both.
+  Random random(3);
+  for (int n : {1, 4, 6})
+    for (int m : {1, 4, 9}) {
+      TriangleSoup soup;
+      soup.source = "roof";
+      const auto side = [&](Real x, int strips) {
+        for (int i = 0; i < strips; i++) {
+          const Real y0 = -3 + 6. * i / strips, y1 = -3 + 6. * (i + 1) / strips;
+          soup.corners.insert(soup.corners.end(), {{0, y0, 0}, {0, y1, 0}, {x, y1, -2}});
+          soup.corners.insert(soup.corners.end(), {{0, y0, 0}, {x, y1, -2}, {x, y0, -2}});
+        }
+      };
+      side(-3, n);
+      side(2, m);
+      soup = shuffled(soup, random);
+      std::vector<Vec3> normals;
+      Scene scene(soup, kRadius, hooke(kStiffness), 0, 0);
+      // Over vertices of either side, and beside them.
+      for (int i = 0; i < 2000; i++) {
+        const int cuts = i % 2 ? n : m;
+        Real y = -3 + 6. * (random() % (cuts + 1)) / cuts;
+        if (i % 3) y += std::pow(10., uniform(random, -15, 0)) * (random() % 2 ? 1 : -1);
+        if (std::fabs(y) > 2.9) y = 0.1;
+        const Real a = uniform(random, -std::atan2(2, 3), std::atan2(2, 2)) * 0.999;
+        const Vec3 normal = {std::sin(a), 0, std::cos(a)};
+        scene.add_sphere(Vec3{0, y, 0} + (kRadius - kDepth) * normal, kRadius, kMass);
+        normals.push_back(normal);
+      }
+      scene.compute(1e-4);
+      Real largest = 0;
+      for (int i = 0; i < scene.n(); i++) {
+        const Real off =
+            norm(scene.force(i) - kStiffness * kDepth * normals[i]) / (kStiffness * kDepth);
+        if (!(off <= largest)) largest = off;
+      }
+      expect_at_most(
+          {kTheme, "3",
+           "a ridge cut into " + std::to_string(n) + " and " + std::to_string(m) + ": |F/F0 - n|"},
+          largest, kExact, "roundings: 16 eps R / d");
+    }
+}
+
+// Drops a sphere beside an edge or a corner at `aside` from it, until it has left.
+Vec3 drop(const TriangleSoup &soup, const Vec3 &over, Real aside, const Vec3 &towards)
+{
+  const Real dt = M_PI * std::sqrt(kMass / kStiffness) / 4000, speed = 0.2;
+  Scene scene(soup, kRadius, hooke(kStiffness), 0, 0);
+  const Real h = std::sqrt(kRadius * kRadius - aside * aside);
+  scene.add_sphere(over + aside * towards + Vec3{0, 0, h + 1e-6}, kRadius, kMass, {0, 0, -speed});
+  scene.compute(dt);
+  bool touched = false;
+  for (int i = 0; i < 20000; i++) {
+    scene.step(dt, {0, 0, 0});
+    const bool touches = norm_sq(scene.force(0)) > 0;
+    if (touched && !touches) break;
+    touched = touched || touches;
+  }
+  EXPECT_TRUE(touched);
+  return (1 / speed) * scene.v(0);
+}
+
+TEST(drop, beside_an_edge_or_a_corner_leaves_in_the_mirrored_direction)
+{
+  // A stiff frictionless bounce mirrors the speed at the normal n = (centre - edge)/R
+  // that it comes in along. While it lasts the normal turns: by the speed across,
+  // v aside/R, times the contact time over R, and the speed leaves by twice that.
+  const Real turn = 0.2 * M_PI * std::sqrt(kMass / kStiffness) / kRadius;
+  const TriangleSoup soup = box_mesh({-2, -2, -2}, {0, 0, 0});
+  for (Real share : {0., 0.1, 0.3, 0.5, 0.7, 0.9})
+    for (bool corner : {false, true}) {
+      const Vec3 over = corner ? Vec3{0, 0, 0} : Vec3{0, -1, 0};
+      const Vec3 towards = corner ? unit({1, 1, 0}) : Vec3{1, 0, 0};
+      const Vec3 v = drop(soup, over, share * kRadius, towards);
+      const Real up = 1 - share * share;    // n.z squared
+      const Vec3 mirrored =
+          Vec3{0, 0, -1} + 2 * std::sqrt(up) * (share * towards + std::sqrt(up) * Vec3{0, 0, 1});
+      char what[100];
+      std::snprintf(what, sizeof what, "a drop %g R beside %s: |v/v0 - mirrored|", share,
+                    corner ? "a corner" : "an edge");
+      expect_at_most({kTheme, "4", what}, norm(v - mirrored), 2 * turn * share + 1e-3,
+                     "the normal turns by v t / R while it bounces; 4000 steps a bounce");
+      // It leaves away from the body, or straight up from its top, never into it.
+      EXPECT_GE(dot(v, towards), -1e-12);
+      EXPECT_LE(std::fabs(dot(v, cross(towards, Vec3{0, 0, 1}))), 1e-12);
+    }
+}
+
+}    // namespace
+}    // namespace lsdcd
