@@ -205,9 +205,13 @@ class Minima {
 
   explicit Minima(const Case &c) : c_(c)
   {
+    std::map<std::array<Real, 3>, int> number;
     for (std::size_t i = 0; i < c.soup.corners.size(); i++) {
       const Vec3 &p = c.soup.corners[i];
-      faces_at_[{p.x, p.y, p.z}].push_back(i / 3);
+      const int v = number.insert({{p.x, p.y, p.z}, static_cast<int>(number.size())}).first->second;
+      faces_at_.resize(number.size());
+      faces_at_[v].push_back(i / 3);
+      corner_.push_back(v);
     }
   }
 
@@ -221,8 +225,13 @@ class Minima {
   {
     const Wide r = radius + 1e-6 * c_.diagonal;
     const Kernel::Iso_cuboid_3 box(q.x - r, q.y - r, q.z - r, q.x + r, q.y + r, q.z + r);
-    std::vector<Primitive::Id> near;
-    c_.tree->all_intersected_primitives(box, std::back_inserter(near));
+    std::vector<Primitive::Id> boxed;
+    c_.tree->all_intersected_primitives(box, std::back_inserter(boxed));
+    std::vector<std::size_t> near;
+    for (const auto &id : boxed) {
+      const std::size_t face = id - c_.triangles.begin();
+      if (length(wide(q) - closest_on(face, q)) < r) near.push_back(face);
+    }
     Map out;
     for (int k = 0; k < kCorners; k++) {
       const Real s = shift();
@@ -233,31 +242,32 @@ class Minima {
   }
 
  private:
-  using Key = std::array<Real, 3>;
-
-  void add_minima(const std::vector<Primitive::Id> &near, const Vec3 &q, Real radius,
-                  Map &out) const
+  void add_minima(const std::vector<std::size_t> &near, const Vec3 &q, Real radius, Map &out) const
   {
     std::vector<std::vector<std::size_t>> known;
-    for (const auto &id : near) {
-      const std::size_t face = id - c_.triangles.begin();
+    for (std::size_t face : near) {
       const WideVec foot = closest_on(face, q);
       if (length(wide(q) - foot) >= radius) continue;
       std::vector<std::size_t> holding = {face};
-      bool is_minimum = true;
-      for (int k = 0; k < 3 && is_minimum; k++)
-        for (std::size_t other : faces_at_.at(key(face, k))) {
-          if (std::find(holding.begin(), holding.end(), other) != holding.end()) continue;
-          if (!on_face(other, foot)) continue;
-          holding.push_back(other);
-          is_minimum = is_minimum && length(closest_on(other, q) - foot) <= round_off();
-        }
-      if (!is_minimum) continue;
+      if (!is_minimum(face, q, foot, holding)) continue;
       std::sort(holding.begin(), holding.end());
       if (std::find(known.begin(), known.end(), holding) != known.end()) continue;
       known.push_back(holding);
       out.insert({holding, {foot, 0}}).first->second.seen++;
     }
+  }
+  // Adds the other faces that hold the foot; false at the first that has another.
+  bool is_minimum(std::size_t face, const Vec3 &q, const WideVec &foot,
+                  std::vector<std::size_t> &holding) const
+  {
+    for (int k = 0; k < 3; k++)
+      for (std::size_t other : faces_at_[corner_[3 * face + k]]) {
+        if (std::find(holding.begin(), holding.end(), other) != holding.end()) continue;
+        if (!on_face(other, foot)) continue;
+        if (length(closest_on(other, q) - foot) > round_off()) return false;
+        holding.push_back(other);
+      }
+    return true;
   }
   // Long double leaves 1e-19 of the coordinates, times the aspect ratio.
   Wide round_off() const { return 1e-15L * c_.diagonal; }
@@ -277,14 +287,9 @@ class Minima {
     corners(face, p);
     return closest(p, wide(q));
   }
-  Key key(std::size_t face, int k) const
-  {
-    const Vec3 &p = c_.soup.corners[3 * face + k];
-    return {p.x, p.y, p.z};
-  }
-
   const Case &c_;
-  std::map<Key, std::vector<std::size_t>> faces_at_;
+  std::vector<int> corner_;                           // the point of each corner
+  std::vector<std::vector<std::size_t>> faces_at_;    // those of a point
 };
 
 // Our contacts are the local minima: every sure one is there, nothing is that is
