@@ -19,19 +19,37 @@ struct Foot {
 // exact regions: face prism, edge wedge, vertex cone. Feet farther than `within`
 // (length) are not found.
 constexpr Real kAnyDistance = 1e300;
+// Below this (length) squares leave the range of Real: the centre is on the wall.
+constexpr Real kNoDistance = 1e-140;
 constexpr Foot kNoFoot = {false, 0, {0, 0, 0}};
 
-LSDCD_FN Foot foot_on_face(const FaceRecord &face, const Vec3 &q, Real slack,
-                           Real within = kAnyDistance)
+// `at_rim` is set where the foot may lie past a side, by the slack at most.
+LSDCD_FN Foot foot_on_face(const FaceRecord &face, const Vec3 &q, Real slack, Real within,
+                           bool &at_rim)
 {
   const Vec3 d = q - face.anchor;
   const Real h = dot(face.normal, d);
-  const bool found = fabs(h) <= within && dot(face.inward[0], d) >= -slack &&
-                     dot(face.inward[1], d) + face.height >= -slack &&
-                     dot(face.inward[2], d) >= -slack;
-  if (!found) return kNoFoot;
+  if (!(fabs(h) <= within)) return kNoFoot;
+  const Real a = dot(face.inward[0], d), b = dot(face.inward[1], d) + face.height,
+             c = dot(face.inward[2], d);
+  if (!(a >= -slack && b >= -slack && c >= -slack)) return kNoFoot;
+  at_rim = a < 0 || b < 0 || c < 0;
   if (h < 0) return {true, -h, -face.normal};
   return {true, h, face.normal};
+}
+
+// At a sharp corner the widened sides meet far past the face, by slack / sin(half
+// its angle). Is q past such a corner by no more than the slack, along its bisector?
+// A foot is then within sqrt(2) slacks of the face, at any corner.
+LSDCD_FN bool before_corners(const Vec3 *corner, const Vec3 &q, Real slack)
+{
+  for (int k = 0; k < 3; k++) {
+    const Vec3 u = corner[(k + 1) % 3] - corner[k], v = corner[(k + 2) % 3] - corner[k];
+    if (!(dot(u, v) > 0)) continue;
+    const Vec3 bisector = (1 / norm(u)) * u + (1 / norm(v)) * v;
+    if (!(dot(bisector, q - corner[k]) >= -slack * norm(bisector))) return false;
+  }
+  return true;
 }
 
 LSDCD_FN bool inside_wedge(const EdgeRecord &edge, const Vec3 *edge_inward, const Vec3 &d,
@@ -54,7 +72,7 @@ LSDCD_FN Foot foot_on_edge(const EdgeRecord &edge, const Vec3 *edge_inward, cons
   const Vec3 radial = d - along * edge.direction;
   const Real distance = norm(radial);
   if (!(distance <= within)) return kNoFoot;
-  if (distance > 0) return {true, distance, (1 / distance) * radial};
+  if (distance > kNoDistance) return {true, distance, (1 / distance) * radial};
   // On the edge itself: away from its faces, or across a flat pair of them.
   Vec3 away = {0, 0, 0};
   if (edge.n_faces > 0) away -= edge.inward[0];
@@ -79,7 +97,7 @@ LSDCD_FN Foot foot_on_vertex(const VertexRecord &vertex, const Vec3 *direction, 
   const Vec3 d = q - vertex.position;
   const Real distance = norm(d);
   if (!(distance <= within) || !inside_cone(vertex, direction, d, slack)) return kNoFoot;
-  if (distance > 0) return {true, distance, (1 / distance) * d};
+  if (distance > kNoDistance) return {true, distance, (1 / distance) * d};
   // On the vertex itself: away from its edges, or across a flat fan of them.
   Vec3 away = {0, 0, 0};
   for (std::uint32_t k = 0; k < vertex.count; k++) away -= direction[vertex.first + k];
@@ -93,8 +111,15 @@ LSDCD_FN Foot foot_on(const WallFeaturesView &wall, FeatureCode feature, const V
 {
   const std::uint32_t i = feature_index(feature);
   switch (feature_kind(feature)) {
-    case FeatureKind::face:
-      return foot_on_face(wall.faces[i], q, slack, within);
+    case FeatureKind::face: {
+      bool at_rim = false;
+      const Foot foot = foot_on_face(wall.faces[i], q, slack, within, at_rim);
+      if (!foot.found || !at_rim) return foot;
+      Vec3 corner[3];
+      for (int k = 0; k < 3; k++) corner[k] = wall.vertices[wall.face_vertex[i].v[k]].position;
+      if (before_corners(corner, q, slack)) return foot;
+      return kNoFoot;
+    }
     case FeatureKind::edge:
       return foot_on_edge(wall.edges[i], wall.edge_inward, q, slack, within);
     default:
