@@ -13,7 +13,6 @@ enum class FeatureKind : std::uint32_t { face = 0, edge = 1, vertex = 2 };
 
 constexpr FeatureCode kFeatureIndexMask = 0x3fffffffu;
 constexpr std::size_t kMaxFeatures = kFeatureIndexMask;
-constexpr FeatureCode kNoFeature = 0xffffffffu;
 
 LSDCD_FN FeatureCode feature_code(FeatureKind kind, std::uint32_t index)
 {
@@ -34,8 +33,5 @@ struct Spring {
   FeatureCode feature;
   std::uint32_t pad;    // keeps the record free of indeterminate bytes
 };
-
-// In the place of a contact's spring: nothing is handed on from it.
-constexpr Spring kNoSpring = {{0, 0, 0}, {0, 0, 0}, kNoFeature, 0};
 
 }    // namespace lsdcd

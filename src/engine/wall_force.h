@@ -17,8 +17,9 @@ struct SphereState {
   int n_springs;
 };
 
-// What the wall does to it. n_contacts is kOverflow where the contacts did not
-// fit; nothing else is valid then and the sphere has to be done again.
+// What the wall does to it. n_contacts counts the contacts that bear, and the springs;
+// it is kOverflow where the contacts did not fit: nothing else is valid then and the
+// sphere has to be done again.
 struct SphereResult {
   Vec3 force, torque;
   Real energy;
@@ -48,7 +49,7 @@ LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
   ContactSet<kPlaces> set;
   find_contacts(grid, s.x, s.radius, set);
   if (settings.side != 0) keep_side(grid.wall, settings.side * grid.outside, set);
-  out.n_contacts = set.overflow ? kOverflow : set.n;
+  if (set.overflow) out.n_contacts = kOverflow;
   if (set.overflow || set.n == 0) return out;
 
   Real weight[kPlaces];
@@ -60,10 +61,17 @@ LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
   }
 
   for (int i = 0; i < set.n; i++) {
+    const Real overlap = s.radius - set.distance[i], ratio = overlap / s.radius;
+    if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
+    // A contact that bears nothing, as the far face of a thin plate, is none. Nor has
+    // it a spring yet: cut to the friction limit of its own slight overlap, that would
+    // be gone when it takes over the force.
+    if (!(weight[i] > 0)) continue;
+
     const Vec3 n = set.normal[i];
     Contact c;
     c.normal = n;
-    c.overlap = s.radius - set.distance[i];
+    c.overlap = overlap;
     c.radius = s.radius;
     c.mass = s.mass;
     c.v_normal = dot(s.v, n);
@@ -75,17 +83,13 @@ LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
     if constexpr (Law::kHistory)
       stretch = inherited_stretch(grid.wall, set, i, s.springs, s.n_springs);
     const ContactForce f = law.evaluate(c, stretch);
-    // A contact that bears nothing has no spring yet: cut to the friction limit of
-    // its own slight overlap, it would have none when it takes over the force.
-    if constexpr (Law::kHistory)
-      springs_out[i] = weight[i] > 0 ? Spring{stretch, n, set.feature[i], 0} : kNoSpring;
+    if constexpr (Law::kHistory) springs_out[out.n_contacts] = {stretch, n, set.feature[i], 0};
+    out.n_contacts++;
 
     const Vec3 tangential = weight[i] * f.tangential;
     out.force += (weight[i] * f.normal) * n + tangential;
     out.torque -= s.radius * cross(n, tangential);
     out.energy += weight[i] * f.energy;
-    const Real ratio = c.overlap / s.radius;
-    if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
     if (settings.with_point) {
       const Real w = weight[i] * fabs(f.normal);
       out.weight += w;
