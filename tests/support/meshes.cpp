@@ -169,6 +169,7 @@ void Scene::step(Real dt, const Vec3 &gravity)
   kick();
   for (int i = 0; i < n(); i++) put(x_, i, x(i) + dt * v(i));
   compute(dt);
+  if (more_forces) more_forces(*this, dt);
   kick();
 }
 

@@ -6,6 +6,7 @@
 #include "mesh/triangle_soup.h"
 #include "mesh/wall_mesh.h"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -39,8 +40,15 @@ class Scene {
   // Clears forces and computes them; springs move unless `update` is false.
   void compute(Real dt, bool update = true, bool per_sphere = false);
   // One velocity-Verlet step of spheres under gravity and the wall, as fix
-  // nve/sphere does it.
+  // nve/sphere does it; `more_forces` is called after the wall's, where it is set.
   void step(Real dt, const Vec3 &gravity);
+
+  std::function<void(Scene &, Real dt)> more_forces;
+  void add_force(int i, const Vec3 &force, const Vec3 &torque)
+  {
+    put(f_, i, this->force(i) + force);
+    put(torque_, i, this->torque(i) + torque);
+  }
 
   Vec3 force(int i) const { return vec(f_, i); }
   Vec3 torque(int i) const { return vec(torque_, i); }
