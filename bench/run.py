@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
 """Runs benchmark programs, keeps their CSV and prints it as a table.
 
-usage: run.py [--build DIR] [NAME ...]     NAME: build, step (default: both)
+usage: run.py [--build DIR] [NAME ...]     NAME: build, step (default: both), hard-cases
 
-Rows go to DIR/bench/NAME.csv, written whole or not at all.
+Rows go to DIR/bench/NAME.csv, written whole or not at all. hard-cases measures no speed:
+it writes doc/hard_cases.md from runs of the tests (hard_cases.py).
 """
 import argparse
 import csv
 import os
 import subprocess
 import sys
+
+import hard_cases
 
 NAMES = ["build", "step"]
 HIDDEN = {"bench", "compiler", "commit"}    # the same in every row; printed once
@@ -31,12 +34,18 @@ def main():
     args = parser.parse_args()
     build, names = args.build, args.names or NAMES
     for name in names:
-        if name not in NAMES:
-            print(f"no benchmark '{name}'; there are: {', '.join(NAMES)}", file=sys.stderr)
+        if name not in NAMES + ["hard-cases"]:
+            print(f"no benchmark '{name}'; there are: {', '.join(NAMES)}, hard-cases",
+                  file=sys.stderr)
             return 2
     out = os.path.join(build, "bench")
     os.makedirs(out, exist_ok=True)
     for name in names:
+        if name == "hard-cases":
+            status = hard_cases.main(["--build", build])
+            if status != 0:
+                return status
+            continue
         print(f"running bench_{name} ...", flush=True)
         done = subprocess.run([os.path.join(build, "bin", "bench_" + name)],
                               stdout=subprocess.PIPE, text=True)

@@ -32,7 +32,7 @@ inline void write_row(const HardCase &c, const char *relation, Real answer, Real
     ADD_FAILURE() << "cannot write " << path << ", which LSDCD_HARD_CASES names";
     return;
   }
-  std::fprintf(file, "%s\t%s\t%s\t%s\t%s\t%s\t%.10g\t%.10g\t%.3g\t%s\t%s\n", c.theme.c_str(),
+  std::fprintf(file, "%s\t%s\t%s\t%s\t%s\t%s\t%.17g\t%.17g\t%.3g\t%s\t%s\n", c.theme.c_str(),
                c.id.c_str(), c.what.c_str(), test_on_cuda() ? "cuda" : "cpu",
                sizeof(Real) == sizeof(double) ? "double" : "single", relation, answer, ours,
                tolerance, derivation.c_str(), holds ? "holds" : "FAILS");
