@@ -73,7 +73,7 @@ TEST(bounce, train_has_the_heights_of_its_restitution)
 {
   constexpr Real kGamma = 40, kDrop = 0.2;
   constexpr int kBounces = 4;
-  const Real w = std::sqrt(kStiffness / kMass), dt = 0.002 / w;
+  const Real w = std::sqrt(kStiffness / kMass), dt = 0.004 / w;
   std::vector<Real> answer = {kDrop};
   for (int k = 1; k <= kBounces; k++) {
     const Wide v = leaving_speed(std::sqrt(2 * kGravity * Wide(answer[k - 1])), kGamma);
