@@ -36,7 +36,7 @@ def energy(data):
 
 
 def single(work, walls):
-    print("One sphere, 3000 steps: cylinder against mesh")
+    print("One sphere, 30000 steps: cylinder against mesh")
     print(f"{'law':16s}{'segments':>9s}{'sagitta/diameter':>18s}{'largest |dF|/max|F|':>21s}{'largest |dx|/diameter':>23s}"
           f"{'energy left':>13s}{'cylinder':>10s}")
     for name, law in LAWS.items():
