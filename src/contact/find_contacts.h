@@ -11,23 +11,36 @@ namespace lsdcd {
 // points lie this many slacks apart at most (each is off by one, twice).
 constexpr Real kSamePoint = 4;
 
-// Adds a contact unless the set already has one at the same point of the wall.
+// Adds a contact unless the set already has one at the same point of the wall: then
+// the nearer answer stays, or the lower feature, whatever the order. A foot between
+// two others makes one of all three.
 template <int kPlaces>
 LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const Foot &foot, Real slack)
 {
+  int at = -1;
   for (int i = 0; i < set.n; i++) {
     const Vec3 apart = set.distance[i] * set.normal[i] - foot.distance * foot.normal;
     if (norm_sq(apart) > kSamePoint * kSamePoint * slack * slack) continue;
-    // Same point: the nearer answer, then the lower feature, whatever the order.
-    if (foot.distance < set.distance[i] ||
-        (foot.distance == set.distance[i] && feature < set.feature[i])) {
+    const Real held = at < 0 ? foot.distance : set.distance[at];
+    const FeatureCode holder = at < 0 ? feature : set.feature[at];
+    const bool better =
+        set.distance[i] < held || (set.distance[i] == held && set.feature[i] < holder);
+    if (at < 0) {
+      at = i;
+      if (better) continue;
       set.feature[i] = feature;
       set.normal[i] = foot.normal;
       set.distance[i] = foot.distance;
+    } else {
+      if (better) {
+        set.feature[at] = set.feature[i];
+        set.normal[at] = set.normal[i];
+        set.distance[at] = set.distance[i];
+      }
+      set.remove(i--);
     }
-    return;
   }
-  set.add(feature, foot.normal, foot.distance);
+  if (at < 0) set.add(feature, foot.normal, foot.distance);
 }
 
 // Every local minimum of the distance from q to the wall that is below `radius`
