@@ -14,7 +14,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from make_cylinder import cylinder, write_stl                              # noqa: E402
-from trajectories import largest_difference, read_dump, read_thermo, run_deck    # noqa: E402
+from trajectories import ROOT, largest_difference, read_dump, read_thermo, run_deck    # noqa: E402
 
 DIAMETER, RADIUS = 0.003, 0.02
 LAWS = {
@@ -67,7 +67,7 @@ def bed(work, walls):
 
 def main():
     p = argparse.ArgumentParser(description=__doc__)
-    p.add_argument("--work", default="compare-cylinder", help="folder for the runs")
+    p.add_argument("--work", default=ROOT / "build/examples/cylinder", help="folder for the runs")
     p.add_argument("--only", choices=("single", "bed"))
     arg = p.parse_args()
     work = Path(arg.work).resolve()

@@ -12,7 +12,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from make_floor import floor, write_stl                                   # noqa: E402
-from trajectories import distance, largest_difference, read_dump, read_thermo, run_deck    # noqa: E402
+from trajectories import ROOT, distance, largest_difference, read_dump, read_thermo, run_deck    # noqa: E402
 
 DIAMETER = 0.003
 LAWS = {
@@ -87,8 +87,8 @@ def bed(work, path, n, plot):
 
 def main():
     p = argparse.ArgumentParser(description=__doc__)
-    p.add_argument("--work", default="compare-flat", help="folder for the runs")
-    p.add_argument("--plot", default="divergence.png")
+    p.add_argument("--work", default=ROOT / "build/examples/flat", help="folder for the runs")
+    p.add_argument("--plot", default=ROOT / "build/examples/divergence.png")
     p.add_argument("--only", choices=("single", "bed"))
     arg = p.parse_args()
     work = Path(arg.work).resolve()
