@@ -202,7 +202,7 @@ def main(arguments=None):
     known = {(r["theme"], r["id"], r["what"]) for r in rows}
     rows += [r for r in kept if (r["theme"], r["id"], r["what"]) in known]
     bad = sum(r["holds"] != "holds" for r in rows)
-    where = (notes[0] if kept else "not run yet") + (
+    where = (("".join(notes[:1]) or "unknown commit") if kept else "not run yet") + (
         "" if cuda is not None or not kept else ", kept in `doc/data/hard_cases_cuda.tsv`")
     intro = INTRO.format(count=len(known), commit=args.commit, cpu=cpu(), cuda=where,
                          verdict="all hold" if not bad else f"**{bad} numbers fail**")
