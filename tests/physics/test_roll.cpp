@@ -103,6 +103,52 @@ TEST(incline, is_rolled_down_or_slid_down_as_its_slope_says)
     }
 }
 
+// ---- slip to roll ---------------------------------------------------------------------------
+
+TEST(slip, turns_into_rolling_at_its_time_and_place)
+{
+  const Real mu = 0.3, u0 = 2, dt = 1e-5;
+  const Real ts = 2 * u0 / (7 * mu * kGravity), xs = 12 * u0 * u0 / (49 * mu * kGravity);
+  for (const bool history : {true, false}) {
+    // Without damping along the normal nothing but mu m g acts. The viscous law holds
+    // its limit down to a slip of mu g / gamma; the spring lets it go at once.
+    const EngineSettings law = history ? hooke_history(kStiffness, kTangent, 0, kGamma, mu)
+                                       : hooke(kStiffness, 0, 1e4, mu);
+    Scene scene(floor_mesh(16, 2, 3), kRadius, law);
+    const Vec3 start = {-1, 0.13, kRadius - kMass * kGravity / kStiffness};
+    scene.add_sphere(start, kRadius, kMass, {u0, 0, 0});
+    scene.compute(dt, false);
+    const auto slip = [&] { return scene.v(0).x - kRadius * scene.omega(0).y; };
+    Real t = 0, x = 0;
+    while (t < 2 * ts) {
+      scene.step(dt, {0, 0, -kGravity});
+      t += dt;
+      if (x == 0 && slip() <= 1e-3 * u0) {
+        const std::string where =
+            history ? "slip to roll, history: " : "slip to roll, no history: ";
+        x = scene.x(0).x - start.x;
+        // The spring stretches by mu m g / kt before it holds.
+        const Real late = history ? mu * kMass * kGravity / kTangent : 0;
+        const std::string why =
+            "a step, the thousandth of the slip that is not waited for, and the "
+            "spring's stretch before it holds";
+        expect_answer({"Rolling", "13a", where + "time until it rolls, 2 u0 / (7 mu g)"}, ts, t,
+                      2 * dt + 1.1e-3 * ts + 2 * late / u0, why);
+        expect_answer({"Rolling", "13b", where + "way until it rolls, 12 u0^2 / (49 mu g)"}, xs, x,
+                      u0 * (2 * dt + 1.1e-3 * ts) + 2 * late, why);
+        expect_at_most({"Rolling", "13d", where + "drift aside over R"},
+                       std::fabs(scene.x(0).y - start.y) / kRadius, 1e-13, "none by symmetry");
+      }
+    }
+    expect_answer({"Rolling", "13c",
+                   std::string("slip to roll, ") + (history ? "history" : "no history") +
+                       ": speed of rolling over u0"},
+                  5. / 7, scene.v(0).x / u0, 1e-9,
+                  "v + 2/5 R omega is kept to a rounding a step; the slip has faded, as "
+                  "exp(-7/4 gamma t) or faster");
+  }
+}
+
 // ---- groove ----------------------------------------------------------------------------------
 
 // A groove along y of half angle a about the z axis, in n strips a side.
