@@ -7,6 +7,18 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
 
+DIAMETER = 0.003    # of the spheres in the decks that are compared
+LAWS = {
+    "hooke": "hooke 2000 NULL 1700 NULL 0.3 1",
+    "hooke/history": "hooke/history 2000 NULL 1700 NULL 0.3 1",
+    "hertz/history": "hertz/history 8e6 NULL 1e7 NULL 0.3 1",
+}
+
+
+def mesh(path, words=""):
+    """Deck variables that put the mesh in the built-in wall's place."""
+    return {"wall": "wall/lsdcd", "at": f"mesh {path} {words}"}
+
 
 def run_deck(deck, folder, ranks=1, **variables):
     """Run `deck` in `folder` with LAMMPS variables; the log goes to log.lammps there."""
@@ -59,17 +71,17 @@ def read_thermo(path):
     return {name: table[:, i] for i, name in enumerate(names)}
 
 
-def largest_difference(a, b, diameter):
-    """Largest |dF| over the largest |F|, and largest |dx| over the diameter.
+def largest_difference(a, b):
+    """Largest |dF| over the largest |F|, and largest |dx| over DIAMETER.
 
     Columns of `a` and `b`: x y z fx fy fz, per step and atom.
     """
     size = np.linalg.norm(a[:, :, 3:6], axis=2).max()
     d_force = np.linalg.norm(a[:, :, 3:6] - b[:, :, 3:6], axis=2).max()
     d_place = np.linalg.norm(a[:, :, :3] - b[:, :, :3], axis=2).max()
-    return d_force / size, d_place / diameter
+    return d_force / size, d_place / DIAMETER
 
 
-def distance(a, b, diameter):
-    """Largest |dx| over the diameter at each dumped step."""
-    return np.linalg.norm(a[:, :, :3] - b[:, :, :3], axis=2).max(axis=1) / diameter
+def distance(a, b):
+    """Largest |dx| over DIAMETER at each dumped step."""
+    return np.linalg.norm(a[:, :, :3] - b[:, :, :3], axis=2).max(axis=1) / DIAMETER

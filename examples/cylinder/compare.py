@@ -13,20 +13,13 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from make_cylinder import cylinder, write_stl                              # noqa: E402
-from trajectories import ROOT, largest_difference, read_dump, read_thermo, run_deck    # noqa: E402
+from make_cylinder import cylinder                                                # noqa: E402
+from stl import write_stl                                                         # noqa: E402
+from trajectories import (DIAMETER, LAWS, ROOT, largest_difference, mesh,         # noqa: E402
+                          read_dump, read_thermo, run_deck)
 
-DIAMETER, RADIUS = 0.003, 0.02
-LAWS = {
-    "hooke": "hooke 2000 NULL 1700 NULL 0.3 1",
-    "hooke/history": "hooke/history 2000 NULL 1700 NULL 0.3 1",
-    "hertz/history": "hertz/history 8e6 NULL 1e7 NULL 0.3 1",
-}
+RADIUS = 0.02
 EXACT = {"wall": "wall/gran", "at": "zcylinder 0.02"}
-
-
-def mesh(path):
-    return {"wall": "wall/lsdcd", "at": f"mesh {path}"}
 
 
 def energy(data):
@@ -47,7 +40,7 @@ def single(work, walls):
             folder = work / f"single-{tag}-{n}"
             run_deck(HERE / "in.single", folder, law=law, **mesh(path))
             _, ours = read_dump(folder / "dump.txt")
-            d_force, d_place = largest_difference(exact, ours, DIAMETER)
+            d_force, d_place = largest_difference(exact, ours)
             sagitta = RADIUS * (1 - np.cos(np.pi / n)) / DIAMETER
             print(f"{name:16s}{n:9d}{sagitta:18.1e}{d_force:21.2e}{d_place:23.2e}"
                   f"{energy(ours)[-1] / energy(ours)[0]:13.4f}{energy(exact)[-1] / energy(exact)[0]:10.4f}")
@@ -75,7 +68,7 @@ def main():
     walls = {}
     for n in (64, 256, 1024, 4096):
         path = work / f"cylinder{n}.stl"
-        write_stl(path, cylinder(RADIUS, 0.2, n))
+        write_stl(path, cylinder(RADIUS, 0.2, n), "cylinder")
         walls[n] = path
     if arg.only != "bed":
         single(work, walls)

@@ -4,7 +4,11 @@ The polygon has the area of the circle, so that it lies as far inside as outside
 import argparse
 import math
 import random
-import struct
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from stl import write_stl    # noqa: E402
 
 
 def cylinder(radius, length, segments, rings=1, seed=1):
@@ -26,14 +30,6 @@ def cylinder(radius, length, segments, rings=1, seed=1):
     return triangles
 
 
-def write_stl(path, triangles):
-    with open(path, "wb") as out:
-        out.write(b"cylinder".ljust(80))
-        out.write(struct.pack("<I", len(triangles)))
-        for t in triangles:
-            out.write(struct.pack("<12fH", 0, 0, 0, *t[0], *t[1], *t[2], 0))
-
-
 if __name__ == "__main__":
     p = argparse.ArgumentParser(description=__doc__)
     p.add_argument("file")
@@ -42,4 +38,4 @@ if __name__ == "__main__":
     p.add_argument("--segments", type=int, default=256, help="round the cylinder (default 256)")
     p.add_argument("--rings", type=int, default=1, help="along the axis (default 1)")
     arg = p.parse_args()
-    write_stl(arg.file, cylinder(arg.radius, arg.length, arg.segments, arg.rings))
+    write_stl(arg.file, cylinder(arg.radius, arg.length, arg.segments, arg.rings), "cylinder")

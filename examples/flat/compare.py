@@ -11,20 +11,12 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from make_floor import floor, write_stl                                   # noqa: E402
-from trajectories import ROOT, distance, largest_difference, read_dump, read_thermo, run_deck    # noqa: E402
+from make_floor import floor                                                      # noqa: E402
+from stl import write_stl                                                         # noqa: E402
+from trajectories import (DIAMETER, LAWS, ROOT, distance, largest_difference,     # noqa: E402
+                          mesh, read_dump, read_thermo, run_deck)
 
-DIAMETER = 0.003
-LAWS = {
-    "hooke": "hooke 2000 NULL 1700 NULL 0.3 1",
-    "hooke/history": "hooke/history 2000 NULL 1700 NULL 0.3 1",
-    "hertz/history": "hertz/history 8e6 NULL 1e7 NULL 0.3 1",
-}
 PLANE = {"wall": "wall/gran", "at": "zplane 0 NULL"}
-
-
-def mesh(path, words=""):
-    return {"wall": "wall/lsdcd", "at": f"mesh {path} {words}"}
 
 
 def single(work, floors):
@@ -38,7 +30,7 @@ def single(work, floors):
             folder = work / f"single-{tag}-{n}"
             run_deck(HERE / "in.single", folder, law=law, **mesh(path))
             _, ours = read_dump(folder / "dump.txt")
-            d_force, d_place = largest_difference(plane, ours, DIAMETER)
+            d_force, d_place = largest_difference(plane, ours)
             print(f"{name:16s}{n:10d}  {d_force:20.2e}  {d_place:21.2e}")
 
 
@@ -56,7 +48,7 @@ def bed(work, path, n, plot):
     pairs = {f"plane: 1 process against 2": ("plane, 1 process", "plane, 2 processes"),
              f"plane against mesh of {n} triangles": ("plane, 1 process", "mesh, 1 process"),
              f"mesh: 1 process against 2": ("mesh, 1 process", "mesh, 2 processes")}
-    apart = {label: distance(data[a], data[b], DIAMETER) for label, (a, b) in pairs.items()}
+    apart = {label: distance(data[a], data[b]) for label, (a, b) in pairs.items()}
     print(f"\n1000 spheres, {steps[-1]} steps: largest |dx|/diameter between two runs")
     marks = [np.argmin(abs(time - t)) for t in np.linspace(0, time[-1], 7)[1:]]
     print(f"{'time':40s}" + "".join(f"{time[m]:10.3f}" for m in marks))
@@ -96,7 +88,7 @@ def main():
     floors = {}
     for cells in (1, 100):
         path = work / f"floor{cells}.stl"
-        write_stl(path, floor(0.064, cells))
+        write_stl(path, floor(0.064, cells), "flat floor")
         floors[2 * cells * cells] = path
     if arg.only != "bed":
         single(work, floors)

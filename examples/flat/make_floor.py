@@ -3,7 +3,11 @@
 plane, triangles in random order, half of them wound the other way."""
 import argparse
 import random
-import struct
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from stl import write_stl    # noqa: E402
 
 
 def floor(side, cells, seed=1):
@@ -27,18 +31,10 @@ def floor(side, cells, seed=1):
     return triangles
 
 
-def write_stl(path, triangles):
-    with open(path, "wb") as out:
-        out.write(b"flat floor".ljust(80))
-        out.write(struct.pack("<I", len(triangles)))
-        for t in triangles:
-            out.write(struct.pack("<12fH", 0, 0, 0, *t[0], *t[1], *t[2], 0))
-
-
 if __name__ == "__main__":
     p = argparse.ArgumentParser(description=__doc__)
     p.add_argument("file")
     p.add_argument("--side", type=float, default=0.2, help="length (default 0.2)")
     p.add_argument("--cells", type=int, default=100, help="along a side (default 100: 20 000 triangles)")
     arg = p.parse_args()
-    write_stl(arg.file, floor(arg.side, arg.cells))
+    write_stl(arg.file, floor(arg.side, arg.cells), "flat floor")

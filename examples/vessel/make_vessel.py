@@ -8,7 +8,11 @@ plate that closes the tube until the deck takes it away. Walls have no thickness
 """
 import argparse
 import math
-import struct
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from stl import write_stl    # noqa: E402
 
 
 def arguments():
@@ -72,20 +76,6 @@ def turned(profile, segments):
             if r1 > 0:
                 facets.append((a, c, d))
     return facets
-
-
-def write_stl(path, facets, title):
-    """Binary STL; the normal is the winding's."""
-    with open(path, "wb") as out:
-        out.write(title.encode().ljust(80, b" "))
-        out.write(struct.pack("<I", len(facets)))
-        for a, b, c in facets:
-            u = [b[k] - a[k] for k in range(3)]
-            w = [c[k] - a[k] for k in range(3)]
-            n = (u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0])
-            size = math.hypot(*n) or 1
-            out.write(struct.pack("<12fH", *(x / size for x in n), *a, *b, *c, 0))
-    print(f"{path}: {len(facets)} facets")
 
 
 def main():
