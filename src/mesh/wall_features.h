@@ -15,21 +15,21 @@ namespace lsdcd {
 // With d = q - anchor, the signed distances from the edges are dot(inward[0], d),
 // dot(inward[1], d) + height and dot(inward[2], d).
 struct FaceRecord {
-  Vec3 anchor;       // corner 0
-  Vec3 normal;       // unit, by the winding
+  Vec3 anchor;    // corner 0
+  Vec3 normal;    // unit, by the winding
   Vec3 inward[3];
-  Real height;       // distance of corner 0 from edge 1
+  Real height;    // distance of corner 0 from edge 1
 };
 
 // An edge as a segment and the in-plane inward normals of its faces: a foot
 // point on it is a local minimum of distance if no face lets the distance fall.
 struct EdgeRecord {
-  Vec3 anchor;             // its first vertex
-  Vec3 direction;          // unit, towards the second
+  Vec3 anchor;       // its first vertex
+  Vec3 direction;    // unit, towards the second
   Real length;
-  Vec3 inward[2];          // of the first two faces
+  Vec3 inward[2];    // of the first two faces
   std::uint32_t n_faces;
-  std::uint32_t more;      // faces past the second: edge_inward[more ...]
+  std::uint32_t more;    // faces past the second: edge_inward[more ...]
 };
 
 // A vertex with the unit directions of its edges: vertex_direction[first ...].
@@ -53,7 +53,7 @@ struct WallFeaturesView {
   const Vec3 *vertex_direction;
   const FaceVertices *face_vertex;
   const EdgeVertices *edge_vertex;
-  const Vec3 *edge_out;      // angle-weighted pseudonormals; only read where a side is set
+  const Vec3 *edge_out;    // angle-weighted pseudonormals; only read where a side is set
   const Vec3 *vertex_out;
 };
 

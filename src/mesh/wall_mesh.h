@@ -19,31 +19,32 @@ struct MeshReport {
   std::size_t degenerate_facets = 0;    // dropped as faces; their edges and points stay
   std::size_t duplicate_facets = 0;     // dropped, either winding
   std::size_t edges = 0;
-  std::size_t open_edges = 0;            // one face
-  std::size_t nonmanifold_edges = 0;     // more than two faces
-  std::size_t misoriented_edges = 0;     // two faces that run along it the same way
-  bool closed = false;                   // every edge that has faces has two of them
-  bool oriented = false;                 // closed, no misoriented edge
-  Real weld_tolerance = 0;               // length
-  Real area = 0;                         // length^2
-  Real volume = 0;                       // length^3, signed; > 0 when normals point out
-  Vec3 lo = {0, 0, 0}, hi = {0, 0, 0};   // bounding box
+  std::size_t open_edges = 0;             // one face
+  std::size_t nonmanifold_edges = 0;      // more than two faces
+  std::size_t misoriented_edges = 0;      // two faces that run along it the same way
+  bool closed = false;                    // every edge that has faces has two of them
+  bool oriented = false;                  // closed, no misoriented edge
+  Real weld_tolerance = 0;                // length
+  Real area = 0;                          // length^2
+  Real volume = 0;                        // length^3, signed; > 0 when normals point out
+  Vec3 lo = {0, 0, 0}, hi = {0, 0, 0};    // bounding box
   Real smallest_edge = 0, largest_edge = 0, median_edge = 0;
-  Real smallest_height = 0;              // thinnest face: its area * 2 / longest edge
-  Real largest_fold = 0;                 // degrees between neighbouring face planes, 0 = flat
-  std::size_t feature_edges = 0;         // folds above 30 degrees
+  Real smallest_height = 0;         // thinnest face: its area * 2 / longest edge
+  Real largest_fold = 0;            // degrees between neighbouring face planes, 0 = flat
+  std::size_t feature_edges = 0;    // folds above 30 degrees
 };
 
 // Faces are proper triangles: three distinct welded vertices, not collinear.
 // Edges and vertices of dropped facets remain, so that nothing becomes a hole.
 struct WallMesh {
   std::vector<Vec3> vertices;
-  std::vector<std::array<int, 3>> faces;        // vertices, in the file's winding
-  std::vector<std::array<int, 3>> face_edges;   // edge k joins corners k and (k+1) % 3
-  std::vector<std::size_t> face_facet;          // facet of the file, from 0
-  std::vector<std::array<int, 2>> edges;        // vertices, lower index first
-  std::vector<int> edge_first, edge_face;       // faces of edge e: edge_face[edge_first[e] .. edge_first[e+1])
-  std::vector<int> vertex_first, vertex_edge;   // edges of vertex v, likewise
+  std::vector<std::array<int, 3>> faces;         // vertices, in the file's winding
+  std::vector<std::array<int, 3>> face_edges;    // edge k joins corners k and (k+1) % 3
+  std::vector<std::size_t> face_facet;           // facet of the file, from 0
+  std::vector<std::array<int, 2>> edges;         // vertices, lower index first
+  std::vector<int> edge_first,
+      edge_face;    // faces of edge e: edge_face[edge_first[e] .. edge_first[e+1])
+  std::vector<int> vertex_first, vertex_edge;    // edges of vertex v, likewise
   MeshReport report;
   std::string source;
 };
