@@ -61,6 +61,10 @@ class CornerRule {
     return false;
   }
 
+  // A share is rounded by the largest overlap's bits, which may be more than a much
+  // smaller one has.
+  LSDCD_FN static Real at_most_one(Real weight) { return weight > 1 ? Real(1) : weight; }
+
   LSDCD_FN static void solve_two(const ContactSet<kPlaces> &set, Real radius, Real *weight, int a,
                                  int b)
   {
@@ -76,8 +80,8 @@ class CornerRule {
       weight[a] = 0;
     } else {
       const Real scale = 1 / (u * (1 + g));
-      weight[a] = g0 * scale / d0;
-      weight[b] = g1 * scale / d1;
+      weight[a] = at_most_one(g0 * scale / d0);
+      weight[b] = at_most_one(g1 * scale / d1);
     }
   }
 
@@ -118,7 +122,8 @@ class CornerRule {
       }
       for (int k = 0; k < n; k++) refused[used_[k]] = false;
     }
-    for (int k = 0; k < n; k++) weight[used_[k]] = l_[used_[k]] / (radius - set.distance[used_[k]]);
+    for (int k = 0; k < n; k++)
+      weight[used_[k]] = at_most_one(l_[used_[k]] / (radius - set.distance[used_[k]]));
   }
 
   LSDCD_FN Real &at(int row, int column) { return factor_[row * (row + 1) / 2 + column]; }

@@ -74,7 +74,7 @@ LSDCD_FN PairResult check_pair(const PairMesh<T> &mesh, std::uint64_t i)
     rule.solve(few, s.radius, weight, mesh.grid.slack);
     Vec3 f = {0, 0, 0};
     for (int k = 0; k < set.n; k++) {
-      out.bad = out.bad || !(weight[k] >= 0 && weight[k] <= 1 + Real(1e-12));
+      out.bad = out.bad || !(weight[k] >= 0 && weight[k] <= 1);
       f += (weight[k] * (s.radius - set.distance[k])) * set.normal[k];
     }
     // As many overlaps at most as there are contacts.

@@ -211,7 +211,7 @@ void check(const Contacts &c, Off &off)
   std::vector<Quad> l(c.n());
   for (int i = 0; i < c.n(); i++) {
     ASSERT_GE(s.weight[i], 0);
-    ASSERT_LE(s.weight[i], 1 + 1e-12);
+    ASSERT_LE(s.weight[i], 1);
     l[i] = Quad(s.weight[i]) * d[i];
   }
   Real slope = 0;

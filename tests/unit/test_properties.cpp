@@ -126,7 +126,7 @@ TEST(property, the_nearest_contact_is_the_distance_to_all_triangles)
   if (test_on_cuda()) {
 #if defined(LSDCD_HAVE_CUDA)
     // Launches are large, so that a mesh is worth its grid.
-    const long per_mesh = static_cast<long>(std::fmin(1e6, std::fmax(2e4, n_pairs / 500)));
+    const long per_mesh = static_cast<long>(std::fmin(2e5, std::fmax(2e4, n_pairs / 500)));
     const long n_meshes = std::max(1l, static_cast<long>(n_pairs / per_mesh));
     for_meshes(n_meshes, false, [&](long i) {
       const std::uint64_t seed = seed_of(i);
