@@ -23,7 +23,8 @@ constexpr Real kAnyDistance = 1e300;
 constexpr Real kNoDistance = 1e-140;
 constexpr Foot kNoFoot = {false, 0, {0, 0, 0}};
 
-// `at_rim` is set where the foot may lie past a side, by the slack at most.
+// `at_rim` is set where the foot may lie past a side, by the slack at most, or by the
+// rounding that the slack covers.
 LSDCD_FN Foot foot_on_face(const FaceRecord &face, const Vec3 &q, Real slack, Real within,
                            bool &at_rim)
 {
@@ -33,7 +34,7 @@ LSDCD_FN Foot foot_on_face(const FaceRecord &face, const Vec3 &q, Real slack, Re
   const Real a = dot(face.inward[0], d), b = dot(face.inward[1], d) + face.height,
              c = dot(face.inward[2], d);
   if (!(a >= -slack && b >= -slack && c >= -slack)) return kNoFoot;
-  at_rim = a < 0 || b < 0 || c < 0;
+  at_rim = a < slack || b < slack || c < slack;
   if (h < 0) return {true, -h, -face.normal};
   return {true, h, face.normal};
 }

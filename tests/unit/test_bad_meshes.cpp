@@ -242,6 +242,38 @@ TEST(sliver, meshes_of_aspect_1e2_to_1e8_are_exact)
   }
 }
 
+TEST(sliver, tips_end_where_they_do)
+{
+  // Past the tip of a needle its two long sides are within rounding of each other.
+  Random random(10);
+  Real largest = 0;
+  for (int i = 0; i < 200; i++) {
+    const Vec3 tip = {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+    const Vec3 axis = random_unit(random);
+    const Vec3 end = tip - uniform(random, 0.5, 1) * axis;
+    const Vec3 third = tip - uniform(random, 0.1, 1) * axis +
+                       log_uniform(random, 1e-9, 1e-2) * random_unit(random);
+    TriangleSoup soup;
+    soup.source = "needle";
+    soup.corners = {tip, end, third};
+    std::rotate(soup.corners.begin(), soup.corners.begin() + i % 3, soup.corners.end());
+    Scene scene(soup, 0.3, hooke(1), 0, 0);
+    const Oracle oracle(soup);
+    const Real room = tolerance(soup, scene.grid, scene.mesh.report);
+    for (int k = 0; k < 10; k++) {
+      const Vec3 q = tip + log_uniform(random, 0.1, 1e4) * scene.grid.slack * axis;
+      ContactSet<kPlaces> set;
+      find_contacts(scene.grid.view(), q, 0.3, set);
+      Real nearest = HUGE_VAL;
+      for (int c = 0; c < set.n; c++) nearest = std::fmin(nearest, set.distance[c]);
+      const Real off = std::fabs(nearest - oracle.distance(q)) / room;
+      if (!(off <= largest)) largest = off;
+    }
+  }
+  expect_at_most({kTheme, "2", "past the tips of needles: |d - exact| / tolerance"}, largest, 1,
+                 "1.5 slack, 8 eps (size + R)");
+}
+
 // ---- facets without an area ------------------------------------------------------------------------
 
 TEST(zero_area, facets_leave_their_edges_and_points)
