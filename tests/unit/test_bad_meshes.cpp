@@ -468,6 +468,30 @@ TEST(centre_on_the_wall, has_a_unit_normal_and_a_finite_force)
                  "roundings of a unit vector");
 }
 
+TEST(centre_on_the_wall, has_a_unit_normal_at_any_distance_from_a_bare_edge_and_point)
+{
+  // No face is there to answer; below 1e-154 squares of distances are no numbers.
+  TriangleSoup soup;
+  soup.source = "a line and a point";
+  soup.corners = {{0, 0, -1}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  Scene scene(soup, 0.3, hooke(1), 0, 0);
+  Real largest = 0;
+  for (int e = 0; e >= -323; e--)
+    for (Real z : {-0.5, 0., 1.})
+      for (Real digits : {1., 1.5, 7.}) {
+        const Real off = 0.01 * digits * std::pow(10., e);
+        ContactSet<kPlaces> set;
+        find_contacts(scene.grid.view(), {off, -off, z * off}, 0.3, set);
+        ASSERT_GE(set.n, 1) << off;
+        for (int k = 0; k < set.n; k++) {
+          const Real length = std::fabs(norm(set.normal[k]) - 1);
+          if (!(length <= largest)) largest = length;
+        }
+      }
+  expect_at_most({kTheme, "13", "centres 1e-325 to 0.1 from a line and a point: ||n| - 1|"},
+                 largest, 1e-15, "roundings of a unit vector");
+}
+
 // ---- a vertex of very many facets ---------------------------------------------------------------------------
 
 TriangleSoup fan(int n, Real height, Real bumps)
