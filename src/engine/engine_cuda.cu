@@ -45,8 +45,12 @@ class CudaEngine : public EngineBase<Law> {
     cuda_check(cudaSetDevice(device_), "choosing a GPU");
     host_grid_ = grid;
     block_ = CudaBackend::Array<char>(grid.block_bytes);
-    cuda_check(cudaMemcpy(block_.data(), grid.block, grid.block_bytes, cudaMemcpyHostToDevice),
+    // On the kernels' stream and waited for: a plain copy from pageable memory may
+    // still be under way when it returns, and this stream waits for no other.
+    cuda_check(cudaMemcpyAsync(block_.data(), grid.block, grid.block_bytes, cudaMemcpyHostToDevice,
+                               backend_.stream),
                "copying the grid to the device");
+    backend_.wait();
     device_grid_ = moved_view(grid, block_.data());
   }
 
