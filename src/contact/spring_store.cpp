@@ -13,12 +13,6 @@ void SpringStore::grow(int n_spheres)
   count_.resize(n_spheres, 0);
 }
 
-void SpringStore::clear_all()
-{
-  std::fill(count_.begin(), count_.end(), 0);
-  pool_.clear();
-}
-
 void SpringStore::set(int i, const Spring *springs, int n)
 {
   first_[i] = static_cast<int>(pool_.size());
@@ -42,16 +36,14 @@ int SpringStore::pack(int i, double *buffer) const
 int SpringStore::unpack(int i, const double *buffer)
 {
   int at = 0;
-  const int n = static_cast<int>(buffer[at++]);
-  first_[i] = static_cast<int>(pool_.size());
-  count_[i] = n;
-  for (int k = 0; k < n; k++) {
-    Spring s = {};
+  arrived_.resize(static_cast<std::size_t>(buffer[at++]));
+  for (Spring &s : arrived_) {
+    s = {};
     s.feature = static_cast<FeatureCode>(buffer[at++]);
     for (int c = 0; c < 3; c++) s.normal[c] = buffer[at++];
     for (int c = 0; c < 3; c++) s.stretch[c] = buffer[at++];
-    pool_.push_back(s);
   }
+  set(i, arrived_.data(), static_cast<int>(arrived_.size()));
   return at;
 }
 

@@ -20,7 +20,6 @@ class SpringStore {
   void grow(int n_spheres);    // keeps what is there, new spheres have none
   void copy(int from, int to) { first_[to] = first_[from], count_[to] = count_[from]; }
   void clear(int i) { count_[i] = 0; }
-  void clear_all();
 
   int count(int i) const { return count_[i]; }
   const Spring *of(int i) const { return pool_.data() + first_[i]; }
@@ -44,7 +43,7 @@ class SpringStore {
 
  private:
   std::vector<int> first_, count_;
-  std::vector<Spring> pool_, next_;
+  std::vector<Spring> pool_, next_, arrived_;
 };
 
 }    // namespace lsdcd

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "base/threads.h"
+#include "engine/owned_array.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -14,36 +16,13 @@
 namespace lsdcd {
 
 struct CpuBackend {
-  static constexpr bool kIsDevice = false;
-
-  // allocate: contents are undefined until written.
-  template <class T>
-  class Array {
-   public:
-    Array() = default;
-    explicit Array(std::size_t n) : data_(new T[n]), n_(n) {}
-    ~Array() { delete[] data_; }
-    Array(Array &&other) noexcept { swap(other); }
-    Array &operator=(Array &&other) noexcept
-    {
-      swap(other);
-      return *this;
-    }
-    Array(const Array &) = delete;
-    Array &operator=(const Array &) = delete;
-    T *data() { return data_; }
-    const T *data() const { return data_; }
-    std::size_t size() const { return n_; }
-
-   private:
-    void swap(Array &other)
-    {
-      std::swap(data_, other.data_);
-      std::swap(n_, other.n_);
-    }
-    T *data_ = nullptr;
-    std::size_t n_ = 0;
+  // allocate
+  struct Memory {
+    static void *allocate(std::size_t bytes) { return ::operator new(bytes); }
+    static void free(void *at) { ::operator delete(at); }
   };
+  template <class T>
+  using Array = OwnedArray<T, Memory>;
 
   // copy
   template <class T>
@@ -57,11 +36,6 @@ struct CpuBackend {
   std::vector<T> to_host(const Array<T> &a, std::size_t n)
   {
     return std::vector<T>(a.data(), a.data() + n);
-  }
-  template <class T>
-  T read_one(const T *at)
-  {
-    return *at;
   }
 
   // for_each: f(i) for i in [0, n), in any order and possibly at once.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "engine/owned_array.h"
 
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_reduce.cuh>
@@ -33,41 +34,20 @@ __global__ void cuda_for_each(std::size_t n, const F f)
 }
 
 struct CudaBackend {
-  static constexpr bool kIsDevice = true;
-
   cudaStream_t stream = nullptr;
 
-  // allocate: contents are undefined until written.
-  template <class T>
-  class Array {
-   public:
-    Array() = default;
-    explicit Array(std::size_t n) : n_(n)
+  // allocate
+  struct Memory {
+    static void *allocate(std::size_t bytes)
     {
-      if (n > 0) cuda_check(cudaMalloc(&data_, n * sizeof(T)), "allocating device memory");
+      void *at = nullptr;
+      cuda_check(cudaMalloc(&at, bytes), "allocating device memory");
+      return at;
     }
-    ~Array() { cudaFree(data_); }
-    Array(Array &&other) noexcept { swap(other); }
-    Array &operator=(Array &&other) noexcept
-    {
-      swap(other);
-      return *this;
-    }
-    Array(const Array &) = delete;
-    Array &operator=(const Array &) = delete;
-    T *data() { return data_; }
-    const T *data() const { return data_; }
-    std::size_t size() const { return n_; }
-
-   private:
-    void swap(Array &other)
-    {
-      std::swap(data_, other.data_);
-      std::swap(n_, other.n_);
-    }
-    T *data_ = nullptr;
-    std::size_t n_ = 0;
+    static void free(void *at) { cudaFree(at); }
   };
+  template <class T>
+  using Array = OwnedArray<T, Memory>;
 
   // copy
   template <class T>

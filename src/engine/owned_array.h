@@ -1,0 +1,43 @@
+// An array in one kind of memory, owned.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+namespace lsdcd {
+
+// Memory has static allocate(bytes) and free(pointer). Contents are undefined until
+// written; moving swaps.
+template <class T, class Memory>
+class OwnedArray {
+ public:
+  OwnedArray() = default;
+  explicit OwnedArray(std::size_t n) :
+      data_(n > 0 ? static_cast<T *>(Memory::allocate(n * sizeof(T))) : nullptr), n_(n)
+  {
+  }
+  ~OwnedArray() { Memory::free(data_); }
+  OwnedArray(OwnedArray &&other) noexcept { swap(other); }
+  OwnedArray &operator=(OwnedArray &&other) noexcept
+  {
+    swap(other);
+    return *this;
+  }
+  OwnedArray(const OwnedArray &) = delete;
+  OwnedArray &operator=(const OwnedArray &) = delete;
+
+  T *data() { return data_; }
+  const T *data() const { return data_; }
+  std::size_t size() const { return n_; }
+
+ private:
+  void swap(OwnedArray &other)
+  {
+    std::swap(data_, other.data_);
+    std::swap(n_, other.n_);
+  }
+  T *data_ = nullptr;
+  std::size_t n_ = 0;
+};
+
+}    // namespace lsdcd

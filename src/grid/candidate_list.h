@@ -1,0 +1,60 @@
+// A cell's list of candidates in the making.
+#pragma once
+
+#include "grid/triangle_grid.h"
+
+namespace lsdcd {
+
+LSDCD_FN Candidate make_candidate(FeatureCode feature, Real distance)
+{
+  // Rounded down, so that a query that trusts the bound never stops early.
+  constexpr Real kLargest = 3e38;    // a float has no more
+  return {feature, static_cast<float>(fmin(distance * (1 - Real(1e-6)), kLargest))};
+}
+
+LSDCD_FN bool comes_before(const Candidate &a, const Candidate &b)
+{
+  return a.bound < b.bound || (a.bound == b.bound && a.feature < b.feature);
+}
+
+// Inserts into the sorted list[0 .. n).
+LSDCD_FN void insert_sorted(Candidate *list, std::uint32_t n, const Candidate &candidate)
+{
+  while (n > 0 && comes_before(candidate, list[n - 1])) {
+    list[n] = list[n - 1];
+    n--;
+  }
+  list[n] = candidate;
+}
+
+// In place and without recursion, for a device: moves list[root] down to its place
+// in the heap list[0 .. n), whose first entry comes last.
+LSDCD_FN void sift_down(Candidate *list, std::uint32_t root, std::uint32_t n)
+{
+  const Candidate candidate = list[root];
+  while (2 * root + 1 < n) {
+    std::uint32_t child = 2 * root + 1;
+    if (child + 1 < n && comes_before(list[child], list[child + 1])) child++;
+    if (!comes_before(candidate, list[child])) break;
+    list[root] = list[child];
+    root = child;
+  }
+  list[root] = candidate;
+}
+
+LSDCD_FN void heap_sort(Candidate *list, std::uint32_t n)
+{
+  for (std::uint32_t root = n / 2; root-- > 0;) sift_down(list, root, n);
+  for (std::uint32_t last = n; last-- > 1;) {
+    const Candidate top = list[0];
+    list[0] = list[last];
+    list[last] = top;
+    sift_down(list, 0, last);
+  }
+}
+
+// Longer lists, as at a vertex of very many facets, take a heap: insertion would take
+// the square of their length.
+constexpr std::uint32_t kLongList = 64;
+
+}    // namespace lsdcd
