@@ -3,7 +3,6 @@
 #pragma once
 
 #include "base/vec3.h"
-#include "contact/spring.h"
 #include "mesh/wall_features.h"
 
 #include <cstddef>

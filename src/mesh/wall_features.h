@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/vec3.h"
-#include "contact/spring.h"
+#include "mesh/feature_code.h"
 #include "mesh/wall_mesh.h"
 
 #include <cstdint>

@@ -1,0 +1,31 @@
+// Names of the parts of a wall: faces, edges and vertices in one 32-bit number.
+#pragma once
+
+#include "base/real.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lsdcd {
+
+// Which part of the wall a contact is on: kind in the two top bits, index below.
+using FeatureCode = std::uint32_t;
+enum class FeatureKind : std::uint32_t { face = 0, edge = 1, vertex = 2 };
+
+constexpr FeatureCode kFeatureIndexMask = 0x3fffffffu;
+constexpr std::size_t kMaxFeatures = kFeatureIndexMask;
+
+LSDCD_FN FeatureCode feature_code(FeatureKind kind, std::uint32_t index)
+{
+  return (static_cast<std::uint32_t>(kind) << 30) | index;
+}
+LSDCD_FN FeatureKind feature_kind(FeatureCode code)
+{
+  return static_cast<FeatureKind>(code >> 30);
+}
+LSDCD_FN std::uint32_t feature_index(FeatureCode code)
+{
+  return code & kFeatureIndexMask;
+}
+
+}    // namespace lsdcd
