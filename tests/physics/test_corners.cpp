@@ -350,25 +350,11 @@ TEST(thin_sheet, pushes_from_both_sides)
               kStiffness * depth * tolerance(depth));
 }
 
-TriangleSoup cone(int n, Real radius, Real height)
-{
-  TriangleSoup soup;
-  soup.source = "cone";
-  for (int i = 0; i < n; i++) {
-    const Real a = 2 * M_PI * i / n, b = 2 * M_PI * ((i + 1) % n) / n;
-    soup.corners.insert(soup.corners.end(),
-                        {{0, 0, 0},
-                         {radius * std::cos(a), radius * std::sin(a), -height},
-                         {radius * std::cos(b), radius * std::sin(b), -height}});
-  }
-  return soup;
-}
-
 TEST(cone_tip, is_one_contact)
 {
   for (int n : {10, 50, 200})
     for (Real height : {0.2, 1., 5.}) {
-      Probe probe(cone(n, 1, height));
+      Probe probe(cone_mesh(n, 1, height));
       for (Real lean : {0., 0.3, 0.9})
         for (Real depth : {1e-3, 0.1}) {
           // Leaning towards the cone's side, but not into the prism of a facet.

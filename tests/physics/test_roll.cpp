@@ -192,26 +192,12 @@ TEST(groove, is_rolled_along_on_both_its_walls)
 
 // ---- cone ------------------------------------------------------------------------------------
 
-TriangleSoup cone(int n, Real radius, Real height)
-{
-  TriangleSoup soup;
-  soup.source = "cone";
-  for (int i = 0; i < n; i++) {
-    const Real a = 2 * M_PI * i / n, b = 2 * M_PI * ((i + 1) % n) / n;
-    soup.corners.insert(soup.corners.end(),
-                        {{0, 0, 0},
-                         {radius * std::cos(a), radius * std::sin(a), -height},
-                         {radius * std::cos(b), radius * std::sin(b), -height}});
-  }
-  return soup;
-}
-
 TEST(cone_tip, is_slid_over_with_one_contact_and_no_loss)
 {
   for (const int n : {10, 50, 200})
     for (const Real aside : {0., 0.003}) {
       const Real slope = 0.05, v = 1;
-      Scene scene(cone(n, 1, slope), kRadius, hooke(kStiffness));
+      Scene scene(cone_mesh(n, 1, slope), kRadius, hooke(kStiffness));
       const Real lean = std::atan(slope);
       // On the side, sunk as deep as it would rest, moving up to the tip.
       const Real sunk = kMass * kGravity * std::cos(lean) / kStiffness, d = kRadius - sunk;

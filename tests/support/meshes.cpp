@@ -101,6 +101,20 @@ TriangleSoup hinge_mesh(Real degrees, Real half)
   return soup;
 }
 
+TriangleSoup cone_mesh(int n, Real radius, Real height)
+{
+  TriangleSoup soup;
+  soup.source = "cone";
+  for (int i = 0; i < n; i++) {
+    const Real a = 2 * M_PI * i / n, b = 2 * M_PI * ((i + 1) % n) / n;
+    soup.corners.insert(soup.corners.end(),
+                        {{0, 0, 0},
+                         {radius * std::cos(a), radius * std::sin(a), -height},
+                         {radius * std::cos(b), radius * std::sin(b), -height}});
+  }
+  return soup;
+}
+
 void append(TriangleSoup &soup, const TriangleSoup &more)
 {
   soup.corners.insert(soup.corners.end(), more.corners.begin(), more.corners.end());

@@ -27,6 +27,9 @@ TriangleSoup box_mesh(const Vec3 &lo, const Vec3 &hi);
 // z = 0 for x < 0, the right one rising by `degrees` (negative: falling).
 TriangleSoup hinge_mesh(Real degrees, Real half);
 
+// An open cone of n facets, its tip at the origin, widening downwards to z = -height.
+TriangleSoup cone_mesh(int n, Real radius, Real height);
+
 void append(TriangleSoup &soup, const TriangleSoup &more);
 
 // A wall and an engine on it, ready for steps on one or more spheres.
