@@ -1,17 +1,27 @@
-// Number type and function marker shared by host and device code.
+// Number type and function markers shared by host and device code.
 #pragma once
+
+#include <cmath>
 
 #if defined(__CUDACC__)
 #define LSDCD_FN __host__ __device__ inline
 #define LSDCD_LAMBDA __host__ __device__
+#define LSDCD_NOINLINE __host__ __device__ __noinline__
 #else
 #define LSDCD_FN inline
 #define LSDCD_LAMBDA
+#define LSDCD_NOINLINE __attribute__((noinline))
 #endif
 
 namespace lsdcd {
 
 using Real = double;
+
+// The overload for float where the argument is one, on both sides.
+using std::fabs;
+using std::fmax;
+using std::fmin;
+using std::sqrt;
 
 // Unit round-off of Real, for tolerances that are derived from it.
 constexpr Real kRoundoff = 2.220446049250313e-16;

@@ -1,71 +1,97 @@
-// Three-vectors of Real: the only linear algebra that contacts need.
+// Three-vectors: the only linear algebra that contacts need.
 #pragma once
 
 #include "base/real.h"
 
-#include <cmath>
-
 namespace lsdcd {
 
-struct Vec3 {
-  Real x, y, z;
+template <class T>
+struct Vec3Of {
+  T x, y, z;
 
-  LSDCD_FN Real operator[](int i) const { return i == 0 ? x : (i == 1 ? y : z); }
-  LSDCD_FN Real &operator[](int i) { return i == 0 ? x : (i == 1 ? y : z); }
+  LSDCD_FN T operator[](int i) const { return i == 0 ? x : (i == 1 ? y : z); }
+  LSDCD_FN T &operator[](int i) { return i == 0 ? x : (i == 1 ? y : z); }
 };
+using Vec3 = Vec3Of<Real>;
 
-LSDCD_FN Vec3 operator+(const Vec3 &a, const Vec3 &b)
+// A parameter of this type takes no part in deducing T, so that 2 * v compiles.
+template <class T>
+struct SameAs {
+  using Type = T;
+};
+template <class T>
+using ScalarOf = typename SameAs<T>::Type;
+
+template <class To, class From>
+LSDCD_FN Vec3Of<To> vec_cast(const Vec3Of<From> &a)
+{
+  return {static_cast<To>(a.x), static_cast<To>(a.y), static_cast<To>(a.z)};
+}
+
+template <class T>
+LSDCD_FN Vec3Of<T> operator+(const Vec3Of<T> &a, const Vec3Of<T> &b)
 {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
-LSDCD_FN Vec3 operator-(const Vec3 &a, const Vec3 &b)
+template <class T>
+LSDCD_FN Vec3Of<T> operator-(const Vec3Of<T> &a, const Vec3Of<T> &b)
 {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-LSDCD_FN Vec3 operator-(const Vec3 &a)
+template <class T>
+LSDCD_FN Vec3Of<T> operator-(const Vec3Of<T> &a)
 {
   return {-a.x, -a.y, -a.z};
 }
-LSDCD_FN Vec3 operator*(Real s, const Vec3 &a)
+template <class T>
+LSDCD_FN Vec3Of<T> operator*(ScalarOf<T> s, const Vec3Of<T> &a)
 {
   return {s * a.x, s * a.y, s * a.z};
 }
-LSDCD_FN Vec3 operator*(const Vec3 &a, Real s)
+template <class T>
+LSDCD_FN Vec3Of<T> operator*(const Vec3Of<T> &a, ScalarOf<T> s)
 {
   return s * a;
 }
-LSDCD_FN Vec3 &operator+=(Vec3 &a, const Vec3 &b)
+template <class T>
+LSDCD_FN Vec3Of<T> &operator+=(Vec3Of<T> &a, const Vec3Of<T> &b)
 {
   a.x += b.x;
   a.y += b.y;
   a.z += b.z;
   return a;
 }
-LSDCD_FN Vec3 &operator-=(Vec3 &a, const Vec3 &b)
+template <class T>
+LSDCD_FN Vec3Of<T> &operator-=(Vec3Of<T> &a, const Vec3Of<T> &b)
 {
   a.x -= b.x;
   a.y -= b.y;
   a.z -= b.z;
   return a;
 }
-LSDCD_FN bool operator==(const Vec3 &a, const Vec3 &b)
+template <class T>
+LSDCD_FN bool operator==(const Vec3Of<T> &a, const Vec3Of<T> &b)
 {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-LSDCD_FN Real dot(const Vec3 &a, const Vec3 &b)
+template <class T>
+LSDCD_FN T dot(const Vec3Of<T> &a, const Vec3Of<T> &b)
 {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-LSDCD_FN Vec3 cross(const Vec3 &a, const Vec3 &b)
+template <class T>
+LSDCD_FN Vec3Of<T> cross(const Vec3Of<T> &a, const Vec3Of<T> &b)
 {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-LSDCD_FN Real norm_sq(const Vec3 &a)
+template <class T>
+LSDCD_FN T norm_sq(const Vec3Of<T> &a)
 {
   return dot(a, a);
 }
-LSDCD_FN Real norm(const Vec3 &a)
+template <class T>
+LSDCD_FN T norm(const Vec3Of<T> &a)
 {
   return sqrt(norm_sq(a));
 }

@@ -27,7 +27,7 @@ inline void cuda_check(cudaError_t status, const char *what)
 }
 
 template <class F>
-__global__ void cuda_for_each(std::size_t n, const F f)
+__global__ void cuda_for_each(std::size_t n, const __grid_constant__ F f)
 {
   const std::size_t i = std::size_t(blockIdx.x) * blockDim.x + threadIdx.x;
   if (i < n) f(i);

@@ -51,7 +51,7 @@ class CpuEngine : public EngineBase<Law> {
 
 std::unique_ptr<WallEngine> make_cpu_engine(const EngineSettings &settings)
 {
-  return with_law(settings.law, [&](const auto &law) -> std::unique_ptr<WallEngine> {
+  return with_law(settings, [&](const auto &law) -> std::unique_ptr<WallEngine> {
     return std::make_unique<CpuEngine<std::decay_t<decltype(law)>>>(settings, law);
   });
 }

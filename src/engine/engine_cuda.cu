@@ -244,7 +244,7 @@ bool cuda_available(std::string *why)
 
 std::unique_ptr<WallEngine> make_cuda_engine(const EngineSettings &settings)
 {
-  return with_law(settings.law, [&](const auto &law) -> std::unique_ptr<WallEngine> {
+  return with_law(settings, [&](const auto &law) -> std::unique_ptr<WallEngine> {
     return std::make_unique<CudaEngine<std::decay_t<decltype(law)>>>(settings, law);
   });
 }

@@ -18,6 +18,11 @@ enum class Corner { blend, sum };
 enum class Side { both, in, out };
 enum class Device { automatic, cpu, cuda };
 
+// double_: everything in double. mixed: contacts are found in float, in the frame of a
+// brick of the grid, forces are computed in double. single_: forces in float too.
+// Sums, springs at rest and the spheres themselves are double in all three.
+enum class Precision { double_, mixed, single_ };
+
 // Parameters of the classic styles after NULLs and unit conversion are resolved.
 struct ContactLaw {
   LawStyle style = LawStyle::hooke;
@@ -35,6 +40,7 @@ struct EngineSettings {
   ContactLaw law;
   Corner corner = Corner::blend;
   Side side = Side::both;
+  Precision precision = Precision::double_;
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
 };

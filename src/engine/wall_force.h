@@ -1,9 +1,8 @@
 // THE kernel: the wall's force and torque on one sphere.
 #pragma once
 
-#include "contact/corner.h"
-#include "contact/find_contacts.h"
 #include "contact/history.h"
+#include "engine/touch.h"
 #include "engine/wall_engine.h"
 #include "model/contact.h"
 
@@ -31,67 +30,62 @@ struct SphereResult {
 constexpr int kOverflow = -1;
 
 struct ForceSettings {
+  SearchSettings search;
   Real dt;
   bool update;
-  bool blend;         // corner rule; false: plain sum
-  int side;           // 0 both, +1 outside, -1 inside
   bool with_point;    // fill weighted_point and weight
 };
 
 // `springs_out` has room for kPlaces springs; it is written only where the law
-// has history.
+// has history. Numbers are of type Law::Number inside the law, Real outside.
 template <class Law, int kPlaces>
 LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
                                  const ForceSettings &settings, const SphereState &s,
                                  Spring *springs_out)
 {
+  using T = typename Law::Number;
   SphereResult out = {};
-  ContactSet<kPlaces> set;
-  find_contacts(grid, s.x, s.radius, set);
-  if (settings.side != 0) keep_side(grid.wall, settings.side * grid.outside, set);
+  Touch<kPlaces> touching;
+  touch(grid, settings.search, s.x, s.radius, touching);
+  const ContactSet<kPlaces> &set = touching.set;
   if (set.overflow) out.n_contacts = kOverflow;
   if (set.overflow || set.n == 0) return out;
 
-  Real weight[kPlaces];
-  if (settings.blend && set.n > 1) {
-    CornerRule<kPlaces> rule;
-    rule.solve(set, s.radius, weight, grid.slack);
-  } else {
-    for (int i = 0; i < set.n; i++) weight[i] = 1;
-  }
-
   for (int i = 0; i < set.n; i++) {
+    const Real weight = touching.weight[i];
     const Real overlap = s.radius - set.distance[i], ratio = overlap / s.radius;
     if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
     // A contact that bears nothing, as the far face of a thin plate, is none. Nor has
     // it a spring yet: cut to the friction limit of its own slight overlap, that would
     // be gone when it takes over the force.
-    if (!(weight[i] > 0)) continue;
+    if (!(weight > 0)) continue;
 
     const Vec3 n = set.normal[i];
-    Contact c;
-    c.normal = n;
-    c.overlap = overlap;
-    c.radius = s.radius;
-    c.mass = s.mass;
-    c.v_normal = dot(s.v, n);
-    c.v_tangent = s.v - c.v_normal * n - s.radius * cross(s.omega, n);
-    c.dt = settings.dt;
+    const Real v_normal = dot(s.v, n);
+    Contact<T> c;
+    c.normal = vec_cast<T>(n);
+    c.overlap = static_cast<T>(overlap);
+    c.radius = static_cast<T>(s.radius);
+    c.mass = static_cast<T>(s.mass);
+    c.v_normal = static_cast<T>(v_normal);
+    c.v_tangent = vec_cast<T>(s.v - v_normal * n - s.radius * cross(s.omega, n));
+    c.dt = static_cast<T>(settings.dt);
     c.update = settings.update;
 
-    Vec3 stretch = {0, 0, 0};
+    Vec3Of<T> stretch = {0, 0, 0};
     if constexpr (Law::kHistory)
-      stretch = inherited_stretch(grid.wall, set, i, s.springs, s.n_springs);
-    const ContactForce f = law.evaluate(c, stretch);
-    if constexpr (Law::kHistory) springs_out[out.n_contacts] = {stretch, n, set.feature[i], 0};
+      stretch = vec_cast<T>(inherited_stretch(grid.wall, set, i, s.springs, s.n_springs));
+    const ContactForce<T> f = law.evaluate(c, stretch);
+    if constexpr (Law::kHistory)
+      springs_out[out.n_contacts] = {vec_cast<Real>(stretch), n, set.feature[i], 0};
     out.n_contacts++;
 
-    const Vec3 tangential = weight[i] * f.tangential;
-    out.force += (weight[i] * f.normal) * n + tangential;
+    const Vec3 tangential = weight * vec_cast<Real>(f.tangential);
+    out.force += (weight * f.normal) * n + tangential;
     out.torque -= s.radius * cross(n, tangential);
-    out.energy += weight[i] * f.energy;
+    out.energy += weight * f.energy;
     if (settings.with_point) {
-      const Real w = weight[i] * fabs(f.normal);
+      const Real w = weight * fabs(f.normal);
       out.weight += w;
       out.weighted_point += w * (s.x - set.distance[i] * n);
     }

@@ -5,22 +5,24 @@
 
 namespace lsdcd {
 
-// One sphere-wall contact in one step.
+// One sphere-wall contact in one step. T is the type that forces are computed in.
+template <class T>
 struct Contact {
-  Vec3 normal;       // unit, wall -> centre
-  Real overlap;      // length, > 0 in contact
-  Real radius;       // of the sphere; its effective radius against a wall
-  Real mass;         // of the sphere, or of the rigid body it belongs to
-  Real v_normal;     // length/time, > 0 when it moves away from the wall
-  Vec3 v_tangent;    // length/time, of the sphere's surface at the contact
-  Real dt;           // time
-  bool update;       // false: springs act but do not move (setup)
+  Vec3Of<T> normal;       // unit, wall -> centre
+  T overlap;              // length, > 0 in contact
+  T radius;               // of the sphere; its effective radius against a wall
+  T mass;                 // of the sphere, or of the rigid body it belongs to
+  T v_normal;             // length/time, > 0 when it moves away from the wall
+  Vec3Of<T> v_tangent;    // length/time, of the sphere's surface at the contact
+  T dt;                   // time
+  bool update;            // false: springs act but do not move (setup)
 };
 
+template <class T>
 struct ContactForce {
-  Real normal;        // force along the normal, < 0 where damping pulls
-  Vec3 tangential;    // force on the sphere at the contact
-  Real energy;        // elastic energy held
+  T normal;                // force along the normal, < 0 where damping pulls
+  Vec3Of<T> tangential;    // force on the sphere at the contact
+  T energy;                // elastic energy held
 };
 
 }    // namespace lsdcd

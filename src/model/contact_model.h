@@ -10,31 +10,36 @@ namespace lsdcd {
 
 // An effect that is not among the template arguments costs no instruction and no
 // memory. `stretch` is read and written only where kHistory.
-template <class Normal, class Damping, class Tangential>
+template <class T, template <class> class Normal, template <class> class Damping,
+          template <class> class Tangential>
 struct ContactModel {
-  static constexpr bool kHistory = Tangential::kHistory;
+  using Number = T;
+  static constexpr bool kHistory = Tangential<T>::kHistory;
 
-  Real k_normal;
-  Damping damping;
-  Tangential tangential;
+  T k_normal;
+  Damping<T> damping;
+  Tangential<T> tangential;
   bool limit_damping;
 
-  LSDCD_FN ContactForce evaluate(const Contact &c, Vec3 &stretch) const
+  LSDCD_FN ContactForce<T> evaluate(const Contact<T> &c, Vec3Of<T> &stretch) const
   {
-    const Real scale = Normal::scale(c);
-    ContactForce out;
+    const T scale = Normal<T>::scale(c);
+    ContactForce<T> out;
     out.normal = scale * k_normal * c.overlap + damping.force(c, scale);
     if (limit_damping && out.normal < 0) out.normal = 0;
     out.tangential = tangential.force(c, scale, out.normal, stretch);
-    out.energy = Normal::energy(k_normal, c, scale);
+    out.energy = Normal<T>::energy(k_normal, c, scale);
     if constexpr (kHistory) out.energy += tangential.energy(scale, stretch);
     return out;
   }
 };
 
 // The classic styles of `fix wall/gran`, with the formulas of LAMMPS 29Sep2021.
-using HookeLaw = ContactModel<HookeNormal, MassVelocityDamping, LinearNoHistory>;
-using HookeHistoryLaw = ContactModel<HookeNormal, MassVelocityDamping, LinearHistory>;
-using HertzHistoryLaw = ContactModel<HertzNormal, MassVelocityDamping, LinearHistory>;
+template <class T>
+using HookeLaw = ContactModel<T, HookeNormal, MassVelocityDamping, LinearNoHistory>;
+template <class T>
+using HookeHistoryLaw = ContactModel<T, HookeNormal, MassVelocityDamping, LinearHistory>;
+template <class T>
+using HertzHistoryLaw = ContactModel<T, HertzNormal, MassVelocityDamping, LinearHistory>;
 
 }    // namespace lsdcd

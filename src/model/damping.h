@@ -6,10 +6,11 @@
 namespace lsdcd {
 
 // gamma: 1/time with HookeNormal, 1/(time length) with HertzNormal.
+template <class T>
 struct MassVelocityDamping {
-  Real gamma;
+  T gamma;
 
-  LSDCD_FN Real force(const Contact &c, Real scale) const
+  LSDCD_FN T force(const Contact<T> &c, T scale) const
   {
     return -scale * c.mass * gamma * c.v_normal;
   }

@@ -6,20 +6,22 @@
 namespace lsdcd {
 
 // Linear spring. k: force/length.
+template <class T>
 struct HookeNormal {
-  LSDCD_FN static Real scale(const Contact &) { return 1; }
-  LSDCD_FN static Real energy(Real k, const Contact &c, Real)
+  LSDCD_FN static T scale(const Contact<T> &) { return 1; }
+  LSDCD_FN static T energy(T k, const Contact<T> &c, T)
   {
-    return Real(0.5) * k * c.overlap * c.overlap;
+    return T(0.5) * k * c.overlap * c.overlap;
   }
 };
 
 // Hertz: scale = contact radius sqrt(R overlap). k: force/length^2.
+template <class T>
 struct HertzNormal {
-  LSDCD_FN static Real scale(const Contact &c) { return sqrt(c.overlap * c.radius); }
-  LSDCD_FN static Real energy(Real k, const Contact &c, Real scale)
+  LSDCD_FN static T scale(const Contact<T> &c) { return sqrt(c.overlap * c.radius); }
+  LSDCD_FN static T energy(T k, const Contact<T> &c, T scale)
   {
-    return Real(0.4) * k * scale * c.overlap * c.overlap;
+    return T(0.4) * k * scale * c.overlap * c.overlap;
   }
 };
 
