@@ -56,18 +56,22 @@ elseif(NOT MPI_CXX_FOUND)
   return()
 endif()
 
-# Shims only for what this host's own headers lack.
-add_library(lsdcd_host INTERFACE)
-foreach(shim fmt/format.h command.h)
-  if(NOT EXISTS ${LSDCD_HOST_INCLUDE}/${shim})
-    string(REGEX REPLACE "[/.].*" "" name ${shim})
-    target_include_directories(lsdcd_host INTERFACE ${PROJECT_SOURCE_DIR}/cmake/compat/no_${name})
-  endif()
-endforeach()
-target_include_directories(lsdcd_host SYSTEM INTERFACE ${LSDCD_HOST_INCLUDE})
-target_compile_definitions(lsdcd_host INTERFACE
-  ${LSDCD_HOST_SIZES} LSDCD_HOST_VERSION=${LSDCD_HOST_VERSION} OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-target_link_libraries(lsdcd_host INTERFACE MPI::MPI_CXX)
+# A target to compile against a host: its headers, version and integer sizes, and shims
+# only for what its own headers lack.
+function(lsdcd_host_target name include version sizes)
+  add_library(${name} INTERFACE)
+  foreach(shim fmt/format.h command.h)
+    if(NOT EXISTS ${include}/${shim})
+      string(REGEX REPLACE "[/.].*" "" folder ${shim})
+      target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR}/cmake/compat/no_${folder})
+    endif()
+  endforeach()
+  target_include_directories(${name} SYSTEM INTERFACE ${include})
+  target_compile_definitions(${name} INTERFACE
+    ${sizes} LSDCD_HOST_VERSION=${version} OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_link_libraries(${name} INTERFACE MPI::MPI_CXX)
+endfunction()
+lsdcd_host_target(lsdcd_host ${LSDCD_HOST_INCLUDE} ${LSDCD_HOST_VERSION} ${LSDCD_HOST_SIZES})
 
 set(LSDCD_HAVE_HOST ON)
 message(STATUS "LAMMPS plugin: yes, for version ${LSDCD_HOST_VERSION} (${LSDCD_HOST_INCLUDE})")

@@ -1,16 +1,20 @@
 # Plugin and launcher; included from src/CMakeLists.txt where LAMMPS was found.
 
-add_library(lsdcdplugin MODULE
-  lsdcdplugin.cpp fix_wall_lsdcd.cpp fix_wall_lsdcd_checks.cpp fix_wall_lsdcd_exchange.cpp
-  fix_wall_lsdcd_output.cpp node_wall.cpp node_shared.cpp)
-# LAMMPS itself is not linked: its symbols come from the host that loads the file.
-# Only the entry point is exported. The file is never unmapped: threads that it
-# started may outlive `plugin unload`.
-target_link_libraries(lsdcdplugin PRIVATE lsdcd_core lsdcd_host ${CMAKE_DL_LIBS})
-target_link_options(lsdcdplugin PRIVATE
-  -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/plugin.map -Wl,-z,nodelete)
-set_target_properties(lsdcdplugin PROPERTIES PREFIX ""
-  LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/plugin.map)
+# The plugin for one host. LAMMPS itself is not linked: its symbols come from the host
+# that loads the file. Only the entry point is exported. The file is never unmapped:
+# threads that it started may outlive `plugin unload`.
+function(lsdcd_plugin name host)
+  set(sources lsdcdplugin.cpp fix_wall_lsdcd.cpp fix_wall_lsdcd_checks.cpp
+    fix_wall_lsdcd_exchange.cpp fix_wall_lsdcd_output.cpp node_wall.cpp node_shared.cpp)
+  list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/src/)
+  add_library(${name} MODULE ${sources})
+  target_link_libraries(${name} PRIVATE lsdcd_core ${host} ${CMAKE_DL_LIBS})
+  target_link_options(${name} PRIVATE
+    -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/plugin.map -Wl,-z,nodelete)
+  set_target_properties(${name} PROPERTIES PREFIX ""
+    LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/plugin.map)
+endfunction()
+lsdcd_plugin(lsdcdplugin lsdcd_host)
 
 if(LSDCD_HOST_LIBRARY)
   add_executable(lmp-lsdcd launcher/main.cpp launcher/plugins.cpp)

@@ -5,6 +5,7 @@
 # Prints PASS, FAIL or SKIPPED for each host; exits 1 on FAIL, 77 if all were skipped.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+. "$root/tests/lammps/hosts/debian_mirror.sh"
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/lsdcd/hosts
 cxx=${LSDCD_CXX:-c++}
 log=$(mktemp)
@@ -23,7 +24,7 @@ get_headers() {
   local suite=$1 folder=$cache/$1 mirror
   [ -d "$folder/usr/include/lammps" ] && return 0
   command -v apt-get >/dev/null && command -v dpkg-deb >/dev/null || { echo "no apt here"; return 1; }
-  mirror=$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' | grep -m1 -E '/debian/?$')
+  mirror=$(debian_mirror)
   [ -n "$mirror" ] || { echo "apt has no Debian mirror configured"; return 1; }
   mkdir -p "$cache/apt/lists/partial" "$cache/apt/cache/archives/partial" "$cache/apt/deb"
   echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror $suite main" \

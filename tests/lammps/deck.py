@@ -10,6 +10,11 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 LMP = os.environ.get("LSDCD_LMP", str(HERE.parent.parent / "build" / "bin" / "lmp-lsdcd"))
+LIB = pathlib.Path(LMP).resolve().parent.parent / "lib"
+
+# The LAMMPS of hosts/build_host.sh and the plugin for it; empty where it was not built.
+TEST_HOST = os.environ.get("LSDCD_TEST_HOST", "") and os.environ["LSDCD_TEST_HOST"] + "/lmp"
+TEST_HOST_PLUGIN = LIB / "lsdcdplugin-20260704.so"
 
 
 def environment():
