@@ -66,10 +66,11 @@ int main(int argc, char **argv)
             double(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2] * kBrickCells;
         std::printf("build,%zu,%.6g,%g,\"%s\",%zu,%zu,%zu,%.3f,%zu,%zu,%zu,%.4g,%d,%.3f,%.3f,%.3f,"
                     "%.4g,\"%s\",%s\n",
-                    mesh.faces.size(), grid.length, grid.reach, r.device.c_str(), r.bricks, r.cells,
-                    r.candidates, r.mean_list, r.longest_list, r.bytes, r.distance_tests,
-                    cells * grid.wall.contact_features.size(), t.repeats, t.median_ms, t.min_ms,
-                    t.max_ms, on_cuda ? 0.0 : brute_force_ms(grid), compiler(), LSDCD_COMMIT);
+                    mesh.faces.size(), grid.length, grid.reach, r.device.c_str(), r.lists.bricks,
+                    r.lists.cells, r.lists.candidates, r.lists.mean, r.lists.longest, r.bytes,
+                    r.lists.distance_tests, cells * grid.wall.contact_features.size(), t.repeats,
+                    t.median_ms, t.min_ms, t.max_ms, on_cuda ? 0.0 : brute_force_ms(grid),
+                    compiler(), LSDCD_COMMIT);
         std::fflush(stdout);
       }
   }

@@ -53,6 +53,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
     want.law = settings.law;
     want.corner = settings.corner;
     want.side = settings.side;
+    want.precision = settings.precision;
     want.device = settings.device;
     want.device_rank = wall->shared().node_rank();
     lsdcd::together(world, true, [&] { engine = lsdcd::make_engine(want); });

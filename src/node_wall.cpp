@@ -51,6 +51,8 @@ void NodeWall::build(Real reach)
     want.reach = reach;
     want.memory_budget = settings_.memory_budget;
     want.sides = settings_.side != Side::both;
+    want.nearest = settings_.nearest;
+    want.exact = settings_.exact;
     std::string why;
     const bool on_cuda = settings_.device != Device::cpu && cuda_available(&why);
     grid = std::make_unique<TriangleGrid>(build_grid(*mesh_, want, on_cuda));

@@ -81,6 +81,17 @@ void read_memory(Words &w, WallSettings &s)
   s.memory_budget = static_cast<std::size_t>(w.number("the budget", 1, 1e9) * 1024 * 1024);
 }
 
+void read_nearest(Words &w, WallSettings &s)
+{
+  const Real n = w.number_or("all", 0, "N", 1);
+  if (n > kMostNearest) w.fail("N can be " + std::to_string(kMostNearest) + " at most");
+  s.nearest = static_cast<int>(n);
+  if (s.nearest != n) w.fail("N must be a whole number");
+  if (s.nearest == 0 || w.done() || w.peek() != "exact") return;
+  s.exact = true;
+  w.take();
+}
+
 void read_draw(Words &w, WallSettings &s)
 {
   s.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
@@ -115,6 +126,15 @@ const Keyword kKeywords[] = {
      "largest particle radius that the grid is built for",
      [](Words &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kTiny); }},
     {"memory", "MB", "MiB", ">= 1", "1024", "budget for the grid", read_memory},
+    {"nearest", "all | N [exact]", "", "1 to 32", "all",
+     "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre; exact: "
+     "all where N are not certified to be enough",
+     read_nearest},
+    {"precision", "double | mixed | single", "", "", "double",
+     "mixed: contacts in float, forces in double; single: both in float",
+     [](Words &w, WallSettings &s) {
+       s.precision = static_cast<Precision>(w.choice({"double", "mixed", "single"}));
+     }},
     {"corner", "blend | sum", "", "", "blend",
      "contacts at one place share their overlap, or their forces simply add",
      [](Words &w, WallSettings &s) {

@@ -20,9 +20,12 @@ struct WallSettings {
   Real weld = -1;                 // length; < 0: kDefaultWeld of the diagonal
   Real grid_length = 0;           // length; 0: auto
   Real rmax = 0;                  // length; 0: auto
+  int nearest = 0;                // pieces of wall per cell; 0: all
+  bool exact = false;             // nearest falls back to complete lists
   std::size_t memory_budget = GridSettings().memory_budget;    // bytes
   Corner corner = Corner::blend;
   Side side = Side::both;
+  Precision precision = Precision::double_;
   Device device = Device::automatic;
   bool contacts = false;
   bool periodic = false;

@@ -43,15 +43,41 @@ LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const Foot
   if (at < 0) set.add(feature, foot.normal, foot.distance);
 }
 
-// Every local minimum of the distance from q to the wall that is below `radius`
-// (length, at most grid.reach).
 template <int kPlaces>
-LSDCD_FN void find_contacts(const GridView &grid, const Vec3 &q, Real radius,
-                            ContactSet<kPlaces> &set)
+LSDCD_FN void add_feature(const GridView &grid, FeatureCode feature, const Vec3 &q, Real radius,
+                          ContactSet<kPlaces> &set)
 {
-  const CellAddress at = locate(grid, q);
+  const Foot foot = foot_on(grid.wall, feature, q, grid.slack, radius);
+  if (foot.found && foot.distance < radius) add_once(set, feature, foot, grid.slack);
+}
+
+// A face and what it stands for. Above the face's inside nothing else of it is near.
+template <int kPlaces>
+LSDCD_FN void add_piece(const GridView &grid, FeatureCode piece, const Vec3 &q, Real radius,
+                        ContactSet<kPlaces> &set)
+{
+  if (feature_kind(piece) != FeatureKind::face) return add_feature(grid, piece, q, radius, set);
+  const std::uint32_t face = feature_index(piece);
+  const FaceRecord &record = grid.wall.faces[face];
+  if (!(fabs(dot(record.normal, q - record.anchor)) <= radius)) return;
+  bool at_rim = false;
+  const Foot foot = foot_on_face(record, q, grid.slack, radius, at_rim);
+  if (foot.found && !at_rim) {
+    if (foot.distance < radius) add_once(set, piece, foot, grid.slack);
+    return;
+  }
+  if (foot.found) add_feature(grid, piece, q, radius, set);
+  for (FeatureCode part : grid.wall.face_parts[face].part)
+    if (part != kNoFeature) add_feature(grid, part, q, radius, set);
+}
+
+template <int kPlaces>
+LSDCD_FN void find_in_complete(const GridView &grid, const CellListsView &lists, const Vec3 &q,
+                               Real radius, ContactSet<kPlaces> &set)
+{
+  const CellAddress at = locate(grid, lists, q);
   if (!at.brick || !has_candidates(*at.brick, at.cell)) return;
-  const Cell cell = grid.cells[cell_index(*at.brick, at.cell)];
+  const Cell cell = lists.cells[cell_index(*at.brick, at.cell)];
   if (cell.count == 1) {
     const Foot foot = foot_on(grid.wall, cell.first, q, grid.slack, radius);
     if (foot.found && foot.distance < radius) set.add(cell.first, foot.normal, foot.distance);
@@ -61,11 +87,48 @@ LSDCD_FN void find_contacts(const GridView &grid, const Vec3 &q, Real radius,
   // feature can be within the radius.
   const Real enough = radius + norm(at.from_centre);
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
-    const Candidate candidate = grid.candidates[i];
+    const Candidate candidate = lists.candidates[i];
     if (candidate.bound > enough) break;
-    const Foot foot = foot_on(grid.wall, candidate.feature, q, grid.slack, radius);
-    if (foot.found && foot.distance < radius) add_once(set, candidate.feature, foot, grid.slack);
+    add_feature(grid, candidate.feature, q, radius, set);
   }
+}
+
+// Returns the radius up to which the set is certain to be complete.
+template <int kPlaces>
+LSDCD_FN Real find_in_nearest(const GridView &grid, const CellListsView &lists, const Vec3 &q,
+                              Real radius, ContactSet<kPlaces> &set)
+{
+  const CellAddress at = locate(grid, lists, q);
+  if (!at.brick || !has_candidates(*at.brick, at.cell)) return kAnyDistance;
+  const Cell cell = lists.cells[cell_index(*at.brick, at.cell)];
+  if (cell.count == 1) {
+    add_piece(grid, cell.first, q, radius, set);
+    return kAnyDistance;
+  }
+  const Real off_centre = norm(at.from_centre);
+  for (std::uint32_t k = 0; k < cell.count; k++) {
+    const Candidate candidate = lists.candidates[cell.first + k];
+    if (candidate.bound > radius + off_centre) break;
+    if (k == static_cast<std::uint32_t>(grid.nearest)) return candidate.bound - off_centre;
+    add_piece(grid, candidate.feature, q, radius, set);
+  }
+  return kAnyDistance;
+}
+
+// Local minima of the distance from q to the wall that are below `radius` (length, at
+// most grid.reach): every one of them with complete lists, those on the pieces listed
+// with nearest ones. Returns the radius up to which none can be missing.
+template <int kPlaces>
+LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
+                            ContactSet<kPlaces> &set)
+{
+  if (grid.nearest > 0) {
+    const Real exact_within = find_in_nearest(grid, grid.lists, q, radius, set);
+    if (exact_within >= radius || !grid.complete.bricks) return exact_within;
+    set = ContactSet<kPlaces>();
+  }
+  find_in_complete(grid, grid.nearest > 0 ? grid.complete : grid.lists, q, radius, set);
+  return kAnyDistance;
 }
 
 // The outward pseudonormal of a feature: its dot product with (q - foot point)

@@ -32,8 +32,12 @@ WallTotals sum_totals(const StepResults &results, const Spheres &spheres)
     WallTotals t;
     for (int k = b * kBlock; k < std::min(n, (b + 1) * kBlock); k++) {
       const SphereResult &r = results.result[k];
-      if (r.n_contacts == 0) continue;
       const int i = results.near[k];
+      if (r.uncertain > 0) {
+        t.uncertified++;
+        t.largest_uncertain = std::max(t.largest_uncertain, r.uncertain / spheres.radius[i]);
+      }
+      if (r.n_contacts == 0) continue;
       const Vec3 x = {spheres.x[3 * i], spheres.x[3 * i + 1], spheres.x[3 * i + 2]};
       t.energy += r.energy;
       t.force -= r.force;
@@ -52,6 +56,8 @@ WallTotals sum_totals(const StepResults &results, const Spheres &spheres)
     sum.force += t.force;
     sum.torque += t.torque;
     sum.contacts += t.contacts;
+    sum.uncertified += t.uncertified;
+    sum.largest_uncertain = std::max(sum.largest_uncertain, t.largest_uncertain);
     if (t.largest_overlap_ratio > sum.largest_overlap_ratio) {
       sum.largest_overlap_ratio = t.largest_overlap_ratio;
       sum.largest_overlap_sphere = t.largest_overlap_sphere;

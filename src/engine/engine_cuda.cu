@@ -143,31 +143,6 @@ class CudaEngine : public EngineBase<Law> {
   }
 
  private:
-  // The same view over a copy of the block at another address.
-  static GridView moved_view(const GridView &view, const char *to)
-  {
-    GridView moved = view;
-    const auto shift = [&](auto *&pointer) {
-      using T = std::remove_reference_t<decltype(pointer)>;
-      pointer = reinterpret_cast<T>(to + (reinterpret_cast<const char *>(pointer) - view.block));
-    };
-    shift(moved.wall.faces);
-    shift(moved.wall.edges);
-    shift(moved.wall.vertices);
-    shift(moved.wall.edge_inward);
-    shift(moved.wall.vertex_direction);
-    shift(moved.wall.face_vertex);
-    shift(moved.wall.edge_vertex);
-    shift(moved.wall.edge_out);
-    shift(moved.wall.vertex_out);
-    shift(moved.brick_of);
-    shift(moved.bricks);
-    shift(moved.cells);
-    shift(moved.candidates);
-    moved.block = to;
-    return moved;
-  }
-
   void gather(std::size_t n)
   {
     NearSphere *to = sphere_.host();

@@ -16,6 +16,7 @@ template <int kPlaces>
 struct Touch {
   ContactSet<kPlaces> set;
   Real weight[kPlaces];    // share of each contact, 0 to 1
+  Real exact_within;       // the set is certified for spheres up to this radius
 };
 
 // A function of its own, so that it is compiled once however many laws there are.
@@ -24,7 +25,7 @@ template <int kPlaces>
 LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings, const Vec3 &x,
                           Real radius, Touch<kPlaces> &out)
 {
-  find_contacts(grid, x, radius, out.set);
+  out.exact_within = find_contacts(grid, x, radius, out.set);
   if (settings.side != 0) keep_side(grid.wall, settings.side * grid.outside, out.set);
   if (out.set.overflow) return;
   if (settings.blend && out.set.n > 1) {

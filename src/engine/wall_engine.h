@@ -73,6 +73,7 @@ struct WallTotals {
   Vec3 torque = {0, 0, 0};    // on the mesh, about the origin
   std::int64_t contacts = 0;
   std::int64_t uncertified = 0;       // spheres whose answer was not certified exact
+  Real largest_uncertain = 0;         // overlap / radius of the deepest contact they may miss
   Real largest_overlap_ratio = 0;     // overlap / radius
   int largest_overlap_sphere = -1;    // index in Spheres, -1 if none touches
 };

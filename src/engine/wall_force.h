@@ -25,6 +25,7 @@ struct SphereResult {
   Real overlap_ratio;     // largest overlap / radius
   Vec3 weighted_point;    // sum of |normal force| * contact point
   Real weight;            // sum of |normal force|
+  Real uncertain;         // overlap of the deepest contact that may be missing; 0: certified
   int n_contacts;
 };
 constexpr int kOverflow = -1;
@@ -49,6 +50,7 @@ LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
   touch(grid, settings.search, s.x, s.radius, touching);
   const ContactSet<kPlaces> &set = touching.set;
   if (set.overflow) out.n_contacts = kOverflow;
+  if (touching.exact_within < s.radius) out.uncertain = s.radius - touching.exact_within;
   if (set.overflow || set.n == 0) return out;
 
   for (int i = 0; i < set.n; i++) {

@@ -22,7 +22,7 @@ class GridBuilder {
       vertices_(b_.from_host(wall.vertices)), edge_inward_(b_.from_host(wall.edge_inward)),
       vertex_direction_(b_.from_host(wall.vertex_direction)),
       face_vertex_(b_.from_host(wall.face_vertex)), edge_vertex_(b_.from_host(wall.edge_vertex)),
-      features_(b_.from_host(wall.contact_features))
+      contact_features_(b_.from_host(wall.contact_features)), pieces_(b_.from_host(wall.pieces))
   {
     view_.wall = {faces_.data(),
                   edges_.data(),
@@ -32,16 +32,32 @@ class GridBuilder {
                   face_vertex_.data(),
                   edge_vertex_.data(),
                   nullptr,
+                  nullptr,
                   nullptr};
-    view_.features = features_.data();
   }
 
-  // Sorts features into octants. Returns the number of bricks near the wall.
-  std::size_t rasterise_all(const GridPlan &plan)
+  // Lists of the contact features (nearest 0) or of the nearest pieces. Returns false,
+  // with `lists` untouched, if they would not fit `budget` bytes.
+  bool build(const GridPlan &plan, int nearest, std::size_t budget, CellLists &lists,
+             ListReport &report)
   {
     view_.plan = plan;
+    view_.pieces = nearest > 0;
+    view_.features = nearest > 0 ? pieces_.data() : contact_features_.data();
+    const std::size_t n = rasterise_all(nearest > 0 ? pieces_.size() : contact_features_.size());
+    return n != too_many_ && bricks_fit(plan, n, budget) && fill(nearest, budget, lists, report);
+  }
+
+  std::string name() const { return b_.name(); }
+
+  // The two steps of build(). Public because nvcc takes no device lambda from a private
+  // function.
+
+  // Sorts features into octants. Returns the number of bricks near the wall.
+  std::size_t rasterise_all(std::size_t n)
+  {
     const BuildView view = view_;
-    const std::size_t n = features_.size();
+    const GridPlan &plan = view_.plan;
     Array<std::uint64_t> offset(n + 1);
     std::uint64_t *offsets = offset.data();
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
@@ -94,13 +110,12 @@ class GridBuilder {
     return n_bricks_;
   }
 
-  static bool too_many(std::size_t n_bricks) { return n_bricks == too_many_; }
-
   // Fills cells, brick by brick; rasterise_all() must have been called.
-  // Returns false, with grid untouched, if lists would not fit `budget` bytes.
-  bool fill(TriangleGrid &grid, std::size_t budget)
+  bool fill(int nearest, std::size_t budget, CellLists &out_lists, ListReport &report)
   {
     const BuildView view = view_;
+    // Of nearest pieces the first that is left out stays, as a bound.
+    const std::uint32_t most = nearest > 0 ? nearest + 1 : 0xffffffffu;
     const std::size_t n_cells = n_bricks_ * kBrickCells;
     Array<std::uint32_t> count(n_cells), offset(n_cells);
     std::uint32_t *counts = count.data(), *offsets = offset.data();
@@ -115,7 +130,7 @@ class GridBuilder {
       Real distance;
       for (std::uint32_t p = first[octant]; p < first[octant + 1]; p++)
         n += meets(view, features[p], centre, view.plan.half_diagonal, distance);
-      counts[b * kBrickCells + c] = n;
+      counts[b * kBrickCells + c] = n < most ? n : most;
     });
 
     // Per brick: the occupancy mask, and where its cells and lists begin.
@@ -182,7 +197,7 @@ class GridBuilder {
         }
         const Candidate candidate = make_candidate(features[p], distance);
         if (n <= kLongList)
-          insert_sorted(lists + start, at++, candidate);
+          insert_nearest(lists + start, at++, n, candidate);
         else
           lists[start + at++] = candidate;
       }
@@ -190,24 +205,24 @@ class GridBuilder {
       cells[cell_index(bricks[b], c)] = out;
     });
 
-    grid.bricks = b_.to_host(brick, n_bricks_);
-    grid.cells = b_.to_host(cell, n_occupied);
-    grid.candidates = b_.to_host(list, n_list);
-    const std::vector<std::uint32_t> keys = b_.to_host(brick_key_, n_bricks_);
-    grid.brick_of.assign(view.plan.table_size(), -1);
+    out_lists.bricks = b_.to_host(brick, n_bricks_);
+    out_lists.cells = b_.to_host(cell, n_occupied);
+    out_lists.candidates = b_.to_host(list, n_list);
+    const std::vector<std::uint32_t> brick_keys = b_.to_host(brick_key_, n_bricks_);
+    out_lists.brick_of.assign(view.plan.table_size(), -1);
     for (std::size_t b = 0; b < n_bricks_; b++)
-      grid.brick_of[keys[b]] = static_cast<std::int32_t>(b);
+      out_lists.brick_of[brick_keys[b]] = static_cast<std::int32_t>(b);
 
-    grid.report.bricks = n_bricks_;
-    grid.report.cells = n_occupied;
+    report = ListReport();
+    report.bricks = n_bricks_;
+    report.cells = n_occupied;
     std::size_t inlined = 0;
-    for (const Cell &c : grid.cells) inlined += c.count == 1;
-    grid.report.candidates = n_list + inlined;
-    grid.report.mean_list = n_occupied ? Real(grid.report.candidates) / n_occupied : 0;
+    for (const Cell &c : out_lists.cells) inlined += c.count == 1;
+    report.candidates = n_list + inlined;
+    report.mean = n_occupied ? Real(report.candidates) / n_occupied : 0;
     for (std::uint32_t n : longest_host)
-      if (n > grid.report.longest_list) grid.report.longest_list = n;
-    grid.report.distance_tests = b_.sum(n_tests, n_bricks_);
-    grid.report.device = b_.name();
+      if (n > report.longest) report.longest = n;
+    report.distance_tests = b_.sum(n_tests, n_bricks_);
     return true;
   }
 
@@ -221,7 +236,7 @@ class GridBuilder {
   Array<Vec3> edge_inward_, vertex_direction_;
   Array<FaceVertices> face_vertex_;
   Array<EdgeVertices> edge_vertex_;
-  Array<FeatureCode> features_;
+  Array<FeatureCode> contact_features_, pieces_;
   BuildView view_ = {};
   Array<std::uint32_t> pair_feature_, brick_key_, octant_pair_;
   std::size_t n_bricks_ = 0;
@@ -234,17 +249,23 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
 {
   const auto start = std::chrono::steady_clock::now();
   TriangleGrid grid;
-  grid.wall = make_features(mesh, settings.sides);
+  grid.wall = make_features(mesh, settings.sides, settings.nearest > 0);
   GridBuilder<B> builder(std::move(backend), grid.wall);
   GridPlan plan = plan_grid(mesh, settings);
   const Real asked = plan.length;
   bool fits = false;
   while (!fits) {
     fits = plan.may_fit(settings.memory_budget);
-    if (fits) {
-      const std::size_t n = builder.rasterise_all(plan);
-      fits = !GridBuilder<B>::too_many(n) && bricks_fit(plan, n, settings.memory_budget) &&
-             builder.fill(grid, settings.memory_budget);
+    if (fits)
+      fits = builder.build(plan, settings.nearest, settings.memory_budget, grid.lists,
+                           grid.report.lists);
+    if (fits && settings.nearest > 0 && settings.exact) {
+      const ListReport &l = grid.report.lists;
+      const std::size_t taken =
+          grid_bytes(plan, l.bricks, grid.lists.cells.size(), grid.lists.candidates.size());
+      fits =
+          taken < settings.memory_budget && builder.build(plan, 0, settings.memory_budget - taken,
+                                                          grid.complete, grid.report.complete);
     }
     if (!fits) plan = coarser(plan, mesh, settings);
   }
@@ -256,6 +277,9 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   grid.slack = plan.slack;
   grid.outside = mesh.report.volume < 0 ? -1 : 1;
   for (int k = 0; k < 3; k++) grid.n_bricks[k] = plan.n_bricks[k];
+  grid.nearest = settings.nearest;
+  grid.report.nearest = settings.nearest;
+  grid.report.device = builder.name();
   grid.report.length = plan.length;
   grid.report.reach = plan.reach;
   grid.report.length_chosen = settings.length <= 0;

@@ -27,6 +27,17 @@ LSDCD_FN void insert_sorted(Candidate *list, std::uint32_t n, const Candidate &c
   list[n] = candidate;
 }
 
+// Keeps the first `room` of what is offered, one after another; list[0 .. n) is what
+// was kept before.
+LSDCD_FN void insert_nearest(Candidate *list, std::uint32_t n, std::uint32_t room,
+                             const Candidate &candidate)
+{
+  if (n < room)
+    insert_sorted(list, n, candidate);
+  else if (comes_before(candidate, list[room - 1]))
+    insert_sorted(list, room - 1, candidate);
+}
+
 // In place and without recursion, for a device: moves list[root] down to its place
 // in the heap list[0 .. n), whose first entry comes last.
 LSDCD_FN void sift_down(Candidate *list, std::uint32_t root, std::uint32_t n)

@@ -26,7 +26,7 @@ LSDCD_FN bool has_candidates(const Brick &brick, int cell)
   return (brick.mask[cell >> 6] >> (cell & 63)) & 1u;
 }
 
-// Index of an occupied cell in GridView::cells.
+// Index of an occupied cell in CellListsView::cells.
 LSDCD_FN std::uint32_t cell_index(const Brick &brick, int cell)
 {
   const int word = cell >> 6;
@@ -34,7 +34,7 @@ LSDCD_FN std::uint32_t cell_index(const Brick &brick, int cell)
   return brick.first_cell + brick.below[word] + static_cast<std::uint32_t>(count_bits(before));
 }
 
-LSDCD_FN CellAddress locate(const GridView &grid, const Vec3 &q)
+LSDCD_FN CellAddress locate(const GridView &grid, const CellListsView &lists, const Vec3 &q)
 {
   const Real u = (q.x - grid.origin.x) * grid.inv_length;
   const Real v = (q.y - grid.origin.y) * grid.inv_length;
@@ -48,16 +48,16 @@ LSDCD_FN CellAddress locate(const GridView &grid, const Vec3 &q)
   const std::size_t at =
       (static_cast<std::size_t>(k >> 3) * grid.n_bricks[1] + (j >> 3)) * grid.n_bricks[0] +
       (i >> 3);
-  const std::int32_t b = grid.brick_of[at];
+  const std::int32_t b = lists.brick_of[at];
   if (b < 0) return {nullptr, 0, {0, 0, 0}};
   const Real half = Real(0.5);
-  return {grid.bricks + b, ((k & 7) << 6) | ((j & 7) << 3) | (i & 7),
+  return {lists.bricks + b, ((k & 7) << 6) | ((j & 7) << 3) | (i & 7),
           grid.length * Vec3{u - i - half, v - j - half, w - k - half}};
 }
 
 LSDCD_FN bool near_wall(const GridView &grid, const Vec3 &q)
 {
-  const CellAddress at = locate(grid, q);
+  const CellAddress at = locate(grid, grid.lists, q);
   return at.brick && has_candidates(*at.brick, at.cell);
 }
 

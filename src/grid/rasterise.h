@@ -1,6 +1,7 @@
 // Which octants of bricks a feature meets.
 #pragma once
 
+#include "contact/piece_distance.h"
 #include "grid/grid_plan.h"
 #include "grid/meets.h"
 
@@ -9,15 +10,20 @@ namespace lsdcd {
 // What the kernels of the build share.
 struct BuildView {
   WallFeaturesView wall;
-  const FeatureCode *features;    // all that can hold a contact
+  const FeatureCode *features;    // all that can hold a contact, or all pieces
+  bool pieces;
   GridPlan plan;
 };
 
 // Can a sphere of the grid's reach, centred within `around` of c, have a contact
-// on this feature? If so, `distance` is how far the feature is from c.
+// on this feature, or touch this piece? If so, `distance` is how far it is from c.
 LSDCD_FN bool meets(const BuildView &b, FeatureCode feature, const Vec3 &c, Real around,
                     Real &distance)
 {
+  if (b.pieces) {
+    distance = piece_distance(b.wall, feature, c);
+    return distance <= b.plan.reach + b.plan.slack + around;
+  }
   return feature_meets(b.wall, feature, c, around + b.plan.slack, b.plan.reach, distance);
 }
 

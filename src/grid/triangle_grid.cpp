@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <type_traits>
 
 namespace lsdcd {
 
@@ -14,33 +15,67 @@ std::size_t rounded(std::size_t bytes)
   return (bytes + kAlign - 1) / kAlign * kAlign;
 }
 
-// Front of a flat block: the scalars, and where each array starts.
-struct FlatHeader {
-  Vec3 origin;
-  Real length, reach, slack, outside;
-  std::int32_t n_bricks[3];
-  std::uint64_t offset[13];
-  std::uint64_t bytes;    // of the whole block
-};
+// The arrays of a grid, in the order of a flat block: first where a grid owns them,
+// then where a view points to them.
+constexpr int kArrays = 18;
 
-// The one list of a grid's arrays; flat_bytes, flatten and flat_view follow it.
 template <class Visit>
 void each_array(const TriangleGrid &g, Visit visit)
 {
-  visit(0, g.wall.faces);
-  visit(1, g.wall.edges);
-  visit(2, g.wall.vertices);
-  visit(3, g.wall.edge_inward);
-  visit(4, g.wall.vertex_direction);
-  visit(5, g.wall.face_vertex);
-  visit(6, g.wall.edge_vertex);
-  visit(7, g.wall.edge_out);
-  visit(8, g.wall.vertex_out);
-  visit(9, g.brick_of);
-  visit(10, g.bricks);
-  visit(11, g.cells);
-  visit(12, g.candidates);
+  visit(g.wall.faces);
+  visit(g.wall.edges);
+  visit(g.wall.vertices);
+  visit(g.wall.edge_inward);
+  visit(g.wall.vertex_direction);
+  visit(g.wall.face_vertex);
+  visit(g.wall.edge_vertex);
+  visit(g.wall.edge_out);
+  visit(g.wall.vertex_out);
+  visit(g.wall.face_parts);
+  for (const CellLists *lists : {&g.lists, &g.complete}) {
+    visit(lists->brick_of);
+    visit(lists->bricks);
+    visit(lists->cells);
+    visit(lists->candidates);
+  }
 }
+
+template <class Visit>
+void each_pointer(GridView &v, Visit visit)
+{
+  visit(v.wall.faces);
+  visit(v.wall.edges);
+  visit(v.wall.vertices);
+  visit(v.wall.edge_inward);
+  visit(v.wall.vertex_direction);
+  visit(v.wall.face_vertex);
+  visit(v.wall.edge_vertex);
+  visit(v.wall.edge_out);
+  visit(v.wall.vertex_out);
+  visit(v.wall.face_parts);
+  for (CellListsView *lists : {&v.lists, &v.complete}) {
+    visit(lists->brick_of);
+    visit(lists->bricks);
+    visit(lists->cells);
+    visit(lists->candidates);
+  }
+}
+
+// Points the arrays of a view to `at`, one after another.
+void point(GridView &view, const char *const *at)
+{
+  int i = 0;
+  each_pointer(view, [&](auto *&pointer) {
+    pointer = reinterpret_cast<std::remove_reference_t<decltype(pointer)>>(at[i++]);
+  });
+}
+
+// Front of a flat block: the scalars in a view without pointers, and where each
+// array starts (0: it is empty).
+struct FlatHeader {
+  GridView scalars;
+  std::uint64_t offset[kArrays];
+};
 
 template <class T>
 std::size_t array_bytes(const std::vector<T> &a)
@@ -62,97 +97,96 @@ std::string amount(double bytes)
 
 GridView TriangleGrid::view() const
 {
-  GridView v;
-  v.wall = {wall.faces.data(),
-            wall.edges.data(),
-            wall.vertices.data(),
-            wall.edge_inward.data(),
-            wall.vertex_direction.data(),
-            wall.face_vertex.data(),
-            wall.edge_vertex.data(),
-            wall.edge_out.data(),
-            wall.vertex_out.data()};
+  GridView v = {};
   v.origin = origin;
   v.length = length;
   v.inv_length = 1 / length;
   v.reach = reach;
   v.slack = slack;
   v.outside = outside;
+  v.nearest = nearest;
   for (int k = 0; k < 3; k++) v.n_bricks[k] = n_bricks[k];
-  v.brick_of = brick_of.data();
-  v.bricks = bricks.data();
-  v.cells = cells.data();
-  v.candidates = candidates.data();
-  v.block = nullptr;
-  v.block_bytes = 0;
+  const char *at[kArrays];
+  int i = 0;
+  each_array(*this, [&](const auto &a) {
+    at[i++] = a.empty() ? nullptr : reinterpret_cast<const char *>(a.data());
+  });
+  point(v, at);
   return v;
 }
 
 std::size_t flat_bytes(const TriangleGrid &grid)
 {
   std::size_t total = rounded(sizeof(FlatHeader));
-  each_array(grid, [&](int, const auto &a) { total += rounded(array_bytes(a)); });
+  each_array(grid, [&](const auto &a) { total += rounded(array_bytes(a)); });
   return total;
 }
 
 void flatten(const TriangleGrid &grid, char *block)
 {
-  FlatHeader header = {};
-  header.origin = grid.origin;
-  header.length = grid.length;
-  header.reach = grid.reach;
-  header.slack = grid.slack;
-  header.outside = grid.outside;
-  for (int k = 0; k < 3; k++) header.n_bricks[k] = grid.n_bricks[k];
+  // Copied from zeroed memory, so that equal grids make equal blocks.
+  FlatHeader header;
+  std::memset(static_cast<void *>(&header), 0, sizeof header);
+  header.scalars = grid.view();
+  const char *nowhere[kArrays] = {};
+  point(header.scalars, nowhere);
   std::size_t at = rounded(sizeof(FlatHeader));
-  each_array(grid, [&](int i, const auto &a) {
-    header.offset[i] = at;
-    if (!a.empty()) std::memcpy(block + at, a.data(), array_bytes(a));
-    at += rounded(array_bytes(a));
+  int i = 0;
+  each_array(grid, [&](const auto &a) {
+    const std::size_t bytes = array_bytes(a);
+    header.offset[i++] = bytes > 0 ? at : 0;
+    if (bytes > 0) std::memcpy(block + at, a.data(), bytes);
+    std::memset(block + at + bytes, 0, rounded(bytes) - bytes);
+    at += rounded(bytes);
   });
-  header.bytes = at;
+  header.scalars.block_bytes = at;
+  std::memset(block, 0, rounded(sizeof header));
   std::memcpy(block, &header, sizeof header);
 }
 
 GridView flat_view(const char *block)
 {
   FlatHeader header;
-  std::memcpy(&header, block, sizeof header);
-  const char *at[13];
-  for (int i = 0; i < 13; i++) at[i] = block + header.offset[i];
-  GridView v;
-  v.wall = {
-      reinterpret_cast<const FaceRecord *>(at[0]),   reinterpret_cast<const EdgeRecord *>(at[1]),
-      reinterpret_cast<const VertexRecord *>(at[2]), reinterpret_cast<const Vec3 *>(at[3]),
-      reinterpret_cast<const Vec3 *>(at[4]),         reinterpret_cast<const FaceVertices *>(at[5]),
-      reinterpret_cast<const EdgeVertices *>(at[6]), reinterpret_cast<const Vec3 *>(at[7]),
-      reinterpret_cast<const Vec3 *>(at[8])};
-  v.origin = header.origin;
-  v.length = header.length;
-  v.inv_length = 1 / header.length;
-  v.reach = header.reach;
-  v.slack = header.slack;
-  v.outside = header.outside;
-  for (int k = 0; k < 3; k++) v.n_bricks[k] = header.n_bricks[k];
-  v.brick_of = reinterpret_cast<const std::int32_t *>(at[9]);
-  v.bricks = reinterpret_cast<const Brick *>(at[10]);
-  v.cells = reinterpret_cast<const Cell *>(at[11]);
-  v.candidates = reinterpret_cast<const Candidate *>(at[12]);
+  std::memcpy(static_cast<void *>(&header), block, sizeof header);
+  const char *at[kArrays];
+  for (int i = 0; i < kArrays; i++)
+    at[i] = header.offset[i] > 0 ? block + header.offset[i] : nullptr;
+  GridView v = header.scalars;
+  point(v, at);
   v.block = block;
-  v.block_bytes = header.bytes;
   return v;
+}
+
+GridView moved_view(const GridView &view, const char *to)
+{
+  GridView moved = view;
+  each_pointer(moved, [&](auto *&pointer) {
+    if (pointer)
+      pointer = reinterpret_cast<std::remove_reference_t<decltype(pointer)>>(
+          to + (reinterpret_cast<const char *>(pointer) - view.block));
+  });
+  moved.block = to;
+  return moved;
 }
 
 std::string describe(const GridReport &r)
 {
-  char text[512];
-  std::snprintf(text, sizeof text,
-                "  grid %.6g (%s), reach %.6g: %zu bricks, %zu cells, %zu candidates, "
-                "lists %.2f on average, %zu at most\n"
-                "  %s, built in %.3f s with %.3g distance tests on %s",
-                r.length, r.length_chosen ? "chosen" : "given", r.reach, r.bricks, r.cells,
-                r.candidates, r.mean_list, r.longest_list, amount(double(r.bytes)).c_str(),
-                r.seconds, double(r.distance_tests), r.device.c_str());
+  char text[768];
+  int n = std::snprintf(text, sizeof text, "  grid %.6g (%s), reach %.6g: ", r.length,
+                        r.length_chosen ? "chosen" : "given", r.reach);
+  const auto add = [&](const char *name, const ListReport &l) {
+    n +=
+        std::snprintf(text + n, sizeof text - n,
+                      "%s%zu bricks, %zu cells, %zu candidates, lists %.2f on average, %zu at most",
+                      name, l.bricks, l.cells, l.candidates, l.mean, l.longest);
+  };
+  if (r.nearest > 0)
+    n += std::snprintf(text + n, sizeof text - n, "the nearest %d and a bound, ", r.nearest);
+  add("", r.lists);
+  if (r.complete.cells > 0) add("\n  complete lists to fall back to: ", r.complete);
+  std::snprintf(text + n, sizeof text - n, "\n  %s, built in %.3f s with %.3g distance tests on %s",
+                amount(double(r.bytes)).c_str(), r.seconds,
+                double(r.lists.distance_tests + r.complete.distance_tests), r.device.c_str());
   return text;
 }
 

@@ -1,5 +1,6 @@
-// The limit-space grid: for every cell near the wall, a complete list of the
-// features that a sphere with its centre in that cell can touch.
+// The limit-space grid: for every cell near the wall, a list of what a sphere with its
+// centre in that cell can touch. Complete lists hold every such feature; nearest lists
+// hold the N pieces of the wall nearest to the cell's centre.
 #pragma once
 
 #include "base/vec3.h"
@@ -16,8 +17,8 @@ constexpr int kBrickSide = 8;    // cells along a brick edge
 constexpr int kBrickCells = kBrickSide * kBrickSide * kBrickSide;
 constexpr int kMaskWords = kBrickCells / 64;    // one 64-bit word per z layer
 
-// An entry of a cell's list: the feature, and a lower bound of its distance from
-// the cell centre. Lists ascend in (bound, feature).
+// An entry of a cell's list: the feature or piece, and a lower bound of its distance
+// from the cell centre. Lists ascend in (bound, feature).
 struct Candidate {
   FeatureCode feature;
   float bound;    // length
@@ -38,6 +39,14 @@ struct Brick {
   std::uint32_t pad;
 };
 
+// Lists of one kind for all cells.
+struct CellListsView {
+  const std::int32_t *brick_of;    // x fastest; -1 where no brick is near the wall
+  const Brick *bricks;
+  const Cell *cells;
+  const Candidate *candidates;
+};
+
 // Borrowed view of a grid on the host or on a device; trivially copyable.
 struct GridView {
   WallFeaturesView wall;
@@ -47,11 +56,12 @@ struct GridView {
   Real slack;                 // tolerance that closes face, edge and vertex regions; length
   Real outside;               // +1 where normals point out of a closed wall, -1 where in
   std::int32_t n_bricks[3];
-  const std::int32_t *brick_of;    // x fastest; -1 where no brick is near the wall
-  const Brick *bricks;
-  const Cell *cells;
-  const Candidate *candidates;
-  const char *block;    // the flat block all of this lies in, or null
+  // 0: `lists` are complete. N: `lists` hold the N nearest pieces and, where there are
+  // more within reach, the next one as a bound of all that was left out.
+  std::int32_t nearest;
+  CellListsView lists;       // what a query reads
+  CellListsView complete;    // what it falls back to where N were not enough, or null
+  const char *block;         // the flat block all of this lies in, or null
   std::size_t block_bytes;
 };
 
@@ -60,18 +70,33 @@ struct GridSettings {
   Real reach = 0;                            // > 0
   std::size_t memory_budget = 1ull << 30;    // bytes
   bool sides = false;                        // keep what `side in|out` needs
+  int nearest = 0;       // 0: complete lists; N, at most kMostNearest: the N nearest pieces
+  bool exact = false;    // with nearest: complete lists as well, to fall back to
+};
+constexpr int kMostNearest = 32;
+
+struct ListReport {
+  std::size_t bricks = 0, cells = 0, candidates = 0;    // cells that have candidates
+  std::size_t longest = 0;
+  Real mean = 0;
+  std::size_t distance_tests = 0;    // feature against cell, after bricking
 };
 
 struct GridReport {
   Real length = 0, reach = 0;
   bool length_chosen = false;
-  std::size_t bricks = 0, cells = 0, candidates = 0;    // cells that have candidates
+  int nearest = 0;
+  ListReport lists, complete;    // as in GridView
   std::size_t bytes = 0;
-  std::size_t longest_list = 0;
-  std::size_t distance_tests = 0;    // feature against cell, after bricking
-  Real mean_list = 0;
   double seconds = 0;
   std::string device;
+};
+
+struct CellLists {
+  std::vector<std::int32_t> brick_of;
+  std::vector<Brick> bricks;
+  std::vector<Cell> cells;
+  std::vector<Candidate> candidates;
 };
 
 // Owns a grid and the wall records that it points to, on the host. Bitwise the
@@ -81,10 +106,8 @@ struct TriangleGrid {
   Vec3 origin = {0, 0, 0};
   Real length = 0, reach = 0, slack = 0, outside = 1;
   std::int32_t n_bricks[3] = {0, 0, 0};
-  std::vector<std::int32_t> brick_of;
-  std::vector<Brick> bricks;
-  std::vector<Cell> cells;
-  std::vector<Candidate> candidates;
+  int nearest = 0;
+  CellLists lists, complete;
   GridReport report;
 
   GridView view() const;
@@ -103,6 +126,9 @@ std::string describe(const GridReport &report);
 std::size_t flat_bytes(const TriangleGrid &grid);
 void flatten(const TriangleGrid &grid, char *block);
 GridView flat_view(const char *block);
+
+// The same view over a copy of its flat block at another address.
+GridView moved_view(const GridView &view, const char *to);
 
 // Is there any candidate in the cell that holds q? Most spheres stop here.
 LSDCD_FN bool near_wall(const GridView &grid, const Vec3 &q);

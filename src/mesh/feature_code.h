@@ -13,6 +13,7 @@ using FeatureCode = std::uint32_t;
 enum class FeatureKind : std::uint32_t { face = 0, edge = 1, vertex = 2 };
 
 constexpr FeatureCode kFeatureIndexMask = 0x3fffffffu;
+constexpr FeatureCode kNoFeature = 0xffffffffu;
 constexpr std::size_t kMaxFeatures = kFeatureIndexMask;
 
 LSDCD_FN FeatureCode feature_code(FeatureKind kind, std::uint32_t index)

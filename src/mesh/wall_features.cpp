@@ -120,9 +120,38 @@ Real corner_angle(const Vec3 &at, const Vec3 &b, const Vec3 &c)
   return std::atan2(norm(cross(b - at, c - at)), dot(b - at, c - at));
 }
 
+void add_pieces(const WallMesh &mesh, WallFeatures &out)
+{
+  std::vector<bool> edge_bears(mesh.edges.size(), false), vertex_bears(mesh.vertices.size(), false),
+      has_face(mesh.vertices.size(), false);
+  for (FeatureCode code : out.contact_features) {
+    if (feature_kind(code) == FeatureKind::edge) edge_bears[feature_index(code)] = true;
+    if (feature_kind(code) == FeatureKind::vertex) vertex_bears[feature_index(code)] = true;
+  }
+  out.face_parts.reserve(mesh.faces.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); f++) {
+    FaceParts parts;
+    for (int k = 0; k < 3; k++) {
+      const std::uint32_t edge = mesh.face_edges[f][k], vertex = mesh.faces[f][k];
+      parts.part[k] = edge_bears[edge] ? feature_code(FeatureKind::edge, edge) : kNoFeature;
+      parts.part[3 + k] =
+          vertex_bears[vertex] ? feature_code(FeatureKind::vertex, vertex) : kNoFeature;
+      has_face[vertex] = true;
+    }
+    out.face_parts.push_back(parts);
+  }
+  for (FeatureCode code : out.contact_features) {
+    const std::uint32_t i = feature_index(code);
+    const FeatureKind kind = feature_kind(code);
+    if (kind == FeatureKind::face || (kind == FeatureKind::edge && out.edges[i].n_faces == 0) ||
+        (kind == FeatureKind::vertex && !has_face[i]))
+      out.pieces.push_back(code);
+  }
+}
+
 }    // namespace
 
-WallFeatures make_features(const WallMesh &mesh, bool with_sides)
+WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_pieces)
 {
   const std::size_t n_faces = mesh.faces.size(), n_edges = mesh.edges.size(),
                     n_vertices = mesh.vertices.size();
@@ -197,6 +226,7 @@ WallFeatures make_features(const WallMesh &mesh, bool with_sides)
         out.vertex_out[c[k]] += angle * out.faces[f].normal;
       }
   }
+  if (with_pieces) add_pieces(mesh, out);
   return out;
 }
 

@@ -45,6 +45,12 @@ struct EdgeVertices {
   std::int32_t v[2];
 };
 
+// The edges and vertices of a face that can hold a contact of their own, kNoFeature in
+// place of the others.
+struct FaceParts {
+  FeatureCode part[6];
+};
+
 struct WallFeaturesView {
   const FaceRecord *faces;
   const EdgeRecord *edges;
@@ -55,6 +61,7 @@ struct WallFeaturesView {
   const EdgeVertices *edge_vertex;
   const Vec3 *edge_out;    // angle-weighted pseudonormals; only read where a side is set
   const Vec3 *vertex_out;
+  const FaceParts *face_parts;    // only read where lists hold pieces
 };
 
 // Records of every face and of the edges and vertices that can hold a contact of
@@ -68,10 +75,29 @@ struct WallFeatures {
   std::vector<FaceVertices> face_vertex;
   std::vector<EdgeVertices> edge_vertex;
   std::vector<Vec3> edge_out, vertex_out;
+  std::vector<FaceParts> face_parts;
   std::vector<FeatureCode> contact_features;    // what a grid has to sort into cells
+  // The wall in pieces: every face stands for its edges and vertices as well; edges
+  // and vertices without a face stand for themselves.
+  std::vector<FeatureCode> pieces;
+
+  WallFeaturesView view() const
+  {
+    return {faces.data(),
+            edges.data(),
+            vertices.data(),
+            edge_inward.data(),
+            vertex_direction.data(),
+            face_vertex.data(),
+            edge_vertex.data(),
+            edge_out.data(),
+            vertex_out.data(),
+            face_parts.data()};
+  }
 };
 
-// `with_sides` adds the pseudonormals that tell inside from outside.
-WallFeatures make_features(const WallMesh &mesh, bool with_sides);
+// `with_sides` adds the pseudonormals that tell inside from outside, `with_pieces` the
+// pieces and the parts of faces.
+WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_pieces = false);
 
 }    // namespace lsdcd

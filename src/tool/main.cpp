@@ -63,19 +63,21 @@ nlohmann::json as_json(const MeshReport &r)
           {"feature_edges", r.feature_edges}};
 }
 
+nlohmann::json as_json(const ListReport &r)
+{
+  return {{"bricks", r.bricks},  {"cells", r.cells},          {"candidates", r.candidates},
+          {"mean_list", r.mean}, {"longest_list", r.longest}, {"distance_tests", r.distance_tests}};
+}
+
 nlohmann::json as_json(const GridReport &r)
 {
-  return {{"length", r.length},
-          {"reach", r.reach},
-          {"bricks", r.bricks},
-          {"cells", r.cells},
-          {"candidates", r.candidates},
-          {"mean_list", r.mean_list},
-          {"longest_list", r.longest_list},
-          {"bytes", r.bytes},
-          {"distance_tests", r.distance_tests},
-          {"seconds", r.seconds},
-          {"device", r.device}};
+  nlohmann::json j = as_json(r.lists);
+  j.update({{"length", r.length},
+            {"reach", r.reach},
+            {"bytes", r.bytes},
+            {"seconds", r.seconds},
+            {"device", r.device}});
+  return j;
 }
 
 void inspect(const Options &o)

@@ -547,7 +547,7 @@ TEST(vertex, of_1e5_facets_is_exact)
         most = std::max(most, static_cast<int>(scene.engine->sphere_output()[i].contacts));
     }
     std::printf("  %s of 1e5 facets: built in %.2f s, longest list %zu, %.3g ms a sphere\n", shape,
-                build, scene.grid.report.longest_list, 1e3 * step / scene.n());
+                build, scene.grid.report.lists.longest, 1e3 * step / scene.n());
     EXPECT_EQ(scene.engine->n_touching(), scene.n());
     expect_at_most({kTheme, "14", std::string(shape) + " of 1e5 facets: |F - k d| / k R"},
                    largest / 0.3, scene.grid.slack / 0.3 + 16 * kRoundoff, "slack and roundings");

@@ -29,16 +29,7 @@ struct Wall {
   WallFeaturesView view;
 
   explicit Wall(const std::vector<Vec3> &corners, bool sides = false) :
-      mesh(weld({corners, "test"}, 0)),
-      features(make_features(mesh, sides)), view{features.faces.data(),
-                                                 features.edges.data(),
-                                                 features.vertices.data(),
-                                                 features.edge_inward.data(),
-                                                 features.vertex_direction.data(),
-                                                 features.face_vertex.data(),
-                                                 features.edge_vertex.data(),
-                                                 features.edge_out.data(),
-                                                 features.vertex_out.data()}
+      mesh(weld({corners, "test"}, 0)), features(make_features(mesh, sides)), view(features.view())
   {
   }
   explicit Wall(const TriangleSoup &soup) : Wall(soup.corners) {}

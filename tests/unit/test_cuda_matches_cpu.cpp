@@ -139,11 +139,11 @@ TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
     g.reach = c.reach;
     g.length = c.length;
     const TriangleGrid cpu = build_grid(mesh, g, false), cuda = build_grid(mesh, g, true);
-    EXPECT_TRUE(same_bytes(cpu.brick_of, cuda.brick_of)) << c.name;
-    EXPECT_TRUE(same_bytes(cpu.bricks, cuda.bricks)) << c.name;
-    EXPECT_TRUE(same_bytes(cpu.cells, cuda.cells)) << c.name;
-    EXPECT_TRUE(same_bytes(cpu.candidates, cuda.candidates)) << c.name;
-    EXPECT_GT(cuda.candidates.size() + cuda.cells.size(), 0u) << c.name;
+    EXPECT_TRUE(same_bytes(cpu.lists.brick_of, cuda.lists.brick_of)) << c.name;
+    EXPECT_TRUE(same_bytes(cpu.lists.bricks, cuda.lists.bricks)) << c.name;
+    EXPECT_TRUE(same_bytes(cpu.lists.cells, cuda.lists.cells)) << c.name;
+    EXPECT_TRUE(same_bytes(cpu.lists.candidates, cuda.lists.candidates)) << c.name;
+    EXPECT_GT(cuda.lists.candidates.size() + cuda.lists.cells.size(), 0u) << c.name;
   }
 }
 

@@ -209,12 +209,12 @@ TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
     const TriangleGrid grid = grid_of(soup, 0.3);
     const GridView view = grid.view();
     std::size_t lists = 0;
-    for (std::size_t at = 0; at < grid.brick_of.size(); at++) {
-      if (grid.brick_of[at] < 0) continue;
-      const Brick &brick = grid.bricks[grid.brick_of[at]];
+    for (std::size_t at = 0; at < grid.lists.brick_of.size(); at++) {
+      if (grid.lists.brick_of[at] < 0) continue;
+      const Brick &brick = grid.lists.bricks[grid.lists.brick_of[at]];
       for (int c = 0; c < kBrickCells; c++) {
         if (!has_candidates(brick, c)) continue;
-        const Cell cell = grid.cells[cell_index(brick, c)];
+        const Cell cell = grid.lists.cells[cell_index(brick, c)];
         if (cell.count == 1) continue;
         lists++;
         const std::size_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
@@ -223,11 +223,11 @@ TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
                                              Real(at / nx % ny * 8 + c / 8 % 8) + 0.5,
                                              Real(at / nx / ny * 8 + c / 64) + 0.5};
         for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
-          const Candidate a = grid.candidates[i];
+          const Candidate a = grid.lists.candidates[i];
           // A slack of the whole world asks for the distance wherever the foot is.
           ASSERT_LE(a.bound, foot_on(view.wall, a.feature, centre, 1e9).distance);
           if (i == cell.first) continue;
-          const Candidate before = grid.candidates[i - 1];
+          const Candidate before = grid.lists.candidates[i - 1];
           ASSERT_TRUE(before.bound < a.bound ||
                       (before.bound == a.bound && before.feature < a.feature));
         }
@@ -342,9 +342,9 @@ TEST(grid, chosen_length_keeps_to_the_budget)
   settings.reach = 0.05;
   settings.memory_budget = 2 << 20;
   const TriangleGrid grid = build_grid(mesh, settings, test_on_cuda());
-  const std::size_t bytes = grid.brick_of.size() * sizeof(std::int32_t) +
-                            grid.bricks.size() * sizeof(Brick) + grid.cells.size() * sizeof(Cell) +
-                            grid.candidates.size() * sizeof(Candidate);
+  const std::size_t bytes = grid.lists.brick_of.size() * sizeof(std::int32_t) +
+                            grid.lists.bricks.size() * sizeof(Brick) + grid.lists.cells.size() * sizeof(Cell) +
+                            grid.lists.candidates.size() * sizeof(Candidate);
   EXPECT_LE(bytes, settings.memory_budget);
   EXPECT_TRUE(grid.report.length_chosen);
 }

@@ -87,15 +87,7 @@ TEST(transport, quarter_turn_takes_the_old_normal_to_the_opposite_side)
 struct Cube {
   WallMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), 0);
   WallFeatures f = make_features(mesh, false);
-  WallFeaturesView view = {f.faces.data(),
-                           f.edges.data(),
-                           f.vertices.data(),
-                           f.edge_inward.data(),
-                           f.vertex_direction.data(),
-                           f.face_vertex.data(),
-                           f.edge_vertex.data(),
-                           nullptr,
-                           nullptr};
+  WallFeaturesView view = f.view();
 };
 
 Vec3 leaning(Real degrees)
