@@ -53,6 +53,7 @@ void NodeWall::build(Real reach)
     want.sides = settings_.side != Side::both;
     want.nearest = settings_.nearest;
     want.exact = settings_.exact;
+    want.in_floats = settings_.precision != Precision::double_;
     std::string why;
     const bool on_cuda = settings_.device != Device::cpu && cuda_available(&why);
     grid = std::make_unique<TriangleGrid>(build_grid(*mesh_, want, on_cuda));

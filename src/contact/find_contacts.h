@@ -1,9 +1,9 @@
 // From a sphere to its contacts: one for each local minimum of distance.
 #pragma once
 
-#include "contact/closest_point.h"
+#include "contact/brick_geometry.h"
 #include "contact/contact_set.h"
-#include "grid/locate.h"
+#include "contact/wall_geometry.h"
 
 namespace lsdcd {
 
@@ -43,44 +43,45 @@ LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const Foot
   if (at < 0) set.add(feature, foot.normal, foot.distance);
 }
 
-template <int kPlaces>
-LSDCD_FN void add_feature(const GridView &grid, FeatureCode feature, const Vec3 &q, Real radius,
+// Adds what a feature holds. The geometry tells where the foot is and what its codes
+// stand for: WallGeometry in double, BrickGeometry in float.
+template <class Geometry, int kPlaces>
+LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radius,
                           ContactSet<kPlaces> &set)
 {
-  const Foot foot = foot_on(grid.wall, feature, q, grid.slack, radius);
-  if (foot.found && foot.distance < radius) add_once(set, feature, foot, grid.slack);
+  const Foot foot = geometry.foot(code, radius);
+  if (foot.found && foot.distance < radius)
+    add_once(set, geometry.feature(code), foot, geometry.slack());
 }
 
 // A face and what it stands for. Above the face's inside nothing else of it is near.
-template <int kPlaces>
-LSDCD_FN void add_piece(const GridView &grid, FeatureCode piece, const Vec3 &q, Real radius,
+template <class Geometry, int kPlaces>
+LSDCD_FN void add_piece(const Geometry &geometry, FeatureCode piece, Real radius,
                         ContactSet<kPlaces> &set)
 {
-  if (feature_kind(piece) != FeatureKind::face) return add_feature(grid, piece, q, radius, set);
-  const std::uint32_t face = feature_index(piece);
-  const FaceRecord &record = grid.wall.faces[face];
-  if (!(fabs(dot(record.normal, q - record.anchor)) <= radius)) return;
-  bool at_rim = false;
-  const Foot foot = foot_on_face(record, q, grid.slack, radius, at_rim);
-  if (foot.found && !at_rim) {
-    if (foot.distance < radius) add_once(set, piece, foot, grid.slack);
-    return;
+  if (feature_kind(piece) == FeatureKind::face) {
+    const Over over = geometry.over(piece, radius);
+    if (over == Over::far) return;
+    if (over != Over::inside)
+      for (FeatureCode part : geometry.parts(piece).part)
+        if (part != kNoFeature) add_feature(geometry, part, radius, set);
+    if (over == Over::outside) return;
   }
-  if (foot.found) add_feature(grid, piece, q, radius, set);
-  for (FeatureCode part : grid.wall.face_parts[face].part)
-    if (part != kNoFeature) add_feature(grid, part, q, radius, set);
+  add_feature(geometry, piece, radius, set);
 }
 
-template <int kPlaces>
+template <class Geometry, int kPlaces>
 LSDCD_FN void find_in_complete(const GridView &grid, const CellListsView &lists, const Vec3 &q,
                                Real radius, ContactSet<kPlaces> &set)
 {
   const CellAddress at = locate(grid, lists, q);
   if (!at.brick || !has_candidates(*at.brick, at.cell)) return;
   const Cell cell = lists.cells[cell_index(*at.brick, at.cell)];
+  const Geometry geometry(grid, q, at);
   if (cell.count == 1) {
-    const Foot foot = foot_on(grid.wall, cell.first, q, grid.slack, radius);
-    if (foot.found && foot.distance < radius) set.add(cell.first, foot.normal, foot.distance);
+    const Foot foot = geometry.foot(cell.first, radius);
+    if (foot.found && foot.distance < radius)
+      set.add(geometry.feature(cell.first), foot.normal, foot.distance);
     return;
   }
   // A list ascends in distance from the cell's centre: past this bound no
@@ -89,20 +90,21 @@ LSDCD_FN void find_in_complete(const GridView &grid, const CellListsView &lists,
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
     const Candidate candidate = lists.candidates[i];
     if (candidate.bound > enough) break;
-    add_feature(grid, candidate.feature, q, radius, set);
+    add_feature(geometry, candidate.feature, radius, set);
   }
 }
 
 // Returns the radius up to which the set is certain to be complete.
-template <int kPlaces>
+template <class Geometry, int kPlaces>
 LSDCD_FN Real find_in_nearest(const GridView &grid, const CellListsView &lists, const Vec3 &q,
                               Real radius, ContactSet<kPlaces> &set)
 {
   const CellAddress at = locate(grid, lists, q);
   if (!at.brick || !has_candidates(*at.brick, at.cell)) return kAnyDistance;
   const Cell cell = lists.cells[cell_index(*at.brick, at.cell)];
+  const Geometry geometry(grid, q, at);
   if (cell.count == 1) {
-    add_piece(grid, cell.first, q, radius, set);
+    add_piece(geometry, cell.first, radius, set);
     return kAnyDistance;
   }
   const Real off_centre = norm(at.from_centre);
@@ -110,7 +112,7 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const CellListsView &lists, 
     const Candidate candidate = lists.candidates[cell.first + k];
     if (candidate.bound > radius + off_centre) break;
     if (k == static_cast<std::uint32_t>(grid.nearest)) return candidate.bound - off_centre;
-    add_piece(grid, candidate.feature, q, radius, set);
+    add_piece(geometry, candidate.feature, radius, set);
   }
   return kAnyDistance;
 }
@@ -118,17 +120,26 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const CellListsView &lists, 
 // Local minima of the distance from q to the wall that are below `radius` (length, at
 // most grid.reach): every one of them with complete lists, those on the pieces listed
 // with nearest ones. Returns the radius up to which none can be missing.
+// The geometry must be the one that the grid was made for.
+template <class Geometry, int kPlaces>
+LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
+                               ContactSet<kPlaces> &set)
+{
+  if (grid.nearest > 0) {
+    const Real exact_within = find_in_nearest<Geometry>(grid, grid.lists, q, radius, set);
+    if (exact_within >= radius || !grid.complete.bricks) return exact_within;
+    set = ContactSet<kPlaces>();
+  }
+  find_in_complete<Geometry>(grid, grid.nearest > 0 ? grid.complete : grid.lists, q, radius, set);
+  return kAnyDistance;
+}
+
 template <int kPlaces>
 LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
                             ContactSet<kPlaces> &set)
 {
-  if (grid.nearest > 0) {
-    const Real exact_within = find_in_nearest(grid, grid.lists, q, radius, set);
-    if (exact_within >= radius || !grid.complete.bricks) return exact_within;
-    set = ContactSet<kPlaces>();
-  }
-  find_in_complete(grid, grid.nearest > 0 ? grid.complete : grid.lists, q, radius, set);
-  return kAnyDistance;
+  if (grid.in_floats) return find_contacts_in<BrickGeometry>(grid, q, radius, set);
+  return find_contacts_in<WallGeometry>(grid, q, radius, set);
 }
 
 // The outward pseudonormal of a feature: its dot product with (q - foot point)

@@ -21,16 +21,16 @@ struct Touch {
 
 // A function of its own, so that it is compiled once however many laws there are.
 // Where the set overflows nothing else is valid.
-template <int kPlaces>
+template <class Geometry, int kPlaces>
 LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings, const Vec3 &x,
                           Real radius, Touch<kPlaces> &out)
 {
-  out.exact_within = find_contacts(grid, x, radius, out.set);
+  out.exact_within = find_contacts_in<Geometry>(grid, x, radius, out.set);
   if (settings.side != 0) keep_side(grid.wall, settings.side * grid.outside, out.set);
   if (out.set.overflow) return;
   if (settings.blend && out.set.n > 1) {
     CornerRule<kPlaces> rule;
-    rule.solve(out.set, radius, out.weight, grid.slack);
+    rule.solve(out.set, radius, out.weight, Geometry::slack(grid));
   } else {
     for (int i = 0; i < out.set.n; i++) out.weight[i] = 1;
   }

@@ -47,7 +47,10 @@ LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
   using T = typename Law::Number;
   SphereResult out = {};
   Touch<kPlaces> touching;
-  touch(grid, settings.search, s.x, s.radius, touching);
+  if (grid.in_floats)
+    touch<BrickGeometry>(grid, settings.search, s.x, s.radius, touching);
+  else
+    touch<WallGeometry>(grid, settings.search, s.x, s.radius, touching);
   const ContactSet<kPlaces> &set = touching.set;
   if (set.overflow) out.n_contacts = kOverflow;
   if (touching.exact_within < s.radius) out.uncertain = s.radius - touching.exact_within;

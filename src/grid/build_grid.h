@@ -242,6 +242,35 @@ class GridBuilder {
   std::size_t n_bricks_ = 0;
 };
 
+// Lists of one kind or both, and the copies in float: whether they fit the budget.
+template <class B>
+bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings &settings,
+               TriangleGrid &grid)
+{
+  const std::size_t budget = settings.memory_budget;
+  std::size_t taken = 0;
+  const auto take = [&](const CellLists &l) {
+    taken += grid_bytes(plan, l.bricks.size(), l.cells.size(), l.candidates.size());
+  };
+  if (!plan.may_fit(budget)) return false;
+  if (!builder.build(plan, settings.nearest, budget, grid.lists, grid.report.lists)) return false;
+  take(grid.lists);
+  if (settings.nearest > 0 && settings.exact) {
+    if (taken >= budget ||
+        !builder.build(plan, 0, budget - taken, grid.complete, grid.report.complete))
+      return false;
+    take(grid.complete);
+  }
+  grid.origin = plan.origin;
+  grid.length = plan.length;
+  grid.reach = plan.reach;
+  grid.slack = plan.slack;
+  for (int k = 0; k < 3; k++) grid.n_bricks[k] = plan.n_bricks[k];
+  grid.nearest = settings.nearest;
+  if (settings.in_floats) add_brick_records(grid);
+  return taken + grid.records.bytes() <= budget;
+}
+
 // Plans, builds, and where the length was left to us tries coarser ones until
 // the budget holds.
 template <class B>
@@ -253,32 +282,19 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   GridBuilder<B> builder(std::move(backend), grid.wall);
   GridPlan plan = plan_grid(mesh, settings);
   const Real asked = plan.length;
-  bool fits = false;
-  while (!fits) {
-    fits = plan.may_fit(settings.memory_budget);
-    if (fits)
-      fits = builder.build(plan, settings.nearest, settings.memory_budget, grid.lists,
-                           grid.report.lists);
-    if (fits && settings.nearest > 0 && settings.exact) {
-      const ListReport &l = grid.report.lists;
-      const std::size_t taken =
-          grid_bytes(plan, l.bricks, grid.lists.cells.size(), grid.lists.candidates.size());
-      fits =
-          taken < settings.memory_budget && builder.build(plan, 0, settings.memory_budget - taken,
-                                                          grid.complete, grid.report.complete);
-    }
-    if (!fits) plan = coarser(plan, mesh, settings);
+  while (!fill_grid(builder, plan, settings, grid)) {
+    plan = coarser(plan, mesh, settings);
+    grid.lists = grid.complete = CellLists();
+    grid.records = BrickRecords();
+    grid.report = GridReport();
   }
   if (settings.length > 0 && plan.length != asked) throw_over_budget(settings, asked, plan.length);
 
-  grid.origin = plan.origin;
-  grid.length = plan.length;
-  grid.reach = plan.reach;
-  grid.slack = plan.slack;
   grid.outside = mesh.report.volume < 0 ? -1 : 1;
-  for (int k = 0; k < 3; k++) grid.n_bricks[k] = plan.n_bricks[k];
-  grid.nearest = settings.nearest;
   grid.report.nearest = settings.nearest;
+  grid.report.records =
+      grid.records.faces.size() + grid.records.edges.size() + grid.records.vertices.size();
+  grid.report.record_bytes = grid.records.bytes();
   grid.report.device = builder.name();
   grid.report.length = plan.length;
   grid.report.reach = plan.reach;

@@ -17,7 +17,7 @@ std::size_t rounded(std::size_t bytes)
 
 // The arrays of a grid, in the order of a flat block: first where a grid owns them,
 // then where a view points to them.
-constexpr int kArrays = 18;
+constexpr int kArrays = 27;
 
 template <class Visit>
 void each_array(const TriangleGrid &g, Visit visit)
@@ -38,6 +38,15 @@ void each_array(const TriangleGrid &g, Visit visit)
     visit(lists->cells);
     visit(lists->candidates);
   }
+  visit(g.records.faces);
+  visit(g.records.edges);
+  visit(g.records.vertices);
+  visit(g.records.face_of);
+  visit(g.records.edge_of);
+  visit(g.records.vertex_of);
+  visit(g.records.face_parts);
+  visit(g.records.edge_inward);
+  visit(g.records.vertex_direction);
 }
 
 template <class Visit>
@@ -59,6 +68,15 @@ void each_pointer(GridView &v, Visit visit)
     visit(lists->cells);
     visit(lists->candidates);
   }
+  visit(v.records.faces);
+  visit(v.records.edges);
+  visit(v.records.vertices);
+  visit(v.records.face_of);
+  visit(v.records.edge_of);
+  visit(v.records.vertex_of);
+  visit(v.records.face_parts);
+  visit(v.records.edge_inward);
+  visit(v.records.vertex_direction);
 }
 
 // Points the arrays of a view to `at`, one after another.
@@ -95,6 +113,14 @@ std::string amount(double bytes)
 
 }    // namespace
 
+Vec3 brick_centre(const TriangleGrid &grid, std::size_t place)
+{
+  const std::size_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
+  const Real side = kBrickSide * grid.length, half = Real(0.5);
+  return grid.origin +
+         side * Vec3{place % nx + half, place / nx % ny + half, place / nx / ny + half};
+}
+
 GridView TriangleGrid::view() const
 {
   GridView v = {};
@@ -105,6 +131,7 @@ GridView TriangleGrid::view() const
   v.slack = slack;
   v.outside = outside;
   v.nearest = nearest;
+  v.in_floats = in_floats;
   for (int k = 0; k < 3; k++) v.n_bricks[k] = n_bricks[k];
   const char *at[kArrays];
   int i = 0;
@@ -171,7 +198,7 @@ GridView moved_view(const GridView &view, const char *to)
 
 std::string describe(const GridReport &r)
 {
-  char text[768];
+  char text[1024];
   int n = std::snprintf(text, sizeof text, "  grid %.6g (%s), reach %.6g: ", r.length,
                         r.length_chosen ? "chosen" : "given", r.reach);
   const auto add = [&](const char *name, const ListReport &l) {
@@ -184,6 +211,9 @@ std::string describe(const GridReport &r)
     n += std::snprintf(text + n, sizeof text - n, "the nearest %d and a bound, ", r.nearest);
   add("", r.lists);
   if (r.complete.cells > 0) add("\n  complete lists to fall back to: ", r.complete);
+  if (r.records > 0)
+    n += std::snprintf(text + n, sizeof text - n, "\n  %zu features in float, by brick, %s",
+                       r.records, amount(double(r.record_bytes)).c_str());
   std::snprintf(text + n, sizeof text - n, "\n  %s, built in %.3f s with %.3g distance tests on %s",
                 amount(double(r.bytes)).c_str(), r.seconds,
                 double(r.lists.distance_tests + r.complete.distance_tests), r.device.c_str());

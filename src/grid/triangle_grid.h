@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/vec3.h"
+#include "grid/brick_records.h"
 #include "mesh/wall_features.h"
 
 #include <cstddef>
@@ -59,9 +60,11 @@ struct GridView {
   // 0: `lists` are complete. N: `lists` hold the N nearest pieces and, where there are
   // more within reach, the next one as a bound of all that was left out.
   std::int32_t nearest;
+  std::int32_t in_floats;    // codes in lists are of brick records
   CellListsView lists;       // what a query reads
   CellListsView complete;    // what it falls back to where N were not enough, or null
-  const char *block;         // the flat block all of this lies in, or null
+  BrickRecordsView records;
+  const char *block;    // the flat block all of this lies in, or null
   std::size_t block_bytes;
 };
 
@@ -70,8 +73,9 @@ struct GridSettings {
   Real reach = 0;                            // > 0
   std::size_t memory_budget = 1ull << 30;    // bytes
   bool sides = false;                        // keep what `side in|out` needs
-  int nearest = 0;       // 0: complete lists; N, at most kMostNearest: the N nearest pieces
-  bool exact = false;    // with nearest: complete lists as well, to fall back to
+  int nearest = 0;           // 0: complete lists; N, at most kMostNearest: the N nearest pieces
+  bool exact = false;        // with nearest: complete lists as well, to fall back to
+  bool in_floats = false;    // brick records, for queries in float
 };
 constexpr int kMostNearest = 32;
 
@@ -87,6 +91,7 @@ struct GridReport {
   bool length_chosen = false;
   int nearest = 0;
   ListReport lists, complete;    // as in GridView
+  std::size_t records = 0, record_bytes = 0;
   std::size_t bytes = 0;
   double seconds = 0;
   std::string device;
@@ -107,7 +112,9 @@ struct TriangleGrid {
   Real length = 0, reach = 0, slack = 0, outside = 1;
   std::int32_t n_bricks[3] = {0, 0, 0};
   int nearest = 0;
+  bool in_floats = false;
   CellLists lists, complete;
+  BrickRecords records;
   GridReport report;
 
   GridView view() const;
@@ -129,6 +136,9 @@ GridView flat_view(const char *block);
 
 // The same view over a copy of its flat block at another address.
 GridView moved_view(const GridView &view, const char *to);
+
+// Centre of the brick at a place in the table.
+Vec3 brick_centre(const TriangleGrid &grid, std::size_t place);
 
 // Is there any candidate in the cell that holds q? Most spheres stop here.
 LSDCD_FN bool near_wall(const GridView &grid, const Vec3 &q);

@@ -1,0 +1,157 @@
+// Feet on the copies of features in the frame of a brick, in float.
+#pragma once
+
+#include "contact/wall_geometry.h"
+
+namespace lsdcd {
+
+// The tests of closest_point.h once more, on records that need no large coordinates:
+// p is the sphere's centre in the frame of its brick.
+class BrickGeometry {
+ public:
+  LSDCD_FN BrickGeometry(const GridView &grid, const Vec3 &q, const CellAddress &at) :
+      grid_(grid), q_(q), p_(vec_cast<float>(at.from_centre + from_brick_centre(grid, at.cell))),
+      slack_(static_cast<float>(slack(grid)))
+  {
+  }
+
+  // What rounding moves a height over a plane by: 16 units of the largest coordinate in
+  // a brick's frame, reach and half its diagonal (7 cells) from its centre, both ways.
+  LSDCD_FN static Real slack(const GridView &grid)
+  {
+    constexpr Real kFloatRoundoff = 5.9604644775390625e-8;
+    return grid.slack + 16 * kFloatRoundoff * (grid.reach + 14 * grid.length);
+  }
+  LSDCD_FN Real slack() const { return slack_; }
+
+  LSDCD_FN FeatureCode feature(FeatureCode code) const
+  {
+    const std::uint32_t i = feature_index(code);
+    switch (feature_kind(code)) {
+      case FeatureKind::face:
+        return feature_code(FeatureKind::face, grid_.records.face_of[i]);
+      case FeatureKind::edge:
+        return feature_code(FeatureKind::edge, grid_.records.edge_of[i]);
+      default:
+        return feature_code(FeatureKind::vertex, grid_.records.vertex_of[i]);
+    }
+  }
+
+  LSDCD_FN Foot foot(FeatureCode code, Real within) const
+  {
+    const std::uint32_t i = feature_index(code);
+    const float limit = static_cast<float>(within);
+    switch (feature_kind(code)) {
+      case FeatureKind::face:
+        return on_face(i, limit);
+      case FeatureKind::edge:
+        return on_edge(grid_.records.edges[i], limit);
+      default:
+        return on_vertex(grid_.records.vertices[i], limit);
+    }
+  }
+
+  LSDCD_FN const FaceParts &parts(FeatureCode face) const
+  {
+    return grid_.records.face_parts[feature_index(face)];
+  }
+
+  LSDCD_FN Over over(FeatureCode face, Real within) const
+  {
+    const BrickFace &f = grid_.records.faces[feature_index(face)];
+    if (!(fabs(height(f.plane)) <= static_cast<float>(within))) return Over::far;
+    return over_sides(f);
+  }
+
+ private:
+  LSDCD_FN static Vec3 from_brick_centre(const GridView &grid, std::int32_t cell)
+  {
+    const Real middle = Real(0.5) * (kBrickSide - 1);
+    return grid.length * Vec3{(cell & 7) - middle, (cell >> 3 & 7) - middle, (cell >> 6) - middle};
+  }
+
+  LSDCD_FN float height(const BrickPlane &plane) const
+  {
+    return dot(plane.normal, p_) + plane.offset;
+  }
+
+  LSDCD_FN Over over_sides(const BrickFace &f) const
+  {
+    const float a = height(f.side[0]), b = height(f.side[1]), c = height(f.side[2]);
+    if (!(a >= -slack_ && b >= -slack_ && c >= -slack_)) return Over::outside;
+    return a < slack_ || b < slack_ || c < slack_ ? Over::rim : Over::inside;
+  }
+
+  // Forces and springs want a normal that is unit in double.
+  LSDCD_FN static Foot foot_along(const Vec3f &normal, float distance)
+  {
+    const Vec3 n = vec_cast<Real>(normal);
+    return {true, static_cast<Real>(distance), (1 / norm(n)) * n};
+  }
+
+  LSDCD_FN Foot on_face(std::uint32_t i, float within) const
+  {
+    const BrickFace &f = grid_.records.faces[i];
+    const float h = height(f.plane);
+    if (!(fabs(h) <= within)) return kNoFoot;
+    const Over over = over_sides(f);
+    if (over == Over::outside) return kNoFoot;
+    if (over == Over::rim) {
+      Vec3 corner[3];
+      for (int k = 0; k < 3; k++) {
+        const FaceVertices &v = grid_.wall.face_vertex[grid_.records.face_of[i]];
+        corner[k] = grid_.wall.vertices[v.v[k]].position;
+      }
+      if (!before_corners(corner, q_, slack_)) return kNoFoot;
+    }
+    return foot_along(h < 0 ? -f.plane.normal : f.plane.normal, fabs(h));
+  }
+
+  LSDCD_FN Foot on_edge(const BrickEdge &e, float within) const
+  {
+    const Vec3f d = p_ - e.anchor;
+    const float along = dot(e.direction, d);
+    if (!(along >= e.lo - slack_ && along <= e.hi + slack_)) return kNoFoot;
+    if (e.n_faces > 0 && !(dot(e.inward[0], d) <= slack_)) return kNoFoot;
+    if (e.n_faces > 1 && !(dot(e.inward[1], d) <= slack_)) return kNoFoot;
+    for (std::uint32_t k = 2; k < e.n_faces; k++)
+      if (!(dot(grid_.records.edge_inward[e.more + k - 2], d) <= slack_)) return kNoFoot;
+    const Vec3f radial = d - along * e.direction;
+    const float distance = norm(radial);
+    if (!(distance <= within)) return kNoFoot;
+    if (distance > kOnWall) return foot_along((1 / distance) * radial, distance);
+    Vec3f away = {0, 0, 0};
+    if (e.n_faces > 0) away -= e.inward[0];
+    if (e.n_faces > 1) away -= e.inward[1];
+    if (norm(away) > kFlatFan) return foot_along((1 / norm(away)) * away, 0);
+    if (e.n_faces > 0) return foot_along(cross(e.direction, e.inward[0]), 0);
+    return {true, 0, any_perpendicular(vec_cast<Real>(e.direction))};
+  }
+
+  LSDCD_FN Foot on_vertex(const BrickVertex &v, float within) const
+  {
+    const Vec3f d = p_ - v.position;
+    const float distance = norm(d);
+    if (!(distance <= within)) return kNoFoot;
+    Vec3f away = {0, 0, 0};
+    for (std::uint32_t k = v.first; k < v.first + v.count; k++) {
+      const Vec3f direction = grid_.records.vertex_direction[k];
+      if (!(dot(direction, d) <= slack_)) return kNoFoot;
+      away -= direction;
+    }
+    if (distance > kOnWall) return foot_along((1 / distance) * d, distance);
+    if (norm(away) > kFlatFan) return foot_along((1 / norm(away)) * away, 0);
+    const Vec3f along = v.count > 0 ? grid_.records.vertex_direction[v.first] : away;
+    return {true, 0, any_perpendicular(vec_cast<Real>(along))};
+  }
+
+  static constexpr float kOnWall = 1e-18f;    // squares leave the range of float below
+  static constexpr float kFlatFan = 1e-5f;
+
+  const GridView &grid_;
+  const Vec3 &q_;
+  Vec3f p_;
+  float slack_;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,189 @@
+#include "grid/brick_records.h"
+
+#include "base/threads.h"
+#include "grid/triangle_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace lsdcd {
+
+namespace {
+
+BrickPlane plane_at(const Vec3 &normal, Real height_at_origin)
+{
+  return {vec_cast<float>(normal), static_cast<float>(height_at_origin)};
+}
+
+BrickFace face_at(const FaceRecord &f, const Vec3 &origin)
+{
+  const Vec3 d = origin - f.anchor;
+  BrickFace out;
+  out.plane = plane_at(f.normal, dot(f.normal, d));
+  for (int k = 0; k < 3; k++)
+    out.side[k] = plane_at(f.inward[k], dot(f.inward[k], d) + (k == 1 ? f.height : 0));
+  return out;
+}
+
+BrickEdge edge_at(const EdgeRecord &e, const Vec3 &origin)
+{
+  const Vec3 d = origin - e.anchor;
+  const Real along = dot(e.direction, d);
+  BrickEdge out;
+  out.anchor = vec_cast<float>(along * e.direction - d);
+  out.direction = vec_cast<float>(e.direction);
+  out.lo = static_cast<float>(-along);
+  out.hi = static_cast<float>(e.length - along);
+  for (int k = 0; k < 2; k++) out.inward[k] = vec_cast<float>(e.inward[k]);
+  out.n_faces = e.n_faces;
+  out.more = e.more;
+  return out;
+}
+
+// Codes that the lists of a brick name, ascending, each once; with nearest lists also
+// the parts of its faces.
+void codes_of(const TriangleGrid &grid, const CellLists &lists, const Brick &brick,
+              std::size_t n_cells, std::vector<FeatureCode> &codes)
+{
+  codes.clear();
+  for (std::size_t c = brick.first_cell; c < brick.first_cell + n_cells; c++) {
+    const Cell cell = lists.cells[c];
+    if (cell.count == 1)
+      codes.push_back(cell.first);
+    else
+      for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++)
+        codes.push_back(lists.candidates[i].feature);
+  }
+  const auto once = [&] {
+    std::sort(codes.begin(), codes.end());
+    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  };
+  once();
+  if (&lists != &grid.lists || grid.nearest == 0) return;
+  const std::size_t n = codes.size();
+  for (std::size_t i = 0; i < n; i++)
+    if (feature_kind(codes[i]) == FeatureKind::face)
+      for (FeatureCode part : grid.wall.face_parts[feature_index(codes[i])].part)
+        if (part != kNoFeature) codes.push_back(part);
+  once();
+}
+
+void add_records(TriangleGrid &grid, CellLists &lists, BrickRecords &out)
+{
+  const std::int64_t n_bricks = static_cast<std::int64_t>(lists.bricks.size());
+  std::vector<std::size_t> table_of(n_bricks);
+  for (std::size_t i = 0; i < lists.brick_of.size(); i++)
+    if (lists.brick_of[i] >= 0) table_of[lists.brick_of[i]] = i;
+  const auto n_cells = [&](std::int64_t b) {
+    return (b + 1 < n_bricks ? lists.bricks[b + 1].first_cell : lists.cells.size()) -
+           lists.bricks[b].first_cell;
+  };
+
+  // How many records of each kind a brick needs, then where they begin.
+  std::vector<std::array<std::uint32_t, 3>> first(n_bricks + 1);
+#pragma omp parallel num_threads(threads())
+  {
+    std::vector<FeatureCode> codes;
+#pragma omp for schedule(dynamic, 64)
+    for (std::int64_t b = 0; b < n_bricks; b++) {
+      codes_of(grid, lists, lists.bricks[b], n_cells(b), codes);
+      first[b] = {0, 0, 0};
+      for (FeatureCode code : codes) first[b][static_cast<int>(feature_kind(code))]++;
+    }
+  }
+  std::array<std::uint32_t, 3> at = {static_cast<std::uint32_t>(out.faces.size()),
+                                     static_cast<std::uint32_t>(out.edges.size()),
+                                     static_cast<std::uint32_t>(out.vertices.size())};
+  for (std::int64_t b = 0; b <= n_bricks; b++)
+    for (int k = 0; k < 3; k++) at[k] += std::exchange(first[b][k], at[k]);
+  const bool with_parts = &lists == &grid.lists && grid.nearest > 0;
+  out.faces.resize(first[n_bricks][0]);
+  out.face_of.resize(first[n_bricks][0]);
+  if (with_parts) out.face_parts.resize(first[n_bricks][0]);
+  out.edges.resize(first[n_bricks][1]);
+  out.edge_of.resize(first[n_bricks][1]);
+  out.vertices.resize(first[n_bricks][2]);
+  out.vertex_of.resize(first[n_bricks][2]);
+
+#pragma omp parallel num_threads(threads())
+  {
+    std::vector<FeatureCode> codes;
+#pragma omp for schedule(dynamic, 64)
+    for (std::int64_t b = 0; b < n_bricks; b++) {
+      const Brick &brick = lists.bricks[b];
+      codes_of(grid, lists, brick, n_cells(b), codes);
+      std::array<std::size_t, 4> begin;    // of each kind in `codes`
+      for (int k = 0; k < 4; k++)
+        begin[k] =
+            std::lower_bound(codes.begin(), codes.end(), FeatureCode(k) << 30) - codes.begin();
+      const auto record_code = [&](FeatureCode code) {
+        const int kind = static_cast<int>(feature_kind(code));
+        const std::size_t rank =
+            std::lower_bound(codes.begin(), codes.end(), code) - codes.begin() - begin[kind];
+        return feature_code(feature_kind(code), first[b][kind] + static_cast<std::uint32_t>(rank));
+      };
+      const Vec3 origin = brick_centre(grid, table_of[b]);
+      for (FeatureCode code : codes) {
+        const std::uint32_t i = feature_index(code), to = feature_index(record_code(code));
+        switch (feature_kind(code)) {
+          case FeatureKind::face:
+            out.faces[to] = face_at(grid.wall.faces[i], origin);
+            out.face_of[to] = i;
+            if (!with_parts) break;
+            for (int k = 0; k < 6; k++) {
+              const FeatureCode part = grid.wall.face_parts[i].part[k];
+              out.face_parts[to].part[k] = part == kNoFeature ? kNoFeature : record_code(part);
+            }
+            break;
+          case FeatureKind::edge:
+            out.edges[to] = edge_at(grid.wall.edges[i], origin);
+            out.edge_of[to] = i;
+            break;
+          default:
+            const VertexRecord &v = grid.wall.vertices[i];
+            out.vertices[to] = {vec_cast<float>(v.position - origin), v.first, v.count};
+            out.vertex_of[to] = i;
+        }
+      }
+      for (std::size_t c = brick.first_cell; c < brick.first_cell + n_cells(b); c++) {
+        Cell &cell = lists.cells[c];
+        if (cell.count == 1)
+          cell.first = record_code(cell.first);
+        else
+          for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++)
+            lists.candidates[i].feature = record_code(lists.candidates[i].feature);
+      }
+    }
+  }
+}
+
+std::vector<Vec3f> floats(const std::vector<Vec3> &in)
+{
+  std::vector<Vec3f> out;
+  out.reserve(in.size());
+  for (const Vec3 &v : in) out.push_back(vec_cast<float>(v));
+  return out;
+}
+
+}    // namespace
+
+std::size_t BrickRecords::bytes() const
+{
+  const std::size_t word = sizeof(std::uint32_t);
+  return faces.size() * (sizeof(BrickFace) + word) + edges.size() * (sizeof(BrickEdge) + word) +
+         vertices.size() * (sizeof(BrickVertex) + word) + face_parts.size() * sizeof(FaceParts) +
+         (edge_inward.size() + vertex_direction.size()) * sizeof(Vec3f);
+}
+
+void add_brick_records(TriangleGrid &grid)
+{
+  BrickRecords &out = grid.records;
+  add_records(grid, grid.lists, out);
+  if (!grid.complete.bricks.empty()) add_records(grid, grid.complete, out);
+  out.edge_inward = floats(grid.wall.edge_inward);
+  out.vertex_direction = floats(grid.wall.vertex_direction);
+  grid.in_floats = true;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,65 @@
+// Float copies of the wall's features, each in the frame of a brick: what a query reads
+// in mixed and single precision. A feature has a copy in every brick that lists it.
+#pragma once
+
+#include "base/vec3.h"
+#include "mesh/wall_features.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lsdcd {
+
+using Vec3f = Vec3Of<float>;
+
+// Origin of all coordinates: the centre of the brick. Planes and lines are anchored next
+// to it, so that coordinates stay as small as a brick however large face and mesh are.
+
+// Height over a plane: normal . p + offset. Length.
+struct BrickPlane {
+  Vec3f normal;    // unit
+  float offset;
+};
+struct BrickFace {
+  BrickPlane plane;
+  BrickPlane side[3];    // height >= 0 inside the face
+};
+struct BrickEdge {
+  Vec3f anchor;    // point of the edge's line nearest to the origin
+  Vec3f direction;
+  float lo, hi;    // where the edge begins and ends, from the anchor
+  Vec3f inward[2];
+  std::uint32_t n_faces, more;    // as in EdgeRecord
+};
+struct BrickVertex {
+  Vec3f position;
+  std::uint32_t first, count;    // as in VertexRecord
+};
+
+// Codes in lists are of records then: the kind, and the index in its array.
+struct BrickRecordsView {
+  const BrickFace *faces;
+  const BrickEdge *edges;
+  const BrickVertex *vertices;
+  const std::uint32_t *face_of, *edge_of, *vertex_of;    // the feature that it copies
+  const FaceParts *face_parts;                           // in records; with nearest lists
+  const Vec3f *edge_inward, *vertex_direction;           // as in WallFeaturesView
+};
+
+struct BrickRecords {
+  std::vector<BrickFace> faces;
+  std::vector<BrickEdge> edges;
+  std::vector<BrickVertex> vertices;
+  std::vector<std::uint32_t> face_of, edge_of, vertex_of;
+  std::vector<FaceParts> face_parts;
+  std::vector<Vec3f> edge_inward, vertex_direction;
+
+  std::size_t bytes() const;
+};
+
+struct TriangleGrid;
+
+// Makes the records and rewrites the codes of all lists.
+void add_brick_records(TriangleGrid &grid);
+
+}    // namespace lsdcd
