@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs benchmark programs, keeps their CSV and prints it as a table.
 
-usage: run.py [--build DIR] [NAME ...]     NAME: build, step (default: both), hard-cases
+usage: run.py [--build DIR] [NAME ...]     NAME: build, cache, step (default: all), hard-cases
 
 Rows go to DIR/bench/NAME.csv, written whole or not at all. hard-cases measures no speed:
 it writes doc/hard_cases.md from runs of the tests (hard_cases.py).
@@ -14,7 +14,7 @@ import sys
 
 import hard_cases
 
-NAMES = ["build", "step"]
+NAMES = ["build", "cache", "step"]
 HIDDEN = {"bench", "compiler", "commit"}    # the same in every row; printed once
 
 

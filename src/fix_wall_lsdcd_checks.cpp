@@ -203,5 +203,8 @@ void FixWallLsdcd::log_build(bool again) const
     t += "grid for radius " + number_text(wall->reach()) + "\n" + wall->grid_text();
   if (!again && wall->shared().node_size() > 1)
     t += wall->shared().is_shared() ? "\n  one copy per node" : "\n  one copy per process";
+  if (!wall->cache_text().empty()) t += "\n  " + wall->cache_text();
   log(t);
+  if (!wall->cache_warning().empty())
+    error->warning(FLERR, "Fix wall/lsdcd: " + wall->cache_warning());
 }

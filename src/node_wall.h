@@ -1,6 +1,7 @@
 // The wall of a simulation: mesh and grid, made once per node and read by all.
 #pragma once
 
+#include "grid/grid_cache.h"
 #include "grid/triangle_grid.h"
 #include "mesh/wall_mesh.h"
 #include "node_shared.h"
@@ -17,12 +18,17 @@ class NodeWall {
  public:
   NodeWall(MPI_Comm world, const WallSettings &settings);
 
-  // Makes the grid for particles up to radius `reach`.
+  // Makes the grid for particles up to radius `reach`, or reads it from its cache file.
+  // The grid of the n-th call, n > 1, is kept in a file of its own, FILE.n.
   void build(Real reach);
 
   const MeshReport &report() const { return report_; }
   const std::string &mesh_text() const { return mesh_text_; }    // of the process that read it
   const std::string &grid_text() const { return grid_text_; }    // on every process
+  // What the last build had to do with its cache file, and what was wrong with it;
+  // empty on all processes but the first, and where there is nothing to say.
+  const std::string &cache_text() const { return cache_text_; }
+  const std::string &cache_warning() const { return cache_warning_; }
   GridView view() const { return flat_view(shared_.block()); }
   Real reach() const { return reach_; }    // 0 before the first build
   const NodeShared &shared() const { return shared_; }
@@ -36,12 +42,18 @@ class NodeWall {
 
  private:
   void read();
+  GridSettings grid_settings(Real reach) const;
+  bool read_cache(CachedGrid *cached);
+  void build_block(const GridSettings &want, GridReport &report);
+  void write_cache(const GridKey &key, const GridReport &report, const CachedGrid &cached);
 
   WallSettings settings_;
   NodeShared shared_;
   std::unique_ptr<WallMesh> mesh_;    // where shared_.writes()
   MeshReport report_;
   std::string mesh_text_, grid_text_;
+  std::string cache_file_, cache_text_, cache_warning_;    // of the last build
+  int builds_ = 0;
   Real reach_ = 0;
 };
 

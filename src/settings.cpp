@@ -1,5 +1,6 @@
 #include "settings.h"
 
+#include "grid/grid_cache.h"
 #include "input_words.h"
 
 #include <algorithm>
@@ -92,6 +93,16 @@ void read_nearest(Words &w, WallSettings &s)
   w.take();
 }
 
+void read_cache(Words &w, WallSettings &s)
+{
+  if (w.done()) w.fail("the file name is missing");
+  const std::string file = w.take();
+  if (file == "none") return;
+  std::string why;
+  if (!cache_available(&why)) w.fail(why);
+  s.cache_file = file;
+}
+
 void read_draw(Words &w, WallSettings &s)
 {
   s.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
@@ -135,6 +146,8 @@ const Keyword kKeywords[] = {
      [](Words &w, WallSettings &s) {
        s.precision = static_cast<Precision>(w.choice({"double", "mixed", "single"}));
      }},
+    {"cache", "FILE | none", "", "", "none",
+     "file that keeps the grid, so that the next start need not build it", read_cache},
     {"corner", "blend | sum", "", "", "blend",
      "contacts at one place share their overlap, or their forces simply add",
      [](Words &w, WallSettings &s) {

@@ -27,6 +27,7 @@ struct WallSettings {
   Side side = Side::both;
   Precision precision = Precision::double_;
   Device device = Device::automatic;
+  std::string cache_file;    // empty: none
   bool contacts = false;
   bool periodic = false;
   Draw draw = Draw::edges;

@@ -1,4 +1,5 @@
 #include "base/input_error.h"
+#include "grid/grid_cache.h"
 #include "settings.h"
 
 #include <gtest/gtest.h>
@@ -244,6 +245,26 @@ TEST(settings, a_wrong_choice_shows_the_right_ones)
   EXPECT_TRUE(names(error_with("corner round"), "blend | sum"));
 }
 
+TEST(settings, cache_none_is_no_cache)
+{
+  EXPECT_EQ(with("cache none").cache_file, "");
+}
+
+TEST(settings, a_cache_needs_a_file_name)
+{
+  EXPECT_TRUE(names(error_with("cache"), "the file name is missing"));
+}
+
+// In a build without the libraries it is refused with the remedy.
+TEST(settings, a_cache_is_taken_where_it_is_built)
+{
+  std::string why;
+  if (cache_available(&why))
+    EXPECT_EQ(with("cache vessel.grid").cache_file, "vessel.grid");
+  else
+    EXPECT_TRUE(names(error_with("cache vessel.grid"), "libzstd-dev"));
+}
+
 TEST(settings, a_keyword_given_twice_is_an_error)
 {
   EXPECT_TRUE(names(error_with("rmax 1 rmax 2"), "twice"));
@@ -256,8 +277,9 @@ TEST(settings, no_mesh_is_an_error)
 
 TEST(settings, help_lists_every_keyword)
 {
-  for (const char *name : {"mesh", "scale", "rotate", "move", "weld", "grid", "rmax", "memory",
-                           "corner", "side", "device", "contacts", "periodic", "draw", "cut"})
+  for (const char *name :
+       {"mesh", "scale", "rotate", "move", "weld", "grid", "rmax", "memory", "cache", "corner",
+        "side", "device", "contacts", "periodic", "draw", "cut"})
     EXPECT_TRUE(names(settings_help(), std::string("\n  ") + name));
 }
 

@@ -1,0 +1,31 @@
+// A file that appears under its name whole, or not at all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace lsdcd {
+
+// Written under a temporary name in the same directory, then put in place of what
+// was there. Several at once, of any number of processes, leave the file of the
+// last to finish. All but the destructor throw InputError that names the file and
+// what the system said.
+class WholeFile {
+ public:
+  explicit WholeFile(const std::string &path);
+  ~WholeFile();    // without commit() nothing is left
+  WholeFile(const WholeFile &) = delete;
+  WholeFile &operator=(const WholeFile &) = delete;
+
+  void write_at(std::uint64_t offset, const void *data, std::size_t bytes);
+  void commit();    // on the disk first, then under its name
+
+ private:
+  [[noreturn]] void fail(const char *what) const;
+
+  std::string path_, temporary_;
+  int file_ = -1;
+};
+
+}    // namespace lsdcd

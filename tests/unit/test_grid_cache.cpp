@@ -1,0 +1,450 @@
+#include "base/input_error.h"
+#include "grid/grid_cache.h"
+#include "support/meshes.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lsdcd {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const std::string &path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+GridSettings some_settings()
+{
+  GridSettings settings;
+  settings.reach = 0.2;
+  settings.length = 0.1;
+  return settings;
+}
+
+// A grid, flat, and the key of its mesh and settings.
+struct Made {
+  explicit Made(const TriangleSoup &soup, const GridSettings &settings = some_settings()) :
+      mesh(weld(soup, -1)), grid(build_grid(mesh, settings)), block(flat_bytes(grid)),
+      key(grid_key(mesh, settings))
+  {
+    flatten(grid, block.data());
+  }
+
+  std::size_t write(const std::string &path) const { return write(path, key); }
+  std::size_t write(const std::string &path, const GridKey &as) const
+  {
+    return write_grid_cache(path, as, grid.report, block.data(), block.size());
+  }
+  // What a start finds: the state, and `usable` only if every bit is right.
+  CacheState state(const std::string &path, std::string *problem = nullptr) const
+  {
+    CachedGrid cached(path, key);
+    if (cached.state() == CacheState::usable) {
+      std::vector<char> read(cached.block_bytes(), 'x');
+      if (cached.read(read.data())) {
+        EXPECT_TRUE(read == block) << "a wrong grid was taken for the right one";
+      }
+    }
+    if (problem) *problem = cached.problem();
+    return cached.state();
+  }
+
+  WallMesh mesh;
+  TriangleGrid grid;
+  std::vector<char> block;
+  GridKey key;
+};
+
+const Made &box()
+{
+  static const Made made(box_mesh({0, 0, 0}, {1, 1, 1}));
+  return made;
+}
+
+// Large enough for several frames.
+const Made &cylinder()
+{
+  static const Made made([] {
+    GridSettings settings = some_settings();
+    settings.length = 0.03;
+    return Made(cylinder_mesh(100, 10, 1, 2), settings);
+  }());
+  return made;
+}
+
+TEST(grid_cache, a_grid_comes_back_bit_for_bit)
+{
+  TempDir dir;
+  for (const Made *made : {&box(), &cylinder()}) {
+    const std::string path = dir.path("grid");
+    const std::size_t bytes = made->write(path);
+    EXPECT_EQ(bytes, fs::file_size(path));
+    EXPECT_EQ(made->state(path), CacheState::usable);
+  }
+  EXPECT_GT(cylinder().block.size(), 4u << 20) << "one frame only";
+}
+
+TEST(grid_cache, a_grid_reads_the_same_wherever_it_lies)
+{
+  TempDir dir;
+  const std::string path = dir.path("grid");
+  cylinder().write(path);
+  CachedGrid cached(path, cylinder().key);
+  std::vector<char> read(cached.block_bytes() + 64);
+  char *block = read.data() + 64 - reinterpret_cast<std::uintptr_t>(read.data()) % 64;
+  ASSERT_TRUE(cached.read(block));
+  const GridView view = flat_view(block), before = cylinder().grid.view();
+  EXPECT_EQ(view.block_bytes, cylinder().block.size());
+  EXPECT_EQ(std::memcmp(view.lists.candidates, before.lists.candidates,
+                        cylinder().grid.lists.candidates.size() * sizeof(Candidate)),
+            0);
+}
+
+TEST(grid_cache, lists_of_the_nearest_and_records_in_floats_come_back_too)
+{
+  TempDir dir;
+  for (const bool exact : {false, true}) {
+    GridSettings settings = some_settings();
+    settings.nearest = 2;
+    settings.exact = settings.in_floats = exact;
+    const Made made(cylinder_mesh(20, 3, 1, 2), settings);
+    made.write(dir.path("grid"));
+    EXPECT_EQ(made.state(dir.path("grid")), CacheState::usable);
+  }
+}
+
+TEST(grid_cache, the_report_of_the_build_comes_back)
+{
+  TempDir dir;
+  const std::string path = dir.path("grid");
+  box().write(path);
+  EXPECT_EQ(describe(CachedGrid(path, box().key).report()), describe(box().grid.report));
+}
+
+TEST(grid_cache, a_missing_file_is_no_problem)
+{
+  TempDir dir;
+  std::string problem = "?";
+  EXPECT_EQ(box().state(dir.path("none"), &problem), CacheState::missing);
+  EXPECT_EQ(problem, "");
+}
+
+// ---- damage ------------------------------------------------------------------------------
+
+TEST(grid_cache, a_file_cut_off_anywhere_is_damaged)
+{
+  TempDir dir;
+  const std::string path = dir.path("grid");
+  for (const Made *made : {&box(), &cylinder()}) {
+    made->write(path);
+    const std::string whole = content(path);
+    ASSERT_GT(whole.size(), 4096u);
+    for (std::size_t n = 0; n < whole.size(); n += n < 512 ? 1 : 1024) {
+      dir.write("cut", whole.substr(0, n));
+      EXPECT_EQ(made->state(dir.path("cut")), CacheState::damaged) << n << " bytes";
+    }
+    dir.write("cut", whole.substr(0, whole.size() - 1));
+    EXPECT_EQ(made->state(dir.path("cut")), CacheState::damaged);
+  }
+}
+
+TEST(grid_cache, a_longer_file_is_damaged)
+{
+  TempDir dir;
+  box().write(dir.path("grid"));
+  dir.write("longer", content(dir.path("grid")) + "x");
+  EXPECT_EQ(box().state(dir.path("longer")), CacheState::damaged);
+}
+
+// Flips n single bits one at a time, every second one in the first kilobyte. A few bits
+// of a compressed stream mean nothing: the grid is then right, which state() looks at.
+void flip_bits(const Made &made, int n)
+{
+  TempDir dir;
+  made.write(dir.path("grid"));
+  const std::string whole = content(dir.path("grid"));
+  std::mt19937_64 random(1);
+  int harmless = 0;
+  for (int i = 0; i < n; i++) {
+    std::string flipped = whole;
+    const std::size_t at = random() % (i % 2 ? 1024 : whole.size());
+    flipped[at] ^= 1 << random() % 8;
+    const CacheState found = made.state(dir.write("flipped", flipped));
+    if (found == CacheState::usable)
+      harmless++;
+    else
+      ASSERT_EQ(found, CacheState::damaged) << "byte " << at;
+  }
+  EXPECT_LT(harmless, n / 100);
+}
+
+TEST(grid_cache, a_flipped_bit_never_gives_a_wrong_grid)
+{
+  flip_bits(box(), 10000);
+}
+
+TEST(grid_cache, a_flipped_bit_in_any_frame_never_gives_a_wrong_grid)
+{
+  flip_bits(cylinder(), 200);
+}
+
+TEST(grid_cache, frames_of_another_grid_are_seen)
+{
+  TempDir dir;
+  const Made other(box_mesh({0, 0, 0}, {1, 1, 1.0000001}));
+  const std::size_t bytes = box().write(dir.path("grid"));
+  ASSERT_EQ(other.block.size(), box().block.size());
+  other.write(dir.path("other"));
+  const std::string front = content(dir.path("grid")).substr(0, bytes / 2);
+  dir.write("mixed", front + content(dir.path("other")).substr(bytes / 2));
+  EXPECT_EQ(box().state(dir.path("mixed")), CacheState::damaged);
+}
+
+TEST(grid_cache, zeros_after_a_crash_are_damage)
+{
+  TempDir dir;
+  box().write(dir.path("grid"));
+  std::string whole = content(dir.path("grid"));
+  std::fill(whole.begin() + whole.size() / 2, whole.end(), 0);
+  dir.write("zeros", whole);
+  EXPECT_EQ(box().state(dir.path("zeros")), CacheState::damaged);
+}
+
+TEST(grid_cache, an_empty_file_is_damaged)
+{
+  TempDir dir;
+  EXPECT_EQ(box().state(dir.write("empty", "")), CacheState::damaged);
+}
+
+// ---- of something else -------------------------------------------------------------------
+
+TEST(grid_cache, another_version_is_told)
+{
+  TempDir dir;
+  GridKey older = box().key;
+  older.version.low ^= 1;
+  box().write(dir.path("grid"), older);
+  EXPECT_EQ(box().state(dir.path("grid")), CacheState::other_version);
+}
+
+TEST(grid_cache, another_mesh_is_told)
+{
+  TempDir dir;
+  // One corner, by the least that a double can move.
+  TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
+  for (Vec3 &x : soup.corners)
+    if (x == Vec3{1, 1, 1}) x.z = std::nextafter(1., 2.);
+  Made(soup).write(dir.path("grid"));
+  EXPECT_EQ(box().state(dir.path("grid")), CacheState::other_mesh);
+}
+
+TEST(grid_cache, another_winding_is_another_mesh)
+{
+  TempDir dir;
+  TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
+  std::swap(soup.corners[0], soup.corners[1]);
+  Made(soup).write(dir.path("grid"));
+  EXPECT_EQ(box().state(dir.path("grid")), CacheState::other_mesh);
+}
+
+TEST(grid_cache, the_name_of_the_mesh_file_does_not_matter)
+{
+  TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
+  soup.source = "elsewhere.stl";
+  EXPECT_TRUE(grid_key(weld(soup, -1), some_settings()).mesh == box().key.mesh);
+}
+
+TEST(grid_cache, every_setting_is_told)
+{
+  TempDir dir;
+  const std::string path = dir.path("grid");
+  const auto with = [&](void (*change)(GridSettings &)) {
+    GridSettings settings = some_settings();
+    change(settings);
+    box().write(path, grid_key(box().mesh, settings));
+    return box().state(path);
+  };
+  EXPECT_EQ(with([](GridSettings &) {}), CacheState::usable);
+  EXPECT_EQ(with([](GridSettings &s) { s.length = 0; }), CacheState::other_settings);
+  EXPECT_EQ(with([](GridSettings &s) { s.reach = std::nextafter(s.reach, 1.); }),
+            CacheState::other_settings);
+  EXPECT_EQ(with([](GridSettings &s) { s.memory_budget++; }), CacheState::other_settings);
+  EXPECT_EQ(with([](GridSettings &s) { s.sides = true; }), CacheState::other_settings);
+  EXPECT_EQ(with([](GridSettings &s) { s.nearest = 1; }), CacheState::other_settings);
+  EXPECT_EQ(with([](GridSettings &s) { s.exact = true; }), CacheState::other_settings);
+  EXPECT_EQ(with([](GridSettings &s) { s.in_floats = true; }), CacheState::other_settings);
+}
+
+TEST(grid_cache, a_file_of_another_program_is_foreign)
+{
+  TempDir dir;
+  const char *const files[] = {"x", "solid floor\nfacet normal 0 0 1\n", "LAMMPS data file\n\n"};
+  for (const char *file : files)
+    EXPECT_EQ(box().state(dir.write("file", file)), CacheState::foreign) << file;
+}
+
+TEST(grid_cache, a_directory_is_foreign)
+{
+  TempDir dir;
+  EXPECT_EQ(box().state(dir.path("")), CacheState::foreign);
+}
+
+TEST(grid_cache, a_pipe_is_foreign_and_not_waited_for)
+{
+  TempDir dir;
+  ASSERT_EQ(mkfifo(dir.path("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(box().state(dir.path("pipe")), CacheState::foreign);
+}
+
+// ---- writing -----------------------------------------------------------------------------
+
+// Files in the folder.
+int files_in(const std::string &folder)
+{
+  int n = 0;
+  for (const auto &entry : fs::directory_iterator(folder)) n += entry.exists();
+  return n;
+}
+
+// What write() throws, or "".
+std::string error_of_writing(const Made &made, const std::string &path)
+{
+  try {
+    made.write(path);
+  } catch (const InputError &e) {
+    return e.what();
+  }
+  return "";
+}
+
+// Runs `work` in a process of its own; true where it returned true.
+template <class Work>
+bool in_child(Work &&work)
+{
+  const pid_t child = fork();
+  if (child == 0) _exit(work() ? 0 : 1);
+  int status = 1;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST(grid_cache, writing_replaces_a_file_and_leaves_no_other)
+{
+  TempDir dir;
+  const std::string path = dir.write("grid", "damaged");
+  box().write(path);
+  EXPECT_EQ(box().state(path), CacheState::usable);
+  EXPECT_EQ(files_in(dir.path("")), 1);
+}
+
+TEST(grid_cache, a_reader_keeps_the_file_that_it_opened)
+{
+  TempDir dir;
+  const std::string path = dir.path("grid");
+  box().write(path);
+  CachedGrid cached(path, box().key);
+  cylinder().write(path);
+  std::vector<char> read(cached.block_bytes());
+  ASSERT_TRUE(cached.read(read.data()));
+  EXPECT_TRUE(read == box().block);
+}
+
+TEST(grid_cache, a_link_stays_and_its_file_is_replaced)
+{
+  TempDir dir;
+  const std::string path = dir.write("grid", "damaged");
+  fs::create_symlink(path, dir.path("link"));
+  box().write(dir.path("link"));
+  EXPECT_TRUE(fs::is_symlink(dir.path("link")));
+  EXPECT_EQ(box().state(path), CacheState::usable);
+}
+
+TEST(grid_cache, a_folder_that_is_not_there_is_an_error)
+{
+  TempDir dir;
+  const std::string path = dir.path("no/grid");
+  const std::string error = error_of_writing(box(), path);
+  EXPECT_NE(error.find(path), std::string::npos) << error;
+  EXPECT_NE(error.find("No such file or directory"), std::string::npos) << error;
+}
+
+TEST(grid_cache, a_read_only_folder_is_an_error_and_stays_as_it_is)
+{
+  TempDir dir;
+  const std::string folder = dir.path("");
+  chmod(folder.c_str(), 0555);
+  const std::string path = dir.path("grid");
+  EXPECT_TRUE(in_child([&] {
+    if (geteuid() == 0 && setuid(65534) != 0) return false;    // root may write anywhere
+    return error_of_writing(box(), path).find("Permission denied") != std::string::npos;
+  }));
+  chmod(folder.c_str(), 0755);
+  EXPECT_EQ(files_in(folder), 0);
+}
+
+// A limit on the size of files is met like a full disk, in the middle of writing.
+TEST(grid_cache, a_full_disk_is_an_error_and_leaves_the_old_file)
+{
+  TempDir dir;
+  const std::string path = dir.path("grid");
+  const std::size_t bytes = box().write(path);
+  EXPECT_TRUE(in_child([&] {
+    const rlimit limit = {bytes + 8192, bytes + 8192};
+    signal(SIGXFSZ, SIG_IGN);
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return false;
+    return error_of_writing(cylinder(), path).find("File too large") != std::string::npos;
+  }));
+  EXPECT_EQ(files_in(dir.path("")), 1);
+  EXPECT_EQ(box().state(path), CacheState::usable);
+}
+
+// Several processes write and read at once: whoever reads finds nothing or one of
+// the whole files, and one is left.
+TEST(grid_cache, writers_at_once_leave_one_good_file)
+{
+  TempDir dir;
+  const std::string path = dir.path("grid");
+  const Made other(box_mesh({0, 0, 0}, {1, 1, 2}));
+  std::vector<pid_t> children;
+  for (int k = 0; k < 6; k++) {
+    const pid_t child = fork();
+    if (child == 0) {
+      bool good = true;
+      for (int i = 0; i < 20; i++) {
+        if (k < 4) (k % 2 ? other : box()).write(path);
+        const CacheState found = box().state(path);
+        good = good && (found == CacheState::usable || found == CacheState::other_mesh ||
+                        (found == CacheState::missing && k >= 4));
+      }
+      _exit(good && !testing::Test::HasFailure() ? 0 : 1);
+    }
+    children.push_back(child);
+  }
+  for (const pid_t child : children) {
+    int status = 1;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(files_in(dir.path("")), 1);
+  EXPECT_TRUE(box().state(path) == CacheState::usable || other.state(path) == CacheState::usable);
+}
+
+}    // namespace
+}    // namespace lsdcd
