@@ -111,7 +111,9 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const CellListsView &lists, 
   for (std::uint32_t k = 0; k < cell.count; k++) {
     const Candidate candidate = lists.candidates[cell.first + k];
     if (candidate.bound > radius + off_centre) break;
-    if (k == static_cast<std::uint32_t>(grid.nearest)) return candidate.bound - off_centre;
+    // The slack is for the rounding of distances.
+    if (k == static_cast<std::uint32_t>(grid.nearest))
+      return candidate.bound - off_centre - grid.slack;
     add_piece(geometry, candidate.feature, radius, set);
   }
   return kAnyDistance;

@@ -121,7 +121,7 @@ void append(TriangleSoup &soup, const TriangleSoup &more)
 }
 
 Scene::Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real grid_length,
-             Real weld_tolerance) :
+             Real weld_tolerance, int nearest, bool exact) :
     mesh(weld(soup, weld_tolerance))
 {
   settings.device = test_device();
@@ -129,6 +129,9 @@ Scene::Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real
   g.length = grid_length;
   g.reach = reach;
   g.sides = settings.side != Side::both;
+  g.nearest = nearest;
+  g.exact = exact;
+  g.in_floats = settings.precision != Precision::double_;
   grid = build_grid(mesh, g, test_on_cuda());
   block_.resize(flat_bytes(grid) + 64);
   char *block = block_.data() + (64 - reinterpret_cast<std::uintptr_t>(block_.data()) % 64) % 64;

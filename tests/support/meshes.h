@@ -36,7 +36,7 @@ void append(TriangleSoup &soup, const TriangleSoup &more);
 class Scene {
  public:
   Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real grid_length = 0,
-        Real weld_tolerance = -1);
+        Real weld_tolerance = -1, int nearest = 0, bool exact = false);
 
   int add_sphere(const Vec3 &x, Real radius, Real mass, const Vec3 &v = {0, 0, 0},
                  const Vec3 &omega = {0, 0, 0});
