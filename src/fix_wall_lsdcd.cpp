@@ -193,6 +193,7 @@ void FixWallLsdcd::post_run()
   double worst = worst_overlap;
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, world);
   check_overlap(worst);
+  if (settings.nearest > 0) log_uncertified();
 }
 
 void FixWallLsdcd::start()
@@ -236,6 +237,8 @@ void FixWallLsdcd::collect()
     }
     running = false;
     const lsdcd::WallTotals &t = engine->totals();
+    uncertified_sum += t.uncertified;
+    worst_uncertain = std::max(worst_uncertain, t.largest_uncertain);
     if (t.largest_overlap_sphere >= 0 && t.largest_overlap_ratio > worst_overlap) {
       worst_overlap = t.largest_overlap_ratio;
       worst_tag = atom->tag ? atom->tag[t.largest_overlap_sphere] : 0;

@@ -63,6 +63,8 @@ class FixWallLsdcd : public Fix {
   double worst_overlap = 0;    // overlap / radius since the last look, on this process
   tagint worst_tag = 0;
   bigint worst_step = 0;
+  bigint uncertified_sum = 0;    // answers not certified since the last look, on this process
+  double worst_uncertain = 0;    // overlap / radius that they may have missed
   bool overlap_warned = false, wall_in_minimize_warned = false;
   double checked_dt = 0;
 
@@ -89,6 +91,7 @@ class FixWallLsdcd : public Fix {
   void check_timestep();
   void check_springs();
   double contact_time(double, double) const;
+  void log_uncertified();
   void log_creation() const;
   void log_build(bool) const;
   void log(const std::string &) const;

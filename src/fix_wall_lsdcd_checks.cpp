@@ -159,6 +159,24 @@ void FixWallLsdcd::check_springs()
                        " atoms lose their springs: the restart file was written with another mesh");
 }
 
+// What nearest lists may have cost in the run that ends. Collective.
+void FixWallLsdcd::log_uncertified()
+{
+  bigint sum = 0;
+  double worst = 0;
+  MPI_Allreduce(&uncertified_sum, &sum, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  MPI_Allreduce(&worst_uncertain, &worst, 1, MPI_DOUBLE, MPI_MAX, world);
+  uncertified_sum = 0;
+  worst_uncertain = 0;
+  std::string t = "Fix " + std::string(id) + " wall/lsdcd: nearest " +
+                  std::to_string(settings.nearest) + ": " + std::to_string(sum) +
+                  " answers were not certified exact";
+  if (sum > 0)
+    t += "; contacts overlapping by up to " + number_text(100 * worst) +
+         " % of a radius may have been missed (nearest N exact or nearest all certify all)";
+  log(t);
+}
+
 // In the columns of the mesh report.
 void FixWallLsdcd::log_creation() const
 {
@@ -183,6 +201,14 @@ void FixWallLsdcd::log_creation() const
     t += "nothing stored, exchanged or restarted";
   if (settings.contacts)
     t += "; " + std::to_string(size_peratom_cols * sizeof(double)) + " bytes for contacts";
+  const char *const precisions[] = {"double", "mixed", "single"};
+  t += "\n  search      ";
+  if (settings.nearest > 0)
+    t += "nearest " + std::to_string(settings.nearest) +
+         (settings.exact ? ", complete lists where that is not certified" : "");
+  else
+    t += "all that can touch";
+  t += std::string(", precision ") + precisions[static_cast<int>(settings.precision)];
   const char *const sides[] = {"both", "in", "out"};
   t += std::string("\n  corners     ") +
        (settings.corner == lsdcd::Corner::blend ? "blend" : "sum") + ", side " +

@@ -137,6 +137,26 @@ def main():
             checks.fact(f"side {side}, wound {'in' if inward else 'out'}wards: back to its side",
                         close(thermo[0][4], -force), str(thermo[0][4]))
 
+    # In a corner of the cube: three walls, of which the nearest triangle is one.
+    corner = "create_atoms 1 single 1.55 1.56 0.43 units box\n" + SPHERES
+    thermo, _, text = go(folder, atoms=corner, mesh="cube.stl", more="nearest 1 grid 0.1 contacts")
+    checks.fact("nearest 1: contacts are missed and the sphere is counted",
+                thermo[0][8] == 1 and thermo[0][10] == 1, str(thermo[0][8:11]))
+    checks.fact("nearest 1: the log says how many were not certified",
+                "nearest 1: 1 answers were not certified exact" in text)
+    for more in ("nearest 1 exact grid 0.1", "nearest all grid 0.1"):
+        thermo, _, _ = go(folder, atoms=corner, mesh="cube.stl", more=more + " contacts")
+        checks.fact(f"{more}: all three, all certified",
+                    thermo[0][8] == 3 and thermo[0][10] == 0, str(thermo[0][8:11]))
+    # Half a brick of cells of 0.1 is 0.7 away: 16 roundings of floats, over 0.05.
+    double, _, _ = go(folder, atoms=corner, mesh="cube.stl", more="grid 0.1 contacts")
+    for precision in ("mixed", "single"):
+        thermo, _, _ = go(folder, atoms=corner, mesh="cube.stl",
+                          more=f"grid 0.1 precision {precision} contacts")
+        error = max(abs(thermo[0][k] - double[0][k]) for k in (2, 3, 4))
+        checks.at_most(f"precision {precision}: forces", error, 1e4 * 16 * 2**-24 * 1.9)
+        checks.fact(f"precision {precision}: is not double", error > 0, str(error))
+
     # dump image takes the diameter of lines, or 1 for filled triangles, from the same word.
     for what, flags in (("edges", "0.05 0"), ("faces 2", "1 0"), ("contours", "0.05 0"),
                         ("faces cut 1 0 0 0", "1 0")):

@@ -67,12 +67,26 @@ struct Outcome {
   std::vector<SphereOutput> outputs;
 };
 
-Outcome run_steps(const Case &c, LawStyle style, Device device, int n_spheres)
+// How a wall is searched: settings of the grid and of the engine that belong together.
+struct Search {
+  const char *name;
+  int nearest;
+  bool exact;
+  Precision precision;
+};
+
+constexpr Search kComplete = {"complete", 0, false, Precision::double_};
+
+Outcome run_steps(const Case &c, LawStyle style, Device device, int n_spheres,
+                  const Search &search = kComplete)
 {
   const WallMesh mesh = weld(c.soup, -1);
   GridSettings g;
   g.reach = c.reach;
   g.length = c.length;
+  g.nearest = search.nearest;
+  g.exact = search.exact;
+  g.in_floats = search.precision != Precision::double_;
   const TriangleGrid grid = build_grid(mesh, g);
   std::vector<char> block(flat_bytes(grid) + 64);
   char *at = block.data() + (64 - reinterpret_cast<std::uintptr_t>(block.data()) % 64) % 64;
@@ -80,6 +94,7 @@ Outcome run_steps(const Case &c, LawStyle style, Device device, int n_spheres)
 
   EngineSettings e = settings_for(style);
   e.device = device;
+  e.precision = search.precision;
   auto engine = make_engine(e);
   engine->set_grid(flat_view(at));
 
@@ -147,6 +162,26 @@ TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
   }
 }
 
+TEST(cuda_grid, has_the_same_nearest_lists_and_float_records_as_the_cpu_grid)
+{
+  for (const Case &c : cases()) {
+    const WallMesh mesh = weld(c.soup, -1);
+    GridSettings g;
+    g.reach = c.reach;
+    g.length = c.length;
+    g.nearest = 3;
+    g.exact = true;
+    g.in_floats = true;
+    const TriangleGrid cpu = build_grid(mesh, g, false), cuda = build_grid(mesh, g, true);
+    std::vector<char> a(flat_bytes(cpu)), b(flat_bytes(cuda));
+    flatten(cpu, a.data());
+    flatten(cuda, b.data());
+    EXPECT_TRUE(same_bytes(a, b)) << c.name;
+    EXPECT_GT(cuda.complete.cells.size(), 0u) << c.name;
+    EXPECT_GT(cuda.records.faces.size(), 0u) << c.name;
+  }
+}
+
 TEST(cuda_engine, gives_the_forces_of_the_cpu_engine)
 {
   // Same source, no contraction, IEEE division and root on both: no tolerance.
@@ -157,6 +192,23 @@ TEST(cuda_engine, gives_the_forces_of_the_cpu_engine)
       EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << c.name;
       EXPECT_TRUE(same_bytes(cpu.torque, cuda.torque)) << c.name;
       EXPECT_GT(cpu.totals.contacts, 0) << c.name;
+    }
+}
+
+TEST(cuda_engine, gives_the_forces_of_the_cpu_engine_however_it_searches)
+{
+  for (const Search &search : {Search{"nearest 2", 2, false, Precision::double_},
+                               Search{"nearest 2 exact", 2, true, Precision::double_},
+                               Search{"mixed", 0, false, Precision::mixed},
+                               Search{"nearest 3, mixed", 3, false, Precision::mixed},
+                               Search{"single", 0, false, Precision::single_}})
+    for (const Case &c : cases()) {
+      const Outcome cpu = run_steps(c, LawStyle::hertz_history, Device::cpu, 20000, search);
+      const Outcome cuda = run_steps(c, LawStyle::hertz_history, Device::cuda, 20000, search);
+      EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << c.name << ", " << search.name;
+      EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << c.name << ", " << search.name;
+      EXPECT_EQ(cpu.totals.uncertified, cuda.totals.uncertified) << c.name << ", " << search.name;
+      EXPECT_GT(cpu.totals.contacts, 0) << c.name << ", " << search.name;
     }
 }
 
