@@ -142,6 +142,8 @@ TEST(mixed, forces_follow_those_of_double_on_meshes_of_all_kinds)
       if (nearest < 0.05 * made.reach) continue;
       const Real error = norm(mixed.force(i) - exact.force(i)),
                  bound = force_error(mixed, k, exact.radius(i), set.n + 1);
+      for (int c = 0; c < in_floats.n; c++)    // springs are turned with them, step by step
+        EXPECT_NEAR(norm(in_floats.normal[c]), 1, 4 * kRoundoff);
       if (error > bound && !agree(set, in_floats))
         apart++;
       else

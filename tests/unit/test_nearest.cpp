@@ -206,6 +206,22 @@ TEST(nearest_in_the_engine, counts_uncertified_spheres_and_bounds_what_they_miss
   EXPECT_LE(t.largest_uncertain, (0.5 - 0.4 + std::sqrt(3.) * 0.25) / 0.5);
 }
 
+// Those that touch nothing that is listed count as well.
+TEST(nearest_in_the_engine, counts_every_sphere_that_is_not_certified)
+{
+  Box box(1);
+  long uncertified = 0, without_contact = 0;
+  for (int i = 0; i < box.scene.n(); i++) {
+    Real exact_within = 0;
+    const Contacts found =
+        contacts(box.scene.grid.view(), box.scene.x(i), box.scene.radius(i), &exact_within);
+    uncertified += exact_within < box.scene.radius(i);
+    without_contact += exact_within < box.scene.radius(i) && found.empty();
+  }
+  EXPECT_EQ(box.scene.engine->totals().uncertified, uncertified);
+  EXPECT_GT(without_contact, 0);
+}
+
 TEST(nearest_in_the_engine, exact_gives_the_forces_of_complete_lists)
 {
   Box all(0), exact(2, true), some(2);
