@@ -43,41 +43,62 @@ LSDCD_FN bool are_adjacent(const WallFeaturesView &wall, FeatureCode a, FeatureC
   return false;
 }
 
-// The stretch with which contact `i` of `set` begins this step.
-// 1. The spring of the same feature, turned with the normal.
+// Cosine above which a contact that changed features is still the same contact.
+constexpr Real kMoved = 0.7;
+
+// From which spring of the last step a contact begins, and how much of it it takes.
+struct Inheritance {
+  int from;     // index of the old spring; -1: a new one
+  Real part;    // 0 to 1
+};
+
+// 1. The spring of the same feature.
 // 2. Else one whose feature was left this step, next to this one and nearly
 //    aligned: the contact moved across a seam, the spring goes with it, whole.
 // 3. Else the best aligned spring times max(0, n.n): a contact born beside
 //    others takes over as much of their force as it will carry in their stead.
-template <int kPlaces>
-LSDCD_FN Vec3 inherited_stretch(const WallFeaturesView &wall, const ContactSet<kPlaces> &set, int i,
-                                const Spring *old, int n_old)
+LSDCD_FN Inheritance inheritance(const WallFeaturesView &wall, const ContactsView &set, int i,
+                                 const Spring *old, int n_old)
 {
-  // Cosine above which a contact that changed features is still the same contact.
-  constexpr Real kMoved = 0.7;
-
-  const Spring *best = nullptr, *moved = nullptr;
+  int best = -1, moved = -1;
   Real best_cos = 0, moved_cos = kMoved;
   for (int k = 0; k < n_old; k++) {
     const Real c = dot(old[k].normal, set.normal[i]);
-    if (old[k].feature == set.feature[i])
-      return c > -kMoved ? transport(old[k].stretch, old[k].normal, set.normal[i]) : Vec3{0, 0, 0};
+    if (old[k].feature == set.feature[i]) return {c > -kMoved ? k : -1, 1};
     if (c > best_cos) {
       best_cos = c;
-      best = old + k;
+      best = k;
     }
     if (c > moved_cos && are_adjacent(wall, old[k].feature, set.feature[i])) {
       bool left = true;
       for (int j = 0; j < set.n && left; j++) left = set.feature[j] != old[k].feature;
       if (left) {
         moved_cos = c;
-        moved = old + k;
+        moved = k;
       }
     }
   }
-  if (moved) return transport(moved->stretch, moved->normal, set.normal[i]);
-  if (best) return best_cos * transport(best->stretch, best->normal, set.normal[i]);
-  return {0, 0, 0};
+  if (moved >= 0) return {moved, 1};
+  return {best, best_cos};
+}
+
+// A vector of the old spring `in.from`, as the contact with unit `normal` takes it over.
+LSDCD_FN Vec3 handed_on(const Vec3 &h, const Inheritance &in, const Spring *old, const Vec3 &normal)
+{
+  return in.part * transport(h, old[in.from].normal, normal);
+}
+
+// Does a contact that the sphere does not touch hold it, by an adhesion that only
+// touching begins? It does where it held before, or where a contact next to it and
+// nearly aligned did: what holds goes along over seams.
+LSDCD_FN bool is_held(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &normal,
+                      const Spring *old, int n_old)
+{
+  for (int k = 0; k < n_old; k++)
+    if (dot(old[k].normal, normal) > kMoved &&
+        (old[k].feature == feature || are_adjacent(wall, old[k].feature, feature)))
+      return true;
+  return false;
 }
 
 }    // namespace lsdcd

@@ -13,11 +13,12 @@ void SpringStore::grow(int n_spheres)
   count_.resize(n_spheres, 0);
 }
 
-void SpringStore::set(int i, const Spring *springs, int n)
+void SpringStore::set(int i, const Spring *springs, const Real *extra, int n)
 {
   first_[i] = static_cast<int>(pool_.size());
   count_[i] = n;
   pool_.insert(pool_.end(), springs, springs + n);
+  extra_.insert(extra_.end(), extra, extra + n * n_extra_);
 }
 
 int SpringStore::pack(int i, double *buffer) const
@@ -29,6 +30,7 @@ int SpringStore::pack(int i, double *buffer) const
     buffer[at++] = s.feature;    // 32 bits are exact in a double
     for (int c = 0; c < 3; c++) buffer[at++] = s.normal[c];
     for (int c = 0; c < 3; c++) buffer[at++] = s.stretch[c];
+    for (int c = 0; c < n_extra_; c++) buffer[at++] = extra_of(i)[k * n_extra_ + c];
   }
   return at;
 }
@@ -37,13 +39,15 @@ int SpringStore::unpack(int i, const double *buffer)
 {
   int at = 0;
   arrived_.resize(static_cast<std::size_t>(buffer[at++]));
+  arrived_extra_.clear();
   for (Spring &s : arrived_) {
     s = {};
     s.feature = static_cast<FeatureCode>(buffer[at++]);
     for (int c = 0; c < 3; c++) s.normal[c] = buffer[at++];
     for (int c = 0; c < 3; c++) s.stretch[c] = buffer[at++];
+    for (int c = 0; c < n_extra_; c++) arrived_extra_.push_back(buffer[at++]);
   }
-  set(i, arrived_.data(), static_cast<int>(arrived_.size()));
+  set(i, arrived_.data(), arrived_extra_.data(), static_cast<int>(arrived_.size()));
   return at;
 }
 
@@ -51,17 +55,18 @@ int SpringStore::largest_packed_size() const
 {
   int most = 0;
   for (int n : count_) most = std::max(most, n);
-  return 1 + kDoublesPerSpring * most;
+  return 1 + doubles_per_spring() * most;
 }
 
 std::size_t SpringStore::bytes() const
 {
   return (first_.capacity() + count_.capacity()) * sizeof(int) +
-         (pool_.capacity() + next_.capacity()) * sizeof(Spring);
+         (pool_.capacity() + next_.capacity()) * sizeof(Spring) +
+         (extra_.capacity() + next_extra_.capacity()) * sizeof(Real);
 }
 
 void SpringStore::replace(const int *which, int n, const int *counts, const Spring *springs,
-                          int stride)
+                          const Real *extra, int stride)
 {
   std::fill(count_.begin(), count_.end(), 0);
   int total = 0;
@@ -71,13 +76,17 @@ void SpringStore::replace(const int *which, int n, const int *counts, const Spri
     total += counts[k];
   }
   next_.resize(total);
+  next_extra_.resize(static_cast<std::size_t>(total) * n_extra_);
 #pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
   for (int k = 0; k < n; k++) {
     const int to = first_[which[k]];
-    const Spring *from = springs + (stride == kPacked ? to : static_cast<std::size_t>(k) * stride);
-    std::copy(from, from + counts[k], next_.begin() + to);
+    const std::size_t from = stride == kPacked ? to : static_cast<std::size_t>(k) * stride;
+    std::copy(springs + from, springs + from + counts[k], next_.begin() + to);
+    std::copy(extra + from * n_extra_, extra + (from + counts[k]) * n_extra_,
+              next_extra_.begin() + static_cast<std::size_t>(to) * n_extra_);
   }
   pool_.swap(next_);
+  extra_.swap(next_extra_);
 }
 
 }    // namespace lsdcd

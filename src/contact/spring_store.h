@@ -1,4 +1,4 @@
-// The tangential springs of a process's spheres between two steps, on the host.
+// The springs of a process's spheres between two steps, on the host.
 #pragma once
 
 #include "contact/spring.h"
@@ -11,11 +11,16 @@ namespace lsdcd {
 constexpr int kPacked = 0;    // a stride: no gaps
 
 // Springs of sphere i are pool[first[i]] .. pool[first[i] + count[i] - 1].
-// Two ints per sphere, one Spring per contact. The engine rebuilds the pool
-// every step; between steps spheres may be copied, packed, unpacked and reset.
+// Two ints per sphere, one Spring per contact, and beside each Spring the numbers that
+// further effects of the contact law keep (`n_extra` of them; most laws have none). The
+// engine rebuilds the pool every step; between steps spheres may be copied, packed,
+// unpacked and reset.
 class SpringStore {
  public:
-  static constexpr int kDoublesPerSpring = 7;    // feature, normal, stretch
+  explicit SpringStore(int n_extra = 0) : n_extra_(n_extra) {}
+
+  int n_extra() const { return n_extra_; }
+  int doubles_per_spring() const { return 7 + n_extra_; }    // feature, normal, stretch, extra
 
   void grow(int n_spheres);    // keeps what is there, new spheres have none
   void copy(int from, int to) { first_[to] = first_[from], count_[to] = count_[from]; }
@@ -23,27 +28,32 @@ class SpringStore {
 
   int count(int i) const { return count_[i]; }
   const Spring *of(int i) const { return pool_.data() + first_[i]; }
-  void set(int i, const Spring *springs, int n);
+  const Real *extra_of(int i) const
+  {
+    return extra_.data() + static_cast<std::size_t>(first_[i]) * n_extra_;
+  }
+  void set(int i, const Spring *springs, const Real *extra, int n);
 
-  // Exchange and restart: a count, then kDoublesPerSpring numbers for each.
-  int packed_size(int i) const { return 1 + kDoublesPerSpring * count_[i]; }
+  // Exchange and restart: a count, then doubles_per_spring() numbers for each.
+  int packed_size(int i) const { return 1 + doubles_per_spring() * count_[i]; }
   int pack(int i, double *buffer) const;      // returns packed_size(i)
   int unpack(int i, const double *buffer);    // returns the numbers taken
   int largest_packed_size() const;            // over all spheres
 
-  const int *first() const { return first_.data(); }
-  const int *count() const { return count_.data(); }
-  const Spring *pool() const { return pool_.data(); }
   std::size_t pool_size() const { return pool_.size(); }
   std::size_t bytes() const;
 
   // Replaces everything: spheres which[k] get counts[k] springs found at
-  // springs + k * stride, or with kPacked one after another; all others get none.
-  void replace(const int *which, int n, const int *counts, const Spring *springs, int stride);
+  // springs + k * stride, or with kPacked one after another, and their extra numbers at
+  // the same places of `extra`; all others get none.
+  void replace(const int *which, int n, const int *counts, const Spring *springs, const Real *extra,
+               int stride);
 
  private:
+  int n_extra_;
   std::vector<int> first_, count_;
   std::vector<Spring> pool_, next_, arrived_;
+  std::vector<Real> extra_, next_extra_, arrived_extra_;
 };
 
 }    // namespace lsdcd

@@ -18,6 +18,7 @@ void add_forces(const StepResults &results, const Spheres &spheres)
       spheres.force[3 * i + c] += r.force[c];
       spheres.torque[3 * i + c] += r.torque[c];
     }
+    if (results.heat) spheres.heat_flow[i] += results.heat[k];
   }
 }
 
@@ -67,7 +68,8 @@ WallTotals sum_totals(const StepResults &results, const Spheres &spheres)
 }
 
 void fill_sphere_output(const StepResults &results, const Spheres &spheres,
-                        std::vector<int> &touching, std::vector<SphereOutput> &output)
+                        std::vector<int> &touching, std::vector<SphereOutput> &output,
+                        std::vector<Real> &heat)
 {
   touching.clear();
   output.clear();
@@ -81,6 +83,7 @@ void fill_sphere_output(const StepResults &results, const Spheres &spheres,
                            : Vec3{spheres.x[3 * i], spheres.x[3 * i + 1], spheres.x[3 * i + 2]};
     touching.push_back(i);
     output.push_back({Real(r.n_contacts), r.force, point, spheres.radius[i]});
+    if (results.heat) heat.push_back(results.heat[k]);
   }
 }
 

@@ -5,55 +5,51 @@ namespace lsdcd {
 
 namespace {
 
-template <class Law>
-class CpuEngine : public EngineBase<Law> {
-  using Base = EngineBase<Law>;
-
+class CpuEngine : public EngineBase {
  public:
-  using Base::Base;
+  using EngineBase::EngineBase;
 
-  std::string backend() const override { return backend_.name(); }
+  std::string backend() const override { return CpuBackend().name(); }
   void set_grid(const GridView &grid) override { grid_ = grid; }
 
   void start(const Spheres &spheres, const StepSettings &step, SpringStore *springs) override
   {
-    this->begin(grid_, spheres, step, springs);
+    begin(grid_, spheres, step, springs);
   }
 
   void collect() override
   {
-    const std::size_t n = this->results_.near.size();
+    const std::size_t n = results_.near.size();
     result_.resize(n);
-    if (Law::kHistory) spring_.resize(n * kPlaces);
-    backend_.for_each(n, [this](std::size_t k) {
-      result_[k] = wall_force<Law, kPlaces>(grid_, this->law_, this->force_settings_,
-                                            this->state_of(this->results_.near[k]),
-                                            spring_.data() + (Law::kHistory ? k * kPlaces : 0));
-    });
-    const int stride = this->redo_crowded(grid_, result_.data(), spring_, kPlaces);
-    this->finish(result_.data(), spring_.data(), stride);
+    if (law_.traits.history) spring_.resize(n * kPlaces);
+    extra_.resize(n * kPlaces * law_.traits.n_extra);
+    if (law_.traits.heat) heat_.resize(n);
+    const HostJob job =
+        host_job(grid_, result_.data(), {spring_.data(), extra_.data(), heat_.data()});
+    law_.run(law_.law, job, n);
+    const int stride = redo_crowded(job, spring_, extra_);
+    finish(result_.data(), {spring_.data(), extra_.data(), heat_.data()}, stride);
   }
 
   std::size_t bytes() const override
   {
-    return this->shared_bytes() + result_.capacity() * sizeof(SphereResult) +
-           spring_.capacity() * sizeof(Spring);
+    return shared_bytes() + result_.capacity() * sizeof(SphereResult) +
+           spring_.capacity() * sizeof(Spring) +
+           (extra_.capacity() + heat_.capacity()) * sizeof(Real);
   }
 
  private:
-  CpuBackend backend_;
   GridView grid_ = {};
   std::vector<SphereResult> result_;
   std::vector<Spring> spring_;
+  std::vector<Real> extra_, heat_;
 };
 
 }    // namespace
 
 std::unique_ptr<WallEngine> make_cpu_engine(const EngineSettings &settings)
 {
-  return with_law(settings, [&](const auto &law) -> std::unique_ptr<WallEngine> {
-    return std::make_unique<CpuEngine<std::decay_t<decltype(law)>>>(settings, law);
-  });
+  return std::make_unique<CpuEngine>(settings);
 }
 
 }    // namespace lsdcd

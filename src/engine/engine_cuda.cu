@@ -1,5 +1,5 @@
 #include "base/threads.h"
-#include "engine/backend_cuda.h"
+#include "engine/cuda_law.h"
 #include "engine/engine_base.h"
 #include "engine/pinned.h"
 
@@ -9,19 +9,10 @@ namespace lsdcd {
 
 namespace {
 
-// A near sphere as it travels to the GPU.
-struct NearSphere {
-  Vec3 x, v, omega;
-  Real radius, mass;
-  std::int32_t first_spring, n_springs;
-};
-
-template <class Law>
-class CudaEngine : public EngineBase<Law> {
-  using Base = EngineBase<Law>;
-
+class CudaEngine : public EngineBase {
  public:
-  CudaEngine(const EngineSettings &settings, const Law &law) : Base(settings, law)
+  explicit CudaEngine(const EngineSettings &settings) :
+      EngineBase(settings), cuda_law_(cuda_law(settings))
   {
     int n_devices = 0;
     cuda_check(cudaGetDeviceCount(&n_devices), "counting GPUs");
@@ -57,75 +48,73 @@ class CudaEngine : public EngineBase<Law> {
   void start(const Spheres &spheres, const StepSettings &step, SpringStore *springs) override
   {
     cuda_check(cudaSetDevice(device_), "choosing a GPU");
-    this->begin(host_grid_, spheres, step, springs);
-    const std::size_t n = this->results_.near.size();
+    begin(host_grid_, spheres, step, springs);
+    const std::size_t n = results_.near.size();
     if (n == 0) return;
     sphere_.reserve(n);
     result_.reserve(n);
     gather(n);
+    if (law_.traits.heat) gather_heat(n);
     sphere_.to_device(n, backend_.stream);
-
-    const GridView grid = device_grid_;
-    const Law law = this->law_;
-    const ForceSettings settings = this->force_settings_;
-    const NearSphere *in = sphere_.device();
-    SphereResult *out = result_.device();
-    const Spring *old = Law::kHistory ? old_spring_.device() : nullptr;
-    Spring *springs_out = Law::kHistory ? new_spring_.data() : nullptr;
-    backend_.for_each(
-        n,
-        [=] __device__(std::size_t k) {
-          const NearSphere &s = in[k];
-          const SphereState state = {
-              s.x, s.v, s.omega, s.radius, s.mass, old + s.first_spring, s.n_springs};
-          out[k] = wall_force<Law, kPlaces>(grid, law, settings, state,
-                                            Law::kHistory ? springs_out + k * kPlaces : nullptr);
-        },
-        128);
+    const CudaJob job = {
+        device_grid_,        force_settings_,
+        sphere_.device(),    old_spring_.device(),
+        old_extra_.device(), temperature_.device(),
+        result_.device(),    {new_spring_.data(), new_extra_.data(), heat_.device()}};
+    cuda_law_.start(cuda_law_.law, job, n, backend_);
     result_.to_host(n, backend_.stream);
-    if (Law::kHistory) pack_springs(n);
+    if (law_.traits.heat) heat_.to_host(n, backend_.stream);
+    if (law_.traits.history) pack_springs(n);
   }
 
   void collect() override
   {
-    const std::size_t n = this->results_.near.size();
+    const std::size_t n = results_.near.size(), n_extra = law_.traits.n_extra;
     backend_.wait();
     SphereResult *result = n > 0 ? result_.host() : nullptr;
-    const Spring *springs = nullptr;
-    if (Law::kHistory && n > 0) {
+    SphereSink sink = {nullptr, nullptr, heat_.host()};
+    if (law_.traits.history && n > 0) {
       std::size_t n_springs = 0;
       for (std::size_t k = 0; k < n; k++)
         n_springs += result[k].n_contacts > 0 ? result[k].n_contacts : 0;
       if (n_springs > 0) {
         packed_.to_host(n_springs, backend_.stream);
+        if (n_extra > 0) packed_extra_.to_host(n_springs * n_extra, backend_.stream);
         backend_.wait();
       }
-      springs = packed_.host();
+      sink.springs = packed_.host();
+      sink.extra = packed_extra_.host();
     }
     int stride = kPacked;
     if (any_crowded(n)) {
-      spread(springs, n);
-      stride = this->redo_crowded(host_grid_, result, crowded_, kPlaces);
-      springs = crowded_.data();
+      spread(sink, n);
+      stride = redo_crowded(host_job(host_grid_, result, sink), crowded_, crowded_extra_);
+      sink.springs = crowded_.data();
+      sink.extra = crowded_extra_.data();
     }
-    this->finish(result, springs, stride);
+    finish(result, sink, stride);
   }
 
   std::size_t bytes() const override
   {
-    return this->shared_bytes() + block_.size() + sphere_.bytes() + result_.bytes() +
+    return shared_bytes() + block_.size() + sphere_.bytes() + result_.bytes() +
            old_spring_.bytes() + packed_.bytes() + new_spring_.size() * sizeof(Spring) +
-           offset_.size() * sizeof(std::uint32_t) + scratch_.size();
+           old_extra_.bytes() + packed_extra_.bytes() + new_extra_.size() * sizeof(Real) +
+           temperature_.bytes() + heat_.bytes() + offset_.size() * sizeof(std::uint32_t) +
+           scratch_.size();
   }
 
   // Most spheres have one spring or none of the kPlaces they have room for: only
   // what is there crosses to the host.
   void pack_springs(std::size_t n)
   {
+    const int n_extra = law_.traits.n_extra;
     const SphereResult *result = result_.device();
     const Spring *from = new_spring_.data();
+    const Real *from_extra = new_extra_.data();
     std::uint32_t *offset = offset_.data();
     Spring *to = packed_.device();
+    Real *to_extra = packed_extra_.device();
     backend_.for_each(n, [=] __device__(std::size_t k) {
       offset[k] = result[k].n_contacts > 0 ? result[k].n_contacts : 0;
     });
@@ -140,6 +129,11 @@ class CudaEngine : public EngineBase<Law> {
     backend_.for_each(n, [=] __device__(std::size_t k) {
       for (int i = 0; i < result[k].n_contacts; i++) to[offset[k] + i] = from[k * kPlaces + i];
     });
+    if (n_extra == 0) return;
+    backend_.for_each(n, [=] __device__(std::size_t k) {
+      for (int i = 0; i < result[k].n_contacts * n_extra; i++)
+        to_extra[offset[k] * std::size_t(n_extra) + i] = from_extra[k * kPlaces * n_extra + i];
+    });
   }
 
  private:
@@ -149,38 +143,73 @@ class CudaEngine : public EngineBase<Law> {
     const std::int64_t m = static_cast<std::int64_t>(n);
 #pragma omp parallel for schedule(static) num_threads(threads()) if (m > 4096)
     for (std::int64_t k = 0; k < m; k++) {
-      const SphereState s = this->state_of(this->results_.near[k]);
-      to[k] = {s.x, s.v, s.omega, s.radius, s.mass, 0, s.n_springs};
+      const int i = results_.near[k];
+      const auto at = [i](const Real *a) { return Vec3{a[3 * i], a[3 * i + 1], a[3 * i + 2]}; };
+      to[k] = {at(spheres_.x),
+               at(spheres_.v),
+               at(spheres_.omega),
+               spheres_.radius[i],
+               spheres_.mass[i],
+               0,
+               law_.traits.history ? springs_->count(i) : 0};
     }
-    if constexpr (Law::kHistory) {
-      std::int32_t n_springs = 0;
-      for (std::size_t k = 0; k < n; k++) {
-        to[k].first_spring = n_springs;
-        n_springs += to[k].n_springs;
-      }
-      old_spring_.reserve(n_springs > 0 ? n_springs : 1);
-      packed_.reserve(n * kPlaces);
-      if (new_spring_.size() < n * kPlaces) {
-        new_spring_ = CudaBackend::Array<Spring>(packed_.room());
-        offset_ = CudaBackend::Array<std::uint32_t>(packed_.room() / kPlaces);
-      }
+    if (!law_.traits.history) return;
+    const std::size_t n_extra = law_.traits.n_extra;
+    std::int32_t n_springs = 0;
+    for (std::size_t k = 0; k < n; k++) {
+      to[k].first_spring = n_springs;
+      n_springs += to[k].n_springs;
+    }
+    old_spring_.reserve(n_springs > 0 ? n_springs : 1);
+    packed_.reserve(n * kPlaces);
+    if (n_extra > 0) {
+      old_extra_.reserve((n_springs > 0 ? n_springs : 1) * n_extra);
+      packed_extra_.reserve(n * kPlaces * n_extra);
+    }
+    if (new_spring_.size() < n * kPlaces) {
+      new_spring_ = CudaBackend::Array<Spring>(packed_.room());
+      new_extra_ = CudaBackend::Array<Real>(packed_.room() * n_extra);
+      offset_ = CudaBackend::Array<std::uint32_t>(packed_.room() / kPlaces);
+    }
 #pragma omp parallel for schedule(static) num_threads(threads()) if (m > 4096)
-      for (std::int64_t k = 0; k < m; k++)
-        if (to[k].n_springs > 0)
-          std::memcpy(old_spring_.host() + to[k].first_spring,
-                      this->springs_->of(this->results_.near[k]), to[k].n_springs * sizeof(Spring));
-      if (n_springs > 0) old_spring_.to_device(n_springs, backend_.stream);
+    for (std::int64_t k = 0; k < m; k++) {
+      if (to[k].n_springs == 0) continue;
+      const int i = results_.near[k];
+      std::memcpy(old_spring_.host() + to[k].first_spring, springs_->of(i),
+                  to[k].n_springs * sizeof(Spring));
+      if (n_extra > 0)
+        std::memcpy(old_extra_.host() + to[k].first_spring * n_extra, springs_->extra_of(i),
+                    to[k].n_springs * n_extra * sizeof(Real));
     }
+    if (n_springs == 0) return;
+    old_spring_.to_device(n_springs, backend_.stream);
+    if (n_extra > 0) old_extra_.to_device(n_springs * n_extra, backend_.stream);
+  }
+
+  void gather_heat(std::size_t n)
+  {
+    temperature_.reserve(n);
+    heat_.reserve(n);
+    for (std::size_t k = 0; k < n; k++)
+      temperature_.host()[k] = spheres_.temperature[results_.near[k]];
+    temperature_.to_device(n, backend_.stream);
   }
 
   // Back to kPlaces springs each, as redo_crowded wants them.
-  void spread(const Spring *springs, std::size_t n)
+  void spread(const SphereSink &packed, std::size_t n)
   {
-    crowded_.assign(Law::kHistory ? n * kPlaces : 0, Spring{});
-    if constexpr (Law::kHistory)
-      for (std::size_t k = 0; k < n; k++)
-        for (int i = 0; i < result_.host()[k].n_contacts; i++)
-          crowded_[k * kPlaces + i] = *springs++;
+    const std::size_t n_extra = law_.traits.n_extra;
+    const std::size_t places = law_.traits.history ? n * kPlaces : 0;
+    crowded_.assign(places, Spring{});
+    crowded_extra_.assign(places * n_extra, 0);
+    if (!law_.traits.history) return;
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < n; k++)
+      for (int i = 0; i < result_.host()[k].n_contacts; i++, at++) {
+        crowded_[k * kPlaces + i] = packed.springs[at];
+        std::copy(packed.extra + at * n_extra, packed.extra + (at + 1) * n_extra,
+                  crowded_extra_.begin() + (k * kPlaces + i) * n_extra);
+      }
   }
 
   bool any_crowded(std::size_t n)
@@ -190,6 +219,7 @@ class CudaEngine : public EngineBase<Law> {
     return false;
   }
 
+  CudaLaw cuda_law_;
   CudaBackend backend_;
   int device_ = 0;
   GridView host_grid_ = {}, device_grid_ = {};
@@ -198,9 +228,13 @@ class CudaEngine : public EngineBase<Law> {
   Mirrored<SphereResult> result_;
   Mirrored<Spring> old_spring_, packed_;
   CudaBackend::Array<Spring> new_spring_;
+  // Of laws that keep more than a stretch, and of those with heat; empty otherwise.
+  Mirrored<Real> old_extra_, packed_extra_, temperature_, heat_;
+  CudaBackend::Array<Real> new_extra_;
   CudaBackend::Array<std::uint32_t> offset_;
   CudaBackend::Array<char> scratch_;
   std::vector<Spring> crowded_;
+  std::vector<Real> crowded_extra_;
 };
 
 }    // namespace
@@ -219,9 +253,7 @@ bool cuda_available(std::string *why)
 
 std::unique_ptr<WallEngine> make_cuda_engine(const EngineSettings &settings)
 {
-  return with_law(settings, [&](const auto &law) -> std::unique_ptr<WallEngine> {
-    return std::make_unique<CudaEngine<std::decay_t<decltype(law)>>>(settings, law);
-  });
+  return std::make_unique<CudaEngine>(settings);
 }
 
 }    // namespace lsdcd

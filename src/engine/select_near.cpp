@@ -2,6 +2,7 @@
 
 #include "base/threads.h"
 #include "base/input_error.h"
+#include "model/normal.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -22,8 +23,8 @@ namespace {
 
 }    // namespace
 
-void select_near(const GridView &grid, const Spheres &spheres, std::vector<int> &near,
-                 std::vector<int> &scratch)
+void select_near(const GridView &grid, const Spheres &spheres, Real pull_off,
+                 std::vector<int> &near, std::vector<int> &scratch)
 {
   // Blocks of one size whatever the number of threads, so that order is fixed.
   constexpr int kBlock = 4096;
@@ -37,7 +38,7 @@ void select_near(const GridView &grid, const Spheres &spheres, std::vector<int> 
     int n = 0;
     for (int i = lo; i < hi; i++) {
       if (spheres.mask && !(spheres.mask[i] & spheres.group_bit)) continue;
-      if (!(spheres.radius[i] <= grid.reach)) {
+      if (!(reach_of(spheres.radius[i], pull_off) <= grid.reach)) {
 #pragma omp critical
         too_large = too_large < 0 ? i : std::min(too_large, i);
       }

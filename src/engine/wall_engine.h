@@ -5,6 +5,7 @@
 #include "contact/spring_store.h"
 #include "grid/triangle_grid.h"
 #include "mesh/wall_mesh.h"
+#include "model/contact_law.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +14,6 @@
 
 namespace lsdcd {
 
-enum class LawStyle { hooke, hooke_history, hertz_history };
 enum class Corner { blend, sum };
 enum class Side { both, in, out };
 enum class Device { automatic, cpu, cuda };
@@ -22,19 +22,6 @@ enum class Device { automatic, cpu, cuda };
 // brick of the grid, forces are computed in double. single_: forces in float too.
 // Sums, springs at rest and the spheres themselves are double in all three.
 enum class Precision { double_, mixed, single_ };
-
-// Parameters of the classic styles after NULLs and unit conversion are resolved.
-struct ContactLaw {
-  LawStyle style = LawStyle::hooke;
-  Real k_normal = 0;         // force/length (hooke), force/length^2 (hertz)
-  Real k_tangent = 0;        // same dimensions as k_normal
-  Real gamma_normal = 0;     // 1/time (hooke), 1/(time length) (hertz)
-  Real gamma_tangent = 0;    // same dimensions as gamma_normal; 0 where dampflag is 0
-  Real mu = 0;               // friction coefficient
-  bool limit_damping = false;
-
-  bool has_history() const { return style != LawStyle::hooke; }
-};
 
 struct EngineSettings {
   ContactLaw law;
@@ -56,14 +43,17 @@ struct Spheres {
   const Real *mass = nullptr;      // mass that damping sees (a rigid member's body mass)
   const int *mask = nullptr;       // group bits, or null: all spheres
   int group_bit = 0;
-  Real *force = nullptr;     // added to
-  Real *torque = nullptr;    // added to
+  Real *force = nullptr;                // added to
+  Real *torque = nullptr;               // added to
+  const Real *temperature = nullptr;    // where the law has heat
+  Real *heat_flow = nullptr;            // power; added to where the law has heat
 };
 
 struct StepSettings {
   Real dt = 0;                   // time
   bool update_history = true;    // false in setup: springs act but do not move
   bool per_sphere = false;       // fill SphereOutput
+  Real wall_temperature = 0;     // where the law has heat
 };
 
 // Sums over the spheres of the last step on this process.
@@ -100,7 +90,7 @@ class WallEngine {
   virtual void set_grid(const GridView &grid) = 0;
 
   // Chooses the spheres near the wall and starts on them. `springs` may be null
-  // where the law has no history. Throws InputError if a sphere is larger than
+  // where the law has no history, and keeps law.n_extra() numbers otherwise. Throws InputError if a sphere is larger than
   // the grid's reach (index and radius in the message).
   virtual void start(const Spheres &spheres, const StepSettings &step, SpringStore *springs) = 0;
 
@@ -115,6 +105,8 @@ class WallEngine {
   virtual int n_touching() const = 0;
   virtual const int *touching() const = 0;
   virtual const SphereOutput *sphere_output() const = 0;
+  // Power into each of them; null where the law has no heat.
+  virtual const Real *sphere_heat() const = 0;
 
   // Spheres that passed the near test in the last step; bytes held by the engine.
   virtual int n_near() const = 0;

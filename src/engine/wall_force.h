@@ -1,10 +1,10 @@
 // THE kernel: the wall's force and torque on one sphere.
 #pragma once
 
-#include "contact/history.h"
 #include "engine/touch.h"
 #include "engine/wall_engine.h"
 #include "model/contact.h"
+#include "model/normal.h"
 
 namespace lsdcd {
 
@@ -13,7 +13,9 @@ struct SphereState {
   Vec3 x, v, omega;
   Real radius, mass;
   const Spring *springs;    // of the last step
+  const Real *extra;        // n_extra numbers for each of them
   int n_springs;
+  Real temperature;    // read only where the law has heat
 };
 
 // What the wall does to it. n_contacts counts the contacts that bear, and the springs;
@@ -30,34 +32,67 @@ struct SphereResult {
 };
 constexpr int kOverflow = -1;
 
+// Where a sphere's springs go, and what few laws return: written only where the law has
+// history, extra numbers beside it, heat.
+struct SphereSink {
+  Spring *springs;    // one per contact
+  Real *extra;        // Law::kExtra per contact
+  Real *heat;         // power into the sphere
+};
+
 struct ForceSettings {
   SearchSettings search;
   Real dt;
   bool update;
-  bool with_point;    // fill weighted_point and weight
+  bool with_point;          // fill weighted_point and weight
+  Real wall_temperature;    // read only where the law has heat
 };
 
-// `springs_out` has room for kPlaces springs; it is written only where the law
-// has history. Numbers are of type Law::Number inside the law, Real outside.
-template <class Law, int kPlaces>
-LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
-                                 const ForceSettings &settings, const SphereState &s,
-                                 Spring *springs_out)
+template <bool kBeyond, class Geometry, int kPlaces>
+LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, const SphereState &s,
+                         Real reach, Touch<kPlaces> &out)
+{
+  if constexpr (kBeyond)
+    touch_beyond<Geometry>(grid, settings, s.x, s.radius, reach, s.springs, s.n_springs, out);
+  else
+    touch<Geometry>(grid, settings, s.x, reach, out);
+}
+
+// What contact i begins with: its memory of the last step, turned with its normal.
+template <class Law>
+LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ContactsView &set, int i,
+                           const SphereState &s)
 {
   using T = typename Law::Number;
-  SphereResult out = {};
-  Touch<kPlaces> touching;
-  if (grid.in_floats)
-    touch<BrickGeometry>(grid, settings.search, s.x, s.radius, touching);
-  else
-    touch<WallGeometry>(grid, settings.search, s.x, s.radius, touching);
-  const ContactSet<kPlaces> &set = touching.set;
-  if (set.overflow) out.n_contacts = kOverflow;
-  if (touching.exact_within < s.radius) out.uncertain = s.radius - touching.exact_within;
-  if (set.overflow || set.n == 0) return out;
+  ContactMemory<T, Law::kExtra> memory = {};
+  if constexpr (Law::kHistory) {
+    const Inheritance in = inheritance(wall, set, i, s.springs, s.n_springs);
+    if (in.from < 0) return memory;
+    const auto turned = [&](const Vec3 &h) {
+      return vec_cast<T>(handed_on(h, in, s.springs, set.normal[i]));
+    };
+    memory.stretch = turned(s.springs[in.from].stretch);
+    if constexpr (Law::kExtra > 0) {
+      const Real *old = s.extra + in.from * Law::kExtra;
+      for (int k = 0; k < 3 * Law::kVectors; k += 3)
+        memory.put(k, turned({old[k], old[k + 1], old[k + 2]}));
+      for (int k = 3 * Law::kVectors; k < Law::kExtra; k++)
+        memory.extra[k] = static_cast<T>(in.part * old[k]);
+    }
+  }
+  return memory;
+}
 
+// The half of the kernel that each law has of its own. Numbers are of type Law::Number
+// inside the law, Real outside.
+template <class Law>
+LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
+                           const SphereState &s, const ContactsView &set, const Real *weights,
+                           const SphereSink &sink, SphereResult &out)
+{
+  using T = typename Law::Number;
   for (int i = 0; i < set.n; i++) {
-    const Real weight = touching.weight[i];
+    const Real weight = weights[i];
     const Real overlap = s.radius - set.distance[i], ratio = overlap / s.radius;
     if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
     // A contact that bears nothing, as the far face of a thin plate, is none. Nor has
@@ -76,25 +111,53 @@ LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
     c.v_tangent = vec_cast<T>(s.v - v_normal * n - s.radius * cross(s.omega, n));
     c.dt = static_cast<T>(settings.dt);
     c.update = settings.update;
+    if constexpr (Law::kCouple) c.omega = vec_cast<T>(s.omega);
+    if constexpr (Law::kHeat)
+      c.wall_warmer = static_cast<T>(settings.wall_temperature - s.temperature);
 
-    Vec3Of<T> stretch = {0, 0, 0};
-    if constexpr (Law::kHistory)
-      stretch = vec_cast<T>(inherited_stretch(grid.wall, set, i, s.springs, s.n_springs));
-    const ContactForce<T> f = law.evaluate(c, stretch);
-    if constexpr (Law::kHistory)
-      springs_out[out.n_contacts] = {vec_cast<Real>(stretch), n, set.feature[i], 0};
+    auto memory = begin_memory<Law>(grid.wall, set, i, s);
+    const auto f = law.evaluate(c, memory);
+    if constexpr (Law::kHistory) {
+      const int at = out.n_contacts;
+      sink.springs[at] = {vec_cast<Real>(memory.stretch), n, set.feature[i], 0};
+      if constexpr (Law::kExtra > 0)
+        for (int k = 0; k < Law::kExtra; k++) sink.extra[at * Law::kExtra + k] = memory.extra[k];
+    }
     out.n_contacts++;
 
     const Vec3 tangential = weight * vec_cast<Real>(f.tangential);
     out.force += (weight * f.normal) * n + tangential;
     out.torque -= s.radius * cross(n, tangential);
     out.energy += weight * f.energy;
+    if constexpr (Law::kCouple) out.torque += weight * vec_cast<Real>(f.couple);
+    if constexpr (Law::kHeat) *sink.heat += weight * f.heat;
     if (settings.with_point) {
       const Real w = weight * fabs(f.normal);
       out.weight += w;
       out.weighted_point += w * (s.x - set.distance[i] * n);
     }
   }
+}
+
+// `sink` has room for kPlaces contacts.
+template <class Law, int kPlaces>
+LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
+                                 const ForceSettings &settings, const SphereState &s,
+                                 const SphereSink &sink)
+{
+  SphereResult out = {};
+  if constexpr (Law::kHeat) *sink.heat = 0;
+  Touch<kPlaces> touching;
+  Real reach = s.radius;
+  if constexpr (Law::kBeyond) reach = reach_of(s.radius, law.elastic.pull_off);
+  if (grid.in_floats)
+    touch_with<Law::kBeyond, BrickGeometry>(grid, settings.search, s, reach, touching);
+  else
+    touch_with<Law::kBeyond, WallGeometry>(grid, settings.search, s, reach, touching);
+  if (touching.set.overflow) out.n_contacts = kOverflow;
+  if (touching.exact_within < reach) out.uncertain = reach - touching.exact_within;
+  if (touching.set.overflow || touching.set.n == 0) return out;
+  add_contacts(grid, law, settings, s, touching.set.view(), touching.weight, sink, out);
   return out;
 }
 

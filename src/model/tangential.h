@@ -5,6 +5,18 @@
 
 namespace lsdcd {
 
+// Friction that grows with the slip up to `limit`; `viscous`: force time/length.
+template <class T>
+LSDCD_FN Vec3Of<T> viscous_friction(const Vec3Of<T> &v_tangent, T viscous, T limit)
+{
+  const T speed = norm(v_tangent);
+  if (!(speed > 0)) return {0, 0, 0};
+  const T drag = viscous * speed;
+  return (-(drag < limit ? drag : limit) / speed) * v_tangent;
+}
+
+// ---- the classic styles ------------------------------------------------------------------
+
 // Viscous friction up to mu |F_normal| (`hooke`).
 template <class T>
 struct LinearNoHistory {
@@ -13,10 +25,7 @@ struct LinearNoHistory {
 
   LSDCD_FN Vec3Of<T> force(const Contact<T> &c, T, T f_normal, Vec3Of<T> &) const
   {
-    const T speed = norm(c.v_tangent);
-    if (!(speed > 0)) return {0, 0, 0};
-    const T viscous = c.mass * gamma * speed, limit = mu * fabs(f_normal);
-    return (-(viscous < limit ? viscous : limit) / speed) * c.v_tangent;
+    return viscous_friction(c.v_tangent, c.mass * gamma, mu * fabs(f_normal));
   }
   LSDCD_FN T energy(T, const Vec3Of<T> &) const { return 0; }
 };
@@ -47,6 +56,73 @@ struct LinearHistory {
   LSDCD_FN T energy(T scale, const Vec3Of<T> &stretch) const
   {
     return T(0.5) * scale * k * norm_sq(stretch);
+  }
+};
+
+// ---- the sub-models of `granular` --------------------------------------------------------
+// force(c, a, damping, limit, memory): the friction at a contact of radius a, where
+// `damping` is the normal damping's coefficient (mass/time).
+
+// `linear_nohistory`
+template <class T>
+struct SlipFriction {
+  static constexpr bool kHistory = false;
+  static constexpr int kScalars = 0;
+  T x, mu;
+
+  LSDCD_FN T stiffness(T) const { return 0; }
+  template <class Memory>
+  LSDCD_FN Vec3Of<T> force(const Contact<T> &c, T, T damping, T limit, Memory &, int) const
+  {
+    return viscous_friction(c.v_tangent, x * damping, limit);
+  }
+  template <class Memory>
+  LSDCD_FN T energy(T, const Memory &) const
+  {
+    return 0;
+  }
+};
+
+// `linear_history`, and `mindlin` where `sized`: the stiffness goes with the contact
+// radius. `stretch` is the displacement, or the spring's force where `of_force`. With
+// kRescale it shrinks with the contact as that unloads (Thornton et al. 2013), which
+// takes the radius of the step before: the scalar `at` of the memory.
+template <class T, bool kRescale>
+struct SpringFriction {
+  static constexpr bool kHistory = true;
+  static constexpr int kScalars = kRescale ? 1 : 0;
+  T k, x, mu;
+  bool sized, of_force;
+
+  LSDCD_FN T stiffness(T a) const { return sized ? k * a : k; }
+
+  template <class Memory>
+  LSDCD_FN Vec3Of<T> force(const Contact<T> &c, T a, T damping, T limit, Memory &m, int at) const
+  {
+    const T stiff = stiffness(a);
+    if constexpr (kRescale) {
+      if (a < m.extra[at]) m.stretch = (a / m.extra[at]) * m.stretch;
+      m.extra[at] = a;
+    }
+    if (c.update) m.stretch += (of_force ? -stiff * c.dt : c.dt) * c.v_tangent;
+
+    const Vec3Of<T> viscous = (-x * damping) * c.v_tangent;
+    const Vec3Of<T> f = (of_force ? m.stretch : -stiff * m.stretch) + viscous;
+    const T size = norm(f);
+    if (!(size > limit)) return f;
+    if (!(norm_sq(m.stretch) > 0)) return {0, 0, 0};
+    const Vec3Of<T> cut = (limit / size) * f;
+    if (of_force)
+      m.stretch = cut - viscous;
+    else if (stiff > 0)
+      m.stretch = (-1 / stiff) * (cut - viscous);
+    return cut;
+  }
+  template <class Memory>
+  LSDCD_FN T energy(T a, const Memory &m) const
+  {
+    const T stiff = stiffness(a), sq = norm_sq(m.stretch);
+    return of_force ? (stiff > 0 ? T(0.5) * sq / stiff : T(0)) : T(0.5) * stiff * sq;
   }
 };
 

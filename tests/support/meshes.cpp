@@ -122,7 +122,8 @@ void append(TriangleSoup &soup, const TriangleSoup &more)
 
 Scene::Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real grid_length,
              Real weld_tolerance, int nearest, bool exact) :
-    mesh(weld(soup, weld_tolerance))
+    mesh(weld(soup, weld_tolerance)),
+    springs(settings.law.n_extra())
 {
   settings.device = test_device();
   GridSettings g;

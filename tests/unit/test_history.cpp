@@ -108,6 +108,14 @@ ContactSet<8> contacts(std::initializer_list<std::pair<FeatureCode, Vec3>> list)
 
 const Vec3 kUp = {0, 0, 1}, kStretch = {0.01, -0.02, 0};
 
+// The stretch with which contact i begins.
+Vec3 inherited_stretch(const WallFeaturesView &wall, const ContactSet<8> &set, int i,
+                       const Spring *old, int n_old)
+{
+  const Inheritance in = inheritance(wall, set.view(), i, old, n_old);
+  return in.from < 0 ? Vec3{0, 0, 0} : handed_on(old[in.from].stretch, in, old, set.normal[i]);
+}
+
 TEST(features, of_a_cube_are_adjacent_where_they_share_a_vertex)
 {
   const Cube cube;

@@ -39,7 +39,7 @@ TEST(spring_store, growing_keeps_what_is_there)
 {
   SpringStore store;
   store.grow(2);
-  store.set(1, kTwo.data(), 2);
+  store.set(1, kTwo.data(), nullptr, 2);
   store.grow(1000);
   expect_springs(store, 1, kTwo);
   EXPECT_EQ(store.count(999), 0);
@@ -52,14 +52,14 @@ TEST(spring_store, pack_and_unpack_are_a_round_trip)
   SpringStore from, to;
   from.grow(3);
   to.grow(9);
-  from.set(0, kTwo.data(), 2);
-  from.set(2, kThree.data(), 3);
+  from.set(0, kTwo.data(), nullptr, 2);
+  from.set(2, kThree.data(), nullptr, 3);
   std::vector<double> buffer(100, -7);
   int n = from.pack(0, buffer.data());
   EXPECT_EQ(n, from.packed_size(0));
   n += from.pack(1, buffer.data() + n);
   n += from.pack(2, buffer.data() + n);
-  EXPECT_EQ(n, 3 + 5 * SpringStore::kDoublesPerSpring);
+  EXPECT_EQ(n, 3 + 5 * SpringStore().doubles_per_spring());
   EXPECT_EQ(buffer[n], -7);
   int m = to.unpack(8, buffer.data());
   m += to.unpack(4, buffer.data() + m);
@@ -78,7 +78,7 @@ TEST(spring_store, packs_every_feature_code_exactly)
   for (FeatureKind kind : {FeatureKind::face, FeatureKind::edge, FeatureKind::vertex})
     for (std::uint32_t i : {0u, 1u, 0x3ffffffeu, kFeatureIndexMask}) {
       const Spring s = spring(1, feature_code(kind, i));
-      from.set(0, &s, 1);
+      from.set(0, &s, nullptr, 1);
       std::vector<double> buffer(from.packed_size(0));
       from.pack(0, buffer.data());
       to.unpack(0, buffer.data());
@@ -95,7 +95,7 @@ TEST(spring_store, packs_the_last_bit_of_a_stretch)
   to.grow(1);
   const Real tiny = std::numeric_limits<Real>::denorm_min();
   const Spring s = {{std::nextafter(1.0, 2.0), -tiny, -0.0}, {1, 0, 0}, 5, 0};
-  from.set(0, &s, 1);
+  from.set(0, &s, nullptr, 1);
   std::vector<double> buffer(from.packed_size(0));
   from.pack(0, buffer.data());
   to.unpack(0, buffer.data());
@@ -108,8 +108,8 @@ TEST(spring_store, copy_gives_a_sphere_the_springs_of_another)
 {
   SpringStore store;
   store.grow(3);
-  store.set(0, kTwo.data(), 2);
-  store.set(2, kThree.data(), 3);
+  store.set(0, kTwo.data(), nullptr, 2);
+  store.set(2, kThree.data(), nullptr, 3);
   store.copy(2, 0);
   expect_springs(store, 0, kThree);
   store.copy(1, 2);    // a sphere without any
@@ -121,10 +121,10 @@ TEST(spring_store, unpacking_into_a_sphere_leaves_its_copies_alone)
 {
   SpringStore store;
   store.grow(3);
-  store.set(0, kTwo.data(), 2);
+  store.set(0, kTwo.data(), nullptr, 2);
   store.copy(0, 1);
   std::vector<double> buffer(100);
-  store.set(2, kThree.data(), 3);
+  store.set(2, kThree.data(), nullptr, 3);
   store.pack(2, buffer.data());
   store.unpack(0, buffer.data());
   expect_springs(store, 0, kThree);
@@ -135,8 +135,8 @@ TEST(spring_store, clear_takes_the_springs_of_one_sphere)
 {
   SpringStore store;
   store.grow(2);
-  store.set(0, kTwo.data(), 2);
-  store.set(1, kThree.data(), 3);
+  store.set(0, kTwo.data(), nullptr, 2);
+  store.set(1, kThree.data(), nullptr, 3);
   store.clear(0);
   expect_springs(store, 0, {});
   expect_springs(store, 1, kThree);
@@ -147,9 +147,9 @@ TEST(spring_store, knows_the_largest_packed_size)
   SpringStore store;
   store.grow(4);
   EXPECT_EQ(store.largest_packed_size(), 1);
-  store.set(0, kTwo.data(), 2);
-  store.set(3, kThree.data(), 3);
-  EXPECT_EQ(store.largest_packed_size(), 1 + 3 * SpringStore::kDoublesPerSpring);
+  store.set(0, kTwo.data(), nullptr, 2);
+  store.set(3, kThree.data(), nullptr, 3);
+  EXPECT_EQ(store.largest_packed_size(), 1 + 3 * SpringStore().doubles_per_spring());
 }
 
 // Spheres 3, 0 and 2 get two, none and three springs.
@@ -163,9 +163,9 @@ struct Replaced {
     std::copy(kTwo.begin(), kTwo.end(), springs.begin());
     std::copy(kThree.begin(), kThree.end(), springs.begin() + (packed ? 2 : 2 * stride));
     store.grow(5);
-    store.set(1, kThree.data(), 3);
-    store.set(3, kThree.data(), 3);
-    store.replace(which, 3, counts, springs.data(), stride);
+    store.set(1, kThree.data(), nullptr, 3);
+    store.set(3, kThree.data(), nullptr, 3);
+    store.replace(which, 3, counts, springs.data(), nullptr, stride);
   }
 };
 
@@ -185,7 +185,7 @@ TEST(spring_store, replace_gives_the_named_spheres_their_springs_and_all_others_
 TEST(spring_store, replace_with_nothing_clears)
 {
   Replaced r(4);
-  r.store.replace(nullptr, 0, nullptr, nullptr, 8);
+  r.store.replace(nullptr, 0, nullptr, nullptr, nullptr, 8);
   for (int i = 0; i < 5; i++) expect_springs(r.store, i, {});
   EXPECT_EQ(r.store.pool_size(), 0u);
 }
@@ -202,7 +202,7 @@ TEST(spring_store, replaced_many_times_holds_the_last_only)
       counts[i] = (i + round) % 4;
       for (int k = 0; k < 3; k++) springs[3 * i + k] = spring(1000 * round + i + 0.25 * k, i);
     }
-    store.replace(which.data(), 1000, counts.data(), springs.data(), 3);
+    store.replace(which.data(), 1000, counts.data(), springs.data(), nullptr, 3);
     for (int i = 0; i < 1000; i++) {
       ASSERT_EQ(store.count(i), (i + round) % 4);
       for (int k = 0; k < store.count(i); k++)

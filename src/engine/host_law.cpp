@@ -1,0 +1,27 @@
+#include "engine/host_law.h"
+
+#include "base/input_error.h"
+
+namespace lsdcd {
+
+HostLaw host_law(const EngineSettings &settings)
+{
+  const ContactLaw &law = settings.law;
+  if (law.style != LawStyle::granular) {
+    if (settings.precision == Precision::single_)
+      return with_classic_law<float>(law, MakeHostLaw());
+    return with_classic_law<Real>(law, MakeHostLaw());
+  }
+  switch (law.granular.normal) {
+    case NormalModel::hertz:
+      return host_hertz_law(law);
+    case NormalModel::dmt:
+      return host_dmt_law(law);
+    case NormalModel::jkr:
+      return host_jkr_law(law);
+    default:
+      return host_hooke_law(law);
+  }
+}
+
+}    // namespace lsdcd

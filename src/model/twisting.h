@@ -1,0 +1,58 @@
+// Twisting resistance: a couple against the turning of a sphere on the spot.
+#pragma once
+
+#include "model/contact.h"
+
+namespace lsdcd {
+
+template <class T>
+struct NoTwisting {
+  static constexpr bool kOn = false;
+};
+
+// What resists a twist at one contact.
+template <class T>
+struct TwistCoefficients {
+  T k, gamma, limit;    // torque/angle, torque time/angle, torque
+};
+
+// `sds` and `marshall`: spring, dashpot and slider (Marshall 2009, equations 30 to 44).
+// The angle is the scalar `at` of the memory. `marshall` takes its coefficients from the
+// tangential ones and the contact radius.
+template <class T>
+struct SpringTwisting {
+  static constexpr bool kOn = true;
+  bool marshall;
+  T k, gamma, mu;    // torque/angle, torque time/angle, length; not for marshall
+
+  LSDCD_FN TwistCoefficients<T> coefficients(T limit_force, T a, T k_tangent, T gamma_tangent,
+                                             T mu_tangent) const
+  {
+    if (!marshall) return {k, gamma, mu * limit_force};
+    const T half_sq = T(0.5) * a * a;
+    return {half_sq * k_tangent, half_sq * gamma_tangent, T(2) / 3 * a * mu_tangent * limit_force};
+  }
+
+  // The couple about the normal.
+  template <class Memory>
+  LSDCD_FN T couple(const Contact<T> &c, const TwistCoefficients<T> &t, Memory &m, int at) const
+  {
+    const T rate = dot(c.omega, c.normal);
+    T angle = m.extra[at];
+    if (c.update) angle += c.dt * rate;
+    T couple = -t.k * angle - t.gamma * rate;
+    if (fabs(couple) > t.limit) {
+      couple = rate > 0 ? -t.limit : (rate < 0 ? t.limit : T(0));
+      if (t.k > 0) angle = (-couple - t.gamma * rate) / t.k;
+    }
+    m.extra[at] = angle;
+    return couple;
+  }
+  template <class Memory>
+  LSDCD_FN T energy(const TwistCoefficients<T> &t, const Memory &m, int at) const
+  {
+    return T(0.5) * t.k * m.extra[at] * m.extra[at];
+  }
+};
+
+}    // namespace lsdcd
