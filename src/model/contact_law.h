@@ -91,6 +91,13 @@ struct ContactLaw {
   Real pull_off() const;
 };
 
+// Damping per root of mass times secant stiffness that returns the restitution e.
+// tsuji: a fit for Hertz contacts, right to 1.1e-3 (Tsuji, Tanaka and Ishida 1992), whose
+// mass is that of one of two equal spheres, twice the effective one: hence its root 2.
+// The other is exact: for hooke, and (Brilliantov et al. 1996) for Hertz contacts.
+Real tsuji_damping(Real e);
+Real restitution_damping(NormalModel normal, Real e);
+
 // How far from its centre a sphere can feel the wall.
 Real reach_of(const ContactLaw &law, Real radius);
 

@@ -33,4 +33,18 @@ inline EngineSettings hertz_history(Real k, Real k_tangent, Real gamma_normal, R
   return s;
 }
 
+// `granular` with one normal sub-model and nothing else: no damping, no friction.
+inline EngineSettings granular(NormalModel normal, Real k, Real cohesion = 0)
+{
+  EngineSettings s;
+  s.law.style = LawStyle::granular;
+  GranularLaw &g = s.law.granular;
+  g.normal = normal;
+  g.k_normal = k;
+  g.modulus = 0.75 * k;
+  g.cohesion = cohesion;
+  g.damping = DampingModel::none;
+  return s;
+}
+
 }    // namespace lsdcd

@@ -158,6 +158,8 @@ void Scene::compute(Real dt, bool update, bool per_sphere)
 {
   std::fill(f_.begin(), f_.end(), 0);
   std::fill(torque_.begin(), torque_.end(), 0);
+  heat_.assign(n(), 0);
+  temperature_.assign(n(), sphere_temperature);
   Spheres s;
   s.n = n();
   s.x = x_.data();
@@ -167,7 +169,10 @@ void Scene::compute(Real dt, bool update, bool per_sphere)
   s.mass = mass_.data();
   s.force = f_.data();
   s.torque = torque_.data();
+  s.temperature = temperature_.data();
+  s.heat_flow = heat_.data();
   StepSettings step;
+  step.wall_temperature = wall_temperature;
   step.dt = dt;
   step.update_history = update;
   step.per_sphere = per_sphere;

@@ -55,6 +55,7 @@ class Scene {
 
   Vec3 force(int i) const { return vec(f_, i); }
   Vec3 torque(int i) const { return vec(torque_, i); }
+  Real heat(int i) const { return heat_[i]; }    // power, where the law has heat
   Vec3 x(int i) const { return vec(x_, i); }
   Vec3 v(int i) const { return vec(v_, i); }
   Vec3 omega(int i) const { return vec(omega_, i); }
@@ -69,6 +70,7 @@ class Scene {
   TriangleGrid grid;
   SpringStore springs;
   std::unique_ptr<WallEngine> engine;
+  Real wall_temperature = 0, sphere_temperature = 0;    // where the law has heat
 
  private:
   static Vec3 vec(const std::vector<Real> &a, int i)
@@ -80,7 +82,7 @@ class Scene {
     for (int k = 0; k < 3; k++) a[3 * i + k] = value[k];
   }
   std::vector<char> block_;
-  std::vector<Real> x_, v_, omega_, f_, torque_, radius_, mass_;
+  std::vector<Real> x_, v_, omega_, f_, torque_, radius_, mass_, heat_, temperature_;
 };
 
 }    // namespace lsdcd

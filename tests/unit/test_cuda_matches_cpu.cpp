@@ -47,16 +47,41 @@ bool same_bytes(const std::vector<T> &a, const std::vector<T> &b)
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-EngineSettings settings_for(LawStyle style)
+ContactLaw classic(LawStyle style)
 {
-  EngineSettings e;
-  e.law.style = style;
-  e.law.k_normal = 1e5;
-  e.law.k_tangent = 2e4;
-  e.law.gamma_normal = 50;
-  e.law.gamma_tangent = 25;
-  e.law.mu = 0.4;
-  return e;
+  ContactLaw law;
+  law.style = style;
+  law.k_normal = 1e5;
+  law.k_tangent = 2e4;
+  law.gamma_normal = 50;
+  law.gamma_tangent = 25;
+  law.mu = 0.4;
+  return law;
+}
+
+// `granular` with every further effect at once.
+ContactLaw everything(NormalModel normal)
+{
+  ContactLaw law;
+  law.style = LawStyle::granular;
+  GranularLaw &g = law.granular;
+  g.normal = normal;
+  g.k_normal = 1e5;
+  g.modulus = 0.75e5;
+  g.cohesion = 300;
+  g.eta = 20;
+  g.tangential = TangentialModel::mindlin_rescale_force;
+  g.k_tangent = 5e4;
+  g.x_tangent = 0.7;
+  g.mu = 0.4;
+  g.rolling = true;
+  g.k_roll = 3e4;
+  g.gamma_roll = 20;
+  g.mu_roll = 0.1;
+  g.twisting = TwistingModel::marshall;
+  g.heat = HeatModel::area;
+  g.conductance = 3;
+  return law;
 }
 
 // Spheres all over the box of a wall, some in motion, for a few steps on one backend.
@@ -64,6 +89,7 @@ struct Outcome {
   std::vector<Vec3> force, torque;
   WallTotals totals;
   std::vector<Spring> springs;
+  std::vector<Real> extra, heat;
   std::vector<SphereOutput> outputs;
 };
 
@@ -77,12 +103,12 @@ struct Search {
 
 constexpr Search kComplete = {"complete", 0, false, Precision::double_};
 
-Outcome run_steps(const Case &c, LawStyle style, Device device, int n_spheres,
+Outcome run_steps(const Case &c, const ContactLaw &law, Device device, int n_spheres,
                   const Search &search = kComplete)
 {
   const WallMesh mesh = weld(c.soup, -1);
   GridSettings g;
-  g.reach = c.reach;
+  g.reach = reach_of(law, c.reach);
   g.length = c.length;
   g.nearest = search.nearest;
   g.exact = search.exact;
@@ -92,7 +118,8 @@ Outcome run_steps(const Case &c, LawStyle style, Device device, int n_spheres,
   char *at = block.data() + (64 - reinterpret_cast<std::uintptr_t>(block.data()) % 64) % 64;
   flatten(grid, at);
 
-  EngineSettings e = settings_for(style);
+  EngineSettings e;
+  e.law = law;
   e.device = device;
   e.precision = search.precision;
   auto engine = make_engine(e);
@@ -101,6 +128,7 @@ Outcome run_steps(const Case &c, LawStyle style, Device device, int n_spheres,
   std::mt19937_64 random(11);
   std::uniform_real_distribution<Real> unit(0, 1), speed(-3, 3);
   std::vector<Real> x, v, omega, radius, mass, force(3 * n_spheres), torque(3 * n_spheres);
+  std::vector<Real> temperature, heat(n_spheres);
   const Vec3 lo = mesh.report.lo - c.reach * Vec3{1, 1, 1};
   const Vec3 extent = mesh.report.hi + c.reach * Vec3{1, 1, 1} - lo;
   for (int i = 0; i < n_spheres; i++) {
@@ -111,8 +139,9 @@ Outcome run_steps(const Case &c, LawStyle style, Device device, int n_spheres,
     }
     radius.push_back(c.reach * (0.2 + 0.8 * unit(random)));
     mass.push_back(1 + unit(random));
+    temperature.push_back(300 + speed(random));
   }
-  SpringStore springs;
+  SpringStore springs(law.n_extra());
   springs.grow(n_spheres);
   Spheres s;
   s.n = n_spheres;
@@ -123,7 +152,10 @@ Outcome run_steps(const Case &c, LawStyle style, Device device, int n_spheres,
   s.mass = mass.data();
   s.force = force.data();
   s.torque = torque.data();
+  s.temperature = temperature.data();
+  s.heat_flow = heat.data();
   StepSettings step;
+  step.wall_temperature = 310;
   step.dt = 1e-2;
   step.per_sphere = true;
   for (int k = 0; k < 5; k++) {
@@ -137,8 +169,11 @@ Outcome run_steps(const Case &c, LawStyle style, Device device, int n_spheres,
   for (int i = 0; i < n_spheres; i++) {
     out.force.push_back({force[3 * i], force[3 * i + 1], force[3 * i + 2]});
     out.torque.push_back({torque[3 * i], torque[3 * i + 1], torque[3 * i + 2]});
-    for (int k = 0; k < springs.count(i); k++) out.springs.push_back(springs.of(i)[k]);
+    out.springs.insert(out.springs.end(), springs.of(i), springs.of(i) + springs.count(i));
+    out.extra.insert(out.extra.end(), springs.extra_of(i),
+                     springs.extra_of(i) + springs.count(i) * law.n_extra());
   }
+  out.heat = heat;
   out.totals = engine->totals();
   out.outputs.assign(engine->sphere_output(), engine->sphere_output() + engine->n_touching());
   return out;
@@ -187,8 +222,8 @@ TEST(cuda_engine, gives_the_forces_of_the_cpu_engine)
   // Same source, no contraction, IEEE division and root on both: no tolerance.
   for (const Case &c : cases())
     for (LawStyle style : kStyles) {
-      const Outcome cpu = run_steps(c, style, Device::cpu, 20000);
-      const Outcome cuda = run_steps(c, style, Device::cuda, 20000);
+      const Outcome cpu = run_steps(c, classic(style), Device::cpu, 20000);
+      const Outcome cuda = run_steps(c, classic(style), Device::cuda, 20000);
       EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << c.name;
       EXPECT_TRUE(same_bytes(cpu.torque, cuda.torque)) << c.name;
       EXPECT_GT(cpu.totals.contacts, 0) << c.name;
@@ -203,8 +238,10 @@ TEST(cuda_engine, gives_the_forces_of_the_cpu_engine_however_it_searches)
                                Search{"nearest 3, mixed", 3, false, Precision::mixed},
                                Search{"single", 0, false, Precision::single_}})
     for (const Case &c : cases()) {
-      const Outcome cpu = run_steps(c, LawStyle::hertz_history, Device::cpu, 20000, search);
-      const Outcome cuda = run_steps(c, LawStyle::hertz_history, Device::cuda, 20000, search);
+      const Outcome cpu =
+          run_steps(c, classic(LawStyle::hertz_history), Device::cpu, 20000, search);
+      const Outcome cuda =
+          run_steps(c, classic(LawStyle::hertz_history), Device::cuda, 20000, search);
       EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << c.name << ", " << search.name;
       EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << c.name << ", " << search.name;
       EXPECT_EQ(cpu.totals.uncertified, cuda.totals.uncertified) << c.name << ", " << search.name;
@@ -215,8 +252,8 @@ TEST(cuda_engine, gives_the_forces_of_the_cpu_engine_however_it_searches)
 TEST(cuda_engine, gives_the_springs_of_the_cpu_engine)
 {
   for (const Case &c : cases()) {
-    const Outcome cpu = run_steps(c, LawStyle::hertz_history, Device::cpu, 20000);
-    const Outcome cuda = run_steps(c, LawStyle::hertz_history, Device::cuda, 20000);
+    const Outcome cpu = run_steps(c, classic(LawStyle::hertz_history), Device::cpu, 20000);
+    const Outcome cuda = run_steps(c, classic(LawStyle::hertz_history), Device::cuda, 20000);
     EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << c.name;
     EXPECT_GT(cpu.springs.size(), 0u) << c.name;
   }
@@ -225,8 +262,8 @@ TEST(cuda_engine, gives_the_springs_of_the_cpu_engine)
 TEST(cuda_engine, gives_the_totals_and_outputs_of_the_cpu_engine)
 {
   for (const Case &c : cases()) {
-    const Outcome cpu = run_steps(c, LawStyle::hooke_history, Device::cpu, 20000);
-    const Outcome cuda = run_steps(c, LawStyle::hooke_history, Device::cuda, 20000);
+    const Outcome cpu = run_steps(c, classic(LawStyle::hooke_history), Device::cpu, 20000);
+    const Outcome cuda = run_steps(c, classic(LawStyle::hooke_history), Device::cuda, 20000);
     EXPECT_EQ(cpu.totals.contacts, cuda.totals.contacts) << c.name;
     EXPECT_EQ(cpu.totals.energy, cuda.totals.energy) << c.name;
     EXPECT_TRUE(cpu.totals.force == cuda.totals.force) << c.name;
@@ -235,11 +272,28 @@ TEST(cuda_engine, gives_the_totals_and_outputs_of_the_cpu_engine)
   }
 }
 
+TEST(cuda_engine, gives_what_granular_laws_give_on_the_cpu)
+{
+  for (const Case &c : cases())
+    for (NormalModel normal :
+         {NormalModel::hooke, NormalModel::hertz, NormalModel::dmt, NormalModel::jkr}) {
+      const Outcome cpu = run_steps(c, everything(normal), Device::cpu, 20000);
+      const Outcome cuda = run_steps(c, everything(normal), Device::cuda, 20000);
+      EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << c.name;
+      EXPECT_TRUE(same_bytes(cpu.torque, cuda.torque)) << c.name;
+      EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << c.name;
+      EXPECT_TRUE(same_bytes(cpu.extra, cuda.extra)) << c.name;
+      EXPECT_TRUE(same_bytes(cpu.heat, cuda.heat)) << c.name;
+      EXPECT_TRUE(same_bytes(cpu.outputs, cuda.outputs)) << c.name;
+      EXPECT_GT(cpu.extra.size(), 0u) << c.name;
+    }
+}
+
 TEST(cuda_engine, gives_the_same_bits_twice)
 {
   const Case c = cases()[5];
-  const Outcome once = run_steps(c, LawStyle::hertz_history, Device::cuda, 20000);
-  const Outcome twice = run_steps(c, LawStyle::hertz_history, Device::cuda, 20000);
+  const Outcome once = run_steps(c, classic(LawStyle::hertz_history), Device::cuda, 20000);
+  const Outcome twice = run_steps(c, classic(LawStyle::hertz_history), Device::cuda, 20000);
   EXPECT_TRUE(same_bytes(once.force, twice.force));
   EXPECT_TRUE(same_bytes(once.springs, twice.springs));
   EXPECT_EQ(once.totals.energy, twice.totals.energy);

@@ -211,5 +211,56 @@ TEST(spring_store, replaced_many_times_holds_the_last_only)
   }
 }
 
+// ---- numbers beside the springs ------------------------------------------------------
+
+const std::vector<Real> kExtra = {1, -2, 3.5, 4, 5, -6e-300};    // two for each of three
+
+void expect_extra(const SpringStore &store, int i, const std::vector<Real> &expected)
+{
+  ASSERT_EQ(store.count(i) * store.n_extra(), static_cast<int>(expected.size()));
+  for (std::size_t k = 0; k < expected.size(); k++) EXPECT_EQ(store.extra_of(i)[k], expected[k]);
+}
+
+TEST(spring_store, extra_numbers_go_wherever_their_springs_go)
+{
+  SpringStore from(2), to(2);
+  from.grow(3);
+  to.grow(3);
+  from.set(1, kTwo.data(), kExtra.data() + 2, 2);
+  from.set(2, kThree.data(), kExtra.data(), 3);
+  from.copy(2, 0);
+  expect_extra(from, 0, kExtra);
+  expect_extra(from, 1, {kExtra.begin() + 2, kExtra.end()});
+  std::vector<double> buffer(100, -7);
+  EXPECT_EQ(from.pack(2, buffer.data()), 1 + 3 * 9);
+  EXPECT_EQ(buffer[1 + 3 * 9], -7);
+  EXPECT_EQ(to.unpack(0, buffer.data()), 1 + 3 * 9);
+  expect_springs(to, 0, kThree);
+  expect_extra(to, 0, kExtra);
+  EXPECT_EQ(from.largest_packed_size(), 1 + 3 * 9);
+}
+
+TEST(spring_store, replace_takes_extra_numbers_from_the_places_of_their_springs)
+{
+  for (int stride : {kPacked, 4}) {
+    SpringStore store(2);
+    store.grow(4);
+    const int which[2] = {3, 1}, counts[2] = {1, 2};
+    const int second = stride == kPacked ? 1 : stride;
+    std::vector<Spring> springs(8, spring(99, 99));
+    std::vector<Real> extra(16, 99);
+    springs[0] = kThree[0];
+    springs[second] = kTwo[0];
+    springs[second + 1] = kTwo[1];
+    for (int k = 0; k < 2; k++) extra[k] = kExtra[k];
+    for (int k = 0; k < 4; k++) extra[2 * second + k] = kExtra[2 + k];
+    store.replace(which, 2, counts, springs.data(), extra.data(), stride);
+    expect_extra(store, 3, {kExtra.begin(), kExtra.begin() + 2});
+    expect_extra(store, 1, {kExtra.begin() + 2, kExtra.end()});
+    expect_springs(store, 1, kTwo);
+    EXPECT_EQ(store.count(0), 0);
+  }
+}
+
 }    // namespace
 }    // namespace lsdcd

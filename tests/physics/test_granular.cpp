@@ -1,0 +1,549 @@
+// The sub-models of `granular` against closed forms.
+#include "model/normal.h"
+#include "support/laws.h"
+#include "support/meshes.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kPi = 3.14159265358979323846;
+constexpr Real kRadius = 0.5, kMass = 2, kK = 1e5, kModulus = 0.75 * kK;
+
+const Vec3 kSpot = {0.13, 0.07, 0};    // inside a face
+
+// One sphere over a floor; a test moves it by hand.
+struct OneSphere {
+  Scene scene;
+  Real height = 0;
+  explicit OneSphere(const EngineSettings &law, int n = 4, unsigned seed = 0) :
+      scene(floor_mesh(n, 2, seed), reach_of(law.law, kRadius), law)
+  {
+    scene.add_sphere(kSpot + Vec3{0, 0, 2 * kRadius}, kRadius, kMass);
+  }
+  Vec3 at(Real overlap, Real dt = 1e-6)
+  {
+    Vec3 x = scene.x(0);
+    x.z = kRadius - overlap;
+    scene.set_x(0, x);
+    scene.compute(dt);
+    return scene.force(0);
+  }
+};
+
+// ---- adhesion --------------------------------------------------------------------------------
+
+TEST(dmt, pulls_with_four_pi_gamma_r_when_it_barely_touches)
+{
+  const Real gamma = 3;
+  OneSphere s(granular(NormalModel::dmt, kK, gamma));
+  EXPECT_EQ(s.at(-1e-12).z, 0);
+  // The Hertz force at an overlap of 1e-12 is 1e5 0.7e-6 1e-12.
+  EXPECT_NEAR(s.at(1e-12).z, -4 * kPi * gamma * kRadius, 1e-12);
+  const Real overlap = 0.01;
+  EXPECT_NEAR(s.at(overlap).z,
+              kK * std::sqrt(kRadius * overlap) * overlap - 4 * kPi * gamma * kRadius, 1e-11);
+}
+
+struct Jkr {
+  Real gamma = 3, modulus = kModulus;
+  Real pull_off() const    // distance past touch where it lets go
+  {
+    return std::cbrt(3 * kPi * kPi * gamma * gamma * kRadius / (16 * modulus * modulus));
+  }
+  EngineSettings law() const { return granular(NormalModel::jkr, modulus * 4 / 3, gamma); }
+};
+
+TEST(jkr, lets_go_at_three_pi_gamma_r)
+{
+  const Jkr jkr;
+  OneSphere s(jkr.law());
+  s.at(1e-3);
+  Real least = 0;
+  for (Real gap = 0; gap < jkr.pull_off() * (1 - 1e-9); gap += jkr.pull_off() / 5000)
+    least = std::min(least, s.at(-gap).z);
+  // The pull is flat at its largest: 1/5000 of the way off it is 1e-7 less.
+  EXPECT_NEAR(least, -3 * kPi * jkr.gamma * kRadius, 1e-6);
+  EXPECT_LT(s.at(-jkr.pull_off() * (1 - 1e-9)).z, 0);
+  EXPECT_EQ(s.at(-jkr.pull_off() * (1 + 1e-9)).z, 0);
+}
+
+TEST(jkr, pulls_with_eight_thirds_pi_gamma_r_at_no_overlap)
+{
+  // a^3 = 4 pi gamma R^2 / E there.
+  const Jkr jkr;
+  OneSphere s(jkr.law());
+  s.at(1e-3);
+  EXPECT_NEAR(s.at(0).z, -8.0 / 3 * kPi * jkr.gamma * kRadius, 1e-10);
+}
+
+TEST(jkr, holds_only_what_has_touched)
+{
+  const Jkr jkr;
+  const Real gap = 0.5 * jkr.pull_off();
+  OneSphere s(jkr.law());
+  EXPECT_EQ(s.at(-gap).z, 0);
+  EXPECT_LT(s.at(1e-6).z, 0);
+  EXPECT_LT(s.at(-gap).z, 0);
+  EXPECT_EQ(s.at(-1.01 * jkr.pull_off()).z, 0);
+  EXPECT_EQ(s.at(-gap).z, 0);
+}
+
+TEST(jkr, loses_the_work_between_touch_and_pull_off_in_a_cycle)
+{
+  // By the contact radius a: overlap and force in closed form, the work between a at no
+  // overlap and a where it lets go by Simpson's rule on 2000 intervals (error 1e-13).
+  const Jkr jkr;
+  const Real e = jkr.modulus, g = jkr.gamma, r = kRadius;
+  const auto force = [&](Real a) {
+    return 4 * e * a * a * a / (3 * r) - 4 * std::sqrt(kPi * g * e * a * a * a);
+  };
+  const auto rate = [&](Real a) { return 2 * a / r - std::sqrt(kPi * g / (e * a)); };
+  const Real from = std::cbrt(9 * kPi * g * r * r / (4 * e)),
+             to = std::cbrt(4 * kPi * g * r * r / e);
+  const int n = 2000;
+  Real work = 0;
+  for (int i = 0; i <= n; i++) {
+    const Real a = from + (to - from) * i / n;
+    work += (i == 0 || i == n ? 1 : (i % 2 ? 4 : 2)) * force(a) * rate(a);
+  }
+  work *= (to - from) / (3 * n);
+
+  OneSphere s(jkr.law());
+  s.at(1e-5);
+  // What the engine calls energy, at both ends, and again by summing its force.
+  s.at(0);
+  const Real at_touch = s.scene.engine->totals().energy;
+  const int steps = 20000;
+  Real sum = 0;
+  for (int i = 0; i < steps; i++)
+    sum += s.at(-jkr.pull_off() * (i + 0.5) / steps).z * jkr.pull_off() / steps;
+  s.at(-jkr.pull_off() * (1 - 1e-12));
+  const Real at_pull_off = s.scene.engine->totals().energy;
+  EXPECT_NEAR(sum, work, 1e-7 * std::fabs(work));
+  EXPECT_NEAR(at_touch - at_pull_off, work, 1e-9 * std::fabs(work));
+}
+
+TEST(jkr, contact_radius_solves_its_equation_from_no_to_strong_adhesion)
+{
+  for (Real gamma : {0.0, 1e-12, 1e-6, 1e-3, 1.0, 1e3})
+    for (Real overlap : {1e-9, 1e-6, 1e-4, 1e-2, 0.0, -0.3, -0.7, -0.999}) {
+      const JkrNormal<Real> law(kModulus, gamma);
+      Contact<Real> c = {};
+      c.radius = kRadius;
+      c.overlap = overlap < 0 ? overlap * law.pull_off * std::cbrt(kRadius) : overlap;
+      const long double a = law.contact_radius(c);
+      if (gamma == 0 && overlap <= 0) {
+        EXPECT_EQ(a, 0);
+        continue;
+      }
+      const long double left = a * a / kRadius, right = 2 * std::sqrt(kPi * gamma * a / kModulus);
+      // a to a few roundings: the two sides to their own size times that.
+      EXPECT_NEAR(double(left - right), c.overlap, double(4e-15 * (left + right)))
+          << gamma << ' ' << overlap;
+    }
+}
+
+TEST(jkr, sphere_slides_under_a_ceiling_of_triangles_without_falling)
+{
+  // It hangs by its adhesion past touch, over faces, edges and vertices alike: the weight
+  // is 0.9 of the pull-off force. Its springs go along.
+  const Jkr jkr;
+  const Real weight = 0.9 * 3 * kPi * jkr.gamma * kRadius;
+  EngineSettings law = jkr.law();
+  law.law.granular.damping = DampingModel::mass_velocity;
+  law.law.granular.eta = 50;
+  Scene scene(floor_mesh(16, 2, 5), reach_of(law.law, kRadius), law);
+  const Real touch = -kRadius + 1e-6;
+  scene.add_sphere({-1, 0.11, touch}, kRadius, kMass, {0, 0, 0});
+  const Real dt = 2e-4;
+  // Let down gently, then pushed along.
+  for (int i = 0; i < 20000; i++)
+    scene.step(dt, {0, 0, -weight / kMass * std::min(1.0, i / 15000.0)});
+  scene.set_v(0, {0.5, 0.1, 0});
+  for (int i = 0; i < 20000; i++) scene.step(dt, {0, 0, -weight / kMass});
+  EXPECT_NEAR(scene.x(0).x, 1, 1e-9);    // nothing brakes it
+  EXPECT_LT(scene.x(0).z, touch);
+  EXPECT_GT(scene.x(0).z, touch - jkr.pull_off());
+  EXPECT_NEAR(scene.force(0).z, weight, 1e-6);
+}
+
+TEST(jkr, on_the_faces_of_a_drum_pulls_as_one_wall)
+{
+  // Past touch the sphere holds to several facets at once, which share its pull. In a
+  // drum of many facets it is that of one smooth wall, to the sag of a facet.
+  const Jkr jkr;
+  EngineSettings law = jkr.law();
+  const Real drum = 5;
+  const int n = 512;
+  Scene scene(cylinder_mesh(n, 1, drum, 4), reach_of(law.law, kRadius), law);
+  scene.add_sphere({drum - kRadius, 0, 2}, kRadius, kMass);
+  scene.compute(1e-6);
+  const Real gap = 0.5 * jkr.pull_off(), sag = drum * (1 - std::cos(kPi / n));
+  OneSphere flat(law);
+  flat.at(1e-6);
+  for (int i = 1; i < 200; i++) {
+    const Real angle = 2 * kPi / n * 3 * i / 200, out = drum - kRadius - gap - sag;
+    scene.set_x(0, {out * std::cos(angle), out * std::sin(angle), 2});
+    scene.compute(1e-6);
+    const Real pull = norm(scene.force(0));
+    // A facet is further off at its ends, and the pull grows with the gap.
+    EXPECT_GE(pull, 0.9999 * std::fabs(flat.at(-gap).z)) << angle;
+    EXPECT_LE(pull, 1.0001 * std::fabs(flat.at(-gap - sag).z)) << angle;
+  }
+}
+
+// ---- restitution -------------------------------------------------------------------------------
+
+Real restitution(const EngineSettings &law, Real speed, int steps_per_contact)
+{
+  Scene scene(floor_mesh(4, 2), kRadius, law);
+  scene.add_sphere(kSpot + Vec3{0, 0, kRadius + 1e-12}, kRadius, kMass, {0, 0, -speed});
+  // Of a linear spring; a Hertz contact of this speed lasts about 2.5 times as long.
+  const Real dt = kPi * std::sqrt(kMass / kK) / steps_per_contact;
+  for (int i = 0; i < 40 * steps_per_contact; i++) {
+    scene.step(dt, {0, 0, 0});
+    if (scene.v(0).z > 0 && scene.engine->totals().contacts == 0) break;
+  }
+  return scene.v(0).z / speed;
+}
+
+TEST(damping, coeff_restitution_returns_what_is_set)
+{
+  for (NormalModel normal : {NormalModel::hooke, NormalModel::hertz})
+    for (Real e : {0.1, 0.3, 0.5, 0.7, 0.9, 1.0}) {
+      EngineSettings law = granular(normal, kK);
+      law.law.granular.damping = DampingModel::stiffness;
+      law.law.granular.eta = restitution_damping(normal, e);
+      EXPECT_NEAR(restitution(law, 0.5, 2000), e, 1e-3) << e;
+    }
+}
+
+TEST(damping, tsuji_returns_what_is_set)
+{
+  // The fit itself is off by 1.1e-3 at most (at 0.8).
+  for (Real e : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
+    EngineSettings law = granular(NormalModel::hertz, kK);
+    law.law.granular.damping = DampingModel::stiffness;
+    law.law.granular.eta = tsuji_damping(e);
+    EXPECT_NEAR(restitution(law, 0.5, 2000), e, 1.2e-3) << e;
+  }
+}
+
+TEST(damping, coefficients_are_those_of_their_names)
+{
+  // F_n less the elastic force, at a speed away from the wall.
+  const Real overlap = 0.01, speed = 0.3, eta = 7, a = std::sqrt(kRadius * overlap);
+  const auto drag = [&](DampingModel model) {
+    EngineSettings law = granular(NormalModel::hertz, kK);
+    law.law.granular.damping = model;
+    law.law.granular.eta = eta;
+    OneSphere s(law);
+    const Real still = s.at(overlap).z;
+    s.scene.set_v(0, {0, 0, speed});
+    return (still - s.at(overlap).z) / speed;
+  };
+  EXPECT_EQ(drag(DampingModel::none), 0);
+  EXPECT_NEAR(drag(DampingModel::velocity), eta, 1e-11);
+  EXPECT_NEAR(drag(DampingModel::mass_velocity), eta * kMass, 1e-11);
+  EXPECT_NEAR(drag(DampingModel::viscoelastic), eta * kMass * a, 1e-11);
+  EXPECT_NEAR(drag(DampingModel::stiffness), eta * std::sqrt(kMass * kK * a), 1e-9);
+}
+
+// ---- tangential --------------------------------------------------------------------------------
+
+EngineSettings with_tangential(TangentialModel model, Real k, Real mu)
+{
+  EngineSettings law = granular(NormalModel::hertz, kK);
+  law.law.granular.tangential = model;
+  law.law.granular.k_tangent = k;
+  law.law.granular.mu = mu;
+  return law;
+}
+
+// Slides by `slip` at a first overlap, then stays still at a second: the force along x.
+Real friction_after(TangentialModel model, Real slip, Real first, Real second)
+{
+  constexpr Real kT = 3e4;
+  OneSphere s(with_tangential(model, kT, 100));
+  s.scene.set_v(0, {1, 0, 0});
+  s.at(first, slip);
+  s.scene.set_v(0, {0, 0, 0});
+  return s.at(second, slip).x / kT;
+}
+
+TEST(tangential, springs_stretch_and_shrink_with_the_contact_as_their_names_say)
+{
+  using M = TangentialModel;
+  const Real slip = 1e-4, big = 0.01, small = 0.0036;
+  const Real a = std::sqrt(kRadius * big), b = std::sqrt(kRadius * small), tol = 1e-18;
+  EXPECT_NEAR(friction_after(M::linear_history, slip, big, small), -slip, tol);
+  EXPECT_NEAR(friction_after(M::mindlin, slip, big, small), -b * slip, tol);
+  EXPECT_NEAR(friction_after(M::mindlin_force, slip, big, small), -a * slip, tol);
+  EXPECT_NEAR(friction_after(M::mindlin_rescale, slip, big, small), -b * b / a * slip, tol);
+  EXPECT_NEAR(friction_after(M::mindlin_rescale_force, slip, big, small), -b * slip, tol);
+  // Loading changes no displacement and no force held.
+  EXPECT_NEAR(friction_after(M::mindlin_rescale, slip, small, big), -a * slip, tol);
+  EXPECT_NEAR(friction_after(M::mindlin_rescale_force, slip, small, big), -b * slip, tol);
+  EXPECT_EQ(friction_after(M::linear_nohistory, slip, big, small), 0);
+}
+
+TEST(tangential, friction_is_limited_by_mu_times_the_normal_force)
+{
+  using M = TangentialModel;
+  for (M model : {M::linear_history, M::mindlin, M::mindlin_force, M::mindlin_rescale,
+                  M::mindlin_rescale_force}) {
+    OneSphere s(with_tangential(model, 3e4, 0.4));
+    s.scene.set_v(0, {0.6, 0.8, 0});
+    for (int i = 0; i < 3; i++) {
+      const Vec3 f = s.at(0.01, 0.1);
+      EXPECT_NEAR(f.x, -0.6 * 0.4 * f.z, 1e-12);
+      EXPECT_NEAR(f.y, -0.8 * 0.4 * f.z, 1e-12);
+    }
+  }
+}
+
+TEST(tangential, friction_of_what_adheres_counts_twice_the_pull_off)
+{
+  const Real gamma = 3, overlap = 1e-3;
+  const Jkr jkr;
+  const std::vector<std::pair<EngineSettings, Real>> laws = {
+      {granular(NormalModel::dmt, kK, gamma), 4 * kPi * gamma * kRadius},
+      {jkr.law(), 3 * kPi * jkr.gamma * kRadius}};
+  for (const auto &[base, pull] : laws) {
+    EngineSettings law = base;
+    law.law.granular.tangential = TangentialModel::linear_history;
+    law.law.granular.k_tangent = 1e5;
+    law.law.granular.mu = 0.5;
+    OneSphere s(law);
+    s.scene.set_v(0, {1, 0, 0});
+    const Vec3 f = s.at(overlap, 0.1);
+    EXPECT_NEAR(f.x, -0.5 * std::fabs(f.z + 2 * pull), 1e-11);
+  }
+}
+
+// ---- rolling, twisting, heat ---------------------------------------------------------------------
+
+TEST(rolling, sds_stops_a_rolling_sphere_at_seven_tenths_of_v2_over_mu_g)
+{
+  // A couple mu_r N R against a sphere that rolls without slipping: 7/5 m v' = -mu_r m g.
+  const Real g = 10, mu_roll = 0.05, v = 0.8, dt = 2e-5, k_roll = 2e4;
+  EngineSettings law = granular(NormalModel::hooke, kK);
+  GranularLaw &p = law.law.granular;
+  p.damping = DampingModel::mass_velocity;
+  p.eta = 100;
+  p.tangential = TangentialModel::linear_history;
+  p.k_tangent = 1e5;
+  p.x_tangent = 1;
+  p.mu = 10;
+  p.rolling = true;
+  p.k_roll = k_roll;
+  p.gamma_roll = 200;
+  p.mu_roll = mu_roll;
+  Scene scene(floor_mesh(16, 2, 3), kRadius, law);
+  scene.add_sphere({-1, 0.13, kRadius - kMass * g / kK}, kRadius, kMass, {v, 0, 0},
+                   {0, v / kRadius, 0});
+  scene.compute(dt, false);
+  for (int i = 0; i < 200000; i++) {
+    scene.step(dt, {0, 0, -g});
+    if (i * dt > 3) break;
+  }
+  const Real distance = 0.7 * v * v / (mu_roll * g), stretch = mu_roll * kMass * g / k_roll;
+  // The springs stretch by mu N/k and hand that back; a hundredth of it stays.
+  EXPECT_NEAR(scene.x(0).x, -1 + distance, 5 * stretch + 1e-3 * distance);
+  EXPECT_NEAR(scene.v(0).x, 0, 1e-6);
+  EXPECT_NEAR(scene.x(0).y, 0.13, 1e-9);
+}
+
+TEST(twisting, stops_a_spinning_sphere_at_the_angle_of_its_limit)
+{
+  // I w^2/2 = M angle: sds with M = mu N, marshall with M = 2/3 a mu N.
+  const Real g = 10, w = 3, dt = 2e-5, mu = 0.3,
+             overlap = std::cbrt(std::pow(kMass * g / kK, 2) / kRadius);
+  const Real a = std::sqrt(kRadius * overlap), inertia = 0.4 * kMass * kRadius * kRadius;
+  for (TwistingModel model : {TwistingModel::sds, TwistingModel::marshall}) {
+    EngineSettings law = granular(NormalModel::hertz, kK);
+    GranularLaw &p = law.law.granular;
+    p.damping = DampingModel::mass_velocity;
+    p.eta = 300;
+    p.tangential = TangentialModel::linear_history;
+    p.k_tangent = 1e6;
+    p.x_tangent = 1;
+    p.mu = mu;
+    p.twisting = model;
+    p.k_twist = 2e3;
+    p.gamma_twist = 1;
+    p.mu_twist = 0.01;
+    const Real limit = (model == TwistingModel::sds ? 0.01 : 2.0 / 3 * a * mu) * kMass * g;
+    const Real k = model == TwistingModel::sds ? 2e3 : 0.5 * 1e6 * a * a;
+    Scene scene(floor_mesh(16, 2, 3), kRadius, law);
+    scene.add_sphere({0.1, 0.13, kRadius - overlap}, kRadius, kMass, {0, 0, 0}, {0, 0, w});
+    scene.compute(dt, false);
+    Real angle = 0, last = w;
+    for (int i = 0; i < 400000 && scene.omega(0).z > 0; i++) {
+      scene.step(dt, {0, 0, -g});
+      angle += dt * 0.5 * (last + scene.omega(0).z);
+      last = scene.omega(0).z;
+    }
+    const Real expected = inertia * w * w / (2 * limit);
+    EXPECT_NEAR(angle, expected, limit / k + 1e-3 * expected) << static_cast<int>(model);
+    EXPECT_NEAR(norm(scene.v(0)), 0, 1e-9);
+  }
+}
+
+TEST(twisting, marshall_of_a_mindlin_contact_takes_the_stiffness_at_its_size)
+{
+  // Marshall 2009, equation 32: k_t a a^2/2 with k_t a the tangential stiffness.
+  EngineSettings law = with_tangential(TangentialModel::mindlin, 3e4, 100);
+  law.law.granular.twisting = TwistingModel::marshall;
+  OneSphere s(law);
+  const Real overlap = 0.01, a = std::sqrt(kRadius * overlap), angle = 1e-4;
+  s.scene.set_omega(0, {0, 0, 1});
+  s.at(overlap, angle);
+  EXPECT_NEAR(s.scene.torque(0).z, -0.5 * 3e4 * a * a * a * angle, 1e-15);
+}
+
+TEST(heat, flows_by_the_radius_or_the_area_of_the_contact)
+{
+  const Real overlap = 0.01, a = std::sqrt(kRadius * overlap), conductance = 0.7;
+  for (HeatModel model : {HeatModel::radius, HeatModel::area}) {
+    EngineSettings law = granular(NormalModel::hertz, kK);
+    law.law.granular.heat = model;
+    law.law.granular.conductance = conductance;
+    OneSphere s(law);
+    s.scene.wall_temperature = 400;
+    s.scene.sphere_temperature = 300;
+    EXPECT_EQ(s.at(-1e-9).z, 0);
+    EXPECT_EQ(s.scene.heat(0), 0);
+    s.at(overlap);
+    const Real expected =
+        model == HeatModel::radius ? 2 * conductance * a : conductance * kPi * a * a;
+    EXPECT_NEAR(s.scene.heat(0), 100 * expected, 1e-11);
+  }
+}
+
+// ---- all of them, over seams ----------------------------------------------------------------------
+
+EngineSettings everything(NormalModel normal)
+{
+  EngineSettings law = granular(normal, kK, 2);
+  GranularLaw &p = law.law.granular;
+  p.damping = DampingModel::viscoelastic;
+  p.eta = 40;
+  p.tangential = TangentialModel::mindlin_rescale_force;
+  p.k_tangent = 5e4;
+  p.x_tangent = 0.7;
+  p.mu = 0.6;
+  p.rolling = true;
+  p.k_roll = 3e4;
+  p.gamma_roll = 20;
+  p.mu_roll = 0.1;
+  p.twisting = TwistingModel::marshall;
+  p.heat = HeatModel::area;
+  p.conductance = 3;
+  return law;
+}
+
+TEST(granular, forces_couples_and_heat_do_not_know_of_the_triangles)
+{
+  // A sphere that slides, rolls, spins and bobs over 512 shuffled triangles, and over
+  // two: what a contact keeps goes along over every seam. Rounding of 1e-16 per step and
+  // operation, 2000 steps.
+  for (NormalModel normal : {NormalModel::hooke, NormalModel::dmt, NormalModel::jkr}) {
+    const EngineSettings law = everything(normal);
+    OneSphere fine(law, 16, 9), coarse(law, 1);
+    const Real dt = 1e-4;
+    for (OneSphere *s : {&fine, &coarse}) {
+      s->scene.wall_temperature = 100;
+      s->scene.set_x(0, {-1, -0.5, 0});
+      s->scene.set_v(0, {6, 4, 0});
+      s->scene.set_omega(0, {-3, 9, 2});
+    }
+    Real off = 0, largest = 0, couple = 0;
+    for (int i = 0; i < 2000; i++) {
+      const Real overlap = 0.006 + 0.005 * std::sin(i * 0.01);
+      for (OneSphere *s : {&fine, &coarse}) {
+        s->scene.set_x(0, s->scene.x(0) + dt * s->scene.v(0));
+        s->at(overlap, dt);
+        if (i % 300 == 299) {
+          s->scene.set_v(0, {-s->scene.v(0).y, s->scene.v(0).x, 0});
+          s->scene.set_omega(0, {s->scene.omega(0).y, -s->scene.omega(0).x, -2});
+        }
+      }
+      off = std::max({off, norm(fine.scene.force(0) - coarse.scene.force(0)),
+                      norm(fine.scene.torque(0) - coarse.scene.torque(0)),
+                      std::fabs(fine.scene.heat(0) - coarse.scene.heat(0))});
+      largest = std::max(largest, norm(coarse.scene.force(0)));
+      couple = std::max(couple, std::fabs(coarse.scene.torque(0).z));
+    }
+    EXPECT_LE(off, 1e-12 * largest) << static_cast<int>(normal);
+    EXPECT_GT(couple, 0);
+    ASSERT_EQ(fine.scene.springs.count(0), 1);
+    EXPECT_EQ(fine.scene.springs.n_extra(), 5);
+  }
+}
+
+TEST(granular, two_sheets_at_one_place_bear_heat_and_couples_once)
+{
+  const EngineSettings law = everything(NormalModel::jkr);
+  TriangleSoup sheets = floor_mesh(3, 2);
+  append(sheets, floor_mesh(5, 2));
+  Scene twice(sheets, reach_of(law.law, kRadius), law, 0, 0);
+  OneSphere once(law);
+  twice.add_sphere(kSpot + Vec3{0, 0, kRadius - 0.01}, kRadius, kMass, {1, 0, 0}, {1, 2, 3});
+  once.scene.set_v(0, {1, 0, 0});
+  once.scene.set_omega(0, {1, 2, 3});
+  once.scene.wall_temperature = twice.wall_temperature = 50;
+  once.at(0.01);
+  twice.compute(1e-6);
+  EXPECT_NEAR(norm(twice.force(0) - once.scene.force(0)), 0, 1e-11);
+  EXPECT_NEAR(norm(twice.torque(0) - once.scene.torque(0)), 0, 1e-11);
+  EXPECT_NEAR(twice.heat(0), once.scene.heat(0), 1e-11);
+}
+
+TEST(granular, what_a_law_keeps_is_what_its_effects_need)
+{
+  EngineSettings law = granular(NormalModel::hertz, kK);
+  EXPECT_FALSE(law.law.has_history());
+  EXPECT_EQ(law.law.n_extra(), 0);
+  law.law.granular.tangential = TangentialModel::mindlin_force;
+  EXPECT_TRUE(law.law.has_history());
+  EXPECT_EQ(law.law.n_extra(), 0);
+  law.law.granular.tangential = TangentialModel::mindlin_rescale;
+  EXPECT_EQ(law.law.n_extra(), 1);
+  law.law.granular.twisting = TwistingModel::sds;
+  EXPECT_EQ(law.law.n_extra(), 2);
+  law.law.granular.rolling = true;
+  EXPECT_EQ(law.law.n_extra(), 5);
+  EXPECT_TRUE(granular(NormalModel::jkr, kK, 1).law.has_history());
+  EXPECT_EQ(granular(NormalModel::jkr, kK, 1).law.n_extra(), 0);
+}
+
+TEST(granular, setup_moves_nothing)
+{
+  // LAMMPS computes forces anew before every run; what is kept must not change by that.
+  const EngineSettings law = everything(NormalModel::jkr);
+  OneSphere s(law);
+  s.scene.set_v(0, {6, 4, 0});
+  s.scene.set_omega(0, {-3, 9, 2});
+  for (int i = 0; i < 50; i++) s.at(0.01 - 1e-4 * i, 1e-4);
+  const Spring spring = *s.scene.springs.of(0);
+  const std::vector<Real> extra(s.scene.springs.extra_of(0), s.scene.springs.extra_of(0) + 5);
+  s.scene.compute(1e-4, false);
+  EXPECT_EQ(s.scene.springs.of(0)->stretch, spring.stretch);
+  for (int k = 0; k < 5; k++) EXPECT_EQ(s.scene.springs.extra_of(0)[k], extra[k]);
+}
+
+TEST(cube_root, is_right_to_a_rounding_or_two_at_all_sizes)
+{
+  for (Real x = 1e-300; x < 1e300; x *= 1.7)
+    ASSERT_LE(std::fabs(cube_root(x) - std::cbrt(x)), 4 * kRoundoff * std::cbrt(x)) << x;
+  EXPECT_EQ(cube_root(0), 0);
+  EXPECT_EQ(cube_root(1), 1);
+}
+
+}    // namespace
+}    // namespace lsdcd
