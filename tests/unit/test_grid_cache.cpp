@@ -158,6 +158,7 @@ TEST(grid_cache, a_file_cut_off_anywhere_is_damaged)
     ASSERT_GT(n, 4096u);
     for (n--; n > 0; n = n > 1024 ? (n - 1) / 1024 * 1024 : n - std::min<std::size_t>(n, 7)) {
       fs::resize_file(path, n);
+      ASSERT_EQ(CachedGrid(path, made->key).state(), CacheState::damaged) << "from the header on";
       ASSERT_EQ(made->state(path), CacheState::damaged) << n << " bytes";
     }
   }
@@ -256,13 +257,31 @@ TEST(grid_cache, another_mesh_is_told)
   EXPECT_EQ(box().state(dir.path("grid")), CacheState::other_mesh);
 }
 
+// A floor has no volume, and one node or winding leaves its measures as they were.
+TEST(grid_cache, a_moved_node_is_another_mesh)
+{
+  TriangleSoup soup = floor_mesh(8, 1);
+  const WallMesh before = weld(soup, -1);
+  const Vec3 node = before.vertices[before.vertices.size() / 2];
+  for (Vec3 &x : soup.corners)
+    if (x == node) x.x += 1e-3;
+  const WallMesh after = weld(soup, -1);
+  ASSERT_EQ(after.faces, before.faces);
+  ASSERT_EQ(after.report.median_edge, before.report.median_edge);
+  ASSERT_EQ(after.report.volume, before.report.volume);
+  EXPECT_FALSE(grid_key(after, some_settings()).mesh == grid_key(before, some_settings()).mesh);
+}
+
 TEST(grid_cache, another_winding_is_another_mesh)
 {
-  TempDir dir;
-  TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
-  std::swap(soup.corners[0], soup.corners[1]);
-  Made(soup).write(dir.path("grid"));
-  EXPECT_EQ(box().state(dir.path("grid")), CacheState::other_mesh);
+  TriangleSoup soup = floor_mesh(8, 1);
+  const WallMesh before = weld(soup, -1);
+  std::swap(soup.corners[soup.corners.size() - 1], soup.corners[soup.corners.size() - 2]);
+  const WallMesh after = weld(soup, -1);
+  ASSERT_TRUE(after.vertices == before.vertices);
+  ASSERT_NE(after.faces, before.faces);
+  ASSERT_EQ(after.report.volume, before.report.volume);
+  EXPECT_FALSE(grid_key(after, some_settings()).mesh == grid_key(before, some_settings()).mesh);
 }
 
 TEST(grid_cache, the_name_of_the_mesh_file_does_not_matter)
