@@ -1,9 +1,10 @@
-// lsdcd: looks at a mesh and its grid before a simulation does.
+// lsdcd: looks at a mesh, its grid and its materials before a simulation does.
 #include "base/input_error.h"
 #include "grid/triangle_grid.h"
 #include "mesh/placement.h"
 #include "mesh/triangle_soup.h"
 #include "mesh/wall_mesh.h"
+#include "tool/material.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -116,7 +117,7 @@ void add_mesh_options(CLI::App *command, Options &o)
 
 int main(int argc, char **argv)
 {
-  CLI::App app{"lsdcd: looks at the mesh of a `fix wall/lsdcd` and at its grid"};
+  CLI::App app{"lsdcd: looks at the mesh of a `fix wall/lsdcd`, at its grid and at materials"};
   app.require_subcommand(1);
   Options o;
   CLI::App *inspect_command =
@@ -131,6 +132,7 @@ int main(int argc, char **argv)
   grid_command->add_option("--grid", o.length, "cell length (default: chosen)");
   grid_command->add_option("--memory", o.memory, "budget in MB")->capture_default_str();
   grid_command->callback([&] { grid(o); });
+  add_material_command(app);
 
   try {
     app.parse(argc, argv);

@@ -1,0 +1,23 @@
+// Contact style arguments from a material file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+struct FilledWords {
+  std::vector<std::string> words;    // with numbers where `material` stood
+  std::string report;                // several lines: each number with its source; empty: none
+};
+
+// `words` begin with FSTYLE. Where they are
+//   granular [hertz/material | jkr | dmt] material FILE PARTICLE [on WALL] [with KEY VALUE ...]
+// numbers take the place of `material ...`, and NULLs that sub-models after it have for
+// friction, rolling friction and conductivity are filled in; other words come back as they
+// are. `units`: the deck's system of units, by LAMMPS's name. The modulus and Poisson's
+// ratio of two materials are those of one that, on both sides as LAMMPS's walls take it,
+// gives their effective Young's and shear moduli. Throws InputError.
+FilledWords fill_material(const std::vector<std::string> &words, const std::string &units);
+
+}    // namespace lsdcd

@@ -1,0 +1,74 @@
+#include "material/material_file.h"
+
+#include "base/input_error.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <filesystem>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace lsdcd {
+
+namespace {
+
+// "a.lsdcd, b.lsdcd"; empty where there is none.
+std::string files_of(const fs::path &folder)
+{
+  std::vector<std::string> names;
+  std::error_code failed;
+  for (const auto &entry : fs::directory_iterator(folder, failed))
+    if (entry.path().extension() == ".lsdcd") names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (const std::string &name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// Folder of the plugin or program that this code is in; empty if it cannot be told.
+fs::path own_folder()
+{
+  Dl_info info;
+  std::error_code failed;
+  fs::path own;
+  // A program's own name may be what the shell was given, without a folder.
+  if (dladdr(reinterpret_cast<const void *>(&find_material_file), &info) && info.dli_fname)
+    own = info.dli_fname;
+  if (!own.has_parent_path()) own = "/proc/self/exe";
+  own = fs::canonical(own, failed);
+  return failed ? fs::path() : own.parent_path();
+}
+
+}    // namespace
+
+std::string find_material_file(const std::string &file)
+{
+  std::error_code failed;
+  if (fs::is_regular_file(file, failed)) return file;
+  std::string looked = "as given";
+  if (fs::path(file).is_relative()) {
+    for (const char *variable : {"LSDCD_POTENTIALS", "LAMMPS_POTENTIALS"}) {
+      const char *folders = std::getenv(variable);
+      if (!folders || !*folders) continue;
+      looked += std::string(", in $") + variable;
+      std::istringstream list(folders);
+      for (std::string folder; std::getline(list, folder, ':');)
+        if (!folder.empty() && fs::is_regular_file(fs::path(folder) / file, failed))
+          return (fs::path(folder) / file).string();
+    }
+    const fs::path own = own_folder();
+    if (!own.empty()) {
+      const fs::path folder = own.parent_path() / "share" / "lsdcd" / "potentials";
+      if (fs::is_regular_file(folder / file, failed)) return (folder / file).string();
+      looked += ", in " + folder.string();
+      const std::string files = files_of(folder);
+      if (!files.empty()) looked += ", which has " + files;
+    }
+  }
+  throw InputError("there is no material file '" + file + "' (looked " + looked +
+                   "): give its path, or set LSDCD_POTENTIALS to its folder");
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,35 @@
+// The words of `material` in a deck, taken apart.
+#pragma once
+
+#include "base/real.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsdcd {
+
+extern const char *const kMaterialSyntax;
+
+struct MaterialCommand {
+  std::string style;     // FSTYLE
+  std::string normal;    // normal model of granular; empty with another style
+  std::string file, particle, wall;
+  std::vector<std::pair<std::string, Real>> overrides;    // `with`, in the deck's units
+  std::vector<std::string> sub_models;                    // of granular, as they stand
+  std::string damping;                                    // model among those; empty: none
+  bool has_tangential = false;
+  std::vector<std::string> rest;    // `mesh` and what follows
+
+  const Real *override_of(const std::string &key) const;    // null: none
+};
+
+bool has_material(const std::vector<std::string> &words);
+
+// Throws InputError that shows the syntax.
+MaterialCommand read_material_command(const std::vector<std::string> &words);
+
+// The same error from those who look at what was read.
+[[noreturn]] void fail_material(const std::string &problem);
+
+}    // namespace lsdcd

@@ -1,0 +1,61 @@
+#include "tool/material.h"
+
+#include "material/fill_material.h"
+#include "material/material_file.h"
+
+#include <cstdio>
+#include <memory>
+
+namespace lsdcd {
+
+namespace {
+
+struct Options {
+  std::string file, name, wall, normal = "hertz/material", units = "si";
+  std::vector<std::string> with;
+};
+
+void list(const std::vector<MaterialSection> &sections)
+{
+  for (const MaterialSection &s : sections) {
+    std::printf("%s %s%s%s    %s\n", s.second.empty() ? "material" : "pair", s.first.c_str(),
+                s.second.empty() ? "" : " ", s.second.c_str(), s.place.c_str());
+    for (const Stated &v : s.stated)
+      std::printf("  %-22s %g %s\n    %s\n", v.property->name, v.value,
+                  std::string(v.property->unit) == "1" ? "" : v.property->unit,
+                  v.source.empty() ? "no source" : v.source.c_str());
+  }
+}
+
+void run(const Options &o)
+{
+  if (o.name.empty()) {
+    const MaterialFile file = read_materials(find_material_file(o.file));
+    list(file.materials);
+    list(file.pairs);
+    return;
+  }
+  std::vector<std::string> words = {"granular", o.normal, "material", o.file, o.name};
+  if (!o.wall.empty()) words.insert(words.end(), {"on", o.wall});
+  if (!o.with.empty()) words.push_back("with");
+  words.insert(words.end(), o.with.begin(), o.with.end());
+  std::printf("%s", fill_material(words, o.units).report.c_str());
+}
+
+}    // namespace
+
+void add_material_command(CLI::App &app)
+{
+  const auto o = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand(
+      "material", "what a material file says; with a name, the words that a deck would get");
+  command->add_option("file", o->file, "material file, looked for as in a deck")->required();
+  command->add_option("name", o->name, "material of the grains");
+  command->add_option("--on", o->wall, "material of the wall (default: the same)");
+  command->add_option("--normal", o->normal, "hertz/material, jkr or dmt")->capture_default_str();
+  command->add_option("--units", o->units, "si, cgs, micro or nano")->capture_default_str();
+  command->add_option("--with", o->with, "properties and values in place of the file's");
+  command->callback([o] { run(*o); });
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,268 @@
+// `material` in a deck's words becomes the numbers that could have stood there.
+#include "base/input_error.h"
+#include "material/fill_material.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace lsdcd {
+namespace {
+
+const char *const kFile = "units si\n"
+                          "material glass\n"
+                          "  youngs_modulus 69e9 Pa # book one\n"
+                          "  poissons_ratio 0.23 1\n"
+                          "  surface_energy 0.02 J/m2\n"
+                          "  thermal_conductivity 1.7 W/m/K\n"
+                          "material steel\n"
+                          "  youngs_modulus 207e9 Pa # book two\n"
+                          "  poissons_ratio 0.3 1\n"
+                          "  surface_energy 0.08 J/m2\n"
+                          "  thermal_conductivity 51 W/m/K\n"
+                          "material bare\n"
+                          "pair glass glass\n"
+                          "  restitution 0.97 1 # measured\n"
+                          "  sliding_friction 0.092 1\n"
+                          "  rolling_friction 0.01 1\n"
+                          "pair glass steel\n"
+                          "  restitution 0.9 1\n"
+                          "  sliding_friction 0.2 1\n";
+
+struct FillMaterial : ::testing::Test {
+  TempDir folder;
+  std::string file = folder.write("m.lsdcd", kFile);
+  std::string report;
+
+  // FILE stands for the file above.
+  std::vector<std::string> fill(const std::string &line, const std::string &units = "si")
+  {
+    std::istringstream stream(line);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word == "FILE" ? file : word);
+    const FilledWords filled = fill_material(words, units);
+    report = filled.report;
+    return filled.words;
+  }
+  std::string filled(const std::string &line, const std::string &units = "si")
+  {
+    std::string text;
+    for (const std::string &word : fill(line, units)) text += (text.empty() ? "" : " ") + word;
+    return text;
+  }
+  std::string error_of(const std::string &line, const std::string &units = "si")
+  {
+    try {
+      fill(line, units);
+    } catch (const InputError &e) {
+      return e.what();
+    }
+    return "";
+  }
+};
+
+using fill_material_words = FillMaterial;
+
+::testing::AssertionResult says(const std::string &message, const std::vector<std::string> &words)
+{
+  for (const std::string &word : words)
+    if (message.find(word) == std::string::npos)
+      return ::testing::AssertionFailure() << "'" << message << "' does not say '" << word << "'";
+  return ::testing::AssertionSuccess();
+}
+
+TEST_F(fill_material_words, others_come_back_as_they_are)
+{
+  for (const char *line : {"hooke 1e5 NULL 50 NULL 0.5 1 mesh material",
+                           "granular hertz/material 1e9 0.9 0.3 mesh a.stl", "nonsense material"}) {
+    EXPECT_EQ(filled(line), line);
+    EXPECT_EQ(report, "");
+  }
+}
+
+TEST_F(fill_material_words, are_a_whole_granular_style)
+{
+  EXPECT_EQ(filled("granular material FILE glass mesh a.stl scale 2"),
+            "granular hertz/material 6.9e+10 0.97 0.23 damping coeff_restitution "
+            "tangential mindlin NULL 1 0.092 mesh a.stl scale 2");
+}
+
+TEST_F(fill_material_words, may_name_the_normal_model)
+{
+  EXPECT_EQ(filled("granular hertz/material material FILE glass mesh a.stl"),
+            filled("granular material FILE glass mesh a.stl"));
+}
+
+TEST_F(fill_material_words, are_in_the_units_of_the_deck)
+{
+  const std::vector<std::string> words = fill("granular jkr material FILE glass mesh a", "cgs");
+  EXPECT_EQ(std::stod(words[2]), 69e10);
+  EXPECT_EQ(words[4], "0.23");
+  EXPECT_EQ(std::stod(words[5]), 20);
+  EXPECT_EQ(std::stod(fill("granular material FILE glass mesh a", "micro")[2]), 69e6);
+}
+
+TEST_F(fill_material_words, of_units_without_a_scale_are_refused)
+{
+  EXPECT_TRUE(says(error_of("granular material FILE glass mesh a", "lj"), {"units lj", "cgs"}));
+  EXPECT_TRUE(says(error_of("granular material FILE glass mesh a", "metal"), {"units metal"}));
+}
+
+// LAMMPS takes E/(2(1-nu^2)) for a wall: of two materials it must come out as
+// 1/((1-0.0529)/69e9 + (1-0.09)/207e9) = 5.51808706e10.
+TEST_F(fill_material_words, of_two_materials_give_their_effective_modulus)
+{
+  const std::vector<std::string> words = fill("granular material FILE glass on steel mesh a");
+  const double e = std::stod(words[2]), nu = std::stod(words[4]);
+  EXPECT_NEAR(e / (2 * (1 - nu * nu)), 5.51808706e10, 1e3);
+  EXPECT_EQ(words[3], "0.9");
+  EXPECT_TRUE(says(filled("granular material FILE glass on steel mesh a"), {"NULL 1 0.2 mesh"}));
+}
+
+TEST_F(fill_material_words, give_the_geometric_mean_of_surface_energies)
+{
+  const std::vector<std::string> words = fill("granular dmt material FILE glass on steel mesh a");
+  EXPECT_NEAR(std::stod(words[5]), 0.04, 1e-16);
+}
+
+TEST_F(fill_material_words, of_adhesive_models_have_no_damping_by_default)
+{
+  EXPECT_EQ(filled("granular jkr material FILE glass mesh a.stl"),
+            "granular jkr 6.9e+10 0 0.23 0.02 damping none tangential mindlin NULL 1 0.092 "
+            "mesh a.stl");
+  EXPECT_TRUE(says(report, {"no damping"}));
+}
+
+TEST_F(fill_material_words, keep_the_damping_of_the_deck)
+{
+  EXPECT_EQ(filled("granular material FILE glass damping tsuji mesh a.stl"),
+            "granular hertz/material 6.9e+10 0.97 0.23 tangential mindlin NULL 1 0.092 "
+            "damping tsuji mesh a.stl");
+  EXPECT_EQ(fill("granular material FILE glass damping none mesh a.stl")[3], "0");
+}
+
+TEST_F(fill_material_words, with_a_damping_of_another_kind_need_its_number)
+{
+  EXPECT_TRUE(says(error_of("granular material FILE glass damping velocity mesh a"),
+                   {"'damping velocity'", "with eta VALUE", "tsuji"}));
+  EXPECT_TRUE(says(error_of("granular jkr material FILE glass damping tsuji mesh a"),
+                   {"'damping tsuji' with jkr", "with eta VALUE"}));
+  EXPECT_EQ(fill("granular jkr material FILE glass with eta 3 damping velocity mesh a")[3], "3");
+  EXPECT_TRUE(says(error_of("granular material FILE glass with eta 3 mesh a"), {"name it"}));
+}
+
+TEST_F(fill_material_words, keep_the_tangential_model_of_the_deck)
+{
+  EXPECT_EQ(filled("granular material FILE glass tangential linear_history 1e5 0.5 0.3 mesh a"),
+            "granular hertz/material 6.9e+10 0.97 0.23 damping coeff_restitution "
+            "tangential linear_history 1e5 0.5 0.3 mesh a");
+}
+
+TEST_F(fill_material_words, fill_the_nulls_that_are_of_the_materials)
+{
+  EXPECT_TRUE(says(filled("granular material FILE glass tangential linear_nohistory 1 NULL mesh a"),
+                   {"linear_nohistory 1 0.092 mesh"}));
+  EXPECT_TRUE(says(filled("granular material FILE glass limit_damping rolling sds 1e3 2 NULL "
+                          "tangential mindlin/force NULL 1 NULL mesh a"),
+                   {"limit_damping rolling sds 1e3 2 0.01 tangential mindlin/force NULL 1 0.092 "
+                    "mesh"}));
+}
+
+// 2/(1/1.7 + 1/51) = 3.29032258
+TEST_F(fill_material_words, give_the_harmonic_mean_of_conductivities)
+{
+  const auto words = fill("granular material FILE glass on steel heat radius NULL mesh a", "cgs");
+  const auto heat = std::find(words.begin(), words.end(), "heat");
+  ASSERT_NE(heat, words.end());
+  EXPECT_NEAR(std::stod(heat[2]), 3.29032258e5, 1e-2);
+}
+
+TEST_F(fill_material_words, leave_the_words_of_the_fix_alone)
+{
+  EXPECT_TRUE(says(filled("granular material FILE glass mesh rolling cache sds"),
+                   {"mesh rolling cache sds"}));
+}
+
+TEST_F(fill_material_words, with_overrides_take_the_numbers_of_the_deck_as_they_are)
+{
+  EXPECT_EQ(filled("granular material FILE glass with youngs_modulus 5e7 restitution 0.5 "
+                   "sliding_friction 0.1 mesh a",
+                   "cgs"),
+            "granular hertz/material 5e+07 0.5 0.23 damping coeff_restitution "
+            "tangential mindlin NULL 1 0.1 mesh a");
+  EXPECT_TRUE(says(report, {"youngs_modulus 5e+07, as the deck says"}));
+}
+
+TEST_F(fill_material_words, with_overrides_that_cannot_be_meant_are_refused)
+{
+  EXPECT_TRUE(says(error_of("granular material FILE glass with density 2 mesh a"), {"density"}));
+  EXPECT_TRUE(says(error_of("granular material FILE glass with mesh a"), {"'with' needs"}));
+  EXPECT_TRUE(says(error_of("granular material FILE glass with restitution 1.1 mesh a"),
+                   {"restitution = 1.1", "out of range"}));
+  EXPECT_TRUE(says(error_of("granular material FILE glass with restitution high mesh a"),
+                   {"restitution", "'high'"}));
+  EXPECT_TRUE(says(error_of("granular material FILE glass with eta 1 eta 2 damping tsuji mesh a"),
+                   {"twice"}));
+  EXPECT_TRUE(says(error_of("granular material FILE glass on steel with youngs_modulus 1 mesh a"),
+                   {"either material"}));
+}
+
+TEST_F(fill_material_words, that_are_missing_are_asked_for)
+{
+  EXPECT_TRUE(says(error_of("granular material"), {"file name", "Syntax: granular"}));
+  EXPECT_TRUE(says(error_of("granular material FILE"), {"material's name", "Syntax: granular"}));
+  EXPECT_TRUE(says(error_of("granular material FILE glass on"), {"wall's material"}));
+}
+
+TEST_F(fill_material_words, with_an_unknown_material_name_the_nearest)
+{
+  EXPECT_TRUE(says(error_of("granular material FILE gloss mesh a"), {"'gloss'", "'glass'"}));
+  EXPECT_TRUE(
+      says(error_of("granular material FILE glass on steal mesh a"), {"'steal'", "'steel'"}));
+}
+
+TEST_F(fill_material_words, with_two_names_in_a_row_are_told_of_on)
+{
+  EXPECT_TRUE(says(error_of("granular material FILE glass steel mesh a"), {"'on steel'"}));
+}
+
+TEST_F(fill_material_words, that_the_file_does_not_know_can_be_given)
+{
+  EXPECT_TRUE(
+      says(error_of("granular material FILE steel mesh a"),
+           {"restitution of steel on steel", "with restitution VALUE", "pair steel steel"}));
+  EXPECT_TRUE(says(error_of("granular material FILE bare mesh a"),
+                   {"line 12", "'bare' has no youngs_modulus", "with youngs_modulus VALUE"}));
+  EXPECT_EQ(filled("granular material FILE bare with youngs_modulus 1 poissons_ratio 0.1 "
+                   "restitution 1 sliding_friction 2 mesh a"),
+            "granular hertz/material 1 1 0.1 damping coeff_restitution "
+            "tangential mindlin NULL 1 2 mesh a");
+}
+
+TEST_F(fill_material_words, of_other_normal_models_are_refused)
+{
+  EXPECT_TRUE(says(error_of("granular hooke material FILE glass mesh a"), {"'hooke'", "jkr"}));
+}
+
+// kn = 4/3 E*, kt = 8 G*: with E = 69e9, nu = 0.23, 4.856932e10 and 6.338707e10.
+TEST_F(fill_material_words, of_classic_styles_are_refused_with_what_can_be_said)
+{
+  const std::string error = error_of("hertz/history material FILE glass mesh a");
+  EXPECT_TRUE(says(error, {"hertz/history", "granular material", "kn 4856931", "kt 6338707"}));
+  EXPECT_TRUE(says(error_of("hooke material FILE glass mesh a"), {"hooke", "granular material"}));
+}
+
+TEST_F(fill_material_words, are_reported_with_unit_source_and_line)
+{
+  fill("granular material FILE glass on steel mesh a", "cgs");
+  EXPECT_TRUE(says(
+      report,
+      {"units cgs", "glass: youngs_modulus 6.9e+11 (6.9e+10 Pa, m.lsdcd line 3): book one",
+       "m.lsdcd line 8): book two", "glass: poissons_ratio 0.23 (m.lsdcd line 4)",
+       "glass on steel: restitution 0.9", "no source", "filled      granular hertz/material"}));
+}
+
+}    // namespace
+}    // namespace lsdcd

@@ -1,0 +1,338 @@
+// Material files: what is read, what is refused and how, and units.
+#include "base/input_error.h"
+#include "material/contact_moduli.h"
+#include "material/material_file.h"
+#include "material/material_units.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace lsdcd {
+namespace {
+
+const char *const kGood = "# beads\n"
+                          "units si\n"
+                          "\n"
+                          "material glass\n"
+                          "  youngs_modulus 69e9 Pa  # a book, table 2\n"
+                          "  poissons_ratio 0.23 1\n"
+                          "material steel  # the wall\n"
+                          "  youngs_modulus 207e9 Pa # another\n"
+                          "pair glass steel\n"
+                          "  restitution 0.9 1 # measured\r\n";
+
+struct MaterialFiles : ::testing::Test {
+  TempDir folder;
+
+  std::string write(const std::string &name, const std::string &text)
+  {
+    return folder.write(name, text);
+  }
+  MaterialFile read(const std::string &text) { return read_materials(write("m.lsdcd", text)); }
+  std::string error_of(const std::string &text)
+  {
+    try {
+      read(text);
+    } catch (const InputError &e) {
+      return e.what();
+    }
+    return "";
+  }
+  // The error of a file that is good up to one more line, the third.
+  std::string error_with(const std::string &line)
+  {
+    return error_of("units si\nmaterial glass\n" + line + "\n");
+  }
+  std::string error_in_pair(const std::string &line)
+  {
+    return error_of("units si\nmaterial glass\npair glass glass\n" + line + "\n");
+  }
+};
+
+using material_file = MaterialFiles;
+
+::testing::AssertionResult says(const std::string &message, const std::vector<std::string> &words)
+{
+  for (const std::string &word : words)
+    if (message.find(word) == std::string::npos)
+      return ::testing::AssertionFailure() << "'" << message << "' does not say '" << word << "'";
+  return ::testing::AssertionSuccess();
+}
+
+TEST_F(material_file, values_keep_their_source_and_line)
+{
+  const MaterialFile file = read(kGood);
+  const Stated *e = file.material("glass").find("youngs_modulus");
+  ASSERT_TRUE(e);
+  EXPECT_EQ(e->value, 69e9);
+  EXPECT_EQ(e->source, "a book, table 2");
+  EXPECT_TRUE(says(e->place, {"m.lsdcd line 5"}));
+  EXPECT_EQ(file.material("glass").find("poissons_ratio")->source, "");
+  EXPECT_EQ(file.material("glass").find("density"), nullptr);
+}
+
+TEST_F(material_file, a_pair_is_found_in_either_order)
+{
+  const MaterialFile file = read(kGood);
+  EXPECT_EQ(file.pair("steel", "glass"), file.pair("glass", "steel"));
+  ASSERT_TRUE(file.pair("steel", "glass"));
+  EXPECT_EQ(file.pair("steel", "glass")->find("restitution")->value, 0.9);
+  EXPECT_EQ(file.pair("steel", "glass")->find("restitution")->source, "measured");
+  EXPECT_EQ(file.pair("glass", "glass"), nullptr);
+}
+
+TEST_F(material_file, an_included_file_lies_beside_the_one_that_names_it)
+{
+  write("steel.lsdcd", "units si\nmaterial steel\nyoungs_modulus 2e11 Pa\n");
+  const MaterialFile file =
+      read("units si\ninclude steel.lsdcd\nmaterial glass\npair steel glass\nrestitution 1 1\n");
+  EXPECT_EQ(file.material("steel").find("youngs_modulus")->value, 2e11);
+  EXPECT_TRUE(file.pair("glass", "steel"));
+}
+
+TEST_F(material_file, files_may_include_one_another)
+{
+  write("other.lsdcd", "units si\ninclude m.lsdcd\nmaterial steel\n");
+  EXPECT_EQ(read("units si\ninclude other.lsdcd\nmaterial glass\n").materials.size(), 2u);
+}
+
+TEST_F(material_file, an_included_file_that_is_missing_is_named_with_the_line)
+{
+  EXPECT_TRUE(says(error_of("units si\ninclude stele.lsdcd\n"), {"m.lsdcd line 2", "stele.lsdcd"}));
+}
+
+TEST_F(material_file, errors_in_an_included_file_name_that_file)
+{
+  write("steel.lsdcd", "units si\nmaterial steel\nyoungs_modulus big Pa\n");
+  EXPECT_TRUE(says(error_of("units si\ninclude steel.lsdcd\n"), {"steel.lsdcd line 3", "'big'"}));
+}
+
+TEST_F(material_file, values_after_an_include_need_a_material_of_this_file)
+{
+  write("steel.lsdcd", "units si\nmaterial steel\n");
+  EXPECT_TRUE(says(error_of("units si\nmaterial glass\ninclude steel.lsdcd\ndensity 1 kg/m3\n"),
+                   {"line 4", "no material"}));
+}
+
+TEST_F(material_file, units_come_first_and_are_si)
+{
+  EXPECT_TRUE(says(error_of("material glass\n"), {"line 1", "'material'", "units si"}));
+  EXPECT_TRUE(says(error_of("# text\nunits cgs\n"), {"line 2", "'units cgs'", "units si"}));
+  EXPECT_TRUE(says(error_of("# nothing\n"), {"m.lsdcd", "units si"}));
+}
+
+TEST_F(material_file, a_word_for_a_number_names_line_value_and_remedy)
+{
+  EXPECT_TRUE(says(error_with("density heavy kg/m3"),
+                   {"m.lsdcd line 3", "'heavy'", "density VALUE kg/m3"}));
+  EXPECT_TRUE(says(error_with("density 2,5 kg/m3"), {"line 3", "'2,5'"}));
+  EXPECT_TRUE(says(error_with("density nan kg/m3"), {"line 3", "'nan'"}));
+  EXPECT_TRUE(says(error_with("density inf kg/m3"), {"line 3", "'inf'"}));
+}
+
+TEST_F(material_file, another_unit_is_refused_with_the_right_one)
+{
+  EXPECT_TRUE(says(error_with("youngs_modulus 69 GPa"), {"line 3", "'GPa'", "VALUE Pa"}));
+}
+
+TEST_F(material_file, a_missing_unit_is_asked_for)
+{
+  EXPECT_TRUE(says(error_with("youngs_modulus 69e9"), {"line 3", "unit", "VALUE Pa"}));
+  EXPECT_TRUE(says(error_with("youngs_modulus 69e9 Pa more"), {"line 3", "VALUE Pa"}));
+}
+
+TEST_F(material_file, a_misspelt_property_names_the_nearest)
+{
+  EXPECT_TRUE(says(error_with("young_modulus 69e9 Pa"), {"line 3", "'youngs_modulus'"}));
+}
+
+TEST_F(material_file, values_out_of_range_are_refused)
+{
+  for (const char *line : {"youngs_modulus 0 Pa", "youngs_modulus -1 Pa", "poissons_ratio 0.51 1",
+                           "poissons_ratio -1 1", "density -2500 kg/m3", "surface_energy 0 J/m2"})
+    EXPECT_TRUE(says(error_with(line), {"line 3", "out of range"})) << line;
+  for (const char *line : {"restitution 1.01 1", "restitution 0 1", "sliding_friction -0.1 1"})
+    EXPECT_TRUE(says(error_in_pair(line), {"line 4", "out of range"})) << line;
+}
+
+TEST_F(material_file, properties_stand_under_what_they_are_of)
+{
+  EXPECT_TRUE(says(error_with("restitution 0.9 1"), {"line 3", "pair glass glass"}));
+  EXPECT_TRUE(says(error_in_pair("density 1 kg/m3"), {"line 4", "material glass"}));
+  EXPECT_TRUE(says(error_of("units si\ndensity 1 kg/m3\n"), {"line 2", "material NAME"}));
+}
+
+TEST_F(material_file, what_is_said_twice_names_both_places)
+{
+  EXPECT_TRUE(says(error_with("density 1 kg/m3\ndensity 2 kg/m3"), {"line 4", "line 3"}));
+  EXPECT_TRUE(says(error_with("material glass"), {"line 3", "line 2"}));
+  EXPECT_TRUE(says(error_of("units si\nmaterial a\nmaterial b\npair a b\npair b a\n"),
+                   {"line 5", "line 4"}));
+}
+
+TEST_F(material_file, pairs_are_of_materials_of_the_file)
+{
+  EXPECT_TRUE(says(error_with("pair glass steel"), {"line 3", "'steel'"}));
+}
+
+TEST_F(material_file, sections_need_their_names)
+{
+  EXPECT_TRUE(says(error_with("material"), {"line 3", "material NAME"}));
+  EXPECT_TRUE(says(error_with("pair glass"), {"line 3", "pair NAME NAME"}));
+}
+
+TEST_F(material_file, an_unknown_material_names_the_nearest)
+{
+  try {
+    read(kGood).material("galss");
+    FAIL();
+  } catch (const InputError &e) {
+    EXPECT_TRUE(says(e.what(), {"'galss'", "m.lsdcd", "'glass'"}));
+  }
+}
+
+TEST_F(material_file, a_cut_file_is_read_or_refused)
+{
+  const std::string text = kGood;
+  for (std::size_t n = 0; n <= text.size(); n++) error_of(text.substr(0, n));
+}
+
+TEST_F(material_file, is_found_as_given_then_in_the_folders_of_the_environment)
+{
+  const std::string path = write("m.lsdcd", kGood);
+  EXPECT_EQ(find_material_file(path), path);
+  unsetenv("LSDCD_POTENTIALS");
+  unsetenv("LAMMPS_POTENTIALS");
+  EXPECT_THROW(find_material_file("m.lsdcd"), InputError);
+  setenv("LAMMPS_POTENTIALS", folder.path("").c_str(), 1);
+  EXPECT_NE(find_material_file("m.lsdcd").find("m.lsdcd"), std::string::npos);
+  const std::string other = write("other.lsdcd", kGood);
+  setenv("LSDCD_POTENTIALS", ("/nowhere:" + folder.path("")).c_str(), 1);
+  setenv("LAMMPS_POTENTIALS", "/nowhere", 1);
+  EXPECT_NE(find_material_file("other.lsdcd").find("other.lsdcd"), std::string::npos);
+  unsetenv("LSDCD_POTENTIALS");
+  unsetenv("LAMMPS_POTENTIALS");
+}
+
+TEST_F(material_file, that_is_nowhere_tells_where_it_was_looked_for)
+{
+  setenv("LSDCD_POTENTIALS", "/nowhere", 1);
+  try {
+    find_material_file("glas.lsdcd");
+    FAIL();
+  } catch (const InputError &e) {
+    EXPECT_TRUE(says(e.what(),
+                     {"glas.lsdcd", "LSDCD_POTENTIALS", "share/lsdcd/potentials", "glass.lsdcd"}));
+  }
+  unsetenv("LSDCD_POTENTIALS");
+}
+
+Real convert(Real si, const char *property, const char *units)
+{
+  return in_units(si, *find_property(property), units);
+}
+
+// By hand: 1 Pa = 10 dyn/cm2 = 1e-3 pg/(um us2) = 1e-6 ag/(nm ns2).
+TEST(material_units, pressure)
+{
+  EXPECT_EQ(convert(69e9, "youngs_modulus", "si"), 69e9);
+  EXPECT_EQ(convert(69e9, "youngs_modulus", "cgs"), 69e10);
+  EXPECT_EQ(convert(69e9, "youngs_modulus", "micro"), 69e6);
+  EXPECT_EQ(convert(69e9, "youngs_modulus", "nano"), 69e3);
+}
+
+// 1000 kg/m3 = 1 g/cm3 = 1 pg/um3 = 1e-3 ag/nm3.
+TEST(material_units, density)
+{
+  EXPECT_EQ(convert(2500, "density", "cgs"), 2.5);
+  EXPECT_EQ(convert(2500, "density", "micro"), 2.5);
+  EXPECT_EQ(convert(2500, "density", "nano"), 2.5e-3);
+}
+
+// 1 J/m2 = 1000 erg/cm2 = 1000 pg/us2 = 1000 ag/ns2.
+TEST(material_units, surface_energy)
+{
+  for (const char *units : {"cgs", "micro", "nano"})
+    EXPECT_EQ(convert(0.025, "surface_energy", units), 25) << units;
+}
+
+// 1 W/(m K) = 1e5 erg/(s cm K) = 1e3 pg um/(us3 K) = 1e3 ag nm/(ns3 K).
+TEST(material_units, conductivity)
+{
+  EXPECT_EQ(convert(1.7, "thermal_conductivity", "cgs"), 1.7e5);
+  EXPECT_EQ(convert(1.7, "thermal_conductivity", "micro"), 1.7e3);
+  EXPECT_EQ(convert(1.7, "thermal_conductivity", "nano"), 1.7e3);
+}
+
+TEST(material_units, ratios_stay)
+{
+  for (const char *units : {"si", "cgs", "micro", "nano"})
+    EXPECT_EQ(convert(0.23, "poissons_ratio", units), 0.23);
+}
+
+TEST(material_units, without_a_scale_are_refused)
+{
+  for (const std::string units : {"lj", "real", "metal", "electron", "parsec"}) {
+    try {
+      convert(1, "density", units.c_str());
+      FAIL() << units;
+    } catch (const InputError &e) {
+      EXPECT_TRUE(says(e.what(), {"units " + units, "'cgs'", "'nano'"}));
+    }
+  }
+}
+
+// What fix wall/gran granular makes of one E and nu for a wall.
+Real wall_youngs(const Elastic &m)
+{
+  return m.youngs_modulus / (2 * (1 - m.poissons_ratio * m.poissons_ratio));
+}
+
+Real wall_shear(const Elastic &m)
+{
+  return m.youngs_modulus / (4 * (2 - m.poissons_ratio) * (1 + m.poissons_ratio));
+}
+
+const Elastic kGlass = {69e9, 0.23}, kSteel = {207e9, 0.30};
+
+// By hand: (1 - 0.0529)/69e9 + (1 - 0.09)/207e9 = 1.8122222e-11, and
+// 2 1.77 1.23/69e9 + 2 1.7 1.3/207e9 = 8.4457005e-11.
+TEST(contact_moduli, of_glass_on_steel)
+{
+  const ContactModuli m = contact_moduli(kGlass, kSteel);
+  EXPECT_NEAR(m.youngs, 5.51808706e10, 1e3);
+  EXPECT_NEAR(m.shear, 1.18403441e10, 1e3);
+}
+
+// Four operations on numbers near 1 that are each good to 1e-16, and a division by
+// quotient - 2 > 2: 1e-15.
+TEST(contact_moduli, of_one_material_that_stands_for_two_are_theirs)
+{
+  const Elastic soft = {1.08e9, 0.42}, odd = {5e9, -0.3};
+  for (const auto &pair : {std::make_pair(kGlass, kSteel), std::make_pair(kSteel, soft),
+                           std::make_pair(kGlass, odd), std::make_pair(soft, odd)}) {
+    const ContactModuli two = contact_moduli(pair.first, pair.second);
+    const Elastic one = as_one(pair.first, pair.second);
+    EXPECT_NEAR(wall_youngs(one) / two.youngs, 1, 2e-15);
+    EXPECT_NEAR(wall_shear(one) / two.shear, 1, 2e-15);
+  }
+}
+
+TEST(contact_moduli, of_one_poissons_ratio_lie_between_the_two)
+{
+  const Elastic one = as_one(kGlass, kSteel);
+  EXPECT_GT(one.poissons_ratio, kGlass.poissons_ratio);
+  EXPECT_LT(one.poissons_ratio, kSteel.poissons_ratio);
+}
+
+TEST(contact_moduli, of_equal_materials_are_their_own)
+{
+  const Elastic one = as_one(kSteel, kSteel);
+  EXPECT_NEAR(one.youngs_modulus / kSteel.youngs_modulus, 1, 1e-14);
+  EXPECT_NEAR(one.poissons_ratio, kSteel.poissons_ratio, 1e-15);
+}
+
+}    // namespace
+}    // namespace lsdcd
