@@ -21,4 +21,24 @@ inline int threads()
 #endif
 }
 
+// While it lives, this thread works alone.
+class OneThread {
+#if defined(_OPENMP)
+ public:
+  OneThread()
+  {
+    omp_set_num_threads(1);
+  }
+  ~OneThread()
+  {
+    omp_set_num_threads(before_);
+  }
+  OneThread(const OneThread &) = delete;
+  OneThread &operator=(const OneThread &) = delete;
+
+ private:
+  int before_ = omp_get_max_threads();
+#endif
+};
+
 }    // namespace lsdcd

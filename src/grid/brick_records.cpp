@@ -41,32 +41,54 @@ BrickEdge edge_at(const EdgeRecord &e, const Vec3 &origin)
   return out;
 }
 
+// Which features the brick at hand has named: the cells of a brick name the same ones
+// over and over.
+class Named {
+ public:
+  explicit Named(const WallFeatures &wall) :
+      by_{std::vector<std::uint32_t>(wall.faces.size(), 0),
+          std::vector<std::uint32_t>(wall.edges.size(), 0),
+          std::vector<std::uint32_t>(wall.vertices.size(), 0)}
+  {
+  }
+  void next_brick() { brick_++; }
+  bool first_time(FeatureCode code)
+  {
+    std::uint32_t &by = by_[static_cast<int>(feature_kind(code))][feature_index(code)];
+    if (by == brick_) return false;
+    by = brick_;
+    return true;
+  }
+
+ private:
+  std::vector<std::uint32_t> by_[3];    // the last brick that did, of each kind of feature
+  std::uint32_t brick_ = 0;
+};
+
 // Codes that the lists of a brick name, ascending, each once; with nearest lists also
 // the parts of its faces.
 void codes_of(const TriangleGrid &grid, const CellLists &lists, const Brick &brick,
-              std::size_t n_cells, std::vector<FeatureCode> &codes)
+              std::size_t n_cells, Named &named, std::vector<FeatureCode> &codes)
 {
   codes.clear();
+  named.next_brick();
+  const auto add = [&](FeatureCode code) {
+    if (named.first_time(code)) codes.push_back(code);
+  };
   for (std::size_t c = brick.first_cell; c < brick.first_cell + n_cells; c++) {
     const Cell cell = lists.cells[c];
     if (cell.count == 1)
-      codes.push_back(cell.first);
+      add(cell.first);
     else
       for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++)
-        codes.push_back(lists.candidates[i].feature);
+        add(lists.candidates[i].feature);
   }
-  const auto once = [&] {
-    std::sort(codes.begin(), codes.end());
-    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-  };
-  once();
-  if (&lists != &grid.lists || grid.nearest == 0) return;
-  const std::size_t n = codes.size();
+  const std::size_t n = &lists == &grid.lists && grid.nearest > 0 ? codes.size() : 0;
   for (std::size_t i = 0; i < n; i++)
     if (feature_kind(codes[i]) == FeatureKind::face)
       for (FeatureCode part : grid.wall.face_parts[feature_index(codes[i])].part)
-        if (part != kNoFeature) codes.push_back(part);
-  once();
+        if (part != kNoFeature) add(part);
+  std::sort(codes.begin(), codes.end());
 }
 
 void add_records(TriangleGrid &grid, CellLists &lists, BrickRecords &out)
@@ -85,9 +107,10 @@ void add_records(TriangleGrid &grid, CellLists &lists, BrickRecords &out)
 #pragma omp parallel num_threads(threads())
   {
     std::vector<FeatureCode> codes;
+    Named named(grid.wall);
 #pragma omp for schedule(dynamic, 64)
     for (std::int64_t b = 0; b < n_bricks; b++) {
-      codes_of(grid, lists, lists.bricks[b], n_cells(b), codes);
+      codes_of(grid, lists, lists.bricks[b], n_cells(b), named, codes);
       first[b] = {0, 0, 0};
       for (FeatureCode code : codes) first[b][static_cast<int>(feature_kind(code))]++;
     }
@@ -109,10 +132,11 @@ void add_records(TriangleGrid &grid, CellLists &lists, BrickRecords &out)
 #pragma omp parallel num_threads(threads())
   {
     std::vector<FeatureCode> codes;
+    Named named(grid.wall);
 #pragma omp for schedule(dynamic, 64)
     for (std::int64_t b = 0; b < n_bricks; b++) {
       const Brick &brick = lists.bricks[b];
-      codes_of(grid, lists, brick, n_cells(b), codes);
+      codes_of(grid, lists, brick, n_cells(b), named, codes);
       std::array<std::size_t, 4> begin;    // of each kind in `codes`
       for (int k = 0; k < 4; k++)
         begin[k] =

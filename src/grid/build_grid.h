@@ -48,6 +48,13 @@ class GridBuilder {
     return n != too_many_ && bricks_fit(plan, n, budget) && fill(nearest, budget, lists, report);
   }
 
+  // Builds only the bricks whose bit is set from now on; empty: all.
+  void restrict_to(const std::vector<std::uint64_t> &bricks)
+  {
+    only_ = b_.from_host(bricks);
+    view_.only = bricks.empty() ? nullptr : only_.data();
+  }
+
   std::string name() const { return b_.name(); }
 
   // The two steps of build(). Public because nvcc takes no device lambda from a private
@@ -237,6 +244,7 @@ class GridBuilder {
   Array<FaceVertices> face_vertex_;
   Array<EdgeVertices> edge_vertex_;
   Array<FeatureCode> contact_features_, pieces_;
+  Array<std::uint64_t> only_;
   BuildView view_ = {};
   Array<std::uint32_t> pair_feature_, brick_key_, octant_pair_;
   std::size_t n_bricks_ = 0;
@@ -253,6 +261,7 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
     taken += grid_bytes(plan, l.bricks.size(), l.cells.size(), l.candidates.size());
   };
   if (!plan.may_fit(budget)) return false;
+  builder.restrict_to(bricks_that_meet(plan, settings.only));
   if (!builder.build(plan, settings.nearest, budget, grid.lists, grid.report.lists)) return false;
   take(grid.lists);
   if (settings.nearest > 0 && settings.exact) {
@@ -288,7 +297,8 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
     grid.records = BrickRecords();
     grid.report = GridReport();
   }
-  if (settings.length > 0 && plan.length != asked) throw_over_budget(settings, asked, plan.length);
+  if (settings.length > 0 && plan.length != asked && !settings.may_coarsen)
+    throw_over_budget(settings, asked, plan.length);
 
   grid.outside = mesh.report.volume < 0 ? -1 : 1;
   grid.report.nearest = settings.nearest;

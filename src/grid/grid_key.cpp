@@ -63,8 +63,10 @@ Hash version_hash()
 // listed here too.
 Hash settings_hash(const GridSettings &s)
 {
-  const auto &[length, reach, memory_budget, sides, nearest, exact, in_floats] = s;
-  return Hasher().of(length, reach, memory_budget, sides, nearest, exact, in_floats);
+  const auto &[length, reach, memory_budget, sides, nearest, exact, in_floats, may_coarsen, only] =
+      s;
+  return Hasher().of(length, reach, memory_budget, sides, nearest, exact, in_floats, may_coarsen,
+                     only);
 }
 
 Hash mesh_hash(const WallMesh &mesh)

@@ -106,6 +106,33 @@ GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings 
   return plan_with_length(mesh, settings.reach, plan.length * Real(1.25), plan.least_volume);
 }
 
+std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vector<Box> &boxes)
+{
+  if (boxes.empty()) return {};
+  std::vector<std::uint64_t> bits(plan.table_size() / 64 + 1, 0);
+  const Real side = kBrickSide * plan.length;
+  for (const Box &box : boxes) {
+    std::int64_t first[3], last[3];
+    for (int k = 0; k < 3; k++) {
+      // A point on the rim of two bricks may be looked up in either.
+      const Real rim = Real(1e-6) * side, most = plan.n_bricks[k] - 1;
+      const auto place = [&](Real at) {
+        return static_cast<std::int64_t>(
+            std::clamp(std::floor((at - plan.origin[k]) / side), Real(0), most));
+      };
+      first[k] = place(box.lo[k] - rim);
+      last[k] = place(box.hi[k] + rim);
+    }
+    for (std::int64_t z = first[2]; z <= last[2]; z++)
+      for (std::int64_t y = first[1]; y <= last[1]; y++)
+        for (std::int64_t x = first[0]; x <= last[0]; x++) {
+          const std::size_t brick = (z * plan.n_bricks[1] + y) * plan.n_bricks[0] + x;
+          bits[brick / 64] |= std::uint64_t(1) << brick % 64;
+        }
+  }
+  return bits;
+}
+
 void throw_over_budget(const GridSettings &settings, Real asked, Real would_fit)
 {
   throw InputError("grid " + number(asked) + " does not fit the memory budget of " +

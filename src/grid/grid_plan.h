@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace lsdcd {
 
@@ -41,6 +42,10 @@ GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
 // The next coarser plan of a search for one that fits the budget. Throws
 // InputError once a cell is larger than the whole mesh and still too much.
 GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings);
+
+// A bit per place of the brick table, set where the brick meets one of the boxes; empty
+// where there are no boxes.
+std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vector<Box> &boxes);
 
 // Bytes of the finished arrays, and whether those a build needs at its peak fit.
 std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cells,

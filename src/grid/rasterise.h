@@ -13,6 +13,7 @@ struct BuildView {
   const FeatureCode *features;    // all that can hold a contact, or all pieces
   bool pieces;
   GridPlan plan;
+  const std::uint64_t *only;    // a bit per place of the brick table, or null: all bricks
 };
 
 // Can a sphere of the grid's reach, centred within `around` of c, have a contact
@@ -88,11 +89,12 @@ LSDCD_FN void rasterise(const BuildView &b, FeatureCode feature, Visit visit)
   for (std::int32_t z = first[2]; z <= last[2]; z++)
     for (std::int32_t y = first[1]; y <= last[1]; y++)
       for (std::int32_t x = first[0]; x <= last[0]; x++) {
+        const std::uint32_t brick = static_cast<std::uint32_t>(
+            (std::size_t(z) * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
+        if (b.only && !(b.only[brick >> 6] >> (brick & 63) & 1)) continue;
         const Vec3 centre = plan.brick_centre(x, y, z);
         Real distance;
         if (!meets(b, feature, centre, kBrickSide * plan.half_diagonal, distance)) continue;
-        const std::uint32_t brick = static_cast<std::uint32_t>(
-            (std::size_t(z) * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
         for (std::uint32_t o = 0; o < 8; o++) {
           const Vec3 at =
               centre + quarter * Vec3{o & 1 ? Real(1) : Real(-1), o & 2 ? Real(1) : Real(-1),

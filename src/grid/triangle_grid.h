@@ -68,14 +68,22 @@ struct GridView {
   std::size_t block_bytes;
 };
 
+struct Box {
+  Vec3 lo, hi;    // length
+};
+
 struct GridSettings {
   Real length = 0;                           // 0: chosen from the mesh, the reach and the budget
   Real reach = 0;                            // > 0
   std::size_t memory_budget = 1ull << 30;    // bytes
   bool sides = false;                        // keep what `side in|out` needs
-  int nearest = 0;           // 0: complete lists; N, at most kMostNearest: the N nearest pieces
-  bool exact = false;        // with nearest: complete lists as well, to fall back to
-  bool in_floats = false;    // brick records, for queries in float
+  int nearest = 0;             // 0: complete lists; N, at most kMostNearest: the N nearest pieces
+  bool exact = false;          // with nearest: complete lists as well, to fall back to
+  bool in_floats = false;      // brick records, for queries in float
+  bool may_coarsen = false;    // a length that is given may grow too, until the budget holds
+  // Only the bricks that meet one of these, for trials of a grid; empty: all bricks. A
+  // query elsewhere finds nothing.
+  std::vector<Box> only;
 };
 constexpr int kMostNearest = 32;
 
