@@ -49,14 +49,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
     wall = std::make_unique<lsdcd::NodeWall>(world, settings);
     check_side();
 
-    lsdcd::EngineSettings want;
-    want.law = settings.law;
-    want.corner = settings.corner;
-    want.side = settings.side;
-    want.precision = settings.precision;
-    want.device = settings.device;
-    want.device_rank = wall->shared().node_rank();
-    lsdcd::together(world, true, [&] { engine = lsdcd::make_engine(want); });
+    make_engine();
   } catch (const lsdcd::InputError &e) {
     refuse(e.what());
   }
@@ -248,6 +241,19 @@ void FixWallLsdcd::collect()
   if (settings.contacts) fill_contacts();
 }
 
+// Collective, and again where tuning has changed the precision.
+void FixWallLsdcd::make_engine()
+{
+  lsdcd::EngineSettings want;
+  want.law = settings.law;
+  want.corner = settings.corner;
+  want.side = settings.side;
+  want.precision = settings.precision;
+  want.device = settings.device;
+  want.device_rank = wall->shared().node_rank();
+  lsdcd::together(world, true, [&] { engine = lsdcd::make_engine(want); });
+}
+
 // Builds the grid when the first spheres come, and again when larger ones do.
 void FixWallLsdcd::update_reach()
 {
@@ -264,6 +270,7 @@ void FixWallLsdcd::update_reach()
   const double reach = settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius);
   check_box(reach);
   try {
+    if (settings.tune >= 0 && old == 0) tune(reach);
     wall->build(reach);
     lsdcd::together(world, true, [&] { engine->set_grid(wall->view()); });
   } catch (const lsdcd::InputError &e) {

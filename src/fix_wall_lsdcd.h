@@ -83,6 +83,9 @@ class FixWallLsdcd : public Fix {
   void fill_contacts();
   void reduce_totals();
 
+  void make_engine();
+  void tune(double);    // fix_wall_lsdcd_tune.cpp
+
   // fix_wall_lsdcd_checks.cpp
   double largest_radius() const;    // of the group, on this process
   void check_box(double) const;

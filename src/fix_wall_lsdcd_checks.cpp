@@ -203,12 +203,16 @@ void FixWallLsdcd::log_creation() const
     t += "; " + std::to_string(size_peratom_cols * sizeof(double)) + " bytes for contacts";
   const char *const precisions[] = {"double", "mixed", "single"};
   t += "\n  search      ";
-  if (settings.nearest > 0)
-    t += "nearest " + std::to_string(settings.nearest) +
-         (settings.exact ? ", complete lists where that is not certified" : "");
-  else
-    t += "all that can touch";
-  t += std::string(", precision ") + precisions[static_cast<int>(settings.precision)];
+  if (settings.tune >= 0)
+    t += "tuned once there are particles, for errors below " + number_text(settings.tune);
+  else {
+    if (settings.nearest > 0)
+      t += "nearest " + std::to_string(settings.nearest) +
+           (settings.exact ? ", complete lists where that is not certified" : "");
+    else
+      t += "all that can touch";
+    t += std::string(", precision ") + precisions[static_cast<int>(settings.precision)];
+  }
   const char *const sides[] = {"both", "in", "out"};
   t += std::string("\n  corners     ") +
        (settings.corner == lsdcd::Corner::blend ? "blend" : "sum") + ", side " +
@@ -226,7 +230,8 @@ void FixWallLsdcd::log_build(bool again) const
   if (again)
     t += "larger particles, grid rebuilt for radius " + number_text(wall->reach());
   else
-    t += "grid for radius " + number_text(wall->reach()) + "\n" + wall->grid_text();
+    t += (wall->tune_text().empty() ? "" : wall->tune_text() + "\n  ") + "grid for radius " +
+         number_text(wall->reach()) + "\n" + wall->grid_text();
   if (!again && wall->shared().node_size() > 1)
     t += wall->shared().is_shared() ? "\n  one copy per node" : "\n  one copy per process";
   if (!wall->cache_text().empty()) t += "\n  " + wall->cache_text();

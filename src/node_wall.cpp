@@ -63,6 +63,7 @@ GridSettings NodeWall::grid_settings(Real reach) const
   want.nearest = settings_.nearest;
   want.exact = settings_.exact;
   want.in_floats = settings_.precision != Precision::double_;
+  want.may_coarsen = settings_.tune >= 0 && !settings_.length_given;
   return want;
 }
 

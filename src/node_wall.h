@@ -6,13 +6,22 @@
 #include "mesh/wall_mesh.h"
 #include "node_shared.h"
 #include "settings.h"
+#include "tune/tune.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace lsdcd {
 
-// Making and building are collective over `world` and throw the same InputError
+struct TaggedSphere {
+  std::uint64_t tag;
+  Vec3 x;         // length
+  Real radius;    // length
+};
+
+// Making, tuning and building are collective over `world` and throw the same InputError
 // on every process.
 class NodeWall {
  public:
@@ -21,6 +30,12 @@ class NodeWall {
   // Makes the grid for particles up to radius `reach`, or reads it from its cache file.
   // The grid of the n-th call, n > 1, is kept in a file of its own, FILE.n.
   void build(Real reach);
+
+  // Chooses cell length, lists and precision for all processes by settings.tune; `mine`
+  // are this process's spheres of a sample of the scene. Kept for every build to come.
+  void tune(Real reach, const std::vector<TaggedSphere> &mine);
+  const WallSettings &settings() const { return settings_; }
+  const std::string &tune_text() const { return tune_text_; }    // of the first process
 
   const MeshReport &report() const { return report_; }
   const std::string &mesh_text() const { return mesh_text_; }    // of the process that read it
@@ -51,7 +66,7 @@ class NodeWall {
   NodeShared shared_;
   std::unique_ptr<WallMesh> mesh_;    // where shared_.writes()
   MeshReport report_;
-  std::string mesh_text_, grid_text_;
+  std::string mesh_text_, grid_text_, tune_text_;
   std::string cache_file_, cache_text_, cache_warning_;    // of the last build
   int builds_ = 0;
   Real reach_ = 0;

@@ -84,6 +84,7 @@ void read_memory(Words &w, WallSettings &s)
 
 void read_nearest(Words &w, WallSettings &s)
 {
+  s.nearest_given = true;
   const Real n = w.number_or("all", 0, "N", 1);
   if (n > kMostNearest) w.fail("N can be " + std::to_string(kMostNearest) + " at most");
   s.nearest = static_cast<int>(n);
@@ -91,6 +92,24 @@ void read_nearest(Words &w, WallSettings &s)
   if (s.nearest == 0 || w.done() || w.peek() != "exact") return;
   s.exact = true;
   w.take();
+}
+
+void read_tune(Words &w, WallSettings &s)
+{
+  s.tune = w.number("the largest error", 0, 1);
+  if (s.tune == 1) w.fail("the largest error must be below 1");
+}
+
+// What is given is kept, the rest is tuned.
+void check_tune(Words &w, const WallSettings &s)
+{
+  if (s.tune < 0) return;
+  w.expect("tune", "tune E");
+  if (s.nearest > 0 && !s.exact)
+    w.fail("nothing bounds the error of 'nearest " + std::to_string(s.nearest) +
+           "'; use 'nearest " + std::to_string(s.nearest) + " exact' or leave nearest out");
+  if (s.length_given && s.nearest_given && s.precision_given)
+    w.fail("grid, nearest and precision are all given and nothing is left to choose");
 }
 
 void read_cache(Words &w, WallSettings &s)
@@ -132,7 +151,10 @@ const Keyword kKeywords[] = {
      "corners closer than this are one vertex; 0: only equal ones",
      [](Words &w, WallSettings &s) { s.weld = w.number("the tolerance", 0); }},
     {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",
-     [](Words &w, WallSettings &s) { s.grid_length = w.number_or("auto", 0, "L", kTiny); }},
+     [](Words &w, WallSettings &s) {
+       s.grid_length = w.number_or("auto", 0, "L", kTiny);
+       s.length_given = s.grid_length > 0;
+     }},
     {"rmax", "R | auto", "length", "> 0", "auto: the largest radius in the group",
      "largest particle radius that the grid is built for",
      [](Words &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kTiny); }},
@@ -145,7 +167,12 @@ const Keyword kKeywords[] = {
      "mixed: contacts in float, forces in double; single: both in float",
      [](Words &w, WallSettings &s) {
        s.precision = static_cast<Precision>(w.choice({"double", "mixed", "single"}));
+       s.precision_given = true;
      }},
+    {"tune", "E", "", "0 to below 1", "off",
+     "choose grid, nearest and precision, where not given, by measuring: missed contacts and "
+     "force errors below E",
+     read_tune},
     {"cache", "FILE | none", "", "", "none",
      "file that keeps the grid, so that the next start need not build it", read_cache},
     {"corner", "blend | sum", "", "", "blend",
@@ -241,6 +268,7 @@ WallSettings parse_settings(const std::vector<std::string> &words)
     w.expect("fix wall/lsdcd", kLawSyntax);
     w.fail("mesh FILE is missing");
   }
+  check_tune(w, settings);
   return settings;
 }
 

@@ -22,7 +22,9 @@ struct WallSettings {
   Real rmax = 0;                  // length; 0: auto
   int nearest = 0;                // pieces of wall per cell; 0: all
   bool exact = false;             // nearest falls back to complete lists
-  std::size_t memory_budget = GridSettings().memory_budget;    // bytes
+  Real tune = -1;                 // largest error that settings may have; < 0: nothing is tuned
+  bool length_given = false, nearest_given = false, precision_given = false;    // not tuned
+  std::size_t memory_budget = GridSettings().memory_budget;                     // bytes
   Corner corner = Corner::blend;
   Side side = Side::both;
   Precision precision = Precision::double_;

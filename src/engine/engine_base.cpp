@@ -8,6 +8,14 @@
 
 namespace lsdcd {
 
+SearchSettings search_settings(const EngineSettings &engine)
+{
+  SearchSettings s;
+  s.blend = engine.corner == Corner::blend;
+  s.side = engine.side == Side::both ? 0 : (engine.side == Side::out ? 1 : -1);
+  return s;
+}
+
 namespace {
 
 ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step)
@@ -15,8 +23,7 @@ ForceSettings force_settings(const EngineSettings &engine, const StepSettings &s
   ForceSettings s;
   s.dt = step.dt;
   s.update = step.update_history;
-  s.search.blend = engine.corner == Corner::blend;
-  s.search.side = engine.side == Side::both ? 0 : (engine.side == Side::out ? 1 : -1);
+  s.search = search_settings(engine);
   s.with_point = step.per_sphere;
   s.wall_temperature = step.wall_temperature;
   return s;

@@ -8,6 +8,8 @@
 
 namespace lsdcd {
 
+SearchSettings search_settings(const EngineSettings &engine);
+
 class EngineBase : public WallEngine {
  public:
   explicit EngineBase(const EngineSettings &settings);

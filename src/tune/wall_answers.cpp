@@ -1,0 +1,179 @@
+#include "tune/wall_answers.h"
+
+#include "base/threads.h"
+#include "engine/engine_base.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+namespace lsdcd {
+
+namespace {
+
+// The sample as an engine takes it: at rest, of mass one.
+struct AtRest {
+  std::vector<Real> x, still, radius, mass, force, torque, zero, heat;
+  Spheres spheres;
+
+  explicit AtRest(const SphereSample &sample)
+  {
+    const std::size_t n = sample.n();
+    for (const Vec3 &p : sample.x) x.insert(x.end(), {p.x, p.y, p.z});
+    radius = sample.radius;
+    still.assign(3 * n, 0);
+    mass.assign(n, 1);
+    force.assign(3 * n, 0);
+    torque.assign(3 * n, 0);
+    zero.assign(n, 0);
+    heat.assign(n, 0);
+    spheres.n = sample.n();
+    spheres.x = x.data();
+    spheres.v = spheres.omega = still.data();
+    spheres.radius = radius.data();
+    spheres.mass = mass.data();
+    spheres.force = force.data();
+    spheres.torque = torque.data();
+    spheres.temperature = zero.data();
+    spheres.heat_flow = heat.data();
+  }
+};
+
+template <int kPlaces>
+bool find_places(const GridView &grid, const SearchSettings &search, const Vec3 &x, Real radius,
+                 std::vector<WallAnswers::Place> &places, bool &certain)
+{
+  Touch<kPlaces> t;
+  if (grid.in_floats)
+    touch<BrickGeometry>(grid, search, x, radius, t);
+  else
+    touch<WallGeometry>(grid, search, x, radius, t);
+  if (t.set.overflow) return false;
+  certain = t.exact_within >= radius;
+  for (int i = 0; i < t.set.n; i++)
+    places.push_back({-t.set.distance[i] * t.set.normal[i], radius - t.set.distance[i],
+                      t.weight[i] * (radius - t.set.distance[i]) >= kGrazing * radius});
+  return true;
+}
+
+Real usual_force(const ContactLaw &law, Real radius)
+{
+  const Real overlap = kUsualOverlap * radius;
+  return law.k_normal * overlap *
+         (law.style == LawStyle::hertz_history ? std::sqrt(overlap * radius) : 1);
+}
+
+// Changes 32 MB, line by line.
+void fill_caches()
+{
+  static std::vector<std::int64_t> other(std::size_t(4) << 20);
+  for (std::size_t i = 0; i < other.size(); i += 8) other[i]++;
+}
+
+// Of this thread, or where it waits for a GPU of the clock on the wall.
+double seconds_now(bool waits)
+{
+  timespec t;
+  clock_gettime(waits ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &t);
+  return t.tv_sec + 1e-9 * t.tv_nsec;
+}
+
+}    // namespace
+
+ContactLaw spring_of(const ContactLaw &law)
+{
+  const bool granular = law.style == LawStyle::granular;
+  const bool linear = granular ? law.is(NormalModel::hooke) : law.style != LawStyle::hertz_history;
+  const Real k = granular ? law.granular.k_normal : law.k_normal;
+  ContactLaw spring;
+  spring.style = linear ? LawStyle::hooke : LawStyle::hertz_history;
+  spring.k_normal = k > 0 ? k : 1;
+  return spring;
+}
+
+WallAnswers answer(const GridView &grid, const EngineSettings &engine, const SphereSample &sample)
+{
+  WallAnswers out;
+  const SearchSettings search = search_settings(engine);
+  out.first.push_back(0);
+  for (int i = 0; i < sample.n(); i++) {
+    bool certain = true;
+    if (!find_places<kMorePlaces>(grid, search, sample.x[i], sample.radius[i], out.places, certain))
+      find_places<kMostPlaces>(grid, search, sample.x[i], sample.radius[i], out.places, certain);
+    out.uncertified += !certain;
+    out.first.push_back(out.places.size());
+  }
+
+  EngineSettings on_cpu = engine;
+  on_cpu.law = spring_of(engine.law);
+  on_cpu.device = Device::cpu;
+  const auto cpu = make_engine(on_cpu);
+  cpu->set_grid(grid);
+  AtRest at_rest(sample);
+  SpringStore springs;
+  springs.grow(sample.n());
+  StepSettings step;
+  step.update_history = false;
+  cpu->start(at_rest.spheres, step, &springs);
+  cpu->collect();
+  for (int i = 0; i < sample.n(); i++)
+    out.force.push_back({at_rest.force[3 * i], at_rest.force[3 * i + 1], at_rest.force[3 * i + 2]});
+  return out;
+}
+
+AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
+                    const SphereSample &sample, const ContactLaw &law)
+{
+  const ContactLaw spring = spring_of(law);
+  constexpr Real kSameFoot = 1e-3;    // of a radius
+  AnswerError out;
+  out.uncertified = trial.uncertified;
+  std::vector<Real> errors;
+  Real sum_errors = 0, sum_forces = 0;
+  for (int i = 0; i < sample.n(); i++) {
+    const Real radius = sample.radius[i];
+    for (std::size_t k = reference.first[i]; k < reference.first[i + 1]; k++) {
+      const WallAnswers::Place &wanted = reference.places[k];
+      if (!wanted.bears) continue;
+      out.contacts++;
+      out.missed += std::none_of(
+          trial.places.begin() + trial.first[i], trial.places.begin() + trial.first[i + 1],
+          [&](const auto &p) { return norm(p.foot - wanted.foot) <= kSameFoot * radius; });
+    }
+    const bool touches =
+        reference.first[i] < reference.first[i + 1] || trial.first[i] < trial.first[i + 1];
+    if (!touches) continue;
+    const Real force = norm(reference.force[i]), error = norm(trial.force[i] - reference.force[i]);
+    errors.push_back(error / std::fmax(force, usual_force(spring, radius)));
+    sum_errors += error;
+    sum_forces += force;
+  }
+  if (errors.empty()) return out;
+  const auto middle = errors.begin() + errors.size() / 2;
+  std::nth_element(errors.begin(), middle, errors.end());
+  out.median = *middle;
+  out.largest = *std::max_element(errors.begin(), errors.end());
+  out.mean = sum_forces > 0 ? sum_errors / sum_forces : 0;
+  return out;
+}
+
+double step_seconds(WallEngine &engine, bool on_cuda, const ContactLaw &law,
+                    const SphereSample &sample, int repeats)
+{
+  const OneThread one_thread;
+  AtRest at_rest(sample);
+  SpringStore springs(law.n_extra());
+  springs.grow(sample.n());
+  double quickest = 0;
+  for (int r = -1; r < repeats; r++) {    // once to warm up
+    if (r >= 0) fill_caches();
+    const double start = seconds_now(on_cuda);
+    engine.start(at_rest.spheres, {}, law.has_history() ? &springs : nullptr);
+    engine.collect();
+    const double seconds = seconds_now(on_cuda) - start;
+    if (r == 0 || (r > 0 && seconds < quickest)) quickest = seconds;
+  }
+  return quickest;
+}
+
+}    // namespace lsdcd

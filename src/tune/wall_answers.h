@@ -1,0 +1,59 @@
+// What a setting answers for a sample of spheres, how wrong that is, and what it costs.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "tune/sphere_sample.h"
+
+#include <vector>
+
+namespace lsdcd {
+
+// The normal spring of a law alone, and where it has none one of stiffness 1: what forces
+// of spheres at rest are compared by, as all other sub-models take the same contacts.
+ContactLaw spring_of(const ContactLaw &law);
+
+// Contacts and forces of spheres at rest.
+struct WallAnswers {
+  struct Place {
+    Vec3 foot;       // from the sphere's centre to the wall, length
+    Real overlap;    // length
+    bool bears;      // takes a share of the force
+  };
+  std::vector<std::size_t> first;    // places of sphere i: first[i] .. first[i + 1]
+  std::vector<Place> places;
+  std::vector<Vec3> force;
+  long uncertified = 0;    // spheres whose lists may lack a contact
+};
+
+// On the CPU, whose numbers are those of every device. Of `engine` the spring of the law,
+// corner rule, side and precision count.
+WallAnswers answer(const GridView &grid, const EngineSettings &engine, const SphereSample &sample);
+
+// A contact this shallow is there or not by rounding: it is not counted. Of a radius.
+constexpr Real kGrazing = 1e-4;
+// Forces of a sphere are compared to the larger of its own and that of one contact
+// with this overlap: a grazing contact's force is all rounding. Of a radius.
+constexpr Real kUsualOverlap = 1e-2;
+
+struct AnswerError {
+  long contacts = 0;    // that the reference counts
+  long missed = 0;      // of these, not there: no contact has its foot within 1e-3 radii
+  long uncertified = 0;
+  // Relative errors of the spheres' forces, over all spheres that touch in either answer.
+  Real median = 0, largest = 0;
+  Real mean = 0;    // sum of errors / sum of forces
+
+  Real missed_share() const { return contacts > 0 ? Real(missed) / contacts : 0; }
+};
+
+AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
+                    const SphereSample &sample, const ContactLaw &law);
+
+// Seconds of a step (start and collect) on the sample, the quickest of `repeats`: of one
+// core, however busy the others are, or on the clock where the engine is a GPU's. Before
+// each the caches of the CPU are filled with something else, as the rest of a simulation
+// step does; those of a GPU are not.
+double step_seconds(WallEngine &engine, bool on_cuda, const ContactLaw &law,
+                    const SphereSample &sample, int repeats);
+
+}    // namespace lsdcd
