@@ -5,6 +5,7 @@
 #include "engine/owned_array.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -33,10 +34,16 @@ struct CpuBackend {
     return a;
   }
   template <class T>
+  void copy_in(const T *host, T *to, std::size_t n)
+  {
+    std::copy(host, host + n, to);
+  }
+  template <class T>
   std::vector<T> to_host(const Array<T> &a, std::size_t n)
   {
     return std::vector<T>(a.data(), a.data() + n);
   }
+  void wait() {}
 
   // for_each: f(i) for i in [0, n), in any order and possibly at once.
   template <class F>
@@ -45,6 +52,15 @@ struct CpuBackend {
     const std::int64_t m = static_cast<std::int64_t>(n);
 #pragma omp parallel for schedule(dynamic, 64) num_threads(threads()) if (m > 256)
     for (std::int64_t i = 0; i < m; i++) f(static_cast<std::size_t>(i));
+  }
+
+  // What f() takes, in milliseconds.
+  template <class F>
+  double milliseconds(const F &f)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    f();
+    return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   // reduce

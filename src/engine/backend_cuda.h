@@ -60,6 +60,15 @@ struct CudaBackend {
                  "copying to the device");
     return a;
   }
+  // The host array may change once this returns.
+  template <class T>
+  void copy_in(const T *host, T *to, std::size_t n)
+  {
+    if (n == 0) return;
+    cuda_check(cudaMemcpyAsync(to, host, n * sizeof(T), cudaMemcpyHostToDevice, stream),
+               "copying to the device");
+    wait();
+  }
   template <class T>
   std::vector<T> to_host(const Array<T> &a, std::size_t n)
   {
@@ -89,6 +98,24 @@ struct CudaBackend {
     if (n == 0) return;
     cuda_for_each<<<static_cast<unsigned>((n + block - 1) / block), block, 0, stream>>>(n, f);
     cuda_check(cudaGetLastError(), "starting a kernel");
+  }
+
+  // What the kernels started in f() take on the device, in milliseconds.
+  template <class F>
+  double milliseconds(const F &f)
+  {
+    cudaEvent_t from = nullptr, to = nullptr;
+    cuda_check(cudaEventCreate(&from), "creating an event");
+    cuda_check(cudaEventCreate(&to), "creating an event");
+    cuda_check(cudaEventRecord(from, stream), "recording an event");
+    f();
+    cuda_check(cudaEventRecord(to, stream), "recording an event");
+    cuda_check(cudaEventSynchronize(to), "running on the device");
+    float ms = 0;
+    cuda_check(cudaEventElapsedTime(&ms, from, to), "reading events");
+    cudaEventDestroy(from);
+    cudaEventDestroy(to);
+    return ms;
   }
 
   // reduce

@@ -4,6 +4,7 @@
 #include "mesh/placement.h"
 #include "mesh/triangle_soup.h"
 #include "mesh/wall_mesh.h"
+#include "tool/accuracy_command.h"
 #include "tool/material.h"
 
 #include <CLI/CLI.hpp>
@@ -133,6 +134,8 @@ int main(int argc, char **argv)
   grid_command->add_option("--memory", o.memory, "budget in MB")->capture_default_str();
   grid_command->callback([&] { grid(o); });
   add_material_command(app);
+
+  add_accuracy_command(app);
 
   try {
     app.parse(argc, argv);

@@ -1,5 +1,6 @@
 #include "support/meshes.h"
 
+#include "study/cylinder.h"
 #include "support/device.h"
 
 #include <algorithm>
@@ -59,19 +60,12 @@ TriangleSoup floor_mesh(int n, Real half, unsigned seed)
 
 TriangleSoup cylinder_mesh(int n, int m, Real r, Real h)
 {
-  TriangleSoup soup;
-  soup.source = "cylinder";
-  const auto rim = [&](int i, int k) {
-    const Real a = 2 * M_PI * (i % n) / n;
-    return Vec3{r * std::cos(a), r * std::sin(a), h * k / m};
-  };
-  for (int i = 0; i < n; i++) {
-    for (int k = 0; k < m; k++)
-      quad(soup, rim(i, k), rim(i + 1, k), rim(i + 1, k + 1), rim(i, k + 1));
-    triangle(soup, {0, 0, 0}, rim(i + 1, 0), rim(i, 0));
-    triangle(soup, {0, 0, h}, rim(i, m), rim(i + 1, m));
-  }
-  return soup;
+  CylinderMesh shape;
+  shape.segments = n;
+  shape.along = m;
+  shape.radius = r;
+  shape.height = h;
+  return make_cylinder(shape);
 }
 
 TriangleSoup box_mesh(const Vec3 &lo, const Vec3 &hi)

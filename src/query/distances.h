@@ -1,0 +1,70 @@
+// What a query takes a distance from: a piece of the wall in nearest lists, a feature in
+// complete ones. Each returns kAnyDistance where it has nothing nearer than `within`.
+#pragma once
+
+#include "contact/brick_geometry.h"
+#include "query/triangle_tests.h"
+
+namespace lsdcd {
+
+// The wall's own records, in double. Pieces are whole triangles, as in the paper.
+template <InsideTest kInside>
+class WallDistances {
+ public:
+  LSDCD_FN WallDistances(const GridView &grid, const Vec3 &q, const CellAddress &) :
+      grid_(grid), q_(q)
+  {
+  }
+
+  // The paper's test can put a triangle nearer than the bound in its list.
+  static constexpr bool kBounded = kInside == InsideTest::exact;
+
+  LSDCD_FN Real piece(FeatureCode code, Real) const
+  {
+    return kInside == InsideTest::exact ? piece_distance(grid_.wall, code, q_)
+                                        : formula_five_distance(grid_.wall, code, q_);
+  }
+  LSDCD_FN Real feature(FeatureCode code, Real within) const
+  {
+    const Foot foot = foot_on(grid_.wall, code, q_, grid_.slack, within);
+    return foot.found ? foot.distance : kAnyDistance;
+  }
+
+ private:
+  const GridView &grid_;
+  const Vec3 &q_;
+};
+
+// Copies in float in the frame of a brick. A piece is where the wall has a local minimum
+// of distance on it: past a side that it shares, the answer is its neighbour's to give.
+class BrickDistances {
+ public:
+  LSDCD_FN BrickDistances(const GridView &grid, const Vec3 &q, const CellAddress &at) :
+      geometry_(grid, q, at)
+  {
+  }
+
+  static constexpr bool kBounded = true;
+
+  LSDCD_FN Real piece(FeatureCode code, Real within) const
+  {
+    if (feature_kind(code) != FeatureKind::face) return feature(code, within);
+    const Over over = geometry_.over(code, within);
+    if (over == Over::far) return kAnyDistance;
+    Real nearest = over == Over::outside ? kAnyDistance : feature(code, within);
+    if (over == Over::inside) return nearest;
+    for (FeatureCode part : geometry_.parts(code).part)
+      if (part != kNoFeature) nearest = fmin(nearest, feature(part, within));
+    return nearest;
+  }
+  LSDCD_FN Real feature(FeatureCode code, Real within) const
+  {
+    const Foot foot = geometry_.foot(code, within);
+    return foot.found ? foot.distance : kAnyDistance;
+  }
+
+ private:
+  BrickGeometry geometry_;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,91 @@
+// From one sphere to the nearest point of the wall, and how sure that is.
+#pragma once
+
+#include "query/distances.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+struct Answer {
+  Real distance;         // from the centre to the wall; kAnyDistance: not within the radius
+  bool certified;        // nothing that the list left out can be nearer, or touch
+  std::uint32_t read;    // entries of lists
+};
+
+// Entries of a cell's list, the nearest first, as long as they can change the answer.
+// `limit`: entries that are tried; one more is only a bound.
+template <bool kPieces, class Distances>
+LSDCD_FN Answer nearest_in_list(const GridView &grid, const CellListsView &lists, const Vec3 &q,
+                                Real radius, std::uint32_t limit)
+{
+  const CellAddress at = locate(grid, lists, q);
+  if (!at.brick || !has_candidates(*at.brick, at.cell)) return {kAnyDistance, true, 0};
+  const Cell cell = lists.cells[cell_index(*at.brick, at.cell)];
+  const Distances distances(grid, q, at);
+  // Nothing farther than the nearest so far is of interest.
+  Real nearest = radius;
+  bool found = false;
+  const auto attempt = [&](FeatureCode code) {
+    const Real distance =
+        kPieces ? distances.piece(code, nearest) : distances.feature(code, nearest);
+    // A sphere touches what is nearer than its radius.
+    if (!(distance < nearest)) return;
+    nearest = distance;
+    found = true;
+  };
+  const auto answer = [&](bool certified, std::uint32_t read) -> Answer {
+    return {found ? nearest : kAnyDistance, certified, read};
+  };
+  if (cell.count == 1) {
+    attempt(cell.first);
+    return answer(true, 1);
+  }
+  const Real off_centre = norm(at.from_centre);
+  for (std::uint32_t k = 0; k < cell.count; k++) {
+    const Candidate candidate = lists.candidates[cell.first + k];
+    // A distance that need not be right ends nothing.
+    const bool past = candidate.bound > (Distances::kBounded ? nearest : radius) + off_centre;
+    if (k == limit || (past && Distances::kBounded)) return answer(past, k + 1);
+    attempt(candidate.feature);
+  }
+  return answer(true, cell.count);
+}
+
+constexpr std::uint32_t kWholeList = 0xffffffffu;
+
+// The nearest point of the wall within `radius` (length, at most grid.reach) of q.
+// Certified answers are exact, but for the rounding of Distances and with the paper's test.
+// Lists of nearest pieces fall back to complete ones where the grid has them.
+template <class Distances>
+LSDCD_FN Answer nearest_distance(const GridView &grid, const Vec3 &q, Real radius)
+{
+  if (grid.nearest == 0)
+    return nearest_in_list<false, Distances>(grid, grid.lists, q, radius, kWholeList);
+  const Answer first = nearest_in_list<true, Distances>(grid, grid.lists, q, radius,
+                                                        static_cast<std::uint32_t>(grid.nearest));
+  if (first.certified || !grid.complete.bricks) return first;
+  Answer second = nearest_in_list<false, Distances>(grid, grid.complete, q, radius, kWholeList);
+  second.read += first.read;
+  return second;
+}
+
+// No grid: every face of the wall, the paper's N = all. Its edges and vertices without a
+// face are left out.
+template <class Distances>
+LSDCD_FN Answer nearest_of_all(const GridView &grid, std::uint32_t n_faces, const Vec3 &q,
+                               Real radius)
+{
+  const Distances distances(grid, q, {nullptr, 0, {0, 0, 0}});
+  Real nearest = radius;
+  bool found = false;
+  for (std::uint32_t face = 0; face < n_faces; face++) {
+    const Real distance = distances.piece(feature_code(FeatureKind::face, face), nearest);
+    if (!(distance < nearest)) continue;
+    nearest = distance;
+    found = true;
+  }
+  return {found ? nearest : kAnyDistance, true, n_faces};
+}
+
+}    // namespace lsdcd

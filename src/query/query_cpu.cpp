@@ -1,0 +1,23 @@
+#include "base/input_error.h"
+#include "engine/backend_cpu.h"
+#include "query/query_on.h"
+
+namespace lsdcd {
+
+#if defined(LSDCD_HAVE_CUDA)
+std::unique_ptr<SphereQuery> make_cuda_query();
+#endif
+
+std::unique_ptr<SphereQuery> make_sphere_query(Device device)
+{
+  std::string why;
+  const bool cuda = device != Device::cpu && cuda_available(&why);
+#if defined(LSDCD_HAVE_CUDA)
+  if (cuda) return make_cuda_query();
+#endif
+  if (!cuda && device == Device::cuda)
+    throw InputError("device cuda: " + why + "; use device auto or cpu");
+  return std::make_unique<QueryOn<CpuBackend>>(CpuBackend());
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,11 @@
+#include "engine/backend_cuda.h"
+#include "query/query_on.h"
+
+namespace lsdcd {
+
+std::unique_ptr<SphereQuery> make_cuda_query()
+{
+  return std::make_unique<QueryOn<CudaBackend>>(CudaBackend());
+}
+
+}    // namespace lsdcd

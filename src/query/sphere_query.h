@@ -1,0 +1,64 @@
+// Distance and status of many spheres against a wall, on the CPU or a GPU.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "grid/triangle_grid.h"
+#include "query/sphere.h"
+#include "query/triangle_tests.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// Bits of a sphere's status.
+constexpr std::uint8_t kTouching = 1, kCertified = 2;
+
+struct QuerySettings {
+  InsideTest inside = InsideTest::exact;
+  // Tries every face for every sphere, whatever the grid holds: the paper's N = all.
+  bool every_face = false;
+  // What is kept besides the status; less is faster.
+  bool distance = true, read = false;
+};
+
+// Milliseconds of the query alone, on data that is there: no copies.
+struct QueryTiming {
+  double median_ms = 0, min_ms = 0, max_ms = 0;
+  int repeats = 0;
+};
+
+// Keeps grid, spheres and answers on its device between calls.
+class SphereQuery {
+ public:
+  virtual ~SphereQuery() = default;
+
+  // Copies the grid to the device.
+  virtual void set_grid(const TriangleGrid &grid) = 0;
+  // Copies n spheres to the device. Radii are at most the grid's reach.
+  virtual void set_spheres(const Sphere *spheres, std::size_t n) = 0;
+  virtual void set_spheres(const FloatSphere *spheres, std::size_t n) = 0;
+
+  // Throws InputError where the settings do not fit the grid: the paper's test needs
+  // lists of pieces in double, or every face.
+  virtual void run(const QuerySettings &settings) = 0;
+  // The same, once to warm up and then `repeats` times.
+  virtual QueryTiming time(const QuerySettings &settings, int repeats) = 0;
+
+  // Answers of the last run, copied to the host: kTouching and kCertified; distances to
+  // the wall where within the radius, elsewhere kAnyDistance; entries of lists read.
+  virtual std::vector<std::uint8_t> status() = 0;
+  virtual std::vector<Real> distance() = 0;
+  virtual std::vector<std::uint32_t> read() = 0;
+
+  virtual std::string device() const = 0;
+};
+
+// Device::automatic takes a GPU where there is one. Throws InputError where the device
+// is not there.
+std::unique_ptr<SphereQuery> make_sphere_query(Device device);
+
+}    // namespace lsdcd

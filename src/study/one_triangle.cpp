@@ -1,0 +1,79 @@
+#include "study/one_triangle.h"
+
+#include "contact/closest_point.h"
+#include "contact/piece_distance.h"
+#include "engine/backend_cpu.h"
+#include "grid/locate.h"
+
+#include <functional>
+
+namespace lsdcd {
+
+namespace {
+
+// The nearest piece of the cell that holds p; kNoFeature in cells away from the wall.
+FeatureCode listed_at(const GridView &grid, const Vec3 &p)
+{
+  const CellAddress at = locate(grid, grid.lists, p);
+  if (!at.brick || !has_candidates(*at.brick, at.cell)) return kNoFeature;
+  const Cell cell = grid.lists.cells[cell_index(*at.brick, at.cell)];
+  return cell.count == 1 ? cell.first : grid.lists.candidates[cell.first].feature;
+}
+
+}    // namespace
+
+std::vector<Guess> guess_one_triangle(AccuracyStudy &study, Real length)
+{
+  StudyLists lists;
+  lists.nearest = 1;
+  lists.length = length;
+  const Real honest = study.measure(lists).accuracy;
+  const GridView grid = study.grid().view();
+  const std::uint32_t n_faces = static_cast<std::uint32_t>(study.mesh().faces.size());
+  const Vec3 middle = 0.5 * (study.mesh().report.lo + study.mesh().report.hi);
+  const std::vector<Sphere> &spheres = study.spheres();
+
+  const auto to_piece = [&](FeatureCode piece, const Vec3 &q) {
+    return piece == kNoFeature ? kAnyDistance : piece_distance(grid.wall, piece, q);
+  };
+  const auto to_plane = [&](std::uint32_t face, const Vec3 &q) {
+    return std::fabs(dot(grid.wall.faces[face].normal, q - grid.wall.faces[face].anchor));
+  };
+  const auto any_face = [&](std::size_t i) {
+    return static_cast<std::uint32_t>(uniform(~std::uint64_t(0), i) * (n_faces - 1));
+  };
+  using Way = std::function<Real(std::size_t, const Vec3 &)>;
+  const auto score = [&](const Way &distance) {
+    std::vector<std::uint8_t> touching(spheres.size());
+    CpuBackend().for_each(spheres.size(), [&](std::size_t i) {
+      touching[i] = distance(i, spheres[i].centre()) < spheres[i].r;
+    });
+    return study.agreement(touching);
+  };
+
+  std::vector<Guess> out = {{"the nearest triangle, as the paper says", honest}};
+  const auto guess = [&](const char *what, const Way &distance) {
+    out.push_back({what, score(distance)});
+  };
+  guess("no contact is ever found", [&](std::size_t, const Vec3 &) { return kAnyDistance; });
+  guess("the list of the next cell in x, y and z", [&](std::size_t, const Vec3 &q) {
+    return to_piece(listed_at(grid, q + Vec3{length, length, length}), q);
+  });
+  guess("x and z exchanged in the cell's number", [&](std::size_t, const Vec3 &q) {
+    const Vec3 d = q - middle;
+    return to_piece(listed_at(grid, middle + Vec3{d.z, d.y, d.x}), q);
+  });
+  guess("the first triangle for every cell",
+        [&](std::size_t, const Vec3 &q) { return to_piece(0, q); });
+  guess("the last triangle for every cell",
+        [&](std::size_t, const Vec3 &q) { return to_piece(n_faces - 1, q); });
+  guess("a triangle at random",
+        [&](std::size_t i, const Vec3 &q) { return to_piece(any_face(i), q); });
+  guess("the plane of a triangle at random",
+        [&](std::size_t i, const Vec3 &q) { return to_plane(any_face(i), q); });
+  guess("the plane of the first triangle",
+        [&](std::size_t, const Vec3 &q) { return to_plane(0, q); });
+  return out;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,20 @@
+// What could have gone wrong in the paper's runs with one triangle per cell: each guess
+// as a way to answer, and the accuracy that it scores.
+#pragma once
+
+#include "study/accuracy.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+struct Guess {
+  std::string what;
+  Real accuracy;
+};
+
+// The study's spheres against its mesh; the lists have cells of the given length.
+std::vector<Guess> guess_one_triangle(AccuracyStudy &study, Real length);
+
+}    // namespace lsdcd

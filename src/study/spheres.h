@@ -1,0 +1,43 @@
+// Spheres of the paper's study: each from a counter, so that any device makes the same.
+#pragma once
+
+#include "query/sphere.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lsdcd {
+
+// The counter-th number of a SplitMix64 sequence (Steele, Lea and Flood 2014), in (0, 1]:
+// a multiple of 2^-53. Integers and one exact product: the same bits everywhere.
+LSDCD_FN Real uniform(std::uint64_t seed, std::uint64_t counter)
+{
+  std::uint64_t z = seed + (counter + 1) * 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  z ^= z >> 31;
+  return static_cast<Real>((z >> 11) + 1) * Real(0x1p-53);
+}
+
+// Centres uniform in the box between lo and hi, radii uniform in (0, largest]. Lengths.
+struct SphereBox {
+  Vec3 lo, hi;
+  Real largest;
+  std::uint64_t seed;
+
+  LSDCD_FN Sphere sphere(std::uint64_t i) const
+  {
+    const Vec3 u = {uniform(seed, 4 * i), uniform(seed, 4 * i + 1), uniform(seed, 4 * i + 2)};
+    return {lo.x + (hi.x - lo.x) * u.x, lo.y + (hi.y - lo.y) * u.y, lo.z + (hi.z - lo.z) * u.z,
+            largest * uniform(seed, 4 * i + 3)};
+  }
+};
+
+enum class Order { random, sorted };
+
+// The first n spheres of a box, as they come or sorted along a Z-curve of 1024 steps
+// per side.
+std::vector<Sphere> make_spheres(const SphereBox &box, std::size_t n, Order order);
+
+}    // namespace lsdcd

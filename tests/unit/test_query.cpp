@@ -1,0 +1,523 @@
+// Queries against every triangle tried in more digits, and against themselves.
+#include "support/brute_force_long.h"
+#include "support/device.h"
+#include "support/meshes.h"
+#include "support/random_mesh.h"
+
+#include "base/input_error.h"
+#include "contact/brick_geometry.h"
+#include "query/sphere_query.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+
+namespace lsdcd {
+namespace {
+
+// A wall, the grids that are asked for, spheres near it and where the wall truly is.
+struct Case {
+  TriangleSoup soup;
+  WallMesh mesh;
+  Real reach, length;
+  std::vector<Sphere> spheres;
+  std::vector<Real> truth;
+
+  Case(TriangleSoup given, Real reach_, Real length_, std::size_t n, std::uint64_t seed) :
+      soup(std::move(given)), mesh(weld(soup, 0)), reach(reach_), length(length_)
+  {
+    const auto triangles = long_triangles<LongReal>(soup);
+    Numbers r(seed);
+    for (std::size_t i = 0; i < n; i++) {
+      const Vec3 x = random_centre(r, soup.corners.data(), int(soup.n_triangles()), mesh.report.lo,
+                                   mesh.report.hi, reach);
+      spheres.push_back({x.x, x.y, x.z, reach * (r.below(2) ? 1 : r.log_in(1e-3, 1))});
+      truth.push_back(long_distance(triangles.data(), int(triangles.size()), x));
+    }
+  }
+
+  TriangleGrid grid(int nearest, bool exact = false, bool in_floats = false) const
+  {
+    GridSettings settings;
+    settings.reach = reach;
+    settings.length = length;
+    settings.nearest = nearest;
+    settings.exact = exact;
+    settings.in_floats = in_floats;
+    settings.memory_budget = 256 << 20;
+    try {
+      return build_grid(mesh, settings, test_on_cuda());
+    } catch (const InputError &) {
+      settings.length = 0;
+      return build_grid(mesh, settings, test_on_cuda());
+    }
+  }
+
+  // A region test is closed by the slack, so that a foot lies that far off at most, once
+  // along each of two sides; the rest is rounding of coordinates and of their differences.
+  Real tolerance(const TriangleGrid &grid) const
+  {
+    Real size = 0;
+    for (int k = 0; k < 3; k++)
+      size = std::fmax(size, std::fmax(std::fabs(mesh.report.lo[k]), std::fabs(mesh.report.hi[k])));
+    return 1.5 * grid.slack + 16 * kRoundoff * (size + reach);
+  }
+};
+
+struct Answers {
+  std::vector<std::uint8_t> status;
+  std::vector<Real> distance;
+  std::vector<std::uint32_t> read;
+
+  bool touching(std::size_t i) const { return status[i] & kTouching; }
+  bool certified(std::size_t i) const { return status[i] & kCertified; }
+};
+
+template <class S>
+Answers ask(SphereQuery &query, const std::vector<S> &spheres, QuerySettings settings = {})
+{
+  settings.distance = settings.read = true;
+  query.set_spheres(spheres.data(), spheres.size());
+  query.run(settings);
+  return {query.status(), query.distance(), query.read()};
+}
+
+template <class S>
+Answers ask(const TriangleGrid &grid, const std::vector<S> &spheres, QuerySettings settings = {},
+            Device device = test_device())
+{
+  const auto query = make_sphere_query(device);
+  query->set_grid(grid);
+  return ask(*query, spheres, settings);
+}
+
+std::vector<Case> cases()
+{
+  std::vector<Case> out;
+  out.emplace_back(cylinder_mesh(40, 1, 50, 100), 1, 0.5, 4000, 1);
+  out.emplace_back(cylinder_mesh(24, 6, 1, 2), 0.3, 0.1, 4000, 2);
+  out.emplace_back(box_mesh({0, 0, 0}, {1, 2, 3}), 0.4, 0, 4000, 3);
+  out.emplace_back(cone_mesh(200, 1, 0.5), 0.2, 0, 2000, 4);
+  const int n_random = std::getenv("LSDCD_QUICK") ? 10 : 60;
+  for (int i = 0; i < n_random; i++) {
+    RandomMesh m = random_mesh(100 + i);
+    try {
+      out.emplace_back(std::move(m.soup), m.reach, m.length, 1000, 5 + i);
+    } catch (const InputError &) {
+      continue;    // nothing but points closer than the tolerance
+    }
+  }
+  return out;
+}
+
+const std::vector<Case> &all_cases()
+{
+  static const std::vector<Case> made = cases();
+  return made;
+}
+
+// How the answer to sphere i is wrong, or null.
+const char *fault(const Case &c, const Answers &a, std::size_t i, Real tolerance)
+{
+  const Real r = c.spheres[i].r, truth = c.truth[i];
+  if (a.touching(i) != (a.distance[i] < kAnyDistance)) return "status and distance disagree";
+  if (a.touching(i) && !(a.distance[i] < r)) return "farther than the radius";
+  if (!a.touching(i) && truth < r - tolerance) return "missed";
+  if (a.touching(i) && truth > r + tolerance) return "not there";
+  if (a.touching(i) && !(std::fabs(a.distance[i] - truth) <= tolerance)) return "wrong distance";
+  return nullptr;
+}
+
+void expect_right(const Case &c, const Answers &a, Real tolerance, bool only_certified,
+                  const std::string &lists)
+{
+  std::size_t bad = 0;
+  for (std::size_t i = 0; i < c.spheres.size(); i++) {
+    if (only_certified && !a.certified(i)) continue;
+    const char *what = fault(c, a, i, tolerance);
+    if (!what || bad++) continue;
+    ADD_FAILURE() << c.soup.source << ", " << lists << ", sphere " << i << ": " << what
+                  << ", distance " << a.distance[i] << ", true " << c.truth[i] << ", radius "
+                  << c.spheres[i].r << ", tolerance " << tolerance;
+  }
+  EXPECT_EQ(bad, 0u) << c.soup.source << ", " << lists;
+}
+
+TEST(query, complete_lists_give_the_distance_of_every_triangle_tried)
+{
+  for (const Case &c : all_cases()) {
+    const TriangleGrid grid = c.grid(0);
+    const Answers a = ask(grid, c.spheres);
+    expect_right(c, a, c.tolerance(grid), false, "complete");
+    for (std::size_t i = 0; i < c.spheres.size(); i++) ASSERT_TRUE(a.certified(i));
+  }
+}
+
+TEST(query, certified_answers_of_nearest_lists_are_right)
+{
+  std::size_t certified = 0, uncertified = 0;
+  for (const Case &c : all_cases())
+    for (int n = 1; n <= 8; n++) {
+      const TriangleGrid grid = c.grid(n);
+      const Answers a = ask(grid, c.spheres);
+      expect_right(c, a, c.tolerance(grid), true, std::to_string(n));
+      for (std::size_t i = 0; i < c.spheres.size(); i++)
+        (a.certified(i) ? certified : uncertified)++;
+    }
+  // Of both there are many, or the test says nothing.
+  EXPECT_GT(certified, 100000u);
+  EXPECT_GT(uncertified, 10000u);
+}
+
+TEST(query, a_list_cut_off_can_only_lose_contacts)
+{
+  for (const Case &c : all_cases())
+    for (int n : {1, 2, 5}) {
+      const TriangleGrid grid = c.grid(n);
+      const Answers a = ask(grid, c.spheres);
+      for (std::size_t i = 0; i < c.spheres.size(); i++)
+        if (a.touching(i)) {
+          ASSERT_GE(a.distance[i], c.truth[i] - c.tolerance(grid)) << c.soup.source;
+        }
+    }
+}
+
+TEST(query, some_answers_of_short_lists_are_wrong_and_none_of_these_certified)
+{
+  std::size_t wrong = 0;
+  for (const Case &c : all_cases()) {
+    const TriangleGrid grid = c.grid(1);
+    const Answers a = ask(grid, c.spheres);
+    for (std::size_t i = 0; i < c.spheres.size(); i++)
+      if (fault(c, a, i, c.tolerance(grid))) {
+        wrong++;
+        EXPECT_FALSE(a.certified(i));
+      }
+  }
+  EXPECT_GT(wrong, 1000u);
+}
+
+TEST(query, nearest_exact_gives_the_answers_of_complete_lists)
+{
+  for (const Case &c : all_cases()) {
+    const TriangleGrid complete = c.grid(0);
+    const Answers a = ask(complete, c.spheres);
+    for (int n : {1, 3, 8}) {
+      const TriangleGrid grid = c.grid(n, true);
+      const Answers b = ask(grid, c.spheres);
+      expect_right(c, b, c.tolerance(grid), false, std::to_string(n) + " exact");
+      for (std::size_t i = 0; i < c.spheres.size(); i++) {
+        ASSERT_TRUE(b.certified(i));
+        // Two feet within the slack of a side can differ by it.
+        if (a.touching(i) && b.touching(i)) {
+          ASSERT_NEAR(a.distance[i], b.distance[i], 2 * c.tolerance(grid)) << c.soup.source;
+        }
+      }
+    }
+  }
+}
+
+TEST(query, falling_back_reads_both_lists)
+{
+  const Case &c = all_cases()[1];
+  const Answers first = ask(c.grid(1), c.spheres), second = ask(c.grid(0), c.spheres),
+                both = ask(c.grid(1, true), c.spheres);
+  std::size_t fallen_back = 0;
+  for (std::size_t i = 0; i < c.spheres.size(); i++) {
+    fallen_back += !first.certified(i);
+    EXPECT_EQ(both.read[i], first.read[i] + (first.certified(i) ? 0 : second.read[i])) << i;
+  }
+  EXPECT_GT(fallen_back, 100u);
+}
+
+TEST(query, longer_lists_of_one_grid_are_those_of_another)
+{
+  // The first N entries of a longer list, and the next as a bound, are the list of N.
+  const Case &c = all_cases()[1];
+  TriangleGrid eight = c.grid(8);
+  for (int n = 1; n < 8; n++) {
+    eight.nearest = n;
+    const Answers a = ask(eight, c.spheres), b = ask(c.grid(n), c.spheres);
+    EXPECT_EQ(a.status, b.status) << n;
+    EXPECT_EQ(a.distance, b.distance) << n;
+  }
+}
+
+TEST(query, trying_every_face_needs_no_lists)
+{
+  for (std::size_t k : {0, 1, 2, 3}) {
+    const Case &c = all_cases()[k];
+    const TriangleGrid grid = c.grid(1);
+    QuerySettings settings;
+    settings.every_face = true;
+    const Answers a = ask(grid, c.spheres, settings);
+    expect_right(c, a, c.tolerance(grid), false, "every face");
+    for (std::size_t i = 0; i < c.spheres.size(); i++) {
+      ASSERT_TRUE(a.certified(i));
+      ASSERT_EQ(a.read[i], c.mesh.faces.size());
+    }
+  }
+}
+
+TEST(query, answers_in_float_are_within_float_rounding_of_a_brick)
+{
+  for (std::size_t k : {0, 1, 2, 3}) {
+    const Case &c = all_cases()[k];
+    for (int n : {0, 2, 4}) {
+      const TriangleGrid grid = c.grid(n, n == 4, true);
+      const Answers a = ask(grid, c.spheres);
+      expect_right(c, a, 2 * BrickGeometry::slack(grid.view()), n == 2,
+                   "floats, " + std::to_string(n));
+    }
+  }
+}
+
+TEST(query, gives_the_same_bits_on_both_devices)
+{
+  if (!test_on_cuda()) GTEST_SKIP() << "compares CUDA with the CPU";
+  for (const Case &c : all_cases())
+    for (const bool in_floats : {false, true})
+      for (int n : {0, 1, 3}) {
+        const TriangleGrid grid = c.grid(n, n == 3, in_floats);
+        const Answers cpu = ask(grid, c.spheres, {}, Device::cpu),
+                      cuda = ask(grid, c.spheres, {}, Device::cuda);
+        EXPECT_EQ(cpu.status, cuda.status) << c.soup.source;
+        EXPECT_EQ(cpu.read, cuda.read) << c.soup.source;
+        EXPECT_EQ(std::memcmp(cpu.distance.data(), cuda.distance.data(),
+                              cpu.distance.size() * sizeof(Real)),
+                  0)
+            << c.soup.source;
+      }
+}
+
+TEST(query, gives_the_same_bits_on_both_devices_with_formula_five)
+{
+  if (!test_on_cuda()) GTEST_SKIP() << "compares CUDA with the CPU";
+  QuerySettings paper;
+  paper.inside = InsideTest::formula_five;
+  for (const Case &c : all_cases()) {
+    const TriangleGrid grid = c.grid(2);
+    EXPECT_EQ(ask(grid, c.spheres, paper, Device::cpu).distance,
+              ask(grid, c.spheres, paper, Device::cuda).distance);
+  }
+}
+
+TEST(query, float_spheres_are_answered_as_double_ones_in_the_same_places)
+{
+  const Case &c = all_cases()[1];
+  std::vector<FloatSphere> floats;
+  std::vector<Sphere> same;
+  for (const Sphere &s : c.spheres) {
+    floats.push_back({float(s.x), float(s.y), float(s.z), float(s.r)});
+    const FloatSphere &f = floats.back();
+    same.push_back({f.x, f.y, f.z, std::fmin(Real(f.r), c.reach)});
+    floats.back().r = std::nextafter(f.r, 0.f);
+    same.back().r = floats.back().r;
+  }
+  const TriangleGrid grid = c.grid(2, true);
+  const Answers a = ask(grid, floats), b = ask(grid, same);
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.distance, b.distance);
+}
+
+TEST(query, grid_and_spheres_can_change_between_calls)
+{
+  const Case &small = all_cases()[2], &large = all_cases()[1];
+  const auto query = make_sphere_query(test_device());
+  for (const Case *c : {&large, &small, &large})
+    for (int n : {0, 2}) {
+      const TriangleGrid grid = c->grid(n);
+      query->set_grid(grid);
+      for (const std::size_t most : {c->spheres.size(), std::size_t(100), c->spheres.size()}) {
+        const std::vector<Sphere> some(c->spheres.begin(), c->spheres.begin() + most);
+        const Answers a = ask(*query, some), b = ask(grid, some);
+        EXPECT_EQ(a.status, b.status);
+        EXPECT_EQ(a.distance, b.distance);
+        EXPECT_EQ(a.read, b.read);
+      }
+    }
+}
+
+TEST(query, keeps_only_what_is_asked_for)
+{
+  const Case &c = all_cases()[2];
+  const auto query = make_sphere_query(test_device());
+  query->set_grid(c.grid(0));
+  query->set_spheres(c.spheres.data(), c.spheres.size());
+  QuerySettings settings;
+  settings.distance = settings.read = true;
+  query->run(settings);
+  const std::vector<std::uint8_t> status = query->status();
+  settings.distance = settings.read = false;
+  const QueryTiming timing = query->time(settings, 3);
+  EXPECT_EQ(query->status(), status);
+  EXPECT_TRUE(query->distance().empty());
+  EXPECT_TRUE(query->read().empty());
+  EXPECT_EQ(timing.repeats, 3);
+  EXPECT_LE(timing.min_ms, timing.median_ms);
+  EXPECT_LE(timing.median_ms, timing.max_ms);
+}
+
+TEST(query, no_spheres_have_no_answers)
+{
+  EXPECT_TRUE(ask(all_cases()[2].grid(0), std::vector<Sphere>()).status.empty());
+}
+
+TEST(query, spheres_away_from_the_wall_read_nothing)
+{
+  const Real nan = std::nan(""), inf = std::numeric_limits<Real>::infinity();
+  const Case c(box_mesh({0, 0, 0}, {4, 4, 4}), 0.3, 0.1, 0, 1);
+  const std::vector<Sphere> spheres = {{2, 2, 2, 0.3},   {9, 9, 9, 0.3},   {-1e300, 0, 0, 0.3},
+                                       {inf, 0, 0, 0.3}, {nan, 0, 0, 0.3}, {0, nan, 0, 0.3}};
+  for (int n : {0, 1}) {
+    const Answers a = ask(c.grid(n), spheres);
+    for (std::size_t i = 0; i < spheres.size(); i++) {
+      EXPECT_EQ(a.status[i], kCertified) << i;
+      EXPECT_EQ(a.read[i], 0u) << i;
+      EXPECT_EQ(a.distance[i], kAnyDistance) << i;
+    }
+  }
+}
+
+TEST(query, a_sphere_that_only_reaches_the_wall_does_not_touch_it)
+{
+  const Case c(box_mesh({0, 0, 0}, {4, 4, 4}), 0.5, 0.25, 0, 1);
+  for (int n : {0, 1, 2}) {
+    const Answers a =
+        ask(c.grid(n), std::vector<Sphere>{{2, 2, 4.25, 0.25}, {2, 2, 4.25, 0.2500001}});
+    EXPECT_FALSE(a.touching(0)) << n;
+    EXPECT_TRUE(a.touching(1)) << n;
+    EXPECT_EQ(a.distance[1], 0.25) << n;
+  }
+}
+
+TEST(query, a_list_of_n_reads_one_more_at_most)
+{
+  const Case &c = all_cases()[3];
+  for (std::uint32_t n : {1u, 2u, 5u}) {
+    const Answers a = ask(c.grid(n), c.spheres);
+    std::uint32_t most = 0;
+    for (std::uint32_t read : a.read) most = std::max(most, read);
+    EXPECT_EQ(most, n + 1);
+  }
+}
+
+// ---- the paper's test ---------------------------------------------------------------
+
+Answers ask_one_triangle(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &q, Real radius,
+                         InsideTest inside, bool every_face)
+{
+  TriangleSoup soup;
+  soup.corners = {a, b, c};
+  const Case wall(soup, radius, radius / 2, 0, 1);
+  QuerySettings settings;
+  settings.inside = inside;
+  settings.every_face = every_face;
+  return ask(wall.grid(1), std::vector<Sphere>{{q.x, q.y, q.z, radius}}, settings);
+}
+
+TEST(formula_five, takes_a_point_outside_for_inside)
+{
+  // All six products are at or above 0, yet O lies 0.577 below the side A B.
+  for (const bool every_face : {false, true}) {
+    const auto at = [&](InsideTest inside) {
+      return ask_one_triangle({0, 0, 0}, {2, 0, 0}, {1, 1.732, 0}, {1, -0.577, 0}, 1, inside,
+                              every_face)
+          .distance[0];
+    };
+    EXPECT_EQ(at(InsideTest::formula_five), 0);
+    EXPECT_NEAR(at(InsideTest::exact), 0.577, 1e-15);
+  }
+}
+
+TEST(formula_five, takes_a_point_inside_for_outside)
+{
+  // O is inside, but A O . A B < 0: the answer is the nearest side, sqrt(2) in the plane.
+  const Vec3 a = {0, 0, 0}, b = {20, 0, 0}, c = {-20, 20, 0}, o = {-11, 13, 0.25};
+  ASSERT_LT(dot(o - a, b - a), 0);
+  for (const bool every_face : {false, true}) {
+    const auto at = [&](InsideTest inside) {
+      return ask_one_triangle(a, b, c, o, 8, inside, every_face).distance[0];
+    };
+    EXPECT_NEAR(at(InsideTest::exact), 0.25, 1e-15);
+    // The line B C: x + 2 y = 20; A C: x + y = 0, nearer here.
+    EXPECT_NEAR(at(InsideTest::formula_five), std::sqrt(0.25 * 0.25 + std::fmin(4 / 2., 25. / 5)),
+                1e-14);
+  }
+}
+
+TEST(formula_five, is_right_over_the_inside_of_acute_triangles)
+{
+  Numbers r(8);
+  const Vec3 a = {0, 0, 0}, b = {2, 0, 0}, c = {1, 1.8, 0};
+  TriangleSoup soup;
+  soup.corners = {a, b, c};
+  std::vector<Sphere> spheres;
+  for (int i = 0; i < 2000; i++) {
+    Real u = r.in(0, 1), v = r.in(0, 1);
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    const Vec3 q = a + u * (b - a) + v * (c - a) + Vec3{0, 0, r.in(-1, 1)};
+    spheres.push_back({q.x, q.y, q.z, 2});
+  }
+  QuerySettings paper;
+  paper.inside = InsideTest::formula_five;
+  const Answers answers = ask(Case(soup, 2, 1, 0, 1).grid(1), spheres, paper);
+  for (std::size_t i = 0; i < spheres.size(); i++)
+    ASSERT_NEAR(answers.distance[i], std::fabs(spheres[i].z), 1e-15);
+}
+
+TEST(formula_five, is_six_products_then_a_plane_or_three_sides)
+{
+  Numbers r(9);
+  int n_inside = 0;
+  for (int t = 0; t < 60; t++) {
+    const Vec3 corner[3] = {r.in_box(), r.in_box(), r.in_box()};
+    TriangleSoup soup;
+    soup.corners.assign(corner, corner + 3);
+    std::vector<Sphere> spheres;
+    for (int i = 0; i < 200; i++) {
+      const Vec3 q = 1.5 * r.in_box();
+      spheres.push_back({q.x, q.y, q.z, 4});
+    }
+    QuerySettings paper;
+    paper.inside = InsideTest::formula_five;
+    const Answers answers = ask(Case(soup, 4, 2, 0, 1).grid(1), spheres, paper);
+    const Vec3 across = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    for (std::size_t i = 0; i < spheres.size(); i++) {
+      const Vec3 q = spheres[i].centre();
+      bool inside = true;
+      Real side = HUGE_VAL;
+      for (int k = 0; k < 3; k++)
+        for (int j = 0; j < 3; j++) {
+          if (j == k) continue;
+          const Vec3 u = corner[j] - corner[k];
+          const Real along = dot(q - corner[k], u) / norm(u);
+          inside = inside && along >= 0;
+          const Real on = std::fmin(std::fmax(along, Real(0)), norm(u));
+          side = std::fmin(side, norm(q - corner[k] - (on / norm(u)) * u));
+        }
+      n_inside += inside;
+      const Real expected = inside ? std::fabs(dot(across, q - corner[0])) / norm(across) : side;
+      ASSERT_NEAR(answers.distance[i], expected, 1e-12) << t << " " << i;
+    }
+  }
+  EXPECT_GT(n_inside, 500);
+}
+
+TEST(formula_five, is_refused_where_lists_hold_no_triangles)
+{
+  const Case &c = all_cases()[2];
+  QuerySettings paper;
+  paper.inside = InsideTest::formula_five;
+  EXPECT_THROW(ask(c.grid(0), c.spheres, paper), InputError);
+  EXPECT_THROW(ask(c.grid(2, false, true), c.spheres, paper), InputError);
+  EXPECT_NO_THROW(ask(c.grid(2), c.spheres, paper));
+  paper.every_face = true;
+  EXPECT_NO_THROW(ask(c.grid(0), c.spheres, paper));
+}
+
+}    // namespace
+}    // namespace lsdcd
