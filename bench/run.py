@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Runs benchmark programs, keeps their CSV and prints it as a table.
 
-usage: run.py [--build DIR] [NAME ...]     NAME: build, cache, step (default: all), hard-cases
+usage: run.py [--build DIR] [NAME ...]     NAME: build, cache, step (default: all), accuracy,
+                                           hard-cases
 
-Rows go to DIR/bench/NAME.csv, written whole or not at all. hard-cases measures no speed:
-it writes doc/hard_cases.md from runs of the tests (hard_cases.py).
+Rows go to DIR/bench/NAME.csv, written whole or not at all. Two write documents instead:
+hard-cases doc/hard_cases.md from runs of the tests (hard_cases.py), accuracy the paper's
+part of doc/accuracy.md from runs of `lsdcd accuracy` (accuracy.py).
 """
 import argparse
 import csv
@@ -12,9 +14,11 @@ import os
 import subprocess
 import sys
 
+import accuracy
 import hard_cases
 
 NAMES = ["build", "cache", "step"]
+DOCUMENTS = {"accuracy": accuracy.main, "hard-cases": hard_cases.main}
 HIDDEN = {"bench", "compiler", "commit"}    # the same in every row; printed once
 
 
@@ -34,15 +38,15 @@ def main():
     args = parser.parse_args()
     build, names = args.build, args.names or NAMES
     for name in names:
-        if name not in NAMES + ["hard-cases"]:
-            print(f"no benchmark '{name}'; there are: {', '.join(NAMES)}, hard-cases",
+        if name not in NAMES + list(DOCUMENTS):
+            print(f"no benchmark '{name}'; there are: {', '.join(NAMES + list(DOCUMENTS))}",
                   file=sys.stderr)
             return 2
     out = os.path.join(build, "bench")
     os.makedirs(out, exist_ok=True)
     for name in names:
-        if name == "hard-cases":
-            status = hard_cases.main(["--build", build])
+        if name in DOCUMENTS:
+            status = DOCUMENTS[name](["--build", build])
             if status != 0:
                 return status
             continue
