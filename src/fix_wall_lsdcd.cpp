@@ -249,6 +249,7 @@ void FixWallLsdcd::make_engine()
   want.corner = settings.corner;
   want.side = settings.side;
   want.precision = settings.precision;
+  want.surface = settings.surface;
   want.device = settings.device;
   want.device_rank = wall->shared().node_rank();
   lsdcd::together(world, true, [&] { engine = lsdcd::make_engine(want); });

@@ -122,6 +122,22 @@ void read_cache(Words &w, WallSettings &s)
   s.cache_file = file;
 }
 
+Vec3 read_vec(Words &w, const char *x, const char *y, const char *z)
+{
+  Vec3 v;
+  v.x = w.number(x);
+  v.y = w.number(y);
+  v.z = w.number(z);
+  return v;
+}
+
+void read_surface_angvel(Words &w, WallSettings &s)
+{
+  s.surface.angular = read_vec(w, "wx", "wy", "wz");
+  if (w.number_follows())
+    s.surface.centre = read_vec(w, "the centre (x)", "the centre (y)", "the centre (z)");
+}
+
 void read_draw(Words &w, WallSettings &s)
 {
   s.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
@@ -185,6 +201,12 @@ const Keyword kKeywords[] = {
      [](Words &w, WallSettings &s) {
        s.side = static_cast<Side>(w.choice({"both", "in", "out"}));
      }},
+    {"surface_vel", "vx vy vz", "velocity", "", "0 0 0",
+     "the surface moves along itself while the mesh stays, as a conveyor's",
+     [](Words &w, WallSettings &s) { s.surface.velocity = read_vec(w, "vx", "vy", "vz"); }},
+    {"surface_angvel", "wx wy wz [cx cy cz]", "1/time, length", "", "0 0 0",
+     "it turns along itself about an axis through c (the origin), as a roll's",
+     read_surface_angvel},
     {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
      [](Words &w, WallSettings &s) {
        s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));

@@ -28,6 +28,7 @@ struct WallSettings {
   Corner corner = Corner::blend;
   Side side = Side::both;
   Precision precision = Precision::double_;
+  SurfaceMotion surface;
   Device device = Device::automatic;
   std::string cache_file;    // empty: none
   bool contacts = false;

@@ -20,14 +20,14 @@ constexpr int kMostPlaces = 512;
 
 // What engines have to store and move for a law.
 struct LawTraits {
-  bool history, heat;
+  bool history, heat, records;
   int n_extra;
 };
 
 template <class Law>
 LawTraits traits_of()
 {
-  return {Law::kHistory, Law::kHeat, Law::kExtra};
+  return {Law::kHistory, Law::kHeat, Law::kRecords, Law::kExtra};
 }
 
 // The parameters of any law, as bytes.
@@ -62,6 +62,12 @@ struct HostJob {
   SphereSink sink;    // of the first sphere
 };
 
+// The wall's effects that the settings ask for.
+inline WallEffects effects_of(const EngineSettings &s)
+{
+  return {s.surface.moves(), s.records};
+}
+
 struct HostLaw {
   LawTraits traits;
   LawBytes law;
@@ -74,9 +80,9 @@ struct HostLaw {
 HostLaw host_law(const EngineSettings &settings);
 
 // Those of `granular`, one function per normal sub-model: a source file each.
-HostLaw host_hooke_law(const ContactLaw &);
-HostLaw host_hertz_law(const ContactLaw &);
-HostLaw host_dmt_law(const ContactLaw &);
-HostLaw host_jkr_law(const ContactLaw &);
+HostLaw host_hooke_law(const EngineSettings &);
+HostLaw host_hertz_law(const EngineSettings &);
+HostLaw host_dmt_law(const EngineSettings &);
+HostLaw host_jkr_law(const EngineSettings &);
 
 }    // namespace lsdcd

@@ -7,18 +7,18 @@ CudaLaw cuda_law(const EngineSettings &settings)
   const ContactLaw &law = settings.law;
   if (law.style != LawStyle::granular) {
     if (settings.precision == Precision::single_)
-      return with_classic_law<float>(law, MakeCudaLaw());
-    return with_classic_law<Real>(law, MakeCudaLaw());
+      return with_classic_law<float>(law, MakeCudaLaw<WallKernels::plain>{});
+    return with_classic_law<Real>(law, MakeCudaLaw<WallKernels::each>{effects_of(settings)});
   }
   switch (law.granular.normal) {
     case NormalModel::hertz:
-      return cuda_hertz_law(law);
+      return cuda_hertz_law(settings);
     case NormalModel::dmt:
-      return cuda_dmt_law(law);
+      return cuda_dmt_law(settings);
     case NormalModel::jkr:
-      return cuda_jkr_law(law);
+      return cuda_jkr_law(settings);
     default:
-      return cuda_hooke_law(law);
+      return cuda_hooke_law(settings);
   }
 }
 

@@ -36,10 +36,10 @@ struct CudaLaw {
 CudaLaw cuda_law(const EngineSettings &settings);
 
 // Those of `granular`, one function per normal sub-model: a source file each.
-CudaLaw cuda_hooke_law(const ContactLaw &);
-CudaLaw cuda_hertz_law(const ContactLaw &);
-CudaLaw cuda_dmt_law(const ContactLaw &);
-CudaLaw cuda_jkr_law(const ContactLaw &);
+CudaLaw cuda_hooke_law(const EngineSettings &);
+CudaLaw cuda_hertz_law(const EngineSettings &);
+CudaLaw cuda_dmt_law(const EngineSettings &);
+CudaLaw cuda_jkr_law(const EngineSettings &);
 
 template <class Law>
 void start_law(const LawBytes &bytes, const CudaJob &job, std::size_t n, CudaBackend &backend)
@@ -64,17 +64,23 @@ void start_law(const LawBytes &bytes, const CudaJob &job, std::size_t n, CudaBac
           s.temperature = job.temperature[k];
           sink.heat = job.sink.heat + k;
         }
+        if constexpr (Law::kRecords) sink.records = job.sink.records + k * kPlaces;
         job.result[k] = wall_force<Law, kPlaces>(job.grid, law, job.settings, s, sink);
       },
       128);
 }
 
 // For with_..._law() of laws.h.
+template <WallKernels kernels>
 struct MakeCudaLaw {
+  WallEffects effects;
+
   template <class Law>
   CudaLaw operator()(const Law &law) const
   {
-    return {LawBytes(law), start_law<Law>};
+    return on_wall<kernels>(law, effects, [](const auto &compiled) {
+      return CudaLaw{LawBytes(compiled), start_law<std::decay_t<decltype(compiled)>>};
+    });
   }
 };
 

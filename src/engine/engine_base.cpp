@@ -26,6 +26,8 @@ ForceSettings force_settings(const EngineSettings &engine, const StepSettings &s
   s.search = search_settings(engine);
   s.with_point = step.per_sphere;
   s.wall_temperature = step.wall_temperature;
+  s.surface = engine.surface;
+  s.wear = engine.wear;
   return s;
 }
 
@@ -65,7 +67,7 @@ HostJob EngineBase::host_job(const GridView &grid, SphereResult *result,
 }
 
 int EngineBase::redo_crowded(const HostJob &job, std::vector<Spring> &springs,
-                             std::vector<Real> &extra)
+                             std::vector<Real> &extra, std::vector<ContactRecord> &records)
 {
   const std::size_t n_extra = law_.traits.n_extra;
   int stride = kPlaces;
@@ -73,22 +75,28 @@ int EngineBase::redo_crowded(const HostJob &job, std::vector<Spring> &springs,
     if (job.result[k].n_contacts != kOverflow) continue;
     std::vector<Spring> more(law_.traits.history ? kMostPlaces : 0);
     std::vector<Real> more_extra(more.size() * n_extra);
-    SphereSink sink = {more.data(), more_extra.data(), nullptr};
+    std::vector<ContactRecord> more_records(law_.traits.records ? kMostPlaces : 0);
+    SphereSink sink = {more.data(), more_extra.data(), nullptr, more_records.data()};
     if (law_.traits.heat) sink.heat = job.sink.heat + k;
     if (!law_.redo(law_.law, job, k, sink))
       throw InputError("sphere " + std::to_string(results_.near[k]) +
                        " touches the wall in more than " + std::to_string(kMostPlaces) +
                        " separate places; the mesh is far finer than its overlap");
-    if (!law_.traits.history) continue;
+    if (!law_.traits.history && !law_.traits.records) continue;
     const int n = job.result[k].n_contacts;
     if (n > stride) {
       widen(springs, stride, n);
       widen(extra, stride * n_extra, n * n_extra);
+      widen(records, stride, n);
       stride = n;
     }
-    std::copy(more.begin(), more.begin() + n, springs.begin() + k * stride);
-    std::copy(more_extra.begin(), more_extra.begin() + n * n_extra,
-              extra.begin() + k * stride * n_extra);
+    if (law_.traits.history) {
+      std::copy(more.begin(), more.begin() + n, springs.begin() + k * stride);
+      std::copy(more_extra.begin(), more_extra.begin() + n * n_extra,
+                extra.begin() + k * stride * n_extra);
+    }
+    if (law_.traits.records)
+      std::copy(more_records.begin(), more_records.begin() + n, records.begin() + k * stride);
   }
   return stride;
 }
@@ -103,6 +111,8 @@ void EngineBase::finish(const SphereResult *result, const SphereSink &sink, int 
   output_.clear();
   heat_.clear();
   if (step_.per_sphere) fill_sphere_output(results_, spheres_, touching_, output_, heat_);
+  records_.clear();
+  if (law_.traits.records) keep_records(result, sink.records, stride);
   if (!law_.traits.history || !step_.update_history) return;
   counts_.resize(results_.near.size());
   for (std::size_t k = 0; k < counts_.size(); k++) counts_[k] = result[k].n_contacts;
@@ -110,11 +120,23 @@ void EngineBase::finish(const SphereResult *result, const SphereSink &sink, int 
                     stride);
 }
 
+void EngineBase::keep_records(const SphereResult *result, const ContactRecord *records, int stride)
+{
+  std::size_t packed = 0;
+  for (std::size_t k = 0; k < results_.near.size(); k++) {
+    const std::size_t n = result[k].n_contacts;
+    const ContactRecord *from = records + (stride == kPacked ? packed : k * stride);
+    records_.insert(records_.end(), from, from + n);
+    packed += n;
+  }
+}
+
 std::size_t EngineBase::shared_bytes() const
 {
   return (results_.near.capacity() + scratch_.capacity()) * sizeof(int) +
          counts_.capacity() * sizeof(int) + touching_.capacity() * sizeof(int) +
-         output_.capacity() * sizeof(SphereOutput) + heat_.capacity() * sizeof(Real);
+         output_.capacity() * sizeof(SphereOutput) + heat_.capacity() * sizeof(Real) +
+         records_.capacity() * sizeof(ContactRecord);
 }
 
 }    // namespace lsdcd

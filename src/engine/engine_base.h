@@ -19,6 +19,8 @@ class EngineBase : public WallEngine {
   const int *touching() const override { return touching_.data(); }
   const SphereOutput *sphere_output() const override { return output_.data(); }
   const Real *sphere_heat() const override { return law_.traits.heat ? heat_.data() : nullptr; }
+  int n_records() const override { return static_cast<int>(records_.size()); }
+  const ContactRecord *records() const override { return records_.data(); }
   int n_near() const override { return static_cast<int>(results_.near.size()); }
 
  protected:
@@ -29,11 +31,12 @@ class EngineBase : public WallEngine {
   HostJob host_job(const GridView &grid, SphereResult *result, const SphereSink &sink) const;
 
   // Spheres whose contacts did not fit are done again on the host with more places; what
-  // they keep goes where the others' is. Returns the new stride of both vectors, in
-  // springs.
-  int redo_crowded(const HostJob &job, std::vector<Spring> &springs, std::vector<Real> &extra);
+  // they keep goes where the others' is. Returns the new stride of the vectors, in
+  // contacts.
+  int redo_crowded(const HostJob &job, std::vector<Spring> &springs, std::vector<Real> &extra,
+                   std::vector<ContactRecord> &records);
 
-  // `springs` and what lies beside them in `extra` are `stride` places apart.
+  // The contacts of two spheres are `stride` places apart in the sink's arrays.
   void finish(const SphereResult *result, const SphereSink &sink, int stride);
 
   std::size_t shared_bytes() const;
@@ -47,10 +50,13 @@ class EngineBase : public WallEngine {
   StepResults results_;
 
  private:
+  void keep_records(const SphereResult *result, const ContactRecord *records, int stride);
+
   WallTotals totals_;
   std::vector<int> touching_, counts_, scratch_;
   std::vector<SphereOutput> output_;
   std::vector<Real> heat_;    // of touching_
+  std::vector<ContactRecord> records_;
 };
 
 }    // namespace lsdcd

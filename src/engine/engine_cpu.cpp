@@ -24,25 +24,29 @@ class CpuEngine : public EngineBase {
     if (law_.traits.history) spring_.resize(n * kPlaces);
     extra_.resize(n * kPlaces * law_.traits.n_extra);
     if (law_.traits.heat) heat_.resize(n);
-    const HostJob job =
-        host_job(grid_, result_.data(), {spring_.data(), extra_.data(), heat_.data()});
+    if (law_.traits.records) record_.resize(n * kPlaces);
+    const HostJob job = host_job(grid_, result_.data(), sink());
     law_.run(law_.law, job, n);
-    const int stride = redo_crowded(job, spring_, extra_);
-    finish(result_.data(), {spring_.data(), extra_.data(), heat_.data()}, stride);
+    const int stride = redo_crowded(job, spring_, extra_, record_);
+    finish(result_.data(), sink(), stride);
   }
 
   std::size_t bytes() const override
   {
     return shared_bytes() + result_.capacity() * sizeof(SphereResult) +
            spring_.capacity() * sizeof(Spring) +
-           (extra_.capacity() + heat_.capacity()) * sizeof(Real);
+           (extra_.capacity() + heat_.capacity()) * sizeof(Real) +
+           record_.capacity() * sizeof(ContactRecord);
   }
 
  private:
+  SphereSink sink() { return {spring_.data(), extra_.data(), heat_.data(), record_.data()}; }
+
   GridView grid_ = {};
   std::vector<SphereResult> result_;
   std::vector<Spring> spring_;
   std::vector<Real> extra_, heat_;
+  std::vector<ContactRecord> record_;
 };
 
 }    // namespace

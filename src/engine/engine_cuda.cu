@@ -57,14 +57,18 @@ class CudaEngine : public EngineBase {
     if (law_.traits.heat) gather_heat(n);
     sphere_.to_device(n, backend_.stream);
     const CudaJob job = {
-        device_grid_,        force_settings_,
-        sphere_.device(),    old_spring_.device(),
-        old_extra_.device(), temperature_.device(),
-        result_.device(),    {new_spring_.data(), new_extra_.data(), heat_.device()}};
+        device_grid_,
+        force_settings_,
+        sphere_.device(),
+        old_spring_.device(),
+        old_extra_.device(),
+        temperature_.device(),
+        result_.device(),
+        {new_spring_.data(), new_extra_.data(), heat_.device(), new_record_.data()}};
     cuda_law_.start(cuda_law_.law, job, n, backend_);
     result_.to_host(n, backend_.stream);
     if (law_.traits.heat) heat_.to_host(n, backend_.stream);
-    if (law_.traits.history) pack_springs(n);
+    if (keeps_contacts()) pack_contacts(n);
   }
 
   void collect() override
@@ -72,25 +76,29 @@ class CudaEngine : public EngineBase {
     const std::size_t n = results_.near.size(), n_extra = law_.traits.n_extra;
     backend_.wait();
     SphereResult *result = n > 0 ? result_.host() : nullptr;
-    SphereSink sink = {nullptr, nullptr, heat_.host()};
-    if (law_.traits.history && n > 0) {
-      std::size_t n_springs = 0;
+    SphereSink sink = {nullptr, nullptr, heat_.host(), nullptr};
+    if (keeps_contacts() && n > 0) {
+      std::size_t n_contacts = 0;
       for (std::size_t k = 0; k < n; k++)
-        n_springs += result[k].n_contacts > 0 ? result[k].n_contacts : 0;
-      if (n_springs > 0) {
-        packed_.to_host(n_springs, backend_.stream);
-        if (n_extra > 0) packed_extra_.to_host(n_springs * n_extra, backend_.stream);
+        n_contacts += result[k].n_contacts > 0 ? result[k].n_contacts : 0;
+      if (n_contacts > 0) {
+        if (law_.traits.history) packed_.to_host(n_contacts, backend_.stream);
+        if (n_extra > 0) packed_extra_.to_host(n_contacts * n_extra, backend_.stream);
+        if (law_.traits.records) packed_record_.to_host(n_contacts, backend_.stream);
         backend_.wait();
       }
       sink.springs = packed_.host();
       sink.extra = packed_extra_.host();
+      sink.records = packed_record_.host();
     }
     int stride = kPacked;
     if (any_crowded(n)) {
       spread(sink, n);
-      stride = redo_crowded(host_job(host_grid_, result, sink), crowded_, crowded_extra_);
+      stride = redo_crowded(host_job(host_grid_, result, sink), crowded_, crowded_extra_,
+                            crowded_record_);
       sink.springs = crowded_.data();
       sink.extra = crowded_extra_.data();
+      sink.records = crowded_record_.data();
     }
     finish(result, sink, stride);
   }
@@ -100,20 +108,24 @@ class CudaEngine : public EngineBase {
     return shared_bytes() + block_.size() + sphere_.bytes() + result_.bytes() +
            old_spring_.bytes() + packed_.bytes() + new_spring_.size() * sizeof(Spring) +
            old_extra_.bytes() + packed_extra_.bytes() + new_extra_.size() * sizeof(Real) +
+           packed_record_.bytes() + new_record_.size() * sizeof(ContactRecord) +
            temperature_.bytes() + heat_.bytes() + offset_.size() * sizeof(std::uint32_t) +
            scratch_.size();
   }
 
-  // Most spheres have one spring or none of the kPlaces they have room for: only
+  // Most spheres have one contact or none of the kPlaces they have room for: only
   // what is there crosses to the host.
-  void pack_springs(std::size_t n)
+  void pack_contacts(std::size_t n)
   {
+    const bool history = law_.traits.history, records = law_.traits.records;
     const int n_extra = law_.traits.n_extra;
     const SphereResult *result = result_.device();
     const Spring *from = new_spring_.data();
     const Real *from_extra = new_extra_.data();
     std::uint32_t *offset = offset_.data();
+    const ContactRecord *from_record = new_record_.data();
     Spring *to = packed_.device();
+    ContactRecord *to_record = packed_record_.device();
     Real *to_extra = packed_extra_.device();
     backend_.for_each(n, [=] __device__(std::size_t k) {
       offset[k] = result[k].n_contacts > 0 ? result[k].n_contacts : 0;
@@ -127,7 +139,10 @@ class CudaEngine : public EngineBase {
         cub::DeviceScan::ExclusiveSum(scratch_.data(), bytes, offset, offset, n, backend_.stream),
         "scanning");
     backend_.for_each(n, [=] __device__(std::size_t k) {
-      for (int i = 0; i < result[k].n_contacts; i++) to[offset[k] + i] = from[k * kPlaces + i];
+      for (int i = 0; i < result[k].n_contacts; i++) {
+        if (history) to[offset[k] + i] = from[k * kPlaces + i];
+        if (records) to_record[offset[k] + i] = from_record[k * kPlaces + i];
+      }
     });
     if (n_extra == 0) return;
     backend_.for_each(n, [=] __device__(std::size_t k) {
@@ -137,6 +152,24 @@ class CudaEngine : public EngineBase {
   }
 
  private:
+  bool keeps_contacts() const { return law_.traits.history || law_.traits.records; }
+
+  // Room for what the contacts of n spheres leave behind.
+  void reserve_contacts(std::size_t n)
+  {
+    if (!keeps_contacts()) return;
+    const std::size_t n_extra = law_.traits.n_extra;
+    if (law_.traits.history) packed_.reserve(n * kPlaces);
+    if (n_extra > 0) packed_extra_.reserve(n * kPlaces * n_extra);
+    if (law_.traits.records) packed_record_.reserve(n * kPlaces);
+    if (offset_.size() >= n) return;
+    const std::size_t room = n + n / 2;
+    offset_ = CudaBackend::Array<std::uint32_t>(room);
+    if (law_.traits.history) new_spring_ = CudaBackend::Array<Spring>(room * kPlaces);
+    new_extra_ = CudaBackend::Array<Real>(room * kPlaces * n_extra);
+    if (law_.traits.records) new_record_ = CudaBackend::Array<ContactRecord>(room * kPlaces);
+  }
+
   void gather(std::size_t n)
   {
     NearSphere *to = sphere_.host();
@@ -153,6 +186,7 @@ class CudaEngine : public EngineBase {
                0,
                law_.traits.history ? springs_->count(i) : 0};
     }
+    reserve_contacts(n);
     if (!law_.traits.history) return;
     const std::size_t n_extra = law_.traits.n_extra;
     std::int32_t n_springs = 0;
@@ -161,16 +195,7 @@ class CudaEngine : public EngineBase {
       n_springs += to[k].n_springs;
     }
     old_spring_.reserve(n_springs > 0 ? n_springs : 1);
-    packed_.reserve(n * kPlaces);
-    if (n_extra > 0) {
-      old_extra_.reserve((n_springs > 0 ? n_springs : 1) * n_extra);
-      packed_extra_.reserve(n * kPlaces * n_extra);
-    }
-    if (new_spring_.size() < n * kPlaces) {
-      new_spring_ = CudaBackend::Array<Spring>(packed_.room());
-      new_extra_ = CudaBackend::Array<Real>(packed_.room() * n_extra);
-      offset_ = CudaBackend::Array<std::uint32_t>(packed_.room() / kPlaces);
-    }
+    if (n_extra > 0) old_extra_.reserve((n_springs > 0 ? n_springs : 1) * n_extra);
 #pragma omp parallel for schedule(static) num_threads(threads()) if (m > 4096)
     for (std::int64_t k = 0; k < m; k++) {
       if (to[k].n_springs == 0) continue;
@@ -195,18 +220,20 @@ class CudaEngine : public EngineBase {
     temperature_.to_device(n, backend_.stream);
   }
 
-  // Back to kPlaces springs each, as redo_crowded wants them.
+  // Back to kPlaces contacts each, as redo_crowded wants them.
   void spread(const SphereSink &packed, std::size_t n)
   {
     const std::size_t n_extra = law_.traits.n_extra;
-    const std::size_t places = law_.traits.history ? n * kPlaces : 0;
-    crowded_.assign(places, Spring{});
-    crowded_extra_.assign(places * n_extra, 0);
-    if (!law_.traits.history) return;
+    const bool history = law_.traits.history, records = law_.traits.records;
+    crowded_.assign(history ? n * kPlaces : 0, Spring{});
+    crowded_extra_.assign(n * kPlaces * n_extra, 0);
+    crowded_record_.assign(records ? n * kPlaces : 0, ContactRecord{});
+    if (!keeps_contacts()) return;
     std::size_t at = 0;
     for (std::size_t k = 0; k < n; k++)
       for (int i = 0; i < result_.host()[k].n_contacts; i++, at++) {
-        crowded_[k * kPlaces + i] = packed.springs[at];
+        if (history) crowded_[k * kPlaces + i] = packed.springs[at];
+        if (records) crowded_record_[k * kPlaces + i] = packed.records[at];
         std::copy(packed.extra + at * n_extra, packed.extra + (at + 1) * n_extra,
                   crowded_extra_.begin() + (k * kPlaces + i) * n_extra);
       }
@@ -231,10 +258,13 @@ class CudaEngine : public EngineBase {
   // Of laws that keep more than a stretch, and of those with heat; empty otherwise.
   Mirrored<Real> old_extra_, packed_extra_, temperature_, heat_;
   CudaBackend::Array<Real> new_extra_;
+  Mirrored<ContactRecord> packed_record_;
+  CudaBackend::Array<ContactRecord> new_record_;
   CudaBackend::Array<std::uint32_t> offset_;
   CudaBackend::Array<char> scratch_;
   std::vector<Spring> crowded_;
   std::vector<Real> crowded_extra_;
+  std::vector<ContactRecord> crowded_record_;
 };
 
 }    // namespace

@@ -9,18 +9,18 @@ HostLaw host_law(const EngineSettings &settings)
   const ContactLaw &law = settings.law;
   if (law.style != LawStyle::granular) {
     if (settings.precision == Precision::single_)
-      return with_classic_law<float>(law, MakeHostLaw());
-    return with_classic_law<Real>(law, MakeHostLaw());
+      return with_classic_law<float>(law, MakeHostLaw<WallKernels::plain>{});
+    return with_classic_law<Real>(law, MakeHostLaw<WallKernels::each>{effects_of(settings)});
   }
   switch (law.granular.normal) {
     case NormalModel::hertz:
-      return host_hertz_law(law);
+      return host_hertz_law(settings);
     case NormalModel::dmt:
-      return host_dmt_law(law);
+      return host_dmt_law(settings);
     case NormalModel::jkr:
-      return host_jkr_law(law);
+      return host_jkr_law(settings);
     default:
-      return host_hooke_law(law);
+      return host_hooke_law(settings);
   }
 }
 

@@ -32,6 +32,7 @@ void run_law(const LawBytes &bytes, const HostJob &job, std::size_t n)
     if constexpr (Law::kHistory) sink.springs = job.sink.springs + k * kPlaces;
     if constexpr (Law::kExtra > 0) sink.extra = job.sink.extra + k * kPlaces * Law::kExtra;
     if constexpr (Law::kHeat) sink.heat = job.sink.heat + k;
+    if constexpr (Law::kRecords) sink.records = job.sink.records + k * kPlaces;
     job.result[k] = wall_force<Law, kPlaces>(*job.grid, law, job.settings,
                                              state_of<Law>(job, job.near[k]), sink);
   });
@@ -50,11 +51,17 @@ bool redo_law(const LawBytes &bytes, const HostJob &job, std::size_t k, const Sp
 }
 
 // For with_..._law() of laws.h.
+template <WallKernels kernels>
 struct MakeHostLaw {
+  WallEffects effects;
+
   template <class Law>
   HostLaw operator()(const Law &law) const
   {
-    return {traits_of<Law>(), LawBytes(law), run_law<Law>, redo_law<Law>};
+    return on_wall<kernels>(law, effects, [](const auto &compiled) {
+      using L = std::decay_t<decltype(compiled)>;
+      return HostLaw{traits_of<L>(), LawBytes(compiled), run_law<L>, redo_law<L>};
+    });
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include "base/vec3.h"
 #include "contact/spring_store.h"
+#include "engine/on_wall.h"
 #include "grid/triangle_grid.h"
 #include "mesh/wall_mesh.h"
 #include "model/contact_law.h"
@@ -28,6 +29,9 @@ struct EngineSettings {
   Corner corner = Corner::blend;
   Side side = Side::both;
   Precision precision = Precision::double_;
+  SurfaceMotion surface;               // of the wall, in the plane of each contact
+  bool records = false;                // keep what every contact does to the wall
+  WearModel wear = WearModel::none;    // where records are kept
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
 };
@@ -107,6 +111,11 @@ class WallEngine {
   virtual const SphereOutput *sphere_output() const = 0;
   // Power into each of them; null where the law has no heat.
   virtual const Real *sphere_heat() const = 0;
+
+  // What the contacts of the last step did to the wall, in the order of the spheres;
+  // valid after collect() where settings.records is set.
+  virtual int n_records() const = 0;
+  virtual const ContactRecord *records() const = 0;
 
   // Spheres that passed the near test in the last step; bytes held by the engine.
   virtual int n_near() const = 0;

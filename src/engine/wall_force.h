@@ -33,11 +33,12 @@ struct SphereResult {
 constexpr int kOverflow = -1;
 
 // Where a sphere's springs go, and what few laws return: written only where the law has
-// history, extra numbers beside it, heat.
+// history, extra numbers beside it, heat, records.
 struct SphereSink {
-  Spring *springs;    // one per contact
-  Real *extra;        // Law::kExtra per contact
-  Real *heat;         // power into the sphere
+  Spring *springs;           // one per contact
+  Real *extra;               // Law::kExtra per contact
+  Real *heat;                // power into the sphere
+  ContactRecord *records;    // one per contact
 };
 
 struct ForceSettings {
@@ -46,6 +47,8 @@ struct ForceSettings {
   bool update;
   bool with_point;          // fill weighted_point and weight
   Real wall_temperature;    // read only where the law has heat
+  SurfaceMotion surface;    // read only where the surface moves
+  WearModel wear;           // read only where there are records
 };
 
 template <bool kBeyond, class Geometry, int kPlaces>
@@ -108,7 +111,9 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     c.radius = static_cast<T>(s.radius);
     c.mass = static_cast<T>(s.mass);
     c.v_normal = static_cast<T>(v_normal);
-    c.v_tangent = vec_cast<T>(s.v - v_normal * n - s.radius * cross(s.omega, n));
+    Vec3 along = s.v - v_normal * n;
+    if constexpr (Law::kSurface) along -= settings.surface.along(s.x - set.distance[i] * n, n);
+    c.v_tangent = vec_cast<T>(along - s.radius * cross(s.omega, n));
     c.dt = static_cast<T>(settings.dt);
     c.update = settings.update;
     if constexpr (Law::kCouple) c.omega = vec_cast<T>(s.omega);
@@ -123,9 +128,17 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       if constexpr (Law::kExtra > 0)
         for (int k = 0; k < Law::kExtra; k++) sink.extra[at * Law::kExtra + k] = memory.extra[k];
     }
+    const Vec3 tangential = weight * vec_cast<Real>(f.tangential);
+    if constexpr (Law::kRecords) {
+      const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
+      ContactRecord &record = sink.records[out.n_contacts];
+      record = {set.feature[i], 0, normal, norm(tangential), 0};
+      if (settings.wear != WearModel::none)
+        record.wear_power =
+            wear_power(settings.wear, pressing, norm(c.v_tangent), v_normal, norm(along));
+    }
     out.n_contacts++;
 
-    const Vec3 tangential = weight * vec_cast<Real>(f.tangential);
     out.force += (weight * f.normal) * n + tangential;
     out.torque -= s.radius * cross(n, tangential);
     out.energy += weight * f.energy;

@@ -307,5 +307,15 @@ TEST(settings, help_lists_every_keyword)
     EXPECT_TRUE(names(settings_help(), std::string("\n  ") + name));
 }
 
+TEST(settings, surfaces_move_and_turn)
+{
+  const WallSettings s = with("surface_vel 1 -2 0.5 surface_angvel 0 0 3 1 2 4");
+  EXPECT_EQ(s.surface.velocity, (Vec3{1, -2, 0.5}));
+  EXPECT_EQ(s.surface.angular, (Vec3{0, 0, 3}));
+  EXPECT_EQ(s.surface.centre, (Vec3{1, 2, 4}));
+  EXPECT_EQ(with("surface_angvel 0 0 3").surface.centre, (Vec3{0, 0, 0}));
+  EXPECT_FALSE(with("").surface.moves());
+}
+
 }    // namespace
 }    // namespace lsdcd

@@ -2,10 +2,11 @@
 
 namespace lsdcd {
 
-CudaLaw cuda_dmt_law(const ContactLaw &p)
+CudaLaw cuda_dmt_law(const EngineSettings &s)
 {
+  const ContactLaw &p = s.law;
   return with_granular_law(p, DmtNormal<Real>(p.granular.k_normal, p.granular.cohesion),
-                           MakeCudaLaw());
+                           MakeCudaLaw<WallKernels::both>{effects_of(s)});
 }
 
 }    // namespace lsdcd

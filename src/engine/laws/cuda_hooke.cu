@@ -2,9 +2,11 @@
 
 namespace lsdcd {
 
-CudaLaw cuda_hooke_law(const ContactLaw &p)
+CudaLaw cuda_hooke_law(const EngineSettings &s)
 {
-  return with_granular_law(p, HookeNormal<Real>{p.granular.k_normal}, MakeCudaLaw());
+  const ContactLaw &p = s.law;
+  return with_granular_law(p, HookeNormal<Real>{p.granular.k_normal},
+                           MakeCudaLaw<WallKernels::both>{effects_of(s)});
 }
 
 }    // namespace lsdcd

@@ -2,9 +2,11 @@
 
 namespace lsdcd {
 
-HostLaw host_hooke_law(const ContactLaw &p)
+HostLaw host_hooke_law(const EngineSettings &s)
 {
-  return with_granular_law(p, HookeNormal<Real>{p.granular.k_normal}, MakeHostLaw());
+  const ContactLaw &p = s.law;
+  return with_granular_law(p, HookeNormal<Real>{p.granular.k_normal},
+                           MakeHostLaw<WallKernels::both>{effects_of(s)});
 }
 
 }    // namespace lsdcd

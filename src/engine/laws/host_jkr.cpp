@@ -2,10 +2,11 @@
 
 namespace lsdcd {
 
-HostLaw host_jkr_law(const ContactLaw &p)
+HostLaw host_jkr_law(const EngineSettings &s)
 {
+  const ContactLaw &p = s.law;
   return with_granular_law(p, JkrNormal<Real>(p.granular.modulus, p.granular.cohesion),
-                           MakeHostLaw());
+                           MakeHostLaw<WallKernels::both>{effects_of(s)});
 }
 
 }    // namespace lsdcd
