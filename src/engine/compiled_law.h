@@ -63,7 +63,7 @@ struct HostJob {
 };
 
 // The wall's effects that the settings ask for.
-inline WallEffects effects_of(const EngineSettings &s)
+inline WallEffects wall_effects(const EngineSettings &s)
 {
   return {s.surface.moves(), s.records};
 }

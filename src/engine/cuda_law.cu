@@ -8,7 +8,7 @@ CudaLaw cuda_law(const EngineSettings &settings)
   if (law.style != LawStyle::granular) {
     if (settings.precision == Precision::single_)
       return with_classic_law<float>(law, MakeCudaLaw<WallKernels::plain>{});
-    return with_classic_law<Real>(law, MakeCudaLaw<WallKernels::each>{effects_of(settings)});
+    return with_classic_law<Real>(law, MakeCudaLaw<WallKernels::each>{wall_effects(settings)});
   }
   switch (law.granular.normal) {
     case NormalModel::hertz:

@@ -10,7 +10,7 @@ HostLaw host_law(const EngineSettings &settings)
   if (law.style != LawStyle::granular) {
     if (settings.precision == Precision::single_)
       return with_classic_law<float>(law, MakeHostLaw<WallKernels::plain>{});
-    return with_classic_law<Real>(law, MakeHostLaw<WallKernels::each>{effects_of(settings)});
+    return with_classic_law<Real>(law, MakeHostLaw<WallKernels::each>{wall_effects(settings)});
   }
   switch (law.granular.normal) {
     case NormalModel::hertz:

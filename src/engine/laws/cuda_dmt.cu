@@ -6,7 +6,7 @@ CudaLaw cuda_dmt_law(const EngineSettings &s)
 {
   const ContactLaw &p = s.law;
   return with_granular_law(p, DmtNormal<Real>(p.granular.k_normal, p.granular.cohesion),
-                           MakeCudaLaw<WallKernels::both>{effects_of(s)});
+                           MakeCudaLaw<WallKernels::both>{wall_effects(s)});
 }
 
 }    // namespace lsdcd

@@ -6,7 +6,7 @@ CudaLaw cuda_hertz_law(const EngineSettings &s)
 {
   const ContactLaw &p = s.law;
   return with_granular_law(p, HertzNormal<Real>{p.granular.k_normal},
-                           MakeCudaLaw<WallKernels::both>{effects_of(s)});
+                           MakeCudaLaw<WallKernels::both>{wall_effects(s)});
 }
 
 }    // namespace lsdcd

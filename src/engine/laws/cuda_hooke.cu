@@ -6,7 +6,7 @@ CudaLaw cuda_hooke_law(const EngineSettings &s)
 {
   const ContactLaw &p = s.law;
   return with_granular_law(p, HookeNormal<Real>{p.granular.k_normal},
-                           MakeCudaLaw<WallKernels::both>{effects_of(s)});
+                           MakeCudaLaw<WallKernels::both>{wall_effects(s)});
 }
 
 }    // namespace lsdcd

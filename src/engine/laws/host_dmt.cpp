@@ -6,7 +6,7 @@ HostLaw host_dmt_law(const EngineSettings &s)
 {
   const ContactLaw &p = s.law;
   return with_granular_law(p, DmtNormal<Real>(p.granular.k_normal, p.granular.cohesion),
-                           MakeHostLaw<WallKernels::both>{effects_of(s)});
+                           MakeHostLaw<WallKernels::both>{wall_effects(s)});
 }
 
 }    // namespace lsdcd

@@ -6,7 +6,7 @@ HostLaw host_hertz_law(const EngineSettings &s)
 {
   const ContactLaw &p = s.law;
   return with_granular_law(p, HertzNormal<Real>{p.granular.k_normal},
-                           MakeHostLaw<WallKernels::both>{effects_of(s)});
+                           MakeHostLaw<WallKernels::both>{wall_effects(s)});
 }
 
 }    // namespace lsdcd

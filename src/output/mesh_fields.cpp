@@ -1,0 +1,109 @@
+#include "output/mesh_fields.h"
+
+#include "base/whole_file.h"
+
+#include <cstdint>
+#include <cstring>
+
+namespace lsdcd {
+
+namespace {
+
+std::string base64(const std::vector<unsigned char> &bytes)
+{
+  static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = bytes.size() - i;
+    const std::uint32_t three = std::uint32_t(bytes[i]) << 16 |
+                                (n > 1 ? std::uint32_t(bytes[i + 1]) << 8 : 0) |
+                                (n > 2 ? std::uint32_t(bytes[i + 2]) : 0);
+    text += letters[three >> 18];
+    text += letters[three >> 12 & 63];
+    text += n > 1 ? letters[three >> 6 & 63] : '=';
+    text += n > 2 ? letters[three & 63] : '=';
+  }
+  return text;
+}
+
+// An array as VTK's "binary": the number of bytes in 64 bits, then the values.
+template <class T>
+std::string data_array(const char *type, const std::string &name, const std::vector<T> &values,
+                       const std::string &more = "")
+{
+  const std::uint64_t n_bytes = values.size() * sizeof(T);
+  std::vector<unsigned char> bytes(sizeof n_bytes + n_bytes);
+  std::memcpy(bytes.data(), &n_bytes, sizeof n_bytes);
+  if (n_bytes > 0) std::memcpy(bytes.data() + sizeof n_bytes, values.data(), n_bytes);
+  return std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\"" + more +
+         " format=\"binary\">" + base64(bytes) + "</DataArray>\n";
+}
+
+Real face_area(const WallMesh &mesh, std::size_t face)
+{
+  const auto &f = mesh.faces[face];
+  const Vec3 &a = mesh.vertices[f[0]];
+  return Real(0.5) * norm(cross(mesh.vertices[f[1]] - a, mesh.vertices[f[2]] - a));
+}
+
+}    // namespace
+
+std::vector<FaceField> load_fields(const WallMesh &mesh, const WallLoads &loads,
+                                   double pressure_unit, bool with_wear)
+{
+  std::vector<FaceField> fields = {{"normal_stress", {}}, {"shear_stress", {}}, {"contacts", {}}};
+  if (with_wear) fields.insert(fields.end(), {{"worn_volume", {}}, {"worn_depth", {}}});
+  const std::vector<Load> faces = loads.of_faces(mesh);
+  const Real per_time = loads.time() > 0 ? 1 / loads.time() : Real(0);
+  for (std::size_t f = 0; f < faces.size(); f++) {
+    const Load &l = faces[f];
+    const Real area = face_area(mesh, f), stress = pressure_unit * per_time / area;
+    const double row[] = {stress * l.normal, stress * l.shear, per_time * l.contacts, l.worn,
+                          l.worn / area};
+    for (std::size_t k = 0; k < fields.size(); k++) fields[k].value.push_back(row[k]);
+  }
+  return fields;
+}
+
+void write_mesh_fields(const std::string &path, const WallMesh &mesh,
+                       const std::vector<FaceField> &fields, long long step, double time)
+{
+  std::vector<double> points;
+  for (const Vec3 &p : mesh.vertices) points.insert(points.end(), {p.x, p.y, p.z});
+  std::vector<std::int32_t> corners, ends;
+  for (const auto &f : mesh.faces) {
+    corners.insert(corners.end(), f.begin(), f.end());
+    ends.push_back(static_cast<std::int32_t>(corners.size()));
+  }
+  const std::string n_points = std::to_string(mesh.vertices.size());
+  const std::string n_faces = std::to_string(mesh.faces.size());
+
+  std::string text = "<?xml version=\"1.0\"?>\n"
+                     "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                     "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n";
+  text += data_array<double>("Float64", "TimeValue", {time}, " NumberOfTuples=\"1\"");
+  text += data_array<std::int64_t>("Int64", "step", {step}, " NumberOfTuples=\"1\"");
+  text += "</FieldData>\n<Piece NumberOfPoints=\"" + n_points + "\" NumberOfPolys=\"" + n_faces +
+          "\">\n<CellData>\n";
+  for (const FaceField &field : fields) text += data_array("Float64", field.name, field.value);
+  text += "</CellData>\n<Points>\n";
+  text += data_array("Float64", "points", points, " NumberOfComponents=\"3\"");
+  text += "</Points>\n<Polys>\n";
+  text += data_array("Int32", "connectivity", corners);
+  text += data_array("Int32", "offsets", ends);
+  text += "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+
+  WholeFile file(path);
+  file.write_at(0, text.data(), text.size());
+  file.commit();
+}
+
+std::string file_of_step(const std::string &path, long long step)
+{
+  const std::size_t star = path.find('*');
+  if (star == std::string::npos) return path;
+  return path.substr(0, star) + std::to_string(step) + path.substr(star + 1);
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,54 @@
+// What contacts do to a wall over time: forces on its parts, and the volume that wears off.
+#pragma once
+
+#include "engine/on_wall.h"
+#include "mesh/wall_mesh.h"
+
+#include <cstddef>
+#include <unordered_map>
+#include <vector>
+
+namespace lsdcd {
+
+// Of one face, edge or vertex. Integrals over the time of an average, but for `worn`,
+// which is of all time.
+struct Load {
+  Real normal = 0;      // force time; of the normal forces, < 0 where they pull
+  Real shear = 0;       // force time; of the sizes of the forces along the wall
+  Real contacts = 0;    // time; of the number of contacts
+  Real worn = 0;        // length^3
+};
+
+class WallLoads {
+ public:
+  // Adds a step of duration dt; per_work as in Wear. The order of the records is the order
+  // of summing: the same records give the same bits.
+  void add(const ContactRecord *records, int n, Real dt, Real per_work);
+
+  // Begins a new average: forgets all but what has worn off.
+  void begin_average();
+
+  Real time() const { return time_; }    // of the average
+  void set_time(Real time) { time_ = time; }
+  Real worn() const;    // length^3, in all
+  std::size_t bytes() const;
+
+  // Rows of kPackedLoad numbers, by feature; add_packed() adds to what is there.
+  static constexpr int kPackedLoad = 5;
+  std::vector<double> packed() const;
+  void add_packed(const double *rows, std::size_t n_rows);
+
+  // The load of every face. That of an edge or a vertex is shared evenly by the faces that
+  // meet there; one without a face, which only a dropped triangle leaves behind, is not in.
+  std::vector<Load> of_faces(const WallMesh &mesh) const;
+
+ private:
+  Load &load(FeatureCode feature);
+
+  Real time_ = 0;
+  std::unordered_map<FeatureCode, std::size_t> place_;
+  std::vector<FeatureCode> feature_;
+  std::vector<Load> load_;
+};
+
+}    // namespace lsdcd

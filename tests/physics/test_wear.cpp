@@ -1,0 +1,216 @@
+// What spheres do to a wall: forces on its triangles and wear, against hand integration.
+#include "output/wall_loads.h"
+#include "support/laws.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kOverlap = 0.01;
+
+EngineSettings worn(EngineSettings s, WearModel wear)
+{
+  s.records = true;
+  s.wear = wear;
+  return s;
+}
+
+// Takes a sphere along a path at constant velocity, n steps.
+WallLoads drive(Scene &scene, const Vec3 &from, const Vec3 &v, Real dt, int n, Real per_work)
+{
+  scene.add_sphere(from, kRadius, kMass, v);
+  WallLoads loads;
+  for (int i = 1; i <= n; i++) {
+    scene.set_x(0, from + (i * dt) * v);
+    scene.compute(dt);
+    loads.add(scene.engine->records(), scene.engine->n_records(), dt, per_work);
+  }
+  return loads;
+}
+
+// Archard: V = K F s/H, whatever the triangles; each face has the part of the way that the
+// sphere was over it.
+TEST(wear, of_archard_is_force_times_way)
+{
+  const Vec3 v = {0.9, 0.63, 0}, from = {-1.4, -0.9, kRadius - kOverlap};
+  const Real per_work = 1e-3 / 50, dt = 1e-3;
+  for (const EngineSettings &law :
+       {hooke(kStiffness, 0, 100, 0.3), hooke_history(kStiffness, 3e4, 0, 20, 0.3)}) {
+    Scene scene(floor_mesh(16, 2, 5), kRadius, worn(law, WearModel::archard));
+    const WallLoads loads = drive(scene, from, v, dt, 3000, per_work);
+    const Real whole = per_work * kStiffness * kOverlap * norm(v) * 3;
+    EXPECT_NEAR(loads.worn(), whole, 1e-11 * whole);
+
+    const std::vector<Load> faces = loads.of_faces(scene.mesh);
+    std::vector<Real> steps_over(faces.size(), 0);
+    for (int i = 1; i <= 3000; i++) {
+      const Vec3 p = from + (i * dt) * v;
+      for (std::size_t f = 0; f < faces.size(); f++) {
+        bool inside[2] = {true, true};
+        for (int k = 0; k < 3; k++) {
+          const Vec3 &a = scene.mesh.vertices[scene.mesh.faces[f][k]];
+          const Vec3 &b = scene.mesh.vertices[scene.mesh.faces[f][(k + 1) % 3]];
+          const Real turn = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+          inside[turn < 0] = false;
+        }
+        steps_over[f] += inside[0] || inside[1];
+      }
+    }
+    Real sum = 0;
+    for (std::size_t f = 0; f < faces.size(); f++) {
+      EXPECT_NEAR(faces[f].worn, whole * steps_over[f] / 3000, 1e-11 * whole) << "face " << f;
+      EXPECT_NEAR(faces[f].contacts, dt * steps_over[f], 1e-11);
+      sum += faces[f].worn;
+    }
+    EXPECT_NEAR(sum, whole, 1e-11 * whole);
+  }
+}
+
+// A belt wears under a sphere that stays; one that moves with it does not wear it.
+TEST(wear, goes_with_the_slip_on_a_moving_surface)
+{
+  for (const Real v : {0.0, 2.0}) {
+    EngineSettings law = worn(hooke(kStiffness, 0, 100, 0.3), WearModel::archard);
+    law.surface.velocity = {2, 0, 0};
+    Scene scene(floor_mesh(4, 2), kRadius, law);
+    const WallLoads loads = drive(scene, {-1, 0.1, kRadius - kOverlap}, {v, 0, 0}, 1e-3, 500, 1);
+    EXPECT_NEAR(loads.worn(), v == 0 ? kStiffness * kOverlap * 2 * 0.5 : 0, 1e-8);
+  }
+}
+
+Real finnie(Real angle)
+{
+  return std::tan(angle) < Real(1) / 3 ? std::sin(2 * angle) - 3 * std::sin(angle) * std::sin(angle)
+                                       : std::cos(angle) * std::cos(angle) / 3;
+}
+
+// Pressed in at constant velocity and angle a, the overlap grows from 0 to d:
+// V = K f(a) v int F dt = K f(a) v k d^2/(2 v sin a); on the way out nothing.
+TEST(wear, of_finnie_depends_on_the_angle)
+{
+  const Real per_work = 2e-4, dt = 1e-5, depth = 0.02, speed = 1.3;
+  for (const Real degrees : {5.0, 15.0, 18.0, 19.0, 30.0, 60.0, 89.0}) {
+    const Real a = degrees * M_PI / 180;
+    Scene scene(floor_mesh(8, 2, 3), kRadius, worn(hooke(kStiffness), WearModel::finnie));
+    const Vec3 v = {speed * std::cos(a), 0, -speed * std::sin(a)};
+    const int n = static_cast<int>(std::lround(depth / (speed * std::sin(a) * dt)));
+    const Real reached = n * dt * speed * std::sin(a);
+    const WallLoads loads = drive(scene, {-0.8, 0.1, kRadius}, v, dt, n, per_work);
+    const Real exact = per_work * finnie(a) * kStiffness * reached * reached / (2 * std::sin(a));
+    // A sum at the ends of steps in place of the integral: 1/n of it.
+    EXPECT_NEAR(loads.worn(), exact, 1.01 * exact / n) << degrees;
+
+    WallLoads out;
+    scene.set_v(0, -v);
+    scene.compute(dt);
+    out.add(scene.engine->records(), scene.engine->n_records(), dt, per_work);
+    EXPECT_EQ(out.worn(), 0);
+    EXPECT_GT(out.packed()[3], 0) << "the contact itself is there";
+  }
+}
+
+TEST(wear, of_finnie_is_none_where_a_sphere_slides)
+{
+  Scene scene(floor_mesh(8, 2, 3), kRadius,
+              worn(hooke(kStiffness, 0, 100, 0.3), WearModel::finnie));
+  EXPECT_EQ(drive(scene, {-1, 0.1, kRadius - kOverlap}, {1, 0, 0}, 1e-3, 100, 1).worn(), 0);
+}
+
+// Weight on the floor, and on both sides of an edge.
+TEST(stress, of_a_resting_sphere_is_its_weight)
+{
+  Scene scene(floor_mesh(4, 2), kRadius, worn(hooke(kStiffness, 50), WearModel::none));
+  const WallLoads loads = drive(scene, {0.3, 0.1, kRadius - 2e-4}, {0, 0, 0}, 1e-3, 10, 0);
+  Real normal = 0;
+  int loaded = 0;
+  for (const Load &l : loads.of_faces(scene.mesh)) {
+    normal += l.normal;
+    loaded += l.normal > 0;
+    EXPECT_EQ(l.shear, 0);
+    EXPECT_EQ(l.worn, 0);
+  }
+  EXPECT_NEAR(normal / loads.time(), 20, 1e-9);
+  EXPECT_EQ(loaded, 1);
+
+  Scene box(box_mesh({0, 0, 0}, {1, 1, 1}), kRadius, worn(hooke(kStiffness), WearModel::none));
+  const Real r = std::sqrt(0.5) * (kRadius - kOverlap);
+  const WallLoads edge = drive(box, {1 + r, 0.4, 1 + r}, {0, 0, 0}, 1e-3, 10, 0);
+  const std::vector<Load> faces = edge.of_faces(box.mesh);
+  int halves = 0;
+  for (const Load &l : faces) {
+    if (l.normal == 0) continue;
+    EXPECT_NEAR(l.normal / edge.time(), kStiffness * kOverlap / 2, 1e-9);
+    halves++;
+  }
+  EXPECT_EQ(halves, 2);
+}
+
+TEST(stress, in_shear_is_the_friction)
+{
+  Scene scene(floor_mesh(4, 2), kRadius, worn(hooke(kStiffness, 0, 1e4, 0.3), WearModel::none));
+  const WallLoads loads = drive(scene, {-1, 0.1, kRadius - kOverlap}, {1, 0, 0}, 1e-3, 100, 0);
+  Real shear = 0;
+  for (const Load &l : loads.of_faces(scene.mesh)) shear += l.shear;
+  EXPECT_NEAR(shear / loads.time(), 0.3 * kStiffness * kOverlap, 1e-9);
+}
+
+// Records are only read: what is computed beside them is what it is without.
+TEST(records, change_no_bit_of_the_forces)
+{
+  for (EngineSettings law :
+       {hooke(kStiffness, 20, 100, 0.3), hertz_history(kStiffness, 3e4, 10, 20, 0.3)}) {
+    Vec3 force[3], torque[3];
+    for (int k = 0; k < 3; k++) {
+      law.records = k > 0;
+      law.wear = k > 1 ? WearModel::archard : WearModel::none;
+      Scene scene(cylinder_mesh(9, 3, 1, 2), kRadius, law);
+      scene.add_sphere({0.55, 0.4, 0.45}, kRadius, kMass, {0.3, -0.2, 0.1}, {3, 2, 1});
+      for (int i = 0; i < 5; i++) scene.compute(1e-4);
+      force[k] = scene.force(0);
+      torque[k] = scene.torque(0);
+      EXPECT_EQ(scene.engine->n_records(), k ? scene.engine->totals().contacts : 0);
+      EXPECT_GE(scene.engine->totals().contacts, 2);
+    }
+    for (int k = 1; k < 3; k++) {
+      EXPECT_EQ(force[k], force[0]);
+      EXPECT_EQ(torque[k], torque[0]);
+    }
+  }
+}
+
+// A sphere with more contacts than the kernel has places for is done again: every contact
+// is recorded, and the spheres around it keep theirs.
+TEST(records, of_crowded_spheres_are_all_there)
+{
+  // Thin posts, further apart than a needle is thick: one contact each.
+  TriangleSoup soup;
+  for (int i = 0; i < 12; i++) {
+    const Real a = 2 * M_PI * i / 12;
+    const Vec3 p = {0.45 * std::cos(a), 0.45 * std::sin(a), 0};
+    TriangleSoup post = box_mesh(p - Vec3{0.01, 0.01, 1}, p + Vec3{0.01, 0.01, 0});
+    append(soup, post);
+  }
+  for (const bool history : {false, true}) {
+    EngineSettings law = worn(
+        history ? hooke_history(kStiffness, 3e4, 0, 0, 0.3) : hooke(kStiffness), WearModel::none);
+    law.corner = Corner::sum;
+    Scene scene(soup, kRadius, law);
+    for (const Real z : {1.2, 0.3, 1.2, 0.0}) scene.add_sphere({0, 0, z}, kRadius, kMass);
+    scene.add_sphere({0.45, 0, kRadius - kOverlap}, kRadius, kMass);
+    scene.compute(1e-4);
+    ASSERT_GT(scene.engine->n_records(), 12);
+    EXPECT_EQ(scene.engine->n_records(), scene.engine->totals().contacts);
+    WallLoads loads;
+    loads.add(scene.engine->records(), scene.engine->n_records(), 1, 0);
+    // The last record is the last sphere's, on the top of a post.
+    const ContactRecord &last = scene.engine->records()[scene.engine->n_records() - 1];
+    EXPECT_NEAR(last.normal, kStiffness * kOverlap, 1e-9);
+  }
+}
+
+}    // namespace
+}    // namespace lsdcd

@@ -1,0 +1,173 @@
+// Loads and wear of the parts of a wall, and their file.
+#include "output/mesh_fields.h"
+#include "support/laws.h"
+#include "support/meshes.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace lsdcd {
+namespace {
+
+ContactRecord on(FeatureKind kind, std::uint32_t index, Real normal, Real shear, Real wear)
+{
+  return {feature_code(kind, index), 0, normal, shear, wear};
+}
+
+TEST(loads, are_integrals_over_time)
+{
+  WallLoads loads;
+  const ContactRecord first[] = {on(FeatureKind::face, 1, 2, 1, 8)};
+  const ContactRecord second[] = {on(FeatureKind::face, 1, 4, 3, 16),
+                                  on(FeatureKind::face, 0, -1, 0, 0)};
+  loads.add(first, 1, 0.5, 0.25);
+  loads.add(second, 2, 0.25, 0.25);
+  loads.add(nullptr, 0, 0.25, 0.25);
+  const std::vector<Load> faces = loads.of_faces(weld(floor_mesh(1, 1), -1));
+  EXPECT_EQ(loads.time(), 1);
+  EXPECT_EQ(faces[1].normal, 2);
+  EXPECT_EQ(faces[1].shear, 1.25);
+  EXPECT_EQ(faces[1].contacts, 0.75);
+  EXPECT_EQ(faces[1].worn, 2);
+  EXPECT_EQ(faces[0].normal, -0.25);
+  EXPECT_EQ(loads.worn(), 2);
+}
+
+TEST(loads, of_edges_and_vertices_are_shared_evenly_by_their_faces)
+{
+  const WallMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1);
+  for (std::size_t e = 0; e < mesh.edges.size(); e++) {
+    WallLoads loads;
+    const ContactRecord r = on(FeatureKind::edge, static_cast<std::uint32_t>(e), 6, 2, 0);
+    loads.add(&r, 1, 1, 0);
+    Real sum = 0;
+    const std::vector<Load> faces = loads.of_faces(mesh);
+    for (std::size_t f = 0; f < faces.size(); f++) {
+      const auto &edges = mesh.face_edges[f];
+      const bool has = std::count(edges.begin(), edges.end(), static_cast<int>(e)) > 0;
+      EXPECT_EQ(faces[f].normal, has ? 3 : 0);
+      sum += faces[f].shear;
+    }
+    EXPECT_EQ(sum, 2);
+  }
+  for (std::size_t v = 0; v < mesh.vertices.size(); v++) {
+    WallLoads loads;
+    const ContactRecord r = on(FeatureKind::vertex, static_cast<std::uint32_t>(v), 0, 0, 60);
+    loads.add(&r, 1, 1, 1);
+    int n_around = 0;
+    for (const auto &f : mesh.faces)
+      n_around += std::count(f.begin(), f.end(), static_cast<int>(v));
+    const std::vector<Load> faces = loads.of_faces(mesh);
+    for (std::size_t f = 0; f < faces.size(); f++) {
+      const bool has = std::count(mesh.faces[f].begin(), mesh.faces[f].end(), static_cast<int>(v));
+      EXPECT_NEAR(faces[f].worn, has ? 60.0 / n_around : 0, 1e-14 * 60);
+    }
+  }
+}
+
+TEST(loads, keep_wear_and_forget_stress_when_an_average_begins)
+{
+  WallLoads loads;
+  const ContactRecord r = on(FeatureKind::face, 0, 6, 2, 5);
+  loads.add(&r, 1, 1, 1);
+  loads.begin_average();
+  EXPECT_EQ(loads.time(), 0);
+  EXPECT_EQ(loads.worn(), 5);
+  loads.add(&r, 1, 0.5, 1);
+  const Load face = loads.of_faces(weld(floor_mesh(1, 1), -1))[0];
+  EXPECT_EQ(face.normal, 3);
+  EXPECT_EQ(face.worn, 7.5);
+}
+
+TEST(loads, packed_and_added_up_are_those_of_all)
+{
+  WallLoads one, two, sum;
+  const ContactRecord a[] = {on(FeatureKind::face, 7, 1, 2, 3),
+                             on(FeatureKind::vertex, 3, 4, 5, 6)};
+  const ContactRecord b[] = {on(FeatureKind::vertex, 3, 7, 8, 9),
+                             on(FeatureKind::edge, 3, 1, 1, 1)};
+  one.add(a, 2, 0.5, 1);
+  two.add(b, 2, 0.5, 1);
+  for (const WallLoads *part : {&one, &two}) {
+    const std::vector<double> rows = part->packed();
+    sum.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
+  }
+  one.add(b, 2, 0.5, 1);
+  EXPECT_EQ(sum.packed(), one.packed());
+  EXPECT_EQ(sum.packed().size(), 3u * WallLoads::kPackedLoad);
+}
+
+// The text between > and < of the array with that name, decoded.
+template <class T>
+std::vector<T> array_in(const std::string &xml, const std::string &name)
+{
+  const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const std::size_t at = xml.find('>', xml.find("Name=\"" + name + "\"")) + 1;
+  std::string bytes;
+  unsigned bits = 0, held = 0;
+  for (std::size_t i = at; xml[i] != '<' && xml[i] != '='; i++) {
+    held = held << 6 | static_cast<unsigned>(letters.find(xml[i]));
+    if ((bits += 6) >= 8) bytes += static_cast<char>(held >> (bits -= 8));
+  }
+  std::uint64_t n;
+  std::memcpy(&n, bytes.data(), 8);
+  EXPECT_EQ(n, bytes.size() - 8);
+  std::vector<T> values(n / sizeof(T));
+  std::memcpy(values.data(), bytes.data() + 8, n);
+  return values;
+}
+
+TEST(mesh_fields, are_written_whole_and_exact)
+{
+  const TempDir dir;
+  const std::string path = dir.path("fields.vtp");
+  const WallMesh mesh = weld(floor_mesh(3, 1, 4), -1);
+  WallLoads loads;
+  const ContactRecord r = on(FeatureKind::face, 5, 6, 2, 5);
+  loads.add(&r, 1, 0.1, 1);
+  loads.add(nullptr, 0, 0.1, 1);
+  write_mesh_fields(path, mesh, load_fields(mesh, loads, 1000, true), 77, 0.25);
+
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::string xml = text.str();
+  EXPECT_NE(xml.find("NumberOfPolys=\"18\""), std::string::npos);
+  EXPECT_EQ(xml.substr(xml.size() - 11), "</VTKFile>\n");
+  const auto points = array_in<double>(xml, "points");
+  const auto corners = array_in<std::int32_t>(xml, "connectivity");
+  ASSERT_EQ(corners.size(), 54u);
+  ASSERT_EQ(points.size(), 3 * mesh.vertices.size());
+  EXPECT_EQ(array_in<std::int32_t>(xml, "offsets")[17], 54);
+  EXPECT_EQ(array_in<std::int64_t>(xml, "step")[0], 77);
+  EXPECT_EQ(array_in<double>(xml, "TimeValue")[0], 0.25);
+  // The area from what is in the file, by Heron's formula.
+  Real side[3];
+  for (int k = 0; k < 3; k++) {
+    const double *p = &points[3 * corners[15 + k]], *q = &points[3 * corners[15 + (k + 1) % 3]];
+    side[k] = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  }
+  const Real s = (side[0] + side[1] + side[2]) / 2;
+  const Real area = std::sqrt(s * (s - side[0]) * (s - side[1]) * (s - side[2]));
+  EXPECT_NEAR(array_in<double>(xml, "normal_stress")[5], 3000 / area, 1e-12 * 3000 / area);
+  EXPECT_NEAR(array_in<double>(xml, "shear_stress")[5], 1000 / area, 1e-12 * 1000 / area);
+  EXPECT_NEAR(array_in<double>(xml, "contacts")[5], 0.5, 1e-15);
+  EXPECT_NEAR(array_in<double>(xml, "worn_volume")[5], 0.5, 1e-15);
+  EXPECT_NEAR(array_in<double>(xml, "worn_depth")[5], 0.5 / area, 1e-12 / area);
+  EXPECT_EQ(array_in<double>(xml, "normal_stress")[4], 0);
+}
+
+TEST(mesh_fields, files_carry_the_step_where_a_star_is)
+{
+  EXPECT_EQ(file_of_step("a/wall_*.vtp", 1200), "a/wall_1200.vtp");
+  EXPECT_EQ(file_of_step("wall.vtp", 1200), "wall.vtp");
+}
+
+}    // namespace
+}    // namespace lsdcd
