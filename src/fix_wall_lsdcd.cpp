@@ -46,6 +46,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
       settings.law.k_normal /= force->nktv2p;
       settings.law.k_tangent /= force->nktv2p;
     }
+    settings.wear.per_work *= force->nktv2p;
     wall = std::make_unique<lsdcd::NodeWall>(world, settings);
     check_side();
 
@@ -55,18 +56,21 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   }
 
   history = settings.law.has_history();
+  records = settings.has_loads();
+  restart_global = records;
+  if (settings.fields_every > 0) nevery = settings.fields_every;
   create_attribute = history || settings.contacts;
   restart_peratom = history;
   maxexchange_dynamic = history;
   dynamic_group_allow = 1;
 
   scalar_flag = vector_flag = 1;
-  size_vector = kTotals;
+  size_vector = kTotals + settings.wears();
   global_freq = 1;
   extscalar = 1;
   extvector = -1;
-  extlist = new int[kTotals];
-  std::fill(extlist, extlist + kTotals, 1);
+  extlist = new int[kTotals + 1];
+  std::fill(extlist, extlist + kTotals + 1, 1);
   extlist[7] = 0;    // the largest overlap is not a sum
   energy_global_flag = 1;
   energy = 0;
@@ -107,7 +111,7 @@ FixWallLsdcd::~FixWallLsdcd()
 int FixWallLsdcd::setmask()
 {
   return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN |
-         (history ? PRE_EXCHANGE : 0);
+         (history ? PRE_EXCHANGE : 0) | (settings.fields_every > 0 ? END_OF_STEP : 0);
 }
 
 void FixWallLsdcd::init()
@@ -238,6 +242,7 @@ void FixWallLsdcd::collect()
       worst_step = update->ntimestep;
     }
   }
+  if (records) add_loads();
   if (settings.contacts) fill_contacts();
 }
 
@@ -250,6 +255,8 @@ void FixWallLsdcd::make_engine()
   want.side = settings.side;
   want.precision = settings.precision;
   want.surface = settings.surface;
+  want.records = settings.has_loads();
+  want.wear = settings.wear.model;
   want.device = settings.device;
   want.device_rank = wall->shared().node_rank();
   lsdcd::together(world, true, [&] { engine = lsdcd::make_engine(want); });

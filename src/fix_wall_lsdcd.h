@@ -5,6 +5,7 @@
 #include "fix.h"
 
 #include "node_wall.h"
+#include "output/wall_loads.h"
 
 #include <memory>
 #include <vector>
@@ -27,6 +28,7 @@ class FixWallLsdcd : public Fix {
   void pre_force(int) override;
   void post_force(int) override;
   void post_force_respa(int, int, int) override;
+  void end_of_step() override;
   void post_run() override;
 
   // springs on the move and in restart files: fix_wall_lsdcd_exchange.cpp
@@ -40,6 +42,10 @@ class FixWallLsdcd : public Fix {
   int size_restart(int) override;
   int maxsize_restart() override;
 
+  // loads and wear: fix_wall_lsdcd_loads.cpp
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
   // outputs: fix_wall_lsdcd_output.cpp
   double compute_scalar() override;
   double compute_vector(int) override;
@@ -51,7 +57,8 @@ class FixWallLsdcd : public Fix {
   std::unique_ptr<lsdcd::NodeWall> wall;
   std::unique_ptr<lsdcd::WallEngine> engine;
   lsdcd::SpringStore springs;
-  bool history;
+  lsdcd::WallLoads loads;
+  bool history, records;
   bool callbacks = false;    // registered with Atom
   bool restarted = false;    // springs came from a restart file and are not checked yet
   bool running = false;      // between start and collect
@@ -85,6 +92,10 @@ class FixWallLsdcd : public Fix {
 
   void make_engine();
   void tune(double);    // fix_wall_lsdcd_tune.cpp
+
+  // fix_wall_lsdcd_loads.cpp
+  void add_loads();
+  lsdcd::WallLoads gathered_loads() const;
 
   // fix_wall_lsdcd_checks.cpp
   double largest_radius() const;    // of the group, on this process

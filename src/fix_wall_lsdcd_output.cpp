@@ -42,7 +42,10 @@ double FixWallLsdcd::compute_scalar()
 double FixWallLsdcd::compute_vector(int i)
 {
   reduce_totals();
-  return totals[i];
+  if (i < 9) return totals[i];
+  double worn = loads.worn();
+  MPI_Allreduce(MPI_IN_PLACE, &worn, 1, MPI_DOUBLE, MPI_SUM, world);
+  return worn;
 }
 
 void FixWallLsdcd::fill_contacts()
@@ -64,6 +67,7 @@ double FixWallLsdcd::memory_usage()
 {
   double bytes = engine->bytes() + wall->bytes() + mass_seen.capacity() * sizeof(double);
   if (history) bytes += springs.bytes();
+  if (records) bytes += loads.bytes();
   if (settings.contacts) bytes += (double) atom->nmax * size_peratom_cols * sizeof(double);
   return bytes;
 }

@@ -50,6 +50,8 @@ void NodeWall::tune(Real reach, const std::vector<TaggedSphere> &mine)
     want.engine.corner = settings_.corner;
     want.engine.side = settings_.side;
     want.engine.precision = settings_.precision;
+    want.engine.surface = settings_.surface;
+    want.engine.records = settings_.has_loads();
     want.engine.device = settings_.device;
     want.keep_lists = settings_.nearest_given;
     want.keep_precision = settings_.precision_given;

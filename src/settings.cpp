@@ -138,6 +138,27 @@ void read_surface_angvel(Words &w, WallSettings &s)
     s.surface.centre = read_vec(w, "the centre (x)", "the centre (y)", "the centre (z)");
 }
 
+void read_wear(Words &w, WallSettings &s)
+{
+  s.wear.model = static_cast<WearModel>(1 + w.choice({"archard", "finnie"}));
+  s.wear.per_work = w.number("K", 0);
+  if (s.wear.model == WearModel::archard) s.wear.per_work /= w.number("H", kTiny);
+}
+
+void read_mesh_fields(Words &w, WallSettings &s)
+{
+  if (w.done()) w.fail("the file name is missing");
+  s.fields_file = w.take();
+  const std::string end = ".vtp";
+  if (s.fields_file.size() <= end.size() ||
+      s.fields_file.compare(s.fields_file.size() - end.size(), end.size(), end) != 0)
+    w.fail("the file name '" + s.fields_file + "' must end in .vtp, by which ParaView knows it");
+  if (w.done() || w.take() != "every") w.fail("'every N' is missing");
+  const Real n = w.number("N", 1, 2147483647);
+  s.fields_every = static_cast<int>(n);
+  if (s.fields_every != n) w.fail("N must be a whole number");
+}
+
 void read_draw(Words &w, WallSettings &s)
 {
   s.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
@@ -207,6 +228,11 @@ const Keyword kKeywords[] = {
     {"surface_angvel", "wx wy wz [cx cy cz]", "1/time, length", "", "0 0 0",
      "it turns along itself about an axis through c (the origin), as a roll's",
      read_surface_angvel},
+    {"wear", "archard K H | finnie K", "K H: none, pressure; K: 1/pressure", ">= 0, H > 0", "none",
+     "volume that wears off the triangles: K F s/H, or by angle and energy of impacts", read_wear},
+    {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",
+     "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step",
+     read_mesh_fields},
     {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
      [](Words &w, WallSettings &s) {
        s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));

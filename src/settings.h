@@ -29,6 +29,9 @@ struct WallSettings {
   Side side = Side::both;
   Precision precision = Precision::double_;
   SurfaceMotion surface;
+  Wear wear;                  // K and H in pressure units
+  std::string fields_file;    // of numbers per triangle; empty: none
+  int fields_every = 0;       // steps between two of them
   Device device = Device::automatic;
   std::string cache_file;    // empty: none
   bool contacts = false;
@@ -38,6 +41,9 @@ struct WallSettings {
   bool cut = false;     // dump image leaves out centres with dot(normal, x) > offset
   Vec3 cut_normal = {0, 0, 0};
   Real cut_offset = 0;
+
+  bool wears() const { return wear.model != WearModel::none; }
+  bool has_loads() const { return wears() || !fields_file.empty(); }
 };
 
 // `words` begin with FSTYLE. Throws InputError that names the word, what was

@@ -15,12 +15,17 @@ bool cuda_available(std::string *why)
 }
 #endif
 
+bool has_single(const EngineSettings &settings)
+{
+  return settings.law.style != LawStyle::granular && !settings.surface.moves() && !settings.records;
+}
+
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings)
 {
-  // Kernels in float are those of walls that do nothing but bear.
-  if (settings.precision == Precision::single_ && (settings.surface.moves() || settings.records))
-    throw InputError("precision single has no moving surface, wear or mesh_fields; use precision "
-                     "mixed or double");
+  if (settings.precision == Precision::single_ && !has_single(settings))
+    throw InputError(
+        "precision single has neither granular nor a moving surface, wear or mesh_fields: use "
+        "mixed or double");
   std::string why;
   const bool cuda = settings.device != Device::cpu && cuda_available(&why);
 #if defined(LSDCD_HAVE_CUDA)

@@ -269,6 +269,7 @@ TuneReport tune(const WallMesh &mesh, const TuneSettings &settings)
     for (const ListKind &kind : kinds) {
       for (Precision precision : {Precision::double_, Precision::mixed, Precision::single_}) {
         if (settings.keep_precision && precision != settings.engine.precision) continue;
+        if (precision == Precision::single_ && !has_single(settings.engine)) continue;
         TuneRow row = {};
         row.choice = {length, kind.nearest, kind.exact, precision};
         engine_settings.precision = precision;

@@ -317,5 +317,34 @@ TEST(settings, surfaces_move_and_turn)
   EXPECT_FALSE(with("").surface.moves());
 }
 
+TEST(settings, wear_is_volume_per_work)
+{
+  const WallSettings archard = with("wear archard 0.003 1.5e9");
+  EXPECT_EQ(archard.wear.model, WearModel::archard);
+  EXPECT_DOUBLE_EQ(archard.wear.per_work, 2e-12);
+  const WallSettings finnie = with("wear finnie 4e-11");
+  EXPECT_EQ(finnie.wear.model, WearModel::finnie);
+  EXPECT_EQ(finnie.wear.per_work, 4e-11);
+  EXPECT_FALSE(with("").has_loads());
+  EXPECT_TRUE(names(error_with("wear archard 0.003"), "H"));
+  EXPECT_TRUE(names(error_with("wear archard 0.003 0"), "H"));
+  EXPECT_TRUE(names(error_with("wear archard -1 5"), "K"));
+  EXPECT_TRUE(names(error_with("wear rubbing 1"), "archard"));
+  EXPECT_TRUE(names(error_with("wear finnie nan"), "K"));
+}
+
+TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
+{
+  const WallSettings s = with("mesh_fields wall_*.vtp every 500");
+  EXPECT_EQ(s.fields_file, "wall_*.vtp");
+  EXPECT_EQ(s.fields_every, 500);
+  EXPECT_TRUE(s.has_loads());
+  EXPECT_TRUE(names(error_with("mesh_fields wall.vtk every 500"), ".vtp"));
+  EXPECT_TRUE(names(error_with("mesh_fields wall.vtp 500"), "every"));
+  EXPECT_TRUE(names(error_with("mesh_fields wall.vtp every 0"), "N"));
+  EXPECT_TRUE(names(error_with("mesh_fields wall.vtp every 1.5"), "whole"));
+  EXPECT_TRUE(names(error_with("mesh_fields"), "file name"));
+}
+
 }    // namespace
 }    // namespace lsdcd

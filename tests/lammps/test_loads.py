@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Stress and wear of the triangles: files, totals, ranks and restart."""
+
+import base64
+import re
+import struct
+
+import deck
+import scene
+
+LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
+FIRST, SECOND = 700, 800
+ON_RANKS = 1e-12    # sums of the same numbers in another order
+
+
+def read_vtp(path):
+    """{name: [numbers]} of the arrays of a .vtp file."""
+    formats = {"Float64": "d", "Int64": "q", "Int32": "i"}
+    arrays = {}
+    for kind, name, text in re.findall(r'<DataArray type="(\w+)" Name="(\w+)"[^>]*>([^<]*)<',
+                                       path.read_text()):
+        data = base64.b64decode(text)
+        size = struct.unpack("<Q", data[:8])[0]
+        arrays[name] = [v[0] for v in struct.iter_unpack("<" + formats[kind], data[8:])]
+        assert size == len(data) - 8
+    return arrays
+
+
+def areas(fields):
+    p = fields["points"]
+    corners = fields["connectivity"]
+    result = []
+    for f in range(0, len(corners), 3):
+        a, b, c = (p[3 * k:3 * k + 3] for k in corners[f:f + 3])
+        u, v = [b[i] - a[i] for i in range(3)], [c[i] - a[i] for i in range(3)]
+        cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+        result.append(0.5 * sum(x * x for x in cross) ** 0.5)
+    return result
+
+
+def apart(a, b, name):
+    return max(abs(x - y) for x, y in zip(a[name], b[name])) / max(map(abs, a[name]))
+
+
+def main():
+    checks, folder = deck.Checks(), deck.scratch()
+    scene.write_floor(folder / "floor.stl")
+    with_loads = "mesh floor.stl wear archard 0.001 50 mesh_fields {} every 100"
+
+    def forces(name, more=""):
+        return scene.forces(LAW, mesh=with_loads.format(name), more=more)
+
+    def go(name, ranks=1, begin=scene.CREATE, steps=FIRST + SECOND, last=""):
+        thermo = ("thermo_style custom step f_wall[3] f_wall[7] f_wall[10]\n"
+                  "thermo_modify norm no format float %.17g\nthermo 1\n")
+        text = deck.run_well(begin + forces(name, thermo) + f"run {steps}\n" + last, folder, ranks)
+        return deck.read_thermo(text)
+
+    rows = go("one_*.vtp")
+    fields = {s: read_vtp(folder / f"one_{s}.vtp") for s in range(100, FIRST + SECOND + 1, 100)}
+    last = fields[FIRST + SECOND]
+    area = areas(last)
+    checks.fact("a file every 100 steps, none at the start", not (folder / "one_0.vtp").exists())
+    checks.fact("a value for every triangle", len(last["worn_volume"]) == 2 * 26 * 26)
+    checks.fact("the floor has worn", rows[-1][3] > 0, f"{rows[-1][3]:.3g}")
+    checks.at_most("worn volumes sum to the fix's tenth number",
+                   abs(sum(last["worn_volume"]) / rows[-1][3] - 1), ON_RANKS)
+    checks.at_most("contacts average to the mean of the fix's seventh number",
+                   abs(sum(last["contacts"]) / (sum(r[2] for r in rows[-100:]) / 100) - 1), ON_RANKS)
+    checks.at_most("depth is volume over area",
+                   max(abs(d * a - v) for d, a, v in
+                       zip(last["worn_depth"], area, last["worn_volume"])) / rows[-1][3], ON_RANKS)
+    # The floor leans by less than 9 degrees, so that normal forces are within 2 % of the lift.
+    pressed = sum(s * a for s, a in zip(last["normal_stress"], area))
+    lift = -sum(r[1] for r in rows[-100:]) / 100
+    checks.fact("stress times area is about the force on the mesh", abs(pressed / lift - 1) < 0.05,
+                f"{pressed:.4g} and {lift:.4g}")
+
+    go("two_*.vtp", ranks=2)
+    for name in ("worn_volume", "normal_stress", "shear_stress", "contacts"):
+        checks.at_most(f"{name} on 2 ranks", apart(last, read_vtp(folder / "two_1500.vtp"), name),
+                       1e-9)
+
+    # A run in two pieces, in one input and through a file, in the middle of an average.
+    half = FIRST + 50
+    go("a_*.vtp", steps=half, last=f"write_restart half.restart\nrun {SECOND - 50}\n")
+    for ranks in (1, 2):
+        rows = go("b_*.vtp", ranks, scene.SETTINGS + "read_restart half.restart\n", SECOND - 50)
+        for step in (FIRST + 100, FIRST + SECOND):
+            a, b = (read_vtp(folder / f"{x}_{step}.vtp") for x in "ab")
+            for name in ("worn_volume", "normal_stress", "contacts"):
+                checks.at_most(f"{name} at {step}, continued on {ranks}", apart(a, b, name),
+                               0 if ranks == 1 else 1e-9)
+
+    scene.write_floor(folder / "floor.stl", cells=4)
+    text = deck.run_well(scene.SETTINGS + "read_restart half.restart\n" + forces("c_*.vtp") +
+                         "run 10\n", folder)
+    checks.fact("another mesh: loads begin at zero, with a warning", "begin at zero" in text)
+
+    done = deck.run(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields no/such.vtp every 5")
+                    + "run 10\n", folder)
+    checks.fact("a file that cannot be written is an error that names it",
+                done.returncode != 0 and "no/such.vtp" in done.stdout)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
