@@ -19,7 +19,7 @@ struct AccuracyOptions {
   // Of those that `tessellation` tries, the one that gives the paper's Table 2.
   CylinderMesh shape;
   Real cube = 100, largest = 1;
-  double spheres = 1e7, most_spheres = 0, memory = 16384;
+  double spheres = 1e7, most_spheres = 0, most_triangles = 1e5, memory = 16384;
   bool rim_caps = false;
   std::string inside = "exact";
   std::uint64_t seed = 1;
@@ -27,8 +27,8 @@ struct AccuracyOptions {
   std::string csv, commit = LSDCD_COMMIT;
 };
 
-const std::vector<std::string> kTables = {"tessellation", "table2",       "figure9",
-                                          "figure10",     "one-triangle", "formula5"};
+const std::vector<std::string> kTables = {"tessellation", "table2",   "figure9", "figure10",
+                                          "one-triangle", "formula5", "mesh"};
 
 // Spheres for the tables that try every triangle or many meshes.
 constexpr std::size_t kFewer = 300000;
@@ -72,6 +72,7 @@ class Tables {
     if (table == "figure10") figure10();
     if (table == "one-triangle") one_triangle();
     if (table == "formula5") formula5();
+    if (table == "mesh") mesh();
   }
 
  private:
@@ -218,6 +219,26 @@ class Tables {
         n);
   }
 
+  // The figure that matters to a simulation: against the triangles, on finer cylinders.
+  void mesh()
+  {
+    rows_.begin("Against the mesh: missed contacts and force errors of N triangles per cell");
+    const struct {
+      int segments, along;
+    } sizes[] = {{o_.shape.segments, 1}, {100, 49}, {250, 199}, {1000, 499}};
+    for (const auto &size : sizes) {
+      CylinderMesh shape = o_.shape;
+      shape.segments = size.segments;
+      shape.along = size.along;
+      if (2. * size.segments * (size.along + 1) > o_.most_triangles) continue;
+      context_.shape = name_of(shape);
+      AccuracyStudy study(shape, o_.cube, o_.largest, s_);
+      study.set_spheres(n_);
+      for (int n : {1, 2, 3, 4, 8, 0})
+        rows_.add(context_, study.measure(nearest(n, 0.4)), {}, context_.shape);
+    }
+  }
+
   template <class MakeStudy>
   void both_tests(MakeStudy make_study, std::size_t n)
   {
@@ -296,6 +317,7 @@ const char *kAbout =
     "  tessellation  which cylinder and cube the paper may have had\n"
     "  one-triangle  guesses at the paper's row N = 1\n"
     "  formula5      what its inside test costs, on meshes with and without obtuse triangles\n"
+    "  mesh          finer cylinders, up to --most-triangles, against their own triangles\n"
     "  all           every one of them";
 
 }    // namespace
@@ -309,6 +331,8 @@ void add_accuracy_command(CLI::App &app)
   c->add_option("table", o.tables, "tables to make (default: table2)")->check(CLI::IsMember(names));
   c->add_option("--spheres", o.spheres, "how many (1e7 in the paper)")->capture_default_str();
   c->add_option("--most-spheres", o.most_spheres, "where figure9 ends (default: --spheres)");
+  c->add_option("--most-triangles", o.most_triangles, "where mesh ends (1e6 takes a GPU)")
+      ->capture_default_str();
   c->add_option("--segments", o.shape.segments, "flat sides of the cylinder")
       ->capture_default_str();
   c->add_option("--along", o.shape.along, "rows of triangles along its axis")
