@@ -47,6 +47,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
       settings.law.k_tangent /= force->nktv2p;
     }
     settings.wear.per_work *= force->nktv2p;
+    settings.law.added.cohesion /= force->nktv2p;
     wall = std::make_unique<lsdcd::NodeWall>(world, settings);
     check_side();
 

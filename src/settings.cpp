@@ -138,6 +138,27 @@ void read_surface_angvel(Words &w, WallSettings &s)
     s.surface.centre = read_vec(w, "the centre (x)", "the centre (y)", "the centre (z)");
 }
 
+// Of LIGGGHTS, beside the classic styles; granular has its own.
+void only_classic(Words &w, const WallSettings &s, const char *instead)
+{
+  if (s.law.style == LawStyle::granular)
+    w.fail(std::string("it goes with the classic styles; granular has ") + instead);
+}
+
+void read_rolling(Words &w, WallSettings &s)
+{
+  only_classic(w, s, "'rolling sds' before mesh");
+  s.law.added.rolling = static_cast<AddedRolling>(1 + w.choice({"cdt", "epsd2"}));
+  s.law.added.mu_roll = w.number("MU", 0);
+}
+
+void read_cohesion(Words &w, WallSettings &s)
+{
+  only_classic(w, s, "the normal sub-models dmt and jkr");
+  w.choice({"sjkr"});
+  s.law.added.cohesion = w.number("K", 0);
+}
+
 void read_wear(Words &w, WallSettings &s)
 {
   s.wear.model = static_cast<WearModel>(1 + w.choice({"archard", "finnie"}));
@@ -228,6 +249,10 @@ const Keyword kKeywords[] = {
     {"surface_angvel", "wx wy wz [cx cy cz]", "1/time, length", "", "0 0 0",
      "it turns along itself about an axis through c (the origin), as a roll's",
      read_surface_angvel},
+    {"rolling", "cdt MU | epsd2 MU", "", ">= 0", "none",
+     "rolling friction of LIGGGHTS: constant torque, or elastic-plastic spring", read_rolling},
+    {"cohesion", "sjkr K", "energy/volume", ">= 0", "none",
+     "cohesion of LIGGGHTS: K times the area of contact", read_cohesion},
     {"wear", "archard K H | finnie K", "K H: none, pressure; K: 1/pressure", ">= 0, H > 0", "none",
      "volume that wears off the triangles: K F s/H, or by angle and energy of impacts", read_wear},
     {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",

@@ -85,4 +85,7 @@ HostLaw host_hertz_law(const EngineSettings &);
 HostLaw host_dmt_law(const EngineSettings &);
 HostLaw host_jkr_law(const EngineSettings &);
 
+// Those of the classic styles with effects of LIGGGHTS.
+HostLaw host_added_law(const EngineSettings &);
+
 }    // namespace lsdcd

@@ -5,6 +5,7 @@ namespace lsdcd {
 CudaLaw cuda_law(const EngineSettings &settings)
 {
   const ContactLaw &law = settings.law;
+  if (law.style != LawStyle::granular && law.added.any()) return cuda_added_law(settings);
   if (law.style != LawStyle::granular) {
     if (settings.precision == Precision::single_)
       return with_classic_law<float>(law, MakeCudaLaw<WallKernels::plain>{});

@@ -7,6 +7,7 @@ namespace lsdcd {
 HostLaw host_law(const EngineSettings &settings)
 {
   const ContactLaw &law = settings.law;
+  if (law.style != LawStyle::granular && law.added.any()) return host_added_law(settings);
   if (law.style != LawStyle::granular) {
     if (settings.precision == Precision::single_)
       return with_classic_law<float>(law, MakeHostLaw<WallKernels::plain>{});

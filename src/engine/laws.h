@@ -4,6 +4,8 @@
 #include "engine/wall_engine.h"
 #include "model/contact_model.h"
 
+#include <type_traits>
+
 namespace lsdcd {
 
 // The classic styles, in numbers of type T: calls make(law).
@@ -23,6 +25,32 @@ auto with_classic_law(const ContactLaw &p, Make make)
       return make(
           HookeLaw<T>{{k}, damping, LinearNoHistory<T>{gamma_tangent, mu}, p.limit_damping});
   }
+}
+
+// A classic style with effects of LIGGGHTS beside it: calls make(law).
+template <class Make>
+auto with_added_law(const ContactLaw &p, const Make &make)
+{
+  const AddedEffects &a = p.added;
+  return with_classic_law<Real>(p, [&](const auto &base) {
+    using Base = std::decay_t<decltype(base)>;
+    const auto with_cohesion = [&](const auto &rolling) {
+      using Rolling = std::decay_t<decltype(rolling)>;
+      if constexpr (Rolling::kOn)
+        if (!(a.cohesion > 0))
+          return make(AddedModel<Base, Rolling, NoCohesion<Real>>{base, rolling, {}, p.k_tangent});
+      return make(
+          AddedModel<Base, Rolling, SjkrCohesion<Real>>{base, rolling, {a.cohesion}, p.k_tangent});
+    };
+    switch (a.rolling) {
+      case AddedRolling::cdt:
+        return with_cohesion(CdtRolling<Real>{a.mu_roll});
+      case AddedRolling::epsd2:
+        return with_cohesion(Epsd2Rolling<Real>{a.mu_roll});
+      default:
+        return with_cohesion(NoRolling<Real>{});
+    }
+  });
 }
 
 // `granular` with one normal sub-model, its other sub-models chosen one after another:

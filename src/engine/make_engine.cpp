@@ -17,15 +17,16 @@ bool cuda_available(std::string *why)
 
 bool has_single(const EngineSettings &settings)
 {
-  return settings.law.style != LawStyle::granular && !settings.surface.moves() && !settings.records;
+  return settings.law.style != LawStyle::granular && !settings.law.added.any() &&
+         !settings.surface.moves() && !settings.records;
 }
 
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings)
 {
   if (settings.precision == Precision::single_ && !has_single(settings))
     throw InputError(
-        "precision single has neither granular nor a moving surface, wear or mesh_fields: use "
-        "mixed or double");
+        "precision single has neither granular, rolling, cohesion, a moving surface, wear nor "
+        "mesh_fields: use mixed or double");
   std::string why;
   const bool cuda = settings.device != Device::cpu && cuda_available(&why);
 #if defined(LSDCD_HAVE_CUDA)

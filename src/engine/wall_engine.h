@@ -126,7 +126,8 @@ class WallEngine {
 // says what is missing otherwise.
 bool cuda_available(std::string *why);
 
-// Are there forces in float? There are for the classic styles on walls that only bear.
+// Are there forces in float? There are for the classic styles with nothing
+// beside them, on walls that only bear.
 bool has_single(const EngineSettings &settings);
 
 // Device::cuda without a GPU throws InputError; Device::automatic takes the CPU then.

@@ -50,6 +50,16 @@ struct GranularLaw {
       0;    // power/(length temperature) (radius), power/(length^2 temperature) (area)
 };
 
+// Of LIGGGHTS; beside one of the classic styles.
+enum class AddedRolling { none, cdt, epsd2 };
+struct AddedEffects {
+  AddedRolling rolling = AddedRolling::none;
+  Real mu_roll = 0;     // rolling friction coefficient
+  Real cohesion = 0;    // energy/length^3 (sjkr); 0: none
+
+  bool any() const { return rolling != AddedRolling::none || cohesion > 0; }
+};
+
 struct ContactLaw {
   LawStyle style = LawStyle::hooke;
 
@@ -61,6 +71,7 @@ struct ContactLaw {
   Real mu = 0;               // friction coefficient
 
   GranularLaw granular;    // where style is granular
+  AddedEffects added;      // where it is not
   bool limit_damping = false;
 
   bool is(NormalModel model) const
@@ -80,12 +91,17 @@ struct ContactLaw {
   // Is anything kept from step to step? Adhesion past touch is: it holds what touched.
   bool has_history() const
   {
-    if (style != LawStyle::granular) return style != LawStyle::hooke;
+    if (style != LawStyle::granular)
+      return style != LawStyle::hooke || added.rolling == AddedRolling::epsd2;
     return granular.tangential != TangentialModel::linear_nohistory || is(NormalModel::jkr) ||
            has_rolling() || has_twisting();
   }
   // Numbers kept beside a contact's tangential spring.
-  int n_extra() const { return 3 * has_rolling() + has_twisting() + has_rescale(); }
+  int n_extra() const
+  {
+    const bool rolled = has_rolling() || added.rolling == AddedRolling::epsd2;
+    return 3 * rolled + has_twisting() + has_rescale();
+  }
   // The distance past touch at which adhesion lets go of a sphere of radius 1;
   // it goes with the cube root of the radius. 0: nothing acts past touch.
   Real pull_off() const;

@@ -8,6 +8,7 @@
 // An effect that is not among the template arguments costs no instruction and no memory.
 #pragma once
 
+#include "model/cohesion.h"
 #include "model/contact.h"
 #include "model/damping.h"
 #include "model/heat.h"
@@ -32,9 +33,15 @@ struct ContactModel {
   Tangential<T> tangential;
   bool limit_damping;
 
+  // What the stiffnesses are multiplied by: the contact radius, or 1.
+  LSDCD_FN T scale(const Contact<T> &c) const
+  {
+    return Normal<T>::kSized ? elastic.contact_radius(c) : T(1);
+  }
+
   LSDCD_FN ContactForce<T> evaluate(const Contact<T> &c, ContactMemory<T, 0> &memory) const
   {
-    const T scale = Normal<T>::kSized ? elastic.contact_radius(c) : T(1);
+    const T scale = this->scale(c);
     ContactForce<T> out;
     out.normal = elastic.force(c, scale) + damping.force(c, scale);
     if (limit_damping && out.normal < 0) out.normal = 0;
@@ -53,13 +60,47 @@ using HookeHistoryLaw = ContactModel<T, HookeNormal, MassVelocityDamping, Linear
 template <class T>
 using HertzHistoryLaw = ContactModel<T, HertzNormal, MassVelocityDamping, LinearHistory>;
 
-// The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026.
+// Of laws with kCouple or kHeat.
 template <class T>
-struct GranularForce : ContactForce<T> {
+struct FullForce : ContactForce<T> {
   Vec3Of<T> couple;    // torque on the sphere that no force at the contact gives
   T heat;              // power into the sphere
 };
 
+// A classic style with effects of LIGGGHTS beside it.
+template <class Base, class Rolling, class Cohesion>
+struct AddedModel {
+  using Number = typename Base::Number;
+  using T = Number;
+  static constexpr int kVectors = Rolling::kVectors, kScalars = 0, kExtra = 3 * kVectors;
+  static constexpr bool kHistory = Base::kHistory || kVectors > 0;
+  static constexpr bool kBeyond = false, kCouple = Rolling::kOn, kHeat = false;
+
+  Base base;
+  Rolling rolling;
+  Cohesion cohesion;
+  T k_tangent;    // per unit of Base::scale()
+
+  LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
+  {
+    ContactMemory<T, 0> sliding = {memory.stretch};
+    FullForce<T> out = {base.evaluate(c, sliding), {0, 0, 0}, 0};
+    memory.stretch = sliding.stretch;
+    if constexpr (Rolling::kOn) {
+      const T scale = base.scale(c);
+      out.couple =
+          rolling.couple(c, base.elastic.force(c, scale), out.normal, scale * k_tangent, memory, 0);
+      out.energy += rolling.energy(c, scale * k_tangent, memory, 0);
+    }
+    if constexpr (Cohesion::kOn) {
+      out.normal -= cohesion.pull(c);
+      out.energy += cohesion.energy(c);
+    }
+    return out;
+  }
+};
+
+// The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026.
 template <class T, class Normal, class Tangential, class Rolling, class Twisting, class Heat>
 struct GranularModel {
   using Number = T;
@@ -83,12 +124,12 @@ struct GranularModel {
   bool sized;    // does anything need the contact radius, though the normal force does not?
   bool limit_damping;
 
-  LSDCD_FN GranularForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
+  LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
   {
     const T a = Normal::kSized || sized ? elastic.contact_radius(c) : T(0);
     const T f = elastic.force(c, a), gamma = damping.coefficient(c, a, f);
 
-    GranularForce<T> out;
+    FullForce<T> out;
     out.normal = f - gamma * c.v_normal;
     if (limit_damping && out.normal < 0) out.normal = 0;
     out.energy = elastic.energy(c, a);

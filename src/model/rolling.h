@@ -8,6 +8,7 @@ namespace lsdcd {
 template <class T>
 struct NoRolling {
   static constexpr bool kOn = false;
+  static constexpr int kVectors = 0;
 };
 
 // `sds`: spring, dashpot and slider (Luding 2008; Wang et al. 2015 for the velocity). The
@@ -42,6 +43,73 @@ struct SdsRolling {
   LSDCD_FN T energy(const Memory &m, int at) const
   {
     return T(0.5) * k * norm_sq(m.vec(at));
+  }
+};
+
+// ---- of LIGGGHTS, beside a classic style -------------------------------------------------
+// couple(c, elastic, normal, k_tangent, memory, at): the couple on the sphere, where the
+// contact bears the elastic force `elastic` and in all, damping included, `normal`, with
+// the tangential stiffness k_tangent (force/length).
+
+// The part of the sphere's turning that rolls.
+template <class T>
+LSDCD_FN Vec3Of<T> rolling_part(const Vec3Of<T> &omega, const Vec3Of<T> &normal)
+{
+  return omega - dot(omega, normal) * normal;
+}
+
+// `cdt`, constant directional torque: mu k_n overlap R against the rolling, whatever its
+// speed (Ai et al. 2011, model A). Near rest it changes sign from step to step, as any
+// constant friction does, and the spin stays within a step's change of 0.
+template <class T>
+struct CdtRolling {
+  static constexpr bool kOn = true;
+  static constexpr int kVectors = 0;
+  T mu;
+
+  template <class Memory>
+  LSDCD_FN Vec3Of<T> couple(const Contact<T> &c, T elastic, T, T, Memory &, int) const
+  {
+    const Vec3Of<T> rolls = rolling_part(c.omega, c.normal);
+    const T rate = norm(rolls);
+    if (!(rate > 0)) return {0, 0, 0};
+    return (-mu * elastic * c.radius / rate) * rolls;
+  }
+  template <class Memory>
+  LSDCD_FN T energy(const Contact<T> &, T, const Memory &, int) const
+  {
+    return 0;
+  }
+};
+
+// `epsd2`, elastic-plastic spring: a couple that grows by k_t R^2 per angle rolled, up to
+// mu |F_n| R (Iwashita and Oda 1998; Ai et al. 2011, model C without its dashpot). The
+// couple is the vector `at` of the memory.
+template <class T>
+struct Epsd2Rolling {
+  static constexpr bool kOn = true;
+  static constexpr int kVectors = 1;
+  T mu;
+
+  template <class Memory>
+  LSDCD_FN Vec3Of<T> couple(const Contact<T> &c, T, T normal, T k_tangent, Memory &m, int at) const
+  {
+    Vec3Of<T> held = m.vec(at);
+    if (c.update) {
+      const T stiff = k_tangent * c.radius * c.radius;
+      held -= (stiff * c.dt) * rolling_part(c.omega, c.normal);
+      held = rolling_part(held, c.normal);
+    }
+    const T size = norm(held), limit = mu * fabs(normal) * c.radius;
+    if (size > limit) held = (limit / size) * held;
+    m.put(at, held);
+    return held;
+  }
+  template <class Memory>
+  LSDCD_FN T energy(const Contact<T> &c, T k_tangent, const Memory &m, int at) const
+  {
+    const T stiff = k_tangent * c.radius * c.radius;
+    return stiff > 0 ? T(0.5) * norm_sq(m.vec(at)) / stiff : T(0);
   }
 };
 

@@ -346,5 +346,20 @@ TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
   EXPECT_TRUE(names(error_with("mesh_fields"), "file name"));
 }
 
+TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
+{
+  const WallSettings s = with("rolling epsd2 0.05 cohesion sjkr 3e5");
+  EXPECT_EQ(s.law.added.rolling, AddedRolling::epsd2);
+  EXPECT_EQ(s.law.added.mu_roll, 0.05);
+  EXPECT_EQ(s.law.added.cohesion, 3e5);
+  EXPECT_EQ(with("rolling cdt 0.1").law.added.rolling, AddedRolling::cdt);
+  EXPECT_FALSE(with("").law.added.any());
+  EXPECT_TRUE(names(error_with("rolling sds 1 1 1"), "epsd2"));
+  EXPECT_TRUE(names(error_with("rolling cdt"), "MU"));
+  EXPECT_TRUE(names(error_with("rolling cdt -0.1"), "MU"));
+  EXPECT_TRUE(names(error_with("cohesion sjkr -1"), "K"));
+  EXPECT_TRUE(names(error_with("cohesion jkr 1"), "sjkr"));
+}
+
 }    // namespace
 }    // namespace lsdcd
