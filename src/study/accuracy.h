@@ -18,7 +18,7 @@ struct StudySettings {
   InsideTest inside = InsideTest::exact;
   Order order = Order::random;
   std::uint64_t seed = 1;
-  int repeats = 5;
+  int repeats = 5;    // of a timed query; one where every face is tried
   std::size_t memory_budget = std::size_t(16) << 30;    // of the grid, bytes
 };
 
