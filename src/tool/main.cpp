@@ -6,6 +6,7 @@
 #include "mesh/wall_mesh.h"
 #include "tool/accuracy_command.h"
 #include "tool/material.h"
+#include "tool/tradeoff_command.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -134,6 +135,7 @@ int main(int argc, char **argv)
   grid_command->add_option("--memory", o.memory, "budget in MB")->capture_default_str();
   grid_command->callback([&] { grid(o); });
   add_material_command(app);
+  add_tradeoff_command(app);
 
   add_accuracy_command(app);
 

@@ -2,13 +2,13 @@
 
 #include "base/input_error.h"
 #include "grid/grid_plan.h"
+#include "tune/tune_lengths.h"
 #include "tune/wall_parts.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 namespace lsdcd {
 
@@ -21,37 +21,6 @@ constexpr Real kTie = 1.1;                      // times that differ by less are
 // of rounding fall with the 0.4th power of their rank.
 constexpr Real kUnseenError = 10;
 constexpr double kCells = 150000;    // to build at the finest length; fewer with long lists
-
-// To four digits, so that a deck can say it.
-Real rounded(Real length)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", length);
-  return std::strtod(text, nullptr);
-}
-
-// Half, once, twice and four times the default, up to the reach, where the table of
-// bricks and its least contents fit.
-std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &settings)
-{
-  const Real standard = plan_grid(mesh, settings).length;
-  if (settings.length > 0) return {standard};
-  std::vector<Real> lengths;
-  for (Real factor : {0.5, 1., 2., 4.}) {
-    const Real length = rounded(std::min(factor * standard, std::max(standard, settings.reach)));
-    if (!lengths.empty() && length < 1.1 * lengths.back()) continue;
-    GridSettings one = settings;
-    one.length = length;
-    if (plan_grid(mesh, one).may_fit(settings.memory_budget)) lengths.push_back(length);
-  }
-  // None fits: as build_grid does, take the first coarser one that may.
-  if (lengths.empty()) {
-    GridPlan plan = plan_grid(mesh, settings);
-    while (!plan.may_fit(settings.memory_budget)) plan = coarser(plan, mesh, settings);
-    lengths.push_back(plan.length);
-  }
-  return lengths;
-}
 
 std::vector<int> shuffled(int n, Random &random)
 {

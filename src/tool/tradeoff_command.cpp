@@ -1,0 +1,225 @@
+#include "tool/tradeoff_command.h"
+
+#include "base/input_error.h"
+#include "base/threads.h"
+#include "base/whole_file.h"
+#include "mesh/placement.h"
+#include "mesh/triangle_soup.h"
+#include "tune/tradeoff.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lsdcd {
+
+namespace {
+
+struct Options {
+  std::string file, device = "auto", csv = "tradeoff.csv", plot;
+  std::vector<double> scale;
+  double weld = -1, memory = 1024;
+  TradeoffSettings settings;
+};
+
+const char *const kHelp =
+    "what each setting buys and costs on a mesh: a CSV and a plot\n\n"
+    "Tries cells of half to four times the default length, lists of 1, 2, 3, 4 and 8 nearest "
+    "triangles, 2 and 4 of them with a fallback (exact), and all; precision double, mixed and "
+    "single; corner blend and sum; on each device. Spheres are placed at random beside the "
+    "wall. Columns of the CSV:\n"
+    "  missed          contacts missed / contacts; against `nearest all` in double\n"
+    "  uncertified     spheres whose answer is not certified exact / spheres\n"
+    "  force_median, force_largest   error of a sphere's force / that force, or that of an\n"
+    "                  overlap of 1 % of the radius where that is larger\n"
+    "  force_mean      sum of all errors / sum of all forces\n"
+    "  bounce_drift    energy that a sphere bouncing without friction gains or loses in ten\n"
+    "                  bounces / its energy; median of --moving spheres on random faces, each\n"
+    "                  pulled along its face's normal\n"
+    "  roll_drift      the same for spheres that roll without slip over five radii\n"
+    "  ns_per_sphere   of a step, on one core with caches filled by other work; or on the GPU\n"
+    "  bytes           of the grid\n"
+    "  front           1 where no other setting on the device is better in time or mean force\n"
+    "                  error and as good in the other\n"
+    "  default         1 for what the fix does by itself";
+
+WallMesh load(const Options &o)
+{
+  TriangleSoup soup = read_stl(o.file);
+  Placement placement;
+  if (o.scale.size() == 1) placement.scale({o.scale[0], o.scale[0], o.scale[0]});
+  if (o.scale.size() == 3) placement.scale({o.scale[0], o.scale[1], o.scale[2]});
+  placement.apply(soup);
+  return weld(soup, o.weld);
+}
+
+std::string formatted(const char *format, double value)
+{
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+// CSV: quotes round every text that comes from elsewhere.
+std::string quoted(const std::string &text)
+{
+  std::string out = "\"";
+  for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string csv_of(const Tradeoff &tradeoff, const WallMesh &mesh, const TradeoffSettings &settings)
+{
+  Real least = settings.radii[0], most = least;
+  for (Real r : settings.radii) {
+    least = std::min(least, r);
+    most = std::max(most, r);
+  }
+  std::string out =
+      "mesh,triangles,least_radius,largest_radius,kind,device,grid,nearest,precision,corner,missed,"
+      "uncertified,force_median,force_largest,force_mean,bounce_drift,roll_drift,ns_per_sphere,"
+      "bytes,front,default,contacts,spheres,moving,repeats,order,seed,commit\n";
+  const auto number = [](double value) { return formatted("%.5g", value); };
+  const std::string name = std::filesystem::path(mesh.source).filename().string();
+  for (const TradeoffRow &r : tradeoff.rows) {
+    const std::vector<std::string> fields = {quoted(name),
+                                             std::to_string(mesh.faces.size()),
+                                             number(least),
+                                             number(most),
+                                             r.on_cuda ? "cuda" : "cpu",
+                                             quoted(r.device),
+                                             number(r.choice.length),
+                                             lists_name(r.choice),
+                                             precision_name(r.choice.precision),
+                                             r.corner == Corner::blend ? "blend" : "sum",
+                                             number(r.error.missed_share()),
+                                             number(double(r.error.uncertified) / r.checked),
+                                             number(r.error.median),
+                                             number(r.error.largest),
+                                             number(r.error.mean),
+                                             number(r.bounce_drift),
+                                             number(r.roll_drift),
+                                             number(r.ns_per_sphere),
+                                             std::to_string(r.bytes),
+                                             r.on_front ? "1" : "0",
+                                             r.is_default ? "1" : "0",
+                                             std::to_string(r.error.contacts),
+                                             std::to_string(r.spheres),
+                                             std::to_string(settings.moving),
+                                             std::to_string(settings.repeats),
+                                             "sorted",
+                                             std::to_string(settings.seed),
+                                             quoted(LSDCD_COMMIT)};
+    for (std::size_t i = 0; i < fields.size(); i++) out += (i ? "," : "") + fields[i];
+    out += "\n";
+  }
+  return out;
+}
+
+// The script lies beside this program. Debian's interpreter is asked first: another one
+// in PATH would not see Debian's matplotlib.
+void draw(const std::string &csv, const std::string &plot)
+{
+  const std::string script =
+      std::filesystem::read_symlink("/proc/self/exe").replace_filename("plot_tradeoff.py");
+  const char *const python =
+      std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
+  const pid_t child = fork();
+  if (child == 0) {
+    execlp(python, python, script.c_str(), csv.c_str(), plot.c_str(), static_cast<char *>(nullptr));
+    _exit(127);
+  }
+  int status = -1;
+  if (child > 0) waitpid(child, &status, 0);
+  if (status != 0)
+    throw InputError("the rows are in '" + csv +
+                     "', but no plot was drawn: it needs python3 and "
+                     "matplotlib (Debian: python3-matplotlib); then run " +
+                     std::string(python) + " " + script + " " + csv + " " + plot);
+}
+
+void tradeoff(Options &o)
+{
+  std::string why;
+  const bool gpu = cuda_available(&why);
+  o.settings.cpu = o.device != "cuda";
+  o.settings.cuda = o.device == "cuda" || (o.device == "auto" && gpu);
+  if (o.settings.cuda && !gpu) throw InputError("--device cuda: " + why + "; use cpu or auto");
+  o.settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
+  if (o.plot.empty()) o.plot = std::filesystem::path(o.csv).replace_extension(".png").string();
+  const WallMesh mesh = load(o);
+  std::printf("%s, %zu triangles\n", o.file.c_str(), mesh.faces.size());
+  std::printf("      grid  nearest  precision  corner  device   missed %%  force error: mean  "
+              "largest  bounce    roll  ns/sphere        MB\n");
+  const Tradeoff result = measure_tradeoff(mesh, o.settings, [](const TradeoffRow &r) {
+    std::printf(
+        "%10.4g  %-7s  %-9s  %-6s  %-6s  %8.3g  %17.2g  %7.2g  %6.1g  %6.1g  %9.1f  %8.3g%s\n",
+        r.choice.length, lists_name(r.choice).c_str(), precision_name(r.choice.precision),
+        r.corner == Corner::blend ? "blend" : "sum", r.on_cuda ? "cuda" : "cpu",
+        100 * r.error.missed_share(), r.error.mean, r.error.largest, r.bounce_drift, r.roll_drift,
+        r.ns_per_sphere, r.bytes / 1e6, r.is_default ? "  default" : "");
+    std::fflush(stdout);
+  });
+  for (const std::string &what : result.left_out)
+    std::fprintf(stderr, "left out: %s\n", what.c_str());
+  const std::string text = csv_of(result, mesh, o.settings);
+  WholeFile file(o.csv);
+  file.write_at(0, text.data(), text.size());
+  file.commit();
+  std::printf("rows in %s\n", o.csv.c_str());
+  std::fflush(stdout);
+  if (o.plot == "none") return;
+  draw(o.csv, o.plot);
+  std::printf("plot in %s\n", o.plot.c_str());
+}
+
+}    // namespace
+
+void add_tradeoff_command(CLI::App &app)
+{
+  const auto o = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand("tradeoff", kHelp);
+  command->add_option("file", o->file, "STL file, ASCII or binary")->required();
+  command->add_option("--radius", o->settings.radii, "sphere radii, one or several, each as likely")
+      ->required()
+      ->expected(1, -1)
+      ->check(CLI::PositiveNumber);
+  command->add_option("--scale", o->scale, "one factor, or three (x y z)")->expected(1, 3);
+  command->add_option("--weld", o->weld,
+                      "weld corners closer than this (default: 1e-6 of the box diagonal)");
+  command->add_option("--memory", o->memory, "budget of a grid in MB; settings above are left out")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--device", o->device,
+                   "auto: the CPU, and the GPU where there is one; cpu; cuda: the GPU alone")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}));
+  command
+      ->add_option("--seconds", o->settings.seconds,
+                   "after these no further settings are tried; the default comes first")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--spheres", o->settings.spheres,
+                   "spheres beside the wall, for errors and times (16 times as many on a GPU)")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000000));
+  command->add_option("--moving", o->settings.moving, "spheres that bounce, and that roll")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--repeats", o->settings.repeats, "of a timed step; the quickest counts")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--seed", o->settings.seed, "of places and radii")->capture_default_str();
+  command->add_option("--csv", o->csv, "file for the rows, written whole or not at all")
+      ->capture_default_str();
+  command->add_option("--plot", o->plot,
+                      "picture, or `none` (default: the name of the CSV with .png)");
+  command->callback([o] { tradeoff(*o); });
+}
+
+}    // namespace lsdcd

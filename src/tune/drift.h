@@ -1,0 +1,40 @@
+// Energy that a bouncing and a rolling sphere gain or lose to a wall that should keep it.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "mesh/wall_mesh.h"
+#include "tune/sphere_sample.h"
+
+#include <vector>
+
+namespace lsdcd {
+
+// Where spheres start: beside a random point of a face, on the side that `normal` points
+// to. The same for every setting that is tried.
+struct DriftStarts {
+  std::vector<Vec3> point, normal, along;    // along: unit, in the face
+  Real radius;
+
+  int n() const { return static_cast<int>(point.size()); }
+};
+
+// Up to n starts at which a sphere at rest on the face touches nothing else (`grid` is
+// asked); faces are chosen by area, sides by chance.
+DriftStarts drift_starts(const WallMesh &mesh, const GridView &grid, Real radius, int n,
+                         Random &random);
+
+// Units: radius R, mass 1, a pull g along -normal that stays the same for a sphere; a linear
+// spring of stiffness 1000 g / R, no damping; steps of 0.001 sqrt(R/g). Both return the
+// median over the spheres of |energy gained or lost| / the energy of the motion, counting 1
+// for a sphere that the pull has taken more than two radii past its start: it has gone
+// through the wall, or off its edge.
+
+// Dropped by 0.2 R, without friction, moving along the face at 0.3 sqrt(R g), for ten
+// bounces: 13.7 sqrt(R/g). Energy of the motion: that of the fall.
+Real bounce_drift(const GridView &grid, EngineSettings engine, const DriftStarts &starts);
+
+// Resting on the face and rolling at 0.5 sqrt(R g), with a tangential spring that never
+// slips, for 10 sqrt(R/g), five radii. Energy of the motion: of going and turning.
+Real roll_drift(const GridView &grid, EngineSettings engine, const DriftStarts &starts);
+
+}    // namespace lsdcd

@@ -1,0 +1,185 @@
+#include "tune/tradeoff.h"
+
+#include "grid/grid_plan.h"
+#include "tune/drift.h"
+#include "tune/tune_lengths.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+namespace lsdcd {
+
+namespace {
+
+constexpr int kGpuFactor = 16;    // times the spheres, to fill a GPU
+
+ContactLaw law_to_time()
+{
+  ContactLaw law;
+  law.style = LawStyle::hooke_history;
+  law.k_normal = 1e5;
+  law.k_tangent = 3e4;
+  law.gamma_normal = 50;
+  law.gamma_tangent = 25;
+  law.mu = 0.5;
+  return law;
+}
+
+std::string name(const GridChoice &choice)
+{
+  char length[32];
+  std::snprintf(length, sizeof length, "%.4g", choice.length);
+  return std::string("grid ") + length + " nearest " + lists_name(choice) + " precision " +
+         precision_name(choice.precision);
+}
+
+class Measuring {
+ public:
+  Measuring(const WallMesh &mesh, const TradeoffSettings &settings,
+            const std::function<void(const TradeoffRow &)> &progress) :
+      mesh_(mesh),
+      settings_(settings), progress_(progress)
+  {
+    grid_settings_.reach = *std::max_element(settings.radii.begin(), settings.radii.end());
+    grid_settings_.memory_budget = std::size_t(1) << 40;    // rows over the budget are left out
+    plan_settings_ = grid_settings_;
+    plan_settings_.memory_budget = settings.memory_budget;
+    engine_.law = law_to_time();
+  }
+
+  Tradeoff run()
+  {
+    std::vector<Real> lengths = lengths_to_try(mesh_, plan_settings_);
+    // The default first, then what costs least to build.
+    const Real standard = plan_grid(mesh_, plan_settings_).length;
+    standard_ = *std::min_element(lengths.begin(), lengths.end(), [&](Real a, Real b) {
+      return std::fabs(a - standard) < std::fabs(b - standard);
+    });
+    std::sort(lengths.begin(), lengths.end(), [&](Real a, Real b) {
+      return a != b && (a == standard_ || (b != standard_ && a > b));
+    });
+    for (Real length : lengths) {
+      if (is_late() && !result_.rows.empty()) {
+        late_ += static_cast<int>(3 * list_kinds().size());
+        continue;
+      }
+      grid_settings_.length = length;
+      TrialGrid grid(mesh_, grid_settings_, settings_.cuda);
+      if (sample_.n() == 0) make_sample(grid);
+      for (const ListKind &kind : list_kinds())
+        for (Precision precision : {Precision::double_, Precision::mixed, Precision::single_})
+          try_choice(grid, {length, kind.nearest, kind.exact, precision});
+    }
+    if (late_ > 0) leave_out(std::to_string(late_) + " settings for which there was no time");
+    mark_front(result_.rows);
+    return std::move(result_);
+  }
+
+ private:
+  bool is_late() const
+  {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - start_).count() > settings_.seconds;
+  }
+  void leave_out(const std::string &what) { result_.left_out.push_back(what); }
+
+  void make_sample(TrialGrid &trial)
+  {
+    Random random(settings_.seed);
+    const TriangleGrid &grid = trial.make(0, false, false);
+    const auto anywhere = [](const Vec3 &) { return true; };
+    add_band_spheres(grid, settings_.spheres, settings_.radii, random, anywhere, sample_);
+    sort_by_bins(sample_, 2 * grid_settings_.reach);
+    starts_ = drift_starts(mesh_, grid.view(), grid_settings_.reach, settings_.moving, random);
+    for (Corner corner : {Corner::blend, Corner::sum}) {
+      engine_.corner = corner;
+      engine_.precision = Precision::double_;
+      reference_[corner == Corner::sum] = answer(grid.view(), engine_, sample_);
+    }
+    if (!settings_.cuda) return;
+    for (int i = 0; i < sample_.n(); i++)
+      for (int k = 0; k < kGpuFactor; k++) gpu_sample_.add(sample_.x[i], sample_.radius[i]);
+  }
+
+  void try_choice(TrialGrid &trial, const GridChoice &choice)
+  {
+    if (is_late() && !result_.rows.empty()) {
+      late_++;
+      return;
+    }
+    const TriangleGrid &grid =
+        trial.make(choice.nearest, choice.exact, choice.precision != Precision::double_);
+    const std::size_t bytes = flat_bytes(grid);
+    if (bytes > settings_.memory_budget)
+      return leave_out(name(choice) + ": " + std::to_string(bytes >> 20) + " MB");
+    for (Corner corner : {Corner::blend, Corner::sum}) {
+      engine_.corner = corner;
+      engine_.precision = choice.precision;
+      TradeoffRow row = {};
+      row.choice = choice;
+      row.corner = corner;
+      row.bytes = bytes;
+      row.error = compare(reference_[corner == Corner::sum], answer(grid.view(), engine_, sample_),
+                          sample_, engine_.law);
+      row.bounce_drift = bounce_drift(grid.view(), engine_, starts_);
+      row.roll_drift = roll_drift(grid.view(), engine_, starts_);
+      row.is_default = choice.length == standard_ && choice.nearest == 0 &&
+                       choice.precision == Precision::double_ && corner == Corner::blend;
+      if (settings_.cpu) time(trial, row, false);
+      if (settings_.cuda) time(trial, row, true);
+    }
+  }
+
+  void time(TrialGrid &trial, TradeoffRow row, bool on_cuda)
+  {
+    engine_.device = on_cuda ? Device::cuda : Device::cpu;
+    const auto engine = make_engine(engine_);
+    engine->set_grid(on_cuda ? trial.flat() : trial.made().view());
+    const SphereSample &sample = on_cuda ? gpu_sample_ : sample_;
+    row.on_cuda = on_cuda;
+    row.device = engine->backend();
+    row.checked = sample_.n();
+    row.spheres = sample.n();
+    row.ns_per_sphere = 1e9 *
+                        step_seconds(*engine, on_cuda, engine_.law, sample, settings_.repeats) /
+                        std::max(1, sample.n());
+    result_.rows.push_back(row);
+    progress_(row);
+  }
+
+  const WallMesh &mesh_;
+  const TradeoffSettings &settings_;
+  const std::function<void(const TradeoffRow &)> &progress_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  GridSettings grid_settings_, plan_settings_;
+  EngineSettings engine_;
+  Real standard_ = 0;
+  SphereSample sample_, gpu_sample_;
+  DriftStarts starts_;
+  WallAnswers reference_[2];    // of corner blend, of corner sum
+  int late_ = 0;
+  Tradeoff result_;
+};
+
+}    // namespace
+
+void mark_front(std::vector<TradeoffRow> &rows)
+{
+  const auto beats = [](const TradeoffRow &a, const TradeoffRow &b) {
+    return a.on_cuda == b.on_cuda && a.error.mean <= b.error.mean &&
+           a.ns_per_sphere <= b.ns_per_sphere &&
+           (a.error.mean < b.error.mean || a.ns_per_sphere < b.ns_per_sphere);
+  };
+  for (TradeoffRow &row : rows)
+    row.on_front = std::none_of(rows.begin(), rows.end(),
+                                [&](const TradeoffRow &other) { return beats(other, row); });
+}
+
+Tradeoff measure_tradeoff(const WallMesh &mesh, const TradeoffSettings &settings,
+                          const std::function<void(const TradeoffRow &)> &progress)
+{
+  return Measuring(mesh, settings, progress).run();
+}
+
+}    // namespace lsdcd

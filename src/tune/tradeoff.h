@@ -1,0 +1,55 @@
+// What each setting of a wall buys and costs, for one mesh.
+#pragma once
+
+#include "mesh/wall_mesh.h"
+#include "tune/trial_grid.h"
+#include "tune/wall_answers.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+struct TradeoffSettings {
+  std::vector<Real> radii;    // each as likely; the grid's reach is the largest
+  std::size_t memory_budget = std::size_t(1) << 30;    // bytes of a grid
+  int spheres = 20000;     // asked for errors and timed, more of them on a GPU
+  int moving = 32;         // bouncing, and rolling
+  int repeats = 5;         // of a timed step
+  double seconds = 120;    // after these no more settings are tried
+  bool cpu = true, cuda = false;
+  std::uint64_t seed = 1;
+};
+
+struct TradeoffRow {
+  GridChoice choice;
+  Corner corner;
+  bool on_cuda;
+  std::string device;
+  AnswerError error;    // against complete lists in double with the same corner rule
+  Real bounce_drift, roll_drift;
+  double ns_per_sphere;
+  std::size_t bytes;       // of the grid
+  int checked, spheres;    // for errors, and timed
+  bool is_default = false;
+  bool on_front = false;    // no setting on the same device is as good in one of mean force
+                            // error and time, and better in the other
+};
+
+struct Tradeoff {
+  std::vector<TradeoffRow> rows;
+  std::vector<std::string> left_out;    // in words
+};
+
+// Cells of half to four times the default length, all kinds of list, three precisions, both
+// corner rules, each device: spheres in the order in which LAMMPS sorts them, uniform in the
+// band within reach. Hooke with springs at rest for errors and times. The default comes
+// first. Errors and drifts are computed once, on the CPU: those of a GPU are the same bits.
+Tradeoff measure_tradeoff(const WallMesh &mesh, const TradeoffSettings &settings,
+                          const std::function<void(const TradeoffRow &)> &progress);
+
+void mark_front(std::vector<TradeoffRow> &rows);
+
+}    // namespace lsdcd

@@ -1,0 +1,16 @@
+// Cell lengths that are worth a try.
+#pragma once
+
+#include "grid/triangle_grid.h"
+#include "mesh/wall_mesh.h"
+
+#include <vector>
+
+namespace lsdcd {
+
+// Half, once, twice and four times the default, ascending, to four digits so that a deck
+// can say them: up to the reach, and where the table of bricks and its least contents fit
+// the memory budget. Where none does, the first coarser one. A length that is given: that.
+std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &settings);
+
+}    // namespace lsdcd

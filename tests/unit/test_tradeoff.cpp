@@ -1,0 +1,203 @@
+// What settings buy and cost: the front, the moving spheres, the rows.
+#include "tune/tradeoff.h"
+
+#include "support/device.h"
+#include "support/meshes.h"
+#include "tune/drift.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace lsdcd {
+namespace {
+
+TradeoffRow row_of(Real mean, double ns, bool on_cuda = false)
+{
+  TradeoffRow row = {};
+  row.error.mean = mean;
+  row.ns_per_sphere = ns;
+  row.on_cuda = on_cuda;
+  return row;
+}
+
+std::vector<bool> front_of(std::vector<TradeoffRow> rows)
+{
+  mark_front(rows);
+  std::vector<bool> front;
+  for (const TradeoffRow &row : rows) front.push_back(row.on_front);
+  return front;
+}
+
+TEST(front, holds_what_nothing_else_beats)
+{
+  EXPECT_EQ(front_of({row_of(0, 100), row_of(0, 90), row_of(0.1, 50), row_of(0.1, 60),
+                      row_of(0.2, 90), row_of(0.5, 40)}),
+            (std::vector<bool>{false, true, true, false, false, true}));
+}
+
+TEST(front, holds_equals)
+{
+  EXPECT_EQ(front_of({row_of(0, 100), row_of(0, 100)}), (std::vector<bool>{true, true}));
+}
+
+TEST(front, is_of_each_device)
+{
+  EXPECT_EQ(front_of({row_of(0, 100), row_of(0, 5, true), row_of(0.1, 6, true)}),
+            (std::vector<bool>{true, true, false}));
+}
+
+// ---- moving spheres --------------------------------------------------------------------
+
+struct Wall {
+  WallMesh mesh;
+  TriangleGrid grid;
+
+  Wall(const TriangleSoup &soup, Real reach, int nearest = 0) : mesh(weld(soup, -1))
+  {
+    GridSettings settings;
+    settings.reach = reach;
+    settings.nearest = nearest;
+    grid = build_grid(mesh, settings);
+  }
+  DriftStarts starts(Real radius, int n) const
+  {
+    Random random(11);
+    GridSettings settings;
+    settings.reach = radius;
+    return drift_starts(mesh, build_grid(mesh, settings).view(), radius, n, random);
+  }
+};
+
+TEST(drift_starts, touch_the_wall_where_they_stand_and_nowhere_else)
+{
+  const Wall box(box_mesh({0, 0, 0}, {4, 3, 2}), 0.5);
+  const DriftStarts starts = box.starts(0.5, 60);
+  ASSERT_EQ(starts.n(), 60);
+  long inside = 0;
+  for (int i = 0; i < starts.n(); i++) {
+    const Vec3 p = starts.point[i], n = starts.normal[i], x = p + 0.5 * n;
+    EXPECT_NEAR(norm(n), 1, 1e-14);
+    EXPECT_NEAR(dot(n, starts.along[i]), 0, 1e-14);
+    // The distance from x to the box's surface, by hand: from inside that to the nearest face.
+    const Vec3 q = {std::clamp(x.x, 0., 4.), std::clamp(x.y, 0., 3.), std::clamp(x.z, 0., 2.)};
+    const bool in = q == x;
+    const Real distance = in ? std::min({x.x, 4 - x.x, x.y, 3 - x.y, x.z, 2 - x.z}) : norm(x - q);
+    EXPECT_NEAR(distance, 0.5, 1e-3);
+    inside += in;
+  }
+  EXPECT_GT(inside, 10);
+  EXPECT_LT(inside, 50);
+}
+
+// Ten bounces off a plane: velocity Verlet with 100 steps per contact errs by less than
+// (pi / 100)^2 / 4 at each impact.
+TEST(bounce, keeps_its_energy_on_a_plane_whatever_its_triangles)
+{
+  for (int n : {1, 30}) {
+    const Wall floor(floor_mesh(n, 30, n), 1);
+    const Real drift = bounce_drift(floor.grid.view(), EngineSettings(), floor.starts(1, 20));
+    EXPECT_LT(drift, 2.5e-3);
+  }
+}
+
+// Rolling on a plane is steady motion at constant overlap: rounding only.
+TEST(roll, keeps_its_energy_on_a_plane_whatever_its_triangles)
+{
+  for (int n : {1, 30}) {
+    const Wall floor(floor_mesh(n, 30, n), 1);
+    EXPECT_LT(roll_drift(floor.grid.view(), EngineSettings(), floor.starts(1, 20)), 1e-9);
+  }
+}
+
+TEST(roll, loses_energy_in_a_drum_whose_seams_count_twice)
+{
+  const Wall drum(cylinder_mesh(1000, 1, 10, 20), 1);
+  const DriftStarts starts = drum.starts(1, 30);
+  EngineSettings blend, sum;
+  sum.corner = Corner::sum;
+  EXPECT_GT(roll_drift(drum.grid.view(), sum, starts),
+            3 * roll_drift(drum.grid.view(), blend, starts));
+}
+
+TEST(drift, is_large_where_contacts_are_missed)
+{
+  const TriangleSoup soup = floor_mesh(60, 10, 1);    // triangles a third of a radius
+  const Wall whole(soup, 1), short_lists(soup, 1, 1);
+  const DriftStarts starts = whole.starts(1, 20);
+  EXPECT_GT(roll_drift(short_lists.grid.view(), EngineSettings(), starts), 0.01);
+  EXPECT_LT(roll_drift(whole.grid.view(), EngineSettings(), starts), 1e-9);
+}
+
+TEST(drift, is_one_for_spheres_that_leave_the_wall)
+{
+  // A tile that every sphere rolls off at once.
+  const Wall tile(floor_mesh(1, 0.2), 1);
+  EXPECT_EQ(bounce_drift(tile.grid.view(), EngineSettings(), tile.starts(1, 20)), 1);
+}
+
+// ---- rows ------------------------------------------------------------------------------
+
+Tradeoff small(double seconds = 1e9, std::size_t memory = std::size_t(1) << 30)
+{
+  TradeoffSettings settings;
+  settings.radii = {0.4, 0.5};
+  settings.spheres = 2000;
+  settings.moving = 4;
+  settings.repeats = 1;
+  settings.seconds = seconds;
+  settings.memory_budget = memory;
+  settings.cpu = !test_on_cuda();
+  settings.cuda = test_on_cuda();
+  return measure_tradeoff(weld(cylinder_mesh(40, 6, 5, 6), -1), settings,
+                          [](const TradeoffRow &) {});
+}
+
+TEST(tradeoff, has_a_row_for_every_setting_the_default_first)
+{
+  const Tradeoff t = small();
+  EXPECT_TRUE(t.left_out.empty());
+  std::set<std::tuple<Real, int, bool, int, int>> seen;
+  std::set<Real> lengths;
+  for (const TradeoffRow &r : t.rows) {
+    lengths.insert(r.choice.length);
+    EXPECT_TRUE(seen.insert({r.choice.length, r.choice.nearest, r.choice.exact,
+                             static_cast<int>(r.choice.precision), static_cast<int>(r.corner)})
+                    .second);
+    EXPECT_EQ(r.on_cuda, test_on_cuda());
+    EXPECT_GT(r.ns_per_sphere, 0);
+    EXPECT_GT(r.error.contacts, 200);
+    if (r.choice.complete()) {
+      EXPECT_EQ(r.error.missed, 0);
+    }
+    if (r.choice.complete() && r.choice.precision == Precision::double_) {
+      EXPECT_LT(r.error.largest, 1e-12);
+    }
+  }
+  EXPECT_GE(lengths.size(), 2u);
+  EXPECT_EQ(t.rows.size(), lengths.size() * list_kinds().size() * 6);
+  EXPECT_TRUE(t.rows[0].is_default);
+  EXPECT_EQ(std::count_if(t.rows.begin(), t.rows.end(), [](const auto &r) { return r.is_default; }),
+            1);
+  EXPECT_TRUE(std::any_of(t.rows.begin(), t.rows.end(), [](const auto &r) { return r.on_front; }));
+}
+
+TEST(tradeoff, has_the_default_however_little_time_there_is)
+{
+  const Tradeoff t = small(1e-9);
+  ASSERT_EQ(t.rows.size(), 2u);    // with both corner rules
+  EXPECT_TRUE(t.rows[0].is_default);
+  ASSERT_EQ(t.left_out.size(), 1u);
+  EXPECT_NE(t.left_out[0].find("no time"), std::string::npos);
+}
+
+TEST(tradeoff, leaves_out_what_is_over_the_budget_and_says_so)
+{
+  const Tradeoff t = small(1e9, 300000);
+  EXPECT_FALSE(t.left_out.empty());
+  for (const TradeoffRow &r : t.rows) EXPECT_LE(r.bytes, 300000u);
+}
+
+}    // namespace
+}    // namespace lsdcd
