@@ -5,8 +5,8 @@ usage: run.py [--build DIR] [NAME ...]     NAME: build, cache, step (default: al
                                            hard-cases
 
 Rows go to DIR/bench/NAME.csv, written whole or not at all. Two write documents instead:
-hard-cases doc/hard_cases.md from runs of the tests (hard_cases.py), accuracy the paper's
-part of doc/accuracy.md from runs of `lsdcd accuracy` (accuracy.py).
+hard-cases doc/hard_cases.md from runs of the tests (hard_cases.py), accuracy
+doc/accuracy.md from runs of `lsdcd tradeoff` (tradeoff.py) and `lsdcd accuracy` (accuracy.py).
 """
 import argparse
 import csv
@@ -16,9 +16,10 @@ import sys
 
 import accuracy
 import hard_cases
+import tradeoff
 
 NAMES = ["build", "cache", "step"]
-DOCUMENTS = {"accuracy": accuracy.main, "hard-cases": hard_cases.main}
+DOCUMENTS = {"accuracy": [tradeoff.main, accuracy.main], "hard-cases": [hard_cases.main]}
 HIDDEN = {"bench", "compiler", "commit"}    # the same in every row; printed once
 
 
@@ -46,9 +47,10 @@ def main():
     os.makedirs(out, exist_ok=True)
     for name in names:
         if name in DOCUMENTS:
-            status = DOCUMENTS[name](["--build", build])
-            if status != 0:
-                return status
+            for write in DOCUMENTS[name]:
+                status = write(["--build", build])
+                if status != 0:
+                    return status
             continue
         print(f"running bench_{name} ...", flush=True)
         done = subprocess.run([os.path.join(build, "bin", "bench_" + name)],

@@ -1,15 +1,16 @@
 #include "tool/tradeoff_command.h"
 
 #include "base/input_error.h"
-#include "base/threads.h"
 #include "base/whole_file.h"
 #include "mesh/placement.h"
 #include "mesh/triangle_soup.h"
 #include "tune/tradeoff.h"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -46,6 +47,14 @@ const char *const kHelp =
     "                  error and as good in the other\n"
     "  default         1 for what the fix does by itself";
 
+// CLI11's own check would print the largest number there is.
+std::string above_zero(const std::string &word)
+{
+  char *end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  return *end == 0 && value > 0 && std::isfinite(value) ? "" : word + " is not a number above 0";
+}
+
 WallMesh load(const Options &o)
 {
   TriangleSoup soup = read_stl(o.file);
@@ -61,6 +70,17 @@ std::string formatted(const char *format, double value)
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
+}
+
+// "CPU, 1 thread, AMD EPYC", where the system tells.
+std::string device_name(const TradeoffRow &row)
+{
+  if (row.on_cuda) return row.device;
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos)
+      return row.device + ", " + line.substr(line.find(": ") + 2);
+  return row.device;
 }
 
 // CSV: quotes round every text that comes from elsewhere.
@@ -90,7 +110,7 @@ std::string csv_of(const Tradeoff &tradeoff, const WallMesh &mesh, const Tradeof
                                              number(least),
                                              number(most),
                                              r.on_cuda ? "cuda" : "cpu",
-                                             quoted(r.device),
+                                             quoted(device_name(r)),
                                              number(r.choice.length),
                                              lists_name(r.choice),
                                              precision_name(r.choice.precision),
@@ -151,6 +171,7 @@ void tradeoff(Options &o)
   o.settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
   if (o.plot.empty()) o.plot = std::filesystem::path(o.csv).replace_extension(".png").string();
   const WallMesh mesh = load(o);
+  WholeFile file(o.csv);    // now, rather than fail when all is done
   std::printf("%s, %zu triangles\n", o.file.c_str(), mesh.faces.size());
   std::printf("      grid  nearest  precision  corner  device   missed %%  force error: mean  "
               "largest  bounce    roll  ns/sphere        MB\n");
@@ -166,7 +187,6 @@ void tradeoff(Options &o)
   for (const std::string &what : result.left_out)
     std::fprintf(stderr, "left out: %s\n", what.c_str());
   const std::string text = csv_of(result, mesh, o.settings);
-  WholeFile file(o.csv);
   file.write_at(0, text.data(), text.size());
   file.commit();
   std::printf("rows in %s\n", o.csv.c_str());
@@ -186,13 +206,13 @@ void add_tradeoff_command(CLI::App &app)
   command->add_option("--radius", o->settings.radii, "sphere radii, one or several, each as likely")
       ->required()
       ->expected(1, -1)
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero);
   command->add_option("--scale", o->scale, "one factor, or three (x y z)")->expected(1, 3);
   command->add_option("--weld", o->weld,
                       "weld corners closer than this (default: 1e-6 of the box diagonal)");
   command->add_option("--memory", o->memory, "budget of a grid in MB; settings above are left out")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero);
   command
       ->add_option("--device", o->device,
                    "auto: the CPU, and the GPU where there is one; cpu; cuda: the GPU alone")
@@ -202,7 +222,7 @@ void add_tradeoff_command(CLI::App &app)
       ->add_option("--seconds", o->settings.seconds,
                    "after these no further settings are tried; the default comes first")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero);
   command
       ->add_option("--spheres", o->settings.spheres,
                    "spheres beside the wall, for errors and times (16 times as many on a GPU)")

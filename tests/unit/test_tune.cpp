@@ -288,13 +288,13 @@ TEST(choose, of_times_that_are_a_tenth_apart_takes_the_more_precise_then_the_sma
       0);
 }
 
-TEST(choose, asks_of_floats_a_tenth_of_the_bound_in_a_sample)
+TEST(choose, asks_of_floats_a_twentieth_of_the_bound_in_a_sample)
 {
-  for (Real largest : {0.99e-4, 1.01e-4})
+  for (Real largest : {0.49e-4, 0.51e-4})
     EXPECT_EQ(
         chosen({row_of(0, false, kDouble, 0, 100, 10), row_of(0, false, kMixed, largest, 10, 10)},
                1e-3),
-        largest < 1e-4 ? 1 : 0);
+        largest < 0.5e-4 ? 1 : 0);
 }
 
 TEST(choose, refuses_what_misses_contacts)

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""lsdcd tradeoff writes its rows whole or not at all, with or without matplotlib, and says what is
+wrong with its arguments."""
+
+import csv
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TOOL = os.environ["LSDCD_TOOL"]
+FLOOR = pathlib.Path(__file__).resolve().parent.parent / "lammps" / "decks" / "floor.stl"
+FAST = ["--spheres", "300", "--moving", "2", "--repeats", "1", "--device", "cpu"]
+
+failed = 0
+
+
+def fact(name, holds, detail=""):
+    global failed
+    print(f"{'PASS' if holds else 'FAIL'} {name}{': ' + detail if detail else ''}")
+    failed += not holds
+
+
+def run(folder, *words, tool=TOOL):
+    return subprocess.run([tool, "tradeoff", *words], cwd=folder, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True)
+
+
+def rows(path):
+    with open(path, newline="") as f:
+        return list(csv.DictReader(f))
+
+
+def main():
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+    done = run(folder, str(FLOOR), "--radius", "0.4", "0.5", *FAST, "--plot", "none")
+    fact("the rows are written", done.returncode == 0 and (folder / "tradeoff.csv").exists(),
+         done.stdout[-300:])
+    table = rows(folder / "tradeoff.csv")
+    fact("every setting has a row", len(table) % 48 == 0 and len(table) >= 48, str(len(table)))
+    fact("one is the default", [r["default"] for r in table].count("1") == 1)
+    fact("some are on the front", any(r["front"] == "1" for r in table))
+    fact("rows say what they are of", all(r["commit"] and r["device"] and r["order"] == "sorted" and
+                                          r["triangles"] == "2" for r in table))
+    fact("no plot was asked for and none is there", not list(folder.glob("*.png")))
+    fact("nothing else is left", sorted(p.name for p in folder.iterdir()) == ["tradeoff.csv"])
+
+    # The same errors from the same seed, others from another.
+    run(folder, str(FLOOR), "--radius", "0.4", "0.5", *FAST, "--plot", "none", "--csv", "again.csv")
+    run(folder, str(FLOOR), "--radius", "0.4", "0.5", *FAST, "--plot", "none", "--csv", "other.csv",
+        "--seed", "7")
+    errors = [[r["force_largest"] for r in rows(folder / f)]
+              for f in ("tradeoff.csv", "again.csv", "other.csv")]
+    fact("one seed gives one set of errors", errors[0] == errors[1] != errors[2])
+
+    try:
+        import matplotlib    # noqa: F401
+        has_matplotlib = True
+    except ImportError:
+        has_matplotlib = False
+    if has_matplotlib:
+        done = run(folder, str(FLOOR), "--radius", "0.5", *FAST, "--csv", "drawn.csv")
+        png = folder / "drawn.png"
+        fact("the plot is drawn", done.returncode == 0 and png.exists() and
+             png.read_bytes()[:4] == b"\x89PNG", done.stdout[-300:])
+
+    # A copy of the tool without its script: as if nothing could draw.
+    alone = shutil.copy(TOOL, folder / "alone")
+    done = run(folder, str(FLOOR), "--radius", "0.5", *FAST, "--csv", "alone.csv", tool=alone)
+    fact("without a plot the rows are there", len(rows(folder / "alone.csv")) >= 48)
+    fact("and how to draw it is told", done.returncode == 1 and "python3-matplotlib" in done.stdout and
+         "alone.csv" in done.stdout, done.stdout[-300:])
+
+    for words, expected in [([str(FLOOR)], "--radius"),
+                            ([str(FLOOR), "--radius", "-1"], "--radius"),
+                            ([str(FLOOR), "--radius", "0.5", "--device", "tpu"], "--device"),
+                            ([str(FLOOR), "--radius", "0.5", "--seconds", "0"], "--seconds"),
+                            (["missing.stl", "--radius", "0.5"], "missing.stl"),
+                            ([str(FLOOR), "--radius", "0.5", *FAST, "--plot", "none", "--csv",
+                              "no/such/folder.csv"], "no/such/folder")]:
+        done = run(folder, *words)
+        fact(f"refuses {' '.join(words[1:3])}", done.returncode != 0 and expected in done.stdout,
+             done.stdout[-200:].strip())
+    help_text = run(folder, "--help").stdout
+    fact("help explains the columns", all(w in help_text for w in ("bounce_drift", "front", "force_mean")))
+    shutil.rmtree(folder)
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
