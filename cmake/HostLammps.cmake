@@ -60,7 +60,7 @@ endif()
 # only for what its own headers lack.
 function(lsdcd_host_target name include version sizes)
   add_library(${name} INTERFACE)
-  foreach(shim fmt/format.h command.h)
+  foreach(shim fmt/format.h command.h safe_pointers.h)
     if(NOT EXISTS ${include}/${shim})
       string(REGEX REPLACE "[/.].*" "" folder ${shim})
       target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR}/cmake/compat/no_${folder})

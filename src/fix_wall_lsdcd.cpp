@@ -57,6 +57,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   }
 
   history = settings.law.has_history();
+  springs = lsdcd::SpringStore(settings.law.n_extra());
   records = settings.has_loads();
   restart_global = records;
   if (settings.fields_every > 0) nevery = settings.fields_every;
@@ -79,7 +80,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
 
   if (settings.contacts) {
     peratom_flag = 1;
-    size_peratom_cols = kContactColumns;
+    size_peratom_cols = kContactColumns + settings.law.has_heat();
     peratom_freq = 1;
   }
   if (history || settings.contacts) {
@@ -91,10 +92,10 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   }
 
   // Without spheres there is no telling how far outside is too far.
-  double reach = largest_radius();
-  MPI_Allreduce(MPI_IN_PLACE, &reach, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (settings.rmax > 0) reach = settings.rmax;
-  if (reach > 0) check_box(reach);
+  double radius = largest_radius();
+  MPI_Allreduce(MPI_IN_PLACE, &radius, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (settings.rmax > 0) radius = settings.rmax;
+  if (radius > 0) check_box(lsdcd::reach_of(settings.law, radius));
   log_creation();
 }
 
@@ -123,6 +124,7 @@ void FixWallLsdcd::init()
     if (modify->fix[i]->rigid_flag) rigid = true;
   if (!rigid) std::vector<double>().swap(mass_seen);
   if (wall->reach() > 0) check_box(wall->reach());
+  if (settings.law.has_heat()) check_heat();
 }
 
 // Respa calls this once per level before setup(): the only way to its number of
@@ -216,6 +218,7 @@ void FixWallLsdcd::start()
   step.dt = update->dt;
   step.update_history = !update->setupflag;
   step.per_sphere = settings.contacts;
+  if (settings.law.has_heat()) give_heat(s, step);
   try {
     engine->start(s, step, history ? &springs : nullptr);
   } catch (const std::exception &e) {
@@ -271,12 +274,14 @@ void FixWallLsdcd::update_reach()
   check_overlap(most[1]);
 
   const double radius = most[0], old = wall->reach();
-  if (radius <= old) return;
+  const auto reach_of = [this](double r) { return lsdcd::reach_of(settings.law, r); };
+  if (radius == 0 || reach_of(radius) <= old) return;
   if (settings.rmax > 0 && radius > settings.rmax)
     refuse("a particle has radius " + lsdcd::number_text(radius) + ", more than rmax " +
            lsdcd::number_text(settings.rmax) + ": raise rmax or use rmax auto");
 
-  const double reach = settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius);
+  const double reach =
+      reach_of(settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius));
   check_box(reach);
   try {
     if (settings.tune >= 0 && old == 0) tune(reach);

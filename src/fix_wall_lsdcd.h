@@ -61,6 +61,7 @@ class FixWallLsdcd : public Fix {
   bool history, records;
   bool callbacks = false;    // registered with Atom
   bool restarted = false;    // springs came from a restart file and are not checked yet
+  int other_law = 0;         // atoms whose springs did not, being those of another law
   bool running = false;      // between start and collect
   int nlevels_respa = 0;     // 0 under verlet
 
@@ -74,6 +75,8 @@ class FixWallLsdcd : public Fix {
   double worst_uncertain = 0;    // overlap / radius that they may have missed
   bool overlap_warned = false, wall_in_minimize_warned = false;
   double checked_dt = 0;
+
+  int temperature_variable = -1;
 
   double totals[9], energy;    // over all processes, of the last step
   bool reduced = false;
@@ -96,6 +99,10 @@ class FixWallLsdcd : public Fix {
   // fix_wall_lsdcd_loads.cpp
   void add_loads();
   lsdcd::WallLoads gathered_loads() const;
+
+  // fix_wall_lsdcd_heat.cpp
+  void check_heat();
+  void give_heat(lsdcd::Spheres &, lsdcd::StepSettings &);
 
   // fix_wall_lsdcd_checks.cpp
   double largest_radius() const;    // of the group, on this process

@@ -2,6 +2,7 @@
 
 #include "fix_wall_lsdcd.h"
 
+#include "granular_words.h"
 #include "input_words.h"
 
 #include "atom.h"
@@ -106,12 +107,23 @@ void FixWallLsdcd::check_overlap(double worst)
                               ": stiffen the contact (kn) or lower speeds; shown once");
 }
 
+// Does the stiffness grow with the overlap?
+static bool is_hertzian(const lsdcd::ContactLaw &law)
+{
+  if (law.style == LawStyle::granular) return !law.is(lsdcd::NormalModel::hooke);
+  return law.style == LawStyle::hertz_history;
+}
+
 // Duration of a binary contact: half a period of the damped spring between a
-// sphere and the wall. A hertz spring is taken at an overlap of 1 % of the radius.
+// sphere and the wall (undamped with granular, whose damping may be anything). A hertz
+// spring is taken at an overlap of 1 % of the radius.
 double FixWallLsdcd::contact_time(double mass, double radius) const
 {
-  double k = settings.law.k_normal, gamma = settings.law.gamma_normal;
-  if (settings.law.style == LawStyle::hertz_history) {
+  const lsdcd::ContactLaw &law = settings.law;
+  const bool granular = law.style == LawStyle::granular;
+  double k = granular ? law.granular.k_normal : law.k_normal;
+  double gamma = granular ? 0 : law.gamma_normal;
+  if (is_hertzian(law)) {
     const double root = std::sqrt(0.01 * radius * radius);
     k *= 1.5 * root;
     gamma *= root;
@@ -123,7 +135,7 @@ double FixWallLsdcd::contact_time(double mass, double radius) const
 
 void FixWallLsdcd::check_timestep()
 {
-  if (update->dt == checked_dt || wall->reach() == 0 || settings.law.k_normal == 0) return;
+  if (update->dt == checked_dt || wall->reach() == 0) return;
   double shortest = INFINITY;
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit)
@@ -131,32 +143,35 @@ void FixWallLsdcd::check_timestep()
   MPI_Allreduce(MPI_IN_PLACE, &shortest, 1, MPI_DOUBLE, MPI_MIN, world);
   checked_dt = update->dt;
   if (update->dt <= shortest / kStepsPerContact || comm->me) return;
-  error->warning(FLERR, "Fix wall/lsdcd: timestep " + number_text(update->dt) +
-                            " is more than a tenth of the shortest contact time " +
-                            number_text(shortest) +
-                            (settings.law.style == LawStyle::hertz_history
-                                 ? " (hertz, at an overlap of 1 % of the radius)"
-                                 : "") +
-                            ": contacts will not be resolved");
+  error->warning(
+      FLERR, "Fix wall/lsdcd: timestep " + number_text(update->dt) +
+                 " is more than a tenth of the shortest contact time " + number_text(shortest) +
+                 (is_hertzian(settings.law) ? " (hertz, at an overlap of 1 % of the radius)" : "") +
+                 ": contacts will not be resolved");
 }
 
-// Springs of a restart file name features of the mesh it was written with.
+// Springs of a restart file name features of the mesh it was written with, and hold what
+// the law that it was written with keeps.
 void FixWallLsdcd::check_springs()
 {
   restarted = false;
-  int foreign = 0;
+  int lost[2] = {0, other_law};
   for (int i = 0; i < atom->nlocal; i++)
     for (int k = 0; k < springs.count(i); k++)
       if (!wall->has(springs.of(i)[k].feature)) {
-        foreign++;
+        lost[0]++;
         springs.clear(i);
         break;
       }
-  MPI_Allreduce(MPI_IN_PLACE, &foreign, 1, MPI_INT, MPI_SUM, world);
-  if (foreign && comm->me == 0)
-    error->warning(FLERR,
-                   "Fix wall/lsdcd: " + std::to_string(foreign) +
-                       " atoms lose their springs: the restart file was written with another mesh");
+  other_law = 0;
+  MPI_Allreduce(MPI_IN_PLACE, lost, 2, MPI_INT, MPI_SUM, world);
+  const char *const other[] = {"mesh", "contact law"};
+  for (int k = 0; k < 2; k++)
+    if (lost[k] && comm->me == 0)
+      error->warning(FLERR, "Fix wall/lsdcd: " + std::to_string(lost[k]) +
+                                " atoms lose their springs: the restart file was written with "
+                                "another " +
+                                other[k]);
 }
 
 // What nearest lists may have cost in the run that ends. Collective.
@@ -184,19 +199,21 @@ void FixWallLsdcd::log_creation() const
   const lsdcd::ContactLaw &l = settings.law;
   std::string t = "Fix " + std::string(id) + " wall/lsdcd: " + wall->mesh_text();
   if (!settings.placement_words.empty()) t += "\n  placement   " + settings.placement_words;
-  t += "\n  contact     " + settings.law_name + ", kn " + number_text(l.k_normal) + ", kt " +
-       number_text(l.k_tangent) + ", gamman " + number_text(l.gamma_normal) + ", gammat " +
-       number_text(l.gamma_tangent) + ", xmu " + number_text(l.mu) +
-       (l.limit_damping ? ", limit_damping" : "");
-  t += "\n  effects     normal spring";
-  if (l.gamma_normal > 0) t += ", normal damping";
-  if (l.mu > 0 && history && l.k_tangent > 0) t += ", tangential spring";
-  if (l.mu > 0 && l.gamma_tangent > 0) t += ", tangential damping";
-  t += l.mu > 0 ? ", sliding limit" : "; no friction";
-  t += "\n  per atom    ";
+  t += "\n  contact     " + settings.law_name;
+  if (l.style != LawStyle::granular)
+    t += ", kn " + number_text(l.k_normal) + ", kt " + number_text(l.k_tangent) + ", gamman " +
+         number_text(l.gamma_normal) + ", gammat " + number_text(l.gamma_tangent) + ", xmu " +
+         number_text(l.mu) + (l.limit_damping ? ", limit_damping" : "");
+  std::string effects, kept;
+  for (const lsdcd::Effect &e : lsdcd::effects_of(l)) {
+    effects += (effects.empty() ? "" : ", ") + e.name;
+    if (e.bytes_per_contact > 0)
+      kept += ", " + std::to_string(e.bytes_per_contact) + " for " + e.name;
+  }
+  t += "\n  effects     " + effects + "\n  per atom    ";
   if (history)
-    t += "8 bytes and " + std::to_string(sizeof(lsdcd::Spring)) +
-         " per contact for springs, which move and restart with it";
+    t += "8 bytes, and per contact " + std::to_string(sizeof(lsdcd::Spring)) +
+         " for its spring and place" + kept + ", which move and restart with the atom";
   else
     t += "nothing stored, exchanged or restarted";
   if (settings.contacts)

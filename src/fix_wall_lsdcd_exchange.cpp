@@ -60,6 +60,11 @@ void FixWallLsdcd::unpack_restart(int i, int nth)
   if (!history) return;    // the file's fix had springs, this one has none
   const double *extra = atom->extra[i];
   for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
-  springs.unpack(i, extra + 1);
   restarted = true;
+  // Another law of the file's fix may have kept more or less for each contact.
+  const int count = static_cast<int>(extra[1]), size = static_cast<int>(extra[0]);
+  if (size == 2 + count * springs.doubles_per_spring())
+    springs.unpack(i, extra + 1);
+  else
+    other_law++;
 }

@@ -60,6 +60,7 @@ void FixWallLsdcd::fill_contacts()
     const double row[8] = {o.contacts, o.force.x, o.force.y, o.force.z,
                            o.point.x,  o.point.y, o.point.z, o.radius};
     std::copy(row, row + 8, array_atom[touching[k]]);
+    if (settings.law.has_heat()) array_atom[touching[k]][8] = engine->sphere_heat()[k];
   }
 }
 

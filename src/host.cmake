@@ -5,7 +5,8 @@
 # threads that it started may outlive `plugin unload`.
 function(lsdcd_plugin name host)
   set(sources lsdcdplugin.cpp fix_wall_lsdcd.cpp fix_wall_lsdcd_checks.cpp
-    fix_wall_lsdcd_exchange.cpp fix_wall_lsdcd_loads.cpp fix_wall_lsdcd_output.cpp
+    fix_wall_lsdcd_exchange.cpp fix_wall_lsdcd_heat.cpp fix_wall_lsdcd_loads.cpp
+    fix_wall_lsdcd_output.cpp
     fix_wall_lsdcd_tune.cpp node_wall.cpp node_wall_tune.cpp node_shared.cpp)
   list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/src/)
   add_library(${name} MODULE ${sources})

@@ -50,6 +50,13 @@ std::string nearest(const std::string &word, const std::vector<std::string> &nam
                            });
 }
 
+std::string Words::between(std::size_t first) const
+{
+  std::string text;
+  for (std::size_t i = first; i < at_; i++) text += (i > first ? " " : "") + words_[i];
+  return text;
+}
+
 void Words::expect(const std::string &name, const std::string &syntax)
 {
   name_ = name;

@@ -25,6 +25,10 @@ class Words {
   std::string take() { return words_[at_++]; }
   bool number_follows() const;
 
+  // The place in the words, and what was read since a place, as it was written.
+  std::size_t at() const { return at_; }
+  std::string between(std::size_t first) const;
+
   // What is being read, for the errors of what follows.
   void expect(const std::string &name, const std::string &syntax);
 

@@ -1,6 +1,7 @@
 #include "settings.h"
 
 #include "grid/grid_cache.h"
+#include "granular_words.h"
 #include "input_words.h"
 
 #include <algorithm>
@@ -180,6 +181,17 @@ void read_mesh_fields(Words &w, WallSettings &s)
   if (s.fields_every != n) w.fail("N must be a whole number");
 }
 
+void read_temperature(Words &w, WallSettings &s)
+{
+  s.has_temperature = true;
+  if (!w.done() && w.peek().rfind("v_", 0) == 0) {
+    s.temperature_variable = w.take().substr(2);
+    if (s.temperature_variable.empty()) w.fail("the variable's name is missing after v_");
+  } else {
+    s.temperature = w.number("T");
+  }
+}
+
 void read_draw(Words &w, WallSettings &s)
 {
   s.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
@@ -262,7 +274,9 @@ const Keyword kKeywords[] = {
      [](Words &w, WallSettings &s) {
        s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));
      }},
-    {"contacts", "", "", "", "off", "per-atom array of 8 columns, as fix wall/gran's",
+    {"temperature", "T | v_NAME", "temperature", "", "none",
+     "of the wall, for the sub-model heat; v_NAME: an equal-style variable", read_temperature},
+    {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
      [](Words &, WallSettings &s) { s.contacts = true; }},
     {"periodic", "", "", "", "off",
      "the mesh continues itself across periodic faces and reaches past them by R",
@@ -281,17 +295,21 @@ std::string syntax_of(const Keyword &row)
 
 const char *const kLawSyntax =
     "hooke|hooke/history|hertz/history kn kt|NULL gamman gammat|NULL xmu dampflag [limit_damping] "
-    "mesh FILE [keywords]";
+    "mesh FILE [keywords], or granular NORMAL ... mesh FILE [keywords]";
 
 void read_law(Words &w, WallSettings &s)
 {
-  const std::vector<std::string> names = {"hooke", "hooke/history", "hertz/history"};
+  const std::vector<std::string> names = {"hooke", "hooke/history", "hertz/history", "granular"};
   w.expect("fix wall/lsdcd", kLawSyntax);
   if (w.done()) w.fail("the contact style is missing");
   const auto found = std::find(names.begin(), names.end(), w.peek());
   if (found == names.end()) w.fail("'" + w.peek() + "' is not a contact style");
   s.law_name = w.take();
   s.law.style = static_cast<LawStyle>(found - names.begin());
+  if (s.law.style == LawStyle::granular) {
+    s.law = read_granular(w, s.law_name);
+    return;
+  }
 
   // The numbers, NULLs and limits of fix wall/gran.
   w.expect(s.law_name, kLawSyntax);
@@ -310,6 +328,16 @@ void read_law(Words &w, WallSettings &s)
   }
 }
 
+[[noreturn]] void refuse_keyword(const std::string &word, const std::vector<std::string> &names,
+                                 const std::vector<std::string> &known)
+{
+  const std::string near = nearest(word, known);
+  const auto row = std::find(names.begin(), names.end(), near);
+  throw InputError("'" + word + "' is not a keyword; the nearest is '" +
+                   (row == names.end() ? near + "', which comes before mesh and other keywords"
+                                       : syntax_of(kKeywords[row - names.begin()]) + "'"));
+}
+
 }    // namespace
 
 WallSettings parse_settings(const std::vector<std::string> &words)
@@ -320,15 +348,13 @@ WallSettings parse_settings(const std::vector<std::string> &words)
 
   std::vector<std::string> seen, names;
   for (const Keyword &row : kKeywords) names.push_back(row.name);
+  std::vector<std::string> known = names;
+  if (settings.law.style == LawStyle::granular)
+    for (const std::string &family : granular_families()) known.push_back(family);
   while (!w.done()) {
     const std::string word = w.take();
     const auto found = std::find(names.begin(), names.end(), word);
-    if (found == names.end())
-      throw InputError(
-          "'" + word + "' is not a keyword; the nearest is '" +
-          syntax_of(kKeywords[std::find(names.begin(), names.end(), nearest(word, names)) -
-                              names.begin()]) +
-          "'");
+    if (found == names.end()) refuse_keyword(word, names, known);
     const Keyword &row = kKeywords[found - names.begin()];
     w.expect(row.name, syntax_of(row));
     const bool repeats = word == "scale" || word == "rotate" || word == "move";
@@ -337,17 +363,22 @@ WallSettings parse_settings(const std::vector<std::string> &words)
     seen.push_back(word);
     row.read(w, settings);
   }
-  if (settings.mesh_file.empty()) {
-    w.expect("fix wall/lsdcd", kLawSyntax);
-    w.fail("mesh FILE is missing");
-  }
+  const bool granular = settings.law.style == LawStyle::granular;
+  w.expect("fix wall/lsdcd", granular ? granular_syntax() : kLawSyntax);
+  if (settings.mesh_file.empty()) w.fail("mesh FILE is missing");
+  w.expect("temperature", "granular ... heat radius|area ... mesh FILE temperature T|v_NAME");
+  if (settings.law.has_heat() && !settings.has_temperature)
+    w.fail("the wall's temperature is missing, which the sub-model heat needs");
+  if (settings.has_temperature && !settings.law.has_heat())
+    w.fail("a temperature is given, but no sub-model heat uses it");
   check_tune(w, settings);
   return settings;
 }
 
 std::string settings_help()
 {
-  std::string help = std::string("fix ID group wall/lsdcd ") + kLawSyntax + "\n";
+  std::string help = std::string("fix ID group wall/lsdcd ") + kLawSyntax + "\n  " +
+                     granular_syntax() + ", of\n" + granular_help() + "  keywords\n";
   for (const Keyword &row : kKeywords) {
     std::string line = "  " + syntax_of(row);
     line.resize(std::max<std::size_t>(line.size() + 1, 38), ' ');

@@ -12,8 +12,11 @@
 namespace lsdcd {
 
 struct WallSettings {
-  ContactLaw law;    // NULLs resolved; hertz stiffnesses still in pressure units
-  std::string law_name;
+  ContactLaw law;          // NULLs resolved; hertz stiffnesses still in pressure units
+  std::string law_name;    // its style; with `granular`, all its words
+  bool has_temperature = false;
+  Real temperature = 0;                // of the wall, where the law has heat
+  std::string temperature_variable;    // its name, where it is a variable
   std::string mesh_file;
   Placement placement;
   std::string placement_words;    // for the log: "scale 0.001, move 0 0 1"

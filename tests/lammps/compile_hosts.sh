@@ -39,6 +39,7 @@ compile() {
   local headers=$1 version=$2 shims=() file
   [ -e "$headers/fmt/format.h" ] || shims+=(-I "$root/cmake/compat/no_fmt")
   [ -e "$headers/command.h" ] || shims+=(-I "$root/cmake/compat/no_command")
+  [ -e "$headers/safe_pointers.h" ] || shims+=(-I "$root/cmake/compat/no_safe_pointers")
   for file in "$root"/src/{fix_wall_lsdcd*,lsdcdplugin,node_wall,node_shared,launcher/*}.cpp; do
     # shellcheck disable=SC2046
     $cxx -std=c++17 -Wall -Wextra -Werror -fPIC -DLAMMPS_SMALLBIG -DLSDCD_HOST_VERSION="$version" \

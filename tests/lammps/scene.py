@@ -25,6 +25,11 @@ def write_floor(path, side=6.5, cells=26):
         stl.write("endsolid floor\n")
 
 
+# Everything that a contact can keep from step to step: spring, radius, rolling, twist,
+# and adhesion past touch.
+GRANULAR = ("granular jkr 1e5 700 0.3 0.3 tangential mindlin_rescale/force NULL 0.6 0.4 "
+            "rolling sds 2e3 5 0.1 twisting marshall")
+
 SETTINGS = """\
 units           lj
 atom_style      sphere

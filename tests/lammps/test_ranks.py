@@ -11,7 +11,8 @@ import scene
 
 LAWS = {"hooke": "hooke 1e4 NULL 120 NULL 0.4 1",
         "hooke_history": "hooke/history 1e4 NULL 120 NULL 0.4 1",
-        "hertz_history": "hertz/history 1e5 NULL 1500 NULL 0.4 1"}
+        "hertz_history": "hertz/history 1e5 NULL 1500 NULL 0.4 1",
+        "granular": scene.GRANULAR}
 TOTALS = ("thermo_style custom step f_wall f_wall[1] f_wall[2] f_wall[3] f_wall[4] f_wall[5] "
           "f_wall[6] f_wall[7] f_wall[8] f_wall[9]\nthermo_modify format float %.15g norm no\nthermo 100\n")
 BALANCE = "fix even all balance 100 1.02 shift xy 10 1.02\n"

@@ -12,6 +12,7 @@ import scene
 
 LAWS = {"hooke_history": "hooke/history 1e4 NULL 120 NULL 0.4 1",
         "hertz_history": "hertz/history 1e5 NULL 1500 NULL 0.4 1",
+        "granular": scene.GRANULAR,
         "hooke": "hooke 1e4 NULL 120 NULL 0.4 1"}
 UNDAMPED = "hooke/history 1e4 NULL 0 NULL 0.4 0"
 UNDAMPED_SIDES = "hooke 1e4 NULL 0 NULL 0 0"
@@ -54,6 +55,10 @@ def main():
 
     text = proceed(LAWS["hooke"], folder)[1]
     checks.fact("springs in the file do not disturb a style without them", "ERROR" not in text)
+
+    text = proceed(scene.GRANULAR, folder)[1]
+    checks.fact("another law: what it does not know is dropped with a warning",
+                "lose their springs: the restart file was written with another contact law" in text)
 
     # Springs of another mesh are dropped with a warning, not followed.
     scene.write_floor(folder / "floor.stl", cells=4)

@@ -1,5 +1,6 @@
 #include "base/input_error.h"
 #include "grid/grid_cache.h"
+#include "granular_words.h"
 #include "settings.h"
 
 #include <gtest/gtest.h>
@@ -359,6 +360,152 @@ TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
   EXPECT_TRUE(names(error_with("rolling cdt -0.1"), "MU"));
   EXPECT_TRUE(names(error_with("cohesion sjkr -1"), "K"));
   EXPECT_TRUE(names(error_with("cohesion jkr 1"), "sjkr"));
+}
+
+// ---- granular ------------------------------------------------------------------------
+
+GranularLaw law_of(const std::string &words)
+{
+  return parse("granular " + words + " mesh a.stl").law.granular;
+}
+
+std::string granular_error(const std::string &words)
+{
+  return error_of("granular " + words + " mesh a.stl");
+}
+
+const std::string kSlip = " tangential linear_nohistory 0 0";
+
+TEST(settings, granular_reads_every_normal_sub_model)
+{
+  EXPECT_EQ(law_of("hooke 7e4 3" + kSlip).normal, NormalModel::hooke);
+  EXPECT_EQ(law_of("hooke 7e4 3" + kSlip).k_normal, 7e4);
+  EXPECT_EQ(law_of("hertz 7e4 3" + kSlip).normal, NormalModel::hertz);
+  EXPECT_EQ(law_of("dmt 7e4 3 0.3 2" + kSlip).normal, NormalModel::dmt);
+  EXPECT_EQ(law_of("jkr 7e4 3 0.3 2" + kSlip).normal, NormalModel::jkr);
+  EXPECT_EQ(law_of("jkr 7e4 3 0.3 2" + kSlip).cohesion, 2);
+}
+
+TEST(settings, granular_takes_the_modulus_of_a_sphere_and_a_wall_of_one_material)
+{
+  // LAMMPS's manual: 960/(2 (1 - 0.2^2)) = 500.
+  const GranularLaw g = law_of("hertz/material 960 3 0.2" + kSlip);
+  EXPECT_NEAR(g.modulus, 500, 1e-12);
+  EXPECT_NEAR(g.k_normal, 2000.0 / 3, 1e-12);
+}
+
+TEST(settings, granular_kt_null_is_eight_times_the_shear_modulus_of_the_contact)
+{
+  const GranularLaw g = law_of("hertz/material 1e5 3 0.25 tangential mindlin NULL 1 0.5");
+  EXPECT_NEAR(g.k_tangent, 8e5 / (4 * 1.75 * 1.25), 1e-9);
+  EXPECT_TRUE(names(granular_error("hertz 1e5 3 tangential mindlin NULL 1 0.5"), "E and nu"));
+}
+
+TEST(settings, granular_damping_is_viscoelastic_where_nothing_is_said)
+{
+  EXPECT_EQ(law_of("hertz 1e5 3" + kSlip).damping, DampingModel::viscoelastic);
+  EXPECT_EQ(law_of("hertz 1e5 3" + kSlip).eta, 3);
+}
+
+TEST(settings, granular_takes_a_restitution_for_tsuji_and_coeff_restitution)
+{
+  for (const char *model : {"tsuji", "coeff_restitution"}) {
+    const std::string damping = std::string(" damping ") + model;
+    EXPECT_GT(law_of("hertz 1e5 0.5" + kSlip + damping).eta, 0);
+    EXPECT_TRUE(
+        names(granular_error("hertz 1e5 1.2" + kSlip + damping), "e = 1.2 is out of range"));
+    EXPECT_TRUE(names(granular_error("hertz 1e5 1.2" + kSlip + damping), "0 < e <= 1"));
+    EXPECT_TRUE(names(granular_error("jkr 1e5 0.5 0.3 2" + kSlip + damping), "adhesive"));
+  }
+  EXPECT_TRUE(names(granular_error("hertz 1e5 0" + kSlip + " damping coeff_restitution"), "e = 0"));
+}
+
+TEST(settings, granular_words_come_in_any_order_and_end_at_the_first_keyword)
+{
+  const WallSettings s =
+      parse("granular hertz 1e5 3 limit_damping twisting sds 1 2 3 rolling sds 4 5 6 heat area 7 "
+            "tangential mindlin_rescale/force 8 9 10 damping velocity temperature 300 mesh a.stl");
+  const GranularLaw &g = s.law.granular;
+  EXPECT_TRUE(s.law.limit_damping);
+  EXPECT_EQ(g.k_twist + g.gamma_twist + g.mu_twist, 6);
+  EXPECT_EQ(g.k_roll + g.gamma_roll + g.mu_roll, 15);
+  EXPECT_EQ(g.conductance, 7);
+  EXPECT_EQ(g.k_tangent + g.x_tangent + g.mu, 27);
+  EXPECT_EQ(s.temperature, 300);
+  EXPECT_EQ(s.law.n_extra(), 5);
+  EXPECT_TRUE(names(s.law_name, "granular hertz 1e5 3 limit_damping twisting"));
+  EXPECT_FALSE(names(s.law_name, "temperature"));
+}
+
+TEST(settings, granular_none_turns_nothing_on)
+{
+  const WallSettings s = parse(
+      "granular hooke 1e5 3 tangential linear_nohistory 0 0 rolling none twisting none heat none "
+      "damping none mesh a.stl");
+  EXPECT_FALSE(s.law.has_history());
+  EXPECT_FALSE(s.law.has_heat());
+  EXPECT_EQ(s.law.granular.damping, DampingModel::none);
+}
+
+TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
+{
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"", "sub-model"},
+      {"hook 1e5 3" + kSlip, "'hook' is not a sub-model"},
+      {"hook 1e5 3" + kSlip, "hooke|hertz|hertz/material|dmt|jkr"},
+      {"hertz -1e5 3" + kSlip, "kn = -1e5 is out of range"},
+      {"hertz nan 3" + kSlip, "kn must be a number, not 'nan'"},
+      {"hertz 1e5 -3" + kSlip, "eta (or e) = -3 is out of range"},
+      {"hertz 1e5" + kSlip, "eta (or e) must be a number, not 'tangential'"},
+      {"hertz/material 0 3 0.3" + kSlip, "E = 0 is out of range"},
+      {"hertz/material 1e5 3 0.6" + kSlip, "nu = 0.6 is out of range"},
+      {"hertz/material 1e5 3 -1" + kSlip, "nu = -1 is out of range"},
+      {"jkr 1e5 3 0.3 -2" + kSlip, "gamma = -2 is out of range"},
+      {"hertz 1e5 3", "the tangential sub-model is missing"},
+      {"hertz 1e5 3 tangential", "'mesh' is not a sub-model"},
+      {"hertz 1e5 3 tangential mindlinn 1 1 1", "mindlin_rescale/force"},
+      {"hertz 1e5 3 tangential linear_history 1 1", "mu must be a number, not 'mesh'"},
+      {"hertz 1e5 3 tangential linear_history 1 1", "tangential linear_history kt x_gammat mu"},
+      {"hertz 1e5 3 tangential linear_history NULL 1 1", "kt must be a number"},
+      {"hertz 1e5 3" + kSlip + kSlip, "given twice"},
+      {"hertz 1e5 3" + kSlip + " rolling sds 1 2", "rolling sds k gamma mu"},
+      {"hertz 1e5 3" + kSlip + " rolling sds 1 -2 3", "gamma = -2 is out of range"},
+      {"hertz 1e5 3" + kSlip + " twisting sds 1 2 inf", "mu must be a number"},
+      {"hertz 1e5 3" + kSlip + " damping mdr 1", "none|velocity|mass_velocity|viscoelastic"},
+      {"hertz 1e5 3" + kSlip + " heat area -1 temperature 3", "h = -1 is out of range"},
+      {"hertz 1e5 3" + kSlip + " heat area 1", "the wall's temperature is missing"},
+      {"hertz 1e5 3" + kSlip + " temperature 1", "no sub-model heat uses it"},
+      {"hertz 1e5 3" + kSlip + " heat area 1 temperature v_", "the variable's name is missing"},
+      {"hertz 1e5 3" + kSlip + " heat area 1 temperature hot", "T must be a number, not 'hot'"},
+      {"dmt 1e5 3 0.3 2 limit_damping" + kSlip, "has to pull"},
+      {"hertz 1e5 3" + kSlip + " roling sds 1 2 3", "the nearest is 'rolling'"},
+  };
+  for (const auto &[words, told] : cases)
+    EXPECT_TRUE(names(granular_error(words), told)) << words << ": " << granular_error(words);
+}
+
+TEST(settings, effects_name_what_a_law_turns_on_and_what_that_keeps)
+{
+  const WallSettings s =
+      parse("granular jkr 1e5 3 0.3 2 tangential mindlin_rescale NULL 1 0.5 rolling sds 1 2 3 "
+            "twisting marshall heat area 1 temperature 300 mesh a.stl");
+  int bytes = 0;
+  std::string all;
+  for (const Effect &e : effects_of(s.law)) {
+    bytes += e.bytes_per_contact;
+    all += e.name + ", ";
+  }
+  EXPECT_EQ(bytes, static_cast<int>(s.law.n_extra() * sizeof(Real)));
+  for (const char *name : {"jkr adhesion", "normal damping", "tangential spring", "rescaling",
+                           "sliding limit", "rolling", "twisting", "heat"})
+    EXPECT_TRUE(names(all, name));
+}
+
+TEST(settings, help_lists_every_granular_sub_model)
+{
+  for (const char *words : {"hertz/material E eta|e nu", "tangential mindlin/force kt|NULL",
+                            "rolling sds k gamma mu", "twisting marshall", "heat area h"})
+    EXPECT_TRUE(names(settings_help(), words));
 }
 
 }    // namespace
