@@ -151,7 +151,7 @@ run             {steps}
 
 
 def compare(checks, folder, name, ours, hosts, load="", **settings):
-    for title, scene, steps, every in (("one sphere", ONE, 2000, 1), ("200 spheres", many(), 2000, 20)):
+    for title, scene, steps, every in (("one sphere", ONE, 1000, 1), ("200 spheres", many(), 1000, 10)):
         plane = run(folder, scene, f"wall/gran granular {hosts}", steps, every, load, **settings)
         mesh = run(folder, scene, f"wall/lsdcd granular {ours}", steps, every, load, **settings)
         touching = sum(row[12] != 0 for rows in plane.values() for row in rows.values())    # torque
