@@ -5,6 +5,7 @@
 #include "mesh/triangle_soup.h"
 #include "mesh/wall_mesh.h"
 #include "tool/accuracy_command.h"
+#include "tool/effects_command.h"
 #include "tool/material.h"
 #include "tool/tradeoff_command.h"
 
@@ -138,6 +139,7 @@ int main(int argc, char **argv)
   add_tradeoff_command(app);
 
   add_accuracy_command(app);
+  add_effects_command(app);
 
   try {
     app.parse(argc, argv);

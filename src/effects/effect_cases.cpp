@@ -1,0 +1,172 @@
+#include "effects/effects.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+namespace {
+
+EngineSettings classic(LawStyle style)
+{
+  EngineSettings s;
+  s.law.style = style;
+  s.law.k_normal = 1e5;
+  s.law.k_tangent = 3e4;
+  s.law.gamma_normal = 50;
+  s.law.gamma_tangent = 25;
+  s.law.mu = 0.5;
+  return s;
+}
+
+EngineSettings granular(NormalModel normal, TangentialModel tangential)
+{
+  EngineSettings s;
+  s.law.style = LawStyle::granular;
+  GranularLaw &g = s.law.granular;
+  g.normal = normal;
+  g.k_normal = 1e5;
+  g.modulus = 7.5e4;
+  g.cohesion = 0.1;
+  g.damping = DampingModel::none;
+  g.eta = 0.1;
+  g.tangential = tangential;
+  g.k_tangent = 3e4;
+  g.x_tangent = 0.5;
+  g.mu = 0.5;
+  return s;
+}
+
+}    // namespace
+
+std::vector<EffectCase> effect_cases()
+{
+  std::vector<EffectCase> cases;
+  // Adds a case that is `over` with a change.
+  const auto add = [&](const char *name, const char *words, const char *over, auto change) {
+    EngineSettings s;
+    for (const EffectCase &c : cases)
+      if (c.name == over) s = c.settings;
+    change(s);
+    cases.push_back({name, words, over, s});
+  };
+  const auto begin = [&](const char *name, const char *words, const char *over,
+                         const EngineSettings &s) {
+    cases.push_back({name, words, over, s});
+  };
+
+  begin("hooke", "hooke", "", classic(LawStyle::hooke));
+  begin("tangential spring", "hooke/history", "hooke", classic(LawStyle::hooke_history));
+  begin("hertz stiffness", "hertz/history", "tangential spring", classic(LawStyle::hertz_history));
+  add("rolling cdt", "rolling cdt", "hooke", [](EngineSettings &s) {
+    s.law.added = {AddedRolling::cdt, 0.1, 0};
+  });
+  add("rolling epsd2", "rolling epsd2", "tangential spring", [](EngineSettings &s) {
+    s.law.added = {AddedRolling::epsd2, 0.1, 0};
+  });
+  add("cohesion sjkr", "cohesion sjkr", "hooke",
+      [](EngineSettings &s) { s.law.added.cohesion = 1e3; });
+  add("moving surface", "surface_vel, surface_angvel", "hooke", [](EngineSettings &s) {
+    s.surface = {{1, 0, 0}, {0, 0, 0.1}, {0, 0, 0}};
+  });
+  add("loads of triangles", "mesh_fields", "hooke", [](EngineSettings &s) { s.records = true; });
+  add("wear archard", "wear archard", "loads of triangles",
+      [](EngineSettings &s) { s.wear = WearModel::archard; });
+  add("wear finnie", "wear finnie", "loads of triangles",
+      [](EngineSettings &s) { s.wear = WearModel::finnie; });
+
+  begin("granular hooke", "granular hooke ... linear_nohistory", "hooke",
+        granular(NormalModel::hooke, TangentialModel::linear_nohistory));
+  const auto normal = [](NormalModel n) {
+    return [n](EngineSettings &s) { s.law.granular.normal = n; };
+  };
+  add("hertz", "granular hertz, hertz/material", "granular hooke", normal(NormalModel::hertz));
+  add("dmt", "granular dmt", "hertz", normal(NormalModel::dmt));
+  add("jkr", "granular jkr", "hertz", normal(NormalModel::jkr));
+  const auto damping = [](DampingModel d) {
+    return [d](EngineSettings &s) { s.law.granular.damping = d; };
+  };
+  add("damping velocity", "damping velocity", "hertz", damping(DampingModel::velocity));
+  add("damping mass_velocity", "damping mass_velocity", "hertz",
+      damping(DampingModel::mass_velocity));
+  add("damping viscoelastic", "damping viscoelastic", "hertz", damping(DampingModel::viscoelastic));
+  add("damping tsuji", "damping tsuji, coeff_restitution", "hertz",
+      damping(DampingModel::stiffness));
+  const auto tangential = [](TangentialModel t) {
+    return [t](EngineSettings &s) { s.law.granular.tangential = t; };
+  };
+  add("linear_history", "tangential linear_history", "hertz",
+      tangential(TangentialModel::linear_history));
+  add("mindlin", "tangential mindlin", "hertz", tangential(TangentialModel::mindlin));
+  add("mindlin/force", "tangential mindlin/force", "hertz",
+      tangential(TangentialModel::mindlin_force));
+  add("mindlin_rescale", "tangential mindlin_rescale", "mindlin",
+      tangential(TangentialModel::mindlin_rescale));
+  add("rolling sds", "rolling sds", "mindlin", [](EngineSettings &s) {
+    s.law.granular.rolling = true;
+    s.law.granular.k_roll = 1e4;
+    s.law.granular.gamma_roll = 10;
+    s.law.granular.mu_roll = 0.1;
+  });
+  const auto twisting = [](TwistingModel t) {
+    return [t](EngineSettings &s) {
+      s.law.granular.twisting = t;
+      s.law.granular.k_twist = 1e4;
+      s.law.granular.gamma_twist = 10;
+      s.law.granular.mu_twist = 0.1;
+    };
+  };
+  add("twisting marshall", "twisting marshall", "mindlin", twisting(TwistingModel::marshall));
+  add("twisting sds", "twisting sds", "mindlin", twisting(TwistingModel::sds));
+  const auto heat = [](HeatModel h) {
+    return [h](EngineSettings &s) {
+      s.law.granular.heat = h;
+      s.law.granular.conductance = 1;
+    };
+  };
+  add("heat radius", "heat radius", "hertz", heat(HeatModel::radius));
+  add("heat area", "heat area", "hertz", heat(HeatModel::area));
+
+  // In common combinations.
+  EngineSettings s = classic(LawStyle::hertz_history);
+  s.law.added = {AddedRolling::epsd2, 0.1, 1e3};
+  begin("sticky grains", "hertz/history, rolling epsd2, cohesion sjkr", "", s);
+  s = classic(LawStyle::hertz_history);
+  s.surface.velocity = {1, 0, 0};
+  s.records = true;
+  s.wear = WearModel::archard;
+  begin("belt that wears", "hertz/history, surface_vel, wear archard", "", s);
+  s = granular(NormalModel::hertz, TangentialModel::mindlin);
+  s.law.granular.damping = DampingModel::stiffness;
+  begin("dry grains", "granular hertz, tsuji, mindlin", "", s);
+  s.law.granular.rolling = true;
+  s.law.granular.twisting = TwistingModel::marshall;
+  s.law.granular.k_roll = 1e4;
+  s.law.granular.mu_roll = 0.1;
+  begin("rough grains", "granular hertz, tsuji, mindlin, rolling sds, twisting marshall", "", s);
+  s.law.granular.normal = NormalModel::jkr;
+  s.law.granular.heat = HeatModel::area;
+  begin("hot powder", "granular jkr, tsuji, mindlin, rolling sds, twisting marshall, heat area", "",
+        s);
+  return cases;
+}
+
+int bytes_per_atom(const EngineSettings &settings)
+{
+  return settings.law.has_history() ? 2 * sizeof(int) : 0;    // where its springs are
+}
+
+int bytes_per_contact(const EngineSettings &settings)
+{
+  if (!settings.law.has_history()) return 0;
+  return static_cast<int>(sizeof(Spring) + settings.law.n_extra() * sizeof(Real));
+}
+
+double cost_over(const std::vector<EffectCase> &cases, const std::vector<EffectCost> &costs,
+                 std::size_t i)
+{
+  const auto base = std::find_if(cases.begin(), cases.end(),
+                                 [&](const EffectCase &c) { return c.name == cases[i].over; });
+  return base == cases.end() ? 0 : costs[i].min_ns - costs[base - cases.begin()].min_ns;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,155 @@
+#include "tool/effects_command.h"
+
+#include "base/input_error.h"
+#include "base/whole_file.h"
+#include "effects/effects.h"
+#include "effects_measured.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <sstream>
+
+namespace lsdcd {
+
+namespace {
+
+struct Options {
+  bool measure = false;
+  std::string device = "auto", csv, commit = LSDCD_COMMIT;
+  int spheres = 5000, repeats = 201;
+};
+
+const char *compiler()
+{
+#if defined(__clang__)
+  return "clang " __clang_version__;
+#else
+  return "g++ " __VERSION__;
+#endif
+}
+
+void print_head(const std::string &where)
+{
+  std::printf("%-22s %-42s %9s %12s  ns per contact (over)\n%s\n", "effect", "turned on by",
+              "B/atom", "B/contact", where.c_str());
+}
+
+void print_row(const EffectCase &c, const std::string &cost)
+{
+  std::printf("%-22s %-42s %9d %12d  %s\n", c.name.c_str(), c.words.c_str(),
+              bytes_per_atom(c.settings), bytes_per_contact(c.settings), cost.c_str());
+}
+
+std::string cost_text(double ns, double over, const std::string &name)
+{
+  char text[96];
+  if (name.empty())
+    std::snprintf(text, sizeof text, "%.1f", ns);
+  else
+    std::snprintf(text, sizeof text, "%.1f (%+.1f over %s)", ns, over, name.c_str());
+  return text;
+}
+
+// Fields are separated by semicolons: words and devices have commas in them.
+std::string csv_of(const std::vector<EffectCase> &cases, const std::vector<EffectCost> &costs,
+                   const std::string &commit)
+{
+  std::ostringstream out;
+  out << "name;words;over;contacts;repeats;median_ns;min_ns;max_ns;over_ns;bytes_per_atom;"
+         "bytes_per_contact;engine_bytes;spring_bytes;device;compiler;commit\n";
+  for (std::size_t i = 0; i < cases.size(); i++) {
+    const EffectCase &c = cases[i];
+    const EffectCost &cost = costs[i];
+    char numbers[128];
+    std::snprintf(numbers, sizeof numbers, "%.2f;%.2f;%.2f;%.2f", cost.median_ns, cost.min_ns,
+                  cost.max_ns, cost_over(cases, costs, i));
+    out << c.name << ';' << c.words << ';' << c.over << ';' << cost.contacts << ';' << cost.repeats
+        << ';' << numbers << ';' << bytes_per_atom(c.settings) << ';'
+        << bytes_per_contact(c.settings) << ';' << cost.engine_bytes << ';' << cost.spring_bytes
+        << ';' << cost.device << ';' << compiler() << ';' << commit << '\n';
+  }
+  return out.str();
+}
+
+void measure(const Options &o)
+{
+  const std::map<std::string, Device> devices = {
+      {"auto", Device::automatic}, {"cpu", Device::cpu}, {"cuda", Device::cuda}};
+  const std::vector<EffectCase> cases = effect_cases();
+  const std::vector<EffectCost> costs =
+      measure_effects(cases, devices.at(o.device), o.spheres, o.repeats);
+  print_head("measured now on " + costs[0].device + ", " + std::to_string(o.spheres) +
+             " spheres with a contact each, least of " + std::to_string(o.repeats));
+  for (std::size_t i = 0; i < cases.size(); i++)
+    print_row(cases[i], cost_text(costs[i].min_ns, cost_over(cases, costs, i), cases[i].over));
+  if (o.csv.empty()) return;
+  const std::string text = csv_of(cases, costs, o.commit);
+  WholeFile file(o.csv);
+  file.write_at(0, text.data(), text.size());
+  file.commit();
+}
+
+std::vector<std::string> split(const std::string &line)
+{
+  std::vector<std::string> fields;
+  std::istringstream in(line);
+  for (std::string field; std::getline(in, field, ';');) fields.push_back(field);
+  return fields;
+}
+
+// Costs kept in doc/data when this program was built.
+void list(const std::string &kept)
+{
+  std::map<std::string, std::map<std::string, std::string>> rows;
+  std::istringstream in(kept);
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> heads = split(line);
+  std::string where = "no costs were kept when this was built: lsdcd effects --measure";
+  while (std::getline(in, line)) {
+    const std::vector<std::string> fields = split(line);
+    for (std::size_t k = 0; k < fields.size() && k < heads.size(); k++)
+      rows[fields[0]][heads[k]] = fields[k];
+    where = "measured at " + rows[fields[0]]["commit"] + " on " + rows[fields[0]]["device"] +
+            "; on this machine: lsdcd effects --measure";
+  }
+  print_head(where);
+  for (const EffectCase &c : effect_cases()) {
+    auto &row = rows[c.name];
+    print_row(c, row.empty() ? "-"
+                             : cost_text(std::atof(row["min_ns"].c_str()),
+                                         std::atof(row["over_ns"].c_str()), c.over));
+  }
+}
+
+}    // namespace
+
+void add_effects_command(CLI::App &app)
+{
+  const auto o = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand(
+      "effects", "every effect of a wall: its words, bytes per atom and contact, and cost");
+  command->add_flag("--measure", o->measure, "measure costs here, now");
+  command->add_option("--device", o->device, "where to measure")
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
+      ->capture_default_str();
+  command->add_option("--spheres", o->spheres, "contacts to measure with")
+      ->check(CLI::Range(100, 100000000))
+      ->capture_default_str();
+  command->add_option("--repeats", o->repeats, "of which the least is taken")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--csv", o->csv, "file for what was measured");
+  command->add_option("--commit", o->commit, "what to call this build in it");
+  command->callback([o] {
+    if (!o->csv.empty() && !o->measure) throw InputError("--csv keeps what --measure measures");
+    if (o->measure)
+      measure(*o);
+    else
+      list(kEffectsMeasured);
+  });
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,21 @@
+// The worked example of doc/design.md: a sub-model in a file of its own, which no file of
+// src knows. Normal damping that saturates: gamma v0 v/(v0 + |v|), so that fast impacts
+// lose a smaller share of their speed than slow ones.
+#pragma once
+
+#include "model/contact.h"
+
+namespace lsdcd {
+
+template <class T>
+struct SaturatingDamping {
+  T gamma;    // 1/time
+  T v0;       // length/time
+
+  LSDCD_FN T force(const Contact<T> &c, T scale) const
+  {
+    return -scale * c.mass * gamma * v0 * c.v_normal / (v0 + fabs(c.v_normal));
+  }
+};
+
+}    // namespace lsdcd

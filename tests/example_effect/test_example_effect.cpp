@@ -1,0 +1,65 @@
+// An effect added as doc/design.md tells, composed with the library's own sub-models and
+// run by the library's own kernel.
+#include "example_effect/saturating_damping.h"
+
+#include "engine/host_law.h"
+#include "support/laws.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lsdcd {
+namespace {
+
+// Step 2: a law that has it.
+template <class T>
+using SaturatingLaw = ContactModel<T, HookeNormal, SaturatingDamping, LinearNoHistory>;
+
+// Step 3: the law, compiled for a kernel.
+HostLaw compiled(const SaturatingLaw<Real> &law)
+{
+  return MakeHostLaw<WallKernels::plain>{{false, false}}(law);
+}
+
+// Step 4: a closed form. One sphere on a floor, the force of one step.
+Real force_at(Real v_normal, const HostLaw &law)
+{
+  Scene scene(floor_mesh(2, 2), 0.5, hooke(1));
+  const Real x[] = {0.1, 0.2, 0.49}, v[] = {0, 0, v_normal}, omega[] = {0, 0, 0};
+  const Real radius = 0.5, mass = 2;
+  Spheres spheres;
+  spheres.n = 1;
+  spheres.x = x;
+  spheres.v = v;
+  spheres.omega = omega;
+  spheres.radius = &radius;
+  spheres.mass = &mass;
+  ForceSettings settings = {};
+  settings.dt = 1e-4;
+  const int near = 0;
+  SphereResult result;
+  const GridView grid = scene.grid.view();
+  law.run(law.law, {&grid, settings, &spheres, nullptr, &near, &result, {}}, 1);
+  EXPECT_EQ(result.n_contacts, 1);
+  return result.force.z;
+}
+
+TEST(example_effect, damps_as_its_formula_says)
+{
+  const Real k = 1e4, gamma = 30, v0 = 0.2;
+  const HostLaw law = compiled({{k}, {gamma, v0}, {0, 0}, false});
+  for (const Real v : {-2.0, -0.2, -0.01, 0.0, 0.3})
+    EXPECT_NEAR(force_at(v, law), k * 0.01 - 2 * gamma * v0 * v / (v0 + std::fabs(v)), 1e-9);
+}
+
+TEST(example_effect, keeps_nothing_that_it_does_not_need)
+{
+  const LawTraits traits = compiled({{1}, {1, 1}, {0, 0}, false}).traits;
+  EXPECT_FALSE(traits.history || traits.heat || traits.records);
+  EXPECT_EQ(traits.n_extra, 0);
+}
+
+}    // namespace
+}    // namespace lsdcd
