@@ -54,7 +54,7 @@ void start_law(const LawBytes &bytes, const CudaJob &job, std::size_t n, CudaBac
         const NearSphere &at = job.spheres[k];
         SphereState s = {at.x,    at.v,    at.omega,     at.radius, at.mass,
                          nullptr, nullptr, at.n_springs, 0};
-        SphereSink sink = {};
+        SphereSink sink;    // what the law has no use for is not even set
         if constexpr (Law::kHistory) {
           s.springs = job.springs + at.first_spring;
           sink.springs = job.sink.springs + k * kPlaces;

@@ -28,7 +28,7 @@ void run_law(const LawBytes &bytes, const HostJob &job, std::size_t n)
 {
   const Law &law = bytes.as<Law>();
   CpuBackend().for_each(n, [&](std::size_t k) {
-    SphereSink sink = {};
+    SphereSink sink;    // what the law has no use for is not even set
     if constexpr (Law::kHistory) sink.springs = job.sink.springs + k * kPlaces;
     if constexpr (Law::kExtra > 0) sink.extra = job.sink.extra + k * kPlaces * Law::kExtra;
     if constexpr (Law::kHeat) sink.heat = job.sink.heat + k;

@@ -1,0 +1,60 @@
+#include "kernel_probe.h"
+
+#include "mesh/wall_mesh.h"
+#include "support/meshes.h"
+
+#include <cstdio>
+#include <random>
+
+using namespace lsdcd;
+
+// Callgrind counts what runs in here.
+__attribute__((noinline)) int probed_kernel(const GridView &grid, const ProbedLaw &law,
+                                            const ForceSettings &settings,
+                                            const std::vector<SphereState> &spheres,
+                                            std::vector<Spring> &springs)
+{
+  int contacts = 0;
+  for (std::size_t k = 0; k < spheres.size(); k++) {
+    SphereSink sink;
+    sink.springs = springs.data() + 8 * k;
+    contacts += wall_force<ProbedLaw, 8>(grid, law, settings, spheres[k], sink).n_contacts;
+  }
+  return contacts;
+}
+
+int main()
+{
+  TriangleSoup soup = cylinder_mesh(24, 6, 3, 6);
+  const WallMesh mesh = weld(soup, -1);
+  GridSettings grid_settings;
+  grid_settings.reach = 0.5;
+  const TriangleGrid grid = build_grid(mesh, grid_settings);
+  std::vector<char> memory(flat_bytes(grid) + 64);
+  char *block = memory.data() + (64 - reinterpret_cast<std::uintptr_t>(memory.data()) % 64) % 64;
+  flatten(grid, block);
+
+  std::mt19937 random(3);
+  std::uniform_real_distribution<Real> u(-3.4, 3.4), z(-0.4, 6.4), speed(-1, 1);
+  std::vector<SphereState> spheres(2000);
+  for (SphereState &s : spheres) {
+    s = {};
+    s.x = {u(random), u(random), z(random)};
+    s.v = {speed(random), speed(random), speed(random)};
+    s.omega = {speed(random), speed(random), speed(random)};
+    s.radius = 0.5;
+    s.mass = 1;
+  }
+  std::vector<Spring> springs(8 * spheres.size());
+  // Numbers of any law: what a contact costs does not depend on them.
+  ProbedLaw law;
+  Real *numbers = reinterpret_cast<Real *>(&law);
+  for (std::size_t k = 0; k < sizeof law / sizeof(Real); k++) numbers[k] = 0.5;
+  ForceSettings settings = {};
+  settings.search = {true, 0};
+  settings.dt = 1e-3;
+  settings.update = true;
+  const int contacts = probed_kernel(flat_view(block), law, settings, spheres, springs);
+  std::printf("%d contacts\n", contacts);
+  return contacts > 0 ? 0 : 1;
+}
