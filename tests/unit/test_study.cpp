@@ -365,6 +365,24 @@ TEST(study, force_error_of_a_missed_contact_is_all_of_it)
   EXPECT_NEAR(row.largest_overlap_error, 0.2, 1e-3);    // their distance, over the radius 1
   EXPECT_EQ(row.best, 1);
   EXPECT_NEAR(row.accuracy, 1 - Real(row.missed) / kMany, 1e-15);
+
+  // The mean once more, from the answers of both grids.
+  const auto distances = [&] {
+    const auto query = make_sphere_query(test_device());
+    query->set_grid(study.grid());
+    query->set_spheres(study.spheres().data(), kMany);
+    query->run(QuerySettings());
+    return query->distance();
+  };
+  const std::vector<Real> short_list = distances();
+  study.measure(lists_of(0, 1.6));
+  const std::vector<Real> complete = distances();
+  Real sum = 0;
+  for (std::size_t i = 0; i < kMany; i++) {
+    const Real r = study.spheres()[i].r, overlap = std::fmax(r - short_list[i], Real(0));
+    if (complete[i] < r) sum += 1 - overlap / (r - complete[i]);
+  }
+  EXPECT_NEAR(row.mean_force_error, sum / row.touching, 1e-9);
 }
 
 }    // namespace
