@@ -328,14 +328,18 @@ void read_law(Words &w, WallSettings &s)
   }
 }
 
+// `families`: words of `granular` that come before keywords; empty with other styles.
 [[noreturn]] void refuse_keyword(const std::string &word, const std::vector<std::string> &names,
-                                 const std::vector<std::string> &known)
+                                 const std::vector<std::string> &families)
 {
+  std::vector<std::string> known = families;
+  known.insert(known.end(), names.begin(), names.end());
   const std::string near = nearest(word, known);
+  const bool family = std::find(families.begin(), families.end(), near) != families.end();
   const auto row = std::find(names.begin(), names.end(), near);
   throw InputError("'" + word + "' is not a keyword; the nearest is '" +
-                   (row == names.end() ? near + "', which comes before mesh and other keywords"
-                                       : syntax_of(kKeywords[row - names.begin()]) + "'"));
+                   (family ? near + "', which comes before mesh and other keywords"
+                           : syntax_of(kKeywords[row - names.begin()]) + "'"));
 }
 
 }    // namespace
@@ -348,13 +352,13 @@ WallSettings parse_settings(const std::vector<std::string> &words)
 
   std::vector<std::string> seen, names;
   for (const Keyword &row : kKeywords) names.push_back(row.name);
-  std::vector<std::string> known = names;
-  if (settings.law.style == LawStyle::granular)
-    for (const std::string &family : granular_families()) known.push_back(family);
+  const bool granular = settings.law.style == LawStyle::granular;
+  const std::vector<std::string> families =
+      granular ? granular_families() : std::vector<std::string>();
   while (!w.done()) {
     const std::string word = w.take();
     const auto found = std::find(names.begin(), names.end(), word);
-    if (found == names.end()) refuse_keyword(word, names, known);
+    if (found == names.end()) refuse_keyword(word, names, families);
     const Keyword &row = kKeywords[found - names.begin()];
     w.expect(row.name, syntax_of(row));
     const bool repeats = word == "scale" || word == "rotate" || word == "move";
@@ -363,7 +367,6 @@ WallSettings parse_settings(const std::vector<std::string> &words)
     seen.push_back(word);
     row.read(w, settings);
   }
-  const bool granular = settings.law.style == LawStyle::granular;
   w.expect("fix wall/lsdcd", granular ? granular_syntax() : kLawSyntax);
   if (settings.mesh_file.empty()) w.fail("mesh FILE is missing");
   w.expect("temperature", "granular ... heat radius|area ... mesh FILE temperature T|v_NAME");
