@@ -246,6 +246,7 @@ TEST(study, complete_lists_are_the_wall_itself)
   every.every_face = true;
   for (const StudyLists &lists : {lists_of(0, 0.5), lists_of(0, 0.8), every}) {
     const StudyRow row = study.measure(lists);
+    EXPECT_EQ(study.grid().length, lists.length);
     EXPECT_EQ(row.accuracy, row.best);
     EXPECT_EQ(row.error(), 0);
     EXPECT_EQ(row.missed, 0u);
