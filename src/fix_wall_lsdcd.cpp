@@ -1,6 +1,7 @@
 #include "fix_wall_lsdcd.h"
 
 #include "input_words.h"
+#include "node_material.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -37,7 +38,10 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
     refuse("atoms need a radius, omega and torque: use atom_style sphere");
 
   try {
-    settings = lsdcd::parse_settings(std::vector<std::string>(arg + 3, arg + narg));
+    const lsdcd::FilledWords filled = lsdcd::fill_material(
+        world, std::vector<std::string>(arg + 3, arg + narg), update->unit_style);
+    material = filled.report;
+    settings = lsdcd::parse_settings(filled.words);
     if (settings.draw_type > atom->ntypes)
       throw lsdcd::InputError("in 'draw', there is no atom type " +
                               std::to_string(settings.draw_type));

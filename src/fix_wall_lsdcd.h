@@ -8,6 +8,7 @@
 #include "output/wall_loads.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -54,6 +55,7 @@ class FixWallLsdcd : public Fix {
 
  private:
   lsdcd::WallSettings settings;
+  std::string material;    // what a material file filled in, for the log; else empty
   std::unique_ptr<lsdcd::NodeWall> wall;
   std::unique_ptr<lsdcd::WallEngine> engine;
   lsdcd::SpringStore springs;

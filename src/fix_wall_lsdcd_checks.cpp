@@ -199,6 +199,7 @@ void FixWallLsdcd::log_creation() const
   const lsdcd::ContactLaw &l = settings.law;
   std::string t = "Fix " + std::string(id) + " wall/lsdcd: " + wall->mesh_text();
   if (!settings.placement_words.empty()) t += "\n  placement   " + settings.placement_words;
+  if (!material.empty()) t += "\n" + material;
   t += "\n  contact     " + settings.law_name;
   if (l.style != LawStyle::granular)
     t += ", kn " + number_text(l.k_normal) + ", kt " + number_text(l.k_tangent) + ", gamman " +

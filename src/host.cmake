@@ -7,7 +7,8 @@ function(lsdcd_plugin name host)
   set(sources lsdcdplugin.cpp fix_wall_lsdcd.cpp fix_wall_lsdcd_checks.cpp
     fix_wall_lsdcd_exchange.cpp fix_wall_lsdcd_heat.cpp fix_wall_lsdcd_loads.cpp
     fix_wall_lsdcd_output.cpp
-    fix_wall_lsdcd_tune.cpp node_wall.cpp node_wall_tune.cpp node_shared.cpp)
+    fix_wall_lsdcd_tune.cpp node_wall.cpp node_wall_tune.cpp node_shared.cpp
+    node_material.cpp)
   list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/src/)
   add_library(${name} MODULE ${sources})
   target_link_libraries(${name} PRIVATE lsdcd_core ${host} ${CMAKE_DL_LIBS})

@@ -3,6 +3,7 @@
 #include "grid/grid_cache.h"
 #include "granular_words.h"
 #include "input_words.h"
+#include "material/material_command.h"
 
 #include <algorithm>
 
@@ -381,7 +382,8 @@ WallSettings parse_settings(const std::vector<std::string> &words)
 std::string settings_help()
 {
   std::string help = std::string("fix ID group wall/lsdcd ") + kLawSyntax + "\n  " +
-                     granular_syntax() + ", of\n" + granular_help() + "  keywords\n";
+                     granular_syntax() + ", of\n" + granular_help() +
+                     "  or, with numbers from a file, " + kMaterialSyntax + "\n  keywords\n";
   for (const Keyword &row : kKeywords) {
     std::string line = "  " + syntax_of(row);
     line.resize(std::max<std::size_t>(line.size() + 1, 38), ' ');

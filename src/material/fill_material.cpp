@@ -65,9 +65,6 @@ class Filler {
     const std::vector<std::string> sub_models = fill_nulls();
     out.insert(out.end(), sub_models.begin(), sub_models.end());
 
-    std::string line = "filled     ";
-    for (const std::string &word : out) line += " " + word;
-    tell(line);
     out.insert(out.end(), c_.rest.begin(), c_.rest.end());
     return {out, report_};
   }
@@ -82,7 +79,7 @@ class Filler {
     return exact_text(number ? *number : in_units(si, *find_property(key), units_));
   }
 
-  void tell(const std::string &line) { report_ += "  " + line + "\n"; }
+  void tell(const std::string &line) { report_ += (report_.empty() ? "  " : "\n  ") + line; }
   void tell_more(const std::string &line) { tell("            " + line); }
 
   void tell(const std::string &of, const std::string &key, const std::string &number,

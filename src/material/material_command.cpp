@@ -1,7 +1,11 @@
 #include "material/material_command.h"
 
+#include "base/input_error.h"
+#include "granular_words.h"
 #include "input_words.h"
 #include "material/material_file.h"
+
+#include <algorithm>
 
 namespace lsdcd {
 
@@ -38,13 +42,12 @@ void read_overrides(Words &w, MaterialCommand &c)
 // Keyword, model, numbers.
 void read_sub_models(Words &w, MaterialCommand &c)
 {
+  const std::vector<std::string> families = granular_families();
   while (!w.done()) {
     const std::string key = w.peek();
-    const bool has_model = key == "tangential" || key == "rolling" || key == "twisting" ||
-                           key == "heat" || key == "damping";
-    if (!has_model && key != "limit_damping") return;
+    if (std::find(families.begin(), families.end(), key) == families.end()) return;
     c.sub_models.push_back(w.take());
-    if (!has_model || w.done()) continue;
+    if (key == "limit_damping" || w.done()) continue;
     if (key == "tangential") c.has_tangential = true;
     if (key == "damping") c.damping = w.peek();
     c.sub_models.push_back(w.take());

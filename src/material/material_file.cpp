@@ -65,10 +65,9 @@ class Reader {
       } else if (words[0] == "include") {
         count(words, 2, "include FILE");
         if (depth == kDeepest) fail("more than 16 files include one another");
-        const std::string here = place_, other = beside(path, words[1]);
+        const std::string other = beside(path, words[1]);
         if (!std::ifstream(other)) fail("the included file '" + other + "' cannot be read");
         read(other, depth + 1);
-        place_ = here;
         section = nullptr;
       } else if (words[0] == "material") {
         count(words, 2, "material NAME");

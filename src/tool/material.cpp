@@ -39,7 +39,10 @@ void run(const Options &o)
   if (!o.wall.empty()) words.insert(words.end(), {"on", o.wall});
   if (!o.with.empty()) words.push_back("with");
   words.insert(words.end(), o.with.begin(), o.with.end());
-  std::printf("%s", fill_material(words, o.units).report.c_str());
+  const FilledWords filled = fill_material(words, o.units);
+  std::printf("%s\n ", filled.report.c_str());
+  for (const std::string &word : filled.words) std::printf(" %s", word.c_str());
+  std::printf("\n");
 }
 
 }    // namespace

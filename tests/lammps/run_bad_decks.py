@@ -31,6 +31,7 @@ def main():
     checks, folder = deck.Checks(), deck.scratch()
     floor = (deck.HERE / "decks" / "floor.stl").read_bytes()
     (folder / "floor.stl").write_bytes(floor)
+    (folder / "bad.lsdcd").write_text("units si\nmaterial glass\n  youngs_modulus soft Pa\n")
     (folder / "truncated.stl").write_bytes(floor[:len(floor) // 2])
     for path in sorted((deck.HERE / "bad_decks").glob("in.*")):
         for ranks in (1, 2):

@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""`granular material ...` is the granular style with the material's numbers.
+
+The numbers are worked out here once more, from the values in the file and the formulas of
+contact mechanics; decks with the words that the log shows must then give the same bits.
+"""
+
+import re
+
+import deck
+
+FILE = """\
+units si
+material glass
+  youngs_modulus 70e6 Pa # soft, so that steps are long
+  poissons_ratio 0.22 1
+  surface_energy 0.5 J/m2
+  thermal_conductivity 1.7 W/m/K
+material steel
+  youngs_modulus 210e6 Pa
+  poissons_ratio 0.3 1
+pair glass glass
+  restitution 0.9 1
+  sliding_friction 0.3 1
+  rolling_friction 0.02 1
+pair steel glass
+  restitution 0.7 1
+  sliding_friction 0.4 1
+"""
+
+# How many of its units a metre, a kilogram and a second are.
+UNITS = {"si": (1, 1, 1), "cgs": (100, 1e3, 1), "micro": (1e6, 1e15, 1e6), "nano": (1e9, 1e21, 1e9)}
+
+
+def floor(size):
+    """Two triangles at z = 0."""
+    a, b = f"vertex -{size} -{size} 0\n", f"vertex {size} -{size} 0\n"
+    c, d = f"vertex {size} {size} 0\n", f"vertex -{size} {size} 0\n"
+    faces = [f"facet normal 0 0 1\nouter loop\n{face}endloop\nendfacet\n" for face in (a + b + c, a + c + d)]
+    return "solid floor\n" + "".join(faces) + "endsolid floor\n"
+
+
+def scene(wall, units="si"):
+    """A grain of 2 mm that hops, slides and rolls for 20 ms."""
+    m, kg, s = UNITS[units]
+    return f"""\
+units           {units}
+atom_style      sphere
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block {-0.02 * m:.17g} {0.02 * m:.17g} {-0.02 * m:.17g} {0.02 * m:.17g} &
+                {-0.01 * m:.17g} {0.02 * m:.17g}
+create_box      1 box
+create_atoms    1 single {0.001 * m:.17g} {0.0003 * m:.17g} {0.00101 * m:.17g} units box
+set             group all diameter {0.002 * m:.17g} density {2500 * kg / m**3:.17g}
+velocity        all set {0.2 * m / s:.17g} {0.05 * m / s:.17g} {-0.1 * m / s:.17g}
+set             group all omega {20 / s:.17g} {-90 / s:.17g} {30 / s:.17g}
+pair_style      zero {0.003 * m:.17g}
+pair_coeff      * *
+neighbor        {0.001 * m:.17g} bin
+fix             move all nve/sphere
+fix             pull all gravity {9.81 * m / s**2:.17g} vector 0.1 0 -1
+fix             wall all wall/lsdcd {wall}
+timestep        {1e-6 * s:.17g}
+dump            out all custom 100 out id x y z vx vy vz omegax omegay omegaz
+dump_modify     out format float %.17g
+run             20000
+"""
+
+
+def run(folder, wall, units="si", ranks=1, env=None):
+    """The motion, and the words of the style that the log shows."""
+    text = deck.run_well(scene(wall, units), folder, ranks=ranks, env=env)
+    return deck.read_dump(folder / "out"), re.search(r"^  contact     (granular .*)", text, re.M)[1], text
+
+
+def contact_numbers(e1, nu1, e2, nu2):
+    """E* and G* of two materials."""
+    return (1 / ((1 - nu1**2) / e1 + (1 - nu2**2) / e2),
+            1 / (2 * (2 - nu1) * (1 + nu1) / e1 + 2 * (2 - nu2) * (1 + nu2) / e2))
+
+
+def same_bits(checks, folder):
+    written = {
+        "granular material grains.lsdcd glass":
+            "granular hertz/material 70e6 0.9 0.22 damping coeff_restitution tangential mindlin NULL 1 0.3",
+        "granular material grains.lsdcd glass damping tsuji rolling sds 100 1e-3 NULL":
+            "granular hertz/material 70e6 0.9 0.22 damping tsuji rolling sds 100 1e-3 0.02 "
+            "tangential mindlin NULL 1 0.3",
+        "granular material grains.lsdcd glass tangential linear_history 1e4 0.5 NULL":
+            "granular hertz/material 70e6 0.9 0.22 damping coeff_restitution "
+            "tangential linear_history 1e4 0.5 0.3",
+        "granular jkr material grains.lsdcd glass with eta 1e-4 damping velocity":
+            "granular jkr 70e6 1e-4 0.22 0.5 damping velocity tangential mindlin NULL 1 0.3",
+    }
+    for words, numbers in written.items():
+        filled, plain = run(folder, f"{words} mesh floor.stl")[0], run(folder, f"{numbers} mesh floor.stl")[0]
+        checks.fact(f"{words}: moves as with the numbers written out", filled == plain)
+    turns = filled[20000][1][6:9]
+    checks.fact("the grain was turned by friction", turns != filled[0][1][6:9], str(turns))
+
+
+def two_materials(checks, folder):
+    filled, words, text = run(folder, "granular material grains.lsdcd glass on steel mesh floor.stl")
+    e, restitution, nu = (float(word) for word in words.split()[2:5])
+    young, shear = contact_numbers(70e6, 0.22, 210e6, 0.3)
+    # Ten operations in each of two codes.
+    checks.at_most("glass on steel: E*", abs(e / (2 * (1 - nu**2)) / young - 1), 4e-15)
+    checks.at_most("glass on steel: G*", abs(e / (4 * (2 - nu) * (1 + nu)) / shear - 1), 4e-15)
+    checks.fact("glass on steel: restitution", restitution == 0.7)
+    checks.fact("glass on steel: same bits with the words of the log",
+                filled == run(folder, f"{words} mesh floor.stl")[0])
+    for what in ("glass on steel", "grains.lsdcd, in units si", "7e+07 Pa, grains.lsdcd line 3",
+                 "soft, so that steps are long", "grains.lsdcd line 15"):
+        checks.fact(f"the log says '{what}'", what in text)
+
+
+def systems_of_units(checks, folder):
+    """The same motion, but for rounding: 1e-16 in each of 20 000 steps, and what contacts
+    make of it."""
+    wall = "granular jkr material grains.lsdcd glass mesh floor.stl"
+    reference = run(folder, wall)[0]
+    for units, (m, _, s) in UNITS.items():
+        (folder / "scaled.stl").write_text(floor(0.015 * m))
+        moves = run(folder, wall.replace("floor", "scaled"), units)[0]
+        si = {step: {1: [x / m for x in rows[1][:3]] + [v * s / m for v in rows[1][3:6]] +
+                        [w * s for w in rows[1][6:]]} for step, rows in moves.items()}
+        checks.at_most(f"units {units}: the motion of units si", deck.largest_difference(reference, si), 1e-10)
+
+
+def places(checks, folder):
+    elsewhere = folder / "elsewhere"
+    elsewhere.mkdir()
+    (elsewhere / "mine.lsdcd").write_text(FILE.replace("0.9", "0.8"))
+    for variable in ("LSDCD_POTENTIALS", "LAMMPS_POTENTIALS"):
+        words = run(folder, "granular material mine.lsdcd glass mesh floor.stl",
+                    env={variable: str(elsewhere)})[1]
+        checks.fact(f"a file in ${variable} is found", words.split()[3] == "0.8")
+    words = run(folder, "granular material alumina.lsdcd alumina on glass with sliding_friction 0.2 "
+                "mesh floor.stl")[1]
+    checks.fact("the project's own files are found by name", words.split()[3] == "0.98")
+
+
+def ranks(checks, folder):
+    wall = "granular material grains.lsdcd glass on steel mesh floor.stl"
+    one, words, _ = run(folder, wall)
+    two, same, _ = run(folder, wall, ranks=2)
+    checks.fact("2 processes: the same words and motion", words == same and one == two)
+
+
+def main():
+    checks, folder = deck.Checks(), deck.scratch()
+    (folder / "grains.lsdcd").write_text(FILE)
+    (folder / "floor.stl").write_text(floor(0.015))
+    same_bits(checks, folder)
+    two_materials(checks, folder)
+    systems_of_units(checks, folder)
+    places(checks, folder)
+    ranks(checks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
