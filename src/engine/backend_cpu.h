@@ -24,15 +24,10 @@ struct CpuBackend {
   };
   template <class T>
   using Array = OwnedArray<T, Memory>;
+  template <class T>
+  using Scratch = Array<T>;    // for a while
 
   // copy
-  template <class T>
-  Array<T> from_host(const std::vector<T> &host)
-  {
-    Array<T> a(host.size());
-    std::copy(host.begin(), host.end(), a.data());
-    return a;
-  }
   template <class T>
   void copy_in(const T *host, T *to, std::size_t n)
   {
@@ -63,7 +58,25 @@ struct CpuBackend {
     return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
+  // for_each over parts of things: thing i has offset[i + 1] - offset[i] of them. Calls
+  // f(i, part, k), k counting the parts of the run.
+  static constexpr std::uint64_t kMostParts = 1 << 24;    // in a run
+  template <class Run, class F>
+  void for_each_part(const std::uint64_t *offset, const Run &run, const F &f)
+  {
+    const std::int64_t begin = run.begin, end = run.end;
+#pragma omp parallel for schedule(dynamic, 64) num_threads(threads()) if (run.n > 256)
+    for (std::int64_t i = begin; i < end; i++)
+      for (std::uint64_t at = offset[i]; at < offset[i + 1]; at++)
+        f(static_cast<std::size_t>(i), at - offset[i], at - run.first);
+  }
+
   // reduce
+  template <class T>
+  T largest(const T *values, std::size_t n)
+  {
+    return n > 0 ? *std::max_element(values, values + n) : T(0);
+  }
   template <class T>
   T sum(const T *values, std::size_t n)
   {
@@ -80,10 +93,11 @@ struct CpuBackend {
   }
 
   // sort: stable, by key; 16 bits at a time up to the largest key's bits.
-  void sort_pairs(Array<std::uint32_t> &keys, Array<std::uint32_t> &values, std::uint32_t largest)
+  void sort_pairs(Scratch<std::uint32_t> &keys, Scratch<std::uint32_t> &values,
+                  std::uint32_t largest)
   {
     const std::size_t n = keys.size();
-    Array<std::uint32_t> other_keys(n), other_values(n);
+    Scratch<std::uint32_t> other_keys(n), other_values(n);
     for (int shift = 0; shift < 32 && (largest >> shift) > 0; shift += 16) {
       std::vector<std::size_t> start(65536, 0);
       for (std::size_t i = 0; i < n; i++) start[(keys.data()[i] >> shift) & 0xffff]++;

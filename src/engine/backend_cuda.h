@@ -33,6 +33,26 @@ __global__ void cuda_for_each(std::size_t n, const __grid_constant__ F f)
   if (i < n) f(i);
 }
 
+// The same over parts of things: thing i has offset[i + 1] - offset[i] of them.
+template <class F>
+__global__ void cuda_for_each_part(const std::uint64_t *offset, std::size_t begin, std::size_t end,
+                                   std::uint64_t first, std::uint64_t n,
+                                   const __grid_constant__ F f)
+{
+  const std::uint64_t k = std::uint64_t(blockIdx.x) * blockDim.x + threadIdx.x;
+  if (k >= n) return;
+  // The last thing that begins at or before this part.
+  std::size_t lo = begin, hi = end;
+  while (hi - lo > 1) {
+    const std::size_t middle = lo + (hi - lo) / 2;
+    if (offset[middle] <= first + k)
+      lo = middle;
+    else
+      hi = middle;
+  }
+  f(lo, first + k - offset[lo], k);
+}
+
 struct CudaBackend {
   cudaStream_t stream = nullptr;
 
@@ -49,18 +69,44 @@ struct CudaBackend {
   template <class T>
   using Array = OwnedArray<T, Memory>;
 
-  // copy
+  // For a while, and for the default stream only: freed memory stays with the process,
+  // so that the next one is quick to get.
+  struct PooledMemory {
+    static void *allocate(std::size_t bytes)
+    {
+      if (!pooled()) return Memory::allocate(bytes);
+      void *at = nullptr;
+      cuda_check(cudaMallocAsync(&at, bytes, nullptr), "allocating device memory");
+      return at;
+    }
+    static void free(void *at)
+    {
+      if (!pooled())
+        Memory::free(at);
+      else if (at)
+        cudaFreeAsync(at, nullptr);
+    }
+
+   private:
+    static bool pooled()
+    {
+      static const bool yes = [] {
+        int device = 0, supported = 0;
+        cudaMemPool_t pool;
+        std::uint64_t keep = ~std::uint64_t(0);
+        return cudaGetDevice(&device) == cudaSuccess &&
+               cudaDeviceGetAttribute(&supported, cudaDevAttrMemoryPoolsSupported, device) ==
+                   cudaSuccess &&
+               supported && cudaDeviceGetDefaultMemPool(&pool, device) == cudaSuccess &&
+               cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &keep) == cudaSuccess;
+      }();
+      return yes;
+    }
+  };
   template <class T>
-  Array<T> from_host(const std::vector<T> &host)
-  {
-    Array<T> a(host.size());
-    if (!host.empty())
-      cuda_check(cudaMemcpyAsync(a.data(), host.data(), host.size() * sizeof(T),
-                                 cudaMemcpyHostToDevice, stream),
-                 "copying to the device");
-    return a;
-  }
-  // The host array may change once this returns.
+  using Scratch = OwnedArray<T, PooledMemory>;
+
+  // copy; the host array may change once copy_in returns.
   template <class T>
   void copy_in(const T *host, T *to, std::size_t n)
   {
@@ -69,8 +115,8 @@ struct CudaBackend {
                "copying to the device");
     wait();
   }
-  template <class T>
-  std::vector<T> to_host(const Array<T> &a, std::size_t n)
+  template <class T, class Memory>
+  std::vector<T> to_host(const OwnedArray<T, Memory> &a, std::size_t n)
   {
     std::vector<T> host(n);
     if (n > 0)
@@ -118,12 +164,35 @@ struct CudaBackend {
     return ms;
   }
 
+  // for_each over parts of things: thing i has offset[i + 1] - offset[i] of them. Calls
+  // f(i, part, k), k counting the parts of the run.
+  static constexpr std::uint64_t kMostParts = 1 << 27;    // in a run
+  template <class Run, class F>
+  void for_each_part(const std::uint64_t *offset, const Run &run, const F &f)
+  {
+    if (run.n == 0) return;
+    const unsigned block = 256;
+    cuda_for_each_part<<<static_cast<unsigned>((run.n + block - 1) / block), block, 0, stream>>>(
+        offset, run.begin, run.end, run.first, run.n, f);
+    cuda_check(cudaGetLastError(), "starting a kernel");
+  }
+
   // reduce
+  template <class T>
+  T largest(const T *values, std::size_t n)
+  {
+    if (n == 0) return T(0);
+    Scratch<T> out(1);
+    with_scratch([&](void *scratch, std::size_t &bytes) {
+      return cub::DeviceReduce::Max(scratch, bytes, values, out.data(), n, stream);
+    });
+    return read_one(out.data());
+  }
   template <class T>
   T sum(const T *values, std::size_t n)
   {
     if (n == 0) return T(0);
-    Array<T> out(1);
+    Scratch<T> out(1);
     with_scratch([&](void *scratch, std::size_t &bytes) {
       return cub::DeviceReduce::Sum(scratch, bytes, values, out.data(), n, stream);
     });
@@ -143,19 +212,19 @@ struct CudaBackend {
   }
 
   // sort: stable, by key, over the bits of the largest one.
-  void sort_pairs(Array<std::uint32_t> &keys, Array<std::uint32_t> &values, std::uint32_t largest)
+  void sort_pairs(Scratch<std::uint32_t> &keys, Scratch<std::uint32_t> &values,
+                  std::uint32_t largest)
   {
     const std::size_t n = keys.size();
     if (n == 0) return;
     int bits = 1;
     while (bits < 32 && (largest >> bits) > 0) bits++;
-    Array<std::uint32_t> sorted_keys(n), sorted_values(n);
+    Scratch<std::uint32_t> sorted_keys(n), sorted_values(n);
     with_scratch([&](void *scratch, std::size_t &bytes) {
       return cub::DeviceRadixSort::SortPairs(scratch, bytes, keys.data(), sorted_keys.data(),
                                              values.data(), sorted_values.data(), n, 0, bits,
                                              stream);
     });
-    wait();
     std::swap(keys, sorted_keys);
     std::swap(values, sorted_values);
   }
@@ -177,9 +246,8 @@ struct CudaBackend {
   {
     std::size_t bytes = 0;
     cuda_check(call(nullptr, bytes), "sizing scratch memory");
-    Array<char> scratch(bytes);
+    Scratch<char> scratch(bytes);
     cuda_check(call(scratch.data(), bytes), "scan, sort or reduce");
-    wait();
   }
 };
 

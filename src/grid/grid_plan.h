@@ -26,13 +26,27 @@ struct GridPlan {
     const Real side = kBrickSide * length, half = Real(0.5);
     return origin + side * Vec3{x + half, y + half, z + half};
   }
-  LSDCD_FN Vec3 cell_centre(std::uint32_t brick, int cell) const
+};
+
+// The centres of a brick's cells, by the brick's place in the table.
+struct CellCentres {
+  Vec3 origin;
+  Real length;
+  std::uint32_t x, y, z;    // of the brick's first cell
+
+  LSDCD_FN CellCentres(const GridPlan &plan, std::uint32_t place) :
+      origin(plan.origin), length(plan.length)
   {
-    const std::uint32_t nx = n_bricks[0], ny = n_bricks[1];
+    const std::uint32_t nx = plan.n_bricks[0], ny = plan.n_bricks[1];
+    x = place % nx * kBrickSide;
+    y = place / nx % ny * kBrickSide;
+    z = place / nx / ny * kBrickSide;
+  }
+  LSDCD_FN Vec3 at(int cell) const
+  {
     const Real half = Real(0.5);
-    return origin + length * Vec3{(brick % nx) * kBrickSide + (cell & 7) + half,
-                                  (brick / nx % ny) * kBrickSide + (cell >> 3 & 7) + half,
-                                  (brick / nx / ny) * kBrickSide + (cell >> 6) + half};
+    return origin +
+           length * Vec3{x + (cell & 7) + half, y + (cell >> 3 & 7) + half, z + (cell >> 6) + half};
   }
 };
 

@@ -69,40 +69,99 @@ LSDCD_FN int cell_of_octant(int octant, int i)
   return (z * kBrickSide + y) * kBrickSide + x;
 }
 
-// Calls visit(key) for every octant that the feature meets.
-template <class Visit>
-LSDCD_FN void rasterise(const BuildView &b, FeatureCode feature, Visit visit)
+// The bricks that a feature's box and the reach around it overlap.
+struct BrickBox {
+  std::int32_t first[3], n[3];
+
+  LSDCD_FN std::uint64_t count() const { return std::uint64_t(n[0]) * n[1] * n[2]; }
+};
+
+LSDCD_FN BrickBox brick_box(const BuildView &b, FeatureCode feature)
 {
   Vec3 lo, hi;
   feature_box(b.wall, feature, lo, hi);
   const GridPlan &plan = b.plan;
-  std::int32_t first[3], last[3];
+  BrickBox box;
   for (int k = 0; k < 3; k++) {
     // Half a cell more than the reach, so that rounding cannot lose a brick.
     const Real margin = plan.reach + plan.slack + Real(0.5) * plan.length;
     const Real inv = 1 / (kBrickSide * plan.length);
-    first[k] = static_cast<std::int32_t>(fmax(Real(0), (lo[k] - margin - plan.origin[k]) * inv));
-    last[k] = static_cast<std::int32_t>((hi[k] + margin - plan.origin[k]) * inv);
-    if (last[k] >= plan.n_bricks[k]) last[k] = plan.n_bricks[k] - 1;
+    box.first[k] =
+        static_cast<std::int32_t>(fmax(Real(0), (lo[k] - margin - plan.origin[k]) * inv));
+    std::int32_t last = static_cast<std::int32_t>((hi[k] + margin - plan.origin[k]) * inv);
+    if (last >= plan.n_bricks[k]) last = plan.n_bricks[k] - 1;
+    box.n[k] = last >= box.first[k] ? last - box.first[k] + 1 : 0;
   }
+  return box;
+}
+
+// Which octants of the i-th brick of its box the feature meets, a bit each; `place` is
+// the brick's in the table.
+LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, const BrickBox &box,
+                              std::uint64_t i, std::uint32_t &place)
+{
+  const GridPlan &plan = b.plan;
+  const std::int32_t x = box.first[0] + static_cast<std::int32_t>(i % box.n[0]),
+                     y = box.first[1] + static_cast<std::int32_t>(i / box.n[0] % box.n[1]),
+                     z = box.first[2] + static_cast<std::int32_t>(i / box.n[0] / box.n[1]);
+  place =
+      static_cast<std::uint32_t>((std::size_t(z) * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
+  if (b.only && !(b.only[place >> 6] >> (place & 63) & 1)) return 0;
+  const Vec3 centre = plan.brick_centre(x, y, z);
+  Real distance;
+  if (!meets(b, feature, centre, kBrickSide * plan.half_diagonal, distance)) return 0;
   const Real quarter = Real(0.5) * kOctantSide * plan.length;
-  for (std::int32_t z = first[2]; z <= last[2]; z++)
-    for (std::int32_t y = first[1]; y <= last[1]; y++)
-      for (std::int32_t x = first[0]; x <= last[0]; x++) {
-        const std::uint32_t brick = static_cast<std::uint32_t>(
-            (std::size_t(z) * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
-        if (b.only && !(b.only[brick >> 6] >> (brick & 63) & 1)) continue;
-        const Vec3 centre = plan.brick_centre(x, y, z);
-        Real distance;
-        if (!meets(b, feature, centre, kBrickSide * plan.half_diagonal, distance)) continue;
-        for (std::uint32_t o = 0; o < 8; o++) {
-          const Vec3 at =
-              centre + quarter * Vec3{o & 1 ? Real(1) : Real(-1), o & 2 ? Real(1) : Real(-1),
-                                      o & 4 ? Real(1) : Real(-1)};
-          if (meets(b, feature, at, kOctantSide * plan.half_diagonal, distance))
-            visit(brick * 8 + o);
-        }
-      }
+  unsigned met = 0;
+  for (unsigned o = 0; o < 8; o++) {
+    const Vec3 at = centre + quarter * Vec3{o & 1 ? Real(1) : Real(-1), o & 2 ? Real(1) : Real(-1),
+                                            o & 4 ? Real(1) : Real(-1)};
+    if (meets(b, feature, at, kOctantSide * plan.half_diagonal, distance)) met |= 1u << o;
+  }
+  return met;
+}
+
+// Which cells of an octant the feature meets, a bit each in the order of cell_of_octant.
+// The record is read once for all of them.
+LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::uint32_t octant_key)
+{
+  const CellCentres centres(b.plan, octant_key >> 3);
+  const int octant = octant_key & 7;
+  const Real around = b.plan.half_diagonal, reach = b.plan.reach;
+  const Real relaxed = around + b.plan.slack;
+  const std::uint32_t i = feature_index(feature);
+  std::uint64_t met = 0;
+  Real distance;
+  if (b.pieces) {
+    for (int k = 0; k < kOctantCells; k++)
+      if (meets(b, feature, centres.at(cell_of_octant(octant, k)), around, distance))
+        met |= std::uint64_t(1) << k;
+    return met;
+  }
+  switch (feature_kind(feature)) {
+    case FeatureKind::face: {
+      const FaceRecord face = b.wall.faces[i];
+      for (int k = 0; k < kOctantCells; k++)
+        if (face_meets(face, centres.at(cell_of_octant(octant, k)), relaxed, reach, distance))
+          met |= std::uint64_t(1) << k;
+      return met;
+    }
+    case FeatureKind::edge: {
+      const EdgeRecord edge = b.wall.edges[i];
+      for (int k = 0; k < kOctantCells; k++)
+        if (edge_meets(edge, b.wall.edge_inward, centres.at(cell_of_octant(octant, k)), relaxed,
+                       reach, distance))
+          met |= std::uint64_t(1) << k;
+      return met;
+    }
+    default: {
+      const VertexRecord vertex = b.wall.vertices[i];
+      for (int k = 0; k < kOctantCells; k++)
+        if (vertex_meets(vertex, b.wall.vertex_direction, centres.at(cell_of_octant(octant, k)),
+                         relaxed, reach, distance))
+          met |= std::uint64_t(1) << k;
+      return met;
+    }
+  }
 }
 
 }    // namespace lsdcd

@@ -92,6 +92,7 @@ struct ListReport {
   std::size_t longest = 0;
   Real mean = 0;
   std::size_t distance_tests = 0;    // feature against cell, after bricking
+  double seconds = 0;                // of the build alone, copies to and from a device left out
 };
 
 struct GridReport {
