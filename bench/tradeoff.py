@@ -246,6 +246,7 @@ def main(arguments=None):
         if args.device == "auto":
             from accuracy import gpu_is_there
             devices = DEVICES if gpu_is_there() else ("cpu",)
+        os.makedirs(args.rows_to or DATA, exist_ok=True)
         for device in devices:
             for mesh in MESHES:
                 if not run(mesh, device, args.build, args.rows_to or DATA, args.seconds):

@@ -9,14 +9,6 @@ import csv
 import os
 import sys
 
-try:
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    from matplotlib.ticker import FuncFormatter, LogLocator
-except ImportError:
-    sys.exit("plot_tradeoff.py: matplotlib is missing (Debian: python3-matplotlib)")
-
 FLOOR = 1e-17    # where errors of 0 are drawn
 COLOURS = {"all": "black", "1": "#d62728", "2": "#ff7f0e", "3": "#bcbd22", "4": "#2ca02c",
            "8": "#17becf", "2 exact": "#1f77b4", "4 exact": "#9467bd"}
@@ -28,6 +20,7 @@ def shown(error):
 
 
 def panel(axes, rows, key, scale, label):
+    from matplotlib.ticker import FuncFormatter, LogLocator
     for row in rows:
         axes.plot(row[key] * scale, shown(row["force_mean"]), MARKERS[row["precision"]],
                   color=COLOURS.get(row["nearest"], "grey"), markersize=5,
@@ -53,6 +46,12 @@ def front(axes, rows):
 
 
 def draw(rows, picture):
+    try:
+        import matplotlib
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+    except ImportError:
+        sys.exit("plot_tradeoff.py: matplotlib is missing (Debian: python3-matplotlib)")
     kinds = [k for k in ("cpu", "cuda") if any(r["kind"] == k for r in rows)]
     figure, axes = plt.subplots(1, len(kinds) + 1, figsize=(4.6 * (len(kinds) + 1), 4.4),
                                 sharey=True, squeeze=False)
