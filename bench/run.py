@@ -2,11 +2,12 @@
 """Runs benchmark programs, keeps their CSV and prints it as a table.
 
 usage: run.py [--build DIR] [NAME ...]     NAME: build, cache, step (default: all), accuracy,
-                                           hard-cases
+                                           effects, hard-cases
 
-Rows go to DIR/bench/NAME.csv, written whole or not at all. Two write documents instead:
+Rows go to DIR/bench/NAME.csv, written whole or not at all. Three write documents instead:
 hard-cases doc/hard_cases.md from runs of the tests (hard_cases.py), accuracy
-doc/accuracy.md from runs of `lsdcd tradeoff` (tradeoff.py) and `lsdcd accuracy` (accuracy.py).
+doc/accuracy.md from runs of `lsdcd tradeoff` (tradeoff.py) and `lsdcd accuracy` (accuracy.py),
+effects doc/effects.md from runs of `lsdcd effects` (effects.py).
 """
 import argparse
 import csv
@@ -15,11 +16,13 @@ import subprocess
 import sys
 
 import accuracy
+import effects
 import hard_cases
 import tradeoff
 
 NAMES = ["build", "cache", "step"]
-DOCUMENTS = {"accuracy": [tradeoff.main, accuracy.main], "hard-cases": [hard_cases.main]}
+DOCUMENTS = {"accuracy": [tradeoff.main, accuracy.main], "effects": [effects.main],
+             "hard-cases": [hard_cases.main]}
 HIDDEN = {"bench", "compiler", "commit"}    # the same in every row; printed once
 
 

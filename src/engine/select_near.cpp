@@ -31,6 +31,7 @@ void select_near(const GridView &grid, const Spheres &spheres, Real pull_off,
   const int n_blocks = (spheres.n + kBlock - 1) / kBlock;
   if (static_cast<int>(scratch.size()) < spheres.n) scratch.resize(spheres.n);
   std::vector<int> found(n_blocks, 0);
+  const Real fits = pull_off > 0 ? 0 : grid.reach;    // radii up to this do for certain
   int too_large = -1;
 #pragma omp parallel for schedule(static) num_threads(threads()) if (n_blocks > 1)
   for (int b = 0; b < n_blocks; b++) {
@@ -38,7 +39,7 @@ void select_near(const GridView &grid, const Spheres &spheres, Real pull_off,
     int n = 0;
     for (int i = lo; i < hi; i++) {
       if (spheres.mask && !(spheres.mask[i] & spheres.group_bit)) continue;
-      if (!(reach_of(spheres.radius[i], pull_off) <= grid.reach)) {
+      if (!(spheres.radius[i] <= fits) && !(reach_of(spheres.radius[i], pull_off) <= grid.reach)) {
 #pragma omp critical
         too_large = too_large < 0 ? i : std::min(too_large, i);
       }

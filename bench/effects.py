@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+"""Measures what every effect of a wall costs and writes the tables of doc/effects.md.
+
+usage: effects.py [--build DIR] [--write-only] [--only cpu|cuda]
+
+Runs `lsdcd effects --measure` on one core and, where there is a GPU, with CUDA. Rows are
+kept in doc/data/effects_DEVICE.csv, so that the document has those of a device on a
+machine without it too. --write-only makes the tables and the plot from what is kept.
+"""
+import argparse
+import csv
+import os
+import re
+import subprocess
+import sys
+
+from hard_cases import ROOT, commit, write_whole
+
+DOCUMENT = os.path.join(ROOT, "doc", "effects.md")
+PLOT = os.path.join(ROOT, "doc", "img", "effects.png")
+DEVICES = {"cpu": ["--spheres", "5000", "--repeats", "401"],
+           "cuda": ["--spheres", "2000000", "--repeats", "31"]}
+BEGIN, END = "<!-- costs:begin -->", "<!-- costs:end -->"
+
+
+def kept(device):
+    return os.path.join(ROOT, "doc", "data", f"effects_{device}.csv")
+
+
+def rows_of(device):
+    if not os.path.exists(kept(device)):
+        return {}
+    with open(kept(device), newline="") as f:
+        return {row["name"]: row for row in csv.DictReader(f, delimiter=";")}
+
+
+def has_gpu():
+    try:
+        return subprocess.run(["nvidia-smi", "-L"], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL).returncode == 0
+    except OSError:
+        return False
+
+
+def measure(build, device):
+    part = kept(device) + ".part"
+    os.makedirs(os.path.dirname(part), exist_ok=True)
+    command = [os.path.join(build, "bin", "lsdcd"), "effects", "--measure", "--device", device,
+               *DEVICES[device], "--commit", commit(), "--csv", part]
+    print(" ".join(command), flush=True)
+    threads = "1" if device == "cpu" else str(os.cpu_count() or 1)
+    if subprocess.run(command, env=dict(os.environ, OMP_NUM_THREADS=threads)).returncode != 0:
+        return False
+    os.replace(part, kept(device))
+    return True
+
+
+def ns(row, column):
+    return f"{float(row[column]):.3g}" if row else ""
+
+
+def over(row):
+    return f"{float(row['over_ns']):+.1f}" if row and row["over"] else ""
+
+
+def table(rows, heads, cells):
+    lines = ["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads)]
+    return "\n".join(lines + ["| " + " | ".join(cells(r)) + " |" for r in rows])
+
+
+def tables(cpu, cuda):
+    first = next(iter(cpu.values()))
+    facts = (f"CPU: one core, commit {first['commit']}, {first['compiler']}, "
+             f"{first['contacts']} contacts, least of {first['repeats']} rounds.")
+    if cuda:
+        g = next(iter(cuda.values()))
+        facts += (f" GPU: {g['device'].replace('CUDA, ', '')}, commit {g['commit']}, "
+                  f"{g['contacts']} contacts, least of {g['repeats']}; copies to and from it and "
+                  "the host's part of a step are in.")
+    else:
+        facts += " No rows of a GPU are kept yet."
+    alone = [r for r in cpu.values() if r["over"] or r["name"] == "hooke"]
+    several = [r for r in cpu.values() if not r["over"] and r["name"] != "hooke"]
+
+    def cells(r):
+        g = cuda.get(r["name"])
+        return [r["name"], f"`{r['words']}`", ns(r, "min_ns"), over(r), ns(g, "min_ns"), over(g),
+                r["over"], r["bytes_per_atom"], r["bytes_per_contact"], r["engine_bytes"]]
+
+    heads = ["effect", "turned on by", "CPU, ns", "more than without", "GPU, ns",
+             "more than without", "without is", "B/atom", "B/contact", "engine, B"]
+    return "\n\n".join([facts, "Each alone:", table(alone, heads, cells), "In common combinations:",
+                        table(several, heads, cells)])
+
+
+def plot(cpu, cuda):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    names = list(cpu)
+    sets = [("CPU, one core", cpu)] + ([("GPU", cuda)] if cuda else [])
+    figure, axes = plt.subplots(1, len(sets), figsize=(5.5 * len(sets), 8.5), sharey=True,
+                                squeeze=False)
+    for axis, (label, rows) in zip(axes[0], sets):
+        values = [float(rows[n]["min_ns"]) if n in rows else 0 for n in names]
+        colours = ["tab:blue" if cpu[n]["over"] or n == "hooke" else "tab:orange" for n in names]
+        axis.barh(range(len(names)), values, color=colours)
+        axis.set_yticks(range(len(names)), names)
+        axis.invert_yaxis()
+        axis.set_xlabel("ns per contact")
+        axis.set_title(label)
+    figure.tight_layout()
+    part = PLOT + ".part.png"
+    figure.savefig(part, dpi=110)
+    os.replace(part, PLOT)
+
+
+def write_document():
+    cpu, cuda = rows_of("cpu"), rows_of("cuda")
+    with open(DOCUMENT) as f:
+        text = f.read()
+    block = f"{BEGIN}\n{tables(cpu, cuda)}\n{END}"
+    write_whole(DOCUMENT, re.sub(f"{BEGIN}.*{END}", lambda _: block, text, flags=re.S))
+    plot(cpu, cuda)
+    print("wrote", os.path.relpath(DOCUMENT, ROOT), "and", os.path.relpath(PLOT, ROOT))
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default="build", metavar="DIR")
+    parser.add_argument("--write-only", action="store_true")
+    parser.add_argument("--only", choices=list(DEVICES))
+    args = parser.parse_args(arguments)
+    if not args.write_only:
+        for device in DEVICES:
+            if args.only not in (None, device) or (device == "cuda" and not has_gpu()):
+                continue
+            if not measure(args.build, device):
+                return 1
+    write_document()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
