@@ -1,7 +1,9 @@
 # What effects cost; included from src/CMakeLists.txt.
-target_sources(lsdcd_core PRIVATE effects/effect_cases.cpp effects/measure_effects.cpp)
+target_sources(lsdcd_core PRIVATE effects/effect_cases.cpp effects/effects_of.cpp
+  effects/kept_costs.cpp effects/measure_effects.cpp)
+target_include_directories(lsdcd_core PRIVATE ${PROJECT_BINARY_DIR}/made)
 
-# Costs measured on the CPU, as `lsdcd effects` lists them.
+# Costs measured on the CPU, as `lsdcd effects` and the fix's log show them.
 set(kept ${PROJECT_SOURCE_DIR}/doc/data/effects_cpu.csv)
 set(LSDCD_EFFECTS_MEASURED "")
 if(EXISTS ${kept})

@@ -254,8 +254,7 @@ void FixWallLsdcd::collect()
   if (settings.contacts) fill_contacts();
 }
 
-// Collective, and again where tuning has changed the precision.
-void FixWallLsdcd::make_engine()
+lsdcd::EngineSettings FixWallLsdcd::engine_settings() const
 {
   lsdcd::EngineSettings want;
   want.law = settings.law;
@@ -267,6 +266,13 @@ void FixWallLsdcd::make_engine()
   want.wear = settings.wear.model;
   want.device = settings.device;
   want.device_rank = wall->shared().node_rank();
+  return want;
+}
+
+// Collective, and again where tuning has changed the precision.
+void FixWallLsdcd::make_engine()
+{
+  const lsdcd::EngineSettings want = engine_settings();
   lsdcd::together(world, true, [&] { engine = lsdcd::make_engine(want); });
 }
 

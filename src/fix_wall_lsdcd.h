@@ -95,6 +95,7 @@ class FixWallLsdcd : public Fix {
   void fill_contacts();
   void reduce_totals();
 
+  lsdcd::EngineSettings engine_settings() const;
   void make_engine();
   void tune(double);    // fix_wall_lsdcd_tune.cpp
 

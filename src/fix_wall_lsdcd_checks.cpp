@@ -2,7 +2,7 @@
 
 #include "fix_wall_lsdcd.h"
 
-#include "granular_words.h"
+#include "effects/effects.h"
 #include "input_words.h"
 
 #include "atom.h"
@@ -206,12 +206,22 @@ void FixWallLsdcd::log_creation() const
          number_text(l.gamma_normal) + ", gammat " + number_text(l.gamma_tangent) + ", xmu " +
          number_text(l.mu) + (l.limit_damping ? ", limit_damping" : "");
   std::string effects, kept;
-  for (const lsdcd::Effect &e : lsdcd::effects_of(l)) {
-    effects += (effects.empty() ? "" : ", ") + e.name;
+  for (const lsdcd::Effect &e : lsdcd::effects_of(engine_settings())) {
+    const auto cost = lsdcd::kept_costs().find(e.kind);
+    const bool first = effects.empty();
+    effects += (first ? "" : ", ") + e.name;
+    if (cost != lsdcd::kept_costs().end())
+      effects +=
+          (first ? " " : " +") +
+          number_text(std::max(0.0, std::round(first ? cost->second.ns : cost->second.over_ns))) +
+          " ns";
     if (e.bytes_per_contact > 0)
       kept += ", " + std::to_string(e.bytes_per_contact) + " for " + e.name;
   }
-  t += "\n  effects     " + effects + "\n  per atom    ";
+  t += "\n  effects     " + effects;
+  if (!lsdcd::kept_costs().empty())
+    t += "\n              (times per contact, as measured on " + lsdcd::kept_costs_where() + ")";
+  t += "\n  per atom    ";
   if (history)
     t += "8 bytes, and per contact " + std::to_string(sizeof(lsdcd::Spring)) +
          " for its spring and place" + kept + ", which move and restart with the atom";

@@ -252,37 +252,4 @@ ContactLaw read_granular(Words &w, std::string &text)
   return d.law;
 }
 
-std::vector<Effect> effects_of(const ContactLaw &law)
-{
-  const int number = sizeof(Real), vector = 3 * number;
-  std::vector<Effect> effects;
-  if (law.style != LawStyle::granular) {
-    effects.push_back({"normal spring", 0});
-    if (law.gamma_normal > 0) effects.push_back({"normal damping", 0});
-    if (law.mu > 0 && law.has_history() && law.k_tangent > 0)
-      effects.push_back({"tangential spring", 0});
-    if (law.mu > 0 && law.gamma_tangent > 0) effects.push_back({"tangential damping", 0});
-    effects.push_back({law.mu > 0 ? "sliding limit" : "no friction", 0});
-    if (law.added.rolling == AddedRolling::cdt) effects.push_back({"rolling friction cdt", 0});
-    if (law.added.rolling == AddedRolling::epsd2)
-      effects.push_back({"rolling friction epsd2", vector});
-    if (law.added.cohesion > 0) effects.push_back({"cohesion sjkr", 0});
-    return effects;
-  }
-  const GranularLaw &g = law.granular;
-  const char *const normals[] = {"linear spring", "hertz spring", "dmt adhesion", "jkr adhesion"};
-  effects.push_back({normals[static_cast<int>(g.normal)], 0});
-  if (g.damping != DampingModel::none && g.eta > 0) effects.push_back({"normal damping", 0});
-  if (g.tangential != TangentialModel::linear_nohistory)
-    effects.push_back({"tangential spring", 0});
-  if (law.has_rescale()) effects.push_back({"rescaling on unloading", number});
-  if (g.damping != DampingModel::none && g.eta > 0 && g.x_tangent > 0)
-    effects.push_back({"tangential damping", 0});
-  effects.push_back({g.mu > 0 ? "sliding limit" : "no friction", 0});
-  if (law.has_rolling()) effects.push_back({"rolling resistance", vector});
-  if (law.has_twisting()) effects.push_back({"twisting resistance", number});
-  if (law.has_heat()) effects.push_back({"heat conduction", 0});
-  return effects;
-}
-
 }    // namespace lsdcd

@@ -19,12 +19,4 @@ std::string granular_syntax();
 std::vector<std::string> granular_families();
 std::string granular_help();
 
-// What a law turns on, and what each of it keeps per contact beside the Spring that any
-// law with history keeps.
-struct Effect {
-  std::string name;
-  int bytes_per_contact;
-};
-std::vector<Effect> effects_of(const ContactLaw &law);
-
 }    // namespace lsdcd

@@ -338,8 +338,6 @@ void read_law(Words &w, WallSettings &s)
   const std::string near = nearest(word, known);
   const bool family = std::find(families.begin(), families.end(), near) != families.end();
   const auto row = std::find(names.begin(), names.end(), near);
-  // Past the keywords come the families of granular, some by a keyword's name.
-  const bool family = std::find(known.begin() + names.size(), known.end(), near) != known.end();
   throw InputError("'" + word + "' is not a keyword; the nearest is '" +
                    (family ? near + "', which comes before mesh and other keywords"
                            : syntax_of(kKeywords[row - names.begin()]) + "'"));

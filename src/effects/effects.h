@@ -5,6 +5,7 @@
 #include "engine/wall_engine.h"
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,22 @@ struct EffectCase {
 
 // Parameters are nominal: what a contact costs does not depend on them.
 std::vector<EffectCase> effect_cases();
+
+// What a wall has on, for its log: what each keeps per contact beside the Spring that any
+// law with history keeps, and the case of the table that it is.
+struct Effect {
+  std::string name;
+  int bytes_per_contact;
+  std::string kind;    // EffectCase::name; empty: its cost is in that of the first effect
+};
+std::vector<Effect> effects_of(const EngineSettings &settings);
+
+// Costs that were measured on one core when this was built, ns per contact.
+struct KeptCost {
+  double ns, over_ns;    // of the case, and more than without its effect
+};
+const std::map<std::string, KeptCost> &kept_costs();    // by EffectCase::name
+std::string kept_costs_where();                         // commit and device; empty: none are kept
 
 // What is kept from step to step, exchanged and restarted.
 int bytes_per_atom(const EngineSettings &settings);

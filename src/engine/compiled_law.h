@@ -85,7 +85,8 @@ HostLaw host_hertz_law(const EngineSettings &);
 HostLaw host_dmt_law(const EngineSettings &);
 HostLaw host_jkr_law(const EngineSettings &);
 
-// Those of the classic styles with effects of LIGGGHTS.
+// Those of the classic styles with effects of LIGGGHTS, and on walls with effects.
 HostLaw host_added_law(const EngineSettings &);
+HostLaw host_on_wall_law(const EngineSettings &);
 
 }    // namespace lsdcd

@@ -41,8 +41,9 @@ CudaLaw cuda_hertz_law(const EngineSettings &);
 CudaLaw cuda_dmt_law(const EngineSettings &);
 CudaLaw cuda_jkr_law(const EngineSettings &);
 
-// Those of the classic styles with effects of LIGGGHTS.
+// Those of the classic styles with effects of LIGGGHTS, and on walls with effects.
 CudaLaw cuda_added_law(const EngineSettings &);
+CudaLaw cuda_on_wall_law(const EngineSettings &);
 
 template <class Law>
 void start_law(const LawBytes &bytes, const CudaJob &job, std::size_t n, CudaBackend &backend)

@@ -9,9 +9,11 @@ HostLaw host_law(const EngineSettings &settings)
   const ContactLaw &law = settings.law;
   if (law.style != LawStyle::granular && law.added.any()) return host_added_law(settings);
   if (law.style != LawStyle::granular) {
+    const WallEffects effects = wall_effects(settings);
+    if (effects.surface || effects.records) return host_on_wall_law(settings);
     if (settings.precision == Precision::single_)
       return with_classic_law<float>(law, MakeHostLaw<WallKernels::plain>{});
-    return with_classic_law<Real>(law, MakeHostLaw<WallKernels::each>{wall_effects(settings)});
+    return with_classic_law<Real>(law, MakeHostLaw<WallKernels::plain>{});
   }
   switch (law.granular.normal) {
     case NormalModel::hertz:

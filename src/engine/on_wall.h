@@ -27,7 +27,8 @@ struct OnWall : Law {
   static constexpr bool kSurface = kSurface_, kRecords = kRecords_;
 };
 
-// What is compiled of a law: no effect; none, or both where either is asked for; each.
+// What is compiled of a law: the kernel without effects; that and one with both, for
+// either; or one for each choice of at least one effect.
 enum class WallKernels { plain, both, each };
 
 // Calls make(law) with the law that has the effects.
@@ -38,9 +39,10 @@ auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
     if (effects.surface && !effects.records) return make(OnWall<Law, true, false>{law});
     if (effects.records && !effects.surface) return make(OnWall<Law, false, true>{law});
   }
-  if constexpr (kernels != WallKernels::plain)
+  if constexpr (kernels == WallKernels::each) return make(OnWall<Law, true, true>{law});
+  if constexpr (kernels == WallKernels::both)
     if (effects.surface || effects.records) return make(OnWall<Law, true, true>{law});
-  return make(OnWall<Law, false, false>{law});
+  if constexpr (kernels != WallKernels::each) return make(OnWall<Law, false, false>{law});
 }
 
 }    // namespace lsdcd

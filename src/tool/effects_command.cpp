@@ -3,10 +3,8 @@
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "effects/effects.h"
-#include "effects_measured.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -91,36 +89,17 @@ void measure(const Options &o)
   file.commit();
 }
 
-std::vector<std::string> split(const std::string &line)
-{
-  std::vector<std::string> fields;
-  std::istringstream in(line);
-  for (std::string field; std::getline(in, field, ';');) fields.push_back(field);
-  return fields;
-}
-
 // Costs kept in doc/data when this program was built.
-void list(const std::string &kept)
+void list()
 {
-  std::map<std::string, std::map<std::string, std::string>> rows;
-  std::istringstream in(kept);
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> heads = split(line);
-  std::string where = "no costs were kept when this was built: lsdcd effects --measure";
-  while (std::getline(in, line)) {
-    const std::vector<std::string> fields = split(line);
-    for (std::size_t k = 0; k < fields.size() && k < heads.size(); k++)
-      rows[fields[0]][heads[k]] = fields[k];
-    where = "measured at " + rows[fields[0]]["commit"] + " on " + rows[fields[0]]["device"] +
-            "; on this machine: lsdcd effects --measure";
-  }
-  print_head(where);
+  print_head(kept_costs_where().empty()
+                 ? "no costs were kept when this was built: lsdcd effects --measure"
+                 : "measured on " + kept_costs_where() +
+                       "; on this machine: lsdcd effects --measure");
   for (const EffectCase &c : effect_cases()) {
-    auto &row = rows[c.name];
-    print_row(c, row.empty() ? "-"
-                             : cost_text(std::atof(row["min_ns"].c_str()),
-                                         std::atof(row["over_ns"].c_str()), c.over));
+    const auto at = kept_costs().find(c.name);
+    print_row(c, at == kept_costs().end() ? "-"
+                                          : cost_text(at->second.ns, at->second.over_ns, c.over));
   }
 }
 
@@ -148,7 +127,7 @@ void add_effects_command(CLI::App &app)
     if (o->measure)
       measure(*o);
     else
-      list(kEffectsMeasured);
+      list();
   });
 }
 

@@ -1,4 +1,5 @@
 // The CUDA engine against the CPU engine: one source, so the same bits.
+#include "effects/effects.h"
 #include "support/meshes.h"
 
 #include "support/device.h"
@@ -91,6 +92,7 @@ struct Outcome {
   std::vector<Spring> springs;
   std::vector<Real> extra, heat;
   std::vector<SphereOutput> outputs;
+  std::vector<ContactRecord> records;
 };
 
 // How a wall is searched: settings of the grid and of the engine that belong together.
@@ -104,7 +106,7 @@ struct Search {
 constexpr Search kComplete = {"complete", 0, false, Precision::double_};
 
 Outcome run_steps(const Case &c, const ContactLaw &law, Device device, int n_spheres,
-                  const Search &search = kComplete)
+                  const Search &search = kComplete, const EngineSettings &wall = {})
 {
   const WallMesh mesh = weld(c.soup, -1);
   GridSettings g;
@@ -118,7 +120,7 @@ Outcome run_steps(const Case &c, const ContactLaw &law, Device device, int n_sph
   char *at = block.data() + (64 - reinterpret_cast<std::uintptr_t>(block.data()) % 64) % 64;
   flatten(grid, at);
 
-  EngineSettings e;
+  EngineSettings e = wall;
   e.law = law;
   e.device = device;
   e.precision = search.precision;
@@ -176,6 +178,7 @@ Outcome run_steps(const Case &c, const ContactLaw &law, Device device, int n_sph
   out.heat = heat;
   out.totals = engine->totals();
   out.outputs.assign(engine->sphere_output(), engine->sphere_output() + engine->n_touching());
+  out.records.assign(engine->records(), engine->records() + engine->n_records());
   return out;
 }
 
@@ -287,6 +290,23 @@ TEST(cuda_engine, gives_what_granular_laws_give_on_the_cpu)
       EXPECT_TRUE(same_bytes(cpu.outputs, cuda.outputs)) << c.name;
       EXPECT_GT(cpu.extra.size(), 0u) << c.name;
     }
+}
+
+TEST(cuda_engine, gives_what_every_effect_gives_on_the_cpu)
+{
+  const std::vector<Case> walls = cases();
+  for (const EffectCase &effect : effect_cases()) {
+    const Case &c = walls[effect.name.size() % walls.size()];
+    const EngineSettings &s = effect.settings;
+    const Outcome cpu = run_steps(c, s.law, Device::cpu, 20000, kComplete, s);
+    const Outcome cuda = run_steps(c, s.law, Device::cuda, 20000, kComplete, s);
+    EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << effect.name << ", " << c.name;
+    EXPECT_TRUE(same_bytes(cpu.torque, cuda.torque)) << effect.name << ", " << c.name;
+    EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << effect.name << ", " << c.name;
+    EXPECT_TRUE(same_bytes(cpu.extra, cuda.extra)) << effect.name << ", " << c.name;
+    EXPECT_TRUE(same_bytes(cpu.records, cuda.records)) << effect.name << ", " << c.name;
+    EXPECT_EQ(cpu.records.empty(), !s.records) << effect.name << ", " << c.name;
+  }
 }
 
 TEST(cuda_engine, gives_the_same_bits_twice)

@@ -43,6 +43,24 @@ TEST(effects, keep_the_bytes_of_the_table_and_no_others)
   }
 }
 
+// What a wall has on is in the table, and the log can tell its cost.
+TEST(effects, of_a_wall_are_kinds_of_the_table)
+{
+  std::set<std::string> kinds;
+  for (const EffectCase &c : effect_cases()) kinds.insert(c.name);
+  for (const EffectCase &c : effect_cases()) {
+    int bytes = 0;
+    bool itself = c.over.empty();
+    for (const Effect &e : effects_of(c.settings)) {
+      EXPECT_TRUE(e.kind.empty() || kinds.count(e.kind)) << e.kind;
+      itself = itself || e.kind == c.name;
+      bytes += e.bytes_per_contact;
+    }
+    EXPECT_TRUE(itself) << c.name;
+    EXPECT_EQ(bytes, 8 * c.settings.law.n_extra()) << c.name;
+  }
+}
+
 // An engine holds no array for an effect that is off.
 TEST(effects, that_are_off_take_no_memory_of_the_engine)
 {

@@ -1,4 +1,5 @@
 #include "base/input_error.h"
+#include "effects/effects.h"
 #include "grid/grid_cache.h"
 #include "granular_words.h"
 #include "settings.h"
@@ -491,7 +492,9 @@ TEST(settings, effects_name_what_a_law_turns_on_and_what_that_keeps)
             "twisting marshall heat area 1 temperature 300 mesh a.stl");
   int bytes = 0;
   std::string all;
-  for (const Effect &e : effects_of(s.law)) {
+  EngineSettings engine;
+  engine.law = s.law;
+  for (const Effect &e : effects_of(engine)) {
     bytes += e.bytes_per_contact;
     all += e.name + ", ";
   }
