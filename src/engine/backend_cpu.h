@@ -34,6 +34,13 @@ struct CpuBackend {
     std::copy(host, host + n, to);
   }
   template <class T>
+  Array<T> from_host(const std::vector<T> &host)
+  {
+    Array<T> a(host.size());
+    copy_in(host.data(), a.data(), host.size());
+    return a;
+  }
+  template <class T>
   std::vector<T> to_host(const Array<T> &a, std::size_t n)
   {
     return std::vector<T>(a.data(), a.data() + n);

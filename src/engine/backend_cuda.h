@@ -115,6 +115,13 @@ struct CudaBackend {
                "copying to the device");
     wait();
   }
+  template <class T>
+  Array<T> from_host(const std::vector<T> &host)
+  {
+    Array<T> a(host.size());
+    copy_in(host.data(), a.data(), host.size());
+    return a;
+  }
   template <class T, class Memory>
   std::vector<T> to_host(const OwnedArray<T, Memory> &a, std::size_t n)
   {
