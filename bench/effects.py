@@ -19,7 +19,7 @@ from hard_cases import ROOT, commit, write_whole
 DOCUMENT = os.path.join(ROOT, "doc", "effects.md")
 PLOT = os.path.join(ROOT, "doc", "img", "effects.png")
 DEVICES = {"cpu": ["--spheres", "5000", "--repeats", "401"],
-           "cuda": ["--spheres", "2000000", "--repeats", "31"]}
+           "cuda": ["--spheres", "200000", "--repeats", "31"]}
 BEGIN, END = "<!-- costs:begin -->", "<!-- costs:end -->"
 
 

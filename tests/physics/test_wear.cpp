@@ -182,6 +182,29 @@ TEST(records, change_no_bit_of_the_forces)
   }
 }
 
+// In a shallow fold contacts share their overlap; so do the forces that are recorded.
+TEST(records, of_contacts_that_share_sum_to_the_force)
+{
+  Scene scene(hinge_mesh(20, 4), kRadius, worn(hooke(kStiffness), WearModel::none));
+  const Real a = 20 * M_PI / 180;
+  const Vec3 n[] = {{0, 0, 1}, {-std::sin(a), 0, std::cos(a)}};
+  // On the bisector, 2 % of the radius into both sides.
+  const Vec3 out = {-std::sin(a / 2), 0, std::cos(a / 2)};
+  scene.add_sphere((0.98 * kRadius / std::cos(a / 2)) * out, kRadius, kMass);
+  scene.compute(1e-4);
+  ASSERT_EQ(scene.engine->n_records(), 2);
+  Vec3 sum = {0, 0, 0};
+  for (int i = 0; i < 2; i++) {
+    const ContactRecord &r = scene.engine->records()[i];
+    EXPECT_LT(r.normal, 0.6 * kStiffness * 0.02 * kRadius) << "it has its share only";
+    const auto &face = scene.mesh.faces[feature_index(r.feature)];
+    bool rises = false;
+    for (int v : face) rises = rises || scene.mesh.vertices[v].x > 1e-9;
+    sum += r.normal * n[rises];
+  }
+  EXPECT_LE(norm(sum - scene.force(0)), 1e-10 * norm(sum));
+}
+
 // A sphere with more contacts than the kernel has places for is done again: every contact
 // is recorded, and the spheres around it keep theirs.
 TEST(records, of_crowded_spheres_are_all_there)
@@ -203,6 +226,8 @@ TEST(records, of_crowded_spheres_are_all_there)
     scene.add_sphere({0.45, 0, kRadius - kOverlap}, kRadius, kMass);
     scene.compute(1e-4);
     ASSERT_GT(scene.engine->n_records(), 12);
+    for (int i = 0; i < scene.engine->n_records(); i++)
+      EXPECT_GT(scene.engine->records()[i].normal, 0) << i;
     EXPECT_EQ(scene.engine->n_records(), scene.engine->totals().contacts);
     WallLoads loads;
     loads.add(scene.engine->records(), scene.engine->n_records(), 1, 0);
