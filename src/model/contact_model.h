@@ -106,7 +106,7 @@ struct GranularModel {
   using Number = T;
   static constexpr bool kHistory =
       Tangential::kHistory || Normal::kBeyond || Rolling::kOn || Twisting::kOn;
-  static constexpr int kVectors = Rolling::kOn ? 1 : 0;
+  static constexpr int kVectors = Rolling::kVectors;
   static constexpr int kScalars = Tangential::kScalars + (Twisting::kOn ? 1 : 0);
   static constexpr int kExtra = 3 * kVectors + kScalars;
   static constexpr bool kBeyond = Normal::kBeyond;

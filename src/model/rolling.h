@@ -17,6 +17,7 @@ struct NoRolling {
 template <class T>
 struct SdsRolling {
   static constexpr bool kOn = true;
+  static constexpr int kVectors = 1;
   T k, gamma, mu;    // force/length, mass/time, 1
 
   // `limit_force`: what the sliding limit is proportional to

@@ -1,4 +1,5 @@
 // The sub-models of `granular` against closed forms.
+#include "engine/compiled_law.h"
 #include "model/normal.h"
 #include "support/laws.h"
 #include "support/meshes.h"
@@ -520,6 +521,25 @@ TEST(granular, what_a_law_keeps_is_what_its_effects_need)
   EXPECT_EQ(law.law.n_extra(), 5);
   EXPECT_TRUE(granular(NormalModel::jkr, kK, 1).law.has_history());
   EXPECT_EQ(granular(NormalModel::jkr, kK, 1).law.n_extra(), 0);
+}
+
+TEST(granular, parameters_and_compiled_laws_agree_on_what_is_kept)
+{
+  int laws = 0;
+  for (int normal = 0; normal < 4; normal++)
+    for (int tangential = 0; tangential < 6; tangential++)
+      for (int more = 0; more < 8; more++) {
+        EngineSettings s = granular(static_cast<NormalModel>(normal), kK, 1);
+        GranularLaw &g = s.law.granular;
+        g.tangential = static_cast<TangentialModel>(tangential);
+        g.rolling = more & 1;
+        g.twisting = more & 2 ? TwistingModel::sds : TwistingModel::none;
+        g.heat = more & 4 ? HeatModel::area : HeatModel::none;
+        const LawTraits traits = host_law(s).traits;
+        laws += traits.history == s.law.has_history() && traits.heat == s.law.has_heat() &&
+                traits.n_extra == s.law.n_extra();
+      }
+  EXPECT_EQ(laws, 4 * 6 * 8);
 }
 
 TEST(granular, setup_moves_nothing)
