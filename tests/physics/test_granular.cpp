@@ -487,6 +487,32 @@ TEST(granular, forces_couples_and_heat_do_not_know_of_the_triangles)
   }
 }
 
+TEST(granular, a_shallow_fold_bears_heat_and_couples_as_the_flat_wall_does)
+{
+  // Over the seam of two half-planes 2 degrees apart a sphere has two contacts that share
+  // it: couples and heat of both, each whole, would be twice the flat wall's. They are its
+  // to the fold's angle.
+  EngineSettings law = everything(NormalModel::jkr);
+  law.law.granular.mu = 0;    // all torque is couples then
+  law.law.granular.twisting = TwistingModel::sds;
+  law.law.granular.gamma_twist = 0.4;
+  law.law.granular.mu_twist = 0.1;
+  Scene fold(hinge_mesh(2, 2), reach_of(law.law, kRadius), law);
+  OneSphere flat(law);
+  fold.add_sphere({-0.0085, 0.07, kRadius - 0.01}, kRadius, kMass, {1, 0, 0}, {1, 2, 3});
+  flat.scene.set_v(0, {1, 0, 0});
+  flat.scene.set_omega(0, {1, 2, 3});
+  fold.wall_temperature = flat.scene.wall_temperature = 50;
+  for (int i = 0; i < 3; i++) {
+    flat.at(0.01, 1e-6);
+    fold.compute(1e-6);
+  }
+  ASSERT_EQ(fold.engine->totals().contacts, 2);
+  EXPECT_NEAR(fold.heat(0), flat.scene.heat(0), 0.1 * flat.scene.heat(0));
+  const Vec3 couple = flat.scene.torque(0);
+  EXPECT_LE(norm(fold.torque(0) - couple), 0.1 * norm(couple));
+}
+
 TEST(granular, two_sheets_at_one_place_bear_heat_and_couples_once)
 {
   const EngineSettings law = everything(NormalModel::jkr);
