@@ -342,9 +342,9 @@ TEST(grid, chosen_length_keeps_to_the_budget)
   settings.reach = 0.05;
   settings.memory_budget = 2 << 20;
   const TriangleGrid grid = build_grid(mesh, settings, test_on_cuda());
-  const std::size_t bytes = grid.lists.brick_of.size() * sizeof(std::int32_t) +
-                            grid.lists.bricks.size() * sizeof(Brick) + grid.lists.cells.size() * sizeof(Cell) +
-                            grid.lists.candidates.size() * sizeof(Candidate);
+  const std::size_t bytes =
+      grid.lists.brick_of.size() * sizeof(std::int32_t) + grid.lists.bricks.size() * sizeof(Brick) +
+      grid.lists.cells.size() * sizeof(Cell) + grid.lists.candidates.size() * sizeof(Candidate);
   EXPECT_LE(bytes, settings.memory_budget);
   EXPECT_TRUE(grid.report.length_chosen);
 }
