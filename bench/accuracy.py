@@ -14,7 +14,7 @@ import os
 import subprocess
 import sys
 
-from hard_cases import ROOT, commit, write_whole
+from hard_cases import ROOT, commit, put_between, write_whole
 
 DOCUMENT = os.path.join(ROOT, "doc", "accuracy.md")
 PLOT = os.path.join(ROOT, "doc", "img", "accuracy_paper.png")
@@ -354,13 +354,7 @@ def write_document(rows_of):
         figure9=figure_nine(cpu, cuda),
         figure10=figure_ten(cpu, cuda), formula5=formula_five(rows), mesh=mesh(cpu, cuda),
         certificates=certified)
-    with open(DOCUMENT) as f:
-        text = f.read()
-    before, _, rest = text.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not end:
-        raise SystemExit(f"{DOCUMENT} has no markers {BEGIN} and {END}")
-    write_whole(DOCUMENT, before + part + after)
+    put_between(DOCUMENT, BEGIN, END, part)
 
 
 # ---- plot --------------------------------------------------------------------------------

@@ -83,6 +83,17 @@ def write_whole(path, text):
     os.replace(path + ".part", path)
 
 
+def put_between(path, begin, end, text):
+    """Puts text where a document has the marker lines begin and end, which text repeats."""
+    with open(path) as f:
+        old = f.read()
+    before, _, rest = old.partition(begin)
+    _, found, after = rest.partition(end)
+    if not found:
+        raise SystemExit(f"{path} has no markers {begin} and {end}")
+    write_whole(path, before + text + after)
+
+
 def run(build, backend):
     """Rows of one backend, the names of programs that failed; None without the device."""
     failed = []

@@ -15,7 +15,7 @@ import os
 import subprocess
 import sys
 
-from hard_cases import ROOT, write_whole
+from hard_cases import ROOT, put_between
 
 sys.path.insert(0, os.path.join(ROOT, "src", "tool"))
 import plot_tradeoff    # noqa: E402
@@ -220,13 +220,7 @@ def write_document(vessel, cylinder):
         runs=machines(vessel), cylinder_triangles=c["triangles"],
         cylinder_least=c["least_radius"], cylinder_largest=c["largest_radius"],
         cylinder=first_screen(cylinder), cylinder_runs=machines(cylinder), full=full_table(vessel))
-    with open(DOCUMENT) as f:
-        text = f.read()
-    before, _, rest = text.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not end:
-        raise SystemExit(f"{DOCUMENT} has no markers {BEGIN} and {END}")
-    write_whole(DOCUMENT, before + part + after)
+    put_between(DOCUMENT, BEGIN, END, part)
 
 
 def main(arguments=None):

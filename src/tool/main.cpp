@@ -1,11 +1,9 @@
 // lsdcd: looks at a mesh, its grid and its materials before a simulation does.
 #include "base/input_error.h"
 #include "grid/triangle_grid.h"
-#include "mesh/placement.h"
-#include "mesh/triangle_soup.h"
-#include "mesh/wall_mesh.h"
 #include "tool/accuracy_command.h"
 #include "tool/effects_command.h"
+#include "tool/load_mesh.h"
 #include "tool/material.h"
 #include "tool/tradeoff_command.h"
 
@@ -26,16 +24,6 @@ struct Options {
   double weld = -1, radius = 0, length = 0, memory = 1024;
   bool json = false;
 };
-
-WallMesh load(const Options &o)
-{
-  TriangleSoup soup = read_stl(o.file);
-  Placement placement;
-  if (o.scale.size() == 1) placement.scale({o.scale[0], o.scale[0], o.scale[0]});
-  if (o.scale.size() == 3) placement.scale({o.scale[0], o.scale[1], o.scale[2]});
-  placement.apply(soup);
-  return weld(soup, o.weld);
-}
 
 nlohmann::json as_json(const Vec3 &v)
 {
@@ -86,7 +74,7 @@ nlohmann::json as_json(const GridReport &r)
 
 void inspect(const Options &o)
 {
-  const WallMesh mesh = load(o);
+  const WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
   if (o.json)
     std::printf("%s\n", as_json(mesh.report).dump(2).c_str());
   else
@@ -95,7 +83,7 @@ void inspect(const Options &o)
 
 void grid(const Options &o)
 {
-  const WallMesh mesh = load(o);
+  const WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
   GridSettings settings;
   settings.length = o.length;
   settings.reach = o.radius;

@@ -2,8 +2,7 @@
 
 #include "base/input_error.h"
 #include "base/whole_file.h"
-#include "mesh/placement.h"
-#include "mesh/triangle_soup.h"
+#include "tool/load_mesh.h"
 #include "tune/tradeoff.h"
 
 #include <cmath>
@@ -53,16 +52,6 @@ std::string above_zero(const std::string &word)
   char *end = nullptr;
   const double value = std::strtod(word.c_str(), &end);
   return *end == 0 && value > 0 && std::isfinite(value) ? "" : word + " is not a number above 0";
-}
-
-WallMesh load(const Options &o)
-{
-  TriangleSoup soup = read_stl(o.file);
-  Placement placement;
-  if (o.scale.size() == 1) placement.scale({o.scale[0], o.scale[0], o.scale[0]});
-  if (o.scale.size() == 3) placement.scale({o.scale[0], o.scale[1], o.scale[2]});
-  placement.apply(soup);
-  return weld(soup, o.weld);
 }
 
 std::string formatted(const char *format, double value)
@@ -170,7 +159,7 @@ void tradeoff(Options &o)
   if (o.settings.cuda && !gpu) throw InputError("--device cuda: " + why + "; use cpu or auto");
   o.settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
   if (o.plot.empty()) o.plot = std::filesystem::path(o.csv).replace_extension(".png").string();
-  const WallMesh mesh = load(o);
+  const WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
   WholeFile file(o.csv);    // now, rather than fail when all is done
   std::printf("%s, %zu triangles\n", o.file.c_str(), mesh.faces.size());
   std::printf("      grid  nearest  precision  corner  device   missed %%  force error: mean  "

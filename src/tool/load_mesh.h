@@ -1,0 +1,25 @@
+// The mesh that the words of a command name.
+#pragma once
+
+#include "mesh/placement.h"
+#include "mesh/triangle_soup.h"
+#include "mesh/wall_mesh.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// `scale` holds no factor, one, or three; `tolerance` is that of weld(). Throws InputError.
+inline WallMesh load_mesh(const std::string &file, const std::vector<double> &scale,
+                          double tolerance)
+{
+  TriangleSoup soup = read_stl(file);
+  Placement placement;
+  if (scale.size() == 1) placement.scale({scale[0], scale[0], scale[0]});
+  if (scale.size() == 3) placement.scale({scale[0], scale[1], scale[2]});
+  placement.apply(soup);
+  return weld(soup, tolerance);
+}
+
+}    // namespace lsdcd
