@@ -273,8 +273,7 @@ tried on {tried} spheres, none of which gives all four:
 
 {one_triangle}
 
-We conclude that those runs hardly found contacts, most likely because of a fault in the
-program; which one cannot be told from the numbers.
+This suggests that those runs hardly found contacts; why cannot be told from the numbers.
 
 ### Figure 9: number of spheres (N = 2, L = 0.2)
 
