@@ -4,6 +4,7 @@
 #include "bench.h"
 
 #include "engine/wall_engine.h"
+#include "grid/flat_grid.h"
 #include "support/meshes.h"
 
 #include <cstdint>
@@ -76,10 +77,7 @@ int main(int argc, char **argv)
       GridSettings settings;
       settings.reach = 1;
       const TriangleGrid grid = build_grid(mesh, settings, cuda);
-      std::vector<char> memory(flat_bytes(grid) + 64);
-      char *block =
-          memory.data() + (64 - reinterpret_cast<std::uintptr_t>(memory.data()) % 64) % 64;
-      flatten(grid, block);
+      const FlatGrid flat(grid);
       for (bool on_cuda : {false, true})
         for (const auto &style : styles) {
           if (on_cuda && !cuda) continue;
@@ -92,7 +90,7 @@ int main(int argc, char **argv)
           e.law.gamma_tangent = 25;
           e.law.mu = 0.5;
           auto engine = make_engine(e);
-          engine->set_grid(flat_view(block));
+          engine->set_grid(flat.view());
           SpringStore springs;
           springs.grow(n);
           Spheres s;

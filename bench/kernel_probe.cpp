@@ -30,9 +30,7 @@ int main()
   GridSettings grid_settings;
   grid_settings.reach = 0.5;
   const TriangleGrid grid = build_grid(mesh, grid_settings);
-  std::vector<char> memory(flat_bytes(grid) + 64);
-  char *block = memory.data() + (64 - reinterpret_cast<std::uintptr_t>(memory.data()) % 64) % 64;
-  flatten(grid, block);
+  const FlatGrid flat(grid);
 
   std::mt19937 random(3);
   std::uniform_real_distribution<Real> u(-3.4, 3.4), z(-0.4, 6.4), speed(-1, 1);
@@ -54,7 +52,7 @@ int main()
   settings.search = {true, 0};
   settings.dt = 1e-3;
   settings.update = true;
-  const int contacts = probed_kernel(flat_view(block), law, settings, spheres, springs);
+  const int contacts = probed_kernel(flat.view(), law, settings, spheres, springs);
   std::printf("%d contacts\n", contacts);
   return contacts > 0 ? 0 : 1;
 }

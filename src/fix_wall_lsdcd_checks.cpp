@@ -4,6 +4,7 @@
 
 #include "effects/effects.h"
 #include "input_words.h"
+#include "tune/trial_grid.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -229,7 +230,6 @@ void FixWallLsdcd::log_creation() const
     t += "nothing stored, exchanged or restarted";
   if (settings.contacts)
     t += "; " + std::to_string(size_peratom_cols * sizeof(double)) + " bytes for contacts";
-  const char *const precisions[] = {"double", "mixed", "single"};
   t += "\n  search      ";
   if (settings.tune >= 0)
     t += "tuned once there are particles, for errors below " + number_text(settings.tune);
@@ -239,7 +239,7 @@ void FixWallLsdcd::log_creation() const
            (settings.exact ? ", complete lists where that is not certified" : "");
     else
       t += "all that can touch";
-    t += std::string(", precision ") + precisions[static_cast<int>(settings.precision)];
+    t += std::string(", precision ") + lsdcd::precision_name(settings.precision);
   }
   const char *const sides[] = {"both", "in", "out"};
   t += std::string("\n  corners     ") +

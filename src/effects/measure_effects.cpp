@@ -1,5 +1,6 @@
 #include "effects/effects.h"
 
+#include "grid/flat_grid.h"
 #include "mesh/triangle_soup.h"
 
 #include <algorithm>
@@ -96,9 +97,7 @@ std::vector<EffectCost> measure_effects(const std::vector<EffectCase> &cases, De
   for (const EffectCase &c : cases) reach = std::max(reach, reach_of(c.settings.law, kRadius));
   settings.reach = reach;
   const TriangleGrid grid = build_grid(mesh, settings);
-  std::vector<char> memory(flat_bytes(grid) + 64);
-  char *block = memory.data() + (64 - reinterpret_cast<std::uintptr_t>(memory.data()) % 64) % 64;
-  flatten(grid, block);
+  const FlatGrid flat(grid);
 
   Bed bed(n_spheres);
   StepSettings step;
@@ -108,7 +107,7 @@ std::vector<EffectCost> measure_effects(const std::vector<EffectCase> &cases, De
     EngineSettings e = c.settings;
     e.device = device;
     runners.push_back({make_engine(e), SpringStore(e.law.n_extra()), {}});
-    runners.back().engine->set_grid(flat_view(block));
+    runners.back().engine->set_grid(flat.view());
     runners.back().springs.grow(n_spheres);
   }
   for (int r = -1; r < repeats; r++)    // the first round warms up

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "grid/flat_grid.h"
 #include "query/nearest_distance.h"
 #include "query/sphere_query.h"
 
@@ -34,15 +35,12 @@ class QueryOn : public SphereQuery {
   void set_grid(const TriangleGrid &grid) override
   {
     n_faces_ = static_cast<std::uint32_t>(grid.wall.faces.size());
-    // From aligned memory: a flat block is viewed where it lies.
-    Array<char> block(flat_bytes(grid));
-    std::vector<char> packed(flat_bytes(grid) + kBlockAlign);
-    char *at = packed.data();
-    at += (kBlockAlign - reinterpret_cast<std::uintptr_t>(at) % kBlockAlign) % kBlockAlign;
-    flatten(grid, at);
-    b_.copy_in(at, block.data(), block.size());
+    const FlatGrid flat(grid);
+    const GridView view = flat.view();
+    Array<char> block(view.block_bytes);
+    b_.copy_in(view.block, block.data(), block.size());
     block_ = std::move(block);
-    grid_ = moved_view(flat_view(at), block_.data());
+    grid_ = moved_view(view, block_.data());
   }
 
   void set_spheres(const Sphere *spheres, std::size_t n) override
@@ -152,8 +150,6 @@ class QueryOn : public SphereQuery {
   }
 
  private:
-  static constexpr std::size_t kBlockAlign = 64;
-
   template <class T, class Other>
   T *room_in(Array<T> &to, Array<Other> &other, std::size_t n)
   {

@@ -3,7 +3,6 @@
 #include "grid/shorten_lists.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
 namespace lsdcd {
@@ -60,10 +59,8 @@ const TriangleGrid &TrialGrid::make(int nearest, bool exact, bool in_floats)
 
 GridView TrialGrid::flat()
 {
-  block_.resize(flat_bytes(made_) + 64);
-  char *block = block_.data() + (64 - reinterpret_cast<std::uintptr_t>(block_.data()) % 64) % 64;
-  flatten(made_, block);
-  return flat_view(block);
+  flat_ = FlatGrid(made_);
+  return flat_.view();
 }
 
 }    // namespace lsdcd

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/wall_engine.h"
-#include "grid/triangle_grid.h"
+#include "grid/flat_grid.h"
 
 #include <string>
 #include <vector>
@@ -53,7 +53,7 @@ class TrialGrid {
  private:
   TriangleGrid base_, made_;        // made_ has the wall
   std::vector<FaceParts> parts_;    // of its faces, while no nearest lists want them
-  std::vector<char> block_;
+  FlatGrid flat_;
 };
 
 }    // namespace lsdcd

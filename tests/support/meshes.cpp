@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <random>
 
 namespace lsdcd {
@@ -128,11 +127,9 @@ Scene::Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real
   g.exact = exact;
   g.in_floats = settings.precision != Precision::double_;
   grid = build_grid(mesh, g, test_on_cuda());
-  block_.resize(flat_bytes(grid) + 64);
-  char *block = block_.data() + (64 - reinterpret_cast<std::uintptr_t>(block_.data()) % 64) % 64;
-  flatten(grid, block);
+  flat_ = FlatGrid(grid);
   engine = make_engine(settings);
-  engine->set_grid(flat_view(block));
+  engine->set_grid(flat_.view());
 }
 
 int Scene::add_sphere(const Vec3 &x, Real radius, Real mass, const Vec3 &v, const Vec3 &omega)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/wall_engine.h"
-#include "grid/triangle_grid.h"
+#include "grid/flat_grid.h"
 #include "mesh/triangle_soup.h"
 #include "mesh/wall_mesh.h"
 
@@ -81,7 +81,7 @@ class Scene {
   {
     for (int k = 0; k < 3; k++) a[3 * i + k] = value[k];
   }
-  std::vector<char> block_;
+  FlatGrid flat_;
   std::vector<Real> x_, v_, omega_, f_, torque_, radius_, mass_, heat_, temperature_;
 };
 

@@ -116,16 +116,14 @@ Outcome run_steps(const Case &c, const ContactLaw &law, Device device, int n_sph
   g.exact = search.exact;
   g.in_floats = search.precision != Precision::double_;
   const TriangleGrid grid = build_grid(mesh, g);
-  std::vector<char> block(flat_bytes(grid) + 64);
-  char *at = block.data() + (64 - reinterpret_cast<std::uintptr_t>(block.data()) % 64) % 64;
-  flatten(grid, at);
+  const FlatGrid flat(grid);
 
   EngineSettings e = wall;
   e.law = law;
   e.device = device;
   e.precision = search.precision;
   auto engine = make_engine(e);
-  engine->set_grid(flat_view(at));
+  engine->set_grid(flat.view());
 
   std::mt19937_64 random(11);
   std::uniform_real_distribution<Real> unit(0, 1), speed(-3, 3);

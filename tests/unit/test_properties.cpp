@@ -10,6 +10,7 @@
 #include "support/properties.h"
 
 #include "base/input_error.h"
+#include "grid/flat_grid.h"
 #include "mesh/face_plane.h"
 
 #include <gtest/gtest.h>
@@ -381,9 +382,7 @@ TEST(property, forces_are_finite_and_those_of_the_cpu)
     const Wall wall(seed, test_on_cuda());
     const auto triangles = long_triangles<long double>(wall.made.soup);
     const PairMesh<long double> mesh = wall.pairs(triangles, seed);
-    std::vector<char> bytes(flat_bytes(wall.grid) + 64);
-    char *block = bytes.data() + (64 - reinterpret_cast<std::uintptr_t>(bytes.data()) % 64) % 64;
-    flatten(wall.grid, block);
+    const FlatGrid flat(wall.grid);
     Numbers r(seed + 7);
     std::vector<Real> x, v, omega, radius, mass(kPerMesh, 1);
     for (int k = 0; k < kPerMesh; k++) {
@@ -400,7 +399,7 @@ TEST(property, forces_are_finite_and_those_of_the_cpu)
     const auto run = [&](Device device, int at) {
       law.device = device;
       const auto engine = make_engine(law);
-      engine->set_grid(flat_view(block));
+      engine->set_grid(flat.view());
       SpringStore springs;
       springs.grow(kPerMesh);
       force[at].assign(3 * kPerMesh, 0);
