@@ -1,18 +1,55 @@
 #!/usr/bin/env bash
-# Builds the LAMMPS that granular walls are checked against: 4Jul2026, from the source
-# package of Debian's sid, with the packages GRANULAR and PLUGIN, outside the tree.
-#   build_host.sh            builds it unless it is there; the last line is its folder
+# Builds a LAMMPS to test against, from Debian's parts and outside the tree.
+#   build_host.sh [VERSION]  builds it unless it is there; the last line is its folder
+#   VERSION 20260704         (default) 4Jul2026 of Debian's sid, whose granular walls ours are
+#                            checked against, with a Kokkos of its own
+#   VERSION 20210929         29Sep2021 of bookworm on bookworm's Kokkos 3.4
 #   LSDCD_HOSTS              where (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts)
 #   LSDCD_HOST_JOBS          compilers at once (default: one per core)
-# The folder then holds lmp, liblammps.so.0 and src/ with its headers. About 215 MB come
-# from the mirror that this machine's apt uses; the build takes some minutes.
-# Exits 77 with a line "skipped: ..." where source or tools cannot be had.
+# Both have the packages GRANULAR, KOKKOS (Serial, double) and PLUGIN. The folder then holds
+#   lmp, liblammps.so.0      the program; both resolve their libraries from the folder itself
+#   src/                     headers of LAMMPS, those of its package KOKKOS in src/KOKKOS
+#   kokkos/                  include/ and lib/ of Kokkos, where Debian has none to install
+#   host.cmake               what a plugin for it is compiled with, as CMake variables: its
+#                            Kokkos ("" without), includes, definitions, least C++ standard
+# 80 to 215 MB come from the mirror that this machine's apt uses; the build takes some minutes.
+# Exits 77 with a line "skipped: ..." where source or tools cannot be had. Without the source
+# of Kokkos 4Jul2026 is built without it, which a line says: host.cmake then names none.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/debian_mirror.sh"
 
-version=20260704
-file=lammps_$version+dfsg.orig.tar.gz
-sha256=cddbc45a047416bd48a4a0b87f24a5b61b3446982b74d18cafe619c22b17eb62
+skip() { echo "skipped: $*"; exit 77; }
+die() { echo "build_host.sh: $*" >&2; exit 1; }
+
+version=${1:-20260704}
+# Pool paths and checksums are those of Debian's source packages. top: the folder that the
+# archive wraps around the source. kokkos_source is empty where a Debian package does.
+case $version in
+  20260704)
+    source=lammps/lammps_20260704+dfsg.orig.tar.gz
+    sha256=cddbc45a047416bd48a4a0b87f24a5b61b3446982b74d18cafe619c22b17eb62
+    top=
+    # LAMMPS asks for 5.1, but needs nothing that 5.0 lacks, and 5.0.2 is what the pool has.
+    kokkos=5.0.2
+    kokkos_source=kokkos/kokkos_5.0.2.orig.tar.gz
+    kokkos_sha256=188817bb452ca805ee8701f1c5adbbb4fb83dc8d1c50624566a18a719ba0fa5e
+    kokkos_include='${CMAKE_CURRENT_LIST_DIR}/kokkos/include'
+    standard=20
+    defines="LMP_KOKKOS LMP_KOKKOS_DOUBLE_DOUBLE LMP_KOKKOS_LAYOUT_LEGACY"
+    ;;
+  20210929)
+    source=lammps/lammps_20220106.git7586adbb6a+ds1.orig.tar.xz
+    sha256=65146c615ad24d8b8bc64f4e05e86226a7f1fdb45c0b5ea9416562b9f3863082
+    top=lammps-0~20220106.git7586adbb6a/
+    kokkos=3.4.1
+    kokkos_source=
+    kokkos_include=/usr/include/trilinos
+    standard=14
+    defines="LMP_KOKKOS"
+    ;;
+  *) die "no such version: $version (20260704 or 20210929)" ;;
+esac
+
 # -O1 compiles in two thirds of the time of -O2, and the decks are small. No contraction:
 # our own build has none, and the two are compared to the last bits.
 flags="-O1 -ffp-contract=off"
@@ -20,61 +57,138 @@ options=(-D BUILD_SHARED_LIBS=on -D BUILD_MPI=on -D BUILD_OMP=off
          -D PKG_GRANULAR=on -D PKG_PLUGIN=on
          -D WITH_JPEG=off -D WITH_PNG=off -D WITH_FFMPEG=off -D WITH_GZIP=off -D WITH_CURL=off
          -D CMAKE_BUILD_TYPE=None)
+# As LAMMPS asks of the Kokkos that it builds itself.
+kokkos_options=(-D BUILD_SHARED_LIBS=on -D Kokkos_ENABLE_SERIAL=on -D Kokkos_ENABLE_IMPL_VIEW_LEGACY=on
+                -D Kokkos_ENABLE_ATOMICS_BYPASS=on -D CMAKE_CXX_STANDARD="$standard"
+                -D CMAKE_CXX_EXTENSIONS=off -D CMAKE_INSTALL_LIBDIR=lib -D CMAKE_BUILD_TYPE=None)
 
 hosts=${LSDCD_HOSTS:-${XDG_CACHE_HOME:-$HOME/.cache}/lsdcd/hosts}
 folder=$hosts/$version
+work=$folder/work
 jobs=${LSDCD_HOST_JOBS:-$(nproc)}
-
-skip() { echo "skipped: $*"; exit 77; }
-die() { echo "build_host.sh: $*" >&2; exit 1; }
 
 for tool in cmake c++ mpicxx flock sha256sum tar; do
   command -v $tool >/dev/null || skip "no $tool on this machine"
 done
+if [ -z "$kokkos_source" ] && ! grep -qs 'KOKKOS_VERSION 30401' $kokkos_include/KokkosCore_config.h; then
+  skip "no Kokkos $kokkos on this machine (bookworm's libtrilinos-kokkos-dev)"
+fi
 mkdir -p "$folder"
 
 # Two runs at once: the second waits, and then finds everything there.
 exec 9>"$folder/lock"
 flock 9
 
-stamp="2 $version $sha256 $flags ${options[*]} $(c++ -dumpfullversion) $(mpicxx --showme:link 2>/dev/null || true)"
-if [ -x "$folder/lmp" ] && [ "$(cat "$folder/stamp" 2>/dev/null)" = "$stamp" ]; then
-  echo "$folder"
-  exit 0
-fi
+# fetch POOL_PATH SHA256: into $work. apt-helper goes through apt's own proxies and refuses
+# a file with another checksum.
+fetch() {
+  local helper=/usr/lib/apt/apt-helper mirror file=${1##*/} path=$1
+  mirror=$(debian_mirror)
+  why=
+  if [ ! -x $helper ]; then why="no apt here to fetch $file with"; return 1; fi
+  if [ -z "$mirror" ]; then why="apt has no Debian mirror configured"; return 1; fi
+  echo "fetching $file"
+  $helper -o APT::Sandbox::User=root download-file "$mirror/pool/main/${path:0:1}/$path" "$work/$file" \
+    "SHA256:$2" >"$work/log" 2>&1 && return 0
+  tail -3 "$work/log"
+  why="$file does not come from the mirror"
+  return 1
+}
 
-helper=/usr/lib/apt/apt-helper
-[ -x $helper ] || skip "no apt here to fetch the source of LAMMPS with"
-mirror=$(debian_mirror)
-[ -n "$mirror" ] || skip "apt has no Debian mirror configured"
-
-work=$folder/work
-rm -rf "$work" "$folder/stamp" "$folder/src" "$folder"/lmp "$folder"/liblammps.so*
-mkdir -p "$work"
-trap 'rm -rf "$work"' EXIT
-
-# apt-helper goes through apt's own proxies and refuses a file with another checksum.
-echo "fetching $file"
-$helper -o APT::Sandbox::User=root download-file "$mirror/pool/main/l/lammps/$file" "$work/$file" \
-  "SHA256:$sha256" >"$work/log" 2>&1 || { tail -3 "$work/log"; skip "$file does not come from the mirror"; }
-tar -xzf "$work/$file" -C "$work" cmake src lib LICENSE || die "cannot unpack $file"
-rm "$work/$file"
-
-echo "building LAMMPS $version with $jobs compilers"
 generator=() launcher=()
 if command -v ninja >/dev/null; then generator=(-G Ninja); fi
 if command -v ccache >/dev/null; then launcher=(-D CMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 export CCACHE_BASEDIR=$work CCACHE_NOHASHDIR=1
-{
-  cmake -S "$work/cmake" -B "$work/build" "${generator[@]}" "${launcher[@]}" "${options[@]}" \
-    -D CMAKE_CXX_FLAGS="$flags" -D CMAKE_BUILD_RPATH_USE_ORIGIN=on </dev/null &&
-    cmake --build "$work/build" -j "$jobs" --target lmp </dev/null
-} >"$work/log" 2>&1 || { tail -40 "$work/log" >&2; die "LAMMPS $version does not build"; }
 
-# What is kept: the program, its library beside it, and the headers.
+# compile WHAT TARGET SOURCE BUILD [option...]: libraries are found beside the program.
+compile() {
+  local what=$1 target=$2 from=$3 to=$4
+  shift 4
+  echo "building $what with $jobs compilers"
+  {
+    cmake -S "$from" -B "$to" "${generator[@]}" "${launcher[@]}" -D CMAKE_CXX_FLAGS="$flags" \
+      -D CMAKE_BUILD_WITH_INSTALL_RPATH=on -D CMAKE_INSTALL_RPATH='$ORIGIN;$ORIGIN/kokkos/lib' \
+      "$@" </dev/null &&
+      cmake --build "$to" -j "$jobs" --target "$target" </dev/null
+  } >"$work/log" 2>&1 || { tail -40 "$work/log" >&2; die "$what does not build"; }
+}
+
+tools="$(c++ -dumpfullversion) $(mpicxx --showme:link 2>/dev/null || true)"
+rm -rf "$work"
+mkdir "$work"
+trap 'rm -rf "$work"' EXIT
+
+# ---- Kokkos ------------------------------------------------------------------------------
+
+stamp="1 $kokkos $flags ${kokkos_options[*]} $tools"
+if [ -n "$kokkos_source" ] && [ "$(cat "$folder/kokkos/stamp" 2>/dev/null)" != "$stamp" ]; then
+  rm -rf "$folder/kokkos"
+  if fetch "$kokkos_source" "$kokkos_sha256"; then
+    mkdir "$work/kokkos"
+    tar -xf "$work/${kokkos_source##*/}" -C "$work/kokkos" --strip-components=1 || die "cannot unpack $kokkos_source"
+    compile "Kokkos $kokkos" install "$work/kokkos" "$work/kokkos-build" \
+      -D CMAKE_INSTALL_PREFIX="$folder/kokkos" "${kokkos_options[@]}"
+    echo "$stamp" >"$folder/kokkos/stamp"
+  else
+    echo "without KOKKOS: $why"
+    kokkos=
+  fi
+fi
+
+# ---- LAMMPS ------------------------------------------------------------------------------
+
+if [ -n "$kokkos" ]; then
+  options+=(-D PKG_KOKKOS=on -D EXTERNAL_KOKKOS=on -D CMAKE_CXX_STANDARD="$standard")
+fi
+stamp="3 $version $sha256 kokkos=$kokkos $flags ${options[*]} $tools"
+if [ -x "$folder/lmp" ] && [ "$(cat "$folder/stamp" 2>/dev/null)" = "$stamp" ]; then
+  echo "$folder"
+  exit 0
+fi
+rm -rf "$folder"/{stamp,host.cmake,src,lmp} "$folder"/liblammps.so*
+fetch "$source" "$sha256" || skip "$why"
+tar -xf "$work/${source##*/}" -C "$work" ${top:+--strip-components=1} "$top"{cmake,src,lib,LICENSE} ||
+  die "cannot unpack $source"
+rm "$work/${source##*/}"
+# Pair styles take most of the time that KOKKOS takes to compile, and the decks need these.
+find "$work/src/KOKKOS" -name 'pair_*_kokkos.*' ! -name 'pair_gran_*' ! -name 'pair_hybrid*' -delete
+
+# The package files of Kokkos: Debian's names a folder that is not there, and LAMMPS asks for
+# a later version than the pool has. What is compiled against either decides.
+if [ -n "$kokkos" ]; then
+  cat >"$work/KokkosConfigVersion.cmake" <<TEXT
+set(PACKAGE_VERSION $kokkos)
+set(PACKAGE_VERSION_COMPATIBLE TRUE)
+TEXT
+  if [ -n "$kokkos_source" ]; then
+    options+=(-D CMAKE_EXE_LINKER_FLAGS="-Wl,-rpath-link,$folder/kokkos/lib")
+    echo "include($folder/kokkos/lib/cmake/Kokkos/KokkosConfig.cmake)" >"$work/KokkosConfig.cmake"
+  else
+    cat >"$work/KokkosConfig.cmake" <<TEXT
+add_library(Kokkos::kokkos INTERFACE IMPORTED)
+set_target_properties(Kokkos::kokkos PROPERTIES
+  INTERFACE_INCLUDE_DIRECTORIES $kokkos_include
+  INTERFACE_COMPILE_FEATURES cxx_std_$standard
+  INTERFACE_LINK_LIBRARIES "trilinos_kokkoscore;trilinos_kokkoscontainers;\${CMAKE_DL_LIBS}")
+TEXT
+  fi
+  options+=(-D Kokkos_DIR="$work")
+fi
+compile "LAMMPS $version" lmp "$work/cmake" "$work/build" "${options[@]}"
+
+# What is kept: the program, its library beside it, the headers, and how they were compiled.
 cp -P "$work"/build/liblammps.so* "$work/build/lmp" "$folder"
 mkdir "$folder/src"
 (cd "$work/src" && find . -name '*.h' -exec cp --parents -t "$folder/src" {} + &&
-  cp -r nlohmann "$folder/src")
+  { [ ! -d nlohmann ] || cp -r nlohmann "$folder/src"; })
+{
+  echo "set(LSDCD_HOST_VERSION $version)"
+  echo "set(LSDCD_HOST_KOKKOS \"$kokkos\")"
+  if [ -n "$kokkos" ]; then
+    echo "set(LSDCD_HOST_KOKKOS_INCLUDES \"\${CMAKE_CURRENT_LIST_DIR}/src/KOKKOS\" \"$kokkos_include\")"
+    echo "set(LSDCD_HOST_KOKKOS_DEFINITIONS $defines)"
+    echo "set(LSDCD_HOST_KOKKOS_STANDARD $standard)"
+  fi
+} >"$folder/host.cmake"
 echo "$stamp" >"$folder/stamp"
 echo "$folder"
