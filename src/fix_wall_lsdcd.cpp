@@ -4,6 +4,9 @@
 #include "node_material.h"
 
 #include "atom.h"
+#if __has_include("atom_masks.h")
+#include "atom_masks.h"
+#endif
 #include "comm.h"
 #include "error.h"
 #include "force.h"
@@ -32,8 +35,16 @@ static constexpr int kTotals = 9;
 static constexpr int kContactColumns = 8;
 static constexpr double kHeadroom = 1.1;    // in reach, once radii are known to grow
 
-FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker) :
+    Fix(lmp, narg, arg), new_engine(maker)
 {
+#if __has_include("atom_masks.h")
+  // All that a host with its atoms on a GPU has to bring for this fix, and take back.
+  datamask_read = X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TAG_MASK |
+                  F_MASK | TORQUE_MASK;
+  datamask_modify = F_MASK | TORQUE_MASK;
+#endif
+
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     refuse("atoms need a radius, omega and torque: use atom_style sphere");
 
@@ -96,7 +107,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   }
 
   // Without spheres there is no telling how far outside is too far.
-  double radius = largest_radius();
+  double radius = FixWallLsdcd::largest_radius();
   MPI_Allreduce(MPI_IN_PLACE, &radius, 1, MPI_DOUBLE, MPI_MAX, world);
   if (settings.rmax > 0) radius = settings.rmax;
   if (radius > 0) check_box(lsdcd::reach_of(settings.law, radius));
@@ -233,7 +244,6 @@ void FixWallLsdcd::start()
 
 void FixWallLsdcd::collect()
 {
-  reduced = false;
   if (running) {
     try {
       engine->collect();
@@ -250,6 +260,13 @@ void FixWallLsdcd::collect()
       worst_step = update->ntimestep;
     }
   }
+  keep_outputs();
+}
+
+// Of the step just computed.
+void FixWallLsdcd::keep_outputs()
+{
+  reduced = false;
   if (records) add_loads();
   if (settings.contacts) fill_contacts();
 }
@@ -273,7 +290,7 @@ lsdcd::EngineSettings FixWallLsdcd::engine_settings() const
 void FixWallLsdcd::make_engine()
 {
   const lsdcd::EngineSettings want = engine_settings();
-  lsdcd::together(world, true, [&] { engine = lsdcd::make_engine(want); });
+  lsdcd::together(world, true, [&] { engine = new_engine(want); });
 }
 
 // Builds the grid when the first spheres come, and again when larger ones do.
@@ -306,6 +323,7 @@ void FixWallLsdcd::update_reach()
 // What damping sees of an atom in a rigid body is the mass of the body.
 void FixWallLsdcd::fill_masses()
 {
+  need_on_host();
   const int nlocal = atom->nlocal;
   mass_seen.assign(atom->rmass, atom->rmass + nlocal);
   for (int k = 0; k < modify->nfix; k++) {

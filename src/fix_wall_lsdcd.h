@@ -15,7 +15,9 @@ namespace LAMMPS_NS {
 
 class FixWallLsdcd : public Fix {
  public:
-  FixWallLsdcd(class LAMMPS *, int, char **);
+  using EngineMaker = std::unique_ptr<lsdcd::WallEngine>(const lsdcd::EngineSettings &);
+
+  FixWallLsdcd(class LAMMPS *, int, char **, EngineMaker * = lsdcd::make_engine);
   ~FixWallLsdcd() override;
 
   // schedule: fix_wall_lsdcd.cpp
@@ -53,10 +55,11 @@ class FixWallLsdcd : public Fix {
   double memory_usage() override;
   int image(int *&, double **&) override;
 
- private:
+ protected:
   lsdcd::WallSettings settings;
   std::string material;    // what a material file filled in, for the log; else empty
   std::unique_ptr<lsdcd::NodeWall> wall;
+  EngineMaker *const new_engine;
   std::unique_ptr<lsdcd::WallEngine> engine;
   lsdcd::SpringStore springs;
   lsdcd::WallLoads loads;
@@ -88,10 +91,15 @@ class FixWallLsdcd : public Fix {
   std::vector<double> image_data;
   std::vector<double *> image_rows;
 
-  void start();
-  void collect();
+  // What wall/lsdcd/kk does in its own way.
+  virtual void start();
+  virtual void collect();
+  virtual void fill_masses();
+  virtual double largest_radius();    // of the group, on this process
+  virtual void need_on_host() {}      // before atom data are read outside of a step
+
+  void keep_outputs();
   void update_reach();
-  void fill_masses();
   void fill_contacts();
   void reduce_totals();
 
@@ -108,7 +116,6 @@ class FixWallLsdcd : public Fix {
   void give_heat(lsdcd::Spheres &, lsdcd::StepSettings &);
 
   // fix_wall_lsdcd_checks.cpp
-  double largest_radius() const;    // of the group, on this process
   void check_box(double) const;
   void check_side() const;
   void check_overlap(double);

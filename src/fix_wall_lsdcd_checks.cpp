@@ -34,7 +34,7 @@ void FixWallLsdcd::log(const std::string &lines) const
   if (comm->me == 0) utils::logmesg(lmp, lines + "\n");
 }
 
-double FixWallLsdcd::largest_radius() const
+double FixWallLsdcd::largest_radius()
 {
   // Atoms may enter a dynamic group between two looks.
   const bool all = group->dynamic[igroup];
@@ -137,6 +137,7 @@ double FixWallLsdcd::contact_time(double mass, double radius) const
 void FixWallLsdcd::check_timestep()
 {
   if (update->dt == checked_dt || wall->reach() == 0) return;
+  need_on_host();
   double shortest = INFINITY;
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit)
@@ -247,7 +248,8 @@ void FixWallLsdcd::log_creation() const
        sides[static_cast<int>(settings.side)];
   t += "\n  device      " + engine->backend();
   std::string why;
-  if (settings.device == lsdcd::Device::automatic && !lsdcd::cuda_available(&why))
+  if (new_engine == lsdcd::make_engine && settings.device == lsdcd::Device::automatic &&
+      !lsdcd::cuda_available(&why))
     t += " (no CUDA: " + why + ")";
   log(t);
 }

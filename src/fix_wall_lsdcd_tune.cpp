@@ -2,6 +2,7 @@
 
 #include "fix_wall_lsdcd.h"
 
+
 #include "atom.h"
 
 #include <cstdint>
@@ -22,6 +23,7 @@ static std::uint64_t scattered(std::uint64_t tag)
 // Chosen by tag, so that the choice does not depend on how many processes there are.
 void FixWallLsdcd::tune(double reach)
 {
+  need_on_host();
   bigint mine = 0, all = 0;
   for (int i = 0; i < atom->nlocal; i++) mine += (atom->mask[i] & groupbit) != 0;
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);

@@ -21,6 +21,15 @@ void SpringStore::set(int i, const Spring *springs, const Real *extra, int n)
   extra_.insert(extra_.end(), extra, extra + n * n_extra_);
 }
 
+void SpringStore::assign(std::vector<int> first, std::vector<int> count, std::vector<Spring> pool,
+                         std::vector<Real> extra)
+{
+  first_.swap(first);
+  count_.swap(count);
+  pool_.swap(pool);
+  extra_.swap(extra);
+}
+
 int SpringStore::pack(int i, double *buffer) const
 {
   int at = 0;

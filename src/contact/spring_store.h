@@ -32,7 +32,15 @@ class SpringStore {
   {
     return extra_.data() + static_cast<std::size_t>(first_[i]) * n_extra_;
   }
+  SpringsView view() const
+  {
+    return {{first_.data()}, {count_.data()}, pool_.data(), extra_.data()};
+  }
   void set(int i, const Spring *springs, const Real *extra, int n);
+
+  // Takes over the springs of n spheres from elsewhere, places and all.
+  void assign(std::vector<int> first, std::vector<int> count, std::vector<Spring> pool,
+              std::vector<Real> extra);
 
   // Exchange and restart: a count, then doubles_per_spring() numbers for each.
   int packed_size(int i) const { return 1 + doubles_per_spring() * count_[i]; }

@@ -48,8 +48,9 @@ struct CpuBackend {
   void wait() {}
 
   // for_each: f(i) for i in [0, n), in any order and possibly at once.
+  // The last argument is for GPUs: how many run together.
   template <class F>
-  void for_each(std::size_t n, const F &f)
+  void for_each(std::size_t n, const F &f, unsigned /*block*/ = 0)
   {
     const std::int64_t m = static_cast<std::int64_t>(n);
 #pragma omp parallel for schedule(dynamic, 64) num_threads(threads()) if (m > 256)
@@ -76,6 +77,32 @@ struct CpuBackend {
     for (std::int64_t i = begin; i < end; i++)
       for (std::uint64_t at = offset[i]; at < offset[i + 1]; at++)
         f(static_cast<std::size_t>(i), at - offset[i], at - run.first);
+  }
+
+  // select: the i in [0, n) that keep(i) holds for, ascending; returns how many. Calls
+  // keep once for each. `to` has room for n.
+  template <class Keep>
+  std::size_t select(std::size_t n, const Keep &keep, int *to)
+  {
+    // Blocks of one size whatever the number of threads, so that order is fixed.
+    constexpr std::int64_t kBlock = 4096;
+    const std::int64_t n_blocks = (static_cast<std::int64_t>(n) + kBlock - 1) / kBlock;
+    std::vector<int> found(n_blocks, 0);
+#pragma omp parallel for schedule(static) num_threads(threads()) if (n_blocks > 1)
+    for (std::int64_t b = 0; b < n_blocks; b++) {
+      const std::int64_t lo = b * kBlock;
+      const std::int64_t hi = std::min(lo + kBlock, static_cast<std::int64_t>(n));
+      int count = 0;
+      for (std::int64_t i = lo; i < hi; i++)
+        if (keep(static_cast<std::size_t>(i))) to[lo + count++] = static_cast<int>(i);
+      found[b] = count;
+    }
+    std::size_t total = 0;
+    for (std::int64_t b = 0; b < n_blocks; b++) {
+      std::copy(to + b * kBlock, to + b * kBlock + found[b], to + total);
+      total += found[b];
+    }
+    return total;
   }
 
   // reduce

@@ -53,6 +53,52 @@ __global__ void cuda_for_each_part(const std::uint64_t *offset, std::size_t begi
   f(lo, first + k - offset[lo], k);
 }
 
+constexpr int kSelectTile = 1024;    // items of a block of 256 threads, 32 words of bits
+
+// Bits of the items to keep, and how many there are in each tile.
+template <class Keep>
+__global__ void cuda_mark(std::size_t n, const __grid_constant__ Keep keep, unsigned *words,
+                          std::uint32_t *in_tile)
+{
+  __shared__ std::uint32_t kept;
+  if (threadIdx.x == 0) kept = 0;
+  __syncthreads();
+  const std::size_t tile = std::size_t(blockIdx.x) * kSelectTile;
+  for (int k = threadIdx.x; k < kSelectTile; k += blockDim.x) {
+    const std::size_t i = tile + k;
+    const unsigned word = __ballot_sync(~0u, i < n && keep(i));
+    if (threadIdx.x % 32 != 0) continue;
+    words[i / 32] = word;
+    atomicAdd(&kept, static_cast<std::uint32_t>(__popc(word)));
+  }
+  __syncthreads();
+  if (threadIdx.x == 0) in_tile[blockIdx.x] = kept;
+}
+
+// From bits to a list; before[t]: how many are kept in tiles before t.
+__global__ static void cuda_gather(const unsigned *words, const std::uint32_t *before, int *to)
+{
+  __shared__ std::uint32_t ahead[kSelectTile / 32];
+  const unsigned lane = threadIdx.x % 32;
+  const std::size_t first_word = std::size_t(blockIdx.x) * (kSelectTile / 32);
+  if (threadIdx.x < 32) {
+    const std::uint32_t mine = __popc(words[first_word + lane]);
+    std::uint32_t sum = mine;
+    for (unsigned d = 1; d < 32; d *= 2) {
+      const std::uint32_t from = __shfl_up_sync(~0u, sum, d);
+      if (lane >= d) sum += from;
+    }
+    ahead[lane] = before[blockIdx.x] + sum - mine;
+  }
+  __syncthreads();
+  for (int k = threadIdx.x; k < kSelectTile; k += blockDim.x) {
+    const unsigned word = words[first_word + k / 32];
+    if ((word >> lane) & 1u)
+      to[ahead[k / 32] + __popc(word & ((1u << lane) - 1))] =
+          static_cast<int>(std::size_t(blockIdx.x) * kSelectTile + k);
+  }
+}
+
 struct CudaBackend {
   cudaStream_t stream = nullptr;
 
@@ -184,12 +230,30 @@ struct CudaBackend {
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
+  // select: the i in [0, n) that keep(i) holds for, ascending; returns how many. Calls
+  // keep once for each. `to` has room for n.
+  template <class Keep>
+  std::size_t select(std::size_t n, const Keep &keep, int *to)
+  {
+    if (n == 0) return 0;
+    const unsigned n_tiles = static_cast<unsigned>((n + kSelectTile - 1) / kSelectTile);
+    Scratch<unsigned> words = scratch<unsigned>(std::size_t(n_tiles) * (kSelectTile / 32));
+    Scratch<std::uint32_t> in_tile = scratch<std::uint32_t>(n_tiles);
+    cuda_mark<<<n_tiles, 256, 0, stream>>>(n, keep, words.data(), in_tile.data());
+    cuda_check(cudaGetLastError(), "starting a kernel");
+    const std::size_t total = exclusive_scan(in_tile.data(), n_tiles);
+    cuda_gather<<<n_tiles, 256, 0, stream>>>(words.data(), in_tile.data(), to);
+    cuda_check(cudaGetLastError(), "starting a kernel");
+    release_scratch();
+    return total;
+  }
+
   // reduce
   template <class T>
   T largest(const T *values, std::size_t n)
   {
     if (n == 0) return T(0);
-    Scratch<T> out(1);
+    Scratch<T> out = scratch<T>(1);
     with_scratch([&](void *scratch, std::size_t &bytes) {
       return cub::DeviceReduce::Max(scratch, bytes, values, out.data(), n, stream);
     });
@@ -199,7 +263,7 @@ struct CudaBackend {
   T sum(const T *values, std::size_t n)
   {
     if (n == 0) return T(0);
-    Scratch<T> out(1);
+    Scratch<T> out = scratch<T>(1);
     with_scratch([&](void *scratch, std::size_t &bytes) {
       return cub::DeviceReduce::Sum(scratch, bytes, values, out.data(), n, stream);
     });
@@ -253,8 +317,23 @@ struct CudaBackend {
   {
     std::size_t bytes = 0;
     cuda_check(call(nullptr, bytes), "sizing scratch memory");
-    Scratch<char> scratch(bytes);
-    cuda_check(call(scratch.data(), bytes), "scan, sort or reduce");
+    Scratch<char> room = scratch<char>(bytes);
+    cuda_check(call(room.data(), bytes), "scan, sort or reduce");
+    release_scratch();
+  }
+
+  // Scratch memory comes and goes in the order of the default stream: another one is made
+  // to wait for it, and is waited for.
+  template <class T>
+  Scratch<T> scratch(std::size_t n)
+  {
+    Scratch<T> room(n);
+    if (stream) cuda_check(cudaStreamSynchronize(nullptr), "allocating device memory");
+    return room;
+  }
+  void release_scratch()
+  {
+    if (stream) wait();
   }
 };
 

@@ -1,6 +1,7 @@
 #include "engine/collect.h"
 
 #include "base/threads.h"
+#include "engine/totals.h"
 
 #include <algorithm>
 
@@ -14,56 +15,30 @@ void add_forces(const StepResults &results, const Spheres &spheres)
     const SphereResult &r = results.result[k];
     if (r.n_contacts == 0) continue;
     const int i = results.near[k];
-    for (int c = 0; c < 3; c++) {
-      spheres.force[3 * i + c] += r.force[c];
-      spheres.torque[3 * i + c] += r.torque[c];
-    }
+    spheres.force.add(i, r.force);
+    spheres.torque.add(i, r.torque);
     if (results.heat) spheres.heat_flow[i] += results.heat[k];
   }
 }
 
 WallTotals sum_totals(const StepResults &results, const Spheres &spheres)
 {
-  constexpr int kBlock = 256;
   const int n = static_cast<int>(results.near.size());
-  const int n_blocks = (n + kBlock - 1) / kBlock;
+  const int n_blocks = (n + kTotalsBlock - 1) / kTotalsBlock;
   std::vector<WallTotals> block(n_blocks);
 #pragma omp parallel for schedule(static) num_threads(threads()) if (n_blocks > 16)
   for (int b = 0; b < n_blocks; b++) {
     WallTotals t;
-    for (int k = b * kBlock; k < std::min(n, (b + 1) * kBlock); k++) {
+    for (int k = b * kTotalsBlock; k < std::min(n, (b + 1) * kTotalsBlock); k++) {
       const SphereResult &r = results.result[k];
       const int i = results.near[k];
-      if (r.uncertain > 0) {
-        t.uncertified++;
-        t.largest_uncertain = std::max(t.largest_uncertain, r.uncertain / spheres.radius[i]);
-      }
-      if (r.n_contacts == 0) continue;
-      const Vec3 x = {spheres.x[3 * i], spheres.x[3 * i + 1], spheres.x[3 * i + 2]};
-      t.energy += r.energy;
-      t.force -= r.force;
-      t.torque -= cross(x, r.force) + r.torque;
-      t.contacts += r.n_contacts;
-      if (r.overlap_ratio > t.largest_overlap_ratio) {
-        t.largest_overlap_ratio = r.overlap_ratio;
-        t.largest_overlap_sphere = i;
-      }
+      if (r.n_contacts == 0 && !(r.uncertain > 0)) continue;
+      add_result(t, r, cross(spheres.x[i], r.force) + r.torque, r.uncertain / spheres.radius[i], i);
     }
     block[b] = t;
   }
   WallTotals sum;
-  for (const WallTotals &t : block) {
-    sum.energy += t.energy;
-    sum.force += t.force;
-    sum.torque += t.torque;
-    sum.contacts += t.contacts;
-    sum.uncertified += t.uncertified;
-    sum.largest_uncertain = std::max(sum.largest_uncertain, t.largest_uncertain);
-    if (t.largest_overlap_ratio > sum.largest_overlap_ratio) {
-      sum.largest_overlap_ratio = t.largest_overlap_ratio;
-      sum.largest_overlap_sphere = t.largest_overlap_sphere;
-    }
-  }
+  for (const WallTotals &t : block) add_block(sum, t);
   return sum;
 }
 
@@ -77,12 +52,8 @@ void fill_sphere_output(const StepResults &results, const Spheres &spheres,
     const SphereResult &r = results.result[k];
     if (r.n_contacts == 0) continue;
     const int i = results.near[k];
-    // Contacts that exert no force still have a place: that of the sphere.
-    const Vec3 point = r.weight > 0
-                           ? (1 / r.weight) * r.weighted_point
-                           : Vec3{spheres.x[3 * i], spheres.x[3 * i + 1], spheres.x[3 * i + 2]};
     touching.push_back(i);
-    output.push_back({Real(r.n_contacts), r.force, point, spheres.radius[i]});
+    output.push_back(output_of(r, spheres.x[i], spheres.radius[i]));
     if (results.heat) heat.push_back(results.heat[k]);
   }
 }

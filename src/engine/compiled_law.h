@@ -2,8 +2,7 @@
 // add only the loop over spheres.
 #pragma once
 
-#include "contact/spring_store.h"
-#include "engine/wall_force.h"
+#include "engine/law_job.h"
 
 #include <cstddef>
 #include <cstring>
@@ -11,12 +10,6 @@
 #include <type_traits>
 
 namespace lsdcd {
-
-// Places for contacts in the kernel: enough for nearly every sphere, and the
-// sizes at which a sphere with more is done again.
-constexpr int kPlaces = 8;
-constexpr int kMorePlaces = 64;
-constexpr int kMostPlaces = 512;
 
 // What engines have to store and move for a law.
 struct LawTraits {
@@ -50,16 +43,12 @@ class LawBytes {
   alignas(std::max_align_t) unsigned char bytes_[256];
 };
 
-// The work of a step on the host. Results, springs and the rest of sphere near[k] are at
-// k, kPlaces places each for springs.
-struct HostJob {
-  const GridView *grid;
-  ForceSettings settings;
-  const Spheres *spheres;
-  const SpringStore *springs;
-  const int *near;
-  SphereResult *result;
-  SphereSink sink;    // of the first sphere
+// A law compiled for one backend; start() does n near spheres, or lanes of crowded ones.
+template <class Backend>
+struct CompiledLaw {
+  LawTraits traits;
+  LawBytes law;
+  void (*start)(const LawBytes &, const LawJob &, std::size_t n, Backend &);
 };
 
 // The wall's effects that the settings ask for.
@@ -67,26 +56,5 @@ inline WallEffects wall_effects(const EngineSettings &s)
 {
   return {s.surface.moves(), s.records};
 }
-
-struct HostLaw {
-  LawTraits traits;
-  LawBytes law;
-  void (*run)(const LawBytes &, const HostJob &, std::size_t n);
-  // Sphere k once more, with more places for its contacts. False: still not enough.
-  bool (*redo)(const LawBytes &, const HostJob &, std::size_t k, const SphereSink &);
-};
-
-// The law that the settings ask for.
-HostLaw host_law(const EngineSettings &settings);
-
-// Those of `granular`, one function per normal sub-model: a source file each.
-HostLaw host_hooke_law(const EngineSettings &);
-HostLaw host_hertz_law(const EngineSettings &);
-HostLaw host_dmt_law(const EngineSettings &);
-HostLaw host_jkr_law(const EngineSettings &);
-
-// Those of the classic styles with effects of LIGGGHTS, and on walls with effects.
-HostLaw host_added_law(const EngineSettings &);
-HostLaw host_on_wall_law(const EngineSettings &);
 
 }    // namespace lsdcd

@@ -16,8 +16,6 @@ SearchSettings search_settings(const EngineSettings &engine)
   return s;
 }
 
-namespace {
-
 ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step)
 {
   ForceSettings s;
@@ -30,6 +28,8 @@ ForceSettings force_settings(const EngineSettings &engine, const StepSettings &s
   s.wear = engine.wear;
   return s;
 }
+
+namespace {
 
 // The same rows, further apart.
 template <class T>
@@ -60,13 +60,18 @@ void EngineBase::begin(const GridView &grid, const Spheres &spheres, const StepS
   select_near(grid, spheres, settings_.law.pull_off(), results_.near, scratch_);
 }
 
-HostJob EngineBase::host_job(const GridView &grid, SphereResult *result,
-                             const SphereSink &sink) const
+LawJob EngineBase::host_job(const GridView &grid, SphereResult *result,
+                            const SphereSink &sink) const
 {
-  return {&grid, force_settings_, &spheres_, springs_, results_.near.data(), result, sink};
+  LawJob job = job_of(grid, force_settings_, spheres_);
+  job.near = results_.near.data();
+  if (springs_) job.springs = springs_->view();
+  job.result = result;
+  job.sink = sink;
+  return job;
 }
 
-int EngineBase::redo_crowded(const HostJob &job, std::vector<Spring> &springs,
+int EngineBase::redo_crowded(const LawJob &job, std::vector<Spring> &springs,
                              std::vector<Real> &extra, std::vector<ContactRecord> &records)
 {
   const std::size_t n_extra = law_.traits.n_extra;

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "engine/collect.h"
-#include "engine/compiled_law.h"
+#include "engine/host_law.h"
 
 #include <vector>
 
 namespace lsdcd {
 
 SearchSettings search_settings(const EngineSettings &engine);
+ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step);
 
 class EngineBase : public WallEngine {
  public:
@@ -28,12 +29,12 @@ class EngineBase : public WallEngine {
   void begin(const GridView &grid, const Spheres &spheres, const StepSettings &step,
              SpringStore *springs);
 
-  HostJob host_job(const GridView &grid, SphereResult *result, const SphereSink &sink) const;
+  LawJob host_job(const GridView &grid, SphereResult *result, const SphereSink &sink) const;
 
   // Spheres whose contacts did not fit are done again on the host with more places; what
   // they keep goes where the others' is. Returns the new stride of the vectors, in
   // contacts.
-  int redo_crowded(const HostJob &job, std::vector<Spring> &springs, std::vector<Real> &extra,
+  int redo_crowded(const LawJob &job, std::vector<Spring> &springs, std::vector<Real> &extra,
                    std::vector<ContactRecord> &records);
 
   // The contacts of two spheres are `stride` places apart in the sink's arrays.

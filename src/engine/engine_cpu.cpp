@@ -25,8 +25,9 @@ class CpuEngine : public EngineBase {
     extra_.resize(n * kPlaces * law_.traits.n_extra);
     if (law_.traits.heat) heat_.resize(n);
     if (law_.traits.records) record_.resize(n * kPlaces);
-    const HostJob job = host_job(grid_, result_.data(), sink());
-    law_.run(law_.law, job, n);
+    const LawJob job = host_job(grid_, result_.data(), sink());
+    CpuBackend backend;
+    law_.start(law_.law, job, n, backend);
     const int stride = redo_crowded(job, spring_, extra_, record_);
     finish(result_.data(), sink(), stride);
   }

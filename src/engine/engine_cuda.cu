@@ -9,6 +9,13 @@ namespace lsdcd {
 
 namespace {
 
+// A near sphere as it travels to the GPU.
+struct NearSphere {
+  Vec3 x, v, omega;
+  Real radius, mass;
+  std::int32_t first_spring, n_springs;
+};
+
 class CudaEngine : public EngineBase {
  public:
   explicit CudaEngine(const EngineSettings &settings) :
@@ -56,16 +63,7 @@ class CudaEngine : public EngineBase {
     gather(n);
     if (law_.traits.heat) gather_heat(n);
     sphere_.to_device(n, backend_.stream);
-    const CudaJob job = {
-        device_grid_,
-        force_settings_,
-        sphere_.device(),
-        old_spring_.device(),
-        old_extra_.device(),
-        temperature_.device(),
-        result_.device(),
-        {new_spring_.data(), new_extra_.data(), heat_.device(), new_record_.data()}};
-    cuda_law_.start(cuda_law_.law, job, n, backend_);
+    cuda_law_.start(cuda_law_.law, device_job(), n, backend_);
     result_.to_host(n, backend_.stream);
     if (law_.traits.heat) heat_.to_host(n, backend_.stream);
     if (keeps_contacts()) pack_contacts(n);
@@ -152,6 +150,27 @@ class CudaEngine : public EngineBase {
   }
 
  private:
+  LawJob device_job()
+  {
+    constexpr std::ptrdiff_t reals = sizeof(NearSphere) / sizeof(Real),
+                             ints = sizeof(NearSphere) / sizeof(std::int32_t);
+    const NearSphere *s = sphere_.device();
+    LawJob job;
+    job.grid = device_grid_;
+    job.settings = force_settings_;
+    job.x = {&s->x.x, reals, 1};
+    job.v = {&s->v.x, reals, 1};
+    job.omega = {&s->omega.x, reals, 1};
+    job.radius = {&s->radius, reals};
+    job.mass = {&s->mass, reals};
+    job.temperature = {temperature_.device()};
+    job.springs = {
+        {&s->first_spring, ints}, {&s->n_springs, ints}, old_spring_.device(), old_extra_.device()};
+    job.result = result_.device();
+    job.sink = {new_spring_.data(), new_extra_.data(), heat_.device(), new_record_.data()};
+    return job;
+  }
+
   bool keeps_contacts() const { return law_.traits.history || law_.traits.records; }
 
   // Room for what the contacts of n spheres leave behind.
@@ -177,10 +196,9 @@ class CudaEngine : public EngineBase {
 #pragma omp parallel for schedule(static) num_threads(threads()) if (m > 4096)
     for (std::int64_t k = 0; k < m; k++) {
       const int i = results_.near[k];
-      const auto at = [i](const Real *a) { return Vec3{a[3 * i], a[3 * i + 1], a[3 * i + 2]}; };
-      to[k] = {at(spheres_.x),
-               at(spheres_.v),
-               at(spheres_.omega),
+      to[k] = {spheres_.x[i],
+               spheres_.v[i],
+               spheres_.omega[i],
                spheres_.radius[i],
                spheres_.mass[i],
                0,

@@ -2,51 +2,38 @@
 #pragma once
 
 #include "engine/backend_cpu.h"
-#include "engine/compiled_law.h"
+#include "engine/law_step.h"
 #include "engine/laws.h"
 
 namespace lsdcd {
 
-template <class Law>
-SphereState state_of(const HostJob &job, int i)
-{
-  const Spheres &all = *job.spheres;
-  const auto at = [i](const Real *a) { return Vec3{a[3 * i], a[3 * i + 1], a[3 * i + 2]}; };
-  SphereState s = {
-      at(all.x), at(all.v), at(all.omega), all.radius[i], all.mass[i], nullptr, nullptr, 0, 0};
-  if constexpr (Law::kHistory) {
-    s.springs = job.springs->of(i);
-    s.extra = job.springs->extra_of(i);
-    s.n_springs = job.springs->count(i);
-  }
-  if constexpr (Law::kHeat) s.temperature = all.temperature[i];
-  return s;
-}
+struct HostLaw : CompiledLaw<CpuBackend> {
+  // Near sphere k once more, with more places for its contacts. False: still not enough.
+  bool (*redo)(const LawBytes &, const LawJob &, std::size_t k, const SphereSink &);
+};
+
+// The law that the settings ask for.
+HostLaw host_law(const EngineSettings &settings);
+
+// Those of `granular`, one function per normal sub-model: a source file each.
+HostLaw host_hooke_law(const EngineSettings &);
+HostLaw host_hertz_law(const EngineSettings &);
+HostLaw host_dmt_law(const EngineSettings &);
+HostLaw host_jkr_law(const EngineSettings &);
+
+// Those of the classic styles with effects of LIGGGHTS, and on walls with effects.
+HostLaw host_added_law(const EngineSettings &);
+HostLaw host_on_wall_law(const EngineSettings &);
 
 template <class Law>
-void run_law(const LawBytes &bytes, const HostJob &job, std::size_t n)
-{
-  const Law &law = bytes.as<Law>();
-  CpuBackend().for_each(n, [&](std::size_t k) {
-    SphereSink sink;    // what the law has no use for is not even set
-    if constexpr (Law::kHistory) sink.springs = job.sink.springs + k * kPlaces;
-    if constexpr (Law::kExtra > 0) sink.extra = job.sink.extra + k * kPlaces * Law::kExtra;
-    if constexpr (Law::kHeat) sink.heat = job.sink.heat + k;
-    if constexpr (Law::kRecords) sink.records = job.sink.records + k * kPlaces;
-    job.result[k] = wall_force<Law, kPlaces>(*job.grid, law, job.settings,
-                                             state_of<Law>(job, job.near[k]), sink);
-  });
-}
-
-template <class Law>
-bool redo_law(const LawBytes &bytes, const HostJob &job, std::size_t k, const SphereSink &sink)
+bool redo_law(const LawBytes &bytes, const LawJob &job, std::size_t k, const SphereSink &sink)
 {
   const Law &law = bytes.as<Law>();
   const SphereState s = state_of<Law>(job, job.near[k]);
   SphereResult &result = job.result[k];
-  result = wall_force<Law, kMorePlaces>(*job.grid, law, job.settings, s, sink);
+  result = wall_force<Law, kMorePlaces>(job.grid, law, job.settings, s, sink);
   if (result.n_contacts == kOverflow)
-    result = wall_force<Law, kMostPlaces>(*job.grid, law, job.settings, s, sink);
+    result = wall_force<Law, kMostPlaces>(job.grid, law, job.settings, s, sink);
   return result.n_contacts != kOverflow;
 }
 
@@ -60,7 +47,7 @@ struct MakeHostLaw {
   {
     return on_wall<kernels>(law, effects, [](const auto &compiled) {
       using L = std::decay_t<decltype(compiled)>;
-      return HostLaw{traits_of<L>(), LawBytes(compiled), run_law<L>, redo_law<L>};
+      return HostLaw{{traits_of<L>(), LawBytes(compiled), start_law<L, CpuBackend>}, redo_law<L>};
     });
   }
 };

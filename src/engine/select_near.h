@@ -14,4 +14,7 @@ namespace lsdcd {
 void select_near(const GridView &grid, const Spheres &spheres, Real pull_off,
                  std::vector<int> &near, std::vector<int> &scratch);
 
+// The error for sphere i, which reaches further than the grid.
+[[noreturn]] void throw_too_large(int i, Real radius, Real reach);
+
 }    // namespace lsdcd

@@ -1,6 +1,7 @@
 // The one door between a host code (the fix, the tool, tests, benches) and the wall.
 #pragma once
 
+#include "base/rows.h"
 #include "base/vec3.h"
 #include "contact/spring_store.h"
 #include "engine/on_wall.h"
@@ -36,19 +37,18 @@ struct EngineSettings {
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
 };
 
-// Sphere data of a host code, borrowed for one step. Three-vectors are packed
-// x y z x y z; n is the number of owned spheres.
+// Sphere data of a host code, borrowed for one step; n is the number of owned spheres.
 struct Spheres {
   int n = 0;
-  const Real *x = nullptr;         // length
-  const Real *v = nullptr;         // length/time
-  const Real *omega = nullptr;     // 1/time
+  Rows<const Real> x;              // length
+  Rows<const Real> v;              // length/time
+  Rows<const Real> omega;          // 1/time
   const Real *radius = nullptr;    // length
   const Real *mass = nullptr;      // mass that damping sees (a rigid member's body mass)
   const int *mask = nullptr;       // group bits, or null: all spheres
   int group_bit = 0;
-  Real *force = nullptr;                // added to
-  Real *torque = nullptr;               // added to
+  Rows<Real> force;                     // added to
+  Rows<Real> torque;                    // added to
   const Real *temperature = nullptr;    // where the law has heat
   Real *heat_flow = nullptr;            // power; added to where the law has heat
 };

@@ -51,14 +51,14 @@ struct ForceSettings {
   WearModel wear;           // read only where there are records
 };
 
-template <bool kBeyond, class Geometry, int kPlaces>
-LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, const SphereState &s,
-                         Real reach, Touch<kPlaces> &out)
+// How far from its centre the sphere feels the wall.
+template <class Law>
+LSDCD_FN Real law_reach(const Law &law, Real radius)
 {
-  if constexpr (kBeyond)
-    touch_beyond<Geometry>(grid, settings, s.x, s.radius, reach, s.springs, s.n_springs, out);
+  if constexpr (Law::kBeyond)
+    return reach_of(radius, law.elastic.pull_off);
   else
-    touch<Geometry>(grid, settings, s.x, reach, out);
+    return radius;
 }
 
 // What contact i begins with: its memory of the last step, turned with its normal.
@@ -152,6 +152,21 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
   }
 }
 
+// What the sphere touches; sets `uncertain`, and n_contacts where it overflows.
+template <class Law, int kPlaces>
+LSDCD_FN void find_touch(const GridView &grid, const Law &law, const ForceSettings &settings,
+                         const SphereState &s, Touch<kPlaces> &touching, SphereResult &out)
+{
+  const Real reach = law_reach(law, s.radius);
+  const Searcher searcher = {s.x, s.radius, reach, s.springs, s.n_springs};
+  if (grid.in_floats)
+    touch<Law::kBeyond, BrickGeometry>(grid, settings.search, searcher, touching);
+  else
+    touch<Law::kBeyond, WallGeometry>(grid, settings.search, searcher, touching);
+  if (touching.set.overflow) out.n_contacts = kOverflow;
+  if (touching.exact_within < reach) out.uncertain = reach - touching.exact_within;
+}
+
 // `sink` has room for kPlaces contacts.
 template <class Law, int kPlaces>
 LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
@@ -161,14 +176,7 @@ LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
   SphereResult out = {};
   if constexpr (Law::kHeat) *sink.heat = 0;
   Touch<kPlaces> touching;
-  Real reach = s.radius;
-  if constexpr (Law::kBeyond) reach = reach_of(s.radius, law.elastic.pull_off);
-  if (grid.in_floats)
-    touch_with<Law::kBeyond, BrickGeometry>(grid, settings.search, s, reach, touching);
-  else
-    touch_with<Law::kBeyond, WallGeometry>(grid, settings.search, s, reach, touching);
-  if (touching.set.overflow) out.n_contacts = kOverflow;
-  if (touching.exact_within < reach) out.uncertain = reach - touching.exact_within;
+  find_touch(grid, law, settings, s, touching, out);
   if (touching.set.overflow || touching.set.n == 0) return out;
   add_contacts(grid, law, settings, s, touching.set.view(), touching.weight, sink, out);
   return out;

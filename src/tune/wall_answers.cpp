@@ -46,9 +46,9 @@ bool find_places(const GridView &grid, const SearchSettings &search, const Vec3 
 {
   Touch<kPlaces> t;
   if (grid.in_floats)
-    touch<BrickGeometry>(grid, search, x, radius, t);
+    touch<false, BrickGeometry>(grid, search, {x, radius, radius, nullptr, 0}, t);
   else
-    touch<WallGeometry>(grid, search, x, radius, t);
+    touch<false, WallGeometry>(grid, search, {x, radius, radius, nullptr, 0}, t);
   if (t.set.overflow) return false;
   certain = t.exact_within >= radius;
   for (int i = 0; i < t.set.n; i++)

@@ -8,10 +8,19 @@
 
 namespace lsdcd {
 
-inline bool test_on_cuda()
+// LSDCD_TEST_DEVICE: cpu (or nothing), cuda, resident, resident_cuda.
+inline bool test_device_has(const char *word)
 {
   const char *device = std::getenv("LSDCD_TEST_DEVICE");
-  return device && std::strcmp(device, "cuda") == 0;
+  return device && std::strstr(device, word);
+}
+inline bool test_on_cuda()
+{
+  return test_device_has("cuda");
+}
+inline bool test_is_resident()
+{
+  return test_device_has("resident");
 }
 inline Device test_device()
 {

@@ -2,6 +2,7 @@
 
 #include "study/cylinder.h"
 #include "support/device.h"
+#include "support/test_engine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,7 +119,6 @@ Scene::Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real
     mesh(weld(soup, weld_tolerance)),
     springs(settings.law.n_extra())
 {
-  settings.device = test_device();
   GridSettings g;
   g.length = grid_length;
   g.reach = reach;
@@ -128,7 +128,7 @@ Scene::Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real
   g.in_floats = settings.precision != Precision::double_;
   grid = build_grid(mesh, g, test_on_cuda());
   flat_ = FlatGrid(grid);
-  engine = make_engine(settings);
+  engine = make_test_engine(settings);
   engine->set_grid(flat_.view());
 }
 

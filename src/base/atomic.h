@@ -1,0 +1,59 @@
+// Counters that many threads share. Only sums and maxima of whole numbers: their result
+// does not depend on the order.
+#pragma once
+
+#include "base/real.h"
+
+#include <cstdint>
+#include <cstring>
+
+namespace lsdcd {
+
+// Adds n; returns what was there before.
+LSDCD_FN int fetch_add(int *at, int n)
+{
+#if defined(__CUDA_ARCH__)
+  return atomicAdd(at, n);
+#else
+  return __atomic_fetch_add(at, n, __ATOMIC_RELAXED);
+#endif
+}
+
+LSDCD_FN void count_one(std::uint64_t *at)
+{
+#if defined(__CUDA_ARCH__)
+  atomicAdd(reinterpret_cast<unsigned long long *>(at), 1ull);
+#else
+  __atomic_fetch_add(at, 1, __ATOMIC_RELAXED);
+#endif
+}
+
+LSDCD_FN void raise_to(std::uint64_t *at, std::uint64_t value)
+{
+#if defined(__CUDA_ARCH__)
+  static_assert(sizeof(unsigned long long) == sizeof(std::uint64_t), "64 bits");
+  if (*static_cast<volatile std::uint64_t *>(at) < value)
+    atomicMax(reinterpret_cast<unsigned long long *>(at), static_cast<unsigned long long>(value));
+#else
+  std::uint64_t seen = __atomic_load_n(at, __ATOMIC_RELAXED);
+  while (seen < value &&
+         !__atomic_compare_exchange_n(at, &seen, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+  }
+#endif
+}
+
+// A number >= 0 as bits that ascend with it, and back.
+LSDCD_FN std::uint32_t ascending_bits(float value)
+{
+  std::uint32_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+LSDCD_FN float from_ascending_bits(std::uint32_t bits)
+{
+  float value;
+  memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+}    // namespace lsdcd

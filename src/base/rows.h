@@ -1,0 +1,50 @@
+// Numbers of many spheres in memory of any layout, borrowed; on the host or on a device.
+#pragma once
+
+#include "base/vec3.h"
+
+#include <cstddef>
+
+namespace lsdcd {
+
+// One number a sphere, `step` numbers apart.
+template <class T>
+struct Column {
+  T *at = nullptr;
+  std::ptrdiff_t step = 1;
+
+  LSDCD_FN T &operator[](std::size_t i) const { return at[static_cast<std::ptrdiff_t>(i) * step]; }
+};
+
+// One three-vector a sphere. A pointer stands for x y z x y z.
+template <class T>
+struct Rows {
+  T *at = nullptr;
+  std::ptrdiff_t row = 3;       // from one sphere to the next
+  std::ptrdiff_t column = 1;    // from one component to the next
+
+  Rows() = default;
+  Rows(T *packed) : at(packed) {}
+  Rows(T *first, std::ptrdiff_t row, std::ptrdiff_t column) : at(first), row(row), column(column) {}
+  // To what may only be read.
+  template <class U>
+  Rows(const Rows<U> &rows) : at(rows.at), row(rows.row), column(rows.column)
+  {
+  }
+
+  LSDCD_FN T *of(std::size_t i) const { return at + static_cast<std::ptrdiff_t>(i) * row; }
+  LSDCD_FN Vec3 operator[](std::size_t i) const
+  {
+    const T *p = of(i);
+    return {p[0], p[column], p[2 * column]};
+  }
+  LSDCD_FN void add(std::size_t i, const Vec3 &v) const
+  {
+    T *p = of(i);
+    p[0] += v.x;
+    p[column] += v.y;
+    p[2 * column] += v.z;
+  }
+};
+
+}    // namespace lsdcd

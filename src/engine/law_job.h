@@ -1,0 +1,98 @@
+// A step's work for the loop of a contact law over the spheres near the wall, on any
+// backend, whether results are handed back or stay where the spheres are.
+#pragma once
+
+#include "engine/wall_force.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// Places for contacts in the kernel: enough for nearly every sphere, and the
+// sizes at which a sphere with more is done again.
+constexpr int kPlaces = 8;
+constexpr int kMorePlaces = 64;
+constexpr int kMostPlaces = 512;
+
+// Where a step that stays in place puts springs and records. The first `own` places of
+// pool + k * own are those of near sphere k; one with more contacts takes all of its
+// places from the shared ones, which begin at `shared`.
+struct ContactPool {
+  int own, shared, size;
+  int which;             // of the two pools
+  int *first, *count;    // of each sphere
+  int *place;            // of each near sphere, where there are records
+  Spring *springs;
+  Real *extra;
+  ContactRecord *records;
+};
+
+constexpr std::uint64_t kNoSphere = std::uint64_t(1) << 32;
+
+// What a step in place counts. The first three are of one step, the others since the
+// host looked.
+struct StepCounts {
+  int shared_used[2];    // places, of each pool in the last step that wrote it
+  int n_crowded;         // spheres whose contacts do not fit into a kernel's places
+  int crowd_used;        // contacts of these
+  int lost;              // spheres left out for want of memory: an error
+  // kNoSphere less the index of the first sphere beyond the grid's reach, or 0: an error.
+  std::uint64_t too_large;
+  std::uint64_t uncertified;    // answers
+  // As ascending bits: the largest overlap / radius, with 1 + the index of its sphere
+  // below it, and the largest that an answer which was not certified may have missed.
+  std::uint64_t deepest, uncertain;
+};
+
+// Room for crowded spheres in a step, and for the contacts of all of them.
+constexpr int kCrowded = 4096;
+constexpr int kCrowdContacts = 65536;
+
+// Contacts of crowded spheres, found ahead of the law in memory that has room for them.
+struct Crowd {
+  int most, size;    // spheres, contacts
+  int *which;        // near sphere of each
+  int *first, *n;    // its contacts, n < 0: they do not fit
+  Real *uncertain;
+  FeatureCode *feature;
+  Vec3 *normal;
+  Real *distance, *weight;
+};
+
+struct InPlace {
+  StepCounts *counts = nullptr;    // null: results are handed back
+  Rows<Real> force, torque;        // added to
+  Real *heat_flow = nullptr;       // added to where the law has heat
+  ContactPool pool = {};
+  Crowd crowd = {};
+  int crowd_lanes = 0;    // > 0: the crowded spheres, shared among so many calls
+};
+
+struct LawJob {
+  GridView grid = {};
+  ForceSettings settings = {};
+  const int *near = nullptr;    // sphere of each k; null: sphere k
+  Rows<const Real> x, v, omega;
+  Column<const Real> radius, mass, temperature;
+  SpringsView springs = {};          // of the last step
+  SphereResult *result = nullptr;    // of each near sphere
+  SphereSink sink = {};              // of the first one; each has kPlaces for contacts
+  InPlace in_place = {};
+};
+
+// The part of a job that spheres in packed arrays decide.
+inline LawJob job_of(const GridView &grid, const ForceSettings &settings, const Spheres &spheres)
+{
+  LawJob job;
+  job.grid = grid;
+  job.settings = settings;
+  job.x = spheres.x;
+  job.v = spheres.v;
+  job.omega = spheres.omega;
+  job.radius = {spheres.radius};
+  job.mass = {spheres.mass};
+  job.temperature = {spheres.temperature};
+  return job;
+}
+
+}    // namespace lsdcd

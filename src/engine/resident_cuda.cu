@@ -1,0 +1,14 @@
+#include "engine/cuda_law.h"
+#include "engine/resident_on.h"
+
+namespace lsdcd {
+
+std::unique_ptr<ResidentEngine> make_resident_cuda_engine(const EngineSettings &settings,
+                                                          void *stream)
+{
+  CudaBackend backend;
+  backend.stream = static_cast<cudaStream_t>(stream);
+  return std::make_unique<ResidentOn<CudaBackend>>(settings, cuda_law(settings), backend);
+}
+
+}    // namespace lsdcd

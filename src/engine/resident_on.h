@@ -1,0 +1,394 @@
+// The resident engine on one backend: one source for all.
+#pragma once
+
+#include "base/atomic.h"
+#include "base/input_error.h"
+#include "engine/compiled_law.h"
+#include "engine/engine_base.h"
+#include "engine/resident_engine.h"
+#include "engine/resident_springs.h"
+#include "engine/select_near.h"
+#include "engine/totals.h"
+#include "grid/near_within.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsdcd {
+
+// What one call needs to find the contacts of a crowded sphere: too much for a stack.
+struct CrowdLane {
+  Touch<kMostPlaces> touching;
+  CornerRule<kMostPlaces> rule;
+};
+
+template <class B>
+class ResidentOn : public ResidentEngine {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+ public:
+  ResidentOn(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
+      settings_(settings), law_(law), b_(std::move(backend)), springs_(law.traits), counts_(1),
+      which_(kCrowded), crowd_first_(kCrowded), crowd_n_(kCrowded), crowd_uncertain_(kCrowded),
+      crowd_feature_(kCrowdContacts), crowd_normal_(kCrowdContacts),
+      crowd_distance_(kCrowdContacts), crowd_weight_(kCrowdContacts), lanes_(kLanes)
+  {
+    clear_notes(StepCounts());
+  }
+
+  std::string backend() const override { return b_.name() + ", where the particles are"; }
+
+  void set_grid(const GridView &grid) override
+  {
+    if (!grid.block) throw std::logic_error("an engine needs the view of a flat grid block");
+    block_ = Array<char>(grid.block_bytes);
+    b_.copy_in(grid.block, block_.data(), grid.block_bytes);
+    grid_ = moved_view(grid, block_.data());
+  }
+
+  Real largest_radius(const Spheres &spheres) override
+  {
+    const std::size_t n = spheres.n;
+    Array<Real> radius(n);
+    Real *to = radius.data();
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      to[i] = !spheres.mask || (spheres.mask[i] & spheres.group_bit) ? spheres.radius[i] : 0;
+    });
+    return b_.largest(to, n);
+  }
+
+  void choose(const Spheres &spheres, Real margin) override
+  {
+    const std::size_t n = spheres.n;
+    if (near_.size() < n) near_ = Array<int>(n + n / 8);
+    const GridView grid = grid_;
+    const Real pull_off = settings_.law.pull_off();
+    StepCounts *counts = counts_.data();
+    int *n_springs = springs_.count();
+    n_near_ = b_.select(
+        n,
+        [=] LSDCD_LAMBDA(std::size_t i) {
+          const bool in_group = !spheres.mask || (spheres.mask[i] & spheres.group_bit);
+          if (in_group && !(reach_of(spheres.radius[i], pull_off) <= grid.reach))
+            raise_to(&counts->too_large, kNoSphere - i);
+          const bool near = in_group && near_within(grid, spheres.x[i], margin);
+          // Springs are read where a sphere is near; others have none.
+          if (n_springs && !near) n_springs[i] = 0;
+          return near;
+        },
+        near_.data());
+    const StepCounts seen = read_counts();
+    if (seen.too_large) throw_for(spheres, seen);
+    springs_.make_room(n_near_, seen);
+    if (result_.size() < n_near_) {
+      const std::size_t room = n_near_ + n_near_ / 8;
+      result_ = Array<SphereResult>(room);
+      if (law_.traits.heat) heat_ = Array<Real>(room);
+      if (law_.traits.records) place_ = Array<int>(room);
+    }
+    near_known_ = false;
+  }
+
+  void start(const Spheres &spheres, const StepSettings &step, SpringStore *) override
+  {
+    spheres_ = spheres;
+    step_ = step;
+    totals_known_ = false;
+    if (n_near_ == 0) return;
+    LawJob job = job_of(grid_, force_settings(settings_, step), spheres);
+    job.near = near_.data();
+    job.springs = springs_.view();
+    job.result = result_.data();
+    job.sink = {nullptr, nullptr, heat_.data(), nullptr};
+    job.in_place.counts = counts_.data();
+    job.in_place.force = spheres.force;
+    job.in_place.torque = spheres.torque;
+    job.in_place.heat_flow = spheres.heat_flow;
+    job.in_place.pool = springs_.next(place_.data());
+    job.in_place.crowd = {kCrowded,
+                          kCrowdContacts,
+                          which_.data(),
+                          crowd_first_.data(),
+                          crowd_n_.data(),
+                          crowd_uncertain_.data(),
+                          crowd_feature_.data(),
+                          crowd_normal_.data(),
+                          crowd_distance_.data(),
+                          crowd_weight_.data()};
+    StepCounts *counts = counts_.data();
+    const int writes = job.in_place.pool.which;
+    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) {
+      counts->shared_used[writes] = counts->n_crowded = counts->crowd_used = 0;
+    });
+    law_.start(law_.law, job, n_near_, b_);
+    find_crowded(job);
+    job.in_place.crowd_lanes = kCrowdLawLanes;
+    law_.start(law_.law, job, kCrowdLawLanes, b_);
+    if (step.update_history) springs_.swap();
+  }
+
+  void collect() override
+  {
+    touching_.clear();
+    output_.clear();
+    sphere_heat_.clear();
+    records_.clear();
+    if (n_near_ == 0) return;
+    if (step_.per_sphere) fetch_output();
+    if (law_.traits.records) fetch_records();
+  }
+
+  const WallTotals &totals() const override
+  {
+    if (!totals_known_) const_cast<ResidentOn *>(this)->sum_totals();
+    return totals_;
+  }
+
+  int n_touching() const override { return static_cast<int>(touching_.size()); }
+  const int *touching() const override { return touching_.data(); }
+  const SphereOutput *sphere_output() const override { return output_.data(); }
+  const Real *sphere_heat() const override
+  {
+    return law_.traits.heat ? sphere_heat_.data() : nullptr;
+  }
+  int n_records() const override { return static_cast<int>(records_.size()); }
+  const ContactRecord *records() const override { return records_.data(); }
+  int n_near() const override { return static_cast<int>(n_near_); }
+
+  StepNotes look() override
+  {
+    const StepCounts seen = read_counts();
+    if (seen.too_large || seen.lost) throw_for(spheres_, seen);
+    clear_notes(seen);
+    StepNotes notes;
+    notes.deepest = from_ascending_bits(static_cast<std::uint32_t>(seen.deepest >> 32));
+    notes.deepest_sphere = static_cast<int>(seen.deepest & 0xffffffffu) - 1;
+    notes.uncertified = static_cast<std::int64_t>(seen.uncertified);
+    notes.uncertain = from_ascending_bits(static_cast<std::uint32_t>(seen.uncertain));
+    return notes;
+  }
+
+  void grow(int n) override { springs_.grow(b_, n); }
+  int *first_spring() override { return springs_.first(); }
+  int *n_springs() override { return springs_.count(); }
+  void springs_to(SpringStore &store, int n) override { springs_.to_store(b_, store, n); }
+  void springs_from(const SpringStore &store, int n) override { springs_.from_store(b_, store, n); }
+  int largest_packed_size(int n) override { return springs_.largest_packed_size(b_, n); }
+  int pack(int n, const int *which, const int *from, double *buffer) override
+  {
+    return springs_.pack(b_, n, which, from, buffer);
+  }
+  void unpack(int n, const int *to, const double *buffer, int n_first, int second) override
+  {
+    springs_.unpack(b_, n, to, buffer, n_first, second, read_counts());
+  }
+
+  std::size_t bytes() const override
+  {
+    return block_.size() + springs_.bytes() + result_.size() * sizeof(SphereResult) +
+           heat_.size() * sizeof(Real) + (near_.size() + place_.size()) * sizeof(int) +
+           kLanes * sizeof(CrowdLane) + kCrowded * (3 * sizeof(int) + sizeof(Real)) +
+           kCrowdContacts * (sizeof(FeatureCode) + sizeof(Vec3) + 2 * sizeof(Real)) +
+           touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput) +
+           sphere_heat_.capacity() * sizeof(Real) + records_.capacity() * sizeof(ContactRecord);
+  }
+
+  // The steps of start() and collect(). Public because nvcc takes no device lambda from a
+  // private function.
+
+  // Contacts of spheres that have more than the law's loop has places for.
+  void find_crowded(const LawJob &job)
+  {
+    CrowdLane *lanes = lanes_.data();
+    const bool beyond = settings_.law.pull_off() > 0;
+    const Real pull_off = settings_.law.pull_off();
+    b_.for_each(
+        kLanes,
+        [=] LSDCD_LAMBDA(std::size_t at) {
+          StepCounts &counts = *job.in_place.counts;
+          const Crowd &crowd = job.in_place.crowd;
+          const int n = counts.n_crowded < crowd.most ? counts.n_crowded : crowd.most;
+          for (int c = static_cast<int>(at); c < n; c += kLanes) {
+            const std::size_t i = job.near[crowd.which[c]];
+            const Real radius = job.radius[i], reach = reach_of(radius, pull_off);
+            Searcher s = {job.x[i], radius, reach, nullptr, 0};
+            if (beyond) {
+              s.n_springs = job.springs.count[i];
+              s.springs = job.springs.pool + (s.n_springs > 0 ? job.springs.first[i] : 0);
+            }
+            CrowdLane &lane = lanes[at];
+            lane.touching.set.n = 0;
+            lane.touching.set.overflow = false;
+            if (job.grid.in_floats)
+              find_one<BrickGeometry>(job, s, beyond, lane);
+            else
+              find_one<WallGeometry>(job, s, beyond, lane);
+            keep_one(crowd, c, counts, lane.touching, reach);
+          }
+        },
+        kLanes);
+  }
+
+  void fetch_output()
+  {
+    const std::size_t n = n_near_;
+    Array<SphereOutput> out(n);
+    SphereOutput *to = out.data();
+    const SphereResult *result = result_.data();
+    const int *near = near_.data();
+    const Spheres spheres = spheres_;
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      const int i = near[k];
+      to[k] = output_of(result[k], spheres.x[i], spheres.radius[i]);
+    });
+    const std::vector<SphereOutput> all = b_.to_host(out, n);
+    const std::vector<Real> heat = b_.to_host(heat_, law_.traits.heat ? n : 0);
+    know_near();
+    for (std::size_t k = 0; k < n; k++) {
+      if (!(all[k].contacts > 0)) continue;
+      touching_.push_back(near_host_[k]);
+      output_.push_back(all[k]);
+      if (law_.traits.heat) sphere_heat_.push_back(heat[k]);
+    }
+  }
+
+  void fetch_records()
+  {
+    const std::vector<SphereResult> result = b_.to_host(result_, n_near_);
+    const std::vector<int> place = b_.to_host(place_, n_near_);
+    const std::vector<ContactRecord> all =
+        springs_.records(b_, read_counts(), step_.update_history);
+    for (std::size_t k = 0; k < n_near_; k++)
+      for (int c = 0; c < result[k].n_contacts; c++) records_.push_back(all[place[k] + c]);
+  }
+
+  void sum_totals()
+  {
+    totals_known_ = true;
+    totals_ = WallTotals();
+    if (n_near_ == 0) return;
+    const std::size_t n = n_near_, n_blocks = (n + kTotalsBlock - 1) / kTotalsBlock;
+    Array<WallTotals> block(n_blocks);
+    WallTotals *to = block.data();
+    const SphereResult *result = result_.data();
+    const int *near = near_.data();
+    b_.for_each(n_blocks, [=] LSDCD_LAMBDA(std::size_t b) {
+      WallTotals t;
+      const std::size_t end = (b + 1) * kTotalsBlock < n ? (b + 1) * kTotalsBlock : n;
+      for (std::size_t k = b * kTotalsBlock; k < end; k++) {
+        const SphereResult &r = result[k];
+        if (r.n_contacts > 0 || r.uncertain > 0) add_result(t, r, r.torque, r.uncertain, near[k]);
+      }
+      to[b] = t;
+    });
+    for (const WallTotals &t : b_.to_host(block, n_blocks)) add_block(totals_, t);
+  }
+
+ private:
+  static constexpr int kLanes = 8;              // that find them: 1 MB of memory each
+  static constexpr int kCrowdLawLanes = 128;    // that compute their forces
+
+  template <class Geometry>
+  LSDCD_FN static void find_one(const LawJob &job, const Searcher &s, bool beyond, CrowdLane &lane)
+  {
+    if (beyond)
+      search<true, Geometry>(job.grid, job.settings.search, s, lane.touching);
+    else
+      search<false, Geometry>(job.grid, job.settings.search, s, lane.touching);
+    if (!lane.touching.set.overflow)
+      share<Geometry>(job.grid, job.settings.search, s.reach, lane.rule, lane.touching);
+  }
+
+  LSDCD_FN static void keep_one(const Crowd &crowd, int c, StepCounts &counts,
+                                const Touch<kMostPlaces> &found, Real reach)
+  {
+    crowd.n[c] = -1;
+    if (found.set.overflow) return;
+    const int n = found.set.n, first = fetch_add(&counts.crowd_used, n);
+    if (first > crowd.size - n) return;
+    crowd.n[c] = n;
+    crowd.first[c] = first;
+    crowd.uncertain[c] = found.exact_within < reach ? reach - found.exact_within : 0;
+    for (int k = 0; k < n; k++) {
+      crowd.feature[first + k] = found.set.feature[k];
+      crowd.normal[first + k] = found.set.normal[k];
+      crowd.distance[first + k] = found.set.distance[k];
+      crowd.weight[first + k] = found.weight[k];
+    }
+  }
+
+  StepCounts read_counts() { return b_.to_host(counts_, 1)[0]; }
+
+  // All but where springs are.
+  void clear_notes(const StepCounts &seen)
+  {
+    StepCounts counts = {};
+    std::copy(seen.shared_used, seen.shared_used + 2, counts.shared_used);
+    b_.copy_in(&counts, counts_.data(), 1);
+  }
+
+  [[noreturn]] void throw_for(const Spheres &spheres, const StepCounts &seen)
+  {
+    clear_notes(seen);
+    if (seen.too_large) {
+      const int i = static_cast<int>(kNoSphere - seen.too_large);
+      Array<Real> radius(1);
+      Real *to = radius.data();
+      read_radius(spheres, i, to);
+      throw_too_large(i, b_.to_host(radius, 1)[0], grid_.reach);
+    }
+    throw InputError(std::to_string(seen.lost) +
+                     " spheres touch the wall in more separate places than there is memory for (" +
+                     std::to_string(kMostPlaces) + " each, " + std::to_string(kCrowdContacts) +
+                     " for all that touch it in more than " + std::to_string(kPlaces) +
+                     "); the mesh is far finer than its overlap");
+  }
+
+  void know_near()
+  {
+    if (!near_known_) near_host_ = b_.to_host(near_, n_near_);
+    near_known_ = true;
+  }
+
+ public:
+  void read_radius(const Spheres &spheres, int i, Real *to)
+  {
+    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { to[0] = spheres.radius[i]; });
+  }
+
+ private:
+  EngineSettings settings_;
+  CompiledLaw<B> law_;
+  B b_;
+  GridView grid_ = {};
+  Array<char> block_;
+  Spheres spheres_;
+  StepSettings step_;
+  ResidentSprings<B> springs_;
+
+  Array<int> near_;
+  std::size_t n_near_ = 0;
+  Array<SphereResult> result_;
+  Array<Real> heat_;
+  Array<int> place_;
+
+  Array<StepCounts> counts_;
+  Array<int> which_, crowd_first_, crowd_n_;
+  Array<Real> crowd_uncertain_;
+  Array<FeatureCode> crowd_feature_;
+  Array<Vec3> crowd_normal_;
+  Array<Real> crowd_distance_, crowd_weight_;
+  Array<CrowdLane> lanes_;
+
+  WallTotals totals_;
+  bool totals_known_ = true;
+  std::vector<int> near_host_, touching_;
+  bool near_known_ = false;
+  std::vector<SphereOutput> output_;
+  std::vector<Real> sphere_heat_;
+  std::vector<ContactRecord> records_;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,286 @@
+// The springs of a process's spheres where the engine computes. A step reads one pool and
+// writes the other.
+#pragma once
+
+#include "contact/spring_store.h"
+#include "engine/compiled_law.h"
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+namespace lsdcd {
+
+// An integer in the place of a double, as LAMMPS's Kokkos communication has it.
+LSDCD_FN double as_double(std::int64_t value)
+{
+  double bits;
+  memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+LSDCD_FN std::int64_t as_integer(double bits)
+{
+  std::int64_t value;
+  memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+template <class B>
+class ResidentSprings {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+  struct Pool {
+    Array<Spring> springs;
+    Array<Real> extra;
+    Array<ContactRecord> records;
+    std::size_t size = 0;
+    std::size_t shared = 0;    // where the shared places of its last step began
+  };
+
+ public:
+  explicit ResidentSprings(const LawTraits &traits) : traits_(traits) {}
+
+  int *first() { return first_.data(); }
+  int *count() { return count_.data(); }
+  SpringsView view() const
+  {
+    const Pool &pool = pool_[now_];
+    return {{first_.data()}, {count_.data()}, pool.springs.data(), pool.extra.data()};
+  }
+
+  // For n more or less spheres than before; new ones have no springs.
+  void grow(B &b, std::size_t n)
+  {
+    if (!traits_.history || n <= count_.size()) return;
+    Array<int> first(n), count(n);
+    int *to_first = first.data(), *to_count = count.data();
+    const int *from_first = first_.data(), *from_count = count_.data();
+    const std::size_t before = count_.size();
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      to_first[i] = i < before ? from_first[i] : 0;
+      to_count[i] = i < before ? from_count[i] : 0;
+    });
+    b.wait();
+    first_ = std::move(first);
+    count_ = std::move(count);
+  }
+
+  // For steps over n near spheres. With two places for each beside its own, or twice what
+  // was shared last, and those of crowded ones, none runs out.
+  void make_room(std::size_t n, const StepCounts &last)
+  {
+    n_near_ = n;
+    wanted_ = 0;
+    if (!traits_.history && !traits_.records) return;
+    const std::size_t shared = std::max(last.shared_used[0], last.shared_used[1]);
+    wanted_ = kOwn * n + std::max(2 * n, 2 * shared) + kCrowdContacts;
+  }
+
+  // Where the next step writes; `place`: see ContactPool.
+  ContactPool next(int *place)
+  {
+    Pool &pool = pool_[1 - now_];
+    if (pool.size < wanted_) pool = make(wanted_ + wanted_ / 8);
+    pool.shared = kOwn * n_near_;
+    return {kOwn,
+            static_cast<int>(pool.shared),
+            static_cast<int>(pool.size),
+            1 - now_,
+            first_.data(),
+            count_.data(),
+            place,
+            pool.springs.data(),
+            pool.extra.data(),
+            pool.records.data()};
+  }
+
+  void swap()
+  {
+    now_ = 1 - now_;
+    end_ = kUnknown;
+  }
+
+  // The records of the last step, gaps and all; `moved`: did it move springs?
+  std::vector<ContactRecord> records(B &b, const StepCounts &last, bool moved)
+  {
+    const int which = moved ? now_ : 1 - now_;
+    return b.to_host(pool_[which].records, pool_[which].shared + last.shared_used[which]);
+  }
+
+  void to_store(B &b, SpringStore &store, std::size_t n)
+  {
+    Array<int> offset(n);
+    const std::size_t total = offsets(b, n, offset.data());
+    Array<Spring> springs(total);
+    Array<Real> extra(total * traits_.n_extra);
+    const SpringsView from = view();
+    const int n_extra = traits_.n_extra;
+    const int *at = offset.data();
+    Spring *to = springs.data();
+    Real *to_extra = extra.data();
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      for (int c = 0; c < from.count[i]; c++) {
+        const std::size_t source = std::size_t(from.first[i]) + c, target = std::size_t(at[i]) + c;
+        to[target] = from.pool[source];
+        for (int e = 0; e < n_extra; e++)
+          to_extra[target * n_extra + e] = from.extra[source * n_extra + e];
+      }
+    });
+    store.assign(b.to_host(offset, n), b.to_host(count_, n), b.to_host(springs, total),
+                 b.to_host(extra, total * n_extra));
+  }
+
+  void from_store(B &b, const SpringStore &store, std::size_t n)
+  {
+    grow(b, n);
+    const SpringsView from = store.view();
+    Pool &pool = pool_[now_];
+    const std::size_t size = store.pool_size();
+    if (pool.size < size) pool = make(size + size / 8);
+    b.copy_in(from.first.at, first_.data(), n);
+    b.copy_in(from.count.at, count_.data(), n);
+    b.copy_in(from.pool, pool.springs.data(), size);
+    if (traits_.n_extra > 0) b.copy_in(from.extra, pool.extra.data(), size * traits_.n_extra);
+    end_ = size;
+  }
+
+  int largest_packed_size(B &b, std::size_t n)
+  {
+    return 1 + per_spring() * b.largest(count_.data(), n);
+  }
+
+  int pack(B &b, int n, const int *which, const int *from, double *buffer)
+  {
+    Array<int> offset(n);
+    int *at = offset.data(), *first = first_.data(), *count = count_.data();
+    const SpringsView springs = view();
+    const int per_spring = this->per_spring(), n_extra = traits_.n_extra;
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = 1 + per_spring * count[which[k]]; });
+    const int total = b.exclusive_scan(at, n);
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      const int i = which[k];
+      int m = n + at[k];
+      buffer[k] = as_double(m);
+      buffer[m++] = count[i];
+      for (int c = 0; c < count[i]; c++) {
+        const std::size_t source = std::size_t(springs.first[i]) + c;
+        const Spring &s = springs.pool[source];
+        buffer[m++] = s.feature;    // 32 bits are exact in a double
+        for (int d = 0; d < 3; d++) buffer[m++] = s.normal[d];
+        for (int d = 0; d < 3; d++) buffer[m++] = s.stretch[d];
+        for (int e = 0; e < n_extra; e++) buffer[m++] = springs.extra[source * n_extra + e];
+      }
+      const int j = from[k];
+      if (j >= 0) {
+        first[i] = first[j];
+        count[i] = count[j];
+      }
+    });
+    b.wait();
+    return n + total;
+  }
+
+  void unpack(B &b, int n, const int *to, const double *buffer, int n_first, int second,
+              const StepCounts &last)
+  {
+    if (end_ == kUnknown) end_ = pool_[now_].shared + last.shared_used[now_];
+    Array<int> offset(n);
+    int *at = offset.data(), *first = first_.data(), *count = count_.data();
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      at[k] = to[k] < 0 ? 0 : static_cast<int>(buffer[place_of(buffer, k, n_first, second)]);
+    });
+    const std::size_t total = b.exclusive_scan(at, n);
+    extend(b, end_ + total);
+    Pool &pool = pool_[now_];
+    Spring *springs = pool.springs.data();
+    Real *extra = pool.extra.data();
+    const int n_extra = traits_.n_extra, begin = static_cast<int>(end_);
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      const int i = to[k];
+      if (i < 0) return;
+      std::int64_t m = place_of(buffer, k, n_first, second);
+      first[i] = begin + at[k];
+      count[i] = static_cast<int>(buffer[m++]);
+      for (int c = 0; c < count[i]; c++) {
+        const std::size_t target = std::size_t(first[i]) + c;
+        Spring s = {};
+        s.feature = static_cast<FeatureCode>(buffer[m++]);
+        for (int d = 0; d < 3; d++) s.normal[d] = buffer[m++];
+        for (int d = 0; d < 3; d++) s.stretch[d] = buffer[m++];
+        springs[target] = s;
+        for (int e = 0; e < n_extra; e++) extra[target * n_extra + e] = buffer[m++];
+      }
+    });
+    b.wait();
+    end_ += total;
+  }
+
+  std::size_t bytes() const
+  {
+    const std::size_t places = pool_[0].size + pool_[1].size;
+    return 2 * count_.size() * sizeof(int) +
+           places * (traits_.history * (sizeof(Spring) + traits_.n_extra * sizeof(Real)) +
+                     traits_.records * sizeof(ContactRecord));
+  }
+
+  // Public because nvcc takes no device lambda from a private function.
+
+  std::size_t offsets(B &b, std::size_t n, int *to)
+  {
+    const int *count = count_.data();
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = count[i]; });
+    return b.exclusive_scan(to, n);
+  }
+
+  // Room for n springs, keeping those that are there.
+  void extend(B &b, std::size_t n)
+  {
+    Pool &pool = pool_[now_];
+    if (pool.size >= n) return;
+    Pool wider = make(n + n / 8);
+    const std::size_t n_extra = traits_.n_extra;
+    const Spring *from = pool.springs.data();
+    const Real *from_extra = pool.extra.data();
+    Spring *to = wider.springs.data();
+    Real *to_extra = wider.extra.data();
+    b.for_each(end_, [=] LSDCD_LAMBDA(std::size_t i) {
+      to[i] = from[i];
+      for (std::size_t e = i * n_extra; e < (i + 1) * n_extra; e++) to_extra[e] = from_extra[e];
+    });
+    b.wait();
+    pool = std::move(wider);
+  }
+
+ private:
+  static constexpr int kOwn = 2;    // places of a sphere's own: a face each side of an edge
+  static constexpr std::size_t kUnknown = ~std::size_t(0);
+
+  int per_spring() const { return 7 + traits_.n_extra; }    // feature, normal, stretch, extra
+
+  LSDCD_FN static std::int64_t place_of(const double *buffer, std::size_t k, int n_first,
+                                        int second)
+  {
+    if (k < static_cast<std::size_t>(n_first)) return as_integer(buffer[k]);
+    return second + as_integer(buffer[second + (k - n_first)]);
+  }
+
+  Pool make(std::size_t n)
+  {
+    Pool pool;
+    if (traits_.history) pool.springs = Array<Spring>(n);
+    pool.extra = Array<Real>(traits_.history ? n * traits_.n_extra : 0);
+    if (traits_.records) pool.records = Array<ContactRecord>(n);
+    pool.size = n;
+    return pool;
+  }
+
+  LawTraits traits_;
+  Array<int> first_, count_;
+  Pool pool_[2];
+  int now_ = 0;
+  std::size_t n_near_ = 0, wanted_ = 0;
+  std::size_t end_ = 0;    // of what is used of the pool that is read
+};
+
+}    // namespace lsdcd

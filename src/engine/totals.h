@@ -1,0 +1,54 @@
+// From the results of single spheres to sums, the same way on every backend.
+#pragma once
+
+#include "engine/wall_force.h"
+
+namespace lsdcd {
+
+// Sums are made in blocks of this many spheres, then over the blocks in order: the same
+// bits whatever the number of threads.
+constexpr int kTotalsBlock = 256;
+
+// Adds the result of sphere i; `moment` is that of its force and torque about the origin,
+// `uncertain` the overlap / radius that it may have missed, or 0.
+LSDCD_FN void add_result(WallTotals &t, const SphereResult &r, const Vec3 &moment, Real uncertain,
+                         int i)
+{
+  if (uncertain > 0) {
+    t.uncertified++;
+    t.largest_uncertain = fmax(t.largest_uncertain, uncertain);
+  }
+  if (r.n_contacts <= 0) return;
+  t.energy += r.energy;
+  t.force -= r.force;
+  t.torque -= moment;
+  t.contacts += r.n_contacts;
+  if (r.overlap_ratio > t.largest_overlap_ratio) {
+    t.largest_overlap_ratio = r.overlap_ratio;
+    t.largest_overlap_sphere = i;
+  }
+}
+
+inline void add_block(WallTotals &sum, const WallTotals &t)
+{
+  sum.energy += t.energy;
+  sum.force += t.force;
+  sum.torque += t.torque;
+  sum.contacts += t.contacts;
+  sum.uncertified += t.uncertified;
+  sum.largest_uncertain = fmax(sum.largest_uncertain, t.largest_uncertain);
+  if (t.largest_overlap_ratio > sum.largest_overlap_ratio) {
+    sum.largest_overlap_ratio = t.largest_overlap_ratio;
+    sum.largest_overlap_sphere = t.largest_overlap_sphere;
+  }
+}
+
+// The columns of `contacts`. Contacts that exert no force still have a place: that of the
+// sphere.
+LSDCD_FN SphereOutput output_of(const SphereResult &r, const Vec3 &x, Real radius)
+{
+  return {Real(r.n_contacts), r.force, r.weight > 0 ? (1 / r.weight) * r.weighted_point : x,
+          radius};
+}
+
+}    // namespace lsdcd

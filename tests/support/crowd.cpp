@@ -1,0 +1,150 @@
+#include "support/crowd.h"
+
+#include <random>
+
+namespace lsdcd {
+
+TriangleSoup random_soup(int n, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<Real> at(-5, 5), size(-1, 1);
+  TriangleSoup soup;
+  soup.source = "random";
+  for (int i = 0; i < n; i++) {
+    const Vec3 p = {at(random), at(random), at(random)};
+    for (int k = 0; k < 3; k++)
+      soup.corners.push_back(p + Vec3{size(random), size(random), size(random)});
+  }
+  return soup;
+}
+
+std::vector<Case> cases()
+{
+  return {{"cylinder of 160", cylinder_mesh(40, 1, 50, 100), 1, 0.4},
+          {"cylinder of 10 000", cylinder_mesh(100, 49, 50, 100), 1, 0},
+          {"cylinder of 100 000", cylinder_mesh(400, 124, 50, 100), 1, 0.4},
+          {"floor of 20 000", floor_mesh(100, 10, 7), 0.3, 0},
+          {"box", box_mesh({0, 0, 0}, {10, 10, 10}), 0.5, 0},
+          {"random soup", random_soup(500, 3), 0.7, 0}};
+}
+
+ContactLaw classic(LawStyle style)
+{
+  ContactLaw law;
+  law.style = style;
+  law.k_normal = 1e5;
+  law.k_tangent = 2e4;
+  law.gamma_normal = 50;
+  law.gamma_tangent = 25;
+  law.mu = 0.4;
+  return law;
+}
+
+ContactLaw everything(NormalModel normal)
+{
+  ContactLaw law;
+  law.style = LawStyle::granular;
+  GranularLaw &g = law.granular;
+  g.normal = normal;
+  g.k_normal = 1e5;
+  g.modulus = 0.75e5;
+  g.cohesion = 300;
+  g.eta = 20;
+  g.tangential = TangentialModel::mindlin_rescale_force;
+  g.k_tangent = 5e4;
+  g.x_tangent = 0.7;
+  g.mu = 0.4;
+  g.rolling = true;
+  g.k_roll = 3e4;
+  g.gamma_roll = 20;
+  g.mu_roll = 0.1;
+  g.twisting = TwistingModel::marshall;
+  g.heat = HeatModel::area;
+  g.conductance = 3;
+  return law;
+}
+
+std::vector<Search> other_searches()
+{
+  return {{"nearest 2", 2, false, Precision::double_},
+          {"nearest 2 exact", 2, true, Precision::double_},
+          {"mixed", 0, false, Precision::mixed},
+          {"nearest 3, mixed", 3, false, Precision::mixed},
+          {"single", 0, false, Precision::single_}};
+}
+
+Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make, int n_spheres,
+                  const Search &search, const EngineSettings &wall)
+{
+  const WallMesh mesh = weld(c.soup, -1);
+  GridSettings g;
+  g.reach = reach_of(law, c.reach);
+  g.length = c.length;
+  g.nearest = search.nearest;
+  g.exact = search.exact;
+  g.in_floats = search.precision != Precision::double_;
+  const TriangleGrid grid = build_grid(mesh, g);
+  const FlatGrid flat(grid);
+
+  EngineSettings e = wall;
+  e.law = law;
+  e.precision = search.precision;
+  const auto engine = make(e);
+  engine->set_grid(flat.view());
+
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<Real> unit(0, 1), speed(-3, 3);
+  std::vector<Real> x, v, omega, radius, mass, force(3 * n_spheres), torque(3 * n_spheres);
+  std::vector<Real> temperature, heat(n_spheres);
+  const Vec3 lo = mesh.report.lo - c.reach * Vec3{1, 1, 1};
+  const Vec3 extent = mesh.report.hi + c.reach * Vec3{1, 1, 1} - lo;
+  for (int i = 0; i < n_spheres; i++) {
+    for (int k = 0; k < 3; k++) {
+      x.push_back(lo[k] + extent[k] * unit(random));
+      v.push_back(speed(random));
+      omega.push_back(speed(random));
+    }
+    radius.push_back(c.reach * (0.2 + 0.8 * unit(random)));
+    mass.push_back(1 + unit(random));
+    temperature.push_back(300 + speed(random));
+  }
+  SpringStore springs(law.n_extra());
+  springs.grow(n_spheres);
+  Spheres s;
+  s.n = n_spheres;
+  s.x = x.data();
+  s.v = v.data();
+  s.omega = omega.data();
+  s.radius = radius.data();
+  s.mass = mass.data();
+  s.force = force.data();
+  s.torque = torque.data();
+  s.temperature = temperature.data();
+  s.heat_flow = heat.data();
+  StepSettings step;
+  step.wall_temperature = 310;
+  step.dt = 1e-2;
+  step.per_sphere = true;
+  for (int k = 0; k < 5; k++) {
+    std::fill(force.begin(), force.end(), 0);
+    std::fill(torque.begin(), torque.end(), 0);
+    engine->start(s, step, &springs);
+    engine->collect();
+    for (int i = 0; i < 3 * n_spheres; i++) x[i] += step.dt * v[i];
+  }
+  Outcome out;
+  for (int i = 0; i < n_spheres; i++) {
+    out.force.push_back({force[3 * i], force[3 * i + 1], force[3 * i + 2]});
+    out.torque.push_back({torque[3 * i], torque[3 * i + 1], torque[3 * i + 2]});
+    out.springs.insert(out.springs.end(), springs.of(i), springs.of(i) + springs.count(i));
+    out.extra.insert(out.extra.end(), springs.extra_of(i),
+                     springs.extra_of(i) + springs.count(i) * law.n_extra());
+  }
+  out.heat = heat;
+  out.totals = engine->totals();
+  out.outputs.assign(engine->sphere_output(), engine->sphere_output() + engine->n_touching());
+  out.records.assign(engine->records(), engine->records() + engine->n_records());
+  return out;
+}
+
+}    // namespace lsdcd

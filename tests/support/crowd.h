@@ -1,0 +1,58 @@
+// One crowd of spheres on one wall for a few steps, on any engine: all that it returns, so
+// that engines can be compared to the bit.
+#pragma once
+
+#include "support/meshes.h"
+
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace lsdcd {
+
+struct Case {
+  const char *name;
+  TriangleSoup soup;
+  Real reach, length;
+};
+std::vector<Case> cases();
+
+TriangleSoup random_soup(int n, unsigned seed);
+
+template <class T>
+bool same_bytes(const std::vector<T> &a, const std::vector<T> &b)
+{
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+ContactLaw classic(LawStyle style);
+// `granular` with every further effect at once.
+ContactLaw everything(NormalModel normal);
+
+// Spheres all over the box of a wall, some in motion, for a few steps on one backend.
+struct Outcome {
+  std::vector<Vec3> force, torque;
+  WallTotals totals;
+  std::vector<Spring> springs;
+  std::vector<Real> extra, heat;
+  std::vector<SphereOutput> outputs;
+  std::vector<ContactRecord> records;
+};
+
+// How a wall is searched: settings of the grid and of the engine that belong together.
+struct Search {
+  const char *name;
+  int nearest;
+  bool exact;
+  Precision precision;
+};
+constexpr Search kComplete = {"complete", 0, false, Precision::double_};
+std::vector<Search> other_searches();
+
+using EngineMaker = std::function<std::unique_ptr<WallEngine>(const EngineSettings &)>;
+
+Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make, int n_spheres,
+                  const Search &search = kComplete, const EngineSettings &wall = {});
+
+}    // namespace lsdcd

@@ -1,0 +1,110 @@
+#include "support/test_engine.h"
+
+#include "support/device.h"
+#include "support/device_memory.h"
+
+namespace lsdcd {
+
+namespace {
+
+// Brings the host's spheres and springs to where a resident engine computes, and back, in
+// every step. Vectors lie there as x x x y y y z z z, as nothing else in the tests does.
+class ResidentForHost : public WallEngine {
+ public:
+  ResidentForHost(const EngineSettings &settings, bool cuda) :
+      engine_(cuda ? make_resident_cuda_engine(settings, nullptr)
+                   : make_resident_cpu_engine(settings)),
+      has_history_(settings.law.has_history()), x_(cuda), v_(cuda), omega_(cuda), force_(cuda),
+      torque_(cuda), radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda), mask_(cuda)
+  {
+  }
+
+  std::string backend() const override { return engine_->backend(); }
+  void set_grid(const GridView &grid) override { engine_->set_grid(grid); }
+
+  void start(const Spheres &host, const StepSettings &step, SpringStore *springs) override
+  {
+    host_ = host;
+    springs_ = has_history_ ? springs : nullptr;
+    const std::size_t n = host.n;
+    Spheres s = host;
+    const auto put = [n](DeviceArray<Real> &to, const Real *from) {
+      return from ? to.put(from, n) : nullptr;
+    };
+    s.x = put_vectors(x_, host.x, n);
+    s.v = put_vectors(v_, host.v, n);
+    s.omega = put_vectors(omega_, host.omega, n);
+    const std::vector<Real> none(3 * n, 0);
+    s.force = {force_.put(none), 1, static_cast<std::ptrdiff_t>(n)};
+    s.torque = {torque_.put(none), 1, static_cast<std::ptrdiff_t>(n)};
+    s.radius = put(radius_, host.radius);
+    s.mass = put(mass_, host.mass);
+    s.temperature = put(temperature_, host.temperature);
+    s.heat_flow = put(heat_, host.heat_flow);
+    s.mask = host.mask ? mask_.put(host.mask, n) : nullptr;
+    if (springs_) engine_->springs_from(*springs_, host.n);
+    engine_->choose(s, 0);
+    engine_->start(s, step, nullptr);
+    moves_ = step.update_history;
+  }
+
+  void collect() override
+  {
+    engine_->collect();
+    engine_->look();    // throws where a sphere was left out
+    const std::size_t n = host_.n;
+    add_vectors(host_.force, force_.get(3 * n), n);
+    add_vectors(host_.torque, torque_.get(3 * n), n);
+    if (host_.heat_flow) {
+      const std::vector<Real> heat = heat_.get(n);
+      for (std::size_t i = 0; i < n; i++) host_.heat_flow[i] = heat[i];
+    }
+    if (springs_ && moves_) engine_->springs_to(*springs_, host_.n);
+  }
+
+  const WallTotals &totals() const override { return engine_->totals(); }
+  int n_touching() const override { return engine_->n_touching(); }
+  const int *touching() const override { return engine_->touching(); }
+  const SphereOutput *sphere_output() const override { return engine_->sphere_output(); }
+  const Real *sphere_heat() const override { return engine_->sphere_heat(); }
+  int n_records() const override { return engine_->n_records(); }
+  const ContactRecord *records() const override { return engine_->records(); }
+  int n_near() const override { return engine_->n_near(); }
+  std::size_t bytes() const override { return engine_->bytes(); }
+
+ private:
+  static Rows<const Real> put_vectors(DeviceArray<Real> &to, const Rows<const Real> &from,
+                                      std::size_t n)
+  {
+    std::vector<Real> columns(3 * n);
+    for (std::size_t i = 0; i < n; i++)
+      for (int k = 0; k < 3; k++) columns[k * n + i] = from[i][k];
+    return {to.put(columns), 1, static_cast<std::ptrdiff_t>(n)};
+  }
+  static void add_vectors(const Rows<Real> &to, const std::vector<Real> &columns, std::size_t n)
+  {
+    for (std::size_t i = 0; i < n; i++) to.add(i, {columns[i], columns[n + i], columns[2 * n + i]});
+  }
+
+  std::unique_ptr<ResidentEngine> engine_;
+  bool has_history_, moves_ = false;
+  Spheres host_;
+  SpringStore *springs_ = nullptr;
+  DeviceArray<Real> x_, v_, omega_, force_, torque_, radius_, mass_, temperature_, heat_;
+  DeviceArray<int> mask_;
+};
+
+}    // namespace
+
+std::unique_ptr<WallEngine> make_resident_test_engine(const EngineSettings &settings)
+{
+  return std::make_unique<ResidentForHost>(settings, settings.device == Device::cuda);
+}
+
+std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings)
+{
+  settings.device = test_device();
+  return test_is_resident() ? make_resident_test_engine(settings) : make_engine(settings);
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,17 @@
+// The engine that a run of a test program is for.
+#pragma once
+
+#include "engine/resident_engine.h"
+
+#include <memory>
+
+namespace lsdcd {
+
+// By LSDCD_TEST_DEVICE: cpu, cuda; resident, resident_cuda: an engine for particles that
+// live where it computes, behind the door of one for a host's.
+std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings);
+
+// The same, by name. `settings.device` says where.
+std::unique_ptr<WallEngine> make_resident_test_engine(const EngineSettings &settings);
+
+}    // namespace lsdcd

@@ -1,0 +1,375 @@
+// The engine for particles that live where it computes against the one for a host's: one
+// source, so the same bits.
+#include "contact/spring_store.h"
+#include "effects/effects.h"
+#include "engine/resident_engine.h"
+#include "grid/near_within.h"
+#include "support/crowd.h"
+#include "support/device.h"
+#include "support/device_memory.h"
+#include "support/test_engine.h"
+
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace lsdcd;
+
+namespace {
+
+std::unique_ptr<WallEngine> on_host(EngineSettings s)
+{
+  s.device = Device::cpu;
+  return make_engine(s);
+}
+std::unique_ptr<WallEngine> in_place(EngineSettings s)
+{
+  s.device = test_device();
+  return make_resident_test_engine(s);
+}
+
+void expect_same(const Outcome &a, const Outcome &b, const std::string &name)
+{
+  EXPECT_TRUE(same_bytes(a.force, b.force)) << name;
+  EXPECT_TRUE(same_bytes(a.torque, b.torque)) << name;
+  EXPECT_TRUE(same_bytes(a.springs, b.springs)) << name;
+  EXPECT_TRUE(same_bytes(a.extra, b.extra)) << name;
+  EXPECT_TRUE(same_bytes(a.heat, b.heat)) << name;
+  EXPECT_TRUE(same_bytes(a.outputs, b.outputs)) << name;
+  EXPECT_TRUE(same_bytes(a.records, b.records)) << name;
+  EXPECT_EQ(a.totals.energy, b.totals.energy) << name;
+  EXPECT_TRUE(a.totals.force == b.totals.force) << name;
+  EXPECT_TRUE(a.totals.torque == b.totals.torque) << name;
+  EXPECT_EQ(a.totals.contacts, b.totals.contacts) << name;
+  EXPECT_EQ(a.totals.uncertified, b.totals.uncertified) << name;
+  EXPECT_EQ(a.totals.largest_overlap_sphere, b.totals.largest_overlap_sphere) << name;
+  EXPECT_GT(a.totals.contacts, 0) << name;
+}
+
+// Faces all round the origin, each with its middle at distance 1: n contacts.
+TriangleSoup faces_all_round(int n)
+{
+  TriangleSoup soup;
+  soup.source = "faces all round";
+  for (int i = 0; i < n; i++) {
+    // A spiral that spreads them evenly.
+    const Real z = 1 - (2 * i + Real(1)) / n, r = std::sqrt(1 - z * z), phi = Real(2.399963) * i;
+    const Vec3 out = {r * std::cos(phi), r * std::sin(phi), z};
+    const Vec3 u = (1 / norm(cross(out, {0.3, 0.5, 0.8}))) * cross(out, {0.3, 0.5, 0.8});
+    const Vec3 v = cross(out, u);
+    const Real size = Real(0.02);
+    for (int k = 0; k < 3; k++) {
+      const Real a = Real(2.0943951) * k;
+      soup.corners.push_back(out + (size * std::cos(a)) * u + (size * std::sin(a)) * v);
+    }
+  }
+  return soup;
+}
+
+ContactLaw history()
+{
+  return classic(LawStyle::hertz_history);
+}
+
+TEST(resident, gives_what_every_effect_gives_on_the_host)
+{
+  const std::vector<Case> walls = cases();
+  for (const EffectCase &effect : effect_cases()) {
+    const Case &c = walls[effect.name.size() % walls.size()];
+    const EngineSettings &s = effect.settings;
+    expect_same(run_steps(c, s.law, on_host, 5000, kComplete, s),
+                run_steps(c, s.law, in_place, 5000, kComplete, s), effect.name);
+  }
+}
+
+TEST(resident, gives_what_the_host_gives_however_it_searches)
+{
+  for (const Search &search : other_searches())
+    for (const Case &c : cases())
+      expect_same(run_steps(c, history(), on_host, 5000, search),
+                  run_steps(c, history(), in_place, 5000, search),
+                  std::string(c.name) + ", " + search.name);
+}
+
+TEST(resident, drops_no_contact_of_crowded_spheres)
+{
+  for (int n : {9, 40, 100, 400}) {
+    EngineSettings s;
+    s.law = history();
+    s.corner = Corner::sum;
+    const auto outcome = [&](const EngineMaker &make) {
+      const WallMesh mesh = weld(faces_all_round(n), -1);
+      GridSettings g;
+      g.reach = 1.1;
+      const TriangleGrid grid = build_grid(mesh, g);
+      const FlatGrid flat(grid);
+      const auto engine = make(s);
+      engine->set_grid(flat.view());
+      const int spheres = 50;
+      std::vector<Real> x(3 * spheres), v(3 * spheres, 0.1), omega(3 * spheres, 0.2),
+          radius(spheres, 1.05), mass(spheres, 1), f(3 * spheres), t(3 * spheres);
+      for (std::size_t i = 0; i < x.size(); i++) x[i] = 1e-3 * std::sin(7.0 * i);
+      SpringStore springs;
+      springs.grow(spheres);
+      Spheres all;
+      all.n = spheres;
+      all.x = x.data();
+      all.v = v.data();
+      all.omega = omega.data();
+      all.radius = radius.data();
+      all.mass = mass.data();
+      all.force = f.data();
+      all.torque = t.data();
+      StepSettings step;
+      step.dt = 1e-3;
+      for (int k = 0; k < 2; k++) {
+        engine->start(all, step, &springs);
+        engine->collect();
+      }
+      EXPECT_EQ(springs.count(spheres - 1), n);
+      EXPECT_EQ(engine->totals().contacts, n * spheres);
+      return f;
+    };
+    EXPECT_TRUE(same_bytes(outcome(on_host), outcome(in_place))) << n;
+  }
+}
+
+// A resident engine with particles of its own, in its memory.
+class Particles {
+ public:
+  Particles(const EngineSettings &settings, int n, Real reach) :
+      x_(cuda()), v_(cuda()), omega_(cuda()), radius_(cuda()), mass_(cuda()), force_(cuda()),
+      torque_(cuda()), n_(n)
+  {
+    engine =
+        cuda() ? make_resident_cuda_engine(settings, nullptr) : make_resident_cpu_engine(settings);
+    const WallMesh mesh = weld(floor_mesh(40, 10, 7), -1);
+    GridSettings g;
+    g.reach = reach;
+    grid = build_grid(mesh, g);
+    flat = FlatGrid(grid);
+    engine->set_grid(flat.view());
+    engine->grow(n);
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<Real> at(-9, 9), up(0, 4 * reach), speed(-1, 1), unit(0.3, 1);
+    for (int i = 0; i < n; i++) {
+      for (Real value : {at(random), at(random), up(random)}) host_x.push_back(value);
+      for (int k = 0; k < 3; k++) host_v.push_back(speed(random));
+      host_radius.push_back(reach * unit(random));
+    }
+  }
+
+  // One step of all spheres along their velocities, then the wall's forces on those near
+  // it, or on those of an older choice.
+  enum class Choice { older, now };
+  void step(Real dt, Choice choice = Choice::older)
+  {
+    for (std::size_t i = 0; i < host_x.size(); i++) host_x[i] += dt * host_v[i];
+    if (choice == Choice::now) engine->choose(spheres(), 0);
+    StepSettings step;
+    step.dt = dt;
+    engine->start(spheres(), step, nullptr);
+  }
+
+  Spheres spheres()
+  {
+    const std::vector<Real> none(3 * n_, 0), one(n_, 1);
+    Spheres s;
+    s.n = n_;
+    s.x = x_.put(host_x);
+    s.v = v_.put(host_v);
+    s.omega = omega_.put(none);
+    s.radius = radius_.put(host_radius);
+    s.mass = mass_.put(one);
+    s.force = force_.put(none);
+    s.torque = torque_.put(none);
+    return s;
+  }
+
+  std::vector<Real> force() { return force_.get(3 * n_); }
+  SpringStore springs()
+  {
+    SpringStore store;
+    engine->springs_to(store, n_);
+    return store;
+  }
+  static bool cuda() { return test_on_cuda(); }
+
+  std::unique_ptr<ResidentEngine> engine;
+  TriangleGrid grid;
+  FlatGrid flat;
+  std::vector<Real> host_x, host_v, host_radius;
+
+ private:
+  DeviceArray<Real> x_, v_, omega_, radius_, mass_, force_, torque_;
+  int n_;
+};
+
+EngineSettings with_history()
+{
+  EngineSettings s;
+  s.law = history();
+  return s;
+}
+
+bool same_springs(const SpringStore &a, int i, const SpringStore &b, int j)
+{
+  return a.count(i) == b.count(j) &&
+         std::memcmp(a.of(i), b.of(j), a.count(i) * sizeof(Spring)) == 0;
+}
+
+TEST(resident, a_list_that_is_kept_gives_the_same_bits)
+{
+  const int n = 3000;
+  Particles kept(with_history(), n, 0.5), anew(with_history(), n, 0.5);
+  // 20 steps of 0.01 at up to sqrt(3): 0.35.
+  kept.engine->choose(kept.spheres(), 0.36);
+  bool differs = false;
+  for (int k = 0; k < 20; k++) {
+    kept.step(0.01);
+    anew.step(0.01, Particles::Choice::now);
+    differs = differs || !same_bytes(kept.force(), anew.force());
+  }
+  EXPECT_FALSE(differs);
+  const SpringStore a = kept.springs(), b = anew.springs();
+  int with = 0, same = 0;
+  for (int i = 0; i < n; i++) {
+    with += a.count(i) > 0;
+    same += same_springs(a, i, b, i);
+  }
+  EXPECT_EQ(same, n);
+  EXPECT_GT(with, 100);
+  EXPECT_GT(kept.engine->n_near(), anew.engine->n_near());
+}
+
+TEST(resident, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
+{
+  Particles p(with_history(), 1, 0.5);
+  const GridView grid = p.flat.view();
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<Real> at(-12, 12), up(-3, 3), unit(-1, 1), margins(0, 1.5);
+  int near = 0, missed = 0, far = 0;
+  for (int k = 0; k < 200000; k++) {
+    const Vec3 q = {at(random), at(random), up(random)};
+    Vec3 way = {unit(random), unit(random), unit(random)};
+    const Real margin = margins(random);
+    way = (margin * std::fabs(unit(random)) / norm(way)) * way;
+    if (near_wall(grid, q + way)) {
+      near++;
+      missed += !near_within(grid, q, margin);
+    } else
+      far += !near_within(grid, q, margin);
+  }
+  EXPECT_EQ(missed, 0);
+  EXPECT_GT(near, 1000);
+  EXPECT_GT(far, 1000);    // it is not near everywhere
+}
+
+TEST(resident, springs_follow_through_pack_and_unpack)
+{
+  const int n = 2000, stay = 1500;
+  Particles from(with_history(), n, 0.5), to(with_history(), n, 0.5);
+  for (int k = 0; k < 5; k++) {
+    from.step(0.01, Particles::Choice::now);
+  }
+  const SpringStore before = from.springs();
+  // The last 500 fill the places of every third of the first 1500, which leave.
+  std::vector<int> which, copies, back;
+  for (int i = 0; i < stay; i += 3) {
+    which.push_back(i);
+    copies.push_back(n - 1 - i / 3);
+    back.push_back(i % 2 == 0 ? 10 + i : -1);    // every other one arrives
+  }
+  const int moved = static_cast<int>(which.size());
+  const bool cuda = Particles::cuda();
+  DeviceArray<int> d_which(cuda), d_copies(cuda), d_back(cuda);
+  DeviceArray<double> buffer(cuda);
+  buffer.resize(moved * (1 + from.engine->largest_packed_size(n)));
+  const int size =
+      from.engine->pack(moved, d_which.put(which), d_copies.put(copies), buffer.data());
+  EXPECT_LE(size, moved * (1 + from.engine->largest_packed_size(n)));
+
+  const SpringStore left = from.springs();
+  int same = 0, carried = 0;
+  for (int k = 0; k < moved; k++) same += same_springs(left, which[k], before, copies[k]);
+  EXPECT_EQ(same, moved);
+  for (int i = 1; i < stay; i += 3) EXPECT_TRUE(same_springs(left, i, before, i));
+
+  // The message once more behind itself, as from a second neighbour.
+  std::vector<double> twice = buffer.get(size), once = twice;
+  twice.insert(twice.end(), once.begin(), once.end());
+  std::vector<int> places = back;
+  for (int k = 0; k < moved; k++) places.push_back(back[k] < 0 ? -1 : back[k] + 1);
+  DeviceArray<double> both(cuda);
+  both.put(twice);
+  to.step(0.01, Particles::Choice::now);
+  const SpringStore own = to.springs();
+  to.engine->unpack(2 * moved, d_back.put(places), both.data(), moved, size);
+  const SpringStore after = to.springs();
+  int arrived = 0;
+  for (int k = 0; k < moved; k++) {
+    if (back[k] < 0) continue;
+    arrived++;
+    carried += before.count(which[k]) > 0;
+    EXPECT_TRUE(same_springs(after, back[k], before, which[k]));
+    EXPECT_TRUE(same_springs(after, back[k] + 1, before, which[k]));
+  }
+  EXPECT_GT(arrived, 200);
+  EXPECT_GT(carried, 20);
+  EXPECT_TRUE(same_springs(after, n - 1, own, n - 1));
+}
+
+TEST(resident, a_sphere_larger_than_the_reach_is_an_error)
+{
+  Particles p(with_history(), 100, 0.5);
+  p.host_radius[7] = 0.6;
+  p.host_radius[70] = 0.7;
+  try {
+    p.engine->choose(p.spheres(), 0);
+    FAIL();
+  } catch (const std::exception &e) {
+    EXPECT_NE(std::string(e.what()).find("sphere 7 has radius 0.6"), std::string::npos) << e.what();
+  }
+}
+
+TEST(resident, a_sphere_that_grows_past_the_reach_is_an_error_at_the_next_look)
+{
+  Particles p(with_history(), 100, 0.5);
+  for (int i = 0; i < 100; i++) p.host_x[3 * i + 2] = 0.1;
+  p.engine->choose(p.spheres(), 0);
+  p.step(0);
+  EXPECT_NO_THROW(p.engine->look());
+  p.host_radius[7] = 0.6;
+  p.step(0);
+  EXPECT_THROW(p.engine->look(), std::exception);
+}
+
+TEST(resident, notes_the_deepest_overlap_of_all_steps_since_the_last_look)
+{
+  Particles p(with_history(), 3, 0.5);
+  p.host_x = {0.3, 0.1, 0.45, 4, 4, 0.3, -4, 3, 3};
+  p.host_v.assign(9, 0);
+  p.host_radius = {0.5, 0.4, 0.5};
+  p.engine->choose(p.spheres(), 0.5);
+  p.step(1);    // 10 % and 25 %
+  p.host_x[5] = 0.39;
+  p.step(1);
+  const StepNotes notes = p.engine->look();
+  EXPECT_NEAR(notes.deepest, 0.25, 1e-7);    // it is kept in single precision
+  EXPECT_EQ(notes.deepest_sphere, 1);
+  p.step(1);
+  EXPECT_NEAR(p.engine->look().deepest, 0.1, 1e-7);
+}
+
+TEST(resident, many_springs_take_shared_places)
+{
+  // A corner of three walls has more contacts than a sphere has places of its own.
+  const Case corner = {"box", box_mesh({0, 0, 0}, {1.2, 1.2, 1.2}), 0.5, 0};
+  const Outcome a = run_steps(corner, history(), on_host, 20000);
+  const Outcome b = run_steps(corner, history(), in_place, 20000);
+  expect_same(a, b, "corner");
+  int three = 0;
+  for (const SphereOutput &o : a.outputs) three += o.contacts >= 3;
+  EXPECT_GT(three, 300);
+}
+
+}    // namespace
