@@ -14,15 +14,24 @@ find_path(LSDCD_HOST_INCLUDE lammps.h PATH_SUFFIXES lammps DOC "LAMMPS headers")
 find_library(LSDCD_HOST_LIBRARY lammps DOC "LAMMPS shared library")
 find_package(MPI QUIET COMPONENTS CXX)
 
-# An installed package has its version and integer sizes in its CMake files, a
-# source tree has its version in version.h.
-if(LSDCD_HOST_INCLUDE AND EXISTS ${LSDCD_HOST_INCLUDE}/version.h)
-  file(STRINGS ${LSDCD_HOST_INCLUDE}/version.h version REGEX "LAMMPS_VERSION")
-  if(version MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9]+)")
+# 20210929 for a line with "29 Sep 2021"; empty for none.
+function(lsdcd_version_number line result)
+  set(${result} "" PARENT_SCOPE)
+  if(line MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9]+)")
     set(day ${CMAKE_MATCH_1})
     set(year ${CMAKE_MATCH_3})
     string(FIND "JanFebMarAprMayJunJulAugSepOctNovDec" ${CMAKE_MATCH_2} month)
     math(EXPR version "${year} * 10000 + (${month} / 3 + 1) * 100 + ${day}")
+    set(${result} ${version} PARENT_SCOPE)
+  endif()
+endfunction()
+
+# An installed package has its version and integer sizes in its CMake files, a
+# source tree has its version in version.h.
+if(LSDCD_HOST_INCLUDE AND EXISTS ${LSDCD_HOST_INCLUDE}/version.h)
+  file(STRINGS ${LSDCD_HOST_INCLUDE}/version.h version REGEX "LAMMPS_VERSION")
+  lsdcd_version_number("${version}" version)
+  if(version)
     set(LSDCD_HOST_VERSION ${version} CACHE STRING "LAMMPS version as a number")
   endif()
 elseif(LSDCD_HOST_INCLUDE)

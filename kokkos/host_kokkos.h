@@ -1,0 +1,78 @@
+// The Kokkos of the host: what differs between LAMMPS of 2021, 2025 and 2026, and which of
+// our backends shares memory with a Kokkos device.
+#pragma once
+
+#include "atom_kokkos.h"
+#include "atom_masks.h"
+#include "kokkos_base.h"
+#include "kokkos_type.h"
+
+#include "base/rows.h"
+#include "engine/resident_engine.h"
+
+#include <memory>
+#include <type_traits>
+
+namespace lsdcd {
+
+// LAMMPS packs and sorts what fixes keep on the device since 2 Aug 2023.
+#define LSDCD_DEVICE_EXCHANGE (LSDCD_HOST_VERSION >= 20230802)
+
+#if LSDCD_DEVICE_EXCHANGE
+// Its buffer type has had three names.
+template <class>
+struct SecondArgument;
+template <class R, class C, class A, class B, class... More>
+struct SecondArgument<R (C::*)(A, B, More...)> {
+  using type = std::remove_reference_t<B>;
+};
+using ExchangeBuffer =
+    typename SecondArgument<decltype(&LAMMPS_NS::KokkosBase::pack_exchange_kokkos)>::type;
+#endif
+
+// A view of LAMMPS as rows, of whatever layout it is.
+template <class View>
+auto rows_of(const View &view)
+{
+  using Number = std::remove_pointer_t<decltype(view.data())>;
+  static_assert(std::is_same<std::remove_const_t<Number>, Real>::value,
+                "this LAMMPS keeps its atoms in single precision (KOKKOS_PREC): build it with "
+                "double");
+  return Rows<Number>(view.data(), static_cast<std::ptrdiff_t>(view.stride(0)),
+                      static_cast<std::ptrdiff_t>(view.stride(1)));
+}
+
+template <class View>
+const Real *numbers_of(const View &view)
+{
+  static_assert(
+      std::is_same<std::remove_const_t<std::remove_pointer_t<decltype(view.data())>>, Real>::value,
+      "this LAMMPS keeps its atoms in single precision (KOKKOS_PREC): build it with "
+      "double");
+  return view.data();
+}
+
+// The engine whose memory is that of a Kokkos device.
+template <class DeviceType>
+std::unique_ptr<WallEngine> make_engine_on(const EngineSettings &settings)
+{
+  using Space = typename DeviceType::execution_space;
+#if defined(KOKKOS_ENABLE_CUDA)
+  if constexpr (std::is_same<Space, Kokkos::Cuda>::value)
+    return make_resident_cuda_engine(settings, Space().cuda_stream());
+  else
+#endif
+  {
+    static_assert(
+        Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Space::memory_space>::accessible,
+        "wall/lsdcd/kk runs on Kokkos's host backends and on CUDA");
+    return make_resident_cpu_engine(settings);
+  }
+}
+
+template <class DeviceType>
+constexpr bool kOnHost =
+    Kokkos::SpaceAccessibility<Kokkos::HostSpace,
+                               typename DeviceType::execution_space::memory_space>::accessible;
+
+}    // namespace lsdcd
