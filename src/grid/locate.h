@@ -34,25 +34,57 @@ LSDCD_FN std::uint32_t cell_index(const Brick &brick, int cell)
   return brick.first_cell + brick.below[word] + static_cast<std::uint32_t>(count_bits(before));
 }
 
+// Where a point falls before any table is read: in which cell of the whole grid, and where
+// in units of cells.
+struct Place {
+  bool inside;    // false: outside the grid, or not a number; the rest is not set
+  std::int32_t i, j, k;
+  Vec3 at;
+};
+
+LSDCD_FN Place place_of(const GridView &grid, const Vec3 &q)
+{
+  Place p;
+  p.at.x = (q.x - grid.origin.x) * grid.inv_length;
+  p.at.y = (q.y - grid.origin.y) * grid.inv_length;
+  p.at.z = (q.z - grid.origin.z) * grid.inv_length;
+  // Written so that a NaN falls outside.
+  p.inside = p.at.x >= 0 && p.at.y >= 0 && p.at.z >= 0 &&
+             p.at.x < grid.n_bricks[0] * kBrickSide && p.at.y < grid.n_bricks[1] * kBrickSide &&
+             p.at.z < grid.n_bricks[2] * kBrickSide;
+  if (!p.inside) return p;
+  p.i = static_cast<int>(p.at.x);
+  p.j = static_cast<int>(p.at.y);
+  p.k = static_cast<int>(p.at.z);
+  return p;
+}
+
+// Of its brick, in the table.
+LSDCD_FN std::size_t brick_place(const GridView &grid, const Place &p)
+{
+  return (static_cast<std::size_t>(p.k >> 3) * grid.n_bricks[1] + (p.j >> 3)) * grid.n_bricks[0] +
+         (p.i >> 3);
+}
+
+LSDCD_FN std::int32_t cell_in_brick(const Place &p)
+{
+  return ((p.k & 7) << 6) | ((p.j & 7) << 3) | (p.i & 7);
+}
+
+// Length.
+LSDCD_FN Vec3 from_cell_centre(const GridView &grid, const Place &p)
+{
+  const Real half = Real(0.5);
+  return grid.length * Vec3{p.at.x - p.i - half, p.at.y - p.j - half, p.at.z - p.k - half};
+}
+
 LSDCD_FN CellAddress locate(const GridView &grid, const CellListsView &lists, const Vec3 &q)
 {
-  const Real u = (q.x - grid.origin.x) * grid.inv_length;
-  const Real v = (q.y - grid.origin.y) * grid.inv_length;
-  const Real w = (q.z - grid.origin.z) * grid.inv_length;
-  // Written so that a NaN falls outside.
-  if (!(u >= 0 && v >= 0 && w >= 0)) return {nullptr, 0, {0, 0, 0}};
-  if (!(u < grid.n_bricks[0] * kBrickSide && v < grid.n_bricks[1] * kBrickSide &&
-        w < grid.n_bricks[2] * kBrickSide))
-    return {nullptr, 0, {0, 0, 0}};
-  const int i = static_cast<int>(u), j = static_cast<int>(v), k = static_cast<int>(w);
-  const std::size_t at =
-      (static_cast<std::size_t>(k >> 3) * grid.n_bricks[1] + (j >> 3)) * grid.n_bricks[0] +
-      (i >> 3);
-  const std::int32_t b = lists.brick_of[at];
+  const Place p = place_of(grid, q);
+  if (!p.inside) return {nullptr, 0, {0, 0, 0}};
+  const std::int32_t b = lists.brick_of[brick_place(grid, p)];
   if (b < 0) return {nullptr, 0, {0, 0, 0}};
-  const Real half = Real(0.5);
-  return {lists.bricks + b, ((k & 7) << 6) | ((j & 7) << 3) | (i & 7),
-          grid.length * Vec3{u - i - half, v - j - half, w - k - half}};
+  return {lists.bricks + b, cell_in_brick(p), from_cell_centre(grid, p)};
 }
 
 LSDCD_FN bool near_wall(const GridView &grid, const Vec3 &q)

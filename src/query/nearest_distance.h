@@ -13,15 +13,20 @@ struct Answer {
   std::uint32_t read;    // entries of lists
 };
 
+// Where the wall is nowhere near.
+LSDCD_FN Answer far_answer()
+{
+  return {kAnyDistance, true, 0};
+}
+
 // Entries of a cell's list, the nearest first, as long as they can change the answer.
 // `limit`: entries that are tried; one more is only a bound.
 template <bool kPieces, class Distances>
-LSDCD_FN Answer nearest_in_list(const GridView &grid, const CellListsView &lists, const Vec3 &q,
-                                Real radius, std::uint32_t limit)
+LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists, const Vec3 &q,
+                                Real radius, std::uint32_t limit, const CellAddress &at,
+                                std::uint32_t index)
 {
-  const CellAddress at = locate(grid, lists, q);
-  if (!at.brick || !has_candidates(*at.brick, at.cell)) return {kAnyDistance, true, 0};
-  const Cell cell = lists.cells[cell_index(*at.brick, at.cell)];
+  const Cell cell = lists.cells[index];
   const Distances distances(grid, q, at);
   // Nothing farther than the nearest so far is of interest.
   Real nearest = radius;
@@ -37,37 +42,55 @@ LSDCD_FN Answer nearest_in_list(const GridView &grid, const CellListsView &lists
   const auto answer = [&](bool certified, std::uint32_t read) -> Answer {
     return {found ? nearest : kAnyDistance, certified, read};
   };
-  if (cell.count == 1) {
-    attempt(cell.first);
-    return answer(true, 1);
-  }
-  const Real off_centre = norm(at.from_centre);
+  // A single candidate is in the cell itself, and there is no list to stop in.
+  const bool single = cell.count == 1;
+  const Real off_centre = single ? 0 : norm(at.from_centre);
   for (std::uint32_t k = 0; k < cell.count; k++) {
-    const Candidate candidate = lists.candidates[cell.first + k];
-    // A distance that need not be right ends nothing.
-    const bool past = candidate.bound > (Distances::kBounded ? nearest : radius) + off_centre;
-    if (k == limit || (past && Distances::kBounded)) return answer(past, k + 1);
-    attempt(candidate.feature);
+    FeatureCode code = cell.first;
+    if (!single) {
+      const Candidate candidate = lists.candidates[cell.first + k];
+      // A distance that need not be right ends nothing.
+      const bool past = candidate.bound > (Distances::kBounded ? nearest : radius) + off_centre;
+      if (k == limit || (past && Distances::kBounded)) return answer(past, k + 1);
+      code = candidate.feature;
+    }
+    attempt(code);
   }
   return answer(true, cell.count);
 }
 
 constexpr std::uint32_t kWholeList = 0xffffffffu;
 
-// The nearest point of the wall within `radius` (length, at most grid.reach) of q.
-// Certified answers are exact, but for the rounding of Distances and with the paper's test.
-// Lists of nearest pieces fall back to complete ones where the grid has them.
-template <class Distances>
-LSDCD_FN Answer nearest_distance(const GridView &grid, const Vec3 &q, Real radius)
+// The nearest point of the wall within `radius` (length, at most grid.reach) of q, which lies
+// at `at`, the cell `index` of grid.lists. kComplete: grid.nearest is 0. Certified answers are
+// exact, but for the rounding of Distances and with the paper's test. Lists of nearest pieces
+// fall back to complete ones where the grid has them.
+template <bool kComplete, class Distances>
+LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
+                             const CellAddress &at, std::uint32_t index)
 {
-  if (grid.nearest == 0)
-    return nearest_in_list<false, Distances>(grid, grid.lists, q, radius, kWholeList);
-  const Answer first = nearest_in_list<true, Distances>(grid, grid.lists, q, radius,
-                                                        static_cast<std::uint32_t>(grid.nearest));
+  if (kComplete)
+    return nearest_in_cell<false, Distances>(grid, grid.lists, q, radius, kWholeList, at, index);
+  const Answer first = nearest_in_cell<true, Distances>(
+      grid, grid.lists, q, radius, static_cast<std::uint32_t>(grid.nearest), at, index);
   if (first.certified || !grid.complete.bricks) return first;
-  Answer second = nearest_in_list<false, Distances>(grid, grid.complete, q, radius, kWholeList);
+  // The complete lists have cells of their own.
+  const CellAddress there = locate(grid, grid.complete, q);
+  Answer second = far_answer();
+  if (there.brick && has_candidates(*there.brick, there.cell))
+    second = nearest_in_cell<false, Distances>(grid, grid.complete, q, radius, kWholeList, there,
+                                               cell_index(*there.brick, there.cell));
   second.read += first.read;
   return second;
+}
+
+// The same for any q.
+template <bool kComplete, class Distances>
+LSDCD_FN Answer nearest_distance(const GridView &grid, const Vec3 &q, Real radius)
+{
+  const CellAddress at = locate(grid, grid.lists, q);
+  if (!at.brick || !has_candidates(*at.brick, at.cell)) return far_answer();
+  return nearest_from<kComplete, Distances>(grid, q, radius, at, cell_index(*at.brick, at.cell));
 }
 
 // No grid: every face of the wall, the paper's N = all. Its edges and vertices without a

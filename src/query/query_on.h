@@ -2,29 +2,78 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "grid/brick_words.h"
 #include "grid/flat_grid.h"
 #include "query/nearest_distance.h"
+#include "query/one_pass.h"
 #include "query/sphere_query.h"
 
 #include <algorithm>
 
 namespace lsdcd {
 
-// Arrays of one query; which of them are null says what is kept.
+// Arrays of one query; which of them are null says what is kept. Distances that were found
+// in float are kept in float.
 struct AnswerArrays {
   std::uint8_t *status;
   Real *distance;
+  float *float_distance;
   std::uint32_t *read;
+
+  static constexpr float kAnyFloatDistance = 3e38f;
 
   LSDCD_FN void keep(std::size_t i, const Answer &a) const
   {
-    status[i] = (a.distance < kAnyDistance ? kTouching : 0) | (a.certified ? kCertified : 0);
+    const bool touching = a.distance < kAnyDistance;
+    status[i] = (touching ? kTouching : 0) | (a.certified ? kCertified : 0);
     if (distance) distance[i] = a.distance;
+    if (float_distance)
+      float_distance[i] = touching ? static_cast<float>(a.distance) : kAnyFloatDistance;
     if (read) read[i] = a.read;
+  }
+  LSDCD_FN static Real widened(float kept)
+  {
+    return kept < kAnyFloatDistance ? static_cast<Real>(kept) : kAnyDistance;
+  }
+  LSDCD_FN Real distance_of(std::size_t i) const
+  {
+    return float_distance ? widened(float_distance[i]) : distance[i];
   }
 };
 
-template <class B>
+// What a query asks of each sphere, for the loops that run it: an answer at once; or first
+// its cell, and then an answer there or far from the wall. kComplete: grid.nearest is 0.
+template <class Distances, class S, bool kComplete>
+struct GridWork {
+  using Item = S;
+
+  GridView grid;
+  const BrickWord *words;
+  const S *spheres;
+  AnswerArrays out;
+
+  LSDCD_FN S sphere(std::size_t i) const { return spheres[i]; }
+  LSDCD_FN void answer(std::size_t i, const S &s) const
+  {
+    out.keep(i, nearest_distance<kComplete, Distances>(grid, s.centre(), s.r));
+  }
+
+  LSDCD_FN std::uint32_t cell_of(const S &s) const
+  {
+    return occupied_cell(grid, words, s.centre());
+  }
+  LSDCD_FN void far(std::size_t i) const { out.keep(i, far_answer()); }
+  LSDCD_FN void answer(std::size_t i, const S &s, std::uint32_t cell) const
+  {
+    const Vec3 q = s.centre();
+    const Place place = place_of(grid, q);
+    const CellAddress at = {nullptr, cell_in_brick(place), from_cell_centre(grid, place)};
+    out.keep(i, nearest_from<kComplete, Distances>(grid, q, s.r, at, cell));
+  }
+};
+
+// `Way`: how a backend runs a query that reads the grid.
+template <class B, class Way = OnePass>
 class QueryOn : public SphereQuery {
   template <class T>
   using Array = typename B::template Array<T>;
@@ -41,6 +90,7 @@ class QueryOn : public SphereQuery {
     b_.copy_in(view.block, block.data(), block.size());
     block_ = std::move(block);
     grid_ = moved_view(view, block_.data());
+    words_ = b_.from_host(brick_words(view));
   }
 
   void set_spheres(const Sphere *spheres, std::size_t n) override
@@ -75,7 +125,10 @@ class QueryOn : public SphereQuery {
   std::vector<std::uint8_t> status() override { return b_.to_host(status_, n_); }
   std::vector<Real> distance() override
   {
-    return b_.to_host(distance_, distance_.size() >= n_ ? n_ : 0);
+    if (float_distance_.size() < n_) return b_.to_host(distance_, distance_.size() >= n_ ? n_ : 0);
+    std::vector<Real> out;
+    for (float kept : b_.to_host(float_distance_, n_)) out.push_back(AnswerArrays::widened(kept));
+    return out;
   }
   std::vector<std::uint32_t> read() override
   {
@@ -84,7 +137,10 @@ class QueryOn : public SphereQuery {
   std::string device() const override { return b_.name(); }
 
   // The arrays of the last run, on the device.
-  AnswerArrays answers() { return {status_.data(), distance_.data(), read_.data()}; }
+  AnswerArrays answers()
+  {
+    return {status_.data(), distance_.data(), float_distance_.data(), read_.data()};
+  }
   const GridView &grid() const { return grid_; }
   std::size_t n() const { return n_; }
   B &backend() { return b_; }
@@ -100,15 +156,11 @@ class QueryOn : public SphereQuery {
     if (settings.every_face && grid_.in_floats)
       throw InputError("every face can be tried in double only; give a grid without records "
                        "in float");
-    if (status_.size() < n_) status_ = Array<std::uint8_t>(n_);
-    if (!settings.distance)
-      distance_ = Array<Real>();
-    else if (distance_.size() < n_)
-      distance_ = Array<Real>(n_);
-    if (!settings.read)
-      read_ = Array<std::uint32_t>();
-    else if (read_.size() < n_)
-      read_ = Array<std::uint32_t>(n_);
+    fit(status_, true);
+    fit(distance_, settings.distance && !grid_.in_floats);
+    fit(float_distance_, settings.distance && grid_.in_floats);
+    fit(read_, settings.read);
+    way_.reserve(n_);
   }
 
   void start(const QuerySettings &settings)
@@ -142,11 +194,10 @@ class QueryOn : public SphereQuery {
         const S s = spheres[i];
         out.keep(i, nearest_of_all<Distances>(grid, n_faces, s.centre(), s.r));
       });
+    else if (grid.nearest == 0)
+      way_.run(b_, n_, GridWork<Distances, S, true>{grid, words_.data(), spheres, out});
     else
-      b_.for_each(n_, [=] LSDCD_LAMBDA(std::size_t i) {
-        const S s = spheres[i];
-        out.keep(i, nearest_distance<Distances>(grid, s.centre(), s.r));
-      });
+      way_.run(b_, n_, GridWork<Distances, S, false>{grid, words_.data(), spheres, out});
   }
 
  private:
@@ -160,9 +211,20 @@ class QueryOn : public SphereQuery {
     return to.data();
   }
 
+  template <class T>
+  void fit(Array<T> &kept, bool wanted)
+  {
+    if (!wanted)
+      kept = Array<T>();
+    else if (kept.size() < n_)
+      kept = Array<T>(n_);
+  }
+
   B b_;
+  Way way_;
   GridView grid_ = {};
   Array<char> block_;
+  Array<BrickWord> words_;
   std::uint32_t n_faces_ = 0;
   Array<Sphere> sphere_;
   Array<FloatSphere> float_sphere_;
@@ -170,6 +232,7 @@ class QueryOn : public SphereQuery {
   bool in_float_ = false;
   Array<std::uint8_t> status_;
   Array<Real> distance_;
+  Array<float> float_distance_;
   Array<std::uint32_t> read_;
 };
 

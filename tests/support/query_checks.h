@@ -44,7 +44,7 @@ struct QueryCheckSettings {
 std::unique_ptr<QueryChecks> query_checks_on_cpu(const Bins &bins, const QueryCheckSettings &s);
 std::unique_ptr<QueryChecks> query_checks_on_cuda(const Bins &bins, const QueryCheckSettings &s);
 
-template <class B>
+template <class B, class Way = OnePass>
 class QueryChecksOn : public QueryChecks {
   template <class T>
   using Array = typename B::template Array<T>;
@@ -169,7 +169,7 @@ class QueryChecksOn : public QueryChecks {
       if (truth[i] < r) f |= touching_bit;
       if (!found && truth[i] < r - tolerance) f |= missed_bit;
       if (found && !(truth[i] < r + tolerance)) f |= false_bit;
-      if (found && !(fabs(a.distance[i] - truth[i]) <= tolerance)) f |= wrong_bit;
+      if (found && !(fabs(a.distance_of(i) - truth[i]) <= tolerance)) f |= wrong_bit;
       if (certified)
         f |= (f & bad_bits) << certified_shift;
       else
@@ -200,7 +200,7 @@ class QueryChecksOn : public QueryChecks {
   B &b() { return query_.backend(); }
 
   QueryCheckSettings s_;
-  QueryOn<B> query_;
+  QueryOn<B, Way> query_;
   Array<Vec3> corners_;
   Array<std::uint32_t> first_, triangle_;
   Array<double> truth_;

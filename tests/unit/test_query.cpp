@@ -6,7 +6,8 @@
 
 #include "base/input_error.h"
 #include "contact/brick_geometry.h"
-#include "query/sphere_query.h"
+#include "engine/backend_cpu.h"
+#include "query/query_on.h"
 
 #include <gtest/gtest.h>
 
@@ -302,6 +303,62 @@ TEST(query, gives_the_same_bits_on_both_devices_with_formula_five)
     const TriangleGrid grid = c.grid(2);
     EXPECT_EQ(ask(grid, c.spheres, paper, Device::cpu).distance,
               ask(grid, c.spheres, paper, Device::cuda).distance);
+  }
+}
+
+// Asks for the cell first, as a GPU does, but on the CPU.
+struct CellFirst {
+  void reserve(std::size_t) {}
+
+  template <class Work>
+  void run(CpuBackend &, std::size_t n, const Work &work)
+  {
+    for (std::size_t i = 0; i < n; i++) {
+      const auto s = work.sphere(i);
+      const std::uint32_t cell = work.cell_of(s);
+      if (cell == kNoCell)
+        work.far(i);
+      else
+        work.answer(i, s, cell);
+    }
+  }
+};
+
+TEST(query, asking_for_the_cell_first_changes_no_bit)
+{
+  for (const Case &c : all_cases())
+    for (const bool in_floats : {false, true})
+      for (int n : {0, 1, 3}) {
+        const TriangleGrid grid = c.grid(n, n == 3, in_floats);
+        QueryOn<CpuBackend, CellFirst> query{CpuBackend()};
+        query.set_grid(grid);
+        const Answers a = ask(query, c.spheres), b = ask(grid, c.spheres, {}, Device::cpu);
+        EXPECT_EQ(a.status, b.status) << c.soup.source;
+        EXPECT_EQ(a.distance, b.distance) << c.soup.source;
+        EXPECT_EQ(a.read, b.read) << c.soup.source;
+      }
+}
+
+TEST(query, bits_of_bricks_give_the_cell_that_their_table_gives)
+{
+  for (const Case &c : all_cases()) {
+    const TriangleGrid grid = c.grid(0);
+    const GridView view = grid.view();
+    const std::vector<BrickWord> words = brick_words(view);
+    std::vector<Vec3> points;
+    for (const Sphere &s : c.spheres) points.push_back(s.centre());
+    const Real nan = std::nan("");
+    for (const Vec3 &x : {Vec3{nan, 0, 0}, Vec3{0, 0, nan}, Vec3{1e300, 0, 0}, Vec3{0, -1e300, 0}})
+      points.push_back(x);
+    std::size_t occupied = 0;
+    for (const Vec3 &x : points) {
+      const CellAddress at = locate(view, view.lists, x);
+      const std::uint32_t cell =
+          at.brick && has_candidates(*at.brick, at.cell) ? cell_index(*at.brick, at.cell) : kNoCell;
+      EXPECT_EQ(occupied_cell(view, words.data(), x), cell) << c.soup.source;
+      occupied += cell != kNoCell;
+    }
+    EXPECT_GT(occupied, 0u) << c.soup.source;
   }
 }
 

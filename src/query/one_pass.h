@@ -1,0 +1,22 @@
+// A query as one loop over all spheres.
+#pragma once
+
+#include "base/real.h"
+
+#include <cstddef>
+
+namespace lsdcd {
+
+// A way of running a query: reserve() takes the memory it needs for n spheres, run()
+// answers them. Here none is needed.
+struct OnePass {
+  void reserve(std::size_t) {}
+
+  template <class B, class Work>
+  void run(B &b, std::size_t n, const Work &work)
+  {
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { work.answer(i, work.sphere(i)); });
+  }
+};
+
+}    // namespace lsdcd
