@@ -1,18 +1,36 @@
-// What the benchmark programs share: timing, statistics, CSV rows.
+// What the benchmark programs share: their words, timing, the copy that a floor is taken
+// from, the paper's cylinder in four sizes, and rows of one format.
 #pragma once
+
+#include "engine/wall_engine.h"
+#include "mesh/triangle_soup.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 #include <vector>
 
 namespace lsdcd {
 
+struct BenchOptions {
+  std::vector<Device> devices;    // the CPU and, where there is one, a GPU
+  // 0: the program's own numbers.
+  double spheres = 0, most_triangles = 0, length = 0;
+  int repeats = 0;
+  double brute_limit = 0;    // tests of a brute force that is measured whole
+  bool quick = false;        // small sizes, to see that all runs
+  std::string csv, commit;
+};
+
 struct Timing {
   double median_ms, min_ms, max_ms;
   int repeats;
 };
+
+// Of times in milliseconds, at least one.
+Timing timing_of(std::vector<double> ms);
 
 // Runs f once to warm up, then `repeats` times.
 template <class F>
@@ -26,17 +44,46 @@ Timing time_it(int repeats, F f)
     ms.push_back(1e3 *
                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  std::sort(ms.begin(), ms.end());
-  return {ms[ms.size() / 2], ms.front(), ms.back(), repeats};
+  return timing_of(std::move(ms));
 }
 
-inline const char *compiler()
-{
-#if defined(__clang__)
-  return "clang " __clang_version__;
-#else
-  return "g++ " __VERSION__;
-#endif
-}
+// The paper's wall, radius 50 and height 100, in about 160, 1e4, 1e5 and 1e6 triangles; as
+// many of them as the options allow.
+std::vector<TriangleSoup> cylinders(const BenchOptions &options, double most);
+
+struct BenchRow {
+  std::string what;    // the case, in words
+  std::size_t triangles = 0, spheres = 0;
+  double length = 0;    // of cells
+  std::string order;    // of the spheres: random or sorted
+  Timing timing = {0, 0, 0, 0};
+  double bytes = 0;     // that must move: what is read once, what is written once; 0: not known
+  std::string facts;    // more numbers, name=value and spaces
+};
+
+// BenchRows of one program as CSV: on stdout, and in a file where the options name one, which is
+// written whole or not at all.
+class BenchRows {
+ public:
+  BenchRows(const char *program, const BenchOptions &options);
+  // From now on rows are of this device: measures its copy.
+  void begin(Device device);
+  void add(const BenchRow &row);
+  void end() const;    // writes the file
+
+ private:
+  void put(const std::string &line);
+
+  std::string program_, csv_, commit_, device_, text_;
+  double copy_gb_s_ = 0;
+};
+
+// main() of a program: reads the words of the command line, measures, writes the file, says
+// what went wrong.
+int run_bench(int argc, char **argv, const char *program, const char *about,
+              void (*measure)(const BenchOptions &options, BenchRows &rows));
+
+// printf into a string.
+std::string format(const char *how, ...) __attribute__((format(printf, 1, 2)));
 
 }    // namespace lsdcd

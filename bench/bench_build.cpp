@@ -1,83 +1,104 @@
-// How long a grid takes to build, on each backend, and what brute force (the
-// paper's function 1: every cell tests every feature) would do instead.
-// Prints CSV. Usage: bench_build [repeats]
+// How long a grid takes to build, whole and without copies to and from a device, and what
+// brute force (the paper's function 1: every cell tries every triangle) would take.
 #include "bench.h"
+#include "brute_force.h"
+#include "on_cuda.h"
 
-#include "contact/closest_point.h"
-#include "engine/wall_engine.h"
-#include "support/meshes.h"
-
-#include <cmath>
-#include <cstdlib>
+#include "base/threads.h"
+#include "engine/backend_cpu.h"
 
 using namespace lsdcd;
 
 namespace {
 
-// Brute force over a sample of cells, scaled to all of them; returns milliseconds.
-double brute_force_ms(const TriangleGrid &grid)
+constexpr double kMostMeasured = 1e9;    // tests of a CPU's brute force, per thread
+constexpr double kMostOnCuda = 2e13;     // under a minute
+
+double brute_ms(const TriangleGrid &grid, Device device, std::size_t n, std::size_t stride)
 {
-  const GridView view = grid.view();
-  const double n_cells =
-      double(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2] * kBrickCells;
-  const std::size_t n_features = grid.wall.contact_features.size();
-  const std::size_t sample = std::max<std::size_t>(1, 40000000 / n_features);
-  const Real h = 0.5 * std::sqrt(3.0) * grid.length;
-  std::size_t found = 0;
-  const Timing t = time_it(1, [&] {
-    for (std::size_t i = 0; i < sample; i++) {
-      const Vec3 c = grid.origin +
-                     grid.length * Vec3{double(i % 97), double(i * 31 % 89), double(i * 17 % 83)};
-      for (FeatureCode f : grid.wall.contact_features) found += foot_on(view.wall, f, c, h).found;
-    }
-  });
-  if (found == ~std::size_t(0)) std::puts("");    // keeps the loop
-  return t.median_ms * n_cells / sample;
+#if defined(LSDCD_HAVE_CUDA)
+  if (device == Device::cuda) return cuda_brute_force_ms(grid, n, stride);
+#endif
+  (void) device;
+  CpuBackend cpu;
+  return brute_force_ms(cpu, grid, n, stride);
+}
+
+// Of all cells where the limit allows it; otherwise of evenly spread ones, and scaled.
+void brute_row(const BenchOptions &o, BenchRows &rows, BenchRow row, const TriangleGrid &grid,
+               Device device)
+{
+  const double cells = double(all_cells(grid)), tests = cells * grid.wall.faces.size();
+  double limit = device == Device::cuda ? kMostOnCuda : kMostMeasured * threads();
+  if (o.quick) limit /= 100;
+  if (o.brute_limit > 0) limit = o.brute_limit;
+  const std::size_t stride = static_cast<std::size_t>(std::ceil(std::max(1., tests / limit))),
+                    n = all_cells(grid) / stride;
+  const double ms = brute_ms(grid, device, n, stride), whole = ms * cells / n;
+  row.what += ", brute force";
+  row.bytes = 0;
+  row.timing = {whole, whole, whole, 1};
+  row.facts = format("tests=%.4g tests_per_s=%.3g%s", tests, tests / whole * 1e3,
+                     stride > 1 ? " estimated=yes" : "");
+  rows.add(row);
+}
+
+void measure_mesh(const BenchOptions &o, BenchRows &rows, const TriangleSoup &soup, Device device)
+{
+  const bool on_cuda = device == Device::cuda;
+  const WallMesh mesh = weld(soup, -1);
+  int repeats = on_cuda ? 7 : 3;
+  if (o.repeats > 0) repeats = o.repeats;
+  std::vector<double> lengths = {0.2, 0.0};    // 0: what the fix would choose
+  if (o.quick) lengths = {1};
+  if (o.length > 0) lengths = {o.length};
+  for (double length : lengths) {
+    GridSettings settings;
+    settings.length = length;
+    settings.reach = 1;
+    settings.memory_budget = std::size_t(16) << 30;
+    TriangleGrid grid;
+    std::vector<double> inner;
+    BenchRow row;
+    row.timing = time_it(repeats, [&] {
+      grid = TriangleGrid();
+      grid = build_grid(mesh, settings, on_cuda);
+      inner.push_back(1e3 * grid.report.lists.seconds);
+    });
+    inner.erase(inner.begin());    // the warm-up
+    // Where the choice is 0.2 as well, there is nothing new to tell.
+    if (length == 0 && lengths.size() > 1 && std::fabs(grid.length - lengths[0]) < 1e-9) continue;
+    const GridReport &r = grid.report;
+    const std::string what = length > 0 ? "given cell" : "chosen cell";
+    row.what = what;
+    row.triangles = mesh.faces.size();
+    row.length = grid.length;
+    row.bytes = double(r.bytes);    // the grid, written once
+    row.facts = format("bricks=%zu cells=%zu candidates=%zu mean_list=%.3f longest=%zu tests=%.4g "
+                       "grid_mb=%.1f",
+                       r.lists.bricks, r.lists.cells, r.lists.candidates, double(r.lists.mean),
+                       r.lists.longest, double(r.lists.distance_tests), r.bytes / 1e6);
+    rows.add(row);
+    row.what = what + ", without copies";
+    row.timing = timing_of(inner);
+    rows.add(row);
+    row.what = what;
+    brute_row(o, rows, row, grid, device);
+  }
+}
+
+void measure(const BenchOptions &options, BenchRows &rows)
+{
+  for (Device device : options.devices) {
+    rows.begin(device);
+    for (const TriangleSoup &soup : cylinders(options, 1e6))
+      measure_mesh(options, rows, soup, device);
+  }
 }
 
 }    // namespace
 
 int main(int argc, char **argv)
 {
-  const int repeats = argc > 1 ? std::atoi(argv[1]) : 5;
-  std::string why;
-  const bool cuda = cuda_available(&why);
-  if (!cuda) std::fprintf(stderr, "CUDA rows are left out: %s\n", why.c_str());
-  std::puts("bench,triangles,length,reach,device,bricks,cells,candidates,mean_list,longest_list,"
-            "bytes,distance_tests,brute_force_tests,repeats,median_ms,min_ms,max_ms,build_ms,"
-            "brute_force_ms_estimated,compiler,commit");
-  struct {
-    int n, m;
-  } const cylinders[] = {{40, 1}, {100, 49}, {400, 124}, {2000, 249}};
-  for (const auto &c : cylinders) {
-    const WallMesh mesh = weld(cylinder_mesh(c.n, c.m, 50, 100), -1);
-    for (double length : {0.2, 0.0})
-      for (bool on_cuda : {false, true}) {
-        if (on_cuda && !cuda) continue;
-        GridSettings settings;
-        settings.length = length;
-        settings.reach = 1;
-        settings.memory_budget = std::size_t(16) << 30;
-        TriangleGrid grid;
-        std::vector<double> inner;    // without copies to and from the device
-        const Timing t = time_it(on_cuda ? repeats : std::min(repeats, 2), [&] {
-          grid = build_grid(mesh, settings, on_cuda);
-          inner.push_back(1e3 * grid.report.lists.seconds);
-        });
-        inner.erase(inner.begin());    // the warm-up
-        std::sort(inner.begin(), inner.end());
-        const GridReport &r = grid.report;
-        const double cells =
-            double(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2] * kBrickCells;
-        std::printf(
-            "build,%zu,%.6g,%g,\"%s\",%zu,%zu,%zu,%.3f,%zu,%zu,%zu,%.4g,%d,%.3f,%.3f,%.3f,%.3f,"
-            "%.4g,\"%s\",%s\n",
-            mesh.faces.size(), grid.length, grid.reach, r.device.c_str(), r.lists.bricks,
-            r.lists.cells, r.lists.candidates, r.lists.mean, r.lists.longest, r.bytes,
-            r.lists.distance_tests, cells * grid.wall.contact_features.size(), t.repeats,
-            t.median_ms, t.min_ms, t.max_ms, inner[inner.size() / 2],
-            on_cuda ? 0.0 : brute_force_ms(grid), compiler(), LSDCD_COMMIT);
-        std::fflush(stdout);
-      }
-  }
+  return run_bench(argc, argv, "build", "Building grids of a cylinder, reach 1: CSV.", measure);
 }

@@ -1,123 +1,201 @@
-// What a step of the wall costs: choosing spheres, contacts, forces, springs,
-// totals, with the host arrays of a CPU LAMMPS. Prints CSV.
-// Usage: bench_step [spheres [repeats]]
+// What a step of the wall costs: choosing spheres, contacts, forces, springs, totals; with
+// the host arrays of a CPU LAMMPS, and with particles that live where the engine computes.
 #include "bench.h"
 
-#include "engine/wall_engine.h"
+#include "engine/resident_engine.h"
 #include "grid/flat_grid.h"
-#include "support/meshes.h"
+#include "mesh/wall_mesh.h"
+#include "study/spheres.h"
+#include "support/device_memory.h"
 
-#include <cstdint>
-#include <cstdlib>
-#include <numeric>
 #include <random>
 
 using namespace lsdcd;
 
 namespace {
 
+constexpr Real kReach = 1;
+// The box round the cylinder, and the paper's cube.
+constexpr SphereBox kRoom = {{-51, -51, -1}, {51, 51, 101}, kReach, 5},
+                    kCube = {{-50, -50, 0}, {50, 50, 100}, kReach, 1};
+
 struct Bodies {
-  std::vector<Real> x, v, omega, radius, mass, force, torque;
+  std::vector<Real> x, v, omega, radius, mass;
 };
 
-// Spheres of radius 0.2 to 1 uniform in the box around the cylinder, as in the
-// paper; sorted as LAMMPS sorts atoms: by bins, x fastest.
-Bodies make_bodies(int n, bool sorted)
+Bodies make_bodies(const SphereBox &box, int n, Order order)
 {
   std::mt19937_64 random(5);
-  std::uniform_real_distribution<Real> u(-51, 51), w(-1, 101), r(0.2, 1), speed(-1, 1);
-  std::vector<Vec3> x(n);
-  for (Vec3 &p : x) p = {u(random), u(random), w(random)};
-  if (sorted) {
-    const auto bin = [](const Vec3 &p) {
-      return (std::int64_t((p.z + 1) / 2) * 64 + std::int64_t((p.y + 51) / 2)) * 64 +
-             std::int64_t((p.x + 51) / 2);
-    };
-    std::sort(x.begin(), x.end(), [&](const Vec3 &a, const Vec3 &b) { return bin(a) < bin(b); });
-  }
+  std::uniform_real_distribution<Real> speed(-1, 1);
   Bodies b;
-  for (const Vec3 &p : x)
+  for (const Sphere &s : make_spheres(box, n, order)) {
+    b.x.insert(b.x.end(), {s.x, s.y, s.z});
     for (int k = 0; k < 3; k++) {
-      b.x.push_back(p[k]);
       b.v.push_back(speed(random));
       b.omega.push_back(speed(random));
     }
-  for (int i = 0; i < n; i++) {
-    b.radius.push_back(r(random));
+    b.radius.push_back(s.r);
     b.mass.push_back(1);
   }
-  b.force.assign(3 * n, 0);
-  b.torque.assign(3 * n, 0);
   return b;
+}
+
+struct Style {
+  LawStyle style;
+  const char *name;
+};
+
+// What a step must move, bytes: every sphere's place and radius, all of them or of the near
+// ones; of one that touches v, omega and mass, and force and torque both ways; of a contact
+// its spring both ways.
+constexpr double kPlaceAndRadius = 4 * sizeof(Real);
+double bytes_of_touching(const Style &style, double contacts)
+{
+  const double spring = style.style == LawStyle::hertz_history ? 2 * sizeof(Spring) : 0;
+  return contacts * ((7 + 2 * 6) * sizeof(Real) + spring);
+}
+
+void fill(BenchRow &row, const std::string &what, const WallEngine &engine, const GridView &grid,
+          int n)
+{
+  row.what = what;
+  row.length = grid.length;
+  row.spheres = n;
+  row.facts = format("near=%d contacts=%lld ns_per_near=%.1f grid_mb=%.1f engine_mb=%.1f",
+                     engine.n_near(), static_cast<long long>(engine.totals().contacts),
+                     row.timing.median_ms * 1e6 / std::max(1, engine.n_near()),
+                     grid.block_bytes / 1e6, engine.bytes() / 1e6);
+}
+
+EngineSettings engine_settings(const Style &style, Device device)
+{
+  EngineSettings e;
+  e.device = device;
+  e.law.style = style.style;
+  e.law.k_normal = 1e5;
+  e.law.k_tangent = 3e4;
+  e.law.gamma_normal = 50;
+  e.law.gamma_tangent = 25;
+  e.law.mu = 0.5;
+  return e;
+}
+
+void measure_style(const Bodies &b, const GridView &grid, const Style &style, Device device,
+                   int repeats, BenchRows &rows, BenchRow row)
+{
+  const int n = static_cast<int>(b.radius.size());
+  auto engine = make_engine(engine_settings(style, device));
+  engine->set_grid(grid);
+  SpringStore springs;
+  springs.grow(n);
+  std::vector<Real> force(b.x.size(), 0), torque(b.x.size(), 0);
+  Spheres s;
+  s.n = n;
+  s.x = b.x.data();
+  s.v = b.v.data();
+  s.omega = b.omega.data();
+  s.radius = b.radius.data();
+  s.mass = b.mass.data();
+  s.force = force.data();
+  s.torque = torque.data();
+  StepSettings step;
+  step.dt = 1e-6;
+  row.timing = time_it(repeats, [&] {
+    engine->start(s, step, &springs);
+    engine->collect();
+  });
+  fill(row, style.name, *engine, grid, n);
+  row.bytes = n * kPlaceAndRadius + bytes_of_touching(style, engine->totals().contacts);
+  rows.add(row);
+}
+
+// Particles where the engine computes: steps with the near ones as they were chosen, and
+// choosing them anew in each, which waits for the device.
+void measure_resident(const Bodies &b, const GridView &grid, const Style &style, Device device,
+                      int repeats, BenchRows &rows, BenchRow row)
+{
+  const int n = static_cast<int>(b.radius.size());
+  const bool cuda = device == Device::cuda;
+  const EngineSettings e = engine_settings(style, device);
+  const auto engine = cuda ? make_resident_cuda_engine(e, nullptr) : make_resident_cpu_engine(e);
+  engine->set_grid(grid);
+  engine->grow(n);
+  DeviceArray<Real> x(cuda), v(cuda), omega(cuda), radius(cuda), mass(cuda), force(cuda),
+      torque(cuda);
+  const std::vector<Real> zero(b.x.size(), 0);
+  Spheres s;
+  s.n = n;
+  s.x = x.put(b.x);
+  s.v = v.put(b.v);
+  s.omega = omega.put(b.omega);
+  s.radius = radius.put(b.radius);
+  s.mass = mass.put(b.mass);
+  s.force = force.put(zero);
+  s.torque = torque.put(zero);
+  StepSettings step;
+  step.dt = 1e-6;
+  const int n_steps = cuda ? 20 : 1;    // between two looks, which wait
+  for (bool choose : {false, true}) {
+    engine->choose(s, 0);
+    row.timing = time_it(repeats, [&] {
+      for (int k = 0; k < n_steps; k++) {
+        if (choose) engine->choose(s, 0);
+        engine->start(s, step, nullptr);
+      }
+      engine->look();
+    });
+    for (double *ms : {&row.timing.median_ms, &row.timing.min_ms, &row.timing.max_ms})
+      *ms /= n_steps;
+    fill(row, std::string(style.name) + (choose ? ", resident, chosen anew" : ", resident"),
+         *engine, grid, n);
+    // The near ones are known by their numbers.
+    row.bytes = bytes_of_touching(style, engine->totals().contacts) +
+                (choose ? n * kPlaceAndRadius : engine->n_near() * (kPlaceAndRadius + sizeof(int)));
+    rows.add(row);
+  }
+}
+
+FlatGrid grid_of(const WallMesh &mesh, Real length, Device device)
+{
+  GridSettings settings;
+  settings.length = length;
+  settings.reach = kReach;
+  return FlatGrid(build_grid(mesh, settings, device == Device::cuda));
+}
+
+void measure(const BenchOptions &o, BenchRows &rows)
+{
+  const auto number = [&](double usual) {
+    return static_cast<int>(o.spheres > 0 ? o.spheres : o.quick ? 1e5 : usual);
+  };
+  const int n = number(1e6), n_resident = number(1e7);
+  const int repeats = o.repeats > 0 ? o.repeats : o.quick ? 3 : 9;
+  const Style styles[] = {{LawStyle::hooke, "hooke"}, {LawStyle::hertz_history, "hertz/history"}};
+  for (Device device : o.devices) {
+    rows.begin(device);
+    for (Order order : {Order::random, Order::sorted}) {
+      const Bodies bodies = make_bodies(kRoom, n, order),
+                   resident = make_bodies(kCube, n_resident, order);
+      for (const TriangleSoup &soup : cylinders(o, 1e5)) {
+        const WallMesh mesh = weld(soup, -1);
+        BenchRow row;
+        row.triangles = mesh.faces.size();
+        row.order = order == Order::sorted ? "sorted" : "random";
+        const FlatGrid grid = grid_of(mesh, o.length, device),
+                       fine = grid_of(mesh, o.length > 0 ? o.length : 0.2, device);
+        for (const Style &style : styles) {
+          measure_style(bodies, grid.view(), style, device, repeats, rows, row);
+          measure_resident(resident, fine.view(), style, device, repeats, rows, row);
+        }
+      }
+    }
+  }
 }
 
 }    // namespace
 
 int main(int argc, char **argv)
 {
-  const int n = argc > 1 ? std::atoi(argv[1]) : 1000000;
-  const int repeats = argc > 2 ? std::atoi(argv[2]) : 9;
-  std::string why;
-  const bool cuda = cuda_available(&why);
-  if (!cuda) std::fprintf(stderr, "CUDA rows are left out: %s\n", why.c_str());
-  std::puts("bench,triangles,length,device,style,order,spheres,near,contacts,repeats,median_ms,"
-            "min_ms,max_ms,ns_per_sphere,ns_per_near_sphere,grid_bytes,engine_bytes,compiler,"
-            "commit");
-  struct {
-    int n, m;
-  } const cylinders[] = {{40, 1}, {100, 49}, {400, 124}};
-  const struct {
-    LawStyle style;
-    const char *name;
-  } styles[] = {{LawStyle::hooke, "hooke"}, {LawStyle::hertz_history, "hertz/history"}};
-  for (bool sorted : {false, true}) {
-    Bodies b = make_bodies(n, sorted);
-    for (const auto &c : cylinders) {
-      const WallMesh mesh = weld(cylinder_mesh(c.n, c.m, 50, 100), -1);
-      GridSettings settings;
-      settings.reach = 1;
-      const TriangleGrid grid = build_grid(mesh, settings, cuda);
-      const FlatGrid flat(grid);
-      for (bool on_cuda : {false, true})
-        for (const auto &style : styles) {
-          if (on_cuda && !cuda) continue;
-          EngineSettings e;
-          e.device = on_cuda ? Device::cuda : Device::cpu;
-          e.law.style = style.style;
-          e.law.k_normal = 1e5;
-          e.law.k_tangent = 3e4;
-          e.law.gamma_normal = 50;
-          e.law.gamma_tangent = 25;
-          e.law.mu = 0.5;
-          auto engine = make_engine(e);
-          engine->set_grid(flat.view());
-          SpringStore springs;
-          springs.grow(n);
-          Spheres s;
-          s.n = n;
-          s.x = b.x.data();
-          s.v = b.v.data();
-          s.omega = b.omega.data();
-          s.radius = b.radius.data();
-          s.mass = b.mass.data();
-          s.force = b.force.data();
-          s.torque = b.torque.data();
-          StepSettings step;
-          step.dt = 1e-6;
-          const Timing t = time_it(repeats, [&] {
-            engine->start(s, step, &springs);
-            engine->collect();
-          });
-          std::printf("step,%zu,%.6g,\"%s\",%s,%s,%d,%d,%lld,%d,%.4f,%.4f,%.4f,%.2f,%.1f,%zu,%zu,"
-                      "\"%s\",%s\n",
-                      mesh.faces.size(), grid.length, engine->backend().c_str(), style.name,
-                      sorted ? "sorted" : "random", n, engine->n_near(),
-                      static_cast<long long>(engine->totals().contacts), t.repeats, t.median_ms,
-                      t.min_ms, t.max_ms, t.median_ms * 1e6 / n,
-                      t.median_ms * 1e6 / std::max(1, engine->n_near()), grid.report.bytes,
-                      engine->bytes(), compiler(), LSDCD_COMMIT);
-          std::fflush(stdout);
-        }
-    }
-  }
+  return run_bench(argc, argv, "step",
+                   "Steps of the wall, on a CPU host's arrays and on resident ones: CSV.", measure);
 }

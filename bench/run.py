@@ -1,74 +1,63 @@
 #!/usr/bin/env python3
-"""Runs benchmark programs, keeps their CSV and prints it as a table.
+"""Runs benchmarks on the CPU and, where there is one, a GPU, and writes what they tell.
 
-usage: run.py [--build DIR] [NAME ...]     NAME: build, cache, step (default: all), accuracy,
-                                           effects, hard-cases
+usage: run.py [--build DIR] [--only cpu|cuda] [--quick] [--write-only] [--rows-to DIR]
+              [--commit NAME] [NAME ...] [words for the programs ...]
 
-Rows go to DIR/bench/NAME.csv, written whole or not at all. Three write documents instead:
-hard-cases doc/hard_cases.md from runs of the tests (hard_cases.py), accuracy
-doc/accuracy.md from runs of `lsdcd tradeoff` (tradeoff.py) and `lsdcd accuracy` (accuracy.py),
-effects doc/effects.md from runs of `lsdcd effects` (effects.py).
+NAME: query, build, step, cache (default: these four) make doc/performance.md; three make
+documents of their own from runs of other programs: accuracy doc/accuracy.md (tradeoff.py,
+accuracy.py), effects doc/effects.md (effects.py), hard-cases doc/hard_cases.md
+(hard_cases.py).
+
+Rows of the four are kept in doc/data/performance_DEVICE.csv (performance.py). Further words
+go to them, as --spheres 1e6; bench_query --help lists them. On a machine lent for a GPU:
+  run.py --build build --only cuda --rows-to DIR query build step
+then, where the repository is, copy DIR/*.csv to doc/data and run.py --write-only.
 """
 import argparse
-import csv
-import os
-import subprocess
 import sys
 
 import accuracy
 import effects
 import hard_cases
+import performance
 import tradeoff
 
-NAMES = ["build", "cache", "step"]
 DOCUMENTS = {"accuracy": [tradeoff.main, accuracy.main], "effects": [effects.main],
              "hard-cases": [hard_cases.main]}
-HIDDEN = {"bench", "compiler", "commit"}    # the same in every row; printed once
-
-
-def table(rows, columns):
-    width = [max(len(c), *(len(r[c]) for r in rows)) for c in columns]
-    lines = ["  ".join(c.rjust(w) for c, w in zip(columns, width))]
-    for r in rows:
-        lines.append("  ".join(r[c].rjust(w) for c, w in zip(columns, width)))
-    return "\n".join(lines)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default="build", metavar="DIR", help="where bin/ is")
-    parser.add_argument("names", nargs="*", metavar="NAME")
-    args = parser.parse_args()
-    build, names = args.build, args.names or NAMES
+    parser.add_argument("--only", choices=performance.DEVICES, help="this device alone")
+    parser.add_argument("--quick", action="store_true",
+                        help="small sizes, to see that all runs; rows go to DIR/bench")
+    parser.add_argument("--write-only", action="store_true",
+                        help="make tables and plots from the rows that are kept")
+    parser.add_argument("--rows-to", metavar="DIR", help="leave the rows there, write nothing else")
+    parser.add_argument("--commit", metavar="NAME", help="what was built, where git does not know")
+    args, rest = parser.parse_known_args()
+    names = []
+    while rest and not rest[0].startswith("-"):
+        names.append(rest.pop(0))
+    names = names or list(performance.PROGRAMS)
     for name in names:
-        if name not in NAMES + list(DOCUMENTS):
-            print(f"no benchmark '{name}'; there are: {', '.join(NAMES + list(DOCUMENTS))}",
-                  file=sys.stderr)
+        if name not in list(performance.PROGRAMS) + list(DOCUMENTS):
+            print(f"no benchmark '{name}'; there are: "
+                  f"{', '.join(list(performance.PROGRAMS) + list(DOCUMENTS))}", file=sys.stderr)
             return 2
-    out = os.path.join(build, "bench")
-    os.makedirs(out, exist_ok=True)
+    programs = [n for n in names if n in performance.PROGRAMS]
+    if programs:
+        status = performance.main(args, programs, rest)
+        if status != 0:
+            return status
     for name in names:
-        if name in DOCUMENTS:
-            for write in DOCUMENTS[name]:
-                status = write(["--build", build])
-                if status != 0:
-                    return status
-            continue
-        print(f"running bench_{name} ...", flush=True)
-        done = subprocess.run([os.path.join(build, "bin", "bench_" + name)],
-                              stdout=subprocess.PIPE, text=True)
-        if done.returncode != 0:
-            print(f"bench_{name} failed with status {done.returncode}", file=sys.stderr)
-            return 1
-        path = os.path.join(out, name + ".csv")
-        with open(path + ".part", "w") as f:
-            f.write(done.stdout)
-        os.replace(path + ".part", path)
-        rows = list(csv.DictReader(done.stdout.splitlines()))
-        columns = [c for c in rows[0] if c not in HIDDEN]
-        print(f"{name}: commit {rows[0]['commit']}, {rows[0]['compiler']}; {path}")
-        print(table(rows, columns))
+        for write in DOCUMENTS.get(name, []):
+            status = write(["--build", args.build])
+            if status != 0:
+                return status
     return 0
 
 

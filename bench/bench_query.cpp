@@ -1,0 +1,201 @@
+// What a query of many spheres against a wall costs: the paper's question, does a sphere
+// touch, and the exact distance within reach. No copies: spheres and answers stay on the
+// device.
+#include "bench.h"
+
+#include "base/input_error.h"
+#include "mesh/wall_mesh.h"
+#include "on_cuda.h"
+#include "query/sphere_query.h"
+#include "study/spheres.h"
+
+#include <memory>
+
+using namespace lsdcd;
+
+namespace {
+
+constexpr Real kReach = 1;
+const SphereBox kCube = {{-50, -50, 0}, {50, 50, 100}, kReach, 1};
+
+const char *name_of(Order order)
+{
+  return order == Order::random ? "random" : "sorted";
+}
+
+struct SphereSet {
+  Order order;
+  std::vector<Sphere> exact;
+  std::vector<FloatSphere> rounded;
+};
+
+// Radii up to the reach, or all equal to it.
+SphereSet make_set(std::size_t n, Order order, bool largest)
+{
+  SphereSet set;
+  set.order = order;
+  set.exact = make_spheres(kCube, n, order);
+  set.rounded.reserve(n);
+  if (largest)
+    for (Sphere &s : set.exact) s.r = kReach;
+  for (const Sphere &s : set.exact)
+    set.rounded.push_back({static_cast<float>(s.x), static_cast<float>(s.y),
+                           static_cast<float>(s.z), static_cast<float>(s.r)});
+  return set;
+}
+
+// One device's queries and their rows.
+class Queries {
+ public:
+  Queries(Device device, int repeats, BenchRows &rows) :
+      device_(device), repeats_(repeats), rows_(rows), query_(make_sphere_query(device))
+  {
+  }
+
+  // nearest 0: complete lists.
+  TriangleGrid grid(const WallMesh &mesh, Real length, int nearest) const
+  {
+    GridSettings s;
+    s.length = length;
+    s.reach = kReach;
+    s.nearest = nearest;
+    s.memory_budget = std::size_t(16) << 30;
+    return build_grid(mesh, s, device_ == Device::cuda);
+  }
+
+  // Grids in float are asked about spheres in float, others about spheres in double.
+  void measure(const char *question, const TriangleGrid &grid, const SphereSet &set,
+               const QuerySettings &settings, bool other_ways)
+  {
+    give(*query_, grid, set);
+    const std::string name =
+        std::string(question) + ", " +
+        (grid.nearest > 0 ? "N = " + std::to_string(grid.nearest) : "complete") + ", " +
+        (grid.in_floats ? "float" : "double");
+    const std::size_t n = set.exact.size();
+    BenchRow row;
+    row.what = name;
+    row.triangles = grid.wall.faces.size();
+    row.spheres = n;
+    row.length = grid.length;
+    row.order = name_of(set.order);
+    // Spheres in, a byte and maybe a distance out.
+    row.bytes = double(n) * (grid.in_floats ? sizeof(FloatSphere) : sizeof(Sphere)) + double(n);
+    if (settings.distance) row.bytes += double(n) * (grid.in_floats ? sizeof(float) : sizeof(Real));
+    row.timing = timed(*query_, settings);
+    const std::vector<std::uint8_t> status = query_->status();
+    const std::vector<Real> distance = query_->distance();
+    row.facts = facts(grid, status);
+    rows_.add(row);
+#if defined(LSDCD_HAVE_CUDA)
+    if (!other_ways || device_ != Device::cuda) return;
+    for (OtherWay &way : other_cuda_ways()) {
+      give(*way.query, grid, set);
+      row.what = name + ", " + way.name;
+      row.timing = timed(*way.query, settings);
+      row.facts.clear();
+      if (way.query->status() != status || way.query->distance() != distance)
+        throw InputError(row.what + " does not give the same answers");
+      rows_.add(row);
+    }
+#else
+    (void) other_ways;
+#endif
+  }
+
+ private:
+  static void give(SphereQuery &query, const TriangleGrid &grid, const SphereSet &set)
+  {
+    query.set_grid(grid);
+    if (grid.in_floats)
+      query.set_spheres(set.rounded.data(), set.rounded.size());
+    else
+      query.set_spheres(set.exact.data(), set.exact.size());
+  }
+
+  Timing timed(SphereQuery &query, const QuerySettings &settings) const
+  {
+    const QueryTiming t = query.time(settings, repeats_);
+    return {t.median_ms, t.min_ms, t.max_ms, t.repeats};
+  }
+
+  std::string facts(const TriangleGrid &grid, const std::vector<std::uint8_t> &status)
+  {
+    std::size_t touching = 0, near = 0, entries = 0;
+    for (std::uint8_t s : status) touching += (s & kTouching) > 0;
+    QuerySettings read;
+    read.distance = false;
+    read.read = true;
+    query_->run(read);
+    for (std::uint32_t n : query_->read()) {
+      near += n > 0;
+      entries += n;
+    }
+    return format("near=%zu touching=%zu entries=%.3f grid_mb=%.1f", near, touching,
+                  near > 0 ? double(entries) / near : 0, flat_bytes(grid) / 1e6);
+  }
+
+  Device device_;
+  int repeats_;
+  BenchRows &rows_;
+  std::unique_ptr<SphereQuery> query_;
+};
+
+// The paper's frame: a cylinder of 160 triangles, N = 1, 2, 3 and complete lists.
+void measure_status(const BenchOptions &o, Queries &queries)
+{
+  const WallMesh mesh = weld(cylinders(o, 1e6)[0], -1);
+  const Real length = o.length > 0 ? o.length : 0.2;
+  std::vector<double> sizes = {1e7, 6e7};
+  if (o.quick) sizes = {1e5};
+  if (o.spheres > 0) sizes = {o.spheres};
+  QuerySettings settings;
+  settings.distance = false;
+  for (double n : sizes)
+    for (Order order : {Order::random, Order::sorted}) {
+      const SphereSet set = make_set(static_cast<std::size_t>(n), order, false);
+      for (int nearest : {1, 2, 3, 0}) {
+        TriangleGrid grid = queries.grid(mesh, length, nearest);
+        if (nearest == 0) queries.measure("status", grid, set, settings, false);
+        add_brick_records(grid);
+        queries.measure("status", grid, set, settings, nearest == 0 && n == sizes[0]);
+      }
+    }
+}
+
+// The distance of every sphere of the largest radius, complete lists.
+void measure_distance(const BenchOptions &o, Queries &queries)
+{
+  const std::size_t n = static_cast<std::size_t>(o.spheres > 0 ? o.spheres : o.quick ? 1e5 : 1e7);
+  const SphereSet random = make_set(n, Order::random, true),
+                  sorted = make_set(n, Order::sorted, true);
+  for (const TriangleSoup &soup : cylinders(o, 1e6)) {
+    TriangleGrid grid = queries.grid(weld(soup, -1), o.length > 0 ? o.length : 0.2, 0);
+    for (bool in_floats : {false, true}) {
+      if (in_floats) add_brick_records(grid);
+      for (const SphereSet *set : {&random, &sorted})
+        queries.measure("distance", grid, *set, QuerySettings(), in_floats);
+    }
+  }
+}
+
+void measure(const BenchOptions &options, BenchRows &rows)
+{
+  for (Device device : options.devices) {
+    rows.begin(device);
+    int repeats = device == Device::cuda ? 21 : 5;
+    if (options.quick) repeats = 3;
+    if (options.repeats > 0) repeats = options.repeats;
+    Queries queries(device, repeats, rows);
+    measure_status(options, queries);
+    measure_distance(options, queries);
+  }
+}
+
+}    // namespace
+
+int main(int argc, char **argv)
+{
+  return run_bench(argc, argv, "query",
+                   "Status and distance of many spheres against a cylinder: CSV.", measure);
+}

@@ -1,0 +1,333 @@
+"""Runs the benchmark programs, keeps their rows and writes the tables of doc/performance.md.
+
+Programs print rows of one format (bench.h). They are kept in doc/data/performance_DEVICE.csv,
+so that the document has those of a device on a machine without it too; a row replaces the one
+of the same program, case, sizes and order, others stay.
+"""
+import csv
+import io
+import os
+import subprocess
+
+from effects import has_gpu, table
+from hard_cases import ROOT, commit, put_between, write_whole
+from performance_plots import plot_build, plot_query
+
+DOCUMENT = os.path.join(ROOT, "doc", "performance.md")
+DATA = os.path.join(ROOT, "doc", "data")
+DEVICES = ("cpu", "cuda")
+PROGRAMS = ("query", "build", "step", "cache")
+KEY = ("program", "case", "triangles", "spheres", "length", "order")
+
+# What is to be reached on an H200, ms, from random to sorted; beside it what a plain
+# prototype and a BVH's closest-point query (cuBQL) took there.
+STATUS_TARGETS = {"10000000": (0.12, 0.07), "60000000": (0.75, 0.42)}
+DISTANCE_TARGETS = {"160": (0.12, 0.07), "10000": (0.15, 0.09), "100000": (0.22, 0.13),
+                    "1000000": (0.40, 0.28)}
+PROTOTYPE = {"160": (0.160, 0.100), "10000": (0.188, 0.114), "100000": (0.279, 0.166),
+             "1000000": (0.470, 0.323)}
+BVH = {"160": (0.66, 0.25), "10000": (1.05, 0.41), "100000": (1.40, 0.65),
+       "1000000": (2.65, 1.71)}
+BUILD_TARGETS = {"160": 3, "10000": 5, "100000": 15, "1000000": 60}
+PAPER_MS = {"10000000": 565, "60000000": 3488}    # Yong et al. 2017, a K40
+FORCE_TARGETS = (0.25, 0.15)    # hooke on resident particles, 160 triangles, chosen anew
+HISTORY_RATIO = 2    # hertz/history there, over its floor
+WAYS = ("", "one pass", "near first, 3 blocks", "near first, 5 blocks", "queued")
+USUAL_SIZE = "10000000"
+
+
+# ---- rows --------------------------------------------------------------------------------
+
+def kept(device, folder=DATA):
+    return os.path.join(folder, f"performance_{device}.csv")
+
+
+def parse(text):
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def read_rows(device, folder=DATA):
+    path = kept(device, folder)
+    if not os.path.exists(path):
+        return []
+    with open(path, newline="") as f:
+        return parse(f.read())
+
+
+def key(row):
+    return tuple(row[k] for k in KEY)
+
+
+def replaced(old, new):
+    """Rows of old, each in place of what new has under its key, then what only new has."""
+    fresh = {key(r): r for r in new}
+    rows = [fresh.pop(key(r), r) for r in old] + list(fresh.values())
+    return sorted(rows, key=lambda r: PROGRAMS.index(r["program"]))    # stable
+
+
+def as_csv(rows):
+    text = io.StringIO()
+    writer = csv.DictWriter(text, rows[0].keys(), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def facts(row):
+    return dict(f.split("=", 1) for f in row["facts"].split()) if row else {}
+
+
+def measure(build, device, programs, words, named, folder):
+    """Runs programs on a device and keeps their rows in a folder. False where one failed."""
+    env = dict(os.environ)
+    env.setdefault("OMP_NUM_THREADS", str(os.cpu_count() or 1))
+    for program in programs:
+        if program == "cache" and device == "cuda":
+            continue    # the same whatever device builds
+        command = [os.path.join(build, "bin", "bench_" + program), "--device", device,
+                   "--commit", named, *words]
+        print(" ".join(command), flush=True)
+        done = subprocess.run(command, env=env, stdout=subprocess.PIPE, text=True)
+        if done.returncode != 0:
+            return False
+        print(done.stdout, flush=True)
+        rows = replaced(read_rows(device, folder), parse(done.stdout))
+        write_whole(kept(device, folder), as_csv(rows))
+    return True
+
+
+# ---- cells of tables ---------------------------------------------------------------------
+
+def number(text, digits=3):
+    if text in ("", None):
+        return ""
+    value = float(text)
+    return f"{value:,.0f}".replace(",", " ") if abs(value) >= 1000 else f"{value:.{digits}g}"
+
+
+def count(text):
+    return f"{int(text):,}".replace(",", " ")
+
+
+def ms(row):
+    """Median, and from least to most."""
+    if not row:
+        return ""
+    if row["min_ms"] == row["max_ms"]:
+        return number(row["median_ms"])
+    return f"{number(row['median_ms'])} ({number(row['min_ms'])} to {number(row['max_ms'])})"
+
+
+def cells_of(row):
+    return [ms(row), number(row["floor_ms"]) if row else "", number(row["ratio"]) if row else ""]
+
+
+def find(rows, **wanted):
+    """The first row with these values, or None; length is compared as a number."""
+    for row in rows:
+        if all(abs(float(row[k]) - v) < 1e-9 if k == "length" else row[k] == v
+               for k, v in wanted.items()):
+            return row
+    return None
+
+
+def same(rows, row):
+    return find(rows, **{k: row[k] for k in KEY if k != "length"}, length=float(row["length"]))
+
+
+def machines(rows_of):
+    """Which machines and commits the rows of a table are from."""
+    lines = []
+    for device, rows in rows_of.items():
+        if not rows:
+            lines.append(f"* {device.upper()}: no rows are kept yet.")
+        for name in dict.fromkeys(r["device"] for r in rows):
+            mine = [r for r in rows if r["device"] == name]
+            commits = ", ".join(dict.fromkeys(r["commit"] for r in mine))
+            speeds = [float(r["copy_gb_s"]) for r in mine]
+            repeats = ", ".join(dict.fromkeys(r["repeats"] for r in mine if r["repeats"] != "1"))
+            lines.append(f"* {name}: commit {commits}, {mine[0]['compiler']}; medians of {repeats} "
+                         f"(least to most); copying {min(speeds):.4g} to {max(speeds):.4g} GB/s, "
+                         "read and written.")
+    return "\n".join(lines)
+
+
+def of(rows, program, test=lambda case: True):
+    return [r for r in rows if r["program"] == program and test(r["case"])]
+
+
+def union(cpu, cuda):
+    """One row for each key of both, the order of the longer list."""
+    first, second = (cuda, cpu) if len(cuda) > len(cpu) else (cpu, cuda)
+    return first + [r for r in second if not same(first, r)]
+
+
+# ---- tables ------------------------------------------------------------------------------
+
+def by_order(targets, key_, order):
+    pair = targets.get(key_)
+    return number(pair[order == "sorted"]) if pair else ""
+
+
+def way_of(case):
+    parts = case.split(", ", 3)    # question, lists, number type
+    return parts[3] if len(parts) > 3 else ""
+
+
+def status_table(cpu, cuda):
+    def is_status(case):
+        return case.startswith("status") and not way_of(case)
+
+    cpu, cuda = of(cpu, "query", is_status), of(cuda, "query", is_status)
+
+    def cells(r):
+        lists, kind = r["case"].split(", ")[1:3]
+        target = ""
+        if lists == "complete" and kind == "float":
+            target = by_order(STATUS_TARGETS, r["spheres"], r["order"])
+        return [count(r["spheres"]), lists, kind, r["order"], *cells_of(same(cuda, r)), target,
+                number(PAPER_MS.get(r["spheres"], "")), *cells_of(same(cpu, r))]
+
+    heads = ["spheres", "lists", "numbers", "order", "CUDA, ms", "floor", "ratio", "target",
+             "the paper's K40", "CPU, ms", "floor", "ratio"]
+    return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
+
+
+def distance_table(cpu, cuda):
+    def is_distance(case):
+        return case.startswith("distance") and not way_of(case)
+
+    cpu, cuda = of(cpu, "query", is_distance), of(cuda, "query", is_distance)
+
+    def cells(r):
+        kind = r["case"].split(", ")[2]
+        known = [by_order(t, r["triangles"], r["order"]) if kind == "float" else ""
+                 for t in (DISTANCE_TARGETS, PROTOTYPE, BVH)]
+        row = same(cpu, r) or same(cuda, r)
+        return [count(r["triangles"]), kind, r["order"], facts(row).get("entries", ""),
+                *cells_of(same(cuda, r)), *known, *cells_of(same(cpu, r))]
+
+    heads = ["triangles", "numbers", "order", "entries read", "CUDA, ms", "floor", "ratio",
+             "target", "prototype", "BVH", "CPU, ms", "floor", "ratio"]
+    return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
+
+
+def ways_table(cuda):
+    rows = of(cuda, "query", lambda case: "complete, float" in case)
+    with_ways = [r for r in rows if not way_of(r["case"]) and
+                 find(rows, case=r["case"] + ", " + WAYS[1], triangles=r["triangles"],
+                      spheres=r["spheres"], order=r["order"])]
+    if not with_ways:
+        return "No rows of a GPU are kept yet."
+
+    def cells(r):
+        ways = [find(rows, case=r["case"] + (", " + w if w else ""), triangles=r["triangles"],
+                     spheres=r["spheres"], order=r["order"]) for w in WAYS]
+        return [r["case"].split(",")[0], count(r["triangles"]), count(r["spheres"]), r["order"],
+                number(r["floor_ms"]), *[number(w["median_ms"]) if w else "" for w in ways]]
+
+    heads = ["question", "triangles", "spheres", "order", "floor",
+             "near first, 4 blocks (the library's)", *WAYS[1:]]
+    return table(with_ways, heads, cells) + "\n\n" + machines({"cuda": rows})
+
+
+def build_table(cpu, cuda):
+    cpu, cuda = of(cpu, "build"), of(cuda, "build")
+    whole = [r for r in union(cpu, cuda) if r["case"] in ("given cell", "chosen cell")]
+
+    def brute(rows, r):
+        row = same(rows, dict(r, case=r["case"] + ", brute force"))
+        if not row:
+            return ""
+        seconds = number(float(row["median_ms"]) / 1e3)
+        return seconds + (" (estimated)" if "estimated" in facts(row) else "")
+
+    def cells(r):
+        f = facts(r)
+        inner = same(cuda, dict(r, case=r["case"] + ", without copies"))
+        tests = facts(same(cpu, dict(r, case=r["case"] + ", brute force")) or
+                      same(cuda, dict(r, case=r["case"] + ", brute force"))).get("tests", "")
+        target = BUILD_TARGETS.get(r["triangles"], "") if r["case"] == "given cell" else ""
+        return [count(r["triangles"]), number(r["length"]), count(f["cells"]), f["mean_list"],
+                number(f["grid_mb"]), ms(same(cuda, r)), *cells_of(inner), str(target),
+                *cells_of(same(cpu, r)), f["tests"], tests, brute(cuda, r), brute(cpu, r)]
+
+    heads = ["triangles", "cell", "cells kept", "mean list", "MB", "CUDA, ms",
+             "CUDA without copies, ms", "floor", "ratio", "target", "CPU, ms", "floor", "ratio",
+             "tests", "of brute force", "brute force, CUDA, s", "CPU, s"]
+    return table(whole, heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
+
+
+def step_target(row):
+    if "chosen anew" not in row["case"] or row["spheres"] != USUAL_SIZE:
+        return ""
+    if row["case"].startswith("hertz"):
+        return f"ratio {HISTORY_RATIO}"
+    return number(FORCE_TARGETS[row["order"] == "sorted"]) if row["triangles"] == "160" else ""
+
+
+def step_table(cpu, cuda, resident):
+    cpu, cuda = (of(rows, "step", lambda case: ("resident" in case) == resident)
+                 for rows in (cpu, cuda))
+
+    def cells(r):
+        f, g, c = facts(r), same(cuda, r), same(cpu, r)
+        what = r["case"].replace(", resident", "")
+        return [count(r["triangles"]), what, r["order"], count(f["near"]), count(f["contacts"]),
+                *cells_of(g), facts(g).get("ns_per_near", ""), *[step_target(r)] * resident,
+                *cells_of(c), facts(c).get("ns_per_near", "")]
+
+    heads = ["triangles", "style", "order", "near", "contacts", "CUDA, ms", "floor", "ratio",
+             "ns per near sphere", *["target"] * resident, "CPU, ms", "floor", "ratio",
+             "ns per near sphere"]
+    return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
+
+
+def cache_table(cpu):
+    rows = of(cpu, "cache")
+
+    def cells(r):
+        write, read = same(rows, dict(r, case="write")), same(rows, dict(r, case="read"))
+        return [count(r["triangles"]), number(r["length"]), number(facts(r)["block_mb"]),
+                facts(write).get("file_mb", ""), ms(r), *cells_of(write), *cells_of(read)]
+
+    heads = ["triangles", "cell", "grid, MB", "file, MB", "build, ms", "write, ms", "floor",
+             "ratio", "read, ms", "floor", "ratio"]
+    builds = [r for r in rows if r["case"] == "build"]
+    return table(builds, heads, cells) + "\n\n" + machines({"cpu": rows})
+
+
+def write_document():
+    cpu, cuda = read_rows("cpu"), read_rows("cuda")
+    parts = {"status": status_table(cpu, cuda), "distance": distance_table(cpu, cuda),
+             "ways": ways_table(cuda), "build": build_table(cpu, cuda),
+             "step": step_table(cpu, cuda, False),
+             "resident": step_table(cpu, cuda, True), "cache": cache_table(cpu)}
+    for name, text in parts.items():
+        begin, end = f"<!-- {name}:begin -->", f"<!-- {name}:end -->"
+        put_between(DOCUMENT, begin, end, f"{begin}\n{text}\n{end}")
+    plot_query(cpu, cuda, DISTANCE_TARGETS, BVH)
+    plot_build(cpu, cuda, BUILD_TARGETS)
+    print("wrote", os.path.relpath(DOCUMENT, ROOT))
+
+
+def main(args, programs, words):
+    """`./run bench` of these programs; further words are theirs."""
+    if args.write_only:
+        write_document()
+        return 0
+    folder = args.rows_to or (os.path.join(args.build, "bench") if args.quick else DATA)
+    os.makedirs(folder, exist_ok=True)
+    named = args.commit or commit()
+    for device in DEVICES:
+        if args.only not in (None, device):
+            continue
+        if device == "cuda" and args.only is None and not has_gpu():
+            continue
+        if not measure(args.build, device, programs, words + ["--quick"] * args.quick, named,
+                       folder):
+            return 1
+        print("rows are in", kept(device, folder))
+    if folder == DATA:
+        write_document()
+    return 0

@@ -1,0 +1,77 @@
+"""The plots of doc/performance.md."""
+import os
+
+from hard_cases import ROOT
+
+IMAGES = os.path.join(ROOT, "doc", "img")
+COLOURS = {"cpu": "tab:blue", "cuda": "tab:green"}
+
+
+def axes():
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axis = plt.subplots(figsize=(7, 4.6))
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    axis.set_xlabel("triangles")
+    axis.grid(True, which="major", alpha=0.3)
+    return figure, axis
+
+
+def save(figure, axis, name):
+    axis.legend(fontsize=8)
+    figure.tight_layout()
+    path = os.path.join(IMAGES, name)
+    part = path + ".part.png"
+    figure.savefig(part, dpi=110, metadata={"Software": None})
+    os.replace(part, path)
+
+
+def label(rows):
+    return rows[0]["device"].replace("CUDA, ", "")
+
+
+def curve(rows, program, case, order=""):
+    return sorted((float(r["triangles"]), r) for r in rows
+                  if r["program"] == program and r["case"] == case and r["order"] == order)
+
+
+def plot_query(cpu, cuda, targets, bvh):
+    figure, axis = axes()
+    for device, rows in (("cpu", cpu), ("cuda", cuda)):
+        for order, style in (("random", "o-"), ("sorted", "s--")):
+            points = [(x, float(r["median_ms"]) * 1e6 / float(r["spheres"]),
+                       float(r["floor_ms"]) * 1e6 / float(r["spheres"]))
+                      for x, r in curve(rows, "query", "distance, complete, float", order)]
+            if not points:
+                continue
+            x, y, floor = zip(*points)
+            axis.plot(x, y, style, color=COLOURS[device], label=f"{label(rows)}, {order}")
+            if order == "random":
+                axis.plot(x, floor, ":", color=COLOURS[device], label="its floor: bytes at copy speed")
+    for known, name, colour in ((bvh, "a BVH (cuBQL) on an H200", "tab:red"),
+                                (targets, "target on an H200", "black")):
+        for k, (order, marker) in enumerate((("random", "+"), ("sorted", "x"))):
+            axis.plot([float(t) for t in known], [pair[k] / 10 for pair in known.values()], marker,
+                      color=colour, label=f"{name}, {order}")
+    axis.set_ylabel("ns per sphere")
+    axis.set_title("Exact distance within reach 1, complete lists, float")
+    save(figure, axis, "performance_query.png")
+
+
+def plot_build(cpu, cuda, targets):
+    figure, axis = axes()
+    for device, rows in (("cpu", cpu), ("cuda", cuda)):
+        for case, style, name in (("given cell, without copies", "o-", "grid"),
+                                  ("given cell, brute force", "o:", "brute force")):
+            points = [(x, float(r["median_ms"])) for x, r in curve(rows, "build", case)]
+            if points:
+                axis.plot(*zip(*points), style, color=COLOURS[device],
+                          label=f"{name}, {label(rows)}")
+    axis.plot([float(t) for t in targets], list(targets.values()), "k+",
+              label="target on an H200")
+    axis.set_ylabel("ms")
+    axis.set_title("Building the lists of cells of 0.2, reach 1")
+    save(figure, axis, "performance_build.png")
