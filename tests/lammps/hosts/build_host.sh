@@ -98,7 +98,7 @@ fetch() {
 generator=() launcher=()
 if command -v ninja >/dev/null; then generator=(-G Ninja); fi
 if command -v ccache >/dev/null; then launcher=(-D CMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
-export CCACHE_BASEDIR=$work CCACHE_NOHASHDIR=1
+export CCACHE_BASEDIR=$folder CCACHE_NOHASHDIR=1
 
 # compile WHAT TARGET SOURCE BUILD [option...]: libraries are found beside the program.
 compile() {
