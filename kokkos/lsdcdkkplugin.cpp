@@ -79,10 +79,11 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
                                                                          void *regfunc)
 {
   if (!lsdcd::host_matches(lmp) || !kokkos_matches()) return;
+  add_fix_style(lmp, handle, regfunc, "wall/lsdcd", "fix wall/lsdcd: DEM walls from an STL mesh",
+                create_fix<FixWallLsdcd>);
   const auto add = [&](const char *name, lammpsplugin_factory2 *create) {
-    add_fix_style(lmp, handle, regfunc, name, "fix wall/lsdcd: DEM walls from an STL mesh", create);
+    add_fix_style(lmp, handle, regfunc, name, "the same with Kokkos", create);
   };
-  add("wall/lsdcd", create_fix<FixWallLsdcd>);
   add("wall/lsdcd/kk", create_fix<FixWallLsdcdKokkos<LMPDeviceType>>);
   add("wall/lsdcd/kk/device", create_fix<FixWallLsdcdKokkos<LMPDeviceType>>);
   add("wall/lsdcd/kk/host", create_fix<FixWallLsdcdKokkos<LMPHostType>>);

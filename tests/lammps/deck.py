@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 
+CXX = os.environ.get("LSDCD_CXX", "c++")
 HERE = pathlib.Path(__file__).resolve().parent
 LMP = os.environ.get("LSDCD_LMP", str(HERE.parent.parent / "build" / "bin" / "lmp-lsdcd"))
 LIB = pathlib.Path(LMP).resolve().parent.parent / "lib"
@@ -15,6 +16,12 @@ LIB = pathlib.Path(LMP).resolve().parent.parent / "lib"
 # The LAMMPS of hosts/build_host.sh and the plugin for it; empty where it was not built.
 TEST_HOST = os.environ.get("LSDCD_TEST_HOST", "") and os.environ["LSDCD_TEST_HOST"] + "/lmp"
 TEST_HOST_PLUGIN = LIB / "lsdcdplugin-20260704.so"
+
+# A LAMMPS with Kokkos and the plugin for it. Where LSDCD_KOKKOS is set, decks run there as
+# they are, with -sf kk.
+KOKKOS_HOST = os.environ.get("LSDCD_KOKKOS_HOST", "") and os.environ["LSDCD_KOKKOS_HOST"] + "/lmp"
+KOKKOS_PLUGIN = os.environ.get("LSDCD_KOKKOS_PLUGIN", "")
+ON_KOKKOS = bool(os.environ.get("LSDCD_KOKKOS"))
 
 
 def environment():
@@ -26,13 +33,30 @@ def environment():
     return env
 
 
-def run(deck, folder, ranks=1, timeout=300, env=None, **variables):
-    """Runs a deck (a path, or text) in `folder`; returns the finished process."""
+def for_host(text, flags):
+    """A deck with the plugin loaded. With a suffix, flat walls of LAMMPS stay without it: not
+    every style of fix wall/gran has a form for Kokkos."""
+    if "-sf" in flags and "suffix " not in text:
+        text = re.sub(r"^(\s*fix\s.*wall/gran\s(?:.*&\n)*.*)$", r"suffix off\n\1\nsuffix on", text,
+                      flags=re.M)
+    text = re.sub(r"^clear\b.*$", rf"\g<0>\nplugin load {KOKKOS_PLUGIN}", text, flags=re.M)
+    return f"plugin load {KOKKOS_PLUGIN}\n" + text
+
+
+KOKKOS = ("-k", "on", "-sf", "kk")
+
+
+def run(deck, folder, ranks=1, timeout=300, env=None, host=ON_KOKKOS, flags=KOKKOS, **variables):
+    """Runs a deck (a path, or text) in `folder`; returns the finished process. With `host`
+    under the LAMMPS with Kokkos, given `flags`."""
     deck, folder = str(deck), pathlib.Path(folder)
+    if host:
+        deck = for_host(deck if "\n" in deck else pathlib.Path(deck).read_text(), flags)
     if "\n" in deck:
         (folder / "in.deck").write_text(deck)
         deck = str(folder / "in.deck")
-    command = [LMP, "-in", deck, "-log", "none", "-nocite"]
+    command = [KOKKOS_HOST if host else LMP, "-in", deck, "-log", "none", "-nocite"]
+    command += flags if host else ()
     for name, value in variables.items():
         command += ["-var", name, str(value)]
     if ranks > 1:

@@ -15,7 +15,7 @@ LAWS = {"hooke_history": "hooke/history 1e4 NULL 120 NULL 0.4 1",
         "granular": scene.GRANULAR,
         "hooke": "hooke 1e4 NULL 120 NULL 0.4 1"}
 UNDAMPED = "hooke/history 1e4 NULL 0 NULL 0.4 0"
-UNDAMPED_SIDES = "hooke 1e4 NULL 0 NULL 0 0"
+UNDAMPED_SIDES = "hooke 1e4 NULL 1e-300 NULL 0 0"    # 0 is not a number to LAMMPS 4Jul2026
 FIRST, SECOND = 700, 800
 
 

@@ -2,7 +2,9 @@
 // source, so the same bits.
 #include "contact/spring_store.h"
 #include "effects/effects.h"
-#include "engine/resident_engine.h"
+#include "engine/backend_cpu.h"
+#include "engine/law_step.h"
+#include "engine/resident_on.h"
 #include "grid/near_within.h"
 #include "support/crowd.h"
 #include "support/device.h"
@@ -136,12 +138,12 @@ TEST(resident, drops_no_contact_of_crowded_spheres)
 // A resident engine with particles of its own, in its memory.
 class Particles {
  public:
-  Particles(const EngineSettings &settings, int n, Real reach) :
-      x_(cuda()), v_(cuda()), omega_(cuda()), radius_(cuda()), mass_(cuda()), force_(cuda()),
-      torque_(cuda()), n_(n)
+  Particles(const EngineSettings &settings, int n, Real reach, bool cuda = test_on_cuda()) :
+      x_(cuda), v_(cuda), omega_(cuda), radius_(cuda), mass_(cuda), force_(cuda), torque_(cuda),
+      n_(n)
   {
     engine =
-        cuda() ? make_resident_cuda_engine(settings, nullptr) : make_resident_cpu_engine(settings);
+        cuda ? make_resident_cuda_engine(settings, nullptr) : make_resident_cpu_engine(settings);
     const WallMesh mesh = weld(floor_mesh(40, 10, 7), -1);
     GridSettings g;
     g.reach = reach;
@@ -192,7 +194,6 @@ class Particles {
     engine->springs_to(store, n_);
     return store;
   }
-  static bool cuda() { return test_on_cuda(); }
 
   std::unique_ptr<ResidentEngine> engine;
   TriangleGrid grid;
@@ -280,7 +281,7 @@ TEST(resident, springs_follow_through_pack_and_unpack)
     back.push_back(i % 2 == 0 ? 10 + i : -1);    // every other one arrives
   }
   const int moved = static_cast<int>(which.size());
-  const bool cuda = Particles::cuda();
+  const bool cuda = test_on_cuda();
   DeviceArray<int> d_which(cuda), d_copies(cuda), d_back(cuda);
   DeviceArray<double> buffer(cuda);
   buffer.resize(moved * (1 + from.engine->largest_packed_size(n)));
@@ -316,6 +317,75 @@ TEST(resident, springs_follow_through_pack_and_unpack)
   EXPECT_GT(arrived, 200);
   EXPECT_GT(carried, 20);
   EXPECT_TRUE(same_springs(after, n - 1, own, n - 1));
+}
+
+// A backend that counts what crosses between host and device, and waiting.
+struct CountingBackend : CpuBackend {
+  static int &crossings()
+  {
+    static int n = 0;
+    return n;
+  }
+  template <class T>
+  void copy_in(const T *host, T *to, std::size_t n)
+  {
+    crossings()++;
+    CpuBackend::copy_in(host, to, n);
+  }
+  template <class T>
+  std::vector<T> to_host(const Array<T> &a, std::size_t n)
+  {
+    crossings()++;
+    return CpuBackend::to_host(a, n);
+  }
+  void wait() { crossings()++; }
+  template <class T>
+  T largest(const T *values, std::size_t n)
+  {
+    crossings()++;
+    return CpuBackend::largest(values, n);
+  }
+  template <class T>
+  T exclusive_scan(T *values, std::size_t n)
+  {
+    crossings()++;
+    return CpuBackend::exclusive_scan(values, n);
+  }
+  template <class Keep>
+  std::size_t select(std::size_t n, const Keep &keep, int *to)
+  {
+    crossings()++;
+    return CpuBackend::select(n, keep, to);
+  }
+};
+
+TEST(resident, a_step_without_outputs_neither_copies_nor_waits)
+{
+  using Law = OnWall<HertzHistoryLaw<Real>, false, false>;
+  const ContactLaw p = history();
+  const Law law = {{{p.k_normal}, {p.gamma_normal}, {p.k_tangent, p.gamma_tangent, p.mu}, false}};
+  Particles particles(with_history(), 2000, 0.5, false);
+  particles.engine = std::make_unique<ResidentOn<CountingBackend>>(
+      with_history(),
+      CompiledLaw<CountingBackend>{traits_of<Law>(), LawBytes(law),
+                                   start_law<Law, CountingBackend>},
+      CountingBackend());
+  particles.engine->set_grid(particles.flat.view());
+  particles.engine->grow(2000);
+  particles.engine->choose(particles.spheres(), 0.5);
+  EXPECT_GT(CountingBackend::crossings(), 0);
+  const auto crossings_of = [&](bool per_sphere) {
+    const int before = CountingBackend::crossings();
+    StepSettings step;
+    step.dt = 0.01;
+    step.per_sphere = per_sphere;
+    particles.engine->start(particles.spheres(), step, nullptr);
+    particles.engine->collect();
+    return CountingBackend::crossings() - before;
+  };
+  for (int k = 0; k < 5; k++) EXPECT_EQ(crossings_of(false), 0);
+  EXPECT_GT(crossings_of(true), 0);
+  EXPECT_GT(particles.engine->totals().contacts, 100);
 }
 
 TEST(resident, a_sphere_larger_than_the_reach_is_an_error)

@@ -54,7 +54,7 @@ esac
 # our own build has none, and the two are compared to the last bits.
 flags="-O1 -ffp-contract=off"
 options=(-D BUILD_SHARED_LIBS=on -D BUILD_MPI=on -D BUILD_OMP=off
-         -D PKG_GRANULAR=on -D PKG_PLUGIN=on
+         -D PKG_GRANULAR=on -D PKG_PLUGIN=on -D PKG_GRAPHICS=on
          -D WITH_JPEG=off -D WITH_PNG=off -D WITH_FFMPEG=off -D WITH_GZIP=off -D WITH_CURL=off
          -D CMAKE_BUILD_TYPE=None)
 # As LAMMPS asks of the Kokkos that it builds itself.

@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""fix wall/lsdcd/kk against the plain fix, in one LAMMPS with Kokkos.
+
+Sides and other walls of LAMMPS stay on the host (suffix off), so that only our fix, the
+integrator and gravity differ. Their /kk forms round in another order: 1e-16 per
+operation and step.
+"""
+
+import re
+import subprocess
+import sys
+
+import deck
+import scene
+
+HISTORY = "hooke/history 1e4 NULL 120 NULL 0.4 1"
+LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
+        "hooke_limit_damping": "hooke 1e4 NULL 120 NULL 0.5 1 limit_damping",
+        "hooke_history": "hooke/history 1e4 NULL 5 NULL 0.5 1",
+        "hooke_history_sticking": "hooke/history 1e4 4e3 5 2 5.0 1",
+        "hertz_history": "hertz/history 1e5 NULL 50 NULL 0.5 1",
+        "hertz_history_epsd2": "hertz/history 1e5 NULL 50 NULL 0.5 1 rolling epsd2 0.1",
+        "granular_dmt": "granular dmt 1e5 50 0.3 100 tangential mindlin NULL 1.0 0.5",
+        "granular_jkr": scene.GRANULAR}
+PLAIN = ()    # flags: without Kokkos
+TAKEN_OUT = """\
+region          corner block -6 0 -6 0 INF INF
+delete_atoms    region corner compress no
+run             400
+create_atoms    1 single -3 -3 2.2
+create_atoms    2 single -3.2 -4 2.4
+set             group all density 2.0
+run             400
+"""
+
+
+def go(folder, flags, text, ranks=1, name="moves"):
+    output = deck.run_well(text, folder, ranks, host=True, flags=flags)
+    return deck.read_dump(folder / name), output
+
+
+def plain_among_kokkos(text):
+    """The other fixes are those of Kokkos, so that atoms are where Kokkos has them."""
+    return re.sub(r"^(fix +(?:wall|sides|sides2|lid) .*)$", r"suffix off\n\1\nsuffix on", text,
+                  flags=re.M)
+
+
+def single_contacts(checks, folder):
+    (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+    path = deck.HERE / "decks" / "in.one_sphere"
+    for name, law in LAWS.items():
+        dumps = []
+        for flags in (PLAIN, deck.KOKKOS):
+            deck.run_well(path, folder, host=True, flags=flags, unit="lj", kick=1, dt=1e-4,
+                          steps=1000, style="verlet", wall=f"wall/lsdcd {law} mesh floor.stl",
+                          out="one")
+            dumps.append(deck.read_dump(folder / "one"))
+        touched = sum(abs(row[1][11]) > 0 for row in dumps[0].values())
+        checks.fact(f"{name}: the sphere touches the floor", touched > 20, f"{touched} steps")
+        checks.at_most(f"{name}: every step as the plain fix", deck.largest_difference(*dumps), 1e-12)
+
+
+def forms(checks, folder):
+    scene.write_floor(folder / "floor.stl")
+    body = scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 100) + "run 1000\n"
+    plain, _ = go(folder, PLAIN, body)
+    touching = sum(row[9] > 0 for row in plain[1000].values())
+    checks.fact("spheres touch the floor", touching > 20, str(touching))
+    by_name = body.replace("pair_style", "suffix off\npair_style")
+    for style in ("kk", "kk/device", "kk/host"):
+        named, _ = go(folder, deck.KOKKOS, by_name.replace("wall/lsdcd", f"wall/lsdcd/{style}"))
+        checks.at_most(f"wall/lsdcd/{style}, by name", deck.largest_difference(plain, named), 1e-9)
+    host, _ = go(folder, deck.KOKKOS, by_name)
+    checks.at_most("the plain fix beside Kokkos", deck.largest_difference(plain, host), 1e-9)
+    between, _ = go(folder, deck.KOKKOS, plain_among_kokkos(body))
+    checks.at_most("the plain fix among fixes of Kokkos", deck.largest_difference(plain, between), 1e-9)
+
+
+def lists(checks, folder):
+    body = scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 100) + "run 1000\n"
+    rare = body.replace("neigh_modify    delay 0 every 1", "neigh_modify    delay 0 every 2")
+    for name, text in (("every step checked", body), ("every other step checked", rare)):
+        plain, _ = go(folder, PLAIN, text)
+        kokkos, output = go(folder, deck.KOKKOS, text)
+        checks.at_most(f"{name}: as the plain fix", deck.largest_difference(plain, kokkos), 1e-9)
+        found = re.search(r"wall/lsdcd/kk: (\d+) steps with (\d+) lists of near atoms(.*)", output)
+        steps, made = int(found.group(1)), int(found.group(2))
+        if text is body:
+            checks.fact("lists are kept between reneighbourings", made < steps / 5, found.group(0))
+        else:
+            checks.fact("a list for every step where the skin is not checked in each",
+                        made == steps and "check yes lets a list be kept" in found.group(3),
+                        found.group(0))
+
+
+def atoms_that_come_and_go(checks, folder):
+    body = (scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 50) + "run 600\n" + TAKEN_OUT)
+    for ranks in (1, 2):
+        plain, _ = go(folder, PLAIN, body, ranks)
+        kokkos, _ = go(folder, deck.KOKKOS, body, ranks)
+        counts = {len(rows) for rows in plain.values()}
+        checks.fact(f"{ranks} ranks: atoms leave and come", len(counts) > 2, str(counts))
+        checks.at_most(f"{ranks} ranks: deleted and created atoms: as the plain fix",
+                       deck.largest_difference(plain, kokkos), 1e-9)
+
+
+def a_bed(checks, folder):
+    """1000 spheres that touch each other, too: neighbouring paths part, whatever rounds."""
+    start = re.sub(r"lattice .*", "lattice sc 1.9", scene.CREATE)
+    start = re.sub(r"region +fill .*", "region fill block -5 5 -5 5 1.0 7.5 units box", start)
+    start = start.replace("diameter 1.0", "diameter 0.8").replace("diameter 0.7", "diameter 0.56")
+    # The order of create_atoms and the sums of velocity depend on the ranks.
+    output = deck.run_well(start + "write_data start.data\n", folder)
+    count = int(re.search(r"Created (\d+) atoms", output).group(1))
+    body = (scene.SETTINGS + "read_data start.data\n" + scene.forces(HISTORY, pair=True) +
+            scene.dump("moves", 50) + "run 600\n")
+    checks.fact("a bed of a thousand", count >= 1000, str(count))
+    # Kokkos's integrator rounds in its own way: it moves the spheres of all three.
+    one, _ = go(folder, deck.KOKKOS, plain_among_kokkos(body))
+    two, _ = go(folder, deck.KOKKOS, plain_among_kokkos(body), 2)
+    kokkos, _ = go(folder, deck.KOKKOS, body)
+    apart = {}
+    for name, other in (("ranks", two), ("kokkos", kokkos)):
+        apart[name] = max(deck.largest_difference({s: one[s]}, {s: other[s]}) for s in one)
+    checks.at_most("a bed parts from the plain fix's no faster than on 2 ranks",
+                   apart["kokkos"], 10 * max(apart["ranks"], 1e-12))
+
+
+def refusals(checks, folder):
+    short = scene.CREATE + scene.forces(HISTORY) + "run 1\n"
+    for name, flags, text, words in (
+            ("without -k on", (), short.replace("wall/lsdcd", "wall/lsdcd/kk"), "start it with -k on"),
+            ("keyword device", deck.KOKKOS, short.replace("contacts", "device cpu"),
+             "the keyword device has no meaning")):
+        done = deck.run(text, folder, host=True, flags=flags)
+        checks.fact(f"{name}: an error that says so", done.returncode and words in done.stdout,
+                    "" if words in done.stdout else done.stdout[-400:])
+
+    # A host that says its Kokkos is another.
+    source = folder / "other.cpp"
+    source.write_text('extern "C" int lammps_config_accelerator(const char *, const char *c, '
+                      'const char *) { return c[0] == \'p\'; }\n')
+    other = folder / "other.so"
+    subprocess.run([deck.CXX, "-shared", "-fPIC", "-o", other, source], check=True)
+    done = deck.run(short, folder, host=True, env={"LD_PRELOAD": str(other)})
+    checks.fact("another backend of Kokkos: not loaded, and says why",
+                done.returncode and "this LAMMPS has no Kokkos backend" in done.stdout,
+                done.stdout[:400])
+
+
+def main():
+    if not deck.KOKKOS_HOST:
+        print("SKIPPED: no LAMMPS with Kokkos (tests/lammps/hosts/build_host.sh)")
+        sys.exit(77)
+    checks, folder = deck.Checks(), deck.scratch()
+    single_contacts(checks, folder)
+    forms(checks, folder)
+    lists(checks, folder)
+    atoms_that_come_and_go(checks, folder)
+    a_bed(checks, folder)
+    refusals(checks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
