@@ -24,7 +24,8 @@ double brute_ms(const TriangleGrid &grid, Device device, std::size_t n, std::siz
   return brute_force_ms(cpu, grid, n, stride);
 }
 
-// Of all cells where the limit allows it; otherwise of evenly spread ones, and scaled.
+// Of all cells where the limit allows it; otherwise a tenth of its tests, in cells spread
+// evenly, and scaled.
 void brute_row(const BenchOptions &o, BenchRows &rows, BenchRow row, const TriangleGrid &grid,
                Device device)
 {
@@ -32,7 +33,7 @@ void brute_row(const BenchOptions &o, BenchRows &rows, BenchRow row, const Trian
   double limit = device == Device::cuda ? kMostOnCuda : kMostMeasured * threads();
   if (o.quick) limit /= 100;
   if (o.brute_limit > 0) limit = o.brute_limit;
-  const std::size_t stride = static_cast<std::size_t>(std::ceil(std::max(1., tests / limit))),
+  const std::size_t stride = tests <= limit ? 1 : static_cast<std::size_t>(10 * tests / limit),
                     n = all_cells(grid) / stride;
   const double ms = brute_ms(grid, device, n, stride), whole = ms * cells / n;
   row.what += ", brute force";

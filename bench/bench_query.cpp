@@ -158,7 +158,7 @@ void measure_status(const BenchOptions &o, Queries &queries)
         TriangleGrid grid = queries.grid(mesh, length, nearest);
         if (nearest == 0) queries.measure("status", grid, set, settings, false);
         add_brick_records(grid);
-        queries.measure("status", grid, set, settings, nearest == 0 && n == sizes[0]);
+        queries.measure("status", grid, set, settings, nearest == 0);
       }
     }
 }

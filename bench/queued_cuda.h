@@ -11,6 +11,23 @@ namespace lsdcd {
 constexpr unsigned kQueuedBlocks = 3;                   // at once on a processor
 constexpr unsigned kQueueRoom = 32 * kNearEach + 31;    // a round on top of what was left
 
+// Answers one near sphere per lane; those with long lists one after another, by all lanes.
+template <class Work>
+__device__ void answer_warp(const Work &work, std::size_t from, bool has_one, const NearSphere &one)
+{
+  const WarpLanes lanes;
+  const bool is_long = has_one && work.is_long(one.cell);
+  if (has_one && !is_long) {
+    const std::size_t i = from + one.sphere;
+    work.answer(i, work.sphere(i), one.cell);
+  }
+  for (unsigned left = lanes.vote(is_long); left; left &= left - 1) {
+    const unsigned whose = lowest_bit(left);
+    const std::size_t i = from + lanes.from(one.sphere, whose);
+    work.answer_together(i, work.sphere(i), lanes.from(one.cell, whose), lanes);
+  }
+}
+
 template <class Work>
 __global__ void __launch_bounds__(kNearBlock, kQueuedBlocks)
     answer_queued(std::size_t n, const __grid_constant__ Work work)
@@ -41,15 +58,11 @@ __global__ void __launch_bounds__(kNearBlock, kQueuedBlocks)
     __syncwarp();
     while (queued >= 32) {
       queued -= 32;
-      const NearSphere one = queue[queued + lane];
-      work.answer(one.sphere, work.sphere(one.sphere), one.cell);
+      answer_warp(work, 0, true, queue[queued + lane]);
     }
     __syncwarp();
   }
-  if (lane < queued) {
-    const NearSphere one = queue[lane];
-    work.answer(one.sphere, work.sphere(one.sphere), one.cell);
-  }
+  answer_warp(work, 0, lane < queued, lane < queued ? queue[lane] : NearSphere{0, 0});
 }
 
 class Queued {

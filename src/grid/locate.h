@@ -21,6 +21,16 @@ LSDCD_FN int count_bits(std::uint64_t word)
 #endif
 }
 
+// Of a word that is not 0.
+LSDCD_FN unsigned lowest_bit(unsigned word)
+{
+#if defined(__CUDA_ARCH__)
+  return __ffs(word) - 1;
+#else
+  return __builtin_ctz(word);
+#endif
+}
+
 LSDCD_FN bool has_candidates(const Brick &brick, int cell)
 {
   return (brick.mask[cell >> 6] >> (cell & 63)) & 1u;
@@ -49,9 +59,8 @@ LSDCD_FN Place place_of(const GridView &grid, const Vec3 &q)
   p.at.y = (q.y - grid.origin.y) * grid.inv_length;
   p.at.z = (q.z - grid.origin.z) * grid.inv_length;
   // Written so that a NaN falls outside.
-  p.inside = p.at.x >= 0 && p.at.y >= 0 && p.at.z >= 0 &&
-             p.at.x < grid.n_bricks[0] * kBrickSide && p.at.y < grid.n_bricks[1] * kBrickSide &&
-             p.at.z < grid.n_bricks[2] * kBrickSide;
+  p.inside = p.at.x >= 0 && p.at.y >= 0 && p.at.z >= 0 && p.at.x < grid.n_bricks[0] * kBrickSide &&
+             p.at.y < grid.n_bricks[1] * kBrickSide && p.at.z < grid.n_bricks[2] * kBrickSide;
   if (!p.inside) return p;
   p.i = static_cast<int>(p.at.x);
   p.j = static_cast<int>(p.at.y);

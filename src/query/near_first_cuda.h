@@ -1,6 +1,7 @@
-// A query in two kernels. The first is light: full occupancy, several spheres in flight in
+// A query in kernels that each have one kind of work. The first is light: many threads, several spheres in flight in
 // each thread, tables that stay in L1 and L2; it answers every sphere far from the wall and
-// lists the others. The second has full warps of those, whatever their order in memory.
+// lists the others. The second has full warps of those, whatever their order in memory. What
+// one thread would read for too long is left to a warp each in a third.
 #pragma once
 
 #include "engine/backend_cuda.h"
@@ -59,18 +60,67 @@ __global__ void __launch_bounds__(kNearBlock)
   }
 }
 
-// Answers the listed spheres, and clears the count that the next list begins with.
+// A warp, for what its threads do together.
+struct WarpLanes {
+  static constexpr unsigned kCount = 32;
+
+  __device__ unsigned lane() const { return threadIdx.x % 32; }
+  __device__ unsigned vote(bool yes) const { return __ballot_sync(kAll, yes); }
+  template <class T>
+  __device__ T from(T value, unsigned lane) const
+  {
+    return __shfl_sync(kAll, value, lane);
+  }
+  template <class T>
+  __device__ T from_below(T value, unsigned step) const
+  {
+    return __shfl_up_sync(kAll, value, step);
+  }
+
+ private:
+  static constexpr unsigned kAll = 0xffffffffu;
+};
+
+// How many spheres are listed, and how many of them have lists that are long.
+struct NearCounts {
+  std::uint32_t listed, with_long;
+};
+
+// Answers the listed spheres but those with long lists, which it lists in turn as far as
+// `most_long` go, and clears the counts that the next run begins with.
 template <int kBlocks, class Work>
 __global__ void __launch_bounds__(kNearBlock, kBlocks)
     answer_listed(std::size_t from, const __grid_constant__ Work work, const NearSphere *list,
-                  const std::uint32_t *listed, std::uint32_t *next_listed)
+                  NearCounts *counts, NearCounts *next_counts, NearSphere *long_list,
+                  std::uint32_t most_long)
 {
-  const unsigned n = *listed, first = blockIdx.x * blockDim.x + threadIdx.x;
-  if (first == 0) *next_listed = 0;
+  const unsigned n = counts->listed, first = blockIdx.x * blockDim.x + threadIdx.x;
+  if (first == 0) *next_counts = {0, 0};
   for (unsigned k = first; k < n; k += gridDim.x * blockDim.x) {
     const NearSphere one = list[k];
+    if (work.is_long(one.cell)) {
+      const std::uint32_t at = atomicAdd(&counts->with_long, 1u);
+      if (at < most_long) {
+        long_list[at] = one;
+        continue;
+      }
+    }
     const std::size_t i = from + one.sphere;
     work.answer(i, work.sphere(i), one.cell);
+  }
+}
+
+// A warp for each sphere with a long list.
+template <class Work>
+__global__ void __launch_bounds__(kNearBlock)
+    answer_long(std::size_t from, const __grid_constant__ Work work, const NearSphere *long_list,
+                const NearCounts *counts, std::uint32_t most_long)
+{
+  const unsigned n = counts->with_long < most_long ? counts->with_long : most_long;
+  for (unsigned k = (blockIdx.x * kNearBlock + threadIdx.x) / 32; k < n;
+       k += gridDim.x * (kNearBlock / 32)) {
+    const std::size_t i = from + long_list[k].sphere;
+    work.answer_together(i, work.sphere(i), long_list[k].cell, WarpLanes());
   }
 }
 
@@ -83,9 +133,10 @@ class NearFirstWith {
   {
     const std::size_t most = n < kRun ? n : kRun;
     if (list_.size() < most) list_ = CudaBackend::Array<NearSphere>(most);
-    if (listed_.size() > 0) return;
-    listed_ = CudaBackend::Array<std::uint32_t>(2);
-    cuda_check(cudaMemset(listed_.data(), 0, 2 * sizeof(std::uint32_t)), "clearing memory");
+    if (counts_.size() > 0) return;
+    long_list_ = CudaBackend::Array<NearSphere>(kMostLong);
+    counts_ = CudaBackend::Array<NearCounts>(2);
+    cuda_check(cudaMemset(counts_.data(), 0, 2 * sizeof(NearCounts)), "clearing memory");
     int device = 0;
     cuda_check(cudaGetDevice(&device), "asking for the device");
     cuda_check(cudaDeviceGetAttribute(&processors_, cudaDevAttrMultiProcessorCount, device),
@@ -97,26 +148,34 @@ class NearFirstWith {
   {
     for (std::size_t from = 0; from < n; from += kRun) {
       const unsigned m = static_cast<unsigned>(n - from < kRun ? n - from : kRun);
-      std::uint32_t *mine = listed_.data() + turn_, *next = listed_.data() + (1 - turn_);
+      NearCounts *mine = counts_.data() + turn_, *next = counts_.data() + (1 - turn_);
       turn_ = 1 - turn_;
       const unsigned each = kNearBlock * kNearEach;
       list_near<<<(m + each - 1) / each, kNearBlock, 0, b.stream>>>(from, m, work, list_.data(),
-                                                                    mine);
+                                                                    &mine->listed);
       cuda_check(cudaGetLastError(), "starting a kernel");
       const unsigned most = (m + kNearBlock - 1) / kNearBlock,
                      some = processors_ * kTurns * kBlocks, blocks = most < some ? most : some;
-      answer_listed<kBlocks>
-          <<<blocks, kNearBlock, 0, b.stream>>>(from, work, list_.data(), mine, next);
+      answer_listed<kBlocks><<<blocks, kNearBlock, 0, b.stream>>>(
+          from, work, list_.data(), mine, next, long_list_.data(), kMostLong);
       cuda_check(cudaGetLastError(), "starting a kernel");
+      if constexpr (Work::kTogether) {
+        answer_long<<<processors_, kNearBlock, 0, b.stream>>>(from, work, long_list_.data(), mine,
+                                                              kMostLong);
+        cuda_check(cudaGetLastError(), "starting a kernel");
+      }
     }
   }
 
  private:
-  static constexpr std::size_t kRun = std::size_t(1) << 26;    // spheres per pair of kernels
+  static constexpr std::size_t kRun = std::size_t(1) << 24;    // spheres per pair of kernels
   static constexpr unsigned kTurns = 3;                        // to even out what blocks take
 
-  CudaBackend::Array<NearSphere> list_;
-  CudaBackend::Array<std::uint32_t> listed_;    // this run's count and the next one's
+  // Where there are more, their threads read them.
+  static constexpr std::uint32_t kMostLong = 1 << 16;
+
+  CudaBackend::Array<NearSphere> list_, long_list_;
+  CudaBackend::Array<NearCounts> counts_;    // of this run and of the next
   int processors_ = 0, turn_ = 0;
 };
 using NearFirst = NearFirstWith<4>;

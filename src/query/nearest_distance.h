@@ -59,6 +59,51 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists
   return answer(true, cell.count);
 }
 
+// The same from a complete list by many at once: each of `lanes` tries an entry, and all of
+// them call this together with the same arguments and get the same answer. An entry's distance
+// is asked for with what was nearest before the lanes' turn; what one thread would have found
+// nearest before that entry comes from the lanes below, so that the list ends where it would
+// end for one thread.
+template <class Distances, class Lanes>
+LSDCD_FN Answer nearest_together(const GridView &grid, const CellListsView &lists, const Vec3 &q,
+                                 Real radius, const CellAddress &at, std::uint32_t index,
+                                 const Lanes &lanes)
+{
+  static_assert(Distances::kBounded, "a list is read to its end where bounds do not hold");
+  const Cell cell = lists.cells[index];
+  const Distances distances(grid, q, at);
+  const Real off_centre = norm(at.from_centre);
+  Real nearest = radius;
+  const auto answer = [&](std::uint32_t read) -> Answer {
+    return {nearest < radius ? nearest : kAnyDistance, true, read};
+  };
+  for (std::uint32_t first = 0; first < cell.count; first += Lanes::kCount) {
+    const std::uint32_t k = first + lanes.lane();
+    const bool there = k < cell.count;
+    Real least = nearest;    // of the entries up to this one
+    Real bound = 0;
+    if (there) {
+      const Candidate candidate = lists.candidates[cell.first + k];
+      bound = candidate.bound;
+      least = fmin(nearest, distances.feature(candidate.feature, nearest));
+    }
+    for (unsigned step = 1; step < Lanes::kCount; step *= 2) {
+      const Real below = lanes.from_below(least, step);
+      if (lanes.lane() >= step) least = fmin(least, below);
+    }
+    Real before = lanes.from_below(least, 1);
+    if (lanes.lane() == 0) before = nearest;
+    const unsigned past = lanes.vote(there && bound > before + off_centre);
+    if (past) {
+      const unsigned end = lowest_bit(past);
+      nearest = lanes.from(before, end);
+      return answer(first + end + 1);
+    }
+    nearest = lanes.from(least, Lanes::kCount - 1);
+  }
+  return answer(cell.count);
+}
+
 constexpr std::uint32_t kWholeList = 0xffffffffu;
 
 // The nearest point of the wall within `radius` (length, at most grid.reach) of q, which lies

@@ -70,6 +70,26 @@ struct GridWork {
     const CellAddress at = {nullptr, cell_in_brick(place), from_cell_centre(grid, place)};
     out.keep(i, nearest_from<kComplete, Distances>(grid, q, s.r, at, cell));
   }
+
+  // Lists that are too long for one thread, as at a vertex of very many facets.
+  static constexpr bool kTogether = kComplete && Distances::kBounded;
+  static constexpr std::uint32_t kLongForOne = 32;
+  LSDCD_FN bool is_long(std::uint32_t cell) const
+  {
+    return kTogether && grid.lists.cells[cell].count > kLongForOne;
+  }
+  template <class Lanes>
+  LSDCD_FN void answer_together(std::size_t i, const S &s, std::uint32_t cell,
+                                const Lanes &lanes) const
+  {
+    if constexpr (kTogether) {
+      const Vec3 q = s.centre();
+      const Place place = place_of(grid, q);
+      const CellAddress at = {nullptr, cell_in_brick(place), from_cell_centre(grid, place)};
+      const Answer a = nearest_together<Distances>(grid, grid.lists, q, s.r, at, cell, lanes);
+      if (lanes.lane() == 0) out.keep(i, a);
+    }
+  }
 };
 
 // `Way`: how a backend runs a query that reads the grid.

@@ -10,11 +10,14 @@
 #include "query/query_on.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <thread>
 
 namespace lsdcd {
 namespace {
@@ -337,6 +340,95 @@ TEST(query, asking_for_the_cell_first_changes_no_bit)
         EXPECT_EQ(a.distance, b.distance) << c.soup.source;
         EXPECT_EQ(a.read, b.read) << c.soup.source;
       }
+}
+
+// Four threads in place of a warp.
+class FourLanes {
+ public:
+  static constexpr unsigned kCount = 4;
+  struct Shared {
+    Shared() { pthread_barrier_init(&barrier, nullptr, kCount); }
+    ~Shared() { pthread_barrier_destroy(&barrier); }
+    pthread_barrier_t barrier;
+    Real value[kCount];
+  };
+
+  FourLanes(Shared &shared, unsigned lane) : shared_(shared), lane_(lane) {}
+  unsigned lane() const { return lane_; }
+  Real from(Real value, unsigned lane) const
+  {
+    shared_.value[lane_] = value;
+    pthread_barrier_wait(&shared_.barrier);
+    const Real other = shared_.value[lane];
+    pthread_barrier_wait(&shared_.barrier);
+    return other;
+  }
+  Real from_below(Real value, unsigned step) const
+  {
+    return from(value, lane_ >= step ? lane_ - step : lane_);
+  }
+  unsigned vote(bool yes) const
+  {
+    shared_.value[lane_] = yes;
+    pthread_barrier_wait(&shared_.barrier);
+    unsigned all = 0;
+    for (unsigned k = 0; k < kCount; k++)
+      if (shared_.value[k] > 0) all |= 1u << k;
+    pthread_barrier_wait(&shared_.barrier);
+    return all;
+  }
+
+ private:
+  Shared &shared_;
+  unsigned lane_;
+};
+
+template <class Distances>
+void expect_lanes_read_as_one(const Case &c, bool in_floats, std::size_t &read)
+{
+  const TriangleGrid grid = c.grid(0, false, in_floats);
+  const GridView view = grid.view();
+  std::vector<Sphere> spheres;
+  std::vector<std::uint32_t> cells;
+  const std::vector<BrickWord> words = brick_words(view);
+  for (const Sphere &s : c.spheres) {
+    const std::uint32_t cell = occupied_cell(view, words.data(), s.centre());
+    if (cell == kNoCell || view.lists.cells[cell].count < 2 || cells.size() == 40) continue;
+    spheres.push_back(s);
+    cells.push_back(cell);
+  }
+  FourLanes::Shared shared;
+  std::vector<Answer> answers[FourLanes::kCount];
+  std::vector<std::thread> threads;
+  for (unsigned lane = 0; lane < FourLanes::kCount; lane++)
+    threads.emplace_back([&, lane] {
+      for (std::size_t i = 0; i < cells.size(); i++) {
+        const Vec3 q = spheres[i].centre();
+        answers[lane].push_back(nearest_together<Distances>(view, view.lists, q, spheres[i].r,
+                                                            locate(view, view.lists, q), cells[i],
+                                                            FourLanes(shared, lane)));
+      }
+    });
+  for (std::thread &t : threads) t.join();
+  for (std::size_t i = 0; i < cells.size(); i++) {
+    const Answer one = nearest_distance<true, Distances>(view, spheres[i].centre(), spheres[i].r);
+    for (const std::vector<Answer> &of_lane : answers) {
+      ASSERT_EQ(of_lane[i].distance, one.distance) << c.soup.source << " " << i;
+      ASSERT_EQ(of_lane[i].certified, one.certified) << c.soup.source << " " << i;
+      ASSERT_EQ(of_lane[i].read, one.read) << c.soup.source << " " << i;
+    }
+    read = std::max<std::size_t>(read, one.read);
+  }
+}
+
+TEST(query, a_list_that_lanes_read_together_ends_as_for_one)
+{
+  std::size_t read = 0;
+  for (const Case &c : all_cases()) {
+    expect_lanes_read_as_one<WallDistances<InsideTest::exact>>(c, false, read);
+    expect_lanes_read_as_one<BrickDistances>(c, true, read);
+  }
+  EXPECT_GT(read, 8 * FourLanes::kCount);    // some lists take many turns
 }
 
 TEST(query, bits_of_bricks_give_the_cell_that_their_table_gives)
