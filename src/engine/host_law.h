@@ -29,7 +29,8 @@ template <class Law>
 bool redo_law(const LawBytes &bytes, const LawJob &job, std::size_t k, const SphereSink &sink)
 {
   const Law &law = bytes.as<Law>();
-  const SphereState s = state_of<Law>(job, job.near[k]);
+  SphereState s = place_of<Law>(job, job.near[k]);
+  add_motion<Law>(job, job.near[k], s);
   SphereResult &result = job.result[k];
   result = wall_force<Law, kMorePlaces>(job.grid, law, job.settings, s, sink);
   if (result.n_contacts == kOverflow)

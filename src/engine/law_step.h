@@ -8,19 +8,30 @@
 
 namespace lsdcd {
 
+// What the search for contacts reads of sphere i: most of those near the wall touch
+// nothing, and what only a contact needs is left where it is.
 template <class Law>
-LSDCD_FN SphereState state_of(const LawJob &job, std::size_t i)
+LSDCD_FN SphereState place_of(const LawJob &job, std::size_t i)
 {
-  SphereState s = {job.x[i], job.v[i], job.omega[i], job.radius[i], job.mass[i], nullptr, nullptr,
-                   0,        0};
+  SphereState s = {};
+  s.x = job.x[i];
+  s.radius = job.radius[i];
   if constexpr (Law::kHistory) {
     s.n_springs = job.springs.count[i];
     const std::size_t first = s.n_springs > 0 ? job.springs.first[i] : 0;
     s.springs = job.springs.pool + first;
     if constexpr (Law::kExtra > 0) s.extra = job.springs.extra + first * Law::kExtra;
   }
-  if constexpr (Law::kHeat) s.temperature = job.temperature[i];
   return s;
+}
+
+template <class Law>
+LSDCD_FN void add_motion(const LawJob &job, std::size_t i, SphereState &s)
+{
+  s.v = job.v[i];
+  s.omega = job.omega[i];
+  s.mass = job.mass[i];
+  if constexpr (Law::kHeat) s.temperature = job.temperature[i];
 }
 
 // The places of near sphere k in the sink; what the law has no use for is not even set.
@@ -85,24 +96,41 @@ LSDCD_FN void add_in_place(const LawJob &job, std::size_t k, std::size_t i, cons
   note(*to.counts, out, i);
   if constexpr (Law::kHistory)
     if (job.settings.update) {
-      to.pool.first[i] = first;
+      if (out.n_contacts > 0) to.pool.first[i] = first;
       to.pool.count[i] = out.n_contacts;
     }
+  if (out.n_contacts == 0) return;
   if constexpr (Law::kRecords) to.pool.place[k] = first;
-  if (out.n_contacts > 0) {
-    to.force.add(i, out.force);
-    to.torque.add(i, out.torque);
-    if constexpr (Law::kHeat) to.heat_flow[i] += job.sink.heat[k];
-    out.torque = cross(s.x, out.force) + out.torque;
-  }
+  to.force.add(i, out.force);
+  to.torque.add(i, out.torque);
+  if constexpr (Law::kHeat) to.heat_flow[i] += job.sink.heat[k];
+  out.torque = cross(s.x, out.force) + out.torque;
 }
 
+// A sphere that was not done in place: for the loop over crowded ones, or lost.
+LSDCD_FN void put_off(const InPlace &in_place, std::size_t k, bool is_crowded)
+{
+  if (is_crowded) {
+    const int at = fetch_add(&in_place.counts->n_crowded, 1);
+    if (at < in_place.crowd.most) {
+      in_place.crowd.which[at] = static_cast<int>(k);
+      return;
+    }
+  }
+  fetch_add(&in_place.counts->lost, 1);
+}
+
+// Near sphere k; `crowded` is its place among the crowded ones, or -1.
 template <class Law>
 LSDCD_FN void near_sphere(const Law &law, const LawJob &job, std::size_t k, int crowded)
 {
   const InPlace &in_place = job.in_place;
+  const bool stays = in_place.counts != nullptr;
   const std::size_t i = job.near ? job.near[k] : k;
-  const SphereState s = state_of<Law>(job, i);
+  SphereState s = place_of<Law>(job, i);
+  if (stays && law_reach(law, s.radius) > job.grid.reach)
+    raise_to(&in_place.counts->too_large, kNoSphere - i);
+
   SphereResult out = {};
   Touch<kPlaces> touching;
   ContactsView set;
@@ -121,33 +149,32 @@ LSDCD_FN void near_sphere(const Law &law, const LawJob &job, std::size_t k, int 
 
   int first = 0;
   SphereSink sink;
-  if (out.n_contacts != kOverflow) {
+  if (out.n_contacts != kOverflow && set.n > 0) {
     bool has_room = true;
-    if (in_place.counts)
+    if (stays)
       has_room = take_places<Law>(job, k, count_bearing(set, weight), first, sink);
     else
       sink = sink_of<Law>(job, k);
     if constexpr (Law::kHeat) *sink.heat = 0;
+    add_motion<Law>(job, i, s);
     if (has_room)
       add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
     else
       out.n_contacts = kOverflow;
   }
-  if (in_place.counts) {
-    if (law_reach(law, s.radius) > job.grid.reach)
-      raise_to(&in_place.counts->too_large, kNoSphere - i);
+  if (stays) {
     if (out.n_contacts != kOverflow)
       add_in_place<Law>(job, k, i, s, first, out);
-    else if (crowded < 0 && touching.set.overflow) {
-      const int at = fetch_add(&in_place.counts->n_crowded, 1);
-      if (at < in_place.crowd.most)
-        in_place.crowd.which[at] = static_cast<int>(k);
-      else
-        fetch_add(&in_place.counts->lost, 1);
-    } else
-      fetch_add(&in_place.counts->lost, 1);
+    else
+      put_off(in_place, k, crowded < 0 && touching.set.overflow);
   }
-  job.result[k] = out;
+  // Nothing else is read of a result without contacts.
+  if (out.n_contacts == 0) {
+    job.result[k].uncertain = out.uncertain;
+    job.result[k].n_contacts = 0;
+  } else {
+    job.result[k] = out;
+  }
 }
 
 template <class Law>

@@ -241,7 +241,8 @@ class ResidentOn : public ResidentEngine {
     const Spheres spheres = spheres_;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = near[k];
-      to[k] = output_of(result[k], spheres.x[i], spheres.radius[i]);
+      to[k] = SphereOutput();
+      if (result[k].n_contacts > 0) to[k] = output_of(result[k], spheres.x[i], spheres.radius[i]);
     });
     const std::vector<SphereOutput> all = b_.to_host(out, n);
     const std::vector<Real> heat = b_.to_host(heat_, law_.traits.heat ? n : 0);
