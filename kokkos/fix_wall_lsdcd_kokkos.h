@@ -60,6 +60,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void prepare_springs();
   void springs_to_host();
   void springs_to_device();
+  static bool sends_from_host(ExecutionSpace);
 
   enum class Where { host, device };
   Where springs_are = Where::host;

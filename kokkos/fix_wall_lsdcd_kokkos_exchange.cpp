@@ -88,29 +88,47 @@ int FixWallLsdcdKokkos<DeviceType>::maxsize_restart()
 
 #if LSDCD_DEVICE_EXCHANGE
 
+// Atoms on a GPU whose messages leave from the host.
+template <class DeviceType>
+bool FixWallLsdcdKokkos<DeviceType>::sends_from_host(ExecutionSpace space)
+{
+  return !lsdcd::kOnHost<DeviceType> && space != Device;
+}
+
 template <class DeviceType>
 int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
                                                          lsdcd::ExchangeBuffer &buffer,
                                                          DAT::tdual_int_1d which,
-                                                         DAT::tdual_int_1d from, ExecutionSpace)
+                                                         DAT::tdual_int_1d from,
+                                                         ExecutionSpace space)
 {
   if (!history) return 0;
   springs_to_device();
-  buffer.template sync<DeviceType>();
   which.template sync<DeviceType>();
   from.template sync<DeviceType>();
-  return resident().pack(n, which.template view<DeviceType>().data(),
-                         from.template view<DeviceType>().data(),
-                         buffer.template view<DeviceType>().data());
+  buffer.clear_sync_state();
+  const int size = resident().pack(n, which.template view<DeviceType>().data(),
+                                   from.template view<DeviceType>().data(),
+                                   buffer.template view<DeviceType>().data());
+  if (sends_from_host(space)) {
+    buffer.template modify<DeviceType>();
+    buffer.template sync<LMPHostType>();
+  }
+  return size;
 }
 
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffer &buffer,
                                                             DAT::tdual_int_1d &to, int n,
-                                                            int n_first, int second, ExecutionSpace)
+                                                            int n_first, int second,
+                                                            ExecutionSpace space)
 {
   if (!history) return;
   springs_to_device();
+  buffer.clear_sync_state();
+  if (sends_from_host(space)) buffer.template modify<LMPHostType>();
+  buffer.template sync<DeviceType>();
+  to.template sync<DeviceType>();
   resident().unpack(n, to.template view<DeviceType>().data(),
                     buffer.template view<DeviceType>().data(), n_first, second);
   n_with_springs = std::max(n_with_springs, atom->nlocal);

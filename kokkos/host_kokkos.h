@@ -59,7 +59,7 @@ std::unique_ptr<WallEngine> make_engine_on(const EngineSettings &settings)
   using Space = typename DeviceType::execution_space;
 #if defined(KOKKOS_ENABLE_CUDA)
   if constexpr (std::is_same<Space, Kokkos::Cuda>::value)
-    return make_resident_cuda_engine(settings, Space().cuda_stream());
+    return make_resident_cuda_engine(settings, Space().cuda_device(), Space().cuda_stream());
   else
 #endif
   {

@@ -91,10 +91,9 @@ class CornerRule {
   {
     const int n = n_;
     n_active_ = 0;
-    bool refused[kPlaces];
     for (int k = 0; k < n; k++) {
       l_[used_[k]] = 0;
-      refused[used_[k]] = false;
+      refused_[used_[k]] = false;
     }
     // Each round enters one contact; the objective falls strictly, so that no
     // active set comes back. The bound only guards against round-off.
@@ -103,7 +102,7 @@ class CornerRule {
       Real steepest = 0;
       for (int k = 0; k < n; k++) {
         const int i = used_[k];
-        if (is_active(i) || refused[i]) continue;
+        if (is_active(i) || refused_[i]) continue;
         const Real slope = gradient(set, radius, i);
         const Real d = radius - set.distance[i];
         if (slope > kTiny * d && slope > steepest) {
@@ -115,12 +114,12 @@ class CornerRule {
       bool is_in = push(set, enter);
       while (!is_in && make_room(set, enter)) is_in = push(set, enter);
       if (!is_in) {    // round-off only: nothing that it could take the place of
-        refused[enter] = true;
+        refused_[enter] = true;
         continue;
       }
       while (!step(set, radius)) {
       }
-      for (int k = 0; k < n; k++) refused[used_[k]] = false;
+      for (int k = 0; k < n; k++) refused_[used_[k]] = false;
     }
     for (int k = 0; k < n; k++)
       weight[used_[k]] = at_most_one(l_[used_[k]] / (radius - set.distance[used_[k]]));
@@ -201,14 +200,13 @@ class CornerRule {
   LSDCD_FN void leave(const ContactSet<kPlaces> &set, int leaving)
   {
     const int m = n_active_;
-    int kept[kPlaces];
     int n_kept = 0;
     for (int k = 0; k < m; k++)
-      if (k != leaving) kept[n_kept++] = active_[k];
+      if (k != leaving) kept_[n_kept++] = active_[k];
     l_[active_[leaving]] = 0;
     n_active_ = 0;
     for (int k = 0; k < n_kept; k++)
-      if (!push(set, kept[k])) l_[kept[k]] = 0;
+      if (!push(set, kept_[k])) l_[kept_[k]] = 0;
   }
 
   // Moves l to the solution on the active set, or as far towards it as l >= 0
@@ -255,7 +253,8 @@ class CornerRule {
   int n_ = 0;    // contacts that take part
   int used_[kPlaces];
   int n_active_ = 0;
-  int active_[kPlaces];
+  int active_[kPlaces], kept_[kPlaces];
+  bool refused_[kPlaces];
   Real l_[kPlaces], target_[kPlaces];
   Real factor_[kPlaces * (kPlaces + 1) / 2];    // lower triangle, row by row
 };

@@ -9,7 +9,7 @@ std::unique_ptr<ResidentEngine> make_resident_cpu_engine(const EngineSettings &s
 }
 
 #if !defined(LSDCD_HAVE_CUDA)
-std::unique_ptr<ResidentEngine> make_resident_cuda_engine(const EngineSettings &, void *)
+std::unique_ptr<ResidentEngine> make_resident_cuda_engine(const EngineSettings &, int, void *)
 {
   throw InputError("built without the CUDA toolkit: the particles are on a GPU, the wall "
                    "cannot be; build it where nvcc is found, or use wall/lsdcd/kk/host");

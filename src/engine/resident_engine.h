@@ -54,9 +54,9 @@ class ResidentEngine : public WallEngine {
 };
 
 std::unique_ptr<ResidentEngine> make_resident_cpu_engine(const EngineSettings &settings);
-// `stream`: a cudaStream_t of the device that holds the particles. Throws InputError in a
+// `device` holds the particles, `stream` is a cudaStream_t of it. Throws InputError in a
 // build without CUDA.
 std::unique_ptr<ResidentEngine> make_resident_cuda_engine(const EngineSettings &settings,
-                                                          void *stream);
+                                                          int device, void *stream);
 
 }    // namespace lsdcd

@@ -43,7 +43,11 @@ def for_host(text, flags):
     return f"plugin load {KOKKOS_PLUGIN}\n" + text
 
 
+# With LSDCD_KOKKOS_MOVES=device atoms are sorted and exchanged by Kokkos's kernels, as on a GPU; on
+# a host without one Kokkos leaves that to LAMMPS.
 KOKKOS = ("-k", "on", "-sf", "kk")
+if os.environ.get("LSDCD_KOKKOS_MOVES") == "device":
+    KOKKOS += ("-pk", "kokkos", "comm", "device", "sort", "device")
 
 
 def run(deck, folder, ranks=1, timeout=300, env=None, host=ON_KOKKOS, flags=KOKKOS, **variables):

@@ -12,7 +12,7 @@ namespace {
 class ResidentForHost : public WallEngine {
  public:
   ResidentForHost(const EngineSettings &settings, bool cuda) :
-      engine_(cuda ? make_resident_cuda_engine(settings, nullptr)
+      engine_(cuda ? make_resident_cuda_engine(settings, 0, nullptr)
                    : make_resident_cpu_engine(settings)),
       has_history_(settings.law.has_history()), x_(cuda), v_(cuda), omega_(cuda), force_(cuda),
       torque_(cuda), radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda), mask_(cuda)

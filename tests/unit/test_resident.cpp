@@ -144,7 +144,7 @@ class Particles {
       n_(n)
   {
     engine =
-        cuda ? make_resident_cuda_engine(settings, nullptr) : make_resident_cpu_engine(settings);
+        cuda ? make_resident_cuda_engine(settings, 0, nullptr) : make_resident_cpu_engine(settings);
     const WallMesh mesh = weld(floor_mesh(40, 10, 7), -1);
     GridSettings g;
     g.reach = reach;
@@ -296,16 +296,22 @@ TEST(resident, springs_follow_through_pack_and_unpack)
   EXPECT_EQ(same, moved);
   for (int i = 1; i < stay; i += 3) EXPECT_TRUE(same_springs(left, i, before, i));
 
-  // The message once more behind itself, as from a second neighbour.
-  std::vector<double> twice = buffer.get(size), once = twice;
-  twice.insert(twice.end(), once.begin(), once.end());
-  std::vector<int> places = back;
-  for (int k = 0; k < moved; k++) places.push_back(back[k] < 0 ? -1 : back[k] + 1);
-  DeviceArray<double> both(cuda);
-  both.put(twice);
+  // Another message behind the first, as from a second neighbour, of spheres that stay.
+  std::vector<int> others, stays(moved, -1), places = back;
+  for (int k = 0; k < moved; k++) {
+    others.push_back(which[k] + 1);
+    places.push_back(back[k] < 0 ? -1 : back[k] + 1);
+  }
+  std::vector<double> both = buffer.get(size);
+  const int second =
+      from.engine->pack(moved, d_which.put(others), d_copies.put(stays), buffer.data());
+  const std::vector<double> behind = buffer.get(second);
+  both.insert(both.end(), behind.begin(), behind.end());
+  DeviceArray<double> d_both(cuda);
+  d_both.put(both);
   to.step(0.01, Particles::Choice::now);
   const SpringStore own = to.springs();
-  to.engine->unpack(2 * moved, d_back.put(places), both.data(), moved, size);
+  to.engine->unpack(2 * moved, d_back.put(places), d_both.data(), moved, size);
   const SpringStore after = to.springs();
   int arrived = 0;
   for (int k = 0; k < moved; k++) {
@@ -313,7 +319,7 @@ TEST(resident, springs_follow_through_pack_and_unpack)
     arrived++;
     carried += before.count(which[k]) > 0;
     EXPECT_TRUE(same_springs(after, back[k], before, which[k]));
-    EXPECT_TRUE(same_springs(after, back[k] + 1, before, which[k]));
+    EXPECT_TRUE(same_springs(after, back[k] + 1, before, others[k]));
   }
   EXPECT_GT(arrived, 200);
   EXPECT_GT(carried, 20);
@@ -387,6 +393,23 @@ TEST(resident, a_step_without_outputs_neither_copies_nor_waits)
   for (int k = 0; k < 5; k++) EXPECT_EQ(crossings_of(false), 0);
   EXPECT_GT(crossings_of(true), 0);
   EXPECT_GT(particles.engine->totals().contacts, 100);
+}
+
+TEST(resident, a_sphere_that_was_far_has_no_spring_of_before)
+{
+  Particles p(with_history(), 1, 0.5);
+  p.host_x = {0.3, 0.1, 0.45};
+  p.host_v = {1, 0, 0};
+  p.host_radius = {0.5};
+  for (int k = 0; k < 3; k++) p.step(0.01, Particles::Choice::now);
+  const Real three = p.springs().of(0)->stretch.x;
+  p.host_x[2] += 10;
+  p.step(0.01, Particles::Choice::now);
+  EXPECT_EQ(p.springs().count(0), 0);
+  p.host_x[2] -= 10;
+  p.step(0.01, Particles::Choice::now);
+  ASSERT_EQ(p.springs().count(0), 1);
+  EXPECT_NEAR(p.springs().of(0)->stretch.x, three / 3, 1e-15);
 }
 
 TEST(resident, a_sphere_larger_than_the_reach_is_an_error)
