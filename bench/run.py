@@ -7,7 +7,8 @@ usage: run.py [--build DIR] [--only cpu|cuda] [--quick] [--write-only] [--rows-t
 NAME: query, build, step, cache (default: these four) make doc/performance.md; three make
 documents of their own from runs of other programs: accuracy doc/accuracy.md (tradeoff.py,
 accuracy.py), effects doc/effects.md (effects.py), hard-cases doc/hard_cases.md
-(hard_cases.py).
+(hard_cases.py). kokkos times steps of a LAMMPS with Kokkos (kokkos.py, whose words
+run.py kokkos --words lists), also into doc/performance.md.
 
 Rows of the four are kept in doc/data/performance_DEVICE.csv (performance.py). Further words
 go to them, as --spheres 1e6; bench_query --help lists them. On a machine lent for a GPU:
@@ -20,6 +21,7 @@ import sys
 import accuracy
 import effects
 import hard_cases
+import kokkos
 import performance
 import tradeoff
 
@@ -43,14 +45,18 @@ def main():
     while rest and not rest[0].startswith("-"):
         names.append(rest.pop(0))
     names = names or list(performance.PROGRAMS)
+    known = [*performance.PROGRAMS, *DOCUMENTS, "kokkos"]
     for name in names:
-        if name not in list(performance.PROGRAMS) + list(DOCUMENTS):
-            print(f"no benchmark '{name}'; there are: "
-                  f"{', '.join(list(performance.PROGRAMS) + list(DOCUMENTS))}", file=sys.stderr)
+        if name not in known:
+            print(f"no benchmark '{name}'; there are: {', '.join(known)}", file=sys.stderr)
             return 2
     programs = [n for n in names if n in performance.PROGRAMS]
     if programs:
         status = performance.main(args, programs, rest)
+        if status != 0:
+            return status
+    if "kokkos" in names:
+        status = kokkos.main(args, rest)
         if status != 0:
             return status
     for name in names:

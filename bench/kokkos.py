@@ -1,0 +1,236 @@
+"""What a wall costs a step of a LAMMPS with Kokkos: `./run bench kokkos`.
+
+Beds of spheres (gran/hooke/history/kk) on a flat floor of 2 triangles, in the vessel of
+examples/vessel and on a bumpy floor of 1 000 000, timed with fix wall/lsdcd/kk and without any
+wall from one prepared state (kokkos_beds.py, kokkos_runs.py). Rows have the format of bench.h and
+are kept in doc/data/kokkos_DEVICE.csv; doc/performance.md has their tables (kokkos_tables.py).
+
+With a LAMMPS of one's own:
+  ./run bench kokkos --lmp FILE --plugin build/lib/lsdcdkkplugin.so --flags "-k on g 1 -sf kk"
+Without --lmp: those of LSDCD_KOKKOS_HOSTS, as the build knows them.
+"""
+import argparse
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import statistics
+import subprocess
+import tempfile
+
+import kokkos_runs as runs
+import performance
+from hard_cases import commit, cpu, gpu
+from kokkos_beds import Bed
+from kokkos_tables import (CASES, COPIES, NO_WALL, ORDERS, keep, kept, read_rows,
+                           write_document)
+
+
+# ---- measuring ---------------------------------------------------------------------------
+
+class Rows:
+    """Of one bed on one host."""
+
+    def __init__(self, host, bed, named):
+        self.host, self.bed = host, bed
+        n = os.environ.get("OMP_NUM_THREADS", "1")
+        where = gpu() if host.on_gpu else f"CPU, {n} thread{'s' * (n != '1')}, {cpu()}"
+        self.fixed = {"program": "kokkos", "case": "", "device": where, "commit": named,
+                      "compiler": host.compiler, "triangles": bed.triangles,
+                      "spheres": bed.atoms, "length": 0}
+        self.rows = []
+
+    def add(self, more, order, times=None, **what):
+        row = dict(self.fixed, case=CASES[self.bed.name] + more, order=order)
+        row["repeats"] = len(times) if times else 0
+        for name, value in (("median_ms", statistics.median), ("min_ms", min), ("max_ms", max)):
+            row[name] = f"{value(times):.5g}" if times else ""
+        row.update(bytes="", copy_gb_s="", floor_ms="", ratio="")
+        what = {"host": self.host.version.replace(" ", ""), "ranks": self.bed.ranks, **what,
+                "flags": self.host.flags.format(ranks=self.bed.ranks).replace(" ", "_")}
+        row["facts"] = " ".join(f"{k}={v}" for k, v in what.items())
+        self.rows.append({k: str(v) for k, v in row.items()})
+        print(", ".join(str(v) for v in list(row.values())[1:] if v != ""), flush=True)
+
+
+def time_steps(host, bed, folder, order, options, settled, rows):
+    """With the wall and without in turn, so that what else a machine does meets both."""
+    seen = {True: [], False: []}
+    for _ in range(options.rounds):
+        for wall in seen:
+            deck = runs.timed_deck(host, bed, order, bed.wall() if wall else "", options.steps,
+                                   options.chunks)
+            seen[wall].append(runs.read_times(host.run_well(deck, folder, bed.ranks)))
+    times = {wall: [t for s in each for t in s["ms"]] for wall, each in seen.items()}
+    ratio = statistics.median(times[True]) / statistics.median(times[False])
+    for wall, each in seen.items():
+        what = {"steps": options.steps, "builds": sum(s["builds"] for s in each),
+                "pair_ms": f"{statistics.median([t for s in each for t in s['pair']]):.4g}"}
+        if wall:
+            what.update(carried=f"{settled[0]:.3g}", touching=settled[1],
+                        wall_steps=sum(s["wall_steps"] for s in each),
+                        lists=sum(s["lists"] for s in each), over_no_wall=f"{ratio:.4g}")
+        rows.add("" if wall else NO_WALL, order, times[wall], **what)
+
+
+def time_lammps_walls(host, bed, folder, order, options, rows):
+    """LAMMPS's own walls: some are tens of times as slow, so there are fewer steps."""
+    steps = max(10, options.steps // 5)
+    for style in ("wall/gran", "wall/gran/kk"):
+        if style == "wall/gran/kk" and not host.flat_kk:
+            rows.add(", " + style, order, steps=steps, result="not_there")
+            continue
+        deck = runs.timed_deck(host, bed, order, bed.wall(style), steps, options.chunks, warm=5)
+        output, well = host.run(deck, folder, bed.ranks)
+        if well:
+            rows.add(", " + style, order, runs.read_times(output)["ms"], steps=steps)
+        else:
+            why = re.search(r"^.*(?:ERROR|error|abort|terminat|Concurrent).*$", output, re.M)
+            rows.add(", " + style, order, steps=steps, result="aborts")
+            print(f"  {style}: {why.group(0).strip() if why else output[-300:]}", flush=True)
+
+
+def count_copies(host, bed, folder, order, options, rows):
+    """Of steps without output: those that are not the last of a run."""
+    library = folder / "count_copies.so"
+    if not library.exists():
+        source = pathlib.Path(__file__).with_name("count_copies.cpp")
+        subprocess.run([os.environ.get("CXX", "c++"), "-std=c++17", "-O2", "-shared", "-fPIC", "-o",
+                        library, source], check=True)
+    for wall in (True, False):
+        deck = runs.timed_deck(host, bed, order, bed.wall() if wall else "", options.steps, 1)
+        env = {"KOKKOS_TOOLS_LIBS": str(library), "KOKKOS_PROFILE_LIBRARY": str(library),
+               "LSDCD_COPIES": str(folder / "copies")}
+        host.run_well(deck, folder, bed.ranks, env=env)
+        steps, seen = [], 0
+        for path in folder.glob("copies.*"):
+            counts = [tuple(map(int, line.split())) for line in path.read_text().splitlines()]
+            steps += counts[1 + runs.WARM:-1]
+            seen += sum(s[1] + s[4] for s in counts)
+            path.unlink()
+        plain, lists = ([s for s in steps if s[0] == k] for k in (0, 1))
+        if not plain or not seen:
+            print("no copy was seen: this Kokkos was built without its tools interface")
+            return
+
+        def mean(rows_, column):
+            return f"{sum(s[column] for s in rows_) / len(rows_):.4g}" if rows_ else "none"
+
+        rows.add(("" if wall else NO_WALL) + COPIES, order, steps=len(plain),
+                 copies=mean(plain, 1), bytes=mean(plain, 2), largest=max(s[3] for s in plain),
+                 within=mean(plain, 4), seen=seen, list_steps=len(lists),
+                 list_copies=mean(lists, 1), list_bytes=mean(lists, 2),
+                 list_largest=max((s[3] for s in lists), default=0))
+
+
+def say_profiler(host, bed, folder, options):
+    """Copies that do not go through Kokkos, our engine's among them."""
+    for name, wall in (("wall", bed.wall()), ("no_wall", "")):
+        (folder / f"in.{name}").write_text(
+            runs.timed_deck(host, bed, options.orders[0], wall, options.steps, 1))
+        print(f"every copy by CUDA, {name} (with --keep DIR and nsys in PATH): cd {folder} && nsys "
+              f"profile -t cuda -o {name} {shlex.join(host.command(f'in.{name}', bed.ranks))} && "
+              f"nsys stats -r cuda_gpu_mem_time_sum,cuda_gpu_mem_size_sum {name}.nsys-rep")
+
+
+def measure(host, options, named, folder, place):
+    device = "cuda" if host.on_gpu else "cpu"
+    print(f"{host.lmp}, LAMMPS {host.version}, {host.flags}", flush=True)
+    for each in options.atoms or ([1e6, 8e6] if host.on_gpu else [20000]):
+        for ranks in options.ranks:
+            for name in options.cases:
+                work = place / f"{host.version.replace(' ', '')}-{name}-{each:.0f}-{ranks}"
+                work.mkdir(parents=True, exist_ok=True)
+                bed = Bed(name, int(each) * ranks, ranks, work, options.triangles)
+                settled = runs.prepare(host, bed, work, options.settle)
+                for order in options.orders:
+                    rows = Rows(host, bed, named)
+                    time_steps(host, bed, work, order, options, settled, rows)
+                    if options.against and name == "flat":
+                        time_lammps_walls(host, bed, work, order, options, rows)
+                    if options.copies:
+                        count_copies(host, bed, work, order, options, rows)
+                    keep(rows.rows, device, folder)
+                if options.copies and shutil.which("nsys"):
+                    say_profiler(host, bed, work, options)
+                if not options.keep:
+                    shutil.rmtree(work)
+    print("rows are in", kept(device, folder))
+
+
+def built_hosts(build):
+    """Folders of LAMMPS that the build has a plugin for, each with that plugin."""
+    cache = pathlib.Path(build, "CMakeCache.txt")
+    found = re.search(r"^LSDCD_KOKKOS_HOSTS:\w+=(.+)$", cache.read_text() if cache.exists() else "",
+                      re.M)
+    if not found:
+        raise SystemExit(f"{build} knows no LAMMPS with Kokkos: name one with --lmp, --plugin and "
+                         "--flags, or configure with -D LSDCD_KOKKOS_HOSTS=FOLDER "
+                         "(tests/lammps/hosts/build_host.sh)")
+    for folder in found.group(1).split(";"):
+        text = pathlib.Path(folder, "host.cmake").read_text()
+        version = re.search(r"LSDCD_HOST_VERSION \"?(\d+)", text).group(1)
+        plugin = pathlib.Path(build, "lib", f"lsdcdkkplugin-{version}.so").resolve()
+        yield os.path.join(folder, "lmp"), str(plugin)
+
+
+# ---- words ------------------------------------------------------------------------------
+
+def read_options(words):
+    p = argparse.ArgumentParser(prog="./run bench kokkos", description=__doc__, allow_abbrev=False,
+                                formatter_class=argparse.RawDescriptionHelpFormatter)
+    p.add_argument("--lmp", metavar="FILE", help="a LAMMPS with Kokkos")
+    p.add_argument("--plugin", metavar="FILE", help="lsdcdkkplugin.so for it")
+    p.add_argument("--flags", default="-k on -sf kk", metavar="WORDS",
+                   help="of LAMMPS; {ranks} is the number of processes (default: %(default)s)")
+    p.add_argument("--mpi", default="mpirun -np {ranks}", metavar="WORDS",
+                   help="what starts several processes (default: %(default)s)")
+    p.add_argument("--atoms", type=float, nargs="+", metavar="N",
+                   help="per process (default: 1e6 and 8e6 on a GPU, 20000 on a CPU)")
+    p.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES))
+    p.add_argument("--orders", nargs="+", choices=ORDERS, default=list(ORDERS))
+    p.add_argument("--triangles", type=int, default=1000000, metavar="N", help="of the bumpy floor")
+    p.add_argument("--steps", type=int, default=100, metavar="N", help="timed as one (default 100)")
+    p.add_argument("--chunks", type=int, default=3, metavar="N",
+                   help="of these in a run (default 3)")
+    p.add_argument("--rounds", type=int, default=2, metavar="N",
+                   help="of a run with the wall and one without (default 2)")
+    p.add_argument("--settle", type=int, default=3000, metavar="N",
+                   help="steps before (default 3000)")
+    p.add_argument("--against", action="store_true",
+                   help="time LAMMPS's own flat walls on the flat floor, too")
+    p.add_argument("--ranks", default="1", metavar="LIST",
+                   help='numbers of processes, as "1 2 4": weak scaling')
+    p.add_argument("--copies", action="store_true",
+                   help="count what Kokkos copies between host and device in a step")
+    p.add_argument("--words", action="help", help="show this")
+    p.add_argument("--keep", metavar="DIR", help="leave decks and meshes there")
+    options = p.parse_args(words)
+    options.ranks = [int(word) for word in options.ranks.replace(",", " ").split()]
+    if bool(options.lmp) != bool(options.plugin):
+        p.error("--lmp and --plugin belong together")
+    return options
+
+
+def main(args, words):
+    """`./run bench kokkos`; args are those of run.py, words this program's own."""
+    if args.write_only:
+        write_document()
+        return 0
+    options = read_options(words)
+    if args.quick:
+        options.atoms, options.triangles, options.settle = options.atoms or [4000], 20000, 500
+    folder = args.rows_to or (os.path.join(args.build, "bench") if args.quick else performance.DATA)
+    os.makedirs(folder, exist_ok=True)
+    given = [(options.lmp, os.path.abspath(options.plugin))] if options.lmp else \
+        list(built_hosts(args.build))
+    place = pathlib.Path(options.keep or tempfile.mkdtemp(prefix="lsdcd-kokkos-")).resolve()
+    for lmp, plugin in given:
+        measure(runs.Host(os.path.abspath(lmp), plugin, options.flags, options.mpi), options,
+                args.commit or commit(), folder, place)
+    if not options.keep:
+        shutil.rmtree(place)
+    if folder == performance.DATA:
+        write_document()
+    return 0

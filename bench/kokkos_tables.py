@@ -1,0 +1,166 @@
+"""Rows and tables of kokkos.py."""
+import os
+import pathlib
+
+import performance
+from effects import table
+from hard_cases import ROOT, put_between, write_whole
+from performance import as_csv, begin, count, end, facts, ms
+
+CASES = {"flat": "flat floor", "vessel": "vessel", "million": "bumpy floor"}
+TRIANGLES = {"flat": "2", "vessel": "19272", "million": "1000000"}
+ORDERS = ("random", "sorted")
+GPU_ATOMS = ("1000000", "8000000")
+TARGET = 1.05    # a step with our wall over one without
+SCALING_TARGET = 0.90    # efficiency with our wall over that without
+COPIES = ", copies"
+NO_WALL = ", no wall"
+
+
+# ---- rows --------------------------------------------------------------------------------
+
+def kept(device, folder):
+    return os.path.join(folder, f"kokkos_{device}.csv")
+
+
+def read_rows(device, folder=performance.DATA):
+    path = kept(device, folder)
+    return performance.parse(pathlib.Path(path).read_text()) if os.path.exists(path) else []
+
+
+def key(row):
+    return (*performance.key(row), facts(row)["host"], facts(row)["ranks"])
+
+
+def keep(rows, device, folder):
+    """A row takes the place of the one under its key."""
+    fresh = {key(r): r for r in rows}
+    old = [fresh.pop(key(r), r) for r in read_rows(device, folder)]
+    write_whole(kept(device, folder), as_csv(old + list(fresh.values())))
+
+
+# ---- tables ------------------------------------------------------------------------------
+
+def find(rows, **wanted):
+    for row in rows:
+        if all(str({**row, **facts(row)}.get(k, "")) == str(v) for k, v in wanted.items()):
+            return row
+    return None
+
+
+def ratio_of(a, b):
+    return float(a["median_ms"]) / float(b["median_ms"])
+
+
+def beside(rows, row, more):
+    """The row of the same bed with another wall, or without."""
+    return find(rows, case=row["case"] + more, triangles=row["triangles"], spheres=row["spheres"],
+                order=row["order"], host=facts(row)["host"], ranks=facts(row)["ranks"])
+
+
+def walls(rows):
+    return [r for r in rows if r["case"] in CASES.values()]
+
+
+def step_table(rows, expected):
+    mine = [r for r in walls(rows) if facts(r)["ranks"] == "1"]
+    for atoms in expected:
+        for name, case in CASES.items():
+            for order in ORDERS:
+                if not find(mine, case=case, triangles=TRIANGLES[name], spheres=atoms, order=order):
+                    mine.append({"case": case, "triangles": TRIANGLES[name], "spheres": atoms,
+                                 "order": order, "facts": "host= ranks=1"})
+
+    def cells(r):
+        f = facts(r)
+        measured = bool(r.get("median_ms"))
+        without = beside(rows, r, NO_WALL) if measured else None
+        return [r["case"], count(r["triangles"]), count(r["spheres"]), r["order"], f["host"],
+                f["touching"] if measured else "",
+                f"{f['lists']} in {f['wall_steps']}" if measured else "",
+                ms(r) if measured else "", ms(without),
+                f"{ratio_of(r, without):.3f}" if measured else "", *[str(TARGET)] * bool(expected),
+                *[other(rows, r, style) for style in ("wall/gran", "wall/gran/kk")]]
+
+    heads = ["bed", "triangles", "atoms", "order", "LAMMPS", "touching", "lists of near atoms",
+             "with the wall, ms", "without, ms", "ratio", *["target"] * bool(expected),
+             "LAMMPS's wall/gran, ms", "wall/gran/kk, ms"]
+    return table(mine, heads, cells)
+
+
+def other(rows, row, style):
+    r = beside(rows, row, ", " + style)
+    if not r:
+        return ""
+    return ms(r) if r["median_ms"] else facts(r)["result"].replace("_", " ")
+
+
+def scaling_table(rows):
+    mine = []
+    for r in walls(rows):
+        f, ranks = facts(r), int(facts(r)["ranks"])
+        one = find(rows, case=r["case"], triangles=r["triangles"], order=r["order"],
+                   spheres=int(r["spheres"]) // ranks, host=f["host"], ranks=1)
+        if ranks > 1 and one:
+            mine.append((r, one))
+    if not mine:
+        return "No rows are kept yet."
+
+    def cells(pair):
+        r, one = pair
+        without, one_without = (beside(rows, x, NO_WALL) for x in pair)
+        with_wall, no_wall = ratio_of(one, r), ratio_of(one_without, without)
+        return [r["case"], count(one["spheres"]), facts(r)["ranks"], r["order"], r["device"],
+                facts(r)["host"], ms(r), ms(without), f"{with_wall:.2f}", f"{no_wall:.2f}",
+                f"{with_wall / no_wall:.3f}", f"{SCALING_TARGET:.2f}"]
+
+    heads = ["bed", "atoms per process", "processes", "order", "device", "LAMMPS",
+             "with the wall, ms", "without, ms", "efficiency with", "without", "ratio", "target"]
+    return table(mine, heads, cells)
+
+
+def copies_table(rows):
+    mine = [r for r in rows if r["case"] in [case + COPIES for case in CASES.values()]]
+    if not mine:
+        return "No rows are kept yet."
+
+    def cells(r):
+        bed = dict(r, case=r["case"][:-len(COPIES)])
+        f, g = facts(r), facts(beside(rows, bed, NO_WALL + COPIES))
+        both = [f"{f[name]}, {g[name]}" for name in ("copies", "bytes", "largest", "list_copies",
+                                                     "list_bytes", "seen")]
+        return [bed["case"], count(r["spheres"]), f["ranks"], r["order"], r["device"], f["host"],
+                f["steps"], *both[:3], f["list_steps"], *both[3:]]
+
+    heads = ["bed", "atoms", "processes", "order", "device", "LAMMPS", "steps", "copies in a step",
+             "bytes in a step", "largest", "steps with new neighbour lists", "copies in one",
+             "bytes in one", "all of any kind"]
+    return table(mine, heads, cells)
+
+
+def machines(rows):
+    lines = []
+    for name in dict.fromkeys((r["device"], r["compiler"]) for r in rows):
+        mine = [r for r in rows if (r["device"], r["compiler"]) == name]
+        commits = ", ".join(dict.fromkeys(r["commit"] for r in mine))
+        runs = ", ".join(dict.fromkeys(f"{r['repeats']} runs of {facts(r)['steps']} steps"
+                                       for r in mine if r["median_ms"]))
+        words = ", ".join(dict.fromkeys(f"`{facts(r)['flags'].replace('_', ' ')}`" for r in mine))
+        lines.append(f"* {name[0]}: commit {commits}, LAMMPS compiled by {name[1]}, {words}; "
+                     f"medians of {runs} (least to most).")
+    return "\n".join(lines) or "* No rows are kept yet."
+
+
+def parts(on_cpu, on_gpu):
+    """The generated parts of the document, with their markers."""
+    both = on_gpu + on_cpu
+    text = {"kokkos-cuda": step_table(on_gpu, GPU_ATOMS) + "\n\n" + machines(on_gpu),
+            "kokkos-cpu": step_table(on_cpu, ()) + "\n\n" + machines(on_cpu),
+            "kokkos-scaling": scaling_table(both), "kokkos-copies": copies_table(both)}
+    return {name: f"{begin(name)}\n{table_}\n{end(name)}" for name, table_ in text.items()}
+
+
+def write_document(folder=performance.DATA):
+    for name, text in parts(read_rows("cpu", folder), read_rows("cuda", folder)).items():
+        put_between(performance.DOCUMENT, begin(name), end(name), text)
+    print("wrote", os.path.relpath(performance.DOCUMENT, ROOT))

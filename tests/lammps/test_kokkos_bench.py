@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""The beds of bench/kokkos.py: what is timed with the wall and without begins in one state,
+in the order in memory that its name says, and Kokkos's copies are counted."""
+
+import contextlib
+import io
+import pathlib
+import random
+import statistics
+import sys
+
+import deck
+
+sys.path.insert(0, str(deck.HERE.parent.parent / "bench"))
+import kokkos    # noqa: E402
+import kokkos_runs as runs    # noqa: E402
+from kokkos_beds import Bed    # noqa: E402
+from kokkos_tables import facts, scaling_table, step_table    # noqa: E402
+
+ATOMS = 4000
+DUMP = """\
+dump            start all custom 1 {file} id x y z vx vy vz
+dump_modify     start format float %.17g sort off
+run             0
+undump          start
+"""
+
+
+def memory(path):
+    """Rows of a dump as they come: id, place, velocity."""
+    return [tuple(map(float, line.split())) for line in path.read_text().splitlines()[9:]]
+
+
+def typical_distance(pairs):
+    return statistics.median(sum((p - q)**2 for p, q in zip(u[1:4], w[1:4]))**0.5 for u, w in pairs)
+
+
+def states(checks, host, folder, name):
+    bed = Bed(name, ATOMS, 1, folder, million=2000)
+    runs.prepare(host, bed, folder, settle=80)
+    rows = {}
+    for order in ("random", "sorted"):
+        for wall in (bed.wall(), ""):
+            text = runs.timed_deck(host, bed, order, wall, 10, 1)
+            at = text.index("thermo_style")
+            host.run_well(text[:at] + DUMP.format(file="start.dump") + text[at:], folder)
+            rows[order, bool(wall)] = memory(folder / "start.dump")
+    checks.fact(f"{name}: as many atoms as asked", len(rows["random", True]) == ATOMS)
+    first = sorted(rows["random", True])
+    checks.fact(f"{name}: one state, with the wall and without, in both orders",
+                all(sorted(r) == first for r in rows.values()))
+    for order in ("random", "sorted"):
+        checks.fact(f"{name}, {order}: one order with the wall and without",
+                    rows[order, True] == rows[order, False])
+    rng = random.Random(7)
+    some = rows["random", True]
+    apart = typical_distance([(rng.choice(some), rng.choice(some)) for _ in range(ATOMS)])
+    for order, least, most in (("random", 0.9, 1.1), ("sorted", 0.0, 0.4)):
+        seen = typical_distance(zip(rows[order, True], rows[order, True][1:])) / apart
+        checks.fact(f"{name}, {order}: neighbours in memory are {least} to {most} as far apart as "
+                    "any two", least <= seen <= most, f"{seen:.2f}")
+
+
+def rows_of_all(checks, host, folder):
+    options = kokkos.read_options(
+        ["--atoms", str(ATOMS), "--triangles", "2000", "--settle", "80", "--steps", "30",
+         "--chunks", "2", "--rounds", "1", "--against", "--copies", "--ranks", "1 2", "--orders",
+         "sorted"])
+    with contextlib.redirect_stdout(io.StringIO()):
+        kokkos.measure(host, options, "none", str(folder), folder / "work")
+    rows = kokkos.read_rows("cpu", str(folder))
+    find = {(r["case"], facts(r)["ranks"]): r for r in rows}
+    checks.fact("rows of each bed, with and without, on 1 and 2 processes", all(
+        (case + more, ranks) in find for case in ("flat floor", "vessel", "bumpy floor")
+        for more in ("", ", no wall", ", copies", ", no wall, copies") for ranks in "12"))
+    flat, none = find["flat floor", "1"], find["flat floor, no wall", "1"]
+    checks.fact("as many builds with the wall as without",
+                facts(flat)["builds"] == facts(none)["builds"], facts(flat)["builds"])
+    checks.fact("steps and lists are those of the timed runs", facts(flat)["wall_steps"] == "62" and
+                2 <= int(facts(flat)["lists"]) <= 6, f"{flat['facts']}")
+    checks.fact("LAMMPS's wall is timed on the flat floor", float(find["flat floor, wall/gran", "1"]
+                                                                    ["median_ms"]) > 0)
+    there = find["flat floor, wall/gran/kk", "1"]
+    checks.fact("and wall/gran/kk, or a row that says why not",
+                bool(there["median_ms"]) == host.flat_kk or facts(there)["result"] == "aborts")
+    copies = facts(find["flat floor, copies", "1"])
+    checks.fact("copies are seen, none of them between host and device",
+                int(copies["seen"]) > 0 and copies["copies"] == "0" and copies["bytes"] == "0",
+                copies["seen"])
+    checks.fact("of every step but those that warm up and the last",
+                int(copies["steps"]) + int(copies["list_steps"]) == 29, copies["steps"])
+    ratio = float(flat["median_ms"]) / float(none["median_ms"])
+    table = step_table(rows, ())
+    checks.fact("the table has the ratio", f"| {ratio:.3f} |" in table, table.splitlines()[2])
+    checks.fact("and an empty row for what a GPU has not run",
+                "| flat floor | 2 | 8 000 000 | random |" in step_table(rows, ("8000000",)))
+    checks.fact("scaling has a row for each bed", scaling_table(rows).count("\n") == 4)
+
+
+def main():
+    if not deck.KOKKOS_HOST:
+        print("SKIPPED: no LAMMPS with Kokkos (tests/lammps/hosts/build_host.sh)")
+        sys.exit(77)
+    checks, folder = deck.Checks(), pathlib.Path(deck.scratch())
+    host = runs.Host(deck.KOKKOS_HOST, deck.KOKKOS_PLUGIN, "-k on -sf kk", "mpirun -np {ranks}")
+    for name in ("flat", "vessel", "million"):
+        states(checks, host, folder, name)
+    rows_of_all(checks, host, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
