@@ -38,7 +38,7 @@ LSDCD_FN void add_motion(const LawJob &job, std::size_t i, SphereState &s)
 template <class Law>
 LSDCD_FN SphereSink sink_of(const LawJob &job, std::size_t k)
 {
-  SphereSink sink;
+  SphereSink sink = {};
   if constexpr (Law::kHistory) sink.springs = job.sink.springs + k * kPlaces;
   if constexpr (Law::kExtra > 0) sink.extra = job.sink.extra + k * kPlaces * Law::kExtra;
   if constexpr (Law::kHeat) sink.heat = job.sink.heat + k;
@@ -148,7 +148,7 @@ LSDCD_FN void near_sphere(const Law &law, const LawJob &job, std::size_t k, int 
   }
 
   int first = 0;
-  SphereSink sink;
+  SphereSink sink = {};
   if (out.n_contacts != kOverflow && set.n > 0) {
     bool has_room = true;
     if (stays)
