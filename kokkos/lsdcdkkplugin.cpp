@@ -15,7 +15,15 @@ using LAMMPS_NS::FixWallLsdcdKokkos;
 using lsdcd::add_fix_style;
 using lsdcd::create_fix;
 
-// Where Kokkos computes, in LAMMPS's word.
+// Where Kokkos computes, and how vectors lie in its memory, in LAMMPS's words; older ones have
+// one layout only.
+#if defined(LMP_KOKKOS_LAYOUT_DEFAULT)
+static constexpr char kLayout[] = "default";
+#elif defined(LMP_KOKKOS_LAYOUT_LEGACY)
+static constexpr char kLayout[] = "legacy";
+#else
+static constexpr char kLayout[] = "";
+#endif
 #if defined(KOKKOS_ENABLE_CUDA)
 static constexpr char kBackend[] = "cuda";
 #elif defined(KOKKOS_ENABLE_OPENMP)
@@ -50,6 +58,8 @@ static std::string what_differs()
   if (!has || !has("KOKKOS", "precision", "double"))
     return "has no KOKKOS package in double precision";
   if (!has("KOKKOS", "api", kBackend)) return std::string("has no Kokkos backend ") + kBackend;
+  if (*kLayout && !has("KOKKOS", "layout", kLayout))
+    return std::string("has no view layout ") + kLayout;
   // The running Kokkos, which is the host's, says what it is; versions from 3.6 on do.
   if (!Kokkos::is_initialized()) return "";
   std::ostringstream configuration;

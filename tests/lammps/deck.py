@@ -36,6 +36,9 @@ def environment():
 def for_host(text, flags):
     """A deck with the plugin loaded. With a suffix, flat walls of LAMMPS stay without it: not
     every style of fix wall/gran has a form for Kokkos."""
+    if DEVICE_MOVES:    # which fix wall/gran on the host would not allow
+        text = re.sub(r"(fix +\S+ +\S+ +)wall/gran .* ([xyz])plane +(\S+) +(\S+)",
+                      r"\1wall/reflect \2lo \3 \2hi \4", text)
     if "-sf" in flags and "suffix " not in text:
         text = re.sub(r"^(\s*fix\s.*wall/gran\s(?:.*&\n)*.*)$", r"suffix off\n\1\nsuffix on", text,
                       flags=re.M)
@@ -46,7 +49,8 @@ def for_host(text, flags):
 # With LSDCD_KOKKOS_MOVES=device atoms are sorted and exchanged by Kokkos's kernels, as on a GPU; on
 # a host without one Kokkos leaves that to LAMMPS.
 KOKKOS = ("-k", "on", "-sf", "kk")
-if os.environ.get("LSDCD_KOKKOS_MOVES") == "device":
+DEVICE_MOVES = os.environ.get("LSDCD_KOKKOS_MOVES") == "device"
+if DEVICE_MOVES:
     KOKKOS += ("-pk", "kokkos", "comm", "device", "sort", "device")
 
 

@@ -85,6 +85,8 @@ def lists(checks, folder):
         checks.at_most(f"{name}: as the plain fix", deck.largest_difference(plain, kokkos), 1e-9)
         found = re.search(r"wall/lsdcd/kk: (\d+) steps with (\d+) lists of near atoms(.*)", output)
         steps, made = int(found.group(1)), int(found.group(2))
+        if deck.DEVICE_MOVES:
+            checks.fact(f"{name}: atoms move on the device", "switching to legacy" not in output)
         if text is body:
             checks.fact("lists are kept between reneighbourings", made < steps / 5, found.group(0))
         else:
@@ -137,15 +139,20 @@ def refusals(checks, folder):
                     "" if words in done.stdout else done.stdout[-400:])
 
     # A host that says its Kokkos is another.
-    source = folder / "other.cpp"
-    source.write_text('extern "C" int lammps_config_accelerator(const char *, const char *c, '
-                      'const char *) { return c[0] == \'p\'; }\n')
-    other = folder / "other.so"
-    subprocess.run([deck.CXX, "-shared", "-fPIC", "-o", other, source], check=True)
-    done = deck.run(short, folder, host=True, env={"LD_PRELOAD": str(other)})
-    checks.fact("another backend of Kokkos: not loaded, and says why",
-                done.returncode and "this LAMMPS has no Kokkos backend" in done.stdout,
-                done.stdout[:400])
+    has_layouts = "using view layout" in done.stdout
+    for name, answers, words in (("backend", "p", "this LAMMPS has no Kokkos backend"),
+                                 ("layout", "pa", "this LAMMPS has no view layout")):
+        if name == "layout" and not has_layouts:
+            continue    # older LAMMPS have one only
+        source, other = folder / f"{name}.cpp", folder / f"{name}.so"
+        source.write_text('#include <cstring>\nextern "C" int lammps_config_accelerator(const char *, '
+                          f'const char *c, const char *) {{ return std::strchr("{answers}", *c) != '
+                          'nullptr; }\n')
+        subprocess.run([deck.CXX, "-shared", "-fPIC", "-o", other, source], check=True)
+        done = deck.run(short, folder, host=True, env={"LD_PRELOAD": str(other)})
+        checks.fact(f"another {name} of Kokkos: not loaded, and says why",
+                    done.returncode and words in done.stdout,
+                    "" if words in done.stdout else done.stdout[:400])
 
 
 def main():
