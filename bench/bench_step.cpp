@@ -117,7 +117,7 @@ void measure_resident(const Bodies &b, const GridView &grid, const Style &style,
   const int n = static_cast<int>(b.radius.size());
   const bool cuda = device == Device::cuda;
   const EngineSettings e = engine_settings(style, device);
-  const auto engine = cuda ? make_resident_cuda_engine(e, nullptr) : make_resident_cpu_engine(e);
+  const auto engine = cuda ? make_resident_cuda_engine(e, 0, nullptr) : make_resident_cpu_engine(e);
   engine->set_grid(grid);
   engine->grow(n);
   DeviceArray<Real> x(cuda), v(cuda), omega(cuda), radius(cuda), mass(cuda), force(cuda),
