@@ -8,6 +8,7 @@
 #include "kokkos_type.h"
 
 #include "base/rows.h"
+#include "base/threads.h"
 #include "engine/resident_engine.h"
 
 #include <memory>
@@ -66,6 +67,10 @@ std::unique_ptr<WallEngine> make_engine_on(const EngineSettings &settings)
     static_assert(
         Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename Space::memory_space>::accessible,
         "wall/lsdcd/kk runs on Kokkos's host backends and on CUDA");
+#if defined(KOKKOS_ENABLE_OPENMP)
+    // -k on t N
+    if (std::is_same<Space, Kokkos::OpenMP>::value) threads_asked_for() = true;
+#endif
     return make_resident_cpu_engine(settings);
   }
 }

@@ -9,13 +9,20 @@
 
 namespace lsdcd {
 
-// OMP_NUM_THREADS where it is set. Otherwise one: with several MPI processes on a
-// node, all the cores for each of them would be far too many.
+// Were threads asked for? They are where OMP_NUM_THREADS is set, and by a host code that
+// has chosen a number itself.
+inline bool &threads_asked_for()
+{
+  static bool asked = std::getenv("OMP_NUM_THREADS") != nullptr;
+  return asked;
+}
+
+// As many as OpenMP has where they were asked for. Otherwise one: with several MPI
+// processes on a node, all the cores for each of them would be far too many.
 inline int threads()
 {
 #if defined(_OPENMP)
-  static const bool asked = std::getenv("OMP_NUM_THREADS") != nullptr;
-  return asked ? omp_get_max_threads() : 1;
+  return threads_asked_for() ? omp_get_max_threads() : 1;
 #else
   return 1;
 #endif
