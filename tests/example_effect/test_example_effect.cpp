@@ -38,10 +38,11 @@ Real force_at(Real v_normal, const HostLaw &law)
   spheres.mass = &mass;
   ForceSettings settings = {};
   settings.dt = 1e-4;
-  const int near = 0;
   SphereResult result;
-  const GridView grid = scene.grid.view();
-  law.run(law.law, {&grid, settings, &spheres, nullptr, &near, &result, {}}, 1);
+  LawJob job = job_of(scene.grid.view(), settings, spheres);
+  job.result = &result;
+  CpuBackend backend;
+  law.start(law.law, job, 1, backend);
   EXPECT_EQ(result.n_contacts, 1);
   return result.force.z;
 }
