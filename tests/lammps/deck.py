@@ -38,7 +38,7 @@ def for_host(text, flags):
     every style of fix wall/gran has a form for Kokkos."""
     if DEVICE_MOVES:    # which fix wall/gran on the host would not allow
         text = re.sub(r"(fix +\S+ +\S+ +)wall/gran .* ([xyz])plane +(\S+) +(\S+)",
-                      r"\1wall/reflect \2lo \3 \2hi \4", text)
+                      r"\1wall/reflect \2lo \3 \2hi \4 units box", text)
     if "-sf" in flags and "suffix " not in text:
         text = re.sub(r"^(\s*fix\s.*wall/gran\s(?:.*&\n)*.*)$", r"suffix off\n\1\nsuffix on", text,
                       flags=re.M)

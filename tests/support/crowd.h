@@ -23,7 +23,8 @@ TriangleSoup random_soup(int n, unsigned seed);
 template <class T>
 bool same_bytes(const std::vector<T> &a, const std::vector<T> &b)
 {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+  if (a.size() != b.size()) return false;
+  return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 ContactLaw classic(LawStyle style);

@@ -215,8 +215,10 @@ EngineSettings with_history()
 
 bool same_springs(const SpringStore &a, int i, const SpringStore &b, int j)
 {
-  return a.count(i) == b.count(j) &&
-         std::memcmp(a.of(i), b.of(j), a.count(i) * sizeof(Spring)) == 0;
+  const auto of = [](const SpringStore &store, int k) {
+    return std::vector<Spring>(store.of(k), store.of(k) + store.count(k));
+  };
+  return same_bytes(of(a, i), of(b, j));
 }
 
 TEST(resident, a_list_that_is_kept_gives_the_same_bits)
