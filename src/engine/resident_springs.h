@@ -140,6 +140,9 @@ class ResidentSprings {
     if (pool.size < size) pool = make(size + size / 8);
     b.copy_in(from.first.at, first_.data(), n);
     b.copy_in(from.count.at, count_.data(), n);
+    // What was past them lies in a pool that is no more.
+    int *past = count_.data() + n;
+    b.for_each(count_.size() - n, [=] LSDCD_LAMBDA(std::size_t i) { past[i] = 0; });
     b.copy_in(from.pool, pool.springs.data(), size);
     if (traits_.n_extra > 0) b.copy_in(from.extra, pool.extra.data(), size * traits_.n_extra);
     end_ = size;

@@ -397,6 +397,25 @@ TEST(resident, a_step_without_outputs_neither_copies_nor_waits)
   EXPECT_GT(particles.engine->totals().contacts, 100);
 }
 
+TEST(resident, springs_that_are_taken_over_are_all_that_there_are)
+{
+  const int n = 2000, few = 10;
+  Particles p(with_history(), n, 0.5);
+  for (int k = 0; k < 5; k++) p.step(0.01, Particles::Choice::now);
+  const SpringStore before = p.springs();
+  SpringStore store;
+  store.grow(few);
+  p.engine->springs_from(store, few);
+  const SpringStore after = p.springs();
+  int had = 0, have = 0;
+  for (int i = few; i < n; i++) {
+    had += before.count(i);
+    have += after.count(i);
+  }
+  EXPECT_GT(had, 100);
+  EXPECT_EQ(have, 0);
+}
+
 TEST(resident, a_sphere_that_was_far_has_no_spring_of_before)
 {
   Particles p(with_history(), 1, 0.5);
