@@ -1,7 +1,6 @@
 #include "fix_wall_lsdcd_kokkos.h"
 
 #include "comm.h"
-#include "domain.h"
 #include "error.h"
 #include "group.h"
 #include "lammps.h"
@@ -160,11 +159,7 @@ void FixWallLsdcdKokkos<DeviceType>::collect()
     atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
                                       MASK_MASK | F_MASK | TORQUE_MASK);
     lsdcd::Spheres s = spheres();
-    lsdcd::StepSettings step;
-    step.dt = update->dt;
-    step.update_history = !update->setupflag;
-    step.per_sphere = settings.contacts;
-    if (settings.law.has_heat()) give_heat(s, step);
+    const lsdcd::StepSettings step = step_settings(s);
     try {
       if (history) springs_to_device();
       if (list_is_old || !list_keeps()) choose(s);

@@ -211,6 +211,16 @@ void FixWallLsdcd::post_run()
   if (settings.nearest > 0) log_uncertified();
 }
 
+lsdcd::StepSettings FixWallLsdcd::step_settings(lsdcd::Spheres &spheres)
+{
+  lsdcd::StepSettings step;
+  step.dt = update->dt;
+  step.update_history = !update->setupflag;
+  step.per_sphere = settings.contacts;
+  if (settings.law.has_heat()) give_heat(spheres, step);
+  return step;
+}
+
 void FixWallLsdcd::start()
 {
   if (wall->reach() == 0) return;    // no spheres yet
@@ -229,11 +239,7 @@ void FixWallLsdcd::start()
   s.mask = igroup ? atom->mask : nullptr;
   s.group_bit = groupbit;
 
-  lsdcd::StepSettings step;
-  step.dt = update->dt;
-  step.update_history = !update->setupflag;
-  step.per_sphere = settings.contacts;
-  if (settings.law.has_heat()) give_heat(s, step);
+  const lsdcd::StepSettings step = step_settings(s);
   try {
     engine->start(s, step, history ? &springs : nullptr);
   } catch (const std::exception &e) {

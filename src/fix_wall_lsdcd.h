@@ -98,6 +98,7 @@ class FixWallLsdcd : public Fix {
   virtual double largest_radius();    // of the group, on this process
   virtual void need_on_host() {}      // before atom data are read outside of a step
 
+  lsdcd::StepSettings step_settings(lsdcd::Spheres &);    // gives the spheres their heat, too
   void keep_outputs();
   void update_reach();
   void fill_contacts();

@@ -128,7 +128,12 @@ Scene::Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real
   g.in_floats = settings.precision != Precision::double_;
   grid = build_grid(mesh, g, test_on_cuda());
   flat_ = FlatGrid(grid);
-  engine = make_test_engine(settings);
+  use(make_test_engine(settings));
+}
+
+void Scene::use(std::unique_ptr<WallEngine> other)
+{
+  engine = std::move(other);
   engine->set_grid(flat_.view());
 }
 

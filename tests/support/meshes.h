@@ -38,6 +38,8 @@ class Scene {
   Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real grid_length = 0,
         Real weld_tolerance = -1, int nearest = 0, bool exact = false);
 
+  void use(std::unique_ptr<WallEngine> other);    // in place of the test's engine
+
   int add_sphere(const Vec3 &x, Real radius, Real mass, const Vec3 &v = {0, 0, 0},
                  const Vec3 &omega = {0, 0, 0});
   // Clears forces and computes them; springs move unless `update` is false.

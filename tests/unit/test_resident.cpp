@@ -100,37 +100,22 @@ TEST(resident, drops_no_contact_of_crowded_spheres)
     s.law = history();
     s.corner = Corner::sum;
     const auto outcome = [&](const EngineMaker &make) {
-      const WallMesh mesh = weld(faces_all_round(n), -1);
-      GridSettings g;
-      g.reach = 1.1;
-      const TriangleGrid grid = build_grid(mesh, g);
-      const FlatGrid flat(grid);
-      const auto engine = make(s);
-      engine->set_grid(flat.view());
+      Scene scene(faces_all_round(n), 1.1, s);
+      scene.use(make(s));
       const int spheres = 50;
-      std::vector<Real> x(3 * spheres), v(3 * spheres, 0.1), omega(3 * spheres, 0.2),
-          radius(spheres, 1.05), mass(spheres, 1), f(3 * spheres), t(3 * spheres);
-      for (std::size_t i = 0; i < x.size(); i++) x[i] = 1e-3 * std::sin(7.0 * i);
-      SpringStore springs;
-      springs.grow(spheres);
-      Spheres all;
-      all.n = spheres;
-      all.x = x.data();
-      all.v = v.data();
-      all.omega = omega.data();
-      all.radius = radius.data();
-      all.mass = mass.data();
-      all.force = f.data();
-      all.torque = t.data();
-      StepSettings step;
-      step.dt = 1e-3;
-      for (int k = 0; k < 2; k++) {
-        engine->start(all, step, &springs);
-        engine->collect();
+      for (int i = 0; i < 3 * spheres; i += 3) {
+        const auto off = [](int k) { return 1e-3 * std::sin(7.0 * k); };
+        scene.add_sphere({off(i), off(i + 1), off(i + 2)}, 1.05, 1, {0.1, 0.1, 0.1},
+                         {0.2, 0.2, 0.2});
       }
-      EXPECT_EQ(springs.count(spheres - 1), n);
-      EXPECT_EQ(engine->totals().contacts, n * spheres);
-      return f;
+      std::vector<Vec3> force;
+      for (int k = 0; k < 2; k++) {
+        scene.compute(1e-3);
+        for (int i = 0; i < spheres; i++) force.push_back(scene.force(i));
+      }
+      EXPECT_EQ(scene.springs.count(spheres - 1), n);
+      EXPECT_EQ(scene.engine->totals().contacts, n * spheres);
+      return force;
     };
     EXPECT_TRUE(same_bytes(outcome(on_host), outcome(in_place))) << n;
   }
