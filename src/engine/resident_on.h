@@ -5,6 +5,7 @@
 #include "base/input_error.h"
 #include "engine/compiled_law.h"
 #include "engine/engine_base.h"
+#include "engine/resident_crowd.h"
 #include "engine/resident_engine.h"
 #include "engine/resident_springs.h"
 #include "engine/select_near.h"
@@ -17,12 +18,6 @@
 
 namespace lsdcd {
 
-// What one call needs to find the contacts of a crowded sphere: too much for a stack.
-struct CrowdLane {
-  Touch<kMostPlaces> touching;
-  CornerRule<kMostPlaces> rule;
-};
-
 template <class B>
 class ResidentOn : public ResidentEngine {
   template <class T>
@@ -30,10 +25,7 @@ class ResidentOn : public ResidentEngine {
 
  public:
   ResidentOn(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
-      settings_(settings), law_(law), b_(std::move(backend)), springs_(law.traits), counts_(1),
-      which_(kCrowded), crowd_first_(kCrowded), crowd_n_(kCrowded), crowd_uncertain_(kCrowded),
-      crowd_feature_(kCrowdContacts), crowd_normal_(kCrowdContacts),
-      crowd_distance_(kCrowdContacts), crowd_weight_(kCrowdContacts), lanes_(kLanes)
+      settings_(settings), law_(law), b_(std::move(backend)), springs_(law.traits), counts_(1)
   {
     clear_notes(StepCounts());
   }
@@ -107,23 +99,14 @@ class ResidentOn : public ResidentEngine {
     job.in_place.torque = spheres.torque;
     job.in_place.heat_flow = spheres.heat_flow;
     job.in_place.pool = springs_.next(place_.data());
-    job.in_place.crowd = {kCrowded,
-                          kCrowdContacts,
-                          which_.data(),
-                          crowd_first_.data(),
-                          crowd_n_.data(),
-                          crowd_uncertain_.data(),
-                          crowd_feature_.data(),
-                          crowd_normal_.data(),
-                          crowd_distance_.data(),
-                          crowd_weight_.data()};
+    job.in_place.crowd = crowd_.view();
     StepCounts *counts = counts_.data();
     const int writes = job.in_place.pool.which;
     b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) {
       counts->shared_used[writes] = counts->n_crowded = counts->crowd_used = 0;
     });
     law_.start(law_.law, job, n_near_, b_);
-    find_crowded(job);
+    crowd_.find(b_, job, settings_.law.pull_off());
     job.in_place.crowd_lanes = kCrowdLawLanes;
     law_.start(law_.law, job, kCrowdLawLanes, b_);
     if (step.update_history) springs_.swap();
@@ -189,46 +172,17 @@ class ResidentOn : public ResidentEngine {
   {
     return block_.size() + springs_.bytes() + result_.size() * sizeof(SphereResult) +
            heat_.size() * sizeof(Real) + (near_.size() + place_.size()) * sizeof(int) +
-           kLanes * sizeof(CrowdLane) + kCrowded * (3 * sizeof(int) + sizeof(Real)) +
-           kCrowdContacts * (sizeof(FeatureCode) + sizeof(Vec3) + 2 * sizeof(Real)) +
-           touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput) +
-           sphere_heat_.capacity() * sizeof(Real) + records_.capacity() * sizeof(ContactRecord);
+           ResidentCrowd<B>::bytes() + touching_.capacity() * sizeof(int) +
+           output_.capacity() * sizeof(SphereOutput) + sphere_heat_.capacity() * sizeof(Real) +
+           records_.capacity() * sizeof(ContactRecord);
   }
 
   // The steps of start() and collect(). Public because nvcc takes no device lambda from a
   // private function.
 
-  // Contacts of spheres that have more than the law's loop has places for.
-  void find_crowded(const LawJob &job)
+  void read_radius(const Spheres &spheres, int i, Real *to)
   {
-    CrowdLane *lanes = lanes_.data();
-    const bool beyond = settings_.law.pull_off() > 0;
-    const Real pull_off = settings_.law.pull_off();
-    b_.for_each(
-        kLanes,
-        [=] LSDCD_LAMBDA(std::size_t at) {
-          StepCounts &counts = *job.in_place.counts;
-          const Crowd &crowd = job.in_place.crowd;
-          const int n = counts.n_crowded < crowd.most ? counts.n_crowded : crowd.most;
-          for (int c = static_cast<int>(at); c < n; c += kLanes) {
-            const std::size_t i = job.near[crowd.which[c]];
-            const Real radius = job.radius[i], reach = reach_of(radius, pull_off);
-            Searcher s = {job.x[i], radius, reach, nullptr, 0};
-            if (beyond) {
-              s.n_springs = job.springs.count[i];
-              s.springs = job.springs.pool + (s.n_springs > 0 ? job.springs.first[i] : 0);
-            }
-            CrowdLane &lane = lanes[at];
-            lane.touching.set.n = 0;
-            lane.touching.set.overflow = false;
-            if (job.grid.in_floats)
-              find_one<BrickGeometry>(job, s, beyond, lane);
-            else
-              find_one<WallGeometry>(job, s, beyond, lane);
-            keep_one(crowd, c, counts, lane.touching, reach);
-          }
-        },
-        kLanes);
+    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { to[0] = spheres.radius[i]; });
   }
 
   void fetch_output()
@@ -288,37 +242,7 @@ class ResidentOn : public ResidentEngine {
   }
 
  private:
-  static constexpr int kLanes = 8;              // that find them: 1 MB of memory each
-  static constexpr int kCrowdLawLanes = 128;    // that compute their forces
-
-  template <class Geometry>
-  LSDCD_FN static void find_one(const LawJob &job, const Searcher &s, bool beyond, CrowdLane &lane)
-  {
-    if (beyond)
-      search<true, Geometry>(job.grid, job.settings.search, s, lane.touching);
-    else
-      search<false, Geometry>(job.grid, job.settings.search, s, lane.touching);
-    if (!lane.touching.set.overflow)
-      share<Geometry>(job.grid, job.settings.search, s.reach, lane.rule, lane.touching);
-  }
-
-  LSDCD_FN static void keep_one(const Crowd &crowd, int c, StepCounts &counts,
-                                const Touch<kMostPlaces> &found, Real reach)
-  {
-    crowd.n[c] = -1;
-    if (found.set.overflow) return;
-    const int n = found.set.n, first = fetch_add(&counts.crowd_used, n);
-    if (first > crowd.size - n) return;
-    crowd.n[c] = n;
-    crowd.first[c] = first;
-    crowd.uncertain[c] = found.exact_within < reach ? reach - found.exact_within : 0;
-    for (int k = 0; k < n; k++) {
-      crowd.feature[first + k] = found.set.feature[k];
-      crowd.normal[first + k] = found.set.normal[k];
-      crowd.distance[first + k] = found.set.distance[k];
-      crowd.weight[first + k] = found.weight[k];
-    }
-  }
+  static constexpr int kCrowdLawLanes = 128;    // that compute forces of crowded spheres
 
   StepCounts read_counts() { return b_.to_host(counts_, 1)[0]; }
 
@@ -353,13 +277,6 @@ class ResidentOn : public ResidentEngine {
     near_known_ = true;
   }
 
- public:
-  void read_radius(const Spheres &spheres, int i, Real *to)
-  {
-    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { to[0] = spheres.radius[i]; });
-  }
-
- private:
   EngineSettings settings_;
   CompiledLaw<B> law_;
   B b_;
@@ -376,12 +293,7 @@ class ResidentOn : public ResidentEngine {
   Array<int> place_;
 
   Array<StepCounts> counts_;
-  Array<int> which_, crowd_first_, crowd_n_;
-  Array<Real> crowd_uncertain_;
-  Array<FeatureCode> crowd_feature_;
-  Array<Vec3> crowd_normal_;
-  Array<Real> crowd_distance_, crowd_weight_;
-  Array<CrowdLane> lanes_;
+  ResidentCrowd<B> crowd_;
 
   WallTotals totals_;
   bool totals_known_ = true;
