@@ -70,6 +70,7 @@ struct WallTotals {
   Real largest_uncertain = 0;         // overlap / radius of the deepest contact they may miss
   Real largest_overlap_ratio = 0;     // overlap / radius
   int largest_overlap_sphere = -1;    // index in Spheres, -1 if none touches
+  int pad = 0;                        // keeps the record free of indeterminate bytes
 };
 
 // One sphere's contacts in the columns of `fix wall/gran ... contacts`.
