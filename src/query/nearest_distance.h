@@ -59,6 +59,12 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists
   return answer(true, cell.count);
 }
 
+// The nearer of two distances, or the first: 0 and -0 are equal, and not the same bits.
+LSDCD_FN Real nearer(Real first, Real second)
+{
+  return second < first ? second : first;
+}
+
 // The same from a complete list by many at once: each of `lanes` tries an entry, and all of
 // them call this together with the same arguments and get the same answer. An entry's distance
 // is asked for with what was nearest before the lanes' turn; what one thread would have found
@@ -85,11 +91,11 @@ LSDCD_FN Answer nearest_together(const GridView &grid, const CellListsView &list
     if (there) {
       const Candidate candidate = lists.candidates[cell.first + k];
       bound = candidate.bound;
-      least = fmin(nearest, distances.feature(candidate.feature, nearest));
+      least = nearer(nearest, distances.feature(candidate.feature, nearest));
     }
     for (unsigned step = 1; step < Lanes::kCount; step *= 2) {
       const Real below = lanes.from_below(least, step);
-      if (lanes.lane() >= step) least = fmin(least, below);
+      if (lanes.lane() >= step) least = nearer(below, least);
     }
     Real before = lanes.from_below(least, 1);
     if (lanes.lane() == 0) before = nearest;
