@@ -79,10 +79,12 @@ struct CpuBackend {
         f(static_cast<std::size_t>(i), at - offset[i], at - run.first);
   }
 
-  // select: the i in [0, n) that keep(i) holds for, ascending; returns how many. Calls
-  // keep once for each. `to` has room for n.
-  template <class Keep>
-  std::size_t select(std::size_t n, const Keep &keep, int *to)
+  // select: the i in [0, n) that keep(i, read(i)) holds for, ascending, into `to`, which has
+  // room for n; `total` becomes how many. Calls both once for each i.
+  struct SelectRoom {};
+  template <class Read, class Keep>
+  void select(std::size_t n, const Read &read, const Keep &keep, SelectRoom &, int *to,
+              std::uint32_t *total)
   {
     // Blocks of one size whatever the number of threads, so that order is fixed.
     constexpr std::int64_t kBlock = 4096;
@@ -94,15 +96,16 @@ struct CpuBackend {
       const std::int64_t hi = std::min(lo + kBlock, static_cast<std::int64_t>(n));
       int count = 0;
       for (std::int64_t i = lo; i < hi; i++)
-        if (keep(static_cast<std::size_t>(i))) to[lo + count++] = static_cast<int>(i);
+        if (keep(static_cast<std::size_t>(i), read(static_cast<std::size_t>(i))))
+          to[lo + count++] = static_cast<int>(i);
       found[b] = count;
     }
-    std::size_t total = 0;
+    std::uint32_t n_kept = 0;
     for (std::int64_t b = 0; b < n_blocks; b++) {
-      std::copy(to + b * kBlock, to + b * kBlock + found[b], to + total);
-      total += found[b];
+      std::copy(to + b * kBlock, to + b * kBlock + found[b], to + n_kept);
+      n_kept += found[b];
     }
-    return total;
+    *total = n_kept;
   }
 
   // reduce

@@ -54,48 +54,58 @@ __global__ void cuda_for_each_part(const std::uint64_t *offset, std::size_t begi
 }
 
 constexpr int kSelectTile = 1024;    // items of a block of 256 threads, 32 words of bits
+constexpr int kSelectEach = kSelectTile / 256;
 
-// Bits of the items to keep, and how many there are in each tile.
-template <class Keep>
-__global__ void cuda_mark(std::size_t n, const __grid_constant__ Keep keep, unsigned *words,
-                          std::uint32_t *in_tile)
+// Bits of the items to keep, and how many there are in each tile. What is read of a
+// thread's items is on its way for all of them before the first is looked at.
+template <class Read, class Keep>
+__global__ void __launch_bounds__(256)
+    cuda_mark(std::size_t n, const __grid_constant__ Read read, const __grid_constant__ Keep keep,
+              unsigned *words, std::uint32_t *in_tile)
 {
   __shared__ std::uint32_t kept;
   if (threadIdx.x == 0) kept = 0;
   __syncthreads();
-  const std::size_t tile = std::size_t(blockIdx.x) * kSelectTile;
-  for (int k = threadIdx.x; k < kSelectTile; k += blockDim.x) {
-    const std::size_t i = tile + k;
-    const unsigned word = __ballot_sync(~0u, i < n && keep(i));
-    if (threadIdx.x % 32 != 0) continue;
-    words[i / 32] = word;
-    atomicAdd(&kept, static_cast<std::uint32_t>(__popc(word)));
+  const std::size_t first = std::size_t(blockIdx.x) * kSelectTile + threadIdx.x;
+  decltype(read(first)) item[kSelectEach];
+#pragma unroll
+  for (int k = 0; k < kSelectEach; k++)
+    if (first + k * 256 < n) item[k] = read(first + k * 256);
+  std::uint32_t of_warp = 0;
+#pragma unroll
+  for (int k = 0; k < kSelectEach; k++) {
+    const std::size_t i = first + k * 256;
+    const unsigned word = __ballot_sync(~0u, i < n && keep(i, item[k]));
+    if (threadIdx.x % 32 == 0) words[i / 32] = word;
+    of_warp += __popc(word);
   }
+  if (threadIdx.x % 32 == 0) atomicAdd(&kept, of_warp);
   __syncthreads();
   if (threadIdx.x == 0) in_tile[blockIdx.x] = kept;
 }
 
-// From bits to a list; before[t]: how many are kept in tiles before t.
-__global__ static void cuda_gather(const unsigned *words, const std::uint32_t *before, int *to)
+// From bits to a list, a warp for each tile; before[t]: how many are kept in tiles before t.
+__global__ static void __launch_bounds__(256)
+    cuda_gather(const unsigned *words, const std::uint32_t *before, unsigned n_tiles, int *to,
+                std::uint32_t *total)
 {
-  __shared__ std::uint32_t ahead[kSelectTile / 32];
-  const unsigned lane = threadIdx.x % 32;
-  const std::size_t first_word = std::size_t(blockIdx.x) * (kSelectTile / 32);
-  if (threadIdx.x < 32) {
-    const std::uint32_t mine = __popc(words[first_word + lane]);
-    std::uint32_t sum = mine;
-    for (unsigned d = 1; d < 32; d *= 2) {
-      const std::uint32_t from = __shfl_up_sync(~0u, sum, d);
-      if (lane >= d) sum += from;
-    }
-    ahead[lane] = before[blockIdx.x] + sum - mine;
+  const unsigned lane = threadIdx.x % 32, tile = (blockIdx.x * blockDim.x + threadIdx.x) / 32;
+  if (tile == 0 && lane == 0) *total = before[n_tiles];
+  if (tile >= n_tiles) return;
+  const unsigned mine = words[tile * (kSelectTile / 32) + lane];
+  std::uint32_t ahead = __popc(mine);
+  for (unsigned d = 1; d < 32; d *= 2) {
+    const std::uint32_t from = __shfl_up_sync(~0u, ahead, d);
+    if (lane >= d) ahead += from;
   }
-  __syncthreads();
-  for (int k = threadIdx.x; k < kSelectTile; k += blockDim.x) {
-    const unsigned word = words[first_word + k / 32];
+  ahead += before[tile] - __popc(mine);
+  for (unsigned left = __ballot_sync(~0u, mine != 0); left != 0; left &= left - 1) {
+    const int w = __ffs(left) - 1;
+    const unsigned word = __shfl_sync(~0u, mine, w);
+    const std::uint32_t at = __shfl_sync(~0u, ahead, w);
     if ((word >> lane) & 1u)
-      to[ahead[k / 32] + __popc(word & ((1u << lane) - 1))] =
-          static_cast<int>(std::size_t(blockIdx.x) * kSelectTile + k);
+      to[at + __popc(word & ((1u << lane) - 1))] =
+          static_cast<int>(tile * kSelectTile + w * 32 + lane);
   }
 }
 
@@ -230,22 +240,42 @@ struct CudaBackend {
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
-  // select: the i in [0, n) that keep(i) holds for, ascending; returns how many. Calls
-  // keep once for each. `to` has room for n.
-  template <class Keep>
-  std::size_t select(std::size_t n, const Keep &keep, int *to)
+  // select: the i in [0, n) that keep(i, read(i)) holds for, ascending, into `to`, which has
+  // room for n; `total`, where the kernels run, becomes how many. Calls both once for each i,
+  // and does not wait. The room is kept for the next time, until when it must not be freed.
+  struct SelectRoom {
+    Array<unsigned> words;
+    Array<std::uint32_t> in_tile;
+    Array<char> scan;
+  };
+  template <class Read, class Keep>
+  void select(std::size_t n, const Read &read, const Keep &keep, SelectRoom &room, int *to,
+              std::uint32_t *total)
   {
-    if (n == 0) return 0;
     const unsigned n_tiles = static_cast<unsigned>((n + kSelectTile - 1) / kSelectTile);
-    Scratch<unsigned> words = scratch<unsigned>(std::size_t(n_tiles) * (kSelectTile / 32));
-    Scratch<std::uint32_t> in_tile = scratch<std::uint32_t>(n_tiles);
-    cuda_mark<<<n_tiles, 256, 0, stream>>>(n, keep, words.data(), in_tile.data());
+    std::size_t bytes = 0;
+    cuda_check(cub::DeviceScan::ExclusiveSum(nullptr, bytes, room.in_tile.data(),
+                                             room.in_tile.data(), n_tiles + 1, stream),
+               "sizing a scan");
+    if (room.in_tile.size() < n_tiles + 1) {
+      const std::size_t tiles = n_tiles + n_tiles / 8 + 1;
+      room.words = Array<unsigned>(tiles * (kSelectTile / 32));
+      room.in_tile = Array<std::uint32_t>(tiles);
+    }
+    if (room.scan.size() < bytes) room.scan = Array<char>(2 * bytes);
+    std::uint32_t *in_tile = room.in_tile.data();
+    cuda_check(cudaMemsetAsync(in_tile + n_tiles, 0, sizeof *in_tile, stream), "clearing memory");
+    if (n_tiles > 0) {
+      cuda_mark<<<n_tiles, 256, 0, stream>>>(n, read, keep, room.words.data(), in_tile);
+      cuda_check(cudaGetLastError(), "starting a kernel");
+    }
+    bytes = room.scan.size();
+    cuda_check(cub::DeviceScan::ExclusiveSum(room.scan.data(), bytes, in_tile, in_tile, n_tiles + 1,
+                                             stream),
+               "scanning");
+    cuda_gather<<<n_tiles / 8 + 1, 256, 0, stream>>>(room.words.data(), in_tile, n_tiles, to,
+                                                     total);
     cuda_check(cudaGetLastError(), "starting a kernel");
-    const std::size_t total = exclusive_scan(in_tile.data(), n_tiles);
-    cuda_gather<<<n_tiles, 256, 0, stream>>>(words.data(), in_tile.data(), to);
-    cuda_check(cudaGetLastError(), "starting a kernel");
-    release_scratch();
-    return total;
   }
 
   // reduce

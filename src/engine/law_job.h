@@ -29,9 +29,10 @@ struct ContactPool {
 
 constexpr std::uint64_t kNoSphere = std::uint64_t(1) << 32;
 
-// What a step in place counts. The first three are of one step, the others since the
-// host looked.
+// What a step in place counts. The first four are of one choice or step, the others since
+// the host looked.
 struct StepCounts {
+  std::uint32_t n_near;
   int shared_used[2];    // places, of each pool in the last step that wrote it
   int n_crowded;         // spheres whose contacts do not fit into a kernel's places
   int crowd_used;        // contacts of these

@@ -18,6 +18,13 @@
 
 namespace lsdcd {
 
+// What choosing reads of a sphere.
+struct SphereRead {
+  Vec3 x;
+  Real radius;
+  bool in_group;
+};
+
 template <class B>
 class ResidentOn : public ResidentEngine {
   template <class T>
@@ -38,6 +45,7 @@ class ResidentOn : public ResidentEngine {
     block_ = Array<char>(grid.block_bytes);
     b_.copy_in(grid.block, block_.data(), grid.block_bytes);
     grid_ = moved_view(grid, block_.data());
+    words_ = b_.from_host(brick_words(grid));
   }
 
   Real largest_radius(const Spheres &spheres) override
@@ -56,23 +64,28 @@ class ResidentOn : public ResidentEngine {
     const std::size_t n = spheres.n;
     if (near_.size() < n) near_ = Array<int>(n + n / 8);
     const GridView grid = grid_;
+    const BrickWord *words = words_.data();
     const Real pull_off = settings_.law.pull_off();
     StepCounts *counts = counts_.data();
     int *n_springs = springs_.count();
-    n_near_ = b_.select(
+    b_.select(
         n,
-        [=] LSDCD_LAMBDA(std::size_t i) {
-          const bool in_group = !spheres.mask || (spheres.mask[i] & spheres.group_bit);
-          if (in_group && !(reach_of(spheres.radius[i], pull_off) <= grid.reach))
+        [=] LSDCD_LAMBDA(std::size_t i) -> SphereRead {
+          return {spheres.x[i], spheres.radius[i],
+                  !spheres.mask || (spheres.mask[i] & spheres.group_bit)};
+        },
+        [=] LSDCD_LAMBDA(std::size_t i, const SphereRead &s) {
+          if (s.in_group && !(reach_of(s.radius, pull_off) <= grid.reach))
             raise_to(&counts->too_large, kNoSphere - i);
-          const bool near = in_group && near_within(grid, spheres.x[i], margin);
+          const bool near = s.in_group && near_within(grid, words, s.x, margin);
           // Springs are read where a sphere is near; others have none.
           if (n_springs && !near) n_springs[i] = 0;
           return near;
         },
-        near_.data());
+        select_room_, near_.data(), &counts->n_near);
     const StepCounts seen = read_counts();
     if (seen.too_large) throw_for(spheres, seen);
+    n_near_ = seen.n_near;
     springs_.make_room(n_near_, seen);
     if (result_.size() < n_near_) {
       const std::size_t room = n_near_ + n_near_ / 8;
@@ -170,11 +183,11 @@ class ResidentOn : public ResidentEngine {
 
   std::size_t bytes() const override
   {
-    return block_.size() + springs_.bytes() + result_.size() * sizeof(SphereResult) +
-           heat_.size() * sizeof(Real) + (near_.size() + place_.size()) * sizeof(int) +
-           ResidentCrowd<B>::bytes() + touching_.capacity() * sizeof(int) +
-           output_.capacity() * sizeof(SphereOutput) + sphere_heat_.capacity() * sizeof(Real) +
-           records_.capacity() * sizeof(ContactRecord);
+    return block_.size() + words_.size() * sizeof(BrickWord) + springs_.bytes() +
+           result_.size() * sizeof(SphereResult) + heat_.size() * sizeof(Real) +
+           (near_.size() + place_.size()) * sizeof(int) + ResidentCrowd<B>::bytes() +
+           touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput) +
+           sphere_heat_.capacity() * sizeof(Real) + records_.capacity() * sizeof(ContactRecord);
   }
 
   // The steps of start() and collect(). Public because nvcc takes no device lambda from a
@@ -282,6 +295,8 @@ class ResidentOn : public ResidentEngine {
   B b_;
   GridView grid_ = {};
   Array<char> block_;
+  Array<BrickWord> words_;
+  typename B::SelectRoom select_room_;
   Spheres spheres_;
   StepSettings step_;
   ResidentSprings<B> springs_;

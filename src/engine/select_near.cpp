@@ -25,7 +25,8 @@ void select_near(const GridView &grid, const Spheres &spheres, Real pull_off,
   if (static_cast<int>(scratch.size()) < spheres.n) scratch.resize(spheres.n);
   const Real fits = pull_off > 0 ? 0 : grid.reach;    // radii up to this do for certain
   int too_large = -1;
-  const auto keep = [&](std::size_t i) {
+  const auto nothing = [](std::size_t) { return 0; };    // a CPU reads what it turns out to need
+  const auto keep = [&](std::size_t i, int) {
     if (spheres.mask && !(spheres.mask[i] & spheres.group_bit)) return false;
     if (!(spheres.radius[i] <= fits) && !(reach_of(spheres.radius[i], pull_off) <= grid.reach)) {
       const int at = static_cast<int>(i);
@@ -34,7 +35,9 @@ void select_near(const GridView &grid, const Spheres &spheres, Real pull_off,
     }
     return near_wall(grid, spheres.x[i]);
   };
-  const std::size_t n = CpuBackend().select(spheres.n, keep, scratch.data());
+  std::uint32_t n = 0;
+  CpuBackend::SelectRoom room;
+  CpuBackend().select(spheres.n, nothing, keep, room, scratch.data(), &n);
   if (too_large >= 0) throw_too_large(too_large, spheres.radius[too_large], grid.reach);
   near.assign(scratch.begin(), scratch.begin() + n);
 }

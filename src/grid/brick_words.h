@@ -15,6 +15,17 @@ struct alignas(8) BrickWord {
   std::uint32_t bits, below;
 };
 
+// Of the word that has a place of the table.
+LSDCD_FN bool has_brick(const BrickWord &word, std::size_t place)
+{
+  return word.bits >> (place % 32) & 1u;
+}
+LSDCD_FN std::uint32_t brick_number(const BrickWord &word, std::size_t place)
+{
+  const std::uint32_t before = word.bits & ((1u << (place % 32)) - 1);
+  return word.below + static_cast<std::uint32_t>(count_bits(before));
+}
+
 // Of grid.lists, for a view on the host.
 inline std::vector<BrickWord> brick_words(const GridView &grid)
 {
@@ -40,10 +51,8 @@ LSDCD_FN std::uint32_t occupied_cell(const GridView &grid, const BrickWord *word
   if (!p.inside) return kNoCell;
   const std::size_t place = brick_place(grid, p);
   const BrickWord word = words[place / 32];
-  const std::uint32_t bit = 1u << (place % 32);
-  if (!(word.bits & bit)) return kNoCell;
-  const int before = count_bits(static_cast<std::uint64_t>(word.bits & (bit - 1)));
-  const Brick &brick = grid.lists.bricks[word.below + before];
+  if (!has_brick(word, place)) return kNoCell;
+  const Brick &brick = grid.lists.bricks[brick_number(word, place)];
   const std::int32_t cell = cell_in_brick(p);
   return has_candidates(brick, cell) ? cell_index(brick, cell) : kNoCell;
 }

@@ -1,7 +1,7 @@
 // Could a point be near the wall once it has moved a little?
 #pragma once
 
-#include "grid/locate.h"
+#include "grid/brick_words.h"
 
 namespace lsdcd {
 
@@ -15,10 +15,11 @@ LSDCD_FN void cells_within(Real u, Real margin, std::int32_t n_cells, int &lo, i
 }
 
 // Is there any candidate in a cell that a point may reach from q on a way of length up to
-// `margin`? With margin 0 this is near_wall(). False where q is not finite.
-LSDCD_FN bool near_within(const GridView &grid, const Vec3 &q, Real margin)
+// `margin`? With margin 0 this is near_wall(). False where q is not finite. `words`: of
+// grid.lists.
+LSDCD_FN bool near_within(const GridView &grid, const BrickWord *words, const Vec3 &q, Real margin)
 {
-  if (!(margin > 0)) return near_wall(grid, q);
+  if (!(margin > 0)) return occupied_cell(grid, words, q) != kNoCell;
   // A cell is left out only if it is out of reach after rounding, too.
   const Real cells = margin * grid.inv_length * (1 + 8 * kRoundoff) + Real(1e-9);
   int lo[3], hi[3];
@@ -34,9 +35,9 @@ LSDCD_FN bool near_within(const GridView &grid, const Vec3 &q, Real margin)
       for (int bx = lo[0] >> 3; bx <= (hi[0] - 1) >> 3; bx++) {
         const std::size_t at =
             (static_cast<std::size_t>(bz) * grid.n_bricks[1] + by) * grid.n_bricks[0] + bx;
-        const std::int32_t b = grid.lists.brick_of[at];
-        if (b < 0) continue;
-        const Brick &brick = grid.lists.bricks[b];
+        const BrickWord word = words[at / 32];
+        if (!has_brick(word, at)) continue;
+        const Brick &brick = grid.lists.bricks[brick_number(word, at)];
         const int x0 = lo[0] > 8 * bx ? lo[0] - 8 * bx : 0;
         const int x1 = hi[0] < 8 * bx + 8 ? hi[0] - 8 * bx : 8;
         const int y0 = lo[1] > 8 * by ? lo[1] - 8 * by : 0;

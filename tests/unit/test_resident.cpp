@@ -234,6 +234,7 @@ TEST(resident, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
 {
   Particles p(with_history(), 1, 0.5);
   const GridView grid = p.flat.view();
+  const std::vector<BrickWord> words = brick_words(grid);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<Real> at(-12, 12), up(-3, 3), unit(-1, 1), margins(0, 1.5);
   int near = 0, missed = 0, far = 0;
@@ -244,9 +245,9 @@ TEST(resident, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
     way = (margin * std::fabs(unit(random)) / norm(way)) * way;
     if (near_wall(grid, q + way)) {
       near++;
-      missed += !near_within(grid, q, margin);
+      missed += !near_within(grid, words.data(), q, margin);
     } else
-      far += !near_within(grid, q, margin);
+      far += !near_within(grid, words.data(), q, margin);
   }
   EXPECT_EQ(missed, 0);
   EXPECT_GT(near, 1000);
@@ -345,11 +346,12 @@ struct CountingBackend : CpuBackend {
     crossings()++;
     return CpuBackend::exclusive_scan(values, n);
   }
-  template <class Keep>
-  std::size_t select(std::size_t n, const Keep &keep, int *to)
+  template <class Read, class Keep>
+  void select(std::size_t n, const Read &read, const Keep &keep, SelectRoom &room, int *to,
+              std::uint32_t *total)
   {
     crossings()++;
-    return CpuBackend::select(n, keep, to);
+    CpuBackend::select(n, read, keep, room, to, total);
   }
 };
 
