@@ -1,7 +1,5 @@
 #include "on_cuda.h"
 
-#include "queued_cuda.h"
-
 #include "query/near_first_cuda.h"
 #include "query/query_on.h"
 
@@ -39,12 +37,8 @@ double cuda_brute_force_ms(const TriangleGrid &grid, std::size_t n, std::size_t 
 std::vector<OtherWay> other_cuda_ways()
 {
   std::vector<OtherWay> all;
-  all.push_back({"one pass", std::make_unique<QueryOn<CudaBackend, OnePass>>(CudaBackend())});
-  all.push_back({"near first, 3 blocks",
-                 std::make_unique<QueryOn<CudaBackend, NearFirstWith<3>>>(CudaBackend())});
-  all.push_back({"near first, 5 blocks",
-                 std::make_unique<QueryOn<CudaBackend, NearFirstWith<5>>>(CudaBackend())});
-  all.push_back({"queued", std::make_unique<QueryOn<CudaBackend, Queued>>(CudaBackend())});
+  all.push_back({"near first, 4 blocks",
+                 std::make_unique<QueryOn<CudaBackend, NearFirstWith<4>>>(CudaBackend())});
   return all;
 }
 

@@ -34,7 +34,7 @@ PAPER_MS = {("10000000", "N = 1"): 362, ("10000000", "N = 2"): 565, ("10000000",
             ("10000000", "complete"): 57899, ("60000000", "N = 2"): 3488}
 FORCE_TARGETS = (0.25, 0.15)    # hooke on resident particles, 160 triangles, chosen anew
 HISTORY_RATIO = 2    # hertz/history there, over its floor
-WAYS = ("", "one pass", "near first, 3 blocks", "near first, 5 blocks", "queued")
+WAYS = ("", "near first, 4 blocks")
 USUAL_SIZE = "10000000"
 
 
@@ -229,7 +229,7 @@ def ways_table(cuda):
                 number(r["floor_ms"]), *[number(w["median_ms"]) if w else "" for w in ways]]
 
     heads = ["question", "triangles", "spheres", "order", "floor",
-             "near first, 4 blocks (the library's)", *WAYS[1:]]
+             "near first, 3 blocks (the library's)", *WAYS[1:]]
     return table(with_ways, heads, cells) + "\n\n" + machines({"cuda": rows})
 
 

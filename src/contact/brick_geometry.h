@@ -58,7 +58,7 @@ class BrickGeometry {
 
   LSDCD_FN Over over(FeatureCode face, Real within) const
   {
-    const BrickFace &f = grid_.records.faces[feature_index(face)];
+    const BrickFace f = grid_.records.faces[feature_index(face)];
     if (!(fabs(height(f.plane)) <= static_cast<float>(within))) return Over::far;
     return over_sides(f);
   }
@@ -91,11 +91,11 @@ class BrickGeometry {
 
   LSDCD_FN Foot on_face(std::uint32_t i, float within) const
   {
-    const BrickFace &f = grid_.records.faces[i];
+    const BrickFace f = grid_.records.faces[i];
     const float h = height(f.plane);
-    if (!(fabs(h) <= within)) return kNoFoot;
     const Over over = over_sides(f);
-    if (over == Over::outside) return kNoFoot;
+    // Both before a branch, so that a GPU asks for all of the record at once.
+    if (!(fabs(h) <= within) | (over == Over::outside)) return kNoFoot;
     if (over == Over::rim) {
       Vec3 corner[3];
       for (int k = 0; k < 3; k++) {
@@ -107,7 +107,7 @@ class BrickGeometry {
     return foot_along(h < 0 ? -f.plane.normal : f.plane.normal, fabs(h));
   }
 
-  LSDCD_FN Foot on_edge(const BrickEdge &e, float within) const
+  LSDCD_FN Foot on_edge(const BrickEdge e, float within) const
   {
     const Vec3f d = p_ - e.anchor;
     const float along = dot(e.direction, d);

@@ -15,8 +15,10 @@ using Vec3f = Vec3Of<float>;
 // Origin of all coordinates: the centre of the brick. Planes and lines are anchored next
 // to it, so that coordinates stay as small as a brick however large face and mesh are.
 
+// Aligned, so that a GPU reads a record in pieces of 16 bytes.
+
 // Height over a plane: normal . p + offset. Length.
-struct BrickPlane {
+struct alignas(16) BrickPlane {
   Vec3f normal;    // unit
   float offset;
 };
@@ -24,7 +26,7 @@ struct BrickFace {
   BrickPlane plane;
   BrickPlane side[3];    // height >= 0 inside the face
 };
-struct BrickEdge {
+struct alignas(16) BrickEdge {
   Vec3f anchor;    // point of the edge's line nearest to the origin
   Vec3f direction;
   float lo, hi;    // where the edge begins and ends, from the anchor

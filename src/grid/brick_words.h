@@ -5,6 +5,7 @@
 #include "grid/locate.h"
 
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace lsdcd {
@@ -41,20 +42,80 @@ inline std::vector<BrickWord> brick_words(const GridView &grid)
   return words;
 }
 
+// The largest whole number at or below x, where it is at least 0 and has 32 bits; elsewhere, and
+// where x is not a number, `fits` is false. From 2^52 on doubles are whole numbers: their low
+// word is the number, at 2^52 more than x. A GPU does this in one step, where comparing and
+// converting take many.
+struct WholeNumber {
+  bool fits;
+  std::uint32_t value;
+};
+LSDCD_FN WholeNumber whole_below(Real x)
+{
+  constexpr Real kFromHereWhole = 4503599627370496.;
+#if defined(__CUDA_ARCH__)
+  const std::uint64_t bits = __double_as_longlong(__dadd_rd(x, kFromHereWhole));
+#else
+  Real sum = x + kFromHereWhole;
+  if (sum - kFromHereWhole > x) sum -= 1;
+  std::uint64_t bits;
+  std::memcpy(&bits, &sum, sizeof bits);
+#endif
+  return {bits >> 32 == 0x43300000u, static_cast<std::uint32_t>(bits)};
+}
+
+constexpr std::uint32_t kNoBrick = 0xffffffffu;
+
+// A point's brick by its place in the table, and the number of its cell in the brick.
+struct BrickPlace {
+  std::uint32_t place;    // kNoBrick: outside of the grid, or not a number
+  std::int32_t cell;
+};
+
+// What place_of() says, to the bit, without a branch: a thread has several points at once, and
+// would wait for the words of one after the other. Tables have less than 2^32 places.
+LSDCD_FN BrickPlace brick_place_of(const GridView &grid, const Vec3 &q)
+{
+  const WholeNumber i = whole_below((q.x - grid.origin.x) * grid.inv_length),
+                    j = whole_below((q.y - grid.origin.y) * grid.inv_length),
+                    k = whole_below((q.z - grid.origin.z) * grid.inv_length);
+  const std::uint32_t nx = grid.n_bricks[0], ny = grid.n_bricks[1], nz = grid.n_bricks[2];
+  const bool inside = i.fits & j.fits & k.fits & ((i.value >> 3) < nx) & ((j.value >> 3) < ny) &
+                      ((k.value >> 3) < nz);
+  const std::uint32_t place = ((k.value >> 3) * ny + (j.value >> 3)) * nx + (i.value >> 3);
+  return {inside ? place : kNoBrick,
+          static_cast<std::int32_t>((k.value & 7) << 6 | (j.value & 7) << 3 | (i.value & 7))};
+}
+
+LSDCD_FN BrickWord word_at(const BrickWord *words, const BrickPlace &at)
+{
+  return at.place != kNoBrick ? words[at.place / 32] : BrickWord{0, 0};
+}
+
+// The number of the brick, or kNoBrick.
+LSDCD_FN std::uint32_t brick_in(const BrickWord &word, const BrickPlace &at)
+{
+  return has_brick(word, at.place) ? brick_number(word, at.place) : kNoBrick;
+}
+
 constexpr std::uint32_t kNoCell = 0xffffffffu;
 
-// Index in grid.lists.cells of the cell that holds q, without the brick table; kNoCell where
-// it has no candidates, as where near_wall(grid, q) is false.
+// Index in lists.cells of a cell of a brick; kNoCell where it has no candidates. All of the
+// brick's record is asked for at once: a branch in between would wait twice.
+LSDCD_FN std::uint32_t occupied_cell(const CellListsView &lists, std::uint32_t brick,
+                                     std::int32_t cell)
+{
+  const std::uint32_t index = cell_index(lists.bricks[brick], cell);
+  return has_candidates(lists.bricks[brick], cell) ? index : kNoCell;
+}
+
+// The same of the cell that holds q, without the brick table; kNoCell also where there is no
+// brick: as near_wall(grid, q) is false.
 LSDCD_FN std::uint32_t occupied_cell(const GridView &grid, const BrickWord *words, const Vec3 &q)
 {
-  const Place p = place_of(grid, q);
-  if (!p.inside) return kNoCell;
-  const std::size_t place = brick_place(grid, p);
-  const BrickWord word = words[place / 32];
-  if (!has_brick(word, place)) return kNoCell;
-  const Brick &brick = grid.lists.bricks[brick_number(word, place)];
-  const std::int32_t cell = cell_in_brick(p);
-  return has_candidates(brick, cell) ? cell_index(brick, cell) : kNoCell;
+  const BrickPlace at = brick_place_of(grid, q);
+  const std::uint32_t brick = brick_in(word_at(words, at), at);
+  return brick == kNoBrick ? kNoCell : occupied_cell(grid.lists, brick, at.cell);
 }
 
 }    // namespace lsdcd

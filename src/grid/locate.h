@@ -20,6 +20,14 @@ LSDCD_FN int count_bits(std::uint64_t word)
   return __builtin_popcountll(word);
 #endif
 }
+LSDCD_FN int count_bits(std::uint32_t word)
+{
+#if defined(__CUDA_ARCH__)
+  return __popc(word);
+#else
+  return __builtin_popcount(word);
+#endif
+}
 
 // Of a word that is not 0.
 LSDCD_FN unsigned lowest_bit(unsigned word)

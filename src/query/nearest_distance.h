@@ -24,9 +24,8 @@ LSDCD_FN Answer far_answer()
 template <bool kPieces, class Distances>
 LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists, const Vec3 &q,
                                 Real radius, std::uint32_t limit, const CellAddress &at,
-                                std::uint32_t index)
+                                const Cell &cell)
 {
-  const Cell cell = lists.cells[index];
   const Distances distances(grid, q, at);
   // Nothing farther than the nearest so far is of interest.
   Real nearest = radius;
@@ -45,16 +44,18 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists
   // A single candidate is in the cell itself, and there is no list to stop in.
   const bool single = cell.count == 1;
   const Real off_centre = single ? 0 : norm(at.from_centre);
+  // The next entry is asked for before this one is tried, which takes reading of its own.
+  Candidate next = {cell.first, 0};
+  if (!single) next = lists.candidates[cell.first];
   for (std::uint32_t k = 0; k < cell.count; k++) {
-    FeatureCode code = cell.first;
+    const Candidate candidate = next;
     if (!single) {
-      const Candidate candidate = lists.candidates[cell.first + k];
+      if (k + 1 < cell.count) next = lists.candidates[cell.first + k + 1];
       // A distance that need not be right ends nothing.
       const bool past = candidate.bound > (Distances::kBounded ? nearest : radius) + off_centre;
       if (k == limit || (past && Distances::kBounded)) return answer(past, k + 1);
-      code = candidate.feature;
     }
-    attempt(code);
+    attempt(candidate.feature);
   }
   return answer(true, cell.count);
 }
@@ -72,11 +73,10 @@ LSDCD_FN Real nearer(Real first, Real second)
 // end for one thread.
 template <class Distances, class Lanes>
 LSDCD_FN Answer nearest_together(const GridView &grid, const CellListsView &lists, const Vec3 &q,
-                                 Real radius, const CellAddress &at, std::uint32_t index,
+                                 Real radius, const CellAddress &at, const Cell &cell,
                                  const Lanes &lanes)
 {
   static_assert(Distances::kBounded, "a list is read to its end where bounds do not hold");
-  const Cell cell = lists.cells[index];
   const Distances distances(grid, q, at);
   const Real off_centre = norm(at.from_centre);
   Real nearest = radius;
@@ -110,27 +110,33 @@ LSDCD_FN Answer nearest_together(const GridView &grid, const CellListsView &list
   return answer(cell.count);
 }
 
+// Where `at` has candidates.
+LSDCD_FN Cell cell_of(const CellListsView &lists, const CellAddress &at)
+{
+  return lists.cells[cell_index(*at.brick, at.cell)];
+}
+
 constexpr std::uint32_t kWholeList = 0xffffffffu;
 
 // The nearest point of the wall within `radius` (length, at most grid.reach) of q, which lies
-// at `at`, the cell `index` of grid.lists. kComplete: grid.nearest is 0. Certified answers are
+// at `at`, in the cell `cell` of grid.lists. kComplete: grid.nearest is 0. Certified answers are
 // exact, but for the rounding of Distances and with the paper's test. Lists of nearest pieces
 // fall back to complete ones where the grid has them.
 template <bool kComplete, class Distances>
 LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
-                             const CellAddress &at, std::uint32_t index)
+                             const CellAddress &at, const Cell &cell)
 {
   if (kComplete)
-    return nearest_in_cell<false, Distances>(grid, grid.lists, q, radius, kWholeList, at, index);
+    return nearest_in_cell<false, Distances>(grid, grid.lists, q, radius, kWholeList, at, cell);
   const Answer first = nearest_in_cell<true, Distances>(
-      grid, grid.lists, q, radius, static_cast<std::uint32_t>(grid.nearest), at, index);
+      grid, grid.lists, q, radius, static_cast<std::uint32_t>(grid.nearest), at, cell);
   if (first.certified || !grid.complete.bricks) return first;
   // The complete lists have cells of their own.
   const CellAddress there = locate(grid, grid.complete, q);
   Answer second = far_answer();
   if (there.brick && has_candidates(*there.brick, there.cell))
     second = nearest_in_cell<false, Distances>(grid, grid.complete, q, radius, kWholeList, there,
-                                               cell_index(*there.brick, there.cell));
+                                               cell_of(grid.complete, there));
   second.read += first.read;
   return second;
 }
@@ -141,7 +147,7 @@ LSDCD_FN Answer nearest_distance(const GridView &grid, const Vec3 &q, Real radiu
 {
   const CellAddress at = locate(grid, grid.lists, q);
   if (!at.brick || !has_candidates(*at.brick, at.cell)) return far_answer();
-  return nearest_from<kComplete, Distances>(grid, q, radius, at, cell_index(*at.brick, at.cell));
+  return nearest_from<kComplete, Distances>(grid, q, radius, at, cell_of(grid.lists, at));
 }
 
 // No grid: every face of the wall, the paper's N = all. Its edges and vertices without a

@@ -7,10 +7,13 @@
 
 namespace lsdcd {
 
-// A way of running a query: reserve() takes the memory it needs for n spheres, run()
+// A way of running a query: reserve() takes the memory it needs for n spheres S, run()
 // answers them. Here none is needed.
 struct OnePass {
-  void reserve(std::size_t) {}
+  template <class S>
+  void reserve(std::size_t)
+  {
+  }
 
   template <class B, class Work>
   void run(B &b, std::size_t n, const Work &work)

@@ -31,6 +31,16 @@ struct AnswerArrays {
       float_distance[i] = touching ? static_cast<float>(a.distance) : kAnyFloatDistance;
     if (read) read[i] = a.read;
   }
+  // The same of four neighbours from i on, a multiple of 4, where no wall is near.
+  LSDCD_FN void keep_four_far(std::size_t i) const
+  {
+    const std::uint8_t s = kCertified;
+    four_at(status, i) = {{s, s, s, s}};
+    if (distance) four_at(distance, i) = {{kAnyDistance, kAnyDistance, kAnyDistance, kAnyDistance}};
+    const float f = kAnyFloatDistance;
+    if (float_distance) four_at(float_distance, i) = {{f, f, f, f}};
+    if (read) four_at(read, i) = {{0, 0, 0, 0}};
+  }
   LSDCD_FN static Real widened(float kept)
   {
     return kept < kAnyFloatDistance ? static_cast<Real>(kept) : kAnyDistance;
@@ -39,10 +49,23 @@ struct AnswerArrays {
   {
     return float_distance ? widened(float_distance[i]) : distance[i];
   }
+
+ private:
+  // Aligned so that a GPU stores them in one piece, or two of 16 bytes.
+  template <class T>
+  struct alignas(sizeof(T) < 4 ? 4 : 16) Four {
+    T v[4];
+  };
+  template <class T>
+  LSDCD_FN static Four<T> &four_at(T *kept, std::size_t i)
+  {
+    return *reinterpret_cast<Four<T> *>(kept + i);
+  }
 };
 
 // What a query asks of each sphere, for the loops that run it: an answer at once; or first
-// its cell, and then an answer there or far from the wall. kComplete: grid.nearest is 0.
+// its brick, then the list of its cell, and then an answer from that list, where there are
+// these, and one far from the wall elsewhere. kComplete: grid.nearest is 0.
 template <class Distances, class S, bool kComplete>
 struct GridWork {
   using Item = S;
@@ -58,37 +81,43 @@ struct GridWork {
     out.keep(i, nearest_distance<kComplete, Distances>(grid, s.centre(), s.r));
   }
 
-  LSDCD_FN std::uint32_t cell_of(const S &s) const
+  LSDCD_FN BrickPlace place(const S &s) const { return brick_place_of(grid, s.centre()); }
+  LSDCD_FN BrickWord word(const BrickPlace &at) const { return word_at(words, at); }
+  LSDCD_FN std::uint32_t cell_of(std::uint32_t brick, std::int32_t cell) const
   {
-    return occupied_cell(grid, words, s.centre());
+    return occupied_cell(grid.lists, brick, cell);
   }
+  LSDCD_FN Cell list(std::uint32_t cell) const { return grid.lists.cells[cell]; }
   LSDCD_FN void far(std::size_t i) const { out.keep(i, far_answer()); }
-  LSDCD_FN void answer(std::size_t i, const S &s, std::uint32_t cell) const
+  LSDCD_FN void four_far(std::size_t i) const { out.keep_four_far(i); }
+  LSDCD_FN void answer(std::size_t i, const S &s, const Cell &cell) const
   {
     const Vec3 q = s.centre();
-    const Place place = place_of(grid, q);
-    const CellAddress at = {nullptr, cell_in_brick(place), from_cell_centre(grid, place)};
-    out.keep(i, nearest_from<kComplete, Distances>(grid, q, s.r, at, cell));
+    out.keep(i, nearest_from<kComplete, Distances>(grid, q, s.r, address(q), cell));
   }
 
   // Lists that are too long for one thread, as at a vertex of very many facets.
   static constexpr bool kTogether = kComplete && Distances::kBounded;
   static constexpr std::uint32_t kLongForOne = 32;
-  LSDCD_FN bool is_long(std::uint32_t cell) const
-  {
-    return kTogether && grid.lists.cells[cell].count > kLongForOne;
-  }
+  LSDCD_FN bool is_long(const Cell &cell) const { return kTogether && cell.count > kLongForOne; }
   template <class Lanes>
-  LSDCD_FN void answer_together(std::size_t i, const S &s, std::uint32_t cell,
+  LSDCD_FN void answer_together(std::size_t i, const S &s, const Cell &cell,
                                 const Lanes &lanes) const
   {
     if constexpr (kTogether) {
       const Vec3 q = s.centre();
-      const Place place = place_of(grid, q);
-      const CellAddress at = {nullptr, cell_in_brick(place), from_cell_centre(grid, place)};
-      const Answer a = nearest_together<Distances>(grid, grid.lists, q, s.r, at, cell, lanes);
+      const Answer a =
+          nearest_together<Distances>(grid, grid.lists, q, s.r, address(q), cell, lanes);
       if (lanes.lane() == 0) out.keep(i, a);
     }
+  }
+
+ private:
+  // Without its brick, which nothing needs once the list is known.
+  LSDCD_FN CellAddress address(const Vec3 &q) const
+  {
+    const Place p = place_of(grid, q);
+    return {nullptr, cell_in_brick(p), from_cell_centre(grid, p)};
   }
 };
 
@@ -180,7 +209,10 @@ class QueryOn : public SphereQuery {
     fit(distance_, settings.distance && !grid_.in_floats);
     fit(float_distance_, settings.distance && grid_.in_floats);
     fit(read_, settings.read);
-    way_.reserve(n_);
+    if (in_float_)
+      way_.template reserve<FloatSphere>(n_);
+    else
+      way_.template reserve<Sphere>(n_);
   }
 
   void start(const QuerySettings &settings)

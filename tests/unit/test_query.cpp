@@ -309,20 +309,31 @@ TEST(query, gives_the_same_bits_on_both_devices_with_formula_five)
   }
 }
 
-// Asks for the cell first, as a GPU does, but on the CPU.
+// The cell's list where q has candidates, as a GPU finds it; elsewhere a list of 0.
+Cell cell_by_words(const GridView &grid, const BrickWord *words, const Vec3 &q)
+{
+  const std::uint32_t cell = occupied_cell(grid, words, q);
+  return cell == kNoCell ? Cell{0, 0} : grid.lists.cells[cell];
+}
+
+// All far, four at a time, and then those near from their cell's list, as a GPU does, but on
+// the CPU.
 struct CellFirst {
-  void reserve(std::size_t) {}
+  template <class S>
+  void reserve(std::size_t)
+  {
+  }
 
   template <class Work>
   void run(CpuBackend &, std::size_t n, const Work &work)
   {
+    std::size_t far = 0;
+    for (; far + 4 <= n; far += 4) work.four_far(far);
+    for (; far < n; far++) work.far(far);
     for (std::size_t i = 0; i < n; i++) {
       const auto s = work.sphere(i);
-      const std::uint32_t cell = work.cell_of(s);
-      if (cell == kNoCell)
-        work.far(i);
-      else
-        work.answer(i, s, cell);
+      const Cell cell = cell_by_words(work.grid, work.words, s.centre());
+      if (cell.count > 0) work.answer(i, s, cell);
     }
   }
 };
@@ -389,11 +400,11 @@ void expect_lanes_read_as_one(const Case &c, bool in_floats, std::size_t &read)
   const TriangleGrid grid = c.grid(0, false, in_floats);
   const GridView view = grid.view();
   std::vector<Sphere> spheres;
-  std::vector<std::uint32_t> cells;
+  std::vector<Cell> cells;
   const std::vector<BrickWord> words = brick_words(view);
   for (const Sphere &s : c.spheres) {
-    const std::uint32_t cell = occupied_cell(view, words.data(), s.centre());
-    if (cell == kNoCell || view.lists.cells[cell].count < 2 || cells.size() == 40) continue;
+    const Cell cell = cell_by_words(view, words.data(), s.centre());
+    if (cell.count < 2 || cells.size() == 40) continue;
     spheres.push_back(s);
     cells.push_back(cell);
   }
@@ -431,24 +442,101 @@ TEST(query, a_list_that_lanes_read_together_ends_as_for_one)
   EXPECT_GT(read, 8 * FourLanes::kCount);    // some lists take many turns
 }
 
-TEST(query, bits_of_bricks_give_the_cell_that_their_table_gives)
+// Numbers at, next to and far from the sides of cells and of the whole grid, and no numbers.
+std::vector<Real> hard_coordinates(Real origin, Real length, int n_bricks)
+{
+  const Real inf = std::numeric_limits<Real>::infinity(),
+             tiny = std::numeric_limits<Real>::denorm_min();
+  std::vector<Real> out = {std::nan(""), inf, -inf, 1e300, -1e300, 0, -0., tiny, -tiny};
+  const int n_cells = n_bricks * kBrickSide;
+  for (int i : {-1, 0, 1, 7, 8, 9, n_cells / 2, n_cells - 1, n_cells, n_cells + 1}) {
+    const Real side = origin + i * length;
+    out.push_back(side + Real(0.5) * length);
+    Real up = side, down = side;
+    for (int k = 0; k < 4; k++) {
+      out.push_back(up);
+      out.push_back(down);
+      up = std::nextafter(up, inf);
+      down = std::nextafter(down, -inf);
+    }
+  }
+  // So many cells on that 32 bits hold them no more, and would come round to the first.
+  for (Real cells : {0x1p31, 0x1p32, 0x1p32 + n_cells / 2, 0x1p51, 0x1p52, 0x1p53, 0x1p64})
+    for (Real sign : {-1., 1.}) out.push_back(origin + sign * cells * length);
+  return out;
+}
+
+TEST(query, whole_numbers_below_are_those_of_floor)
+{
+  Numbers r(10);
+  std::vector<Real> points = hard_coordinates(0, 1, 5);
+  for (int i = 0; i < 100000; i++) {
+    points.push_back((r.below(2) ? 1 : -1) * r.log_in(1e-20, 1e20));
+    points.push_back(std::nextafter(std::floor(points.back()), r.below(2) ? -HUGE_VAL : HUGE_VAL));
+  }
+  for (Real x : points) {
+    const WholeNumber whole = whole_below(x);
+    ASSERT_EQ(whole.fits, x >= 0 && x < 0x1p32) << x;
+    if (whole.fits) {
+      ASSERT_EQ(whole.value, std::floor(x)) << x;
+    }
+  }
+}
+
+TEST(query, places_found_without_a_branch_are_those_found_with_them)
+{
+  for (std::size_t k : {0, 1, 2}) {
+    const TriangleGrid grid = all_cases()[k].grid(0);
+    const GridView view = grid.view();
+    std::size_t inside = 0;
+    const auto expect_same = [&](const Vec3 &q) {
+      const Place p = place_of(view, q);
+      const BrickPlace at = brick_place_of(view, q);
+      ASSERT_EQ(at.place != kNoBrick, p.inside) << q.x << " " << q.y << " " << q.z;
+      if (!p.inside) return;
+      inside++;
+      ASSERT_EQ(at.place, brick_place(view, p)) << q.x << " " << q.y << " " << q.z;
+      ASSERT_EQ(at.cell, cell_in_brick(p)) << q.x << " " << q.y << " " << q.z;
+    };
+    std::vector<Real> along[3];
+    for (int a = 0; a < 3; a++)
+      along[a] = hard_coordinates(view.origin[a], view.length, view.n_bricks[a]);
+    Numbers r(11);
+    for (int i = 0; i < 200000; i++) {
+      Vec3 q;
+      for (int a = 0; a < 3; a++) q[a] = along[a][r.below(static_cast<int>(along[a].size()))];
+      expect_same(q);
+    }
+    // One hard coordinate in a place that is inside.
+    const Vec3 middle = view.origin + view.length * (kBrickSide / 2.) *
+                                          Vec3{Real(view.n_bricks[0]), Real(view.n_bricks[1]),
+                                               Real(view.n_bricks[2])};
+    for (int a = 0; a < 3; a++)
+      for (Real x : along[a]) {
+        Vec3 q = middle;
+        q[a] = x;
+        expect_same(q);
+      }
+    EXPECT_GT(inside, 10000u);
+  }
+}
+
+TEST(query, bits_of_bricks_give_the_list_that_their_table_gives)
 {
   for (const Case &c : all_cases()) {
     const TriangleGrid grid = c.grid(0);
     const GridView view = grid.view();
     const std::vector<BrickWord> words = brick_words(view);
-    std::vector<Vec3> points;
-    for (const Sphere &s : c.spheres) points.push_back(s.centre());
-    const Real nan = std::nan("");
-    for (const Vec3 &x : {Vec3{nan, 0, 0}, Vec3{0, 0, nan}, Vec3{1e300, 0, 0}, Vec3{0, -1e300, 0}})
-      points.push_back(x);
     std::size_t occupied = 0;
-    for (const Vec3 &x : points) {
+    for (const Sphere &s : c.spheres) {
+      const Vec3 x = s.centre();
       const CellAddress at = locate(view, view.lists, x);
-      const std::uint32_t cell =
-          at.brick && has_candidates(*at.brick, at.cell) ? cell_index(*at.brick, at.cell) : kNoCell;
-      EXPECT_EQ(occupied_cell(view, words.data(), x), cell) << c.soup.source;
-      occupied += cell != kNoCell;
+      const Cell cell =
+          at.brick && has_candidates(*at.brick, at.cell) ? cell_of(view.lists, at) : Cell{0, 0};
+      const Cell by_words = cell_by_words(view, words.data(), x);
+      EXPECT_EQ(by_words.first, cell.first) << c.soup.source;
+      EXPECT_EQ(by_words.count, cell.count) << c.soup.source;
+      occupied += cell.count > 0;
     }
     EXPECT_GT(occupied, 0u) << c.soup.source;
   }
