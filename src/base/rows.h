@@ -38,13 +38,14 @@ struct Rows {
     const T *p = of(i);
     return {p[0], p[column], p[2 * column]};
   }
-  LSDCD_FN void add(std::size_t i, const Vec3 &v) const
+  LSDCD_FN void put(std::size_t i, const Vec3 &v) const
   {
     T *p = of(i);
-    p[0] += v.x;
-    p[column] += v.y;
-    p[2 * column] += v.z;
+    p[0] = v.x;
+    p[column] = v.y;
+    p[2 * column] = v.z;
   }
+  LSDCD_FN void add(std::size_t i, const Vec3 &v) const { put(i, (*this)[i] + v); }
 };
 
 }    // namespace lsdcd

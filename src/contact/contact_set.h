@@ -14,6 +14,24 @@ struct ContactsView {
   const Real *distance;
 };
 
+// Places of a set. A single one needs no index, so that it can live in registers.
+template <class T, int kPlaces>
+struct Places {
+  T at[kPlaces];
+
+  LSDCD_FN T &operator[](int i) { return at[i]; }
+  LSDCD_FN const T &operator[](int i) const { return at[i]; }
+  LSDCD_FN const T *data() const { return at; }
+};
+template <class T>
+struct Places<T, 1> {
+  T only = {};
+
+  LSDCD_FN T &operator[](int) { return only; }
+  LSDCD_FN const T &operator[](int) const { return only; }
+  LSDCD_FN const T *data() const { return &only; }
+};
+
 // A fixed number of places, so that it can live in registers and local memory.
 // `overflow` is set when more contacts were found than there are places; the
 // caller then repeats the sphere with a larger set and drops nothing.
@@ -21,11 +39,12 @@ template <int kPlaces>
 struct ContactSet {
   int n = 0;
   bool overflow = false;
-  FeatureCode feature[kPlaces];
-  Vec3 normal[kPlaces];      // unit, wall -> centre
-  Real distance[kPlaces];    // centre to foot point, length; < 0 where the centre has crossed
+  Places<FeatureCode, kPlaces> feature;
+  Places<Vec3, kPlaces> normal;    // unit, wall -> centre
+  Places<Real, kPlaces>
+      distance;    // centre to foot point, length; < 0 where the centre has crossed
 
-  LSDCD_FN ContactsView view() const { return {n, feature, normal, distance}; }
+  LSDCD_FN ContactsView view() const { return {n, feature.data(), normal.data(), distance.data()}; }
 
   LSDCD_FN void add(FeatureCode f, const Vec3 &n_unit, Real d)
   {

@@ -91,6 +91,7 @@ LSDCD_FN void find_in_complete(const GridView &grid, const CellListsView &lists,
     const Candidate candidate = lists.candidates[i];
     if (candidate.bound > enough) break;
     add_feature(geometry, candidate.feature, radius, set);
+    if (set.overflow) break;    // nothing else is valid
   }
 }
 
@@ -115,6 +116,7 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const CellListsView &lists, 
     if (k == static_cast<std::uint32_t>(grid.nearest))
       return candidate.bound - off_centre - grid.slack;
     add_piece(geometry, candidate.feature, radius, set);
+    if (set.overflow) break;
   }
   return kAnyDistance;
 }

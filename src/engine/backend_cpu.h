@@ -1,6 +1,7 @@
 // The five verbs of a backend on the host: allocate, copy, for_each, reduce, scan/sort.
 #pragma once
 
+#include "base/atomic.h"
 #include "base/threads.h"
 #include "engine/owned_array.h"
 
@@ -17,6 +18,9 @@
 namespace lsdcd {
 
 struct CpuBackend {
+  // Are contacts found ahead of the law? One pass is best here.
+  static constexpr bool kFindsFirst = false;
+
   // allocate
   struct Memory {
     static void *allocate(std::size_t bytes) { return ::operator new(bytes); }
@@ -106,6 +110,19 @@ struct CpuBackend {
       n_kept += found[b];
     }
     *total = n_kept;
+  }
+
+  // list: work.find(i, item) says into which list each i in [0, n) goes, or -1, and what is
+  // to be kept of it; work.keep(list, place, i, item) does so. listed[list]: how many were
+  // there before and are now. Lists are in any order.
+  template <class Work>
+  void list(std::size_t n, const Work &work, int *listed)
+  {
+    for_each(n, [&](std::size_t i) {
+      typename Work::Item item;
+      const int to = work.find(i, item);
+      if (to >= 0) work.keep(to, fetch_add(&listed[to], 1), i, item);
+    });
   }
 
   // reduce

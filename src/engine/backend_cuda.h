@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "engine/cuda_list.h"
 #include "engine/owned_array.h"
 
 #include <cub/device/device_radix_sort.cuh>
@@ -110,6 +111,10 @@ __global__ static void __launch_bounds__(256)
 }
 
 struct CudaBackend {
+  // Are contacts found ahead of the law? A kernel of a law has few registers then, and its
+  // threads all have contacts.
+  static constexpr bool kFindsFirst = true;
+
   cudaStream_t stream = nullptr;
 
   // allocate
@@ -275,6 +280,18 @@ struct CudaBackend {
                "scanning");
     cuda_gather<<<n_tiles / 8 + 1, 256, 0, stream>>>(room.words.data(), in_tile, n_tiles, to,
                                                      total);
+    cuda_check(cudaGetLastError(), "starting a kernel");
+  }
+
+  // list: work.find(i, item) says into which of two lists each i in [0, n) goes, or -1, and
+  // what is to be kept of it; work.keep(list, place, i, item) does so. listed[list]: how
+  // many were there before and are now. Lists are in any order.
+  template <class Work>
+  void list(std::size_t n, const Work &work, int *listed)
+  {
+    if (n == 0) return;
+    const auto blocks = static_cast<unsigned>((n + kListBlock - 1) / kListBlock);
+    cuda_list<2><<<blocks, kListBlock, 0, stream>>>(n, work, listed);
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 

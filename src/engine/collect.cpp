@@ -32,8 +32,8 @@ WallTotals sum_totals(const StepResults &results, const Spheres &spheres)
     for (int k = b * kTotalsBlock; k < std::min(n, (b + 1) * kTotalsBlock); k++) {
       const SphereResult &r = results.result[k];
       const int i = results.near[k];
-      if (r.n_contacts == 0 && !(r.uncertain > 0)) continue;
-      add_result(t, r, cross(spheres.x[i], r.force) + r.torque, r.uncertain / spheres.radius[i], i);
+      if (r.uncertain > 0) add_uncertain(t, r.uncertain / spheres.radius[i]);
+      if (r.n_contacts > 0) add_result(t, r, cross(spheres.x[i], r.force) + r.torque, i);
     }
     block[b] = t;
   }

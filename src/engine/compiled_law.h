@@ -43,7 +43,8 @@ class LawBytes {
   alignas(std::max_align_t) unsigned char bytes_[256];
 };
 
-// A law compiled for one backend; start() does n near spheres, or lanes of crowded ones.
+// A law compiled for one backend; start() does n near spheres, or lanes of crowded ones, as
+// start_law() or start_found_law() has it.
 template <class Backend>
 struct CompiledLaw {
   LawTraits traits;

@@ -66,7 +66,7 @@ LawJob EngineBase::host_job(const GridView &grid, SphereResult *result,
   LawJob job = job_of(grid, force_settings_, spheres_);
   job.near = results_.near.data();
   if (springs_) job.springs = springs_->view();
-  job.result = result;
+  return_results(job, result);
   job.sink = sink;
   return job;
 }

@@ -1,6 +1,7 @@
 #include "base/threads.h"
 #include "engine/cuda_law.h"
 #include "engine/engine_base.h"
+#include "engine/found_contacts.h"
 #include "engine/pinned.h"
 
 #include <cstring>
@@ -63,7 +64,13 @@ class CudaEngine : public EngineBase {
     gather(n);
     if (law_.traits.heat) gather_heat(n);
     sphere_.to_device(n, backend_.stream);
-    cuda_law_.start(cuda_law_.law, device_job(), n, backend_);
+    found_.reserve(backend_, n);
+    // Only spheres that touch write all of their result.
+    cuda_check(cudaMemsetAsync(result_.device(), 0, n * sizeof(SphereResult), backend_.stream),
+               "clearing memory");
+    const LawJob job = device_job();
+    find_first(backend_, job, n, settings_.law.pull_off());
+    cuda_law_.start(cuda_law_.law, job, n, backend_);
     result_.to_host(n, backend_.stream);
     if (law_.traits.heat) heat_.to_host(n, backend_.stream);
     if (keeps_contacts()) pack_contacts(n);
@@ -106,7 +113,7 @@ class CudaEngine : public EngineBase {
     return shared_bytes() + block_.size() + sphere_.bytes() + result_.bytes() +
            old_spring_.bytes() + packed_.bytes() + new_spring_.size() * sizeof(Spring) +
            old_extra_.bytes() + packed_extra_.bytes() + new_extra_.size() * sizeof(Real) +
-           packed_record_.bytes() + new_record_.size() * sizeof(ContactRecord) +
+           packed_record_.bytes() + found_.bytes() + new_record_.size() * sizeof(ContactRecord) +
            temperature_.bytes() + heat_.bytes() + offset_.size() * sizeof(std::uint32_t) +
            scratch_.size();
   }
@@ -166,7 +173,8 @@ class CudaEngine : public EngineBase {
     job.temperature = {temperature_.device()};
     job.springs = {
         {&s->first_spring, ints}, {&s->n_springs, ints}, old_spring_.device(), old_extra_.device()};
-    job.result = result_.device();
+    return_results(job, result_.device());
+    job.found = found_.next();
     job.sink = {new_spring_.data(), new_extra_.data(), heat_.device(), new_record_.data()};
     return job;
   }
@@ -271,6 +279,7 @@ class CudaEngine : public EngineBase {
   CudaBackend::Array<char> block_;
   Mirrored<NearSphere> sphere_;
   Mirrored<SphereResult> result_;
+  FoundContacts<CudaBackend> found_;
   Mirrored<Spring> old_spring_, packed_;
   CudaBackend::Array<Spring> new_spring_;
   // Of laws that keep more than a stretch, and of those with heat; empty otherwise.

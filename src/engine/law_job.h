@@ -2,6 +2,7 @@
 // backend, whether results are handed back or stay where the spheres are.
 #pragma once
 
+#include "engine/found.h"
 #include "engine/wall_force.h"
 
 #include <cstdint>
@@ -54,11 +55,20 @@ struct Crowd {
   int most, size;    // spheres, contacts
   int *which;        // near sphere of each
   int *first, *n;    // its contacts, n < 0: they do not fit
-  Real *uncertain;
-  FeatureCode *feature;
-  Vec3 *normal;
-  Real *distance, *weight;
+  ContactArrays contacts;
+  Real *weight;
 };
+
+// How a crowded sphere is told in Found::n, from its place among them and back; -1: it does
+// not fit there either.
+LSDCD_FN int crowded_as(int place)
+{
+  return place < 0 ? kOverflow : kOverflow - 1 - place;
+}
+LSDCD_FN int place_of_crowded(int n)
+{
+  return kOverflow - 1 - n;
+}
 
 struct InPlace {
   StepCounts *counts = nullptr;    // null: results are handed back
@@ -76,10 +86,36 @@ struct LawJob {
   Rows<const Real> x, v, omega;
   Column<const Real> radius, mass, temperature;
   SpringsView springs = {};          // of the last step
-  SphereResult *result = nullptr;    // of each near sphere
+  SphereResult *result = nullptr;    // of each near sphere: written where it touches
+  Column<int> n_contacts;            // of each near sphere; kOverflow: to be done again
+  Column<Real> uncertain;            // see keep_uncertain(); null: nothing can be missed
   SphereSink sink = {};              // of the first one; each has kPlaces for contacts
   InPlace in_place = {};
+  Found found = {};    // where contacts are found ahead of the law
 };
+
+// Results of near spheres are handed back, all that is known of each in one row.
+inline void return_results(LawJob &job, SphereResult *result)
+{
+  job.result = result;
+  if (!result) return;    // of no spheres
+  job.n_contacts = {&result->n_contacts, sizeof(SphereResult) / sizeof(int)};
+  job.uncertain = {&result->uncertain, sizeof(SphereResult) / sizeof(Real)};
+}
+
+// Sphere i for the search. `beyond`: does the law act past touch? `pull_off`: of the law, at
+// a radius of 1.
+LSDCD_FN Searcher searcher_of(const LawJob &job, std::size_t i, bool beyond, Real pull_off)
+{
+  const Real radius = job.radius[i];
+  Searcher s = {job.x[i], radius, radius, nullptr, 0};
+  if (beyond) {
+    s.reach = reach_of(radius, pull_off);
+    s.n_springs = job.springs.count[i];
+    s.springs = job.springs.pool + (s.n_springs > 0 ? job.springs.first[i] : 0);
+  }
+  return s;
+}
 
 // The part of a job that spheres in packed arrays decide.
 inline LawJob job_of(const GridView &grid, const ForceSettings &settings, const Spheres &spheres)

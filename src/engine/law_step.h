@@ -1,8 +1,10 @@
-// The loop of a contact law over the spheres near the wall: one body for every backend.
+// The loop of a contact law over the spheres near the wall: one body for every backend,
+// whether it finds their contacts as it goes or they were found before.
 #pragma once
 
-#include "base/atomic.h"
 #include "engine/compiled_law.h"
+#include "engine/found_contacts.h"
+#include "engine/step_notes.h"
 
 #include <cstdint>
 
@@ -67,33 +69,22 @@ LSDCD_FN bool take_places(const LawJob &job, std::size_t k, int n, int &first, S
 
 LSDCD_FN int count_bearing(const ContactsView &set, const Real *weight)
 {
+  if (!weight) return set.n;
   int n = 0;
   for (int i = 0; i < set.n; i++) n += weight[i] > 0;
   return n;
 }
 
-// What the host will want to know of the step.
-LSDCD_FN void note(StepCounts &counts, const SphereResult &out, std::size_t i)
-{
-  if (out.uncertain > 0) {
-    count_one(&counts.uncertified);
-    raise_to(&counts.uncertain, ascending_bits(static_cast<float>(out.uncertain)));
-  }
-  if (out.overlap_ratio > 0)
-    raise_to(&counts.deepest,
-             std::uint64_t(ascending_bits(static_cast<float>(out.overlap_ratio))) << 32 | (i + 1));
-}
-
 // Result of near sphere k, which is sphere i: into the spheres' arrays, and kept with its
-// torque about the origin and what it may have missed as a ratio, so that totals can be
-// made when the spheres are elsewhere.
+// torque about the origin, so that totals can be made when the spheres are elsewhere.
 template <class Law>
 LSDCD_FN void add_in_place(const LawJob &job, std::size_t k, std::size_t i, const SphereState &s,
                            int first, SphereResult &out)
 {
   const InPlace &to = job.in_place;
-  out.uncertain /= s.radius;
-  note(*to.counts, out, i);
+  if (out.overlap_ratio > 0)
+    raise_to(&to.counts->deepest,
+             std::uint64_t(ascending_bits(static_cast<float>(out.overlap_ratio))) << 32 | (i + 1));
   if constexpr (Law::kHistory)
     if (job.settings.update) {
       if (out.n_contacts > 0) to.pool.first[i] = first;
@@ -101,80 +92,76 @@ LSDCD_FN void add_in_place(const LawJob &job, std::size_t k, std::size_t i, cons
     }
   if (out.n_contacts == 0) return;
   if constexpr (Law::kRecords) to.pool.place[k] = first;
-  to.force.add(i, out.force);
-  to.torque.add(i, out.torque);
+  // All are read before one is written: the compiler does not know that they are apart.
+  const Vec3 force = to.force[i] + out.force, torque = to.torque[i] + out.torque;
+  to.force.put(i, force);
+  to.torque.put(i, torque);
   if constexpr (Law::kHeat) to.heat_flow[i] += job.sink.heat[k];
   out.torque = cross(s.x, out.force) + out.torque;
 }
 
-// A sphere that was not done in place: for the loop over crowded ones, or lost.
-LSDCD_FN void put_off(const InPlace &in_place, std::size_t k, bool is_crowded)
+// What its contacts do to near sphere k, which is sphere i.
+template <class Law>
+LSDCD_FN void bear(const Law &law, const LawJob &job, std::size_t k, std::size_t i, SphereState &s,
+                   const ContactsView &set, const Real *weight)
 {
-  if (is_crowded) {
-    const int at = fetch_add(&in_place.counts->n_crowded, 1);
-    if (at < in_place.crowd.most) {
-      in_place.crowd.which[at] = static_cast<int>(k);
-      return;
-    }
+  if (set.n == 0) {
+    touches_nothing(job, k, i);
+    return;
   }
-  fetch_add(&in_place.counts->lost, 1);
+  const bool stays = job.in_place.counts != nullptr;
+  int first = 0;
+  SphereSink sink = {};
+  if (!stays) {
+    sink = sink_of<Law>(job, k);
+  } else if (!take_places<Law>(job, k, count_bearing(set, weight), first, sink)) {
+    does_not_fit(job, k);
+    return;
+  }
+  if constexpr (Law::kHeat) *sink.heat = 0;
+  add_motion<Law>(job, i, s);
+  SphereResult out = {};
+  add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
+  if (job.uncertain.at) out.uncertain = job.uncertain[k];
+  if (stays) add_in_place<Law>(job, k, i, s, first, out);
+  job.n_contacts[k] = out.n_contacts;
+  if (out.n_contacts > 0) job.result[k] = out;
 }
 
-// Near sphere k; `crowded` is its place among the crowded ones, or -1.
+// The contacts of the c-th crowded sphere; false: they do not fit.
+LSDCD_FN bool crowded_contacts(const Crowd &crowd, int c, ContactsView &set, const Real *&weight)
+{
+  if (crowd.n[c] < 0) return false;
+  set = crowd.contacts.view(crowd.first[c], crowd.n[c]);
+  weight = crowd.weight + crowd.first[c];
+  return true;
+}
+
+// Near sphere k from search to result, in one pass; `crowded` is its place among the crowded
+// ones, or -1.
 template <class Law>
 LSDCD_FN void near_sphere(const Law &law, const LawJob &job, std::size_t k, int crowded)
 {
-  const InPlace &in_place = job.in_place;
-  const bool stays = in_place.counts != nullptr;
   const std::size_t i = job.near ? job.near[k] : k;
   SphereState s = place_of<Law>(job, i);
-  if (stays && law_reach(law, s.radius) > job.grid.reach)
-    raise_to(&in_place.counts->too_large, kNoSphere - i);
-
-  SphereResult out = {};
   Touch<kPlaces> touching;
   ContactsView set;
   const Real *weight = touching.weight;
   if (crowded < 0) {
-    find_touch(job.grid, law, job.settings, s, touching, out);
+    note_reach(job, i, law_reach(law, s.radius));
+    SphereResult found = {};
+    find_touch(job.grid, law, job.settings, s, touching, found);
+    if (touching.set.overflow) {
+      put_off(job, k);
+      return;
+    }
+    keep_uncertain(job, k, found.uncertain, s.radius);
     set = touching.set.view();
-  } else {
-    const Crowd &crowd = in_place.crowd;
-    const int from = crowd.first[crowded];
-    set = {crowd.n[crowded], crowd.feature + from, crowd.normal + from, crowd.distance + from};
-    weight = crowd.weight + from;
-    out.uncertain = crowd.uncertain[crowded];
-    if (set.n < 0) out.n_contacts = kOverflow;
+  } else if (!crowded_contacts(job.in_place.crowd, crowded, set, weight)) {
+    does_not_fit(job, k);
+    return;
   }
-
-  int first = 0;
-  SphereSink sink = {};
-  if (out.n_contacts != kOverflow && set.n > 0) {
-    bool has_room = true;
-    if (stays)
-      has_room = take_places<Law>(job, k, count_bearing(set, weight), first, sink);
-    else
-      sink = sink_of<Law>(job, k);
-    if constexpr (Law::kHeat) *sink.heat = 0;
-    add_motion<Law>(job, i, s);
-    if (has_room)
-      add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
-    else
-      out.n_contacts = kOverflow;
-  }
-  if (stays) {
-    if (out.n_contacts != kOverflow)
-      add_in_place<Law>(job, k, i, s, first, out);
-    else
-      put_off(in_place, k, crowded < 0 && touching.set.overflow);
-  }
-  // Nothing else is read of a result without contacts.
-  if (out.n_contacts == 0) {
-    job.result[k].uncertain = out.uncertain;
-    job.result[k].n_contacts = 0;
-  } else {
-    job.result[k] = out;
-  }
+  bear(law, job, k, i, s, set, weight);
 }
 
 template <class Law>
@@ -193,12 +180,56 @@ LSDCD_FN void law_step(const Law &law, const LawJob &job, std::size_t at)
   }
 }
 
+// The at-th of the near spheres for which find_first() has found one contact. That it is one
+// and bears all of the force is known to the compiler: there is no loop to keep sums for, and
+// half the registers do.
+template <class Law>
+LSDCD_FN void found_single(const Law &law, const LawJob &job, std::size_t at)
+{
+  const Found &found = job.found;
+  if (at >= static_cast<std::size_t>(found.counts->listed[kSingle])) return;
+  const std::size_t k = found.sphere[kSingle][at], i = job.near ? job.near[k] : k;
+  SphereState s = place_of<Law>(job, i);
+  bear(law, job, k, i, s, found.single.view(at, 1), nullptr);
+}
+
+// The at-th of those for which it has found several.
+template <class Law>
+LSDCD_FN void found_several(const Law &law, const LawJob &job, std::size_t at)
+{
+  const Found &found = job.found;
+  const std::size_t k = found.sphere[kSeveral][at], i = job.near ? job.near[k] : k;
+  const int n = found.n[at];
+  if (n == kOverflow) return;
+  ContactsView set = found.several.view(at * kPlaces, n);
+  const Real *weight = found.weight + at * kPlaces;
+  if (n < kOverflow && !crowded_contacts(job.in_place.crowd, place_of_crowded(n), set, weight)) {
+    does_not_fit(job, k);
+    return;
+  }
+  SphereState s = place_of<Law>(job, i);
+  bear(law, job, k, i, s, set, weight);
+}
+
+// For backends that find contacts as they go: n near spheres, or lanes of crowded ones.
 template <class Law, class Backend>
 void start_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend &backend)
 {
   const Law law = bytes.as<Law>();
   backend.for_each(
       n, [=] LSDCD_LAMBDA(std::size_t at) { law_step(law, job, at); }, 128);
+}
+
+// For those that find them first (Backend::kFindsFirst): n near spheres, one each in the
+// first kernel, though only the device knows how many of them are listed.
+template <class Law, class Backend>
+void start_found_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend &backend)
+{
+  const Law law = bytes.as<Law>();
+  backend.for_each(
+      n, [=] LSDCD_LAMBDA(std::size_t at) { found_single(law, job, at); }, 128);
+  for_each_several(backend, job.found, n,
+                   [=] LSDCD_LAMBDA(std::size_t at) { found_several(law, job, at); });
 }
 
 }    // namespace lsdcd

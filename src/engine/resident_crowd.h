@@ -2,8 +2,7 @@
 // memory that has room for them.
 #pragma once
 
-#include "base/atomic.h"
-#include "engine/law_job.h"
+#include "engine/step_notes.h"
 
 namespace lsdcd {
 
@@ -20,16 +19,16 @@ class ResidentCrowd {
 
  public:
   ResidentCrowd() :
-      which_(kCrowded), first_(kCrowded), n_(kCrowded), uncertain_(kCrowded),
-      feature_(kCrowdContacts), normal_(kCrowdContacts), distance_(kCrowdContacts),
-      weight_(kCrowdContacts), lanes_(kLanes)
+      which_(kCrowded), first_(kCrowded), n_(kCrowded), feature_(kCrowdContacts),
+      normal_(kCrowdContacts), distance_(kCrowdContacts), weight_(kCrowdContacts), lanes_(kLanes)
   {
   }
 
   Crowd view()
   {
-    return {kCrowded,          kCrowdContacts,  which_.data(),  first_.data(),    n_.data(),
-            uncertain_.data(), feature_.data(), normal_.data(), distance_.data(), weight_.data()};
+    return {kCrowded,      kCrowdContacts, which_.data(),
+            first_.data(), n_.data(),      {feature_.data(), normal_.data(), distance_.data()},
+            weight_.data()};
   }
 
   // The contacts of those that the law's loop has noted in job.in_place.crowd; `pull_off`:
@@ -41,17 +40,11 @@ class ResidentCrowd {
     b.for_each(
         kLanes,
         [=] LSDCD_LAMBDA(std::size_t at) {
-          StepCounts &counts = *job.in_place.counts;
           const Crowd &crowd = job.in_place.crowd;
-          const int n = counts.n_crowded < crowd.most ? counts.n_crowded : crowd.most;
+          const int noted = job.in_place.counts->n_crowded;
+          const int n = noted < crowd.most ? noted : crowd.most;
           for (int c = static_cast<int>(at); c < n; c += kLanes) {
-            const std::size_t i = job.near[crowd.which[c]];
-            const Real radius = job.radius[i], reach = reach_of(radius, pull_off);
-            Searcher s = {job.x[i], radius, reach, nullptr, 0};
-            if (beyond) {
-              s.n_springs = job.springs.count[i];
-              s.springs = job.springs.pool + (s.n_springs > 0 ? job.springs.first[i] : 0);
-            }
+            const Searcher s = searcher_of(job, job.near[crowd.which[c]], beyond, pull_off);
             CrowdLane &lane = lanes[at];
             lane.touching.set.n = 0;
             lane.touching.set.overflow = false;
@@ -59,7 +52,7 @@ class ResidentCrowd {
               find_one<BrickGeometry>(job, s, beyond, lane);
             else
               find_one<WallGeometry>(job, s, beyond, lane);
-            keep_one(crowd, c, counts, lane.touching, reach);
+            keep_one(job, c, s, lane.touching);
           }
         },
         kLanes);
@@ -67,7 +60,7 @@ class ResidentCrowd {
 
   static constexpr std::size_t bytes()
   {
-    return kLanes * sizeof(CrowdLane) + kCrowded * (3 * sizeof(int) + sizeof(Real)) +
+    return kLanes * sizeof(CrowdLane) + kCrowded * 3 * sizeof(int) +
            kCrowdContacts * (sizeof(FeatureCode) + sizeof(Vec3) + 2 * sizeof(Real));
   }
 
@@ -85,26 +78,24 @@ class ResidentCrowd {
       share<Geometry>(job.grid, job.settings.search, s.reach, lane.rule, lane.touching);
   }
 
-  LSDCD_FN static void keep_one(const Crowd &crowd, int c, StepCounts &counts,
-                                const Touch<kMostPlaces> &found, Real reach)
+  LSDCD_FN static void keep_one(const LawJob &job, int c, const Searcher &s,
+                                const Touch<kMostPlaces> &found)
   {
+    const Crowd &crowd = job.in_place.crowd;
     crowd.n[c] = -1;
     if (found.set.overflow) return;
-    const int n = found.set.n, first = fetch_add(&counts.crowd_used, n);
+    const int n = found.set.n, first = fetch_add(&job.in_place.counts->crowd_used, n);
     if (first > crowd.size - n) return;
     crowd.n[c] = n;
     crowd.first[c] = first;
-    crowd.uncertain[c] = found.exact_within < reach ? reach - found.exact_within : 0;
+    keep_uncertain(job, crowd.which[c], may_miss(s.reach, found.exact_within), s.radius);
     for (int k = 0; k < n; k++) {
-      crowd.feature[first + k] = found.set.feature[k];
-      crowd.normal[first + k] = found.set.normal[k];
-      crowd.distance[first + k] = found.set.distance[k];
+      crowd.contacts.put(first + k, found.set, k);
       crowd.weight[first + k] = found.weight[k];
     }
   }
 
   Array<int> which_, first_, n_;
-  Array<Real> uncertain_;
   Array<FeatureCode> feature_;
   Array<Vec3> normal_;
   Array<Real> distance_, weight_;

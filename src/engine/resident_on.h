@@ -5,6 +5,8 @@
 #include "base/input_error.h"
 #include "engine/compiled_law.h"
 #include "engine/engine_base.h"
+#include "engine/find_first.h"
+#include "engine/found_contacts.h"
 #include "engine/resident_crowd.h"
 #include "engine/resident_engine.h"
 #include "engine/resident_springs.h"
@@ -102,10 +104,13 @@ class ResidentOn : public ResidentEngine {
     step_ = step;
     totals_known_ = false;
     if (n_near_ == 0) return;
+    make_room();
     LawJob job = job_of(grid_, force_settings(settings_, step), spheres);
     job.near = near_.data();
     job.springs = springs_.view();
     job.result = result_.data();
+    job.n_contacts = {n_contacts_.data()};
+    job.uncertain = {uncertain_of_near()};
     job.sink = {nullptr, nullptr, heat_.data(), nullptr};
     job.in_place.counts = counts_.data();
     job.in_place.force = spheres.force;
@@ -113,15 +118,19 @@ class ResidentOn : public ResidentEngine {
     job.in_place.heat_flow = spheres.heat_flow;
     job.in_place.pool = springs_.next(place_.data());
     job.in_place.crowd = crowd_.view();
-    StepCounts *counts = counts_.data();
-    const int writes = job.in_place.pool.which;
-    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) {
-      counts->shared_used[writes] = counts->n_crowded = counts->crowd_used = 0;
-    });
-    law_.start(law_.law, job, n_near_, b_);
-    crowd_.find(b_, job, settings_.law.pull_off());
-    job.in_place.crowd_lanes = kCrowdLawLanes;
-    law_.start(law_.law, job, kCrowdLawLanes, b_);
+    const Real pull_off = settings_.law.pull_off();
+    if constexpr (B::kFindsFirst) {
+      job.found = found_.next();
+      find_first(b_, job, n_near_, pull_off);
+      crowd_.find(b_, job, pull_off);
+      law_.start(law_.law, job, n_near_, b_);
+    } else {
+      clear_counts(job.in_place);
+      law_.start(law_.law, job, n_near_, b_);
+      crowd_.find(b_, job, pull_off);
+      job.in_place.crowd_lanes = kCrowdLawLanes;
+      law_.start(law_.law, job, kCrowdLawLanes, b_);
+    }
     if (step.update_history) springs_.swap();
   }
 
@@ -184,10 +193,12 @@ class ResidentOn : public ResidentEngine {
   std::size_t bytes() const override
   {
     return block_.size() + words_.size() * sizeof(BrickWord) + springs_.bytes() +
-           result_.size() * sizeof(SphereResult) + heat_.size() * sizeof(Real) +
-           (near_.size() + place_.size()) * sizeof(int) + ResidentCrowd<B>::bytes() +
-           touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput) +
-           sphere_heat_.capacity() * sizeof(Real) + records_.capacity() * sizeof(ContactRecord);
+           result_.size() * sizeof(SphereResult) +
+           (heat_.size() + uncertain_.size()) * sizeof(Real) +
+           (near_.size() + place_.size() + n_contacts_.size()) * sizeof(int) + found_.bytes() +
+           ResidentCrowd<B>::bytes() + touching_.capacity() * sizeof(int) +
+           output_.capacity() * sizeof(SphereOutput) + sphere_heat_.capacity() * sizeof(Real) +
+           records_.capacity() * sizeof(ContactRecord);
   }
 
   // The steps of start() and collect(). Public because nvcc takes no device lambda from a
@@ -198,18 +209,23 @@ class ResidentOn : public ResidentEngine {
     b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { to[0] = spheres.radius[i]; });
   }
 
+  void clear_counts(const InPlace &in_place)
+  {
+    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { clear_step(in_place); });
+  }
+
   void fetch_output()
   {
     const std::size_t n = n_near_;
     Array<SphereOutput> out(n);
     SphereOutput *to = out.data();
     const SphereResult *result = result_.data();
-    const int *near = near_.data();
+    const int *near = near_.data(), *n_contacts = n_contacts_.data();
     const Spheres spheres = spheres_;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = near[k];
       to[k] = SphereOutput();
-      if (result[k].n_contacts > 0) to[k] = output_of(result[k], spheres.x[i], spheres.radius[i]);
+      if (n_contacts[k] > 0) to[k] = output_of(result[k], spheres.x[i], spheres.radius[i]);
     });
     const std::vector<SphereOutput> all = b_.to_host(out, n);
     const std::vector<Real> heat = b_.to_host(heat_, law_.traits.heat ? n : 0);
@@ -224,12 +240,20 @@ class ResidentOn : public ResidentEngine {
 
   void fetch_records()
   {
-    const std::vector<SphereResult> result = b_.to_host(result_, n_near_);
-    const std::vector<int> place = b_.to_host(place_, n_near_);
-    const std::vector<ContactRecord> all =
-        springs_.records(b_, read_counts(), step_.update_history);
-    for (std::size_t k = 0; k < n_near_; k++)
-      for (int c = 0; c < result[k].n_contacts; c++) records_.push_back(all[place[k] + c]);
+    const std::size_t n = n_near_;
+    Array<int> offset(n);
+    int *at = offset.data();
+    const int *n_contacts = n_contacts_.data(), *place = place_.data();
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = n_contacts[k]; });
+    const std::size_t total = b_.exclusive_scan(at, n);
+    // What lies between them was never written.
+    Array<ContactRecord> packed(total);
+    ContactRecord *to = packed.data();
+    const ContactRecord *from = springs_.records(step_.update_history);
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      for (int c = 0; c < n_contacts[k]; c++) to[at[k] + c] = from[place[k] + c];
+    });
+    records_ = b_.to_host(packed, total);
   }
 
   void sum_totals()
@@ -241,13 +265,14 @@ class ResidentOn : public ResidentEngine {
     Array<WallTotals> block(n_blocks);
     WallTotals *to = block.data();
     const SphereResult *result = result_.data();
-    const int *near = near_.data();
+    const int *near = near_.data(), *n_contacts = n_contacts_.data();
+    const Real *uncertain = uncertain_of_near();
     b_.for_each(n_blocks, [=] LSDCD_LAMBDA(std::size_t b) {
       WallTotals t;
       const std::size_t end = (b + 1) * kTotalsBlock < n ? (b + 1) * kTotalsBlock : n;
       for (std::size_t k = b * kTotalsBlock; k < end; k++) {
-        const SphereResult &r = result[k];
-        if (r.n_contacts > 0 || r.uncertain > 0) add_result(t, r, r.torque, r.uncertain, near[k]);
+        if (uncertain && uncertain[k] > 0) add_uncertain(t, uncertain[k]);
+        if (n_contacts[k] > 0) add_result(t, result[k], result[k].torque, near[k]);
       }
       to[b] = t;
     });
@@ -256,6 +281,15 @@ class ResidentOn : public ResidentEngine {
 
  private:
   static constexpr int kCrowdLawLanes = 128;    // that compute forces of crowded spheres
+
+  void make_room()
+  {
+    const std::size_t n = n_near_, room = n + n / 8;
+    if (n_contacts_.size() < n) n_contacts_ = Array<int>(room);
+    if (may_miss_any(grid_) && uncertain_.size() < n) uncertain_ = Array<Real>(room);
+    if constexpr (B::kFindsFirst) found_.reserve(b_, n);
+  }
+  Real *uncertain_of_near() { return may_miss_any(grid_) ? uncertain_.data() : nullptr; }
 
   StepCounts read_counts() { return b_.to_host(counts_, 1)[0]; }
 
@@ -303,12 +337,15 @@ class ResidentOn : public ResidentEngine {
 
   Array<int> near_;
   std::size_t n_near_ = 0;
-  Array<SphereResult> result_;
+  Array<SphereResult> result_;    // where there are contacts
+  Array<int> n_contacts_;
+  Array<Real> uncertain_;    // overlap / radius, where the grid may miss any
   Array<Real> heat_;
   Array<int> place_;
 
   Array<StepCounts> counts_;
   ResidentCrowd<B> crowd_;
+  FoundContacts<B> found_;    // where they are found first
 
   WallTotals totals_;
   bool totals_known_ = true;

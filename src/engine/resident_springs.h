@@ -101,11 +101,10 @@ class ResidentSprings {
     end_ = kUnknown;
   }
 
-  // The records of the last step, gaps and all; `moved`: did it move springs?
-  std::vector<ContactRecord> records(B &b, const StepCounts &last, bool moved)
+  // The records of the last step, with gaps; `moved`: did it move springs?
+  const ContactRecord *records(bool moved) const
   {
-    const int which = moved ? now_ : 1 - now_;
-    return b.to_host(pool_[which].records, pool_[which].shared + last.shared_used[which]);
+    return pool_[moved ? now_ : 1 - now_].records.data();
   }
 
   void to_store(B &b, SpringStore &store, std::size_t n)

@@ -9,16 +9,17 @@ namespace lsdcd {
 // bits whatever the number of threads.
 constexpr int kTotalsBlock = 256;
 
-// Adds the result of sphere i; `moment` is that of its force and torque about the origin,
-// `uncertain` the overlap / radius that it may have missed, or 0.
-LSDCD_FN void add_result(WallTotals &t, const SphereResult &r, const Vec3 &moment, Real uncertain,
-                         int i)
+// Adds the overlap / radius > 0 that a sphere may have missed.
+LSDCD_FN void add_uncertain(WallTotals &t, Real uncertain)
 {
-  if (uncertain > 0) {
-    t.uncertified++;
-    t.largest_uncertain = fmax(t.largest_uncertain, uncertain);
-  }
-  if (r.n_contacts <= 0) return;
+  t.uncertified++;
+  t.largest_uncertain = fmax(t.largest_uncertain, uncertain);
+}
+
+// Adds the result of sphere i, which touches; `moment` is that of its force and torque
+// about the origin.
+LSDCD_FN void add_result(WallTotals &t, const SphereResult &r, const Vec3 &moment, int i)
+{
   t.energy += r.energy;
   t.force -= r.force;
   t.torque -= moment;

@@ -46,6 +46,18 @@ LSDCD_FN void search(const GridView &grid, const SearchSettings &settings, const
   }
 }
 
+// Can a search of this grid miss contacts?
+LSDCD_FN bool may_miss_any(const GridView &grid)
+{
+  return grid.nearest > 0 && !grid.complete.bricks;
+}
+
+// Overlap of the deepest contact that may be missing; 0: certified.
+LSDCD_FN Real may_miss(Real reach, Real exact_within)
+{
+  return exact_within < reach ? reach - exact_within : 0;
+}
+
 // Gives every contact its weight. Overlaps are shared as those of a sphere of radius
 // `reach`, so that they are greater than 0 as long as a contact holds, and 0 where it lets
 // go.

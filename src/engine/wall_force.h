@@ -21,7 +21,7 @@ struct SphereState {
 // What the wall does to it. n_contacts counts the contacts that bear, and the springs;
 // it is kOverflow where the contacts did not fit: nothing else is valid then and the
 // sphere has to be done again.
-struct SphereResult {
+struct alignas(16) SphereResult {
   Vec3 force, torque;
   Real energy;
   Real overlap_ratio;     // largest overlap / radius
@@ -29,6 +29,7 @@ struct SphereResult {
   Real weight;            // sum of |normal force|
   Real uncertain;         // overlap of the deepest contact that may be missing; 0: certified
   int n_contacts;
+  int pad;    // keeps the record free of indeterminate bytes
 };
 constexpr int kOverflow = -1;
 
@@ -87,7 +88,7 @@ LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ContactsView &set
 }
 
 // The half of the kernel that each law has of its own. Numbers are of type Law::Number
-// inside the law, Real outside.
+// inside the law, Real outside. `weights` null: all are 1.
 template <class Law>
 LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
                            const SphereState &s, const ContactsView &set, const Real *weights,
@@ -95,7 +96,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
 {
   using T = typename Law::Number;
   for (int i = 0; i < set.n; i++) {
-    const Real weight = weights[i];
+    const Real weight = weights ? weights[i] : 1;
     const Real overlap = s.radius - set.distance[i], ratio = overlap / s.radius;
     if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
     // A contact that bears nothing, as the far face of a thin plate, is none. Nor has
@@ -164,7 +165,7 @@ LSDCD_FN void find_touch(const GridView &grid, const Law &law, const ForceSettin
   else
     touch<Law::kBeyond, WallGeometry>(grid, settings.search, searcher, touching);
   if (touching.set.overflow) out.n_contacts = kOverflow;
-  if (touching.exact_within < reach) out.uncertain = reach - touching.exact_within;
+  out.uncertain = may_miss(reach, touching.exact_within);
 }
 
 // `sink` has room for kPlaces contacts.

@@ -40,7 +40,7 @@ Real force_at(Real v_normal, const HostLaw &law)
   settings.dt = 1e-4;
   SphereResult result;
   LawJob job = job_of(scene.grid.view(), settings, spheres);
-  job.result = &result;
+  return_results(job, &result);
   CpuBackend backend;
   law.start(law.law, job, 1, backend);
   EXPECT_EQ(result.n_contacts, 1);

@@ -104,7 +104,8 @@ bool agree(const Set &a, const Set &b)
 {
   bool all = a.n == b.n;
   for (int i = 0; i < a.n && all; i++)
-    all = std::find(b.feature, b.feature + b.n, a.feature[i]) != b.feature + b.n;
+    all =
+        std::find(b.feature.data(), b.feature.data() + b.n, a.feature[i]) != b.feature.data() + b.n;
   return all;
 }
 

@@ -109,6 +109,25 @@ TriangleSoup cone_mesh(int n, Real radius, Real height)
   return soup;
 }
 
+TriangleSoup faces_all_round(int n)
+{
+  TriangleSoup soup;
+  soup.source = "faces all round";
+  for (int i = 0; i < n; i++) {
+    // A spiral that spreads them evenly.
+    const Real z = 1 - (2 * i + Real(1)) / n, r = std::sqrt(1 - z * z), phi = Real(2.399963) * i;
+    const Vec3 out = {r * std::cos(phi), r * std::sin(phi), z};
+    const Vec3 u = (1 / norm(cross(out, {0.3, 0.5, 0.8}))) * cross(out, {0.3, 0.5, 0.8});
+    const Vec3 v = cross(out, u);
+    const Real size = Real(0.02);
+    for (int k = 0; k < 3; k++) {
+      const Real a = Real(2.0943951) * k;
+      soup.corners.push_back(out + (size * std::cos(a)) * u + (size * std::sin(a)) * v);
+    }
+  }
+  return soup;
+}
+
 void append(TriangleSoup &soup, const TriangleSoup &more)
 {
   soup.corners.insert(soup.corners.end(), more.corners.begin(), more.corners.end());

@@ -30,6 +30,9 @@ TriangleSoup hinge_mesh(Real degrees, Real half);
 // An open cone of n facets, its tip at the origin, widening downwards to z = -height.
 TriangleSoup cone_mesh(int n, Real radius, Real height);
 
+// n small faces all round the origin, each with its middle at distance 1: n contacts.
+TriangleSoup faces_all_round(int n);
+
 void append(TriangleSoup &soup, const TriangleSoup &more);
 
 // A wall and an engine on it, ready for steps on one or more spheres.

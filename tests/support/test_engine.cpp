@@ -11,11 +11,10 @@ namespace {
 // every step. Vectors lie there as x x x y y y z z z, as nothing else in the tests does.
 class ResidentForHost : public WallEngine {
  public:
-  ResidentForHost(const EngineSettings &settings, bool cuda) :
-      engine_(cuda ? make_resident_cuda_engine(settings, 0, nullptr)
-                   : make_resident_cpu_engine(settings)),
-      has_history_(settings.law.has_history()), x_(cuda), v_(cuda), omega_(cuda), force_(cuda),
-      torque_(cuda), radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda), mask_(cuda)
+  ResidentForHost(std::unique_ptr<ResidentEngine> engine, bool has_history, bool cuda) :
+      engine_(std::move(engine)), has_history_(has_history), x_(cuda), v_(cuda), omega_(cuda),
+      force_(cuda), torque_(cuda), radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda),
+      mask_(cuda)
   {
   }
 
@@ -96,9 +95,18 @@ class ResidentForHost : public WallEngine {
 
 }    // namespace
 
+std::unique_ptr<WallEngine> for_host(std::unique_ptr<ResidentEngine> engine, bool has_history,
+                                     bool cuda)
+{
+  return std::make_unique<ResidentForHost>(std::move(engine), has_history, cuda);
+}
+
 std::unique_ptr<WallEngine> make_resident_test_engine(const EngineSettings &settings)
 {
-  return std::make_unique<ResidentForHost>(settings, settings.device == Device::cuda);
+  const bool cuda = settings.device == Device::cuda;
+  return for_host(cuda ? make_resident_cuda_engine(settings, 0, nullptr)
+                       : make_resident_cpu_engine(settings),
+                  settings.law.has_history(), cuda);
 }
 
 std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings)

@@ -11,6 +11,10 @@ namespace lsdcd {
 // live where it computes, behind the door of one for a host's.
 std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings);
 
+// A resident engine behind the door of one for a host's particles; `cuda`: they are on a GPU.
+std::unique_ptr<WallEngine> for_host(std::unique_ptr<ResidentEngine> engine, bool has_history,
+                                     bool cuda);
+
 // The same, by name. `settings.device` says where.
 std::unique_ptr<WallEngine> make_resident_test_engine(const EngineSettings &settings);
 

@@ -47,26 +47,6 @@ void expect_same(const Outcome &a, const Outcome &b, const std::string &name)
   EXPECT_GT(a.totals.contacts, 0) << name;
 }
 
-// Faces all round the origin, each with its middle at distance 1: n contacts.
-TriangleSoup faces_all_round(int n)
-{
-  TriangleSoup soup;
-  soup.source = "faces all round";
-  for (int i = 0; i < n; i++) {
-    // A spiral that spreads them evenly.
-    const Real z = 1 - (2 * i + Real(1)) / n, r = std::sqrt(1 - z * z), phi = Real(2.399963) * i;
-    const Vec3 out = {r * std::cos(phi), r * std::sin(phi), z};
-    const Vec3 u = (1 / norm(cross(out, {0.3, 0.5, 0.8}))) * cross(out, {0.3, 0.5, 0.8});
-    const Vec3 v = cross(out, u);
-    const Real size = Real(0.02);
-    for (int k = 0; k < 3; k++) {
-      const Real a = Real(2.0943951) * k;
-      soup.corners.push_back(out + (size * std::cos(a)) * u + (size * std::sin(a)) * v);
-    }
-  }
-  return soup;
-}
-
 ContactLaw history()
 {
   return classic(LawStyle::hertz_history);
@@ -314,8 +294,10 @@ TEST(resident, springs_follow_through_pack_and_unpack)
   EXPECT_TRUE(same_springs(after, n - 1, own, n - 1));
 }
 
-// A backend that counts what crosses between host and device, and waiting.
+// A backend that counts what crosses between host and device, and waiting; it finds
+// contacts first, as a GPU does.
 struct CountingBackend : CpuBackend {
+  static constexpr bool kFindsFirst = true;
   static int &crossings()
   {
     static int n = 0;
@@ -364,7 +346,7 @@ TEST(resident, a_step_without_outputs_neither_copies_nor_waits)
   particles.engine = std::make_unique<ResidentOn<CountingBackend>>(
       with_history(),
       CompiledLaw<CountingBackend>{traits_of<Law>(), LawBytes(law),
-                                   start_law<Law, CountingBackend>},
+                                   start_found_law<Law, CountingBackend>},
       CountingBackend());
   particles.engine->set_grid(particles.flat.view());
   particles.engine->grow(2000);

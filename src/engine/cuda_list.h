@@ -1,0 +1,43 @@
+// Sorting things into lists on an NVIDIA GPU.
+#pragma once
+
+#include <cuda_runtime.h>
+
+#include <cstddef>
+
+namespace lsdcd {
+
+// Threads of a block, and blocks at once on a processor: 80 registers are left to a thread.
+constexpr unsigned kListBlock = 128, kListBlocks = 6;
+
+// Work::find() says into which of kLists lists a thing goes, -1 for none, and Work::keep()
+// is told its place there. The lists grow by a block of threads at a time: one atomic
+// addition each, and neighbours stay together.
+template <int kLists, class Work>
+__global__ void __launch_bounds__(kListBlock, kListBlocks)
+    cuda_list(std::size_t n, const __grid_constant__ Work work, int *listed)
+{
+  __shared__ int of_block[kLists], before_block[kLists];
+  if (threadIdx.x < kLists) of_block[threadIdx.x] = 0;
+  __syncthreads();
+  const std::size_t i = std::size_t(blockIdx.x) * kListBlock + threadIdx.x;
+  typename Work::Item item;
+  const int list = i < n ? work.find(i, item) : -1;
+  const unsigned lane = threadIdx.x % 32;
+  int at = 0;
+#pragma unroll
+  for (int l = 0; l < kLists; l++) {
+    const unsigned vote = __ballot_sync(~0u, list == l);
+    int first = 0;
+    if (lane == 0 && vote) first = atomicAdd(&of_block[l], __popc(vote));
+    first = __shfl_sync(~0u, first, 0);
+    if (list == l) at = first + __popc(vote & ((1u << lane) - 1));
+  }
+  __syncthreads();
+  if (threadIdx.x < kLists && of_block[threadIdx.x] > 0)
+    before_block[threadIdx.x] = atomicAdd(&listed[threadIdx.x], of_block[threadIdx.x]);
+  __syncthreads();
+  if (list >= 0) work.keep(list, before_block[list] + at, i, item);
+}
+
+}    // namespace lsdcd
