@@ -145,11 +145,29 @@ bool FixWallLsdcdKokkos<DeviceType>::list_keeps() const
 }
 
 template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::choose(const lsdcd::Spheres &s)
+void FixWallLsdcdKokkos<DeviceType>::choose_if_due(const lsdcd::Spheres &s)
 {
+  if (history) springs_to_device();
+  if (!list_is_old && list_keeps()) return;
   resident().choose(s, list_keeps() ? 0.5 * neighbor->skin : 0.0);
   list_is_old = false;
   lists_made++;
+}
+
+// Before the forces between atoms: contacts are searched for beside those on a GPU.
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::start()
+{
+  if (lsdcd::kOnHost<DeviceType> || wall->reach() == 0) return;
+  atomKK->sync(execution_space, X_MASK | RADIUS_MASK | MASK_MASK);
+  lsdcd::Spheres s = spheres();
+  try {
+    choose_if_due(s);
+    resident().mark_places();
+  } catch (const std::exception &e) {
+    error->one(FLERR, std::string("Fix wall/lsdcd/kk: ") + e.what());
+  }
+  running = true;
 }
 
 template <class DeviceType>
@@ -161,8 +179,7 @@ void FixWallLsdcdKokkos<DeviceType>::collect()
     lsdcd::Spheres s = spheres();
     const lsdcd::StepSettings step = step_settings(s);
     try {
-      if (history) springs_to_device();
-      if (list_is_old || !list_keeps()) choose(s);
+      if (!running) choose_if_due(s);
       engine->start(s, step, nullptr);
       engine->collect();
     } catch (const std::exception &e) {
@@ -171,6 +188,7 @@ void FixWallLsdcdKokkos<DeviceType>::collect()
     atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
     n_with_springs = atom->nlocal;
     steps_run++;
+    running = false;
   }
   keep_outputs();
 }

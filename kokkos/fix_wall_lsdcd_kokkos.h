@@ -42,7 +42,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
 #endif
 
  protected:
-  void start() override {}    // all of a step is in collect()
+  void start() override;
   void collect() override;
   void fill_masses() override;
   double largest_radius() override;
@@ -54,7 +54,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
     return static_cast<lsdcd::ResidentEngine &>(*engine);
   }
   lsdcd::Spheres spheres();
-  void choose(const lsdcd::Spheres &);
+  void choose_if_due(const lsdcd::Spheres &);
   bool list_keeps() const;
   void look();
   void prepare_springs();

@@ -21,6 +21,23 @@ struct CpuBackend {
   // Are contacts found ahead of the law? One pass is best here.
   static constexpr bool kFindsFirst = false;
 
+  // Kernels beside others: here they are done at once.
+  struct Beside {
+    template <class B>
+    void mark(const B &)
+    {
+    }
+    template <class B>
+    B &begin(B &b)
+    {
+      return b;
+    }
+    template <class B>
+    void join(const B &)
+    {
+    }
+  };
+
   // allocate
   struct Memory {
     static void *allocate(std::size_t bytes) { return ::operator new(bytes); }

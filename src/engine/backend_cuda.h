@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -116,6 +117,55 @@ struct CudaBackend {
   static constexpr bool kFindsFirst = true;
 
   cudaStream_t stream = nullptr;
+
+  // A stream of its own for kernels that run beside others of the backend: small ones that
+  // wait for memory, behind large ones that do not wait for them. What begin() gives them to
+  // waits for what the backend had been given before mark(); join() has the backend wait for
+  // them.
+  class Beside {
+   public:
+    Beside() = default;
+    ~Beside()
+    {
+      if (!mine_) return;
+      cudaStreamDestroy(mine_->stream);
+      cudaEventDestroy(begin_);
+      cudaEventDestroy(end_);
+    }
+    Beside(const Beside &) = delete;
+    Beside &operator=(const Beside &) = delete;
+
+    void mark(const CudaBackend &b)
+    {
+      if (!mine_) create();
+      cuda_check(cudaEventRecord(begin_, b.stream), "recording an event");
+    }
+    CudaBackend &begin(CudaBackend &)
+    {
+      cuda_check(cudaStreamWaitEvent(mine_->stream, begin_), "waiting for an event");
+      return *mine_;
+    }
+    void join(const CudaBackend &b)
+    {
+      cuda_check(cudaEventRecord(end_, mine_->stream), "recording an event");
+      cuda_check(cudaStreamWaitEvent(b.stream, end_), "waiting for an event");
+    }
+
+   private:
+    void create()
+    {
+      int least = 0, greatest = 0;
+      cuda_check(cudaDeviceGetStreamPriorityRange(&least, &greatest), "asking for priorities");
+      cuda_check(cudaEventCreateWithFlags(&begin_, cudaEventDisableTiming), "creating an event");
+      cuda_check(cudaEventCreateWithFlags(&end_, cudaEventDisableTiming), "creating an event");
+      auto mine = std::make_unique<CudaBackend>();
+      cuda_check(cudaStreamCreateWithPriority(&mine->stream, cudaStreamNonBlocking, greatest),
+                 "creating a stream");
+      mine_ = std::move(mine);
+    }
+    std::unique_ptr<CudaBackend> mine_;
+    cudaEvent_t begin_ = nullptr, end_ = nullptr;
+  };
 
   // allocate
   struct Memory {

@@ -27,6 +27,11 @@ class ResidentEngine : public WallEngine {
   // InputError if a sphere is larger than the grid's reach.
   virtual void choose(const Spheres &spheres, Real margin) = 0;
 
+  // Says that spheres have their places of the next step and keep them until start(): the
+  // search for contacts, which start() begins, may run beside what the device is given in
+  // between, such as the forces between particles. Only costs time where that is nothing.
+  virtual void mark_places() = 0;
+
   // Largest radius in the group. Waits.
   virtual Real largest_radius(const Spheres &spheres) = 0;
 

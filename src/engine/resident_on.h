@@ -64,6 +64,7 @@ class ResidentOn : public ResidentEngine {
   void choose(const Spheres &spheres, Real margin) override
   {
     const std::size_t n = spheres.n;
+    marked_ = false;
     if (near_.size() < n) near_ = Array<int>(n + n / 8);
     const GridView grid = grid_;
     const BrickWord *words = words_.data();
@@ -95,7 +96,17 @@ class ResidentOn : public ResidentEngine {
       if (law_.traits.heat) heat_ = Array<Real>(room);
       if (law_.traits.records) place_ = Array<int>(room);
     }
+    make_room();
     near_known_ = false;
+  }
+
+  void mark_places() override
+  {
+    if constexpr (B::kFindsFirst) {
+      if (n_near_ == 0) return;
+      beside_.mark(b_);
+      marked_ = true;
+    }
   }
 
   void start(const Spheres &spheres, const StepSettings &step, SpringStore *) override
@@ -103,26 +114,17 @@ class ResidentOn : public ResidentEngine {
     spheres_ = spheres;
     step_ = step;
     totals_known_ = false;
+    const bool marked = marked_;
+    marked_ = false;
     if (n_near_ == 0) return;
-    make_room();
-    LawJob job = job_of(grid_, force_settings(settings_, step), spheres);
-    job.near = near_.data();
-    job.springs = springs_.view();
-    job.result = result_.data();
-    job.n_contacts = {n_contacts_.data()};
-    job.uncertain = {uncertain_of_near()};
-    job.sink = {nullptr, nullptr, heat_.data(), nullptr};
-    job.in_place.counts = counts_.data();
-    job.in_place.force = spheres.force;
-    job.in_place.torque = spheres.torque;
-    job.in_place.heat_flow = spheres.heat_flow;
-    job.in_place.pool = springs_.next(place_.data());
-    job.in_place.crowd = crowd_.view();
+    LawJob job = prepare(spheres, step);
     const Real pull_off = settings_.law.pull_off();
     if constexpr (B::kFindsFirst) {
       job.found = found_.next();
-      find_first(b_, job, n_near_, pull_off);
-      crowd_.find(b_, job, pull_off);
+      B &b = marked ? beside_.begin(b_) : b_;
+      find_first(b, job, n_near_, pull_off);
+      crowd_.find(b, job, pull_off);
+      if (marked) beside_.join(b_);
       law_.start(law_.law, job, n_near_, b_);
     } else {
       clear_counts(job.in_place);
@@ -217,24 +219,30 @@ class ResidentOn : public ResidentEngine {
   void fetch_output()
   {
     const std::size_t n = n_near_;
+    const bool has_heat = law_.traits.heat;
     Array<SphereOutput> out(n);
+    Array<Real> heat_out(has_heat ? n : 0);
     SphereOutput *to = out.data();
+    Real *to_heat = heat_out.data();
+    const Real *from_heat = heat_.data();
     const SphereResult *result = result_.data();
     const int *near = near_.data(), *n_contacts = n_contacts_.data();
     const Spheres spheres = spheres_;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = near[k];
+      const bool touches = n_contacts[k] > 0;    // nothing is written of others
       to[k] = SphereOutput();
-      if (n_contacts[k] > 0) to[k] = output_of(result[k], spheres.x[i], spheres.radius[i]);
+      if (touches) to[k] = output_of(result[k], spheres.x[i], spheres.radius[i]);
+      if (has_heat) to_heat[k] = touches ? from_heat[k] : 0;
     });
     const std::vector<SphereOutput> all = b_.to_host(out, n);
-    const std::vector<Real> heat = b_.to_host(heat_, law_.traits.heat ? n : 0);
+    const std::vector<Real> heat = b_.to_host(heat_out, heat_out.size());
     know_near();
     for (std::size_t k = 0; k < n; k++) {
       if (!(all[k].contacts > 0)) continue;
       touching_.push_back(near_host_[k]);
       output_.push_back(all[k]);
-      if (law_.traits.heat) sphere_heat_.push_back(heat[k]);
+      if (has_heat) sphere_heat_.push_back(heat[k]);
     }
   }
 
@@ -281,6 +289,24 @@ class ResidentOn : public ResidentEngine {
 
  private:
   static constexpr int kCrowdLawLanes = 128;    // that compute forces of crowded spheres
+
+  LawJob prepare(const Spheres &spheres, const StepSettings &step)
+  {
+    LawJob job = job_of(grid_, force_settings(settings_, step), spheres);
+    job.near = near_.data();
+    job.springs = springs_.view();
+    job.result = result_.data();
+    job.n_contacts = {n_contacts_.data()};
+    job.uncertain = {uncertain_of_near()};
+    job.sink = {nullptr, nullptr, heat_.data(), nullptr};
+    job.in_place.counts = counts_.data();
+    job.in_place.force = spheres.force;
+    job.in_place.torque = spheres.torque;
+    job.in_place.heat_flow = spheres.heat_flow;
+    job.in_place.pool = springs_.next(place_.data());
+    job.in_place.crowd = crowd_.view();
+    return job;
+  }
 
   void make_room()
   {
@@ -345,6 +371,8 @@ class ResidentOn : public ResidentEngine {
 
   Array<StepCounts> counts_;
   ResidentCrowd<B> crowd_;
+  typename B::Beside beside_;
+  bool marked_ = false;
   FoundContacts<B> found_;    // where they are found first
 
   WallTotals totals_;

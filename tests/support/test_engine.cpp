@@ -31,18 +31,23 @@ class ResidentForHost : public WallEngine {
       return from ? to.put(from, n) : nullptr;
     };
     s.x = put_vectors(x_, host.x, n);
+    s.radius = put(radius_, host.radius);
+    s.mask = host.mask ? mask_.put(host.mask, n) : nullptr;
+    if (springs_) engine_->springs_from(*springs_, host.n);
+    // As LAMMPS has it: places first, and the forces of others after the search has begun.
+    s.v = s.omega = {};
+    s.force = s.torque = {};
+    s.mass = s.temperature = s.heat_flow = nullptr;
+    engine_->choose(s, 0);
+    engine_->mark_places();
     s.v = put_vectors(v_, host.v, n);
     s.omega = put_vectors(omega_, host.omega, n);
     const std::vector<Real> none(3 * n, 0);
     s.force = {force_.put(none), 1, static_cast<std::ptrdiff_t>(n)};
     s.torque = {torque_.put(none), 1, static_cast<std::ptrdiff_t>(n)};
-    s.radius = put(radius_, host.radius);
     s.mass = put(mass_, host.mass);
     s.temperature = put(temperature_, host.temperature);
     s.heat_flow = put(heat_, host.heat_flow);
-    s.mask = host.mask ? mask_.put(host.mask, n) : nullptr;
-    if (springs_) engine_->springs_from(*springs_, host.n);
-    engine_->choose(s, 0);
     engine_->start(s, step, nullptr);
     moves_ = step.update_history;
   }
