@@ -3,9 +3,7 @@
 // device.
 #include "bench.h"
 
-#include "base/input_error.h"
 #include "mesh/wall_mesh.h"
-#include "on_cuda.h"
 #include "query/sphere_query.h"
 #include "study/spheres.h"
 
@@ -65,7 +63,7 @@ class Queries {
 
   // Grids in float are asked about spheres in float, others about spheres in double.
   void measure(const char *question, const TriangleGrid &grid, const SphereSet &set,
-               const QuerySettings &settings, bool other_ways)
+               const QuerySettings &settings)
   {
     give(*query_, grid, set);
     const std::string name =
@@ -87,20 +85,6 @@ class Queries {
     const std::vector<Real> distance = query_->distance();
     row.facts = facts(grid, status);
     rows_.add(row);
-#if defined(LSDCD_HAVE_CUDA)
-    if (!other_ways || device_ != Device::cuda) return;
-    for (OtherWay &way : other_cuda_ways()) {
-      give(*way.query, grid, set);
-      row.what = name + ", " + way.name;
-      row.timing = timed(*way.query, settings);
-      row.facts.clear();
-      if (way.query->status() != status || way.query->distance() != distance)
-        throw InputError(row.what + " does not give the same answers");
-      rows_.add(row);
-    }
-#else
-    (void) other_ways;
-#endif
   }
 
  private:
@@ -156,9 +140,9 @@ void measure_status(const BenchOptions &o, Queries &queries)
       const SphereSet set = make_set(static_cast<std::size_t>(n), order, false);
       for (int nearest : {1, 2, 3, 0}) {
         TriangleGrid grid = queries.grid(mesh, length, nearest);
-        if (nearest == 0) queries.measure("status", grid, set, settings, false);
+        if (nearest == 0) queries.measure("status", grid, set, settings);
         add_brick_records(grid);
-        queries.measure("status", grid, set, settings, nearest == 0);
+        queries.measure("status", grid, set, settings);
       }
     }
 }
@@ -174,7 +158,7 @@ void measure_distance(const BenchOptions &o, Queries &queries)
     for (bool in_floats : {false, true}) {
       if (in_floats) add_brick_records(grid);
       for (const SphereSet *set : {&random, &sorted})
-        queries.measure("distance", grid, *set, QuerySettings(), in_floats);
+        queries.measure("distance", grid, *set, QuerySettings());
     }
   }
 }

@@ -1,7 +1,6 @@
 #include "on_cuda.h"
 
-#include "query/near_first_cuda.h"
-#include "query/query_on.h"
+#include "engine/backend_cuda.h"
 
 #include <algorithm>
 
@@ -32,14 +31,6 @@ double cuda_brute_force_ms(const TriangleGrid &grid, std::size_t n, std::size_t 
 {
   CudaBackend b;
   return brute_force_ms(b, grid, n, stride);
-}
-
-std::vector<OtherWay> other_cuda_ways()
-{
-  std::vector<OtherWay> all;
-  all.push_back({"near first, 4 blocks",
-                 std::make_unique<QueryOn<CudaBackend, NearFirstWith<4>>>(CudaBackend())});
-  return all;
 }
 
 }    // namespace lsdcd

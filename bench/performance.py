@@ -34,7 +34,6 @@ PAPER_MS = {("10000000", "N = 1"): 362, ("10000000", "N = 2"): 565, ("10000000",
             ("10000000", "complete"): 57899, ("60000000", "N = 2"): 3488}
 FORCE_TARGETS = (0.25, 0.15)    # hooke on resident particles, 160 triangles, chosen anew
 HISTORY_RATIO = 2    # hertz/history there, over its floor
-WAYS = ("", "near first, 4 blocks")
 USUAL_SIZE = "10000000"
 
 
@@ -171,14 +170,9 @@ def by_order(targets, key_, order):
     return number(pair[order == "sorted"]) if pair else ""
 
 
-def way_of(case):
-    parts = case.split(", ", 3)    # question, lists, number type
-    return parts[3] if len(parts) > 3 else ""
-
-
 def status_table(cpu, cuda):
     def is_status(case):
-        return case.startswith("status") and not way_of(case)
+        return case.startswith("status")
 
     cpu, cuda = of(cpu, "query", is_status), of(cuda, "query", is_status)
 
@@ -197,7 +191,7 @@ def status_table(cpu, cuda):
 
 def distance_table(cpu, cuda):
     def is_distance(case):
-        return case.startswith("distance") and not way_of(case)
+        return case.startswith("distance")
 
     cpu, cuda = of(cpu, "query", is_distance), of(cuda, "query", is_distance)
 
@@ -212,25 +206,6 @@ def distance_table(cpu, cuda):
     heads = ["triangles", "numbers", "order", "entries read", "CUDA, ms", "floor", "ratio",
              "target", "prototype", "BVH", "CPU, ms", "floor", "ratio"]
     return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
-
-
-def ways_table(cuda):
-    rows = of(cuda, "query", lambda case: "complete, float" in case)
-    with_ways = [r for r in rows if not way_of(r["case"]) and
-                 find(rows, case=r["case"] + ", " + WAYS[1], triangles=r["triangles"],
-                      spheres=r["spheres"], order=r["order"])]
-    if not with_ways:
-        return "No rows of a GPU are kept yet."
-
-    def cells(r):
-        ways = [find(rows, case=r["case"] + (", " + w if w else ""), triangles=r["triangles"],
-                     spheres=r["spheres"], order=r["order"]) for w in WAYS]
-        return [r["case"].split(",")[0], count(r["triangles"]), count(r["spheres"]), r["order"],
-                number(r["floor_ms"]), *[number(w["median_ms"]) if w else "" for w in ways]]
-
-    heads = ["question", "triangles", "spheres", "order", "floor",
-             "near first, 3 blocks (the library's)", *WAYS[1:]]
-    return table(with_ways, heads, cells) + "\n\n" + machines({"cuda": rows})
 
 
 def build_table(cpu, cuda):
@@ -302,7 +277,7 @@ def cache_table(cpu):
 def parts(cpu, cuda):
     """The generated parts of the document, with their markers."""
     text = {"status": status_table(cpu, cuda), "distance": distance_table(cpu, cuda),
-             "ways": ways_table(cuda), "build": build_table(cpu, cuda),
+             "build": build_table(cpu, cuda),
              "step": step_table(cpu, cuda, False),
              "resident": step_table(cpu, cuda, True), "cache": cache_table(cpu)}
     return {name: f"{begin(name)}\n{table_}\n{end(name)}" for name, table_ in text.items()}

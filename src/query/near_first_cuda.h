@@ -23,6 +23,7 @@ struct alignas(16) NearSphere {
 };
 
 constexpr unsigned kNearBlock = 256, kNearEach = 4,    // threads, and spheres of each
+    kAnswerBlocks = 3,    // of the second kernel, at once on a processor: 80 registers a thread
     kNearTile = kNearBlock * kNearEach, kTileBits = 10;
 static_assert(kNearTile == 1u << kTileBits, "a place in a tile takes these bits");
 static_assert(kBrickCells <= 1 << (32 - kTileBits), "a cell of a brick fits above them");
@@ -153,8 +154,8 @@ struct NearCounts {
 
 // Answers the listed spheres but those with long lists, which it lists in turn as far as
 // `most_long` go, and clears the counts that the next run begins with.
-template <int kBlocks, class Work>
-__global__ void __launch_bounds__(kNearBlock, kBlocks)
+template <class Work>
+__global__ void __launch_bounds__(kNearBlock, kAnswerBlocks)
     answer_listed(std::size_t from, const __grid_constant__ Work work,
                   const NearSphere<typename Work::Item> *list, NearCounts *counts,
                   NearCounts *next_counts, NearSphere<typename Work::Item> *long_list,
@@ -190,9 +191,7 @@ __global__ void __launch_bounds__(kNearBlock)
   }
 }
 
-// kBlocks: of the second kernel, at once on a processor.
-template <int kBlocks>
-class NearFirstWith {
+class NearFirst {
  public:
   // Room for the worst case, all spheres of a run near: 32 bytes for each in float, 48 in double.
   template <class S>
@@ -223,9 +222,10 @@ class NearFirstWith {
                                                                               &mine->listed);
       cuda_check(cudaGetLastError(), "starting a kernel");
       const unsigned most = (m + kNearBlock - 1) / kNearBlock,
-                     some = processors_ * kTurns * kBlocks, blocks = most < some ? most : some;
-      answer_listed<kBlocks>
-          <<<blocks, kNearBlock, 0, b.stream>>>(from, work, list, mine, next, long_list, kMostLong);
+                     some = processors_ * kTurns * kAnswerBlocks,
+                     blocks = most < some ? most : some;
+      answer_listed<<<blocks, kNearBlock, 0, b.stream>>>(from, work, list, mine, next, long_list,
+                                                         kMostLong);
       cuda_check(cudaGetLastError(), "starting a kernel");
       if constexpr (Work::kTogether) {
         answer_long<<<processors_, kNearBlock, 0, b.stream>>>(from, work, long_list, mine,
@@ -246,6 +246,5 @@ class NearFirstWith {
   CudaBackend::Array<NearCounts> counts_;        // of this run and of the next
   int processors_ = 0, turn_ = 0;
 };
-using NearFirst = NearFirstWith<3>;
 
 }    // namespace lsdcd

@@ -48,7 +48,8 @@ def for_host(text, flags):
 
 # With LSDCD_KOKKOS_MOVES=device atoms are sorted and exchanged by Kokkos's kernels, as on a GPU; on
 # a host without one Kokkos leaves that to LAMMPS.
-KOKKOS = ("-k", "on", "-sf", "kk")
+# LSDCD_KOKKOS_FLAGS: of a host on a GPU, "-k on g 1 -sf kk -pk kokkos newton off neigh half".
+KOKKOS = tuple(os.environ.get("LSDCD_KOKKOS_FLAGS", "-k on -sf kk").split())
 DEVICE_MOVES = os.environ.get("LSDCD_KOKKOS_MOVES") == "device"
 if DEVICE_MOVES:
     KOKKOS += ("-pk", "kokkos", "comm", "device", "sort", "device")
