@@ -111,7 +111,7 @@ def a_bed(checks, folder):
     start = re.sub(r"region +fill .*", "region fill block -5 5 -5 5 1.0 7.5 units box", start)
     start = start.replace("diameter 1.0", "diameter 0.8").replace("diameter 0.7", "diameter 0.56")
     # The order of create_atoms and the sums of velocity depend on the ranks.
-    output = deck.run_well(start + "write_data start.data\n", folder)
+    output = deck.run_well(start + "write_data start.data\n", folder, host=True, flags=PLAIN)
     count = int(re.search(r"Created (\d+) atoms", output).group(1))
     body = (scene.SETTINGS + "read_data start.data\n" + scene.forces(HISTORY, pair=True) +
             scene.dump("moves", 50) + "run 600\n")
