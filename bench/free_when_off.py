@@ -20,6 +20,7 @@ import tempfile
 from hard_cases import ROOT
 
 LAWS = ["hooke", "hooke/history", "hertz/history", "granular hertz, linear_history"]
+NVCC = shutil.which("nvcc") or "/usr/local/cuda/bin/nvcc"
 FLAGS = ["-std=c++17", "-O3", "-DNDEBUG", "-ffp-contract=off"]
 # Effects' branches in headers of the kernel, and the members that only they read.
 BRANCHES = {"engine/wall_force.h": ["Law::kSurface", "Law::kRecords", "Law::kCouple", "Law::kHeat",
@@ -83,6 +84,9 @@ def instructions_run(sources, build, law, folder):
     program = os.path.join(folder, "probe")
     libraries = [os.path.join(build, "tests", "liblsdcd_test_support.a"),
                  os.path.join(build, "src", "liblsdcd_core.a")]
+    runtime = os.path.join(os.path.dirname(NVCC), "..", "lib64", "libcudart_static.a")
+    if os.path.exists(runtime):    # of a build with CUDA
+        libraries += [runtime, "-ldl", "-lpthread", "-lrt"]
     run(["g++", *FLAGS, "-fopenmp", f"-DPROBE_LAW={law}", "-I" + sources,
          "-I" + os.path.join(ROOT, "tests"), os.path.join(ROOT, "bench", "kernel_probe.cpp"),
          *libraries, "-o", program])
@@ -92,9 +96,9 @@ def instructions_run(sources, build, law, folder):
     return int(re.search(r"Collected : (\d+)", text).group(1))
 
 
-def instructions_of_gpu(sources, nvcc, law, folder):
+def instructions_of_gpu(sources, law, folder):
     binary = os.path.join(folder, "probe.cubin")
-    run([nvcc, "-std=c++17", "-O3", "-DNDEBUG", "-fmad=false", "--expt-relaxed-constexpr",
+    run([NVCC, "-std=c++17", "-O3", "-DNDEBUG", "-fmad=false", "--expt-relaxed-constexpr",
          "-arch=sm_90", "-cubin", f"-DPROBE_LAW={law}", "-I" + sources,
          os.path.join(ROOT, "bench", "kernel_probe.cu"), "-o", binary])
     # Machine code is in sections .text.NAME, 16 bytes per instruction.
@@ -108,7 +112,6 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default="build", metavar="DIR")
     args = parser.parse_args()
-    nvcc = shutil.which("nvcc") or "/usr/local/cuda/bin/nvcc"
     with tempfile.TemporaryDirectory() as folder:
         whole, without = os.path.join(ROOT, "src"), os.path.join(folder, "src")
         shutil.copytree(whole, without)
@@ -123,9 +126,9 @@ def main():
         for law, name in enumerate(LAWS):
             counts = {"instructions run on the CPU (callgrind)":
                       [instructions_run(s, args.build, law, folder) for s in (whole, without)]}
-            if os.path.exists(nvcc):
+            if os.path.exists(NVCC):
                 counts["instructions of the kernel on sm_90 (SASS)"] = [
-                    instructions_of_gpu(s, nvcc, law, folder) for s in (whole, without)]
+                    instructions_of_gpu(s, law, folder) for s in (whole, without)]
             for what, (a, b) in counts.items():
                 print(f"| {name} | {what} | {a} | {b} |", flush=True)
                 differs = differs or a != b
