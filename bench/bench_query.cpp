@@ -65,14 +65,12 @@ class Queries {
   void measure(const char *question, const TriangleGrid &grid, const SphereSet &set,
                const QuerySettings &settings)
   {
-    give(*query_, grid, set);
-    const std::string name =
-        std::string(question) + ", " +
-        (grid.nearest > 0 ? "N = " + std::to_string(grid.nearest) : "complete") + ", " +
-        (grid.in_floats ? "float" : "double");
+    give(grid, set);
     const std::size_t n = set.exact.size();
     BenchRow row;
-    row.what = name;
+    row.what = std::string(question) + ", " +
+               (grid.nearest > 0 ? "N = " + std::to_string(grid.nearest) : "complete") + ", " +
+               (grid.in_floats ? "float" : "double");
     row.triangles = grid.wall.faces.size();
     row.spheres = n;
     row.length = grid.length;
@@ -80,27 +78,20 @@ class Queries {
     // Spheres in, a byte and maybe a distance out.
     row.bytes = double(n) * (grid.in_floats ? sizeof(FloatSphere) : sizeof(Sphere)) + double(n);
     if (settings.distance) row.bytes += double(n) * (grid.in_floats ? sizeof(float) : sizeof(Real));
-    row.timing = timed(*query_, settings);
-    const std::vector<std::uint8_t> status = query_->status();
-    const std::vector<Real> distance = query_->distance();
-    row.facts = facts(grid, status);
+    const QueryTiming t = query_->time(settings, repeats_);
+    row.timing = {t.median_ms, t.min_ms, t.max_ms, t.repeats};
+    row.facts = facts(grid, query_->status());
     rows_.add(row);
   }
 
  private:
-  static void give(SphereQuery &query, const TriangleGrid &grid, const SphereSet &set)
+  void give(const TriangleGrid &grid, const SphereSet &set)
   {
-    query.set_grid(grid);
+    query_->set_grid(grid);
     if (grid.in_floats)
-      query.set_spheres(set.rounded.data(), set.rounded.size());
+      query_->set_spheres(set.rounded.data(), set.rounded.size());
     else
-      query.set_spheres(set.exact.data(), set.exact.size());
-  }
-
-  Timing timed(SphereQuery &query, const QuerySettings &settings) const
-  {
-    const QueryTiming t = query.time(settings, repeats_);
-    return {t.median_ms, t.min_ms, t.max_ms, t.repeats};
+      query_->set_spheres(set.exact.data(), set.exact.size());
   }
 
   std::string facts(const TriangleGrid &grid, const std::vector<std::uint8_t> &status)

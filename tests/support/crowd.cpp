@@ -1,5 +1,7 @@
 #include "support/crowd.h"
 
+#include <gtest/gtest.h>
+
 #include <random>
 
 namespace lsdcd {
@@ -167,6 +169,17 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
   out.outputs.assign(engine->sphere_output(), engine->sphere_output() + engine->n_touching());
   out.records.assign(engine->records(), engine->records() + engine->n_records());
   return out;
+}
+
+void expect_same_rows(const Outcome &a, const Outcome &b, const std::string &name)
+{
+  EXPECT_TRUE(same_bytes(a.force, b.force)) << name;
+  EXPECT_TRUE(same_bytes(a.torque, b.torque)) << name;
+  EXPECT_TRUE(same_bytes(a.springs, b.springs)) << name;
+  EXPECT_TRUE(same_bytes(a.extra, b.extra)) << name;
+  EXPECT_TRUE(same_bytes(a.heat, b.heat)) << name;
+  EXPECT_TRUE(same_bytes(a.outputs, b.outputs)) << name;
+  EXPECT_TRUE(same_bytes(a.records, b.records)) << name;
 }
 
 }    // namespace lsdcd

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace lsdcd {
@@ -55,5 +56,8 @@ using EngineMaker = std::function<std::unique_ptr<WallEngine>(const EngineSettin
 
 Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make, int n_spheres,
                   const Search &search = kComplete, const EngineSettings &wall = {});
+
+// All but the totals, to the bit.
+void expect_same_rows(const Outcome &a, const Outcome &b, const std::string &name);
 
 }    // namespace lsdcd

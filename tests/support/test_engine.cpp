@@ -120,4 +120,16 @@ std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings)
   return test_is_resident() ? make_resident_test_engine(settings) : make_engine(settings);
 }
 
+std::unique_ptr<WallEngine> on_host(EngineSettings settings)
+{
+  settings.device = Device::cpu;
+  return make_engine(settings);
+}
+
+std::unique_ptr<WallEngine> in_place(EngineSettings settings)
+{
+  settings.device = test_device();
+  return make_resident_test_engine(settings);
+}
+
 }    // namespace lsdcd

@@ -18,4 +18,9 @@ std::unique_ptr<WallEngine> for_host(std::unique_ptr<ResidentEngine> engine, boo
 // The same, by name. `settings.device` says where.
 std::unique_ptr<WallEngine> make_resident_test_engine(const EngineSettings &settings);
 
+// What tests compare: an engine for a host's particles on the CPU, and a resident one on
+// the device that the run is for.
+std::unique_ptr<WallEngine> on_host(EngineSettings settings);
+std::unique_ptr<WallEngine> in_place(EngineSettings settings);
+
 }    // namespace lsdcd

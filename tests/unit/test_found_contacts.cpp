@@ -50,16 +50,6 @@ FoundLaw found_law(const EngineSettings &s)
   return with_granular_law(s.law, JkrNormal<Real>(g.modulus, g.cohesion), make);
 }
 
-std::unique_ptr<WallEngine> on_host(EngineSettings s)
-{
-  s.device = Device::cpu;
-  return make_engine(s);
-}
-std::unique_ptr<WallEngine> in_place(EngineSettings s)
-{
-  s.device = test_device();
-  return make_resident_test_engine(s);
-}
 std::unique_ptr<WallEngine> found_first(const EngineSettings &s)
 {
   return for_host(std::make_unique<ResidentOn<FindingFirst>>(s, found_law(s), FindingFirst()),
@@ -76,13 +66,7 @@ void expect_same(const Case &c, const EngineSettings &s, const Search &search)
   const Outcome a = run_steps(c, s.law, on_host, 2000, search, s);
   const Outcome b = run_steps(c, s.law, found_first, 2000, search, s);
   const std::string name = std::string(c.name) + ", " + search.name;
-  EXPECT_TRUE(same_bytes(a.force, b.force)) << name;
-  EXPECT_TRUE(same_bytes(a.torque, b.torque)) << name;
-  EXPECT_TRUE(same_bytes(a.springs, b.springs)) << name;
-  EXPECT_TRUE(same_bytes(a.extra, b.extra)) << name;
-  EXPECT_TRUE(same_bytes(a.heat, b.heat)) << name;
-  EXPECT_TRUE(same_bytes(a.outputs, b.outputs)) << name;
-  EXPECT_TRUE(same_bytes(a.records, b.records)) << name;
+  expect_same_rows(a, b, name);
   expect_same_totals(a.totals, b.totals, name);
   EXPECT_GT(a.totals.contacts, 0) << name;
 }

@@ -18,26 +18,9 @@ using namespace lsdcd;
 
 namespace {
 
-std::unique_ptr<WallEngine> on_host(EngineSettings s)
-{
-  s.device = Device::cpu;
-  return make_engine(s);
-}
-std::unique_ptr<WallEngine> in_place(EngineSettings s)
-{
-  s.device = test_device();
-  return make_resident_test_engine(s);
-}
-
 void expect_same(const Outcome &a, const Outcome &b, const std::string &name)
 {
-  EXPECT_TRUE(same_bytes(a.force, b.force)) << name;
-  EXPECT_TRUE(same_bytes(a.torque, b.torque)) << name;
-  EXPECT_TRUE(same_bytes(a.springs, b.springs)) << name;
-  EXPECT_TRUE(same_bytes(a.extra, b.extra)) << name;
-  EXPECT_TRUE(same_bytes(a.heat, b.heat)) << name;
-  EXPECT_TRUE(same_bytes(a.outputs, b.outputs)) << name;
-  EXPECT_TRUE(same_bytes(a.records, b.records)) << name;
+  expect_same_rows(a, b, name);
   EXPECT_EQ(a.totals.energy, b.totals.energy) << name;
   EXPECT_TRUE(a.totals.force == b.totals.force) << name;
   EXPECT_TRUE(a.totals.torque == b.totals.torque) << name;
