@@ -52,7 +52,7 @@ FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char *
 template <class DeviceType>
 int FixWallLsdcdKokkos<DeviceType>::setmask()
 {
-  return FixWallLsdcd::setmask() | PRE_EXCHANGE;
+  return FixWallLsdcd::setmask() | PRE_EXCHANGE | (lsdcd::kOnHost<DeviceType> ? 0 : PRE_REVERSE);
 }
 
 template <class DeviceType>
@@ -84,6 +84,7 @@ void FixWallLsdcdKokkos<DeviceType>::pre_exchange()
   if (!history) return;
 #if LSDCD_DEVICE_EXCHANGE
   if (springs_are == Where::device) {
+    if (comm->nprocs == 1) return;    // no message
     // One more for the place of an atom's numbers in the message.
     const int largest = 1 + resident().largest_packed_size(n_with_springs);
     MPI_Allreduce(&largest, &maxexchange, 1, MPI_INT, MPI_MAX, world);
@@ -103,6 +104,21 @@ void FixWallLsdcdKokkos<DeviceType>::pre_force(int vflag)
     prepare_springs();
   }
   FixWallLsdcd::pre_force(vflag);
+}
+
+// Once the forces between atoms are under way: Kokkos's next kernel may make the host wait for
+// them, and contacts are to be searched for meanwhile.
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int, int)
+{
+  if (!running) return;
+  lsdcd::Spheres s = spheres();
+  const lsdcd::StepSettings step = step_settings(s);
+  try {
+    resident().search(s, step);
+  } catch (const std::exception &e) {
+    error->one(FLERR, std::string("Fix wall/lsdcd/kk: ") + e.what());
+  }
 }
 
 template <class DeviceType>
@@ -154,7 +170,7 @@ void FixWallLsdcdKokkos<DeviceType>::choose_if_due(const lsdcd::Spheres &s)
   lists_made++;
 }
 
-// Before the forces between atoms: contacts are searched for beside those on a GPU.
+// Before the forces between atoms, beside which a GPU searches for contacts.
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::start()
 {
@@ -226,13 +242,21 @@ void FixWallLsdcdKokkos<DeviceType>::look()
     if (notes.deepest <= worst_overlap) return;
     worst_overlap = notes.deepest;
     worst_step = update->ntimestep;
-    if (!overlap_warned && atom->tag) {
-      atomKK->sync(Host, TAG_MASK);
-      worst_tag = atom->tag[notes.deepest_sphere];
-    }
+    if (!overlap_warned && notes.deepest > kLargeOverlap && atom->tag)
+      worst_tag = tag_of(notes.deepest_sphere);
   } catch (const std::exception &e) {
     error->one(FLERR, std::string("Fix wall/lsdcd/kk: ") + e.what());
   }
+}
+
+// Of one atom: to bring all tags to the host takes a third of a millisecond for a million.
+template <class DeviceType>
+tagint FixWallLsdcdKokkos<DeviceType>::tag_of(int i)
+{
+  atomKK->sync(execution_space, TAG_MASK);
+  tagint tag = 0;
+  Kokkos::deep_copy(tag, Kokkos::subview(atomKK->k_tag.template view<DeviceType>(), i));
+  return tag;
 }
 
 template class LAMMPS_NS::FixWallLsdcdKokkos<LMPDeviceType>;

@@ -19,6 +19,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void setup_pre_exchange() override { pre_exchange(); }
   void pre_exchange() override;
   void pre_force(int) override;
+  void pre_reverse(int, int) override;
   void post_run() override;
 
   // springs on the host
@@ -57,6 +58,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void choose_if_due(const lsdcd::Spheres &);
   bool list_keeps() const;
   void look();
+  tagint tag_of(int);
   void prepare_springs();
   void springs_to_host();
   void springs_to_device();

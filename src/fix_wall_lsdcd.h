@@ -73,6 +73,7 @@ class FixWallLsdcd : public Fix {
   bool rigid = false;    // some rigid fix holds atoms: mass_seen replaces rmass
   std::vector<double> mass_seen;
 
+  static constexpr double kLargeOverlap = 0.1;    // of a radius; past it there is a warning
   double worst_overlap = 0;    // overlap / radius since the last look, on this process
   tagint worst_tag = 0;
   bigint worst_step = 0;

@@ -21,7 +21,6 @@ using namespace LAMMPS_NS;
 using lsdcd::LawStyle;
 using lsdcd::number_text;
 
-static constexpr double kLargeOverlap = 0.1;    // of a radius
 static constexpr double kStepsPerContact = 10;
 
 void FixWallLsdcd::refuse(const std::string &problem) const

@@ -32,6 +32,7 @@ struct CpuBackend {
     {
       return b;
     }
+    void end() {}
     template <class B>
     void join(const B &)
     {
@@ -143,10 +144,12 @@ struct CpuBackend {
   }
 
   // reduce
-  template <class T>
-  T largest(const T *values, std::size_t n)
+  template <class T, class Read>
+  T largest(std::size_t n, const Read &read)
   {
-    return n > 0 ? *std::max_element(values, values + n) : T(0);
+    T most = n > 0 ? read(0) : T(0);
+    for (std::size_t i = 1; i < n; i++) most = std::max<T>(most, read(i));
+    return most;
   }
   template <class T>
   T sum(const T *values, std::size_t n)

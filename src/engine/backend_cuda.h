@@ -9,6 +9,8 @@
 #include <cub/device/device_reduce.cuh>
 #include <cub/device/device_scan.cuh>
 #include <cuda_runtime.h>
+#include <thrust/iterator/counting_iterator.h>
+#include <thrust/iterator/transform_iterator.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -121,7 +123,7 @@ struct CudaBackend {
   // A stream of its own for kernels that run beside others of the backend: small ones that
   // wait for memory, behind large ones that do not wait for them. What begin() gives them to
   // waits for what the backend had been given before mark(); join() has the backend wait for
-  // them.
+  // what that was given before end().
   class Beside {
    public:
     Beside() = default;
@@ -145,9 +147,9 @@ struct CudaBackend {
       cuda_check(cudaStreamWaitEvent(mine_->stream, begin_), "waiting for an event");
       return *mine_;
     }
+    void end() { cuda_check(cudaEventRecord(end_, mine_->stream), "recording an event"); }
     void join(const CudaBackend &b)
     {
-      cuda_check(cudaEventRecord(end_, mine_->stream), "recording an event");
       cuda_check(cudaStreamWaitEvent(b.stream, end_), "waiting for an event");
     }
 
@@ -346,10 +348,12 @@ struct CudaBackend {
   }
 
   // reduce
-  template <class T>
-  T largest(const T *values, std::size_t n)
+  template <class T, class Read>
+  T largest(std::size_t n, const Read &read)
   {
     if (n == 0) return T(0);
+    using Places = thrust::counting_iterator<std::size_t>;
+    const thrust::transform_iterator<Read, Places, T, T> values(Places(0), read);
     Scratch<T> out = scratch<T>(1);
     with_scratch([&](void *scratch, std::size_t &bytes) {
       return cub::DeviceReduce::Max(scratch, bytes, values, out.data(), n, stream);

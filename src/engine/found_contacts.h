@@ -63,6 +63,10 @@ class FoundContacts {
   Found next()
   {
     turn_ = 1 - turn_;
+    return now();
+  }
+  Found now()
+  {
     Found found;
     found.counts = counts_.data() + turn_;
     found.next_counts = counts_.data() + (1 - turn_);

@@ -27,10 +27,14 @@ class ResidentEngine : public WallEngine {
   // InputError if a sphere is larger than the grid's reach.
   virtual void choose(const Spheres &spheres, Real margin) = 0;
 
-  // Says that spheres have their places of the next step and keep them until start(): the
-  // search for contacts, which start() begins, may run beside what the device is given in
-  // between, such as the forces between particles. Only costs time where that is nothing.
+  // Says that spheres have their places of the next step and keep them until start().
   virtual void mark_places() = 0;
+
+  // Begins the search for contacts of the next step, to run beside what the device has been
+  // given since mark_places(), such as the forces between particles. Reads places and radii
+  // only. To be called once that has been given: the host may wait for it before start(), which
+  // searches where this has not been called.
+  virtual void search(const Spheres &spheres, const StepSettings &step) = 0;
 
   // Largest radius in the group. Waits.
   virtual Real largest_radius(const Spheres &spheres) = 0;

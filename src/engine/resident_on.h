@@ -52,19 +52,15 @@ class ResidentOn : public ResidentEngine {
 
   Real largest_radius(const Spheres &spheres) override
   {
-    const std::size_t n = spheres.n;
-    Array<Real> radius(n);
-    Real *to = radius.data();
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
-      to[i] = !spheres.mask || (spheres.mask[i] & spheres.group_bit) ? spheres.radius[i] : 0;
+    return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
+      return !spheres.mask || (spheres.mask[i] & spheres.group_bit) ? spheres.radius[i] : 0;
     });
-    return b_.largest(to, n);
   }
 
   void choose(const Spheres &spheres, Real margin) override
   {
     const std::size_t n = spheres.n;
-    marked_ = false;
+    marked_ = searched_ = false;
     if (near_.size() < n) near_ = Array<int>(n + n / 8);
     const GridView grid = grid_;
     const BrickWord *words = words_.data();
@@ -106,6 +102,18 @@ class ResidentOn : public ResidentEngine {
       if (n_near_ == 0) return;
       beside_.mark(b_);
       marked_ = true;
+      searched_ = false;
+    }
+  }
+
+  void search(const Spheres &spheres, const StepSettings &step) override
+  {
+    if constexpr (B::kFindsFirst) {
+      if (!marked_) return;
+      find_contacts(beside_.begin(b_), prepare(spheres, step));
+      beside_.end();
+      marked_ = false;
+      searched_ = true;
     }
   }
 
@@ -114,22 +122,21 @@ class ResidentOn : public ResidentEngine {
     spheres_ = spheres;
     step_ = step;
     totals_known_ = false;
-    const bool marked = marked_;
-    marked_ = false;
+    const bool searched = searched_;
+    marked_ = searched_ = false;
     if (n_near_ == 0) return;
     LawJob job = prepare(spheres, step);
-    const Real pull_off = settings_.law.pull_off();
     if constexpr (B::kFindsFirst) {
-      job.found = found_.next();
-      B &b = marked ? beside_.begin(b_) : b_;
-      find_first(b, job, n_near_, pull_off);
-      crowd_.find(b, job, pull_off);
-      if (marked) beside_.join(b_);
+      if (searched)
+        beside_.join(b_);
+      else
+        find_contacts(b_, job);
+      job.found = found_.now();
       law_.start(law_.law, job, n_near_, b_);
     } else {
       clear_counts(job.in_place);
       law_.start(law_.law, job, n_near_, b_);
-      crowd_.find(b_, job, pull_off);
+      crowd_.find(b_, job, settings_.law.pull_off());
       job.in_place.crowd_lanes = kCrowdLawLanes;
       law_.start(law_.law, job, kCrowdLawLanes, b_);
     }
@@ -214,6 +221,17 @@ class ResidentOn : public ResidentEngine {
   void clear_counts(const InPlace &in_place)
   {
     b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { clear_step(in_place); });
+  }
+
+  // All but where springs are.
+  void clear_notes(const StepCounts &seen)
+  {
+    StepCounts *counts = counts_.data();
+    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) {
+      StepCounts cleared = {};
+      for (int i = 0; i < 2; i++) cleared.shared_used[i] = seen.shared_used[i];
+      *counts = cleared;
+    });
   }
 
   void fetch_output()
@@ -308,6 +326,14 @@ class ResidentOn : public ResidentEngine {
     return job;
   }
 
+  void find_contacts(B &b, LawJob job)
+  {
+    const Real pull_off = settings_.law.pull_off();
+    job.found = found_.next();
+    find_first(b, job, n_near_, pull_off);
+    crowd_.find(b, job, pull_off);
+  }
+
   void make_room()
   {
     const std::size_t n = n_near_, room = n + n / 8;
@@ -318,14 +344,6 @@ class ResidentOn : public ResidentEngine {
   Real *uncertain_of_near() { return may_miss_any(grid_) ? uncertain_.data() : nullptr; }
 
   StepCounts read_counts() { return b_.to_host(counts_, 1)[0]; }
-
-  // All but where springs are.
-  void clear_notes(const StepCounts &seen)
-  {
-    StepCounts counts = {};
-    std::copy(seen.shared_used, seen.shared_used + 2, counts.shared_used);
-    b_.copy_in(&counts, counts_.data(), 1);
-  }
 
   [[noreturn]] void throw_for(const Spheres &spheres, const StepCounts &seen)
   {
@@ -372,7 +390,7 @@ class ResidentOn : public ResidentEngine {
   Array<StepCounts> counts_;
   ResidentCrowd<B> crowd_;
   typename B::Beside beside_;
-  bool marked_ = false;
+  bool marked_ = false, searched_ = false;    // for the next step
   FoundContacts<B> found_;    // where they are found first
 
   WallTotals totals_;

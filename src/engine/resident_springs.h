@@ -149,7 +149,9 @@ class ResidentSprings {
 
   int largest_packed_size(B &b, std::size_t n)
   {
-    return 1 + per_spring() * b.largest(count_.data(), n);
+    const int *count = count_.data();
+    return 1 + per_spring() * b.template largest<int>(
+                                  n, [=] LSDCD_LAMBDA(std::size_t i) -> int { return count[i]; });
   }
 
   int pack(B &b, int n, const int *which, const int *from, double *buffer)

@@ -154,7 +154,9 @@ bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::u
   report.cells = n_occupied;
   report.candidates = n_list + b.sum(single.data(), n_words);
   report.mean = n_occupied ? Real(report.candidates) / n_occupied : 0;
-  report.longest = b.largest(longest.data(), n_words);
+  const std::uint32_t *longest_of_word = longest.data();
+  report.longest = b.template largest<std::uint32_t>(
+      n_words, [=] LSDCD_LAMBDA(std::size_t w) -> std::uint32_t { return longest_of_word[w]; });
   report.distance_tests = pairs.n * kOctantCells;
 
   out.n_bricks = n_bricks;

@@ -34,12 +34,13 @@ class ResidentForHost : public WallEngine {
     s.radius = put(radius_, host.radius);
     s.mask = host.mask ? mask_.put(host.mask, n) : nullptr;
     if (springs_) engine_->springs_from(*springs_, host.n);
-    // As LAMMPS has it: places first, and the forces of others after the search has begun.
+    // As LAMMPS has it: places first, and velocities and forces after the search has begun.
     s.v = s.omega = {};
     s.force = s.torque = {};
     s.mass = s.temperature = s.heat_flow = nullptr;
     engine_->choose(s, 0);
     engine_->mark_places();
+    engine_->search(s, step);
     s.v = put_vectors(v_, host.v, n);
     s.omega = put_vectors(omega_, host.omega, n);
     const std::vector<Real> none(3 * n, 0);

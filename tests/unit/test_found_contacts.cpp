@@ -265,6 +265,49 @@ TEST(found_contacts, of_a_step_take_no_room_from_the_next)
   }
 }
 
+TEST(found_contacts, of_a_search_that_was_begun_are_left_where_spheres_are_chosen_anew)
+{
+  const int n = 100;
+  EngineSettings s;
+  s.law = classic(LawStyle::hertz_history);
+  s.corner = Corner::sum;
+  GridSettings g;
+  g.reach = 1.1;
+  const FlatGrid grid(build_grid(weld(faces_all_round(kAllRound), -1), g));
+  for (bool cuda : {false, true}) {
+    if (cuda && !test_on_cuda()) continue;
+    std::unique_ptr<ResidentEngine> engine;
+    if (cuda)
+      engine = make_resident_cuda_engine(s, 0, nullptr);
+    else
+      engine = std::make_unique<ResidentOn<FindingFirst>>(s, found_law(s), FindingFirst());
+    std::vector<Vec3> x;
+    for (int i = 0; i < n; i++) x.push_back(place_in({0, 0, n}, i));
+    DeviceArray<Real> place(cuda), zero(cuda), force(cuda), torque(cuda), radius(cuda), mass(cuda);
+    const std::vector<Real> none(3 * n, 0);
+    Spheres spheres;
+    spheres.n = n;
+    spheres.x = place.put(&x[0].x, 3 * n);
+    spheres.v = spheres.omega = zero.put(none);
+    spheres.radius = radius.put(std::vector<Real>(n, 1.05));
+    spheres.mass = mass.put(std::vector<Real>(n, 1));
+    spheres.force = force.put(none);
+    spheres.torque = torque.put(none);
+    StepSettings step;
+    step.dt = 1e-3;
+    engine->set_grid(grid.view());
+    engine->grow(n);
+    engine->choose(spheres, 0);
+    engine->mark_places();
+    engine->search(spheres, step);
+    for (int i = 0; i < n; i += 2) x[i].x += 100;
+    spheres.x = place.put(&x[0].x, 3 * n);
+    engine->choose(spheres, 0);
+    engine->start(spheres, step, nullptr);
+    EXPECT_EQ(engine->totals().contacts, n / 2 * kAllRound) << (cuda ? "CUDA" : "CPU");
+  }
+}
+
 TEST(found_contacts, of_an_engine_that_hands_results_back_are_its_results)
 {
   using Law = OnWall<HertzHistoryLaw<Real>, false, false>;

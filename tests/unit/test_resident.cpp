@@ -299,11 +299,11 @@ struct CountingBackend : CpuBackend {
     return CpuBackend::to_host(a, n);
   }
   void wait() { crossings()++; }
-  template <class T>
-  T largest(const T *values, std::size_t n)
+  template <class T, class Read>
+  T largest(std::size_t n, const Read &read)
   {
     crossings()++;
-    return CpuBackend::largest(values, n);
+    return CpuBackend::largest<T>(n, read);
   }
   template <class T>
   T exclusive_scan(T *values, std::size_t n)
@@ -340,6 +340,8 @@ TEST(resident, a_step_without_outputs_neither_copies_nor_waits)
     StepSettings step;
     step.dt = 0.01;
     step.per_sphere = per_sphere;
+    particles.engine->mark_places();
+    particles.engine->search(particles.spheres(), step);
     particles.engine->start(particles.spheres(), step, nullptr);
     particles.engine->collect();
     return CountingBackend::crossings() - before;
