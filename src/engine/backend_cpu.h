@@ -101,12 +101,12 @@ struct CpuBackend {
         f(static_cast<std::size_t>(i), at - offset[i], at - run.first);
   }
 
-  // select: the i in [0, n) that keep(i, read(i)) holds for, ascending, into `to`, which has
-  // room for n; `total` becomes how many. Calls both once for each i.
+  // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
+  // `total` becomes how many. Of each i read() is asked for what look() needs, and look() for
+  // a key, 0 where i is not kept; keep() decides by the keys that are left, and note() is told.
   struct SelectRoom {};
-  template <class Read, class Keep>
-  void select(std::size_t n, const Read &read, const Keep &keep, SelectRoom &, int *to,
-              std::uint32_t *total)
+  template <class Work>
+  void select(std::size_t n, const Work &work, SelectRoom &, int *to, std::uint32_t *total)
   {
     // Blocks of one size whatever the number of threads, so that order is fixed.
     constexpr std::int64_t kBlock = 4096;
@@ -117,9 +117,14 @@ struct CpuBackend {
       const std::int64_t lo = b * kBlock;
       const std::int64_t hi = std::min(lo + kBlock, static_cast<std::int64_t>(n));
       int count = 0;
-      for (std::int64_t i = lo; i < hi; i++)
-        if (keep(static_cast<std::size_t>(i), read(static_cast<std::size_t>(i))))
-          to[lo + count++] = static_cast<int>(i);
+      for (std::int64_t k = lo; k < hi; k++) {
+        const std::size_t i = static_cast<std::size_t>(k);
+        const typename Work::Item item = work.read(i);
+        const typename Work::Key key = work.look(i, item);
+        const bool kept = key != 0 && work.keep(key);
+        work.note(i, item, kept);
+        if (kept) to[lo + count++] = static_cast<int>(i);
+      }
       found[b] = count;
     }
     std::uint32_t n_kept = 0;

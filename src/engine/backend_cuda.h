@@ -61,31 +61,54 @@ constexpr int kSelectTile = 1024;    // items of a block of 256 threads, 32 word
 constexpr int kSelectEach = kSelectTile / 256;
 
 // Bits of the items to keep, and how many there are in each tile. What is read of a
-// thread's items is on its way for all of them before the first is looked at.
-template <class Read, class Keep>
-__global__ void __launch_bounds__(256)
-    cuda_mark(std::size_t n, const __grid_constant__ Read read, const __grid_constant__ Keep keep,
-              unsigned *words, std::uint32_t *in_tile)
+// thread's items is on its way for all of them before the first is looked at. Few have a key,
+// and of those more is read, by full warps.
+template <class Work>
+__global__ void __launch_bounds__(256) cuda_mark(std::size_t n, const __grid_constant__ Work work,
+                                                 unsigned *words, std::uint32_t *in_tile)
 {
-  __shared__ std::uint32_t kept;
-  if (threadIdx.x == 0) kept = 0;
+  constexpr unsigned kWords = kSelectTile / 32;
+  __shared__ typename Work::Key waiting[kSelectTile];
+  __shared__ std::uint16_t place[kSelectTile];
+  __shared__ unsigned kept[kWords], n_waiting;
+  if (threadIdx.x < kWords) kept[threadIdx.x] = 0;
+  if (threadIdx.x == 0) n_waiting = 0;
   __syncthreads();
+
   const std::size_t first = std::size_t(blockIdx.x) * kSelectTile + threadIdx.x;
-  decltype(read(first)) item[kSelectEach];
+  const unsigned lane = threadIdx.x % 32;
+  typename Work::Item item[kSelectEach] = {};
 #pragma unroll
   for (int k = 0; k < kSelectEach; k++)
-    if (first + k * 256 < n) item[k] = read(first + k * 256);
-  std::uint32_t of_warp = 0;
+    if (first + k * 256 < n) item[k] = work.read(first + k * 256);
+  typename Work::Key key[kSelectEach];
+#pragma unroll
+  for (int k = 0; k < kSelectEach; k++)
+    key[k] = first + k * 256 < n ? work.look(first + k * 256, item[k]) : 0;
 #pragma unroll
   for (int k = 0; k < kSelectEach; k++) {
-    const std::size_t i = first + k * 256;
-    const unsigned word = __ballot_sync(~0u, i < n && keep(i, item[k]));
-    if (threadIdx.x % 32 == 0) words[i / 32] = word;
-    of_warp += __popc(word);
+    const unsigned vote = __ballot_sync(~0u, key[k] != 0);
+    unsigned at = 0;
+    if (lane == 0 && vote) at = atomicAdd(&n_waiting, __popc(vote));
+    at = __shfl_sync(~0u, at, 0) + __popc(vote & ((1u << lane) - 1));
+    if (key[k] != 0) {
+      waiting[at] = key[k];
+      place[at] = static_cast<std::uint16_t>(threadIdx.x + k * 256);
+    }
   }
-  if (threadIdx.x % 32 == 0) atomicAdd(&kept, of_warp);
   __syncthreads();
-  if (threadIdx.x == 0) in_tile[blockIdx.x] = kept;
+  for (unsigned w = threadIdx.x; w < n_waiting; w += 256)
+    if (work.keep(waiting[w])) atomicOr(&kept[place[w] / 32], 1u << (place[w] % 32));
+  __syncthreads();
+#pragma unroll
+  for (int k = 0; k < kSelectEach; k++)
+    if (first + k * 256 < n)
+      work.note(first + k * 256, item[k], kept[threadIdx.x / 32 + k * 8] >> lane & 1u);
+  if (threadIdx.x >= kWords) return;
+  words[blockIdx.x * kWords + threadIdx.x] = kept[threadIdx.x];
+  std::uint32_t all = __popc(kept[threadIdx.x]);
+  for (int step = kWords / 2; step > 0; step /= 2) all += __shfl_down_sync(~0u, all, step);
+  if (threadIdx.x == 0) in_tile[blockIdx.x] = all;
 }
 
 // From bits to a list, a warp for each tile; before[t]: how many are kept in tiles before t.
@@ -297,17 +320,18 @@ struct CudaBackend {
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
-  // select: the i in [0, n) that keep(i, read(i)) holds for, ascending, into `to`, which has
-  // room for n; `total`, where the kernels run, becomes how many. Calls both once for each i,
-  // and does not wait. The room is kept for the next time, until when it must not be freed.
+  // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
+  // `total`, where the kernels run, becomes how many. Of each i read() is asked for what look()
+  // needs, and look() for a key, 0 where i is not kept; keep() decides by the keys that are
+  // left, and note() is told. Does not wait. The room is kept for the next time, until when it
+  // must not be freed.
   struct SelectRoom {
     Array<unsigned> words;
     Array<std::uint32_t> in_tile;
     Array<char> scan;
   };
-  template <class Read, class Keep>
-  void select(std::size_t n, const Read &read, const Keep &keep, SelectRoom &room, int *to,
-              std::uint32_t *total)
+  template <class Work>
+  void select(std::size_t n, const Work &work, SelectRoom &room, int *to, std::uint32_t *total)
   {
     const unsigned n_tiles = static_cast<unsigned>((n + kSelectTile - 1) / kSelectTile);
     std::size_t bytes = 0;
@@ -323,7 +347,7 @@ struct CudaBackend {
     std::uint32_t *in_tile = room.in_tile.data();
     cuda_check(cudaMemsetAsync(in_tile + n_tiles, 0, sizeof *in_tile, stream), "clearing memory");
     if (n_tiles > 0) {
-      cuda_mark<<<n_tiles, 256, 0, stream>>>(n, read, keep, room.words.data(), in_tile);
+      cuda_mark<<<n_tiles, 256, 0, stream>>>(n, work, room.words.data(), in_tile);
       cuda_check(cudaGetLastError(), "starting a kernel");
     }
     bytes = room.scan.size();

@@ -1,31 +1,23 @@
 // The resident engine on one backend: one source for all.
 #pragma once
 
-#include "base/atomic.h"
 #include "base/input_error.h"
 #include "engine/compiled_law.h"
 #include "engine/engine_base.h"
 #include "engine/find_first.h"
 #include "engine/found_contacts.h"
+#include "engine/near_choice.h"
 #include "engine/resident_crowd.h"
 #include "engine/resident_engine.h"
 #include "engine/resident_springs.h"
 #include "engine/select_near.h"
 #include "engine/totals.h"
-#include "grid/near_within.h"
 
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace lsdcd {
-
-// What choosing reads of a sphere.
-struct SphereRead {
-  Vec3 x;
-  Real radius;
-  bool in_group;
-};
 
 template <class B>
 class ResidentOn : public ResidentEngine {
@@ -62,26 +54,11 @@ class ResidentOn : public ResidentEngine {
     const std::size_t n = spheres.n;
     marked_ = searched_ = false;
     if (near_.size() < n) near_ = Array<int>(n + n / 8);
-    const GridView grid = grid_;
-    const BrickWord *words = words_.data();
-    const Real pull_off = settings_.law.pull_off();
-    StepCounts *counts = counts_.data();
-    int *n_springs = springs_.count();
-    b_.select(
-        n,
-        [=] LSDCD_LAMBDA(std::size_t i) -> SphereRead {
-          return {spheres.x[i], spheres.radius[i],
-                  !spheres.mask || (spheres.mask[i] & spheres.group_bit)};
-        },
-        [=] LSDCD_LAMBDA(std::size_t i, const SphereRead &s) {
-          if (s.in_group && !(reach_of(s.radius, pull_off) <= grid.reach))
-            raise_to(&counts->too_large, kNoSphere - i);
-          const bool near = s.in_group && near_within(grid, words, s.x, margin);
-          // Springs are read where a sphere is near; others have none.
-          if (n_springs && !near) n_springs[i] = 0;
-          return near;
-        },
-        select_room_, near_.data(), &counts->n_near);
+    // Springs are read where a sphere is near; others have none.
+    const NearChoice choice = {
+        grid_,          words_.data(),   spheres, margin, settings_.law.pull_off(),
+        counts_.data(), springs_.count()};
+    b_.select(n, choice, select_room_, near_.data(), &counts_.data()->n_near);
     const StepCounts seen = read_counts();
     if (seen.too_large) throw_for(spheres, seen);
     n_near_ = seen.n_near;
@@ -391,7 +368,7 @@ class ResidentOn : public ResidentEngine {
   ResidentCrowd<B> crowd_;
   typename B::Beside beside_;
   bool marked_ = false, searched_ = false;    // for the next step
-  FoundContacts<B> found_;    // where they are found first
+  FoundContacts<B> found_;                    // where they are found first
 
   WallTotals totals_;
   bool totals_known_ = true;

@@ -19,14 +19,22 @@ void throw_too_large(int i, Real radius, Real reach)
   throw InputError(text);
 }
 
-void select_near(const GridView &grid, const Spheres &spheres, Real pull_off,
-                 std::vector<int> &near, std::vector<int> &scratch)
-{
-  if (static_cast<int>(scratch.size()) < spheres.n) scratch.resize(spheres.n);
-  const Real fits = pull_off > 0 ? 0 : grid.reach;    // radii up to this do for certain
-  int too_large = -1;
-  const auto nothing = [](std::size_t) { return 0; };    // a CPU reads what it turns out to need
-  const auto keep = [&](std::size_t i, int) {
+namespace {
+
+// For CpuBackend::select: a CPU reads what it turns out to need.
+struct NearNow {
+  const GridView &grid;
+  const Spheres &spheres;
+  Real pull_off;
+  Real fits;    // radii up to this do for certain
+  int &too_large;
+
+  struct Item {};
+  using Key = bool;
+
+  Item read(std::size_t) const { return {}; }
+  Key look(std::size_t i, Item) const
+  {
     if (spheres.mask && !(spheres.mask[i] & spheres.group_bit)) return false;
     if (!(spheres.radius[i] <= fits) && !(reach_of(spheres.radius[i], pull_off) <= grid.reach)) {
       const int at = static_cast<int>(i);
@@ -34,10 +42,26 @@ void select_near(const GridView &grid, const Spheres &spheres, Real pull_off,
       too_large = too_large < 0 ? at : std::min(too_large, at);
     }
     return near_wall(grid, spheres.x[i]);
-  };
+  }
+  bool keep(Key) const
+  {
+    return true;
+  }
+  void note(std::size_t, Item, bool) const {}
+};
+
+}    // namespace
+
+void select_near(const GridView &grid, const Spheres &spheres, Real pull_off,
+                 std::vector<int> &near, std::vector<int> &scratch)
+{
+  if (static_cast<int>(scratch.size()) < spheres.n) scratch.resize(spheres.n);
+  int too_large = -1;
   std::uint32_t n = 0;
   CpuBackend::SelectRoom room;
-  CpuBackend().select(spheres.n, nothing, keep, room, scratch.data(), &n);
+  CpuBackend().select(spheres.n,
+                      NearNow{grid, spheres, pull_off, pull_off > 0 ? 0 : grid.reach, too_large},
+                      room, scratch.data(), &n);
   if (too_large >= 0) throw_too_large(too_large, spheres.radius[too_large], grid.reach);
   near.assign(scratch.begin(), scratch.begin() + n);
 }

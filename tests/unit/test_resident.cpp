@@ -311,12 +311,11 @@ struct CountingBackend : CpuBackend {
     crossings()++;
     return CpuBackend::exclusive_scan(values, n);
   }
-  template <class Read, class Keep>
-  void select(std::size_t n, const Read &read, const Keep &keep, SelectRoom &room, int *to,
-              std::uint32_t *total)
+  template <class Work>
+  void select(std::size_t n, const Work &work, SelectRoom &room, int *to, std::uint32_t *total)
   {
     crossings()++;
-    CpuBackend::select(n, read, keep, room, to, total);
+    CpuBackend::select(n, work, room, to, total);
   }
 };
 
