@@ -143,7 +143,8 @@ def measure(host, options, named, folder, place):
                 work = place / f"{host.version.replace(' ', '')}-{name}-{each:.0f}-{ranks}"
                 work.mkdir(parents=True, exist_ok=True)
                 bed = Bed(name, int(each) * ranks, ranks, work, options.triangles)
-                settled = runs.prepare(host, bed, work, options.settle)
+                settled = runs.prepare(host, bed, work, options.settle,
+                                       "random" in options.orders)
                 for order in options.orders:
                     rows = Rows(host, bed, named)
                     time_steps(host, bed, work, order, options, settled, rows)

@@ -1,9 +1,9 @@
 """Runs of the beds of kokkos.py in a LAMMPS with Kokkos.
 
-Three decks make a measurement. The first fills a lattice and gives the atoms a random order
-in memory, without Kokkos: they are put to random places, sorted there by LAMMPS, and put back.
-The second lets them settle on our wall and sets them in motion along it. The third begins
-from what the second has written, with a wall or without, and is timed.
+Three decks make a measurement. The first fills a lattice and, where runs want it, gives the
+atoms a random order in memory, without Kokkos: they are put to random places, sorted there by
+LAMMPS, and put back. The second lets them settle on our wall and sets them in motion along it. The
+third begins from what the second has written, with a wall or without, and is timed.
 """
 import math
 import os
@@ -58,7 +58,6 @@ variable        y atom vy
 variable        z atom vz
 set             group all x v_x y v_y z v_z
 velocity        all set 0 0 0
-write_restart   {out}
 """
 
 FROM_FILE = """\
@@ -162,14 +161,16 @@ def deck_from(host, bed, file, wall, sort="0 0"):
                             law=LAW, skin=SKIN, gravity=GRAVITY, wall=wall)
 
 
-def prepare(host, bed, folder, settle):
+def prepare(host, bed, folder, settle, shuffled=True):
     """Leaves bed.restart in the folder; returns what the wall carries of the bed's weight
-    when it has settled, and contacts with it."""
+    when it has settled, and contacts with it. Without `shuffled`, for runs in which LAMMPS
+    sorts its atoms, it spares the time that a random order takes."""
     start = START.format(boundary=bed.boundary, density=4 / CUBE**3, box=bed.box,
                          region=bed.region, atoms=bed.atoms, diameters=DIAMETERS,
                          dense=6 / math.pi)    # mass 1 at diameter 1
-    shuffle = SHUFFLE.format(bin=(bed.volume / bed.atoms)**(1 / 3), out="lattice.restart")
-    output = host.run_well(start + shuffle, folder, kokkos=False)
+    shuffle = SHUFFLE.format(bin=(bed.volume / bed.atoms)**(1 / 3)) if shuffled else ""
+    output = host.run_well(start + shuffle + "write_restart lattice.restart\n", folder,
+                           kokkos=False)
     made = int(re.search(r"^bed of (\d+) atoms", output, re.M).group(1))
     if made != bed.atoms:
         raise SystemExit(f"{bed.name}: the lattice has {made} sites for {bed.atoms} atoms")
