@@ -56,6 +56,12 @@ struct ContactSet {
     normal[n] = n_unit;
     distance[n++] = d;
   }
+  // Not by a set that is empty: of 512 places that would be 18 kB of a GPU thread's stack.
+  LSDCD_FN void clear()
+  {
+    n = 0;
+    overflow = false;
+  }
   LSDCD_FN void remove(int i)
   {
     n--;

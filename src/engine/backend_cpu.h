@@ -135,17 +135,39 @@ struct CpuBackend {
     *total = n_kept;
   }
 
-  // list: work.find(i, item) says into which list each i in [0, n) goes, or -1, and what is
-  // to be kept of it; work.keep(list, place, i, item) does so. listed[list]: how many were
-  // there before and are now. Lists are in any order.
+  // list: from what work.read(i, item) reads, work.find(i, item) says into which list each i in
+  // [0, n) goes, or -1, and what is to be kept of it; work.keep(list, place, i, item) does so,
+  // and is called of those in no list, too. listed[list]: how many were there before and are
+  // now. Lists are in any order.
   template <class Work>
   void list(std::size_t n, const Work &work, int *listed)
   {
     for_each(n, [&](std::size_t i) {
       typename Work::Item item;
+      work.read(i, item);
       const int to = work.find(i, item);
-      if (to >= 0) work.keep(to, fetch_add(&listed[to], 1), i, item);
+      work.keep(to, to >= 0 ? fetch_add(&listed[to], 1) : -1, i, item);
     });
+  }
+
+  // few: work.few(s) for s in [0, work.n_few()), which only the device knows to be n at most;
+  // then work.last(lane) for lanes in [0, Work::kLastLanes).
+  template <class Work>
+  void few(std::size_t /*n*/, const Work &work)
+  {
+    for_each(work.n_few(), [&](std::size_t s) { work.few(s); });
+    for_each(Work::kLastLanes, [&](std::size_t lane) { work.last(lane); });
+  }
+
+  // few_and_many: work.few(s) for s in [0, work.n_few()), n_few at most, and at once
+  // work.many(i) for i in [0, n_many). `begins_early`: only the former needs what the backend
+  // was given last.
+  template <class Work>
+  void few_and_many(std::size_t /*n_few*/, std::size_t n_many, const Work &work,
+                    bool /*begins_early*/)
+  {
+    for_each(work.n_few(), [&](std::size_t s) { work.few(s); });
+    for_each(n_many, [&](std::size_t i) { work.many(i); });
   }
 
   // reduce

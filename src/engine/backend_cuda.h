@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "engine/cuda_few.h"
 #include "engine/cuda_list.h"
 #include "engine/owned_array.h"
 
@@ -12,6 +13,7 @@
 #include <thrust/iterator/counting_iterator.h>
 #include <thrust/iterator/transform_iterator.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -359,9 +361,10 @@ struct CudaBackend {
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
-  // list: work.find(i, item) says into which of two lists each i in [0, n) goes, or -1, and
-  // what is to be kept of it; work.keep(list, place, i, item) does so. listed[list]: how
-  // many were there before and are now. Lists are in any order.
+  // list: from what work.read(i, item) reads, work.find(i, item) says into which of two lists
+  // each i in [0, n) goes, or -1, and what is to be kept of it; work.keep(list, place, i, item)
+  // does so, and is called of those in no list, too. listed[list]: how many were there before
+  // and are now. Lists are in any order. Threads of a warp read together.
   template <class Work>
   void list(std::size_t n, const Work &work, int *listed)
   {
@@ -369,6 +372,44 @@ struct CudaBackend {
     const auto blocks = static_cast<unsigned>((n + kListBlock - 1) / kListBlock);
     cuda_list<2><<<blocks, kListBlock, 0, stream>>>(n, work, listed);
     cuda_check(cudaGetLastError(), "starting a kernel");
+  }
+
+  // few: work.few(s) for s in [0, work.n_few()), which only the device knows to be n at most;
+  // then work.last(lane) for lanes in [0, Work::kLastLanes).
+  template <class Work>
+  void few(std::size_t n, const Work &work)
+  {
+    if (n == 0) return;
+    static_assert(Work::kLastLanes <= 32, "the lanes of a warp");
+    const auto warps = static_cast<unsigned>(std::min<std::size_t>(n, kFewWarps));
+    cuda_few<<<warps, 32, 0, stream>>>(work);
+    cuda_check(cudaGetLastError(), "starting a kernel");
+  }
+
+  // few_and_many: work.few(s) for s in [0, work.n_few()), n_few at most, and at once
+  // work.many(i) for i in [0, n_many), n_many a multiple of 32. `begins_early`: only the
+  // former needs what the backend was given last.
+  template <class Work>
+  void few_and_many(std::size_t n_few, std::size_t n_many, const Work &work, bool begins_early)
+  {
+    const auto blocks = [](std::size_t n) {
+      return static_cast<unsigned>((n + kManyBlock - 1) / kManyBlock);
+    };
+    const unsigned few_blocks = blocks(std::min<std::size_t>(n_few, kFewLanes)),
+                   all = few_blocks + blocks(n_many);
+    if (all == 0) return;
+    static const bool can = can_begin_early(cuda_few_and_many<Work>);
+    cudaLaunchAttribute early = {};
+    early.id = cudaLaunchAttributeProgrammaticStreamSerialization;
+    early.val.programmaticStreamSerializationAllowed = 1;
+    cudaLaunchConfig_t config = {};
+    config.gridDim = dim3(all);
+    config.blockDim = dim3(kManyBlock);
+    config.stream = stream;
+    config.attrs = &early;
+    config.numAttrs = can && begins_early ? 1 : 0;
+    cuda_check(cudaLaunchKernelEx(&config, cuda_few_and_many<Work>, n_many, few_blocks, work),
+               "starting a kernel");
   }
 
   // reduce

@@ -10,8 +10,9 @@ namespace lsdcd {
 // Threads of a block, and blocks at once on a processor: 80 registers are left to a thread.
 constexpr unsigned kListBlock = 128, kListBlocks = 6;
 
-// Work::find() says into which of kLists lists a thing goes, -1 for none, and Work::keep()
-// is told its place there. The lists grow by a block of threads at a time: one atomic
+// Work::find() says into which of kLists lists a thing goes, -1 for none, from what
+// Work::read() has read of it, and Work::keep() is told its place there. All threads read
+// together; those past the end the last thing once more. The lists grow by a block of threads at a time: one atomic
 // addition each, and neighbours stay together.
 template <int kLists, class Work>
 __global__ void __launch_bounds__(kListBlock, kListBlocks)
@@ -22,6 +23,7 @@ __global__ void __launch_bounds__(kListBlock, kListBlocks)
   __syncthreads();
   const std::size_t i = std::size_t(blockIdx.x) * kListBlock + threadIdx.x;
   typename Work::Item item;
+  work.read(i < n ? i : n - 1, item);
   const int list = i < n ? work.find(i, item) : -1;
   const unsigned lane = threadIdx.x % 32;
   int at = 0;
@@ -37,7 +39,7 @@ __global__ void __launch_bounds__(kListBlock, kListBlocks)
   if (threadIdx.x < kLists && of_block[threadIdx.x] > 0)
     before_block[threadIdx.x] = atomicAdd(&listed[threadIdx.x], of_block[threadIdx.x]);
   __syncthreads();
-  if (list >= 0) work.keep(list, before_block[list] + at, i, item);
+  if (i < n) work.keep(list, list >= 0 ? before_block[list] + at : -1, i, item);
 }
 
 }    // namespace lsdcd

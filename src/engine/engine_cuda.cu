@@ -68,7 +68,7 @@ class CudaEngine : public EngineBase {
     // Only spheres that touch write all of their result.
     cuda_check(cudaMemsetAsync(result_.device(), 0, n * sizeof(SphereResult), backend_.stream),
                "clearing memory");
-    const LawJob job = device_job();
+    const LawJob job = device_job(n);
     find_first(backend_, job, n, settings_.law.pull_off());
     cuda_law_.start(cuda_law_.law, job, n, backend_);
     result_.to_host(n, backend_.stream);
@@ -157,7 +157,7 @@ class CudaEngine : public EngineBase {
   }
 
  private:
-  LawJob device_job()
+  LawJob device_job(std::size_t n)
   {
     constexpr std::ptrdiff_t reals = sizeof(NearSphere) / sizeof(Real),
                              ints = sizeof(NearSphere) / sizeof(std::int32_t);
@@ -174,7 +174,8 @@ class CudaEngine : public EngineBase {
     job.springs = {
         {&s->first_spring, ints}, {&s->n_springs, ints}, old_spring_.device(), old_extra_.device()};
     return_results(job, result_.device());
-    job.found = found_.next();
+    job.found = found_.next(n);
+    job.found.just_now = true;
     job.sink = {new_spring_.data(), new_extra_.data(), heat_.device(), new_record_.data()};
     return job;
   }

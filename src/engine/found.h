@@ -12,6 +12,7 @@ constexpr int kFoundLists = 2;
 
 struct FoundCounts {
   int listed[kFoundLists];
+  unsigned several_ended;    // see FindSeveral::ended()
 };
 
 struct ContactArrays {
@@ -32,16 +33,31 @@ struct ContactArrays {
   }
 };
 
+// Single contacts with all that the law reads of where they are: neighbours in the list are
+// neighbours in memory.
+struct SingleContacts {
+  int *sphere = nullptr;    // not its number among the near ones
+  FeatureCode *feature = nullptr;
+  Rows<Real> x, normal;
+  Column<Real> radius, distance;
+};
+
 struct Found {
   FoundCounts *counts = nullptr;         // of this step
   FoundCounts *next_counts = nullptr;    // of the next one, cleared in this
-  int *sphere[kFoundLists] = {};         // near sphere of each that is listed
-  ContactArrays single = {};             // one place each
-  ContactArrays several = {};            // kPlaces places each
-  Real *weight = nullptr;                // of several; that of a single one is 1
+  int n_near = 0;
+  bool just_now = false;    // nothing comes between the search and the law
+  SingleContacts single = {};
+  int *several_near = nullptr;    // near sphere of each that is listed as having several
+  ContactArrays several = {};     // kPlaces places each
+  Real *weight = nullptr;         // of several; that of a single one is 1
   // Of several: how many contacts; kOverflow: they do not fit; below that: they are found
   // with the crowded ones, see crowded_as().
   int *n = nullptr;
+
+  // Results of a step in place lie in the order of the lists: those of single contacts from
+  // the first place on, those of several from the last one down.
+  LSDCD_FN int result_of_several(std::size_t s) const { return n_near - 1 - static_cast<int>(s); }
 };
 
 }    // namespace lsdcd

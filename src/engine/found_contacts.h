@@ -3,27 +3,7 @@
 
 #include "engine/law_job.h"
 
-#include <algorithm>
-
 namespace lsdcd {
-
-// f(s) for those of n near spheres that are listed as having several contacts. The host does
-// not know how many there are: each of so many lanes takes what falls to it.
-constexpr std::size_t kSeveralLanes = 1 << 16;
-
-template <class B, class F>
-void for_each_several(B &b, const Found &found, std::size_t n, const F &f)
-{
-  const std::size_t lanes = std::min(n, kSeveralLanes);
-  const FoundCounts *counts = found.counts;
-  b.for_each(
-      lanes,
-      [=] LSDCD_LAMBDA(std::size_t lane) {
-        const std::size_t n_several = counts->listed[kSeveral];
-        for (std::size_t s = lane; s < n_several; s += lanes) f(s);
-      },
-      128);
-}
 
 template <class B>
 class FoundContacts {
@@ -51,27 +31,33 @@ class FoundContacts {
     }
     if (n <= room_) return;
     room_ = n + n / 8;
-    for (Array<int> &list : sphere_) list = Array<int>(room_);
-    single_ = Contacts(room_);
+    single_sphere_ = Array<int>(room_);
+    single_feature_ = Array<FeatureCode>(room_);
+    single_ = Array<Real>(room_ * kSingleReals);
+    several_near_ = Array<int>(room_);
     several_ = Contacts(room_ * kPlaces);
     weight_ = Array<Real>(room_ * kPlaces);
     n_ = Array<int>(room_);
   }
 
-  // Of one step. The two sets of counts take turns, so that a step finds its own cleared
-  // by the one before.
-  Found next()
+  // Of one step over n near spheres. The two sets of counts take turns, so that a step finds
+  // its own cleared by the one before.
+  Found next(std::size_t n)
   {
     turn_ = 1 - turn_;
-    return now();
+    return now(n);
   }
-  Found now()
+  Found now(std::size_t n)
   {
     Found found;
     found.counts = counts_.data() + turn_;
     found.next_counts = counts_.data() + (1 - turn_);
-    for (int i = 0; i < kFoundLists; i++) found.sphere[i] = sphere_[i].data();
-    found.single = single_.view();
+    found.n_near = static_cast<int>(n);
+    Real *single = single_.data();
+    const auto room = static_cast<std::ptrdiff_t>(room_);
+    found.single = {single_sphere_.data(),        single_feature_.data(), {single, 1, room},
+                    {single + 3 * room, 1, room}, {single + 6 * room},    {single + 7 * room}};
+    found.several_near = several_near_.data();
     found.several = several_.view();
     found.weight = weight_.data();
     found.n = n_.data();
@@ -82,14 +68,18 @@ class FoundContacts {
   {
     constexpr std::size_t contact = sizeof(FeatureCode) + sizeof(Vec3) + sizeof(Real);
     return counts_.size() * sizeof(FoundCounts) +
-           room_ *
-               ((kFoundLists + 1) * sizeof(int) + (1 + kPlaces) * contact + kPlaces * sizeof(Real));
+           room_ * (3 * sizeof(int) + sizeof(FeatureCode) + kSingleReals * sizeof(Real) +
+                    kPlaces * (contact + sizeof(Real)));
   }
 
  private:
+  static constexpr std::size_t kSingleReals = 8;    // place, normal, radius, distance
+
   Array<FoundCounts> counts_;
-  Array<int> sphere_[kFoundLists], n_;
-  Contacts single_, several_;
+  Array<int> single_sphere_, several_near_, n_;
+  Array<FeatureCode> single_feature_;
+  Array<Real> single_;
+  Contacts several_;
   Array<Real> weight_;
   std::size_t room_ = 0;
   int turn_ = 0;

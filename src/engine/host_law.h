@@ -29,8 +29,9 @@ template <class Law>
 bool redo_law(const LawBytes &bytes, const LawJob &job, std::size_t k, const SphereSink &sink)
 {
   const Law &law = bytes.as<Law>();
-  SphereState s = place_of<Law>(job, job.near[k]);
-  add_motion<Law>(job, job.near[k], s);
+  const std::size_t i = job.near[k];
+  SphereState s = place_of<Law>(job, i);
+  add_motion<Law>(job, i, RowsAlone(i), s);
   SphereResult &result = job.result[k];
   result = wall_force<Law, kMorePlaces>(job.grid, law, job.settings, s, sink);
   if (result.n_contacts == kOverflow)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/found.h"
+#include "engine/result_columns.h"
 #include "engine/wall_force.h"
 
 #include <cstdint>
@@ -15,14 +16,17 @@ constexpr int kPlaces = 8;
 constexpr int kMorePlaces = 64;
 constexpr int kMostPlaces = 512;
 
-// Where a step that stays in place puts springs and records. The first `own` places of
-// pool + k * own are those of near sphere k; one with more contacts takes all of its
-// places from the shared ones, which begin at `shared`.
+// Places for springs and records that a sphere with several contacts has of its own in place.
+constexpr int kOwnPlaces = 2;
+
+// Where a step that stays in place puts springs and records. A result has places of its own
+// (law_step.h says which); one with more contacts takes all of its places from the shared ones,
+// which begin at `shared`.
 struct ContactPool {
-  int own, shared, size;
+  int shared, size;
   int which;             // of the two pools
   int *first, *count;    // of each sphere
-  int *place;            // of each near sphere, where there are records
+  int *place;            // of each result, where there are records
   Spring *springs;
   Real *extra;
   ContactRecord *records;
@@ -57,6 +61,7 @@ struct Crowd {
   int *first, *n;    // its contacts, n < 0: they do not fit
   ContactArrays contacts;
   Real *weight;
+  struct CrowdLane *lanes;    // room to search in
 };
 
 // How a crowded sphere is told in Found::n, from its place among them and back; -1: it does
@@ -74,6 +79,7 @@ struct InPlace {
   StepCounts *counts = nullptr;    // null: results are handed back
   Rows<Real> force, torque;        // added to
   Real *heat_flow = nullptr;       // added to where the law has heat
+  ResultColumns result = {};
   ContactPool pool = {};
   Crowd crowd = {};
   int crowd_lanes = 0;    // > 0: the crowded spheres, shared among so many calls
@@ -85,11 +91,12 @@ struct LawJob {
   const int *near = nullptr;    // sphere of each k; null: sphere k
   Rows<const Real> x, v, omega;
   Column<const Real> radius, mass, temperature;
-  SpringsView springs = {};          // of the last step
-  SphereResult *result = nullptr;    // of each near sphere: written where it touches
-  Column<int> n_contacts;            // of each near sphere; kOverflow: to be done again
-  Column<Real> uncertain;            // see keep_uncertain(); null: nothing can be missed
-  SphereSink sink = {};              // of the first one; each has kPlaces for contacts
+  SpringsView springs = {};    // of the last step
+  // Of each near sphere, where results are handed back; of one that touches nothing only its
+  // n_contacts is written.
+  SphereResult *result = nullptr;
+  Column<Real> uncertain;    // of each; see keep_uncertain(). Null: nothing can be missed
+  SphereSink sink = {};      // of the first one; each has kPlaces for contacts
   InPlace in_place = {};
   Found found = {};    // where contacts are found ahead of the law
 };
@@ -99,22 +106,31 @@ inline void return_results(LawJob &job, SphereResult *result)
 {
   job.result = result;
   if (!result) return;    // of no spheres
-  job.n_contacts = {&result->n_contacts, sizeof(SphereResult) / sizeof(int)};
   job.uncertain = {&result->uncertain, sizeof(SphereResult) / sizeof(Real)};
 }
 
-// Sphere i for the search. `beyond`: does the law act past touch? `pull_off`: of the law, at
-// a radius of 1.
-LSDCD_FN Searcher searcher_of(const LawJob &job, std::size_t i, bool beyond, Real pull_off)
+// Where the result goes of near sphere k, the s-th that is listed as having several contacts.
+LSDCD_FN std::size_t result_of_several(const LawJob &job, std::size_t s, std::size_t k)
 {
-  const Real radius = job.radius[i];
-  Searcher s = {job.x[i], radius, radius, nullptr, 0};
+  return job.in_place.counts ? job.found.result_of_several(s) : k;
+}
+
+// Sphere i, at x, for the search. `beyond`: does the law act past touch? `pull_off`: of the
+// law, at a radius of 1.
+LSDCD_FN Searcher searcher_of(const LawJob &job, std::size_t i, const Vec3 &x, Real radius,
+                              bool beyond, Real pull_off)
+{
+  Searcher s = {x, radius, radius, nullptr, 0};
   if (beyond) {
     s.reach = reach_of(radius, pull_off);
     s.n_springs = job.springs.count[i];
     s.springs = job.springs.pool + (s.n_springs > 0 ? job.springs.first[i] : 0);
   }
   return s;
+}
+LSDCD_FN Searcher searcher_of(const LawJob &job, std::size_t i, bool beyond, Real pull_off)
+{
+  return searcher_of(job, i, job.x[i], job.radius[i], beyond, pull_off);
 }
 
 // The part of a job that spheres in packed arrays decide.

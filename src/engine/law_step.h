@@ -2,6 +2,7 @@
 // whether it finds their contacts as it goes or they were found before.
 #pragma once
 
+#include "base/rows_together.h"
 #include "engine/compiled_law.h"
 #include "engine/found_contacts.h"
 #include "engine/step_notes.h"
@@ -10,14 +11,14 @@
 
 namespace lsdcd {
 
-// What the search for contacts reads of sphere i: most of those near the wall touch
-// nothing, and what only a contact needs is left where it is.
+// Sphere i, at x, without what only a contact needs: most of those near the wall touch
+// nothing.
 template <class Law>
-LSDCD_FN SphereState place_of(const LawJob &job, std::size_t i)
+LSDCD_FN SphereState state_at(const LawJob &job, std::size_t i, const Vec3 &x, Real radius)
 {
   SphereState s = {};
-  s.x = job.x[i];
-  s.radius = job.radius[i];
+  s.x = x;
+  s.radius = radius;
   if constexpr (Law::kHistory) {
     s.n_springs = job.springs.count[i];
     const std::size_t first = s.n_springs > 0 ? job.springs.first[i] : 0;
@@ -26,37 +27,64 @@ LSDCD_FN SphereState place_of(const LawJob &job, std::size_t i)
   }
   return s;
 }
-
 template <class Law>
-LSDCD_FN void add_motion(const LawJob &job, std::size_t i, SphereState &s)
+LSDCD_FN SphereState place_of(const LawJob &job, std::size_t i)
 {
-  s.v = job.v[i];
-  s.omega = job.omega[i];
+  return state_at<Law>(job, i, job.x[i], job.radius[i]);
+}
+
+// `rows`: those of sphere i.
+template <class Law, class TheRows>
+LSDCD_FN void add_motion(const LawJob &job, std::size_t i, const TheRows &rows, SphereState &s)
+{
+  s.v = rows.read(job.v);
+  s.omega = rows.read(job.omega);
   s.mass = job.mass[i];
   if constexpr (Law::kHeat) s.temperature = job.temperature[i];
 }
 
-// The places of near sphere k in the sink; what the law has no use for is not even set.
+// Where the result of a near sphere goes; in place also the places of its own that it has for
+// springs and records.
+struct ResultPlace {
+  std::size_t at;
+  int own, n_own;
+};
+
+// In one pass a result has its near sphere's number and two places: a face each side of an
+// edge. Of a single contact it has its number in the list, and so has the only place. Of
+// several ones, which are counted down from the end, two at twice its number: with m single
+// contacts that is 2 m or more, past the places of these.
+LSDCD_FN ResultPlace place_of_two(std::size_t at)
+{
+  return {at, kOwnPlaces * static_cast<int>(at), kOwnPlaces};
+}
+LSDCD_FN ResultPlace place_of_single(std::size_t at)
+{
+  return {at, static_cast<int>(at), 1};
+}
+
+// Where result `at` puts what few laws return; what the law has no use for is not even set.
 template <class Law>
-LSDCD_FN SphereSink sink_of(const LawJob &job, std::size_t k)
+LSDCD_FN SphereSink sink_of(const LawJob &job, std::size_t at)
 {
   SphereSink sink = {};
-  if constexpr (Law::kHistory) sink.springs = job.sink.springs + k * kPlaces;
-  if constexpr (Law::kExtra > 0) sink.extra = job.sink.extra + k * kPlaces * Law::kExtra;
-  if constexpr (Law::kHeat) sink.heat = job.sink.heat + k;
-  if constexpr (Law::kRecords) sink.records = job.sink.records + k * kPlaces;
+  if constexpr (Law::kHistory) sink.springs = job.sink.springs + at * kPlaces;
+  if constexpr (Law::kExtra > 0) sink.extra = job.sink.extra + at * kPlaces * Law::kExtra;
+  if constexpr (Law::kHeat) sink.heat = job.sink.heat + at;
+  if constexpr (Law::kRecords) sink.records = job.sink.records + at * kPlaces;
   return sink;
 }
 
 // The same in place, for n contacts that bear; false: no room.
 template <class Law>
-LSDCD_FN bool take_places(const LawJob &job, std::size_t k, int n, int &first, SphereSink &sink)
+LSDCD_FN bool take_places(const LawJob &job, const ResultPlace &to, int n, int &first,
+                          SphereSink &sink)
 {
   const ContactPool &pool = job.in_place.pool;
-  first = static_cast<int>(k) * pool.own;
-  if constexpr (Law::kHeat) sink.heat = job.sink.heat + k;
+  first = to.own;
+  if constexpr (Law::kHeat) sink.heat = job.sink.heat + to.at;
   if constexpr (Law::kHistory || Law::kRecords) {
-    if (n > pool.own) {
+    if (n > to.n_own) {
       first = pool.shared + fetch_add(&job.in_place.counts->shared_used[pool.which], n);
       if (first > pool.size - n) return false;
     }
@@ -75,57 +103,63 @@ LSDCD_FN int count_bearing(const ContactsView &set, const Real *weight)
   return n;
 }
 
-// Result of near sphere k, which is sphere i: into the spheres' arrays, and kept with its
-// torque about the origin, so that totals can be made when the spheres are elsewhere.
+// What is kept of sphere i's result in place beside its force and torque: its moment about
+// the origin, so that totals can be made when the spheres are elsewhere.
 template <class Law>
-LSDCD_FN void add_in_place(const LawJob &job, std::size_t k, std::size_t i, const SphereState &s,
-                           int first, SphereResult &out)
+LSDCD_FN void keep_in_place(const LawJob &job, const ResultPlace &to, std::size_t i, const Vec3 &x,
+                            int first, const SphereResult &out)
 {
-  const InPlace &to = job.in_place;
+  const InPlace &in_place = job.in_place;
   if (out.overlap_ratio > 0)
-    raise_to(&to.counts->deepest,
+    raise_to(&in_place.counts->deepest,
              std::uint64_t(ascending_bits(static_cast<float>(out.overlap_ratio))) << 32 | (i + 1));
   if constexpr (Law::kHistory)
     if (job.settings.update) {
-      if (out.n_contacts > 0) to.pool.first[i] = first;
-      to.pool.count[i] = out.n_contacts;
+      if (out.n_contacts > 0) in_place.pool.first[i] = first;
+      in_place.pool.count[i] = out.n_contacts;
     }
-  if (out.n_contacts == 0) return;
-  if constexpr (Law::kRecords) to.pool.place[k] = first;
-  // All are read before one is written: the compiler does not know that they are apart.
-  const Vec3 force = to.force[i] + out.force, torque = to.torque[i] + out.torque;
-  to.force.put(i, force);
-  to.torque.put(i, torque);
-  if constexpr (Law::kHeat) to.heat_flow[i] += job.sink.heat[k];
-  out.torque = cross(s.x, out.force) + out.torque;
-}
-
-// What its contacts do to near sphere k, which is sphere i.
-template <class Law>
-LSDCD_FN void bear(const Law &law, const LawJob &job, std::size_t k, std::size_t i, SphereState &s,
-                   const ContactsView &set, const Real *weight)
-{
-  if (set.n == 0) {
-    touches_nothing(job, k, i);
+  if (out.n_contacts == 0) {
+    put_count(job, to.at, 0);
     return;
   }
+  if constexpr (Law::kRecords) in_place.pool.place[to.at] = first;
+  if constexpr (Law::kHeat) in_place.heat_flow[i] += job.sink.heat[to.at];
+  in_place.result.put(to.at, out, cross(x, out.force) + out.torque);
+}
+
+// What its contacts, of which there are some, do to sphere i, whose rows are `rows`. Where
+// lanes take these together all of them call this, and those without a sphere are not `mine`.
+template <class Law, class TheRows>
+LSDCD_FN void bear(const Law &law, const LawJob &job, const ResultPlace &to, std::size_t i,
+                   const TheRows &rows, SphereState &s, const ContactsView &set, const Real *weight,
+                   bool mine)
+{
   const bool stays = job.in_place.counts != nullptr;
   int first = 0;
   SphereSink sink = {};
-  if (!stays) {
-    sink = sink_of<Law>(job, k);
-  } else if (!take_places<Law>(job, k, count_bearing(set, weight), first, sink)) {
-    does_not_fit(job, k);
-    return;
+  bool bears = mine;
+  if (mine) {
+    if (!stays) {
+      sink = sink_of<Law>(job, to.at);
+    } else if (!take_places<Law>(job, to, count_bearing(set, weight), first, sink)) {
+      does_not_fit(job, to.at);
+      bears = false;
+    }
   }
-  if constexpr (Law::kHeat) *sink.heat = 0;
-  add_motion<Law>(job, i, s);
+  add_motion<Law>(job, i, rows, s);
   SphereResult out = {};
-  add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
-  if (job.uncertain.at) out.uncertain = job.uncertain[k];
-  if (stays) add_in_place<Law>(job, k, i, s, first, out);
-  job.n_contacts[k] = out.n_contacts;
-  if (out.n_contacts > 0) job.result[k] = out;
+  if (bears) {
+    if constexpr (Law::kHeat) *sink.heat = 0;
+    add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
+    if (stays) {
+      keep_in_place<Law>(job, to, i, s.x, first, out);
+    } else {
+      if (job.uncertain.at) out.uncertain = job.uncertain[to.at];
+      job.result[to.at] = out;
+    }
+  }
+  if (stays)
+    rows.add(job.in_place.force, out.force, job.in_place.torque, out.torque, out.n_contacts > 0);
 }
 
 // The contacts of the c-th crowded sphere; false: they do not fit.
@@ -137,12 +171,19 @@ LSDCD_FN bool crowded_contacts(const Crowd &crowd, int c, ContactsView &set, con
   return true;
 }
 
+LSDCD_FN void touches_nothing(const LawJob &job, const ResultPlace &to, std::size_t i)
+{
+  put_count(job, to.at, 0);
+  lose_springs(job, i);
+}
+
 // Near sphere k from search to result, in one pass; `crowded` is its place among the crowded
 // ones, or -1.
 template <class Law>
 LSDCD_FN void near_sphere(const Law &law, const LawJob &job, std::size_t k, int crowded)
 {
   const std::size_t i = job.near ? job.near[k] : k;
+  const ResultPlace to = place_of_two(k);
   SphereState s = place_of<Law>(job, i);
   Touch<kPlaces> touching;
   ContactsView set;
@@ -152,16 +193,19 @@ LSDCD_FN void near_sphere(const Law &law, const LawJob &job, std::size_t k, int 
     SphereResult found = {};
     find_touch(job.grid, law, job.settings, s, touching, found);
     if (touching.set.overflow) {
-      put_off(job, k);
+      put_off(job, k, to.at);
       return;
     }
     keep_uncertain(job, k, found.uncertain, s.radius);
     set = touching.set.view();
   } else if (!crowded_contacts(job.in_place.crowd, crowded, set, weight)) {
-    does_not_fit(job, k);
+    does_not_fit(job, to.at);
     return;
   }
-  bear(law, job, k, i, s, set, weight);
+  if (set.n == 0)
+    touches_nothing(job, to, i);
+  else
+    bear(law, job, to, i, RowsAlone(i), s, set, weight, true);
 }
 
 template <class Law>
@@ -180,35 +224,49 @@ LSDCD_FN void law_step(const Law &law, const LawJob &job, std::size_t at)
   }
 }
 
-// The at-th of the near spheres for which find_first() has found one contact. That it is one
-// and bears all of the force is known to the compiler: there is no loop to keep sums for, and
-// half the registers do.
+// The at-th sphere for which find_first() has found one contact. That it is one and bears all
+// of the force is known to the compiler: there is no loop to keep sums for, and half the
+// registers do. For lanes past the end of the list, the last one's rows are read once more.
 template <class Law>
 LSDCD_FN void found_single(const Law &law, const LawJob &job, std::size_t at)
 {
-  const Found &found = job.found;
-  if (at >= static_cast<std::size_t>(found.counts->listed[kSingle])) return;
-  const std::size_t k = found.sphere[kSingle][at], i = job.near ? job.near[k] : k;
-  SphereState s = place_of<Law>(job, i);
-  bear(law, job, k, i, s, found.single.view(at, 1), nullptr);
+  const std::size_t n = job.found.counts->listed[kSingle];
+  if (RowsTogether::first(at) >= n) return;
+  const bool mine = at < n;
+  const std::size_t from = mine ? at : n - 1;
+  const SingleContacts &single = job.found.single;
+  const int i = single.sphere[from];
+  const RowsTogether rows(i);
+  SphereState s = state_at<Law>(job, i, single.x[from], single.radius[from]);
+  const FeatureCode feature = single.feature[from];
+  const Vec3 normal = single.normal[from];
+  const Real distance = single.distance[from];
+  ResultPlace to = place_of_single(from);
+  if (!job.in_place.counts) to.at = i;    // a near sphere's own number
+  bear(law, job, to, i, rows, s, {1, &feature, &normal, &distance}, nullptr, mine);
 }
 
-// The at-th of those for which it has found several.
+// The s-th of those for which it has found several.
 template <class Law>
-LSDCD_FN void found_several(const Law &law, const LawJob &job, std::size_t at)
+LSDCD_FN void found_several(const Law &law, const LawJob &job, std::size_t s)
 {
   const Found &found = job.found;
-  const std::size_t k = found.sphere[kSeveral][at], i = job.near ? job.near[k] : k;
-  const int n = found.n[at];
+  const std::size_t k = found.several_near[s], i = job.near ? job.near[k] : k;
+  const ResultPlace to = place_of_two(result_of_several(job, s, k));
+  const int n = found.n[s];
   if (n == kOverflow) return;
-  ContactsView set = found.several.view(at * kPlaces, n);
-  const Real *weight = found.weight + at * kPlaces;
+  ContactsView set = found.several.view(s * kPlaces, n);
+  const Real *weight = found.weight + s * kPlaces;
   if (n < kOverflow && !crowded_contacts(job.in_place.crowd, place_of_crowded(n), set, weight)) {
-    does_not_fit(job, k);
+    does_not_fit(job, to.at);
     return;
   }
-  SphereState s = place_of<Law>(job, i);
-  bear(law, job, k, i, s, set, weight);
+  if (set.n == 0) {
+    touches_nothing(job, to, i);
+    return;
+  }
+  SphereState state = place_of<Law>(job, i);
+  bear(law, job, to, i, RowsAlone(i), state, set, weight, true);
 }
 
 // For backends that find contacts as they go: n near spheres, or lanes of crowded ones.
@@ -220,16 +278,29 @@ void start_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend 
       n, [=] LSDCD_LAMBDA(std::size_t at) { law_step(law, job, at); }, 128);
 }
 
-// For those that find them first (Backend::kFindsFirst): n near spheres, one each in the
-// first kernel, though only the device knows how many of them are listed.
+// The law on what find_first() has found: many single contacts, and few spheres with several.
+template <class Law>
+struct FoundLoop {
+  Law law;
+  LawJob job;
+
+  // Blocks at once on a GPU's processor: 64, 80 or 128 registers are left to a thread. That
+  // is what single contacts need; several ones may spill.
+  static constexpr int kBlocksAtOnce = Law::kExtra > 0 || Law::kCouple ? 4 : Law::kHistory ? 6 : 8;
+
+  LSDCD_FN void many(std::size_t at) const { found_single(law, job, at); }
+  LSDCD_FN std::size_t n_few() const { return job.found.counts->listed[kSeveral]; }
+  LSDCD_FN void few(std::size_t s) const { found_several(law, job, s); }
+};
+
+// For those that find them first (Backend::kFindsFirst): n near spheres, a call for each,
+// though only the device knows how many of them are listed.
 template <class Law, class Backend>
 void start_found_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend &backend)
 {
-  const Law law = bytes.as<Law>();
-  backend.for_each(
-      n, [=] LSDCD_LAMBDA(std::size_t at) { found_single(law, job, at); }, 128);
-  for_each_several(backend, job.found, n,
-                   [=] LSDCD_LAMBDA(std::size_t at) { found_several(law, job, at); });
+  constexpr std::size_t warp = RowsTogether::kTogether;
+  backend.few_and_many(n, (n + warp - 1) / warp * warp, FoundLoop<Law>{bytes.as<Law>(), job},
+                       job.found.just_now);
 }
 
 }    // namespace lsdcd

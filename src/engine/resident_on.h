@@ -63,12 +63,6 @@ class ResidentOn : public ResidentEngine {
     if (seen.too_large) throw_for(spheres, seen);
     n_near_ = seen.n_near;
     springs_.make_room(n_near_, seen);
-    if (result_.size() < n_near_) {
-      const std::size_t room = n_near_ + n_near_ / 8;
-      result_ = Array<SphereResult>(room);
-      if (law_.traits.heat) heat_ = Array<Real>(room);
-      if (law_.traits.records) place_ = Array<int>(room);
-    }
     make_room();
     near_known_ = false;
   }
@@ -108,12 +102,13 @@ class ResidentOn : public ResidentEngine {
         beside_.join(b_);
       else
         find_contacts(b_, job);
-      job.found = found_.now();
+      job.found = found_.now(n_near_);
+      job.found.just_now = !searched;
       law_.start(law_.law, job, n_near_, b_);
     } else {
       clear_counts(job.in_place);
       law_.start(law_.law, job, n_near_, b_);
-      crowd_.find(b_, job, settings_.law.pull_off());
+      find_crowd(b_, job, settings_.law.pull_off());
       job.in_place.crowd_lanes = kCrowdLawLanes;
       law_.start(law_.law, job, kCrowdLawLanes, b_);
     }
@@ -179,10 +174,10 @@ class ResidentOn : public ResidentEngine {
   std::size_t bytes() const override
   {
     return block_.size() + words_.size() * sizeof(BrickWord) + springs_.bytes() +
-           result_.size() * sizeof(SphereResult) +
-           (heat_.size() + uncertain_.size()) * sizeof(Real) +
-           (near_.size() + place_.size() + n_contacts_.size()) * sizeof(int) + found_.bytes() +
-           ResidentCrowd<B>::bytes() + touching_.capacity() * sizeof(int) +
+           (result_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
+           (near_.size() + pool_place_.size() + n_contacts_.size() + result_place_.size()) *
+               sizeof(int) +
+           found_.bytes() + ResidentCrowd<B>::bytes() + touching_.capacity() * sizeof(int) +
            output_.capacity() * sizeof(SphereOutput) + sphere_heat_.capacity() * sizeof(Real) +
            records_.capacity() * sizeof(ContactRecord);
   }
@@ -220,15 +215,15 @@ class ResidentOn : public ResidentEngine {
     SphereOutput *to = out.data();
     Real *to_heat = heat_out.data();
     const Real *from_heat = heat_.data();
-    const SphereResult *result = result_.data();
-    const int *near = near_.data(), *n_contacts = n_contacts_.data();
+    const ResultColumns result = columns_;
+    const int *near = near_.data();
     const Spheres spheres = spheres_;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const int i = near[k];
-      const bool touches = n_contacts[k] > 0;    // nothing is written of others
+      const int i = near[k], at = result.of_near(k);
+      const bool touches = at >= 0;    // nothing is written of others
       to[k] = SphereOutput();
-      if (touches) to[k] = output_of(result[k], spheres.x[i], spheres.radius[i]);
-      if (has_heat) to_heat[k] = touches ? from_heat[k] : 0;
+      if (touches) to[k] = output_of(result.get(at), spheres.x[i], spheres.radius[i]);
+      if (has_heat) to_heat[k] = touches ? from_heat[at] : 0;
     });
     const std::vector<SphereOutput> all = b_.to_host(out, n);
     const std::vector<Real> heat = b_.to_host(heat_out, heat_out.size());
@@ -246,15 +241,21 @@ class ResidentOn : public ResidentEngine {
     const std::size_t n = n_near_;
     Array<int> offset(n);
     int *at = offset.data();
-    const int *n_contacts = n_contacts_.data(), *place = place_.data();
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = n_contacts[k]; });
+    const ResultColumns result = columns_;
+    const int *place = pool_place_.data();
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      const int r = result.of_near(k);
+      at[k] = r >= 0 ? result.n_contacts[r] : 0;
+    });
     const std::size_t total = b_.exclusive_scan(at, n);
     // What lies between them was never written.
     Array<ContactRecord> packed(total);
     ContactRecord *to = packed.data();
     const ContactRecord *from = springs_.records(step_.update_history);
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      for (int c = 0; c < n_contacts[k]; c++) to[at[k] + c] = from[place[k] + c];
+      const int r = result.of_near(k);
+      if (r < 0) return;
+      for (int c = 0; c < result.n_contacts[r]; c++) to[at[k] + c] = from[place[r] + c];
     });
     records_ = b_.to_host(packed, total);
   }
@@ -267,15 +268,18 @@ class ResidentOn : public ResidentEngine {
     const std::size_t n = n_near_, n_blocks = (n + kTotalsBlock - 1) / kTotalsBlock;
     Array<WallTotals> block(n_blocks);
     WallTotals *to = block.data();
-    const SphereResult *result = result_.data();
-    const int *near = near_.data(), *n_contacts = n_contacts_.data();
+    const ResultColumns result = columns_;
+    const int *near = near_.data();
     const Real *uncertain = uncertain_of_near();
     b_.for_each(n_blocks, [=] LSDCD_LAMBDA(std::size_t b) {
       WallTotals t;
       const std::size_t end = (b + 1) * kTotalsBlock < n ? (b + 1) * kTotalsBlock : n;
       for (std::size_t k = b * kTotalsBlock; k < end; k++) {
         if (uncertain && uncertain[k] > 0) add_uncertain(t, uncertain[k]);
-        if (n_contacts[k] > 0) add_result(t, result[k], result[k].torque, near[k]);
+        const int at = result.of_near(k);
+        if (at < 0) continue;
+        const SphereResult r = result.get(at);
+        add_result(t, r, r.torque, near[k]);
       }
       to[b] = t;
     });
@@ -290,33 +294,45 @@ class ResidentOn : public ResidentEngine {
     LawJob job = job_of(grid_, force_settings(settings_, step), spheres);
     job.near = near_.data();
     job.springs = springs_.view();
-    job.result = result_.data();
-    job.n_contacts = {n_contacts_.data()};
     job.uncertain = {uncertain_of_near()};
     job.sink = {nullptr, nullptr, heat_.data(), nullptr};
     job.in_place.counts = counts_.data();
     job.in_place.force = spheres.force;
     job.in_place.torque = spheres.torque;
     job.in_place.heat_flow = spheres.heat_flow;
-    job.in_place.pool = springs_.next(place_.data());
+    job.in_place.result = columns_ = next_columns(step.per_sphere);
+    job.in_place.pool = springs_.next(pool_place_.data());
     job.in_place.crowd = crowd_.view();
     return job;
   }
 
   void find_contacts(B &b, LawJob job)
   {
-    const Real pull_off = settings_.law.pull_off();
-    job.found = found_.next();
-    find_first(b, job, n_near_, pull_off);
-    crowd_.find(b, job, pull_off);
+    job.found = found_.next(n_near_);
+    find_first(b, job, n_near_, settings_.law.pull_off());
   }
 
   void make_room()
   {
     const std::size_t n = n_near_, room = n + n / 8;
-    if (n_contacts_.size() < n) n_contacts_ = Array<int>(room);
+    if (n_contacts_.size() < n) {
+      n_contacts_ = Array<int>(room);
+      if (B::kFindsFirst) result_place_ = Array<int>(room);
+      if (law_.traits.heat) heat_ = Array<Real>(room);
+      if (law_.traits.records) pool_place_ = Array<int>(room);
+    }
     if (may_miss_any(grid_) && uncertain_.size() < n) uncertain_ = Array<Real>(room);
     if constexpr (B::kFindsFirst) found_.reserve(b_, n);
+  }
+  // Of a step that begins; `with_point`: its outputs will be asked for.
+  ResultColumns next_columns(bool with_point)
+  {
+    const std::size_t room = n_contacts_.size(),
+                      n = room *
+                          (with_point ? ResultColumns::kRealsWithPoint : ResultColumns::kReals);
+    if (result_.size() < n) result_ = Array<Real>(n);
+    return ResultColumns::of(result_.data(), room, with_point, n_contacts_.data(),
+                             result_place_.data());
   }
   Real *uncertain_of_near() { return may_miss_any(grid_) ? uncertain_.data() : nullptr; }
 
@@ -358,11 +374,12 @@ class ResidentOn : public ResidentEngine {
 
   Array<int> near_;
   std::size_t n_near_ = 0;
-  Array<SphereResult> result_;    // where there are contacts
-  Array<int> n_contacts_;
-  Array<Real> uncertain_;    // overlap / radius, where the grid may miss any
-  Array<Real> heat_;
-  Array<int> place_;
+  // Results of the last step: their columns, and of each its contacts, its heat and its place
+  // in the pool. Of each near sphere the place of its result.
+  ResultColumns columns_;
+  Array<Real> result_, heat_;
+  Array<int> n_contacts_, pool_place_, result_place_;
+  Array<Real> uncertain_;    // of near spheres, overlap / radius, where the grid may miss any
 
   Array<StepCounts> counts_;
   ResidentCrowd<B> crowd_;

@@ -74,7 +74,7 @@ class ResidentSprings {
     wanted_ = 0;
     if (!traits_.history && !traits_.records) return;
     const std::size_t shared = std::max(last.shared_used[0], last.shared_used[1]);
-    wanted_ = kOwn * n + std::max(2 * n, 2 * shared) + kCrowdContacts;
+    wanted_ = kOwnPlaces * n + std::max(2 * n, 2 * shared) + kCrowdContacts;
   }
 
   // Where the next step writes; `place`: see ContactPool.
@@ -82,9 +82,8 @@ class ResidentSprings {
   {
     Pool &pool = pool_[1 - now_];
     if (pool.size < wanted_) pool = make(wanted_ + wanted_ / 8);
-    pool.shared = kOwn * n_near_;
-    return {kOwn,
-            static_cast<int>(pool.shared),
+    pool.shared = kOwnPlaces * n_near_;
+    return {static_cast<int>(pool.shared),
             static_cast<int>(pool.size),
             1 - now_,
             first_.data(),
@@ -257,7 +256,6 @@ class ResidentSprings {
   }
 
  private:
-  static constexpr int kOwn = 2;    // places of a sphere's own: a face each side of an edge
   static constexpr std::size_t kUnknown = ~std::size_t(0);
 
   int per_spring() const { return 7 + traits_.n_extra; }    // feature, normal, stretch, extra

@@ -27,25 +27,33 @@ LSDCD_FN void keep_uncertain(const LawJob &job, std::size_t k, Real uncertain, R
   raise_to(&counts->uncertain, ascending_bits(static_cast<float>(uncertain)));
 }
 
-// Near sphere k is sphere i. Few have a spring to lose: the others' counts are not written.
-LSDCD_FN void touches_nothing(const LawJob &job, std::size_t k, std::size_t i)
+// How many contacts result `at` is of; kOverflow: it has to be done again.
+LSDCD_FN void put_count(const LawJob &job, std::size_t at, int n)
 {
-  job.n_contacts[k] = 0;
+  if (job.in_place.counts)
+    job.in_place.result.n_contacts[at] = n;
+  else
+    job.result[at].n_contacts = n;
+}
+
+// Sphere i touches nothing. Few have a spring to lose: the others' counts are not written.
+LSDCD_FN void lose_springs(const LawJob &job, std::size_t i)
+{
   int *n_springs = job.in_place.pool.count;
   if (n_springs && job.settings.update && n_springs[i] != 0) n_springs[i] = 0;
 }
 
-// There is no room for its contacts: done again by the host, or an error.
-LSDCD_FN void does_not_fit(const LawJob &job, std::size_t k)
+// There is no room for the contacts of result `at`: done again by the host, or an error.
+LSDCD_FN void does_not_fit(const LawJob &job, std::size_t at)
 {
   StepCounts *counts = job.in_place.counts;
   if (counts) fetch_add(&counts->lost, 1);
-  job.n_contacts[k] = counts ? 0 : kOverflow;
+  put_count(job, at, counts ? 0 : kOverflow);
 }
 
-// Its contacts do not fit into a kernel's places: returns its place among the crowded ones,
-// or -1 where it does not fit there either.
-LSDCD_FN int put_off(const LawJob &job, std::size_t k)
+// The contacts of near sphere k, whose result is `at_result`, do not fit into a kernel's places:
+// returns its place among the crowded ones, or -1 where it does not fit there either.
+LSDCD_FN int put_off(const LawJob &job, std::size_t k, std::size_t at_result)
 {
   const Crowd &crowd = job.in_place.crowd;
   const int at = job.in_place.counts ? fetch_add(&job.in_place.counts->n_crowded, 1) : 0;
@@ -53,7 +61,7 @@ LSDCD_FN int put_off(const LawJob &job, std::size_t k)
     crowd.which[at] = static_cast<int>(k);
     return at;
   }
-  does_not_fit(job, k);
+  does_not_fit(job, at_result);
   return -1;
 }
 

@@ -8,7 +8,7 @@ namespace lsdcd {
 namespace {
 
 // Brings the host's spheres and springs to where a resident engine computes, and back, in
-// every step. Vectors lie there as x x x y y y z z z, as nothing else in the tests does.
+// every step. Vectors lie there as x x x y y y z z z in one step and as x y z x y z in the next.
 class ResidentForHost : public WallEngine {
  public:
   ResidentForHost(std::unique_ptr<ResidentEngine> engine, bool has_history, bool cuda) :
@@ -30,6 +30,7 @@ class ResidentForHost : public WallEngine {
     const auto put = [n](DeviceArray<Real> &to, const Real *from) {
       return from ? to.put(from, n) : nullptr;
     };
+    packed_ = !packed_;
     s.x = put_vectors(x_, host.x, n);
     s.radius = put(radius_, host.radius);
     s.mask = host.mask ? mask_.put(host.mask, n) : nullptr;
@@ -44,8 +45,8 @@ class ResidentForHost : public WallEngine {
     s.v = put_vectors(v_, host.v, n);
     s.omega = put_vectors(omega_, host.omega, n);
     const std::vector<Real> none(3 * n, 0);
-    s.force = {force_.put(none), 1, static_cast<std::ptrdiff_t>(n)};
-    s.torque = {torque_.put(none), 1, static_cast<std::ptrdiff_t>(n)};
+    s.force = rows_in(force_.put(none), n);
+    s.torque = rows_in(torque_.put(none), n);
     s.mass = put(mass_, host.mass);
     s.temperature = put(temperature_, host.temperature);
     s.heat_flow = put(heat_, host.heat_flow);
@@ -78,21 +79,26 @@ class ResidentForHost : public WallEngine {
   std::size_t bytes() const override { return engine_->bytes(); }
 
  private:
-  static Rows<const Real> put_vectors(DeviceArray<Real> &to, const Rows<const Real> &from,
-                                      std::size_t n)
+  Rows<Real> rows_in(Real *at, std::size_t n) const
   {
-    std::vector<Real> columns(3 * n);
-    for (std::size_t i = 0; i < n; i++)
-      for (int k = 0; k < 3; k++) columns[k * n + i] = from[i][k];
-    return {to.put(columns), 1, static_cast<std::ptrdiff_t>(n)};
+    return packed_ ? Rows<Real>(at) : Rows<Real>(at, 1, static_cast<std::ptrdiff_t>(n));
   }
-  static void add_vectors(const Rows<Real> &to, const std::vector<Real> &columns, std::size_t n)
+  Rows<const Real> put_vectors(DeviceArray<Real> &to, const Rows<const Real> &from,
+                               std::size_t n) const
   {
-    for (std::size_t i = 0; i < n; i++) to.add(i, {columns[i], columns[n + i], columns[2 * n + i]});
+    std::vector<Real> laid_out(3 * n);
+    const Rows<Real> rows = rows_in(laid_out.data(), n);
+    for (std::size_t i = 0; i < n; i++) rows.put(i, from[i]);
+    return rows_in(to.put(laid_out), n);
+  }
+  void add_vectors(const Rows<Real> &to, std::vector<Real> laid_out, std::size_t n) const
+  {
+    const Rows<Real> rows = rows_in(laid_out.data(), n);
+    for (std::size_t i = 0; i < n; i++) to.add(i, rows[i]);
   }
 
   std::unique_ptr<ResidentEngine> engine_;
-  bool has_history_, moves_ = false;
+  bool has_history_, moves_ = false, packed_ = false;
   Spheres host_;
   SpringStore *springs_ = nullptr;
   DeviceArray<Real> x_, v_, omega_, force_, torque_, radius_, mass_, temperature_, heat_;

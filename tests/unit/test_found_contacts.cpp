@@ -184,9 +184,12 @@ TEST(found_contacts, of_all_kinds_change_from_step_to_step)
   }
 }
 
+// Lanes of a GPU that share spheres with several contacts.
+constexpr int kMostLanes = 1 << 16;
+
 TEST(found_contacts, of_more_spheres_than_there_are_lanes_for_several)
 {
-  const int n = static_cast<int>(kSeveralLanes) + 5000;
+  const int n = kMostLanes + 5000;
   EngineSettings s;
   s.law = classic(LawStyle::hooke);
   const auto outcome = [&](const EngineMaker &make) {
@@ -355,7 +358,7 @@ TEST(found_contacts, of_an_engine_that_hands_results_back_are_its_results)
     FindingFirst backend;
     FoundContacts<FindingFirst> found;
     found.reserve(backend, kSpheres);
-    job.found = found.next();
+    job.found = found.next(kSpheres);
     find_first(backend, job, kSpheres, 0);
     start_found_law<Law>(LawBytes(law), job, kSpheres, backend);
   }

@@ -350,6 +350,29 @@ TEST(resident, a_step_without_outputs_neither_copies_nor_waits)
   EXPECT_GT(particles.engine->totals().contacts, 100);
 }
 
+TEST(resident, outputs_of_the_step_that_asks_for_them_are_those_of_always_asking)
+{
+  const int n = 3000;
+  Particles once(with_history(), n, 0.5), always(with_history(), n, 0.5);
+  const auto outputs = [](Particles &p, bool asks) {
+    StepSettings step;
+    step.dt = 0.01;
+    step.per_sphere = asks;
+    p.engine->start(p.spheres(), step, nullptr);
+    p.engine->collect();
+    const SphereOutput *first = p.engine->sphere_output();
+    return std::vector<SphereOutput>(first, first + p.engine->n_touching());
+  };
+  for (Particles *p : {&once, &always}) p->engine->choose(p->spheres(), 0);
+  for (bool asks : {false, true, false}) {
+    const std::vector<SphereOutput> a = outputs(once, asks), b = outputs(always, true);
+    EXPECT_GT(b.size(), 100u);
+    EXPECT_EQ(a.empty(), !asks);
+    EXPECT_TRUE(!asks || same_bytes(a, b));
+    EXPECT_EQ(once.engine->totals().energy, always.engine->totals().energy);
+  }
+}
+
 TEST(resident, springs_that_are_taken_over_are_all_that_there_are)
 {
   const int n = 2000, few = 10;
