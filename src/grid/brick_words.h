@@ -27,11 +27,17 @@ LSDCD_FN std::uint32_t brick_number(const BrickWord &word, std::size_t place)
   return word.below + static_cast<std::uint32_t>(count_bits(before));
 }
 
+// How many a grid's table has.
+inline std::size_t n_brick_words(const GridView &grid)
+{
+  return (std::size_t(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2] + 31) / 32;
+}
+
 // Of grid.lists, for a view on the host.
 inline std::vector<BrickWord> brick_words(const GridView &grid)
 {
   const std::size_t n = std::size_t(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2];
-  std::vector<BrickWord> words((n + 31) / 32, BrickWord{0, 0});
+  std::vector<BrickWord> words(n_brick_words(grid), BrickWord{0, 0});
   std::uint32_t bricks = 0;
   for (std::size_t at = 0; at < n; at++) {
     if (at % 32 == 0) words[at / 32].below = bricks;
@@ -49,19 +55,21 @@ inline std::vector<BrickWord> brick_words(const GridView &grid)
 struct WholeNumber {
   bool fits;
   std::uint32_t value;
+  Real real;    // the same
 };
 LSDCD_FN WholeNumber whole_below(Real x)
 {
   constexpr Real kFromHereWhole = 4503599627370496.;
 #if defined(__CUDA_ARCH__)
-  const std::uint64_t bits = __double_as_longlong(__dadd_rd(x, kFromHereWhole));
+  const Real sum = __dadd_rd(x, kFromHereWhole);
+  const std::uint64_t bits = __double_as_longlong(sum);
 #else
   Real sum = x + kFromHereWhole;
   if (sum - kFromHereWhole > x) sum -= 1;
   std::uint64_t bits;
   std::memcpy(&bits, &sum, sizeof bits);
 #endif
-  return {bits >> 32 == 0x43300000u, static_cast<std::uint32_t>(bits)};
+  return {bits >> 32 == 0x43300000u, static_cast<std::uint32_t>(bits), sum - kFromHereWhole};
 }
 
 constexpr std::uint32_t kNoBrick = 0xffffffffu;
@@ -85,6 +93,19 @@ LSDCD_FN BrickPlace brick_place_of(const GridView &grid, const Vec3 &q)
   const std::uint32_t place = ((k.value >> 3) * ny + (j.value >> 3)) * nx + (i.value >> 3);
   return {inside ? place : kNoBrick,
           static_cast<std::int32_t>((k.value & 7) << 6 | (j.value & 7) << 3 | (i.value & 7))};
+}
+
+// The address that locate() gives, to the bit, without its brick, which nothing needs once the
+// list of the cell is known; for a point that is inside of the grid.
+LSDCD_FN CellAddress address_inside(const GridView &grid, const Vec3 &q)
+{
+  const Vec3 at = {(q.x - grid.origin.x) * grid.inv_length, (q.y - grid.origin.y) * grid.inv_length,
+                   (q.z - grid.origin.z) * grid.inv_length};
+  const WholeNumber i = whole_below(at.x), j = whole_below(at.y), k = whole_below(at.z);
+  const Real half = Real(0.5);
+  return {nullptr,
+          static_cast<std::int32_t>((k.value & 7) << 6 | (j.value & 7) << 3 | (i.value & 7)),
+          grid.length * Vec3{at.x - i.real - half, at.y - j.real - half, at.z - k.real - half}};
 }
 
 LSDCD_FN BrickWord word_at(const BrickWord *words, const BrickPlace &at)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/input_error.h"
-#include "grid/brick_words.h"
+#include "grid/brick_filter.h"
 #include "grid/flat_grid.h"
 #include "query/nearest_distance.h"
 #include "query/one_pass.h"
@@ -41,6 +41,12 @@ struct AnswerArrays {
     if (float_distance) four_at(float_distance, i) = {{f, f, f, f}};
     if (read) four_at(read, i) = {{0, 0, 0, 0}};
   }
+  // Of the spheres from the n-th on, a multiple of 4.
+  AnswerArrays after(std::size_t n) const
+  {
+    return {status + n, distance ? distance + n : nullptr,
+            float_distance ? float_distance + n : nullptr, read ? read + n : nullptr};
+  }
   LSDCD_FN static Real widened(float kept)
   {
     return kept < kAnyFloatDistance ? static_cast<Real>(kept) : kAnyDistance;
@@ -64,16 +70,21 @@ struct AnswerArrays {
 };
 
 // What a query asks of each sphere, for the loops that run it: an answer at once; or first
-// its brick, then the list of its cell, and then an answer from that list, where there are
-// these, and one far from the wall elsewhere. kComplete: grid.nearest is 0.
+// whether it may be in a brick, then its cell, and then an answer from that cell's list, where
+// there are these, and one far from the wall elsewhere. kComplete: grid.nearest is 0.
 template <class Distances, class S, bool kComplete>
 struct GridWork {
   using Item = S;
+  using Filter = BrickFilter<decltype(S::x)>;
 
   GridView grid;
   const BrickWord *words;
   const S *spheres;
   AnswerArrays out;
+  Filter filter;
+
+  // The same of the spheres from the n-th on, a multiple of 4.
+  GridWork after(std::size_t n) const { return {grid, words, spheres + n, out.after(n), filter}; }
 
   LSDCD_FN S sphere(std::size_t i) const { return spheres[i]; }
   LSDCD_FN void answer(std::size_t i, const S &s) const
@@ -81,19 +92,16 @@ struct GridWork {
     out.keep(i, nearest_distance<kComplete, Distances>(grid, s.centre(), s.r));
   }
 
-  LSDCD_FN BrickPlace place(const S &s) const { return brick_place_of(grid, s.centre()); }
-  LSDCD_FN BrickWord word(const BrickPlace &at) const { return word_at(words, at); }
-  LSDCD_FN std::uint32_t cell_of(std::uint32_t brick, std::int32_t cell) const
-  {
-    return occupied_cell(grid.lists, brick, cell);
-  }
-  LSDCD_FN Cell list(std::uint32_t cell) const { return grid.lists.cells[cell]; }
+  LSDCD_FN BrickGuess guess(const S &s) const { return filter.guess(grid, {s.x, s.y, s.z}); }
+  // kNoCell where there are no candidates.
+  LSDCD_FN std::uint32_t cell(const S &s) const { return occupied_cell(grid, words, s.centre()); }
+  LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
   LSDCD_FN void far(std::size_t i) const { out.keep(i, far_answer()); }
   LSDCD_FN void four_far(std::size_t i) const { out.keep_four_far(i); }
   LSDCD_FN void answer(std::size_t i, const S &s, const Cell &cell) const
   {
     const Vec3 q = s.centre();
-    out.keep(i, nearest_from<kComplete, Distances>(grid, q, s.r, address(q), cell));
+    out.keep(i, nearest_from<kComplete, Distances>(grid, q, s.r, address_inside(grid, q), cell));
   }
 
   // Lists that are too long for one thread, as at a vertex of very many facets.
@@ -106,18 +114,10 @@ struct GridWork {
   {
     if constexpr (kTogether) {
       const Vec3 q = s.centre();
-      const Answer a =
-          nearest_together<Distances>(grid, grid.lists, q, s.r, address(q), cell, lanes);
+      const Answer a = nearest_together<Distances>(grid, grid.lists, q, s.r,
+                                                   address_inside(grid, q), cell, lanes);
       if (lanes.lane() == 0) out.keep(i, a);
     }
-  }
-
- private:
-  // Without its brick, which nothing needs once the list is known.
-  LSDCD_FN CellAddress address(const Vec3 &q) const
-  {
-    const Place p = place_of(grid, q);
-    return {nullptr, cell_in_brick(p), from_cell_centre(grid, p)};
   }
 };
 
@@ -247,12 +247,19 @@ class QueryOn : public SphereQuery {
         out.keep(i, nearest_of_all<Distances>(grid, n_faces, s.centre(), s.r));
       });
     else if (grid.nearest == 0)
-      way_.run(b_, n_, GridWork<Distances, S, true>{grid, words_.data(), spheres, out});
+      run_grid<GridWork<Distances, S, true>>(spheres);
     else
-      way_.run(b_, n_, GridWork<Distances, S, false>{grid, words_.data(), spheres, out});
+      run_grid<GridWork<Distances, S, false>>(spheres);
   }
 
  private:
+  template <class Work, class S>
+  void run_grid(const S *spheres)
+  {
+    using Filter = typename Work::Filter;
+    way_.run(b_, n_, Work{grid_, words_.data(), spheres, answers(), Filter(grid_)});
+  }
+
   template <class T, class Other>
   T *room_in(Array<T> &to, Array<Other> &other, std::size_t n)
   {

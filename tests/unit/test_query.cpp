@@ -479,6 +479,7 @@ TEST(query, whole_numbers_below_are_those_of_floor)
     ASSERT_EQ(whole.fits, x >= 0 && x < 0x1p32) << x;
     if (whole.fits) {
       ASSERT_EQ(whole.value, std::floor(x)) << x;
+      ASSERT_EQ(whole.real, std::floor(x)) << x;
     }
   }
 }
@@ -497,6 +498,11 @@ TEST(query, places_found_without_a_branch_are_those_found_with_them)
       inside++;
       ASSERT_EQ(at.place, brick_place(view, p)) << q.x << " " << q.y << " " << q.z;
       ASSERT_EQ(at.cell, cell_in_brick(p)) << q.x << " " << q.y << " " << q.z;
+      const CellAddress address = address_inside(view, q);
+      const Vec3 from_centre = from_cell_centre(view, p);
+      ASSERT_EQ(address.cell, cell_in_brick(p)) << q.x << " " << q.y << " " << q.z;
+      ASSERT_EQ(std::memcmp(&address.from_centre, &from_centre, sizeof from_centre), 0)
+          << q.x << " " << q.y << " " << q.z;
     };
     std::vector<Real> along[3];
     for (int a = 0; a < 3; a++)
@@ -519,6 +525,247 @@ TEST(query, places_found_without_a_branch_are_those_found_with_them)
       }
     EXPECT_GT(inside, 10000u);
   }
+}
+
+// A grid of so many bricks and no wall, which is all that a filter asks about.
+GridView empty_grid(const Vec3 &origin, Real length, int nx, int ny, int nz)
+{
+  GridView view = {};
+  view.origin = origin;
+  view.length = length;
+  view.inv_length = 1 / length;
+  view.n_bricks[0] = nx;
+  view.n_bricks[1] = ny;
+  view.n_bricks[2] = nz;
+  return view;
+}
+
+// How often the filter was sure, and of how many points.
+struct Sureness {
+  std::size_t sure = 0, inside = 0, points = 0;
+};
+
+void expect_filter_is_right(const GridView &view, const Vec3Of<float> &q, Sureness &count)
+{
+  const BrickGuess guess = BrickFilter<float>(view).guess(view, q);
+  const std::uint32_t place = brick_place_of(view, vec_cast<Real>(q)).place;
+  count.points++;
+  count.inside += place != kNoBrick;
+  if (guess.unsure) return;
+  count.sure++;
+  ASSERT_EQ(guess.inside, place != kNoBrick) << q.x << " " << q.y << " " << q.z;
+  if (guess.inside) {
+    ASSERT_EQ(guess.place, place) << q.x << " " << q.y << " " << q.z;
+  }
+}
+
+// The side of a brick as a float, or one of its neighbours.
+float next_to_a_side(Numbers &r, Real origin, Real side, int n)
+{
+  float x = static_cast<float>(origin + side * (r.below(n + 3) - 1));
+  for (int steps = r.below(40); steps > 0; steps--)
+    x = std::nextafter(x, r.below(4) ? HUGE_VALF : -HUGE_VALF);
+  return x;
+}
+
+TEST(query, a_brick_told_in_float_is_that_of_double_where_it_is_sure)
+{
+  Numbers r(12);
+  Sureness of_usual;
+  for (int trial = 0; trial < 400; trial++) {
+    // Around the origin, or up to 1e6 bricks from it; from 1 to 2^22 bricks on a side.
+    const Real length = r.log_in(1e-6, 1e6), side = kBrickSide * length;
+    const bool usual = trial % 2 == 0;
+    int n[3];
+    Vec3 origin;
+    for (int a = 0; a < 3; a++) {
+      n[a] = 1 + static_cast<int>(r.log_in(1, usual ? 100 : 4e6));
+      origin[a] = side * (usual ? -n[a] * r.in(0, 1) : (r.below(2) ? 1 : -1) * r.log_in(1, 1e6));
+    }
+    if (!usual && Real(n[0]) * n[1] * n[2] > 4e9) n[1] = n[2] = 3;
+    const GridView view = empty_grid(origin, length, n[0], n[1], n[2]);
+    Sureness next_to_sides;
+    for (int i = 0; i < 10000; i++) {
+      Vec3Of<float> q;
+      for (int a = 0; a < 3; a++)
+        q[a] = static_cast<float>(origin[a] + side * n[a] * r.in(-0.1, 1.1));
+      expect_filter_is_right(view, q, usual ? of_usual : next_to_sides);
+      const int a = r.below(3);
+      q[a] = next_to_a_side(r, origin[a], side, n[a]);
+      expect_filter_is_right(view, q, next_to_sides);
+    }
+    if (HasFatalFailure()) return;
+  }
+  // The rest costs a look at the cell.
+  EXPECT_GT(of_usual.inside, of_usual.points / 3);
+  EXPECT_GT(of_usual.sure, of_usual.points * 0.999);
+}
+
+TEST(query, a_brick_told_in_float_is_sure_of_no_number_that_is_none)
+{
+  Sureness count;
+  for (const Real length : {0.2, 1e-30, 1e-39, 1e-44, 1e30, 1e38, 1e44})
+    for (const Real far : {0., 1e4, 1e7, 1e20}) {
+      const Vec3 origin = {-3 * length, far * length, -far * length};
+      for (const int n : {1, 7, 64, 1 << 22, 1 << 23}) {
+        const GridView view = empty_grid(origin, length, n, 2, 3);
+        std::vector<float> along[3];
+        for (int a = 0; a < 3; a++)
+          for (Real x : hard_coordinates(origin[a], length, view.n_bricks[a]))
+            along[a].push_back(static_cast<float>(x));
+        for (int a = 0; a < 3; a++)
+          for (float x : along[a]) {
+            Vec3Of<float> q = vec_cast<float>(origin + length * Vec3{5, 5, 5});
+            q[a] = x;
+            expect_filter_is_right(view, q, count);
+          }
+        if (HasFatalFailure()) return;
+      }
+    }
+  EXPECT_GT(count.sure, count.points / 20);
+  EXPECT_LT(count.sure, count.points);
+}
+
+// Wherever warps, tiles and queues of a GPU begin and end.
+template <class S>
+void expect_same_bits(const TriangleGrid &grid, const std::vector<S> &spheres,
+                      const std::string &what)
+{
+  const auto cpu = make_sphere_query(Device::cpu), cuda = make_sphere_query(Device::cuda);
+  cpu->set_grid(grid);
+  cuda->set_grid(grid);
+  for (const std::size_t n : {0, 1, 3, 31, 32, 33, 64, 127, 128, 129, 1000, 50001, 2000003}) {
+    const std::vector<S> some(spheres.begin(), spheres.begin() + std::min(n, spheres.size()));
+    const Answers a = ask(*cpu, some), b = ask(*cuda, some);
+    EXPECT_EQ(a.status, b.status) << what << ", " << n;
+    EXPECT_EQ(a.read, b.read) << what << ", " << n;
+    ASSERT_EQ(a.distance.size(), b.distance.size());
+    EXPECT_TRUE(some.empty() || std::memcmp(a.distance.data(), b.distance.data(),
+                                            a.distance.size() * sizeof(Real)) == 0)
+        << what << ", " << n;
+  }
+}
+
+template <class S>
+std::vector<S> as(const std::vector<Sphere> &spheres)
+{
+  using T = decltype(S::x);
+  std::vector<S> out;
+  for (const Sphere &s : spheres)
+    out.push_back({static_cast<T>(s.x), static_cast<T>(s.y), static_cast<T>(s.z),
+                   static_cast<T>(s.r) * T(0.999)});
+  return out;
+}
+
+// n spheres of radius `reach`, each where `place` puts it.
+template <class Place>
+std::vector<Sphere> many(std::size_t n, Real reach, const Place &place)
+{
+  std::vector<Sphere> out;
+  for (std::size_t i = 0; i < n; i++) {
+    const Vec3 x = place(i);
+    out.push_back({x.x, x.y, x.z, reach});
+  }
+  return out;
+}
+
+void expect_same_bits_of_all_kinds(const Case &c, const std::vector<Sphere> &spheres,
+                                   const std::string &what)
+{
+  for (const bool in_floats : {false, true})
+    for (const int nearest : {0, 2}) {
+      const TriangleGrid grid = c.grid(nearest, nearest > 0, in_floats);
+      expect_same_bits(grid, spheres, what + ", double");
+      expect_same_bits(grid, as<FloatSphere>(spheres), what + ", float");
+    }
+}
+
+// More than a tile for every warp of any GPU.
+constexpr std::size_t kManySpheres = 2000003;
+
+TEST(query, gives_the_same_bits_on_both_devices_of_any_number_of_spheres)
+{
+  if (!test_on_cuda()) GTEST_SKIP() << "compares CUDA with the CPU";
+  Numbers r(13);
+  const Case c(cylinder_mesh(40, 1, 50, 100), 1, 0.5, 0, 1);
+  const Vec3 lo = c.mesh.report.lo, hi = c.mesh.report.hi;
+  const auto anywhere = [&](Real past) {
+    Vec3 x;
+    for (int k = 0; k < 3; k++) x[k] = r.in(lo[k] - past, hi[k] + past);
+    return x;
+  };
+  expect_same_bits_of_all_kinds(c, many(kManySpheres, 1, [&](std::size_t) { return anywhere(2); }),
+                                "mixed");
+  expect_same_bits(c.grid(0, false, true),
+                   as<FloatSphere>(many(kManySpheres, 1,
+                                        [&](std::size_t) {
+                                          return Vec3{0, 0, 3 * hi.z} + anywhere(0);
+                                        })),
+                   "all far");
+  expect_same_bits(c.grid(0, false, true),
+                   as<FloatSphere>(many(kManySpheres, 1,
+                                        [&](std::size_t) {
+                                          Vec3 x = anywhere(0);
+                                          x.z = lo.z + r.in(-0.5, 0.5);
+                                          return x;
+                                        })),
+                   "all near");
+}
+
+TEST(query, gives_the_same_bits_on_both_devices_where_many_lists_are_long)
+{
+  if (!test_on_cuda()) GTEST_SKIP() << "compares CUDA with the CPU";
+  // The tip of a cone of 2000 facets, with more spheres about it than a block has room for.
+  Numbers r(14);
+  const Case c(cone_mesh(2000, 1, 0.5), 0.2, 0.1, 0, 1);
+  Vec3 tip = c.mesh.vertices[0];
+  for (const Vec3 &v : c.mesh.vertices)
+    if (v.z > tip.z) tip = v;
+  const auto spheres = many(100003, 0.2, [&](std::size_t i) {
+    return i % 7 == 0 ? tip + 0.1 * r.in_box() : tip + 0.002 * r.in_box();
+  });
+  expect_same_bits_of_all_kinds(c, spheres, "tip");
+}
+
+TEST(query, gives_the_same_bits_on_both_devices_in_hard_places)
+{
+  if (!test_on_cuda()) GTEST_SKIP() << "compares CUDA with the CPU";
+  for (const Real far : {0., 4e5})
+    for (const Real length : {0.1, 0.4}) {
+      TriangleSoup box = box_mesh({0, 0, 0}, {4, 4, 4});
+      for (Vec3 &x : box.corners) x = x + far * Vec3{1, -1, 1};
+      const Case c(box, 0.4, length, 0, 1);
+      const GridView view = c.grid(0).view();
+      std::vector<Real> along[3];
+      for (int a = 0; a < 3; a++)
+        along[a] = hard_coordinates(view.origin[a], view.length, view.n_bricks[a]);
+      Numbers r(15);
+      const auto spheres = many(100003, 0.4, [&](std::size_t) {
+        Vec3 x = box.corners[r.below(static_cast<int>(box.corners.size()))] + 0.4 * r.in_box();
+        const int a = r.below(3);
+        x[a] = along[a][r.below(static_cast<int>(along[a].size()))];
+        return x;
+      });
+      expect_same_bits_of_all_kinds(c, spheres, "hard places");
+    }
+}
+
+TEST(query, gives_the_same_bits_on_both_devices_where_bricks_do_not_fit_a_processor)
+{
+  if (!test_on_cuda()) GTEST_SKIP() << "compares CUDA with the CPU";
+  // Two small triangles far apart: a table of millions of bricks, nearly all of them empty.
+  TriangleSoup two;
+  for (const Real at : {0., 300.})
+    for (const Vec3 &x : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}})
+      two.corners.push_back(x + Vec3{at, at, at});
+  const Case c(two, 0.5, 0.2, 0, 1);
+  ASSERT_GT(n_brick_words(c.grid(0).view()) * sizeof(std::uint32_t), 256u << 10);
+  Numbers r(16);
+  const auto spheres = many(100003, 0.5, [&](std::size_t i) {
+    const Real at = r.below(2) ? 300 : 0;
+    return i % 3 == 0 ? 300 * r.in_box() : Vec3{at, at, at} + 1.5 * r.in_box();
+  });
+  expect_same_bits_of_all_kinds(c, spheres, "no room");
 }
 
 TEST(query, bits_of_bricks_give_the_list_that_their_table_gives)
