@@ -6,11 +6,15 @@
 
 #include "base/rows.h"
 
+#include <cstring>
+
 namespace lsdcd {
 
 // The rows of one sphere, by itself.
 class RowsAlone {
  public:
+  static constexpr bool kOneOfMany = false;
+
   LSDCD_FN explicit RowsAlone(std::size_t i) : i_(i) {}
 
   LSDCD_FN Vec3 read(const Rows<const Real> &rows) const { return rows[i_]; }
@@ -45,10 +49,43 @@ struct WarpWords {
   LSDCD_FN static int word_given(int lane, int c) { return (3 * row_given(lane, c) + c) / kLanes; }
 };
 
+constexpr int kMostTogether = 128;    // threads of a block that store together
+
+// Stores the `value` of each lane that is `mine` in its place. Places of neighbours are
+// neighbours, the first lane is `mine`, and so are all before one that is. Every lane must take
+// part.
+template <class T>
+LSDCD_FN void store_together(T *place, const T &value, bool mine)
+{
+#if defined(__CUDA_ARCH__)
+  using Word = unsigned long long;
+  constexpr int kWords = sizeof(T) / sizeof(Word);
+  static_assert(sizeof(T) % sizeof(Word) == 0 && alignof(T) == sizeof(Word), "whole words");
+  __shared__ Word of_block[kMostTogether * kWords];
+  const int lane = threadIdx.x % WarpWords::kLanes;
+  Word *words = of_block + (threadIdx.x - lane) * kWords;
+  memcpy(words + lane * kWords, &value, sizeof value);
+  const int n = __popc(__ballot_sync(~0u, mine)) * kWords;
+  const Word first = __shfl_sync(~0u, reinterpret_cast<Word>(place), 0);
+  __syncwarp();
+  Word *to = reinterpret_cast<Word *>(first);
+#pragma unroll
+  for (int r = 0; r < kWords; r++) {
+    const int w = lane + WarpWords::kLanes * r;
+    if (w < n) to[w] = words[w];
+  }
+  __syncwarp();
+#else
+  if (mine) *place = value;
+#endif
+}
+
 // The rows of the spheres of a warp's lanes; every lane must take part in every call. Where
 // there are no warps, and where rows are not packed, each lane takes its own.
 class RowsTogether {
  public:
+  static constexpr bool kOneOfMany = true;
+
   // The first of the calls, of for_each(n, f) with n a multiple of kTogether, that run
   // together with call `at`.
   static constexpr std::size_t kTogether = WarpWords::kLanes;

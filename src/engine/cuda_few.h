@@ -2,6 +2,8 @@
 // knows how many there are.
 #pragma once
 
+#include "base/rows_together.h"
+
 #include <cuda_runtime.h>
 
 #include <cstddef>
@@ -55,7 +57,7 @@ __global__ void __launch_bounds__(32, kFewAtOnce) cuda_few(const __grid_constant
   if (threadIdx.x < Work::kLastLanes) work.last(threadIdx.x);
 }
 
-constexpr unsigned kManyBlock = 128;
+constexpr unsigned kManyBlock = kMostTogether;
 constexpr std::size_t kFewLanes = 1 << 16;    // that share few things beside many
 
 // work.many(i) for i in [0, n), n a multiple of 32, and at once work.few(s) for s in

@@ -147,6 +147,11 @@ LSDCD_FN void bear(const Law &law, const LawJob &job, const ResultPlace &to, std
     }
   }
   add_motion<Law>(job, i, rows, s);
+  // The only spring of one of many, which lie side by side, is stored with its neighbours'.
+  constexpr bool kSpringBeside = Law::kHistory && TheRows::kOneOfMany;
+  [[maybe_unused]] Spring spring = {};
+  [[maybe_unused]] Spring *const to_spring = sink.springs;
+  if constexpr (kSpringBeside) sink.springs = &spring;
   SphereResult out = {};
   if (bears) {
     if constexpr (Law::kHeat) *sink.heat = 0;
@@ -157,6 +162,12 @@ LSDCD_FN void bear(const Law &law, const LawJob &job, const ResultPlace &to, std
       if (job.uncertain.at) out.uncertain = job.uncertain[to.at];
       job.result[to.at] = out;
     }
+  }
+  if constexpr (kSpringBeside) {
+    if (stays)
+      store_together(to_spring, spring, bears);
+    else if (bears)
+      *to_spring = spring;
   }
   if (stays)
     rows.add(job.in_place.force, out.force, job.in_place.torque, out.torque, out.n_contacts > 0);
