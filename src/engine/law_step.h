@@ -295,9 +295,11 @@ struct FoundLoop {
   Law law;
   LawJob job;
 
-  // Blocks at once on a GPU's processor: 64, 80 or 128 registers are left to a thread. That
+  // Blocks at once on a GPU's processor: 64, 80, 96 or 128 registers are left to a thread. That
   // is what single contacts need; several ones may spill.
-  static constexpr int kBlocksAtOnce = Law::kExtra > 0 || Law::kCouple ? 4 : Law::kHistory ? 6 : 8;
+  static constexpr bool kLarge = Law::kExtra > 0 || Law::kCouple || Law::kHeat || Law::kBeyond,
+                        kOnWall = Law::kSurface || Law::kRecords;
+  static constexpr int kBlocksAtOnce = kLarge ? 4 : kOnWall ? 5 : Law::kHistory ? 6 : 8;
 
   LSDCD_FN void many(std::size_t at) const { found_single(law, job, at); }
   LSDCD_FN std::size_t n_few() const { return job.found.counts->listed[kSeveral]; }
