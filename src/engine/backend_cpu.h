@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/atomic.h"
+#include "base/rows.h"
 #include "base/threads.h"
 #include "engine/owned_array.h"
 
@@ -102,8 +103,8 @@ struct CpuBackend {
   }
 
   // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
-  // `total` becomes how many. Of each i read() is asked for what look() needs, and look() for
-  // a key, 0 where i is not kept; keep() decides by the keys that are left, and note() is told.
+  // `total` becomes how many. may_keep() is asked of each i with what read() has read of it
+  // and its row of places(), keep() by that row of those that it leaves, and note() is told.
   struct SelectRoom {};
   template <class Work>
   void select(std::size_t n, const Work &work, SelectRoom &, int *to, std::uint32_t *total)
@@ -119,10 +120,9 @@ struct CpuBackend {
       int count = 0;
       for (std::int64_t k = lo; k < hi; k++) {
         const std::size_t i = static_cast<std::size_t>(k);
-        const typename Work::Item item = work.read(i);
-        const typename Work::Key key = work.look(i, item);
-        const bool kept = key != 0 && work.keep(key);
-        work.note(i, item, kept);
+        const Vec3 place = work.places()[i];
+        const bool kept = work.may_keep(i, work.read(i), place) && work.keep(place);
+        work.note(i, kept);
         if (kept) to[lo + count++] = static_cast<int>(i);
       }
       found[b] = count;

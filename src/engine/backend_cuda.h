@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "base/rows.h"
 #include "engine/cuda_few.h"
 #include "engine/cuda_list.h"
 #include "engine/owned_array.h"
@@ -9,6 +10,7 @@
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_reduce.cuh>
 #include <cub/device/device_scan.cuh>
+#include <cuda_pipeline_primitives.h>
 #include <cuda_runtime.h>
 #include <thrust/iterator/counting_iterator.h>
 #include <thrust/iterator/transform_iterator.h>
@@ -60,57 +62,85 @@ __global__ void cuda_for_each_part(const std::uint64_t *offset, std::size_t begi
 }
 
 constexpr int kSelectTile = 1024;    // items of a block of 256 threads, 32 words of bits
-constexpr int kSelectEach = kSelectTile / 256;
+constexpr int kSelectBlocks = 6;     // of a processor: 40 registers a thread
 
-// Bits of the items to keep, and how many there are in each tile. What is read of a
-// thread's items is on its way for all of them before the first is looked at. Few have a key,
-// and of those more is read, by full warps.
-template <class Work>
-__global__ void __launch_bounds__(256) cuda_mark(std::size_t n, const __grid_constant__ Work work,
-                                                 unsigned *words, std::uint32_t *in_tile)
+// Asks for n rows from `first` on, to be there after __pipeline_wait_prior(0) and a barrier.
+// Packed ones come in pieces of 16 bytes, whosever they are.
+__device__ inline void bring_rows(const Rows<const double> &rows, std::size_t first, unsigned n,
+                                  Vec3 *to)
 {
-  constexpr unsigned kWords = kSelectTile / 32;
-  __shared__ typename Work::Key waiting[kSelectTile];
-  __shared__ std::uint16_t place[kSelectTile];
+  constexpr unsigned kPiece = 16, kWord = sizeof(double);
+  if (rows.row == 3 && rows.column == 1 &&
+      reinterpret_cast<std::uintptr_t>(rows.of(first)) % kPiece == 0) {
+    const char *from = reinterpret_cast<const char *>(rows.of(first));
+    char *there = reinterpret_cast<char *>(to);
+    const unsigned bytes = n * sizeof(Vec3);
+    for (unsigned at = kPiece * threadIdx.x; at < bytes; at += kPiece * blockDim.x)
+      if (at + kPiece <= bytes)
+        __pipeline_memcpy_async(there + at, from + at, kPiece);
+      else
+        __pipeline_memcpy_async(there + at, from + at, kWord);
+  } else {
+    for (unsigned i = threadIdx.x; i < n; i += blockDim.x) to[i] = rows[first + i];
+  }
+  __pipeline_commit();
+}
+
+// Bits of the items to keep, and how many there are in each tile. Few may be kept, and more is
+// read of those alone, by full warps.
+template <class Work>
+__global__ void __launch_bounds__(256, kSelectBlocks)
+    cuda_mark(std::size_t n, const __grid_constant__ Work work, unsigned *words,
+              std::uint32_t *in_tile)
+{
+  constexpr unsigned kWords = kSelectTile / 32, kEach = kSelectTile / 256;
+  __shared__ __align__(16) char places[kSelectTile * sizeof(Vec3)];
+  __shared__ std::uint16_t waiting[kSelectTile];
   __shared__ unsigned kept[kWords], n_waiting;
+  Vec3 *const place = reinterpret_cast<Vec3 *>(places);
+  const std::size_t tile = std::size_t(blockIdx.x) * kSelectTile;
+  const unsigned n_tile = n - tile < kSelectTile ? static_cast<unsigned>(n - tile) : kSelectTile,
+                 lane = threadIdx.x % 32;
+  bring_rows(work.places(), tile, n_tile, place);
+  typename Work::Item item[kEach] = {};
+#pragma unroll
+  for (unsigned k = 0; k < kEach; k++)
+    if (threadIdx.x + k * 256 < n_tile) item[k] = work.read(tile + threadIdx.x + k * 256);
   if (threadIdx.x < kWords) kept[threadIdx.x] = 0;
   if (threadIdx.x == 0) n_waiting = 0;
+  __pipeline_wait_prior(0);
   __syncthreads();
 
-  const std::size_t first = std::size_t(blockIdx.x) * kSelectTile + threadIdx.x;
-  const unsigned lane = threadIdx.x % 32;
-  typename Work::Item item[kSelectEach] = {};
+  unsigned votes[kEach], all = 0;
 #pragma unroll
-  for (int k = 0; k < kSelectEach; k++)
-    if (first + k * 256 < n) item[k] = work.read(first + k * 256);
-  typename Work::Key key[kSelectEach];
+  for (unsigned k = 0; k < kEach; k++) {
+    const unsigned i = threadIdx.x + k * 256;
+    votes[k] = __ballot_sync(~0u, i < n_tile && work.may_keep(tile + i, item[k], place[i]));
+    all += __popc(votes[k]);
+  }
+  unsigned at = 0;
+  if (lane == 0 && all > 0) at = atomicAdd(&n_waiting, all);
+  at = __shfl_sync(~0u, at, 0);
 #pragma unroll
-  for (int k = 0; k < kSelectEach; k++)
-    key[k] = first + k * 256 < n ? work.look(first + k * 256, item[k]) : 0;
-#pragma unroll
-  for (int k = 0; k < kSelectEach; k++) {
-    const unsigned vote = __ballot_sync(~0u, key[k] != 0);
-    unsigned at = 0;
-    if (lane == 0 && vote) at = atomicAdd(&n_waiting, __popc(vote));
-    at = __shfl_sync(~0u, at, 0) + __popc(vote & ((1u << lane) - 1));
-    if (key[k] != 0) {
-      waiting[at] = key[k];
-      place[at] = static_cast<std::uint16_t>(threadIdx.x + k * 256);
-    }
+  for (unsigned k = 0; k < kEach; k++) {
+    if (votes[k] >> lane & 1u)
+      waiting[at + __popc(votes[k] & ((1u << lane) - 1))] =
+          static_cast<std::uint16_t>(threadIdx.x + k * 256);
+    at += __popc(votes[k]);
   }
   __syncthreads();
-  for (unsigned w = threadIdx.x; w < n_waiting; w += 256)
-    if (work.keep(waiting[w])) atomicOr(&kept[place[w] / 32], 1u << (place[w] % 32));
+  for (unsigned w = threadIdx.x; w < n_waiting; w += 256) {
+    const unsigned i = waiting[w];
+    if (work.keep(place[i])) atomicOr(&kept[i / 32], 1u << (i % 32));
+  }
   __syncthreads();
-#pragma unroll
-  for (int k = 0; k < kSelectEach; k++)
-    if (first + k * 256 < n)
-      work.note(first + k * 256, item[k], kept[threadIdx.x / 32 + k * 8] >> lane & 1u);
+  for (unsigned i = threadIdx.x; i < n_tile; i += 256)
+    work.note(tile + i, kept[i / 32] >> lane & 1u);
   if (threadIdx.x >= kWords) return;
   words[blockIdx.x * kWords + threadIdx.x] = kept[threadIdx.x];
-  std::uint32_t all = __popc(kept[threadIdx.x]);
-  for (int step = kWords / 2; step > 0; step /= 2) all += __shfl_down_sync(~0u, all, step);
-  if (threadIdx.x == 0) in_tile[blockIdx.x] = all;
+  std::uint32_t sum = __popc(kept[threadIdx.x]);
+  for (int step = kWords / 2; step > 0; step /= 2) sum += __shfl_down_sync(~0u, sum, step);
+  if (threadIdx.x == 0) in_tile[blockIdx.x] = sum;
 }
 
 // From bits to a list, a warp for each tile; before[t]: how many are kept in tiles before t.
@@ -323,10 +353,10 @@ struct CudaBackend {
   }
 
   // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
-  // `total`, where the kernels run, becomes how many. Of each i read() is asked for what look()
-  // needs, and look() for a key, 0 where i is not kept; keep() decides by the keys that are
-  // left, and note() is told. Does not wait. The room is kept for the next time, until when it
-  // must not be freed.
+  // `total`, where the kernels run, becomes how many. may_keep() is asked of each i with what
+  // read() has read of it and its row of places(), keep() by that row of those that it leaves,
+  // and note() is told. Does not wait. The room is kept for the next time, until when it must
+  // not be freed.
   struct SelectRoom {
     Array<unsigned> words;
     Array<std::uint32_t> in_tile;

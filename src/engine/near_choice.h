@@ -6,10 +6,10 @@
 #include "engine/law_job.h"
 #include "grid/near_within.h"
 
-#include <cstdint>
-
 namespace lsdcd {
 
+// kMoves: is the margin more than 0?
+template <bool kMoves>
 struct NearChoice {
   GridView grid;
   const BrickWord *words;    // of grid.lists
@@ -20,37 +20,33 @@ struct NearChoice {
   int *n_springs;        // of each sphere, or null: those of spheres that are far are forgotten
 
   struct Item {
-    Vec3 x;
-    bool in_group, too_large;
+    Real radius;
+    bool in_group;
   };
-  using Key = std::uint64_t;    // 0: far; else what keep() needs
 
+  LSDCD_FN Rows<const Real> places() const { return spheres.x; }
   LSDCD_FN Item read(std::size_t i) const
   {
-    const bool in_group = !spheres.mask || (spheres.mask[i] & spheres.group_bit);
-    return {spheres.x[i], in_group,
-            in_group && !(reach_of(spheres.radius[i], pull_off) <= grid.reach)};
+    return {spheres.radius[i], !spheres.mask || (spheres.mask[i] & spheres.group_bit)};
   }
 
-  LSDCD_FN Key look(std::size_t i, const Item &item) const
+  LSDCD_FN bool may_keep(std::size_t i, const Item &item, const Vec3 &x) const
   {
-    if (!item.in_group) return 0;
-    if (margin > 0) return i + 1;
-    const BrickPlace at = brick_place_of(grid, item.x);
-    const std::uint32_t brick = brick_in(word_at(words, at), at);
-    return brick == kNoBrick ? 0 : Key(brick) * kBrickCells + at.cell + 1;
+    if (!item.in_group) return false;
+    if (!(reach_of(item.radius, pull_off) <= grid.reach))
+      raise_to(&counts->too_large, kNoSphere - i);
+    if (kMoves) return true;
+    const BrickPlace at = brick_place_of(grid, x);
+    return has_brick(word_at(words, at), at.place);
   }
 
-  LSDCD_FN bool keep(Key key) const
+  LSDCD_FN bool keep(const Vec3 &x) const
   {
-    if (margin > 0) return near_within(grid, words, spheres.x[key - 1], margin);
-    return occupied_cell(grid.lists, static_cast<std::uint32_t>((key - 1) / kBrickCells),
-                         static_cast<std::int32_t>((key - 1) % kBrickCells)) != kNoCell;
+    return near_within(grid, words, x, kMoves ? margin : 0);
   }
 
-  LSDCD_FN void note(std::size_t i, const Item &item, bool near) const
+  LSDCD_FN void note(std::size_t i, bool near) const
   {
-    if (item.too_large) raise_to(&counts->too_large, kNoSphere - i);
     if (n_springs && !near) n_springs[i] = 0;
   }
 };

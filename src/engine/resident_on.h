@@ -54,11 +54,10 @@ class ResidentOn : public ResidentEngine {
     const std::size_t n = spheres.n;
     marked_ = searched_ = false;
     if (near_.size() < n) near_ = Array<int>(n + n / 8);
-    // Springs are read where a sphere is near; others have none.
-    const NearChoice choice = {
-        grid_,          words_.data(),   spheres, margin, settings_.law.pull_off(),
-        counts_.data(), springs_.count()};
-    b_.select(n, choice, select_room_, near_.data(), &counts_.data()->n_near);
+    if (margin > 0)
+      select<true>(spheres, margin);
+    else
+      select<false>(spheres, margin);
     const StepCounts seen = read_counts();
     if (seen.too_large) throw_for(spheres, seen);
     n_near_ = seen.n_near;
@@ -304,6 +303,16 @@ class ResidentOn : public ResidentEngine {
     job.in_place.pool = springs_.next(pool_place_.data());
     job.in_place.crowd = crowd_.view();
     return job;
+  }
+
+  // Springs are read where a sphere is near; others have none.
+  template <bool kMoves>
+  void select(const Spheres &spheres, Real margin)
+  {
+    const NearChoice<kMoves> choice = {
+        grid_,          words_.data(),   spheres, margin, settings_.law.pull_off(),
+        counts_.data(), springs_.count()};
+    b_.select(spheres.n, choice, select_room_, near_.data(), &counts_.data()->n_near);
   }
 
   void find_contacts(B &b, LawJob job)

@@ -30,10 +30,10 @@ struct NearNow {
   int &too_large;
 
   struct Item {};
-  using Key = bool;
 
+  Rows<const Real> places() const { return spheres.x; }
   Item read(std::size_t) const { return {}; }
-  Key look(std::size_t i, Item) const
+  bool may_keep(std::size_t i, Item, const Vec3 &x) const
   {
     if (spheres.mask && !(spheres.mask[i] & spheres.group_bit)) return false;
     if (!(spheres.radius[i] <= fits) && !(reach_of(spheres.radius[i], pull_off) <= grid.reach)) {
@@ -41,13 +41,13 @@ struct NearNow {
 #pragma omp critical
       too_large = too_large < 0 ? at : std::min(too_large, at);
     }
-    return near_wall(grid, spheres.x[i]);
+    return near_wall(grid, x);
   }
-  bool keep(Key) const
+  bool keep(const Vec3 &) const
   {
     return true;
   }
-  void note(std::size_t, Item, bool) const {}
+  void note(std::size_t, bool) const {}
 };
 
 }    // namespace

@@ -1,11 +1,11 @@
-#include "query/warp_queues_cuda.h"
+#include "query/near_first_cuda.h"
 #include "query/query_on.h"
 
 namespace lsdcd {
 
 std::unique_ptr<SphereQuery> make_cuda_query()
 {
-  return std::make_unique<QueryOn<CudaBackend, WarpQueues>>(CudaBackend());
+  return std::make_unique<QueryOn<CudaBackend, NearFirst>>(CudaBackend());
 }
 
 }    // namespace lsdcd

@@ -1,13 +1,13 @@
 // Queries checked on a GPU.
 #include "support/query_checks.h"
 
-#include "query/warp_queues_cuda.h"
+#include "query/near_first_cuda.h"
 
 namespace lsdcd {
 
 std::unique_ptr<QueryChecks> query_checks_on_cuda(const Bins &bins, const QueryCheckSettings &s)
 {
-  return std::make_unique<QueryChecksOn<CudaBackend, WarpQueues>>(bins, s);
+  return std::make_unique<QueryChecksOn<CudaBackend, NearFirst>>(bins, s);
 }
 
 }    // namespace lsdcd
