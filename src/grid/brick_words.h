@@ -27,17 +27,11 @@ LSDCD_FN std::uint32_t brick_number(const BrickWord &word, std::size_t place)
   return word.below + static_cast<std::uint32_t>(count_bits(before));
 }
 
-// How many a grid's table has.
-inline std::size_t n_brick_words(const GridView &grid)
-{
-  return (std::size_t(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2] + 31) / 32;
-}
-
 // Of grid.lists, for a view on the host.
 inline std::vector<BrickWord> brick_words(const GridView &grid)
 {
   const std::size_t n = std::size_t(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2];
-  std::vector<BrickWord> words(n_brick_words(grid), BrickWord{0, 0});
+  std::vector<BrickWord> words((n + 31) / 32, BrickWord{0, 0});
   std::uint32_t bricks = 0;
   for (std::size_t at = 0; at < n; at++) {
     if (at % 32 == 0) words[at / 32].below = bricks;

@@ -43,9 +43,8 @@ struct alignas(16) NearSphere {
   std::uint32_t sphere, pad;
 };
 
-// Threads of the first kernel's blocks, and blocks of a processor: 32 registers a thread; bytes of
-// spheres in flight for each thread.
-constexpr unsigned kNearBlock = 512, kNearBlocks = 4, kNearBytes = 64;
+// Threads of the first kernel's blocks; bytes of spheres in flight for each.
+constexpr unsigned kNearBlock = 256, kNearBytes = 64;
 template <class S>
 constexpr unsigned kNearEach = kNearBytes / sizeof(S);
 template <class S>
@@ -84,82 +83,78 @@ __device__ inline unsigned room_at(unsigned *end, unsigned n)
 }
 
 // Answers n of the work's spheres as if all were far, and appends those that are not to `list`.
-// Blocks stay, as each has the n_words words of bits of the brick table in shared memory (0: they
-// do not fit): lanes of a warp ask for as many words, which the cache would give one by one.
 template <class Work>
-__global__ void __launch_bounds__(kNearBlock, kNearBlocks)
-    list_near(unsigned n, const __grid_constant__ Work work, unsigned n_words,
-              NearSphere<typename Work::Item> *list, unsigned *listed)
+__global__ void __launch_bounds__(kNearBlock)
+    list_near(unsigned n, const __grid_constant__ Work work, NearSphere<typename Work::Item> *list,
+              unsigned *listed)
 {
   using S = typename Work::Item;
   constexpr unsigned kEach = kNearEach<S>;
-  extern __shared__ std::uint32_t bricks[];
   __shared__ std::uint16_t maybe_at[kNearTile<S>];
   __shared__ unsigned n_maybe, n_near, place_in_list;
   if (threadIdx.x == 0) n_maybe = n_near = 0;
-#pragma unroll 4
-  for (unsigned i = threadIdx.x; i < n_words; i += kNearBlock) bricks[i] = work.words[i].bits;
+
+  const unsigned tile = blockIdx.x * kNearTile<S>, n_tile = min(n - tile, kNearTile<S>);
+  S sphere[kEach] = {};
+#pragma unroll
+  for (unsigned k = 0; k < kEach; k++) {
+    const unsigned i = threadIdx.x + k * kNearBlock;
+    if (i < n_tile) sphere[k] = read_once(work.spheres[tile + i]);
+  }
+  // All bits of a word where it is not known which to ask for.
+  std::uint32_t place[kEach], word[kEach];
+#pragma unroll
+  for (unsigned k = 0; k < kEach; k++) {
+    const BrickGuess guess = work.guess(sphere[k]);
+    place[k] = guess.place;
+    word[k] = guess.unsure ? ~0u : 0;
+    if (guess.inside & !guess.unsure) word[k] = work.words[place[k] / 32].bits;
+  }
+  __syncthreads();
+  unsigned votes[kEach], all = 0;
+#pragma unroll
+  for (unsigned k = 0; k < kEach; k++) {
+    const bool there = threadIdx.x + k * kNearBlock < n_tile;
+    votes[k] = __ballot_sync(kAllLanes, there && (word[k] >> place[k] % 32 & 1u));
+    all += __popc(votes[k]);
+  }
+  unsigned to = room_at(&n_maybe, all);
+#pragma unroll
+  for (unsigned k = 0; k < kEach; k++) {
+    if (votes[k] >> threadIdx.x % 32 & 1u)
+      maybe_at[to + votes_below(votes[k])] =
+          static_cast<std::uint16_t>(threadIdx.x + k * kNearBlock);
+    to += __popc(votes[k]);
+  }
+  for (unsigned four = 4 * threadIdx.x; four < n_tile; four += 4 * kNearBlock)
+    if (four + 4 <= n_tile)
+      work.four_far(tile + four);
+    else
+      for (unsigned i = four; i < n_tile; i++) work.far(tile + i);
   __syncthreads();
 
-  for (unsigned tile = blockIdx.x * kNearTile<S>; tile < n; tile += gridDim.x * kNearTile<S>) {
-    const unsigned n_tile = min(n - tile, kNearTile<S>);
-    S sphere[kEach] = {};
-#pragma unroll
-    for (unsigned k = 0; k < kEach; k++) {
-      const unsigned i = threadIdx.x + k * kNearBlock;
-      if (i < n_tile) sphere[k] = read_once(work.spheres[tile + i]);
+  // Few may be in a brick, and those in full warps, nearly always in one turn.
+  const unsigned n_turns = n_maybe;
+  for (unsigned first = 0; first < n_turns; first += kNearBlock) {
+    const unsigned mine = first + threadIdx.x;
+    NearSphere<S> near;
+    std::uint32_t cell = kNoCell;
+    if (mine < n_turns) {
+      near.sphere = tile + maybe_at[mine];
+      near.s = work.sphere(near.sphere);
+      cell = work.cell(near.s);
+      if (cell != kNoCell) near.cell = *work.list(cell);
     }
-    unsigned votes[kEach], all = 0;
-#pragma unroll
-    for (unsigned k = 0; k < kEach; k++) {
-      // All bits where it is not known which to ask for.
-      const BrickGuess guess = work.guess(sphere[k]);
-      std::uint32_t word = guess.unsure ? ~0u : 0;
-      if (guess.inside & !guess.unsure)
-        word = n_words > 0 ? bricks[guess.place / 32] : work.words[guess.place / 32].bits;
-      const bool there = threadIdx.x + k * kNearBlock < n_tile;
-      votes[k] = __ballot_sync(kAllLanes, there && (word >> guess.place % 32 & 1u));
-      all += __popc(votes[k]);
+    const unsigned yes = __ballot_sync(kAllLanes, cell != kNoCell);
+    const unsigned at = room_at(&n_near, __popc(yes)) + votes_below(yes);
+    __syncthreads();
+    if (threadIdx.x == 0) {
+      if (n_near > 0) place_in_list = atomicAdd(listed, n_near);
+      n_near = 0;
     }
     __syncthreads();
-    unsigned to = room_at(&n_maybe, all);
-#pragma unroll
-    for (unsigned k = 0; k < kEach; k++) {
-      if (votes[k] >> threadIdx.x % 32 & 1u)
-        maybe_at[to + votes_below(votes[k])] =
-            static_cast<std::uint16_t>(threadIdx.x + k * kNearBlock);
-      to += __popc(votes[k]);
-    }
-    for (unsigned four = 4 * threadIdx.x; four < n_tile; four += 4 * kNearBlock)
-      if (four + 4 <= n_tile)
-        work.four_far(tile + four);
-      else
-        for (unsigned i = four; i < n_tile; i++) work.far(tile + i);
-    __syncthreads();
-
-    // Few may be in a brick, and those in full warps, nearly always in one turn.
-    const unsigned n_turns = n_maybe;
-    for (unsigned first = 0; first < n_turns; first += kNearBlock) {
-      const unsigned mine = first + threadIdx.x;
-      NearSphere<S> near;
-      std::uint32_t cell = kNoCell;
-      if (mine < n_turns) {
-        near.sphere = tile + maybe_at[mine];
-        near.s = work.sphere(near.sphere);
-        cell = work.cell(near.s);
-        if (cell != kNoCell) near.cell = *work.list(cell);
-      }
-      const unsigned yes = __ballot_sync(kAllLanes, cell != kNoCell);
-      const unsigned at = room_at(&n_near, __popc(yes)) + votes_below(yes);
-      __syncthreads();
-      if (threadIdx.x == 0) {
-        if (n_near > 0) place_in_list = atomicAdd(listed, n_near);
-        n_maybe = n_near = 0;
-      }
-      __syncthreads();
-      near.pad = 0;
-      if (cell != kNoCell) list[place_in_list + at] = near;
-    }
+    near.pad = 0;
+    if (cell != kNoCell) list[place_in_list + at] = near;
   }
 }
 
@@ -176,26 +171,18 @@ __global__ void __launch_bounds__(kAnswerBlock, kAnswerBlocks)
                   NearCounts *counts, NearCounts *next_counts,
                   NearSphere<typename Work::Item> *long_list, unsigned most_long)
 {
-  using Near = NearSphere<typename Work::Item>;
-  const unsigned n = counts->listed, step = gridDim.x * kAnswerBlock;
-  unsigned k = blockIdx.x * kAnswerBlock + threadIdx.x;
-  if (k == 0) *next_counts = {0, 0};
-  if (k >= n) return;
-  // The next one is on its way while this one is answered.
-  for (Near one = read_once(list[k]);;) {
-    const unsigned next = k + step;
-    Near other;
-    if (next < n) other = read_once(list[next]);
-    bool answered = true;
+  const unsigned n = counts->listed, first = blockIdx.x * kAnswerBlock + threadIdx.x;
+  if (first == 0) *next_counts = {0, 0};
+  for (unsigned k = first; k < n; k += gridDim.x * kAnswerBlock) {
+    const NearSphere<typename Work::Item> one = read_once(list[k]);
     if (work.is_long(one.cell)) {
       const unsigned at = atomicAdd(&counts->with_long, 1u);
-      answered = at >= most_long;
-      if (!answered) long_list[at] = one;
+      if (at < most_long) {
+        long_list[at] = one;
+        continue;
+      }
     }
-    if (answered) work.answer(one.sphere, one.s, one.cell);
-    if (next >= n) return;
-    one = other;
-    k = next;
+    work.answer(one.sphere, one.s, one.cell);
   }
 }
 
@@ -239,16 +226,13 @@ class NearFirst {
     constexpr unsigned kTile = kNearTile<typename Work::Item>;
     Near *list = reinterpret_cast<Near *>(list_.data());
     Near *long_list = reinterpret_cast<Near *>(long_list_.data());
-    const unsigned n_words = static_cast<unsigned>(n_brick_words(work.grid));
-    const bool fit = n_words <= kMostWords;
-    const std::size_t bytes = fit ? n_words * sizeof(std::uint32_t) : 0;
     for (std::size_t from = 0; from < n; from += kRun) {
       const Work mine = work.after(from);
       const unsigned m = static_cast<unsigned>(std::min(n - from, kRun));
       NearCounts *counts = counts_.data() + turn_, *next = counts_.data() + (1 - turn_);
       turn_ = 1 - turn_;
-      list_near<<<std::min((m + kTile - 1) / kTile, processors_ * kNearBlocks), kNearBlock, bytes,
-                  b.stream>>>(m, mine, fit ? n_words : 0, list, &counts->listed);
+      list_near<<<(m + kTile - 1) / kTile, kNearBlock, 0, b.stream>>>(m, mine, list,
+                                                                      &counts->listed);
       cuda_check(cudaGetLastError(), "starting a kernel");
       const unsigned blocks =
           std::min((m + kAnswerBlock - 1) / kAnswerBlock, processors_ * kAnswerBlocks);
@@ -264,9 +248,6 @@ class NearFirst {
 
  private:
   static constexpr std::size_t kRun = std::size_t(1) << 24;    // spheres of a pair of kernels
-
-  // Of the brick table in shared memory: 40 of the 48 kB that a block has without asking.
-  static constexpr unsigned kMostWords = 10240;
 
   // Where there are more, their lanes read them.
   static constexpr unsigned kMostLong = 1 << 16;
