@@ -226,88 +226,85 @@ TEST(found_contacts, of_more_crowded_spheres_than_there_is_room_for_are_an_error
   }
 }
 
-TEST(found_contacts, of_a_step_take_no_room_from_the_next)
-{
-  // 12 contacts of each of 100 spheres in 60 steps are more than all shared places.
-  const int n = 100, n_steps = 60;
-  static_assert(n * n_steps * kAllRound > kCrowdContacts + 4 * n, "");
-  const bool on_cuda = test_on_cuda();
-  EngineSettings s;
-  s.law = classic(LawStyle::hertz_history);
-  s.corner = Corner::sum;
-  GridSettings g;
-  g.reach = 1.1;
-  const FlatGrid grid(build_grid(weld(faces_all_round(kAllRound), -1), g));
-  std::vector<Vec3> x;
-  for (int i = 0; i < n; i++) x.push_back(place_in({0, 0, n}, i));
-  for (bool first : {true, false}) {
-    const bool cuda = on_cuda && !first;
-    std::unique_ptr<ResidentEngine> engine;
-    if (first)
-      engine = std::make_unique<ResidentOn<FindingFirst>>(s, found_law(s), FindingFirst());
+enum class Engine { found_first, one_pass, cuda };
+
+// 100 spheres that stay where they are, each in the midst of kAllRound faces, under an engine of
+// this kind.
+struct AllTouching {
+  static constexpr int n = 100;
+
+  explicit AllTouching(Engine kind) :
+      grid(grid_of_faces()), place(kind == Engine::cuda), zero(kind == Engine::cuda),
+      force(kind == Engine::cuda), torque(kind == Engine::cuda), radius(kind == Engine::cuda),
+      mass(kind == Engine::cuda)
+  {
+    EngineSettings s;
+    s.law = classic(LawStyle::hertz_history);
+    s.corner = Corner::sum;
+    if (kind == Engine::cuda)
+      engine = make_resident_cuda_engine(s, 0, nullptr);
+    else if (kind == Engine::one_pass)
+      engine = make_resident_cpu_engine(s);
     else
-      engine = cuda ? make_resident_cuda_engine(s, 0, nullptr) : make_resident_cpu_engine(s);
-    DeviceArray<Real> place(cuda), zero(cuda), force(cuda), torque(cuda), radius(cuda), mass(cuda);
+      engine = std::make_unique<ResidentOn<FindingFirst>>(s, found_law(s), FindingFirst());
+    for (int i = 0; i < n; i++) x.push_back(place_in({0, 0, n}, i));
     const std::vector<Real> none(3 * n, 0);
-    Spheres spheres;
     spheres.n = n;
-    spheres.x = place.put(&x[0].x, 3 * n);
     spheres.v = spheres.omega = zero.put(none);
     spheres.radius = radius.put(std::vector<Real>(n, 1.05));
     spheres.mass = mass.put(std::vector<Real>(n, 1));
     spheres.force = force.put(none);
     spheres.torque = torque.put(none);
-    StepSettings step;
     step.dt = 1e-3;
     engine->set_grid(grid.view());
     engine->grow(n);
+    choose();
+  }
+
+  void choose()
+  {
+    spheres.x = place.put(&x[0].x, 3 * n);
     engine->choose(spheres, 0);
-    for (int k = 0; k < n_steps; k++) engine->start(spheres, step, nullptr);
-    EXPECT_NO_THROW(engine->look());
-    EXPECT_EQ(engine->totals().contacts, n * kAllRound);
+  }
+
+  static TriangleGrid grid_of_faces()
+  {
+    GridSettings g;
+    g.reach = 1.1;
+    return build_grid(weld(faces_all_round(kAllRound), -1), g);
+  }
+
+  FlatGrid grid;
+  std::unique_ptr<ResidentEngine> engine;
+  std::vector<Vec3> x;
+  DeviceArray<Real> place, zero, force, torque, radius, mass;
+  Spheres spheres;
+  StepSettings step;
+};
+
+TEST(found_contacts, of_a_step_take_no_room_from_the_next)
+{
+  // 12 contacts of each of 100 spheres in 60 steps are more than all shared places.
+  constexpr int n = AllTouching::n, n_steps = 60;
+  static_assert(n * n_steps * kAllRound > kCrowdContacts + 4 * n, "");
+  for (Engine kind : {Engine::found_first, test_on_cuda() ? Engine::cuda : Engine::one_pass}) {
+    AllTouching all(kind);
+    for (int k = 0; k < n_steps; k++) all.engine->start(all.spheres, all.step, nullptr);
+    EXPECT_NO_THROW(all.engine->look());
+    EXPECT_EQ(all.engine->totals().contacts, n * kAllRound);
   }
 }
 
 TEST(found_contacts, of_a_search_that_was_begun_are_left_where_spheres_are_chosen_anew)
 {
-  const int n = 100;
-  EngineSettings s;
-  s.law = classic(LawStyle::hertz_history);
-  s.corner = Corner::sum;
-  GridSettings g;
-  g.reach = 1.1;
-  const FlatGrid grid(build_grid(weld(faces_all_round(kAllRound), -1), g));
-  for (bool cuda : {false, true}) {
-    if (cuda && !test_on_cuda()) continue;
-    std::unique_ptr<ResidentEngine> engine;
-    if (cuda)
-      engine = make_resident_cuda_engine(s, 0, nullptr);
-    else
-      engine = std::make_unique<ResidentOn<FindingFirst>>(s, found_law(s), FindingFirst());
-    std::vector<Vec3> x;
-    for (int i = 0; i < n; i++) x.push_back(place_in({0, 0, n}, i));
-    DeviceArray<Real> place(cuda), zero(cuda), force(cuda), torque(cuda), radius(cuda), mass(cuda);
-    const std::vector<Real> none(3 * n, 0);
-    Spheres spheres;
-    spheres.n = n;
-    spheres.x = place.put(&x[0].x, 3 * n);
-    spheres.v = spheres.omega = zero.put(none);
-    spheres.radius = radius.put(std::vector<Real>(n, 1.05));
-    spheres.mass = mass.put(std::vector<Real>(n, 1));
-    spheres.force = force.put(none);
-    spheres.torque = torque.put(none);
-    StepSettings step;
-    step.dt = 1e-3;
-    engine->set_grid(grid.view());
-    engine->grow(n);
-    engine->choose(spheres, 0);
-    engine->mark_places();
-    engine->search(spheres, step);
-    for (int i = 0; i < n; i += 2) x[i].x += 100;
-    spheres.x = place.put(&x[0].x, 3 * n);
-    engine->choose(spheres, 0);
-    engine->start(spheres, step, nullptr);
-    EXPECT_EQ(engine->totals().contacts, n / 2 * kAllRound) << (cuda ? "CUDA" : "CPU");
+  for (Engine kind : {Engine::found_first, test_on_cuda() ? Engine::cuda : Engine::one_pass}) {
+    AllTouching all(kind);
+    all.engine->mark_places();
+    all.engine->search(all.spheres, all.step);
+    for (int i = 0; i < all.n; i += 2) all.x[i].x += 100;
+    all.choose();
+    all.engine->start(all.spheres, all.step, nullptr);
+    EXPECT_EQ(all.engine->totals().contacts, all.n / 2 * kAllRound) << static_cast<int>(kind);
   }
 }
 
