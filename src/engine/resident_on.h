@@ -24,6 +24,20 @@ class ResidentOn : public ResidentEngine {
   template <class T>
   using Array = typename B::template Array<T>;
 
+  struct NearList {
+    Array<int> near;
+    std::size_t n = 0;
+  };
+
+  // What a step leaves behind: columns of its results, and of each its contacts, its heat and
+  // its place in the pool; of each near sphere the place of its result and, where the grid may
+  // miss any, what is uncertain, as overlap / radius.
+  struct Results {
+    ResultColumns columns;
+    Array<Real> numbers, heat, uncertain;
+    Array<int> n_contacts, pool_place, place;
+  };
+
  public:
   ResidentOn(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
       settings_(settings), law_(law), b_(std::move(backend)), springs_(law.traits), counts_(1)
@@ -53,23 +67,25 @@ class ResidentOn : public ResidentEngine {
   {
     const std::size_t n = spheres.n;
     marked_ = searched_ = false;
-    if (near_.size() < n) near_ = Array<int>(n + n / 8);
+    chosen_ = 1 - list_of_step_;
+    NearList &list = lists_[chosen_];
+    if (list.near.size() < n) list.near = Array<int>(n + n / 8);
     if (margin > 0)
       select<true>(spheres, margin);
     else
       select<false>(spheres, margin);
     const StepCounts seen = read_counts();
     if (seen.too_large) throw_for(spheres, seen);
-    n_near_ = seen.n_near;
-    springs_.make_room(n_near_, seen);
-    make_room();
+    list.n = seen.n_near;
+    springs_.make_room(list.n, seen);
+    if constexpr (B::kFindsFirst) found_.reserve(b_, list.n);
     near_known_ = false;
   }
 
   void mark_places() override
   {
     if constexpr (B::kFindsFirst) {
-      if (n_near_ == 0) return;
+      if (lists_[chosen_].n == 0) return;
       beside_.mark(b_);
       marked_ = true;
       searched_ = false;
@@ -94,19 +110,22 @@ class ResidentOn : public ResidentEngine {
     totals_known_ = false;
     const bool searched = searched_;
     marked_ = searched_ = false;
-    if (n_near_ == 0) return;
+    list_of_step_ = chosen_;
+    const std::size_t n_near = lists_[chosen_].n;
+    if (n_near == 0) return;
     LawJob job = prepare(spheres, step);
+    last_ = 1 - last_;
     if constexpr (B::kFindsFirst) {
       if (searched)
         beside_.join(b_);
       else
         find_contacts(b_, job);
-      job.found = found_.now(n_near_);
+      job.found = found_.now(n_near);
       job.found.just_now = !searched;
-      law_.start(law_.law, job, n_near_, b_);
+      law_.start(law_.law, job, n_near, b_);
     } else {
       clear_counts(job.in_place);
-      law_.start(law_.law, job, n_near_, b_);
+      law_.start(law_.law, job, n_near, b_);
       find_crowd(b_, job, settings_.law.pull_off());
       job.in_place.crowd_lanes = kCrowdLawLanes;
       law_.start(law_.law, job, kCrowdLawLanes, b_);
@@ -120,7 +139,7 @@ class ResidentOn : public ResidentEngine {
     output_.clear();
     sphere_heat_.clear();
     records_.clear();
-    if (n_near_ == 0) return;
+    if (lists_[list_of_step_].n == 0) return;
     if (step_.per_sphere) fetch_output();
     if (law_.traits.records) fetch_records();
   }
@@ -140,7 +159,7 @@ class ResidentOn : public ResidentEngine {
   }
   int n_records() const override { return static_cast<int>(records_.size()); }
   const ContactRecord *records() const override { return records_.data(); }
-  int n_near() const override { return static_cast<int>(n_near_); }
+  int n_near() const override { return static_cast<int>(lists_[chosen_].n); }
 
   StepNotes look() override
   {
@@ -172,13 +191,16 @@ class ResidentOn : public ResidentEngine {
 
   std::size_t bytes() const override
   {
-    return block_.size() + words_.size() * sizeof(BrickWord) + springs_.bytes() +
-           (result_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
-           (near_.size() + pool_place_.size() + n_contacts_.size() + result_place_.size()) *
-               sizeof(int) +
-           found_.bytes() + ResidentCrowd<B>::bytes() + touching_.capacity() * sizeof(int) +
-           output_.capacity() * sizeof(SphereOutput) + sphere_heat_.capacity() * sizeof(Real) +
-           records_.capacity() * sizeof(ContactRecord);
+    std::size_t bytes =
+        block_.size() + words_.size() * sizeof(BrickWord) + springs_.bytes() + found_.bytes() +
+        ResidentCrowd<B>::bytes() + touching_.capacity() * sizeof(int) +
+        output_.capacity() * sizeof(SphereOutput) + sphere_heat_.capacity() * sizeof(Real) +
+        records_.capacity() * sizeof(ContactRecord);
+    for (const NearList &list : lists_) bytes += list.near.size() * sizeof(int);
+    for (const Results &r : results_)
+      bytes += (r.numbers.size() + r.heat.size() + r.uncertain.size()) * sizeof(Real) +
+               (r.n_contacts.size() + r.pool_place.size() + r.place.size()) * sizeof(int);
+    return bytes;
   }
 
   // The steps of start() and collect(). Public because nvcc takes no device lambda from a
@@ -207,15 +229,16 @@ class ResidentOn : public ResidentEngine {
 
   void fetch_output()
   {
-    const std::size_t n = n_near_;
+    const NearList &list = lists_[list_of_step_];
+    const std::size_t n = list.n;
     const bool has_heat = law_.traits.heat;
     Array<SphereOutput> out(n);
     Array<Real> heat_out(has_heat ? n : 0);
     SphereOutput *to = out.data();
     Real *to_heat = heat_out.data();
-    const Real *from_heat = heat_.data();
-    const ResultColumns result = columns_;
-    const int *near = near_.data();
+    const Real *from_heat = results_[last_].heat.data();
+    const ResultColumns result = results_[last_].columns;
+    const int *near = list.near.data();
     const Spheres spheres = spheres_;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = near[k], at = result.of_near(k);
@@ -237,11 +260,11 @@ class ResidentOn : public ResidentEngine {
 
   void fetch_records()
   {
-    const std::size_t n = n_near_;
+    const std::size_t n = lists_[list_of_step_].n;
     Array<int> offset(n);
     int *at = offset.data();
-    const ResultColumns result = columns_;
-    const int *place = pool_place_.data();
+    const ResultColumns result = results_[last_].columns;
+    const int *place = results_[last_].pool_place.data();
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int r = result.of_near(k);
       at[k] = r >= 0 ? result.n_contacts[r] : 0;
@@ -263,13 +286,14 @@ class ResidentOn : public ResidentEngine {
   {
     totals_known_ = true;
     totals_ = WallTotals();
-    if (n_near_ == 0) return;
-    const std::size_t n = n_near_, n_blocks = (n + kTotalsBlock - 1) / kTotalsBlock;
+    const NearList &list = lists_[list_of_step_];
+    if (list.n == 0) return;
+    const std::size_t n = list.n, n_blocks = (n + kTotalsBlock - 1) / kTotalsBlock;
     Array<WallTotals> block(n_blocks);
     WallTotals *to = block.data();
-    const ResultColumns result = columns_;
-    const int *near = near_.data();
-    const Real *uncertain = uncertain_of_near();
+    const ResultColumns result = results_[last_].columns;
+    const int *near = list.near.data();
+    const Real *uncertain = results_[last_].uncertain.data();
     b_.for_each(n_blocks, [=] LSDCD_LAMBDA(std::size_t b) {
       WallTotals t;
       const std::size_t end = (b + 1) * kTotalsBlock < n ? (b + 1) * kTotalsBlock : n;
@@ -291,16 +315,18 @@ class ResidentOn : public ResidentEngine {
   LawJob prepare(const Spheres &spheres, const StepSettings &step)
   {
     LawJob job = job_of(grid_, force_settings(settings_, step), spheres);
-    job.near = near_.data();
+    Results &results = results_[1 - last_];
+    make_room(results, step.per_sphere);
+    job.near = lists_[chosen_].near.data();
     job.springs = springs_.view();
-    job.uncertain = {uncertain_of_near()};
-    job.sink = {nullptr, nullptr, heat_.data(), nullptr};
+    job.uncertain = {results.uncertain.data()};
+    job.sink = {nullptr, nullptr, results.heat.data(), nullptr};
     job.in_place.counts = counts_.data();
     job.in_place.force = spheres.force;
     job.in_place.torque = spheres.torque;
     job.in_place.heat_flow = spheres.heat_flow;
-    job.in_place.result = columns_ = next_columns(step.per_sphere);
-    job.in_place.pool = springs_.next(pool_place_.data());
+    job.in_place.result = results.columns;
+    job.in_place.pool = springs_.next(results.pool_place.data());
     job.in_place.crowd = crowd_.view();
     return job;
   }
@@ -312,38 +338,39 @@ class ResidentOn : public ResidentEngine {
     const NearChoice<kMoves> choice = {
         grid_,          words_.data(),   spheres, margin, settings_.law.pull_off(),
         counts_.data(), springs_.count()};
-    b_.select(spheres.n, choice, select_room_, near_.data(), &counts_.data()->n_near);
+    b_.select(spheres.n, choice, select_room_, lists_[chosen_].near.data(),
+              &counts_.data()->n_near);
   }
 
   void find_contacts(B &b, LawJob job)
   {
-    job.found = found_.next(n_near_);
-    find_first(b, job, n_near_, settings_.law.pull_off());
+    const std::size_t n = lists_[chosen_].n;
+    job.found = found_.next(n);
+    find_first(b, job, n, settings_.law.pull_off());
   }
 
-  void make_room()
+  // Of a step over the near spheres that begins; `with_point`: its outputs will be asked for.
+  void make_room(Results &r, bool with_point)
   {
-    const std::size_t n = n_near_, room = n + n / 8;
-    if (n_contacts_.size() < n) {
-      n_contacts_ = Array<int>(room);
-      if (B::kFindsFirst) result_place_ = Array<int>(room);
-      if (law_.traits.heat) heat_ = Array<Real>(room);
-      if (law_.traits.records) pool_place_ = Array<int>(room);
+    const std::size_t n = lists_[chosen_].n;
+    if (r.n_contacts.size() < n) {
+      const std::size_t room = n + n / 8;
+      r.n_contacts = Array<int>(room);
+      if (B::kFindsFirst) r.place = Array<int>(room);
+      if (law_.traits.heat) r.heat = Array<Real>(room);
+      if (law_.traits.records) r.pool_place = Array<int>(room);
     }
-    if (may_miss_any(grid_) && uncertain_.size() < n) uncertain_ = Array<Real>(room);
-    if constexpr (B::kFindsFirst) found_.reserve(b_, n);
+    if (!may_miss_any(grid_))
+      r.uncertain = Array<Real>();
+    else if (r.uncertain.size() < n)
+      r.uncertain = Array<Real>(n + n / 8);
+    const std::size_t room = r.n_contacts.size(),
+                      numbers = room * (with_point ? ResultColumns::kRealsWithPoint
+                                                   : ResultColumns::kReals);
+    if (r.numbers.size() < numbers) r.numbers = Array<Real>(numbers);
+    r.columns =
+        ResultColumns::of(r.numbers.data(), room, with_point, r.n_contacts.data(), r.place.data());
   }
-  // Of a step that begins; `with_point`: its outputs will be asked for.
-  ResultColumns next_columns(bool with_point)
-  {
-    const std::size_t room = n_contacts_.size(),
-                      n = room *
-                          (with_point ? ResultColumns::kRealsWithPoint : ResultColumns::kReals);
-    if (result_.size() < n) result_ = Array<Real>(n);
-    return ResultColumns::of(result_.data(), room, with_point, n_contacts_.data(),
-                             result_place_.data());
-  }
-  Real *uncertain_of_near() { return may_miss_any(grid_) ? uncertain_.data() : nullptr; }
 
   StepCounts read_counts() { return b_.to_host(counts_, 1)[0]; }
 
@@ -366,7 +393,8 @@ class ResidentOn : public ResidentEngine {
 
   void know_near()
   {
-    if (!near_known_) near_host_ = b_.to_host(near_, n_near_);
+    const NearList &list = lists_[list_of_step_];
+    if (!near_known_) near_host_ = b_.to_host(list.near, list.n);
     near_known_ = true;
   }
 
@@ -381,14 +409,12 @@ class ResidentOn : public ResidentEngine {
   StepSettings step_;
   ResidentSprings<B> springs_;
 
-  Array<int> near_;
-  std::size_t n_near_ = 0;
-  // Results of the last step: their columns, and of each its contacts, its heat and its place
-  // in the pool. Of each near sphere the place of its result.
-  ResultColumns columns_;
-  Array<Real> result_, heat_;
-  Array<int> n_contacts_, pool_place_, result_place_;
-  Array<Real> uncertain_;    // of near spheres, overlap / radius, where the grid may miss any
+  // Two of each, as what is left of the last step may be asked for until the next one starts,
+  // though spheres have been chosen and their contacts searched for.
+  NearList lists_[2];
+  int chosen_ = 0, list_of_step_ = 0;
+  Results results_[2];
+  int last_ = 0;
 
   Array<StepCounts> counts_;
   ResidentCrowd<B> crowd_;

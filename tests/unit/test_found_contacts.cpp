@@ -308,6 +308,27 @@ TEST(found_contacts, of_a_search_that_was_begun_are_left_where_spheres_are_chose
   }
 }
 
+// A variable of another fix may ask for a wall's force between the forces of atoms and the wall's.
+TEST(found_contacts, of_the_last_step_count_until_the_next_one_starts)
+{
+  for (Engine kind : {Engine::found_first, test_on_cuda() ? Engine::cuda : Engine::one_pass}) {
+    AllTouching all(kind);
+    const std::vector<Vec3> x = all.x;
+    for (int i = 0; i < all.n; i += 2) all.x[i].x += 100;
+    all.choose();
+    all.engine->start(all.spheres, all.step, nullptr);
+    // More spheres than there was room for before, and other columns.
+    all.x = x;
+    all.choose();
+    all.step.per_sphere = true;
+    all.engine->mark_places();
+    all.engine->search(all.spheres, all.step);
+    EXPECT_EQ(all.engine->totals().contacts, all.n / 2 * kAllRound) << static_cast<int>(kind);
+    all.engine->start(all.spheres, all.step, nullptr);
+    EXPECT_EQ(all.engine->totals().contacts, all.n * kAllRound) << static_cast<int>(kind);
+  }
+}
+
 TEST(found_contacts, of_an_engine_that_hands_results_back_are_its_results)
 {
   using Law = OnWall<HertzHistoryLaw<Real>, false, false>;
