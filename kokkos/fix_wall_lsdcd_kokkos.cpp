@@ -84,9 +84,10 @@ void FixWallLsdcdKokkos<DeviceType>::pre_exchange()
   if (!history) return;
 #if LSDCD_DEVICE_EXCHANGE
   if (springs_are == Where::device) {
-    if (comm->nprocs == 1) return;    // no message
-    // One more for the place of an atom's numbers in the message.
-    const int largest = 1 + resident().largest_packed_size(n_with_springs);
+    // One more for the place of an atom's numbers in the message. A process on its own packs
+    // hardly any atom, those that leave a fixed box, and need not look at all of them.
+    const int largest = 1 + (comm->nprocs > 1 ? resident().largest_packed_size(n_with_springs)
+                                              : resident().most_packed_size());
     MPI_Allreduce(&largest, &maxexchange, 1, MPI_INT, MPI_MAX, world);
     return;
   }

@@ -55,7 +55,8 @@ class ResidentEngine : public WallEngine {
   // sphere's numbers, as an integer in a double; then for each its count of springs and
   // these. Sphere which[k] leaves and sphere from[k], if that is not -1, takes its place.
   // Returns the numbers written.
-  virtual int largest_packed_size(int n) = 0;    // numbers of one sphere
+  virtual int largest_packed_size(int n) = 0;    // numbers of one sphere; waits
+  virtual int most_packed_size() const = 0;      // that one can have
   virtual int pack(int n, const int *which, const int *from, double *buffer) = 0;
   // Sphere to[k], if that is not -1, gets the k-th of what came. From n_first on the places
   // are those of a second message, which begins at `second`.

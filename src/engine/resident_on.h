@@ -180,6 +180,7 @@ class ResidentOn : public ResidentEngine {
   void springs_to(SpringStore &store, int n) override { springs_.to_store(b_, store, n); }
   void springs_from(const SpringStore &store, int n) override { springs_.from_store(b_, store, n); }
   int largest_packed_size(int n) override { return springs_.largest_packed_size(b_, n); }
+  int most_packed_size() const override { return springs_.most_packed_size(); }
   int pack(int n, const int *which, const int *from, double *buffer) override
   {
     return springs_.pack(b_, n, which, from, buffer);

@@ -153,6 +153,8 @@ class ResidentSprings {
                                   n, [=] LSDCD_LAMBDA(std::size_t i) -> int { return count[i]; });
   }
 
+  int most_packed_size() const { return 1 + per_spring() * kMostPlaces; }
+
   int pack(B &b, int n, const int *which, const int *from, double *buffer)
   {
     Array<int> offset(n);

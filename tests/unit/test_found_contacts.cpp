@@ -329,6 +329,16 @@ TEST(found_contacts, of_the_last_step_count_until_the_next_one_starts)
   }
 }
 
+// LAMMPS's buffers have room for so many numbers of an atom.
+TEST(found_contacts, of_a_sphere_pack_into_no_more_than_any_sphere_can_have)
+{
+  AllTouching all(test_on_cuda() ? Engine::cuda : Engine::found_first);
+  all.engine->start(all.spheres, all.step, nullptr);
+  const int largest = all.engine->largest_packed_size(all.n);
+  EXPECT_EQ(largest, 1 + kAllRound * SpringStore().doubles_per_spring());
+  EXPECT_LE(largest, all.engine->most_packed_size());
+}
+
 TEST(found_contacts, of_an_engine_that_hands_results_back_are_its_results)
 {
   using Law = OnWall<HertzHistoryLaw<Real>, false, false>;
