@@ -5,6 +5,7 @@
 #include "base/rows.h"
 #include "engine/cuda_few.h"
 #include "engine/cuda_list.h"
+#include "engine/cuda_warp.h"
 #include "engine/owned_array.h"
 
 #include <cub/device/device_radix_sort.cuh>
@@ -118,14 +119,11 @@ __global__ void __launch_bounds__(256, kSelectBlocks)
     votes[k] = __ballot_sync(~0u, i < n_tile && work.may_keep(tile + i, item[k], place[i]));
     all += __popc(votes[k]);
   }
-  unsigned at = 0;
-  if (lane == 0 && all > 0) at = atomicAdd(&n_waiting, all);
-  at = __shfl_sync(~0u, at, 0);
+  unsigned at = room_at(&n_waiting, all);
 #pragma unroll
   for (unsigned k = 0; k < kEach; k++) {
     if (votes[k] >> lane & 1u)
-      waiting[at + __popc(votes[k] & ((1u << lane) - 1))] =
-          static_cast<std::uint16_t>(threadIdx.x + k * 256);
+      waiting[at + votes_below(votes[k])] = static_cast<std::uint16_t>(threadIdx.x + k * 256);
     at += __popc(votes[k]);
   }
   __syncthreads();
@@ -163,8 +161,7 @@ __global__ static void __launch_bounds__(256)
     const unsigned word = __shfl_sync(~0u, mine, w);
     const std::uint32_t at = __shfl_sync(~0u, ahead, w);
     if ((word >> lane) & 1u)
-      to[at + __popc(word & ((1u << lane) - 1))] =
-          static_cast<int>(tile * kSelectTile + w * 32 + lane);
+      to[at + votes_below(word)] = static_cast<int>(tile * kSelectTile + w * 32 + lane);
   }
 }
 

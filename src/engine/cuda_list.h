@@ -1,6 +1,8 @@
 // Sorting things into lists on an NVIDIA GPU.
 #pragma once
 
+#include "engine/cuda_warp.h"
+
 #include <cuda_runtime.h>
 
 #include <cstddef>
@@ -12,8 +14,8 @@ constexpr unsigned kListBlock = 128, kListBlocks = 6;
 
 // Work::find() says into which of kLists lists a thing goes, -1 for none, from what
 // Work::read() has read of it, and Work::keep() is told its place there. All threads read
-// together; those past the end the last thing once more. The lists grow by a block of threads at a time: one atomic
-// addition each, and neighbours stay together.
+// together; those past the end the last thing once more. The lists grow by a block of threads
+// at a time: one atomic addition each, and neighbours stay together.
 template <int kLists, class Work>
 __global__ void __launch_bounds__(kListBlock, kListBlocks)
     cuda_list(std::size_t n, const __grid_constant__ Work work, int *listed)
@@ -25,15 +27,12 @@ __global__ void __launch_bounds__(kListBlock, kListBlocks)
   typename Work::Item item;
   work.read(i < n ? i : n - 1, item);
   const int list = i < n ? work.find(i, item) : -1;
-  const unsigned lane = threadIdx.x % 32;
   int at = 0;
 #pragma unroll
   for (int l = 0; l < kLists; l++) {
-    const unsigned vote = __ballot_sync(~0u, list == l);
-    int first = 0;
-    if (lane == 0 && vote) first = atomicAdd(&of_block[l], __popc(vote));
-    first = __shfl_sync(~0u, first, 0);
-    if (list == l) at = first + __popc(vote & ((1u << lane) - 1));
+    const unsigned vote = __ballot_sync(kAllLanes, list == l);
+    const int first = room_at(&of_block[l], __popc(vote));
+    if (list == l) at = first + static_cast<int>(votes_below(vote));
   }
   __syncthreads();
   if (threadIdx.x < kLists && of_block[threadIdx.x] > 0)

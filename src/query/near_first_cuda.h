@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/backend_cuda.h"
+#include "engine/cuda_warp.h"
 #include "grid/brick_filter.h"
 #include "query/sphere.h"
 
@@ -14,8 +15,6 @@
 #include <cstring>
 
 namespace lsdcd {
-
-constexpr unsigned kAllLanes = 0xffffffffu;
 
 // A warp, for what its threads do together.
 struct WarpLanes {
@@ -66,20 +65,6 @@ __device__ T read_once(const T &from)
   T out;
   std::memcpy(&out, piece, sizeof out);
   return out;
-}
-
-// How many lanes below this one vote yes.
-__device__ inline unsigned votes_below(unsigned votes)
-{
-  return __popc(votes & ((1u << threadIdx.x % 32) - 1));
-}
-
-// Room at `end`, for all lanes of a warp, for those n of them: where it begins.
-__device__ inline unsigned room_at(unsigned *end, unsigned n)
-{
-  unsigned at = 0;
-  if (threadIdx.x % 32 == 0 && n > 0) at = atomicAdd(end, n);
-  return __shfl_sync(kAllLanes, at, 0);
 }
 
 // Answers n of the work's spheres as if all were far, and appends those that are not to `list`.
