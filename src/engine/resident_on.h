@@ -66,6 +66,8 @@ class ResidentOn : public ResidentEngine {
   void choose(const Spheres &spheres, Real margin) override
   {
     const std::size_t n = spheres.n;
+    // A search that was begun writes where the next one will.
+    if (searched_) beside_.join(b_);
     marked_ = searched_ = false;
     chosen_ = 1 - list_of_step_;
     NearList &list = lists_[chosen_];
