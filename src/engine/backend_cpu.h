@@ -103,8 +103,9 @@ struct CpuBackend {
   }
 
   // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
-  // `total` becomes how many. may_keep() is asked of each i with what read() has read of it
-  // and its row of places(), keep() by that row of those that it leaves, and note() is told.
+  // `total` becomes how many. check() is told of each i, with what read() has read of it;
+  // may_keep() is asked with that, its row of places() and the brick table, keep() by that row
+  // of those that it leaves, and where it notes(), note() is told.
   struct SelectRoom {};
   template <class Work>
   void select(std::size_t n, const Work &work, SelectRoom &, int *to, std::uint32_t *total)
@@ -121,8 +122,10 @@ struct CpuBackend {
       for (std::int64_t k = lo; k < hi; k++) {
         const std::size_t i = static_cast<std::size_t>(k);
         const Vec3 place = work.places()[i];
-        const bool kept = work.may_keep(i, work.read(i), place) && work.keep(place);
-        work.note(i, kept);
+        const auto item = work.read(i);
+        work.check(i, item);
+        const bool kept = work.may_keep(item, place, work.table) && work.keep(place, work.table);
+        if (work.notes()) work.note(i, kept);
         if (kept) to[lo + count++] = static_cast<int>(i);
       }
       found[b] = count;

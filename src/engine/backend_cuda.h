@@ -1,17 +1,16 @@
 // The five verbs of a backend on an NVIDIA GPU: allocate, copy, for_each, reduce, scan/sort.
 #pragma once
 
-#include "base/input_error.h"
-#include "base/rows.h"
+#include "engine/cuda_check.h"
 #include "engine/cuda_few.h"
 #include "engine/cuda_list.h"
+#include "engine/cuda_mark.h"
 #include "engine/cuda_warp.h"
 #include "engine/owned_array.h"
 
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_reduce.cuh>
 #include <cub/device/device_scan.cuh>
-#include <cuda_pipeline_primitives.h>
 #include <cuda_runtime.h>
 #include <thrust/iterator/counting_iterator.h>
 #include <thrust/iterator/transform_iterator.h>
@@ -25,15 +24,6 @@
 #include <vector>
 
 namespace lsdcd {
-
-inline void cuda_check(cudaError_t status, const char *what)
-{
-  if (status == cudaSuccess) return;
-  throw InputError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status) +
-                   (status == cudaErrorMemoryAllocation
-                        ? "; use a coarser grid, fewer processes per GPU, or device cpu"
-                        : ""));
-}
 
 template <class F>
 __global__ void cuda_for_each(std::size_t n, const __grid_constant__ F f)
@@ -60,109 +50,6 @@ __global__ void cuda_for_each_part(const std::uint64_t *offset, std::size_t begi
       hi = middle;
   }
   f(lo, first + k - offset[lo], k);
-}
-
-constexpr int kSelectTile = 1024;    // items of a block of 256 threads, 32 words of bits
-constexpr int kSelectBlocks = 6;     // of a processor: 40 registers a thread
-
-// Asks for n rows from `first` on, to be there after __pipeline_wait_prior(0) and a barrier.
-// Packed ones come in pieces of 16 bytes, whosever they are.
-__device__ inline void bring_rows(const Rows<const double> &rows, std::size_t first, unsigned n,
-                                  Vec3 *to)
-{
-  constexpr unsigned kPiece = 16, kWord = sizeof(double);
-  if (rows.row == 3 && rows.column == 1 &&
-      reinterpret_cast<std::uintptr_t>(rows.of(first)) % kPiece == 0) {
-    const char *from = reinterpret_cast<const char *>(rows.of(first));
-    char *there = reinterpret_cast<char *>(to);
-    const unsigned bytes = n * sizeof(Vec3);
-    for (unsigned at = kPiece * threadIdx.x; at < bytes; at += kPiece * blockDim.x)
-      if (at + kPiece <= bytes)
-        __pipeline_memcpy_async(there + at, from + at, kPiece);
-      else
-        __pipeline_memcpy_async(there + at, from + at, kWord);
-  } else {
-    for (unsigned i = threadIdx.x; i < n; i += blockDim.x) to[i] = rows[first + i];
-  }
-  __pipeline_commit();
-}
-
-// Bits of the items to keep, and how many there are in each tile. Few may be kept, and more is
-// read of those alone, by full warps.
-template <class Work>
-__global__ void __launch_bounds__(256, kSelectBlocks)
-    cuda_mark(std::size_t n, const __grid_constant__ Work work, unsigned *words,
-              std::uint32_t *in_tile)
-{
-  constexpr unsigned kWords = kSelectTile / 32, kEach = kSelectTile / 256;
-  __shared__ __align__(16) char places[kSelectTile * sizeof(Vec3)];
-  __shared__ std::uint16_t waiting[kSelectTile];
-  __shared__ unsigned kept[kWords], n_waiting;
-  Vec3 *const place = reinterpret_cast<Vec3 *>(places);
-  const std::size_t tile = std::size_t(blockIdx.x) * kSelectTile;
-  const unsigned n_tile = n - tile < kSelectTile ? static_cast<unsigned>(n - tile) : kSelectTile,
-                 lane = threadIdx.x % 32;
-  bring_rows(work.places(), tile, n_tile, place);
-  typename Work::Item item[kEach] = {};
-#pragma unroll
-  for (unsigned k = 0; k < kEach; k++)
-    if (threadIdx.x + k * 256 < n_tile) item[k] = work.read(tile + threadIdx.x + k * 256);
-  if (threadIdx.x < kWords) kept[threadIdx.x] = 0;
-  if (threadIdx.x == 0) n_waiting = 0;
-  __pipeline_wait_prior(0);
-  __syncthreads();
-
-  unsigned votes[kEach], all = 0;
-#pragma unroll
-  for (unsigned k = 0; k < kEach; k++) {
-    const unsigned i = threadIdx.x + k * 256;
-    votes[k] = __ballot_sync(~0u, i < n_tile && work.may_keep(tile + i, item[k], place[i]));
-    all += __popc(votes[k]);
-  }
-  unsigned at = room_at(&n_waiting, all);
-#pragma unroll
-  for (unsigned k = 0; k < kEach; k++) {
-    if (votes[k] >> lane & 1u)
-      waiting[at + votes_below(votes[k])] = static_cast<std::uint16_t>(threadIdx.x + k * 256);
-    at += __popc(votes[k]);
-  }
-  __syncthreads();
-  for (unsigned w = threadIdx.x; w < n_waiting; w += 256) {
-    const unsigned i = waiting[w];
-    if (work.keep(place[i])) atomicOr(&kept[i / 32], 1u << (i % 32));
-  }
-  __syncthreads();
-  for (unsigned i = threadIdx.x; i < n_tile; i += 256)
-    work.note(tile + i, kept[i / 32] >> lane & 1u);
-  if (threadIdx.x >= kWords) return;
-  words[blockIdx.x * kWords + threadIdx.x] = kept[threadIdx.x];
-  std::uint32_t sum = __popc(kept[threadIdx.x]);
-  for (int step = kWords / 2; step > 0; step /= 2) sum += __shfl_down_sync(~0u, sum, step);
-  if (threadIdx.x == 0) in_tile[blockIdx.x] = sum;
-}
-
-// From bits to a list, a warp for each tile; before[t]: how many are kept in tiles before t.
-__global__ static void __launch_bounds__(256)
-    cuda_gather(const unsigned *words, const std::uint32_t *before, unsigned n_tiles, int *to,
-                std::uint32_t *total)
-{
-  const unsigned lane = threadIdx.x % 32, tile = (blockIdx.x * blockDim.x + threadIdx.x) / 32;
-  if (tile == 0 && lane == 0) *total = before[n_tiles];
-  if (tile >= n_tiles) return;
-  const unsigned mine = words[tile * (kSelectTile / 32) + lane];
-  std::uint32_t ahead = __popc(mine);
-  for (unsigned d = 1; d < 32; d *= 2) {
-    const std::uint32_t from = __shfl_up_sync(~0u, ahead, d);
-    if (lane >= d) ahead += from;
-  }
-  ahead += before[tile] - __popc(mine);
-  for (unsigned left = __ballot_sync(~0u, mine != 0); left != 0; left &= left - 1) {
-    const int w = __ffs(left) - 1;
-    const unsigned word = __shfl_sync(~0u, mine, w);
-    const std::uint32_t at = __shfl_sync(~0u, ahead, w);
-    if ((word >> lane) & 1u)
-      to[at + votes_below(word)] = static_cast<int>(tile * kSelectTile + w * 32 + lane);
-  }
 }
 
 struct CudaBackend {
@@ -350,41 +237,41 @@ struct CudaBackend {
   }
 
   // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
-  // `total`, where the kernels run, becomes how many. may_keep() is asked of each i with what
-  // read() has read of it and its row of places(), keep() by that row of those that it leaves,
-  // and note() is told. Does not wait. The room is kept for the next time, until when it must
-  // not be freed.
+  // `total`, where the kernels run, becomes how many. check() is told of each i that
+  // may_be_large(), by what read() has read of it; may_keep() is asked with that, its row of
+  // places() and the brick table, keep() by that row of those that it leaves, and where it
+  // notes(), note() is told. Does not wait. The room is kept for the next time, until when it
+  // must not be freed.
   struct SelectRoom {
     Array<unsigned> words;
     Array<std::uint32_t> in_tile;
     Array<char> scan;
+    CudaLimits limits;
   };
   template <class Work>
   void select(std::size_t n, const Work &work, SelectRoom &room, int *to, std::uint32_t *total)
   {
-    const unsigned n_tiles = static_cast<unsigned>((n + kSelectTile - 1) / kSelectTile);
+    const unsigned n_tiles = static_cast<unsigned>((n + kMarkTile - 1) / kMarkTile);
     std::size_t bytes = 0;
     cuda_check(cub::DeviceScan::ExclusiveSum(nullptr, bytes, room.in_tile.data(),
                                              room.in_tile.data(), n_tiles + 1, stream),
                "sizing a scan");
     if (room.in_tile.size() < n_tiles + 1) {
       const std::size_t tiles = n_tiles + n_tiles / 8 + 1;
-      room.words = Array<unsigned>(tiles * (kSelectTile / 32));
+      room.words = Array<unsigned>(tiles * kMarkWords);
       room.in_tile = Array<std::uint32_t>(tiles);
     }
     if (room.scan.size() < bytes) room.scan = Array<char>(2 * bytes);
     std::uint32_t *in_tile = room.in_tile.data();
     cuda_check(cudaMemsetAsync(in_tile + n_tiles, 0, sizeof *in_tile, stream), "clearing memory");
-    if (n_tiles > 0) {
-      cuda_mark<<<n_tiles, 256, 0, stream>>>(n, work, room.words.data(), in_tile);
-      cuda_check(cudaGetLastError(), "starting a kernel");
-    }
+    if (n_tiles > 0)
+      start_mark(static_cast<unsigned>(n), work, room.limits, room.words.data(), in_tile, stream);
     bytes = room.scan.size();
     cuda_check(cub::DeviceScan::ExclusiveSum(room.scan.data(), bytes, in_tile, in_tile, n_tiles + 1,
                                              stream),
                "scanning");
-    cuda_gather<<<n_tiles / 8 + 1, 256, 0, stream>>>(room.words.data(), in_tile, n_tiles, to,
-                                                     total);
+    cuda_gather<<<n_tiles / kGatherTiles + 1, kGatherBlock, 0, stream>>>(room.words.data(), in_tile,
+                                                                         n_tiles, to, total);
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
@@ -426,17 +313,8 @@ struct CudaBackend {
                    all = few_blocks + blocks(n_many);
     if (all == 0) return;
     static const bool can = can_begin_early(cuda_few_and_many<Work>);
-    cudaLaunchAttribute early = {};
-    early.id = cudaLaunchAttributeProgrammaticStreamSerialization;
-    early.val.programmaticStreamSerializationAllowed = 1;
-    cudaLaunchConfig_t config = {};
-    config.gridDim = dim3(all);
-    config.blockDim = dim3(kManyBlock);
-    config.stream = stream;
-    config.attrs = &early;
-    config.numAttrs = can && begins_early ? 1 : 0;
-    cuda_check(cudaLaunchKernelEx(&config, cuda_few_and_many<Work>, n_many, few_blocks, work),
-               "starting a kernel");
+    start_beside(can && begins_early, stream, all, kManyBlock, cuda_few_and_many<Work>, n_many,
+                 few_blocks, work);
   }
 
   // reduce

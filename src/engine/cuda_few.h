@@ -3,34 +3,11 @@
 #pragma once
 
 #include "base/rows_together.h"
-
-#include <cuda_runtime.h>
+#include "engine/cuda_early.h"
 
 #include <cstddef>
 
 namespace lsdcd {
-
-// From Hopper on a kernel can begin while the one before it runs: once each block of that
-// has called let_next_begin() or ended. What it needs of it, it waits for.
-__device__ inline void let_next_begin()
-{
-#if __CUDA_ARCH__ >= 900
-  asm volatile("griddepcontrol.launch_dependents;" ::: "memory");
-#endif
-}
-__device__ inline void wait_for_last_kernel()
-{
-#if __CUDA_ARCH__ >= 900
-  asm volatile("griddepcontrol.wait;" ::: "memory");
-#endif
-}
-// Is what runs here of a kernel compiled with these two?
-template <class Kernel>
-bool can_begin_early(Kernel *kernel)
-{
-  cudaFuncAttributes attributes;
-  return cudaFuncGetAttributes(&attributes, kernel) == cudaSuccess && attributes.ptxVersion >= 90;
-}
 
 // Warps that share few things, 128 registers to a thread. Things differ in what they need:
 // spread one to a warp they do not wait for each other.

@@ -4,6 +4,7 @@
 
 #include "base/atomic.h"
 #include "engine/law_job.h"
+#include "grid/brick_filter.h"
 #include "grid/near_within.h"
 
 namespace lsdcd {
@@ -12,7 +13,8 @@ namespace lsdcd {
 template <bool kMoves>
 struct NearChoice {
   GridView grid;
-  const BrickWord *words;    // of grid.lists
+  BrickTable table;
+  BrickFilter<Real> filter;
   Spheres spheres;
   Real margin;
   Real pull_off;         // of the law, at a radius of 1
@@ -21,33 +23,50 @@ struct NearChoice {
 
   struct Item {
     Real radius;
-    bool in_group;
+    int mask;
   };
 
   LSDCD_FN Rows<const Real> places() const { return spheres.x; }
   LSDCD_FN Item read(std::size_t i) const
   {
-    return {spheres.radius[i], !spheres.mask || (spheres.mask[i] & spheres.group_bit)};
+    return {spheres.radius[i], spheres.mask ? spheres.mask[i] : 0};
+  }
+  LSDCD_FN bool in_group(const Item &item) const
+  {
+    return !spheres.mask || (item.mask & spheres.group_bit);
   }
 
-  LSDCD_FN bool may_keep(std::size_t i, const Item &item, const Vec3 &x) const
+  // Could it reach past the grid? check() finds out.
+  LSDCD_FN bool may_be_large(const Item &item) const
   {
-    if (!item.in_group) return false;
-    if (!(reach_of(item.radius, pull_off) <= grid.reach))
+    return in_group(item) && (pull_off > 0 || !(item.radius <= grid.reach));
+  }
+  LSDCD_FN void check(std::size_t i, const Item &item) const
+  {
+    if (may_be_large(item) && !(reach_of(item.radius, pull_off) <= grid.reach))
       raise_to(&counts->too_large, kNoSphere - i);
-    if (kMoves) return true;
-    const BrickPlace at = brick_place_of(grid, x);
-    return has_brick(word_at(words, at), at.place);
   }
 
-  LSDCD_FN bool keep(const Vec3 &x) const
+  // `near_table`: the table, as a backend has it.
+  template <class Table>
+  LSDCD_FN bool may_keep(const Item &item, const Vec3 &x, const Table &near_table) const
   {
-    return near_within(grid, words, x, kMoves ? margin : 0);
+    if (kMoves) return in_group(item);
+    const BrickGuess guess = filter.guess(grid, x);
+    bool may = guess.unsure;
+    if (guess.inside & !guess.unsure) may = near_table.at(guess.place);
+    return may & in_group(item);
+  }
+  template <class Table>
+  LSDCD_FN bool keep(const Vec3 &x, const Table &near_table) const
+  {
+    return near_within(grid, near_table, x, kMoves ? margin : 0);
   }
 
+  LSDCD_FN bool notes() const { return n_springs; }
   LSDCD_FN void note(std::size_t i, bool near) const
   {
-    if (n_springs && !near) n_springs[i] = 0;
+    if (!near) n_springs[i] = 0;
   }
 };
 

@@ -53,7 +53,9 @@ class ResidentOn : public ResidentEngine {
     block_ = Array<char>(grid.block_bytes);
     b_.copy_in(grid.block, block_.data(), grid.block_bytes);
     grid_ = moved_view(grid, block_.data());
-    words_ = b_.from_host(brick_words(grid));
+    const std::vector<BrickWord> words = brick_words(grid);
+    words_ = b_.from_host(words);
+    table_ = BrickTable(words, words_.data());
   }
 
   Real largest_radius(const Spheres &spheres) override
@@ -338,9 +340,9 @@ class ResidentOn : public ResidentEngine {
   template <bool kMoves>
   void select(const Spheres &spheres, Real margin)
   {
-    const NearChoice<kMoves> choice = {
-        grid_,          words_.data(),   spheres, margin, settings_.law.pull_off(),
-        counts_.data(), springs_.count()};
+    const NearChoice<kMoves> choice = {grid_,          table_,          BrickFilter<Real>(grid_),
+                                       spheres,        margin,          settings_.law.pull_off(),
+                                       counts_.data(), springs_.count()};
     b_.select(spheres.n, choice, select_room_, lists_[chosen_].near.data(),
               &counts_.data()->n_near);
   }
@@ -407,6 +409,7 @@ class ResidentOn : public ResidentEngine {
   GridView grid_ = {};
   Array<char> block_;
   Array<BrickWord> words_;
+  BrickTable table_;
   typename B::SelectRoom select_room_;
   Spheres spheres_;
   StepSettings step_;

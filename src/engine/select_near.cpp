@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 #include "engine/backend_cpu.h"
+#include "grid/brick_words.h"
 #include "model/normal.h"
 
 #include <algorithm>
@@ -28,24 +29,30 @@ struct NearNow {
   Real pull_off;
   Real fits;    // radii up to this do for certain
   int &too_large;
-
-  struct Item {};
+  BrickTable table = {};    // it asks the grid
 
   Rows<const Real> places() const { return spheres.x; }
-  Item read(std::size_t) const { return {}; }
-  bool may_keep(std::size_t i, Item, const Vec3 &x) const
+  int read(std::size_t i) const { return !spheres.mask || (spheres.mask[i] & spheres.group_bit); }
+  void check(std::size_t i, int in_group) const
   {
-    if (spheres.mask && !(spheres.mask[i] & spheres.group_bit)) return false;
-    if (!(spheres.radius[i] <= fits) && !(reach_of(spheres.radius[i], pull_off) <= grid.reach)) {
-      const int at = static_cast<int>(i);
+    if (!in_group || spheres.radius[i] <= fits ||
+        reach_of(spheres.radius[i], pull_off) <= grid.reach)
+      return;
+    const int at = static_cast<int>(i);
 #pragma omp critical
-      too_large = too_large < 0 ? at : std::min(too_large, at);
-    }
-    return near_wall(grid, x);
+    too_large = too_large < 0 ? at : std::min(too_large, at);
   }
-  bool keep(const Vec3 &) const
+  bool may_keep(int in_group, const Vec3 &x, const BrickTable &) const
+  {
+    return in_group && near_wall(grid, x);
+  }
+  bool keep(const Vec3 &, const BrickTable &) const
   {
     return true;
+  }
+  bool notes() const
+  {
+    return false;
   }
   void note(std::size_t, bool) const {}
 };
@@ -59,9 +66,9 @@ void select_near(const GridView &grid, const Spheres &spheres, Real pull_off,
   int too_large = -1;
   std::uint32_t n = 0;
   CpuBackend::SelectRoom room;
-  CpuBackend().select(spheres.n,
-                      NearNow{grid, spheres, pull_off, pull_off > 0 ? 0 : grid.reach, too_large},
-                      room, scratch.data(), &n);
+  CpuBackend().select(
+      spheres.n, NearNow{grid, spheres, pull_off, pull_off > 0 ? 0 : grid.reach, too_large, {}},
+      room, scratch.data(), &n);
   if (too_large >= 0) throw_too_large(too_large, spheres.radius[too_large], grid.reach);
   near.assign(scratch.begin(), scratch.begin() + n);
 }

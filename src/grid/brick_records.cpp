@@ -75,7 +75,7 @@ void codes_of(const TriangleGrid &grid, const CellLists &lists, const Brick &bri
   const auto add = [&](FeatureCode code) {
     if (named.first_time(code)) codes.push_back(code);
   };
-  for (std::size_t c = brick.first_cell; c < brick.first_cell + n_cells; c++) {
+  for (std::size_t c = brick.layer[0].first_cell; c < brick.layer[0].first_cell + n_cells; c++) {
     const Cell cell = lists.cells[c];
     if (cell.count == 1)
       add(cell.first);
@@ -98,8 +98,8 @@ void add_records(TriangleGrid &grid, CellLists &lists, BrickRecords &out)
   for (std::size_t i = 0; i < lists.brick_of.size(); i++)
     if (lists.brick_of[i] >= 0) table_of[lists.brick_of[i]] = i;
   const auto n_cells = [&](std::int64_t b) {
-    return (b + 1 < n_bricks ? lists.bricks[b + 1].first_cell : lists.cells.size()) -
-           lists.bricks[b].first_cell;
+    return (b + 1 < n_bricks ? lists.bricks[b + 1].layer[0].first_cell : lists.cells.size()) -
+           lists.bricks[b].layer[0].first_cell;
   };
 
   // How many records of each kind a brick needs, then where they begin.
@@ -170,7 +170,8 @@ void add_records(TriangleGrid &grid, CellLists &lists, BrickRecords &out)
             out.vertex_of[to] = i;
         }
       }
-      for (std::size_t c = brick.first_cell; c < brick.first_cell + n_cells(b); c++) {
+      for (std::size_t c = brick.layer[0].first_cell; c < brick.layer[0].first_cell + n_cells(b);
+           c++) {
         Cell &cell = lists.cells[c];
         if (cell.count == 1)
           cell.first = record_code(cell.first);

@@ -42,6 +42,25 @@ inline std::vector<BrickWord> brick_words(const GridView &grid)
   return words;
 }
 
+// The table by its words, borrowed. A backend may have it elsewhere too, in a type that is asked
+// in the same way.
+struct BrickTable {
+  const BrickWord *words = nullptr;
+  std::uint32_t n_words = 0, n_bricks = 0;
+
+  BrickTable() = default;
+  // `words`: a copy of those of the host, where they are asked for.
+  BrickTable(const std::vector<BrickWord> &host, const BrickWord *words) :
+      words(words), n_words(static_cast<std::uint32_t>(host.size()))
+  {
+    if (!host.empty())
+      n_bricks = host.back().below + static_cast<std::uint32_t>(count_bits(host.back().bits));
+  }
+
+  LSDCD_FN bool at(std::uint32_t place) const { return has_brick(words[place / 32], place); }
+  LSDCD_FN BrickWord word(std::uint32_t place) const { return words[place / 32]; }
+};
+
 // The largest whole number at or below x, where it is at least 0 and has 32 bits; elsewhere, and
 // where x is not a number, `fits` is false. From 2^52 on doubles are whole numbers: their low
 // word is the number, at 2^52 more than x. A GPU does this in one step, where comparing and
@@ -102,11 +121,6 @@ LSDCD_FN CellAddress address_inside(const GridView &grid, const Vec3 &q)
           grid.length * Vec3{at.x - i.real - half, at.y - j.real - half, at.z - k.real - half}};
 }
 
-LSDCD_FN BrickWord word_at(const BrickWord *words, const BrickPlace &at)
-{
-  return at.place != kNoBrick ? words[at.place / 32] : BrickWord{0, 0};
-}
-
 // The number of the brick, or kNoBrick.
 LSDCD_FN std::uint32_t brick_in(const BrickWord &word, const BrickPlace &at)
 {
@@ -115,22 +129,40 @@ LSDCD_FN std::uint32_t brick_in(const BrickWord &word, const BrickPlace &at)
 
 constexpr std::uint32_t kNoCell = 0xffffffffu;
 
-// Index in lists.cells of a cell of a brick; kNoCell where it has no candidates. All of the
-// brick's record is asked for at once: a branch in between would wait twice.
-LSDCD_FN std::uint32_t occupied_cell(const CellListsView &lists, std::uint32_t brick,
-                                     std::int32_t cell)
+// Indices in lists.cells of the cells that hold some points; kNoCell where there are no
+// candidates, as near_wall(grid, q) is false, and for points that do not count. What one waits
+// for, the others wait for at the same time. `table`: as BrickTable.
+template <unsigned kPoints, class Table>
+LSDCD_FN void occupied_cells(const GridView &grid, const Table &table, const Vec3 (&q)[kPoints],
+                             const bool (&counts)[kPoints], std::uint32_t (&cell)[kPoints])
 {
-  const std::uint32_t index = cell_index(lists.bricks[brick], cell);
-  return has_candidates(lists.bricks[brick], cell) ? index : kNoCell;
+  BrickPlace at[kPoints];
+  BrickWord word[kPoints];
+  BrickLayer layer[kPoints];
+  for (unsigned k = 0; k < kPoints; k++) {
+    at[k] = brick_place_of(grid, q[k]);
+    if (!counts[k]) at[k].place = kNoBrick;
+  }
+  for (unsigned k = 0; k < kPoints; k++)
+    word[k] = at[k].place != kNoBrick ? table.word(at[k].place) : BrickWord{0, 0};
+  for (unsigned k = 0; k < kPoints; k++) {
+    const std::uint32_t brick = brick_in(word[k], at[k]);
+    layer[k] = BrickLayer{0, 0, 0};
+    if (brick != kNoBrick) layer[k] = grid.lists.bricks[brick].layer[at[k].cell >> 6];
+  }
+  for (unsigned k = 0; k < kPoints; k++)
+    cell[k] = has_candidates(layer[k], at[k].cell) ? cell_index(layer[k], at[k].cell) : kNoCell;
 }
 
-// The same of the cell that holds q, without the brick table; kNoCell also where there is no
-// brick: as near_wall(grid, q) is false.
-LSDCD_FN std::uint32_t occupied_cell(const GridView &grid, const BrickWord *words, const Vec3 &q)
+// The same of one point.
+template <class Table>
+LSDCD_FN std::uint32_t occupied_cell(const GridView &grid, const Table &table, const Vec3 &q)
 {
-  const BrickPlace at = brick_place_of(grid, q);
-  const std::uint32_t brick = brick_in(word_at(words, at), at);
-  return brick == kNoBrick ? kNoCell : occupied_cell(grid.lists, brick, at.cell);
+  const Vec3 points[] = {q};
+  const bool counts[] = {true};
+  std::uint32_t cell[1];
+  occupied_cells(grid, table, points, counts, cell);
+  return cell[0];
 }
 
 }    // namespace lsdcd

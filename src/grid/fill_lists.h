@@ -66,7 +66,7 @@ void sum_words(B &b, std::size_t n_words, const std::uint32_t *counts, Brick *br
         single++;
       if (n > longest) longest = n;
     }
-    bricks[w / kMaskWords].mask[w % kMaskWords] = mask;
+    bricks[w / kLayers].layer[w % kLayers].mask = mask;
     lists[w] = list;
     cells[w] = static_cast<std::uint32_t>(count_bits(mask));
     singles[w] = single;
@@ -81,11 +81,10 @@ void finish_bricks(B &b, const OctantPairs<B> &pairs, const std::uint32_t *cells
   const std::uint32_t *places = pairs.place.data();
   b.for_each(table_size, [=] LSDCD_LAMBDA(std::size_t i) { brick_of[i] = -1; });
   b.for_each(pairs.n_bricks, [=] LSDCD_LAMBDA(std::size_t i) {
-    const std::uint32_t *mine = cells + i * kMaskWords;
-    bricks[i].first_cell = mine[0];
-    for (int w = 0; w < kMaskWords; w++)
-      bricks[i].below[w] = static_cast<std::uint16_t>(mine[w] - mine[0]);
-    bricks[i].pad = 0;
+    for (int k = 0; k < kLayers; k++) {
+      bricks[i].layer[k].first_cell = cells[i * kLayers + k];
+      bricks[i].layer[k].pad = 0;
+    }
     brick_of[places[i]] = static_cast<std::int32_t>(i);
   });
 }
@@ -104,7 +103,7 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
               c = cell_of_octant(static_cast<int>(octant % 8), k);
     const std::uint32_t n = counts[brick * kBrickCells + c];
     if (n == 0) return;
-    const std::uint32_t start = static_cast<std::uint32_t>(lists[brick * kMaskWords + (c >> 6)] +
+    const std::uint32_t start = static_cast<std::uint32_t>(lists[brick * kLayers + (c >> 6)] +
                                                            offsets[brick * kBrickCells + c]);
     Cell out = {start, n};
     const Vec3 centre = CellCentres(view.plan, places[brick]).at(c);
@@ -135,7 +134,7 @@ bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::u
                 std::size_t budget, BuiltLists<B> &out, ListReport &report)
 {
   using Built = BuiltLists<B>;
-  const std::size_t n_bricks = pairs.n_bricks, n_words = n_bricks * kMaskWords,
+  const std::size_t n_bricks = pairs.n_bricks, n_words = n_bricks * kLayers,
                     n_cells = n_bricks * kBrickCells;
   typename Built::template Scratch<std::uint64_t> met(pairs.n), list(n_words);
   typename Built::template Scratch<std::uint32_t> count(n_cells), offset(n_cells), cell(n_words),

@@ -39,17 +39,25 @@ LSDCD_FN unsigned lowest_bit(unsigned word)
 #endif
 }
 
+// `cell` counts those of the brick, of which the layer is.
+LSDCD_FN bool has_candidates(const BrickLayer &layer, int cell)
+{
+  return (layer.mask >> (cell & 63)) & 1u;
+}
 LSDCD_FN bool has_candidates(const Brick &brick, int cell)
 {
-  return (brick.mask[cell >> 6] >> (cell & 63)) & 1u;
+  return has_candidates(brick.layer[cell >> 6], cell);
 }
 
 // Index of an occupied cell in CellListsView::cells.
+LSDCD_FN std::uint32_t cell_index(const BrickLayer &layer, int cell)
+{
+  const std::uint64_t before = layer.mask & ((std::uint64_t(1) << (cell & 63)) - 1);
+  return layer.first_cell + static_cast<std::uint32_t>(count_bits(before));
+}
 LSDCD_FN std::uint32_t cell_index(const Brick &brick, int cell)
 {
-  const int word = cell >> 6;
-  const std::uint64_t before = brick.mask[word] & ((std::uint64_t(1) << (cell & 63)) - 1);
-  return brick.first_cell + brick.below[word] + static_cast<std::uint32_t>(count_bits(before));
+  return cell_index(brick.layer[cell >> 6], cell);
 }
 
 // Where a point falls before any table is read: in which cell of the whole grid, and where

@@ -15,11 +15,12 @@ LSDCD_FN void cells_within(Real u, Real margin, std::int32_t n_cells, int &lo, i
 }
 
 // Is there any candidate in a cell that a point may reach from q on a way of length up to
-// `margin`? With margin 0 this is near_wall(). False where q is not finite. `words`: of
-// grid.lists.
-LSDCD_FN bool near_within(const GridView &grid, const BrickWord *words, const Vec3 &q, Real margin)
+// `margin`? With margin 0 this is near_wall(). False where q is not finite. `table`: as
+// BrickTable, of grid.lists.
+template <class Table>
+LSDCD_FN bool near_within(const GridView &grid, const Table &table, const Vec3 &q, Real margin)
 {
-  if (!(margin > 0)) return occupied_cell(grid, words, q) != kNoCell;
+  if (!(margin > 0)) return occupied_cell(grid, table, q) != kNoCell;
   // A cell is left out only if it is out of reach after rounding, too.
   const Real cells = margin * grid.inv_length * (1 + 8 * kRoundoff) + Real(1e-9);
   int lo[3], hi[3];
@@ -33,9 +34,9 @@ LSDCD_FN bool near_within(const GridView &grid, const BrickWord *words, const Ve
   for (int bz = lo[2] >> 3; bz <= (hi[2] - 1) >> 3; bz++)
     for (int by = lo[1] >> 3; by <= (hi[1] - 1) >> 3; by++)
       for (int bx = lo[0] >> 3; bx <= (hi[0] - 1) >> 3; bx++) {
-        const std::size_t at =
-            (static_cast<std::size_t>(bz) * grid.n_bricks[1] + by) * grid.n_bricks[0] + bx;
-        const BrickWord word = words[at / 32];
+        const std::uint32_t at =
+            (static_cast<std::uint32_t>(bz) * grid.n_bricks[1] + by) * grid.n_bricks[0] + bx;
+        const BrickWord word = table.word(at);
         if (!has_brick(word, at)) continue;
         const Brick &brick = grid.lists.bricks[brick_number(word, at)];
         const int x0 = lo[0] > 8 * bx ? lo[0] - 8 * bx : 0;
@@ -48,7 +49,7 @@ LSDCD_FN bool near_within(const GridView &grid, const BrickWord *words, const Ve
         const int z0 = lo[2] > 8 * bz ? lo[2] - 8 * bz : 0;
         const int z1 = hi[2] < 8 * bz + 8 ? hi[2] - 8 * bz : 8;
         for (int z = z0; z < z1; z++)
-          if (brick.mask[z] & layer) return true;
+          if (brick.layer[z].mask & layer) return true;
       }
   return false;
 }

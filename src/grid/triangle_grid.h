@@ -16,7 +16,7 @@ namespace lsdcd {
 
 constexpr int kBrickSide = 8;    // cells along a brick edge
 constexpr int kBrickCells = kBrickSide * kBrickSide * kBrickSide;
-constexpr int kMaskWords = kBrickCells / 64;    // one 64-bit word per z layer
+constexpr int kLayers = kBrickSide;
 
 // An entry of a cell's list: the feature or piece, and a lower bound of its distance
 // from the cell centre. Lists ascend in (bound, feature).
@@ -31,13 +31,16 @@ struct Cell {
   std::uint32_t count;
 };
 
-// Cells of a brick that have candidates, as bits in cell order x, then y, then z;
-// below[w] counts the bits set in words before w.
-struct Brick {
-  std::uint64_t mask[kMaskWords];
+// 64 cells of a brick, x fastest, then y: those that have candidates, as bits, and where the
+// first of these is in CellListsView::cells. One piece of 16 bytes: of a brick, a sphere asks
+// for one layer.
+struct alignas(16) BrickLayer {
+  std::uint64_t mask;
   std::uint32_t first_cell;
-  std::uint16_t below[kMaskWords];
   std::uint32_t pad;
+};
+struct Brick {
+  BrickLayer layer[kLayers];    // z upwards
 };
 
 // Lists of one kind for all cells.

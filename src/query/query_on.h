@@ -78,13 +78,13 @@ struct GridWork {
   using Filter = BrickFilter<decltype(S::x)>;
 
   GridView grid;
-  const BrickWord *words;
+  BrickTable table;
   const S *spheres;
   AnswerArrays out;
   Filter filter;
 
   // The same of the spheres from the n-th on, a multiple of 4.
-  GridWork after(std::size_t n) const { return {grid, words, spheres + n, out.after(n), filter}; }
+  GridWork after(std::size_t n) const { return {grid, table, spheres + n, out.after(n), filter}; }
 
   LSDCD_FN S sphere(std::size_t i) const { return spheres[i]; }
   LSDCD_FN void answer(std::size_t i, const S &s) const
@@ -93,8 +93,6 @@ struct GridWork {
   }
 
   LSDCD_FN BrickGuess guess(const S &s) const { return filter.guess(grid, {s.x, s.y, s.z}); }
-  // kNoCell where there are no candidates.
-  LSDCD_FN std::uint32_t cell(const S &s) const { return occupied_cell(grid, words, s.centre()); }
   LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
   LSDCD_FN void far(std::size_t i) const { out.keep(i, far_answer()); }
   LSDCD_FN void four_far(std::size_t i) const { out.keep_four_far(i); }
@@ -139,7 +137,9 @@ class QueryOn : public SphereQuery {
     b_.copy_in(view.block, block.data(), block.size());
     block_ = std::move(block);
     grid_ = moved_view(view, block_.data());
-    words_ = b_.from_host(brick_words(view));
+    const std::vector<BrickWord> words = brick_words(view);
+    words_ = b_.from_host(words);
+    table_ = BrickTable(words, words_.data());
   }
 
   void set_spheres(const Sphere *spheres, std::size_t n) override
@@ -210,9 +210,9 @@ class QueryOn : public SphereQuery {
     fit(float_distance_, settings.distance && grid_.in_floats);
     fit(read_, settings.read);
     if (in_float_)
-      way_.template reserve<FloatSphere>(n_);
+      way_.template reserve<FloatSphere>(n_, table_);
     else
-      way_.template reserve<Sphere>(n_);
+      way_.template reserve<Sphere>(n_, table_);
   }
 
   void start(const QuerySettings &settings)
@@ -257,7 +257,7 @@ class QueryOn : public SphereQuery {
   void run_grid(const S *spheres)
   {
     using Filter = typename Work::Filter;
-    way_.run(b_, n_, Work{grid_, words_.data(), spheres, answers(), Filter(grid_)});
+    way_.run(b_, n_, Work{grid_, table_, spheres, answers(), Filter(grid_)});
   }
 
   template <class T, class Other>
@@ -284,6 +284,7 @@ class QueryOn : public SphereQuery {
   GridView grid_ = {};
   Array<char> block_;
   Array<BrickWord> words_;
+  BrickTable table_;
   std::uint32_t n_faces_ = 0;
   Array<Sphere> sphere_;
   Array<FloatSphere> float_sphere_;

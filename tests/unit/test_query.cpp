@@ -310,9 +310,9 @@ TEST(query, gives_the_same_bits_on_both_devices_with_formula_five)
 }
 
 // The cell's list where q has candidates, as a GPU finds it; elsewhere a list of 0.
-Cell cell_by_words(const GridView &grid, const BrickWord *words, const Vec3 &q)
+Cell cell_by_words(const GridView &grid, const BrickTable &table, const Vec3 &q)
 {
-  const std::uint32_t cell = occupied_cell(grid, words, q);
+  const std::uint32_t cell = occupied_cell(grid, table, q);
   return cell == kNoCell ? Cell{0, 0} : grid.lists.cells[cell];
 }
 
@@ -320,7 +320,7 @@ Cell cell_by_words(const GridView &grid, const BrickWord *words, const Vec3 &q)
 // the CPU.
 struct CellFirst {
   template <class S>
-  void reserve(std::size_t)
+  void reserve(std::size_t, const BrickTable &)
   {
   }
 
@@ -332,7 +332,7 @@ struct CellFirst {
     for (; far < n; far++) work.far(far);
     for (std::size_t i = 0; i < n; i++) {
       const auto s = work.sphere(i);
-      const Cell cell = cell_by_words(work.grid, work.words, s.centre());
+      const Cell cell = cell_by_words(work.grid, work.table, s.centre());
       if (cell.count > 0) work.answer(i, s, cell);
     }
   }
@@ -403,7 +403,7 @@ void expect_lanes_read_as_one(const Case &c, bool in_floats, std::size_t &read)
   std::vector<Cell> cells;
   const std::vector<BrickWord> words = brick_words(view);
   for (const Sphere &s : c.spheres) {
-    const Cell cell = cell_by_words(view, words.data(), s.centre());
+    const Cell cell = cell_by_words(view, BrickTable(words, words.data()), s.centre());
     if (cell.count < 2 || cells.size() == 40) continue;
     spheres.push_back(s);
     cells.push_back(cell);
@@ -545,9 +545,10 @@ struct Sureness {
   std::size_t sure = 0, inside = 0, points = 0;
 };
 
-void expect_filter_is_right(const GridView &view, const Vec3Of<float> &q, Sureness &count)
+template <class T>
+void expect_filter_is_right(const GridView &view, const Vec3Of<T> &q, Sureness &count)
 {
-  const BrickGuess guess = BrickFilter<float>(view).guess(view, q);
+  const BrickGuess guess = BrickFilter<T>(view).guess(view, q);
   const std::uint32_t place = brick_place_of(view, vec_cast<Real>(q)).place;
   count.points++;
   count.inside += place != kNoBrick;
@@ -559,16 +560,18 @@ void expect_filter_is_right(const GridView &view, const Vec3Of<float> &q, Surene
   }
 }
 
-// The side of a brick as a float, or one of its neighbours.
-float next_to_a_side(Numbers &r, Real origin, Real side, int n)
+// The side of a brick as a T, or one of its neighbours.
+template <class T>
+T next_to_a_side(Numbers &r, Real origin, Real side, int n)
 {
-  float x = static_cast<float>(origin + side * (r.below(n + 3) - 1));
+  T x = static_cast<T>(origin + side * (r.below(n + 3) - 1));
   for (int steps = r.below(40); steps > 0; steps--)
-    x = std::nextafter(x, r.below(4) ? HUGE_VALF : -HUGE_VALF);
+    x = std::nextafter(x, static_cast<T>(r.below(4) ? HUGE_VAL : -HUGE_VAL));
   return x;
 }
 
-TEST(query, a_brick_told_in_float_is_that_of_double_where_it_is_sure)
+template <class T>
+void expect_filter_is_right_wherever_it_is_sure()
 {
   Numbers r(12);
   Sureness of_usual;
@@ -586,22 +589,31 @@ TEST(query, a_brick_told_in_float_is_that_of_double_where_it_is_sure)
     const GridView view = empty_grid(origin, length, n[0], n[1], n[2]);
     Sureness next_to_sides;
     for (int i = 0; i < 10000; i++) {
-      Vec3Of<float> q;
-      for (int a = 0; a < 3; a++)
-        q[a] = static_cast<float>(origin[a] + side * n[a] * r.in(-0.1, 1.1));
+      Vec3Of<T> q;
+      for (int a = 0; a < 3; a++) q[a] = static_cast<T>(origin[a] + side * n[a] * r.in(-0.1, 1.1));
       expect_filter_is_right(view, q, usual ? of_usual : next_to_sides);
       const int a = r.below(3);
-      q[a] = next_to_a_side(r, origin[a], side, n[a]);
+      q[a] = next_to_a_side<T>(r, origin[a], side, n[a]);
       expect_filter_is_right(view, q, next_to_sides);
     }
-    if (HasFatalFailure()) return;
+    if (::testing::Test::HasFatalFailure()) return;
   }
   // The rest costs a look at the cell.
   EXPECT_GT(of_usual.inside, of_usual.points / 3);
   EXPECT_GT(of_usual.sure, of_usual.points * 0.999);
 }
 
-TEST(query, a_brick_told_in_float_is_sure_of_no_number_that_is_none)
+TEST(query, a_brick_told_in_float_is_the_exact_one_where_it_is_sure)
+{
+  expect_filter_is_right_wherever_it_is_sure<float>();
+}
+TEST(query, a_brick_told_in_double_is_the_exact_one_where_it_is_sure)
+{
+  expect_filter_is_right_wherever_it_is_sure<double>();
+}
+
+template <class T>
+void expect_filter_is_sure_of_no_number_that_is_none()
 {
   Sureness count;
   for (const Real length : {0.2, 1e-30, 1e-39, 1e-44, 1e30, 1e38, 1e44})
@@ -609,21 +621,29 @@ TEST(query, a_brick_told_in_float_is_sure_of_no_number_that_is_none)
       const Vec3 origin = {-3 * length, far * length, -far * length};
       for (const int n : {1, 7, 64, 1 << 22, 1 << 23}) {
         const GridView view = empty_grid(origin, length, n, 2, 3);
-        std::vector<float> along[3];
+        std::vector<T> along[3];
         for (int a = 0; a < 3; a++)
           for (Real x : hard_coordinates(origin[a], length, view.n_bricks[a]))
-            along[a].push_back(static_cast<float>(x));
+            along[a].push_back(static_cast<T>(x));
         for (int a = 0; a < 3; a++)
-          for (float x : along[a]) {
-            Vec3Of<float> q = vec_cast<float>(origin + length * Vec3{5, 5, 5});
+          for (T x : along[a]) {
+            Vec3Of<T> q = vec_cast<T>(origin + length * Vec3{5, 5, 5});
             q[a] = x;
             expect_filter_is_right(view, q, count);
           }
-        if (HasFatalFailure()) return;
+        if (::testing::Test::HasFatalFailure()) return;
       }
     }
   EXPECT_GT(count.sure, count.points / 20);
   EXPECT_LT(count.sure, count.points);
+}
+TEST(query, a_brick_told_in_float_is_sure_of_no_number_that_is_none)
+{
+  expect_filter_is_sure_of_no_number_that_is_none<float>();
+}
+TEST(query, a_brick_told_in_double_is_sure_of_no_number_that_is_none)
+{
+  expect_filter_is_sure_of_no_number_that_is_none<double>();
 }
 
 // Wherever warps, tiles and queues of a GPU begin and end.
@@ -780,7 +800,7 @@ TEST(query, bits_of_bricks_give_the_list_that_their_table_gives)
       const CellAddress at = locate(view, view.lists, x);
       const Cell cell =
           at.brick && has_candidates(*at.brick, at.cell) ? cell_of(view.lists, at) : Cell{0, 0};
-      const Cell by_words = cell_by_words(view, words.data(), x);
+      const Cell by_words = cell_by_words(view, BrickTable(words, words.data()), x);
       EXPECT_EQ(by_words.first, cell.first) << c.soup.source;
       EXPECT_EQ(by_words.count, cell.count) << c.soup.source;
       occupied += cell.count > 0;

@@ -198,6 +198,7 @@ TEST(resident, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
   Particles p(with_history(), 1, 0.5);
   const GridView grid = p.flat.view();
   const std::vector<BrickWord> words = brick_words(grid);
+  const BrickTable table(words, words.data());
   std::mt19937_64 random(3);
   std::uniform_real_distribution<Real> at(-12, 12), up(-3, 3), unit(-1, 1), margins(0, 1.5);
   int near = 0, missed = 0, far = 0;
@@ -208,9 +209,9 @@ TEST(resident, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
     way = (margin * std::fabs(unit(random)) / norm(way)) * way;
     if (near_wall(grid, q + way)) {
       near++;
-      missed += !near_within(grid, words.data(), q, margin);
+      missed += !near_within(grid, table, q, margin);
     } else
-      far += !near_within(grid, words.data(), q, margin);
+      far += !near_within(grid, table, q, margin);
   }
   EXPECT_EQ(missed, 0);
   EXPECT_GT(near, 1000);
