@@ -1,4 +1,5 @@
 #include "base/input_error.h"
+#include "base/threads.h"
 #include "grid/grid_cache.h"
 #include "support/meshes.h"
 #include "support/temp_dir.h"
@@ -354,12 +355,24 @@ std::string error_of_writing(const Made &made, const std::string &path)
   return "";
 }
 
-// Runs `work` in a process of its own; true where it returned true.
+// A process of its own that runs `work` and ends well where it returned true. It works alone: the
+// threads that the parent has are not forked, and OpenMP would wait for them.
+template <class Work>
+pid_t start_child(Work &&work)
+{
+  const pid_t child = fork();
+  if (child == 0) {
+    const OneThread alone;
+    _exit(work() ? 0 : 1);
+  }
+  return child;
+}
+
+// Does one end well?
 template <class Work>
 bool in_child(Work &&work)
 {
-  const pid_t child = fork();
-  if (child == 0) _exit(work() ? 0 : 1);
+  const pid_t child = start_child(work);
   int status = 1;
   waitpid(child, &status, 0);
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
@@ -444,8 +457,7 @@ TEST(grid_cache, writers_at_once_leave_one_good_file)
   const Made other(box_mesh({0, 0, 0}, {1, 1, 2}));
   std::vector<pid_t> children;
   for (int k = 0; k < 6; k++) {
-    const pid_t child = fork();
-    if (child == 0) {
+    children.push_back(start_child([&] {
       bool good = true;
       for (int i = 0; i < 10; i++) {
         if (k < 4) (k % 2 ? other : box()).write(path);
@@ -453,9 +465,8 @@ TEST(grid_cache, writers_at_once_leave_one_good_file)
         good = good && (found == CacheState::usable || found == CacheState::other_mesh ||
                         (found == CacheState::missing && k >= 4));
       }
-      _exit(good && !testing::Test::HasFailure() ? 0 : 1);
-    }
-    children.push_back(child);
+      return good && !testing::Test::HasFailure();
+    }));
   }
   for (const pid_t child : children) {
     int status = 1;
