@@ -129,40 +129,17 @@ LSDCD_FN std::uint32_t brick_in(const BrickWord &word, const BrickPlace &at)
 
 constexpr std::uint32_t kNoCell = 0xffffffffu;
 
-// Indices in lists.cells of the cells that hold some points; kNoCell where there are no
-// candidates, as near_wall(grid, q) is false, and for points that do not count. What one waits
-// for, the others wait for at the same time. `table`: as BrickTable.
-template <unsigned kPoints, class Table>
-LSDCD_FN void occupied_cells(const GridView &grid, const Table &table, const Vec3 (&q)[kPoints],
-                             const bool (&counts)[kPoints], std::uint32_t (&cell)[kPoints])
-{
-  BrickPlace at[kPoints];
-  BrickWord word[kPoints];
-  BrickLayer layer[kPoints];
-  for (unsigned k = 0; k < kPoints; k++) {
-    at[k] = brick_place_of(grid, q[k]);
-    if (!counts[k]) at[k].place = kNoBrick;
-  }
-  for (unsigned k = 0; k < kPoints; k++)
-    word[k] = at[k].place != kNoBrick ? table.word(at[k].place) : BrickWord{0, 0};
-  for (unsigned k = 0; k < kPoints; k++) {
-    const std::uint32_t brick = brick_in(word[k], at[k]);
-    layer[k] = BrickLayer{0, 0, 0};
-    if (brick != kNoBrick) layer[k] = grid.lists.bricks[brick].layer[at[k].cell >> 6];
-  }
-  for (unsigned k = 0; k < kPoints; k++)
-    cell[k] = has_candidates(layer[k], at[k].cell) ? cell_index(layer[k], at[k].cell) : kNoCell;
-}
-
-// The same of one point.
+// Index in lists.cells of the cell that holds q; kNoCell where it has no candidates, as
+// near_wall(grid, q) is false. `table`: as BrickTable.
 template <class Table>
 LSDCD_FN std::uint32_t occupied_cell(const GridView &grid, const Table &table, const Vec3 &q)
 {
-  const Vec3 points[] = {q};
-  const bool counts[] = {true};
-  std::uint32_t cell[1];
-  occupied_cells(grid, table, points, counts, cell);
-  return cell[0];
+  const BrickPlace at = brick_place_of(grid, q);
+  const BrickWord word = at.place != kNoBrick ? table.word(at.place) : BrickWord{0, 0};
+  const std::uint32_t brick = brick_in(word, at);
+  BrickLayer layer = {0, 0, 0};
+  if (brick != kNoBrick) layer = grid.lists.bricks[brick].layer[at.cell >> 6];
+  return has_candidates(layer, at.cell) ? cell_index(layer, at.cell) : kNoCell;
 }
 
 }    // namespace lsdcd

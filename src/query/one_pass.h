@@ -1,7 +1,7 @@
 // A query as one loop over all spheres.
 #pragma once
 
-#include "grid/brick_words.h"
+#include "base/real.h"
 
 #include <cstddef>
 
@@ -11,7 +11,7 @@ namespace lsdcd {
 // answers them. Here none is needed.
 struct OnePass {
   template <class S>
-  void reserve(std::size_t, const BrickTable &)
+  void reserve(std::size_t)
   {
   }
 

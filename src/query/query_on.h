@@ -93,6 +93,8 @@ struct GridWork {
   }
 
   LSDCD_FN BrickGuess guess(const S &s) const { return filter.guess(grid, {s.x, s.y, s.z}); }
+  // kNoCell where there are no candidates.
+  LSDCD_FN std::uint32_t cell(const S &s) const { return occupied_cell(grid, table, s.centre()); }
   LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
   LSDCD_FN void far(std::size_t i) const { out.keep(i, far_answer()); }
   LSDCD_FN void four_far(std::size_t i) const { out.keep_four_far(i); }
@@ -210,9 +212,9 @@ class QueryOn : public SphereQuery {
     fit(float_distance_, settings.distance && grid_.in_floats);
     fit(read_, settings.read);
     if (in_float_)
-      way_.template reserve<FloatSphere>(n_, table_);
+      way_.template reserve<FloatSphere>(n_);
     else
-      way_.template reserve<Sphere>(n_, table_);
+      way_.template reserve<Sphere>(n_);
   }
 
   void start(const QuerySettings &settings)

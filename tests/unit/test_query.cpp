@@ -320,7 +320,7 @@ Cell cell_by_words(const GridView &grid, const BrickTable &table, const Vec3 &q)
 // the CPU.
 struct CellFirst {
   template <class S>
-  void reserve(std::size_t, const BrickTable &)
+  void reserve(std::size_t)
   {
   }
 
