@@ -13,12 +13,64 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <memory>
+#include <vector>
+
 using namespace lsdcd;
 
 namespace {
 
+// What it does beside other work is done as late as it may be: when the backend is made to wait
+// for it, or, as nothing orders the two, behind the next search that the backend does itself.
 struct FindingFirst : CpuBackend {
   static constexpr bool kFindsFirst = true;
+  using Work = std::vector<std::function<void()>>;
+
+  std::shared_ptr<Work> given = std::make_shared<Work>();    // to do beside
+  bool is_beside = false;
+
+  class Beside {
+   public:
+    void mark(const FindingFirst &) {}
+    FindingFirst &begin(FindingFirst &b)
+    {
+      mine_ = std::make_shared<FindingFirst>(b);
+      mine_->is_beside = true;
+      return *mine_;
+    }
+    void end() {}
+    void join(const FindingFirst &b) { b.do_given(); }
+
+   private:
+    std::shared_ptr<FindingFirst> mine_;
+  };
+
+  template <class F>
+  void list(std::size_t n, const F &work, int *listed)
+  {
+    if (is_beside)
+      given->push_back([=] { CpuBackend().list(n, work, listed); });
+    else
+      CpuBackend::list(n, work, listed);
+  }
+  template <class F>
+  void few(std::size_t n, const F &work)
+  {
+    if (is_beside) {
+      given->push_back([=] { CpuBackend().few(n, work); });
+      return;
+    }
+    CpuBackend::few(n, work);
+    do_given();
+  }
+
+ private:
+  void do_given() const
+  {
+    for (const auto &work : *given) work();
+    given->clear();
+  }
 };
 using FoundLaw = CompiledLaw<FindingFirst>;
 
