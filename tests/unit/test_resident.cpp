@@ -423,6 +423,34 @@ TEST(resident, a_sphere_larger_than_the_reach_is_an_error)
   }
 }
 
+TEST(resident, a_sphere_that_is_pulled_from_past_the_reach_is_named)
+{
+  int tried = 0;
+  for (const EffectCase &effect : effect_cases()) {
+    const Real pull_off = effect.settings.law.pull_off(), reach = 0.5;
+    if (!(pull_off > 0)) continue;
+    tried++;
+    Particles p(effect.settings, 100, reach);
+    // The radius from which a sphere is pulled from farther than the reach, by bisection.
+    Real fits = 0, too_large = reach;
+    while (too_large - fits > 1e-12) {
+      const Real middle = (fits + too_large) / 2;
+      (middle + pull_off * std::cbrt(middle) <= reach ? fits : too_large) = middle;
+    }
+    ASSERT_GT(fits, 0.1) << effect.name;
+    for (Real &radius : p.host_radius) radius = fits * (1 - 1e-9);
+    EXPECT_NO_THROW(p.engine->choose(p.spheres(), 0)) << effect.name;
+    p.host_radius[7] = too_large * (1 + 1e-9);
+    try {
+      p.engine->choose(p.spheres(), 0);
+      FAIL() << effect.name;
+    } catch (const std::exception &e) {
+      EXPECT_NE(std::string(e.what()).find("sphere 7 has radius"), std::string::npos) << e.what();
+    }
+  }
+  EXPECT_GT(tried, 0);
+}
+
 TEST(resident, a_sphere_that_grows_past_the_reach_is_an_error_at_the_next_look)
 {
   Particles p(with_history(), 100, 0.5);
