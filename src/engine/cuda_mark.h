@@ -106,6 +106,7 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
       waiting += __popc(votes);
     }
     __syncwarp();
+#pragma unroll 1    // nearly always one turn
     for (unsigned w = lane; w < waiting; w += 32) {
       const unsigned i = mine.waiting[w];
       if (work.keep(place_of(i), table)) atomicOr(&mine.kept[i / 32], 1u << (i % 32));
