@@ -68,9 +68,7 @@ class ResidentOn : public ResidentEngine {
   void choose(const Spheres &spheres, Real margin) override
   {
     const std::size_t n = spheres.n;
-    // A search that was begun writes where the next one will.
-    if (searched_) beside_.join(b_);
-    marked_ = searched_ = false;
+    drop_search();
     chosen_ = 1 - list_of_step_;
     NearList &list = lists_[chosen_];
     if (list.near.size() < n) list.near = Array<int>(n + n / 8);
@@ -89,10 +87,10 @@ class ResidentOn : public ResidentEngine {
   void mark_places() override
   {
     if constexpr (B::kFindsFirst) {
+      drop_search();
       if (lists_[chosen_].n == 0) return;
       beside_.mark(b_);
       marked_ = true;
-      searched_ = false;
     }
   }
 
@@ -345,6 +343,13 @@ class ResidentOn : public ResidentEngine {
                                        counts_.data(), springs_.count()};
     b_.select(spheres.n, choice, select_room_, lists_[chosen_].near.data(),
               &counts_.data()->n_near);
+  }
+
+  // One that was begun writes where the next one will.
+  void drop_search()
+  {
+    if (searched_) beside_.join(b_);
+    marked_ = searched_ = false;
   }
 
   void find_contacts(B &b, LawJob job)

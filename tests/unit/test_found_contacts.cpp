@@ -360,6 +360,18 @@ TEST(found_contacts, of_a_search_that_was_begun_are_left_where_spheres_are_chose
   }
 }
 
+TEST(found_contacts, of_a_search_that_was_begun_are_left_where_places_are_marked_anew)
+{
+  for (Engine kind : {Engine::found_first, test_on_cuda() ? Engine::cuda : Engine::one_pass}) {
+    AllTouching all(kind);
+    all.engine->mark_places();
+    all.engine->search(all.spheres, all.step);
+    all.engine->mark_places();
+    all.engine->start(all.spheres, all.step, nullptr);
+    EXPECT_EQ(all.engine->totals().contacts, all.n * kAllRound) << static_cast<int>(kind);
+  }
+}
+
 // A variable of another fix may ask for a wall's force between the forces of atoms and the wall's.
 TEST(found_contacts, of_the_last_step_count_until_the_next_one_starts)
 {
