@@ -5,7 +5,6 @@
 #include "engine/cuda_few.h"
 #include "engine/cuda_list.h"
 #include "engine/cuda_mark.h"
-#include "engine/cuda_warp.h"
 #include "engine/owned_array.h"
 
 #include <cub/device/device_radix_sort.cuh>
