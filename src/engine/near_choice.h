@@ -52,9 +52,9 @@ struct NearChoice {
   LSDCD_FN bool may_keep(const Item &item, const Vec3 &x, const Table &near_table) const
   {
     if (kMoves) return in_group(item);
-    const BrickGuess guess = filter.guess(grid, x);
+    const BrickGuess guess = filter.guess(x);
     bool may = guess.unsure;
-    if (guess.inside & !guess.unsure) may = near_table.at(guess.place);
+    if (guess.inside & !guess.unsure) may = near_table.at(filter.place(grid, guess));
     return may & in_group(item);
   }
   template <class Table>

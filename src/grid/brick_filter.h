@@ -3,6 +3,7 @@
 #pragma once
 
 #include "grid/brick_words.h"
+#include "grid/coarse_table.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,11 +11,11 @@
 
 namespace lsdcd {
 
-// A point's brick by its place in the table, as far as that is sure.
+// Where a point falls, as far as that is sure.
 struct BrickGuess {
-  bool unsure;            // the rest may be wrong
-  bool inside;            // of the grid
-  std::uint32_t place;    // set where inside
+  bool unsure;              // the rest may be wrong
+  bool inside;              // of the grid
+  std::uint32_t i, j, k;    // its brick, in fixed point, set where inside
 };
 
 // Numbers that count bricks in fixed point. kBits: of a mantissa, those that are used.
@@ -117,15 +118,26 @@ struct BrickFilter {
     sure = (1u << shift) - (1u << doubt_bits);
   }
 
-  LSDCD_FN BrickGuess guess(const GridView &grid, const Vec3Of<T> &q) const
+  LSDCD_FN BrickGuess guess(const Vec3Of<T> &q) const
   {
     const std::uint32_t i = Fixed::past(std::fma(q.x, scale, from[0]), bias),
                         j = Fixed::past(std::fma(q.y, scale, from[1]), bias),
                         k = Fixed::past(std::fma(q.z, scale, from[2]), bias);
-    const std::uint32_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
     const bool unsure = (i & sure) == 0 || (j & sure) == 0 || (k & sure) == 0,
                inside = i < end[0] && j < end[1] && k < end[2];
-    return {unsure, inside, ((k >> shift) * ny + (j >> shift)) * nx + (i >> shift)};
+    return {unsure, inside, i, j, k};
+  }
+  // The brick's place in the table, of one that is inside.
+  LSDCD_FN std::uint32_t place(const GridView &grid, const BrickGuess &at) const
+  {
+    const std::uint32_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
+    return ((at.k >> shift) * ny + (at.j >> shift)) * nx + (at.i >> shift);
+  }
+  // The same in a coarse table.
+  LSDCD_FN std::uint32_t place(const CoarseTable &table, const BrickGuess &at) const
+  {
+    const std::uint32_t down = shift + table.shift;
+    return ((at.k >> down) * table.n[1] + (at.j >> down)) * table.n[0] + (at.i >> down);
   }
 };
 

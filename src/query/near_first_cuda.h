@@ -1,14 +1,18 @@
-// A query in two kernels that each have one kind of work. The first is light: many threads, several
+// A query whose kernels have one kind of work each. The first is light: many threads, several
 // spheres in flight in each; it answers every sphere as if the wall were far, and lists those near
-// to it with all that their answers begin from. The second has full warps of those, whatever
-// their order in memory. What one lane would read for too long is left to a warp each in a third.
+// to it with all that their answers begin from. Those whose cell has one candidate, and those with
+// several, are answered by kernels with full warps of their kind, whatever their order in memory.
+// What one lane would read for too long is left to a warp each in the last.
 #pragma once
 
 #include "engine/backend_cuda.h"
 #include "engine/cuda_early.h"
+#include "engine/cuda_limits.h"
 #include "engine/cuda_warp.h"
 #include "grid/brick_filter.h"
 #include "query/sphere.h"
+
+#include <cuda_pipeline_primitives.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -44,14 +48,15 @@ struct alignas(16) NearSphere {
 };
 
 // Threads of the first kernel's blocks; bytes of spheres in flight for each.
-constexpr unsigned kNearBlock = 256, kNearBytes = 64;
+constexpr unsigned kNearBlock = 256, kNearBlocks = 8, kNearBytes = 64;
 template <class S>
 constexpr unsigned kNearEach = kNearBytes / sizeof(S);
 template <class S>
 constexpr unsigned kNearTile = kNearBlock *kNearEach<S>;
 
-constexpr unsigned kAnswerBlock = 256,
-                   kAnswerBlocks = 3;    // of a processor: 80 registers a thread
+// Of a processor's blocks that answer: 64 registers a thread where there is one candidate, 80
+// where there are several.
+constexpr unsigned kAnswerBlock = 256, kSinglesBlocks = 4, kSeveralBlocks = 3;
 
 // Read once and in order: other things stay in the cache.
 template <class T>
@@ -68,49 +73,86 @@ __device__ T read_once(const T &from)
   return out;
 }
 
-// Answers n of the work's spheres as if all were far, and appends those that are not to `list`.
+// Spheres are in as many lists as a warp has lanes: a list has every so many-th block's, and they
+// count in as many places. It grows from its front by those whose cell has one candidate, and
+// from its back by those with several.
+constexpr unsigned kNearLists = 32;
+struct NearCounts {
+  struct alignas(128) OfList {
+    unsigned long long n;    // one candidate: low word; several: high word
+  } list[kNearLists];
+  unsigned with_long;    // of those with several, how many have lists that are long
+};
+template <class S>
+struct NearLists {
+  NearSphere<S> *first;
+  unsigned room;    // of a list
+  NearCounts *counts;
+
+  __device__ NearSphere<S> *list(unsigned l) const { return first + std::size_t(l) * room; }
+};
+
+// Answers n of the work's spheres as if all were far, and lists those that are not.
 template <class Work>
-__global__ void __launch_bounds__(kNearBlock)
-    list_near(unsigned n, const __grid_constant__ Work work, NearSphere<typename Work::Item> *list,
-              unsigned *listed)
+__global__ void __launch_bounds__(kNearBlock, kNearBlocks)
+    list_near(unsigned n, const __grid_constant__ Work work,
+              const NearLists<typename Work::Item> lists)
 {
   using S = typename Work::Item;
   constexpr unsigned kEach = kNearEach<S>;
   let_next_begin();
+  __shared__ uint4 room[kNearTile<S> * sizeof(S) / sizeof(uint4)];
   __shared__ std::uint16_t maybe_at[kNearTile<S>];
-  __shared__ unsigned n_maybe, n_near, place_in_list;
-  if (threadIdx.x == 0) n_maybe = n_near = 0;
+  __shared__ std::uint32_t coarse[CoarseTable::kWords];
+  __shared__ unsigned n_maybe;
+  S *const sphere = reinterpret_cast<S *>(room);
 
+  // Past the caches and the registers.
   const unsigned tile = blockIdx.x * kNearTile<S>, n_tile = min(n - tile, kNearTile<S>);
-  S sphere[kEach] = {};
 #pragma unroll
   for (unsigned k = 0; k < kEach; k++) {
     const unsigned i = threadIdx.x + k * kNearBlock;
-    if (i < n_tile) sphere[k] = read_once(work.spheres[tile + i]);
+    const uint4 *from = reinterpret_cast<const uint4 *>(work.spheres + tile + min(i, n_tile - 1));
+#pragma unroll
+    for (unsigned piece = 0; piece < sizeof(S) / sizeof(uint4); piece++)
+      __pipeline_memcpy_async(reinterpret_cast<uint4 *>(sphere + i) + piece, from + piece,
+                              sizeof(uint4));
   }
-  // All bits of a word where it is not known which to ask for.
-  std::uint32_t place[kEach], word[kEach];
+  __pipeline_commit();
+  for (unsigned w = threadIdx.x; w < CoarseTable::kWords; w += kNearBlock)
+    coarse[w] = work.coarse.words[w];
+  if (threadIdx.x == 0) n_maybe = 0;
+  __syncthreads();
+  __pipeline_wait_prior(0);    // this thread's own
+  // Words of the table, and in five bits for each which bit of it; all bits where it is not known
+  // which to ask for.
+  static_assert(5 * kEach <= 32, "in one number");
+  std::uint32_t bit = 0, word[kEach];
 #pragma unroll
   for (unsigned k = 0; k < kEach; k++) {
-    const BrickGuess guess = work.guess(sphere[k]);
-    place[k] = guess.place;
+    const BrickGuess guess = work.guess(sphere[threadIdx.x + k * kNearBlock]);
     word[k] = guess.unsure ? ~0u : 0;
-    if (guess.inside & !guess.unsure) word[k] = work.table.words[place[k] / 32].bits;
+    if (guess.inside & !guess.unsure &&
+        CoarseTable::at(coarse, work.filter.place(work.coarse, guess))) {
+      const std::uint32_t place = work.filter.place(work.grid, guess);
+      bit |= place % 32 << 5 * k;
+      word[k] = work.table.words[place / 32].bits;
+    }
   }
-  __syncthreads();
   unsigned votes[kEach], all = 0;
 #pragma unroll
   for (unsigned k = 0; k < kEach; k++) {
     const bool there = threadIdx.x + k * kNearBlock < n_tile;
-    votes[k] = __ballot_sync(kAllLanes, there && (word[k] >> place[k] % 32 & 1u));
+    votes[k] = __ballot_sync(kAllLanes, there && (word[k] >> (bit >> 5 * k) % 32 & 1u));
     all += __popc(votes[k]);
   }
   unsigned to = room_at(&n_maybe, all);
 #pragma unroll
   for (unsigned k = 0; k < kEach; k++) {
-    if (votes[k] >> threadIdx.x % 32 & 1u)
-      maybe_at[to + votes_below(votes[k])] =
-          static_cast<std::uint16_t>(threadIdx.x + k * kNearBlock);
+    if (votes[k] >> threadIdx.x % 32 & 1u) {
+      const unsigned at = to + votes_below(votes[k]);
+      maybe_at[at] = static_cast<std::uint16_t>(threadIdx.x + k * kNearBlock);
+    }
     to += __popc(votes[k]);
   }
   for (unsigned four = 4 * threadIdx.x; four < n_tile; four += 4 * kNearBlock)
@@ -121,57 +163,105 @@ __global__ void __launch_bounds__(kNearBlock)
   __syncthreads();
 
   // Few may be in a brick, and those in full warps, nearly always in one turn.
-  const unsigned n_turns = n_maybe;
-  for (unsigned first = 0; first < n_turns; first += kNearBlock) {
-    const unsigned mine = first + threadIdx.x;
+  const unsigned mine = blockIdx.x % kNearLists, n_turns = n_maybe;
+  for (unsigned first = threadIdx.x / 32 * 32; first < n_turns; first += kNearBlock) {
+    const unsigned m = first + threadIdx.x % 32;
     NearSphere<S> near;
+    near.pad = 0;
     std::uint32_t cell = kNoCell;
-    if (mine < n_turns) {
-      near.sphere = tile + maybe_at[mine];
-      near.s = work.sphere(near.sphere);
+    if (m < n_turns) {
+      near.sphere = tile + maybe_at[m];
+      near.s = sphere[maybe_at[m]];
       cell = work.cell(near.s);
       if (cell != kNoCell) near.cell = *work.list(cell);
     }
-    const unsigned yes = __ballot_sync(kAllLanes, cell != kNoCell);
-    const unsigned at = room_at(&n_near, __popc(yes)) + votes_below(yes);
-    __syncthreads();
-    if (threadIdx.x == 0) {
-      if (n_near > 0) place_in_list = atomicAdd(listed, n_near);
-      n_near = 0;
-    }
-    __syncthreads();
-    near.pad = 0;
-    if (cell != kNoCell) list[place_in_list + at] = near;
+    const bool is_near = cell != kNoCell, is_one = is_near && near.cell.count == 1;
+    const unsigned one = __ballot_sync(kAllLanes, is_one),
+                   several = __ballot_sync(kAllLanes, is_near && !is_one);
+    unsigned long long at = 0;
+    if (threadIdx.x % 32 == 0 && (one | several) != 0)
+      at = atomicAdd(&lists.counts->list[mine].n,
+                     static_cast<unsigned long long>(__popc(several)) << 32 | __popc(one));
+    at = __shfl_sync(kAllLanes, at, 0);
+    const unsigned to =
+        is_one ? static_cast<unsigned>(at) + votes_below(one)
+               : lists.room - 1 - static_cast<unsigned>(at >> 32) - votes_below(several);
+    if (is_near) lists.list(mine)[to] = near;
   }
 }
 
-// How many spheres are listed, and how many of them have lists that are long.
-struct NearCounts {
-  unsigned listed, with_long;
-};
+// What a block takes of the lists, a sphere for each thread and of one list at a time: in the
+// order in which they grew side by side, so that what is near in memory is answered together.
+// `n`: of the list that is this lane's number.
+class NearTurns {
+ public:
+  __device__ explicit NearTurns(unsigned n) : n_(n), longest_(n)
+  {
+    for (unsigned other = 1; other < kNearLists; other *= 2)
+      longest_ = max(longest_, __shfl_xor_sync(kAllLanes, longest_, other));
+  }
 
-// Answers the listed spheres but those with long lists, which it lists in turn as far as
-// `most_long` go, and clears the counts that the next run begins with.
+  // Calls answer(list, k) for this thread's.
+  template <class Answer>
+  __device__ void take(Answer answer) const
+  {
+    for (unsigned turn = blockIdx.x; turn / kNearLists * kAnswerBlock < longest_;
+         turn += gridDim.x) {
+      const unsigned list = turn % kNearLists, k = turn / kNearLists * kAnswerBlock + threadIdx.x;
+      if (k < __shfl_sync(kAllLanes, n_, list)) answer(list, k);
+    }
+  }
+
+  // Lists are not of one length: an odd number of blocks takes of all, each in another order.
+  static unsigned blocks(unsigned most) { return (most - 1) | 1; }
+
+ private:
+  unsigned n_, longest_;
+};
+static_assert(kNearLists == 32, "a lane for each");
+
+// Answers the listed spheres whose cell has one candidate.
 template <class Work>
-__global__ void __launch_bounds__(kAnswerBlock, kAnswerBlocks)
-    answer_listed(const __grid_constant__ Work work, const NearSphere<typename Work::Item> *list,
-                  NearCounts *counts, NearCounts *next_counts,
-                  NearSphere<typename Work::Item> *long_list, unsigned most_long)
+__global__ void __launch_bounds__(kAnswerBlock, kSinglesBlocks)
+    answer_singles(const __grid_constant__ Work work, const NearLists<typename Work::Item> lists)
 {
   wait_for_last_kernel();
-  const unsigned n = counts->listed, first = blockIdx.x * kAnswerBlock + threadIdx.x;
-  if (first == 0) *next_counts = {0, 0};
-  for (unsigned k = first; k < n; k += gridDim.x * kAnswerBlock) {
-    const NearSphere<typename Work::Item> one = read_once(list[k]);
-    if (work.is_long(one.cell)) {
-      const unsigned at = atomicAdd(&counts->with_long, 1u);
-      if (at < most_long) {
-        long_list[at] = one;
-        continue;
-      }
-    }
-    work.answer(one.sphere, one.s, one.cell);
+  let_next_begin();
+  NearTurns(static_cast<unsigned>(lists.counts->list[threadIdx.x % 32].n))
+      .take([&](unsigned list, unsigned k) {
+        const NearSphere<typename Work::Item> near = read_once(lists.list(list)[k]);
+        work.answer(near.sphere, near.s, Cell{near.cell.first, 1});
+      });
+}
+
+// Answers those with several but for long lists, which it lists in turn as far as `most_long` go,
+// and clears the counts that the next run begins with. It can run beside the one before it, which
+// has waited for the lists.
+template <class Work>
+__global__ void __launch_bounds__(kAnswerBlock, kSeveralBlocks)
+    answer_several(const __grid_constant__ Work work, const NearLists<typename Work::Item> lists,
+                   NearCounts *next_counts, NearSphere<typename Work::Item> *long_list,
+                   unsigned most_long)
+{
+  if (blockIdx.x == 0) {
+    if (threadIdx.x < kNearLists) next_counts->list[threadIdx.x].n = 0;
+    if (threadIdx.x == 0) next_counts->with_long = 0;
   }
+  NearTurns(static_cast<unsigned>(lists.counts->list[threadIdx.x % 32].n >> 32))
+      .take([&](unsigned list, unsigned k) {
+        const NearSphere<typename Work::Item> near =
+            read_once(lists.list(list)[lists.room - 1 - k]);
+        if (work.is_long(near.cell)) {
+          const unsigned at = atomicAdd(&lists.counts->with_long, 1u);
+          if (at < most_long) {
+            long_list[at] = near;
+            return;
+          }
+        }
+        work.answer(near.sphere, near.s, near.cell);
+      });
+  // What comes after this kernel comes after that one, too.
+  wait_for_last_kernel();
 }
 
 // A warp for each sphere with a long list.
@@ -194,55 +284,69 @@ class NearFirst {
   template <class S>
   void reserve(std::size_t n)
   {
-    const std::size_t most = std::min(n, kRun) * sizeof(NearSphere<S>);
+    if (counts_.size() == 0) {
+      long_list_ = CudaBackend::Array<char>(kMostLong * sizeof(NearSphere<Sphere>));
+      counts_ = CudaBackend::Array<NearCounts>(2);
+      cuda_check(cudaMemset(counts_.data(), 0, 2 * sizeof(NearCounts)), "clearing memory");
+    }
+    const std::size_t most = room<S>(std::min(n, kRun)) * kNearLists * sizeof(NearSphere<S>);
     if (list_.size() < most) list_ = CudaBackend::Array<char>(most);
-    if (counts_.size() > 0) return;
-    long_list_ = CudaBackend::Array<char>(kMostLong * sizeof(NearSphere<Sphere>));
-    counts_ = CudaBackend::Array<NearCounts>(2);
-    cuda_check(cudaMemset(counts_.data(), 0, 2 * sizeof(NearCounts)), "clearing memory");
-    int device = 0, processors = 0;
-    cuda_check(cudaGetDevice(&device), "asking for the device");
-    cuda_check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device),
-               "asking for its processors");
-    processors_ = static_cast<unsigned>(processors);
   }
 
   template <class Work>
   void run(CudaBackend &b, std::size_t n, const Work &work)
   {
-    using Near = NearSphere<typename Work::Item>;
-    constexpr unsigned kTile = kNearTile<typename Work::Item>;
-    Near *list = reinterpret_cast<Near *>(list_.data());
+    using S = typename Work::Item;
+    using Near = NearSphere<S>;
+    static const bool early =
+        can_begin_early(answer_singles<Work>) && can_begin_early(answer_several<Work>);
     Near *long_list = reinterpret_cast<Near *>(long_list_.data());
     for (std::size_t from = 0; from < n; from += kRun) {
       const Work mine = work.after(from);
       const unsigned m = static_cast<unsigned>(std::min(n - from, kRun));
       NearCounts *counts = counts_.data() + turn_, *next = counts_.data() + (1 - turn_);
       turn_ = 1 - turn_;
-      list_near<<<(m + kTile - 1) / kTile, kNearBlock, 0, b.stream>>>(m, mine, list,
-                                                                      &counts->listed);
+      const NearLists<S> lists = {reinterpret_cast<Near *>(list_.data()),
+                                  static_cast<unsigned>(room<S>(m)), counts};
+      list_near<<<n_tiles<S>(m), kNearBlock, 0, b.stream>>>(m, mine, lists);
       cuda_check(cudaGetLastError(), "starting a kernel");
-      const unsigned blocks =
-          std::min((m + kAnswerBlock - 1) / kAnswerBlock, processors_ * kAnswerBlocks);
-      static const bool can = can_begin_early(answer_listed<Work>);
-      start_beside(can, b.stream, blocks, kAnswerBlock, answer_listed<Work>, mine, list, counts,
-                   next, long_list, kMostLong);
+      start_beside(early, b.stream, blocks(kSinglesBlocks), kAnswerBlock, answer_singles<Work>,
+                   mine, lists);
+      start_beside(early, b.stream, blocks(kSeveralBlocks), kAnswerBlock, answer_several<Work>,
+                   mine, lists, next, long_list, kMostLong);
       if constexpr (Work::kTogether) {
-        answer_long<<<processors_, kAnswerBlock, 0, b.stream>>>(mine, long_list, counts, kMostLong);
+        answer_long<<<limits_.processors(), kAnswerBlock, 0, b.stream>>>(mine, long_list, counts,
+                                                                         kMostLong);
         cuda_check(cudaGetLastError(), "starting a kernel");
       }
     }
   }
 
  private:
-  static constexpr std::size_t kRun = std::size_t(1) << 24;    // spheres of a pair of kernels
+  static constexpr std::size_t kRun = std::size_t(1) << 24;    // spheres of a turn of kernels
 
   // Where there are more, their lanes read them.
   static constexpr unsigned kMostLong = 1 << 16;
 
+  template <class S>
+  static unsigned n_tiles(std::size_t n)
+  {
+    return static_cast<unsigned>((n + kNearTile<S> - 1) / kNearTile<S>);
+  }
+  // For all of its blocks' spheres in a list.
+  template <class S>
+  static std::size_t room(std::size_t n)
+  {
+    return std::size_t((n_tiles<S>(n) + kNearLists - 1) / kNearLists) * kNearTile<S>;
+  }
+  unsigned blocks(unsigned of_processor)
+  {
+    return NearTurns::blocks(limits_.processors() * of_processor);
+  }
+
+  CudaLimits limits_;
   CudaBackend::Array<char> list_, long_list_;    // of NearSphere
   CudaBackend::Array<NearCounts> counts_;        // of this run and of the next
-  unsigned processors_ = 0;
   int turn_ = 0;
 };
 

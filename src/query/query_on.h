@@ -82,9 +82,13 @@ struct GridWork {
   const S *spheres;
   AnswerArrays out;
   Filter filter;
+  CoarseTable coarse;
 
   // The same of the spheres from the n-th on, a multiple of 4.
-  GridWork after(std::size_t n) const { return {grid, table, spheres + n, out.after(n), filter}; }
+  GridWork after(std::size_t n) const
+  {
+    return {grid, table, spheres + n, out.after(n), filter, coarse};
+  }
 
   LSDCD_FN S sphere(std::size_t i) const { return spheres[i]; }
   LSDCD_FN void answer(std::size_t i, const S &s) const
@@ -92,7 +96,7 @@ struct GridWork {
     out.keep(i, nearest_distance<kComplete, Distances>(grid, s.centre(), s.r));
   }
 
-  LSDCD_FN BrickGuess guess(const S &s) const { return filter.guess(grid, {s.x, s.y, s.z}); }
+  LSDCD_FN BrickGuess guess(const S &s) const { return filter.guess({s.x, s.y, s.z}); }
   // kNoCell where there are no candidates.
   LSDCD_FN std::uint32_t cell(const S &s) const { return occupied_cell(grid, table, s.centre()); }
   LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
@@ -142,6 +146,9 @@ class QueryOn : public SphereQuery {
     const std::vector<BrickWord> words = brick_words(view);
     words_ = b_.from_host(words);
     table_ = BrickTable(words, words_.data());
+    coarse_ = CoarseTable(view);
+    coarse_words_ = b_.from_host(coarse_words(view, coarse_));
+    coarse_.words = coarse_words_.data();
   }
 
   void set_spheres(const Sphere *spheres, std::size_t n) override
@@ -259,7 +266,7 @@ class QueryOn : public SphereQuery {
   void run_grid(const S *spheres)
   {
     using Filter = typename Work::Filter;
-    way_.run(b_, n_, Work{grid_, table_, spheres, answers(), Filter(grid_)});
+    way_.run(b_, n_, Work{grid_, table_, spheres, answers(), Filter(grid_), coarse_});
   }
 
   template <class T, class Other>
@@ -287,6 +294,8 @@ class QueryOn : public SphereQuery {
   Array<char> block_;
   Array<BrickWord> words_;
   BrickTable table_;
+  CoarseTable coarse_;
+  Array<std::uint32_t> coarse_words_;
   std::uint32_t n_faces_ = 0;
   Array<Sphere> sphere_;
   Array<FloatSphere> float_sphere_;

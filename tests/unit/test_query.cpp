@@ -13,6 +13,7 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -548,16 +549,23 @@ struct Sureness {
 template <class T>
 void expect_filter_is_right(const GridView &view, const Vec3Of<T> &q, Sureness &count)
 {
-  const BrickGuess guess = BrickFilter<T>(view).guess(view, q);
+  const BrickFilter<T> filter(view);
+  const BrickGuess guess = filter.guess(q);
   const std::uint32_t place = brick_place_of(view, vec_cast<Real>(q)).place;
   count.points++;
   count.inside += place != kNoBrick;
   if (guess.unsure) return;
   count.sure++;
   ASSERT_EQ(guess.inside, place != kNoBrick) << q.x << " " << q.y << " " << q.z;
-  if (guess.inside) {
-    ASSERT_EQ(guess.place, place) << q.x << " " << q.y << " " << q.z;
-  }
+  if (!guess.inside) return;
+  ASSERT_EQ(filter.place(view, guess), place) << q.x << " " << q.y << " " << q.z;
+  const CoarseTable coarse(view);
+  const std::size_t nx = view.n_bricks[0], ny = view.n_bricks[1], i = place % nx,
+                    j = place / nx % ny, k = place / (nx * ny),
+                    side = std::size_t(1) << coarse.shift;
+  ASSERT_EQ(filter.place(coarse, guess),
+            ((k / side) * coarse.n[1] + j / side) * coarse.n[0] + i / side)
+      << q.x << " " << q.y << " " << q.z;
 }
 
 // The side of a brick as a T, or one of its neighbours.
@@ -644,6 +652,50 @@ TEST(query, a_brick_told_in_float_is_sure_of_no_number_that_is_none)
 TEST(query, a_brick_told_in_double_is_sure_of_no_number_that_is_none)
 {
   expect_filter_is_sure_of_no_number_that_is_none<double>();
+}
+
+TEST(query, a_coarse_table_has_the_cubes_of_the_bricks_and_no_others)
+{
+  Numbers r(31);
+  std::size_t shifts = 0;
+  for (const std::array<int, 3> n : {std::array<int, 3>{1, 1, 1},
+                                     {16, 16, 16},
+                                     {17, 16, 16},
+                                     {4096, 1, 1},
+                                     {1, 4097, 1},
+                                     {3, 5, 900},
+                                     {64, 63, 65}}) {
+    GridView view = empty_grid({0, 0, 0}, 1, n[0], n[1], n[2]);
+    const std::size_t all = std::size_t(n[0]) * n[1] * n[2];
+    std::vector<std::int32_t> brick_of(all, -1);
+    std::int32_t bricks = 0;
+    for (std::size_t at = 0; at < all; at++)
+      if (at == 0 || at == all - 1 || r.below(50) == 0) brick_of[at] = bricks++;
+    view.lists.brick_of = brick_of.data();
+
+    const CoarseTable table(view);
+    const std::size_t side = std::size_t(1) << table.shift, cubes = CoarseTable::kWords * 32;
+    shifts += table.shift;
+    ASSERT_LE(std::size_t(table.n[0]) * table.n[1] * table.n[2], cubes);
+    // None of half the size would fit.
+    const auto halves = [&](int n) { return (n + side / 2 - 1) / (side / 2); };
+    if (side > 1) {
+      EXPECT_GT(halves(n[0]) * halves(n[1]) * halves(n[2]), cubes);
+    }
+
+    std::vector<bool> taken(cubes, false);
+    for (std::size_t at = 0; at < all; at++) {
+      const std::size_t i = at % n[0], j = at / n[0] % n[1], k = at / (std::size_t(n[0]) * n[1]);
+      if (brick_of[at] >= 0)
+        taken[((k / side) * table.n[1] + j / side) * table.n[0] + i / side] = true;
+    }
+    const std::vector<std::uint32_t> words = coarse_words(view, table);
+    ASSERT_EQ(words.size(), std::size_t(CoarseTable::kWords));
+    for (std::size_t place = 0; place < cubes; place++)
+      ASSERT_EQ(CoarseTable::at(words.data(), static_cast<std::uint32_t>(place)), taken[place])
+          << n[0] << " " << n[1] << " " << n[2] << ": " << place;
+  }
+  EXPECT_GT(shifts, 0u);
 }
 
 // Wherever warps, tiles and queues of a GPU begin and end.
