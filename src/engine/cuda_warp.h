@@ -3,8 +3,6 @@
 
 #include <cuda_runtime.h>
 
-#include <type_traits>
-
 namespace lsdcd {
 
 constexpr unsigned kAllLanes = 0xffffffffu;
@@ -17,10 +15,10 @@ __device__ inline unsigned votes_below(unsigned votes)
 
 // Room at `end` for n things of a warp, all of whose lanes call this: where it begins.
 template <class T>
-__device__ T room_at(T *end, std::common_type_t<T> n)
+__device__ T room_at(T *end, unsigned n)
 {
   T at = 0;
-  if (threadIdx.x % 32 == 0 && n > 0) at = atomicAdd(end, n);
+  if (threadIdx.x % 32 == 0 && n > 0) at = atomicAdd(end, static_cast<T>(n));
   return __shfl_sync(kAllLanes, at, 0);
 }
 

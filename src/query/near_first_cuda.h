@@ -81,12 +81,6 @@ struct NearCounts {
   struct alignas(128) OfList {
     unsigned long long n;    // one candidate: low word; several: high word
   } list[kNearLists];
-  // From two words of 16 bits.
-  __device__ static unsigned long long as_long(unsigned both)
-  {
-    return static_cast<unsigned long long>(both >> 16) << 32 | (both & 0xffff);
-  }
-
   unsigned with_long;    // of those with several, how many have lists that are long
 };
 template <class S>
@@ -110,8 +104,7 @@ __global__ void __launch_bounds__(kNearBlock, kNearBlocks)
   __shared__ uint4 room[kNearTile<S> * sizeof(S) / sizeof(uint4)];
   __shared__ std::uint16_t maybe_at[kNearTile<S>];
   __shared__ std::uint32_t coarse[CoarseTable::kWords];
-  __shared__ unsigned n_maybe, of_turn;
-  __shared__ unsigned long long turn_at;
+  __shared__ unsigned n_maybe;
   S *const sphere = reinterpret_cast<S *>(room);
 
   // Past the caches and the registers.
@@ -128,7 +121,7 @@ __global__ void __launch_bounds__(kNearBlock, kNearBlocks)
   __pipeline_commit();
   for (unsigned w = threadIdx.x; w < CoarseTable::kWords; w += kNearBlock)
     coarse[w] = work.coarse.words[w];
-  if (threadIdx.x == 0) n_maybe = of_turn = 0;
+  if (threadIdx.x == 0) n_maybe = 0;
   __syncthreads();
   __pipeline_wait_prior(0);    // this thread's own
   // Words of the table, and in five bits for each which bit of it; all bits where it is not known
@@ -169,42 +162,30 @@ __global__ void __launch_bounds__(kNearBlock, kNearBlocks)
       for (unsigned i = four; i < n_tile; i++) work.far(tile + i);
   __syncthreads();
 
-  // Few may be in a brick, and those in full warps, nearly always in one turn; each warp lists
-  // its own then. Where more are, in sorted order, the block does, so that neighbours stay together.
-  const unsigned mine = blockIdx.x % kNearLists, n_all = n_maybe;
-  const bool together = n_all > kNearBlock;
-  for (unsigned first = together ? 0 : threadIdx.x / 32 * 32; first < n_all; first += kNearBlock) {
-    const unsigned m = first + (together ? threadIdx.x : threadIdx.x % 32);
+  // Few may be in a brick, and those in full warps, nearly always in one turn.
+  const unsigned mine = blockIdx.x % kNearLists, n_turns = n_maybe;
+  for (unsigned first = threadIdx.x / 32 * 32; first < n_turns; first += kNearBlock) {
+    const unsigned m = first + threadIdx.x % 32;
     NearSphere<S> near;
     near.pad = 0;
     std::uint32_t cell = kNoCell;
-    if (m < n_all) {
+    if (m < n_turns) {
       near.sphere = tile + maybe_at[m];
       near.s = sphere[maybe_at[m]];
       cell = work.cell(near.s);
       if (cell != kNoCell) near.cell = *work.list(cell);
     }
     const bool is_near = cell != kNoCell, is_one = is_near && near.cell.count == 1;
-    const unsigned ones = __ballot_sync(kAllLanes, is_one),
-                   severals = __ballot_sync(kAllLanes, is_near && !is_one);
-    const unsigned n_both = __popc(severals) << 16 | __popc(ones);
-    unsigned long long *const end = &lists.counts->list[mine].n;
-    unsigned long long at;
-    if (together) {
-      const unsigned before = room_at(&of_turn, n_both);
-      __syncthreads();
-      if (threadIdx.x == 0) {
-        turn_at = of_turn > 0 ? atomicAdd(end, NearCounts::as_long(of_turn)) : 0;
-        of_turn = 0;
-      }
-      __syncthreads();
-      at = turn_at + NearCounts::as_long(before);
-    } else {
-      at = room_at(end, NearCounts::as_long(n_both));
-    }
+    const unsigned one = __ballot_sync(kAllLanes, is_one),
+                   several = __ballot_sync(kAllLanes, is_near && !is_one);
+    unsigned long long at = 0;
+    if (threadIdx.x % 32 == 0 && (one | several) != 0)
+      at = atomicAdd(&lists.counts->list[mine].n,
+                     static_cast<unsigned long long>(__popc(several)) << 32 | __popc(one));
+    at = __shfl_sync(kAllLanes, at, 0);
     const unsigned to =
-        is_one ? static_cast<unsigned>(at) + votes_below(ones)
-               : lists.room - 1 - static_cast<unsigned>(at >> 32) - votes_below(severals);
+        is_one ? static_cast<unsigned>(at) + votes_below(one)
+               : lists.room - 1 - static_cast<unsigned>(at >> 32) - votes_below(several);
     if (is_near) lists.list(mine)[to] = near;
   }
 }
