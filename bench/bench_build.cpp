@@ -33,8 +33,9 @@ void brute_row(const BenchOptions &o, BenchRows &rows, BenchRow row, const Trian
   double limit = device == Device::cuda ? kMostOnCuda : kMostMeasured * threads();
   if (o.quick) limit /= 100;
   if (o.brute_limit > 0) limit = o.brute_limit;
-  const std::size_t stride = tests <= limit ? 1 : static_cast<std::size_t>(10 * tests / limit),
-                    n = all_cells(grid) / stride;
+  // One cell at least, however low the limit.
+  const double every = tests <= limit ? 1 : std::min(10 * tests / limit, cells);
+  const std::size_t stride = static_cast<std::size_t>(every), n = all_cells(grid) / stride;
   const double ms = brute_ms(grid, device, n, stride), whole = ms * cells / n;
   row.what += ", brute force";
   row.bytes = 0;

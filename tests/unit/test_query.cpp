@@ -677,6 +677,10 @@ TEST(query, a_coarse_table_has_the_cubes_of_the_bricks_and_no_others)
     const std::size_t side = std::size_t(1) << table.shift, cubes = CoarseTable::kWords * 32;
     shifts += table.shift;
     ASSERT_LE(std::size_t(table.n[0]) * table.n[1] * table.n[2], cubes);
+    for (int a = 0; a < 3; a++) {
+      EXPECT_GE(table.n[a] * side, std::size_t(n[a]));
+      EXPECT_LT((table.n[a] - 1) * side, std::size_t(n[a]));
+    }
     // None of half the size would fit.
     const auto halves = [&](int n) { return (n + side / 2 - 1) / (side / 2); };
     if (side > 1) {
