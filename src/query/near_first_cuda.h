@@ -39,7 +39,7 @@ struct WarpLanes {
   }
 };
 
-// A sphere near the wall and the list of its cell, so that the second kernel waits for neither.
+// A sphere near the wall and the list of its cell, so that who answers waits for neither.
 template <class S>
 struct alignas(16) NearSphere {
   S s;
@@ -47,7 +47,8 @@ struct alignas(16) NearSphere {
   std::uint32_t sphere, pad;
 };
 
-// Threads of the first kernel's blocks; bytes of spheres in flight for each.
+// Of the first kernel: threads of a block, blocks at once on a processor (32 registers a thread),
+// and bytes of spheres in flight for each thread.
 constexpr unsigned kNearBlock = 256, kNearBlocks = 8, kNearBytes = 64;
 template <class S>
 constexpr unsigned kNearEach = kNearBytes / sizeof(S);
@@ -74,7 +75,7 @@ __device__ T read_once(const T &from)
 }
 
 // Spheres are in as many lists as a warp has lanes: a list has every so many-th block's, and they
-// count in as many places. It grows from its front by those whose cell has one candidate, and
+// count in as many places. A list grows from its front by those whose cell has one candidate, and
 // from its back by those with several.
 constexpr unsigned kNearLists = 32;
 struct NearCounts {
@@ -124,6 +125,7 @@ __global__ void __launch_bounds__(kNearBlock, kNearBlocks)
   if (threadIdx.x == 0) n_maybe = 0;
   __syncthreads();
   __pipeline_wait_prior(0);    // this thread's own
+
   // Words of the table, and in five bits for each which bit of it; all bits where it is not known
   // which to ask for.
   static_assert(5 * kEach <= 32, "in one number");
