@@ -137,7 +137,7 @@ struct BrickFilter {
   LSDCD_FN std::uint32_t place(const CoarseTable &table, const BrickGuess &at) const
   {
     const std::uint32_t down = shift + table.shift;
-    return ((at.k >> down) * table.n[1] + (at.j >> down)) * table.n[0] + (at.i >> down);
+    return table.place(at.k >> down, at.j >> down, at.i >> down);
   }
 };
 

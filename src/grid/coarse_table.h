@@ -32,6 +32,11 @@ struct CoarseTable {
     while (count() > std::size_t(kWords) * 32) shift++;
   }
 
+  // Of the cube with these numbers, z first.
+  LSDCD_FN std::uint32_t place(std::uint32_t k, std::uint32_t j, std::uint32_t i) const
+  {
+    return (k * n[1] + j) * n[0] + i;
+  }
   LSDCD_FN static bool at(const std::uint32_t *words, std::uint32_t place)
   {
     return words[place / 32] >> place % 32 & 1u;
@@ -48,8 +53,7 @@ inline std::vector<std::uint32_t> coarse_words(const GridView &grid, const Coars
       for (std::int32_t i = 0; i < grid.n_bricks[0]; i++, at++) {
         if (grid.lists.brick_of[at] < 0) continue;
         const std::uint32_t place =
-            ((k >> table.shift) * table.n[1] + (j >> table.shift)) * table.n[0] +
-            (i >> table.shift);
+            table.place(k >> table.shift, j >> table.shift, i >> table.shift);
         words[place / 32] |= 1u << place % 32;
       }
   return words;
