@@ -187,8 +187,9 @@ the sum of all errors over the sum of all forces; largest, of one sphere, relati
 force or to that of an overlap of 1 % of its radius, whichever is larger. Drift: energy that a
 sphere bouncing ten times without friction, or rolling five radii without slip or damping, gains
 or loses relative to the energy of its motion; median of {moving} spheres on random faces and
-sides, each pulled along the normal of its face. A sphere that falls through counts 1. About 3e-4 of
-the bouncing drift is the integrator's. Spheres are uniform in the band within reach of the
+sides, each pulled along the normal of its face. One that leaves the wall counts with what it had
+gained or lost until then, one that goes through the wall 1. About 2e-4 of the bouncing drift is the
+integrator's. Spheres are uniform in the band within reach of the
 wall, none deeper in it than half its radius. CPU times are those of one core with its
 caches filled by other work.
 

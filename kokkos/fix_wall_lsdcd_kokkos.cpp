@@ -19,18 +19,19 @@ static AtomKokkos *kokkos_atoms(Atom *atom)
 }
 
 // The plain fix looks at atoms as soon as it is made.
-static LAMMPS *with_atoms_on_host(LAMMPS *lmp)
+static LAMMPS *with_atoms_on_host(LAMMPS *lmp, const char *id)
 {
   if (!lmp->kokkos)
-    lmp->error->all(FLERR, std::string("Fix wall/lsdcd/kk: LAMMPS runs without Kokkos: start it "
-                                       "with -k on, or use wall/lsdcd"));
+    lmp->error->all(FLERR, "Fix " + std::string(id) +
+                               " wall/lsdcd/kk: LAMMPS runs without Kokkos: "
+                               "start it with -k on, or use wall/lsdcd");
   kokkos_atoms(lmp->atom)->sync(Host, RADIUS_MASK | MASK_MASK);
   return lmp;
 }
 
 template <class DeviceType>
 FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char **arg) :
-    FixWallLsdcd(with_atoms_on_host(lmp), narg, arg, lsdcd::make_engine_on<DeviceType>)
+    FixWallLsdcd(with_atoms_on_host(lmp, arg[0]), narg, arg, lsdcd::make_engine_on<DeviceType>)
 {
   kokkosable = 1;
   atomKK = kokkos_atoms(atom);
@@ -41,24 +42,25 @@ FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char *
 #if LSDCD_DEVICE_EXCHANGE
   exchange_comm_device = sort_device = std::is_same<DeviceType, LMPDeviceType>::value;
 #endif
-  if (!lsdcd::kOnHost<DeviceType> && settings.law.has_heat())
-    refuse("the sub-model heat is not there for atoms on a GPU, where LAMMPS keeps no "
-           "temperature: use wall/lsdcd, or wall/lsdcd/kk/host");
-  if (settings.device != lsdcd::Device::automatic)
-    refuse("the keyword device has no meaning for wall/lsdcd/kk, which computes where Kokkos has "
-           "the atoms: leave it out, or use wall/lsdcd");
 }
 
 template <class DeviceType>
 int FixWallLsdcdKokkos<DeviceType>::setmask()
 {
-  return FixWallLsdcd::setmask() | PRE_EXCHANGE | (lsdcd::kOnHost<DeviceType> ? 0 : PRE_REVERSE);
+  return FixWallLsdcd::setmask() | (lsdcd::kOnHost<DeviceType> ? 0 : PRE_REVERSE);
 }
 
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::need_on_host()
 {
   atomKK->sync(Host, X_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TAG_MASK);
+}
+
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::before_rebuild()
+{
+  springs_to_host();
+  list_is_old = true;
 }
 
 template <class DeviceType>
@@ -73,7 +75,7 @@ void FixWallLsdcdKokkos<DeviceType>::setup(int vflag)
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::prepare_springs()
 {
-  if (restarted || (settings.tune >= 0 && wall->reach() == 0)) springs_to_host();
+  if (!springs_checked || (settings.tune >= 0 && wall->reach() == 0)) springs_to_host();
 }
 
 // Before atoms move to other places in memory, and to other processes.
@@ -81,20 +83,21 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::pre_exchange()
 {
   look();
+  check_wrapping();
   if (!history) return;
 #if LSDCD_DEVICE_EXCHANGE
   if (springs_are == Where::device) {
     // One more for the place of an atom's numbers in the message. A process on its own packs
     // hardly any atom, those that leave a fixed box, and need not look at all of them.
-    const int largest = 1 + (comm->nprocs > 1 ? resident().largest_packed_size(n_with_springs)
-                                              : resident().most_packed_size());
-    MPI_Allreduce(&largest, &maxexchange, 1, MPI_INT, MPI_MAX, world);
+    int largest = 1 + (comm->nprocs > 1 ? resident().largest_packed_size(n_with_springs)
+                                        : resident().most_packed_size());
+    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
+    ask_for_room(largest);
     return;
   }
 #endif
   springs_to_host();
   FixWallLsdcd::pre_exchange();
-  maxexchange++;
 }
 
 template <class DeviceType>
@@ -118,7 +121,7 @@ void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int, int)
   try {
     resident().search(s, step);
   } catch (const std::exception &e) {
-    error->one(FLERR, std::string("Fix wall/lsdcd/kk: ") + e.what());
+    stop(e);
   }
 }
 
@@ -127,7 +130,7 @@ void FixWallLsdcdKokkos<DeviceType>::post_run()
 {
   look();
   FixWallLsdcd::post_run();
-  if (comm->me == 0 && steps_run > 0)
+  if (steps_run > 0 && !settings.brief)
     log("Fix " + std::string(id) + " wall/lsdcd/kk: " + std::to_string(steps_run) + " steps with " +
         std::to_string(lists_made) + " lists of near atoms" +
         (list_keeps() ? "" : " (neigh_modify delay 0 every 1 check yes lets a list be kept)"));
@@ -152,13 +155,10 @@ lsdcd::Spheres FixWallLsdcdKokkos<DeviceType>::spheres()
   return s;
 }
 
-// Between two reneighbourings no atom has moved further than half the skin where LAMMPS
-// checks that in every step; a step in which one has is a reneighbouring.
 template <class DeviceType>
 bool FixWallLsdcdKokkos<DeviceType>::list_keeps() const
 {
-  return neighbor->dist_check && neighbor->every == 1 && neighbor->delay == 0 &&
-         !neighbor->build_once && !neighbor->includegroup && !group->dynamic[igroup];
+  return spheres_stay_close() && !group->dynamic[igroup];
 }
 
 template <class DeviceType>
@@ -182,7 +182,7 @@ void FixWallLsdcdKokkos<DeviceType>::start()
     choose_if_due(s);
     resident().mark_places();
   } catch (const std::exception &e) {
-    error->one(FLERR, std::string("Fix wall/lsdcd/kk: ") + e.what());
+    stop(e);
   }
   running = true;
 }
@@ -200,7 +200,7 @@ void FixWallLsdcdKokkos<DeviceType>::collect()
       engine->start(s, step, nullptr);
       engine->collect();
     } catch (const std::exception &e) {
-      error->one(FLERR, std::string("Fix wall/lsdcd/kk: ") + e.what());
+      stop(e);
     }
     atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
     n_with_springs = atom->nlocal;
@@ -243,10 +243,9 @@ void FixWallLsdcdKokkos<DeviceType>::look()
     if (notes.deepest <= worst_overlap) return;
     worst_overlap = notes.deepest;
     worst_step = update->ntimestep;
-    if (!overlap_warned && notes.deepest > kLargeOverlap && atom->tag)
-      worst_tag = tag_of(notes.deepest_sphere);
+    if (!overlap_warned && notes.deepest > kLargeOverlap) worst_tag = tag_of(notes.deepest_sphere);
   } catch (const std::exception &e) {
-    error->one(FLERR, std::string("Fix wall/lsdcd/kk: ") + e.what());
+    stop(e);
   }
 }
 
@@ -254,6 +253,7 @@ void FixWallLsdcdKokkos<DeviceType>::look()
 template <class DeviceType>
 tagint FixWallLsdcdKokkos<DeviceType>::tag_of(int i)
 {
+  if (!atom->tag_enable) return 0;
   atomKK->sync(execution_space, TAG_MASK);
   tagint tag = 0;
   Kokkos::deep_copy(tag, Kokkos::subview(atomKK->k_tag.template view<DeviceType>(), i));

@@ -48,6 +48,8 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void fill_masses() override;
   double largest_radius() override;
   void need_on_host() override;
+  void before_rebuild() override;
+  tagint tag_of(int) override;
 
  private:
   lsdcd::ResidentEngine &resident()
@@ -58,11 +60,12 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void choose_if_due(const lsdcd::Spheres &);
   bool list_keeps() const;
   void look();
-  tagint tag_of(int);
   void prepare_springs();
   void springs_to_host();
   void springs_to_device();
   static bool sends_from_host(ExecutionSpace);
+  int pack_rows(int, const int *, const int *, double *);
+  void unpack_rows(int, const int *, const double *);
 
   enum class Where { host, device };
   Where springs_are = Where::host;

@@ -1,5 +1,6 @@
 // Springs follow their atoms: on the device where the host does that, else by way of the
-// plain fix's store on the host.
+// plain fix's store on the host. Rows of the contacts array stay on the host, as do their
+// readers, and go from and to it where messages are on the device.
 
 #include "fix_wall_lsdcd_kokkos.h"
 
@@ -20,6 +21,7 @@ void FixWallLsdcdKokkos<DeviceType>::springs_to_device()
   resident().grow(atom->nmax);
   if (springs_are == Where::device) return;
   resident().springs_from(springs, atom->nlocal);
+  n_with_springs = atom->nlocal;
   springs_are = Where::device;
 }
 
@@ -95,6 +97,57 @@ bool FixWallLsdcdKokkos<DeviceType>::sends_from_host(ExecutionSpace space)
   return !lsdcd::kOnHost<DeviceType> && space != Device;
 }
 
+// Numbers on the device as an array on the host, and the other way.
+template <class DeviceType, class T>
+static std::vector<std::remove_const_t<T>> to_host(T *from, std::size_t n)
+{
+  std::vector<std::remove_const_t<T>> to(n);
+  using Raw = Kokkos::MemoryTraits<Kokkos::Unmanaged>;
+  Kokkos::deep_copy(Kokkos::View<std::remove_const_t<T> *, LMPHostType, Raw>(to.data(), n),
+                    Kokkos::View<const T *, DeviceType, Raw>(from, n));
+  return to;
+}
+template <class DeviceType>
+static void to_device(const std::vector<double> &from, double *to)
+{
+  using Raw = Kokkos::MemoryTraits<Kokkos::Unmanaged>;
+  Kokkos::deep_copy(Kokkos::View<double *, DeviceType, Raw>(to, from.size()),
+                    Kokkos::View<const double *, LMPHostType, Raw>(from.data(), from.size()));
+}
+
+// Atom which[k] leaves and atom from[k], if that is not -1, takes its place. All pointers are to
+// memory of the device. Returns the numbers written.
+template <class DeviceType>
+int FixWallLsdcdKokkos<DeviceType>::pack_rows(int n, const int *which, const int *from,
+                                              double *buffer)
+{
+  const int size = row_size();
+  if (size == 0) return 0;
+  const std::vector<int> leaves = to_host<DeviceType>(which, n),
+                         comes = to_host<DeviceType>(from, n);
+  std::vector<double> rows(std::size_t(n) * size);
+  for (int k = 0; k < n; k++) {
+    double *row = array_atom[leaves[k]];
+    std::copy_n(row, size, rows.data() + std::size_t(k) * size);
+    if (comes[k] >= 0) std::copy_n(array_atom[comes[k]], size, row);
+  }
+  to_device<DeviceType>(rows, buffer);
+  return n * size;
+}
+
+// Atom to[k], if that is not -1, gets row k.
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::unpack_rows(int n, const int *to, const double *rows)
+{
+  const int size = row_size();
+  if (size == 0) return;
+  const std::vector<int> place = to_host<DeviceType>(to, n);
+  const std::vector<double> row = to_host<DeviceType>(rows, std::size_t(n) * size);
+  for (int k = 0; k < n; k++)
+    if (place[k] >= 0) std::copy_n(row.data() + std::size_t(k) * size, size, array_atom[place[k]]);
+}
+
+// A message has the rows first, then the springs.
 template <class DeviceType>
 int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
                                                          lsdcd::ExchangeBuffer &buffer,
@@ -102,14 +155,17 @@ int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
                                                          DAT::tdual_int_1d from,
                                                          ExecutionSpace space)
 {
-  if (!history) return 0;
-  springs_to_device();
   which.template sync<DeviceType>();
   from.template sync<DeviceType>();
   buffer.clear_sync_state();
-  const int size = resident().pack(n, which.template view<DeviceType>().data(),
-                                   from.template view<DeviceType>().data(),
-                                   buffer.template view<DeviceType>().data());
+  const int *leaves = which.template view<DeviceType>().data();
+  const int *comes = from.template view<DeviceType>().data();
+  double *at = buffer.template view<DeviceType>().data();
+  int size = pack_rows(n, leaves, comes, at);
+  if (history) {
+    springs_to_device();
+    size += resident().pack(n, leaves, comes, at + size);
+  }
   if (sends_from_host(space)) {
     buffer.template modify<DeviceType>();
     buffer.template sync<LMPHostType>();
@@ -123,20 +179,32 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffe
                                                             int n_first, int second,
                                                             ExecutionSpace space)
 {
-  if (!history) return;
-  springs_to_device();
   buffer.clear_sync_state();
   if (sends_from_host(space)) buffer.template modify<LMPHostType>();
   buffer.template sync<DeviceType>();
   to.template sync<DeviceType>();
-  resident().unpack(n, to.template view<DeviceType>().data(),
-                    buffer.template view<DeviceType>().data(), n_first, second);
+  const int *places = to.template view<DeviceType>().data();
+  const double *at = buffer.template view<DeviceType>().data();
+  const int n_second = n - n_first, rows = n_first * row_size();
+  unpack_rows(n_first, places, at);
+  if (n_second > 0) unpack_rows(n_second, places + n_first, at + second);
+  if (!history) return;
+  springs_to_device();
+  resident().unpack(n, places, at + rows, n_first, second + n_second * row_size() - rows);
   n_with_springs = std::max(n_with_springs, atom->nlocal);
 }
 
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter)
 {
+  if (settings.contacts) {
+    const auto order = sorter.get_permute_vector();
+    const int n = atom->nlocal, size = row_size();
+    const auto from = to_host<LMPDeviceType>(order.data(), n);
+    const std::vector<double> rows(array_atom[0], array_atom[0] + std::size_t(n) * size);
+    for (int i = 0; i < n; i++)
+      std::copy_n(rows.data() + std::size_t(from[i]) * size, size, array_atom[i]);
+  }
   if (!history) return;
   springs_to_device();
   using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;

@@ -7,6 +7,7 @@
 #include "kokkos_base.h"
 #include "kokkos_type.h"
 
+#include "base/input_error.h"
 #include "base/rows.h"
 #include "base/threads.h"
 #include "engine/resident_engine.h"
@@ -53,10 +54,21 @@ const Real *numbers_of(const View &view)
   return view.data();
 }
 
+template <class DeviceType>
+constexpr bool kOnHost =
+    Kokkos::SpaceAccessibility<Kokkos::HostSpace,
+                               typename DeviceType::execution_space::memory_space>::accessible;
+
 // The engine whose memory is that of a Kokkos device.
 template <class DeviceType>
 std::unique_ptr<WallEngine> make_engine_on(const EngineSettings &settings)
 {
+  if (!kOnHost<DeviceType> && settings.law.has_heat())
+    throw InputError("the sub-model heat is not there for atoms on a GPU, where LAMMPS keeps no "
+                     "temperature: use wall/lsdcd, or wall/lsdcd/kk/host");
+  if (settings.device != Device::automatic)
+    throw InputError("the keyword device has no meaning for wall/lsdcd/kk, which computes where "
+                     "Kokkos has the atoms: leave it out, or use wall/lsdcd");
   using Space = typename DeviceType::execution_space;
 #if defined(KOKKOS_ENABLE_CUDA)
   if constexpr (std::is_same<Space, Kokkos::Cuda>::value)
@@ -74,10 +86,5 @@ std::unique_ptr<WallEngine> make_engine_on(const EngineSettings &settings)
     return make_resident_cpu_engine(settings);
   }
 }
-
-template <class DeviceType>
-constexpr bool kOnHost =
-    Kokkos::SpaceAccessibility<Kokkos::HostSpace,
-                               typename DeviceType::execution_space::memory_space>::accessible;
 
 }    // namespace lsdcd

@@ -8,7 +8,7 @@
 #include "atom_masks.h"
 #endif
 #include "comm.h"
-#include "error.h"
+#include "domain.h"
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
@@ -65,6 +65,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     settings.law.added.cohesion /= force->nktv2p;
     wall = std::make_unique<lsdcd::NodeWall>(world, settings);
     check_side();
+    check_plane();
 
     make_engine();
   } catch (const lsdcd::InputError &e) {
@@ -78,7 +79,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   if (settings.fields_every > 0) nevery = settings.fields_every;
   create_attribute = history || settings.contacts;
   restart_peratom = history;
-  maxexchange_dynamic = history;
+  maxexchange_dynamic = history || settings.contacts;
   dynamic_group_allow = 1;
 
   scalar_flag = vector_flag = 1;
@@ -98,20 +99,25 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     size_peratom_cols = kContactColumns + settings.law.has_heat();
     peratom_freq = 1;
   }
+  // Without spheres there is no telling how far outside is too far.
+  double radius = FixWallLsdcd::largest_radius();
+  MPI_Allreduce(MPI_IN_PLACE, &radius, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (settings.rmax > 0) radius = settings.rmax;
+  log_creation();
+  check_scale();
+  check_periodic();
+  if (radius > 0) check_box(lsdcd::reach_of(settings.law, radius));
+  check_surface();
+
+  // Last: Atom would call a fix that was refused after this.
   if (history || settings.contacts) {
     FixWallLsdcd::grow_arrays(atom->nmax);
     for (int i = 0; i < atom->nlocal; i++) FixWallLsdcd::set_arrays(i);
     atom->add_callback(Atom::GROW);
     if (history) atom->add_callback(Atom::RESTART);
     callbacks = true;
+    ask_for_most_room();
   }
-
-  // Without spheres there is no telling how far outside is too far.
-  double radius = FixWallLsdcd::largest_radius();
-  MPI_Allreduce(MPI_IN_PLACE, &radius, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (settings.rmax > 0) radius = settings.rmax;
-  if (radius > 0) check_box(lsdcd::reach_of(settings.law, radius));
-  log_creation();
 }
 
 FixWallLsdcd::~FixWallLsdcd()
@@ -127,19 +133,22 @@ FixWallLsdcd::~FixWallLsdcd()
 
 int FixWallLsdcd::setmask()
 {
-  return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN |
-         (history ? PRE_EXCHANGE : 0) | (settings.fields_every > 0 ? END_OF_STEP : 0);
+  return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN | PRE_EXCHANGE |
+         (settings.fields_every > 0 ? END_OF_STEP : 0);
 }
 
 void FixWallLsdcd::init()
 {
   nlevels_respa = 0;
-  rigid = false;
-  for (int i = 0; i < modify->nfix; i++)
+  rigid = adapts = false;
+  for (int i = 0; i < modify->nfix; i++) {
     if (modify->fix[i]->rigid_flag) rigid = true;
+    if (std::strncmp(modify->fix[i]->style, "adapt", 5) == 0) adapts = true;
+  }
   if (!rigid) std::vector<double>().swap(mass_seen);
   if (wall->reach() > 0) check_box(wall->reach());
   if (settings.law.has_heat()) check_heat();
+  if (settings.fields_every > 0) check_fields_file();
 }
 
 // Respa calls this once per level before setup(): the only way to its number of
@@ -151,48 +160,47 @@ void FixWallLsdcd::setup_pre_force_respa(int /*vflag*/, int ilevel)
 
 void FixWallLsdcd::setup(int /*vflag*/)
 {
-  if (restarted) check_springs();
-  update_reach();
-  check_timestep();
-  if (rigid) fill_masses();
+  if (!springs_checked) check_springs();
+  if (callbacks) ask_for_most_room();
 
   Respa *respa = reinterpret_cast<Respa *>(update->integrate);
   const int outer = nlevels_respa - 1;
   if (nlevels_respa) respa->copy_flevel_f(outer);
-  start();
+  begin_step(true);
   collect();
   if (nlevels_respa) respa->copy_f_flevel(outer);
 }
 
 void FixWallLsdcd::min_setup(int /*vflag*/)
 {
+  if (callbacks) ask_for_most_room();
   if (wall_in_minimize_warned) return;
   wall_in_minimize_warned = true;
-  if (comm->me == 0)
-    error->warning(FLERR, std::string("Fix wall/lsdcd has no effect in a minimization, as fix "
-                                      "wall/gran has none"));
+  warn("no effect in a minimization, as fix wall/gran has none");
 }
 
 // An atom that arrives may leave again in the next direction: room for the
 // largest of all processes.
 void FixWallLsdcd::pre_exchange()
 {
+  check_wrapping();
   if (!history) return;
   int largest = springs.largest_packed_size();
-  MPI_Allreduce(&largest, &maxexchange, 1, MPI_INT, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
+  ask_for_room(1 + largest);    // and its place, which messages of Kokkos tell
 }
 
+// Radii may have been set before a run that has no setup.
 void FixWallLsdcd::pre_force(int /*vflag*/)
 {
-  if (neighbor->ago == 0) {
-    update_reach();
-    if (rigid) fill_masses();
-  }
-  start();
+  if (neighbor->ago == 0 && callbacks) ask_for_most_room();
+  if (!adapts) begin_step(neighbor->ago == 0 || update->ntimestep == update->firststep + 1);
 }
 
+// Fix adapt may come after this fix in pre_force.
 void FixWallLsdcd::post_force(int /*vflag*/)
 {
+  if (adapts) begin_step(true);
   collect();
 }
 
@@ -200,7 +208,20 @@ void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
 {
   if (ilevel != nlevels_respa - 1) return;
   pre_force(vflag);
-  collect();
+  post_force(vflag);
+}
+
+// `look`: may there be new spheres, or other radii?
+void FixWallLsdcd::begin_step(bool look)
+{
+  if (look)
+    update_reach();
+  else if (domain->box_change)
+    follow_box();
+  if (update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != checked_atoms)))
+    check_timestep();
+  if (rigid) fill_masses();
+  start();
 }
 
 void FixWallLsdcd::post_run()
@@ -208,6 +229,8 @@ void FixWallLsdcd::post_run()
   double worst = worst_overlap;
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, world);
   check_overlap(worst);
+  check_wrapping();
+  log_rebuilds();
   if (settings.nearest > 0) log_uncertified();
 }
 
@@ -243,7 +266,7 @@ void FixWallLsdcd::start()
   try {
     engine->start(s, step, history ? &springs : nullptr);
   } catch (const std::exception &e) {
-    error->one(FLERR, std::string("Fix wall/lsdcd: ") + e.what());
+    stop(e);
   }
   running = true;
 }
@@ -254,7 +277,7 @@ void FixWallLsdcd::collect()
     try {
       engine->collect();
     } catch (const std::exception &e) {
-      error->one(FLERR, std::string("Fix wall/lsdcd: ") + e.what());
+      stop(e);
     }
     running = false;
     const lsdcd::WallTotals &t = engine->totals();
@@ -262,7 +285,7 @@ void FixWallLsdcd::collect()
     worst_uncertain = std::max(worst_uncertain, t.largest_uncertain);
     if (t.largest_overlap_sphere >= 0 && t.largest_overlap_ratio > worst_overlap) {
       worst_overlap = t.largest_overlap_ratio;
-      worst_tag = atom->tag ? atom->tag[t.largest_overlap_sphere] : 0;
+      worst_tag = tag_of(t.largest_overlap_sphere);
       worst_step = update->ntimestep;
     }
   }
@@ -299,7 +322,8 @@ void FixWallLsdcd::make_engine()
   lsdcd::together(world, true, [&] { engine = new_engine(want); });
 }
 
-// Builds the grid when the first spheres come, and again when larger ones do.
+// Builds the grid when the first spheres come, and again when larger ones do or the box has
+// changed.
 void FixWallLsdcd::update_reach()
 {
   double most[2] = {largest_radius(), worst_overlap};
@@ -308,22 +332,49 @@ void FixWallLsdcd::update_reach()
 
   const double radius = most[0], old = wall->reach();
   const auto reach_of = [this](double r) { return lsdcd::reach_of(settings.law, r); };
-  if (radius == 0 || reach_of(radius) <= old) return;
+  if (radius == 0) return;
+  if (reach_of(radius) <= old) {
+    follow_box();
+    return;
+  }
   if (settings.rmax > 0 && radius > settings.rmax)
-    refuse("a particle has radius " + lsdcd::number_text(radius) + ", more than rmax " +
-           lsdcd::number_text(settings.rmax) + ": raise rmax or use rmax auto");
+    refuse("atom " + std::to_string(tag_of_radius(radius)) + " has radius " +
+           lsdcd::number_text(radius) + ", more than rmax " + lsdcd::number_text(settings.rmax) +
+           ": raise rmax or use rmax auto");
 
-  const double reach =
-      reach_of(settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius));
+  rebuild(reach_of(settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius)));
+}
+
+// The wall acts through periodic faces by images of its triangles, and the grid is there where
+// spheres can be: both are those of a box. Collective where the box has changed.
+void FixWallLsdcd::follow_box()
+{
+  if (wall->reach() > 0 && !wall->fits(simulation_box())) rebuild(wall->reach());
+}
+
+void FixWallLsdcd::rebuild(double reach)
+{
+  const double old = wall->reach();
+  if (old > 0) {
+    before_rebuild();
+    // Images get other numbers: a spring on one goes to what that is an image of.
+    const lsdcd::WallFeaturesView features = wall->view().wall;
+    if (history && wall->has_images())
+      springs.rename_features(
+          [&](lsdcd::FeatureCode f) { return lsdcd::own_feature(features, f); });
+  }
   check_box(reach);
   try {
     if (settings.tune >= 0 && old == 0) tune(reach);
-    wall->build(reach);
+    wall->build(reach, simulation_box());
     lsdcd::together(world, true, [&] { engine->set_grid(wall->view()); });
   } catch (const lsdcd::InputError &e) {
     refuse(e.what());
   }
-  log_build(old > 0);
+  if (reach == old) box_rebuilds++;
+  check_within_reach();
+  log_build(old);
+  check_ends(reach == old);
 }
 
 // What damping sees of an atom in a rigid body is the mass of the body.

@@ -2,8 +2,11 @@
 
 #include "fix_wall_lsdcd.h"
 
+#include "contact/faces_pushed.h"
 #include "effects/effects.h"
+#include "engine/sphere_error.h"
 #include "input_words.h"
+#include "mesh/plane_cut.h"
 #include "tune/trial_grid.h"
 
 #include "atom.h"
@@ -22,10 +25,45 @@ using lsdcd::LawStyle;
 using lsdcd::number_text;
 
 static constexpr double kStepsPerContact = 10;
+static constexpr double kWorse = 1.1;    // what is warned of again
+
+std::string FixWallLsdcd::signed_text(const std::string &text) const
+{
+  return "Fix " + std::string(id) + " wall/lsdcd: " + text;
+}
 
 void FixWallLsdcd::refuse(const std::string &problem) const
 {
-  error->all(FLERR, std::string("Fix wall/lsdcd: ") + problem);
+  error->all(FLERR, signed_text(problem));
+}
+
+tagint FixWallLsdcd::tag_of(int i)
+{
+  return atom->tag_enable ? atom->tag[i] : 0;
+}
+
+tagint FixWallLsdcd::tag_of_radius(double radius)
+{
+  need_on_host();
+  bigint first = MAXBIGINT;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->radius[i] == radius && (group->dynamic[igroup] || (atom->mask[i] & groupbit)))
+      first = std::min<bigint>(first, tag_of(i));
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_LMP_BIGINT, MPI_MIN, world);
+  return static_cast<tagint>(first);
+}
+
+void FixWallLsdcd::stop(const std::exception &e)
+{
+  const auto *one = dynamic_cast<const lsdcd::SphereError *>(&e);
+  if (!one) error->one(FLERR, signed_text(e.what()));
+  error->one(FLERR,
+             signed_text("atom " + std::to_string(tag_of(one->sphere)) + " " + one->problem));
+}
+
+void FixWallLsdcd::warn(const std::string &problem) const
+{
+  if (comm->me == 0) error->warning(FLERR, signed_text(problem));
 }
 
 void FixWallLsdcd::log(const std::string &lines) const
@@ -54,38 +92,19 @@ void FixWallLsdcd::check_side() const
                           " misoriented edges: repair the mesh or use side both");
 }
 
-// A sphere sees the mesh where the mesh stands, not its periodic images.
-void FixWallLsdcd::check_box(double reach) const
+// The first process has the mesh.
+void FixWallLsdcd::check_surface() const
 {
-  const lsdcd::MeshReport &r = wall->report();
-  const double *boxlo = domain->triclinic ? domain->boxlo_bound : domain->boxlo;
-  const double *boxhi = domain->triclinic ? domain->boxhi_bound : domain->boxhi;
-  const char name[] = "xyz";
-  for (int d = 0; d < 3; d++) {
-    const double lo = r.lo[d], hi = r.hi[d];
-    const std::string where =
-        std::string(1, name[d]) + " from " + number_text(lo) + " to " + number_text(hi);
-    const std::string box =
-        "the box from " + number_text(boxlo[d]) + " to " + number_text(boxhi[d]);
-    // A shrink-wrapped face follows the atoms, wherever the mesh is.
-    const bool lo_stays = domain->boundary[d][0] < 2, hi_stays = domain->boundary[d][1] < 2;
-    if ((hi < boxlo[d] - reach && lo_stays) || (lo > boxhi[d] + reach && hi_stays))
-      refuse("the mesh is outside the box: it spans " + where + ", " + box +
-             "; check the units of the file (scale) and the position (move)");
-
-    if (!domain->periodicity[d]) continue;
-    const bool clear = lo >= boxlo[d] + reach && hi <= boxhi[d] - reach;
-    const bool spans = lo <= boxlo[d] - reach && hi >= boxhi[d] + reach;
-    if (clear || (spans && settings.periodic)) continue;
-    std::string remedy = ": make the boundary fixed, keep the mesh a radius (" +
-                         number_text(reach) + ") inside the box";
-    if (spans)
-      remedy += ", or add the keyword periodic if the mesh continues itself there";
-    else
-      remedy += ", or let it continue itself past both faces by a radius and add the keyword "
-                "periodic";
-    refuse("the mesh meets a periodic boundary: it spans " + where + ", " + box + remedy);
-  }
+  if (comm->me) return;
+  const lsdcd::PushReport push = lsdcd::faces_pushed(*wall->mesh(), settings.surface);
+  if (push.faces == 0) return;
+  warn("surface_vel and surface_angvel push " + std::to_string(push.faces) + " of " +
+       std::to_string(wall->report().facets) + " faces along their normals, by up to " +
+       number_text(push.component) + " (" + number_text(100 * push.share) +
+       " % of the speed there). That part is left out: the mesh itself stays where it is, and "
+       "lifters, blades and screws convey nothing. A mesh cannot move yet (a keyword motion is to "
+       "come); until then use fix wall/gran/region with a region that moves, or a mesh whose "
+       "surface is parallel to its motion");
 }
 
 // Collective where `worst` is the largest of all processes.
@@ -100,11 +119,35 @@ void FixWallLsdcd::check_overlap(double worst)
   MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
   bigint which[2] = {worst_tag, worst_step};
   MPI_Bcast(which, 2, MPI_LMP_BIGINT, most.rank, world);
-  if (comm->me == 0)
-    error->warning(FLERR, "Fix wall/lsdcd: atom " + std::to_string(which[0]) +
-                              " sank into the wall by " + number_text(100 * most.value) +
-                              " % of its radius at step " + std::to_string(which[1]) +
-                              ": stiffen the contact (kn) or lower speeds; shown once");
+  warn("atom " + std::to_string(which[0]) + " sank into the wall by " +
+       number_text(100 * most.value) + " % of its radius at step " + std::to_string(which[1]) +
+       ": stiffen the contact (kn) or lower speeds; shown once");
+}
+
+// Particles of a two-dimensional run feel the mesh where it cuts their plane. Collective.
+void FixWallLsdcd::check_plane()
+{
+  if (domain->dimension == 3) return;
+  const lsdcd::MeshReport &r = wall->report();
+  if (!(r.lo.z < 0 && r.hi.z > 0))
+    refuse("in two dimensions particles move in the plane z = 0, which the mesh does not cut: it "
+           "spans z from " +
+           number_text(r.lo.z) + " to " + number_text(r.hi.z) + "; draw the outline out along z" +
+           (r.lo.z < r.hi.z ? ", and put its middle at z = 0 (move 0 0 " +
+                                  number_text(-(r.lo.z + r.hi.z) / 2) + ")"
+                            : ""));
+  double cut[2] = {0, 0};
+  if (wall->mesh()) {
+    const lsdcd::PlaneCut mine = lsdcd::plane_cut(*wall->mesh());
+    cut[0] = static_cast<double>(mine.leaning);
+    cut[1] = mine.lean;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, cut, 2, MPI_DOUBLE, MPI_MAX, world);
+  if (cut[0] > 0)
+    warn(
+        number_text(cut[0]) + " faces lean where the mesh cuts the plane z = 0, by up to " +
+        number_text(cut[1]) +
+        " degrees: fix enforce2d throws away what they push along z; draw the outline out along z");
 }
 
 // Does the stiffness grow with the overlap?
@@ -135,61 +178,64 @@ double FixWallLsdcd::contact_time(double mass, double radius) const
 
 void FixWallLsdcd::check_timestep()
 {
-  if (update->dt == checked_dt || wall->reach() == 0) return;
+  if (wall->reach() == 0) return;
+  checked_atoms = atom->natoms;
   need_on_host();
   double shortest = INFINITY;
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit)
       shortest = std::min(shortest, contact_time(atom->rmass[i], atom->radius[i]));
   MPI_Allreduce(MPI_IN_PLACE, &shortest, 1, MPI_DOUBLE, MPI_MIN, world);
-  checked_dt = update->dt;
-  if (update->dt <= shortest / kStepsPerContact || comm->me) return;
-  error->warning(
-      FLERR, "Fix wall/lsdcd: timestep " + number_text(update->dt) +
-                 " is more than a tenth of the shortest contact time " + number_text(shortest) +
-                 (is_hertzian(settings.law) ? " (hertz, at an overlap of 1 % of the radius)" : "") +
-                 ": contacts will not be resolved");
+  const double ratio = update->dt / (shortest / kStepsPerContact);
+  if (ratio <= worst_dt) return;
+  worst_dt = kWorse * ratio;
+  warn("timestep " + number_text(update->dt) +
+       " is more than a tenth of the shortest contact time " + number_text(shortest) +
+       (is_hertzian(settings.law) ? " (hertz, at an overlap of 1 % of the radius)" : "") +
+       ": contacts will not be resolved");
 }
 
 // Springs of a restart file name features of the mesh it was written with, and hold what
-// the law that it was written with keeps.
+// the law that it was written with keeps. Collective: not every process has such atoms.
 void FixWallLsdcd::check_springs()
 {
-  restarted = false;
-  int lost[2] = {0, other_law};
-  for (int i = 0; i < atom->nlocal; i++)
+  springs_checked = true;
+  bigint lost[2] = {0, other_law};
+  for (int i = 0; history && i < atom->nlocal; i++)
     for (int k = 0; k < springs.count(i); k++)
       if (!wall->has(springs.of(i)[k].feature)) {
         lost[0]++;
         springs.clear(i);
         break;
       }
-  other_law = 0;
-  MPI_Allreduce(MPI_IN_PLACE, lost, 2, MPI_INT, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, lost, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   const char *const other[] = {"mesh", "contact law"};
   for (int k = 0; k < 2; k++)
-    if (lost[k] && comm->me == 0)
-      error->warning(FLERR, "Fix wall/lsdcd: " + std::to_string(lost[k]) +
-                                " atoms lose their springs: the restart file was written with "
-                                "another " +
-                                other[k]);
+    if (lost[k])
+      warn(std::to_string(lost[k]) +
+           " atoms lose their springs: the restart file was written with "
+           "another " +
+           other[k]);
 }
 
-// What nearest lists may have cost in the run that ends. Collective.
+// What nearest lists may have cost so far: after the first run, and when it has grown much since
+// it was told. `run ... every` comes here at every pause. Collective.
 void FixWallLsdcd::log_uncertified()
 {
   bigint sum = 0;
   double worst = 0;
   MPI_Allreduce(&uncertified_sum, &sum, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   MPI_Allreduce(&worst_uncertain, &worst, 1, MPI_DOUBLE, MPI_MAX, world);
-  uncertified_sum = 0;
-  worst_uncertain = 0;
-  std::string t = "Fix " + std::string(id) + " wall/lsdcd: nearest " +
-                  std::to_string(settings.nearest) + ": " + std::to_string(sum) +
-                  " answers were not certified exact";
+  if (sum < uncertified_due && worst < worst_uncertain_due) return;
+  uncertified_due = std::max<bigint>(1, 10 * sum);
+  worst_uncertain_due = worst > 0 ? 2 * worst : INFINITY;
+  if (settings.brief && sum == 0) return;
+  std::string t = signed_text("nearest " + std::to_string(settings.nearest) + ": " +
+                              std::to_string(sum) + " answers were not certified exact");
   if (sum > 0)
     t += "; contacts overlapping by up to " + number_text(100 * worst) +
-         " % of a radius may have been missed (nearest N exact or nearest all certify all)";
+         " % of a radius may have been missed (nearest N exact or nearest all certify all). Told "
+         "again when they are ten times as many or could be twice as deep";
   log(t);
 }
 
@@ -197,8 +243,13 @@ void FixWallLsdcd::log_uncertified()
 void FixWallLsdcd::log_creation() const
 {
   if (comm->me) return;
+  if (settings.brief) {
+    log(signed_text("mesh " + settings.mesh_file + " of " + std::to_string(wall->report().facets) +
+                    " facets, " + settings.law_name + ", " + engine->backend()));
+    return;
+  }
   const lsdcd::ContactLaw &l = settings.law;
-  std::string t = "Fix " + std::string(id) + " wall/lsdcd: " + wall->mesh_text();
+  std::string t = signed_text(wall->mesh_text());
   if (!settings.placement_words.empty()) t += "\n  placement   " + settings.placement_words;
   if (!material.empty()) t += "\n" + material;
   t += "\n  contact     " + settings.law_name;
@@ -253,18 +304,24 @@ void FixWallLsdcd::log_creation() const
   log(t);
 }
 
-void FixWallLsdcd::log_build(bool again) const
+// `old`: the reach before, 0 at first.
+void FixWallLsdcd::log_build(double old) const
 {
-  std::string t = "Fix " + std::string(id) + " wall/lsdcd: ";
-  if (again)
-    t += "larger particles, grid rebuilt for radius " + number_text(wall->reach());
-  else
+  if (!wall->cache_warning().empty()) warn(wall->cache_warning());
+  if (settings.brief) return;
+  const bool again = old > 0;
+  std::string t = signed_text("");
+  if (!again)
     t += (wall->tune_text().empty() ? "" : wall->tune_text() + "\n  ") + "grid for radius " +
          number_text(wall->reach()) + "\n" + wall->grid_text();
+  else if (wall->reach() > old)
+    t += "larger particles, grid rebuilt for radius " + number_text(wall->reach());
+  else
+    t += "the box has changed, grid rebuilt at step " + std::to_string(update->ntimestep) +
+         " (more of these in this run are counted at its end)";
   if (!again && wall->shared().node_size() > 1)
     t += wall->shared().is_shared() ? "\n  one copy per node" : "\n  one copy per process";
   if (!wall->cache_text().empty()) t += "\n  " + wall->cache_text();
-  log(t);
-  if (!wall->cache_warning().empty())
-    error->warning(FLERR, "Fix wall/lsdcd: " + wall->cache_warning());
+  const bool one_of_many = again && wall->reach() == old && box_rebuilds > 1;
+  if (!one_of_many) log(t);
 }

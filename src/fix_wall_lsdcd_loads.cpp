@@ -2,12 +2,12 @@
 
 #include "fix_wall_lsdcd.h"
 
-#include "input_words.h"
+#include "base/input_error.h"
+#include "base/whole_file.h"
 #include "output/mesh_fields.h"
 
 #include "atom.h"
 #include "comm.h"
-#include "error.h"
 #include "force.h"
 #include "update.h"
 
@@ -25,7 +25,7 @@ void FixWallLsdcd::add_loads()
   if (update->setupflag) return;
   const bool any = wall->reach() > 0;
   loads.add(any ? engine->records() : nullptr, any ? engine->n_records() : 0, update->dt,
-            settings.wear.per_work);
+            settings.wear.per_work, any ? wall->view().wall : lsdcd::WallFeaturesView());
 }
 
 // Of all processes, on the first one; the others get none. Collective.
@@ -43,6 +43,18 @@ WallLoads FixWallLsdcd::gathered_loads() const
   all.set_time(loads.time());
   all.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
   return all;
+}
+
+// Whether files can be made where mesh_fields wants them: told before a run, not hours into it.
+void FixWallLsdcd::check_fields_file() const
+{
+  try {
+    lsdcd::together(world, comm->me == 0, [&] {
+      lsdcd::WholeFile(lsdcd::file_of_step(settings.fields_file, update->ntimestep));
+    });
+  } catch (const lsdcd::InputError &e) {
+    refuse("in 'mesh_fields', " + std::string(e.what()) + "; make the folder, or name another");
+  }
 }
 
 void FixWallLsdcd::end_of_step()
@@ -84,10 +96,7 @@ void FixWallLsdcd::restart(char *buffer)
   const lsdcd::MeshReport &r = wall->report();
   if (header[1] != double(r.facets) || header[2] != double(r.edges) ||
       header[3] != double(r.vertices)) {
-    if (comm->me == 0)
-      error->warning(
-          FLERR, std::string("Fix wall/lsdcd: loads and wear begin at zero: the restart file was "
-                             "written with another mesh"));
+    warn("loads and wear begin at zero: the restart file was written with another mesh");
     return;
   }
   loads.set_time(header[0]);

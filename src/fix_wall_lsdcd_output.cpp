@@ -96,6 +96,11 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
     image_kind.assign(image_data.size() / kRow, faces ? kTriangle : kLine);
     for (std::size_t i = 0; i < image_data.size(); i += kRow)
       image_rows.push_back(image_data.data() + i);
+    // LAMMPS does not say which diameter the deck gives.
+    if (!settings.brief && !faces)
+      log(signed_text("dump image draws the mesh as " + std::to_string(image_kind.size()) +
+                      " lines; where nothing is seen of it, their diameter is 0: write fix " +
+                      std::string(id) + " type DIAMETER 0"));
   }
   kinds = image_kind.data();
   rows = image_rows.data();

@@ -36,7 +36,7 @@ void FixWallLsdcd::tune(double reach)
     const double *x = atom->x[i];
     chosen.push_back({tag, {x[0], x[1], x[2]}, atom->radius[i]});
   }
-  wall->tune(reach, chosen);
+  wall->tune(reach, simulation_box(), chosen);
   const lsdcd::WallSettings &tuned = wall->settings();
   settings.nearest = tuned.nearest;
   settings.exact = tuned.exact;

@@ -7,8 +7,6 @@ namespace lsdcd {
 
 namespace {
 
-constexpr Real kTiny = 1e-300;    // the smallest number that counts as > 0
-
 // What sub-models say about one another before all of them are known.
 struct Draft {
   ContactLaw law;
@@ -40,7 +38,7 @@ void read_stiffness(Words &w, Draft &d, NormalModel model)
 void read_material(Words &w, Draft &d, NormalModel model)
 {
   parts(d).normal = model;
-  d.young = w.number("E", kTiny);
+  d.young = w.number("E", kAboveZero);
   d.second = w.number("eta (or e)", 0);
   d.poisson = w.number("nu", -1 + 1e-12, 0.5);
   parts(d).modulus = d.young / (2 * (1 - d.poisson * d.poisson));
@@ -191,7 +189,8 @@ void resolve_damping(Words &w, Draft &d)
   const bool exact = d.damping_name == "coeff_restitution";
   if (d.second > 1 || (exact && d.second == 0))
     w.fail("e = " + number_text(d.second) +
-           " is out of range: the second number of the normal sub-model is the restitution");
+           " is out of range: it must be above 0 and at most 1, as the second number of the "
+           "normal sub-model is the restitution");
   g.eta = exact ? restitution_damping(g.normal, d.second) : tsuji_damping(d.second);
 }
 

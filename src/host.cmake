@@ -4,7 +4,7 @@
 # linked: its symbols come from the host that loads the file. Only the entry point is
 # exported. The file is never unmapped: threads that it started may outlive `plugin unload`.
 function(lsdcd_plugin name host)
-  set(sources plugin_styles.cpp fix_wall_lsdcd.cpp fix_wall_lsdcd_checks.cpp
+  set(sources plugin_styles.cpp fix_wall_lsdcd.cpp fix_wall_lsdcd_box.cpp fix_wall_lsdcd_checks.cpp
     fix_wall_lsdcd_exchange.cpp fix_wall_lsdcd_heat.cpp fix_wall_lsdcd_loads.cpp
     fix_wall_lsdcd_output.cpp
     fix_wall_lsdcd_tune.cpp node_wall.cpp node_wall_tune.cpp node_shared.cpp

@@ -23,21 +23,20 @@ std::string number_text(Real value)
 
 namespace {
 
-// Letters to insert, delete or change to turn a into b.
+// Letters to insert, delete, change or swap with the next to turn a into b.
 std::size_t edit_distance(const std::string &a, const std::string &b)
 {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); j++) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); i++) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); j++) {
-      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); i++)
+    for (std::size_t j = 0; j <= b.size(); j++) {
+      d[i][j] = i + j;
+      if (i == 0 || j == 0) continue;
+      d[i][j] =
+          std::min({d[i - 1][j - 1] + (a[i - 1] != b[j - 1]), d[i - 1][j] + 1, d[i][j - 1] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
-  }
-  return row[b.size()];
+  return d[a.size()][b.size()];
 }
 
 }    // namespace
@@ -48,6 +47,26 @@ std::string nearest(const std::string &word, const std::vector<std::string> &nam
                            [&](const std::string &a, const std::string &b) {
                              return edit_distance(word, a) < edit_distance(word, b);
                            });
+}
+
+bool is_like(const std::string &word, const std::string &name)
+{
+  return 3 * edit_distance(word, name) <= std::max(word.size(), name.size());
+}
+
+std::string range_text(Real low, Real high)
+{
+  const bool with_low = low > -Words::kHuge, with_high = high < Words::kHuge;
+  Real shown_low = 0, shown_high = 0;
+  if (low <= 0 || low > kAboveZero) is_number(number_text(low), &shown_low);
+  is_number(number_text(high), &shown_high);
+  const bool open_low = shown_low<low, open_high = shown_high> high;
+  const std::string from = number_text(shown_low), to = number_text(shown_high);
+  if (!with_high) return open_low ? "above " + from : from + " or more";
+  if (!with_low) return open_high ? "below " + to : to + " or less";
+  if (open_low || open_high)
+    return (open_low ? "above " : "from ") + from + (open_high ? " to below " : " to ") + to;
+  return "from " + from + " to " + to;
 }
 
 std::string Words::between(std::size_t first) const
@@ -75,14 +94,16 @@ Real Words::number(const char *what, Real low, Real high)
   if (done()) fail(std::string("the value of ") + what + " is missing");
   if (!is_number(peek(), &value))
     fail(std::string(what) + " must be a number, not '" + peek() + "'");
-  if (value < low || value > high) fail(std::string(what) + " = " + peek() + " is out of range");
+  if (value < low || value > high)
+    fail(std::string(what) + " = " + peek() + " is out of range: it must be " +
+         range_text(low, high));
   ++at_;
   return value;
 }
 
-Real Words::number_or(const char *instead, Real otherwise, const char *what, Real low)
+Real Words::number_or(const char *instead, Real otherwise, const char *what, Real low, Real high)
 {
-  if (done() || peek() != instead) return number(what, low);
+  if (done() || peek() != instead) return number(what, low, high);
   ++at_;
   return otherwise;
 }

@@ -13,8 +13,15 @@ bool is_number(const std::string &word, Real *value);    // finite, nothing afte
 
 std::string number_text(Real value);    // "0.001", six digits
 
-// The name that takes the fewest inserted, deleted or changed letters.
+constexpr Real kAboveZero = 1e-300;    // the lower end of a range without 0
+
+// "from 0 to 1", "above 0": of a range without its end, that end is a little inside.
+std::string range_text(Real low, Real high);
+
+// The name that takes the fewest inserted, deleted, changed or swapped letters.
 std::string nearest(const std::string &word, const std::vector<std::string> &names);
+// May the word be meant to be the name? Not if more than a third of its letters differ.
+bool is_like(const std::string &word, const std::string &name);
 
 class Words {
  public:
@@ -35,7 +42,8 @@ class Words {
   // A number in [low, high]; `what` is its name in messages.
   Real number(const char *what, Real low = -kHuge, Real high = kHuge);
   // The same, or `otherwise` where the word is `instead`.
-  Real number_or(const char *instead, Real otherwise, const char *what, Real low);
+  Real number_or(const char *instead, Real otherwise, const char *what, Real low,
+                 Real high = kHuge);
   // The index of the word among `choices`.
   int choice(const std::vector<std::string> &choices);
 

@@ -2,13 +2,11 @@
 
 #include "grid/grid_cache.h"
 
-#include <algorithm>
+#include <cmath>
 
 namespace lsdcd {
 
 namespace {
-
-constexpr Real kTiny = 1e-300;    // the smallest number that counts as > 0
 
 void read_mesh(Words &w, WallSettings &s)
 {
@@ -49,7 +47,7 @@ void read_rotate(Words &w, WallSettings &s)
   axis.y = w.number("the axis (y)");
   axis.z = w.number("the axis (z)");
   const Real degrees = w.number("the angle");
-  if (norm_sq(axis) == 0) w.fail("the axis must not be 0 0 0");
+  if (axis == Vec3{0, 0, 0}) w.fail("the axis must not be 0 0 0");
   s.placement.rotate(axis, degrees);
   note_placement(s, "rotate " + number_text(axis.x) + " " + number_text(axis.y) + " " +
                         number_text(axis.z) + " " + number_text(degrees));
@@ -74,8 +72,7 @@ void read_memory(Words &w, WallSettings &s)
 void read_nearest(Words &w, WallSettings &s)
 {
   s.nearest_given = true;
-  const Real n = w.number_or("all", 0, "N", 1);
-  if (n > kMostNearest) w.fail("N can be " + std::to_string(kMostNearest) + " at most");
+  const Real n = w.number_or("all", 0, "N", 1, kMostNearest);
   s.nearest = static_cast<int>(n);
   if (s.nearest != n) w.fail("N must be a whole number");
   if (s.nearest == 0 || w.done() || w.peek() != "exact") return;
@@ -85,8 +82,7 @@ void read_nearest(Words &w, WallSettings &s)
 
 void read_tune(Words &w, WallSettings &s)
 {
-  s.tune = w.number("the largest error", 0, 1);
-  if (s.tune == 1) w.fail("the largest error must be below 1");
+  s.tune = w.number("the largest error", 0, std::nextafter(Real(1), Real(0)));
 }
 
 void read_cache(Words &w, WallSettings &s)
@@ -140,7 +136,7 @@ void read_wear(Words &w, WallSettings &s)
 {
   s.wear.model = static_cast<WearModel>(1 + w.choice({"archard", "finnie"}));
   s.wear.per_work = w.number("K", 0);
-  if (s.wear.model == WearModel::archard) s.wear.per_work /= w.number("H", kTiny);
+  if (s.wear.model == WearModel::archard) s.wear.per_work /= w.number("H", kAboveZero);
 }
 
 void read_mesh_fields(Words &w, WallSettings &s)
@@ -198,13 +194,14 @@ const Keyword kKeywords[] = {
      [](Words &w, WallSettings &s) { s.weld = w.number("the tolerance", 0); }},
     {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",
      [](Words &w, WallSettings &s) {
-       s.grid_length = w.number_or("auto", 0, "L", kTiny);
+       s.grid_length = w.number_or("auto", 0, "L", kAboveZero);
        s.length_given = s.grid_length > 0;
      }},
     {"rmax", "R | auto", "length", "> 0", "auto: the largest radius in the group",
      "largest particle radius that the grid is built for",
-     [](Words &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kTiny); }},
-    {"memory", "MB", "MiB", ">= 1", "1024", "budget for the grid", read_memory},
+     [](Words &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
+    {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records", "budget for the grid",
+     read_memory},
     {"nearest", "all | N [exact]", "", "1 to 32", "all",
      "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre; exact: "
      "all where N are not certified to be enough",
@@ -257,6 +254,10 @@ const Keyword kKeywords[] = {
     {"periodic", "", "", "", "off",
      "the mesh continues itself across periodic faces and reaches past them by R",
      [](Words &, WallSettings &s) { s.periodic = true; }},
+    {"log", "full | brief", "", "", "full", "brief: one line about the wall in place of all",
+     [](Words &w, WallSettings &s) {
+       s.brief = w.choice({"full", "brief"}) == 1;
+     }},
     {"draw", "edges | faces | contours [type]", "", "", "edges 1",
      "what dump image shows, in the colour of an atom type: fix ID type DIAMETER 0 for lines, "
      "fix ID type 1 0 for faces",

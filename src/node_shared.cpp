@@ -71,6 +71,7 @@ char *NodeShared::allocate(std::size_t bytes)
     if (failed) window_ = MPI_WIN_NULL;
     MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, node_);
   }
+  std::string error;
   if (!failed) {
     MPI_Aint size;
     int unit;
@@ -79,8 +80,9 @@ char *NodeShared::allocate(std::size_t bytes)
   } else {
     if (window_ != MPI_WIN_NULL) MPI_Win_free(&window_);
     base = own_ = static_cast<char *>(std::calloc(bytes_ + kAlign, 1));
-    throw_together(node_, own_ ? "" : "out of memory for the wall grid");
+    if (!own_) error = "out of memory for the wall grid";
   }
+  throw_together(world_, error);    // other nodes may have had room
   block_ = aligned(base);
   if (is_shared() && writes()) std::memset(block_, 0, bytes_);
   return block_;

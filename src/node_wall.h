@@ -3,6 +3,7 @@
 
 #include "grid/grid_cache.h"
 #include "grid/triangle_grid.h"
+#include "mesh/periodic_images.h"
 #include "mesh/wall_mesh.h"
 #include "node_shared.h"
 #include "settings.h"
@@ -27,13 +28,23 @@ class NodeWall {
  public:
   NodeWall(MPI_Comm world, const WallSettings &settings);
 
-  // Makes the grid for particles up to radius `reach`, or reads it from its cache file.
-  // The grid of the n-th call, n > 1, is kept in a file of its own, FILE.n.
-  void build(Real reach);
+  // Makes the grid for particles up to radius `reach` with centres in `box`, with the periodic
+  // images of the mesh that act there, or reads it from its cache file. The grid of the n-th
+  // call, n > 1, is kept in a file of its own, FILE.n.
+  void build(Real reach, const PeriodicBox &box);
+
+  // Is the grid right for spheres in this box, too? Images follow it to kBoxTolerance of the
+  // reach. The same on all processes.
+  bool fits(const PeriodicBox &box) const;
+  static constexpr Real kBoxTolerance = 1e-4;
+
+  bool has_images() const { return view().wall.same_vertex; }
+  // No sphere in the box can touch the wall.
+  bool out_of_reach() const { return cells_ == 0; }
 
   // Chooses cell length, lists and precision for all processes by settings.tune; `mine`
   // are this process's spheres of a sample of the scene. Kept for every build to come.
-  void tune(Real reach, const std::vector<TaggedSphere> &mine);
+  void tune(Real reach, const PeriodicBox &box, const std::vector<TaggedSphere> &mine);
   const WallSettings &settings() const { return settings_; }
   const std::string &tune_text() const { return tune_text_; }    // of the first process
 
@@ -44,6 +55,9 @@ class NodeWall {
   // empty on all processes but the first, and where there is nothing to say.
   const std::string &cache_text() const { return cache_text_; }
   const std::string &cache_warning() const { return cache_warning_; }
+  // Ends of the mesh that do not meet across a periodic face, after the last build; on every
+  // process.
+  const std::string &ends_warning() const { return ends_warning_; }
   GridView view() const { return flat_view(shared_.block()); }
   Real reach() const { return reach_; }    // 0 before the first build
   const NodeShared &shared() const { return shared_; }
@@ -57,9 +71,12 @@ class NodeWall {
 
  private:
   void read();
-  GridSettings grid_settings(Real reach) const;
+  GridSettings grid_settings(Real reach, const PeriodicBox &box) const;
+  Box within(Real reach, const PeriodicBox &box) const;
+  WallMesh whole(Real reach, const PeriodicBox &box) const;
   bool read_cache(CachedGrid *cached);
-  void build_block(const GridSettings &want, GridReport &report);
+  void build_block(const WallMesh &whole, const GridSettings &want, GridReport &report);
+  void note_images(const WallMesh &whole);
   void write_cache(const GridKey &key, const GridReport &report, const CachedGrid &cached);
 
   WallSettings settings_;
@@ -67,7 +84,10 @@ class NodeWall {
   std::unique_ptr<WallMesh> mesh_;    // where shared_.writes()
   MeshReport report_;
   std::string mesh_text_, grid_text_, tune_text_;
-  std::string cache_file_, cache_text_, cache_warning_;    // of the last build
+  std::string cache_file_, cache_text_, cache_warning_, ends_warning_;    // of the last build
+  PeriodicBox box_;                                                       // likewise
+  Box within_ = kNoLimit;
+  std::uint64_t cells_ = 0;
   int builds_ = 0;
   Real reach_ = 0;
 };

@@ -58,18 +58,83 @@ void read_law(Words &w, WallSettings &s)
   }
 }
 
-// `families`: words of `granular` that come before keywords; empty with other styles.
-[[noreturn]] void refuse_keyword(const std::string &word, const std::vector<std::string> &names,
-                                 const std::vector<std::string> &families)
+// Words of fix wall/gran and of LIGGGHTS, and what does their work here.
+std::string answer_to(const std::string &word, bool granular)
 {
-  std::vector<std::string> known = families;
-  known.insert(known.end(), names.begin(), names.end());
+  const char *const kStays =
+      "the mesh does not move yet: where it must, use fix wall/gran/region with a region that "
+      "moves; for surfaces that move along themselves, as belts and rolls, there are surface_vel "
+      "and surface_angvel";
+  const char *const kFlat =
+      "the wall is a mesh: write mesh FILE in its place, or use fix wall/gran";
+  const char *const kBelt =
+      "the words are surface_vel vx vy vz and surface_angvel wx wy wz [cx cy cz]";
+  const char *const kSpeed = "it is not needed: folds are measured, and all of them are walls";
+  const char *const kReport = "the mesh is always looked through and told in the log: leave it out";
+  const char *const kWeld = "the word for joining corners is weld tol";
+  const char *const kLoads = "see mesh_fields FILE every N, and force and torque in f_ID[1] to "
+                             "f_ID[6]";
+  const char *const kNumbers =
+      "the contact's numbers stand before mesh, or come from granular material FILE NAME";
+  const struct {
+    const char *word;
+    const char *answer;
+  } foreign[] = {
+      {"wiggle", kStays},
+      {"shear", kStays},
+      {"motion", kStays},
+      {"vibrate", kStays},
+      {"zplane", kFlat},
+      {"yplane", kFlat},
+      {"xplane", kFlat},
+      {"zcylinder", kFlat},
+      {"region", kFlat},
+      {"primitive", kFlat},
+      {"velocity", kBelt},
+      {"vel", kBelt},
+      {"surface_ang_vel", kBelt},
+      {"surface_omega", kBelt},
+      {"curvature", kSpeed},
+      {"curvature_tolerant", kSpeed},
+      {"heal", kReport},
+      {"verbose", kReport},
+      {"element_exclusion_list", kReport},
+      {"min_feature_length", kWeld},
+      {"stress", kLoads},
+      {"reference_point", kLoads},
+      {"type", kNumbers},
+      {"model", kNumbers},
+      {"file", "the word is mesh FILE"},
+      {"rolling_friction", "the words are rolling cdt MU and rolling epsd2 MU"},
+  };
+  for (const auto &row : foreign)
+    if (word == row.word) return row.answer;
+  for (const std::string &family : granular_families())
+    if (word == family)
+      return granular || word == "limit_damping" ? "it comes before mesh and other keywords"
+                                                 : "it goes with the style granular, before mesh";
+  return "";
+}
+
+[[noreturn]] void refuse_keyword(const std::string &word, const std::vector<std::string> &names,
+                                 bool granular)
+{
+  const std::string wrong = "'" + word + "' is not a keyword";
+  const std::string answer = answer_to(word, granular);
+  if (!answer.empty()) throw InputError(wrong + " here: " + answer);
+  std::vector<std::string> known = granular_families();
+  known.insert(granular ? known.end() : known.begin(), names.begin(), names.end());
   const std::string near = nearest(word, known);
-  const bool family = std::find(families.begin(), families.end(), near) != families.end();
   const auto row = std::find(names.begin(), names.end(), near);
-  throw InputError("'" + word + "' is not a keyword; the nearest is '" +
-                   (family ? near + "', which comes before mesh and other keywords"
-                           : syntax_of(keywords()[row - names.begin()]) + "'"));
+  if (is_like(word, near)) {
+    const std::string of_family = granular || row == names.end() ? answer_to(near, granular) : "";
+    throw InputError(wrong + "; the nearest is '" +
+                     (of_family.empty() ? syntax_of(keywords()[row - names.begin()]) + "'"
+                                        : near + "': " + of_family));
+  }
+  std::string all;
+  for (const std::string &name : names) all += (all.empty() ? "" : ", ") + name;
+  throw InputError(wrong + "; those are " + all);
 }
 
 }    // namespace
@@ -83,12 +148,10 @@ WallSettings parse_settings(const std::vector<std::string> &words)
   std::vector<std::string> seen, names;
   for (const Keyword &row : keywords()) names.push_back(row.name);
   const bool granular = settings.law.style == LawStyle::granular;
-  const std::vector<std::string> families =
-      granular ? granular_families() : std::vector<std::string>();
   while (!w.done()) {
     const std::string word = w.take();
     const auto found = std::find(names.begin(), names.end(), word);
-    if (found == names.end()) refuse_keyword(word, names, families);
+    if (found == names.end()) refuse_keyword(word, names, granular);
     const Keyword &row = keywords()[found - names.begin()];
     w.expect(row.name, syntax_of(row));
     const bool repeats = word == "scale" || word == "rotate" || word == "move";

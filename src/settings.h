@@ -39,6 +39,7 @@ struct WallSettings {
   std::string cache_file;    // empty: none
   bool contacts = false;
   bool periodic = false;
+  bool brief = false;    // one line in the log
   Draw draw = Draw::edges;
   int draw_type = 1;    // atom type whose colour the mesh takes
   bool cut = false;     // dump image leaves out centres with dot(normal, x) > offset

@@ -33,10 +33,16 @@ LSDCD_FN int feature_vertices(const WallFeaturesView &wall, FeatureCode feature,
   }
 }
 
+// Do two features share a vertex? A feature and its periodic image share all: a sphere that is
+// wrapped into the box leaves the one for the other.
 LSDCD_FN bool are_adjacent(const WallFeaturesView &wall, FeatureCode a, FeatureCode b)
 {
   std::int32_t va[3], vb[3];
   const int na = feature_vertices(wall, a, va), nb = feature_vertices(wall, b, vb);
+  if (wall.same_vertex) {
+    for (int i = 0; i < na; i++) va[i] = wall.same_vertex[va[i]];
+    for (int j = 0; j < nb; j++) vb[j] = wall.same_vertex[vb[j]];
+  }
   for (int i = 0; i < na; i++)
     for (int j = 0; j < nb; j++)
       if (va[i] == vb[j]) return true;

@@ -1,7 +1,7 @@
 #include "engine/engine_base.h"
 
-#include "base/input_error.h"
 #include "engine/select_near.h"
+#include "engine/sphere_error.h"
 
 #include <algorithm>
 #include <string>
@@ -84,9 +84,9 @@ int EngineBase::redo_crowded(const LawJob &job, std::vector<Spring> &springs,
     SphereSink sink = {more.data(), more_extra.data(), nullptr, more_records.data()};
     if (law_.traits.heat) sink.heat = job.sink.heat + k;
     if (!law_.redo(law_.law, job, k, sink))
-      throw InputError("sphere " + std::to_string(results_.near[k]) +
-                       " touches the wall in more than " + std::to_string(kMostPlaces) +
-                       " separate places; the mesh is far finer than its overlap");
+      throw SphereError(results_.near[k],
+                        "touches the wall in more than " + std::to_string(kMostPlaces) +
+                            " separate places; the mesh is far finer than its overlap");
     if (!law_.traits.history && !law_.traits.records) continue;
     const int n = job.result[k].n_contacts;
     if (n > stride) {

@@ -1,7 +1,7 @@
 #include "engine/select_near.h"
 
-#include "base/input_error.h"
 #include "engine/backend_cpu.h"
+#include "engine/sphere_error.h"
 #include "grid/brick_words.h"
 #include "model/normal.h"
 
@@ -14,10 +14,10 @@ void throw_too_large(int i, Real radius, Real reach)
 {
   char text[160];
   std::snprintf(text, sizeof text,
-                "sphere %d has radius %.9g, more than the grid's reach %.9g; set rmax to the "
-                "largest radius that will occur",
-                i, radius, reach);
-  throw InputError(text);
+                "has radius %.9g, more than the grid's reach %.9g; set rmax to the largest radius "
+                "that will occur",
+                radius, reach);
+  throw SphereError(i, text);
 }
 
 namespace {

@@ -9,7 +9,7 @@
 namespace lsdcd {
 
 // Indices, ascending, of the spheres in the group whose cell has candidates.
-// Throws InputError if one in the group feels the wall from further than the grid's reach
+// Throws SphereError if one in the group feels the wall from further than the grid's reach
 // (`pull_off`: of the law, at a radius of 1). `scratch` keeps its memory from call to call.
 void select_near(const GridView &grid, const Spheres &spheres, Real pull_off,
                  std::vector<int> &near, std::vector<int> &scratch);

@@ -28,7 +28,14 @@ class GridBuilder {
                   put(edge_vertex_, wall.edge_vertex),
                   nullptr,
                   nullptr,
-                  nullptr};
+                  nullptr,
+                  nullptr,
+                  nullptr,
+                  nullptr,
+                  nullptr,
+                  0,
+                  0,
+                  0};
     put(contact_features_, wall.contact_features);
     put(pieces_, wall.pieces);
   }
@@ -44,12 +51,17 @@ class GridBuilder {
     const Scratch<FeatureCode> &features = nearest > 0 ? pieces_ : contact_features_;
     view_.features = features.data();
     OctantPairs<B> pairs;
+    needed_ = HUGE_VAL;
     if (!sort_into_octants(b_, view_, features.size(), pairs)) return false;
-    if (!bricks_fit(plan, pairs.n_bricks, budget)) return false;
+    needed_ = double(brick_bytes(plan, pairs.n_bricks));
+    if (needed_ > double(budget)) return false;
     // Of nearest pieces the first that is left out stays, as a bound.
     const std::uint32_t most = nearest > 0 ? nearest + 1 : 0xffffffffu;
     BuiltLists<B> built;
-    if (!fill_lists(b_, view_, pairs, most, budget, built, report)) return false;
+    const bool fits = fill_lists(b_, view_, pairs, most, budget, built, report);
+    needed_ = std::max(needed_,
+                       double(grid_bytes(plan, built.n_bricks, built.n_cells, built.n_candidates)));
+    if (!fits) return false;
     b_.wait();
     report.seconds = seconds_since(start);
     lists.brick_of = b_.to_host(built.brick_of, built.brick_of.size());
@@ -66,6 +78,8 @@ class GridBuilder {
   }
 
   std::string name() const { return b_.name(); }
+  // Bytes that the last build takes, while it goes on too; at least these where it did not fit.
+  double needed() const { return needed_; }
 
   // Returns where the copy is.
   template <class T>
@@ -92,28 +106,31 @@ class GridBuilder {
   Scratch<FeatureCode> contact_features_, pieces_;
   Scratch<std::uint64_t> only_;
   BuildView view_ = {};
+  double needed_ = 0;
 };
 
-// Lists of one kind or both, and the copies in float: whether they fit the budget.
+// Lists of one kind or both, and the copies in float: whether they fit the budget. `needed` are
+// bytes that they take, or where they do not fit at least take.
 template <class B>
 bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings &settings,
-               TriangleGrid &grid)
+               double budget, TriangleGrid &grid, double &needed)
 {
-  const std::size_t budget = settings.memory_budget;
-  std::size_t taken = 0;
-  const auto take = [&](const CellLists &l) {
-    taken += grid_bytes(plan, l.bricks.size(), l.cells.size(), l.candidates.size());
-  };
-  if (!plan.may_fit(budget)) return false;
+  const std::size_t of_wall = flat_wall_bytes(grid);
+  const double for_lists = budget - double(of_wall);
+  needed = of_wall + plan.least_bytes();
+  if (needed > budget) return false;
   builder.restrict_to(bricks_that_meet(plan, settings.only));
-  if (!builder.build(plan, settings.nearest, budget, grid.lists, grid.report.lists)) return false;
-  take(grid.lists);
-  if (settings.nearest > 0 && settings.exact) {
-    if (taken >= budget ||
-        !builder.build(plan, 0, budget - taken, grid.complete, grid.report.complete))
-      return false;
-    take(grid.complete);
-  }
+  double taken = 0;
+  const auto fill = [&](int nearest, CellLists &lists, ListReport &report) {
+    const bool fits =
+        builder.build(plan, nearest, static_cast<std::size_t>(for_lists - taken), lists, report);
+    needed = std::max(needed, of_wall + taken + builder.needed());
+    taken += grid_bytes(plan, lists.bricks.size(), lists.cells.size(), lists.candidates.size());
+    return fits;
+  };
+  if (!fill(settings.nearest, grid.lists, grid.report.lists)) return false;
+  if (settings.nearest > 0 && settings.exact && !fill(0, grid.complete, grid.report.complete))
+    return false;
   grid.origin = plan.origin;
   grid.length = plan.length;
   grid.reach = plan.reach;
@@ -121,7 +138,8 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
   for (int k = 0; k < 3; k++) grid.n_bricks[k] = plan.n_bricks[k];
   grid.nearest = settings.nearest;
   if (settings.in_floats) add_brick_records(grid);
-  return taken + grid.records.bytes() <= budget;
+  needed = std::max(needed, double(flat_bytes(grid)));
+  return needed <= budget;
 }
 
 // Plans, builds, and where the length was left to us tries coarser ones until
@@ -134,15 +152,22 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   grid.wall = make_features(mesh, settings.sides, settings.nearest > 0);
   GridBuilder<B> builder(std::move(backend), grid.wall);
   GridPlan plan = plan_grid(mesh, settings);
-  const Real asked = plan.length;
-  while (!fill_grid(builder, plan, settings, grid)) {
-    plan = coarser(plan, mesh, settings);
+  const double budget = double(budget_of(settings, grid));
+  constexpr double kNoBudget = 1e18;
+  const bool may_coarsen = settings.length <= 0 || settings.may_coarsen;
+  const auto fits = [&](double budget_here, double &needed) {
     grid.lists = grid.complete = CellLists();
     grid.records = BrickRecords();
     grid.report = GridReport();
+    return fill_grid(builder, plan, settings, budget_here, grid, needed);
+  };
+  double needed = 0;
+  while (!fits(budget, needed)) {
+    const bool at_end = !may_coarsen || is_coarsest(plan, mesh);
+    if (at_end && may_coarsen) fits(kNoBudget, needed);
+    if (at_end) throw_over_budget(settings, needed, budget);
+    plan = coarser(plan, mesh, settings);
   }
-  if (settings.length > 0 && plan.length != asked && !settings.may_coarsen)
-    throw_over_budget(settings, asked, plan.length);
 
   grid.outside = mesh.report.volume < 0 ? -1 : 1;
   grid.report.nearest = settings.nearest;

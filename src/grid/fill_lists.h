@@ -127,8 +127,8 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
   });
 }
 
-// Lists of at most `most` candidates a cell. False, with `out` untouched, if they would
-// not fit `budget` bytes.
+// Lists of at most `most` candidates a cell. False, with no more than counts in `out`, if they
+// would not fit `budget` bytes.
 template <class B>
 bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::uint32_t most,
                 std::size_t budget, BuiltLists<B> &out, ListReport &report)
@@ -146,6 +146,9 @@ bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::u
             single.data(), longest.data());
   const std::uint64_t n_list = b.exclusive_scan(list.data(), n_words);
   const std::size_t n_occupied = b.exclusive_scan(cell.data(), n_words);
+  out.n_bricks = n_bricks;
+  out.n_cells = n_occupied;
+  out.n_candidates = n_list;
   if (n_list >= 0xffffffffull || grid_bytes(view.plan, n_bricks, n_occupied, n_list) > budget)
     return false;
   report = ListReport();
@@ -158,9 +161,6 @@ bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::u
       n_words, [=] LSDCD_LAMBDA(std::size_t w) -> std::uint32_t { return longest_of_word[w]; });
   report.distance_tests = pairs.n * kOctantCells;
 
-  out.n_bricks = n_bricks;
-  out.n_cells = n_occupied;
-  out.n_candidates = n_list;
   out.brick_of = typename Built::template Scratch<std::int32_t>(view.plan.table_size());
   out.cells = typename Built::template Scratch<Cell>(n_occupied);
   out.candidates = typename Built::template Scratch<Candidate>(n_list);

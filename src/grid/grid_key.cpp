@@ -63,21 +63,22 @@ Hash version_hash()
 // listed here too.
 Hash settings_hash(const GridSettings &s)
 {
-  const auto &[length, reach, memory_budget, sides, nearest, exact, in_floats, may_coarsen, only] =
-      s;
+  const auto &[length, reach, memory_budget, sides, nearest, exact, in_floats, may_coarsen, within,
+               only] = s;
   return Hasher().of(length, reach, memory_budget, sides, nearest, exact, in_floats, may_coarsen,
-                     only);
+                     within.lo, within.hi, only);
 }
 
 Hash mesh_hash(const WallMesh &mesh)
 {
   const auto &[vertices, faces, face_edges, face_facet, edges, edge_first, edge_face, vertex_first,
-               vertex_edge, report, source] = mesh;
+               vertex_edge, report, source, images] = mesh;
   // Of the report, what planning and building read.
   (void) source;
   return Hasher().of(vertices, faces, face_edges, face_facet, edges, edge_first, edge_face,
                      vertex_first, vertex_edge, report.lo, report.hi, report.median_edge,
-                     report.volume);
+                     report.volume, images.n_faces, images.n_edges, images.n_vertices,
+                     images.face_of, images.edge_of, images.vertex_of, images.same_vertex);
 }
 
 }    // namespace

@@ -23,21 +23,58 @@ constexpr std::int32_t kMostBricks = 1 << 27;
 // While it is built, every cell of a brick has two counters.
 constexpr std::size_t kBrickBytes = sizeof(Brick) + kBrickCells * 2 * sizeof(std::uint32_t);
 
-// The ball around one point of the wall, or the slab on both sides of one face.
-Real least_volume(const WallMesh &mesh, Real reach)
+// What of a triangle lies in a box (Sutherland and Hodgman 1974): its area.
+Real area_within(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Box &box)
+{
+  std::vector<Vec3> polygon = {a, b, c}, left;
+  for (int side = 0; side < 6; side++) {
+    const int d = side / 2;
+    const auto depth = [&](const Vec3 &x) {
+      return side % 2 ? box.hi[d] - x[d] : x[d] - box.lo[d];
+    };
+    left.clear();
+    for (std::size_t i = 0; i < polygon.size(); i++) {
+      const Vec3 &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+      const Real s = depth(from), t = depth(to);
+      if (s >= 0) left.push_back(from);
+      if ((s >= 0) != (t >= 0)) left.push_back(from + (s / (s - t)) * (to - from));
+    }
+    polygon.swap(left);
+  }
+  Vec3 sum = {0, 0, 0};
+  for (std::size_t i = 2; i < polygon.size(); i++)
+    sum += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  return Real(0.5) * norm(sum);
+}
+
+// The ball around one point of the wall, or the slab on both sides of one face, as far as
+// spheres can be there.
+Real least_volume(const WallMesh &mesh, Real reach, const Box &within)
 {
   Real largest = 0;
   for (const auto &f : mesh.faces) {
     const Vec3 a = mesh.vertices[f[0]], b = mesh.vertices[f[1]], c = mesh.vertices[f[2]];
-    largest = std::max(largest, Real(0.5) * norm(cross(b - a, c - a)));
+    if (Real(0.5) * norm(cross(b - a, c - a)) > largest)
+      largest = std::max(largest, area_within(a, b, c, within));
   }
   return std::max(4 * reach * reach * reach, 2 * reach * largest);
 }
 
-GridPlan plan_with_length(const WallMesh &mesh, Real reach, Real length, Real least_volume)
+// Of the mesh and the reach around it, where spheres can be; never empty.
+Box covered(const WallMesh &mesh, const Box &within, Real pad, Real rim)
 {
-  const Vec3 extent = mesh.report.hi - mesh.report.lo;
-  const Real diagonal = norm(extent);
+  Box box;
+  for (int k = 0; k < 3; k++) {
+    box.lo[k] = std::max(mesh.report.lo[k] - pad, within.lo[k] - rim);
+    box.hi[k] = std::max(box.lo[k], std::min(mesh.report.hi[k] + pad, within.hi[k] + rim));
+  }
+  return box;
+}
+
+GridPlan plan_with_length(const WallMesh &mesh, const GridSettings &settings, Real length,
+                          Real least_volume)
+{
+  const Real reach = settings.reach, diagonal = norm(mesh.report.hi - mesh.report.lo);
   GridPlan plan;
   plan.length = length;
   // A point at the rim of a cell may be rounded into its neighbour.
@@ -48,9 +85,10 @@ GridPlan plan_with_length(const WallMesh &mesh, Real reach, Real length, Real le
   // angle, times reach) and the rounding of dot products over a whole face.
   plan.slack = 4e-13 * reach + 16 * kRoundoff * (diagonal + reach);
   const Real pad = reach + plan.slack + Real(0.5) * length;
-  plan.origin = mesh.report.lo - Vec3{pad, pad, pad};
+  const Box box = covered(mesh, settings.within, pad, length);
+  plan.origin = box.lo;
   for (int k = 0; k < 3; k++) {
-    const Real n = std::ceil((extent[k] + 2 * pad) / (kBrickSide * length));
+    const Real n = std::ceil((box.hi[k] - box.lo[k]) / (kBrickSide * length));
     plan.n_bricks[k] = static_cast<std::int32_t>(std::clamp(n, Real(1), Real(kMostBricks)));
   }
   return plan;
@@ -58,17 +96,17 @@ GridPlan plan_with_length(const WallMesh &mesh, Real reach, Real length, Real le
 
 }    // namespace
 
-bool GridPlan::may_fit(std::size_t budget) const
+double GridPlan::least_bytes() const
 {
-  // A plan cut off at the most bricks does not reach the wall's far end.
-  for (std::int32_t n : n_bricks)
-    if (n >= kMostBricks) return false;
-  const double side = kBrickSide * length;
-  if (least_volume / (side * side * side) * kBrickBytes > double(budget)) return false;
   // Counted in floating point: a hopeless length overflows the integer product.
   const double entries = double(n_bricks[0]) * n_bricks[1] * n_bricks[2];
-  return entries * sizeof(std::int32_t) <= double(budget) &&
-         entries < 5e8;    // octant keys have 32 bits
+  // A plan cut off at the most bricks does not reach the wall's far end, and octant keys have
+  // 32 bits.
+  for (std::int32_t n : n_bricks)
+    if (n >= kMostBricks || entries >= 5e8) return HUGE_VAL;
+  const double side = kBrickSide * length;
+  return std::max(least_volume / (side * side * side) * kBrickBytes,
+                  entries * sizeof(std::int32_t));
 }
 
 std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cells,
@@ -78,9 +116,9 @@ std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cel
          candidates * sizeof(Candidate);
 }
 
-bool bricks_fit(const GridPlan &plan, std::size_t bricks, std::size_t budget)
+std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks)
 {
-  return plan.table_size() * sizeof(std::int32_t) + bricks * kBrickBytes <= budget;
+  return plan.table_size() * sizeof(std::int32_t) + bricks * kBrickBytes;
 }
 
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
@@ -94,16 +132,18 @@ GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
   if (length <= 0)
     length =
         std::clamp(Real(0.3) * mesh.report.median_edge, Real(0.2) * settings.reach, settings.reach);
-  return plan_with_length(mesh, settings.reach, length, least_volume(mesh, settings.reach));
+  return plan_with_length(mesh, settings, length,
+                          least_volume(mesh, settings.reach, settings.within));
+}
+
+bool is_coarsest(const GridPlan &plan, const WallMesh &mesh)
+{
+  return plan.length > norm(mesh.report.hi - mesh.report.lo) + 2 * plan.reach;
 }
 
 GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings)
 {
-  const Vec3 extent = mesh.report.hi - mesh.report.lo;
-  if (plan.length > norm(extent) + 2 * settings.reach)
-    throw InputError("no grid of this mesh fits a memory budget of " +
-                     number(settings.memory_budget / 1048576.0) + " MB; raise the budget");
-  return plan_with_length(mesh, settings.reach, plan.length * Real(1.25), plan.least_volume);
+  return plan_with_length(mesh, settings, plan.length * Real(1.25), plan.least_volume);
 }
 
 std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vector<Box> &boxes)
@@ -133,11 +173,19 @@ std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vec
   return bits;
 }
 
-void throw_over_budget(const GridSettings &settings, Real asked, Real would_fit)
+void throw_over_budget(const GridSettings &settings, double needed, double budget)
 {
-  throw InputError("grid " + number(asked) + " does not fit the memory budget of " +
-                   number(settings.memory_budget / 1048576.0) + " MB; grid " + number(would_fit) +
-                   " would fit, or raise the budget");
+  const auto mebibytes = [](double bytes) { return number(std::ceil(bytes / 104857.6) / 10); };
+  const bool given = settings.length > 0 && !settings.may_coarsen;
+  std::string text = given ? "grid " + number(settings.length) : "the coarsest grid of this mesh";
+  if (std::isfinite(needed))
+    text += " takes " + mebibytes(needed) + " MB" + (given ? " at least" : "") +
+            ", the mesh's own records among them, and the memory budget is " + mebibytes(budget) +
+            " MB: give that, or ";
+  else
+    text += " has more cells than can be numbered: ";
+  throw InputError(
+      text + (given ? "leave grid out, which takes the finest that fits" : "coarsen the mesh"));
 }
 
 }    // namespace lsdcd

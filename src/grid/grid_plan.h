@@ -18,8 +18,9 @@ struct GridPlan {
   std::int32_t n_bricks[3];
 
   std::size_t table_size() const { return std::size_t(n_bricks[0]) * n_bricks[1] * n_bricks[2]; }
-  // False where the table, or the bricks that the least volume needs, cannot fit.
-  bool may_fit(std::size_t budget) const;
+  // Of the table, or of the bricks that the least volume needs; infinite where bricks cannot be
+  // numbered.
+  double least_bytes() const;
 
   LSDCD_FN Vec3 brick_centre(std::int32_t x, std::int32_t y, std::int32_t z) const
   {
@@ -53,19 +54,21 @@ struct CellCentres {
 // From the settings, or where they leave the length open from the mesh and reach.
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
 
-// The next coarser plan of a search for one that fits the budget. Throws
-// InputError once a cell is larger than the whole mesh and still too much.
+// The next coarser plan of a search for one that fits, until a cell is larger than the mesh.
+bool is_coarsest(const GridPlan &plan, const WallMesh &mesh);
 GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings);
 
 // A bit per place of the brick table, set where the brick meets one of the boxes; empty
 // where there are no boxes.
 std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vector<Box> &boxes);
 
-// Bytes of the finished arrays, and whether those a build needs at its peak fit.
+// Bytes of the finished arrays, and of the bricks while they are built.
 std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cells,
                        std::size_t candidates);
-bool bricks_fit(const GridPlan &plan, std::size_t bricks, std::size_t budget);
+std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks);
 
-[[noreturn]] void throw_over_budget(const GridSettings &settings, Real asked, Real would_fit);
+// `needed`: bytes that the grid of the length that was asked for takes at least; or, of a length
+// to be chosen, those of the coarsest grid.
+[[noreturn]] void throw_over_budget(const GridSettings &settings, double needed, double budget);
 
 }    // namespace lsdcd

@@ -86,11 +86,12 @@ LSDCD_FN BrickBox brick_box(const BuildView &b, FeatureCode feature)
     // Half a cell more than the reach, so that rounding cannot lose a brick.
     const Real margin = plan.reach + plan.slack + Real(0.5) * plan.length;
     const Real inv = 1 / (kBrickSide * plan.length);
-    box.first[k] =
-        static_cast<std::int32_t>(fmax(Real(0), (lo[k] - margin - plan.origin[k]) * inv));
-    std::int32_t last = static_cast<std::int32_t>((hi[k] + margin - plan.origin[k]) * inv);
-    if (last >= plan.n_bricks[k]) last = plan.n_bricks[k] - 1;
-    box.n[k] = last >= box.first[k] ? last - box.first[k] + 1 : 0;
+    // The grid may be cut off where no sphere can be.
+    const Real from = (lo[k] - margin - plan.origin[k]) * inv,
+               to = (hi[k] + margin - plan.origin[k]) * inv, n = plan.n_bricks[k];
+    box.first[k] = static_cast<std::int32_t>(fmin(fmax(Real(0), from), n));
+    const std::int32_t last = static_cast<std::int32_t>(fmin(fmax(Real(-1), to), n - 1));
+    box.n[k] = to >= 0 && last >= box.first[k] ? last - box.first[k] + 1 : 0;
   }
   return box;
 }

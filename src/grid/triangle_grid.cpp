@@ -17,7 +17,7 @@ std::size_t rounded(std::size_t bytes)
 
 // The arrays of a grid, in the order of a flat block: first where a grid owns them,
 // then where a view points to them.
-constexpr int kArrays = 27;
+constexpr int kArrays = 31, kWallArrays = 14;
 
 template <class Visit>
 void each_array(const TriangleGrid &g, Visit visit)
@@ -32,6 +32,10 @@ void each_array(const TriangleGrid &g, Visit visit)
   visit(g.wall.edge_out);
   visit(g.wall.vertex_out);
   visit(g.wall.face_parts);
+  visit(g.wall.images.same_vertex);
+  visit(g.wall.images.face_of);
+  visit(g.wall.images.edge_of);
+  visit(g.wall.images.vertex_of);
   for (const CellLists *lists : {&g.lists, &g.complete}) {
     visit(lists->brick_of);
     visit(lists->bricks);
@@ -62,6 +66,10 @@ void each_pointer(GridView &v, Visit visit)
   visit(v.wall.edge_out);
   visit(v.wall.vertex_out);
   visit(v.wall.face_parts);
+  visit(v.wall.same_vertex);
+  visit(v.wall.face_of);
+  visit(v.wall.edge_of);
+  visit(v.wall.vertex_of);
   for (CellListsView *lists : {&v.lists, &v.complete}) {
     visit(lists->brick_of);
     visit(lists->bricks);
@@ -132,6 +140,9 @@ GridView TriangleGrid::view() const
   v.outside = outside;
   v.nearest = nearest;
   v.in_floats = in_floats;
+  v.wall.n_faces = static_cast<std::uint32_t>(wall.images.n_faces);
+  v.wall.n_edges = static_cast<std::uint32_t>(wall.images.n_edges);
+  v.wall.n_vertices = static_cast<std::uint32_t>(wall.images.n_vertices);
   for (int k = 0; k < 3; k++) v.n_bricks[k] = n_bricks[k];
   const char *at[kArrays];
   int i = 0;
@@ -147,6 +158,21 @@ std::size_t flat_bytes(const TriangleGrid &grid)
   std::size_t total = rounded(sizeof(FlatHeader));
   each_array(grid, [&](const auto &a) { total += rounded(array_bytes(a)); });
   return total;
+}
+
+std::size_t flat_wall_bytes(const TriangleGrid &grid)
+{
+  std::size_t total = rounded(sizeof(FlatHeader)) + kArrays * kAlign;
+  int i = 0;
+  each_array(grid, [&](const auto &a) {
+    if (i++ < kWallArrays) total += rounded(array_bytes(a));
+  });
+  return total;
+}
+
+std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid)
+{
+  return settings.memory_budget > 0 ? settings.memory_budget : kListBudget + flat_wall_bytes(grid);
 }
 
 void flatten(const TriangleGrid &grid, char *block)

@@ -5,6 +5,7 @@
 
 #include "base/vec3.h"
 #include "grid/brick_records.h"
+#include "mesh/periodic_box.h"
 #include "mesh/wall_features.h"
 
 #include <cstddef>
@@ -71,24 +72,23 @@ struct GridView {
   std::size_t block_bytes;
 };
 
-struct Box {
-  Vec3 lo, hi;    // length
-};
-
 struct GridSettings {
-  Real length = 0;                           // 0: chosen from the mesh, the reach and the budget
-  Real reach = 0;                            // > 0
-  std::size_t memory_budget = 1ull << 30;    // bytes
-  bool sides = false;                        // keep what `side in|out` needs
+  Real length = 0;                  // 0: chosen from the mesh, the reach and the budget
+  Real reach = 0;                   // > 0
+  std::size_t memory_budget = 0;    // bytes, of all of it; 0: kListBudget for lists
+  bool sides = false;               // keep what `side in|out` needs
   int nearest = 0;             // 0: complete lists; N, at most kMostNearest: the N nearest pieces
   bool exact = false;          // with nearest: complete lists as well, to fall back to
   bool in_floats = false;      // brick records, for queries in float
   bool may_coarsen = false;    // a length that is given may grow too, until the budget holds
+  // Where centres of spheres can be. The grid is cut off there.
+  Box within = kNoLimit;
   // Only the bricks that meet one of these, for trials of a grid; empty: all bricks. A
   // query elsewhere finds nothing.
   std::vector<Box> only;
 };
 constexpr int kMostNearest = 32;
+constexpr std::size_t kListBudget = 1ull << 30;    // bytes, beside the records of the wall
 
 struct ListReport {
   std::size_t bricks = 0, cells = 0, candidates = 0;    // cells that have candidates
@@ -143,6 +143,10 @@ std::string describe(const GridReport &report);
 // a node can share one: pack into memory of flat_bytes(), view it anywhere.
 // The block must be 64-byte aligned. A CUDA engine takes views of flat blocks only.
 std::size_t flat_bytes(const TriangleGrid &grid);
+// What is in it of any grid of this wall, with room for the rounding of the rest.
+std::size_t flat_wall_bytes(const TriangleGrid &grid);
+// Of all of a grid, by the settings.
+std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid);
 void flatten(const TriangleGrid &grid, char *block);
 GridView flat_view(const char *block);
 

@@ -5,6 +5,7 @@
 #include "material/contact_moduli.h"
 #include "material/material_command.h"
 #include "material/material_units.h"
+#include "model/contact_law.h"
 
 #include <charconv>
 #include <cmath>
@@ -38,6 +39,20 @@ const NullNumber kNullNumbers[] = {
     {"heat", "radius", 0, "thermal_conductivity"},
 };
 
+// What tsuji takes in a pair style of LAMMPS for the restitution e. The fit is for the mass of one
+// of two equal spheres; LAMMPS has it with the effective mass, half of that. It falls with its
+// number and ends, at 0, at a restitution of 0.11.
+Real tsuji_number(Real e)
+{
+  const Real wanted = std::sqrt(Real(2)) * restitution_damping(NormalModel::hertz, e);
+  Real low = 0, high = 1;
+  for (int halved = 0; halved < 60; halved++) {
+    const Real middle = (low + high) / 2;
+    (tsuji_damping(middle) > wanted ? low : high) = middle;
+  }
+  return std::round(1e6 * low) / 1e6;
+}
+
 class Filler {
  public:
   Filler(const MaterialCommand &command, const std::string &units) :
@@ -53,6 +68,13 @@ class Filler {
     for (const MaterialSection &m : file_.materials)
       if (c_.sub_models.empty() && !c_.rest.empty() && c_.rest[0] == m.first)
         fail_material("write 'on " + m.first + "' for the wall's material");
+
+    for (const Override &o : c_.overrides)
+      if (const Property *p = find_property(o.key);
+          p && !p->of_pair && !same_ && o.of.empty() && particle_.find(o.key) && wall_.find(o.key))
+        fail_material("'" + o.key +
+                      "' of both materials is in the file: say whose it is, as 'with " + c_.wall +
+                      " " + o.key + " VALUE'");
 
     tell("material    " + both() + ", " + file_.path + ", in units " + units_);
     set_contact();
@@ -72,11 +94,21 @@ class Filler {
  private:
   std::string both() const { return c_.particle + " on " + c_.wall; }
 
-  // An SI value; one that came from the deck goes back as it was written.
-  std::string in_deck(const char *key, Real si) const
+  // What the deck has for the material in place of the file's; null: nothing.
+  const Real *given(const MaterialSection &m, const char *key) const
   {
-    const Real *number = c_.override_of(key);
+    if (const Real *number = c_.override_of(key, m.first)) return number;
+    return same_ || !m.find(key) ? c_.override_of(key) : nullptr;
+  }
+
+  // An SI value; one that came from the deck goes back as it was written.
+  std::string in_deck(const char *key, Real si, const Real *number = nullptr) const
+  {
     return exact_text(number ? *number : in_units(si, *find_property(key), units_));
+  }
+  std::string in_deck(const MaterialSection &m, const char *key, Real si) const
+  {
+    return in_deck(key, si, given(m, key));
   }
 
   void tell(const std::string &line) { report_ += (report_.empty() ? "  " : "\n  ") + line; }
@@ -97,13 +129,14 @@ class Filler {
   Real of_one(const MaterialSection &m, const char *key)
   {
     const Property &p = *find_property(key);
-    const Real *number = c_.override_of(key);
+    const Real *number = given(m, key);
     const Stated *s = number ? nullptr : m.find(key);
     if (!number && !s)
       throw InputError("in 'material', " + m.place + ": '" + m.first + "' has no " + key +
-                       ": add it there, or write 'with " + key + " VALUE'");
+                       ": add it there, or write 'with " + (same_ ? "" : m.first + " ") + key +
+                       " VALUE'");
     const Real si = number ? *number / in_units(1, p, units_) : s->value;
-    tell(m.first, key, in_deck(key, si), s);
+    tell(m.first, key, in_deck(m, key, si), s);
     return si;
   }
 
@@ -132,7 +165,8 @@ class Filler {
     const Elastic a = elastic(particle_), b = same_ ? a : elastic(wall_);
     contact_ = contact_moduli(a, b);
     const Elastic one = same_ ? a : as_one(a, b);
-    modulus_ = in_deck("youngs_modulus", one.youngs_modulus);
+    modulus_ = same_ ? in_deck(particle_, "youngs_modulus", one.youngs_modulus)
+                     : in_deck("youngs_modulus", one.youngs_modulus);
     ratio_ = exact_text(one.poissons_ratio);
     if (!same_)
       tell_more("as one material: youngs_modulus " + modulus_ + ", poissons_ratio " + ratio_ +
@@ -190,7 +224,7 @@ class Filler {
   {
     const char *key = "surface_energy";
     const Real a = of_one(particle_, key);
-    if (same_) return in_deck(key, a);
+    if (same_) return in_deck(particle_, key, a);
     const std::string text = in_deck(key, std::sqrt(a * of_one(wall_, key)));
     tell_more("surface_energy " + text + ", geometric mean");
     return text;
@@ -201,7 +235,7 @@ class Filler {
   {
     const char *key = "thermal_conductivity";
     const Real a = of_one(particle_, key);
-    if (same_) return in_deck(key, a);
+    if (same_) return in_deck(particle_, key, a);
     const Real b = of_one(wall_, key);
     const std::string text = in_deck(key, 2 * a * b / (a + b));
     tell_more("thermal_conductivity " + text + ", harmonic mean");
@@ -238,6 +272,19 @@ FilledWords fill_material(const std::vector<std::string> &words, const std::stri
   if (!has_material(words)) return {words, ""};
   const MaterialCommand command = read_material_command(words);
   return Filler(command, units).fill();
+}
+
+std::vector<std::string> words_of_29sep2021(std::vector<std::string> filled)
+{
+  filled.erase(filled.begin());
+  for (std::size_t i = 1; i < filled.size(); i++) {
+    if (filled[i - 1] != "damping") continue;
+    if (filled[i] == "none") filled[i] = "velocity";    // of eta 0
+    if (filled[i] != "coeff_restitution") continue;
+    filled[i] = "tsuji";
+    filled[2] = exact_text(tsuji_number(std::stod(filled[2])));
+  }
+  return filled;
 }
 
 }    // namespace lsdcd

@@ -6,11 +6,13 @@
 #include "material/material_file.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lsdcd {
 
 const char *const kMaterialSyntax =
-    "granular [hertz/material|jkr|dmt] material FILE PARTICLE [on WALL] [with KEY VALUE ...] "
+    "granular [hertz/material|jkr|dmt] material FILE PARTICLE [on WALL] [with [MATERIAL] KEY VALUE "
+    "...] "
     "[sub-models, NULL for a number of the file] mesh FILE [keywords]";
 
 namespace {
@@ -21,21 +23,25 @@ std::string take(Words &w, const char *what)
   return w.take();
 }
 
+// KEY VALUE, or MATERIAL KEY VALUE; as long as they follow.
 void read_overrides(Words &w, MaterialCommand &c)
 {
   const auto is_key = [&] { return !w.done() && (w.peek() == "eta" || find_property(w.peek())); };
-  if (!is_key()) w.fail("'with' needs a property and its value, such as restitution 0.9");
-  while (is_key()) {
+  const auto is_name = [&] { return !w.done() && (w.peek() == c.particle || w.peek() == c.wall); };
+  if (!is_key() && !is_name())
+    w.fail("'with' needs a property and its value, such as restitution 0.9");
+  while (is_key() || is_name()) {
+    const std::string of = is_key() ? "" : w.take();
+    if (!is_key()) w.fail("after 'with " + of + "' comes a property of it and its value");
     const std::string key = w.take();
     const Property *p = find_property(key);
-    if (c.override_of(key)) w.fail("'" + key + "' is given twice");
+    if (!of.empty() && (!p || p->of_pair))
+      w.fail("'" + key + "' is not of " + of + " alone: leave the name out");
+    if (c.override_of(key, of)) w.fail("'" + key + "' is given twice");
     if (key == "density") w.fail("density is the atoms' own: no contact style takes it");
-    if (p && !p->of_pair && c.particle != c.wall)
-      w.fail("'" + key + "' could be of either material: give it in a file");
-    const Real number = w.number(key.c_str());
-    if (p ? !(number > p->above) || number > p->most : number < 0)
-      w.fail(key + " = " + number_text(number) + " is out of range");
-    c.overrides.push_back({key, number});
+    const Real number = w.number(key.c_str(), p ? std::nextafter(p->above, Words::kHuge) : 0,
+                                 p ? p->most : Words::kHuge);
+    c.overrides.push_back({of, key, number});
   }
 }
 
@@ -58,10 +64,10 @@ void read_sub_models(Words &w, MaterialCommand &c)
 
 }    // namespace
 
-const Real *MaterialCommand::override_of(const std::string &key) const
+const Real *MaterialCommand::override_of(const std::string &key, const std::string &of) const
 {
-  for (const auto &o : overrides)
-    if (o.first == key) return &o.second;
+  for (const Override &o : overrides)
+    if (o.key == key && o.of == of) return &o.value;
   return nullptr;
 }
 

@@ -4,24 +4,31 @@
 #include "base/real.h"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace lsdcd {
 
 extern const char *const kMaterialSyntax;
 
+// A number of the deck, in its units. `of`: the material; empty: of the pair, or of whichever
+// material's the file does not know.
+struct Override {
+  std::string of, key;
+  Real value;
+};
+
 struct MaterialCommand {
   std::string style;     // FSTYLE
   std::string normal;    // normal model of granular; empty with another style
   std::string file, particle, wall;
-  std::vector<std::pair<std::string, Real>> overrides;    // `with`, in the deck's units
-  std::vector<std::string> sub_models;                    // of granular, as they stand
-  std::string damping;                                    // model among those; empty: none
+  std::vector<Override> overrides;        // `with`
+  std::vector<std::string> sub_models;    // of granular, as they stand
+  std::string damping;                    // model among those; empty: none
   bool has_tangential = false;
   std::vector<std::string> rest;    // `mesh` and what follows
 
-  const Real *override_of(const std::string &key) const;    // null: none
+  // Null: none.
+  const Real *override_of(const std::string &key, const std::string &of = "") const;
 };
 
 bool has_material(const std::vector<std::string> &words);

@@ -15,8 +15,9 @@
 namespace lsdcd {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 84;    // 80 of text, 4 of facet count
-constexpr std::size_t kFacetBytes = 50;     // normal, 3 corners, 2 bytes of attributes
+constexpr std::size_t kHeaderBytes = 84;     // 80 of text, 4 of facet count
+constexpr std::size_t kFacetBytes = 50;      // normal, 3 corners, 2 bytes of attributes
+constexpr std::size_t kBeginning = 65536;    // read first, and looked at before the rest
 
 // STL is little-endian and unaligned whatever the machine is.
 std::uint32_t read_u32(const char *bytes)
@@ -74,8 +75,8 @@ void check_binary_size(const char *bytes, std::size_t size, const std::string &s
   if (extra > 0)
     throw InputError(source + ", facet " + std::to_string(promised + 1) + ": " + count +
                      " by the header, but " + std::to_string(extra) +
-                     " bytes follow them; correct the count (bytes 81 to 84) or export the mesh "
-                     "again");
+                     " bytes follow them; correct the count (bytes 81 to 84) or, if it is not "
+                     "an STL, export the mesh again");
 }
 
 void read_binary(const char *bytes, TriangleSoup &soup)
@@ -93,6 +94,19 @@ void read_binary(const char *bytes, TriangleSoup &soup)
                          ", not a finite number; repair or export the mesh again");
       soup.corners[3 * facet + i / 3][i % 3] = value;
     }
+  }
+}
+
+// What `size` bytes that begin with these cannot be, told before the rest of them is read.
+void check_beginning(const char *bytes, std::size_t n, std::size_t size, const std::string &source)
+{
+  if (size - kHeaderBytes == kFacetBytes * promised_facets(bytes)) return;
+  if (has_control_byte(bytes, n)) {
+    if (!begins_as_stl_text(bytes, n)) check_binary_size(bytes, size, source);
+  } else if (!begins_with_solid(bytes, n)) {
+    TriangleSoup none;
+    none.source = source;
+    read_stl_text(bytes, n, none);
   }
 }
 
@@ -115,16 +129,19 @@ Bytes read_whole(const std::string &path)
   if (S_ISDIR(info.st_mode)) throw fail("it is a directory");
 
   // The size is a hint: a pipe has none, and a file may grow while it is read.
-  std::size_t capacity = static_cast<std::size_t>(std::max<off_t>(info.st_size, 65536)) + 1;
+  std::size_t capacity = kBeginning;
   Bytes bytes{std::unique_ptr<char[]>(new char[capacity])};
   for (;;) {
     bytes.size += std::fread(bytes.data.get() + bytes.size, 1, capacity - bytes.size, file.get());
     if (std::ferror(file.get())) throw fail(std::strerror(errno));
     if (bytes.size < capacity) return bytes;
-    std::unique_ptr<char[]> larger(new char[2 * capacity]);
+    const std::size_t size = static_cast<std::size_t>(std::max<off_t>(info.st_size, 0));
+    if (capacity == kBeginning && size > capacity)
+      check_beginning(bytes.data.get(), capacity, size, path);
+    capacity = std::max(2 * capacity, size + 1);
+    std::unique_ptr<char[]> larger(new char[capacity]);
     std::memcpy(larger.get(), bytes.data.get(), bytes.size);
     bytes.data = std::move(larger);
-    capacity *= 2;
   }
 }
 

@@ -171,17 +171,11 @@ class Reader {
   {
     const std::string found = word.empty() ? "the file ends" : quoted(word) + " found";
     const char *remedy = "correct the line or export the mesh again";
-    if (!begins_with_solid())
+    if (!begins_with_solid(begin_, static_cast<std::size_t>(end_ - begin_)))
       remedy = "this is not an STL file: export the mesh as STL";
     else if (word.data() + word.size() == end_)
       remedy = "the file is truncated: copy or export it again";
     fail(word, found + " where " + expected + " is expected", remedy);
-  }
-
-  bool begins_with_solid() const
-  {
-    Reader first(begin_, static_cast<std::size_t>(end_ - begin_), soup_);
-    return same_word(first.next_word(), "solid");
   }
 
   // Lines are counted only here, so that reading need not.
@@ -201,6 +195,12 @@ class Reader {
 };
 
 }    // namespace
+
+bool begins_with_solid(const char *bytes, std::size_t size)
+{
+  TriangleSoup none;
+  return same_word(Reader(bytes, size, none).next_word(), "solid");
+}
 
 bool begins_as_stl_text(const char *bytes, std::size_t size)
 {

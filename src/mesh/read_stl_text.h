@@ -11,6 +11,8 @@ namespace lsdcd {
 // "endsolid" on a later line.
 bool begins_as_stl_text(const char *bytes, std::size_t size);
 
+bool begins_with_solid(const char *bytes, std::size_t size);    // the word
+
 // Appends the facets of every solid to `soup`; soup.source is used in messages.
 // Throws InputError naming the file, the line, the value and the remedy.
 void read_stl_text(const char *bytes, std::size_t size, TriangleSoup &soup);

@@ -160,6 +160,7 @@ WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_piec
                      std::to_string(kMaxFeatures) + " can be used; coarsen the mesh");
 
   WallFeatures out;
+  out.images = mesh.images;
   out.faces.reserve(n_faces);
   out.face_vertex.reserve(n_faces);
   for (const auto &f : mesh.faces) {

@@ -62,7 +62,23 @@ struct WallFeaturesView {
   const Vec3 *edge_out;    // angle-weighted pseudonormals; only read where a side is set
   const Vec3 *vertex_out;
   const FaceParts *face_parts;    // only read where lists hold pieces
+  // As in PeriodicImages; null and 0 where there are none.
+  const std::int32_t *same_vertex, *face_of, *edge_of, *vertex_of;
+  std::uint32_t n_faces, n_edges, n_vertices;
 };
+
+// The part of the mesh itself that a feature is, or is an image of.
+LSDCD_FN FeatureCode own_feature(const WallFeaturesView &wall, FeatureCode feature)
+{
+  if (!wall.same_vertex) return feature;
+  const FeatureKind kind = feature_kind(feature);
+  const std::uint32_t i = feature_index(feature);
+  const bool face = kind == FeatureKind::face, edge = kind == FeatureKind::edge;
+  const std::uint32_t n = face ? wall.n_faces : (edge ? wall.n_edges : wall.n_vertices);
+  if (i < n) return feature;
+  const std::int32_t *of = face ? wall.face_of : (edge ? wall.edge_of : wall.vertex_of);
+  return feature_code(kind, static_cast<std::uint32_t>(of[i - n]));
+}
 
 // Records of every face and of the edges and vertices that can hold a contact of
 // their own. A flat edge cannot: its faces, closed by a tolerance, cover it.
@@ -76,6 +92,7 @@ struct WallFeatures {
   std::vector<EdgeVertices> edge_vertex;
   std::vector<Vec3> edge_out, vertex_out;
   std::vector<FaceParts> face_parts;
+  PeriodicImages images;
   std::vector<FeatureCode> contact_features;    // what a grid has to sort into cells
   // The wall in pieces: every face stands for its edges and vertices as well; edges
   // and vertices without a face stand for themselves.
@@ -92,7 +109,14 @@ struct WallFeatures {
             edge_vertex.data(),
             edge_out.data(),
             vertex_out.data(),
-            face_parts.data()};
+            face_parts.data(),
+            images.any() ? images.same_vertex.data() : nullptr,
+            images.face_of.data(),
+            images.edge_of.data(),
+            images.vertex_of.data(),
+            static_cast<std::uint32_t>(images.n_faces),
+            static_cast<std::uint32_t>(images.n_edges),
+            static_cast<std::uint32_t>(images.n_vertices)};
   }
 };
 

@@ -34,6 +34,17 @@ struct MeshReport {
   std::size_t feature_edges = 0;    // folds above 30 degrees
 };
 
+// What of a mesh are periodic images (mesh/periodic_images.h): all that is numbered from n_faces,
+// n_edges and n_vertices on. Empty where there are none.
+struct PeriodicImages {
+  std::size_t n_faces = 0, n_edges = 0, n_vertices = 0;    // of the mesh itself
+  std::vector<int> face_of, edge_of, vertex_of;            // what each is an image of
+  // Of every vertex of the whole, one vertex that stands for it and all its images.
+  std::vector<int> same_vertex;
+
+  bool any() const { return !same_vertex.empty(); }
+};
+
 // Faces are proper triangles: three distinct welded vertices, not collinear.
 // Edges and vertices of dropped facets remain, so that nothing becomes a hole.
 struct WallMesh {
@@ -47,6 +58,7 @@ struct WallMesh {
   std::vector<int> vertex_first, vertex_edge;    // edges of vertex v, likewise
   MeshReport report;
   std::string source;
+  PeriodicImages images;
 };
 
 constexpr Real kDefaultWeld = 1e-6;    // of the bounding-box diagonal

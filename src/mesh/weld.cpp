@@ -191,4 +191,20 @@ WallMesh weld(const TriangleSoup &soup, Real tolerance)
   return mesh;
 }
 
+WallMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
+                  std::vector<std::array<int, 2>> bare_edges)
+{
+  WallMesh mesh;
+  mesh.vertices = std::move(vertices);
+  std::vector<FacePlane> plane;
+  sort_facets(corners, mesh, plane, bare_edges);
+  build_edges(mesh, bare_edges);
+  return mesh;
+}
+
+void connect_vertices(WallMesh &mesh)
+{
+  build_vertex_edges(mesh);
+}
+
 }    // namespace lsdcd

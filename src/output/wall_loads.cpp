@@ -39,12 +39,13 @@ Load &WallLoads::load(FeatureCode feature)
   return load_[at->second];
 }
 
-void WallLoads::add(const ContactRecord *records, int n, Real dt, Real per_work)
+void WallLoads::add(const ContactRecord *records, int n, Real dt, Real per_work,
+                    const WallFeaturesView &wall)
 {
   time_ += dt;
   for (int i = 0; i < n; i++) {
     const ContactRecord &r = records[i];
-    Load &to = load(r.feature);
+    Load &to = load(own_feature(wall, r.feature));
     to.normal += r.normal * dt;
     to.shear += r.shear * dt;
     to.contacts += dt;

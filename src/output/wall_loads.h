@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/on_wall.h"
+#include "mesh/wall_features.h"
 #include "mesh/wall_mesh.h"
 
 #include <cstddef>
@@ -22,8 +23,10 @@ struct Load {
 class WallLoads {
  public:
   // Adds a step of duration dt; per_work as in Wear. The order of the records is the order
-  // of summing: the same records give the same bits.
-  void add(const ContactRecord *records, int n, Real dt, Real per_work);
+  // of summing: the same records give the same bits. What happens to a periodic image happens
+  // to the part of the mesh that it is an image of; `wall` may be empty where there are none.
+  void add(const ContactRecord *records, int n, Real dt, Real per_work,
+           const WallFeaturesView &wall = {});
 
   // Begins a new average: forgets all but what has worn off.
   void begin_average();

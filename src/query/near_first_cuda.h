@@ -174,6 +174,7 @@ __global__ void __launch_bounds__(kNearBlock, kNearBlocks)
     if (m < n_turns) {
       near.sphere = tile + maybe_at[m];
       near.s = sphere[maybe_at[m]];
+      work.check(near.sphere, near.s);
       cell = work.cell(near.s);
       if (cell != kNoCell) near.cell = *work.list(cell);
     }

@@ -1,6 +1,7 @@
 // The query on one backend: one source for all.
 #pragma once
 
+#include "base/atomic.h"
 #include "base/input_error.h"
 #include "grid/brick_filter.h"
 #include "grid/flat_grid.h"
@@ -9,6 +10,7 @@
 #include "query/sphere_query.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace lsdcd {
 
@@ -69,6 +71,20 @@ struct AnswerArrays {
   }
 };
 
+// The first sphere with a radius that the grid's lists were not built for, or that is no number.
+// Radii are compared in the spheres' digits: in float, the reach is one of them, rounded.
+template <class S>
+struct TooLarge {
+  decltype(S::r) reach;
+  std::uint64_t *first;    // ~ of its index, the largest of all; 0: none
+
+  LSDCD_FN bool is(const S &s) const { return !(s.r <= reach); }
+  LSDCD_FN void note(std::size_t i, const S &s) const
+  {
+    if (is(s)) raise_to(first, ~static_cast<std::uint64_t>(i));
+  }
+};
+
 // What a query asks of each sphere, for the loops that run it: an answer at once; or first
 // whether it may be in a brick, then its cell, and then an answer from that cell's list, where
 // there are these, and one far from the wall elsewhere. kComplete: grid.nearest is 0.
@@ -83,20 +99,30 @@ struct GridWork {
   AnswerArrays out;
   Filter filter;
   CoarseTable coarse;
+  TooLarge<S> too_large;
+  std::size_t from;    // spheres before these
 
   // The same of the spheres from the n-th on, a multiple of 4.
   GridWork after(std::size_t n) const
   {
-    return {grid, table, spheres + n, out.after(n), filter, coarse};
+    return {grid, table, spheres + n, out.after(n), filter, coarse, too_large, from + n};
   }
 
   LSDCD_FN S sphere(std::size_t i) const { return spheres[i]; }
+  LSDCD_FN void check(std::size_t i, const S &s) const { too_large.note(from + i, s); }
   LSDCD_FN void answer(std::size_t i, const S &s) const
   {
+    check(i, s);
     out.keep(i, nearest_distance<kComplete, Distances>(grid, s.centre(), s.r));
   }
 
-  LSDCD_FN BrickGuess guess(const S &s) const { return filter.guess({s.x, s.y, s.z}); }
+  // Of a sphere that is too large nothing is sure: who looks closer checks it.
+  LSDCD_FN BrickGuess guess(const S &s) const
+  {
+    BrickGuess at = filter.guess({s.x, s.y, s.z});
+    at.unsure |= too_large.is(s);
+    return at;
+  }
   // kNoCell where there are no candidates.
   LSDCD_FN std::uint32_t cell(const S &s) const { return occupied_cell(grid, table, s.centre()); }
   LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
@@ -169,6 +195,11 @@ class QueryOn : public SphereQuery {
     prepare(settings);
     start(settings);
     b_.wait();
+    if (settings.every_face || n_ == 0) return;
+    if (in_float_)
+      refuse_too_large(float_sphere_);
+    else
+      refuse_too_large(sphere_);
   }
 
   QueryTiming time(const QuerySettings &settings, int repeats) override
@@ -218,6 +249,9 @@ class QueryOn : public SphereQuery {
     fit(distance_, settings.distance && !grid_.in_floats);
     fit(float_distance_, settings.distance && grid_.in_floats);
     fit(read_, settings.read);
+    const std::uint64_t none = 0;
+    if (too_large_.size() == 0) too_large_ = Array<std::uint64_t>(1);
+    b_.copy_in(&none, too_large_.data(), 1);
     if (in_float_)
       way_.template reserve<FloatSphere>(n_);
     else
@@ -266,7 +300,23 @@ class QueryOn : public SphereQuery {
   void run_grid(const S *spheres)
   {
     using Filter = typename Work::Filter;
-    way_.run(b_, n_, Work{grid_, table_, spheres, answers(), Filter(grid_), coarse_});
+    const TooLarge<S> too_large = {static_cast<decltype(S::r)>(grid_.reach), too_large_.data()};
+    way_.run(b_, n_, Work{grid_, table_, spheres, answers(), Filter(grid_), coarse_, too_large, 0});
+  }
+
+  template <class S>
+  void refuse_too_large(const Array<S> &spheres)
+  {
+    const std::uint64_t first = b_.to_host(too_large_, 1)[0];
+    if (first == 0) return;
+    const std::size_t i = ~first;
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "sphere %zu has radius %.9g, more than the grid's reach %.9g: build the grid with "
+        "a reach of the largest radius, or try every face",
+        i, static_cast<double>(b_.to_host(spheres, i + 1)[i].r), grid_.reach);
+    throw InputError(text);
   }
 
   template <class T, class Other>
@@ -305,6 +355,7 @@ class QueryOn : public SphereQuery {
   Array<Real> distance_;
   Array<float> float_distance_;
   Array<std::uint32_t> read_;
+  Array<std::uint64_t> too_large_;    // one: TooLarge::first
 };
 
 }    // namespace lsdcd

@@ -38,12 +38,13 @@ class SphereQuery {
 
   // Copies the grid to the device.
   virtual void set_grid(const TriangleGrid &grid) = 0;
-  // Copies n spheres to the device. Radii are at most the grid's reach.
+  // Copies n spheres to the device.
   virtual void set_spheres(const Sphere *spheres, std::size_t n) = 0;
   virtual void set_spheres(const FloatSphere *spheres, std::size_t n) = 0;
 
-  // Throws InputError where the settings do not fit the grid: the paper's test needs
-  // lists of pieces in double, or every face.
+  // Throws InputError where a radius is more than the grid's reach, unless every face is
+  // tried; and where the settings do not fit the grid: the paper's test needs lists of pieces
+  // in double, or every face.
   virtual void run(const QuerySettings &settings) = 0;
   // The same, once to warm up and then `repeats` times.
   virtual QueryTiming time(const QuerySettings &settings, int repeats) = 0;

@@ -1,6 +1,7 @@
 // The mesh that the words of a command name.
 #pragma once
 
+#include "base/input_error.h"
 #include "mesh/placement.h"
 #include "mesh/triangle_soup.h"
 #include "mesh/wall_mesh.h"
@@ -14,6 +15,8 @@ namespace lsdcd {
 inline WallMesh load_mesh(const std::string &file, const std::vector<double> &scale,
                           double tolerance)
 {
+  if (scale.size() == 2)
+    throw InputError("--scale has two numbers; give one factor or three (x y z)");
   TriangleSoup soup = read_stl(file);
   Placement placement;
   if (scale.size() == 1) placement.scale({scale[0], scale[0], scale[0]});

@@ -21,7 +21,7 @@ namespace {
 struct Options {
   std::string file;
   std::vector<double> scale;
-  double weld = -1, radius = 0, length = 0, memory = 1024;
+  double weld = -1, radius = 0, length = 0, memory = 0;
   bool json = false;
 };
 
@@ -104,12 +104,24 @@ void add_mesh_options(CLI::App *command, Options &o)
   command->add_flag("--json", o.json, "print JSON");
 }
 
+// CLI11 would only say that a command is missing.
+void check_command(const CLI::App &app, const std::string &word)
+{
+  std::string all;
+  for (const CLI::App *command : app.get_subcommands({})) {
+    if (command->get_name() == word) return;
+    all += (all.empty() ? "" : ", ") + command->get_name();
+  }
+  throw InputError("'" + word + "' is not a command; those are " + all);
+}
+
 }    // namespace
 
 int main(int argc, char **argv)
 {
   CLI::App app{"lsdcd: looks at the mesh of a `fix wall/lsdcd`, at its grid and at materials"};
   app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("lsdcd " LSDCD_VERSION " (" LSDCD_COMMIT ")"));
   Options o;
   CLI::App *inspect_command =
       app.add_subcommand("inspect", "what the mesh is: facets, welds, holes, folds, area, volume");
@@ -121,7 +133,8 @@ int main(int argc, char **argv)
   add_mesh_options(grid_command, o);
   grid_command->add_option("--radius", o.radius, "largest sphere radius")->required();
   grid_command->add_option("--grid", o.length, "cell length (default: chosen)");
-  grid_command->add_option("--memory", o.memory, "budget in MB")->capture_default_str();
+  grid_command->add_option("--memory", o.memory,
+                           "budget in MB (default: 1024 beside the mesh's own records)");
   grid_command->callback([&] { grid(o); });
   add_material_command(app);
   add_tradeoff_command(app);
@@ -130,6 +143,7 @@ int main(int argc, char **argv)
   add_effects_command(app);
 
   try {
+    if (argc > 1 && *argv[1] != '-') check_command(app, argv[1]);
     app.parse(argc, argv);
   } catch (const CLI::ParseError &e) {
     return app.exit(e);

@@ -27,6 +27,13 @@ void list(const std::vector<MaterialSection> &sections)
   }
 }
 
+void print(const char *first, const std::vector<std::string> &words)
+{
+  std::printf("%s", first);
+  for (const std::string &word : words) std::printf(" %s", word.c_str());
+  std::printf("\n");
+}
+
 void run(const Options &o)
 {
   if (o.name.empty()) {
@@ -40,9 +47,16 @@ void run(const Options &o)
   if (!o.with.empty()) words.push_back("with");
   words.insert(words.end(), o.with.begin(), o.with.end());
   const FilledWords filled = fill_material(words, o.units);
-  std::printf("%s\n ", filled.report.c_str());
-  for (const std::string &word : filled.words) std::printf(" %s", word.c_str());
-  std::printf("\n");
+  std::printf("%s\n", filled.report.c_str());
+  print(" ", filled.words);
+  if (!o.wall.empty()) return;
+  const std::vector<std::string> old = words_of_29sep2021(filled.words),
+                                 recent(filled.words.begin() + 1, filled.words.end());
+  std::printf("grains on one another, with pair_style granular of LAMMPS 29Sep2021 and later:\n");
+  print("  pair_coeff * *", old);
+  if (old == recent) return;
+  std::printf("the same in the wall's words, which 29Sep2021 does not know:\n");
+  print("  pair_coeff * *", recent);
 }
 
 }    // namespace
@@ -57,7 +71,9 @@ void add_material_command(CLI::App &app)
   command->add_option("--on", o->wall, "material of the wall (default: the same)");
   command->add_option("--normal", o->normal, "hertz/material, jkr or dmt")->capture_default_str();
   command->add_option("--units", o->units, "si, cgs, micro or nano")->capture_default_str();
-  command->add_option("--with", o->with, "properties and values in place of the file's");
+  command->add_option("--with", o->with,
+                      "properties and values in place of the file's, or [material] property value "
+                      "where the file has none");
   command->callback([o] { run(*o); });
 }
 

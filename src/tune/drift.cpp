@@ -12,7 +12,9 @@ namespace {
 constexpr Real kStiffness = 1000;    // mass pull / radius
 constexpr Real kStep = 0.001;
 constexpr Real kInertia = 0.4;    // of a sphere, in mass radius^2
-constexpr Real kLost = 2;         // radii past the start
+constexpr Real kOff = 2;          // radii past the start: off the wall
+constexpr Real kThrough = 0.5;    // of a radius from centre to wall; motions here stay above 0.9
+constexpr int kLook = 20;         // steps
 
 // Spheres of mass 1 under pulls of their own. Lengths in the mesh's units, time such that
 // the pull is 1.
@@ -21,7 +23,7 @@ class Motion {
   Motion(const GridView &grid, const EngineSettings &engine, const DriftStarts &starts,
          Real height) :
       engine_(make_engine(engine)),
-      starts_(starts), n_(starts.n()), springs_(engine.law.n_extra()),
+      starts_(starts), wall_(starts.wall.view()), n_(starts.n()), springs_(engine.law.n_extra()),
       dt_(kStep * std::sqrt(starts.radius)), x_(3 * n_), v_(3 * n_), omega_(3 * n_), force_(3 * n_),
       torque_(3 * n_), radius_(n_, starts.radius), mass_(n_, 1), mask_(n_, 1),
       has_history_(engine.law.has_history())
@@ -37,35 +39,31 @@ class Motion {
     put(omega_, i, omega);
   }
 
-  void run(Real time)
+  // |energy gained or lost| / `of` of each sphere in `time`, or until it was off the wall; 1 for
+  // those that went through it.
+  std::vector<Real> changes(Real time, Real of)
   {
+    std::vector<Real> before(n_), change(n_);
+    std::vector<bool> ended(n_, false);
+    for (int i = 0; i < n_; i++) before[i] = energy(i);
+    const auto end = [&](int i, bool through) {
+      ended[i] = true;
+      change[i] = through ? 1 : std::fabs(energy(i) - before[i]) / of;
+    };
     compute(true);
+    int n_steps = 0;
     for (Real t = 0; t < time; t += kStep) {
       kick();
       for (int k = 0; k < 3 * n_; k++) x_[k] += dt_ * v_[k];
       compute(true);
       kick();
+      if (++n_steps % kLook > 0) continue;
+      for (int i = 0; i < n_; i++)
+        if (!ended[i] && (is_through(i) || is_off(i))) end(i, is_through(i));
     }
-  }
-
-  // Of motion, pull and springs, of each sphere; force arrays are lost.
-  std::vector<Real> energies()
-  {
-    std::vector<Real> out(n_);
-    const Real inertia = kInertia * starts_.radius * starts_.radius;
-    for (int i = 0; i < n_; i++) {
-      std::fill(mask_.begin(), mask_.end(), 1);
-      mask_[i] = 2;
-      compute(false, 2);
-      out[i] = engine_->totals().energy + Real(0.5) * norm_sq(at(v_, i)) +
-               Real(0.5) * inertia * norm_sq(at(omega_, i)) + fallen(i, at(x_, i));
-    }
-    return out;
-  }
-
-  bool is_lost(int i) const
-  {
-    return !(fallen(i, at(x_, i)) >= -kLost * starts_.radius);    // a NaN is lost too
+    for (int i = 0; i < n_; i++)
+      if (!ended[i]) end(i, false);
+    return change;
   }
 
  private:
@@ -80,6 +78,32 @@ class Motion {
   Real fallen(int i, const Vec3 &x) const
   {
     return dot(starts_.normal[i], x - starts_.point[i]) - starts_.radius;
+  }
+
+  // Past the start by the pull. In free flight the wall keeps nothing.
+  bool is_off(int i) const { return fallen(i, at(x_, i)) < -kOff * starts_.radius; }
+  // The centre is as near to the wall as no contact lets it be. Not a number is through, too.
+  bool is_through(int i) const
+  {
+    const Vec3 x = at(x_, i);
+    if (!std::isfinite(norm_sq(x))) return true;
+    ContactSet<1> set;
+    find_contacts(wall_, x, kThrough * starts_.radius, set);
+    return set.n > 0;
+  }
+
+  // Of motion, pull and springs; forces stay as they are.
+  Real energy(int i)
+  {
+    const std::vector<Real> force = force_, torque = torque_;
+    std::fill(mask_.begin(), mask_.end(), 1);
+    mask_[i] = 2;
+    compute(false, 2);
+    force_ = force;
+    torque_ = torque;
+    const Real inertia = kInertia * starts_.radius * starts_.radius;
+    return engine_->totals().energy + Real(0.5) * norm_sq(at(v_, i)) +
+           Real(0.5) * inertia * norm_sq(at(omega_, i)) + fallen(i, at(x_, i));
   }
 
   void compute(bool update, int group = 3)
@@ -115,6 +139,7 @@ class Motion {
 
   std::unique_ptr<WallEngine> engine_;
   const DriftStarts &starts_;
+  const GridView wall_;
   int n_;
   SpringStore springs_;
   Real dt_;
@@ -123,17 +148,12 @@ class Motion {
   bool has_history_;
 };
 
-Real median_change(Motion &motion, int n, Real time, Real energy)
+Real median(std::vector<Real> change)
 {
-  const std::vector<Real> before = motion.energies();
-  motion.run(time);
-  const std::vector<Real> after = motion.energies();
-  std::vector<Real> change(n);
-  for (int i = 0; i < n; i++)
-    change[i] = motion.is_lost(i) ? 1 : std::fabs(after[i] - before[i]) / energy;
   if (change.empty()) return 0;
-  std::nth_element(change.begin(), change.begin() + n / 2, change.end());
-  return change[n / 2];
+  const auto middle = change.begin() + change.size() / 2;
+  std::nth_element(change.begin(), middle, change.end());
+  return *middle;
 }
 
 }    // namespace
@@ -143,6 +163,9 @@ DriftStarts drift_starts(const WallMesh &mesh, const GridView &grid, Real radius
 {
   DriftStarts starts;
   starts.radius = radius;
+  GridSettings settings;
+  settings.reach = kThrough * radius;
+  starts.wall = build_grid(mesh, settings);
   std::vector<Real> area_up_to;    // of the faces so far
   Real area = 0;
   const auto corner = [&](std::size_t f, int k) { return mesh.vertices[mesh.faces[f][k]]; };
@@ -186,7 +209,7 @@ Real bounce_drift(const GridView &grid, EngineSettings engine, const DriftStarts
   Motion motion(grid, engine, starts, (1 + kDrop) * radius);
   for (int i = 0; i < starts.n(); i++)
     motion.set_speeds(i, kSpeed * std::sqrt(radius) * starts.along[i], {0, 0, 0});
-  return median_change(motion, starts.n(), kTime, kDrop * radius);
+  return median(motion.changes(kTime, kDrop * radius));
 }
 
 Real roll_drift(const GridView &grid, EngineSettings engine, const DriftStarts &starts)
@@ -203,7 +226,7 @@ Real roll_drift(const GridView &grid, EngineSettings engine, const DriftStarts &
   for (int i = 0; i < starts.n(); i++)
     motion.set_speeds(i, speed * starts.along[i],
                       (speed / radius) * cross(starts.normal[i], starts.along[i]));
-  return median_change(motion, starts.n(), kTime, Real(0.5) * (1 + kInertia) * speed * speed);
+  return median(motion.changes(kTime, Real(0.5) * (1 + kInertia) * speed * speed));
 }
 
 }    // namespace lsdcd

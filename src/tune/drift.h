@@ -14,6 +14,7 @@ namespace lsdcd {
 struct DriftStarts {
   std::vector<Vec3> point, normal, along;    // along: unit, in the face
   Real radius;
+  TriangleGrid wall;    // complete, tells who went through
 
   int n() const { return static_cast<int>(point.size()); }
 };
@@ -25,9 +26,11 @@ DriftStarts drift_starts(const WallMesh &mesh, const GridView &grid, Real radius
 
 // Units: radius R, mass 1, a pull g along -normal that stays the same for a sphere; a linear
 // spring of stiffness 1000 g / R, no damping; steps of 0.001 sqrt(R/g). Both return the
-// median over the spheres of |energy gained or lost| / the energy of the motion, counting 1
-// for a sphere that the pull has taken more than two radii past its start: it has gone
-// through the wall, or off its edge.
+// median over the spheres of |energy gained or lost| / the energy of the motion: of kinetic
+// energy, springs and the pull's potential, so that sliding or falling off a wall costs
+// nothing. A sphere that the pull has taken two radii past its start is off the wall and counts
+// with what it had until then; one whose centre came within half a radius of the wall has gone
+// through it and counts 1.
 
 // Dropped by 0.2 R, without friction, moving along the face at 0.3 sqrt(R g), for ten
 // bounces: 13.7 sqrt(R/g). Energy of the motion: that of the fall.

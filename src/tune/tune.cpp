@@ -38,12 +38,13 @@ struct TriedParts {
   std::vector<char> blind, tried;
   int n_blind = 0, n_tried = 0;
 
-  TriedParts(const WallMesh &mesh, Real reach, Real finest, const SphereSample &scene,
+  TriedParts(const WallMesh &mesh, const GridSettings &grid, Real finest, const SphereSample &scene,
              Random &random) :
-      parts(mesh, reach, std::max(2 * reach, kBrickSide * finest)),
+      parts(mesh, grid.reach, std::max(2 * grid.reach, kBrickSide * finest), grid.within),
       blind(parts.n(), 0), tried(parts.n(), 0)
   {
     // A sheet of wall through a cube, and the pieces of wall within reach of a cell.
+    const Real reach = grid.reach;
     const double across = parts.side() / finest, high = 2 * reach / finest + 2;
     const double pieces = mesh.faces.size() / mesh.report.area * M_PI * reach * reach;
     const double cells = kCells / (1 + pieces / 10);
@@ -195,7 +196,7 @@ TuneReport tune(const WallMesh &mesh, const TuneSettings &settings)
 
   const std::vector<Real> lengths = lengths_to_try(mesh, settings.grid);
   Random random(settings.seed);
-  const TriedParts tried(mesh, reach, lengths.front(), settings.scene, random);
+  const TriedParts tried(mesh, settings.grid, lengths.front(), settings.scene, random);
 
   TuneReport report = {};
   report.bound = settings.bound;
@@ -222,6 +223,7 @@ TuneReport tune(const WallMesh &mesh, const TuneSettings &settings)
   trial.memory_budget = std::size_t(1) << 40;    // of the parts that are tried
   trial.only = tried.boxes();
   WallAnswers reference;
+  std::size_t budget = 0;
   for (Real length : lengths) {
     trial.length = length;
     TrialGrid grid(mesh, trial, on_cuda);
@@ -236,6 +238,7 @@ TuneReport tune(const WallMesh &mesh, const TuneSettings &settings)
       exact.precision = Precision::double_;
       reference = answer(grid.make(0, false, false).view(), exact, sample);
     }
+    budget = budget_of(settings.grid, grid.made());
     for (const ListKind &kind : kinds) {
       for (Precision precision : {Precision::double_, Precision::mixed, Precision::single_}) {
         if (settings.keep_precision && precision != settings.engine.precision) continue;
@@ -260,7 +263,7 @@ TuneReport tune(const WallMesh &mesh, const TuneSettings &settings)
       }
     }
   }
-  report.taken = choose(report.rows, settings.bound, settings.grid.memory_budget);
+  report.taken = choose(report.rows, settings.bound, budget);
   if (report.taken < 0) throw_none_good(report, settings);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -23,18 +23,20 @@ std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &setti
 {
   const Real standard = plan_grid(mesh, settings).length;
   if (settings.length > 0) return {standard};
+  const double budget = double(settings.memory_budget > 0 ? settings.memory_budget : kListBudget);
   std::vector<Real> lengths;
   for (Real factor : {0.5, 1., 2., 4.}) {
     const Real length = rounded(std::min(factor * standard, std::max(standard, settings.reach)));
     if (!lengths.empty() && length < 1.1 * lengths.back()) continue;
     GridSettings one = settings;
     one.length = length;
-    if (plan_grid(mesh, one).may_fit(settings.memory_budget)) lengths.push_back(length);
+    if (plan_grid(mesh, one).least_bytes() <= budget) lengths.push_back(length);
   }
   // None fits: as build_grid does, take the first coarser one that may.
   if (lengths.empty()) {
     GridPlan plan = plan_grid(mesh, settings);
-    while (!plan.may_fit(settings.memory_budget)) plan = coarser(plan, mesh, settings);
+    while (plan.least_bytes() > budget && !is_coarsest(plan, mesh))
+      plan = coarser(plan, mesh, settings);
     lengths.push_back(plan.length);
   }
   return lengths;

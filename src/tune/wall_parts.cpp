@@ -5,10 +5,16 @@
 
 namespace lsdcd {
 
-WallParts::WallParts(const WallMesh &mesh, Real reach, Real side) : reach_(reach)
+WallParts::WallParts(const WallMesh &mesh, Real reach, Real side, const Box &within) :
+    reach_(reach), within_(within)
 {
-  side_ = std::max(
-      {side, std::sqrt(mesh.report.area) / 300, norm(mesh.report.hi - mesh.report.lo) / 3000});
+  Vec3 size;
+  for (int k = 0; k < 3; k++)
+    size[k] = std::max(Real(0), std::min(mesh.report.hi[k], within.hi[k]) -
+                                    std::max(mesh.report.lo[k], within.lo[k]));
+  // The area of a wall in a box is seldom more than a few times that of the box.
+  const Real area = std::min(mesh.report.area, 10 * norm_sq(size));
+  side_ = std::max({side, std::sqrt(area) / 300, norm(size) / 3000});
   origin_ = mesh.report.lo - Vec3{reach, reach, reach};
   const Vec3 none = {0, 0, 0};
   for (const auto &f : mesh.faces) {
@@ -46,8 +52,11 @@ void WallParts::cover(const Vec3 &lo, const Vec3 &hi, const Vec3 &normal, Real o
 {
   Key first, last;
   for (int k = 0; k < 3; k++) {
-    first[k] = static_cast<std::int32_t>(std::floor((lo[k] - reach_ - origin_[k]) / side_));
-    last[k] = static_cast<std::int32_t>(std::floor((hi[k] + reach_ - origin_[k]) / side_));
+    const Real from = std::max(lo[k] - reach_, within_.lo[k]),
+               to = std::min(hi[k] + reach_, within_.hi[k]);
+    if (from > to) return;
+    first[k] = static_cast<std::int32_t>(std::floor((from - origin_[k]) / side_));
+    last[k] = static_cast<std::int32_t>(std::floor((to - origin_[k]) / side_));
   }
   const Real far = reach_ + Real(0.5) * std::sqrt(Real(3)) * side_;
   Key at;

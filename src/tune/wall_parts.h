@@ -14,8 +14,8 @@ class WallParts {
  public:
   // Every cube that a sphere of radius `reach` can touch the wall from; some more,
   // where a triangle's box is larger than the triangle. The cubes are larger than `side`
-  // where a large wall would have millions of them.
-  WallParts(const WallMesh &mesh, Real reach, Real side);
+  // where a large wall would have millions of them. None lies outside `within`.
+  WallParts(const WallMesh &mesh, Real reach, Real side, const Box &within = kNoLimit);
 
   int n() const { return static_cast<int>(key_.size()); }
   Real side() const { return side_; }    // length
@@ -28,6 +28,7 @@ class WallParts {
 
   Vec3 origin_;
   Real side_, reach_;
+  Box within_;
   std::vector<Key> key_;    // place in the lattice, ascending
 };
 

@@ -30,6 +30,8 @@ def environment():
     env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_hwloc_base_binding_policy="none",
                OMPI_MCA_btl_vader_single_copy_mechanism="none")
+    # A process alone needs no daemon, which would take longer than most decks.
+    env.update(OMPI_MCA_ess_singleton_isolated="1")
     return env
 
 
@@ -50,6 +52,8 @@ def for_host(text, flags):
 # a host without one Kokkos leaves that to LAMMPS.
 # LSDCD_KOKKOS_FLAGS: of a host on a GPU, "-k on g 1 -sf kk -pk kokkos newton off neigh half".
 KOKKOS = tuple(os.environ.get("LSDCD_KOKKOS_FLAGS", "-k on -sf kk").split())
+# A column of a fix's per-atom array, in an atom-style variable.
+COLUMN = "f" if ON_KOKKOS and "20260704" in KOKKOS_HOST else "F"
 DEVICE_MOVES = os.environ.get("LSDCD_KOKKOS_MOVES") == "device"
 if DEVICE_MOVES:
     KOKKOS += ("-pk", "kokkos", "comm", "device", "sort", "device")

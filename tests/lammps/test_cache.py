@@ -28,7 +28,7 @@ class Run:
     def __init__(self, output):
         self.output = output
         self.rows = deck.read_thermo(output)
-        self.warnings = [line for line in output.split("\n") if "WARNING: Fix wall/lsdcd: " in line and "cache" in line]
+        self.warnings = [line for line in output.split("\n") if "WARNING: Fix " in line and "cache" in line]
         self.read = output.count("not built now, read from cache")
         self.written = output.count("written to cache")
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """granular on a mesh against fix wall/gran granular ... zplane, sub-model by sub-model.
 
-The oracle is LAMMPS 4Jul2026 (hosts/build_host.sh) with our plugin loaded, for one sphere
-and for 200 of many sizes, and Debian's 29Sep2021 for what that has. Both codes evaluate
+The oracle is Debian's 29Sep2021 for what that has and, with the argument `host`, LAMMPS
+4Jul2026 (hosts/build_host.sh) with our plugin loaded, for one sphere and for 200 of many sizes. Both codes evaluate
 the same formulas in another order: rounding differences of 1e-16 per operation grow with
 the number of steps at most, and 1e-12 leaves room for 10^4 operations.
 
@@ -252,10 +252,12 @@ def older_host(checks, folder):
 def main():
     checks, folder = deck.Checks(), deck.scratch()
     (folder / "floor.stl").write_bytes(floor())
-    older_host(checks, folder)
+    if sys.argv[1:] != ["host"]:
+        older_host(checks, folder)
+        checks.done(folder)
     if not deck.TEST_HOST:
-        print("SKIPPED the rest: no LAMMPS 4Jul2026 (tests/lammps/hosts/build_host.sh)")
-        sys.exit(1 if checks.failed else 77)
+        print("SKIPPED: no LAMMPS 4Jul2026 (tests/lammps/hosts/build_host.sh)")
+        sys.exit(77)
     load = f"plugin load {deck.TEST_HOST_PLUGIN}"
     deck.LMP = deck.TEST_HOST
     for name, (ours, hosts) in laws().items():

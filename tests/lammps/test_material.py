@@ -5,7 +5,9 @@ The numbers are worked out here once more, from the values in the file and the f
 contact mechanics; decks with the words that the log shows must then give the same bits.
 """
 
+import pathlib
 import re
+import subprocess
 
 import deck
 
@@ -149,6 +151,42 @@ def ranks(checks, folder):
     checks.fact("2 processes: the same words and motion", words == same and one == two)
 
 
+TWO_GRAINS = """\
+units           si
+atom_style      sphere
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block -0.01 0.01 -0.01 0.01 -0.01 0.01
+create_box      1 box
+create_atoms    1 single 0.00101 0 0 units box
+create_atoms    1 single -0.00101 0 0 units box
+set             group all diameter 0.002 density 2500
+velocity        all ramp vx 0.5 -0.5 x -0.00101 0.00101 units box
+pair_style      granular
+pair_coeff      * * {words}
+neighbor        0.001 bin
+fix             move all nve/sphere
+timestep        1e-7
+dump            out all custom 10000 out id vx
+dump_modify     out format float %.17g sort id
+run             10000
+"""
+
+
+def grains(checks, folder):
+    """The words that the tool prints for grains on one another, in the LAMMPS that is there: they
+    part with the file's restitution. Its number is rounded to 1e-6; steps are a 1000th of a
+    contact, and force jumps at its ends."""
+    tool = pathlib.Path(deck.LMP).parent / "lsdcd"
+    text = subprocess.run([tool, "material", "grains.lsdcd", "glass"], cwd=folder, text=True, check=True,
+                          stdout=subprocess.PIPE).stdout
+    words = re.search(r"pair_coeff \* \* (.*)", text)[1]
+    deck.run_well(TWO_GRAINS.format(words=words), folder)
+    before, after = (deck.read_dump(folder / "out")[step][1][0] for step in (0, 10000))
+    checks.at_most("grains on one another: restitution of pair_style granular", abs(-after / before - 0.9), 1e-3)
+
+
 def main():
     checks, folder = deck.Checks(), deck.scratch()
     (folder / "grains.lsdcd").write_text(FILE)
@@ -158,6 +196,7 @@ def main():
     systems_of_units(checks, folder)
     places(checks, folder)
     ranks(checks, folder)
+    grains(checks, folder)
     checks.done(folder)
 
 

@@ -65,6 +65,23 @@ def close(a, b):
     return math.isclose(a, b, rel_tol=1e-13, abs_tol=1e-13)    # a few roundings
 
 
+def in_commands(checks, folder):
+    """How the manual says that commands read the array: overlaps 0.01 and 0.05, kn 1e4."""
+    _, _, text = go(folder, extra=f"""\
+variable        push atom {deck.COLUMN}_wall[4]
+compute         sum all reduce sum v_push
+compute         same all reduce sum f_wall[4]
+fix             h all ave/histo 1 1 1 0 1000 2 v_push mode vector
+thermo_style    custom step c_sum c_same f_h[1] f_h[2] f_h[3] f_h[4]
+thermo_modify   format float %.17g norm no""", steps=1)
+    row = deck.read_thermo(text)[0]
+    checks.fact(f"an atom-style variable reads a column as {deck.COLUMN}_ID[4]", close(row[1], 600), str(row[1]))
+    checks.fact("compute reduce reads a column as f_ID[4]", close(row[2], 600), str(row[2]))
+    last = deck.read_thermo(text)[-1]    # both, none outside, least, most; after a step of 1e-4
+    checks.fact("fix ave/histo reads the variable", last[3:5] == [2, 0] and
+                abs(last[5] - 100) < 0.1 and abs(last[6] - 500) < 0.1, str(last[3:]))
+
+
 def main():
     checks, folder = deck.Checks(), deck.scratch()
     (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
@@ -120,7 +137,7 @@ def main():
 
     _, _, text = go(folder, extra="timestep 0.1", steps=0)
     checks.fact("a timestep above a tenth of the contact time is warned of",
-                "WARNING: Fix wall/lsdcd: timestep 0.1 is more than a tenth" in text)
+                "wall/lsdcd: timestep 0.1 is more than a tenth" in text)
     # Dropped at speed 10 the sphere sinks v sqrt(m/k) = 0.1, a fifth of its radius.
     fast = "create_atoms 1 single 0 0 0.51 units box\n" + SPHERES + "velocity all set 0 0 -10\n"
     _, _, text = go(folder, atoms=fast, steps=400)
@@ -166,6 +183,7 @@ def main():
                extra=f"dump pic all image 1 wall.*.ppm type type {wall} view 60 30 size 200 200\n")
             pictures.append((folder / "wall.0.ppm").read_bytes())
         checks.fact(f"dump image shows the mesh: draw {what}", pictures[0] != pictures[1])
+    in_commands(checks, folder)
     checks.done(folder)
 
 

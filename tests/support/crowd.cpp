@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace lsdcd {
@@ -27,7 +28,41 @@ std::vector<Case> cases()
           {"cylinder of 100 000", cylinder_mesh(400, 124, 50, 100), 1, 0.4},
           {"floor of 20 000", floor_mesh(100, 10, 7), 0.3, 0},
           {"box", box_mesh({0, 0, 0}, {10, 10, 10}), 0.5, 0},
-          {"random soup", random_soup(500, 3), 0.7, 0}};
+          {"random soup", random_soup(500, 3), 0.7, 0},
+          {"random soup in a periodic box", random_soup(500, 3), 0.7, 0, true}};
+}
+
+namespace {
+
+PeriodicBox box_of(const MeshReport &report)
+{
+  PeriodicBox box;
+  const Vec3 size = report.hi - report.lo;
+  box.corner = report.lo + 0.05 * size;
+  for (int k = 0; k < 3; k++) {
+    box.edge[k] = {0, 0, 0};
+    box.edge[k][k] = 0.9 * size[k];
+    box.periodic[k] = true;
+  }
+  box.margin = 1;
+  return box;
+}
+
+}    // namespace
+
+WallMesh mesh_of(const Case &c)
+{
+  const WallMesh mesh = weld(c.soup, -1);
+  if (!c.periodic) return mesh;
+  const PeriodicBox box = box_of(mesh.report);
+  return with_images(mesh, box, c.reach + box.margin);
+}
+
+Box within(const Case &c)
+{
+  if (!c.periodic) return kNoLimit;
+  const PeriodicBox box = box_of(weld(c.soup, -1).report);
+  return box.bounds({box.margin, box.margin, box.margin});
 }
 
 ContactLaw classic(LawStyle style)
@@ -92,9 +127,23 @@ const Wall &wall_of(const Case &c, const GridSettings &g)
   if (last.name == c.name && had.reach == g.reach && had.nearest == g.nearest &&
       had.exact == g.exact && had.in_floats == g.in_floats)
     return last;
-  const WallMesh mesh = weld(c.soup, -1);
+  const WallMesh mesh = mesh_of(c);
   last = {c.name, g, mesh.report, FlatGrid(build_grid(mesh, g))};
   return last;
+}
+
+}    // namespace
+
+namespace {
+
+void wrap(const Case &c, std::vector<Real> &x)
+{
+  const PeriodicBox box = box_of(weld(c.soup, -1).report);
+  for (std::size_t i = 0; i < x.size(); i++) {
+    const int d = static_cast<int>(i % 3);
+    const Real size = box.edge[d][d];
+    x[i] -= size * std::floor((x[i] - box.corner[d]) / size);
+  }
 }
 
 }    // namespace
@@ -108,6 +157,7 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
   g.nearest = search.nearest;
   g.exact = search.exact;
   g.in_floats = search.precision != Precision::double_;
+  g.within = within(c);
   const Wall &built = wall_of(c, g);
 
   EngineSettings e = wall;
@@ -155,6 +205,7 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
     engine->start(s, step, &springs);
     engine->collect();
     for (int i = 0; i < 3 * n_spheres; i++) x[i] += step.dt * v[i];
+    if (c.periodic && k == 2) wrap(c, x);    // springs go over to what is touched there
   }
   Outcome out;
   for (int i = 0; i < n_spheres; i++) {

@@ -2,6 +2,7 @@
 // that engines can be compared to the bit.
 #pragma once
 
+#include "mesh/periodic_images.h"
 #include "support/meshes.h"
 
 #include <cstring>
@@ -16,8 +17,13 @@ struct Case {
   const char *name;
   TriangleSoup soup;
   Real reach, length;
+  bool periodic = false;    // in a box a little smaller than the wall, which acts through its faces
 };
 std::vector<Case> cases();
+
+// The wall of a case, with its periodic images, and where its grid is cut off.
+WallMesh mesh_of(const Case &c);
+Box within(const Case &c);
 
 TriangleSoup random_soup(int n, unsigned seed);
 

@@ -23,8 +23,9 @@ constexpr LawStyle kStyles[] = {LawStyle::hooke, LawStyle::hooke_history, LawSty
 TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
 {
   for (const Case &c : cases()) {
-    const WallMesh mesh = weld(c.soup, -1);
+    const WallMesh mesh = mesh_of(c);
     GridSettings g;
+    g.within = within(c);
     g.reach = c.reach;
     g.length = c.length;
     const TriangleGrid cpu = build_grid(mesh, g, false), cuda = build_grid(mesh, g, true);
@@ -39,8 +40,9 @@ TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
 TEST(cuda_grid, has_the_same_nearest_lists_and_float_records_as_the_cpu_grid)
 {
   for (const Case &c : cases()) {
-    const WallMesh mesh = weld(c.soup, -1);
+    const WallMesh mesh = mesh_of(c);
     GridSettings g;
+    g.within = within(c);
     g.reach = c.reach;
     g.length = c.length;
     g.nearest = 3;

@@ -206,7 +206,57 @@ TEST_F(fill_material_words, with_overrides_that_cannot_be_meant_are_refused)
   EXPECT_TRUE(says(error_of("granular material FILE glass with eta 1 eta 2 damping tsuji mesh a"),
                    {"twice"}));
   EXPECT_TRUE(says(error_of("granular material FILE glass on steel with youngs_modulus 1 mesh a"),
-                   {"either material"}));
+                   {"'youngs_modulus' of both", "with steel youngs_modulus VALUE"}));
+  EXPECT_TRUE(
+      says(error_of("granular material FILE glass on steel with steel restitution 1 mesh a"),
+           {"'restitution' is not of steel alone"}));
+  EXPECT_TRUE(says(error_of("granular material FILE glass on steel with steel mesh a"),
+                   {"after 'with steel' comes a property"}));
+}
+
+// The wall's numbers given, where the file has none: as with a file that has them.
+TEST_F(fill_material_words, with_overrides_give_the_partner_what_the_file_does_not_know)
+{
+  const std::string contact = " restitution 0.9 sliding_friction 0.2 mesh a",
+                    by_file = filled("granular material FILE glass on steel mesh a", "cgs");
+  EXPECT_EQ(filled("granular material FILE glass on bare with youngs_modulus 207e10 "
+                   "poissons_ratio 0.3" +
+                       contact,
+                   "cgs"),
+            by_file);
+  EXPECT_EQ(filled("granular material FILE bare on glass with bare youngs_modulus 207e10 bare "
+                   "poissons_ratio 0.3" +
+                       contact,
+                   "cgs"),
+            by_file);
+}
+
+TEST_F(fill_material_words, with_overrides_may_name_whose_number_they_replace)
+{
+  const std::vector<std::string> words =
+      fill("granular jkr material FILE glass on steel with steel surface_energy 0.32 mesh a");
+  EXPECT_NEAR(std::stod(words[5]), 0.08, 1e-17);    // sqrt(0.02 0.32)
+  EXPECT_TRUE(says(report, {"steel: surface_energy 0.32, as the deck says", "glass: surface_energy "
+                                                                            "0.02 (0.02 J/m2"}));
+}
+
+TEST_F(fill_material_words, that_one_partner_lacks_are_asked_for_by_its_name)
+{
+  EXPECT_TRUE(says(error_of("granular material FILE glass on bare mesh a"),
+                   {"'bare' has no youngs_modulus", "with bare youngs_modulus VALUE"}));
+}
+
+TEST_F(fill_material_words, of_29sep2021_have_the_damping_that_it_knows)
+{
+  const auto text = [&](const std::string &line) {
+    std::string out;
+    for (const std::string &word : words_of_29sep2021(fill(line))) out += word + " ";
+    return out;
+  };
+  EXPECT_EQ(text("granular material FILE glass"),
+            "hertz/material 6.9e+10 0.95676 0.23 damping tsuji tangential mindlin NULL 1 0.092 ");
+  EXPECT_EQ(text("granular jkr material FILE glass"),
+            "jkr 6.9e+10 0 0.23 0.02 damping velocity tangential mindlin NULL 1 0.092 ");
 }
 
 TEST_F(fill_material_words, that_are_missing_are_asked_for)

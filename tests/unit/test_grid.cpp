@@ -312,41 +312,68 @@ TEST(grid, one_and_two_threads_build_the_same_bytes)
 }
 #endif
 
-TEST(grid, over_budget_message_names_a_length_that_fits)
+std::string build_error(const WallMesh &mesh, const GridSettings &settings)
+{
+  try {
+    build_grid(mesh, settings, test_on_cuda());
+  } catch (const InputError &e) {
+    return e.what();
+  }
+  return "";
+}
+
+// The number before " MB" that follows `before`, in bytes.
+std::size_t named_bytes(const std::string &message, const std::string &before)
+{
+  const std::size_t at = message.find(before);
+  if (at == std::string::npos) return 0;
+  return static_cast<std::size_t>(std::stod(message.substr(at + before.size())) * 1048576);
+}
+
+TEST(grid, a_given_length_over_the_budget_is_refused_with_what_it_takes)
 {
   const WallMesh mesh = weld(cylinder_mesh(40, 3, 1, 1.5), -1);
-  for (std::size_t budget : {200u << 10, 1u << 20, 5u << 20}) {
+  for (std::size_t budget : {400u << 10, 1u << 20, 5u << 20}) {
     GridSettings settings;
     settings.reach = 0.2;
     settings.length = 0.004;
     settings.memory_budget = budget;
-    std::string message;
-    try {
-      build_grid(mesh, settings, test_on_cuda());
-    } catch (const InputError &e) {
-      message = e.what();
-    }
-    const std::string before = "; grid ";
-    const std::size_t at = message.find(before);
-    ASSERT_NE(at, std::string::npos) << message;
-    settings.length = std::stod(message.substr(at + before.size()));
-    EXPECT_GT(settings.length, 0.004);
-    EXPECT_NO_THROW(build_grid(mesh, settings, test_on_cuda())) << message;
+    const std::string message = build_error(mesh, settings);
+    EXPECT_GT(named_bytes(message, "grid 0.004 takes "), budget) << message;
+    EXPECT_NE(message.find("leave grid out"), std::string::npos) << message;
+    settings.length = 0;
+    EXPECT_LE(flat_bytes(build_grid(mesh, settings, test_on_cuda())), budget);
   }
 }
 
-TEST(grid, chosen_length_keeps_to_the_budget)
+TEST(grid, the_budget_holds_for_all_that_is_shared)
 {
   const WallMesh mesh = weld(floor_mesh(60, 1, 3), -1);
-  GridSettings settings;
-  settings.reach = 0.05;
-  settings.memory_budget = 2 << 20;
-  const TriangleGrid grid = build_grid(mesh, settings, test_on_cuda());
-  const std::size_t bytes =
-      grid.lists.brick_of.size() * sizeof(std::int32_t) + grid.lists.bricks.size() * sizeof(Brick) +
-      grid.lists.cells.size() * sizeof(Cell) + grid.lists.candidates.size() * sizeof(Candidate);
-  EXPECT_LE(bytes, settings.memory_budget);
-  EXPECT_TRUE(grid.report.length_chosen);
+  for (const bool in_floats : {false, true}) {
+    GridSettings settings;
+    settings.reach = 0.05;
+    settings.memory_budget = 6 << 20;
+    settings.in_floats = in_floats;
+    const TriangleGrid grid = build_grid(mesh, settings, test_on_cuda());
+    EXPECT_LE(flat_bytes(grid), settings.memory_budget);
+    EXPECT_TRUE(grid.report.length_chosen);
+  }
+}
+
+TEST(grid, where_no_length_fits_a_budget_that_does_is_named)
+{
+  for (const TriangleSoup &soup : {floor_mesh(60, 1, 3), tangle(14, 40, 6)}) {
+    const WallMesh mesh = weld(soup, -1);
+    GridSettings settings;
+    settings.reach = 0.05;
+    for (const std::size_t budget : {1u << 10, 10u << 10}) {
+      settings.memory_budget = budget;
+      const std::string message = build_error(mesh, settings);
+      settings.memory_budget = named_bytes(message, "the coarsest grid of this mesh takes ");
+      ASSERT_GT(settings.memory_budget, budget) << message;
+      EXPECT_EQ(build_error(mesh, settings), "") << message;
+    }
+  }
 }
 
 TEST(grid, hopeless_length_is_refused)

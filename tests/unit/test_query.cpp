@@ -333,6 +333,7 @@ struct CellFirst {
     for (; far < n; far++) work.far(far);
     for (std::size_t i = 0; i < n; i++) {
       const auto s = work.sphere(i);
+      work.check(i, s);
       const Cell cell = cell_by_words(work.grid, work.table, s.centre());
       if (cell.count > 0) work.answer(i, s, cell);
     }
@@ -940,6 +941,60 @@ TEST(query, spheres_away_from_the_wall_read_nothing)
       EXPECT_EQ(a.distance[i], kAnyDistance) << i;
     }
   }
+}
+
+// What a query says of the 700 spheres when those at `large` have radius r.
+template <class S>
+std::string refusal(const std::vector<std::size_t> &large, Real r, bool every_face = false)
+{
+  // Reach 0.1; spheres with the reach for their radius, far from the wall.
+  const Case c(box_mesh({0, 0, 0}, {4, 4, 4}), 0.1, 0.1, 0, 1);
+  const auto digits = [](Real x) { return static_cast<decltype(S::r)>(x); };
+  std::vector<S> spheres(700, {2, 2, digits(3.5), digits(0.1)});
+  for (std::size_t i : large) spheres[i].r = digits(r);
+  QuerySettings settings;
+  settings.every_face = every_face;
+  try {
+    ask(c.grid(0), spheres, settings);
+  } catch (const InputError &e) {
+    return e.what();
+  }
+  return "";
+}
+
+// The sphere of radius 0.6 overlaps the wall by 0.1, where lists for 0.1 say nothing.
+TEST(query, a_sphere_larger_than_the_reach_is_refused_by_its_index_and_both_lengths)
+{
+  const std::string words =
+      "sphere 600 has radius 0.6, more than the grid's reach 0.1: build the grid with a reach of "
+      "the largest radius, or try every face";
+  EXPECT_EQ(refusal<Sphere>({600, 699}, 0.6), words);
+}
+
+TEST(query, a_radius_in_float_is_held_against_the_reach_in_float)
+{
+  EXPECT_EQ(refusal<FloatSphere>({}, 0), "");    // the nearest float to 0.1 is more than 0.1
+  EXPECT_NE(refusal<FloatSphere>({600}, 0.1000001).find("sphere 600 has radius 0.100000"),
+            std::string::npos);
+}
+
+TEST(query, a_radius_that_is_no_number_is_refused)
+{
+  EXPECT_NE(refusal<Sphere>({5}, std::nan("")).find("sphere 5 has radius nan"), std::string::npos);
+}
+
+TEST(query, every_face_answers_spheres_of_any_radius)
+{
+  EXPECT_EQ(refusal<Sphere>({600}, 0.6, true), "");
+}
+
+TEST(query, asking_for_the_cell_first_refuses_large_spheres_too)
+{
+  const Case c(box_mesh({0, 0, 0}, {4, 4, 4}), 0.1, 0.1, 0, 1);
+  QueryOn<CpuBackend, CellFirst> query{CpuBackend()};
+  query.set_grid(c.grid(0));
+  EXPECT_THROW(ask(query, std::vector<Sphere>{{2, 2, 3.5, 0.6}}), InputError);
+  EXPECT_NO_THROW(ask(query, std::vector<Sphere>{{2, 2, 3.5, 0.1}}));
 }
 
 TEST(query, a_sphere_that_only_reaches_the_wall_does_not_touch_it)

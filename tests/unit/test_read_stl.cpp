@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <thread>
 
 namespace lsdcd {
@@ -299,6 +300,36 @@ TEST(read_stl, a_directory_is_not_a_mesh)
 {
   TempDir dir;
   EXPECT_TRUE(contains(path_error(dir.path("")), "it is a directory"));
+}
+
+// Far larger than memory, though it takes no room on the disk.
+TEST(read_stl, a_file_of_another_kind_is_refused_by_its_beginning)
+{
+  TempDir dir;
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"", "0 facets promised"},
+      {std::string(200000, 'a') + "\n", "not an STL"},
+      {std::string("\x7f"
+                   "ELF\x02\x01\x01\0",
+                   8) +
+           std::string(100, '\x05'),
+       "not an STL"}};
+  for (const auto &c : cases) {
+    const auto path = dir.write("other.stl", c.first);
+    std::filesystem::resize_file(path, std::uintmax_t(1) << 42);
+    EXPECT_TRUE(contains(path_error(path), c.second)) << path_error(path);
+  }
+}
+
+TEST(read_stl, a_file_longer_than_its_beginning_is_read_to_its_end)
+{
+  TempDir dir;
+  std::string facets;
+  for (int i = 0; i < 5000; ++i) facets += kFacet;
+  EXPECT_EQ(read_stl(dir.write("long.stl", solid(facets))).n_triangles(), 5000u);
+  EXPECT_EQ(
+      read_stl(dir.write("late.stl", std::string(100000, '\n') + solid(facets))).n_triangles(),
+      5000u);
 }
 
 TEST(read_stl, empty_file_is_named)

@@ -183,6 +183,69 @@ TEST(settings, an_unknown_keyword_names_the_nearest)
   EXPECT_TRUE(names(error_with("rmxa 2"), "'rmax"));
 }
 
+TEST(settings, a_word_like_no_keyword_is_told_all_of_them)
+{
+  const std::string error = error_with("colour red");
+  EXPECT_FALSE(names(error, "the nearest"));
+  for (const char *keyword : {"mesh", "tune", "surface_angvel", "log"})
+    EXPECT_TRUE(names(error, keyword));
+}
+
+TEST(settings, words_of_other_walls_are_answered)
+{
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"wiggle z 0.1 2", "does not move yet"},
+      {"shear x 1", "surface_vel"},
+      {"motion linear 1 0 0", "fix wall/gran/region"},
+      {"zplane 0 NULL", "mesh FILE"},
+      {"zcylinder 3", "mesh FILE"},
+      {"velocity 1 0 0", "surface_vel vx vy vz"},
+      {"curvature 1e-5", "not needed"},
+      {"stress on", "mesh_fields"},
+      {"type 1", "before mesh"},
+      {"file a.stl", "mesh FILE"},
+      {"damping tsuji", "style granular"},
+      {"limit_damping", "before mesh"}};
+  for (const auto &c : cases) {
+    EXPECT_TRUE(names(error_with(c.first), c.second));
+    EXPECT_FALSE(names(error_with(c.first), "nearest"));
+  }
+}
+
+TEST(settings, out_of_range_gives_the_range)
+{
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"grid 0", "L = 0 is out of range: it must be above 0."},
+      {"weld -1", "the tolerance = -1 is out of range: it must be 0 or more."},
+      {"memory 0.5", "it must be from 1 to 1e+09."},
+      {"nearest 33", "it must be from 1 to 32."},
+      {"tune 1", "it must be from 0 to below 1."},
+      {"draw edges 0", "it must be from 1 to 1e+06."},
+      {"wear archard 1 0", "H = 0 is out of range: it must be above 0."}};
+  for (const auto &c : cases) EXPECT_TRUE(names(error_with(c.first), c.second));
+  EXPECT_TRUE(names(error_of("hooke 1 NULL 50 NULL 10001 1 mesh a.stl"), "from 0 to 10000."));
+  EXPECT_TRUE(
+      names(error_of("granular hertz/material 1 1 -1 tangential linear_nohistory 0 0 mesh a"),
+            "nu = -1 is out of range: it must be above -1 to 0.5."));
+}
+
+TEST(settings, rotate_takes_an_axis_of_any_length)
+{
+  for (const char *length : {"1e200", "1e-200"}) {
+    const std::string l = length;
+    const Vec3 x = with("rotate " + l + " 0 " + l + " 180").placement.apply({1, 0, 0});
+    EXPECT_NEAR(x.x, 0, 1e-15) << l;    // a few roundings of numbers up to 1
+    EXPECT_NEAR(x.z, 1, 1e-15) << l;
+  }
+}
+
+TEST(settings, log_is_full_or_brief)
+{
+  EXPECT_FALSE(with("log full").brief);
+  EXPECT_TRUE(with("log brief").brief);
+  EXPECT_TRUE(names(error_with("log none"), "log full | brief"));
+}
+
 TEST(settings, an_unknown_style_shows_the_known_ones)
 {
   EXPECT_TRUE(

@@ -150,8 +150,16 @@ fetch "$source" "$sha256" || skip "$why"
 tar -xf "$work/${source##*/}" -C "$work" ${top:+--strip-components=1} "$top"{cmake,src,lib,LICENSE} ||
   die "cannot unpack $source"
 rm "$work/${source##*/}"
-# Pair styles take most of the time that KOKKOS takes to compile, and the decks need these.
+# Styles of molecules, thermostats and the like take half of the time, and no deck needs them.
 find "$work/src/KOKKOS" -name 'pair_*_kokkos.*' ! -name 'pair_gran_*' ! -name 'pair_hybrid*' -delete
+rm -f "$work"/src/KOKKOS/{angle,bond,dihedral,improper}_* \
+  "$work"/src/{.,KOKKOS}/fix_{langevin,nph,npt,nvt,press,temp,spring,restrain,indent,recenter}[._]* \
+  "$work"/src/{.,KOKKOS}/fix_{lineforce,planeforce,drag,momentum,wall_lj*,wall_harmonic,wall_morse,box_relax}[._]* \
+  "$work"/src/fix_{ave_correlate,ave_chunk,heat,tmd,thermal_conductivity,viscosity}[._]* \
+  "$work"/src/{.,KOKKOS}/compute_{orientorder,hexorder,coord,centro,cna,rdf,adf,msd,vacf,gyration}[._]* \
+  "$work"/src/{.,KOKKOS}/compute_temp_{com,deform,partial,profile,ramp}[._]* \
+  "$work"/src/compute_{angle,bond,dihedral,improper,inertia,dipole,torque,omega,angmom,vcm,displace}[._]* \
+  "$work"/src/compute_{cluster,aggregate,heat_flux}[._]* "$work"/src/KOKKOS/atom_vec_charge_*
 
 # The package files of Kokkos: Debian's names a folder that is not there, and LAMMPS asks for
 # a later version than the pool has. What is compiled against either decides.
@@ -174,6 +182,15 @@ TEXT
   fi
   options+=(-D Kokkos_DIR="$work")
 fi
+# To parse the same headers takes most of the time that a file is compiled: that is done once.
+{
+  echo "#ifdef __cplusplus"
+  printf '#include <%s>\n' mpi.h algorithm cmath map string vector \
+    ${kokkos:+Kokkos_Core.hpp Kokkos_DualView.hpp Kokkos_ScatterView.hpp Kokkos_UnorderedMap.hpp}
+  echo "#endif"
+} >"$work/parsed_once.h"
+echo "target_precompile_headers(lammps PRIVATE $work/parsed_once.h)" >>"$work/cmake/CMakeLists.txt"
+export CCACHE_SLOPPINESS=pch_defines,time_macros
 compile "LAMMPS $version" lmp "$work/cmake" "$work/build" "${options[@]}"
 
 # What is kept: the program, its library beside it, the headers, and how they were compiled.

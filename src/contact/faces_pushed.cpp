@@ -1,0 +1,86 @@
+#include "contact/faces_pushed.h"
+
+#include "mesh/face_plane.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+// Of the fastest speed: a component this small is the rounding of words such as 0.87 0 0.5.
+constexpr Real kRoundedWords = 0.01;
+// Of the mesh's diagonal: coordinates of STL files, in float or six digits.
+constexpr Real kRoundedCorners = 1e-6;
+// Of the speed: sine of half the angle of a flat face of which six go around.
+constexpr Real kCoarsestRoll = 0.5;
+
+Vec3 velocity_at(const SurfaceMotion &m, const Vec3 &p)
+{
+  return m.velocity + cross(m.angular, p - m.centre);
+}
+
+struct Push {
+  Real component = 0, speed = 0;    // at the centre; 0 where nothing is pushed
+};
+
+// A flat face stands for a piece of a smooth surface that moves along itself if somewhere on it
+// the velocity is in its plane, as along the middle of a roll's facet. A sliver's plane may lean
+// further, by what the path bends away from its chord over the sliver's height.
+Push push_on(const Vec3 corner[3], const SurfaceMotion &motion, Real fastest, Real rounding)
+{
+  const FacePlane plane = face_plane(corner[0], corner[1], corner[2]);
+  const Vec3 centre = (Real(1) / 3) * (corner[0] + corner[1] + corner[2]);
+  const Vec3 u = velocity_at(motion, centre);
+  const Real speed = norm(u), component = std::fabs(dot(u, plane.normal));
+  if (component <= kRoundedWords * fastest) return {};
+
+  Real lowest = 1, highest = -1, turned = 0, first = 0, last = 0;
+  Vec3 direction[3];
+  int n = 0;
+  for (int k = 0; k < 3; k++) {
+    const Real along = dot(u, corner[k] - centre) / speed;
+    first = std::min(first, along);
+    last = std::max(last, along);
+    const Vec3 v = velocity_at(motion, corner[k]);
+    if (!(norm(v) > Real(1e-9) * speed)) continue;    // on the axis it has no direction
+    direction[n] = (1 / norm(v)) * v;
+    lowest = std::min(lowest, dot(direction[n], plane.normal));
+    highest = std::max(highest, dot(direction[n], plane.normal));
+    for (int i = 0; i < n; i++)
+      turned = std::max(turned, std::atan2(norm(cross(direction[i], direction[n])),
+                                           dot(direction[i], direction[n])));
+    n++;
+  }
+  // An arc that turns by an angle rises over its chord by a quarter of the tangent of a quarter.
+  const Real bend = Real(0.5) * (last - first) * std::tan(turned / 4);
+  const Real lean = rounding / plane.height;
+  const Real one_way = std::max(lowest, -highest), most = std::max(highest, -lowest);
+  if (one_way > lean + bend / plane.height || most > kCoarsestRoll + kRoundedWords + lean)
+    return {component, speed};
+  return {};
+}
+
+}    // namespace
+
+PushReport faces_pushed(const WallMesh &mesh, const SurfaceMotion &motion)
+{
+  PushReport report;
+  if (!motion.moves()) return report;
+  const Real rounding = kRoundedCorners * norm(mesh.report.hi - mesh.report.lo);
+  Real fastest = 0;
+  for (const Vec3 &p : mesh.vertices) fastest = std::max(fastest, norm(velocity_at(motion, p)));
+  for (const auto &f : mesh.faces) {
+    const Vec3 corner[3] = {mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]};
+    const Push push = push_on(corner, motion, fastest, rounding);
+    if (!(push.component > 0)) continue;
+    report.faces++;
+    if (push.component <= report.component) continue;
+    report.component = push.component;
+    report.share = push.component / push.speed;
+  }
+  return report;
+}
+
+}    // namespace lsdcd

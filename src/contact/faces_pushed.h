@@ -1,0 +1,21 @@
+// Where a surface that is said to move would have to take the mesh along.
+#pragma once
+
+#include "contact/surface_motion.h"
+#include "mesh/wall_mesh.h"
+
+#include <cstddef>
+
+namespace lsdcd {
+
+struct PushReport {
+  std::size_t faces = 0;    // that the motion pushes along their normals
+  Real component = 0;       // the largest along a normal, at a face's centre; velocity
+  Real share = 0;           // of the speed there
+};
+
+// A belt, a turntable or a roll has none, however coarse its triangles are (six around a roll
+// will do); lifters, blades, screws and tilted belts have.
+PushReport faces_pushed(const WallMesh &mesh, const SurfaceMotion &motion);
+
+}    // namespace lsdcd

@@ -1,0 +1,21 @@
+// The later half of welding: from points and facets to faces, edges and their neighbours.
+#pragma once
+
+#include "mesh/wall_mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace lsdcd {
+
+// Faces and edges over `vertices`; `corners` has three vertices for each facet. Degenerate
+// and duplicate facets are dropped as faces. `bare_edges` are edges that need no face. Edges
+// ascend in their vertices. The edges of vertices and the report are left to the caller, but for
+// the counts of what was dropped.
+WallMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
+                  std::vector<std::array<int, 2>> bare_edges);
+
+// Fills vertex_first and vertex_edge from the edges.
+void connect_vertices(WallMesh &mesh);
+
+}    // namespace lsdcd

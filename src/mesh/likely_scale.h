@@ -1,0 +1,12 @@
+// The factor that a mesh file in other units than the deck's was probably meant to have.
+#pragma once
+
+#include "base/vec3.h"
+
+namespace lsdcd {
+
+// `mesh` and `box` are extents (length). 1 unless the mesh is many times larger than the box along
+// every axis; else the factor between two common units of length that makes them alike.
+Real likely_scale(const Vec3 &mesh, const Vec3 &box);
+
+}    // namespace lsdcd

@@ -1,0 +1,46 @@
+#include "mesh/periodic_box.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+namespace {
+
+// Normal of the faces that edge k joins, of length 1 / width.
+Vec3 gradient(const PeriodicBox &box, int k)
+{
+  const Vec3 area = cross(box.edge[(k + 1) % 3], box.edge[(k + 2) % 3]);
+  return (1 / dot(area, box.edge[k])) * area;
+}
+
+}    // namespace
+
+Vec3 PeriodicBox::fraction(const Vec3 &x) const
+{
+  const Vec3 d = x - corner;
+  return {dot(gradient(*this, 0), d), dot(gradient(*this, 1), d), dot(gradient(*this, 2), d)};
+}
+
+Real PeriodicBox::width(int k) const
+{
+  return 1 / norm(gradient(*this, k));
+}
+
+Box PeriodicBox::bounds(const Vec3 &past) const
+{
+  Box box = {corner, corner};
+  for (int i = 0; i < 8; i++) {
+    Vec3 x = corner;
+    for (int k = 0; k < 3; k++) {
+      const Real part = past[k] / width(k);
+      x += (i >> k & 1 ? 1 + part : -part) * edge[k];
+    }
+    for (int d = 0; d < 3; d++) {
+      box.lo[d] = i ? std::min(box.lo[d], x[d]) : x[d];
+      box.hi[d] = i ? std::max(box.hi[d], x[d]) : x[d];
+    }
+  }
+  return box;
+}
+
+}    // namespace lsdcd

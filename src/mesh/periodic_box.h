@@ -1,0 +1,32 @@
+// The box of a simulation: what repeats, and where the centres of spheres can be.
+#pragma once
+
+#include "base/vec3.h"
+
+namespace lsdcd {
+
+struct Box {
+  Vec3 lo, hi;    // length
+};
+
+constexpr Box kNoLimit = {{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
+
+struct PeriodicBox {
+  Vec3 corner = {0, 0, 0};                             // length
+  Vec3 edge[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};    // length; from the corner, right-handed
+  bool periodic[3] = {false, false, false};            // along each edge
+  bool follows[3] = {false, false, false};             // faces follow the spheres (shrink-wrapped)
+  Real margin = 0;    // length; how far past a face a sphere may go before it is wrapped
+
+  // A point in units of the edges: 0 to 1 inside the box.
+  Vec3 fraction(const Vec3 &x) const;
+  // Distance between the two faces that edge k joins. Length.
+  Real width(int k) const;
+
+  // The box around all places where spheres can be: the box, and `past` (length) beyond its
+  // faces.
+  Box bounds(const Vec3 &past) const;
+  bool any_periodic() const { return periodic[0] || periodic[1] || periodic[2]; }
+};
+
+}    // namespace lsdcd

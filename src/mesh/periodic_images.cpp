@@ -1,0 +1,235 @@
+#include "mesh/periodic_images.h"
+
+#include "mesh/assemble.h"
+#include "mesh/classes.h"
+#include "mesh/weld_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace lsdcd {
+
+namespace {
+
+constexpr int kNone = -1;
+
+// Slabs of space in units of the edges of a box: between lo and hi along each edge.
+struct Slabs {
+  Vec3 lo, hi;
+
+  bool meet(const Vec3 &least, const Vec3 &most) const
+  {
+    for (int k = 0; k < 3; k++)
+      if (most[k] < lo[k] || least[k] > hi[k]) return false;
+    return true;
+  }
+};
+
+void include(Vec3 &least, Vec3 &most, const Vec3 &x)
+{
+  for (int k = 0; k < 3; k++) {
+    least[k] = std::min(least[k], x[k]);
+    most[k] = std::max(most[k], x[k]);
+  }
+}
+
+// A facet of the mesh, or what is left of one: an edge without a face, a point without an edge.
+struct Part {
+  std::array<int, 3> vertex;    // of the mesh; the last is repeated where there are fewer
+  int face, edge;               // of the mesh; kNone where it is none
+};
+
+std::vector<Part> parts_of(const WallMesh &mesh)
+{
+  std::vector<Part> parts;
+  parts.reserve(mesh.faces.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); f++)
+    parts.push_back({mesh.faces[f], static_cast<int>(f), kNone});
+  for (std::size_t e = 0; e < mesh.edges.size(); e++)
+    if (mesh.edge_first[e] == mesh.edge_first[e + 1])
+      parts.push_back(
+          {{mesh.edges[e][0], mesh.edges[e][1], mesh.edges[e][1]}, kNone, static_cast<int>(e)});
+  for (std::size_t v = 0; v < mesh.vertices.size(); v++)
+    if (mesh.vertex_first[v] == mesh.vertex_first[v + 1]) {
+      const int i = static_cast<int>(v);
+      parts.push_back({{i, i, i}, kNone, kNone});
+    }
+  return parts;
+}
+
+// All that images are made of, before welding: points of the mesh and then those of images.
+struct Copies {
+  std::vector<Vec3> points;
+  std::vector<int> vertex_of;    // of the mesh, of each point
+  std::vector<int> corners;      // three points for each facet, the mesh's first
+  std::vector<int> face_of;      // of the mesh, of each facet
+  std::vector<std::array<int, 2>> bare_edges;
+  std::vector<int> bare_edge_of;    // of the mesh
+};
+
+void copy_part(const Part &part, const std::array<int, 3> &points, Copies &out)
+{
+  if (part.face != kNone) {
+    out.corners.insert(out.corners.end(), points.begin(), points.end());
+    out.face_of.push_back(part.face);
+  } else if (part.edge != kNone) {
+    out.bare_edges.push_back({points[0], points[1]});
+    out.bare_edge_of.push_back(part.edge);
+  }
+}
+
+// Sums of periodic edges by which an image may come within the slabs, but for none at all.
+std::vector<Vec3> shifts_of(const PeriodicBox &box, Real depth)
+{
+  int most[3];
+  for (int k = 0; k < 3; k++)
+    most[k] = box.periodic[k] ? static_cast<int>(std::ceil(depth / box.width(k))) : 0;
+  std::vector<Vec3> shifts;
+  for (int c = -most[2]; c <= most[2]; c++)
+    for (int b = -most[1]; b <= most[1]; b++)
+      for (int a = -most[0]; a <= most[0]; a++)
+        if (a || b || c) shifts.push_back({Real(a), Real(b), Real(c)});
+  return shifts;
+}
+
+Copies copies_of(const WallMesh &mesh, const PeriodicBox &box, Real depth)
+{
+  Copies out;
+  out.points = mesh.vertices;
+  const std::size_t n_vertices = mesh.vertices.size();
+  for (std::size_t v = 0; v < n_vertices; v++) out.vertex_of.push_back(static_cast<int>(v));
+  const std::vector<Part> parts = parts_of(mesh);
+  for (const Part &part : parts) copy_part(part, part.vertex, out);
+
+  Slabs slabs;
+  for (int k = 0; k < 3; k++) {
+    const Real past = box.periodic[k] ? depth / box.width(k) : HUGE_VAL;
+    slabs.lo[k] = -past;
+    slabs.hi[k] = 1 + past;
+  }
+  std::vector<Vec3> at(n_vertices);    // in units of the edges
+  for (std::size_t v = 0; v < n_vertices; v++) at[v] = box.fraction(mesh.vertices[v]);
+  Vec3 least = at[0], most = at[0];
+  for (const Vec3 &x : at) include(least, most, x);
+
+  std::vector<int> point_of(n_vertices);
+  for (const Vec3 &s : shifts_of(box, depth)) {
+    if (!slabs.meet(least + s, most + s)) continue;
+    const Vec3 shift = s.x * box.edge[0] + s.y * box.edge[1] + s.z * box.edge[2];
+    std::fill(point_of.begin(), point_of.end(), kNone);
+    for (const Part &part : parts) {
+      Vec3 lo = at[part.vertex[0]], hi = lo;
+      include(lo, hi, at[part.vertex[1]]);
+      include(lo, hi, at[part.vertex[2]]);
+      if (!slabs.meet(lo + s, hi + s)) continue;
+      std::array<int, 3> points;
+      for (int k = 0; k < 3; k++) {
+        const int v = part.vertex[k];
+        if (point_of[v] == kNone) {
+          point_of[v] = static_cast<int>(out.points.size());
+          out.points.push_back(mesh.vertices[v] + shift);
+          out.vertex_of.push_back(v);
+        }
+        points[k] = point_of[v];
+      }
+      copy_part(part, points, out);
+    }
+  }
+  return out;
+}
+
+// Gives the edges of `mesh` that `whole` has too their numbers there; others come behind. The
+// edges of both ascend in their vertices. Returns the new number of each.
+std::vector<int> keep_edge_numbers(const WallMesh &mesh, WallMesh &whole)
+{
+  const std::size_t n = whole.edges.size();
+  std::vector<int> number(n);
+  std::size_t own = 0, next = mesh.edges.size();
+  for (std::size_t e = 0; e < n; e++)
+    number[e] = static_cast<int>(
+        own < mesh.edges.size() && whole.edges[e] == mesh.edges[own] ? own++ : next++);
+
+  std::vector<int> old(n);
+  for (std::size_t e = 0; e < n; e++) old[number[e]] = static_cast<int>(e);
+  const WallMesh before = whole;
+  whole.edge_face.clear();
+  for (std::size_t e = 0; e < n; e++) {
+    whole.edges[e] = before.edges[old[e]];
+    whole.edge_first[e] = static_cast<int>(whole.edge_face.size());
+    whole.edge_face.insert(whole.edge_face.end(),
+                           before.edge_face.begin() + before.edge_first[old[e]],
+                           before.edge_face.begin() + before.edge_first[old[e] + 1]);
+  }
+  whole.edge_first[n] = static_cast<int>(whole.edge_face.size());
+  for (auto &face : whole.face_edges)
+    for (int &e : face) e = number[e];
+  return number;
+}
+
+}    // namespace
+
+WallMesh with_images(const WallMesh &mesh, const PeriodicBox &box, Real depth)
+{
+  if (!box.any_periodic()) return mesh;
+  const Copies copies = copies_of(mesh, box, depth);
+  const std::size_t n_vertices = mesh.vertices.size();
+  if (copies.points.size() == n_vertices) return mesh;
+
+  WeldedPoints welded = weld_points(copies.points, mesh.report.weld_tolerance);
+  const std::vector<int> &point = welded.corner_point;    // of every copy
+  std::vector<int> corners(copies.corners.size());
+  for (std::size_t c = 0; c < corners.size(); c++) corners[c] = point[copies.corners[c]];
+  std::vector<std::array<int, 2>> bare_edges;
+  for (const auto &e : copies.bare_edges)
+    if (point[e[0]] != point[e[1]]) bare_edges.push_back({point[e[0]], point[e[1]]});
+
+  WallMesh whole = assemble(std::move(welded.points), corners, bare_edges);
+  whole.source = mesh.source;
+  const std::vector<std::array<int, 2>> ascending = whole.edges;
+  const std::vector<int> number = keep_edge_numbers(mesh, whole);
+  connect_vertices(whole);
+
+  PeriodicImages &images = whole.images;
+  images.n_faces = mesh.faces.size();
+  images.n_edges = mesh.edges.size();
+  images.n_vertices = n_vertices;
+  for (std::size_t &facet : whole.face_facet) {
+    const int face = copies.face_of[facet];
+    if (facet >= images.n_faces) images.face_of.push_back(face);
+    facet = mesh.face_facet[face];
+  }
+  images.vertex_of.assign(whole.vertices.size() - n_vertices, 0);
+  Classes same(whole.vertices.size());
+  for (std::size_t p = n_vertices; p < copies.points.size(); p++) {
+    const int v = point[p];
+    if (v >= static_cast<int>(n_vertices)) images.vertex_of[v - n_vertices] = copies.vertex_of[p];
+    same.join(v, copies.vertex_of[p]);
+  }
+  for (std::size_t v = 0; v < whole.vertices.size(); v++)
+    images.same_vertex.push_back(same.of(static_cast<int>(v)));
+
+  // An image's edge, by its vertices.
+  images.edge_of.assign(whole.edges.size() - images.n_edges, 0);
+  const auto name_edge = [&](int a, int b, int edge) {
+    const std::array<int, 2> ends = {std::min(a, b), std::max(a, b)};
+    const auto found = std::lower_bound(ascending.begin(), ascending.end(), ends);
+    if (found == ascending.end() || *found != ends) return;
+    const int e = number[found - ascending.begin()];
+    if (e >= static_cast<int>(images.n_edges)) images.edge_of[e - images.n_edges] = edge;
+  };
+  for (std::size_t f = images.n_faces; f < copies.face_of.size(); f++)
+    for (int k = 0; k < 3; k++)
+      name_edge(corners[3 * f + k], corners[3 * f + (k + 1) % 3],
+                mesh.face_edges[copies.face_of[f]][k]);
+  for (std::size_t e = 0; e < copies.bare_edges.size(); e++)
+    name_edge(point[copies.bare_edges[e][0]], point[copies.bare_edges[e][1]],
+              copies.bare_edge_of[e]);
+
+  whole.report = mesh.report;
+  for (const Vec3 &x : whole.vertices) include(whole.report.lo, whole.report.hi, x);
+  return whole;
+}
+
+}    // namespace lsdcd

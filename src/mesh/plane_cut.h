@@ -1,0 +1,17 @@
+// How a mesh meets the plane z = 0, in which the particles of a two-dimensional run move.
+#pragma once
+
+#include "mesh/wall_mesh.h"
+
+#include <cstddef>
+
+namespace lsdcd {
+
+struct PlaneCut {
+  std::size_t leaning = 0;    // faces that reach the plane and are not upright
+  Real lean = 0;              // degrees from upright, the most of them
+};
+
+PlaneCut plane_cut(const WallMesh &mesh);
+
+}    // namespace lsdcd

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Runs `./run demo`, with few steps, on another Debian with the LAMMPS that it has.
+#   demo_on.sh SUITE    trixie or sid
+#   LSDCD_HOSTS         where the Debian is kept (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts),
+#                       as SUITE-root; some 1.5 GB with all that the demo installs
+# The Debian comes from the mirror that this machine's apt uses. Exits 77 with a line
+# "skipped: ..." where it cannot be had or entered.
+set -euo pipefail
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
+. "$top/tests/lammps/hosts/debian_mirror.sh"
+suite=$1
+hosts=${LSDCD_HOSTS:-${XDG_CACHE_HOME:-$HOME/.cache}/lsdcd/hosts}
+debian=$hosts/$suite-root
+
+skip() { echo "skipped: no demo on $suite: $*"; exit 77; }
+[ "$(id -u)" -eq 0 ] || skip "another Debian is root's to enter"
+for tool in mmdebstrap unshare chroot flock; do
+  command -v $tool >/dev/null || skip "no $tool on this machine"
+done
+unshare --mount true 2>/dev/null || skip "nothing can be mounted here"
+mirror=$(debian_mirror)
+[ -n "$mirror" ] || skip "apt has no Debian mirror configured"
+
+mkdir -p "$hosts"
+exec 9>"$hosts/$suite-root.lock"
+flock 9
+if [ ! -d "$debian" ]; then
+  rm -rf "$debian.new"
+  # A package list past its term is good enough to test on; its signature is checked all the same.
+  mmdebstrap --variant=apt --aptopt='Acquire::Check-Valid-Until "false"' \
+    --aptopt='Acquire::Languages "none"' --dpkgopt=force-unsafe-io "$suite" "$debian.new" "$mirror" </dev/null ||
+    { rm -rf "$debian.new"; skip "it does not come from the mirror"; }
+  mv "$debian.new" "$debian"
+fi
+
+# What is in the tree, without what was built.
+rm -rf "$debian/root/lsdcd"
+mkdir -p "$debian/root/lsdcd"
+cd "$top"
+{ git ls-files -z --cached --others --exclude-standard 2>/dev/null ||
+  find . \( -path './build*' -o -path ./demo \) -prune -o -type f -print0; } |
+  tar -c --null --files-from=- --ignore-failed-read | tar -x -C "$debian/root/lsdcd"
+if [ -e /etc/resolv.conf ]; then cp -L /etc/resolv.conf "$debian/etc/resolv.conf"; fi
+
+# Mounts are seen by these commands only, and end with them.
+status=0
+unshare --mount --fork bash -euc '
+  mount -t proc proc "$0/proc"
+  mount -t sysfs sys "$0/sys"
+  mount --rbind /dev "$0/dev"
+  exec chroot "$0" env -i HOME=/root TERM=dumb PATH=/usr/sbin:/usr/bin:/sbin:/bin LSDCD_QUICK=1 \
+    /root/lsdcd/run demo' "$debian" 2>&1 </dev/null | tee "$debian/root/demo.log" || status=$?
+if grep -q '^./run: could not install' "$debian/root/demo.log"; then skip "its packages cannot be installed"; fi
+
+demo=$debian/root/lsdcd/demo
+fact() { if "${@:2}"; then echo "PASS $1"; else echo "FAIL $1"; status=1; fi; }
+fact "the demo ends well" test "$status" -eq 0
+fact "it leaves a picture" grep -q PNG "$demo/vessel.png"
+fact "it leaves its table" grep -q 'left through the outlet' "$demo/summary.txt"
+exit "$status"

@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""What the fix says: whose warning it is, of which atom, once, and before hours are lost."""
+
+import math
+
+import deck
+
+BOX = """\
+units           lj
+atom_style      sphere
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block -3 3 -3 3 -1 5
+create_box      1 box
+create_atoms    1 single 2 2 4 units box
+create_atoms    1 single 0.3 0.2 0.48 units box
+group           spare id 1
+delete_atoms    group spare compress no
+set             group all diameter 1.0 density 2.0
+pair_style      zero 1.2
+pair_coeff      * *
+neighbor        0.3 bin
+neigh_modify    delay 0 every 1 check yes
+fix             move all nve/sphere
+timestep        0.001
+"""
+
+
+def fix(more="", name="w", mesh="floor.stl", law="hooke 1e4 NULL 5 NULL 0.5 1"):
+    return f"fix {name} all wall/lsdcd {law} mesh {mesh} {more}\n"
+
+
+def write_stl(path, triangles):
+    with open(path, "w") as stl:
+        stl.write("solid wall\n")
+        for corners in triangles:
+            lines = "".join("vertex {:.9g} {:.9g} {:.9g}\n".format(*c) for c in corners)
+            stl.write(f"facet normal 0 0 0\nouter loop\n{lines}endloop\nendfacet\n")
+        stl.write("endsolid wall\n")
+
+
+def quad(a, b, c, d):
+    return [(a, b, c), (a, c, d)]
+
+
+def drum(lifters, sides=36, radius=2.0, height=1.0):
+    def at(k, r, z):
+        return (r * math.cos(k), r * math.sin(k), z)
+
+    turn = 2 * math.pi / sides
+    triangles = []
+    for k in range(sides):
+        triangles += quad(at(k * turn, radius, 0), at((k + 1) * turn, radius, 0),
+                          at((k + 1) * turn, radius, height), at(k * turn, radius, height))
+    for k in range(lifters):
+        angle = 2 * math.pi * k / lifters
+        triangles += quad(at(angle, radius, 0), at(angle, radius, height),
+                          at(angle, 0.8 * radius, height), at(angle, 0.8 * radius, 0))
+    return triangles
+
+
+def lines(text, *words):
+    return [line for line in text.split("\n") if all(w in line for w in words)]
+
+
+def main():
+    checks, folder = deck.Checks(), deck.scratch()
+    (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+    write_stl(folder / "drum.stl", drum(0))
+    write_stl(folder / "lifters.stl", drum(4))
+    o, x, y, z = (0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)
+    write_stl(folder / "corner.stl", [(o, x, y), (o, y, z), (o, z, x)])
+    turning = "surface_angvel 0 0 3"
+
+    # Surfaces that push along their normals.
+    for ranks in (1, 2):
+        text = deck.run_well(BOX + fix(turning, mesh="lifters.stl") + "run 1\n", folder, ranks)
+        told = lines(text, "WARNING: Fix w wall/lsdcd:", "push 8 of 80 faces")
+        checks.fact(f"lifters are told once on {ranks} ranks", len(told) == 1)
+        told = told or [""]
+        # At the middle of a triangle with two corners outside.
+        speed = 3 * (2.0 - 0.4 / 3)
+        checks.fact("with the largest speed", f"up to {speed:g} (100 %" in told[0], told[0][:200])
+        checks.fact("and what to do", "stays where it is" in told[0] and "motion" in told[0] and
+                    "fix wall/gran/region" in told[0])
+    text = deck.run_well(BOX + fix(turning, mesh="drum.stl") + "run 1\n", folder)
+    checks.fact("a drum without lifters is not warned of", "faces along" not in text)
+    text = deck.run_well(BOX + fix("surface_vel 1 0 0") + "run 1\n", folder)
+    checks.fact("nor a belt", "faces along" not in text)
+
+    # Whose warning, and of which atom.
+    deep = "set group all z 0.3\n"
+    text = deck.run_well(BOX + deep + fix(name="base") + "run 1\nminimize 0 0 1 1\n", folder)
+    checks.fact("a warning names the fix and the atom",
+                lines(text, "WARNING: Fix base wall/lsdcd: atom 2 sank"))
+    checks.fact("that of a minimization too", lines(text, "Fix base wall/lsdcd: no effect"))
+    done = deck.run(BOX + fix(name="base", more="sclae 2") + "run 1\n", folder)
+    checks.fact("an error names the fix", "Fix base wall/lsdcd: 'sclae'" in done.stdout)
+    grow = ("variable d equal 1.0+0.4*(step>2)\nfix grow all adapt 1 atom diameter v_d\n"
+            "neigh_modify delay 1000 check no\n")
+    done = deck.run(BOX.replace("sphere\n", "sphere 1\n", 1) + grow + fix("rmax 0.6") + "run 10\n",
+                    folder)
+    message = done.stdout[done.stdout.find("ERROR"):][:300]
+    checks.fact("an engine's error names the atom's ID",
+                done.returncode != 0 and "Fix w wall/lsdcd: " in message and "atom 2 " in message,
+                message)
+
+    # nearest: after the first run, and when ten times as many answers were not certified; here
+    # one in every step and one at every start.
+    every = (BOX + "unfix move\nset group all x 0.45 y 0.44 z 0.43\n" +
+             fix("nearest 1 grid 0.1", mesh="corner.stl") + "run {} every 2 NULL\n")
+    for steps, times in ((2, 1), (10, 1), (100, 2)):
+        told = lines(deck.run_well(every.format(steps), folder), "not certified exact")
+        checks.fact(f"nearest is told {times} times in {steps} steps, two a part",
+                    len(told) == times, "\n".join(told))
+
+    # A quiet log.
+    text = deck.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)
+    checks.fact("log brief is one line", len(lines(text, "wall/lsdcd:")) == 1 and
+                "candidates" not in text, "\n".join(lines(text, "lsdcd")))
+
+    # Files of fields: before the run, and nothing is left by the look.
+    done = deck.run(BOX + fix("mesh_fields no/such.vtp every 1000") + "print ran\nrun 1\n", folder)
+    checks.fact("mesh_fields into a missing folder stops before the run",
+                done.returncode != 0 and "no/such.vtp" in done.stdout and
+                "make the folder" in done.stdout and "Step" not in done.stdout,
+                done.stdout[-300:])
+    (folder / "out").mkdir()
+    deck.run_well(BOX + fix("mesh_fields out/f_*.vtp every 1000") + "run 1\n", folder)
+    checks.fact("the look at the folder leaves nothing", not list((folder / "out").iterdir()))
+
+    # Lines of diameter 0.
+    text = deck.run_well(BOX + fix() + "dump p all image 1 p.*.ppm type type fix w type 0 0 "
+                         "size 64 64\nrun 2\n", folder)
+    checks.fact("the log tells once why lines may not be seen",
+                len(lines(text, "dump image draws", "diameter is 0")) == 1)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()

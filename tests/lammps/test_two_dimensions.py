@@ -1,0 +1,176 @@
+#!/usr/bin/env python3
+"""Discs in two dimensions on an outline drawn out along z move as on fix wall/gran's planes.
+
+Alone, a disc does not amplify rounding: 1e-12, as in test_parity. Many that collide do, whoever
+rounds: what ours are apart is held against LAMMPS's own walls, once with gravity's last digit
+changed. Both begin at 1e-16 of a number and grow alike; 10 times is left for where they begin.
+"""
+
+import math
+import re
+
+import deck
+
+# In contact laws of 29Sep2021 and later alike.
+LAWS = {
+    "hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
+    "hooke_history": "hooke/history 1e4 NULL 5 NULL 0.5 1",
+    "hertz_history": "hertz/history 1e5 NULL 50 NULL 0.5 1",
+}
+
+
+def write_outline(path, points, closed=False, half=0.6, parts=1):
+    """Upright faces over a line of points in the plane, each piece in 2 x parts triangles."""
+    ends = list(zip(points, points[1:] + (points[:1] if closed else [])))
+    if not closed:
+        ends = ends[:len(points) - 1]
+    with open(path, "w") as stl:
+        stl.write("solid outline\n")
+        for (ax, ay), (bx, by) in ends:
+            for k in range(parts):
+                s, t = k / parts, (k + 1) / parts
+                a, b = (ax + s * (bx - ax), ay + s * (by - ay)), (ax + t * (bx - ax), ay + t * (by - ay))
+                for corners in ((a + (-half,), b + (-half,), b + (half,)),
+                                (a + (-half,), b + (half,), a + (half,))):
+                    stl.write("facet normal 0 0 0\nouter loop\n" +
+                              "".join("vertex %.17g %.17g %.17g\n" % c for c in corners) +
+                              "endloop\nendfacet\n")
+        stl.write("endsolid outline\n")
+
+
+HEAD = """\
+{load}
+units           lj
+dimension       2
+atom_style      sphere
+boundary        {boundary} p
+newton          off
+comm_modify     vel yes
+region          box block 0 20 0 20 -0.5 0.5
+create_box      1 box
+"""
+TAIL = """\
+pair_style      gran/{law}
+pair_coeff      * *
+neighbor        0.2 bin
+neigh_modify    delay 0 every 1 check yes
+{walls}
+fix             flat all enforce2d
+timestep        {dt}
+dump            d all custom {every} {out} id x y vx vy omegaz fx fy tqz
+dump_modify     d format float %.17g sort id
+run             {steps}
+"""
+ONE = """\
+create_atoms    1 single 1.1 1.3 0 units box
+set             group all diameter 1.0
+set             group all density/disc 2.0
+velocity        all set -1.1 -1.7 0
+set             group all omega 0 0 9
+fix             move all nve/sphere disc
+fix             pull all gravity 3.0 vector -0.3 -1 0
+"""
+# Three that do not meet, over the periodic face at x = 0 and 20.
+THREE = """\
+create_atoms    1 single 2.0 0.52 0 units box
+create_atoms    1 single 9.0 1.1 0 units box
+create_atoms    1 single 17.0 0.8 0 units box
+set             group all diameter 1.0
+set             group all density/disc 2.0
+velocity        all set 4.0 -1.0 0
+set             group all omega 0 0 5
+fix             move all nve/sphere disc
+fix             pull all gravity 3.0 vector 0.4 -1 0
+"""
+MANY = """\
+region          slab block 1 19 4 11 -0.5 0.5 units box
+fix             move all nve/sphere disc
+fix             pull all gravity {gravity} vector 0 -1 0
+fix             ins all pour 60 1 4711 vol 0.5 500 diam range 0.8 1.0 dens 2.0 2.0 vel -0.5 0.5 -1 region slab
+"""
+
+
+def move(folder, out, particles, walls, law, load="", boundary="f f", steps=1000, dt=1e-3, every=1):
+    text = deck.run_well(HEAD.format(load=load, boundary=boundary) + particles +
+                         TAIL.format(law=law, walls=walls, dt=dt, every=every, out=out, steps=steps),
+                         folder)
+    return deck.read_dump(folder / out), text
+
+
+def alone(checks, folder, name, particles, hosts, mesh, law, load, **more):
+    theirs, _ = move(folder, "theirs", particles, hosts, law, load, **more)
+    ours, text = move(folder, "ours", particles, f"fix w all wall/lsdcd {law} {mesh}", law, load, **more)
+    touched = sum(any(row[7] != 0 for row in rows.values()) for rows in ours.values())
+    checks.fact(f"{name}: discs touch the wall", touched > 20, f"{touched} steps")
+    checks.at_most(f"{name}: trajectory as with wall/gran", deck.largest_difference(theirs, ours), 1e-12)
+    checks.fact(f"{name}: no word of faces that lean", "lean" not in text)
+
+
+def poured(checks, folder, name, hosts, mesh, law, load):
+    def pour(wall, gravity="3.0", out="ours"):
+        return move(folder, out, MANY.format(gravity=gravity), wall, law, load, steps=2000, every=100, dt=2e-3)[0]
+    one, two = pour(hosts, out="one"), pour(hosts, "3.0000000000000004", out="two")
+    ours = pour(f"fix w all wall/lsdcd {law} {mesh}")
+    checks.fact(f"{name}: discs are poured", len(ours[2000]) == 60, f"{len(ours[2000])}")
+    rounding, apart = growth(one, two), growth(one, ours)
+    worst = max(a / max(r, 1e-15) for a, r in zip(apart, rounding))
+    checks.at_most(f"{name}: apart over what gravity's last digit does", worst, 10)
+
+
+def growth(a, b):
+    """The largest distance so far between atoms of two runs, at each step of a dump."""
+    far, so_far = [], 0.0
+    for step in sorted(a):
+        so_far = max([so_far] + [math.dist(row[:2], b[step][atom][:2]) for atom, row in a[step].items()])
+        far.append(so_far)
+    return far
+
+
+def words(checks, folder, load):
+    """What cannot be meant in two dimensions is said."""
+    def text_of(points, mesh, half=0.6):
+        write_outline(folder / "said.stl", points, half=half)
+        return deck.run(HEAD.format(load=load, boundary="f f") + ONE +
+                        TAIL.format(law=LAWS["hooke"], dt=1e-3, every=1, out="d", steps=0,
+                                    walls=f"fix w all wall/lsdcd {LAWS['hooke']} mesh said.stl {mesh}"), folder).stdout
+    floor = [(-1.0, 0.0), (21.0, 0.0)]
+    text = text_of(floor, "move 0 0 0.7")
+    refused = re.search(r"which the mesh does not cut: .*move 0 0 \S*\)", text)
+    checks.fact("a mesh beside the plane is refused", bool(refused) and "from 0.1 to 1.3" in refused[0] and
+                "(move 0 0 -0.7)" in refused[0], refused[0] if refused else text[-300:])
+    text = text_of(floor, "rotate 1 0 0 30")
+    warned = re.search(r"\d+ faces lean .* degrees", text)
+    checks.fact("faces that lean are told of", bool(warned) and warned[0][:2] == "2 " and
+                warned[0].endswith("by up to 30 degrees"), warned[0] if warned else text[-300:])
+    text = text_of(floor, "", half=500)
+    checks.fact("an outline may be drawn out far past the box", not re.search("ERROR|WARNING", text))
+
+
+def main():
+    checks, folder = deck.Checks(), deck.scratch()
+    write_outline(folder / "corner.stl", [(0, 22), (0, 0), (22, 0)], parts=7)
+    write_outline(folder / "floor.stl", [(-1.5, 0), (21.5, 0)], parts=46)
+    write_outline(folder / "vessel.stl", [(0, 22), (0, 0), (20, 0), (20, 22)], parts=20)
+    hosts = {"": deck.LMP}
+    if deck.TEST_HOST:
+        hosts[f"plugin load {deck.TEST_HOST_PLUGIN}"] = deck.TEST_HOST
+    for load, deck.LMP in hosts.items():
+        of = ", 4Jul2026" if load else ""
+        for name, law in LAWS.items():
+            gran = f"fix {{}} all wall/gran {law} {{}}"
+            xplane, yplane = (gran.format(f"w{p[0]}", p) for p in ("xplane 0 NULL", "yplane 0 NULL"))
+            alone(checks, folder, f"{name}, corner{of}", ONE, f"{xplane}\n{yplane}", "mesh corner.stl", law, load,
+                  steps=2000)
+            alone(checks, folder, f"{name}, chute{of}", THREE, yplane, "mesh floor.stl periodic", law, load,
+                  boundary="p f", steps=2000)
+            alone(checks, folder, f"{name}, moving floor{of}", THREE, f"{yplane} shear x 6.0",
+                  "mesh floor.stl periodic surface_vel 6 0 0", law, load, boundary="p f", steps=2000)
+        law = LAWS["hooke_history"]
+        poured(checks, folder, f"pour{of}", f"fix w1 all wall/gran {law} xplane 0 20\n"
+               f"fix w2 all wall/gran {law} yplane 0 NULL", "mesh vessel.stl", law, load)
+        words(checks, folder, load)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()

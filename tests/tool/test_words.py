@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""What lsdcd says to words that it does not know, and how a file that is no mesh is refused."""
+
+import os
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+
+TOOL = os.environ["LSDCD_TOOL"]
+FLOOR = str(pathlib.Path(__file__).resolve().parent.parent / "lammps" / "decks" / "floor.stl")
+
+failed = 0
+
+
+def fact(name, holds, detail=""):
+    global failed
+    print(f"{'PASS' if holds else 'FAIL'} {name}{': ' + detail if detail else ''}")
+    failed += not holds
+
+
+# A sanitizer takes all addresses for itself.
+SANITIZED = b"__asan_init" in pathlib.Path(TOOL).read_bytes()
+
+
+def run(*words):
+    def at_most_a_gigabyte():
+        if not SANITIZED:
+            resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+
+    return subprocess.run([TOOL, *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, preexec_fn=at_most_a_gigabyte)
+
+
+def main():
+    done = run("bogus", FLOOR)
+    fact("an unknown command is named, and the known ones",
+         done.returncode != 0 and "'bogus' is not a command" in done.stdout
+         and "inspect" in done.stdout and "tradeoff" in done.stdout, done.stdout)
+    done = run("--version")
+    fact("--version is a number", done.returncode == 0
+         and re.match(r"lsdcd \d+\.\d+\.\d+ ", done.stdout) is not None, done.stdout)
+    for command in (["inspect"], ["grid", "--radius", "0.1"]):
+        done = run(*command, FLOOR, "--scale", "2", "3")
+        fact(f"{command[0]} --scale takes no two numbers",
+             done.returncode != 0 and "one factor or three" in done.stdout, done.stdout[-200:])
+    for scale in (["2"], ["2", "3", "4"]):
+        fact(f"--scale takes {len(scale)}", run("inspect", FLOOR, "--scale", *scale).returncode == 0)
+    with tempfile.NamedTemporaryFile(suffix=".stl") as zeros:
+        zeros.truncate(1 << 36)
+        done = run("inspect", zeros.name)
+        fact("64 GB of zeros are refused in less memory",
+             done.returncode == 1 and "not an STL" in done.stdout, done.stdout[-200:])
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,164 @@
+// Which faces a moving surface pushes along their normals: none of a belt, a roll or a
+// turntable; lifters, screws and boxes by their closed forms.
+#include "contact/faces_pushed.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kPi = 3.14159265358979323846;
+
+SurfaceMotion sliding(const Vec3 &velocity)
+{
+  SurfaceMotion m;
+  m.velocity = velocity;
+  return m;
+}
+
+SurfaceMotion turning(Real speed)
+{
+  SurfaceMotion m;
+  m.angular = {0, 0, speed};
+  return m;
+}
+
+PushReport report_of(const TriangleSoup &soup, const SurfaceMotion &motion)
+{
+  return faces_pushed(weld(soup, -1), motion);
+}
+
+// n x m quads of a surface given by two parameters in 0..1, each cut in two along either
+// diagonal; inner nodes are shifted by up to `jitter` of a quad. Corners are rounded to
+// floats, as STL files hold them.
+TriangleSoup sheet(int n, int m, Real jitter, const std::function<Vec3(Real, Real)> &at)
+{
+  std::mt19937 random(17);
+  std::uniform_real_distribution<Real> shift(-jitter, jitter);
+  std::vector<Vec3> node;
+  for (int i = 0; i <= n; i++)
+    for (int j = 0; j <= m; j++) {
+      const bool inner = i > 0 && i < n && j > 0 && j < m;
+      const Vec3 p =
+          at((i + (inner ? shift(random) : 0)) / n, (j + (inner ? shift(random) : 0)) / m);
+      node.push_back({float(p.x), float(p.y), float(p.z)});
+    }
+  TriangleSoup soup;
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < m; j++) {
+      const Vec3 a = node[i * (m + 1) + j], b = node[(i + 1) * (m + 1) + j],
+                 c = node[(i + 1) * (m + 1) + j + 1], d = node[i * (m + 1) + j + 1];
+      const bool other = random() % 2;
+      for (const Vec3 &p : {a, b, other ? d : c, other ? b : a, c, d}) soup.corners.push_back(p);
+    }
+  return soup;
+}
+
+Vec3 round_z(Real r, Real turns, Real z)
+{
+  return {r * std::cos(2 * kPi * turns), r * std::sin(2 * kPi * turns), z};
+}
+
+TEST(faces_pushed, a_wall_at_rest_has_none)
+{
+  EXPECT_EQ(report_of(box_mesh({0, 0, 0}, {1, 1, 1}), {}).faces, 0u);
+}
+
+TEST(faces_pushed, a_belt_along_its_velocity_has_none)
+{
+  // 30 degrees up, in words of two digits.
+  const TriangleSoup belt = sheet(40, 9, 0.4, [](Real s, Real t) {
+    return Vec3{7 + 3 * s * std::cos(kPi / 6), t, 3 * s * std::sin(kPi / 6)};
+  });
+  EXPECT_EQ(report_of(belt, sliding({0.87, 0, 0.5})).faces, 0u);
+}
+
+TEST(faces_pushed, a_belt_askew_is_pushed_by_the_sine_of_the_angle)
+{
+  const Real angle = 5 * kPi / 180;
+  const PushReport push =
+      report_of(floor_mesh(4, 1), sliding({2 * std::cos(angle), 0, 2 * std::sin(angle)}));
+  EXPECT_EQ(push.faces, 32u);
+  EXPECT_NEAR(push.component, 2 * std::sin(angle), 1e-15);
+  EXPECT_NEAR(push.share, std::sin(angle), 1e-15);
+}
+
+TEST(faces_pushed, a_turntable_has_none)
+{
+  EXPECT_EQ(report_of(floor_mesh(9, 1, 3), turning(5)).faces, 0u);
+}
+
+TEST(faces_pushed, a_roll_has_none_from_six_sides_on)
+{
+  for (const int n : {6, 7, 12, 36, 200})
+    for (const int m : {1, 10})
+      EXPECT_EQ(report_of(cylinder_mesh(n, m, 1, 3), turning(5)).faces, 0u);
+}
+
+TEST(faces_pushed, surfaces_of_revolution_in_any_triangles_have_none)
+{
+  for (const int n : {12, 40, 100}) {
+    for (const int m : {2, 30}) {
+      EXPECT_EQ(report_of(sheet(n, m, 0.3, [](Real s, Real t) { return round_z(1, s, 2 * t); }),
+                          turning(3))
+                    .faces,
+                0u)
+          << "roll " << n << " " << m;
+      EXPECT_EQ(report_of(sheet(n, m, 0.3, [](Real s, Real t) { return round_z(1 + t, s, 2 * t); }),
+                          turning(3))
+                    .faces,
+                0u)
+          << "cone " << n << " " << m;
+    }
+    EXPECT_EQ(report_of(sheet(n, n, 0.1,
+                              [](Real s, Real t) {
+                                return round_z(std::sin(kPi * t), s, std::cos(kPi * t));
+                              }),
+                        turning(3))
+                  .faces,
+              0u)
+        << "sphere " << n;
+  }
+}
+
+// Six radial plates, 0.3 high and 0.1 off the radius, in a drum of radius 1.
+TEST(faces_pushed, lifters_of_a_drum_are_told_and_the_drum_is_not)
+{
+  TriangleSoup drum = cylinder_mesh(60, 4, 1, 2);
+  for (int k = 0; k < 6; k++) {
+    const Vec3 out = round_z(1, k / 6.0, 0), across = {-0.1 * out.y, 0.1 * out.x, 0};
+    const Vec3 a = 0.7 * out + across, b = out + across, up = {0, 0, 2};
+    for (const Vec3 &p : {a, b, b + up, a, b + up, a + up}) drum.corners.push_back(p);
+  }
+  const PushReport push = report_of(drum, turning(5));
+  EXPECT_EQ(push.faces, 12u);
+  // At the middle of the triangle with two corners outside, 0.9 from the foot of the axis.
+  EXPECT_NEAR(push.component, 5 * 0.9, 1e-12);
+  EXPECT_NEAR(push.share, 0.9 / std::hypot(0.9, 0.1), 1e-12);
+}
+
+// A flight from 0.3 to 1 with pitch 1, each quad in two triangles: at r it rises by 1 / (2 pi r)
+// along its chord, and the triangle with its two corners at r has that slope.
+TEST(faces_pushed, every_face_of_a_screw_is_told)
+{
+  for (const int n : {12, 48}) {
+    const PushReport push = report_of(
+        sheet(n, 1, 0, [](Real s, Real t) { return round_z(0.3 + 0.7 * t, s, s); }), turning(1));
+    EXPECT_EQ(push.faces, 2u * n);
+    EXPECT_GT(push.share, std::sin(std::atan(1 / (2 * kPi))));
+  }
+}
+
+TEST(faces_pushed, a_turning_box_is_no_roll)
+{
+  const PushReport push = report_of(box_mesh({-1, -1, 0}, {1, 1, 1}), turning(1));
+  EXPECT_EQ(push.faces, 8u);
+}
+
+}    // namespace
+}    // namespace lsdcd

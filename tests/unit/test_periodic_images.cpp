@@ -1,0 +1,277 @@
+// A mesh with the images of its triangles across periodic faces.
+
+#include "mesh/periodic_images.h"
+
+#include "contact/find_contacts.h"
+#include "contact/history.h"
+#include "grid/loose_ends.h"
+#include "grid/triangle_grid.h"
+#include "mesh/likely_scale.h"
+#include "output/wall_loads.h"
+#include "support/brute_force_long.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace lsdcd;
+
+namespace {
+
+PeriodicBox box_of(const Vec3 &size, Real margin = 0)
+{
+  PeriodicBox box;
+  for (int k = 0; k < 3; k++) {
+    box.edge[k] = {0, 0, 0};
+    box.edge[k][k] = size[k];
+    box.periodic[k] = true;
+  }
+  box.margin = margin;
+  return box;
+}
+
+PeriodicBox tilted_box()
+{
+  PeriodicBox box = box_of({3, 4, 5});
+  box.corner = {-0.5, 0.25, 1};
+  box.edge[1].x = 1.3;
+  box.edge[2].x = -0.9;
+  box.edge[2].y = 1.7;
+  return box;
+}
+
+TriangleGrid grid_of(const WallMesh &mesh, Real reach)
+{
+  GridSettings settings;
+  settings.reach = reach;
+  return build_grid(mesh, settings);
+}
+
+// Triangles anywhere in a box of 2 x 3 x 4, of which none need meet another.
+TriangleSoup scattered(std::mt19937_64 &random, int n)
+{
+  std::uniform_real_distribution<Real> uniform(0, 1);
+  TriangleSoup soup;
+  for (int t = 0; t < n; t++) {
+    const Vec3 at = {2 * uniform(random), 3 * uniform(random), 4 * uniform(random)};
+    for (int k = 0; k < 3; k++)
+      soup.corners.push_back(at + Vec3{uniform(random), uniform(random), uniform(random)});
+  }
+  return soup;
+}
+
+// A flat square of 2 n^2 triangles, a x a, with its lower corner at the origin.
+TriangleSoup square(int n, Real a)
+{
+  TriangleSoup soup;
+  const Real s = a / n;
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++) {
+      const Vec3 p = {i * s, j * s, 0}, q = {(i + 1) * s, j * s, 0},
+                 r = {(i + 1) * s, (j + 1) * s, 0}, t = {i * s, (j + 1) * s, 0};
+      soup.corners.insert(soup.corners.end(), {p, q, r, p, r, t});
+    }
+  return soup;
+}
+
+}    // namespace
+
+TEST(periodic_box, fractions_of_a_tilted_box_are_those_of_its_edges)
+{
+  const PeriodicBox box = tilted_box();
+  const Vec3 x = box.corner + 0.25 * box.edge[0] + 0.5 * box.edge[1] + 2 * box.edge[2];
+  const Vec3 f = box.fraction(x);
+  EXPECT_NEAR(f.x, 0.25, 1e-15);
+  EXPECT_NEAR(f.y, 0.5, 1e-15);
+  EXPECT_NEAR(f.z, 2, 1e-14);
+}
+
+TEST(periodic_box, width_is_the_distance_of_faces)
+{
+  const PeriodicBox box = tilted_box();
+  const Vec3 area = cross(box.edge[1], box.edge[2]);
+  EXPECT_NEAR(box.width(0), dot(box.edge[0], area) / norm(area), 1e-14);
+}
+
+TEST(periodic_images, what_the_mesh_has_keeps_its_number)
+{
+  std::mt19937_64 random(5);
+  for (int round = 0; round < 20; round++) {
+    const WallMesh mesh = weld(scattered(random, 40), -1);
+    const Vec3 size = mesh.report.hi - mesh.report.lo;
+    PeriodicBox box = box_of({size.x + 0.1, size.y, 0.7 * size.z});
+    box.corner = mesh.report.lo;
+    const WallMesh whole = with_images(mesh, box, 0.3);
+    ASSERT_TRUE(whole.images.any());
+    for (std::size_t v = 0; v < mesh.vertices.size(); v++)
+      ASSERT_TRUE(mesh.vertices[v] == whole.vertices[v]);
+    for (std::size_t f = 0; f < mesh.faces.size(); f++) {
+      ASSERT_EQ(mesh.faces[f], whole.faces[f]);
+      ASSERT_EQ(mesh.face_edges[f], whole.face_edges[f]);
+    }
+    for (std::size_t e = 0; e < mesh.edges.size(); e++) ASSERT_EQ(mesh.edges[e], whole.edges[e]);
+  }
+}
+
+TEST(periodic_images, an_image_is_named_after_what_it_is_an_image_of)
+{
+  std::mt19937_64 random(7);
+  const PeriodicBox box = tilted_box();
+  const WallMesh mesh = weld(scattered(random, 60), -1);
+  const WallMesh whole = with_images(mesh, box, 0.5);
+  ASSERT_GT(whole.images.face_of.size(), 10u);
+  // Moved by whole edges of the box: fractions differ by integers.
+  const auto is_image = [&](const Vec3 &x, const Vec3 &of) {
+    const Vec3 d = box.fraction(x) - box.fraction(of);
+    for (int k = 0; k < 3; k++)
+      if (std::fabs(d[k] - std::round(d[k])) > 1e-12) return false;
+    return true;
+  };
+  for (std::size_t i = 0; i < whole.images.vertex_of.size(); i++)
+    EXPECT_TRUE(is_image(whole.vertices[mesh.vertices.size() + i],
+                         mesh.vertices[whole.images.vertex_of[i]]));
+  for (std::size_t i = 0; i < whole.images.face_of.size(); i++)
+    for (int k = 0; k < 3; k++)
+      EXPECT_TRUE(is_image(whole.vertices[whole.faces[mesh.faces.size() + i][k]],
+                           mesh.vertices[mesh.faces[whole.images.face_of[i]][k]]));
+  const auto middle = [](const WallMesh &m, std::size_t e) {
+    return 0.5 * (m.vertices[m.edges[e][0]] + m.vertices[m.edges[e][1]]);
+  };
+  for (std::size_t i = 0; i < whole.images.edge_of.size(); i++)
+    EXPECT_TRUE(
+        is_image(middle(whole, mesh.edges.size() + i), middle(mesh, whole.images.edge_of[i])));
+}
+
+// The oracle: all 27 copies of the mesh, tested one by one in long double.
+TEST(periodic_images, distances_near_faces_are_those_to_all_copies)
+{
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<Real> uniform(0, 1);
+  for (int round = 0; round < 10; round++) {
+    PeriodicBox box = tilted_box();
+    const Real reach = 0.2, margin = 0.15;
+    const TriangleSoup soup = scattered(random, 30);
+    const WallMesh mesh = weld(soup, 0);
+    const TriangleGrid grid = grid_of(with_images(mesh, box, reach + margin), reach);
+    TriangleSoup copies;
+    for (int a = -1; a <= 1; a++)
+      for (int b = -1; b <= 1; b++)
+        for (int c = -1; c <= 1; c++)
+          for (const Vec3 &x : soup.corners)
+            copies.corners.push_back(x + Real(a) * box.edge[0] + Real(b) * box.edge[1] +
+                                     Real(c) * box.edge[2]);
+    const auto triangles = long_triangles<long double>(copies);
+    int near = 0;
+    for (int i = 0; i < 2000; i++) {
+      Vec3 x = box.corner;
+      for (int k = 0; k < 3; k++) {
+        const Real past = margin / box.width(k);
+        x += (-past + (1 + 2 * past) * uniform(random)) * box.edge[k];
+      }
+      const Real least =
+          std::min(reach, long_distance(triangles.data(), static_cast<int>(triangles.size()), x));
+      ContactSet<64> set;
+      find_contacts(grid.view(), x, reach, set);
+      Real found = reach;
+      for (int k = 0; k < set.n; k++) found = std::min(found, set.distance[k]);
+      near += least < reach;
+      // Coordinates below 20 are rounded by 2e-15, and a distance by some tens of that.
+      EXPECT_NEAR(found, least, 1e-13);
+    }
+    EXPECT_GT(near, 20);
+  }
+}
+
+TEST(periodic_images, seams_weld_where_the_mesh_continues_itself)
+{
+  const WallMesh whole = with_images(weld(square(4, 2), -1), box_of({2, 2, 2}), 0.3);
+  for (std::size_t e = 0; e < whole.images.n_edges; e++)
+    EXPECT_EQ(whole.edge_first[e + 1] - whole.edge_first[e], 2) << "edge " << e;
+}
+
+TEST(periodic_images, a_mesh_far_from_all_faces_has_none)
+{
+  const WallMesh mesh = weld(box_mesh({1, 1, 1}, {2, 2, 2}), -1);
+  EXPECT_FALSE(with_images(mesh, box_of({3, 3, 3}), 0.9).images.any());
+}
+
+TEST(periodic_images, an_image_on_top_of_the_mesh_is_dropped)
+{
+  // Two boxes long: each half lies on the image of the other.
+  const WallMesh mesh = weld(square(8, 4), -1);
+  PeriodicBox box = box_of({2, 2, 2});
+  box.periodic[2] = false;
+  const WallMesh whole = with_images(mesh, box, 0.01);
+  ASSERT_TRUE(whole.images.any());
+  for (std::size_t f = mesh.faces.size(); f < whole.faces.size(); f++) {
+    Vec3 lo = whole.vertices[whole.faces[f][0]];
+    for (int v : whole.faces[f])
+      for (int k = 0; k < 3; k++) lo[k] = std::min(lo[k], whole.vertices[v][k]);
+    EXPECT_LT(std::min(lo.x, lo.y), 0);    // outside of the mesh
+  }
+}
+
+TEST(periodic_images, a_contact_goes_on_where_its_sphere_is_wrapped)
+{
+  const WallMesh mesh = weld(square(4, 2), -1);
+  const TriangleGrid grid = grid_of(with_images(mesh, box_of({2, 2, 2}), 0.3), 0.2);
+  ContactSet<4> out, in;
+  find_contacts(grid.view(), {2.11, 0.7, 0.1}, 0.2, out);
+  find_contacts(grid.view(), {0.11, 0.7, 0.1}, 0.2, in);
+  ASSERT_EQ(out.n, 1);
+  ASSERT_EQ(in.n, 1);
+  ASSERT_NE(out.feature[0], in.feature[0]);
+  EXPECT_TRUE(are_adjacent(grid.view().wall, out.feature[0], in.feature[0]));
+  EXPECT_EQ(own_feature(grid.view().wall, out.feature[0]), in.feature[0]);
+}
+
+TEST(periodic_images, loads_of_an_image_are_those_of_the_mesh)
+{
+  const WallMesh mesh = weld(square(4, 2), -1);
+  const TriangleGrid grid = grid_of(with_images(mesh, box_of({2, 2, 2}), 0.3), 0.2);
+  ContactSet<4> out;
+  find_contacts(grid.view(), {2.11, 0.7, 0.1}, 0.2, out);
+  ContactRecord record = {};
+  record.feature = out.feature[0];
+  record.normal = 3;
+  WallLoads loads;
+  loads.add(&record, 1, 0.5, 0, grid.view().wall);
+  Real sum = 0;
+  for (const Load &l : loads.of_faces(mesh)) sum += l.normal;
+  EXPECT_EQ(sum, 1.5);
+}
+
+TEST(loose_ends, a_gap_across_the_face_is_found_and_measured)
+{
+  TriangleSoup belt = square(4, 1);
+  for (Vec3 &x : belt.corners) x = {0.01 + 0.97 * x.x, 0.4 + 0.2 * x.y, 0.5};
+  PeriodicBox box = box_of({1, 1, 1});
+  const WallMesh whole = with_images(weld(belt, -1), box, 0.1);
+  const TriangleGrid grid = grid_of(whole, 0.05);
+  const LooseEnds loose = loose_ends(whole, grid.view().wall, box, 0.2);
+  EXPECT_EQ(loose.edges, 8u);    // four at each end
+  EXPECT_NEAR(loose.widest, 0.03, 1e-12);
+  EXPECT_EQ(loose.axis, 0);
+}
+
+TEST(loose_ends, ends_that_meet_or_overlap_are_none)
+{
+  for (Real length : {1.0, 1.02}) {
+    TriangleSoup belt = square(4, 1);
+    for (Vec3 &x : belt.corners) x = {length * x.x, 0.4 + 0.2 * x.y, 0.5};
+    PeriodicBox box = box_of({1, 1, 1});
+    const WallMesh whole = with_images(weld(belt, -1), box, 0.1);
+    EXPECT_EQ(loose_ends(whole, grid_of(whole, 0.05).view().wall, box, 0.2).edges, 0u) << length;
+  }
+}
+
+TEST(likely_scale, millimetres_in_a_box_of_metres)
+{
+  EXPECT_EQ(likely_scale({100, 80, 120}, {0.12, 0.12, 0.12}), 1e-3);
+}
+
+TEST(likely_scale, a_floor_wider_than_the_box_is_none)
+{
+  EXPECT_EQ(likely_scale({2000, 2000, 0}, {10, 10, 10}), 1);
+}
