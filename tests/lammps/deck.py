@@ -23,6 +23,8 @@ KOKKOS_HOST = os.environ.get("LSDCD_KOKKOS_HOST", "") and os.environ["LSDCD_KOKK
 KOKKOS_PLUGIN = os.environ.get("LSDCD_KOKKOS_PLUGIN", "")
 ON_KOKKOS = bool(os.environ.get("LSDCD_KOKKOS"))
 
+MPI_FOLDER = tempfile.TemporaryDirectory(prefix="mpi")
+
 
 def environment():
     env = dict(os.environ, OMP_NUM_THREADS="1")
@@ -32,6 +34,9 @@ def environment():
                OMPI_MCA_btl_vader_single_copy_mechanism="none")
     # A process alone needs no daemon, which would take longer than most decks.
     env.update(OMPI_MCA_ess_singleton_isolated="1")
+    # All such processes give their folder the same name and remove it when they end. Each gets a
+    # parent folder of its own, so that none removes the folder of another.
+    env.update(OMPI_MCA_orte_tmpdir_base=tempfile.mkdtemp(dir=MPI_FOLDER.name))
     return env
 
 
