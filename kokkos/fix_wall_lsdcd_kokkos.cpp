@@ -45,96 +45,26 @@ FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char *
 }
 
 template <class DeviceType>
-int FixWallLsdcdKokkos<DeviceType>::setmask()
-{
-  return FixWallLsdcd::setmask() | (lsdcd::kOnHost<DeviceType> ? 0 : PRE_REVERSE);
-}
-
-template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::need_on_host()
 {
   atomKK->sync(Host, X_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TAG_MASK);
 }
 
 template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::before_rebuild()
+void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
 {
-  springs_to_host();
-  list_is_old = true;
-}
-
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::setup(int vflag)
-{
-  prepare_springs();
-  list_is_old = true;
-  FixWallLsdcd::setup(vflag);
-}
-
-// Tuning makes another engine, and springs of a restart file are checked on the host.
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::prepare_springs()
-{
-  if (!springs_checked || (settings.tune >= 0 && wall->reach() == 0)) springs_to_host();
-}
-
-// Before atoms move to other places in memory, and to other processes.
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::pre_exchange()
-{
-  look();
-  check_wrapping();
-  if (!history) return;
 #if LSDCD_DEVICE_EXCHANGE
-  if (springs_are == Where::device) {
-    // One more for the place of an atom's numbers in the message. A process on its own packs
+  if (springs_are == Where::engine) {
+    // One more for the offset of an atom's numbers in the message. A process on its own packs
     // hardly any atom, those that leave a fixed box, and need not look at all of them.
-    int largest = 1 + (comm->nprocs > 1 ? resident().largest_packed_size(n_with_springs)
-                                        : resident().most_packed_size());
+    int largest = 1 + (comm->nprocs > 1 ? in_place().largest_packed_size(n_with_springs)
+                                        : in_place().most_packed_size());
     MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
     ask_for_room(largest);
     return;
   }
 #endif
-  springs_to_host();
-  FixWallLsdcd::pre_exchange();
-}
-
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::pre_force(int vflag)
-{
-  if (neighbor->ago == 0) {
-    list_is_old = true;
-    prepare_springs();
-  }
-  FixWallLsdcd::pre_force(vflag);
-}
-
-// Once the forces between atoms are under way: Kokkos's next kernel may make the host wait for
-// them, and contacts are to be searched for meanwhile.
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int, int)
-{
-  if (!running) return;
-  lsdcd::Spheres s = spheres();
-  const lsdcd::StepSettings step = step_settings(s);
-  try {
-    resident().search(s, step);
-  } catch (const std::exception &e) {
-    stop(e);
-  }
-}
-
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::post_run()
-{
-  look();
-  FixWallLsdcd::post_run();
-  if (steps_run > 0 && !settings.brief)
-    log("Fix " + std::string(id) + " wall/lsdcd/kk: " + std::to_string(steps_run) + " steps with " +
-        std::to_string(lists_made) + " lists of near atoms" +
-        (list_keeps() ? "" : " (neigh_modify delay 0 every 1 check yes lets a list be kept)"));
-  steps_run = lists_made = 0;
+  FixWallLsdcd::make_exchange_room();
 }
 
 template <class DeviceType>
@@ -155,32 +85,15 @@ lsdcd::Spheres FixWallLsdcdKokkos<DeviceType>::spheres()
   return s;
 }
 
-template <class DeviceType>
-bool FixWallLsdcdKokkos<DeviceType>::list_keeps() const
-{
-  return spheres_stay_close() && !group->dynamic[igroup];
-}
-
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::choose_if_due(const lsdcd::Spheres &s)
-{
-  if (history) springs_to_device();
-  if (!list_is_old && list_keeps()) return;
-  resident().choose(s, list_keeps() ? 0.5 * neighbor->skin : 0.0);
-  list_is_old = false;
-  lists_made++;
-}
-
-// Before the forces between atoms, beside which a GPU searches for contacts.
+// Before the forces between atoms, when a GPU has little to do: the host waits for a choice.
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::start()
 {
-  if (lsdcd::kOnHost<DeviceType> || wall->reach() == 0) return;
+  if (wall->reach() == 0) return;
   atomKK->sync(execution_space, X_MASK | RADIUS_MASK | MASK_MASK);
-  lsdcd::Spheres s = spheres();
+  if (history) in_place().grow(atom->nmax);
   try {
-    choose_if_due(s);
-    resident().mark_places();
+    choose_if_due(spheres());
   } catch (const std::exception &e) {
     stop(e);
   }
@@ -190,24 +103,16 @@ void FixWallLsdcdKokkos<DeviceType>::start()
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::collect()
 {
-  if (wall->reach() > 0) {
+  if (running) {
     atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
                                       MASK_MASK | F_MASK | TORQUE_MASK);
     lsdcd::Spheres s = spheres();
     const lsdcd::StepSettings step = step_settings(s);
-    try {
-      if (!running) choose_if_due(s);
-      engine->start(s, step, nullptr);
-      engine->collect();
-    } catch (const std::exception &e) {
-      stop(e);
-    }
-    atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
-    n_with_springs = atom->nlocal;
-    steps_run++;
-    running = false;
+    engine->start(s, step);
   }
-  keep_outputs();
+  const bool ran = running;
+  FixWallLsdcd::collect();
+  if (ran) atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
 }
 
 template <class DeviceType>
@@ -228,25 +133,7 @@ double FixWallLsdcdKokkos<DeviceType>::largest_radius()
   lsdcd::Spheres s = spheres();
   // Atoms may enter a dynamic group between two looks.
   if (group->dynamic[igroup]) s.mask = nullptr;
-  return resident().largest_radius(s);
-}
-
-// What steps have noted, for the warnings of the plain fix.
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::look()
-{
-  if (wall->reach() == 0) return;
-  try {
-    const lsdcd::StepNotes notes = resident().look();
-    uncertified_sum += notes.uncertified;
-    worst_uncertain = std::max(worst_uncertain, notes.uncertain);
-    if (notes.deepest <= worst_overlap) return;
-    worst_overlap = notes.deepest;
-    worst_step = update->ntimestep;
-    if (!overlap_warned && notes.deepest > kLargeOverlap) worst_tag = tag_of(notes.deepest_sphere);
-  } catch (const std::exception &e) {
-    stop(e);
-  }
+  return in_place().largest_radius(s);
 }
 
 // Of one atom: to bring all tags to the host takes a third of a millisecond for a million.

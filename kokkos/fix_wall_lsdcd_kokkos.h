@@ -14,24 +14,9 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   FixWallLsdcdKokkos(class LAMMPS *, int, char **);
 
   // schedule
-  int setmask() override;
-  void setup(int) override;
   void setup_pre_exchange() override { pre_exchange(); }
-  void pre_exchange() override;
-  void pre_force(int) override;
-  void pre_reverse(int, int) override;
-  void post_run() override;
 
-  // springs on the host
   void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
-  void set_arrays(int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
-  int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
-  int size_restart(int) override;
-  int maxsize_restart() override;
 
 #if LSDCD_DEVICE_EXCHANGE
   // springs on the device
@@ -48,31 +33,20 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void fill_masses() override;
   double largest_radius() override;
   void need_on_host() override;
-  void before_rebuild() override;
+  lsdcd::Spheres spheres() override;
+  void make_exchange_room() override;
   tagint tag_of(int) override;
 
  private:
-  lsdcd::ResidentEngine &resident()
+  lsdcd::InPlaceEngine &in_place()
   {
-    return static_cast<lsdcd::ResidentEngine &>(*engine);
+    return static_cast<lsdcd::InPlaceEngine &>(*engine);
   }
-  lsdcd::Spheres spheres();
-  void choose_if_due(const lsdcd::Spheres &);
-  bool list_keeps() const;
-  void look();
-  void prepare_springs();
-  void springs_to_host();
   void springs_to_device();
   static bool sends_from_host(ExecutionSpace);
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);
 
-  enum class Where { host, device };
-  Where springs_are = Where::host;
-  int n_with_springs = 0;    // atoms whose springs are on the device
-
-  bool list_is_old = true;
-  bigint steps_run = 0, lists_made = 0;
   Kokkos::View<double *, DeviceType> d_mass_seen;
 };
 

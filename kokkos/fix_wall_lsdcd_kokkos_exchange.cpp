@@ -1,5 +1,4 @@
-// Springs follow their atoms: on the device where the host does that, else by way of the
-// plain fix's store on the host. Rows of the contacts array stay on the host, as do their
+// Springs follow their atoms on the device where the host moves atoms there. Rows of the contacts array stay on the host, as do their
 // readers, and go from and to it where messages are on the device.
 
 #include "fix_wall_lsdcd_kokkos.h"
@@ -7,88 +6,20 @@
 using namespace LAMMPS_NS;
 
 template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::springs_to_host()
+void FixWallLsdcdKokkos<DeviceType>::grow_arrays(int nmax)
 {
-  if (!history || springs_are == Where::host) return;
-  resident().springs_to(springs, n_with_springs);
-  springs.grow(atom->nmax);
-  springs_are = Where::host;
+  FixWallLsdcd::grow_arrays(nmax);
+  if (springs_are == Where::engine) in_place().grow(nmax);
 }
+
+#if LSDCD_DEVICE_EXCHANGE
 
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::springs_to_device()
 {
-  resident().grow(atom->nmax);
-  if (springs_are == Where::device) return;
-  resident().springs_from(springs, atom->nlocal);
-  n_with_springs = atom->nlocal;
-  springs_are = Where::device;
+  in_place().grow(atom->nmax);
+  springs_to_engine();
 }
-
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::grow_arrays(int nmax)
-{
-  FixWallLsdcd::grow_arrays(nmax);
-  if (springs_are == Where::device) resident().grow(nmax);
-}
-
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::copy_arrays(int i, int j, int delflag)
-{
-  springs_to_host();
-  FixWallLsdcd::copy_arrays(i, j, delflag);
-}
-
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::set_arrays(int i)
-{
-  springs_to_host();
-  FixWallLsdcd::set_arrays(i);
-}
-
-template <class DeviceType>
-int FixWallLsdcdKokkos<DeviceType>::pack_exchange(int i, double *buf)
-{
-  springs_to_host();
-  return FixWallLsdcd::pack_exchange(i, buf);
-}
-
-template <class DeviceType>
-int FixWallLsdcdKokkos<DeviceType>::unpack_exchange(int i, double *buf)
-{
-  springs_to_host();
-  return FixWallLsdcd::unpack_exchange(i, buf);
-}
-
-template <class DeviceType>
-int FixWallLsdcdKokkos<DeviceType>::pack_restart(int i, double *buf)
-{
-  springs_to_host();
-  return FixWallLsdcd::pack_restart(i, buf);
-}
-
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::unpack_restart(int i, int nth)
-{
-  springs_to_host();
-  FixWallLsdcd::unpack_restart(i, nth);
-}
-
-template <class DeviceType>
-int FixWallLsdcdKokkos<DeviceType>::size_restart(int i)
-{
-  springs_to_host();
-  return FixWallLsdcd::size_restart(i);
-}
-
-template <class DeviceType>
-int FixWallLsdcdKokkos<DeviceType>::maxsize_restart()
-{
-  springs_to_host();
-  return FixWallLsdcd::maxsize_restart();
-}
-
-#if LSDCD_DEVICE_EXCHANGE
 
 // Atoms on a GPU whose messages leave from the host.
 template <class DeviceType>
@@ -164,7 +95,7 @@ int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
   int size = pack_rows(n, leaves, comes, at);
   if (history) {
     springs_to_device();
-    size += resident().pack(n, leaves, comes, at + size);
+    size += in_place().pack(n, leaves, comes, at + size);
   }
   if (sends_from_host(space)) {
     buffer.template modify<DeviceType>();
@@ -190,7 +121,7 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffe
   if (n_second > 0) unpack_rows(n_second, places + n_first, at + second);
   if (!history) return;
   springs_to_device();
-  resident().unpack(n, places, at + rows, n_first, second + n_second * row_size() - rows);
+  in_place().unpack(n, places, at + rows, n_first, second + n_second * row_size() - rows);
   n_with_springs = std::max(n_with_springs, atom->nlocal);
 }
 
@@ -208,8 +139,8 @@ void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, Bi
   if (!history) return;
   springs_to_device();
   using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  sorter.sort(LMPDeviceType(), Ints(resident().first_spring(), atom->nlocal));
-  sorter.sort(LMPDeviceType(), Ints(resident().n_springs(), atom->nlocal));
+  sorter.sort(LMPDeviceType(), Ints(in_place().first_spring(), atom->nlocal));
+  sorter.sort(LMPDeviceType(), Ints(in_place().n_springs(), atom->nlocal));
 }
 
 #endif

@@ -10,7 +10,7 @@
 #include "base/input_error.h"
 #include "base/rows.h"
 #include "base/threads.h"
-#include "engine/resident_engine.h"
+#include "engine/wall_engine.h"
 
 #include <memory>
 #include <type_traits>
@@ -72,7 +72,7 @@ std::unique_ptr<WallEngine> make_engine_on(const EngineSettings &settings)
   using Space = typename DeviceType::execution_space;
 #if defined(KOKKOS_ENABLE_CUDA)
   if constexpr (std::is_same<Space, Kokkos::Cuda>::value)
-    return make_resident_cuda_engine(settings, Space().cuda_device(), Space().cuda_stream());
+    return make_cuda_engine_in_place(settings, Space().cuda_device(), Space().cuda_stream());
   else
 #endif
   {
@@ -83,7 +83,7 @@ std::unique_ptr<WallEngine> make_engine_on(const EngineSettings &settings)
     // -k on t N
     if (std::is_same<Space, Kokkos::OpenMP>::value) threads_asked_for() = true;
 #endif
-    return make_resident_cpu_engine(settings);
+    return make_cpu_engine(settings);
   }
 }
 

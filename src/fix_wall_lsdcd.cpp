@@ -10,6 +10,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "force.h"
+#include "group.h"
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -160,6 +161,8 @@ void FixWallLsdcd::setup_pre_force_respa(int /*vflag*/, int ilevel)
 
 void FixWallLsdcd::setup(int /*vflag*/)
 {
+  list_is_old = true;
+  prepare_springs();
   if (!springs_checked) check_springs();
   if (callbacks) ask_for_most_room();
 
@@ -179,22 +182,33 @@ void FixWallLsdcd::min_setup(int /*vflag*/)
   warn("no effect in a minimization, as fix wall/gran has none");
 }
 
-// An atom that arrives may leave again in the next direction: room for the
-// largest of all processes.
 void FixWallLsdcd::pre_exchange()
 {
+  look();
   check_wrapping();
-  if (!history) return;
+  if (history) make_exchange_room();
+}
+
+// An atom that arrives may leave again in the next direction: room for the
+// largest of all processes.
+void FixWallLsdcd::make_exchange_room()
+{
+  springs_to_host();
   int largest = springs.largest_packed_size();
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
-  ask_for_room(1 + largest);    // and its place, which messages of Kokkos tell
+  ask_for_room(1 + largest);    // and its offset, which messages of Kokkos tell
 }
 
 // Radii may have been set before a run that has no setup.
 void FixWallLsdcd::pre_force(int /*vflag*/)
 {
   if (neighbor->ago == 0 && callbacks) ask_for_most_room();
-  if (!adapts) begin_step(neighbor->ago == 0 || update->ntimestep == update->firststep + 1);
+  const bool anew = neighbor->ago == 0 || update->ntimestep == update->firststep + 1;
+  if (anew || adapts) {
+    list_is_old = true;
+    prepare_springs();
+  }
+  if (!adapts) begin_step(anew);
 }
 
 // Fix adapt may come after this fix in pre_force.
@@ -226,11 +240,13 @@ void FixWallLsdcd::begin_step(bool look)
 
 void FixWallLsdcd::post_run()
 {
+  look();
   double worst = worst_overlap;
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, world);
   check_overlap(worst);
   check_wrapping();
   log_rebuilds();
+  log_lists();
   if (settings.nearest > 0) log_uncertified();
 }
 
@@ -244,10 +260,8 @@ lsdcd::StepSettings FixWallLsdcd::step_settings(lsdcd::Spheres &spheres)
   return step;
 }
 
-void FixWallLsdcd::start()
+lsdcd::Spheres FixWallLsdcd::spheres()
 {
-  if (wall->reach() == 0) return;    // no spheres yet
-
   lsdcd::Spheres s;
   s.n = atom->nlocal;
   if (s.n) {
@@ -261,10 +275,35 @@ void FixWallLsdcd::start()
   s.mass = rigid ? mass_seen.data() : atom->rmass;
   s.mask = igroup ? atom->mask : nullptr;
   s.group_bit = groupbit;
+  return s;
+}
 
+// Does LAMMPS reneighbour before any atom has gone farther than half the skin? Elsewhere the
+// engine looks at all atoms in every step.
+bool FixWallLsdcd::list_keeps() const
+{
+  return spheres_stay_close() && !group->dynamic[igroup];
+}
+
+void FixWallLsdcd::choose_if_due(const lsdcd::Spheres &s)
+{
+  if (history) springs_to_engine();
+  const bool keeps = list_keeps(), watches = !keeps && !group->dynamic[igroup] && neighbor->skin > 0;
+  if (!list_is_old && (keeps || (watches && !engine->has_moved(s)))) return;
+  engine->choose(s, keeps || watches ? 0.5 * neighbor->skin : 0.0, watches);
+  list_is_old = false;
+  choices++;
+}
+
+void FixWallLsdcd::start()
+{
+  if (wall->reach() == 0) return;    // no spheres yet
+
+  lsdcd::Spheres s = spheres();
   const lsdcd::StepSettings step = step_settings(s);
   try {
-    engine->start(s, step, history ? &springs : nullptr);
+    choose_if_due(s);
+    engine->start(s, step);
   } catch (const std::exception &e) {
     stop(e);
   }
@@ -280,16 +319,30 @@ void FixWallLsdcd::collect()
       stop(e);
     }
     running = false;
-    const lsdcd::WallTotals &t = engine->totals();
-    uncertified_sum += t.uncertified;
-    worst_uncertain = std::max(worst_uncertain, t.largest_uncertain);
-    if (t.largest_overlap_sphere >= 0 && t.largest_overlap_ratio > worst_overlap) {
-      worst_overlap = t.largest_overlap_ratio;
-      worst_tag = tag_of(t.largest_overlap_sphere);
-      worst_step = update->ntimestep;
-    }
+    n_with_springs = atom->nlocal;
+    steps_run++;
   }
   keep_outputs();
+}
+
+// What steps have noted, for warnings and the log.
+void FixWallLsdcd::look()
+{
+  if (wall->reach() == 0) return;
+  try {
+    const lsdcd::StepNotes notes = engine->look();
+    uncertified_sum += notes.uncertified;
+    worst_uncertain = std::max(worst_uncertain, notes.uncertain);
+    lists += notes.lists;
+    listed += notes.listed;
+    by_cells += notes.by_cells;
+    if (notes.deepest <= worst_overlap) return;
+    worst_overlap = notes.deepest;
+    worst_step = update->ntimestep;
+    if (!overlap_warned && notes.deepest > kLargeOverlap) worst_tag = tag_of(notes.deepest_sphere);
+  } catch (const std::exception &e) {
+    stop(e);
+  }
 }
 
 // Of the step just computed.
@@ -355,8 +408,9 @@ void FixWallLsdcd::follow_box()
 void FixWallLsdcd::rebuild(double reach)
 {
   const double old = wall->reach();
+  list_is_old = true;
   if (old > 0) {
-    before_rebuild();
+    springs_to_host();
     // Images get other numbers: a spring on one goes to what that is an image of.
     const lsdcd::WallFeaturesView features = wall->view().wall;
     if (history && wall->has_images())

@@ -64,6 +64,12 @@ class FixWallLsdcd : public Fix {
   lsdcd::SpringStore springs;
   lsdcd::WallLoads loads;
   bool history, records;
+  // Springs are with the engine from step to step, and here where LAMMPS moves atoms.
+  enum class Where { host, engine };
+  Where springs_are = Where::host;
+  int n_with_springs = 0;    // atoms whose springs are with the engine
+  bool list_is_old = true;   // of near atoms
+  bigint steps_run = 0, choices = 0, lists = 0, listed = 0, by_cells = 0;    // in this run
   bool callbacks = false;          // registered with Atom
   bool springs_checked = false;    // against this mesh: they may come from a restart file
   bigint other_law = 0;            // atoms of that file with springs of another law
@@ -104,10 +110,12 @@ class FixWallLsdcd : public Fix {
   // What wall/lsdcd/kk does in its own way.
   virtual void start();
   virtual void collect();
+  virtual lsdcd::Spheres spheres();
   virtual void fill_masses();
   virtual double largest_radius();    // of the group, on this process
   virtual void need_on_host() {}      // before atom data are read outside of a step
   virtual tagint tag_of(int);         // 0 where atoms have none
+  virtual void make_exchange_room();
   tagint tag_of_radius(double);       // the first of the group that has it
 
   lsdcd::StepSettings step_settings(lsdcd::Spheres &);    // gives the spheres their heat, too
@@ -115,8 +123,14 @@ class FixWallLsdcd : public Fix {
   void update_reach();
   void follow_box();
   void rebuild(double);
-  virtual void before_rebuild() {}    // the wall's features get other numbers
   void begin_step(bool);
+  void choose_if_due(const lsdcd::Spheres &);
+  bool list_keeps() const;
+  void look();
+  void log_lists();
+  void prepare_springs();
+  void springs_to_host();
+  void springs_to_engine();
   void fill_contacts();
   void reduce_totals();
 

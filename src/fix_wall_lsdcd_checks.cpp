@@ -120,7 +120,7 @@ void FixWallLsdcd::check_overlap(double worst)
   bigint which[2] = {worst_tag, worst_step};
   MPI_Bcast(which, 2, MPI_LMP_BIGINT, most.rank, world);
   warn("atom " + std::to_string(which[0]) + " sank into the wall by " +
-       number_text(100 * most.value) + " % of its radius at step " + std::to_string(which[1]) +
+       number_text(100 * most.value) + " % of its radius by step " + std::to_string(which[1]) +
        ": stiffen the contact (kn) or lower speeds; shown once");
 }
 
@@ -216,6 +216,24 @@ void FixWallLsdcd::check_springs()
            " atoms lose their springs: the restart file was written with "
            "another " +
            other[k]);
+}
+
+// How often near atoms were chosen and lists of the wall made in this run. Collective.
+void FixWallLsdcd::log_lists()
+{
+  bigint sum[3] = {lists, listed, by_cells};
+  MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (steps_run > 0 && !settings.brief) {
+    std::string t = signed_text(std::to_string(steps_run) + " steps, near atoms chosen " +
+                                std::to_string(choices) + " times");
+    if (!list_keeps()) t += " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
+    if (sum[0] > 0)
+      t += ", " + std::to_string(sum[0]) + " lists of the wall made, " +
+           number_text(static_cast<double>(sum[1]) / sum[0]) + " features each";
+    if (sum[2] > 0) t += "; " + std::to_string(sum[2]) + " times a cell was searched instead";
+    log(t);
+  }
+  steps_run = choices = lists = listed = by_cells = 0;
 }
 
 // What nearest lists may have cost so far: after the first run, and when it has grown much since

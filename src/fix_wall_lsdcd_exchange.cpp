@@ -13,6 +13,28 @@
 
 using namespace LAMMPS_NS;
 
+void FixWallLsdcd::springs_to_host()
+{
+  if (!history || springs_are == Where::host) return;
+  engine->springs_to(springs, n_with_springs);
+  springs.grow(atom->nmax);
+  springs_are = Where::host;
+}
+
+void FixWallLsdcd::springs_to_engine()
+{
+  if (springs_are == Where::engine) return;
+  engine->springs_from(springs, atom->nlocal);
+  n_with_springs = atom->nlocal;
+  springs_are = Where::engine;
+}
+
+// Tuning makes another engine, and springs of a restart file are checked on the host.
+void FixWallLsdcd::prepare_springs()
+{
+  if (!springs_checked || (settings.tune >= 0 && wall->reach() == 0)) springs_to_host();
+}
+
 void FixWallLsdcd::grow_arrays(int nmax)
 {
   if (history) springs.grow(nmax);
@@ -24,18 +46,21 @@ void FixWallLsdcd::grow_arrays(int nmax)
 // were deleted or displaced.
 void FixWallLsdcd::copy_arrays(int i, int j, int /*delflag*/)
 {
+  springs_to_host();
   if (history) springs.copy(i, j);
   if (settings.contacts) std::copy_n(array_atom[i], size_peratom_cols, array_atom[j]);
 }
 
 void FixWallLsdcd::set_arrays(int i)
 {
+  springs_to_host();
   if (history) springs.clear(i);
   if (settings.contacts) std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
 }
 
 int FixWallLsdcd::pack_exchange(int i, double *buf)
 {
+  springs_to_host();
   const int n = history ? springs.pack(i, buf) : 0;
   if (settings.contacts) std::copy_n(array_atom[i], size_peratom_cols, buf + n);
   return n + row_size();
@@ -43,6 +68,7 @@ int FixWallLsdcd::pack_exchange(int i, double *buf)
 
 int FixWallLsdcd::unpack_exchange(int i, double *buf)
 {
+  springs_to_host();
   const int n = history ? springs.unpack(i, buf) : 0;
   if (settings.contacts) std::copy_n(buf + n, size_peratom_cols, array_atom[i]);
   return n + row_size();
@@ -70,23 +96,26 @@ void FixWallLsdcd::ask_for_room(int springs_take)
 // the pre_exchange() of a fix before this one. No sphere has more contacts than this.
 void FixWallLsdcd::ask_for_most_room()
 {
-  ask_for_room(history ? 2 + springs.doubles_per_spring() * lsdcd::kMostPlaces : 0);
+  ask_for_room(history ? 2 + springs.doubles_per_spring() * lsdcd::kMostContacts : 0);
 }
 
 // In restart files the first number is the size, by which other fixes skip it.
 int FixWallLsdcd::size_restart(int i)
 {
+  springs_to_host();
   return 1 + springs.packed_size(i);
 }
 
 int FixWallLsdcd::maxsize_restart()
 {
+  springs_to_host();
   return 1 + springs.largest_packed_size();
 }
 
 // The images of another run may have other numbers.
 int FixWallLsdcd::pack_restart(int i, double *buf)
 {
+  springs_to_host();
   buf[0] = size_restart(i);
   springs.pack(i, buf + 1);
   if (wall->reach() > 0 && wall->has_images())
@@ -99,6 +128,7 @@ int FixWallLsdcd::pack_restart(int i, double *buf)
 
 void FixWallLsdcd::unpack_restart(int i, int nth)
 {
+  springs_to_host();
   const double *extra = atom->extra[i];
   for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
   // Another law of the file's fix may have kept more or less for each contact, and this one none.

@@ -19,12 +19,37 @@ LSDCD_FN int fetch_add(int *at, int n)
 #endif
 }
 
-LSDCD_FN void count_one(std::uint64_t *at)
+LSDCD_FN void add_to(std::uint64_t *at, std::uint64_t n)
 {
 #if defined(__CUDA_ARCH__)
-  atomicAdd(reinterpret_cast<unsigned long long *>(at), 1ull);
+  atomicAdd(reinterpret_cast<unsigned long long *>(at), static_cast<unsigned long long>(n));
 #else
-  __atomic_fetch_add(at, 1, __ATOMIC_RELAXED);
+  __atomic_fetch_add(at, n, __ATOMIC_RELAXED);
+#endif
+}
+LSDCD_FN void count_one(std::uint64_t *at)
+{
+  add_to(at, 1);
+}
+
+// A lock is 0 while it is free. Threads of a GPU's warp wait for each other one by one.
+LSDCD_FN bool try_lock(int *lock)
+{
+#if defined(__CUDA_ARCH__)
+  if (atomicCAS(lock, 0, 1) != 0) return false;
+  __threadfence();
+  return true;
+#else
+  return __atomic_exchange_n(lock, 1, __ATOMIC_ACQUIRE) == 0;
+#endif
+}
+LSDCD_FN void unlock(int *lock)
+{
+#if defined(__CUDA_ARCH__)
+  __threadfence();
+  atomicExch(lock, 0);
+#else
+  __atomic_store_n(lock, 0, __ATOMIC_RELEASE);
 #endif
 }
 

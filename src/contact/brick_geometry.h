@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/wall_geometry.h"
+#include "grid/brick_words.h"
 
 namespace lsdcd {
 
@@ -12,6 +13,11 @@ class BrickGeometry {
   LSDCD_FN BrickGeometry(const GridView &grid, const Vec3 &q, const CellAddress &at) :
       grid_(grid), q_(q), p_(vec_cast<float>(at.from_centre + from_brick_centre(grid, at.cell))),
       slack_(static_cast<float>(slack(grid)))
+  {
+  }
+  // For a point inside of the grid.
+  LSDCD_FN BrickGeometry(const GridView &grid, const Vec3 &q) :
+      BrickGeometry(grid, q, address_inside(grid, q))
   {
   }
 
@@ -37,17 +43,18 @@ class BrickGeometry {
     }
   }
 
-  LSDCD_FN Foot foot(FeatureCode code, Real within) const
+  // `more`: of tolerance, beside the slack (length).
+  LSDCD_FN Foot foot(FeatureCode code, Real within, Real more = 0) const
   {
     const std::uint32_t i = feature_index(code);
-    const float limit = static_cast<float>(within);
+    const float limit = static_cast<float>(within), slack = slack_ + static_cast<float>(more);
     switch (feature_kind(code)) {
       case FeatureKind::face:
-        return on_face(i, limit);
+        return on_face(i, slack, limit);
       case FeatureKind::edge:
-        return on_edge(grid_.records.edges[i], limit);
+        return on_edge(grid_.records.edges[i], slack, limit);
       default:
-        return on_vertex(grid_.records.vertices[i], limit);
+        return on_vertex(grid_.records.vertices[i], slack, limit);
     }
   }
 
@@ -60,7 +67,7 @@ class BrickGeometry {
   {
     const BrickFace f = grid_.records.faces[feature_index(face)];
     if (!(fabs(height(f.plane)) <= static_cast<float>(within))) return Over::far;
-    return over_sides(f);
+    return over_sides(f, slack_);
   }
 
  private:
@@ -75,11 +82,11 @@ class BrickGeometry {
     return dot(plane.normal, p_) + plane.offset;
   }
 
-  LSDCD_FN Over over_sides(const BrickFace &f) const
+  LSDCD_FN Over over_sides(const BrickFace &f, float slack) const
   {
     const float a = height(f.side[0]), b = height(f.side[1]), c = height(f.side[2]);
-    if (!(a >= -slack_ && b >= -slack_ && c >= -slack_)) return Over::outside;
-    return a < slack_ || b < slack_ || c < slack_ ? Over::rim : Over::inside;
+    if (!(a >= -slack && b >= -slack && c >= -slack)) return Over::outside;
+    return a < slack || b < slack || c < slack ? Over::rim : Over::inside;
   }
 
   // Forces and springs want a normal that is unit in double.
@@ -89,11 +96,11 @@ class BrickGeometry {
     return {true, static_cast<Real>(distance), (1 / norm(n)) * n};
   }
 
-  LSDCD_FN Foot on_face(std::uint32_t i, float within) const
+  LSDCD_FN Foot on_face(std::uint32_t i, float slack, float within) const
   {
     const BrickFace f = grid_.records.faces[i];
     const float h = height(f.plane);
-    const Over over = over_sides(f);
+    const Over over = over_sides(f, slack);
     // Both before a branch, so that a GPU asks for all of the record at once.
     if (!(fabs(h) <= within) | (over == Over::outside)) return kNoFoot;
     if (over == Over::rim) {
@@ -102,20 +109,20 @@ class BrickGeometry {
         const FaceVertices &v = grid_.wall.face_vertex[grid_.records.face_of[i]];
         corner[k] = grid_.wall.vertices[v.v[k]].position;
       }
-      if (!before_corners(corner, q_, slack_)) return kNoFoot;
+      if (!before_corners(corner, q_, slack)) return kNoFoot;
     }
     return foot_along(h < 0 ? -f.plane.normal : f.plane.normal, fabs(h));
   }
 
-  LSDCD_FN Foot on_edge(const BrickEdge e, float within) const
+  LSDCD_FN Foot on_edge(const BrickEdge e, float slack, float within) const
   {
     const Vec3f d = p_ - e.anchor;
     const float along = dot(e.direction, d);
-    if (!(along >= e.lo - slack_ && along <= e.hi + slack_)) return kNoFoot;
-    if (e.n_faces > 0 && !(dot(e.inward[0], d) <= slack_)) return kNoFoot;
-    if (e.n_faces > 1 && !(dot(e.inward[1], d) <= slack_)) return kNoFoot;
+    if (!(along >= e.lo - slack && along <= e.hi + slack)) return kNoFoot;
+    if (e.n_faces > 0 && !(dot(e.inward[0], d) <= slack)) return kNoFoot;
+    if (e.n_faces > 1 && !(dot(e.inward[1], d) <= slack)) return kNoFoot;
     for (std::uint32_t k = 2; k < e.n_faces; k++)
-      if (!(dot(grid_.records.edge_inward[e.more + k - 2], d) <= slack_)) return kNoFoot;
+      if (!(dot(grid_.records.edge_inward[e.more + k - 2], d) <= slack)) return kNoFoot;
     const Vec3f radial = d - along * e.direction;
     const float distance = norm(radial);
     if (!(distance <= within)) return kNoFoot;
@@ -128,7 +135,7 @@ class BrickGeometry {
     return {true, 0, any_perpendicular(vec_cast<Real>(e.direction))};
   }
 
-  LSDCD_FN Foot on_vertex(const BrickVertex &v, float within) const
+  LSDCD_FN Foot on_vertex(const BrickVertex &v, float slack, float within) const
   {
     const Vec3f d = p_ - v.position;
     const float distance = norm(d);
@@ -136,7 +143,7 @@ class BrickGeometry {
     Vec3f away = {0, 0, 0};
     for (std::uint32_t k = v.first; k < v.first + v.count; k++) {
       const Vec3f direction = grid_.records.vertex_direction[k];
-      if (!(dot(direction, d) <= slack_)) return kNoFoot;
+      if (!(dot(direction, d) <= slack)) return kNoFoot;
       away -= direction;
     }
     if (distance > kOnWall) return foot_along((1 / distance) * d, distance);

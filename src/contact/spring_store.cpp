@@ -1,7 +1,5 @@
 #include "contact/spring_store.h"
 
-#include "base/threads.h"
-
 #include <algorithm>
 
 namespace lsdcd {
@@ -70,32 +68,8 @@ int SpringStore::largest_packed_size() const
 std::size_t SpringStore::bytes() const
 {
   return (first_.capacity() + count_.capacity()) * sizeof(int) +
-         (pool_.capacity() + next_.capacity()) * sizeof(Spring) +
-         (extra_.capacity() + next_extra_.capacity()) * sizeof(Real);
-}
-
-void SpringStore::replace(const int *which, int n, const int *counts, const Spring *springs,
-                          const Real *extra, int stride)
-{
-  std::fill(count_.begin(), count_.end(), 0);
-  int total = 0;
-  for (int k = 0; k < n; k++) {
-    first_[which[k]] = total;
-    count_[which[k]] = counts[k];
-    total += counts[k];
-  }
-  next_.resize(total);
-  next_extra_.resize(static_cast<std::size_t>(total) * n_extra_);
-#pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
-  for (int k = 0; k < n; k++) {
-    const int to = first_[which[k]];
-    const std::size_t from = stride == kPacked ? to : static_cast<std::size_t>(k) * stride;
-    std::copy(springs + from, springs + from + counts[k], next_.begin() + to);
-    std::copy(extra + from * n_extra_, extra + (from + counts[k]) * n_extra_,
-              next_extra_.begin() + static_cast<std::size_t>(to) * n_extra_);
-  }
-  pool_.swap(next_);
-  extra_.swap(next_extra_);
+         pool_.capacity() * sizeof(Spring) +
+         extra_.capacity() * sizeof(Real);
 }
 
 }    // namespace lsdcd

@@ -8,13 +8,10 @@
 
 namespace lsdcd {
 
-constexpr int kPacked = 0;    // a stride: no gaps
-
 // Springs of sphere i are pool[first[i]] .. pool[first[i] + count[i] - 1].
 // Two ints per sphere, one Spring per contact, and beside each Spring the numbers that
 // further effects of the contact law keep (`n_extra` of them; most laws have none). The
-// engine rebuilds the pool every step; between steps spheres may be copied, packed,
-// unpacked and reset.
+// host may copy, pack, unpack and reset spheres.
 class SpringStore {
  public:
   explicit SpringStore(int n_extra = 0) : n_extra_(n_extra) {}
@@ -60,17 +57,11 @@ class SpringStore {
   std::size_t pool_size() const { return pool_.size(); }
   std::size_t bytes() const;
 
-  // Replaces everything: spheres which[k] get counts[k] springs found at
-  // springs + k * stride, or with kPacked one after another, and their extra numbers at
-  // the same places of `extra`; all others get none.
-  void replace(const int *which, int n, const int *counts, const Spring *springs, const Real *extra,
-               int stride);
-
  private:
   int n_extra_;
   std::vector<int> first_, count_;
-  std::vector<Spring> pool_, next_, arrived_;
-  std::vector<Real> extra_, next_extra_, arrived_extra_;
+  std::vector<Spring> pool_, arrived_;
+  std::vector<Real> extra_, arrived_extra_;
 };
 
 }    // namespace lsdcd

@@ -12,6 +12,7 @@ enum class Over { far, outside, rim, inside };
 
 class WallGeometry {
  public:
+  LSDCD_FN WallGeometry(const GridView &grid, const Vec3 &q) : grid_(grid), q_(q) {}
   LSDCD_FN WallGeometry(const GridView &grid, const Vec3 &q, const CellAddress &) :
       grid_(grid), q_(q)
   {
@@ -24,9 +25,10 @@ class WallGeometry {
   // The feature of the wall that a code in a list stands for.
   LSDCD_FN FeatureCode feature(FeatureCode code) const { return code; }
 
-  LSDCD_FN Foot foot(FeatureCode code, Real within) const
+  // `more`: of tolerance, beside the slack (length).
+  LSDCD_FN Foot foot(FeatureCode code, Real within, Real more = 0) const
   {
-    return foot_on(grid_.wall, code, q_, grid_.slack, within);
+    return foot_on(grid_.wall, code, q_, grid_.slack + more, within);
   }
 
   LSDCD_FN const FaceParts &parts(FeatureCode face) const

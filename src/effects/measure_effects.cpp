@@ -82,7 +82,6 @@ double seconds(bool of_processor)
 
 struct Runner {
   std::unique_ptr<WallEngine> engine;
-  SpringStore springs;
   std::vector<double> ns;
 };
 
@@ -106,15 +105,15 @@ std::vector<EffectCost> measure_effects(const std::vector<EffectCase> &cases, De
   for (const EffectCase &c : cases) {
     EngineSettings e = c.settings;
     e.device = device;
-    runners.push_back({make_engine(e), SpringStore(e.law.n_extra()), {}});
+    runners.push_back({make_engine(e), {}});
     runners.back().engine->set_grid(flat.view());
-    runners.back().springs.grow(n_spheres);
+    runners.back().engine->choose(bed.spheres(), 0);
   }
   for (int r = -1; r < repeats; r++)    // the first round warms up
     for (Runner &one : runners) {
       const bool on_cpu = one.engine->backend().compare(0, 3, "CPU") == 0;
       const double start = seconds(on_cpu);
-      one.engine->start(bed.spheres(), step, &one.springs);
+      one.engine->start(bed.spheres(), step);
       one.engine->collect();
       const double took = seconds(on_cpu) - start;
       if (r >= 0) one.ns.push_back(1e9 * took / one.engine->totals().contacts);
@@ -125,7 +124,7 @@ std::vector<EffectCost> measure_effects(const std::vector<EffectCase> &cases, De
     std::sort(one.ns.begin(), one.ns.end());
     costs.push_back({one.engine->backend(), static_cast<int>(one.engine->totals().contacts),
                      repeats, one.ns[one.ns.size() / 2], one.ns.front(), one.ns.back(),
-                     one.engine->bytes(), one.springs.bytes()});
+                     one.engine->bytes()});
   }
   return costs;
 }

@@ -19,26 +19,7 @@
 namespace lsdcd {
 
 struct CpuBackend {
-  // Are contacts found ahead of the law? One pass is best here.
-  static constexpr bool kFindsFirst = false;
-
-  // Kernels beside others: here they are done at once.
-  struct Beside {
-    template <class B>
-    void mark(const B &)
-    {
-    }
-    template <class B>
-    B &begin(B &b)
-    {
-      return b;
-    }
-    void end() {}
-    template <class B>
-    void join(const B &)
-    {
-    }
-  };
+  static constexpr bool kOnHost = true;    // is its memory the host's?
 
   // allocate
   struct Memory {
@@ -49,12 +30,24 @@ struct CpuBackend {
   using Array = OwnedArray<T, Memory>;
   template <class T>
   using Scratch = Array<T>;    // for a while
+  template <class T>
+  using HostArray = Array<T>;    // what copies quickly
 
   // copy
   template <class T>
   void copy_in(const T *host, T *to, std::size_t n)
   {
     std::copy(host, host + n, to);
+  }
+  template <class T>
+  void send(const HostArray<T> &host, Array<T> &to, std::size_t n)
+  {
+    std::copy(host.data(), host.data() + n, to.data());
+  }
+  template <class T>
+  void receive(const Array<T> &from, HostArray<T> &host, std::size_t n)
+  {
+    std::copy(from.data(), from.data() + n, host.data());
   }
   template <class T>
   Array<T> from_host(const std::vector<T> &host)
@@ -138,39 +131,15 @@ struct CpuBackend {
     *total = n_kept;
   }
 
-  // list: from what work.read(i, item) reads, work.find(i, item) says into which list each i in
-  // [0, n) goes, or -1, and what is to be kept of it; work.keep(list, place, i, item) does so,
-  // and is called of those in no list, too. listed[list]: how many were there before and are
-  // now. Lists are in any order.
+  // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false
+  // work.several(i).
   template <class Work>
-  void list(std::size_t n, const Work &work, int *listed)
+  void step(std::size_t n, const Work &work)
   {
+    work.begin();
     for_each(n, [&](std::size_t i) {
-      typename Work::Item item;
-      work.read(i, item);
-      const int to = work.find(i, item);
-      work.keep(to, to >= 0 ? fetch_add(&listed[to], 1) : -1, i, item);
+      if (!work.single(i)) work.several(i);
     });
-  }
-
-  // few: work.few(s) for s in [0, work.n_few()), which only the device knows to be n at most;
-  // then work.last(lane) for lanes in [0, Work::kLastLanes).
-  template <class Work>
-  void few(std::size_t /*n*/, const Work &work)
-  {
-    for_each(work.n_few(), [&](std::size_t s) { work.few(s); });
-    for_each(Work::kLastLanes, [&](std::size_t lane) { work.last(lane); });
-  }
-
-  // few_and_many: work.few(s) for s in [0, work.n_few()), n_few at most, and at once
-  // work.many(i) for i in [0, n_many). `begins_early`: only the former needs what the backend
-  // was given last.
-  template <class Work>
-  void few_and_many(std::size_t /*n_few*/, std::size_t n_many, const Work &work,
-                    bool /*begins_early*/)
-  {
-    for_each(work.n_few(), [&](std::size_t s) { work.few(s); });
-    for_each(n_many, [&](std::size_t i) { work.many(i); });
   }
 
   // reduce

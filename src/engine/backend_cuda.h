@@ -2,10 +2,9 @@
 #pragma once
 
 #include "engine/cuda_check.h"
-#include "engine/cuda_few.h"
-#include "engine/cuda_list.h"
 #include "engine/cuda_mark.h"
 #include "engine/owned_array.h"
+#include "parallel/cuda_step.h"
 
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_reduce.cuh>
@@ -52,60 +51,9 @@ __global__ void cuda_for_each_part(const std::uint64_t *offset, std::size_t begi
 }
 
 struct CudaBackend {
-  // Are contacts found ahead of the law? A kernel of a law has few registers then, and its
-  // threads all have contacts.
-  static constexpr bool kFindsFirst = true;
+  static constexpr bool kOnHost = false;    // is its memory the host's?
 
   cudaStream_t stream = nullptr;
-
-  // A stream of its own for kernels that run beside others of the backend: small ones that
-  // wait for memory, behind large ones that do not wait for them. What begin() gives them to
-  // waits for what the backend had been given before mark(); join() has the backend wait for
-  // what that was given before end().
-  class Beside {
-   public:
-    Beside() = default;
-    ~Beside()
-    {
-      if (!mine_) return;
-      cudaStreamDestroy(mine_->stream);
-      cudaEventDestroy(begin_);
-      cudaEventDestroy(end_);
-    }
-    Beside(const Beside &) = delete;
-    Beside &operator=(const Beside &) = delete;
-
-    void mark(const CudaBackend &b)
-    {
-      if (!mine_) create();
-      cuda_check(cudaEventRecord(begin_, b.stream), "recording an event");
-    }
-    CudaBackend &begin(CudaBackend &)
-    {
-      cuda_check(cudaStreamWaitEvent(mine_->stream, begin_), "waiting for an event");
-      return *mine_;
-    }
-    void end() { cuda_check(cudaEventRecord(end_, mine_->stream), "recording an event"); }
-    void join(const CudaBackend &b)
-    {
-      cuda_check(cudaStreamWaitEvent(b.stream, end_), "waiting for an event");
-    }
-
-   private:
-    void create()
-    {
-      int least = 0, greatest = 0;
-      cuda_check(cudaDeviceGetStreamPriorityRange(&least, &greatest), "asking for priorities");
-      cuda_check(cudaEventCreateWithFlags(&begin_, cudaEventDisableTiming), "creating an event");
-      cuda_check(cudaEventCreateWithFlags(&end_, cudaEventDisableTiming), "creating an event");
-      auto mine = std::make_unique<CudaBackend>();
-      cuda_check(cudaStreamCreateWithPriority(&mine->stream, cudaStreamNonBlocking, greatest),
-                 "creating a stream");
-      mine_ = std::move(mine);
-    }
-    std::unique_ptr<CudaBackend> mine_;
-    cudaEvent_t begin_ = nullptr, end_ = nullptr;
-  };
 
   // allocate
   struct Memory {
@@ -119,6 +67,19 @@ struct CudaBackend {
   };
   template <class T>
   using Array = OwnedArray<T, Memory>;
+
+  // Page-locked memory of the host: what copies beside kernels.
+  struct HostMemory {
+    static void *allocate(std::size_t bytes)
+    {
+      void *at = nullptr;
+      cuda_check(cudaMallocHost(&at, bytes), "allocating page-locked memory");
+      return at;
+    }
+    static void free(void *at) { cudaFreeHost(at); }
+  };
+  template <class T>
+  using HostArray = OwnedArray<T, HostMemory>;
 
   // For a while, and for the default stream only: freed memory stays with the process,
   // so that the next one is quick to get.
@@ -165,6 +126,21 @@ struct CudaBackend {
     cuda_check(cudaMemcpyAsync(to, host, n * sizeof(T), cudaMemcpyHostToDevice, stream),
                "copying to the device");
     wait();
+  }
+  // The same without waiting, with page-locked host memory.
+  template <class T>
+  void send(const HostArray<T> &host, Array<T> &to, std::size_t n)
+  {
+    cuda_check(cudaMemcpyAsync(to.data(), host.data(), n * sizeof(T), cudaMemcpyHostToDevice,
+                               stream),
+               "copying to the device");
+  }
+  template <class T>
+  void receive(const Array<T> &from, HostArray<T> &host, std::size_t n)
+  {
+    cuda_check(cudaMemcpyAsync(host.data(), from.data(), n * sizeof(T), cudaMemcpyDeviceToHost,
+                               stream),
+               "copying from the device");
   }
   template <class T>
   Array<T> from_host(const std::vector<T> &host)
@@ -274,46 +250,17 @@ struct CudaBackend {
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
-  // list: from what work.read(i, item) reads, work.find(i, item) says into which of two lists
-  // each i in [0, n) goes, or -1, and what is to be kept of it; work.keep(list, place, i, item)
-  // does so, and is called of those in no list, too. listed[list]: how many were there before
-  // and are now. Lists are in any order. Threads of a warp read together.
+  // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false
+  // work.several(i). work.left() has room for n, *work.n_left() is 0.
   template <class Work>
-  void list(std::size_t n, const Work &work, int *listed)
+  void step(std::size_t n, const Work &work)
   {
     if (n == 0) return;
-    const auto blocks = static_cast<unsigned>((n + kListBlock - 1) / kListBlock);
-    cuda_list<2><<<blocks, kListBlock, 0, stream>>>(n, work, listed);
+    const auto blocks = static_cast<unsigned>((n + kStepBlock - 1) / kStepBlock);
+    cuda_single<<<blocks, kStepBlock, 0, stream>>>(static_cast<unsigned>(n), work);
     cuda_check(cudaGetLastError(), "starting a kernel");
-  }
-
-  // few: work.few(s) for s in [0, work.n_few()), which only the device knows to be n at most;
-  // then work.last(lane) for lanes in [0, Work::kLastLanes).
-  template <class Work>
-  void few(std::size_t n, const Work &work)
-  {
-    if (n == 0) return;
-    static_assert(Work::kLastLanes <= 32, "the lanes of a warp");
-    const auto warps = static_cast<unsigned>(std::min<std::size_t>(n, kFewWarps));
-    cuda_few<<<warps, 32, 0, stream>>>(work);
+    cuda_several<<<std::min(blocks, kSeveralBlocks), kStepBlock, 0, stream>>>(work);
     cuda_check(cudaGetLastError(), "starting a kernel");
-  }
-
-  // few_and_many: work.few(s) for s in [0, work.n_few()), n_few at most, and at once
-  // work.many(i) for i in [0, n_many), n_many a multiple of 32. `begins_early`: only the
-  // former needs what the backend was given last.
-  template <class Work>
-  void few_and_many(std::size_t n_few, std::size_t n_many, const Work &work, bool begins_early)
-  {
-    const auto blocks = [](std::size_t n) {
-      return static_cast<unsigned>((n + kManyBlock - 1) / kManyBlock);
-    };
-    const unsigned few_blocks = blocks(std::min<std::size_t>(n_few, kFewLanes)),
-                   all = few_blocks + blocks(n_many);
-    if (all == 0) return;
-    static const bool can = can_begin_early(cuda_few_and_many<Work>);
-    start_beside(can && begins_early, stream, all, kManyBlock, cuda_few_and_many<Work>, n_many,
-                 few_blocks, work);
   }
 
   // reduce

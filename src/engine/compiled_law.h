@@ -43,8 +43,7 @@ class LawBytes {
   alignas(std::max_align_t) unsigned char bytes_[256];
 };
 
-// A law compiled for one backend; start() does n near spheres, or lanes of crowded ones, as
-// start_law() or start_found_law() has it.
+// A law compiled for one backend; start() does the step of n near spheres, see start_law().
 template <class Backend>
 struct CompiledLaw {
   LawTraits traits;

@@ -2,16 +2,12 @@
 #pragma once
 
 #include "engine/backend_cuda.h"
-#include "engine/find_first.h"
 #include "engine/law_step.h"
 #include "engine/laws.h"
 
 namespace lsdcd {
 
 using CudaLaw = CompiledLaw<CudaBackend>;
-
-// Compiled once, in find_first_cuda.cu.
-extern template void find_first<CudaBackend>(CudaBackend &, const LawJob &, std::size_t, Real);
 
 CudaLaw cuda_law(const EngineSettings &settings);
 
@@ -35,7 +31,7 @@ struct MakeCudaLaw {
   {
     return on_wall<kernels>(law, effects, [](const auto &compiled) {
       using L = std::decay_t<decltype(compiled)>;
-      return CudaLaw{traits_of<L>(), LawBytes(compiled), start_found_law<L, CudaBackend>};
+      return CudaLaw{traits_of<L>(), LawBytes(compiled), start_law<L, CudaBackend>};
     });
   }
 };

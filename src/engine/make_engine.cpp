@@ -3,8 +3,6 @@
 
 namespace lsdcd {
 
-std::unique_ptr<WallEngine> make_cpu_engine(const EngineSettings &settings);
-
 #if defined(LSDCD_HAVE_CUDA)
 std::unique_ptr<WallEngine> make_cuda_engine(const EngineSettings &settings);
 #else
@@ -13,7 +11,24 @@ bool cuda_available(std::string *why)
   if (why) *why = "built without the CUDA toolkit";
   return false;
 }
+
+std::unique_ptr<InPlaceEngine> make_cuda_engine_in_place(const EngineSettings &, int, void *)
+{
+  throw InputError("built without the CUDA toolkit: the particles are on a GPU, the wall "
+                   "cannot be; build it where nvcc is found, or use wall/lsdcd/kk/host");
+}
 #endif
+
+void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
+               SpringStore *springs)
+{
+  if (springs) engine.springs_from(*springs, spheres.n);
+  engine.choose(spheres, 0);
+  engine.start(spheres, step);
+  engine.collect();
+  engine.look();    // throws where a sphere was left out
+  if (springs && step.update_history) engine.springs_to(*springs, spheres.n);
+}
 
 bool has_single(const EngineSettings &settings)
 {

@@ -66,29 +66,29 @@ class ResidentSprings {
     count_ = std::move(count);
   }
 
-  // For steps over n near spheres. With two places for each beside its own, or twice what
-  // was shared last, and those of crowded ones, none runs out.
+  // For steps over n near spheres, each of which has a slot of its own. With two for each beside,
+  // or twice what was shared last, and some for spheres with many contacts, none runs out.
   void make_room(std::size_t n, const StepCounts &last)
   {
     n_near_ = n;
     wanted_ = 0;
     if (!traits_.history && !traits_.records) return;
     const std::size_t shared = std::max(last.shared_used[0], last.shared_used[1]);
-    wanted_ = kOwnPlaces * n + std::max(2 * n, 2 * shared) + kCrowdContacts;
+    wanted_ = n + std::max(2 * n, 2 * shared) + kSpareSlots;
   }
 
-  // Where the next step writes; `place`: see ContactPool.
-  ContactPool next(int *place)
+  // Where the next step writes; `slot`: see ContactPool.
+  ContactPool next(int *slot)
   {
     Pool &pool = pool_[1 - now_];
     if (pool.size < wanted_) pool = make(wanted_ + wanted_ / 8);
-    pool.shared = kOwnPlaces * n_near_;
+    pool.shared = n_near_;
     return {static_cast<int>(pool.shared),
             static_cast<int>(pool.size),
             1 - now_,
             first_.data(),
             count_.data(),
-            place,
+            slot,
             pool.springs.data(),
             pool.extra.data(),
             pool.records.data()};
@@ -108,6 +108,8 @@ class ResidentSprings {
 
   void to_store(B &b, SpringStore &store, std::size_t n)
   {
+    if (!traits_.history) return;
+    grow(b, n);
     Array<int> offset(n);
     const std::size_t total = offsets(b, n, offset.data());
     Array<Spring> springs(total);
@@ -131,6 +133,7 @@ class ResidentSprings {
 
   void from_store(B &b, const SpringStore &store, std::size_t n)
   {
+    if (!traits_.history) return;
     grow(b, n);
     const SpringsView from = store.view();
     Pool &pool = pool_[now_];
@@ -153,7 +156,7 @@ class ResidentSprings {
                                   n, [=] LSDCD_LAMBDA(std::size_t i) -> int { return count[i]; });
   }
 
-  int most_packed_size() const { return 1 + per_spring() * kMostPlaces; }
+  int most_packed_size() const { return 1 + per_spring() * kMostContacts; }
 
   int pack(B &b, int n, const int *which, const int *from, double *buffer)
   {
@@ -259,6 +262,7 @@ class ResidentSprings {
 
  private:
   static constexpr std::size_t kUnknown = ~std::size_t(0);
+  static constexpr std::size_t kSpareSlots = 65536;
 
   int per_spring() const { return 7 + traits_.n_extra; }    // feature, normal, stretch, extra
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "base/real.h"
 
+#include <cstdio>
 #include <string>
 
 namespace lsdcd {
@@ -16,5 +18,15 @@ struct SphereError : InputError {
   int sphere;
   std::string problem;
 };
+
+[[noreturn]] inline void throw_too_large(int i, Real radius, Real reach)
+{
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "has radius %.9g, more than the grid's reach %.9g; set rmax to the largest radius "
+                "that will occur",
+                radius, reach);
+  throw SphereError(i, text);
+}
 
 }    // namespace lsdcd

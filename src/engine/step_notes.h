@@ -1,5 +1,5 @@
-// What a step leaves behind of a near sphere apart from what its law computes: that it
-// touches nothing, what its search may have missed, that its contacts do not fit.
+// What a step leaves behind of a near sphere apart from what its law computes: that it touches
+// nothing, what its search may have missed, that its contacts do not fit.
 #pragma once
 
 #include "base/atomic.h"
@@ -10,66 +10,51 @@ namespace lsdcd {
 // Sphere i feels the wall from as far as `reach`: an error where the grid does not go there.
 LSDCD_FN void note_reach(const LawJob &job, std::size_t i, Real reach)
 {
-  if (job.in_place.counts && reach > job.grid.reach)
-    raise_to(&job.in_place.counts->too_large, kNoSphere - i);
+  if (reach > job.grid.reach) raise_to(&job.counts->too_large, kNoSphere - i);
 }
 
-// Overlap of the deepest contact that near sphere k may have beside those that were found;
-// a ratio to its radius where results stay, as radii may be elsewhere when they are read.
+// `uncertain`: overlap of the deepest contact that near sphere k may have beside those that were
+// found. A ratio to its radius is kept, as radii may be elsewhere when it is read.
 LSDCD_FN void keep_uncertain(const LawJob &job, std::size_t k, Real uncertain, Real radius)
 {
-  if (!job.uncertain.at) return;
-  StepCounts *counts = job.in_place.counts;
-  if (counts) uncertain /= radius;
-  job.uncertain[k] = uncertain;
-  if (!counts || !(uncertain > 0)) return;
-  count_one(&counts->uncertified);
-  raise_to(&counts->uncertain, ascending_bits(static_cast<float>(uncertain)));
+  if (!job.uncertain) return;
+  const Real ratio = uncertain / radius;
+  job.uncertain[k] = ratio;
+  if (!(ratio > 0)) return;
+  count_one(&job.counts->uncertified);
+  raise_to(&job.counts->uncertain, ascending_bits(static_cast<float>(ratio)));
 }
 
-// How many contacts result `at` is of; kOverflow: it has to be done again.
-LSDCD_FN void put_count(const LawJob &job, std::size_t at, int n)
+// Near sphere k, which is sphere i, touches nothing. Few have springs to lose: the others' counts
+// are not written.
+LSDCD_FN void touches_nothing(const LawJob &job, std::size_t k, std::size_t i)
 {
-  if (job.in_place.counts)
-    job.in_place.result.n_contacts[at] = n;
-  else
-    job.result[at].n_contacts = n;
-}
-
-// Sphere i touches nothing. Few have a spring to lose: the others' counts are not written.
-LSDCD_FN void lose_springs(const LawJob &job, std::size_t i)
-{
-  int *n_springs = job.in_place.pool.count;
+  job.result.n_contacts[k] = 0;
+  int *n_springs = job.pool.count;
   if (n_springs && job.settings.update && n_springs[i] != 0) n_springs[i] = 0;
 }
 
-// There is no room for the contacts of result `at`: done again by the host, or an error.
-LSDCD_FN void does_not_fit(const LawJob &job, std::size_t at)
+// There is no memory for the contacts of near sphere k: an error, once the host looks.
+LSDCD_FN void does_not_fit(const LawJob &job, std::size_t k)
 {
-  StepCounts *counts = job.in_place.counts;
-  if (counts) fetch_add(&counts->lost, 1);
-  put_count(job, at, counts ? 0 : kOverflow);
+  fetch_add(&job.counts->lost, 1);
+  job.result.n_contacts[k] = 0;
 }
 
-// The contacts of near sphere k, whose result is `at_result`, do not fit into a kernel's places:
-// returns its place among the crowded ones, or -1 where it does not fit there either.
-LSDCD_FN int put_off(const LawJob &job, std::size_t k, std::size_t at_result)
+// What counts of the next step begin with, which writes to the other pool where this one moves
+// springs.
+LSDCD_FN void clear_next(const LawJob &job)
 {
-  const Crowd &crowd = job.in_place.crowd;
-  const int at = job.in_place.counts ? fetch_add(&job.in_place.counts->n_crowded, 1) : 0;
-  if (at < crowd.most) {
-    crowd.which[at] = static_cast<int>(k);
-    return at;
+  if (job.settings.update) job.counts->shared_used[1 - job.pool.which] = 0;
+  job.counts->n_left[1 - job.turn] = 0;
+}
+
+LSDCD_FN Lane &take_lane(Lane *lanes, std::size_t k)
+{
+  Lane &lane = lanes[k % kLanes];
+  while (!try_lock(&lane.locked)) {
   }
-  does_not_fit(job, at_result);
-  return -1;
-}
-
-// What counts of one step begin with; those that the host looks at stay.
-LSDCD_FN void clear_step(const InPlace &in_place)
-{
-  StepCounts &counts = *in_place.counts;
-  counts.shared_used[in_place.pool.which] = counts.n_crowded = counts.crowd_used = 0;
+  return lane;
 }
 
 }    // namespace lsdcd

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "contact/corner.h"
-#include "contact/find_contacts.h"
 #include "contact/history.h"
+#include "engine/narrow/wall_list.h"
 
 namespace lsdcd {
 
@@ -13,11 +13,11 @@ struct SearchSettings {
   int side;      // 0 both, +1 outside, -1 inside
 };
 
-template <int kPlaces>
+template <int kCapacity>
 struct Touch {
-  ContactSet<kPlaces> set;
-  Real weight[kPlaces];    // share of each contact, 0 to 1
-  Real exact_within;       // the set is certified for spheres up to this radius
+  ContactSet<kCapacity> set;
+  Real weight[kCapacity];    // share of each contact, 0 to 1
+  Real exact_within;         // the set is certified for spheres up to this radius
 };
 
 // A sphere's reach, past which it feels nothing, and the springs it had in the last step.
@@ -28,22 +28,33 @@ struct Searcher {
   int n_springs;
 };
 
-// What is within reach, into a set that is empty. Where adhesion acts past touch (reach >
-// radius), that is beside what the sphere touches what it has touched and not let go of
-// since. Where the set overflows nothing else is valid.
-template <bool kBeyond, class Geometry, int kPlaces>
-LSDCD_FN void search(const GridView &grid, const SearchSettings &settings, const Searcher &s,
-                     Touch<kPlaces> &out)
+// Leaves the contacts on the side that is asked for and, where adhesion acts beyond contact
+// (reach > radius), beside those that overlap those that overlapped and have not let go since.
+template <bool kBeyond, int kCapacity>
+LSDCD_FN void keep_bearing(const GridView &grid, const SearchSettings &settings, const Searcher &s,
+                           ContactSet<kCapacity> &set)
 {
-  out.exact_within = find_contacts_in<Geometry>(grid, s.x, s.reach, out.set);
-  if (settings.side != 0) keep_side(grid.wall, settings.side * grid.outside, out.set);
+  if (settings.side != 0) keep_side(grid.wall, settings.side * grid.outside, set);
   if constexpr (kBeyond) {
-    ContactSet<kPlaces> &set = out.set;
     for (int i = set.n - 1; i >= 0; i--)
       if (set.distance[i] >= s.radius &&
           !is_held(grid.wall, set.feature[i], set.normal[i], s.springs, s.n_springs))
         set.remove(i);
   }
+}
+
+// What is within reach, into a set that is empty: of the sphere's list, or of its cell where `list`
+// is null. Where the set overflows nothing else is valid.
+template <bool kBeyond, class Geometry, int kCapacity>
+LSDCD_FN void search(const GridView &grid, const SearchSettings &settings, const Searcher &s,
+                     const WallList *list, Touch<kCapacity> &out)
+{
+  out.exact_within = kAnyDistance;
+  if (list)
+    find_in_list<Geometry>(grid, *list, s.x, s.reach, out.set);
+  else
+    out.exact_within = find_contacts_in<Geometry>(grid, s.x, s.reach, out.set);
+  keep_bearing<kBeyond>(grid, settings, s, out.set);
 }
 
 // Can a search of this grid miss contacts?
@@ -61,9 +72,9 @@ LSDCD_FN Real may_miss(Real reach, Real exact_within)
 // Gives every contact its weight. Overlaps are shared as those of a sphere of radius
 // `reach`, so that they are greater than 0 as long as a contact holds, and 0 where it lets
 // go.
-template <class Geometry, int kPlaces>
+template <class Geometry, int kCapacity>
 LSDCD_FN void share(const GridView &grid, const SearchSettings &settings, Real reach,
-                    CornerRule<kPlaces> &rule, Touch<kPlaces> &out)
+                    CornerRule<kCapacity> &rule, Touch<kCapacity> &out)
 {
   if (settings.blend && out.set.n > 1)
     rule.solve(out.set, reach, out.weight, Geometry::slack(grid));
@@ -71,15 +82,56 @@ LSDCD_FN void share(const GridView &grid, const SearchSettings &settings, Real r
     for (int i = 0; i < out.set.n; i++) out.weight[i] = 1;
 }
 
-// A function of its own, so that it is compiled once however many laws there are.
-template <bool kBeyond, class Geometry, int kPlaces>
-LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings, const Searcher &s,
-                          Touch<kPlaces> &out)
+// `rule`: memory of the corner rule, which a stack may have no room for.
+template <bool kBeyond, class Geometry, int kCapacity>
+LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, const Searcher &s,
+                         const WallList *list, CornerRule<kCapacity> &rule, Touch<kCapacity> &out)
 {
-  search<kBeyond, Geometry>(grid, settings, s, out);
-  if (out.set.overflow) return;
-  CornerRule<kPlaces> rule;
-  share<Geometry>(grid, settings, s.reach, rule, out);
+  search<kBeyond, Geometry>(grid, settings, s, list, out);
+  if (!out.set.overflow) share<Geometry>(grid, settings, s.reach, rule, out);
+}
+
+// Functions of their own, so that they are compiled once however many laws there are.
+template <bool kBeyond, int kCapacity>
+LSDCD_NOINLINE void touch_in(CornerRule<kCapacity> &rule, const GridView &grid,
+                             const SearchSettings &settings, const Searcher &s,
+                             const WallList *list, Touch<kCapacity> &out)
+{
+  if (grid.in_floats)
+    touch_with<kBeyond, BrickGeometry>(grid, settings, s, list, rule, out);
+  else
+    touch_with<kBeyond, WallGeometry>(grid, settings, s, list, rule, out);
+}
+template <bool kBeyond, int kCapacity>
+LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings, const Searcher &s,
+                          const WallList *list, Touch<kCapacity> &out)
+{
+  CornerRule<kCapacity> rule;
+  if (grid.in_floats)
+    touch_with<kBeyond, BrickGeometry>(grid, settings, s, list, rule, out);
+  else
+    touch_with<kBeyond, WallGeometry>(grid, settings, s, list, rule, out);
+}
+
+// Of its cell, with lists that may miss contacts.
+template <bool kBeyond>
+LSDCD_NOINLINE void search_cells(const GridView &grid, const SearchSettings &settings,
+                                 const Searcher &s, Touch<1> &out)
+{
+  if (grid.in_floats)
+    search<kBeyond, BrickGeometry>(grid, settings, s, nullptr, out);
+  else
+    search<kBeyond, WallGeometry>(grid, settings, s, nullptr, out);
+}
+
+// Makes the list of a sphere anew; false: it has none, its cell has to be searched.
+inline LSDCD_NOINLINE bool gather(const GridView &grid, const Searcher &s, WallList &list)
+{
+  if (grid.in_floats)
+    gather_for<BrickGeometry>(grid, s.x, s.radius, s.reach, list);
+  else
+    gather_for<WallGeometry>(grid, s.x, s.radius, s.reach, list);
+  return list.margin >= 0;
 }
 
 }    // namespace lsdcd

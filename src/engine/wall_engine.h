@@ -81,9 +81,20 @@ struct SphereOutput {
   Real radius;      // 0 where nothing touches
 };
 
-// Computes wall forces for the spheres of one process. A step is start() then
-// collect(); between the two the host code must not change x, v or omega, and
-// may change force and torque. A CUDA engine works between the two calls.
+// What steps have left behind since the host last looked.
+struct StepNotes {
+  Real deepest = 0;           // largest overlap / radius
+  int deepest_sphere = -1;    // its index in the step that it was in
+  std::int64_t uncertified = 0;
+  Real uncertain = 0;    // overlap / radius of the deepest contact they may have missed
+  // Lists of the wall that were made, the features in them, and searches of cells for spheres
+  // without a list; all are 0 where lists hold the nearest pieces.
+  std::int64_t lists = 0, listed = 0, by_cells = 0;
+};
+
+// Computes wall forces for the spheres of one process: choose() now and then, start() and
+// collect() in every step. Springs stay with the engine between steps and follow the spheres'
+// indices; a host that moves spheres takes them out before (springs_to) and gives them back.
 class WallEngine {
  public:
   virtual ~WallEngine() = default;
@@ -91,16 +102,27 @@ class WallEngine {
   // Backend in words, for the log: "CPU, 4 threads" or "CUDA, NVIDIA H200".
   virtual std::string backend() const = 0;
 
-  // The grid to use from now on; borrowed, must outlive its use.
+  // The grid to use from now on; borrowed, must outlive its use. Asks for a choice.
   virtual void set_grid(const GridView &grid) = 0;
 
-  // Chooses the spheres near the wall and starts on them. `springs` may be null
-  // where the law has no history, and keeps law.n_extra() numbers otherwise. Throws InputError if a sphere is larger than
-  // the grid's reach (index and radius in the message).
-  virtual void start(const Spheres &spheres, const StepSettings &step, SpringStore *springs) = 0;
+  // Largest radius in the group.
+  virtual Real largest_radius(const Spheres &spheres) = 0;
 
-  // Adds forces and torques, replaces the springs (unless update_history is
-  // false) and the totals.
+  // Chooses the spheres that steps look at until the next call: those of the group that could be
+  // near the wall after moving by up to `margin` (length), and makes their lists of the wall.
+  // `watch`: has_moved() will be asked. Throws InputError if a sphere is larger than the grid's
+  // reach (index and radius in the message).
+  virtual void choose(const Spheres &spheres, Real margin, bool watch = false) = 0;
+
+  // Has a sphere moved by more than the margin of the last choice?
+  virtual bool has_moved(const Spheres &spheres) = 0;
+
+  // Begins a step. Until collect() the host must not change x, v or omega, and may change force
+  // and torque.
+  virtual void start(const Spheres &spheres, const StepSettings &step) = 0;
+
+  // Ends it: adds forces and torques, and replaces the springs (unless update_history is false)
+  // and the totals.
   virtual void collect() = 0;
 
   virtual const WallTotals &totals() const = 0;
@@ -118,10 +140,46 @@ class WallEngine {
   virtual int n_records() const = 0;
   virtual const ContactRecord *records() const = 0;
 
-  // Spheres that passed the near test in the last step; bytes held by the engine.
+  // Throws InputError if a sphere had to be left out of a step: too large, or with more contacts
+  // than there is memory for. Begins anew.
+  virtual StepNotes look() = 0;
+
+  // Springs of the spheres [0, n).
+  virtual void springs_to(SpringStore &store, int n) = 0;
+  virtual void springs_from(const SpringStore &store, int n) = 0;
+
+  // Near spheres of the last choice; bytes held by the engine.
   virtual int n_near() const = 0;
   virtual std::size_t bytes() const = 0;
 };
+
+// An engine for particles that live where it computes: pointers in Spheres, and those below, are
+// to memory of its backend, so that a step copies nothing and waits for nothing. start() only
+// notes what collect() does; that fetches what the step's settings ask for.
+class InPlaceEngine : public WallEngine {
+ public:
+  // Per sphere there are a first spring and a count, which follow it through sorting; `n` spheres
+  // are the process's own.
+  virtual void grow(int n) = 0;    // room for n; new spheres have none
+  virtual int *first_spring() = 0;
+  virtual int *n_springs() = 0;
+
+  // Exchange, as LAMMPS's Kokkos communication lays it out: first the offset of each
+  // sphere's numbers, as an integer in a double; then for each its count of springs and
+  // these. Sphere which[k] leaves and sphere from[k], if that is not -1, takes its place.
+  // Returns the numbers written.
+  virtual int largest_packed_size(int n) = 0;    // numbers of one sphere; waits
+  virtual int most_packed_size() const = 0;      // that one can have
+  virtual int pack(int n, const int *which, const int *from, double *buffer) = 0;
+  // Sphere to[k], if that is not -1, gets the k-th of what came. From n_first on the offsets
+  // are those of a second message, which begins at `second`.
+  virtual void unpack(int n, const int *to, const double *buffer, int n_first, int second) = 0;
+};
+
+// One step of a host that keeps the springs itself, from a choice of its own; `springs` may be null
+// where the law has no history.
+void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
+               SpringStore *springs);
 
 // True if this build has the CUDA engine and a usable GPU is present; `why`
 // says what is missing otherwise.
@@ -131,7 +189,14 @@ bool cuda_available(std::string *why);
 // beside them, on walls that only bear.
 bool has_single(const EngineSettings &settings);
 
-// Device::cuda without a GPU throws InputError; Device::automatic takes the CPU then.
+// For a host whose arrays are in its own memory. Device::cuda without a GPU throws InputError;
+// Device::automatic takes the CPU then.
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings);
+
+// For particles in the memory of the CPU, or of a GPU: `device` holds them, `stream` is a
+// cudaStream_t of it. The latter throws InputError in a build without CUDA.
+std::unique_ptr<InPlaceEngine> make_cpu_engine(const EngineSettings &settings);
+std::unique_ptr<InPlaceEngine> make_cuda_engine_in_place(const EngineSettings &settings, int device,
+                                                         void *stream);
 
 }    // namespace lsdcd

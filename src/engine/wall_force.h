@@ -18,20 +18,16 @@ struct SphereState {
   Real temperature;    // read only where the law has heat
 };
 
-// What the wall does to it. n_contacts counts the contacts that bear, and the springs;
-// it is kOverflow where the contacts did not fit: nothing else is valid then and the
-// sphere has to be done again.
+// What the wall does to it. n_contacts counts the contacts that bear, and the springs.
 struct alignas(16) SphereResult {
   Vec3 force, torque;
   Real energy;
   Real overlap_ratio;     // largest overlap / radius
   Vec3 weighted_point;    // sum of |normal force| * contact point
   Real weight;            // sum of |normal force|
-  Real uncertain;         // overlap of the deepest contact that may be missing; 0: certified
   int n_contacts;
   int pad;    // keeps the record free of indeterminate bytes
 };
-constexpr int kOverflow = -1;
 
 // Where a sphere's springs go, and what few laws return: written only where the law has
 // history, extra numbers beside it, heat, records.
@@ -51,16 +47,6 @@ struct ForceSettings {
   SurfaceMotion surface;    // read only where the surface moves
   WearModel wear;           // read only where there are records
 };
-
-// How far from its centre the sphere feels the wall.
-template <class Law>
-LSDCD_FN Real law_reach(const Law &law, Real radius)
-{
-  if constexpr (Law::kBeyond)
-    return reach_of(radius, law.elastic.pull_off);
-  else
-    return radius;
-}
 
 // What contact i begins with: its memory of the last step, turned with its normal.
 template <class Law>
@@ -151,36 +137,6 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       out.weighted_point += w * (s.x - set.distance[i] * n);
     }
   }
-}
-
-// What the sphere touches; sets `uncertain`, and n_contacts where it overflows.
-template <class Law, int kPlaces>
-LSDCD_FN void find_touch(const GridView &grid, const Law &law, const ForceSettings &settings,
-                         const SphereState &s, Touch<kPlaces> &touching, SphereResult &out)
-{
-  const Real reach = law_reach(law, s.radius);
-  const Searcher searcher = {s.x, s.radius, reach, s.springs, s.n_springs};
-  if (grid.in_floats)
-    touch<Law::kBeyond, BrickGeometry>(grid, settings.search, searcher, touching);
-  else
-    touch<Law::kBeyond, WallGeometry>(grid, settings.search, searcher, touching);
-  if (touching.set.overflow) out.n_contacts = kOverflow;
-  out.uncertain = may_miss(reach, touching.exact_within);
-}
-
-// `sink` has room for kPlaces contacts.
-template <class Law, int kPlaces>
-LSDCD_FN SphereResult wall_force(const GridView &grid, const Law &law,
-                                 const ForceSettings &settings, const SphereState &s,
-                                 const SphereSink &sink)
-{
-  SphereResult out = {};
-  if constexpr (Law::kHeat) *sink.heat = 0;
-  Touch<kPlaces> touching;
-  find_touch(grid, law, settings, s, touching, out);
-  if (touching.set.overflow || touching.set.n == 0) return out;
-  add_contacts(grid, law, settings, s, touching.set.view(), touching.weight, sink, out);
-  return out;
 }
 
 }    // namespace lsdcd

@@ -91,9 +91,22 @@ LSDCD_FN std::size_t brick_place(const GridView &grid, const Place &p)
          (p.i >> 3);
 }
 
+LSDCD_FN std::int32_t cell_in_brick(int i, int j, int k)
+{
+  return ((k & 7) << 6) | ((j & 7) << 3) | (i & 7);
+}
 LSDCD_FN std::int32_t cell_in_brick(const Place &p)
 {
-  return ((p.k & 7) << 6) | ((p.j & 7) << 3) | (p.i & 7);
+  return cell_in_brick(p.i, p.j, p.k);
+}
+
+// The brick of a cell of the grid; null where no wall is near.
+LSDCD_FN const Brick *brick_at(const GridView &grid, const CellListsView &lists, int i, int j, int k)
+{
+  const std::size_t at =
+      (static_cast<std::size_t>(k >> 3) * grid.n_bricks[1] + (j >> 3)) * grid.n_bricks[0] + (i >> 3);
+  const std::int32_t b = lists.brick_of[at];
+  return b < 0 ? nullptr : lists.bricks + b;
 }
 
 // Length.

@@ -14,6 +14,21 @@ LSDCD_FN void cells_within(Real u, Real margin, std::int32_t n_cells, int &lo, i
   hi = to > 0 ? (to < n_cells ? static_cast<int>(to) : n_cells) : 0;
 }
 
+// The cells that a point at q may be in after a way of length up to `margin`, [lo, hi) along each
+// axis. A cell is left out only if it is out of reach after rounding, too. False: there is none,
+// or q is not finite.
+LSDCD_FN bool cells_in_ball(const GridView &grid, const Vec3 &q, Real margin, int *lo, int *hi)
+{
+  const Real cells = margin * grid.inv_length * (1 + 8 * kRoundoff) + Real(1e-9);
+  for (int d = 0; d < 3; d++) {
+    const Real u = (q[d] - grid.origin[d]) * grid.inv_length;
+    if (!(fabs(u) < Real(1e9))) return false;
+    cells_within(u, cells, grid.n_bricks[d] * kBrickSide, lo[d], hi[d]);
+    if (lo[d] >= hi[d]) return false;
+  }
+  return true;
+}
+
 // Is there any candidate in a cell that a point may reach from q on a way of length up to
 // `margin`? With margin 0 this is near_wall(). False where q is not finite. `table`: as
 // BrickTable, of grid.lists.
@@ -21,15 +36,8 @@ template <class Table>
 LSDCD_FN bool near_within(const GridView &grid, const Table &table, const Vec3 &q, Real margin)
 {
   if (!(margin > 0)) return occupied_cell(grid, table, q) != kNoCell;
-  // A cell is left out only if it is out of reach after rounding, too.
-  const Real cells = margin * grid.inv_length * (1 + 8 * kRoundoff) + Real(1e-9);
   int lo[3], hi[3];
-  for (int d = 0; d < 3; d++) {
-    const Real u = (q[d] - grid.origin[d]) * grid.inv_length;
-    if (!(fabs(u) < Real(1e9))) return false;
-    cells_within(u, cells, grid.n_bricks[d] * kBrickSide, lo[d], hi[d]);
-    if (lo[d] >= hi[d]) return false;
-  }
+  if (!cells_in_ball(grid, q, margin, lo, hi)) return false;
   // Brick by brick, layer by layer: one word of the mask each.
   for (int bz = lo[2] >> 3; bz <= (hi[2] - 1) >> 3; bz++)
     for (int by = lo[1] >> 3; by <= (hi[1] - 1) >> 3; by++)

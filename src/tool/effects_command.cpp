@@ -56,7 +56,7 @@ std::string csv_of(const std::vector<EffectCase> &cases, const std::vector<Effec
 {
   std::ostringstream out;
   out << "name;words;over;contacts;repeats;median_ns;min_ns;max_ns;over_ns;bytes_per_atom;"
-         "bytes_per_contact;engine_bytes;spring_bytes;device;compiler;commit\n";
+         "bytes_per_contact;engine_bytes;device;compiler;commit\n";
   for (std::size_t i = 0; i < cases.size(); i++) {
     const EffectCase &c = cases[i];
     const EffectCost &cost = costs[i];
@@ -65,7 +65,7 @@ std::string csv_of(const std::vector<EffectCase> &cases, const std::vector<Effec
                   cost.max_ns, cost_over(cases, costs, i));
     out << c.name << ';' << c.words << ';' << c.over << ';' << cost.contacts << ';' << cost.repeats
         << ';' << numbers << ';' << bytes_per_atom(c.settings) << ';'
-        << bytes_per_contact(c.settings) << ';' << cost.engine_bytes << ';' << cost.spring_bytes
+        << bytes_per_contact(c.settings) << ';' << cost.engine_bytes
         << ';' << cost.device << ';' << compiler() << ';' << commit << '\n';
   }
   return out.str();

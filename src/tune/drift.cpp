@@ -124,8 +124,7 @@ class Motion {
     StepSettings step;
     step.dt = dt_;
     step.update_history = update;
-    engine_->start(s, step, has_history_ ? &springs_ : nullptr);
-    engine_->collect();
+    step_once(*engine_, s, step, has_history_ ? &springs_ : nullptr);
   }
 
   void kick()

@@ -142,7 +142,7 @@ class Measuring {
     row.checked = sample_.n();
     row.spheres = sample.n();
     row.ns_per_sphere = 1e9 *
-                        step_seconds(*engine, on_cuda, engine_.law, sample, settings_.repeats) /
+                        step_seconds(*engine, on_cuda, sample, settings_.repeats) /
                         std::max(1, sample.n());
     result_.rows.push_back(row);
     progress_(row);

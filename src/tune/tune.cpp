@@ -256,7 +256,7 @@ TuneReport tune(const WallMesh &mesh, const TuneSettings &settings)
         const auto engine = make_engine(engine_settings);
         engine->set_grid(on_cuda ? grid.flat() : made.view());
         row.ns_per_sphere = 1e9 / std::max(1, sample.n()) *
-                            step_seconds(*engine, on_cuda, engine_settings.law, sample,
+                            step_seconds(*engine, on_cuda, sample,
                                          row.choice.complete() ? kRepeats : kFewRepeats);
         report.device = engine->backend();
         report.rows.push_back(row);

@@ -1,7 +1,8 @@
 #include "tune/wall_answers.h"
 
 #include "base/threads.h"
-#include "engine/engine_base.h"
+#include "engine/force_settings.h"
+#include "engine/law_job.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,15 +41,12 @@ struct AtRest {
   }
 };
 
-template <int kPlaces>
+template <int kCapacity>
 bool find_places(const GridView &grid, const SearchSettings &search, const Vec3 &x, Real radius,
                  std::vector<WallAnswers::Place> &places, bool &certain)
 {
-  Touch<kPlaces> t;
-  if (grid.in_floats)
-    touch<false, BrickGeometry>(grid, search, {x, radius, radius, nullptr, 0}, t);
-  else
-    touch<false, WallGeometry>(grid, search, {x, radius, radius, nullptr, 0}, t);
+  Touch<kCapacity> t;
+  touch<false>(grid, search, {x, radius, radius, nullptr, 0}, nullptr, t);
   if (t.set.overflow) return false;
   certain = t.exact_within >= radius;
   for (int i = 0; i < t.set.n; i++)
@@ -99,8 +97,8 @@ WallAnswers answer(const GridView &grid, const EngineSettings &engine, const Sph
   out.first.push_back(0);
   for (int i = 0; i < sample.n(); i++) {
     bool certain = true;
-    if (!find_places<kMorePlaces>(grid, search, sample.x[i], sample.radius[i], out.places, certain))
-      find_places<kMostPlaces>(grid, search, sample.x[i], sample.radius[i], out.places, certain);
+    if (!find_places<64>(grid, search, sample.x[i], sample.radius[i], out.places, certain))
+      find_places<kMostContacts>(grid, search, sample.x[i], sample.radius[i], out.places, certain);
     out.uncertified += !certain;
     out.first.push_back(out.places.size());
   }
@@ -111,12 +109,9 @@ WallAnswers answer(const GridView &grid, const EngineSettings &engine, const Sph
   const auto cpu = make_engine(on_cpu);
   cpu->set_grid(grid);
   AtRest at_rest(sample);
-  SpringStore springs;
-  springs.grow(sample.n());
   StepSettings step;
   step.update_history = false;
-  cpu->start(at_rest.spheres, step, &springs);
-  cpu->collect();
+  step_once(*cpu, at_rest.spheres, step, nullptr);
   for (int i = 0; i < sample.n(); i++)
     out.force.push_back({at_rest.force[3 * i], at_rest.force[3 * i + 1], at_rest.force[3 * i + 2]});
   return out;
@@ -158,20 +153,18 @@ AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
   return out;
 }
 
-double step_seconds(WallEngine &engine, bool on_cuda, const ContactLaw &law,
-                    const SphereSample &sample, int repeats)
+double step_seconds(WallEngine &engine, bool on_cuda, const SphereSample &sample, int repeats)
 {
   // The host's share of a GPU step is done by all threads.
   std::unique_ptr<OneThread> one_thread;
   if (!on_cuda) one_thread = std::make_unique<OneThread>();
   AtRest at_rest(sample);
-  SpringStore springs(law.n_extra());
-  springs.grow(sample.n());
+  engine.choose(at_rest.spheres, 0);
   double quickest = 0;
   for (int r = -1; r < repeats; r++) {    // once to warm up
     if (r >= 0) fill_caches();
     const double start = seconds_now(on_cuda);
-    engine.start(at_rest.spheres, {}, law.has_history() ? &springs : nullptr);
+    engine.start(at_rest.spheres, {});
     engine.collect();
     const double seconds = seconds_now(on_cuda) - start;
     if (r == 0 || (r > 0 && seconds < quickest)) quickest = seconds;

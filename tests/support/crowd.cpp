@@ -202,8 +202,7 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
   for (int k = 0; k < 5; k++) {
     std::fill(force.begin(), force.end(), 0);
     std::fill(torque.begin(), torque.end(), 0);
-    engine->start(s, step, &springs);
-    engine->collect();
+    step_once(*engine, s, step, &springs);
     for (int i = 0; i < 3 * n_spheres; i++) x[i] += step.dt * v[i];
     if (c.periodic && k == 2) wrap(c, x);    // springs go over to what is touched there
   }

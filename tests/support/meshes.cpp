@@ -191,8 +191,7 @@ void Scene::compute(Real dt, bool update, bool per_sphere)
   step.dt = dt;
   step.update_history = update;
   step.per_sphere = per_sphere;
-  engine->start(s, step, &springs);
-  engine->collect();
+  step_once(*engine, s, step, &springs);
 }
 
 void Scene::step(Real dt, const Vec3 &gravity)

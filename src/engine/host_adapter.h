@@ -1,0 +1,309 @@
+// The engine of a backend for a host whose arrays are in other memory: near spheres travel packed,
+// forces and torques come back, springs stay until the host asks for them.
+#pragma once
+
+#include "engine/backend_cpu.h"
+#include "engine/engine_on.h"
+
+namespace lsdcd {
+
+// What changes from step to step, and what comes back.
+struct Motion {
+  Vec3 x, v, omega;
+};
+struct Response {
+  Vec3 force, torque;
+};
+
+template <class B>
+class HostAdapter : public WallEngine {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+  // Memory of the host that copies quickly, and its twin.
+  template <class T>
+  struct Mirror {
+    typename B::template HostArray<T> host;
+    Array<T> device;
+
+    void reserve(std::size_t n)
+    {
+      if (host.size() >= n) return;
+      const std::size_t room = n + n / 8;
+      host = typename B::template HostArray<T>(room);
+      device = Array<T>(room);
+    }
+    std::size_t bytes() const { return 2 * host.size() * sizeof(T); }
+  };
+
+ public:
+  HostAdapter(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
+      settings_(settings), traits_(law.traits), engine_(settings, law, std::move(backend)),
+      waiting_(law.traits.n_extra)
+  {
+  }
+
+  std::string backend() const override { return engine_.backend(); }
+
+  void set_grid(const GridView &grid) override
+  {
+    springs_to_waiting();
+    engine_.set_grid(grid);
+    grid_ = grid;
+    words_ = brick_words(grid);
+    table_ = BrickTable(words_, words_.data());
+    near_host_.clear();
+  }
+
+  Real largest_radius(const Spheres &s) override
+  {
+    return cpu_.largest<Real>(s.n, [&](std::size_t i) -> Real {
+      return !s.mask || (s.mask[i] & s.group_bit) ? s.radius[i] : 0;
+    });
+  }
+
+  // The host's copy of the grid tells which spheres are near: to send all of them would take longer.
+  void choose(const Spheres &spheres, Real margin, bool watch = false) override
+  {
+    engine_.totals();
+    StepCounts seen = {};
+    near_.choose(cpu_, grid_, table_, spheres, margin, settings_.law.pull_off(), &seen, nullptr);
+    if (seen.too_large) {
+      const int i = static_cast<int>(kNoSphere - seen.too_large);
+      throw_too_large(i, spheres.radius[i], grid_.reach);
+    }
+    const std::vector<int> was = std::move(near_host_);
+    near_host_ = near_.to_host(cpu_, seen.n_near);
+    const std::size_t n = near_host_.size();
+    motion_.reserve(n);
+    size_.reserve(2 * n);
+    response_.reserve(n);
+    n_contacts_.reserve(n);
+    if (traits_.heat) heat_.reserve(2 * n);
+    for (std::size_t k = 0; k < n; k++) {
+      size_.host.data()[k] = spheres.radius[near_host_[k]];
+      size_.host.data()[n + k] = spheres.mass[near_host_[k]];
+    }
+    engine_.backend_now().send(size_.host, size_.device, 2 * n);
+    if (traits_.history) move_springs(was, spheres.n);
+    pack(spheres);
+    engine_.choose_all(packed());
+    if (watch) {
+      centres_.resize(3 * static_cast<std::size_t>(spheres.n));
+      for (int i = 0; i < spheres.n; i++) Rows<Real>(centres_.data()).put(i, spheres.x[i]);
+    }
+    margin_ = margin;
+  }
+
+  bool has_moved(const Spheres &spheres) override
+  {
+    const Rows<const Real> was(centres_.data());
+    return cpu_.largest<Real>(spheres.n, [&](std::size_t i) -> Real {
+      return norm_sq(spheres.x[i] - was[i]);
+    }) > margin_ * margin_;
+  }
+
+  void start(const Spheres &spheres, const StepSettings &step) override
+  {
+    host_ = spheres;
+    const std::size_t n = near_host_.size();
+    B &b = engine_.backend_now();
+    if (traits_.history && are_waiting_) move_springs(near_host_, spheres.n);
+    if (n > 0) {
+      pack(spheres);
+      Response *response = response_.device.data();
+      b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { response[k] = {}; });
+      if (traits_.heat) send_heat(spheres);
+    }
+    engine_.start(packed(), step);
+    engine_.run();
+    if (n == 0) return;
+    b.receive(engine_.contacts_of_near(), n_contacts_.host, n);
+    b.receive(response_.device, response_.host, n);
+    if (traits_.heat) b.receive(heat_.device, heat_.host, 2 * n);
+  }
+
+  void collect() override
+  {
+    engine_.backend_now().wait();
+    const int n = static_cast<int>(near_host_.size());
+    const int *near = near_host_.data(), *n_contacts = n_contacts_.host.data();
+    const Response *response = response_.host.data();
+    const Spheres host = host_;
+#pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
+    for (int k = 0; k < n; k++) {
+      if (n_contacts[k] == 0) continue;
+      const int i = near[k];
+      host.force.add(i, response[k].force);
+      host.torque.add(i, response[k].torque);
+      if (traits_.heat) host.heat_flow[i] += heat_.host.data()[n + k];
+    }
+    engine_.fetch();
+    touching_.assign(engine_.touching(), engine_.touching() + engine_.n_touching());
+    for (int &i : touching_) i = near[i];
+    totals_known_ = false;
+  }
+
+  const WallTotals &totals() const override
+  {
+    if (!totals_known_) totals_ = engine_.totals();
+    if (!totals_known_ && totals_.largest_overlap_sphere >= 0)
+      totals_.largest_overlap_sphere = near_host_[totals_.largest_overlap_sphere];
+    totals_known_ = true;
+    return totals_;
+  }
+  int n_touching() const override { return static_cast<int>(touching_.size()); }
+  const int *touching() const override { return touching_.data(); }
+  const SphereOutput *sphere_output() const override { return engine_.sphere_output(); }
+  const Real *sphere_heat() const override { return engine_.sphere_heat(); }
+  int n_records() const override { return engine_.n_records(); }
+  const ContactRecord *records() const override { return engine_.records(); }
+
+  StepNotes look() override
+  {
+    StepNotes notes = engine_.look();
+    if (notes.deepest_sphere >= 0) notes.deepest_sphere = near_host_[notes.deepest_sphere];
+    return notes;
+  }
+
+  void springs_to(SpringStore &store, int n) override
+  {
+    springs_to_waiting();
+    waiting_.grow(n);
+    store = waiting_;
+  }
+  void springs_from(const SpringStore &store, int /*n*/) override
+  {
+    waiting_ = store;
+    are_waiting_ = true;
+  }
+
+  int n_near() const override { return static_cast<int>(near_host_.size()); }
+  std::size_t bytes() const override
+  {
+    return engine_.bytes() + motion_.bytes() + size_.bytes() + response_.bytes() +
+           n_contacts_.bytes() + heat_.bytes() + near_.bytes() + waiting_.bytes() +
+           (near_host_.capacity() + touching_.capacity()) * sizeof(int) +
+           centres_.capacity() * sizeof(Real) + words_.capacity() * sizeof(BrickWord);
+  }
+
+ private:
+  // Rows of near spheres are far apart in the host's memory: they are asked for ahead of their turn.
+  void pack(const Spheres &s)
+  {
+    constexpr int kAhead = 16;
+    const int n = static_cast<int>(near_host_.size());
+    const int *near = near_host_.data();
+    Motion *to = motion_.host.data();
+#pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
+    for (int k = 0; k < n; k++) {
+      if (k + kAhead < n) {
+        const int next = near[k + kAhead];
+        __builtin_prefetch(s.x.of(next));
+        __builtin_prefetch(s.v.of(next));
+        __builtin_prefetch(s.omega.of(next));
+      }
+      const int i = near[k];
+      to[k] = {s.x[i], s.v[i], s.omega[i]};
+    }
+    engine_.backend_now().send(motion_.host, motion_.device, n);
+  }
+
+  // Temperatures there, heat flows back.
+  void send_heat(const Spheres &s)
+  {
+    const std::size_t n = near_host_.size();
+    Real *to = heat_.host.data();
+    for (std::size_t k = 0; k < n; k++) {
+      to[k] = s.temperature[near_host_[k]];
+      to[n + k] = 0;
+    }
+    engine_.backend_now().send(heat_.host, heat_.device, 2 * n);
+  }
+
+  // The near spheres as the engine has them.
+  Spheres packed()
+  {
+    constexpr std::ptrdiff_t row = sizeof(Motion) / sizeof(Real);
+    const std::size_t n = near_host_.size();
+    Spheres s;
+    s.n = static_cast<int>(n);
+    if (n == 0) return s;
+    const Motion *motion = motion_.device.data();
+    Response *response = response_.device.data();
+    s.x = {&motion->x.x, row, 1};
+    s.v = {&motion->v.x, row, 1};
+    s.omega = {&motion->omega.x, row, 1};
+    s.radius = size_.device.data();
+    s.mass = size_.device.data() + n;
+    s.force = {&response->force.x, 6, 1};
+    s.torque = {&response->torque.x, 6, 1};
+    if (traits_.heat) {
+      s.temperature = heat_.device.data();
+      s.heat_flow = heat_.device.data() + n;
+    }
+    return s;
+  }
+
+  // Springs that the engine has of the spheres `was`, or that wait, to the near spheres of now.
+  void move_springs(const std::vector<int> &was, int n_spheres)
+  {
+    if (!are_waiting_) spread(was, n_spheres);
+    waiting_.grow(n_spheres);
+    SpringStore near(traits_.n_extra);
+    near.grow(n_near());
+    for (int k = 0; k < n_near(); k++) {
+      const int i = near_host_[k];
+      if (waiting_.count(i) > 0)
+        near.set(k, waiting_.of(i), waiting_.extra_of(i), waiting_.count(i));
+    }
+    engine_.springs_from(near, n_near());
+    are_waiting_ = false;
+  }
+  void springs_to_waiting()
+  {
+    if (!traits_.history || are_waiting_) return;
+    spread(near_host_, 0);
+    are_waiting_ = true;
+  }
+  // What the engine has, by the indices of the host.
+  void spread(const std::vector<int> &near, int n_spheres)
+  {
+    SpringStore packed(traits_.n_extra);
+    engine_.springs_to(packed, static_cast<int>(near.size()));
+    waiting_ = SpringStore(traits_.n_extra);
+    if (!near.empty()) waiting_.grow(near.back() + 1);
+    waiting_.grow(n_spheres);
+    for (std::size_t k = 0; k < near.size(); k++)
+      if (packed.count(k) > 0)
+        waiting_.set(near[k], packed.of(k), packed.extra_of(k), packed.count(k));
+  }
+
+  EngineSettings settings_;
+  LawTraits traits_;
+  EngineOn<B> engine_;
+
+  CpuBackend cpu_;
+  GridView grid_ = {};
+  std::vector<BrickWord> words_;
+  BrickTable table_;
+  NearList<CpuBackend> near_;
+  std::vector<int> near_host_, touching_;
+  std::vector<Real> centres_;    // at the last choice
+  Real margin_ = 0;
+
+  Mirror<Motion> motion_;
+  Mirror<Real> size_;    // radii, then masses, of the last choice
+  Mirror<Real> heat_;    // temperatures, then heat flows
+  Mirror<Response> response_;
+  Mirror<int> n_contacts_;    // the host's half only
+  Spheres host_;              // of the step that runs
+
+  SpringStore waiting_;    // springs by the host's indices, while they are not with the engine
+  bool are_waiting_ = true;
+
+  mutable WallTotals totals_;
+  mutable bool totals_known_ = true;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,143 @@
+// Lists of the wall (Verlet lists): the features that a sphere can touch while its centre stays
+// within a margin of where it was. A step tests these alone and reads no cell.
+#pragma once
+
+#include "contact/find_contacts.h"
+#include "grid/near_within.h"
+
+namespace lsdcd {
+
+// The list of one sphere: 64 bytes, two sectors of a GPU's memory. There is no room for more than
+// kMost features: where more are close the margin shrinks, and where that does not help the sphere
+// has no list and its cell is searched instead.
+struct alignas(16) WallList {
+  static constexpr int kMost = 7;
+
+  Vec3 x;          // the centre when the list was made
+  float margin;    // length; negative: there is no list
+  float cutoff;    // how far from its centre a sphere felt the wall then
+  std::int32_t n;
+  FeatureCode code[kMost];    // ascending; of the wall, or with `in_floats` of brick records
+
+  // Does the list hold all that a sphere at q can touch, up to a cutoff?
+  LSDCD_FN bool holds(const Vec3 &q, Real up_to) const
+  {
+    return margin >= 0 && norm_sq(q - x) <= Real(margin) * Real(margin) && up_to <= cutoff;
+  }
+};
+
+// How far a sphere may go before its list is made anew, as a share of its radius. Far enough that
+// lists last hundreds of steps, near enough that most have one or two features.
+constexpr Real kListMargin = 0.05;
+// What the margin is divided by where a list is too long, and how often.
+constexpr Real kShrink = 4;
+constexpr int kMostShrinks = 3;
+
+// The largest margin, at most `margin`, that the lists of cells allow at q. A ball within it meets
+// few cells; codes of brick records are only valid in one brick, so the ball must stay there.
+LSDCD_FN Real margin_at(const GridView &grid, const Vec3 &q, Real margin)
+{
+  Real m = margin < grid.length ? margin : grid.length;
+  if (!grid.in_floats) return m;
+  const Real brick = kBrickSide * grid.length;
+  for (int d = 0; d < 3; d++) {
+    const Real u = (q[d] - grid.origin[d]) / brick, in = (u - floor(u)) * brick;
+    // Less what rounding may hide, so that no point of the ball is in the next brick.
+    const Real room = (in < brick - in ? in : brick - in) - 64 * kRoundoff * (fabs(q[d]) + fabs(grid.origin[d]) + brick);
+    if (room < m) m = room;
+  }
+  return m;
+}
+
+// Puts a code into a list where it belongs, once. False: there is no room for it.
+LSDCD_FN bool insert_code(WallList &list, FeatureCode code)
+{
+  int at = list.n;
+  while (at > 0 && list.code[at - 1] > code) at--;
+  if (at > 0 && list.code[at - 1] == code) return true;
+  if (list.n == WallList::kMost) return false;
+  for (int i = list.n; i > at; i--) list.code[i] = list.code[i - 1];
+  list.code[at] = code;
+  list.n++;
+  return true;
+}
+
+// Adds what one cell lists and a sphere at q with this cutoff can touch after a way of up to the
+// margin. On such a way each half-space of a feature's region moves by the margin at most. One
+// slack more is for rounding.
+template <class Geometry>
+LSDCD_FN bool gather_cell(const CellListsView &lists, const Geometry &geometry, const Cell &cell,
+                          Real from_centre, Real cutoff, Real margin, WallList &list)
+{
+  const Real more = margin + geometry.slack(), within = (1 + Real(2e-6)) * cutoff + more;
+  if (cell.count == 1) {
+    if (!geometry.foot(cell.first, within, more).found) return true;
+    return insert_code(list, cell.first);
+  }
+  // A list ascends in its bounds on the distance from the cell's centre.
+  const Real enough = within + from_centre;
+  for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
+    const Candidate candidate = lists.candidates[i];
+    if (candidate.bound > enough) break;
+    if (geometry.foot(candidate.feature, within, more).found &&
+        !insert_code(list, candidate.feature))
+      return false;
+  }
+  return true;
+}
+
+// The list of a sphere at q for a margin, from all cells that it can be in. False: too long.
+// A contact within the margin is in the complete list of the cell that it is found from, and that
+// cell meets the ball round q.
+template <class Geometry>
+LSDCD_FN bool gather_within(const GridView &grid, const Vec3 &q, Real cutoff, Real margin,
+                            WallList &list)
+{
+  list.n = 0;
+  list.x = q;
+  list.margin = static_cast<float>((1 - Real(1e-6)) * margin);    // rounded down, and up:
+  list.cutoff = static_cast<float>((1 + Real(1e-6)) * cutoff);
+  const Geometry geometry(grid, q);
+  int lo[3], hi[3];
+  if (!cells_in_ball(grid, q, margin, lo, hi)) return true;
+  for (int k = lo[2]; k < hi[2]; k++)
+    for (int j = lo[1]; j < hi[1]; j++)
+      for (int i = lo[0]; i < hi[0]; i++) {
+        const Brick *brick = brick_at(grid, grid.lists, i, j, k);
+        const int cell = cell_in_brick(i, j, k);
+        if (!brick || !has_candidates(*brick, cell)) continue;
+        const Real half = Real(0.5);
+        const Vec3 centre = grid.origin + grid.length * Vec3{i + half, j + half, k + half};
+        if (!gather_cell(grid.lists, geometry, grid.lists.cells[cell_index(*brick, cell)],
+                         norm(q - centre), cutoff, margin, list))
+          return false;
+      }
+  return true;
+}
+
+// Makes the list of a sphere anew. `cutoff`: how far it feels the wall from its centre.
+template <class Geometry>
+LSDCD_FN void gather_for(const GridView &grid, const Vec3 &q, Real radius, Real cutoff, WallList &list)
+{
+  Real margin = margin_at(grid, q, kListMargin * radius);
+  for (int i = 0; i <= kMostShrinks && margin > 0; i++, margin /= kShrink)
+    if (gather_within<Geometry>(grid, q, cutoff, margin, list)) return;
+  list.n = 0;
+  list.margin = -1;
+}
+
+// Local minima of the distance from q to the listed features, in the order of their numbers, so
+// that an answer does not depend on when the list was made.
+template <class Geometry, int kCapacity>
+LSDCD_FN void find_in_list(const GridView &grid, const WallList &list, const Vec3 &q, Real cutoff,
+                           ContactSet<kCapacity> &set)
+{
+  if (list.n == 0) return;
+  const Geometry geometry(grid, q);
+  for (int i = 0; i < list.n; i++) {
+    add_feature(geometry, list.code[i], cutoff, set);
+    if (set.overflow) return;    // nothing else is valid
+  }
+}
+
+}    // namespace lsdcd
