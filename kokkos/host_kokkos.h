@@ -9,7 +9,7 @@
 
 #include "base/input_error.h"
 #include "base/rows.h"
-#include "base/threads.h"
+#include "parallel/threads.h"
 #include "engine/resident_engine.h"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #include "contact/spring_store.h"
 
-#include "base/threads.h"
+#include "parallel/threads.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "engine/engine_base.h"
 
-#include "engine/select_near.h"
-#include "engine/sphere_error.h"
+#include "engine/choose/select_near.h"
+#include "engine/results/sphere_error.h"
 
 #include <algorithm>
 #include <string>

@@ -1,8 +1,8 @@
 // What engines share: choosing spheres, repeating crowded ones, collecting.
 #pragma once
 
-#include "engine/collect.h"
-#include "engine/host_law.h"
+#include "engine/results/collect.h"
+#include "engine/force/host_law.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "engine/backend_cpu.h"
+#include "parallel/backend_cpu.h"
 #include "engine/engine_base.h"
 
 namespace lsdcd {

@@ -1,8 +1,8 @@
-#include "base/threads.h"
-#include "engine/cuda_law.h"
+#include "parallel/threads.h"
+#include "engine/force/cuda_law.h"
 #include "engine/engine_base.h"
-#include "engine/found_contacts.h"
-#include "engine/pinned.h"
+#include "engine/narrow/found_contacts.h"
+#include "parallel/pinned.h"
 
 #include <cstring>
 

@@ -1,4 +1,4 @@
-#include "engine/host_law.h"
+#include "engine/force/host_law.h"
 #include "engine/resident_on.h"
 
 namespace lsdcd {

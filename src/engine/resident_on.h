@@ -2,16 +2,16 @@
 #pragma once
 
 #include "base/input_error.h"
-#include "engine/compiled_law.h"
+#include "engine/force/compiled_law.h"
 #include "engine/engine_base.h"
-#include "engine/find_first.h"
-#include "engine/found_contacts.h"
-#include "engine/near_choice.h"
-#include "engine/resident_crowd.h"
+#include "engine/narrow/find_first.h"
+#include "engine/narrow/found_contacts.h"
+#include "engine/choose/near_choice.h"
+#include "engine/narrow/resident_crowd.h"
 #include "engine/resident_engine.h"
 #include "engine/resident_springs.h"
-#include "engine/select_near.h"
-#include "engine/totals.h"
+#include "engine/choose/select_near.h"
+#include "engine/results/totals.h"
 
 #include <string>
 #include <utility>

@@ -5,11 +5,11 @@
 // What one lane would read for too long is left to a warp each in the last.
 #pragma once
 
-#include "engine/backend_cuda.h"
-#include "engine/cuda_early.h"
-#include "engine/cuda_limits.h"
-#include "engine/cuda_warp.h"
-#include "grid/brick_filter.h"
+#include "grid/lookup/brick_filter.h"
+#include "parallel/backend_cuda.h"
+#include "parallel/cuda_early.h"
+#include "parallel/cuda_limits.h"
+#include "parallel/cuda_warp.h"
 #include "query/sphere.h"
 
 #include <cuda_pipeline_primitives.h>

@@ -1,10 +1,10 @@
 // The query on one backend: one source for all.
 #pragma once
 
-#include "base/atomic.h"
 #include "base/input_error.h"
-#include "grid/brick_filter.h"
 #include "grid/flat_grid.h"
+#include "grid/lookup/brick_filter.h"
+#include "parallel/atomic.h"
 #include "query/nearest_distance.h"
 #include "query/one_pass.h"
 #include "query/sphere_query.h"

@@ -1,7 +1,7 @@
 #include "tune/wall_answers.h"
 
-#include "base/threads.h"
 #include "engine/engine_base.h"
+#include "parallel/threads.h"
 
 #include <algorithm>
 #include <cmath>
