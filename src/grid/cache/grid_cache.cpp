@@ -1,118 +1,19 @@
-// The file: a front that every version has, the rest of the header, then frames of
-// zstd, each the image of kFrameBytes of the block.
 #include "grid/cache/grid_cache.h"
 
-#include "base/input_error.h"
-#include "base/whole_file.h"
+#include "grid/cache/cache_format.h"
 #include "parallel/threads.h"
 
 #include <algorithm>
 #include <cerrno>
-#include <cstddef>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <type_traits>
 #include <unistd.h>
-#include <xxhash.h>
 #include <zstd.h>
 
 namespace lsdcd {
 
 namespace {
-
-constexpr char kMagic[16] = {'L', 'S', 'D', 'C', 'D', ' ', 'g', 'r',
-                             'i', 'd', ' ', 'c', 'a', 'c', 'h', 'e'};
-constexpr std::uint64_t kFormat = 1;
-constexpr std::size_t kFrameBytes = std::size_t(1) << 20;
-constexpr int kLevel = 1;    // of zstd
-
-struct Front {
-  char magic[16];
-  std::uint64_t format;
-  std::uint64_t header_bytes;    // front included
-  Hash check;                    // of the header with this field zero
-};
-
-Hash hash_of(const void *data, std::size_t bytes)
-{
-  const XXH128_hash_t h = XXH3_128bits(data, bytes);
-  return {h.low64, h.high64};
-}
-
-// The check of a header whose front has a zero there.
-Hash check_of(std::vector<char> header)
-{
-  const Hash zero = {0, 0};
-  std::memcpy(header.data() + offsetof(Front, check), &zero, sizeof zero);
-  return hash_of(header.data(), header.size());
-}
-
-class Packer {
- public:
-  template <class T>
-  void operator()(const T &value)
-  {
-    static_assert(std::is_trivially_copyable<T>::value, "kept as bytes");
-    const char *at = reinterpret_cast<const char *>(&value);
-    bytes.insert(bytes.end(), at, at + sizeof value);
-  }
-  void operator()(const std::string &text)
-  {
-    (*this)(std::uint64_t(text.size()));
-    bytes.insert(bytes.end(), text.begin(), text.end());
-  }
-  std::vector<char> bytes;
-};
-
-class Unpacker {
- public:
-  Unpacker(const std::vector<char> &bytes, std::size_t at) : bytes_(bytes), at_(at) {}
-  template <class T>
-  void operator()(T &value)
-  {
-    if (!has(sizeof value)) return;
-    std::memcpy(&value, bytes_.data() + at_, sizeof value);
-    at_ += sizeof value;
-  }
-  void operator()(std::string &text)
-  {
-    std::uint64_t size = 0;
-    (*this)(size);
-    if (!has(size)) return;
-    text.assign(bytes_.data() + at_, size);
-    at_ += size;
-  }
-  bool done() const { return good_ && at_ == bytes_.size(); }
-  bool has(std::uint64_t n) { return good_ = good_ && n <= bytes_.size() - at_; }
-
- private:
-  const std::vector<char> &bytes_;
-  std::size_t at_;
-  bool good_ = true;
-};
-
-// The bindings name every member: one that is added does not compile until it is
-// listed here too.
-template <class Report, class Visit>
-void each_field(Report &r, Visit &visit)
-{
-  auto &[length, reach, length_chosen, nearest, lists, complete, records, record_bytes, bytes,
-         seconds, device] = r;
-  const auto all = [&](auto &...field) { (visit(field), ...); };
-  all(length, reach, length_chosen, nearest, lists, complete, records, record_bytes, bytes, seconds,
-      device);
-}
-
-std::size_t frames_in(std::size_t bytes)
-{
-  return (bytes + kFrameBytes - 1) / kFrameBytes;
-}
-
-std::size_t frame_size(std::size_t frame, std::size_t bytes)
-{
-  return std::min(kFrameBytes, bytes - frame * kFrameBytes);
-}
 
 // All of it, or false with errno set; a file that ends early leaves errno 0.
 bool read_at(int file, std::uint64_t offset, void *to, std::size_t bytes)
@@ -246,56 +147,6 @@ bool CachedGrid::read(char *block)
       }
   }
   return true;
-}
-
-std::size_t write_grid_cache(const std::string &path, const GridKey &key, const GridReport &report,
-                             const char *block, std::size_t block_bytes)
-{
-  const std::int64_t n = frames_in(block_bytes);
-  Packer header;
-  Front front = {};
-  std::memcpy(front.magic, kMagic, sizeof kMagic);
-  front.format = kFormat;
-  header(front);
-  header(key);
-  header(std::uint64_t(block_bytes));
-  each_field(report, header);
-  const std::size_t table = header.bytes.size();
-  front.header_bytes = table + n * (sizeof(std::uint64_t) + sizeof(Hash));
-
-  // The header goes in last, when the frames are known.
-  WholeFile file(path);
-  std::uint64_t end = front.header_bytes;
-  const std::int64_t at_once = threads();
-  const std::size_t room = ZSTD_compressBound(kFrameBytes);
-  std::vector<std::vector<char>> packed(at_once, std::vector<char>(room));
-  std::vector<std::size_t> bytes(at_once);
-  std::vector<Hash> content(at_once);
-  for (std::int64_t first = 0; first < n; first += at_once) {
-    const std::int64_t last = std::min(n, first + at_once);
-#pragma omp parallel for schedule(static, 1) num_threads(at_once) if (at_once > 1)
-    for (std::int64_t i = first; i < last; i++) {
-      const std::int64_t k = i - first;
-      const char *from = block + i * kFrameBytes;
-      const std::size_t size = frame_size(i, block_bytes);
-      content[k] = hash_of(from, size);
-      bytes[k] = ZSTD_compress(packed[k].data(), room, from, size, kLevel);
-    }
-    for (std::int64_t k = 0; k < last - first; k++) {
-      if (ZSTD_isError(bytes[k]))
-        throw InputError("'" + path + "': cannot compress: " + ZSTD_getErrorName(bytes[k]));
-      file.write_at(end, packed[k].data(), bytes[k]);
-      end += bytes[k];
-      header(std::uint64_t(bytes[k]));
-      header(content[k]);
-    }
-  }
-  std::memcpy(header.bytes.data(), &front, sizeof front);
-  front.check = check_of(header.bytes);
-  std::memcpy(header.bytes.data(), &front, sizeof front);
-  file.write_at(0, header.bytes.data(), header.bytes.size());
-  file.commit();
-  return end;
 }
 
 }    // namespace lsdcd
