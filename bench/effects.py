@@ -4,8 +4,9 @@
 usage: effects.py [--build DIR] [--write-only] [--only cpu|cuda]
 
 Runs `lsdcd effects --measure` on one core and, where there is a GPU, with CUDA. Rows are
-kept, so that the document has those of a device on a machine without it too; the CPU's beside
-the code that shows them (src/effects), the GPU's in doc/data. --write-only makes the tables and the plot from what is kept.
+kept, so that the document has those of a device on a machine without it too: the CPU's in
+src/effects/effects_cpu.csv, which the program shows, the GPU's in doc/data/effects_cuda.csv.
+--write-only makes the tables and the plot from what is kept.
 """
 import argparse
 import csv
