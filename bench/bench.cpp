@@ -1,8 +1,8 @@
 #include "bench.h"
 
-#include "base/threads.h"
 #include "base/whole_file.h"
-#include "engine/backend_cpu.h"
+#include "parallel/backend_cpu.h"
+#include "parallel/threads.h"
 #include "on_cuda.h"
 #include "support/meshes.h"
 

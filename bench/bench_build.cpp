@@ -4,8 +4,8 @@
 #include "brute_force.h"
 #include "on_cuda.h"
 
-#include "base/threads.h"
-#include "engine/backend_cpu.h"
+#include "parallel/backend_cpu.h"
+#include "parallel/threads.h"
 
 using namespace lsdcd;
 

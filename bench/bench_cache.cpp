@@ -2,7 +2,7 @@
 #include "bench.h"
 
 #include "base/input_error.h"
-#include "grid/grid_cache.h"
+#include "grid/cache/grid_cache.h"
 #include "mesh/wall_mesh.h"
 #include "support/temp_dir.h"
 

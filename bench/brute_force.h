@@ -1,8 +1,8 @@
 // The paper's function 1: every cell of the whole grid tries every triangle.
 #pragma once
 
-#include "contact/closest_point.h"
-#include "contact/piece_distance.h"
+#include "geometry/closest_point.h"
+#include "geometry/piece_distance.h"
 #include "grid/flat_grid.h"
 
 #include <algorithm>

@@ -4,8 +4,9 @@
 usage: effects.py [--build DIR] [--write-only] [--only cpu|cuda]
 
 Runs `lsdcd effects --measure` on one core and, where there is a GPU, with CUDA. Rows are
-kept in doc/data/effects_DEVICE.csv, so that the document has those of a device on a
-machine without it too. --write-only makes the tables and the plot from what is kept.
+kept, so that the document has those of a device on a machine without it too: the CPU's in
+src/effects/effects_cpu.csv, which the program shows, the GPU's in doc/data/effects_cuda.csv.
+--write-only makes the tables and the plot from what is kept.
 """
 import argparse
 import csv
@@ -24,7 +25,8 @@ BEGIN, END = "<!-- costs:begin -->", "<!-- costs:end -->"
 
 
 def kept(device):
-    return os.path.join(ROOT, "doc", "data", f"effects_{device}.csv")
+    folder = ("src", "effects") if device == "cpu" else ("doc", "data")
+    return os.path.join(ROOT, *folder, f"effects_{device}.csv")
 
 
 def rows_of(device):

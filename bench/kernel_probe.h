@@ -2,8 +2,8 @@
 // sources as they are and with effects cut out of them.
 #pragma once
 
-#include "engine/on_wall.h"
-#include "engine/wall_force.h"
+#include "engine/force/on_wall.h"
+#include "engine/force/wall_force.h"
 #include "model/contact_model.h"
 
 namespace lsdcd {

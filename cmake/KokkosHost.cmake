@@ -72,7 +72,7 @@ function(lsdcd_kokkos_plugin name folder)
       return()
     endif()
     set(language CUDA)
-    set_source_files_properties(${sources} TARGET_DIRECTORY lsdcd_core PROPERTIES LANGUAGE CUDA)
+    set_source_files_properties(${sources} PROPERTIES LANGUAGE CUDA)
   endif()
 
   lsdcd_host_target(${name}_host ${LSDCD_HOST_SOURCE} ${LSDCD_HOST_VERSION} "${LSDCD_HOST_SIZES}")

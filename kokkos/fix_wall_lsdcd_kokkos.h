@@ -4,7 +4,7 @@
 
 #include "host_kokkos.h"
 
-#include "fix_wall_lsdcd.h"
+#include "lammps/fix_wall_lsdcd.h"
 
 namespace LAMMPS_NS {
 

@@ -9,8 +9,8 @@
 
 #include "base/input_error.h"
 #include "base/rows.h"
-#include "base/threads.h"
 #include "engine/wall_engine.h"
+#include "parallel/threads.h"
 
 #include <memory>
 #include <type_traits>

@@ -2,7 +2,7 @@
 
 #include "fix_wall_lsdcd_kokkos.h"
 
-#include "plugin_styles.h"
+#include "lammps/plugin_styles.h"
 
 #include <cstdio>
 #include <dlfcn.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/wall_geometry.h"
-#include "grid/brick_words.h"
+#include "grid/lookup/brick_words.h"
 
 namespace lsdcd {
 

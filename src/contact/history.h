@@ -3,7 +3,7 @@
 
 #include "contact/contact_set.h"
 #include "contact/spring.h"
-#include "mesh/wall_features.h"
+#include "geometry/wall_records.h"
 
 namespace lsdcd {
 

@@ -3,7 +3,7 @@
 
 #include "base/rows.h"
 #include "base/vec3.h"
-#include "mesh/feature_code.h"
+#include "geometry/feature_code.h"
 
 #include <cstdint>
 

@@ -1,8 +1,8 @@
 // Feet on the wall's own records, in double.
 #pragma once
 
-#include "contact/closest_point.h"
-#include "grid/locate.h"
+#include "geometry/closest_point.h"
+#include "grid/lookup/locate.h"
 
 namespace lsdcd {
 

@@ -1,5 +1,5 @@
 #include "engine/engine_on.h"
-#include "engine/host_law.h"
+#include "engine/force/host_law.h"
 
 namespace lsdcd {
 

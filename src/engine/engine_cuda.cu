@@ -1,4 +1,4 @@
-#include "engine/cuda_law.h"
+#include "engine/force/cuda_law.h"
 #include "engine/host_adapter.h"
 
 namespace lsdcd {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "base/input_error.h"
-#include "engine/compiled_law.h"
-#include "engine/force_settings.h"
-#include "engine/near_list.h"
+#include "engine/force/compiled_law.h"
+#include "engine/force/force_settings.h"
+#include "engine/choose/near_list.h"
 #include "engine/resident_springs.h"
-#include "engine/sphere_error.h"
-#include "engine/totals.h"
+#include "engine/results/sphere_error.h"
+#include "engine/results/totals.h"
 
 #include <string>
 #include <utility>

@@ -4,7 +4,7 @@
 #include "base/rows.h"
 #include "base/vec3.h"
 #include "contact/spring_store.h"
-#include "engine/on_wall.h"
+#include "engine/force/on_wall.h"
 #include "grid/triangle_grid.h"
 #include "mesh/wall_mesh.h"
 #include "model/contact_law.h"

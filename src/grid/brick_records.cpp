@@ -1,7 +1,7 @@
 #include "grid/brick_records.h"
 
-#include "base/threads.h"
 #include "grid/triangle_grid.h"
+#include "parallel/threads.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/vec3.h"
-#include "mesh/wall_features.h"
+#include "geometry/wall_records.h"
 
 #include <cstdint>
 #include <vector>

@@ -161,4 +161,4 @@ LSDCD_FN bool near_wall(const GridView &grid, const Vec3 &q);
 
 }    // namespace lsdcd
 
-#include "grid/locate.h"
+#include "grid/lookup/locate.h"

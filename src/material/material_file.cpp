@@ -1,7 +1,7 @@
 #include "material/material_file.h"
 
 #include "base/input_error.h"
-#include "input_words.h"
+#include "base/input_words.h"
 
 #include <algorithm>
 #include <fstream>

@@ -2,7 +2,7 @@
 // need more than one contact's registers.
 #pragma once
 
-#include "engine/cuda_warp.h"
+#include "parallel/cuda_warp.h"
 
 #include <cuda_runtime.h>
 

@@ -1,5 +1,5 @@
 #include "base/input_error.h"
-#include "engine/backend_cpu.h"
+#include "parallel/backend_cpu.h"
 #include "query/query_on.h"
 
 namespace lsdcd {

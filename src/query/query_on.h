@@ -1,11 +1,9 @@
 // The query on one backend: one source for all.
 #pragma once
 
-#include "base/atomic.h"
 #include "base/input_error.h"
-#include "grid/brick_filter.h"
 #include "grid/flat_grid.h"
-#include "query/nearest_distance.h"
+#include "query/grid_work.h"
 #include "query/one_pass.h"
 #include "query/sphere_query.h"
 
@@ -13,143 +11,6 @@
 #include <cstdio>
 
 namespace lsdcd {
-
-// Arrays of one query; which of them are null says what is kept. Distances that were found
-// in float are kept in float.
-struct AnswerArrays {
-  std::uint8_t *status;
-  Real *distance;
-  float *float_distance;
-  std::uint32_t *read;
-
-  static constexpr float kAnyFloatDistance = 3e38f;
-
-  LSDCD_FN void keep(std::size_t i, const Answer &a) const
-  {
-    const bool touching = a.distance < kAnyDistance;
-    status[i] = (touching ? kTouching : 0) | (a.certified ? kCertified : 0);
-    if (distance) distance[i] = a.distance;
-    if (float_distance)
-      float_distance[i] = touching ? static_cast<float>(a.distance) : kAnyFloatDistance;
-    if (read) read[i] = a.read;
-  }
-  // The same of four neighbours from i on, a multiple of 4, where no wall is near.
-  LSDCD_FN void keep_four_far(std::size_t i) const
-  {
-    const std::uint8_t s = kCertified;
-    four_at(status, i) = {{s, s, s, s}};
-    if (distance) four_at(distance, i) = {{kAnyDistance, kAnyDistance, kAnyDistance, kAnyDistance}};
-    const float f = kAnyFloatDistance;
-    if (float_distance) four_at(float_distance, i) = {{f, f, f, f}};
-    if (read) four_at(read, i) = {{0, 0, 0, 0}};
-  }
-  // Of the spheres from the n-th on, a multiple of 4.
-  AnswerArrays after(std::size_t n) const
-  {
-    return {status + n, distance ? distance + n : nullptr,
-            float_distance ? float_distance + n : nullptr, read ? read + n : nullptr};
-  }
-  LSDCD_FN static Real widened(float kept)
-  {
-    return kept < kAnyFloatDistance ? static_cast<Real>(kept) : kAnyDistance;
-  }
-  LSDCD_FN Real distance_of(std::size_t i) const
-  {
-    return float_distance ? widened(float_distance[i]) : distance[i];
-  }
-
- private:
-  // Aligned so that a GPU stores them in one piece, or two of 16 bytes.
-  template <class T>
-  struct alignas(sizeof(T) < 4 ? 4 : 16) Four {
-    T v[4];
-  };
-  template <class T>
-  LSDCD_FN static Four<T> &four_at(T *kept, std::size_t i)
-  {
-    return *reinterpret_cast<Four<T> *>(kept + i);
-  }
-};
-
-// The first sphere with a radius that the grid's lists were not built for, or that is no number.
-// Radii are compared in the spheres' digits: in float, the reach is one of them, rounded.
-template <class S>
-struct TooLarge {
-  decltype(S::r) reach;
-  std::uint64_t *first;    // ~ of its index, the largest of all; 0: none
-
-  LSDCD_FN bool is(const S &s) const { return !(s.r <= reach); }
-  LSDCD_FN void note(std::size_t i, const S &s) const
-  {
-    if (is(s)) raise_to(first, ~static_cast<std::uint64_t>(i));
-  }
-};
-
-// What a query asks of each sphere, for the loops that run it: an answer at once; or first
-// whether it may be in a brick, then its cell, and then an answer from that cell's list, where
-// there are these, and one far from the wall elsewhere. kComplete: grid.nearest is 0.
-template <class Distances, class S, bool kComplete>
-struct GridWork {
-  using Item = S;
-  using Filter = BrickFilter<decltype(S::x)>;
-
-  GridView grid;
-  BrickTable table;
-  const S *spheres;
-  AnswerArrays out;
-  Filter filter;
-  CoarseTable coarse;
-  TooLarge<S> too_large;
-  std::size_t from;    // spheres before these
-
-  // The same of the spheres from the n-th on, a multiple of 4.
-  GridWork after(std::size_t n) const
-  {
-    return {grid, table, spheres + n, out.after(n), filter, coarse, too_large, from + n};
-  }
-
-  LSDCD_FN S sphere(std::size_t i) const { return spheres[i]; }
-  LSDCD_FN void check(std::size_t i, const S &s) const { too_large.note(from + i, s); }
-  LSDCD_FN void answer(std::size_t i, const S &s) const
-  {
-    check(i, s);
-    out.keep(i, nearest_distance<kComplete, Distances>(grid, s.centre(), s.r));
-  }
-
-  // Of a sphere that is too large nothing is sure: who looks closer checks it.
-  LSDCD_FN BrickGuess guess(const S &s) const
-  {
-    BrickGuess at = filter.guess({s.x, s.y, s.z});
-    at.unsure |= too_large.is(s);
-    return at;
-  }
-  // kNoCell where there are no candidates.
-  LSDCD_FN std::uint32_t cell(const S &s) const { return occupied_cell(grid, table, s.centre()); }
-  LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
-  LSDCD_FN void far(std::size_t i) const { out.keep(i, far_answer()); }
-  LSDCD_FN void four_far(std::size_t i) const { out.keep_four_far(i); }
-  LSDCD_FN void answer(std::size_t i, const S &s, const Cell &cell) const
-  {
-    const Vec3 q = s.centre();
-    out.keep(i, nearest_from<kComplete, Distances>(grid, q, s.r, address_inside(grid, q), cell));
-  }
-
-  // Lists that are too long for one thread, as at a vertex of very many facets.
-  static constexpr bool kTogether = kComplete && Distances::kBounded;
-  static constexpr std::uint32_t kLongForOne = 32;
-  LSDCD_FN bool is_long(const Cell &cell) const { return kTogether && cell.count > kLongForOne; }
-  template <class Lanes>
-  LSDCD_FN void answer_together(std::size_t i, const S &s, const Cell &cell,
-                                const Lanes &lanes) const
-  {
-    if constexpr (kTogether) {
-      const Vec3 q = s.centre();
-      const Answer a = nearest_together<Distances>(grid, grid.lists, q, s.r,
-                                                   address_inside(grid, q), cell, lanes);
-      if (lanes.lane() == 0) out.keep(i, a);
-    }
-  }
-};
 
 // `Way`: how a backend runs a query that reads the grid.
 template <class B, class Way = OnePass>

@@ -1,7 +1,7 @@
 // The paper's distance from a point to a triangle, kept for its study.
 #pragma once
 
-#include "contact/piece_distance.h"
+#include "geometry/piece_distance.h"
 
 namespace lsdcd {
 

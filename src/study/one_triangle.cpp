@@ -1,9 +1,9 @@
 #include "study/one_triangle.h"
 
-#include "contact/closest_point.h"
-#include "contact/piece_distance.h"
-#include "engine/backend_cpu.h"
-#include "grid/locate.h"
+#include "geometry/closest_point.h"
+#include "geometry/piece_distance.h"
+#include "grid/lookup/locate.h"
+#include "parallel/backend_cpu.h"
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 #include "study/spheres.h"
 
-#include "engine/backend_cpu.h"
+#include "parallel/backend_cpu.h"
 
 namespace lsdcd {
 

@@ -1,6 +1,6 @@
 #include "tool/material.h"
 
-#include "material/fill_material.h"
+#include "deck/fill_material.h"
 #include "material/material_file.h"
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "tune/tradeoff.h"
 
-#include "grid/grid_plan.h"
+#include "grid/plan/grid_plan.h"
 #include "tune/drift.h"
 #include "tune/tune_lengths.h"
 

@@ -1,6 +1,6 @@
 #include "tune/trial_grid.h"
 
-#include "grid/shorten_lists.h"
+#include "grid/build/shorten_lists.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 #include "tune/tune.h"
 
 #include "base/input_error.h"
-#include "grid/grid_plan.h"
+#include "grid/plan/grid_plan.h"
 #include "tune/tune_lengths.h"
 #include "tune/wall_parts.h"
 

@@ -1,6 +1,6 @@
 #include "tune/tune_lengths.h"
 
-#include "grid/grid_plan.h"
+#include "grid/plan/grid_plan.h"
 
 #include <algorithm>
 #include <cstdio>

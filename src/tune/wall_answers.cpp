@@ -1,8 +1,8 @@
 #include "tune/wall_answers.h"
 
-#include "base/threads.h"
-#include "engine/force_settings.h"
-#include "engine/law_job.h"
+#include "parallel/threads.h"
+#include "engine/force/force_settings.h"
+#include "engine/force/law_job.h"
 
 #include <algorithm>
 #include <cmath>

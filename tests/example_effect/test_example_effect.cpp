@@ -2,7 +2,7 @@
 // run by the library's own kernel.
 #include "example_effect/saturating_damping.h"
 
-#include "engine/host_law.h"
+#include "engine/force/host_law.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 

@@ -41,7 +41,7 @@ compile() {
   [ -e "$headers/fmt/format.h" ] || shims+=(-I "$root/cmake/compat/no_fmt")
   [ -e "$headers/command.h" ] || shims+=(-I "$root/cmake/compat/no_command")
   [ -e "$headers/safe_pointers.h" ] || shims+=(-I "$root/cmake/compat/no_safe_pointers")
-  for file in "$root"/src/{fix_wall_lsdcd*,lsdcdplugin,plugin_styles,node_*,launcher/*}.cpp; do
+  for file in "$root"/src/lammps/{*,launcher/*}.cpp; do
     # shellcheck disable=SC2046
     $cxx -std=c++17 -Wall -Wextra -Werror -fPIC -DLAMMPS_SMALLBIG -DLSDCD_HOST_VERSION="$version" \
       -DOMPI_SKIP_MPICXX $(mpicxx --showme:compile) -I "$root/src" "${shims[@]}" \

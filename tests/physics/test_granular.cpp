@@ -1,5 +1,5 @@
 // The sub-models of `granular` against closed forms.
-#include "engine/host_law.h"
+#include "engine/force/host_law.h"
 #include "model/normal.h"
 #include "support/laws.h"
 #include "support/meshes.h"

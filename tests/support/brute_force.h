@@ -1,7 +1,7 @@
 // Every local minimum of distance by trying all features: no grid, no lists.
 #pragma once
 
-#include "contact/closest_point.h"
+#include "geometry/closest_point.h"
 #include "grid/triangle_grid.h"
 
 #include <algorithm>

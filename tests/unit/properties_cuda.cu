@@ -1,7 +1,7 @@
 // Pairs of spheres and meshes checked on a GPU.
 #include "support/properties.h"
 
-#include "engine/backend_cuda.h"
+#include "parallel/backend_cuda.h"
 
 #include <cstring>
 

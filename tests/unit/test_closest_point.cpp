@@ -1,5 +1,5 @@
 // Feet on faces, edges and vertices against closed forms and quad precision.
-#include "contact/closest_point.h"
+#include "geometry/closest_point.h"
 #include "mesh/wall_features.h"
 #include "support/meshes.h"
 

@@ -1,11 +1,11 @@
 // Contacts that are found ahead of the law, as on a GPU, against one pass from search to
 // force: the same bits. On a backend of the host that finds them first, and where
 // LSDCD_TEST_DEVICE says.
-#include "engine/backend_cpu.h"
-#include "engine/find_first.h"
-#include "engine/laws.h"
-#include "engine/law_step.h"
+#include "engine/force/law_step.h"
+#include "engine/force/laws.h"
+#include "engine/narrow/find_first.h"
 #include "engine/resident_on.h"
+#include "parallel/backend_cpu.h"
 #include "support/crowd.h"
 #include "support/device.h"
 #include "support/device_memory.h"

@@ -1,6 +1,6 @@
 #include "base/input_error.h"
-#include "base/threads.h"
-#include "grid/grid_cache.h"
+#include "grid/cache/grid_cache.h"
+#include "parallel/threads.h"
 #include "support/meshes.h"
 #include "support/temp_dir.h"
 

@@ -2,10 +2,10 @@
 // source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches.
 #include "contact/spring_store.h"
 #include "effects/effects.h"
-#include "engine/backend_cpu.h"
-#include "engine/law_step.h"
+#include "engine/force/law_step.h"
 #include "engine/resident_on.h"
-#include "grid/near_within.h"
+#include "grid/lookup/near_within.h"
+#include "parallel/backend_cpu.h"
 #include "support/crowd.h"
 #include "support/device.h"
 #include "support/device_memory.h"

@@ -1,6 +1,6 @@
 // Which lane of a warp reads which word of 32 three-vectors, and hands it to whom: what the
 // lanes of a GPU do, played through with an array for what each of them holds.
-#include "base/rows_together.h"
+#include "parallel/rows_together.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "base/input_error.h"
+#include "deck/granular_words.h"
+#include "deck/settings.h"
 #include "effects/effects.h"
-#include "grid/grid_cache.h"
-#include "granular_words.h"
-#include "settings.h"
+#include "grid/cache/grid_cache.h"
 
 #include <gtest/gtest.h>
 

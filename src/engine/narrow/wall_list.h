@@ -3,7 +3,7 @@
 #pragma once
 
 #include "contact/find_contacts.h"
-#include "grid/near_within.h"
+#include "grid/lookup/near_within.h"
 
 namespace lsdcd {
 

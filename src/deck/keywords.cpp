@@ -1,0 +1,281 @@
+#include "deck/keywords.h"
+
+#include "grid/cache/grid_cache.h"
+
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+void read_mesh(Words &w, WallSettings &s)
+{
+  if (w.done()) w.fail("the file name is missing");
+  s.mesh_file = w.take();
+}
+
+void note_placement(WallSettings &s, const std::string &words)
+{
+  s.placement_words += (s.placement_words.empty() ? "" : ", ") + words;
+}
+
+Real nonzero(Words &w, const char *what)
+{
+  const Real value = w.number(what);
+  if (value == 0) w.fail(std::string(what) + " must not be zero");
+  return value;
+}
+
+void read_scale(Words &w, WallSettings &s)
+{
+  Vec3 f;
+  f.x = f.y = f.z = nonzero(w, "the factor");
+  if (w.number_follows()) {
+    f.y = nonzero(w, "the y factor");
+    f.z = nonzero(w, "the z factor (give one factor or three)");
+  }
+  s.placement.scale(f);
+  note_placement(
+      s, "scale " + number_text(f.x) +
+             (f.x == f.y && f.y == f.z ? "" : " " + number_text(f.y) + " " + number_text(f.z)));
+}
+
+void read_rotate(Words &w, WallSettings &s)
+{
+  Vec3 axis;
+  axis.x = w.number("the axis (x)");
+  axis.y = w.number("the axis (y)");
+  axis.z = w.number("the axis (z)");
+  const Real degrees = w.number("the angle");
+  if (axis == Vec3{0, 0, 0}) w.fail("the axis must not be 0 0 0");
+  s.placement.rotate(axis, degrees);
+  note_placement(s, "rotate " + number_text(axis.x) + " " + number_text(axis.y) + " " +
+                        number_text(axis.z) + " " + number_text(degrees));
+}
+
+void read_move(Words &w, WallSettings &s)
+{
+  Vec3 shift;
+  shift.x = w.number("x");
+  shift.y = w.number("y");
+  shift.z = w.number("z");
+  s.placement.move(shift);
+  note_placement(s, "move " + number_text(shift.x) + " " + number_text(shift.y) + " " +
+                        number_text(shift.z));
+}
+
+void read_memory(Words &w, WallSettings &s)
+{
+  s.memory_budget = static_cast<std::size_t>(w.number("the budget", 1, 1e9) * 1024 * 1024);
+}
+
+void read_nearest(Words &w, WallSettings &s)
+{
+  s.nearest_given = true;
+  const Real n = w.number_or("all", 0, "N", 1, kMostNearest);
+  s.nearest = static_cast<int>(n);
+  if (s.nearest != n) w.fail("N must be a whole number");
+  if (s.nearest == 0 || w.done() || w.peek() != "exact") return;
+  s.exact = true;
+  w.take();
+}
+
+void read_tune(Words &w, WallSettings &s)
+{
+  s.tune = w.number("the largest error", 0, std::nextafter(Real(1), Real(0)));
+}
+
+void read_cache(Words &w, WallSettings &s)
+{
+  if (w.done()) w.fail("the file name is missing");
+  const std::string file = w.take();
+  if (file == "none") return;
+  std::string why;
+  if (!cache_available(&why)) w.fail(why);
+  s.cache_file = file;
+}
+
+Vec3 read_vec(Words &w, const char *x, const char *y, const char *z)
+{
+  Vec3 v;
+  v.x = w.number(x);
+  v.y = w.number(y);
+  v.z = w.number(z);
+  return v;
+}
+
+void read_surface_angvel(Words &w, WallSettings &s)
+{
+  s.surface.angular = read_vec(w, "wx", "wy", "wz");
+  if (w.number_follows())
+    s.surface.centre = read_vec(w, "the centre (x)", "the centre (y)", "the centre (z)");
+}
+
+// Of LIGGGHTS, beside the classic styles; granular has its own.
+void only_classic(Words &w, const WallSettings &s, const char *instead)
+{
+  if (s.law.style == LawStyle::granular)
+    w.fail(std::string("it goes with the classic styles; granular has ") + instead);
+}
+
+void read_rolling(Words &w, WallSettings &s)
+{
+  only_classic(w, s, "'rolling sds' before mesh");
+  s.law.added.rolling = static_cast<AddedRolling>(1 + w.choice({"cdt", "epsd2"}));
+  s.law.added.mu_roll = w.number("MU", 0);
+}
+
+void read_cohesion(Words &w, WallSettings &s)
+{
+  only_classic(w, s, "the normal sub-models dmt and jkr");
+  w.choice({"sjkr"});
+  s.law.added.cohesion = w.number("K", 0);
+}
+
+void read_wear(Words &w, WallSettings &s)
+{
+  s.wear.model = static_cast<WearModel>(1 + w.choice({"archard", "finnie"}));
+  s.wear.per_work = w.number("K", 0);
+  if (s.wear.model == WearModel::archard) s.wear.per_work /= w.number("H", kAboveZero);
+}
+
+void read_mesh_fields(Words &w, WallSettings &s)
+{
+  if (w.done()) w.fail("the file name is missing");
+  s.fields_file = w.take();
+  const std::string end = ".vtp";
+  if (s.fields_file.size() <= end.size() ||
+      s.fields_file.compare(s.fields_file.size() - end.size(), end.size(), end) != 0)
+    w.fail("the file name '" + s.fields_file + "' must end in .vtp, by which ParaView knows it");
+  if (w.done() || w.take() != "every") w.fail("'every N' is missing");
+  const Real n = w.number("N", 1, 2147483647);
+  s.fields_every = static_cast<int>(n);
+  if (s.fields_every != n) w.fail("N must be a whole number");
+}
+
+void read_temperature(Words &w, WallSettings &s)
+{
+  s.has_temperature = true;
+  if (!w.done() && w.peek().rfind("v_", 0) == 0) {
+    s.temperature_variable = w.take().substr(2);
+    if (s.temperature_variable.empty()) w.fail("the variable's name is missing after v_");
+  } else {
+    s.temperature = w.number("T");
+  }
+}
+
+void read_draw(Words &w, WallSettings &s)
+{
+  s.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
+  if (!w.number_follows()) return;
+  const Real type = w.number("the atom type", 1, 1e6);
+  s.draw_type = static_cast<int>(type);
+  if (s.draw_type != type) w.fail("the atom type must be a whole number");
+}
+
+void read_cut(Words &w, WallSettings &s)
+{
+  s.cut = true;
+  s.cut_normal.x = w.number("the normal (x)");
+  s.cut_normal.y = w.number("the normal (y)");
+  s.cut_normal.z = w.number("the normal (z)");
+  s.cut_offset = w.number("the offset");
+}
+
+const Keyword kKeywords[] = {
+    {"mesh", "FILE", "", "STL file", "required", "the wall, ASCII or binary STL", read_mesh},
+    {"scale", "s | sx sy sz", "", "not 0", "1",
+     "multiply coordinates; scale, rotate and move act in the order given", read_scale},
+    {"rotate", "ax ay az degrees", "degrees", "axis not 0 0 0", "none",
+     "right-handed rotation about an axis through the origin", read_rotate},
+    {"move", "x y z", "length", "", "0 0 0", "shift", read_move},
+    {"weld", "tol", "length", ">= 0", "1e-6 of the mesh diagonal",
+     "corners closer than this are one vertex; 0: only equal ones",
+     [](Words &w, WallSettings &s) { s.weld = w.number("the tolerance", 0); }},
+    {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",
+     [](Words &w, WallSettings &s) {
+       s.grid_length = w.number_or("auto", 0, "L", kAboveZero);
+       s.length_given = s.grid_length > 0;
+     }},
+    {"rmax", "R | auto", "length", "> 0", "auto: the largest radius in the group",
+     "largest particle radius that the grid is built for",
+     [](Words &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
+    {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records", "budget for the grid",
+     read_memory},
+    {"nearest", "all | N [exact]", "", "1 to 32", "all",
+     "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre; exact: "
+     "all where N are not certified to be enough",
+     read_nearest},
+    {"precision", "double | mixed | single", "", "", "double",
+     "mixed: contacts in float, forces in double; single: both in float",
+     [](Words &w, WallSettings &s) {
+       s.precision = static_cast<Precision>(w.choice({"double", "mixed", "single"}));
+       s.precision_given = true;
+     }},
+    {"tune", "E", "", "0 to below 1", "off",
+     "choose grid, nearest and precision, where not given, by measuring: missed contacts and "
+     "force errors below E",
+     read_tune},
+    {"cache", "FILE | none", "", "", "none",
+     "file that keeps the grid, so that the next start need not build it", read_cache},
+    {"corner", "blend | sum", "", "", "blend",
+     "contacts at one place share their overlap, or their forces simply add",
+     [](Words &w, WallSettings &s) {
+       s.corner = static_cast<Corner>(w.choice({"blend", "sum"}));
+     }},
+    {"side", "both | in | out", "", "", "both",
+     "where particles belong; in and out need a closed, oriented mesh",
+     [](Words &w, WallSettings &s) {
+       s.side = static_cast<Side>(w.choice({"both", "in", "out"}));
+     }},
+    {"surface_vel", "vx vy vz", "velocity", "", "0 0 0",
+     "the surface moves along itself while the mesh stays, as a conveyor's",
+     [](Words &w, WallSettings &s) { s.surface.velocity = read_vec(w, "vx", "vy", "vz"); }},
+    {"surface_angvel", "wx wy wz [cx cy cz]", "1/time, length", "", "0 0 0",
+     "it turns along itself about an axis through c (the origin), as a roll's",
+     read_surface_angvel},
+    {"rolling", "cdt MU | epsd2 MU", "", ">= 0", "none",
+     "rolling friction of LIGGGHTS: constant torque, or elastic-plastic spring", read_rolling},
+    {"cohesion", "sjkr K", "energy/volume", ">= 0", "none",
+     "cohesion of LIGGGHTS: K times the area of contact", read_cohesion},
+    {"wear", "archard K H | finnie K", "K H: none, pressure; K: 1/pressure", ">= 0, H > 0", "none",
+     "volume that wears off the triangles: K F s/H, or by angle and energy of impacts", read_wear},
+    {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",
+     "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step",
+     read_mesh_fields},
+    {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
+     [](Words &w, WallSettings &s) {
+       s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));
+     }},
+    {"temperature", "T | v_NAME", "temperature", "", "none",
+     "of the wall, for the sub-model heat; v_NAME: an equal-style variable", read_temperature},
+    {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
+     [](Words &, WallSettings &s) { s.contacts = true; }},
+    {"periodic", "", "", "", "off",
+     "the mesh continues itself across periodic faces and reaches past them by R",
+     [](Words &, WallSettings &s) { s.periodic = true; }},
+    {"log", "full | brief", "", "", "full", "brief: one line about the wall in place of all",
+     [](Words &w, WallSettings &s) {
+       s.brief = w.choice({"full", "brief"}) == 1;
+     }},
+    {"draw", "edges | faces | contours [type]", "", "", "edges 1",
+     "what dump image shows, in the colour of an atom type: fix ID type DIAMETER 0 for lines, "
+     "fix ID type 1 0 for faces",
+     read_draw},
+    {"cut", "nx ny nz d", "", "", "none", "dump image leaves out the part with n.x > d", read_cut},
+};
+
+}    // namespace
+
+const std::vector<Keyword> &keywords()
+{
+  static const std::vector<Keyword> all(std::begin(kKeywords), std::end(kKeywords));
+  return all;
+}
+
+std::string syntax_of(const Keyword &row)
+{
+  return std::string(row.name) + (*row.values ? " " : "") + row.values;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,116 @@
+#include "deck/material_command.h"
+
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "deck/granular_words.h"
+#include "material/material_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+const char *const kMaterialSyntax =
+    "granular [hertz/material|jkr|dmt] material FILE PARTICLE [on WALL] [with [MATERIAL] KEY VALUE "
+    "...] "
+    "[sub-models, NULL for a number of the file] mesh FILE [keywords]";
+
+namespace {
+
+std::string take(Words &w, const char *what)
+{
+  if (w.done()) w.fail(std::string(what) + " is missing");
+  return w.take();
+}
+
+// KEY VALUE, or MATERIAL KEY VALUE; as long as they follow.
+void read_overrides(Words &w, MaterialCommand &c)
+{
+  const auto is_key = [&] { return !w.done() && (w.peek() == "eta" || find_property(w.peek())); };
+  const auto is_name = [&] { return !w.done() && (w.peek() == c.particle || w.peek() == c.wall); };
+  if (!is_key() && !is_name())
+    w.fail("'with' needs a property and its value, such as restitution 0.9");
+  while (is_key() || is_name()) {
+    const std::string of = is_key() ? "" : w.take();
+    if (!is_key()) w.fail("after 'with " + of + "' comes a property of it and its value");
+    const std::string key = w.take();
+    const Property *p = find_property(key);
+    if (!of.empty() && (!p || p->of_pair))
+      w.fail("'" + key + "' is not of " + of + " alone: leave the name out");
+    if (c.override_of(key, of)) w.fail("'" + key + "' is given twice");
+    if (key == "density") w.fail("density is the atoms' own: no contact style takes it");
+    const Real number = w.number(key.c_str(), p ? std::nextafter(p->above, Words::kHuge) : 0,
+                                 p ? p->most : Words::kHuge);
+    c.overrides.push_back({of, key, number});
+  }
+}
+
+// Keyword, model, numbers.
+void read_sub_models(Words &w, MaterialCommand &c)
+{
+  const std::vector<std::string> families = granular_families();
+  while (!w.done()) {
+    const std::string key = w.peek();
+    if (std::find(families.begin(), families.end(), key) == families.end()) return;
+    c.sub_models.push_back(w.take());
+    if (key == "limit_damping" || w.done()) continue;
+    if (key == "tangential") c.has_tangential = true;
+    if (key == "damping") c.damping = w.peek();
+    c.sub_models.push_back(w.take());
+    while (!w.done() && (w.peek() == "NULL" || w.number_follows()))
+      c.sub_models.push_back(w.take());
+  }
+}
+
+}    // namespace
+
+const Real *MaterialCommand::override_of(const std::string &key, const std::string &of) const
+{
+  for (const Override &o : overrides)
+    if (o.key == key && o.of == of) return &o.value;
+  return nullptr;
+}
+
+bool has_material(const std::vector<std::string> &words)
+{
+  if (words.size() < 2) return false;
+  if (words[0] == "granular" && words.size() > 2 && words[2] == "material") return true;
+  for (const char *style : {"granular", "hooke", "hooke/history", "hertz/history"})
+    if (words[0] == style) return words[1] == "material";
+  return false;
+}
+
+MaterialCommand read_material_command(const std::vector<std::string> &words)
+{
+  Words w(words);
+  w.expect("material", kMaterialSyntax);
+  MaterialCommand c;
+  c.style = w.take();
+  if (c.style == "granular") {
+    c.normal = w.peek() == "material" ? "hertz/material" : w.take();
+    if (c.normal != "hertz/material" && c.normal != "jkr" && c.normal != "dmt")
+      w.fail("the normal model '" + c.normal +
+             "' does not take material constants: use hertz/material, jkr or dmt");
+  }
+  w.take();
+  c.file = take(w, "the file name");
+  c.particle = c.wall = take(w, "the material's name");
+  if (!w.done() && w.peek() == "on") {
+    w.take();
+    c.wall = take(w, "the wall's material");
+  }
+  if (!w.done() && w.peek() == "with") {
+    w.take();
+    read_overrides(w, c);
+  }
+  read_sub_models(w, c);
+  while (!w.done()) c.rest.push_back(w.take());
+  return c;
+}
+
+void fail_material(const std::string &problem)
+{
+  throw InputError("in 'material', " + problem + ". Syntax: " + kMaterialSyntax);
+}
+
+}    // namespace lsdcd

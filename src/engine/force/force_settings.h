@@ -1,0 +1,29 @@
+// From the settings of an engine and of a step to those of a kernel.
+#pragma once
+
+#include "engine/force/wall_force.h"
+
+namespace lsdcd {
+
+inline SearchSettings search_settings(const EngineSettings &engine)
+{
+  SearchSettings s;
+  s.blend = engine.corner == Corner::blend;
+  s.side = engine.side == Side::both ? 0 : (engine.side == Side::out ? 1 : -1);
+  return s;
+}
+
+inline ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step)
+{
+  ForceSettings s;
+  s.dt = step.dt;
+  s.update = step.update_history;
+  s.search = search_settings(engine);
+  s.with_point = step.per_sphere;
+  s.wall_temperature = step.wall_temperature;
+  s.surface = engine.surface;
+  s.wear = engine.wear;
+  return s;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,113 @@
+// A step's work for the kernels of a contact law over the spheres near the wall, on any backend.
+#pragma once
+
+#include "engine/narrow/wall_list.h"
+#include "engine/results/result_columns.h"
+#include "engine/force/wall_force.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// Contacts that a kernel has room for on its stack: enough for nearly every sphere. One with more
+// takes a lane, which has room for kMostContacts.
+constexpr int kContacts = 8;
+constexpr int kMostContacts = 512;
+
+// What spheres leave in memory that they share in a step. Where one has a single contact its shear
+// history and its record have the slot of its own number; with more it takes slots from `shared` on.
+struct ContactPool {
+  int shared, size;
+  int which;             // of the two pools
+  int *first, *count;    // of each sphere
+  int *slot;             // first one of each near sphere, where there are records
+  Spring *springs;
+  Real *extra;
+  ContactRecord *records;
+};
+
+constexpr std::uint64_t kNoSphere = std::uint64_t(1) << 32;
+
+// What steps count. The first three are of one choice or step, the others since the host looked.
+struct StepCounts {
+  std::uint32_t n_near;
+  int shared_used[2];    // slots, of each pool in the last step that wrote it
+  int n_left[2];         // near spheres left to the second kernel, by turns
+  int lost;              // spheres left out for want of memory: an error
+  // kNoSphere less the index of the first sphere beyond the grid's reach, or 0: an error.
+  std::uint64_t too_large;
+  std::uint64_t uncertified;    // answers
+  // As ascending bits: the largest overlap / radius, with 1 + the index of its sphere
+  // below it, and the largest that an answer which was not certified may have missed.
+  std::uint64_t deepest, uncertain;
+  std::uint64_t lists, listed, by_cells;    // lists made in steps, their features; searches of cells
+};
+
+// Memory for the contacts of one sphere that has many: too much for a stack. Whoever holds the lock
+// has it.
+struct Lane {
+  int locked;
+  Touch<kMostContacts> touch;
+  CornerRule<kMostContacts> rule;
+};
+constexpr int kLanes = 8;    // 1 MB each
+
+struct LawJob {
+  GridView grid = {};
+  ForceSettings settings = {};
+  const int *near = nullptr;    // sphere of each k; null: sphere k
+  WallList *lists = nullptr;    // of each k; null: cells are searched
+  Rows<const Real> x, v, omega;
+  Column<const Real> radius, mass, temperature;
+  SpringsView springs = {};    // of the last step
+
+  StepCounts *counts = nullptr;
+  Rows<Real> force, torque;       // added to
+  Real *heat_flow = nullptr;      // likewise, where the law has heat
+  ResultColumns result = {};      // of each k
+  Real *heat = nullptr;           // of each k, where the law has heat
+  Real *uncertain = nullptr;      // overlap / radius that k's search may miss; null: nothing can be
+  ContactPool pool = {};
+  Lane *lanes = nullptr;
+  int *left = nullptr;    // near spheres that the first kernel leaves to the second
+  int turn = 0;           // of StepCounts::n_left
+};
+
+LSDCD_FN std::size_t sphere_of(const LawJob &job, std::size_t k)
+{
+  return job.near ? job.near[k] : k;
+}
+
+// Sphere i at x, as the search sees it. `beyond`: does the law act beyond contact? `pull_off`: of
+// the law, at a radius of 1.
+LSDCD_FN Searcher searcher_of(const LawJob &job, std::size_t i, const Vec3 &x, Real radius,
+                              bool beyond, Real pull_off)
+{
+  Searcher s = {x, radius, radius, nullptr, 0};
+  if (beyond) {
+    s.reach = reach_of(radius, pull_off);
+    s.n_springs = job.springs.count[i];
+    s.springs = job.springs.pool + (s.n_springs > 0 ? job.springs.first[i] : 0);
+  }
+  return s;
+}
+
+// The part of a job that the spheres decide.
+inline LawJob job_of(const GridView &grid, const ForceSettings &settings, const Spheres &spheres)
+{
+  LawJob job;
+  job.grid = grid;
+  job.settings = settings;
+  job.x = spheres.x;
+  job.v = spheres.v;
+  job.omega = spheres.omega;
+  job.radius = {spheres.radius};
+  job.mass = {spheres.mass};
+  job.temperature = {spheres.temperature};
+  job.force = spheres.force;
+  job.torque = spheres.torque;
+  job.heat_flow = spheres.heat_flow;
+  return job;
+}
+
+}    // namespace lsdcd

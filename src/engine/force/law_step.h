@@ -1,0 +1,211 @@
+// A step of a contact law over the spheres near the wall: one body for every backend.
+#pragma once
+
+#include "engine/force/compiled_law.h"
+#include "engine/results/step_notes.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// Sphere i at x, without what only a contact needs: most of those near the wall touch nothing.
+template <class Law>
+LSDCD_FN SphereState state_at(const LawJob &job, std::size_t i, const Vec3 &x, Real radius)
+{
+  SphereState s = {};
+  s.x = x;
+  s.radius = radius;
+  if constexpr (Law::kHistory) {
+    s.n_springs = job.springs.count[i];
+    const std::size_t first = s.n_springs > 0 ? job.springs.first[i] : 0;
+    s.springs = job.springs.pool + first;
+    if constexpr (Law::kExtra > 0) s.extra = job.springs.extra + first * Law::kExtra;
+  }
+  return s;
+}
+
+template <class Law>
+LSDCD_FN void add_motion(const LawJob &job, std::size_t i, SphereState &s)
+{
+  s.v = job.v[i];
+  s.omega = job.omega[i];
+  s.mass = job.mass[i];
+  if constexpr (Law::kHeat) s.temperature = job.temperature[i];
+}
+
+// Where near sphere k puts what n contacts leave behind, from slot `first` on; false: no memory.
+template <class Law>
+LSDCD_FN bool take_slots(const LawJob &job, std::size_t k, int n, int &first, SphereSink &sink)
+{
+  const ContactPool &pool = job.pool;
+  first = static_cast<int>(k);
+  if constexpr (Law::kHeat) sink.heat = job.heat + k;
+  if constexpr (Law::kHistory || Law::kRecords) {
+    if (n > 1) {
+      first = pool.shared + fetch_add(&job.counts->shared_used[pool.which], n);
+      if (first > pool.size - n) return false;
+    }
+    if constexpr (Law::kHistory) sink.springs = pool.springs + first;
+    if constexpr (Law::kExtra > 0) sink.extra = pool.extra + std::size_t(first) * Law::kExtra;
+    if constexpr (Law::kRecords) sink.records = pool.records + first;
+  }
+  return true;
+}
+
+LSDCD_FN int count_bearing(const ContactsView &set, const Real *weight)
+{
+  if (!weight) return set.n;
+  int n = 0;
+  for (int i = 0; i < set.n; i++) n += weight[i] > 0;
+  return n;
+}
+
+// Applies the law to the contacts of near sphere k, which is sphere i: force, torque, and what is
+// kept of them. The moment about the origin is, so that totals can be made when the spheres are
+// elsewhere. `weight` null: all are 1.
+template <class Law>
+LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::size_t i,
+                        const Vec3 &x, Real radius, const ContactsView &set, const Real *weight)
+{
+  if (set.n == 0) {
+    touches_nothing(job, k, i);
+    return;
+  }
+  SphereState s = state_at<Law>(job, i, x, radius);
+  int first = 0;
+  SphereSink sink = {};
+  if (!take_slots<Law>(job, k, count_bearing(set, weight), first, sink)) {
+    does_not_fit(job, k);
+    return;
+  }
+  add_motion<Law>(job, i, s);
+  SphereResult out = {};
+  if constexpr (Law::kHeat) *sink.heat = 0;
+  add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
+  if (out.overlap_ratio > 0)
+    raise_to(&job.counts->deepest,
+             std::uint64_t(ascending_bits(static_cast<float>(out.overlap_ratio))) << 32 | (i + 1));
+  if constexpr (Law::kHistory)
+    if (job.settings.update) {
+      if (out.n_contacts > 0) job.pool.first[i] = first;
+      job.pool.count[i] = out.n_contacts;
+    }
+  job.result.n_contacts[k] = out.n_contacts;
+  if (out.n_contacts == 0) return;
+  if constexpr (Law::kRecords) job.pool.slot[k] = first;
+  if constexpr (Law::kHeat) job.heat_flow[i] += *sink.heat;
+  job.result.put(k, out, cross(x, out.force) + out.torque);
+  job.force.add(i, out.force);
+  job.torque.add(i, out.torque);
+}
+
+template <class Law>
+LSDCD_FN Real pull_off_of(const Law &law)
+{
+  if constexpr (Law::kBeyond)
+    return law.elastic.pull_off;
+  else
+    return 0;
+}
+
+// Near sphere k, where it has one contact or none, as nearly all have: with room for one nothing is
+// indexed and all is in registers. False, and nothing done, where it has more or no list that
+// holds.
+template <class Law>
+LSDCD_FN bool single_contact(const Law &law, const LawJob &job, std::size_t k)
+{
+  const std::size_t i = sphere_of(job, k);
+  const Vec3 x = job.x[i];
+  const Real radius = job.radius[i];
+  const Searcher s = searcher_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
+  ContactSet<1> set;
+  if (job.lists) {
+    const WallList &list = job.lists[k];
+    if (!list.holds(x, s.reach)) return false;
+    if (job.grid.in_floats)
+      find_in_list<BrickGeometry>(job.grid, list, x, s.reach, set);
+    else
+      find_in_list<WallGeometry>(job.grid, list, x, s.reach, set);
+    keep_bearing<Law::kBeyond>(job.grid, job.settings.search, s, set);
+    if (set.overflow) return false;
+  } else {
+    Touch<1> found;
+    search_cells<Law::kBeyond>(job.grid, job.settings.search, s, found);
+    if (found.set.overflow) return false;
+    keep_uncertain(job, k, may_miss(s.reach, found.exact_within), radius);
+    set = found.set;
+  }
+  note_reach(job, i, s.reach);
+  apply_law(law, job, k, i, x, radius, set.view(), nullptr);
+  return true;
+}
+
+// Near sphere k with any number of contacts; makes its list anew where that is due.
+template <class Law>
+LSDCD_FN void several_contacts(const Law &law, const LawJob &job, std::size_t k)
+{
+  const std::size_t i = sphere_of(job, k);
+  const Vec3 x = job.x[i];
+  const Real radius = job.radius[i];
+  const Searcher s = searcher_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
+  note_reach(job, i, s.reach);
+  WallList *list = job.lists ? job.lists + k : nullptr;
+  if (list && !list->holds(x, s.reach)) {
+    count_one(&job.counts->lists);
+    if (gather(job.grid, s, *list))
+      add_to(&job.counts->listed, list->n);
+    else
+      list = nullptr;
+  }
+  if (job.lists && !list) count_one(&job.counts->by_cells);
+
+  Touch<kContacts> some;
+  touch<Law::kBeyond>(job.grid, job.settings.search, s, list, some);
+  ContactsView set = some.set.view();
+  const Real *weight = some.weight;
+  Real exact_within = some.exact_within;
+  Lane *lane = nullptr;
+  if (some.set.overflow) {
+    lane = &take_lane(job.lanes, k);
+    lane->touch.set.clear();
+    touch_in<Law::kBeyond>(lane->rule, job.grid, job.settings.search, s, list, lane->touch);
+    set = lane->touch.set.view();
+    weight = lane->touch.weight;
+    exact_within = lane->touch.exact_within;
+  }
+  if (lane && lane->touch.set.overflow) {
+    does_not_fit(job, k);
+  } else {
+    keep_uncertain(job, k, may_miss(s.reach, exact_within), radius);
+    apply_law(law, job, k, i, x, radius, set, weight);
+  }
+  if (lane) unlock(&lane->locked);
+}
+
+// A step's work for Backend::step(): each near sphere by single(), and by several() where that
+// says false.
+template <class Law>
+struct LawStep {
+  Law law;
+  LawJob job;
+
+  // Blocks at once on a GPU's processor: 64, 80, 96 or 128 registers are left to a thread.
+  static constexpr bool kLarge = Law::kExtra > 0 || Law::kCouple || Law::kHeat || Law::kBeyond,
+                        kOnWall = Law::kSurface || Law::kRecords;
+  static constexpr int kBlocksAtOnce = kLarge ? 4 : kOnWall ? 5 : Law::kHistory ? 6 : 8;
+
+  LSDCD_FN void begin() const { clear_next(job); }
+  LSDCD_FN bool single(std::size_t k) const { return single_contact(law, job, k); }
+  LSDCD_FN void several(std::size_t k) const { several_contacts(law, job, k); }
+  LSDCD_FN int *left() const { return job.left; }
+  LSDCD_FN int *n_left() const { return job.counts->n_left + job.turn; }
+};
+
+// Near spheres [0, n).
+template <class Law, class Backend>
+void start_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend &backend)
+{
+  backend.step(n, LawStep<Law>{bytes.as<Law>(), job});
+}
+
+}    // namespace lsdcd

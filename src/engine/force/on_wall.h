@@ -1,0 +1,48 @@
+// What a wall does beside a contact law: its surface may move, and what happens to it may
+// be recorded. Compiled into a law's kernel only where it is asked for.
+#pragma once
+
+#include "contact/surface_motion.h"
+#include "geometry/feature_code.h"
+#include "model/wear.h"
+
+namespace lsdcd {
+
+// What one contact does to the wall in one step.
+struct ContactRecord {
+  FeatureCode feature;
+  std::uint32_t pad;    // keeps the record free of indeterminate bytes
+  Real normal;          // force on the wall, > 0 where the sphere presses
+  Real shear;           // size of the force along the wall
+  Real wear_power;      // see model/wear.h; 0 without wear
+};
+
+// Which of the two a kernel has.
+struct WallEffects {
+  bool surface, records;
+};
+
+template <class Law, bool kSurface_, bool kRecords_>
+struct OnWall : Law {
+  static constexpr bool kSurface = kSurface_, kRecords = kRecords_;
+};
+
+// What is compiled of a law: the kernel without effects; that and one with both, for
+// either; or one for each choice of at least one effect.
+enum class WallKernels { plain, both, each };
+
+// Calls make(law) with the law that has the effects.
+template <WallKernels kernels, class Law, class Make>
+auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
+{
+  if constexpr (kernels == WallKernels::each) {
+    if (effects.surface && !effects.records) return make(OnWall<Law, true, false>{law});
+    if (effects.records && !effects.surface) return make(OnWall<Law, false, true>{law});
+  }
+  if constexpr (kernels == WallKernels::each) return make(OnWall<Law, true, true>{law});
+  if constexpr (kernels == WallKernels::both)
+    if (effects.surface || effects.records) return make(OnWall<Law, true, true>{law});
+  if constexpr (kernels != WallKernels::each) return make(OnWall<Law, false, false>{law});
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,142 @@
+// THE kernel: the wall's force and torque on one sphere.
+#pragma once
+
+#include "engine/narrow/touch.h"
+#include "engine/wall_engine.h"
+#include "model/contact.h"
+#include "model/normal.h"
+
+namespace lsdcd {
+
+// One sphere's state at the start of the step.
+struct SphereState {
+  Vec3 x, v, omega;
+  Real radius, mass;
+  const Spring *springs;    // of the last step
+  const Real *extra;        // n_extra numbers for each of them
+  int n_springs;
+  Real temperature;    // read only where the law has heat
+};
+
+// What the wall does to it. n_contacts counts the contacts that bear, and the springs.
+struct alignas(16) SphereResult {
+  Vec3 force, torque;
+  Real energy;
+  Real overlap_ratio;     // largest overlap / radius
+  Vec3 weighted_point;    // sum of |normal force| * contact point
+  Real weight;            // sum of |normal force|
+  int n_contacts;
+  int pad;    // keeps the record free of indeterminate bytes
+};
+
+// Where a sphere's springs go, and what few laws return: written only where the law has
+// history, extra numbers beside it, heat, records.
+struct SphereSink {
+  Spring *springs;           // one per contact
+  Real *extra;               // Law::kExtra per contact
+  Real *heat;                // power into the sphere
+  ContactRecord *records;    // one per contact
+};
+
+struct ForceSettings {
+  SearchSettings search;
+  Real dt;
+  bool update;
+  bool with_point;          // fill weighted_point and weight
+  Real wall_temperature;    // read only where the law has heat
+  SurfaceMotion surface;    // read only where the surface moves
+  WearModel wear;           // read only where there are records
+};
+
+// What contact i begins with: its memory of the last step, turned with its normal.
+template <class Law>
+LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ContactsView &set, int i,
+                           const SphereState &s)
+{
+  using T = typename Law::Number;
+  ContactMemory<T, Law::kExtra> memory = {};
+  if constexpr (Law::kHistory) {
+    const Inheritance in = inheritance(wall, set, i, s.springs, s.n_springs);
+    if (in.from < 0) return memory;
+    const auto turned = [&](const Vec3 &h) {
+      return vec_cast<T>(handed_on(h, in, s.springs, set.normal[i]));
+    };
+    memory.stretch = turned(s.springs[in.from].stretch);
+    if constexpr (Law::kExtra > 0) {
+      const Real *old = s.extra + in.from * Law::kExtra;
+      for (int k = 0; k < 3 * Law::kVectors; k += 3)
+        memory.put(k, turned({old[k], old[k + 1], old[k + 2]}));
+      for (int k = 3 * Law::kVectors; k < Law::kExtra; k++)
+        memory.extra[k] = static_cast<T>(in.part * old[k]);
+    }
+  }
+  return memory;
+}
+
+// The half of the kernel that each law has of its own. Numbers are of type Law::Number
+// inside the law, Real outside. `weights` null: all are 1.
+template <class Law>
+LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
+                           const SphereState &s, const ContactsView &set, const Real *weights,
+                           const SphereSink &sink, SphereResult &out)
+{
+  using T = typename Law::Number;
+  for (int i = 0; i < set.n; i++) {
+    const Real weight = weights ? weights[i] : 1;
+    const Real overlap = s.radius - set.distance[i], ratio = overlap / s.radius;
+    if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
+    // A contact that bears nothing, as the far face of a thin plate, is none. Nor has
+    // it a spring yet: cut to the friction limit of its own slight overlap, that would
+    // be gone when it takes over the force.
+    if (!(weight > 0)) continue;
+
+    const Vec3 n = set.normal[i];
+    const Real v_normal = dot(s.v, n);
+    Contact<T> c;
+    c.normal = vec_cast<T>(n);
+    c.overlap = static_cast<T>(overlap);
+    c.radius = static_cast<T>(s.radius);
+    c.mass = static_cast<T>(s.mass);
+    c.v_normal = static_cast<T>(v_normal);
+    Vec3 along = s.v - v_normal * n;
+    if constexpr (Law::kSurface) along -= settings.surface.along(s.x - set.distance[i] * n, n);
+    c.v_tangent = vec_cast<T>(along - s.radius * cross(s.omega, n));
+    c.dt = static_cast<T>(settings.dt);
+    c.update = settings.update;
+    if constexpr (Law::kCouple) c.omega = vec_cast<T>(s.omega);
+    if constexpr (Law::kHeat)
+      c.wall_warmer = static_cast<T>(settings.wall_temperature - s.temperature);
+
+    auto memory = begin_memory<Law>(grid.wall, set, i, s);
+    const auto f = law.evaluate(c, memory);
+    if constexpr (Law::kHistory) {
+      const int at = out.n_contacts;
+      sink.springs[at] = {vec_cast<Real>(memory.stretch), n, set.feature[i], 0};
+      if constexpr (Law::kExtra > 0)
+        for (int k = 0; k < Law::kExtra; k++) sink.extra[at * Law::kExtra + k] = memory.extra[k];
+    }
+    const Vec3 tangential = weight * vec_cast<Real>(f.tangential);
+    if constexpr (Law::kRecords) {
+      const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
+      ContactRecord &record = sink.records[out.n_contacts];
+      record = {set.feature[i], 0, normal, norm(tangential), 0};
+      if (settings.wear != WearModel::none)
+        record.wear_power =
+            wear_power(settings.wear, pressing, norm(c.v_tangent), v_normal, norm(along));
+    }
+    out.n_contacts++;
+
+    out.force += (weight * f.normal) * n + tangential;
+    out.torque -= s.radius * cross(n, tangential);
+    out.energy += weight * f.energy;
+    if constexpr (Law::kCouple) out.torque += weight * vec_cast<Real>(f.couple);
+    if constexpr (Law::kHeat) *sink.heat += weight * f.heat;
+    if (settings.with_point) {
+      const Real w = weight * fabs(f.normal);
+      out.weight += w;
+      out.weighted_point += w * (s.x - set.distance[i] * n);
+    }
+  }
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,62 @@
+// Results of a step in place as they stay behind for totals and outputs: a column per
+// number, so that neighbours are written and read together.
+#pragma once
+
+#include "engine/force/wall_force.h"
+
+namespace lsdcd {
+
+struct ResultColumns {
+  int *n_contacts = nullptr;    // of each near sphere; where it is 0 the others are not valid
+  Rows<Real> force, moment;     // moment: of force and torque about the origin
+  Column<Real> energy, overlap_ratio;
+  Rows<Real> weighted_point;    // these two only where they are asked for
+  Column<Real> weight;
+
+  static constexpr std::size_t kReals = 8, kRealsWithPoint = 12;    // of a result
+
+  // Columns of `room` results in one array; `with_point`: it has kRealsWithPoint for each.
+  static ResultColumns of(Real *at, std::size_t room, bool with_point, int *n_contacts)
+  {
+    const auto next = static_cast<std::ptrdiff_t>(room);
+    ResultColumns c;
+    c.n_contacts = n_contacts;
+    c.force = {at, 1, next};
+    c.moment = {at + 3 * next, 1, next};
+    c.energy = {at + 6 * next};
+    c.overlap_ratio = {at + 7 * next};
+    if (!with_point) return c;
+    c.weighted_point = {at + 8 * next, 1, next};
+    c.weight = {at + 11 * next};
+    return c;
+  }
+
+  LSDCD_FN void put(std::size_t at, const SphereResult &r, const Vec3 &about_origin) const
+  {
+    n_contacts[at] = r.n_contacts;
+    force.put(at, r.force);
+    moment.put(at, about_origin);
+    energy[at] = r.energy;
+    overlap_ratio[at] = r.overlap_ratio;
+    if (!weight.at) return;
+    weighted_point.put(at, r.weighted_point);
+    weight[at] = r.weight;
+  }
+
+  // Its torque is the moment; of one that was left behind, what is uncertain is elsewhere.
+  LSDCD_FN SphereResult get(std::size_t at) const
+  {
+    SphereResult r = {};
+    r.n_contacts = n_contacts[at];
+    r.force = force[at];
+    r.torque = moment[at];
+    r.energy = energy[at];
+    r.overlap_ratio = overlap_ratio[at];
+    if (!weight.at) return r;
+    r.weighted_point = weighted_point[at];
+    r.weight = weight[at];
+    return r;
+  }
+};
+
+}    // namespace lsdcd

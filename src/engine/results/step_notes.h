@@ -1,0 +1,60 @@
+// What a step leaves behind of a near sphere apart from what its law computes: that it touches
+// nothing, what its search may have missed, that its contacts do not fit.
+#pragma once
+
+#include "parallel/atomic.h"
+#include "engine/force/law_job.h"
+
+namespace lsdcd {
+
+// Sphere i feels the wall from as far as `reach`: an error where the grid does not go there.
+LSDCD_FN void note_reach(const LawJob &job, std::size_t i, Real reach)
+{
+  if (reach > job.grid.reach) raise_to(&job.counts->too_large, kNoSphere - i);
+}
+
+// `uncertain`: overlap of the deepest contact that near sphere k may have beside those that were
+// found. A ratio to its radius is kept, as radii may be elsewhere when it is read.
+LSDCD_FN void keep_uncertain(const LawJob &job, std::size_t k, Real uncertain, Real radius)
+{
+  if (!job.uncertain) return;
+  const Real ratio = uncertain / radius;
+  job.uncertain[k] = ratio;
+  if (!(ratio > 0)) return;
+  count_one(&job.counts->uncertified);
+  raise_to(&job.counts->uncertain, ascending_bits(static_cast<float>(ratio)));
+}
+
+// Near sphere k, which is sphere i, touches nothing. Few have springs to lose: the others' counts
+// are not written.
+LSDCD_FN void touches_nothing(const LawJob &job, std::size_t k, std::size_t i)
+{
+  job.result.n_contacts[k] = 0;
+  int *n_springs = job.pool.count;
+  if (n_springs && job.settings.update && n_springs[i] != 0) n_springs[i] = 0;
+}
+
+// There is no memory for the contacts of near sphere k: an error, once the host looks.
+LSDCD_FN void does_not_fit(const LawJob &job, std::size_t k)
+{
+  fetch_add(&job.counts->lost, 1);
+  job.result.n_contacts[k] = 0;
+}
+
+// What counts of the next step begin with, which writes to the other pool where this one moves
+// springs.
+LSDCD_FN void clear_next(const LawJob &job)
+{
+  if (job.settings.update) job.counts->shared_used[1 - job.pool.which] = 0;
+  job.counts->n_left[1 - job.turn] = 0;
+}
+
+LSDCD_FN Lane &take_lane(Lane *lanes, std::size_t k)
+{
+  Lane &lane = lanes[k % kLanes];
+  while (!try_lock(&lane.locked)) {
+  }
+  return lane;
+}
+
+}    // namespace lsdcd

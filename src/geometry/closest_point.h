@@ -1,0 +1,131 @@
+// Where on a face, edge or vertex the distance to a point has a local minimum.
+#pragma once
+
+#include "base/vec3.h"
+#include "geometry/wall_records.h"
+
+namespace lsdcd {
+
+// The local minimum of the distance from q to one feature, if there is one.
+struct Foot {
+  bool found;       // false: the rest is not set
+  Real distance;    // length, >= 0
+  Vec3 normal;      // unit, wall -> q; a fixed choice where q lies on the wall
+};
+
+// Each of the three tests has a tolerance `slack` (length) that widens the
+// region of space in which the feature is a local minimum, so that neighbouring
+// regions overlap and no point falls between them. With slack = 0 they are the
+// exact regions: face prism, edge wedge, vertex cone. Feet farther than `within`
+// (length) are not found.
+constexpr Real kAnyDistance = 1e300;
+// Below this (length) squares leave the range of Real: the centre is on the wall.
+constexpr Real kNoDistance = 1e-140;
+constexpr Foot kNoFoot = {false, 0, {0, 0, 0}};
+
+// `at_rim` is set where the foot may lie past a side, by the slack at most, or by the
+// rounding that the slack covers.
+LSDCD_FN Foot foot_on_face(const FaceRecord &face, const Vec3 &q, Real slack, Real within,
+                           bool &at_rim)
+{
+  const Vec3 d = q - face.anchor;
+  const Real h = dot(face.normal, d);
+  if (!(fabs(h) <= within)) return kNoFoot;
+  const Real a = dot(face.inward[0], d), b = dot(face.inward[1], d) + face.height,
+             c = dot(face.inward[2], d);
+  if (!(a >= -slack && b >= -slack && c >= -slack)) return kNoFoot;
+  at_rim = a < slack || b < slack || c < slack;
+  if (h < 0) return {true, -h, -face.normal};
+  return {true, h, face.normal};
+}
+
+// At a sharp corner the widened sides meet far past the face, by slack / sin(half
+// its angle). Is q past such a corner by no more than the slack, along its bisector?
+// A foot is then within sqrt(2) slacks of the face, at any corner.
+LSDCD_FN bool before_corners(const Vec3 *corner, const Vec3 &q, Real slack)
+{
+  for (int k = 0; k < 3; k++) {
+    const Vec3 u = corner[(k + 1) % 3] - corner[k], v = corner[(k + 2) % 3] - corner[k];
+    if (!(dot(u, v) > 0)) continue;
+    const Vec3 bisector = (1 / norm(u)) * u + (1 / norm(v)) * v;
+    if (!(dot(bisector, q - corner[k]) >= -slack * norm(bisector))) return false;
+  }
+  return true;
+}
+
+LSDCD_FN bool inside_wedge(const EdgeRecord &edge, const Vec3 *edge_inward, const Vec3 &d,
+                           Real slack)
+{
+  if (edge.n_faces > 0 && !(dot(edge.inward[0], d) <= slack)) return false;
+  if (edge.n_faces > 1 && !(dot(edge.inward[1], d) <= slack)) return false;
+  for (std::uint32_t k = 2; k < edge.n_faces; k++)
+    if (!(dot(edge_inward[edge.more + k - 2], d) <= slack)) return false;
+  return true;
+}
+
+LSDCD_FN Foot foot_on_edge(const EdgeRecord &edge, const Vec3 *edge_inward, const Vec3 &q,
+                           Real slack, Real within = kAnyDistance)
+{
+  const Vec3 d = q - edge.anchor;
+  const Real along = dot(edge.direction, d);
+  if (!(along >= -slack && along <= edge.length + slack)) return kNoFoot;
+  if (!inside_wedge(edge, edge_inward, d, slack)) return kNoFoot;
+  const Vec3 radial = d - along * edge.direction;
+  const Real distance = norm(radial);
+  if (!(distance <= within)) return kNoFoot;
+  if (distance > kNoDistance) return {true, distance, (1 / distance) * radial};
+  // On the edge itself: away from its faces, or across a flat pair of them.
+  Vec3 away = {0, 0, 0};
+  if (edge.n_faces > 0) away -= edge.inward[0];
+  if (edge.n_faces > 1) away -= edge.inward[1];
+  const Real length = norm(away);
+  if (length > Real(1e-6)) return {true, 0, (1 / length) * away};
+  if (edge.n_faces > 0) return {true, 0, cross(edge.direction, edge.inward[0])};
+  return {true, 0, any_perpendicular(edge.direction)};
+}
+
+LSDCD_FN bool inside_cone(const VertexRecord &vertex, const Vec3 *direction, const Vec3 &d,
+                          Real slack)
+{
+  for (std::uint32_t k = 0; k < vertex.count; k++)
+    if (!(dot(direction[vertex.first + k], d) <= slack)) return false;
+  return true;
+}
+
+LSDCD_FN Foot foot_on_vertex(const VertexRecord &vertex, const Vec3 *direction, const Vec3 &q,
+                             Real slack, Real within = kAnyDistance)
+{
+  const Vec3 d = q - vertex.position;
+  const Real distance = norm(d);
+  if (!(distance <= within) || !inside_cone(vertex, direction, d, slack)) return kNoFoot;
+  if (distance > kNoDistance) return {true, distance, (1 / distance) * d};
+  // On the vertex itself: away from its edges, or across a flat fan of them.
+  Vec3 away = {0, 0, 0};
+  for (std::uint32_t k = 0; k < vertex.count; k++) away -= direction[vertex.first + k];
+  const Real length = norm(away);
+  if (length > Real(1e-6)) return {true, 0, (1 / length) * away};
+  return {true, 0, any_perpendicular(vertex.count > 0 ? direction[vertex.first] : away)};
+}
+
+LSDCD_FN Foot foot_on(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &q, Real slack,
+                      Real within = kAnyDistance)
+{
+  const std::uint32_t i = feature_index(feature);
+  switch (feature_kind(feature)) {
+    case FeatureKind::face: {
+      bool at_rim = false;
+      const Foot foot = foot_on_face(wall.faces[i], q, slack, within, at_rim);
+      if (!foot.found || !at_rim) return foot;
+      Vec3 corner[3];
+      for (int k = 0; k < 3; k++) corner[k] = wall.vertices[wall.face_vertex[i].v[k]].position;
+      if (before_corners(corner, q, slack)) return foot;
+      return kNoFoot;
+    }
+    case FeatureKind::edge:
+      return foot_on_edge(wall.edges[i], wall.edge_inward, q, slack, within);
+    default:
+      return foot_on_vertex(wall.vertices[i], wall.vertex_direction, q, slack, within);
+  }
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,81 @@
+// Faces, edges and vertices of a wall as records that a contact query reads.
+#pragma once
+
+#include "base/vec3.h"
+#include "geometry/feature_code.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// A face as its plane and three in-plane half-spaces; no division by an area.
+// inward[k] is the unit in-plane normal of edge k that points into the face.
+// With d = q - anchor, the signed distances from the edges are dot(inward[0], d),
+// dot(inward[1], d) + height and dot(inward[2], d).
+struct FaceRecord {
+  Vec3 anchor;    // corner 0
+  Vec3 normal;    // unit, by the winding
+  Vec3 inward[3];
+  Real height;    // distance of corner 0 from edge 1
+};
+
+// An edge as a segment and the in-plane inward normals of its faces: a foot
+// point on it is a local minimum of distance if no face lets the distance fall.
+struct EdgeRecord {
+  Vec3 anchor;       // its first vertex
+  Vec3 direction;    // unit, towards the second
+  Real length;
+  Vec3 inward[2];    // of the first two faces
+  std::uint32_t n_faces;
+  std::uint32_t more;    // faces past the second: edge_inward[more ...]
+};
+
+// A vertex with the unit directions of its edges: vertex_direction[first ...].
+struct VertexRecord {
+  Vec3 position;
+  std::uint32_t first, count;
+};
+
+struct FaceVertices {
+  std::int32_t v[3];
+};
+struct EdgeVertices {
+  std::int32_t v[2];
+};
+
+// The edges and vertices of a face that can hold a contact of their own, kNoFeature in
+// place of the others.
+struct FaceParts {
+  FeatureCode part[6];
+};
+
+struct WallFeaturesView {
+  const FaceRecord *faces;
+  const EdgeRecord *edges;
+  const VertexRecord *vertices;
+  const Vec3 *edge_inward;
+  const Vec3 *vertex_direction;
+  const FaceVertices *face_vertex;
+  const EdgeVertices *edge_vertex;
+  const Vec3 *edge_out;    // angle-weighted pseudonormals; only read where a side is set
+  const Vec3 *vertex_out;
+  const FaceParts *face_parts;    // only read where lists hold pieces
+  // As in PeriodicImages of the mesh; null and 0 where there are none.
+  const std::int32_t *same_vertex, *face_of, *edge_of, *vertex_of;
+  std::uint32_t n_faces, n_edges, n_vertices;
+};
+
+// The part of the mesh itself that a feature is, or is an image of.
+LSDCD_FN FeatureCode own_feature(const WallFeaturesView &wall, FeatureCode feature)
+{
+  if (!wall.same_vertex) return feature;
+  const FeatureKind kind = feature_kind(feature);
+  const std::uint32_t i = feature_index(feature);
+  const bool face = kind == FeatureKind::face, edge = kind == FeatureKind::edge;
+  const std::uint32_t n = face ? wall.n_faces : (edge ? wall.n_edges : wall.n_vertices);
+  if (i < n) return feature;
+  const std::int32_t *of = face ? wall.face_of : (edge ? wall.edge_of : wall.vertex_of);
+  return feature_code(kind, static_cast<std::uint32_t>(of[i - n]));
+}
+
+}    // namespace lsdcd

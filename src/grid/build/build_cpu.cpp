@@ -1,0 +1,20 @@
+#include "grid/build/build_grid.h"
+#include "parallel/backend_cpu.h"
+
+namespace lsdcd {
+
+#if defined(LSDCD_HAVE_CUDA)
+TriangleGrid build_grid_cuda(const WallMesh &mesh, const GridSettings &settings);
+#endif
+
+TriangleGrid build_grid(const WallMesh &mesh, const GridSettings &settings, bool on_cuda)
+{
+#if defined(LSDCD_HAVE_CUDA)
+  if (on_cuda) return build_grid_cuda(mesh, settings);
+#else
+  if (on_cuda) throw InputError("this build has no CUDA engine; use device cpu");
+#endif
+  return build_grid_on(CpuBackend(), mesh, settings);
+}
+
+}    // namespace lsdcd

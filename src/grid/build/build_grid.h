@@ -1,0 +1,186 @@
+// Building the grid: octants -> cells -> lists, one source for every backend.
+#pragma once
+
+#include "base/input_error.h"
+#include "grid/build/fill_lists.h"
+#include "grid/triangle_grid.h"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace lsdcd {
+
+template <class B>
+class GridBuilder {
+  template <class T>
+  using Scratch = typename B::template Scratch<T>;
+
+ public:
+  GridBuilder(B backend, const WallFeatures &wall) : b_(std::move(backend))
+  {
+    view_.wall = {put(faces_, wall.faces),
+                  put(edges_, wall.edges),
+                  put(vertices_, wall.vertices),
+                  put(edge_inward_, wall.edge_inward),
+                  put(vertex_direction_, wall.vertex_direction),
+                  put(face_vertex_, wall.face_vertex),
+                  put(edge_vertex_, wall.edge_vertex),
+                  nullptr,
+                  nullptr,
+                  nullptr,
+                  nullptr,
+                  nullptr,
+                  nullptr,
+                  nullptr,
+                  0,
+                  0,
+                  0};
+    put(contact_features_, wall.contact_features);
+    put(pieces_, wall.pieces);
+  }
+
+  // Lists of the contact features (nearest 0) or of the nearest pieces. Returns false,
+  // with `lists` untouched, if they would not fit `budget` bytes.
+  bool build(const GridPlan &plan, int nearest, std::size_t budget, CellLists &lists,
+             ListReport &report)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    view_.plan = plan;
+    view_.pieces = nearest > 0;
+    const Scratch<FeatureCode> &features = nearest > 0 ? pieces_ : contact_features_;
+    view_.features = features.data();
+    OctantPairs<B> pairs;
+    needed_ = HUGE_VAL;
+    if (!sort_into_octants(b_, view_, features.size(), pairs)) return false;
+    needed_ = double(brick_bytes(plan, pairs.n_bricks));
+    if (needed_ > double(budget)) return false;
+    // Of nearest pieces the first that is left out stays, as a bound.
+    const std::uint32_t most = nearest > 0 ? nearest + 1 : 0xffffffffu;
+    BuiltLists<B> built;
+    const bool fits = fill_lists(b_, view_, pairs, most, budget, built, report);
+    needed_ = std::max(needed_,
+                       double(grid_bytes(plan, built.n_bricks, built.n_cells, built.n_candidates)));
+    if (!fits) return false;
+    b_.wait();
+    report.seconds = seconds_since(start);
+    lists.brick_of = b_.to_host(built.brick_of, built.brick_of.size());
+    lists.bricks = b_.to_host(built.bricks, built.n_bricks);
+    lists.cells = b_.to_host(built.cells, built.n_cells);
+    lists.candidates = b_.to_host(built.candidates, built.n_candidates);
+    return true;
+  }
+
+  // Builds only the bricks whose bit is set from now on; empty: all.
+  void restrict_to(const std::vector<std::uint64_t> &bricks)
+  {
+    view_.only = bricks.empty() ? nullptr : put(only_, bricks);
+  }
+
+  std::string name() const { return b_.name(); }
+  // Bytes that the last build takes, while it goes on too; at least these where it did not fit.
+  double needed() const { return needed_; }
+
+  // Returns where the copy is.
+  template <class T>
+  const T *put(Scratch<T> &to, const std::vector<T> &from)
+  {
+    to = Scratch<T>(from.size());
+    b_.copy_in(from.data(), to.data(), from.size());
+    return to.data();
+  }
+
+  static double seconds_since(std::chrono::steady_clock::time_point start)
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+ private:
+  B b_;
+  Scratch<FaceRecord> faces_;
+  Scratch<EdgeRecord> edges_;
+  Scratch<VertexRecord> vertices_;
+  Scratch<Vec3> edge_inward_, vertex_direction_;
+  Scratch<FaceVertices> face_vertex_;
+  Scratch<EdgeVertices> edge_vertex_;
+  Scratch<FeatureCode> contact_features_, pieces_;
+  Scratch<std::uint64_t> only_;
+  BuildView view_ = {};
+  double needed_ = 0;
+};
+
+// Lists of one kind or both, and the copies in float: whether they fit the budget. `needed` are
+// bytes that they take, or where they do not fit at least take.
+template <class B>
+bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings &settings,
+               double budget, TriangleGrid &grid, double &needed)
+{
+  const std::size_t of_wall = flat_wall_bytes(grid);
+  const double for_lists = budget - double(of_wall);
+  needed = of_wall + plan.least_bytes();
+  if (needed > budget) return false;
+  builder.restrict_to(bricks_that_meet(plan, settings.only));
+  double taken = 0;
+  const auto fill = [&](int nearest, CellLists &lists, ListReport &report) {
+    const bool fits =
+        builder.build(plan, nearest, static_cast<std::size_t>(for_lists - taken), lists, report);
+    needed = std::max(needed, of_wall + taken + builder.needed());
+    taken += grid_bytes(plan, lists.bricks.size(), lists.cells.size(), lists.candidates.size());
+    return fits;
+  };
+  if (!fill(settings.nearest, grid.lists, grid.report.lists)) return false;
+  if (settings.nearest > 0 && settings.exact && !fill(0, grid.complete, grid.report.complete))
+    return false;
+  grid.origin = plan.origin;
+  grid.length = plan.length;
+  grid.reach = plan.reach;
+  grid.slack = plan.slack;
+  for (int k = 0; k < 3; k++) grid.n_bricks[k] = plan.n_bricks[k];
+  grid.nearest = settings.nearest;
+  if (settings.in_floats) add_brick_records(grid);
+  needed = std::max(needed, double(flat_bytes(grid)));
+  return needed <= budget;
+}
+
+// Plans, builds, and where the length was left to us tries coarser ones until
+// the budget holds.
+template <class B>
+TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &settings)
+{
+  const auto start = std::chrono::steady_clock::now();
+  TriangleGrid grid;
+  grid.wall = make_features(mesh, settings.sides, settings.nearest > 0);
+  GridBuilder<B> builder(std::move(backend), grid.wall);
+  GridPlan plan = plan_grid(mesh, settings);
+  const double budget = double(budget_of(settings, grid));
+  constexpr double kNoBudget = 1e18;
+  const bool may_coarsen = settings.length <= 0 || settings.may_coarsen;
+  const auto fits = [&](double budget_here, double &needed) {
+    grid.lists = grid.complete = CellLists();
+    grid.records = BrickRecords();
+    grid.report = GridReport();
+    return fill_grid(builder, plan, settings, budget_here, grid, needed);
+  };
+  double needed = 0;
+  while (!fits(budget, needed)) {
+    const bool at_end = !may_coarsen || is_coarsest(plan, mesh);
+    if (at_end && may_coarsen) fits(kNoBudget, needed);
+    if (at_end) throw_over_budget(settings, needed, budget);
+    plan = coarser(plan, mesh, settings);
+  }
+
+  grid.outside = mesh.report.volume < 0 ? -1 : 1;
+  grid.report.nearest = settings.nearest;
+  grid.report.records =
+      grid.records.faces.size() + grid.records.edges.size() + grid.records.vertices.size();
+  grid.report.record_bytes = grid.records.bytes();
+  grid.report.device = builder.name();
+  grid.report.length = plan.length;
+  grid.report.reach = plan.reach;
+  grid.report.length_chosen = settings.length <= 0;
+  grid.report.bytes = flat_bytes(grid);
+  grid.report.seconds = GridBuilder<B>::seconds_since(start);
+  return grid;
+}
+
+}    // namespace lsdcd

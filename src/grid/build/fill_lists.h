@@ -1,0 +1,174 @@
+// From sorted octants to occupancy masks, cells and lists, on any backend.
+#pragma once
+
+#include "grid/build/candidate_list.h"
+#include "grid/build/octant_pairs.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// The lists of one kind where they were built.
+template <class B>
+struct BuiltLists {
+  template <class T>
+  using Scratch = typename B::template Scratch<T>;
+
+  std::size_t n_bricks = 0, n_cells = 0, n_candidates = 0;
+  Scratch<std::int32_t> brick_of;
+  Scratch<Brick> bricks;
+  Scratch<Cell> cells;
+  Scratch<Candidate> candidates;
+};
+
+// Which cells of its octant each pair's feature meets.
+template <class B>
+void find_cells_met(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::uint64_t *met)
+{
+  const std::uint32_t *octants = pairs.octant.data(), *features = pairs.feature.data();
+  b.for_each(pairs.n, [=] LSDCD_LAMBDA(std::size_t p) {
+    met[p] = cells_met(view, features[p], octants[p]);
+  });
+}
+
+template <class B>
+void count_cells(B &b, const OctantPairs<B> &pairs, const std::uint64_t *met, std::uint32_t most,
+                 std::uint32_t *counts)
+{
+  const std::uint32_t *first = pairs.first.data();
+  b.for_each(pairs.n_bricks * kBrickCells, [=] LSDCD_LAMBDA(std::size_t i) {
+    const std::size_t octant = i / kOctantCells;
+    const int k = static_cast<int>(i % kOctantCells);
+    std::uint32_t n = 0;
+    for (std::uint32_t p = first[octant]; p < first[octant + 1]; p++) n += met[p] >> k & 1;
+    counts[octant / 8 * kBrickCells + cell_of_octant(static_cast<int>(octant % 8), k)] =
+        n < most ? n : most;
+  });
+}
+
+// Words are 64 cells, a layer of a brick: their masks, and what they add up to.
+template <class B>
+void sum_words(B &b, std::size_t n_words, const std::uint32_t *counts, Brick *bricks,
+               std::uint32_t *offsets, std::uint64_t *lists, std::uint32_t *cells,
+               std::uint32_t *singles, std::uint32_t *longests)
+{
+  b.for_each(n_words, [=] LSDCD_LAMBDA(std::size_t w) {
+    std::uint64_t mask = 0;
+    std::uint32_t list = 0, single = 0, longest = 0;
+    for (int c = 0; c < 64; c++) {
+      const std::uint32_t n = counts[w * 64 + c];
+      offsets[w * 64 + c] = list;
+      if (n == 0) continue;
+      mask |= std::uint64_t(1) << c;
+      if (n > 1)
+        list += n;
+      else
+        single++;
+      if (n > longest) longest = n;
+    }
+    bricks[w / kLayers].layer[w % kLayers].mask = mask;
+    lists[w] = list;
+    cells[w] = static_cast<std::uint32_t>(count_bits(mask));
+    singles[w] = single;
+    longests[w] = longest;
+  });
+}
+
+template <class B>
+void finish_bricks(B &b, const OctantPairs<B> &pairs, const std::uint32_t *cells,
+                   std::size_t table_size, Brick *bricks, std::int32_t *brick_of)
+{
+  const std::uint32_t *places = pairs.place.data();
+  b.for_each(table_size, [=] LSDCD_LAMBDA(std::size_t i) { brick_of[i] = -1; });
+  b.for_each(pairs.n_bricks, [=] LSDCD_LAMBDA(std::size_t i) {
+    for (int k = 0; k < kLayers; k++) {
+      bricks[i].layer[k].first_cell = cells[i * kLayers + k];
+      bricks[i].layer[k].pad = 0;
+    }
+    brick_of[places[i]] = static_cast<std::int32_t>(i);
+  });
+}
+
+template <class B>
+void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const std::uint64_t *met,
+                 const std::uint32_t *counts, const std::uint32_t *offsets,
+                 const std::uint64_t *lists, const Brick *bricks, Cell *cells,
+                 Candidate *candidates)
+{
+  const std::uint32_t *first = pairs.first.data(), *features = pairs.feature.data(),
+                      *places = pairs.place.data();
+  b.for_each(pairs.n_bricks * kBrickCells, [=] LSDCD_LAMBDA(std::size_t i) {
+    const std::size_t octant = i / kOctantCells, brick = octant / 8;
+    const int k = static_cast<int>(i % kOctantCells),
+              c = cell_of_octant(static_cast<int>(octant % 8), k);
+    const std::uint32_t n = counts[brick * kBrickCells + c];
+    if (n == 0) return;
+    const std::uint32_t start = static_cast<std::uint32_t>(lists[brick * kLayers + (c >> 6)] +
+                                                           offsets[brick * kBrickCells + c]);
+    Cell out = {start, n};
+    const Vec3 centre = CellCentres(view.plan, places[brick]).at(c);
+    std::uint32_t at = 0;
+    for (std::uint32_t p = first[octant]; p < first[octant + 1]; p++) {
+      if (!(met[p] >> k & 1)) continue;
+      if (n == 1) {
+        out.first = features[p];
+        break;
+      }
+      Real distance = 0;
+      meets(view, features[p], centre, view.plan.half_diagonal, distance);
+      const Candidate candidate = make_candidate(features[p], distance);
+      if (n <= kLongList)
+        insert_nearest(candidates + start, at++, n, candidate);
+      else
+        candidates[start + at++] = candidate;
+    }
+    if (n > kLongList) heap_sort(candidates + start, n);
+    cells[cell_index(bricks[brick], c)] = out;
+  });
+}
+
+// Lists of at most `most` candidates a cell. False, with no more than counts in `out`, if they
+// would not fit `budget` bytes.
+template <class B>
+bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::uint32_t most,
+                std::size_t budget, BuiltLists<B> &out, ListReport &report)
+{
+  using Built = BuiltLists<B>;
+  const std::size_t n_bricks = pairs.n_bricks, n_words = n_bricks * kLayers,
+                    n_cells = n_bricks * kBrickCells;
+  typename Built::template Scratch<std::uint64_t> met(pairs.n), list(n_words);
+  typename Built::template Scratch<std::uint32_t> count(n_cells), offset(n_cells), cell(n_words),
+      single(n_words), longest(n_words);
+  typename Built::template Scratch<Brick> brick(n_bricks);
+  find_cells_met(b, view, pairs, met.data());
+  count_cells(b, pairs, met.data(), most, count.data());
+  sum_words(b, n_words, count.data(), brick.data(), offset.data(), list.data(), cell.data(),
+            single.data(), longest.data());
+  const std::uint64_t n_list = b.exclusive_scan(list.data(), n_words);
+  const std::size_t n_occupied = b.exclusive_scan(cell.data(), n_words);
+  out.n_bricks = n_bricks;
+  out.n_cells = n_occupied;
+  out.n_candidates = n_list;
+  if (n_list >= 0xffffffffull || grid_bytes(view.plan, n_bricks, n_occupied, n_list) > budget)
+    return false;
+  report = ListReport();
+  report.bricks = n_bricks;
+  report.cells = n_occupied;
+  report.candidates = n_list + b.sum(single.data(), n_words);
+  report.mean = n_occupied ? Real(report.candidates) / n_occupied : 0;
+  const std::uint32_t *longest_of_word = longest.data();
+  report.longest = b.template largest<std::uint32_t>(
+      n_words, [=] LSDCD_LAMBDA(std::size_t w) -> std::uint32_t { return longest_of_word[w]; });
+  report.distance_tests = pairs.n * kOctantCells;
+
+  out.brick_of = typename Built::template Scratch<std::int32_t>(view.plan.table_size());
+  out.cells = typename Built::template Scratch<Cell>(n_occupied);
+  out.candidates = typename Built::template Scratch<Candidate>(n_list);
+  finish_bricks(b, pairs, cell.data(), view.plan.table_size(), brick.data(), out.brick_of.data());
+  write_lists(b, view, pairs, met.data(), count.data(), offset.data(), list.data(), brick.data(),
+              out.cells.data(), out.candidates.data());
+  out.bricks = std::move(brick);
+  return true;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,168 @@
+// Which octants of bricks a feature meets.
+#pragma once
+
+#include "geometry/piece_distance.h"
+#include "grid/build/meets.h"
+#include "grid/plan/grid_plan.h"
+
+namespace lsdcd {
+
+// What the kernels of the build share.
+struct BuildView {
+  WallFeaturesView wall;
+  const FeatureCode *features;    // all that can hold a contact, or all pieces
+  bool pieces;
+  GridPlan plan;
+  const std::uint64_t *only;    // a bit per place of the brick table, or null: all bricks
+};
+
+// Can a sphere of the grid's reach, centred within `around` of c, have a contact
+// on this feature, or touch this piece? If so, `distance` is how far it is from c.
+LSDCD_FN bool meets(const BuildView &b, FeatureCode feature, const Vec3 &c, Real around,
+                    Real &distance)
+{
+  if (b.pieces) {
+    distance = piece_distance(b.wall, feature, c);
+    return distance <= b.plan.reach + b.plan.slack + around;
+  }
+  return feature_meets(b.wall, feature, c, around + b.plan.slack, b.plan.reach, distance);
+}
+
+LSDCD_FN void grow_box(Vec3 &lo, Vec3 &hi, const Vec3 &p)
+{
+  for (int k = 0; k < 3; k++) {
+    if (p[k] < lo[k]) lo[k] = p[k];
+    if (p[k] > hi[k]) hi[k] = p[k];
+  }
+}
+
+LSDCD_FN void feature_box(const WallFeaturesView &wall, FeatureCode feature, Vec3 &lo, Vec3 &hi)
+{
+  const std::uint32_t i = feature_index(feature);
+  switch (feature_kind(feature)) {
+    case FeatureKind::face:
+      lo = hi = wall.vertices[wall.face_vertex[i].v[0]].position;
+      grow_box(lo, hi, wall.vertices[wall.face_vertex[i].v[1]].position);
+      grow_box(lo, hi, wall.vertices[wall.face_vertex[i].v[2]].position);
+      return;
+    case FeatureKind::edge:
+      lo = hi = wall.vertices[wall.edge_vertex[i].v[0]].position;
+      grow_box(lo, hi, wall.vertices[wall.edge_vertex[i].v[1]].position);
+      return;
+    default:
+      lo = hi = wall.vertices[i].position;
+  }
+}
+
+// A brick's octants: what features are sorted into, finer than a brick so that a
+// cell has few to try. A key is the brick's number in the table times 8 plus the
+// octant; the sort then leaves a brick's octants side by side.
+constexpr int kOctantSide = kBrickSide / 2;
+constexpr int kOctantCells = kOctantSide * kOctantSide * kOctantSide;
+
+// The cell in its brick of the i-th cell of an octant, x fastest.
+LSDCD_FN int cell_of_octant(int octant, int i)
+{
+  const int x = (octant & 1) * kOctantSide + (i & 3);
+  const int y = (octant >> 1 & 1) * kOctantSide + (i >> 2 & 3);
+  const int z = (octant >> 2) * kOctantSide + (i >> 4);
+  return (z * kBrickSide + y) * kBrickSide + x;
+}
+
+// The bricks that a feature's box and the reach around it overlap.
+struct BrickBox {
+  std::int32_t first[3], n[3];
+
+  LSDCD_FN std::uint64_t count() const { return std::uint64_t(n[0]) * n[1] * n[2]; }
+};
+
+LSDCD_FN BrickBox brick_box(const BuildView &b, FeatureCode feature)
+{
+  Vec3 lo, hi;
+  feature_box(b.wall, feature, lo, hi);
+  const GridPlan &plan = b.plan;
+  BrickBox box;
+  for (int k = 0; k < 3; k++) {
+    // Half a cell more than the reach, so that rounding cannot lose a brick.
+    const Real margin = plan.reach + plan.slack + Real(0.5) * plan.length;
+    const Real inv = 1 / (kBrickSide * plan.length);
+    // The grid may be cut off where no sphere can be.
+    const Real from = (lo[k] - margin - plan.origin[k]) * inv,
+               to = (hi[k] + margin - plan.origin[k]) * inv, n = plan.n_bricks[k];
+    box.first[k] = static_cast<std::int32_t>(fmin(fmax(Real(0), from), n));
+    const std::int32_t last = static_cast<std::int32_t>(fmin(fmax(Real(-1), to), n - 1));
+    box.n[k] = to >= 0 && last >= box.first[k] ? last - box.first[k] + 1 : 0;
+  }
+  return box;
+}
+
+// Which octants of the i-th brick of its box the feature meets, a bit each; `place` is
+// the brick's in the table.
+LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, const BrickBox &box,
+                              std::uint64_t i, std::uint32_t &place)
+{
+  const GridPlan &plan = b.plan;
+  const std::int32_t x = box.first[0] + static_cast<std::int32_t>(i % box.n[0]),
+                     y = box.first[1] + static_cast<std::int32_t>(i / box.n[0] % box.n[1]),
+                     z = box.first[2] + static_cast<std::int32_t>(i / box.n[0] / box.n[1]);
+  place =
+      static_cast<std::uint32_t>((std::size_t(z) * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
+  if (b.only && !(b.only[place >> 6] >> (place & 63) & 1)) return 0;
+  const Vec3 centre = plan.brick_centre(x, y, z);
+  Real distance;
+  if (!meets(b, feature, centre, kBrickSide * plan.half_diagonal, distance)) return 0;
+  const Real quarter = Real(0.5) * kOctantSide * plan.length;
+  unsigned met = 0;
+  for (unsigned o = 0; o < 8; o++) {
+    const Vec3 at = centre + quarter * Vec3{o & 1 ? Real(1) : Real(-1), o & 2 ? Real(1) : Real(-1),
+                                            o & 4 ? Real(1) : Real(-1)};
+    if (meets(b, feature, at, kOctantSide * plan.half_diagonal, distance)) met |= 1u << o;
+  }
+  return met;
+}
+
+// Which cells of an octant the feature meets, a bit each in the order of cell_of_octant.
+// The record is read once for all of them.
+LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::uint32_t octant_key)
+{
+  const CellCentres centres(b.plan, octant_key >> 3);
+  const int octant = octant_key & 7;
+  const Real around = b.plan.half_diagonal, reach = b.plan.reach;
+  const Real relaxed = around + b.plan.slack;
+  const std::uint32_t i = feature_index(feature);
+  std::uint64_t met = 0;
+  Real distance;
+  if (b.pieces) {
+    for (int k = 0; k < kOctantCells; k++)
+      if (meets(b, feature, centres.at(cell_of_octant(octant, k)), around, distance))
+        met |= std::uint64_t(1) << k;
+    return met;
+  }
+  switch (feature_kind(feature)) {
+    case FeatureKind::face: {
+      const FaceRecord face = b.wall.faces[i];
+      for (int k = 0; k < kOctantCells; k++)
+        if (face_meets(face, centres.at(cell_of_octant(octant, k)), relaxed, reach, distance))
+          met |= std::uint64_t(1) << k;
+      return met;
+    }
+    case FeatureKind::edge: {
+      const EdgeRecord edge = b.wall.edges[i];
+      for (int k = 0; k < kOctantCells; k++)
+        if (edge_meets(edge, b.wall.edge_inward, centres.at(cell_of_octant(octant, k)), relaxed,
+                       reach, distance))
+          met |= std::uint64_t(1) << k;
+      return met;
+    }
+    default: {
+      const VertexRecord vertex = b.wall.vertices[i];
+      for (int k = 0; k < kOctantCells; k++)
+        if (vertex_meets(vertex, b.wall.vertex_direction, centres.at(cell_of_octant(octant, k)),
+                         relaxed, reach, distance))
+          met |= std::uint64_t(1) << k;
+      return met;
+    }
+  }
+}
+
+}    // namespace lsdcd

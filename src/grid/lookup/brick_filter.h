@@ -1,0 +1,144 @@
+// Which points may lie in a brick, told by as little arithmetic as can be: a GPU asks this of
+// every sphere.
+#pragma once
+
+#include "grid/lookup/brick_words.h"
+#include "grid/lookup/coarse_table.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+namespace lsdcd {
+
+// Where a point falls, as far as that is sure.
+struct BrickGuess {
+  bool unsure;              // the rest may be wrong
+  bool inside;              // of the grid
+  std::uint32_t i, j, k;    // its brick, in fixed point, set where inside
+};
+
+// Numbers that count bricks in fixed point. kBits: of a mantissa, those that are used.
+template <class T>
+struct FixedPoint;
+
+template <>
+struct FixedPoint<float> {
+  static constexpr int kMantissa = 23, kBits = 23;
+  static constexpr Real kUnit = 5.9604644775390625e-8;    // 2^-24: of rounding
+
+  // The bits of `sum` past those of `bias`; too large where it is below, or not a number.
+  LSDCD_FN static std::uint32_t past(float sum, float bias) { return bits_of(sum) - bits_of(bias); }
+
+ private:
+  LSDCD_FN static std::uint32_t bits_of(float x)
+  {
+    std::uint32_t bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    return bits;
+  }
+};
+
+template <>
+struct FixedPoint<double> {
+  static constexpr int kMantissa = 52, kBits = 31;
+  static constexpr Real kUnit = 1.1102230246251565e-16;    // 2^-53
+
+  // The same; its low word, where the high one is that of `bias`.
+  LSDCD_FN static std::uint32_t past(double sum, double bias)
+  {
+    const std::uint64_t bits = bits_of(sum);
+    return bits >> 32 == bits_of(bias) >> 32 ? static_cast<std::uint32_t>(bits) : 0xffffffffu;
+  }
+
+ private:
+  LSDCD_FN static std::uint64_t bits_of(double x)
+  {
+    std::uint64_t bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    return bits;
+  }
+};
+
+// For points whose coordinates are of type T. Counts bricks from the grid's corner in fixed
+// point: a number between B and 2 B has s bits behind the point, where B is 2^s times less than
+// 2 to its mantissa's bits, and B and the corner are part of one number `from` that is added to a
+// coordinate times `scale`, rounded once. The result is off by less than `doubt` / 2 of the last
+// bit, which `from` has more; so a fraction from `doubt` on has the brick's number before it, and
+// where a fraction is below, the point is next to a brick's side, or so far away that no fraction
+// is left. Bits past the largest brick's, and of numbers below B, are too large.
+//
+// How far off, for a point inside of the grid, in bricks: `scale` is the nearest T, so
+// |x| |scale - exact|, with |x| up to the grid's far side; `from`, the nearest T to a number
+// below |first| + 2 B, a unit of rounding of that; the result, below 4 B, as far as a unit of
+// 4 B; and what place_of() rounds in double, three times in numbers up to n and once in `first`.
+// The result grows with the coordinate: a point outside comes out past the grid's side, or as
+// near to it.
+template <class T>
+struct BrickFilter {
+  using Fixed = FixedPoint<T>;
+
+  T scale = 0, bias = 1, from[3] = {0, 0, 0};
+  std::uint32_t end[3] = {0, 0, 0};    // fixed point
+  std::uint32_t sure = 0;              // bits of a fraction that make it sure; 0: never
+  std::uint32_t shift = 1;             // s
+
+  BrickFilter() = default;
+  explicit BrickFilter(const GridView &grid)
+  {
+    const Real largest = Real(*std::max_element(grid.n_bricks, grid.n_bricks + 3));
+    shift = Fixed::kBits - 1;
+    while (shift > 1 &&
+           std::ldexp(largest, static_cast<int>(shift)) > std::ldexp(Real(1), Fixed::kBits))
+      shift--;
+    const Real unit = std::ldexp(Real(1), -static_cast<int>(shift)),
+               least = std::ldexp(unit, Fixed::kMantissa);
+    const Real per_length = grid.inv_length / kBrickSide;
+    scale = static_cast<T>(per_length);
+
+    Real off = 0;
+    for (int k = 0; k < 3; k++) {
+      const Real first = -grid.origin[k] * per_length,
+                 far = fabs(grid.origin[k]) + grid.n_bricks[k] * kBrickSide * grid.length;
+      off = fmax(off, far * (1 + 8 * kRoundoff) * fabs(scale - per_length) +
+                          Fixed::kUnit * (fabs(first) + 6 * least) +
+                          8 * kRoundoff * (fabs(first) + grid.n_bricks[k]));
+    }
+    std::uint32_t doubt_bits = 1;
+    while (doubt_bits < shift && std::ldexp(unit, static_cast<int>(doubt_bits)) < 2 * off)
+      doubt_bits++;
+    for (int k = 0; k < 3; k++) {
+      const Real first = -grid.origin[k] * per_length;
+      from[k] = static_cast<T>(least + first + std::ldexp(unit, static_cast<int>(doubt_bits) - 1));
+      end[k] = static_cast<std::uint32_t>(grid.n_bricks[k]) << shift;
+    }
+    bias = static_cast<T>(least);
+    // None are left where the grid has too many bricks, lies too far off, or has a scale that is
+    // no T.
+    sure = (1u << shift) - (1u << doubt_bits);
+  }
+
+  LSDCD_FN BrickGuess guess(const Vec3Of<T> &q) const
+  {
+    const std::uint32_t i = Fixed::past(std::fma(q.x, scale, from[0]), bias),
+                        j = Fixed::past(std::fma(q.y, scale, from[1]), bias),
+                        k = Fixed::past(std::fma(q.z, scale, from[2]), bias);
+    const bool unsure = (i & sure) == 0 || (j & sure) == 0 || (k & sure) == 0,
+               inside = i < end[0] && j < end[1] && k < end[2];
+    return {unsure, inside, i, j, k};
+  }
+  // The brick's place in the table, of one that is inside.
+  LSDCD_FN std::uint32_t place(const GridView &grid, const BrickGuess &at) const
+  {
+    const std::uint32_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
+    return ((at.k >> shift) * ny + (at.j >> shift)) * nx + (at.i >> shift);
+  }
+  // The same in a coarse table.
+  LSDCD_FN std::uint32_t place(const CoarseTable &table, const BrickGuess &at) const
+  {
+    const std::uint32_t down = shift + table.shift;
+    return table.place(at.k >> down, at.j >> down, at.i >> down);
+  }
+};
+
+}    // namespace lsdcd

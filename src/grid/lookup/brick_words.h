@@ -1,0 +1,145 @@
+// A grid's brick table as bits: the paper's cube has a table of 1 MB and 66 kB of these,
+// which stay next to the processor. Most spheres of a scene need no more.
+#pragma once
+
+#include "grid/lookup/locate.h"
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace lsdcd {
+
+// Of 32 places of the table: which have a brick, and how many bricks come before them.
+// Bricks are numbered in the order of their places, so that these two give its number.
+struct alignas(8) BrickWord {
+  std::uint32_t bits, below;
+};
+
+// Of the word that has a place of the table.
+LSDCD_FN bool has_brick(const BrickWord &word, std::size_t place)
+{
+  return word.bits >> (place % 32) & 1u;
+}
+LSDCD_FN std::uint32_t brick_number(const BrickWord &word, std::size_t place)
+{
+  const std::uint32_t before = word.bits & ((1u << (place % 32)) - 1);
+  return word.below + static_cast<std::uint32_t>(count_bits(before));
+}
+
+// Of grid.lists, for a view on the host.
+inline std::vector<BrickWord> brick_words(const GridView &grid)
+{
+  const std::size_t n = std::size_t(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2];
+  std::vector<BrickWord> words((n + 31) / 32, BrickWord{0, 0});
+  std::uint32_t bricks = 0;
+  for (std::size_t at = 0; at < n; at++) {
+    if (at % 32 == 0) words[at / 32].below = bricks;
+    if (grid.lists.brick_of[at] < 0) continue;
+    words[at / 32].bits |= 1u << (at % 32);
+    bricks++;
+  }
+  return words;
+}
+
+// The table by its words, borrowed. A backend may have it elsewhere too, in a type that is asked
+// in the same way.
+struct BrickTable {
+  const BrickWord *words = nullptr;
+  std::uint32_t n_words = 0, n_bricks = 0;
+
+  BrickTable() = default;
+  // `words`: a copy of those of the host, where they are asked for.
+  BrickTable(const std::vector<BrickWord> &host, const BrickWord *words) :
+      words(words), n_words(static_cast<std::uint32_t>(host.size()))
+  {
+    if (!host.empty())
+      n_bricks = host.back().below + static_cast<std::uint32_t>(count_bits(host.back().bits));
+  }
+
+  LSDCD_FN bool at(std::uint32_t place) const { return has_brick(words[place / 32], place); }
+  LSDCD_FN BrickWord word(std::uint32_t place) const { return words[place / 32]; }
+};
+
+// The largest whole number at or below x, where it is at least 0 and has 32 bits; elsewhere, and
+// where x is not a number, `fits` is false. From 2^52 on doubles are whole numbers: their low
+// word is the number, at 2^52 more than x. A GPU does this in one step, where comparing and
+// converting take many.
+struct WholeNumber {
+  bool fits;
+  std::uint32_t value;
+  Real real;    // the same
+};
+LSDCD_FN WholeNumber whole_below(Real x)
+{
+  constexpr Real kFromHereWhole = 4503599627370496.;
+#if defined(__CUDA_ARCH__)
+  const Real sum = __dadd_rd(x, kFromHereWhole);
+  const std::uint64_t bits = __double_as_longlong(sum);
+#else
+  Real sum = x + kFromHereWhole;
+  if (sum - kFromHereWhole > x) sum -= 1;
+  std::uint64_t bits;
+  std::memcpy(&bits, &sum, sizeof bits);
+#endif
+  return {bits >> 32 == 0x43300000u, static_cast<std::uint32_t>(bits), sum - kFromHereWhole};
+}
+
+constexpr std::uint32_t kNoBrick = 0xffffffffu;
+
+// A point's brick by its place in the table, and the number of its cell in the brick.
+struct BrickPlace {
+  std::uint32_t place;    // kNoBrick: outside of the grid, or not a number
+  std::int32_t cell;
+};
+
+// What place_of() says, to the bit, without a branch: a thread has several points at once, and
+// would wait for the words of one after the other. Tables have less than 2^32 places.
+LSDCD_FN BrickPlace brick_place_of(const GridView &grid, const Vec3 &q)
+{
+  const WholeNumber i = whole_below((q.x - grid.origin.x) * grid.inv_length),
+                    j = whole_below((q.y - grid.origin.y) * grid.inv_length),
+                    k = whole_below((q.z - grid.origin.z) * grid.inv_length);
+  const std::uint32_t nx = grid.n_bricks[0], ny = grid.n_bricks[1], nz = grid.n_bricks[2];
+  const bool inside = i.fits & j.fits & k.fits & ((i.value >> 3) < nx) & ((j.value >> 3) < ny) &
+                      ((k.value >> 3) < nz);
+  const std::uint32_t place = ((k.value >> 3) * ny + (j.value >> 3)) * nx + (i.value >> 3);
+  return {inside ? place : kNoBrick,
+          static_cast<std::int32_t>((k.value & 7) << 6 | (j.value & 7) << 3 | (i.value & 7))};
+}
+
+// The address that locate() gives, to the bit, without its brick, which nothing needs once the
+// list of the cell is known; for a point that is inside of the grid.
+LSDCD_FN CellAddress address_inside(const GridView &grid, const Vec3 &q)
+{
+  const Vec3 at = {(q.x - grid.origin.x) * grid.inv_length, (q.y - grid.origin.y) * grid.inv_length,
+                   (q.z - grid.origin.z) * grid.inv_length};
+  const WholeNumber i = whole_below(at.x), j = whole_below(at.y), k = whole_below(at.z);
+  const Real half = Real(0.5);
+  return {nullptr,
+          static_cast<std::int32_t>((k.value & 7) << 6 | (j.value & 7) << 3 | (i.value & 7)),
+          grid.length * Vec3{at.x - i.real - half, at.y - j.real - half, at.z - k.real - half}};
+}
+
+// The number of the brick, or kNoBrick.
+LSDCD_FN std::uint32_t brick_in(const BrickWord &word, const BrickPlace &at)
+{
+  return has_brick(word, at.place) ? brick_number(word, at.place) : kNoBrick;
+}
+
+constexpr std::uint32_t kNoCell = 0xffffffffu;
+
+// Index in lists.cells of the cell that holds q; kNoCell where it has no candidates, as
+// near_wall(grid, q) is false. `table`: as BrickTable.
+template <class Table>
+LSDCD_FN std::uint32_t occupied_cell(const GridView &grid, const Table &table, const Vec3 &q)
+{
+  const BrickPlace at = brick_place_of(grid, q);
+  const BrickWord word = at.place != kNoBrick ? table.word(at.place) : BrickWord{0, 0};
+  const std::uint32_t brick = brick_in(word, at);
+  BrickLayer layer = {0, 0, 0};
+  if (brick != kNoBrick) layer = grid.lists.bricks[brick].layer[at.cell >> 6];
+  return has_candidates(layer, at.cell) ? cell_index(layer, at.cell) : kNoCell;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,191 @@
+#include "grid/plan/grid_plan.h"
+
+#include "base/input_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace lsdcd {
+
+namespace {
+
+std::string number(Real value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+// Bricks along an axis for which cell numbers still fit an int.
+constexpr std::int32_t kMostBricks = 1 << 27;
+
+// While it is built, every cell of a brick has two counters.
+constexpr std::size_t kBrickBytes = sizeof(Brick) + kBrickCells * 2 * sizeof(std::uint32_t);
+
+// What of a triangle lies in a box (Sutherland and Hodgman 1974): its area.
+Real area_within(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Box &box)
+{
+  std::vector<Vec3> polygon = {a, b, c}, left;
+  for (int side = 0; side < 6; side++) {
+    const int d = side / 2;
+    const auto depth = [&](const Vec3 &x) {
+      return side % 2 ? box.hi[d] - x[d] : x[d] - box.lo[d];
+    };
+    left.clear();
+    for (std::size_t i = 0; i < polygon.size(); i++) {
+      const Vec3 &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+      const Real s = depth(from), t = depth(to);
+      if (s >= 0) left.push_back(from);
+      if ((s >= 0) != (t >= 0)) left.push_back(from + (s / (s - t)) * (to - from));
+    }
+    polygon.swap(left);
+  }
+  Vec3 sum = {0, 0, 0};
+  for (std::size_t i = 2; i < polygon.size(); i++)
+    sum += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  return Real(0.5) * norm(sum);
+}
+
+// The ball around one point of the wall, or the slab on both sides of one face, as far as
+// spheres can be there.
+Real least_volume(const WallMesh &mesh, Real reach, const Box &within)
+{
+  Real largest = 0;
+  for (const auto &f : mesh.faces) {
+    const Vec3 a = mesh.vertices[f[0]], b = mesh.vertices[f[1]], c = mesh.vertices[f[2]];
+    if (Real(0.5) * norm(cross(b - a, c - a)) > largest)
+      largest = std::max(largest, area_within(a, b, c, within));
+  }
+  return std::max(4 * reach * reach * reach, 2 * reach * largest);
+}
+
+// Of the mesh and the reach around it, where spheres can be; never empty.
+Box covered(const WallMesh &mesh, const Box &within, Real pad, Real rim)
+{
+  Box box;
+  for (int k = 0; k < 3; k++) {
+    box.lo[k] = std::max(mesh.report.lo[k] - pad, within.lo[k] - rim);
+    box.hi[k] = std::max(box.lo[k], std::min(mesh.report.hi[k] + pad, within.hi[k] + rim));
+  }
+  return box;
+}
+
+GridPlan plan_with_length(const WallMesh &mesh, const GridSettings &settings, Real length,
+                          Real least_volume)
+{
+  const Real reach = settings.reach, diagonal = norm(mesh.report.hi - mesh.report.lo);
+  GridPlan plan;
+  plan.length = length;
+  // A point at the rim of a cell may be rounded into its neighbour.
+  plan.half_diagonal = Real(0.5) * std::sqrt(Real(3)) * length * (1 + Real(1e-6));
+  plan.reach = reach;
+  plan.least_volume = least_volume;
+  // Covers the regions that flat edges leave out (four times their largest
+  // angle, times reach) and the rounding of dot products over a whole face.
+  plan.slack = 4e-13 * reach + 16 * kRoundoff * (diagonal + reach);
+  const Real pad = reach + plan.slack + Real(0.5) * length;
+  const Box box = covered(mesh, settings.within, pad, length);
+  plan.origin = box.lo;
+  for (int k = 0; k < 3; k++) {
+    const Real n = std::ceil((box.hi[k] - box.lo[k]) / (kBrickSide * length));
+    plan.n_bricks[k] = static_cast<std::int32_t>(std::clamp(n, Real(1), Real(kMostBricks)));
+  }
+  return plan;
+}
+
+}    // namespace
+
+double GridPlan::least_bytes() const
+{
+  // Counted in floating point: a hopeless length overflows the integer product.
+  const double entries = double(n_bricks[0]) * n_bricks[1] * n_bricks[2];
+  // A plan cut off at the most bricks does not reach the wall's far end, and octant keys have
+  // 32 bits.
+  for (std::int32_t n : n_bricks)
+    if (n >= kMostBricks || entries >= 5e8) return HUGE_VAL;
+  const double side = kBrickSide * length;
+  return std::max(least_volume / (side * side * side) * kBrickBytes,
+                  entries * sizeof(std::int32_t));
+}
+
+std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cells,
+                       std::size_t candidates)
+{
+  return plan.table_size() * sizeof(std::int32_t) + bricks * sizeof(Brick) + cells * sizeof(Cell) +
+         candidates * sizeof(Candidate);
+}
+
+std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks)
+{
+  return plan.table_size() * sizeof(std::int32_t) + bricks * kBrickBytes;
+}
+
+GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
+{
+  if (!(settings.reach > 0) || !std::isfinite(settings.reach))
+    throw InputError("grid reach is " + number(settings.reach) +
+                     "; it must be the largest particle radius, above 0");
+  Real length = settings.length;
+  // A third of an edge keeps lists at one or two entries; past the radius a
+  // longer cell saves nothing, below a fifth of it memory grows without gain.
+  if (length <= 0)
+    length =
+        std::clamp(Real(0.3) * mesh.report.median_edge, Real(0.2) * settings.reach, settings.reach);
+  return plan_with_length(mesh, settings, length,
+                          least_volume(mesh, settings.reach, settings.within));
+}
+
+bool is_coarsest(const GridPlan &plan, const WallMesh &mesh)
+{
+  return plan.length > norm(mesh.report.hi - mesh.report.lo) + 2 * plan.reach;
+}
+
+GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings)
+{
+  return plan_with_length(mesh, settings, plan.length * Real(1.25), plan.least_volume);
+}
+
+std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vector<Box> &boxes)
+{
+  if (boxes.empty()) return {};
+  std::vector<std::uint64_t> bits(plan.table_size() / 64 + 1, 0);
+  const Real side = kBrickSide * plan.length;
+  for (const Box &box : boxes) {
+    std::int64_t first[3], last[3];
+    for (int k = 0; k < 3; k++) {
+      // A point on the rim of two bricks may be looked up in either.
+      const Real rim = Real(1e-6) * side, most = plan.n_bricks[k] - 1;
+      const auto place = [&](Real at) {
+        return static_cast<std::int64_t>(
+            std::clamp(std::floor((at - plan.origin[k]) / side), Real(0), most));
+      };
+      first[k] = place(box.lo[k] - rim);
+      last[k] = place(box.hi[k] + rim);
+    }
+    for (std::int64_t z = first[2]; z <= last[2]; z++)
+      for (std::int64_t y = first[1]; y <= last[1]; y++)
+        for (std::int64_t x = first[0]; x <= last[0]; x++) {
+          const std::size_t brick = (z * plan.n_bricks[1] + y) * plan.n_bricks[0] + x;
+          bits[brick / 64] |= std::uint64_t(1) << brick % 64;
+        }
+  }
+  return bits;
+}
+
+void throw_over_budget(const GridSettings &settings, double needed, double budget)
+{
+  const auto mebibytes = [](double bytes) { return number(std::ceil(bytes / 104857.6) / 10); };
+  const bool given = settings.length > 0 && !settings.may_coarsen;
+  std::string text = given ? "grid " + number(settings.length) : "the coarsest grid of this mesh";
+  if (std::isfinite(needed))
+    text += " takes " + mebibytes(needed) + " MB" + (given ? " at least" : "") +
+            ", the mesh's own records among them, and the memory budget is " + mebibytes(budget) +
+            " MB: give that, or ";
+  else
+    text += " has more cells than can be numbered: ";
+  throw InputError(
+      text + (given ? "leave grid out, which takes the finest that fits" : "coarsen the mesh"));
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,186 @@
+// fix wall/lsdcd: forces of a triangle mesh on spheres, in LAMMPS's schedule.
+#ifndef LMP_FIX_WALL_LSDCD_H
+#define LMP_FIX_WALL_LSDCD_H
+
+#include "fix.h"
+
+#include "lammps/mpi_wall.h"
+#include "output/wall_loads.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixWallLsdcd : public Fix {
+ public:
+  using EngineMaker = std::unique_ptr<lsdcd::WallEngine>(const lsdcd::EngineSettings &);
+
+  FixWallLsdcd(class LAMMPS *, int, char **, EngineMaker * = lsdcd::make_engine);
+  ~FixWallLsdcd() override;
+
+  // schedule: fix_wall_lsdcd.cpp
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void min_setup(int) override;
+  void setup_pre_exchange() override { pre_exchange(); }
+  void setup_pre_force_respa(int, int) override;
+  void pre_exchange() override;
+  void pre_force(int) override;
+  void post_force(int) override;
+  void post_force_respa(int, int, int) override;
+  void end_of_step() override;
+  void post_run() override;
+
+  // springs on the move and in restart files: fix_wall_lsdcd_exchange.cpp
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+
+  // loads and wear: fix_wall_lsdcd_loads.cpp
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+  // outputs: fix_wall_lsdcd_output.cpp
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  double memory_usage() override;
+  int image(int *&, double **&) override;
+
+ protected:
+  lsdcd::WallSettings settings;
+  std::string material;    // what a material file filled in, for the log; else empty
+  std::unique_ptr<lsdcd::NodeWall> wall;
+  EngineMaker *const new_engine;
+  std::unique_ptr<lsdcd::WallEngine> engine;
+  lsdcd::SpringStore springs;
+  lsdcd::WallLoads loads;
+  bool history, records;
+  // Springs are with the engine from step to step, and here where LAMMPS moves atoms.
+  enum class Where { host, engine };
+  Where springs_are = Where::host;
+  int n_with_springs = 0;    // atoms whose springs are with the engine
+  bool list_is_old = true;   // of near atoms
+  bigint steps_run = 0, choices = 0, lists = 0, listed = 0, by_cells = 0;    // in this run
+  bool callbacks = false;          // registered with Atom
+  bool springs_checked = false;    // against this mesh: they may come from a restart file
+  bigint other_law = 0;            // atoms of that file with springs of another law
+  int room = 0;                    // this wall's part of maxexchange
+  bool running = false;            // between start and collect
+  int nlevels_respa = 0;           // 0 under verlet
+
+  bool adapts = false;    // some fix changes radii: a step begins in post_force
+  bool rigid = false;     // some rigid fix holds atoms: mass_seen replaces rmass
+  std::vector<double> mass_seen;
+
+  static constexpr double kLargeOverlap = 0.1;    // of a radius; past it there is a warning
+  double worst_overlap = 0;    // overlap / radius since the last look, on this process
+  tagint worst_tag = 0;
+  bigint worst_step = 0;
+  bigint uncertified_sum = 0;    // answers not certified so far, on this process
+  double worst_uncertain = 0;    // overlap / radius that they may have missed
+  bigint uncertified_due = 0;    // told from here on
+  double worst_uncertain_due = 0;
+  bool overlap_warned = false, wall_in_minimize_warned = false;
+  bigint checked_atoms = -1;    // how many there were when the timestep was checked
+  double worst_dt = 1;          // the largest warned of, over what there should be
+
+  double farthest_out = 0;    // past a face of the box that spheres were seen to go, and more
+  bool out_warned = false, out_of_reach_warned = false, ends_warned = false;
+  bigint box_rebuilds = 0;    // in this run, of grids for another box
+
+  int temperature_variable = -1;
+
+  double totals[9], energy;    // over all processes, of the last step
+  bool reduced = false;
+
+  std::vector<lsdcd::Stroke> strokes;
+  std::vector<int> image_kind;
+  std::vector<double> image_data;
+  std::vector<double *> image_rows;
+
+  // What wall/lsdcd/kk does in its own way.
+  virtual void start();
+  virtual void collect();
+  virtual lsdcd::Spheres spheres();
+  virtual void fill_masses();
+  virtual double largest_radius();    // of the group, on this process
+  virtual void need_on_host() {}      // before atom data are read outside of a step
+  virtual tagint tag_of(int);         // 0 where atoms have none
+  virtual void make_exchange_room();
+  tagint tag_of_radius(double);       // the first of the group that has it
+
+  lsdcd::StepSettings step_settings(lsdcd::Spheres &);    // gives the spheres their heat, too
+  void keep_outputs();
+  void update_reach();
+  void follow_box();
+  void rebuild(double);
+  void begin_step(bool);
+  void choose_if_due(const lsdcd::Spheres &);
+  bool list_keeps() const;
+  void look();
+  void log_lists();
+  void prepare_springs();
+  void springs_to_host();
+  void springs_to_engine();
+  void fill_contacts();
+  void reduce_totals();
+
+  int row_size() const { return settings.contacts ? size_peratom_cols : 0; }
+  void ask_for_room(int);
+  void ask_for_most_room();
+
+  lsdcd::EngineSettings engine_settings() const;
+  void make_engine();
+  void tune(double);    // fix_wall_lsdcd_tune.cpp
+
+  // fix_wall_lsdcd_loads.cpp
+  void add_loads();
+  void check_fields_file() const;
+  lsdcd::WallLoads gathered_loads() const;
+
+  // fix_wall_lsdcd_heat.cpp
+  void check_heat();
+  void give_heat(lsdcd::Spheres &, lsdcd::StepSettings &);
+
+  // the box, its images and its changes: fix_wall_lsdcd_box.cpp
+  lsdcd::PeriodicBox simulation_box() const;
+  bool spheres_stay_close() const;
+  void check_box(double) const;
+  void check_scale() const;
+  void check_periodic() const;
+  void check_within_reach();
+  void check_ends(bool);
+  std::string likely_scale_text() const;
+  void check_wrapping();
+  void log_rebuilds();
+
+  // fix_wall_lsdcd_checks.cpp
+  void check_side() const;
+  void check_plane();
+  void check_surface() const;
+  void check_overlap(double);
+  void check_timestep();
+  void check_springs();
+  double contact_time(double, double) const;
+  void log_uncertified();
+  void log_creation() const;
+  void log_build(double) const;
+  void log(const std::string &) const;
+  void warn(const std::string &) const;    // by the first process
+  [[noreturn]] void refuse(const std::string &) const;
+  [[noreturn]] void stop(const std::exception &);    // on this process alone
+  std::string signed_text(const std::string &) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

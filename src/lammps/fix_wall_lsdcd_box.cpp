@@ -1,0 +1,182 @@
+// The box of the simulation: where spheres can be, what repeats, and what changes in a run.
+
+#include "lammps/fix_wall_lsdcd.h"
+
+#include "base/input_words.h"
+#include "mesh/likely_scale.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using lsdcd::number_text;
+
+lsdcd::PeriodicBox FixWallLsdcd::simulation_box() const
+{
+  const double *lo = domain->boxlo, *size = domain->prd;
+  lsdcd::PeriodicBox box;
+  box.corner = {lo[0], lo[1], lo[2]};
+  box.edge[0] = {size[0], 0, 0};
+  box.edge[1] = {domain->triclinic ? domain->xy : 0, size[1], 0};
+  box.edge[2] = {domain->triclinic ? domain->xz : 0, domain->triclinic ? domain->yz : 0, size[2]};
+  for (int k = 0; k < 3; k++) {
+    // In two dimensions all is at z = 0, and periodicity along z means nothing.
+    box.periodic[k] = domain->periodicity[k] && !(domain->dimension == 2 && k == 2);
+    box.follows[k] = domain->boundary[k][0] >= 2 || domain->boundary[k][1] >= 2;
+  }
+  box.margin = std::max(neighbor->skin, farthest_out);
+  return box;
+}
+
+// Between two reneighbourings no atom has moved further than half the skin where LAMMPS
+// checks that in every step; a step in which one has is a reneighbouring.
+bool FixWallLsdcd::spheres_stay_close() const
+{
+  return neighbor->dist_check && neighbor->every == 1 && neighbor->delay == 0 &&
+         !neighbor->build_once && !neighbor->includegroup;
+}
+
+static std::string extents(const lsdcd::Vec3 &lo, const lsdcd::Vec3 &hi)
+{
+  std::string text;
+  for (int k = 0; k < 3; k++)
+    text += std::string(k ? ", " : "") + "xyz"[k] + " from " + number_text(lo[k]) + " to " +
+            number_text(hi[k]);
+  return text;
+}
+
+std::string FixWallLsdcd::likely_scale_text() const
+{
+  const lsdcd::PeriodicBox box = simulation_box();
+  // A box that follows its spheres tells nothing.
+  if (box.follows[0] || box.follows[1] || box.follows[2]) return "";
+  const lsdcd::Box bounds = box.bounds({0, 0, 0});
+  lsdcd::Vec3 mesh = wall->report().hi - wall->report().lo, room = bounds.hi - bounds.lo;
+  if (domain->dimension == 2) {    // an outline may be of any thickness
+    mesh.z = mesh.x;
+    room.z = room.x;
+  }
+  const double factor = lsdcd::likely_scale(mesh, room);
+  return factor < 1 ? "; the file is probably in other units: add scale " + number_text(factor)
+                    : "";
+}
+
+// Before a grid is built.
+void FixWallLsdcd::check_scale() const
+{
+  const lsdcd::MeshReport &r = wall->report();
+  const lsdcd::Box box = simulation_box().bounds({0, 0, 0});
+  const std::string likely = likely_scale_text();
+  if (!likely.empty())
+    warn("the mesh is far larger than the box: it spans " + extents(r.lo, r.hi) + ", the box " +
+         extents(box.lo, box.hi) + likely);
+}
+
+void FixWallLsdcd::check_box(double reach) const
+{
+  const lsdcd::MeshReport &r = wall->report();
+  const lsdcd::PeriodicBox box = simulation_box();
+  const double near = reach + box.margin;
+  // What is past a periodic face acts in the box by its image.
+  lsdcd::Vec3 past = {near, near, near};
+  for (int k = 0; k < 3; k++)
+    if (box.periodic[k]) past[k] += box.width(k);
+  const lsdcd::Box bounds = box.bounds(past);
+  for (int d = 0; d < 3; d++) {
+    // A shrink-wrapped face follows the atoms, wherever the mesh is.
+    const bool lo_stays = domain->boundary[d][0] < 2, hi_stays = domain->boundary[d][1] < 2;
+    if ((r.hi[d] < bounds.lo[d] && lo_stays) || (r.lo[d] > bounds.hi[d] && hi_stays)) {
+      const lsdcd::Box b = box.bounds({0, 0, 0});
+      refuse("the mesh is outside the box: it spans " + extents(r.lo, r.hi) + ", the box " +
+             extents(b.lo, b.hi) + "; check the units of the file (scale) and the position (move)");
+    }
+  }
+}
+
+// Where LAMMPS does not look in every step how far atoms have moved, they may go further past a
+// face than the images and the grid were made for. Before atoms are wrapped. Collective.
+void FixWallLsdcd::check_wrapping()
+{
+  const lsdcd::PeriodicBox box = simulation_box();
+  if (wall->reach() == 0 || update->setupflag || !box.any_periodic() || spheres_stay_close())
+    return;
+  need_on_host();
+  double out = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double *x = atom->x[i];
+    const lsdcd::Vec3 at = box.fraction({x[0], x[1], x[2]});
+    for (int k = 0; k < 3; k++)
+      if (box.periodic[k]) out = std::max({out, -at[k] * box.width(k), (at[k] - 1) * box.width(k)});
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &out, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (out <= box.margin) return;
+  farthest_out = std::min({1.5 * out, box.width(0), box.width(1), box.width(2)});
+  if (out_warned || wall->fits(simulation_box())) return;    // nothing of the wall is there
+  out_warned = true;
+  warn(
+      "a particle was " + number_text(out) +
+      " past a periodic face before it was wrapped, more than the skin " + number_text(box.margin) +
+      ": contacts there may have been missed; use neigh_modify delay 0 every 1 check yes. The grid "
+      "now reaches further; shown once");
+}
+
+// Images of what lies past a face act inside the box, which may not be what the mesh was drawn for.
+void FixWallLsdcd::check_periodic() const
+{
+  if (settings.periodic || comm->me) return;
+  const lsdcd::PeriodicBox box = simulation_box();
+  const double tolerance = wall->report().weld_tolerance;
+  std::string axes;
+  for (int k = 0; k < 3; k++) {
+    if (!box.periodic[k]) continue;
+    double past = 0;
+    for (const lsdcd::Vec3 &x : wall->mesh()->vertices) {
+      const double at = box.fraction(x)[k];
+      past = std::max({past, -at * box.width(k), (at - 1) * box.width(k)});
+    }
+    if (past > tolerance)
+      axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[k]) + " by " + number_text(past);
+  }
+  if (axes.empty()) return;
+  warn("the mesh reaches past the periodic boundary in " + axes +
+       ": what lies there acts inside the box as well, by its periodic images. Add the keyword "
+       "periodic if that is meant, or make the boundary fixed");
+}
+
+void FixWallLsdcd::check_within_reach()
+{
+  if (!wall->out_of_reach()) return;
+  const lsdcd::PeriodicBox box = simulation_box();
+  const lsdcd::MeshReport &r = wall->report();
+  const lsdcd::Box b = box.bounds({0, 0, 0});
+  const std::string what = "no particle in the box can touch the mesh: it spans " +
+                           extents(r.lo, r.hi) + ", the box " + extents(b.lo, b.hi) +
+                           likely_scale_text();
+  if (!box.follows[0] && !box.follows[1] && !box.follows[2])
+    refuse(what + "; check scale and move");
+  if (!out_of_reach_warned) warn(what);
+  out_of_reach_warned = true;
+}
+
+// A mesh that was to continue itself must not open while the box grows.
+void FixWallLsdcd::check_ends(bool box_changed)
+{
+  if (wall->ends_warning().empty() || ends_warned) return;
+  if (settings.periodic && box_changed) refuse("the box has changed, and " + wall->ends_warning());
+  ends_warned = true;
+  warn(wall->ends_warning());
+}
+
+void FixWallLsdcd::log_rebuilds()
+{
+  if (box_rebuilds > 1 && !settings.brief)
+    log(signed_text("the grid was rebuilt " + std::to_string(box_rebuilds) +
+                    " times in this run, as the box changed"));
+  box_rebuilds = 0;
+}

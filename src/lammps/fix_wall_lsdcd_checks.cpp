@@ -1,0 +1,217 @@
+// What the fix refuses and warns of.
+
+#include "lammps/fix_wall_lsdcd.h"
+
+#include "base/input_words.h"
+#include "contact/faces_pushed.h"
+#include "engine/results/sphere_error.h"
+#include "mesh/plane_cut.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "group.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using lsdcd::LawStyle;
+using lsdcd::number_text;
+
+static constexpr double kStepsPerContact = 10;
+static constexpr double kWorse = 1.1;    // what is warned of again
+
+std::string FixWallLsdcd::signed_text(const std::string &text) const
+{
+  return "Fix " + std::string(id) + " wall/lsdcd: " + text;
+}
+
+void FixWallLsdcd::refuse(const std::string &problem) const
+{
+  error->all(FLERR, signed_text(problem));
+}
+
+tagint FixWallLsdcd::tag_of(int i)
+{
+  return atom->tag_enable ? atom->tag[i] : 0;
+}
+
+tagint FixWallLsdcd::tag_of_radius(double radius)
+{
+  need_on_host();
+  bigint first = MAXBIGINT;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->radius[i] == radius && (group->dynamic[igroup] || (atom->mask[i] & groupbit)))
+      first = std::min<bigint>(first, tag_of(i));
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_LMP_BIGINT, MPI_MIN, world);
+  return static_cast<tagint>(first);
+}
+
+void FixWallLsdcd::stop(const std::exception &e)
+{
+  const auto *one = dynamic_cast<const lsdcd::SphereError *>(&e);
+  if (!one) error->one(FLERR, signed_text(e.what()));
+  error->one(FLERR,
+             signed_text("atom " + std::to_string(tag_of(one->sphere)) + " " + one->problem));
+}
+
+void FixWallLsdcd::warn(const std::string &problem) const
+{
+  if (comm->me == 0) error->warning(FLERR, signed_text(problem));
+}
+
+void FixWallLsdcd::log(const std::string &lines) const
+{
+  if (comm->me == 0) utils::logmesg(lmp, lines + "\n");
+}
+
+double FixWallLsdcd::largest_radius()
+{
+  // Atoms may enter a dynamic group between two looks.
+  const bool all = group->dynamic[igroup];
+  double largest = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (all || (atom->mask[i] & groupbit)) largest = std::max(largest, atom->radius[i]);
+  return largest;
+}
+
+void FixWallLsdcd::check_side() const
+{
+  const lsdcd::MeshReport &r = wall->report();
+  if (settings.side == lsdcd::Side::both || r.oriented) return;
+  throw lsdcd::InputError("side in and side out need a closed, oriented mesh; '" +
+                          settings.mesh_file + "' has " + std::to_string(r.open_edges) + " open, " +
+                          std::to_string(r.nonmanifold_edges) + " non-manifold and " +
+                          std::to_string(r.misoriented_edges) +
+                          " misoriented edges: repair the mesh or use side both");
+}
+
+// The first process has the mesh.
+void FixWallLsdcd::check_surface() const
+{
+  if (comm->me) return;
+  const lsdcd::PushReport push = lsdcd::faces_pushed(*wall->mesh(), settings.surface);
+  if (push.faces == 0) return;
+  warn("surface_vel and surface_angvel push " + std::to_string(push.faces) + " of " +
+       std::to_string(wall->report().facets) + " faces along their normals, by up to " +
+       number_text(push.component) + " (" + number_text(100 * push.share) +
+       " % of the speed there). That part is left out: the mesh itself stays where it is, and "
+       "lifters, blades and screws convey nothing. A mesh cannot move yet (a keyword motion is to "
+       "come); until then use fix wall/gran/region with a region that moves, or a mesh whose "
+       "surface is parallel to its motion");
+}
+
+// Collective where `worst` is the largest of all processes.
+void FixWallLsdcd::check_overlap(double worst)
+{
+  if (overlap_warned || worst <= kLargeOverlap) return;
+  overlap_warned = true;
+  struct {
+    double value;
+    int rank;
+  } most = {worst_overlap, comm->me};
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+  bigint which[2] = {worst_tag, worst_step};
+  MPI_Bcast(which, 2, MPI_LMP_BIGINT, most.rank, world);
+  warn("atom " + std::to_string(which[0]) + " sank into the wall by " +
+       number_text(100 * most.value) + " % of its radius by step " + std::to_string(which[1]) +
+       ": stiffen the contact (kn) or lower speeds; shown once");
+}
+
+// Particles of a two-dimensional run feel the mesh where it cuts their plane. Collective.
+void FixWallLsdcd::check_plane()
+{
+  if (domain->dimension == 3) return;
+  const lsdcd::MeshReport &r = wall->report();
+  if (!(r.lo.z < 0 && r.hi.z > 0))
+    refuse("in two dimensions particles move in the plane z = 0, which the mesh does not cut: it "
+           "spans z from " +
+           number_text(r.lo.z) + " to " + number_text(r.hi.z) + "; draw the outline out along z" +
+           (r.lo.z < r.hi.z ? ", and put its middle at z = 0 (move 0 0 " +
+                                  number_text(-(r.lo.z + r.hi.z) / 2) + ")"
+                            : ""));
+  double cut[2] = {0, 0};
+  if (wall->mesh()) {
+    const lsdcd::PlaneCut mine = lsdcd::plane_cut(*wall->mesh());
+    cut[0] = static_cast<double>(mine.leaning);
+    cut[1] = mine.lean;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, cut, 2, MPI_DOUBLE, MPI_MAX, world);
+  if (cut[0] > 0)
+    warn(
+        number_text(cut[0]) + " faces lean where the mesh cuts the plane z = 0, by up to " +
+        number_text(cut[1]) +
+        " degrees: fix enforce2d throws away what they push along z; draw the outline out along z");
+}
+
+// Does the stiffness grow with the overlap?
+static bool is_hertzian(const lsdcd::ContactLaw &law)
+{
+  if (law.style == LawStyle::granular) return !law.is(lsdcd::NormalModel::hooke);
+  return law.style == LawStyle::hertz_history;
+}
+
+// Duration of a binary contact: half a period of the damped spring between a
+// sphere and the wall (undamped with granular, whose damping may be anything). A hertz
+// spring is taken at an overlap of 1 % of the radius.
+double FixWallLsdcd::contact_time(double mass, double radius) const
+{
+  const lsdcd::ContactLaw &law = settings.law;
+  const bool granular = law.style == LawStyle::granular;
+  double k = granular ? law.granular.k_normal : law.k_normal;
+  double gamma = granular ? 0 : law.gamma_normal;
+  if (is_hertzian(law)) {
+    const double root = std::sqrt(0.01 * radius * radius);
+    k *= 1.5 * root;
+    gamma *= root;
+  }
+  const double omega_sq = force->ftm2v * k / mass, half = 0.5 * force->ftm2v * gamma;
+  const double damped_sq = omega_sq - half * half;
+  return M_PI / std::sqrt(damped_sq > 0 ? damped_sq : omega_sq);
+}
+
+void FixWallLsdcd::check_timestep()
+{
+  if (wall->reach() == 0) return;
+  checked_atoms = atom->natoms;
+  need_on_host();
+  double shortest = INFINITY;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit)
+      shortest = std::min(shortest, contact_time(atom->rmass[i], atom->radius[i]));
+  MPI_Allreduce(MPI_IN_PLACE, &shortest, 1, MPI_DOUBLE, MPI_MIN, world);
+  const double ratio = update->dt / (shortest / kStepsPerContact);
+  if (ratio <= worst_dt) return;
+  worst_dt = kWorse * ratio;
+  warn("timestep " + number_text(update->dt) +
+       " is more than a tenth of the shortest contact time " + number_text(shortest) +
+       (is_hertzian(settings.law) ? " (hertz, at an overlap of 1 % of the radius)" : "") +
+       ": contacts will not be resolved");
+}
+
+// Springs of a restart file name features of the mesh it was written with, and hold what
+// the law that it was written with keeps. Collective: not every process has such atoms.
+void FixWallLsdcd::check_springs()
+{
+  springs_checked = true;
+  bigint lost[2] = {0, other_law};
+  for (int i = 0; history && i < atom->nlocal; i++)
+    for (int k = 0; k < springs.count(i); k++)
+      if (!wall->has(springs.of(i)[k].feature)) {
+        lost[0]++;
+        springs.clear(i);
+        break;
+      }
+  MPI_Allreduce(MPI_IN_PLACE, lost, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  const char *const other[] = {"mesh", "contact law"};
+  for (int k = 0; k < 2; k++)
+    if (lost[k])
+      warn(std::to_string(lost[k]) +
+           " atoms lose their springs: the restart file was written with "
+           "another " +
+           other[k]);
+}

@@ -1,0 +1,44 @@
+// Heat between the wall and the atoms that touch it: LAMMPS's per-atom temperature and
+// heat flow, and the wall's temperature, which may be a variable.
+
+#include "lammps/fix_wall_lsdcd.h"
+
+#include "atom.h"
+#include "error.h"
+#include "input.h"
+#include "variable.h"
+
+using namespace LAMMPS_NS;
+
+// The first stable LAMMPS with fix heat/flow and what it integrates.
+#define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
+
+void FixWallLsdcd::check_heat()
+{
+#if HOST_HAS_HEAT
+  if (!atom->temperature_flag || !atom->heatflow_flag)
+    refuse("the sub-model heat needs a temperature and a heat flow per atom: fix ID all "
+           "property/atom temperature heatflow ghost yes, and fix heat/flow to change them");
+#else
+  refuse("the sub-model heat needs a LAMMPS with fix heat/flow, of 2 Aug 2023 or later");
+#endif
+  if (settings.temperature_variable.empty()) return;
+  const std::string &name = settings.temperature_variable;
+  temperature_variable = input->variable->find(name.c_str());
+  if (temperature_variable < 0) refuse("there is no variable '" + name + "' for temperature");
+  if (!input->variable->equalstyle(temperature_variable))
+    refuse("variable '" + name + "' for temperature is not of style equal");
+}
+
+void FixWallLsdcd::give_heat(lsdcd::Spheres &spheres, lsdcd::StepSettings &step)
+{
+#if HOST_HAS_HEAT
+  spheres.temperature = atom->temperature;
+  spheres.heat_flow = atom->heatflow;
+#else
+  (void) spheres;
+#endif
+  step.wall_temperature = settings.temperature_variable.empty()
+                              ? settings.temperature
+                              : input->variable->compute_equal(temperature_variable);
+}

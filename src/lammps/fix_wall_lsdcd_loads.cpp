@@ -1,0 +1,107 @@
+// What the fix adds up of a wall's loads and wear: files of it, and restart.
+
+#include "lammps/fix_wall_lsdcd.h"
+
+#include "base/input_error.h"
+#include "base/whole_file.h"
+#include "output/mesh_fields.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "force.h"
+#include "update.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using lsdcd::WallLoads;
+
+// Of restart data: time, facets, edges and vertices of the mesh, number of rows.
+static constexpr int kHeader = 5;
+
+// Of the last step; what setup computes has no duration.
+void FixWallLsdcd::add_loads()
+{
+  if (update->setupflag) return;
+  const bool any = wall->reach() > 0;
+  loads.add(any ? engine->records() : nullptr, any ? engine->n_records() : 0, update->dt,
+            settings.wear.per_work, any ? wall->view().wall : lsdcd::WallFeaturesView());
+}
+
+// Of all processes, on the first one; the others get none. Collective.
+WallLoads FixWallLsdcd::gathered_loads() const
+{
+  const std::vector<double> mine = loads.packed();
+  int n = static_cast<int>(mine.size());
+  std::vector<int> count(comm->nprocs), first(comm->nprocs, 0);
+  MPI_Gather(&n, 1, MPI_INT, count.data(), 1, MPI_INT, 0, world);
+  for (int p = 1; p < comm->nprocs; p++) first[p] = first[p - 1] + count[p - 1];
+  std::vector<double> rows(comm->me == 0 ? first.back() + count.back() : 0);
+  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, rows.data(), count.data(), first.data(), MPI_DOUBLE, 0,
+              world);
+  WallLoads all;
+  all.set_time(loads.time());
+  all.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
+  return all;
+}
+
+// Whether files can be made where mesh_fields wants them: told before a run, not hours into it.
+void FixWallLsdcd::check_fields_file() const
+{
+  try {
+    lsdcd::together(world, comm->me == 0, [&] {
+      lsdcd::WholeFile(lsdcd::file_of_step(settings.fields_file, update->ntimestep));
+    });
+  } catch (const lsdcd::InputError &e) {
+    refuse("in 'mesh_fields', " + std::string(e.what()) + "; make the folder, or name another");
+  }
+}
+
+void FixWallLsdcd::end_of_step()
+{
+  const WallLoads all = gathered_loads();
+  loads.begin_average();
+  try {
+    lsdcd::together(world, comm->me == 0, [&] {
+      lsdcd::write_mesh_fields(
+          lsdcd::file_of_step(settings.fields_file, update->ntimestep), *wall->mesh(),
+          lsdcd::load_fields(*wall->mesh(), all, force->nktv2p, settings.wears()),
+          update->ntimestep, update->atime + (update->ntimestep - update->atimestep) * update->dt);
+    });
+  } catch (const lsdcd::InputError &e) {
+    refuse(e.what());
+  }
+}
+
+void FixWallLsdcd::write_restart(FILE *file)
+{
+  const WallLoads all = gathered_loads();
+  if (comm->me != 0) return;
+  const lsdcd::MeshReport &r = wall->report();
+  const std::vector<double> rows = all.packed();
+  std::vector<double> data = {all.time(), double(r.facets), double(r.edges), double(r.vertices),
+                              double(rows.size() / WallLoads::kPackedLoad)};
+  data.insert(data.end(), rows.begin(), rows.end());
+  const int bytes = static_cast<int>(data.size() * sizeof(double));
+  fwrite(&bytes, sizeof bytes, 1, file);
+  fwrite(data.data(), sizeof(double), data.size(), file);
+}
+
+// LAMMPS hands the same bytes to every process; the first one keeps them.
+void FixWallLsdcd::restart(char *buffer)
+{
+  if (!records) return;
+  double header[kHeader];
+  std::memcpy(header, buffer, sizeof header);
+  const lsdcd::MeshReport &r = wall->report();
+  if (header[1] != double(r.facets) || header[2] != double(r.edges) ||
+      header[3] != double(r.vertices)) {
+    warn("loads and wear begin at zero: the restart file was written with another mesh");
+    return;
+  }
+  loads.set_time(header[0]);
+  if (comm->me != 0) return;
+  std::vector<double> rows(static_cast<std::size_t>(header[4]) * WallLoads::kPackedLoad);
+  std::memcpy(rows.data(), buffer + sizeof header, rows.size() * sizeof(double));
+  loads.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
+}

@@ -1,0 +1,143 @@
+// What the fix writes to the log.
+
+#include "lammps/fix_wall_lsdcd.h"
+
+#include "base/input_words.h"
+#include "effects/effects.h"
+#include "tune/trial_grid.h"
+
+#include "comm.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using lsdcd::LawStyle;
+using lsdcd::number_text;
+
+// How often near atoms were chosen and lists of the wall made in this run. Collective.
+void FixWallLsdcd::log_lists()
+{
+  bigint sum[3] = {lists, listed, by_cells};
+  MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (steps_run > 0 && !settings.brief) {
+    std::string t = signed_text(std::to_string(steps_run) + " steps, near atoms chosen " +
+                                std::to_string(choices) + " times");
+    if (!list_keeps()) t += " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
+    if (sum[0] > 0)
+      t += ", " + std::to_string(sum[0]) + " lists of the wall made, " +
+           number_text(static_cast<double>(sum[1]) / sum[0]) + " features each";
+    if (sum[2] > 0) t += "; " + std::to_string(sum[2]) + " times a cell was searched instead";
+    log(t);
+  }
+  steps_run = choices = lists = listed = by_cells = 0;
+}
+
+// What nearest lists may have cost so far: after the first run, and when it has grown much since
+// it was told. `run ... every` comes here at every pause. Collective.
+void FixWallLsdcd::log_uncertified()
+{
+  bigint sum = 0;
+  double worst = 0;
+  MPI_Allreduce(&uncertified_sum, &sum, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  MPI_Allreduce(&worst_uncertain, &worst, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (sum < uncertified_due && worst < worst_uncertain_due) return;
+  uncertified_due = std::max<bigint>(1, 10 * sum);
+  worst_uncertain_due = worst > 0 ? 2 * worst : INFINITY;
+  if (settings.brief && sum == 0) return;
+  std::string t = signed_text("nearest " + std::to_string(settings.nearest) + ": " +
+                              std::to_string(sum) + " answers were not certified exact");
+  if (sum > 0)
+    t += "; contacts overlapping by up to " + number_text(100 * worst) +
+         " % of a radius may have been missed (nearest N exact or nearest all certify all). Told "
+         "again when they are ten times as many or could be twice as deep";
+  log(t);
+}
+
+// In the columns of the mesh report.
+void FixWallLsdcd::log_creation() const
+{
+  if (comm->me) return;
+  if (settings.brief) {
+    log(signed_text("mesh " + settings.mesh_file + " of " + std::to_string(wall->report().facets) +
+                    " facets, " + settings.law_name + ", " + engine->backend()));
+    return;
+  }
+  const lsdcd::ContactLaw &l = settings.law;
+  std::string t = signed_text(wall->mesh_text());
+  if (!settings.placement_words.empty()) t += "\n  placement   " + settings.placement_words;
+  if (!material.empty()) t += "\n" + material;
+  t += "\n  contact     " + settings.law_name;
+  if (l.style != LawStyle::granular)
+    t += ", kn " + number_text(l.k_normal) + ", kt " + number_text(l.k_tangent) + ", gamman " +
+         number_text(l.gamma_normal) + ", gammat " + number_text(l.gamma_tangent) + ", xmu " +
+         number_text(l.mu) + (l.limit_damping ? ", limit_damping" : "");
+  std::string effects, kept;
+  for (const lsdcd::Effect &e : lsdcd::effects_of(engine_settings())) {
+    const auto cost = lsdcd::kept_costs().find(e.kind);
+    const bool first = effects.empty();
+    effects += (first ? "" : ", ") + e.name;
+    if (cost != lsdcd::kept_costs().end())
+      effects +=
+          (first ? " " : " +") +
+          number_text(std::max(0.0, std::round(first ? cost->second.ns : cost->second.over_ns))) +
+          " ns";
+    if (e.bytes_per_contact > 0)
+      kept += ", " + std::to_string(e.bytes_per_contact) + " for " + e.name;
+  }
+  t += "\n  effects     " + effects;
+  if (!lsdcd::kept_costs().empty())
+    t += "\n              (times per contact, as measured on " + lsdcd::kept_costs_where() + ")";
+  t += "\n  per atom    ";
+  if (history)
+    t += "8 bytes, and per contact " + std::to_string(sizeof(lsdcd::Spring)) +
+         " for its spring and place" + kept + ", which move and restart with the atom";
+  else
+    t += "nothing stored, exchanged or restarted";
+  if (settings.contacts)
+    t += "; " + std::to_string(size_peratom_cols * sizeof(double)) + " bytes for contacts";
+  t += "\n  search      ";
+  if (settings.tune >= 0)
+    t += "tuned once there are particles, for errors below " + number_text(settings.tune);
+  else {
+    if (settings.nearest > 0)
+      t += "nearest " + std::to_string(settings.nearest) +
+           (settings.exact ? ", complete lists where that is not certified" : "");
+    else
+      t += "all that can touch";
+    t += std::string(", precision ") + lsdcd::precision_name(settings.precision);
+  }
+  const char *const sides[] = {"both", "in", "out"};
+  t += std::string("\n  corners     ") +
+       (settings.corner == lsdcd::Corner::blend ? "blend" : "sum") + ", side " +
+       sides[static_cast<int>(settings.side)];
+  t += "\n  device      " + engine->backend();
+  std::string why;
+  if (new_engine == lsdcd::make_engine && settings.device == lsdcd::Device::automatic &&
+      !lsdcd::cuda_available(&why))
+    t += " (no CUDA: " + why + ")";
+  log(t);
+}
+
+// `old`: the reach before, 0 at first.
+void FixWallLsdcd::log_build(double old) const
+{
+  if (!wall->cache_warning().empty()) warn(wall->cache_warning());
+  if (settings.brief) return;
+  const bool again = old > 0;
+  std::string t = signed_text("");
+  if (!again)
+    t += (wall->tune_text().empty() ? "" : wall->tune_text() + "\n  ") + "grid for radius " +
+         number_text(wall->reach()) + "\n" + wall->grid_text();
+  else if (wall->reach() > old)
+    t += "larger particles, grid rebuilt for radius " + number_text(wall->reach());
+  else
+    t += "the box has changed, grid rebuilt at step " + std::to_string(update->ntimestep) +
+         " (more of these in this run are counted at its end)";
+  if (!again && wall->shared().node_size() > 1)
+    t += wall->shared().is_shared() ? "\n  one copy per node" : "\n  one copy per process";
+  if (!wall->cache_text().empty()) t += "\n  " + wall->cache_text();
+  const bool one_of_many = again && wall->reach() == old && box_rebuilds > 1;
+  if (!one_of_many) log(t);
+}

@@ -1,0 +1,95 @@
+// The wall of a simulation: mesh and grid, made once per node and read by all.
+#pragma once
+
+#include "deck/settings.h"
+#include "grid/cache/grid_cache.h"
+#include "grid/triangle_grid.h"
+#include "lammps/mpi_shared.h"
+#include "mesh/periodic_images.h"
+#include "mesh/wall_mesh.h"
+#include "tune/tune.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+struct TaggedSphere {
+  std::uint64_t tag;
+  Vec3 x;         // length
+  Real radius;    // length
+};
+
+// Making, tuning and building are collective over `world` and throw the same InputError
+// on every process.
+class NodeWall {
+ public:
+  NodeWall(MPI_Comm world, const WallSettings &settings);
+
+  // Makes the grid for particles up to radius `reach` with centres in `box`, with the periodic
+  // images of the mesh that act there, or reads it from its cache file. The grid of the n-th
+  // call, n > 1, is kept in a file of its own, FILE.n.
+  void build(Real reach, const PeriodicBox &box);
+
+  // Is the grid right for spheres in this box, too? Images follow it to kBoxTolerance of the
+  // reach. The same on all processes.
+  bool fits(const PeriodicBox &box) const;
+  static constexpr Real kBoxTolerance = 1e-4;
+
+  bool has_images() const { return view().wall.same_vertex; }
+  // No sphere in the box can touch the wall.
+  bool out_of_reach() const { return cells_ == 0; }
+
+  // Chooses cell length, lists and precision for all processes by settings.tune; `mine`
+  // are this process's spheres of a sample of the scene. Kept for every build to come.
+  void tune(Real reach, const PeriodicBox &box, const std::vector<TaggedSphere> &mine);
+  const WallSettings &settings() const { return settings_; }
+  const std::string &tune_text() const { return tune_text_; }    // of the first process
+
+  const MeshReport &report() const { return report_; }
+  const std::string &mesh_text() const { return mesh_text_; }    // of the process that read it
+  const std::string &grid_text() const { return grid_text_; }    // on every process
+  // What the last build had to do with its cache file, and what was wrong with it;
+  // empty on all processes but the first, and where there is nothing to say.
+  const std::string &cache_text() const { return cache_text_; }
+  const std::string &cache_warning() const { return cache_warning_; }
+  // Ends of the mesh that do not meet across a periodic face, after the last build; on every
+  // process.
+  const std::string &ends_warning() const { return ends_warning_; }
+  GridView view() const { return flat_view(shared_.block()); }
+  Real reach() const { return reach_; }    // 0 before the first build
+  const NodeShared &shared() const { return shared_; }
+
+  // False where a spring names a feature that this mesh does not have.
+  bool has(FeatureCode feature) const;
+
+  const WallMesh *mesh() const { return mesh_.get(); }    // null but on one process per node
+
+  std::size_t bytes() const;    // held by this process
+
+ private:
+  void read();
+  GridSettings grid_settings(Real reach, const PeriodicBox &box) const;
+  Box within(Real reach, const PeriodicBox &box) const;
+  WallMesh whole(Real reach, const PeriodicBox &box) const;
+  bool read_cache(CachedGrid *cached);
+  void build_block(const WallMesh &whole, const GridSettings &want, GridReport &report);
+  void note_images(const WallMesh &whole);
+  void write_cache(const GridKey &key, const GridReport &report, const CachedGrid &cached);
+
+  WallSettings settings_;
+  NodeShared shared_;
+  std::unique_ptr<WallMesh> mesh_;    // where shared_.writes()
+  MeshReport report_;
+  std::string mesh_text_, grid_text_, tune_text_;
+  std::string cache_file_, cache_text_, cache_warning_, ends_warning_;    // of the last build
+  PeriodicBox box_;                                                       // likewise
+  Box within_ = kNoLimit;
+  std::uint64_t cells_ = 0;
+  int builds_ = 0;
+  Real reach_ = 0;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,195 @@
+// The five verbs of a backend on the host: allocate, copy, for_each, reduce, scan/sort.
+#pragma once
+
+#include "parallel/atomic.h"
+#include "base/rows.h"
+#include "parallel/threads.h"
+#include "parallel/owned_array.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsdcd {
+
+struct CpuBackend {
+  static constexpr bool kOnHost = true;    // is its memory the host's?
+
+  // allocate
+  struct Memory {
+    static void *allocate(std::size_t bytes) { return ::operator new(bytes); }
+    static void free(void *at) { ::operator delete(at); }
+  };
+  template <class T>
+  using Array = OwnedArray<T, Memory>;
+  template <class T>
+  using Scratch = Array<T>;    // for a while
+  template <class T>
+  using HostArray = Array<T>;    // what copies quickly
+
+  // copy
+  template <class T>
+  void copy_in(const T *host, T *to, std::size_t n)
+  {
+    std::copy(host, host + n, to);
+  }
+  template <class T>
+  void send(const HostArray<T> &host, Array<T> &to, std::size_t n)
+  {
+    std::copy(host.data(), host.data() + n, to.data());
+  }
+  template <class T>
+  void receive(const Array<T> &from, HostArray<T> &host, std::size_t n)
+  {
+    std::copy(from.data(), from.data() + n, host.data());
+  }
+  template <class T>
+  Array<T> from_host(const std::vector<T> &host)
+  {
+    Array<T> a(host.size());
+    copy_in(host.data(), a.data(), host.size());
+    return a;
+  }
+  template <class T>
+  std::vector<T> to_host(const Array<T> &a, std::size_t n)
+  {
+    return std::vector<T>(a.data(), a.data() + n);
+  }
+  void wait() {}
+
+  // for_each: f(i) for i in [0, n), in any order and possibly at once.
+  // The last argument is for GPUs: how many run together.
+  template <class F>
+  void for_each(std::size_t n, const F &f, unsigned /*block*/ = 0)
+  {
+    const std::int64_t m = static_cast<std::int64_t>(n);
+#pragma omp parallel for schedule(dynamic, 64) num_threads(threads()) if (m > 256)
+    for (std::int64_t i = 0; i < m; i++) f(static_cast<std::size_t>(i));
+  }
+
+  // What f() takes, in milliseconds.
+  template <class F>
+  double milliseconds(const F &f)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    f();
+    return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  // for_each over parts of things: thing i has offset[i + 1] - offset[i] of them. Calls
+  // f(i, part, k), k counting the parts of the run.
+  static constexpr std::uint64_t kMostParts = 1 << 24;    // in a run
+  template <class Run, class F>
+  void for_each_part(const std::uint64_t *offset, const Run &run, const F &f)
+  {
+    const std::int64_t begin = run.begin, end = run.end;
+#pragma omp parallel for schedule(dynamic, 64) num_threads(threads()) if (run.n > 256)
+    for (std::int64_t i = begin; i < end; i++)
+      for (std::uint64_t at = offset[i]; at < offset[i + 1]; at++)
+        f(static_cast<std::size_t>(i), at - offset[i], at - run.first);
+  }
+
+  // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
+  // `total` becomes how many. check() is told of each i, with what read() has read of it;
+  // may_keep() is asked with that, its row of places() and the brick table, keep() by that row
+  // of those that it leaves, and where it notes(), note() is told.
+  struct SelectRoom {};
+  template <class Work>
+  void select(std::size_t n, const Work &work, SelectRoom &, int *to, std::uint32_t *total)
+  {
+    // Blocks of one size whatever the number of threads, so that order is fixed.
+    constexpr std::int64_t kBlock = 4096;
+    const std::int64_t n_blocks = (static_cast<std::int64_t>(n) + kBlock - 1) / kBlock;
+    std::vector<int> found(n_blocks, 0);
+#pragma omp parallel for schedule(static) num_threads(threads()) if (n_blocks > 1)
+    for (std::int64_t b = 0; b < n_blocks; b++) {
+      const std::int64_t lo = b * kBlock;
+      const std::int64_t hi = std::min(lo + kBlock, static_cast<std::int64_t>(n));
+      int count = 0;
+      for (std::int64_t k = lo; k < hi; k++) {
+        const std::size_t i = static_cast<std::size_t>(k);
+        const Vec3 place = work.places()[i];
+        const auto item = work.read(i);
+        work.check(i, item);
+        const bool kept = work.may_keep(item, place, work.table) && work.keep(place, work.table);
+        if (work.notes()) work.note(i, kept);
+        if (kept) to[lo + count++] = static_cast<int>(i);
+      }
+      found[b] = count;
+    }
+    std::uint32_t n_kept = 0;
+    for (std::int64_t b = 0; b < n_blocks; b++) {
+      std::copy(to + b * kBlock, to + b * kBlock + found[b], to + n_kept);
+      n_kept += found[b];
+    }
+    *total = n_kept;
+  }
+
+  // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false
+  // work.several(i).
+  template <class Work>
+  void step(std::size_t n, const Work &work)
+  {
+    work.begin();
+    for_each(n, [&](std::size_t i) {
+      if (!work.single(i)) work.several(i);
+    });
+  }
+
+  // reduce
+  template <class T, class Read>
+  T largest(std::size_t n, const Read &read)
+  {
+    T most = n > 0 ? read(0) : T(0);
+    for (std::size_t i = 1; i < n; i++) most = std::max<T>(most, read(i));
+    return most;
+  }
+  template <class T>
+  T sum(const T *values, std::size_t n)
+  {
+    return std::accumulate(values, values + n, T(0));
+  }
+
+  // scan: values become the sums of what was before them; returns the total.
+  template <class T>
+  T exclusive_scan(T *values, std::size_t n)
+  {
+    T total = 0;
+    for (std::size_t i = 0; i < n; i++) total += std::exchange(values[i], total);
+    return total;
+  }
+
+  // sort: stable, by key; 16 bits at a time up to the largest key's bits.
+  void sort_pairs(Scratch<std::uint32_t> &keys, Scratch<std::uint32_t> &values,
+                  std::uint32_t largest)
+  {
+    const std::size_t n = keys.size();
+    Scratch<std::uint32_t> other_keys(n), other_values(n);
+    for (int shift = 0; shift < 32 && (largest >> shift) > 0; shift += 16) {
+      std::vector<std::size_t> start(65536, 0);
+      for (std::size_t i = 0; i < n; i++) start[(keys.data()[i] >> shift) & 0xffff]++;
+      exclusive_scan(start.data(), start.size());
+      for (std::size_t i = 0; i < n; i++) {
+        const std::size_t to = start[(keys.data()[i] >> shift) & 0xffff]++;
+        other_keys.data()[to] = keys.data()[i];
+        other_values.data()[to] = values.data()[i];
+      }
+      std::swap(keys, other_keys);
+      std::swap(values, other_values);
+    }
+  }
+
+  std::string name() const
+  {
+    const int n = threads();
+    return "CPU, " + std::to_string(n) + (n == 1 ? " thread" : " threads");
+  }
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,168 @@
+// Choosing among many spheres on an NVIDIA GPU: bits of those to keep, and from them a list.
+#pragma once
+
+#include "base/rows.h"
+#include "parallel/cuda_bricks.h"
+#include "parallel/cuda_limits.h"
+#include "parallel/cuda_warp.h"
+
+#include <cuda_pipeline_primitives.h>
+#include <cuda_runtime.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace lsdcd {
+
+constexpr unsigned kMarkTile = 128, kMarkWords = kMarkTile / 32;    // items of a warp at a time
+
+// Warps of a block at most, and blocks at once on a processor: 48 registers a thread.
+constexpr unsigned kMarkWarps = 20, kMarkBlocks = 2, kMarkBlock = 32 * kMarkWarps;
+
+// A warp's tile: rows of the items' places, those to look at more closely, and bits of those
+// that are kept.
+struct alignas(16) MarkTile {
+  double place[kMarkTile][3];
+  unsigned kept[kMarkWords];
+  std::uint8_t waiting[kMarkTile];
+};
+
+// Asks for n rows from `first` on for a warp, to be there after __pipeline_wait_prior(0) and a
+// barrier. Packed ones come in pieces of 16 bytes, whosever they are.
+__device__ inline void bring_rows(const Rows<const double> &rows, std::size_t first, unsigned n,
+                                  double (*to)[3])
+{
+  const unsigned lane = threadIdx.x % 32;
+  if (n == kMarkTile && rows.row == 3 && rows.column == 1 &&
+      reinterpret_cast<std::uintptr_t>(rows.of(first)) % sizeof(uint4) == 0) {
+    const uint4 *from = reinterpret_cast<const uint4 *>(rows.of(first)) + lane;
+    uint4 *there = reinterpret_cast<uint4 *>(to) + lane;
+#pragma unroll
+    for (unsigned k = 0; k < kMarkTile * 3 * sizeof(double) / sizeof(uint4); k += 32)
+      __pipeline_memcpy_async(there + k, from + k, sizeof(uint4));
+  } else {
+    for (unsigned i = lane; i < n; i += 32) {
+      const Vec3 row = rows[first + i];
+      to[i][0] = row.x;
+      to[i][1] = row.y;
+      to[i][2] = row.z;
+    }
+  }
+  __pipeline_commit();
+}
+
+// Bits of the items to keep, and how many there are in each tile. Warps stay and take one tile
+// after the other. Few may be kept, and more is read of those alone, by full warps.
+template <bool kTableNear, class Work>
+__global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
+    cuda_mark(unsigned n, const __grid_constant__ Work work, unsigned *words,
+              std::uint32_t *in_tile)
+{
+  constexpr unsigned kEach = kMarkTile / 32;
+  extern __shared__ uint4 mark_shared[];
+  __shared__ unsigned turns;
+  const unsigned lane = threadIdx.x % 32, n_warps = blockDim.x / 32;
+  MarkTile *const tiles = reinterpret_cast<MarkTile *>(mark_shared),
+                  &mine = tiles[threadIdx.x / 32];
+  if (threadIdx.x == 0) turns = n_warps;
+  const auto table = [&] {
+    if constexpr (kTableNear)
+      return BrickTableNear(work.table, tiles + n_warps);
+    else
+      return work.table;
+  }();
+  __syncthreads();
+  const auto place_of = [&](unsigned i) {
+    return Vec3{mine.place[i][0], mine.place[i][1], mine.place[i][2]};
+  };
+
+  // A block has every gridDim.x-th tile, and its warps take them as they come.
+  for (unsigned turn = threadIdx.x / 32;;) {
+    const unsigned tile = turn * gridDim.x + blockIdx.x, first = tile * kMarkTile;
+    if (first >= n) return;
+    const unsigned last = min(n - first, kMarkTile) - 1;
+    bring_rows(work.places(), first, last + 1, mine.place);
+    typename Work::Item item[kEach];
+    bool odd = false;
+#pragma unroll
+    for (unsigned k = 0; k < kEach; k++) item[k] = work.read(first + min(lane + k * 32, last));
+    if (lane < kMarkWords) mine.kept[lane] = 0;
+    turn = room_at(&turns, 1);
+#pragma unroll
+    for (unsigned k = 0; k < kEach; k++) odd = odd || work.may_be_large(item[k]);
+    if (odd)
+      for (unsigned i = lane; i <= last; i += 32) work.check(first + i, work.read(first + i));
+    __pipeline_wait_prior(0);
+    __syncwarp();
+
+    unsigned waiting = 0;
+#pragma unroll
+    for (unsigned k = 0; k < kEach; k++) {
+      const unsigned i = lane + k * 32;
+      const bool may = work.may_keep(item[k], place_of(min(i, last)), table) & (i <= last);
+      const unsigned votes = __ballot_sync(kAllLanes, may);
+      if (may) mine.waiting[waiting + votes_below(votes)] = static_cast<std::uint8_t>(i);
+      waiting += __popc(votes);
+    }
+    __syncwarp();
+#pragma unroll 1    // nearly always one turn
+    for (unsigned w = lane; w < waiting; w += 32) {
+      const unsigned i = mine.waiting[w];
+      if (work.keep(place_of(i), table)) atomicOr(&mine.kept[i / 32], 1u << (i % 32));
+    }
+    __syncwarp();
+    if (work.notes())
+      for (unsigned i = lane; i <= last; i += 32)
+        work.note(first + i, mine.kept[i / 32] >> lane & 1u);
+    if (lane < kMarkWords) words[tile * kMarkWords + lane] = mine.kept[lane];
+    unsigned sum = lane < kMarkWords ? __popc(mine.kept[lane]) : 0;
+    for (unsigned step = kMarkWords / 2; step > 0; step /= 2)
+      sum += __shfl_down_sync(kAllLanes, sum, step);
+    if (lane == 0) in_tile[tile] = sum;
+    __syncwarp();
+  }
+}
+
+template <class Work>
+void start_mark(unsigned n, const Work &work, CudaLimits &limits, unsigned *words,
+                std::uint32_t *in_tile, cudaStream_t stream)
+{
+  const CudaLimits::Shape shape =
+      limits.shape(kMarkWarps, kMarkBlocks, sizeof(MarkTile), BrickTableNear::bytes(work.table));
+  const unsigned of_block = kMarkTile * shape.warps;
+  const auto kernel = shape.has_table ? cuda_mark<true, Work> : cuda_mark<false, Work>;
+  limits.allow(kernel, shape.shared);
+  kernel<<<std::min((n + of_block - 1) / of_block, limits.processors() * kMarkBlocks),
+           32 * shape.warps, shape.shared, stream>>>(n, work, words, in_tile);
+  cuda_check(cudaGetLastError(), "starting a kernel");
+}
+
+// From bits to a list, a warp for 32 words; before[t]: how many are kept in tiles before t.
+constexpr unsigned kGatherBlock = 256, kGatherTiles = kGatherBlock / kMarkWords;
+__global__ static void __launch_bounds__(kGatherBlock)
+    cuda_gather(const unsigned *words, const std::uint32_t *before, unsigned n_tiles, int *to,
+                std::uint32_t *total)
+{
+  const unsigned lane = threadIdx.x % 32, word = blockIdx.x * blockDim.x + threadIdx.x,
+                 n_words = n_tiles * kMarkWords;
+  if (word == 0) *total = before[n_tiles];
+  const unsigned mine = word < n_words ? words[word] : 0;
+  // Of the words of its tile, those before this one.
+  std::uint32_t ahead = __popc(mine);
+  for (unsigned d = 1; d < kMarkWords; d *= 2) {
+    const std::uint32_t from = __shfl_up_sync(kAllLanes, ahead, d);
+    if (lane % kMarkWords >= d) ahead += from;
+  }
+  ahead -= __popc(mine);
+  if (word < n_words) ahead += before[word / kMarkWords];
+  for (unsigned left = __ballot_sync(kAllLanes, mine != 0); left != 0; left &= left - 1) {
+    const int w = __ffs(left) - 1;
+    const unsigned given = __shfl_sync(kAllLanes, mine, w);
+    const std::uint32_t at = __shfl_sync(kAllLanes, ahead, w);
+    if ((given >> lane) & 1u)
+      to[at + votes_below(given)] = static_cast<int>((word - lane + w) * 32 + lane);
+  }
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,152 @@
+// The first kernel of a query on an NVIDIA GPU: it answers every sphere as if the wall were far,
+// and lists those near to it.
+#pragma once
+
+#include "grid/lookup/brick_filter.h"
+#include "parallel/cuda_early.h"
+#include "parallel/cuda_warp.h"
+#include "query/sphere.h"
+
+#include <cuda_pipeline_primitives.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lsdcd {
+
+// A sphere near the wall and the list of its cell, so that who answers waits for neither.
+template <class S>
+struct alignas(16) NearSphere {
+  S s;
+  Cell cell;
+  std::uint32_t sphere, pad;
+};
+
+// Of the first kernel: threads of a block, blocks at once on a processor (32 registers a thread),
+// and bytes of spheres in flight for each thread.
+constexpr unsigned kNearBlock = 256, kNearBlocks = 8, kNearBytes = 64;
+template <class S>
+constexpr unsigned kNearEach = kNearBytes / sizeof(S);
+template <class S>
+constexpr unsigned kNearTile = kNearBlock *kNearEach<S>;
+
+// Spheres are in as many lists as a warp has lanes: a list has every so many-th block's, and they
+// count in as many places. A list grows from its front by those whose cell has one candidate, and
+// from its back by those with several.
+constexpr unsigned kNearLists = 32;
+struct NearCounts {
+  struct alignas(128) OfList {
+    unsigned long long n;    // one candidate: low word; several: high word
+  } list[kNearLists];
+  unsigned with_long;    // of those with several, how many have lists that are long
+};
+template <class S>
+struct NearLists {
+  NearSphere<S> *first;
+  unsigned room;    // of a list
+  NearCounts *counts;
+
+  __device__ NearSphere<S> *list(unsigned l) const { return first + std::size_t(l) * room; }
+};
+
+// Answers n of the work's spheres as if all were far, and lists those that are not.
+template <class Work>
+__global__ void __launch_bounds__(kNearBlock, kNearBlocks)
+    list_near(unsigned n, const __grid_constant__ Work work,
+              const NearLists<typename Work::Item> lists)
+{
+  using S = typename Work::Item;
+  constexpr unsigned kEach = kNearEach<S>;
+  let_next_begin();
+  __shared__ uint4 room[kNearTile<S> * sizeof(S) / sizeof(uint4)];
+  __shared__ std::uint16_t maybe_at[kNearTile<S>];
+  __shared__ std::uint32_t coarse[CoarseTable::kWords];
+  __shared__ unsigned n_maybe;
+  S *const sphere = reinterpret_cast<S *>(room);
+
+  // Past the caches and the registers.
+  const unsigned tile = blockIdx.x * kNearTile<S>, n_tile = min(n - tile, kNearTile<S>);
+#pragma unroll
+  for (unsigned k = 0; k < kEach; k++) {
+    const unsigned i = threadIdx.x + k * kNearBlock;
+    const uint4 *from = reinterpret_cast<const uint4 *>(work.spheres + tile + min(i, n_tile - 1));
+#pragma unroll
+    for (unsigned piece = 0; piece < sizeof(S) / sizeof(uint4); piece++)
+      __pipeline_memcpy_async(reinterpret_cast<uint4 *>(sphere + i) + piece, from + piece,
+                              sizeof(uint4));
+  }
+  __pipeline_commit();
+  for (unsigned w = threadIdx.x; w < CoarseTable::kWords; w += kNearBlock)
+    coarse[w] = work.coarse.words[w];
+  if (threadIdx.x == 0) n_maybe = 0;
+  __syncthreads();
+  __pipeline_wait_prior(0);    // this thread's own
+
+  // Words of the table, and in five bits for each which bit of it; all bits where it is not known
+  // which to ask for.
+  static_assert(5 * kEach <= 32, "in one number");
+  std::uint32_t bit = 0, word[kEach];
+#pragma unroll
+  for (unsigned k = 0; k < kEach; k++) {
+    const BrickGuess guess = work.guess(sphere[threadIdx.x + k * kNearBlock]);
+    word[k] = guess.unsure ? ~0u : 0;
+    if (guess.inside & !guess.unsure &&
+        CoarseTable::at(coarse, work.filter.place(work.coarse, guess))) {
+      const std::uint32_t place = work.filter.place(work.grid, guess);
+      bit |= place % 32 << 5 * k;
+      word[k] = work.table.words[place / 32].bits;
+    }
+  }
+  unsigned votes[kEach], all = 0;
+#pragma unroll
+  for (unsigned k = 0; k < kEach; k++) {
+    const bool there = threadIdx.x + k * kNearBlock < n_tile;
+    votes[k] = __ballot_sync(kAllLanes, there && (word[k] >> (bit >> 5 * k) % 32 & 1u));
+    all += __popc(votes[k]);
+  }
+  unsigned to = room_at(&n_maybe, all);
+#pragma unroll
+  for (unsigned k = 0; k < kEach; k++) {
+    if (votes[k] >> threadIdx.x % 32 & 1u) {
+      const unsigned at = to + votes_below(votes[k]);
+      maybe_at[at] = static_cast<std::uint16_t>(threadIdx.x + k * kNearBlock);
+    }
+    to += __popc(votes[k]);
+  }
+  for (unsigned four = 4 * threadIdx.x; four < n_tile; four += 4 * kNearBlock)
+    if (four + 4 <= n_tile)
+      work.four_far(tile + four);
+    else
+      for (unsigned i = four; i < n_tile; i++) work.far(tile + i);
+  __syncthreads();
+
+  // Few may be in a brick, and those in full warps, nearly always in one turn.
+  const unsigned mine = blockIdx.x % kNearLists, n_turns = n_maybe;
+  for (unsigned first = threadIdx.x / 32 * 32; first < n_turns; first += kNearBlock) {
+    const unsigned m = first + threadIdx.x % 32;
+    NearSphere<S> near;
+    near.pad = 0;
+    std::uint32_t cell = kNoCell;
+    if (m < n_turns) {
+      near.sphere = tile + maybe_at[m];
+      near.s = sphere[maybe_at[m]];
+      work.check(near.sphere, near.s);
+      cell = work.cell(near.s);
+      if (cell != kNoCell) near.cell = *work.list(cell);
+    }
+    const bool is_near = cell != kNoCell, is_one = is_near && near.cell.count == 1;
+    const unsigned one = __ballot_sync(kAllLanes, is_one),
+                   several = __ballot_sync(kAllLanes, is_near && !is_one);
+    unsigned long long at = 0;
+    if (threadIdx.x % 32 == 0 && (one | several) != 0)
+      at = atomicAdd(&lists.counts->list[mine].n,
+                     static_cast<unsigned long long>(__popc(several)) << 32 | __popc(one));
+    at = __shfl_sync(kAllLanes, at, 0);
+    const unsigned to =
+        is_one ? static_cast<unsigned>(at) + votes_below(one)
+               : lists.room - 1 - static_cast<unsigned>(at >> 32) - votes_below(several);
+    if (is_near) lists.list(mine)[to] = near;
+  }
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Checks the house of src and kokkos: who includes whom, where files lie, how long they are.
+
+usage: check_includes.py [ROOT]
+
+* A file includes its own room and rooms on lower floors (FLOORS, from the lowest). Rooms of one
+  floor do not include each other, but for the pairs in BESIDE.
+* Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name.
+* src itself has no source file: each lies in a room, and each room has a floor.
+* A file of more than MOST_LINES lines says why in one of its first five lines:
+  "// Over 300 lines: reason".
+
+Prints one line per violation, and exits with 1 if there is one.
+"""
+import os
+import re
+import sys
+
+FLOORS = [["base"], ["parallel"], ["geometry"], ["mesh"], ["grid"], ["contact"], ["model"], ["engine"],
+          ["bodies", "query", "tune", "study", "effects", "output", "material"],
+          ["deck"], ["lammps", "tool", "api"], ["kokkos"]]
+BESIDE = {("study", "query")}
+LAMMPS_ROOMS = {"lammps", "kokkos"}
+GENERATED = {"effects": "effects_measured.h", "grid": "lsdcd_grid_sources.h"}
+MOST_LINES = 300
+
+# What is not yet as it should be; an entry that is no longer needed is a violation, too.
+INCLUDE_EXCEPTIONS = {
+    ("src/parallel/cuda_bricks.h", "grid/lookup/brick_words.h"),    # CudaBackend::select reads bricks
+}
+LENGTH_EXCEPTIONS = {
+    "src/engine/engine_cuda.cu", "src/engine/force/law_step.h", "src/engine/resident_on.h",
+    "src/lammps/fix_wall_lsdcd.cpp", "src/parallel/backend_cuda.h",
+}
+
+FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
+SOURCE = re.compile(r"\.(h|cuh|cpp|cu)(\.in)?$")
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
+
+
+def sources(root):
+    for top in ("src", "kokkos"):
+        for folder, _, names in os.walk(os.path.join(root, top)):
+            for name in sorted(names):
+                if SOURCE.search(name):
+                    yield os.path.relpath(os.path.join(folder, name), root)
+
+
+def room_of(path):
+    parts = path.split("/")
+    return "kokkos" if parts[0] == "kokkos" else parts[1] if len(parts) > 2 else None
+
+
+def wrong_include(room, included):
+    """Why a file of `room` may not include this; None: it may."""
+    if "/" not in included:
+        if room in LAMMPS_ROOMS or GENERATED.get(room) == included:
+            return None
+        return "has no room in its name"
+    other = included.split("/")[0]
+    if other not in FLOOR:
+        return f"is of an unknown room {other}"
+    if other == room or FLOOR[other] < FLOOR[room] or (room, other) in BESIDE:
+        return None
+    return f"lies in a room {'beside' if FLOOR[other] == FLOOR[room] else 'above'} {room}"
+
+
+def violations(root):
+    unused = INCLUDE_EXCEPTIONS | LENGTH_EXCEPTIONS
+    for path in sources(root):
+        with open(os.path.join(root, path), encoding="utf-8") as f:
+            lines = f.read().splitlines()
+        room = room_of(path)
+        if room not in FLOOR:
+            yield f"{path}: lies in no room" if room is None else f"{path}: room {room} has no floor"
+            continue
+        for number, line in enumerate(lines, 1):
+            include = INCLUDE.match(line)
+            why = include and wrong_include(room, include[1])
+            if why and (path, include[1]) in INCLUDE_EXCEPTIONS:
+                unused = unused - {(path, include[1])}
+            elif why:
+                yield f"{path}:{number}: {include[1]} {why}"
+        if len(lines) > MOST_LINES and not any(f"Over {MOST_LINES} lines: " in s for s in lines[:5]):
+            if path in LENGTH_EXCEPTIONS:
+                unused = unused - {path}
+            else:
+                yield f"{path}: {len(lines)} lines and no '// Over {MOST_LINES} lines: reason'"
+    for entry in sorted(map(str, unused)):
+        yield f"check_includes.py: the exception {entry} is not needed"
+
+
+def main():
+    here = os.path.dirname(os.path.abspath(__file__))
+    root = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.dirname(here))
+    found = list(violations(root))
+    for line in found:
+        print(line)
+    n = sum(1 for _ in sources(root))
+    print(f"{len(found)} violations in {n} files")
+    return 1 if found or n == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
