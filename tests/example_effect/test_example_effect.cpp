@@ -2,6 +2,7 @@
 // run by the library's own kernel.
 #include "example_effect/saturating_damping.h"
 
+#include "engine/engine_on.h"
 #include "engine/force/host_law.h"
 #include "support/laws.h"
 #include "support/meshes.h"
@@ -27,24 +28,11 @@ HostLaw compiled(const SaturatingLaw<Real> &law)
 Real force_at(Real v_normal, const HostLaw &law)
 {
   Scene scene(floor_mesh(2, 2), 0.5, hooke(1));
-  const Real x[] = {0.1, 0.2, 0.49}, v[] = {0, 0, v_normal}, omega[] = {0, 0, 0};
-  const Real radius = 0.5, mass = 2;
-  Spheres spheres;
-  spheres.n = 1;
-  spheres.x = x;
-  spheres.v = v;
-  spheres.omega = omega;
-  spheres.radius = &radius;
-  spheres.mass = &mass;
-  ForceSettings settings = {};
-  settings.dt = 1e-4;
-  SphereResult result;
-  LawJob job = job_of(scene.grid.view(), settings, spheres);
-  return_results(job, &result);
-  CpuBackend backend;
-  law.start(law.law, job, 1, backend);
-  EXPECT_EQ(result.n_contacts, 1);
-  return result.force.z;
+  scene.use(std::make_unique<EngineOn<CpuBackend>>(EngineSettings(), law, CpuBackend()));
+  scene.add_sphere({0.1, 0.2, 0.49}, 0.5, 2, {0, 0, v_normal});
+  scene.compute(1e-4);
+  EXPECT_EQ(scene.engine->totals().contacts, 1);
+  return scene.force(0).z;
 }
 
 TEST(example_effect, damps_as_its_formula_says)

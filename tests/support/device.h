@@ -8,7 +8,7 @@
 
 namespace lsdcd {
 
-// LSDCD_TEST_DEVICE: cpu (or nothing), cuda, resident, resident_cuda.
+// LSDCD_TEST_DEVICE: cpu (or nothing), cuda, cuda_in_place.
 inline bool test_device_has(const char *word)
 {
   const char *device = std::getenv("LSDCD_TEST_DEVICE");
@@ -18,9 +18,9 @@ inline bool test_on_cuda()
 {
   return test_device_has("cuda");
 }
-inline bool test_is_resident()
+inline bool test_in_place()
 {
-  return test_device_has("resident");
+  return test_device_has("in_place");
 }
 inline Device test_device()
 {

@@ -7,67 +7,56 @@ namespace lsdcd {
 
 namespace {
 
-// Brings the host's spheres and springs to where a resident engine computes, and back, in
-// every step. Vectors lie there as x x x y y y z z z in one step and as x y z x y z in the next.
-class ResidentForHost : public WallEngine {
+// Brings a host's spheres to where an engine has its particles, and forces back. Vectors lie there
+// as x x x y y y z z z in one step and as x y z x y z in the next.
+class InPlaceForHost : public WallEngine {
  public:
-  ResidentForHost(std::unique_ptr<ResidentEngine> engine, bool has_history, bool cuda) :
-      engine_(std::move(engine)), has_history_(has_history), x_(cuda), v_(cuda), omega_(cuda),
-      force_(cuda), torque_(cuda), radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda),
-      mask_(cuda)
+  InPlaceForHost(std::unique_ptr<InPlaceEngine> engine, bool cuda) :
+      engine_(std::move(engine)), x_(cuda), v_(cuda), omega_(cuda), force_(cuda), torque_(cuda),
+      radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda), mask_(cuda)
   {
   }
 
   std::string backend() const override { return engine_->backend(); }
   void set_grid(const GridView &grid) override { engine_->set_grid(grid); }
+  Real largest_radius(const Spheres &s) override { return engine_->largest_radius(places(s)); }
+  void choose(const Spheres &s, Real margin, bool watch) override
+  {
+    engine_->choose(places(s), margin, watch);
+  }
+  bool has_moved(const Spheres &s) override { return engine_->has_moved(places(s)); }
 
-  void start(const Spheres &host, const StepSettings &step, SpringStore *springs) override
+  void start(const Spheres &host, const StepSettings &step) override
   {
     host_ = host;
-    springs_ = has_history_ ? springs : nullptr;
-    const std::size_t n = host.n;
-    Spheres s = host;
-    const auto put = [n](DeviceArray<Real> &to, const Real *from) {
-      return from ? to.put(from, n) : nullptr;
-    };
     packed_ = !packed_;
-    s.x = put_vectors(x_, host.x, n);
-    s.radius = put(radius_, host.radius);
-    s.mask = host.mask ? mask_.put(host.mask, n) : nullptr;
-    if (springs_) engine_->springs_from(*springs_, host.n);
-    // As LAMMPS has it: places first, and velocities and forces after the search has begun.
-    s.v = s.omega = {};
-    s.force = s.torque = {};
-    s.mass = s.temperature = s.heat_flow = nullptr;
-    engine_->choose(s, 0);
-    engine_->mark_places();
-    engine_->search(s, step);
+    const std::size_t n = host.n;
+    Spheres s = places(host);
     s.v = put_vectors(v_, host.v, n);
     s.omega = put_vectors(omega_, host.omega, n);
     const std::vector<Real> none(3 * n, 0);
     s.force = rows_in(force_.put(none), n);
     s.torque = rows_in(torque_.put(none), n);
-    s.mass = put(mass_, host.mass);
-    s.temperature = put(temperature_, host.temperature);
-    s.heat_flow = put(heat_, host.heat_flow);
-    engine_->start(s, step, nullptr);
-    moves_ = step.update_history;
+    s.mass = put(mass_, host.mass, n);
+    s.temperature = put(temperature_, host.temperature, n);
+    s.heat_flow = put(heat_, host.heat_flow, n);
+    engine_->start(s, step);
   }
 
   void collect() override
   {
     engine_->collect();
-    engine_->look();    // throws where a sphere was left out
     const std::size_t n = host_.n;
     add_vectors(host_.force, force_.get(3 * n), n);
     add_vectors(host_.torque, torque_.get(3 * n), n);
-    if (host_.heat_flow) {
-      const std::vector<Real> heat = heat_.get(n);
-      for (std::size_t i = 0; i < n; i++) host_.heat_flow[i] = heat[i];
-    }
-    if (springs_ && moves_) engine_->springs_to(*springs_, host_.n);
+    if (!host_.heat_flow) return;
+    const std::vector<Real> heat = heat_.get(n);
+    for (std::size_t i = 0; i < n; i++) host_.heat_flow[i] = heat[i];
   }
 
+  StepNotes look() override { return engine_->look(); }
+  void springs_to(SpringStore &store, int n) override { engine_->springs_to(store, n); }
+  void springs_from(const SpringStore &store, int n) override { engine_->springs_from(store, n); }
   const WallTotals &totals() const override { return engine_->totals(); }
   int n_touching() const override { return engine_->n_touching(); }
   const int *touching() const override { return engine_->touching(); }
@@ -79,6 +68,22 @@ class ResidentForHost : public WallEngine {
   std::size_t bytes() const override { return engine_->bytes(); }
 
  private:
+  // What a choice reads.
+  Spheres places(const Spheres &host)
+  {
+    const std::size_t n = host.n;
+    Spheres s;
+    s.n = host.n;
+    s.x = put_vectors(x_, host.x, n);
+    s.radius = put(radius_, host.radius, n);
+    s.mask = host.mask ? mask_.put(host.mask, n) : nullptr;
+    s.group_bit = host.group_bit;
+    return s;
+  }
+  static Real *put(DeviceArray<Real> &to, const Real *from, std::size_t n)
+  {
+    return from ? to.put(from, n) : nullptr;
+  }
   Rows<Real> rows_in(Real *at, std::size_t n) const
   {
     return packed_ ? Rows<Real>(at) : Rows<Real>(at, 1, static_cast<std::ptrdiff_t>(n));
@@ -97,46 +102,33 @@ class ResidentForHost : public WallEngine {
     for (std::size_t i = 0; i < n; i++) to.add(i, rows[i]);
   }
 
-  std::unique_ptr<ResidentEngine> engine_;
-  bool has_history_, moves_ = false, packed_ = false;
+  std::unique_ptr<InPlaceEngine> engine_;
+  bool packed_ = false;
   Spheres host_;
-  SpringStore *springs_ = nullptr;
   DeviceArray<Real> x_, v_, omega_, force_, torque_, radius_, mass_, temperature_, heat_;
   DeviceArray<int> mask_;
 };
 
 }    // namespace
 
-std::unique_ptr<WallEngine> for_host(std::unique_ptr<ResidentEngine> engine, bool has_history,
-                                     bool cuda)
+std::unique_ptr<WallEngine> in_place(EngineSettings settings)
 {
-  return std::make_unique<ResidentForHost>(std::move(engine), has_history, cuda);
-}
-
-std::unique_ptr<WallEngine> make_resident_test_engine(const EngineSettings &settings)
-{
-  const bool cuda = settings.device == Device::cuda;
-  return for_host(cuda ? make_resident_cuda_engine(settings, 0, nullptr)
-                       : make_resident_cpu_engine(settings),
-                  settings.law.has_history(), cuda);
+  const bool cuda = test_on_cuda();
+  return std::make_unique<InPlaceForHost>(
+      cuda ? make_cuda_engine_in_place(settings, 0, nullptr) : make_cpu_engine(settings), cuda);
 }
 
 std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings)
 {
+  if (test_in_place()) return in_place(settings);
   settings.device = test_device();
-  return test_is_resident() ? make_resident_test_engine(settings) : make_engine(settings);
-}
-
-std::unique_ptr<WallEngine> on_host(EngineSettings settings)
-{
-  settings.device = Device::cpu;
   return make_engine(settings);
 }
 
-std::unique_ptr<WallEngine> in_place(EngineSettings settings)
+std::unique_ptr<WallEngine> on_cpu(EngineSettings settings)
 {
-  settings.device = test_device();
-  return make_resident_test_engine(settings);
+  settings.device = Device::cpu;
+  return make_engine(settings);
 }
 
 }    // namespace lsdcd

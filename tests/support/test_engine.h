@@ -7,11 +7,13 @@
 
 namespace lsdcd {
 
-// By LSDCD_TEST_DEVICE: cpu; cuda, which takes a host's particles; cuda_in_place: an engine for
-// particles in the GPU's memory, where this one brings those of a host.
+// By LSDCD_TEST_DEVICE: cpu; cuda, which takes a host's particles; cuda_in_place, for particles in
+// the GPU's memory, where this brings those of the test.
 std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings);
 
-// What tests compare: the engine of the CPU, and the one that the run is for.
+// What tests compare: the engine of the CPU, and one for particles that lie, in other layouts,
+// where the run's device computes.
 std::unique_ptr<WallEngine> on_cpu(EngineSettings settings);
+std::unique_ptr<WallEngine> in_place(EngineSettings settings);
 
 }    // namespace lsdcd

@@ -1,9 +1,9 @@
-// The engine for particles that live where it computes against the one for a host's: one
+// Engines for particles in place, in other layouts and behind an adapter against the CPU's: one
 // source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches.
 #include "contact/spring_store.h"
 #include "effects/effects.h"
-#include "engine/force/law_step.h"
-#include "engine/resident_on.h"
+#include "engine/force/host_law.h"
+#include "engine/host_adapter.h"
 #include "grid/lookup/near_within.h"
 #include "parallel/backend_cpu.h"
 #include "support/crowd.h"
@@ -31,34 +31,127 @@ void expect_same(const Outcome &a, const Outcome &b, const std::string &name)
   EXPECT_GT(a.totals.contacts, 0) << name;
 }
 
+// A backend that has two kernels for a step, as a GPU does, and counts what crosses between host
+// and device, and waiting.
+struct CountingBackend : CpuBackend {
+  static constexpr bool kOnHost = false;
+  template <class Work>
+  void step(std::size_t n, const Work &work)
+  {
+    work.begin();
+    for (std::size_t k = 0; k < n; k++)
+      if (!work.single(k)) work.left()[fetch_add(work.n_left(), 1)] = static_cast<int>(k);
+    for (int s = 0; s < *work.n_left(); s++) work.several(work.left()[s]);
+  }
+  static int &crossings()
+  {
+    static int n = 0;
+    return n;
+  }
+  template <class T>
+  void copy_in(const T *host, T *to, std::size_t n)
+  {
+    crossings()++;
+    CpuBackend::copy_in(host, to, n);
+  }
+  template <class T>
+  std::vector<T> to_host(const Array<T> &a, std::size_t n)
+  {
+    crossings()++;
+    return CpuBackend::to_host(a, n);
+  }
+  void wait() { crossings()++; }
+  template <class T, class Read>
+  T largest(std::size_t n, const Read &read)
+  {
+    crossings()++;
+    return CpuBackend::largest<T>(n, read);
+  }
+  template <class T>
+  T exclusive_scan(T *values, std::size_t n)
+  {
+    crossings()++;
+    return CpuBackend::exclusive_scan(values, n);
+  }
+  template <class Work>
+  void select(std::size_t n, const Work &work, SelectRoom &room, int *to, std::uint32_t *total)
+  {
+    crossings()++;
+    CpuBackend::select(n, work, room, to, total);
+  }
+};
+
+using CountingLaw = CompiledLaw<CountingBackend>;
+
+// Of granular laws only the one with every effect is compiled.
+struct MakeCountingLaw {
+  WallEffects effects;
+
+  template <class Law>
+  CountingLaw operator()(const Law &law) const
+  {
+    if constexpr (!Law::kCouple || (Law::kHeat && Law::kExtra == 5))
+      return on_wall<WallKernels::both>(law, effects, [](const auto &compiled) {
+        using L = std::decay_t<decltype(compiled)>;
+        return CountingLaw{traits_of<L>(), LawBytes(compiled), start_law<L, CountingBackend>};
+      });
+    else
+      throw std::logic_error("not compiled for this test");
+  }
+};
+
+CountingLaw counting_law(const EngineSettings &s)
+{
+  const MakeCountingLaw make = {wall_effects(s)};
+  if (s.law.style != LawStyle::granular) {
+    if (s.precision == Precision::single_) return with_classic_law<float>(s.law, make);
+    return with_classic_law<Real>(s.law, make);
+  }
+  const GranularLaw &g = s.law.granular;
+  return with_granular_law(s.law, JkrNormal<Real>(g.modulus, g.cohesion), make);
+}
+
+std::unique_ptr<WallEngine> by_two_kernels(const EngineSettings &s)
+{
+  return std::make_unique<EngineOn<CountingBackend>>(s, counting_law(s), CountingBackend());
+}
+
+std::unique_ptr<WallEngine> by_adapter(const EngineSettings &s)
+{
+  return std::make_unique<HostAdapter<CpuBackend>>(s, host_law(s), CpuBackend());
+}
+
 ContactLaw history()
 {
   return classic(LawStyle::hertz_history);
 }
 
-TEST(resident, gives_what_every_effect_gives_on_the_host)
+TEST(engine, gives_what_every_effect_gives_on_the_host)
 {
   std::vector<Case> walls = cases();
   walls.erase(walls.begin() + 2);    // the largest one tells no more and takes the longest
   for (const EffectCase &effect : effect_cases()) {
     const Case &c = walls[effect.name.size() % walls.size()];
     const EngineSettings &s = effect.settings;
-    expect_same(run_steps(c, s.law, on_host, 2000, kComplete, s),
-                run_steps(c, s.law, in_place, 2000, kComplete, s), effect.name);
+    const Outcome cpu = run_steps(c, s.law, on_cpu, 2000, kComplete, s);
+    expect_same(cpu, run_steps(c, s.law, in_place, 2000, kComplete, s), effect.name);
+    expect_same(cpu, run_steps(c, s.law, by_adapter, 2000, kComplete, s), effect.name);
   }
 }
 
-TEST(resident, gives_what_the_host_gives_however_it_searches)
+TEST(engine, gives_what_the_host_gives_however_it_searches)
 {
   const int spheres = std::getenv("LSDCD_QUICK") ? 200 : 2000;
   for (const Search &search : other_searches())
-    for (const Case &c : cases())
-      expect_same(run_steps(c, history(), on_host, spheres, search),
-                  run_steps(c, history(), in_place, spheres, search),
-                  std::string(c.name) + ", " + search.name);
+    for (const Case &c : cases()) {
+      const std::string name = std::string(c.name) + ", " + search.name;
+      const Outcome cpu = run_steps(c, history(), on_cpu, spheres, search);
+      expect_same(cpu, run_steps(c, history(), in_place, spheres, search), name);
+      expect_same(cpu, run_steps(c, history(), by_two_kernels, spheres, search), name);
+    }
 }
 
-TEST(resident, drops_no_contact_of_crowded_spheres)
+TEST(engine, drops_no_contact_of_crowded_spheres)
 {
   for (int n : {9, 40, 100, 400}) {
     EngineSettings s;
@@ -82,11 +175,11 @@ TEST(resident, drops_no_contact_of_crowded_spheres)
       EXPECT_EQ(scene.engine->totals().contacts, n * spheres);
       return force;
     };
-    EXPECT_TRUE(same_bytes(outcome(on_host), outcome(in_place))) << n;
+    EXPECT_TRUE(same_bytes(outcome(on_cpu), outcome(in_place))) << n;
   }
 }
 
-// A resident engine with particles of its own, in its memory.
+// An engine with particles of its own, in its memory.
 class Particles {
  public:
   Particles(const EngineSettings &settings, int n, Real reach, bool cuda = test_on_cuda()) :
@@ -94,7 +187,7 @@ class Particles {
       n_(n)
   {
     engine =
-        cuda ? make_resident_cuda_engine(settings, 0, nullptr) : make_resident_cpu_engine(settings);
+        cuda ? make_cuda_engine_in_place(settings, 0, nullptr) : make_cpu_engine(settings);
     const WallMesh mesh = weld(floor_mesh(40, 10, 7), -1);
     GridSettings g;
     g.reach = reach;
@@ -120,7 +213,8 @@ class Particles {
     if (choice == Choice::now) engine->choose(spheres(), 0);
     StepSettings step;
     step.dt = dt;
-    engine->start(spheres(), step, nullptr);
+    engine->start(spheres(), step);
+    engine->collect();
   }
 
   Spheres spheres()
@@ -146,7 +240,7 @@ class Particles {
     return store;
   }
 
-  std::unique_ptr<ResidentEngine> engine;
+  std::unique_ptr<InPlaceEngine> engine;
   TriangleGrid grid;
   FlatGrid flat;
   std::vector<Real> host_x, host_v, host_radius;
@@ -171,7 +265,7 @@ bool same_springs(const SpringStore &a, int i, const SpringStore &b, int j)
   return same_bytes(of(a, i), of(b, j));
 }
 
-TEST(resident, a_list_that_is_kept_gives_the_same_bits)
+TEST(engine, a_list_that_is_kept_gives_the_same_bits)
 {
   const int n = 3000;
   Particles kept(with_history(), n, 0.5), anew(with_history(), n, 0.5);
@@ -195,7 +289,7 @@ TEST(resident, a_list_that_is_kept_gives_the_same_bits)
   EXPECT_GT(kept.engine->n_near(), anew.engine->n_near());
 }
 
-TEST(resident, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
+TEST(engine, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
 {
   Particles p(with_history(), 1, 0.5);
   const GridView grid = p.flat.view();
@@ -220,7 +314,7 @@ TEST(resident, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
   EXPECT_GT(far, 1000);    // it is not near everywhere
 }
 
-TEST(resident, springs_follow_through_pack_and_unpack)
+TEST(engine, springs_follow_through_pack_and_unpack)
 {
   const int n = 2000, stay = 1500;
   Particles from(with_history(), n, 0.5), to(with_history(), n, 0.5);
@@ -280,58 +374,16 @@ TEST(resident, springs_follow_through_pack_and_unpack)
   EXPECT_TRUE(same_springs(after, n - 1, own, n - 1));
 }
 
-// A backend that counts what crosses between host and device, and waiting; it finds
-// contacts first, as a GPU does.
-struct CountingBackend : CpuBackend {
-  static constexpr bool kFindsFirst = true;
-  static int &crossings()
-  {
-    static int n = 0;
-    return n;
-  }
-  template <class T>
-  void copy_in(const T *host, T *to, std::size_t n)
-  {
-    crossings()++;
-    CpuBackend::copy_in(host, to, n);
-  }
-  template <class T>
-  std::vector<T> to_host(const Array<T> &a, std::size_t n)
-  {
-    crossings()++;
-    return CpuBackend::to_host(a, n);
-  }
-  void wait() { crossings()++; }
-  template <class T, class Read>
-  T largest(std::size_t n, const Read &read)
-  {
-    crossings()++;
-    return CpuBackend::largest<T>(n, read);
-  }
-  template <class T>
-  T exclusive_scan(T *values, std::size_t n)
-  {
-    crossings()++;
-    return CpuBackend::exclusive_scan(values, n);
-  }
-  template <class Work>
-  void select(std::size_t n, const Work &work, SelectRoom &room, int *to, std::uint32_t *total)
-  {
-    crossings()++;
-    CpuBackend::select(n, work, room, to, total);
-  }
-};
-
-TEST(resident, a_step_without_outputs_neither_copies_nor_waits)
+TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
 {
   using Law = OnWall<HertzHistoryLaw<Real>, false, false>;
   const ContactLaw p = history();
   const Law law = {{{p.k_normal}, {p.gamma_normal}, {p.k_tangent, p.gamma_tangent, p.mu}, false}};
   Particles particles(with_history(), 2000, 0.5, false);
-  particles.engine = std::make_unique<ResidentOn<CountingBackend>>(
+  particles.engine = std::make_unique<EngineOn<CountingBackend>>(
       with_history(),
       CompiledLaw<CountingBackend>{traits_of<Law>(), LawBytes(law),
-                                   start_found_law<Law, CountingBackend>},
+                                   start_law<Law, CountingBackend>},
       CountingBackend());
   particles.engine->set_grid(particles.flat.view());
   particles.engine->grow(2000);
@@ -342,9 +394,7 @@ TEST(resident, a_step_without_outputs_neither_copies_nor_waits)
     StepSettings step;
     step.dt = 0.01;
     step.per_sphere = per_sphere;
-    particles.engine->mark_places();
-    particles.engine->search(particles.spheres(), step);
-    particles.engine->start(particles.spheres(), step, nullptr);
+    particles.engine->start(particles.spheres(), step);
     particles.engine->collect();
     return CountingBackend::crossings() - before;
   };
@@ -353,7 +403,7 @@ TEST(resident, a_step_without_outputs_neither_copies_nor_waits)
   EXPECT_GT(particles.engine->totals().contacts, 100);
 }
 
-TEST(resident, outputs_of_the_step_that_asks_for_them_are_those_of_always_asking)
+TEST(engine, outputs_of_the_step_that_asks_for_them_are_those_of_always_asking)
 {
   const int n = 3000;
   Particles once(with_history(), n, 0.5), always(with_history(), n, 0.5);
@@ -361,7 +411,7 @@ TEST(resident, outputs_of_the_step_that_asks_for_them_are_those_of_always_asking
     StepSettings step;
     step.dt = 0.01;
     step.per_sphere = asks;
-    p.engine->start(p.spheres(), step, nullptr);
+    p.engine->start(p.spheres(), step);
     p.engine->collect();
     const SphereOutput *first = p.engine->sphere_output();
     return std::vector<SphereOutput>(first, first + p.engine->n_touching());
@@ -376,7 +426,7 @@ TEST(resident, outputs_of_the_step_that_asks_for_them_are_those_of_always_asking
   }
 }
 
-TEST(resident, springs_that_are_taken_over_are_all_that_there_are)
+TEST(engine, springs_that_are_taken_over_are_all_that_there_are)
 {
   const int n = 2000, few = 10;
   Particles p(with_history(), n, 0.5);
@@ -395,7 +445,7 @@ TEST(resident, springs_that_are_taken_over_are_all_that_there_are)
   EXPECT_EQ(have, 0);
 }
 
-TEST(resident, a_sphere_that_was_far_has_no_spring_of_before)
+TEST(engine, a_sphere_that_was_far_has_no_spring_of_before)
 {
   Particles p(with_history(), 1, 0.5);
   p.host_x = {0.3, 0.1, 0.45};
@@ -412,7 +462,7 @@ TEST(resident, a_sphere_that_was_far_has_no_spring_of_before)
   EXPECT_NEAR(p.springs().of(0)->stretch.x, three / 3, 1e-15);
 }
 
-TEST(resident, a_sphere_larger_than_the_reach_is_an_error)
+TEST(engine, a_sphere_larger_than_the_reach_is_an_error)
 {
   Particles p(with_history(), 100, 0.5);
   p.host_radius[7] = 0.6;
@@ -425,7 +475,7 @@ TEST(resident, a_sphere_larger_than_the_reach_is_an_error)
   }
 }
 
-TEST(resident, a_sphere_that_is_pulled_from_past_the_reach_is_named)
+TEST(engine, a_sphere_that_is_pulled_from_past_the_reach_is_named)
 {
   int tried = 0;
   for (const EffectCase &effect : effect_cases()) {
@@ -453,7 +503,7 @@ TEST(resident, a_sphere_that_is_pulled_from_past_the_reach_is_named)
   EXPECT_GT(tried, 0);
 }
 
-TEST(resident, a_sphere_that_grows_past_the_reach_is_an_error_at_the_next_look)
+TEST(engine, a_sphere_that_grows_past_the_reach_is_an_error_at_the_next_look)
 {
   Particles p(with_history(), 100, 0.5);
   for (int i = 0; i < 100; i++) p.host_x[3 * i + 2] = 0.1;
@@ -465,7 +515,7 @@ TEST(resident, a_sphere_that_grows_past_the_reach_is_an_error_at_the_next_look)
   EXPECT_THROW(p.engine->look(), std::exception);
 }
 
-TEST(resident, notes_the_deepest_overlap_of_all_steps_since_the_last_look)
+TEST(engine, notes_the_deepest_overlap_of_all_steps_since_the_last_look)
 {
   Particles p(with_history(), 3, 0.5);
   p.host_x = {0.3, 0.1, 0.45, 4, 4, 0.3, -4, 3, 3};
@@ -482,16 +532,226 @@ TEST(resident, notes_the_deepest_overlap_of_all_steps_since_the_last_look)
   EXPECT_NEAR(p.engine->look().deepest, 0.1, 1e-7);
 }
 
-TEST(resident, many_springs_take_shared_places)
+TEST(engine, many_springs_take_shared_places)
 {
   // A corner of three walls has more contacts than a sphere has places of its own.
   const Case corner = {"box", box_mesh({0, 0, 0}, {1.2, 1.2, 1.2}), 0.5, 0};
-  const Outcome a = run_steps(corner, history(), on_host, 20000);
+  const Outcome a = run_steps(corner, history(), on_cpu, 20000);
   const Outcome b = run_steps(corner, history(), in_place, 20000);
   expect_same(a, b, "corner");
   int three = 0;
   for (const SphereOutput &o : a.outputs) three += o.contacts >= 3;
   EXPECT_GT(three, 300);
+}
+
+// Walls on which there are single contacts, several, and some that are uncertain.
+std::vector<Case> walls()
+{
+  const std::vector<Case> all = cases();
+  return {all[0], all[3], all[4], all[5]};
+}
+
+TEST(engine, with_two_kernels_gives_what_one_pass_gives_beyond_contact_and_with_every_effect)
+{
+  for (const Case &c : walls()) {
+    EngineSettings s;
+    s.law = everything(NormalModel::jkr);
+    s.records = true;
+    s.surface.velocity = {1, 0, 0};
+    expect_same(run_steps(c, s.law, on_cpu, 2000, kComplete, s),
+                run_steps(c, s.law, by_two_kernels, 2000, kComplete, s), c.name);
+  }
+}
+
+TEST(engine, with_two_kernels_gives_what_one_pass_gives_on_one_side_of_the_wall)
+{
+  for (Side side : {Side::in, Side::out}) {
+    EngineSettings s;
+    s.law = classic(LawStyle::hooke);
+    s.side = side;
+    const auto outcome = [&](const EngineMaker &make) {
+      Scene scene(box_mesh({0, 0, 0}, {4, 4, 4}), 0.6, s);
+      scene.use(make(s));
+      // Along a diagonal, through the wall at a corner.
+      for (int i = 0; i < 60; i++)
+        scene.add_sphere(Real(0.05 * i - 0.8) * Vec3{1, 1.01, 0.99}, 0.5, 1, {0.1, 0.2, 0.3});
+      scene.compute(1e-3);
+      std::vector<Vec3> force;
+      for (int i = 0; i < scene.n(); i++) force.push_back(scene.force(i));
+      EXPECT_GT(scene.engine->totals().contacts, 10);
+      return force;
+    };
+    EXPECT_TRUE(same_bytes(outcome(on_cpu), outcome(by_two_kernels)));
+  }
+}
+
+// A step's spheres by what they touch: a face, a corner of three, faces all round, nothing.
+struct Mixture {
+  int single, several, crowded;
+};
+constexpr Mixture kMixtures[] = {{300, 20, 5}, {10, 200, 1}, {0, 0, 0},    {150, 150, 30},
+                                 {1, 1, 1},    {0, 400, 0},  {400, 0, 40}, {0, 0, 2}};
+constexpr int kSpheres = 500, kAllRound = 12;
+
+Vec3 place_in(const Mixture &m, int i)
+{
+  const auto off = [](int k) { return 1e-3 * std::sin(7.0 * k); };
+  const Vec3 a_little = {off(3 * i), off(3 * i + 1), off(3 * i + 2)};
+  if (i < m.single) return Vec3{25, 25, 21} + a_little;
+  if (i < m.single + m.several) return Vec3{21, 21, 21} + a_little;
+  if (i < m.single + m.several + m.crowded) return a_little;
+  return {25, 25, 25};
+}
+
+TEST(engine, takes_spheres_whose_kind_of_contact_changes_from_step_to_step)
+{
+  TriangleSoup soup = faces_all_round(kAllRound);
+  append(soup, box_mesh({20, 20, 20}, {30, 30, 30}));
+  EngineSettings s;
+  s.law = classic(LawStyle::hertz_history);
+  s.corner = Corner::sum;    // each face counts
+  Scene host(soup, 1.1, s), device(soup, 1.1, s), ahead(soup, 1.1, s);
+  host.use(on_cpu(s));
+  device.use(in_place(s));
+  ahead.use(by_two_kernels(s));
+  for (Scene *scene : {&host, &device, &ahead})
+    for (int i = 0; i < kSpheres; i++)
+      scene->add_sphere({25, 25, 25}, 1.05, 1, {0.1, 0.2, 0.3}, {0.3, 0.2, 0.1});
+  for (const Mixture &m : kMixtures) {
+    for (Scene *scene : {&host, &device, &ahead}) {
+      for (int i = 0; i < kSpheres; i++) scene->set_x(i, place_in(m, i));
+      scene->compute(1e-3);
+    }
+    EXPECT_EQ(host.engine->totals().contacts, m.single + 3 * m.several + kAllRound * m.crowded);
+    for (Scene *scene : {&device, &ahead}) {
+      EXPECT_TRUE(same_bytes(std::vector<WallTotals>{host.engine->totals()}, std::vector<WallTotals>{scene->engine->totals()}));
+      int same = 0;
+      for (int i = 0; i < kSpheres; i++) {
+        const int n = host.springs.count(i);
+        same += scene->force(i) == host.force(i) && scene->torque(i) == host.torque(i) &&
+                scene->springs.count(i) == n &&
+                (n == 0 ||
+                 std::memcmp(scene->springs.of(i), host.springs.of(i), n * sizeof(Spring)) == 0);
+      }
+      EXPECT_EQ(same, kSpheres) << m.single << " " << m.several << " " << m.crowded;
+    }
+  }
+}
+
+// Threads of a GPU's second kernel.
+constexpr int kMostLanes = 1 << 17;
+
+TEST(engine, takes_more_spheres_with_several_contacts_than_a_kernel_has_threads)
+{
+  const int n = kMostLanes + 5000;
+  EngineSettings s;
+  s.law = classic(LawStyle::hooke);
+  const auto outcome = [&](const EngineMaker &make) {
+    Scene scene(box_mesh({20, 20, 20}, {30, 30, 30}), 1.1, s);
+    scene.use(make(s));
+    for (int i = 0; i < n; i++)
+      scene.add_sphere(place_in({0, n, 0}, i), 1.05, 1, {0.1, 0.2, 0.3}, {0.3, 0.2, 0.1});
+    scene.compute(1e-3);
+    EXPECT_EQ(scene.engine->totals().contacts, 3 * n);
+    std::vector<Vec3> force;
+    for (int i = 0; i < n; i++) force.push_back(scene.force(i));
+    return force;
+  };
+  const std::vector<Vec3> host = outcome(on_cpu);
+  EXPECT_TRUE(same_bytes(host, outcome(by_two_kernels)));
+  EXPECT_TRUE(same_bytes(host, outcome(in_place)));
+}
+
+// 100 spheres that stay where they are, each in the midst of kAllRound faces.
+struct AllTouching {
+  static constexpr int n = 100;
+
+  AllTouching() :
+      grid(grid_of_faces()), place(test_on_cuda()), zero(test_on_cuda()),
+      force(test_on_cuda()), torque(test_on_cuda()), radius(test_on_cuda()),
+      mass(test_on_cuda())
+  {
+    EngineSettings s;
+    s.law = classic(LawStyle::hertz_history);
+    s.corner = Corner::sum;
+    engine = test_on_cuda() ? make_cuda_engine_in_place(s, 0, nullptr) : make_cpu_engine(s);
+    for (int i = 0; i < n; i++) x.push_back(place_in({0, 0, n}, i));
+    const std::vector<Real> none(3 * n, 0);
+    spheres.n = n;
+    spheres.v = spheres.omega = zero.put(none);
+    spheres.radius = radius.put(std::vector<Real>(n, 1.05));
+    spheres.mass = mass.put(std::vector<Real>(n, 1));
+    spheres.force = force.put(none);
+    spheres.torque = torque.put(none);
+    step.dt = 1e-3;
+    engine->set_grid(grid.view());
+    engine->grow(n);
+    choose();
+  }
+
+  void choose()
+  {
+    spheres.x = place.put(&x[0].x, 3 * n);
+    engine->choose(spheres, 0);
+  }
+
+  static TriangleGrid grid_of_faces()
+  {
+    GridSettings g;
+    g.reach = 1.1;
+    return build_grid(weld(faces_all_round(kAllRound), -1), g);
+  }
+
+  FlatGrid grid;
+  std::unique_ptr<InPlaceEngine> engine;
+  std::vector<Vec3> x;
+  DeviceArray<Real> place, zero, force, torque, radius, mass;
+  Spheres spheres;
+  StepSettings step;
+};
+
+TEST(engine, takes_no_slots_from_the_next_step)
+{
+  // 12 contacts of each of 100 spheres in 60 steps are more than all shared slots.
+  constexpr int n = AllTouching::n, n_steps = 60;
+  static_assert(n * n_steps * kAllRound > 65536 + 3 * n, "");
+  AllTouching all;
+  for (int k = 0; k < n_steps; k++) {
+    all.engine->start(all.spheres, all.step);
+    all.engine->collect();
+  }
+  EXPECT_NO_THROW(all.engine->look());
+  EXPECT_EQ(all.engine->totals().contacts, n * kAllRound);
+}
+
+// A variable of another fix may ask for a wall's force between the forces of atoms and the wall's.
+TEST(engine, keeps_the_totals_of_the_last_step_through_a_choice)
+{
+  AllTouching all;
+  const std::vector<Vec3> x = all.x;
+  for (int i = 0; i < all.n; i += 2) all.x[i].x += 100;
+  all.choose();
+  all.engine->start(all.spheres, all.step);
+  all.engine->collect();
+  // More spheres than there was memory for before, and other columns.
+  all.x = x;
+  all.choose();
+  all.step.per_sphere = true;
+  all.engine->start(all.spheres, all.step);
+  EXPECT_EQ(all.engine->totals().contacts, all.n / 2 * kAllRound);
+  all.engine->collect();
+  EXPECT_EQ(all.engine->totals().contacts, all.n * kAllRound);
+}
+
+// LAMMPS's buffers have room for so many numbers of an atom.
+TEST(engine, packs_a_sphere_into_no_more_than_any_sphere_can_have)
+{
+  AllTouching all;
+  all.engine->start(all.spheres, all.step);
+  all.engine->collect();
+  const int largest = all.engine->largest_packed_size(all.n);
+  EXPECT_EQ(largest, 1 + kAllRound * SpringStore().doubles_per_spring());
+  EXPECT_LE(largest, all.engine->most_packed_size());
 }
 
 }    // namespace
