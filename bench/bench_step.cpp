@@ -1,8 +1,9 @@
-// What a step of the wall costs: choosing spheres, contacts, forces, springs, totals; with
-// the host arrays of a CPU LAMMPS, and with particles that live where the engine computes.
+// What a step of the wall costs: contacts, forces, springs; with the arrays of a CPU LAMMPS, and
+// with particles that lie where the engine computes. Near spheres and their lists of the wall are
+// kept, or made anew in each step.
 #include "bench.h"
 
-#include "engine/resident_engine.h"
+#include "engine/wall_engine.h"
 #include "grid/flat_grid.h"
 #include "mesh/wall_mesh.h"
 #include "study/spheres.h"
@@ -80,14 +81,40 @@ EngineSettings engine_settings(const Style &style, Device device)
   return e;
 }
 
-void measure_style(const Bodies &b, const GridView &grid, const Style &style, Device device,
-                   int repeats, BenchRows &rows, BenchRow row)
+void measure_kept_and_anew(WallEngine &engine, const Spheres &s, const Style &style,
+                           const GridView &grid, bool waits, int repeats, const char *where,
+                           BenchRows &rows, BenchRow row)
+{
+  StepSettings step;
+  step.dt = 1e-6;
+  const int n_steps = waits ? 1 : 20;    // between two looks, which wait
+  for (bool anew : {false, true}) {
+    engine.choose(s, 0);
+    row.timing = time_it(repeats, [&] {
+      for (int k = 0; k < n_steps; k++) {
+        if (anew) engine.choose(s, 0);
+        engine.start(s, step);
+        engine.collect();
+      }
+      engine.look();
+    });
+    for (double *ms : {&row.timing.median_ms, &row.timing.min_ms, &row.timing.max_ms})
+      *ms /= n_steps;
+    fill(row, std::string(style.name) + where + (anew ? ", chosen anew" : ""), engine, grid, s.n);
+    // The near ones are known by their numbers.
+    row.bytes = bytes_of_touching(style, engine.totals().contacts) +
+                (anew ? s.n * kPlaceAndRadius : engine.n_near() * (kPlaceAndRadius + sizeof(int)));
+    rows.add(row);
+  }
+}
+
+// The arrays of a host, whose memory is the CPU's.
+void measure_host(const Bodies &b, const GridView &grid, const Style &style, Device device,
+                  int repeats, BenchRows &rows, const BenchRow &row)
 {
   const int n = static_cast<int>(b.radius.size());
-  auto engine = make_engine(engine_settings(style, device));
+  const auto engine = make_engine(engine_settings(style, device));
   engine->set_grid(grid);
-  SpringStore springs;
-  springs.grow(n);
   std::vector<Real> force(b.x.size(), 0), torque(b.x.size(), 0);
   Spheres s;
   s.n = n;
@@ -98,28 +125,18 @@ void measure_style(const Bodies &b, const GridView &grid, const Style &style, De
   s.mass = b.mass.data();
   s.force = force.data();
   s.torque = torque.data();
-  StepSettings step;
-  step.dt = 1e-6;
-  row.timing = time_it(repeats, [&] {
-    engine->start(s, step, &springs);
-    engine->collect();
-  });
-  fill(row, style.name, *engine, grid, n);
-  row.bytes = n * kPlaceAndRadius + bytes_of_touching(style, engine->totals().contacts);
-  rows.add(row);
+  measure_kept_and_anew(*engine, s, style, grid, true, repeats, "", rows, row);
 }
 
-// Particles where the engine computes: steps with the near ones as they were chosen, and
-// choosing them anew in each, which waits for the device.
-void measure_resident(const Bodies &b, const GridView &grid, const Style &style, Device device,
-                      int repeats, BenchRows &rows, BenchRow row)
+// Particles where the engine computes.
+void measure_in_place(const Bodies &b, const GridView &grid, const Style &style, Device device,
+                      int repeats, BenchRows &rows, const BenchRow &row)
 {
   const int n = static_cast<int>(b.radius.size());
   const bool cuda = device == Device::cuda;
   const EngineSettings e = engine_settings(style, device);
-  const auto engine = cuda ? make_resident_cuda_engine(e, 0, nullptr) : make_resident_cpu_engine(e);
+  const auto engine = cuda ? make_cuda_engine_in_place(e, 0, nullptr) : make_cpu_engine(e);
   engine->set_grid(grid);
-  engine->grow(n);
   DeviceArray<Real> x(cuda), v(cuda), omega(cuda), radius(cuda), mass(cuda), force(cuda),
       torque(cuda);
   const std::vector<Real> zero(b.x.size(), 0);
@@ -132,27 +149,7 @@ void measure_resident(const Bodies &b, const GridView &grid, const Style &style,
   s.mass = mass.put(b.mass);
   s.force = force.put(zero);
   s.torque = torque.put(zero);
-  StepSettings step;
-  step.dt = 1e-6;
-  const int n_steps = cuda ? 20 : 1;    // between two looks, which wait
-  for (bool choose : {false, true}) {
-    engine->choose(s, 0);
-    row.timing = time_it(repeats, [&] {
-      for (int k = 0; k < n_steps; k++) {
-        if (choose) engine->choose(s, 0);
-        engine->start(s, step, nullptr);
-      }
-      engine->look();
-    });
-    for (double *ms : {&row.timing.median_ms, &row.timing.min_ms, &row.timing.max_ms})
-      *ms /= n_steps;
-    fill(row, std::string(style.name) + (choose ? ", resident, chosen anew" : ", resident"),
-         *engine, grid, n);
-    // The near ones are known by their numbers.
-    row.bytes = bytes_of_touching(style, engine->totals().contacts) +
-                (choose ? n * kPlaceAndRadius : engine->n_near() * (kPlaceAndRadius + sizeof(int)));
-    rows.add(row);
-  }
+  measure_kept_and_anew(*engine, s, style, grid, !cuda, repeats, ", in place", rows, row);
 }
 
 FlatGrid grid_of(const WallMesh &mesh, Real length, Device device)
@@ -168,14 +165,14 @@ void measure(const BenchOptions &o, BenchRows &rows)
   const auto number = [&](double usual) {
     return static_cast<int>(o.spheres > 0 ? o.spheres : o.quick ? 1e5 : usual);
   };
-  const int n = number(1e6), n_resident = number(1e7);
+  const int n = number(1e6), n_in_place = number(1e7);
   const int repeats = o.repeats > 0 ? o.repeats : o.quick ? 3 : 9;
   const Style styles[] = {{LawStyle::hooke, "hooke"}, {LawStyle::hertz_history, "hertz/history"}};
   for (Device device : o.devices) {
     rows.begin(device);
     for (Order order : {Order::random, Order::sorted}) {
       const Bodies bodies = make_bodies(kRoom, n, order),
-                   resident = make_bodies(kCube, n_resident, order);
+                   in_place = make_bodies(kCube, n_in_place, order);
       for (const TriangleSoup &soup : cylinders(o, 1e5)) {
         const WallMesh mesh = weld(soup, -1);
         BenchRow row;
@@ -184,8 +181,8 @@ void measure(const BenchOptions &o, BenchRows &rows)
         const FlatGrid grid = grid_of(mesh, o.length, device),
                        fine = grid_of(mesh, o.length > 0 ? o.length : 0.2, device);
         for (const Style &style : styles) {
-          measure_style(bodies, grid.view(), style, device, repeats, rows, row);
-          measure_resident(resident, fine.view(), style, device, repeats, rows, row);
+          measure_host(bodies, grid.view(), style, device, repeats, rows, row);
+          measure_in_place(in_place, fine.view(), style, device, repeats, rows, row);
         }
       }
     }
@@ -197,5 +194,5 @@ void measure(const BenchOptions &o, BenchRows &rows)
 int main(int argc, char **argv)
 {
   return run_bench(argc, argv, "step",
-                   "Steps of the wall, on a CPU host's arrays and on resident ones: CSV.", measure);
+                   "Steps of the wall, with a CPU host's arrays and with particles in place: CSV.", measure);
 }

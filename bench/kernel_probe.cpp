@@ -18,7 +18,7 @@ __attribute__((noinline)) int probed_kernel(const GridView &grid, const ProbedLa
   for (std::size_t k = 0; k < spheres.size(); k++) {
     SphereSink sink;
     sink.springs = springs.data() + 8 * k;
-    contacts += wall_force<ProbedLaw, 8>(grid, law, settings, spheres[k], sink).n_contacts;
+    contacts += probed_force(grid, law, settings, spheres[k], sink).n_contacts;
   }
   return contacts;
 }

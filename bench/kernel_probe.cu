@@ -9,7 +9,7 @@ __global__ void probed(const __grid_constant__ GridView grid, const __grid_const
   const unsigned k = blockIdx.x * blockDim.x + threadIdx.x;
   SphereSink sink;
   sink.springs = springs + k * 8;
-  result[k] = wall_force<ProbedLaw, 8>(grid, law, settings, spheres[k], sink);
+  result[k] = probed_force(grid, law, settings, spheres[k], sink);
 }
 
 }    // namespace lsdcd

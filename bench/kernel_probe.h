@@ -20,4 +20,17 @@ using ProbedLaw = OnWall<GranularModel<Real, HertzNormal<Real>, SpringFriction<R
                          false, false>;
 #endif
 
+// Search, law and result of one sphere, as the kernels have them; `sink` has room for 8 contacts.
+LSDCD_FN SphereResult probed_force(const GridView &grid, const ProbedLaw &law,
+                                   const ForceSettings &settings, const SphereState &s,
+                                   const SphereSink &sink)
+{
+  SphereResult out = {};
+  Touch<8> found;
+  touch<false>(grid, settings.search, {s.x, s.radius, s.radius, nullptr, 0}, nullptr, found);
+  if (!found.set.overflow)
+    add_contacts(grid, law, settings, s, found.set.view(), found.weight, sink, out);
+  return out;
+}
+
 }    // namespace lsdcd

@@ -26,8 +26,7 @@ class EngineOn : public InPlaceEngine {
       lanes_(kLanes)
   {
     clear_notes(StepCounts());
-    Lane *lanes = lanes_.data();
-    b_.for_each(kLanes, [=] LSDCD_LAMBDA(std::size_t i) { lanes[i].locked = 0; });
+    unlock_lanes();
   }
 
   std::string backend() const override { return b_.name(); }
@@ -225,13 +224,22 @@ class EngineOn : public InPlaceEngine {
     });
   }
 
+  void unlock_lanes()
+  {
+    Lane *lanes = lanes_.data();
+    b_.for_each(kLanes, [=] LSDCD_LAMBDA(std::size_t i) { lanes[i].locked = 0; });
+  }
+
   void keep_centres(const Spheres &spheres)
   {
     const std::size_t n = spheres.n;
     if (centres_.size() < 3 * n) centres_ = Array<Real>(3 * (n + n / 8));
     Real *to = centres_.data();
     const Rows<const Real> x = spheres.x;
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { Rows<Real>(to).put(i, x[i]); });
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      const Vec3 at = x[i];
+      for (int d = 0; d < 3; d++) to[3 * i + d] = at[d];
+    });
   }
 
   void read_radius(const Spheres &spheres, int i, Real *to)

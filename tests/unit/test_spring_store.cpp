@@ -152,65 +152,6 @@ TEST(spring_store, knows_the_largest_packed_size)
   EXPECT_EQ(store.largest_packed_size(), 1 + 3 * SpringStore().doubles_per_spring());
 }
 
-// Spheres 3, 0 and 2 get two, none and three springs.
-struct Replaced {
-  SpringStore store;
-  explicit Replaced(int stride)
-  {
-    const bool packed = stride == kPacked;
-    const int which[3] = {3, 0, 2}, counts[3] = {2, 0, 3};
-    std::vector<Spring> springs(30, spring(99, 99));
-    std::copy(kTwo.begin(), kTwo.end(), springs.begin());
-    std::copy(kThree.begin(), kThree.end(), springs.begin() + (packed ? 2 : 2 * stride));
-    store.grow(5);
-    store.set(1, kThree.data(), nullptr, 3);
-    store.set(3, kThree.data(), nullptr, 3);
-    store.replace(which, 3, counts, springs.data(), nullptr, stride);
-  }
-};
-
-TEST(spring_store, replace_gives_the_named_spheres_their_springs_and_all_others_none)
-{
-  for (int stride : {kPacked, 3, 8}) {
-    const Replaced r(stride);
-    expect_springs(r.store, 0, {});
-    expect_springs(r.store, 1, {});
-    expect_springs(r.store, 2, kThree);
-    expect_springs(r.store, 3, kTwo);
-    expect_springs(r.store, 4, {});
-    EXPECT_EQ(r.store.pool_size(), 5u);
-  }
-}
-
-TEST(spring_store, replace_with_nothing_clears)
-{
-  Replaced r(4);
-  r.store.replace(nullptr, 0, nullptr, nullptr, nullptr, 8);
-  for (int i = 0; i < 5; i++) expect_springs(r.store, i, {});
-  EXPECT_EQ(r.store.pool_size(), 0u);
-}
-
-TEST(spring_store, replaced_many_times_holds_the_last_only)
-{
-  SpringStore store;
-  store.grow(1000);
-  std::vector<int> which(1000), counts(1000);
-  std::vector<Spring> springs(3000);
-  for (int round = 0; round < 5; round++) {
-    for (int i = 0; i < 1000; i++) {
-      which[i] = i;
-      counts[i] = (i + round) % 4;
-      for (int k = 0; k < 3; k++) springs[3 * i + k] = spring(1000 * round + i + 0.25 * k, i);
-    }
-    store.replace(which.data(), 1000, counts.data(), springs.data(), nullptr, 3);
-    for (int i = 0; i < 1000; i++) {
-      ASSERT_EQ(store.count(i), (i + round) % 4);
-      for (int k = 0; k < store.count(i); k++)
-        ASSERT_TRUE(same(store.of(i)[k], springs[3 * i + k]));
-    }
-  }
-}
-
 // ---- numbers beside the springs ------------------------------------------------------
 
 const std::vector<Real> kExtra = {1, -2, 3.5, 4, 5, -6e-300};    // two for each of three
@@ -238,28 +179,6 @@ TEST(spring_store, extra_numbers_go_wherever_their_springs_go)
   expect_springs(to, 0, kThree);
   expect_extra(to, 0, kExtra);
   EXPECT_EQ(from.largest_packed_size(), 1 + 3 * 9);
-}
-
-TEST(spring_store, replace_takes_extra_numbers_from_the_places_of_their_springs)
-{
-  for (int stride : {kPacked, 4}) {
-    SpringStore store(2);
-    store.grow(4);
-    const int which[2] = {3, 1}, counts[2] = {1, 2};
-    const int second = stride == kPacked ? 1 : stride;
-    std::vector<Spring> springs(8, spring(99, 99));
-    std::vector<Real> extra(16, 99);
-    springs[0] = kThree[0];
-    springs[second] = kTwo[0];
-    springs[second + 1] = kTwo[1];
-    for (int k = 0; k < 2; k++) extra[k] = kExtra[k];
-    for (int k = 0; k < 4; k++) extra[2 * second + k] = kExtra[2 + k];
-    store.replace(which, 2, counts, springs.data(), extra.data(), stride);
-    expect_extra(store, 3, {kExtra.begin(), kExtra.begin() + 2});
-    expect_extra(store, 1, {kExtra.begin() + 2, kExtra.end()});
-    expect_springs(store, 1, kTwo);
-    EXPECT_EQ(store.count(0), 0);
-  }
 }
 
 }    // namespace

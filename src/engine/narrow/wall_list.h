@@ -42,8 +42,9 @@ LSDCD_FN Real margin_at(const GridView &grid, const Vec3 &q, Real margin)
   const Real brick = kBrickSide * grid.length;
   for (int d = 0; d < 3; d++) {
     const Real u = (q[d] - grid.origin[d]) / brick, in = (u - floor(u)) * brick;
-    // Less what rounding may hide, so that no point of the ball is in the next brick.
-    const Real room = (in < brick - in ? in : brick - in) - 64 * kRoundoff * (fabs(q[d]) + fabs(grid.origin[d]) + brick);
+    // Less what cells_in_ball() takes for rounding, so that it finds no cell of the next brick.
+    const Real room = (in < brick - in ? in : brick - in) - Real(1e-6) * grid.length -
+                      64 * kRoundoff * (fabs(q[d]) + fabs(grid.origin[d]) + brick);
     if (room < m) m = room;
   }
   return m;
