@@ -149,7 +149,7 @@ class CornerRule {
   }
 
   // Appends a row to the factor; false if G would become singular.
-  LSDCD_FN bool push(const ContactSet<kPlaces> &set, int i)
+  LSDCD_NOINLINE bool push(const ContactSet<kPlaces> &set, int i)
   {
     const int m = n_active_;
     Real pivot = 1;
@@ -197,7 +197,7 @@ class CornerRule {
   }
 
   // Takes the k-th active contact out and factors the others afresh.
-  LSDCD_FN void leave(const ContactSet<kPlaces> &set, int leaving)
+  LSDCD_NOINLINE void leave(const ContactSet<kPlaces> &set, int leaving)
   {
     const int m = n_active_;
     int n_kept = 0;

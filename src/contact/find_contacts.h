@@ -54,20 +54,29 @@ LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radiu
     add_once(set, geometry.feature(code), foot, geometry.slack());
 }
 
+// The same as a function of its own, for searches that few spheres need: the tests of features are
+// long, and would be compiled into each law's kernels many times.
+template <class Geometry, int kPlaces>
+LSDCD_NOINLINE void add_feature_apart(const Geometry &geometry, FeatureCode code, Real radius,
+                                      ContactSet<kPlaces> &set)
+{
+  add_feature(geometry, code, radius, set);
+}
+
 // A face and what it stands for. Above the face's inside nothing else of it is near.
 template <class Geometry, int kPlaces>
-LSDCD_FN void add_piece(const Geometry &geometry, FeatureCode piece, Real radius,
-                        ContactSet<kPlaces> &set)
+LSDCD_NOINLINE void add_piece(const Geometry &geometry, FeatureCode piece, Real radius,
+                              ContactSet<kPlaces> &set)
 {
   if (feature_kind(piece) == FeatureKind::face) {
     const Over over = geometry.over(piece, radius);
     if (over == Over::far) return;
     if (over != Over::inside)
       for (FeatureCode part : geometry.parts(piece).part)
-        if (part != kNoFeature) add_feature(geometry, part, radius, set);
+        if (part != kNoFeature) add_feature_apart(geometry, part, radius, set);
     if (over == Over::outside) return;
   }
-  add_feature(geometry, piece, radius, set);
+  add_feature_apart(geometry, piece, radius, set);
 }
 
 template <class Geometry, int kPlaces>
@@ -79,9 +88,7 @@ LSDCD_FN void find_in_complete(const GridView &grid, const CellListsView &lists,
   const Cell cell = lists.cells[cell_index(*at.brick, at.cell)];
   const Geometry geometry(grid, q, at);
   if (cell.count == 1) {
-    const Foot foot = geometry.foot(cell.first, radius);
-    if (foot.found && foot.distance < radius)
-      set.add(geometry.feature(cell.first), foot.normal, foot.distance);
+    add_feature_apart(geometry, cell.first, radius, set);
     return;
   }
   // A list ascends in distance from the cell's centre: past this bound no
@@ -90,7 +97,7 @@ LSDCD_FN void find_in_complete(const GridView &grid, const CellListsView &lists,
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
     const Candidate candidate = lists.candidates[i];
     if (candidate.bound > enough) break;
-    add_feature(geometry, candidate.feature, radius, set);
+    add_feature_apart(geometry, candidate.feature, radius, set);
     if (set.overflow) break;    // nothing else is valid
   }
 }

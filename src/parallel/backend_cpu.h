@@ -131,14 +131,15 @@ struct CpuBackend {
     *total = n_kept;
   }
 
-  // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false
-  // work.several(i).
+  // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
+  // !work.has_single(), work.several(i).
   template <class Work>
   void step(std::size_t n, const Work &work)
   {
     work.begin();
+    const bool single = work.has_single();
     for_each(n, [&](std::size_t i) {
-      if (!work.single(i)) work.several(i);
+      if (!single || !work.single(i)) work.several(i);
     });
   }
 

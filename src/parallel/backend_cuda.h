@@ -131,16 +131,16 @@ struct CudaBackend {
   template <class T>
   void send(const HostArray<T> &host, Array<T> &to, std::size_t n)
   {
-    cuda_check(cudaMemcpyAsync(to.data(), host.data(), n * sizeof(T), cudaMemcpyHostToDevice,
-                               stream),
-               "copying to the device");
+    cuda_check(
+        cudaMemcpyAsync(to.data(), host.data(), n * sizeof(T), cudaMemcpyHostToDevice, stream),
+        "copying to the device");
   }
   template <class T>
   void receive(const Array<T> &from, HostArray<T> &host, std::size_t n)
   {
-    cuda_check(cudaMemcpyAsync(host.data(), from.data(), n * sizeof(T), cudaMemcpyDeviceToHost,
-                               stream),
-               "copying from the device");
+    cuda_check(
+        cudaMemcpyAsync(host.data(), from.data(), n * sizeof(T), cudaMemcpyDeviceToHost, stream),
+        "copying from the device");
   }
   template <class T>
   Array<T> from_host(const std::vector<T> &host)
@@ -250,16 +250,20 @@ struct CudaBackend {
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
-  // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false
-  // work.several(i). work.left() has room for n, *work.n_left() is 0.
+  // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
+  // !work.has_single(), work.several(i). work.left() has room for n, *work.n_left() is 0.
   template <class Work>
   void step(std::size_t n, const Work &work)
   {
     if (n == 0) return;
     const auto blocks = static_cast<unsigned>((n + kStepBlock - 1) / kStepBlock);
-    cuda_single<<<blocks, kStepBlock, 0, stream>>>(static_cast<unsigned>(n), work);
-    cuda_check(cudaGetLastError(), "starting a kernel");
-    cuda_several<<<std::min(blocks, kSeveralBlocks), kStepBlock, 0, stream>>>(work);
+    const bool single = work.has_single();
+    if constexpr (Work::kSingle) {
+      if (single) cuda_single<<<blocks, kStepBlock, 0, stream>>>(static_cast<unsigned>(n), work);
+      cuda_check(cudaGetLastError(), "starting a kernel");
+    }
+    cuda_several<<<single ? std::min(blocks, kLeftBlocks) : blocks, kStepBlock, 0, stream>>>(
+        single ? -1 : static_cast<int>(n), work);
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
@@ -299,7 +303,9 @@ struct CudaBackend {
     return last + read_one(values + n - 1);
   }
 
-  // sort: stable, by key, over the bits of the largest one.
+  // sort: stable, by key, over the bits of the largest one. A template, so that only who sorts
+  // compiles it.
+  template <class = void>
   void sort_pairs(Scratch<std::uint32_t> &keys, Scratch<std::uint32_t> &values,
                   std::uint32_t largest)
   {

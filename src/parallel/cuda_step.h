@@ -11,7 +11,7 @@
 namespace lsdcd {
 
 constexpr unsigned kStepBlock = 128;
-constexpr unsigned kSeveralBlocks = 528;    // of the second kernel, which share what is left
+constexpr unsigned kLeftBlocks = 528;    // of the second kernel, which share what is left
 
 template <class Work>
 __global__ void __launch_bounds__(kStepBlock, Work::kBlocksAtOnce)
@@ -26,12 +26,15 @@ __global__ void __launch_bounds__(kStepBlock, Work::kBlocksAtOnce)
   if (left) work.left()[at + votes_below(votes)] = static_cast<int>(k);
 }
 
+// What the first kernel has left; n >= 0: all of [0, n), where there was no first kernel.
 template <class Work>
-__global__ void __launch_bounds__(kStepBlock) cuda_several(const __grid_constant__ Work work)
+__global__ void __launch_bounds__(kStepBlock) cuda_several(int n, const __grid_constant__ Work work)
 {
-  const int n = *work.n_left();
-  for (int s = blockIdx.x * kStepBlock + threadIdx.x; s < n; s += gridDim.x * kStepBlock)
-    work.several(work.left()[s]);
+  const bool all = n >= 0;
+  const int first = blockIdx.x * kStepBlock + threadIdx.x;
+  if (all && first == 0) work.begin();
+  const int end = all ? n : *work.n_left();
+  for (int s = first; s < end; s += gridDim.x * kStepBlock) work.several(all ? s : work.left()[s]);
 }
 
 }    // namespace lsdcd

@@ -40,7 +40,8 @@ struct CountingBackend : CpuBackend {
   {
     work.begin();
     for (std::size_t k = 0; k < n; k++)
-      if (!work.single(k)) work.left()[fetch_add(work.n_left(), 1)] = static_cast<int>(k);
+      if (!work.has_single() || !work.single(k))
+        work.left()[fetch_add(work.n_left(), 1)] = static_cast<int>(k);
     for (int s = 0; s < *work.n_left(); s++) work.several(work.left()[s]);
   }
   static int &crossings()
@@ -186,8 +187,7 @@ class Particles {
       x_(cuda), v_(cuda), omega_(cuda), radius_(cuda), mass_(cuda), force_(cuda), torque_(cuda),
       n_(n)
   {
-    engine =
-        cuda ? make_cuda_engine_in_place(settings, 0, nullptr) : make_cpu_engine(settings);
+    engine = cuda ? make_cuda_engine_in_place(settings, 0, nullptr) : make_cpu_engine(settings);
     const WallMesh mesh = weld(floor_mesh(40, 10, 7), -1);
     GridSettings g;
     g.reach = reach;
@@ -624,7 +624,8 @@ TEST(engine, takes_spheres_whose_kind_of_contact_changes_from_step_to_step)
     }
     EXPECT_EQ(host.engine->totals().contacts, m.single + 3 * m.several + kAllRound * m.crowded);
     for (Scene *scene : {&device, &ahead}) {
-      EXPECT_TRUE(same_bytes(std::vector<WallTotals>{host.engine->totals()}, std::vector<WallTotals>{scene->engine->totals()}));
+      EXPECT_TRUE(same_bytes(std::vector<WallTotals>{host.engine->totals()},
+                             std::vector<WallTotals>{scene->engine->totals()}));
       int same = 0;
       for (int i = 0; i < kSpheres; i++) {
         const int n = host.springs.count(i);
@@ -667,9 +668,8 @@ struct AllTouching {
   static constexpr int n = 100;
 
   AllTouching() :
-      grid(grid_of_faces()), place(test_on_cuda()), zero(test_on_cuda()),
-      force(test_on_cuda()), torque(test_on_cuda()), radius(test_on_cuda()),
-      mass(test_on_cuda())
+      grid(grid_of_faces()), place(test_on_cuda()), zero(test_on_cuda()), force(test_on_cuda()),
+      torque(test_on_cuda()), radius(test_on_cuda()), mass(test_on_cuda())
   {
     EngineSettings s;
     s.law = classic(LawStyle::hertz_history);

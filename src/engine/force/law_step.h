@@ -118,23 +118,16 @@ LSDCD_FN bool single_contact(const Law &law, const LawJob &job, std::size_t k)
   const Vec3 x = job.x[i];
   const Real radius = job.radius[i];
   const Searcher s = searcher_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
+  const WallList &list = job.lists[k];
+  if (!list.holds(x, s.reach)) return false;
   ContactSet<1> set;
-  if (job.lists) {
-    const WallList &list = job.lists[k];
-    if (!list.holds(x, s.reach)) return false;
-    if (job.grid.in_floats)
-      find_in_list<BrickGeometry>(job.grid, list, x, s.reach, set);
-    else
-      find_in_list<WallGeometry>(job.grid, list, x, s.reach, set);
-    keep_bearing<Law::kBeyond>(job.grid, job.settings.search, s, set);
-    if (set.overflow) return false;
+  if (job.grid.in_floats) {
+    search_records<Law::kBeyond>(job.grid, job.settings.search, s, &list, set);
   } else {
-    Touch<1> found;
-    search_cells<Law::kBeyond>(job.grid, job.settings.search, s, found);
-    if (found.set.overflow) return false;
-    keep_uncertain(job, k, may_miss(s.reach, found.exact_within), radius);
-    set = found.set;
+    find_in_list<WallGeometry>(job.grid, list, x, s.reach, set);
+    keep_bearing<Law::kBeyond>(job.grid, job.settings.search, s, set);
   }
+  if (set.overflow) return false;
   note_reach(job, i, s.reach);
   apply_law(law, job, k, i, x, radius, set.view(), nullptr);
   return true;
@@ -164,38 +157,54 @@ LSDCD_FN void several_contacts(const Law &law, const LawJob &job, std::size_t k)
   ContactsView set = some.set.view();
   const Real *weight = some.weight;
   Real exact_within = some.exact_within;
-  Lane *lane = nullptr;
-  if (some.set.overflow) {
-    lane = &take_lane(job.lanes, k);
-    lane->touch.set.clear();
-    touch_in<Law::kBeyond>(lane->rule, job.grid, job.settings.search, s, list, lane->touch);
-    set = lane->touch.set.view();
-    weight = lane->touch.weight;
-    exact_within = lane->touch.exact_within;
+  // A lane is taken, used and given back in one turn: on a GPU threads that wait for it must not
+  // hold up the one that has it.
+  for (bool done = false; !done;) {
+    Lane *lane = nullptr;
+    bool fits = true;
+    if (some.set.overflow) {
+      lane = job.lanes + k % kLanes;
+      if (!try_lock(&lane->locked)) continue;
+      lane->touch.set.clear();
+      touch_in<Law::kBeyond>(lane->rule, job.grid, job.settings.search, s, list, lane->touch);
+      set = lane->touch.set.view();
+      weight = lane->touch.weight;
+      exact_within = lane->touch.exact_within;
+      fits = !lane->touch.set.overflow;
+    }
+    if (fits) {
+      keep_uncertain(job, k, may_miss(s.reach, exact_within), radius);
+      apply_law(law, job, k, i, x, radius, set, weight);
+    } else {
+      does_not_fit(job, k);
+    }
+    if (lane) unlock(&lane->locked);
+    done = true;
   }
-  if (lane && lane->touch.set.overflow) {
-    does_not_fit(job, k);
-  } else {
-    keep_uncertain(job, k, may_miss(s.reach, exact_within), radius);
-    apply_law(law, job, k, i, x, radius, set, weight);
-  }
-  if (lane) unlock(&lane->locked);
 }
 
 // A step's work for Backend::step(): each near sphere by single(), and by several() where that
-// says false.
+// says false or where there is none.
 template <class Law>
 struct LawStep {
   Law law;
   LawJob job;
 
+  static constexpr bool kSingle = Law::kSingle;
   // Blocks at once on a GPU's processor: 64, 80, 96 or 128 registers are left to a thread.
   static constexpr bool kLarge = Law::kExtra > 0 || Law::kCouple || Law::kHeat || Law::kBeyond,
                         kOnWall = Law::kSurface || Law::kRecords;
   static constexpr int kBlocksAtOnce = kLarge ? 4 : kOnWall ? 5 : Law::kHistory ? 6 : 8;
 
+  bool has_single() const { return kSingle && job.lists; }
   LSDCD_FN void begin() const { clear_next(job); }
-  LSDCD_FN bool single(std::size_t k) const { return single_contact(law, job, k); }
+  LSDCD_FN bool single(std::size_t k) const
+  {
+    if constexpr (kSingle)
+      return single_contact(law, job, k);
+    else
+      return false;
+  }
   LSDCD_FN void several(std::size_t k) const { several_contacts(law, job, k); }
   LSDCD_FN int *left() const { return job.left; }
   LSDCD_FN int *n_left() const { return job.counts->n_left + job.turn; }

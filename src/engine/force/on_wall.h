@@ -22,9 +22,11 @@ struct WallEffects {
   bool surface, records;
 };
 
-template <class Law, bool kSurface_, bool kRecords_>
+// kSingle: is there a kernel for single contacts beside that for any number? It is quicker, and
+// takes as long again to compile.
+template <class Law, bool kSurface_, bool kRecords_, bool kSingle_ = true>
 struct OnWall : Law {
-  static constexpr bool kSurface = kSurface_, kRecords = kRecords_;
+  static constexpr bool kSurface = kSurface_, kRecords = kRecords_, kSingle = kSingle_;
 };
 
 // What is compiled of a law: the kernel without effects; that and one with both, for
@@ -41,7 +43,7 @@ auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
   }
   if constexpr (kernels == WallKernels::each) return make(OnWall<Law, true, true>{law});
   if constexpr (kernels == WallKernels::both)
-    if (effects.surface || effects.records) return make(OnWall<Law, true, true>{law});
+    if (effects.surface || effects.records) return make(OnWall<Law, true, true, false>{law});
   if constexpr (kernels != WallKernels::each) return make(OnWall<Law, false, false>{law});
 }
 

@@ -69,26 +69,28 @@ LSDCD_FN Real may_miss(Real reach, Real exact_within)
   return exact_within < reach ? reach - exact_within : 0;
 }
 
-// Gives every contact its weight. Overlaps are shared as those of a sphere of radius
-// `reach`, so that they are greater than 0 as long as a contact holds, and 0 where it lets
-// go.
-template <class Geometry, int kCapacity>
-LSDCD_FN void share(const GridView &grid, const SearchSettings &settings, Real reach,
-                    CornerRule<kCapacity> &rule, Touch<kCapacity> &out)
+// How far apart feet may be that count as one, by the geometry that the grid was made for.
+LSDCD_FN Real slack_of(const GridView &grid)
 {
-  if (settings.blend && out.set.n > 1)
-    rule.solve(out.set, reach, out.weight, Geometry::slack(grid));
-  else
-    for (int i = 0; i < out.set.n; i++) out.weight[i] = 1;
+  return grid.in_floats ? BrickGeometry::slack(grid) : WallGeometry::slack(grid);
 }
 
-// `rule`: memory of the corner rule, which a stack may have no room for.
-template <bool kBeyond, class Geometry, int kCapacity>
+// All that a sphere touches. Gives every contact its weight: overlaps are shared as those of a
+// sphere of radius `reach`, so that they are greater than 0 as long as a contact holds, and 0 where
+// it lets go. `rule`: memory of the corner rule, which a stack may have no room for.
+template <bool kBeyond, int kCapacity>
 LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, const Searcher &s,
                          const WallList *list, CornerRule<kCapacity> &rule, Touch<kCapacity> &out)
 {
-  search<kBeyond, Geometry>(grid, settings, s, list, out);
-  if (!out.set.overflow) share<Geometry>(grid, settings, s.reach, rule, out);
+  if (grid.in_floats)
+    search<kBeyond, BrickGeometry>(grid, settings, s, list, out);
+  else
+    search<kBeyond, WallGeometry>(grid, settings, s, list, out);
+  if (out.set.overflow) return;
+  if (settings.blend && out.set.n > 1)
+    rule.solve(out.set, s.reach, out.weight, slack_of(grid));
+  else
+    for (int i = 0; i < out.set.n; i++) out.weight[i] = 1;
 }
 
 // Functions of their own, so that they are compiled once however many laws there are.
@@ -97,31 +99,23 @@ LSDCD_NOINLINE void touch_in(CornerRule<kCapacity> &rule, const GridView &grid,
                              const SearchSettings &settings, const Searcher &s,
                              const WallList *list, Touch<kCapacity> &out)
 {
-  if (grid.in_floats)
-    touch_with<kBeyond, BrickGeometry>(grid, settings, s, list, rule, out);
-  else
-    touch_with<kBeyond, WallGeometry>(grid, settings, s, list, rule, out);
+  touch_with<kBeyond>(grid, settings, s, list, rule, out);
 }
 template <bool kBeyond, int kCapacity>
 LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings, const Searcher &s,
                           const WallList *list, Touch<kCapacity> &out)
 {
   CornerRule<kCapacity> rule;
-  if (grid.in_floats)
-    touch_with<kBeyond, BrickGeometry>(grid, settings, s, list, rule, out);
-  else
-    touch_with<kBeyond, WallGeometry>(grid, settings, s, list, rule, out);
+  touch_with<kBeyond>(grid, settings, s, list, rule, out);
 }
 
-// Of its cell, with lists that may miss contacts.
+// At most one contact, of a list of brick records. Apart, so that kernels in double have room.
 template <bool kBeyond>
-LSDCD_NOINLINE void search_cells(const GridView &grid, const SearchSettings &settings,
-                                 const Searcher &s, Touch<1> &out)
+LSDCD_NOINLINE void search_records(const GridView &grid, const SearchSettings &settings,
+                                   const Searcher &s, const WallList *list, ContactSet<1> &set)
 {
-  if (grid.in_floats)
-    search<kBeyond, BrickGeometry>(grid, settings, s, nullptr, out);
-  else
-    search<kBeyond, WallGeometry>(grid, settings, s, nullptr, out);
+  find_in_list<BrickGeometry>(grid, *list, s.x, s.reach, set);
+  keep_bearing<kBeyond>(grid, settings, s, set);
 }
 
 // Makes the list of a sphere anew; false: it has none, its cell has to be searched.

@@ -118,7 +118,8 @@ LSDCD_FN bool gather_within(const GridView &grid, const Vec3 &q, Real cutoff, Re
 
 // Makes the list of a sphere anew. `cutoff`: how far it feels the wall from its centre.
 template <class Geometry>
-LSDCD_FN void gather_for(const GridView &grid, const Vec3 &q, Real radius, Real cutoff, WallList &list)
+LSDCD_FN void gather_for(const GridView &grid, const Vec3 &q, Real radius, Real cutoff,
+                         WallList &list)
 {
   Real margin = margin_at(grid, q, kListMargin * radius);
   for (int i = 0; i <= kMostShrinks && margin > 0; i++, margin /= kShrink)
@@ -136,7 +137,10 @@ LSDCD_FN void find_in_list(const GridView &grid, const WallList &list, const Vec
   if (list.n == 0) return;
   const Geometry geometry(grid, q);
   for (int i = 0; i < list.n; i++) {
-    add_feature(geometry, list.code[i], cutoff, set);
+    if constexpr (kCapacity == 1)
+      add_feature(geometry, list.code[i], cutoff, set);
+    else
+      add_feature_apart(geometry, list.code[i], cutoff, set);
     if (set.overflow) return;    // nothing else is valid
   }
 }

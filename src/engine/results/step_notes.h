@@ -49,12 +49,4 @@ LSDCD_FN void clear_next(const LawJob &job)
   job.counts->n_left[1 - job.turn] = 0;
 }
 
-LSDCD_FN Lane &take_lane(Lane *lanes, std::size_t k)
-{
-  Lane &lane = lanes[k % kLanes];
-  while (!try_lock(&lane.locked)) {
-  }
-  return lane;
-}
-
 }    // namespace lsdcd
