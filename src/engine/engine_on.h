@@ -106,7 +106,7 @@ class EngineOn : public InPlaceEngine {
     make_room();
     LawJob job = job_of(grid_, force_settings(settings_, step_), spheres_);
     job.near = near();
-    job.lists = lists_.size() > 0 ? lists_.data() : nullptr;
+    job.lists = lists_;
     job.springs = springs_.view();
     job.counts = counts_.data();
     job.result = columns_;
@@ -186,7 +186,8 @@ class EngineOn : public InPlaceEngine {
   std::size_t bytes() const override
   {
     return block_.size() + words_.size() * sizeof(BrickWord) + springs_.bytes() + near_.bytes() +
-           lists_.size() * sizeof(WallList) + lanes_.size() * sizeof(Lane) +
+           list_reals_.size() * sizeof(Real) + list_ints_.size() * sizeof(int) +
+           lanes_.size() * sizeof(Lane) +
            (numbers_.size() + heat_.size() + uncertain_.size() + centres_.size()) * sizeof(Real) +
            (n_contacts_.size() + slot_.size() + left_.size()) * sizeof(int) +
            touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput) +
@@ -203,25 +204,34 @@ class EngineOn : public InPlaceEngine {
     n_near_ = n;
     near_known_ = false;
     springs_.make_room(n, seen);
-    if (grid_.nearest > 0) {
-      lists_ = Array<WallList>();
-      return;
+    lists_ = WallLists();
+    if (grid_.nearest > 0 || n == 0) return;
+    if (list_ints_.size() < n * WallLists::kInts) {
+      const std::size_t room = n + n / 8;
+      list_reals_ = Array<Real>(room * WallLists::kReals);
+      list_ints_ = Array<std::int32_t>(room * WallLists::kInts);
     }
-    if (lists_.size() < n) lists_ = Array<WallList>(n + n / 8);
+    lists_ =
+        WallLists::of(list_reals_.data(), list_ints_.data(), list_ints_.size() / WallLists::kInts);
     const int *near = this->near();
     const GridView grid = grid_;
     const Real pull_off = settings_.law.pull_off();
-    WallList *lists = lists_.data();
+    const WallLists lists = lists_;
     StepCounts *counts = counts_.data();
     const Rows<const Real> x = spheres.x;
     const Real *radius = spheres.radius;
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const std::size_t i = near ? near[k] : k;
-      const Searcher s = {x[i], radius[i], reach_of(radius[i], pull_off), nullptr, 0};
-      gather(grid, s, lists[k]);
-      count_one(&counts->lists);
-      add_to(&counts->listed, lists[k].n);
-    });
+    b_.for_each(
+        n,
+        [=] LSDCD_LAMBDA(std::size_t k) {
+          const std::size_t i = near ? near[k] : k;
+          const Searcher s = {x[i], radius[i], reach_of(radius[i], pull_off), nullptr, 0};
+          WallList made;
+          gather(grid, s, made);
+          lists.put(k, made);
+          count_one(&counts->lists);
+          add_to(&counts->listed, made.n);
+        },
+        128);
   }
 
   void unlock_lanes()
@@ -405,9 +415,11 @@ class EngineOn : public InPlaceEngine {
   NearList<B> near_;
   bool all_near_ = false;
   std::size_t n_near_ = 0;
-  Array<WallList> lists_;    // of near spheres; none where lists hold the nearest pieces
-  Array<Real> centres_;      // at the last choice
-  Real margin_ = 0;          // of the last choice
+  WallLists lists_;    // of near spheres; none where lists of cells hold the nearest pieces
+  Array<Real> list_reals_;
+  Array<std::int32_t> list_ints_;
+  Array<Real> centres_;    // at the last choice
+  Real margin_ = 0;        // of the last choice
 
   // What a step leaves behind of near spheres.
   ResultColumns columns_;

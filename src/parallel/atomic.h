@@ -19,9 +19,15 @@ LSDCD_FN int fetch_add(int *at, int n)
 #endif
 }
 
-LSDCD_FN void add_to(std::uint64_t *at, std::uint64_t n)
+LSDCD_FN void add_to(std::uint64_t *at, std::uint32_t n)
 {
-#if defined(__CUDA_ARCH__)
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
+  // One addition for all lanes that are here: thousands to one number would wait for each other.
+  const unsigned lanes = __activemask();
+  const unsigned sum = __reduce_add_sync(lanes, static_cast<unsigned>(n));
+  if (threadIdx.x % 32 == __ffs(lanes) - 1)
+    atomicAdd(reinterpret_cast<unsigned long long *>(at), static_cast<unsigned long long>(sum));
+#elif defined(__CUDA_ARCH__)
   atomicAdd(reinterpret_cast<unsigned long long *>(at), static_cast<unsigned long long>(n));
 #else
   __atomic_fetch_add(at, n, __ATOMIC_RELAXED);

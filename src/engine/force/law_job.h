@@ -40,7 +40,8 @@ struct StepCounts {
   // As ascending bits: the largest overlap / radius, with 1 + the index of its sphere
   // below it, and the largest that an answer which was not certified may have missed.
   std::uint64_t deepest, uncertain;
-  std::uint64_t lists, listed, by_cells;    // lists made in steps, their features; searches of cells
+  std::uint64_t lists, listed,
+      by_cells;    // lists made in steps, their features; searches of cells
 };
 
 // Memory for the contacts of one sphere that has many: too much for a stack. Whoever holds the lock
@@ -56,17 +57,17 @@ struct LawJob {
   GridView grid = {};
   ForceSettings settings = {};
   const int *near = nullptr;    // sphere of each k; null: sphere k
-  WallList *lists = nullptr;    // of each k; null: cells are searched
+  WallLists lists = {};         // of each k; none: cells are searched
   Rows<const Real> x, v, omega;
   Column<const Real> radius, mass, temperature;
   SpringsView springs = {};    // of the last step
 
   StepCounts *counts = nullptr;
-  Rows<Real> force, torque;       // added to
-  Real *heat_flow = nullptr;      // likewise, where the law has heat
-  ResultColumns result = {};      // of each k
-  Real *heat = nullptr;           // of each k, where the law has heat
-  Real *uncertain = nullptr;      // overlap / radius that k's search may miss; null: nothing can be
+  Rows<Real> force, torque;     // added to
+  Real *heat_flow = nullptr;    // likewise, where the law has heat
+  ResultColumns result = {};    // of each k
+  Real *heat = nullptr;         // of each k, where the law has heat
+  Real *uncertain = nullptr;    // overlap / radius that k's search may miss; null: nothing can be
   ContactPool pool = {};
   Lane *lanes = nullptr;
   int *left = nullptr;    // near spheres that the first kernel leaves to the second

@@ -118,15 +118,10 @@ LSDCD_FN bool single_contact(const Law &law, const LawJob &job, std::size_t k)
   const Vec3 x = job.x[i];
   const Real radius = job.radius[i];
   const Searcher s = searcher_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
-  const WallList &list = job.lists[k];
-  if (!list.holds(x, s.reach)) return false;
+  if (!job.lists.holds(k, x, s.reach)) return false;
   ContactSet<1> set;
-  if (job.grid.in_floats) {
-    search_records<Law::kBeyond>(job.grid, job.settings.search, s, &list, set);
-  } else {
-    find_in_list<WallGeometry>(job.grid, list, x, s.reach, set);
-    keep_bearing<Law::kBeyond>(job.grid, job.settings.search, s, set);
-  }
+  find_in_list<WallGeometry>(job.grid, {job.lists, k}, x, s.reach, set);
+  keep_bearing<Law::kBeyond>(job.grid, job.settings.search, s, set);
   if (set.overflow) return false;
   note_reach(job, i, s.reach);
   apply_law(law, job, k, i, x, radius, set.view(), nullptr);
@@ -142,15 +137,16 @@ LSDCD_FN void several_contacts(const Law &law, const LawJob &job, std::size_t k)
   const Real radius = job.radius[i];
   const Searcher s = searcher_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
   note_reach(job, i, s.reach);
-  WallList *list = job.lists ? job.lists + k : nullptr;
-  if (list && !list->holds(x, s.reach)) {
+  const ListedFeatures listed = {job.lists, k};
+  const ListedFeatures *list = job.lists.n ? &listed : nullptr;
+  if (list && !job.lists.holds(k, x, s.reach)) {
+    WallList made;
     count_one(&job.counts->lists);
-    if (gather(job.grid, s, *list))
-      add_to(&job.counts->listed, list->n);
-    else
-      list = nullptr;
+    if (!gather(job.grid, s, made)) list = nullptr;
+    add_to(&job.counts->listed, made.n);
+    job.lists.put(k, made);
   }
-  if (job.lists && !list) count_one(&job.counts->by_cells);
+  if (job.lists.n && !list) count_one(&job.counts->by_cells);
 
   Touch<kContacts> some;
   touch<Law::kBeyond>(job.grid, job.settings.search, s, list, some);
@@ -191,12 +187,14 @@ struct LawStep {
   LawJob job;
 
   static constexpr bool kSingle = Law::kSingle;
-  // Blocks at once on a GPU's processor: 64, 80, 96 or 128 registers are left to a thread.
+  // Blocks at once on a GPU's processor: 96, 128 or 168 registers are left to a thread. With fewer
+  // the kernels spill, which costs more than more blocks bring.
   static constexpr bool kLarge = Law::kExtra > 0 || Law::kCouple || Law::kHeat || Law::kBeyond,
                         kOnWall = Law::kSurface || Law::kRecords;
-  static constexpr int kBlocksAtOnce = kLarge ? 4 : kOnWall ? 5 : Law::kHistory ? 6 : 8;
+  static constexpr int kBlocksAtOnce = kLarge ? 3 : kOnWall || Law::kHistory ? 4 : 5;
 
-  bool has_single() const { return kSingle && job.lists; }
+  // Lists of brick records are left to several().
+  bool has_single() const { return kSingle && job.lists.n && !job.grid.in_floats; }
   LSDCD_FN void begin() const { clear_next(job); }
   LSDCD_FN bool single(std::size_t k) const
   {

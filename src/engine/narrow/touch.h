@@ -47,7 +47,7 @@ LSDCD_FN void keep_bearing(const GridView &grid, const SearchSettings &settings,
 // is null. Where the set overflows nothing else is valid.
 template <bool kBeyond, class Geometry, int kCapacity>
 LSDCD_FN void search(const GridView &grid, const SearchSettings &settings, const Searcher &s,
-                     const WallList *list, Touch<kCapacity> &out)
+                     const ListedFeatures *list, Touch<kCapacity> &out)
 {
   out.exact_within = kAnyDistance;
   if (list)
@@ -80,7 +80,8 @@ LSDCD_FN Real slack_of(const GridView &grid)
 // it lets go. `rule`: memory of the corner rule, which a stack may have no room for.
 template <bool kBeyond, int kCapacity>
 LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, const Searcher &s,
-                         const WallList *list, CornerRule<kCapacity> &rule, Touch<kCapacity> &out)
+                         const ListedFeatures *list, CornerRule<kCapacity> &rule,
+                         Touch<kCapacity> &out)
 {
   if (grid.in_floats)
     search<kBeyond, BrickGeometry>(grid, settings, s, list, out);
@@ -97,25 +98,16 @@ LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, c
 template <bool kBeyond, int kCapacity>
 LSDCD_NOINLINE void touch_in(CornerRule<kCapacity> &rule, const GridView &grid,
                              const SearchSettings &settings, const Searcher &s,
-                             const WallList *list, Touch<kCapacity> &out)
+                             const ListedFeatures *list, Touch<kCapacity> &out)
 {
   touch_with<kBeyond>(grid, settings, s, list, rule, out);
 }
 template <bool kBeyond, int kCapacity>
 LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings, const Searcher &s,
-                          const WallList *list, Touch<kCapacity> &out)
+                          const ListedFeatures *list, Touch<kCapacity> &out)
 {
   CornerRule<kCapacity> rule;
   touch_with<kBeyond>(grid, settings, s, list, rule, out);
-}
-
-// At most one contact, of a list of brick records. Apart, so that kernels in double have room.
-template <bool kBeyond>
-LSDCD_NOINLINE void search_records(const GridView &grid, const SearchSettings &settings,
-                                   const Searcher &s, const WallList *list, ContactSet<1> &set)
-{
-  find_in_list<BrickGeometry>(grid, *list, s.x, s.reach, set);
-  keep_bearing<kBeyond>(grid, settings, s, set);
 }
 
 // Makes the list of a sphere anew; false: it has none, its cell has to be searched.

@@ -7,10 +7,10 @@
 
 namespace lsdcd {
 
-// The list of one sphere: 64 bytes, two sectors of a GPU's memory. There is no room for more than
-// kMost features: where more are close the margin shrinks, and where that does not help the sphere
-// has no list and its cell is searched instead.
-struct alignas(16) WallList {
+// The list of one sphere. There is no room for more than kMost features: where more are close the
+// margin shrinks, and where that does not help the sphere has no list and its cell is searched
+// instead.
+struct WallList {
   static constexpr int kMost = 7;
 
   Vec3 x;          // the centre when the list was made
@@ -18,12 +18,49 @@ struct alignas(16) WallList {
   float cutoff;    // how far from its centre a sphere felt the wall then
   std::int32_t n;
   FeatureCode code[kMost];    // ascending; of the wall, or with `in_floats` of brick records
+};
 
-  // Does the list hold all that a sphere at q can touch, up to a cutoff?
-  LSDCD_FN bool holds(const Vec3 &q, Real up_to) const
+// The lists of many, a column per number, so that neighbours read neighbouring words.
+struct WallLists {
+  static constexpr std::size_t kReals = 4, kInts = 1 + WallList::kMost;    // of a list
+
+  Real *x = nullptr;            // columns x, y, z
+  float *margin = nullptr;      // columns margin, cutoff
+  std::int32_t *n = nullptr;    // columns n, code[0], code[1], ...
+  std::size_t column = 0;
+
+  static WallLists of(Real *reals, std::int32_t *ints, std::size_t room)
   {
-    return margin >= 0 && norm_sq(q - x) <= Real(margin) * Real(margin) && up_to <= cutoff;
+    return {reals, reinterpret_cast<float *>(reals + 3 * room), ints, room};
   }
+
+  // Does list k hold all that a sphere at q can touch, up to a cutoff?
+  LSDCD_FN bool holds(std::size_t k, const Vec3 &q, Real up_to) const
+  {
+    const Real m = margin[k], listed_to = margin[column + k];
+    const Vec3 way = q - Vec3{x[k], x[column + k], x[2 * column + k]};
+    return m >= 0 && norm_sq(way) <= m * m && up_to <= listed_to;
+  }
+  LSDCD_FN int size(std::size_t k) const { return n[k]; }
+  LSDCD_FN FeatureCode code(std::size_t k, int i) const
+  {
+    return static_cast<FeatureCode>(n[(i + 1) * column + k]);
+  }
+  LSDCD_FN void put(std::size_t k, const WallList &list) const
+  {
+    for (int d = 0; d < 3; d++) x[d * column + k] = list.x[d];
+    margin[k] = list.margin;
+    margin[column + k] = list.cutoff;
+    n[k] = list.n;
+    for (int i = 0; i < list.n; i++)
+      n[(i + 1) * column + k] = static_cast<std::int32_t>(list.code[i]);
+  }
+};
+
+// List k of many.
+struct ListedFeatures {
+  WallLists lists;
+  std::size_t k;
 };
 
 // How far a sphere may go before its list is made anew, as a share of its radius. Far enough that
@@ -131,16 +168,17 @@ LSDCD_FN void gather_for(const GridView &grid, const Vec3 &q, Real radius, Real 
 // Local minima of the distance from q to the listed features, in the order of their numbers, so
 // that an answer does not depend on when the list was made.
 template <class Geometry, int kCapacity>
-LSDCD_FN void find_in_list(const GridView &grid, const WallList &list, const Vec3 &q, Real cutoff,
-                           ContactSet<kCapacity> &set)
+LSDCD_FN void find_in_list(const GridView &grid, const ListedFeatures &list, const Vec3 &q,
+                           Real cutoff, ContactSet<kCapacity> &set)
 {
-  if (list.n == 0) return;
+  const int n = list.lists.size(list.k);
+  if (n == 0) return;
   const Geometry geometry(grid, q);
-  for (int i = 0; i < list.n; i++) {
+  for (int i = 0; i < n; i++) {
     if constexpr (kCapacity == 1)
-      add_feature(geometry, list.code[i], cutoff, set);
+      add_feature(geometry, list.lists.code(list.k, i), cutoff, set);
     else
-      add_feature_apart(geometry, list.code[i], cutoff, set);
+      add_feature_apart(geometry, list.lists.code(list.k, i), cutoff, set);
     if (set.overflow) return;    // nothing else is valid
   }
 }
