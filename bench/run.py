@@ -21,12 +21,17 @@ import sys
 import accuracy
 import effects
 import hard_cases
+import floor
 import kokkos
+import liggghts
+import mesh_size
 import performance
 import tradeoff
 
 DOCUMENTS = {"accuracy": [tradeoff.main, accuracy.main], "effects": [effects.main],
              "hard-cases": [hard_cases.main]}
+COMPARISONS = {"kokkos": kokkos.main, "liggghts": liggghts.main, "floor": floor.main,
+               "mesh-size": mesh_size.main}
 
 
 def main():
@@ -45,7 +50,7 @@ def main():
     while rest and not rest[0].startswith("-"):
         names.append(rest.pop(0))
     names = names or list(performance.PROGRAMS)
-    known = [*performance.PROGRAMS, *DOCUMENTS, "kokkos"]
+    known = [*performance.PROGRAMS, *DOCUMENTS, *COMPARISONS]
     for name in names:
         if name not in known:
             print(f"no benchmark '{name}'; there are: {', '.join(known)}", file=sys.stderr)
@@ -55,8 +60,8 @@ def main():
         status = performance.main(args, programs, rest)
         if status != 0:
             return status
-    if "kokkos" in names:
-        status = kokkos.main(args, rest)
+    for name in names:
+        status = COMPARISONS[name](args, rest) if name in COMPARISONS else 0
         if status != 0:
             return status
     for name in names:
