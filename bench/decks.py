@@ -10,7 +10,7 @@ import tempfile
 import time
 
 import performance
-from hard_cases import ROOT, cpu, put_between, write_whole
+from hard_cases import cpu, write_whole
 
 COLUMNS = ("program", "case", "device", "commit", "compiler", "triangles", "spheres", "length", "order",
            "repeats", "median_ms", "min_ms", "max_ms", "bytes", "copy_gb_s", "floor_ms", "ratio", "facts")
@@ -30,7 +30,7 @@ class Run:
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = status
         self.seconds, self.peak_mb = time.monotonic() - began, usage.ru_maxrss / 1024
-        self.output = log.read_text()
+        self.output = log.read_text(errors="replace")
         if status != 0 or "ERROR" in self.output:
             raise SystemExit(f"{program} failed:\n{self.output[-3000:]}")
 
@@ -96,10 +96,3 @@ def machines(rows):
         commits, repeats = (", ".join(dict.fromkeys(r[k] for r in mine)) for k in ("commit", "repeats"))
         lines.append(f"* {device}: commit {commits}; medians of {repeats} (least to most).")
     return "\n".join(lines) or "* No rows are kept yet."
-
-
-def write_parts(parts):
-    for name, text in parts.items():
-        put_between(performance.DOCUMENT, performance.begin(name), performance.end(name),
-                    f"{performance.begin(name)}\n{text}\n{performance.end(name)}")
-    print("wrote", os.path.relpath(performance.DOCUMENT, ROOT))

@@ -98,6 +98,11 @@ def measure(options, executable, folder, named):
     return rows
 
 
+def kept_parts():
+    """The generated part of the document, with its markers."""
+    return parts(decks.read_rows("floor"))
+
+
 def parts(rows):
     def find(case, like):
         return performance.find(rows, case=case, order=like["order"])
@@ -111,7 +116,7 @@ def parts(rows):
     heads = ["triangles", "order", "flat plane, ms", "mesh, ms", "mesh / plane", "target",
              "large triangle added, ms", "/ plane"]
     mine = [r for r in rows if r["case"].startswith("floor") and not r["case"].endswith(LARGE)]
-    return {"floor": table(mine, heads, cells) + "\n\n" + decks.machines(rows)}
+    return performance.between_markers({"floor": table(mine, heads, cells) + "\n\n" + decks.machines(rows)})
 
 
 def main(args, words):
@@ -121,6 +126,7 @@ def main(args, words):
     p.add_argument("--steps", type=int, default=1000, metavar="N", help="timed as one (default 1000)")
     p.add_argument("--chunks", type=int, default=3, metavar="N", help="of these in a run (default 3)")
     p.add_argument("--repeats", type=int, default=3, metavar="N", help="of each run (default 3)")
+    p.add_argument("--words", action="help", help="show this")
     p.add_argument("--keep", metavar="DIR", help="leave decks and meshes there")
     options = p.parse_args(words)
     if args.quick:
@@ -132,5 +138,5 @@ def main(args, words):
             decks.keep("floor", measure(options, executable, work, args.commit or commit()), folder)
         if folder != performance.DATA:
             return 0
-    decks.write_parts(parts(decks.read_rows("floor")))
+    performance.write_parts(kept_parts())
     return 0

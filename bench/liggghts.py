@@ -7,7 +7,7 @@ fill the cylinder and move freely.
 
 The wall's part of a step is the step with the wall less the step without it, in the same process.
 Set-up and memory are those of a run of 0 steps with the wall less those of one without. Both
-programs read the same spheres and the same mesh. Rows are kept in doc/data/liggghts_cpu.csv.
+programs read the same spheres and the same mesh, LIGGGHTS as text. Rows are kept in doc/data/liggghts_cpu.csv.
 """
 import argparse
 import math
@@ -32,8 +32,8 @@ SMALLEST, LARGEST = 0.35, 1.0
 MESHES = {2560: (64, 12), 19968: (192, 28), 202752: (576, 104)}
 CASES = {"at the wall": "all at the wall, fixed", "in bulk": "in bulk, moving"}
 ORDERS = ("random", "sorted")
-YOUNG, POISSON, RESTITUTION, FRICTION, DENSITY = 1e7, 0.3, 0.5, 0.5, 2500.0
-DT, SPEED, SKIN = 1e-3, 1.0, 0.2
+YOUNG, POISSON, RESTITUTION, FRICTION, DENSITY = 1e8, 0.3, 0.5, 0.5, 2500.0
+DT, SPEED, SKIN = 1e-3, 2.5, 0.2    # in bulk, neighbour lists are built every 20 to 30 steps
 SPHERES = 100000
 
 
@@ -51,16 +51,7 @@ def closed_cylinder(n_round, n_along):
         r, turn = (a, math.pi / 4 * b / a) if abs(a) > abs(b) else (b, math.pi / 2 - math.pi / 4 * a / b)
         return RADIUS * r * math.cos(turn), RADIUS * r * math.sin(turn)
 
-    edge = [(0, j) for j in range(k)] + [(i, k) for i in range(k)] + \
-        [(k, j) for j in range(k, 0, -1)] + [(i, 0) for i in range(k, 0, -1)]
-    ring = [disk(i, j) for i, j in edge]
     triangles = []
-    for s in range(n_round):
-        (x0, y0), (x1, y1) = ring[s], ring[(s + 1) % n_round]
-        for t in range(n_along):
-            z0, z1 = HEIGHT * t / n_along, HEIGHT * (t + 1) / n_along
-            a, b, c, d = (x0, y0, z0), (x1, y1, z0), (x1, y1, z1), (x0, y0, z1)
-            triangles += [(a, b, c), (a, c, d)]
     for z in (0.0, HEIGHT):
         for i in range(k):
             for j in range(k):
@@ -68,7 +59,29 @@ def closed_cylinder(n_round, n_along):
                 # The diagonal that runs to the centre, as the other is nearly on the circle.
                 outward = (2 * i + 1 - k) * (2 * j + 1 - k) >= 0
                 triangles += [(a, b, c), (a, c, d)] if outward else [(a, b, d), (b, c, d)]
+    edge = [(0, j) for j in range(k)] + [(i, k) for i in range(k)] + \
+        [(k, j) for j in range(k, 0, -1)] + [(i, 0) for i in range(k, 0, -1)]
+    ring = [disk(i, j) for i, j in edge]
+    for s in range(n_round):
+        (x0, y0), (x1, y1) = ring[s], ring[(s + 1) % n_round]
+        for t in range(n_along):
+            z0, z1 = HEIGHT * t / n_along, HEIGHT * (t + 1) / n_along
+            a, b, c, d = (x0, y0, z0), (x1, y1, z0), (x1, y1, z1), (x0, y0, z1)
+            triangles += [(a, b, c), (a, c, d)]
     return triangles
+
+
+def write_mesh(folder, n_round, n_along):
+    """wall.stl, and the same as text: LIGGGHTS takes some binary files for text, by their numbers."""
+    triangles = closed_cylinder(n_round, n_along)
+    write_stl(folder / "wall.stl", triangles, "closed cylinder")
+    with open(folder / "text.stl", "w") as out:
+        out.write("solid cylinder\n")
+        for corners in triangles:
+            out.write("facet normal 0 0 0\nouter loop\n" +
+                      "".join("vertex {:.9g} {:.9g} {:.9g}\n".format(*c) for c in corners) +
+                      "endloop\nendfacet\n")
+        out.write("endsolid cylinder\n")
 
 
 def depth(x, y, n_round):
@@ -161,7 +174,7 @@ timestep        {DT}
 # Folds of the coarsest mesh are 5.6 degrees: with its default curvature of 0.26 degrees LIGGGHTS
 # counts a sphere twice where it overlaps both sides of one.
 THEIR_WALL = """\
-fix             mesh all mesh/surface file wall.stl type 1 curvature 10
+fix             mesh all mesh/surface file text.stl type 1 curvature 10
 fix             wall all wall/gran model hertz tangential history mesh n_meshes 1 meshes mesh
 """
 PROGRAMS = {"lsdcd": (OURS, OUR_WALL, "unfix wall\n"),
@@ -223,7 +236,7 @@ def compare(options, executables, folder, named):
     rows = []
     for triangles in options.triangles:
         n_round, n_along = MESHES[triangles]
-        write_stl(folder / "wall.stl", closed_cylinder(n_round, n_along), "closed cylinder")
+        write_mesh(folder, n_round, n_along)
         start = None
         for case in options.cases:
             for order in options.orders:
@@ -252,6 +265,11 @@ def compare(options, executables, folder, named):
 
 # ---- the table ---------------------------------------------------------------------------
 
+def kept_parts():
+    """The generated part of the document, with its markers."""
+    return parts(decks.read_rows("liggghts"))
+
+
 def parts(rows):
     def find(case, program, like):
         return performance.find(rows, case=f"{case}, {program}", triangles=like["triangles"],
@@ -270,7 +288,7 @@ def parts(rows):
              "LIGGGHTS / wall/lsdcd", "set-up, s", "LIGGGHTS, s", "memory, MB", "LIGGGHTS, MB",
              "sum of forces, ours / theirs"]
     mine = [r for r in rows if r["case"].endswith(", lsdcd")]
-    return {"liggghts": table(mine, heads, cells) + "\n\n" + decks.machines(rows)}
+    return performance.between_markers({"liggghts": table(mine, heads, cells) + "\n\n" + decks.machines(rows)})
 
 
 def main(args, words):
@@ -285,6 +303,7 @@ def main(args, words):
                    help="timed as one; ten times as many in bulk (default 20)")
     p.add_argument("--chunks", type=int, default=3, metavar="N", help="of these in a run (default 3)")
     p.add_argument("--repeats", type=int, default=3, metavar="N", help="of each run (default 3)")
+    p.add_argument("--words", action="help", help="show this")
     p.add_argument("--keep", metavar="DIR", help="leave decks and meshes there")
     options = p.parse_args(words)
     if args.quick:
@@ -300,5 +319,5 @@ def main(args, words):
             decks.keep("liggghts", compare(options, executables, work, args.commit or commit()), folder)
         if folder != performance.DATA:
             return 0
-    decks.write_parts(parts(decks.read_rows("liggghts")))
+    performance.write_parts(kept_parts())
     return 0

@@ -20,6 +20,15 @@ def find(rows, like, case):
     return performance.find(rows, case=case, triangles=like["triangles"], order=like["order"])
 
 
+def rows_of_all():
+    return {device: decks.read_rows("mesh-size", device=device) for device in performance.DEVICES}
+
+
+def kept_parts():
+    """The generated part of the document, with its markers."""
+    return parts(rows_of_all())
+
+
 def parts(rows_of):
     rows = [r for device in rows_of.values() for r in device]
 
@@ -35,7 +44,7 @@ def parts(rows_of):
              "over the smallest mesh", "with a new choice, ms", "weld and build, ms", "grid, MB",
              "engine with its grid, MB"]
     text = table([r for r in rows if r["case"] == KEPT], heads, cells)
-    return {"mesh-size": text + "\n\n" + performance.machines(rows_of)}
+    return performance.between_markers({"mesh-size": text + "\n\n" + performance.machines(rows_of)})
 
 
 def plot(rows_of):
@@ -81,7 +90,6 @@ def main(args, words):
             decks.keep("mesh-size", performance.parse(done.stdout), folder, device)
         if folder != performance.DATA:
             return 0
-    rows_of = {device: decks.read_rows("mesh-size", device=device) for device in ("cpu", "cuda")}
-    decks.write_parts(parts(rows_of))
-    plot(rows_of)
+    performance.write_parts(kept_parts())
+    plot(rows_of_all())
     return 0

@@ -11,13 +11,14 @@ def skip(why):
 
 
 def compare(path, compiler, found, room, unit):
-    """0 if no number of `found` is above the kept one by more than `room`. With --keep the rows of this
-    compiler are written anew; without rows the test is skipped by name."""
+    """How many numbers of `found` are above the kept ones by more than `room`, or gone; new ones are
+    only shown. With --keep the rows of this compiler are written anew; without rows the test is
+    skipped by name."""
     with open(path, newline="") as f:
         rows = list(csv.DictReader(f))
     if "--keep" in sys.argv:
         rows = [r for r in rows if r["compiler"] != compiler]
-        rows += [{"compiler": compiler, "case": case, "number": f"{n:.4g}"} for case, n in found.items()]
+        rows += [{"compiler": compiler, "case": case, "number": f"{n:.6g}"} for case, n in found.items()]
         with open(path, "w", newline="") as f:
             writer = csv.DictWriter(f, ["compiler", "case", "number"], lineterminator="\n")
             writer.writeheader()
@@ -29,13 +30,12 @@ def compare(path, compiler, found, room, unit):
         skip(f"no numbers are kept for {compiler} (there are those of: {known}); --keep writes them")
     failed = 0
     for case in dict.fromkeys([*kept, *found]):
-        have, most = found.get(case), kept.get(case, 0) * (1 + room)
-        holds = have is not None and have <= most
-        says = "not there any more" if have is None else \
-            f"{have:.4g} {unit}, kept {kept[case]:.4g}, {have / kept[case] - 1:+.1%}" if case in kept else \
-            f"{have:.4g} {unit}, none kept"
+        have, was = found.get(case), kept.get(case)
+        holds = have is not None and (was is None or have <= was * (1 + room))
+        says = "not there any more" if have is None else f"{have:.4g} {unit}, " + \
+            (f"kept {was:.4g}, {have / was - 1:+.1%}" if was else "none kept")
         print(f"{'PASS' if holds else 'FAIL'} {case}: {says}")
         failed += not holds
     if failed:
-        print(f"at most {room:.0%} more is allowed; if it is meant: {sys.argv[0]} --keep")
+        print(f"at most {room:.0%} more is allowed; if it is meant: {sys.argv[0]} ... --keep")
     return failed
