@@ -39,6 +39,11 @@ class Run:
         loops = re.findall(r"^Loop time of (\S+) on .* for (\d+) steps", self.output, re.M)
         return [1e3 * float(t) / int(n) for t, n in loops if int(n) > 0]
 
+    def builds(self):
+        """Of neighbour lists, in each of those runs."""
+        builds = re.findall(r"^Neighbor list builds = (\d+)", self.output, re.M)
+        return [int(b) for b in builds[-len(self.step_ms()):]]
+
 
 def row(program, case, commit, triangles, spheres, order, ms, compiler="", **facts):
     """In the format of bench.h, from times in ms (they may be differences)."""

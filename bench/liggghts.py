@@ -248,16 +248,19 @@ def compare(options, executables, folder, named):
                 steps = options.steps * (10 if case == "in bulk" else 1)
                 parts = {p: [] for p in executables}
                 plain = {p: [] for p in executables}
+                builds = {p: 0 for p in executables}
                 for _ in range(options.repeats):    # in turn, so that other load meets both
                     for program, executable in executables.items():
-                        ms = decks.Run(executable, timed_deck(program, case, steps, options.chunks),
-                                       folder).step_ms()
+                        run = decks.Run(executable, timed_deck(program, case, steps, options.chunks), folder)
+                        ms = run.step_ms()
                         half = len(ms) // 2
+                        builds[program] += sum(run.builds()[1:half])
                         plain[program] += ms[half + 1:]
                         parts[program] += [a - b for a, b in zip(ms[1:half], ms[half + 1:])]
                 for program in executables:
                     rows.append(decks.row("liggghts", f"{case}, {program}", named, triangles,
                                           options.spheres, order, parts[program], steps=steps,
+                                          builds=builds[program],
                                           no_wall_ms=f"{statistics.median(plain[program]):.4g}",
                                           **start[program], **check))
     return rows
