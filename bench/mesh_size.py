@@ -53,7 +53,7 @@ def plot(rows_of):
     import matplotlib.pyplot as plt
 
     panels = [("time per contact in a step, ns", lambda r: facts(r)["ns_per_contact"], ("random", "sorted")),
-              ("weld and build, ms", lambda r: facts(r)["build_ms"], ("random",)),
+              ("set-up: weld and build, ms", lambda r: facts(r)["build_ms"], ("random",)),
               ("memory of the grid, MB", lambda r: facts(r)["grid_mb"], ("random",))]
     figure, all_axes = plt.subplots(1, 3, figsize=(12, 4.2))
     for axis, (name, value, orders) in zip(all_axes, panels):
