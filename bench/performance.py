@@ -1,4 +1,5 @@
-"""Runs the benchmark programs, keeps their rows and writes the tables of doc/performance.md.
+"""Runs the benchmark programs, keeps their rows and writes the tables of doc/performance.md; those
+that show how a measurement works, not what a wall costs, are in doc/notes/performance.md.
 
 Programs print rows of one format (bench.h). They are kept in doc/data/performance_DEVICE.csv,
 so that the document has those of a device on a machine without it too; a row replaces the one
@@ -14,6 +15,8 @@ from hard_cases import ROOT, commit, put_between, write_whole
 from performance_plots import plot_build, plot_query
 
 DOCUMENT = os.path.join(ROOT, "doc", "performance.md")
+NOTES = os.path.join(ROOT, "doc", "notes", "performance.md")
+IN_NOTES = ("kokkos-cpu", "kokkos-copies")
 DATA = os.path.join(ROOT, "doc", "data")
 DEVICES = ("cpu", "cuda")
 PROGRAMS = ("query", "build", "step", "cache")
@@ -280,6 +283,10 @@ def parts(cpu, cuda):
              "build": build_table(cpu, cuda),
              "step": step_table(cpu, cuda, False),
              "resident": step_table(cpu, cuda, True), "cache": cache_table(cpu)}
+    return between_markers(text)
+
+
+def between_markers(text):
     return {name: f"{begin(name)}\n{table_}\n{end(name)}" for name, table_ in text.items()}
 
 
@@ -291,13 +298,18 @@ def end(name):
     return f"<!-- {name}:end -->"
 
 
+def write_parts(found):
+    for name, text in found.items():
+        document = NOTES if name in IN_NOTES else DOCUMENT
+        put_between(document, begin(name), end(name), text)
+        print("wrote", name, "in", os.path.relpath(document, ROOT))
+
+
 def write_document():
     cpu, cuda = read_rows("cpu"), read_rows("cuda")
-    for name, text in parts(cpu, cuda).items():
-        put_between(DOCUMENT, begin(name), end(name), text)
+    write_parts(parts(cpu, cuda))
     plot_query(cpu, cuda, DISTANCE_TARGETS, BVH)
     plot_build(cpu, cuda, BUILD_TARGETS)
-    print("wrote", os.path.relpath(DOCUMENT, ROOT))
 
 
 def main(args, programs, words):
