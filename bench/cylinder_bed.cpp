@@ -149,10 +149,9 @@ CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, LawStyle
   e.law.gamma_normal = 50;
   e.law.gamma_tangent = 25;
   e.law.mu = Real(0.5);
-  engine_ = cuda ? make_resident_cuda_engine(e, 0, nullptr) : make_resident_cpu_engine(e);
+  engine_ = cuda ? make_cuda_engine_in_place(e, 0, nullptr) : make_cpu_engine(e);
   engine_->set_grid(grid_.view());
   const int n = static_cast<int>(b.radius.size());
-  engine_->grow(n);
   const std::vector<Real> zero(b.x.size(), 0);
   spheres_.n = n;
   spheres_.x = x_.put(b.x);
@@ -174,7 +173,10 @@ void CylinderBed::steps(int n)
 {
   StepSettings step;
   step.dt = Real(1e-6);
-  for (int k = 0; k < n; k++) engine_->start(spheres_, step, nullptr);
+  for (int k = 0; k < n; k++) {
+    engine_->start(spheres_, step);
+    engine_->collect();
+  }
   engine_->look();
 }
 

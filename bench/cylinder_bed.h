@@ -2,7 +2,7 @@
 // computes: what the programs share that time or count its steps.
 #pragma once
 
-#include "engine/resident_engine.h"
+#include "engine/wall_engine.h"
 #include "grid/flat_grid.h"
 #include "mesh/triangle_soup.h"
 #include "support/device_memory.h"
@@ -50,7 +50,7 @@ class CylinderBed {
 
  private:
   FlatGrid grid_;
-  std::unique_ptr<ResidentEngine> engine_;
+  std::unique_ptr<InPlaceEngine> engine_;
   DeviceArray<Real> x_, v_, omega_, radius_, mass_, force_, torque_;
   Spheres spheres_;
 };

@@ -35,7 +35,7 @@ BUILD_TARGETS = {"160": 3, "10000": 5, "100000": 15, "1000000": 60}
 # Yong et al. 2017, Table 2 and figure 9, a K40; its N = all tries every triangle.
 PAPER_MS = {("10000000", "N = 1"): 362, ("10000000", "N = 2"): 565, ("10000000", "N = 3"): 937,
             ("10000000", "complete"): 57899, ("60000000", "N = 2"): 3488}
-FORCE_TARGETS = (0.25, 0.15)    # hooke on resident particles, 160 triangles, chosen anew
+FORCE_TARGETS = (0.25, 0.15)    # hooke on particles in place, 160 triangles, chosen anew
 HISTORY_RATIO = 2    # hertz/history there, over its floor
 USUAL_SIZE = "10000000"
 
@@ -246,19 +246,19 @@ def step_target(row):
     return number(FORCE_TARGETS[row["order"] == "sorted"]) if row["triangles"] == "160" else ""
 
 
-def step_table(cpu, cuda, resident):
-    cpu, cuda = (of(rows, "step", lambda case: ("resident" in case) == resident)
+def step_table(cpu, cuda, in_place):
+    cpu, cuda = (of(rows, "step", lambda case: ("in place" in case) == in_place)
                  for rows in (cpu, cuda))
 
     def cells(r):
         f, g, c = facts(r), same(cuda, r), same(cpu, r)
-        what = r["case"].replace(", resident", "")
+        what = r["case"].replace(", in place", "")
         return [count(r["triangles"]), what, r["order"], count(f["near"]), count(f["contacts"]),
-                *cells_of(g), facts(g).get("ns_per_near", ""), *[step_target(r)] * resident,
+                *cells_of(g), facts(g).get("ns_per_near", ""), *[step_target(r)] * in_place,
                 *cells_of(c), facts(c).get("ns_per_near", "")]
 
     heads = ["triangles", "style", "order", "near", "contacts", "CUDA, ms", "floor", "ratio",
-             "ns per near sphere", *["target"] * resident, "CPU, ms", "floor", "ratio",
+             "ns per near sphere", *["target"] * in_place, "CPU, ms", "floor", "ratio",
              "ns per near sphere"]
     return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
 
@@ -282,7 +282,7 @@ def parts(cpu, cuda):
     text = {"status": status_table(cpu, cuda), "distance": distance_table(cpu, cuda),
              "build": build_table(cpu, cuda),
              "step": step_table(cpu, cuda, False),
-             "resident": step_table(cpu, cuda, True), "cache": cache_table(cpu)}
+             "in_place": step_table(cpu, cuda, True), "cache": cache_table(cpu)}
     return between_markers(text)
 
 

@@ -62,8 +62,13 @@ class EngineOn : public InPlaceEngine {
     all_near_ = false;
     near_.choose(b_, grid_, table_, spheres, margin, settings_.law.pull_off(), counts_.data(),
                  springs_.count());
-    const StepCounts seen = read_counts();
+    StepCounts seen = read_counts();
     if (seen.too_large) throw_for(spheres, seen);
+    if (grid_.nearest == 0 && seen.n_near > 0) {
+      near_.prune(b_, grid_, spheres, seen.n_near, margin, settings_.law.pull_off(), counts_.data(),
+                  springs_.count());
+      seen = read_counts();
+    }
     make_lists(spheres, seen.n_near, seen);
     margin_ = margin;
     if (watch) keep_centres(spheres);
