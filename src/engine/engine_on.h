@@ -353,7 +353,16 @@ class EngineOn : public InPlaceEngine {
       }
       to[b] = t;
     });
-    for (const WallTotals &t : b_.to_host(block, n_blocks)) add_block(totals_, t);
+    const std::size_t n_sums = (n_blocks + kTotalsBlock - 1) / kTotalsBlock;
+    Array<WallTotals> sums(n_sums);
+    WallTotals *to_sums = sums.data();
+    b_.for_each(n_sums, [=] LSDCD_LAMBDA(std::size_t b) {
+      WallTotals t;
+      const std::size_t end = (b + 1) * kTotalsBlock;
+      for (std::size_t k = b * kTotalsBlock; k < end && k < n_blocks; k++) add_block(t, to[k]);
+      to_sums[b] = t;
+    });
+    for (const WallTotals &t : b_.to_host(sums, n_sums)) add_block(totals_, t);
   }
 
  private:

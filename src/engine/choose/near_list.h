@@ -63,8 +63,9 @@ class NearList {
   void select(B &b, const GridView &grid, const BrickTable &table, const Spheres &spheres,
               Real margin, Real pull_off, StepCounts *counts, int *n_springs)
   {
-    const NearChoice<kMoves> choice = {
+    NearChoice<kMoves> choice = {
         grid, table, BrickFilter<Real>(grid), spheres, margin, pull_off, counts, n_springs};
+    choice.fixed_margin = choice.filter.margin(margin * grid.inv_length / kBrickSide);
     b.select(spheres.n, choice, room_, near_.data(), &counts->n_near);
   }
 
