@@ -191,11 +191,11 @@ def timed_deck(host, bed, order, wall, steps, chunks, warm=WARM):
 
 def read_times(output):
     """Of the timed runs, without the first: ms per step of each, of which pairs, builds of
-    neighbour lists; steps and lists of near atoms that our fix says."""
+    neighbour lists; steps and choices of near atoms that our fix says."""
     loops = re.findall(r"^Loop time of (\S+) on .* for (\d+) steps", output, re.M)[1:]
     pair = re.findall(r"^Pair\s*\|\s*\S+\s*\|\s*(\S+)", output, re.M)[1:]
     builds = re.findall(r"^Neighbor list builds = (\d+)", output, re.M)[1:]
-    lists = re.findall(r"wall/lsdcd/kk: (\d+) steps with (\d+) lists", output)[1:]
+    lists = re.findall(r": (\d+) steps, near atoms chosen (\d+) times", output)[1:]
     return {"ms": [1e3 * float(t) / int(n) for t, n in loops],
             "pair": [1e3 * float(p) / int(n) for p, (_, n) in zip(pair, loops)],
             "builds": sum(map(int, builds)),

@@ -79,18 +79,21 @@ def lists(checks, folder):
     body = scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 100) + "run 1000\n"
     rare = body.replace("neigh_modify    delay 0 every 1", "neigh_modify    delay 0 every 2")
     for name, text in (("every step checked", body), ("every other step checked", rare)):
-        plain, _ = go(folder, PLAIN, text)
+        plain, plain_output = go(folder, PLAIN, text)
         kokkos, output = go(folder, deck.KOKKOS, text)
         checks.at_most(f"{name}: as the plain fix", deck.largest_difference(plain, kokkos), 1e-9)
-        found = re.search(r"wall/lsdcd/kk: (\d+) steps with (\d+) lists of near atoms(.*)", output)
-        steps, made = int(found.group(1)), int(found.group(2))
         if deck.DEVICE_MOVES:
             checks.fact(f"{name}: atoms move on the device", "switching to legacy" not in output)
-        if text is body:
-            checks.fact("lists are kept between reneighbourings", made < steps / 5, found.group(0))
-        else:
-            checks.fact("a list for every step where the skin is not checked in each",
-                        made == steps and "check yes lets a list be kept" in found.group(3),
+        for form, said in (("plain", plain_output), ("kk", output)):
+            found = re.search(r": (\d+) steps, near atoms chosen (\d+) times(.*), (\d+) lists of the "
+                              r"wall made, (\S+) features each", said)
+            steps, chosen, made = (int(found.group(k)) for k in (1, 2, 4))
+            checks.fact(f"{name}, {form}: near atoms are kept from step to step",
+                        chosen < steps / 5, found.group(0))
+            checks.fact(f"{name}, {form}: and so are lists of the wall",
+                        0 < made < steps * 100, found.group(0))
+            checks.fact(f"{name}, {form}: the log says what would save looking at all atoms",
+                        ("check yes saves looking" in found.group(3)) == (text is rare),
                         found.group(0))
 
 

@@ -314,6 +314,36 @@ TEST(engine, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
   EXPECT_GT(far, 1000);    // it is not near everywhere
 }
 
+TEST(engine, the_first_look_of_a_choice_with_a_margin_leaves_out_none_that_the_second_keeps)
+{
+  GridSettings g;
+  g.reach = 0.5;
+  g.length = 0.2;
+  const FlatGrid flat(build_grid(weld(box_mesh({-10, -10, -10}, {10, 10, 10}), -1), g));
+  const GridView grid = flat.view();
+  const std::vector<BrickWord> words = brick_words(grid);
+  NearChoice<true> choice = {};
+  choice.grid = grid;
+  choice.table = BrickTable(words, words.data());
+  choice.filter = BrickFilter<Real>(grid);
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<Real> at(-12, 12), margins(1e-9, 0.9);
+  int kept = 0, missed = 0, left_out = 0;
+  for (int k = 0; k < 300000; k++) {
+    const Vec3 q = {at(random), at(random), at(random)};
+    choice.margin = margins(random);
+    choice.fixed_margin = choice.filter.margin(choice.margin * grid.inv_length / kBrickSide);
+    const bool may = choice.may_keep({0.5, 0}, q, choice.table);
+    const bool keeps = choice.keep(q, choice.table);
+    kept += keeps;
+    missed += keeps && !may;
+    left_out += !may;
+  }
+  EXPECT_EQ(missed, 0);
+  EXPECT_GT(kept, 1000);
+  EXPECT_GT(left_out, 1000);    // the first look saves something
+}
+
 TEST(engine, springs_follow_through_pack_and_unpack)
 {
   const int n = 2000, stay = 1500;
