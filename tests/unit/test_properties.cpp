@@ -233,14 +233,15 @@ TEST(property, a_list_holds_every_contact_inside_of_its_margin)
     none("contacts of lists alone", t.extra);
     none("contacts of cells that no listed feature has", t.by_cells);
     none("nearest contacts at no distance to all triangles", t.wrong);
-    EXPECT_GT(t.steps, n_steps / 8);
-    EXPECT_GT(t.touching, t.steps / 8);
+    EXPECT_GT(t.with_list, t.spheres / 2);
+    EXPECT_GT(t.touching, t.steps / 4);
   }
 }
 
 // The check can fail: lists for a margin 1 % short of what is walked miss contacts.
 TEST(property, a_list_for_less_than_the_margin_is_seen_to_miss_contacts)
 {
+  if (setting("LSDCD_MESH", -1) >= 0) GTEST_SKIP() << "one mesh may have no contact to miss";
   for (const bool in_floats : {false, true}) {
     std::string where;
     const Walks t = walk(1e5, in_floats, Real(0.99), where);

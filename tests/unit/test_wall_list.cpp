@@ -359,6 +359,36 @@ TEST(wall_list, is_made_anew_where_a_sphere_grows)
   EXPECT_EQ(bed.engine->look().lists, 1);
 }
 
+TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_time)
+{
+  for (bool in_floats : {false, true}) {
+    const Wall wall(floor_mesh(10, 5, 3), 0.5, in_floats);
+    EngineSettings s = hooke(1e3);
+    if (in_floats) s.precision = Precision::mixed;
+    Bed kept(wall, s), anew(wall, s);
+    const Vec3 outside = {-9, -9, 5.4};
+    kept.add(outside, 0.5);
+    anew.add(outside, 0.5);
+    EXPECT_FALSE(place_of(wall.view(), outside).inside);
+    kept.choose(12);
+    ASSERT_EQ(kept.engine->n_near(), 1);
+    // To a place over the floor, a third of a margin a step.
+    const Vec3 way = Vec3{-0.5, -0.5, 0.4} - outside;
+    const int steps = static_cast<int>(norm(way) / (kListMargin * 0.5 / 3));
+    int touching = 0;
+    for (int k = 0; k <= steps; k++) {
+      kept.put(0, outside + (static_cast<Real>(k) / steps) * way);
+      anew.x = kept.x;
+      kept.step();
+      anew.choose(0);
+      anew.step();
+      EXPECT_TRUE(kept.force_on(0) == anew.force_on(0)) << k;
+      touching += kept.force_on(0).z > 0;
+    }
+    EXPECT_GT(touching, 3);
+  }
+}
+
 // Contacts are taken in the order of their numbers, so that forces and springs do not tell when a
 // list was made. That goes for brick records as well: the frame is that of the brick that the
 // sphere is in, and a list never leaves it. In the dense soup some spheres have no list.
