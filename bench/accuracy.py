@@ -388,19 +388,19 @@ def draw(rows_of):
     rows = rows_of["cuda"] or rows_of["cpu"]
     nine, ten = of_table(rows, "figure9"), of_table(rows, "figure10")
     time.plot(*numbers(nine, "spheres", "paper_query_ms"), **paper_style)
-    time.set(xscale="log", yscale="log", xlabel="spheres", ylabel="query, ms",
+    time.set(xscale="log", yscale="log", xlabel="number of spheres", ylabel="query time, ms",
              title="N = 2, L = 0.2 (figure 9)")
     by_count.plot(*numbers(nine, "spheres", "accuracy"), marker=".", color="tab:red", label="ours")
     by_count.plot(*numbers(nine, "spheres", "paper_accuracy"), **paper_style)
-    by_count.set(xscale="log", xlabel="spheres", ylabel="accuracy (6)", ylim=(0.985, 1.0),
+    by_count.set(xscale="log", xlabel="number of spheres", ylabel="accuracy, equation (6)", ylim=(0.985, 1.0),
                  title="N = 2, L = 0.2 (figure 9)")
     by_length.plot(*numbers(ten, "length", "accuracy"), marker=".", color="tab:red", label="ours")
     by_length.plot(*numbers(ten, "length", "paper_accuracy"), **paper_style)
-    by_length.set(xlabel="cell length L", ylabel="accuracy (6)", ylim=(0.9935, 0.9942),
+    by_length.set(xlabel="cell length L (radii up to 1)", ylabel="accuracy, equation (6)", ylim=(0.9935, 0.9942),
                   title="N = 2 (figure 10)")
     by_length.ticklabel_format(useOffset=False)
     build.plot(*numbers(ten, "length", "paper_build_s"), **paper_style)
-    build.set(yscale="log", xlabel="cell length L", ylabel="grid, s",
+    build.set(yscale="log", xlabel="cell length L (radii up to 1)", ylabel="build time, s",
               title="Preprocessing, N = 2 (figures 10 and 11)")
     for a in axes.flat:
         a.grid(True, alpha=0.3)

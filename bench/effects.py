@@ -110,7 +110,7 @@ def plot(cpu, cuda):
         axis.barh(range(len(names)), values, color=colours)
         axis.set_yticks(range(len(names)), names)
         axis.invert_yaxis()
-        axis.set_xlabel("ns per contact")
+        axis.set_xlabel("time per contact and step, ns")
         axis.set_title(label)
     figure.tight_layout()
     part = PLOT + ".part.png"

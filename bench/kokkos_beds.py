@@ -1,7 +1,6 @@
 """Beds of spheres for kokkos.py: what a deck says of them, and their meshes."""
 import math
 import os
-import pathlib
 import sys
 
 from hard_cases import ROOT
@@ -9,11 +8,12 @@ from hard_cases import ROOT
 sys.path.insert(0, os.path.join(ROOT, "examples"))
 from stl import write_stl    # noqa: E402
 
-VESSEL = pathlib.Path(ROOT, "examples", "vessel")
 LAW = "hooke/history 4000 NULL 100 NULL 0.5 1"
 SPEED = 20.0    # along the wall
 CUBE = math.sqrt(2)    # edge of the lattice's cube of 4 sites, neighbours 1 apart
 PLANES = 40    # of spheres on a floor
+SPACING = 0.985    # of spheres of diameter 1 in the closed box: compressed by 1.5 %
+WALL_CELLS = 41    # along and across each of its six walls
 
 
 def near_square(ranks):
@@ -28,9 +28,9 @@ class Bed:
 
     def __init__(self, name, atoms, ranks, folder, million=1000000):
         self.name, self.atoms, self.ranks = name, atoms, ranks
-        self.mesh, self.scale = folder / "wall.stl", 1.0
+        self.mesh = folder / "wall.stl"
         self.split = near_square(ranks)
-        (self.vessel if name == "vessel" else self.floor)(million)
+        (self.closed_box if name == "box" else self.floor)(million)
 
     def floor(self, million):
         (px, py), each = self.split, self.atoms / self.ranks
@@ -48,41 +48,38 @@ class Bed:
         nx, ny = (1, 1) if self.name == "flat" else cells_of(million)
         self.triangles = 2 * nx * ny
         write_stl(self.mesh, sheet(z, [s + 4 for s in side], nx, ny), "a floor")
+        self.lattice = f"fcc {4 / CUBE**3!r} origin 0.25 0.25 0.4"
+        self.diameters, self.gravity = "0.97+0.03*random(0,1,7)", 1.0
+        self.neighbours = "delay 0 every 1 check yes"
         self.boundary = "p p f"
         self.box = f"0 {side[0]!r} 0 {side[1]!r} -1 {height + 3!r}"
         self.volume = side[0] * side[1] * (height + 4)
         self.region = f"region bed block INF INF INF INF 0.4 {height + 0.4 - 1e-6!r} units box"
         self.motion = f"velocity all set {SPEED} 0 0 sum yes units box"
 
-    def vessel(self, _):
-        close_vessel(self.mesh)
-        self.triangles = (self.mesh.stat().st_size - 84) // 50
-        # The lattice fills a little more than the atoms need; the highest sites go.
-        low, high, volume = 0.01, 1000.0, 1.03 * self.atoms / math.sqrt(2)
-        while high - low > 1e-9 * high:
-            s = (low + high) / 2
-            low, high = (s, high) if vessel_volume(s) < volume else (low, s)
-        self.scale = s = high
-        r = 50 * s + 1
+    def closed_box(self, _):
+        """A simple cubic lattice pushes against all six walls: the outer spheres overlap them by as much
+        as their neighbours. It does not move, so neighbour lists are built every 50 steps."""
+        (px, py), each = self.split, self.atoms / self.ranks
+        along = max(1, round(each**(1 / 3)))
+        sites = [px * along, py * along, math.ceil(self.atoms / (px * py * along**2))]
+        side = [SPACING * n - (1 - SPACING) for n in sites]
+        triangles = box(side, WALL_CELLS)
+        self.triangles = len(triangles)
+        write_stl(self.mesh, triangles, "a closed box")
+        first = (SPACING - 0.5) / SPACING
+        self.lattice = f"sc {SPACING**-3!r} origin" + 3 * f" {first!r}"
+        self.diameters, self.gravity = "1.0", 0.1
+        self.neighbours = "delay 0 every 50 check no"
         self.boundary = "f f f"
-        self.box = f"{-r!r} {r!r} {-r!r} {r!r} -1 {190 * s!r}"
-        self.volume = 4 * r * r * (190 * s + 1)
-        tube, low_cone, high_cone, shoulder, side, pipe = vessel_radii(s)
-        self.region = f"""\
-region tube cylinder z 0 0 {tube!r} 0.6 {30 * s!r} units box
-region cone cone z 0 0 {low_cone!r} {high_cone!r} {30 * s!r} {80 * s!r} units box
-region shoulder cylinder z 0 0 {shoulder!r} {80 * s!r} {90 * s!r} units box
-region column cylinder z 0 0 {side!r} {90 * s!r} {150 * s!r} units box
-region inside union 4 tube cone shoulder column
-region pipe cylinder z 0 0 {pipe!r} {110 * s - 0.6!r} {190 * s!r} side out units box
-region bed intersect 2 inside pipe"""
-        turn = SPEED / (50 * s)
-        self.motion = (f"variable vx atom -y*{turn!r}\nvariable vy atom x*{turn!r}\n"
-                       "velocity all set v_vx v_vy 0 sum yes units box")
+        self.box = " ".join(f"-1 {s + 1!r}" for s in side)
+        self.volume = math.prod(s + 2 for s in side)
+        self.region = "region bed block " + " ".join(f"0 {s!r}" for s in side) + " units box"
+        self.motion = ""
 
     def wall(self, style="wall/lsdcd"):
         if style == "wall/lsdcd":
-            return f"fix wall all wall/lsdcd {LAW} mesh {self.mesh} scale {self.scale!r}" + \
+            return f"fix wall all wall/lsdcd {LAW} mesh {self.mesh}" + \
                 " periodic" * (self.boundary[0] == "p")
         # LAMMPS's own; its suffix must not choose the form.
         return f"suffix off\nfix wall all {style} {LAW} zplane 0.0 NULL\nsuffix on"
@@ -111,24 +108,20 @@ def sheet(z, side, nx, ny):
     return triangles
 
 
-def close_vessel(path):
-    """The example's vessel and its outlet's plate in one file."""
-    parts = [(VESSEL / name).read_bytes() for name in ("vessel.stl", "outlet.stl")]
-    count = sum(int.from_bytes(p[80:84], "little") for p in parts)
-    path.write_bytes(b"vessel and outlet, millimetres".ljust(80) + count.to_bytes(4, "little") +
-                     b"".join(p[84:] for p in parts))
+def box(side, n):
+    """Triangles of a closed box from the origin to `side`, n x n cells on each of its six walls."""
+    triangles = []
+    for axis in range(3):
+        u, w = (axis + 1) % 3, (axis + 2) % 3
 
+        def at(i, j, height):
+            p = [0.0, 0.0, 0.0]
+            p[axis], p[u], p[w] = height, side[u] * i / n, side[w] * j / n
+            return tuple(p)
 
-def vessel_radii(s):
-    """Of the lattice: tube, foot and head of the cone, shoulder (the rounding takes some of
-    it), cylinder; and of the pipe that is left free."""
-    slant = math.hypot(1, 35 / 50)
-    return (15 * s - 0.6, 15 * s - 0.6 * slant, 50 * s - (0.6 + 0.6 * s) * slant,
-            50 * s - 0.6 - 0.6 * s, 50 * s - 0.6, 12 * s + 0.6)
-
-
-def vessel_volume(s):
-    tube, low, high, shoulder, side, pipe = (max(r, 0.0) for r in vessel_radii(s))
-    cone = 50 / 3 * s * (low**2 + low * high + high**2)
-    return math.pi * (tube**2 * max(30 * s - 0.6, 0) + cone + 10 * s * shoulder**2 +
-                      60 * s * side**2 - (40 * s + 0.6) * pipe**2)
+        for height in (0.0, side[axis]):
+            for i in range(n):
+                for j in range(n):
+                    a, b, c, d = (at(i + p, j + q, height) for p, q in ((0, 0), (1, 0), (1, 1), (0, 1)))
+                    triangles += [(a, b, c), (a, c, d)]
+    return triangles

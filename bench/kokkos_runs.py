@@ -11,10 +11,8 @@ import re
 import shlex
 import subprocess
 
-from kokkos_beds import CUBE, LAW
+from kokkos_beds import LAW
 
-DIAMETERS = "0.97+0.03*random(0,1,7)"
-GRAVITY = 1.0
 SKIN = 0.1
 WARM = 20    # steps before those that are timed
 # Short steps, so that little is heard of a missing floor while they are timed; at SPEED 50
@@ -27,7 +25,7 @@ atom_style      sphere
 boundary        {boundary}
 newton          off
 comm_modify     vel yes cutoff 2.0
-lattice         fcc {density!r} origin 0.25 0.25 0.4
+lattice         {lattice}
 region          box block {box} units box
 create_box      1 box
 {region}
@@ -70,7 +68,7 @@ atom_modify     sort {sort}
 pair_style      gran/{law}
 pair_coeff      * *
 neighbor        {skin} bin
-neigh_modify    delay 0 every 1 check yes
+neigh_modify    {neighbours}
 fix             move all nve/sphere
 fix             pull all gravity {gravity} vector 0 0 -1
 {wall}
@@ -158,15 +156,16 @@ def still(steps):
 
 def deck_from(host, bed, file, wall, sort="0 0"):
     return FROM_FILE.format(plugin=host.plugin, processors=bed.processors(), sort=sort, file=file,
-                            law=LAW, skin=SKIN, gravity=GRAVITY, wall=wall)
+                            law=LAW, skin=SKIN, gravity=bed.gravity,
+                            neighbours=bed.neighbours, wall=wall)
 
 
 def prepare(host, bed, folder, settle, shuffled=True):
     """Leaves bed.restart in the folder; returns what the wall carries of the bed's weight
     when it has settled, and contacts with it. Without `shuffled`, for runs in which LAMMPS
     sorts its atoms, it spares the time that a random order takes."""
-    start = START.format(boundary=bed.boundary, density=4 / CUBE**3, box=bed.box,
-                         region=bed.region, atoms=bed.atoms, diameters=DIAMETERS,
+    start = START.format(boundary=bed.boundary, lattice=bed.lattice, box=bed.box,
+                         region=bed.region, atoms=bed.atoms, diameters=bed.diameters,
                          dense=6 / math.pi)    # mass 1 at diameter 1
     shuffle = SHUFFLE.format(bin=(bed.volume / bed.atoms)**(1 / 3)) if shuffled else ""
     output = host.run_well(start + shuffle + "write_restart lattice.restart\n", folder,
@@ -176,7 +175,7 @@ def prepare(host, bed, folder, settle, shuffled=True):
         raise SystemExit(f"{bed.name}: the lattice has {made} sites for {bed.atoms} atoms")
     output = host.run_well(
         deck_from(host, bed, "lattice.restart", bed.wall()) +
-        SETTLED.format(gravity=GRAVITY, settle=settle, settle_dt=SETTLE_DT,
+        SETTLED.format(gravity=bed.gravity, settle=settle, settle_dt=SETTLE_DT,
                        half=settle // 2, still=still(settle // 8), dt=DT,
                        motion=bed.motion, out="bed.restart"), folder, bed.ranks)
     (folder / "lattice.restart").unlink()

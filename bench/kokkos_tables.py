@@ -4,11 +4,11 @@ import pathlib
 
 import performance
 from effects import table
-from hard_cases import ROOT, put_between, write_whole
-from performance import as_csv, begin, count, end, facts, ms
+from hard_cases import write_whole
+from performance import as_csv, count, facts, ms
 
-CASES = {"flat": "flat floor", "vessel": "vessel", "million": "bumpy floor"}
-TRIANGLES = {"flat": "2", "vessel": "19272", "million": "1000000"}
+CASES = {"flat": "flat floor", "box": "closed box", "million": "bumpy floor"}
+TRIANGLES = {"flat": "2", "box": "20172", "million": "1000000"}
 ORDERS = ("random", "sorted")
 GPU_ATOMS = ("1000000", "8000000")
 TARGET = 1.05    # a step with our wall over one without
@@ -76,13 +76,15 @@ def step_table(rows, expected):
         measured = bool(r.get("median_ms"))
         without = beside(rows, r, NO_WALL) if measured else None
         return [r["case"], count(r["triangles"]), count(r["spheres"]), r["order"], f["host"],
-                f["touching"] if measured else "",
+                count(f["touching"]) if measured else "",
+                f"{100 * int(f['touching']) / int(r['spheres']):.2g}" if measured else "",
                 f"{f['lists']} in {f['wall_steps']}" if measured else "",
                 ms(r) if measured else "", ms(without),
                 f"{ratio_of(r, without):.3f}" if measured else "", *[str(TARGET)] * bool(expected),
                 *[other(rows, r, style) for style in ("wall/gran", "wall/gran/kk")]]
 
-    heads = ["bed", "triangles", "atoms", "order", "LAMMPS", "touching", "lists of near atoms",
+    heads = ["bed", "triangles", "atoms", "order", "LAMMPS", "contacts with the wall", "per 100 atoms",
+             "lists of near atoms",
              "with the wall, ms", "without, ms", "ratio", *["target"] * bool(expected),
              "LAMMPS's wall/gran, ms", "wall/gran/kk, ms"]
     return table(mine, heads, cells)
@@ -157,10 +159,8 @@ def parts(on_cpu, on_gpu):
     text = {"kokkos-cuda": step_table(on_gpu, GPU_ATOMS) + "\n\n" + machines(on_gpu),
             "kokkos-cpu": step_table(on_cpu, ()) + "\n\n" + machines(on_cpu),
             "kokkos-scaling": scaling_table(both), "kokkos-copies": copies_table(both)}
-    return {name: f"{begin(name)}\n{table_}\n{end(name)}" for name, table_ in text.items()}
+    return performance.between_markers(text)
 
 
 def write_document(folder=performance.DATA):
-    for name, text in parts(read_rows("cpu", folder), read_rows("cuda", folder)).items():
-        put_between(performance.DOCUMENT, begin(name), end(name), text)
-    print("wrote", os.path.relpath(performance.DOCUMENT, ROOT))
+    performance.write_parts(parts(read_rows("cpu", folder), read_rows("cuda", folder)))

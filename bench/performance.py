@@ -1,4 +1,5 @@
-"""Runs the benchmark programs, keeps their rows and writes the tables of doc/performance.md.
+"""Runs the benchmark programs, keeps their rows and writes the tables of doc/performance.md; those
+that show how a measurement works, not what a wall costs, are in doc/notes/performance.md.
 
 Programs print rows of one format (bench.h). They are kept in doc/data/performance_DEVICE.csv,
 so that the document has those of a device on a machine without it too; a row replaces the one
@@ -14,6 +15,8 @@ from hard_cases import ROOT, commit, put_between, write_whole
 from performance_plots import plot_build, plot_query
 
 DOCUMENT = os.path.join(ROOT, "doc", "performance.md")
+NOTES = os.path.join(ROOT, "doc", "notes", "performance.md")
+IN_NOTES = ("kokkos-cpu", "kokkos-copies")
 DATA = os.path.join(ROOT, "doc", "data")
 DEVICES = ("cpu", "cuda")
 PROGRAMS = ("query", "build", "step", "cache")
@@ -32,7 +35,7 @@ BUILD_TARGETS = {"160": 3, "10000": 5, "100000": 15, "1000000": 60}
 # Yong et al. 2017, Table 2 and figure 9, a K40; its N = all tries every triangle.
 PAPER_MS = {("10000000", "N = 1"): 362, ("10000000", "N = 2"): 565, ("10000000", "N = 3"): 937,
             ("10000000", "complete"): 57899, ("60000000", "N = 2"): 3488}
-FORCE_TARGETS = (0.25, 0.15)    # hooke on resident particles, 160 triangles, chosen anew
+FORCE_TARGETS = (0.25, 0.15)    # hooke on particles in place, 160 triangles, chosen anew
 HISTORY_RATIO = 2    # hertz/history there, over its floor
 USUAL_SIZE = "10000000"
 
@@ -243,19 +246,19 @@ def step_target(row):
     return number(FORCE_TARGETS[row["order"] == "sorted"]) if row["triangles"] == "160" else ""
 
 
-def step_table(cpu, cuda, resident):
-    cpu, cuda = (of(rows, "step", lambda case: ("resident" in case) == resident)
+def step_table(cpu, cuda, in_place):
+    cpu, cuda = (of(rows, "step", lambda case: ("in place" in case) == in_place)
                  for rows in (cpu, cuda))
 
     def cells(r):
         f, g, c = facts(r), same(cuda, r), same(cpu, r)
-        what = r["case"].replace(", resident", "")
+        what = r["case"].replace(", in place", "")
         return [count(r["triangles"]), what, r["order"], count(f["near"]), count(f["contacts"]),
-                *cells_of(g), facts(g).get("ns_per_near", ""), *[step_target(r)] * resident,
+                *cells_of(g), facts(g).get("ns_per_near", ""), *[step_target(r)] * in_place,
                 *cells_of(c), facts(c).get("ns_per_near", "")]
 
     heads = ["triangles", "style", "order", "near", "contacts", "CUDA, ms", "floor", "ratio",
-             "ns per near sphere", *["target"] * resident, "CPU, ms", "floor", "ratio",
+             "ns per near sphere", *["target"] * in_place, "CPU, ms", "floor", "ratio",
              "ns per near sphere"]
     return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
 
@@ -279,7 +282,11 @@ def parts(cpu, cuda):
     text = {"status": status_table(cpu, cuda), "distance": distance_table(cpu, cuda),
              "build": build_table(cpu, cuda),
              "step": step_table(cpu, cuda, False),
-             "resident": step_table(cpu, cuda, True), "cache": cache_table(cpu)}
+             "in_place": step_table(cpu, cuda, True), "cache": cache_table(cpu)}
+    return between_markers(text)
+
+
+def between_markers(text):
     return {name: f"{begin(name)}\n{table_}\n{end(name)}" for name, table_ in text.items()}
 
 
@@ -291,13 +298,18 @@ def end(name):
     return f"<!-- {name}:end -->"
 
 
+def write_parts(found):
+    for name, text in found.items():
+        document = NOTES if name in IN_NOTES else DOCUMENT
+        put_between(document, begin(name), end(name), text)
+        print("wrote", name, "in", os.path.relpath(document, ROOT))
+
+
 def write_document():
     cpu, cuda = read_rows("cpu"), read_rows("cuda")
-    for name, text in parts(cpu, cuda).items():
-        put_between(DOCUMENT, begin(name), end(name), text)
+    write_parts(parts(cpu, cuda))
     plot_query(cpu, cuda, DISTANCE_TARGETS, BVH)
     plot_build(cpu, cuda, BUILD_TARGETS)
-    print("wrote", os.path.relpath(DOCUMENT, ROOT))
 
 
 def main(args, programs, words):

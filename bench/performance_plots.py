@@ -1,4 +1,5 @@
 """The plots of doc/performance.md."""
+import math
 import os
 
 from hard_cases import ROOT
@@ -12,17 +13,22 @@ def axes():
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axis = plt.subplots(figsize=(7, 4.6))
+    figure, axis = plt.subplots(figsize=(7, 5.6))
     axis.set_xscale("log")
     axis.set_yscale("log")
-    axis.set_xlabel("triangles")
+    axis.set_xlabel("number of triangles")
     axis.grid(True, which="major", alpha=0.3)
     return figure, axis
 
 
 def save(figure, axis, name):
-    axis.legend(fontsize=8)
-    figure.tight_layout()
+    # Below the axes: inside, it would cover a curve.
+    figure.legend(*axis.get_legend_handles_labels(), loc="lower center", ncol=2, fontsize=8)
+    figure.tight_layout(rect=(0, 0.035 * math.ceil(len(axis.get_lines()) / 2) + 0.01, 1, 1))
+    write_image(figure, name)
+
+
+def write_image(figure, name):
     path = os.path.join(IMAGES, name)
     part = path + ".part.png"
     figure.savefig(part, dpi=110, metadata={"Software": None})
@@ -50,14 +56,14 @@ def plot_query(cpu, cuda, targets, bvh):
             x, y, floor = zip(*points)
             axis.plot(x, y, style, color=COLOURS[device], label=f"{label(rows)}, {order}")
             if order == "random":
-                axis.plot(x, floor, ":", color=COLOURS[device], label="its floor: bytes at copy speed")
+                axis.plot(x, floor, ":", color=COLOURS[device], label=f"{label(rows)}, least possible: bytes at copy speed")
     for known, name, colour in ((bvh, "a BVH (cuBQL) on an H200", "tab:red"),
                                 (targets, "target on an H200", "black")):
         for k, (order, marker) in enumerate((("random", "+"), ("sorted", "x"))):
             axis.plot([float(t) for t in known], [pair[k] / 10 for pair in known.values()], marker,
                       color=colour, label=f"{name}, {order}")
-    axis.set_ylabel("ns per sphere")
-    axis.set_title("Exact distance within reach 1, complete lists, float")
+    axis.set_ylabel("time per sphere, ns")
+    axis.set_title("Exact distance to the wall up to 1 sphere radius, single precision")
     save(figure, axis, "performance_query.png")
 
 
@@ -72,6 +78,6 @@ def plot_build(cpu, cuda, targets):
                           label=f"{name}, {label(rows)}")
     axis.plot([float(t) for t in targets], list(targets.values()), "k+",
               label="target on an H200")
-    axis.set_ylabel("ms")
-    axis.set_title("Building the lists of cells of 0.2, reach 1")
+    axis.set_ylabel("build time, ms")
+    axis.set_title("Building a grid of cells of 0.2 for spheres of radius 1")
     save(figure, axis, "performance_build.png")

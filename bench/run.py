@@ -7,8 +7,10 @@ usage: run.py [--build DIR] [--only cpu|cuda] [--quick] [--write-only] [--rows-t
 NAME: query, build, step, cache (default: these four) make doc/performance.md; three make
 documents of their own from runs of other programs: accuracy doc/accuracy.md (tradeoff.py,
 accuracy.py), effects doc/effects.md (effects.py), hard-cases doc/hard_cases.md
-(hard_cases.py). kokkos times steps of a LAMMPS with Kokkos (kokkos.py, whose words
-run.py kokkos --words lists), also into doc/performance.md.
+(hard_cases.py). Four compare, also into doc/performance.md: kokkos times steps of a LAMMPS with
+Kokkos (kokkos.py), liggghts our wall against LIGGGHTS's (liggghts.py), floor a mesh against a flat
+plane (floor.py), mesh-size the same contacts with 1e2 to 1e7 triangles (mesh_size.py). run.py
+NAME --words lists the words of the first three.
 
 Rows of the four are kept in doc/data/performance_DEVICE.csv (performance.py). Further words
 go to them, as --spheres 1e6; bench_query --help lists them. On a machine lent for a GPU:
@@ -21,12 +23,17 @@ import sys
 import accuracy
 import effects
 import hard_cases
+import floor
 import kokkos
+import liggghts
+import mesh_size
 import performance
 import tradeoff
 
 DOCUMENTS = {"accuracy": [tradeoff.main, accuracy.main], "effects": [effects.main],
              "hard-cases": [hard_cases.main]}
+COMPARISONS = {"kokkos": kokkos.main, "liggghts": liggghts.main, "floor": floor.main,
+               "mesh-size": mesh_size.main}
 
 
 def main():
@@ -45,7 +52,7 @@ def main():
     while rest and not rest[0].startswith("-"):
         names.append(rest.pop(0))
     names = names or list(performance.PROGRAMS)
-    known = [*performance.PROGRAMS, *DOCUMENTS, "kokkos"]
+    known = [*performance.PROGRAMS, *DOCUMENTS, *COMPARISONS]
     for name in names:
         if name not in known:
             print(f"no benchmark '{name}'; there are: {', '.join(known)}", file=sys.stderr)
@@ -55,8 +62,8 @@ def main():
         status = performance.main(args, programs, rest)
         if status != 0:
             return status
-    if "kokkos" in names:
-        status = kokkos.main(args, rest)
+    for name in names:
+        status = COMPARISONS[name](args, rest) if name in COMPARISONS else 0
         if status != 0:
             return status
     for name in names:

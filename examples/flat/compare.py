@@ -70,7 +70,7 @@ def bed(work, path, n, plot):
     for (label, curve), style in zip(apart.items(), ("k-", "r-", "b--")):
         axes.semilogy(time, np.maximum(curve, 1e-17), style, label=label, lw=1.3)
     axes.set(xlabel="time, s", ylabel="largest distance between two runs / diameter",
-             title="1000 colliding spheres: rounding grows, whoever rounds")
+             title="1000 colliding spheres: round-off grows in both codes")
     axes.legend(loc="lower right")
     axes.grid(alpha=0.3)
     figure.savefig(plot, dpi=110)

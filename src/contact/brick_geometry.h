@@ -43,19 +43,11 @@ class BrickGeometry {
     }
   }
 
-  // `more`: of tolerance, beside the slack (length).
-  LSDCD_FN Foot foot(FeatureCode code, Real within, Real more = 0) const
+  LSDCD_FN Foot foot(FeatureCode code, Real within) const { return foot(code, within, 0); }
+  // Could there be a foot with so much more of tolerance (length)?
+  LSDCD_FN bool may_have_foot(FeatureCode code, Real within, Real more) const
   {
-    const std::uint32_t i = feature_index(code);
-    const float limit = static_cast<float>(within), slack = slack_ + static_cast<float>(more);
-    switch (feature_kind(code)) {
-      case FeatureKind::face:
-        return on_face(i, slack, limit);
-      case FeatureKind::edge:
-        return on_edge(grid_.records.edges[i], slack, limit);
-      default:
-        return on_vertex(grid_.records.vertices[i], slack, limit);
-    }
+    return foot(code, within, more).found;
   }
 
   LSDCD_FN const FaceParts &parts(FeatureCode face) const
@@ -71,6 +63,20 @@ class BrickGeometry {
   }
 
  private:
+  LSDCD_FN Foot foot(FeatureCode code, Real within, Real more) const
+  {
+    const std::uint32_t i = feature_index(code);
+    const float limit = static_cast<float>(within), slack = slack_ + static_cast<float>(more);
+    switch (feature_kind(code)) {
+      case FeatureKind::face:
+        return on_face(i, slack, limit);
+      case FeatureKind::edge:
+        return on_edge(grid_.records.edges[i], slack, limit);
+      default:
+        return on_vertex(grid_.records.vertices[i], slack, limit);
+    }
+  }
+
   LSDCD_FN static Vec3 from_brick_centre(const GridView &grid, std::int32_t cell)
   {
     const Real middle = Real(0.5) * (kBrickSide - 1);

@@ -25,10 +25,14 @@ class WallGeometry {
   // The feature of the wall that a code in a list stands for.
   LSDCD_FN FeatureCode feature(FeatureCode code) const { return code; }
 
-  // `more`: of tolerance, beside the slack (length).
-  LSDCD_FN Foot foot(FeatureCode code, Real within, Real more = 0) const
+  LSDCD_FN Foot foot(FeatureCode code, Real within) const
   {
-    return foot_on(grid_.wall, code, q_, grid_.slack + more, within);
+    return foot_on(grid_.wall, code, q_, grid_.slack, within);
+  }
+  // Could there be a foot with so much more of tolerance (length)?
+  LSDCD_FN bool may_have_foot(FeatureCode code, Real within, Real more) const
+  {
+    return lsdcd::may_have_foot(grid_.wall, code, q_, grid_.slack + more, within);
   }
 
   LSDCD_FN const FaceParts &parts(FeatureCode face) const

@@ -62,8 +62,13 @@ class EngineOn : public InPlaceEngine {
     all_near_ = false;
     near_.choose(b_, grid_, table_, spheres, margin, settings_.law.pull_off(), counts_.data(),
                  springs_.count());
-    const StepCounts seen = read_counts();
+    StepCounts seen = read_counts();
     if (seen.too_large) throw_for(spheres, seen);
+    if (grid_.nearest == 0 && seen.n_near > 0) {
+      near_.prune(b_, grid_, spheres, seen.n_near, margin, settings_.law.pull_off(), counts_.data(),
+                  springs_.count());
+      seen = read_counts();
+    }
     make_lists(spheres, seen.n_near, seen);
     margin_ = margin;
     if (watch) keep_centres(spheres);
@@ -348,7 +353,16 @@ class EngineOn : public InPlaceEngine {
       }
       to[b] = t;
     });
-    for (const WallTotals &t : b_.to_host(block, n_blocks)) add_block(totals_, t);
+    const std::size_t n_sums = (n_blocks + kTotalsBlock - 1) / kTotalsBlock;
+    Array<WallTotals> sums(n_sums);
+    WallTotals *to_sums = sums.data();
+    b_.for_each(n_sums, [=] LSDCD_LAMBDA(std::size_t b) {
+      WallTotals t;
+      const std::size_t end = (b + 1) * kTotalsBlock;
+      for (std::size_t k = b * kTotalsBlock; k < end && k < n_blocks; k++) add_block(t, to[k]);
+      to_sums[b] = t;
+    });
+    for (const WallTotals &t : b_.to_host(sums, n_sums)) add_block(totals_, t);
   }
 
  private:

@@ -75,6 +75,9 @@ class HostAdapter : public WallEngine {
       const int i = static_cast<int>(kNoSphere - seen.too_large);
       throw_too_large(i, spheres.radius[i], grid_.reach);
     }
+    if (grid_.nearest == 0)
+      near_.prune(cpu_, grid_, spheres, seen.n_near, margin, settings_.law.pull_off(), &seen,
+                  nullptr);
     const std::vector<int> was = std::move(near_host_);
     near_host_ = near_.to_host(cpu_, seen.n_near);
     const std::size_t n = near_host_.size();
@@ -155,12 +158,30 @@ class HostAdapter : public WallEngine {
     totals_known_ = true;
     return totals_;
   }
-  int n_touching() const override { return static_cast<int>(touching_.size()); }
-  const int *touching() const override { return touching_.data(); }
-  const SphereOutput *sphere_output() const override { return engine_.sphere_output(); }
-  const Real *sphere_heat() const override { return engine_.sphere_heat(); }
-  int n_records() const override { return engine_.n_records(); }
-  const ContactRecord *records() const override { return engine_.records(); }
+  int n_touching() const override
+  {
+    return static_cast<int>(touching_.size());
+  }
+  const int *touching() const override
+  {
+    return touching_.data();
+  }
+  const SphereOutput *sphere_output() const override
+  {
+    return engine_.sphere_output();
+  }
+  const Real *sphere_heat() const override
+  {
+    return engine_.sphere_heat();
+  }
+  int n_records() const override
+  {
+    return engine_.n_records();
+  }
+  const ContactRecord *records() const override
+  {
+    return engine_.records();
+  }
 
   StepNotes look() override
   {
@@ -182,7 +203,10 @@ class HostAdapter : public WallEngine {
     are_waiting_ = true;
   }
 
-  int n_near() const override { return static_cast<int>(near_host_.size()); }
+  int n_near() const override
+  {
+    return static_cast<int>(near_host_.size());
+  }
   std::size_t bytes() const override
   {
     return engine_.bytes() + motion_.bytes() + size_.bytes() + response_.bytes() +

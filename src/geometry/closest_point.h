@@ -107,6 +107,37 @@ LSDCD_FN Foot foot_on_vertex(const VertexRecord &vertex, const Vec3 *direction, 
   return {true, 0, any_perpendicular(vertex.count > 0 ? direction[vertex.first] : away)};
 }
 
+// Is q within `slack` of the region in which a feature is a local minimum of distance, and the
+// feature within `within`? True wherever foot_on() finds one with these, and past sharp corners of
+// faces; no root and no division.
+LSDCD_FN bool may_have_foot(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &q,
+                            Real slack, Real within)
+{
+  const std::uint32_t i = feature_index(feature);
+  const Real within_sq = within * within;
+  switch (feature_kind(feature)) {
+    case FeatureKind::face: {
+      const FaceRecord &face = wall.faces[i];
+      const Vec3 d = q - face.anchor;
+      return fabs(dot(face.normal, d)) <= within && dot(face.inward[0], d) >= -slack &&
+             dot(face.inward[1], d) + face.height >= -slack && dot(face.inward[2], d) >= -slack;
+    }
+    case FeatureKind::edge: {
+      const EdgeRecord &edge = wall.edges[i];
+      const Vec3 d = q - edge.anchor;
+      const Real along = dot(edge.direction, d);
+      return along >= -slack && along <= edge.length + slack &&
+             inside_wedge(edge, wall.edge_inward, d, slack) &&
+             norm_sq(d - along * edge.direction) <= within_sq;
+    }
+    default: {
+      const Vec3 d = q - wall.vertices[i].position;
+      return norm_sq(d) <= within_sq &&
+             inside_cone(wall.vertices[i], wall.vertex_direction, d, slack);
+    }
+  }
+}
+
 LSDCD_FN Foot foot_on(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &q, Real slack,
                       Real within = kAnyDistance)
 {

@@ -131,6 +131,15 @@ struct CpuBackend {
     *total = n_kept;
   }
 
+  // keep: of from[0, n) those whose flag is set, in order, into `to`; *total becomes how many.
+  void keep(std::size_t n, const int *from, const char *flags, int *to, std::uint32_t *total)
+  {
+    std::uint32_t kept = 0;
+    for (std::size_t k = 0; k < n; k++)
+      if (flags[k]) to[kept++] = from[k];
+    *total = kept;
+  }
+
   // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
   // !work.has_single(), work.several(i).
   template <class Work>

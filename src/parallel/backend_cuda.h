@@ -9,6 +9,7 @@
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_reduce.cuh>
 #include <cub/device/device_scan.cuh>
+#include <cub/device/device_select.cuh>
 #include <cuda_runtime.h>
 #include <thrust/iterator/counting_iterator.h>
 #include <thrust/iterator/transform_iterator.h>
@@ -248,6 +249,17 @@ struct CudaBackend {
     cuda_gather<<<n_tiles / kGatherTiles + 1, kGatherBlock, 0, stream>>>(room.words.data(), in_tile,
                                                                          n_tiles, to, total);
     cuda_check(cudaGetLastError(), "starting a kernel");
+  }
+
+  // keep: of from[0, n) those whose flag is set, in order, into `to`; *total, on the device, becomes
+  // how many.
+  template <class = void>
+  void keep(std::size_t n, const int *from, const char *flags, int *to, std::uint32_t *total)
+  {
+    with_scratch([&](void *scratch, std::size_t &bytes) {
+      return cub::DeviceSelect::Flagged(scratch, bytes, from, flags, to, total, static_cast<int>(n),
+                                        stream);
+    });
   }
 
   // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or

@@ -31,10 +31,13 @@ template <class Work>
 __global__ void __launch_bounds__(kStepBlock) cuda_several(int n, const __grid_constant__ Work work)
 {
   const bool all = n >= 0;
-  const int first = blockIdx.x * kStepBlock + threadIdx.x;
+  const int warps = gridDim.x * (kStepBlock / 32), step = 32 * warps;
+  const int warp = blockIdx.x * (kStepBlock / 32) + threadIdx.x / 32, lane = threadIdx.x % 32;
+  // What is left is few, and each sphere takes a way of its own through the code: first one a warp.
+  const int first = all ? 32 * warp + lane : lane * warps + warp;
   if (all && first == 0) work.begin();
   const int end = all ? n : *work.n_left();
-  for (int s = first; s < end; s += gridDim.x * kStepBlock) work.several(all ? s : work.left()[s]);
+  for (int s = first; s < end; s += step) work.several(all ? s : work.left()[s]);
 }
 
 }    // namespace lsdcd

@@ -71,7 +71,7 @@ def rows_of_all(checks, host, folder):
     rows = kokkos.read_rows("cpu", str(folder))
     find = {(r["case"], facts(r)["ranks"]): r for r in rows}
     checks.fact("rows of each bed, with and without, on 1 and 2 processes", all(
-        (case + more, ranks) in find for case in ("flat floor", "vessel", "bumpy floor")
+        (case + more, ranks) in find for case in ("flat floor", "closed box", "bumpy floor")
         for more in ("", ", no wall", ", copies", ", no wall, copies") for ranks in "12"))
     flat, none = find["flat floor", "1"], find["flat floor, no wall", "1"]
     checks.fact("as many builds with the wall as without",
@@ -103,7 +103,7 @@ def main():
         sys.exit(77)
     checks, folder = deck.Checks(), pathlib.Path(deck.scratch())
     host = runs.Host(deck.KOKKOS_HOST, deck.KOKKOS_PLUGIN, "-k on -sf kk", "mpirun -np {ranks}")
-    for name in ("flat", "vessel", "million"):
+    for name in ("flat", "box", "million"):
         states(checks, host, folder, name)
     rows_of_all(checks, host, folder)
     checks.done(folder)

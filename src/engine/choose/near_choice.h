@@ -20,6 +20,7 @@ struct NearChoice {
   Real pull_off;         // of the law, at a radius of 1
   StepCounts *counts;    // too_large becomes the first sphere that reaches past the grid
   int *n_springs;        // of each sphere, or null: those of spheres that are far are forgotten
+  std::uint32_t fixed_margin = 0;    // of the filter
 
   struct Item {
     Real radius;
@@ -51,10 +52,12 @@ struct NearChoice {
   template <class Table>
   LSDCD_FN bool may_keep(const Item &item, const Vec3 &x, const Table &near_table) const
   {
-    if (kMoves) return in_group(item);
     const BrickGuess guess = filter.guess(x);
-    bool may = guess.unsure;
-    if (guess.inside & !guess.unsure) may = near_table.at(filter.place(grid, guess));
+    // With a margin it is enough to look at one brick where no other is within the margin.
+    const bool sure = !guess.unsure & (!kMoves || (guess.inside && fixed_margin > 0 &&
+                                                   filter.is_clear(guess, fixed_margin)));
+    bool may = !sure;
+    if (guess.inside & sure) may = near_table.at(filter.place(grid, guess));
     return may & in_group(item);
   }
   template <class Table>

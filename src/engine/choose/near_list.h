@@ -3,6 +3,7 @@
 
 #include "engine/choose/near_choice.h"
 
+#include <utility>
 #include <vector>
 
 namespace lsdcd {
@@ -28,20 +29,48 @@ class NearList {
       select<false>(b, grid, table, spheres, margin, pull_off, counts, n_springs);
   }
 
+  // Of the n spheres that were chosen by their cells leaves those that can touch something after a
+  // way of up to `margin`; how many goes into `counts`.
+  void prune(B &b, const GridView &grid, const Spheres &spheres, std::size_t n, Real margin,
+             Real pull_off, StepCounts *counts, int *n_springs)
+  {
+    if (flags_.size() < n) {
+      flags_ = Array<char>(n + n / 8);
+    }
+    if (other_.size() < near_.size()) other_ = Array<int>(near_.size());
+    const int *near = near_.data();
+    char *flags = flags_.data();
+    const Rows<const Real> x = spheres.x;
+    const Real *radius = spheres.radius;
+    b.for_each(
+        n,
+        [=] LSDCD_LAMBDA(std::size_t k) {
+          const int i = near[k];
+          const Searcher s = {x[i], radius[i], reach_of(radius[i], pull_off), nullptr, 0};
+          flags[k] = can_touch(grid, s, margin);
+          if (!flags[k] && n_springs) n_springs[i] = 0;
+        },
+        128);
+    b.keep(n, near, flags, other_.data(), &counts->n_near);
+    std::swap(near_, other_);
+  }
+
   std::vector<int> to_host(B &b, std::size_t n) { return b.to_host(near_, n); }
-  std::size_t bytes() const { return near_.size() * sizeof(int); }
+  std::size_t bytes() const { return (near_.size() + other_.size()) * sizeof(int) + flags_.size(); }
 
  private:
   template <bool kMoves>
   void select(B &b, const GridView &grid, const BrickTable &table, const Spheres &spheres,
               Real margin, Real pull_off, StepCounts *counts, int *n_springs)
   {
-    const NearChoice<kMoves> choice = {grid,   table,    BrickFilter<Real>(grid), spheres,
-                                       margin, pull_off, counts,                  n_springs};
+    NearChoice<kMoves> choice = {
+        grid, table, BrickFilter<Real>(grid), spheres, margin, pull_off, counts, n_springs};
+    choice.fixed_margin = choice.filter.margin(margin * grid.inv_length / kBrickSide);
     b.select(spheres.n, choice, room_, near_.data(), &counts->n_near);
   }
 
-  Array<int> near_;
+  Array<int> near_, other_;
+  Array<char> flags_;
   typename B::SelectRoom room_;
 };
 

@@ -110,6 +110,13 @@ LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings, 
   touch_with<kBeyond>(grid, settings, s, list, rule, out);
 }
 
+// Can it touch anything after a way of up to the margin?
+inline LSDCD_NOINLINE bool can_touch(const GridView &grid, const Searcher &s, Real margin)
+{
+  if (grid.in_floats) return can_touch<BrickGeometry>(grid, s.x, s.reach, margin);
+  return can_touch<WallGeometry>(grid, s.x, s.reach, margin);
+}
+
 // Makes the list of a sphere anew; false: it has none, its cell has to be searched.
 inline LSDCD_NOINLINE bool gather(const GridView &grid, const Searcher &s, WallList &list)
 {

@@ -100,33 +100,55 @@ LSDCD_FN bool insert_code(WallList &list, FeatureCode code)
   return true;
 }
 
-// Adds what one cell lists and a sphere at q with this cutoff can touch after a way of up to the
-// margin. On such a way each half-space of a feature's region moves by the margin at most. One
-// slack more is for rounding.
-template <class Geometry>
-LSDCD_FN bool gather_cell(const CellListsView &lists, const Geometry &geometry, const Cell &cell,
-                          Real from_centre, Real cutoff, Real margin, WallList &list)
+// Calls found(code) for what a sphere at q with this cutoff could touch after a way of up to the
+// margin, until that says false; returns whether it did not. A contact on such a way is in the
+// complete list of the cell that it is found from, and that cell meets the ball round q. Each
+// half-space of a feature's region moves by the margin at most; one slack more is for rounding.
+template <class Geometry, class Found>
+LSDCD_FN bool for_each_within(const GridView &grid, const Vec3 &q, Real cutoff, Real margin,
+                              const Found &found)
 {
+  int lo[3], hi[3];
+  if (!cells_in_ball(grid, q, margin, lo, hi)) return true;
+  const Geometry geometry(grid, q);
   const Real more = margin + geometry.slack(), within = (1 + Real(2e-6)) * cutoff + more;
-  if (cell.count == 1) {
-    if (!geometry.foot(cell.first, within, more).found) return true;
-    return insert_code(list, cell.first);
-  }
-  // A list ascends in its bounds on the distance from the cell's centre.
-  const Real enough = within + from_centre;
-  for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
-    const Candidate candidate = lists.candidates[i];
-    if (candidate.bound > enough) break;
-    if (geometry.foot(candidate.feature, within, more).found &&
-        !insert_code(list, candidate.feature))
-      return false;
-  }
+  const auto test = [&](FeatureCode code) {
+    return !geometry.may_have_foot(code, within, more) || found(code);
+  };
+  for (int k = lo[2]; k < hi[2]; k++)
+    for (int j = lo[1]; j < hi[1]; j++)
+      for (int i = lo[0]; i < hi[0]; i++) {
+        const Brick *brick = brick_at(grid, grid.lists, i, j, k);
+        const int in_brick = cell_in_brick(i, j, k);
+        if (!brick || !has_candidates(*brick, in_brick)) continue;
+        const Cell cell = grid.lists.cells[cell_index(*brick, in_brick)];
+        if (cell.count == 1) {
+          if (!test(cell.first)) return false;
+          continue;
+        }
+        // A list ascends in its bounds on the distance from the cell's centre.
+        const Real half = Real(0.5);
+        const Vec3 centre = grid.origin + grid.length * Vec3{i + half, j + half, k + half};
+        const Real enough = within + norm(q - centre);
+        for (std::uint32_t c = cell.first; c < cell.first + cell.count; c++) {
+          const Candidate candidate = grid.lists.candidates[c];
+          if (candidate.bound > enough) break;
+          if (!test(candidate.feature)) return false;
+        }
+      }
   return true;
 }
 
-// The list of a sphere at q for a margin, from all cells that it can be in. False: too long.
-// A contact within the margin is in the complete list of the cell that it is found from, and that
-// cell meets the ball round q.
+// Can a sphere at q touch anything after a way of up to the margin? True where that would take too
+// long to find out.
+template <class Geometry>
+LSDCD_FN bool can_touch(const GridView &grid, const Vec3 &q, Real cutoff, Real margin)
+{
+  return !(margin_at(grid, q, margin) >= margin) ||
+         !for_each_within<Geometry>(grid, q, cutoff, margin, [](FeatureCode) { return false; });
+}
+
+// The list of a sphere at q for a margin; false: it is too long.
 template <class Geometry>
 LSDCD_FN bool gather_within(const GridView &grid, const Vec3 &q, Real cutoff, Real margin,
                             WallList &list)
@@ -135,22 +157,8 @@ LSDCD_FN bool gather_within(const GridView &grid, const Vec3 &q, Real cutoff, Re
   list.x = q;
   list.margin = static_cast<float>((1 - Real(1e-6)) * margin);    // rounded down, and up:
   list.cutoff = static_cast<float>((1 + Real(1e-6)) * cutoff);
-  const Geometry geometry(grid, q);
-  int lo[3], hi[3];
-  if (!cells_in_ball(grid, q, margin, lo, hi)) return true;
-  for (int k = lo[2]; k < hi[2]; k++)
-    for (int j = lo[1]; j < hi[1]; j++)
-      for (int i = lo[0]; i < hi[0]; i++) {
-        const Brick *brick = brick_at(grid, grid.lists, i, j, k);
-        const int cell = cell_in_brick(i, j, k);
-        if (!brick || !has_candidates(*brick, cell)) continue;
-        const Real half = Real(0.5);
-        const Vec3 centre = grid.origin + grid.length * Vec3{i + half, j + half, k + half};
-        if (!gather_cell(grid.lists, geometry, grid.lists.cells[cell_index(*brick, cell)],
-                         norm(q - centre), cutoff, margin, list))
-          return false;
-      }
-  return true;
+  return for_each_within<Geometry>(grid, q, cutoff, margin,
+                                   [&](FeatureCode code) { return insert_code(list, code); });
 }
 
 // Makes the list of a sphere anew. `cutoff`: how far it feels the wall from its centre.

@@ -5,9 +5,9 @@
 
 namespace lsdcd {
 
-// Sums are made in blocks of this many spheres, then over the blocks in order: the same
-// bits whatever the number of threads.
-constexpr int kTotalsBlock = 256;
+// Sums are made in blocks of so many spheres, over so many of these blocks, and over what that
+// leaves, each in order: the same bits whatever the number of threads, of which a GPU needs many.
+constexpr int kTotalsBlock = 32;
 
 // Adds the overlap / radius > 0 that a sphere may have missed.
 LSDCD_FN void add_uncertain(WallTotals &t, Real uncertain)
@@ -30,7 +30,7 @@ LSDCD_FN void add_result(WallTotals &t, const SphereResult &r, const Vec3 &momen
   }
 }
 
-inline void add_block(WallTotals &sum, const WallTotals &t)
+LSDCD_FN void add_block(WallTotals &sum, const WallTotals &t)
 {
   sum.energy += t.energy;
   sum.force += t.force;

@@ -82,6 +82,7 @@ struct BrickFilter {
   std::uint32_t end[3] = {0, 0, 0};    // fixed point
   std::uint32_t sure = 0;              // bits of a fraction that make it sure; 0: never
   std::uint32_t shift = 1;             // s
+  std::uint32_t doubt = 1;             // how far off a result is at most, twice
 
   BrickFilter() = default;
   explicit BrickFilter(const GridView &grid)
@@ -116,6 +117,7 @@ struct BrickFilter {
     // None are left where the grid has too many bricks, lies too far off, or has a scale that is
     // no T.
     sure = (1u << shift) - (1u << doubt_bits);
+    doubt = 1u << doubt_bits;
   }
 
   LSDCD_FN BrickGuess guess(const Vec3Of<T> &q) const
@@ -127,6 +129,22 @@ struct BrickFilter {
                inside = i < end[0] && j < end[1] && k < end[2];
     return {unsure, inside, i, j, k};
   }
+  // A margin, in bricks, for is_clear(). 0: it is more than a brick's half.
+  std::uint32_t margin(Real bricks) const
+  {
+    const Real fixed = std::ceil(std::ldexp(bricks, static_cast<int>(shift))) + 2. * doubt;
+    return fixed < std::ldexp(Real(0.5), static_cast<int>(shift))
+               ? static_cast<std::uint32_t>(fixed)
+               : 0;
+  }
+  // Is a point that is inside farther than a margin, not 0, from all sides of its brick?
+  LSDCD_FN bool is_clear(const BrickGuess &at, std::uint32_t margin) const
+  {
+    const std::uint32_t mask = (1u << shift) - 1, room = mask - 2 * margin;
+    return (at.i & mask) - margin <= room && (at.j & mask) - margin <= room &&
+           (at.k & mask) - margin <= room;
+  }
+
   // The brick's place in the table, of one that is inside.
   LSDCD_FN std::uint32_t place(const GridView &grid, const BrickGuess &at) const
   {

@@ -1,0 +1,58 @@
+// Spheres that touch the wall of a closed cylinder, and an engine whose particles live where it
+// computes: what the programs share that time or count its steps.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "grid/flat_grid.h"
+#include "mesh/triangle_soup.h"
+#include "support/device_memory.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace lsdcd {
+
+// A closed cylinder along z, radius 50, 0 <= z <= 100, in about so many triangles of about one
+// size. Both caps are square grids mapped to a disk, so that no vertex has many triangles.
+class EvenCylinder {
+ public:
+  explicit EvenCylinder(double triangles);
+  TriangleSoup mesh() const;
+  // Distance of a point inside from the nearest flat side. Length.
+  Real depth(Real x, Real y) const;
+
+  int n_round, n_along;
+  Real half_angle, apothem;    // of one side: half of its angle, distance from the axis
+};
+
+// n spheres of radius 0.35 to 1, mass 1, each of which overlaps a side or a cap by 1 to 5 % of its
+// radius; in random order or sorted by cubes of edge 3.
+struct BedSpheres {
+  BedSpheres(const EvenCylinder &wall, int n, bool sorted);
+  std::vector<Real> x, v, omega, radius, mass;
+};
+
+class CylinderBed {
+ public:
+  CylinderBed(const EvenCylinder &wall, const BedSpheres &spheres, LawStyle style, Device device);
+
+  void choose();        // near spheres, anew
+  void steps(int n);    // with the near spheres as they are; waits at the end
+  std::int64_t contacts() const { return engine_->totals().contacts; }
+  int n_near() const { return engine_->n_near(); }
+  Real cell() const { return grid_.view().length; }
+  double grid_mb() const { return grid_.view().block_bytes / 1e6; }
+  double engine_mb() const { return engine_->bytes() / 1e6; }
+
+  std::size_t triangles = 0;
+  double build_ms = 0;    // welding and building the grid
+
+ private:
+  FlatGrid grid_;
+  std::unique_ptr<InPlaceEngine> engine_;
+  DeviceArray<Real> x_, v_, omega_, radius_, mass_, force_, torque_;
+  Spheres spheres_;
+};
+
+}    // namespace lsdcd

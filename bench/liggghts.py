@@ -1,0 +1,326 @@
+"""Our wall against LIGGGHTS's, on one core in the same run: `./run bench liggghts`.
+
+100 000 spheres of radii 0.35 to 1 in a closed cylinder (radius 50, height 100) of 2 560, 19 968 and
+202 752 triangles; Hertz contacts with shear history, friction and restitution; no contacts between
+spheres. *At the wall*: every sphere overlaps the wall and is fixed in place. *In bulk*: spheres
+fill the cylinder and move freely.
+
+The wall's part of a step is the step with the wall less the step without it, in the same process.
+Set-up and memory are those of a run of 0 steps with the wall less those of one without. Both
+programs read the same spheres and the same mesh, LIGGGHTS as text. Rows are kept in doc/data/liggghts_cpu.csv.
+"""
+import argparse
+import math
+import os
+import random
+import shutil
+import statistics
+import sys
+
+import decks
+import performance
+from effects import table
+from hard_cases import ROOT, commit
+from performance import count, facts, number
+
+sys.path.insert(0, os.path.join(ROOT, "examples"))
+from stl import write_stl    # noqa: E402
+
+RADIUS, HEIGHT = 50.0, 100.0
+SMALLEST, LARGEST = 0.35, 1.0
+# Segments round the cylinder and along it: 2 round along + round^2 / 4 triangles.
+MESHES = {2560: (64, 12), 19968: (192, 28), 202752: (576, 104)}
+CASES = {"at the wall": "all at the wall, fixed", "in bulk": "in bulk, moving"}
+ORDERS = ("random", "sorted")
+YOUNG, POISSON, RESTITUTION, FRICTION, DENSITY = 1e8, 0.3, 0.5, 0.5, 2500.0
+DT, SPEED, SKIN = 1e-3, 2.5, 0.2    # in bulk, neighbour lists are built every 20 to 30 steps
+SPHERES = 100000
+
+
+# ---- the scene ---------------------------------------------------------------------------
+
+def closed_cylinder(n_round, n_along):
+    """Both caps are square grids that are mapped to the disk, so that no vertex has many triangles."""
+    k = n_round // 4
+
+    def disk(i, j):
+        """Shirley and Chiu's map of a square, -1 to 1, to the unit disk."""
+        a, b = 2 * i / k - 1, 2 * j / k - 1
+        if a == 0 and b == 0:
+            return 0.0, 0.0
+        r, turn = (a, math.pi / 4 * b / a) if abs(a) > abs(b) else (b, math.pi / 2 - math.pi / 4 * a / b)
+        return RADIUS * r * math.cos(turn), RADIUS * r * math.sin(turn)
+
+    triangles = []
+    for z in (0.0, HEIGHT):
+        for i in range(k):
+            for j in range(k):
+                a, b, c, d = ((*disk(i + p, j + q), z) for p, q in ((0, 0), (1, 0), (1, 1), (0, 1)))
+                # The diagonal that runs to the centre, as the other is nearly on the circle.
+                outward = (2 * i + 1 - k) * (2 * j + 1 - k) >= 0
+                triangles += [(a, b, c), (a, c, d)] if outward else [(a, b, d), (b, c, d)]
+    edge = [(0, j) for j in range(k)] + [(i, k) for i in range(k)] + \
+        [(k, j) for j in range(k, 0, -1)] + [(i, 0) for i in range(k, 0, -1)]
+    ring = [disk(i, j) for i, j in edge]
+    for s in range(n_round):
+        (x0, y0), (x1, y1) = ring[s], ring[(s + 1) % n_round]
+        for t in range(n_along):
+            z0, z1 = HEIGHT * t / n_along, HEIGHT * (t + 1) / n_along
+            a, b, c, d = (x0, y0, z0), (x1, y1, z0), (x1, y1, z1), (x0, y0, z1)
+            triangles += [(a, b, c), (a, c, d)]
+    return triangles
+
+
+def write_mesh(folder, n_round, n_along):
+    """wall.stl, and the same as text: LIGGGHTS takes some binary files for text, by their numbers."""
+    triangles = closed_cylinder(n_round, n_along)
+    write_stl(folder / "wall.stl", triangles, "closed cylinder")
+    with open(folder / "text.stl", "w") as out:
+        out.write("solid cylinder\n")
+        for corners in triangles:
+            out.write("facet normal 0 0 0\nouter loop\n" +
+                      "".join("vertex {:.9g} {:.9g} {:.9g}\n".format(*c) for c in corners) +
+                      "endloop\nendfacet\n")
+        out.write("endsolid cylinder\n")
+
+
+def depth(x, y, n_round):
+    """Distance of a point from the flat sides of the cylinder, in the plane."""
+    half = math.pi / n_round
+    turn = (math.atan2(y, x) - math.pi / 4) % (2 * half) - half    # the ring has a corner at 45 degrees
+    return RADIUS * math.cos(half) - math.hypot(x, y) * math.cos(turn)
+
+
+def at_the_wall(dice, r, n_round):
+    """A centre whose sphere overlaps a side or a cap by 1 to 5 % of its radius."""
+    gap = r * (1 - dice.uniform(0.01, 0.05))
+    if dice.random() < HEIGHT / (HEIGHT + RADIUS):    # sides and caps by their areas
+        half = math.pi / n_round
+        turn = dice.uniform(-math.pi, math.pi)
+        inside = (turn - math.pi / 4) % (2 * half) - half
+        rho = (RADIUS * math.cos(half) - gap) / math.cos(inside)
+        return rho * math.cos(turn), rho * math.sin(turn), dice.uniform(LARGEST, HEIGHT - LARGEST)
+    while True:
+        x, y = dice.uniform(-RADIUS, RADIUS), dice.uniform(-RADIUS, RADIUS)
+        if depth(x, y, n_round) > LARGEST:
+            return x, y, gap if dice.random() < 0.5 else HEIGHT - gap
+
+
+def in_bulk(dice, r, n_round):
+    """A centre anywhere in the cylinder, at most 2 % of its radius too near to the wall."""
+    while True:
+        x, y, z = dice.uniform(-RADIUS, RADIUS), dice.uniform(-RADIUS, RADIUS), dice.uniform(0, HEIGHT)
+        if min(depth(x, y, n_round), z, HEIGHT - z) > 0.98 * r:
+            return x, y, z
+
+
+def write_spheres(folder, case, order, n, n_round):
+    """spheres.data, and still.data with the same spheres at rest."""
+    dice = random.Random(7)
+    place = at_the_wall if case == "at the wall" else in_bulk
+    spheres = []
+    for _ in range(n):
+        r = dice.uniform(SMALLEST, LARGEST)
+        spheres.append((r, *place(dice, r, n_round)))
+    if order == "sorted":
+        spheres.sort(key=lambda s: (int(s[3] / 3), int((s[2] + 60) / 3), int((s[1] + 60) / 3)))
+    side = RADIUS + 5
+    text = (f"spheres\n\n{n} atoms\n1 atom types\n\n{-side} {side} xlo xhi\n{-side} {side} ylo yhi\n"
+            f"-5 {HEIGHT + 5} zlo zhi\n\nAtoms\n\n")
+    text += "".join(f"{k} 1 {2 * r:.15g} {DENSITY} {x:.15g} {y:.15g} {z:.15g}\n"
+                    for k, (r, x, y, z) in enumerate(spheres, 1))
+    (folder / "still.data").write_text(text)
+    speeds = (" ".join(f"{dice.uniform(-SPEED, SPEED):.6g}" for _ in range(6)) for _ in spheres)
+    (folder / "spheres.data").write_text(
+        text + "\nVelocities\n\n" + "".join(f"{k} {v}\n" for k, v in enumerate(speeds, 1)))
+
+
+# ---- decks -------------------------------------------------------------------------------
+
+OURS = f"""\
+units           si
+atom_style      sphere
+atom_modify     map array sort 0 0
+boundary        f f f
+newton          off
+comm_modify     vel yes cutoff 2.5
+read_data       spheres.data
+pair_style      none
+neighbor        {SKIN} bin
+neigh_modify    delay 0 every 1 check yes
+timestep        {DT}
+"""
+OUR_WALL = (f"fix wall all wall/lsdcd granular hertz/material {YOUNG} {RESTITUTION} {POISSON} "
+            f"tangential mindlin NULL 1.0 {FRICTION} damping tsuji mesh wall.stl\n")
+
+THEIRS = f"""\
+units           si
+atom_style      granular
+atom_modify     map array sort 0 0
+boundary        f f f
+newton          off
+communicate     single vel yes
+read_data       spheres.data
+neighbor        {SKIN} bin
+neigh_modify    delay 0 every 1 check yes exclude type 1 1
+fix             m1 all property/global youngsModulus peratomtype {YOUNG}
+fix             m2 all property/global poissonsRatio peratomtype {POISSON}
+fix             m3 all property/global coefficientRestitution peratomtypepair 1 {RESTITUTION}
+fix             m4 all property/global coefficientFriction peratomtypepair 1 {FRICTION}
+pair_style      gran model hertz tangential history
+pair_coeff      * *
+timestep        {DT}
+"""
+# Folds of the coarsest mesh are 5.6 degrees: with its default curvature of 0.26 degrees LIGGGHTS
+# counts a sphere twice where it overlaps both sides of one.
+THEIR_WALL = """\
+fix             mesh all mesh/surface file text.stl type 1 curvature 10
+fix             wall all wall/gran model hertz tangential history mesh n_meshes 1 meshes mesh
+"""
+PROGRAMS = {"lsdcd": (OURS, OUR_WALL, "unfix wall\n"),
+            "LIGGGHTS": (THEIRS, THEIR_WALL, "unfix wall\nunfix mesh\n")}
+QUIET = "thermo 100000000\n"
+
+
+def timed_deck(program, case, steps, chunks):
+    """Runs with the wall, then as many without."""
+    start, wall, no_wall = PROGRAMS[program]
+    move = "fix move all nve/sphere\n" if case == "in bulk" else ""
+    runs = f"run {max(5, steps // 4)}\n" + f"run {steps}\n" * chunks
+    return start + wall + move + QUIET + runs + no_wall + runs
+
+
+def start_deck(program, with_wall):
+    start, wall, _ = PROGRAMS[program]
+    return start + wall * with_wall + QUIET + "run 0\n"
+
+
+def force_deck(program):
+    """Forces of spheres without velocity: elastic normal forces alone."""
+    start, wall, _ = PROGRAMS[program]
+    return (start.replace("spheres.data", "still.data") + wall + QUIET +
+            "dump d all custom 1 force.dump id fx fy fz\nrun 0\n")
+
+
+# ---- measuring ---------------------------------------------------------------------------
+
+def forces(path):
+    """Size of the force on each sphere, by id."""
+    lines = path.read_text().split("ITEM: ATOMS")[1].splitlines()[1:]
+    return {int(w[0]): math.sqrt(sum(float(x)**2 for x in w[1:4])) for w in map(str.split, lines)}
+
+
+def same_work(executables, folder):
+    """Sum of the forces over LIGGGHTS's, and the share of spheres whose force differs by over 1 %."""
+    found = {}
+    for program, executable in executables.items():
+        decks.Run(executable, force_deck(program), folder)
+        found[program] = forces(folder / "force.dump")
+    ours, theirs = found["lsdcd"], found["LIGGGHTS"]
+    off = sum(abs(f - theirs[k]) > 0.01 * max(f, theirs[k]) for k, f in ours.items())
+    return {"force_ratio": f"{sum(ours.values()) / sum(theirs.values()):.5f}",
+            "force_differs": f"{off / len(ours):.4f}", "touching": sum(f > 0 for f in ours.values())}
+
+
+def start_costs(executable, program, folder, repeats):
+    """Set-up seconds and peak memory, MB, that the wall adds to a run of 0 steps."""
+    runs = {w: [decks.Run(executable, start_deck(program, w), folder) for _ in range(repeats)]
+            for w in (True, False)}
+    seconds, peak = ({w: statistics.median(getattr(r, what) for r in rs) for w, rs in runs.items()}
+                     for what in ("seconds", "peak_mb"))
+    return {"setup_s": f"{seconds[True] - seconds[False]:.3g}",
+            "memory_mb": f"{peak[True] - peak[False]:.4g}"}
+
+
+def compare(options, executables, folder, named):
+    rows = []
+    for triangles in options.triangles:
+        n_round, n_along = MESHES[triangles]
+        write_mesh(folder, n_round, n_along)
+        start = None
+        for case in options.cases:
+            for order in options.orders:
+                write_spheres(folder, case, order, options.spheres, n_round)
+                if start is None:
+                    start = {p: start_costs(e, p, folder, 1 + (triangles < 1e5))
+                             for p, e in executables.items()}
+                check = same_work(executables, folder)
+                steps = options.steps * (10 if case == "in bulk" else 1)
+                parts = {p: [] for p in executables}
+                plain = {p: [] for p in executables}
+                builds = {p: 0 for p in executables}
+                for _ in range(options.repeats):    # in turn, so that other load meets both
+                    for program, executable in executables.items():
+                        run = decks.Run(executable, timed_deck(program, case, steps, options.chunks), folder)
+                        ms = run.step_ms()
+                        half = len(ms) // 2
+                        builds[program] += sum(run.builds()[1:half])
+                        plain[program] += ms[half + 1:]
+                        parts[program] += [a - b for a, b in zip(ms[1:half], ms[half + 1:])]
+                for program in executables:
+                    rows.append(decks.row("liggghts", f"{case}, {program}", named, triangles,
+                                          options.spheres, order, parts[program], steps=steps,
+                                          builds=builds[program],
+                                          no_wall_ms=f"{statistics.median(plain[program]):.4g}",
+                                          **start[program], **check))
+    return rows
+
+
+# ---- the table ---------------------------------------------------------------------------
+
+def kept_parts():
+    """The generated part of the document, with its markers."""
+    return parts(decks.read_rows("liggghts"))
+
+
+def parts(rows):
+    def find(case, program, like):
+        return performance.find(rows, case=f"{case}, {program}", triangles=like["triangles"],
+                                order=like["order"])
+
+    def cells(r):
+        case = r["case"].rsplit(", ", 1)[0]
+        ours, theirs = r, find(case, "LIGGGHTS", r)
+        f, g = facts(ours), facts(theirs)
+        ratio = f"{float(theirs['median_ms']) / float(ours['median_ms']):.2f}" if theirs else ""
+        return [count(r["triangles"]), CASES[case], r["order"], count(f["touching"]), performance.ms(ours),
+                performance.ms(theirs), ratio, f["setup_s"], g.get("setup_s", ""), number(f["memory_mb"]),
+                number(g.get("memory_mb", "")), f["force_ratio"]]
+
+    heads = ["triangles", "spheres", "order", "touching", "wall/lsdcd, ms", "LIGGGHTS, ms",
+             "LIGGGHTS / wall/lsdcd", "set-up, s", "LIGGGHTS, s", "memory, MB", "LIGGGHTS, MB",
+             "sum of forces, ours / theirs"]
+    mine = [r for r in rows if r["case"].endswith(", lsdcd")]
+    return performance.between_markers({"liggghts": table(mine, heads, cells) + "\n\n" + decks.machines(rows)})
+
+
+def main(args, words):
+    p = argparse.ArgumentParser(prog="./run bench liggghts", description=__doc__,
+                                formatter_class=argparse.RawDescriptionHelpFormatter)
+    p.add_argument("--liggghts", default="liggghts", metavar="FILE", help="the program (default: in PATH)")
+    p.add_argument("--triangles", type=int, nargs="+", choices=MESHES, default=list(MESHES))
+    p.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES))
+    p.add_argument("--orders", nargs="+", choices=ORDERS, default=list(ORDERS))
+    p.add_argument("--spheres", type=int, default=SPHERES, metavar="N")
+    p.add_argument("--steps", type=int, default=20, metavar="N",
+                   help="timed as one; ten times as many in bulk (default 20)")
+    p.add_argument("--chunks", type=int, default=3, metavar="N", help="of these in a run (default 3)")
+    p.add_argument("--repeats", type=int, default=3, metavar="N", help="of each run (default 3)")
+    p.add_argument("--words", action="help", help="show this")
+    p.add_argument("--keep", metavar="DIR", help="leave decks and meshes there")
+    options = p.parse_args(words)
+    if args.quick:
+        options.triangles, options.spheres, options.repeats = [2560], 5000, 1
+    if not args.write_only:
+        theirs = shutil.which(options.liggghts)
+        if not theirs:
+            raise SystemExit("there is no liggghts (Debian package liggghts)")
+        executables = {"lsdcd": os.path.abspath(os.path.join(args.build, "bin", "lmp-lsdcd")),
+                       "LIGGGHTS": theirs}
+        folder = decks.rows_folder(args)
+        with decks.work_folder(options.keep) as work:
+            decks.keep("liggghts", compare(options, executables, work, args.commit or commit()), folder)
+        if folder != performance.DATA:
+            return 0
+    performance.write_parts(kept_parts())
+    return 0

@@ -1,0 +1,95 @@
+"""A step against the size of the mesh, 1e2 to 1e7 triangles: `./run bench mesh-size`.
+
+bench_mesh_size: spheres that all touch a closed cylinder, near lists kept; beside it the grid's
+build time and memory. Words that run.py does not know go to that program. Rows are kept in doc/data/mesh-size_DEVICE.csv.
+"""
+import os
+import subprocess
+
+import decks
+import performance
+from effects import has_gpu, table
+from hard_cases import commit
+from performance import count, facts, number
+from performance_plots import COLOURS, label, write_image
+
+KEPT, ANEW = "hertz/history, kept", "hertz/history, chosen anew"
+
+
+def find(rows, like, case):
+    return performance.find(rows, case=case, triangles=like["triangles"], order=like["order"])
+
+
+def rows_of_all():
+    return {device: decks.read_rows("mesh-size", device=device) for device in performance.DEVICES}
+
+
+def kept_parts():
+    """The generated part of the document, with its markers."""
+    return parts(rows_of_all())
+
+
+def parts(rows_of):
+    rows = [r for device in rows_of.values() for r in device]
+
+    def cells(r):
+        f, anew = facts(r), find(rows_of["cuda" if "CUDA" in r["device"] else "cpu"], r, ANEW)
+        first = performance.find([x for x in rows if x["device"] == r["device"]], case=KEPT, order=r["order"])
+        return [count(r["triangles"]), r["device"].replace("CUDA, ", ""), count(r["spheres"]), r["order"],
+                count(f["contacts"]), performance.ms(r), f["ns_per_contact"],
+                f"{float(f['ns_per_contact']) / float(facts(first)['ns_per_contact']):.2f}",
+                performance.ms(anew), number(f["build_ms"]), number(f["grid_mb"]), number(f["engine_mb"])]
+
+    heads = ["triangles", "device", "spheres", "order", "contacts", "step, ms", "ns per contact",
+             "over the smallest mesh", "with a new choice, ms", "weld and build, ms", "grid, MB",
+             "engine with its grid, MB"]
+    text = table([r for r in rows if r["case"] == KEPT], heads, cells)
+    return performance.between_markers({"mesh-size": text + "\n\n" + performance.machines(rows_of)})
+
+
+def plot(rows_of):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    panels = [("time per contact in a step, ns", lambda r: facts(r)["ns_per_contact"], ("random", "sorted")),
+              ("set-up: weld and build, ms", lambda r: facts(r)["build_ms"], ("random",)),
+              ("memory of the grid, MB", lambda r: facts(r)["grid_mb"], ("random",))]
+    figure, all_axes = plt.subplots(1, 3, figsize=(12, 4.2))
+    for axis, (name, value, orders) in zip(all_axes, panels):
+        for device, rows in rows_of.items():
+            for order, style in (("random", "o-"), ("sorted", "s--")):
+                points = sorted((float(r["triangles"]), float(value(r))) for r in rows
+                                if r["case"] == KEPT and r["order"] == order)
+                if points and order in orders:
+                    axis.plot(*zip(*points), style, color=COLOURS[device],
+                              label=label(rows) + f", {order} order" * (len(orders) > 1))
+        axis.set(xscale="log", yscale="log", xlabel="number of triangles", ylabel=name)
+        axis.grid(True, which="major", alpha=0.3)
+    handles, names = all_axes[0].get_legend_handles_labels()
+    figure.suptitle("A step with near lists kept, set-up and memory against the size of the mesh")
+    figure.legend(handles, names, loc="lower center", ncol=len(names), fontsize=8)
+    figure.tight_layout(rect=(0, 0.07, 1, 1))
+    write_image(figure, "performance_mesh_size.png")
+
+
+def main(args, words):
+    """`./run bench mesh-size`; words go to bench_mesh_size (--help)."""
+    if not args.write_only:
+        folder = decks.rows_folder(args)
+        devices = [args.only] if args.only else ["cpu"] + ["cuda"] * has_gpu()
+        for device in devices:
+            command = [os.path.join(args.build, "bin", "bench_mesh_size"), "--device", device, "--commit",
+                       args.commit or commit(), *words, *["--quick"] * args.quick]
+            print(" ".join(command), flush=True)
+            done = subprocess.run(command, env={**os.environ, "OMP_NUM_THREADS": "1"},
+                                  stdout=subprocess.PIPE, text=True)
+            print(done.stdout, flush=True)
+            if done.returncode != 0:
+                return done.returncode
+            decks.keep("mesh-size", performance.parse(done.stdout), folder, device)
+        if folder != performance.DATA:
+            return 0
+    performance.write_parts(kept_parts())
+    plot(rows_of_all())
+    return 0

@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+"""A step on the CPU executes no more instructions per sphere than it did: counted by valgrind, so
+that a slower step shows without timing.
+
+usage: test_instructions.py [--keep], with LSDCD_COUNT_STEPS (the program) and LSDCD_COMPILER set
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+import kept_numbers
+
+ROOM = 0.05
+
+
+def count(program, style, which):
+    done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
+                           "--toggle-collect=counted_steps", program, style, which],
+                          env={**os.environ, "OMP_NUM_THREADS": "1"}, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True)
+    scene = re.search(r"^(\d+) spheres, (\d+) steps", done.stdout, re.M)
+    collected = re.search(r"Collected : (\d+)", done.stdout)
+    if done.returncode != 0 or not scene or not collected:
+        raise SystemExit(f"FAIL valgrind ended with {done.returncode}:\n{done.stdout[-2000:]}")
+    return int(collected.group(1)) / (int(scene.group(1)) * int(scene.group(2)))
+
+
+if not shutil.which("valgrind"):
+    kept_numbers.skip("no valgrind")
+found = {f"{style}, near list {which}": count(os.environ["LSDCD_COUNT_STEPS"], style, which)
+         for style in ("hooke", "hertz/history") for which in ("kept", "anew")}
+sys.exit(kept_numbers.compare(pathlib.Path(__file__).with_name("step_instructions.csv"),
+                              os.environ["LSDCD_COMPILER"], found, ROOM, "per sphere and step") > 0)
