@@ -22,6 +22,7 @@ struct Walks {
   long spheres = 0, with_list = 0, steps = 0, touching = 0;    // the last two are of lists
   long missed = 0;                                             // contacts of all features alone
   long extra = 0;                                              // contacts of the list alone
+  long pruned = 0;      // steps that touch, of spheres that a choice with this margin leaves out
   long by_cells = 0;    // contacts that cells give and no listed feature does
   long wrong = 0;       // nearest contacts that are not at the distance to all triangles
   Real error = 0;       // largest of these distances, over the tolerance
@@ -34,11 +35,12 @@ struct Walks {
     touching += o.touching;
     missed += o.missed;
     extra += o.extra;
+    pruned += o.pruned;
     by_cells += o.by_cells;
     wrong += o.wrong;
     if (!(o.error <= error)) error = o.error;
   }
-  LSDCD_FN bool failed() const { return missed + extra + by_cells + wrong > 0; }
+  LSDCD_FN bool failed() const { return missed + extra + pruned + by_cells + wrong > 0; }
 };
 
 // What rounds in float moves a height or a distance by this much (length): BrickGeometry widens its
@@ -194,7 +196,8 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
   Walks out;
   out.spheres = 1;
   WallList made;
-  if (!gather(grid, {from, w.sphere.radius, w.cutoff, nullptr, 0}, made)) return out;
+  const Searcher searcher = {from, w.sphere.radius, w.cutoff, nullptr, 0};
+  if (!gather(grid, searcher, made)) return out;
   out.with_list = 1;
   if (mesh.gathered < 1) {
     const float margin = made.margin;
@@ -208,6 +211,7 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
 
   Numbers r(mesh.pairs.seed + 0xd1342543de82ull * (i + 1));
   const Real margin = lists.margin[0];
+  const bool chosen = can_touch(grid, searcher, mesh.gathered * margin);
   Vec3 q = from;
   for (int step = 0; step < kWalkSteps; step++) {
     if (step == 0)
@@ -221,6 +225,7 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
     out.touching += set.n > 0;
     compare_with_all<Geometry>(grid, mesh.features, mesh.n_features, lists, q, w.cutoff, set, out);
     find_contacts_in<Geometry>(grid, q, w.cutoff, cells);
+    out.pruned += cells.n > 0 && !chosen;
     out.by_cells += not_listed<Geometry>(grid, lists, q, w.cutoff, cells);
     if (step > 0) continue;
     const PairMesh<T> &pairs = mesh.pairs;

@@ -231,6 +231,7 @@ TEST(property, a_list_holds_every_contact_inside_of_its_margin)
     };
     none("contacts that lists miss", t.missed);
     none("contacts of lists alone", t.extra);
+    none("steps that touch, of spheres that a choice leaves out", t.pruned);
     none("contacts of cells that no listed feature has", t.by_cells);
     none("nearest contacts at no distance to all triangles", t.wrong);
     EXPECT_GT(t.with_list, t.spheres / 2);
@@ -248,6 +249,7 @@ TEST(property, a_list_for_less_than_the_margin_is_seen_to_miss_contacts)
     std::printf("  %s: %ld contacts missed in %ld steps\n", in_floats ? "brick records" : "double",
                 t.missed, t.steps);
     EXPECT_GT(t.missed, 0);
+    EXPECT_GT(t.pruned, 0);
   }
 }
 
