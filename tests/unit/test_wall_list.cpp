@@ -359,6 +359,18 @@ TEST(wall_list, is_made_anew_where_a_sphere_grows)
   EXPECT_EQ(bed.engine->look().lists, 1);
 }
 
+TEST(wall_list, a_sphere_that_grows_after_the_choice_is_not_left_out)
+{
+  const Wall wall(floor_mesh(10, 5, 3), 0.5);
+  Bed bed(wall, hooke(1e3));
+  bed.add({0.31, 0.17, 0.4}, 0.3);
+  bed.choose(0.05);    // as it is, it cannot touch anything
+  bed.step();
+  bed.radius[0] = 0.5;
+  bed.step();
+  EXPECT_EQ(bed.engine->totals().contacts, 1);
+}
+
 TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_time)
 {
   for (bool in_floats : {false, true}) {
