@@ -5,6 +5,8 @@
 #include "parallel/backend_cpu.h"
 #include "engine/engine_on.h"
 
+#include <algorithm>
+
 namespace lsdcd {
 
 // What changes from step to step, and what comes back.
@@ -47,6 +49,7 @@ class HostAdapter : public WallEngine {
 
   void set_grid(const GridView &grid) override
   {
+    name_spheres();
     springs_to_waiting();
     engine_.set_grid(grid);
     grid_ = grid;
@@ -65,16 +68,14 @@ class HostAdapter : public WallEngine {
   // The host's copy of the grid tells which spheres are near: to send all of them would take longer.
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
-    engine_.totals();
+    name_spheres();
     StepCounts seen = {};
     near_.choose(cpu_, grid_, table_, spheres, margin, settings_.law.pull_off(), &seen, nullptr);
     if (seen.too_large) {
       const int i = static_cast<int>(kNoSphere - seen.too_large);
       throw_too_large(i, spheres.radius[i], grid_.reach);
     }
-    if (grid_.nearest == 0)
-      near_.prune(cpu_, grid_, spheres, seen.n_near, margin, settings_.law.pull_off(), &seen,
-                  nullptr);
+    if (grid_.nearest == 0) near_.prune(cpu_, grid_, spheres, seen.n_near, margin, &seen, nullptr);
     const std::vector<int> was = std::move(near_host_);
     near_host_ = near_.to_host(cpu_, seen.n_near);
     const std::size_t n = near_host_.size();
@@ -182,8 +183,9 @@ class HostAdapter : public WallEngine {
 
   StepNotes look() override
   {
-    StepNotes notes = engine_.look();
-    if (notes.deepest_sphere >= 0) notes.deepest_sphere = near_host_[notes.deepest_sphere];
+    name_spheres();
+    const StepNotes notes = notes_;
+    notes_ = StepNotes();
     return notes;
   }
 
@@ -212,6 +214,22 @@ class HostAdapter : public WallEngine {
   }
 
  private:
+  // Gives what steps left behind the host's indices, before other spheres are near.
+  void name_spheres()
+  {
+    totals();
+    const StepNotes seen = engine_.look();
+    if (seen.deepest > notes_.deepest) {
+      notes_.deepest = seen.deepest;
+      notes_.deepest_sphere = near_host_[seen.deepest_sphere];
+    }
+    notes_.uncertified += seen.uncertified;
+    notes_.uncertain = std::max(notes_.uncertain, seen.uncertain);
+    notes_.lists += seen.lists;
+    notes_.listed += seen.listed;
+    notes_.by_cells += seen.by_cells;
+  }
+
   // Rows of near spheres are far apart in the host's memory: they are asked for ahead of their turn.
   void pack(const Spheres &s)
   {
@@ -326,6 +344,7 @@ class HostAdapter : public WallEngine {
   SpringStore waiting_;    // springs by the host's indices, while they are not with the engine
   bool are_waiting_ = true;
 
+  StepNotes notes_;    // since the host looked
   mutable WallTotals totals_;
   mutable bool totals_known_ = true;
 };

@@ -1,7 +1,7 @@
 // Sums over pairs, and the door to the checker that runs on a GPU.
 #pragma once
 
-#include "support/pair_check.h"
+#include "support/walk_check.h"
 
 namespace lsdcd {
 
@@ -41,5 +41,9 @@ struct PairTotals {
 // Checks n spheres of a mesh on the GPU; the oracle runs there too, in double-double.
 // `mesh` points to the host; its grid is `grid`.
 PairTotals check_pairs_on_cuda(const TriangleGrid &grid, PairMesh<DoubleDouble> mesh, long n);
+
+// The same for walks of n spheres: what each of them counted.
+std::vector<Walks> check_walks_on_cuda(const TriangleGrid &grid, WalkMesh<DoubleDouble> mesh,
+                                       long n);
 
 }    // namespace lsdcd

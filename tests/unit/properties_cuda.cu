@@ -19,6 +19,23 @@ struct Managed {
   ~Managed() { cudaFree(data); }
 };
 
+// A mesh of the host and its grid, where both sides read them.
+template <class T>
+struct ManagedMesh {
+  Managed block, triangles, corners;
+  ManagedMesh(const TriangleGrid &grid, PairMesh<T> &mesh) :
+      block(flat_bytes(grid)), triangles(mesh.n_triangles * sizeof(*mesh.triangle)),
+      corners(3 * mesh.n_triangles * sizeof(Vec3))
+  {
+    flatten(grid, block.data);
+    std::memcpy(triangles.data, mesh.triangle, mesh.n_triangles * sizeof(*mesh.triangle));
+    std::memcpy(corners.data, mesh.corners, 3 * mesh.n_triangles * sizeof(Vec3));
+    mesh.grid = flat_view(block.data);
+    mesh.triangle = reinterpret_cast<LongTriangle<T> *>(triangles.data);
+    mesh.corners = reinterpret_cast<Vec3 *>(corners.data);
+  }
+};
+
 struct Counts {
   unsigned long long touching, missed, not_there, wrong, bad, error_bits, first;
 };
@@ -28,14 +45,8 @@ struct Counts {
 PairTotals check_pairs_on_cuda(const TriangleGrid &grid, PairMesh<DoubleDouble> mesh, long n)
 {
   CudaBackend backend;
-  Managed block(flat_bytes(grid)), triangles(mesh.n_triangles * sizeof(*mesh.triangle)),
-      corners(3 * mesh.n_triangles * sizeof(Vec3)), counts(sizeof(Counts));
-  flatten(grid, block.data);
-  std::memcpy(triangles.data, mesh.triangle, mesh.n_triangles * sizeof(*mesh.triangle));
-  std::memcpy(corners.data, mesh.corners, 3 * mesh.n_triangles * sizeof(Vec3));
-  mesh.grid = flat_view(block.data);
-  mesh.triangle = reinterpret_cast<LongTriangle<DoubleDouble> *>(triangles.data);
-  mesh.corners = reinterpret_cast<Vec3 *>(corners.data);
+  const ManagedMesh<DoubleDouble> managed(grid, mesh);
+  Managed counts(sizeof(Counts));
   Counts *total = reinterpret_cast<Counts *>(counts.data);
   *total = {0, 0, 0, 0, 0, 0, ~0ull};
 
@@ -67,6 +78,21 @@ PairTotals check_pairs_on_cuda(const TriangleGrid &grid, PairMesh<DoubleDouble> 
   std::memcpy(&out.error, &total->error_bits, sizeof out.error);
   if (total->first != ~0ull) out.first_sphere = static_cast<long>(total->first);
   return out;
+}
+
+std::vector<Walks> check_walks_on_cuda(const TriangleGrid &grid, WalkMesh<DoubleDouble> mesh,
+                                       long n)
+{
+  CudaBackend backend;
+  const ManagedMesh<DoubleDouble> managed(grid, mesh.pairs);
+  Managed features(mesh.n_features * sizeof(FeatureCode)), walks(n * sizeof(Walks));
+  std::memcpy(features.data, mesh.features, mesh.n_features * sizeof(FeatureCode));
+  mesh.features = reinterpret_cast<FeatureCode *>(features.data);
+  Walks *to = reinterpret_cast<Walks *>(walks.data);
+  backend.for_each(
+      n, [=] __device__(std::size_t i) { to[i] = check_walk(mesh, i); }, 128);
+  backend.wait();
+  return {to, to + n};
 }
 
 }    // namespace lsdcd

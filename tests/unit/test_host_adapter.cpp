@@ -1,0 +1,238 @@
+// The adapter of a host whose arrays are elsewhere: springs and indices across choices of other near
+// spheres. That it gives what the CPU's engine gives is in test_engine.cpp.
+#include "engine/force/host_law.h"
+#include "engine/host_adapter.h"
+#include "support/crowd.h"
+#include "support/test_engine.h"
+
+#include <gtest/gtest.h>
+
+namespace lsdcd {
+namespace {
+
+// A floor at z = 0 with spheres on it, and the engine of the CPU beside the adapter: each fact is
+// one about what both say.
+class Pair {
+ public:
+  Pair()
+  {
+    settings_.law = classic(LawStyle::hertz_history);
+    GridSettings g;
+    g.reach = 0.5;
+    flat_ = FlatGrid(build_grid(weld(floor_mesh(10, 5, 3), -1), g));
+    adapter =
+        std::make_unique<HostAdapter<CpuBackend>>(settings_, host_law(settings_), CpuBackend());
+    direct = on_cpu(settings_);
+    set_grid();
+  }
+  void set_grid()
+  {
+    for (WallEngine *e : both()) e->set_grid(flat_.view());
+  }
+  // Four spheres in a row, one of them deeper than the others; `touching`: bits, the others are far.
+  void place(int touching, int deepest)
+  {
+    for (int i = 0; i < kSpheres; i++) {
+      x_[3 * i] = 0.3 * i;
+      x_[3 * i + 1] = 0.1;
+      x_[3 * i + 2] = touching >> i & 1 ? (i == deepest ? 0.4 : 0.45) : 4;
+    }
+  }
+  void choose(Real margin = 0, bool watch = false)
+  {
+    for (WallEngine *e : both()) e->choose(spheres(force_[0]), margin, watch);
+  }
+  void step()
+  {
+    StepSettings s;
+    s.dt = 1e-3;
+    for (int k = 0; k < 2; k++) {
+      force_[k].assign(6 * kSpheres, 0);
+      both()[k]->start(spheres(force_[k]), s);
+      both()[k]->collect();
+    }
+  }
+  void move(int i, const Vec3 &by)
+  {
+    for (int d = 0; d < 3; d++) x_[3 * i + d] += by[d];
+  }
+  bool same_forces() const { return same_bytes(force_[0], force_[1]); }
+  // The shear of sphere i's one contact, 0 where it has none, by the engine and by the adapter.
+  Real shear(int engine, int i)
+  {
+    SpringStore store;
+    both()[engine]->springs_to(store, kSpheres);
+    return store.count(i) == 0 ? 0 : norm(store.of(i)->stretch);
+  }
+  void expect_same_springs()
+  {
+    for (int i = 0; i < kSpheres; i++) EXPECT_EQ(shear(0, i), shear(1, i)) << "sphere " << i;
+  }
+  bool has_moved() { return adapter->has_moved(spheres(force_[0])); }
+  std::vector<WallEngine *> both() { return {direct.get(), adapter.get()}; }
+
+  static constexpr int kSpheres = 4;
+  std::unique_ptr<WallEngine> adapter, direct;
+
+ private:
+  Spheres spheres(std::vector<Real> &force)
+  {
+    force.resize(6 * kSpheres);
+    Spheres s;
+    s.n = kSpheres;
+    s.x = x_.data();
+    s.v = v_.data();
+    s.omega = v_.data();
+    s.radius = radius_.data();
+    s.mass = mass_.data();
+    s.force = force.data();
+    s.torque = force.data() + 3 * kSpheres;
+    return s;
+  }
+
+  EngineSettings settings_;
+  FlatGrid flat_;
+  std::vector<Real> x_ = std::vector<Real>(3 * kSpheres), v_ = std::vector<Real>(3 * kSpheres, 0.1),
+                    radius_ = std::vector<Real>(kSpheres, 0.5),
+                    mass_ = std::vector<Real>(kSpheres, 1), force_[2];
+};
+
+TEST(host_adapter, springs_survive_a_choice_with_other_near_spheres)
+{
+  Pair p;
+  p.place(0b1100, 3);
+  p.choose();
+  for (int k = 0; k < 3; k++) p.step();
+  const Real before = p.shear(0, 3);
+  EXPECT_GT(before, 0);
+  p.place(0b1011, 3);    // sphere 3 is the second near one, then the third
+  p.choose();
+  p.step();
+  EXPECT_TRUE(p.same_forces());
+  EXPECT_GT(p.shear(0, 3), 1.3 * before);    // four steps after three
+  p.expect_same_springs();
+}
+
+TEST(host_adapter, a_sphere_that_was_far_has_no_spring_of_before)
+{
+  Pair p;
+  for (int touching : {0b0110, 0b0100, 0b0110}) {
+    p.place(touching, 1);
+    p.choose();
+    p.step();
+  }
+  EXPECT_GT(p.shear(1, 2), 2 * p.shear(1, 1));
+  p.expect_same_springs();
+}
+
+TEST(host_adapter, springs_that_were_asked_for_are_still_there_in_the_next_step)
+{
+  Pair p;
+  p.place(0b0101, 0);
+  p.choose();
+  for (int k = 0; k < 4; k++) {
+    p.step();
+    p.expect_same_springs();
+    EXPECT_TRUE(p.same_forces()) << k;
+  }
+  EXPECT_GT(p.shear(1, 2), 0);
+}
+
+TEST(host_adapter, springs_that_are_given_replace_those_it_has)
+{
+  Pair p;
+  p.place(0b0111, 0);
+  p.choose();
+  for (int k = 0; k < 3; k++) p.step();
+  // As after a restart: 0 and 2 have changed places, 1 is new.
+  SpringStore had, given;
+  p.direct->springs_to(had, Pair::kSpheres);
+  given.grow(Pair::kSpheres);
+  given.set(0, had.of(2), had.extra_of(2), had.count(2));
+  given.set(2, had.of(0), had.extra_of(0), had.count(0));
+  for (WallEngine *e : p.both()) e->springs_from(given, Pair::kSpheres);
+  EXPECT_GT(p.shear(1, 0), 0);
+  EXPECT_EQ(p.shear(1, 1), 0);
+  p.expect_same_springs();    // before the step that takes them
+  p.step();
+  EXPECT_TRUE(p.same_forces());
+  EXPECT_GT(p.shear(1, 2), 2 * p.shear(1, 1));
+  p.expect_same_springs();
+  p.choose();
+  p.step();
+  p.expect_same_springs();
+}
+
+TEST(host_adapter, springs_survive_another_grid)
+{
+  Pair p;
+  p.place(0b1010, 3);
+  p.choose();
+  for (int k = 0; k < 3; k++) p.step();
+  const Real before = p.shear(0, 3);    // the adapter still has its springs with its engine
+  p.set_grid();
+  EXPECT_EQ(p.shear(1, 3), before);
+  p.choose();
+  p.step();
+  EXPECT_TRUE(p.same_forces());
+  EXPECT_GT(p.shear(1, 3), 1.3 * before);
+  p.expect_same_springs();
+}
+
+TEST(host_adapter, says_that_spheres_have_moved_past_the_margin_alone)
+{
+  Pair p;
+  p.place(0b0001, 0);
+  p.choose(0.1, true);
+  EXPECT_FALSE(p.has_moved());
+  p.move(2, {0, 0, 0.09});    // one that is far counts, too
+  EXPECT_FALSE(p.has_moved());
+  p.move(2, {0, 0, 0.02});
+  EXPECT_TRUE(p.has_moved());
+  p.choose(0.1, true);
+  EXPECT_FALSE(p.has_moved());
+  p.move(0, {0.08, 0.08, 0});
+  EXPECT_TRUE(p.has_moved());
+}
+
+// Other fixes ask for the last step's totals when spheres are chosen already.
+TEST(host_adapter, totals_of_the_last_step_name_its_sphere_after_another_choice)
+{
+  Pair p;
+  p.place(0b1100, 3);
+  p.choose();
+  p.step();
+  p.place(0b0011, 0);
+  p.choose();
+  for (WallEngine *e : p.both()) EXPECT_EQ(e->totals().largest_overlap_sphere, 3);
+}
+
+TEST(host_adapter, totals_of_the_last_step_name_its_sphere_after_another_grid)
+{
+  Pair p;
+  p.place(0b1100, 3);
+  p.choose();
+  p.step();
+  p.set_grid();
+  for (WallEngine *e : p.both()) EXPECT_EQ(e->totals().largest_overlap_sphere, 3);
+}
+
+TEST(host_adapter, notes_name_the_sphere_of_the_deepest_overlap_after_another_choice)
+{
+  Pair p;
+  p.place(0b1100, 3);
+  p.choose();
+  p.step();
+  p.place(0b0011, -1);
+  p.choose();
+  p.step();
+  for (WallEngine *e : p.both()) {
+    const StepNotes notes = e->look();
+    EXPECT_EQ(notes.deepest_sphere, 3);
+    EXPECT_NEAR(notes.deepest, 0.2, 1e-7);    // it is kept in single precision
+    EXPECT_EQ(e->look().deepest_sphere, -1);
+  }
+}
+
+}    // namespace
+}    // namespace lsdcd

@@ -1,0 +1,451 @@
+// Lists of the wall: what one holds, how far it holds, and what an engine does with it. Walks inside
+// the margin on random meshes are in test_properties.cpp.
+#include "engine/narrow/touch.h"
+#include "support/brute_force.h"
+#include "support/crowd.h"
+#include "support/laws.h"
+#include "support/random_mesh.h"
+#include "support/test_engine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace lsdcd {
+namespace {
+
+struct Wall {
+  WallMesh mesh;
+  TriangleGrid grid;
+  FlatGrid flat;
+
+  Wall(const TriangleSoup &soup, Real reach, bool in_floats = false) : mesh(weld(soup, -1))
+  {
+    GridSettings g;
+    g.reach = reach;
+    g.in_floats = in_floats;
+    grid = build_grid(mesh, g);
+    flat = FlatGrid(grid);
+  }
+  GridView view() const { return flat.view(); }
+};
+
+// The list of a sphere that feels the wall as far as `cutoff`, as a column of its own.
+class OneList {
+ public:
+  OneList(const GridView &grid, const Vec3 &q, Real radius, Real cutoff)
+  {
+    has_list = gather(grid, {q, radius, cutoff, nullptr, 0}, made);
+    lists.put(0, made);
+  }
+  OneList(const GridView &grid, const Vec3 &q, Real radius) : OneList(grid, q, radius, radius) {}
+  bool holds(const Vec3 &q, Real cutoff) const { return lists.holds(0, q, cutoff); }
+
+  WallList made;
+  bool has_list;
+
+ private:
+  Real reals_[WallLists::kReals];
+  std::int32_t ints_[WallLists::kInts];
+  WallLists lists = WallLists::of(reals_, ints_, 1);
+};
+
+Vec3 in_grid(Numbers &r, const GridView &grid)
+{
+  Vec3 q;
+  for (int d = 0; d < 3; d++)
+    q[d] = grid.origin[d] + r.in(0, grid.n_bricks[d]) * kBrickSide * grid.length;
+  return q;
+}
+
+// ---- one list ----------------------------------------------------------------------------------
+
+TEST(wall_list, is_ascending_and_without_doubles)
+{
+  for (bool in_floats : {false, true}) {
+    const Wall wall(random_soup(100, 3), 0.5, in_floats);
+    Numbers r(1);
+    int several = 0;
+    for (int k = 0; k < 5000; k++) {
+      const WallList made = OneList(wall.view(), in_grid(r, wall.view()), 0.5).made;
+      several += made.n > 1;
+      for (int i = 1; i < made.n; i++) ASSERT_LT(made.code[i - 1], made.code[i]);
+    }
+    EXPECT_GT(several, 100);
+  }
+}
+
+const Vec3 kOverFloor = {0.31, 0.17, 0.4};
+
+TEST(wall_list, holds_as_far_as_its_margin_and_no_farther)
+{
+  const Wall wall(floor_mesh(4, 2), 0.5);
+  const OneList list(wall.view(), kOverFloor, 0.5);
+  ASSERT_TRUE(list.has_list);
+  // It is rounded down, by 1e-6 and to a float.
+  EXPECT_LE(list.made.margin, kListMargin * 0.5);
+  EXPECT_GE(list.made.margin, kListMargin * 0.5 * (1 - 1.1e-6));
+  Numbers r(2);
+  for (int k = 0; k < 1000; k++) {
+    const Vec3 way = list.made.margin * r.direction();
+    EXPECT_TRUE(list.holds(kOverFloor + (1 - 1e-12) * way, 0.5));
+    EXPECT_FALSE(list.holds(kOverFloor + (1 + 1e-12) * way, 0.5));
+  }
+}
+
+TEST(wall_list, does_not_hold_for_a_larger_cutoff)
+{
+  const Wall wall(floor_mesh(4, 2), 0.5);
+  const OneList list(wall.view(), kOverFloor, 0.3, 0.4);
+  EXPECT_TRUE(list.holds(kOverFloor, 0.4));
+  EXPECT_FALSE(list.holds(kOverFloor, 0.4 * (1 + 2e-6)));    // it is rounded up, by 1e-6
+}
+
+TEST(wall_list, does_not_hold_where_the_centre_is_not_a_number)
+{
+  const Wall wall(floor_mesh(4, 2), 0.5);
+  const Vec3 nowhere = {std::nan(""), 0, 0};
+  EXPECT_FALSE(OneList(wall.view(), kOverFloor, 0.5).holds(nowhere, 0.5));
+  EXPECT_FALSE(OneList(wall.view(), nowhere, 0.5).holds(nowhere, 0.5));
+}
+
+// Inside of a cone, next to its tip: all facets are at one distance from the axis.
+Vec3 on_axis(Real off, Real angle = 0.1)
+{
+  return {off * std::cos(angle), off * std::sin(angle), -0.2};
+}
+
+TEST(wall_list, has_a_smaller_margin_where_more_than_seven_features_are_close)
+{
+  for (int n : {10, 50, 200}) {
+    const Wall wall(cone_mesh(n, 1, 1), 0.4);
+    int shrunk = 0;
+    for (Real off = 1e-4; off < 0.2; off *= 1.1) {
+      const OneList list(wall.view(), on_axis(off), 0.2);
+      shrunk += list.has_list && list.made.margin < 0.9 * kListMargin * 0.2;
+    }
+    EXPECT_GT(shrunk, 0) << n;
+  }
+}
+
+TEST(wall_list, is_none_where_a_sphere_touches_more_than_seven)
+{
+  for (int n : {10, 50, 200}) {
+    const Wall wall(cone_mesh(n, 1, 1), 0.4);
+    const OneList list(wall.view(), on_axis(0), 0.2);
+    EXPECT_FALSE(list.has_list) << n;
+    EXPECT_EQ(list.made.n, 0) << n;
+    EXPECT_FALSE(list.holds(on_axis(0), 0.2)) << n;
+  }
+}
+
+TEST(wall_list, of_a_sphere_outside_of_the_grid_is_empty_and_holds)
+{
+  for (bool in_floats : {false, true}) {
+    const Wall wall(floor_mesh(4, 2), 0.5, in_floats);
+    for (Real far : {10., -10., 1e6}) {
+      const OneList list(wall.view(), {far, far, far}, 0.5);
+      EXPECT_TRUE(list.has_list) << far;
+      EXPECT_EQ(list.made.n, 0) << far;
+      EXPECT_TRUE(list.holds({far, far, far}, 0.5)) << far;
+    }
+  }
+}
+
+// At the rim of the grid, where the ball of the margin meets cells that are not there.
+TEST(wall_list, at_the_rim_of_the_grid_has_what_is_inside)
+{
+  for (bool in_floats : {false, true}) {
+    Wall wall(floor_mesh(4, 2), 0.5);
+    GridSettings g;
+    g.reach = 0.5;
+    g.in_floats = in_floats;
+    g.within = {{-1, -1, 0}, {1, 1, 1}};    // the floor itself is the rim
+    wall.grid = build_grid(wall.mesh, g);
+    wall.flat = FlatGrid(wall.grid);
+    const GridView grid = wall.view();
+    for (Real up : {0., 1e-15, 1e-9, 0.01, 0.4}) {
+      const Real z = std::max(up, grid.origin.z);
+      ASSERT_LE(z, 0.4);
+      ContactSet<8> cells;
+      find_contacts(grid, {0.31, 0.17, z}, 0.5, cells);
+      const OneList list(grid, {0.31, 0.17, z}, 0.5);
+      ASSERT_EQ(cells.n, 1);
+      if (list.has_list) {
+        EXPECT_GE(list.made.n, 1) << up;
+      }
+    }
+  }
+}
+
+TEST(wall_list, of_brick_records_stays_in_one_brick)
+{
+  const Wall wall(random_soup(100, 3), 0.5, true);
+  const GridView grid = wall.view();
+  Numbers r(4);
+  int cut = 0, none = 0;
+  for (int k = 0; k < 100000; k++) {
+    Vec3 q = in_grid(r, grid);
+    if (r.below(2)) {    // close to a side of a brick, as close as rounding lets it
+      const int d = r.below(3);
+      q[d] = grid.origin[d] + r.below(grid.n_bricks[d]) * kBrickSide * grid.length +
+             (r.below(2) ? 1 : -1) * r.log_in(1e-17, 1e-2);
+    }
+    const Real most = kListMargin * r.log_in(1e-3, 0.5), margin = margin_at(grid, q, most);
+    EXPECT_LE(margin, most);
+    cut += margin < most;
+    none += !(margin > 0);
+    int lo[3], hi[3];
+    if (!(margin > 0) || !cells_in_ball(grid, q, margin, lo, hi)) continue;
+    for (int d = 0; d < 3; d++) ASSERT_EQ(lo[d] / kBrickSide, (hi[d] - 1) / kBrickSide);
+  }
+  EXPECT_GT(cut, 1000);
+  EXPECT_GT(none, 1000);
+}
+
+// ---- in an engine ------------------------------------------------------------------------------
+
+// Spheres on a wall and an engine that keeps its lists from step to step.
+class Bed {
+ public:
+  Bed(const Wall &wall, const EngineSettings &settings) : engine(on_cpu(settings))
+  {
+    engine->set_grid(wall.view());
+  }
+  void add(const Vec3 &at, Real r)
+  {
+    x.insert(x.end(), {at.x, at.y, at.z});
+    radius.push_back(r);
+    v.resize(x.size(), 0.1);
+    mass.push_back(1);
+  }
+  Vec3 centre(int i) const { return {x[3 * i], x[3 * i + 1], x[3 * i + 2]}; }
+  void put(int i, const Vec3 &at)
+  {
+    for (int d = 0; d < 3; d++) x[3 * i + d] = at[d];
+  }
+  int n() const { return static_cast<int>(radius.size()); }
+
+  void choose(Real margin) { engine->choose(spheres(), margin); }
+  void step()
+  {
+    force.assign(x.size(), 0);
+    torque.assign(x.size(), 0);
+    StepSettings s;
+    s.dt = 1e-4;
+    engine->start(spheres(), s);
+    engine->collect();
+  }
+  Vec3 force_on(int i) const { return {force[3 * i], force[3 * i + 1], force[3 * i + 2]}; }
+  std::vector<Spring> springs()
+  {
+    SpringStore store;
+    engine->springs_to(store, n());
+    std::vector<Spring> all;
+    for (int i = 0; i < n(); i++) all.insert(all.end(), store.of(i), store.of(i) + store.count(i));
+    return all;
+  }
+
+  std::unique_ptr<WallEngine> engine;
+  std::vector<Real> x, v, radius, mass, force, torque;
+
+ private:
+  Spheres spheres()
+  {
+    force.resize(x.size());
+    torque.resize(x.size());
+    Spheres s;
+    s.n = n();
+    s.x = x.data();
+    s.v = v.data();
+    s.omega = v.data();
+    s.radius = radius.data();
+    s.mass = mass.data();
+    s.force = force.data();
+    s.torque = torque.data();
+    return s;
+  }
+};
+
+TEST(wall_list, spheres_without_one_touch_what_all_features_say)
+{
+  const Real k = 1e3, radius = 0.2;
+  for (int n : {10, 50, 200}) {
+    const Wall wall(cone_mesh(n, 1, 1), 0.4);
+    EngineSettings s = hooke(k);
+    s.corner = Corner::sum;
+    Bed bed(wall, s);
+    for (Real off = 1e-4; off < 0.1; off *= 1.5)
+      for (Real angle : {0., 0.1, 1., 4.}) bed.add(on_axis(off, angle), radius);
+    bed.add(on_axis(0), radius);
+    bed.choose(0);
+    bed.step();
+    const StepNotes notes = bed.engine->look();
+    EXPECT_GT(notes.by_cells, 0) << n;
+    EXPECT_LT(notes.by_cells, bed.n()) << n;    // others have one
+    std::int64_t contacts = 0;
+    for (int i = 0; i < bed.n(); i++) {
+      const Vec3 q = bed.centre(i);
+      Vec3 sum = {0, 0, 0};
+      const auto all = brute_contacts(wall.view().wall, wall.grid.wall.contact_features, q, radius,
+                                      wall.grid.slack, kSamePoint * wall.grid.slack);
+      for (const BruteContact &c : all)
+        sum += (k * (radius - c.distance) / c.distance) * (q - c.foot);
+      contacts += static_cast<std::int64_t>(all.size());
+      // A foot is the centre less its distance along its normal: three roundings of lengths below
+      // 1, and its share of the force is k times that.
+      const Real tolerance = 8 * kRoundoff * k * static_cast<Real>(all.size());
+      EXPECT_LE(norm(bed.force_on(i) - sum), tolerance) << n << ", sphere " << i;
+    }
+    EXPECT_EQ(bed.engine->totals().contacts, contacts) << n;
+  }
+}
+
+TEST(wall_list, counts_lists_and_their_features)
+{
+  const Wall wall(floor_mesh(10, 5, 3), 0.5);
+  Bed bed(wall, hooke(1e3));
+  Numbers r(6);
+  std::int64_t features = 0;
+  for (int i = 0; i < 200; i++) {
+    bed.add({r.in(-4, 4), r.in(-4, 4), r.in(0.3, 0.45)}, 0.5);
+    features += OneList(wall.view(), bed.centre(i), 0.5).made.n;
+  }
+  bed.choose(0.2);
+  ASSERT_EQ(bed.engine->n_near(), 200);
+  bed.step();
+  StepNotes notes = bed.engine->look();
+  EXPECT_EQ(notes.lists, 200);
+  EXPECT_EQ(notes.listed, features);
+  EXPECT_EQ(notes.by_cells, 0);
+
+  bed.step();    // nothing has moved
+  notes = bed.engine->look();
+  EXPECT_EQ(notes.lists, 0);
+  EXPECT_EQ(notes.listed, 0);
+}
+
+TEST(wall_list, is_made_anew_for_the_sphere_that_left_its_margin_alone)
+{
+  const Wall wall(floor_mesh(10, 5, 3), 0.5);
+  Bed bed(wall, hooke(1e3));
+  Numbers r(6);
+  for (int i = 0; i < 50; i++) bed.add({r.in(-4, 4), r.in(-4, 4), 0.4}, 0.5);
+  bed.choose(0.2);
+  bed.step();
+  bed.engine->look();
+  const Real margin = kListMargin * 0.5;
+  bed.put(3, bed.centre(3) + Vec3{1.001 * margin, 0, 0});
+  bed.put(4, bed.centre(4) + Vec3{0.999 * margin, 0, 0});
+  bed.step();
+  const StepNotes notes = bed.engine->look();
+  EXPECT_EQ(notes.lists, 1);
+  EXPECT_EQ(notes.listed, OneList(wall.view(), bed.centre(3), 0.5).made.n);
+}
+
+TEST(wall_list, is_made_anew_where_a_sphere_grows)
+{
+  const Wall wall(floor_mesh(10, 5, 3), 0.5);
+  Bed bed(wall, hooke(1e3));
+  bed.add({0.31, 0.17, 0.4}, 0.3);    // it touches nothing, and nothing is in its list
+  bed.choose(0.2);
+  bed.step();
+  EXPECT_EQ(bed.engine->totals().contacts, 0);
+  bed.engine->look();
+  bed.radius[0] = 0.5;
+  bed.step();
+  EXPECT_EQ(bed.engine->totals().contacts, 1);
+  EXPECT_EQ(bed.engine->look().lists, 1);
+}
+
+TEST(wall_list, a_sphere_that_grows_after_the_choice_is_not_left_out)
+{
+  const Wall wall(floor_mesh(10, 5, 3), 0.5);
+  Bed bed(wall, hooke(1e3));
+  bed.add({0.31, 0.17, 0.4}, 0.3);
+  bed.choose(0.05);    // as it is, it cannot touch anything
+  bed.step();
+  bed.radius[0] = 0.5;
+  bed.step();
+  EXPECT_EQ(bed.engine->totals().contacts, 1);
+}
+
+TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_time)
+{
+  for (bool in_floats : {false, true}) {
+    const Wall wall(floor_mesh(10, 5, 3), 0.5, in_floats);
+    EngineSettings s = hooke(1e3);
+    if (in_floats) s.precision = Precision::mixed;
+    Bed kept(wall, s), anew(wall, s);
+    const Vec3 outside = {-9, -9, 5.4};
+    kept.add(outside, 0.5);
+    anew.add(outside, 0.5);
+    EXPECT_FALSE(place_of(wall.view(), outside).inside);
+    kept.choose(12);
+    ASSERT_EQ(kept.engine->n_near(), 1);
+    // To a place over the floor, a third of a margin a step.
+    const Vec3 way = Vec3{-0.5, -0.5, 0.4} - outside;
+    const int steps = static_cast<int>(norm(way) / (kListMargin * 0.5 / 3));
+    int touching = 0;
+    for (int k = 0; k <= steps; k++) {
+      kept.put(0, outside + (static_cast<Real>(k) / steps) * way);
+      anew.x = kept.x;
+      kept.step();
+      anew.choose(0);
+      anew.step();
+      EXPECT_TRUE(kept.force_on(0) == anew.force_on(0)) << k;
+      touching += kept.force_on(0).z > 0;
+    }
+    EXPECT_GT(touching, 3);
+  }
+}
+
+// Contacts are taken in the order of their numbers, so that forces and springs do not tell when a
+// list was made. That goes for brick records as well: the frame is that of the brick that the
+// sphere is in, and a list never leaves it. In the dense soup some spheres have no list.
+TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_step)
+{
+  constexpr int kSteps = 1000, kSpheres = 40;
+  const Real reach = 0.5, step = 0.3 * kListMargin * reach;
+  const TriangleSoup soups[] = {floor_mesh(20, 10, 7), box_mesh({0, 0, 0}, {4, 4, 4}),
+                                random_soup(60, 3), random_soup(1000, 3)};
+  for (const TriangleSoup &soup : soups)
+    for (Precision precision : {Precision::double_, Precision::mixed}) {
+      const Wall wall(soup, reach, precision == Precision::mixed);
+      EngineSettings s;
+      s.law = classic(LawStyle::hertz_history);
+      s.precision = precision;
+      Bed kept(wall, s), anew(wall, s);
+      Numbers r(8);
+      const std::vector<VertexRecord> &vertices = wall.grid.wall.vertices;
+      for (int i = 0; i < kSpheres; i++) {
+        const Vec3 at = vertices[r.next() % vertices.size()].position;
+        const Vec3 q = at + r.in(0.5, 0.9) * reach * r.direction();
+        const Real radius = reach * r.in(0.8, 1);
+        kept.add(q, radius);
+        anew.add(q, radius);
+      }
+      kept.choose(kSteps * step);    // no walk goes farther
+      std::int64_t contacts = 0, lists = 0;
+      int differ = 0;
+      for (int k = 0; k < kSteps; k++) {
+        for (int i = 0; i < kSpheres; i++) kept.put(i, kept.centre(i) + step * r.direction());
+        anew.x = kept.x;
+        kept.step();
+        anew.choose(0);
+        anew.step();
+        differ += !same_bytes(kept.force, anew.force) || !same_bytes(kept.torque, anew.torque);
+        contacts += kept.engine->totals().contacts;
+        lists += kept.engine->look().lists;
+      }
+      const std::string &name = soup.source;
+      EXPECT_EQ(differ, 0) << name;
+      EXPECT_TRUE(same_bytes(kept.springs(), anew.springs())) << name;
+      EXPECT_GT(contacts, kSteps * kSpheres / 2) << name;
+      EXPECT_LT(lists, kSteps * kSpheres / 4) << name;    // it is kept
+    }
+}
+
+}    // namespace
+}    // namespace lsdcd
