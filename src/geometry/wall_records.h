@@ -30,7 +30,7 @@ struct EdgeRecord {
   std::uint32_t more;    // faces past the second: edge_inward[more ...]
 };
 
-// A vertex with the unit directions of its edges: vertex_direction[first ...].
+// A vertex and its edges' unit directions, vertex_direction[first ...]; NaN: it holds no contact.
 struct VertexRecord {
   Vec3 position;
   std::uint32_t first, count;

@@ -240,7 +240,8 @@ std::string describe(const GridReport &r)
   if (r.records > 0)
     n += std::snprintf(text + n, sizeof text - n, "\n  %zu features in float, by brick, %s",
                        r.records, amount(double(r.record_bytes)).c_str());
-  std::snprintf(text + n, sizeof text - n, "\n  %s, built in %.3f s with %.3g distance tests on %s",
+  std::snprintf(text + n, sizeof text - n,
+                "\n  %s, built in %.3f s with %.3g distance tests at most on %s",
                 amount(double(r.bytes)).c_str(), r.seconds,
                 double(r.lists.distance_tests + r.complete.distance_tests), r.device.c_str());
   return text;

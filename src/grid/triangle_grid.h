@@ -94,7 +94,7 @@ struct ListReport {
   std::size_t bricks = 0, cells = 0, candidates = 0;    // cells that have candidates
   std::size_t longest = 0;
   Real mean = 0;
-  std::size_t distance_tests = 0;    // feature against cell, after bricking
+  std::size_t distance_tests = 0;    // feature against cell, at most; after bricking
   double seconds = 0;                // of the build alone, copies to and from a device left out
 };
 

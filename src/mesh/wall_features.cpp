@@ -3,6 +3,7 @@
 #include "base/input_error.h"
 
 #include <cmath>
+#include <limits>
 
 namespace lsdcd {
 
@@ -114,6 +115,11 @@ bool is_straight(const Vec3 *direction, int n)
   return false;
 }
 
+// The one direction of all vertices that hold no contact of their own: no point is on the right
+// side of it. Most vertices of a smooth mesh are such, and directions are most of a vertex.
+constexpr Real kNoNumber = std::numeric_limits<Real>::quiet_NaN();
+constexpr Vec3 kNoDirection = {kNoNumber, kNoNumber, kNoNumber};
+
 // Angle between two edges of a face at their common corner, in (0, pi).
 Real corner_angle(const Vec3 &at, const Vec3 &b, const Vec3 &c)
 {
@@ -199,6 +205,7 @@ WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_piec
   }
 
   out.vertices.reserve(n_vertices);
+  out.vertex_direction.push_back(kNoDirection);
   for (std::size_t i = 0; i < n_vertices; i++) {
     VertexRecord v = {mesh.vertices[i], static_cast<std::uint32_t>(out.vertex_direction.size()), 0};
     for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1]; k++) {
@@ -207,15 +214,20 @@ WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_piec
       out.vertex_direction.push_back(mesh.edges[edge][0] == static_cast<int>(i) ? along : -along);
       v.count++;
     }
-    out.vertices.push_back(v);
     // A vertex inside a plane is covered by its faces.
     bool inside_plane = v.count > 0;
     for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1] && inside_plane; k++)
       inside_plane = is_flat(out.edges[mesh.vertex_edge[k]]);
-    if (!inside_plane &&
-        !is_straight(out.vertex_direction.data() + v.first, static_cast<int>(v.count)))
+    if (inside_plane ||
+        is_straight(out.vertex_direction.data() + v.first, static_cast<int>(v.count))) {
+      out.vertex_direction.resize(v.first);
+      v.first = 0;
+      v.count = 1;
+    } else {
       out.contact_features.push_back(
           feature_code(FeatureKind::vertex, static_cast<std::uint32_t>(i)));
+    }
+    out.vertices.push_back(v);
   }
   if (with_sides) {
     out.vertex_out.assign(n_vertices, Vec3{0, 0, 0});

@@ -117,6 +117,20 @@ TEST(face, slack_widens_its_prism_by_a_length)
   }
 }
 
+TEST(vertex, one_inside_a_plane_or_a_straight_fold_has_no_foot_and_no_directions)
+{
+  // A floor of four triangles round its middle, flat or folded along one diagonal.
+  for (const Real up : {0., 0.5}) {
+    const Vec3 a = {0, 0, 0}, b = {2, 0, up}, c = {2, 2, 0}, d = {0, 2, up}, middle = {1, 1, 0};
+    const Wall wall({a, b, middle, b, c, middle, c, d, middle, d, a, middle});
+    EXPECT_EQ(wall.kept(FeatureKind::vertex), 4);
+    for (const Real z : {0., 0.5, -0.5})
+      EXPECT_FALSE(wall.on_vertex(middle, {1, 1, z}, 1e-9).found);
+    EXPECT_TRUE(wall.on_face(0, {1, 0.9999, 0.5}).found);
+    EXPECT_EQ(wall.features.vertex_direction.size(), 1u + 4 * 3);
+  }
+}
+
 TEST(edge, free_one_holds_the_half_cylinder_away_from_its_face)
 {
   const Wall wall({kA, kB, kC});
@@ -354,7 +368,10 @@ TEST(centre_on_a_vertex, has_a_unit_normal)
   for (const TriangleSoup &soup : {box_mesh({0, 0, 0}, {1, 1, 1}), floor_mesh(2, 1),
                                    floor_mesh(3, 1, 5), cylinder_mesh(7, 2, 1, 1)}) {
     const Wall wall(soup);
-    for (const Vec3 &p : wall.mesh.vertices) expect_unit(wall.on_vertex(p, p));
+    for (FeatureCode code : wall.features.contact_features)
+      if (feature_kind(code) == FeatureKind::vertex)
+        expect_unit(
+            foot_on(wall.view, code, wall.features.vertices[feature_index(code)].position, 0));
   }
 }
 

@@ -376,6 +376,19 @@ TEST(grid, where_no_length_fits_a_budget_that_does_is_named)
   }
 }
 
+TEST(grid, cells_are_of_the_reach_by_default_and_smaller_for_nearest_lists)
+{
+  const WallMesh mesh = weld(floor_mesh(60, 1, 3), -1);
+  GridSettings settings;
+  settings.reach = 0.04;
+  EXPECT_EQ(build_grid(mesh, settings, test_on_cuda()).length, settings.reach);
+  settings.nearest = 2;
+  const Real third = 0.3 * mesh.report.median_edge;
+  ASSERT_LT(third, 0.5 * settings.reach);
+  ASSERT_GT(third, 0.2 * settings.reach);
+  EXPECT_EQ(build_grid(mesh, settings, test_on_cuda()).length, third);
+}
+
 TEST(grid, hopeless_length_is_refused)
 {
   GridSettings settings;

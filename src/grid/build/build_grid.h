@@ -17,6 +17,7 @@ class GridBuilder {
   using Scratch = typename B::template Scratch<T>;
 
  public:
+  // The wall has to outlive the builder.
   GridBuilder(B backend, const WallFeatures &wall) : b_(std::move(backend))
   {
     view_.wall = {put(faces_, wall.faces),
@@ -36,8 +37,10 @@ class GridBuilder {
                   0,
                   0,
                   0};
-    put(contact_features_, wall.contact_features);
-    put(pieces_, wall.pieces);
+    of_contact_ = put(contact_features_, wall.contact_features);
+    of_pieces_ = put(pieces_, wall.pieces);
+    n_contact_ = wall.contact_features.size();
+    n_pieces_ = wall.pieces.size();
   }
 
   // Lists of the contact features (nearest 0) or of the nearest pieces. Returns false,
@@ -48,11 +51,10 @@ class GridBuilder {
     const auto start = std::chrono::steady_clock::now();
     view_.plan = plan;
     view_.pieces = nearest > 0;
-    const Scratch<FeatureCode> &features = nearest > 0 ? pieces_ : contact_features_;
-    view_.features = features.data();
+    view_.features = nearest > 0 ? of_pieces_ : of_contact_;
     OctantPairs<B> pairs;
     needed_ = HUGE_VAL;
-    if (!sort_into_octants(b_, view_, features.size(), pairs)) return false;
+    if (!sort_into_octants(b_, view_, nearest > 0 ? n_pieces_ : n_contact_, pairs)) return false;
     needed_ = double(brick_bytes(plan, pairs.n_bricks));
     if (needed_ > double(budget)) return false;
     // Of nearest pieces the first that is left out stays, as a bound.
@@ -74,21 +76,12 @@ class GridBuilder {
   // Builds only the bricks whose bit is set from now on; empty: all.
   void restrict_to(const std::vector<std::uint64_t> &bricks)
   {
-    view_.only = bricks.empty() ? nullptr : put(only_, bricks);
+    view_.only = bricks.empty() ? nullptr : copy(only_, bricks);
   }
 
   std::string name() const { return b_.name(); }
   // Bytes that the last build takes, while it goes on too; at least these where it did not fit.
   double needed() const { return needed_; }
-
-  // Returns where the copy is.
-  template <class T>
-  const T *put(Scratch<T> &to, const std::vector<T> &from)
-  {
-    to = Scratch<T>(from.size());
-    b_.copy_in(from.data(), to.data(), from.size());
-    return to.data();
-  }
 
   static double seconds_since(std::chrono::steady_clock::time_point start)
   {
@@ -96,6 +89,20 @@ class GridBuilder {
   }
 
  private:
+  // Where the backend can read an array that lives as long as the builder: on a device, a copy.
+  template <class T>
+  const T *put(Scratch<T> &to, const std::vector<T> &from)
+  {
+    return B::kOnHost ? from.data() : copy(to, from);
+  }
+  template <class T>
+  const T *copy(Scratch<T> &to, const std::vector<T> &from)
+  {
+    to = Scratch<T>(from.size());
+    b_.copy_in(from.data(), to.data(), from.size());
+    return to.data();
+  }
+
   B b_;
   Scratch<FaceRecord> faces_;
   Scratch<EdgeRecord> edges_;
@@ -105,6 +112,8 @@ class GridBuilder {
   Scratch<EdgeVertices> edge_vertex_;
   Scratch<FeatureCode> contact_features_, pieces_;
   Scratch<std::uint64_t> only_;
+  const FeatureCode *of_contact_, *of_pieces_;
+  std::size_t n_contact_, n_pieces_;
   BuildView view_ = {};
   double needed_ = 0;
 };

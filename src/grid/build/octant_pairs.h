@@ -47,30 +47,30 @@ std::vector<PartRun> part_runs(B &b, const Offsets &offset, std::size_t n, std::
 
 template <class B>
 void count_octants(B &b, const BuildView &view, const std::uint64_t *offsets, const PartRun &run,
-                   std::uint32_t *counts)
+                   std::uint8_t *met, std::uint32_t *counts)
 {
   b.for_each_part(
       offsets, run, [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
         const FeatureCode feature = view.features[i];
-        std::uint32_t place;
-        counts[k] = static_cast<std::uint32_t>(
-            count_bits(octants_met(view, feature, brick_box(view, feature), part, place)));
+        const std::uint32_t place = brick_place(view.plan, brick_box(view, feature), part);
+        const unsigned octants = octants_met(view, feature, place);
+        met[k] = static_cast<std::uint8_t>(octants);
+        counts[k] = static_cast<std::uint32_t>(count_bits(octants));
       });
 }
 
 template <class B>
 void write_octants(B &b, const BuildView &view, const std::uint64_t *offsets, const PartRun &run,
-                   const std::uint32_t *counts, std::size_t base, std::uint32_t *octants,
-                   std::uint32_t *features)
+                   const std::uint8_t *met, const std::uint32_t *counts, std::size_t base,
+                   std::uint32_t *octants, std::uint32_t *features)
 {
   b.for_each_part(
       offsets, run, [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
         const FeatureCode feature = view.features[i];
-        std::uint32_t place;
-        const unsigned met = octants_met(view, feature, brick_box(view, feature), part, place);
+        const std::uint32_t place = brick_place(view.plan, brick_box(view, feature), part);
         std::size_t at = base + counts[k];
         for (unsigned o = 0; o < 8; o++) {
-          if (!(met >> o & 1)) continue;
+          if (!(met[k] >> o & 1)) continue;
           octants[at] = place * 8 + o;
           features[at++] = feature;
         }
@@ -127,11 +127,12 @@ bool sort_into_octants(B &b, const BuildView &view, std::size_t n_features, Octa
   std::uint64_t most = 0;
   for (const PartRun &run : runs) most = std::max(most, run.n);
   typename Pairs::template Scratch<std::uint32_t> count(most);
+  typename Pairs::template Scratch<std::uint8_t> met(most);    // octants of each part
 
   // With one run the counts stay; with more they are made a second time.
   std::uint64_t n = 0;
   for (const PartRun &run : runs) {
-    count_octants(b, view, offsets, run, count.data());
+    count_octants(b, view, offsets, run, met.data(), count.data());
     n += b.exclusive_scan(count.data(), run.n);
   }
   if (n >= 0xffffffffull) return false;
@@ -142,10 +143,11 @@ bool sort_into_octants(B &b, const BuildView &view, std::size_t n_features, Octa
   for (const PartRun &run : runs) {
     std::size_t in_run = n;
     if (runs.size() > 1) {
-      count_octants(b, view, offsets, run, count.data());
+      count_octants(b, view, offsets, run, met.data(), count.data());
       in_run = b.exclusive_scan(count.data(), run.n);
     }
-    write_octants(b, view, offsets, run, count.data(), base, out.octant.data(), out.feature.data());
+    write_octants(b, view, offsets, run, met.data(), count.data(), base, out.octant.data(),
+                  out.feature.data());
     base += in_run;
   }
   b.sort_pairs(out.octant, out.feature, static_cast<std::uint32_t>(view.plan.table_size() * 8 - 1));

@@ -96,19 +96,23 @@ LSDCD_FN BrickBox brick_box(const BuildView &b, FeatureCode feature)
   return box;
 }
 
-// Which octants of the i-th brick of its box the feature meets, a bit each; `place` is
-// the brick's in the table.
-LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, const BrickBox &box,
-                              std::uint64_t i, std::uint32_t &place)
+// The place in the table of the i-th brick of a box.
+LSDCD_FN std::uint32_t brick_place(const GridPlan &plan, const BrickBox &box, std::uint64_t i)
+{
+  const std::uint64_t x = box.first[0] + i % box.n[0], y = box.first[1] + i / box.n[0] % box.n[1],
+                      z = box.first[2] + i / box.n[0] / box.n[1];
+  return static_cast<std::uint32_t>((z * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
+}
+
+// Which octants of a brick the feature meets, a bit each.
+LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, std::uint32_t place)
 {
   const GridPlan &plan = b.plan;
-  const std::int32_t x = box.first[0] + static_cast<std::int32_t>(i % box.n[0]),
-                     y = box.first[1] + static_cast<std::int32_t>(i / box.n[0] % box.n[1]),
-                     z = box.first[2] + static_cast<std::int32_t>(i / box.n[0] / box.n[1]);
-  place =
-      static_cast<std::uint32_t>((std::size_t(z) * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
   if (b.only && !(b.only[place >> 6] >> (place & 63) & 1)) return 0;
-  const Vec3 centre = plan.brick_centre(x, y, z);
+  const std::uint32_t nx = plan.n_bricks[0], ny = plan.n_bricks[1];
+  const Vec3 centre = plan.brick_centre(static_cast<std::int32_t>(place % nx),
+                                        static_cast<std::int32_t>(place / nx % ny),
+                                        static_cast<std::int32_t>(place / nx / ny));
   Real distance;
   if (!meets(b, feature, centre, kBrickSide * plan.half_diagonal, distance)) return 0;
   const Real quarter = Real(0.5) * kOctantSide * plan.length;
@@ -121,46 +125,57 @@ LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, const Bri
   return met;
 }
 
-// Which cells of an octant the feature meets, a bit each in the order of cell_of_octant.
-// The record is read once for all of them.
+// The cells of an octant of which meets(centre, half diagonal) says so, a bit each in the order of
+// cell_of_octant. Blocks of 2 x 2 x 2 cells are asked about first: most are far from the feature.
+template <class Meets>
+LSDCD_FN std::uint64_t cells_where(const GridPlan &plan, std::uint32_t octant_key,
+                                   const Meets &meets)
+{
+  const CellCentres centres(plan, octant_key >> 3);
+  const int octant = octant_key & 7;
+  const Real half = Real(0.5) * plan.length;
+  std::uint64_t met = 0;
+  for (int block = 0; block < 8; block++) {
+    const int first = (block & 1) * 2 + (block & 2) * 4 + (block & 4) * 8;
+    const Vec3 at = centres.at(cell_of_octant(octant, first)) + Vec3{half, half, half};
+    if (!meets(at, 2 * plan.half_diagonal)) continue;
+    for (int c = 0; c < 8; c++) {
+      const int k = first + (c & 1) + (c & 2) * 2 + (c & 4) * 4;
+      if (meets(centres.at(cell_of_octant(octant, k)), plan.half_diagonal))
+        met |= std::uint64_t(1) << k;
+    }
+  }
+  return met;
+}
+
+// Which cells of an octant the feature meets. The record is read once for all of them.
 LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::uint32_t octant_key)
 {
-  const CellCentres centres(b.plan, octant_key >> 3);
-  const int octant = octant_key & 7;
-  const Real around = b.plan.half_diagonal, reach = b.plan.reach;
-  const Real relaxed = around + b.plan.slack;
+  const Real reach = b.plan.reach, slack = b.plan.slack;
   const std::uint32_t i = feature_index(feature);
-  std::uint64_t met = 0;
   Real distance;
-  if (b.pieces) {
-    for (int k = 0; k < kOctantCells; k++)
-      if (meets(b, feature, centres.at(cell_of_octant(octant, k)), around, distance))
-        met |= std::uint64_t(1) << k;
-    return met;
-  }
+  if (b.pieces)
+    return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
+      return meets(b, feature, c, around, distance);
+    });
   switch (feature_kind(feature)) {
     case FeatureKind::face: {
       const FaceRecord face = b.wall.faces[i];
-      for (int k = 0; k < kOctantCells; k++)
-        if (face_meets(face, centres.at(cell_of_octant(octant, k)), relaxed, reach, distance))
-          met |= std::uint64_t(1) << k;
-      return met;
+      return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
+        return face_meets(face, c, around + slack, reach, distance);
+      });
     }
     case FeatureKind::edge: {
       const EdgeRecord edge = b.wall.edges[i];
-      for (int k = 0; k < kOctantCells; k++)
-        if (edge_meets(edge, b.wall.edge_inward, centres.at(cell_of_octant(octant, k)), relaxed,
-                       reach, distance))
-          met |= std::uint64_t(1) << k;
-      return met;
+      return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
+        return edge_meets(edge, b.wall.edge_inward, c, around + slack, reach, distance);
+      });
     }
     default: {
       const VertexRecord vertex = b.wall.vertices[i];
-      for (int k = 0; k < kOctantCells; k++)
-        if (vertex_meets(vertex, b.wall.vertex_direction, centres.at(cell_of_octant(octant, k)),
-                         relaxed, reach, distance))
-          met |= std::uint64_t(1) << k;
-      return met;
+      return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
+        return vertex_meets(vertex, b.wall.vertex_direction, c, around + slack, reach, distance);
+      });
     }
   }
 }

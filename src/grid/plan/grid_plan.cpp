@@ -121,17 +121,24 @@ std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks)
   return plan.table_size() * sizeof(std::int32_t) + bricks * kBrickBytes;
 }
 
+Real default_length(const WallMesh &mesh, Real reach, int nearest)
+{
+  // Complete lists are read when a sphere's list of the wall is gathered, not in every step. With
+  // cells of the radius that takes no longer than with smaller ones, and the lists take less
+  // memory than the mesh's records. Larger cells name too many spheres that touch nothing.
+  if (nearest == 0) return reach;
+  // Nearest lists are searched in every step. A third of an edge keeps them at one or two entries;
+  // past the radius a longer cell saves nothing, below a fifth of it memory grows without gain.
+  return std::clamp(Real(0.3) * mesh.report.median_edge, Real(0.2) * reach, reach);
+}
+
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
 {
   if (!(settings.reach > 0) || !std::isfinite(settings.reach))
     throw InputError("grid reach is " + number(settings.reach) +
                      "; it must be the largest particle radius, above 0");
-  Real length = settings.length;
-  // A third of an edge keeps lists at one or two entries; past the radius a
-  // longer cell saves nothing, below a fifth of it memory grows without gain.
-  if (length <= 0)
-    length =
-        std::clamp(Real(0.3) * mesh.report.median_edge, Real(0.2) * settings.reach, settings.reach);
+  const Real length = settings.length > 0 ? settings.length
+                                          : default_length(mesh, settings.reach, settings.nearest);
   return plan_with_length(mesh, settings, length,
                           least_volume(mesh, settings.reach, settings.within));
 }

@@ -51,6 +51,9 @@ struct CellCentres {
   }
 };
 
+// The cell edge where none is given, of complete lists or of the nearest pieces.
+Real default_length(const WallMesh &mesh, Real reach, int nearest);
+
 // From the settings, or where they leave the length open from the mesh and reach.
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
 
