@@ -5,6 +5,7 @@
 #include "base/vec3.h"
 #include "mesh/triangle_soup.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -70,7 +71,7 @@ struct LongTriangle {
   LongVec3<T> edge[3];    // from corner k to the next
   T inv_length_sq[3];     // 0 for an edge without a length
   LongVec3<T> dual[2], normal;
-  bool flat;    // no area at all: only edges
+  bool flat;    // no area to speak of: only edges
   Vec3 centre;
   Real size;    // all corners lie within it of the centre
 };
@@ -124,7 +125,11 @@ std::vector<LongTriangle<T>> long_triangles(const TriangleSoup &soup)
     // Duals of u = e0 and v = corner 2 - corner 0 = -e2.
     const LongVec3<Quad> u = e[0], v = times(-1, e[2]), n = cross(u, v);
     const Quad n_sq = dot(n, n);
-    t.flat = !(n_sq > 0);
+    // A needle less high than 2^-49 of its length is its edges: no point of it is farther from them
+    // than half of that, and 64 bits do not tell where past its tip a point in its line is.
+    Quad longest_sq = 0;
+    for (const LongVec3<Quad> &side : e) longest_sq = std::max(longest_sq, dot(side, side));
+    t.flat = !(n_sq > Quad(0x1p-98) * longest_sq * longest_sq);
     if (!t.flat) {
       put(t.dual[0], times(1 / n_sq, cross(v, n)));
       put(t.dual[1], times(1 / n_sq, cross(n, u)));
