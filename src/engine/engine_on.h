@@ -4,10 +4,11 @@
 #include "base/input_error.h"
 #include "engine/force/compiled_law.h"
 #include "engine/force/force_settings.h"
+#include "engine/narrow/list_store.h"
 #include "engine/choose/near_list.h"
 #include "engine/resident_springs.h"
 #include "engine/results/sphere_error.h"
-#include "engine/results/totals.h"
+#include "engine/results/step_results.h"
 
 #include <string>
 #include <utility>
@@ -105,18 +106,16 @@ class EngineOn : public InPlaceEngine {
   // The two halves of collect(): the work, without waiting for it, and what is asked for of it.
   void run()
   {
-    totals_known_ = false;
+    results_.begin(law_.traits, step_, spheres_, near(), n_near_, may_miss_any(grid_));
     if (n_near_ == 0) return;
-    make_room();
+    if (!B::kOnHost && left_.size() < n_near_) left_ = Array<int>(n_near_ + n_near_ / 8);
     LawJob job = job_of(grid_, force_settings(settings_, step_), spheres_);
+    results_.put_into(job);
     job.near = near();
-    job.lists = lists_;
+    job.lists = lists_.view();
     job.springs = springs_.view();
     job.counts = counts_.data();
-    job.result = columns_;
-    job.heat = heat_.data();
-    job.uncertain = uncertain_.data();
-    job.pool = springs_.next(slot_.data());
+    job.pool = springs_.next(results_.slot());
     job.lanes = lanes_.data();
     job.left = left_.data();
     job.turn = turn_;
@@ -127,32 +126,19 @@ class EngineOn : public InPlaceEngine {
     turn_ = 1 - turn_;
     if (step_.update_history) springs_.swap();
   }
-  void fetch()
-  {
-    touching_.clear();
-    output_.clear();
-    sphere_heat_.clear();
-    records_.clear();
-    if (n_near_ == 0) return;
-    if (step_.per_sphere) fetch_output();
-    if (law_.traits.records) fetch_records();
-  }
+  void fetch() { results_.fetch(b_, springs_.records(step_.update_history)); }
 
-  const WallTotals &totals() const override
-  {
-    if (!totals_known_) const_cast<EngineOn *>(this)->sum_totals();
-    return totals_;
-  }
+  const WallTotals &totals() const override { return const_cast<EngineOn *>(this)->sum_totals(); }
 
-  int n_touching() const override { return static_cast<int>(touching_.size()); }
-  const int *touching() const override { return touching_.data(); }
-  const SphereOutput *sphere_output() const override { return output_.data(); }
+  int n_touching() const override { return static_cast<int>(results_.touching().size()); }
+  const int *touching() const override { return results_.touching().data(); }
+  const SphereOutput *sphere_output() const override { return results_.output().data(); }
   const Real *sphere_heat() const override
   {
-    return law_.traits.heat ? sphere_heat_.data() : nullptr;
+    return law_.traits.heat ? results_.sphere_heat().data() : nullptr;
   }
-  int n_records() const override { return static_cast<int>(records_.size()); }
-  const ContactRecord *records() const override { return records_.data(); }
+  int n_records() const override { return static_cast<int>(results_.records().size()); }
+  const ContactRecord *records() const override { return results_.records().data(); }
   int n_near() const override { return static_cast<int>(n_near_); }
 
   StepNotes look() override
@@ -190,52 +176,20 @@ class EngineOn : public InPlaceEngine {
   std::size_t bytes() const override
   {
     return block_.size() + words_.size() * sizeof(BrickWord) + springs_.bytes() + near_.bytes() +
-           list_reals_.size() * sizeof(Real) + list_ints_.size() * sizeof(int) +
-           lanes_.size() * sizeof(Lane) +
-           (numbers_.size() + heat_.size() + uncertain_.size() + centres_.size()) * sizeof(Real) +
-           (n_contacts_.size() + slot_.size() + left_.size()) * sizeof(int) +
-           touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput) +
-           sphere_heat_.capacity() * sizeof(Real) + records_.capacity() * sizeof(ContactRecord);
+           lists_.bytes() + results_.bytes() + lanes_.size() * sizeof(Lane) +
+           centres_.size() * sizeof(Real) + left_.size() * sizeof(int);
   }
 
   B &backend_now() { return b_; }
-  const Array<int> &contacts_of_near() const { return n_contacts_; }
+  const Array<int> &contacts_of_near() const { return results_.n_contacts(); }
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
 
   void make_lists(const Spheres &spheres, std::size_t n, const StepCounts &seen)
   {
     n_near_ = n;
-    near_known_ = false;
     springs_.make_room(n, seen);
-    lists_ = WallLists();
-    if (grid_.nearest > 0 || n == 0) return;
-    if (list_ints_.size() < n * WallLists::kInts) {
-      const std::size_t room = n + n / 8;
-      list_reals_ = Array<Real>(room * WallLists::kReals);
-      list_ints_ = Array<std::int32_t>(room * WallLists::kInts);
-    }
-    lists_ =
-        WallLists::of(list_reals_.data(), list_ints_.data(), list_ints_.size() / WallLists::kInts);
-    const int *near = this->near();
-    const GridView grid = grid_;
-    const Real pull_off = settings_.law.pull_off();
-    const WallLists lists = lists_;
-    StepCounts *counts = counts_.data();
-    const Rows<const Real> x = spheres.x;
-    const Real *radius = spheres.radius;
-    b_.for_each(
-        n,
-        [=] LSDCD_LAMBDA(std::size_t k) {
-          const std::size_t i = near ? near[k] : k;
-          const Searcher s = {x[i], radius[i], reach_of(radius[i], pull_off), nullptr, 0};
-          WallList made;
-          gather(grid, s, made);
-          lists.put(k, made);
-          count_one(&counts->lists);
-          add_to(&counts->listed, made.n);
-        },
-        128);
+    lists_.make(b_, grid_, spheres, near(), n, settings_.law.pull_off(), counts_.data());
   }
 
   void unlock_lanes()
@@ -281,114 +235,10 @@ class EngineOn : public InPlaceEngine {
     });
   }
 
-  void fetch_output()
-  {
-    const std::size_t n = n_near_;
-    const bool has_heat = law_.traits.heat;
-    Array<SphereOutput> out(n);
-    Array<Real> heat_out(has_heat ? n : 0);
-    SphereOutput *to = out.data();
-    Real *to_heat = heat_out.data();
-    const Real *from_heat = heat_.data();
-    const ResultColumns result = columns_;
-    const int *near = this->near();
-    const Spheres spheres = spheres_;
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const std::size_t i = near ? near[k] : k;
-      const bool touches = result.n_contacts[k] > 0;    // nothing is written of others
-      to[k] = SphereOutput();
-      if (touches) to[k] = output_of(result.get(k), spheres.x[i], spheres.radius[i]);
-      if (has_heat) to_heat[k] = touches ? from_heat[k] : 0;
-    });
-    const std::vector<SphereOutput> all = b_.to_host(out, n);
-    const std::vector<Real> heat = b_.to_host(heat_out, heat_out.size());
-    know_near();
-    for (std::size_t k = 0; k < n; k++) {
-      if (!(all[k].contacts > 0)) continue;
-      touching_.push_back(all_near_ ? static_cast<int>(k) : near_host_[k]);
-      output_.push_back(all[k]);
-      if (has_heat) sphere_heat_.push_back(heat[k]);
-    }
-  }
-
-  void fetch_records()
-  {
-    const std::size_t n = n_near_;
-    Array<int> offset(n);
-    int *at = offset.data();
-    const int *n_contacts = n_contacts_.data();
-    const int *slot = slot_.data();
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = n_contacts[k]; });
-    const std::size_t total = b_.exclusive_scan(at, n);
-    // What lies between them was never written.
-    Array<ContactRecord> packed(total);
-    ContactRecord *to = packed.data();
-    const ContactRecord *from = springs_.records(step_.update_history);
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      for (int c = 0; c < n_contacts[k]; c++) to[at[k] + c] = from[slot[k] + c];
-    });
-    records_ = b_.to_host(packed, total);
-  }
-
-  void sum_totals()
-  {
-    totals_known_ = true;
-    totals_ = WallTotals();
-    if (n_near_ == 0) return;
-    const std::size_t n = n_near_, n_blocks = (n + kTotalsBlock - 1) / kTotalsBlock;
-    Array<WallTotals> block(n_blocks);
-    WallTotals *to = block.data();
-    const ResultColumns result = columns_;
-    const int *near = this->near();
-    const Real *uncertain = uncertain_.data();
-    b_.for_each(n_blocks, [=] LSDCD_LAMBDA(std::size_t b) {
-      WallTotals t;
-      const std::size_t end = (b + 1) * kTotalsBlock < n ? (b + 1) * kTotalsBlock : n;
-      for (std::size_t k = b * kTotalsBlock; k < end; k++) {
-        if (uncertain && uncertain[k] > 0) add_uncertain(t, uncertain[k]);
-        if (result.n_contacts[k] == 0) continue;
-        const SphereResult r = result.get(k);
-        add_result(t, r, r.torque, near ? near[k] : static_cast<int>(k));
-      }
-      to[b] = t;
-    });
-    const std::size_t n_sums = (n_blocks + kTotalsBlock - 1) / kTotalsBlock;
-    Array<WallTotals> sums(n_sums);
-    WallTotals *to_sums = sums.data();
-    b_.for_each(n_sums, [=] LSDCD_LAMBDA(std::size_t b) {
-      WallTotals t;
-      const std::size_t end = (b + 1) * kTotalsBlock;
-      for (std::size_t k = b * kTotalsBlock; k < end && k < n_blocks; k++) add_block(t, to[k]);
-      to_sums[b] = t;
-    });
-    for (const WallTotals &t : b_.to_host(sums, n_sums)) add_block(totals_, t);
-  }
-
  private:
   const int *near() const { return all_near_ ? nullptr : near_.data(); }
 
-  // For the results of a step.
-  void make_room()
-  {
-    const std::size_t n = n_near_;
-    if (n_contacts_.size() < n) {
-      const std::size_t room = n + n / 8;
-      n_contacts_ = Array<int>(room);
-      if (!B::kOnHost) left_ = Array<int>(room);
-      if (law_.traits.heat) heat_ = Array<Real>(room);
-      if (law_.traits.records) slot_ = Array<int>(room);
-    }
-    if (!may_miss_any(grid_))
-      uncertain_ = Array<Real>();
-    else if (uncertain_.size() < n)
-      uncertain_ = Array<Real>(n + n / 8);
-    const bool with_point = step_.per_sphere;
-    const std::size_t room = n_contacts_.size(),
-                      numbers = room * (with_point ? ResultColumns::kRealsWithPoint
-                                                   : ResultColumns::kReals);
-    if (numbers_.size() < numbers) numbers_ = Array<Real>(numbers);
-    columns_ = ResultColumns::of(numbers_.data(), room, with_point, n_contacts_.data());
-  }
+  const WallTotals &sum_totals() { return results_.totals(b_); }
 
   StepCounts read_counts() { return b_.to_host(counts_, 1)[0]; }
 
@@ -408,12 +258,6 @@ class EngineOn : public InPlaceEngine {
                      " each); the mesh is far finer than its overlap");
   }
 
-  void know_near()
-  {
-    if (!near_known_ && !all_near_) near_host_ = near_.to_host(b_, n_near_);
-    near_known_ = true;
-  }
-
   EngineSettings settings_;
   CompiledLaw<B> law_;
   B b_;
@@ -428,28 +272,16 @@ class EngineOn : public InPlaceEngine {
   NearList<B> near_;
   bool all_near_ = false;
   std::size_t n_near_ = 0;
-  WallLists lists_;    // of near spheres; none where lists of cells hold the nearest pieces
-  Array<Real> list_reals_;
-  Array<std::int32_t> list_ints_;
+  ListStore<B> lists_;
   Array<Real> centres_;    // at the last choice
   Real margin_ = 0;        // of the last choice
 
-  // What a step leaves behind of near spheres.
-  ResultColumns columns_;
-  Array<Real> numbers_, heat_, uncertain_;
-  Array<int> n_contacts_, slot_, left_;
+  StepResults<B> results_;
+  Array<int> left_;    // near spheres that a GPU's first kernel leaves to the second
 
   Array<StepCounts> counts_;
   int turn_ = 0, pool_written_ = -1;
   Array<Lane> lanes_;
-
-  WallTotals totals_;
-  bool totals_known_ = true;
-  std::vector<int> near_host_, touching_;
-  bool near_known_ = false;
-  std::vector<SphereOutput> output_;
-  std::vector<Real> sphere_heat_;
-  std::vector<ContactRecord> records_;
 };
 
 }    // namespace lsdcd

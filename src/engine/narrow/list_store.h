@@ -1,0 +1,58 @@
+// Memory for the lists of the wall of near spheres, where the engine computes.
+#pragma once
+
+#include "engine/force/law_job.h"
+#include "parallel/atomic.h"
+
+namespace lsdcd {
+
+template <class B>
+class ListStore {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+ public:
+  // None where lists of cells hold the nearest pieces.
+  const WallLists &view() const { return lists_; }
+
+  // Makes the lists of n near spheres, whose indices are `near`, or null for all.
+  void make(B &b, const GridView &grid, const Spheres &spheres, const int *near, std::size_t n,
+            Real pull_off, StepCounts *counts)
+  {
+    lists_ = WallLists();
+    if (grid.nearest > 0 || n == 0) return;
+    if (ints_.size() < n * WallLists::kInts) {
+      const std::size_t room = n + n / 8;
+      reals_ = Array<Real>(room * WallLists::kReals);
+      ints_ = Array<std::int32_t>(room * WallLists::kInts);
+    }
+    lists_ = WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts);
+    const WallLists lists = lists_;
+    const Rows<const Real> x = spheres.x;
+    const Real *radius = spheres.radius;
+    b.for_each(
+        n,
+        [=] LSDCD_LAMBDA(std::size_t k) {
+          const std::size_t i = near ? near[k] : k;
+          const Searcher s = {x[i], radius[i], reach_of(radius[i], pull_off), nullptr, 0};
+          WallList made;
+          gather(grid, s, made);
+          lists.put(k, made);
+          count_one(&counts->lists);
+          add_to(&counts->listed, made.n);
+        },
+        128);
+  }
+
+  std::size_t bytes() const
+  {
+    return reals_.size() * sizeof(Real) + ints_.size() * sizeof(std::int32_t);
+  }
+
+ private:
+  WallLists lists_;
+  Array<Real> reals_;
+  Array<std::int32_t> ints_;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,189 @@
+// What a step leaves behind of near spheres, where the engine computes: columns of results, and what
+// is made of them when somebody asks.
+#pragma once
+
+#include "engine/force/compiled_law.h"
+#include "engine/results/totals.h"
+
+#include <vector>
+
+namespace lsdcd {
+
+template <class B>
+class StepResults {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+ public:
+  // For a step of n near spheres of these; `near`: their indices, or null for all.
+  void begin(const LawTraits &traits, const StepSettings &step, const Spheres &spheres,
+             const int *near, std::size_t n, bool may_miss)
+  {
+    traits_ = traits;
+    step_ = step;
+    spheres_ = spheres;
+    near_ = near;
+    n_ = n;
+    totals_known_ = false;
+    if (n_contacts_.size() < n) {
+      const std::size_t room = n + n / 8;
+      n_contacts_ = Array<int>(room);
+      if (traits.heat) heat_ = Array<Real>(room);
+      if (traits.records) slot_ = Array<int>(room);
+    }
+    if (!may_miss)
+      uncertain_ = Array<Real>();
+    else if (uncertain_.size() < n)
+      uncertain_ = Array<Real>(n + n / 8);
+    const std::size_t room = n_contacts_.size(),
+                      numbers = room * (step.per_sphere ? ResultColumns::kRealsWithPoint
+                                                        : ResultColumns::kReals);
+    if (numbers_.size() < numbers) numbers_ = Array<Real>(numbers);
+    columns_ = ResultColumns::of(numbers_.data(), room, step.per_sphere, n_contacts_.data());
+  }
+
+  void put_into(LawJob &job)
+  {
+    job.result = columns_;
+    job.heat = heat_.data();
+    job.uncertain = uncertain_.data();
+  }
+  int *slot() { return slot_.data(); }
+  const Array<int> &n_contacts() const { return n_contacts_; }
+
+  // What the step's settings ask for, brought to the host; `records`: with gaps.
+  void fetch(B &b, const ContactRecord *records)
+  {
+    touching_.clear();
+    output_.clear();
+    sphere_heat_.clear();
+    records_.clear();
+    if (n_ == 0) return;
+    if (step_.per_sphere) fetch_output(b);
+    if (traits_.records) fetch_records(b, records);
+  }
+
+  const std::vector<int> &touching() const { return touching_; }
+  const std::vector<SphereOutput> &output() const { return output_; }
+  const std::vector<Real> &sphere_heat() const { return sphere_heat_; }
+  const std::vector<ContactRecord> &records() const { return records_; }
+
+  // Of the last step. Summed when they are first asked for, before the next choice.
+  const WallTotals &totals(B &b)
+  {
+    if (!totals_known_) sum_totals(b);
+    return totals_;
+  }
+
+  std::size_t bytes() const
+  {
+    return (numbers_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
+           (n_contacts_.size() + slot_.size()) * sizeof(int) + touching_.capacity() * sizeof(int) +
+           output_.capacity() * sizeof(SphereOutput) + sphere_heat_.capacity() * sizeof(Real) +
+           records_.capacity() * sizeof(ContactRecord);
+  }
+
+  // The steps of the above. Public because nvcc takes no device lambda from a private function.
+
+  void fetch_output(B &b)
+  {
+    const std::size_t n = n_;
+    const bool has_heat = traits_.heat;
+    Array<SphereOutput> out(n);
+    Array<Real> heat_out(has_heat ? n : 0);
+    Array<int> sphere(n);
+    SphereOutput *to = out.data();
+    Real *to_heat = heat_out.data();
+    int *to_sphere = sphere.data();
+    const Real *from_heat = heat_.data();
+    const ResultColumns result = columns_;
+    const int *near = near_;
+    const Spheres spheres = spheres_;
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      const std::size_t i = near ? near[k] : k;
+      const bool touches = result.n_contacts[k] > 0;    // nothing is written of others
+      to[k] = SphereOutput();
+      if (touches) to[k] = output_of(result.get(k), spheres.x[i], spheres.radius[i]);
+      if (has_heat) to_heat[k] = touches ? from_heat[k] : 0;
+      to_sphere[k] = static_cast<int>(i);
+    });
+    const std::vector<SphereOutput> all = b.to_host(out, n);
+    const std::vector<Real> heat = b.to_host(heat_out, heat_out.size());
+    const std::vector<int> index = b.to_host(sphere, n);
+    for (std::size_t k = 0; k < n; k++) {
+      if (!(all[k].contacts > 0)) continue;
+      touching_.push_back(index[k]);
+      output_.push_back(all[k]);
+      if (has_heat) sphere_heat_.push_back(heat[k]);
+    }
+  }
+
+  void fetch_records(B &b, const ContactRecord *from)
+  {
+    const std::size_t n = n_;
+    Array<int> offset(n);
+    int *at = offset.data();
+    const int *n_contacts = n_contacts_.data();
+    const int *slot = slot_.data();
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = n_contacts[k]; });
+    const std::size_t total = b.exclusive_scan(at, n);
+    // What lies between them was never written.
+    Array<ContactRecord> packed(total);
+    ContactRecord *to = packed.data();
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      for (int c = 0; c < n_contacts[k]; c++) to[at[k] + c] = from[slot[k] + c];
+    });
+    records_ = b.to_host(packed, total);
+  }
+
+  void sum_totals(B &b)
+  {
+    totals_known_ = true;
+    totals_ = WallTotals();
+    if (n_ == 0) return;
+    const std::size_t n = n_, n_blocks = (n + kTotalsBlock - 1) / kTotalsBlock,
+                      n_sums = (n_blocks + kTotalsBlock - 1) / kTotalsBlock;
+    Array<WallTotals> blocks(n_blocks), sums(n_sums);
+    WallTotals *block = blocks.data(), *sum = sums.data();
+    const ResultColumns result = columns_;
+    const int *near = near_;
+    const Real *uncertain = uncertain_.data();
+    b.for_each(n_blocks, [=] LSDCD_LAMBDA(std::size_t at) {
+      WallTotals t;
+      for (std::size_t k = at * kTotalsBlock; k < (at + 1) * kTotalsBlock && k < n; k++) {
+        if (uncertain && uncertain[k] > 0) add_uncertain(t, uncertain[k]);
+        if (result.n_contacts[k] == 0) continue;
+        const SphereResult r = result.get(k);
+        add_result(t, r, r.torque, near ? near[k] : static_cast<int>(k));
+      }
+      block[at] = t;
+    });
+    b.for_each(n_sums, [=] LSDCD_LAMBDA(std::size_t at) {
+      WallTotals t;
+      for (std::size_t k = at * kTotalsBlock; k < (at + 1) * kTotalsBlock && k < n_blocks; k++)
+        add_block(t, block[k]);
+      sum[at] = t;
+    });
+    for (const WallTotals &t : b.to_host(sums, n_sums)) add_block(totals_, t);
+  }
+
+ private:
+  LawTraits traits_ = {};
+  StepSettings step_;
+  Spheres spheres_;
+  const int *near_ = nullptr;
+  std::size_t n_ = 0;
+
+  ResultColumns columns_;
+  Array<Real> numbers_, heat_, uncertain_;
+  Array<int> n_contacts_, slot_;
+
+  WallTotals totals_;
+  bool totals_known_ = true;
+  std::vector<int> touching_;
+  std::vector<SphereOutput> output_;
+  std::vector<Real> sphere_heat_;
+  std::vector<ContactRecord> records_;
+};
+
+}    // namespace lsdcd
