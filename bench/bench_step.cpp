@@ -194,5 +194,6 @@ void measure(const BenchOptions &o, BenchRows &rows)
 int main(int argc, char **argv)
 {
   return run_bench(argc, argv, "step",
-                   "Steps of the wall, with a CPU host's arrays and with particles in place: CSV.", measure);
+                   "Steps of the wall, with a CPU host's arrays and with particles in place: CSV.",
+                   measure);
 }

@@ -67,8 +67,7 @@ int SpringStore::largest_packed_size() const
 
 std::size_t SpringStore::bytes() const
 {
-  return (first_.capacity() + count_.capacity()) * sizeof(int) +
-         pool_.capacity() * sizeof(Spring) +
+  return (first_.capacity() + count_.capacity()) * sizeof(int) + pool_.capacity() * sizeof(Spring) +
          extra_.capacity() * sizeof(Real);
 }
 

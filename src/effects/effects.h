@@ -48,8 +48,8 @@ int bytes_per_contact(const EngineSettings &settings);    // beside the atom's o
 struct EffectCost {
   std::string device;
   int contacts, repeats;
-  double median_ns, min_ns, max_ns;          // per contact
-  std::size_t engine_bytes;                  // held for all of them
+  double median_ns, min_ns, max_ns;    // per contact
+  std::size_t engine_bytes;            // held for all of them
 };
 std::vector<EffectCost> measure_effects(const std::vector<EffectCase> &cases, Device device,
                                         int n_spheres, int repeats);

@@ -75,7 +75,9 @@ class HostAdapter : public WallEngine {
       const int i = static_cast<int>(kNoSphere - seen.too_large);
       throw_too_large(i, spheres.radius[i], grid_.reach);
     }
-    if (grid_.nearest == 0) near_.prune(cpu_, grid_, spheres, seen.n_near, margin, &seen, nullptr);
+    if (grid_.nearest == 0)
+      near_.prune(cpu_, grid_, spheres, seen.n_near, margin, settings_.law.pull_off(), &seen,
+                  nullptr);
     const std::vector<int> was = std::move(near_host_);
     near_host_ = near_.to_host(cpu_, seen.n_near);
     const std::size_t n = near_host_.size();

@@ -288,7 +288,8 @@ bool FixWallLsdcd::list_keeps() const
 void FixWallLsdcd::choose_if_due(const lsdcd::Spheres &s)
 {
   if (history) springs_to_engine();
-  const bool keeps = list_keeps(), watches = !keeps && !group->dynamic[igroup] && neighbor->skin > 0;
+  const bool keeps = list_keeps(),
+             watches = !keeps && !group->dynamic[igroup] && neighbor->skin > 0;
   if (!list_is_old && (keeps || (watches && !engine->has_moved(s)))) return;
   engine->choose(s, keeps || watches ? 0.5 * neighbor->skin : 0.0, watches);
   list_is_old = false;

@@ -67,10 +67,10 @@ class FixWallLsdcd : public Fix {
   // Springs are with the engine from step to step, and here where LAMMPS moves atoms.
   enum class Where { host, engine };
   Where springs_are = Where::host;
-  int n_with_springs = 0;    // atoms whose springs are with the engine
-  bool list_is_old = true;   // of near atoms
+  int n_with_springs = 0;     // atoms whose springs are with the engine
+  bool list_is_old = true;    // of near atoms
   bigint steps_run = 0, choices = 0, lists = 0, listed = 0, by_cells = 0;    // in this run
-  bool callbacks = false;          // registered with Atom
+  bool callbacks = false;                                                    // registered with Atom
   bool springs_checked = false;    // against this mesh: they may come from a restart file
   bigint other_law = 0;            // atoms of that file with springs of another law
   int room = 0;                    // this wall's part of maxexchange
@@ -116,7 +116,7 @@ class FixWallLsdcd : public Fix {
   virtual void need_on_host() {}      // before atom data are read outside of a step
   virtual tagint tag_of(int);         // 0 where atoms have none
   virtual void make_exchange_room();
-  tagint tag_of_radius(double);       // the first of the group that has it
+  tagint tag_of_radius(double);    // the first of the group that has it
 
   lsdcd::StepSettings step_settings(lsdcd::Spheres &);    // gives the spheres their heat, too
   void keep_outputs();

@@ -65,8 +65,8 @@ std::string csv_of(const std::vector<EffectCase> &cases, const std::vector<Effec
                   cost.max_ns, cost_over(cases, costs, i));
     out << c.name << ';' << c.words << ';' << c.over << ';' << cost.contacts << ';' << cost.repeats
         << ';' << numbers << ';' << bytes_per_atom(c.settings) << ';'
-        << bytes_per_contact(c.settings) << ';' << cost.engine_bytes
-        << ';' << cost.device << ';' << compiler() << ';' << commit << '\n';
+        << bytes_per_contact(c.settings) << ';' << cost.engine_bytes << ';' << cost.device << ';'
+        << compiler() << ';' << commit << '\n';
   }
   return out.str();
 }

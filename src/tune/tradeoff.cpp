@@ -141,9 +141,8 @@ class Measuring {
     row.device = engine->backend();
     row.checked = sample_.n();
     row.spheres = sample.n();
-    row.ns_per_sphere = 1e9 *
-                        step_seconds(*engine, on_cuda, sample, settings_.repeats) /
-                        std::max(1, sample.n());
+    row.ns_per_sphere =
+        1e9 * step_seconds(*engine, on_cuda, sample, settings_.repeats) / std::max(1, sample.n());
     result_.rows.push_back(row);
     progress_(row);
   }

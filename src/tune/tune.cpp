@@ -255,9 +255,9 @@ TuneReport tune(const WallMesh &mesh, const TuneSettings &settings)
                             engine_settings.law);
         const auto engine = make_engine(engine_settings);
         engine->set_grid(on_cuda ? grid.flat() : made.view());
-        row.ns_per_sphere = 1e9 / std::max(1, sample.n()) *
-                            step_seconds(*engine, on_cuda, sample,
-                                         row.choice.complete() ? kRepeats : kFewRepeats);
+        row.ns_per_sphere =
+            1e9 / std::max(1, sample.n()) *
+            step_seconds(*engine, on_cuda, sample, row.choice.complete() ? kRepeats : kFewRepeats);
         report.device = engine->backend();
         report.rows.push_back(row);
       }

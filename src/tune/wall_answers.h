@@ -53,7 +53,6 @@ AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
 // core, however busy the others are, or on the clock where the engine is a GPU's. Before
 // each the caches of the CPU are filled with something else, as the rest of a simulation
 // step does; those of a GPU are not.
-double step_seconds(WallEngine &engine, bool on_cuda,
-                    const SphereSample &sample, int repeats);
+double step_seconds(WallEngine &engine, bool on_cuda, const SphereSample &sample, int repeats);
 
 }    // namespace lsdcd

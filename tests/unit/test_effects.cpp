@@ -74,9 +74,8 @@ TEST(effects, that_are_off_take_no_memory_of_the_engine)
   for (std::size_t i = 0; i < cases.size(); i++) {
     const EngineSettings &s = cases[i].settings;
     const bool history = s.law.has_history();
-    const std::size_t per_slot =
-        history * (sizeof(Spring) + s.law.n_extra() * sizeof(Real)) +
-        s.records * sizeof(ContactRecord);
+    const std::size_t per_slot = history * (sizeof(Spring) + s.law.n_extra() * sizeof(Real)) +
+                                 s.records * sizeof(ContactRecord);
     const std::size_t expected = least + slots * per_slot + history * 2 * 500 * sizeof(int) +
                                  s.law.has_heat() * grown(500) * sizeof(Real) +
                                  s.records * grown(500) * sizeof(int);

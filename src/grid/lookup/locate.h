@@ -101,10 +101,12 @@ LSDCD_FN std::int32_t cell_in_brick(const Place &p)
 }
 
 // The brick of a cell of the grid; null where no wall is near.
-LSDCD_FN const Brick *brick_at(const GridView &grid, const CellListsView &lists, int i, int j, int k)
+LSDCD_FN const Brick *brick_at(const GridView &grid, const CellListsView &lists, int i, int j,
+                               int k)
 {
   const std::size_t at =
-      (static_cast<std::size_t>(k >> 3) * grid.n_bricks[1] + (j >> 3)) * grid.n_bricks[0] + (i >> 3);
+      (static_cast<std::size_t>(k >> 3) * grid.n_bricks[1] + (j >> 3)) * grid.n_bricks[0] +
+      (i >> 3);
   const std::int32_t b = lists.brick_of[at];
   return b < 0 ? nullptr : lists.bricks + b;
 }
