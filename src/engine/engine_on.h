@@ -66,8 +66,7 @@ class EngineOn : public InPlaceEngine {
     StepCounts seen = read_counts();
     if (seen.too_large) throw_for(spheres, seen);
     if (grid_.nearest == 0 && seen.n_near > 0) {
-      near_.prune(b_, grid_, spheres, seen.n_near, margin, settings_.law.pull_off(), counts_.data(),
-                  springs_.count());
+      near_.prune(b_, grid_, spheres, seen.n_near, margin, counts_.data(), springs_.count());
       seen = read_counts();
     }
     make_lists(spheres, seen.n_near, seen);

@@ -75,9 +75,7 @@ class HostAdapter : public WallEngine {
       const int i = static_cast<int>(kNoSphere - seen.too_large);
       throw_too_large(i, spheres.radius[i], grid_.reach);
     }
-    if (grid_.nearest == 0)
-      near_.prune(cpu_, grid_, spheres, seen.n_near, margin, settings_.law.pull_off(), &seen,
-                  nullptr);
+    if (grid_.nearest == 0) near_.prune(cpu_, grid_, spheres, seen.n_near, margin, &seen, nullptr);
     const std::vector<int> was = std::move(near_host_);
     near_host_ = near_.to_host(cpu_, seen.n_near);
     const std::size_t n = near_host_.size();
@@ -86,11 +84,6 @@ class HostAdapter : public WallEngine {
     response_.reserve(n);
     n_contacts_.reserve(n);
     if (traits_.heat) heat_.reserve(2 * n);
-    for (std::size_t k = 0; k < n; k++) {
-      size_.host.data()[k] = spheres.radius[near_host_[k]];
-      size_.host.data()[n + k] = spheres.mass[near_host_[k]];
-    }
-    engine_.backend_now().send(size_.host, size_.device, 2 * n);
     if (traits_.history) move_springs(was, spheres.n);
     pack(spheres);
     engine_.choose_all(packed());
@@ -239,6 +232,7 @@ class HostAdapter : public WallEngine {
     const int n = static_cast<int>(near_host_.size());
     const int *near = near_host_.data();
     Motion *to = motion_.host.data();
+    Real *radius = size_.host.data(), *mass = radius + n;
 #pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
     for (int k = 0; k < n; k++) {
       if (k + kAhead < n) {
@@ -249,8 +243,11 @@ class HostAdapter : public WallEngine {
       }
       const int i = near[k];
       to[k] = {s.x[i], s.v[i], s.omega[i]};
+      radius[k] = s.radius[i];
+      mass[k] = s.mass[i];
     }
     engine_.backend_now().send(motion_.host, motion_.device, n);
+    engine_.backend_now().send(size_.host, size_.device, 2 * static_cast<std::size_t>(n));
   }
 
   // Temperatures there, heat flows back.
@@ -337,7 +334,7 @@ class HostAdapter : public WallEngine {
   Real margin_ = 0;
 
   Mirror<Motion> motion_;
-  Mirror<Real> size_;    // radii, then masses, of the last choice
+  Mirror<Real> size_;    // radii, then masses
   Mirror<Real> heat_;    // temperatures, then heat flows
   Mirror<Response> response_;
   Mirror<int> n_contacts_;    // the host's half only

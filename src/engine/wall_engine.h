@@ -109,8 +109,7 @@ class WallEngine {
   virtual Real largest_radius(const Spheres &spheres) = 0;
 
   // Chooses the spheres that steps look at until the next call: those of the group that could be
-  // near the wall after moving by up to `margin` (length), and makes their lists of the wall. A host
-  // that lets spheres grow by more than a twentieth of their radius chooses anew.
+  // near the wall after moving by up to `margin` (length), and makes their lists of the wall.
   // `watch`: has_moved() will be asked. Throws InputError if a sphere is larger than the grid's
   // reach (index and radius in the message).
   virtual void choose(const Spheres &spheres, Real margin, bool watch = false) = 0;

@@ -30,10 +30,10 @@ class NearList {
   }
 
   // Of the n spheres that were chosen by their cells leaves those that can touch something after a
-  // way of up to `margin`, or after they have grown by kListMargin. How many are left goes into
-  // `counts`.
+  // way of up to `margin`. They may grow before the next choice, up to the grid's reach. How many
+  // are left goes into `counts`.
   void prune(B &b, const GridView &grid, const Spheres &spheres, std::size_t n, Real margin,
-             Real pull_off, StepCounts *counts, int *n_springs)
+             StepCounts *counts, int *n_springs)
   {
     if (flags_.size() < n) {
       flags_ = Array<char>(n + n / 8);
@@ -47,8 +47,8 @@ class NearList {
         n,
         [=] LSDCD_LAMBDA(std::size_t k) {
           const int i = near[k];
-          const Searcher s = {x[i], radius[i], reach_of(radius[i], pull_off), nullptr, 0};
-          flags[k] = can_touch(grid, s, fmax(margin, kListMargin * radius[i]));
+          const Searcher s = {x[i], radius[i], grid.reach, nullptr, 0};
+          flags[k] = can_touch(grid, s, margin);
           if (!flags[k] && n_springs) n_springs[i] = 0;
         },
         128);
