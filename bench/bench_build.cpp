@@ -57,7 +57,7 @@ void measure_mesh(const BenchOptions &o, BenchRows &rows, const TriangleSoup &so
   for (double length : lengths) {
     GridSettings settings;
     settings.length = length;
-    settings.reach = 1;
+    settings.cutoff = 1;
     settings.memory_budget = std::size_t(16) << 30;
     TriangleGrid grid;
     std::vector<double> inner;

@@ -62,7 +62,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
     for (double length : lengths) {
       GridSettings settings;
       settings.length = length;
-      settings.reach = 1;
+      settings.cutoff = 1;
       measure_grid(mesh, settings, o.repeats > 0 ? o.repeats : o.quick ? 2 : 5, rows);
     }
   }

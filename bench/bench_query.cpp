@@ -1,5 +1,5 @@
 // What a query of many spheres against a wall costs: the paper's question, does a sphere
-// touch, and the exact distance within reach. No copies: spheres and answers stay on the
+// touch, and the exact distance within the cutoff. No copies: spheres and answers stay on the
 // device.
 #include "bench.h"
 
@@ -13,8 +13,8 @@ using namespace lsdcd;
 
 namespace {
 
-constexpr Real kReach = 1;
-const SphereBox kCube = {{-50, -50, 0}, {50, 50, 100}, kReach, 1};
+constexpr Real kCutoff = 1;
+const SphereBox kCube = {{-50, -50, 0}, {50, 50, 100}, kCutoff, 1};
 
 const char *name_of(Order order)
 {
@@ -27,7 +27,7 @@ struct SphereSet {
   std::vector<FloatSphere> rounded;
 };
 
-// Radii up to the reach, or all equal to it.
+// Radii up to the cutoff, or all equal to it.
 SphereSet make_set(std::size_t n, Order order, bool largest)
 {
   SphereSet set;
@@ -35,7 +35,7 @@ SphereSet make_set(std::size_t n, Order order, bool largest)
   set.exact = make_spheres(kCube, n, order);
   set.rounded.reserve(n);
   if (largest)
-    for (Sphere &s : set.exact) s.r = kReach;
+    for (Sphere &s : set.exact) s.r = kCutoff;
   for (const Sphere &s : set.exact)
     set.rounded.push_back({static_cast<float>(s.x), static_cast<float>(s.y),
                            static_cast<float>(s.z), static_cast<float>(s.r)});
@@ -55,7 +55,7 @@ class Queries {
   {
     GridSettings s;
     s.length = length;
-    s.reach = kReach;
+    s.cutoff = kCutoff;
     s.nearest = nearest;
     s.memory_budget = std::size_t(16) << 30;
     return build_grid(mesh, s, device_ == Device::cuda);

@@ -15,10 +15,10 @@ using namespace lsdcd;
 
 namespace {
 
-constexpr Real kReach = 1;
+constexpr Real kCutoff = 1;
 // The box round the cylinder, and the paper's cube.
-constexpr SphereBox kRoom = {{-51, -51, -1}, {51, 51, 101}, kReach, 5},
-                    kCube = {{-50, -50, 0}, {50, 50, 100}, kReach, 1};
+constexpr SphereBox kRoom = {{-51, -51, -1}, {51, 51, 101}, kCutoff, 5},
+                    kCube = {{-50, -50, 0}, {50, 50, 100}, kCutoff, 1};
 
 struct Bodies {
   std::vector<Real> x, v, omega, radius, mass;
@@ -96,7 +96,7 @@ void measure_kept_and_anew(WallEngine &engine, const Spheres &s, const Style &st
         engine.start(s, step);
         engine.collect();
       }
-      engine.look();
+      engine.read_diagnostics();
     });
     for (double *ms : {&row.timing.median_ms, &row.timing.min_ms, &row.timing.max_ms})
       *ms /= n_steps;
@@ -156,7 +156,7 @@ FlatGrid grid_of(const WallMesh &mesh, Real length, Device device)
 {
   GridSettings settings;
   settings.length = length;
-  settings.reach = kReach;
+  settings.cutoff = kCutoff;
   return FlatGrid(build_grid(mesh, settings, device == Device::cuda));
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geometry/closest_point.h"
-#include "geometry/piece_distance.h"
+#include "geometry/primitive_distance.h"
 #include "grid/flat_grid.h"
 
 #include <algorithm>

@@ -136,7 +136,7 @@ CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, LawStyle
   const auto began = std::chrono::steady_clock::now();
   const WallMesh mesh = weld(soup, -1);
   GridSettings grid;
-  grid.reach = kLargest;
+  grid.cutoff = kLargest;
   grid_ = FlatGrid(build_grid(mesh, grid, cuda));
   build_ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   triangles = mesh.faces.size();
@@ -177,7 +177,7 @@ void CylinderBed::steps(int n)
     engine_->start(spheres_, step);
     engine_->collect();
   }
-  engine_->look();
+  engine_->read_diagnostics();
 }
 
 }    // namespace lsdcd

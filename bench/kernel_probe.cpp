@@ -28,7 +28,7 @@ int main()
   TriangleSoup soup = cylinder_mesh(24, 6, 3, 6);
   const WallMesh mesh = weld(soup, -1);
   GridSettings grid_settings;
-  grid_settings.reach = 0.5;
+  grid_settings.cutoff = 0.5;
   const TriangleGrid grid = build_grid(mesh, grid_settings);
   const FlatGrid flat(grid);
 

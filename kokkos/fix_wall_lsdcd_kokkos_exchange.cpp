@@ -1,4 +1,5 @@
-// Springs follow their atoms on the device where the host moves atoms there. Rows of the contacts array stay on the host, as do their
+// Springs follow their atoms on the device where the host moves atoms there. Rows of the contacts
+// array stay on the host, as do their
 // readers, and go from and to it where messages are on the device.
 
 #include "fix_wall_lsdcd_kokkos.h"

@@ -8,7 +8,7 @@
 #include "kokkos_type.h"
 
 #include "base/input_error.h"
-#include "base/rows.h"
+#include "base/strided_view.h"
 #include "engine/wall_engine.h"
 #include "parallel/threads.h"
 
@@ -40,8 +40,8 @@ auto rows_of(const View &view)
   static_assert(std::is_same<std::remove_const_t<Number>, Real>::value,
                 "this LAMMPS keeps its atoms in single precision (KOKKOS_PREC): build it with "
                 "double");
-  return Rows<Number>(view.data(), static_cast<std::ptrdiff_t>(view.stride(0)),
-                      static_cast<std::ptrdiff_t>(view.stride(1)));
+  return StridedView<Number>(view.data(), static_cast<std::ptrdiff_t>(view.stride(0)),
+                             static_cast<std::ptrdiff_t>(view.stride(1)));
 }
 
 template <class View>

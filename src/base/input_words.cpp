@@ -56,7 +56,7 @@ bool is_like(const std::string &word, const std::string &name)
 
 std::string range_text(Real low, Real high)
 {
-  const bool with_low = low > -Words::kHuge, with_high = high < Words::kHuge;
+  const bool with_low = low > -Tokens::kHuge, with_high = high < Tokens::kHuge;
   Real shown_low = 0, shown_high = 0;
   if (low <= 0 || low > kAboveZero) is_number(number_text(low), &shown_low);
   is_number(number_text(high), &shown_high);
@@ -69,26 +69,26 @@ std::string range_text(Real low, Real high)
   return "from " + from + " to " + to;
 }
 
-std::string Words::between(std::size_t first) const
+std::string Tokens::between(std::size_t first) const
 {
   std::string text;
-  for (std::size_t i = first; i < at_; i++) text += (i > first ? " " : "") + words_[i];
+  for (std::size_t i = first; i < at_; i++) text += (i > first ? " " : "") + tokens_[i];
   return text;
 }
 
-void Words::expect(const std::string &name, const std::string &syntax)
+void Tokens::expect(const std::string &name, const std::string &syntax)
 {
   name_ = name;
   syntax_ = syntax;
 }
 
-bool Words::number_follows() const
+bool Tokens::number_follows() const
 {
   Real value;
   return !done() && is_number(peek(), &value);
 }
 
-Real Words::number(const char *what, Real low, Real high)
+Real Tokens::number(const char *what, Real low, Real high)
 {
   Real value = 0;
   if (done()) fail(std::string("the value of ") + what + " is missing");
@@ -101,14 +101,14 @@ Real Words::number(const char *what, Real low, Real high)
   return value;
 }
 
-Real Words::number_or(const char *instead, Real otherwise, const char *what, Real low, Real high)
+Real Tokens::number_or(const char *instead, Real otherwise, const char *what, Real low, Real high)
 {
   if (done() || peek() != instead) return number(what, low, high);
   ++at_;
   return otherwise;
 }
 
-int Words::choice(const std::vector<std::string> &choices)
+int Tokens::choice(const std::vector<std::string> &choices)
 {
   if (done()) fail("its value is missing");
   const auto found = std::find(choices.begin(), choices.end(), peek());
@@ -117,7 +117,7 @@ int Words::choice(const std::vector<std::string> &choices)
   return static_cast<int>(found - choices.begin());
 }
 
-void Words::fail(const std::string &problem) const
+void Tokens::fail(const std::string &problem) const
 {
   throw InputError("in '" + name_ + "', " + problem + ". Syntax: " + syntax_);
 }

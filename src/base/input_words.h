@@ -23,13 +23,13 @@ std::string nearest(const std::string &word, const std::vector<std::string> &nam
 // May the word be meant to be the name? Not if more than a third of its letters differ.
 bool is_like(const std::string &word, const std::string &name);
 
-class Words {
+class Tokens {
  public:
-  explicit Words(const std::vector<std::string> &words) : words_(words) {}
+  explicit Tokens(const std::vector<std::string> &tokens) : tokens_(tokens) {}
 
-  bool done() const { return at_ == words_.size(); }
-  const std::string &peek() const { return words_[at_]; }
-  std::string take() { return words_[at_++]; }
+  bool done() const { return at_ == tokens_.size(); }
+  const std::string &peek() const { return tokens_[at_]; }
+  std::string take() { return tokens_[at_++]; }
   bool number_follows() const;
 
   // The place in the words, and what was read since a place, as it was written.
@@ -52,7 +52,7 @@ class Words {
   static constexpr Real kHuge = 1.7976931348623157e308;
 
  private:
-  const std::vector<std::string> &words_;
+  const std::vector<std::string> &tokens_;
   std::size_t at_ = 0;
   std::string name_, syntax_;
 };

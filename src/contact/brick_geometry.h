@@ -1,4 +1,4 @@
-// Feet on the copies of features in the frame of a brick, in float.
+// Closest points on the copies of features in the frame of a brick, in float.
 #pragma once
 
 #include "contact/wall_geometry.h"
@@ -12,7 +12,7 @@ class BrickGeometry {
  public:
   LSDCD_FN BrickGeometry(const GridView &grid, const Vec3 &q, const CellAddress &at) :
       grid_(grid), q_(q), p_(vec_cast<float>(at.from_centre + from_brick_centre(grid, at.cell))),
-      slack_(static_cast<float>(slack(grid)))
+      tolerance_(static_cast<float>(tolerance(grid)))
   {
   }
   // For a point inside of the grid.
@@ -23,12 +23,12 @@ class BrickGeometry {
 
   // What rounding moves a height over a plane by: 16 units of the largest coordinate in
   // a brick's frame, reach and half its diagonal (7 cells) from its centre, both ways.
-  LSDCD_FN static Real slack(const GridView &grid)
+  LSDCD_FN static Real tolerance(const GridView &grid)
   {
     constexpr Real kFloatRoundoff = 5.9604644775390625e-8;
-    return grid.slack + 16 * kFloatRoundoff * (grid.reach + 14 * grid.length);
+    return grid.tolerance + 16 * kFloatRoundoff * (grid.cutoff + 14 * grid.length);
   }
-  LSDCD_FN Real slack() const { return slack_; }
+  LSDCD_FN Real tolerance() const { return tolerance_; }
 
   LSDCD_FN FeatureCode feature(FeatureCode code) const
   {
@@ -43,11 +43,14 @@ class BrickGeometry {
     }
   }
 
-  LSDCD_FN Foot foot(FeatureCode code, Real within) const { return foot(code, within, 0); }
-  // Could there be a foot with so much more of tolerance (length)?
-  LSDCD_FN bool may_have_foot(FeatureCode code, Real within, Real more) const
+  LSDCD_FN ClosestPoint closest_point(FeatureCode code, Real within) const
   {
-    return foot(code, within, more).found;
+    return closest_point(code, within, 0);
+  }
+  // Could there be a closest point with so much more of tolerance (length)?
+  LSDCD_FN bool may_be_closest(FeatureCode code, Real within, Real more) const
+  {
+    return closest_point(code, within, more).found;
   }
 
   LSDCD_FN const FaceParts &parts(FeatureCode face) const
@@ -59,21 +62,22 @@ class BrickGeometry {
   {
     const BrickFace f = grid_.records.faces[feature_index(face)];
     if (!(fabs(height(f.plane)) <= static_cast<float>(within))) return Over::far;
-    return over_sides(f, slack_);
+    return over_sides(f, tolerance_);
   }
 
  private:
-  LSDCD_FN Foot foot(FeatureCode code, Real within, Real more) const
+  LSDCD_FN ClosestPoint closest_point(FeatureCode code, Real within, Real more) const
   {
     const std::uint32_t i = feature_index(code);
-    const float limit = static_cast<float>(within), slack = slack_ + static_cast<float>(more);
+    const float limit = static_cast<float>(within),
+                tolerance = tolerance_ + static_cast<float>(more);
     switch (feature_kind(code)) {
       case FeatureKind::face:
-        return on_face(i, slack, limit);
+        return on_face(i, tolerance, limit);
       case FeatureKind::edge:
-        return on_edge(grid_.records.edges[i], slack, limit);
+        return on_edge(grid_.records.edges[i], tolerance, limit);
       default:
-        return on_vertex(grid_.records.vertices[i], slack, limit);
+        return on_vertex(grid_.records.vertices[i], tolerance, limit);
     }
   }
 
@@ -88,72 +92,72 @@ class BrickGeometry {
     return dot(plane.normal, p_) + plane.offset;
   }
 
-  LSDCD_FN Over over_sides(const BrickFace &f, float slack) const
+  LSDCD_FN Over over_sides(const BrickFace &f, float tolerance) const
   {
     const float a = height(f.side[0]), b = height(f.side[1]), c = height(f.side[2]);
-    if (!(a >= -slack && b >= -slack && c >= -slack)) return Over::outside;
-    return a < slack || b < slack || c < slack ? Over::rim : Over::inside;
+    if (!(a >= -tolerance && b >= -tolerance && c >= -tolerance)) return Over::outside;
+    return a < tolerance || b < tolerance || c < tolerance ? Over::rim : Over::inside;
   }
 
   // Forces and springs want a normal that is unit in double.
-  LSDCD_FN static Foot foot_along(const Vec3f &normal, float distance)
+  LSDCD_FN static ClosestPoint closest_along(const Vec3f &normal, float distance)
   {
     const Vec3 n = vec_cast<Real>(normal);
     return {true, static_cast<Real>(distance), (1 / norm(n)) * n};
   }
 
-  LSDCD_FN Foot on_face(std::uint32_t i, float slack, float within) const
+  LSDCD_FN ClosestPoint on_face(std::uint32_t i, float tolerance, float within) const
   {
     const BrickFace f = grid_.records.faces[i];
     const float h = height(f.plane);
-    const Over over = over_sides(f, slack);
+    const Over over = over_sides(f, tolerance);
     // Both before a branch, so that a GPU asks for all of the record at once.
-    if (!(fabs(h) <= within) | (over == Over::outside)) return kNoFoot;
+    if (!(fabs(h) <= within) | (over == Over::outside)) return kNoClosestPoint;
     if (over == Over::rim) {
       Vec3 corner[3];
       for (int k = 0; k < 3; k++) {
         const FaceVertices &v = grid_.wall.face_vertex[grid_.records.face_of[i]];
         corner[k] = grid_.wall.vertices[v.v[k]].position;
       }
-      if (!before_corners(corner, q_, slack)) return kNoFoot;
+      if (!before_corners(corner, q_, tolerance)) return kNoClosestPoint;
     }
-    return foot_along(h < 0 ? -f.plane.normal : f.plane.normal, fabs(h));
+    return closest_along(h < 0 ? -f.plane.normal : f.plane.normal, fabs(h));
   }
 
-  LSDCD_FN Foot on_edge(const BrickEdge e, float slack, float within) const
+  LSDCD_FN ClosestPoint on_edge(const BrickEdge e, float tolerance, float within) const
   {
     const Vec3f d = p_ - e.anchor;
     const float along = dot(e.direction, d);
-    if (!(along >= e.lo - slack && along <= e.hi + slack)) return kNoFoot;
-    if (e.n_faces > 0 && !(dot(e.inward[0], d) <= slack)) return kNoFoot;
-    if (e.n_faces > 1 && !(dot(e.inward[1], d) <= slack)) return kNoFoot;
+    if (!(along >= e.lo - tolerance && along <= e.hi + tolerance)) return kNoClosestPoint;
+    if (e.n_faces > 0 && !(dot(e.inward[0], d) <= tolerance)) return kNoClosestPoint;
+    if (e.n_faces > 1 && !(dot(e.inward[1], d) <= tolerance)) return kNoClosestPoint;
     for (std::uint32_t k = 2; k < e.n_faces; k++)
-      if (!(dot(grid_.records.edge_inward[e.more + k - 2], d) <= slack)) return kNoFoot;
+      if (!(dot(grid_.records.edge_inward[e.more + k - 2], d) <= tolerance)) return kNoClosestPoint;
     const Vec3f radial = d - along * e.direction;
     const float distance = norm(radial);
-    if (!(distance <= within)) return kNoFoot;
-    if (distance > kOnWall) return foot_along((1 / distance) * radial, distance);
+    if (!(distance <= within)) return kNoClosestPoint;
+    if (distance > kOnWall) return closest_along((1 / distance) * radial, distance);
     Vec3f away = {0, 0, 0};
     if (e.n_faces > 0) away -= e.inward[0];
     if (e.n_faces > 1) away -= e.inward[1];
-    if (norm(away) > kFlatFan) return foot_along((1 / norm(away)) * away, 0);
-    if (e.n_faces > 0) return foot_along(cross(e.direction, e.inward[0]), 0);
+    if (norm(away) > kFlatFan) return closest_along((1 / norm(away)) * away, 0);
+    if (e.n_faces > 0) return closest_along(cross(e.direction, e.inward[0]), 0);
     return {true, 0, any_perpendicular(vec_cast<Real>(e.direction))};
   }
 
-  LSDCD_FN Foot on_vertex(const BrickVertex &v, float slack, float within) const
+  LSDCD_FN ClosestPoint on_vertex(const BrickVertex &v, float tolerance, float within) const
   {
     const Vec3f d = p_ - v.position;
     const float distance = norm(d);
-    if (!(distance <= within)) return kNoFoot;
+    if (!(distance <= within)) return kNoClosestPoint;
     Vec3f away = {0, 0, 0};
     for (std::uint32_t k = v.first; k < v.first + v.count; k++) {
       const Vec3f direction = grid_.records.vertex_direction[k];
-      if (!(dot(direction, d) <= slack)) return kNoFoot;
+      if (!(dot(direction, d) <= tolerance)) return kNoClosestPoint;
       away -= direction;
     }
-    if (distance > kOnWall) return foot_along((1 / distance) * d, distance);
-    if (norm(away) > kFlatFan) return foot_along((1 / norm(away)) * away, 0);
+    if (distance > kOnWall) return closest_along((1 / distance) * d, distance);
+    if (norm(away) > kFlatFan) return closest_along((1 / norm(away)) * away, 0);
     const Vec3f along = v.count > 0 ? grid_.records.vertex_direction[v.first] : away;
     return {true, 0, any_perpendicular(vec_cast<Real>(along))};
   }
@@ -164,7 +168,7 @@ class BrickGeometry {
   const GridView &grid_;
   const Vec3 &q_;
   Vec3f p_;
-  float slack_;
+  float tolerance_;
 };
 
 }    // namespace lsdcd

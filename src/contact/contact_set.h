@@ -42,7 +42,7 @@ struct ContactSet {
   Places<FeatureCode, kPlaces> feature;
   Places<Vec3, kPlaces> normal;    // unit, wall -> centre
   Places<Real, kPlaces>
-      distance;    // centre to foot point, length; < 0 where the centre has crossed
+      distance;    // centre to closest point, length; < 0 where the centre has crossed
 
   LSDCD_FN ContactsView view() const { return {n, feature.data(), normal.data(), distance.data()}; }
 

@@ -18,22 +18,22 @@ LSDCD_FN Real one_minus_cos(const Vec3 &a, const Vec3 &b)
 // between is continuous. Solved exactly by an active set: a contact enters while
 // the gradient d_i - (Gl)_i is positive, and leaves when its l would be negative.
 //
-// A foot that lies in the tangent plane of another contact has a gradient of
+// A closest point that lies in the tangent plane of another contact has a gradient of
 // (s - h) (R - s - h) / s, s and h being the two distances: it bears nothing. Close
-// to the other foot that is less than the rounding of s - h, so feet of edges on
-// faces' planes, and of vertices on theirs, to `slack` (length), are left out
+// to the other closest point that is less than the rounding of s - h, so closest points of edges on
+// faces' planes, and of vertices on theirs, to `tolerance` (length), are left out
 // first. Else rims of T-junctions would turn the force by the root of a rounding.
 template <int kPlaces>
 class CornerRule {
  public:
-  LSDCD_FN void solve(const ContactSet<kPlaces> &set, Real radius, Real *weight, Real slack = 0)
+  LSDCD_FN void solve(const ContactSet<kPlaces> &set, Real radius, Real *weight, Real tolerance = 0)
   {
     for (int i = 0; i < set.n; i++) weight[i] = 1;
     if (set.n < 2) return;
     bool apart = true;
     n_ = 0;
     for (int i = 0; i < set.n; i++) {
-      if (is_level(set, radius, i, slack)) {
+      if (is_level(set, radius, i, tolerance)) {
         weight[i] = 0;
         continue;
       }
@@ -48,15 +48,15 @@ class CornerRule {
   }
 
  private:
-  // Does foot i lie in the tangent plane of a contact on a larger kind of feature?
-  LSDCD_FN static bool is_level(const ContactSet<kPlaces> &set, Real radius, int i, Real slack)
+  // Does closest point i lie in the tangent plane of a contact on a larger kind of feature?
+  LSDCD_FN static bool is_level(const ContactSet<kPlaces> &set, Real radius, int i, Real tolerance)
   {
     const FeatureKind kind = feature_kind(set.feature[i]);
     if (kind == FeatureKind::face) return false;
     for (int k = 0; k < set.n; k++) {
       if (!(feature_kind(set.feature[k]) < kind)) continue;
       const Real rise = set.distance[k] - set.distance[i] * dot(set.normal[i], set.normal[k]);
-      if (fabs(rise) <= slack && set.distance[i] + set.distance[k] >= radius) return true;
+      if (fabs(rise) <= tolerance && set.distance[i] + set.distance[k] >= radius) return true;
     }
     return false;
   }
@@ -180,9 +180,9 @@ class CornerRule {
     Real most = 0;
     for (int k = 0; k < m; k++) {
       if (!(target_[k] > kTiny)) continue;
-      const Real reach = l_[active_[k]] / target_[k];
-      if (leaving < 0 || reach < most) {
-        most = reach;
+      const Real cutoff = l_[active_[k]] / target_[k];
+      if (leaving < 0 || cutoff < most) {
+        most = cutoff;
         leaving = k;
       }
     }
@@ -228,9 +228,9 @@ class CornerRule {
     for (int k = 0; k < m; k++) {
       if (target_[k] > 0) continue;
       const Real from = l_[active_[k]];
-      const Real reach = from > 0 ? from / (from - target_[k]) : 0;
-      if (reach < part || blocking < 0) {
-        part = reach;
+      const Real cutoff = from > 0 ? from / (from - target_[k]) : 0;
+      if (cutoff < part || blocking < 0) {
+        part = cutoff;
         blocking = k;
       }
     }

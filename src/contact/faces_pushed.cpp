@@ -25,7 +25,7 @@ struct Push {
   Real component = 0, speed = 0;    // at the centre; 0 where nothing is pushed
 };
 
-// A flat face stands for a piece of a smooth surface that moves along itself if somewhere on it
+// A flat face stands for a part of a smooth surface that moves along itself if somewhere on it
 // the velocity is in its plane, as along the middle of a roll's facet. A sliver's plane may lean
 // further, by what the path bends away from its chord over the sliver's height.
 Push push_on(const Vec3 corner[3], const SurfaceMotion &motion, Real fastest, Real rounding)

@@ -7,21 +7,22 @@
 
 namespace lsdcd {
 
-// Two tests closed by the slack can both answer at a seam; then their foot
-// points lie this many slacks apart at most (each is off by one, twice).
+// Two tests closed by the tolerance can both answer at a seam; then their closest point
+// points lie this many tolerances apart at most (each is off by one, twice).
 constexpr Real kSamePoint = 4;
 
 // Adds a contact unless the set already has one at the same point of the wall: then
-// the nearer answer stays, or the lower feature, whatever the order. A foot between
+// the nearer answer stays, or the lower feature, whatever the order. A closest point between
 // two others makes one of all three.
 template <int kPlaces>
-LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const Foot &foot, Real slack)
+LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const ClosestPoint &closest,
+                       Real tolerance)
 {
   int at = -1;
   for (int i = 0; i < set.n; i++) {
-    const Vec3 apart = set.distance[i] * set.normal[i] - foot.distance * foot.normal;
-    if (norm_sq(apart) > kSamePoint * kSamePoint * slack * slack) continue;
-    const Real held = at < 0 ? foot.distance : set.distance[at];
+    const Vec3 apart = set.distance[i] * set.normal[i] - closest.distance * closest.normal;
+    if (norm_sq(apart) > kSamePoint * kSamePoint * tolerance * tolerance) continue;
+    const Real held = at < 0 ? closest.distance : set.distance[at];
     const FeatureCode holder = at < 0 ? feature : set.feature[at];
     const bool better =
         set.distance[i] < held || (set.distance[i] == held && set.feature[i] < holder);
@@ -29,8 +30,8 @@ LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const Foot
       at = i;
       if (better) continue;
       set.feature[i] = feature;
-      set.normal[i] = foot.normal;
-      set.distance[i] = foot.distance;
+      set.normal[i] = closest.normal;
+      set.distance[i] = closest.distance;
     } else {
       if (better) {
         set.feature[at] = set.feature[i];
@@ -40,18 +41,18 @@ LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const Foot
       set.remove(i--);
     }
   }
-  if (at < 0) set.add(feature, foot.normal, foot.distance);
+  if (at < 0) set.add(feature, closest.normal, closest.distance);
 }
 
-// Adds what a feature holds. The geometry tells where the foot is and what its codes
+// Adds what a feature holds. The geometry tells where the closest point is and what its codes
 // stand for: WallGeometry in double, BrickGeometry in float.
 template <class Geometry, int kPlaces>
 LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radius,
                           ContactSet<kPlaces> &set)
 {
-  const Foot foot = geometry.foot(code, radius);
-  if (foot.found && foot.distance < radius)
-    add_once(set, geometry.feature(code), foot, geometry.slack());
+  const ClosestPoint closest = geometry.closest_point(code, radius);
+  if (closest.found && closest.distance < radius)
+    add_once(set, geometry.feature(code), closest, geometry.tolerance());
 }
 
 // The same as a function of its own, for searches that few spheres need: the tests of features are
@@ -65,18 +66,18 @@ LSDCD_NOINLINE void add_feature_apart(const Geometry &geometry, FeatureCode code
 
 // A face and what it stands for. Above the face's inside nothing else of it is near.
 template <class Geometry, int kPlaces>
-LSDCD_NOINLINE void add_piece(const Geometry &geometry, FeatureCode piece, Real radius,
-                              ContactSet<kPlaces> &set)
+LSDCD_NOINLINE void add_primitive(const Geometry &geometry, FeatureCode primitive, Real radius,
+                                  ContactSet<kPlaces> &set)
 {
-  if (feature_kind(piece) == FeatureKind::face) {
-    const Over over = geometry.over(piece, radius);
+  if (feature_kind(primitive) == FeatureKind::face) {
+    const Over over = geometry.over(primitive, radius);
     if (over == Over::far) return;
     if (over != Over::inside)
-      for (FeatureCode part : geometry.parts(piece).part)
+      for (FeatureCode part : geometry.parts(primitive).part)
         if (part != kNoFeature) add_feature_apart(geometry, part, radius, set);
     if (over == Over::outside) return;
   }
-  add_feature_apart(geometry, piece, radius, set);
+  add_feature_apart(geometry, primitive, radius, set);
 }
 
 template <class Geometry, int kPlaces>
@@ -112,24 +113,24 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const CellListsView &lists, 
   const Cell cell = lists.cells[cell_index(*at.brick, at.cell)];
   const Geometry geometry(grid, q, at);
   if (cell.count == 1) {
-    add_piece(geometry, cell.first, radius, set);
+    add_primitive(geometry, cell.first, radius, set);
     return kAnyDistance;
   }
   const Real off_centre = norm(at.from_centre);
   for (std::uint32_t k = 0; k < cell.count; k++) {
     const Candidate candidate = lists.candidates[cell.first + k];
     if (candidate.bound > radius + off_centre) break;
-    // The slack is for the rounding of distances.
+    // The tolerance is for the rounding of distances.
     if (k == static_cast<std::uint32_t>(grid.nearest))
-      return candidate.bound - off_centre - grid.slack;
-    add_piece(geometry, candidate.feature, radius, set);
+      return candidate.bound - off_centre - grid.tolerance;
+    add_primitive(geometry, candidate.feature, radius, set);
     if (set.overflow) break;
   }
   return kAnyDistance;
 }
 
 // Local minima of the distance from q to the wall that are below `radius` (length, at
-// most grid.reach): every one of them with complete lists, those on the pieces listed
+// most grid.cutoff): every one of them with complete lists, those on the primitives listed
 // with nearest ones. Returns the radius up to which none can be missing.
 // The geometry must be the one that the grid was made for.
 template <class Geometry, int kPlaces>
@@ -153,7 +154,7 @@ LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
   return find_contacts_in<WallGeometry>(grid, q, radius, set);
 }
 
-// The outward pseudonormal of a feature: its dot product with (q - foot point)
+// The outward pseudonormal of a feature: its dot product with (q - closest point)
 // tells on which side of a closed wall q is (Baerentzen and Aanaes 2005).
 LSDCD_FN Vec3 outward(const WallFeaturesView &wall, FeatureCode feature)
 {
@@ -169,7 +170,7 @@ LSDCD_FN Vec3 outward(const WallFeaturesView &wall, FeatureCode feature)
 }
 
 // Keeps the spheres on one side of a closed wall: sign +1 outside, -1 inside.
-// The nearest foot point says on which side the centre is. On the right side,
+// The closest point says on which side the centre is. On the right side,
 // contacts with the wall's far face are dropped. On the wrong side, the nearest
 // contact is turned round, with the overlap radius + distance, and pushes back.
 template <int kPlaces>

@@ -53,7 +53,7 @@ LSDCD_FN bool are_adjacent(const WallFeaturesView &wall, FeatureCode a, FeatureC
 constexpr Real kMoved = 0.7;
 
 // From which spring of the last step a contact begins, and how much of it it takes.
-struct Inheritance {
+struct Transfer {
   int from;     // index of the old spring; -1: a new one
   Real part;    // 0 to 1
 };
@@ -63,8 +63,8 @@ struct Inheritance {
 //    aligned: the contact moved across a seam, the spring goes with it, whole.
 // 3. Else the best aligned spring times max(0, n.n): a contact born beside
 //    others takes over as much of their force as it will carry in their stead.
-LSDCD_FN Inheritance inheritance(const WallFeaturesView &wall, const ContactsView &set, int i,
-                                 const Spring *old, int n_old)
+LSDCD_FN Transfer transfer_of(const WallFeaturesView &wall, const ContactsView &set, int i,
+                              const Spring *old, int n_old)
 {
   int best = -1, moved = -1;
   Real best_cos = 0, moved_cos = kMoved;
@@ -89,7 +89,7 @@ LSDCD_FN Inheritance inheritance(const WallFeaturesView &wall, const ContactsVie
 }
 
 // A vector of the old spring `in.from`, as the contact with unit `normal` takes it over.
-LSDCD_FN Vec3 handed_on(const Vec3 &h, const Inheritance &in, const Spring *old, const Vec3 &normal)
+LSDCD_FN Vec3 handed_on(const Vec3 &h, const Transfer &in, const Spring *old, const Vec3 &normal)
 {
   return in.part * transport(h, old[in.from].normal, normal);
 }

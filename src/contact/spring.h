@@ -1,7 +1,7 @@
 // One tangential spring and where it sits.
 #pragma once
 
-#include "base/rows.h"
+#include "base/strided_view.h"
 #include "base/vec3.h"
 #include "geometry/feature_code.h"
 
@@ -10,8 +10,8 @@
 namespace lsdcd {
 
 struct Spring {
-  Vec3 stretch;    // length; lies in the contact's tangent plane
-  Vec3 normal;     // unit, wall -> centre, when the spring was last moved
+  Vec3 shear;     // length; lies in the contact's tangent plane
+  Vec3 normal;    // unit, wall -> centre, when the spring was last moved
   FeatureCode feature;
   std::uint32_t pad;    // keeps the record free of indeterminate bytes
 };

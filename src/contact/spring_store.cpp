@@ -36,7 +36,7 @@ int SpringStore::pack(int i, double *buffer) const
     const Spring &s = pool_[first_[i] + k];
     buffer[at++] = s.feature;    // 32 bits are exact in a double
     for (int c = 0; c < 3; c++) buffer[at++] = s.normal[c];
-    for (int c = 0; c < 3; c++) buffer[at++] = s.stretch[c];
+    for (int c = 0; c < 3; c++) buffer[at++] = s.shear[c];
     for (int c = 0; c < n_extra_; c++) buffer[at++] = extra_of(i)[k * n_extra_ + c];
   }
   return at;
@@ -51,7 +51,7 @@ int SpringStore::unpack(int i, const double *buffer)
     s = {};
     s.feature = static_cast<FeatureCode>(buffer[at++]);
     for (int c = 0; c < 3; c++) s.normal[c] = buffer[at++];
-    for (int c = 0; c < 3; c++) s.stretch[c] = buffer[at++];
+    for (int c = 0; c < 3; c++) s.shear[c] = buffer[at++];
     for (int c = 0; c < n_extra_; c++) arrived_extra_.push_back(buffer[at++]);
   }
   set(i, arrived_.data(), arrived_extra_.data(), static_cast<int>(arrived_.size()));

@@ -1,4 +1,4 @@
-// Feet on the wall's own records, in double.
+// Closest points on the wall's own records, in double.
 #pragma once
 
 #include "geometry/closest_point.h"
@@ -7,7 +7,7 @@
 namespace lsdcd {
 
 // Where a point lies over a face: farther from its plane than asked, past a side, within
-// the slack of a side, or inside.
+// the tolerance of a side, or inside.
 enum class Over { far, outside, rim, inside };
 
 class WallGeometry {
@@ -18,21 +18,21 @@ class WallGeometry {
   {
   }
 
-  // Feet closer than kSamePoint times this are one (length).
-  LSDCD_FN static Real slack(const GridView &grid) { return grid.slack; }
-  LSDCD_FN Real slack() const { return grid_.slack; }
+  // Closest points closer than kSamePoint times this are one (length).
+  LSDCD_FN static Real tolerance(const GridView &grid) { return grid.tolerance; }
+  LSDCD_FN Real tolerance() const { return grid_.tolerance; }
 
   // The feature of the wall that a code in a list stands for.
   LSDCD_FN FeatureCode feature(FeatureCode code) const { return code; }
 
-  LSDCD_FN Foot foot(FeatureCode code, Real within) const
+  LSDCD_FN ClosestPoint closest_point(FeatureCode code, Real within) const
   {
-    return foot_on(grid_.wall, code, q_, grid_.slack, within);
+    return closest_point_on(grid_.wall, code, q_, grid_.tolerance, within);
   }
-  // Could there be a foot with so much more of tolerance (length)?
-  LSDCD_FN bool may_have_foot(FeatureCode code, Real within, Real more) const
+  // Could there be a closest point with so much more of tolerance (length)?
+  LSDCD_FN bool may_be_closest(FeatureCode code, Real within, Real more) const
   {
-    return lsdcd::may_have_foot(grid_.wall, code, q_, grid_.slack + more, within);
+    return lsdcd::may_be_closest(grid_.wall, code, q_, grid_.tolerance + more, within);
   }
 
   LSDCD_FN const FaceParts &parts(FeatureCode face) const
@@ -45,7 +45,7 @@ class WallGeometry {
     const FaceRecord &f = grid_.wall.faces[feature_index(face)];
     if (!(fabs(dot(f.normal, q_ - f.anchor)) <= within)) return Over::far;
     bool at_rim = false;
-    if (!foot_on_face(f, q_, grid_.slack, within, at_rim).found) return Over::outside;
+    if (!closest_on_face(f, q_, grid_.tolerance, within, at_rim).found) return Over::outside;
     return at_rim ? Over::rim : Over::inside;
   }
 

@@ -62,7 +62,7 @@ class Filler {
   {
   }
 
-  FilledWords fill()
+  FilledTokens fill()
   {
     // A second name without `on` is the likely slip.
     for (const MaterialSection &m : file_.materials)
@@ -244,15 +244,15 @@ class Filler {
 
   std::vector<std::string> fill_nulls()
   {
-    std::vector<std::string> words = c_.sub_models;
-    for (std::size_t i = 0; i + 1 < words.size(); i++)
+    std::vector<std::string> tokens = c_.sub_models;
+    for (std::size_t i = 0; i + 1 < tokens.size(); i++)
       for (const NullNumber &n : kNullNumbers) {
         const std::size_t at = i + 2 + n.index;
-        if (words[i] != n.keyword || words[i + 1] != n.model) continue;
-        if (at >= words.size() || words[at] != "NULL") continue;
-        words[at] = find_property(n.property)->of_pair ? of_pair(n.property) : conductivity();
+        if (tokens[i] != n.keyword || tokens[i + 1] != n.model) continue;
+        if (at >= tokens.size() || tokens[at] != "NULL") continue;
+        tokens[at] = find_property(n.property)->of_pair ? of_pair(n.property) : conductivity();
       }
-    return words;
+    return tokens;
   }
 
   const MaterialCommand &c_;
@@ -267,10 +267,10 @@ class Filler {
 
 }    // namespace
 
-FilledWords fill_material(const std::vector<std::string> &words, const std::string &units)
+FilledTokens fill_material(const std::vector<std::string> &tokens, const std::string &units)
 {
-  if (!has_material(words)) return {words, ""};
-  const MaterialCommand command = read_material_command(words);
+  if (!has_material(tokens)) return {tokens, ""};
+  const MaterialCommand command = read_material_command(tokens);
   return Filler(command, units).fill();
 }
 

@@ -6,9 +6,9 @@
 
 namespace lsdcd {
 
-struct FilledWords {
-  std::vector<std::string> words;    // with numbers where `material` stood
-  std::string report;                // several lines: each number with its source; empty: none
+struct FilledTokens {
+  std::vector<std::string> tokens;    // with numbers where `material` stood
+  std::string report;                 // several lines: each number with its source; empty: none
 };
 
 // `words` begin with FSTYLE. Where they are
@@ -19,7 +19,7 @@ struct FilledWords {
 // are. `units`: the deck's system of units, by LAMMPS's name. The modulus and Poisson's
 // ratio of two materials are those of one that, on both sides as LAMMPS's walls take it,
 // gives their effective Young's and shear moduli. Throws InputError.
-FilledWords fill_material(const std::vector<std::string> &words, const std::string &units);
+FilledTokens fill_material(const std::vector<std::string> &tokens, const std::string &units);
 
 // The same material's contact with itself in the words of LAMMPS's `pair_style granular` as
 // 29Sep2021 has them, which later ones take too: `granular` left out, tsuji with the number that

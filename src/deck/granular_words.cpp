@@ -19,7 +19,7 @@ struct SubModel {
   const char *family;    // "" for the normal one, which has no word of its own
   const char *name;
   const char *parameters;
-  void (*read)(Words &, Draft &);
+  void (*read)(Tokens &, Draft &);
 };
 
 GranularLaw &parts(Draft &d)
@@ -27,7 +27,7 @@ GranularLaw &parts(Draft &d)
   return d.law.granular;
 }
 
-void read_stiffness(Words &w, Draft &d, NormalModel model)
+void read_stiffness(Tokens &w, Draft &d, NormalModel model)
 {
   parts(d).normal = model;
   parts(d).k_normal = w.number("kn", 0);
@@ -35,7 +35,7 @@ void read_stiffness(Words &w, Draft &d, NormalModel model)
 }
 
 // Effective modulus of a sphere and a wall of one material, as LAMMPS has it since 2023.
-void read_material(Words &w, Draft &d, NormalModel model)
+void read_material(Tokens &w, Draft &d, NormalModel model)
 {
   parts(d).normal = model;
   d.young = w.number("E", kAboveZero);
@@ -46,13 +46,13 @@ void read_material(Words &w, Draft &d, NormalModel model)
   if (model != NormalModel::hertz) parts(d).cohesion = w.number("gamma", 0);
 }
 
-void read_slip(Words &w, Draft &d)
+void read_slip(Tokens &w, Draft &d)
 {
   parts(d).x_tangent = w.number("x_gammat", 0);
   parts(d).mu = w.number("mu", 0);
 }
 
-void read_tangential(Words &w, Draft &d, TangentialModel model)
+void read_tangential(Tokens &w, Draft &d, TangentialModel model)
 {
   parts(d).tangential = model;
   if (model == TangentialModel::linear_history) {
@@ -76,69 +76,72 @@ void read_damping(Draft &d, DampingModel model, const char *name)
   d.damping_name = name;
 }
 
-void read_heat(Words &w, Draft &d, HeatModel model, const char *what)
+void read_heat(Tokens &w, Draft &d, HeatModel model, const char *what)
 {
   parts(d).heat = model;
   parts(d).conductance = w.number(what, 0);
 }
 
 const SubModel kSubModels[] = {
-    {"", "hooke", "kn eta|e", [](Words &w, Draft &d) { read_stiffness(w, d, NormalModel::hooke); }},
-    {"", "hertz", "kn eta|e", [](Words &w, Draft &d) { read_stiffness(w, d, NormalModel::hertz); }},
+    {"", "hooke", "kn eta|e",
+     [](Tokens &w, Draft &d) { read_stiffness(w, d, NormalModel::hooke); }},
+    {"", "hertz", "kn eta|e",
+     [](Tokens &w, Draft &d) { read_stiffness(w, d, NormalModel::hertz); }},
     {"", "hertz/material", "E eta|e nu",
-     [](Words &w, Draft &d) { read_material(w, d, NormalModel::hertz); }},
+     [](Tokens &w, Draft &d) { read_material(w, d, NormalModel::hertz); }},
     {"", "dmt", "E eta nu gamma",
-     [](Words &w, Draft &d) { read_material(w, d, NormalModel::dmt); }},
+     [](Tokens &w, Draft &d) { read_material(w, d, NormalModel::dmt); }},
     {"", "jkr", "E eta nu gamma",
-     [](Words &w, Draft &d) { read_material(w, d, NormalModel::jkr); }},
+     [](Tokens &w, Draft &d) { read_material(w, d, NormalModel::jkr); }},
 
-    {"damping", "none", "", [](Words &, Draft &d) { read_damping(d, DampingModel::none, "none"); }},
+    {"damping", "none", "",
+     [](Tokens &, Draft &d) { read_damping(d, DampingModel::none, "none"); }},
     {"damping", "velocity", "",
-     [](Words &, Draft &d) { read_damping(d, DampingModel::velocity, "velocity"); }},
+     [](Tokens &, Draft &d) { read_damping(d, DampingModel::velocity, "velocity"); }},
     {"damping", "mass_velocity", "",
-     [](Words &, Draft &d) { read_damping(d, DampingModel::mass_velocity, "mass_velocity"); }},
+     [](Tokens &, Draft &d) { read_damping(d, DampingModel::mass_velocity, "mass_velocity"); }},
     {"damping", "viscoelastic", "",
-     [](Words &, Draft &d) { read_damping(d, DampingModel::viscoelastic, "viscoelastic"); }},
+     [](Tokens &, Draft &d) { read_damping(d, DampingModel::viscoelastic, "viscoelastic"); }},
     {"damping", "tsuji", "",
-     [](Words &, Draft &d) { read_damping(d, DampingModel::stiffness, "tsuji"); }},
+     [](Tokens &, Draft &d) { read_damping(d, DampingModel::stiffness, "tsuji"); }},
     {"damping", "coeff_restitution", "",
-     [](Words &, Draft &d) { read_damping(d, DampingModel::stiffness, "coeff_restitution"); }},
+     [](Tokens &, Draft &d) { read_damping(d, DampingModel::stiffness, "coeff_restitution"); }},
 
     {"tangential", "linear_nohistory", "x_gammat mu", read_slip},
     {"tangential", "linear_history", "kt x_gammat mu",
-     [](Words &w, Draft &d) { read_tangential(w, d, TangentialModel::linear_history); }},
+     [](Tokens &w, Draft &d) { read_tangential(w, d, TangentialModel::linear_history); }},
     {"tangential", "mindlin", "kt|NULL x_gammat mu",
-     [](Words &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin); }},
+     [](Tokens &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin); }},
     {"tangential", "mindlin/force", "kt|NULL x_gammat mu",
-     [](Words &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin_force); }},
+     [](Tokens &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin_force); }},
     {"tangential", "mindlin_rescale", "kt|NULL x_gammat mu",
-     [](Words &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin_rescale); }},
+     [](Tokens &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin_rescale); }},
     {"tangential", "mindlin_rescale/force", "kt|NULL x_gammat mu",
-     [](Words &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin_rescale_force); }},
+     [](Tokens &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin_rescale_force); }},
 
-    {"rolling", "none", "", [](Words &, Draft &) {}},
+    {"rolling", "none", "", [](Tokens &, Draft &) {}},
     {"rolling", "sds", "k gamma mu",
-     [](Words &w, Draft &d) {
+     [](Tokens &w, Draft &d) {
        parts(d).rolling = true;
        parts(d).k_roll = w.number("k", 0);
        parts(d).gamma_roll = w.number("gamma", 0);
        parts(d).mu_roll = w.number("mu", 0);
      }},
 
-    {"twisting", "none", "", [](Words &, Draft &) {}},
+    {"twisting", "none", "", [](Tokens &, Draft &) {}},
     {"twisting", "marshall", "",
-     [](Words &, Draft &d) { parts(d).twisting = TwistingModel::marshall; }},
+     [](Tokens &, Draft &d) { parts(d).twisting = TwistingModel::marshall; }},
     {"twisting", "sds", "k gamma mu",
-     [](Words &w, Draft &d) {
+     [](Tokens &w, Draft &d) {
        parts(d).twisting = TwistingModel::sds;
        parts(d).k_twist = w.number("k", 0);
        parts(d).gamma_twist = w.number("gamma", 0);
        parts(d).mu_twist = w.number("mu", 0);
      }},
 
-    {"heat", "none", "", [](Words &, Draft &) {}},
-    {"heat", "radius", "k", [](Words &w, Draft &d) { read_heat(w, d, HeatModel::radius, "k"); }},
-    {"heat", "area", "h", [](Words &w, Draft &d) { read_heat(w, d, HeatModel::area, "h"); }},
+    {"heat", "none", "", [](Tokens &, Draft &) {}},
+    {"heat", "radius", "k", [](Tokens &w, Draft &d) { read_heat(w, d, HeatModel::radius, "k"); }},
+    {"heat", "area", "h", [](Tokens &w, Draft &d) { read_heat(w, d, HeatModel::area, "h"); }},
 };
 
 std::string with_gap(const std::string &a, const std::string &b)
@@ -161,7 +164,7 @@ std::string choices_of(const std::string &family)
   return with_gap(family, names);
 }
 
-void read_sub_model(Words &w, Draft &d, const std::string &family)
+void read_sub_model(Tokens &w, Draft &d, const std::string &family)
 {
   w.expect(with_gap("granular", family), choices_of(family));
   if (w.done()) w.fail("the name of the sub-model is missing");
@@ -177,7 +180,7 @@ void read_sub_model(Words &w, Draft &d, const std::string &family)
 }
 
 // What the second number of the normal sub-model means is known only in the end.
-void resolve_damping(Words &w, Draft &d)
+void resolve_damping(Tokens &w, Draft &d)
 {
   GranularLaw &g = parts(d);
   g.eta = d.second;
@@ -215,7 +218,7 @@ std::string granular_help()
   return help;
 }
 
-ContactLaw read_granular(Words &w, std::string &text)
+ContactLaw read_granular(Tokens &w, std::string &text)
 {
   Draft d;
   d.law.style = LawStyle::granular;

@@ -11,7 +11,7 @@ namespace lsdcd {
 
 // `w` is past the word granular; reads up to the first word that is none of its own.
 // `text` becomes what was read, for the log.
-ContactLaw read_granular(Words &w, std::string &text);
+ContactLaw read_granular(Tokens &w, std::string &text);
 
 // For help and for errors: "granular NORMAL tangential MODEL [...]", the words that
 // begin a family ("tangential"), and every sub-model with its parameters.

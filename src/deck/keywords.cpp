@@ -8,25 +8,25 @@ namespace lsdcd {
 
 namespace {
 
-void read_mesh(Words &w, WallSettings &s)
+void read_mesh(Tokens &w, WallSettings &s)
 {
   if (w.done()) w.fail("the file name is missing");
   s.mesh_file = w.take();
 }
 
-void note_placement(WallSettings &s, const std::string &words)
+void note_placement(WallSettings &s, const std::string &tokens)
 {
-  s.placement_words += (s.placement_words.empty() ? "" : ", ") + words;
+  s.placement_tokens += (s.placement_tokens.empty() ? "" : ", ") + tokens;
 }
 
-Real nonzero(Words &w, const char *what)
+Real nonzero(Tokens &w, const char *what)
 {
   const Real value = w.number(what);
   if (value == 0) w.fail(std::string(what) + " must not be zero");
   return value;
 }
 
-void read_scale(Words &w, WallSettings &s)
+void read_scale(Tokens &w, WallSettings &s)
 {
   Vec3 f;
   f.x = f.y = f.z = nonzero(w, "the factor");
@@ -40,7 +40,7 @@ void read_scale(Words &w, WallSettings &s)
              (f.x == f.y && f.y == f.z ? "" : " " + number_text(f.y) + " " + number_text(f.z)));
 }
 
-void read_rotate(Words &w, WallSettings &s)
+void read_rotate(Tokens &w, WallSettings &s)
 {
   Vec3 axis;
   axis.x = w.number("the axis (x)");
@@ -53,7 +53,7 @@ void read_rotate(Words &w, WallSettings &s)
                         number_text(axis.z) + " " + number_text(degrees));
 }
 
-void read_move(Words &w, WallSettings &s)
+void read_move(Tokens &w, WallSettings &s)
 {
   Vec3 shift;
   shift.x = w.number("x");
@@ -64,12 +64,12 @@ void read_move(Words &w, WallSettings &s)
                         number_text(shift.z));
 }
 
-void read_memory(Words &w, WallSettings &s)
+void read_memory(Tokens &w, WallSettings &s)
 {
   s.memory_budget = static_cast<std::size_t>(w.number("the budget", 1, 1e9) * 1024 * 1024);
 }
 
-void read_nearest(Words &w, WallSettings &s)
+void read_nearest(Tokens &w, WallSettings &s)
 {
   s.nearest_given = true;
   const Real n = w.number_or("all", 0, "N", 1, kMostNearest);
@@ -80,12 +80,12 @@ void read_nearest(Words &w, WallSettings &s)
   w.take();
 }
 
-void read_tune(Words &w, WallSettings &s)
+void read_tune(Tokens &w, WallSettings &s)
 {
   s.tune = w.number("the largest error", 0, std::nextafter(Real(1), Real(0)));
 }
 
-void read_cache(Words &w, WallSettings &s)
+void read_cache(Tokens &w, WallSettings &s)
 {
   if (w.done()) w.fail("the file name is missing");
   const std::string file = w.take();
@@ -95,7 +95,7 @@ void read_cache(Words &w, WallSettings &s)
   s.cache_file = file;
 }
 
-Vec3 read_vec(Words &w, const char *x, const char *y, const char *z)
+Vec3 read_vec(Tokens &w, const char *x, const char *y, const char *z)
 {
   Vec3 v;
   v.x = w.number(x);
@@ -104,7 +104,7 @@ Vec3 read_vec(Words &w, const char *x, const char *y, const char *z)
   return v;
 }
 
-void read_surface_angvel(Words &w, WallSettings &s)
+void read_surface_angvel(Tokens &w, WallSettings &s)
 {
   s.surface.angular = read_vec(w, "wx", "wy", "wz");
   if (w.number_follows())
@@ -112,34 +112,34 @@ void read_surface_angvel(Words &w, WallSettings &s)
 }
 
 // Of LIGGGHTS, beside the classic styles; granular has its own.
-void only_classic(Words &w, const WallSettings &s, const char *instead)
+void only_classic(Tokens &w, const WallSettings &s, const char *instead)
 {
   if (s.law.style == LawStyle::granular)
     w.fail(std::string("it goes with the classic styles; granular has ") + instead);
 }
 
-void read_rolling(Words &w, WallSettings &s)
+void read_rolling(Tokens &w, WallSettings &s)
 {
   only_classic(w, s, "'rolling sds' before mesh");
   s.law.added.rolling = static_cast<AddedRolling>(1 + w.choice({"cdt", "epsd2"}));
   s.law.added.mu_roll = w.number("MU", 0);
 }
 
-void read_cohesion(Words &w, WallSettings &s)
+void read_cohesion(Tokens &w, WallSettings &s)
 {
   only_classic(w, s, "the normal sub-models dmt and jkr");
   w.choice({"sjkr"});
   s.law.added.cohesion = w.number("K", 0);
 }
 
-void read_wear(Words &w, WallSettings &s)
+void read_wear(Tokens &w, WallSettings &s)
 {
   s.wear.model = static_cast<WearModel>(1 + w.choice({"archard", "finnie"}));
   s.wear.per_work = w.number("K", 0);
   if (s.wear.model == WearModel::archard) s.wear.per_work /= w.number("H", kAboveZero);
 }
 
-void read_mesh_fields(Words &w, WallSettings &s)
+void read_mesh_fields(Tokens &w, WallSettings &s)
 {
   if (w.done()) w.fail("the file name is missing");
   s.fields_file = w.take();
@@ -153,7 +153,7 @@ void read_mesh_fields(Words &w, WallSettings &s)
   if (s.fields_every != n) w.fail("N must be a whole number");
 }
 
-void read_temperature(Words &w, WallSettings &s)
+void read_temperature(Tokens &w, WallSettings &s)
 {
   s.has_temperature = true;
   if (!w.done() && w.peek().rfind("v_", 0) == 0) {
@@ -164,7 +164,7 @@ void read_temperature(Words &w, WallSettings &s)
   }
 }
 
-void read_draw(Words &w, WallSettings &s)
+void read_draw(Tokens &w, WallSettings &s)
 {
   s.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
   if (!w.number_follows()) return;
@@ -173,7 +173,7 @@ void read_draw(Words &w, WallSettings &s)
   if (s.draw_type != type) w.fail("the atom type must be a whole number");
 }
 
-void read_cut(Words &w, WallSettings &s)
+void read_cut(Tokens &w, WallSettings &s)
 {
   s.cut = true;
   s.cut_normal.x = w.number("the normal (x)");
@@ -191,15 +191,15 @@ const Keyword kKeywords[] = {
     {"move", "x y z", "length", "", "0 0 0", "shift", read_move},
     {"weld", "tol", "length", ">= 0", "1e-6 of the mesh diagonal",
      "corners closer than this are one vertex; 0: only equal ones",
-     [](Words &w, WallSettings &s) { s.weld = w.number("the tolerance", 0); }},
+     [](Tokens &w, WallSettings &s) { s.weld = w.number("the tolerance", 0); }},
     {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",
-     [](Words &w, WallSettings &s) {
+     [](Tokens &w, WallSettings &s) {
        s.grid_length = w.number_or("auto", 0, "L", kAboveZero);
        s.length_given = s.grid_length > 0;
      }},
     {"rmax", "R | auto", "length", "> 0", "auto: the largest radius in the group",
      "largest particle radius that the grid is built for",
-     [](Words &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
+     [](Tokens &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
     {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records", "budget for the grid",
      read_memory},
     {"nearest", "all | N [exact]", "", "1 to 32", "all",
@@ -208,7 +208,7 @@ const Keyword kKeywords[] = {
      read_nearest},
     {"precision", "double | mixed | single", "", "", "double",
      "mixed: contacts in float, forces in double; single: both in float",
-     [](Words &w, WallSettings &s) {
+     [](Tokens &w, WallSettings &s) {
        s.precision = static_cast<Precision>(w.choice({"double", "mixed", "single"}));
        s.precision_given = true;
      }},
@@ -220,17 +220,17 @@ const Keyword kKeywords[] = {
      "file that keeps the grid, so that the next start need not build it", read_cache},
     {"corner", "blend | sum", "", "", "blend",
      "contacts at one place share their overlap, or their forces simply add",
-     [](Words &w, WallSettings &s) {
+     [](Tokens &w, WallSettings &s) {
        s.corner = static_cast<Corner>(w.choice({"blend", "sum"}));
      }},
     {"side", "both | in | out", "", "", "both",
      "where particles belong; in and out need a closed, oriented mesh",
-     [](Words &w, WallSettings &s) {
+     [](Tokens &w, WallSettings &s) {
        s.side = static_cast<Side>(w.choice({"both", "in", "out"}));
      }},
     {"surface_vel", "vx vy vz", "velocity", "", "0 0 0",
      "the surface moves along itself while the mesh stays, as a conveyor's",
-     [](Words &w, WallSettings &s) { s.surface.velocity = read_vec(w, "vx", "vy", "vz"); }},
+     [](Tokens &w, WallSettings &s) { s.surface.velocity = read_vec(w, "vx", "vy", "vz"); }},
     {"surface_angvel", "wx wy wz [cx cy cz]", "1/time, length", "", "0 0 0",
      "it turns along itself about an axis through c (the origin), as a roll's",
      read_surface_angvel},
@@ -244,18 +244,18 @@ const Keyword kKeywords[] = {
      "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step",
      read_mesh_fields},
     {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
-     [](Words &w, WallSettings &s) {
+     [](Tokens &w, WallSettings &s) {
        s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));
      }},
     {"temperature", "T | v_NAME", "temperature", "", "none",
      "of the wall, for the sub-model heat; v_NAME: an equal-style variable", read_temperature},
     {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
-     [](Words &, WallSettings &s) { s.contacts = true; }},
+     [](Tokens &, WallSettings &s) { s.contacts = true; }},
     {"periodic", "", "", "", "off",
      "the mesh continues itself across periodic faces and reaches past them by R",
-     [](Words &, WallSettings &s) { s.periodic = true; }},
+     [](Tokens &, WallSettings &s) { s.periodic = true; }},
     {"log", "full | brief", "", "", "full", "brief: one line about the wall in place of all",
-     [](Words &w, WallSettings &s) {
+     [](Tokens &w, WallSettings &s) {
        s.brief = w.choice({"full", "brief"}) == 1;
      }},
     {"draw", "edges | faces | contours [type]", "", "", "edges 1",

@@ -16,7 +16,7 @@ struct Keyword {
   const char *range;
   const char *fallback;
   const char *help;
-  void (*read)(Words &, WallSettings &);
+  void (*read)(Tokens &, WallSettings &);
 };
 
 const std::vector<Keyword> &keywords();

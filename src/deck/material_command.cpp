@@ -17,14 +17,14 @@ const char *const kMaterialSyntax =
 
 namespace {
 
-std::string take(Words &w, const char *what)
+std::string take(Tokens &w, const char *what)
 {
   if (w.done()) w.fail(std::string(what) + " is missing");
   return w.take();
 }
 
 // KEY VALUE, or MATERIAL KEY VALUE; as long as they follow.
-void read_overrides(Words &w, MaterialCommand &c)
+void read_overrides(Tokens &w, MaterialCommand &c)
 {
   const auto is_key = [&] { return !w.done() && (w.peek() == "eta" || find_property(w.peek())); };
   const auto is_name = [&] { return !w.done() && (w.peek() == c.particle || w.peek() == c.wall); };
@@ -39,14 +39,14 @@ void read_overrides(Words &w, MaterialCommand &c)
       w.fail("'" + key + "' is not of " + of + " alone: leave the name out");
     if (c.override_of(key, of)) w.fail("'" + key + "' is given twice");
     if (key == "density") w.fail("density is the atoms' own: no contact style takes it");
-    const Real number = w.number(key.c_str(), p ? std::nextafter(p->above, Words::kHuge) : 0,
-                                 p ? p->most : Words::kHuge);
+    const Real number = w.number(key.c_str(), p ? std::nextafter(p->above, Tokens::kHuge) : 0,
+                                 p ? p->most : Tokens::kHuge);
     c.overrides.push_back({of, key, number});
   }
 }
 
 // Keyword, model, numbers.
-void read_sub_models(Words &w, MaterialCommand &c)
+void read_sub_models(Tokens &w, MaterialCommand &c)
 {
   const std::vector<std::string> families = granular_families();
   while (!w.done()) {
@@ -71,18 +71,18 @@ const Real *MaterialCommand::override_of(const std::string &key, const std::stri
   return nullptr;
 }
 
-bool has_material(const std::vector<std::string> &words)
+bool has_material(const std::vector<std::string> &tokens)
 {
-  if (words.size() < 2) return false;
-  if (words[0] == "granular" && words.size() > 2 && words[2] == "material") return true;
+  if (tokens.size() < 2) return false;
+  if (tokens[0] == "granular" && tokens.size() > 2 && tokens[2] == "material") return true;
   for (const char *style : {"granular", "hooke", "hooke/history", "hertz/history"})
-    if (words[0] == style) return words[1] == "material";
+    if (tokens[0] == style) return tokens[1] == "material";
   return false;
 }
 
-MaterialCommand read_material_command(const std::vector<std::string> &words)
+MaterialCommand read_material_command(const std::vector<std::string> &tokens)
 {
-  Words w(words);
+  Tokens w(tokens);
   w.expect("material", kMaterialSyntax);
   MaterialCommand c;
   c.style = w.take();

@@ -31,10 +31,10 @@ struct MaterialCommand {
   const Real *override_of(const std::string &key, const std::string &of = "") const;
 };
 
-bool has_material(const std::vector<std::string> &words);
+bool has_material(const std::vector<std::string> &tokens);
 
 // Throws InputError that shows the syntax.
-MaterialCommand read_material_command(const std::vector<std::string> &words);
+MaterialCommand read_material_command(const std::vector<std::string> &tokens);
 
 // The same error from those who look at what was read.
 [[noreturn]] void fail_material(const std::string &problem);

@@ -12,7 +12,7 @@ namespace lsdcd {
 namespace {
 
 // What is given is kept, the rest is tuned.
-void check_tune(Words &w, const WallSettings &s)
+void check_tune(Tokens &w, const WallSettings &s)
 {
   if (s.tune < 0) return;
   w.expect("tune", "tune E");
@@ -27,7 +27,7 @@ const char *const kLawSyntax =
     "hooke|hooke/history|hertz/history kn kt|NULL gamman gammat|NULL xmu dampflag [limit_damping] "
     "mesh FILE [keywords], or granular NORMAL ... mesh FILE [keywords]";
 
-void read_law(Words &w, WallSettings &s)
+void read_law(Tokens &w, WallSettings &s)
 {
   const std::vector<std::string> names = {"hooke", "hooke/history", "hertz/history", "granular"};
   w.expect("fix wall/lsdcd", kLawSyntax);
@@ -58,7 +58,7 @@ void read_law(Words &w, WallSettings &s)
   }
 }
 
-// Words of fix wall/gran and of LIGGGHTS, and what does their work here.
+// Tokens of fix wall/gran and of LIGGGHTS, and what does their work here.
 std::string answer_to(const std::string &word, bool granular)
 {
   const char *const kStays =
@@ -139,10 +139,10 @@ std::string answer_to(const std::string &word, bool granular)
 
 }    // namespace
 
-WallSettings parse_settings(const std::vector<std::string> &words)
+WallSettings parse_settings(const std::vector<std::string> &tokens)
 {
   WallSettings settings;
-  Words w(words);
+  Tokens w(tokens);
   read_law(w, settings);
 
   std::vector<std::string> seen, names;

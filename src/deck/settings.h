@@ -19,13 +19,13 @@ struct WallSettings {
   std::string temperature_variable;    // its name, where it is a variable
   std::string mesh_file;
   Placement placement;
-  std::string placement_words;    // for the log: "scale 0.001, move 0 0 1"
-  Real weld = -1;                 // length; < 0: kDefaultWeld of the diagonal
-  Real grid_length = 0;           // length; 0: auto
-  Real rmax = 0;                  // length; 0: auto
-  int nearest = 0;                // pieces of wall per cell; 0: all
-  bool exact = false;             // nearest falls back to complete lists
-  Real tune = -1;                 // largest error that settings may have; < 0: nothing is tuned
+  std::string placement_tokens;    // for the log: "scale 0.001, move 0 0 1"
+  Real weld = -1;                  // length; < 0: kDefaultWeld of the diagonal
+  Real grid_length = 0;            // length; 0: auto
+  Real rmax = 0;                   // length; 0: auto
+  int nearest = 0;                 // primitives of wall per cell; 0: all
+  bool exact = false;              // nearest falls back to complete lists
+  Real tune = -1;                  // largest error that settings may have; < 0: nothing is tuned
   bool length_given = false, nearest_given = false, precision_given = false;    // not tuned
   std::size_t memory_budget = GridSettings().memory_budget;                     // bytes
   Corner corner = Corner::blend;
@@ -52,7 +52,7 @@ struct WallSettings {
 
 // `words` begin with FSTYLE. Throws InputError that names the word, what was
 // expected and the syntax.
-WallSettings parse_settings(const std::vector<std::string> &words);
+WallSettings parse_settings(const std::vector<std::string> &tokens);
 
 // The command with every keyword, its unit, range and default; several lines.
 std::string settings_help();

@@ -92,9 +92,9 @@ std::vector<EffectCost> measure_effects(const std::vector<EffectCase> &cases, De
 {
   const WallMesh mesh = weld(flat_floor(100), -1);
   GridSettings settings;
-  Real reach = kRadius;
-  for (const EffectCase &c : cases) reach = std::max(reach, reach_of(c.settings.law, kRadius));
-  settings.reach = reach;
+  Real cutoff = kRadius;
+  for (const EffectCase &c : cases) cutoff = std::max(cutoff, cutoff_of(c.settings.law, kRadius));
+  settings.cutoff = cutoff;
   const TriangleGrid grid = build_grid(mesh, settings);
   const FlatGrid flat(grid);
 

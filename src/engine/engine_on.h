@@ -26,7 +26,7 @@ class EngineOn : public InPlaceEngine {
       settings_(settings), law_(law), b_(std::move(backend)), springs_(law.traits), counts_(1),
       lanes_(kLanes)
   {
-    clear_notes(StepCounts());
+    clear_diagnostics(StepCounts());
     unlock_lanes();
   }
 
@@ -85,7 +85,7 @@ class EngineOn : public InPlaceEngine {
   bool has_moved(const Spheres &spheres) override
   {
     const Real *was = centres_.data();
-    const Rows<const Real> x = spheres.x;
+    const StridedView<const Real> x = spheres.x;
     return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
       return norm_sq(x[i] - Vec3{was[3 * i], was[3 * i + 1], was[3 * i + 2]});
     }) > margin_ * margin_;
@@ -141,20 +141,20 @@ class EngineOn : public InPlaceEngine {
   const ContactRecord *records() const override { return results_.records().data(); }
   int n_near() const override { return static_cast<int>(n_near_); }
 
-  StepNotes look() override
+  StepDiagnostics read_diagnostics() override
   {
     const StepCounts seen = read_counts();
     if (seen.too_large || seen.lost) throw_for(spheres_, seen);
-    clear_notes(seen);
-    StepNotes notes;
-    notes.deepest = from_ascending_bits(static_cast<std::uint32_t>(seen.deepest >> 32));
-    notes.deepest_sphere = static_cast<int>(seen.deepest & 0xffffffffu) - 1;
-    notes.uncertified = static_cast<std::int64_t>(seen.uncertified);
-    notes.uncertain = from_ascending_bits(static_cast<std::uint32_t>(seen.uncertain));
-    notes.lists = static_cast<std::int64_t>(seen.lists);
-    notes.listed = static_cast<std::int64_t>(seen.listed);
-    notes.by_cells = static_cast<std::int64_t>(seen.by_cells);
-    return notes;
+    clear_diagnostics(seen);
+    StepDiagnostics diagnostics;
+    diagnostics.deepest = from_ascending_bits(static_cast<std::uint32_t>(seen.deepest >> 32));
+    diagnostics.deepest_sphere = static_cast<int>(seen.deepest & 0xffffffffu) - 1;
+    diagnostics.uncertified = static_cast<std::int64_t>(seen.uncertified);
+    diagnostics.uncertain = from_ascending_bits(static_cast<std::uint32_t>(seen.uncertain));
+    diagnostics.lists = static_cast<std::int64_t>(seen.lists);
+    diagnostics.listed = static_cast<std::int64_t>(seen.listed);
+    diagnostics.by_cells = static_cast<std::int64_t>(seen.by_cells);
+    return diagnostics;
   }
 
   void grow(int n) override { springs_.grow(b_, n); }
@@ -203,7 +203,7 @@ class EngineOn : public InPlaceEngine {
     const std::size_t n = spheres.n;
     if (centres_.size() < 3 * n) centres_ = Array<Real>(3 * (n + n / 8));
     Real *to = centres_.data();
-    const Rows<const Real> x = spheres.x;
+    const StridedView<const Real> x = spheres.x;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
       const Vec3 at = x[i];
       for (int d = 0; d < 3; d++) to[3 * i + d] = at[d];
@@ -222,7 +222,7 @@ class EngineOn : public InPlaceEngine {
   }
 
   // What has been counted since the host looked.
-  void clear_notes(const StepCounts &seen)
+  void clear_diagnostics(const StepCounts &seen)
   {
     StepCounts *counts = counts_.data();
     b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) {
@@ -244,13 +244,13 @@ class EngineOn : public InPlaceEngine {
 
   [[noreturn]] void throw_for(const Spheres &spheres, const StepCounts &seen)
   {
-    clear_notes(seen);
+    clear_diagnostics(seen);
     if (seen.too_large) {
       const int i = static_cast<int>(kNoSphere - seen.too_large);
       Array<Real> radius(1);
       Real *to = radius.data();
       read_radius(spheres, i, to);
-      throw_too_large(i, b_.to_host(radius, 1)[0], grid_.reach);
+      throw_too_large(i, b_.to_host(radius, 1)[0], grid_.cutoff);
     }
     throw InputError(std::to_string(seen.lost) +
                      " spheres touch the wall in more separate places than there is memory for (" +

@@ -73,7 +73,7 @@ class HostAdapter : public WallEngine {
     near_.choose(cpu_, grid_, table_, spheres, margin, settings_.law.pull_off(), &seen, nullptr);
     if (seen.too_large) {
       const int i = static_cast<int>(kNoSphere - seen.too_large);
-      throw_too_large(i, spheres.radius[i], grid_.reach);
+      throw_too_large(i, spheres.radius[i], grid_.cutoff);
     }
     if (grid_.nearest == 0) near_.prune(cpu_, grid_, spheres, seen.n_near, margin, &seen, nullptr);
     const std::vector<int> was = std::move(near_host_);
@@ -89,14 +89,14 @@ class HostAdapter : public WallEngine {
     engine_.choose_all(packed());
     if (watch) {
       centres_.resize(3 * static_cast<std::size_t>(spheres.n));
-      for (int i = 0; i < spheres.n; i++) Rows<Real>(centres_.data()).put(i, spheres.x[i]);
+      for (int i = 0; i < spheres.n; i++) StridedView<Real>(centres_.data()).put(i, spheres.x[i]);
     }
     margin_ = margin;
   }
 
   bool has_moved(const Spheres &spheres) override
   {
-    const Rows<const Real> was(centres_.data());
+    const StridedView<const Real> was(centres_.data());
     return cpu_.largest<Real>(spheres.n, [&](std::size_t i) -> Real {
       return norm_sq(spheres.x[i] - was[i]);
     }) > margin_ * margin_;
@@ -176,12 +176,12 @@ class HostAdapter : public WallEngine {
     return engine_.records();
   }
 
-  StepNotes look() override
+  StepDiagnostics read_diagnostics() override
   {
     name_spheres();
-    const StepNotes notes = notes_;
-    notes_ = StepNotes();
-    return notes;
+    const StepDiagnostics diagnostics = diagnostics_;
+    diagnostics_ = StepDiagnostics();
+    return diagnostics;
   }
 
   void springs_to(SpringStore &store, int n) override
@@ -213,16 +213,16 @@ class HostAdapter : public WallEngine {
   void name_spheres()
   {
     totals();
-    const StepNotes seen = engine_.look();
-    if (seen.deepest > notes_.deepest) {
-      notes_.deepest = seen.deepest;
-      notes_.deepest_sphere = near_host_[seen.deepest_sphere];
+    const StepDiagnostics seen = engine_.read_diagnostics();
+    if (seen.deepest > diagnostics_.deepest) {
+      diagnostics_.deepest = seen.deepest;
+      diagnostics_.deepest_sphere = near_host_[seen.deepest_sphere];
     }
-    notes_.uncertified += seen.uncertified;
-    notes_.uncertain = std::max(notes_.uncertain, seen.uncertain);
-    notes_.lists += seen.lists;
-    notes_.listed += seen.listed;
-    notes_.by_cells += seen.by_cells;
+    diagnostics_.uncertified += seen.uncertified;
+    diagnostics_.uncertain = std::max(diagnostics_.uncertain, seen.uncertain);
+    diagnostics_.lists += seen.lists;
+    diagnostics_.listed += seen.listed;
+    diagnostics_.by_cells += seen.by_cells;
   }
 
   // Rows of near spheres are far apart in the host's memory: they are asked for ahead of their turn.
@@ -343,7 +343,7 @@ class HostAdapter : public WallEngine {
   SpringStore waiting_;    // springs by the host's indices, while they are not with the engine
   bool are_waiting_ = true;
 
-  StepNotes notes_;    // since the host looked
+  StepDiagnostics diagnostics_;    // since the host looked
   mutable WallTotals totals_;
   mutable bool totals_known_ = true;
 };

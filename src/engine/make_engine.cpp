@@ -26,7 +26,7 @@ void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &s
   engine.choose(spheres, 0);
   engine.start(spheres, step);
   engine.collect();
-  engine.look();    // throws where a sphere was left out
+  engine.read_diagnostics();    // throws where a sphere was left out
   if (springs && step.update_history) engine.springs_to(*springs, spheres.n);
 }
 

@@ -176,7 +176,7 @@ class ResidentSprings {
         const Spring &s = springs.pool[source];
         buffer[m++] = s.feature;    // 32 bits are exact in a double
         for (int d = 0; d < 3; d++) buffer[m++] = s.normal[d];
-        for (int d = 0; d < 3; d++) buffer[m++] = s.stretch[d];
+        for (int d = 0; d < 3; d++) buffer[m++] = s.shear[d];
         for (int e = 0; e < n_extra; e++) buffer[m++] = springs.extra[source * n_extra + e];
       }
       const int j = from[k];
@@ -215,7 +215,7 @@ class ResidentSprings {
         Spring s = {};
         s.feature = static_cast<FeatureCode>(buffer[m++]);
         for (int d = 0; d < 3; d++) s.normal[d] = buffer[m++];
-        for (int d = 0; d < 3; d++) s.stretch[d] = buffer[m++];
+        for (int d = 0; d < 3; d++) s.shear[d] = buffer[m++];
         springs[target] = s;
         for (int e = 0; e < n_extra; e++) extra[target * n_extra + e] = buffer[m++];
       }
@@ -264,7 +264,10 @@ class ResidentSprings {
   static constexpr std::size_t kUnknown = ~std::size_t(0);
   static constexpr std::size_t kSpareSlots = 65536;
 
-  int per_spring() const { return 7 + traits_.n_extra; }    // feature, normal, stretch, extra
+  int per_spring() const
+  {
+    return 7 + traits_.n_extra;
+  }    // feature, normal, shear displacement, extra
 
   LSDCD_FN static std::int64_t place_of(const double *buffer, std::size_t k, int n_first,
                                         int second)

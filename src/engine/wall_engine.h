@@ -1,7 +1,7 @@
 // The one door between a host code (the fix, the tool, tests, benches) and the wall.
 #pragma once
 
-#include "base/rows.h"
+#include "base/strided_view.h"
 #include "base/vec3.h"
 #include "contact/spring_store.h"
 #include "engine/force/on_wall.h"
@@ -40,15 +40,15 @@ struct EngineSettings {
 // Sphere data of a host code, borrowed for one step; n is the number of owned spheres.
 struct Spheres {
   int n = 0;
-  Rows<const Real> x;              // length
-  Rows<const Real> v;              // length/time
-  Rows<const Real> omega;          // 1/time
-  const Real *radius = nullptr;    // length
-  const Real *mass = nullptr;      // mass that damping sees (a rigid member's body mass)
-  const int *mask = nullptr;       // group bits, or null: all spheres
+  StridedView<const Real> x;        // length
+  StridedView<const Real> v;        // length/time
+  StridedView<const Real> omega;    // 1/time
+  const Real *radius = nullptr;     // length
+  const Real *mass = nullptr;       // mass that damping sees (a rigid member's body mass)
+  const int *mask = nullptr;        // group bits, or null: all spheres
   int group_bit = 0;
-  Rows<Real> force;                     // added to
-  Rows<Real> torque;                    // added to
+  StridedView<Real> force;              // added to
+  StridedView<Real> torque;             // added to
   const Real *temperature = nullptr;    // where the law has heat
   Real *heat_flow = nullptr;            // power; added to where the law has heat
 };
@@ -82,13 +82,13 @@ struct SphereOutput {
 };
 
 // What steps have left behind since the host last looked.
-struct StepNotes {
+struct StepDiagnostics {
   Real deepest = 0;           // largest overlap / radius
   int deepest_sphere = -1;    // its index in the step that it was in
   std::int64_t uncertified = 0;
   Real uncertain = 0;    // overlap / radius of the deepest contact they may have missed
   // Lists of the wall that were made, the features in them, and searches of cells for spheres
-  // without a list; all are 0 where lists hold the nearest pieces.
+  // without a list; all are 0 where lists hold the nearest primitives.
   std::int64_t lists = 0, listed = 0, by_cells = 0;
 };
 
@@ -142,7 +142,7 @@ class WallEngine {
 
   // Throws InputError if a sphere had to be left out of a step: too large, or with more contacts
   // than there is memory for. Begins anew.
-  virtual StepNotes look() = 0;
+  virtual StepDiagnostics read_diagnostics() = 0;
 
   // Springs of the spheres [0, n).
   virtual void springs_to(SpringStore &store, int n) = 0;

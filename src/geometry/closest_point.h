@@ -7,72 +7,72 @@
 namespace lsdcd {
 
 // The local minimum of the distance from q to one feature, if there is one.
-struct Foot {
+struct ClosestPoint {
   bool found;       // false: the rest is not set
   Real distance;    // length, >= 0
   Vec3 normal;      // unit, wall -> q; a fixed choice where q lies on the wall
 };
 
-// Each of the three tests has a tolerance `slack` (length) that widens the
+// Each of the three tests has a tolerance `tolerance` (length) that widens the
 // region of space in which the feature is a local minimum, so that neighbouring
-// regions overlap and no point falls between them. With slack = 0 they are the
-// exact regions: face prism, edge wedge, vertex cone. Feet farther than `within`
+// regions overlap and no point falls between them. With tolerance = 0 they are the
+// exact regions: face prism, edge wedge, vertex cone. Closest points farther than `within`
 // (length) are not found.
 constexpr Real kAnyDistance = 1e300;
 // Below this (length) squares leave the range of Real: the centre is on the wall.
 constexpr Real kNoDistance = 1e-140;
-constexpr Foot kNoFoot = {false, 0, {0, 0, 0}};
+constexpr ClosestPoint kNoClosestPoint = {false, 0, {0, 0, 0}};
 
-// `at_rim` is set where the foot may lie past a side, by the slack at most, or by the
-// rounding that the slack covers.
-LSDCD_FN Foot foot_on_face(const FaceRecord &face, const Vec3 &q, Real slack, Real within,
-                           bool &at_rim)
+// `at_rim` is set where the closest point may lie past a side, by the tolerance at most, or by the
+// rounding that the tolerance covers.
+LSDCD_FN ClosestPoint closest_on_face(const FaceRecord &face, const Vec3 &q, Real tolerance,
+                                      Real within, bool &at_rim)
 {
   const Vec3 d = q - face.anchor;
   const Real h = dot(face.normal, d);
-  if (!(fabs(h) <= within)) return kNoFoot;
+  if (!(fabs(h) <= within)) return kNoClosestPoint;
   const Real a = dot(face.inward[0], d), b = dot(face.inward[1], d) + face.height,
              c = dot(face.inward[2], d);
-  if (!(a >= -slack && b >= -slack && c >= -slack)) return kNoFoot;
-  at_rim = a < slack || b < slack || c < slack;
+  if (!(a >= -tolerance && b >= -tolerance && c >= -tolerance)) return kNoClosestPoint;
+  at_rim = a < tolerance || b < tolerance || c < tolerance;
   if (h < 0) return {true, -h, -face.normal};
   return {true, h, face.normal};
 }
 
-// At a sharp corner the widened sides meet far past the face, by slack / sin(half
-// its angle). Is q past such a corner by no more than the slack, along its bisector?
-// A foot is then within sqrt(2) slacks of the face, at any corner.
-LSDCD_FN bool before_corners(const Vec3 *corner, const Vec3 &q, Real slack)
+// At a sharp corner the widened sides meet far past the face, by tolerance / sin(half
+// its angle). Is q past such a corner by no more than the tolerance, along its bisector?
+// A closest point is then within sqrt(2) tolerances of the face, at any corner.
+LSDCD_FN bool before_corners(const Vec3 *corner, const Vec3 &q, Real tolerance)
 {
   for (int k = 0; k < 3; k++) {
     const Vec3 u = corner[(k + 1) % 3] - corner[k], v = corner[(k + 2) % 3] - corner[k];
     if (!(dot(u, v) > 0)) continue;
     const Vec3 bisector = (1 / norm(u)) * u + (1 / norm(v)) * v;
-    if (!(dot(bisector, q - corner[k]) >= -slack * norm(bisector))) return false;
+    if (!(dot(bisector, q - corner[k]) >= -tolerance * norm(bisector))) return false;
   }
   return true;
 }
 
 LSDCD_FN bool inside_wedge(const EdgeRecord &edge, const Vec3 *edge_inward, const Vec3 &d,
-                           Real slack)
+                           Real tolerance)
 {
-  if (edge.n_faces > 0 && !(dot(edge.inward[0], d) <= slack)) return false;
-  if (edge.n_faces > 1 && !(dot(edge.inward[1], d) <= slack)) return false;
+  if (edge.n_faces > 0 && !(dot(edge.inward[0], d) <= tolerance)) return false;
+  if (edge.n_faces > 1 && !(dot(edge.inward[1], d) <= tolerance)) return false;
   for (std::uint32_t k = 2; k < edge.n_faces; k++)
-    if (!(dot(edge_inward[edge.more + k - 2], d) <= slack)) return false;
+    if (!(dot(edge_inward[edge.more + k - 2], d) <= tolerance)) return false;
   return true;
 }
 
-LSDCD_FN Foot foot_on_edge(const EdgeRecord &edge, const Vec3 *edge_inward, const Vec3 &q,
-                           Real slack, Real within = kAnyDistance)
+LSDCD_FN ClosestPoint closest_on_edge(const EdgeRecord &edge, const Vec3 *edge_inward,
+                                      const Vec3 &q, Real tolerance, Real within = kAnyDistance)
 {
   const Vec3 d = q - edge.anchor;
   const Real along = dot(edge.direction, d);
-  if (!(along >= -slack && along <= edge.length + slack)) return kNoFoot;
-  if (!inside_wedge(edge, edge_inward, d, slack)) return kNoFoot;
+  if (!(along >= -tolerance && along <= edge.length + tolerance)) return kNoClosestPoint;
+  if (!inside_wedge(edge, edge_inward, d, tolerance)) return kNoClosestPoint;
   const Vec3 radial = d - along * edge.direction;
   const Real distance = norm(radial);
-  if (!(distance <= within)) return kNoFoot;
+  if (!(distance <= within)) return kNoClosestPoint;
   if (distance > kNoDistance) return {true, distance, (1 / distance) * radial};
   // On the edge itself: away from its faces, or across a flat pair of them.
   Vec3 away = {0, 0, 0};
@@ -85,19 +85,20 @@ LSDCD_FN Foot foot_on_edge(const EdgeRecord &edge, const Vec3 *edge_inward, cons
 }
 
 LSDCD_FN bool inside_cone(const VertexRecord &vertex, const Vec3 *direction, const Vec3 &d,
-                          Real slack)
+                          Real tolerance)
 {
   for (std::uint32_t k = 0; k < vertex.count; k++)
-    if (!(dot(direction[vertex.first + k], d) <= slack)) return false;
+    if (!(dot(direction[vertex.first + k], d) <= tolerance)) return false;
   return true;
 }
 
-LSDCD_FN Foot foot_on_vertex(const VertexRecord &vertex, const Vec3 *direction, const Vec3 &q,
-                             Real slack, Real within = kAnyDistance)
+LSDCD_FN ClosestPoint closest_on_vertex(const VertexRecord &vertex, const Vec3 *direction,
+                                        const Vec3 &q, Real tolerance, Real within = kAnyDistance)
 {
   const Vec3 d = q - vertex.position;
   const Real distance = norm(d);
-  if (!(distance <= within) || !inside_cone(vertex, direction, d, slack)) return kNoFoot;
+  if (!(distance <= within) || !inside_cone(vertex, direction, d, tolerance))
+    return kNoClosestPoint;
   if (distance > kNoDistance) return {true, distance, (1 / distance) * d};
   // On the vertex itself: away from its edges, or across a flat fan of them.
   Vec3 away = {0, 0, 0};
@@ -107,11 +108,11 @@ LSDCD_FN Foot foot_on_vertex(const VertexRecord &vertex, const Vec3 *direction, 
   return {true, 0, any_perpendicular(vertex.count > 0 ? direction[vertex.first] : away)};
 }
 
-// Is q within `slack` of the region in which a feature is a local minimum of distance, and the
+// Is q within `tolerance` of the region in which a feature is a local minimum of distance, and the
 // feature within `within`? True wherever foot_on() finds one with these, and past sharp corners of
 // faces; no root and no division.
-LSDCD_FN bool may_have_foot(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &q,
-                            Real slack, Real within)
+LSDCD_FN bool may_be_closest(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &q,
+                             Real tolerance, Real within)
 {
   const std::uint32_t i = feature_index(feature);
   const Real within_sq = within * within;
@@ -119,43 +120,44 @@ LSDCD_FN bool may_have_foot(const WallFeaturesView &wall, FeatureCode feature, c
     case FeatureKind::face: {
       const FaceRecord &face = wall.faces[i];
       const Vec3 d = q - face.anchor;
-      return fabs(dot(face.normal, d)) <= within && dot(face.inward[0], d) >= -slack &&
-             dot(face.inward[1], d) + face.height >= -slack && dot(face.inward[2], d) >= -slack;
+      return fabs(dot(face.normal, d)) <= within && dot(face.inward[0], d) >= -tolerance &&
+             dot(face.inward[1], d) + face.height >= -tolerance &&
+             dot(face.inward[2], d) >= -tolerance;
     }
     case FeatureKind::edge: {
       const EdgeRecord &edge = wall.edges[i];
       const Vec3 d = q - edge.anchor;
       const Real along = dot(edge.direction, d);
-      return along >= -slack && along <= edge.length + slack &&
-             inside_wedge(edge, wall.edge_inward, d, slack) &&
+      return along >= -tolerance && along <= edge.length + tolerance &&
+             inside_wedge(edge, wall.edge_inward, d, tolerance) &&
              norm_sq(d - along * edge.direction) <= within_sq;
     }
     default: {
       const Vec3 d = q - wall.vertices[i].position;
       return norm_sq(d) <= within_sq &&
-             inside_cone(wall.vertices[i], wall.vertex_direction, d, slack);
+             inside_cone(wall.vertices[i], wall.vertex_direction, d, tolerance);
     }
   }
 }
 
-LSDCD_FN Foot foot_on(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &q, Real slack,
-                      Real within = kAnyDistance)
+LSDCD_FN ClosestPoint closest_point_on(const WallFeaturesView &wall, FeatureCode feature,
+                                       const Vec3 &q, Real tolerance, Real within = kAnyDistance)
 {
   const std::uint32_t i = feature_index(feature);
   switch (feature_kind(feature)) {
     case FeatureKind::face: {
       bool at_rim = false;
-      const Foot foot = foot_on_face(wall.faces[i], q, slack, within, at_rim);
-      if (!foot.found || !at_rim) return foot;
+      const ClosestPoint closest = closest_on_face(wall.faces[i], q, tolerance, within, at_rim);
+      if (!closest.found || !at_rim) return closest;
       Vec3 corner[3];
       for (int k = 0; k < 3; k++) corner[k] = wall.vertices[wall.face_vertex[i].v[k]].position;
-      if (before_corners(corner, q, slack)) return foot;
-      return kNoFoot;
+      if (before_corners(corner, q, tolerance)) return closest;
+      return kNoClosestPoint;
     }
     case FeatureKind::edge:
-      return foot_on_edge(wall.edges[i], wall.edge_inward, q, slack, within);
+      return closest_on_edge(wall.edges[i], wall.edge_inward, q, tolerance, within);
     default:
-      return foot_on_vertex(wall.vertices[i], wall.vertex_direction, q, slack, within);
+      return closest_on_vertex(wall.vertices[i], wall.vertex_direction, q, tolerance, within);
   }
 }
 

@@ -19,7 +19,7 @@ struct FaceRecord {
   Real height;    // distance of corner 0 from edge 1
 };
 
-// An edge as a segment and the in-plane inward normals of its faces: a foot
+// An edge as a segment and the in-plane inward normals of its faces: a closest point
 // point on it is a local minimum of distance if no face lets the distance fall.
 struct EdgeRecord {
   Vec3 anchor;       // its first vertex
@@ -59,7 +59,7 @@ struct WallFeaturesView {
   const EdgeVertices *edge_vertex;
   const Vec3 *edge_out;    // angle-weighted pseudonormals; only read where a side is set
   const Vec3 *vertex_out;
-  const FaceParts *face_parts;    // only read where lists hold pieces
+  const FaceParts *face_parts;    // only read where lists hold primitives
   // As in PeriodicImages of the mesh; null and 0 where there are none.
   const std::int32_t *same_vertex, *face_of, *edge_of, *vertex_of;
   std::uint32_t n_faces, n_edges, n_vertices;

@@ -15,7 +15,7 @@ using Vec3f = Vec3Of<float>;
 // Origin of all coordinates: the centre of the brick. Planes and lines are anchored next
 // to it, so that coordinates stay as small as a brick however large face and mesh are.
 
-// Aligned, so that a GPU reads a record in pieces of 16 bytes.
+// Aligned, so that a GPU reads a record in parts of 16 bytes.
 
 // Height over a plane: normal . p + offset. Length.
 struct alignas(16) BrickPlane {

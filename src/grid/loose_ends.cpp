@@ -1,6 +1,6 @@
 #include "grid/loose_ends.h"
 
-#include "geometry/piece_distance.h"
+#include "geometry/primitive_distance.h"
 #include "mesh/classes.h"
 
 #include <algorithm>

@@ -121,12 +121,11 @@ std::string amount(double bytes)
 
 }    // namespace
 
-Vec3 brick_centre(const TriangleGrid &grid, std::size_t place)
+Vec3 brick_centre(const TriangleGrid &grid, std::size_t slot)
 {
   const std::size_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
   const Real side = kBrickSide * grid.length, half = Real(0.5);
-  return grid.origin +
-         side * Vec3{place % nx + half, place / nx % ny + half, place / nx / ny + half};
+  return grid.origin + side * Vec3{slot % nx + half, slot / nx % ny + half, slot / nx / ny + half};
 }
 
 GridView TriangleGrid::view() const
@@ -135,8 +134,8 @@ GridView TriangleGrid::view() const
   v.origin = origin;
   v.length = length;
   v.inv_length = 1 / length;
-  v.reach = reach;
-  v.slack = slack;
+  v.cutoff = cutoff;
+  v.tolerance = tolerance;
   v.outside = outside;
   v.nearest = nearest;
   v.in_floats = in_floats;
@@ -226,7 +225,7 @@ std::string describe(const GridReport &r)
 {
   char text[1024];
   int n = std::snprintf(text, sizeof text, "  grid %.6g (%s), reach %.6g: ", r.length,
-                        r.length_chosen ? "chosen" : "given", r.reach);
+                        r.length_chosen ? "chosen" : "given", r.cutoff);
   const auto add = [&](const char *name, const ListReport &l) {
     n +=
         std::snprintf(text + n, sizeof text - n,

@@ -1,6 +1,6 @@
 // The limit-space grid: for every cell near the wall, a list of what a sphere with its
 // centre in that cell can touch. Complete lists hold every such feature; nearest lists
-// hold the N pieces of the wall nearest to the cell's centre.
+// hold the N primitives of the wall nearest to the cell's centre.
 #pragma once
 
 #include "base/vec3.h"
@@ -19,7 +19,7 @@ constexpr int kBrickSide = 8;    // cells along a brick edge
 constexpr int kBrickCells = kBrickSide * kBrickSide * kBrickSide;
 constexpr int kLayers = kBrickSide;
 
-// An entry of a cell's list: the feature or piece, and a lower bound of its distance
+// An entry of a cell's list: the feature or primitive, and a lower bound of its distance
 // from the cell centre. Lists ascend in (bound, feature).
 struct Candidate {
   FeatureCode feature;
@@ -33,7 +33,7 @@ struct Cell {
 };
 
 // 64 cells of a brick, x fastest, then y: those that have candidates, as bits, and where the
-// first of these is in CellListsView::cells. One piece of 16 bytes: of a brick, a sphere asks
+// first of these is in CellListsView::cells. One part of 16 bytes: of a brick, a sphere asks
 // for one layer.
 struct alignas(16) BrickLayer {
   std::uint64_t mask;
@@ -57,12 +57,12 @@ struct GridView {
   WallFeaturesView wall;
   Vec3 origin;                // corner of brick (0, 0, 0); length
   Real length, inv_length;    // cell edge
-  Real reach;                 // largest radius that the lists are complete for
-  Real slack;                 // tolerance that closes face, edge and vertex regions; length
+  Real cutoff;                // largest radius that the lists are complete for
+  Real tolerance;             // tolerance that closes face, edge and vertex regions; length
   Real outside;               // +1 where normals point out of a closed wall, -1 where in
   std::int32_t n_bricks[3];
-  // 0: `lists` are complete. N: `lists` hold the N nearest pieces and, where there are
-  // more within reach, the next one as a bound of all that was left out.
+  // 0: `lists` are complete. N: `lists` hold the N nearest primitives and, where there are
+  // more within the cutoff, the next one as a bound of all that was left out.
   std::int32_t nearest;
   std::int32_t in_floats;    // codes in lists are of brick records
   CellListsView lists;       // what a query reads
@@ -73,13 +73,13 @@ struct GridView {
 };
 
 struct GridSettings {
-  Real length = 0;                  // 0: chosen from the mesh, the reach and the budget
-  Real reach = 0;                   // > 0
+  Real length = 0;                  // 0: chosen from the mesh, the cutoff and the budget
+  Real cutoff = 0;                  // > 0
   std::size_t memory_budget = 0;    // bytes, of all of it; 0: kListBudget for lists
   bool sides = false;               // keep what `side in|out` needs
-  int nearest = 0;             // 0: complete lists; N, at most kMostNearest: the N nearest pieces
-  bool exact = false;          // with nearest: complete lists as well, to fall back to
-  bool in_floats = false;      // brick records, for queries in float
+  int nearest = 0;           // 0: complete lists; N, at most kMostNearest: the N nearest primitives
+  bool exact = false;        // with nearest: complete lists as well, to fall back to
+  bool in_floats = false;    // brick records, for queries in float
   bool may_coarsen = false;    // a length that is given may grow too, until the budget holds
   // Where centres of spheres can be. The grid is cut off there.
   Box within = kNoLimit;
@@ -99,7 +99,7 @@ struct ListReport {
 };
 
 struct GridReport {
-  Real length = 0, reach = 0;
+  Real length = 0, cutoff = 0;
   bool length_chosen = false;
   int nearest = 0;
   ListReport lists, complete;    // as in GridView
@@ -121,7 +121,7 @@ struct CellLists {
 struct TriangleGrid {
   WallFeatures wall;
   Vec3 origin = {0, 0, 0};
-  Real length = 0, reach = 0, slack = 0, outside = 1;
+  Real length = 0, cutoff = 0, tolerance = 0, outside = 1;
   std::int32_t n_bricks[3] = {0, 0, 0};
   int nearest = 0;
   bool in_floats = false;
@@ -153,8 +153,8 @@ GridView flat_view(const char *block);
 // The same view over a copy of its flat block at another address.
 GridView moved_view(const GridView &view, const char *to);
 
-// Centre of the brick at a place in the table.
-Vec3 brick_centre(const TriangleGrid &grid, std::size_t place);
+// Centre of the brick at a slot in the table.
+Vec3 brick_centre(const TriangleGrid &grid, std::size_t slot);
 
 // Is there any candidate in the cell that holds q? Most spheres stop here.
 LSDCD_FN bool near_wall(const GridView &grid, const Vec3 &q);

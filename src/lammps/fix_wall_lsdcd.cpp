@@ -50,10 +50,10 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     refuse("atoms need a radius, omega and torque: use atom_style sphere");
 
   try {
-    const lsdcd::FilledWords filled = lsdcd::fill_material(
+    const lsdcd::FilledTokens filled = lsdcd::fill_material(
         world, std::vector<std::string>(arg + 3, arg + narg), update->unit_style);
     material = filled.report;
-    settings = lsdcd::parse_settings(filled.words);
+    settings = lsdcd::parse_settings(filled.tokens);
     if (settings.draw_type > atom->ntypes)
       throw lsdcd::InputError("in 'draw', there is no atom type " +
                               std::to_string(settings.draw_type));
@@ -64,7 +64,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     }
     settings.wear.per_work *= force->nktv2p;
     settings.law.added.cohesion /= force->nktv2p;
-    wall = std::make_unique<lsdcd::NodeWall>(world, settings);
+    wall = std::make_unique<lsdcd::SharedWall>(world, settings);
     check_side();
     check_plane();
 
@@ -107,7 +107,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   log_creation();
   check_scale();
   check_periodic();
-  if (radius > 0) check_box(lsdcd::reach_of(settings.law, radius));
+  if (radius > 0) check_box(lsdcd::cutoff_of(settings.law, radius));
   check_surface();
 
   // Last: Atom would call a fix that was refused after this.
@@ -147,7 +147,7 @@ void FixWallLsdcd::init()
     if (std::strncmp(modify->fix[i]->style, "adapt", 5) == 0) adapts = true;
   }
   if (!rigid) std::vector<double>().swap(mass_seen);
-  if (wall->reach() > 0) check_box(wall->reach());
+  if (wall->cutoff() > 0) check_box(wall->cutoff());
   if (settings.law.has_heat()) check_heat();
   if (settings.fields_every > 0) check_fields_file();
 }
@@ -229,7 +229,7 @@ void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
 void FixWallLsdcd::begin_step(bool look)
 {
   if (look)
-    update_reach();
+    update_cutoff();
   else if (domain->box_change)
     follow_box();
   if (update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != checked_atoms)))
@@ -298,7 +298,7 @@ void FixWallLsdcd::choose_if_due(const lsdcd::Spheres &s)
 
 void FixWallLsdcd::start()
 {
-  if (wall->reach() == 0) return;    // no spheres yet
+  if (wall->cutoff() == 0) return;    // no spheres yet
 
   lsdcd::Spheres s = spheres();
   const lsdcd::StepSettings step = step_settings(s);
@@ -329,18 +329,19 @@ void FixWallLsdcd::collect()
 // What steps have noted, for warnings and the log.
 void FixWallLsdcd::look()
 {
-  if (wall->reach() == 0) return;
+  if (wall->cutoff() == 0) return;
   try {
-    const lsdcd::StepNotes notes = engine->look();
-    uncertified_sum += notes.uncertified;
-    worst_uncertain = std::max(worst_uncertain, notes.uncertain);
-    lists += notes.lists;
-    listed += notes.listed;
-    by_cells += notes.by_cells;
-    if (notes.deepest <= worst_overlap) return;
-    worst_overlap = notes.deepest;
+    const lsdcd::StepDiagnostics diagnostics = engine->read_diagnostics();
+    uncertified_sum += diagnostics.uncertified;
+    worst_uncertain = std::max(worst_uncertain, diagnostics.uncertain);
+    lists += diagnostics.lists;
+    listed += diagnostics.listed;
+    by_cells += diagnostics.by_cells;
+    if (diagnostics.deepest <= worst_overlap) return;
+    worst_overlap = diagnostics.deepest;
     worst_step = update->ntimestep;
-    if (!overlap_warned && notes.deepest > kLargeOverlap) worst_tag = tag_of(notes.deepest_sphere);
+    if (!overlap_warned && diagnostics.deepest > kLargeOverlap)
+      worst_tag = tag_of(diagnostics.deepest_sphere);
   } catch (const std::exception &e) {
     stop(e);
   }
@@ -378,16 +379,16 @@ void FixWallLsdcd::make_engine()
 
 // Builds the grid when the first spheres come, and again when larger ones do or the box has
 // changed.
-void FixWallLsdcd::update_reach()
+void FixWallLsdcd::update_cutoff()
 {
   double most[2] = {largest_radius(), worst_overlap};
   MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
   check_overlap(most[1]);
 
-  const double radius = most[0], old = wall->reach();
-  const auto reach_of = [this](double r) { return lsdcd::reach_of(settings.law, r); };
+  const double radius = most[0], old = wall->cutoff();
+  const auto cutoff_of = [this](double r) { return lsdcd::cutoff_of(settings.law, r); };
   if (radius == 0) return;
-  if (reach_of(radius) <= old) {
+  if (cutoff_of(radius) <= old) {
     follow_box();
     return;
   }
@@ -396,19 +397,19 @@ void FixWallLsdcd::update_reach()
            lsdcd::number_text(radius) + ", more than rmax " + lsdcd::number_text(settings.rmax) +
            ": raise rmax or use rmax auto");
 
-  rebuild(reach_of(settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius)));
+  rebuild(cutoff_of(settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius)));
 }
 
 // The wall acts through periodic faces by images of its triangles, and the grid is there where
 // spheres can be: both are those of a box. Collective where the box has changed.
 void FixWallLsdcd::follow_box()
 {
-  if (wall->reach() > 0 && !wall->fits(simulation_box())) rebuild(wall->reach());
+  if (wall->cutoff() > 0 && !wall->fits(simulation_box())) rebuild(wall->cutoff());
 }
 
-void FixWallLsdcd::rebuild(double reach)
+void FixWallLsdcd::rebuild(double cutoff)
 {
-  const double old = wall->reach();
+  const double old = wall->cutoff();
   list_is_old = true;
   if (old > 0) {
     springs_to_host();
@@ -418,18 +419,18 @@ void FixWallLsdcd::rebuild(double reach)
       springs.rename_features(
           [&](lsdcd::FeatureCode f) { return lsdcd::own_feature(features, f); });
   }
-  check_box(reach);
+  check_box(cutoff);
   try {
-    if (settings.tune >= 0 && old == 0) tune(reach);
-    wall->build(reach, simulation_box());
+    if (settings.tune >= 0 && old == 0) tune(cutoff);
+    wall->build(cutoff, simulation_box());
     lsdcd::together(world, true, [&] { engine->set_grid(wall->view()); });
   } catch (const lsdcd::InputError &e) {
     refuse(e.what());
   }
-  if (reach == old) box_rebuilds++;
-  check_within_reach();
+  if (cutoff == old) box_rebuilds++;
+  check_within_cutoff();
   log_build(old);
-  check_ends(reach == old);
+  check_ends(cutoff == old);
 }
 
 // What damping sees of an atom in a rigid body is the mass of the body.

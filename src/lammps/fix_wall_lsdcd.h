@@ -58,7 +58,7 @@ class FixWallLsdcd : public Fix {
  protected:
   lsdcd::WallSettings settings;
   std::string material;    // what a material file filled in, for the log; else empty
-  std::unique_ptr<lsdcd::NodeWall> wall;
+  std::unique_ptr<lsdcd::SharedWall> wall;
   EngineMaker *const new_engine;
   std::unique_ptr<lsdcd::WallEngine> engine;
   lsdcd::SpringStore springs;
@@ -120,7 +120,7 @@ class FixWallLsdcd : public Fix {
 
   lsdcd::StepSettings step_settings(lsdcd::Spheres &);    // gives the spheres their heat, too
   void keep_outputs();
-  void update_reach();
+  void update_cutoff();
   void follow_box();
   void rebuild(double);
   void begin_step(bool);
@@ -157,7 +157,7 @@ class FixWallLsdcd : public Fix {
   void check_box(double) const;
   void check_scale() const;
   void check_periodic() const;
-  void check_within_reach();
+  void check_within_cutoff();
   void check_ends(bool);
   std::string likely_scale_text() const;
   void check_wrapping();

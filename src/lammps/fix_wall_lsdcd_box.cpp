@@ -77,11 +77,11 @@ void FixWallLsdcd::check_scale() const
          extents(box.lo, box.hi) + likely);
 }
 
-void FixWallLsdcd::check_box(double reach) const
+void FixWallLsdcd::check_box(double cutoff) const
 {
   const lsdcd::MeshReport &r = wall->report();
   const lsdcd::PeriodicBox box = simulation_box();
-  const double near = reach + box.margin;
+  const double near = cutoff + box.margin;
   // What is past a periodic face acts in the box by its image.
   lsdcd::Vec3 past = {near, near, near};
   for (int k = 0; k < 3; k++)
@@ -103,7 +103,7 @@ void FixWallLsdcd::check_box(double reach) const
 void FixWallLsdcd::check_wrapping()
 {
   const lsdcd::PeriodicBox box = simulation_box();
-  if (wall->reach() == 0 || update->setupflag || !box.any_periodic() || spheres_stay_close())
+  if (wall->cutoff() == 0 || update->setupflag || !box.any_periodic() || spheres_stay_close())
     return;
   need_on_host();
   double out = 0;
@@ -149,7 +149,7 @@ void FixWallLsdcd::check_periodic() const
        "periodic if that is meant, or make the boundary fixed");
 }
 
-void FixWallLsdcd::check_within_reach()
+void FixWallLsdcd::check_within_cutoff()
 {
   if (!wall->out_of_reach()) return;
   const lsdcd::PeriodicBox box = simulation_box();

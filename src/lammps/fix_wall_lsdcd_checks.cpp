@@ -176,7 +176,7 @@ double FixWallLsdcd::contact_time(double mass, double radius) const
 
 void FixWallLsdcd::check_timestep()
 {
-  if (wall->reach() == 0) return;
+  if (wall->cutoff() == 0) return;
   checked_atoms = atom->natoms;
   need_on_host();
   double shortest = INFINITY;

@@ -23,7 +23,7 @@ static constexpr int kHeader = 5;
 void FixWallLsdcd::add_loads()
 {
   if (update->setupflag) return;
-  const bool any = wall->reach() > 0;
+  const bool any = wall->cutoff() > 0;
   loads.add(any ? engine->records() : nullptr, any ? engine->n_records() : 0, update->dt,
             settings.wear.per_work, any ? wall->view().wall : lsdcd::WallFeaturesView());
 }

@@ -66,7 +66,7 @@ void FixWallLsdcd::log_creation() const
   }
   const lsdcd::ContactLaw &l = settings.law;
   std::string t = signed_text(wall->mesh_text());
-  if (!settings.placement_words.empty()) t += "\n  placement   " + settings.placement_words;
+  if (!settings.placement_tokens.empty()) t += "\n  placement   " + settings.placement_tokens;
   if (!material.empty()) t += "\n" + material;
   t += "\n  contact     " + settings.law_name;
   if (l.style != LawStyle::granular)
@@ -120,7 +120,7 @@ void FixWallLsdcd::log_creation() const
   log(t);
 }
 
-// `old`: the reach before, 0 at first.
+// `old`: the cutoff before, 0 at first.
 void FixWallLsdcd::log_build(double old) const
 {
   if (!wall->cache_warning().empty()) warn(wall->cache_warning());
@@ -129,15 +129,15 @@ void FixWallLsdcd::log_build(double old) const
   std::string t = signed_text("");
   if (!again)
     t += (wall->tune_text().empty() ? "" : wall->tune_text() + "\n  ") + "grid for radius " +
-         number_text(wall->reach()) + "\n" + wall->grid_text();
-  else if (wall->reach() > old)
-    t += "larger particles, grid rebuilt for radius " + number_text(wall->reach());
+         number_text(wall->cutoff()) + "\n" + wall->grid_text();
+  else if (wall->cutoff() > old)
+    t += "larger particles, grid rebuilt for radius " + number_text(wall->cutoff());
   else
     t += "the box has changed, grid rebuilt at step " + std::to_string(update->ntimestep) +
          " (more of these in this run are counted at its end)";
   if (!again && wall->shared().node_size() > 1)
     t += wall->shared().is_shared() ? "\n  one copy per node" : "\n  one copy per process";
   if (!wall->cache_text().empty()) t += "\n  " + wall->cache_text();
-  const bool one_of_many = again && wall->reach() == old && box_rebuilds > 1;
+  const bool one_of_many = again && wall->cutoff() == old && box_rebuilds > 1;
   if (!one_of_many) log(t);
 }

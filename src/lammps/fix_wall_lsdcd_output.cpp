@@ -14,7 +14,7 @@ using namespace LAMMPS_NS;
 void FixWallLsdcd::reduce_totals()
 {
   if (reduced) return;
-  const lsdcd::WallTotals t = wall->reach() > 0 ? engine->totals() : lsdcd::WallTotals();
+  const lsdcd::WallTotals t = wall->cutoff() > 0 ? engine->totals() : lsdcd::WallTotals();
   const double mine[10] = {t.force.x,
                            t.force.y,
                            t.force.z,
@@ -52,7 +52,7 @@ void FixWallLsdcd::fill_contacts()
 {
   for (int i = 0; i < atom->nlocal; i++)
     std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
-  if (wall->reach() == 0) return;
+  if (wall->cutoff() == 0) return;
   const int *touching = engine->touching();
   const lsdcd::SphereOutput *out = engine->sphere_output();
   for (int k = 0; k < engine->n_touching(); k++) {

@@ -21,7 +21,7 @@ static std::uint64_t scattered(std::uint64_t tag)
 }
 
 // Chosen by tag, so that the choice does not depend on how many processes there are.
-void FixWallLsdcd::tune(double reach)
+void FixWallLsdcd::tune(double cutoff)
 {
   need_on_host();
   bigint mine = 0, all = 0;
@@ -36,7 +36,7 @@ void FixWallLsdcd::tune(double reach)
     const double *x = atom->x[i];
     chosen.push_back({tag, {x[0], x[1], x[2]}, atom->radius[i]});
   }
-  wall->tune(reach, simulation_box(), chosen);
+  wall->tune(cutoff, simulation_box(), chosen);
   const lsdcd::WallSettings &tuned = wall->settings();
   settings.nearest = tuned.nearest;
   settings.exact = tuned.exact;

@@ -4,20 +4,20 @@
 
 namespace lsdcd {
 
-FilledWords fill_material(MPI_Comm world, const std::vector<std::string> &words,
-                          const std::string &units)
+FilledTokens fill_material(MPI_Comm world, const std::vector<std::string> &tokens,
+                           const std::string &units)
 {
   int rank;
   MPI_Comm_rank(world, &rank);
-  FilledWords filled;
-  together(world, rank == 0, [&] { filled = fill_material(words, units); });
+  FilledTokens filled;
+  together(world, rank == 0, [&] { filled = fill_material(tokens, units); });
 
   std::string text;    // each word with a NUL, which none can contain
-  for (const std::string &word : filled.words) text.append(word.c_str(), word.size() + 1);
+  for (const std::string &word : filled.tokens) text.append(word.c_str(), word.size() + 1);
   broadcast_text(text, 0, world);
-  filled.words.clear();
-  for (std::size_t at = 0; at < text.size(); at += filled.words.back().size() + 1)
-    filled.words.push_back(text.c_str() + at);
+  filled.tokens.clear();
+  for (std::size_t at = 0; at < text.size(); at += filled.tokens.back().size() + 1)
+    filled.tokens.push_back(text.c_str() + at);
   return filled;
 }
 

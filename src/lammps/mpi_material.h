@@ -9,7 +9,7 @@ namespace lsdcd {
 
 // fill_material() on the first process of `world`, which alone reads files; the words on
 // all of them, the report on the first. Collective; throws InputError on all.
-FilledWords fill_material(MPI_Comm world, const std::vector<std::string> &words,
-                          const std::string &units);
+FilledTokens fill_material(MPI_Comm world, const std::vector<std::string> &tokens,
+                           const std::string &units);
 
 }    // namespace lsdcd

@@ -22,7 +22,7 @@ char *aligned(void *memory)
 
 }    // namespace
 
-NodeShared::NodeShared(MPI_Comm world) : world_(world)
+MpiShared::MpiShared(MPI_Comm world) : world_(world)
 {
   int rank;
   MPI_Comm_rank(world, &rank);
@@ -34,7 +34,7 @@ NodeShared::NodeShared(MPI_Comm world) : world_(world)
   MPI_Comm_set_errhandler(node_, MPI_ERRORS_RETURN);
 }
 
-NodeShared::~NodeShared()
+MpiShared::~MpiShared()
 {
   int finalized;
   MPI_Finalized(&finalized);
@@ -44,7 +44,7 @@ NodeShared::~NodeShared()
   if (writers_ != MPI_COMM_NULL) MPI_Comm_free(&writers_);
 }
 
-void NodeShared::release()
+void MpiShared::release()
 {
   if (window_ != MPI_WIN_NULL) {
     MPI_Win_unlock_all(window_);
@@ -56,7 +56,7 @@ void NodeShared::release()
   bytes_ = 0;
 }
 
-char *NodeShared::allocate(std::size_t bytes)
+char *MpiShared::allocate(std::size_t bytes)
 {
   release();
   std::uint64_t wanted = bytes;
@@ -88,7 +88,7 @@ char *NodeShared::allocate(std::size_t bytes)
   return block_;
 }
 
-void NodeShared::publish()
+void MpiShared::publish()
 {
   if (!is_shared()) {
     broadcast_bytes(block_, bytes_, 0, node_);

@@ -10,12 +10,12 @@
 namespace lsdcd {
 
 // All calls are collective over the communicator given at construction.
-class NodeShared {
+class MpiShared {
  public:
-  explicit NodeShared(MPI_Comm world);
-  ~NodeShared();
-  NodeShared(const NodeShared &) = delete;
-  NodeShared &operator=(const NodeShared &) = delete;
+  explicit MpiShared(MPI_Comm world);
+  ~MpiShared();
+  MpiShared(const MpiShared &) = delete;
+  MpiShared &operator=(const MpiShared &) = delete;
 
   MPI_Comm world() const { return world_; }
   MPI_Comm node() const { return node_; }

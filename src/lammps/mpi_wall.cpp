@@ -22,14 +22,14 @@ std::string seconds_since(double start)
 
 }    // namespace
 
-NodeWall::NodeWall(MPI_Comm world, const WallSettings &settings) :
+SharedWall::SharedWall(MPI_Comm world, const WallSettings &settings) :
     settings_(settings), shared_(world)
 {
   read();
 }
 
 // The file is read by rank 0 alone: it may not be there on other nodes.
-void NodeWall::read()
+void SharedWall::read()
 {
   int rank;
   MPI_Comm_rank(shared_.world(), &rank);
@@ -58,13 +58,13 @@ void NodeWall::read()
 // Where centres of spheres can be, with room for a box that grows, so that not every step of a
 // face makes a grid. The walls far outside of a box that follows its spheres wait to be met: only
 // a mesh much larger than the box is cut off there.
-Box NodeWall::within(Real reach, const PeriodicBox &box) const
+Box SharedWall::within(Real cutoff, const PeriodicBox &box) const
 {
   constexpr Real kRoom = 0.05, kMuchLarger = 4;
   Vec3 past;
   for (int k = 0; k < 3; k++)
     past[k] =
-        box.margin + (box.follows[k] ? std::max(box.width(k), 20 * reach) : kRoom * box.width(k));
+        box.margin + (box.follows[k] ? std::max(box.width(k), 20 * cutoff) : kRoom * box.width(k));
   Box room = box.bounds(past);
   for (int k = 0; k < 3; k++) {
     const Real size = room.hi[k] - room.lo[k];
@@ -75,27 +75,27 @@ Box NodeWall::within(Real reach, const PeriodicBox &box) const
   return room;
 }
 
-WallMesh NodeWall::whole(Real reach, const PeriodicBox &box) const
+WallMesh SharedWall::whole(Real cutoff, const PeriodicBox &box) const
 {
-  return with_images(*mesh_, box, reach + box.margin + kBoxTolerance * reach);
+  return with_images(*mesh_, box, cutoff + box.margin + kBoxTolerance * cutoff);
 }
 
-bool NodeWall::fits(const PeriodicBox &box) const
+bool SharedWall::fits(const PeriodicBox &box) const
 {
-  const Real tolerance = kBoxTolerance * reach_;
+  const Real tolerance = kBoxTolerance * cutoff_;
   const Vec3 margin = {box.margin, box.margin, box.margin};
   const Box need = box.bounds(margin);
   for (int k = 0; k < 3; k++) {
     const bool beyond_lo =
         need.lo[k]<within_.lo[k] - tolerance, beyond_hi = need.hi[k]> within_.hi[k] + tolerance;
-    if ((beyond_lo && report_.lo[k] - reach_ < within_.lo[k]) ||
-        (beyond_hi && report_.hi[k] + reach_ > within_.hi[k]))
+    if ((beyond_lo && report_.lo[k] - cutoff_ < within_.lo[k]) ||
+        (beyond_hi && report_.hi[k] + cutoff_ > within_.hi[k]))
       return false;
   }
   for (int k = 0; k < 3; k++) {
     if (box.periodic[k] != box_.periodic[k]) return false;
     if (!box.periodic[k]) continue;
-    const Real depth = reach_ + std::max(box.margin, box_.margin);
+    const Real depth = cutoff_ + std::max(box.margin, box_.margin);
     // Of the mesh along this axis, in units of the box.
     Real lo = HUGE_VAL, hi = -HUGE_VAL;
     for (int i = 0; i < 8; i++) {
@@ -117,38 +117,38 @@ bool NodeWall::fits(const PeriodicBox &box) const
   return true;
 }
 
-GridSettings NodeWall::grid_settings(Real reach, const PeriodicBox &box) const
+GridSettings SharedWall::grid_settings(Real cutoff, const PeriodicBox &box) const
 {
   GridSettings want;
   want.length = settings_.grid_length;
-  want.reach = reach;
+  want.cutoff = cutoff;
   want.memory_budget = settings_.memory_budget;
   want.sides = settings_.side != Side::both;
   want.nearest = settings_.nearest;
   want.exact = settings_.exact;
   want.in_floats = settings_.precision != Precision::double_;
   want.may_coarsen = settings_.tune >= 0 && !settings_.length_given;
-  want.within = within(reach, box);
+  want.within = within(cutoff, box);
   return want;
 }
 
-void NodeWall::build(Real reach, const PeriodicBox &box)
+void SharedWall::build(Real cutoff, const PeriodicBox &box)
 {
   int rank;
   MPI_Comm_rank(shared_.world(), &rank);
-  const GridSettings want = grid_settings(reach, box);
+  const GridSettings want = grid_settings(cutoff, box);
   builds_++;
   cache_file_ = settings_.cache_file;
   if (!cache_file_.empty() && builds_ > 1) cache_file_ += "." + std::to_string(builds_);
   cache_text_.clear();
   cache_warning_.clear();
   ends_warning_.clear();
-  reach_ = reach;
+  cutoff_ = cutoff;
   box_ = box;
   within_ = want.within;
 
   WallMesh mesh;
-  together(shared_.world(), shared_.writes(), [&] { mesh = whole(reach, box); });
+  together(shared_.world(), shared_.writes(), [&] { mesh = whole(cutoff, box); });
   GridKey key = {};
   std::unique_ptr<CachedGrid> cached;
   const bool caches = rank == 0 && !cache_file_.empty();
@@ -168,7 +168,7 @@ void NodeWall::build(Real reach, const PeriodicBox &box)
 }
 
 // What images are there, and where they do not fit the mesh.
-void NodeWall::note_images(const WallMesh &whole)
+void SharedWall::note_images(const WallMesh &whole)
 {
   const PeriodicImages &images = whole.images;
   if (!images.any()) return;
@@ -179,7 +179,7 @@ void NodeWall::note_images(const WallMesh &whole)
   Real least = HUGE_VAL;
   for (int k = 0; k < 3; k++)
     if (box_.periodic[k]) least = std::min(least, box_.width(k));
-  const Real widest = std::max(2 * reach_, (settings_.periodic ? 0.25 : 0.05) * least);
+  const Real widest = std::max(2 * cutoff_, (settings_.periodic ? 0.25 : 0.05) * least);
   const LooseEnds loose = loose_ends(whole, view().wall, box_, widest);
   if (loose.edges == 0) return;
   ends_warning_ = "the ends of the mesh do not meet across the periodic boundary in " +
@@ -191,7 +191,7 @@ void NodeWall::note_images(const WallMesh &whole)
 
 // Rank 0 alone looks at the file and decides for all; what it reads goes to the
 // writers of other nodes, who may not see that file.
-bool NodeWall::read_cache(CachedGrid *cached)
+bool SharedWall::read_cache(CachedGrid *cached)
 {
   const double start = MPI_Wtime();
   std::uint64_t bytes = cached && cached->state() == CacheState::usable ? cached->block_bytes() : 0;
@@ -212,7 +212,7 @@ bool NodeWall::read_cache(CachedGrid *cached)
   return true;
 }
 
-void NodeWall::build_block(const WallMesh &whole, const GridSettings &want, GridReport &report)
+void SharedWall::build_block(const WallMesh &whole, const GridSettings &want, GridReport &report)
 {
   std::unique_ptr<TriangleGrid> grid;
   std::size_t bytes = 0;
@@ -231,7 +231,7 @@ void NodeWall::build_block(const WallMesh &whole, const GridSettings &want, Grid
 }
 
 // A cache that cannot be written costs a warning, never the run.
-void NodeWall::write_cache(const GridKey &key, const GridReport &report, const CachedGrid &cached)
+void SharedWall::write_cache(const GridKey &key, const GridReport &report, const CachedGrid &cached)
 {
   const double start = MPI_Wtime();
   const bool missing = cached.state() == CacheState::missing;
@@ -254,7 +254,7 @@ void NodeWall::write_cache(const GridKey &key, const GridReport &report, const C
   cache_text_ = "written to cache '" + cache_file_ + "', " + size + " in " + seconds_since(start);
 }
 
-bool NodeWall::has(FeatureCode feature) const
+bool SharedWall::has(FeatureCode feature) const
 {
   const std::size_t index = feature_index(feature);
   switch (feature_kind(feature)) {
@@ -268,7 +268,7 @@ bool NodeWall::has(FeatureCode feature) const
   return false;
 }
 
-std::size_t NodeWall::bytes() const
+std::size_t SharedWall::bytes() const
 {
   std::size_t mesh = 0;
   if (mesh_)

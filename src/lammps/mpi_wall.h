@@ -24,14 +24,14 @@ struct TaggedSphere {
 
 // Making, tuning and building are collective over `world` and throw the same InputError
 // on every process.
-class NodeWall {
+class SharedWall {
  public:
-  NodeWall(MPI_Comm world, const WallSettings &settings);
+  SharedWall(MPI_Comm world, const WallSettings &settings);
 
-  // Makes the grid for particles up to radius `reach` with centres in `box`, with the periodic
+  // Makes the grid for particles up to radius `cutoff` with centres in `box`, with the periodic
   // images of the mesh that act there, or reads it from its cache file. The grid of the n-th
   // call, n > 1, is kept in a file of its own, FILE.n.
-  void build(Real reach, const PeriodicBox &box);
+  void build(Real cutoff, const PeriodicBox &box);
 
   // Is the grid right for spheres in this box, too? Images follow it to kBoxTolerance of the
   // reach. The same on all processes.
@@ -44,7 +44,7 @@ class NodeWall {
 
   // Chooses cell length, lists and precision for all processes by settings.tune; `mine`
   // are this process's spheres of a sample of the scene. Kept for every build to come.
-  void tune(Real reach, const PeriodicBox &box, const std::vector<TaggedSphere> &mine);
+  void tune(Real cutoff, const PeriodicBox &box, const std::vector<TaggedSphere> &mine);
   const WallSettings &settings() const { return settings_; }
   const std::string &tune_text() const { return tune_text_; }    // of the first process
 
@@ -59,8 +59,8 @@ class NodeWall {
   // process.
   const std::string &ends_warning() const { return ends_warning_; }
   GridView view() const { return flat_view(shared_.block()); }
-  Real reach() const { return reach_; }    // 0 before the first build
-  const NodeShared &shared() const { return shared_; }
+  Real cutoff() const { return cutoff_; }    // 0 before the first build
+  const MpiShared &shared() const { return shared_; }
 
   // False where a spring names a feature that this mesh does not have.
   bool has(FeatureCode feature) const;
@@ -71,16 +71,16 @@ class NodeWall {
 
  private:
   void read();
-  GridSettings grid_settings(Real reach, const PeriodicBox &box) const;
-  Box within(Real reach, const PeriodicBox &box) const;
-  WallMesh whole(Real reach, const PeriodicBox &box) const;
+  GridSettings grid_settings(Real cutoff, const PeriodicBox &box) const;
+  Box within(Real cutoff, const PeriodicBox &box) const;
+  WallMesh whole(Real cutoff, const PeriodicBox &box) const;
   bool read_cache(CachedGrid *cached);
   void build_block(const WallMesh &whole, const GridSettings &want, GridReport &report);
   void note_images(const WallMesh &whole);
   void write_cache(const GridKey &key, const GridReport &report, const CachedGrid &cached);
 
   WallSettings settings_;
-  NodeShared shared_;
+  MpiShared shared_;
   std::unique_ptr<WallMesh> mesh_;    // where shared_.writes()
   MeshReport report_;
   std::string mesh_text_, grid_text_, tune_text_;
@@ -89,7 +89,7 @@ class NodeWall {
   Box within_ = kNoLimit;
   std::uint64_t cells_ = 0;
   int builds_ = 0;
-  Real reach_ = 0;
+  Real cutoff_ = 0;
 };
 
 }    // namespace lsdcd

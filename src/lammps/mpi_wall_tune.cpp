@@ -33,7 +33,7 @@ std::vector<TaggedSphere> gathered(const std::vector<TaggedSphere> &mine, MPI_Co
 
 }    // namespace
 
-void NodeWall::tune(Real reach, const PeriodicBox &box, const std::vector<TaggedSphere> &mine)
+void SharedWall::tune(Real cutoff, const PeriodicBox &box, const std::vector<TaggedSphere> &mine)
 {
   int rank;
   MPI_Comm_rank(shared_.world(), &rank);
@@ -45,7 +45,7 @@ void NodeWall::tune(Real reach, const PeriodicBox &box, const std::vector<Tagged
               [](const TaggedSphere &a, const TaggedSphere &b) { return a.tag < b.tag; });
     TuneSettings want;
     want.bound = settings_.tune;
-    want.grid = grid_settings(reach, box);
+    want.grid = grid_settings(cutoff, box);
     want.engine.law = settings_.law;
     want.engine.corner = settings_.corner;
     want.engine.side = settings_.side;
@@ -56,7 +56,7 @@ void NodeWall::tune(Real reach, const PeriodicBox &box, const std::vector<Tagged
     want.keep_lists = settings_.nearest_given;
     want.keep_precision = settings_.precision_given;
     for (const TaggedSphere &s : all) want.scene.add(s.x, s.radius);
-    const TuneReport report = lsdcd::tune(whole(reach, box), want);
+    const TuneReport report = lsdcd::tune(whole(cutoff, box), want);
     choice = report.choice();
     tune_text_ = describe(report);
   });

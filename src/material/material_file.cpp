@@ -11,7 +11,7 @@ namespace lsdcd {
 
 namespace {
 
-constexpr Real kAny = Words::kHuge;
+constexpr Real kAny = Tokens::kHuge;
 constexpr int kDeepest = 16;    // files that include files
 
 const char *const kSyntax =
@@ -52,33 +52,33 @@ class Reader {
       const std::size_t hash = text.find('#');
       const std::string source = hash == std::string::npos ? "" : trim(text.substr(hash + 1));
       std::istringstream stream(text.substr(0, hash));
-      std::vector<std::string> words;
-      for (std::string word; stream >> word;) words.push_back(word);
-      if (words.empty()) continue;
+      std::vector<std::string> tokens;
+      for (std::string word; stream >> word;) tokens.push_back(word);
+      if (tokens.empty()) continue;
 
-      if (words[0] == "units") {
-        if (words.size() != 2 || words[1] != "si")
+      if (tokens[0] == "units") {
+        if (tokens.size() != 2 || tokens[1] != "si")
           fail("'" + trim(text.substr(0, hash)) + "': material files are in 'units si'");
         units = true;
       } else if (!units) {
-        fail("'" + words[0] + "' comes before 'units si', which must be the first entry");
-      } else if (words[0] == "include") {
-        count(words, 2, "include FILE");
+        fail("'" + tokens[0] + "' comes before 'units si', which must be the first entry");
+      } else if (tokens[0] == "include") {
+        count(tokens, 2, "include FILE");
         if (depth == kDeepest) fail("more than 16 files include one another");
-        const std::string other = beside(path, words[1]);
+        const std::string other = beside(path, tokens[1]);
         if (!std::ifstream(other)) fail("the included file '" + other + "' cannot be read");
         read(other, depth + 1);
         section = nullptr;
-      } else if (words[0] == "material") {
-        count(words, 2, "material NAME");
-        section = begin(into_.materials, words[1], "");
-      } else if (words[0] == "pair") {
-        count(words, 3, "pair NAME NAME");
-        section = begin(into_.pairs, words[1], words[2]);
+      } else if (tokens[0] == "material") {
+        count(tokens, 2, "material NAME");
+        section = begin(into_.materials, tokens[1], "");
+      } else if (tokens[0] == "pair") {
+        count(tokens, 3, "pair NAME NAME");
+        section = begin(into_.pairs, tokens[1], tokens[2]);
       } else {
         if (!section)
-          fail("'" + words[0] + "' belongs to no material: write 'material NAME' before it");
-        section->stated.push_back(value(*section, words, source));
+          fail("'" + tokens[0] + "' belongs to no material: write 'material NAME' before it");
+        section->stated.push_back(value(*section, tokens, source));
       }
     }
     place_ = path;
@@ -109,43 +109,43 @@ class Reader {
     return &sections.back();
   }
 
-  Stated value(const MaterialSection &section, const std::vector<std::string> &words,
+  Stated value(const MaterialSection &section, const std::vector<std::string> &tokens,
                const std::string &source)
   {
-    const Property *p = find_property(words[0]);
+    const Property *p = find_property(tokens[0]);
     const bool in_pair = !section.second.empty();
     if (!p) {
       std::vector<std::string> names;
       for (const Property &known : properties()) names.push_back(known.name);
-      fail("'" + words[0] + "' is not a property; the nearest is '" + nearest(words[0], names) +
+      fail("'" + tokens[0] + "' is not a property; the nearest is '" + nearest(tokens[0], names) +
            "'");
     }
     const std::string example = std::string(p->name) + " VALUE " + p->unit + "  # source";
     if (p->of_pair && !in_pair)
-      fail("'" + words[0] + "' is a property of two surfaces: write it under 'pair " +
+      fail("'" + tokens[0] + "' is a property of two surfaces: write it under 'pair " +
            section.first + " " + section.first + "'");
     if (!p->of_pair && in_pair)
-      fail("'" + words[0] + "' is a property of one material: write it under 'material " +
+      fail("'" + tokens[0] + "' is a property of one material: write it under 'material " +
            section.first + "'");
     if (const Stated *old = section.find(p->name))
-      fail("'" + words[0] + "' is there already, at " + old->place + ": keep one");
-    if (words.size() != 3)
-      fail("'" + words[0] + "' needs a value and its unit: write '" + example + "'");
+      fail("'" + tokens[0] + "' is there already, at " + old->place + ": keep one");
+    if (tokens.size() != 3)
+      fail("'" + tokens[0] + "' needs a value and its unit: write '" + example + "'");
     Real number = 0;
-    if (!is_number(words[1], &number))
-      fail("'" + words[1] + "' is not a number: write '" + example + "'");
-    if (words[2] != p->unit)
-      fail("'" + words[0] + "' is in '" + words[2] + "': convert the value and write '" + example +
-           "'");
+    if (!is_number(tokens[1], &number))
+      fail("'" + tokens[1] + "' is not a number: write '" + example + "'");
+    if (tokens[2] != p->unit)
+      fail("'" + tokens[0] + "' is in '" + tokens[2] + "': convert the value and write '" +
+           example + "'");
     if (!(number > p->above) || number > p->most)
-      fail(words[0] + " = " + words[1] + " is out of range: it must be greater than " +
+      fail(tokens[0] + " = " + tokens[1] + " is out of range: it must be greater than " +
            number_text(p->above) + (p->most < kAny ? " and at most " + number_text(p->most) : ""));
     return {p, number, source, place_};
   }
 
-  void count(const std::vector<std::string> &words, std::size_t n, const char *syntax)
+  void count(const std::vector<std::string> &tokens, std::size_t n, const char *syntax)
   {
-    if (words.size() != n) fail("'" + words[0] + "': write '" + syntax + "'");
+    if (tokens.size() != n) fail("'" + tokens[0] + "': write '" + syntax + "'");
   }
 
   [[noreturn]] void fail(const std::string &problem) const

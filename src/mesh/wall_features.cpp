@@ -96,7 +96,7 @@ EdgeRecord make_edge(const Vec3 &a, const Vec3 &b)
 }
 
 // Two faces in one plane leave the edge between them no region of its own wider
-// than this angle; the grid's slack is four times wider.
+// than this angle; the grid's tolerance is four times wider.
 constexpr Real kFlat = 1e-13;
 
 bool is_flat(const EdgeRecord &e)
@@ -126,22 +126,22 @@ Real corner_angle(const Vec3 &at, const Vec3 &b, const Vec3 &c)
   return std::atan2(norm(cross(b - at, c - at)), dot(b - at, c - at));
 }
 
-void add_pieces(const WallMesh &mesh, WallFeatures &out)
+void add_primitives(const WallMesh &mesh, WallFeatures &out)
 {
-  std::vector<bool> edge_bears(mesh.edges.size(), false), vertex_bears(mesh.vertices.size(), false),
+  std::vector<bool> edge_acts(mesh.edges.size(), false), vertex_acts(mesh.vertices.size(), false),
       has_face(mesh.vertices.size(), false);
   for (FeatureCode code : out.contact_features) {
-    if (feature_kind(code) == FeatureKind::edge) edge_bears[feature_index(code)] = true;
-    if (feature_kind(code) == FeatureKind::vertex) vertex_bears[feature_index(code)] = true;
+    if (feature_kind(code) == FeatureKind::edge) edge_acts[feature_index(code)] = true;
+    if (feature_kind(code) == FeatureKind::vertex) vertex_acts[feature_index(code)] = true;
   }
   out.face_parts.reserve(mesh.faces.size());
   for (std::size_t f = 0; f < mesh.faces.size(); f++) {
     FaceParts parts;
     for (int k = 0; k < 3; k++) {
       const std::uint32_t edge = mesh.face_edges[f][k], vertex = mesh.faces[f][k];
-      parts.part[k] = edge_bears[edge] ? feature_code(FeatureKind::edge, edge) : kNoFeature;
+      parts.part[k] = edge_acts[edge] ? feature_code(FeatureKind::edge, edge) : kNoFeature;
       parts.part[3 + k] =
-          vertex_bears[vertex] ? feature_code(FeatureKind::vertex, vertex) : kNoFeature;
+          vertex_acts[vertex] ? feature_code(FeatureKind::vertex, vertex) : kNoFeature;
       has_face[vertex] = true;
     }
     out.face_parts.push_back(parts);
@@ -151,13 +151,13 @@ void add_pieces(const WallMesh &mesh, WallFeatures &out)
     const FeatureKind kind = feature_kind(code);
     if (kind == FeatureKind::face || (kind == FeatureKind::edge && out.edges[i].n_faces == 0) ||
         (kind == FeatureKind::vertex && !has_face[i]))
-      out.pieces.push_back(code);
+      out.primitives.push_back(code);
   }
 }
 
 }    // namespace
 
-WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_pieces)
+WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_primitives)
 {
   const std::size_t n_faces = mesh.faces.size(), n_edges = mesh.edges.size(),
                     n_vertices = mesh.vertices.size();
@@ -239,7 +239,7 @@ WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_piec
         out.vertex_out[c[k]] += angle * out.faces[f].normal;
       }
   }
-  if (with_pieces) add_pieces(mesh, out);
+  if (with_primitives) add_primitives(mesh, out);
   return out;
 }
 

@@ -22,9 +22,9 @@ struct WallFeatures {
   std::vector<FaceParts> face_parts;
   PeriodicImages images;
   std::vector<FeatureCode> contact_features;    // what a grid has to sort into cells
-  // The wall in pieces: every face stands for its edges and vertices as well; edges
+  // The wall in primitives: every face stands for its edges and vertices as well; edges
   // and vertices without a face stand for themselves.
-  std::vector<FeatureCode> pieces;
+  std::vector<FeatureCode> primitives;
 
   WallFeaturesView view() const
   {
@@ -49,7 +49,7 @@ struct WallFeatures {
 };
 
 // `with_sides` adds the pseudonormals that tell inside from outside, `with_pieces` the
-// pieces and the parts of faces.
-WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_pieces = false);
+// primitives and the parts of faces.
+WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_primitives = false);
 
 }    // namespace lsdcd

@@ -58,7 +58,7 @@ class PointGrid {
     lo_ = box.lo;
     const Real extent = std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z});
     // A little more than the tolerance, for the rounding of cell coordinates.
-    reach_ = 1.001 * tolerance;
+    cutoff_ = 1.001 * tolerance;
     // Several tolerances wide, so that a search seldom leaves its cell; and wide
     // enough for cell numbers to be exact integers.
     cell_ = std::max(8 * tolerance, std::ldexp(extent, -50));
@@ -82,8 +82,8 @@ class PointGrid {
   // The nearest point within the tolerance, the lowest of equals; kNone without one.
   int nearest(const Vec3 &x) const
   {
-    const Vec3 reach = {reach_, reach_, reach_};
-    const Cell lo = cell_of(x - reach), hi = cell_of(x + reach);
+    const Vec3 cutoff = {cutoff_, cutoff_, cutoff_};
+    const Cell lo = cell_of(x - cutoff), hi = cell_of(x + cutoff);
     int best = IndexTable::kNone;
     Real best_distance = tolerance_;
     for (std::int64_t i = lo.i; i <= hi.i; ++i)
@@ -119,7 +119,7 @@ class PointGrid {
 
   const std::vector<Vec3> &points_;
   Vec3 lo_;
-  Real reach_, cell_, tolerance_;
+  Real cutoff_, cell_, tolerance_;
   IndexTable table_;    // of cells_
   std::vector<Cell> cells_;
   std::vector<int> first_;    // point in each cell, and from it

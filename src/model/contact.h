@@ -14,7 +14,7 @@ struct Contact {
   T mass;                 // of the sphere, or of the rigid body it belongs to
   T v_normal;             // length/time, > 0 when it moves away from the wall
   Vec3Of<T> v_tangent;    // length/time, of the sphere's surface at the contact
-  Vec3Of<T> omega;        // 1/time, of the sphere; set only where the law has kCouple
+  Vec3Of<T> omega;        // 1/time, of the sphere; set only where the law has kContactTorque
   T wall_warmer;          // temperature, wall less sphere; set only where it has kHeat
   T dt;                   // time
   bool update;            // false: springs act but do not move (setup)
@@ -31,7 +31,7 @@ struct ContactForce {
 // any, further numbers: first vectors of the tangent plane, then scalars.
 template <class T, int kExtra>
 struct ContactMemory {
-  Vec3Of<T> stretch;
+  Vec3Of<T> shear;
   T extra[kExtra];
 
   LSDCD_FN Vec3Of<T> vec(int at) const { return {extra[at], extra[at + 1], extra[at + 2]}; }
@@ -42,7 +42,7 @@ struct ContactMemory {
 };
 template <class T>
 struct ContactMemory<T, 0> {
-  Vec3Of<T> stretch;
+  Vec3Of<T> shear;
 };
 
 }    // namespace lsdcd

@@ -25,9 +25,9 @@ Real restitution_damping(NormalModel normal, Real e)
   return -(normal == NormalModel::hooke ? 2 : std::sqrt(Real(5))) * l / std::sqrt(pi * pi + l * l);
 }
 
-Real reach_of(const ContactLaw &law, Real radius)
+Real cutoff_of(const ContactLaw &law, Real radius)
 {
-  return reach_of(radius, law.pull_off());
+  return cutoff_of(radius, law.pull_off());
 }
 
 }    // namespace lsdcd

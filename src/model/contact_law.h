@@ -115,6 +115,6 @@ Real tsuji_damping(Real e);
 Real restitution_damping(NormalModel normal, Real e);
 
 // How far from its centre a sphere can feel the wall.
-Real reach_of(const ContactLaw &law, Real radius);
+Real cutoff_of(const ContactLaw &law, Real radius);
 
 }    // namespace lsdcd

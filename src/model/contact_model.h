@@ -1,9 +1,9 @@
 // A contact law put together from sub-models at compile time. Every law has
 //   Number             the type that it computes in
 //   kHistory           does it keep a ContactMemory<Number, kExtra> per contact?
-//   kVectors, kScalars what of that is beside the stretch: vectors, then scalars
+//   kVectors, kScalars what of that is beside the shear displacement: vectors, then scalars
 //   kBeyond, pull_off  does it act past touch, and up to what distance at radius 1?
-//   kCouple, kHeat     does evaluate() also return a couple, a heat flow?
+//   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
 //   evaluate(contact, memory)
 // An effect that is not among the template arguments costs no instruction and no memory.
 #pragma once
@@ -26,7 +26,7 @@ struct ContactModel {
   using Number = T;
   static constexpr bool kHistory = Tangential<T>::kHistory;
   static constexpr int kVectors = 0, kScalars = 0, kExtra = 0;
-  static constexpr bool kBeyond = false, kCouple = false, kHeat = false;
+  static constexpr bool kBeyond = false, kContactTorque = false, kHeat = false;
 
   Normal<T> elastic;
   Damping<T> damping;
@@ -45,9 +45,9 @@ struct ContactModel {
     ContactForce<T> out;
     out.normal = elastic.force(c, scale) + damping.force(c, scale);
     if (limit_damping && out.normal < 0) out.normal = 0;
-    out.tangential = tangential.force(c, scale, out.normal, memory.stretch);
+    out.tangential = tangential.force(c, scale, out.normal, memory.shear);
     out.energy = elastic.energy(c, scale);
-    if constexpr (kHistory) out.energy += tangential.energy(scale, memory.stretch);
+    if constexpr (kHistory) out.energy += tangential.energy(scale, memory.shear);
     return out;
   }
 };
@@ -60,11 +60,11 @@ using HookeHistoryLaw = ContactModel<T, HookeNormal, MassVelocityDamping, Linear
 template <class T>
 using HertzHistoryLaw = ContactModel<T, HertzNormal, MassVelocityDamping, LinearHistory>;
 
-// Of laws with kCouple or kHeat.
+// Of laws with kContactTorque or kHeat.
 template <class T>
 struct FullForce : ContactForce<T> {
-  Vec3Of<T> couple;    // torque on the sphere that no force at the contact gives
-  T heat;              // power into the sphere
+  Vec3Of<T> contact_torque;    // torque on the sphere that no force at the contact gives
+  T heat;                      // power into the sphere
 };
 
 // A classic style with effects of LIGGGHTS beside it.
@@ -74,7 +74,7 @@ struct AddedModel {
   using T = Number;
   static constexpr int kVectors = Rolling::kVectors, kScalars = 0, kExtra = 3 * kVectors;
   static constexpr bool kHistory = Base::kHistory || kVectors > 0;
-  static constexpr bool kBeyond = false, kCouple = Rolling::kOn, kHeat = false;
+  static constexpr bool kBeyond = false, kContactTorque = Rolling::kOn, kHeat = false;
 
   Base base;
   Rolling rolling;
@@ -83,13 +83,13 @@ struct AddedModel {
 
   LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
   {
-    ContactMemory<T, 0> sliding = {memory.stretch};
+    ContactMemory<T, 0> sliding = {memory.shear};
     FullForce<T> out = {base.evaluate(c, sliding), {0, 0, 0}, 0};
-    memory.stretch = sliding.stretch;
+    memory.shear = sliding.shear;
     if constexpr (Rolling::kOn) {
       const T scale = base.scale(c);
-      out.couple =
-          rolling.couple(c, base.elastic.force(c, scale), out.normal, scale * k_tangent, memory, 0);
+      out.contact_torque = rolling.contact_torque(c, base.elastic.force(c, scale), out.normal,
+                                                  scale * k_tangent, memory, 0);
       out.energy += rolling.energy(c, scale * k_tangent, memory, 0);
     }
     if constexpr (Cohesion::kOn) {
@@ -110,7 +110,7 @@ struct GranularModel {
   static constexpr int kScalars = Tangential::kScalars + (Twisting::kOn ? 1 : 0);
   static constexpr int kExtra = 3 * kVectors + kScalars;
   static constexpr bool kBeyond = Normal::kBeyond;
-  static constexpr bool kCouple = Rolling::kOn || Twisting::kOn, kHeat = Heat::kOn;
+  static constexpr bool kContactTorque = Rolling::kOn || Twisting::kOn, kHeat = Heat::kOn;
 
   // Places in ContactMemory::extra.
   static constexpr int kRolled = 0, kRadius = 3 * kVectors, kTwist = kRadius + Tangential::kScalars;
@@ -142,15 +142,15 @@ struct GranularModel {
 
     out.tangential = tangential.force(c, a, gamma, tangential.mu * limit, memory, kRadius);
     out.energy += tangential.energy(a, memory);
-    out.couple = {0, 0, 0};
+    out.contact_torque = {0, 0, 0};
     if constexpr (Rolling::kOn) {
-      out.couple += rolling.couple(c, limit, memory, kRolled);
+      out.contact_torque += rolling.contact_torque(c, limit, memory, kRolled);
       out.energy += rolling.energy(memory, kRolled);
     }
     if constexpr (Twisting::kOn) {
       const TwistCoefficients<T> t = twisting.coefficients(limit, a, tangential.stiffness(a),
                                                            tangential.x * gamma, tangential.mu);
-      out.couple += twisting.couple(c, t, memory, kTwist) * c.normal;
+      out.contact_torque += twisting.contact_torque(c, t, memory, kTwist) * c.normal;
       out.energy += twisting.energy(t, memory, kTwist);
     }
     out.heat = 0;

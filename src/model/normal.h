@@ -14,7 +14,7 @@ namespace lsdcd {
 
 // How far from its centre a sphere feels the wall; `pull_off` is that of radius 1 and
 // greater than 0 only for adhesion that acts past touch.
-LSDCD_FN Real reach_of(Real radius, Real pull_off)
+LSDCD_FN Real cutoff_of(Real radius, Real pull_off)
 {
   return pull_off > 0 ? radius + pull_off * cube_root(radius) : radius;
 }

@@ -1,4 +1,4 @@
-// Rolling resistance: a couple against the turning of a sphere along the wall.
+// Rolling resistance: a contact torque against the turning of a sphere along the wall.
 #pragma once
 
 #include "model/contact.h"
@@ -22,7 +22,7 @@ struct SdsRolling {
 
   // `limit_force`: what the sliding limit is proportional to
   template <class Memory>
-  LSDCD_FN Vec3Of<T> couple(const Contact<T> &c, T limit_force, Memory &m, int at) const
+  LSDCD_FN Vec3Of<T> contact_torque(const Contact<T> &c, T limit_force, Memory &m, int at) const
   {
     const Vec3Of<T> v = c.radius * cross(c.omega, c.normal);
     Vec3Of<T> rolled = m.vec(at);
@@ -48,7 +48,7 @@ struct SdsRolling {
 };
 
 // ---- of LIGGGHTS, beside a classic style -------------------------------------------------
-// couple(c, elastic, normal, k_tangent, memory, at): the couple on the sphere, where the
+// contact_torque(c, elastic, normal, k_tangent, memory, at): the contact torque on the sphere, where the
 // contact bears the elastic force `elastic` and in all, damping included, `normal`, with
 // the tangential stiffness k_tangent (force/length).
 
@@ -69,7 +69,7 @@ struct CdtRolling {
   T mu;
 
   template <class Memory>
-  LSDCD_FN Vec3Of<T> couple(const Contact<T> &c, T elastic, T, T, Memory &, int) const
+  LSDCD_FN Vec3Of<T> contact_torque(const Contact<T> &c, T elastic, T, T, Memory &, int) const
   {
     const Vec3Of<T> rolls = rolling_part(c.omega, c.normal);
     const T rate = norm(rolls);
@@ -83,9 +83,9 @@ struct CdtRolling {
   }
 };
 
-// `epsd2`, elastic-plastic spring: a couple that grows by k_t R^2 per angle rolled, up to
+// `epsd2`, elastic-plastic spring: a contact torque that grows by k_t R^2 per angle rolled, up to
 // mu |F_n| R (Iwashita and Oda 1998; Ai et al. 2011, model C without its dashpot). The
-// couple is the vector `at` of the memory.
+// contact torque is the vector `at` of the memory.
 template <class T>
 struct Epsd2Rolling {
   static constexpr bool kOn = true;
@@ -93,7 +93,8 @@ struct Epsd2Rolling {
   T mu;
 
   template <class Memory>
-  LSDCD_FN Vec3Of<T> couple(const Contact<T> &c, T, T normal, T k_tangent, Memory &m, int at) const
+  LSDCD_FN Vec3Of<T> contact_torque(const Contact<T> &c, T, T normal, T k_tangent, Memory &m,
+                                    int at) const
   {
     Vec3Of<T> held = m.vec(at);
     if (c.update) {

@@ -32,30 +32,30 @@ struct LinearNoHistory {
 
 // A spring and a dashpot in the tangent plane; where they exceed mu |F_normal|
 // the spring is cut back to what the limit allows (`*/history`; Silbert et al.
-// 2001). `stretch` is moved with the contact where c.update is set.
+// 2001). `shear displacement` is moved with the contact where c.update is set.
 template <class T>
 struct LinearHistory {
   static constexpr bool kHistory = true;
   T k, gamma, mu;
 
-  LSDCD_FN Vec3Of<T> force(const Contact<T> &c, T scale, T f_normal, Vec3Of<T> &stretch) const
+  LSDCD_FN Vec3Of<T> force(const Contact<T> &c, T scale, T f_normal, Vec3Of<T> &shear) const
   {
-    if (c.update) stretch += c.dt * c.v_tangent;
-    const T stretched = norm(stretch);
-    if (c.update) stretch -= dot(stretch, c.normal) * c.normal;
+    if (c.update) shear += c.dt * c.v_tangent;
+    const T stretched = norm(shear);
+    if (c.update) shear -= dot(shear, c.normal) * c.normal;
 
     const Vec3Of<T> viscous = (c.mass * gamma) * c.v_tangent;
-    const Vec3Of<T> f = -scale * (k * stretch + viscous);
+    const Vec3Of<T> f = -scale * (k * shear + viscous);
     const T size = norm(f), limit = mu * fabs(f_normal);
     if (!(size > limit)) return f;
     if (!(stretched > 0)) return {0, 0, 0};
     const T part = limit / size;
-    if (c.update && k > 0) stretch = part * (stretch + (1 / k) * viscous) - (1 / k) * viscous;
+    if (c.update && k > 0) shear = part * (shear + (1 / k) * viscous) - (1 / k) * viscous;
     return part * f;
   }
-  LSDCD_FN T energy(T scale, const Vec3Of<T> &stretch) const
+  LSDCD_FN T energy(T scale, const Vec3Of<T> &shear) const
   {
-    return T(0.5) * scale * k * norm_sq(stretch);
+    return T(0.5) * scale * k * norm_sq(shear);
   }
 };
 
@@ -84,7 +84,7 @@ struct SlipFriction {
 };
 
 // `linear_history`, and `mindlin` where `sized`: the stiffness goes with the contact
-// radius. `stretch` is the displacement, or the spring's force where `of_force`. With
+// radius. `shear displacement` is the displacement, or the spring's force where `of_force`. With
 // kRescale it shrinks with the contact as that unloads (Thornton et al. 2013), which
 // takes the radius of the step before: the scalar `at` of the memory.
 template <class T, bool kRescale>
@@ -101,27 +101,27 @@ struct SpringFriction {
   {
     const T stiff = stiffness(a);
     if constexpr (kRescale) {
-      if (a < m.extra[at]) m.stretch = (a / m.extra[at]) * m.stretch;
+      if (a < m.extra[at]) m.shear = (a / m.extra[at]) * m.shear;
       m.extra[at] = a;
     }
-    if (c.update) m.stretch += (of_force ? -stiff * c.dt : c.dt) * c.v_tangent;
+    if (c.update) m.shear += (of_force ? -stiff * c.dt : c.dt) * c.v_tangent;
 
     const Vec3Of<T> viscous = (-x * damping) * c.v_tangent;
-    const Vec3Of<T> f = (of_force ? m.stretch : -stiff * m.stretch) + viscous;
+    const Vec3Of<T> f = (of_force ? m.shear : -stiff * m.shear) + viscous;
     const T size = norm(f);
     if (!(size > limit)) return f;
-    if (!(norm_sq(m.stretch) > 0)) return {0, 0, 0};
+    if (!(norm_sq(m.shear) > 0)) return {0, 0, 0};
     const Vec3Of<T> cut = (limit / size) * f;
     if (of_force)
-      m.stretch = cut - viscous;
+      m.shear = cut - viscous;
     else if (stiff > 0)
-      m.stretch = (-1 / stiff) * (cut - viscous);
+      m.shear = (-1 / stiff) * (cut - viscous);
     return cut;
   }
   template <class Memory>
   LSDCD_FN T energy(T a, const Memory &m) const
   {
-    const T stiff = stiffness(a), sq = norm_sq(m.stretch);
+    const T stiff = stiffness(a), sq = norm_sq(m.shear);
     return of_force ? (stiff > 0 ? T(0.5) * sq / stiff : T(0)) : T(0.5) * stiff * sq;
   }
 };

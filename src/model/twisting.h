@@ -1,4 +1,4 @@
-// Twisting resistance: a couple against the turning of a sphere on the spot.
+// Twisting resistance: a contact torque against the turning of a sphere on the spot.
 #pragma once
 
 #include "model/contact.h"
@@ -33,20 +33,21 @@ struct SpringTwisting {
     return {half_sq * k_tangent, half_sq * gamma_tangent, T(2) / 3 * a * mu_tangent * limit_force};
   }
 
-  // The couple about the normal.
+  // The contact torque about the normal.
   template <class Memory>
-  LSDCD_FN T couple(const Contact<T> &c, const TwistCoefficients<T> &t, Memory &m, int at) const
+  LSDCD_FN T contact_torque(const Contact<T> &c, const TwistCoefficients<T> &t, Memory &m,
+                            int at) const
   {
     const T rate = dot(c.omega, c.normal);
     T angle = m.extra[at];
     if (c.update) angle += c.dt * rate;
-    T couple = -t.k * angle - t.gamma * rate;
-    if (fabs(couple) > t.limit) {
-      couple = rate > 0 ? -t.limit : (rate < 0 ? t.limit : T(0));
-      if (t.k > 0) angle = (-couple - t.gamma * rate) / t.k;
+    T contact_torque = -t.k * angle - t.gamma * rate;
+    if (fabs(contact_torque) > t.limit) {
+      contact_torque = rate > 0 ? -t.limit : (rate < 0 ? t.limit : T(0));
+      if (t.k > 0) angle = (-contact_torque - t.gamma * rate) / t.k;
     }
     m.extra[at] = angle;
-    return couple;
+    return contact_torque;
   }
   template <class Memory>
   LSDCD_FN T energy(const TwistCoefficients<T> &t, const Memory &m, int at) const

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "parallel/atomic.h"
-#include "base/rows.h"
+#include "base/strided_view.h"
 #include "parallel/threads.h"
 #include "parallel/owned_array.h"
 
@@ -97,11 +97,11 @@ struct CpuBackend {
 
   // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
   // `total` becomes how many. check() is told of each i, with what read() has read of it;
-  // may_keep() is asked with that, its row of places() and the brick table, keep() by that row
+  // may_keep() is asked with that, its row of slots() and the brick table, keep() by that row
   // of those that it leaves, and where it notes(), note() is told.
-  struct SelectRoom {};
+  struct SelectScratch {};
   template <class Work>
-  void select(std::size_t n, const Work &work, SelectRoom &, int *to, std::uint32_t *total)
+  void select(std::size_t n, const Work &work, SelectScratch &, int *to, std::uint32_t *total)
   {
     // Blocks of one size whatever the number of threads, so that order is fixed.
     constexpr std::int64_t kBlock = 4096;
@@ -114,10 +114,10 @@ struct CpuBackend {
       int count = 0;
       for (std::int64_t k = lo; k < hi; k++) {
         const std::size_t i = static_cast<std::size_t>(k);
-        const Vec3 place = work.places()[i];
+        const Vec3 slot = work.places()[i];
         const auto item = work.read(i);
         work.check(i, item);
-        const bool kept = work.may_keep(item, place, work.table) && work.keep(place, work.table);
+        const bool kept = work.may_keep(item, slot, work.table) && work.keep(slot, work.table);
         if (work.notes()) work.note(i, kept);
         if (kept) to[lo + count++] = static_cast<int>(i);
       }

@@ -215,17 +215,17 @@ struct CudaBackend {
   // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
   // `total`, where the kernels run, becomes how many. check() is told of each i that
   // may_be_large(), by what read() has read of it; may_keep() is asked with that, its row of
-  // places() and the brick table, keep() by that row of those that it leaves, and where it
+  // slots() and the brick table, keep() by that row of those that it leaves, and where it
   // notes(), note() is told. Does not wait. The room is kept for the next time, until when it
   // must not be freed.
-  struct SelectRoom {
+  struct SelectScratch {
     Array<unsigned> words;
     Array<std::uint32_t> in_tile;
     Array<char> scan;
     CudaLimits limits;
   };
   template <class Work>
-  void select(std::size_t n, const Work &work, SelectRoom &room, int *to, std::uint32_t *total)
+  void select(std::size_t n, const Work &work, SelectScratch &room, int *to, std::uint32_t *total)
   {
     const unsigned n_tiles = static_cast<unsigned>((n + kMarkTile - 1) / kMarkTile);
     std::size_t bytes = 0;

@@ -44,13 +44,13 @@ class BrickTableNear {
     __syncthreads();
   }
 
-  __device__ bool at(std::uint32_t place) const
+  __device__ bool at(std::uint32_t slot) const
   {
-    return bits_[place / 32] >> place % 32 & 1u;
+    return bits_[slot / 32] >> slot % 32 & 1u;
   }
-  __device__ BrickWord word(std::uint32_t place) const
+  __device__ BrickWord word(std::uint32_t slot) const
   {
-    return {bits_[place / 32], below_[place / 32]};
+    return {bits_[slot / 32], below_[slot / 32]};
   }
 
  private:

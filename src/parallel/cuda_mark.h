@@ -1,7 +1,7 @@
 // Choosing among many spheres on an NVIDIA GPU: bits of those to keep, and from them a list.
 #pragma once
 
-#include "base/rows.h"
+#include "base/strided_view.h"
 #include "parallel/cuda_bricks.h"
 #include "parallel/cuda_limits.h"
 #include "parallel/cuda_warp.h"
@@ -20,18 +20,18 @@ constexpr unsigned kMarkTile = 128, kMarkWords = kMarkTile / 32;    // items of 
 // Warps of a block at most, and blocks at once on a processor: 48 registers a thread.
 constexpr unsigned kMarkWarps = 20, kMarkBlocks = 2, kMarkBlock = 32 * kMarkWarps;
 
-// A warp's tile: rows of the items' places, those to look at more closely, and bits of those
+// A warp's tile: rows of the items' slots, those to look at more closely, and bits of those
 // that are kept.
 struct alignas(16) MarkTile {
-  double place[kMarkTile][3];
+  double slot[kMarkTile][3];
   unsigned kept[kMarkWords];
   std::uint8_t waiting[kMarkTile];
 };
 
 // Asks for n rows from `first` on for a warp, to be there after __pipeline_wait_prior(0) and a
-// barrier. Packed ones come in pieces of 16 bytes, whosever they are.
-__device__ inline void bring_rows(const Rows<const double> &rows, std::size_t first, unsigned n,
-                                  double (*to)[3])
+// barrier. Packed ones come in parts of 16 bytes, whosever they are.
+__device__ inline void bring_rows(const StridedView<const double> &rows, std::size_t first,
+                                  unsigned n, double (*to)[3])
 {
   const unsigned lane = threadIdx.x % 32;
   if (n == kMarkTile && rows.row == 3 && rows.column == 1 &&
@@ -73,8 +73,8 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
       return work.table;
   }();
   __syncthreads();
-  const auto place_of = [&](unsigned i) {
-    return Vec3{mine.place[i][0], mine.place[i][1], mine.place[i][2]};
+  const auto cell_slot_of = [&](unsigned i) {
+    return Vec3{mine.slot[i][0], mine.slot[i][1], mine.slot[i][2]};
   };
 
   // A block has every gridDim.x-th tile, and its warps take them as they come.
@@ -82,7 +82,7 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
     const unsigned tile = turn * gridDim.x + blockIdx.x, first = tile * kMarkTile;
     if (first >= n) return;
     const unsigned last = min(n - first, kMarkTile) - 1;
-    bring_rows(work.places(), first, last + 1, mine.place);
+    bring_rows(work.places(), first, last + 1, mine.slot);
     typename Work::Item item[kEach];
     bool odd = false;
 #pragma unroll
@@ -100,7 +100,7 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
 #pragma unroll
     for (unsigned k = 0; k < kEach; k++) {
       const unsigned i = lane + k * 32;
-      const bool may = work.may_keep(item[k], place_of(min(i, last)), table) & (i <= last);
+      const bool may = work.may_keep(item[k], cell_slot_of(min(i, last)), table) & (i <= last);
       const unsigned votes = __ballot_sync(kAllLanes, may);
       if (may) mine.waiting[waiting + votes_below(votes)] = static_cast<std::uint8_t>(i);
       waiting += __popc(votes);
@@ -109,7 +109,7 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
 #pragma unroll 1    // nearly always one turn
     for (unsigned w = lane; w < waiting; w += 32) {
       const unsigned i = mine.waiting[w];
-      if (work.keep(place_of(i), table)) atomicOr(&mine.kept[i / 32], 1u << (i % 32));
+      if (work.keep(cell_slot_of(i), table)) atomicOr(&mine.kept[i / 32], 1u << (i % 32));
     }
     __syncwarp();
     if (work.notes())

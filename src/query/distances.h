@@ -1,4 +1,4 @@
-// What a query takes a distance from: a piece of the wall in nearest lists, a feature in
+// What a query takes a distance from: a primitive of the wall in nearest lists, a feature in
 // complete ones. Each returns kAnyDistance where it has nothing nearer than `within`.
 #pragma once
 
@@ -19,15 +19,15 @@ class WallDistances {
   // The paper's test can put a triangle nearer than the bound in its list.
   static constexpr bool kBounded = kInside == InsideTest::exact;
 
-  LSDCD_FN Real piece(FeatureCode code, Real) const
+  LSDCD_FN Real primitive(FeatureCode code, Real) const
   {
-    return kInside == InsideTest::exact ? piece_distance(grid_.wall, code, q_)
+    return kInside == InsideTest::exact ? primitive_distance(grid_.wall, code, q_)
                                         : formula_five_distance(grid_.wall, code, q_);
   }
   LSDCD_FN Real feature(FeatureCode code, Real within) const
   {
-    const Foot foot = foot_on(grid_.wall, code, q_, grid_.slack, within);
-    return foot.found ? foot.distance : kAnyDistance;
+    const ClosestPoint closest = closest_point_on(grid_.wall, code, q_, grid_.tolerance, within);
+    return closest.found ? closest.distance : kAnyDistance;
   }
 
  private:
@@ -35,7 +35,7 @@ class WallDistances {
   const Vec3 &q_;
 };
 
-// Copies in float in the frame of a brick. A piece is where the wall has a local minimum
+// Copies in float in the frame of a brick. A primitive is where the wall has a local minimum
 // of distance on it: past a side that it shares, the answer is its neighbour's to give.
 class BrickDistances {
  public:
@@ -46,7 +46,7 @@ class BrickDistances {
 
   static constexpr bool kBounded = true;
 
-  LSDCD_FN Real piece(FeatureCode code, Real within) const
+  LSDCD_FN Real primitive(FeatureCode code, Real within) const
   {
     if (feature_kind(code) != FeatureKind::face) return feature(code, within);
     const Over over = geometry_.over(code, within);
@@ -59,8 +59,8 @@ class BrickDistances {
   }
   LSDCD_FN Real feature(FeatureCode code, Real within) const
   {
-    const Foot foot = geometry_.foot(code, within);
-    return foot.found ? foot.distance : kAnyDistance;
+    const ClosestPoint closest = geometry_.closest_point(code, within);
+    return closest.found ? closest.distance : kAnyDistance;
   }
 
  private:

@@ -53,7 +53,7 @@ struct AnswerArrays {
   }
 
  private:
-  // Aligned so that a GPU stores them in one piece, or two of 16 bytes.
+  // Aligned so that a GPU stores them in one part, or two of 16 bytes.
   template <class T>
   struct alignas(sizeof(T) < 4 ? 4 : 16) Four {
     T v[4];
@@ -66,13 +66,13 @@ struct AnswerArrays {
 };
 
 // The first sphere with a radius that the grid's lists were not built for, or that is no number.
-// Radii are compared in the spheres' digits: in float, the reach is one of them, rounded.
+// Radii are compared in the spheres' digits: in float, the cutoff is one of them, rounded.
 template <class S>
 struct TooLarge {
-  decltype(S::r) reach;
+  decltype(S::r) cutoff;
   std::uint64_t *first;    // ~ of its index, the largest of all; 0: none
 
-  LSDCD_FN bool is(const S &s) const { return !(s.r <= reach); }
+  LSDCD_FN bool is(const S &s) const { return !(s.r <= cutoff); }
   LSDCD_FN void note(std::size_t i, const S &s) const
   {
     if (is(s)) raise_to(first, ~static_cast<std::uint64_t>(i));

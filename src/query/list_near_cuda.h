@@ -31,7 +31,7 @@ template <class S>
 constexpr unsigned kNearTile = kNearBlock *kNearEach<S>;
 
 // Spheres are in as many lists as a warp has lanes: a list has every so many-th block's, and they
-// count in as many places. A list grows from its front by those whose cell has one candidate, and
+// count in as many slots. A list grows from its front by those whose cell has one candidate, and
 // from its back by those with several.
 constexpr unsigned kNearLists = 32;
 struct NearCounts {
@@ -71,8 +71,8 @@ __global__ void __launch_bounds__(kNearBlock, kNearBlocks)
     const unsigned i = threadIdx.x + k * kNearBlock;
     const uint4 *from = reinterpret_cast<const uint4 *>(work.spheres + tile + min(i, n_tile - 1));
 #pragma unroll
-    for (unsigned piece = 0; piece < sizeof(S) / sizeof(uint4); piece++)
-      __pipeline_memcpy_async(reinterpret_cast<uint4 *>(sphere + i) + piece, from + piece,
+    for (unsigned primitive = 0; primitive < sizeof(S) / sizeof(uint4); primitive++)
+      __pipeline_memcpy_async(reinterpret_cast<uint4 *>(sphere + i) + primitive, from + primitive,
                               sizeof(uint4));
   }
   __pipeline_commit();
@@ -91,10 +91,10 @@ __global__ void __launch_bounds__(kNearBlock, kNearBlocks)
     const BrickGuess guess = work.guess(sphere[threadIdx.x + k * kNearBlock]);
     word[k] = guess.unsure ? ~0u : 0;
     if (guess.inside & !guess.unsure &&
-        CoarseTable::at(coarse, work.filter.place(work.coarse, guess))) {
-      const std::uint32_t place = work.filter.place(work.grid, guess);
-      bit |= place % 32 << 5 * k;
-      word[k] = work.table.words[place / 32].bits;
+        CoarseTable::at(coarse, work.filter.slot(work.coarse, guess))) {
+      const std::uint32_t slot = work.filter.slot(work.grid, guess);
+      bit |= slot % 32 << 5 * k;
+      word[k] = work.table.words[slot / 32].bits;
     }
   }
   unsigned votes[kEach], all = 0;

@@ -21,7 +21,7 @@ LSDCD_FN Answer far_answer()
 
 // Entries of a cell's list, the nearest first, as long as they can change the answer.
 // `limit`: entries that are tried; one more is only a bound.
-template <bool kPieces, class Distances>
+template <bool kPrimitives, class Distances>
 LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists, const Vec3 &q,
                                 Real radius, std::uint32_t limit, const CellAddress &at,
                                 const Cell &cell)
@@ -32,7 +32,7 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists
   bool found = false;
   const auto attempt = [&](FeatureCode code) {
     const Real distance =
-        kPieces ? distances.piece(code, nearest) : distances.feature(code, nearest);
+        kPrimitives ? distances.primitive(code, nearest) : distances.feature(code, nearest);
     // A sphere touches what is nearer than its radius.
     if (!(distance < nearest)) return;
     nearest = distance;
@@ -118,9 +118,9 @@ LSDCD_FN Cell cell_of(const CellListsView &lists, const CellAddress &at)
 
 constexpr std::uint32_t kWholeList = 0xffffffffu;
 
-// The nearest point of the wall within `radius` (length, at most grid.reach) of q, which lies
+// The nearest point of the wall within `radius` (length, at most grid.cutoff) of q, which lies
 // at `at`, in the cell `cell` of grid.lists. kComplete: grid.nearest is 0. Certified answers are
-// exact, but for the rounding of Distances and with the paper's test. Lists of nearest pieces
+// exact, but for the rounding of Distances and with the paper's test. Lists of nearest primitives
 // fall back to complete ones where the grid has them.
 template <bool kComplete, class Distances>
 LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
@@ -160,7 +160,7 @@ LSDCD_FN Answer nearest_of_all(const GridView &grid, std::uint32_t n_faces, cons
   Real nearest = radius;
   bool found = false;
   for (std::uint32_t face = 0; face < n_faces; face++) {
-    const Real distance = distances.piece(feature_code(FeatureKind::face, face), nearest);
+    const Real distance = distances.primitive(feature_code(FeatureKind::face, face), nearest);
     if (!(distance < nearest)) continue;
     nearest = distance;
     found = true;

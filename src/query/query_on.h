@@ -161,7 +161,7 @@ class QueryOn : public SphereQuery {
   void run_grid(const S *spheres)
   {
     using Filter = typename Work::Filter;
-    const TooLarge<S> too_large = {static_cast<decltype(S::r)>(grid_.reach), too_large_.data()};
+    const TooLarge<S> too_large = {static_cast<decltype(S::r)>(grid_.cutoff), too_large_.data()};
     way_.run(b_, n_, Work{grid_, table_, spheres, answers(), Filter(grid_), coarse_, too_large, 0});
   }
 
@@ -176,7 +176,7 @@ class QueryOn : public SphereQuery {
         text, sizeof text,
         "sphere %zu has radius %.9g, more than the grid's reach %.9g: build the grid with "
         "a reach of the largest radius, or try every face",
-        i, static_cast<double>(b_.to_host(spheres, i + 1)[i].r), grid_.reach);
+        i, static_cast<double>(b_.to_host(spheres, i + 1)[i].r), grid_.cutoff);
     throw InputError(text);
   }
 

@@ -5,7 +5,7 @@
 
 namespace lsdcd {
 
-// Centre and radius; lengths. Aligned, so that a GPU reads one in one piece or two.
+// Centre and radius; lengths. Aligned, so that a GPU reads one in one part or two.
 template <class T>
 struct alignas(16) SphereOf {
   T x, y, z, r;

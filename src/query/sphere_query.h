@@ -42,8 +42,8 @@ class SphereQuery {
   virtual void set_spheres(const Sphere *spheres, std::size_t n) = 0;
   virtual void set_spheres(const FloatSphere *spheres, std::size_t n) = 0;
 
-  // Throws InputError where a radius is more than the grid's reach, unless every face is
-  // tried; and where the settings do not fit the grid: the paper's test needs lists of pieces
+  // Throws InputError where a radius is more than the grid's cutoff, unless every face is
+  // tried; and where the settings do not fit the grid: the paper's test needs lists of primitives
   // in double, or every face.
   virtual void run(const QuerySettings &settings) = 0;
   // The same, once to warm up and then `repeats` times.

@@ -1,7 +1,7 @@
 // The paper's distance from a point to a triangle, kept for its study.
 #pragma once
 
-#include "geometry/piece_distance.h"
+#include "geometry/primitive_distance.h"
 
 namespace lsdcd {
 
@@ -21,11 +21,12 @@ LSDCD_FN bool formula_five_inside(const Vec3 &a, const Vec3 &b, const Vec3 &c, c
 }
 
 // The plane's distance where formula (5) says inside, elsewhere the nearest side's.
-LSDCD_FN Real formula_five_distance(const WallFeaturesView &wall, FeatureCode piece, const Vec3 &q)
+LSDCD_FN Real formula_five_distance(const WallFeaturesView &wall, FeatureCode primitive,
+                                    const Vec3 &q)
 {
-  if (feature_kind(piece) != FeatureKind::face) return piece_distance(wall, piece, q);
-  const FaceRecord &face = wall.faces[feature_index(piece)];
-  const FaceVertices &corner = wall.face_vertex[feature_index(piece)];
+  if (feature_kind(primitive) != FeatureKind::face) return primitive_distance(wall, primitive, q);
+  const FaceRecord &face = wall.faces[feature_index(primitive)];
+  const FaceVertices &corner = wall.face_vertex[feature_index(primitive)];
   const Vec3 a = wall.vertices[corner.v[0]].position, b = wall.vertices[corner.v[1]].position,
              c = wall.vertices[corner.v[2]].position;
   if (formula_five_inside(a, b, c, q)) return fabs(dot(face.normal, q - face.anchor));

@@ -81,7 +81,7 @@ void AccuracyStudy::set_grid(const StudyLists &lists)
     return;
   GridSettings grid;
   grid.length = lists.length;
-  grid.reach = box_.largest;
+  grid.cutoff = box_.largest;
   grid.nearest = lists.nearest;
   grid.exact = lists.exact;
   grid.memory_budget = settings_.memory_budget;

@@ -1,7 +1,7 @@
 #include "study/one_triangle.h"
 
 #include "geometry/closest_point.h"
-#include "geometry/piece_distance.h"
+#include "geometry/primitive_distance.h"
 #include "grid/lookup/locate.h"
 #include "parallel/backend_cpu.h"
 
@@ -11,7 +11,7 @@ namespace lsdcd {
 
 namespace {
 
-// The nearest piece of the cell that holds p; kNoFeature in cells away from the wall.
+// The nearest primitive of the cell that holds p; kNoFeature in cells away from the wall.
 FeatureCode listed_at(const GridView &grid, const Vec3 &p)
 {
   const CellAddress at = locate(grid, grid.lists, p);
@@ -33,8 +33,8 @@ std::vector<Guess> guess_one_triangle(AccuracyStudy &study, Real length)
   const Vec3 middle = 0.5 * (study.mesh().report.lo + study.mesh().report.hi);
   const std::vector<Sphere> &spheres = study.spheres();
 
-  const auto to_piece = [&](FeatureCode piece, const Vec3 &q) {
-    return piece == kNoFeature ? kAnyDistance : piece_distance(grid.wall, piece, q);
+  const auto to_primitive = [&](FeatureCode primitive, const Vec3 &q) {
+    return primitive == kNoFeature ? kAnyDistance : primitive_distance(grid.wall, primitive, q);
   };
   const auto to_plane = [&](std::uint32_t face, const Vec3 &q) {
     return std::fabs(dot(grid.wall.faces[face].normal, q - grid.wall.faces[face].anchor));
@@ -57,18 +57,18 @@ std::vector<Guess> guess_one_triangle(AccuracyStudy &study, Real length)
   };
   guess("no contact is ever found", [&](std::size_t, const Vec3 &) { return kAnyDistance; });
   guess("the list of the next cell in x, y and z", [&](std::size_t, const Vec3 &q) {
-    return to_piece(listed_at(grid, q + Vec3{length, length, length}), q);
+    return to_primitive(listed_at(grid, q + Vec3{length, length, length}), q);
   });
   guess("x and z exchanged in the cell's number", [&](std::size_t, const Vec3 &q) {
     const Vec3 d = q - middle;
-    return to_piece(listed_at(grid, middle + Vec3{d.z, d.y, d.x}), q);
+    return to_primitive(listed_at(grid, middle + Vec3{d.z, d.y, d.x}), q);
   });
   guess("the first triangle for every cell",
-        [&](std::size_t, const Vec3 &q) { return to_piece(0, q); });
+        [&](std::size_t, const Vec3 &q) { return to_primitive(0, q); });
   guess("the last triangle for every cell",
-        [&](std::size_t, const Vec3 &q) { return to_piece(n_faces - 1, q); });
+        [&](std::size_t, const Vec3 &q) { return to_primitive(n_faces - 1, q); });
   guess("a triangle at random",
-        [&](std::size_t i, const Vec3 &q) { return to_piece(any_face(i), q); });
+        [&](std::size_t i, const Vec3 &q) { return to_primitive(any_face(i), q); });
   guess("the plane of a triangle at random",
         [&](std::size_t i, const Vec3 &q) { return to_plane(any_face(i), q); });
   guess("the plane of the first triangle",

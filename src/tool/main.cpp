@@ -65,7 +65,7 @@ nlohmann::json as_json(const GridReport &r)
 {
   nlohmann::json j = as_json(r.lists);
   j.update({{"length", r.length},
-            {"reach", r.reach},
+            {"reach", r.cutoff},
             {"bytes", r.bytes},
             {"seconds", r.seconds},
             {"device", r.device}});
@@ -86,7 +86,7 @@ void grid(const Options &o)
   const WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
   GridSettings settings;
   settings.length = o.length;
-  settings.reach = o.radius;
+  settings.cutoff = o.radius;
   settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
   const TriangleGrid g = build_grid(mesh, settings);
   if (o.json)

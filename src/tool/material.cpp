@@ -46,12 +46,12 @@ void run(const Options &o)
   if (!o.wall.empty()) words.insert(words.end(), {"on", o.wall});
   if (!o.with.empty()) words.push_back("with");
   words.insert(words.end(), o.with.begin(), o.with.end());
-  const FilledWords filled = fill_material(words, o.units);
+  const FilledTokens filled = fill_material(words, o.units);
   std::printf("%s\n", filled.report.c_str());
-  print(" ", filled.words);
+  print(" ", filled.tokens);
   if (!o.wall.empty()) return;
-  const std::vector<std::string> old = words_of_29sep2021(filled.words),
-                                 recent(filled.words.begin() + 1, filled.words.end());
+  const std::vector<std::string> old = words_of_29sep2021(filled.tokens),
+                                 recent(filled.tokens.begin() + 1, filled.tokens.end());
   std::printf("grains on one another, with pair_style granular of LAMMPS 29Sep2021 and later:\n");
   print("  pair_coeff * *", old);
   if (old == recent) return;

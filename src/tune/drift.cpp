@@ -163,7 +163,7 @@ DriftStarts drift_starts(const WallMesh &mesh, const GridView &grid, Real radius
   DriftStarts starts;
   starts.radius = radius;
   GridSettings settings;
-  settings.reach = kThrough * radius;
+  settings.cutoff = kThrough * radius;
   starts.wall = build_grid(mesh, settings);
   std::vector<Real> area_up_to;    // of the faces so far
   Real area = 0;

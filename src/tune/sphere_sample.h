@@ -31,9 +31,9 @@ inline Real uniform_below_one(Random &random)
 }
 
 // Adds up to n spheres with centres uniform in the cells that have candidates: the band
-// within reach of the wall, and half a cell more. Each radius is one of `radii`, all as
+// within the cutoff of the wall, and half a cell more. Each radius is one of `radii`, all as
 // likely. Only centres that `allowed` takes; gives up where it takes next to none. No
-// sphere overlaps the wall by more than half its radius: there a foot that enters a face
+// sphere overlaps the wall by more than half its radius: there a closest point that enters a face
 // over a concave edge takes force at once, and the least rounding is a jump. The lists of
 // the grid must be complete.
 void add_band_spheres(const TriangleGrid &grid, int n, const std::vector<Real> &radii,

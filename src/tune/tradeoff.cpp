@@ -41,7 +41,7 @@ class Measuring {
       mesh_(mesh),
       settings_(settings), progress_(progress)
   {
-    grid_settings_.reach = *std::max_element(settings.radii.begin(), settings.radii.end());
+    grid_settings_.cutoff = *std::max_element(settings.radii.begin(), settings.radii.end());
     grid_settings_.memory_budget = std::size_t(1) << 40;    // rows over the budget are left out
     plan_settings_ = grid_settings_;
     plan_settings_.memory_budget = settings.memory_budget;
@@ -90,8 +90,8 @@ class Measuring {
     const TriangleGrid &grid = trial.make(0, false, false);
     const auto anywhere = [](const Vec3 &) { return true; };
     add_band_spheres(grid, settings_.spheres, settings_.radii, random, anywhere, sample_);
-    sort_by_bins(sample_, 2 * grid_settings_.reach);
-    starts_ = drift_starts(mesh_, grid.view(), grid_settings_.reach, settings_.moving, random);
+    sort_by_bins(sample_, 2 * grid_settings_.cutoff);
+    starts_ = drift_starts(mesh_, grid.view(), grid_settings_.cutoff, settings_.moving, random);
     for (Corner corner : {Corner::blend, Corner::sum}) {
       engine_.corner = corner;
       engine_.precision = Precision::double_;

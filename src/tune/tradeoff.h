@@ -13,7 +13,7 @@
 namespace lsdcd {
 
 struct TradeoffSettings {
-  std::vector<Real> radii;    // each as likely; the grid's reach is the largest
+  std::vector<Real> radii;    // each as likely; the grid's cutoff is the largest
   std::size_t memory_budget = std::size_t(1) << 30;    // bytes of a grid
   int spheres = 20000;     // asked for errors and timed, more of them on a GPU
   int moving = 32;         // bouncing, and rolling
@@ -45,7 +45,7 @@ struct Tradeoff {
 
 // Cells of half to four times the default length, all kinds of list, three precisions, both
 // corner rules, each device: spheres in the order in which LAMMPS sorts them, uniform in the
-// band within reach. Hooke with springs at rest for errors and times. The default comes
+// band within the cutoff. Hooke with springs at rest for errors and times. The default comes
 // first. Errors and drifts are computed once, on the CPU: those of a GPU are the same bits.
 Tradeoff measure_tradeoff(const WallMesh &mesh, const TradeoffSettings &settings,
                           const std::function<void(const TradeoffRow &)> &progress);

@@ -46,8 +46,8 @@ const TriangleGrid &TrialGrid::make(int nearest, bool exact, bool in_floats)
   made_.wall = std::move(wall);
   made_.origin = base_.origin;
   made_.length = base_.length;
-  made_.reach = base_.reach;
-  made_.slack = base_.slack;
+  made_.cutoff = base_.cutoff;
+  made_.tolerance = base_.tolerance;
   made_.outside = base_.outside;
   for (int k = 0; k < 3; k++) made_.n_bricks[k] = base_.n_bricks[k];
   made_.nearest = nearest;

@@ -47,7 +47,7 @@ class TrialGrid {
   // The same as a flat block: what a CUDA engine takes.
   GridView flat();
 
-  // Without its wall: the longest lists of nearest pieces and, in `complete`, the complete ones.
+  // Without its wall: the longest lists of nearest primitives and, in `complete`, the complete ones.
   const TriangleGrid &base() const { return base_; }
 
  private:

@@ -40,14 +40,14 @@ struct TriedParts {
 
   TriedParts(const WallMesh &mesh, const GridSettings &grid, Real finest, const SphereSample &scene,
              Random &random) :
-      parts(mesh, grid.reach, std::max(2 * grid.reach, kBrickSide * finest), grid.within),
+      parts(mesh, grid.cutoff, std::max(2 * grid.cutoff, kBrickSide * finest), grid.within),
       blind(parts.n(), 0), tried(parts.n(), 0)
   {
-    // A sheet of wall through a cube, and the pieces of wall within reach of a cell.
-    const Real reach = grid.reach;
-    const double across = parts.side() / finest, high = 2 * reach / finest + 2;
-    const double pieces = mesh.faces.size() / mesh.report.area * M_PI * reach * reach;
-    const double cells = kCells / (1 + pieces / 10);
+    // A sheet of wall through a cube, and the primitives of wall within the cutoff of a cell.
+    const Real cutoff = grid.cutoff;
+    const double across = parts.side() / finest, high = 2 * cutoff / finest + 2;
+    const double primitives = mesh.faces.size() / mesh.report.area * M_PI * cutoff * cutoff;
+    const double cells = kCells / (1 + primitives / 10);
     const int wanted = static_cast<int>(std::clamp(cells / (across * across * high), 12., 1e6));
     const std::vector<int> order = shuffled(parts.n(), random);
     for (int i = 0; i < std::min(wanted, parts.n()); i++) blind[order[i]] = tried[order[i]] = 1;
@@ -189,7 +189,7 @@ int choose(std::vector<TuneRow> &rows, Real bound, std::size_t memory_budget)
 TuneReport tune(const WallMesh &mesh, const TuneSettings &settings)
 {
   const auto start = std::chrono::steady_clock::now();
-  const Real reach = settings.grid.reach;
+  const Real cutoff = settings.grid.cutoff;
   EngineSettings engine_settings = settings.engine;
   std::string why;
   const bool on_cuda = settings.engine.device != Device::cpu && cuda_available(&why);
@@ -212,8 +212,8 @@ TuneReport tune(const WallMesh &mesh, const TuneSettings &settings)
   report.scene = sample.n();
   std::vector<Real> radii = settings.scene.radius;
   if (radii.empty()) {
-    Real radius = reach;    // of which adhesion may take a part
-    while (reach_of(settings.engine.law, radius) > reach) radius *= Real(0.99);
+    Real radius = cutoff;    // of which adhesion may take a part
+    while (cutoff_of(settings.engine.law, radius) > cutoff) radius *= Real(0.99);
     radii.push_back(radius);
   }
 
@@ -233,7 +233,7 @@ TuneReport tune(const WallMesh &mesh, const TuneSettings &settings)
       const auto holds = [&](const Vec3 &x) { return tried.holds(x); };
       add_band_spheres(grid.make(0, false, false), kBandSpheres, radii, random, holds, sample);
       report.band = sample.n() - report.scene;
-      sort_by_bins(sample, 2 * reach);
+      sort_by_bins(sample, 2 * cutoff);
       EngineSettings exact = engine_settings;
       exact.precision = Precision::double_;
       reference = answer(grid.make(0, false, false).view(), exact, sample);

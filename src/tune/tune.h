@@ -15,11 +15,11 @@ struct TuneSettings {
   // Largest error to accept, in [0, 1): of the missed contacts / contacts and of the
   // largest relative error of a sphere's force.
   Real bound = 0;
-  GridSettings grid;        // reach > 0, memory, sides; a length, lists and precision to keep
+  GridSettings grid;        // cutoff > 0, memory, sides; a length, lists and precision to keep
   EngineSettings engine;    // law, corner, side, device; a precision to keep
   bool keep_lists = false, keep_precision = false;    // a grid.length > 0 is kept
   // Spheres of the scene, or some of them; none: the wall's surroundings alone, and all
-  // radii the reach.
+  // radii the cutoff.
   SphereSample scene;
   std::uint64_t seed = 1;
 };

@@ -25,9 +25,9 @@ std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &setti
   if (settings.length > 0) return {standard};
   const double budget = double(settings.memory_budget > 0 ? settings.memory_budget : kListBudget);
   std::vector<Real> lengths;
-  const Real of_nearest = default_length(mesh, settings.reach, 1);
+  const Real of_nearest = default_length(mesh, settings.cutoff, 1);
   for (Real length : {0.5 * of_nearest, of_nearest, 2 * of_nearest, 4 * of_nearest, standard}) {
-    length = rounded(std::min(length, settings.reach));
+    length = rounded(std::min(length, settings.cutoff));
     if (!lengths.empty() && length < 1.1 * lengths.back()) continue;
     GridSettings one = settings;
     one.length = length;

@@ -9,7 +9,7 @@
 namespace lsdcd {
 
 // Half, once, twice and four times the default of nearest lists, and the default of these
-// settings; ascending, to four digits so that a deck can say them: up to the reach, and where the table of bricks and its least contents fit
+// settings; ascending, to four digits so that a deck can say them: up to the cutoff, and where the table of bricks and its least contents fit
 // the memory budget. Where none does, the first coarser one. A length that is given: that.
 std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &settings);
 

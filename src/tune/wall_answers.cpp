@@ -121,7 +121,7 @@ AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
                     const SphereSample &sample, const ContactLaw &law)
 {
   const ContactLaw spring = spring_of(law);
-  constexpr Real kSameFoot = 1e-3;    // of a radius
+  constexpr Real kSamePoint = 1e-3;    // of a radius
   AnswerError out;
   out.uncertified = trial.uncertified;
   std::vector<Real> errors;
@@ -134,7 +134,7 @@ AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
       out.contacts++;
       out.missed += std::none_of(
           trial.places.begin() + trial.first[i], trial.places.begin() + trial.first[i + 1],
-          [&](const auto &p) { return norm(p.foot - wanted.foot) <= kSameFoot * radius; });
+          [&](const auto &p) { return norm(p.closest - wanted.closest) <= kSamePoint * radius; });
     }
     const bool touches =
         reference.first[i] < reference.first[i + 1] || trial.first[i] < trial.first[i + 1];

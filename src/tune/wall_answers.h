@@ -15,7 +15,7 @@ ContactLaw spring_of(const ContactLaw &law);
 // Contacts and forces of spheres at rest.
 struct WallAnswers {
   struct Place {
-    Vec3 foot;       // from the sphere's centre to the wall, length
+    Vec3 closest;    // from the sphere's centre to the wall, length
     Real overlap;    // length
     bool bears;      // takes a share of the force
   };
@@ -37,7 +37,7 @@ constexpr Real kUsualOverlap = 1e-2;
 
 struct AnswerError {
   long contacts = 0;    // that the reference counts
-  long missed = 0;      // of these, not there: no contact has its foot within 1e-3 radii
+  long missed = 0;      // of these, not there: no contact has its closest point within 1e-3 radii
   long uncertified = 0;
   // Relative errors of the spheres' forces, over all spheres that touch in either answer.
   Real median = 0, largest = 0;

@@ -5,8 +5,8 @@
 
 namespace lsdcd {
 
-WallParts::WallParts(const WallMesh &mesh, Real reach, Real side, const Box &within) :
-    reach_(reach), within_(within)
+WallParts::WallParts(const WallMesh &mesh, Real cutoff, Real side, const Box &within) :
+    cutoff_(cutoff), within_(within)
 {
   Vec3 size;
   for (int k = 0; k < 3; k++)
@@ -15,7 +15,7 @@ WallParts::WallParts(const WallMesh &mesh, Real reach, Real side, const Box &wit
   // The area of a wall in a box is seldom more than a few times that of the box.
   const Real area = std::min(mesh.report.area, 10 * norm_sq(size));
   side_ = std::max({side, std::sqrt(area) / 300, norm(size) / 3000});
-  origin_ = mesh.report.lo - Vec3{reach, reach, reach};
+  origin_ = mesh.report.lo - Vec3{cutoff, cutoff, cutoff};
   const Vec3 none = {0, 0, 0};
   for (const auto &f : mesh.faces) {
     const Vec3 a = mesh.vertices[f[0]], b = mesh.vertices[f[1]], c = mesh.vertices[f[2]];
@@ -46,19 +46,19 @@ WallParts::WallParts(const WallMesh &mesh, Real reach, Real side, const Box &wit
   key_.erase(std::unique(key_.begin(), key_.end()), key_.end());
 }
 
-// Cubes within reach of the box whose middle is no farther from the plane
+// Cubes within the cutoff of the box whose middle is no farther from the plane
 // normal . x = offset than reach and half a diagonal.
 void WallParts::cover(const Vec3 &lo, const Vec3 &hi, const Vec3 &normal, Real offset)
 {
   Key first, last;
   for (int k = 0; k < 3; k++) {
-    const Real from = std::max(lo[k] - reach_, within_.lo[k]),
-               to = std::min(hi[k] + reach_, within_.hi[k]);
+    const Real from = std::max(lo[k] - cutoff_, within_.lo[k]),
+               to = std::min(hi[k] + cutoff_, within_.hi[k]);
     if (from > to) return;
     first[k] = static_cast<std::int32_t>(std::floor((from - origin_[k]) / side_));
     last[k] = static_cast<std::int32_t>(std::floor((to - origin_[k]) / side_));
   }
-  const Real far = reach_ + Real(0.5) * std::sqrt(Real(3)) * side_;
+  const Real far = cutoff_ + Real(0.5) * std::sqrt(Real(3)) * side_;
   Key at;
   for (at[2] = first[2]; at[2] <= last[2]; at[2]++)
     for (at[1] = first[1]; at[1] <= last[1]; at[1]++)

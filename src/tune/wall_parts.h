@@ -12,10 +12,10 @@ namespace lsdcd {
 
 class WallParts {
  public:
-  // Every cube that a sphere of radius `reach` can touch the wall from; some more,
+  // Every cube that a sphere of radius `cutoff` can touch the wall from; some more,
   // where a triangle's box is larger than the triangle. The cubes are larger than `side`
   // where a large wall would have millions of them. None lies outside `within`.
-  WallParts(const WallMesh &mesh, Real reach, Real side, const Box &within = kNoLimit);
+  WallParts(const WallMesh &mesh, Real cutoff, Real side, const Box &within = kNoLimit);
 
   int n() const { return static_cast<int>(key_.size()); }
   Real side() const { return side_; }    // length
@@ -27,7 +27,7 @@ class WallParts {
   void cover(const Vec3 &lo, const Vec3 &hi, const Vec3 &normal, Real offset);
 
   Vec3 origin_;
-  Real side_, reach_;
+  Real side_, cutoff_;
   Box within_;
   std::vector<Key> key_;    // place in the lattice, ascending
 };

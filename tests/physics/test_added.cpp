@@ -38,7 +38,7 @@ Real way_until_it_stops(Scene &scene, Real dt)
   return scene.x(0).x + 1.5;
 }
 
-// The couple mu m g R slows rolling by 5/7 mu g: it stops after 7 v^2/(10 mu g).
+// The contact torque mu m g R slows rolling by 5/7 mu g: it stops after 7 v^2/(10 mu g).
 TEST(cdt, stops_a_rolling_sphere_at_the_analytic_distance)
 {
   const Real exact = 0.7 * 0.3 * 0.3 / (kMuRoll * kG);
@@ -99,8 +99,8 @@ TEST(epsd2, holds_a_couple_that_grows_with_the_angle_up_to_its_limit)
   for (int i = 1; i <= 400; i++) {
     scene.compute(dt);
     const Real turned = std::hypot(0.3, -0.2) * i * dt;
-    const Real couple = std::min(kTangent * kRadius * kRadius * turned, limit);
-    const Vec3 expected = (-couple / std::hypot(0.3, -0.2)) * Vec3{0.3, -0.2, 0};
+    const Real contact_torque = std::min(kTangent * kRadius * kRadius * turned, limit);
+    const Vec3 expected = (-contact_torque / std::hypot(0.3, -0.2)) * Vec3{0.3, -0.2, 0};
     ASSERT_LE(norm(scene.torque(0) - expected), 1e-9 * limit) << i;
     ASSERT_EQ(scene.force(0).x, 0);
   }
@@ -118,8 +118,9 @@ TEST(epsd2, grows_with_the_contact_radius_of_hertz)
               with_rolling(hertz_history(kStiffness, kTangent, 0, 0, 0), AddedRolling::epsd2));
   scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, 0}, {0.01, 0, 0});
   scene.compute(dt);
-  const Real couple = kTangent * std::sqrt(kRadius * overlap) * kRadius * kRadius * 0.01 * dt;
-  EXPECT_NEAR(scene.torque(0).x, -couple, 1e-10 * couple);
+  const Real contact_torque =
+      kTangent * std::sqrt(kRadius * overlap) * kRadius * kRadius * 0.01 * dt;
+  EXPECT_NEAR(scene.torque(0).x, -contact_torque, 1e-10 * contact_torque);
 }
 
 TEST(cdt, is_mu_times_the_elastic_force_times_the_radius)
@@ -133,8 +134,8 @@ TEST(cdt, is_mu_times_the_elastic_force_times_the_radius)
     scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, -1}, {3, -4, 7});
     scene.compute(1e-4);
     const Real elastic = kStiffness * overlap * (hertz ? std::sqrt(kRadius * overlap) : 1);
-    const Vec3 couple = (-kMuRoll * elastic * kRadius / 5) * Vec3{3, -4, 0};
-    EXPECT_LE(norm(scene.torque(0) - couple), 1e-10 * norm(couple));
+    const Vec3 contact_torque = (-kMuRoll * elastic * kRadius / 5) * Vec3{3, -4, 0};
+    EXPECT_LE(norm(scene.torque(0) - contact_torque), 1e-10 * norm(contact_torque));
   }
 }
 

@@ -98,7 +98,7 @@ TEST(belt, does_not_drag_what_moves_with_it)
   for (int i = 0; i < 10; i++) scene.compute(kStep);
   EXPECT_EQ(scene.force(0).x, 0);
   EXPECT_EQ(scene.force(0).y, 0);
-  EXPECT_EQ(scene.springs.of(0)->stretch, (Vec3{0, 0, 0}));
+  EXPECT_EQ(scene.springs.of(0)->shear, (Vec3{0, 0, 0}));
 }
 
 TEST(belt, stretches_the_spring_of_a_sphere_at_rest)
@@ -156,8 +156,8 @@ TEST(roll, drags_along_its_circles)
   // Beside the middle of a facet, where the roll's surface also moves into the facet.
   const Real a = M_PI / 12 + 0.1, apothem = 2 * std::cos(M_PI / 12);
   const Vec3 n = {std::cos(M_PI / 12), std::sin(M_PI / 12), 0}, t = {-n.y, n.x, 0};
-  const Vec3 foot = apothem * n + (apothem * std::tan(a - M_PI / 12)) * t + Vec3{0, 0, 2.2};
-  drum.add_sphere(foot + (kRadius - 0.01) * n, kRadius, kMass);
+  const Vec3 closest = apothem * n + (apothem * std::tan(a - M_PI / 12)) * t + Vec3{0, 0, 2.2};
+  drum.add_sphere(closest + (kRadius - 0.01) * n, kRadius, kMass);
   drum.compute(kStep);
   EXPECT_NEAR(dot(drum.force(0), n), kStiffness * 0.01, 1e-9);
   EXPECT_NEAR(dot(drum.force(0), t), kMass * 3 * 4 * apothem, 1e-9);

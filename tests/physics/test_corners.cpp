@@ -301,7 +301,7 @@ TEST(convex_seam, never_lets_go_of_a_sphere_that_overlaps)
     for (int i = 0; i < 2000; i++) {
       const Real x = std::pow(10., uniform(random, -17, -1.4)) * (random() % 2 ? 1 : -1),
                  depth = 0.01;
-      // The foot at x on one half or the other, or on the edge, seen along the bisector.
+      // The closest point at x on one half or the other, or on the edge, seen along the bisector.
       const Vec3 f = probe.force({x, 0.2, kRadius - depth});
       ASSERT_GT(norm(f), 0) << degrees << " " << x;
       ASSERT_GE(probe.contacts(), 1);

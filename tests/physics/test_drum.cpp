@@ -25,7 +25,7 @@ TriangleSoup drum_mesh(int n)
 //
 // "The polygon's own exact answer" is that of a disc in the plane whose potential is
 // 1/2 k times the least of 1/2 l'Gl - d'l, negated and doubled, over the sides that
-// it overlaps and whose foot point is on them; for two sides that is a closed form.
+// it overlaps and whose closest point is on them; for two sides that is a closed form.
 // Nothing of the core is used: sides come from angles, weights from Cramer's rule,
 // and the disc has one tangential spring, whatever side it is on.
 

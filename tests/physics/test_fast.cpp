@@ -170,9 +170,9 @@ TEST(thin_plate, of_a_thousandth_of_a_radius_is_one_contact)
     for (int k = 0; k < scene.engine->n_touching(); k++) {
       const int i = scene.engine->touching()[k];
       const Vec3 x = scene.x(i), f = scene.force(i);
-      const Vec3 foot = {std::clamp(x.x, -2., 2.), std::clamp(x.y, -2., 2.), x.z > 0 ? 0 : -t};
-      const Real d = norm(x - foot);
-      const Vec3 answer = (kStiffness * (kRadius - d) / d) * (x - foot);
+      const Vec3 closest = {std::clamp(x.x, -2., 2.), std::clamp(x.y, -2., 2.), x.z > 0 ? 0 : -t};
+      const Real d = norm(x - closest);
+      const Vec3 answer = (kStiffness * (kRadius - d) / d) * (x - closest);
       off = std::fmax(off, norm(f - answer) / (kStiffness * kRadius));
       most = std::fmax(most, scene.engine->sphere_output()[k].contacts);
     }

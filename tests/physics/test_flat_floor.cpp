@@ -227,7 +227,7 @@ TEST(flat_floor, that_leans_in_space_is_a_plane)
   level.compute(1e-4);
   scene.compute(1e-4, true, true);
   // Coordinates up to 13 round by 1e-15; a facet of height 0.1 turns that into a
-  // lean of 2e-14 and a foot on it into 1e-14 of height.
+  // lean of 2e-14 and a closest point on it into 1e-14 of height.
   const Real tolerance = kStiffness * 4e-14;
   for (int i = 0; i < level.n(); i++)
     ASSERT_LE(norm(scene.force(i) - level.force(i).z * n), tolerance);
@@ -244,8 +244,8 @@ TEST(flat_floor, takes_the_opposite_of_the_forces_it_exerts)
   for (int i = 0; i < scene.n(); i++) {
     sum += scene.force(i);
     size += norm(scene.force(i));
-    const Vec3 foot = {scene.x(i).x, scene.x(i).y, 0};
-    moment += cross(foot, scene.force(i));
+    const Vec3 closest = {scene.x(i).x, scene.x(i).y, 0};
+    moment += cross(closest, scene.force(i));
   }
   // A thousand roundings.
   EXPECT_LE(norm(scene.engine->totals().force + sum), 1e-13 * size);

@@ -21,7 +21,7 @@ struct OneSphere {
   Scene scene;
   Real height = 0;
   explicit OneSphere(const EngineSettings &law, int n = 4, unsigned seed = 0) :
-      scene(floor_mesh(n, 2, seed), reach_of(law.law, kRadius), law)
+      scene(floor_mesh(n, 2, seed), cutoff_of(law.law, kRadius), law)
   {
     scene.add_sphere(kSpot + Vec3{0, 0, 2 * kRadius}, kRadius, kMass);
   }
@@ -157,7 +157,7 @@ TEST(jkr, sphere_slides_under_a_ceiling_of_triangles_without_falling)
   EngineSettings law = jkr.law();
   law.law.granular.damping = DampingModel::mass_velocity;
   law.law.granular.eta = 50;
-  Scene scene(floor_mesh(16, 2, 5), reach_of(law.law, kRadius), law);
+  Scene scene(floor_mesh(16, 2, 5), cutoff_of(law.law, kRadius), law);
   const Real touch = -kRadius + 1e-6;
   scene.add_sphere({-1, 0.11, touch}, kRadius, kMass, {0, 0, 0});
   const Real dt = 2e-4;
@@ -180,7 +180,7 @@ TEST(jkr, on_the_faces_of_a_drum_pulls_as_one_wall)
   EngineSettings law = jkr.law();
   const Real drum = 5;
   const int n = 512;
-  Scene scene(cylinder_mesh(n, 1, drum, 4), reach_of(law.law, kRadius), law);
+  Scene scene(cylinder_mesh(n, 1, drum, 4), cutoff_of(law.law, kRadius), law);
   scene.add_sphere({drum - kRadius, 0, 2}, kRadius, kMass);
   scene.compute(1e-6);
   const Real gap = 0.5 * jkr.pull_off(), sag = drum * (1 - std::cos(kPi / n));
@@ -330,7 +330,7 @@ TEST(tangential, friction_of_what_adheres_counts_twice_the_pull_off)
 
 TEST(rolling, sds_stops_a_rolling_sphere_at_seven_tenths_of_v2_over_mu_g)
 {
-  // A couple mu_r N R against a sphere that rolls without slipping: 7/5 m v' = -mu_r m g.
+  // A contact torque mu_r N R against a sphere that rolls without slipping: 7/5 m v' = -mu_r m g.
   const Real g = 10, mu_roll = 0.05, v = 0.8, dt = 2e-5, k_roll = 2e4;
   EngineSettings law = granular(NormalModel::hooke, kK);
   GranularLaw &p = law.law.granular;
@@ -352,9 +352,9 @@ TEST(rolling, sds_stops_a_rolling_sphere_at_seven_tenths_of_v2_over_mu_g)
     scene.step(dt, {0, 0, -g});
     if (i * dt > 3) break;
   }
-  const Real distance = 0.7 * v * v / (mu_roll * g), stretch = mu_roll * kMass * g / k_roll;
+  const Real distance = 0.7 * v * v / (mu_roll * g), shear = mu_roll * kMass * g / k_roll;
   // The springs stretch by mu N/k and hand that back; a hundredth of it stays.
-  EXPECT_NEAR(scene.x(0).x, -1 + distance, 5 * stretch + 1e-3 * distance);
+  EXPECT_NEAR(scene.x(0).x, -1 + distance, 5 * shear + 1e-3 * distance);
   EXPECT_NEAR(scene.v(0).x, 0, 1e-6);
   EXPECT_NEAR(scene.x(0).y, 0.13, 1e-9);
 }
@@ -463,7 +463,7 @@ TEST(granular, forces_couples_and_heat_do_not_know_of_the_triangles)
       s->scene.set_v(0, {6, 4, 0});
       s->scene.set_omega(0, {-3, 9, 2});
     }
-    Real off = 0, largest = 0, couple = 0;
+    Real off = 0, largest = 0, contact_torque = 0;
     for (int i = 0; i < 2000; i++) {
       const Real overlap = 0.006 + 0.005 * std::sin(i * 0.01);
       for (OneSphere *s : {&fine, &coarse}) {
@@ -478,10 +478,10 @@ TEST(granular, forces_couples_and_heat_do_not_know_of_the_triangles)
                       norm(fine.scene.torque(0) - coarse.scene.torque(0)),
                       std::fabs(fine.scene.heat(0) - coarse.scene.heat(0))});
       largest = std::max(largest, norm(coarse.scene.force(0)));
-      couple = std::max(couple, std::fabs(coarse.scene.torque(0).z));
+      contact_torque = std::max(contact_torque, std::fabs(coarse.scene.torque(0).z));
     }
     EXPECT_LE(off, 1e-12 * largest) << static_cast<int>(normal);
-    EXPECT_GT(couple, 0);
+    EXPECT_GT(contact_torque, 0);
     ASSERT_EQ(fine.scene.springs.count(0), 1);
     EXPECT_EQ(fine.scene.springs.n_extra(), 5);
   }
@@ -490,14 +490,14 @@ TEST(granular, forces_couples_and_heat_do_not_know_of_the_triangles)
 TEST(granular, a_shallow_fold_bears_heat_and_couples_as_the_flat_wall_does)
 {
   // Over the seam of two half-planes 2 degrees apart a sphere has two contacts that share
-  // it: couples and heat of both, each whole, would be twice the flat wall's. They are its
+  // it: contact torques and heat of both, each whole, would be twice the flat wall's. They are its
   // to the fold's angle.
   EngineSettings law = everything(NormalModel::jkr);
-  law.law.granular.mu = 0;    // all torque is couples then
+  law.law.granular.mu = 0;    // all torque is contact torques then
   law.law.granular.twisting = TwistingModel::sds;
   law.law.granular.gamma_twist = 0.4;
   law.law.granular.mu_twist = 0.1;
-  Scene fold(hinge_mesh(2, 2), reach_of(law.law, kRadius), law);
+  Scene fold(hinge_mesh(2, 2), cutoff_of(law.law, kRadius), law);
   OneSphere flat(law);
   fold.add_sphere({-0.0085, 0.07, kRadius - 0.01}, kRadius, kMass, {1, 0, 0}, {1, 2, 3});
   flat.scene.set_v(0, {1, 0, 0});
@@ -509,8 +509,8 @@ TEST(granular, a_shallow_fold_bears_heat_and_couples_as_the_flat_wall_does)
   }
   ASSERT_EQ(fold.engine->totals().contacts, 2);
   EXPECT_NEAR(fold.heat(0), flat.scene.heat(0), 0.1 * flat.scene.heat(0));
-  const Vec3 couple = flat.scene.torque(0);
-  EXPECT_LE(norm(fold.torque(0) - couple), 0.1 * norm(couple));
+  const Vec3 contact_torque = flat.scene.torque(0);
+  EXPECT_LE(norm(fold.torque(0) - contact_torque), 0.1 * norm(contact_torque));
 }
 
 TEST(granular, two_sheets_at_one_place_bear_heat_and_couples_once)
@@ -518,7 +518,7 @@ TEST(granular, two_sheets_at_one_place_bear_heat_and_couples_once)
   const EngineSettings law = everything(NormalModel::jkr);
   TriangleSoup sheets = floor_mesh(3, 2);
   append(sheets, floor_mesh(5, 2));
-  Scene twice(sheets, reach_of(law.law, kRadius), law, 0, 0);
+  Scene twice(sheets, cutoff_of(law.law, kRadius), law, 0, 0);
   OneSphere once(law);
   twice.add_sphere(kSpot + Vec3{0, 0, kRadius - 0.01}, kRadius, kMass, {1, 0, 0}, {1, 2, 3});
   once.scene.set_v(0, {1, 0, 0});
@@ -579,7 +579,7 @@ TEST(granular, setup_moves_nothing)
   const Spring spring = *s.scene.springs.of(0);
   const std::vector<Real> extra(s.scene.springs.extra_of(0), s.scene.springs.extra_of(0) + 5);
   s.scene.compute(1e-4, false);
-  EXPECT_EQ(s.scene.springs.of(0)->stretch, spring.stretch);
+  EXPECT_EQ(s.scene.springs.of(0)->shear, spring.shear);
   for (int k = 0; k < 5; k++) EXPECT_EQ(s.scene.springs.extra_of(0)[k], extra[k]);
 }
 

@@ -145,7 +145,7 @@ void expect_smooth_slide(const TriangleSoup &soup, const EngineSettings &law, co
     scene.set_x(0, x);
     scene.compute(dt);
     ASSERT_EQ(scene.springs.count(0), 1);
-    const Vec3 h = scene.springs.of(0)->stretch, path = (i * dt) * v;
+    const Vec3 h = scene.springs.of(0)->shear, path = (i * dt) * v;
     // Sums of i steps of v dt: a rounding of the spring's length each.
     ASSERT_LE(norm(h - last - dt * v), 1e-10 * norm(h)) << "at step " << i;
     ASSERT_LE(norm(h - path), 1e-10 * norm(path));

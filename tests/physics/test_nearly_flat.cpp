@@ -124,7 +124,7 @@ TEST(fold, changes_the_force_by_no_more_than_stiffness_times_the_step)
 
 TEST(fold, changes_the_force_by_no_more_than_its_turn)
 {
-  // Turning the right wall by da moves it by e da at the foot, e off the fold, and
+  // Turning the right wall by da moves it by e da at the closest point, e off the fold, and
   // its normal by da. One wall: k (e + d) da. Both: F.n of the left stays, so that
   // F moves by k (e da - F.t da) / sin a with e < h sin a, F.t < k d sin a, in
   // all k R da / cos(a/2)^2 at most; from a right angle on the sum, k (e + d) da.

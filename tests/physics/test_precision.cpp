@@ -22,10 +22,10 @@ EngineSettings with(EngineSettings settings, Precision precision)
 }
 
 // A height over a plane takes three products and three sums of coordinates up to reach
-// and 14 cells, normals rounded to floats: BrickGeometry::slack bounds it.
+// and 14 cells, normals rounded to floats: BrickGeometry::tolerance bounds it.
 Real height_error(const Scene &scene)
 {
-  return BrickGeometry::slack(scene.grid.view());
+  return BrickGeometry::tolerance(scene.grid.view());
 }
 
 // A sphere's force on a floor of many triangles: k (R - z) everywhere, straight up.
@@ -109,7 +109,7 @@ bool agree(const Set &a, const Set &b)
   return all;
 }
 
-// Deep in a steep fold a foot leaves its face while it still bears, and the force jumps,
+// Deep in a steep fold a closest point leaves its face while it still bears, and the force jumps,
 // in double as well; rounding then decides on which side of the jump a sphere is. Those
 // few are counted, not compared.
 TEST(mixed, forces_follow_those_of_double_on_meshes_of_all_kinds)
@@ -118,15 +118,15 @@ TEST(mixed, forces_follow_those_of_double_on_meshes_of_all_kinds)
   for (std::uint64_t seed = 1; seed <= 80; seed++) {
     const RandomMesh made = random_mesh(seed);
     const WallMesh mesh = weld(made.soup, 0);
-    if (norm(mesh.report.hi - mesh.report.lo) > 60 * made.reach) continue;
-    const Real k = 1, length = 0.4 * made.reach;
-    Scene exact(made.soup, made.reach, hooke(k), length, 0);
-    Scene mixed(made.soup, made.reach, with(hooke(k), Precision::mixed), length, 0);
+    if (norm(mesh.report.hi - mesh.report.lo) > 60 * made.cutoff) continue;
+    const Real k = 1, length = 0.4 * made.cutoff;
+    Scene exact(made.soup, made.cutoff, hooke(k), length, 0);
+    Scene mixed(made.soup, made.cutoff, with(hooke(k), Precision::mixed), length, 0);
     Numbers random(seed);
     for (int i = 0; i < 500; i++) {
       const Vec3 q = random_centre(random, made.soup.corners.data(), int(made.soup.n_triangles()),
-                                   mesh.report.lo, mesh.report.hi, made.reach);
-      const Real radius = made.reach * random.in(0.3, 1);
+                                   mesh.report.lo, mesh.report.hi, made.cutoff);
+      const Real radius = made.cutoff * random.in(0.3, 1);
       exact.add_sphere(q, radius, 1);
       mixed.add_sphere(q, radius, 1);
     }
@@ -135,12 +135,12 @@ TEST(mixed, forces_follow_those_of_double_on_meshes_of_all_kinds)
     touching += exact.engine->totals().contacts;
     for (int i = 0; i < exact.n(); i++) {
       // Where a centre is on the wall, its side is a matter of rounding.
-      Real nearest = 2 * made.reach;
+      Real nearest = 2 * made.cutoff;
       Set set, in_floats;
       find_contacts(exact.grid.view(), exact.x(i), exact.radius(i), set);
       find_contacts(mixed.grid.view(), exact.x(i), exact.radius(i), in_floats);
       for (int c = 0; c < set.n; c++) nearest = std::fmin(nearest, set.distance[c]);
-      if (nearest < 0.05 * made.reach) continue;
+      if (nearest < 0.05 * made.cutoff) continue;
       const Real error = norm(mixed.force(i) - exact.force(i)),
                  bound = force_error(mixed, k, exact.radius(i), set.n + 1);
       for (int c = 0; c < in_floats.n; c++)    // springs are turned with them, step by step

@@ -11,28 +11,29 @@ namespace lsdcd {
 
 struct BruteContact {
   FeatureCode feature;
-  Vec3 foot;    // on the wall
+  Vec3 closest;    // on the wall
   Real distance;
 };
 
-// Contacts of a sphere; feet closer than `same` (length) are one contact, the
+// Contacts of a sphere; closest points closer than `same` (length) are one contact, the
 // nearest of them.
 inline std::vector<BruteContact> brute_contacts(const WallFeaturesView &wall,
                                                 const std::vector<FeatureCode> &features,
-                                                const Vec3 &q, Real radius, Real slack, Real same)
+                                                const Vec3 &q, Real radius, Real tolerance,
+                                                Real same)
 {
   std::vector<BruteContact> all, out;
   for (FeatureCode feature : features) {
-    const Foot foot = foot_on(wall, feature, q, slack);
-    if (foot.found && foot.distance < radius)
-      all.push_back({feature, q - foot.distance * foot.normal, foot.distance});
+    const ClosestPoint closest = closest_point_on(wall, feature, q, tolerance);
+    if (closest.found && closest.distance < radius)
+      all.push_back({feature, q - closest.distance * closest.normal, closest.distance});
   }
   std::stable_sort(all.begin(), all.end(), [](const BruteContact &a, const BruteContact &b) {
     return a.distance < b.distance;
   });
   for (const BruteContact &c : all) {
     bool known = false;
-    for (const BruteContact &o : out) known = known || norm(c.foot - o.foot) <= same;
+    for (const BruteContact &o : out) known = known || norm(c.closest - o.closest) <= same;
     if (!known) out.push_back(c);
   }
   return out;

@@ -63,7 +63,7 @@ LSDCD_FN LongVec3<T> from_to(const Vec3 &a, const Vec3 &b)
   return {T(b.x) - T(a.x), T(b.y) - T(a.y), T(b.z) - T(a.z)};
 }
 
-// A triangle with what a distance takes. A point at w from corner 0 has the foot
+// A triangle with what a distance takes. A point at w from corner 0 has the closest point
 // s e0 + t e1 on the plane, s = w . dual[0], t = w . dual[1], and height w . normal.
 template <class T>
 struct LongTriangle {
@@ -192,7 +192,7 @@ LSDCD_FN Real long_distance(const LongTriangle<T> *triangle, int n, const Vec3 &
 using LongReal = long double;
 
 // The closest point of a triangle to the point at w, both from its corner 0. Sides are
-// compared from the foot on the plane: from far above it their offsets are lost.
+// compared from the closest point on the plane: from far above it their offsets are lost.
 inline LongVec3<LongReal> foot_of(const LongTriangle<LongReal> &t, const LongVec3<LongReal> &w)
 {
   LongVec3<LongReal> level = w;

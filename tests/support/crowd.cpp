@@ -55,7 +55,7 @@ WallMesh mesh_of(const Case &c)
   const WallMesh mesh = weld(c.soup, -1);
   if (!c.periodic) return mesh;
   const PeriodicBox box = box_of(mesh.report);
-  return with_images(mesh, box, c.reach + box.margin);
+  return with_images(mesh, box, c.cutoff + box.margin);
 }
 
 Box within(const Case &c)
@@ -124,7 +124,7 @@ const Wall &wall_of(const Case &c, const GridSettings &g)
 {
   static Wall last;
   const GridSettings &had = last.settings;
-  if (last.name == c.name && had.reach == g.reach && had.nearest == g.nearest &&
+  if (last.name == c.name && had.cutoff == g.cutoff && had.nearest == g.nearest &&
       had.exact == g.exact && had.in_floats == g.in_floats)
     return last;
   const WallMesh mesh = mesh_of(c);
@@ -152,7 +152,7 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
                   const Search &search, const EngineSettings &wall)
 {
   GridSettings g;
-  g.reach = reach_of(law, c.reach);
+  g.cutoff = cutoff_of(law, c.cutoff);
   g.length = c.length;
   g.nearest = search.nearest;
   g.exact = search.exact;
@@ -170,15 +170,15 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
   std::uniform_real_distribution<Real> unit(0, 1), speed(-3, 3);
   std::vector<Real> x, v, omega, radius, mass, force(3 * n_spheres), torque(3 * n_spheres);
   std::vector<Real> temperature, heat(n_spheres);
-  const Vec3 lo = built.report.lo - c.reach * Vec3{1, 1, 1};
-  const Vec3 extent = built.report.hi + c.reach * Vec3{1, 1, 1} - lo;
+  const Vec3 lo = built.report.lo - c.cutoff * Vec3{1, 1, 1};
+  const Vec3 extent = built.report.hi + c.cutoff * Vec3{1, 1, 1} - lo;
   for (int i = 0; i < n_spheres; i++) {
     for (int k = 0; k < 3; k++) {
       x.push_back(lo[k] + extent[k] * unit(random));
       v.push_back(speed(random));
       omega.push_back(speed(random));
     }
-    radius.push_back(c.reach * (0.2 + 0.8 * unit(random)));
+    radius.push_back(c.cutoff * (0.2 + 0.8 * unit(random)));
     mass.push_back(1 + unit(random));
     temperature.push_back(300 + speed(random));
   }

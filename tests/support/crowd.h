@@ -16,7 +16,7 @@ namespace lsdcd {
 struct Case {
   const char *name;
   TriangleSoup soup;
-  Real reach, length;
+  Real cutoff, length;
   bool periodic = false;    // in a box a little smaller than the wall, which acts through its faces
 };
 std::vector<Case> cases();

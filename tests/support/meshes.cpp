@@ -133,14 +133,14 @@ void append(TriangleSoup &soup, const TriangleSoup &more)
   soup.corners.insert(soup.corners.end(), more.corners.begin(), more.corners.end());
 }
 
-Scene::Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real grid_length,
+Scene::Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Real grid_length,
              Real weld_tolerance, int nearest, bool exact) :
     mesh(weld(soup, weld_tolerance)),
     springs(settings.law.n_extra())
 {
   GridSettings g;
   g.length = grid_length;
-  g.reach = reach;
+  g.cutoff = cutoff;
   g.sides = settings.side != Side::both;
   g.nearest = nearest;
   g.exact = exact;

@@ -38,7 +38,7 @@ void append(TriangleSoup &soup, const TriangleSoup &more);
 // A wall and an engine on it, ready for steps on one or more spheres.
 class Scene {
  public:
-  Scene(const TriangleSoup &soup, Real reach, EngineSettings settings, Real grid_length = 0,
+  Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Real grid_length = 0,
         Real weld_tolerance = -1, int nearest = 0, bool exact = false);
 
   void use(std::unique_ptr<WallEngine> other);    // in place of the test's engine

@@ -16,7 +16,7 @@ struct PairMesh {
   const Vec3 *corners;
   int n_triangles;
   Vec3 lo, hi;
-  Real reach;
+  Real cutoff;
   Real tolerance;    // of a distance, length
   std::uint64_t seed;
 };
@@ -36,8 +36,8 @@ template <class T>
 LSDCD_FN Sphere sphere_of(const PairMesh<T> &mesh, std::uint64_t i)
 {
   Numbers r(mesh.seed + 0x100000001b3ull * (i + 1));
-  const Vec3 x = random_centre(r, mesh.corners, mesh.n_triangles, mesh.lo, mesh.hi, mesh.reach);
-  return {x, mesh.reach * (r.below(2) ? 1 : r.log_in(1e-3, 1))};
+  const Vec3 x = random_centre(r, mesh.corners, mesh.n_triangles, mesh.lo, mesh.hi, mesh.cutoff);
+  return {x, mesh.cutoff * (r.below(2) ? 1 : r.log_in(1e-3, 1))};
 }
 
 // No contact missed, none that is not there, the nearest at the right distance; unit
@@ -71,7 +71,7 @@ LSDCD_FN PairResult check_pair(const PairMesh<T> &mesh, std::uint64_t i)
     for (int k = 0; k < set.n; k++) few.add(set.feature[k], set.normal[k], set.distance[k]);
     Real weight[kSolved];
     CornerRule<kSolved> rule;
-    rule.solve(few, s.radius, weight, mesh.grid.slack);
+    rule.solve(few, s.radius, weight, mesh.grid.tolerance);
     Vec3 f = {0, 0, 0};
     for (int k = 0; k < set.n; k++) {
       out.bad = out.bad || !(weight[k] >= 0 && weight[k] <= 1);
@@ -83,12 +83,12 @@ LSDCD_FN PairResult check_pair(const PairMesh<T> &mesh, std::uint64_t i)
   return out;
 }
 
-// A face reaches sqrt(2) slacks past its sides and corners, so that a foot may be that
+// A face reaches sqrt(2) tolerances past its sides and corners, so that a closest point may be that
 // much nearer than the wall; dot products round by 8 eps of the lengths in them. A
 // facet too thin to be a face has its middle half its height from its edges.
 inline Real pair_tolerance(const MeshReport &report, const TriangleGrid &grid)
 {
-  Real t = Real(1.5) * grid.slack + 8 * kRoundoff * (norm(report.hi - report.lo) + grid.reach);
+  Real t = Real(1.5) * grid.tolerance + 8 * kRoundoff * (norm(report.hi - report.lo) + grid.cutoff);
   if (report.degenerate_facets > 0) {
     Real largest = 0;
     for (int k = 0; k < 3; k++)

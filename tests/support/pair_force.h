@@ -16,7 +16,7 @@ class PairForce {
   struct Law {
     Real k, gamma, k_tangent, gamma_tangent, mu;
   };
-  PairForce(int n, const Law &law) : n_(n), law_(law), stretch_(n * n, Vec3{0, 0, 0}), at_(n) {}
+  PairForce(int n, const Law &law) : n_(n), law_(law), shear_(n * n, Vec3{0, 0, 0}), at_(n) {}
 
   // Adds forces and torques to the scene's; its spheres are all alike.
   void add(Scene &scene, Real dt)
@@ -27,7 +27,7 @@ class PairForce {
     for (int i = 0; i < n_; i++)
       for (int j = i + 1; j < n_; j++) {
         const Vec3 d = at_[i] - at_[j];
-        Vec3 &h = stretch_[i * n_ + j];
+        Vec3 &h = shear_[i * n_ + j];
         if (norm_sq(d) >= 4 * radius * radius) {
           h = {0, 0, 0};
           continue;
@@ -55,7 +55,7 @@ class PairForce {
  private:
   int n_;
   Law law_;
-  std::vector<Vec3> stretch_, at_;
+  std::vector<Vec3> shear_, at_;
 };
 
 }    // namespace lsdcd

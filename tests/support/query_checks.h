@@ -28,7 +28,7 @@ class QueryChecks {
   // Asks a grid about all spheres.
   virtual QueryCounts check(const TriangleGrid &grid) = 0;
   // Largest difference between the oracle and every triangle tried, for the first n
-  // spheres, where either is within the reach.
+  // spheres, where either is within the cutoff.
   virtual double oracle_error(std::size_t n) = 0;
   // The i-th sphere as the device made it.
   virtual Sphere sphere(std::size_t i) = 0;
@@ -36,7 +36,7 @@ class QueryChecks {
 };
 
 struct QueryCheckSettings {
-  Real reach, tolerance;    // lengths
+  Real cutoff, tolerance;    // lengths
   SphereBox box;
   std::size_t n_spheres, chunk;
 };
@@ -133,10 +133,10 @@ class QueryChecksOn : public QueryChecks {
     const BinsView bins = bins_;
     const SphereBox box = s_.box;
     const double *truth = truth_.data();
-    const double reach = s_.reach;
+    const double cutoff = s_.cutoff;
     b().for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
       const double brute = brute_distance(bins, box.sphere(i).centre());
-      to[i] = truth[i] <= reach || brute <= reach ? fabs(brute - truth[i]) : 0;
+      to[i] = truth[i] <= cutoff || brute <= cutoff ? fabs(brute - truth[i]) : 0;
     });
     b().wait();
   }

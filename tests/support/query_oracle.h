@@ -22,7 +22,7 @@ LSDCD_FN double region_distance_sq(const Vec3 &a, const Vec3 &b, const Vec3 &c, 
   if (ua <= 0 && va <= 0) return norm_sq(from_a);
   if (ub >= 0 && vb <= ub) return norm_sq(from_b);
   if (vc >= 0 && uc <= vc) return norm_sq(from_c);
-  // Areas of p's foot with two of the corners, by the third's name.
+  // Areas of p's closest point with two of the corners, by the third's name.
   const double area_c = ua * vb - ub * va, area_b = uc * va - ua * vc, area_a = ub * vc - uc * vb;
   if (area_c <= 0 && ua >= 0 && ub <= 0) return norm_sq(from_a - (ua / (ua - ub)) * u);
   if (area_b <= 0 && va >= 0 && vc <= 0) return norm_sq(from_a - (va / (va - vc)) * v);
@@ -33,7 +33,7 @@ LSDCD_FN double region_distance_sq(const Vec3 &a, const Vec3 &b, const Vec3 &c, 
   return height * height / norm_sq(n);
 }
 
-// Bins of cubes; each lists the triangles whose box, grown by the reach, meets it.
+// Bins of cubes; each lists the triangles whose box, grown by the cutoff, meets it.
 struct BinsView {
   const Vec3 *corners;    // three for each triangle
   std::uint32_t n_triangles;
@@ -51,7 +51,7 @@ struct Bins {
   std::vector<std::uint32_t> first, triangle;
 };
 
-inline Bins make_bins(const TriangleSoup &soup, double reach)
+inline Bins make_bins(const TriangleSoup &soup, double cutoff)
 {
   Bins bins;
   bins.corners = soup.corners;
@@ -61,11 +61,11 @@ inline Bins make_bins(const TriangleSoup &soup, double reach)
       lo[k] = std::min(lo[k], p[k]);
       hi[k] = std::max(hi[k], p[k]);
     }
-  bins.side = reach;
+  bins.side = cutoff;
   for (int k = 0; k < 3; k++) bins.side = std::max(bins.side, (hi[k] - lo[k]) / 200);
-  bins.origin = lo - 1.5 * reach * Vec3{1, 1, 1};
+  bins.origin = lo - 1.5 * cutoff * Vec3{1, 1, 1};
   for (int k = 0; k < 3; k++)
-    bins.n[k] = static_cast<int>((hi[k] - lo[k] + 3 * reach) / bins.side) + 1;
+    bins.n[k] = static_cast<int>((hi[k] - lo[k] + 3 * cutoff) / bins.side) + 1;
   bins.first.assign(std::size_t(bins.n[0]) * bins.n[1] * bins.n[2] + 1, 0);
 
   const auto each_bin = [&](std::size_t t, auto visit) {
@@ -78,7 +78,7 @@ inline Bins make_bins(const TriangleSoup &soup, double reach)
         least = std::min(least, c[j][k]);
         most = std::max(most, c[j][k]);
       }
-      const double grown = reach * 1.001;
+      const double grown = cutoff * 1.001;
       from[k] = std::max(0, static_cast<int>((least - grown - bins.origin[k]) / bins.side));
       to[k] =
           std::min(bins.n[k] - 1, static_cast<int>((most + grown - bins.origin[k]) / bins.side));
@@ -99,7 +99,7 @@ inline Bins make_bins(const TriangleSoup &soup, double reach)
   return bins;
 }
 
-// Exact where it is within the reach that the bins were made for; otherwise larger than it.
+// Exact where it is within the cutoff that the bins were made for; otherwise larger than it.
 LSDCD_FN double bin_distance(const BinsView &bins, const Vec3 &p)
 {
   double least = 1e300;

@@ -43,7 +43,7 @@ struct Numbers {
 struct RandomMesh {
   TriangleSoup soup;
   const char *kind;
-  Real reach, length;    // length 0: chosen by the grid
+  Real cutoff, length;    // length 0: chosen by the grid
 };
 
 namespace random_mesh_detail {
@@ -174,28 +174,28 @@ inline RandomMesh random_mesh(std::uint64_t seed)
     }
   }
   m.soup.source = m.kind;
-  m.reach = r.log_in(0.03, 2);
+  m.cutoff = r.log_in(0.03, 2);
   // Turned, scaled by 1e-6 .. 1e6 and, every third, moved by up to 1e6 radii.
   if (r.below(2)) {
     const Vec3 u = r.direction(), a = any_perpendicular(u), b = cross(u, a);
     for (Vec3 &p : soup.corners) p = p.x * a + p.y * b + p.z * u;
   }
   const Real scale = r.below(2) ? r.log_in(1e-6, 1e6) : 1;
-  m.reach *= scale;
-  const Vec3 at = r.below(3) ? Vec3{0, 0, 0} : r.log_in(1, 1e6) * m.reach * r.direction();
+  m.cutoff *= scale;
+  const Vec3 at = r.below(3) ? Vec3{0, 0, 0} : r.log_in(1, 1e6) * m.cutoff * r.direction();
   for (Vec3 &p : soup.corners) p = scale * p + at;
-  m.length = r.below(2) ? 0 : m.reach * r.log_in(0.25, 4);
+  m.length = r.below(2) ? 0 : m.cutoff * r.log_in(0.25, 4);
   return m;
 }
 
 // A sphere's centre: anywhere in reach of the box, or from exactly on a facet, its
-// edges or corners to a reach away from them.
+// edges or corners to a cutoff away from them.
 LSDCD_FN Vec3 random_centre(Numbers &r, const Vec3 *corners, int n_triangles, const Vec3 &lo,
-                            const Vec3 &hi, Real reach)
+                            const Vec3 &hi, Real cutoff)
 {
   if (r.below(4) == 0)
-    return {r.in(lo.x - reach, hi.x + reach), r.in(lo.y - reach, hi.y + reach),
-            r.in(lo.z - reach, hi.z + reach)};
+    return {r.in(lo.x - cutoff, hi.x + cutoff), r.in(lo.y - cutoff, hi.y + cutoff),
+            r.in(lo.z - cutoff, hi.z + cutoff)};
   const Vec3 *p = corners + 3 * r.below(n_triangles);
   const int k = r.below(3);
   const Real u = r.in(0, 1), v = r.in(0, 1 - u);
@@ -204,7 +204,7 @@ LSDCD_FN Vec3 random_centre(Numbers &r, const Vec3 *corners, int n_triangles, co
   if (r.below(3) == 0) q += v * (p[(k + 2) % 3] - p[k]);
   if (r.below(16) == 0) return q;
   Vec3 d = r.direction();
-  const Real away = reach * (r.below(2) ? r.in(0, 1) : r.log_in(1e-12, 1));
+  const Real away = cutoff * (r.below(2) ? r.in(0, 1) : r.log_in(1e-12, 1));
   // Every fourth along a normal: over the very edge, as far as rounding lets it.
   if (r.below(4) == 0) {
     const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);

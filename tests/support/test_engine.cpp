@@ -54,7 +54,7 @@ class InPlaceForHost : public WallEngine {
     for (std::size_t i = 0; i < n; i++) host_.heat_flow[i] = heat[i];
   }
 
-  StepNotes look() override { return engine_->look(); }
+  StepDiagnostics read_diagnostics() override { return engine_->read_diagnostics(); }
   void springs_to(SpringStore &store, int n) override { engine_->springs_to(store, n); }
   void springs_from(const SpringStore &store, int n) override { engine_->springs_from(store, n); }
   const WallTotals &totals() const override { return engine_->totals(); }
@@ -84,21 +84,22 @@ class InPlaceForHost : public WallEngine {
   {
     return from ? to.put(from, n) : nullptr;
   }
-  Rows<Real> rows_in(Real *at, std::size_t n) const
+  StridedView<Real> rows_in(Real *at, std::size_t n) const
   {
-    return packed_ ? Rows<Real>(at) : Rows<Real>(at, 1, static_cast<std::ptrdiff_t>(n));
+    return packed_ ? StridedView<Real>(at)
+                   : StridedView<Real>(at, 1, static_cast<std::ptrdiff_t>(n));
   }
-  Rows<const Real> put_vectors(DeviceArray<Real> &to, const Rows<const Real> &from,
-                               std::size_t n) const
+  StridedView<const Real> put_vectors(DeviceArray<Real> &to, const StridedView<const Real> &from,
+                                      std::size_t n) const
   {
     std::vector<Real> laid_out(3 * n);
-    const Rows<Real> rows = rows_in(laid_out.data(), n);
+    const StridedView<Real> rows = rows_in(laid_out.data(), n);
     for (std::size_t i = 0; i < n; i++) rows.put(i, from[i]);
     return rows_in(to.put(laid_out), n);
   }
-  void add_vectors(const Rows<Real> &to, std::vector<Real> laid_out, std::size_t n) const
+  void add_vectors(const StridedView<Real> &to, std::vector<Real> laid_out, std::size_t n) const
   {
-    const Rows<Real> rows = rows_in(laid_out.data(), n);
+    const StridedView<Real> rows = rows_in(laid_out.data(), n);
     for (std::size_t i = 0; i < n; i++) to.add(i, rows[i]);
   }
 

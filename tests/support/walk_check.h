@@ -47,7 +47,7 @@ struct Walks {
 // tests by it.
 LSDCD_FN Real float_error(const GridView &grid)
 {
-  return slack_of(grid) - grid.slack;
+  return tolerance_of(grid) - grid.tolerance;
 }
 
 // A sphere, how far from its centre it feels the wall, and where its walk goes first.
@@ -65,7 +65,7 @@ LSDCD_FN Walker walker_of(const WalkMesh<T> &mesh, std::uint64_t i)
   const GridView &grid = mesh.pairs.grid;
   const Sphere s = sphere_of(mesh.pairs, i);
   Numbers r(mesh.pairs.seed + 0x9e3779b97f4aull * (i + 1));
-  const Real cutoff = r.below(4) ? s.radius : r.in(s.radius, grid.reach);
+  const Real cutoff = r.below(4) ? s.radius : r.in(s.radius, grid.cutoff);
   if (r.below(2)) return {s, cutoff, s.x + s.radius * r.direction()};
 
   const Real most = kListMargin * s.radius, margin = most < grid.length ? most : grid.length;
@@ -156,22 +156,24 @@ LSDCD_FN void compare_with_all(const GridView &grid, const FeatureCode *features
   const Geometry geometry(grid, q);
   const Real error = float_error(grid);
   for (int i = 0; i < n_features; i++) {
-    const Foot foot = foot_on(grid.wall, features[i], q, grid.slack, cutoff - error);
-    if (!foot.found) continue;
+    const ClosestPoint closest =
+        closest_point_on(grid.wall, features[i], q, grid.tolerance, cutoff - error);
+    if (!closest.found) continue;
     bool found = false;
     for (int k = 0; k < lists.size(0) && !found; k++) {
       const FeatureCode code = lists.code(0, k);
-      found = geometry.feature(code) == features[i] && geometry.foot(code, cutoff).found;
+      found = geometry.feature(code) == features[i] && geometry.closest_point(code, cutoff).found;
     }
     out.missed += !found;
   }
   for (int k = 0; k < set.n; k++)
-    out.extra +=
-        !foot_on(grid.wall, set.feature[k], q, geometry.slack() + error, cutoff + error).found;
+    out.extra += !closest_point_on(grid.wall, set.feature[k], q, geometry.tolerance() + error,
+                                   cutoff + error)
+                      .found;
 }
 
-// Contacts of cells, to the bit. Which of the feet close to one another stand for all of them may
-// depend on their order, which is another one in cells: the feet of all listed features count.
+// Contacts of cells, to the bit. Which of several near points stands for all of them may
+// depend on their order, which is another one in cells: the points of all listed features count.
 template <class Geometry>
 LSDCD_FN long not_listed(const GridView &grid, const WallLists &lists, const Vec3 &q, Real cutoff,
                          const WalkSet &cells)
@@ -179,8 +181,9 @@ LSDCD_FN long not_listed(const GridView &grid, const WallLists &lists, const Vec
   const Geometry geometry(grid, q);
   WalkSet feet;
   for (int k = 0; k < lists.size(0); k++) {
-    const Foot foot = geometry.foot(lists.code(0, k), cutoff);
-    if (foot.found) feet.add(geometry.feature(lists.code(0, k)), foot.normal, foot.distance);
+    const ClosestPoint closest = geometry.closest_point(lists.code(0, k), cutoff);
+    if (closest.found)
+      feet.add(geometry.feature(lists.code(0, k)), closest.normal, closest.distance);
   }
   return not_in(cells, feet);
 }
@@ -196,8 +199,8 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
   Walks out;
   out.spheres = 1;
   WallList made;
-  const Searcher searcher = {from, w.sphere.radius, w.cutoff, nullptr, 0};
-  if (!gather(grid, searcher, made)) return out;
+  const QuerySphere sphere = {from, w.sphere.radius, w.cutoff, nullptr, 0};
+  if (!gather(grid, sphere, made)) return out;
   out.with_list = 1;
   if (mesh.gathered < 1) {
     const float margin = made.margin;
@@ -211,7 +214,7 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
 
   Numbers r(mesh.pairs.seed + 0xd1342543de82ull * (i + 1));
   const Real margin = lists.margin[0];
-  const bool chosen = can_touch(grid, searcher, mesh.gathered * margin);
+  const bool chosen = can_touch(grid, sphere, mesh.gathered * margin);
   Vec3 q = from;
   for (int step = 0; step < kWalkSteps; step++) {
     if (step == 0)

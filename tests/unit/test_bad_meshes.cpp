@@ -126,14 +126,14 @@ Box bounds(const TriangleSoup &soup)
   return b;
 }
 
-// A face reaches sqrt(2) slacks past its sides and corners, so that a foot may be that
+// A face reaches sqrt(2) tolerances past its sides and corners, so that a closest point may be that
 // much nearer than the wall; the dot products round by 8 eps of the lengths in them. A facet thinner
 // than its corners' rounding, or than 1e-14 of its length, has no face of its own:
 // its middle is up to half that height from its edges.
 Real tolerance(const TriangleSoup &soup, const TriangleGrid &grid, const MeshReport &report)
 {
   const Box b = bounds(soup);
-  Real t = 1.5 * grid.slack + 8 * kRoundoff * (norm(b.hi - b.lo) + grid.reach);
+  Real t = 1.5 * grid.tolerance + 8 * kRoundoff * (norm(b.hi - b.lo) + grid.cutoff);
   if (report.degenerate_facets > 0) {
     Real largest = 0;
     for (int k = 0; k < 3; k++)
@@ -143,7 +143,7 @@ Real tolerance(const TriangleSoup &soup, const TriangleGrid &grid, const MeshRep
   return t;
 }
 
-// Centres anywhere within reach of a facet, on it, on its edges and corners, and
+// Centres anywhere within the cutoff of a facet, on it, on its edges and corners, and
 // 1e-12 .. 1 radius beside them.
 Vec3 centre(const TriangleSoup &soup, Random &random, Real radius)
 {
@@ -261,7 +261,7 @@ TEST(sliver, tips_end_where_they_do)
     const Oracle oracle(soup);
     const Real room = tolerance(soup, scene.grid, scene.mesh.report);
     for (int k = 0; k < 10; k++) {
-      const Vec3 q = tip + log_uniform(random, 0.1, 1e4) * scene.grid.slack * axis;
+      const Vec3 q = tip + log_uniform(random, 0.1, 1e4) * scene.grid.tolerance * axis;
       ContactSet<kPlaces> set;
       find_contacts(scene.grid.view(), q, 0.3, set);
       Real nearest = HUGE_VAL;
@@ -550,7 +550,8 @@ TEST(vertex, of_1e5_facets_is_exact)
                 build, scene.grid.report.lists.longest, 1e3 * step / scene.n());
     EXPECT_EQ(scene.engine->n_touching(), scene.n());
     expect_at_most({kTheme, "14", std::string(shape) + " of 1e5 facets: |F - k d| / k R"},
-                   largest / 0.3, scene.grid.slack / 0.3 + 16 * kRoundoff, "slack and roundings");
+                   largest / 0.3, scene.grid.tolerance / 0.3 + 16 * kRoundoff,
+                   "slack and roundings");
     expect_answer({kTheme, "14", std::string(shape) + " of 1e5 facets: most contacts"}, 1, most, 0,
                   "one local minimum");
   }

@@ -1,4 +1,4 @@
-// Feet on faces, edges and vertices against closed forms and quad precision.
+// Closest points on faces, edges and vertices against closed forms and quad precision.
 #include "geometry/closest_point.h"
 #include "mesh/wall_features.h"
 #include "support/meshes.h"
@@ -48,25 +48,27 @@ struct Wall {
         return static_cast<int>(e);
     return -1;
   }
-  Foot on_face(int i, const Vec3 &q, Real slack = 0) const
+  ClosestPoint on_face(int i, const Vec3 &q, Real tolerance = 0) const
   {
-    return foot_on(view, feature_code(FeatureKind::face, i), q, slack);
+    return closest_point_on(view, feature_code(FeatureKind::face, i), q, tolerance);
   }
-  Foot on_edge(const Vec3 &a, const Vec3 &b, const Vec3 &q, Real slack = 0) const
+  ClosestPoint on_edge(const Vec3 &a, const Vec3 &b, const Vec3 &q, Real tolerance = 0) const
   {
-    return foot_on(view, feature_code(FeatureKind::edge, edge_between(a, b)), q, slack);
+    return closest_point_on(view, feature_code(FeatureKind::edge, edge_between(a, b)), q,
+                            tolerance);
   }
-  Foot on_vertex(const Vec3 &p, const Vec3 &q, Real slack = 0) const
+  ClosestPoint on_vertex(const Vec3 &p, const Vec3 &q, Real tolerance = 0) const
   {
-    return foot_on(view, feature_code(FeatureKind::vertex, vertex_at(p)), q, slack);
+    return closest_point_on(view, feature_code(FeatureKind::vertex, vertex_at(p)), q, tolerance);
   }
-  // The nearest foot on any feature, flat ones too.
-  Real nearest(const Vec3 &q, Real slack) const
+  // The closest point on any feature, flat ones too.
+  Real nearest(const Vec3 &q, Real tolerance) const
   {
     Real least = HUGE_VAL;
     const auto try_one = [&](FeatureKind kind, std::size_t n) {
       for (std::size_t i = 0; i < n; i++) {
-        const Foot f = foot_on(view, feature_code(kind, static_cast<std::uint32_t>(i)), q, slack);
+        const ClosestPoint f =
+            closest_point_on(view, feature_code(kind, static_cast<std::uint32_t>(i)), q, tolerance);
         if (f.found) least = std::fmin(least, f.distance);
       }
     };
@@ -102,7 +104,7 @@ TEST(face, has_the_height_as_distance_and_a_normal_towards_the_centre)
 {
   const Wall wall({kA, kB, kC});
   for (Real z : {0.5, -0.25, 1e-12, -1e-300}) {
-    const Foot f = wall.on_face(0, {1, 1, z});
+    const ClosestPoint f = wall.on_face(0, {1, 1, z});
     EXPECT_EQ(f.distance, std::fabs(z));
     EXPECT_EQ(f.normal, (Vec3{0, 0, z > 0 ? 1. : -1.}));
   }
@@ -134,7 +136,7 @@ TEST(vertex, one_inside_a_plane_or_a_straight_fold_has_no_foot_and_no_directions
 TEST(edge, free_one_holds_the_half_cylinder_away_from_its_face)
 {
   const Wall wall({kA, kB, kC});
-  const Foot f = wall.on_edge(kA, kB, {1, -0.3, 0.4});
+  const ClosestPoint f = wall.on_edge(kA, kB, {1, -0.3, 0.4});
   ASSERT_TRUE(f.found);
   EXPECT_NEAR(f.distance, 0.5, 2 * kRoundoff);
   EXPECT_LE(norm(f.normal - Vec3{0, -0.6, 0.8}), 4 * kRoundoff);
@@ -158,7 +160,7 @@ TEST(edge, convex_one_holds_its_wedge)
 TEST(vertex, convex_one_holds_its_cone)
 {
   const Wall wall(box_mesh({0, 0, 0}, {1, 1, 1}));
-  const Foot f = wall.on_vertex({1, 1, 1}, {3, 4, 7});
+  const ClosestPoint f = wall.on_vertex({1, 1, 1}, {3, 4, 7});
   ASSERT_TRUE(f.found);
   EXPECT_NEAR(f.distance, 7, 8 * kRoundoff);
   EXPECT_LE(norm(f.normal - Vec3{2. / 7, 3. / 7, 6. / 7}), 4 * kRoundoff);
@@ -196,7 +198,7 @@ TEST(face, point_in_an_obtuse_triangle_is_inside)
 {
   // Formula (5) wants AO.AB >= 0, which is -220.
   const Wall wall({{0, 0, 0}, {20, 0, 0}, {-20, 20, 0}});
-  const Foot f = wall.on_face(0, {-11, 13, 0});
+  const ClosestPoint f = wall.on_face(0, {-11, 13, 0});
   EXPECT_TRUE(f.found);
   EXPECT_EQ(f.distance, 0);
 }
@@ -228,7 +230,7 @@ Real length(const QuadVec &a)
   return static_cast<Real>(std::sqrt(static_cast<long double>(dot(a, a))));
 }
 
-// Distance to a triangle: to the plane where the foot is inside, else to the
+// Distance to a triangle: to the plane where the closest point is inside, else to the
 // nearest side.
 Real quad_distance(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &q)
 {
@@ -267,7 +269,7 @@ std::array<Vec3, 3> sliver(Random &random, Real aspect)
   return p;
 }
 
-// Distances of slivers are those of quad precision to `tolerance`, the slack: a
+// Distances of slivers are those of quad precision to `tolerance`, the tolerance: a
 // point within it of a region may be answered by the neighbouring one.
 void expect_exact_slivers(Real aspect, Real tolerance)
 {
@@ -326,7 +328,7 @@ TEST(sliver, of_aspect_1e8_has_a_normal_square_to_its_sides)
 
 // ---- centres on the wall -----------------------------------------------------------------
 
-void expect_unit(const Foot &f)
+void expect_unit(const ClosestPoint &f)
 {
   EXPECT_TRUE(f.found);
   EXPECT_LE(f.distance, 2 * kRoundoff);    // the middle of an edge may be off it by a rounding
@@ -370,8 +372,8 @@ TEST(centre_on_a_vertex, has_a_unit_normal)
     const Wall wall(soup);
     for (FeatureCode code : wall.features.contact_features)
       if (feature_kind(code) == FeatureKind::vertex)
-        expect_unit(
-            foot_on(wall.view, code, wall.features.vertices[feature_index(code)].position, 0));
+        expect_unit(closest_point_on(wall.view, code,
+                                     wall.features.vertices[feature_index(code)].position, 0));
   }
 }
 

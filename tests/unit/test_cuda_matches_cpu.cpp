@@ -26,7 +26,7 @@ TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
     const WallMesh mesh = mesh_of(c);
     GridSettings g;
     g.within = within(c);
-    g.reach = c.reach;
+    g.cutoff = c.cutoff;
     g.length = c.length;
     const TriangleGrid cpu = build_grid(mesh, g, false), cuda = build_grid(mesh, g, true);
     EXPECT_TRUE(same_bytes(cpu.lists.brick_of, cuda.lists.brick_of)) << c.name;
@@ -43,7 +43,7 @@ TEST(cuda_grid, has_the_same_nearest_lists_and_float_records_as_the_cpu_grid)
     const WallMesh mesh = mesh_of(c);
     GridSettings g;
     g.within = within(c);
-    g.reach = c.reach;
+    g.cutoff = c.cutoff;
     g.length = c.length;
     g.nearest = 3;
     g.exact = true;

@@ -75,7 +75,7 @@ struct CountingBackend : CpuBackend {
     return CpuBackend::exclusive_scan(values, n);
   }
   template <class Work>
-  void select(std::size_t n, const Work &work, SelectRoom &room, int *to, std::uint32_t *total)
+  void select(std::size_t n, const Work &work, SelectScratch &room, int *to, std::uint32_t *total)
   {
     crossings()++;
     CpuBackend::select(n, work, room, to, total);
@@ -91,7 +91,7 @@ struct MakeCountingLaw {
   template <class Law>
   CountingLaw operator()(const Law &law) const
   {
-    if constexpr (!Law::kCouple || (Law::kHeat && Law::kExtra == 5))
+    if constexpr (!Law::kContactTorque || (Law::kHeat && Law::kExtra == 5))
       return on_wall<WallKernels::both>(law, effects, [](const auto &compiled) {
         using L = std::decay_t<decltype(compiled)>;
         return CountingLaw{traits_of<L>(), LawBytes(compiled), start_law<L, CountingBackend>};
@@ -183,24 +183,24 @@ TEST(engine, drops_no_contact_of_crowded_spheres)
 // An engine with particles of its own, in its memory.
 class Particles {
  public:
-  Particles(const EngineSettings &settings, int n, Real reach, bool cuda = test_on_cuda()) :
+  Particles(const EngineSettings &settings, int n, Real cutoff, bool cuda = test_on_cuda()) :
       x_(cuda), v_(cuda), omega_(cuda), radius_(cuda), mass_(cuda), force_(cuda), torque_(cuda),
       n_(n)
   {
     engine = cuda ? make_cuda_engine_in_place(settings, 0, nullptr) : make_cpu_engine(settings);
     const WallMesh mesh = weld(floor_mesh(40, 10, 7), -1);
     GridSettings g;
-    g.reach = reach;
+    g.cutoff = cutoff;
     grid = build_grid(mesh, g);
     flat = FlatGrid(grid);
     engine->set_grid(flat.view());
     engine->grow(n);
     std::mt19937_64 random(5);
-    std::uniform_real_distribution<Real> at(-9, 9), up(0, 4 * reach), speed(-1, 1), unit(0.3, 1);
+    std::uniform_real_distribution<Real> at(-9, 9), up(0, 4 * cutoff), speed(-1, 1), unit(0.3, 1);
     for (int i = 0; i < n; i++) {
       for (Real value : {at(random), at(random), up(random)}) host_x.push_back(value);
       for (int k = 0; k < 3; k++) host_v.push_back(speed(random));
-      host_radius.push_back(reach * unit(random));
+      host_radius.push_back(cutoff * unit(random));
     }
   }
 
@@ -317,7 +317,7 @@ TEST(engine, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
 TEST(engine, the_first_look_of_a_choice_with_a_margin_leaves_out_none_that_the_second_keeps)
 {
   GridSettings g;
-  g.reach = 0.5;
+  g.cutoff = 0.5;
   g.length = 0.2;
   const FlatGrid flat(build_grid(weld(box_mesh({-10, -10, -10}, {10, 10, 10}), -1), g));
   const GridView grid = flat.view();
@@ -482,14 +482,14 @@ TEST(engine, a_sphere_that_was_far_has_no_spring_of_before)
   p.host_v = {1, 0, 0};
   p.host_radius = {0.5};
   for (int k = 0; k < 3; k++) p.step(0.01, Particles::Choice::now);
-  const Real three = p.springs().of(0)->stretch.x;
+  const Real three = p.springs().of(0)->shear.x;
   p.host_x[2] += 10;
   p.step(0.01, Particles::Choice::now);
   EXPECT_EQ(p.springs().count(0), 0);
   p.host_x[2] -= 10;
   p.step(0.01, Particles::Choice::now);
   ASSERT_EQ(p.springs().count(0), 1);
-  EXPECT_NEAR(p.springs().of(0)->stretch.x, three / 3, 1e-15);
+  EXPECT_NEAR(p.springs().of(0)->shear.x, three / 3, 1e-15);
 }
 
 TEST(engine, a_sphere_larger_than_the_reach_is_an_error)
@@ -509,15 +509,15 @@ TEST(engine, a_sphere_that_is_pulled_from_past_the_reach_is_named)
 {
   int tried = 0;
   for (const EffectCase &effect : effect_cases()) {
-    const Real pull_off = effect.settings.law.pull_off(), reach = 0.5;
+    const Real pull_off = effect.settings.law.pull_off(), cutoff = 0.5;
     if (!(pull_off > 0)) continue;
     tried++;
-    Particles p(effect.settings, 100, reach);
-    // The radius from which a sphere is pulled from farther than the reach, by bisection.
-    Real fits = 0, too_large = reach;
+    Particles p(effect.settings, 100, cutoff);
+    // The radius from which a sphere is pulled from farther than the cutoff, by bisection.
+    Real fits = 0, too_large = cutoff;
     while (too_large - fits > 1e-12) {
       const Real middle = (fits + too_large) / 2;
-      (middle + pull_off * std::cbrt(middle) <= reach ? fits : too_large) = middle;
+      (middle + pull_off * std::cbrt(middle) <= cutoff ? fits : too_large) = middle;
     }
     ASSERT_GT(fits, 0.1) << effect.name;
     for (Real &radius : p.host_radius) radius = fits * (1 - 1e-9);
@@ -539,10 +539,10 @@ TEST(engine, a_sphere_that_grows_past_the_reach_is_an_error_at_the_next_look)
   for (int i = 0; i < 100; i++) p.host_x[3 * i + 2] = 0.1;
   p.engine->choose(p.spheres(), 0);
   p.step(0);
-  EXPECT_NO_THROW(p.engine->look());
+  EXPECT_NO_THROW(p.engine->read_diagnostics());
   p.host_radius[7] = 0.6;
   p.step(0);
-  EXPECT_THROW(p.engine->look(), std::exception);
+  EXPECT_THROW(p.engine->read_diagnostics(), std::exception);
 }
 
 TEST(engine, notes_the_deepest_overlap_of_all_steps_since_the_last_look)
@@ -555,11 +555,11 @@ TEST(engine, notes_the_deepest_overlap_of_all_steps_since_the_last_look)
   p.step(1);    // 10 % and 25 %
   p.host_x[5] = 0.39;
   p.step(1);
-  const StepNotes notes = p.engine->look();
-  EXPECT_NEAR(notes.deepest, 0.25, 1e-7);    // it is kept in single precision
-  EXPECT_EQ(notes.deepest_sphere, 1);
+  const StepDiagnostics diagnostics = p.engine->read_diagnostics();
+  EXPECT_NEAR(diagnostics.deepest, 0.25, 1e-7);    // it is kept in single precision
+  EXPECT_EQ(diagnostics.deepest_sphere, 1);
   p.step(1);
-  EXPECT_NEAR(p.engine->look().deepest, 0.1, 1e-7);
+  EXPECT_NEAR(p.engine->read_diagnostics().deepest, 0.1, 1e-7);
 }
 
 TEST(engine, many_springs_take_shared_places)
@@ -728,7 +728,7 @@ struct AllTouching {
   static TriangleGrid grid_of_faces()
   {
     GridSettings g;
-    g.reach = 1.1;
+    g.cutoff = 1.1;
     return build_grid(weld(faces_all_round(kAllRound), -1), g);
   }
 
@@ -750,7 +750,7 @@ TEST(engine, takes_no_slots_from_the_next_step)
     all.engine->start(all.spheres, all.step);
     all.engine->collect();
   }
-  EXPECT_NO_THROW(all.engine->look());
+  EXPECT_NO_THROW(all.engine->read_diagnostics());
   EXPECT_EQ(all.engine->totals().contacts, n * kAllRound);
 }
 

@@ -137,7 +137,7 @@ TEST(faces_pushed, lifters_of_a_drum_are_told_and_the_drum_is_not)
   }
   const PushReport push = report_of(drum, turning(5));
   EXPECT_EQ(push.faces, 12u);
-  // At the middle of the triangle with two corners outside, 0.9 from the foot of the axis.
+  // At the middle of the triangle with two corners outside, 0.9 from the closest point of the axis.
   EXPECT_NEAR(push.component, 5 * 0.9, 1e-12);
   EXPECT_NEAR(push.share, 0.9 / std::hypot(0.9, 0.1), 1e-12);
 }

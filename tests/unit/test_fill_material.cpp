@@ -40,11 +40,11 @@ struct FillMaterial : ::testing::Test {
   std::vector<std::string> fill(const std::string &line, const std::string &units = "si")
   {
     std::istringstream stream(line);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) words.push_back(word == "FILE" ? file : word);
-    const FilledWords filled = fill_material(words, units);
+    std::vector<std::string> tokens;
+    for (std::string word; stream >> word;) tokens.push_back(word == "FILE" ? file : word);
+    const FilledTokens filled = fill_material(tokens, units);
     report = filled.report;
-    return filled.words;
+    return filled.tokens;
   }
   std::string filled(const std::string &line, const std::string &units = "si")
   {
@@ -65,9 +65,9 @@ struct FillMaterial : ::testing::Test {
 
 using fill_material_words = FillMaterial;
 
-::testing::AssertionResult says(const std::string &message, const std::vector<std::string> &words)
+::testing::AssertionResult says(const std::string &message, const std::vector<std::string> &tokens)
 {
-  for (const std::string &word : words)
+  for (const std::string &word : tokens)
     if (message.find(word) == std::string::npos)
       return ::testing::AssertionFailure() << "'" << message << "' does not say '" << word << "'";
   return ::testing::AssertionSuccess();
@@ -97,10 +97,10 @@ TEST_F(fill_material_words, may_name_the_normal_model)
 
 TEST_F(fill_material_words, are_in_the_units_of_the_deck)
 {
-  const std::vector<std::string> words = fill("granular jkr material FILE glass mesh a", "cgs");
-  EXPECT_EQ(std::stod(words[2]), 69e10);
-  EXPECT_EQ(words[4], "0.23");
-  EXPECT_EQ(std::stod(words[5]), 20);
+  const std::vector<std::string> tokens = fill("granular jkr material FILE glass mesh a", "cgs");
+  EXPECT_EQ(std::stod(tokens[2]), 69e10);
+  EXPECT_EQ(tokens[4], "0.23");
+  EXPECT_EQ(std::stod(tokens[5]), 20);
   EXPECT_EQ(std::stod(fill("granular material FILE glass mesh a", "micro")[2]), 69e6);
 }
 
@@ -114,17 +114,17 @@ TEST_F(fill_material_words, of_units_without_a_scale_are_refused)
 // 1/((1-0.0529)/69e9 + (1-0.09)/207e9) = 5.51808706e10.
 TEST_F(fill_material_words, of_two_materials_give_their_effective_modulus)
 {
-  const std::vector<std::string> words = fill("granular material FILE glass on steel mesh a");
-  const double e = std::stod(words[2]), nu = std::stod(words[4]);
+  const std::vector<std::string> tokens = fill("granular material FILE glass on steel mesh a");
+  const double e = std::stod(tokens[2]), nu = std::stod(tokens[4]);
   EXPECT_NEAR(e / (2 * (1 - nu * nu)), 5.51808706e10, 1e3);
-  EXPECT_EQ(words[3], "0.9");
+  EXPECT_EQ(tokens[3], "0.9");
   EXPECT_TRUE(says(filled("granular material FILE glass on steel mesh a"), {"NULL 1 0.2 mesh"}));
 }
 
 TEST_F(fill_material_words, give_the_geometric_mean_of_surface_energies)
 {
-  const std::vector<std::string> words = fill("granular dmt material FILE glass on steel mesh a");
-  EXPECT_NEAR(std::stod(words[5]), 0.04, 1e-16);
+  const std::vector<std::string> tokens = fill("granular dmt material FILE glass on steel mesh a");
+  EXPECT_NEAR(std::stod(tokens[5]), 0.04, 1e-16);
 }
 
 TEST_F(fill_material_words, of_adhesive_models_have_no_damping_by_default)
@@ -173,9 +173,9 @@ TEST_F(fill_material_words, fill_the_nulls_that_are_of_the_materials)
 // 2/(1/1.7 + 1/51) = 3.29032258
 TEST_F(fill_material_words, give_the_harmonic_mean_of_conductivities)
 {
-  const auto words = fill("granular material FILE glass on steel heat radius NULL mesh a", "cgs");
-  const auto heat = std::find(words.begin(), words.end(), "heat");
-  ASSERT_NE(heat, words.end());
+  const auto tokens = fill("granular material FILE glass on steel heat radius NULL mesh a", "cgs");
+  const auto heat = std::find(tokens.begin(), tokens.end(), "heat");
+  ASSERT_NE(heat, tokens.end());
   EXPECT_NEAR(std::stod(heat[2]), 3.29032258e5, 1e-2);
 }
 
@@ -233,9 +233,9 @@ TEST_F(fill_material_words, with_overrides_give_the_partner_what_the_file_does_n
 
 TEST_F(fill_material_words, with_overrides_may_name_whose_number_they_replace)
 {
-  const std::vector<std::string> words =
+  const std::vector<std::string> tokens =
       fill("granular jkr material FILE glass on steel with steel surface_energy 0.32 mesh a");
-  EXPECT_NEAR(std::stod(words[5]), 0.08, 1e-17);    // sqrt(0.02 0.32)
+  EXPECT_NEAR(std::stod(tokens[5]), 0.08, 1e-17);    // sqrt(0.02 0.32)
   EXPECT_TRUE(says(report, {"steel: surface_energy 0.32, as the deck says", "glass: surface_energy "
                                                                             "0.02 (0.02 J/m2"}));
 }

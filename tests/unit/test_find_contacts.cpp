@@ -1,4 +1,4 @@
-// Merging feet at one point, and keeping to one side of a closed wall.
+// Merging closest points at one point, and keeping to one side of a closed wall.
 #include "contact/find_contacts.h"
 
 #include <gtest/gtest.h>
@@ -22,18 +22,18 @@ Vec3 random_unit(Random &random)
 
 // ---- add_once --------------------------------------------------------------------------
 
-constexpr Real kSlack = 1e-12;
+constexpr Real kTolerance = 1e-12;
 const Vec3 kUp = {0, 0, 1};
 
-ContactSet<8> added(const std::vector<std::pair<FeatureCode, Foot>> &feet)
+ContactSet<8> added(const std::vector<std::pair<FeatureCode, ClosestPoint>> &feet)
 {
   ContactSet<8> set;
-  for (const auto &f : feet) add_once(set, f.first, f.second, kSlack);
+  for (const auto &f : feet) add_once(set, f.first, f.second, kTolerance);
   return set;
 }
 
-// The foot at x (length) beside the point below the centre, one away from it.
-Foot foot_beside(Real x)
+// The closest point at x (length) beside the point below the centre, one away from it.
+ClosestPoint foot_beside(Real x)
 {
   const Vec3 d = {-x, 0, 1};
   return {true, norm(d), (1 / norm(d)) * d};
@@ -41,13 +41,13 @@ Foot foot_beside(Real x)
 
 TEST(add_once, takes_feet_within_four_slacks_for_one)
 {
-  EXPECT_EQ(added({{1, foot_beside(0)}, {2, foot_beside(3.9 * kSlack)}}).n, 1);
-  EXPECT_EQ(added({{1, foot_beside(0)}, {2, foot_beside(4.1 * kSlack)}}).n, 2);
+  EXPECT_EQ(added({{1, foot_beside(0)}, {2, foot_beside(3.9 * kTolerance)}}).n, 1);
+  EXPECT_EQ(added({{1, foot_beside(0)}, {2, foot_beside(4.1 * kTolerance)}}).n, 2);
 }
 
 TEST(add_once, keeps_the_lower_feature_whatever_the_order)
 {
-  const Foot f = {true, 0.5, kUp};
+  const ClosestPoint f = {true, 0.5, kUp};
   EXPECT_EQ(added({{7, f}, {3, f}, {5, f}}).feature[0], 3u);
   EXPECT_EQ(added({{3, f}, {5, f}, {7, f}}).feature[0], 3u);
   EXPECT_EQ(added({{5, f}, {7, f}, {3, f}}).n, 1);
@@ -55,7 +55,7 @@ TEST(add_once, keeps_the_lower_feature_whatever_the_order)
 
 TEST(add_once, keeps_the_nearer_foot_whatever_the_order)
 {
-  const Foot near = {true, 0.5, kUp}, far = {true, 0.5 + kSlack, kUp};
+  const ClosestPoint near = {true, 0.5, kUp}, far = {true, 0.5 + kTolerance, kUp};
   for (const auto &set : {added({{1, far}, {2, near}}), added({{2, near}, {1, far}})}) {
     EXPECT_EQ(set.n, 1);
     EXPECT_EQ(set.feature[0], 2u);

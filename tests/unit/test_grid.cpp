@@ -57,17 +57,17 @@ TriangleSoup moved(TriangleSoup soup, const Vec3 &by)
   return soup;
 }
 
-TriangleGrid grid_of(const TriangleSoup &soup, Real reach, Real length = 0)
+TriangleGrid grid_of(const TriangleSoup &soup, Real cutoff, Real length = 0)
 {
   GridSettings settings;
-  settings.reach = reach;
+  settings.cutoff = cutoff;
   settings.length = length;
   return build_grid(weld(soup, -1), settings, test_on_cuda());
 }
 
 // A point of the wall, or a point anywhere in the box that spheres can reach.
 Vec3 query_point(Random &random, const TriangleSoup &soup, const Vec3 &lo, const Vec3 &hi,
-                 Real reach)
+                 Real cutoff)
 {
   const std::size_t t = 3 * (random() % soup.n_triangles());
   Real u = uniform(random, 0, 1), v = uniform(random, 0, 1);
@@ -76,7 +76,7 @@ Vec3 query_point(Random &random, const TriangleSoup &soup, const Vec3 &lo, const
   if (random() % 8 == 0) v = 0;
   const Vec3 on = soup.corners[t] + u * (soup.corners[t + 1] - soup.corners[t]) +
                   v * (soup.corners[t + 2] - soup.corners[t]);
-  const Vec3 e = {reach, reach, reach};
+  const Vec3 e = {cutoff, cutoff, cutoff};
   switch (random() % 4) {
     case 0:
       return uniform(random, lo - 1.5 * e, hi + 1.5 * e);
@@ -87,25 +87,25 @@ Vec3 query_point(Random &random, const TriangleSoup &soup, const Vec3 &lo, const
   }
 }
 
-// The same contacts through the grid as by trying every feature. Feet that the
-// slack lets two features report are one contact on both sides of the comparison;
-// both see the same feature records, so that only rounding of q - foot is left.
-void expect_complete(const TriangleSoup &soup, Real reach, Real length, int n, unsigned seed)
+// The same contacts through the grid as by trying every feature. Closest points that the
+// tolerance lets two features report are one contact on both sides of the comparison;
+// both see the same feature records, so that only rounding of q - closest point is left.
+void expect_complete(const TriangleSoup &soup, Real cutoff, Real length, int n, unsigned seed)
 {
-  const TriangleGrid grid = grid_of(soup, reach, length);
+  const TriangleGrid grid = grid_of(soup, cutoff, length);
   const GridView view = grid.view();
   Vec3 lo = soup.corners[0], hi = lo;
   for (const Vec3 &x : soup.corners)
     for (int k = 0; k < 3; k++) lo[k] = std::fmin(lo[k], x[k]), hi[k] = std::fmax(hi[k], x[k]);
   const Real far = std::fmax(norm(lo), norm(hi));
-  const Real same = kSamePoint * grid.slack, close = 2 * same + 16 * kRoundoff * far;
+  const Real same = kSamePoint * grid.tolerance, close = 2 * same + 16 * kRoundoff * far;
   Random random(seed);
   long found = 0;
   for (int i = 0; i < n; i++) {
-    const Vec3 q = query_point(random, soup, lo, hi, reach);
-    const Real r = random() % 4 ? uniform(random, 0, reach) : reach;
+    const Vec3 q = query_point(random, soup, lo, hi, cutoff);
+    const Real r = random() % 4 ? uniform(random, 0, cutoff) : cutoff;
     const auto expected =
-        brute_contacts(view.wall, grid.wall.contact_features, q, r, grid.slack, same);
+        brute_contacts(view.wall, grid.wall.contact_features, q, r, grid.tolerance, same);
     ContactSet<kPlaces> set;
     find_contacts(view, q, r, set);
     ASSERT_FALSE(set.overflow);
@@ -115,7 +115,7 @@ void expect_complete(const TriangleSoup &soup, Real reach, Real length, int n, u
     for (const BruteContact &c : expected) {
       Real nearest = 1e300;
       for (int k = 0; k < set.n; k++)
-        nearest = std::fmin(nearest, norm(q - set.distance[k] * set.normal[k] - c.foot));
+        nearest = std::fmin(nearest, norm(q - set.distance[k] * set.normal[k] - c.closest));
       ASSERT_LE(nearest, close);
     }
   }
@@ -197,10 +197,10 @@ TEST(grid, is_complete_for_spheres_much_smaller_than_the_triangles)
 
 TEST(grid, is_complete_a_million_radii_from_the_origin)
 {
-  const Real reach = 0.25;
-  const Vec3 away = {1e6 * reach, -0.7e6 * reach, 0.3e6 * reach};
-  expect_complete(moved(cylinder_mesh(40, 3, 1, 1.5), away), reach, 0, 20000, 12);
-  expect_complete(moved(floor_mesh(10, 1, 7), away), reach, 0.04, 20000, 13);
+  const Real cutoff = 0.25;
+  const Vec3 away = {1e6 * cutoff, -0.7e6 * cutoff, 0.3e6 * cutoff};
+  expect_complete(moved(cylinder_mesh(40, 3, 1, 1.5), away), cutoff, 0, 20000, 12);
+  expect_complete(moved(floor_mesh(10, 1, 7), away), cutoff, 0.04, 20000, 13);
 }
 
 TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
@@ -224,8 +224,8 @@ TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
                                              Real(at / nx / ny * 8 + c / 64) + 0.5};
         for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
           const Candidate a = grid.lists.candidates[i];
-          // A slack of the whole world asks for the distance wherever the foot is.
-          ASSERT_LE(a.bound, foot_on(view.wall, a.feature, centre, 1e9).distance);
+          // A tolerance of the whole world asks for the distance wherever the closest point is.
+          ASSERT_LE(a.bound, closest_point_on(view.wall, a.feature, centre, 1e9).distance);
           if (i == cell.first) continue;
           const Candidate before = grid.lists.candidates[i - 1];
           ASSERT_TRUE(before.bound < a.bound ||
@@ -263,8 +263,8 @@ TEST(grid, flat_view_gives_the_contacts_of_view)
   EXPECT_EQ(a.origin, b.origin);
   EXPECT_EQ(a.length, b.length);
   EXPECT_EQ(a.inv_length, b.inv_length);
-  EXPECT_EQ(a.reach, b.reach);
-  EXPECT_EQ(a.slack, b.slack);
+  EXPECT_EQ(a.cutoff, b.cutoff);
+  EXPECT_EQ(a.tolerance, b.tolerance);
   EXPECT_EQ(a.outside, b.outside);
   Random random(1);
   for (int i = 0; i < 10000; i++) {
@@ -335,7 +335,7 @@ TEST(grid, a_given_length_over_the_budget_is_refused_with_what_it_takes)
   const WallMesh mesh = weld(cylinder_mesh(40, 3, 1, 1.5), -1);
   for (std::size_t budget : {400u << 10, 1u << 20, 5u << 20}) {
     GridSettings settings;
-    settings.reach = 0.2;
+    settings.cutoff = 0.2;
     settings.length = 0.004;
     settings.memory_budget = budget;
     const std::string message = build_error(mesh, settings);
@@ -351,7 +351,7 @@ TEST(grid, the_budget_holds_for_all_that_is_shared)
   const WallMesh mesh = weld(floor_mesh(60, 1, 3), -1);
   for (const bool in_floats : {false, true}) {
     GridSettings settings;
-    settings.reach = 0.05;
+    settings.cutoff = 0.05;
     settings.memory_budget = 6 << 20;
     settings.in_floats = in_floats;
     const TriangleGrid grid = build_grid(mesh, settings, test_on_cuda());
@@ -365,7 +365,7 @@ TEST(grid, where_no_length_fits_a_budget_that_does_is_named)
   for (const TriangleSoup &soup : {floor_mesh(60, 1, 3), tangle(14, 40, 6)}) {
     const WallMesh mesh = weld(soup, -1);
     GridSettings settings;
-    settings.reach = 0.05;
+    settings.cutoff = 0.05;
     for (const std::size_t budget : {1u << 10, 10u << 10}) {
       settings.memory_budget = budget;
       const std::string message = build_error(mesh, settings);
@@ -380,19 +380,19 @@ TEST(grid, cells_are_of_the_reach_by_default_and_smaller_for_nearest_lists)
 {
   const WallMesh mesh = weld(floor_mesh(60, 1, 3), -1);
   GridSettings settings;
-  settings.reach = 0.04;
-  EXPECT_EQ(build_grid(mesh, settings, test_on_cuda()).length, settings.reach);
+  settings.cutoff = 0.04;
+  EXPECT_EQ(build_grid(mesh, settings, test_on_cuda()).length, settings.cutoff);
   settings.nearest = 2;
   const Real third = 0.3 * mesh.report.median_edge;
-  ASSERT_LT(third, 0.5 * settings.reach);
-  ASSERT_GT(third, 0.2 * settings.reach);
+  ASSERT_LT(third, 0.5 * settings.cutoff);
+  ASSERT_GT(third, 0.2 * settings.cutoff);
   EXPECT_EQ(build_grid(mesh, settings, test_on_cuda()).length, third);
 }
 
 TEST(grid, hopeless_length_is_refused)
 {
   GridSettings settings;
-  settings.reach = 0.1;
+  settings.cutoff = 0.1;
   settings.length = 1e-12;
   settings.memory_budget = 32 << 20;
   EXPECT_THROW(build_grid(weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1), settings, test_on_cuda()),
@@ -404,7 +404,7 @@ TEST(grid, pieces_very_far_apart_are_both_covered_or_refused)
   TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
   append(soup, moved(box_mesh({0, 0, 0}, {1, 1, 1}), {4e9, 0, 0}));
   GridSettings settings;
-  settings.reach = 0.25;
+  settings.cutoff = 0.25;
   try {
     const TriangleGrid grid = build_grid(weld(soup, 0), settings, test_on_cuda());
     for (Real x : {0.5, 4e9 + 0.5}) {
@@ -420,9 +420,9 @@ TEST(grid, pieces_very_far_apart_are_both_covered_or_refused)
 TEST(grid, reach_that_is_not_a_length_is_refused)
 {
   const WallMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1);
-  for (Real reach : {0., -1., HUGE_VAL, std::nan("")}) {
+  for (Real cutoff : {0., -1., HUGE_VAL, std::nan("")}) {
     GridSettings settings;
-    settings.reach = reach;
+    settings.cutoff = cutoff;
     EXPECT_THROW(build_grid(mesh, settings, test_on_cuda()), InputError);
   }
 }

@@ -35,7 +35,7 @@ std::string content(const std::string &path)
 GridSettings some_settings()
 {
   GridSettings settings;
-  settings.reach = 0.2;
+  settings.cutoff = 0.2;
   settings.length = 0.1;
   return settings;
 }
@@ -304,7 +304,7 @@ TEST(grid_cache, every_setting_is_told)
   };
   EXPECT_EQ(with([](GridSettings &) {}), CacheState::usable);
   EXPECT_EQ(with([](GridSettings &s) { s.length = 0; }), CacheState::other_settings);
-  EXPECT_EQ(with([](GridSettings &s) { s.reach = std::nextafter(s.reach, 1.); }),
+  EXPECT_EQ(with([](GridSettings &s) { s.cutoff = std::nextafter(s.cutoff, 1.); }),
             CacheState::other_settings);
   EXPECT_EQ(with([](GridSettings &s) { s.memory_budget++; }), CacheState::other_settings);
   EXPECT_EQ(with([](GridSettings &s) { s.sides = true; }), CacheState::other_settings);

@@ -106,14 +106,14 @@ ContactSet<8> contacts(std::initializer_list<std::pair<FeatureCode, Vec3>> list)
   return set;
 }
 
-const Vec3 kUp = {0, 0, 1}, kStretch = {0.01, -0.02, 0};
+const Vec3 kUp = {0, 0, 1}, kShear = {0.01, -0.02, 0};
 
-// The stretch with which contact i begins.
-Vec3 inherited_stretch(const WallFeaturesView &wall, const ContactSet<8> &set, int i,
+// The shear displacement with which contact i begins.
+Vec3 transferred_shear(const WallFeaturesView &wall, const ContactSet<8> &set, int i,
                        const Spring *old, int n_old)
 {
-  const Inheritance in = inheritance(wall, set.view(), i, old, n_old);
-  return in.from < 0 ? Vec3{0, 0, 0} : handed_on(old[in.from].stretch, in, old, set.normal[i]);
+  const Transfer in = transfer_of(wall, set.view(), i, old, n_old);
+  return in.from < 0 ? Vec3{0, 0, 0} : handed_on(old[in.from].shear, in, old, set.normal[i]);
 }
 
 TEST(features, of_a_cube_are_adjacent_where_they_share_a_vertex)
@@ -130,102 +130,102 @@ TEST(features, of_a_cube_are_adjacent_where_they_share_a_vertex)
   EXPECT_FALSE(are_adjacent(cube.view, kFar, e));
 }
 
-TEST(inheritance, without_old_springs_starts_at_zero)
+TEST(transfer_of, without_old_springs_starts_at_zero)
 {
   const Cube cube;
-  const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, kUp}}), 0, nullptr, 0);
+  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, nullptr, 0);
   EXPECT_EQ(h, (Vec3{0, 0, 0}));
 }
 
-TEST(inheritance, of_the_same_feature_is_the_whole_spring)
+TEST(transfer_of, of_the_same_feature_is_the_whole_spring)
 {
   const Cube cube;
-  const Spring old = {kStretch, kUp, kHere, 0};
-  EXPECT_EQ(inherited_stretch(cube.view, contacts({{kHere, kUp}}), 0, &old, 1), kStretch);
+  const Spring old = {kShear, kUp, kHere, 0};
+  EXPECT_EQ(transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, &old, 1), kShear);
 }
 
-TEST(inheritance, of_the_same_feature_turns_with_the_normal)
+TEST(transfer_of, of_the_same_feature_turns_with_the_normal)
 {
   const Cube cube;
-  const Spring old = {kStretch, kUp, kHere, 0};
+  const Spring old = {kShear, kUp, kHere, 0};
   const Vec3 n = leaning(40);
-  const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, n}}), 0, &old, 1);
-  EXPECT_NEAR(norm(h), norm(kStretch), 1e-16);
+  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, n}}), 0, &old, 1);
+  EXPECT_NEAR(norm(h), norm(kShear), 1e-16);
   EXPECT_NEAR(dot(h, n), 0, 1e-17);
-  EXPECT_EQ(h.y, kStretch.y);
+  EXPECT_EQ(h.y, kShear.y);
 }
 
-TEST(inheritance, of_the_same_feature_goes_before_a_better_aligned_one)
+TEST(transfer_of, of_the_same_feature_goes_before_a_better_aligned_one)
 {
   const Cube cube;
-  const Spring old[2] = {{{1, 0, 0}, kUp, kNext, 0}, {kStretch, leaning(30), kHere, 0}};
-  const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, kUp}}), 0, old, 2);
-  EXPECT_NEAR(norm(h), norm(kStretch), 1e-16);
+  const Spring old[2] = {{{1, 0, 0}, kUp, kNext, 0}, {kShear, leaning(30), kHere, 0}};
+  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, old, 2);
+  EXPECT_NEAR(norm(h), norm(kShear), 1e-16);
 }
 
-TEST(inheritance, of_the_same_feature_ends_where_the_centre_crossed_to_the_other_side)
+TEST(transfer_of, of_the_same_feature_ends_where_the_centre_crossed_to_the_other_side)
 {
   const Cube cube;
-  const Spring old = {kStretch, kUp, kHere, 0};
-  EXPECT_EQ(inherited_stretch(cube.view, contacts({{kHere, -kUp}}), 0, &old, 1), (Vec3{0, 0, 0}));
+  const Spring old = {kShear, kUp, kHere, 0};
+  EXPECT_EQ(transferred_shear(cube.view, contacts({{kHere, -kUp}}), 0, &old, 1), (Vec3{0, 0, 0}));
 }
 
-TEST(inheritance, across_a_seam_is_the_whole_spring)
+TEST(transfer_of, across_a_seam_is_the_whole_spring)
 {
   const Cube cube;
-  const Spring old = {kStretch, kUp, kHere, 0};
+  const Spring old = {kShear, kUp, kHere, 0};
   // Aligned or leaning, the length stays: the contact moved, it was not born.
   for (Real degrees : {0., 1e-3, 10., 40.}) {
-    const Vec3 h = inherited_stretch(cube.view, contacts({{kNext, leaning(degrees)}}), 0, &old, 1);
-    EXPECT_NEAR(norm(h), norm(kStretch), 1e-16) << degrees;
+    const Vec3 h = transferred_shear(cube.view, contacts({{kNext, leaning(degrees)}}), 0, &old, 1);
+    EXPECT_NEAR(norm(h), norm(kShear), 1e-16) << degrees;
   }
 }
 
-TEST(inheritance, across_a_seam_to_the_next_feature_changes_no_bit_on_a_plane)
+TEST(transfer_of, across_a_seam_to_the_next_feature_changes_no_bit_on_a_plane)
 {
   const Cube cube;
-  const Spring old = {kStretch, kUp, kHere, 0};
-  EXPECT_EQ(inherited_stretch(cube.view, contacts({{kNext, kUp}}), 0, &old, 1), kStretch);
+  const Spring old = {kShear, kUp, kHere, 0};
+  EXPECT_EQ(transferred_shear(cube.view, contacts({{kNext, kUp}}), 0, &old, 1), kShear);
 }
 
-TEST(inheritance, of_a_contact_born_beside_one_that_stays_is_the_cosine_of_its_spring)
+TEST(transfer_of, of_a_contact_born_beside_one_that_stays_is_the_cosine_of_its_spring)
 {
   const Cube cube;
-  const Spring old = {kStretch, kUp, kHere, 0};
+  const Spring old = {kShear, kUp, kHere, 0};
   for (Real degrees : {0., 20., 44., 46., 60., 89.}) {
     const Vec3 n = leaning(degrees);
-    const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, kUp}, {kNext, n}}), 1, &old, 1);
-    EXPECT_NEAR(norm(h), std::cos(degrees * M_PI / 180) * norm(kStretch), 1e-16) << degrees;
+    const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}, {kNext, n}}), 1, &old, 1);
+    EXPECT_NEAR(norm(h), std::cos(degrees * M_PI / 180) * norm(kShear), 1e-16) << degrees;
     EXPECT_NEAR(dot(h, n), 0, 1e-17);
   }
 }
 
-TEST(inheritance, in_a_right_angled_corner_is_nothing)
+TEST(transfer_of, in_a_right_angled_corner_is_nothing)
 {
   const Cube cube;
-  const Spring old = {kStretch, kUp, kHere, 0};
+  const Spring old = {kShear, kUp, kHere, 0};
   const Vec3 across = {1, 0, 0}, under = {0.6, 0, -0.8};
   for (const Vec3 &n : {across, under})
-    EXPECT_EQ(inherited_stretch(cube.view, contacts({{kHere, kUp}, {kNext, n}}), 1, &old, 1),
+    EXPECT_EQ(transferred_shear(cube.view, contacts({{kHere, kUp}, {kNext, n}}), 1, &old, 1),
               (Vec3{0, 0, 0}));
 }
 
-TEST(inheritance, from_a_feature_far_away_is_the_cosine_of_its_spring)
+TEST(transfer_of, from_a_feature_far_away_is_the_cosine_of_its_spring)
 {
   const Cube cube;
-  const Spring old = {kStretch, kUp, kFar, 0};
-  const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, leaning(20)}}), 0, &old, 1);
-  EXPECT_NEAR(norm(h), std::cos(20 * M_PI / 180) * norm(kStretch), 1e-16);
+  const Spring old = {kShear, kUp, kFar, 0};
+  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, leaning(20)}}), 0, &old, 1);
+  EXPECT_NEAR(norm(h), std::cos(20 * M_PI / 180) * norm(kShear), 1e-16);
 }
 
-TEST(inheritance, takes_the_best_aligned_spring)
+TEST(transfer_of, takes_the_best_aligned_spring)
 {
   const Cube cube;
   const Spring old[3] = {{{1, 0, 0}, leaning(50), kFar, 0},
-                         {kStretch, leaning(10), kFar + 1, 0},
+                         {kShear, leaning(10), kFar + 1, 0},
                          {{2, 0, 0}, leaning(-30), kFar, 0}};
-  const Vec3 h = inherited_stretch(cube.view, contacts({{kHere, kUp}}), 0, old, 3);
-  EXPECT_NEAR(norm(h), std::cos(10 * M_PI / 180) * norm(kStretch), 1e-16);
+  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, old, 3);
+  EXPECT_NEAR(norm(h), std::cos(10 * M_PI / 180) * norm(kShear), 1e-16);
 }
 
 }    // namespace

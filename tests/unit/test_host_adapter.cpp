@@ -18,7 +18,7 @@ class Pair {
   {
     settings_.law = classic(LawStyle::hertz_history);
     GridSettings g;
-    g.reach = 0.5;
+    g.cutoff = 0.5;
     flat_ = FlatGrid(build_grid(weld(floor_mesh(10, 5, 3), -1), g));
     adapter =
         std::make_unique<HostAdapter<CpuBackend>>(settings_, host_law(settings_), CpuBackend());
@@ -62,7 +62,7 @@ class Pair {
   {
     SpringStore store;
     both()[engine]->springs_to(store, kSpheres);
-    return store.count(i) == 0 ? 0 : norm(store.of(i)->stretch);
+    return store.count(i) == 0 ? 0 : norm(store.of(i)->shear);
   }
   void expect_same_springs()
   {
@@ -227,10 +227,10 @@ TEST(host_adapter, notes_name_the_sphere_of_the_deepest_overlap_after_another_ch
   p.choose();
   p.step();
   for (WallEngine *e : p.both()) {
-    const StepNotes notes = e->look();
-    EXPECT_EQ(notes.deepest_sphere, 3);
-    EXPECT_NEAR(notes.deepest, 0.2, 1e-7);    // it is kept in single precision
-    EXPECT_EQ(e->look().deepest_sphere, -1);
+    const StepDiagnostics diagnostics = e->read_diagnostics();
+    EXPECT_EQ(diagnostics.deepest_sphere, 3);
+    EXPECT_NEAR(diagnostics.deepest, 0.2, 1e-7);    // it is kept in single precision
+    EXPECT_EQ(e->read_diagnostics().deepest_sphere, -1);
   }
 }
 

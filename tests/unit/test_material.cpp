@@ -53,9 +53,9 @@ struct MaterialFiles : ::testing::Test {
 
 using material_file = MaterialFiles;
 
-::testing::AssertionResult says(const std::string &message, const std::vector<std::string> &words)
+::testing::AssertionResult says(const std::string &message, const std::vector<std::string> &tokens)
 {
-  for (const std::string &word : words)
+  for (const std::string &word : tokens)
     if (message.find(word) == std::string::npos)
       return ::testing::AssertionFailure() << "'" << message << "' does not say '" << word << "'";
   return ::testing::AssertionSuccess();

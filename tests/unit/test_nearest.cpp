@@ -16,10 +16,11 @@ namespace {
 
 constexpr int kPlaces = 512;
 
-TriangleGrid grid_of(const WallMesh &mesh, Real reach, Real length, int nearest, bool exact = false)
+TriangleGrid grid_of(const WallMesh &mesh, Real cutoff, Real length, int nearest,
+                     bool exact = false)
 {
   GridSettings settings;
-  settings.reach = reach;
+  settings.cutoff = cutoff;
   settings.length = length;
   settings.nearest = nearest;
   settings.exact = exact;
@@ -39,7 +40,7 @@ std::vector<Real> distances(const std::vector<LongTriangle<long double>> &triang
 struct Named {
   const char *name;
   TriangleSoup soup;
-  Real reach, length;
+  Real cutoff, length;
 };
 
 std::vector<Named> walls()
@@ -58,21 +59,21 @@ TEST(nearest_lists, hold_the_nearest_triangles_in_order_and_the_next_as_a_bound)
   for (const Named &w : walls())
     for (int n : {1, 3, 8}) {
       const WallMesh mesh = weld(w.soup, -1);
-      const TriangleGrid grid = grid_of(mesh, w.reach, w.length, n);
+      const TriangleGrid grid = grid_of(mesh, w.cutoff, w.length, n);
       const GridView view = grid.view();
       const auto triangles = long_triangles<long double>(w.soup);
       Numbers random(n);
       int cells = 0;
       while (cells < 300) {
         const Vec3 q = random_centre(random, w.soup.corners.data(), int(w.soup.n_triangles()),
-                                     mesh.report.lo, mesh.report.hi, w.reach);
+                                     mesh.report.lo, mesh.report.hi, w.cutoff);
         const CellAddress at = locate(view, view.lists, q);
         if (!at.brick || !has_candidates(*at.brick, at.cell)) continue;
         cells++;
         const Cell cell = view.lists.cells[cell_index(*at.brick, at.cell)];
         const std::vector<Real> d = distances(triangles, q - at.from_centre);
-        // A list holds what is within reach and half a diagonal, and the next as a bound.
-        const Real limit = w.reach + grid.slack + 0.5 * std::sqrt(3.) * w.length * (1 + 1e-6);
+        // A list holds what is within the cutoff and half a diagonal, and the next as a bound.
+        const Real limit = w.cutoff + grid.tolerance + 0.5 * std::sqrt(3.) * w.length * (1 + 1e-6);
         const auto within = std::upper_bound(d.begin(), d.end(), limit) - d.begin();
         // Rounding may decide about a triangle at the very limit.
         const auto surely = std::upper_bound(d.begin(), d.end(), limit * (1 - 1e-9)) - d.begin();
@@ -81,8 +82,8 @@ TEST(nearest_lists, hold_the_nearest_triangles_in_order_and_the_next_as_a_bound)
         if (cell.count == 1) continue;
         for (std::uint32_t k = 0; k < cell.count; k++) {
           const Real bound = view.lists.candidates[cell.first + k].bound;
-          EXPECT_LE(bound, d[k] + grid.slack) << w.name << ", N " << n;
-          EXPECT_GE(bound, d[k] * (1 - kBelow) - grid.slack) << w.name << ", N " << n;
+          EXPECT_LE(bound, d[k] + grid.tolerance) << w.name << ", N " << n;
+          EXPECT_GE(bound, d[k] * (1 - kBelow) - grid.tolerance) << w.name << ", N " << n;
         }
       }
     }
@@ -113,16 +114,16 @@ Shares compare_with_complete(int nearest, bool exact)
   for (std::uint64_t seed = 1; seed <= 60; seed++) {
     const RandomMesh made = random_mesh(seed);
     const WallMesh mesh = weld(made.soup, 0);
-    if (norm(mesh.report.hi - mesh.report.lo) > 60 * made.reach) continue;
-    const Real length = 0.4 * made.reach;
-    const TriangleGrid some = grid_of(mesh, made.reach, length, nearest, exact),
-                       all = grid_of(mesh, made.reach, length, 0);
+    if (norm(mesh.report.hi - mesh.report.lo) > 60 * made.cutoff) continue;
+    const Real length = 0.4 * made.cutoff;
+    const TriangleGrid some = grid_of(mesh, made.cutoff, length, nearest, exact),
+                       all = grid_of(mesh, made.cutoff, length, 0);
     const GridView some_view = some.view(), all_view = all.view();
     Numbers random(seed);
     for (int i = 0; i < 500; i++) {
       const Vec3 q = random_centre(random, made.soup.corners.data(), int(made.soup.n_triangles()),
-                                   mesh.report.lo, mesh.report.hi, made.reach);
-      const Real radius = made.reach * random.in(0, 1);
+                                   mesh.report.lo, mesh.report.hi, made.cutoff);
+      const Real radius = made.cutoff * random.in(0, 1);
       Real exact_within = 0;
       const Contacts found = contacts(some_view, q, radius, &exact_within);
       const bool equal = found == contacts(all_view, q, radius);

@@ -51,15 +51,15 @@ struct Case {
   std::unique_ptr<Tree> tree;
   TriangleGrid grid;
   Vec3 lo, hi;
-  Real diagonal, reach;
+  Real diagonal, cutoff;
 
-  explicit Case(TriangleSoup given, Real reach_share = 0.05) : soup(std::move(given))
+  explicit Case(TriangleSoup given, Real cutoff_share = 0.05) : soup(std::move(given))
   {
     lo = hi = soup.corners[0];
     for (const Vec3 &p : soup.corners)
       for (int k = 0; k < 3; k++) lo[k] = std::fmin(lo[k], p[k]), hi[k] = std::fmax(hi[k], p[k]);
     diagonal = norm(hi - lo);
-    reach = reach_share * diagonal;
+    cutoff = cutoff_share * diagonal;
     const auto point = [](const Vec3 &p) { return Kernel::Point_3(p.x, p.y, p.z); };
     for (std::size_t t = 0; t < soup.corners.size(); t += 3)
       triangles.emplace_back(point(soup.corners[t]), point(soup.corners[t + 1]),
@@ -68,17 +68,17 @@ struct Case {
     tree->build();
     tree->accelerate_distance_queries();
     GridSettings settings;
-    settings.reach = reach;
+    settings.cutoff = cutoff;
     grid = build_grid(weld(soup, 0), settings);    // exact: the same wall, not one welded
   }
 
-  // Every second point anywhere within reach, the others near edges and vertices.
+  // Every second point anywhere within the cutoff, the others near edges and vertices.
   Vec3 query(Random &random) const
   {
     if (random() % 2)
-      return {uniform(random, lo.x - reach, hi.x + reach),
-              uniform(random, lo.y - reach, hi.y + reach),
-              uniform(random, lo.z - reach, hi.z + reach)};
+      return {uniform(random, lo.x - cutoff, hi.x + cutoff),
+              uniform(random, lo.y - cutoff, hi.y + cutoff),
+              uniform(random, lo.z - cutoff, hi.z + cutoff)};
     const std::size_t t = 3 * (random() % soup.n_triangles()), k = random() % 3;
     const Vec3 a = soup.corners[t + k], b = soup.corners[t + (k + 1) % 3];
     const Vec3 p = random() % 2 ? a : a + uniform(random, 0, 1) * (b - a);
@@ -114,11 +114,11 @@ void expect_same_distance(const Case &c)
     const Wide d_sq = c.tree->squared_distance(Kernel::Point_3(q.x, q.y, q.z));
     const Wide d = std::sqrt(d_sq);
     ContactSet<kPlaces> set;
-    find_contacts(view, q, c.reach, set);
+    find_contacts(view, q, c.cutoff, set);
     Real nearest = HUGE_VAL;
     for (int k = 0; k < set.n; k++) nearest = std::fmin(nearest, set.distance[k]);
-    const bool miss = set.n == 0 && d < c.reach - tolerance;
-    const bool extra = set.n > 0 && d > c.reach + tolerance;
+    const bool miss = set.n == 0 && d < c.cutoff - tolerance;
+    const bool extra = set.n > 0 && d > c.cutoff + tolerance;
     const Real error = set.n > 0 && !extra ? static_cast<Real>(std::fabs(nearest - d)) : 0;
 #pragma omp critical
     {
@@ -166,15 +166,15 @@ Wide length(const WideVec &a)
   return std::sqrt(dot(a, a));
 }
 
-// The closest point of a triangle: the foot on its plane where that lies inside,
+// The closest point of a triangle: the closest point on its plane where that lies inside,
 // else the nearest to it of the three sides' closest points.
 WideVec closest(const WideVec (&p)[3], const WideVec &q)
 {
   const WideVec u = p[1] - p[0], v = p[2] - p[0], w = q - p[0];
   const Wide uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
   const Wide det = uu * vv - uv * uv, s = (vv * wu - uv * wv) / det, t = (uu * wv - uv * wu) / det;
-  const WideVec foot = along(along(p[0], s, u), t, v);
-  if (s >= 0 && t >= 0 && s + t <= 1) return foot;
+  const WideVec closest = along(along(p[0], s, u), t, v);
+  if (s >= 0 && t >= 0 && s + t <= 1) return closest;
   WideVec best = p[0];
   Wide least = HUGE_VALL;
   for (int k = 0; k < 3; k++) {
@@ -182,8 +182,8 @@ WideVec closest(const WideVec (&p)[3], const WideVec &q)
     Wide at = dot(q - p[k], e) / dot(e, e);
     at = at < 0 ? 0 : (at > 1 ? 1 : at);
     const WideVec x = along(p[k], at, e);
-    if (length(foot - x) < least) {    // in the plane: from q, offsets below 1e-10 are lost
-      least = length(foot - x);
+    if (length(closest - x) < least) {    // in the plane: from q, offsets below 1e-10 are lost
+      least = length(closest - x);
       best = x;
     }
   }
@@ -191,13 +191,13 @@ WideVec closest(const WideVec (&p)[3], const WideVec &q)
 }
 
 struct Minimum {
-  WideVec foot;
+  WideVec closest;
   int seen;    // in how many of the positions tried
 };
 
 // Faces within the radius by CGAL; the closest point on each. It is a local
 // minimum of the wall if it is the closest point of every face that contains it.
-// Position is only good to the slack, so the minima of q are those of its corners,
+// Position is only good to the tolerance, so the minima of q are those of its corners,
 // a little way off: sure where every one has it, possible where one has.
 class Minima {
  public:
@@ -215,11 +215,11 @@ class Minima {
     }
   }
 
-  // A hundred times the slack, and feet that far apart for faces of any angle.
+  // A hundred times the tolerance, and closest points that far apart for faces of any angle.
   Real shift() const { return 2e-12 * c_.diagonal; }
   Real close() const { return 1e-10 * c_.diagonal; }
 
-  // By the faces that hold the foot.
+  // By the faces that hold the closest point.
   using Map = std::map<std::vector<std::size_t>, Minimum>;
   Map around(const Vec3 &q, Real radius) const
   {
@@ -246,25 +246,25 @@ class Minima {
   {
     std::vector<std::vector<std::size_t>> known;
     for (std::size_t face : near) {
-      const WideVec foot = closest_on(face, q);
-      if (length(wide(q) - foot) >= radius) continue;
+      const WideVec closest = closest_on(face, q);
+      if (length(wide(q) - closest) >= radius) continue;
       std::vector<std::size_t> holding = {face};
-      if (!is_minimum(face, q, foot, holding)) continue;
+      if (!is_minimum(face, q, closest, holding)) continue;
       std::sort(holding.begin(), holding.end());
       if (std::find(known.begin(), known.end(), holding) != known.end()) continue;
       known.push_back(holding);
-      out.insert({holding, {foot, 0}}).first->second.seen++;
+      out.insert({holding, {closest, 0}}).first->second.seen++;
     }
   }
-  // Adds the other faces that hold the foot; false at the first that has another.
-  bool is_minimum(std::size_t face, const Vec3 &q, const WideVec &foot,
+  // Adds the other faces that hold the closest point; false at the first that has another.
+  bool is_minimum(std::size_t face, const Vec3 &q, const WideVec &closest,
                   std::vector<std::size_t> &holding) const
   {
     for (int k = 0; k < 3; k++)
       for (std::size_t other : faces_at_[corner_[3 * face + k]]) {
         if (std::find(holding.begin(), holding.end(), other) != holding.end()) continue;
-        if (!on_face(other, foot)) continue;
-        if (length(closest_on(other, q) - foot) > round_off()) return false;
+        if (!on_face(other, closest)) continue;
+        if (length(closest_on(other, q) - closest) > round_off()) return false;
         holding.push_back(other);
       }
     return true;
@@ -302,25 +302,26 @@ void expect_same_minima(const Case &c)
   Vec3 where = {0, 0, 0};
   for_points(n_points(100000), 2, [&](Random &random) {
     const Vec3 q = c.query(random);
-    const Minima::Map expected = minima.around(q, c.reach);
+    const Minima::Map expected = minima.around(q, c.cutoff);
     ContactSet<kPlaces> set;
-    find_contacts(view, q, c.reach, set);
+    find_contacts(view, q, c.cutoff, set);
     long not_there = 0, not_one = 0, twice = 0, n_sure = 0;
-    const auto foot = [&](int k) { return wide(q - set.distance[k] * set.normal[k]); };
+    const auto closest = [&](int k) { return wide(q - set.distance[k] * set.normal[k]); };
     for (const auto &m : expected) {
       if (m.second.seen < Minima::kCorners) continue;
       n_sure++;
       int ours = 0, possible = 0;
-      for (int k = 0; k < set.n; k++) ours += length(foot(k) - m.second.foot) <= minima.close();
+      for (int k = 0; k < set.n; k++)
+        ours += length(closest(k) - m.second.closest) <= minima.close();
       for (const auto &o : expected)
-        possible += length(o.second.foot - m.second.foot) <= 2 * minima.close();
+        possible += length(o.second.closest - m.second.closest) <= 2 * minima.close();
       not_there += ours == 0;
       twice += ours > possible;
     }
     for (int k = 0; k < set.n; k++) {
       bool is_one = false;
       for (const auto &m : expected)
-        is_one = is_one || length(foot(k) - m.second.foot) <= minima.close();
+        is_one = is_one || length(closest(k) - m.second.closest) <= minima.close();
       not_one += !is_one;
     }
 #pragma omp critical

@@ -27,7 +27,7 @@ std::unique_ptr<QueryChecks> query_checks_on_cpu(const Bins &bins, const QueryCh
 
 namespace {
 
-constexpr Real kReach = 1;
+constexpr Real kCutoff = 1;
 
 double setting(const char *name, double otherwise)
 {
@@ -103,14 +103,14 @@ struct Wall {
   {
     const TriangleSoup soup = m.make();
     mesh = weld(soup, -1);
-    const Vec3 lo = mesh.report.lo, hi = mesh.report.hi, r = kReach * Vec3{1, 1, 1};
-    settings.reach = kReach;
+    const Vec3 lo = mesh.report.lo, hi = mesh.report.hi, r = kCutoff * Vec3{1, 1, 1};
+    settings.cutoff = kCutoff;
     // Of the mesh's size, as the distance is asked to be.
     settings.tolerance = 1e-12 * norm(hi - lo);
-    settings.box = {lo - r, hi + r, kReach, 20};
+    settings.box = {lo - r, hi + r, kCutoff, 20};
     settings.n_spheres = static_cast<std::size_t>(setting("LSDCD_SPHERES", quick() ? 1e4 : 1e5));
     settings.chunk = 1 << 24;
-    const Bins bins = make_bins(soup, kReach);
+    const Bins bins = make_bins(soup, kCutoff);
 #if defined(LSDCD_HAVE_CUDA)
     if (test_on_cuda()) checks = query_checks_on_cuda(bins, settings);
 #endif
@@ -132,7 +132,7 @@ class query_oracle : public testing::TestWithParam<Mesh> {
   QueryCounts check(int nearest, bool exact)
   {
     GridSettings g;
-    g.reach = kReach;
+    g.cutoff = kCutoff;
     g.length = setting("LSDCD_LENGTH", 0);
     g.nearest = nearest;
     g.exact = exact;
@@ -172,7 +172,7 @@ class query_oracle : public testing::TestWithParam<Mesh> {
         file,
         "%s,%zu,\"%s\",%s,%zu,%.6g,%g,%s,%zu,%zu,%.9f,%.9f,%zu,%zu,%zu,%zu,%zu,%zu,%.4f,%.4f,%zu\n",
         GetParam().name, wall_->mesh.faces.size(), wall_->checks->device().c_str(), commit(),
-        c.spheres, grid.length, grid.reach, lists.c_str(), c.near, c.touching,
+        c.spheres, grid.length, grid.cutoff, lists.c_str(), c.near, c.touching,
         share(c.uncertified, c.spheres), share(c.uncertified, c.near), c.missed, c.false_ones,
         c.wrong, c.certified_missed, c.certified_false, c.certified_wrong,
         c.near > 0 ? double(c.entries) / c.near : 0, c.query_ms, grid.report.bytes);

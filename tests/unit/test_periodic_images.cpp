@@ -41,10 +41,10 @@ PeriodicBox tilted_box()
   return box;
 }
 
-TriangleGrid grid_of(const WallMesh &mesh, Real reach)
+TriangleGrid grid_of(const WallMesh &mesh, Real cutoff)
 {
   GridSettings settings;
-  settings.reach = reach;
+  settings.cutoff = cutoff;
   return build_grid(mesh, settings);
 }
 
@@ -150,10 +150,10 @@ TEST(periodic_images, distances_near_faces_are_those_to_all_copies)
   std::uniform_real_distribution<Real> uniform(0, 1);
   for (int round = 0; round < 10; round++) {
     PeriodicBox box = tilted_box();
-    const Real reach = 0.2, margin = 0.15;
+    const Real cutoff = 0.2, margin = 0.15;
     const TriangleSoup soup = scattered(random, 30);
     const WallMesh mesh = weld(soup, 0);
-    const TriangleGrid grid = grid_of(with_images(mesh, box, reach + margin), reach);
+    const TriangleGrid grid = grid_of(with_images(mesh, box, cutoff + margin), cutoff);
     TriangleSoup copies;
     for (int a = -1; a <= 1; a++)
       for (int b = -1; b <= 1; b++)
@@ -170,12 +170,12 @@ TEST(periodic_images, distances_near_faces_are_those_to_all_copies)
         x += (-past + (1 + 2 * past) * uniform(random)) * box.edge[k];
       }
       const Real least =
-          std::min(reach, long_distance(triangles.data(), static_cast<int>(triangles.size()), x));
+          std::min(cutoff, long_distance(triangles.data(), static_cast<int>(triangles.size()), x));
       ContactSet<64> set;
-      find_contacts(grid.view(), x, reach, set);
-      Real found = reach;
+      find_contacts(grid.view(), x, cutoff, set);
+      Real found = cutoff;
       for (int k = 0; k < set.n; k++) found = std::min(found, set.distance[k]);
-      near += least < reach;
+      near += least < cutoff;
       // Coordinates below 20 are rounded by 2e-15, and a distance by some tens of that.
       EXPECT_NEAR(found, least, 1e-13);
     }

@@ -79,7 +79,7 @@ TEST(potentials, fill_the_styles_that_the_manual_shows)
            {"granular", "jkr", "material", "silica_powder.lsdcd", "silica", "with",
             "sliding_friction", "0.4", "rolling", "sds", "1", "0", "NULL", "mesh", "a"}})
     for (const char *units : {"si", "cgs", "micro", "nano"})
-      EXPECT_GT(fill_material(words, units).words.size(), words.size());
+      EXPECT_GT(fill_material(words, units).tokens.size(), words.size());
 }
 
 }    // namespace

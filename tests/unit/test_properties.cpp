@@ -69,7 +69,7 @@ struct Wall {
   {
     GridSettings settings;
     settings.in_floats = in_floats;
-    settings.reach = made.reach;
+    settings.cutoff = made.cutoff;
     settings.length = made.length;
     settings.memory_budget = 64 << 20;
     try {
@@ -89,7 +89,7 @@ struct Wall {
             int(triangles.size()),
             mesh.report.lo,
             mesh.report.hi,
-            made.reach,
+            made.cutoff,
             pair_tolerance(mesh.report, grid),
             seed};
   }
@@ -174,8 +174,8 @@ Walks walk(double n_steps, bool in_floats, Real gathered, std::string &first)
     std::sort(features.begin(), features.end());
     const auto walk_mesh = [&](const auto &triangles) {
       auto pairs = wall.pairs(triangles, seed);
-      // Regions of features are wider by what float rounds, and so is a foot's place twice: 1.5
-      // slacks past the rim, and the height.
+      // Regions of features are wider by what float rounds, and so is a closest point's place twice: 1.5
+      // tolerances past the rim, and the height.
       pairs.tolerance += Real(2.5) * float_error(pairs.grid);
       return WalkMesh<std::decay_t<decltype(pairs.triangle->dual[0].x)>>{
           pairs, features.data(), static_cast<int>(features.size()), gathered};
@@ -268,7 +268,7 @@ LongVec minus(const LongVec &a, const LongVec &b)
 
 // The wall as triangles, and three segments (two equal corners) for each facet that
 // has no face: what its edges are to the wall.
-TriangleSoup pieces(const Wall &wall)
+TriangleSoup primitives(const Wall &wall)
 {
   TriangleSoup out;
   std::vector<bool> is_face(wall.made.soup.n_triangles(), false);
@@ -287,23 +287,24 @@ TriangleSoup pieces(const Wall &wall)
   return out;
 }
 
-// The closest point of each piece is a local minimum of the wall if it is the closest
-// point of every piece that shares the corner or the side that it lies on. Positions
-// are good to the slack, so that minima are asked for at eight points a little way
+// The closest point of each primitive is a local minimum of the wall if it is the closest
+// point of every primitive that shares the corner or the side that it lies on. Positions
+// are good to the tolerance, so that minima are asked for at eight points a little way
 // off: sure where all have one, possible where one has, or where a point a little
-// nearer to the middle of the piece has: in a sharp corner none of the eight is inside.
+// nearer to the middle of the primitive has: in a sharp corner none of the eight is inside.
 struct Minimum {
-  LongVec foot;    // from q
-  int seen = 0;    // a bit for each point
+  LongVec closest;    // from q
+  int seen = 0;       // a bit for each point
 };
 
 class Minima {
  public:
   static constexpr int kPoints = 8;
-  using Map = std::map<std::vector<int>, Minimum>;    // by the pieces that hold the foot
+  using Map =
+      std::map<std::vector<int>, Minimum>;    // by the primitives that hold the closest point
 
   explicit Minima(const Wall &wall) :
-      triangles_(long_triangles<LongReal>(pieces(wall))),
+      triangles_(long_triangles<LongReal>(primitives(wall))),
       shift_(16 * pair_tolerance(wall.mesh.report, wall.grid))
   {
     std::map<std::array<Real, 3>, int> number;
@@ -331,7 +332,7 @@ class Minima {
     }
   }
 
-  // Feet of one minimum, seen from points 256 shifts apart at most.
+  // Closest points of one minimum, seen from points 256 shifts apart at most.
   Real close() const { return 512 * shift_; }
 
   Map around(const Vec3 &q, Real radius) const
@@ -346,10 +347,10 @@ class Minima {
     for (std::size_t t = 0; t < triangles_.size(); t++) {
       const Vec3 in = triangles_[t].centre - q;
       const LongVec w = from_to<LongReal>(triangles_[t].corner[0], q),
-                    foot = foot_of(triangles_[t], w);
-      const Vec3 up = {static_cast<Real>(w.x - foot.x), static_cast<Real>(w.y - foot.y),
-                       static_cast<Real>(w.z - foot.z)};
-      const Vec3 along = in + up;    // from the foot
+                    closest = foot_of(triangles_[t], w);
+      const Vec3 up = {static_cast<Real>(w.x - closest.x), static_cast<Real>(w.y - closest.y),
+                       static_cast<Real>(w.z - closest.z)};
+      const Vec3 along = in + up;    // from the closest point
       for (Real s : {16., 256.})
         if (norm(along) > 0)
           add(t, q + (s * shift_ / norm(along)) * along, q, radius + s * shift_, kPoints, out);
@@ -359,14 +360,14 @@ class Minima {
 
  private:
   struct Neighbour {
-    int piece;
+    int primitive;
     std::vector<int> corner;    // those of ours that it shares
   };
 
-  // A point counts as lying on a piece this near to it.
+  // A point counts as lying on a primitive this near to it.
   LongReal on() const { return 1e-3L * shift_; }
 
-  // Is x, from corner 0 of piece t, on what t shares with its neighbour?
+  // Is x, from corner 0 of primitive t, on what t shares with its neighbour?
   bool is_shared(const LongTriangle<LongReal> &t, const Neighbour &n, const LongVec &x) const
   {
     if (n.corner.size() == 3) return true;
@@ -378,26 +379,26 @@ class Minima {
     return length(minus(x, {a.x + s * e.x, a.y + s * e.y, a.z + s * e.z})) <= on();
   }
 
-  // The minimum on piece t as seen from p, the k-th point about q.
+  // The minimum on primitive t as seen from p, the k-th point about q.
   void add(std::size_t t, const Vec3 &p, const Vec3 &q, Real radius, int k, Map &out) const
   {
     const LongVec w = from_to<LongReal>(triangles_[t].corner[0], p);
-    const LongVec foot = foot_of(triangles_[t], w);
-    if (!(length(minus(w, foot)) < radius)) return;
+    const LongVec closest = foot_of(triangles_[t], w);
+    if (!(length(minus(w, closest)) < radius)) return;
     std::vector<int> holding = {static_cast<int>(t)};
     for (const Neighbour &n : neighbours_[t]) {
-      if (!is_shared(triangles_[t], n, foot)) continue;
-      const auto &o = triangles_[n.piece];
-      holding.push_back(n.piece);
+      if (!is_shared(triangles_[t], n, closest)) continue;
+      const auto &o = triangles_[n.primitive];
+      holding.push_back(n.primitive);
       const LongVec between = from_to<LongReal>(o.corner[0], triangles_[t].corner[0]);
-      const LongVec x = {foot.x + between.x, foot.y + between.y, foot.z + between.z};
+      const LongVec x = {closest.x + between.x, closest.y + between.y, closest.z + between.z};
       const LongVec other = foot_of(o, from_to<LongReal>(o.corner[0], p));
       if (length(minus(other, x)) > on()) return;
     }
     std::sort(holding.begin(), holding.end());
     Minimum &m = out[holding];
     const LongVec from_q = from_to<LongReal>(q, triangles_[t].corner[0]);
-    m.foot = {from_q.x + foot.x, from_q.y + foot.y, from_q.z + foot.z};
+    m.closest = {from_q.x + closest.x, from_q.y + closest.y, from_q.z + closest.z};
     m.seen |= 1 << k;
   }
 
@@ -425,12 +426,13 @@ TEST(property, contacts_are_the_local_minima)
       const auto expected = minima.around(s.x, s.radius);
       ContactSet<128> set;
       find_contacts(mesh.grid, s.x, s.radius, set);
-      // A foot e aside is e^2 / 2d farther: within the tolerance of a distance it
+      // A closest point e aside is e^2 / 2d farther: within the tolerance of a distance it
       // cannot be told from the minimum.
       const auto is_at = [&](int c, const Minimum &m) {
         const Vec3 ours = -set.distance[c] * set.normal[c];
-        const LongReal apart = length({m.foot.x - ours.x, m.foot.y - ours.y, m.foot.z - ours.z});
-        const LongReal farther = std::fabs(set.distance[c] - length(m.foot));
+        const LongReal apart =
+            length({m.closest.x - ours.x, m.closest.y - ours.y, m.closest.z - ours.z});
+        const LongReal farther = std::fabs(set.distance[c] - length(m.closest));
         return apart <= minima.close() || (farther <= 2 * mesh.tolerance &&
                                            apart * apart <= 8 * mesh.tolerance * set.distance[c]);
       };
@@ -447,7 +449,7 @@ TEST(property, contacts_are_the_local_minima)
         not_one += !is_one;
         for (int o = 0; o < c; o++)
           twice += norm(set.distance[c] * set.normal[c] - set.distance[o] * set.normal[o]) <=
-                   3.9 * mesh.grid.slack;
+                   3.9 * mesh.grid.tolerance;
       }
     }
 #pragma omp critical

@@ -27,19 +27,19 @@ namespace {
 struct Case {
   TriangleSoup soup;
   WallMesh mesh;
-  Real reach, length;
+  Real cutoff, length;
   std::vector<Sphere> spheres;
   std::vector<Real> truth;
 
-  Case(TriangleSoup given, Real reach_, Real length_, std::size_t n, std::uint64_t seed) :
-      soup(std::move(given)), mesh(weld(soup, 0)), reach(reach_), length(length_)
+  Case(TriangleSoup given, Real cutoff_, Real length_, std::size_t n, std::uint64_t seed) :
+      soup(std::move(given)), mesh(weld(soup, 0)), cutoff(cutoff_), length(length_)
   {
     const auto triangles = long_triangles<LongReal>(soup);
     Numbers r(seed);
     for (std::size_t i = 0; i < n; i++) {
       const Vec3 x = random_centre(r, soup.corners.data(), int(soup.n_triangles()), mesh.report.lo,
-                                   mesh.report.hi, reach);
-      spheres.push_back({x.x, x.y, x.z, reach * (r.below(2) ? 1 : r.log_in(1e-3, 1))});
+                                   mesh.report.hi, cutoff);
+      spheres.push_back({x.x, x.y, x.z, cutoff * (r.below(2) ? 1 : r.log_in(1e-3, 1))});
       truth.push_back(long_distance(triangles.data(), int(triangles.size()), x));
     }
   }
@@ -47,7 +47,7 @@ struct Case {
   TriangleGrid grid(int nearest, bool exact = false, bool in_floats = false) const
   {
     GridSettings settings;
-    settings.reach = reach;
+    settings.cutoff = cutoff;
     settings.length = length;
     settings.nearest = nearest;
     settings.exact = exact;
@@ -61,14 +61,14 @@ struct Case {
     }
   }
 
-  // A region test is closed by the slack, so that a foot lies that far off at most, once
+  // A region test is closed by the tolerance, so that a closest point lies that far off at most, once
   // along each of two sides; the rest is rounding of coordinates and of their differences.
   Real tolerance(const TriangleGrid &grid) const
   {
     Real size = 0;
     for (int k = 0; k < 3; k++)
       size = std::fmax(size, std::fmax(std::fabs(mesh.report.lo[k]), std::fabs(mesh.report.hi[k])));
-    return 1.5 * grid.slack + 16 * kRoundoff * (size + reach);
+    return 1.5 * grid.tolerance + 16 * kRoundoff * (size + cutoff);
   }
 };
 
@@ -110,7 +110,7 @@ std::vector<Case> cases()
   for (int i = 0; i < n_random; i++) {
     RandomMesh m = random_mesh(100 + i);
     try {
-      out.emplace_back(std::move(m.soup), m.reach, m.length, 1000, 5 + i);
+      out.emplace_back(std::move(m.soup), m.cutoff, m.length, 1000, 5 + i);
     } catch (const InputError &) {
       continue;    // nothing but points closer than the tolerance
     }
@@ -216,7 +216,7 @@ TEST(query, nearest_exact_gives_the_answers_of_complete_lists)
       expect_right(c, b, c.tolerance(grid), false, std::to_string(n) + " exact");
       for (std::size_t i = 0; i < c.spheres.size(); i++) {
         ASSERT_TRUE(b.certified(i));
-        // Two feet within the slack of a side can differ by it.
+        // Two closest points within the tolerance of a side can differ by it.
         if (a.touching(i) && b.touching(i)) {
           ASSERT_NEAR(a.distance[i], b.distance[i], 2 * c.tolerance(grid)) << c.soup.source;
         }
@@ -274,7 +274,7 @@ TEST(query, answers_in_float_are_within_float_rounding_of_a_brick)
     for (int n : {0, 2, 4}) {
       const TriangleGrid grid = c.grid(n, n == 4, true);
       const Answers a = ask(grid, c.spheres);
-      expect_right(c, a, 2 * BrickGeometry::slack(grid.view()), n == 2,
+      expect_right(c, a, 2 * BrickGeometry::tolerance(grid.view()), n == 2,
                    "floats, " + std::to_string(n));
     }
   }
@@ -493,12 +493,12 @@ TEST(query, places_found_without_a_branch_are_those_found_with_them)
     const GridView view = grid.view();
     std::size_t inside = 0;
     const auto expect_same = [&](const Vec3 &q) {
-      const Place p = place_of(view, q);
-      const BrickPlace at = brick_place_of(view, q);
-      ASSERT_EQ(at.place != kNoBrick, p.inside) << q.x << " " << q.y << " " << q.z;
+      const CellSlot p = cell_slot_of(view, q);
+      const BrickSlot at = brick_place_of(view, q);
+      ASSERT_EQ(at.slot != kNoBrick, p.inside) << q.x << " " << q.y << " " << q.z;
       if (!p.inside) return;
       inside++;
-      ASSERT_EQ(at.place, brick_place(view, p)) << q.x << " " << q.y << " " << q.z;
+      ASSERT_EQ(at.slot, brick_slot(view, p)) << q.x << " " << q.y << " " << q.z;
       ASSERT_EQ(at.cell, cell_in_brick(p)) << q.x << " " << q.y << " " << q.z;
       const CellAddress address = address_inside(view, q);
       const Vec3 from_centre = from_cell_centre(view, p);
@@ -552,19 +552,19 @@ void expect_filter_is_right(const GridView &view, const Vec3Of<T> &q, Sureness &
 {
   const BrickFilter<T> filter(view);
   const BrickGuess guess = filter.guess(q);
-  const std::uint32_t place = brick_place_of(view, vec_cast<Real>(q)).place;
+  const std::uint32_t place = brick_place_of(view, vec_cast<Real>(q)).slot;
   count.points++;
   count.inside += place != kNoBrick;
   if (guess.unsure) return;
   count.sure++;
   ASSERT_EQ(guess.inside, place != kNoBrick) << q.x << " " << q.y << " " << q.z;
   if (!guess.inside) return;
-  ASSERT_EQ(filter.place(view, guess), place) << q.x << " " << q.y << " " << q.z;
+  ASSERT_EQ(filter.slot(view, guess), place) << q.x << " " << q.y << " " << q.z;
   const CoarseTable coarse(view);
   const std::size_t nx = view.n_bricks[0], ny = view.n_bricks[1], i = place % nx,
                     j = place / nx % ny, k = place / (nx * ny),
                     side = std::size_t(1) << coarse.shift;
-  ASSERT_EQ(filter.place(coarse, guess),
+  ASSERT_EQ(filter.slot(coarse, guess),
             ((k / side) * coarse.n[1] + j / side) * coarse.n[0] + i / side)
       << q.x << " " << q.y << " " << q.z;
 }
@@ -734,14 +734,14 @@ std::vector<S> as(const std::vector<Sphere> &spheres)
   return out;
 }
 
-// n spheres of radius `reach`, each where `place` puts it.
-template <class Place>
-std::vector<Sphere> many(std::size_t n, Real reach, const Place &place)
+// n spheres of radius `cutoff`, each where `place` puts it.
+template <class CellSlot>
+std::vector<Sphere> many(std::size_t n, Real cutoff, const CellSlot &place)
 {
   std::vector<Sphere> out;
   for (std::size_t i = 0; i < n; i++) {
     const Vec3 x = place(i);
-    out.push_back({x.x, x.y, x.z, reach});
+    out.push_back({x.x, x.y, x.z, cutoff});
   }
   return out;
 }
@@ -874,7 +874,7 @@ TEST(query, float_spheres_are_answered_as_double_ones_in_the_same_places)
   for (const Sphere &s : c.spheres) {
     floats.push_back({float(s.x), float(s.y), float(s.z), float(s.r)});
     const FloatSphere &f = floats.back();
-    same.push_back({f.x, f.y, f.z, std::fmin(Real(f.r), c.reach)});
+    same.push_back({f.x, f.y, f.z, std::fmin(Real(f.r), c.cutoff)});
     floats.back().r = std::nextafter(f.r, 0.f);
     same.back().r = floats.back().r;
   }
@@ -947,7 +947,7 @@ TEST(query, spheres_away_from_the_wall_read_nothing)
 template <class S>
 std::string refusal(const std::vector<std::size_t> &large, Real r, bool every_face = false)
 {
-  // Reach 0.1; spheres with the reach for their radius, far from the wall.
+  // Cutoff 0.1; spheres with the cutoff for their radius, far from the wall.
   const Case c(box_mesh({0, 0, 0}, {4, 4, 4}), 0.1, 0.1, 0, 1);
   const auto digits = [](Real x) { return static_cast<decltype(S::r)>(x); };
   std::vector<S> spheres(700, {2, 2, digits(3.5), digits(0.1)});

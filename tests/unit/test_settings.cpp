@@ -11,7 +11,7 @@
 namespace lsdcd {
 namespace {
 
-std::vector<std::string> words(const std::string &line)
+std::vector<std::string> tokens(const std::string &line)
 {
   std::istringstream stream(line);
   std::vector<std::string> list;
@@ -21,7 +21,7 @@ std::vector<std::string> words(const std::string &line)
 
 WallSettings parse(const std::string &line)
 {
-  return parse_settings(words(line));
+  return parse_settings(tokens(line));
 }
 
 // A valid command with more words at its end.
@@ -126,7 +126,7 @@ TEST(settings, placement_words_may_repeat)
 
 TEST(settings, the_placement_is_told_in_words)
 {
-  EXPECT_EQ(with("scale 0.001 move 0 0 1").placement_words, "scale 0.001, move 0 0 1");
+  EXPECT_EQ(with("scale 0.001 move 0 0 1").placement_tokens, "scale 0.001, move 0 0 1");
 }
 
 TEST(settings, rotate_turns_right_handed)
@@ -428,14 +428,14 @@ TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
 
 // ---- granular ------------------------------------------------------------------------
 
-GranularLaw law_of(const std::string &words)
+GranularLaw law_of(const std::string &tokens)
 {
-  return parse("granular " + words + " mesh a.stl").law.granular;
+  return parse("granular " + tokens + " mesh a.stl").law.granular;
 }
 
-std::string granular_error(const std::string &words)
+std::string granular_error(const std::string &tokens)
 {
-  return error_of("granular " + words + " mesh a.stl");
+  return error_of("granular " + tokens + " mesh a.stl");
 }
 
 const std::string kSlip = " tangential linear_nohistory 0 0";
@@ -544,8 +544,8 @@ TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
       {"dmt 1e5 3 0.3 2 limit_damping" + kSlip, "has to pull"},
       {"hertz 1e5 3" + kSlip + " roling sds 1 2 3", "the nearest is 'rolling'"},
   };
-  for (const auto &[words, told] : cases)
-    EXPECT_TRUE(names(granular_error(words), told)) << words << ": " << granular_error(words);
+  for (const auto &[tokens, told] : cases)
+    EXPECT_TRUE(names(granular_error(tokens), told)) << tokens << ": " << granular_error(tokens);
 }
 
 TEST(settings, effects_name_what_a_law_turns_on_and_what_that_keeps)
@@ -569,9 +569,9 @@ TEST(settings, effects_name_what_a_law_turns_on_and_what_that_keeps)
 
 TEST(settings, help_lists_every_granular_sub_model)
 {
-  for (const char *words : {"hertz/material E eta|e nu", "tangential mindlin/force kt|NULL",
-                            "rolling sds k gamma mu", "twisting marshall", "heat area h"})
-    EXPECT_TRUE(names(settings_help(), words));
+  for (const char *tokens : {"hertz/material E eta|e nu", "tangential mindlin/force kt|NULL",
+                             "rolling sds k gamma mu", "twisting marshall", "heat area h"})
+    EXPECT_TRUE(names(settings_help(), tokens));
 }
 
 }    // namespace

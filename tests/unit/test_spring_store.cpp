@@ -16,7 +16,7 @@ Spring spring(Real seed, FeatureCode feature)
 
 bool same(const Spring &a, const Spring &b)
 {
-  return a.stretch == b.stretch && a.normal == b.normal && a.feature == b.feature;
+  return a.shear == b.shear && a.normal == b.normal && a.feature == b.feature;
 }
 
 void expect_springs(const SpringStore &store, int i, const std::vector<Spring> &expected)
@@ -99,9 +99,9 @@ TEST(spring_store, packs_the_last_bit_of_a_stretch)
   std::vector<double> buffer(from.packed_size(0));
   from.pack(0, buffer.data());
   to.unpack(0, buffer.data());
-  EXPECT_EQ(to.of(0)->stretch.x, std::nextafter(1.0, 2.0));
-  EXPECT_EQ(to.of(0)->stretch.y, -tiny);
-  EXPECT_TRUE(std::signbit(to.of(0)->stretch.z));
+  EXPECT_EQ(to.of(0)->shear.x, std::nextafter(1.0, 2.0));
+  EXPECT_EQ(to.of(0)->shear.y, -tiny);
+  EXPECT_TRUE(std::signbit(to.of(0)->shear.z));
 }
 
 TEST(spring_store, copy_gives_a_sphere_the_springs_of_another)

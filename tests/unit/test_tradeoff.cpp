@@ -54,10 +54,10 @@ struct Wall {
   WallMesh mesh;
   TriangleGrid grid;
 
-  Wall(const TriangleSoup &soup, Real reach, int nearest = 0) : mesh(weld(soup, -1))
+  Wall(const TriangleSoup &soup, Real cutoff, int nearest = 0) : mesh(weld(soup, -1))
   {
     GridSettings settings;
-    settings.reach = reach;
+    settings.cutoff = cutoff;
     settings.nearest = nearest;
     grid = build_grid(mesh, settings);
   }
@@ -65,7 +65,7 @@ struct Wall {
   {
     Random random(11);
     GridSettings settings;
-    settings.reach = radius;
+    settings.cutoff = radius;
     return drift_starts(mesh, build_grid(mesh, settings).view(), radius, n, random);
   }
 };
@@ -214,7 +214,7 @@ TEST(drift, is_one_for_spheres_that_fall_through_the_wall)
 {
   const Wall floor(floor_mesh(1, 30), 1);
   GridSettings nowhere;
-  nowhere.reach = 1;
+  nowhere.cutoff = 1;
   nowhere.only = {{{100, 100, 100}, {101, 101, 101}}};
   const TriangleGrid blind = build_grid(floor.mesh, nowhere);
   EXPECT_EQ(bounce_drift(blind.view(), EngineSettings(), floor.starts(1, 20)), 1);

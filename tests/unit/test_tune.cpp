@@ -35,11 +35,11 @@ TriangleSoup cylinder()
   return cylinder_mesh(40, 1, 10, 12);
 }
 
-TuneSettings settings_for(Real reach, Real bound)
+TuneSettings settings_for(Real cutoff, Real bound)
 {
   TuneSettings s;
   s.bound = bound;
-  s.grid.reach = reach;
+  s.grid.cutoff = cutoff;
   s.engine.device = test_device();
   s.engine.law.style = LawStyle::hertz_history;
   s.engine.law.k_normal = 1e5;
@@ -67,7 +67,7 @@ TEST(trial_grid, is_bit_for_bit_the_grid_that_a_build_makes)
 {
   const WallMesh mesh = weld(vessel(), -1);
   GridSettings settings;
-  settings.reach = 0.1;
+  settings.cutoff = 0.1;
   settings.length = 0.06;
   settings.sides = true;
   TrialGrid trial(mesh, settings, test_on_cuda());
@@ -117,7 +117,7 @@ TEST(restricted_grid, has_the_lists_of_the_whole_one_in_its_bricks)
 {
   const WallMesh mesh = weld(vessel(), -1);
   GridSettings settings;
-  settings.reach = 0.1;
+  settings.cutoff = 0.1;
   settings.length = 0.03;
   settings.nearest = 4;
   settings.exact = true;
@@ -132,7 +132,7 @@ TEST(restricted_grid, answers_as_the_whole_one_within_its_boxes)
 {
   const WallMesh mesh = weld(vessel(), -1);
   GridSettings settings;
-  settings.reach = 0.1;
+  settings.cutoff = 0.1;
   const TriangleGrid whole = build_grid(mesh, settings, test_on_cuda());
   const Box box = {{0.7, -0.3, 0.9}, {1.2, 0.3, 1.4}};
   settings.only = {box};
@@ -158,7 +158,7 @@ TEST(grid_length, that_may_coarsen_does_where_the_budget_asks_for_it)
 {
   const WallMesh mesh = weld(vessel(), -1);
   GridSettings settings;
-  settings.reach = 0.1;
+  settings.cutoff = 0.1;
   settings.length = 0.01;
   settings.memory_budget = 2 << 20;
   EXPECT_THROW(build_grid(mesh, settings, test_on_cuda()), InputError);
@@ -171,7 +171,7 @@ TEST(wall_parts, hold_every_point_within_reach)
   const WallMesh mesh = weld(vessel(), -1);
   const WallParts parts(mesh, 0.1, 0.3);
   GridSettings settings;
-  settings.reach = 0.1;
+  settings.cutoff = 0.1;
   const TriangleGrid grid = build_grid(mesh, settings);
   const GridView view = grid.view();
   Random random(4);
@@ -195,7 +195,7 @@ TEST(wall_parts, hold_every_point_within_reach)
 
 // ---- comparing answers -----------------------------------------------------------------
 
-// One sphere of radius 1 with contacts on the given feet, and a force along x.
+// One sphere of radius 1 with contacts on the given closest points, and a force along x.
 WallAnswers answers_of(const std::vector<WallAnswers::Place> &places, Real force)
 {
   WallAnswers a;
@@ -226,9 +226,9 @@ TEST_F(Compare, a_contact_without_a_foot_beside_its_own_is_missed)
   EXPECT_EQ(error(both, both).missed, 0);
   EXPECT_EQ(error(both, answers_of({beside}, 10)).missed, 1);
   WallAnswers::Place off = below;
-  off.foot.x = 0.9e-3;
+  off.closest.x = 0.9e-3;
   EXPECT_EQ(error(both, answers_of({off, beside}, 10)).missed, 0);
-  off.foot.x = 1.1e-3;
+  off.closest.x = 1.1e-3;
   EXPECT_EQ(error(both, answers_of({off, beside}, 10)).missed, 1);
   EXPECT_EQ(error(both, both).contacts, 2);
   EXPECT_DOUBLE_EQ(error(both, answers_of({beside}, 10)).missed_share(), 0.5);
@@ -344,12 +344,12 @@ AnswerError fresh_error(const WallMesh &mesh, const TuneSettings &settings,
                         const GridChoice &choice, int n)
 {
   GridSettings g;
-  g.reach = settings.grid.reach;
+  g.cutoff = settings.grid.cutoff;
   const TriangleGrid reference = build_grid(mesh, g);
   SphereSample sample;
   Random random(777);
   std::vector<Real> radii;
-  for (int i = 0; i < 16; i++) radii.push_back(g.reach * (1 - 0.04 * i));
+  for (int i = 0; i < 16; i++) radii.push_back(g.cutoff * (1 - 0.04 * i));
   add_band_spheres(reference, n, radii, random, anywhere, sample);
   EXPECT_EQ(sample.n(), n);
   g.length = choice.length;
@@ -363,10 +363,10 @@ AnswerError fresh_error(const WallMesh &mesh, const TuneSettings &settings,
                  sample, settings.engine.law);
 }
 
-AnswerError expect_kept(const TriangleSoup &soup, Real reach, Real bound, int n)
+AnswerError expect_kept(const TriangleSoup &soup, Real cutoff, Real bound, int n)
 {
   const WallMesh mesh = weld(soup, -1);
-  const TuneSettings settings = settings_for(reach, bound);
+  const TuneSettings settings = settings_for(cutoff, bound);
   const TuneReport report = tune(mesh, settings);
   const AnswerError e = fresh_error(mesh, settings, report.choice(), n);
   EXPECT_GT(e.contacts, n / 10);
@@ -384,9 +384,9 @@ TEST(tune, keeps_its_bound_on_spheres_it_did_not_see)
   const char *named = std::getenv("LSDCD_TUNE");
   std::istringstream words(named ? named : "");
   std::string file;
-  Real reach = 0;
-  while (words >> file >> reach) {
-    const AnswerError e = expect_kept(read_stl(file), reach, 1e-3, 1000000);
+  Real cutoff = 0;
+  while (words >> file >> cutoff) {
+    const AnswerError e = expect_kept(read_stl(file), cutoff, 1e-3, 1000000);
     std::printf("%s: of %ld contacts %ld missed, largest error %.2g\n", file.c_str(),
                 static_cast<long>(e.contacts), static_cast<long>(e.missed), e.largest);
   }
@@ -558,7 +558,7 @@ TEST(tune, works_with_laws_that_stick_conduct_and_remember)
   law.granular.k_tangent = 1e4;
   law.granular.rolling = true;
   law.granular.heat = HeatModel::radius;
-  ASSERT_GT(reach_of(law, 0.09), 0.09 * 1.01);
+  ASSERT_GT(cutoff_of(law, 0.09), 0.09 * 1.01);
   const TuneReport report = tune(weld(vessel(), -1), settings);
   EXPECT_GE(report.taken, 0);
   for (const TuneRow &row : report.rows) EXPECT_GT(row.error.contacts, 100);
@@ -568,7 +568,7 @@ TEST(band_spheres, are_all_within_reach_and_none_is_deep)
 {
   const WallMesh mesh = weld(vessel(), -1);
   GridSettings g;
-  g.reach = 0.1;
+  g.cutoff = 0.1;
   const TriangleGrid grid = build_grid(mesh, g);
   SphereSample sample;
   Random random(5);

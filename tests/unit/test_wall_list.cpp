@@ -20,10 +20,10 @@ struct Wall {
   TriangleGrid grid;
   FlatGrid flat;
 
-  Wall(const TriangleSoup &soup, Real reach, bool in_floats = false) : mesh(weld(soup, -1))
+  Wall(const TriangleSoup &soup, Real cutoff, bool in_floats = false) : mesh(weld(soup, -1))
   {
     GridSettings g;
-    g.reach = reach;
+    g.cutoff = cutoff;
     g.in_floats = in_floats;
     grid = build_grid(mesh, g);
     flat = FlatGrid(grid);
@@ -159,7 +159,7 @@ TEST(wall_list, at_the_rim_of_the_grid_has_what_is_inside)
   for (bool in_floats : {false, true}) {
     Wall wall(floor_mesh(4, 2), 0.5);
     GridSettings g;
-    g.reach = 0.5;
+    g.cutoff = 0.5;
     g.in_floats = in_floats;
     g.within = {{-1, -1, 0}, {1, 1, 1}};    // the floor itself is the rim
     wall.grid = build_grid(wall.mesh, g);
@@ -281,19 +281,19 @@ TEST(wall_list, spheres_without_one_touch_what_all_features_say)
     bed.add(on_axis(0), radius);
     bed.choose(0);
     bed.step();
-    const StepNotes notes = bed.engine->look();
-    EXPECT_GT(notes.by_cells, 0) << n;
-    EXPECT_LT(notes.by_cells, bed.n()) << n;    // others have one
+    const StepDiagnostics diagnostics = bed.engine->read_diagnostics();
+    EXPECT_GT(diagnostics.by_cells, 0) << n;
+    EXPECT_LT(diagnostics.by_cells, bed.n()) << n;    // others have one
     std::int64_t contacts = 0;
     for (int i = 0; i < bed.n(); i++) {
       const Vec3 q = bed.centre(i);
       Vec3 sum = {0, 0, 0};
       const auto all = brute_contacts(wall.view().wall, wall.grid.wall.contact_features, q, radius,
-                                      wall.grid.slack, kSamePoint * wall.grid.slack);
+                                      wall.grid.tolerance, kSamePoint * wall.grid.tolerance);
       for (const BruteContact &c : all)
-        sum += (k * (radius - c.distance) / c.distance) * (q - c.foot);
+        sum += (k * (radius - c.distance) / c.distance) * (q - c.closest);
       contacts += static_cast<std::int64_t>(all.size());
-      // A foot is the centre less its distance along its normal: three roundings of lengths below
+      // A closest point is the centre less its distance along its normal: three roundings of lengths below
       // 1, and its share of the force is k times that.
       const Real tolerance = 8 * kRoundoff * k * static_cast<Real>(all.size());
       EXPECT_LE(norm(bed.force_on(i) - sum), tolerance) << n << ", sphere " << i;
@@ -315,15 +315,15 @@ TEST(wall_list, counts_lists_and_their_features)
   bed.choose(0.2);
   ASSERT_EQ(bed.engine->n_near(), 200);
   bed.step();
-  StepNotes notes = bed.engine->look();
-  EXPECT_EQ(notes.lists, 200);
-  EXPECT_EQ(notes.listed, features);
-  EXPECT_EQ(notes.by_cells, 0);
+  StepDiagnostics diagnostics = bed.engine->read_diagnostics();
+  EXPECT_EQ(diagnostics.lists, 200);
+  EXPECT_EQ(diagnostics.listed, features);
+  EXPECT_EQ(diagnostics.by_cells, 0);
 
   bed.step();    // nothing has moved
-  notes = bed.engine->look();
-  EXPECT_EQ(notes.lists, 0);
-  EXPECT_EQ(notes.listed, 0);
+  diagnostics = bed.engine->read_diagnostics();
+  EXPECT_EQ(diagnostics.lists, 0);
+  EXPECT_EQ(diagnostics.listed, 0);
 }
 
 TEST(wall_list, is_made_anew_for_the_sphere_that_left_its_margin_alone)
@@ -334,14 +334,14 @@ TEST(wall_list, is_made_anew_for_the_sphere_that_left_its_margin_alone)
   for (int i = 0; i < 50; i++) bed.add({r.in(-4, 4), r.in(-4, 4), 0.4}, 0.5);
   bed.choose(0.2);
   bed.step();
-  bed.engine->look();
+  bed.engine->read_diagnostics();
   const Real margin = kListMargin * 0.5;
   bed.put(3, bed.centre(3) + Vec3{1.001 * margin, 0, 0});
   bed.put(4, bed.centre(4) + Vec3{0.999 * margin, 0, 0});
   bed.step();
-  const StepNotes notes = bed.engine->look();
-  EXPECT_EQ(notes.lists, 1);
-  EXPECT_EQ(notes.listed, OneList(wall.view(), bed.centre(3), 0.5).made.n);
+  const StepDiagnostics diagnostics = bed.engine->read_diagnostics();
+  EXPECT_EQ(diagnostics.lists, 1);
+  EXPECT_EQ(diagnostics.listed, OneList(wall.view(), bed.centre(3), 0.5).made.n);
 }
 
 TEST(wall_list, is_made_anew_where_a_sphere_grows)
@@ -352,11 +352,11 @@ TEST(wall_list, is_made_anew_where_a_sphere_grows)
   bed.choose(0.2);
   bed.step();
   EXPECT_EQ(bed.engine->totals().contacts, 0);
-  bed.engine->look();
+  bed.engine->read_diagnostics();
   bed.radius[0] = 0.5;
   bed.step();
   EXPECT_EQ(bed.engine->totals().contacts, 1);
-  EXPECT_EQ(bed.engine->look().lists, 1);
+  EXPECT_EQ(bed.engine->read_diagnostics().lists, 1);
 }
 
 TEST(wall_list, a_sphere_that_grows_after_the_choice_is_not_left_out)
@@ -381,7 +381,7 @@ TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_ti
     const Vec3 outside = {-9, -9, 5.4};
     kept.add(outside, 0.5);
     anew.add(outside, 0.5);
-    EXPECT_FALSE(place_of(wall.view(), outside).inside);
+    EXPECT_FALSE(cell_slot_of(wall.view(), outside).inside);
     kept.choose(12);
     ASSERT_EQ(kept.engine->n_near(), 1);
     // To a place over the floor, a third of a margin a step.
@@ -407,12 +407,12 @@ TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_ti
 TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_step)
 {
   constexpr int kSteps = 1000, kSpheres = 40;
-  const Real reach = 0.5, step = 0.3 * kListMargin * reach;
+  const Real cutoff = 0.5, step = 0.3 * kListMargin * cutoff;
   const TriangleSoup soups[] = {floor_mesh(20, 10, 7), box_mesh({0, 0, 0}, {4, 4, 4}),
                                 random_soup(60, 3), random_soup(1000, 3)};
   for (const TriangleSoup &soup : soups)
     for (Precision precision : {Precision::double_, Precision::mixed}) {
-      const Wall wall(soup, reach, precision == Precision::mixed);
+      const Wall wall(soup, cutoff, precision == Precision::mixed);
       EngineSettings s;
       s.law = classic(LawStyle::hertz_history);
       s.precision = precision;
@@ -421,8 +421,8 @@ TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_s
       const std::vector<VertexRecord> &vertices = wall.grid.wall.vertices;
       for (int i = 0; i < kSpheres; i++) {
         const Vec3 at = vertices[r.next() % vertices.size()].position;
-        const Vec3 q = at + r.in(0.5, 0.9) * reach * r.direction();
-        const Real radius = reach * r.in(0.8, 1);
+        const Vec3 q = at + r.in(0.5, 0.9) * cutoff * r.direction();
+        const Real radius = cutoff * r.in(0.8, 1);
         kept.add(q, radius);
         anew.add(q, radius);
       }
@@ -437,7 +437,7 @@ TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_s
         anew.step();
         differ += !same_bytes(kept.force, anew.force) || !same_bytes(kept.torque, anew.torque);
         contacts += kept.engine->totals().contacts;
-        lists += kept.engine->look().lists;
+        lists += kept.engine->read_diagnostics().lists;
       }
       const std::string &name = soup.source;
       EXPECT_EQ(differ, 0) << name;

@@ -27,7 +27,7 @@ struct NearChoice {
     int mask;
   };
 
-  LSDCD_FN Rows<const Real> places() const { return spheres.x; }
+  LSDCD_FN StridedView<const Real> places() const { return spheres.x; }
   LSDCD_FN Item read(std::size_t i) const
   {
     return {spheres.radius[i], spheres.mask ? spheres.mask[i] : 0};
@@ -40,11 +40,11 @@ struct NearChoice {
   // Could it reach past the grid? check() finds out.
   LSDCD_FN bool may_be_large(const Item &item) const
   {
-    return in_group(item) && (pull_off > 0 || !(item.radius <= grid.reach));
+    return in_group(item) && (pull_off > 0 || !(item.radius <= grid.cutoff));
   }
   LSDCD_FN void check(std::size_t i, const Item &item) const
   {
-    if (may_be_large(item) && !(reach_of(item.radius, pull_off) <= grid.reach))
+    if (may_be_large(item) && !(cutoff_of(item.radius, pull_off) <= grid.cutoff))
       raise_to(&counts->too_large, kNoSphere - i);
   }
 
@@ -57,7 +57,7 @@ struct NearChoice {
     const bool sure = !guess.unsure & (!kMoves || (guess.inside && fixed_margin > 0 &&
                                                    filter.is_clear(guess, fixed_margin)));
     bool may = !sure;
-    if (guess.inside & sure) may = near_table.at(filter.place(grid, guess));
+    if (guess.inside & sure) may = near_table.at(filter.slot(grid, guess));
     return may & in_group(item);
   }
   template <class Table>

@@ -30,7 +30,7 @@ class NearList {
   }
 
   // Of the n spheres that were chosen by their cells leaves those that can touch something after a
-  // way of up to `margin`. They may grow before the next choice, up to the grid's reach. How many
+  // way of up to `margin`. They may grow before the next choice, up to the grid's cutoff. How many
   // are left goes into `counts`.
   void prune(B &b, const GridView &grid, const Spheres &spheres, std::size_t n, Real margin,
              StepCounts *counts, int *n_springs)
@@ -41,13 +41,13 @@ class NearList {
     if (other_.size() < near_.size()) other_ = Array<int>(near_.size());
     const int *near = near_.data();
     char *flags = flags_.data();
-    const Rows<const Real> x = spheres.x;
+    const StridedView<const Real> x = spheres.x;
     const Real *radius = spheres.radius;
     b.for_each(
         n,
         [=] LSDCD_LAMBDA(std::size_t k) {
           const int i = near[k];
-          const Searcher s = {x[i], radius[i], grid.reach, nullptr, 0};
+          const QuerySphere s = {x[i], radius[i], grid.cutoff, nullptr, 0};
           flags[k] = can_touch(grid, s, margin);
           if (!flags[k] && n_springs) n_springs[i] = 0;
         },
@@ -72,7 +72,7 @@ class NearList {
 
   Array<int> near_, other_;
   Array<char> flags_;
-  typename B::SelectRoom room_;
+  typename B::SelectScratch room_;
 };
 
 }    // namespace lsdcd

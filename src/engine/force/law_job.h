@@ -34,7 +34,7 @@ struct StepCounts {
   int shared_used[2];    // slots, of each pool in the last step that wrote it
   int n_left[2];         // near spheres left to the second kernel, by turns
   int lost;              // spheres left out for want of memory: an error
-  // kNoSphere less the index of the first sphere beyond the grid's reach, or 0: an error.
+  // kNoSphere less the index of the first sphere beyond the grid's cutoff, or 0: an error.
   std::uint64_t too_large;
   std::uint64_t uncertified;    // answers
   // As ascending bits: the largest overlap / radius, with 1 + the index of its sphere
@@ -58,15 +58,15 @@ struct LawJob {
   ForceSettings settings = {};
   const int *near = nullptr;    // sphere of each k; null: sphere k
   WallLists lists = {};         // of each k; none: cells are searched
-  Rows<const Real> x, v, omega;
+  StridedView<const Real> x, v, omega;
   Column<const Real> radius, mass, temperature;
   SpringsView springs = {};    // of the last step
 
   StepCounts *counts = nullptr;
-  Rows<Real> force, torque;     // added to
-  Real *heat_flow = nullptr;    // likewise, where the law has heat
-  ResultColumns result = {};    // of each k
-  Real *heat = nullptr;         // of each k, where the law has heat
+  StridedView<Real> force, torque;    // added to
+  Real *heat_flow = nullptr;          // likewise, where the law has heat
+  ResultColumns result = {};          // of each k
+  Real *heat = nullptr;               // of each k, where the law has heat
   Real *uncertain = nullptr;    // overlap / radius that k's search may miss; null: nothing can be
   ContactPool pool = {};
   Lane *lanes = nullptr;
@@ -81,12 +81,12 @@ LSDCD_FN std::size_t sphere_of(const LawJob &job, std::size_t k)
 
 // Sphere i at x, as the search sees it. `beyond`: does the law act beyond contact? `pull_off`: of
 // the law, at a radius of 1.
-LSDCD_FN Searcher searcher_of(const LawJob &job, std::size_t i, const Vec3 &x, Real radius,
-                              bool beyond, Real pull_off)
+LSDCD_FN QuerySphere query_sphere_of(const LawJob &job, std::size_t i, const Vec3 &x, Real radius,
+                                     bool beyond, Real pull_off)
 {
-  Searcher s = {x, radius, radius, nullptr, 0};
+  QuerySphere s = {x, radius, radius, nullptr, 0};
   if (beyond) {
-    s.reach = reach_of(radius, pull_off);
+    s.cutoff = cutoff_of(radius, pull_off);
     s.n_springs = job.springs.count[i];
     s.springs = job.springs.pool + (s.n_springs > 0 ? job.springs.first[i] : 0);
   }

@@ -52,7 +52,7 @@ LSDCD_FN bool take_slots(const LawJob &job, std::size_t k, int n, int &first, Sp
   return true;
 }
 
-LSDCD_FN int count_bearing(const ContactsView &set, const Real *weight)
+LSDCD_FN int count_acting(const ContactsView &set, const Real *weight)
 {
   if (!weight) return set.n;
   int n = 0;
@@ -74,7 +74,7 @@ LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::s
   SphereState s = state_at<Law>(job, i, x, radius);
   int first = 0;
   SphereSink sink = {};
-  if (!take_slots<Law>(job, k, count_bearing(set, weight), first, sink)) {
+  if (!take_slots<Law>(job, k, count_acting(set, weight), first, sink)) {
     does_not_fit(job, k);
     return;
   }
@@ -117,13 +117,13 @@ LSDCD_FN bool single_contact(const Law &law, const LawJob &job, std::size_t k)
   const std::size_t i = sphere_of(job, k);
   const Vec3 x = job.x[i];
   const Real radius = job.radius[i];
-  const Searcher s = searcher_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
-  if (!job.lists.holds(k, x, s.reach)) return false;
+  const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
+  if (!job.lists.holds(k, x, s.cutoff)) return false;
   ContactSet<1> set;
-  find_in_list<WallGeometry>(job.grid, {job.lists, k}, x, s.reach, set);
-  keep_bearing<Law::kBeyond>(job.grid, job.settings.search, s, set);
+  find_in_list<WallGeometry>(job.grid, {job.lists, k}, x, s.cutoff, set);
+  keep_acting<Law::kBeyond>(job.grid, job.settings.search, s, set);
   if (set.overflow) return false;
-  note_reach(job, i, s.reach);
+  note_cutoff(job, i, s.cutoff);
   apply_law(law, job, k, i, x, radius, set.view(), nullptr);
   return true;
 }
@@ -135,11 +135,11 @@ LSDCD_FN void several_contacts(const Law &law, const LawJob &job, std::size_t k)
   const std::size_t i = sphere_of(job, k);
   const Vec3 x = job.x[i];
   const Real radius = job.radius[i];
-  const Searcher s = searcher_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
-  note_reach(job, i, s.reach);
+  const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
+  note_cutoff(job, i, s.cutoff);
   const ListedFeatures listed = {job.lists, k};
   const ListedFeatures *list = job.lists.n ? &listed : nullptr;
-  if (list && !job.lists.holds(k, x, s.reach)) {
+  if (list && !job.lists.holds(k, x, s.cutoff)) {
     WallList made;
     count_one(&job.counts->lists);
     if (!gather(job.grid, s, made)) list = nullptr;
@@ -169,7 +169,7 @@ LSDCD_FN void several_contacts(const Law &law, const LawJob &job, std::size_t k)
       fits = !lane->touch.set.overflow;
     }
     if (fits) {
-      keep_uncertain(job, k, may_miss(s.reach, exact_within), radius);
+      keep_uncertain(job, k, may_miss(s.cutoff, exact_within), radius);
       apply_law(law, job, k, i, x, radius, set, weight);
     } else {
       does_not_fit(job, k);
@@ -189,7 +189,8 @@ struct LawStep {
   static constexpr bool kSingle = Law::kSingle;
   // Blocks at once on a GPU's processor: 96, 128 or 168 registers are left to a thread. With fewer
   // the kernels spill, which costs more than more blocks bring.
-  static constexpr bool kLarge = Law::kExtra > 0 || Law::kCouple || Law::kHeat || Law::kBeyond,
+  static constexpr bool kLarge =
+                            Law::kExtra > 0 || Law::kContactTorque || Law::kHeat || Law::kBeyond,
                         kOnWall = Law::kSurface || Law::kRecords;
   static constexpr int kBlocksAtOnce = kLarge ? 3 : kOnWall || Law::kHistory ? 4 : 5;
 

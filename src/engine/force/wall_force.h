@@ -56,12 +56,12 @@ LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ContactsView &set
   using T = typename Law::Number;
   ContactMemory<T, Law::kExtra> memory = {};
   if constexpr (Law::kHistory) {
-    const Inheritance in = inheritance(wall, set, i, s.springs, s.n_springs);
+    const Transfer in = transfer_of(wall, set, i, s.springs, s.n_springs);
     if (in.from < 0) return memory;
     const auto turned = [&](const Vec3 &h) {
       return vec_cast<T>(handed_on(h, in, s.springs, set.normal[i]));
     };
-    memory.stretch = turned(s.springs[in.from].stretch);
+    memory.shear = turned(s.springs[in.from].shear);
     if constexpr (Law::kExtra > 0) {
       const Real *old = s.extra + in.from * Law::kExtra;
       for (int k = 0; k < 3 * Law::kVectors; k += 3)
@@ -103,7 +103,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     c.v_tangent = vec_cast<T>(along - s.radius * cross(s.omega, n));
     c.dt = static_cast<T>(settings.dt);
     c.update = settings.update;
-    if constexpr (Law::kCouple) c.omega = vec_cast<T>(s.omega);
+    if constexpr (Law::kContactTorque) c.omega = vec_cast<T>(s.omega);
     if constexpr (Law::kHeat)
       c.wall_warmer = static_cast<T>(settings.wall_temperature - s.temperature);
 
@@ -111,7 +111,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     const auto f = law.evaluate(c, memory);
     if constexpr (Law::kHistory) {
       const int at = out.n_contacts;
-      sink.springs[at] = {vec_cast<Real>(memory.stretch), n, set.feature[i], 0};
+      sink.springs[at] = {vec_cast<Real>(memory.shear), n, set.feature[i], 0};
       if constexpr (Law::kExtra > 0)
         for (int k = 0; k < Law::kExtra; k++) sink.extra[at * Law::kExtra + k] = memory.extra[k];
     }
@@ -129,7 +129,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     out.force += (weight * f.normal) * n + tangential;
     out.torque -= s.radius * cross(n, tangential);
     out.energy += weight * f.energy;
-    if constexpr (Law::kCouple) out.torque += weight * vec_cast<Real>(f.couple);
+    if constexpr (Law::kContactTorque) out.torque += weight * vec_cast<Real>(f.contact_torque);
     if constexpr (Law::kHeat) *sink.heat += weight * f.heat;
     if (settings.with_point) {
       const Real w = weight * fabs(f.normal);

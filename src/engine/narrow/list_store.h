@@ -12,7 +12,7 @@ class ListStore {
   using Array = typename B::template Array<T>;
 
  public:
-  // None where lists of cells hold the nearest pieces.
+  // None where lists of cells hold the nearest primitives.
   const WallLists &view() const { return lists_; }
 
   // Makes the lists of n near spheres, whose indices are `near`, or null for all.
@@ -28,13 +28,13 @@ class ListStore {
     }
     lists_ = WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts);
     const WallLists lists = lists_;
-    const Rows<const Real> x = spheres.x;
+    const StridedView<const Real> x = spheres.x;
     const Real *radius = spheres.radius;
     b.for_each(
         n,
         [=] LSDCD_LAMBDA(std::size_t k) {
           const std::size_t i = near ? near[k] : k;
-          const Searcher s = {x[i], radius[i], reach_of(radius[i], pull_off), nullptr, 0};
+          const QuerySphere s = {x[i], radius[i], cutoff_of(radius[i], pull_off), nullptr, 0};
           WallList made;
           gather(grid, s, made);
           lists.put(k, made);

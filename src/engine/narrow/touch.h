@@ -20,19 +20,19 @@ struct Touch {
   Real exact_within;         // the set is certified for spheres up to this radius
 };
 
-// A sphere's reach, past which it feels nothing, and the springs it had in the last step.
-struct Searcher {
+// A sphere's cutoff, past which it feels nothing, and the springs it had in the last step.
+struct QuerySphere {
   Vec3 x;
-  Real radius, reach;
-  const Spring *springs;    // read only where reach > radius
+  Real radius, cutoff;
+  const Spring *springs;    // read only where cutoff > radius
   int n_springs;
 };
 
 // Leaves the contacts on the side that is asked for and, where adhesion acts beyond contact
-// (reach > radius), beside those that overlap those that overlapped and have not let go since.
+// (cutoff > radius), beside those that overlap those that overlapped and have not let go since.
 template <bool kBeyond, int kCapacity>
-LSDCD_FN void keep_bearing(const GridView &grid, const SearchSettings &settings, const Searcher &s,
-                           ContactSet<kCapacity> &set)
+LSDCD_FN void keep_acting(const GridView &grid, const SearchSettings &settings,
+                          const QuerySphere &s, ContactSet<kCapacity> &set)
 {
   if (settings.side != 0) keep_side(grid.wall, settings.side * grid.outside, set);
   if constexpr (kBeyond) {
@@ -43,18 +43,18 @@ LSDCD_FN void keep_bearing(const GridView &grid, const SearchSettings &settings,
   }
 }
 
-// What is within reach, into a set that is empty: of the sphere's list, or of its cell where `list`
+// What is within the cutoff, into a set that is empty: of the sphere's list, or of its cell where `list`
 // is null. Where the set overflows nothing else is valid.
 template <bool kBeyond, class Geometry, int kCapacity>
-LSDCD_FN void search(const GridView &grid, const SearchSettings &settings, const Searcher &s,
+LSDCD_FN void search(const GridView &grid, const SearchSettings &settings, const QuerySphere &s,
                      const ListedFeatures *list, Touch<kCapacity> &out)
 {
   out.exact_within = kAnyDistance;
   if (list)
-    find_in_list<Geometry>(grid, *list, s.x, s.reach, out.set);
+    find_in_list<Geometry>(grid, *list, s.x, s.cutoff, out.set);
   else
-    out.exact_within = find_contacts_in<Geometry>(grid, s.x, s.reach, out.set);
-  keep_bearing<kBeyond>(grid, settings, s, out.set);
+    out.exact_within = find_contacts_in<Geometry>(grid, s.x, s.cutoff, out.set);
+  keep_acting<kBeyond>(grid, settings, s, out.set);
 }
 
 // Can a search of this grid miss contacts?
@@ -64,22 +64,22 @@ LSDCD_FN bool may_miss_any(const GridView &grid)
 }
 
 // Overlap of the deepest contact that may be missing; 0: certified.
-LSDCD_FN Real may_miss(Real reach, Real exact_within)
+LSDCD_FN Real may_miss(Real cutoff, Real exact_within)
 {
-  return exact_within < reach ? reach - exact_within : 0;
+  return exact_within < cutoff ? cutoff - exact_within : 0;
 }
 
-// How far apart feet may be that count as one, by the geometry that the grid was made for.
-LSDCD_FN Real slack_of(const GridView &grid)
+// How far apart closest points may be that count as one, by the geometry that the grid was made for.
+LSDCD_FN Real tolerance_of(const GridView &grid)
 {
-  return grid.in_floats ? BrickGeometry::slack(grid) : WallGeometry::slack(grid);
+  return grid.in_floats ? BrickGeometry::tolerance(grid) : WallGeometry::tolerance(grid);
 }
 
 // All that a sphere touches. Gives every contact its weight: overlaps are shared as those of a
-// sphere of radius `reach`, so that they are greater than 0 as long as a contact holds, and 0 where
+// sphere of radius `cutoff`, so that they are greater than 0 as long as a contact holds, and 0 where
 // it lets go. `rule`: memory of the corner rule, which a stack may have no room for.
 template <bool kBeyond, int kCapacity>
-LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, const Searcher &s,
+LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, const QuerySphere &s,
                          const ListedFeatures *list, CornerRule<kCapacity> &rule,
                          Touch<kCapacity> &out)
 {
@@ -89,7 +89,7 @@ LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, c
     search<kBeyond, WallGeometry>(grid, settings, s, list, out);
   if (out.set.overflow) return;
   if (settings.blend && out.set.n > 1)
-    rule.solve(out.set, s.reach, out.weight, slack_of(grid));
+    rule.solve(out.set, s.cutoff, out.weight, tolerance_of(grid));
   else
     for (int i = 0; i < out.set.n; i++) out.weight[i] = 1;
 }
@@ -97,33 +97,33 @@ LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, c
 // Functions of their own, so that they are compiled once however many laws there are.
 template <bool kBeyond, int kCapacity>
 LSDCD_NOINLINE void touch_in(CornerRule<kCapacity> &rule, const GridView &grid,
-                             const SearchSettings &settings, const Searcher &s,
+                             const SearchSettings &settings, const QuerySphere &s,
                              const ListedFeatures *list, Touch<kCapacity> &out)
 {
   touch_with<kBeyond>(grid, settings, s, list, rule, out);
 }
 template <bool kBeyond, int kCapacity>
-LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings, const Searcher &s,
-                          const ListedFeatures *list, Touch<kCapacity> &out)
+LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings,
+                          const QuerySphere &s, const ListedFeatures *list, Touch<kCapacity> &out)
 {
   CornerRule<kCapacity> rule;
   touch_with<kBeyond>(grid, settings, s, list, rule, out);
 }
 
 // Can it touch anything after a way of up to the margin?
-inline LSDCD_NOINLINE bool can_touch(const GridView &grid, const Searcher &s, Real margin)
+inline LSDCD_NOINLINE bool can_touch(const GridView &grid, const QuerySphere &s, Real margin)
 {
-  if (grid.in_floats) return can_touch<BrickGeometry>(grid, s.x, s.reach, margin);
-  return can_touch<WallGeometry>(grid, s.x, s.reach, margin);
+  if (grid.in_floats) return can_touch<BrickGeometry>(grid, s.x, s.cutoff, margin);
+  return can_touch<WallGeometry>(grid, s.x, s.cutoff, margin);
 }
 
 // Makes the list of a sphere anew; false: it has none, its cell has to be searched.
-inline LSDCD_NOINLINE bool gather(const GridView &grid, const Searcher &s, WallList &list)
+inline LSDCD_NOINLINE bool gather(const GridView &grid, const QuerySphere &s, WallList &list)
 {
   if (grid.in_floats)
-    gather_for<BrickGeometry>(grid, s.x, s.radius, s.reach, list);
+    gather_for<BrickGeometry>(grid, s.x, s.radius, s.cutoff, list);
   else
-    gather_for<WallGeometry>(grid, s.x, s.radius, s.reach, list);
+    gather_for<WallGeometry>(grid, s.x, s.radius, s.cutoff, list);
   return list.margin >= 0;
 }
 

@@ -103,7 +103,7 @@ LSDCD_FN bool insert_code(WallList &list, FeatureCode code)
 // Calls found(code) for what a sphere at q with this cutoff could touch after a way of up to the
 // margin, until that says false; returns whether it did not. A contact on such a way is in the
 // complete list of the cell that it is found from, and that cell meets the ball round q. Each
-// half-space of a feature's region moves by the margin at most; one slack more is for rounding.
+// half-space of a feature's region moves by the margin at most; one tolerance more is for rounding.
 template <class Geometry, class Found>
 LSDCD_FN bool for_each_within(const GridView &grid, const Vec3 &q, Real cutoff, Real margin,
                               const Found &found)
@@ -111,9 +111,9 @@ LSDCD_FN bool for_each_within(const GridView &grid, const Vec3 &q, Real cutoff, 
   int lo[3], hi[3];
   if (!cells_in_ball(grid, q, margin, lo, hi)) return true;
   const Geometry geometry(grid, q);
-  const Real more = margin + geometry.slack(), within = (1 + Real(2e-6)) * cutoff + more;
+  const Real more = margin + geometry.tolerance(), within = (1 + Real(2e-6)) * cutoff + more;
   const auto test = [&](FeatureCode code) {
-    return !geometry.may_have_foot(code, within, more) || found(code);
+    return !geometry.may_be_closest(code, within, more) || found(code);
   };
   for (int k = lo[2]; k < hi[2]; k++)
     for (int j = lo[1]; j < hi[1]; j++)

@@ -7,10 +7,10 @@
 namespace lsdcd {
 
 struct ResultColumns {
-  int *n_contacts = nullptr;    // of each near sphere; where it is 0 the others are not valid
-  Rows<Real> force, moment;     // moment: of force and torque about the origin
+  int *n_contacts = nullptr;          // of each near sphere; where it is 0 the others are not valid
+  StridedView<Real> force, moment;    // moment: of force and torque about the origin
   Column<Real> energy, overlap_ratio;
-  Rows<Real> weighted_point;    // these two only where they are asked for
+  StridedView<Real> weighted_point;    // these two only where they are asked for
   Column<Real> weight;
 
   static constexpr std::size_t kReals = 8, kRealsWithPoint = 12;    // of a result

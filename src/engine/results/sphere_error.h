@@ -19,13 +19,13 @@ struct SphereError : InputError {
   std::string problem;
 };
 
-[[noreturn]] inline void throw_too_large(int i, Real radius, Real reach)
+[[noreturn]] inline void throw_too_large(int i, Real radius, Real cutoff)
 {
   char text[160];
   std::snprintf(text, sizeof text,
                 "has radius %.9g, more than the grid's reach %.9g; set rmax to the largest radius "
                 "that will occur",
-                radius, reach);
+                radius, cutoff);
   throw SphereError(i, text);
 }
 

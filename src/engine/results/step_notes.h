@@ -7,10 +7,10 @@
 
 namespace lsdcd {
 
-// Sphere i feels the wall from as far as `reach`: an error where the grid does not go there.
-LSDCD_FN void note_reach(const LawJob &job, std::size_t i, Real reach)
+// Sphere i feels the wall from as far as `cutoff`: an error where the grid does not go there.
+LSDCD_FN void note_cutoff(const LawJob &job, std::size_t i, Real cutoff)
 {
-  if (reach > job.grid.reach) raise_to(&job.counts->too_large, kNoSphere - i);
+  if (cutoff > job.grid.cutoff) raise_to(&job.counts->too_large, kNoSphere - i);
 }
 
 // `uncertain`: overlap of the deepest contact that near sphere k may have beside those that were

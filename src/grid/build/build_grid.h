@@ -38,26 +38,27 @@ class GridBuilder {
                   0,
                   0};
     of_contact_ = put(contact_features_, wall.contact_features);
-    of_pieces_ = put(pieces_, wall.pieces);
+    of_primitives_ = put(primitives_, wall.primitives);
     n_contact_ = wall.contact_features.size();
-    n_pieces_ = wall.pieces.size();
+    n_primitives_ = wall.primitives.size();
   }
 
-  // Lists of the contact features (nearest 0) or of the nearest pieces. Returns false,
+  // Lists of the contact features (nearest 0) or of the nearest primitives. Returns false,
   // with `lists` untouched, if they would not fit `budget` bytes.
   bool build(const GridPlan &plan, int nearest, std::size_t budget, CellLists &lists,
              ListReport &report)
   {
     const auto start = std::chrono::steady_clock::now();
     view_.plan = plan;
-    view_.pieces = nearest > 0;
-    view_.features = nearest > 0 ? of_pieces_ : of_contact_;
+    view_.primitives = nearest > 0;
+    view_.features = nearest > 0 ? of_primitives_ : of_contact_;
     OctantPairs<B> pairs;
     needed_ = HUGE_VAL;
-    if (!sort_into_octants(b_, view_, nearest > 0 ? n_pieces_ : n_contact_, pairs)) return false;
+    if (!sort_into_octants(b_, view_, nearest > 0 ? n_primitives_ : n_contact_, pairs))
+      return false;
     needed_ = double(brick_bytes(plan, pairs.n_bricks));
     if (needed_ > double(budget)) return false;
-    // Of nearest pieces the first that is left out stays, as a bound.
+    // Of nearest primitives the first that is left out stays, as a bound.
     const std::uint32_t most = nearest > 0 ? nearest + 1 : 0xffffffffu;
     BuiltLists<B> built;
     const bool fits = fill_lists(b_, view_, pairs, most, budget, built, report);
@@ -110,10 +111,10 @@ class GridBuilder {
   Scratch<Vec3> edge_inward_, vertex_direction_;
   Scratch<FaceVertices> face_vertex_;
   Scratch<EdgeVertices> edge_vertex_;
-  Scratch<FeatureCode> contact_features_, pieces_;
+  Scratch<FeatureCode> contact_features_, primitives_;
   Scratch<std::uint64_t> only_;
-  const FeatureCode *of_contact_, *of_pieces_;
-  std::size_t n_contact_, n_pieces_;
+  const FeatureCode *of_contact_, *of_primitives_;
+  std::size_t n_contact_, n_primitives_;
   BuildView view_ = {};
   double needed_ = 0;
 };
@@ -142,8 +143,8 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
     return false;
   grid.origin = plan.origin;
   grid.length = plan.length;
-  grid.reach = plan.reach;
-  grid.slack = plan.slack;
+  grid.cutoff = plan.cutoff;
+  grid.tolerance = plan.tolerance;
   for (int k = 0; k < 3; k++) grid.n_bricks[k] = plan.n_bricks[k];
   grid.nearest = settings.nearest;
   if (settings.in_floats) add_brick_records(grid);
@@ -185,7 +186,7 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   grid.report.record_bytes = grid.records.bytes();
   grid.report.device = builder.name();
   grid.report.length = plan.length;
-  grid.report.reach = plan.reach;
+  grid.report.cutoff = plan.cutoff;
   grid.report.length_chosen = settings.length <= 0;
   grid.report.bytes = flat_bytes(grid);
   grid.report.seconds = GridBuilder<B>::seconds_since(start);

@@ -78,14 +78,14 @@ template <class B>
 void finish_bricks(B &b, const OctantPairs<B> &pairs, const std::uint32_t *cells,
                    std::size_t table_size, Brick *bricks, std::int32_t *brick_of)
 {
-  const std::uint32_t *places = pairs.place.data();
+  const std::uint32_t *slots = pairs.slot.data();
   b.for_each(table_size, [=] LSDCD_LAMBDA(std::size_t i) { brick_of[i] = -1; });
   b.for_each(pairs.n_bricks, [=] LSDCD_LAMBDA(std::size_t i) {
     for (int k = 0; k < kLayers; k++) {
       bricks[i].layer[k].first_cell = cells[i * kLayers + k];
       bricks[i].layer[k].pad = 0;
     }
-    brick_of[places[i]] = static_cast<std::int32_t>(i);
+    brick_of[slots[i]] = static_cast<std::int32_t>(i);
   });
 }
 
@@ -96,7 +96,7 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
                  Candidate *candidates)
 {
   const std::uint32_t *first = pairs.first.data(), *features = pairs.feature.data(),
-                      *places = pairs.place.data();
+                      *slots = pairs.slot.data();
   b.for_each(pairs.n_bricks * kBrickCells, [=] LSDCD_LAMBDA(std::size_t i) {
     const std::size_t octant = i / kOctantCells, brick = octant / 8;
     const int k = static_cast<int>(i % kOctantCells),
@@ -106,7 +106,7 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
     const std::uint32_t start = static_cast<std::uint32_t>(lists[brick * kLayers + (c >> 6)] +
                                                            offsets[brick * kBrickCells + c]);
     Cell out = {start, n};
-    const Vec3 centre = CellCentres(view.plan, places[brick]).at(c);
+    const Vec3 centre = CellCentres(view.plan, slots[brick]).at(c);
     std::uint32_t at = 0;
     for (std::uint32_t p = first[octant]; p < first[octant + 1]; p++) {
       if (!(met[p] >> k & 1)) continue;

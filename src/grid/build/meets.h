@@ -13,7 +13,7 @@ namespace lsdcd {
 // holds as well, and the half-space of their sum cuts that spike off.
 //
 // All return whether a point within `around` of c can lie in the region and within
-// `reach` of the feature, and if so set `distance` to c's distance from the
+// `cutoff` of the feature, and if so set `distance` to c's distance from the
 // feature's plane, line or point. Lengths.
 
 // Is `sum`, the value of a half-space with normal length sqrt(length_sq), above
@@ -24,12 +24,12 @@ LSDCD_FN bool is_past(Real sum, Real length_sq, Real around)
   return sum > 0 && length_sq > kShort && sum * sum > around * around * length_sq;
 }
 
-LSDCD_FN bool face_meets(const FaceRecord &face, const Vec3 &c, Real around, Real reach,
+LSDCD_FN bool face_meets(const FaceRecord &face, const Vec3 &c, Real around, Real cutoff,
                          Real &distance)
 {
   const Vec3 d = c - face.anchor;
   distance = fabs(dot(face.normal, d));
-  if (!(distance <= reach + around)) return false;
+  if (!(distance <= cutoff + around)) return false;
   const Real s[3] = {-dot(face.inward[0], d), -dot(face.inward[1], d) - face.height,
                      -dot(face.inward[2], d)};
   if (!(s[0] <= around && s[1] <= around && s[2] <= around)) return false;
@@ -42,13 +42,13 @@ LSDCD_FN bool face_meets(const FaceRecord &face, const Vec3 &c, Real around, Rea
 }
 
 LSDCD_FN bool edge_meets(const EdgeRecord &edge, const Vec3 *edge_inward, const Vec3 &c,
-                         Real around, Real reach, Real &distance)
+                         Real around, Real cutoff, Real &distance)
 {
   const Vec3 d = c - edge.anchor;
   const Real along = dot(edge.direction, d);
   if (!(along >= -around && along <= edge.length + around)) return false;
   const Vec3 radial = d - along * edge.direction;
-  const Real limit = reach + around;
+  const Real limit = cutoff + around;
   if (!(norm_sq(radial) <= limit * limit)) return false;
   Vec3 sum = {0, 0, 0};
   for (std::uint32_t k = 0; k < edge.n_faces; k++) {
@@ -62,10 +62,10 @@ LSDCD_FN bool edge_meets(const EdgeRecord &edge, const Vec3 *edge_inward, const 
 }
 
 LSDCD_FN bool vertex_meets(const VertexRecord &vertex, const Vec3 *direction, const Vec3 &c,
-                           Real around, Real reach, Real &distance)
+                           Real around, Real cutoff, Real &distance)
 {
   const Vec3 d = c - vertex.position;
-  const Real limit = reach + around;
+  const Real limit = cutoff + around;
   if (!(norm_sq(d) <= limit * limit)) return false;
   Vec3 sum = {0, 0, 0};
   for (std::uint32_t k = vertex.first; k < vertex.first + vertex.count; k++) {
@@ -78,16 +78,16 @@ LSDCD_FN bool vertex_meets(const VertexRecord &vertex, const Vec3 *direction, co
 }
 
 LSDCD_FN bool feature_meets(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &c,
-                            Real around, Real reach, Real &distance)
+                            Real around, Real cutoff, Real &distance)
 {
   const std::uint32_t i = feature_index(feature);
   switch (feature_kind(feature)) {
     case FeatureKind::face:
-      return face_meets(wall.faces[i], c, around, reach, distance);
+      return face_meets(wall.faces[i], c, around, cutoff, distance);
     case FeatureKind::edge:
-      return edge_meets(wall.edges[i], wall.edge_inward, c, around, reach, distance);
+      return edge_meets(wall.edges[i], wall.edge_inward, c, around, cutoff, distance);
     default:
-      return vertex_meets(wall.vertices[i], wall.vertex_direction, c, around, reach, distance);
+      return vertex_meets(wall.vertices[i], wall.vertex_direction, c, around, cutoff, distance);
   }
 }
 

@@ -19,7 +19,7 @@ struct OctantPairs {
 
   std::size_t n = 0, n_bricks = 0;
   Scratch<std::uint32_t> octant, feature;    // of each pair
-  Scratch<std::uint32_t> place;              // of each brick, in the table
+  Scratch<std::uint32_t> slot;               // of each brick, in the table
   Scratch<std::uint32_t> first;              // pair of each octant of each brick, and n
 };
 
@@ -52,8 +52,8 @@ void count_octants(B &b, const BuildView &view, const std::uint64_t *offsets, co
   b.for_each_part(
       offsets, run, [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
         const FeatureCode feature = view.features[i];
-        const std::uint32_t place = brick_place(view.plan, brick_box(view, feature), part);
-        const unsigned octants = octants_met(view, feature, place);
+        const std::uint32_t slot = brick_slot(view.plan, brick_box(view, feature), part);
+        const unsigned octants = octants_met(view, feature, slot);
         met[k] = static_cast<std::uint8_t>(octants);
         counts[k] = static_cast<std::uint32_t>(count_bits(octants));
       });
@@ -67,17 +67,17 @@ void write_octants(B &b, const BuildView &view, const std::uint64_t *offsets, co
   b.for_each_part(
       offsets, run, [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
         const FeatureCode feature = view.features[i];
-        const std::uint32_t place = brick_place(view.plan, brick_box(view, feature), part);
+        const std::uint32_t slot = brick_slot(view.plan, brick_box(view, feature), part);
         std::size_t at = base + counts[k];
         for (unsigned o = 0; o < 8; o++) {
           if (!(met[k] >> o & 1)) continue;
-          octants[at] = place * 8 + o;
+          octants[at] = slot * 8 + o;
           features[at++] = feature;
         }
       });
 }
 
-// Numbers the bricks in order of their places and finds where each octant begins.
+// Numbers the bricks in order of their slots and finds where each octant begins.
 template <class B>
 void number_bricks(B &b, OctantPairs<B> &out)
 {
@@ -91,15 +91,15 @@ void number_bricks(B &b, OctantPairs<B> &out)
     runs[i] = i == 0 || sorted[i] >> 3 != sorted[i - 1] >> 3;
   });
   out.n_bricks = b.exclusive_scan(runs, n);
-  out.place = typename Pairs::template Scratch<std::uint32_t>(out.n_bricks);
+  out.slot = typename Pairs::template Scratch<std::uint32_t>(out.n_bricks);
   out.first = typename Pairs::template Scratch<std::uint32_t>(out.n_bricks * 8 + 1);
-  std::uint32_t *places = out.place.data(), *first = out.first.data();
+  std::uint32_t *slots = out.slot.data(), *first = out.first.data();
   const std::size_t n_octants = out.n_bricks * 8;
   // Each pair opens the octants from after its forerunner's up to its own.
   b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
     const bool new_brick = i == 0 || sorted[i] >> 3 != sorted[i - 1] >> 3;
     const std::size_t brick = new_brick ? runs[i] : runs[i] - 1;
-    if (new_brick) places[brick] = sorted[i] >> 3;
+    if (new_brick) slots[brick] = sorted[i] >> 3;
     const std::size_t own = brick * 8 + (sorted[i] & 7);
     std::size_t from = 0;
     if (i > 0) {

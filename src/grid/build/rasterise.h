@@ -1,7 +1,7 @@
 // Which octants of bricks a feature meets.
 #pragma once
 
-#include "geometry/piece_distance.h"
+#include "geometry/primitive_distance.h"
 #include "grid/build/meets.h"
 #include "grid/plan/grid_plan.h"
 
@@ -10,22 +10,22 @@ namespace lsdcd {
 // What the kernels of the build share.
 struct BuildView {
   WallFeaturesView wall;
-  const FeatureCode *features;    // all that can hold a contact, or all pieces
-  bool pieces;
+  const FeatureCode *features;    // all that can hold a contact, or all primitives
+  bool primitives;
   GridPlan plan;
-  const std::uint64_t *only;    // a bit per place of the brick table, or null: all bricks
+  const std::uint64_t *only;    // a bit per slot of the brick table, or null: all bricks
 };
 
-// Can a sphere of the grid's reach, centred within `around` of c, have a contact
-// on this feature, or touch this piece? If so, `distance` is how far it is from c.
+// Can a sphere of the grid's cutoff, centred within `around` of c, have a contact
+// on this feature, or touch this primitive? If so, `distance` is how far it is from c.
 LSDCD_FN bool meets(const BuildView &b, FeatureCode feature, const Vec3 &c, Real around,
                     Real &distance)
 {
-  if (b.pieces) {
-    distance = piece_distance(b.wall, feature, c);
-    return distance <= b.plan.reach + b.plan.slack + around;
+  if (b.primitives) {
+    distance = primitive_distance(b.wall, feature, c);
+    return distance <= b.plan.cutoff + b.plan.tolerance + around;
   }
-  return feature_meets(b.wall, feature, c, around + b.plan.slack, b.plan.reach, distance);
+  return feature_meets(b.wall, feature, c, around + b.plan.tolerance, b.plan.cutoff, distance);
 }
 
 LSDCD_FN void grow_box(Vec3 &lo, Vec3 &hi, const Vec3 &p)
@@ -69,7 +69,7 @@ LSDCD_FN int cell_of_octant(int octant, int i)
   return (z * kBrickSide + y) * kBrickSide + x;
 }
 
-// The bricks that a feature's box and the reach around it overlap.
+// The bricks that a feature's box and the cutoff around it overlap.
 struct BrickBox {
   std::int32_t first[3], n[3];
 
@@ -83,8 +83,8 @@ LSDCD_FN BrickBox brick_box(const BuildView &b, FeatureCode feature)
   const GridPlan &plan = b.plan;
   BrickBox box;
   for (int k = 0; k < 3; k++) {
-    // Half a cell more than the reach, so that rounding cannot lose a brick.
-    const Real margin = plan.reach + plan.slack + Real(0.5) * plan.length;
+    // Half a cell more than the cutoff, so that rounding cannot lose a brick.
+    const Real margin = plan.cutoff + plan.tolerance + Real(0.5) * plan.length;
     const Real inv = 1 / (kBrickSide * plan.length);
     // The grid may be cut off where no sphere can be.
     const Real from = (lo[k] - margin - plan.origin[k]) * inv,
@@ -97,7 +97,7 @@ LSDCD_FN BrickBox brick_box(const BuildView &b, FeatureCode feature)
 }
 
 // The place in the table of the i-th brick of a box.
-LSDCD_FN std::uint32_t brick_place(const GridPlan &plan, const BrickBox &box, std::uint64_t i)
+LSDCD_FN std::uint32_t brick_slot(const GridPlan &plan, const BrickBox &box, std::uint64_t i)
 {
   const std::uint64_t x = box.first[0] + i % box.n[0], y = box.first[1] + i / box.n[0] % box.n[1],
                       z = box.first[2] + i / box.n[0] / box.n[1];
@@ -105,14 +105,14 @@ LSDCD_FN std::uint32_t brick_place(const GridPlan &plan, const BrickBox &box, st
 }
 
 // Which octants of a brick the feature meets, a bit each.
-LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, std::uint32_t place)
+LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, std::uint32_t slot)
 {
   const GridPlan &plan = b.plan;
-  if (b.only && !(b.only[place >> 6] >> (place & 63) & 1)) return 0;
+  if (b.only && !(b.only[slot >> 6] >> (slot & 63) & 1)) return 0;
   const std::uint32_t nx = plan.n_bricks[0], ny = plan.n_bricks[1];
-  const Vec3 centre = plan.brick_centre(static_cast<std::int32_t>(place % nx),
-                                        static_cast<std::int32_t>(place / nx % ny),
-                                        static_cast<std::int32_t>(place / nx / ny));
+  const Vec3 centre = plan.brick_centre(static_cast<std::int32_t>(slot % nx),
+                                        static_cast<std::int32_t>(slot / nx % ny),
+                                        static_cast<std::int32_t>(slot / nx / ny));
   Real distance;
   if (!meets(b, feature, centre, kBrickSide * plan.half_diagonal, distance)) return 0;
   const Real quarter = Real(0.5) * kOctantSide * plan.length;
@@ -151,10 +151,10 @@ LSDCD_FN std::uint64_t cells_where(const GridPlan &plan, std::uint32_t octant_ke
 // Which cells of an octant the feature meets. The record is read once for all of them.
 LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::uint32_t octant_key)
 {
-  const Real reach = b.plan.reach, slack = b.plan.slack;
+  const Real cutoff = b.plan.cutoff, tolerance = b.plan.tolerance;
   const std::uint32_t i = feature_index(feature);
   Real distance;
-  if (b.pieces)
+  if (b.primitives)
     return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
       return meets(b, feature, c, around, distance);
     });
@@ -162,19 +162,20 @@ LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::u
     case FeatureKind::face: {
       const FaceRecord face = b.wall.faces[i];
       return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
-        return face_meets(face, c, around + slack, reach, distance);
+        return face_meets(face, c, around + tolerance, cutoff, distance);
       });
     }
     case FeatureKind::edge: {
       const EdgeRecord edge = b.wall.edges[i];
       return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
-        return edge_meets(edge, b.wall.edge_inward, c, around + slack, reach, distance);
+        return edge_meets(edge, b.wall.edge_inward, c, around + tolerance, cutoff, distance);
       });
     }
     default: {
       const VertexRecord vertex = b.wall.vertices[i];
       return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
-        return vertex_meets(vertex, b.wall.vertex_direction, c, around + slack, reach, distance);
+        return vertex_meets(vertex, b.wall.vertex_direction, c, around + tolerance, cutoff,
+                            distance);
       });
     }
   }

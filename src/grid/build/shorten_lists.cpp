@@ -12,7 +12,7 @@ CellLists shorten(const CellLists &lists, int nearest)
   out.bricks = lists.bricks;
   out.cells = lists.cells;
   for (Cell &cell : out.cells) {
-    if (cell.count == 1) continue;    // holds its one piece itself
+    if (cell.count == 1) continue;    // holds its one primitive itself
     const auto begin = lists.candidates.begin() + cell.first;
     cell.count = std::min(cell.count, most);
     cell.first = static_cast<std::uint32_t>(out.candidates.size());

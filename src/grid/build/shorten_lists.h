@@ -1,4 +1,4 @@
-// Lists of the N nearest pieces from lists of more.
+// Lists of the N nearest primitives from lists of more.
 #pragma once
 
 #include "grid/triangle_grid.h"

@@ -63,9 +63,9 @@ Hash version_hash()
 // listed here too.
 Hash settings_hash(const GridSettings &s)
 {
-  const auto &[length, reach, memory_budget, sides, nearest, exact, in_floats, may_coarsen, within,
+  const auto &[length, cutoff, memory_budget, sides, nearest, exact, in_floats, may_coarsen, within,
                only] = s;
-  return Hasher().of(length, reach, memory_budget, sides, nearest, exact, in_floats, may_coarsen,
+  return Hasher().of(length, cutoff, memory_budget, sides, nearest, exact, in_floats, may_coarsen,
                      within.lo, within.hi, only);
 }
 

@@ -71,7 +71,7 @@ struct FixedPoint<double> {
 // How far off, for a point inside of the grid, in bricks: `scale` is the nearest T, so
 // |x| |scale - exact|, with |x| up to the grid's far side; `from`, the nearest T to a number
 // below |first| + 2 B, a unit of rounding of that; the result, below 4 B, as far as a unit of
-// 4 B; and what place_of() rounds in double, three times in numbers up to n and once in `first`.
+// 4 B; and what cell_slot_of() rounds in double, three times in numbers up to n and once in `first`.
 // The result grows with the coordinate: a point outside comes out past the grid's side, or as
 // near to it.
 template <class T>
@@ -145,17 +145,17 @@ struct BrickFilter {
            (at.k & mask) - margin <= room;
   }
 
-  // The brick's place in the table, of one that is inside.
-  LSDCD_FN std::uint32_t place(const GridView &grid, const BrickGuess &at) const
+  // The brick's slot in the table, of one that is inside.
+  LSDCD_FN std::uint32_t slot(const GridView &grid, const BrickGuess &at) const
   {
     const std::uint32_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
     return ((at.k >> shift) * ny + (at.j >> shift)) * nx + (at.i >> shift);
   }
   // The same in a coarse table.
-  LSDCD_FN std::uint32_t place(const CoarseTable &table, const BrickGuess &at) const
+  LSDCD_FN std::uint32_t slot(const CoarseTable &table, const BrickGuess &at) const
   {
     const std::uint32_t down = shift + table.shift;
-    return table.place(at.k >> down, at.j >> down, at.i >> down);
+    return table.slot(at.k >> down, at.j >> down, at.i >> down);
   }
 };
 

@@ -10,20 +10,20 @@
 
 namespace lsdcd {
 
-// Of 32 places of the table: which have a brick, and how many bricks come before them.
-// Bricks are numbered in the order of their places, so that these two give its number.
+// Of 32 slots of the table: which have a brick, and how many bricks come before them.
+// Bricks are numbered in the order of their slots, so that these two give its number.
 struct alignas(8) BrickWord {
   std::uint32_t bits, below;
 };
 
-// Of the word that has a place of the table.
-LSDCD_FN bool has_brick(const BrickWord &word, std::size_t place)
+// Of the word that has a slot of the table.
+LSDCD_FN bool has_brick(const BrickWord &word, std::size_t slot)
 {
-  return word.bits >> (place % 32) & 1u;
+  return word.bits >> (slot % 32) & 1u;
 }
-LSDCD_FN std::uint32_t brick_number(const BrickWord &word, std::size_t place)
+LSDCD_FN std::uint32_t brick_number(const BrickWord &word, std::size_t slot)
 {
-  const std::uint32_t before = word.bits & ((1u << (place % 32)) - 1);
+  const std::uint32_t before = word.bits & ((1u << (slot % 32)) - 1);
   return word.below + static_cast<std::uint32_t>(count_bits(before));
 }
 
@@ -57,8 +57,8 @@ struct BrickTable {
       n_bricks = host.back().below + static_cast<std::uint32_t>(count_bits(host.back().bits));
   }
 
-  LSDCD_FN bool at(std::uint32_t place) const { return has_brick(words[place / 32], place); }
-  LSDCD_FN BrickWord word(std::uint32_t place) const { return words[place / 32]; }
+  LSDCD_FN bool at(std::uint32_t slot) const { return has_brick(words[slot / 32], slot); }
+  LSDCD_FN BrickWord word(std::uint32_t slot) const { return words[slot / 32]; }
 };
 
 // The largest whole number at or below x, where it is at least 0 and has 32 bits; elsewhere, and
@@ -87,15 +87,15 @@ LSDCD_FN WholeNumber whole_below(Real x)
 
 constexpr std::uint32_t kNoBrick = 0xffffffffu;
 
-// A point's brick by its place in the table, and the number of its cell in the brick.
-struct BrickPlace {
-  std::uint32_t place;    // kNoBrick: outside of the grid, or not a number
+// A point's brick by its slot in the table, and the number of its cell in the brick.
+struct BrickSlot {
+  std::uint32_t slot;    // kNoBrick: outside of the grid, or not a number
   std::int32_t cell;
 };
 
-// What place_of() says, to the bit, without a branch: a thread has several points at once, and
-// would wait for the words of one after the other. Tables have less than 2^32 places.
-LSDCD_FN BrickPlace brick_place_of(const GridView &grid, const Vec3 &q)
+// What cell_slot_of() says, to the bit, without a branch: a thread has several points at once, and
+// would wait for the words of one after the other. Tables have less than 2^32 slots.
+LSDCD_FN BrickSlot brick_place_of(const GridView &grid, const Vec3 &q)
 {
   const WholeNumber i = whole_below((q.x - grid.origin.x) * grid.inv_length),
                     j = whole_below((q.y - grid.origin.y) * grid.inv_length),
@@ -103,8 +103,8 @@ LSDCD_FN BrickPlace brick_place_of(const GridView &grid, const Vec3 &q)
   const std::uint32_t nx = grid.n_bricks[0], ny = grid.n_bricks[1], nz = grid.n_bricks[2];
   const bool inside = i.fits & j.fits & k.fits & ((i.value >> 3) < nx) & ((j.value >> 3) < ny) &
                       ((k.value >> 3) < nz);
-  const std::uint32_t place = ((k.value >> 3) * ny + (j.value >> 3)) * nx + (i.value >> 3);
-  return {inside ? place : kNoBrick,
+  const std::uint32_t slot = ((k.value >> 3) * ny + (j.value >> 3)) * nx + (i.value >> 3);
+  return {inside ? slot : kNoBrick,
           static_cast<std::int32_t>((k.value & 7) << 6 | (j.value & 7) << 3 | (i.value & 7))};
 }
 
@@ -122,9 +122,9 @@ LSDCD_FN CellAddress address_inside(const GridView &grid, const Vec3 &q)
 }
 
 // The number of the brick, or kNoBrick.
-LSDCD_FN std::uint32_t brick_in(const BrickWord &word, const BrickPlace &at)
+LSDCD_FN std::uint32_t brick_in(const BrickWord &word, const BrickSlot &at)
 {
-  return has_brick(word, at.place) ? brick_number(word, at.place) : kNoBrick;
+  return has_brick(word, at.slot) ? brick_number(word, at.slot) : kNoBrick;
 }
 
 constexpr std::uint32_t kNoCell = 0xffffffffu;
@@ -134,8 +134,8 @@ constexpr std::uint32_t kNoCell = 0xffffffffu;
 template <class Table>
 LSDCD_FN std::uint32_t occupied_cell(const GridView &grid, const Table &table, const Vec3 &q)
 {
-  const BrickPlace at = brick_place_of(grid, q);
-  const BrickWord word = at.place != kNoBrick ? table.word(at.place) : BrickWord{0, 0};
+  const BrickSlot at = brick_place_of(grid, q);
+  const BrickWord word = at.slot != kNoBrick ? table.word(at.slot) : BrickWord{0, 0};
   const std::uint32_t brick = brick_in(word, at);
   BrickLayer layer = {0, 0, 0};
   if (brick != kNoBrick) layer = grid.lists.bricks[brick].layer[at.cell >> 6];

@@ -33,13 +33,13 @@ struct CoarseTable {
   }
 
   // Of the cube with these numbers, z first.
-  LSDCD_FN std::uint32_t place(std::uint32_t k, std::uint32_t j, std::uint32_t i) const
+  LSDCD_FN std::uint32_t slot(std::uint32_t k, std::uint32_t j, std::uint32_t i) const
   {
     return (k * n[1] + j) * n[0] + i;
   }
-  LSDCD_FN static bool at(const std::uint32_t *words, std::uint32_t place)
+  LSDCD_FN static bool at(const std::uint32_t *words, std::uint32_t slot)
   {
-    return words[place / 32] >> place % 32 & 1u;
+    return words[slot / 32] >> slot % 32 & 1u;
   }
 };
 
@@ -52,9 +52,8 @@ inline std::vector<std::uint32_t> coarse_words(const GridView &grid, const Coars
     for (std::int32_t j = 0; j < grid.n_bricks[1]; j++)
       for (std::int32_t i = 0; i < grid.n_bricks[0]; i++, at++) {
         if (grid.lists.brick_of[at] < 0) continue;
-        const std::uint32_t place =
-            table.place(k >> table.shift, j >> table.shift, i >> table.shift);
-        words[place / 32] |= 1u << place % 32;
+        const std::uint32_t slot = table.slot(k >> table.shift, j >> table.shift, i >> table.shift);
+        words[slot / 32] |= 1u << slot % 32;
       }
   return words;
 }

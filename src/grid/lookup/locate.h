@@ -7,7 +7,7 @@ namespace lsdcd {
 
 // Where a point falls in the grid. `cell` is the cell's number in its brick.
 struct CellAddress {
-  const Brick *brick;    // null: no wall within reach
+  const Brick *brick;    // null: no wall within the cutoff
   std::int32_t cell;
   Vec3 from_centre;    // q - cell centre
 };
@@ -62,15 +62,15 @@ LSDCD_FN std::uint32_t cell_index(const Brick &brick, int cell)
 
 // Where a point falls before any table is read: in which cell of the whole grid, and where
 // in units of cells.
-struct Place {
+struct CellSlot {
   bool inside;    // false: outside the grid, or not a number; the rest is not set
   std::int32_t i, j, k;
   Vec3 at;
 };
 
-LSDCD_FN Place place_of(const GridView &grid, const Vec3 &q)
+LSDCD_FN CellSlot cell_slot_of(const GridView &grid, const Vec3 &q)
 {
-  Place p;
+  CellSlot p;
   p.at.x = (q.x - grid.origin.x) * grid.inv_length;
   p.at.y = (q.y - grid.origin.y) * grid.inv_length;
   p.at.z = (q.z - grid.origin.z) * grid.inv_length;
@@ -85,7 +85,7 @@ LSDCD_FN Place place_of(const GridView &grid, const Vec3 &q)
 }
 
 // Of its brick, in the table.
-LSDCD_FN std::size_t brick_place(const GridView &grid, const Place &p)
+LSDCD_FN std::size_t brick_slot(const GridView &grid, const CellSlot &p)
 {
   return (static_cast<std::size_t>(p.k >> 3) * grid.n_bricks[1] + (p.j >> 3)) * grid.n_bricks[0] +
          (p.i >> 3);
@@ -95,7 +95,7 @@ LSDCD_FN std::int32_t cell_in_brick(int i, int j, int k)
 {
   return ((k & 7) << 6) | ((j & 7) << 3) | (i & 7);
 }
-LSDCD_FN std::int32_t cell_in_brick(const Place &p)
+LSDCD_FN std::int32_t cell_in_brick(const CellSlot &p)
 {
   return cell_in_brick(p.i, p.j, p.k);
 }
@@ -112,7 +112,7 @@ LSDCD_FN const Brick *brick_at(const GridView &grid, const CellListsView &lists,
 }
 
 // Length.
-LSDCD_FN Vec3 from_cell_centre(const GridView &grid, const Place &p)
+LSDCD_FN Vec3 from_cell_centre(const GridView &grid, const CellSlot &p)
 {
   const Real half = Real(0.5);
   return grid.length * Vec3{p.at.x - p.i - half, p.at.y - p.j - half, p.at.z - p.k - half};
@@ -120,9 +120,9 @@ LSDCD_FN Vec3 from_cell_centre(const GridView &grid, const Place &p)
 
 LSDCD_FN CellAddress locate(const GridView &grid, const CellListsView &lists, const Vec3 &q)
 {
-  const Place p = place_of(grid, q);
+  const CellSlot p = cell_slot_of(grid, q);
   if (!p.inside) return {nullptr, 0, {0, 0, 0}};
-  const std::int32_t b = lists.brick_of[brick_place(grid, p)];
+  const std::int32_t b = lists.brick_of[brick_slot(grid, p)];
   if (b < 0) return {nullptr, 0, {0, 0, 0}};
   return {lists.bricks + b, cell_in_brick(p), from_cell_centre(grid, p)};
 }

@@ -49,7 +49,7 @@ Real area_within(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Box &box)
 
 // The ball around one point of the wall, or the slab on both sides of one face, as far as
 // spheres can be there.
-Real least_volume(const WallMesh &mesh, Real reach, const Box &within)
+Real least_volume(const WallMesh &mesh, Real cutoff, const Box &within)
 {
   Real largest = 0;
   for (const auto &f : mesh.faces) {
@@ -57,10 +57,10 @@ Real least_volume(const WallMesh &mesh, Real reach, const Box &within)
     if (Real(0.5) * norm(cross(b - a, c - a)) > largest)
       largest = std::max(largest, area_within(a, b, c, within));
   }
-  return std::max(4 * reach * reach * reach, 2 * reach * largest);
+  return std::max(4 * cutoff * cutoff * cutoff, 2 * cutoff * largest);
 }
 
-// Of the mesh and the reach around it, where spheres can be; never empty.
+// Of the mesh and the cutoff around it, where spheres can be; never empty.
 Box covered(const WallMesh &mesh, const Box &within, Real pad, Real rim)
 {
   Box box;
@@ -74,17 +74,17 @@ Box covered(const WallMesh &mesh, const Box &within, Real pad, Real rim)
 GridPlan plan_with_length(const WallMesh &mesh, const GridSettings &settings, Real length,
                           Real least_volume)
 {
-  const Real reach = settings.reach, diagonal = norm(mesh.report.hi - mesh.report.lo);
+  const Real cutoff = settings.cutoff, diagonal = norm(mesh.report.hi - mesh.report.lo);
   GridPlan plan;
   plan.length = length;
   // A point at the rim of a cell may be rounded into its neighbour.
   plan.half_diagonal = Real(0.5) * std::sqrt(Real(3)) * length * (1 + Real(1e-6));
-  plan.reach = reach;
+  plan.cutoff = cutoff;
   plan.least_volume = least_volume;
   // Covers the regions that flat edges leave out (four times their largest
   // angle, times reach) and the rounding of dot products over a whole face.
-  plan.slack = 4e-13 * reach + 16 * kRoundoff * (diagonal + reach);
-  const Real pad = reach + plan.slack + Real(0.5) * length;
+  plan.tolerance = 4e-13 * cutoff + 16 * kRoundoff * (diagonal + cutoff);
+  const Real pad = cutoff + plan.tolerance + Real(0.5) * length;
   const Box box = covered(mesh, settings.within, pad, length);
   plan.origin = box.lo;
   for (int k = 0; k < 3; k++) {
@@ -121,31 +121,31 @@ std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks)
   return plan.table_size() * sizeof(std::int32_t) + bricks * kBrickBytes;
 }
 
-Real default_length(const WallMesh &mesh, Real reach, int nearest)
+Real default_length(const WallMesh &mesh, Real cutoff, int nearest)
 {
   // Complete lists are read when a sphere's list of the wall is gathered, not in every step. With
   // cells of the radius that takes no longer than with smaller ones, and the lists take less
   // memory than the mesh's records. Larger cells name too many spheres that touch nothing.
-  if (nearest == 0) return reach;
+  if (nearest == 0) return cutoff;
   // Nearest lists are searched in every step. A third of an edge keeps them at one or two entries;
   // past the radius a longer cell saves nothing, below a fifth of it memory grows without gain.
-  return std::clamp(Real(0.3) * mesh.report.median_edge, Real(0.2) * reach, reach);
+  return std::clamp(Real(0.3) * mesh.report.median_edge, Real(0.2) * cutoff, cutoff);
 }
 
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
 {
-  if (!(settings.reach > 0) || !std::isfinite(settings.reach))
-    throw InputError("grid reach is " + number(settings.reach) +
+  if (!(settings.cutoff > 0) || !std::isfinite(settings.cutoff))
+    throw InputError("grid reach is " + number(settings.cutoff) +
                      "; it must be the largest particle radius, above 0");
   const Real length = settings.length > 0 ? settings.length
-                                          : default_length(mesh, settings.reach, settings.nearest);
+                                          : default_length(mesh, settings.cutoff, settings.nearest);
   return plan_with_length(mesh, settings, length,
-                          least_volume(mesh, settings.reach, settings.within));
+                          least_volume(mesh, settings.cutoff, settings.within));
 }
 
 bool is_coarsest(const GridPlan &plan, const WallMesh &mesh)
 {
-  return plan.length > norm(mesh.report.hi - mesh.report.lo) + 2 * plan.reach;
+  return plan.length > norm(mesh.report.hi - mesh.report.lo) + 2 * plan.cutoff;
 }
 
 GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings)
@@ -163,12 +163,12 @@ std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vec
     for (int k = 0; k < 3; k++) {
       // A point on the rim of two bricks may be looked up in either.
       const Real rim = Real(1e-6) * side, most = plan.n_bricks[k] - 1;
-      const auto place = [&](Real at) {
+      const auto slot = [&](Real at) {
         return static_cast<std::int64_t>(
             std::clamp(std::floor((at - plan.origin[k]) / side), Real(0), most));
       };
-      first[k] = place(box.lo[k] - rim);
-      last[k] = place(box.hi[k] + rim);
+      first[k] = slot(box.lo[k] - rim);
+      last[k] = slot(box.hi[k] + rim);
     }
     for (std::int64_t z = first[2]; z <= last[2]; z++)
       for (std::int64_t y = first[1]; y <= last[1]; y++)

@@ -13,8 +13,8 @@ namespace lsdcd {
 struct GridPlan {
   Vec3 origin;
   Real length, half_diagonal;    // of a cell; the second with room for rounding
-  Real reach, slack;
-  Real least_volume;    // of the space within reach of the wall: no less than this
+  Real cutoff, tolerance;
+  Real least_volume;    // of the space within the cutoff of the wall: no less than this
   std::int32_t n_bricks[3];
 
   std::size_t table_size() const { return std::size_t(n_bricks[0]) * n_bricks[1] * n_bricks[2]; }
@@ -29,19 +29,19 @@ struct GridPlan {
   }
 };
 
-// The centres of a brick's cells, by the brick's place in the table.
+// The centres of a brick's cells, by the brick's slot in the table.
 struct CellCentres {
   Vec3 origin;
   Real length;
   std::uint32_t x, y, z;    // of the brick's first cell
 
-  LSDCD_FN CellCentres(const GridPlan &plan, std::uint32_t place) :
+  LSDCD_FN CellCentres(const GridPlan &plan, std::uint32_t slot) :
       origin(plan.origin), length(plan.length)
   {
     const std::uint32_t nx = plan.n_bricks[0], ny = plan.n_bricks[1];
-    x = place % nx * kBrickSide;
-    y = place / nx % ny * kBrickSide;
-    z = place / nx / ny * kBrickSide;
+    x = slot % nx * kBrickSide;
+    y = slot / nx % ny * kBrickSide;
+    z = slot / nx / ny * kBrickSide;
   }
   LSDCD_FN Vec3 at(int cell) const
   {
@@ -51,8 +51,8 @@ struct CellCentres {
   }
 };
 
-// The cell edge where none is given, of complete lists or of the nearest pieces.
-Real default_length(const WallMesh &mesh, Real reach, int nearest);
+// The cell edge where none is given, of complete lists or of the nearest primitives.
+Real default_length(const WallMesh &mesh, Real cutoff, int nearest);
 
 // From the settings, or where they leave the length open from the mesh and reach.
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
@@ -61,7 +61,7 @@ GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
 bool is_coarsest(const GridPlan &plan, const WallMesh &mesh);
 GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings);
 
-// A bit per place of the brick table, set where the brick meets one of the boxes; empty
+// A bit per slot of the brick table, set where the brick meets one of the boxes; empty
 // where there are no boxes.
 std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vector<Box> &boxes);
 

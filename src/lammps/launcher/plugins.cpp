@@ -181,19 +181,19 @@ void provide_plugins(LAMMPS *lmp)
   quiet = false;
 }
 
-void run_plugin_command(LAMMPS *lmp, const std::vector<std::string> &words)
+void run_plugin_command(LAMMPS *lmp, const std::vector<std::string> &tokens)
 {
-  const std::string what = words.empty() ? "" : words[0];
-  if (what == "load" && words.size() > 1) {
-    for (std::size_t i = 1; i < words.size(); i++) load(lmp, locate(words[i]));
-  } else if (what == "unload" && words.size() == 3) {
-    unload(lmp, words[1], words[2]);
-  } else if (what == "clear" && words.size() == 1) {
+  const std::string what = tokens.empty() ? "" : tokens[0];
+  if (what == "load" && tokens.size() > 1) {
+    for (std::size_t i = 1; i < tokens.size(); i++) load(lmp, locate(tokens[i]));
+  } else if (what == "unload" && tokens.size() == 3) {
+    unload(lmp, tokens[1], tokens[2]);
+  } else if (what == "clear" && tokens.size() == 1) {
     while (!loaded.empty()) {
       const lammpsplugin_t first = loaded.front();
       unload(lmp, first.style, first.name);
     }
-  } else if (what == "list" && words.size() == 1) {
+  } else if (what == "list" && tokens.size() == 1) {
     say(lmp, "Currently loaded plugins");
     for (std::size_t i = 0; i < loaded.size(); i++)
       say(lmp, "   " + std::to_string(i + 1) + ": " + loaded[i].style + " style plugin " +

@@ -16,6 +16,6 @@ namespace lsdcd {
 void provide_plugins(LAMMPS_NS::LAMMPS *lmp);
 
 // plugin load FILES | unload STYLE NAME | list | clear
-void run_plugin_command(LAMMPS_NS::LAMMPS *lmp, const std::vector<std::string> &words);
+void run_plugin_command(LAMMPS_NS::LAMMPS *lmp, const std::vector<std::string> &tokens);
 
 }    // namespace lsdcd

@@ -1,4 +1,4 @@
-// Distance from a point to a piece of the wall: a whole triangle, or a bare edge or vertex.
+// Distance from a point to a primitive of the wall: a whole triangle, or a bare edge or vertex.
 #pragma once
 
 #include "base/vec3.h"
@@ -34,10 +34,10 @@ LSDCD_FN Real triangle_distance(const WallFeaturesView &wall, std::uint32_t face
   return least;
 }
 
-LSDCD_FN Real piece_distance(const WallFeaturesView &wall, FeatureCode piece, const Vec3 &q)
+LSDCD_FN Real primitive_distance(const WallFeaturesView &wall, FeatureCode primitive, const Vec3 &q)
 {
-  const std::uint32_t i = feature_index(piece);
-  switch (feature_kind(piece)) {
+  const std::uint32_t i = feature_index(primitive);
+  switch (feature_kind(primitive)) {
     case FeatureKind::face:
       return triangle_distance(wall, i, q);
     case FeatureKind::edge:

@@ -18,17 +18,20 @@ struct Column {
 
 // One three-vector a sphere. A pointer stands for x y z x y z.
 template <class T>
-struct Rows {
+struct StridedView {
   T *at = nullptr;
   std::ptrdiff_t row = 3;       // from one sphere to the next
   std::ptrdiff_t column = 1;    // from one component to the next
 
-  Rows() = default;
-  Rows(T *packed) : at(packed) {}
-  Rows(T *first, std::ptrdiff_t row, std::ptrdiff_t column) : at(first), row(row), column(column) {}
+  StridedView() = default;
+  StridedView(T *packed) : at(packed) {}
+  StridedView(T *first, std::ptrdiff_t row, std::ptrdiff_t column) :
+      at(first), row(row), column(column)
+  {
+  }
   // To what may only be read.
   template <class U>
-  Rows(const Rows<U> &rows) : at(rows.at), row(rows.row), column(rows.column)
+  StridedView(const StridedView<U> &rows) : at(rows.at), row(rows.row), column(rows.column)
   {
   }
 
