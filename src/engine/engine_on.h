@@ -34,7 +34,6 @@ class EngineOn : public InPlaceEngine {
 
   void set_grid(const GridView &grid) override
   {
-    totals();    // of the last step, whose near spheres are forgotten
     if (B::kOnHost) {
       grid_ = grid;
     } else {
@@ -58,28 +57,29 @@ class EngineOn : public InPlaceEngine {
 
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
-    totals();    // of the last step, which had other near spheres
+    results_.outlive_choice(b_);
     springs_.grow(b_, spheres.n);
     all_near_ = false;
     near_.choose(b_, grid_, table_, spheres, margin, settings_.law.pull_off(), counts_.data(),
                  springs_.count());
     StepCounts seen = read_counts();
     if (seen.too_large) throw_for(spheres, seen);
-    if (grid_.nearest == 0 && seen.n_near > 0) {
-      near_.prune(b_, grid_, spheres, seen.n_near, margin, counts_.data(), springs_.count());
-      seen = read_counts();
-    }
-    make_lists(spheres, seen.n_near, seen);
+    make_lists(spheres, seen, margin, springs_.count());
     margin_ = margin;
     if (watch) keep_centres(spheres);
   }
 
-  // For an adapter that has chosen: all spheres are near.
-  void choose_all(const Spheres &spheres)
+  // For an adapter that has chosen by cells: which of these spheres are near, as ascending numbers.
+  // Steps are over these alone, one after the other.
+  std::vector<int> choose_among(const Spheres &spheres, Real margin)
   {
     springs_.grow(b_, spheres.n);
     all_near_ = true;
-    make_lists(spheres, spheres.n, read_counts());
+    near_.choose_all(b_, spheres.n);
+    StepCounts seen = read_counts();
+    seen.n_near = spheres.n;
+    make_lists(spheres, seen, margin, nullptr);
+    return near_.to_host(b_, n_near_);
   }
 
   bool has_moved(const Spheres &spheres) override
@@ -144,7 +144,7 @@ class EngineOn : public InPlaceEngine {
   StepDiagnostics read_diagnostics() override
   {
     const StepCounts seen = read_counts();
-    if (seen.too_large || seen.lost) throw_for(spheres_, seen);
+    if (seen.too_large || seen.lost || seen.grown) throw_for(spheres_, seen);
     clear_diagnostics(seen);
     StepDiagnostics diagnostics;
     diagnostics.deepest = from_ascending_bits(static_cast<std::uint32_t>(seen.deepest >> 32));
@@ -185,11 +185,17 @@ class EngineOn : public InPlaceEngine {
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
 
-  void make_lists(const Spheres &spheres, std::size_t n, const StepCounts &seen)
+  // Of the seen.n_near spheres that are near by their cells.
+  void make_lists(const Spheres &spheres, StepCounts seen, Real margin, int *n_springs)
   {
-    n_near_ = n;
-    springs_.make_room(n, seen);
-    lists_.make(b_, grid_, spheres, near(), n, settings_.law.pull_off(), counts_.data());
+    const Real pull_off = settings_.law.pull_off();
+    if (grid_.nearest == 0 && seen.n_near > 0) {
+      near_.prune(b_, grid_, spheres, seen.n_near, margin, pull_off, counts_.data(), n_springs);
+      seen = read_counts();
+    }
+    n_near_ = seen.n_near;
+    springs_.make_room(n_near_, seen);
+    lists_.make(b_, grid_, spheres, near_.data(), n_near_, margin, pull_off, counts_.data());
   }
 
   void unlock_lanes()
@@ -252,6 +258,7 @@ class EngineOn : public InPlaceEngine {
       read_radius(spheres, i, to);
       throw_too_large(i, b_.to_host(radius, 1)[0], grid_.cutoff);
     }
+    if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown));
     throw InputError(std::to_string(seen.lost) +
                      " spheres touch the wall in more separate places than there is memory for (" +
                      std::to_string(kMostContacts) +

@@ -65,7 +65,8 @@ class HostAdapter : public WallEngine {
     });
   }
 
-  // The host's copy of the grid tells which spheres are near: to send all of them would take longer.
+  // The host's copy of the grid tells which spheres are near by their cells, as to send all of them
+  // would take longer. The engine tells of these which can touch something.
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
     name_spheres();
@@ -75,7 +76,6 @@ class HostAdapter : public WallEngine {
       const int i = static_cast<int>(kNoSphere - seen.too_large);
       throw_too_large(i, spheres.radius[i], grid_.cutoff);
     }
-    if (grid_.nearest == 0) near_.prune(cpu_, grid_, spheres, seen.n_near, margin, &seen, nullptr);
     const std::vector<int> was = std::move(near_host_);
     near_host_ = near_.to_host(cpu_, seen.n_near);
     const std::size_t n = near_host_.size();
@@ -84,9 +84,11 @@ class HostAdapter : public WallEngine {
     response_.reserve(n);
     n_contacts_.reserve(n);
     if (traits_.heat) heat_.reserve(2 * n);
-    if (traits_.history) move_springs(was, spheres.n);
     pack(spheres);
-    engine_.choose_all(packed());
+    const std::vector<int> which = engine_.choose_among(packed(), margin);
+    for (std::size_t k = 0; k < which.size(); k++) near_host_[k] = near_host_[which[k]];
+    near_host_.resize(which.size());
+    if (traits_.history) move_springs(was, spheres.n);
     if (watch) {
       centres_.resize(3 * static_cast<std::size_t>(spheres.n));
       for (int i = 0; i < spheres.n; i++) StridedView<Real>(centres_.data()).put(i, spheres.x[i]);
@@ -209,11 +211,20 @@ class HostAdapter : public WallEngine {
   }
 
  private:
+  StepDiagnostics read_engine()
+  {
+    try {
+      return engine_.read_diagnostics();
+    } catch (const SphereError &e) {
+      throw SphereError(near_host_[e.sphere], e.problem);
+    }
+  }
+
   // Gives what steps left behind the host's indices, before other spheres are near.
   void name_spheres()
   {
     totals();
-    const StepDiagnostics seen = engine_.read_diagnostics();
+    const StepDiagnostics seen = read_engine();
     if (seen.deepest > diagnostics_.deepest) {
       diagnostics_.deepest = seen.deepest;
       diagnostics_.deepest_sphere = near_host_[seen.deepest_sphere];

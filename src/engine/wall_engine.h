@@ -109,9 +109,10 @@ class WallEngine {
   virtual Real largest_radius(const Spheres &spheres) = 0;
 
   // Chooses the spheres that steps look at until the next call: those of the group that could be
-  // near the wall after moving by up to `margin` (length), and makes their lists of the wall.
+  // near the wall after moving by up to `margin` (length), and makes their lists of the wall. Radii
+  // must not grow until the next choice.
   // `watch`: has_moved() will be asked. Throws InputError if a sphere is larger than the grid's
-  // reach (index and radius in the message).
+  // cutoff (index and radius in the message).
   virtual void choose(const Spheres &spheres, Real margin, bool watch = false) = 0;
 
   // Has a sphere moved by more than the margin of the last choice?
@@ -140,8 +141,8 @@ class WallEngine {
   virtual int n_records() const = 0;
   virtual const ContactRecord *records() const = 0;
 
-  // Throws InputError if a sphere had to be left out of a step: too large, or with more contacts
-  // than there is memory for. Begins anew.
+  // Throws InputError if a sphere had to be left out of a step, too large or with more contacts than
+  // there is memory for, or if one grew after the choice. Begins anew.
   virtual StepDiagnostics read_diagnostics() = 0;
 
   // Springs of the spheres [0, n).

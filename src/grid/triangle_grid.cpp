@@ -136,6 +136,7 @@ GridView TriangleGrid::view() const
   v.inv_length = 1 / length;
   v.cutoff = cutoff;
   v.tolerance = tolerance;
+  v.margin = margin;
   v.outside = outside;
   v.nearest = nearest;
   v.in_floats = in_floats;

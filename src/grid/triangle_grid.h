@@ -58,7 +58,8 @@ struct GridView {
   Vec3 origin;                // corner of brick (0, 0, 0); length
   Real length, inv_length;    // cell edge
   Real cutoff;                // largest radius that the lists are complete for
-  Real tolerance;             // tolerance that closes face, edge and vertex regions; length
+  Real tolerance;             // closes face, edge and vertex regions; length
+  Real margin;                // a list holds for centres up to this far from its cell, too; length
   Real outside;               // +1 where normals point out of a closed wall, -1 where in
   std::int32_t n_bricks[3];
   // 0: `lists` are complete. N: `lists` hold the N nearest primitives and, where there are
@@ -121,7 +122,7 @@ struct CellLists {
 struct TriangleGrid {
   WallFeatures wall;
   Vec3 origin = {0, 0, 0};
-  Real length = 0, cutoff = 0, tolerance = 0, outside = 1;
+  Real length = 0, cutoff = 0, tolerance = 0, margin = 0, outside = 1;
   std::int32_t n_bricks[3] = {0, 0, 0};
   int nearest = 0;
   bool in_floats = false;

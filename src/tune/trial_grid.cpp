@@ -1,6 +1,7 @@
 #include "tune/trial_grid.h"
 
 #include "grid/build/shorten_lists.h"
+#include "grid/plan/grid_plan.h"
 
 #include <algorithm>
 #include <utility>
@@ -48,6 +49,7 @@ const TriangleGrid &TrialGrid::make(int nearest, bool exact, bool in_floats)
   made_.length = base_.length;
   made_.cutoff = base_.cutoff;
   made_.tolerance = base_.tolerance;
+  made_.margin = nearest > 0 ? 0 : cell_margin(base_.cutoff);
   made_.outside = base_.outside;
   for (int k = 0; k < 3; k++) made_.n_bricks[k] = base_.n_bricks[k];
   made_.nearest = nearest;

@@ -200,7 +200,7 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
   out.spheres = 1;
   WallList made;
   const QuerySphere sphere = {from, w.sphere.radius, w.cutoff, nullptr, 0};
-  if (!gather(grid, sphere, made)) return out;
+  if (!gather(grid, sphere, kAnyDistance, made)) return out;
   out.with_list = 1;
   if (mesh.gathered < 1) {
     const float margin = made.margin;

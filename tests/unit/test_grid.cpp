@@ -237,6 +237,47 @@ TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
   }
 }
 
+// Does the list of a cell hold a feature?
+bool lists(const GridView &grid, const CellSlot &at, FeatureCode feature)
+{
+  const Brick *brick = brick_at(grid, grid.lists, at.i, at.j, at.k);
+  if (!brick || !has_candidates(*brick, cell_in_brick(at))) return false;
+  const Cell cell = grid.lists.cells[cell_index(*brick, cell_in_brick(at))];
+  if (cell.count == 1) return cell.first == feature;
+  for (std::uint32_t c = cell.first; c < cell.first + cell.count; c++)
+    if (grid.lists.candidates[c].feature == feature) return true;
+  return false;
+}
+
+TEST(grid, a_list_holds_for_centres_up_to_the_margin_from_its_cell)
+{
+  const TriangleSoup soup = tangle(40, 200, 17);
+  const Real cutoff = 0.4;
+  const TriangleGrid grid = grid_of(soup, cutoff, 0.07);
+  const GridView view = grid.view();
+  ASSERT_GT(grid.margin, 0);
+  Random random(18);
+  long found = 0;
+  for (int i = 0; i < 200000; i++) {
+    const Vec3 near = query_point(random, soup, {-1, -1, -1}, {1, 1, 1}, cutoff);
+    CellSlot cell = cell_slot_of(view, near);
+    if (!cell.inside) continue;
+    // From a corner of the cell straight away from it, where the least is to spare.
+    Vec3 q = grid.origin + grid.length * Vec3{Real(cell.i), Real(cell.j), Real(cell.k)};
+    for (int d = 0; d < 3; d++) {
+      const bool high = random() % 2;
+      q[d] += high ? grid.length : 0;
+      q[d] += (high ? 1 : -1) * grid.margin / std::sqrt(3.0);
+    }
+    for (const BruteContact &c : brute_contacts(view.wall, grid.wall.contact_features, q, cutoff,
+                                                grid.tolerance, kSamePoint * grid.tolerance)) {
+      found++;
+      ASSERT_TRUE(lists(view, cell, c.feature)) << i;
+    }
+  }
+  EXPECT_GT(found, 100000);
+}
+
 // A block of bytes on a 64-byte boundary, zero before it is written.
 struct Block {
   explicit Block(const TriangleGrid &grid) : bytes_(flat_bytes(grid) + 64, 0)

@@ -23,17 +23,25 @@ class NearList {
   {
     const std::size_t n = spheres.n;
     if (near_.size() < n) near_ = Array<int>(n + n / 8);
-    if (margin > 0)
-      select<true>(b, grid, table, spheres, margin, pull_off, counts, n_springs);
+    const Real past = past_lists(grid, margin);
+    if (past > 0)
+      select<true>(b, grid, table, spheres, past, pull_off, counts, n_springs);
     else
-      select<false>(b, grid, table, spheres, margin, pull_off, counts, n_springs);
+      select<false>(b, grid, table, spheres, past, pull_off, counts, n_springs);
   }
 
-  // Of the n spheres that were chosen by their cells leaves those that can touch something after a
-  // way of up to `margin`. They may grow before the next choice, up to the grid's cutoff. How many
-  // are left goes into `counts`.
+  // Takes all n spheres for near.
+  void choose_all(B &b, std::size_t n)
+  {
+    if (near_.size() < n) near_ = Array<int>(n + n / 8);
+    int *near = near_.data();
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { near[k] = static_cast<int>(k); });
+  }
+
+  // Of the n spheres that were chosen leaves those that can touch something after a way of up to
+  // `margin`. How many are left goes into `counts`.
   void prune(B &b, const GridView &grid, const Spheres &spheres, std::size_t n, Real margin,
-             StepCounts *counts, int *n_springs)
+             Real pull_off, StepCounts *counts, int *n_springs)
   {
     if (flags_.size() < n) {
       flags_ = Array<char>(n + n / 8);
@@ -47,7 +55,7 @@ class NearList {
         n,
         [=] LSDCD_LAMBDA(std::size_t k) {
           const int i = near[k];
-          const QuerySphere s = {x[i], radius[i], grid.cutoff, nullptr, 0};
+          const QuerySphere s = {x[i], radius[i], cutoff_of(radius[i], pull_off), nullptr, 0};
           flags[k] = can_touch(grid, s, margin);
           if (!flags[k] && n_springs) n_springs[i] = 0;
         },

@@ -36,6 +36,7 @@ struct StepCounts {
   int lost;              // spheres left out for want of memory: an error
   // kNoSphere less the index of the first sphere beyond the grid's cutoff, or 0: an error.
   std::uint64_t too_large;
+  std::uint64_t grown;          // likewise of the first sphere that feels more than at the choice
   std::uint64_t uncertified;    // answers
   // As ascending bits: the largest overlap / radius, with 1 + the index of its sphere
   // below it, and the largest that an answer which was not certified may have missed.

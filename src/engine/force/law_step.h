@@ -140,9 +140,10 @@ LSDCD_FN void several_contacts(const Law &law, const LawJob &job, std::size_t k)
   const ListedFeatures listed = {job.lists, k};
   const ListedFeatures *list = job.lists.n ? &listed : nullptr;
   if (list && !job.lists.holds(k, x, s.cutoff)) {
+    if (s.cutoff > job.lists.cutoff(k)) raise_to(&job.counts->grown, kNoSphere - i);
     WallList made;
     count_one(&job.counts->lists);
-    if (!gather(job.grid, s, made)) list = nullptr;
+    if (!gather(job.grid, s, kAnyDistance, made)) list = nullptr;
     add_to(&job.counts->listed, made.n);
     job.lists.put(k, made);
   }

@@ -15,9 +15,10 @@ class ListStore {
   // None where lists of cells hold the nearest primitives.
   const WallLists &view() const { return lists_; }
 
-  // Makes the lists of n near spheres, whose indices are `near`, or null for all.
+  // Makes the lists of n near spheres, whose indices are `near`, or null for all. They will not go
+  // farther than `margin` before the next choice.
   void make(B &b, const GridView &grid, const Spheres &spheres, const int *near, std::size_t n,
-            Real pull_off, StepCounts *counts)
+            Real margin, Real pull_off, StepCounts *counts)
   {
     lists_ = WallLists();
     if (grid.nearest > 0 || n == 0) return;
@@ -36,7 +37,7 @@ class ListStore {
           const std::size_t i = near ? near[k] : k;
           const QuerySphere s = {x[i], radius[i], cutoff_of(radius[i], pull_off), nullptr, 0};
           WallList made;
-          gather(grid, s, made);
+          gather(grid, s, margin, made);
           lists.put(k, made);
           count_one(&counts->lists);
           add_to(&counts->listed, made.n);

@@ -117,13 +117,16 @@ inline LSDCD_NOINLINE bool can_touch(const GridView &grid, const QuerySphere &s,
   return can_touch<WallGeometry>(grid, s.x, s.cutoff, margin);
 }
 
-// Makes the list of a sphere anew; false: it has none, its cell has to be searched.
-inline LSDCD_NOINLINE bool gather(const GridView &grid, const QuerySphere &s, WallList &list)
+// Makes the list of a sphere anew, for a way of up to `margin` at most; false: it has none, its cell
+// has to be searched.
+inline LSDCD_NOINLINE bool gather(const GridView &grid, const QuerySphere &s, Real margin,
+                                  WallList &list)
 {
+  const Real most = kListMargin * s.radius, m = margin < most ? margin : most;
   if (grid.in_floats)
-    gather_for<BrickGeometry>(grid, s.x, s.radius, s.cutoff, list);
+    gather_for<BrickGeometry>(grid, s.x, s.cutoff, m, list);
   else
-    gather_for<WallGeometry>(grid, s.x, s.radius, s.cutoff, list);
+    gather_for<WallGeometry>(grid, s.x, s.cutoff, m, list);
   return list.margin >= 0;
 }
 

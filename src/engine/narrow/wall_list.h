@@ -37,10 +37,11 @@ struct WallLists {
   // Does list k hold all that a sphere at q can touch, up to a cutoff?
   LSDCD_FN bool holds(std::size_t k, const Vec3 &q, Real up_to) const
   {
-    const Real m = margin[k], listed_to = margin[column + k];
+    const Real m = margin[k];
     const Vec3 way = q - Vec3{x[k], x[column + k], x[2 * column + k]};
-    return m >= 0 && norm_sq(way) <= m * m && up_to <= listed_to;
+    return m >= 0 && norm_sq(way) <= m * m && up_to <= cutoff(k);
   }
+  LSDCD_FN Real cutoff(std::size_t k) const { return margin[column + k]; }
   LSDCD_FN int size(std::size_t k) const { return n[k]; }
   LSDCD_FN FeatureCode code(std::size_t k, int i) const
   {
@@ -101,16 +102,18 @@ LSDCD_FN bool insert_code(WallList &list, FeatureCode code)
 }
 
 // Calls found(code) for what a sphere at q with this cutoff could touch after a way of up to the
-// margin, until that says false; returns whether it did not. A contact on such a way is in the
-// complete list of the cell that it is found from, and that cell meets the ball round q. Each
-// half-space of a feature's region moves by the margin at most; one tolerance more is for rounding.
+// margin, until that says false; returns whether it did
+// not. A contact on such a way is in the complete list of the cell that it is found from, and that
+// cell meets the ball round q. Lists of cells hold for a margin of their own.
 template <class Geometry, class Found>
 LSDCD_FN bool for_each_within(const GridView &grid, const Vec3 &q, Real cutoff, Real margin,
-                              const Found &found)
+                              Real close, const Found &found)
 {
   int lo[3], hi[3];
-  if (!cells_in_ball(grid, q, margin, lo, hi)) return true;
+  if (!cells_in_ball(grid, q, past_lists(grid, margin), lo, hi)) return true;
   const Geometry geometry(grid, q);
+  // Each half-space of a feature's region moves by the margin at most; one tolerance more is for
+  // rounding.
   const Real more = margin + geometry.tolerance(), within = (1 + Real(2e-6)) * cutoff + more;
   const auto test = [&](FeatureCode code) {
     return !geometry.may_be_closest(code, within, more) || found(code);
@@ -129,14 +132,46 @@ LSDCD_FN bool for_each_within(const GridView &grid, const Vec3 &q, Real cutoff, 
         // A list ascends in its bounds on the distance from the cell's centre.
         const Real half = Real(0.5);
         const Vec3 centre = grid.origin + grid.length * Vec3{i + half, j + half, k + half};
-        const Real enough = within + norm(q - centre);
+        const Real away = norm(q - centre), enough = within + away;
         for (std::uint32_t c = cell.first; c < cell.first + cell.count; c++) {
           const Candidate candidate = grid.lists.candidates[c];
           if (candidate.bound > enough) break;
+          if (candidate.bound + away < close) return false;
           if (!test(candidate.feature)) return false;
         }
       }
   return true;
+}
+
+// Begins a list of a sphere at q.
+LSDCD_FN void begin_list(WallList &list, const Vec3 &q, Real cutoff, Real margin)
+{
+  list.n = 0;
+  list.x = q;
+  list.margin = static_cast<float>((1 - Real(1e-6)) * margin);    // rounded down, and up:
+  list.cutoff = static_cast<float>((1 + Real(1e-6)) * cutoff);
+}
+
+// The list of a sphere at q for a margin; false: it is too long.
+template <class Geometry>
+LSDCD_FN bool gather_within(const GridView &grid, const Vec3 &q, Real cutoff, Real margin,
+                            WallList &list)
+{
+  begin_list(list, q, cutoff, margin);
+  return for_each_within<Geometry>(grid, q, cutoff, margin, -1,
+                                   [&](FeatureCode code) { return insert_code(list, code); });
+}
+
+// Makes the list of a sphere anew, for the margin or, where that is too long, for less. `cutoff`:
+// how far it feels the wall from its centre.
+template <class Geometry>
+LSDCD_FN void gather_for(const GridView &grid, const Vec3 &q, Real cutoff, Real margin,
+                         WallList &list)
+{
+  Real m = margin_at(grid, q, margin);
+  for (int i = 0; i <= kMostShrinks && m >= 0; i++, m /= kShrink)
+    if (gather_within<Geometry>(grid, q, cutoff, m, list)) return;
+  begin_list(list, q, cutoff, -1);
 }
 
 // Can a sphere at q touch anything after a way of up to the margin? True where that would take too
@@ -145,32 +180,8 @@ template <class Geometry>
 LSDCD_FN bool can_touch(const GridView &grid, const Vec3 &q, Real cutoff, Real margin)
 {
   return !(margin_at(grid, q, margin) >= margin) ||
-         !for_each_within<Geometry>(grid, q, cutoff, margin, [](FeatureCode) { return false; });
-}
-
-// The list of a sphere at q for a margin; false: it is too long.
-template <class Geometry>
-LSDCD_FN bool gather_within(const GridView &grid, const Vec3 &q, Real cutoff, Real margin,
-                            WallList &list)
-{
-  list.n = 0;
-  list.x = q;
-  list.margin = static_cast<float>((1 - Real(1e-6)) * margin);    // rounded down, and up:
-  list.cutoff = static_cast<float>((1 + Real(1e-6)) * cutoff);
-  return for_each_within<Geometry>(grid, q, cutoff, margin,
-                                   [&](FeatureCode code) { return insert_code(list, code); });
-}
-
-// Makes the list of a sphere anew. `cutoff`: how far it feels the wall from its centre.
-template <class Geometry>
-LSDCD_FN void gather_for(const GridView &grid, const Vec3 &q, Real radius, Real cutoff,
-                         WallList &list)
-{
-  Real margin = margin_at(grid, q, kListMargin * radius);
-  for (int i = 0; i <= kMostShrinks && margin > 0; i++, margin /= kShrink)
-    if (gather_within<Geometry>(grid, q, cutoff, margin, list)) return;
-  list.n = 0;
-  list.margin = -1;
+         !for_each_within<Geometry>(grid, q, cutoff, margin, cutoff,
+                                    [](FeatureCode) { return false; });
 }
 
 // Local minima of the distance from q to the listed features, in the order of their numbers, so

@@ -29,4 +29,12 @@ struct SphereError : InputError {
   throw SphereError(i, text);
 }
 
+[[noreturn]] inline void throw_has_grown(int i)
+{
+  throw SphereError(
+      i, "has grown since near spheres were chosen, so that others may have been missed; "
+         "radii that something else than fix adapt changes in a run need "
+         "'neigh_modify delay 0 every 1 check no'");
+}
+
 }    // namespace lsdcd

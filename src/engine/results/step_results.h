@@ -68,7 +68,7 @@ class StepResults {
   const std::vector<Real> &sphere_heat() const { return sphere_heat_; }
   const std::vector<ContactRecord> &records() const { return records_; }
 
-  // Of the last step. Summed when they are first asked for, before the next choice.
+  // Of the last step. Summed when they are first asked for.
   const WallTotals &totals(B &b)
   {
     if (!totals_known_) sum_totals(b);
@@ -78,9 +78,20 @@ class StepResults {
   std::size_t bytes() const
   {
     return (numbers_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
-           (n_contacts_.size() + slot_.size()) * sizeof(int) + touching_.capacity() * sizeof(int) +
-           output_.capacity() * sizeof(SphereOutput) + sphere_heat_.capacity() * sizeof(Real) +
-           records_.capacity() * sizeof(ContactRecord);
+           (n_contacts_.size() + slot_.size() + kept_near_.size()) * sizeof(int) +
+           touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput) +
+           sphere_heat_.capacity() * sizeof(Real) + records_.capacity() * sizeof(ContactRecord);
+  }
+
+  // Before other spheres are near: totals stay those of the last step.
+  void outlive_choice(B &b)
+  {
+    if (totals_known_ || !near_ || n_ == 0) return;
+    if (kept_near_.size() < n_) kept_near_ = Array<int>(n_ + n_ / 8);
+    const int *from = near_;
+    int *to = kept_near_.data();
+    b.for_each(n_, [=] LSDCD_LAMBDA(std::size_t k) { to[k] = from[k]; });
+    near_ = to;
   }
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
@@ -176,7 +187,7 @@ class StepResults {
 
   ResultColumns columns_;
   Array<Real> numbers_, heat_, uncertain_;
-  Array<int> n_contacts_, slot_;
+  Array<int> n_contacts_, slot_, kept_near_;
 
   WallTotals totals_;
   bool totals_known_ = true;

@@ -145,6 +145,7 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
   grid.length = plan.length;
   grid.cutoff = plan.cutoff;
   grid.tolerance = plan.tolerance;
+  grid.margin = settings.nearest == 0 ? plan.margin : 0;
   for (int k = 0; k < 3; k++) grid.n_bricks[k] = plan.n_bricks[k];
   grid.nearest = settings.nearest;
   if (settings.in_floats) add_brick_records(grid);

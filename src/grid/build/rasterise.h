@@ -25,7 +25,7 @@ LSDCD_FN bool meets(const BuildView &b, FeatureCode feature, const Vec3 &c, Real
     distance = primitive_distance(b.wall, feature, c);
     return distance <= b.plan.cutoff + b.plan.tolerance + around;
   }
-  return feature_meets(b.wall, feature, c, around + b.plan.tolerance, b.plan.cutoff, distance);
+  return feature_meets(b.wall, feature, c, around + b.plan.widened(), b.plan.cutoff, distance);
 }
 
 LSDCD_FN void grow_box(Vec3 &lo, Vec3 &hi, const Vec3 &p)
@@ -84,7 +84,7 @@ LSDCD_FN BrickBox brick_box(const BuildView &b, FeatureCode feature)
   BrickBox box;
   for (int k = 0; k < 3; k++) {
     // Half a cell more than the cutoff, so that rounding cannot lose a brick.
-    const Real margin = plan.cutoff + plan.tolerance + Real(0.5) * plan.length;
+    const Real margin = plan.cutoff + plan.widened() + Real(0.5) * plan.length;
     const Real inv = 1 / (kBrickSide * plan.length);
     // The grid may be cut off where no sphere can be.
     const Real from = (lo[k] - margin - plan.origin[k]) * inv,
@@ -151,7 +151,7 @@ LSDCD_FN std::uint64_t cells_where(const GridPlan &plan, std::uint32_t octant_ke
 // Which cells of an octant the feature meets. The record is read once for all of them.
 LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::uint32_t octant_key)
 {
-  const Real cutoff = b.plan.cutoff, tolerance = b.plan.tolerance;
+  const Real cutoff = b.plan.cutoff, widened = b.plan.widened();
   const std::uint32_t i = feature_index(feature);
   Real distance;
   if (b.primitives)
@@ -162,20 +162,19 @@ LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::u
     case FeatureKind::face: {
       const FaceRecord face = b.wall.faces[i];
       return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
-        return face_meets(face, c, around + tolerance, cutoff, distance);
+        return face_meets(face, c, around + widened, cutoff, distance);
       });
     }
     case FeatureKind::edge: {
       const EdgeRecord edge = b.wall.edges[i];
       return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
-        return edge_meets(edge, b.wall.edge_inward, c, around + tolerance, cutoff, distance);
+        return edge_meets(edge, b.wall.edge_inward, c, around + widened, cutoff, distance);
       });
     }
     default: {
       const VertexRecord vertex = b.wall.vertices[i];
       return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
-        return vertex_meets(vertex, b.wall.vertex_direction, c, around + tolerance, cutoff,
-                            distance);
+        return vertex_meets(vertex, b.wall.vertex_direction, c, around + widened, cutoff, distance);
       });
     }
   }

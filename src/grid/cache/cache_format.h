@@ -16,7 +16,7 @@ namespace lsdcd {
 
 constexpr char kMagic[16] = {'L', 'S', 'D', 'C', 'D', ' ', 'g', 'r',
                              'i', 'd', ' ', 'c', 'a', 'c', 'h', 'e'};
-constexpr std::uint64_t kFormat = 1;
+constexpr std::uint64_t kFormat = 2;
 constexpr std::size_t kFrameBytes = std::size_t(1) << 20;
 constexpr int kLevel = 1;    // of zstd
 

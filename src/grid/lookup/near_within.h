@@ -29,6 +29,12 @@ LSDCD_FN bool cells_in_ball(const GridView &grid, const Vec3 &q, Real margin, in
   return true;
 }
 
+// What is left of a margin once the lists' own is taken from it.
+LSDCD_FN Real past_lists(const GridView &grid, Real margin)
+{
+  return margin > grid.margin ? margin - grid.margin : Real(0);
+}
+
 // Is there any candidate in a cell that a point may reach from q on a way of length up to
 // `margin`? With margin 0 this is near_wall(). False where q is not finite. `table`: as
 // BrickTable, of grid.lists.

@@ -82,9 +82,10 @@ GridPlan plan_with_length(const WallMesh &mesh, const GridSettings &settings, Re
   plan.cutoff = cutoff;
   plan.least_volume = least_volume;
   // Covers the regions that flat edges leave out (four times their largest
-  // angle, times reach) and the rounding of dot products over a whole face.
+  // angle, times the cutoff) and the rounding of dot products over a whole face.
   plan.tolerance = 4e-13 * cutoff + 16 * kRoundoff * (diagonal + cutoff);
-  const Real pad = cutoff + plan.tolerance + Real(0.5) * length;
+  plan.margin = cell_margin(cutoff);
+  const Real pad = cutoff + plan.tolerance + plan.margin + Real(0.5) * length;
   const Box box = covered(mesh, settings.within, pad, length);
   plan.origin = box.lo;
   for (int k = 0; k < 3; k++) {

@@ -10,10 +10,18 @@
 
 namespace lsdcd {
 
+// Margin of complete lists. What a sphere can touch on its way until its list of the wall is made
+// anew is then nearly always in one cell.
+constexpr Real cell_margin(Real cutoff)
+{
+  return Real(0.05) * cutoff;
+}
+
 struct GridPlan {
   Vec3 origin;
   Real length, half_diagonal;    // of a cell; the second with room for rounding
   Real cutoff, tolerance;
+  Real margin;          // how far past its cell a list holds
   Real least_volume;    // of the space within the cutoff of the wall: no less than this
   std::int32_t n_bricks[3];
 
@@ -21,6 +29,9 @@ struct GridPlan {
   // Of the table, or of the bricks that the least volume needs; infinite where bricks cannot be
   // numbered.
   double least_bytes() const;
+
+  // By how much the tests of complete lists are.
+  LSDCD_FN Real widened() const { return tolerance + margin; }
 
   LSDCD_FN Vec3 brick_centre(std::int32_t x, std::int32_t y, std::int32_t z) const
   {
