@@ -38,6 +38,11 @@ if(LSDCD_CUDA)
     set(LSDCD_HAVE_CUDA ON)
     target_compile_options(lsdcd_options INTERFACE
       $<$<COMPILE_LANGUAGE:CUDA>:--fmad=false --extended-lambda -Xcompiler=-Wall,-Wextra,-ffp-contract=off>)
+    # A test reads the sizes of kernels from the compiled files.
+    if(LSDCD_TESTS AND CMAKE_CUDA_COMPILER_VERSION VERSION_GREATER_EQUAL 12.8)
+      target_compile_options(lsdcd_options INTERFACE
+        $<$<COMPILE_LANGUAGE:CUDA>:--compress-mode=none>)
+    endif()
     message(STATUS "CUDA engine: yes, nvcc ${CMAKE_CUDA_COMPILER_VERSION}")
   endif()
 endif()
