@@ -102,5 +102,5 @@ void measure(const BenchOptions &options, BenchRows &rows)
 
 int main(int argc, char **argv)
 {
-  return run_bench(argc, argv, "build", "Building grids of a cylinder, reach 1: CSV.", measure);
+  return run_bench(argc, argv, "build", "Building grids of a cylinder, cutoff 1: CSV.", measure);
 }

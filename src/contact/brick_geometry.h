@@ -22,7 +22,7 @@ class BrickGeometry {
   }
 
   // What rounding moves a height over a plane by: 16 units of the largest coordinate in
-  // a brick's frame, reach and half its diagonal (7 cells) from its centre, both ways.
+  // a brick's frame, the cutoff and half its diagonal (7 cells) from its centre, both ways.
   LSDCD_FN static Real tolerance(const GridView &grid)
   {
     constexpr Real kFloatRoundoff = 5.9604644775390625e-8;

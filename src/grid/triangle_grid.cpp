@@ -225,7 +225,7 @@ GridView moved_view(const GridView &view, const char *to)
 std::string describe(const GridReport &r)
 {
   char text[1024];
-  int n = std::snprintf(text, sizeof text, "  grid %.6g (%s), reach %.6g: ", r.length,
+  int n = std::snprintf(text, sizeof text, "  grid %.6g (%s), cutoff %.6g: ", r.length,
                         r.length_chosen ? "chosen" : "given", r.cutoff);
   const auto add = [&](const char *name, const ListReport &l) {
     n +=

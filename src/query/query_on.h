@@ -174,8 +174,8 @@ class QueryOn : public SphereQuery {
     char text[200];
     std::snprintf(
         text, sizeof text,
-        "sphere %zu has radius %.9g, more than the grid's reach %.9g: build the grid with "
-        "a reach of the largest radius, or try every face",
+        "sphere %zu has radius %.9g, more than the grid's cutoff %.9g: build the grid with "
+        "a cutoff of the largest radius, or try every face",
         i, static_cast<double>(b_.to_host(spheres, i + 1)[i].r), grid_.cutoff);
     throw InputError(text);
   }

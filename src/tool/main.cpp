@@ -65,7 +65,7 @@ nlohmann::json as_json(const GridReport &r)
 {
   nlohmann::json j = as_json(r.lists);
   j.update({{"length", r.length},
-            {"reach", r.cutoff},
+            {"cutoff", r.cutoff},
             {"bytes", r.bytes},
             {"seconds", r.seconds},
             {"device", r.device}});

@@ -193,7 +193,7 @@ void expect_exact(const char *id, const std::string &what, const TriangleSoup &s
   EXPECT_GT(touching, n / 4) << what;
   expect_answer({kTheme, id, what + ": missed contacts"}, 0, missed, 0, "lists are complete");
   expect_at_most({kTheme, id, what + ": |d - exact| / R"}, largest / radius, room / radius,
-                 "1.5 slack, 8 eps (size + R), and half the height of facets without a face");
+                 "1.5 tolerances, 8 eps (size + R), and half the height of facets without a face");
 }
 
 // ---- slivers ------------------------------------------------------------------------------------
@@ -271,7 +271,7 @@ TEST(sliver, tips_end_where_they_do)
     }
   }
   expect_at_most({kTheme, "2", "past the tips of needles: |d - exact| / tolerance"}, largest, 1,
-                 "1.5 slack, 8 eps (size + R)");
+                 "1.5 tolerances, 8 eps (size + R)");
 }
 
 // ---- facets without an area ------------------------------------------------------------------------
@@ -551,7 +551,7 @@ TEST(vertex, of_1e5_facets_is_exact)
     EXPECT_EQ(scene.engine->n_touching(), scene.n());
     expect_at_most({kTheme, "14", std::string(shape) + " of 1e5 facets: |F - k d| / k R"},
                    largest / 0.3, scene.grid.tolerance / 0.3 + 16 * kRoundoff,
-                   "slack and roundings");
+                   "tolerance and roundings");
     expect_answer({kTheme, "14", std::string(shape) + " of 1e5 facets: most contacts"}, 1, most, 0,
                   "one local minimum");
   }

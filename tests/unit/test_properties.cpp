@@ -107,12 +107,12 @@ void report(const PairTotals &t, double seconds)
                             std::to_string(t.first_sphere) + ")";
   expect_answer({kTheme, "1", std::string(what) + ": missed contacts"}, 0, t.missed, 0,
                 "lists are complete" + (t.missed ? where : ""));
-  expect_answer({kTheme, "1", std::string(what) + ": contacts out of reach"}, 0, t.not_there, 0,
+  expect_answer({kTheme, "1", std::string(what) + ": contacts past the cutoff"}, 0, t.not_there, 0,
                 "to the tolerance of a distance" + (t.not_there ? where : ""));
   expect_answer({kTheme, "1", std::string(what) + ": NaN, normals not unit, weights off [0, 1]"}, 0,
                 t.bad, 0, "none" + (t.bad ? where : ""));
   expect_at_most({kTheme, "1", std::string(what) + ": |d - d(all triangles)| / tolerance"}, t.error,
-                 1, "1.5 slack + 8 eps (size + R)" + (t.wrong ? where : ""));
+                 1, "1.5 tolerances + 8 eps (size + R)" + (t.wrong ? where : ""));
   EXPECT_GT(t.touching, t.pairs / 4);
 }
 
@@ -466,7 +466,7 @@ TEST(property, contacts_are_the_local_minima)
   expect_answer({kTheme, "2", "local minima without a contact"}, 0, missing, 0, "none" + where);
   expect_answer({kTheme, "2", "contacts at no local minimum"}, 0, extra, 0, "none" + where);
   expect_answer({kTheme, "2", "contacts twice at one point"}, 0, doubled, 0,
-                "feet 4 slacks apart are one" + where);
+                "points 4 tolerances apart are one" + where);
   EXPECT_GT(sure, n_meshes * kPerMesh / 10);
 }
 

@@ -966,7 +966,7 @@ std::string refusal(const std::vector<std::size_t> &large, Real r, bool every_fa
 TEST(query, a_sphere_larger_than_the_reach_is_refused_by_its_index_and_both_lengths)
 {
   const std::string words =
-      "sphere 600 has radius 0.6, more than the grid's reach 0.1: build the grid with a reach of "
+      "sphere 600 has radius 0.6, more than the grid's cutoff 0.1: build the grid with a cutoff of "
       "the largest radius, or try every face";
   EXPECT_EQ(refusal<Sphere>({600, 699}, 0.6), words);
 }

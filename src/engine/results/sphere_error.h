@@ -23,7 +23,7 @@ struct SphereError : InputError {
 {
   char text[160];
   std::snprintf(text, sizeof text,
-                "has radius %.9g, more than the grid's reach %.9g; set rmax to the largest radius "
+                "has radius %.9g, more than the grid's cutoff %.9g; set rmax to the largest radius "
                 "that will occur",
                 radius, cutoff);
   throw SphereError(i, text);

@@ -136,7 +136,7 @@ Real default_length(const WallMesh &mesh, Real cutoff, int nearest)
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
 {
   if (!(settings.cutoff > 0) || !std::isfinite(settings.cutoff))
-    throw InputError("grid reach is " + number(settings.cutoff) +
+    throw InputError("grid cutoff is " + number(settings.cutoff) +
                      "; it must be the largest particle radius, above 0");
   const Real length = settings.length > 0 ? settings.length
                                           : default_length(mesh, settings.cutoff, settings.nearest);
