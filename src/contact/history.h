@@ -8,9 +8,10 @@
 namespace lsdcd {
 
 // Turns a tangent vector with the rotation that takes unit `from` to unit `to`
-// the shortest way (not opposite). Length is kept; equal normals change no bit.
+// the shortest way (not opposite). Length is kept. On a face normals are equal from step to step.
 LSDCD_FN Vec3 transport(const Vec3 &h, const Vec3 &from, const Vec3 &to)
 {
+  if (from == to) return h;
   const Vec3 axis = cross(from, to);
   const Vec3 turned = cross(axis, h);
   return h + turned + (1 / (1 + dot(from, to))) * cross(axis, turned);

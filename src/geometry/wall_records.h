@@ -78,4 +78,24 @@ LSDCD_FN FeatureCode own_feature(const WallFeaturesView &wall, FeatureCode featu
   return feature_code(kind, static_cast<std::uint32_t>(of[i - n]));
 }
 
+// Asks a host's memory for the record of a feature, which is read soon.
+inline void ask_for(const WallFeaturesView &wall, FeatureCode feature)
+{
+  const std::uint32_t i = feature_index(feature);
+  const auto ask = [](const auto *record) {
+    const char *at = reinterpret_cast<const char *>(record);
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + sizeof *record - 1);
+    asm volatile("");    // else gcc takes a function that only asks for one without effect
+  };
+  switch (feature_kind(feature)) {
+    case FeatureKind::face:
+      return ask(wall.faces + i);
+    case FeatureKind::edge:
+      return ask(wall.edges + i);
+    default:
+      return ask(wall.vertices + i);
+  }
+}
+
 }    // namespace lsdcd

@@ -1,5 +1,7 @@
 #include "grid/triangle_grid.h"
 
+#include "base/give_back_memory.h"
+
 #include <cstdio>
 #include <cstring>
 #include <type_traits>
@@ -19,8 +21,8 @@ std::size_t rounded(std::size_t bytes)
 // then where a view points to them.
 constexpr int kArrays = 31, kWallArrays = 14;
 
-template <class Visit>
-void each_array(const TriangleGrid &g, Visit visit)
+template <class Grid, class Visit>
+void each_array(Grid &g, Visit visit)
 {
   visit(g.wall.faces);
   visit(g.wall.edges);
@@ -36,7 +38,7 @@ void each_array(const TriangleGrid &g, Visit visit)
   visit(g.wall.images.face_of);
   visit(g.wall.images.edge_of);
   visit(g.wall.images.vertex_of);
-  for (const CellLists *lists : {&g.lists, &g.complete}) {
+  for (auto *lists : {&g.lists, &g.complete}) {
     visit(lists->brick_of);
     visit(lists->bricks);
     visit(lists->cells);
@@ -175,7 +177,9 @@ std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid)
   return settings.memory_budget > 0 ? settings.memory_budget : kListBudget + flat_wall_bytes(grid);
 }
 
-void flatten(const TriangleGrid &grid, char *block)
+// Calls copied(array) for each array that is in the block.
+template <class Grid, class Copied>
+void flatten_arrays(Grid &grid, char *block, const Copied &copied)
 {
   // Copied from zeroed memory, so that equal grids make equal blocks.
   FlatHeader header;
@@ -185,16 +189,31 @@ void flatten(const TriangleGrid &grid, char *block)
   point(header.scalars, nowhere);
   std::size_t at = rounded(sizeof(FlatHeader));
   int i = 0;
-  each_array(grid, [&](const auto &a) {
+  each_array(grid, [&](auto &a) {
     const std::size_t bytes = array_bytes(a);
     header.offset[i++] = bytes > 0 ? at : 0;
     if (bytes > 0) std::memcpy(block + at, a.data(), bytes);
     std::memset(block + at + bytes, 0, rounded(bytes) - bytes);
     at += rounded(bytes);
+    copied(a);
   });
   header.scalars.block_bytes = at;
   std::memset(block, 0, rounded(sizeof header));
   std::memcpy(block, &header, sizeof header);
+}
+
+void flatten(const TriangleGrid &grid, char *block)
+{
+  flatten_arrays(grid, block, [](const auto &) {});
+}
+
+void move_flat(TriangleGrid &grid, char *block)
+{
+  flatten_arrays(grid, block, [](auto &a) {
+    const bool large = array_bytes(a) > (1 << 20);
+    std::decay_t<decltype(a)>().swap(a);
+    if (large) give_back_memory();
+  });
 }
 
 GridView flat_view(const char *block)

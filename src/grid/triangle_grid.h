@@ -149,6 +149,8 @@ std::size_t flat_wall_bytes(const TriangleGrid &grid);
 // Of all of a grid, by the settings.
 std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid);
 void flatten(const TriangleGrid &grid, char *block);
+// The same, and frees each array of the grid once it is there.
+void move_flat(TriangleGrid &grid, char *block);
 GridView flat_view(const char *block);
 
 // The same view over a copy of its flat block at another address.

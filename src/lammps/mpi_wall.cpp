@@ -147,8 +147,10 @@ void SharedWall::build(Real cutoff, const PeriodicBox &box)
   box_ = box;
   within_ = want.within;
 
-  WallMesh mesh;
-  together(shared_.world(), shared_.writes(), [&] { mesh = whole(cutoff, box); });
+  WallMesh with_images;    // the mesh itself is not copied for a box without them
+  together(shared_.world(), shared_.writes() && box.any_periodic(),
+           [&] { with_images = whole(cutoff, box); });
+  const WallMesh &mesh = mesh_ && !box.any_periodic() ? *mesh_ : with_images;
   GridKey key = {};
   std::unique_ptr<CachedGrid> cached;
   const bool caches = rank == 0 && !cache_file_.empty();
@@ -226,7 +228,7 @@ void SharedWall::build_block(const WallMesh &whole, const GridSettings &want, Gr
     grid_text_ = describe(report);
   });
   char *block = shared_.allocate(bytes);
-  if (shared_.writes()) flatten(*grid, block);
+  if (shared_.writes()) move_flat(*grid, block);
   shared_.publish();
 }
 

@@ -141,15 +141,16 @@ struct CpuBackend {
   }
 
   // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i).
+  // !work.has_single(), work.several(i). work.ask_ahead(i) is called some time before.
   template <class Work>
   void step(std::size_t n, const Work &work)
   {
+    constexpr std::int64_t kRun = 64;
     work.begin();
-    const bool single = work.has_single();
-    for_each(n, [&](std::size_t i) {
-      if (!single || !work.single(i)) work.several(i);
-    });
+    const std::int64_t m = static_cast<std::int64_t>(n), n_runs = (m + kRun - 1) / kRun;
+#pragma omp parallel for schedule(dynamic) num_threads(threads()) if (n_runs > 4)
+    for (std::int64_t run = 0; run < n_runs; run++)
+      step_run(work, run * kRun, std::min(m, (run + 1) * kRun), m);
   }
 
   // reduce
@@ -199,6 +200,28 @@ struct CpuBackend {
   {
     const int n = threads();
     return "CPU, " + std::to_string(n) + (n == 1 ? " thread" : " threads");
+  }
+
+ private:
+  static constexpr std::int64_t kAhead = 8;    // of the step that is asked for
+
+  // single() is compiled into the loop whole, with its contact in registers; several() is rare,
+  // and long.
+  template <class Work>
+  [[gnu::noinline, gnu::flatten]] static void step_run(const Work &work, std::int64_t begin,
+                                                       std::int64_t end, std::int64_t n)
+  {
+    const bool has_single = work.has_single();
+    for (std::int64_t i = begin; i < end; i++) {
+      if (i + kAhead < n) work.ask_ahead(static_cast<std::size_t>(i + kAhead));
+      if (!has_single || !work.single(static_cast<std::size_t>(i)))
+        step_several(work, static_cast<std::size_t>(i));
+    }
+  }
+  template <class Work>
+  [[gnu::noinline]] static void step_several(const Work &work, std::size_t i)
+  {
+    work.several(i);
   }
 };
 

@@ -198,6 +198,13 @@ struct LawStep {
   // Lists of brick records are left to several().
   bool has_single() const { return kSingle && job.lists.n && !job.grid.in_floats; }
   LSDCD_FN void begin() const { clear_next(job); }
+  // Asks memory for the wall that near sphere k will read: the only thing that is not in order.
+  void ask_ahead(std::size_t k) const
+  {
+    if (!has_single()) return;
+    const int n = job.lists.size(k);
+    for (int i = 0; i < n; i++) ask_for(job.grid.wall, job.lists.code(k, i));
+  }
   LSDCD_FN bool single(std::size_t k) const
   {
     if constexpr (kSingle)

@@ -1,6 +1,7 @@
 // Building the grid: octants -> cells -> lists, one source for every backend.
 #pragma once
 
+#include "base/give_back_memory.h"
 #include "base/input_error.h"
 #include "grid/build/fill_lists.h"
 #include "grid/triangle_grid.h"
@@ -67,6 +68,8 @@ class GridBuilder {
     if (!fits) return false;
     b_.wait();
     report.seconds = seconds_since(start);
+    pairs = OctantPairs<B>();    // before the copies: this is where most memory is taken
+    give_back_memory();
     lists.brick_of = b_.to_host(built.brick_of, built.brick_of.size());
     lists.bricks = b_.to_host(built.bricks, built.n_bricks);
     lists.cells = b_.to_host(built.cells, built.n_cells);
