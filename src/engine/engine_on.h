@@ -49,6 +49,12 @@ class EngineOn : public InPlaceEngine {
     n_near_ = 0;
   }
 
+  void place_wall(const WallPose &pose) override
+  {
+    if (pose.placed && !settings_.moves) throw std::logic_error("this engine's wall cannot move");
+    pose_ = pose;
+  }
+
   Real largest_radius(const Spheres &spheres) override
   {
     return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
@@ -61,12 +67,12 @@ class EngineOn : public InPlaceEngine {
     totals();    // of the last step, which had other near spheres
     springs_.grow(b_, spheres.n);
     all_near_ = false;
-    near_.choose(b_, grid_, table_, spheres, margin, settings_.law.pull_off(), counts_.data(),
-                 springs_.count());
+    near_.choose(b_, grid_, table_, spheres, pose_, margin, settings_.law.pull_off(),
+                 counts_.data(), springs_.count());
     StepCounts seen = read_counts();
     if (seen.too_large) throw_for(spheres, seen);
     if (grid_.nearest == 0 && seen.n_near > 0) {
-      near_.prune(b_, grid_, spheres, seen.n_near, margin, counts_.data(), springs_.count());
+      near_.prune(b_, grid_, spheres, pose_, seen.n_near, margin, counts_.data(), springs_.count());
       seen = read_counts();
     }
     make_lists(spheres, seen.n_near, seen);
@@ -86,8 +92,9 @@ class EngineOn : public InPlaceEngine {
   {
     const Real *was = centres_.data();
     const StridedView<const Real> x = spheres.x;
+    const WallPose pose = pose_;
     return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
-      return norm_sq(x[i] - Vec3{was[3 * i], was[3 * i + 1], was[3 * i + 2]});
+      return norm_sq(pose.to_mesh(x[i]) - Vec3{was[3 * i], was[3 * i + 1], was[3 * i + 2]});
     }) > margin_ * margin_;
   }
 
@@ -109,7 +116,7 @@ class EngineOn : public InPlaceEngine {
     results_.begin(law_.traits, step_, spheres_, near(), n_near_, may_miss_any(grid_));
     if (n_near_ == 0) return;
     if (!B::kOnHost && left_.size() < n_near_) left_ = Array<int>(n_near_ + n_near_ / 8);
-    LawJob job = job_of(grid_, force_settings(settings_, step_), spheres_);
+    LawJob job = job_of(grid_, force_settings(settings_, step_, pose_), spheres_);
     results_.put_into(job);
     job.near = near();
     job.lists = lists_.view();
@@ -189,7 +196,7 @@ class EngineOn : public InPlaceEngine {
   {
     n_near_ = n;
     springs_.make_room(n, seen);
-    lists_.make(b_, grid_, spheres, near(), n, settings_.law.pull_off(), counts_.data());
+    lists_.make(b_, grid_, spheres, pose_, near(), n, settings_.law.pull_off(), counts_.data());
   }
 
   void unlock_lanes()
@@ -204,8 +211,9 @@ class EngineOn : public InPlaceEngine {
     if (centres_.size() < 3 * n) centres_ = Array<Real>(3 * (n + n / 8));
     Real *to = centres_.data();
     const StridedView<const Real> x = spheres.x;
+    const WallPose pose = pose_;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
-      const Vec3 at = x[i];
+      const Vec3 at = pose.to_mesh(x[i]);
       for (int d = 0; d < 3; d++) to[3 * i + d] = at[d];
     });
   }
@@ -273,7 +281,8 @@ class EngineOn : public InPlaceEngine {
   bool all_near_ = false;
   std::size_t n_near_ = 0;
   ListStore<B> lists_;
-  Array<Real> centres_;    // at the last choice
+  WallPose pose_;
+  Array<Real> centres_;    // at the last choice, in the frame of the mesh
   Real margin_ = 0;        // of the last choice
 
   StepResults<B> results_;

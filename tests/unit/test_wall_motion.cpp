@@ -64,10 +64,10 @@ WideVec where(const std::vector<MotionTerm> &terms, const Vec3 &point, Wide t)
 }
 
 // Differences of fourth order: with a period of 0.7 and more errors are (2 pi h/0.7)^4/30 of a
-// velocity, 1e-17 at h = 1e-5, and 5e-20/h of a place of size 10, 5e-14.
+// velocity, 2e-16 at h = 3e-5, and 5e-20/h of a place of size 10, 2e-14.
 WideVec speed(const std::vector<MotionTerm> &terms, const Vec3 &x, Wide t)
 {
-  const Wide h = 1e-5L;
+  const Wide h = 3e-5L;
   const auto at = [&](int k) { return where(terms, x, t + k * h); };
   return (1 / (12 * h)) * (8 * (at(1) - at(-1)) - (at(2) - at(-2)));
 }

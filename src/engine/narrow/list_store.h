@@ -16,8 +16,8 @@ class ListStore {
   const WallLists &view() const { return lists_; }
 
   // Makes the lists of n near spheres, whose indices are `near`, or null for all.
-  void make(B &b, const GridView &grid, const Spheres &spheres, const int *near, std::size_t n,
-            Real pull_off, StepCounts *counts)
+  void make(B &b, const GridView &grid, const Spheres &spheres, const WallPose &pose,
+            const int *near, std::size_t n, Real pull_off, StepCounts *counts)
   {
     lists_ = WallLists();
     if (grid.nearest > 0 || n == 0) return;
@@ -34,7 +34,8 @@ class ListStore {
         n,
         [=] LSDCD_LAMBDA(std::size_t k) {
           const std::size_t i = near ? near[k] : k;
-          const QuerySphere s = {x[i], radius[i], cutoff_of(radius[i], pull_off), nullptr, 0};
+          const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off),
+                                 nullptr, 0};
           WallList made;
           gather(grid, s, made);
           lists.put(k, made);
