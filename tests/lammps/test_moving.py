@@ -117,7 +117,7 @@ def compare_words(checks, folder):
     checks.at_most("a variable of the place alone", deck.largest_difference(plain, varied), 1e-12)
     checks.fact("the log says that its speed is a difference",
                 "velocities are differences over a step" in log)
-    # The speed of half a step before: off by a dt/2 with a = 394, 2 % of the speed of 1.3.
+    # The speed of half a step before: off by a dt/2 = 0.02, 2 % of the speed of 1.3.
     plain = one_sphere(folder, "a", lsdcd(law, "wiggle z 0.004 0.02"))[0]
     varied = with_variables("motion variable NULL NULL v_z NULL NULL NULL", law)[0]
     apart = deck.largest_difference(plain, varied)
@@ -177,11 +177,11 @@ def compare_frames(checks, folder):
             checks.fact(f"{law_name}, {neigh}: spheres touch", touching(dumps[0]) > 10,
                         str(touching(dumps[0])))
             for k in (1, 2):
-                # Places of size 5 are rounded to 4e-16 in other places in each step, which shift a
-                # force of k = 1e4 by 1e-11; over 1000 steps with two bounces these parts grow to
-                # 1e-9 of trajectories.
+                # Places of size 5 are rounded to 4e-16, in other ways in each frame, which shifts a
+                # force of k = 1e4 by 1e-11 of its size of 1; it grows as rounding does in 150 steps
+                # of contacts, and by 10 in each of two bounces.
                 checks.at_most(f"{law_name}, {neigh}: frame {k} as at rest",
-                               deck.largest_difference(dumps[0], dumps[k]), 1e-9)
+                               deck.largest_difference(dumps[0], dumps[k]), 1e-10)
 
 
 MOVES = "motion wiggle 0.05 0 0.1 0.31 motion rotate 0.5 0.2 0 0 0.1 1 1.7"
@@ -194,7 +194,11 @@ def ranks_and_restart(checks, folder):
     def forces(more="", moves=MOVES, law=LAW):
         return scene.forces(law, mesh=f"mesh floor.stl {moves}", more=more)
 
-    def go(name, ranks=1, between="", begin=scene.CREATE, **more):
+    # The order of create_atoms and the sums of velocity depend on the ranks.
+    deck.run_well(scene.CREATE + "write_data start.data\n", folder)
+    start = scene.SETTINGS + "read_data start.data\n"
+
+    def go(name, ranks=1, between="", begin=start, **more):
         text = deck.run_well(begin + forces(**more) + f"run {first}\n{between}" +
                              scene.dump(name, 50) + f"run {second}\n", folder, ranks)
         return deck.read_dump(folder / name), text
@@ -207,7 +211,7 @@ def ranks_and_restart(checks, folder):
 
     two = go("two", between="write_restart two.restart\n")[0]
     near = sum(row[9] > 0 for rows in two.values() for row in rows.values())
-    checks.fact("spheres touch the moving floor", near > 100, str(near))
+    checks.fact("spheres touch the moving floor", near > 30, str(near))
     for ranks in (2, 4):
         checks.at_most(f"{ranks} ranks as one", deck.largest_difference(two, go("r", ranks)[0]), 0)
     for ranks in (1, 2, 4):
@@ -222,8 +226,8 @@ def ranks_and_restart(checks, folder):
     checks.fact("none at all is told", "has none: the mesh stays where the mesh was" in text)
 
     # The number of a step does not matter.
-    reset = go("reset", between="reset_timestep 12345\n")[0]
-    renamed = {step - 12345 + first: rows for step, rows in reset.items()}
+    reset = go("reset", between="reset_timestep 10000\n")[0]
+    renamed = {step - 10000 + first: rows for step, rows in reset.items()}
     checks.at_most("reset_timestep moves nothing", deck.largest_difference(two, renamed), 0)
 
 
@@ -259,7 +263,9 @@ def stopped(checks, folder):
     checks.fact("the log tells of the changes", "motion none" in log and
                 "motion linear 0 0 1, rotate 0 0 0 0 0 1 0.8; corners" in log)
     # 100 steps of 0.001 and 300 of them: whole turns are the bits of the file.
-    deck.run_well(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields g_*.vtp every 100 "
+    # So soft that spheres do not notice.
+    soft = "hooke 1e-9 NULL 0 NULL 0 0"
+    deck.run_well(scene.CREATE + scene.forces(soft, mesh="mesh floor.stl mesh_fields g_*.vtp every 100 "
                                               "motion rotate 0.3 0.1 0.7 1 2 3 0.1") + "run 300\n", folder)
     deck.run_well(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields h_*.vtp every 100") +
                   "run 100\n", folder)
