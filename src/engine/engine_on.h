@@ -26,6 +26,10 @@ class EngineOn : public InPlaceEngine {
       settings_(settings), law_(law), b_(std::move(backend)), springs_(law.traits), counts_(1),
       lanes_(kLanes)
   {
+    if (settings.precision == Precision::single_ && !has_single(settings))
+      throw InputError(
+          "precision single has neither granular, rolling, cohesion, a moving surface or mesh, wear "
+          "nor mesh_fields: use mixed or double");
     clear_diagnostics(StepCounts());
     unlock_lanes();
   }

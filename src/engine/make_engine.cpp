@@ -38,10 +38,6 @@ bool has_single(const EngineSettings &settings)
 
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings)
 {
-  if (settings.precision == Precision::single_ && !has_single(settings))
-    throw InputError(
-        "precision single has neither granular, rolling, cohesion, a moving surface or mesh, wear "
-        "nor mesh_fields: use mixed or double");
   std::string why;
   const bool cuda = settings.device != Device::cpu && cuda_available(&why);
 #if defined(LSDCD_HAVE_CUDA)
