@@ -265,6 +265,34 @@ def ranks_and_restart(checks, folder):
     checks.at_most("reset_timestep moves nothing", deck.largest_difference(two, renamed), 0)
 
 
+def searches(checks, folder):
+    """However near atoms are chosen and contacts are found: the same bits."""
+
+    def go(name, more="", run="run 600\n", neigh="delay 0 every 1 check yes"):
+        text = scene.CREATE + scene.forces(LAW, mesh=f"mesh floor.stl {MOVES} {more}")
+        text = text.replace("delay 0 every 1 check yes", neigh)
+        deck.run_well(text + scene.dump(name, 50) + run, folder)
+        return deck.read_dump(folder / name)
+
+    plain = go("plain")
+    near = sum(row[9] > 0 for rows in plain.values() for row in rows.values())
+    checks.fact("spheres touch", near > 30, str(near))
+    for name, words in (("tune 0.01", {"more": "tune 0.01"}),
+                        ("nearest 2 exact", {"more": "nearest 2 exact"}),
+                        ("a grid for larger spheres", {"more": "rmax 0.7 grid 0.3"}),
+                        ("choices by the engine", {"neigh": "delay 10 every 10 check no"}),
+                        ("two runs without setup", {"run": "run 300 post no\nrun 300 pre no\n"})):
+        checks.at_most(f"{name}: as plain", deck.largest_difference(plain, go("other", **words)), 0)
+    # fix wall/gran under respa, with time of the outer step.
+    if not deck.ON_KOKKOS:
+        (folder / "flat.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+        law, words = LAWS["hooke_history"], OF_WALL_GRAN["wiggle_z"]
+        respa = {"style": "respa 2 2 pair 2", "dt": 2e-4, "steps": 600}
+        theirs = one_sphere(folder, "a", f"wall/gran {law} zplane 0.0 NULL {words}", **respa)[0]
+        ours = one_sphere(folder, "b", lsdcd(law, words, "flat.stl"), **respa)[0]
+        checks.at_most("respa: as fix wall/gran", deck.largest_difference(theirs, ours), 1e-12)
+
+
 def places(folder, name):
     return read_vtp(folder / name)["points"]
 
@@ -412,7 +440,8 @@ def refused(checks, folder):
 
 
 PARTS = {"wall_gran": compare_with_wall_gran, "words": compare_words, "frames": compare_frames, "comes": wall_comes,
-         "ranks": ranks_and_restart, "stopped": stopped, "drum": periodic_drum, "refused": refused}
+         "ranks": ranks_and_restart, "searches": searches,
+         "stopped": stopped, "drum": periodic_drum, "refused": refused}
 
 
 def main():
@@ -425,7 +454,7 @@ def main():
     for name in sys.argv[1:] or PARTS:
         if name == "wall_gran" and deck.ON_KOKKOS:
             continue    # its form for Kokkos is another code
-        if name in ("ranks", "stopped"):
+        if name in ("ranks", "stopped", "searches"):
             scene.write_floor(folder / "floor.stl")
         if name in ("wall_gran", "words", "comes"):
             (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
