@@ -1,5 +1,7 @@
 #include "deck/keywords.h"
 
+#include "deck/motion_words.h"
+
 #include "grid/cache/grid_cache.h"
 
 #include <cmath>
@@ -93,22 +95,6 @@ void read_cache(Tokens &w, WallSettings &s)
   std::string why;
   if (!cache_available(&why)) w.fail(why);
   s.cache_file = file;
-}
-
-Vec3 read_vec(Tokens &w, const char *x, const char *y, const char *z)
-{
-  Vec3 v;
-  v.x = w.number(x);
-  v.y = w.number(y);
-  v.z = w.number(z);
-  return v;
-}
-
-void read_surface_angvel(Tokens &w, WallSettings &s)
-{
-  s.surface.angular = read_vec(w, "wx", "wy", "wz");
-  if (w.number_follows())
-    s.surface.centre = read_vec(w, "the centre (x)", "the centre (y)", "the centre (z)");
 }
 
 // Of LIGGGHTS, beside the classic styles; granular has its own.
@@ -228,11 +214,22 @@ const Keyword kKeywords[] = {
      [](Tokens &w, WallSettings &s) {
        s.side = static_cast<Side>(w.choice({"both", "in", "out"}));
      }},
+    {"motion", kMotionSyntax, "velocity, length, time", "period > 0", "none",
+     "the mesh moves, as fix move's words say; repeated, each acts on what the earlier ones placed",
+     read_motion},
+    {"wiggle", "x|y|z amplitude period", "length, time", "period > 0", "none",
+     "the mesh moves as fix wall/gran's: by A - A cos(2 pi t/period)", read_wiggle},
+    {"shear", "x|y|z v", "velocity", "", "none",
+     "the surface moves while the mesh stays, as fix wall/gran's: surface_vel in one direction; v: "
+     "a number or v_NAME",
+     read_shear},
     {"surface_vel", "vx vy vz", "velocity", "", "0 0 0",
-     "the surface moves along itself while the mesh stays, as a conveyor's",
-     [](Tokens &w, WallSettings &s) { s.surface.velocity = read_vec(w, "vx", "vy", "vz"); }},
+     "the surface moves along itself while the mesh stays, as a conveyor's; each a number or "
+     "v_NAME",
+     read_surface_vel},
     {"surface_angvel", "wx wy wz [cx cy cz]", "1/time, length", "", "0 0 0",
-     "it turns along itself about an axis through c (the origin), as a roll's",
+     "it turns along itself about an axis through c (the origin), as a roll's; each w a number or "
+     "v_NAME",
      read_surface_angvel},
     {"rolling", "cdt MU | epsd2 MU", "", ">= 0", "none",
      "rolling friction of LIGGGHTS: constant torque, or elastic-plastic spring", read_rolling},

@@ -61,10 +61,8 @@ void read_law(Tokens &w, WallSettings &s)
 // Tokens of fix wall/gran and of LIGGGHTS, and what does their work here.
 std::string answer_to(const std::string &word, bool granular)
 {
-  const char *const kStays =
-      "the mesh does not move yet: where it must, use fix wall/gran/region with a region that "
-      "moves; for surfaces that move along themselves, as belts and rolls, there are surface_vel "
-      "and surface_angvel";
+  const char *const kMoves =
+      "the words are motion wiggle Ax Ay Az period, and wiggle x|y|z amplitude period";
   const char *const kFlat =
       "the wall is a mesh: write mesh FILE in its place, or use fix wall/gran";
   const char *const kBelt =
@@ -80,10 +78,8 @@ std::string answer_to(const std::string &word, bool granular)
     const char *word;
     const char *answer;
   } foreign[] = {
-      {"wiggle", kStays},
-      {"shear", kStays},
-      {"motion", kStays},
-      {"vibrate", kStays},
+      {"vibrate", kMoves},
+      {"move/mesh", "the words are motion linear, rotate, wiggle, transrot and variable"},
       {"zplane", kFlat},
       {"yplane", kFlat},
       {"xplane", kFlat},
@@ -154,7 +150,7 @@ WallSettings parse_settings(const std::vector<std::string> &tokens)
     if (found == names.end()) refuse_keyword(word, names, granular);
     const Keyword &row = keywords()[found - names.begin()];
     w.expect(row.name, syntax_of(row));
-    const bool repeats = word == "scale" || word == "rotate" || word == "move";
+    const bool repeats = word == "scale" || word == "rotate" || word == "move" || word == "motion";
     if (!repeats && std::find(seen.begin(), seen.end(), word) != seen.end())
       w.fail("the keyword is given twice");
     seen.push_back(word);
@@ -162,6 +158,11 @@ WallSettings parse_settings(const std::vector<std::string> &tokens)
   }
   w.expect("fix wall/lsdcd", granular ? granular_syntax() : kLawSyntax);
   if (settings.mesh_file.empty()) w.fail("mesh FILE is missing");
+  if (std::count(seen.begin(), seen.end(), "shear") &&
+      std::count(seen.begin(), seen.end(), "surface_vel")) {
+    w.expect("shear", "shear x|y|z v");
+    w.fail("there is a surface_vel, too, which says the same: give one of them");
+  }
   w.expect("temperature", "granular ... heat radius|area ... mesh FILE temperature T|v_NAME");
   if (settings.law.has_heat() && !settings.has_temperature)
     w.fail("the wall's temperature is missing, which the sub-model heat needs");

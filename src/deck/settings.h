@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/wall_engine.h"
+#include "mesh/motion.h"
 #include "mesh/placement.h"
 #include "output/mesh_image.h"
 
@@ -32,9 +33,12 @@ struct WallSettings {
   Side side = Side::both;
   Precision precision = Precision::double_;
   SurfaceMotion surface;
-  Wear wear;                  // K and H in pressure units
-  std::string fields_file;    // of numbers per triangle; empty: none
-  int fields_every = 0;       // steps between two of them
+  std::string surface_variable[6];    // in place of its velocity and angular velocity; empty: none
+  WallMotion motion;
+  std::string motion_tokens;    // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
+  Wear wear;                    // K and H in pressure units
+  std::string fields_file;      // of numbers per triangle; empty: none
+  int fields_every = 0;         // steps between two of them
   Device device = Device::automatic;
   std::string cache_file;    // empty: none
   bool contacts = false;
@@ -47,6 +51,12 @@ struct WallSettings {
   Real cut_offset = 0;
 
   bool wears() const { return wear.model != WearModel::none; }
+  bool surface_varies() const
+  {
+    for (const std::string &name : surface_variable)
+      if (!name.empty()) return true;
+    return false;
+  }
   bool has_loads() const { return wears() || !fields_file.empty(); }
 };
 

@@ -65,6 +65,7 @@ std::vector<Effect> effects_of(const EngineSettings &s)
   else
     add_classic(s.law, effects);
   if (s.surface.moves()) effects.push_back({"moving surface", 0, "moving surface"});
+  if (s.moves) effects.push_back({"moving wall", 0, s.surface.moves() ? "" : "moving surface"});
   if (s.records) effects.push_back({"loads of triangles", 0, "loads of triangles"});
   if (s.wear == WearModel::archard) effects.push_back({"wear archard", 0, "wear archard"});
   if (s.wear == WearModel::finnie) effects.push_back({"wear finnie", 0, "wear finnie"});

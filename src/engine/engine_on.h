@@ -26,6 +26,10 @@ class EngineOn : public InPlaceEngine {
       settings_(settings), law_(law), b_(std::move(backend)), springs_(law.traits), counts_(1),
       lanes_(kLanes)
   {
+    if (settings.precision == Precision::single_ && !has_single(settings))
+      throw InputError("precision single has neither granular, rolling, cohesion, a moving surface "
+                       "or mesh, wear "
+                       "nor mesh_fields: use mixed or double");
     clear_diagnostics(StepCounts());
     unlock_lanes();
   }
@@ -48,6 +52,12 @@ class EngineOn : public InPlaceEngine {
     n_near_ = 0;
   }
 
+  void place_wall(const WallPose &pose) override
+  {
+    if (pose.placed && !settings_.moves) throw std::logic_error("this engine's wall cannot move");
+    pose_ = pose;
+  }
+
   Real largest_radius(const Spheres &spheres) override
   {
     return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
@@ -60,8 +70,8 @@ class EngineOn : public InPlaceEngine {
     results_.outlive_choice(b_);
     springs_.grow(b_, spheres.n);
     all_near_ = false;
-    near_.choose(b_, grid_, table_, spheres, margin, settings_.law.pull_off(), counts_.data(),
-                 springs_.count());
+    near_.choose(b_, grid_, table_, spheres, pose_, margin, settings_.law.pull_off(),
+                 counts_.data(), springs_.count());
     StepCounts seen = read_counts();
     if (seen.too_large) throw_for(spheres, seen);
     make_lists(spheres, seen, margin, springs_.count());
@@ -86,8 +96,9 @@ class EngineOn : public InPlaceEngine {
   {
     const Real *was = centres_.data();
     const StridedView<const Real> x = spheres.x;
+    const WallPose pose = pose_;
     return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
-      return norm_sq(x[i] - Vec3{was[3 * i], was[3 * i + 1], was[3 * i + 2]});
+      return norm_sq(pose.to_mesh(x[i]) - Vec3{was[3 * i], was[3 * i + 1], was[3 * i + 2]});
     }) > margin_ * margin_;
   }
 
@@ -109,7 +120,7 @@ class EngineOn : public InPlaceEngine {
     results_.begin(law_.traits, step_, spheres_, near(), n_near_, may_miss_any(grid_));
     if (n_near_ == 0) return;
     if (!B::kOnHost && left_.size() < n_near_) left_ = Array<int>(n_near_ + n_near_ / 8);
-    LawJob job = job_of(grid_, force_settings(settings_, step_), spheres_);
+    LawJob job = job_of(grid_, force_settings(settings_, step_, pose_), spheres_);
     results_.put_into(job);
     job.near = near();
     job.lists = lists_.view();
@@ -190,12 +201,13 @@ class EngineOn : public InPlaceEngine {
   {
     const Real pull_off = settings_.law.pull_off();
     if (grid_.nearest == 0 && seen.n_near > 0) {
-      near_.prune(b_, grid_, spheres, seen.n_near, margin, pull_off, counts_.data(), n_springs);
+      near_.prune(b_, grid_, spheres, pose_, seen.n_near, margin, pull_off, counts_.data(),
+                  n_springs);
       seen = read_counts();
     }
     n_near_ = seen.n_near;
     springs_.make_room(n_near_, seen);
-    lists_.make(b_, grid_, spheres, near_.data(), n_near_, margin, pull_off, counts_.data());
+    lists_.make(b_, grid_, spheres, pose_, near_.data(), n_near_, margin, pull_off, counts_.data());
   }
 
   void unlock_lanes()
@@ -210,8 +222,9 @@ class EngineOn : public InPlaceEngine {
     if (centres_.size() < 3 * n) centres_ = Array<Real>(3 * (n + n / 8));
     Real *to = centres_.data();
     const StridedView<const Real> x = spheres.x;
+    const WallPose pose = pose_;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
-      const Vec3 at = x[i];
+      const Vec3 at = pose.to_mesh(x[i]);
       for (int d = 0; d < 3; d++) to[3 * i + d] = at[d];
     });
   }
@@ -280,7 +293,8 @@ class EngineOn : public InPlaceEngine {
   bool all_near_ = false;
   std::size_t n_near_ = 0;
   ListStore<B> lists_;
-  Array<Real> centres_;    // at the last choice
+  WallPose pose_;
+  Array<Real> centres_;    // at the last choice, in the frame of the mesh
   Real margin_ = 0;        // of the last choice
 
   StepResults<B> results_;

@@ -58,6 +58,12 @@ class HostAdapter : public WallEngine {
     near_host_.clear();
   }
 
+  void place_wall(const WallPose &pose) override
+  {
+    pose_ = pose;
+    engine_.place_wall(pose);
+  }
+
   Real largest_radius(const Spheres &s) override
   {
     return cpu_.largest<Real>(s.n, [&](std::size_t i) -> Real {
@@ -71,7 +77,8 @@ class HostAdapter : public WallEngine {
   {
     name_spheres();
     StepCounts seen = {};
-    near_.choose(cpu_, grid_, table_, spheres, margin, settings_.law.pull_off(), &seen, nullptr);
+    near_.choose(cpu_, grid_, table_, spheres, pose_, margin, settings_.law.pull_off(), &seen,
+                 nullptr);
     if (seen.too_large) {
       const int i = static_cast<int>(kNoSphere - seen.too_large);
       throw_too_large(i, spheres.radius[i], grid_.cutoff);
@@ -91,7 +98,8 @@ class HostAdapter : public WallEngine {
     if (traits_.history) move_springs(was, spheres.n);
     if (watch) {
       centres_.resize(3 * static_cast<std::size_t>(spheres.n));
-      for (int i = 0; i < spheres.n; i++) StridedView<Real>(centres_.data()).put(i, spheres.x[i]);
+      for (int i = 0; i < spheres.n; i++)
+        StridedView<Real>(centres_.data()).put(i, pose_.to_mesh(spheres.x[i]));
     }
     margin_ = margin;
   }
@@ -100,7 +108,7 @@ class HostAdapter : public WallEngine {
   {
     const StridedView<const Real> was(centres_.data());
     return cpu_.largest<Real>(spheres.n, [&](std::size_t i) -> Real {
-      return norm_sq(spheres.x[i] - was[i]);
+      return norm_sq(pose_.to_mesh(spheres.x[i]) - was[i]);
     }) > margin_ * margin_;
   }
 
@@ -341,7 +349,8 @@ class HostAdapter : public WallEngine {
   BrickTable table_;
   NearList<CpuBackend> near_;
   std::vector<int> near_host_, touching_;
-  std::vector<Real> centres_;    // at the last choice
+  WallPose pose_;
+  std::vector<Real> centres_;    // at the last choice, in the frame of the mesh
   Real margin_ = 0;
 
   Mirror<Motion> motion_;

@@ -33,15 +33,11 @@ void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &s
 bool has_single(const EngineSettings &settings)
 {
   return settings.law.style != LawStyle::granular && !settings.law.added.any() &&
-         !settings.surface.moves() && !settings.records;
+         !settings.surface.moves() && !settings.moves && !settings.records;
 }
 
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings)
 {
-  if (settings.precision == Precision::single_ && !has_single(settings))
-    throw InputError(
-        "precision single has neither granular, rolling, cohesion, a moving surface, wear nor "
-        "mesh_fields: use mixed or double");
   std::string why;
   const bool cuda = settings.device != Device::cpu && cuda_available(&why);
 #if defined(LSDCD_HAVE_CUDA)

@@ -7,6 +7,7 @@
 #include "engine/force/on_wall.h"
 #include "grid/triangle_grid.h"
 #include "mesh/wall_mesh.h"
+#include "mesh/wall_pose.h"
 #include "model/contact_law.h"
 
 #include <cstddef>
@@ -31,6 +32,7 @@ struct EngineSettings {
   Side side = Side::both;
   Precision precision = Precision::double_;
   SurfaceMotion surface;               // of the wall, in the plane of each contact
+  bool moves = false;                  // place_wall() or StepSettings::surface will be used
   bool records = false;                // keep what every contact does to the wall
   WearModel wear = WearModel::none;    // where records are kept
   Device device = Device::automatic;
@@ -54,10 +56,11 @@ struct Spheres {
 };
 
 struct StepSettings {
-  Real dt = 0;                   // time
-  bool update_history = true;    // false in setup: springs act but do not move
-  bool per_sphere = false;       // fill SphereOutput
-  Real wall_temperature = 0;     // where the law has heat
+  Real dt = 0;                               // time
+  bool update_history = true;                // false in setup: springs act but do not move
+  bool per_sphere = false;                   // fill SphereOutput
+  Real wall_temperature = 0;                 // where the law has heat
+  const SurfaceMotion *surface = nullptr;    // in place of the settings', until collect()
 };
 
 // Sums over the spheres of the last step on this process.
@@ -105,17 +108,21 @@ class WallEngine {
   // The grid to use from now on; borrowed, must outlive its use. Asks for a choice.
   virtual void set_grid(const GridView &grid) = 0;
 
+  // Where the mesh is from now on, and how fast it goes; not between start() and collect(). At
+  // first it is where the grid has it. Only an engine whose settings say that it moves may be asked.
+  virtual void place_wall(const WallPose &pose) = 0;
+
   // Largest radius in the group.
   virtual Real largest_radius(const Spheres &spheres) = 0;
 
   // Chooses the spheres that steps look at until the next call: those of the group that could be
-  // near the wall after moving by up to `margin` (length), and makes their lists of the wall. Radii
-  // must not grow until the next choice.
+  // near the wall after moving by up to `margin` (length) relative to it, and makes their lists of the
+  // wall. Radii must not grow until the next choice.
   // `watch`: has_moved() will be asked. Throws InputError if a sphere is larger than the grid's
   // cutoff (index and radius in the message).
   virtual void choose(const Spheres &spheres, Real margin, bool watch = false) = 0;
 
-  // Has a sphere moved by more than the margin of the last choice?
+  // Has a sphere moved relative to the wall by more than the margin of the last choice?
   virtual bool has_moved(const Spheres &spheres) = 0;
 
   // Begins a step. Until collect() the host must not change x, v or omega, and may change force

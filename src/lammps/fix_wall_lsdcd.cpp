@@ -67,6 +67,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     wall = std::make_unique<lsdcd::SharedWall>(world, settings);
     check_side();
     check_plane();
+    begin_motion();
 
     make_engine();
   } catch (const lsdcd::InputError &e) {
@@ -76,7 +77,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   history = settings.law.has_history();
   springs = lsdcd::SpringStore(settings.law.n_extra());
   records = settings.has_loads();
-  restart_global = records;
+  restart_global = records || settings.motion.any();
   if (settings.fields_every > 0) nevery = settings.fields_every;
   create_attribute = history || settings.contacts;
   restart_peratom = history;
@@ -149,6 +150,7 @@ void FixWallLsdcd::init()
   if (!rigid) std::vector<double>().swap(mass_seen);
   if (wall->cutoff() > 0) check_box(wall->cutoff());
   if (settings.law.has_heat()) check_heat();
+  check_variables();
   if (settings.fields_every > 0) check_fields_file();
 }
 
@@ -228,10 +230,13 @@ void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
 // `look`: may there be new spheres, or other radii?
 void FixWallLsdcd::begin_step(bool look)
 {
+  move_wall();
   if (look)
     update_cutoff();
   else if (domain->box_change)
     follow_box();
+  check_moving_box();
+  if (engine_moves) engine->place_wall(pose);
   if (update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != checked_atoms)))
     check_timestep();
   if (rigid) fill_masses();
@@ -256,6 +261,7 @@ lsdcd::StepSettings FixWallLsdcd::step_settings(lsdcd::Spheres &spheres)
   step.dt = update->dt;
   step.update_history = !update->setupflag;
   step.per_sphere = settings.contacts;
+  if (settings.surface_varies()) step.surface = &surface;
   if (settings.law.has_heat()) give_heat(spheres, step);
   return step;
 }
@@ -290,8 +296,13 @@ void FixWallLsdcd::choose_if_due(const lsdcd::Spheres &s)
   if (history) springs_to_engine();
   const bool keeps = list_keeps(),
              watches = !keeps && !group->dynamic[igroup] && neighbor->skin > 0;
-  if (!list_is_old && (keeps || (watches && !engine->has_moved(s)))) return;
-  engine->choose(s, keeps || watches ? 0.5 * neighbor->skin : 0.0, watches);
+  // Half the skin is for atoms. One that had gone so far since LAMMPS reneighboured may come back
+  // and go as far on the other side. As much again is for a wall that moves.
+  const double half = 0.5 * neighbor->skin, for_wall = settings.motion.any() ? half : 0;
+  if (!list_is_old && (keeps ? !wall_has_gone(for_wall) : watches && !engine->has_moved(s))) return;
+  const double for_atoms = keeps && neighbor->ago > 0 ? 2 * half : half;
+  engine->choose(s, keeps || watches ? for_atoms + for_wall : 0.0, watches);
+  chosen_pose = pose;
   list_is_old = false;
   choices++;
 }
@@ -363,6 +374,7 @@ lsdcd::EngineSettings FixWallLsdcd::engine_settings() const
   want.side = settings.side;
   want.precision = settings.precision;
   want.surface = settings.surface;
+  want.moves = moves_or_varies();
   want.records = settings.has_loads();
   want.wear = settings.wear.model;
   want.device = settings.device;
@@ -374,6 +386,7 @@ lsdcd::EngineSettings FixWallLsdcd::engine_settings() const
 void FixWallLsdcd::make_engine()
 {
   const lsdcd::EngineSettings want = engine_settings();
+  engine_moves = want.moves;
   lsdcd::together(world, true, [&] { engine = new_engine(want); });
 }
 
@@ -404,7 +417,7 @@ void FixWallLsdcd::update_cutoff()
 // spheres can be: both are those of a box. Collective where the box has changed.
 void FixWallLsdcd::follow_box()
 {
-  if (wall->cutoff() > 0 && !wall->fits(simulation_box())) rebuild(wall->cutoff());
+  if (wall->cutoff() > 0 && !wall->fits(mesh_box())) rebuild(wall->cutoff());
 }
 
 void FixWallLsdcd::rebuild(double cutoff)
@@ -422,7 +435,7 @@ void FixWallLsdcd::rebuild(double cutoff)
   check_box(cutoff);
   try {
     if (settings.tune >= 0 && old == 0) tune(cutoff);
-    wall->build(cutoff, simulation_box());
+    wall->build(cutoff, mesh_box());
     lsdcd::together(world, true, [&] { engine->set_grid(wall->view()); });
   } catch (const lsdcd::InputError &e) {
     refuse(e.what());

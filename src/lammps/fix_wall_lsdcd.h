@@ -55,6 +55,8 @@ class FixWallLsdcd : public Fix {
   double memory_usage() override;
   int image(int *&, double **&) override;
 
+  int modify_param(int, char **) override;    // fix_wall_lsdcd_motion.cpp
+
  protected:
   lsdcd::WallSettings settings;
   std::string material;    // what a material file filled in, for the log; else empty
@@ -99,10 +101,22 @@ class FixWallLsdcd : public Fix {
 
   int temperature_variable = -1;
 
+  // Time of the wall's motion: base at base_step, and dt for each step since.
+  struct MotionClock {
+    lsdcd::Time base = 0;
+    bigint base_step = 0, step = 0;    // step: the last one
+    double dt = 0;
+    lsdcd::Time now() const { return base + lsdcd::Time(step - base_step) * dt; }
+  } clock;
+  lsdcd::WallPose pose, chosen_pose;    // of the step, and when near atoms were chosen
+  lsdcd::SurfaceMotion surface;         // of the step, where variables give it
+  bool engine_moves = false;            // it has laws for a wall that moves
+
   double totals[9], energy;    // over all processes, of the last step
   bool reduced = false;
 
   std::vector<lsdcd::Stroke> strokes;
+  bool drawn = false;    // strokes are there
   std::vector<int> image_kind;
   std::vector<double> image_data;
   std::vector<double *> image_rows;
@@ -141,6 +155,27 @@ class FixWallLsdcd : public Fix {
   lsdcd::EngineSettings engine_settings() const;
   void make_engine();
   void tune(double);    // fix_wall_lsdcd_tune.cpp
+
+  // fix_wall_lsdcd_motion.cpp
+  lsdcd::Box mesh_bounds(double) const;
+  void begin_motion();
+  void advance_clock();
+  void move_wall();
+  bool moves_or_varies() const;
+  bool has_variables() const;
+  int variable_of(const std::string &) const;
+  double value_of(const std::string &) const;
+  void evaluate_variables(double);
+  void check_variables() const;
+  bool wall_has_gone(double) const;
+  lsdcd::PeriodicBox mesh_box() const;
+  void check_moving_box(const lsdcd::WallPose &, bool) const;
+  void check_moving_box() const;
+  void check_motion() const;
+  std::string motion_text() const;
+  void make_engine_that_moves();
+  std::vector<double> motion_data() const;
+  void restart_motion(const std::vector<double> &);
 
   // fix_wall_lsdcd_loads.cpp
   void add_loads();

@@ -79,6 +79,7 @@ void FixWallLsdcd::check_scale() const
 
 void FixWallLsdcd::check_box(double cutoff) const
 {
+  if (settings.motion.any()) return;    // it may come in later
   const lsdcd::MeshReport &r = wall->report();
   const lsdcd::PeriodicBox box = simulation_box();
   const double near = cutoff + box.margin;
@@ -117,7 +118,7 @@ void FixWallLsdcd::check_wrapping()
   MPI_Allreduce(MPI_IN_PLACE, &out, 1, MPI_DOUBLE, MPI_MAX, world);
   if (out <= box.margin) return;
   farthest_out = std::min({1.5 * out, box.width(0), box.width(1), box.width(2)});
-  if (out_warned || wall->fits(simulation_box())) return;    // nothing of the wall is there
+  if (out_warned || wall->fits(mesh_box())) return;    // nothing of the wall is there
   out_warned = true;
   warn(
       "a particle was " + number_text(out) +

@@ -100,9 +100,8 @@ void FixWallLsdcd::check_surface() const
        std::to_string(wall->report().facets) + " faces along their normals, by up to " +
        number_text(push.component) + " (" + number_text(100 * push.share) +
        " % of the speed there). That part is left out: the mesh itself stays where it is, and "
-       "lifters, blades and screws convey nothing. A mesh cannot move yet (a keyword motion is to "
-       "come); until then use fix wall/gran/region with a region that moves, or a mesh whose "
-       "surface is parallel to its motion");
+       "lifters, blades and screws convey nothing. Where the mesh itself moves, use the keyword "
+       "motion");
 }
 
 // Collective where `worst` is the largest of all processes.

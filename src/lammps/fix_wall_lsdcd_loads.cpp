@@ -16,8 +16,11 @@
 using namespace LAMMPS_NS;
 using lsdcd::WallLoads;
 
-// Of restart data: time, facets, edges and vertices of the mesh, number of rows.
+// Of restart data: kFormat, how many numbers of the motion, these; then time, facets, edges and
+// vertices of the mesh, number of rows of loads, these. Files of before there was motion begin with
+// that time, which is not negative.
 static constexpr int kHeader = 5;
+static constexpr double kFormat = -2;
 
 // Of the last step; what setup computes has no duration.
 void FixWallLsdcd::add_loads()
@@ -66,7 +69,8 @@ void FixWallLsdcd::end_of_step()
       lsdcd::write_mesh_fields(
           lsdcd::file_of_step(settings.fields_file, update->ntimestep), *wall->mesh(),
           lsdcd::load_fields(*wall->mesh(), all, force->nktv2p, settings.wears()),
-          update->ntimestep, update->atime + (update->ntimestep - update->atimestep) * update->dt);
+          update->ntimestep, update->atime + (update->ntimestep - update->atimestep) * update->dt,
+          pose);
     });
   } catch (const lsdcd::InputError &e) {
     refuse(e.what());
@@ -79,8 +83,11 @@ void FixWallLsdcd::write_restart(FILE *file)
   if (comm->me != 0) return;
   const lsdcd::MeshReport &r = wall->report();
   const std::vector<double> rows = all.packed();
-  std::vector<double> data = {all.time(), double(r.facets), double(r.edges), double(r.vertices),
-                              double(rows.size() / WallLoads::kPackedLoad)};
+  const std::vector<double> motion = motion_data();
+  std::vector<double> data = {kFormat, double(motion.size())};
+  data.insert(data.end(), motion.begin(), motion.end());
+  data.insert(data.end(), {all.time(), double(r.facets), double(r.edges), double(r.vertices),
+                           double(rows.size() / WallLoads::kPackedLoad)});
   data.insert(data.end(), rows.begin(), rows.end());
   const int bytes = static_cast<int>(data.size() * sizeof(double));
   fwrite(&bytes, sizeof bytes, 1, file);
@@ -90,6 +97,14 @@ void FixWallLsdcd::write_restart(FILE *file)
 // LAMMPS hands the same bytes to every process; the first one keeps them.
 void FixWallLsdcd::restart(char *buffer)
 {
+  double start[2];
+  std::memcpy(start, buffer, sizeof start);
+  if (start[0] == kFormat) {
+    std::vector<double> motion(static_cast<std::size_t>(start[1]));
+    std::memcpy(motion.data(), buffer + sizeof start, motion.size() * sizeof(double));
+    restart_motion(motion);
+    buffer += sizeof start + motion.size() * sizeof(double);
+  }
   if (!records) return;
   double header[kHeader];
   std::memcpy(header, buffer, sizeof header);

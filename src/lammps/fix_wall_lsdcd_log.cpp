@@ -67,6 +67,7 @@ void FixWallLsdcd::log_creation() const
   const lsdcd::ContactLaw &l = settings.law;
   std::string t = signed_text(wall->mesh_text());
   if (!settings.placement_tokens.empty()) t += "\n  placement   " + settings.placement_tokens;
+  if (!motion_text().empty()) t += "\n  motion      " + motion_text();
   if (!material.empty()) t += "\n" + material;
   t += "\n  contact     " + settings.law_name;
   if (l.style != LawStyle::granular)

@@ -83,21 +83,26 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
   constexpr int kLine = 1, kTriangle = 2;
 #endif
   constexpr int kRow = 10;
-  if (comm->me == 0 && image_rows.empty()) {
-    const bool faces = settings.draw == lsdcd::Draw::faces;
+  const bool faces = settings.draw == lsdcd::Draw::faces, first = !drawn;
+  if (comm->me == 0 && first) strokes = lsdcd::draw_mesh(*wall->mesh(), settings.draw);
+  if (comm->me == 0 && (first || settings.motion.any())) {
     const int corners = faces ? 3 : 2;
-    for (const lsdcd::Stroke &s : lsdcd::draw_mesh(*wall->mesh(), settings.draw)) {
+    image_data.clear();
+    image_rows.clear();
+    for (lsdcd::Stroke s : strokes) {
       lsdcd::Vec3 centre = {0, 0, 0};
+      for (lsdcd::Vec3 &c : s.corner) c = pose.to_box(c);
       for (int k = 0; k < corners; k++) centre += (1.0 / corners) * s.corner[k];
       if (settings.cut && dot(settings.cut_normal, centre) > settings.cut_offset) continue;
       image_data.push_back(settings.draw_type);
       for (const lsdcd::Vec3 &c : s.corner) image_data.insert(image_data.end(), {c.x, c.y, c.z});
     }
+    drawn = true;
     image_kind.assign(image_data.size() / kRow, faces ? kTriangle : kLine);
     for (std::size_t i = 0; i < image_data.size(); i += kRow)
       image_rows.push_back(image_data.data() + i);
     // LAMMPS does not say which diameter the deck gives.
-    if (!settings.brief && !faces)
+    if (!settings.brief && !faces && first)
       log(signed_text("dump image draws the mesh as " + std::to_string(image_kind.size()) +
                       " lines; where nothing is seen of it, their diameter is 0: write fix " +
                       std::string(id) + " type DIAMETER 0"));

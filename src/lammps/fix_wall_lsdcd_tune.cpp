@@ -34,9 +34,9 @@ void FixWallLsdcd::tune(double cutoff)
     const std::uint64_t tag = atom->tag ? atom->tag[i] : i;
     if (share < 1 && scattered(tag) >= share * 18446744073709551615.0) continue;
     const double *x = atom->x[i];
-    chosen.push_back({tag, {x[0], x[1], x[2]}, atom->radius[i]});
+    chosen.push_back({tag, pose.to_mesh({x[0], x[1], x[2]}), atom->radius[i]});
   }
-  wall->tune(cutoff, simulation_box(), chosen);
+  wall->tune(cutoff, mesh_box(), chosen);
   const lsdcd::WallSettings &tuned = wall->settings();
   settings.nearest = tuned.nearest;
   settings.exact = tuned.exact;

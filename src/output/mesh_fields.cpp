@@ -67,10 +67,14 @@ std::vector<FaceField> load_fields(const WallMesh &mesh, const WallLoads &loads,
 }
 
 void write_mesh_fields(const std::string &path, const WallMesh &mesh,
-                       const std::vector<FaceField> &fields, long long step, double time)
+                       const std::vector<FaceField> &fields, long long step, double time,
+                       const WallPose &pose)
 {
   std::vector<double> points;
-  for (const Vec3 &p : mesh.vertices) points.insert(points.end(), {p.x, p.y, p.z});
+  for (const Vec3 &x : mesh.vertices) {
+    const Vec3 p = pose.to_box(x);
+    points.insert(points.end(), {p.x, p.y, p.z});
+  }
   std::vector<std::int32_t> corners, ends;
   for (const auto &f : mesh.faces) {
     corners.insert(corners.end(), f.begin(), f.end());

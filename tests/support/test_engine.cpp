@@ -19,6 +19,7 @@ class InPlaceForHost : public WallEngine {
 
   std::string backend() const override { return engine_->backend(); }
   void set_grid(const GridView &grid) override { engine_->set_grid(grid); }
+  void place_wall(const WallPose &pose) override { engine_->place_wall(pose); }
   Real largest_radius(const Spheres &s) override { return engine_->largest_radius(places(s)); }
   void choose(const Spheres &s, Real margin, bool watch) override
   {

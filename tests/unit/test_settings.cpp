@@ -1,5 +1,6 @@
 #include "base/input_error.h"
 #include "deck/granular_words.h"
+#include "deck/motion_words.h"
 #include "deck/settings.h"
 #include "effects/effects.h"
 #include "grid/cache/grid_cache.h"
@@ -194,9 +195,8 @@ TEST(settings, a_word_like_no_keyword_is_told_all_of_them)
 TEST(settings, words_of_other_walls_are_answered)
 {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"wiggle z 0.1 2", "does not move yet"},
-      {"shear x 1", "surface_vel"},
-      {"motion linear 1 0 0", "fix wall/gran/region"},
+      {"vibrate 1 0 0", "motion wiggle"},
+      {"move/mesh linear 1 0 0", "motion linear"},
       {"zplane 0 NULL", "mesh FILE"},
       {"zcylinder 3", "mesh FILE"},
       {"velocity 1 0 0", "surface_vel vx vy vz"},
@@ -380,6 +380,90 @@ TEST(settings, surfaces_move_and_turn)
   EXPECT_EQ(s.surface.centre, (Vec3{1, 2, 4}));
   EXPECT_EQ(with("surface_angvel 0 0 3").surface.centre, (Vec3{0, 0, 0}));
   EXPECT_FALSE(with("").surface.moves());
+}
+
+TEST(settings, motions_are_kept_in_the_order_given)
+{
+  const WallSettings s =
+      with("motion wiggle 1 2 3 0.5 wiggle z 0.1 2 scale 2 motion transrot 4 5 6 "
+           "7 8 9 0 0 -2 0.25 motion rotate 1 1 1 3 0 0 4 motion linear 1 0 -1");
+  const std::vector<MotionTerm> &m = s.motion.terms();
+  ASSERT_EQ(m.size(), 5u);
+  EXPECT_EQ(m[0].kind, MotionKind::wiggle);
+  EXPECT_EQ(m[0].amplitude, (Vec3{1, 2, 3}));
+  EXPECT_EQ(m[0].period, 0.5);
+  EXPECT_EQ(m[1].kind, MotionKind::cosine);
+  EXPECT_EQ(m[1].amplitude, (Vec3{0, 0, 0.1}));
+  EXPECT_EQ(m[2].velocity, (Vec3{4, 5, 6}));
+  EXPECT_EQ(m[2].point, (Vec3{7, 8, 9}));
+  EXPECT_EQ(m[2].axis, (Vec3{0, 0, -1}));
+  EXPECT_EQ(m[2].period, 0.25);
+  EXPECT_EQ(m[3].kind, MotionKind::rotate);
+  EXPECT_EQ(m[3].velocity, (Vec3{0, 0, 0}));
+  EXPECT_EQ(m[4].velocity, (Vec3{1, 0, -1}));
+  EXPECT_EQ(s.motion_tokens, "wiggle 1 2 3 0.5, wiggle z 0.1 2, transrot 4 5 6 7 8 9 0 0 -2 0.25, "
+                             "rotate 1 1 1 3 0 0 4, linear 1 0 -1");
+  EXPECT_FALSE(with("").motion.any());
+}
+
+TEST(settings, motions_of_variables)
+{
+  const WallSettings s = with("motion variable v_a NULL v_b NULL NULL v_c");
+  const MotionTerm &m = s.motion.terms()[0];
+  EXPECT_EQ(m.name[0], "a");
+  EXPECT_EQ(m.name[1], "");
+  EXPECT_EQ(m.name[2], "b");
+  EXPECT_EQ(m.name[5], "c");
+  EXPECT_FALSE(s.surface_varies());
+  const WallSettings belt = with("surface_vel v_u 1 2 surface_angvel 0 0 v_w");
+  EXPECT_EQ(belt.surface_variable[0], "u");
+  EXPECT_EQ(belt.surface_variable[5], "w");
+  EXPECT_EQ(belt.surface.velocity, (Vec3{0, 1, 2}));
+  EXPECT_TRUE(belt.surface_varies());
+  EXPECT_EQ(with("shear y v_u").surface_variable[1], "u");
+  EXPECT_EQ(with("shear y 3").surface.velocity, (Vec3{0, 3, 0}));
+}
+
+TEST(settings, wrong_motions_are_refused)
+{
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"motion", "its value is missing"},
+      {"motion slide 1 0 0", "'slide' is not one of its values"},
+      {"motion linear 1 0", "the value of Vz is missing"},
+      {"motion linear 1 0 0 4", "one too many"},
+      {"motion wiggle 1 0 0 -2", "the period = -2 is out of range: it must be above 0"},
+      {"motion rotate 0 0 0 0 0 1 0", "the period = 0 is out of range"},
+      {"motion rotate 0 0 0 0 0 0 1", "the axis Rx Ry Rz must not be 0 0 0"},
+      {"motion rotate 0 0 0 0 0 1 2 1 1 1", "there is one centre P, one axis R and one period"},
+      {"motion linear v_u 0 0", "Use motion variable"},
+      {"motion rotate 0 0 0 0 0 1 v_p", "Use motion variable"},
+      {"motion variable v_a v_b v_c NULL NULL", "the variable v_vz is missing"},
+      {"motion variable v_a 1 NULL NULL NULL NULL", "in the place of v_dy a variable"},
+      {"motion variable NULL NULL NULL NULL NULL NULL", "nothing moves"},
+      {"motion variable v_a NULL NULL NULL v_b NULL", "v_vy without a displacement v_dy"},
+      {"motion variable v_ NULL NULL NULL NULL NULL", "name is missing after v_"},
+      {"wiggle w 1 1", "'w' is not one of its values"},
+      {"wiggle z 1 -1", "the period = -1 is out of range"},
+      {"wiggle z v_a 1", "Use motion variable"},
+      {"wiggle z 1 1 wiggle z 1 1", "given twice"},
+      {"shear x", "the value of the speed is missing"},
+      {"shear x 1 surface_vel 0 1 0", "give one of them"}};
+  for (const auto &c : cases) EXPECT_TRUE(names(error_with(c.first), c.second)) << c.first;
+}
+
+TEST(settings, fix_modify_reads_motions_or_none)
+{
+  const ModifiedMotion two = read_modified_motion(
+      {"motion", "linear", "1", "0", "0", "motion", "wiggle", "0", "0", "1", "2", "energy", "yes"});
+  EXPECT_EQ(two.terms.size(), 2u);
+  EXPECT_EQ(two.taken, 11u);
+  EXPECT_EQ(two.text, "linear 1 0 0, wiggle 0 0 1 2");
+  const ModifiedMotion none = read_modified_motion({"motion", "none", "energy", "yes"});
+  EXPECT_TRUE(none.terms.empty());
+  EXPECT_EQ(none.taken, 2u);
+  EXPECT_THROW(read_modified_motion({"motion", "none", "motion", "linear", "1", "0", "0"}),
+               InputError);
+  EXPECT_THROW(read_modified_motion({"motion", "linear", "1", "0"}), InputError);
 }
 
 TEST(settings, wear_is_volume_per_work)

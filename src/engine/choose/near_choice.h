@@ -16,6 +16,7 @@ struct NearChoice {
   BrickTable table;
   BrickFilter<Real> filter;
   Spheres spheres;
+  WallPose pose;
   Real margin;
   Real pull_off;         // of the law, at a radius of 1
   StepCounts *counts;    // too_large becomes the first sphere that reaches past the grid
@@ -52,7 +53,7 @@ struct NearChoice {
   template <class Table>
   LSDCD_FN bool may_keep(const Item &item, const Vec3 &x, const Table &near_table) const
   {
-    const BrickGuess guess = filter.guess(x);
+    const BrickGuess guess = filter.guess(pose.to_mesh(x));
     // With a margin it is enough to look at one brick where no other is within the margin.
     const bool sure = !guess.unsure & (!kMoves || (guess.inside && fixed_margin > 0 &&
                                                    filter.is_clear(guess, fixed_margin)));
@@ -63,7 +64,7 @@ struct NearChoice {
   template <class Table>
   LSDCD_FN bool keep(const Vec3 &x, const Table &near_table) const
   {
-    return near_within(grid, near_table, x, kMoves ? margin : 0);
+    return near_within(grid, near_table, pose.to_mesh(x), kMoves ? margin : 0);
   }
 
   LSDCD_FN bool notes() const { return n_springs; }

@@ -19,15 +19,15 @@ class NearList {
   // Into `counts`, where the kernels run, goes how many there are. `n_springs`: of each sphere, or
   // null; those of spheres that are far are forgotten.
   void choose(B &b, const GridView &grid, const BrickTable &table, const Spheres &spheres,
-              Real margin, Real pull_off, StepCounts *counts, int *n_springs)
+              const WallPose &pose, Real margin, Real pull_off, StepCounts *counts, int *n_springs)
   {
     const std::size_t n = spheres.n;
     if (near_.size() < n) near_ = Array<int>(n + n / 8);
     const Real past = past_lists(grid, margin);
     if (past > 0)
-      select<true>(b, grid, table, spheres, past, pull_off, counts, n_springs);
+      select<true>(b, grid, table, spheres, pose, past, pull_off, counts, n_springs);
     else
-      select<false>(b, grid, table, spheres, past, pull_off, counts, n_springs);
+      select<false>(b, grid, table, spheres, pose, past, pull_off, counts, n_springs);
   }
 
   // Takes all n spheres for near.
@@ -40,8 +40,8 @@ class NearList {
 
   // Of the n spheres that were chosen leaves those that can touch something after a way of up to
   // `margin`. How many are left goes into `counts`.
-  void prune(B &b, const GridView &grid, const Spheres &spheres, std::size_t n, Real margin,
-             Real pull_off, StepCounts *counts, int *n_springs)
+  void prune(B &b, const GridView &grid, const Spheres &spheres, const WallPose &pose,
+             std::size_t n, Real margin, Real pull_off, StepCounts *counts, int *n_springs)
   {
     if (flags_.size() < n) {
       flags_ = Array<char>(n + n / 8);
@@ -55,7 +55,8 @@ class NearList {
         n,
         [=] LSDCD_LAMBDA(std::size_t k) {
           const int i = near[k];
-          const QuerySphere s = {x[i], radius[i], cutoff_of(radius[i], pull_off), nullptr, 0};
+          const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off),
+                                 nullptr, 0};
           flags[k] = can_touch(grid, s, margin);
           if (!flags[k] && n_springs) n_springs[i] = 0;
         },
@@ -70,10 +71,10 @@ class NearList {
  private:
   template <bool kMoves>
   void select(B &b, const GridView &grid, const BrickTable &table, const Spheres &spheres,
-              Real margin, Real pull_off, StepCounts *counts, int *n_springs)
+              const WallPose &pose, Real margin, Real pull_off, StepCounts *counts, int *n_springs)
   {
     NearChoice<kMoves> choice = {
-        grid, table, BrickFilter<Real>(grid), spheres, margin, pull_off, counts, n_springs};
+        grid, table, BrickFilter<Real>(grid), spheres, pose, margin, pull_off, counts, n_springs};
     choice.fixed_margin = choice.filter.margin(margin * grid.inv_length / kBrickSide);
     b.select(spheres.n, choice, room_, near_.data(), &counts->n_near);
   }

@@ -13,7 +13,8 @@ inline SearchSettings search_settings(const EngineSettings &engine)
   return s;
 }
 
-inline ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step)
+inline ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step,
+                                    const WallPose &pose)
 {
   ForceSettings s;
   s.dt = step.dt;
@@ -21,7 +22,8 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.search = search_settings(engine);
   s.with_point = step.per_sphere;
   s.wall_temperature = step.wall_temperature;
-  s.surface = engine.surface;
+  s.surface = step.surface ? *step.surface : engine.surface;
+  s.pose = pose;
   s.wear = engine.wear;
   return s;
 }

@@ -8,6 +8,23 @@
 
 namespace lsdcd {
 
+// Where sphere i is, as the search sees it: in the frame of the mesh.
+template <class Law>
+LSDCD_FN Vec3 centre_of(const LawJob &job, std::size_t i)
+{
+  const Vec3 x = job.x[i];
+  if constexpr (Law::kSurface) return job.settings.pose.to_mesh(x);
+  return x;
+}
+
+// Turned back to the frame of the box.
+LSDCD_FN void to_box(const WallPose &pose, SphereResult &out)
+{
+  out.force = pose.turn_to_box(out.force);
+  out.torque = pose.turn_to_box(out.torque);
+  out.weighted_point = pose.turn_to_box(out.weighted_point) + out.weight * pose.shift;
+}
+
 // Sphere i at x, without what only a contact needs: most of those near the wall touch nothing.
 template <class Law>
 LSDCD_FN SphereState state_at(const LawJob &job, std::size_t i, const Vec3 &x, Real radius)
@@ -29,6 +46,10 @@ LSDCD_FN void add_motion(const LawJob &job, std::size_t i, SphereState &s)
 {
   s.v = job.v[i];
   s.omega = job.omega[i];
+  if constexpr (Law::kSurface) {
+    s.v = job.settings.pose.turn_to_mesh(s.v);
+    s.omega = job.settings.pose.turn_to_mesh(s.omega);
+  }
   s.mass = job.mass[i];
   if constexpr (Law::kHeat) s.temperature = job.temperature[i];
 }
@@ -94,7 +115,13 @@ LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::s
   if (out.n_contacts == 0) return;
   if constexpr (Law::kRecords) job.pool.slot[k] = first;
   if constexpr (Law::kHeat) job.heat_flow[i] += *sink.heat;
-  job.result.put(k, out, cross(x, out.force) + out.torque);
+  Vec3 at = x;
+  if constexpr (Law::kSurface)
+    if (job.settings.pose.placed) {
+      to_box(job.settings.pose, out);
+      at = job.x[i];
+    }
+  job.result.put(k, out, cross(at, out.force) + out.torque);
   job.force.add(i, out.force);
   job.torque.add(i, out.torque);
 }
@@ -115,7 +142,7 @@ template <class Law>
 LSDCD_FN bool single_contact(const Law &law, const LawJob &job, std::size_t k)
 {
   const std::size_t i = sphere_of(job, k);
-  const Vec3 x = job.x[i];
+  const Vec3 x = centre_of<Law>(job, i);
   const Real radius = job.radius[i];
   const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
   if (!job.lists.holds(k, x, s.cutoff)) return false;
@@ -133,7 +160,7 @@ template <class Law>
 LSDCD_FN void several_contacts(const Law &law, const LawJob &job, std::size_t k)
 {
   const std::size_t i = sphere_of(job, k);
-  const Vec3 x = job.x[i];
+  const Vec3 x = centre_of<Law>(job, i);
   const Real radius = job.radius[i];
   const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
   note_cutoff(job, i, s.cutoff);

@@ -8,7 +8,7 @@
 
 namespace lsdcd {
 
-// One sphere's state at the start of the step.
+// One sphere's state at the start of the step, in the frame of the mesh.
 struct SphereState {
   Vec3 x, v, omega;
   Real radius, mass;
@@ -18,7 +18,7 @@ struct SphereState {
   Real temperature;    // read only where the law has heat
 };
 
-// What the wall does to it. n_contacts counts the contacts that bear, and the springs.
+// What the wall does to it, in that frame. n_contacts counts the contacts that bear, and the springs.
 struct alignas(16) SphereResult {
   Vec3 force, torque;
   Real energy;
@@ -45,6 +45,7 @@ struct ForceSettings {
   bool with_point;          // fill weighted_point and weight
   Real wall_temperature;    // read only where the law has heat
   SurfaceMotion surface;    // read only where the surface moves
+  WallPose pose;            // likewise
   WearModel wear;           // read only where there are records
 };
 
@@ -91,19 +92,28 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if (!(weight > 0)) continue;
 
     const Vec3 n = set.normal[i];
-    const Real v_normal = dot(s.v, n);
+    const Vec3 closest = s.x - set.distance[i] * n;
+    Vec3 v = s.v;
+    if constexpr (Law::kSurface)
+      if (settings.pose.placed) v -= settings.pose.velocity_in_mesh(closest);
+    const Real v_normal = dot(v, n);
     Contact<T> c;
     c.normal = vec_cast<T>(n);
     c.overlap = static_cast<T>(overlap);
     c.radius = static_cast<T>(s.radius);
     c.mass = static_cast<T>(s.mass);
     c.v_normal = static_cast<T>(v_normal);
-    Vec3 along = s.v - v_normal * n;
-    if constexpr (Law::kSurface) along -= settings.surface.along(s.x - set.distance[i] * n, n);
+    Vec3 along = v - v_normal * n;
+    if constexpr (Law::kSurface) along -= settings.surface.along(closest, n);
     c.v_tangent = vec_cast<T>(along - s.radius * cross(s.omega, n));
     c.dt = static_cast<T>(settings.dt);
     c.update = settings.update;
-    if constexpr (Law::kContactTorque) c.omega = vec_cast<T>(s.omega);
+    if constexpr (Law::kContactTorque) {
+      // Rolling and twisting are relative to a wall that turns.
+      Vec3 omega = s.omega;
+      if constexpr (Law::kSurface) omega -= settings.pose.turn_to_mesh(settings.pose.angular);
+      c.omega = vec_cast<T>(omega);
+    }
     if constexpr (Law::kHeat)
       c.wall_warmer = static_cast<T>(settings.wall_temperature - s.temperature);
 
@@ -134,7 +144,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if (settings.with_point) {
       const Real w = weight * fabs(f.normal);
       out.weight += w;
-      out.weighted_point += w * (s.x - set.distance[i] * n);
+      out.weighted_point += w * closest;
     }
   }
 }

@@ -17,8 +17,8 @@ class ListStore {
 
   // Makes the lists of n near spheres, whose indices are `near`, or null for all. They will not go
   // farther than `margin` before the next choice.
-  void make(B &b, const GridView &grid, const Spheres &spheres, const int *near, std::size_t n,
-            Real margin, Real pull_off, StepCounts *counts)
+  void make(B &b, const GridView &grid, const Spheres &spheres, const WallPose &pose,
+            const int *near, std::size_t n, Real margin, Real pull_off, StepCounts *counts)
   {
     lists_ = WallLists();
     if (grid.nearest > 0 || n == 0) return;
@@ -35,7 +35,8 @@ class ListStore {
         n,
         [=] LSDCD_LAMBDA(std::size_t k) {
           const std::size_t i = near ? near[k] : k;
-          const QuerySphere s = {x[i], radius[i], cutoff_of(radius[i], pull_off), nullptr, 0};
+          const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off),
+                                 nullptr, 0};
           WallList made;
           gather(grid, s, margin, made);
           lists.put(k, made);

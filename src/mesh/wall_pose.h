@@ -1,0 +1,36 @@
+// Where a moving mesh is, and how fast it goes: x_box = turn x_mesh + shift.
+#pragma once
+
+#include "base/vec3.h"
+
+namespace lsdcd {
+
+struct WallPose {
+  Vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};    // of the rotation matrix
+  Vec3 shift = {0, 0, 0};                             // length; where the mesh's origin is
+  // In the frame of the box: of the mesh's origin, and right-handed.
+  Vec3 velocity = {0, 0, 0};    // length/time
+  Vec3 angular = {0, 0, 0};     // 1/time
+  bool placed = false;          // false: the mesh is where its file puts it, and stays there
+
+  // Vectors, from one frame to the other.
+  LSDCD_FN Vec3 turn_to_box(const Vec3 &a) const
+  {
+    return placed ? Vec3{dot(row[0], a), dot(row[1], a), dot(row[2], a)} : a;
+  }
+  LSDCD_FN Vec3 turn_to_mesh(const Vec3 &a) const
+  {
+    return placed ? a.x * row[0] + a.y * row[1] + a.z * row[2] : a;
+  }
+  // Points.
+  LSDCD_FN Vec3 to_box(const Vec3 &x) const { return placed ? turn_to_box(x) + shift : x; }
+  LSDCD_FN Vec3 to_mesh(const Vec3 &x) const { return placed ? turn_to_mesh(x - shift) : x; }
+
+  // Velocity of a point of the mesh that is at x in the mesh's frame, in that frame.
+  LSDCD_FN Vec3 velocity_in_mesh(const Vec3 &x) const
+  {
+    return turn_to_mesh(velocity) + cross(turn_to_mesh(angular), x);
+  }
+};
+
+}    // namespace lsdcd

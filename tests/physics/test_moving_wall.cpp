@@ -1,0 +1,348 @@
+// A mesh that moves as a rigid body: Galilei's and Newton's answers.
+#include "base/input_error.h"
+#include "mesh/motion.h"
+#include "support/crowd.h"
+#include "support/laws.h"
+#include "support/meshes.h"
+#include "support/test_engine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kStep = 1e-4;
+
+EngineSettings moving(EngineSettings s)
+{
+  s.moves = true;
+  return s;
+}
+
+WallMotion rotating(const Vec3 &point, const Vec3 &axis, Real period)
+{
+  MotionTerm m;
+  m.kind = MotionKind::rotate;
+  m.point = point;
+  m.axis = unit_vector(axis);
+  m.period = period;
+  WallMotion motion;
+  motion.add(m);
+  return motion;
+}
+
+struct Law {
+  const char *name;
+  EngineSettings settings;
+};
+
+std::vector<Law> laws()
+{
+  EngineSettings cdt = hooke_history(kStiffness, 3e4, 50, 20, 0.4), all, both;
+  cdt.law.added.rolling = AddedRolling::epsd2;
+  cdt.law.added.mu_roll = 0.1;
+  all.law = everything(NormalModel::jkr);
+  both = hertz_history(kStiffness, 3e4, 50, 20, 0.4);
+  both.records = true;
+  return {{"hooke", hooke(kStiffness, 50, 20, 0.4)},
+          {"hooke/history", hooke_history(kStiffness, 3e4, 50, 20, 0.4)},
+          {"hertz/history with records", both},
+          {"rolling epsd2", cdt},
+          {"granular jkr, all", all}};
+}
+
+// Spheres that cross a wall of random triangles, in one scene at rest and in one that is turned
+// and drives past at constant velocity: all that a wall does is the same in its frame.
+struct Twins {
+  Twins(const EngineSettings &s, const WallPose &at, Precision precision) : pose(at)
+  {
+    EngineSettings here = s;
+    here.precision = precision;
+    const Real cutoff = cutoff_of(s.law, kRadius);
+    rest = std::make_unique<Scene>(random_soup(600, 5), cutoff, here);
+    driven = std::make_unique<Scene>(random_soup(600, 5), cutoff, moving(here));
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<Real> place(-0.3, 1.3), speed(-3, 3);
+    const MeshReport &r = rest->mesh.report;
+    for (int i = 0; i < 500; i++) {
+      Vec3 x, v, omega;
+      for (int d = 0; d < 3; d++) {
+        x[d] = r.lo[d] + place(random) * (r.hi[d] - r.lo[d]);
+        v[d] = speed(random);
+        omega[d] = speed(random);
+      }
+      rest->add_sphere(x, kRadius, kMass, v, omega);
+      driven->add_sphere(x, kRadius, kMass, pose.turn_to_box(v) + pose.velocity,
+                         pose.turn_to_box(omega));
+    }
+  }
+
+  void step()
+  {
+    for (int i = 0; i < rest->n(); i++) {
+      rest->set_x(i, rest->x(i) + kStep * rest->v(i));
+      driven->set_x(i, pose.to_box(rest->x(i)));
+    }
+    driven->engine->place_wall(pose);
+    rest->compute(kStep, true, true);
+    driven->compute(kStep, true, true);
+    pose.shift += kStep * pose.velocity;
+  }
+
+  WallPose pose;
+  std::unique_ptr<Scene> rest, driven;
+};
+
+WallPose some_pose()
+{
+  WallPose pose = rotating({1, 2, 3}, {1, -1, 0.5}, 1).pose_at(0.137);
+  pose.velocity = {3, -2, 1};
+  pose.angular = {0, 0, 0};
+  return pose;
+}
+
+// Places of size 10 are rounded to 2e-15, which a stiffness of 1e5 to 1e6 (corners share their
+// overlap, with angles as small as 1e-2) makes 1e-7 of forces of 1e4 at most.
+TEST(moving_wall, turned_and_driven_at_constant_velocity_acts_as_at_rest)
+{
+  for (const Law &law : laws()) {
+    Twins twins(law.settings, some_pose(), Precision::double_);
+    for (int k = 0; k < 5; k++) twins.step();
+    int touching = 0;
+    for (int i = 0; i < twins.rest->n(); i++) {
+      const Vec3 f = twins.rest->force(i), t = twins.rest->torque(i);
+      touching += norm(f) > 0;
+      EXPECT_LE(norm(twins.pose.turn_to_mesh(twins.driven->force(i)) - f), 1e-7) << law.name;
+      EXPECT_LE(norm(twins.pose.turn_to_mesh(twins.driven->torque(i)) - t), 1e-7) << law.name;
+      ASSERT_EQ(twins.driven->springs.count(i), twins.rest->springs.count(i)) << law.name;
+    }
+    EXPECT_GT(touching, 30) << law.name;
+  }
+}
+
+// The search in float rounds places to 1e-7 of a brick.
+TEST(moving_wall, is_searched_in_float_in_its_own_frame)
+{
+  Twins twins(hooke(kStiffness, 50, 20, 0.4), some_pose(), Precision::mixed);
+  twins.step();
+  int touching = 0;
+  for (int i = 0; i < twins.rest->n(); i++) {
+    touching += norm(twins.rest->force(i)) > 0;
+    EXPECT_LE(norm(twins.pose.turn_to_mesh(twins.driven->force(i)) - twins.rest->force(i)), 1.0);
+  }
+  EXPECT_GT(touching, 30);
+}
+
+// Totals about the box's origin and points of contact in the box's frame.
+TEST(moving_wall, reports_in_the_frame_of_the_box)
+{
+  Twins twins(hooke(kStiffness, 50, 20, 0.4), some_pose(), Precision::double_);
+  twins.step();
+  WallPose at = twins.pose;
+  at.shift -= kStep * at.velocity;    // step() goes on to the next
+  Vec3 force = {0, 0, 0}, torque = {0, 0, 0};
+  const Scene &driven = *twins.driven;
+  for (int i = 0; i < driven.n(); i++) {
+    force -= driven.force(i);
+    torque -= cross(driven.x(i), driven.force(i)) + driven.torque(i);
+  }
+  const WallTotals &totals = driven.engine->totals();
+  // Sums of 1e2 forces of 1e4 at places of 10.
+  EXPECT_LE(norm(totals.force - force), 1e-8);
+  EXPECT_LE(norm(totals.torque - torque), 1e-7);
+  ASSERT_EQ(driven.engine->n_touching(), twins.rest->engine->n_touching());
+  for (int k = 0; k < driven.engine->n_touching(); k++) {
+    const SphereOutput &there = driven.engine->sphere_output()[k],
+                       &here = twins.rest->engine->sphere_output()[k];
+    EXPECT_LE(norm(there.point - at.to_box(here.point)), 1e-12);
+    EXPECT_LE(norm(there.force - at.turn_to_box(here.force)), 1e-7);
+  }
+}
+
+// A drum round z that turns: V = w x c at the point of contact; its normal part pushes.
+TEST(moving_wall, a_turning_drum_drags_and_pushes_with_the_velocity_at_the_contact)
+{
+  const Real gamma_n = 7, gamma_t = 3, w = 4;
+  const WallMotion motion = rotating({0, 0, 0}, {0, 0, 1}, 2 * M_PI / w);
+  Scene drum(cylinder_mesh(12, 1, 2, 4), kRadius, moving(hooke(kStiffness, gamma_n, gamma_t, 1e6)));
+  const Real apothem = 2 * std::cos(M_PI / 12), beside = 0.1, overlap = 0.01;
+  const Vec3 n = {std::cos(M_PI / 12), std::sin(M_PI / 12), 0}, t = {-n.y, n.x, 0};
+  const Vec3 closest = apothem * n + beside * t + Vec3{0, 0, 2.2};
+  const Vec3 v = {0.3, -0.2, 0.1}, omega = {1, 2, 3};
+  drum.add_sphere({0, 0, 0}, kRadius, kMass, v, omega);
+  for (const Real time : {0.0, 0.3, 1.1}) {
+    const WallPose pose = motion.pose_at(time);
+    const Vec3 normal = pose.turn_to_box(n), at = pose.to_box(closest);
+    drum.set_x(0, at + (kRadius - overlap) * normal);
+    drum.engine->place_wall(pose);
+    drum.compute(kStep);
+    const Vec3 slip = v - cross({0, 0, w}, at);
+    const Real v_normal = dot(slip, normal);
+    const Vec3 along = slip - v_normal * normal - kRadius * cross(omega, normal);
+    const Vec3 expected =
+        (kStiffness * overlap - kMass * gamma_n * v_normal) * normal - (kMass * gamma_t) * along;
+    EXPECT_LE(norm(drum.force(0) - expected), 1e-9);
+    EXPECT_LE(norm(drum.torque(0) + kRadius * cross(normal, -(kMass * gamma_t) * along)), 1e-9);
+  }
+}
+
+// What turns with the wall slips by w x n times the overlap, as the law takes the whole radius for
+// the arm of a spin: without friction there is not even that.
+TEST(moving_wall, without_friction_a_turning_drum_only_pushes)
+{
+  const WallMotion motion = rotating({0, 0, 0}, {0, 0, 1}, 0.3);
+  Scene drum(cylinder_mesh(40, 3, 2, 4), kRadius, moving(hooke_history(kStiffness, 3e4, 0, 40, 0)));
+  drum.add_sphere({0, 0, 2}, kRadius, kMass);
+  for (int k = 0; k < 200; k++) {
+    const Real a = 0.03 * k;
+    drum.set_x(0, {1.52 * std::cos(a), 1.52 * std::sin(a), 2});
+    drum.engine->place_wall(motion.pose_at(1e-3 * k));
+    drum.compute(1e-3);
+    EXPECT_GT(norm(drum.force(0)), 0);
+    EXPECT_EQ(norm(drum.torque(0)), 0);
+  }
+}
+
+// A spring is kept in the frame of the wall: stretched once, it turns with it.
+TEST(moving_wall, springs_turn_with_it)
+{
+  const WallMotion motion = rotating({0, 0, 0}, {0, 0, 1}, 4);
+  Scene scene(floor_mesh(4, 2), kRadius, moving(hooke_history(kStiffness, 3e4, 0, 0, 1e6)));
+  scene.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass, {2, 0, 0});
+  scene.engine->place_wall(WallPose());
+  scene.compute(kStep);
+  const Vec3 before = scene.force(0);
+  EXPECT_NEAR(before.x, -3e4 * 2 * kStep, 1e-12);
+  // It stays at the axis, where the wall does not move, and a quarter turn passes at once.
+  scene.set_v(0, {0, 0, 0});
+  scene.engine->place_wall(motion.pose_at(1));
+  scene.compute(kStep);
+  EXPECT_LE(norm(scene.force(0) - Vec3{0, before.x, before.z}), 1e-9);
+}
+
+// The same spring as under a sphere that spins the other way on a wall at rest.
+TEST(moving_wall, rolling_and_twisting_are_relative_to_it)
+{
+  EngineSettings law;
+  law.law = everything(NormalModel::hooke);
+  law.law.granular.heat = HeatModel::none;
+  const Real w = 1.7;
+  Scene turntable(floor_mesh(4, 2), kRadius, moving(law)), at_rest(floor_mesh(4, 2), kRadius, law);
+  turntable.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
+  at_rest.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass, {0, 0, 0}, {0, 0, -w});
+  WallPose pose = rotating({0, 0, 0}, {0, 0, 1}, 2 * M_PI / w).pose_at(0);
+  turntable.engine->place_wall(pose);
+  turntable.compute(kStep);
+  at_rest.compute(kStep);
+  EXPECT_GT(norm(at_rest.torque(0)), 0);
+  EXPECT_LE(norm(turntable.torque(0) - at_rest.torque(0)), 1e-12 * norm(at_rest.torque(0)));
+  // And one that turns with it feels nothing.
+  turntable.set_omega(0, {0, 0, w});
+  turntable.springs.clear(0);
+  turntable.compute(kStep);
+  EXPECT_LE(norm(turntable.torque(0)), 1e-12);
+}
+
+// A belt on a machine that moves: the surface's velocity is in the frame of the mesh.
+TEST(moving_wall, a_moving_surface_moves_with_it)
+{
+  EngineSettings s = hooke(kStiffness, 0, 3, 1e6);
+  const SurfaceMotion belt = {{1.5, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  s.surface = belt;
+  Scene scene(floor_mesh(4, 2), kRadius, moving(s));
+  WallPose pose = rotating({0, 0, 0}, {0, 0, 1}, 4).pose_at(1);
+  pose.angular = {0, 0, 0};
+  pose.velocity = {0.25, 0, 0};
+  scene.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
+  scene.engine->place_wall(pose);
+  scene.compute(kStep);
+  EXPECT_LE(norm(scene.force(0) - Vec3{kMass * 3 * 0.25, kMass * 3 * 1.5, kStiffness * 0.01}),
+            1e-9);
+}
+
+// Spheres in a turning wall over many steps of one choice: what is near, and what its lists hold.
+TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
+{
+  const TriangleSoup soup = random_soup(600, 5);
+  const WallMesh mesh = weld(soup, -1);
+  GridSettings g;
+  g.cutoff = kRadius;
+  const FlatGrid flat(build_grid(mesh, g));
+  const EngineSettings law = moving(hooke(kStiffness, 50, 20, 0.4));
+  const auto kept = make_test_engine(law), fresh = make_test_engine(law);
+  kept->set_grid(flat.view());
+  fresh->set_grid(flat.view());
+  const int n = 800;
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<Real> place(-0.2, 1.2);
+  std::vector<Real> x(3 * n), v(3 * n, 0), radius(n, kRadius), mass(n, kMass), f[2], t[2];
+  for (int i = 0; i < 3 * n; i++) {
+    const Real lo = mesh.report.lo[i % 3], hi = mesh.report.hi[i % 3];
+    x[i] = lo + place(random) * (hi - lo);
+  }
+  const WallMotion motion = rotating({0.5, 0.5, 0.5}, {1, 2, -1}, 1);
+  const Box bounds = {mesh.report.lo - kRadius * Vec3{1, 1, 1},
+                      mesh.report.hi + kRadius * Vec3{1, 1, 1}};
+  const Real margin = 0.3;
+  int steps = 0, near = 0;
+  const auto spheres = [&](int which) {
+    f[which].assign(3 * n, 0);
+    t[which].assign(3 * n, 0);
+    Spheres s;
+    s.n = n;
+    s.x = x.data();
+    s.v = s.omega = v.data();
+    s.radius = radius.data();
+    s.mass = mass.data();
+    s.force = f[which].data();
+    s.torque = t[which].data();
+    return s;
+  };
+  const WallPose first = motion.pose_at(0.2);
+  kept->place_wall(first);
+  kept->choose(spheres(0), margin, true);
+  StepSettings step;
+  step.dt = kStep;
+  bool moved = false;
+  for (Real time = 0.2; !moved; time += 1e-4) {
+    const WallPose pose = motion.pose_at(time);
+    if (farthest_between(first, pose, bounds) > margin) break;
+    kept->place_wall(pose);
+    fresh->place_wall(pose);
+    const Spheres a = spheres(0), b = spheres(1);
+    // No sphere goes farther, in the frame of the mesh, than a point of its bounds.
+    moved = kept->has_moved(a);
+    EXPECT_FALSE(moved && steps < 2);
+    fresh->choose(b, 0);
+    kept->start(a, step);
+    kept->collect();
+    fresh->start(b, step);
+    fresh->collect();
+    if (moved) break;
+    EXPECT_EQ(f[0], f[1]) << "at " << time;
+    near += fresh->n_near();
+    steps++;
+  }
+  EXPECT_GT(steps, 5);
+  EXPECT_GT(near, 100 * steps);
+  // Spheres at rest have moved once the wall has.
+  kept->place_wall(motion.pose_at(0.7));
+  EXPECT_TRUE(kept->has_moved(spheres(0)));
+  kept->place_wall(first);
+  EXPECT_FALSE(kept->has_moved(spheres(0)));
+}
+
+TEST(moving_wall, must_be_announced)
+{
+  const auto engine = make_test_engine(hooke(kStiffness));
+  EXPECT_THROW(engine->place_wall(some_pose()), std::logic_error);
+  EngineSettings s = moving(hooke(kStiffness));
+  s.precision = Precision::single_;
+  EXPECT_THROW(make_engine(s), InputError);
+}
+
+}    // namespace
+}    // namespace lsdcd
