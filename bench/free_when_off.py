@@ -28,7 +28,8 @@ BRANCHES = {WALL_FORCE: ["Law::kSurface", "Law::kRecords", "Law::kContactTorque"
                          "Law::kExtra > 0"],
             "model/contact_model.h": ["Rolling::kOn", "Twisting::kOn", "Heat::kOn",
                                       "Cohesion::kOn"]}
-MEMBERS = {WALL_FORCE: ["SurfaceMotion surface;", "WallPose pose;", "WearModel wear;", "ContactRecord *records;",
+MEMBERS = {WALL_FORCE: ["SurfaceMotion surface;", "WallPose pose;",
+                        "Vec3 wall_velocity, wall_angular;", "WearModel wear;", "ContactRecord *records;",
                         "Real *heat;", "Real *extra;", "const Real *extra;", "Real temperature;",
                         "Real wall_temperature;"],
            "model/contact.h": ["Vec3Of<T> omega;", "T wall_warmer;"]}
