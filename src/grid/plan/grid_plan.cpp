@@ -85,7 +85,9 @@ GridPlan plan_with_length(const WallMesh &mesh, const GridSettings &settings, Re
   // angle, times the cutoff) and the rounding of dot products over a whole face.
   plan.tolerance = 4e-13 * cutoff + 16 * kRoundoff * (diagonal + cutoff);
   plan.margin = cell_margin(cutoff);
-  const Real pad = cutoff + plan.tolerance + plan.margin + Real(0.5) * length;
+  // Half a cell, or a little more than the margin, for rounding.
+  const Real pad =
+      cutoff + plan.tolerance + std::max(Real(0.5) * length, plan.margin + Real(0.01) * length);
   const Box box = covered(mesh, settings.within, pad, length);
   plan.origin = box.lo;
   for (int k = 0; k < 3; k++) {
