@@ -8,6 +8,7 @@
 #include "engine/choose/near_list.h"
 #include "engine/resident_springs.h"
 #include "engine/results/sphere_error.h"
+#include "engine/results/step_notes.h"
 #include "engine/results/step_results.h"
 
 #include <string>
@@ -157,15 +158,7 @@ class EngineOn : public InPlaceEngine {
     const StepCounts seen = read_counts();
     if (seen.too_large || seen.lost || seen.grown) throw_for(spheres_, seen);
     clear_diagnostics(seen);
-    StepDiagnostics diagnostics;
-    diagnostics.deepest = from_ascending_bits(static_cast<std::uint32_t>(seen.deepest >> 32));
-    diagnostics.deepest_sphere = static_cast<int>(seen.deepest & 0xffffffffu) - 1;
-    diagnostics.uncertified = static_cast<std::int64_t>(seen.uncertified);
-    diagnostics.uncertain = from_ascending_bits(static_cast<std::uint32_t>(seen.uncertain));
-    diagnostics.lists = static_cast<std::int64_t>(seen.lists);
-    diagnostics.listed = static_cast<std::int64_t>(seen.listed);
-    diagnostics.by_cells = static_cast<std::int64_t>(seen.by_cells);
-    return diagnostics;
+    return diagnostics_of(seen);
   }
 
   void grow(int n) override { springs_.grow(b_, n); }

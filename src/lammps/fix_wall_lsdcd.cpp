@@ -164,6 +164,7 @@ void FixWallLsdcd::setup_pre_force_respa(int /*vflag*/, int ilevel)
 void FixWallLsdcd::setup(int /*vflag*/)
 {
   list_is_old = true;
+  set_up_at = update->ntimestep;
   prepare_springs();
   if (!springs_checked) check_springs();
   if (callbacks) ask_for_most_room();
@@ -205,7 +206,8 @@ void FixWallLsdcd::make_exchange_room()
 void FixWallLsdcd::pre_force(int /*vflag*/)
 {
   if (neighbor->ago == 0 && callbacks) ask_for_most_room();
-  const bool anew = neighbor->ago == 0 || update->ntimestep == update->firststep + 1;
+  const bool anew = neighbor->ago == 0 ||
+                    (update->ntimestep == update->firststep + 1 && set_up_at != update->firststep);
   if (anew || adapts) {
     list_is_old = true;
     prepare_springs();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "parallel/atomic.h"
+#include "parallel/lane_group.h"
 #include "base/strided_view.h"
 #include "parallel/threads.h"
 #include "parallel/owned_array.h"
@@ -73,6 +74,14 @@ struct CpuBackend {
     for (std::int64_t i = 0; i < m; i++) f(static_cast<std::size_t>(i));
   }
 
+  // f(group, i), likewise, by all threads of a group.
+  using Group = LaneGroup<1>;
+  template <class F>
+  void for_each_by_group(std::size_t n, const F &f)
+  {
+    for_each(n, [&](std::size_t i) { f(Group(), i); });
+  }
+
   // What f() takes, in milliseconds.
   template <class F>
   double milliseconds(const F &f)
@@ -141,7 +150,8 @@ struct CpuBackend {
   }
 
   // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i). work.ask_ahead(i) is called some time before.
+  // !work.has_single(), work.several(i), before that work.make_list(group, i) if work.needs_list(i).
+  // work.ask_ahead(i) is called some time before.
   template <class Work>
   void step(std::size_t n, const Work &work)
   {
@@ -221,6 +231,7 @@ struct CpuBackend {
   template <class Work>
   [[gnu::noinline]] static void step_several(const Work &work, std::size_t i)
   {
+    if (work.needs_list(i)) work.make_list(Group(), i);
     work.several(i);
   }
 };

@@ -5,6 +5,7 @@
 #include "parallel/cuda_mark.h"
 #include "parallel/owned_array.h"
 #include "parallel/cuda_step.h"
+#include "parallel/lane_group.h"
 
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_reduce.cuh>
@@ -181,6 +182,15 @@ struct CudaBackend {
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
+  // f(group, i), likewise, by all threads of a group.
+  using Group = LaneGroup<8>;
+  template <class F>
+  void for_each_by_group(std::size_t n, const F &f)
+  {
+    for_each(
+        n * Group::kSize, [=] __device__(std::size_t k) { f(Group(), k / Group::kSize); }, 128);
+  }
+
   // What the kernels started in f() take on the device, in milliseconds.
   template <class F>
   double milliseconds(const F &f)
@@ -263,7 +273,8 @@ struct CudaBackend {
   }
 
   // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i). work.left() has room for n, *work.n_left() is 0.
+  // !work.has_single(), work.several(i), before that work.make_list(group, i) if work.needs_list(i).
+  // work.left() has room for n, *work.n_left() is 0.
   template <class Work>
   void step(std::size_t n, const Work &work)
   {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "parallel/cuda_warp.h"
+#include "parallel/lane_group.h"
 
 #include <cuda_runtime.h>
 
@@ -37,7 +38,17 @@ __global__ void __launch_bounds__(kStepBlock) cuda_several(int n, const __grid_c
   const int first = all ? 32 * warp + lane : lane * warps + warp;
   if (all && first == 0) work.begin();
   const int end = all ? n : *work.n_left();
-  for (int s = first; s < end; s += step) work.several(all ? s : work.left()[s]);
+  for (int s = first; __any_sync(kAllLanes, s < end); s += step) {
+    const bool has_one = s < end;
+    const int k = !has_one ? 0 : all ? s : work.left()[s];
+    // Lists are long to make: the whole warp makes one after the other.
+    unsigned due = __ballot_sync(kAllLanes, has_one && work.needs_list(k));
+    for (; due != 0; due &= due - 1)
+      work.make_list(LaneGroup<32>(), __shfl_sync(kAllLanes, k, __ffs(due) - 1));
+    __syncwarp();
+    if (has_one) work.several(k);
+    __syncwarp();
+  }
 }
 
 }    // namespace lsdcd

@@ -200,11 +200,12 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
   out.spheres = 1;
   WallList made;
   const QuerySphere sphere = {from, w.sphere.radius, w.cutoff, nullptr, 0};
-  if (!gather(grid, sphere, kAnyDistance, made)) return out;
+  const LaneGroup<1> alone;
+  if (!gather(alone, grid, sphere, kAnyDistance, made)) return out;
   out.with_list = 1;
   if (mesh.gathered < 1) {
     const float margin = made.margin;
-    gather_within<Geometry>(grid, from, w.cutoff, mesh.gathered * margin, made);
+    gather_within<Geometry>(alone, grid, from, w.cutoff, mesh.gathered * margin, made);
     made.margin = margin;
   }
   Real reals[WallLists::kReals];
@@ -214,7 +215,7 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
 
   Numbers r(mesh.pairs.seed + 0xd1342543de82ull * (i + 1));
   const Real margin = lists.margin[0];
-  const bool chosen = can_touch(grid, sphere, mesh.gathered * margin);
+  const bool chosen = can_touch(alone, grid, sphere, mesh.gathered * margin);
   Vec3 q = from;
   for (int step = 0; step < kWalkSteps; step++) {
     if (step == 0)

@@ -37,7 +37,7 @@ class OneList {
  public:
   OneList(const GridView &grid, const Vec3 &q, Real radius, Real cutoff)
   {
-    has_list = gather(grid, {q, radius, cutoff, nullptr, 0}, kAnyDistance, made);
+    has_list = gather(LaneGroup<1>(), grid, {q, radius, cutoff, nullptr, 0}, kAnyDistance, made);
     lists.put(0, made);
   }
   OneList(const GridView &grid, const Vec3 &q, Real radius) : OneList(grid, q, radius, radius) {}

@@ -51,16 +51,15 @@ class NearList {
     char *flags = flags_.data();
     const StridedView<const Real> x = spheres.x;
     const Real *radius = spheres.radius;
-    b.for_each(
-        n,
-        [=] LSDCD_LAMBDA(std::size_t k) {
-          const int i = near[k];
-          const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off),
-                                 nullptr, 0};
-          flags[k] = can_touch(grid, s, margin);
-          if (!flags[k] && n_springs) n_springs[i] = 0;
-        },
-        128);
+    b.for_each_by_group(n, [=] LSDCD_LAMBDA(const typename B::Group &group, std::size_t k) {
+      const int i = near[k];
+      const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr,
+                             0};
+      const bool touches = can_touch(group, grid, s, margin);
+      if (group.rank() != 0) return;
+      flags[k] = touches;
+      if (!touches && n_springs) n_springs[i] = 0;
+    });
     b.keep(n, near, flags, other_.data(), &counts->n_near);
     std::swap(near_, other_);
   }

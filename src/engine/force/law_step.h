@@ -156,7 +156,39 @@ LSDCD_FN bool single_contact(const Law &law, const LawJob &job, std::size_t k)
   return true;
 }
 
-// Near sphere k with any number of contacts; makes its list anew where that is due.
+// Near sphere k, as the search sees it.
+template <class Law>
+LSDCD_FN QuerySphere near_sphere(const Law &law, const LawJob &job, std::size_t k)
+{
+  const std::size_t i = sphere_of(job, k);
+  return query_sphere_of(job, i, centre_of<Law>(job, i), job.radius[i], Law::kBeyond,
+                         pull_off_of(law));
+}
+
+// Is the list of near sphere k used up?
+template <class Law>
+LSDCD_FN bool needs_list(const Law &law, const LawJob &job, std::size_t k)
+{
+  if (!job.lists.n) return false;
+  const QuerySphere s = near_sphere(law, job, k);
+  return !job.lists.holds(k, s.x, s.cutoff);
+}
+
+// Makes it anew.
+template <class Law, class Group>
+LSDCD_FN void make_list(const Law &law, const LawJob &job, const Group &group, std::size_t k)
+{
+  const QuerySphere s = near_sphere(law, job, k);
+  WallList made;
+  gather(group, job.grid, s, kAnyDistance, made);
+  if (group.rank() != 0) return;
+  if (s.cutoff > job.lists.cutoff(k)) raise_to(&job.counts->grown, kNoSphere - sphere_of(job, k));
+  count_one(&job.counts->lists);
+  add_to(&job.counts->listed, made.n);
+  job.lists.put(k, made);
+}
+
+// Near sphere k with any number of contacts. Its cell is searched where it has no list that holds.
 template <class Law>
 LSDCD_FN void several_contacts(const Law &law, const LawJob &job, std::size_t k)
 {
@@ -168,14 +200,9 @@ LSDCD_FN void several_contacts(const Law &law, const LawJob &job, std::size_t k)
   const ListedFeatures listed = {job.lists, k};
   const ListedFeatures *list = job.lists.n ? &listed : nullptr;
   if (list && !job.lists.holds(k, x, s.cutoff)) {
-    if (s.cutoff > job.lists.cutoff(k)) raise_to(&job.counts->grown, kNoSphere - i);
-    WallList made;
-    count_one(&job.counts->lists);
-    if (!gather(job.grid, s, kAnyDistance, made)) list = nullptr;
-    add_to(&job.counts->listed, made.n);
-    job.lists.put(k, made);
+    count_one(&job.counts->by_cells);
+    list = nullptr;
   }
-  if (job.lists.n && !list) count_one(&job.counts->by_cells);
 
   Touch<kContacts> some;
   touch<Law::kBeyond>(job.grid, job.settings.search, s, list, some);
@@ -239,6 +266,12 @@ struct LawStep {
       return single_contact(law, job, k);
     else
       return false;
+  }
+  LSDCD_FN bool needs_list(std::size_t k) const { return lsdcd::needs_list(law, job, k); }
+  template <class Group>
+  LSDCD_FN void make_list(const Group &group, std::size_t k) const
+  {
+    lsdcd::make_list(law, job, group, k);
   }
   LSDCD_FN void several(std::size_t k) const { several_contacts(law, job, k); }
   LSDCD_FN int *left() const { return job.left; }

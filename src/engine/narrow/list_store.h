@@ -31,19 +31,17 @@ class ListStore {
     const WallLists lists = lists_;
     const StridedView<const Real> x = spheres.x;
     const Real *radius = spheres.radius;
-    b.for_each(
-        n,
-        [=] LSDCD_LAMBDA(std::size_t k) {
-          const std::size_t i = near ? near[k] : k;
-          const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off),
-                                 nullptr, 0};
-          WallList made;
-          gather(grid, s, margin, made);
-          lists.put(k, made);
-          count_one(&counts->lists);
-          add_to(&counts->listed, made.n);
-        },
-        128);
+    b.for_each_by_group(n, [=] LSDCD_LAMBDA(const typename B::Group &group, std::size_t k) {
+      const std::size_t i = near ? near[k] : k;
+      const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr,
+                             0};
+      WallList made;
+      gather(group, grid, s, margin, made);
+      if (group.rank() != 0) return;
+      lists.put(k, made);
+      count_one(&counts->lists);
+      add_to(&counts->listed, made.n);
+    });
   }
 
   std::size_t bytes() const

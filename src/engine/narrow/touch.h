@@ -111,22 +111,25 @@ LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings,
 }
 
 // Can it touch anything after a way of up to the margin?
-inline LSDCD_NOINLINE bool can_touch(const GridView &grid, const QuerySphere &s, Real margin)
+template <class Group>
+LSDCD_NOINLINE bool can_touch(const Group &group, const GridView &grid, const QuerySphere &s,
+                              Real margin)
 {
-  if (grid.in_floats) return can_touch<BrickGeometry>(grid, s.x, s.cutoff, margin);
-  return can_touch<WallGeometry>(grid, s.x, s.cutoff, margin);
+  if (grid.in_floats) return can_touch<BrickGeometry>(group, grid, s.x, s.cutoff, margin);
+  return can_touch<WallGeometry>(group, grid, s.x, s.cutoff, margin);
 }
 
-// Makes the list of a sphere anew, for a way of up to `margin` at most; false: it has none, its cell
-// has to be searched.
-inline LSDCD_NOINLINE bool gather(const GridView &grid, const QuerySphere &s, Real margin,
-                                  WallList &list)
+// Makes the list of a sphere anew, for a way of up to `margin` at most, the same for each thread of a
+// group; false: it has none, its cell has to be searched.
+template <class Group>
+LSDCD_NOINLINE bool gather(const Group &group, const GridView &grid, const QuerySphere &s,
+                           Real margin, WallList &list)
 {
   const Real most = kListMargin * s.radius, m = margin < most ? margin : most;
   if (grid.in_floats)
-    gather_for<BrickGeometry>(grid, s.x, s.cutoff, m, list);
+    gather_for<BrickGeometry>(group, grid, s.x, s.cutoff, m, list);
   else
-    gather_for<WallGeometry>(grid, s.x, s.cutoff, m, list);
+    gather_for<WallGeometry>(group, grid, s.x, s.cutoff, m, list);
   return list.margin >= 0;
 }
 

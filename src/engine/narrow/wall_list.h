@@ -4,6 +4,7 @@
 
 #include "contact/find_contacts.h"
 #include "grid/lookup/near_within.h"
+#include "parallel/lane_group.h"
 
 namespace lsdcd {
 
@@ -102,12 +103,13 @@ LSDCD_FN bool insert_code(WallList &list, FeatureCode code)
 }
 
 // Calls found(code) for what a sphere at q with this cutoff could touch after a way of up to the
-// margin, until that says false; returns whether it did
-// not. A contact on such a way is in the complete list of the cell that it is found from, and that
-// cell meets the ball round q. Lists of cells hold for a margin of their own.
-template <class Geometry, class Found>
-LSDCD_FN bool for_each_within(const GridView &grid, const Vec3 &q, Real cutoff, Real margin,
-                              Real close, const Found &found)
+// margin, until that says false; returns whether it did not. Nothing is called, and false returned,
+// where something is nearer than `close` for sure. A contact on such a way is in the complete list of
+// the cell that it is found from, and that cell meets the ball round q. Lists of cells hold for a
+// margin of their own. The threads of a group divide the candidates, and each is told of all.
+template <class Geometry, class Group, class Found>
+LSDCD_FN bool for_each_within(const Group &group, const GridView &grid, const Vec3 &q, Real cutoff,
+                              Real margin, Real close, const Found &found)
 {
   int lo[3], hi[3];
   if (!cells_in_ball(grid, q, past_lists(grid, margin), lo, hi)) return true;
@@ -115,9 +117,6 @@ LSDCD_FN bool for_each_within(const GridView &grid, const Vec3 &q, Real cutoff, 
   // Each half-space of a feature's region moves by the margin at most; one tolerance more is for
   // rounding.
   const Real more = margin + geometry.tolerance(), within = (1 + Real(2e-6)) * cutoff + more;
-  const auto test = [&](FeatureCode code) {
-    return !geometry.may_be_closest(code, within, more) || found(code);
-  };
   for (int k = lo[2]; k < hi[2]; k++)
     for (int j = lo[1]; j < hi[1]; j++)
       for (int i = lo[0]; i < hi[0]; i++) {
@@ -126,18 +125,25 @@ LSDCD_FN bool for_each_within(const GridView &grid, const Vec3 &q, Real cutoff, 
         if (!brick || !has_candidates(*brick, in_brick)) continue;
         const Cell cell = grid.lists.cells[cell_index(*brick, in_brick)];
         if (cell.count == 1) {
-          if (!test(cell.first)) return false;
+          if (geometry.may_be_closest(cell.first, within, more) && !found(cell.first)) return false;
           continue;
         }
         // A list ascends in its bounds on the distance from the cell's centre.
         const Real half = Real(0.5);
         const Vec3 centre = grid.origin + grid.length * Vec3{i + half, j + half, k + half};
         const Real away = norm(q - centre), enough = within + away;
-        for (std::uint32_t c = cell.first; c < cell.first + cell.count; c++) {
-          const Candidate candidate = grid.lists.candidates[c];
-          if (candidate.bound > enough) break;
-          if (candidate.bound + away < close) return false;
-          if (!test(candidate.feature)) return false;
+        const std::uint32_t end = cell.first + cell.count;
+        for (std::uint32_t c = cell.first + group.rank();; c += group.kSize) {
+          Candidate candidate = {};
+          bool near = c < end;
+          if (near) candidate = grid.lists.candidates[c];
+          near = near && candidate.bound <= enough;
+          if (group.vote(near && candidate.bound + away < close)) return false;
+          unsigned votes =
+              group.vote(near && geometry.may_be_closest(candidate.feature, within, more));
+          for (; votes != 0; votes &= votes - 1)
+            if (!found(group.of(candidate.feature, group.first(votes)))) return false;
+          if (group.vote(near) != group.kAll) break;
         }
       }
   return true;
@@ -153,34 +159,35 @@ LSDCD_FN void begin_list(WallList &list, const Vec3 &q, Real cutoff, Real margin
 }
 
 // The list of a sphere at q for a margin; false: it is too long.
-template <class Geometry>
-LSDCD_FN bool gather_within(const GridView &grid, const Vec3 &q, Real cutoff, Real margin,
-                            WallList &list)
+template <class Geometry, class Group>
+LSDCD_FN bool gather_within(const Group &group, const GridView &grid, const Vec3 &q, Real cutoff,
+                            Real margin, WallList &list)
 {
   begin_list(list, q, cutoff, margin);
-  return for_each_within<Geometry>(grid, q, cutoff, margin, -1,
+  return for_each_within<Geometry>(group, grid, q, cutoff, margin, -1,
                                    [&](FeatureCode code) { return insert_code(list, code); });
 }
 
 // Makes the list of a sphere anew, for the margin or, where that is too long, for less. `cutoff`:
 // how far it feels the wall from its centre.
-template <class Geometry>
-LSDCD_FN void gather_for(const GridView &grid, const Vec3 &q, Real cutoff, Real margin,
-                         WallList &list)
+template <class Geometry, class Group>
+LSDCD_FN void gather_for(const Group &group, const GridView &grid, const Vec3 &q, Real cutoff,
+                         Real margin, WallList &list)
 {
   Real m = margin_at(grid, q, margin);
   for (int i = 0; i <= kMostShrinks && m >= 0; i++, m /= kShrink)
-    if (gather_within<Geometry>(grid, q, cutoff, m, list)) return;
+    if (gather_within<Geometry>(group, grid, q, cutoff, m, list)) return;
   begin_list(list, q, cutoff, -1);
 }
 
 // Can a sphere at q touch anything after a way of up to the margin? True where that would take too
 // long to find out.
-template <class Geometry>
-LSDCD_FN bool can_touch(const GridView &grid, const Vec3 &q, Real cutoff, Real margin)
+template <class Geometry, class Group>
+LSDCD_FN bool can_touch(const Group &group, const GridView &grid, const Vec3 &q, Real cutoff,
+                        Real margin)
 {
   return !(margin_at(grid, q, margin) >= margin) ||
-         !for_each_within<Geometry>(grid, q, cutoff, margin, cutoff,
+         !for_each_within<Geometry>(group, grid, q, cutoff, margin, cutoff,
                                     [](FeatureCode) { return false; });
 }
 
