@@ -142,6 +142,7 @@ GridView TriangleGrid::view() const
   v.outside = outside;
   v.nearest = nearest;
   v.in_floats = in_floats;
+  v.has_long_lists = lists.candidates.size() > 64 * lists.cells.size();
   v.wall.n_faces = static_cast<std::uint32_t>(wall.images.n_faces);
   v.wall.n_edges = static_cast<std::uint32_t>(wall.images.n_edges);
   v.wall.n_vertices = static_cast<std::uint32_t>(wall.images.n_vertices);

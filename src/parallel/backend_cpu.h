@@ -74,12 +74,11 @@ struct CpuBackend {
     for (std::int64_t i = 0; i < m; i++) f(static_cast<std::size_t>(i));
   }
 
-  // f(group, i), likewise, by all threads of a group.
-  using Group = LaneGroup<1>;
+  // f(group, i), likewise, by all threads of a group; `long_work`: is there work for many?
   template <class F>
-  void for_each_by_group(std::size_t n, const F &f)
+  void for_each_by_group(std::size_t n, bool /*long_work*/, const F &f)
   {
-    for_each(n, [&](std::size_t i) { f(Group(), i); });
+    for_each(n, [&](std::size_t i) { f(LaneGroup<1>(), i); });
   }
 
   // What f() takes, in milliseconds.
@@ -231,7 +230,7 @@ struct CpuBackend {
   template <class Work>
   [[gnu::noinline]] static void step_several(const Work &work, std::size_t i)
   {
-    if (work.needs_list(i)) work.make_list(Group(), i);
+    if (work.needs_list(i)) work.make_list(LaneGroup<1>(), i);
     work.several(i);
   }
 };

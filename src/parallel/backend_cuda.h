@@ -182,13 +182,17 @@ struct CudaBackend {
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
-  // f(group, i), likewise, by all threads of a group.
-  using Group = LaneGroup<8>;
+  // f(group, i), likewise, by all threads of a group; `long_work`: is there work for many?
   template <class F>
-  void for_each_by_group(std::size_t n, const F &f)
+  void for_each_by_group(std::size_t n, bool long_work, const F &f)
   {
-    for_each(
-        n * Group::kSize, [=] __device__(std::size_t k) { f(Group(), k / Group::kSize); }, 128);
+    constexpr unsigned kMany = 8, kBlock = 128;
+    if (long_work)
+      for_each(
+          kMany * n, [=] __device__(std::size_t k) { f(LaneGroup<kMany>(), k / kMany); }, kBlock);
+    else
+      for_each(
+          n, [=] __device__(std::size_t k) { f(LaneGroup<1>(), k); }, kBlock);
   }
 
   // What the kernels started in f() take on the device, in milliseconds.

@@ -8,6 +8,30 @@
 
 namespace lsdcd {
 
+// Can near sphere k touch anything after a way of up to the margin?
+struct PruneWork {
+  GridView grid;
+  StridedView<const Real> x;
+  const Real *radius;
+  WallPose pose;
+  Real margin, pull_off;
+  const int *near;
+  char *flags;       // the answers
+  int *n_springs;    // of each sphere, or null; those of spheres that cannot are forgotten
+
+  template <class Group>
+  LSDCD_FN void operator()(const Group &group, std::size_t k) const
+  {
+    const int i = near[k];
+    const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr,
+                           0};
+    const bool touches = can_touch(group, grid, s, margin);
+    if (group.rank() != 0) return;
+    flags[k] = touches;
+    if (!touches && n_springs) n_springs[i] = 0;
+  }
+};
+
 template <class B>
 class NearList {
   template <class T>
@@ -47,19 +71,11 @@ class NearList {
       flags_ = Array<char>(n + n / 8);
     }
     if (other_.size() < near_.size()) other_ = Array<int>(near_.size());
-    const int *near = near_.data();
     char *flags = flags_.data();
-    const StridedView<const Real> x = spheres.x;
-    const Real *radius = spheres.radius;
-    b.for_each_by_group(n, [=] LSDCD_LAMBDA(const typename B::Group &group, std::size_t k) {
-      const int i = near[k];
-      const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr,
-                             0};
-      const bool touches = can_touch(group, grid, s, margin);
-      if (group.rank() != 0) return;
-      flags[k] = touches;
-      if (!touches && n_springs) n_springs[i] = 0;
-    });
+    const int *near = near_.data();
+    b.for_each_by_group(
+        n, grid.has_long_lists,
+        PruneWork{grid, spheres.x, spheres.radius, pose, margin, pull_off, near, flags, n_springs});
     b.keep(n, near, flags, other_.data(), &counts->n_near);
     std::swap(near_, other_);
   }

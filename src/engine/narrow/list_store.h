@@ -6,6 +6,32 @@
 
 namespace lsdcd {
 
+// Makes the list of near sphere k.
+struct GatherWork {
+  GridView grid;
+  StridedView<const Real> x;
+  const Real *radius;
+  WallPose pose;
+  const int *near;    // or null: sphere k
+  Real margin, pull_off;
+  WallLists lists;
+  StepCounts *counts;
+
+  template <class Group>
+  LSDCD_FN void operator()(const Group &group, std::size_t k) const
+  {
+    const std::size_t i = near ? near[k] : k;
+    const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr,
+                           0};
+    WallList made;
+    gather(group, grid, s, margin, made);
+    if (group.rank() != 0) return;
+    lists.put(k, made);
+    count_one(&counts->lists);
+    add_to(&counts->listed, made.n);
+  }
+};
+
 template <class B>
 class ListStore {
   template <class T>
@@ -28,20 +54,9 @@ class ListStore {
       ints_ = Array<std::int32_t>(room * WallLists::kInts);
     }
     lists_ = WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts);
-    const WallLists lists = lists_;
-    const StridedView<const Real> x = spheres.x;
-    const Real *radius = spheres.radius;
-    b.for_each_by_group(n, [=] LSDCD_LAMBDA(const typename B::Group &group, std::size_t k) {
-      const std::size_t i = near ? near[k] : k;
-      const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr,
-                             0};
-      WallList made;
-      gather(group, grid, s, margin, made);
-      if (group.rank() != 0) return;
-      lists.put(k, made);
-      count_one(&counts->lists);
-      add_to(&counts->listed, made.n);
-    });
+    b.for_each_by_group(
+        n, grid.has_long_lists,
+        GatherWork{grid, spheres.x, spheres.radius, pose, near, margin, pull_off, lists_, counts});
   }
 
   std::size_t bytes() const
