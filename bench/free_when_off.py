@@ -24,11 +24,12 @@ NVCC = shutil.which("nvcc") or "/usr/local/cuda/bin/nvcc"
 FLAGS = ["-std=c++17", "-O3", "-DNDEBUG", "-ffp-contract=off"]
 # Effects' branches in headers of the kernel, and the members that only they read.
 WALL_FORCE = "engine/force/wall_force.h"
-BRANCHES = {WALL_FORCE: ["Law::kSurface", "Law::kRecords", "Law::kCouple", "Law::kHeat",
-                         "Law::kExtra > 0", "Law::kBeyond"],
+BRANCHES = {WALL_FORCE: ["Law::kSurface", "Law::kRecords", "Law::kContactTorque", "Law::kHeat",
+                         "Law::kExtra > 0"],
             "model/contact_model.h": ["Rolling::kOn", "Twisting::kOn", "Heat::kOn",
                                       "Cohesion::kOn"]}
-MEMBERS = {WALL_FORCE: ["SurfaceMotion surface;", "WearModel wear;", "ContactRecord *records;",
+MEMBERS = {WALL_FORCE: ["SurfaceMotion surface;", "WallPose pose;",
+                        "Vec3 wall_velocity, wall_angular;", "WearModel wear;", "ContactRecord *records;",
                         "Real *heat;", "Real *extra;", "const Real *extra;", "Real temperature;",
                         "Real wall_temperature;"],
            "model/contact.h": ["Vec3Of<T> omega;", "T wall_warmer;"]}

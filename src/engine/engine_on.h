@@ -27,9 +27,9 @@ class EngineOn : public InPlaceEngine {
       lanes_(kLanes)
   {
     if (settings.precision == Precision::single_ && !has_single(settings))
-      throw InputError(
-          "precision single has neither granular, rolling, cohesion, a moving surface or mesh, wear "
-          "nor mesh_fields: use mixed or double");
+      throw InputError("precision single has neither granular, rolling, cohesion, a moving surface "
+                       "or mesh, wear "
+                       "nor mesh_fields: use mixed or double");
     clear_diagnostics(StepCounts());
     unlock_lanes();
   }

@@ -184,6 +184,40 @@ def compare_frames(checks, folder):
                                deck.largest_difference(dumps[0], dumps[k]), 1e-10)
 
 
+RESTING = """\
+units           lj
+atom_style      sphere
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block -3 3 -3 3 -1 9
+create_box      1 box
+create_atoms    1 single 0.3 0.2 2.0 units box
+set             group all diameter 1.0 density 2.0
+pair_style      zero 1.2
+pair_coeff      * *
+neighbor        {skin} bin
+neigh_modify    {neigh}
+fix             move all nve/sphere
+fix             wall all wall/lsdcd {law} mesh floor.stl motion linear 0 0 {v}
+timestep        0.0001
+run             {steps}
+print           "after $(vcm(all,z):%.10g)"
+"""
+
+
+def wall_comes(checks, folder):
+    """To a sphere at rest, for which LAMMPS alone would never reneighbour: it leaves with 2 V."""
+    for neigh in ("delay 0 every 1 check yes", "delay 10 every 10 check no"):
+        for skin in (0.3, 0.02):
+            text = RESTING.format(skin=skin, neigh=neigh, law=SMOOTH, v=3.0, steps=6000)
+            log = deck.run_well(text, folder)
+            left = float(log.split("\nafter ")[1].split()[0])
+            # Half a swing of pi sqrt(m/k) in 300 steps: Verlet is wrong by (1/100)^2/24, and the
+            # steps that begin and end it by as much.
+            checks.at_most(f"a wall that comes ({neigh}, skin {skin}) pushes", abs(left - 6), 1e-4)
+
+
 MOVES = "motion wiggle 0.05 0 0.1 0.31 motion rotate 0.5 0.2 0 0 0.1 1 1.7"
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 
@@ -231,6 +265,34 @@ def ranks_and_restart(checks, folder):
     checks.at_most("reset_timestep moves nothing", deck.largest_difference(two, renamed), 0)
 
 
+def searches(checks, folder):
+    """However near atoms are chosen and contacts are found: the same bits."""
+
+    def go(name, more="", run="run 600\n", neigh="delay 0 every 1 check yes"):
+        text = scene.CREATE + scene.forces(LAW, mesh=f"mesh floor.stl {MOVES} {more}")
+        text = text.replace("delay 0 every 1 check yes", neigh)
+        deck.run_well(text + scene.dump(name, 50) + run, folder)
+        return deck.read_dump(folder / name)
+
+    plain = go("plain")
+    near = sum(row[9] > 0 for rows in plain.values() for row in rows.values())
+    checks.fact("spheres touch", near > 30, str(near))
+    for name, words in (("tune 0.01", {"more": "tune 0.01"}),
+                        ("nearest 2 exact", {"more": "nearest 2 exact"}),
+                        ("a grid for larger spheres", {"more": "rmax 0.7 grid 0.3"}),
+                        ("choices by the engine", {"neigh": "delay 10 every 10 check no"}),
+                        ("two runs without setup", {"run": "run 300 post no\nrun 300 pre no\n"})):
+        checks.at_most(f"{name}: as plain", deck.largest_difference(plain, go("other", **words)), 0)
+    # fix wall/gran under respa, with time of the outer step.
+    if not deck.ON_KOKKOS:
+        (folder / "flat.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+        law, words = LAWS["hooke_history"], OF_WALL_GRAN["wiggle_z"]
+        respa = {"style": "respa 2 2 pair 2", "dt": 2e-4, "steps": 600}
+        theirs = one_sphere(folder, "a", f"wall/gran {law} zplane 0.0 NULL {words}", **respa)[0]
+        ours = one_sphere(folder, "b", lsdcd(law, words, "flat.stl"), **respa)[0]
+        checks.at_most("respa: as fix wall/gran", deck.largest_difference(theirs, ours), 1e-12)
+
+
 def places(folder, name):
     return read_vtp(folder / name)["points"]
 
@@ -272,6 +334,16 @@ def stopped(checks, folder):
     for step in (100, 300):
         checks.at_most(f"whole turns at step {step} are none, to the bit",
                        apart(places(folder, f"g_{step}.vtp"), places(folder, "h_100.vtp")), 0)
+    # dump image draws what stands there: a quarter turn, and the same mesh placed so.
+    pictures = []
+    for name, words in (("moved", "motion rotate 0 0 0 0 0 1 0.4"), ("placed", "rotate 0 0 1 90"),
+                        ("unmoved", "")):
+        deck.run_well(scene.CREATE + scene.forces(soft, mesh=f"mesh corner.stl {words}") + "run 100\n"
+                      f"write_dump all image {name}.ppm type type fix wall type 0.2 0 size 200 200 "
+                      "view 20 30\n", folder)
+        pictures.append((folder / f"{name}.ppm").read_bytes())
+    checks.fact("dump image draws the mesh where it is", pictures[0] == pictures[1])
+    checks.fact("which is elsewhere", pictures[0] != pictures[2])
     # From a fix that had no motion: another engine, with the springs of the old one.
     still = scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl") + "run 500\n"
     dumps = []
@@ -367,8 +439,9 @@ def refused(checks, folder):
                 "'d', by which the wall moves, is not of style equal" in done.stdout)
 
 
-PARTS = {"wall_gran": compare_with_wall_gran, "words": compare_words, "frames": compare_frames,
-         "ranks": ranks_and_restart, "stopped": stopped, "drum": periodic_drum, "refused": refused}
+PARTS = {"wall_gran": compare_with_wall_gran, "words": compare_words, "frames": compare_frames, "comes": wall_comes,
+         "ranks": ranks_and_restart, "searches": searches,
+         "stopped": stopped, "drum": periodic_drum, "refused": refused}
 
 
 def main():
@@ -377,12 +450,13 @@ def main():
     write_plane(folder / "plane.stl")
     scene.write_floor(folder / "bumps.stl", side=9, cells=36)
     write_drum(folder / "short.stl", 0, 4)
+    write_drum(folder / "corner.stl", 0, 2, n=3)
     for name in sys.argv[1:] or PARTS:
         if name == "wall_gran" and deck.ON_KOKKOS:
             continue    # its form for Kokkos is another code
-        if name in ("ranks", "stopped"):
+        if name in ("ranks", "stopped", "searches"):
             scene.write_floor(folder / "floor.stl")
-        if name in ("wall_gran", "words"):
+        if name in ("wall_gran", "words", "comes"):
             (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
         PARTS[name](checks, folder)
     checks.done(folder)

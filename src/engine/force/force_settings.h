@@ -24,6 +24,8 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.wall_temperature = step.wall_temperature;
   s.surface = step.surface ? *step.surface : engine.surface;
   s.pose = pose;
+  s.wall_velocity = pose.turn_to_mesh(pose.velocity);
+  s.wall_angular = pose.turn_to_mesh(pose.angular);
   s.wear = engine.wear;
   return s;
 }

@@ -22,7 +22,8 @@ LSDCD_FN void to_box(const WallPose &pose, SphereResult &out)
 {
   out.force = pose.turn_to_box(out.force);
   out.torque = pose.turn_to_box(out.torque);
-  out.weighted_point = pose.turn_to_box(out.weighted_point) + out.weight * pose.shift;
+  if (out.weight > 0)
+    out.weighted_point = pose.turn_to_box(out.weighted_point) + out.weight * pose.shift;
 }
 
 // Sphere i at x, without what only a contact needs: most of those near the wall touch nothing.

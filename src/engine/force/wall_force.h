@@ -42,11 +42,12 @@ struct ForceSettings {
   SearchSettings search;
   Real dt;
   bool update;
-  bool with_point;          // fill weighted_point and weight
-  Real wall_temperature;    // read only where the law has heat
-  SurfaceMotion surface;    // read only where the surface moves
-  WallPose pose;            // likewise
-  WearModel wear;           // read only where there are records
+  bool with_point;                     // fill weighted_point and weight
+  Real wall_temperature;               // read only where the law has heat
+  SurfaceMotion surface;               // read only where the surface moves
+  WallPose pose;                       // likewise
+  Vec3 wall_velocity, wall_angular;    // of the pose, in the frame of the mesh
+  WearModel wear;                      // read only where there are records
 };
 
 // What contact i begins with: its memory of the last step, turned with its normal.
@@ -95,7 +96,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     const Vec3 closest = s.x - set.distance[i] * n;
     Vec3 v = s.v;
     if constexpr (Law::kSurface)
-      if (settings.pose.placed) v -= settings.pose.velocity_in_mesh(closest);
+      if (settings.pose.placed) v -= settings.wall_velocity + cross(settings.wall_angular, closest);
     const Real v_normal = dot(v, n);
     Contact<T> c;
     c.normal = vec_cast<T>(n);
@@ -111,7 +112,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if constexpr (Law::kContactTorque) {
       // Rolling and twisting are relative to a wall that turns.
       Vec3 omega = s.omega;
-      if constexpr (Law::kSurface) omega -= settings.pose.turn_to_mesh(settings.pose.angular);
+      if constexpr (Law::kSurface) omega -= settings.wall_angular;
       c.omega = vec_cast<T>(omega);
     }
     if constexpr (Law::kHeat)
