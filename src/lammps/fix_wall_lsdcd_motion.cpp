@@ -219,10 +219,12 @@ void FixWallLsdcd::check_moving_box() const
 // Particles of a two-dimensional run feel the mesh where it cuts their plane, as it did at first.
 void FixWallLsdcd::check_motion() const
 {
-  if (domain->dimension == 2 && settings.motion.any() && !settings.motion.keeps({0, 0, 1}))
-    refuse("in two dimensions a mesh must move in the plane z = 0 and turn about z, not by '" +
-           settings.motion_tokens + (settings.servo_tokens.empty() ? "" : " servo ") +
-           settings.servo_tokens + "'");
+  if (domain->dimension != 2 || !settings.motion.any() || settings.motion.keeps({0, 0, 1})) return;
+  std::string words = settings.motion_tokens;
+  if (settings.motion.servo().present)
+    words += (words.empty() ? "servo " : " servo ") + settings.servo_tokens;
+  refuse("in two dimensions a mesh must move in the plane z = 0 and turn about z, not by '" +
+         words + "'");
 }
 
 // A line for the log.
