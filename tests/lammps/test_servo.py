@@ -10,7 +10,8 @@ import deck
 # and k = 1e4 is 0.0321, with damping a little more.
 DT = 0.0032
 HOOKE = "hooke 1e4 NULL 20 NULL 0.5 1"
-UNDAMPED = "hooke 1e4 NULL 0 NULL 0 0"
+# 4Jul2026 divides the tangential damping by the normal one.
+UNDAMPED = "hooke 1e4 NULL 1e-12 NULL 0 0"
 HISTORY = "hooke/history 1e4 NULL 20 NULL 0.5 1"
 
 BEGIN = """\
@@ -257,10 +258,11 @@ def restart(checks, folder):
 
     servo = "servo force z -200 vmax 2.0"
     text = bed(HISTORY, servo)
-    dump = ("dump d all custom 100 {0} id x y z vx vy vz f_wall[10] f_wall[11] f_wall[12]\n"
-            "dump_modify d format float %.17g sort id\n").replace(
-                "f_wall[10] f_wall[11] f_wall[12]", "v_p v_s v_l")
-    names = "variable p atom f_wall[10]\nvariable s atom f_wall[11]\nvariable l atom f_wall[12]\n"
+    dump = ("dump d all custom 100 {0} id x y z vx vy vz v_p v_s v_l\n"
+            "dump_modify d format float %.17g sort id\n")
+    # f_wall[10] in an atom-style variable would be a column in 4Jul2026.
+    names = "".join(f"variable {v}q equal f_wall[{k}]\nvariable {v} atom v_{v}q\n"
+                    for v, k in (("p", 10), ("s", 11), ("l", 12)))
     for motion in ("", "motion wiggle 0.02 0 0 0.9 "):
         for ranks in (1, 2):
             moved = text.replace(servo, motion + servo)
