@@ -62,7 +62,8 @@ def go(folder, servo, law=HOOKE, create=ONE, floor=FLOOR, pair="zero 1.2", dt=DT
        before="", after="", end="", more="", ranks=1, mesh="plate.stl"):
     """Runs a piston on spheres on LAMMPS's floor; rows of OUTPUTS and the log."""
     text = (BEGIN.format(create=create, pair=pair) + floor.format(law=law) + before +
-            wall(law, servo, at).replace("plate.stl", mesh) + after + OUTPUTS.format(dt=dt, more=more) + f"run {steps}\n" + end)
+            wall(law, servo, at).replace("plate.stl", mesh)
+            + after + OUTPUTS.format(dt=dt, more=more) + f"run {steps}\n" + end)
     log = deck.run_well(text, folder, ranks)
     return rows_of(folder / "out.txt"), log
 
