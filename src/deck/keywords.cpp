@@ -1,6 +1,7 @@
 #include "deck/keywords.h"
 
 #include "deck/motion_words.h"
+#include "deck/servo_words.h"
 
 #include "grid/cache/grid_cache.h"
 
@@ -219,6 +220,11 @@ const Keyword kKeywords[] = {
      read_motion},
     {"wiggle", "x|y|z amplitude period", "length, time", "period > 0", "none",
      "the mesh moves as fix wall/gran's: by A - A cos(2 pi t/period)", read_wiggle},
+    {"servo", kServoSyntax, "force or torque, velocity or 1/time, length or radians",
+     "vmax > 0, gain > 0, lo <= 0 <= hi", "none",
+     "the mesh moves along or turns about an axis so that it pushes the spheres with TARGET, a "
+     "number or v_NAME",
+     read_servo},
     {"shear", "x|y|z v", "velocity", "", "none",
      "the surface moves while the mesh stays, as fix wall/gran's: surface_vel in one direction; v: "
      "a number or v_NAME",

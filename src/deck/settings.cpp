@@ -63,6 +63,7 @@ std::string answer_to(const std::string &word, bool granular)
 {
   const char *const kMoves =
       "the words are motion wiggle Ax Ay Az period, and wiggle x|y|z amplitude period";
+  const char *const kServo = "the words are servo force|torque x|y|z|axis ax ay az TARGET vmax V";
   const char *const kFlat =
       "the wall is a mesh: write mesh FILE in its place, or use fix wall/gran";
   const char *const kBelt =
@@ -78,6 +79,9 @@ std::string answer_to(const std::string &word, bool granular)
     const char *word;
     const char *answer;
   } foreign[] = {
+      {"target_val", kServo},
+      {"vel_max", kServo},
+      {"ctrlPV", kServo},
       {"vibrate", kMoves},
       {"move/mesh", "the words are motion linear, rotate, wiggle, transrot and variable"},
       {"zplane", kFlat},

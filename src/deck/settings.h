@@ -36,6 +36,7 @@ struct WallSettings {
   std::string surface_variable[6];    // in place of its velocity and angular velocity; empty: none
   WallMotion motion;
   std::string motion_tokens;    // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
+  std::string servo_tokens;     // "force z 100 vmax 0.1"
   Wear wear;                    // K and H in pressure units
   std::string fields_file;      // of numbers per triangle; empty: none
   int fields_every = 0;         // steps between two of them

@@ -32,7 +32,6 @@ class Respa {
 };
 }    // namespace LAMMPS_NS
 
-static constexpr int kTotals = 9;
 static constexpr int kContactColumns = 8;
 static constexpr double kHeadroom = 1.1;    // in reach, once radii are known to grow
 
@@ -89,9 +88,10 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   global_freq = 1;
   extscalar = 1;
   extvector = -1;
-  extlist = new int[kTotals + 1];
-  std::fill(extlist, extlist + kTotals + 1, 1);
+  extlist = new int[kTotals + 4];
+  std::fill(extlist, extlist + kTotals + 4, 1);
   extlist[7] = 0;    // the largest overlap is not a sum
+  show_servo();
   energy_global_flag = 1;
   energy = 0;
   std::fill(totals, totals + kTotals, 0.0);
@@ -239,9 +239,11 @@ void FixWallLsdcd::begin_step(bool look)
     follow_box();
   check_moving_box();
   if (engine_moves) engine->place_wall(pose);
-  if (update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != checked_atoms)))
-    check_timestep();
   if (rigid) fill_masses();
+  if (update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != checked_atoms))) {
+    check_timestep();
+    look_at_servo_spheres();
+  }
   start();
 }
 

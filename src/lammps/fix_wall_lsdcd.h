@@ -113,7 +113,11 @@ class FixWallLsdcd : public Fix {
   lsdcd::SurfaceMotion surface;         // of the step, where variables give it
   bool engine_moves = false;            // it has laws for a wall that moves
 
-  double totals[9], energy;    // over all processes, of the last step
+  double servo_radius = 0, servo_mass = 0;    // the largest, for its gain
+  bool gain_told = false, limit_told = false;
+
+  static constexpr int kTotals = 9;
+  double totals[kTotals], energy;    // over all processes, of the last step
   bool reduced = false;
 
   std::vector<lsdcd::Stroke> strokes;
@@ -177,6 +181,15 @@ class FixWallLsdcd : public Fix {
   void make_engine_that_moves();
   std::vector<double> motion_data() const;
   void restart_motion(const std::vector<double> &);
+
+  // fix_wall_lsdcd_servo.cpp
+  double servo_push();
+  void look_at_servo_spheres();
+  double stable_gain(double);
+  void advance_servo(double);
+  double servo_output(int);
+  void show_servo();
+  int modify_servo(const std::vector<std::string> &);
 
   // fix_wall_lsdcd_loads.cpp
   void add_loads();

@@ -68,6 +68,7 @@ void FixWallLsdcd::log_creation() const
   std::string t = signed_text(wall->mesh_text());
   if (!settings.placement_tokens.empty()) t += "\n  placement   " + settings.placement_tokens;
   if (!motion_text().empty()) t += "\n  motion      " + motion_text();
+  if (!settings.servo_tokens.empty()) t += "\n  servo       " + settings.servo_tokens;
   if (!material.empty()) t += "\n" + material;
   t += "\n  contact     " + settings.law_name;
   if (l.style != LawStyle::granular)

@@ -58,6 +58,7 @@ void FixWallLsdcd::move_wall()
     evaluate_variables(passed);
     modify->addstep_compute(update->ntimestep + 1);
   }
+  if (!update->setupflag) advance_servo(passed);
   pose = settings.motion.pose_at(clock.now());
 }
 
@@ -68,7 +69,7 @@ bool FixWallLsdcd::moves_or_varies() const
 
 bool FixWallLsdcd::has_variables() const
 {
-  if (settings.surface_varies()) return true;
+  if (settings.surface_varies() || !settings.motion.servo().target_name.empty()) return true;
   for (const lsdcd::MotionTerm &m : settings.motion.terms())
     if (m.kind == lsdcd::MotionKind::variable) return true;
   return false;
@@ -103,6 +104,8 @@ void FixWallLsdcd::evaluate_variables(double passed)
         m.speed[d] = (m.displacement[d] - was) / passed;
     }
   }
+  lsdcd::Servo &servo = settings.motion.servo();
+  if (!servo.target_name.empty()) servo.target = value_of(servo.target_name);
   for (int d = 0; d < 3; d++) {
     if (!settings.surface_variable[d].empty())
       surface.velocity[d] = value_of(settings.surface_variable[d]);
@@ -119,6 +122,8 @@ void FixWallLsdcd::check_variables() const
       if (!name.empty()) variable_of(name);
   for (const std::string &name : settings.surface_variable)
     if (!name.empty()) variable_of(name);
+  const std::string &target = settings.motion.servo().target_name;
+  if (!target.empty()) variable_of(target);
 }
 
 // Has any point of the wall that a sphere can touch gone farther than this since near atoms were
@@ -214,16 +219,19 @@ void FixWallLsdcd::check_moving_box() const
 // Particles of a two-dimensional run feel the mesh where it cuts their plane, as it did at first.
 void FixWallLsdcd::check_motion() const
 {
-  if (domain->dimension == 2 && settings.motion.any() && !settings.motion.keeps({0, 0, 1}))
-    refuse("in two dimensions a mesh must move in the plane z = 0 and turn about z, not by '" +
-           settings.motion_tokens + "'");
+  if (domain->dimension != 2 || !settings.motion.any() || settings.motion.keeps({0, 0, 1})) return;
+  std::string words = settings.motion_tokens;
+  if (settings.motion.servo().present)
+    words += (words.empty() ? "servo " : " servo ") + settings.servo_tokens;
+  refuse("in two dimensions a mesh must move in the plane z = 0 and turn about z, not by '" +
+         words + "'");
 }
 
 // A line for the log.
 std::string FixWallLsdcd::motion_text() const
 {
   if (!settings.motion.moves())
-    return settings.motion.any() ? "none; the mesh stays where it is" : "";
+    return settings.motion.start().placed ? "none; the mesh stays where it is" : "";
   constexpr int kSamples = 64;
   std::string text = settings.motion_tokens;
   bool differences = false;

@@ -42,7 +42,8 @@ double FixWallLsdcd::compute_scalar()
 double FixWallLsdcd::compute_vector(int i)
 {
   reduce_totals();
-  if (i < 9) return totals[i];
+  if (i < kTotals) return totals[i];
+  if (i >= kTotals + settings.wears()) return servo_output(i - kTotals - settings.wears());
   double worn = loads.worn();
   MPI_Allreduce(MPI_IN_PLACE, &worn, 1, MPI_DOUBLE, MPI_SUM, world);
   return worn;

@@ -43,6 +43,23 @@ Rotation rotation(const Vec3 &k, Real s, Real c)
   return r;
 }
 
+// What is placed turns about an axis with sine s and cosine c, and goes on at the speed `omega`.
+void turn(WallPose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, Real omega)
+{
+  const Rotation turned = rotation(axis, s, c);
+  const Vec3 angular = omega * axis;
+  Vec3 row[3] = {};
+  for (int j = 0; j < 3; j++) {    // columns of the product
+    const Vec3 column = turned({pose.row[0][j], pose.row[1][j], pose.row[2][j]});
+    for (int i = 0; i < 3; i++) row[i][j] = column[i];
+  }
+  std::copy(row, row + 3, pose.row);
+  const Vec3 arm = turned(pose.shift - point);
+  pose.shift = turned(pose.shift) + (point - turned(point));
+  pose.velocity = turned(pose.velocity) + cross(angular, arm);
+  pose.angular = turned(pose.angular) + angular;
+}
+
 // A term's displacement and its derivative.
 void shift_of(const MotionTerm &m, Time t, Vec3 &shift, Vec3 &velocity)
 {
@@ -97,32 +114,35 @@ void WallMotion::begin_from(const WallPose &pose)
 }
 
 // Each term maps x to R (x - point) + point + shift; R is 1 where it does not turn.
-WallPose WallMotion::pose_at(Time t) const
+WallPose WallMotion::terms_at(Time t) const
 {
   WallPose pose = start_;
   if (moves()) pose.placed = true;
   for (const MotionTerm &m : terms_) {
-    Vec3 shift, velocity, angular = {0, 0, 0};
+    Vec3 shift, velocity;
     shift_of(m, t, shift, velocity);
     if (m.turns()) {
       Real s, c;
       sine_cosine(t, m.period, s, c);
-      const Rotation turn = rotation(m.axis, s, c);
-      angular = (kTwoPi / m.period) * m.axis;
-      // Columns of the product.
-      Vec3 row[3] = {};
-      for (int j = 0; j < 3; j++) {
-        const Vec3 column = turn({pose.row[0][j], pose.row[1][j], pose.row[2][j]});
-        for (int i = 0; i < 3; i++) row[i][j] = column[i];
-      }
-      std::copy(row, row + 3, pose.row);
-      const Vec3 arm = turn(pose.shift - m.point);
-      pose.shift = turn(pose.shift) + (m.point - turn(m.point));
-      pose.velocity = turn(pose.velocity) + cross(angular, arm);
-      pose.angular = turn(pose.angular) + angular;
+      turn(pose, m.point, m.axis, s, c, kTwoPi / m.period);
     }
     pose.shift += shift;
     pose.velocity += velocity;
+  }
+  return pose;
+}
+
+WallPose WallMotion::pose_at(Time t) const
+{
+  WallPose pose = terms_at(t);
+  const Servo &s = servo_;
+  if (!s.present) return pose;
+  pose.placed = true;
+  if (s.turns) {
+    turn(pose, s.point, s.axis, std::sin(s.position), std::cos(s.position), s.velocity);
+  } else {
+    pose.shift += s.position * s.axis;
+    pose.velocity += s.velocity * s.axis;
   }
   return pose;
 }
@@ -142,6 +162,9 @@ bool WallMotion::keeps(const Vec3 &direction) const
     return std::fabs(dot(v, direction)) > kRounding * norm(v);
   };
   if (norm(start_.turn_to_box(direction) - direction) > kRounding || crosses(start_.shift))
+    return false;
+  if (servo_.present &&
+      (servo_.turns ? norm(cross(servo_.axis, direction)) > kRounding : crosses(servo_.axis)))
     return false;
   for (const MotionTerm &m : terms_) {
     if (m.turns() && norm(cross(m.axis, direction)) > kRounding) return false;

@@ -1,8 +1,9 @@
 // How a mesh moves as a rigid body: terms in the words of LAMMPS's fix move, one acting on what
-// the ones before it have placed.
+// the ones before it have placed, and last a servo.
 #pragma once
 
 #include "mesh/periodic_box.h"
+#include "mesh/servo.h"
 #include "mesh/wall_pose.h"
 
 #include <string>
@@ -45,13 +46,20 @@ class WallMotion {
   std::vector<MotionTerm> &terms() { return terms_; }
   const std::vector<MotionTerm> &terms() const { return terms_; }
 
-  bool moves() const { return !terms_.empty(); }
-  bool any() const { return moves() || start_.placed; }    // false: the mesh is as its file has it
+  // Acts on what all terms have placed.
+  Servo &servo() { return servo_; }
+  const Servo &servo() const { return servo_; }
 
-  // At time t since the terms began. Computed from t and nothing else (and from the values of
+  bool moves() const { return !terms_.empty(); }
+  // false: the mesh is as its file has it
+  bool any() const { return moves() || servo_.present || start_.placed; }
+
+  // What the terms give at time t since they began. Computed from t and nothing else (and from the values of
   // variables), so that it is as exact after 1e9 steps as after one. After a whole number of
   // periods a term gives the bits that it began with; a time that rounding parts from such a
   // number, and no more, counts as one.
+  WallPose terms_at(Time t) const;
+  // The same with the servo where it is now.
   WallPose pose_at(Time t) const;
 
   Real longest_period() const;    // 0: no term has one
@@ -62,6 +70,7 @@ class WallMotion {
  private:
   WallPose start_;
   std::vector<MotionTerm> terms_;
+  Servo servo_;
 };
 
 // The largest distance between where two poses put a point of this box, in the mesh's frame.

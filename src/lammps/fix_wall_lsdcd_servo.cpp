@@ -1,0 +1,139 @@
+// A servo: the load of the last step moves the mesh in this one.
+
+#include "lammps/fix_wall_lsdcd.h"
+
+#include "base/input_words.h"
+#include "deck/servo_words.h"
+#include "model/contact_slope.h"
+
+#include "atom.h"
+#include "group.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using lsdcd::number_text;
+using lsdcd::Servo;
+
+// What the mesh pushes the spheres with along the servo's axis. Collective.
+double FixWallLsdcd::servo_push()
+{
+  reduce_totals();
+  return settings.motion.servo().push({totals[0], totals[1], totals[2]},
+                                      {totals[3], totals[4], totals[5]});
+}
+
+// The largest radius and mass that a contact can have. Collective.
+void FixWallLsdcd::look_at_servo_spheres()
+{
+  if (!settings.motion.servo().present) return;
+  need_on_host();
+  const bool all = group->dynamic[igroup];
+  double most[2] = {0, 0};
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!all && !(atom->mask[i] & groupbit)) continue;
+    most[0] = std::max(most[0], atom->radius[i]);
+    most[1] = std::max(most[1], rigid ? mass_seen[i] : atom->rmass[i]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
+  servo_radius = most[0];
+  servo_mass = most[1];
+}
+
+// Of as many contacts as there were in the last step, each as steep as any of them can be.
+double FixWallLsdcd::stable_gain(double dt)
+{
+  const Servo &s = settings.motion.servo();
+  double arm = 1;
+  if (s.turns) {
+    const lsdcd::Box bounds =
+        lsdcd::placed_bounds(settings.motion.terms_at(clock.now()), mesh_bounds(servo_radius));
+    arm = 0;
+    for (int i = 0; i < 8; i++) {
+      const lsdcd::Vec3 corner = {i & 1 ? bounds.hi.x : bounds.lo.x,
+                                  i & 2 ? bounds.hi.y : bounds.lo.y,
+                                  i & 4 ? bounds.hi.z : bounds.lo.z};
+      arm = std::max(arm, norm(cross(s.axis, corner - s.point)));
+    }
+  }
+  const double overlap = totals[7] * servo_radius + s.fastest * arm * dt,
+               contacts = std::max(1.0, totals[6]);
+  const lsdcd::ContactSlope one =
+      lsdcd::contact_slope(settings.law, overlap, servo_radius, servo_mass);
+  return lsdcd::servo_gain(contacts * arm * arm * one.stiffness, contacts * arm * arm * one.damping,
+                           dt);
+}
+
+// Over the time since the last step. All processes have the same sums and go the same way.
+void FixWallLsdcd::advance_servo(double dt)
+{
+  Servo &s = settings.motion.servo();
+  if (!s.present || dt == 0) return;
+  if (servo_radius == 0) look_at_servo_spheres();
+  const double push = servo_push(), gain = stable_gain(dt);
+  if (gain < s.most_gain && std::isfinite(s.most_gain) && totals[6] > 0 && !gain_told) {
+    gain_told = true;
+    warn("a servo's gain of " + number_text(s.most_gain) + " would not be stable with " +
+         number_text(totals[6]) + " contacts at the timestep " + number_text(dt) + ": " +
+         number_text(gain) + " is used in its place, and less with more of them; shown once");
+  }
+  if (!s.advance(push, gain, dt) || limit_told) return;
+  limit_told = true;
+  log(signed_text("the servo is at its limit " + number_text(s.position) + " at step " +
+                  std::to_string(update->ntimestep) + ", where it pushes with " +
+                  number_text(push) + " in place of " + number_text(s.target) + "; said once"));
+}
+
+// Position, velocity, push.
+double FixWallLsdcd::servo_output(int i)
+{
+  const Servo &s = settings.motion.servo();
+  return i == 0 ? s.position : i == 1 ? s.velocity : servo_push();
+}
+
+// What has a servo has its outputs, after those of the rest.
+void FixWallLsdcd::show_servo()
+{
+  const int before = kTotals + settings.wears();
+  if (settings.motion.servo().present) size_vector = before + 3;
+  extlist[before] = extlist[before + 1] = 0;
+  extlist[before + 2] = 1;
+}
+
+// The mesh stays where it is with none, and goes on from there with another. Along the same line
+// the position and its limits go on, too.
+int FixWallLsdcd::modify_servo(const std::vector<std::string> &words)
+{
+  const lsdcd::ModifiedServo read = lsdcd::read_modified_servo(words);
+  Servo &s = settings.motion.servo();
+  if (!read.servo.present) {
+    s.holds = true;
+    s.velocity = 0;
+  } else if (s.has_line_of(read.servo)) {
+    const double position = s.position;
+    s = read.servo;
+    s.position = position;
+    if (position < s.lo || position > s.hi)
+      refuse("fix_modify servo: it is at " + number_text(position) + ", outside of the limits " +
+             number_text(s.lo) + " " + number_text(s.hi) +
+             ", which count from where it began: widen them");
+  } else {
+    if (settings.motion.moves())
+      refuse("fix_modify servo: a servo along another line cannot begin while '" +
+             settings.motion_tokens + "' moves the mesh: stop that first (motion none)");
+    settings.motion.begin_from(pose);
+    s = read.servo;
+  }
+  settings.servo_tokens = read.text;
+  gain_told = limit_told = false;
+  servo_radius = 0;    // a run without setup looks then
+  pose = settings.motion.pose_at(clock.now());
+  list_is_old = true;
+  check_motion();
+  make_engine_that_moves();
+  show_servo();
+  if (!settings.brief) log(signed_text("servo " + read.text));
+  return static_cast<int>(read.taken);
+}

@@ -1,0 +1,52 @@
+// A servo moves a mesh along an axis, or turns it about one, so that it pushes the spheres with a
+// given force or torque.
+#pragma once
+
+#include "base/vec3.h"
+
+#include <cmath>
+#include <string>
+
+namespace lsdcd {
+
+// Force, length and velocity; where it turns: torque, angle (radians) and angular velocity.
+struct Servo {
+  bool present = false;
+  bool holds = false;    // no longer moves, and keeps its position
+  bool turns = false;
+  Vec3 axis = {0, 0, 1};        // unit, of the box
+  Vec3 point = {0, 0, 0};       // of the box; the axis passes through it, where it turns
+  Real target = 0;              // push on the spheres along (about) the axis
+  std::string target_name;      // of an equal-style variable, whose value target is; empty: none
+  Real most_gain = HUGE_VAL;    // velocity per push
+  Real fastest = 0;             // velocity
+  Real lo = -HUGE_VAL, hi = HUGE_VAL;    // of the position
+
+  // Added up from step to step.
+  Real position = 0, velocity = 0;
+
+  // Does it move along or about the same line?
+  bool has_line_of(const Servo &other) const
+  {
+    return present == other.present && turns == other.turns && axis == other.axis &&
+           point == other.point;
+  }
+
+  // From what spheres exert on the mesh, the torque about the origin.
+  Real push(const Vec3 &force, const Vec3 &torque) const
+  {
+    return 0 - dot(axis, turns ? torque - cross(point, force) : force);    // none: 0, not -0
+  }
+
+  // Over dt, after a step in which it pushed so. A push grows as the servo moves on, so that one
+  // below the target moves it on. Has it been stopped by a limit?
+  bool advance(Real push, Real gain, Real dt);
+};
+
+// The velocity per push at which the loop of a servo and its contacts comes to rest. Over a step the
+// push changes by -stiffness dt v and, as contacts damp, by -damping v: with v(n+1) = gain (target -
+// push(n)) the loop is stable for gain (stiffness dt + 2 damping) < 2. This is a quarter of that,
+// which leaves room for the motion of the spheres themselves (tests/unit/test_servo.cpp).
+Real servo_gain(Real stiffness, Real damping, Real dt);
+
+}    // namespace lsdcd
