@@ -78,10 +78,10 @@ Passes FlowSurface::passes(const Place &from, const Vec3 &to, const PeriodicBox 
   return passes;
 }
 
-Real FlowSurface::clearance(const Vec3 &x, const PeriodicBox &box) const
+Real FlowSurface::clearance(const Vec3 &x, const PeriodicBox &box, Real most) const
 {
   constexpr Real kRoom = 1e-9;    // for rounding, of the largest number that comes in
-  Real within = 1e150, largest = 0;
+  Real within = most, largest = 0;
   for (int k = 0; k < 3; k++) {
     if (box.periodic[k]) within = std::min(within, box.width(k) / 2);
     largest = std::max({largest, std::fabs(x[k]), std::fabs(tree_.bounds().lo[k]),

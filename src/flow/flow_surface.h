@@ -27,8 +27,9 @@ class FlowSurface {
   // Triangles that the straight way from one place to the other leads through.
   Passes passes(const Place &from, const Vec3 &to, const PeriodicBox &box) const;
 
-  // The surface is no nearer than this. In a periodic box at most half its smallest width.
-  Real clearance(const Vec3 &x, const PeriodicBox &box) const;
+  // The surface is no nearer than this, which is not above `most`, nor above half the smallest
+  // periodic width.
+  Real clearance(const Vec3 &x, const PeriodicBox &box, Real most = 1e150) const;
 
   // How far images have moved where the box has changed, and the clearances with them, at most.
   Real images_move(const PeriodicBox &before, const PeriodicBox &now) const;

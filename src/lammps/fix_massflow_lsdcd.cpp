@@ -147,7 +147,8 @@ bool FixMassflowLsdcd::steps_are_short() const
 // Between runs atoms may be put anywhere: only time steps let them pass.
 void FixMassflowLsdcd::setup(int /*vflag*/)
 {
-  near_within = neighbor->skin > 0 ? 2 * neighbor->skin : HUGE_VAL;
+  near_within = neighbor->skin > 0 ? 2 * neighbor->skin : 1e150;
+  far = 8 * near_within;
   follow_box();
   all_were_seen = look_at_all = true;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -216,7 +217,8 @@ void FixMassflowLsdcd::look(int i)
     t.clear -= moved;
   }
   t.last = x;
-  if (t.clear <= 0 || (!was_near && t.clear < near_within)) t.clear = surface->clearance(x, box);
+  if (t.clear <= 0 || (!was_near && t.clear < near_within))
+    t.clear = surface->clearance(x, box, far);
 }
 
 double FixMassflowLsdcd::mass_of(int i) const

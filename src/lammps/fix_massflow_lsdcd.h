@@ -62,6 +62,7 @@ class FixMassflowLsdcd : public Fix {
   std::vector<Track> tracks;
   std::vector<int> near;        // atoms looked at in every step
   double near_within = 0;       // atoms with less clearance are near
+  double far = 0;               // no clearance is measured beyond
   bool look_at_all = true;      // in the next step
   bool all_were_seen = true;    // in the last step
   lsdcd::PeriodicBox box;       // of the last step

@@ -180,6 +180,25 @@ TEST(flow, a_sheet_across_a_periodic_box_has_no_seam)
       }
 }
 
+// A centre less than the last bit of the box before the seam: moved by an edge and rounded it would
+// lie behind it, and neither image would see it.
+TEST(flow, nothing_is_lost_between_a_sheet_and_its_image)
+{
+  PeriodicBox box = wrapped_box();
+  box.corner = {0, 0, -2};
+  box.edge[1] = {0, 1.3, 0};
+  TriangleSoup soup;
+  const Vec3 p[4] = {{0, 0, 0}, {1.1, 0, 0}, {1.1, 1.3, 0}, {0, 1.3, 0}};
+  soup.corners = {p[0], p[1], p[2], p[0], p[2], p[3]};
+  const FlowSurface sheet = surface_of(soup);
+  for (const Real x : {-1e-17, 0., 1e-17, 0.5, std::nextafter(1.1, 0), 1.1, std::nextafter(1.1, 2)})
+    for (const Real y : {-1e-17, 0., 1e-17, 0.5, 1.3}) {
+      const Passes p = sheet.passes({{x, y, 0.5}}, {x, y, -0.5}, box);
+      EXPECT_EQ(p.backward, 1) << x << " " << y;
+      EXPECT_EQ(p.forward, 0);
+    }
+}
+
 // Ways in a tilted periodic box, wrapped at random where LAMMPS would round: the way goes on from
 // the rounded place, and is closed but for whole cells. Bodies in all images are closed.
 TEST(flow, wrapping_opens_no_gap)
@@ -226,7 +245,7 @@ TEST(flow, no_clearance_is_more_than_the_distance)
   }
 }
 
-TEST(flow, clearance_sees_the_nearest_image_and_ends_at_half_the_box)
+TEST(flow, clearance_sees_the_nearest_image_and_ends_at_half_the_box_or_where_asked)
 {
   const PeriodicBox box = wrapped_box();
   const FlowSurface surface = surface_of(box_mesh({-0.2, -0.1, -0.1}, {0, 0.1, 0.1}));
@@ -234,6 +253,7 @@ TEST(flow, clearance_sees_the_nearest_image_and_ends_at_half_the_box)
   EXPECT_NEAR(surface.clearance({0.7, 0, 0}, box), 0.2, 1e-8);
   const Real half = std::min(box.width(0), box.width(1)) / 2;
   EXPECT_NEAR(surface.clearance({0.7, 0, 1.9}, box), half, 1e-8);
+  EXPECT_NEAR(surface.clearance({0.7, 0, 0}, box, 0.15), 0.15, 1e-8);
 }
 
 TEST(flow, images_move_no_farther_than_said)
