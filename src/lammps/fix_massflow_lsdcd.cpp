@@ -4,6 +4,9 @@
 #include "lammps/mpi_shared.h"
 
 #include "atom.h"
+#if __has_include("atom_masks.h")
+#include "atom_masks.h"
+#endif
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -42,6 +45,13 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
   if (settings.deletes && atom->molecular)
     refuse("delete yes leaves bonds without their atoms: use an atom style without bonds");
 
+#if __has_include("atom_masks.h")
+  // All that a host with its atoms on a GPU has to bring for counting; deletion takes everything.
+  if (!settings.deletes) {
+    datamask_read = X_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK | TAG_MASK;
+    datamask_modify = EMPTY_MASK;
+  }
+#endif
   nevery = 1;
   vector_flag = array_flag = 1;
   size_vector = kColumns + 2 + kAfterTypes;    // net mass and rate between the two
