@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+using LAMMPS_NS::FixMassflowLsdcd;
 using LAMMPS_NS::FixWallLsdcd;
 using LAMMPS_NS::FixWallLsdcdKokkos;
 using lsdcd::add_fix_style;
