@@ -317,6 +317,29 @@ def check_deform(checks, folder):
     checks.fact("in a box that grows and tilts", not wrong and rows[160][FORWARD] == len(over), str(wrong))
 
 
+def check_warnings(checks, folder):
+    """Each where it belongs, and none in a deck without reason."""
+    few = [(1, 0, 0, 1), (1, 0.5, 0, 1)]
+    write_data(folder / "spheres.data", few)
+    plain = deck.run_well(begin() + forces("delete yes") + "run 0\n", folder)
+    one, other = (folder / "plate.stl").read_text().split("endfacet", 1)
+    lines = one.split("\n")
+    lines[3], lines[4] = lines[4], lines[3]
+    (folder / "turned.stl").write_text("\n".join(lines) + "endfacet" + other)
+    turned = deck.run_well(begin() + forces().replace("plate.stl", "turned.stl") + "run 0\n", folder)
+    long = deck.run_well(begin("p p f") + forces("scale 2 1 1") + "run 0\n", folder)
+    checks.fact("no warning without reason", "massflow/lsdcd: delete" not in plain and
+                "wound in opposite ways" not in plain and "longer than" not in plain)
+    if not deck.ON_KOKKOS:    # the hosts with Kokkos have no package RIGID
+        rigid = forces("delete yes").replace("all nve", "all rigid single")
+        checks.fact("rigid bodies and delete", "delete yes does not tell fix move" in
+                    deck.run_well(begin() + rigid + "run 0\n", folder))
+    checks.fact("a facet wound the other way", "edges of the mesh join facets that are wound" in turned)
+    checks.fact("a mesh longer than the box",
+                "longer than the periodic box in x, by 2:" in long and "box in y" not in long)
+    write_data(folder / "spheres.data", spheres())
+
+
 def main():
     checks, folder = deck.Checks(), deck.scratch()
     write_plate(folder / "plate.stl", 2, 8)
@@ -332,6 +355,7 @@ def main():
     check_deposit(checks, folder)
     check_kick(checks, folder)
     check_deform(checks, folder)
+    check_warnings(checks, folder)
     checks.done(folder)
 
 
