@@ -1,7 +1,8 @@
-// Registers fix wall/lsdcd and wall/lsdcd/kk with the Kokkos LAMMPS that loads this file.
+// Registers fixes wall/lsdcd, wall/lsdcd/kk and massflow/lsdcd with the Kokkos LAMMPS that loads this file.
 
 #include "fix_wall_lsdcd_kokkos.h"
 
+#include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/plugin_styles.h"
 
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+using LAMMPS_NS::FixMassflowLsdcd;
 using LAMMPS_NS::FixWallLsdcd;
 using LAMMPS_NS::FixWallLsdcdKokkos;
 using lsdcd::add_fix_style;
@@ -91,6 +93,9 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
   if (!lsdcd::host_matches(lmp) || !kokkos_matches()) return;
   add_fix_style(lmp, handle, regfunc, "wall/lsdcd", "fix wall/lsdcd: DEM walls from an STL mesh",
                 create_fix<FixWallLsdcd>);
+  add_fix_style(lmp, handle, regfunc, "massflow/lsdcd",
+                "fix massflow/lsdcd: what passes a surface from an STL mesh",
+                create_fix<FixMassflowLsdcd>);
   const auto add = [&](const char *name, lammpsplugin_factory2 *create) {
     add_fix_style(lmp, handle, regfunc, name, "the same with Kokkos", create);
   };

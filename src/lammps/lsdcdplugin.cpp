@@ -1,5 +1,6 @@
-// Registers fix wall/lsdcd with the LAMMPS that loads this file; nothing else.
+// Registers fixes wall/lsdcd and massflow/lsdcd with the LAMMPS that loads this file; nothing else.
 
+#include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/plugin_styles.h"
 
@@ -10,4 +11,7 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
   lsdcd::add_fix_style(lmp, handle, regfunc, "wall/lsdcd",
                        "fix wall/lsdcd: DEM walls from an STL mesh",
                        lsdcd::create_fix<LAMMPS_NS::FixWallLsdcd>);
+  lsdcd::add_fix_style(lmp, handle, regfunc, "massflow/lsdcd",
+                       "fix massflow/lsdcd: what passes a surface from an STL mesh",
+                       lsdcd::create_fix<LAMMPS_NS::FixMassflowLsdcd>);
 }

@@ -17,7 +17,7 @@ import re
 import sys
 
 FLOORS = [["base"], ["parallel"], ["geometry"], ["mesh"], ["grid"], ["contact"], ["model"], ["engine"],
-          ["bodies", "query", "tune", "study", "effects", "output", "material"],
+          ["bodies", "query", "tune", "study", "effects", "output", "material", "flow"],
           ["deck"], ["lammps", "tool", "api"], ["kokkos"]]
 BESIDE = {("study", "query")}
 LAMMPS_ROOMS = {"lammps", "kokkos"}

@@ -1,0 +1,71 @@
+#include "deck/massflow_settings.h"
+
+#include "base/input_words.h"
+#include "deck/keywords.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+namespace {
+
+const char *const kSyntax =
+    "fix ID group massflow/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x "
+    "y "
+    "z] [weld tol] [count each | once] [delete no | yes] [every N] [log full | brief]";
+
+void read_every(Tokens &w, MassflowSettings &s)
+{
+  const Real n = w.number("N", 1, 2147483647);
+  s.every = static_cast<int>(n);
+  if (s.every != n) w.fail("N must be a whole number");
+}
+
+// True where the word is one of a wall's that mean the same here.
+bool read_as_wall(const std::string &word, Tokens &w, MassflowSettings &s)
+{
+  for (const char *const shared : {"mesh", "scale", "rotate", "move", "weld", "log"})
+    if (word == shared)
+      for (const Keyword &row : keywords())
+        if (word == row.name) {
+          w.expect(row.name, syntax_of(row));
+          row.read(w, s.surface);
+          return true;
+        }
+  return false;
+}
+
+}    // namespace
+
+MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
+{
+  MassflowSettings settings;
+  Tokens w(tokens);
+  std::vector<std::string> seen;
+  while (!w.done()) {
+    const std::string word = w.take();
+    const bool repeats = word == "scale" || word == "rotate" || word == "move";
+    const bool twice = !repeats && std::find(seen.begin(), seen.end(), word) != seen.end();
+    seen.push_back(word);
+    w.expect("fix massflow/lsdcd", kSyntax);
+    if (twice) w.fail("the keyword '" + word + "' is given twice");
+    if (read_as_wall(word, w, settings)) continue;
+    if (word == "count") {
+      w.expect("count", "count each | once");
+      settings.once = w.choice({"each", "once"}) == 1;
+    } else if (word == "delete") {
+      w.expect("delete", "delete no | yes");
+      settings.deletes = w.choice({"no", "yes"}) == 1;
+    } else if (word == "every") {
+      w.expect("every", "every N");
+      read_every(w, settings);
+    } else {
+      w.fail("'" + word + "' is not a keyword");
+    }
+  }
+  w.expect("fix massflow/lsdcd", kSyntax);
+  if (settings.surface.mesh_file.empty()) w.fail("mesh FILE is missing");
+  return settings;
+}
+
+}    // namespace lsdcd

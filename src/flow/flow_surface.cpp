@@ -1,0 +1,113 @@
+#include "flow/flow_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+std::vector<Corners> triangles_of(const WallMesh &mesh)
+{
+  std::vector<Corners> out;
+  out.reserve(mesh.faces.size());
+  for (const std::array<int, 3> &f : mesh.faces)
+    out.push_back({mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]});
+  return out;
+}
+
+}    // namespace
+
+Box in_fractions(const Box &box, const PeriodicBox &periodic)
+{
+  Box out = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+  for (int i = 0; i < 8; i++) {
+    const Vec3 at = periodic.fraction(
+        {i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z});
+    for (int k = 0; k < 3; k++) {
+      out.lo[k] = std::min(out.lo[k], at[k]);
+      out.hi[k] = std::max(out.hi[k], at[k]);
+    }
+  }
+  return out;
+}
+
+FlowSurface::FlowSurface(const WallMesh &mesh) : tree_(triangles_of(mesh)) {}
+
+Vec3 FlowSurface::cells_between(const Vec3 &from, const Vec3 &to, const PeriodicBox &box)
+{
+  Vec3 cells = {0, 0, 0};
+  if (!box.any_periodic()) return cells;
+  const Vec3 apart = box.fraction(to) - box.fraction(from);
+  for (int k = 0; k < 3; k++)
+    if (box.periodic[k]) cells[k] = std::nearbyint(apart[k]);
+  return cells;
+}
+
+// Calls f with the cells by which the image is moved, for each image whose bounds may meet `near`.
+template <class F>
+void FlowSurface::for_images(const Box &near, const PeriodicBox &box, F &&f) const
+{
+  if (!box.any_periodic()) return f(Vec3{0, 0, 0});
+  constexpr Real kRoom = 1e-9;    // for rounding: one image more does no harm
+  const Box place = in_fractions(near, box), own = in_fractions(tree_.bounds(), box);
+  Vec3 first = {0, 0, 0}, last = {0, 0, 0};
+  for (int k = 0; k < 3; k++) {
+    if (!box.periodic[k]) continue;
+    first[k] = std::ceil(place.lo[k] - own.hi[k] - kRoom);
+    last[k] = std::floor(place.hi[k] - own.lo[k] + kRoom);
+  }
+  Vec3 cells;
+  for (cells.x = first.x; cells.x <= last.x; cells.x++)
+    for (cells.y = first.y; cells.y <= last.y; cells.y++)
+      for (cells.z = first.z; cells.z <= last.z; cells.z++) f(cells);
+}
+
+// The path is moved, not the surface.
+Passes FlowSurface::passes(const Place &from, const Vec3 &to, const PeriodicBox &box) const
+{
+  Passes passes;
+  for_images(Path(from, {to}, box).bounds(), box, [&](const Vec3 &cells) {
+    const Path path({from.at, from.cells - cells}, {to, -cells}, box);
+    tree_.for_each_in(path.bounds(), [&](const Corners &t) {
+      const int through = path.crosses(t[0], t[1], t[2]);
+      passes.forward += through > 0;
+      passes.backward += through < 0;
+    });
+  });
+  return passes;
+}
+
+Real FlowSurface::clearance(const Vec3 &x, const PeriodicBox &box, Real most) const
+{
+  constexpr Real kRoom = 1e-9;    // for rounding, of the largest number that comes in
+  Real within = most, largest = 0;
+  for (int k = 0; k < 3; k++) {
+    if (box.periodic[k]) within = std::min(within, box.width(k) / 2);
+    largest = std::max({largest, std::fabs(x[k]), std::fabs(tree_.bounds().lo[k]),
+                        std::fabs(tree_.bounds().hi[k])});
+    if (box.periodic[k]) largest = std::max(largest, norm(box.edge[k]));
+  }
+  const Vec3 all_round = {within, within, within};
+  for_images({x - all_round, x + all_round}, box, [&](const Vec3 &cells) {
+    Vec3 at = x;
+    for (int k = 0; k < 3; k++) at += -cells[k] * box.edge[k];
+    within = tree_.distance(at, within);
+  });
+  return within - kRoom * largest;
+}
+
+// A clearance is about images that are moved by no more cells than the surface is away, and two.
+Real FlowSurface::images_move(const PeriodicBox &before, const PeriodicBox &now) const
+{
+  const Box own = in_fractions(tree_.bounds(), now);
+  Real most = 0;
+  for (int k = 0; k < 3; k++) {
+    if (now.periodic[k] != before.periodic[k]) return HUGE_VAL;
+    const Real cells = 2 + std::max(std::fabs(own.lo[k]), std::fabs(own.hi[k]));
+    if (now.periodic[k]) most += cells * norm(now.edge[k] - before.edge[k]);
+  }
+  return most;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,46 @@
+// A surface that exerts no force and sees who passes it.
+#pragma once
+
+#include "flow/path.h"
+#include "flow/triangle_tree.h"
+#include "mesh/wall_mesh.h"
+
+namespace lsdcd {
+
+struct Passes {
+  int forward = 0, backward = 0;    // along the facets' normals, and against them
+
+  int net() const { return forward - backward; }
+};
+
+// The bounds of a box in units of the edges of the periodic one.
+Box in_fractions(const Box &box, const PeriodicBox &periodic);
+
+// In a periodic box all images of the surface are there.
+class FlowSurface {
+ public:
+  explicit FlowSurface(const WallMesh &mesh);
+
+  // Whole numbers of box edges that bring `from` next to `to`.
+  static Vec3 cells_between(const Vec3 &from, const Vec3 &to, const PeriodicBox &box);
+
+  // Triangles that the straight way from one place to the other leads through.
+  Passes passes(const Place &from, const Vec3 &to, const PeriodicBox &box) const;
+
+  // The surface is no nearer than this, which is not above `most`, nor above half the smallest
+  // periodic width.
+  Real clearance(const Vec3 &x, const PeriodicBox &box, Real most = 1e150) const;
+
+  // How far images have moved where the box has changed, and the clearances with them, at most.
+  Real images_move(const PeriodicBox &before, const PeriodicBox &now) const;
+
+  std::size_t bytes() const { return tree_.bytes(); }
+
+ private:
+  template <class F>
+  void for_images(const Box &near, const PeriodicBox &box, F &&f) const;
+
+  TriangleTree tree_;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,42 @@
+// The straight way of a centre in one step, and whether it leads through a triangle.
+#pragma once
+
+#include "base/vec3.h"
+#include "mesh/periodic_box.h"
+
+namespace lsdcd {
+
+// `at`, moved by whole numbers of edges of the box. Not added up: that would round.
+struct Place {
+  Vec3 at;
+  Vec3 cells = {0, 0, 0};
+};
+
+// What is asked of a path is answered as if all centres were moved by the same vector (e, e^2,
+// e^3) with e smaller than any number (simulation of simplicity, Edelsbrunner 1990), by signs
+// that are computed exactly where rounding could change them. So no centre is on a triangle, no
+// path meets an edge or a vertex, and paths that join end to end, and triangles that do, leave no
+// gap and count nothing twice.
+class Path {
+ public:
+  Path(const Place &from, const Place &to, const PeriodicBox &box);
+
+  // Through the triangle: 1 along its normal, -1 against it, else 0.
+  int crosses(const Vec3 &a, const Vec3 &b, const Vec3 &c) const;
+
+  // Its ends lie in this box, with room for rounding.
+  Box bounds() const;
+
+ private:
+  int side(int end, const Vec3 &a, const Vec3 &b, const Vec3 &c) const;
+  int exact_side(int end, const Vec3 &a, const Vec3 &b, const Vec3 &c) const;
+  int turn(const Vec3 &a, const Vec3 &b) const;
+  int exact_turn(const Vec3 &a, const Vec3 &b) const;
+
+  Place end_[2];
+  const PeriodicBox &box_;
+  Vec3 near_[2];    // the ends, rounded
+  Real largest_;    // of all numbers that they were added up of
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,16 @@
+// Copies an atom over another, which is how LAMMPS deletes one.
+#pragma once
+
+#include "atom.h"
+#if __has_include("atom_vec.h")
+#include "atom_vec.h"
+#else
+// Packages of LAMMPS do not install atom_vec.h. This function has had this name since 2008, no
+// class but those of Kokkos 2021 has its own, and no data of the class is touched.
+namespace LAMMPS_NS {
+class AtomVec {
+ public:
+  void copy(int, int, int);
+};
+}    // namespace LAMMPS_NS
+#endif

@@ -1,0 +1,270 @@
+#include "lammps/fix_massflow_lsdcd.h"
+
+#include "base/input_words.h"
+#include "lammps/mpi_shared.h"
+
+#include "atom.h"
+#if __has_include("atom_masks.h")
+#include "atom_masks.h"
+#endif
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using lsdcd::number_text;
+using lsdcd::Vec3;
+
+FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+  try {
+    settings = lsdcd::parse_massflow(std::vector<std::string>(arg + 3, arg + narg));
+    const lsdcd::WallMesh mesh = read_mesh();
+    surface = std::make_unique<lsdcd::FlowSurface>(mesh);
+    if (comm->me == 0)
+      utils::logmesg(lmp, signed_text(settings.surface.brief
+                                          ? std::to_string(mesh.faces.size()) + " triangles"
+                                          : describe(mesh.report, settings.surface.mesh_file)) +
+                              "\n");
+    if (mesh.report.misoriented_edges > 0)
+      warn(
+          std::to_string(mesh.report.misoriented_edges) +
+          " edges of the mesh join facets that are wound in opposite ways: forward is not the same "
+          "side everywhere; turn the facets over");
+    check_length(mesh);
+  } catch (const lsdcd::InputError &e) {
+    refuse(e.what());
+  }
+  if (settings.deletes && atom->molecular)
+    refuse("delete yes leaves bonds without their atoms: use an atom style without bonds");
+
+#if __has_include("atom_masks.h")
+  // All that a host with its atoms on a GPU has to bring for counting; deletion takes everything.
+  if (!settings.deletes) {
+    datamask_read = X_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK | TAG_MASK;
+    datamask_modify = EMPTY_MASK;
+  }
+#endif
+  nevery = 1;
+  vector_flag = array_flag = 1;
+  size_vector = kColumns + 2 + kAfterTypes;    // net mass and rate between the two
+  size_array_rows = atom->ntypes;
+  size_array_cols = kColumns;
+  extvector = extarray = 0;    // what has passed is no property of the atoms that there are now
+  global_freq = 1;
+  create_attribute = 1;
+  dynamic_group_allow = 1;
+  restart_global = 1;
+  restart_peratom = settings.once || settings.deletes;
+  maxexchange = kTrackSize;
+  mine.assign(kColumns * atom->ntypes + kAfterTypes, 0.0);
+  totals = mine;
+
+  // Last: Atom would call a fix that was refused after this.
+  FixMassflowLsdcd::grow_arrays(atom->nmax);
+  for (int i = 0; i < atom->nlocal; i++) FixMassflowLsdcd::set_arrays(i);
+  atom->add_callback(Atom::GROW);
+  if (restart_peratom) atom->add_callback(Atom::RESTART);
+}
+
+FixMassflowLsdcd::~FixMassflowLsdcd()
+{
+  if (tracks.empty()) return;    // refused
+  atom->delete_callback(id, Atom::GROW);
+  if (restart_peratom) atom->delete_callback(id, Atom::RESTART);
+}
+
+// The file is read by the first process alone: it may not be there on other nodes. Every process
+// keeps the whole surface.
+lsdcd::WallMesh FixMassflowLsdcd::read_mesh()
+{
+  lsdcd::TriangleSoup soup;
+  soup.source = settings.surface.mesh_file;
+  lsdcd::together(world, comm->me == 0, [&] {
+    soup = lsdcd::read_stl(settings.surface.mesh_file);
+    settings.surface.placement.apply(soup);
+  });
+  bigint corners = soup.corners.size();
+  MPI_Bcast(&corners, 1, MPI_LMP_BIGINT, 0, world);
+  lsdcd::WallMesh mesh;
+  lsdcd::together(world, true, [&] { soup.corners.resize(corners); });
+  lsdcd::broadcast_bytes(soup.corners.data(), corners * sizeof(Vec3), 0, world);
+  lsdcd::together(world, true, [&] {
+    mesh = lsdcd::weld(soup, settings.surface.weld);
+    if (mesh.faces.empty())
+      throw lsdcd::InputError(soup.source + ": all triangles have no area, and nothing passes such "
+                                            "a surface; check the file, or make weld smaller");
+  });
+  return mesh;
+}
+
+void FixMassflowLsdcd::check_length(const lsdcd::WallMesh &mesh) const
+{
+  const lsdcd::PeriodicBox now = simulation_box();
+  const lsdcd::Box size = in_fractions({mesh.report.lo, mesh.report.hi}, now);
+  for (int k = 0; k < 3; k++) {
+    const double more = (size.hi[k] - size.lo[k] - 1) * now.width(k);
+    if (now.periodic[k] && more > mesh.report.weld_tolerance)
+      warn("the mesh is longer than the periodic box in " + std::string(1, "xyz"[k]) + ", by " +
+           number_text(more) +
+           ": its images overlap it, and what passes there is counted twice; cut it to the box's " +
+           number_text(now.width(k)));
+  }
+}
+
+int FixMassflowLsdcd::setmask()
+{
+  return END_OF_STEP | (settings.deletes ? PRE_EXCHANGE : 0);
+}
+
+void FixMassflowLsdcd::init()
+{
+  for (int i = 0; settings.deletes && i < modify->nfix; i++)
+    if (modify->fix[i]->rigid_flag)
+      warn("delete yes does not tell fix " + std::string(modify->fix[i]->id) +
+           " of atoms that it takes out of rigid bodies: leave these out of the group");
+}
+
+lsdcd::PeriodicBox FixMassflowLsdcd::simulation_box() const
+{
+  const double *lo = domain->boxlo, *size = domain->prd;
+  lsdcd::PeriodicBox now;
+  now.corner = {lo[0], lo[1], lo[2]};
+  now.edge[0] = {size[0], 0, 0};
+  now.edge[1] = {domain->triclinic ? domain->xy : 0, size[1], 0};
+  now.edge[2] = {domain->triclinic ? domain->xz : 0, domain->triclinic ? domain->yz : 0, size[2]};
+  // In two dimensions all is at z = 0, and periodicity along z means nothing.
+  for (int k = 0; k < 3; k++)
+    now.periodic[k] = domain->periodicity[k] && !(domain->dimension == 2 && k == 2);
+  return now;
+}
+
+// Does LAMMPS reneighbour before any atom has gone farther than half the skin? What it has gone in
+// the step of a reneighbouring has no bound, and is looked at.
+bool FixMassflowLsdcd::steps_are_short() const
+{
+  return neighbor->dist_check && neighbor->every == 1 && neighbor->delay == 0 &&
+         !neighbor->build_once && !neighbor->includegroup;
+}
+
+// Between runs atoms may be put anywhere: only time steps let them pass.
+void FixMassflowLsdcd::setup(int /*vflag*/)
+{
+  near_within = neighbor->skin > 0 ? 2 * neighbor->skin : 1e150;
+  far = 8 * near_within;
+  follow_box();
+  all_were_seen = look_at_all = true;
+  for (int i = 0; i < atom->nlocal; i++) {
+    Track &t = tracks[i];
+    const Vec3 x = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
+    t.clear -= norm(x - t.last);
+    t.last = x;
+  }
+}
+
+// Images of the surface move with the box.
+void FixMassflowLsdcd::follow_box()
+{
+  const lsdcd::PeriodicBox before = box;
+  box = simulation_box();
+  const double moved = surface->images_move(before, box);
+  for (int i = 0; moved > 0 && i < atom->nlocal; i++) tracks[i].clear -= moved;
+}
+
+void FixMassflowLsdcd::end_of_step()
+{
+  if (domain->box_change) follow_box();
+  look_at_all = look_at_all || neighbor->ago == 0 || domain->box_change || !steps_are_short();
+  if (look_at_all) {
+    near.clear();
+    for (int i = 0; i < atom->nlocal; i++) {
+      look(i);
+      if (tracks[i].clear < near_within) near.push_back(i);
+    }
+  } else {
+    for (const int i : near) look(i);
+  }
+  all_were_seen = look_at_all;
+  look_at_all = false;
+  reduced = false;
+  window_time += update->dt;
+  if (++window_steps == settings.every) end_window();
+}
+
+// An atom that is not near was last looked at when its clearance was two skins or more, and LAMMPS
+// has reneighboured in every step in which one had moved by half a skin.
+void FixMassflowLsdcd::look(int i)
+{
+  Track &t = tracks[i];
+  const Vec3 x = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
+  const bool was_near = t.clear < near_within;
+  double moved = norm(x - t.last);
+  lsdcd::Place from = {t.last};
+  if (moved >= t.clear && box.any_periodic()) {
+    from.cells = lsdcd::FlowSurface::cells_between(t.last, x, box);
+    Vec3 way = x - t.last;
+    for (int k = 0; k < 3; k++) way += -from.cells[k] * box.edge[k];
+    moved = norm(way);
+  }
+  if (moved >= t.clear) {
+    if (!was_near && !all_were_seen)
+      error->one(FLERR,
+                 signed_text("atom " + std::to_string(atom->tag_enable ? atom->tag[i] : 0) +
+                             " moved by more than the skin " + number_text(neighbor->skin) +
+                             " in one step, and whether it passed is not known: make the timestep "
+                             "smaller or the skin larger (neighbor), or have all atoms looked at "
+                             "in every step with neigh_modify check no"));
+    count(i, surface->passes(from, x, box));
+    t.clear = 0;
+  } else {
+    t.clear -= moved;
+  }
+  t.last = x;
+  if (t.clear <= 0 || (!was_near && t.clear < near_within))
+    t.clear = surface->clearance(x, box, far);
+}
+
+double FixMassflowLsdcd::mass_of(int i) const
+{
+  return atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+}
+
+void FixMassflowLsdcd::count(int i, lsdcd::Passes passes)
+{
+  if (!(atom->mask[i] & groupbit)) return;
+  const int net = passes.net();
+  unsigned &flags = tracks[i].flags;
+  if (settings.deletes && net > 0) flags |= kToDelete;
+  if (settings.once) {
+    if (net == 0 || (flags & kCounted)) return;
+    flags |= kCounted;
+    passes = {net > 0, net < 0};
+  }
+  double *row = &mine[kColumns * (atom->type[i] - 1)];
+  row[kForward] += passes.forward;
+  row[kForwardMass] += passes.forward * mass_of(i);
+  row[kBackward] += passes.backward;
+  row[kBackwardMass] += passes.backward * mass_of(i);
+}
+
+std::string FixMassflowLsdcd::signed_text(const std::string &text) const
+{
+  return "Fix " + std::string(id) + " massflow/lsdcd: " + text;
+}
+
+void FixMassflowLsdcd::warn(const std::string &problem) const
+{
+  if (comm->me == 0) error->warning(FLERR, signed_text(problem));
+}
+
+void FixMassflowLsdcd::refuse(const std::string &problem) const
+{
+  error->all(FLERR, signed_text(problem));
+}

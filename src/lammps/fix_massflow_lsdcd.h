@@ -1,0 +1,96 @@
+// fix massflow/lsdcd: what passes a surface that is a triangle mesh and exerts no force.
+#ifndef LMP_FIX_MASSFLOW_LSDCD_H
+#define LMP_FIX_MASSFLOW_LSDCD_H
+
+#include "fix.h"
+
+#include "deck/massflow_settings.h"
+#include "flow/flow_surface.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixMassflowLsdcd : public Fix {
+ public:
+  FixMassflowLsdcd(class LAMMPS *, int, char **);
+  ~FixMassflowLsdcd() override;
+
+  // schedule and counting: fix_massflow_lsdcd.cpp
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void end_of_step() override;
+
+  // what goes with an atom, and deletion: fix_massflow_lsdcd_atoms.cpp
+  void pre_exchange() override;
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+  double memory_usage() override;
+
+  // totals: fix_massflow_lsdcd_output.cpp
+  double compute_vector(int) override;
+  double compute_array(int, int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+ private:
+  enum : unsigned { kCounted = 1, kToDelete = 2 };
+  // Of the totals: columns of a type, and what follows those of all types.
+  enum { kForward, kForwardMass, kBackward, kBackwardMass, kColumns };
+  enum { kDeleted, kDeletedMass, kAfterTypes };
+  // The surface is farther than `clear` from `last`: until a centre has moved that far, it has
+  // not passed. Not above 0: not known.
+  struct Track {
+    lsdcd::Vec3 last;    // position when last looked at
+    double clear;
+    unsigned flags;
+  };
+  static constexpr int kTrackSize = 5;    // in messages
+
+  lsdcd::MassflowSettings settings;
+  std::unique_ptr<lsdcd::FlowSurface> surface;
+  std::vector<Track> tracks;
+  std::vector<int> near;        // atoms looked at in every step
+  double near_within = 0;       // atoms with less clearance are near
+  double far = 0;               // no clearance is measured beyond
+  bool look_at_all = true;      // in the next step
+  bool all_were_seen = true;    // in the last step
+  lsdcd::PeriodicBox box;       // of the last step
+
+  // On this process.
+  std::vector<double> mine, totals;    // totals: of all processes, where `reduced`
+  bool reduced = false;
+  // Of the window over which the rate is an average, on all processes.
+  double window_time = 0, window_start = 0, rate = 0;
+  int window_steps = 0;
+
+  lsdcd::WallMesh read_mesh();
+  void check_length(const lsdcd::WallMesh &) const;
+  lsdcd::PeriodicBox simulation_box() const;
+  bool steps_are_short() const;
+  void follow_box();
+  void look(int);
+  void count(int, lsdcd::Passes);
+  void reduce();
+  double net_mass();
+  void end_window();
+  double mass_of(int) const;
+
+  std::string signed_text(const std::string &) const;
+  void warn(const std::string &) const;
+  [[noreturn]] void refuse(const std::string &) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

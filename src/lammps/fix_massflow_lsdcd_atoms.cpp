@@ -1,0 +1,93 @@
+// What fix massflow/lsdcd keeps of each atom, and deletion.
+
+#include "lammps/fix_massflow_lsdcd.h"
+
+#include "lammps/atom_vec_copy.h"
+
+#include "atom.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+void FixMassflowLsdcd::grow_arrays(int nmax)
+{
+  tracks.resize(std::max(nmax, 1));
+}
+
+void FixMassflowLsdcd::copy_arrays(int i, int j, int /*delflag*/)
+{
+  tracks[j] = tracks[i];
+}
+
+void FixMassflowLsdcd::set_arrays(int i)
+{
+  const double *x = atom->x[i];
+  tracks[i] = {{x[0], x[1], x[2]}, 0, 0};
+}
+
+int FixMassflowLsdcd::pack_exchange(int i, double *buf)
+{
+  const Track &t = tracks[i];
+  const double data[kTrackSize] = {t.last.x, t.last.y, t.last.z, t.clear, double(t.flags)};
+  std::copy_n(data, kTrackSize, buf);
+  return kTrackSize;
+}
+
+int FixMassflowLsdcd::unpack_exchange(int i, double *buf)
+{
+  tracks[i] = {{buf[0], buf[1], buf[2]}, buf[3], static_cast<unsigned>(buf[4])};
+  return kTrackSize;
+}
+
+// A run begins with the positions that there are, so that none has to be in the file.
+int FixMassflowLsdcd::pack_restart(int i, double *buf)
+{
+  buf[0] = size_restart(i);
+  buf[1] = tracks[i].flags;
+  return size_restart(i);
+}
+
+void FixMassflowLsdcd::unpack_restart(int i, int nth)
+{
+  const double *extra = atom->extra[i];
+  for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
+  tracks[i].flags = static_cast<unsigned>(extra[1]);
+}
+
+int FixMassflowLsdcd::size_restart(int /*i*/)
+{
+  return 2;
+}
+
+int FixMassflowLsdcd::maxsize_restart()
+{
+  return 2;
+}
+
+// In falling order, so that the last atom, which takes the place of one, is not to be deleted.
+void FixMassflowLsdcd::pre_exchange()
+{
+  double *deleted = &mine[kColumns * size_array_rows];
+  bigint n = 0;
+  for (int i = atom->nlocal - 1; i >= 0; i--) {
+    if (!(tracks[i].flags & kToDelete)) continue;
+    n++;
+    deleted[kDeletedMass] += mass_of(i);
+    atom->avec->copy(--atom->nlocal, i, 1);
+  }
+  deleted[kDeleted] += n;
+  MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (n == 0) return;
+  reduced = false;
+  atom->natoms -= n;
+  if (atom->map_style == Atom::MAP_NONE) return;
+  atom->nghost = 0;    // the map must not name ghosts that are gone
+  atom->map_init();
+  atom->map_set();
+}
+
+double FixMassflowLsdcd::memory_usage()
+{
+  return surface->bytes() + tracks.capacity() * sizeof(Track) + near.capacity() * sizeof(int);
+}

@@ -1,0 +1,363 @@
+#!/usr/bin/env python3
+"""fix massflow/lsdcd: number, mass and rate of what passes, against closed forms.
+
+Spheres fall at speed 1 in steps of 1/128 from heights that are multiples of 1/4, over the nodes
+and edges of a plate: all positions are exact in binary. On the surface counts as above, so that a
+sphere from height z passes in step 128 z + 1.
+"""
+
+import deck
+
+STEPS_PER_LENGTH = 128
+MASS = {1: 2.0, 2: 3.0}    # by type
+HEIGHTS = (0.25, 0.5, 1.0)
+
+
+def write_plate(path, half, cells):
+    """A plate at z = 0 with its normal along z; `cells` squares to a side."""
+    step = 2 * half / cells
+    with open(path, "w") as stl:
+        stl.write("solid plate\n")
+        for i in range(cells):
+            for j in range(cells):
+                a, b, c, d = (f"vertex {-half + (i + u) * step:.17g} {-half + (j + v) * step:.17g} 0\n"
+                              for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)))
+                for corners in (a + b + c, a + c + d):
+                    stl.write(f"facet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\n")
+        stl.write("endsolid plate\n")
+
+
+def spheres(n=10):
+    """(type, x, y, z) on multiples of 1/4, n of these to either side."""
+    return [(1 + (i + j) % 2, i / 4, j / 4, z) for z in HEIGHTS
+            for i in range(-n, n + 1) for j in range(-n, n + 1)]
+
+
+def write_data(path, some, box=3):
+    with open(path, "w") as data:
+        data.write(f"spheres\n\n{len(some)} atoms\n2 atom types\n" +
+                   "".join(f"{-box} {box} {d}lo {d}hi\n" for d in "xyz") + "\nAtoms # sphere\n\n")
+        for number, (kind, x, y, z) in enumerate(some, 1):
+            # diameter 0: rmass is then the density column
+            data.write(f"{number} {kind} 0 {MASS[kind]} {x} {y} {z}\n")
+
+
+SETTINGS = """\
+units           lj
+atom_style      sphere
+atom_modify     map array sort 20 1.5
+newton          off
+comm_modify     vel yes
+"""
+
+
+def begin(boundary="f f f", velocity="0 0 -1"):
+    return SETTINGS + f"boundary {boundary}\nread_data spheres.data\nvelocity all set {velocity}\n"
+
+
+def forces(words="", neigh="delay 0 every 1 check yes"):
+    """The plate turned over, so that down is forward."""
+    return f"""\
+pair_style      zero 0.5
+pair_coeff      * *
+neighbor        0.3 bin
+neigh_modify    {neigh}
+comm_modify     cutoff 1.0
+fix             move all nve
+timestep        {1 / STEPS_PER_LENGTH}
+fix             m all massflow/lsdcd mesh plate.stl rotate 1 0 0 180 {words}
+thermo          4
+thermo_style    custom step atoms f_m[1] f_m[2] f_m[3] f_m[4] f_m[5] f_m[6] f_m[7] f_m[8] &
+                f_m[1][1] f_m[1][2] f_m[1][3] f_m[2][1] f_m[2][2] f_m[2][3]
+"""
+
+
+STEP, ATOMS, FORWARD, MASS_FORWARD, BACKWARD, MASS_BACKWARD, NET, RATE, GONE, MASS_GONE = range(10)
+FIRST_TYPE, SECOND_TYPE = 10, 13
+
+
+def table(text, folder, ranks=1):
+    """{step: row} of the last run."""
+    return {int(row[STEP]): row for row in deck.read_thermo(deck.run_well(text, folder, ranks))}
+
+
+def over_plate(some, half=2):
+    """The rim belongs to the plate where it faces -x or -y: a centre on it counts as a hair
+    further along +x, then +y."""
+    return [s for s in some if -half <= s[1] < half and -half <= s[2] < half]
+
+
+def passed(some, step):
+    return [s for s in some if step > s[3] * STEPS_PER_LENGTH]
+
+
+def mass_of(some):
+    return sum(MASS[s[0]] for s in some)
+
+
+def check_closed_form(checks, folder, ranks):
+    rows = table(begin() + forces("every 32") + "run 160\n", folder, ranks)
+    over = over_plate(spheres())
+    wrong = []
+    for step, row in rows.items():
+        gone = passed(over, step)
+        window = step // 32 * 32
+        rate = (mass_of(passed(over, window)) - mass_of(passed(over, window - 32))) / (32 / STEPS_PER_LENGTH)
+        by_type = [[s for s in gone if s[0] == kind] for kind in (1, 2)]
+        expected = [len(gone), mass_of(gone), 0, 0, mass_of(gone), rate, 0, 0]
+        for one in by_type:
+            expected += [len(one), mass_of(one), 0]
+        if row[FORWARD:] != expected:
+            wrong.append((step, row[FORWARD:], expected))
+    checks.fact(f"number, mass and rate of spheres over nodes and edges, {ranks} ranks",
+                not wrong and len(rows) == 41 and rows[160][FORWARD] == len(over), str(wrong[:1]))
+
+
+def check_up(checks, folder):
+    """Upwards on the surface is above already: a sphere from -z passes in step 128 z."""
+    write_data(folder / "spheres.data", [(k, x, y, -z) for k, x, y, z in spheres()])
+    rows = table(begin(velocity="0 0 1") + forces() + "run 160\n", folder)
+    over = over_plate(spheres())
+    wrong = [step for step, row in rows.items()
+             if row[BACKWARD] != len([s for s in over if step >= s[3] * STEPS_PER_LENGTH])
+             or row[FORWARD] != 0 or row[NET] != -row[MASS_BACKWARD]]
+    checks.fact("what comes up counts backward", not wrong and rows[160][BACKWARD] == len(over), str(wrong))
+    write_data(folder / "spheres.data", spheres())
+
+
+def check_periodic(checks, folder):
+    """The plate is as wide as the box, spheres drift through its sides and fall through its floor
+    twice. Box and plate from -2.5: x = 2.5 is x = -2.5 of an image."""
+    write_plate(folder / "plate.stl", 2.5, 10)
+    some = spheres(9)
+    write_data(folder / "spheres.data", some, 2.5)
+    wrong = []
+    often, seldom = "delay 0 every 1 check yes", "delay 0 every 8 check no"
+    for ranks, neigh in (1, often), (2, seldom), (4, often):
+        rows = table(begin("p p p", "0.5 -0.25 -1") + forces(neigh=neigh) + "run 800\n", folder, ranks)
+        for step, row in rows.items():
+            times = sum(len(passed([(k, x, y, z + 5 * lap)], step)) for k, x, y, z in some
+                        for lap in range(2))
+            if row[FORWARD] != times or row[BACKWARD] != 0:
+                wrong.append((ranks, neigh, step, row[FORWARD], times))
+    checks.fact("periodic: each passes once in each lap, on 1, 2 and 4 ranks", not wrong, str(wrong[:1]))
+    write_plate(folder / "plate.stl", 2, 8)
+    write_data(folder / "spheres.data", spheres())
+
+
+def check_restart(checks, folder):
+    """Cut in the middle of a window and between two layers; sums of small whole numbers are exact."""
+    words = "every 32 count once"
+    one = table(begin() + forces(words) + "run 160\n", folder)
+    deck.run_well(begin() + forces(words) + "run 44\nwrite_restart mid.restart\n", folder, 2)
+    for ranks in (1, 2, 4):
+        rest = table(SETTINGS + "read_restart mid.restart\n" + forces(words) + "run 116\n", folder, ranks)
+        wrong = [step for step, row in rest.items() if row != one[step]]
+        checks.fact(f"continued on {ranks} ranks as unbroken", not wrong and len(rest) == 30, str(wrong))
+    # It has passed, is counted, and comes back after the restart.
+    up = "velocity all set 0 0 1\n"
+    rest = table(SETTINGS + "read_restart mid.restart\n" + up + forces(words) + "run 160\n", folder)
+    first = [s for s in over_plate(spheres()) if s[3] == 0.25]
+    last = rest[204]
+    checks.fact("counted once, also through a restart",
+                last[FORWARD] == len(first) and last[BACKWARD] == 0, str(last))
+
+
+def check_delete(checks, folder):
+    over, every = over_plate(spheres()), spheres()
+    wrong = []
+    for ranks in (1, 2, 4):
+        # Reneighboured in every 4th step.
+        rows = table(begin() + forces("delete yes", "delay 0 every 4 check no") + "run 160\n", folder, ranks)
+        for step, row in rows.items():
+            gone = passed(over, step - 1) if step else []    # what passed before this step's look
+            if (row[FORWARD] != len(passed(over, step)) or row[ATOMS] != len(every) - len(gone) or
+                    row[GONE] != len(gone) or row[MASS_GONE] != mass_of(gone)):
+                wrong.append((ranks, step, row))
+    checks.fact("what passed forward is deleted at the next reneighbouring", not wrong, str(wrong[:1]))
+
+    # Written when spheres have passed that are not deleted yet.
+    slow = "delay 0 every 24 check no"
+    deck.run_well(begin() + forces("delete yes", slow) + "run 38\nwrite_restart mid.restart\n", folder, 2)
+    rows = table(SETTINGS + "read_restart mid.restart\n" + forces("delete yes", slow) + "run 30\n", folder, 2)
+    gone = [s for s in over if s[3] == 0.25]
+    checks.fact("what was to be deleted is after a restart",
+                rows[38][GONE] == 0 and rows[38][FORWARD] == len(gone) and rows[68][GONE] == len(gone),
+                f"{rows[38]} {rows[68]}")
+
+
+GRAIN_SETTINGS = SETTINGS + """\
+boundary        f f f
+region          box block -3 3 -3 3 -2 4
+create_box      2 box
+"""
+
+
+def check_springs(checks, folder):
+    """Grains that slide on a floor go on as if nothing was deleted around them."""
+    def text(words):
+        return GRAIN_SETTINGS + f"""\
+lattice         sc 1.0
+region          low block -2.5 2.5 -2.5 2.5 -1.6 -1.5 units box
+region          high block -2.5 2.5 -2.5 2.5 0.5 2.5 units box
+lattice         sc 1.0 origin 0 0 0.45
+create_atoms    1 region low
+create_atoms    2 region high
+set             group all diameter 0.9 density 1.0
+group           low type 1
+group           high type 2
+velocity        low set 0.3 0.2 0
+velocity        high set 0 0 -4
+pair_style      zero 1.0
+pair_coeff      * *
+neighbor        0.3 bin
+neigh_modify    delay 0 every 1 check yes
+fix             move all nve/sphere
+fix             pull low gravity 1.0 vector 0 0 -1
+fix             floor low wall/lsdcd hooke/history 1e3 NULL 5 NULL 0.5 1 mesh plate.stl scale 1.5 1.5 1 move 0 0 -2
+fix             bounce high wall/reflect zlo EDGE
+fix             m high massflow/lsdcd mesh plate.stl rotate 1 0 0 180 {words}
+timestep        0.002
+thermo          100
+thermo_style    custom step atoms f_m[7]
+dump            d low custom 50 grains id x y z vx vy vz omegax omegay omegaz
+dump_modify     d format float %.17g sort id
+run             600
+"""
+    dumps = {}
+    for ranks in (1, 2):
+        for words in ("", "delete yes"):
+            rows = deck.read_thermo(deck.run_well(text(words), folder, ranks))
+            dumps[ranks, words] = deck.read_dump(folder / "grains")
+        checks.fact(f"grains were deleted beside grains with springs, {ranks} ranks",
+                    rows[-1][2] == 32, str(rows[-1]))
+        checks.at_most(f"and these go on to the last bit, {ranks} ranks",
+                       deck.largest_difference(dumps[ranks, ""], dumps[ranks, "delete yes"]), 0)
+    turning = max(abs(w) for row in dumps[1, ""][600].values() for w in row[6:])
+    checks.fact("springs were at work", turning > 0.05, str(turning))
+
+
+def check_bounce(checks, folder):
+    """A sphere that bounces below the plate, counted from its heights in every step."""
+    text = GRAIN_SETTINGS + """\
+create_atoms    1 single 0.1 0.2 1.0 units box
+set             group all diameter 1.0 density 1.0
+pair_style      zero 1.0
+pair_coeff      * *
+fix             move all nve/sphere
+fix             pull all gravity 1.0 vector 0 0 -1
+fix             floor all wall/gran hooke 1e4 NULL 1e-300 NULL 0 0 zplane -1 NULL
+fix             m all massflow/lsdcd mesh plate.stl rotate 1 0 0 180
+fix             o all massflow/lsdcd mesh plate.stl rotate 1 0 0 180 count once
+timestep        0.002
+thermo          10
+thermo_style    custom step f_m[1] f_m[3] f_o[1] f_o[3]
+dump            d all custom 1 heights id z
+dump_modify     d format float %.17g
+run             4000
+"""
+    rows = deck.read_thermo(deck.run_well(text, folder))
+    heights = [row[1][0] for row in deck.read_dump(folder / "heights").values()]
+    down = [a >= 0 > b for a, b in zip(heights, heights[1:])]
+    up = [a < 0 <= b for a, b in zip(heights, heights[1:])]
+    wrong = [row for row in rows
+             if row[1:] != [sum(down[:int(row[0])]), sum(up[:int(row[0])]), any(down[:int(row[0])]), 0]]
+    checks.fact("a bouncing sphere counts each time, or once", not wrong and sum(down) > 1, str(wrong[:1]))
+
+
+def check_deposit(checks, folder):
+    """Spheres come in above and are deleted below: none is lost, none is counted twice."""
+    text = GRAIN_SETTINGS + """\
+pair_style      zero 1.0
+pair_coeff      * *
+neighbor        0.3 bin
+neigh_modify    delay 0 every 1 check yes
+region          slot block -1.5 1.5 -1.5 1.5 2 3 units box
+fix             move all nve/sphere
+fix             in all deposit 100 1 10 4711 region slot near 0.1 vz -4 -2
+fix             m all massflow/lsdcd mesh plate.stl rotate 1 0 0 180 delete yes
+timestep        0.005
+thermo          10
+thermo_style    custom step atoms f_m[1] f_m[7]
+run             1300
+"""
+    for ranks in (1, 4):
+        rows = deck.read_thermo(deck.run_well(text, folder, ranks))
+        inserted = [min(100, (int(row[0]) - 1) // 10 + 1) if row[0] else 0 for row in rows]
+        checks.fact(f"inserted = there + deleted, and all pass once, {ranks} ranks",
+                    all(row[1] + row[3] in (n, n - 1, n + 1) for row, n in zip(rows, inserted)) and
+                    rows[-1][1] + rows[-1][3] == 100 and rows[-1][2] == 100, str(rows[-1]))
+
+
+def check_kick(checks, folder):
+    """A sphere far from the plate that is thrown past it in one step."""
+    write_data(folder / "spheres.data", [(1, 0, 0, 20), (1, 0, 0, 10)], 50)
+    kick = """\
+variable        f equal -1e6*(step==30)
+fix             kick all addforce 0 0 v_f
+"""
+    done = deck.run(begin() + forces() + kick + "run 60\n", folder)
+    checks.fact("a far sphere that moves by more than the skin in a step stops the run",
+                done.returncode != 0 and "moved by more than the skin 0.3 in one step" in done.stdout,
+                done.stdout[-300:])
+    rows = table(begin() + forces(neigh="delay 0 every 1 check no") + kick + "run 31\n", folder)
+    checks.fact("where all are looked at in every step it is counted", rows[31][FORWARD] == 2, str(rows[31]))
+    write_data(folder / "spheres.data", spheres())
+
+
+def check_deform(checks, folder):
+    """The box grows and tilts about a plate that stays. In a tilted box LAMMPS rounds positions
+    whenever it reneighbours, so that none may be on an edge."""
+    off = [(k, x + 0.01, y + 0.02, z + 0.004) for k, x, y, z in spheres()]
+    write_data(folder / "spheres.data", off)
+    over = over_plate(off)
+    change = "change_box all triclinic\nfix grow all deform 1 x final -4 5 xy final 1.0 z final -4 5 remap none\n"
+    rows = table(begin("p p p") + forces() + change + "run 160\n", folder, 2)
+    wrong = [step for step, row in rows.items() if row[FORWARD] != len(passed(over, step))]
+    checks.fact("in a box that grows and tilts", not wrong and rows[160][FORWARD] == len(over), str(wrong))
+
+
+def check_warnings(checks, folder):
+    """Each where it belongs, and none in a deck without reason."""
+    few = [(1, 0, 0, 1), (1, 0.5, 0, 1)]
+    write_data(folder / "spheres.data", few)
+    plain = deck.run_well(begin() + forces("delete yes") + "run 0\n", folder)
+    one, other = (folder / "plate.stl").read_text().split("endfacet", 1)
+    lines = one.split("\n")
+    lines[3], lines[4] = lines[4], lines[3]
+    (folder / "turned.stl").write_text("\n".join(lines) + "endfacet" + other)
+    turned = deck.run_well(begin() + forces().replace("plate.stl", "turned.stl") + "run 0\n", folder)
+    long = deck.run_well(begin("p p f") + forces("scale 2 1 1") + "run 0\n", folder)
+    checks.fact("no warning without reason", "massflow/lsdcd: delete" not in plain and
+                "wound in opposite ways" not in plain and "longer than" not in plain)
+    if not deck.ON_KOKKOS:    # the hosts with Kokkos have no package RIGID
+        rigid = forces("delete yes").replace("all nve", "all rigid single")
+        checks.fact("rigid bodies and delete", "delete yes does not tell fix move" in
+                    deck.run_well(begin() + rigid + "run 0\n", folder))
+    checks.fact("a facet wound the other way", "edges of the mesh join facets that are wound" in turned)
+    checks.fact("a mesh longer than the box",
+                "longer than the periodic box in x, by 2:" in long and "box in y" not in long)
+    write_data(folder / "spheres.data", spheres())
+
+
+def main():
+    checks, folder = deck.Checks(), deck.scratch()
+    write_plate(folder / "plate.stl", 2, 8)
+    write_data(folder / "spheres.data", spheres())
+    for ranks in (1, 2, 4):
+        check_closed_form(checks, folder, ranks)
+    check_up(checks, folder)
+    check_periodic(checks, folder)
+    check_restart(checks, folder)
+    check_delete(checks, folder)
+    check_springs(checks, folder)
+    check_bounce(checks, folder)
+    check_deposit(checks, folder)
+    check_kick(checks, folder)
+    check_deform(checks, folder)
+    check_warnings(checks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
