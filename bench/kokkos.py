@@ -1,9 +1,9 @@
 """What a wall costs a step of a LAMMPS with Kokkos: `./run bench kokkos`.
 
 Beds of spheres (gran/hooke/history/kk) on a flat floor of 2 triangles, in a closed box of
-six walls of 20 172 triangles and on a bumpy floor of 1 000 000, timed with fix wall/lsdcd/kk and without any
-wall from one prepared state (kokkos_beds.py, kokkos_runs.py). Rows have the format of bench.h and
-are kept in doc/data/kokkos_DEVICE.csv; doc/performance.md has their tables (kokkos_tables.py).
+six walls of 20 172 triangles (by hooke/history and by granular mindlin, sds, marshall) and on
+a bumpy floor of 1 000 000, timed with fix wall/lsdcd/kk and without any wall from one prepared
+state (kokkos_beds.py, kokkos_runs.py). Rows have the format of bench.h and are kept in doc/data/kokkos_DEVICE.csv; doc/performance.md has their tables (kokkos_tables.py).
 
 With a LAMMPS of one's own:
   ./run bench kokkos --lmp FILE --plugin build/lib/lsdcdkkplugin.so --flags "-k on g 1 -sf kk"

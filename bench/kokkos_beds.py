@@ -9,6 +9,9 @@ sys.path.insert(0, os.path.join(ROOT, "examples"))
 from stl import write_stl    # noqa: E402
 
 LAW = "hooke/history 4000 NULL 100 NULL 0.5 1"
+# As stiff as LAW where the closed box is compressed.
+GRANULAR = ("granular hertz/material 65000 0.7 0.25 tangential mindlin NULL 1.0 0.5 "
+            "rolling sds 2000 20 0.1 twisting marshall damping coeff_restitution")
 SPEED = 20.0    # along the wall
 CUBE = math.sqrt(2)    # edge of the lattice's cube of 4 sites, neighbours 1 apart
 PLANES = 40    # of spheres on a floor
@@ -30,7 +33,8 @@ class Bed:
         self.name, self.atoms, self.ranks = name, atoms, ranks
         self.mesh = folder / "wall.stl"
         self.split = near_square(ranks)
-        (self.closed_box if name == "box" else self.floor)(million)
+        self.law = GRANULAR if name == "granular" else LAW    # of our wall
+        (self.closed_box if name in ("box", "granular") else self.floor)(million)
 
     def floor(self, million):
         (px, py), each = self.split, self.atoms / self.ranks
@@ -79,7 +83,7 @@ class Bed:
 
     def wall(self, style="wall/lsdcd"):
         if style == "wall/lsdcd":
-            return f"fix wall all wall/lsdcd {LAW} mesh {self.mesh}" + \
+            return f"fix wall all wall/lsdcd {self.law} mesh {self.mesh}" + \
                 " periodic" * (self.boundary[0] == "p")
         # LAMMPS's own; its suffix must not choose the form.
         return f"suffix off\nfix wall all {style} {LAW} zplane 0.0 NULL\nsuffix on"

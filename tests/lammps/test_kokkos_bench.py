@@ -71,7 +71,7 @@ def rows_of_all(checks, host, folder):
     rows = kokkos.read_rows("cpu", str(folder))
     find = {(r["case"], facts(r)["ranks"]): r for r in rows}
     checks.fact("rows of each bed, with and without, on 1 and 2 processes", all(
-        (case + more, ranks) in find for case in ("flat floor", "closed box", "bumpy floor")
+        (case + more, ranks) in find for case in kokkos.CASES.values()
         for more in ("", ", no wall", ", copies", ", no wall, copies") for ranks in "12"))
     flat, none = find["flat floor", "1"], find["flat floor, no wall", "1"]
     checks.fact("as many builds with the wall as without",
@@ -94,7 +94,8 @@ def rows_of_all(checks, host, folder):
     checks.fact("the table has the ratio", f"| {ratio:.3f} |" in table, table.splitlines()[2])
     checks.fact("and an empty row for what a GPU has not run",
                 "| flat floor | 2 | 8 000 000 | random |" in step_table(rows, ("8000000",)))
-    checks.fact("scaling has a row for each bed", scaling_table(rows).count("\n") == 4)
+    checks.fact("scaling has a row for each bed",
+                scaling_table(rows).count("\n") == 1 + len(kokkos.CASES))
 
 
 def main():
@@ -103,7 +104,7 @@ def main():
         sys.exit(77)
     checks, folder = deck.Checks(), pathlib.Path(deck.scratch())
     host = runs.Host(deck.KOKKOS_HOST, deck.KOKKOS_PLUGIN, "-k on -sf kk", "mpirun -np {ranks}")
-    for name in ("flat", "box", "million"):
+    for name in kokkos.CASES:
         states(checks, host, folder, name)
     rows_of_all(checks, host, folder)
     checks.done(folder)
