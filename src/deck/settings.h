@@ -12,6 +12,12 @@
 
 namespace lsdcd {
 
+// A file written again and again; with '*' in its name, one for each such step.
+struct FileEvery {
+  std::string name;
+  int every = 0;    // steps; 0: no file
+};
+
 struct WallSettings {
   ContactLaw law;          // NULLs resolved; hertz stiffnesses still in pressure units
   std::string law_name;    // its style; with `granular`, all its words
@@ -37,8 +43,7 @@ struct WallSettings {
   WallMotion motion;
   std::string motion_tokens;    // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
   Wear wear;                    // K and H in pressure units
-  std::string fields_file;      // of numbers per triangle; empty: none
-  int fields_every = 0;         // steps between two of them
+  FileEvery fields;             // of numbers per triangle
   Device device = Device::automatic;
   std::string cache_file;    // empty: none
   bool contacts = false;
@@ -57,7 +62,7 @@ struct WallSettings {
       if (!name.empty()) return true;
     return false;
   }
-  bool has_loads() const { return wears() || !fields_file.empty(); }
+  bool has_loads() const { return wears() || fields.every > 0; }
 };
 
 // `words` begin with FSTYLE. Throws InputError that names the word, what was

@@ -67,6 +67,8 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     wall = std::make_unique<lsdcd::SharedWall>(world, settings);
     check_side();
     check_plane();
+    run_clock = {update->atime + (update->ntimestep - update->atimestep) * update->dt,
+                 update->ntimestep, update->ntimestep, update->dt};
     begin_motion();
 
     make_engine();
@@ -78,7 +80,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   springs = lsdcd::SpringStore(settings.law.n_extra());
   records = settings.has_loads();
   restart_global = records || settings.motion.any();
-  if (settings.fields_every > 0) nevery = settings.fields_every;
+  if (settings.fields.every > 0) nevery = settings.fields.every;
   create_attribute = history || settings.contacts;
   restart_peratom = history;
   maxexchange_dynamic = history || settings.contacts;
@@ -136,7 +138,7 @@ FixWallLsdcd::~FixWallLsdcd()
 int FixWallLsdcd::setmask()
 {
   return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN | PRE_EXCHANGE |
-         (settings.fields_every > 0 ? END_OF_STEP : 0);
+         (settings.fields.every > 0 ? END_OF_STEP : 0);
 }
 
 void FixWallLsdcd::init()
@@ -151,7 +153,8 @@ void FixWallLsdcd::init()
   if (wall->cutoff() > 0) check_box(wall->cutoff());
   if (settings.law.has_heat()) check_heat();
   check_variables();
-  if (settings.fields_every > 0) check_fields_file();
+  check_file("mesh_fields", settings.fields);
+  file_warned = false;
 }
 
 // Respa calls this once per level before setup(): the only way to its number of
@@ -230,6 +233,7 @@ void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
 // `look`: may there be new spheres, or other radii?
 void FixWallLsdcd::begin_step(bool look)
 {
+  run_clock.advance(*update);
   move_wall();
   if (look)
     update_cutoff();

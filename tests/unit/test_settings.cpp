@@ -485,14 +485,15 @@ TEST(settings, wear_is_volume_per_work)
 TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
 {
   const WallSettings s = with("mesh_fields wall_*.vtp every 500");
-  EXPECT_EQ(s.fields_file, "wall_*.vtp");
-  EXPECT_EQ(s.fields_every, 500);
+  EXPECT_EQ(s.fields.name, "wall_*.vtp");
+  EXPECT_EQ(s.fields.every, 500);
   EXPECT_TRUE(s.has_loads());
   EXPECT_TRUE(names(error_with("mesh_fields wall.vtk every 500"), ".vtp"));
   EXPECT_TRUE(names(error_with("mesh_fields wall.vtp 500"), "every"));
   EXPECT_TRUE(names(error_with("mesh_fields wall.vtp every 0"), "N"));
   EXPECT_TRUE(names(error_with("mesh_fields wall.vtp every 1.5"), "whole"));
   EXPECT_TRUE(names(error_with("mesh_fields"), "file name"));
+  EXPECT_TRUE(names(error_with("mesh_fields a_*/wall.vtp every 5"), "folder"));
 }
 
 TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
