@@ -245,6 +245,9 @@ const Keyword kKeywords[] = {
      "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step, and "
      "a .pvd file lists them all",
      [](Tokens &w, WallSettings &s) { s.fields = read_file_every(w, ".vtp"); }},
+    {"mesh_stl", "FILE every N", "", "*.stl, N >= 1", "none",
+     "the mesh where it is, as a binary STL, every N steps; * is the step",
+     [](Tokens &w, WallSettings &s) { s.stl = read_file_every(w, ".stl"); }},
     {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
      [](Tokens &w, WallSettings &s) {
        s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));

@@ -43,6 +43,7 @@ struct WallSettings {
   WallMotion motion;
   std::string motion_tokens;    // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
   Wear wear;                    // K and H in pressure units
+  FileEvery stl;                // of the mesh where it is
   FileEvery fields;             // of numbers per triangle
   Device device = Device::automatic;
   std::string cache_file;    // empty: none

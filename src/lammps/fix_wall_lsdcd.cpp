@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -80,7 +81,9 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   springs = lsdcd::SpringStore(settings.law.n_extra());
   records = settings.has_loads();
   restart_global = records || settings.motion.any();
-  if (settings.fields.every > 0) nevery = settings.fields.every;
+  // Of either file; end_of_step() knows which.
+  if (settings.fields.every > 0 || settings.stl.every > 0)
+    nevery = std::gcd(settings.fields.every, settings.stl.every);
   create_attribute = history || settings.contacts;
   restart_peratom = history;
   maxexchange_dynamic = history || settings.contacts;
@@ -138,7 +141,7 @@ FixWallLsdcd::~FixWallLsdcd()
 int FixWallLsdcd::setmask()
 {
   return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN | PRE_EXCHANGE |
-         (settings.fields.every > 0 ? END_OF_STEP : 0);
+         (settings.fields.every > 0 || settings.stl.every > 0 ? END_OF_STEP : 0);
 }
 
 void FixWallLsdcd::init()
@@ -154,6 +157,7 @@ void FixWallLsdcd::init()
   if (settings.law.has_heat()) check_heat();
   check_variables();
   check_file("mesh_fields", settings.fields);
+  check_file("mesh_stl", settings.stl);
   file_warned = false;
 }
 

@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "output/mesh_fields.h"
+#include "output/mesh_stl.h"
 
 #include "comm.h"
 #include "force.h"
@@ -74,5 +75,13 @@ void FixWallLsdcd::write_fields()
 
 void FixWallLsdcd::end_of_step()
 {
-  if (update->ntimestep % settings.fields.every == 0) write_fields();
+  const auto due = [this](const lsdcd::FileEvery &file) {
+    return file.every > 0 && update->ntimestep % file.every == 0;
+  };
+  if (due(settings.fields)) write_fields();
+  if (due(settings.stl))
+    try_to_write("there is no mesh_stl of this step", [&] {
+      lsdcd::write_mesh_stl(lsdcd::file_of_step(settings.stl.name, update->ntimestep),
+                            *wall->mesh(), pose);
+    });
 }

@@ -113,6 +113,37 @@ def continued(checks, folder):
     checks.fact("a new run begins a new list", same(listed(folder / "c_series.pvd"), whole[:1]))
 
 
+def stl_points(path):
+    """Corners of the triangles, in floats."""
+    data = path.read_bytes()
+    assert len(data) == 84 + 50 * struct.unpack("<I", data[80:84])[0]
+    return [v for row in struct.iter_unpack("<12x9f2x", data[84:]) for v in row]
+
+
+def stl(checks, folder):
+    go(folder, f"{TURN} mesh_stl s_*.stl every 40 mesh_fields s_*.vtp every 60", "run 130\n")
+    names = {p.name for p in folder.glob("s_*")}
+    checks.fact("two files of the fix, each every so many steps", names == {
+        "s_40.stl", "s_80.stl", "s_120.stl", "s_60.vtp", "s_120.vtp", "s_series.pvd"}, str(sorted(names)))
+    field = arrays(folder / "s_120.vtp")
+    corners = [field["points"][3 * c + d] for c in field["connectivity"] for d in range(3)]
+    as_floats = list(struct.unpack(f"<{len(corners)}f", struct.pack(f"<{len(corners)}f", *corners)))
+    checks.fact("an STL of the mesh where it is", stl_points(folder / "s_120.stl") == as_floats)
+    go(folder, "mesh_stl t.stl every 50", "run 50\n")
+    deck.run_well(scene.CREATE + scene.forces(LAW, mesh="mesh t.stl mesh_stl u.stl every 50") + "run 50\n", folder)
+    checks.fact("read again and written again it is the same file",
+                (folder / "t.stl").read_bytes() == (folder / "u.stl").read_bytes())
+    done = deck.run(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_stl no/such.stl every 5") +
+                    "run 10\n", folder)
+    checks.fact("mesh_stl into a missing folder stops before the run", done.returncode != 0 and
+                "in 'mesh_stl', 'no/such.stl'" in done.stdout and "Step" not in done.stdout)
+    text = on_full_disk(folder, 64, "mesh_stl t.stl every 50", "run 100\n")
+    checks.fact("mesh_stl on a full disk: one warning", len(warned(text)) == 1 and
+                "there is no mesh_stl of this step" in warned(text)[0], str(warned(text)))
+    checks.fact("and the older file as it was",
+                (folder / "t.stl").read_bytes() == (folder / "u.stl").read_bytes())
+
+
 def under_limit(folder, blocks):
     """LAMMPS where no file may grow past so many blocks of 512 bytes, as on a full disk."""
     path = folder / "limited.sh"
@@ -166,7 +197,7 @@ def not_written(checks, folder):
 def main():
     checks, folder = deck.Checks(), deck.scratch()
     scene.write_floor(folder / "floor.stl")
-    for part in (series, forces, continued, not_written):
+    for part in (series, forces, continued, stl, not_written):
         part(checks, folder)
     checks.done(folder)
 

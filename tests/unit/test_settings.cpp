@@ -496,6 +496,16 @@ TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
   EXPECT_TRUE(names(error_with("mesh_fields a_*/wall.vtp every 5"), "folder"));
 }
 
+TEST(settings, mesh_stl_needs_an_stl_file_and_a_number_of_steps)
+{
+  const WallSettings s = with("mesh_stl wall_*.stl every 500");
+  EXPECT_EQ(s.stl.name, "wall_*.stl");
+  EXPECT_EQ(s.stl.every, 500);
+  EXPECT_FALSE(s.has_loads());
+  EXPECT_TRUE(names(error_with("mesh_stl wall.vtp every 500"), ".stl"));
+  EXPECT_TRUE(names(error_with("mesh_stl wall.stl every 0"), "N"));
+}
+
 TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
 {
   const WallSettings s = with("rolling epsd2 0.05 cohesion sjkr 3e5");

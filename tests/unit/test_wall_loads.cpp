@@ -205,11 +205,12 @@ TEST(file_series, lists_files_with_times_and_reads_its_own_list)
   std::ifstream file(next.path());
   std::stringstream text;
   text << file.rdbuf();
-  EXPECT_EQ(text.str(), "<?xml version=\"1.0\"?>\n"
-                        "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
-                        "<DataSet timestep=\"0.10000000000000001\" part=\"0\" file=\"a&amp;b_1.vtp\"/>\n"
-                        "<DataSet timestep=\"0.25\" part=\"0\" file=\"a&amp;b_2.vtp\"/>\n"
-                        "</Collection>\n</VTKFile>\n");
+  EXPECT_EQ(text.str(),
+            "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
+            "<DataSet timestep=\"0.10000000000000001\" part=\"0\" file=\"a&amp;b_1.vtp\"/>\n"
+            "<DataSet timestep=\"0.25\" part=\"0\" file=\"a&amp;b_2.vtp\"/>\n"
+            "</Collection>\n</VTKFile>\n");
 }
 
 }    // namespace
