@@ -143,6 +143,16 @@ FileEvery read_file_every(Tokens &w, const std::string &end)
   return file;
 }
 
+void read_torque_about(Tokens &w, WallSettings &s)
+{
+  s.torque_about_mesh = !w.done() && w.peek() == "mesh";
+  if (s.torque_about_mesh) w.take();
+  if (s.torque_about_mesh && !w.number_follows()) return;
+  s.torque_about.x = w.number("x");
+  s.torque_about.y = w.number("y");
+  s.torque_about.z = w.number("z");
+}
+
 void read_temperature(Tokens &w, WallSettings &s)
 {
   s.has_temperature = true;
@@ -248,6 +258,10 @@ const Keyword kKeywords[] = {
     {"mesh_stl", "FILE every N", "", "*.stl, N >= 1", "none",
      "the mesh where it is, as a binary STL, every N steps; * is the step",
      [](Tokens &w, WallSettings &s) { s.stl = read_file_every(w, ".stl"); }},
+    {"torque_about", "x y z | mesh [x y z]", "length", "", "0 0 0",
+     "the point that f_ID[4] to f_ID[6] are about; mesh: it moves with the mesh and was at x y z "
+     "(0 0 0) before",
+     read_torque_about},
     {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
      [](Tokens &w, WallSettings &s) {
        s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));

@@ -41,10 +41,12 @@ struct WallSettings {
   SurfaceMotion surface;
   std::string surface_variable[6];    // in place of its velocity and angular velocity; empty: none
   WallMotion motion;
-  std::string motion_tokens;    // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
-  Wear wear;                    // K and H in pressure units
-  FileEvery stl;                // of the mesh where it is
-  FileEvery fields;             // of numbers per triangle
+  std::string motion_tokens;        // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
+  Vec3 torque_about = {0, 0, 0};    // length; a point of the box, or of the mesh
+  bool torque_about_mesh = false;
+  Wear wear;           // K and H in pressure units
+  FileEvery stl;       // of the mesh where it is
+  FileEvery fields;    // of numbers per triangle
   Device device = Device::automatic;
   std::string cache_file;    // empty: none
   bool contacts = false;

@@ -33,7 +33,7 @@ class Respa {
 };
 }    // namespace LAMMPS_NS
 
-static constexpr int kTotals = 9;
+static constexpr int kTotals = 9, kVector = kTotals + 2;    // with volume worn off, and power
 static constexpr int kContactColumns = 8;
 static constexpr double kHeadroom = 1.1;    // in reach, once radii are known to grow
 
@@ -90,15 +90,15 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   dynamic_group_allow = 1;
 
   scalar_flag = vector_flag = 1;
-  size_vector = kTotals + settings.wears();
+  size_vector = kVector;
   global_freq = 1;
   extscalar = 1;
   extvector = -1;
-  extlist = new int[kTotals + 1];
-  std::fill(extlist, extlist + kTotals + 1, 1);
+  extlist = new int[kVector];
+  std::fill(extlist, extlist + kVector, 1);
   extlist[7] = 0;    // the largest overlap is not a sum
   energy_global_flag = 1;
-  energy = 0;
+  energy = power = 0;
   std::fill(totals, totals + kTotals, 0.0);
 
   if (settings.contacts) {

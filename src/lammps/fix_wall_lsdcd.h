@@ -120,7 +120,7 @@ class FixWallLsdcd : public Fix {
   lsdcd::SurfaceMotion surface;         // of the step, where variables give it
   bool engine_moves = false;            // it has laws for a wall that moves
 
-  double totals[9], energy;    // over all processes, of the last step
+  double totals[9], power, energy;    // over all processes, of the last step
   bool reduced = false;
 
   std::vector<lsdcd::Stroke> strokes;
@@ -155,6 +155,7 @@ class FixWallLsdcd : public Fix {
   void springs_to_engine();
   void fill_contacts();
   void reduce_totals();
+  void finish_totals();
 
   int row_size() const { return settings.contacts ? size_peratom_cols : 0; }
   void ask_for_room(int);

@@ -506,6 +506,21 @@ TEST(settings, mesh_stl_needs_an_stl_file_and_a_number_of_steps)
   EXPECT_TRUE(names(error_with("mesh_stl wall.stl every 0"), "N"));
 }
 
+TEST(settings, torque_is_about_a_point_of_the_box_or_of_the_mesh)
+{
+  EXPECT_EQ(with("").torque_about, (Vec3{0, 0, 0}));
+  const WallSettings box = with("torque_about 1 2 3");
+  EXPECT_FALSE(box.torque_about_mesh);
+  EXPECT_EQ(box.torque_about, (Vec3{1, 2, 3}));
+  const WallSettings mesh = with("torque_about mesh contacts");
+  EXPECT_TRUE(mesh.torque_about_mesh && mesh.contacts);
+  EXPECT_EQ(mesh.torque_about, (Vec3{0, 0, 0}));
+  EXPECT_EQ(with("torque_about mesh 4 5 6").torque_about, (Vec3{4, 5, 6}));
+  EXPECT_TRUE(names(error_with("torque_about"), "x"));
+  EXPECT_TRUE(names(error_with("torque_about 1 2"), "z"));
+  EXPECT_TRUE(names(error_with("torque_about axis"), "axis"));
+}
+
 TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
 {
   const WallSettings s = with("rolling epsd2 0.05 cohesion sjkr 3e5");
