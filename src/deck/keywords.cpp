@@ -126,18 +126,32 @@ void read_wear(Tokens &w, WallSettings &s)
   if (s.wear.model == WearModel::archard) s.wear.per_work /= w.number("H", kAboveZero);
 }
 
-void read_mesh_fields(Tokens &w, WallSettings &s)
+FileEvery read_file_every(Tokens &w, const std::string &end)
 {
+  FileEvery file;
   if (w.done()) w.fail("the file name is missing");
-  s.fields_file = w.take();
-  const std::string end = ".vtp";
-  if (s.fields_file.size() <= end.size() ||
-      s.fields_file.compare(s.fields_file.size() - end.size(), end.size(), end) != 0)
-    w.fail("the file name '" + s.fields_file + "' must end in .vtp, by which ParaView knows it");
+  file.name = w.take();
+  const std::string &name = file.name;
+  if (name.size() <= end.size() || name.compare(name.size() - end.size(), end.size(), end) != 0)
+    w.fail("the file name '" + name + "' must end in " + end + ", by which other programs know it");
+  const std::size_t star = name.find('*');
+  if (star != std::string::npos && name.find('/', star) != std::string::npos)
+    w.fail("'" + name + "' has its * in the name of a folder; put it into the file's own name");
   if (w.done() || w.take() != "every") w.fail("'every N' is missing");
   const Real n = w.number("N", 1, 2147483647);
-  s.fields_every = static_cast<int>(n);
-  if (s.fields_every != n) w.fail("N must be a whole number");
+  file.every = static_cast<int>(n);
+  if (file.every != n) w.fail("N must be a whole number");
+  return file;
+}
+
+void read_torque_about(Tokens &w, WallSettings &s)
+{
+  s.torque_about_mesh = !w.done() && w.peek() == "mesh";
+  if (s.torque_about_mesh) w.take();
+  if (s.torque_about_mesh && !w.number_follows()) return;
+  s.torque_about.x = w.number("x");
+  s.torque_about.y = w.number("y");
+  s.torque_about.z = w.number("z");
 }
 
 void read_temperature(Tokens &w, WallSettings &s)
@@ -244,8 +258,16 @@ const Keyword kKeywords[] = {
     {"wear", "archard K H | finnie K", "K H: none, pressure; K: 1/pressure", ">= 0, H > 0", "none",
      "volume that wears off the triangles: K F s/H, or by angle and energy of impacts", read_wear},
     {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",
-     "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step",
-     read_mesh_fields},
+     "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step, and "
+     "a .pvd file lists them all",
+     [](Tokens &w, WallSettings &s) { s.fields = read_file_every(w, ".vtp"); }},
+    {"mesh_stl", "FILE every N", "", "*.stl, N >= 1", "none",
+     "the mesh where it is, as a binary STL, every N steps; * is the step",
+     [](Tokens &w, WallSettings &s) { s.stl = read_file_every(w, ".stl"); }},
+    {"torque_about", "x y z | mesh [x y z]", "length", "", "0 0 0",
+     "the point that f_ID[4] to f_ID[6] are about; mesh: it moves with the mesh and was at x y z "
+     "(0 0 0) before",
+     read_torque_about},
     {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
      [](Tokens &w, WallSettings &s) {
        s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));

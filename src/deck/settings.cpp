@@ -101,7 +101,7 @@ std::string answer_to(const std::string &word, bool granular)
       {"element_exclusion_list", kReport},
       {"min_feature_length", kWeld},
       {"stress", kLoads},
-      {"reference_point", kLoads},
+      {"reference_point", "the words are torque_about x y z"},
       {"type", kNumbers},
       {"model", kNumbers},
       {"file", "the word is mesh FILE"},

@@ -12,6 +12,12 @@
 
 namespace lsdcd {
 
+// A file written again and again; with '*' in its name, one for each such step.
+struct FileEvery {
+  std::string name;
+  int every = 0;    // steps; 0: no file
+};
+
 struct WallSettings {
   ContactLaw law;          // NULLs resolved; hertz stiffnesses still in pressure units
   std::string law_name;    // its style; with `granular`, all its words
@@ -35,11 +41,13 @@ struct WallSettings {
   SurfaceMotion surface;
   std::string surface_variable[6];    // in place of its velocity and angular velocity; empty: none
   WallMotion motion;
-  std::string motion_tokens;    // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
-  std::string servo_tokens;     // "force z 100 vmax 0.1"
-  Wear wear;                    // K and H in pressure units
-  std::string fields_file;      // of numbers per triangle; empty: none
-  int fields_every = 0;         // steps between two of them
+  std::string motion_tokens;        // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
+  std::string servo_tokens;         // "force z 100 vmax 0.1"
+  Vec3 torque_about = {0, 0, 0};    // length; a point of the box, or of the mesh
+  bool torque_about_mesh = false;
+  Wear wear;           // K and H in pressure units
+  FileEvery stl;       // of the mesh where it is
+  FileEvery fields;    // of numbers per triangle
   Device device = Device::automatic;
   std::string cache_file;    // empty: none
   bool contacts = false;
@@ -58,7 +66,7 @@ struct WallSettings {
       if (!name.empty()) return true;
     return false;
   }
-  bool has_loads() const { return wears() || !fields_file.empty(); }
+  bool has_loads() const { return wears() || fields.every > 0; }
 };
 
 // `words` begin with FSTYLE. Throws InputError that names the word, what was

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -66,6 +67,8 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     wall = std::make_unique<lsdcd::SharedWall>(world, settings);
     check_side();
     check_plane();
+    run_clock = {update->atime + (update->ntimestep - update->atimestep) * update->dt,
+                 update->ntimestep, update->ntimestep, update->dt};
     begin_motion();
 
     make_engine();
@@ -77,23 +80,25 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   springs = lsdcd::SpringStore(settings.law.n_extra());
   records = settings.has_loads();
   restart_global = records || settings.motion.any();
-  if (settings.fields_every > 0) nevery = settings.fields_every;
+  // Of either file; end_of_step() knows which.
+  if (settings.fields.every > 0 || settings.stl.every > 0)
+    nevery = std::gcd(settings.fields.every, settings.stl.every);
   create_attribute = history || settings.contacts;
   restart_peratom = history;
   maxexchange_dynamic = history || settings.contacts;
   dynamic_group_allow = 1;
 
   scalar_flag = vector_flag = 1;
-  size_vector = kTotals + settings.wears();
+  size_vector = kVector;
   global_freq = 1;
   extscalar = 1;
   extvector = -1;
-  extlist = new int[kTotals + 4];
-  std::fill(extlist, extlist + kTotals + 4, 1);
+  extlist = new int[kVector + kServo];
+  std::fill(extlist, extlist + kVector + kServo, 1);
   extlist[7] = 0;    // the largest overlap is not a sum
   show_servo();
   energy_global_flag = 1;
-  energy = 0;
+  energy = power = 0;
   std::fill(totals, totals + kTotals, 0.0);
 
   if (settings.contacts) {
@@ -136,7 +141,7 @@ FixWallLsdcd::~FixWallLsdcd()
 int FixWallLsdcd::setmask()
 {
   return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN | PRE_EXCHANGE |
-         (settings.fields_every > 0 ? END_OF_STEP : 0);
+         (settings.fields.every > 0 || settings.stl.every > 0 ? END_OF_STEP : 0);
 }
 
 void FixWallLsdcd::init()
@@ -151,7 +156,9 @@ void FixWallLsdcd::init()
   if (wall->cutoff() > 0) check_box(wall->cutoff());
   if (settings.law.has_heat()) check_heat();
   check_variables();
-  if (settings.fields_every > 0) check_fields_file();
+  check_file("mesh_fields", settings.fields);
+  check_file("mesh_stl", settings.stl);
+  file_warned = false;
 }
 
 // Respa calls this once per level before setup(): the only way to its number of
@@ -232,6 +239,7 @@ void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
 // `look`: may there be new spheres, or other radii?
 void FixWallLsdcd::begin_step(bool look)
 {
+  run_clock.advance(*update);
   move_wall();
   if (look)
     update_cutoff();

@@ -5,6 +5,7 @@
 #include "fix.h"
 
 #include "lammps/mpi_wall.h"
+#include "output/file_series.h"
 #include "output/wall_loads.h"
 
 #include <memory>
@@ -31,7 +32,7 @@ class FixWallLsdcd : public Fix {
   void pre_force(int) override;
   void post_force(int) override;
   void post_force_respa(int, int, int) override;
-  void end_of_step() override;
+  void end_of_step() override;    // fix_wall_lsdcd_files.cpp
   void post_run() override;
 
   // springs on the move and in restart files: fix_wall_lsdcd_exchange.cpp
@@ -66,6 +67,9 @@ class FixWallLsdcd : public Fix {
   lsdcd::SpringStore springs;
   lsdcd::WallLoads loads;
   bool history, records;
+  std::unique_ptr<lsdcd::FileSeries> series;    // of mesh_fields; on the first process
+  bool continued = false;                       // from a restart file
+  bool file_warned = false;                     // in this run
   // Springs are with the engine from step to step, and here where LAMMPS moves atoms.
   enum class Where { host, engine };
   Where springs_are = Where::host;
@@ -102,13 +106,17 @@ class FixWallLsdcd : public Fix {
 
   int temperature_variable = -1;
 
-  // Time of the wall's motion: base at base_step, and dt for each step since.
-  struct MotionClock {
-    lsdcd::Time base = 0;
-    bigint base_step = 0, step = 0;    // step: the last one
-    double dt = 0;
+  // Time goes on by one step in each step, whatever the timestep, and whatever number
+  // reset_timestep gives the step: base at base_step, and dt for each step since.
+  struct Clock {
+    lsdcd::Time base;
+    bigint base_step, step;    // step: the last one
+    double dt;
     lsdcd::Time now() const { return base + lsdcd::Time(step - base_step) * dt; }
-  } clock;
+    void advance(const Update &);
+  };
+  Clock clock;        // of the wall's motion
+  Clock run_clock;    // of the spheres; LAMMPS's own begins anew in some runs from a restart file
   lsdcd::WallPose pose, chosen_pose;    // of the step, and when near atoms were chosen
   lsdcd::SurfaceMotion surface;         // of the step, where variables give it
   bool engine_moves = false;            // it has laws for a wall that moves
@@ -116,8 +124,10 @@ class FixWallLsdcd : public Fix {
   double servo_radius = 0, servo_mass = 0;    // the largest, for its gain
   bool gain_told = false, limit_told = false;
 
-  static constexpr int kTotals = 9;
-  double totals[kTotals], energy;    // over all processes, of the last step
+  // Of the vector: totals, volume worn off and power, and with a servo three more.
+  static constexpr int kTotals = 9, kVector = kTotals + 2, kServo = 3;
+  double totals[kTotals], power, energy;    // over all processes, of the last step
+  lsdcd::Vec3 torque_at_origin = {0, 0, 0};
   bool reduced = false;
 
   std::vector<lsdcd::Stroke> strokes;
@@ -152,6 +162,7 @@ class FixWallLsdcd : public Fix {
   void springs_to_engine();
   void fill_contacts();
   void reduce_totals();
+  void finish_totals();
 
   int row_size() const { return settings.contacts ? size_peratom_cols : 0; }
   void ask_for_room(int);
@@ -164,7 +175,6 @@ class FixWallLsdcd : public Fix {
   // fix_wall_lsdcd_motion.cpp
   lsdcd::Box mesh_bounds(double) const;
   void begin_motion();
-  void advance_clock();
   void move_wall();
   bool moves_or_varies() const;
   bool has_variables() const;
@@ -193,8 +203,13 @@ class FixWallLsdcd : public Fix {
 
   // fix_wall_lsdcd_loads.cpp
   void add_loads();
-  void check_fields_file() const;
   lsdcd::WallLoads gathered_loads() const;
+
+  // fix_wall_lsdcd_files.cpp
+  void check_file(const char *, const lsdcd::FileEvery &) const;
+  template <class Work>
+  bool try_to_write(const std::string &, const Work &);
+  void write_fields();
 
   // fix_wall_lsdcd_heat.cpp
   void check_heat();

@@ -1,14 +1,9 @@
-// What the fix adds up of a wall's loads and wear: files of it, and restart.
+// What the fix adds up of a wall's loads and wear: of all processes, and in restart files.
 
 #include "lammps/fix_wall_lsdcd.h"
 
-#include "base/input_error.h"
-#include "base/whole_file.h"
-#include "output/mesh_fields.h"
-
 #include "atom.h"
 #include "comm.h"
-#include "force.h"
 #include "update.h"
 
 #include <cstring>
@@ -16,11 +11,10 @@
 using namespace LAMMPS_NS;
 using lsdcd::WallLoads;
 
-// Of restart data: kFormat, how many numbers of the motion, these; then time, facets, edges and
-// vertices of the mesh, number of rows of loads, these. Files of before there was motion begin with
-// that time, which is not negative.
+// Of restart data: kFormat, time of the run, how many numbers of the motion, these; then time of
+// the average, facets, edges and vertices of the mesh, number of rows of loads, these.
 static constexpr int kHeader = 5;
-static constexpr double kFormat = -2;
+static constexpr double kFormat = -3;
 
 // Of the last step; what setup computes has no duration.
 void FixWallLsdcd::add_loads()
@@ -48,35 +42,6 @@ WallLoads FixWallLsdcd::gathered_loads() const
   return all;
 }
 
-// Whether files can be made where mesh_fields wants them: told before a run, not hours into it.
-void FixWallLsdcd::check_fields_file() const
-{
-  try {
-    lsdcd::together(world, comm->me == 0, [&] {
-      lsdcd::WholeFile(lsdcd::file_of_step(settings.fields_file, update->ntimestep));
-    });
-  } catch (const lsdcd::InputError &e) {
-    refuse("in 'mesh_fields', " + std::string(e.what()) + "; make the folder, or name another");
-  }
-}
-
-void FixWallLsdcd::end_of_step()
-{
-  const WallLoads all = gathered_loads();
-  loads.begin_average();
-  try {
-    lsdcd::together(world, comm->me == 0, [&] {
-      lsdcd::write_mesh_fields(
-          lsdcd::file_of_step(settings.fields_file, update->ntimestep), *wall->mesh(),
-          lsdcd::load_fields(*wall->mesh(), all, force->nktv2p, settings.wears()),
-          update->ntimestep, update->atime + (update->ntimestep - update->atimestep) * update->dt,
-          pose);
-    });
-  } catch (const lsdcd::InputError &e) {
-    refuse(e.what());
-  }
-}
-
 void FixWallLsdcd::write_restart(FILE *file)
 {
   const WallLoads all = gathered_loads();
@@ -84,7 +49,7 @@ void FixWallLsdcd::write_restart(FILE *file)
   const lsdcd::MeshReport &r = wall->report();
   const std::vector<double> rows = all.packed();
   const std::vector<double> motion = motion_data();
-  std::vector<double> data = {kFormat, double(motion.size())};
+  std::vector<double> data = {kFormat, double(run_clock.now()), double(motion.size())};
   data.insert(data.end(), motion.begin(), motion.end());
   data.insert(data.end(), {all.time(), double(r.facets), double(r.edges), double(r.vertices),
                            double(rows.size() / WallLoads::kPackedLoad)});
@@ -97,14 +62,18 @@ void FixWallLsdcd::write_restart(FILE *file)
 // LAMMPS hands the same bytes to every process; the first one keeps them.
 void FixWallLsdcd::restart(char *buffer)
 {
-  double start[2];
+  continued = true;
+  double start[3];
   std::memcpy(start, buffer, sizeof start);
-  if (start[0] == kFormat) {
-    std::vector<double> motion(static_cast<std::size_t>(start[1]));
-    std::memcpy(motion.data(), buffer + sizeof start, motion.size() * sizeof(double));
-    restart_motion(motion);
-    buffer += sizeof start + motion.size() * sizeof(double);
+  if (start[0] != kFormat) {
+    warn("motion, loads and wear begin anew: the restart file is of another version of this fix");
+    return;
   }
+  run_clock.base = start[1];
+  std::vector<double> motion(static_cast<std::size_t>(start[2]));
+  std::memcpy(motion.data(), buffer + sizeof start, motion.size() * sizeof(double));
+  restart_motion(motion);
+  buffer += sizeof start + motion.size() * sizeof(double);
   if (!records) return;
   double header[kHeader];
   std::memcpy(header, buffer, sizeof header);

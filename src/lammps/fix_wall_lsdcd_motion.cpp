@@ -25,33 +25,29 @@ lsdcd::Box FixWallLsdcd::mesh_bounds(double past) const
 
 void FixWallLsdcd::begin_motion()
 {
-  clock = MotionClock();
-  clock.base_step = clock.step = update->ntimestep;
-  clock.dt = update->dt;
+  clock = {0, update->ntimestep, update->ntimestep, update->dt};
   surface = settings.surface;
   pose = settings.motion.pose_at(0);
   list_is_old = true;
   check_motion();
 }
 
-// Time goes on by one step in each step, whatever the timestep, and whatever number reset_timestep
-// gives the step.
-void FixWallLsdcd::advance_clock()
+void FixWallLsdcd::Clock::advance(const Update &update)
 {
-  const bigint now = update->ntimestep, elapsed = update->setupflag ? 0 : 1;
-  if (now != clock.step + elapsed || update->dt != clock.dt) {
-    clock.base = clock.now();
-    clock.base_step = now - elapsed;
-    clock.dt = update->dt;
+  const bigint elapsed = update.setupflag ? 0 : 1;
+  if (update.ntimestep != step + elapsed || update.dt != dt) {
+    base = now();
+    base_step = update.ntimestep - elapsed;
+    dt = update.dt;
   }
-  clock.step = now;
+  step = update.ntimestep;
 }
 
 void FixWallLsdcd::move_wall()
 {
   if (!moves_or_varies()) return;
   const lsdcd::Time before = clock.now();
-  advance_clock();
+  clock.advance(*update);
   const double passed = static_cast<double>(clock.now() - before);
   if (has_variables()) {
     modify->clearstep_compute();

@@ -10,6 +10,20 @@
 
 using namespace LAMMPS_NS;
 
+// Of the sums about the origin: torque about what `torque_about` names, and power.
+void FixWallLsdcd::finish_totals()
+{
+  const lsdcd::Vec3 force = {totals[0], totals[1], totals[2]},
+                    torque = {totals[3], totals[4], totals[5]};
+  const lsdcd::Vec3 point =
+      settings.torque_about_mesh ? pose.to_box(settings.torque_about) : settings.torque_about;
+  const lsdcd::Vec3 about = torque - cross(point, force);
+  torque_at_origin = torque;
+  for (int d = 0; d < 3; d++) totals[3 + d] = about[d];
+  // From 0, so that it is not -0 at rest.
+  power = 0 - dot(force, pose.velocity) - dot(torque - cross(pose.shift, force), pose.angular);
+}
+
 // One round of messages per step, and only in steps that ask.
 void FixWallLsdcd::reduce_totals()
 {
@@ -30,6 +44,7 @@ void FixWallLsdcd::reduce_totals()
   std::copy(sum, sum + 9, totals);
   energy = sum[9];
   MPI_Allreduce(&t.largest_overlap_ratio, &totals[7], 1, MPI_DOUBLE, MPI_MAX, world);
+  finish_totals();
   reduced = true;
 }
 
@@ -43,7 +58,9 @@ double FixWallLsdcd::compute_vector(int i)
 {
   reduce_totals();
   if (i < kTotals) return totals[i];
-  if (i >= kTotals + settings.wears()) return servo_output(i - kTotals - settings.wears());
+  if (i == kTotals + 1) return power;
+  if (i >= kVector) return servo_output(i - kVector);
+  if (!settings.wears()) return 0;
   double worn = loads.worn();
   MPI_Allreduce(MPI_IN_PLACE, &worn, 1, MPI_DOUBLE, MPI_SUM, world);
   return worn;

@@ -21,8 +21,7 @@ using lsdcd::Servo;
 double FixWallLsdcd::servo_push()
 {
   reduce_totals();
-  return settings.motion.servo().push({totals[0], totals[1], totals[2]},
-                                      {totals[3], totals[4], totals[5]});
+  return settings.motion.servo().push({totals[0], totals[1], totals[2]}, torque_at_origin);
 }
 
 // The largest radius and mass that a contact can have. Collective.
@@ -96,10 +95,8 @@ double FixWallLsdcd::servo_output(int i)
 // What has a servo has its outputs, after those of the rest.
 void FixWallLsdcd::show_servo()
 {
-  const int before = kTotals + settings.wears();
-  if (settings.motion.servo().present) size_vector = before + 3;
-  extlist[before] = extlist[before + 1] = 0;
-  extlist[before + 2] = 1;
+  if (settings.motion.servo().present) size_vector = kVector + kServo;
+  extlist[kVector] = extlist[kVector + 1] = 0;    // position and speed are no sums
 }
 
 // The mesh stays where it is with none, and goes on from there with another. Along the same line

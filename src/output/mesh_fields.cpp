@@ -50,11 +50,12 @@ Real face_area(const WallMesh &mesh, std::size_t face)
 }    // namespace
 
 std::vector<FaceField> load_fields(const WallMesh &mesh, const WallLoads &loads,
-                                   double pressure_unit, bool with_wear)
+                                   double pressure_unit, bool with_wear, const WallPose &pose)
 {
   std::vector<FaceField> fields = {{"normal_stress", {}}, {"shear_stress", {}}, {"contacts", {}}};
   if (with_wear) fields.insert(fields.end(), {{"worn_volume", {}}, {"worn_depth", {}}});
   const std::vector<Load> faces = loads.of_faces(mesh);
+  FaceField force = {"force", {}, 3};
   const Real per_time = loads.time() > 0 ? 1 / loads.time() : Real(0);
   for (std::size_t f = 0; f < faces.size(); f++) {
     const Load &l = faces[f];
@@ -62,7 +63,10 @@ std::vector<FaceField> load_fields(const WallMesh &mesh, const WallLoads &loads,
     const double row[] = {stress * l.normal, stress * l.shear, per_time * l.contacts, l.worn,
                           l.worn / area};
     for (std::size_t k = 0; k < fields.size(); k++) fields[k].value.push_back(row[k]);
+    const Vec3 push = per_time * pose.turn_to_box(l.force);
+    force.value.insert(force.value.end(), {push.x, push.y, push.z});
   }
+  fields.push_back(force);
   return fields;
 }
 
@@ -90,7 +94,9 @@ void write_mesh_fields(const std::string &path, const WallMesh &mesh,
   text += data_array<std::int64_t>("Int64", "step", {step}, " NumberOfTuples=\"1\"");
   text += "</FieldData>\n<Piece NumberOfPoints=\"" + n_points + "\" NumberOfPolys=\"" + n_faces +
           "\">\n<CellData>\n";
-  for (const FaceField &field : fields) text += data_array("Float64", field.name, field.value);
+  for (const FaceField &f : fields)
+    text += data_array("Float64", f.name, f.value,
+                       " NumberOfComponents=\"" + std::to_string(f.n_components) + "\"");
   text += "</CellData>\n<Points>\n";
   text += data_array("Float64", "points", points, " NumberOfComponents=\"3\"");
   text += "</Points>\n<Polys>\n";
@@ -101,13 +107,6 @@ void write_mesh_fields(const std::string &path, const WallMesh &mesh,
   WholeFile file(path);
   file.write_at(0, text.data(), text.size());
   file.commit();
-}
-
-std::string file_of_step(const std::string &path, long long step)
-{
-  const std::size_t star = path.find('*');
-  if (star == std::string::npos) return path;
-  return path.substr(0, star) + std::to_string(step) + path.substr(star + 1);
 }
 
 }    // namespace lsdcd

@@ -11,21 +11,20 @@ namespace lsdcd {
 
 struct FaceField {
   std::string name;
-  std::vector<double> value;    // one per face of the mesh
+  std::vector<double> value;    // n_components per face of the mesh
+  int n_components = 1;
 };
 
 // Stresses are averages over the time of the loads, in force/area times `pressure_unit`;
-// `with_wear` adds the volume worn off and its depth, volume over the face's area.
+// `with_wear` adds the volume worn off and its depth, volume over the face's area. Forces on the
+// wall are averages in the frame of the mesh, turned to where the pose has it.
 std::vector<FaceField> load_fields(const WallMesh &mesh, const WallLoads &loads,
-                                   double pressure_unit, bool with_wear);
+                                   double pressure_unit, bool with_wear, const WallPose &pose = {});
 
-// The mesh as the pose puts it, in a file of VTK's XML format for polygons (.vtp), appears whole or not at all.
-// Throws InputError that names the file.
+// The mesh as the pose puts it, in a file of VTK's XML format for polygons (.vtp), which appears
+// whole or not at all. Throws InputError that names the file.
 void write_mesh_fields(const std::string &path, const WallMesh &mesh,
                        const std::vector<FaceField> &fields, long long step, double time,
                        const WallPose &pose = {});
-
-// FILE with the step in place of its first '*'.
-std::string file_of_step(const std::string &path, long long step);
 
 }    // namespace lsdcd

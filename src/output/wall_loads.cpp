@@ -50,13 +50,18 @@ void WallLoads::add(const ContactRecord *records, int n, Real dt, Real per_work,
     to.shear += r.shear * dt;
     to.contacts += dt;
     to.worn += per_work * r.wear_power * dt;
+    to.force += dt * r.force;
   }
 }
 
 void WallLoads::begin_average()
 {
   time_ = 0;
-  for (Load &l : load_) l.normal = l.shear = l.contacts = 0;
+  for (Load &l : load_) {
+    const Real worn = l.worn;
+    l = Load();
+    l.worn = worn;
+  }
 }
 
 Real WallLoads::worn() const
@@ -82,7 +87,8 @@ std::vector<double> WallLoads::packed() const
   rows.reserve(order.size() * kPackedLoad);
   for (std::size_t k : order) {
     const Load &l = load_[k];
-    rows.insert(rows.end(), {double(feature_[k]), l.normal, l.shear, l.contacts, l.worn});
+    rows.insert(rows.end(), {double(feature_[k]), l.normal, l.shear, l.contacts, l.worn, l.force.x,
+                             l.force.y, l.force.z});
   }
   return rows;
 }
@@ -95,6 +101,7 @@ void WallLoads::add_packed(const double *rows, std::size_t n_rows)
     to.shear += r[2];
     to.contacts += r[3];
     to.worn += r[4];
+    to.force += {r[5], r[6], r[7]};
   }
 }
 
@@ -111,6 +118,7 @@ std::vector<Load> WallLoads::of_faces(const WallMesh &mesh) const
       faces[f].shear += part * r[2];
       faces[f].contacts += part * r[3];
       faces[f].worn += part * r[4];
+      faces[f].force += part * Vec3{r[5], r[6], r[7]};
     }
   }
   return faces;

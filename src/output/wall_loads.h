@@ -14,10 +14,11 @@ namespace lsdcd {
 // Of one face, edge or vertex. Integrals over the time of an average, but for `worn`,
 // which is of all time.
 struct Load {
-  Real normal = 0;      // force time; of the normal forces, < 0 where they pull
-  Real shear = 0;       // force time; of the sizes of the forces along the wall
-  Real contacts = 0;    // time; of the number of contacts
-  Real worn = 0;        // length^3
+  Real normal = 0;           // force time; of the normal forces, < 0 where they pull
+  Real shear = 0;            // force time; of the sizes of the forces along the wall
+  Real contacts = 0;         // time; of the number of contacts
+  Real worn = 0;             // length^3
+  Vec3 force = {0, 0, 0};    // force time; on the wall, in the frame of the mesh
 };
 
 class WallLoads {
@@ -37,7 +38,7 @@ class WallLoads {
   std::size_t bytes() const;
 
   // Rows of kPackedLoad numbers, by feature; add_packed() adds to what is there.
-  static constexpr int kPackedLoad = 5;
+  static constexpr int kPackedLoad = 8;
   std::vector<double> packed() const;
   void add_packed(const double *rows, std::size_t n_rows);
 

@@ -51,7 +51,8 @@ def main():
         return scene.forces(LAW, mesh=with_loads.format(name), more=more)
 
     def go(name, ranks=1, begin=scene.CREATE, steps=FIRST + SECOND, last=""):
-        thermo = ("thermo_style custom step f_wall[3] f_wall[7] f_wall[10]\n"
+        thermo = ("thermo_style custom step f_wall[3] f_wall[7] f_wall[10] "
+                  "f_wall[1] f_wall[2]\n"
                   "thermo_modify norm no format float %.17g\nthermo 1\n")
         text = deck.run_well(begin + forces(name, thermo) + f"run {steps}\n" + last, folder, ranks)
         return deck.read_thermo(text)
@@ -76,8 +77,12 @@ def main():
     checks.fact("stress times area is about the force on the mesh", abs(pressed / lift - 1) < 0.05,
                 f"{pressed:.4g} and {lift:.4g}")
 
+    mean = [sum(r[k] for r in rows[-100:]) / 100 for k in (4, 5, 1)]
+    checks.at_most("forces sum to the mean of the fix's first three numbers",
+                   max(abs(sum(last["force"][d::3]) / mean[d] - 1) for d in range(3)), ON_RANKS)
+
     go("two_*.vtp", ranks=2)
-    for name in ("worn_volume", "normal_stress", "shear_stress", "contacts"):
+    for name in ("worn_volume", "normal_stress", "shear_stress", "contacts", "force"):
         checks.at_most(f"{name} on 2 ranks", apart(last, read_vtp(folder / "two_1500.vtp"), name),
                        1e-9)
 
@@ -88,7 +93,7 @@ def main():
         rows = go("b_*.vtp", ranks, scene.SETTINGS + "read_restart half.restart\n", SECOND - 50)
         for step in (FIRST + 100, FIRST + SECOND):
             a, b = (read_vtp(folder / f"{x}_{step}.vtp") for x in "ab")
-            for name in ("worn_volume", "normal_stress", "contacts"):
+            for name in ("worn_volume", "normal_stress", "contacts", "force"):
                 checks.at_most(f"{name} at {step}, continued on {ranks}", apart(a, b, name),
                                0 if ranks == 1 else 1e-9)
 

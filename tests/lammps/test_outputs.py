@@ -104,6 +104,13 @@ def main():
                     one[6] == 1 and close(one[9], 500) and close(one[10], -1) and
                     close(one[11], 0.25) and close(one[12], 0) and one[13] == 0.5, str(one[6:]))
 
+    # From (1, 0.5) the one force has no arm, and the other's is (-2, -0.25).
+    thermo, _, _ = go(folder, more="contacts torque_about 1 0.5 7")
+    checks.fact("torque_about: of a point of the box", close(thermo[0][5], 125) and
+                close(thermo[0][6], -1000) and close(thermo[0][7], 0), str(thermo[0][5:8]))
+    thermo, _, _ = go(folder, extra="thermo_style custom step f_wall[10] f_wall[11]")
+    checks.fact("a wall at rest without wear: no work, no volume", thermo[0][1:] == [0, 0], str(thermo[0]))
+
     thermo, dump, _ = go(folder, group="some", atoms=TWO + "group some type 1\n")
     checks.fact("group: only its spheres feel the wall",
                 thermo[0][8] == 1 and dump[0][2][2] == 0, str(thermo[0][8]))

@@ -35,7 +35,7 @@ OUTPUTS = """\
 timestep        {dt}
 fix             out all print 1 "$(step) $(f_wall[1]:%.17g) $(f_wall[2]:%.17g) $(f_wall[3]:%.17g) &
 $(f_wall[4]:%.17g) $(f_wall[5]:%.17g) $(f_wall[6]:%.17g) $(f_wall[7]) $(f_wall[8]:%.17g) &
-$(f_wall[9]) $(f_wall[10]:%.17g) $(f_wall[11]:%.17g) $(f_wall[12]:%.17g) {more}" file out.txt screen no
+$(f_wall[9]) $(f_wall[12]:%.17g) $(f_wall[13]:%.17g) $(f_wall[14]:%.17g) {more}" file out.txt screen no
 """
 # Columns of it: f_ID[k] is number k.
 COUNT, DEPTH, PLACE, SPEED, PUSH, MORE = 7, 8, 10, 11, 12, 13
@@ -193,7 +193,7 @@ def ramp(checks, folder):
     checks.at_most("to 1e-2 of the load", abs(off / rows[-1][MORE]), 1e-2)
     # The load as a function of its own place: a spring of 500 before the piston.
     rows, _ = go(folder, "servo force z v_load vmax 0.5",
-                 before="variable load equal -50-500*f_wall[10]\n", steps=6000)
+                 before="variable load equal -50-500*f_wall[12]\n", steps=6000)
     # 50 - 500 s = k (s - 0.05)/2
     s = (50 + 0.05 * 1e4 / 2) / (1e4 / 2 + 500)
     checks.at_most("a spring before the piston", abs(rows[-1][PLACE] / -s - 1), 1e-3)
@@ -261,7 +261,7 @@ def restart(checks, folder):
     text = bed(HISTORY, servo)
     dump = ("dump d all custom 100 {0} id x y z vx vy vz v_p v_s v_l\n"
             "dump_modify d format float %.17g sort id\n")
-    # f_wall[10] in an atom-style variable would be a column in 4Jul2026.
+    # f_wall[12] in an atom-style variable would be a column in 4Jul2026.
     names = "".join(f"variable {v}q equal f_wall[{k}]\nvariable {v} atom v_{v}q\n"
                     for v, k in (("p", 10), ("s", 11), ("l", 12)))
     for motion in ("", "motion wiggle 0.02 0 0 0.9 "):
@@ -278,10 +278,10 @@ def restart(checks, folder):
 
     def go_on(words, more="run 0\n"):
         rest = head(text) + "read_restart r.restart\n" + text[text.index("pair_style"):].replace(servo, words)
-        return deck.run_well(rest + "thermo_style custom step f_wall[10]\nthermo_modify format float %.17g\n" +
+        return deck.run_well(rest + "thermo_style custom step f_wall[12]\nthermo_modify format float %.17g\n" +
                              more, folder)
 
-    deck.run_well(text + "timestep 0.002\nrun 1500\nvariable p equal f_wall[10]\nprint 'place $(v_p:%.17g)'\n"
+    deck.run_well(text + "timestep 0.002\nrun 1500\nvariable p equal f_wall[12]\nprint 'place $(v_p:%.17g)'\n"
                   "write_restart r.restart\n", folder)
     log = go_on("servo force z -10 vmax 0.1")
     checks.fact("another target goes on from there", "another line" not in log and
@@ -327,7 +327,7 @@ def modified(checks, folder):
     text = (BEGIN.format(create=ONE, pair="zero 1.2") + FLOOR.format(law=HOOKE) +
             wall(HOOKE, "motion linear 0.2 0 -0.1 servo force z -50 vmax 0.5 wear archard 1e-9 1") +
             f"timestep {DT}\nrun 1500\n" +
-            "print 'ends $(f_wall[10]:%.6g) $(f_wall[11]:%.6g) $(f_wall[12]:%.6g) $(f_wall[13]:%.6g)'\n")
+            "print 'ends $(f_wall[10]:%.6g) $(f_wall[12]:%.6g) $(f_wall[13]:%.6g) $(f_wall[14]:%.6g)'\n")
     words = [line for line in deck.run_well(text, folder).split("\n") if line.startswith("ends ")][0].split()
     worn, place, speed, push = (float(w) for w in words[1:])
     checks.fact("beside a motion: wear comes first", 0 < worn < 1e-6, words[1])

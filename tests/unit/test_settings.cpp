@@ -485,14 +485,40 @@ TEST(settings, wear_is_volume_per_work)
 TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
 {
   const WallSettings s = with("mesh_fields wall_*.vtp every 500");
-  EXPECT_EQ(s.fields_file, "wall_*.vtp");
-  EXPECT_EQ(s.fields_every, 500);
+  EXPECT_EQ(s.fields.name, "wall_*.vtp");
+  EXPECT_EQ(s.fields.every, 500);
   EXPECT_TRUE(s.has_loads());
   EXPECT_TRUE(names(error_with("mesh_fields wall.vtk every 500"), ".vtp"));
   EXPECT_TRUE(names(error_with("mesh_fields wall.vtp 500"), "every"));
   EXPECT_TRUE(names(error_with("mesh_fields wall.vtp every 0"), "N"));
   EXPECT_TRUE(names(error_with("mesh_fields wall.vtp every 1.5"), "whole"));
   EXPECT_TRUE(names(error_with("mesh_fields"), "file name"));
+  EXPECT_TRUE(names(error_with("mesh_fields a_*/wall.vtp every 5"), "folder"));
+}
+
+TEST(settings, mesh_stl_needs_an_stl_file_and_a_number_of_steps)
+{
+  const WallSettings s = with("mesh_stl wall_*.stl every 500");
+  EXPECT_EQ(s.stl.name, "wall_*.stl");
+  EXPECT_EQ(s.stl.every, 500);
+  EXPECT_FALSE(s.has_loads());
+  EXPECT_TRUE(names(error_with("mesh_stl wall.vtp every 500"), ".stl"));
+  EXPECT_TRUE(names(error_with("mesh_stl wall.stl every 0"), "N"));
+}
+
+TEST(settings, torque_is_about_a_point_of_the_box_or_of_the_mesh)
+{
+  EXPECT_EQ(with("").torque_about, (Vec3{0, 0, 0}));
+  const WallSettings box = with("torque_about 1 2 3");
+  EXPECT_FALSE(box.torque_about_mesh);
+  EXPECT_EQ(box.torque_about, (Vec3{1, 2, 3}));
+  const WallSettings mesh = with("torque_about mesh contacts");
+  EXPECT_TRUE(mesh.torque_about_mesh && mesh.contacts);
+  EXPECT_EQ(mesh.torque_about, (Vec3{0, 0, 0}));
+  EXPECT_EQ(with("torque_about mesh 4 5 6").torque_about, (Vec3{4, 5, 6}));
+  EXPECT_TRUE(names(error_with("torque_about"), "x"));
+  EXPECT_TRUE(names(error_with("torque_about 1 2"), "z"));
+  EXPECT_TRUE(names(error_with("torque_about axis"), "axis"));
 }
 
 TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)

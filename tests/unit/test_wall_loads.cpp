@@ -1,4 +1,5 @@
 // Loads and wear of the parts of a wall, and their file.
+#include "output/file_series.h"
 #include "output/mesh_fields.h"
 #include "support/laws.h"
 #include "support/meshes.h"
@@ -17,7 +18,7 @@ namespace {
 
 ContactRecord on(FeatureKind kind, std::uint32_t index, Real normal, Real shear, Real wear)
 {
-  return {feature_code(kind, index), 0, normal, shear, wear};
+  return {feature_code(kind, index), 0, normal, shear, wear, {-shear, 0, -normal}};
 }
 
 TEST(loads, are_integrals_over_time)
@@ -35,6 +36,7 @@ TEST(loads, are_integrals_over_time)
   EXPECT_EQ(faces[1].shear, 1.25);
   EXPECT_EQ(faces[1].contacts, 0.75);
   EXPECT_EQ(faces[1].worn, 2);
+  EXPECT_EQ(faces[1].force, (Vec3{-1.25, 0, -2}));
   EXPECT_EQ(faces[0].normal, -0.25);
   EXPECT_EQ(loads.worn(), 2);
 }
@@ -82,6 +84,7 @@ TEST(loads, keep_wear_and_forget_stress_when_an_average_begins)
   loads.add(&r, 1, 0.5, 1);
   const Load face = loads.of_faces(weld(floor_mesh(1, 1), -1))[0];
   EXPECT_EQ(face.normal, 3);
+  EXPECT_EQ(face.force, (Vec3{-1, 0, -3}));
   EXPECT_EQ(face.worn, 7.5);
 }
 
@@ -163,10 +166,51 @@ TEST(mesh_fields, are_written_whole_and_exact)
   EXPECT_EQ(array_in<double>(xml, "normal_stress")[4], 0);
 }
 
+TEST(mesh_fields, forces_turn_with_the_mesh)
+{
+  const WallMesh mesh = weld(floor_mesh(1, 1), -1);
+  WallLoads loads;
+  const ContactRecord r = on(FeatureKind::face, 1, 6, 2, 0);
+  loads.add(&r, 1, 0.5, 0);
+  loads.add(nullptr, 0, 0.5, 0);
+  WallPose pose;    // x to y to z to x
+  pose.row[0] = {0, 0, 1};
+  pose.row[1] = {1, 0, 0};
+  pose.row[2] = {0, 1, 0};
+  pose.shift = {5, 6, 7};
+  pose.placed = true;
+  const FaceField force = load_fields(mesh, loads, 1, false, pose).back();
+  EXPECT_EQ(force.name, "force");
+  EXPECT_EQ(force.n_components, 3);
+  EXPECT_EQ(force.value, (std::vector<double>{0, 0, 0, -3, -1, 0}));
+}
+
 TEST(mesh_fields, files_carry_the_step_where_a_star_is)
 {
   EXPECT_EQ(file_of_step("a/wall_*.vtp", 1200), "a/wall_1200.vtp");
   EXPECT_EQ(file_of_step("wall.vtp", 1200), "wall.vtp");
+}
+
+TEST(file_series, lists_files_with_times_and_reads_its_own_list)
+{
+  const TempDir dir;
+  FileSeries first(dir.path("a&b_*.vtp"));
+  EXPECT_EQ(first.path(), dir.path("a&b_series.pvd"));
+  for (const int step : {1, 2, 3}) first.add(step, 0.1 * step);
+  first.write();
+  FileSeries next(dir.path("a&b_*.vtp"));
+  next.read();
+  next.add(2, 0.25);    // of this step there is another file now, and step 3 is to come
+  next.write();
+  std::ifstream file(next.path());
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_EQ(text.str(),
+            "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
+            "<DataSet timestep=\"0.10000000000000001\" part=\"0\" file=\"a&amp;b_1.vtp\"/>\n"
+            "<DataSet timestep=\"0.25\" part=\"0\" file=\"a&amp;b_2.vtp\"/>\n"
+            "</Collection>\n</VTKFile>\n");
 }
 
 }    // namespace

@@ -15,6 +15,7 @@ struct ContactRecord {
   Real normal;          // force on the wall, > 0 where the sphere presses
   Real shear;           // size of the force along the wall
   Real wear_power;      // see model/wear.h; 0 without wear
+  Vec3 force;           // on the wall, in the frame of the mesh
 };
 
 // Which of the two a kernel has.

@@ -1,0 +1,87 @@
+// Files that the fix writes every so many steps. One that cannot be written is warned of and the
+// run goes on: it may be weeks old.
+
+#include "lammps/fix_wall_lsdcd.h"
+
+#include "base/input_error.h"
+#include "base/whole_file.h"
+#include "output/mesh_fields.h"
+#include "output/mesh_stl.h"
+
+#include "comm.h"
+#include "force.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+
+// Whether files can be made where they are wanted: told before a run, not hours into it.
+void FixWallLsdcd::check_file(const char *keyword, const lsdcd::FileEvery &file) const
+{
+  if (file.every == 0) return;
+  try {
+    lsdcd::together(world, comm->me == 0,
+                    [&] { lsdcd::WholeFile(lsdcd::file_of_step(file.name, update->ntimestep)); });
+  } catch (const lsdcd::InputError &e) {
+    refuse("in '" + std::string(keyword) + "', " + e.what() + "; make the folder, or name another");
+  }
+}
+
+// Where the first process cannot do this, what is lost is told once a run. Collective.
+template <class Work>
+bool FixWallLsdcd::try_to_write(const std::string &lost, const Work &work)
+{
+  try {
+    lsdcd::together(world, comm->me == 0, work);
+    return true;
+  } catch (const lsdcd::InputError &e) {
+    if (!file_warned)
+      warn(
+          std::string(e.what()) + ": " + lost +
+          "; older files are as they were. The run goes on, and tells of no other file that cannot "
+          "be written");
+    file_warned = true;
+    return false;
+  }
+}
+
+// An average that could not be written goes on to the next file.
+void FixWallLsdcd::write_fields()
+{
+  const std::string file = lsdcd::file_of_step(settings.fields.name, update->ntimestep);
+  const double time = static_cast<double>(run_clock.now());
+  const lsdcd::WallLoads all = gathered_loads();
+  const auto write = [&] {
+    lsdcd::write_mesh_fields(
+        file, *wall->mesh(),
+        lsdcd::load_fields(*wall->mesh(), all, force->nktv2p, settings.wears(), pose),
+        update->ntimestep, time, pose);
+  };
+  if (!try_to_write("there are no mesh_fields of this step, and the next file averages over these "
+                    "steps, too",
+                    write))
+    return;
+  loads.begin_average();
+  if (file == settings.fields.name) return;
+  const auto list = [&] {
+    if (!series) {
+      series = std::make_unique<lsdcd::FileSeries>(settings.fields.name);
+      if (continued) series->read();
+    }
+    series->add(update->ntimestep, time);
+    series->write();
+  };
+  try_to_write("the list of mesh_fields lacks this step until it can be written", list);
+}
+
+void FixWallLsdcd::end_of_step()
+{
+  const auto due = [this](const lsdcd::FileEvery &file) {
+    return file.every > 0 && update->ntimestep % file.every == 0;
+  };
+  if (due(settings.fields)) write_fields();
+  if (due(settings.stl))
+    try_to_write("there is no mesh_stl of this step", [&] {
+      lsdcd::write_mesh_stl(lsdcd::file_of_step(settings.stl.name, update->ntimestep),
+                            *wall->mesh(), pose);
+    });
+}

@@ -1,0 +1,82 @@
+#include "output/file_series.h"
+
+#include "base/whole_file.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+namespace lsdcd {
+
+namespace {
+
+const std::string kTime = "<DataSet timestep=\"", kFile = "\" part=\"0\" file=\"", kEnd = "\"/>";
+
+std::string with_star_as(const std::string &path, const std::string &text)
+{
+  const std::size_t star = path.find('*');
+  return star == std::string::npos ? path : path.substr(0, star) + text + path.substr(star + 1);
+}
+
+std::string as_xml(const std::string &text)
+{
+  std::string xml;
+  for (const char c : text)
+    xml += c == '&'   ? std::string("&amp;")
+           : c == '<' ? std::string("&lt;")
+           : c == '"' ? std::string("&quot;")
+                      : std::string(1, c);
+  return xml;
+}
+
+}    // namespace
+
+std::string file_of_step(const std::string &path, long long step)
+{
+  return with_star_as(path, std::to_string(step));
+}
+
+FileSeries::FileSeries(const std::string &path) : files_(path.substr(path.rfind('/') + 1))
+{
+  const std::string list = with_star_as(path, "series");
+  path_ = list.substr(0, list.rfind('.')) + ".pvd";
+}
+
+// Its own lines, and no other: it reads what it wrote.
+void FileSeries::read()
+{
+  std::ifstream in(path_);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t file = line.find(kFile);
+    if (line.compare(0, kTime.size(), kTime) != 0 || file == std::string::npos) continue;
+    const std::size_t at = file + kFile.size();
+    entries_.push_back({std::strtod(line.c_str() + kTime.size(), nullptr),
+                        line.substr(at, line.rfind(kEnd) - at)});
+  }
+}
+
+void FileSeries::add(long long step, double time)
+{
+  const std::string file = as_xml(file_of_step(files_, step));
+  const auto left_behind = [&](const Entry &e) { return e.time > time || e.file == file; };
+  entries_.erase(std::remove_if(entries_.begin(), entries_.end(), left_behind), entries_.end());
+  entries_.push_back({time, file});
+}
+
+void FileSeries::write() const
+{
+  std::string text = "<?xml version=\"1.0\"?>\n"
+                     "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+  for (const Entry &e : entries_) {
+    char time[32];
+    std::snprintf(time, sizeof time, "%.17g", e.time);
+    text += kTime + time + kFile + e.file + kEnd + "\n";
+  }
+  text += "</Collection>\n</VTKFile>\n";
+  WholeFile file(path_);
+  file.write_at(0, text.data(), text.size());
+  file.commit();
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,48 @@
+// The mesh as an STL file.
+#include "mesh/motion.h"
+#include "output/mesh_stl.h"
+#include "support/meshes.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+
+namespace lsdcd {
+namespace {
+
+TEST(mesh_stl, of_a_mesh_at_rest_has_the_bits_that_were_read)
+{
+  const TempDir dir;
+  const TriangleSoup soup = box_mesh({0.1f, -0.2f, 0.3f}, {1.7f, 2.9f, 3.3f});    // floats
+  write_mesh_stl(dir.path("a.stl"), weld(soup, 0));
+  EXPECT_EQ(read_stl(dir.path("a.stl")).corners, soup.corners);
+}
+
+TEST(mesh_stl, of_a_mesh_that_moves_has_its_places_in_float_and_outward_normals)
+{
+  const TempDir dir;
+  const WallMesh mesh = weld(box_mesh({0, 0, 0}, {1, 2, 3}), -1);
+  WallMotion motion;
+  MotionTerm turn;
+  turn.kind = MotionKind::rotate;
+  turn.axis = unit_vector({1, 2, 3});
+  turn.point = {0.3, 0.4, 0.5};
+  turn.period = 1;
+  motion.add(turn);
+  const WallPose pose = motion.pose_at(0.2L);
+  write_mesh_stl(dir.path("a.stl"), mesh, pose);
+  const TriangleSoup soup = read_stl(dir.path("a.stl"));
+  ASSERT_EQ(soup.n_triangles(), 12u);
+  for (std::size_t f = 0; f < 12; f++)
+    for (int k = 0; k < 3; k++) {
+      const Vec3 p = pose.to_box(mesh.vertices[mesh.faces[f][k]]);
+      for (int d = 0; d < 3; d++)
+        EXPECT_EQ(static_cast<float>(soup.corners[3 * f + k][d]), static_cast<float>(p[d]));
+    }
+  const WallMesh again = weld(soup, -1);
+  EXPECT_TRUE(again.report.closed && again.report.oriented);
+  // Floats of places of size 3 are off by 1.2e-7; each of 3 lengths by at most twice that.
+  EXPECT_NEAR(again.report.volume, 6, 6 * 3 * 2.4e-7);
+}
+
+}    // namespace
+}    // namespace lsdcd
