@@ -263,7 +263,7 @@ def restart(checks, folder):
             "dump_modify d format float %.17g sort id\n")
     # f_wall[12] in an atom-style variable would be a column in 4Jul2026.
     names = "".join(f"variable {v}q equal f_wall[{k}]\nvariable {v} atom v_{v}q\n"
-                    for v, k in (("p", 10), ("s", 11), ("l", 12)))
+                    for v, k in (("p", 12), ("s", 13), ("l", 14)))
     for motion in ("", "motion wiggle 0.02 0 0 0.9 "):
         for ranks in (1, 2):
             moved = text.replace(servo, motion + servo)
