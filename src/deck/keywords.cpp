@@ -1,3 +1,4 @@
+// Over 300 lines: a table with a row for each keyword.
 #include "deck/keywords.h"
 
 #include "deck/motion_words.h"

@@ -265,10 +265,7 @@ class EngineOn : public InPlaceEngine {
       throw_too_large(i, b_.to_host(radius, 1)[0], grid_.cutoff);
     }
     if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown));
-    throw InputError(std::to_string(seen.lost) +
-                     " spheres touch the wall in more separate places than there is memory for (" +
-                     std::to_string(kMostContacts) +
-                     " each); the mesh is far finer than its overlap");
+    throw_too_many_contacts(seen.lost, kMostContacts);
   }
 
   EngineSettings settings_;

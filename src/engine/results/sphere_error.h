@@ -29,6 +29,13 @@ struct SphereError : InputError {
   throw SphereError(i, text);
 }
 
+[[noreturn]] inline void throw_too_many_contacts(int spheres, int most)
+{
+  throw InputError(std::to_string(spheres) +
+                   " spheres touch the wall in more separate places than there is memory for (" +
+                   std::to_string(most) + " each); the mesh is far finer than its overlap");
+}
+
 [[noreturn]] inline void throw_has_grown(int i)
 {
   throw SphereError(
