@@ -117,7 +117,8 @@ class WallEngine {
 
   // Chooses the spheres that steps look at until the next call: those of the group that could be
   // near the wall after moving by up to `margin` (length) relative to it, and makes their lists of the
-  // wall. Radii must not grow until the next choice.
+  // wall. Radii must not grow until the next choice: a near sphere that does is an error, a far one is
+  // missed until then.
   // `watch`: has_moved() will be asked. Throws InputError if a sphere is larger than the grid's
   // cutoff (index and radius in the message).
   virtual void choose(const Spheres &spheres, Real margin, bool watch = false) = 0;

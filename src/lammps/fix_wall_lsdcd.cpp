@@ -34,7 +34,7 @@ class Respa {
 }    // namespace LAMMPS_NS
 
 static constexpr int kContactColumns = 8;
-static constexpr double kHeadroom = 1.1;    // in reach, once radii are known to grow
+static constexpr double kHeadroom = 1.1;    // in cutoff, once radii are known to grow
 
 FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker) :
     Fix(lmp, narg, arg), new_engine(maker)

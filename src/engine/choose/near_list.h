@@ -67,9 +67,7 @@ class NearList {
   void prune(B &b, const GridView &grid, const Spheres &spheres, const WallPose &pose,
              std::size_t n, Real margin, Real pull_off, StepCounts *counts, int *n_springs)
   {
-    if (flags_.size() < n) {
-      flags_ = Array<char>(n + n / 8);
-    }
+    if (flags_.size() < n) flags_ = Array<char>(n + n / 8);
     if (other_.size() < near_.size()) other_ = Array<int>(near_.size());
     char *flags = flags_.data();
     const int *near = near_.data();

@@ -12,7 +12,7 @@ struct GatherWork {
   StridedView<const Real> x;
   const Real *radius;
   WallPose pose;
-  const int *near;    // or null: sphere k
+  const int *near;
   Real margin, pull_off;
   WallLists lists;
   StepCounts *counts;
@@ -20,7 +20,7 @@ struct GatherWork {
   template <class Group>
   LSDCD_FN void operator()(const Group &group, std::size_t k) const
   {
-    const std::size_t i = near ? near[k] : k;
+    const int i = near[k];
     const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr,
                            0};
     WallList made;
@@ -41,8 +41,8 @@ class ListStore {
   // None where lists of cells hold the nearest primitives.
   const WallLists &view() const { return lists_; }
 
-  // Makes the lists of n near spheres, whose indices are `near`, or null for all. They will not go
-  // farther than `margin` before the next choice.
+  // Makes the lists of n near spheres, whose indices are `near`. They will not go farther than
+  // `margin` before the next choice.
   void make(B &b, const GridView &grid, const Spheres &spheres, const WallPose &pose,
             const int *near, std::size_t n, Real margin, Real pull_off, StepCounts *counts)
   {

@@ -103,10 +103,10 @@ LSDCD_FN bool insert_code(WallList &list, FeatureCode code)
 }
 
 // Calls found(code) for what a sphere at q with this cutoff could touch after a way of up to the
-// margin, until that says false; returns whether it did not. Nothing is called, and false returned,
-// where something is nearer than `close` for sure. A contact on such a way is in the complete list of
-// the cell that it is found from, and that cell meets the ball round q. Lists of cells hold for a
-// margin of their own. The threads of a group divide the candidates, and each is told of all.
+// margin, until that says false; returns whether it did not. Stops with false, too, where a candidate
+// may be nearer than `close`. A contact on such a way is in the complete list of the cell that it is
+// found from, and that cell meets the ball round q. Lists of cells hold for a margin of their own.
+// The threads of a group divide the candidates, and each is told of all.
 template <class Geometry, class Group, class Found>
 LSDCD_FN bool for_each_within(const Group &group, const GridView &grid, const Vec3 &q, Real cutoff,
                               Real margin, Real close, const Found &found)
