@@ -1,6 +1,7 @@
 #include "lammps/fix_massflow_lsdcd.h"
 
 #include "base/input_words.h"
+#include "lammps/host_box.h"
 #include "lammps/mpi_shared.h"
 
 #include "atom.h"
@@ -107,7 +108,7 @@ lsdcd::WallMesh FixMassflowLsdcd::read_mesh()
 
 void FixMassflowLsdcd::check_length(const lsdcd::WallMesh &mesh) const
 {
-  const lsdcd::PeriodicBox now = simulation_box();
+  const lsdcd::PeriodicBox now = lsdcd::host_box(*domain);
   const lsdcd::Box size = in_fractions({mesh.report.lo, mesh.report.hi}, now);
   for (int k = 0; k < 3; k++) {
     const double more = (size.hi[k] - size.lo[k] - 1) * now.width(k);
@@ -132,28 +133,6 @@ void FixMassflowLsdcd::init()
            " of atoms that it takes out of rigid bodies: leave these out of the group");
 }
 
-lsdcd::PeriodicBox FixMassflowLsdcd::simulation_box() const
-{
-  const double *lo = domain->boxlo, *size = domain->prd;
-  lsdcd::PeriodicBox now;
-  now.corner = {lo[0], lo[1], lo[2]};
-  now.edge[0] = {size[0], 0, 0};
-  now.edge[1] = {domain->triclinic ? domain->xy : 0, size[1], 0};
-  now.edge[2] = {domain->triclinic ? domain->xz : 0, domain->triclinic ? domain->yz : 0, size[2]};
-  // In two dimensions all is at z = 0, and periodicity along z means nothing.
-  for (int k = 0; k < 3; k++)
-    now.periodic[k] = domain->periodicity[k] && !(domain->dimension == 2 && k == 2);
-  return now;
-}
-
-// Does LAMMPS reneighbour before any atom has gone farther than half the skin? What it has gone in
-// the step of a reneighbouring has no bound, and is looked at.
-bool FixMassflowLsdcd::steps_are_short() const
-{
-  return neighbor->dist_check && neighbor->every == 1 && neighbor->delay == 0 &&
-         !neighbor->build_once && !neighbor->includegroup;
-}
-
 // Between runs atoms may be put anywhere: only time steps let them pass.
 void FixMassflowLsdcd::setup(int /*vflag*/)
 {
@@ -173,7 +152,7 @@ void FixMassflowLsdcd::setup(int /*vflag*/)
 void FixMassflowLsdcd::follow_box()
 {
   const lsdcd::PeriodicBox before = box;
-  box = simulation_box();
+  box = lsdcd::host_box(*domain);
   const double moved = surface->images_move(before, box);
   for (int i = 0; moved > 0 && i < atom->nlocal; i++) tracks[i].clear -= moved;
 }
@@ -181,7 +160,8 @@ void FixMassflowLsdcd::follow_box()
 void FixMassflowLsdcd::end_of_step()
 {
   if (domain->box_change) follow_box();
-  look_at_all = look_at_all || neighbor->ago == 0 || domain->box_change || !steps_are_short();
+  look_at_all = look_at_all || neighbor->ago == 0 || domain->box_change ||
+                !lsdcd::atoms_stay_close(*neighbor);
   if (look_at_all) {
     near.clear();
     for (int i = 0; i < atom->nlocal; i++) {

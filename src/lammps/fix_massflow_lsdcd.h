@@ -76,8 +76,6 @@ class FixMassflowLsdcd : public Fix {
 
   lsdcd::WallMesh read_mesh();
   void check_length(const lsdcd::WallMesh &) const;
-  lsdcd::PeriodicBox simulation_box() const;
-  bool steps_are_short() const;
   void follow_box();
   void look(int);
   void count(int, lsdcd::Passes);

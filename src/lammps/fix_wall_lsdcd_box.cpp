@@ -3,6 +3,7 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "base/input_words.h"
+#include "lammps/host_box.h"
 #include "mesh/likely_scale.h"
 
 #include "atom.h"
@@ -18,27 +19,16 @@ using lsdcd::number_text;
 
 lsdcd::PeriodicBox FixWallLsdcd::simulation_box() const
 {
-  const double *lo = domain->boxlo, *size = domain->prd;
-  lsdcd::PeriodicBox box;
-  box.corner = {lo[0], lo[1], lo[2]};
-  box.edge[0] = {size[0], 0, 0};
-  box.edge[1] = {domain->triclinic ? domain->xy : 0, size[1], 0};
-  box.edge[2] = {domain->triclinic ? domain->xz : 0, domain->triclinic ? domain->yz : 0, size[2]};
-  for (int k = 0; k < 3; k++) {
-    // In two dimensions all is at z = 0, and periodicity along z means nothing.
-    box.periodic[k] = domain->periodicity[k] && !(domain->dimension == 2 && k == 2);
+  lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
+  for (int k = 0; k < 3; k++)
     box.follows[k] = domain->boundary[k][0] >= 2 || domain->boundary[k][1] >= 2;
-  }
   box.margin = std::max(neighbor->skin, farthest_out);
   return box;
 }
 
-// Between two reneighbourings no atom has moved further than half the skin where LAMMPS
-// checks that in every step; a step in which one has is a reneighbouring.
 bool FixWallLsdcd::spheres_stay_close() const
 {
-  return neighbor->dist_check && neighbor->every == 1 && neighbor->delay == 0 &&
-         !neighbor->build_once && !neighbor->includegroup;
+  return lsdcd::atoms_stay_close(*neighbor);
 }
 
 static std::string extents(const lsdcd::Vec3 &lo, const lsdcd::Vec3 &hi)

@@ -152,13 +152,11 @@ lsdcd::PeriodicBox FixWallLsdcd::mesh_box() const
   for (int k = 0; k < 3; k++) {
     if (keeps_edge(settings.motion, real, k)) continue;
     double lo = 0, hi = 1;
-    for (int i = 0; i < 8; i++) {
-      const double at =
-          real.fraction({i & 1 ? bounds.hi.x : bounds.lo.x, i & 2 ? bounds.hi.y : bounds.lo.y,
-                         i & 4 ? bounds.hi.z : bounds.lo.z})[k];
+    lsdcd::for_corners(bounds, [&](const lsdcd::Vec3 &corner) {
+      const double at = real.fraction(corner)[k];
       lo = std::min(lo, at);
       hi = std::max(hi, at);
-    }
+    });
     box.corner += lo * real.edge[k];
     box.edge[k] = (hi - lo) * real.edge[k];
     box.periodic[k] = false;
@@ -177,13 +175,11 @@ void FixWallLsdcd::check_moving_box(const lsdcd::WallPose &at, bool ahead) const
     if (!box.periodic[k] || keeps_edge(settings.motion, box, k)) continue;
     const double depth = (wall->cutoff() + box.margin) / box.width(k);
     double lo = HUGE_VAL, hi = -HUGE_VAL;
-    for (int i = 0; i < 8; i++) {
-      const double f = box.fraction(
-          at.to_box({i & 1 ? bounds.hi.x : bounds.lo.x, i & 2 ? bounds.hi.y : bounds.lo.y,
-                     i & 4 ? bounds.hi.z : bounds.lo.z}))[k];
+    lsdcd::for_corners(bounds, [&](const lsdcd::Vec3 &corner) {
+      const double f = box.fraction(at.to_box(corner))[k];
       lo = std::min(lo, f);
       hi = std::max(hi, f);
-    }
+    });
     if (lo > depth && hi < 1 - depth) continue;
     const std::string axis(1, "xyz"[k]);
     refuse("the moving mesh " + std::string(ahead ? "will reach" : "reaches") +

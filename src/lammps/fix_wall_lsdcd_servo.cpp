@@ -50,12 +50,9 @@ double FixWallLsdcd::stable_gain(double dt)
     const lsdcd::Box bounds =
         lsdcd::placed_bounds(settings.motion.terms_at(clock.now()), mesh_bounds(servo_radius));
     arm = 0;
-    for (int i = 0; i < 8; i++) {
-      const lsdcd::Vec3 corner = {i & 1 ? bounds.hi.x : bounds.lo.x,
-                                  i & 2 ? bounds.hi.y : bounds.lo.y,
-                                  i & 4 ? bounds.hi.z : bounds.lo.z};
+    lsdcd::for_corners(bounds, [&](const lsdcd::Vec3 &corner) {
       arm = std::max(arm, norm(cross(s.axis, corner - s.point)));
-    }
+    });
   }
   const double overlap = totals[7] * servo_radius + s.fastest * arm * dt,
                contacts = std::max(1.0, totals[6]);

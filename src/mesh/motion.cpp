@@ -86,14 +86,6 @@ void shift_of(const MotionTerm &m, Time t, Vec3 &shift, Vec3 &velocity)
   }
 }
 
-// Calls f with each corner of a box.
-template <class F>
-void for_corners(const Box &box, const F &f)
-{
-  for (int i = 0; i < 8; i++)
-    f(Vec3{i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z});
-}
-
 }    // namespace
 
 Vec3 unit_vector(const Vec3 &a)

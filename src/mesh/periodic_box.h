@@ -9,6 +9,14 @@ struct Box {
   Vec3 lo, hi;    // length
 };
 
+// Calls f with each corner of a box.
+template <class F>
+void for_corners(const Box &box, const F &f)
+{
+  for (int i = 0; i < 8; i++)
+    f(Vec3{i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z});
+}
+
 constexpr Box kNoLimit = {{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
 
 struct PeriodicBox {

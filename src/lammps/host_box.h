@@ -1,0 +1,23 @@
+// What our fixes ask of LAMMPS's box and neighbour lists.
+#ifndef LSDCD_HOST_BOX_H
+#define LSDCD_HOST_BOX_H
+
+#include "mesh/periodic_box.h"
+
+namespace LAMMPS_NS {
+class Domain;
+class Neighbor;
+}    // namespace LAMMPS_NS
+
+namespace lsdcd {
+
+// The simulation box, without a margin.
+PeriodicBox host_box(const LAMMPS_NS::Domain &domain);
+
+// Does LAMMPS reneighbour before any atom has gone farther than half the skin? A step in which one
+// has is a reneighbouring.
+bool atoms_stay_close(const LAMMPS_NS::Neighbor &neighbor);
+
+}    // namespace lsdcd
+
+#endif
