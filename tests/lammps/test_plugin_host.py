@@ -37,7 +37,8 @@ def main():
     deck.LMP = HOST
     text = deck.run_well(f"plugin load {PLUGIN}\nplugin list\n" + body +
                          f"clear\nplugin load {PLUGIN}\n" + body +
-                         "undump moves\nplugin unload fix wall/lsdcd\nplugin list\nrun 10\n", folder)
+                         "undump moves\nplugin unload fix wall/lsdcd\n"
+                         "plugin unload fix massflow/lsdcd\nplugin list\nrun 10\n", folder)
     # Newer hosts keep their plugins through clear.
     came = text.count("Loading plugin: fix wall/lsdcd") + text.count("Restoring plugin: fix wall/lsdcd")
     checks.fact("load, clear, load, unload", came == 2 and "loaded plugins: 0" in text)

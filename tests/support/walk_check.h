@@ -109,7 +109,7 @@ LSDCD_FN Vec3 within_margin(const WallLists &lists, const Vec3 &from, const Vec3
   if (lists.holds(0, q, cutoff)) return q;
   const Vec3 way = q - from;
   for (Real less = 1e-12; less < 1; less *= 4) {
-    const Vec3 at = from + ((1 - less) * lists.margin[0] / norm(way)) * way;
+    const Vec3 at = from + ((1 - less) * lists.margin(0) / norm(way)) * way;
     if (lists.holds(0, at, cutoff)) return at;
   }
   return from;
@@ -204,17 +204,17 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
   if (!gather(alone, grid, sphere, kAnyDistance, made)) return out;
   out.with_list = 1;
   if (mesh.gathered < 1) {
-    const float margin = made.margin;
+    const Real margin = made.margin;
     gather_within<Geometry>(alone, grid, from, w.cutoff, mesh.gathered * margin, made);
     made.margin = margin;
   }
   Real reals[WallLists::kReals];
   std::int32_t ints[WallLists::kInts];
-  const WallLists lists = {reals, reinterpret_cast<float *>(reals + 3), ints, 1};
+  const WallLists lists = {reals, reinterpret_cast<float *>(reals + 3), ints, 1, grid.length};
   lists.put(0, made);
 
   Numbers r(mesh.pairs.seed + 0xd1342543de82ull * (i + 1));
-  const Real margin = lists.margin[0];
+  const Real margin = lists.margin(0);
   const bool chosen = can_touch(alone, grid, sphere, mesh.gathered * margin);
   Vec3 q = from;
   for (int step = 0; step < kWalkSteps; step++) {

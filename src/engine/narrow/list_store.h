@@ -53,7 +53,7 @@ class ListStore {
       reals_ = Array<Real>(room * WallLists::kReals);
       ints_ = Array<std::int32_t>(room * WallLists::kInts);
     }
-    lists_ = WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts);
+    lists_ = WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts, grid.length);
     b.for_each_by_group(
         n, grid.has_long_lists,
         GatherWork{grid, spheres.x, spheres.radius, pose, near, margin, pull_off, lists_, counts});

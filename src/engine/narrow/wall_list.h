@@ -15,8 +15,8 @@ struct WallList {
   static constexpr int kMost = 7;
 
   Vec3 x;          // the centre when the list was made
-  float margin;    // length; negative: there is no list
-  float cutoff;    // how far from its centre a sphere felt the wall then
+  Real margin;     // length; negative: there is no list
+  Real cutoff;     // how far from its centre a sphere felt the wall then
   std::int32_t n;
   FeatureCode code[kMost];    // ascending; of the wall, or with `in_floats` of brick records
 };
@@ -26,23 +26,26 @@ struct WallLists {
   static constexpr std::size_t kReals = 4, kInts = 1 + WallList::kMost;    // of a list
 
   Real *x = nullptr;            // columns x, y, z
-  float *margin = nullptr;      // columns margin, cutoff
+  float *lengths = nullptr;     // columns margin, cutoff; in units, as walls may be 1e-60 in size
   std::int32_t *n = nullptr;    // columns n, code[0], code[1], ...
   std::size_t column = 0;
+  Real unit = 1;
 
-  static WallLists of(Real *reals, std::int32_t *ints, std::size_t room)
+  // Columns of `room` lists; unit: a length of the size of radii.
+  static WallLists of(Real *reals, std::int32_t *ints, std::size_t room, Real unit)
   {
-    return {reals, reinterpret_cast<float *>(reals + 3 * room), ints, room};
+    return {reals, reinterpret_cast<float *>(reals + 3 * room), ints, room, unit};
   }
 
   // Does list k hold all that a sphere at q can touch, up to a cutoff?
   LSDCD_FN bool holds(std::size_t k, const Vec3 &q, Real up_to) const
   {
-    const Real m = margin[k];
+    const Real m = margin(k);
     const Vec3 way = q - Vec3{x[k], x[column + k], x[2 * column + k]};
     return m >= 0 && norm_sq(way) <= m * m && up_to <= cutoff(k);
   }
-  LSDCD_FN Real cutoff(std::size_t k) const { return margin[column + k]; }
+  LSDCD_FN Real margin(std::size_t k) const { return unit * lengths[k]; }
+  LSDCD_FN Real cutoff(std::size_t k) const { return unit * lengths[column + k]; }
   LSDCD_FN int size(std::size_t k) const { return n[k]; }
   LSDCD_FN FeatureCode code(std::size_t k, int i) const
   {
@@ -51,8 +54,9 @@ struct WallLists {
   LSDCD_FN void put(std::size_t k, const WallList &list) const
   {
     for (int d = 0; d < 3; d++) x[d * column + k] = list.x[d];
-    margin[k] = list.margin;
-    margin[column + k] = list.cutoff;
+    // Rounded down, and up.
+    lengths[k] = static_cast<float>((1 - Real(1e-6)) * (list.margin / unit));
+    lengths[column + k] = static_cast<float>((1 + Real(1e-6)) * (list.cutoff / unit));
     n[k] = list.n;
     for (int i = 0; i < list.n; i++)
       n[(i + 1) * column + k] = static_cast<std::int32_t>(list.code[i]);
@@ -154,8 +158,8 @@ LSDCD_FN void begin_list(WallList &list, const Vec3 &q, Real cutoff, Real margin
 {
   list.n = 0;
   list.x = q;
-  list.margin = static_cast<float>((1 - Real(1e-6)) * margin);    // rounded down, and up:
-  list.cutoff = static_cast<float>((1 + Real(1e-6)) * cutoff);
+  list.margin = margin;
+  list.cutoff = cutoff;
 }
 
 // The list of a sphere at q for a margin; false: it is too long.
