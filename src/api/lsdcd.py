@@ -10,6 +10,7 @@ told about lsdcd.h holds here; its errors are lsdcd.Error with a `code`. LSDCD_L
 shared library.
 """
 import ctypes
+import glob
 import os
 from types import SimpleNamespace
 
@@ -55,10 +56,11 @@ class Error(ValueError):
 
 def _load():
     name = os.environ.get("LSDCD_LIBRARY")
-    if not name:    # beside an installation's share/ or lib/python, or where the system looks
+    if not name:    # beside this file, in a lib/ above it, or where the system looks
         here = os.path.dirname(os.path.abspath(__file__))
-        near = [os.path.join(here, *up, "liblsdcd.so.0") for up in ((), ("..",), ("..", ".."))]
-        name = next((path for path in near if os.path.exists(path)), "liblsdcd.so.0")
+        near = [found for up in ("", "../..", "../../*")
+                for found in sorted(glob.glob(os.path.join(here, up, "liblsdcd.so.0")))]
+        name = near[0] if near else "liblsdcd.so.0"
     lib = ctypes.CDLL(name)
     for text in ("version", "last_error", "mesh_report", "grid_report"):
         getattr(lib, "lsdcd_" + text).restype = ctypes.c_char_p
