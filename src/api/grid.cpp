@@ -123,7 +123,7 @@ int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, 
       making.with_cache(o.cache);
     else
       making.without_cache();
-    made->view = made->flat.view();
+    made->grid = HostGrid(made->flat.view());
     made->has_sides = from.has_sides();
     *grid = new lsdcd_grid{std::move(made)};
   });
@@ -135,10 +135,10 @@ int lsdcd_grid_get_facts(const lsdcd_grid *grid, lsdcd_grid_facts *facts)
     need(grid, "grid");
     lsdcd_grid_facts f = checked(facts, "lsdcd_grid_facts");
     const ApiGrid &g = *grid->in;
-    f.cutoff = g.view.cutoff;
-    f.cell = g.view.length;
+    f.cutoff = g.grid.view.cutoff;
+    f.cell = g.grid.view.length;
     f.bytes = g.flat.bytes();
-    f.nearest = g.view.nearest;
+    f.nearest = g.grid.view.nearest;
     f.has_sides = g.has_sides;
     f.from_cache = g.from_cache;
     hand_out(f, facts);

@@ -24,7 +24,7 @@ struct ApiMesh {
 
 struct ApiGrid {
   FlatGrid flat;
-  GridView view;
+  HostGrid grid;
   TriangleTable names;
   bool has_sides = false, from_cache = false;
   std::string report;

@@ -38,13 +38,14 @@ lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given)
                                      "`lsdcd inspect` tells where it is open");
   if (q.radii && q.radius != 0)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`radii` and `radius` are both given");
-  if (!q.radii && q.radius == 0) q.radius = grid.view.cutoff;
+  if (!q.radii && q.radius == 0) q.radius = grid.grid.view.cutoff;
   if (!(q.radius >= 0))
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`radius` is " + std::to_string(q.radius));
-  if (q.radius > grid.view.cutoff)
-    throw ApiError(LSDCD_ERROR_CUTOFF,
-                   "`radius` is " + std::to_string(q.radius) + ", more than the grid's cutoff " +
-                       std::to_string(grid.view.cutoff) + ": build the grid with a larger cutoff");
+  if (q.radius > grid.grid.view.cutoff)
+    throw ApiError(LSDCD_ERROR_CUTOFF, "`radius` is " + std::to_string(q.radius) +
+                                           ", more than the grid's cutoff " +
+                                           std::to_string(grid.grid.view.cutoff) +
+                                           ": build the grid with a larger cutoff");
   return q;
 }
 
@@ -102,9 +103,9 @@ int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
     });
     const ThreadsOfCaller threads(q.threads);
     if (q.type == LSDCD_FLOAT)
-      answer_points(g.view, g.names, arrays_of<float>(q));
+      answer_points(g.grid, g.names, arrays_of<float>(q));
     else
-      answer_points(g.view, g.names, arrays_of<double>(q));
+      answer_points(g.grid, g.names, arrays_of<double>(q));
   });
 }
 
@@ -136,7 +137,7 @@ int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **
       for (const auto &[on, copy] : grid->in->copies)
         if (on == device && !made->copy) made->copy = copy.lock();
       if (!made->copy) {
-        made->copy = copy_to_cuda(grid->in->view, grid->in->names);
+        made->copy = copy_to_cuda(grid->in->grid.view, grid->in->names);
         grid->in->copies.emplace_back(device, made->copy);
       }
     }

@@ -121,6 +121,7 @@ struct GridWork {
   LSDCD_FN std::uint32_t cell(const S &s) const { return occupied_cell(grid, table, s.centre()); }
   LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
   LSDCD_FN void far(std::size_t i) const { out.keep(i, far_answer()); }
+  LSDCD_FN void far(std::size_t i, const S &) const { far(i); }
   LSDCD_FN void four_far(std::size_t i) const { out.keep_four_far(i); }
   LSDCD_FN void answer(std::size_t i, const S &s, const Cell &cell) const
   {

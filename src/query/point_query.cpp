@@ -2,6 +2,7 @@
 
 #include "mesh/wall_mesh.h"
 #include "parallel/backend_cpu.h"
+#include "query/near_first_cpu.h"
 #include "query/radius_error.h"
 
 #include <algorithm>
@@ -23,23 +24,22 @@ TriangleTable::TriangleTable(const WallMesh &mesh) :
 namespace {
 
 template <class T>
-void answer_on_cpu(const GridView &grid, const TriangleTable &names, const PointArrays<T> &io)
+void answer_on_cpu(const HostGrid &grid, const TriangleTable &names, const PointArrays<T> &io)
 {
   std::uint64_t too_large = 0;
   CpuBackend b;
-  with_point_work(grid, io, names.view(), &too_large, [&](const auto &work) {
-    b.for_each(io.n, [&](std::size_t i) { work.answer(i); });
-  });
-  if (too_large != 0) throw_too_large(~too_large, io.radii[~too_large], grid.cutoff);
+  with_point_work(grid.view, grid.table, io, names.view(), &too_large,
+                  [&](const auto &work) { NearFirstCpu().run(b, io.n, work); });
+  if (too_large != 0) throw_too_large(~too_large, io.radii[~too_large], grid.view.cutoff);
 }
 
 }    // namespace
 
-void answer_points(const GridView &grid, const TriangleTable &names, const PointArrays<float> &io)
+void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<float> &io)
 {
   answer_on_cpu(grid, names, io);
 }
-void answer_points(const GridView &grid, const TriangleTable &names, const PointArrays<double> &io)
+void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<double> &io)
 {
   answer_on_cpu(grid, names, io);
 }

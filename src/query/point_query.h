@@ -1,7 +1,7 @@
 // Distance, closest point, triangle and side of points against a wall, in the caller's own arrays.
 #pragma once
 
-#include "grid/triangle_grid.h"
+#include "grid/lookup/brick_words.h"
 #include "query/point_work.h"
 
 #include <memory>
@@ -18,11 +18,26 @@ struct TriangleTable {
   TriangleNames view() const { return {of_face.data(), of_edge.data(), of_vertex.data()}; }
 };
 
+// A grid on the host, borrowed, with its brick table as bits.
+struct HostGrid {
+  GridView view = {};
+  std::vector<BrickWord> words;
+  BrickTable table;
+
+  HostGrid() = default;
+  HostGrid(HostGrid &&) = default;    // keeps the words where they are
+  HostGrid &operator=(HostGrid &&) = default;
+  explicit HostGrid(const GridView &grid) :
+      view(grid), words(brick_words(grid)), table(words, words.data())
+  {
+  }
+};
+
 // On the host, with threads() threads; no memory is kept, so that any number of threads may ask at
 // once. Throws InputError where a radius of `radii` is more than the grid's cutoff: answers are
 // then undefined.
-void answer_points(const GridView &grid, const TriangleTable &names, const PointArrays<float> &io);
-void answer_points(const GridView &grid, const TriangleTable &names, const PointArrays<double> &io);
+void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<float> &io);
+void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<double> &io);
 
 // A copy of a grid, a flat block, on the CUDA device that is current.
 class DeviceGrid;

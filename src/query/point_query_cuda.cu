@@ -116,7 +116,7 @@ class CudaStreamQuery : public StreamQuery {
     if (io.only_distance())
       distances_in(io);
     else
-      with_point_work(grid_->view, io, grid_->names, too_large_.data(),
+      with_point_work(grid_->view, grid_->table, io, grid_->names, too_large_.data(),
                       [&](const auto &work) { start(work, io.n); });
     if (io.radii.at) refuse_too_large(io);
   }
@@ -124,7 +124,7 @@ class CudaStreamQuery : public StreamQuery {
   template <class Work>
   void start(const Work &work, std::size_t n)
   {
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { work.answer(i); });
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { work.answer(i, work.sphere(i)); });
   }
 
   // By the kernels that are made for it, of spheres that lie as these read them.

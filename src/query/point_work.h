@@ -113,32 +113,54 @@ LSDCD_FN std::int8_t side_of(const GridView &grid, const Answer &a, const Vec3 &
   return grid.outside * dot(outward(grid.wall, nearest.feature), nearest.normal) < 0 ? -1 : 1;
 }
 
+// As GridWork, for the loops that run either. `table`: for loops that ask for cells.
 template <class Distances, class T, bool kComplete, bool kFloats>
 struct PointWork {
+  using Item = SphereOf<T>;
+
   GridView grid;
+  BrickTable table;
   PointArrays<T> io;
   TriangleNames names;
-  TooLarge<SphereOf<T>> too_large;
+  TooLarge<Item> too_large;
   bool only_distance;
 
-  LSDCD_FN void answer(std::size_t i) const
+  LSDCD_FN Item sphere(std::size_t i) const
   {
     const T *at = io.points.of(i);
-    const SphereOf<T> s = {at[0], at[io.points.column], at[2 * io.points.column],
-                           io.radii.at ? io.radii[i] : static_cast<T>(io.radius)};
-    Real radius = io.radius;
-    if (io.radii.at) {
-      too_large.note(i, s);
-      radius = static_cast<Real>(s.r);
-    }
+    return {at[0], at[io.points.column], at[2 * io.points.column],
+            io.radii.at ? io.radii[i] : static_cast<T>(io.radius)};
+  }
+  LSDCD_FN void check(std::size_t i, const Item &s) const
+  {
+    if (io.radii.at) too_large.note(i, s);
+  }
+  LSDCD_FN void answer(std::size_t i, const Item &s) const
+  {
+    check(i, s);
+    keep(i, s, nearest_distance<kComplete, Distances>(grid, s.centre(), radius(s)));
+  }
+
+  LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
+  LSDCD_FN void far(std::size_t i, const Item &s) const { keep(i, s, far_answer()); }
+  LSDCD_FN void answer(std::size_t i, const Item &s, const Cell &cell) const
+  {
     const Vec3 q = s.centre();
-    const Answer a = nearest_distance<kComplete, Distances>(grid, q, radius);
-    if (io.status) io.status[i] = status_of(a);
-    if (io.distance.at) io.distance[i] = static_cast<T>(a.found() ? a.distance : HUGE_VAL);
-    if (!only_distance) keep_nearest(i, q, a);
+    keep(i, s,
+         nearest_from<kComplete, Distances>(grid, q, radius(s), address_inside(grid, q), cell));
   }
 
  private:
+  LSDCD_FN Real radius(const Item &s) const
+  {
+    return io.radii.at ? static_cast<Real>(s.r) : io.radius;
+  }
+  LSDCD_FN void keep(std::size_t i, const Item &s, const Answer &a) const
+  {
+    if (io.status) io.status[i] = status_of(a);
+    if (io.distance.at) io.distance[i] = static_cast<T>(a.found() ? a.distance : HUGE_VAL);
+    if (!only_distance) keep_nearest(i, s.centre(), a);
+  }
   LSDCD_FN void keep_nearest(std::size_t i, const Vec3 &q, const Answer &a) const
   {
     Nearest nearest = {kNoFeature, q, {0, 0, 0}};
@@ -153,20 +175,20 @@ struct PointWork {
 
 // Calls run(work) with the work that the grid's lists and records ask for.
 template <class T, class Run>
-void with_point_work(const GridView &grid, const PointArrays<T> &io, const TriangleNames &names,
-                     std::uint64_t *too_large, const Run &run)
+void with_point_work(const GridView &grid, const BrickTable &table, const PointArrays<T> &io,
+                     const TriangleNames &names, std::uint64_t *too_large, const Run &run)
 {
   const TooLarge<SphereOf<T>> check = {static_cast<T>(grid.cutoff), too_large};
   const bool only = io.only_distance();
   using InDouble = WallDistances<InsideTest::exact>;
   if (grid.in_floats && grid.nearest == 0)
-    run(PointWork<BrickDistances, T, true, true>{grid, io, names, check, only});
+    run(PointWork<BrickDistances, T, true, true>{grid, table, io, names, check, only});
   else if (grid.in_floats)
-    run(PointWork<BrickDistances, T, false, true>{grid, io, names, check, only});
+    run(PointWork<BrickDistances, T, false, true>{grid, table, io, names, check, only});
   else if (grid.nearest == 0)
-    run(PointWork<InDouble, T, true, false>{grid, io, names, check, only});
+    run(PointWork<InDouble, T, true, false>{grid, table, io, names, check, only});
   else
-    run(PointWork<InDouble, T, false, false>{grid, io, names, check, only});
+    run(PointWork<InDouble, T, false, false>{grid, table, io, names, check, only});
 }
 
 }    // namespace lsdcd
