@@ -37,7 +37,7 @@ class EngineOn : public InPlaceEngine {
 
   std::string backend() const override { return b_.name(); }
 
-  void set_grid(const GridView &grid) override
+  void set_grid(const GridView &grid, int /*mesh*/ = 0) override
   {
     if (B::kOnHost) {
       grid_ = grid;
@@ -53,7 +53,7 @@ class EngineOn : public InPlaceEngine {
     n_near_ = 0;
   }
 
-  void place_wall(const WallPose &pose) override
+  void place_wall(const WallPose &pose, int /*mesh*/ = 0) override
   {
     if (pose.placed && !settings_.moves) throw std::logic_error("this engine's wall cannot move");
     pose_ = pose;
@@ -141,6 +141,7 @@ class EngineOn : public InPlaceEngine {
   void fetch() { results_.fetch(b_, springs_.records(step_.update_history)); }
 
   const WallTotals &totals() const override { return const_cast<EngineOn *>(this)->sum_totals(); }
+  WallTotals mesh_totals(int /*mesh*/) const override { return totals(); }
 
   int n_touching() const override { return static_cast<int>(results_.touching().size()); }
   const int *touching() const override { return results_.touching().data(); }

@@ -47,7 +47,7 @@ class HostAdapter : public WallEngine {
 
   std::string backend() const override { return engine_.backend(); }
 
-  void set_grid(const GridView &grid) override
+  void set_grid(const GridView &grid, int /*mesh*/ = 0) override
   {
     name_spheres();
     springs_to_waiting();
@@ -58,7 +58,7 @@ class HostAdapter : public WallEngine {
     near_host_.clear();
   }
 
-  void place_wall(const WallPose &pose) override
+  void place_wall(const WallPose &pose, int /*mesh*/ = 0) override
   {
     pose_ = pose;
     engine_.place_wall(pose);
@@ -161,6 +161,7 @@ class HostAdapter : public WallEngine {
     totals_known_ = true;
     return totals_;
   }
+  WallTotals mesh_totals(int /*mesh*/) const override { return totals(); }
   int n_touching() const override
   {
     return static_cast<int>(touching_.size());

@@ -174,7 +174,7 @@ class ResidentSprings {
       for (int c = 0; c < count[i]; c++) {
         const std::size_t source = std::size_t(springs.first[i]) + c;
         const Spring &s = springs.pool[source];
-        buffer[m++] = s.feature;    // 32 bits are exact in a double
+        buffer[m++] = packed_place(s);
         for (int d = 0; d < 3; d++) buffer[m++] = s.normal[d];
         for (int d = 0; d < 3; d++) buffer[m++] = s.shear[d];
         for (int e = 0; e < n_extra; e++) buffer[m++] = springs.extra[source * n_extra + e];
@@ -213,7 +213,7 @@ class ResidentSprings {
       for (int c = 0; c < count[i]; c++) {
         const std::size_t target = std::size_t(first[i]) + c;
         Spring s = {};
-        s.feature = static_cast<FeatureCode>(buffer[m++]);
+        unpack_place(buffer[m++], s);
         for (int d = 0; d < 3; d++) s.normal[d] = buffer[m++];
         for (int d = 0; d < 3; d++) s.shear[d] = buffer[m++];
         springs[target] = s;

@@ -11,7 +11,7 @@ namespace lsdcd {
 // What one contact does to the wall in one step.
 struct ContactRecord {
   FeatureCode feature;
-  std::uint32_t pad;    // keeps the record free of indeterminate bytes
+  std::uint32_t mesh;    // of the wall's
   Real normal;          // force on the wall, > 0 where the sphere presses
   Real shear;           // size of the force along the wall
   Real wear_power;      // see model/wear.h; 0 without wear
