@@ -16,18 +16,18 @@ import scene
 from test_files import arrays, listed, stl_points, warned
 
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
-MESH = ("mesh floor.stl motion wiggle 0 0 0.05 0.5 "
-        "mesh_fields {0}k_*.vtp every 20 mesh_stl {0}now.stl every 10")
+MESH = ("mesh {1} motion wiggle 0 0 0.05 0.5 "
+        "mesh_fields {0}k_*.vtp every 20 mesh_stl {0}now.stl every 5")
 EVERY = 50    # steps between restarts
-KILLS = 2 if os.environ.get("LSDCD_QUICK") else 6
+KILLS = 2 if os.environ.get("LSDCD_QUICK") else 4
 GOES_ON = 100
 ENDLESS = 1000000
 NAMES = ("a.restart", "b.restart")
 
 
-def text(begin, run, more="", to=""):
+def text(begin, run, more="", to="", mesh="fine.stl"):
     restarts = "".join(" " + to + n for n in NAMES)
-    return begin + scene.forces(LAW, mesh=MESH.format(to)) + f"restart {EVERY}{restarts}\n" + more + run
+    return begin + scene.forces(LAW, mesh=MESH.format(to, mesh)) + f"restart {EVERY}{restarts}\n" + more + run
 
 
 def descendants(pid):
@@ -74,17 +74,13 @@ def amiss(folder):
     return f"listed and not there: {gone}" if gone else ""
 
 
-def read_again(folder, name, dump="continued"):
-    shutil.copy(folder / name, folder / "last.restart")    # the run writes others over it
-    again = scene.SETTINGS + "read_restart last.restart\n"
-    return deck.run(text(again, f"run {GOES_ON}\n", scene.dump(dump, 10)), folder)
-
-
-def go_on(folder):
+def go_on(folder, mesh="fine.stl"):
     """Goes on from the newest restart file that can be read; its step. LAMMPS writes them in place,
     so that the newest may be cut off: the other is why there are two."""
     for name in sorted(NAMES, key=lambda n: -(folder / n).stat().st_mtime):
-        done = read_again(folder, name)
+        shutil.copy(folder / name, folder / "last.restart")    # the run writes others over it
+        done = deck.run(text(scene.SETTINGS + "read_restart last.restart\n", f"run {GOES_ON}\n",
+                             scene.dump("continued", 10), mesh=mesh), folder)
         if done.returncode == 0:
             return int(deck.read_thermo(done.stdout)[0][0])
     sys.exit("neither restart file can be read:\n" + done.stdout[-4000:])
@@ -108,6 +104,27 @@ def kills(checks, folder):
                       folder, ranks)
         checks.at_most(f"{at}: continued as unbroken", deck.largest_difference(
             deck.read_dump(folder / "unbroken"), deck.read_dump(folder / "continued")), 0)
+
+
+def killed_in_a_write(checks, folder):
+    """In the middle of a file, by the signal that comes where a process's files may not grow further."""
+    def run(limit):
+        files = "mesh_fields same.vtp every 20 mesh_stl same.stl every 20"
+        (folder / "in.limited").write_text(
+            scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl " + files) + "run 100\n")
+        command = f"ulimit -c 0; ulimit -f {limit}; exec '{deck.LMP}' -in in.limited -log none -nocite"
+        return subprocess.run(["sh", "-c", command], cwd=folder, env=deck.environment(),
+                              stdout=subprocess.DEVNULL).returncode
+
+    checks.fact("without a limit it runs", run("unlimited") == 0)
+    before = [(folder / name).read_bytes() for name in ("same.vtp", "same.stl")]
+    half = len(before[1]) // 2 // 512
+    checks.fact("killed in the middle of a file", run(half) == -signal.SIGXFSZ)
+    checks.fact("older files are as they were",
+                before == [(folder / name).read_bytes() for name in ("same.vtp", "same.stl")])
+    left = list(folder.glob("same.*.part-*"))
+    checks.fact("and what it had begun is beside them",
+                len(left) == 1 and left[0].stat().st_size <= half * 512, str(left))
 
 
 def small_disk(folder, kilobytes):
@@ -140,7 +157,7 @@ def full_disk(checks, folder):
         print("SKIP a full disk: only root can mount one")
         return
     deck.LMP = program
-    done = deck.run(text(scene.CREATE, "run 300\n", to="full/"), folder)
+    done = deck.run(text(scene.CREATE, "run 300\n", to="full/", mesh="floor.stl"), folder)
     deck.LMP = lmp
     told = warned(done.stdout)
     words = ("full/now.stl", "No space left", "no mesh_stl of this step", "Make room")
@@ -153,14 +170,16 @@ def full_disk(checks, folder):
     checks.fact("LAMMPS stops where it cannot write a restart file", "while writing restart" in done.stdout)
     for name in NAMES:
         shutil.copy(kept / name, folder)
-    step = go_on(folder)
+    step = go_on(folder, "floor.stl")
     checks.fact("and the run goes on from the other one", step >= 2 * EVERY, f"step {step}")
 
 
 def main():
     checks, folder = deck.Checks(), deck.scratch()
     scene.write_floor(folder / "floor.stl")
+    scene.write_floor(folder / "fine.stl", cells=80)    # a run that writes files most of its time
     kills(checks, folder)
+    killed_in_a_write(checks, folder)
     full_disk(checks, folder)
     checks.done(folder)
 
