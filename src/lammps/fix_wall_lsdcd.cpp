@@ -181,6 +181,7 @@ void FixWallLsdcd::setup(int /*vflag*/)
   if (nlevels_respa) respa->copy_flevel_f(outer);
   begin_step(true);
   collect();
+  check_inserted();
   if (nlevels_respa) respa->copy_f_flevel(outer);
 }
 
@@ -227,6 +228,7 @@ void FixWallLsdcd::post_force(int /*vflag*/)
 {
   if (adapts) begin_step(true);
   collect();
+  check_inserted();
 }
 
 void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
@@ -251,6 +253,7 @@ void FixWallLsdcd::begin_step(bool look)
   if (update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != checked_atoms))) {
     check_timestep();
     look_at_servo_spheres();
+    may_be_new = true;
   }
   start();
 }
@@ -349,18 +352,19 @@ void FixWallLsdcd::collect()
   keep_outputs();
 }
 
-// What steps have noted, for warnings and the log.
-void FixWallLsdcd::look()
+// What steps have noted since the last look, for warnings and the log.
+lsdcd::StepDiagnostics FixWallLsdcd::look()
 {
-  if (wall->cutoff() == 0) return;
+  lsdcd::StepDiagnostics diagnostics;
+  if (wall->cutoff() == 0) return diagnostics;
   try {
-    const lsdcd::StepDiagnostics diagnostics = engine->read_diagnostics();
+    diagnostics = engine->read_diagnostics();
     uncertified_sum += diagnostics.uncertified;
     worst_uncertain = std::max(worst_uncertain, diagnostics.uncertain);
     lists += diagnostics.lists;
     listed += diagnostics.listed;
     by_cells += diagnostics.by_cells;
-    if (diagnostics.deepest <= worst_overlap) return;
+    if (diagnostics.deepest <= worst_overlap) return diagnostics;
     worst_overlap = diagnostics.deepest;
     worst_step = update->ntimestep;
     if (!overlap_warned && diagnostics.deepest > kLargeOverlap)
@@ -368,6 +372,7 @@ void FixWallLsdcd::look()
   } catch (const std::exception &e) {
     stop(e);
   }
+  return diagnostics;
 }
 
 // Of the step just computed.

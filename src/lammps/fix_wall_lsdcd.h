@@ -97,8 +97,11 @@ class FixWallLsdcd : public Fix {
   bigint uncertified_due = 0;    // told from here on
   double worst_uncertain_due = 0;
   bool overlap_warned = false, wall_in_minimize_warned = false;
-  bigint checked_atoms = -1;    // how many there were when the timestep was checked
-  double worst_dt = 1;          // the largest warned of, over what there should be
+  bigint checked_atoms = -1;                // how many there were when the timestep was checked
+  bool may_be_new = false;                  // since then
+  tagint highest_tag = -1;                  // of atoms that are not new; -1: not looked yet
+  double worst_inserted = kLargeOverlap;    // overlap / radius of a new atom warned of
+  double worst_dt = 1;                      // the largest warned of, over what there should be
 
   double farthest_out = 0;    // past a face of the box that spheres were seen to go, and more
   bool out_warned = false, out_of_reach_warned = false, ends_warned = false;
@@ -155,7 +158,7 @@ class FixWallLsdcd : public Fix {
   void begin_step(bool);
   void choose_if_due(const lsdcd::Spheres &);
   bool list_keeps() const;
-  void look();
+  lsdcd::StepDiagnostics look();
   void log_lists();
   void prepare_springs();
   void springs_to_host();
@@ -232,6 +235,7 @@ class FixWallLsdcd : public Fix {
   void check_plane();
   void check_surface() const;
   void check_overlap(double);
+  void check_inserted();
   void check_timestep();
   void check_springs();
   double contact_time(double, double) const;

@@ -121,6 +121,38 @@ void FixWallLsdcd::check_overlap(double worst)
        ": stiffen the contact (kn) or lower speeds; shown once");
 }
 
+// The deepest of atoms that came to be in the wall, in the step that they came with: what inserts
+// atoms numbers them on from the highest that there is. Those of a run that goes on have sunk in.
+// Collective.
+void FixWallLsdcd::check_inserted()
+{
+  if (!may_be_new) return;
+  may_be_new = false;
+  const lsdcd::StepDiagnostics seen = look();
+  need_on_host();
+  tagint highest = 0;
+  for (int i = 0; i < atom->nlocal; i++) highest = std::max(highest, tag_of(i));
+  const tagint mine = seen.deepest > kLargeOverlap ? tag_of(seen.deepest_sphere) : 0;
+  const bool goes_on = highest_tag < 0 && update->ntimestep > 0;
+  const bool is_new = mine > highest_tag && !goes_on;
+  struct {
+    double value;
+    int rank;
+  } most = {is_new ? seen.deepest : 0, comm->me};
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+  MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  highest_tag = std::max(highest_tag, highest);
+  if (most.value <= worst_inserted) return;
+  worst_inserted = kWorse * most.value;
+  tagint which = mine;
+  MPI_Bcast(&which, 1, MPI_LMP_TAGINT, most.rank, world);
+  warn("atom " + std::to_string(which) + " comes to be in the wall, which it overlaps by " +
+       number_text(100 * most.value) + " % of its radius in step " +
+       std::to_string(update->ntimestep) +
+       ": it will be thrown out; keep what inserts or creates atoms a radius away from the mesh. "
+       "Told again of one that is deeper");
+}
+
 // Particles of a two-dimensional run feel the mesh where it cuts their plane. Collective.
 void FixWallLsdcd::check_plane()
 {

@@ -35,10 +35,9 @@ bool FixWallLsdcd::try_to_write(const std::string &lost, const Work &work)
     return true;
   } catch (const lsdcd::InputError &e) {
     if (!file_warned)
-      warn(
-          std::string(e.what()) + ": " + lost +
-          "; older files are as they were. The run goes on, and tells of no other file that cannot "
-          "be written");
+      warn(std::string(e.what()) + ": " + lost +
+           "; older files are as they were. Make room, or mend the path: the run goes on, tries "
+           "again with the next file and tells of no other that cannot be written");
     file_warned = true;
     return false;
   }
