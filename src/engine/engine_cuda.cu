@@ -50,18 +50,6 @@ class CudaEngine : private Stream, public HostAdapter<CudaBackend> {
 
 }    // namespace
 
-bool cuda_available(std::string *why)
-{
-  int n = 0;
-  const cudaError_t status = cudaGetDeviceCount(&n);
-  if (status == cudaSuccess && n > 0) return true;
-  if (why)
-    *why = status == cudaSuccess ? "no GPU found"
-                                 : std::string("no usable GPU: ") + cudaGetErrorString(status);
-  cudaGetLastError();    // or the next call would report it again
-  return false;
-}
-
 std::unique_ptr<WallEngine> make_cuda_engine(const EngineSettings &settings)
 {
   return std::make_unique<CudaEngine>(settings);

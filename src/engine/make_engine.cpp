@@ -6,12 +6,6 @@ namespace lsdcd {
 #if defined(LSDCD_HAVE_CUDA)
 std::unique_ptr<WallEngine> make_cuda_engine(const EngineSettings &settings);
 #else
-bool cuda_available(std::string *why)
-{
-  if (why) *why = "built without the CUDA toolkit";
-  return false;
-}
-
 std::unique_ptr<InPlaceEngine> make_cuda_engine_in_place(const EngineSettings &, int, void *)
 {
   throw InputError("built without the CUDA toolkit: the particles are on a GPU, the wall "

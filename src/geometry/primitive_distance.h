@@ -34,6 +34,35 @@ LSDCD_FN Real triangle_distance(const WallFeaturesView &wall, std::uint32_t face
   return least;
 }
 
+// The points that these distances are to.
+LSDCD_FN Vec3 nearest_on_segment(const Vec3 &a, const Vec3 &b, const Vec3 &q)
+{
+  const Vec3 along = b - a;
+  const Real length_sq = norm_sq(along), t = dot(along, q - a);
+  if (!(t > 0) || !(length_sq > 0)) return a;
+  return t >= length_sq ? b : a + (t / length_sq) * along;
+}
+
+LSDCD_FN Vec3 nearest_on_triangle(const WallFeaturesView &wall, std::uint32_t face, const Vec3 &q)
+{
+  const FaceRecord &f = wall.faces[face];
+  const Vec3 d = q - f.anchor;
+  const Real side[3] = {dot(f.inward[0], d), dot(f.inward[1], d) + f.height, dot(f.inward[2], d)};
+  Vec3 nearest = q - dot(f.normal, d) * f.normal;
+  Real least = -1;
+  for (int k = 0; k < 3; k++) {
+    if (side[k] >= 0) continue;
+    const Vec3 a = wall.vertices[wall.face_vertex[face].v[k]].position,
+               b = wall.vertices[wall.face_vertex[face].v[(k + 1) % 3]].position,
+               there = nearest_on_segment(a, b, q);
+    const Real distance = norm(q - there);
+    if (least >= 0 && !(distance < least)) continue;
+    least = distance;
+    nearest = there;
+  }
+  return nearest;
+}
+
 LSDCD_FN Real primitive_distance(const WallFeaturesView &wall, FeatureCode primitive, const Vec3 &q)
 {
   const std::uint32_t i = feature_index(primitive);

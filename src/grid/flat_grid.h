@@ -11,16 +11,22 @@ namespace lsdcd {
 class FlatGrid {
  public:
   FlatGrid() = default;
-  explicit FlatGrid(const TriangleGrid &grid) : memory_(flat_bytes(grid) + kAlign)
+  explicit FlatGrid(const TriangleGrid &grid) : FlatGrid(flat_bytes(grid))
+  {
+    flatten(grid, block());
+  }
+  // For a block that the caller fills.
+  explicit FlatGrid(std::size_t bytes) : memory_(bytes + kAlign)
   {
     const auto at = reinterpret_cast<std::uintptr_t>(memory_.data());
     begin_ = (kAlign - at % kAlign) % kAlign;
-    flatten(grid, memory_.data() + begin_);
   }
   // Moving keeps the memory where it is, copying would not.
   FlatGrid(FlatGrid &&) = default;
   FlatGrid &operator=(FlatGrid &&) = default;
 
+  char *block() { return memory_.data() + begin_; }
+  std::size_t bytes() const { return memory_.size() - kAlign; }
   GridView view() const { return flat_view(memory_.data() + begin_); }
 
  private:

@@ -1,10 +1,10 @@
 #include "material/material_file.h"
 
 #include "base/input_error.h"
+#include "base/shared_files.h"
 
 #include <algorithm>
 #include <cstdlib>
-#include <dlfcn.h>
 #include <filesystem>
 #include <sstream>
 
@@ -27,20 +27,6 @@ std::string files_of(const fs::path &folder)
   return text;
 }
 
-// Folder of the plugin or program that this code is in; empty if it cannot be told.
-fs::path own_folder()
-{
-  Dl_info info;
-  std::error_code failed;
-  fs::path own;
-  // A program's own name may be what the shell was given, without a folder.
-  if (dladdr(reinterpret_cast<const void *>(&find_material_file), &info) && info.dli_fname)
-    own = info.dli_fname;
-  if (!own.has_parent_path()) own = "/proc/self/exe";
-  own = fs::canonical(own, failed);
-  return failed ? fs::path() : own.parent_path();
-}
-
 }    // namespace
 
 std::string find_material_file(const std::string &file)
@@ -58,9 +44,9 @@ std::string find_material_file(const std::string &file)
         if (!folder.empty() && fs::is_regular_file(fs::path(folder) / file, failed))
           return (fs::path(folder) / file).string();
     }
-    const fs::path own = own_folder();
-    if (!own.empty()) {
-      const fs::path folder = own.parent_path() / "share" / "lsdcd" / "potentials";
+    fs::path folder = shared_folder();
+    if (!folder.empty()) {
+      folder /= "potentials";
       if (fs::is_regular_file(folder / file, failed)) return (folder / file).string();
       looked += ", in " + folder.string();
       const std::string files = files_of(folder);

@@ -8,23 +8,27 @@
 
 namespace lsdcd {
 
+LSDCD_FN std::uint8_t status_of(const Answer &a)
+{
+  return (a.found() ? kTouching : 0) | (a.certified ? kCertified : 0);
+}
+
 // Arrays of one query; which of them are null says what is kept. Distances that were found
-// in float are kept in float.
+// in float are kept in float. They are infinite where no wall is within the radius.
 struct AnswerArrays {
   std::uint8_t *status;
   Real *distance;
   float *float_distance;
   std::uint32_t *read;
 
-  static constexpr float kAnyFloatDistance = 3e38f;
+  static constexpr Real kFar = HUGE_VAL;
+  static constexpr float kFloatFar = HUGE_VALF;
 
   LSDCD_FN void keep(std::size_t i, const Answer &a) const
   {
-    const bool touching = a.distance < kAnyDistance;
-    status[i] = (touching ? kTouching : 0) | (a.certified ? kCertified : 0);
-    if (distance) distance[i] = a.distance;
-    if (float_distance)
-      float_distance[i] = touching ? static_cast<float>(a.distance) : kAnyFloatDistance;
+    status[i] = status_of(a);
+    if (distance) distance[i] = a.found() ? a.distance : kFar;
+    if (float_distance) float_distance[i] = a.found() ? static_cast<float>(a.distance) : kFloatFar;
     if (read) read[i] = a.read;
   }
   // The same of four neighbours from i on, a multiple of 4, where no wall is near.
@@ -32,8 +36,8 @@ struct AnswerArrays {
   {
     const std::uint8_t s = kCertified;
     four_at(status, i) = {{s, s, s, s}};
-    if (distance) four_at(distance, i) = {{kAnyDistance, kAnyDistance, kAnyDistance, kAnyDistance}};
-    const float f = kAnyFloatDistance;
+    if (distance) four_at(distance, i) = {{kFar, kFar, kFar, kFar}};
+    const float f = kFloatFar;
     if (float_distance) four_at(float_distance, i) = {{f, f, f, f}};
     if (read) four_at(read, i) = {{0, 0, 0, 0}};
   }
@@ -43,13 +47,9 @@ struct AnswerArrays {
     return {status + n, distance ? distance + n : nullptr,
             float_distance ? float_distance + n : nullptr, read ? read + n : nullptr};
   }
-  LSDCD_FN static Real widened(float kept)
-  {
-    return kept < kAnyFloatDistance ? static_cast<Real>(kept) : kAnyDistance;
-  }
   LSDCD_FN Real distance_of(std::size_t i) const
   {
-    return float_distance ? widened(float_distance[i]) : distance[i];
+    return float_distance ? static_cast<Real>(float_distance[i]) : distance[i];
   }
 
  private:
@@ -121,6 +121,7 @@ struct GridWork {
   LSDCD_FN std::uint32_t cell(const S &s) const { return occupied_cell(grid, table, s.centre()); }
   LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
   LSDCD_FN void far(std::size_t i) const { out.keep(i, far_answer()); }
+  LSDCD_FN void far(std::size_t i, const S &) const { far(i); }
   LSDCD_FN void four_far(std::size_t i) const { out.keep_four_far(i); }
   LSDCD_FN void answer(std::size_t i, const S &s, const Cell &cell) const
   {

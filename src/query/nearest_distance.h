@@ -11,6 +11,12 @@ struct Answer {
   Real distance;         // from the centre to the wall; kAnyDistance: not within the radius
   bool certified;        // nothing that the list left out can be nearer, or touch
   std::uint32_t read;    // entries of lists
+  // What is nearest, as lists name it, and whether these were of primitives; not by
+  // nearest_together().
+  FeatureCode feature = kNoFeature;
+  bool primitive = false;
+
+  LSDCD_FN bool found() const { return distance < kAnyDistance; }
 };
 
 // Where the wall is nowhere near.
@@ -29,17 +35,17 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists
   const Distances distances(grid, q, at);
   // Nothing farther than the nearest so far is of interest.
   Real nearest = radius;
-  bool found = false;
+  FeatureCode found = kNoFeature;
   const auto attempt = [&](FeatureCode code) {
     const Real distance =
         kPrimitives ? distances.primitive(code, nearest) : distances.feature(code, nearest);
     // A sphere touches what is nearer than its radius.
     if (!(distance < nearest)) return;
     nearest = distance;
-    found = true;
+    found = code;
   };
   const auto answer = [&](bool certified, std::uint32_t read) -> Answer {
-    return {found ? nearest : kAnyDistance, certified, read};
+    return {found != kNoFeature ? nearest : kAnyDistance, certified, read, found, kPrimitives};
   };
   // A single candidate is in the cell itself, and there is no list to stop in.
   const bool single = cell.count == 1;

@@ -1,5 +1,6 @@
 #include "base/input_error.h"
 #include "parallel/backend_cpu.h"
+#include "query/near_first_cpu.h"
 #include "query/query_on.h"
 
 namespace lsdcd {
@@ -17,7 +18,7 @@ std::unique_ptr<SphereQuery> make_sphere_query(Device device)
 #endif
   if (!cuda && device == Device::cuda)
     throw InputError("device cuda: " + why + "; use device auto or cpu");
-  return std::make_unique<QueryOn<CpuBackend>>(CpuBackend());
+  return std::make_unique<QueryOn<CpuBackend, NearFirstCpu>>(CpuBackend());
 }
 
 }    // namespace lsdcd

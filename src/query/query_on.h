@@ -5,10 +5,10 @@
 #include "grid/flat_grid.h"
 #include "query/grid_work.h"
 #include "query/one_pass.h"
+#include "query/radius_error.h"
 #include "query/sphere_query.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace lsdcd {
 
@@ -76,9 +76,8 @@ class QueryOn : public SphereQuery {
   std::vector<Real> distance() override
   {
     if (float_distance_.size() < n_) return b_.to_host(distance_, distance_.size() >= n_ ? n_ : 0);
-    std::vector<Real> out;
-    for (float kept : b_.to_host(float_distance_, n_)) out.push_back(AnswerArrays::widened(kept));
-    return out;
+    const std::vector<float> kept = b_.to_host(float_distance_, n_);
+    return {kept.begin(), kept.end()};
   }
   std::vector<std::uint32_t> read() override
   {
@@ -171,13 +170,7 @@ class QueryOn : public SphereQuery {
     const std::uint64_t first = b_.to_host(too_large_, 1)[0];
     if (first == 0) return;
     const std::size_t i = ~first;
-    char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "sphere %zu has radius %.9g, more than the grid's cutoff %.9g: build the grid with "
-        "a cutoff of the largest radius, or try every face",
-        i, static_cast<double>(b_.to_host(spheres, i + 1)[i].r), grid_.cutoff);
-    throw InputError(text);
+    throw_too_large(i, b_.to_host(spheres, i + 1)[i].r, grid_.cutoff);
   }
 
   template <class T, class Other>

@@ -50,7 +50,7 @@ class SphereQuery {
   virtual QueryTiming time(const QuerySettings &settings, int repeats) = 0;
 
   // Answers of the last run, copied to the host: kTouching and kCertified; distances to
-  // the wall where within the radius, elsewhere kAnyDistance; entries of lists read.
+  // the wall where within the radius, elsewhere infinite; entries of lists read.
   virtual std::vector<std::uint8_t> status() = 0;
   virtual std::vector<Real> distance() = 0;
   virtual std::vector<std::uint32_t> read() = 0;

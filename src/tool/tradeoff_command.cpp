@@ -1,6 +1,7 @@
 #include "tool/tradeoff_command.h"
 
 #include "base/input_error.h"
+#include "base/shared_files.h"
 #include "base/whole_file.h"
 #include "tool/load_mesh.h"
 #include "tune/tradeoff.h"
@@ -129,12 +130,11 @@ std::string csv_of(const Tradeoff &tradeoff, const WallMesh &mesh, const Tradeof
   return out;
 }
 
-// The script lies beside this program. Debian's interpreter is asked first: another one
+// Debian's interpreter is asked first: another one
 // in PATH would not see Debian's matplotlib.
 void draw(const std::string &csv, const std::string &plot)
 {
-  const std::string script =
-      std::filesystem::read_symlink("/proc/self/exe").replace_filename("plot_tradeoff.py");
+  const std::string script = shared_folder() / "plot_tradeoff.py";
   const char *const python =
       std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
   const pid_t child = fork();

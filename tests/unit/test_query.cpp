@@ -938,7 +938,7 @@ TEST(query, spheres_away_from_the_wall_read_nothing)
     for (std::size_t i = 0; i < spheres.size(); i++) {
       EXPECT_EQ(a.status[i], kCertified) << i;
       EXPECT_EQ(a.read[i], 0u) << i;
-      EXPECT_EQ(a.distance[i], kAnyDistance) << i;
+      EXPECT_EQ(a.distance[i], HUGE_VAL) << i;
     }
   }
 }

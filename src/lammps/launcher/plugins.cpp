@@ -136,10 +136,13 @@ std::vector<fs::path> plugin_folders()
   return folders;
 }
 
+// Of the fix's plugin: in a build, or installed.
 fs::path own_folder()
 {
   std::error_code none;
-  return fs::read_symlink("/proc/self/exe", none).parent_path().parent_path() / "lib";
+  const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path(),
+                 built = program.parent_path() / "lib";
+  return fs::exists(built / "lsdcdplugin.so", none) ? built : program / LSDCD_PLUGINS;
 }
 
 // A bare name is also looked for where plugins are loaded from at the start.

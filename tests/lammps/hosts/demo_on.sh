@@ -13,25 +13,7 @@ hosts=${LSDCD_HOSTS:-${XDG_CACHE_HOME:-$HOME/.cache}/lsdcd/hosts}
 debian=$hosts/$suite-root
 
 skip() { echo "skipped: no demo on $suite: $*"; exit 77; }
-[ "$(id -u)" -eq 0 ] || skip "another Debian is root's to enter"
-for tool in mmdebstrap unshare chroot flock; do
-  command -v $tool >/dev/null || skip "no $tool on this machine"
-done
-unshare --mount true 2>/dev/null || skip "nothing can be mounted here"
-mirror=$(debian_mirror)
-[ -n "$mirror" ] || skip "apt has no Debian mirror configured"
-
-mkdir -p "$hosts"
-exec 9>"$hosts/$suite-root.lock"
-flock 9
-if [ ! -d "$debian" ]; then
-  rm -rf "$debian.new"
-  # A package list past its term is good enough to test on; its signature is checked all the same.
-  mmdebstrap --variant=apt --aptopt='Acquire::Check-Valid-Until "false"' \
-    --aptopt='Acquire::Languages "none"' --dpkgopt=force-unsafe-io "$suite" "$debian.new" "$mirror" </dev/null ||
-    { rm -rf "$debian.new"; skip "it does not come from the mirror"; }
-  mv "$debian.new" "$debian"
-fi
+debian_root "$suite" "$debian"
 
 # What is in the tree, without what was built.
 rm -rf "$debian/root/lsdcd"

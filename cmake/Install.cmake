@@ -1,0 +1,65 @@
+# Documents and examples; and packages for Debian, which `./run package` makes. All else is installed
+# by the folder that it lies in.
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT data)
+install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc COMPONENT data
+  FILES_MATCHING PATTERN *.md PATTERN *.rst PATTERN *.png
+  PATTERN data EXCLUDE PATTERN notes EXCLUDE)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT data
+  PATTERN __pycache__ EXCLUDE PATTERN "log.*" EXCLUDE PATTERN "*.dump" EXCLUDE)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The LSDCD developers <lsdcd@example.org>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_OUTPUT_FILE_PREFIX ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_COMPONENTS_ALL library dev python data)
+
+# lsdcd_package(component name section depends text...)
+macro(lsdcd_package component name section depends text)
+  string(TOUPPER ${component} upper)
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "${depends}")
+  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${text}")
+endmacro()
+lsdcd_package(library liblsdcd${PROJECT_VERSION_MAJOR} libs "" "Distances from points to a triangle mesh")
+lsdcd_package(dev liblsdcd-dev libdevel "liblsdcd${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION})"
+  "Distances from points to a triangle mesh: headers, CMake package")
+lsdcd_package(python python3-lsdcd python
+  "liblsdcd${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION}), python3, python3-numpy"
+  "Distances from points to a triangle mesh, for numpy arrays")
+lsdcd_package(data lsdcd-data science "" "Materials, documents and examples of lsdcd")
+# Which package others need that are linked with the library; and that the linker's cache is renewed.
+set(control ${PROJECT_BINARY_DIR}/made/debian)
+file(WRITE ${control}/shlibs
+  "liblsdcd ${PROJECT_VERSION_MAJOR} liblsdcd${PROJECT_VERSION_MAJOR} (>= ${PROJECT_VERSION})\n")
+file(WRITE ${control}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${control}/shlibs ${control}/triggers)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
+if(TARGET lsdcd_tool)
+  list(APPEND CPACK_COMPONENTS_ALL tool)
+  lsdcd_package(tool lsdcd science "lsdcd-data (= ${PROJECT_VERSION})"
+    "Looks at meshes, grids and materials of DEM walls")
+  set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "python3-matplotlib")
+endif()
+if(TARGET lsdcdplugin)
+  list(APPEND CPACK_COMPONENTS_ALL lammps)
+  # For the LAMMPS that it was built for, and no other.
+  set(host "")
+  find_program(DPKG_QUERY dpkg-query)
+  if(DPKG_QUERY)
+    execute_process(COMMAND ${DPKG_QUERY} -W -f "\${source:Upstream-Version}" liblammps0
+      OUTPUT_VARIABLE version ERROR_QUIET)
+    if(version)
+      set(host ", liblammps0 (>= ${version}), liblammps0 (<< ${version}.0~)")
+    endif()
+  endif()
+  lsdcd_package(lammps lammps-lsdcd science "lsdcd-data (= ${PROJECT_VERSION})${host}"
+    "DEM walls from an STL mesh for LAMMPS: fix wall/lsdcd")
+endif()
+include(CPack)

@@ -1,0 +1,73 @@
+// What every function of lsdcd.h does: no exception leaves it, and its error keeps a text.
+#pragma once
+
+#include "api/lsdcd.h"
+#include "base/input_error.h"
+#include "query/radius_error.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <string>
+
+namespace lsdcd {
+
+// Wrong use, with its code.
+struct ApiError : InputError {
+  ApiError(int code, const std::string &text) : InputError(text), code(code) {}
+  int code;
+};
+
+// Keeps the text for this thread; returns the code.
+int keep_error(int code, const char *text) noexcept;
+
+template <class Body>
+int at_c_border(const Body &body) noexcept
+{
+  try {
+    body();
+    return LSDCD_OK;
+  } catch (const ApiError &e) {
+    return keep_error(e.code, e.what());
+  } catch (const RadiusError &e) {
+    return keep_error(LSDCD_ERROR_CUTOFF, e.what());
+  } catch (const InputError &e) {
+    return keep_error(LSDCD_ERROR_INPUT, e.what());
+  } catch (const std::bad_alloc &) {
+    return keep_error(LSDCD_ERROR_MEMORY, "no memory left: use a coarser grid or fewer triangles");
+  } catch (const std::exception &e) {
+    return keep_error(LSDCD_ERROR_INTERNAL, e.what());
+  } catch (...) {
+    return keep_error(LSDCD_ERROR_INTERNAL, "an unknown error");
+  }
+}
+
+inline void need(const void *pointer, const char *name)
+{
+  if (!pointer) throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("`") + name + "` is null");
+}
+
+// A caller's struct, of this version or an earlier one; `least`: bytes of the first version.
+template <class T>
+T checked(const T *given, const char *name, std::size_t least = sizeof(T))
+{
+  need(given, name);
+  if (given->size < least || given->size > sizeof(T))
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   std::string("`") + name + "`: size is " + std::to_string(given->size) +
+                       ", and should be sizeof(" + name + "), " + std::to_string(sizeof(T)));
+  T whole = {};
+  std::memcpy(&whole, given, given->size);
+  return whole;
+}
+
+// The same the other way round.
+template <class T>
+void hand_out(const T &made, T *to)
+{
+  const std::size_t size = to->size;
+  std::memcpy(to, &made, size);
+  to->size = size;
+}
+
+}    // namespace lsdcd

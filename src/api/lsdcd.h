@@ -1,0 +1,181 @@
+/* Distances from points to a triangle mesh, exact and many at once, on the CPU or an NVIDIA GPU.
+ *
+ *   mesh -> grid, for distances up to a cutoff -> queries of points in arrays of the caller
+ *
+ * A function returns LSDCD_OK, 0, or the code of an error, whose text lsdcd_last_error() has. It
+ * then has changed nothing but, where a query failed, the arrays of its answers, which hold
+ * nothing of use. Structs begin with their size, for later versions; what is 0 or null in them has
+ * its default. Lengths are in the unit of the mesh.
+ *
+ * Threads: each function says "any" where any number of threads may call it at once, with the same
+ * objects; "own" where no other thread may use the object that it takes at the same time.
+ * What a grid or stream is made from may be freed before it.
+ */
+#ifndef LSDCD_H
+#define LSDCD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__cplusplus)
+extern "C" {
+#endif
+
+#define LSDCD_VERSION_MAJOR 0
+#define LSDCD_VERSION_MINOR 1
+#define LSDCD_VERSION_PATCH 0
+
+#if defined(__GNUC__)
+#define LSDCD_API __attribute__((visibility("default")))
+#else
+#define LSDCD_API
+#endif
+
+/* ---- errors --------------------------------------------------------------------------------- */
+
+enum {
+  LSDCD_OK = 0,
+  LSDCD_ERROR_ARGUMENT = 1, /* a null pointer, a number or a struct that makes no sense */
+  LSDCD_ERROR_INPUT = 2,    /* a file, mesh or setting that cannot be used */
+  LSDCD_ERROR_CUTOFF = 3,   /* a radius beyond the grid's cutoff */
+  LSDCD_ERROR_SIDE = 4,     /* the side of a mesh that has none: open, or not oriented */
+  LSDCD_ERROR_DEVICE = 5,   /* no CUDA, or an array where it cannot be reached */
+  LSDCD_ERROR_MEMORY = 6,   /* none left */
+  LSDCD_ERROR_INTERNAL = 7  /* a defect of this library */
+};
+
+/* "0.1.0". Any. */
+LSDCD_API const char *lsdcd_version(void);
+/* "cutoff" for LSDCD_ERROR_CUTOFF. Any. */
+LSDCD_API const char *lsdcd_error_name(int code);
+/* What the last call of this thread that failed has to say, and what to do; until its next call. Any. */
+LSDCD_API const char *lsdcd_last_error(void);
+
+/* ---- meshes --------------------------------------------------------------------------------- */
+
+typedef struct lsdcd_mesh lsdcd_mesh;
+
+/* Reads an STL file, ASCII or binary. Corners closer than `weld` (length) become one; < 0: 1e-6 of
+ * the diagonal of the mesh. The mesh need be neither closed nor manifold. Any. */
+LSDCD_API int lsdcd_mesh_read(const char *file, double weld, lsdcd_mesh **mesh);
+/* The same from corners: nine numbers a triangle, copied. Any. */
+LSDCD_API int lsdcd_mesh_from_corners(const double *corners, size_t n_triangles, double weld,
+                                      lsdcd_mesh **mesh);
+
+typedef struct lsdcd_mesh_facts {
+  size_t size;                   /* of this struct; set by the caller */
+  size_t triangles;              /* as given */
+  size_t faces, edges, vertices; /* after welding; faces without area are none */
+  size_t open_edges;             /* edges of one face */
+  int closed, oriented;          /* both: the mesh has an inside */
+  double area, volume;           /* the volume is < 0 where normals point in */
+  double lo[3], hi[3];
+} lsdcd_mesh_facts;
+/* Any. */
+LSDCD_API int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts);
+/* What `lsdcd inspect` says, until the mesh is freed. Any. */
+LSDCD_API const char *lsdcd_mesh_report(const lsdcd_mesh *mesh);
+/* Null is fine. Own. */
+LSDCD_API void lsdcd_mesh_free(lsdcd_mesh *mesh);
+
+/* ---- grids ---------------------------------------------------------------------------------- */
+
+typedef struct lsdcd_grid lsdcd_grid;
+
+enum { LSDCD_DOUBLE = 0, LSDCD_FLOAT = 1 };
+enum { LSDCD_CPU = 0, LSDCD_CUDA = 1 };
+
+typedef struct lsdcd_grid_options {
+  size_t size;       /* of this struct */
+  double cutoff;     /* the largest distance that will be asked for; > 0 */
+  double cell;       /* edge of a cell: time against memory; 0: chosen */
+  int nearest;       /* 0: complete lists, always exact; N: the N triangles nearest to a cell */
+  int exact;         /* with N: complete lists as well, for points that are not certified */
+  int precision;     /* of the search: LSDCD_DOUBLE, or LSDCD_FLOAT, quicker on a GPU */
+  double memory;     /* most bytes; 0: 1 GiB beside the mesh's own records */
+  const char *cache; /* file that keeps the grid; one that does not fit is replaced; null: none */
+  int threads;       /* that build it; 0: OMP_NUM_THREADS, or one */
+  int device;        /* that builds it: LSDCD_CPU or LSDCD_CUDA; the grid is the same */
+} lsdcd_grid_options;
+/* Any. */
+LSDCD_API int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options,
+                               lsdcd_grid **grid);
+
+typedef struct lsdcd_grid_facts {
+  size_t size; /* of this struct; set by the caller */
+  double cutoff, cell;
+  size_t bytes;
+  int nearest;
+  int has_sides;  /* is the mesh closed and oriented? */
+  int from_cache; /* was it read, not built? */
+} lsdcd_grid_facts;
+/* Any. */
+LSDCD_API int lsdcd_grid_get_facts(const lsdcd_grid *grid, lsdcd_grid_facts *facts);
+/* What there is to know, and what became of the cache; until the grid is freed. Any. */
+LSDCD_API const char *lsdcd_grid_report(const lsdcd_grid *grid);
+/* Null is fine. Own. */
+LSDCD_API void lsdcd_grid_free(lsdcd_grid *grid);
+
+/* ---- queries -------------------------------------------------------------------------------- */
+
+/* Bits of a point's status. Only a certified answer is sure: what is FOUND is the nearest of the
+ * whole mesh, and where nothing is, nothing is within the radius. All are certified but with
+ * `nearest` N and not `exact`. */
+enum { LSDCD_FOUND = 1, LSDCD_CERTIFIED = 2 };
+
+/* A feature is 0 (face), 1 (edge) or 2 (vertex) and a number of the welded mesh. */
+#define LSDCD_FEATURE_KIND(feature) ((feature) >> 30)
+#define LSDCD_FEATURE_INDEX(feature) ((feature) &0x3fffffffu)
+#define LSDCD_NONE 0xffffffffu
+
+/* Points, and arrays for what is asked of them; those that are null are not asked for. Arrays of
+ * numbers are of one type. Number k of point i is at [i * row + k * column], those of one number at
+ * [i * step]; 0: packed. All others have one number a point.
+ * Nothing at `radius` or farther is found: there the distance is infinite, the closest point the
+ * point itself, the normal and the side 0, triangle and feature LSDCD_NONE. A point that is no
+ * number is far from everything. */
+typedef struct lsdcd_query {
+  size_t size; /* of this struct */
+  size_t n;
+  int type;    /* LSDCD_DOUBLE or LSDCD_FLOAT: of all arrays of numbers here */
+  int threads; /* on the CPU; 0: OMP_NUM_THREADS, or one */
+  const void *points;
+  ptrdiff_t points_row, points_column;
+  const void *radii; /* of each point; null: `radius` is that of all */
+  ptrdiff_t radii_step;
+  double radius; /* 0: the cutoff */
+  void *distance;
+  ptrdiff_t distance_step;
+  void *closest;
+  ptrdiff_t closest_row, closest_column;
+  void *normal; /* unit, from the mesh to the point */
+  ptrdiff_t normal_row, normal_column;
+  uint32_t *triangle; /* by its number as given, from 0; of several, the lowest; LSDCD_NONE also
+                         for the edge or corner of a triangle without area */
+  uint32_t *feature;
+  int8_t *side; /* 1 outside, and on the mesh; -1 inside; 0 where not found or not certified */
+  uint8_t *status;
+} lsdcd_query;
+
+/* Answers in arrays of the host. Any. */
+LSDCD_API int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query);
+
+/* A grid on the CUDA device that is current, and a stream (cudaStream_t) of that device, null: the
+ * default one. The stream must outlive it. Streams of one grid share its copy on a device. Any. */
+typedef struct lsdcd_stream lsdcd_stream;
+LSDCD_API int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **stream);
+/* Answers in arrays of that device, or managed ones, in the order of the stream and without waiting
+ * for it, but for `radii`, which are checked. Distance and status alone are quickest, most of all
+ * where points and radii lie as x y z r x y z r, aligned to 16 bytes. Own. */
+LSDCD_API int lsdcd_query_stream(lsdcd_stream *stream, const lsdcd_query *query);
+/* Waits for the stream. Null is fine. Own. */
+LSDCD_API void lsdcd_stream_free(lsdcd_stream *stream);
+/* 1 where there is a CUDA device that this library can use; else 0, and lsdcd_last_error() says
+ * why. Any. */
+LSDCD_API int lsdcd_has_cuda(void);
+
+#if defined(__cplusplus)
+}
+#endif
+
+#endif

@@ -1,0 +1,158 @@
+// lsdcd.h for C++17: objects that free themselves, errors as exceptions. A header over the C
+// library, nothing more; what functions do, and which threads may call them, is told there.
+#ifndef LSDCD_HPP
+#define LSDCD_HPP
+
+#include "lsdcd.h"
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace lsdcd {
+
+class Error : public std::runtime_error {
+ public:
+  explicit Error(int code) : std::runtime_error(lsdcd_last_error()), code_(code) {}
+  int code() const noexcept { return code_; }    // LSDCD_ERROR_*
+
+ private:
+  int code_;
+};
+
+namespace c {
+inline void check(int code)
+{
+  if (code != LSDCD_OK) throw Error(code);
+}
+template <auto kFree>
+struct Free {
+  template <class T>
+  void operator()(T *handle) const
+  {
+    kFree(handle);
+  }
+};
+template <class T>
+constexpr int type_of()
+{
+  static_assert(std::is_same_v<T, float> || std::is_same_v<T, double>, "float or double");
+  return std::is_same_v<T, float> ? LSDCD_FLOAT : LSDCD_DOUBLE;
+}
+}    // namespace c
+
+using MeshFacts = lsdcd_mesh_facts;
+using GridFacts = lsdcd_grid_facts;
+
+class Mesh {
+ public:
+  explicit Mesh(const std::string &file, double weld = -1)
+  {
+    lsdcd_mesh *made = nullptr;
+    c::check(lsdcd_mesh_read(file.c_str(), weld, &made));
+    handle_.reset(made);
+  }
+  // Nine numbers a triangle.
+  explicit Mesh(const std::vector<double> &corners, double weld = -1)
+  {
+    lsdcd_mesh *made = nullptr;
+    if (corners.size() % 9 != 0)
+      throw std::invalid_argument("lsdcd::Mesh: corners are not nine numbers a triangle");
+    c::check(lsdcd_mesh_from_corners(corners.data(), corners.size() / 9, weld, &made));
+    handle_.reset(made);
+  }
+
+  MeshFacts facts() const
+  {
+    MeshFacts f = {};
+    f.size = sizeof f;
+    c::check(lsdcd_mesh_get_facts(get(), &f));
+    return f;
+  }
+  std::string report() const { return lsdcd_mesh_report(get()); }
+  const lsdcd_mesh *get() const { return handle_.get(); }
+
+ private:
+  std::unique_ptr<lsdcd_mesh, c::Free<lsdcd_mesh_free>> handle_;
+};
+
+// All that is 0 has its default.
+struct GridOptions : lsdcd_grid_options {
+  explicit GridOptions(double largest) : lsdcd_grid_options()
+  {
+    size = sizeof(lsdcd_grid_options);
+    cutoff = largest;
+  }
+};
+
+// What is asked of n points; T: float or double. Set the arrays of answers that are wanted.
+template <class T>
+struct Query : lsdcd_query {
+  Query(const T *first, std::size_t count) : lsdcd_query()
+  {
+    size = sizeof(lsdcd_query);
+    n = count;
+    type = c::type_of<T>();
+    points = first;
+  }
+};
+
+class Grid {
+ public:
+  Grid(const Mesh &mesh, const lsdcd_grid_options &options)
+  {
+    lsdcd_grid *made = nullptr;
+    c::check(lsdcd_grid_build(mesh.get(), &options, &made));
+    handle_.reset(made);
+  }
+  Grid(const Mesh &mesh, double cutoff) : Grid(mesh, GridOptions(cutoff)) {}
+
+  GridFacts facts() const
+  {
+    GridFacts f = {};
+    f.size = sizeof f;
+    c::check(lsdcd_grid_get_facts(get(), &f));
+    return f;
+  }
+  std::string report() const { return lsdcd_grid_report(get()); }
+
+  void query(const lsdcd_query &q) const { c::check(lsdcd_query_host(get(), &q)); }
+
+  // Of points x y z x y z; infinite beyond the radius, 0: the cutoff.
+  template <class T>
+  std::vector<T> distances(const std::vector<T> &points, double radius = 0) const
+  {
+    std::vector<T> out(points.size() / 3);
+    Query<T> q(points.data(), out.size());
+    q.radius = radius;
+    q.distance = out.data();
+    query(q);
+    return out;
+  }
+  const lsdcd_grid *get() const { return handle_.get(); }
+
+ private:
+  std::unique_ptr<lsdcd_grid, c::Free<lsdcd_grid_free>> handle_;
+};
+
+// A grid on the CUDA device that is current, for arrays there.
+class Stream {
+ public:
+  explicit Stream(const Grid &grid, void *cuda_stream = nullptr)
+  {
+    lsdcd_stream *made = nullptr;
+    c::check(lsdcd_stream_open(grid.get(), cuda_stream, &made));
+    handle_.reset(made);
+  }
+  void query(const lsdcd_query &q) { c::check(lsdcd_query_stream(handle_.get(), &q)); }
+
+ private:
+  std::unique_ptr<lsdcd_stream, c::Free<lsdcd_stream_free>> handle_;
+};
+
+}    // namespace lsdcd
+
+#endif

@@ -1,0 +1,191 @@
+"""Distances from points to a triangle mesh, exact and many at once, for numpy arrays.
+
+    import lsdcd
+    grid = lsdcd.Mesh("wall.stl").grid(cutoff=0.01)
+    answer = grid.query(points, "distance triangle side")    # points: (n, 3), float32 or float64
+    answer.distance, answer.triangle, answer.side
+
+A query lets other Python threads run, and any number of threads may ask one grid at once. What is
+told about lsdcd.h holds here; its errors are lsdcd.Error with a `code`. LSDCD_LIBRARY may name the
+shared library.
+"""
+import ctypes
+import glob
+import os
+from types import SimpleNamespace
+
+import numpy as np
+
+_size, _step, _int, _real, _at = (ctypes.c_size_t, ctypes.c_ssize_t, ctypes.c_int, ctypes.c_double,
+                                  ctypes.c_void_p)
+ERRORS = ("ok", "argument", "input", "cutoff", "side", "device", "memory", "internal")
+FOUND, CERTIFIED = 1, 2
+NONE = 0xffffffff
+
+
+def _struct(name, *fields):
+    return type(name, (ctypes.Structure,), {"_fields_": [("size", _size), *fields]})
+
+
+_MeshFacts = _struct(
+    "_MeshFacts", ("triangles", _size), ("faces", _size), ("edges", _size), ("vertices", _size),
+    ("open_edges", _size), ("closed", _int), ("oriented", _int), ("area", _real), ("volume", _real),
+    ("lo", _real * 3), ("hi", _real * 3))
+_GridOptions = _struct(
+    "_GridOptions", ("cutoff", _real), ("cell", _real), ("nearest", _int), ("exact", _int),
+    ("precision", _int), ("memory", _real), ("cache", ctypes.c_char_p), ("threads", _int),
+    ("device", _int))
+_GridFacts = _struct(
+    "_GridFacts", ("cutoff", _real), ("cell", _real), ("bytes", _size), ("nearest", _int),
+    ("has_sides", _int), ("from_cache", _int))
+_Query = _struct(
+    "_Query", ("n", _size), ("type", _int), ("threads", _int), ("points", _at),
+    ("points_row", _step), ("points_column", _step), ("radii", _at), ("radii_step", _step),
+    ("radius", _real), ("distance", _at), ("distance_step", _step), ("closest", _at),
+    ("closest_row", _step), ("closest_column", _step), ("normal", _at), ("normal_row", _step),
+    ("normal_column", _step), ("triangle", _at), ("feature", _at), ("side", _at), ("status", _at))
+
+
+class Error(ValueError):
+    """What the library refuses, and what to do; `code`: one of ERRORS."""
+
+    def __init__(self, code):
+        super().__init__(_lib.lsdcd_last_error().decode())
+        self.code = ERRORS[code]
+
+
+def _load():
+    name = os.environ.get("LSDCD_LIBRARY")
+    if not name:    # beside this file, in a lib/ above it, or where the system looks
+        here = os.path.dirname(os.path.abspath(__file__))
+        near = [found for up in ("", "../..", "../../*")
+                for found in sorted(glob.glob(os.path.join(here, up, "liblsdcd.so.0")))]
+        name = near[0] if near else "liblsdcd.so.0"
+    lib = ctypes.CDLL(name)
+    for text in ("version", "last_error", "mesh_report", "grid_report"):
+        getattr(lib, "lsdcd_" + text).restype = ctypes.c_char_p
+    lib.lsdcd_mesh_report.argtypes = lib.lsdcd_grid_report.argtypes = [_at]
+    lib.lsdcd_mesh_free.argtypes = lib.lsdcd_grid_free.argtypes = [_at]
+    lib.lsdcd_mesh_free.restype = lib.lsdcd_grid_free.restype = None
+    lib.lsdcd_mesh_read.argtypes = [ctypes.c_char_p, _real, _at]
+    lib.lsdcd_mesh_from_corners.argtypes = [_at, _size, _real, _at]
+    for call in ("mesh_get_facts", "grid_get_facts", "query_host"):
+        getattr(lib, "lsdcd_" + call).argtypes = [_at, _at]
+    lib.lsdcd_grid_build.argtypes = [_at, _at, _at]
+    return lib
+
+
+_lib = _load()
+__version__ = _lib.lsdcd_version().decode()
+
+
+def _check(code):
+    if code != 0:
+        raise Error(code)
+
+
+def _sized(struct, **values):
+    return struct(size=ctypes.sizeof(struct), **values)
+
+
+def _facts(struct, call, handle):
+    facts = _sized(struct)
+    _check(call(handle, ctypes.byref(facts)))
+    values = {name: getattr(facts, name) for name, _ in struct._fields_[1:]}
+    return SimpleNamespace(**{k: tuple(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
+
+
+class Mesh:
+    """From an STL file; from triangles, (n, 3, 3); or from vertices, (m, 3), and faces, (n, 3)."""
+
+    def __init__(self, source, faces=None, weld=-1.0):
+        self._handle = _at()
+        if isinstance(source, (str, bytes, os.PathLike)):
+            _check(_lib.lsdcd_mesh_read(os.fsencode(source), weld, ctypes.byref(self._handle)))
+            return
+        corners = np.asarray(source, dtype=np.float64)
+        if faces is not None:
+            corners = corners[np.asarray(faces)]
+        corners = np.ascontiguousarray(corners)
+        if corners.ndim != 3 or corners.shape[1:] != (3, 3):
+            raise TypeError(f"triangles have the shape {corners.shape}, not (n, 3, 3)")
+        _check(_lib.lsdcd_mesh_from_corners(corners.ctypes.data, len(corners), weld,
+                                            ctypes.byref(self._handle)))
+
+    def __del__(self):
+        if getattr(self, "_handle", None) and _lib:
+            _lib.lsdcd_mesh_free(self._handle)
+
+    @property
+    def facts(self):
+        return _facts(_MeshFacts, _lib.lsdcd_mesh_get_facts, self._handle)
+
+    @property
+    def report(self):
+        return _lib.lsdcd_mesh_report(self._handle).decode()
+
+    def grid(self, cutoff, cell=0.0, nearest=0, exact=False, precision="double", memory=0.0,
+             cache=None, threads=0, device="cpu"):
+        """A Grid for distances up to `cutoff`; the words are those of lsdcd_grid_options."""
+        options = _sized(_GridOptions, cutoff=cutoff, cell=cell, nearest=nearest, exact=exact,
+                         precision=("double", "float").index(precision), memory=memory,
+                         cache=os.fsencode(cache) if cache else None, threads=threads,
+                         device=("cpu", "cuda").index(device))
+        return Grid(self, options)
+
+
+class Grid:
+    """Made by Mesh.grid()."""
+
+    def __init__(self, mesh, options):
+        self._handle = _at()
+        _check(_lib.lsdcd_grid_build(mesh._handle, ctypes.byref(options), ctypes.byref(self._handle)))
+
+    def __del__(self):
+        if getattr(self, "_handle", None) and _lib:
+            _lib.lsdcd_grid_free(self._handle)
+
+    @property
+    def facts(self):
+        return _facts(_GridFacts, _lib.lsdcd_grid_get_facts, self._handle)
+
+    @property
+    def report(self):
+        return _lib.lsdcd_grid_report(self._handle).decode()
+
+    def query(self, points, want="distance", radius=None, threads=0):
+        """Answers for points, (n, 3), as arrays named by `want`: distance, closest, normal,
+        triangle, feature, side, status. `radius`: one, or (n,); by default the cutoff."""
+        points = np.asarray(points)
+        if points.dtype not in (np.float32, np.float64):
+            points = points.astype(np.float64)
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise TypeError(f"points have the shape {points.shape}, not (n, 3)")
+        n, real = len(points), points.dtype
+        # The library takes steps of whole numbers, and 0 for packed.
+        if any(s == 0 or s % real.itemsize for s in points.strides) or not real.isnative:
+            points = np.ascontiguousarray(points, dtype=real.newbyteorder("="))
+        query = _sized(_Query, n=n, type=int(real == np.float32), threads=threads,
+                       points=points.ctypes.data, points_row=points.strides[0] // real.itemsize,
+                       points_column=points.strides[1] // real.itemsize)
+        if radius is not None and np.ndim(radius) == 0:
+            if not float(radius) > 0:
+                raise TypeError(f"radius is {radius}, not above 0")
+            query.radius = float(radius)
+        elif radius is not None:
+            radius = np.ascontiguousarray(radius, dtype=real)
+            if radius.shape != (n,):
+                raise TypeError(f"radius has the shape {radius.shape}, not ({n},)")
+            query.radii = radius.ctypes.data
+        kinds = {"distance": ((n,), real), "closest": ((n, 3), real), "normal": ((n, 3), real),
+                 "triangle": ((n,), np.uint32), "feature": ((n,), np.uint32), "side": ((n,), np.int8),
+                 "status": ((n,), np.uint8)}
+        words = want.split() if isinstance(want, str) else list(want)
+        unknown = sorted(set(words) - set(kinds))
+        if unknown:
+            raise TypeError(f"{', '.join(unknown)}: a query answers {', '.join(kinds)}")
+        answer = SimpleNamespace(**{word: np.empty(*kinds[word]) for word in words})
+        for word in words:
+            setattr(query, word, getattr(answer, word).ctypes.data)
+        _check(_lib.lsdcd_query_host(self._handle, ctypes.byref(query)))
+        return answer

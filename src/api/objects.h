@@ -1,0 +1,46 @@
+// What the handles of lsdcd.h hold. Objects share what they are made from, so that a caller frees
+// them in any order.
+#pragma once
+
+#include "api/lsdcd.h"
+#include "grid/flat_grid.h"
+#include "mesh/wall_mesh.h"
+#include "query/point_query.h"
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+struct ApiMesh {
+  WallMesh mesh;
+  std::string report;
+
+  // Is there an inside?
+  bool has_sides() const { return mesh.report.closed && mesh.report.oriented; }
+};
+
+struct ApiGrid {
+  FlatGrid flat;
+  HostGrid grid;
+  TriangleTable names;
+  bool has_sides = false, from_cache = false;
+  std::string report;
+
+  // Copies on CUDA devices, while any stream uses them.
+  mutable std::mutex copying;
+  mutable std::vector<std::pair<int, std::weak_ptr<const DeviceGrid>>> copies;
+
+  explicit ApiGrid(const WallMesh &mesh) : names(mesh) {}
+};
+
+}    // namespace lsdcd
+
+struct lsdcd_mesh {
+  std::shared_ptr<const lsdcd::ApiMesh> in;
+};
+struct lsdcd_grid {
+  std::shared_ptr<const lsdcd::ApiGrid> in;
+};

@@ -1,0 +1,193 @@
+// lsdcd_query_*, lsdcd_stream_*
+#include "api/c_border.h"
+#include "api/device_memory.h"
+#include "api/objects.h"
+#include "parallel/cuda_available.h"
+#include "parallel/threads.h"
+
+#include <cmath>
+#include <limits>
+
+using namespace lsdcd;
+
+struct lsdcd_stream {
+  std::shared_ptr<const ApiGrid> grid;
+#if defined(LSDCD_HAVE_CUDA)
+  std::shared_ptr<const DeviceGrid> copy;
+  std::unique_ptr<StreamQuery> query;
+#endif
+};
+
+namespace {
+
+// A query of this grid that makes sense.
+lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given)
+{
+  lsdcd_query q = checked(given, "lsdcd_query");
+  if (q.type != LSDCD_DOUBLE && q.type != LSDCD_FLOAT)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`type` is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
+  if (q.threads < 0)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`threads` is " + std::to_string(q.threads));
+  if (q.n > static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max()) / 64)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`n` is " + std::to_string(q.n));
+  if (q.n > 0) need(q.points, "points");
+  if (!q.distance && !q.closest && !q.normal && !q.triangle && !q.feature && !q.side && !q.status)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "nothing is asked for: all arrays of answers are null");
+  if (q.side && !grid.has_sides)
+    throw ApiError(LSDCD_ERROR_SIDE, "the mesh is not closed and oriented, so that it has no side; "
+                                     "`lsdcd inspect` tells where it is open");
+  if (q.radii && q.radius != 0)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`radii` and `radius` are both given");
+  if (!q.radii && q.radius == 0) q.radius = grid.grid.view.cutoff;
+  if (!(q.radius >= 0))
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`radius` is " + std::to_string(q.radius));
+  if (q.radius > grid.grid.view.cutoff)
+    throw ApiError(LSDCD_ERROR_CUTOFF, "`radius` is " + std::to_string(q.radius) +
+                                           ", more than the grid's cutoff " +
+                                           std::to_string(grid.grid.view.cutoff) +
+                                           ": build the grid with a larger cutoff");
+  return q;
+}
+
+template <class T>
+StridedView<T> vectors(T *at, std::ptrdiff_t row, std::ptrdiff_t column)
+{
+  return {at, row == 0 ? 3 : row, column == 0 ? 1 : column};
+}
+
+template <class T>
+PointArrays<T> arrays_of(const lsdcd_query &q)
+{
+  PointArrays<T> io;
+  io.n = q.n;
+  io.points = vectors(static_cast<const T *>(q.points), q.points_row, q.points_column);
+  io.radii = {static_cast<const T *>(q.radii), q.radii_step == 0 ? 1 : q.radii_step};
+  io.radius = q.radius;
+  io.distance = {static_cast<T *>(q.distance), q.distance_step == 0 ? 1 : q.distance_step};
+  io.closest = vectors(static_cast<T *>(q.closest), q.closest_row, q.closest_column);
+  io.normal = vectors(static_cast<T *>(q.normal), q.normal_row, q.normal_column);
+  io.triangle = q.triangle;
+  io.feature = q.feature;
+  io.side = q.side;
+  io.status = q.status;
+  return io;
+}
+
+// check(array, name) of each array that is given.
+template <class Check>
+void each_given(const lsdcd_query &q, const Check &check)
+{
+  const std::pair<const void *, const char *> arrays[] = {
+      {q.points, "points"},   {q.radii, "radii"},   {q.distance, "distance"},
+      {q.closest, "closest"}, {q.normal, "normal"}, {q.triangle, "triangle"},
+      {q.feature, "feature"}, {q.side, "side"},     {q.status, "status"}};
+  for (const auto &[array, name] : arrays)
+    if (array) check(array, name);
+}
+
+}    // namespace
+
+extern "C" {
+
+int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
+{
+  return at_c_border([&] {
+    need(grid, "grid");
+    const ApiGrid &g = *grid->in;
+    const lsdcd_query q = checked_query(g, query);
+    if (q.n == 0) return;
+    each_given(q, [](const void *array, const char *name) {
+      if (only_on_device(array))
+        throw ApiError(LSDCD_ERROR_DEVICE, std::string("the array `") + name +
+                                               "` is in a GPU's memory: use lsdcd_query_stream()");
+    });
+    const ThreadsOfCaller threads(q.threads);
+    if (q.type == LSDCD_FLOAT)
+      answer_points(g.grid, g.names, arrays_of<float>(q));
+    else
+      answer_points(g.grid, g.names, arrays_of<double>(q));
+  });
+}
+
+int lsdcd_has_cuda(void)
+{
+  bool yes = false;
+  at_c_border([&] {
+    std::string why;
+    yes = cuda_available(&why);
+    if (!yes) throw ApiError(LSDCD_ERROR_DEVICE, why);
+  });
+  return yes;
+}
+
+#if defined(LSDCD_HAVE_CUDA)
+
+int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **stream)
+{
+  return at_c_border([&] {
+    need(stream, "stream");
+    need(grid, "grid");
+    std::string why;
+    if (!cuda_available(&why)) throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why);
+    auto made = std::make_unique<lsdcd_stream>();
+    made->grid = grid->in;
+    {
+      const std::lock_guard<std::mutex> alone(grid->in->copying);
+      const int device = current_cuda_device();
+      for (const auto &[on, copy] : grid->in->copies)
+        if (on == device && !made->copy) made->copy = copy.lock();
+      if (!made->copy) {
+        made->copy = copy_to_cuda(grid->in->grid.view, grid->in->names);
+        grid->in->copies.emplace_back(device, made->copy);
+      }
+    }
+    made->query = make_stream_query(made->copy, cuda_stream);
+    *stream = made.release();
+  });
+}
+
+int lsdcd_query_stream(lsdcd_stream *stream, const lsdcd_query *query)
+{
+  return at_c_border([&] {
+    need(stream, "stream");
+    const lsdcd_query q = checked_query(*stream->grid, query);
+    if (q.n == 0) return;
+    each_given(q, [&](const void *array, const char *name) {
+      try {
+        check_on_device(*stream->copy, array, name);
+      } catch (const InputError &e) {
+        throw ApiError(LSDCD_ERROR_DEVICE, e.what());
+      }
+    });
+    if (q.type == LSDCD_FLOAT)
+      stream->query->answer(arrays_of<float>(q));
+    else
+      stream->query->answer(arrays_of<double>(q));
+  });
+}
+
+#else
+
+int lsdcd_stream_open(const lsdcd_grid *grid, void *, lsdcd_stream **stream)
+{
+  return at_c_border([&] {
+    need(stream, "stream");
+    need(grid, "grid");
+    throw ApiError(LSDCD_ERROR_DEVICE, "this build of the library is for the CPU only; "
+                                       "use lsdcd_query_host()");
+  });
+}
+
+int lsdcd_query_stream(lsdcd_stream *stream, const lsdcd_query *)
+{
+  return at_c_border([&] { need(stream, "stream"); });
+}
+
+#endif
+
+void lsdcd_stream_free(lsdcd_stream *stream)
+{
+  delete stream;
+}
+
+}    // extern "C"

@@ -1,0 +1,19 @@
+#include "parallel/cuda_available.h"
+
+#include <cuda_runtime.h>
+
+namespace lsdcd {
+
+bool cuda_available(std::string *why)
+{
+  int n = 0;
+  const cudaError_t status = cudaGetDeviceCount(&n);
+  if (status == cudaSuccess && n > 0) return true;
+  if (why)
+    *why = status == cudaSuccess ? "no GPU found"
+                                 : std::string("no usable GPU: ") + cudaGetErrorString(status);
+  cudaGetLastError();    // or the next call would report it again
+  return false;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,11 @@
+#include "parallel/cuda_available.h"
+
+namespace lsdcd {
+
+bool cuda_available(std::string *why)
+{
+  if (why) *why = "built without the CUDA toolkit";
+  return false;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,84 @@
+// A query on the CPU in blocks of spheres: first which of a block may be near the wall, then their
+// cells, then their lists, and answers last. Each turn asks memory for what the next one reads, and
+// no sphere waits for another's.
+#pragma once
+
+#include "grid/lookup/brick_words.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace lsdcd {
+
+struct NearFirstCpu {
+  template <class S>
+  void reserve(std::size_t)
+  {
+  }
+
+  template <class B, class Work>
+  void run(B &b, std::size_t n, const Work &work)
+  {
+    b.for_each((n + kBlock - 1) / kBlock, [&](std::size_t block) {
+      answer_block(work, block * kBlock, std::min(n, (block + 1) * kBlock));
+    });
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 128;
+
+  template <class S>
+  struct Near {
+    S s;
+    std::size_t sphere;
+    std::uint32_t slot, cell;    // the cell's number in its brick, then in lists.cells
+  };
+
+  template <class Work>
+  static void answer_block(const Work &work, std::size_t from, std::size_t to)
+  {
+    using S = typename Work::Item;
+    const GridView &grid = work.grid;
+    Near<S> near[kBlock];
+    std::size_t n = 0;
+    // Written whether it is near or not: a branch would be guessed wrong.
+    for (std::size_t i = from; i < to; i++) {
+      const S s = work.sphere(i);
+      work.check(i, s);
+      const BrickSlot at = brick_place_of(grid, s.centre());
+      near[n] = {s, i, at.slot, static_cast<std::uint32_t>(at.cell)};
+      n += at.slot != kNoBrick && work.table.at(at.slot);
+      work.far(i, s);
+    }
+    for (std::size_t k = 0; k < n; k++) __builtin_prefetch(grid.lists.brick_of + near[k].slot);
+    for (std::size_t k = 0; k < n; k++) __builtin_prefetch(layer_of(grid, near[k]));
+    std::size_t n_near = 0;
+    for (std::size_t k = 0; k < n; k++) {
+      const BrickLayer &layer = *layer_of(grid, near[k]);
+      const int cell = static_cast<int>(near[k].cell);
+      if (!has_candidates(layer, cell)) continue;
+      near[n_near] = near[k];
+      near[n_near].cell = cell_index(layer, cell);
+      __builtin_prefetch(grid.lists.cells + near[n_near++].cell);
+    }
+    for (std::size_t k = 0; k < n_near; k++) ask_for_list(grid, *work.list(near[k].cell));
+    for (std::size_t k = 0; k < n_near; k++)
+      work.answer(near[k].sphere, near[k].s, *work.list(near[k].cell));
+  }
+
+  template <class S>
+  static const BrickLayer *layer_of(const GridView &grid, const Near<S> &at)
+  {
+    return grid.lists.bricks[grid.lists.brick_of[at.slot]].layer + (at.cell >> 6);
+  }
+  static void ask_for_list(const GridView &grid, const Cell &cell)
+  {
+    if (cell.count > 1)
+      __builtin_prefetch(grid.lists.candidates + cell.first);
+    else if (!grid.in_floats)
+      ask_for(grid.wall, cell.first);
+  }
+};
+
+}    // namespace lsdcd

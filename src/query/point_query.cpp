@@ -1,0 +1,47 @@
+#include "query/point_query.h"
+
+#include "mesh/wall_mesh.h"
+#include "parallel/backend_cpu.h"
+#include "query/near_first_cpu.h"
+#include "query/radius_error.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+TriangleTable::TriangleTable(const WallMesh &mesh) :
+    of_face(mesh.face_facet.begin(), mesh.face_facet.end()),
+    of_edge(mesh.edges.size(), kNoTriangle), of_vertex(mesh.vertices.size(), kNoTriangle)
+{
+  for (std::size_t f = 0; f < mesh.faces.size(); f++)
+    for (int k = 0; k < 3; k++) {
+      std::uint32_t &edge = of_edge[mesh.face_edges[f][k]], &vertex = of_vertex[mesh.faces[f][k]];
+      edge = std::min(edge, of_face[f]);
+      vertex = std::min(vertex, of_face[f]);
+    }
+}
+
+namespace {
+
+template <class T>
+void answer_on_cpu(const HostGrid &grid, const TriangleTable &names, const PointArrays<T> &io)
+{
+  std::uint64_t too_large = 0;
+  CpuBackend b;
+  with_point_work(grid.view, grid.table, io, names.view(), &too_large,
+                  [&](const auto &work) { NearFirstCpu().run(b, io.n, work); });
+  if (too_large != 0) throw_too_large(~too_large, io.radii[~too_large], grid.view.cutoff);
+}
+
+}    // namespace
+
+void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<float> &io)
+{
+  answer_on_cpu(grid, names, io);
+}
+void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<double> &io)
+{
+  answer_on_cpu(grid, names, io);
+}
+
+}    // namespace lsdcd

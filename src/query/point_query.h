@@ -1,0 +1,62 @@
+// Distance, closest point, triangle and side of points against a wall, in the caller's own arrays.
+#pragma once
+
+#include "grid/lookup/brick_words.h"
+#include "query/point_work.h"
+
+#include <memory>
+#include <vector>
+
+namespace lsdcd {
+
+// The triangles of the mesh that features of its wall have, by their numbers in the file; the
+// lowest where several do.
+struct TriangleTable {
+  std::vector<std::uint32_t> of_face, of_edge, of_vertex;
+
+  explicit TriangleTable(const WallMesh &mesh);
+  TriangleNames view() const { return {of_face.data(), of_edge.data(), of_vertex.data()}; }
+};
+
+// A grid on the host, borrowed, with its brick table as bits.
+struct HostGrid {
+  GridView view = {};
+  std::vector<BrickWord> words;
+  BrickTable table;
+
+  HostGrid() = default;
+  HostGrid(HostGrid &&) = default;    // keeps the words where they are
+  HostGrid &operator=(HostGrid &&) = default;
+  explicit HostGrid(const GridView &grid) :
+      view(grid), words(brick_words(grid)), table(words, words.data())
+  {
+  }
+};
+
+// On the host, with threads() threads; no memory is kept, so that any number of threads may ask at
+// once. Throws InputError where a radius of `radii` is more than the grid's cutoff: answers are
+// then undefined.
+void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<float> &io);
+void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<double> &io);
+
+// A copy of a grid, a flat block, on the CUDA device that is current.
+class DeviceGrid;
+std::shared_ptr<const DeviceGrid> copy_to_cuda(const GridView &grid, const TriangleTable &names);
+int device_of(const DeviceGrid &grid);
+int current_cuda_device();
+
+// On a stream (cudaStream_t) of that device, for arrays that the device reaches. What runs there is
+// not waited for, unless `radii` have to be checked. One thread at a time.
+class StreamQuery {
+ public:
+  virtual ~StreamQuery() = default;
+  virtual void answer(const PointArrays<float> &io) = 0;
+  virtual void answer(const PointArrays<double> &io) = 0;
+};
+std::unique_ptr<StreamQuery> make_stream_query(std::shared_ptr<const DeviceGrid> grid,
+                                               void *stream);
+
+// Throws InputError naming `what` unless the array is in memory that this device can reach.
+void check_on_device(const DeviceGrid &grid, const void *array, const char *what);
+
+}    // namespace lsdcd

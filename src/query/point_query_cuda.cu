@@ -1,0 +1,253 @@
+#include "query/near_first_cuda.h"
+#include "query/point_query.h"
+#include "query/radius_error.h"
+
+#include "grid/lookup/brick_words.h"
+
+namespace lsdcd {
+
+class DeviceGrid {
+ public:
+  DeviceGrid(const GridView &grid, const TriangleTable &names)
+  {
+    CudaBackend b;
+    device = current_cuda_device();
+    block_ = CudaBackend::Array<char>(grid.block_bytes);
+    b.copy_in(grid.block, block_.data(), grid.block_bytes);
+    view = moved_view(grid, block_.data());
+    const std::vector<BrickWord> words = brick_words(grid);
+    words_ = b.from_host(words);
+    table = BrickTable(words, words_.data());
+    coarse = CoarseTable(grid);
+    coarse_words_ = b.from_host(coarse_words(grid, coarse));
+    coarse.words = coarse_words_.data();
+    of_face_ = b.from_host(names.of_face);
+    of_edge_ = b.from_host(names.of_edge);
+    of_vertex_ = b.from_host(names.of_vertex);
+    this->names = {of_face_.data(), of_edge_.data(), of_vertex_.data()};
+  }
+
+  int device = 0;
+  GridView view;
+  BrickTable table;
+  CoarseTable coarse;
+  TriangleNames names;
+
+ private:
+  CudaBackend::Array<char> block_;
+  CudaBackend::Array<BrickWord> words_;
+  CudaBackend::Array<std::uint32_t> coarse_words_, of_face_, of_edge_, of_vertex_;
+};
+
+std::shared_ptr<const DeviceGrid> copy_to_cuda(const GridView &grid, const TriangleTable &names)
+{
+  return std::make_shared<const DeviceGrid>(grid, names);
+}
+
+int current_cuda_device()
+{
+  int device = 0;
+  cuda_check(cudaGetDevice(&device), "asking for the device");
+  return device;
+}
+
+int device_of(const DeviceGrid &grid)
+{
+  return grid.device;
+}
+
+void check_on_device(const DeviceGrid &grid, const void *array, const char *what)
+{
+  if (!array) return;
+  cudaPointerAttributes about = {};
+  cuda_check(cudaPointerGetAttributes(&about, array), "asking where an array is");
+  const std::string name = std::string("the array `") + what + "` ";
+  if (about.type == cudaMemoryTypeManaged) return;
+  if (about.type != cudaMemoryTypeDevice)
+    throw InputError(name + "is in the host's memory; a stream's query takes arrays of the device");
+  if (about.device != grid.device)
+    throw InputError(name + "is on device " + std::to_string(about.device) +
+                     ", the grid's copy on device " + std::to_string(grid.device));
+}
+
+namespace {
+
+// Makes a device current for a while.
+class OnDevice {
+ public:
+  explicit OnDevice(int device)
+  {
+    cuda_check(cudaGetDevice(&before_), "asking for the device");
+    if (before_ != device) cuda_check(cudaSetDevice(device), "taking the grid's device");
+  }
+  ~OnDevice() { cudaSetDevice(before_); }
+  OnDevice(const OnDevice &) = delete;
+  OnDevice &operator=(const OnDevice &) = delete;
+
+ private:
+  int before_ = 0;
+};
+
+}    // namespace
+
+class CudaStreamQuery : public StreamQuery {
+ public:
+  CudaStreamQuery(std::shared_ptr<const DeviceGrid> grid, void *stream) : grid_(std::move(grid))
+  {
+    b_.stream = static_cast<cudaStream_t>(stream);
+    too_large_ = CudaBackend::Array<std::uint64_t>(1);
+    // Its counts are cleared on the default stream, for which this one need not wait.
+    way_.template reserve<Sphere>(1);
+    cuda_check(cudaStreamSynchronize(nullptr), "running on the device");
+  }
+  ~CudaStreamQuery() override { cudaStreamSynchronize(b_.stream); }
+
+  void answer(const PointArrays<float> &io) override { answer_in(io); }
+  void answer(const PointArrays<double> &io) override { answer_in(io); }
+
+  // Public because nvcc takes no device lambda from a private function.
+
+  template <class T>
+  void answer_in(const PointArrays<T> &io)
+  {
+    const OnDevice current(grid_->device);
+    cuda_check(cudaMemsetAsync(too_large_.data(), 0, sizeof(std::uint64_t), b_.stream),
+               "clearing memory");
+    if (io.only_distance())
+      distances_in(io);
+    else
+      with_point_work(grid_->view, grid_->table, io, grid_->names, too_large_.data(),
+                      [&](const auto &work) { start(work, io.n); });
+    if (io.radii.at) refuse_too_large(io);
+  }
+
+  template <class Work>
+  void start(const Work &work, std::size_t n)
+  {
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { work.answer(i, work.sphere(i)); });
+  }
+
+  // By the kernels that are made for it, of spheres that lie as these read them.
+  template <class T>
+  void distances_in(const PointArrays<T> &io)
+  {
+    const SphereOf<T> *spheres = packed(io);
+    way_.template reserve<SphereOf<T>>(io.n);
+    const AnswerArrays out = answers(io);
+    const GridView &grid = grid_->view;
+    using InDouble = WallDistances<InsideTest::exact>;
+    if (grid.in_floats && grid.nearest == 0)
+      run<BrickDistances, true>(spheres, io.n, out);
+    else if (grid.in_floats)
+      run<BrickDistances, false>(spheres, io.n, out);
+    else if (grid.nearest == 0)
+      run<InDouble, true>(spheres, io.n, out);
+    else
+      run<InDouble, false>(spheres, io.n, out);
+    hand_back(io, out);
+  }
+
+  template <class Distances, bool kComplete, class S>
+  void run(const S *spheres, std::size_t n, const AnswerArrays &out)
+  {
+    using Work = GridWork<Distances, S, kComplete>;
+    const DeviceGrid &g = *grid_;
+    const TooLarge<S> check = {static_cast<decltype(S::r)>(g.view.cutoff), too_large_.data()};
+    way_.run(
+        b_, n,
+        Work{g.view, g.table, spheres, out, typename Work::Filter(g.view), g.coarse, check, 0});
+  }
+
+  // The points with their radii; the caller's own where they lie so: x y z radius x y z radius.
+  template <class T>
+  const SphereOf<T> *packed(const PointArrays<T> &io)
+  {
+    using S = SphereOf<T>;
+    const StridedView<const T> points = io.points;
+    const Column<const T> radii = io.radii;
+    if (points.row == 4 && points.column == 1 && radii.at == points.at + 3 && radii.step == 4 &&
+        reinterpret_cast<std::uintptr_t>(points.at) % alignof(S) == 0)
+      return reinterpret_cast<const S *>(points.at);
+    S *to = static_cast<S *>(room(spheres_, io.n * sizeof(S)));
+    const T radius = static_cast<T>(io.radius);
+    b_.for_each(io.n, [=] LSDCD_LAMBDA(std::size_t i) {
+      const T *at = points.of(i);
+      to[i] = {at[0], at[points.column], at[2 * points.column], radii.at ? radii[i] : radius};
+    });
+    return to;
+  }
+
+  // Where kernels write: the caller's arrays where these are packed and aligned.
+  template <class T>
+  AnswerArrays answers(const PointArrays<T> &io)
+  {
+    AnswerArrays out = {io.status, nullptr, nullptr, nullptr};
+    if (!out.status || !aligned(out.status, 4))
+      out.status = static_cast<std::uint8_t *>(room(status_, io.n));
+    if (!io.distance.at) return out;
+    T *to = io.distance.at;
+    if (io.distance.step != 1 || !aligned(to, 16))
+      to = static_cast<T *>(room(distance_, io.n * sizeof(T)));
+    if constexpr (sizeof(T) == sizeof(float))
+      out.float_distance = to;
+    else
+      out.distance = to;
+    return out;
+  }
+  template <class T>
+  void hand_back(const PointArrays<T> &io, const AnswerArrays &out)
+  {
+    const T *from;
+    if constexpr (sizeof(T) == sizeof(float))
+      from = out.float_distance;
+    else
+      from = out.distance;
+    const Column<T> distance = from != io.distance.at ? io.distance : Column<T>();
+    std::uint8_t *status = out.status != io.status ? io.status : nullptr;
+    const std::uint8_t *from_status = out.status;
+    if (!distance.at && !status) return;
+    b_.for_each(io.n, [=] LSDCD_LAMBDA(std::size_t i) {
+      if (distance.at) distance[i] = from[i];
+      if (status) status[i] = from_status[i];
+    });
+  }
+
+ private:
+  static bool aligned(const void *at, std::size_t bytes)
+  {
+    return reinterpret_cast<std::uintptr_t>(at) % bytes == 0;
+  }
+  // Memory that grows; what may still read it is waited for.
+  void *room(CudaBackend::Array<char> &array, std::size_t bytes)
+  {
+    if (array.size() < bytes) {
+      b_.wait();
+      array = CudaBackend::Array<char>();
+      array = CudaBackend::Array<char>(bytes);
+    }
+    return array.data();
+  }
+  template <class T>
+  void refuse_too_large(const PointArrays<T> &io)
+  {
+    const std::uint64_t first = b_.to_host(too_large_, 1)[0];
+    if (first == 0) return;
+    throw_too_large(~first,
+                    b_.read_one(io.radii.at + static_cast<std::ptrdiff_t>(~first) * io.radii.step),
+                    grid_->view.cutoff);
+  }
+
+  std::shared_ptr<const DeviceGrid> grid_;
+  CudaBackend b_;
+  NearFirst way_;
+  CudaBackend::Array<std::uint64_t> too_large_;
+  CudaBackend::Array<char> spheres_, status_, distance_;
+};
+
+std::unique_ptr<StreamQuery> make_stream_query(std::shared_ptr<const DeviceGrid> grid, void *stream)
+{
+  const OnDevice current(device_of(*grid));
+  return std::make_unique<CudaStreamQuery>(std::move(grid), stream);
+}
+
+}    // namespace lsdcd

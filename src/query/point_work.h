@@ -1,0 +1,194 @@
+// What is asked of each point of a query that wants more than a distance, in arrays of any layout:
+// one source for all backends.
+#pragma once
+
+#include "contact/find_contacts.h"
+#include "query/grid_work.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lsdcd {
+
+// Points and answers of a query, borrowed, in memory of the backend that answers. What is null is
+// not wanted. T: float or double.
+template <class T>
+struct PointArrays {
+  std::size_t n = 0;
+  StridedView<const T> points;
+  Column<const T> radii;    // null: `radius` is that of all
+  Real radius = 0;          // nothing farther is looked for
+  Column<T> distance;       // infinite where there is nothing
+  StridedView<T> closest, normal;
+  std::uint32_t *triangle = nullptr, *feature = nullptr;
+  std::int8_t *side = nullptr;
+  std::uint8_t *status = nullptr;
+
+  bool only_distance() const { return !closest.at && !normal.at && !triangle && !feature && !side; }
+};
+
+// The mesh's triangle that a feature of the wall is, or that has it; kNoTriangle where none does.
+constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+struct TriangleNames {
+  const std::uint32_t *of_face, *of_edge, *of_vertex;
+
+  LSDCD_FN std::uint32_t of(FeatureCode feature) const
+  {
+    const std::uint32_t i = feature_index(feature);
+    switch (feature_kind(feature)) {
+      case FeatureKind::face:
+        return of_face[i];
+      case FeatureKind::edge:
+        return of_edge[i];
+      default:
+        return of_vertex[i];
+    }
+  }
+};
+
+// The feature of the wall that an answer found, and where its point lies from q; in double
+// whatever found it.
+struct Nearest {
+  FeatureCode feature;
+  Vec3 point, normal;    // the second unit, point -> q; a fixed choice where q is on the wall
+};
+
+LSDCD_FN Nearest at_closest(FeatureCode feature, const Vec3 &q, const ClosestPoint &closest)
+{
+  return {feature, q - closest.distance * closest.normal, closest.normal};
+}
+
+template <bool kFloats>
+LSDCD_FN Nearest nearest_of(const GridView &grid, const Answer &a, const Vec3 &q)
+{
+  FeatureCode feature = a.feature;
+  if (kFloats) {
+    const std::uint32_t i = feature_index(feature);
+    const FeatureKind kind = feature_kind(feature);
+    const std::uint32_t *of = kind == FeatureKind::face   ? grid.records.face_of
+                              : kind == FeatureKind::edge ? grid.records.edge_of
+                                                          : grid.records.vertex_of;
+    feature = feature_code(kind, of[i]);
+  }
+  ClosestPoint closest = closest_point_on(grid.wall, feature, q, grid.tolerance);
+  // A triangle of nearest lists stands for its edges and vertices as well.
+  if (a.primitive && feature_kind(feature) == FeatureKind::face) {
+    const FaceParts &parts = grid.wall.face_parts[feature_index(feature)];
+    for (FeatureCode part : parts.part) {
+      if (part == kNoFeature) continue;
+      const ClosestPoint other = closest_point_on(grid.wall, part, q, grid.tolerance);
+      if (!other.found || (closest.found && !(other.distance < closest.distance))) continue;
+      closest = other;
+      feature = part;
+    }
+  }
+  if (closest.found) return at_closest(feature, q, closest);
+  // It is no minimum of distance: a neighbour that no list has is nearer; or a float rounded.
+  Vec3 point;
+  switch (feature_kind(feature)) {
+    case FeatureKind::face:
+      point = nearest_on_triangle(grid.wall, feature_index(feature), q);
+      break;
+    case FeatureKind::edge: {
+      const EdgeVertices &v = grid.wall.edge_vertex[feature_index(feature)];
+      point = nearest_on_segment(grid.wall.vertices[v.v[0]].position,
+                                 grid.wall.vertices[v.v[1]].position, q);
+      break;
+    }
+    default:
+      point = grid.wall.vertices[feature_index(feature)].position;
+  }
+  const Vec3 apart = q - point;
+  const Real distance = norm(apart);
+  if (distance > kNoDistance) return {feature, point, (1 / distance) * apart};
+  return {feature, point, any_perpendicular({0, 0, 0})};
+}
+
+// Of a closed wall: 1 outside and on the wall, -1 inside, 0 where that is not known.
+LSDCD_FN std::int8_t side_of(const GridView &grid, const Answer &a, const Vec3 &q,
+                             const Nearest &nearest)
+{
+  if (!a.found() || !a.certified) return 0;
+  if (nearest.point == q) return 1;
+  return grid.outside * dot(outward(grid.wall, nearest.feature), nearest.normal) < 0 ? -1 : 1;
+}
+
+// As GridWork, for the loops that run either. `table`: for loops that ask for cells.
+template <class Distances, class T, bool kComplete, bool kFloats>
+struct PointWork {
+  using Item = SphereOf<T>;
+
+  GridView grid;
+  BrickTable table;
+  PointArrays<T> io;
+  TriangleNames names;
+  TooLarge<Item> too_large;
+  bool only_distance;
+
+  LSDCD_FN Item sphere(std::size_t i) const
+  {
+    const T *at = io.points.of(i);
+    return {at[0], at[io.points.column], at[2 * io.points.column],
+            io.radii.at ? io.radii[i] : static_cast<T>(io.radius)};
+  }
+  LSDCD_FN void check(std::size_t i, const Item &s) const
+  {
+    if (io.radii.at) too_large.note(i, s);
+  }
+  LSDCD_FN void answer(std::size_t i, const Item &s) const
+  {
+    check(i, s);
+    keep(i, s, nearest_distance<kComplete, Distances>(grid, s.centre(), radius(s)));
+  }
+
+  LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
+  LSDCD_FN void far(std::size_t i, const Item &s) const { keep(i, s, far_answer()); }
+  LSDCD_FN void answer(std::size_t i, const Item &s, const Cell &cell) const
+  {
+    const Vec3 q = s.centre();
+    keep(i, s,
+         nearest_from<kComplete, Distances>(grid, q, radius(s), address_inside(grid, q), cell));
+  }
+
+ private:
+  LSDCD_FN Real radius(const Item &s) const
+  {
+    return io.radii.at ? static_cast<Real>(s.r) : io.radius;
+  }
+  LSDCD_FN void keep(std::size_t i, const Item &s, const Answer &a) const
+  {
+    if (io.status) io.status[i] = status_of(a);
+    if (io.distance.at) io.distance[i] = static_cast<T>(a.found() ? a.distance : HUGE_VAL);
+    if (!only_distance) keep_nearest(i, s.centre(), a);
+  }
+  LSDCD_FN void keep_nearest(std::size_t i, const Vec3 &q, const Answer &a) const
+  {
+    Nearest nearest = {kNoFeature, q, {0, 0, 0}};
+    if (a.found()) nearest = nearest_of<kFloats>(grid, a, q);
+    if (io.closest.at) io.closest.put(i, nearest.point);
+    if (io.normal.at) io.normal.put(i, nearest.normal);
+    if (io.feature) io.feature[i] = nearest.feature;
+    if (io.triangle) io.triangle[i] = a.found() ? names.of(nearest.feature) : kNoTriangle;
+    if (io.side) io.side[i] = side_of(grid, a, q, nearest);
+  }
+};
+
+// Calls run(work) with the work that the grid's lists and records ask for.
+template <class T, class Run>
+void with_point_work(const GridView &grid, const BrickTable &table, const PointArrays<T> &io,
+                     const TriangleNames &names, std::uint64_t *too_large, const Run &run)
+{
+  const TooLarge<SphereOf<T>> check = {static_cast<T>(grid.cutoff), too_large};
+  const bool only = io.only_distance();
+  using InDouble = WallDistances<InsideTest::exact>;
+  if (grid.in_floats && grid.nearest == 0)
+    run(PointWork<BrickDistances, T, true, true>{grid, table, io, names, check, only});
+  else if (grid.in_floats)
+    run(PointWork<BrickDistances, T, false, true>{grid, table, io, names, check, only});
+  else if (grid.nearest == 0)
+    run(PointWork<InDouble, T, true, false>{grid, table, io, names, check, only});
+  else
+    run(PointWork<InDouble, T, false, false>{grid, table, io, names, check, only});
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""Installs a build under a scratch prefix, moves that, and uses it as a stranger would.
+
+From the environment: LSDCD_BUILD, the build folder; LSDCD_ROOT, the sources; LSDCD_C, LSDCD_CXX and
+LSDCD_CMAKE, the compilers and cmake; LSDCD_CUDA, whether the build has CUDA. Prints a line per fact.
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT, BUILD = os.environ["LSDCD_ROOT"], os.environ["LSDCD_BUILD"]
+CUDA = os.environ["LSDCD_CUDA"] == "ON"
+PYTHON = sys.executable
+failed = 0
+
+# A cube of side 2 about the origin. Of the example's points the first is its middle, 1 from all
+# faces, where nothing is nearer than the cutoff 1; the second is 0.25 above its top.
+CUBE_FACES = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7),
+              (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]
+WANTED = "inf 0.25\n"
+
+PROJECT = """cmake_minimum_required(VERSION 3.22)
+project(user LANGUAGES C CXX)
+find_package(lsdcd 0.1 REQUIRED COMPONENTS {components})
+add_executable(in_c distance.c)
+target_link_libraries(in_c lsdcd::core)
+add_executable(in_cpp distance.cpp)
+set_target_properties(in_cpp PROPERTIES CXX_STANDARD 17)
+target_link_libraries(in_cpp lsdcd::{last})
+"""
+
+
+def fact(name, true, detail=""):
+    global failed
+    failed += not true
+    print(f"{'PASS' if true else 'FAIL'} {name}{'' if true else ': ' + str(detail)}", flush=True)
+
+
+def run(*words, folder, **environment):
+    done = subprocess.run([str(w) for w in words], cwd=folder, text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, env={**os.environ, **environment})
+    return done.returncode, done.stdout
+
+
+def gives(name, wanted, *words, folder, **environment):
+    code, text = run(*words, folder=folder, **environment)
+    fact(name, code == 0 and wanted in text, f"exit {code}, {text}")
+
+
+def write_cube(path):
+    lines = ["solid cube"]
+    for face in CUBE_FACES:
+        lines.append("facet normal 0 0 0\nouter loop")
+        lines += ["vertex " + " ".join("1" if v >> k & 1 else "-1" for k in range(3)) for v in face]
+        lines.append("endloop\nendfacet")
+    with open(path, "w", encoding="ascii") as f:
+        f.write("\n".join(lines + ["endsolid cube\n"]))
+
+
+def find(prefix, name):
+    """The one folder below the prefix that has the file."""
+    found = [folder for folder, _, files in os.walk(prefix) if name in files]
+    fact(f"{name} is installed once", len(found) == 1, found)
+    return found[0]
+
+
+def check_symbols(prefix, library):
+    with open(os.path.join(prefix, "include", "lsdcd.h"), encoding="utf-8") as f:
+        declared = set(re.findall(r"^LSDCD_API[^;]*?\b(lsdcd_\w+)\(", f.read(), re.M))
+    _, text = run("nm", "-D", "--defined-only", library, folder=prefix)
+    exported = {line.split()[-1] for line in text.splitlines()} - {"LSDCD_0"}
+    fact("the library exports what its header declares, with a version, and nothing else",
+         len(declared) > 10 and exported == {name + "@@LSDCD_0" for name in declared},
+         sorted(exported ^ {name + "@@LSDCD_0" for name in declared}))
+    _, text = run("readelf", "-d", library, folder=prefix)
+    fact("its name is liblsdcd.so.0", "[liblsdcd.so.0]" in text, text)
+    fact("it has no path of the build", "RUNPATH" not in text and "RPATH" not in text, text)
+
+
+def check_builds(prefix, work, libraries):
+    examples = os.path.join(ROOT, "examples", "library")
+    there = {"LD_LIBRARY_PATH": libraries}
+    compile_c = "{} -std=c99 -Wall -Wextra -Werror -pedantic {} -o c $(pkg-config --cflags --libs lsdcd)"
+    code, text = run("sh", "-c", compile_c.format(os.environ["LSDCD_C"], examples + "/distance.c"), folder=work,
+                     PKG_CONFIG_PATH=os.path.join(libraries, "pkgconfig"))
+    fact("the example in C compiles by pkg-config", code == 0, text)
+    gives("and gives the distances", WANTED, "./c", "cube.stl", folder=work, **there)
+
+    for example in ("distance.c", "distance.cpp"):
+        os.symlink(os.path.join(examples, example), os.path.join(work, example))
+    for components in (["core"], ["core", "cuda"]):
+        build = os.path.join(work, "build_" + components[-1])
+        with open(os.path.join(work, "CMakeLists.txt"), "w", encoding="utf-8") as f:
+            f.write(PROJECT.format(components=" ".join(components), last=components[-1]))
+        code, text = run(os.environ["LSDCD_CMAKE"], "-S", ".", "-B", build, "-D", "CMAKE_PREFIX_PATH=" + prefix,
+                         "-D", "CMAKE_C_COMPILER=" + os.environ["LSDCD_C"],
+                         "-D", "CMAKE_CXX_COMPILER=" + os.environ["LSDCD_CXX"],
+                         "-D", "CMAKE_CXX_FLAGS=-Wall -Wextra -Werror", folder=work)
+        if "cuda" in components and not CUDA:
+            fact("the component cuda of a build without CUDA is refused with the reason",
+                 code != 0 and "built without CUDA" in " ".join(text.split()), text)
+            continue
+        code, text = run(os.environ["LSDCD_CMAKE"], "--build", build, folder=work)
+        fact(f"the examples in C and C++ build by find_package, {' and '.join(components)}", code == 0, text)
+        for program in ("in_c", "in_cpp"):
+            gives(f"and {program} gives the distances", WANTED, os.path.join(build, program), "cube.stl",
+                  folder=work)
+    code, text = run(os.path.join(work, "c"), "nowhere.stl", folder=work, **there)
+    fact("an error has its text", code != 0 and "nowhere.stl" in text, text)
+
+
+def check_python(prefix, work):
+    path = find(prefix, "lsdcd.py")
+    gives("the example in Python gives the distances", WANTED, PYTHON,
+          os.path.join(ROOT, "examples", "library", "distance.py"), "cube.stl", folder=work, PYTHONPATH=path)
+    gives("the module's own test", "all good", PYTHON,
+          os.path.join(ROOT, "tests", "library", "use_module.py"), folder=work, PYTHONPATH=path)
+
+
+def check_tool(prefix, work):
+    tool = os.path.join(prefix, "bin", "lsdcd")
+    if not os.path.exists(tool):
+        print("skipped: the tool is not built")
+        return
+    gives("the tool finds materials from any folder", "material glass", tool, "material", "glass.lsdcd", folder=work)
+    gives("and its plot's script", "plot in", tool, "tradeoff", "cube.stl", "--radius", "0.3", "--spheres", "50",
+          "--moving", "2", "--repeats", "1", "--seconds", "2", "--device", "cpu", folder=work)
+    launcher = os.path.join(prefix, "bin", "lmp-lsdcd")
+    if not os.path.exists(launcher):
+        print("skipped: lmp-lsdcd is not built")
+        return
+    with open(os.path.join(work, "in.deck"), "w", encoding="ascii") as f:
+        f.write("""units si
+atom_style sphere
+region box block -3 3 -3 3 -3 3
+create_box 1 box
+create_atoms 1 single 0 0 1.25
+set type 1 diameter 0.5 density 2500
+pair_style zero 0.6
+pair_coeff * *
+comm_modify vel yes
+fix w all wall/lsdcd granular material glass.lsdcd glass on aluminium mesh cube.stl
+run 0
+print "wall built"
+""")
+    gives("lmp-lsdcd finds its plugin, and that the materials", "wall built", launcher, "-in", "in.deck", "-log", "none",
+          folder=work, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+          OMPI_MCA_ess_singleton_isolated="1", OMP_NUM_THREADS="1")
+
+
+def main():
+    with tempfile.TemporaryDirectory(prefix="lsdcd-install-") as top:
+        installed, prefix, work = (os.path.join(top, name) for name in ("at_first", "prefix", "work"))
+        os.mkdir(work)
+        code, text = run(os.environ["LSDCD_CMAKE"], "--install", BUILD, "--prefix", installed, folder=top)
+        fact("the build installs", code == 0, text)
+        if code != 0:
+            return 1
+        os.rename(installed, prefix)
+        write_cube(os.path.join(work, "cube.stl"))
+        libraries = find(prefix, "liblsdcd.so.0")
+        check_symbols(prefix, os.path.join(libraries, "liblsdcd.so.0"))
+        check_builds(prefix, work, libraries)
+        check_python(prefix, work)
+        check_tool(prefix, work)
+        for name in ("LICENSE", "CITATION.cff", "library.md", "distance.cpp"):
+            find(prefix, name)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

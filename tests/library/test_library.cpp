@@ -1,0 +1,493 @@
+// The library through its headers, against brute force over the bare triangles.
+#include "lsdcd.hpp"
+#include "support/meshes.h"
+#include "support/query_oracle.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <thread>
+
+namespace {
+
+using lsdcd::TriangleSoup;
+using lsdcd::Vec3;
+
+constexpr double kCutoff = 0.4;
+
+std::vector<double> numbers(const TriangleSoup &soup)
+{
+  std::vector<double> out;
+  for (const Vec3 &p : soup.corners) out.insert(out.end(), {p.x, p.y, p.z});
+  return out;
+}
+
+// Corners, sharp edges, a flat triangulated wall and a round one.
+TriangleSoup box_and_cylinder()
+{
+  TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
+  lsdcd::append(soup, lsdcd::cylinder_mesh(24, 5, 0.5, 0.6));
+  return soup;
+}
+
+template <class T>
+std::vector<T> random_points(std::size_t n, double half = 1.5, unsigned seed = 1)
+{
+  std::mt19937 r(seed);
+  std::uniform_real_distribution<double> at(-half, half);
+  std::vector<T> points(3 * n);
+  for (T &x : points) x = static_cast<T>(at(r));
+  return points;
+}
+
+template <class T>
+Vec3 point(const std::vector<T> &points, std::size_t i)
+{
+  return {double(points[3 * i]), double(points[3 * i + 1]), double(points[3 * i + 2])};
+}
+
+double distance_to(const TriangleSoup &soup, std::size_t triangle, const Vec3 &q)
+{
+  const Vec3 *c = &soup.corners[3 * triangle];
+  return std::sqrt(lsdcd::region_distance_sq(c[0], c[1], c[2], q));
+}
+double brute(const TriangleSoup &soup, const Vec3 &q)
+{
+  double least = HUGE_VAL;
+  for (std::size_t t = 0; t < soup.n_triangles(); t++)
+    least = std::min(least, distance_to(soup, t, q));
+  return least;
+}
+
+template <class T>
+struct All {
+  std::vector<T> distance, closest, normal;
+  std::vector<std::uint32_t> triangle, feature;
+  std::vector<std::int8_t> side;
+  std::vector<std::uint8_t> status;
+
+  All(const lsdcd::Grid &grid, const std::vector<T> &points, bool sides = false,
+      double radius = 0) :
+      distance(points.size() / 3),
+      closest(points.size()), normal(points.size()), triangle(distance.size()),
+      feature(distance.size()), side(distance.size()), status(distance.size())
+  {
+    lsdcd::Query<T> q(points.data(), distance.size());
+    q.radius = radius;
+    q.distance = distance.data();
+    q.closest = closest.data();
+    q.normal = normal.data();
+    q.triangle = triangle.data();
+    q.feature = feature.data();
+    if (sides) q.side = side.data();
+    q.status = status.data();
+    grid.query(q);
+  }
+};
+
+lsdcd::Grid grid_of(const TriangleSoup &soup, int nearest = 0, bool exact = false,
+                    int precision = LSDCD_DOUBLE)
+{
+  lsdcd::GridOptions options(kCutoff);
+  options.nearest = nearest;
+  options.exact = exact;
+  options.precision = precision;
+  return lsdcd::Grid(lsdcd::Mesh(numbers(soup)), options);
+}
+
+// Certified answers are those of brute force. `tolerance`: the rounding of coordinates up to 1.5 in
+// T and in the search, some 16 units of it, and the mesh's own tolerance, 1e-9 of lengths of order 1.
+template <class T>
+void expect_nearest(const lsdcd::Grid &grid, const TriangleSoup &soup, double tolerance,
+                    bool all_certified)
+{
+  const std::vector<T> points = random_points<T>(4000);
+  const All<T> a(grid, points);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < a.status.size(); i++) {
+    const Vec3 q = point(points, i);
+    const double truth = brute(soup, q);
+    EXPECT_TRUE(!all_certified || (a.status[i] & LSDCD_CERTIFIED)) << i;
+    const bool is = a.status[i] & LSDCD_FOUND;
+    EXPECT_EQ(is, std::isfinite(a.distance[i])) << i;
+    EXPECT_EQ(is, a.triangle[i] != LSDCD_NONE) << i;
+    EXPECT_EQ(is, a.feature[i] != LSDCD_NONE) << i;
+    found += is;
+    if (a.status[i] & LSDCD_CERTIFIED) {
+      if (is)
+        EXPECT_NEAR(a.distance[i], truth, tolerance) << i;
+      else
+        EXPECT_GE(truth, kCutoff - tolerance) << i;
+    }
+    const Vec3 c = point(a.closest, i), n = point(a.normal, i);
+    if (!is) {
+      EXPECT_TRUE(c == q && norm(n) == 0) << i;
+      continue;
+    }
+    // Certified or not, what is said of the triangle is true.
+    ASSERT_LT(a.triangle[i], soup.n_triangles());
+    EXPECT_NEAR(norm(q - c), a.distance[i], tolerance) << i;
+    EXPECT_NEAR(distance_to(soup, a.triangle[i], c), 0, tolerance) << i;
+    EXPECT_NEAR(norm(n), 1, 4 * tolerance) << i;
+    EXPECT_NEAR(norm(c + a.distance[i] * n - q), 0, 2 * tolerance) << i;
+  }
+  EXPECT_GT(found, a.status.size() / 4);
+}
+
+constexpr double kInDouble = 1e-8, kInFloat = 4e-6;
+
+TEST(library, complete_lists_give_what_brute_force_gives)
+{
+  const TriangleSoup soup = box_and_cylinder();
+  expect_nearest<double>(grid_of(soup), soup, kInDouble, true);
+  expect_nearest<float>(grid_of(soup), soup, kInFloat, true);
+}
+
+TEST(library, a_search_in_float_is_off_by_its_rounding_alone)
+{
+  const TriangleSoup soup = box_and_cylinder();
+  expect_nearest<double>(grid_of(soup, 0, false, LSDCD_FLOAT), soup, kInFloat, true);
+  expect_nearest<float>(grid_of(soup, 0, false, LSDCD_FLOAT), soup, kInFloat, true);
+}
+
+TEST(library, answers_of_nearest_lists_that_are_certified_are_right)
+{
+  const TriangleSoup soup = box_and_cylinder();
+  for (int precision : {LSDCD_DOUBLE, LSDCD_FLOAT}) {
+    expect_nearest<double>(grid_of(soup, 2, false, precision), soup, kInFloat, false);
+    expect_nearest<double>(grid_of(soup, 1, true, precision), soup, kInFloat, true);
+  }
+}
+
+TEST(library, the_side_is_that_of_the_box)
+{
+  const TriangleSoup box = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
+  for (int nearest : {0, 1})
+    for (int precision : {LSDCD_DOUBLE, LSDCD_FLOAT}) {
+      const lsdcd::Grid grid = grid_of(box, nearest, false, precision);
+      std::vector<double> points = random_points<double>(20000);
+      // Some within 1e-9 of a wall, where a float cannot tell.
+      for (std::size_t i = 0; i < 300; i++) points[3 * i] = 1 + (i % 2 ? 1e-9 : -1e-9);
+      const All<double> a(grid, points, true);
+      std::size_t inside = 0, wrong = 0;
+      for (std::size_t i = 0; i < a.side.size(); i++) {
+        const Vec3 q = point(points, i);
+        const bool in = std::max({std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)}) < 1,
+                   sure = a.status[i] == (LSDCD_FOUND | LSDCD_CERTIFIED);
+        inside += a.side[i] < 0;
+        wrong += a.side[i] != (!sure ? 0 : in ? -1 : 1);
+      }
+      EXPECT_EQ(wrong, 0u) << "nearest " << nearest << " precision " << precision;
+      EXPECT_GT(inside, 100u);
+    }
+}
+
+TEST(library, normals_that_point_in_do_not_change_the_side)
+{
+  TriangleSoup box = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
+  for (std::size_t t = 0; t < box.n_triangles(); t++)
+    std::swap(box.corners[3 * t], box.corners[3 * t + 1]);
+  const All<double> a(grid_of(box), {0.9, 0, 0, 1.1, 0, 0, 1, 0, 0}, true);
+  EXPECT_EQ(a.side[0], -1);
+  EXPECT_EQ(a.side[1], 1);
+  EXPECT_EQ(a.side[2], 1);    // on it
+}
+
+TEST(library, arrays_of_any_layout_have_the_same_answers)
+{
+  const lsdcd::Grid grid = grid_of(box_and_cylinder());
+  const std::size_t n = 500;
+  const std::vector<double> points = random_points<double>(n);
+  const All<double> packed(grid, points);
+  // Components apart, and answers in every second place, from the last to the first.
+  std::vector<double> apart(3 * n), distance(2 * n, -1), normal(3 * n);
+  for (std::size_t i = 0; i < n; i++)
+    for (int k = 0; k < 3; k++) apart[k * n + i] = points[3 * i + k];
+  lsdcd::Query<double> q(apart.data(), n);
+  q.points_row = 1;
+  q.points_column = n;
+  q.distance = distance.data() + 2 * (n - 1);
+  q.distance_step = -2;
+  q.normal = normal.data();
+  q.normal_row = 1;
+  q.normal_column = n;
+  grid.query(q);
+  for (std::size_t i = 0; i < n; i++) {
+    EXPECT_EQ(distance[2 * (n - 1 - i)], packed.distance[i]);
+    EXPECT_EQ(distance[2 * (n - 1 - i) + 1], -1);
+    for (int k = 0; k < 3; k++) EXPECT_EQ(normal[k * n + i], packed.normal[3 * i + k]);
+  }
+}
+
+TEST(library, radii_bound_what_is_found)
+{
+  const lsdcd::Grid grid = grid_of(lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}));
+  const std::vector<double> points = {1.2, 0, 0, 1.2, 0, 0}, radii = {0.19, 0.21};
+  std::vector<std::uint8_t> status(2);
+  lsdcd::Query<double> q(points.data(), 2);
+  q.radii = radii.data();
+  q.status = status.data();
+  grid.query(q);
+  EXPECT_EQ(status[0], LSDCD_CERTIFIED);
+  EXPECT_EQ(status[1], LSDCD_CERTIFIED | LSDCD_FOUND);
+  EXPECT_EQ(All<double>(grid, points, false, 0.19).status[0], LSDCD_CERTIFIED);
+}
+
+TEST(library, a_point_that_is_no_number_is_far)
+{
+  const std::vector<double> points = {NAN, 0, 0, HUGE_VAL, 1, 1, 1, -HUGE_VAL, 1};
+  const All<double> a(grid_of(box_and_cylinder()), points);
+  for (int i = 0; i < 3; i++) EXPECT_EQ(a.distance[i], HUGE_VAL);
+}
+
+TEST(library, a_grid_outlives_its_mesh)
+{
+  auto mesh = std::make_unique<lsdcd::Mesh>(numbers(box_and_cylinder()));
+  const lsdcd::Grid grid(*mesh, kCutoff);
+  mesh.reset();
+  EXPECT_EQ(grid.distances(std::vector<double>{1.25, 0, 0})[0], 0.25);
+}
+
+TEST(library, eight_threads_at_once_get_what_one_gets)
+{
+  const lsdcd::Mesh mesh(numbers(box_and_cylinder()));
+  const lsdcd::Grid shared(mesh, kCutoff);
+  const std::vector<double> points = random_points<double>(20000);
+  const All<double> alone(shared, points);
+  std::vector<int> different(8, 0);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 8; t++)
+    threads.emplace_back([&, t] {
+      for (int k = 0; k < 5; k++) {
+        const All<double> a(shared, points);
+        different[t] += a.distance != alone.distance || a.feature != alone.feature;
+        const lsdcd::Grid own(mesh, kCutoff + 0.01 * t);
+        different[t] += own.distances(points, kCutoff) != alone.distance;
+        // A refusal is told to the thread that it is for.
+        try {
+          shared.distances(points, 1 + t);
+          different[t]++;
+        } catch (const lsdcd::Error &e) {
+          const std::string number = std::to_string(1 + t) + ".000000";
+          different[t] += std::string(e.what()).find(number) == std::string::npos;
+        }
+      }
+    });
+  for (std::thread &t : threads) t.join();
+  for (int d : different) EXPECT_EQ(d, 0);
+}
+
+TEST(library, threads_of_a_query_do_not_change_it)
+{
+  const lsdcd::Grid grid = grid_of(box_and_cylinder());
+  const std::vector<double> points = random_points<double>(20000);
+  std::vector<double> out(points.size() / 3);
+  lsdcd::Query<double> q(points.data(), out.size());
+  q.threads = 3;
+  q.distance = out.data();
+  grid.query(q);
+  EXPECT_EQ(out, grid.distances(points));
+}
+
+TEST(library, a_cache_is_read_the_second_time)
+{
+  if (std::string(LSDCD_TEST_CACHE) == "no") GTEST_SKIP() << "the build has no grid cache";
+  lsdcd::TempDir folder;
+  const std::string file = folder.path("grid.cache");
+  const lsdcd::Mesh mesh(numbers(box_and_cylinder()));
+  const auto grid = [&] {
+    lsdcd::GridOptions options(kCutoff);
+    options.cache = file.c_str();
+    return lsdcd::Grid(mesh, options);
+  };
+  const lsdcd::Grid built = grid(), read = grid();
+  EXPECT_FALSE(built.facts().from_cache);
+  EXPECT_TRUE(read.facts().from_cache);
+  const std::vector<double> points = random_points<double>(1000);
+  EXPECT_EQ(built.distances(points), read.distances(points));
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
+  EXPECT_FALSE(grid().facts().from_cache);    // damaged
+  EXPECT_TRUE(grid().facts().from_cache);     // and replaced
+
+  folder.write("grid.cache", "something else");
+  const lsdcd::Grid beside = grid();
+  EXPECT_NE(beside.report().find("left as it is"), std::string::npos) << beside.report();
+}
+
+// ---- wrong use ----------------------------------------------------------------------------
+
+class Wrong : public ::testing::Test {
+ protected:
+  const lsdcd::Mesh mesh{numbers(box_and_cylinder())};
+  const lsdcd::Grid grid{mesh, kCutoff};
+  const double at[6] = {0, 0, 0, 1.1, 0, 0};
+  double distance[2] = {-1, -1};
+  lsdcd::Query<double> q{at, 2};
+  void SetUp() override { q.distance = distance; }
+
+  // The code that it gives, and a text with `says`.
+  static void expect(int code, int wanted, const char *says)
+  {
+    EXPECT_EQ(lsdcd_error_name(code), std::string(lsdcd_error_name(wanted)));
+    EXPECT_NE(std::strstr(lsdcd_last_error(), says), nullptr) << lsdcd_last_error();
+  }
+  void refused(int wanted, const char *says)
+  {
+    expect(lsdcd_query_host(grid.get(), &q), wanted, says);
+    EXPECT_EQ(distance[0], -1);
+  }
+};
+
+TEST_F(Wrong, null_pointers)
+{
+  lsdcd_mesh *m = nullptr;
+  lsdcd_grid *g = nullptr;
+  lsdcd_stream *s = nullptr;
+  lsdcd::GridOptions o(1);
+  expect(lsdcd_mesh_read(nullptr, -1, &m), LSDCD_ERROR_ARGUMENT, "`file` is null");
+  expect(lsdcd_mesh_read("x.stl", -1, nullptr), LSDCD_ERROR_ARGUMENT, "`mesh` is null");
+  expect(lsdcd_mesh_from_corners(nullptr, 1, -1, &m), LSDCD_ERROR_ARGUMENT, "`corners` is null");
+  expect(lsdcd_mesh_get_facts(nullptr, nullptr), LSDCD_ERROR_ARGUMENT, "`mesh` is null");
+  expect(lsdcd_grid_build(nullptr, &o, &g), LSDCD_ERROR_ARGUMENT, "`mesh` is null");
+  expect(lsdcd_grid_build(mesh.get(), nullptr, &g), LSDCD_ERROR_ARGUMENT, "is null");
+  expect(lsdcd_grid_build(mesh.get(), &o, nullptr), LSDCD_ERROR_ARGUMENT, "`grid` is null");
+  expect(lsdcd_query_host(nullptr, &q), LSDCD_ERROR_ARGUMENT, "`grid` is null");
+  expect(lsdcd_query_host(grid.get(), nullptr), LSDCD_ERROR_ARGUMENT, "is null");
+  expect(lsdcd_query_stream(nullptr, &q), LSDCD_ERROR_ARGUMENT, "`stream` is null");
+  expect(lsdcd_stream_open(grid.get(), nullptr, nullptr), LSDCD_ERROR_ARGUMENT, "`stream` is null");
+  expect(lsdcd_stream_open(nullptr, nullptr, &s), LSDCD_ERROR_ARGUMENT, "`grid` is null");
+  EXPECT_TRUE(!m && !g && !s);
+  q.points = nullptr;
+  refused(LSDCD_ERROR_ARGUMENT, "`points` is null");
+  EXPECT_STREQ(lsdcd_mesh_report(nullptr), "");
+  EXPECT_STREQ(lsdcd_grid_report(nullptr), "");
+  lsdcd_mesh_free(nullptr);
+  lsdcd_grid_free(nullptr);
+  lsdcd_stream_free(nullptr);
+}
+
+TEST_F(Wrong, no_points_are_no_error)
+{
+  q.n = 0;
+  q.points = nullptr;
+  EXPECT_EQ(lsdcd_query_host(grid.get(), &q), LSDCD_OK);
+}
+
+TEST_F(Wrong, a_radius_beyond_the_cutoff)
+{
+  q.radius = std::nextafter(kCutoff, 1);
+  refused(LSDCD_ERROR_CUTOFF, "more than the grid's cutoff");
+}
+
+TEST_F(Wrong, one_of_many_radii_beyond_the_cutoff)
+{
+  for (double bad : {std::nextafter(kCutoff, 1), double(NAN)}) {
+    const double radii[2] = {0.1, bad};
+    q.radii = radii;
+    expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_CUTOFF, "sphere 1 has radius");
+  }
+}
+
+TEST_F(Wrong, a_radius_below_0_or_not_a_number)
+{
+  for (double bad : {-0.1, double(NAN)}) {
+    q.radius = bad;
+    refused(LSDCD_ERROR_ARGUMENT, "`radius` is");
+  }
+}
+
+TEST_F(Wrong, radius_and_radii_together)
+{
+  q.radius = 0.1;
+  q.radii = at;
+  refused(LSDCD_ERROR_ARGUMENT, "both given");
+}
+
+TEST_F(Wrong, a_struct_of_another_size)
+{
+  q.size = 0;
+  refused(LSDCD_ERROR_ARGUMENT, "size is 0");
+  q.size = sizeof q + 8;
+  refused(LSDCD_ERROR_ARGUMENT, "size is");
+}
+
+TEST_F(Wrong, an_unknown_type)
+{
+  q.type = 7;
+  refused(LSDCD_ERROR_ARGUMENT, "`type`");
+}
+
+TEST_F(Wrong, nothing_asked_for)
+{
+  q.distance = nullptr;
+  refused(LSDCD_ERROR_ARGUMENT, "nothing is asked for");
+}
+
+TEST_F(Wrong, the_side_of_an_open_mesh)
+{
+  const lsdcd::Grid open(lsdcd::Mesh(numbers(lsdcd::floor_mesh(2, 1))), kCutoff);
+  std::int8_t side[2];
+  q.side = side;
+  expect(lsdcd_query_host(open.get(), &q), LSDCD_ERROR_SIDE, "not closed");
+}
+
+TEST_F(Wrong, a_file_that_is_not_there)
+{
+  lsdcd_mesh *m = nullptr;
+  expect(lsdcd_mesh_read("/nowhere/wall.stl", -1, &m), LSDCD_ERROR_INPUT, "/nowhere/wall.stl");
+}
+
+TEST_F(Wrong, corners_that_are_not_finite)
+{
+  std::vector<double> corners = numbers(box_and_cylinder());
+  corners[9 * 4 + 2] = NAN;
+  lsdcd_mesh *m = nullptr;
+  expect(lsdcd_mesh_from_corners(corners.data(), 6, -1, &m), LSDCD_ERROR_INPUT, "triangle 4");
+  expect(lsdcd_mesh_from_corners(corners.data(), 0, -1, &m), LSDCD_ERROR_ARGUMENT, "is 0");
+  expect(lsdcd_mesh_from_corners(corners.data(), 2, NAN, &m), LSDCD_ERROR_ARGUMENT, "`weld`");
+}
+
+TEST_F(Wrong, options_that_make_no_grid)
+{
+  const auto expect_bad = [&](auto change, const char *says) {
+    lsdcd::GridOptions o(kCutoff);
+    change(o);
+    lsdcd_grid *g = nullptr;
+    expect(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_ARGUMENT, says);
+  };
+  expect_bad([](auto &o) { o.cutoff = 0; }, "cutoff");
+  expect_bad([](auto &o) { o.cutoff = HUGE_VAL; }, "cutoff");
+  expect_bad([](auto &o) { o.cell = -1; }, "cell");
+  expect_bad([](auto &o) { o.nearest = 33; }, "nearest");
+  expect_bad([](auto &o) { o.exact = 1; }, "exact");
+  expect_bad([](auto &o) { o.precision = 2; }, "precision");
+  expect_bad([](auto &o) { o.memory = -1; }, "memory");
+  expect_bad([](auto &o) { o.threads = -1; }, "threads");
+  expect_bad([](auto &o) { o.device = 2; }, "device");
+}
+
+TEST_F(Wrong, a_grid_over_its_budget)
+{
+  lsdcd::GridOptions o(kCutoff);
+  o.cell = 1e-4;
+  o.memory = 1e6;
+  lsdcd_grid *g = nullptr;
+  expect(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_INPUT, "grid 0.0001");
+}
+
+TEST_F(Wrong, a_gpu_that_is_not_there)
+{
+  if (lsdcd_has_cuda()) GTEST_SKIP() << "there is a GPU";
+  lsdcd_stream *s = nullptr;
+  EXPECT_NE(lsdcd_stream_open(grid.get(), nullptr, &s), LSDCD_OK);
+  EXPECT_STRNE(lsdcd_last_error(), "");
+  lsdcd::GridOptions o(kCutoff);
+  o.device = LSDCD_CUDA;
+  lsdcd_grid *g = nullptr;
+  expect(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_DEVICE, "CUDA");
+}
+
+}    // namespace

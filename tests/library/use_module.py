@@ -1,0 +1,95 @@
+"""Arrays, layouts, threads and errors of the Python module, against a cube's closed form."""
+import sys
+import threading
+
+import numpy as np
+
+import lsdcd
+
+sys.path.insert(0, __file__.rsplit("/", 1)[0])
+from test_install import CUBE_FACES    # noqa: E402
+
+CUTOFF = 0.5
+vertices = np.array([[1.0 if v >> k & 1 else -1.0 for k in range(3)] for v in range(8)])
+faces = np.array(CUBE_FACES)
+mesh = lsdcd.Mesh(vertices, faces)
+grid = mesh.grid(cutoff=CUTOFF)
+
+
+def truth(points):
+    """Distance from the cube's surface, and its side."""
+    p = np.abs(np.asarray(points, dtype=float))
+    outside = np.linalg.norm(np.maximum(p - 1, 0), axis=1)
+    inside = (p < 1).all(axis=1)
+    return np.where(inside, 1 - p.max(axis=1), outside), np.where(inside, -1, 1)
+
+
+def expect_right(answer, points, tolerance):
+    distance, side = truth(points)
+    near = distance < CUTOFF - tolerance
+    assert np.allclose(answer.distance[near], distance[near], rtol=0, atol=tolerance)
+    assert np.isinf(answer.distance[distance > CUTOFF + tolerance]).all()
+    assert (answer.side[near] == side[near]).all()
+    assert np.allclose(answer.closest + answer.normal * np.where(near, answer.distance, 0)[:, None],
+                       np.where(near[:, None], points, answer.closest), rtol=0, atol=4 * tolerance)
+    assert (answer.triangle[near] < 12).all()
+
+
+def refused(kind, says, call):
+    try:
+        call()
+    except kind as e:
+        assert says in str(e), e
+        return e
+    raise AssertionError("not refused: " + says)
+
+
+assert mesh.facts.volume == 8 and mesh.facts.closed == 1 and mesh.facts.lo == (-1, -1, -1)
+assert grid.facts.cutoff == CUTOFF and "cutoff 0.5" in grid.report and "facets" in mesh.report
+points = np.random.default_rng(1).uniform(-1.6, 1.6, (20000, 3))
+want = "distance closest normal triangle side status"
+# Rounding of coordinates below 2: 16 units of each type.
+expect_right(grid.query(points, want), points, 16 * 2.3e-16)
+expect_right(grid.query(points.astype(np.float32), want), points.astype(np.float32), 16 * 1.2e-7)
+
+# Any layout of the points.
+base = grid.query(points).distance
+for same in (np.asfortranarray(points), np.repeat(points, 2, axis=0)[::2], points[::-1][::-1].copy(),
+             points.astype(points.dtype.newbyteorder()), points.tolist()):
+    assert (grid.query(same).distance == base).all()
+backwards = points[::-1]
+assert (grid.query(backwards).distance == base[::-1]).all()
+assert (grid.query(np.broadcast_to([0.9, 0, 0], (5, 3))).distance == grid.query([[0.9, 0, 0]]).distance).all()
+assert grid.query(np.array([[0, 0, 1], [0, 1, 0]])).distance.tolist() == [0, 0]    # whole numbers
+assert grid.query(np.empty((0, 3))).distance.shape == (0,)
+
+assert np.isinf(grid.query([[1.2, 0, 0]], radius=0.19).distance[0])
+assert np.isfinite(grid.query([[1.2, 0, 0]] * 2, radius=[0.19, 0.21]).distance).tolist() == [False, True]
+assert (lsdcd.Mesh(vertices[faces]).grid(cutoff=CUTOFF).query(points).distance == base).all()
+
+assert refused(lsdcd.Error, "cutoff", lambda: grid.query(points, radius=1)).code == "cutoff"
+assert refused(lsdcd.Error, "nowhere", lambda: lsdcd.Mesh("/nowhere.stl")).code == "input"
+assert refused(lsdcd.Error, "closed", lambda: lsdcd.Mesh(vertices, faces[1:]).grid(cutoff=1).query(points, "side")).code == "side"
+refused(TypeError, "(n, 3)", lambda: grid.query(points[:, :2]))
+refused(TypeError, "height", lambda: grid.query(points, "height"))
+refused(TypeError, "radius", lambda: grid.query(points, radius=0))
+refused(TypeError, "shape", lambda: grid.query(points, radius=[0.1]))
+
+# A grid keeps what it needs.
+alone = lsdcd.Mesh(vertices, faces).grid(cutoff=CUTOFF)
+wrong = []
+
+
+def ask():
+    for _ in range(5):
+        if not (alone.query(points).distance == base).all():
+            wrong.append(1)
+
+
+threads = [threading.Thread(target=ask) for _ in range(8)]
+for t in threads:
+    t.start()
+for t in threads:
+    t.join()
+assert not wrong
+print("all good")

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Run by packages_on.sh as root of a Debian of its own: use_packages.sh same|newer
+set -uo pipefail
+status=0
+fact() { if "${@:2}"; then echo "PASS $1"; else echo "FAIL $1"; status=1; fi; }
+quiet() { "$@" >/tmp/apt 2>&1 || { tail -20 /tmp/apt; false; }; }
+gives() { if grep -q -- "$2" <<<"$3"; then echo "PASS $1"; else echo "FAIL $1: $3"; status=1; fi; }
+install() {
+  apt-get -q -y --no-install-recommends -o Acquire::Check-Valid-Until=false -o DPkg::Options::=--force-unsafe-io \
+    install "$@"
+}
+cd /packages
+# Of the mirror alone: where that fails, nothing can be said of ours.
+{ apt-get -q -o Acquire::Check-Valid-Until=false -o Acquire::Languages=none update && install g++ pkgconf; } >/tmp/apt 2>&1 ||
+  { tail -5 /tmp/apt; echo "no packages from the mirror"; exit 1; }
+
+of_library=(liblsdcd0_* liblsdcd-dev_* python3-lsdcd_* lsdcd_* lsdcd-data_*)
+fact "library, module and tool install" quiet install "${of_library[@]/#/./}"
+
+mkdir /use
+cd /use
+gcc -Wall /examples/distance.c -o c $(pkgconf --cflags --libs lsdcd)
+gives "the example in C runs" "^[0-9.inf]* [0-9.inf]*$" "$(./c /examples/die.stl 2>&1)"
+g++ -std=c++17 -Wall /examples/distance.cpp -o cpp -llsdcd
+fact "C++ gives what C gives" test "$(./cpp /examples/die.stl 2>&1)" = "$(./c /examples/die.stl 2>&1)"
+fact "Python gives what C gives" test "$(python3 /examples/distance.py /examples/die.stl 2>&1)" = "$(./c /examples/die.stl 2>&1)"
+gives "the tool finds its materials" "material glass" "$(lsdcd material glass.lsdcd 2>&1)"
+gives "the tool reads a mesh" "facets" "$(lsdcd inspect /examples/die.stl 2>&1)"
+fact "the licence is there" test -s /usr/share/doc/lsdcd/LICENSE
+
+if [ "$1" = newer ]; then
+  why=$(install /packages/lammps-lsdcd_*.deb 2>&1) && why="it installs"
+  gives "a plugin for another LAMMPS is refused" "Depends: liblammps0" "$why"
+else
+  fact "the plugin installs" quiet install /packages/lammps-lsdcd_*.deb
+  cat >in.deck <<'DECK'
+units si
+atom_style sphere
+region box block -3 3 -3 3 -3 3
+create_box 1 box
+create_atoms 1 single 0 0 0
+set type 1 diameter 0.5 density 2500
+pair_style zero 0.6
+pair_coeff * *
+comm_modify vel yes
+fix w all wall/lsdcd granular material glass.lsdcd glass mesh /examples/die.stl
+run 0
+print "the wall is built"
+DECK
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_ess_singleton_isolated=1 OMP_NUM_THREADS=1
+  gives "lmp-lsdcd runs a deck with a material" "the wall is built" "$(lmp-lsdcd -in in.deck -log none 2>&1)"
+fi
+exit $status
