@@ -26,6 +26,9 @@ enum class Device { automatic, cpu, cuda };
 // Sums, springs at rest and the spheres themselves are double in all three.
 enum class Precision { double_, mixed, single_ };
 
+// Meshes that move apart, of one wall.
+constexpr int kMostMeshes = 32;
+
 struct EngineSettings {
   ContactLaw law;
   Corner corner = Corner::blend;
