@@ -153,9 +153,8 @@ void read_keywords(Tokens &w, WallSettings &settings, bool granular)
     w.expect(row.name, syntax_of(row));
     const bool next = word == "mesh" && !settings.meshes.back().file.empty();
     if (next && !early.empty())
-      w.fail("there are several, and which of them '" + early +
-             "' is of is not clear: with several meshes it stands after the mesh FILE that it is "
-             "of, and here it comes before all of them");
+      w.fail("there are several, and '" + early +
+             "' comes before the first: keywords of a mesh stand after its mesh FILE");
     if (next) {
       settings.meshes.emplace_back();
       seen_of_mesh.clear();
@@ -195,7 +194,10 @@ void check_apart(Tokens &w, const WallSettings &s, std::size_t k)
     if (mesh.file == other.file && mesh.placement == other.placement &&
         mesh.motion_tokens == other.motion_tokens && mesh.servo_tokens == other.servo_tokens) {
       w.expect("mesh", "mesh FILE");
-      w.fail(both + " are the same file at the same place: leave one out, or move it");
+      w.fail(
+          both +
+          " are the same file at the same place, and every contact would be felt twice: leave one "
+          "out, or move it");
     }
     const struct {
       const char *keyword;

@@ -91,7 +91,8 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   maxexchange_dynamic = history || settings.contacts;
   dynamic_group_allow = 1;
 
-  scalar_flag = vector_flag = array_flag = 1;
+  scalar_flag = vector_flag = 1;
+  array_flag = several();    // F_ID[1] of an atom-style variable is its column in 29Sep2021
   size_vector = size_array_cols = kVector;
   size_array_rows = static_cast<int>(parts.size());
   global_freq = 1;

@@ -51,6 +51,7 @@ void SharedWall::tune(Real cutoff, const PeriodicBox &box, const std::vector<Tag
     want.engine.side = settings_.side;
     want.engine.precision = settings_.precision;
     want.engine.surface = of_mesh_.surface;
+    want.engine.moves = settings_.moves();
     want.engine.records = settings_.has_loads();
     want.engine.device = settings_.device;
     want.keep_lists = settings_.nearest_given;

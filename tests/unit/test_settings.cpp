@@ -359,6 +359,47 @@ TEST(settings, a_keyword_given_twice_is_an_error)
   EXPECT_TRUE(names(error_with("rmax 1 rmax 2"), "twice"));
 }
 
+TEST(settings, keywords_of_a_mesh_are_of_the_one_before_them)
+{
+  const WallSettings s =
+      with("move 1 0 0 weld 0 corner sum mesh b.stl motion linear 1 2 3 contacts "
+           "mesh c.stl surface_vel 1 0 0 weld 1e-3");
+  ASSERT_EQ(s.meshes.size(), 3u);
+  EXPECT_EQ(s.meshes[1].file, "b.stl");
+  EXPECT_EQ(s.meshes[0].placement.apply({0, 0, 0}).x, 1);
+  EXPECT_EQ(s.meshes[1].placement.apply({0, 0, 0}).x, 0);
+  EXPECT_EQ(s.meshes[0].weld, 0);
+  EXPECT_LT(s.meshes[1].weld, 0);
+  EXPECT_EQ(s.meshes[2].weld, 1e-3);
+  EXPECT_TRUE(!s.meshes[0].motion.any() && s.meshes[1].motion.any() && !s.meshes[2].motion.any());
+  EXPECT_EQ(s.meshes[2].surface.velocity, (Vec3{1, 0, 0}));
+  EXPECT_TRUE(s.corner == Corner::sum && s.contacts);
+}
+
+TEST(settings, before_the_only_mesh_its_keywords_may_stand)
+{
+  const WallSettings s = parse("hooke 1e5 NULL 50 NULL 0.5 1 move 1 0 0 contacts mesh a.stl");
+  EXPECT_EQ(s.meshes[0].placement.apply({0, 0, 0}).x, 1);
+}
+
+TEST(settings, of_several_meshes_errors_name_the_one)
+{
+  const std::string law = "hooke 1e5 NULL 50 NULL 0.5 1 ";
+  EXPECT_TRUE(
+      names(error_of(law + "weld 0 mesh a.stl mesh b.stl"), "'weld' comes before the first"));
+  EXPECT_TRUE(names(error_with("mesh a.stl"), "mesh 1 'a.stl' and mesh 2 'a.stl'"));
+  EXPECT_TRUE(names(error_with("mesh b.stl mesh a.stl scale 1"), "mesh 1 'a.stl' and mesh 3"));
+  EXPECT_EQ(with("mesh a.stl move 0 0 1").meshes.size(), 2u);
+  EXPECT_EQ(with("mesh a.stl motion linear 0 0 1").meshes.size(), 2u);
+  EXPECT_TRUE(names(error_with("move 1 0 0 rmax 1 mesh b.stl move 1 0 0 rmax 1"), "twice"));
+  EXPECT_TRUE(names(error_with("mesh_fields f.vtp every 2 mesh b.stl mesh_fields f.vtp every 3"),
+                    "have the same file 'f.vtp'"));
+  std::string many = law;
+  for (int k = 0; k < kMostMeshes; k++) many += " mesh a" + std::to_string(k) + ".stl";
+  EXPECT_EQ(parse(many).meshes.size(), 32u);
+  EXPECT_TRUE(names(error_of(many + " mesh b.stl"), "at most 32"));
+}
+
 TEST(settings, no_mesh_is_an_error)
 {
   EXPECT_TRUE(names(error_of("hooke 1 1 1 1 0.5 1 contacts"), "mesh FILE is missing"));
