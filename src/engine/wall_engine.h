@@ -141,7 +141,8 @@ class WallEngine {
   virtual void collect() = 0;
 
   virtual const WallTotals &totals() const = 0;
-  virtual WallTotals mesh_totals(int mesh) const = 0;    // what one mesh has of them
+  // What one mesh has of them, without the sphere.
+  virtual WallTotals mesh_totals(int mesh) const = 0;
 
   // Of the spheres with a contact in the last step: how many, which, and what.
   // Valid after collect() of a step with per_sphere.

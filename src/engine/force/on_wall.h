@@ -12,10 +12,10 @@ namespace lsdcd {
 struct ContactRecord {
   FeatureCode feature;
   std::uint32_t mesh;    // of the wall's
-  Real normal;          // force on the wall, > 0 where the sphere presses
-  Real shear;           // size of the force along the wall
-  Real wear_power;      // see model/wear.h; 0 without wear
-  Vec3 force;           // on the wall, in the frame of the mesh
+  Real normal;           // force on the wall, > 0 where the sphere presses
+  Real shear;            // size of the force along the wall
+  Real wear_power;       // see model/wear.h; 0 without wear
+  Vec3 force;            // on the wall, in the frame of the mesh
 };
 
 // Which of the two a kernel has.
