@@ -3,9 +3,9 @@
 import deck
 
 SIDE = 3.0
-LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
-        "hooke_history": "hooke/history 1e4 NULL 5 NULL 0.5 1",
-        "hertz_history": "hertz/history 1e5 NULL 50 NULL 0.5 1"}
+LAWS = {"hooke": "hooke 1e5 NULL 20 NULL 0.5 1",
+        "hooke_history": "hooke/history 1e5 NULL 20 NULL 0.5 1",
+        "hertz_history": "hertz/history 1e6 NULL 200 NULL 0.5 1"}
 SMOOTH = "hooke 1e4 NULL 0 0 0 0"
 FACES = {f"{'xyz'[d]}{side}": (d, (-1 if side == "lo" else 1) * SIDE)
          for d in range(3) for side in ("lo", "hi")}
@@ -39,9 +39,14 @@ DUMP = """\
 dump            d all custom {every} {name} id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz
 dump_modify     d format float %.17g sort id
 """
-# Thrown into all corners.
-GAS = "lattice sc 0.4\nregion fill block -2.4 2.4 -2.4 2.4 -2.4 2.4 units box\ncreate_atoms 1 region fill"
-FAST = "velocity all create 40.0 4711 loop geom\nset group all omega 2.1 -3.3 1.7"
+GRID = (-1.9, -0.95, 0.0, 0.95, 1.9)
+# Thrown at all sides, edges and corners. Each by itself: numbers of atoms that a lattice makes depend
+# on how many processes there are.
+GAS = "\n".join(f"create_atoms 1 single {x:.2f} {y:.2f} {z:.2f} units box"
+                for x in GRID for y in GRID for z in GRID)
+FAST = "\n".join([f"variable v{d} atom 6*{d}" for d in "xyz"] + [
+    "velocity all create 4.0 4711 loop geom", "velocity all set v_vx v_vy v_vz sum yes",
+    "set group all omega 2.1 -3.3 1.7"])
 OPEN = "-4 4 -4 4 -4 4"
 
 
