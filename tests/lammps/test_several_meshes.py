@@ -28,8 +28,9 @@ def compare_with_planes(checks, folder):
         theirs = go(folder, planes(law, rubs), "a", 3000, every=10)[0]
         ours = go(folder, six(law, {"zlo": rubs}), "b", 3000, every=10)[0]
         checks.at_most(f"{name}: one of them wiggles", deck.largest_difference(theirs, ours), 1e-12)
-    checks.fact("spheres are in edges and corners of the box", among_sides(ours)[0] > 20 and among_sides(ours)[1] > 0,
-                str(among_sides(ours)))
+    edges, corners = among_sides(ours)
+    checks.fact("spheres are in edges and corners of the box", edges > 20 and corners > 0,
+                f"{edges}, {corners} times")
     theirs = go(folder, planes(LAWS["hooke_history"], "shear x 2.0"), "a", 3000, every=10)[0]
     ours = go(folder, six(LAWS["hooke_history"], {"zlo": "shear x 2.0"}), "b", 3000, every=10)[0]
     checks.at_most("one of them is a belt", deck.largest_difference(theirs, ours), 1e-12)
