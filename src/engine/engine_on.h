@@ -55,11 +55,12 @@ class EngineOn : public InPlaceEngine {
     results_.outlive_choice(b_);
     springs_.grow(b_, spheres.n);
     use(spheres, wall_.choose(b_, spheres, margin, counts_, springs_.count()));
+    forget_far_meshes();
     if (watch) wall_.keep_centres(b_, spheres, margin);
   }
 
   // For an adapter that has chosen by cells: which of these spheres are near, as ascending numbers.
-  // Steps are over these alone, one after the other.
+  // Steps are over these alone, one after the other. Springs are still those of other spheres.
   std::vector<int> choose_among(const Spheres &spheres, Real margin)
   {
     if (wall_.has_several()) results_.outlive_choice(b_);
@@ -211,7 +212,6 @@ class EngineOn : public InPlaceEngine {
   void use(const Spheres &spheres, const StepCounts &seen)
   {
     if (seen.too_large) throw_for(spheres, seen);
-    forget_far_meshes();
     springs_.make_room(wall_.n(), seen);
   }
 

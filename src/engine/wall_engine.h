@@ -63,6 +63,7 @@ struct StepSettings {
   Real dt = 0;                   // time
   bool update_history = true;    // false in setup: springs act but do not move
   bool per_sphere = false;       // fill SphereOutput
+  bool records = true;           // bring what settings.records keeps
   Real wall_temperature = 0;     // where the law has heat
   // Of each mesh, in place of what is above and of the settings'; valid until collect().
   const Real *mesh_temperature = nullptr;
@@ -153,7 +154,7 @@ class WallEngine {
   virtual const Real *sphere_heat() const = 0;
 
   // What the contacts of the last step did to the wall, in the order of the spheres;
-  // valid after collect() where settings.records is set.
+  // valid after collect() where settings.records and step.records are set.
   virtual int n_records() const = 0;
   virtual const ContactRecord *records() const = 0;
 

@@ -1,10 +1,12 @@
 // A wall of several meshes acts as one: spheres feel each place once, whatever mesh it is of and
 // whatever frame that is in.
-#include "contact/corner.h"
+#include "engine/force/host_law.h"
+#include "engine/host_adapter.h"
 #include "mesh/motion.h"
 #include "support/crowd.h"
 #include "support/laws.h"
 #include "support/meshes.h"
+#include "support/test_engine.h"
 
 #include <gtest/gtest.h>
 
@@ -48,27 +50,33 @@ WallPose pose_of(int m, bool turned)
 // A wall whose meshes lie in frames of their own and are placed so that they fit.
 class Wall {
  public:
-  Wall(std::vector<TriangleSoup> parts, Real cutoff, EngineSettings settings, bool turned)
+  Wall(std::vector<TriangleSoup> parts, Real cutoff, EngineSettings settings, bool turned) :
+      turned_(turned)
   {
     settings.meshes = static_cast<int>(parts.size());
-    for (int m = 0; m < settings.meshes; m++)
-      for (Vec3 &p : parts[m].corners) p = pose_of(m, turned).to_mesh(p);
-    scene = std::make_unique<Scene>(parts[0], cutoff, settings);
+    GridSettings g;
+    g.cutoff = cutoff;
+    g.in_floats = settings.precision != Precision::double_;
     for (int m = 0; m < settings.meshes; m++) {
-      GridSettings g;
-      g.cutoff = cutoff;
-      g.in_floats = settings.precision != Precision::double_;
-      if (m > 0) {
-        grids_.emplace_back(build_grid(weld(parts[m], -1), g));
-        scene->engine->set_grid(grids_.back().view(), m);
-      }
-      scene->engine->place_wall(pose_of(m, turned), m);
+      for (Vec3 &p : parts[m].corners) p = pose_of(m, turned).to_mesh(p);
+      grids_.emplace_back(build_grid(weld(parts[m], -1), g));
+    }
+    scene = std::make_unique<Scene>(parts[0], cutoff, settings);
+    put_into(*scene->engine);
+  }
+
+  void put_into(WallEngine &engine) const
+  {
+    for (int m = 0; m < static_cast<int>(grids_.size()); m++) {
+      engine.set_grid(grids_[m].view(), m);
+      engine.place_wall(pose_of(m, turned_), m);
     }
   }
 
   std::unique_ptr<Scene> scene;
 
  private:
+  bool turned_;
   std::vector<FlatGrid> grids_;
 };
 
@@ -337,19 +345,16 @@ TEST(several_meshes, with_more_contacts_than_a_stack_holds_act_as_one)
   EXPECT_LE(norm(wall.scene->torque(0) - one.torque(0)), 1e-7);
 }
 
-// Spheres that cross a wall in 200 steps, with a choice in every 20th: they come near meshes and
-// leave them, and their springs with them.
-TEST(several_meshes, keep_springs_across_choices)
-{
-  const TriangleSoup soup = random_soup(600, 5);
-  const EngineSettings s = hooke_history(kStiffness, 3e4, 50, 20, 0.4);
-  Scene one(soup, kRadius, s);
-  Wall wall(dealt(soup, 7), kRadius, s, true);
-  int joint = 0;
-  std::vector<Real> force[2];
-  for (int k = 0; k < 2; k++) {
-    WallEngine &engine = k == 0 ? *one.engine : *wall.scene->engine;
-    constexpr int kSpheres = 400;
+// The forces on spheres that cross a wall in 200 steps, with a choice in every 20th: they come near
+// meshes and leave them, and their springs with them.
+struct Crossing {
+  std::vector<Real> force;
+  int joint = 0;               // spheres with several springs at the end
+  Vec3 on_mesh = {0, 0, 0};    // the force on mesh 1, summed over steps
+
+  explicit Crossing(WallEngine &engine)
+  {
+    constexpr int kSpheres = 400, kSteps = 200, kChoice = 20;
     std::mt19937_64 random(9);
     std::uniform_real_distribution<Real> place(-4.5, 4.5), speed(-30, 30);
     std::vector<Real> x, v, omega, radius(kSpheres, kRadius), mass(kSpheres, kMass),
@@ -368,23 +373,52 @@ TEST(several_meshes, keep_springs_across_choices)
     spheres.mass = mass.data();
     StepSettings step;
     step.dt = kStep;
-    for (int t = 0; t < 200; t++) {
-      if (t % 20 == 0) engine.choose(spheres, 20 * kStep * 60);
+    for (int t = 0; t < kSteps; t++) {
+      if (t % kChoice == 0) engine.choose(spheres, kChoice * kStep * 60);
       std::vector<Real> now(3 * kSpheres, 0);
       spheres.force = now.data();
       spheres.torque = torque.data();
       engine.start(spheres, step);
       engine.collect();
-      force[k].insert(force[k].end(), now.begin(), now.end());
+      on_mesh += engine.mesh_totals(1).force;
+      force.insert(force.end(), now.begin(), now.end());
       for (int c = 0; c < 3 * kSpheres; c++) x[c] += kStep * v[c];
     }
     SpringStore springs;
     engine.springs_to(springs, kSpheres);
     for (int i = 0; i < kSpheres; i++) joint += springs.count(i) > 1;
   }
-  EXPECT_GT(joint, 50);
+};
+
+TEST(several_meshes, keep_springs_across_choices)
+{
+  const TriangleSoup soup = random_soup(600, 5);
+  const EngineSettings s = hooke_history(kStiffness, 3e4, 50, 20, 0.4);
+  Scene one(soup, kRadius, s);
+  const Wall wall(dealt(soup, 7), kRadius, s, true);
+  const Crossing expected(*one.engine), got(*wall.scene->engine);
+  EXPECT_GT(expected.joint, 20);
+  EXPECT_EQ(got.joint, expected.joint);
   // Shear displacements add up what places are rounded by, over contacts of up to 200 steps.
-  for (std::size_t c = 0; c < force[0].size(); c++) ASSERT_NEAR(force[1][c], force[0][c], 1e-5);
+  for (std::size_t c = 0; c < expected.force.size(); c++)
+    ASSERT_NEAR(got.force[c], expected.force[c], 1e-5);
+}
+
+// Sums are over the same spheres in the same order.
+TEST(several_meshes, act_the_same_through_the_adapter_of_a_host)
+{
+  EngineSettings s = hooke_history(kStiffness, 3e4, 50, 20, 0.4);
+  const Wall wall(dealt(random_soup(600, 5), 7), kRadius, s, true);
+  s.meshes = 7;
+  HostAdapter<CpuBackend> adapter(s, host_law(s), CpuBackend());
+  const auto direct = on_cpu(s);
+  wall.put_into(adapter);
+  wall.put_into(*direct);
+  const Crossing expected(*direct), got(adapter);
+  EXPECT_TRUE(same_bytes(got.force, expected.force));
+  EXPECT_EQ(got.joint, expected.joint);
+  EXPECT_GT(norm(expected.on_mesh), 0);
+  EXPECT_EQ(got.on_mesh, expected.on_mesh);
 }
 
 }    // namespace

@@ -15,7 +15,9 @@ struct ContactRecord {
   Real normal;           // force on the wall, > 0 where the sphere presses
   Real shear;            // size of the force along the wall
   Real wear_power;       // see model/wear.h; 0 without wear
-  Vec3 force;            // on the wall, in the frame of the mesh
+  // In the frame of the mesh:
+  Vec3 force;    // on the wall
+  Vec3 arm;      // from the closest point to the sphere's centre
 };
 
 // Which of the two a kernel has.

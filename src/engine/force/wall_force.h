@@ -134,7 +134,8 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if constexpr (Law::kRecords) {
       const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
       ContactRecord &record = sink.records[out.n_contacts];
-      record = {set.feature[i], mesh, normal, norm(tangential), 0, -normal * n - tangential};
+      record = {set.feature[i],           mesh,         normal, norm(tangential), 0,
+                -normal * n - tangential, s.x - closest};
       if (settings.wear != WearModel::none)
         record.wear_power =
             wear_power(settings.wear, pressing, norm(c.v_tangent), v_normal, norm(along));

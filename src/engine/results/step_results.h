@@ -63,7 +63,7 @@ class StepResults {
     records_.clear();
     if (n_ == 0) return;
     if (step_.per_sphere) fetch_output(b);
-    if (traits_.records) fetch_records(b, records);
+    if (traits_.records && step_.records) fetch_records(b, records);
   }
 
   const std::vector<int> &touching() const { return touching_; }
