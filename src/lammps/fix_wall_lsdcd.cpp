@@ -104,6 +104,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   extlist[7] = 0;    // the largest overlap is not a sum
   show_servo();
   energy_global_flag = 1;
+  virial_global_flag = 1;
 
   if (settings.contacts) {
     peratom_flag = 1;
@@ -162,6 +163,7 @@ void FixWallLsdcd::init()
   for (const MeshPart &m : parts)
     if (cutoff() > 0) check_box(m, cutoff());
   if (settings.law.has_heat()) check_heat();
+  make_engine_with_virial();
   check_variables();
   for (const MeshPart &m : parts) {
     check_file(m, "mesh_fields", m.settings.fields);
@@ -177,8 +179,9 @@ void FixWallLsdcd::setup_pre_force_respa(int /*vflag*/, int ilevel)
   nlevels_respa = ilevel + 1;
 }
 
-void FixWallLsdcd::setup(int /*vflag*/)
+void FixWallLsdcd::setup(int vflag)
 {
+  v_init(vflag);
   list_is_old = true;
   set_up_at = update->ntimestep;
   prepare_springs();
@@ -220,8 +223,9 @@ void FixWallLsdcd::make_exchange_room()
 }
 
 // Radii may have been set before a run that has no setup.
-void FixWallLsdcd::pre_force(int /*vflag*/)
+void FixWallLsdcd::pre_force(int vflag)
 {
+  v_init(vflag);
   if (neighbor->ago == 0 && callbacks) ask_for_most_room();
   const bool anew = neighbor->ago == 0 ||
                     (update->ntimestep == update->firststep + 1 && set_up_at != update->firststep);

@@ -107,7 +107,8 @@ class FixWallLsdcd : public Fix {
 
   // Of the spheres; LAMMPS's own begins anew in some runs from a restart file.
   StepClock run_clock;
-  bool engine_moves = false;    // it has laws for a wall that moves
+  bool engine_moves = false;      // it has laws for a wall that moves
+  bool engine_records = false;    // it keeps records of contacts
   // Of each mesh, for the engine.
   std::vector<lsdcd::SurfaceMotion> surfaces;
   std::vector<double> temperatures;
@@ -160,6 +161,7 @@ class FixWallLsdcd : public Fix {
   // fix_wall_lsdcd_build.cpp, _tune.cpp
   lsdcd::EngineSettings engine_settings() const;
   void make_engine();
+  void make_engine_anew();
   void give_grid(const MeshPart &);
   void update_cutoff();
   void follow_box();
@@ -190,6 +192,10 @@ class FixWallLsdcd : public Fix {
   double servo_output(const MeshPart &, int);
   void show_servo();
   int modify_servo(MeshPart &, const std::vector<std::string> &);
+
+  // fix_wall_lsdcd_virial.cpp
+  void make_engine_with_virial();
+  void add_virial();
 
   // fix_wall_lsdcd_loads.cpp
   void add_loads();

@@ -24,7 +24,7 @@ lsdcd::EngineSettings FixWallLsdcd::engine_settings() const
     want.moves |= m.moves_or_varies();
     if (!want.surface.moves()) want.surface = m.settings.surface;
   }
-  want.records = settings.has_loads();
+  want.records = settings.has_loads() || thermo_virial;
   want.wear = settings.wear.model;
   want.device = settings.device;
   want.device_rank = parts.front().wall.shared().node_rank();
@@ -36,7 +36,19 @@ void FixWallLsdcd::make_engine()
 {
   const lsdcd::EngineSettings want = engine_settings();
   engine_moves = want.moves;
+  engine_records = want.records;
   lsdcd::together(world, true, [&] { engine = new_engine(want); });
+}
+
+// For other settings, with the springs that there are.
+void FixWallLsdcd::make_engine_anew()
+{
+  if (cutoff() > 0) look();
+  springs_to_host();
+  make_engine();
+  for (const MeshPart &m : parts)
+    if (cutoff() > 0) give_grid(m);
+  list_is_old = true;
 }
 
 // Builds the grid when the first spheres come, and again when larger ones do or the box has

@@ -60,13 +60,7 @@ int FixWallLsdcd::modify_motion(MeshPart &m, const std::vector<std::string> &wor
 void FixWallLsdcd::make_engine_that_moves()
 {
   restart_global = restart_global || any_moves();
-  if (!any_moves() || engine_moves) return;
-  if (cutoff() > 0) look();
-  springs_to_host();
-  make_engine();
-  for (const MeshPart &m : parts)
-    if (cutoff() > 0) give_grid(m);
-  list_is_old = true;
+  if (any_moves() && !engine_moves) make_engine_anew();
 }
 
 static lsdcd::WallPose pose_from(const double *numbers)

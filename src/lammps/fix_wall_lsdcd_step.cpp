@@ -18,6 +18,7 @@ lsdcd::StepSettings FixWallLsdcd::step_settings(lsdcd::Spheres &spheres)
   step.dt = update->dt;
   step.update_history = !update->setupflag;
   step.per_sphere = settings.contacts;
+  step.records = records || vflag_global;
   if (several() || parts.front().settings.surface_varies()) {
     surfaces.clear();
     for (const MeshPart &m : parts) surfaces.push_back(m.surface);
@@ -128,6 +129,7 @@ void FixWallLsdcd::keep_outputs()
 {
   reduced = false;
   if (records) add_loads();
+  if (vflag_global) add_virial();
   if (settings.contacts) fill_contacts();
 }
 
