@@ -1,9 +1,9 @@
 // lsdcd_grid_*
 #include "api/c_border.h"
+#include "api/call_threads.h"
 #include "api/objects.h"
+#include "engine/wall_engine.h"
 #include "grid/cache/grid_cache.h"
-#include "parallel/cuda_available.h"
-#include "parallel/threads.h"
 
 #include <cmath>
 
@@ -116,7 +116,7 @@ int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, 
     std::string why;
     if (o.device == LSDCD_CUDA && !cuda_available(&why))
       throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why + "; build with LSDCD_CPU");
-    const ThreadsOfCaller threads(o.threads);
+    const CallThreads threads(o.threads);
     auto made = std::make_shared<ApiGrid>(from.mesh);
     Making making(*made, from.mesh, settings, o.device == LSDCD_CUDA);
     if (o.cache && *o.cache)

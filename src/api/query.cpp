@@ -1,9 +1,9 @@
 // lsdcd_query_*, lsdcd_stream_*
 #include "api/c_border.h"
+#include "api/call_threads.h"
 #include "api/device_memory.h"
 #include "api/objects.h"
-#include "parallel/cuda_available.h"
-#include "parallel/threads.h"
+#include "engine/wall_engine.h"
 
 #include <cmath>
 #include <limits>
@@ -101,7 +101,7 @@ int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
         throw ApiError(LSDCD_ERROR_DEVICE, std::string("the array `") + name +
                                                "` is in a GPU's memory: use lsdcd_query_stream()");
     });
-    const ThreadsOfCaller threads(q.threads);
+    const CallThreads threads(q.threads);
     if (q.type == LSDCD_FLOAT)
       answer_points(g.grid, g.names, arrays_of<float>(q));
     else

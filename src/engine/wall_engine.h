@@ -9,7 +9,6 @@
 #include "mesh/wall_mesh.h"
 #include "mesh/wall_pose.h"
 #include "model/contact_law.h"
-#include "parallel/cuda_available.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -199,6 +198,10 @@ class InPlaceEngine : public WallEngine {
 // where the law has no history.
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
                SpringStore *springs);
+
+// True if this build has the CUDA engine and a usable GPU is present; `why`
+// says what is missing otherwise.
+bool cuda_available(std::string *why);
 
 // Are there forces in float? There are for the classic styles with nothing
 // beside them, on walls that only bear.

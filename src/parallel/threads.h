@@ -17,36 +17,16 @@ inline bool &threads_asked_for()
   return asked;
 }
 
-// What a caller asks for of this thread's work; 0: nothing.
-inline int &threads_of_caller()
-{
-  static thread_local int n = 0;
-  return n;
-}
-
 // As many as OpenMP has where they were asked for. Otherwise one: with several MPI
 // processes on a node, all the cores for each of them would be far too many.
 inline int threads()
 {
 #if defined(_OPENMP)
-  if (threads_of_caller() > 0) return threads_of_caller();
   return threads_asked_for() ? omp_get_max_threads() : 1;
 #else
   return 1;
 #endif
 }
-
-// While it lives, work that this thread starts has so many threads; 0: as before.
-class ThreadsOfCaller {
- public:
-  explicit ThreadsOfCaller(int n) { threads_of_caller() = n; }
-  ~ThreadsOfCaller() { threads_of_caller() = before_; }
-  ThreadsOfCaller(const ThreadsOfCaller &) = delete;
-  ThreadsOfCaller &operator=(const ThreadsOfCaller &) = delete;
-
- private:
-  int before_ = threads_of_caller();
-};
 
 // While it lives, this thread works alone.
 class OneThread {

@@ -1,4 +1,4 @@
-#include "parallel/cuda_available.h"
+#include "engine/wall_engine.h"
 
 #include <cuda_runtime.h>
 

@@ -1,0 +1,40 @@
+// How many threads a call has.
+#pragma once
+
+#include "parallel/threads.h"
+
+namespace lsdcd {
+
+// While it lives, work that this thread starts has n threads; 0: as many as OMP_NUM_THREADS says, or
+// one. The caller's own number comes back with its end.
+class CallThreads {
+#if defined(_OPENMP)
+ public:
+  explicit CallThreads(int n)
+  {
+    // From here on threads() goes by OpenMP's number, which each thread has for itself.
+    static const int usual = [] {
+      const int before = threads();
+      threads_asked_for() = true;
+      return before;
+    }();
+    omp_set_num_threads(n > 0 ? n : usual);
+  }
+  ~CallThreads()
+  {
+    omp_set_num_threads(before_);
+  }
+
+ private:
+  int before_ = omp_get_max_threads();
+#else
+ public:
+  explicit CallThreads(int) {}
+#endif
+
+ public:
+  CallThreads(const CallThreads &) = delete;
+  CallThreads &operator=(const CallThreads &) = delete;
+};
+
+}    // namespace lsdcd
