@@ -53,6 +53,17 @@ LSDCD_FN bool are_adjacent(const WallFeaturesView &wall, FeatureCode a, FeatureC
 // Cosine above which a contact that changed features is still the same contact.
 constexpr Real kMoved = 0.7;
 
+// The springs of the last step as a mesh sees them. Those of a wall of one mesh are all its own.
+LSDCD_FN bool is_own(const Spring *, int)
+{
+  return true;
+}
+// A vector that belongs to spring k, in the frame of that mesh.
+LSDCD_FN Vec3 in_own_frame(const Spring *, int, const Vec3 &h)
+{
+  return h;
+}
+
 // From which spring of the last step a contact begins, and how much of it it takes.
 struct Transfer {
   int from;     // index of the old spring; -1: a new one
@@ -64,19 +75,22 @@ struct Transfer {
 //    aligned: the contact moved across a seam, the spring goes with it, whole.
 // 3. Else the best aligned spring times max(0, n.n): a contact born beside
 //    others takes over as much of their force as it will carry in their stead.
+// Springs of other meshes hand over by 3 alone, as their features are not this wall's.
+template <class Springs>
 LSDCD_FN Transfer transfer_of(const WallFeaturesView &wall, const ContactsView &set, int i,
-                              const Spring *old, int n_old)
+                              const Springs &old, int n_old)
 {
   int best = -1, moved = -1;
   Real best_cos = 0, moved_cos = kMoved;
   for (int k = 0; k < n_old; k++) {
     const Real c = dot(old[k].normal, set.normal[i]);
-    if (old[k].feature == set.feature[i]) return {c > -kMoved ? k : -1, 1};
+    const bool own = is_own(old, k);
+    if (own && old[k].feature == set.feature[i]) return {c > -kMoved ? k : -1, 1};
     if (c > best_cos) {
       best_cos = c;
       best = k;
     }
-    if (c > moved_cos && are_adjacent(wall, old[k].feature, set.feature[i])) {
+    if (own && c > moved_cos && are_adjacent(wall, old[k].feature, set.feature[i])) {
       bool left = true;
       for (int j = 0; j < set.n && left; j++) left = set.feature[j] != old[k].feature;
       if (left) {
@@ -90,20 +104,22 @@ LSDCD_FN Transfer transfer_of(const WallFeaturesView &wall, const ContactsView &
 }
 
 // A vector of the old spring `in.from`, as the contact with unit `normal` takes it over.
-LSDCD_FN Vec3 handed_on(const Vec3 &h, const Transfer &in, const Spring *old, const Vec3 &normal)
+template <class Springs>
+LSDCD_FN Vec3 handed_on(const Vec3 &h, const Transfer &in, const Springs &old, const Vec3 &normal)
 {
   return in.part * transport(h, old[in.from].normal, normal);
 }
 
 // Does a contact that the sphere does not touch hold it, by an adhesion that only
 // touching begins? It does where it held before, or where a contact next to it and
-// nearly aligned did: what holds goes along over seams.
+// nearly aligned did, or one of another mesh: what holds goes along over seams.
+template <class Springs>
 LSDCD_FN bool is_held(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &normal,
-                      const Spring *old, int n_old)
+                      const Springs &old, int n_old)
 {
   for (int k = 0; k < n_old; k++)
     if (dot(old[k].normal, normal) > kMoved &&
-        (old[k].feature == feature || are_adjacent(wall, old[k].feature, feature)))
+        (!is_own(old, k) || old[k].feature == feature || are_adjacent(wall, old[k].feature, feature)))
       return true;
   return false;
 }

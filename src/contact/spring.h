@@ -10,11 +10,23 @@
 namespace lsdcd {
 
 struct Spring {
-  Vec3 shear;     // length; lies in the contact's tangent plane
+  Vec3 shear;     // length; lies in the contact's tangent plane, in the frame of the mesh
   Vec3 normal;    // unit, wall -> centre, when the spring was last moved
   FeatureCode feature;
-  std::uint32_t pad;    // keeps the record free of indeterminate bytes
+  std::uint32_t mesh;    // of the wall's: whose feature and frame
 };
+
+// Mesh and feature as one double, for exchange and restart files: 53 bits are exact.
+LSDCD_FN double packed_place(const Spring &s)
+{
+  return 4294967296. * s.mesh + s.feature;
+}
+LSDCD_FN void unpack_place(double packed, Spring &s)
+{
+  const std::uint64_t place = static_cast<std::uint64_t>(packed);
+  s.feature = static_cast<FeatureCode>(place);
+  s.mesh = static_cast<std::uint32_t>(place >> 32);
+}
 
 // The springs of many spheres, on the host or on a device: those of sphere i are
 // pool[first[i]] .. pool[first[i] + count[i] - 1], with further numbers beside them.

@@ -34,7 +34,7 @@ int SpringStore::pack(int i, double *buffer) const
   buffer[at++] = count_[i];
   for (int k = 0; k < count_[i]; k++) {
     const Spring &s = pool_[first_[i] + k];
-    buffer[at++] = s.feature;    // 32 bits are exact in a double
+    buffer[at++] = packed_place(s);
     for (int c = 0; c < 3; c++) buffer[at++] = s.normal[c];
     for (int c = 0; c < 3; c++) buffer[at++] = s.shear[c];
     for (int c = 0; c < n_extra_; c++) buffer[at++] = extra_of(i)[k * n_extra_ + c];
@@ -49,7 +49,7 @@ int SpringStore::unpack(int i, const double *buffer)
   arrived_extra_.clear();
   for (Spring &s : arrived_) {
     s = {};
-    s.feature = static_cast<FeatureCode>(buffer[at++]);
+    unpack_place(buffer[at++], s);
     for (int c = 0; c < 3; c++) s.normal[c] = buffer[at++];
     for (int c = 0; c < 3; c++) s.shear[c] = buffer[at++];
     for (int c = 0; c < n_extra_; c++) arrived_extra_.push_back(buffer[at++]);

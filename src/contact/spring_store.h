@@ -38,13 +38,15 @@ class SpringStore {
   }
   void set(int i, const Spring *springs, const Real *extra, int n);
 
-  // Gives features other names.
+  // Gives features other names: rename(mesh, feature).
   template <class Rename>
   void rename_features(const Rename &rename)
   {
     for (std::size_t i = 0; i < count_.size(); i++)
-      for (int k = 0; k < count_[i]; k++)
-        pool_[first_[i] + k].feature = rename(pool_[first_[i] + k].feature);
+      for (int k = 0; k < count_[i]; k++) {
+        Spring &s = pool_[first_[i] + k];
+        s.feature = rename(static_cast<int>(s.mesh), s.feature);
+      }
   }
 
   // Takes over the springs of n spheres from elsewhere, places and all.

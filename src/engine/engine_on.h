@@ -3,9 +3,7 @@
 
 #include "base/input_error.h"
 #include "engine/force/compiled_law.h"
-#include "engine/force/force_settings.h"
-#include "engine/narrow/list_store.h"
-#include "engine/choose/near_list.h"
+#include "engine/choose/near_wall.h"
 #include "engine/resident_springs.h"
 #include "engine/results/sphere_error.h"
 #include "engine/results/step_notes.h"
@@ -24,8 +22,8 @@ class EngineOn : public InPlaceEngine {
 
  public:
   EngineOn(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
-      settings_(settings), law_(law), b_(std::move(backend)), springs_(law.traits), counts_(1),
-      lanes_(kLanes)
+      settings_(settings), law_(law), b_(std::move(backend)), wall_(settings), springs_(law.traits),
+      counts_(1), lanes_(kLanes)
   {
     if (settings.precision == Precision::single_ && !has_single(settings))
       throw InputError("precision single has neither granular, rolling, cohesion, a moving surface "
@@ -37,26 +35,13 @@ class EngineOn : public InPlaceEngine {
 
   std::string backend() const override { return b_.name(); }
 
-  void set_grid(const GridView &grid) override
-  {
-    if (B::kOnHost) {
-      grid_ = grid;
-    } else {
-      if (!grid.block) throw std::logic_error("an engine needs the view of a flat grid block");
-      block_ = Array<char>(grid.block_bytes);
-      b_.copy_in(grid.block, block_.data(), grid.block_bytes);
-      grid_ = moved_view(grid, block_.data());
-    }
-    const std::vector<BrickWord> words = brick_words(grid);
-    words_ = b_.from_host(words);
-    table_ = BrickTable(words, words_.data());
-    n_near_ = 0;
-  }
+  void set_grid(const GridView &grid, int mesh = 0) override { wall_.set_grid(b_, grid, mesh); }
 
-  void place_wall(const WallPose &pose) override
+  void place_wall(const WallPose &pose, int mesh = 0) override
   {
-    if (pose.placed && !settings_.moves) throw std::logic_error("this engine's wall cannot move");
-    pose_ = pose;
+    if (pose.placed && !settings_.moves && !wall_.has_several())
+      throw std::logic_error("this engine's wall cannot move");
+    wall_.place(pose, mesh);
   }
 
   Real largest_radius(const Spheres &spheres) override
@@ -70,38 +55,22 @@ class EngineOn : public InPlaceEngine {
   {
     results_.outlive_choice(b_);
     springs_.grow(b_, spheres.n);
-    all_near_ = false;
-    near_.choose(b_, grid_, table_, spheres, pose_, margin, settings_.law.pull_off(),
-                 counts_.data(), springs_.count());
-    StepCounts seen = read_counts();
-    if (seen.too_large) throw_for(spheres, seen);
-    make_lists(spheres, seen, margin, springs_.count());
-    margin_ = margin;
-    if (watch) keep_centres(spheres);
+    use(spheres, wall_.choose(b_, spheres, margin, counts_, springs_.count()));
+    forget_far_meshes();
+    if (watch) wall_.keep_centres(b_, spheres, margin);
   }
 
   // For an adapter that has chosen by cells: which of these spheres are near, as ascending numbers.
-  // Steps are over these alone, one after the other.
+  // Steps are over these alone, one after the other. Springs are still those of other spheres.
   std::vector<int> choose_among(const Spheres &spheres, Real margin)
   {
+    if (wall_.has_several()) results_.outlive_choice(b_);
     springs_.grow(b_, spheres.n);
-    all_near_ = true;
-    near_.choose_all(b_, spheres.n);
-    StepCounts seen = read_counts();
-    seen.n_near = spheres.n;
-    make_lists(spheres, seen, margin, nullptr);
-    return near_.to_host(b_, n_near_);
+    use(spheres, wall_.choose_among(b_, spheres, margin, counts_));
+    return wall_.chosen_among(b_, spheres.n);
   }
 
-  bool has_moved(const Spheres &spheres) override
-  {
-    const Real *was = centres_.data();
-    const StridedView<const Real> x = spheres.x;
-    const WallPose pose = pose_;
-    return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
-      return norm_sq(pose.to_mesh(x[i]) - Vec3{was[3 * i], was[3 * i + 1], was[3 * i + 2]});
-    }) > margin_ * margin_;
-  }
+  bool has_moved(const Spheres &spheres) override { return wall_.has_moved(b_, spheres); }
 
   void start(const Spheres &spheres, const StepSettings &step) override
   {
@@ -118,29 +87,42 @@ class EngineOn : public InPlaceEngine {
   // The two halves of collect(): the work, without waiting for it, and what is asked for of it.
   void run()
   {
-    results_.begin(law_.traits, step_, spheres_, near(), n_near_, may_miss_any(grid_));
-    if (n_near_ == 0) return;
-    if (!B::kOnHost && left_.size() < n_near_) left_ = Array<int>(n_near_ + n_near_ / 8);
-    LawJob job = job_of(grid_, force_settings(settings_, step_, pose_), spheres_);
+    const std::size_t n = wall_.n();
+    const bool several = wall_.has_several();
+    results_.begin(law_.traits, step_, spheres_, wall_.near(), n, may_miss_any(wall_.mesh(0).grid),
+                   several ? &wall_.slots() : nullptr);
+    if (n == 0) return;
+    if (!B::kOnHost && left_.size() < n) left_ = Array<int>(n + n / 8);
+    const MeshWork work = wall_.mesh(0).work(settings_, step_, 0);
+    LawJob job = job_of(work.grid, work.settings, spheres_);
     results_.put_into(job);
-    job.near = near();
-    job.lists = lists_.view();
+    job.near = wall_.near();
+    job.lists = wall_.lists();
     job.springs = springs_.view();
     job.counts = counts_.data();
     job.pool = springs_.next(results_.slot());
     job.lanes = lanes_.data();
     job.left = left_.data();
-    job.turn = turn_;
     // The last step cleared the counts of this one, if it wrote to the other pool.
     if (job.pool.which == pool_written_) clear_counts(job.pool.which);
     pool_written_ = job.pool.which;
-    law_.start(law_.law, job, n_near_, b_);
-    turn_ = 1 - turn_;
+    if (several)
+      start_slots(job);
+    else
+      start_law(job, n);
     if (step_.update_history) springs_.swap();
   }
   void fetch() { results_.fetch(b_, springs_.records(step_.update_history)); }
 
   const WallTotals &totals() const override { return const_cast<EngineOn *>(this)->sum_totals(); }
+  WallTotals mesh_totals(int mesh) const override
+  {
+    if (!wall_.has_several()) return totals();
+    EngineOn *self = const_cast<EngineOn *>(this);
+    WallTotals t = self->results_.mesh_totals(self->b_, mesh);
+    t.largest_overlap_sphere = -1;
+    return t;
+  }
 
   int n_touching() const override { return static_cast<int>(results_.touching().size()); }
   const int *touching() const override { return results_.touching().data(); }
@@ -151,7 +133,7 @@ class EngineOn : public InPlaceEngine {
   }
   int n_records() const override { return static_cast<int>(results_.records().size()); }
   const ContactRecord *records() const override { return results_.records().data(); }
-  int n_near() const override { return static_cast<int>(n_near_); }
+  int n_near() const override { return static_cast<int>(wall_.n()); }
 
   StepDiagnostics read_diagnostics() override
   {
@@ -179,9 +161,8 @@ class EngineOn : public InPlaceEngine {
 
   std::size_t bytes() const override
   {
-    return block_.size() + words_.size() * sizeof(BrickWord) + springs_.bytes() + near_.bytes() +
-           lists_.bytes() + results_.bytes() + lanes_.size() * sizeof(Lane) +
-           centres_.size() * sizeof(Real) + left_.size() * sizeof(int);
+    return wall_.bytes() + springs_.bytes() + results_.bytes() + lanes_.size() * sizeof(Lane) +
+           left_.size() * sizeof(int);
   }
 
   B &backend_now() { return b_; }
@@ -189,37 +170,17 @@ class EngineOn : public InPlaceEngine {
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
 
-  // Of the seen.n_near spheres that are near by their cells.
-  void make_lists(const Spheres &spheres, StepCounts seen, Real margin, int *n_springs)
+  // A spring on a mesh that its sphere is not near is of no use, and would be read as one on another.
+  void forget_far_meshes()
   {
-    const Real pull_off = settings_.law.pull_off();
-    if (grid_.nearest == 0 && seen.n_near > 0) {
-      near_.prune(b_, grid_, spheres, pose_, seen.n_near, margin, pull_off, counts_.data(),
-                  n_springs);
-      seen = read_counts();
-    }
-    n_near_ = seen.n_near;
-    springs_.make_room(n_near_, seen);
-    lists_.make(b_, grid_, spheres, pose_, near_.data(), n_near_, margin, pull_off, counts_.data());
+    if (wall_.has_several())
+      springs_.forget_others(b_, wall_.slots().n_spheres(), wall_.slots().meshes_of());
   }
 
   void unlock_lanes()
   {
     Lane *lanes = lanes_.data();
     b_.for_each(kLanes, [=] LSDCD_LAMBDA(std::size_t i) { lanes[i].locked = 0; });
-  }
-
-  void keep_centres(const Spheres &spheres)
-  {
-    const std::size_t n = spheres.n;
-    if (centres_.size() < 3 * n) centres_ = Array<Real>(3 * (n + n / 8));
-    Real *to = centres_.data();
-    const StridedView<const Real> x = spheres.x;
-    const WallPose pose = pose_;
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
-      const Vec3 at = pose.to_mesh(x[i]);
-      for (int d = 0; d < 3; d++) to[3 * i + d] = at[d];
-    });
   }
 
   void read_radius(const Spheres &spheres, int i, Real *to)
@@ -248,7 +209,38 @@ class EngineOn : public InPlaceEngine {
   }
 
  private:
-  const int *near() const { return all_near_ ? nullptr : near_.data(); }
+  // After a choice.
+  void use(const Spheres &spheres, const StepCounts &seen)
+  {
+    if (seen.too_large) throw_for(spheres, seen);
+    springs_.make_room(wall_.n(), seen);
+  }
+
+  void start_law(LawJob &job, std::size_t n)
+  {
+    job.turn = turn_;
+    law_.start(law_.law, job, n, b_);
+    turn_ = 1 - turn_;
+  }
+
+  // Those near one mesh only, mesh after mesh, then those near several.
+  void start_slots(const LawJob &job)
+  {
+    const NearMeshes<B> &slots = wall_.slots();
+    for (int m = 0; m < wall_.n_meshes(); m++) {
+      const std::size_t begin = slots.begin(m), n = slots.begin(m + 1) - begin;
+      if (n == 0) continue;
+      LawJob of_mesh = from_slot(job, begin);
+      const MeshWork work = wall_.mesh(m).work(settings_, step_, m);
+      of_mesh.grid = work.grid;
+      of_mesh.settings = work.settings;
+      start_law(of_mesh, n);
+    }
+    if (slots.n_joint() == 0) return;
+    LawJob joint = job;
+    joint.joint = {wall_.put_works(b_, settings_, step_), slots.first(), slots.mesh()};
+    start_law(joint, slots.n_joint());
+  }
 
   const WallTotals &sum_totals() { return results_.totals(b_); }
 
@@ -262,7 +254,7 @@ class EngineOn : public InPlaceEngine {
       Array<Real> radius(1);
       Real *to = radius.data();
       read_radius(spheres, i, to);
-      throw_too_large(i, b_.to_host(radius, 1)[0], grid_.cutoff);
+      throw_too_large(i, b_.to_host(radius, 1)[0], wall_.mesh(0).grid.cutoff);
     }
     if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown));
     throw_too_many_contacts(seen.lost, kMostContacts);
@@ -271,21 +263,10 @@ class EngineOn : public InPlaceEngine {
   EngineSettings settings_;
   CompiledLaw<B> law_;
   B b_;
-  GridView grid_ = {};
-  Array<char> block_;
-  Array<BrickWord> words_;
-  BrickTable table_;
+  NearWall<B> wall_;
   Spheres spheres_;
   StepSettings step_;
   ResidentSprings<B> springs_;
-
-  NearList<B> near_;
-  bool all_near_ = false;
-  std::size_t n_near_ = 0;
-  ListStore<B> lists_;
-  WallPose pose_;
-  Array<Real> centres_;    // at the last choice, in the frame of the mesh
-  Real margin_ = 0;        // of the last choice
 
   StepResults<B> results_;
   Array<int> left_;    // near spheres that a GPU's first kernel leaves to the second

@@ -1,11 +1,14 @@
 // The engine of a backend for a host whose arrays are in other memory: near spheres travel packed,
-// forces and torques come back, springs stay until the host asks for them.
+// forces and torques come back, springs stay until the host asks for them. Over 300 lines, as each
+// function is one half of a copy whose other half is beside it.
 #pragma once
 
 #include "parallel/backend_cpu.h"
 #include "engine/engine_on.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace lsdcd {
 
@@ -41,27 +44,25 @@ class HostAdapter : public WallEngine {
  public:
   HostAdapter(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
       settings_(settings), traits_(law.traits), engine_(settings, law, std::move(backend)),
-      waiting_(law.traits.n_extra)
+      meshes_(settings.meshes), waiting_(law.traits.n_extra)
   {
   }
 
   std::string backend() const override { return engine_.backend(); }
 
-  void set_grid(const GridView &grid) override
+  void set_grid(const GridView &grid, int mesh = 0) override
   {
     name_spheres();
     springs_to_waiting();
-    engine_.set_grid(grid);
-    grid_ = grid;
-    words_ = brick_words(grid);
-    table_ = BrickTable(words_, words_.data());
+    engine_.set_grid(grid, mesh);
+    meshes_.at(mesh).set_grid(cpu_, grid);
     near_host_.clear();
   }
 
-  void place_wall(const WallPose &pose) override
+  void place_wall(const WallPose &pose, int mesh = 0) override
   {
-    pose_ = pose;
-    engine_.place_wall(pose);
+    meshes_.at(mesh).pose = pose;
+    engine_.place_wall(pose, mesh);
   }
 
   Real largest_radius(const Spheres &s) override
@@ -76,15 +77,7 @@ class HostAdapter : public WallEngine {
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
     name_spheres();
-    StepCounts seen = {};
-    near_.choose(cpu_, grid_, table_, spheres, pose_, margin, settings_.law.pull_off(), &seen,
-                 nullptr);
-    if (seen.too_large) {
-      const int i = static_cast<int>(kNoSphere - seen.too_large);
-      throw_too_large(i, spheres.radius[i], grid_.cutoff);
-    }
-    const std::vector<int> was = std::move(near_host_);
-    near_host_ = near_.to_host(cpu_, seen.n_near);
+    const std::vector<int> was = std::exchange(near_host_, near_by_cells(spheres, margin));
     const std::size_t n = near_host_.size();
     motion_.reserve(n);
     size_.reserve(2 * n);
@@ -98,8 +91,8 @@ class HostAdapter : public WallEngine {
     if (traits_.history) move_springs(was, spheres.n);
     if (watch) {
       centres_.resize(3 * static_cast<std::size_t>(spheres.n));
-      for (int i = 0; i < spheres.n; i++)
-        StridedView<Real>(centres_.data()).put(i, pose_.to_mesh(spheres.x[i]));
+      for (int i = 0; i < spheres.n; i++) StridedView<Real>(centres_.data()).put(i, spheres.x[i]);
+      for (EngineMesh<CpuBackend> &mesh : meshes_) mesh.chosen = mesh.pose;
     }
     margin_ = margin;
   }
@@ -108,7 +101,11 @@ class HostAdapter : public WallEngine {
   {
     const StridedView<const Real> was(centres_.data());
     return cpu_.largest<Real>(spheres.n, [&](std::size_t i) -> Real {
-      return norm_sq(pose_.to_mesh(spheres.x[i]) - was[i]);
+      Real most = 0;
+      for (const EngineMesh<CpuBackend> &mesh : meshes_)
+        most =
+            std::max(most, norm_sq(mesh.pose.to_mesh(spheres.x[i]) - mesh.chosen.to_mesh(was[i])));
+      return most;
     }) > margin_ * margin_;
   }
 
@@ -127,7 +124,7 @@ class HostAdapter : public WallEngine {
     engine_.start(packed(), step);
     engine_.run();
     if (n == 0) return;
-    b.receive(engine_.contacts_of_near(), n_contacts_.host, n);
+    if (!has_several()) b.receive(engine_.contacts_of_near(), n_contacts_.host, n);
     b.receive(response_.device, response_.host, n);
     if (traits_.heat) b.receive(heat_.device, heat_.host, 2 * n);
   }
@@ -139,9 +136,10 @@ class HostAdapter : public WallEngine {
     const int *near = near_host_.data(), *n_contacts = n_contacts_.host.data();
     const Response *response = response_.host.data();
     const Spheres host = host_;
+    const bool all = has_several();    // contacts are not counted by spheres
 #pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
     for (int k = 0; k < n; k++) {
-      if (n_contacts[k] == 0) continue;
+      if (!all && n_contacts[k] == 0) continue;
       const int i = near[k];
       host.force.add(i, response[k].force);
       host.torque.add(i, response[k].torque);
@@ -160,6 +158,11 @@ class HostAdapter : public WallEngine {
       totals_.largest_overlap_sphere = near_host_[totals_.largest_overlap_sphere];
     totals_known_ = true;
     return totals_;
+  }
+  WallTotals mesh_totals(int mesh) const override
+  {
+    if (!has_several()) return totals();
+    return engine_.mesh_totals(mesh);
   }
   int n_touching() const override
   {
@@ -215,10 +218,35 @@ class HostAdapter : public WallEngine {
     return engine_.bytes() + motion_.bytes() + size_.bytes() + response_.bytes() +
            n_contacts_.bytes() + heat_.bytes() + near_.bytes() + waiting_.bytes() +
            (near_host_.capacity() + touching_.capacity()) * sizeof(int) +
-           centres_.capacity() * sizeof(Real) + words_.capacity() * sizeof(BrickWord);
+           centres_.capacity() * sizeof(Real);
   }
 
  private:
+  bool has_several() const
+  {
+    return meshes_.size() > 1;
+  }
+
+  // Of any mesh, ascending.
+  std::vector<int> near_by_cells(const Spheres &spheres, Real margin)
+  {
+    std::vector<int> near;
+    for (const EngineMesh<CpuBackend> &mesh : meshes_) {
+      StepCounts seen = {};
+      near_.choose(cpu_, mesh.grid, mesh.table, spheres, mesh.pose, margin,
+                   settings_.law.pull_off(), &seen, nullptr);
+      if (seen.too_large) {
+        const int i = static_cast<int>(kNoSphere - seen.too_large);
+        throw_too_large(i, spheres.radius[i], mesh.grid.cutoff);
+      }
+      const std::vector<int> more = near_.to_host(cpu_, seen.n_near), before = std::move(near);
+      near.clear();
+      std::set_union(before.begin(), before.end(), more.begin(), more.end(),
+                     std::back_inserter(near));
+    }
+    return near;
+  }
+
   StepDiagnostics read_engine()
   {
     try {
@@ -318,6 +346,7 @@ class HostAdapter : public WallEngine {
         near.set(k, waiting_.of(i), waiting_.extra_of(i), waiting_.count(i));
     }
     engine_.springs_from(near, n_near());
+    engine_.forget_far_meshes();
     are_waiting_ = false;
   }
   void springs_to_waiting()
@@ -344,13 +373,10 @@ class HostAdapter : public WallEngine {
   EngineOn<B> engine_;
 
   CpuBackend cpu_;
-  GridView grid_ = {};
-  std::vector<BrickWord> words_;
-  BrickTable table_;
+  std::vector<EngineMesh<CpuBackend>> meshes_;
   NearList<CpuBackend> near_;
   std::vector<int> near_host_, touching_;
-  WallPose pose_;
-  std::vector<Real> centres_;    // at the last choice, in the frame of the mesh
+  std::vector<Real> centres_;    // at the last choice
   Real margin_ = 0;
 
   Mirror<Motion> motion_;

@@ -33,7 +33,7 @@ void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &s
 bool has_single(const EngineSettings &settings)
 {
   return settings.law.style != LawStyle::granular && !settings.law.added.any() &&
-         !settings.surface.moves() && !settings.moves && !settings.records;
+         !settings.surface.moves() && !settings.moves && settings.meshes == 1 && !settings.records;
 }
 
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings)

@@ -1,5 +1,5 @@
 // The springs of a process's spheres where the engine computes. A step reads one pool and
-// writes the other.
+// writes the other. Over 300 lines, as all that reads or writes springs has to know the two pools.
 #pragma once
 
 #include "contact/spring_store.h"
@@ -75,6 +75,32 @@ class ResidentSprings {
     if (!traits_.history && !traits_.records) return;
     const std::size_t shared = std::max(last.shared_used[0], last.shared_used[1]);
     wanted_ = n + std::max(2 * n, 2 * shared) + kSpareSlots;
+  }
+
+  // Leaves of sphere i the springs on meshes of set[i].
+  void forget_others(B &b, std::size_t n, const std::uint32_t *set)
+  {
+    if (!traits_.history) return;
+    Pool &pool = pool_[now_];
+    const int *first = first_.data();
+    int *count = count_.data();
+    Spring *springs = pool.springs.data();
+    Real *extra = pool.extra.data();
+    const int n_extra = traits_.n_extra;
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      const std::size_t begin = first[i];
+      int kept = 0;
+      for (int c = 0; c < count[i]; c++) {
+        if (!(set[i] >> springs[begin + c].mesh & 1)) continue;
+        if (kept < c) {
+          springs[begin + kept] = springs[begin + c];
+          for (int e = 0; e < n_extra; e++)
+            extra[(begin + kept) * n_extra + e] = extra[(begin + c) * n_extra + e];
+        }
+        kept++;
+      }
+      if (kept != count[i]) count[i] = kept;
+    });
   }
 
   // Where the next step writes; `slot`: see ContactPool.
@@ -174,7 +200,7 @@ class ResidentSprings {
       for (int c = 0; c < count[i]; c++) {
         const std::size_t source = std::size_t(springs.first[i]) + c;
         const Spring &s = springs.pool[source];
-        buffer[m++] = s.feature;    // 32 bits are exact in a double
+        buffer[m++] = packed_place(s);
         for (int d = 0; d < 3; d++) buffer[m++] = s.normal[d];
         for (int d = 0; d < 3; d++) buffer[m++] = s.shear[d];
         for (int e = 0; e < n_extra; e++) buffer[m++] = springs.extra[source * n_extra + e];
@@ -213,7 +239,7 @@ class ResidentSprings {
       for (int c = 0; c < count[i]; c++) {
         const std::size_t target = std::size_t(first[i]) + c;
         Spring s = {};
-        s.feature = static_cast<FeatureCode>(buffer[m++]);
+        unpack_place(buffer[m++], s);
         for (int d = 0; d < 3; d++) s.normal[d] = buffer[m++];
         for (int d = 0; d < 3; d++) s.shear[d] = buffer[m++];
         springs[target] = s;

@@ -26,14 +26,18 @@ enum class Device { automatic, cpu, cuda };
 // Sums, springs at rest and the spheres themselves are double in all three.
 enum class Precision { double_, mixed, single_ };
 
+// Meshes that move apart, of one wall.
+constexpr int kMostMeshes = 32;
+
 struct EngineSettings {
   ContactLaw law;
   Corner corner = Corner::blend;
   Side side = Side::both;
   Precision precision = Precision::double_;
-  SurfaceMotion surface;               // of the wall, in the plane of each contact
-  bool moves = false;                  // place_wall() or StepSettings::surface will be used
-  bool records = false;                // keep what every contact does to the wall
+  int meshes = 1;           // that move apart; with more than one `moves` is taken as true
+  SurfaceMotion surface;    // of each mesh, in the plane of each contact
+  bool moves = false;       // place_wall() or StepSettings::surface will be used
+  bool records = false;     // keep what every contact does to the wall
   WearModel wear = WearModel::none;    // where records are kept
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
@@ -56,11 +60,14 @@ struct Spheres {
 };
 
 struct StepSettings {
-  Real dt = 0;                               // time
-  bool update_history = true;                // false in setup: springs act but do not move
-  bool per_sphere = false;                   // fill SphereOutput
-  Real wall_temperature = 0;                 // where the law has heat
-  const SurfaceMotion *surface = nullptr;    // in place of the settings', until collect()
+  Real dt = 0;                   // time
+  bool update_history = true;    // false in setup: springs act but do not move
+  bool per_sphere = false;       // fill SphereOutput
+  bool records = true;           // bring what settings.records keeps
+  Real wall_temperature = 0;     // where the law has heat
+  // Of each mesh, in place of what is above and of the settings'; valid until collect().
+  const Real *mesh_temperature = nullptr;
+  const SurfaceMotion *surface = nullptr;
 };
 
 // Sums over the spheres of the last step on this process.
@@ -105,12 +112,12 @@ class WallEngine {
   // Backend in words, for the log: "CPU, 4 threads" or "CUDA, NVIDIA H200".
   virtual std::string backend() const = 0;
 
-  // The grid to use from now on; borrowed, must outlive its use. Asks for a choice.
-  virtual void set_grid(const GridView &grid) = 0;
+  // The grid of a mesh, to use from now on; borrowed, must outlive its use. Asks for a choice.
+  virtual void set_grid(const GridView &grid, int mesh = 0) = 0;
 
-  // Where the mesh is from now on, and how fast it goes; not between start() and collect(). At
+  // Where a mesh is from now on, and how fast it goes; not between start() and collect(). At
   // first it is where the grid has it. Only an engine whose settings say that it moves may be asked.
-  virtual void place_wall(const WallPose &pose) = 0;
+  virtual void place_wall(const WallPose &pose, int mesh = 0) = 0;
 
   // Largest radius in the group.
   virtual Real largest_radius(const Spheres &spheres) = 0;
@@ -135,6 +142,8 @@ class WallEngine {
   virtual void collect() = 0;
 
   virtual const WallTotals &totals() const = 0;
+  // What one mesh has of them, without the sphere.
+  virtual WallTotals mesh_totals(int mesh) const = 0;
 
   // Of the spheres with a contact in the last step: how many, which, and what.
   // Valid after collect() of a step with per_sphere.
@@ -145,7 +154,7 @@ class WallEngine {
   virtual const Real *sphere_heat() const = 0;
 
   // What the contacts of the last step did to the wall, in the order of the spheres;
-  // valid after collect() where settings.records is set.
+  // valid after collect() where settings.records and step.records are set.
   virtual int n_records() const = 0;
   virtual const ContactRecord *records() const = 0;
 

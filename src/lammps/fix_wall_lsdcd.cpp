@@ -447,7 +447,7 @@ void FixWallLsdcd::rebuild(double cutoff)
     const lsdcd::WallFeaturesView features = wall->view().wall;
     if (history && wall->has_images())
       springs.rename_features(
-          [&](lsdcd::FeatureCode f) { return lsdcd::own_feature(features, f); });
+          [&](int /*mesh*/, lsdcd::FeatureCode f) { return lsdcd::own_feature(features, f); });
   }
   check_box(cutoff);
   try {

@@ -18,8 +18,8 @@ class InPlaceForHost : public WallEngine {
   }
 
   std::string backend() const override { return engine_->backend(); }
-  void set_grid(const GridView &grid) override { engine_->set_grid(grid); }
-  void place_wall(const WallPose &pose) override { engine_->place_wall(pose); }
+  void set_grid(const GridView &grid, int mesh) override { engine_->set_grid(grid, mesh); }
+  void place_wall(const WallPose &pose, int mesh) override { engine_->place_wall(pose, mesh); }
   Real largest_radius(const Spheres &s) override { return engine_->largest_radius(places(s)); }
   void choose(const Spheres &s, Real margin, bool watch) override
   {
@@ -59,6 +59,7 @@ class InPlaceForHost : public WallEngine {
   void springs_to(SpringStore &store, int n) override { engine_->springs_to(store, n); }
   void springs_from(const SpringStore &store, int n) override { engine_->springs_from(store, n); }
   const WallTotals &totals() const override { return engine_->totals(); }
+  WallTotals mesh_totals(int mesh) const override { return engine_->mesh_totals(mesh); }
   int n_touching() const override { return engine_->n_touching(); }
   const int *touching() const override { return engine_->touching(); }
   const SphereOutput *sphere_output() const override { return engine_->sphere_output(); }

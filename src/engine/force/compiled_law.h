@@ -54,7 +54,7 @@ struct CompiledLaw {
 // The wall's effects that the settings ask for.
 inline WallEffects wall_effects(const EngineSettings &s)
 {
-  return {s.surface.moves() || s.moves, s.records};
+  return {s.surface.moves() || s.moves || s.meshes > 1, s.records};
 }
 
 }    // namespace lsdcd

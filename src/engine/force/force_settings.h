@@ -13,16 +13,18 @@ inline SearchSettings search_settings(const EngineSettings &engine)
   return s;
 }
 
+// Of one mesh.
 inline ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step,
-                                    const WallPose &pose)
+                                    const WallPose &pose, int mesh)
 {
   ForceSettings s;
+  s.mesh = static_cast<std::uint32_t>(mesh);
   s.dt = step.dt;
   s.update = step.update_history;
   s.search = search_settings(engine);
   s.with_point = step.per_sphere;
-  s.wall_temperature = step.wall_temperature;
-  s.surface = step.surface ? *step.surface : engine.surface;
+  s.wall_temperature = step.mesh_temperature ? step.mesh_temperature[mesh] : step.wall_temperature;
+  s.surface = step.surface ? step.surface[mesh] : engine.surface;
   s.pose = pose;
   s.wall_velocity = pose.turn_to_mesh(pose.velocity);
   s.wall_angular = pose.turn_to_mesh(pose.angular);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "parallel/backend_cpu.h"
-#include "engine/force/law_step.h"
+#include "engine/force/joint_step.h"
 #include "engine/force/laws.h"
 
 namespace lsdcd {

@@ -49,16 +49,32 @@ struct StepCounts {
 // has it.
 struct Lane {
   int locked;
-  Touch<kMostContacts> touch;
+  Touch<kMostContacts> touch, of_mesh;    // of_mesh: of one after the other, where several are near
   CornerRule<kMostContacts> rule;
 };
 constexpr int kLanes = 8;    // 1 MB each
+
+// What a step needs of one mesh.
+struct MeshWork {
+  GridView grid;
+  ForceSettings settings;
+};
+
+// Spheres that are near several meshes. Sphere g has slots first[g] to first[g + 1], one for each of
+// these meshes in ascending order; all that is of a k is of such a slot.
+struct JointSpheres {
+  const MeshWork *meshes = nullptr;    // null: there are none in this job
+  const int *first = nullptr;
+  const int *mesh = nullptr;    // of each slot
+};
 
 struct LawJob {
   GridView grid = {};
   ForceSettings settings = {};
   const int *near = nullptr;    // sphere of each k; null: sphere k
-  WallLists lists = {};         // of each k; none: cells are searched
+  int first_slot = 0;           // in the pool, of k = 0; read only where the wall can move
+  JointSpheres joint = {};
+  WallLists lists = {};    // of each k; none: cells are searched
   StridedView<const Real> x, v, omega;
   Column<const Real> radius, mass, temperature;
   SpringsView springs = {};    // of the last step
@@ -92,6 +108,19 @@ LSDCD_FN QuerySphere query_sphere_of(const LawJob &job, std::size_t i, const Vec
     s.springs = job.springs.pool + (s.n_springs > 0 ? job.springs.first[i] : 0);
   }
   return s;
+}
+
+// The same job from slot `first` on.
+inline LawJob from_slot(LawJob job, std::size_t first)
+{
+  job.near += first;
+  job.first_slot = static_cast<int>(first);
+  if (job.lists.n) job.lists = job.lists.from(first);
+  job.result = job.result.from(first);
+  if (job.heat) job.heat += first;
+  if (job.uncertain) job.uncertain += first;
+  if (job.pool.slot) job.pool.slot += first;
+  return job;
 }
 
 // The part of a job that the spheres decide.

@@ -42,14 +42,15 @@ LSDCD_FN SphereState state_at(const LawJob &job, std::size_t i, const Vec3 &x, R
   return s;
 }
 
-template <class Law>
-LSDCD_FN void add_motion(const LawJob &job, std::size_t i, SphereState &s)
+template <class Law, class Springs>
+LSDCD_FN void add_motion(const LawJob &job, const WallPose &pose, std::size_t i,
+                         SphereStateWith<Springs> &s)
 {
   s.v = job.v[i];
   s.omega = job.omega[i];
   if constexpr (Law::kSurface) {
-    s.v = job.settings.pose.turn_to_mesh(s.v);
-    s.omega = job.settings.pose.turn_to_mesh(s.omega);
+    s.v = pose.turn_to_mesh(s.v);
+    s.omega = pose.turn_to_mesh(s.omega);
   }
   s.mass = job.mass[i];
   if constexpr (Law::kHeat) s.temperature = job.temperature[i];
@@ -61,6 +62,7 @@ LSDCD_FN bool take_slots(const LawJob &job, std::size_t k, int n, int &first, Sp
 {
   const ContactPool &pool = job.pool;
   first = static_cast<int>(k);
+  if constexpr (Law::kSurface) first += job.first_slot;
   if constexpr (Law::kHeat) sink.heat = job.heat + k;
   if constexpr (Law::kHistory || Law::kRecords) {
     if (n > 1) {
@@ -82,6 +84,15 @@ LSDCD_FN int count_acting(const ContactsView &set, const Real *weight)
   return n;
 }
 
+// The wall's force and torque on sphere i at x, which stay with k for totals.
+LSDCD_FN void give(const LawJob &job, std::size_t k, std::size_t i, const Vec3 &x,
+                   const SphereResult &out)
+{
+  job.result.put(k, out, cross(x, out.force) + out.torque);
+  job.force.add(i, out.force);
+  job.torque.add(i, out.torque);
+}
+
 // Applies the law to the contacts of near sphere k, which is sphere i: force, torque, and what is
 // kept of them. The moment about the origin is, so that totals can be made when the spheres are
 // elsewhere. `weight` null: all are 1.
@@ -100,13 +111,11 @@ LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::s
     does_not_fit(job, k);
     return;
   }
-  add_motion<Law>(job, i, s);
+  add_motion<Law>(job, job.settings.pose, i, s);
   SphereResult out = {};
   if constexpr (Law::kHeat) *sink.heat = 0;
   add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
-  if (out.overlap_ratio > 0)
-    raise_to(&job.counts->deepest,
-             std::uint64_t(ascending_bits(static_cast<float>(out.overlap_ratio))) << 32 | (i + 1));
+  note_overlap(job, i, out.overlap_ratio);
   if constexpr (Law::kHistory)
     if (job.settings.update) {
       if (out.n_contacts > 0) job.pool.first[i] = first;
@@ -122,9 +131,7 @@ LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::s
       to_box(job.settings.pose, out);
       at = job.x[i];
     }
-  job.result.put(k, out, cross(at, out.force) + out.torque);
-  job.force.add(i, out.force);
-  job.torque.add(i, out.torque);
+  give(job, k, i, at, out);
 }
 
 template <class Law>
@@ -174,13 +181,13 @@ LSDCD_FN bool needs_list(const Law &law, const LawJob &job, std::size_t k)
   return !job.lists.holds(k, s.x, s.cutoff);
 }
 
-// Makes it anew.
-template <class Law, class Group>
-LSDCD_FN void make_list(const Law &law, const LawJob &job, const Group &group, std::size_t k)
+// Makes the list of slot k, whose sphere is s, anew.
+template <class Group>
+LSDCD_FN void put_list(const LawJob &job, const Group &group, const GridView &grid,
+                       const QuerySphere &s, std::size_t k)
 {
-  const QuerySphere s = near_sphere(law, job, k);
   WallList made;
-  gather(group, job.grid, s, kAnyDistance, made);
+  gather(group, grid, s, kAnyDistance, made);
   if (group.rank() != 0) return;
   if (s.cutoff > job.lists.cutoff(k)) raise_to(&job.counts->grown, kNoSphere - sphere_of(job, k));
   count_one(&job.counts->lists);
@@ -271,18 +278,11 @@ struct LawStep {
   template <class Group>
   LSDCD_FN void make_list(const Group &group, std::size_t k) const
   {
-    lsdcd::make_list(law, job, group, k);
+    put_list(job, group, job.grid, near_sphere(law, job, k), k);
   }
   LSDCD_FN void several(std::size_t k) const { several_contacts(law, job, k); }
   LSDCD_FN int *left() const { return job.left; }
   LSDCD_FN int *n_left() const { return job.counts->n_left + job.turn; }
 };
-
-// Near spheres [0, n).
-template <class Law, class Backend>
-void start_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend &backend)
-{
-  backend.step(n, LawStep<Law>{bytes.as<Law>(), job});
-}
 
 }    // namespace lsdcd

@@ -11,11 +11,13 @@ namespace lsdcd {
 // What one contact does to the wall in one step.
 struct ContactRecord {
   FeatureCode feature;
-  std::uint32_t pad;    // keeps the record free of indeterminate bytes
-  Real normal;          // force on the wall, > 0 where the sphere presses
-  Real shear;           // size of the force along the wall
-  Real wear_power;      // see model/wear.h; 0 without wear
-  Vec3 force;           // on the wall, in the frame of the mesh
+  std::uint32_t mesh;    // of the wall's
+  Real normal;           // force on the wall, > 0 where the sphere presses
+  Real shear;            // size of the force along the wall
+  Real wear_power;       // see model/wear.h; 0 without wear
+  // In the frame of the mesh:
+  Vec3 force;    // on the wall
+  Vec3 arm;      // from the closest point to the sphere's centre
 };
 
 // Which of the two a kernel has.

@@ -9,14 +9,16 @@
 namespace lsdcd {
 
 // One sphere's state at the start of the step, in the frame of the mesh.
-struct SphereState {
+template <class Springs>
+struct SphereStateWith {
   Vec3 x, v, omega;
   Real radius, mass;
-  const Spring *springs;    // of the last step
-  const Real *extra;        // n_extra numbers for each of them
+  Springs springs;      // of the last step
+  const Real *extra;    // n_extra numbers for each of them
   int n_springs;
   Real temperature;    // read only where the law has heat
 };
+using SphereState = SphereStateWith<const Spring *>;
 
 // What the wall does to it, in that frame. n_contacts counts the contacts that bear, and the springs.
 struct alignas(16) SphereResult {
@@ -40,6 +42,7 @@ struct SphereSink {
 
 struct ForceSettings {
   SearchSettings search;
+  std::uint32_t mesh;    // of the wall's
   Real dt;
   bool update;
   bool with_point;                     // fill weighted_point and weight
@@ -51,9 +54,9 @@ struct ForceSettings {
 };
 
 // What contact i begins with: its memory of the last step, turned with its normal.
-template <class Law>
+template <class Law, class Springs>
 LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ContactsView &set, int i,
-                           const SphereState &s)
+                           const SphereStateWith<Springs> &s)
 {
   using T = typename Law::Number;
   ContactMemory<T, Law::kExtra> memory = {};
@@ -67,7 +70,7 @@ LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ContactsView &set
     if constexpr (Law::kExtra > 0) {
       const Real *old = s.extra + in.from * Law::kExtra;
       for (int k = 0; k < 3 * Law::kVectors; k += 3)
-        memory.put(k, turned({old[k], old[k + 1], old[k + 2]}));
+        memory.put(k, turned(in_own_frame(s.springs, in.from, {old[k], old[k + 1], old[k + 2]})));
       for (int k = 3 * Law::kVectors; k < Law::kExtra; k++)
         memory.extra[k] = static_cast<T>(in.part * old[k]);
     }
@@ -77,12 +80,13 @@ LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ContactsView &set
 
 // The half of the kernel that each law has of its own. Numbers are of type Law::Number
 // inside the law, Real outside. `weights` null: all are 1.
-template <class Law>
+template <class Law, class Springs>
 LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
-                           const SphereState &s, const ContactsView &set, const Real *weights,
-                           const SphereSink &sink, SphereResult &out)
+                           const SphereStateWith<Springs> &s, const ContactsView &set,
+                           const Real *weights, const SphereSink &sink, SphereResult &out)
 {
   using T = typename Law::Number;
+  const std::uint32_t mesh = Law::kSurface ? settings.mesh : 0;
   for (int i = 0; i < set.n; i++) {
     const Real weight = weights ? weights[i] : 1;
     const Real overlap = s.radius - set.distance[i], ratio = overlap / s.radius;
@@ -122,7 +126,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     const auto f = law.evaluate(c, memory);
     if constexpr (Law::kHistory) {
       const int at = out.n_contacts;
-      sink.springs[at] = {vec_cast<Real>(memory.shear), n, set.feature[i], 0};
+      sink.springs[at] = {vec_cast<Real>(memory.shear), n, set.feature[i], mesh};
       if constexpr (Law::kExtra > 0)
         for (int k = 0; k < Law::kExtra; k++) sink.extra[at * Law::kExtra + k] = memory.extra[k];
     }
@@ -130,7 +134,8 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if constexpr (Law::kRecords) {
       const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
       ContactRecord &record = sink.records[out.n_contacts];
-      record = {set.feature[i], 0, normal, norm(tangential), 0, -normal * n - tangential};
+      record = {set.feature[i],           mesh,         normal, norm(tangential), 0,
+                -normal * n - tangential, s.x - closest};
       if (settings.wear != WearModel::none)
         record.wear_power =
             wear_power(settings.wear, pressing, norm(c.v_tangent), v_normal, norm(along));

@@ -32,6 +32,27 @@ struct GatherWork {
   }
 };
 
+// The same for slots of several meshes.
+struct GatherSlotWork {
+  const MeshWork *meshes;
+  const int *mesh;    // of each slot
+  StridedView<const Real> x;
+  const Real *radius;
+  const int *near;
+  Real margin, pull_off;
+  WallLists lists;
+  StepCounts *counts;
+
+  template <class Group>
+  LSDCD_FN void operator()(const Group &group, std::size_t k) const
+  {
+    const MeshWork &of = meshes[mesh[k]];
+    const GatherWork work = {of.grid,  x,     radius, of.settings.pose, near, margin,
+                             pull_off, lists, counts};
+    work(group, k);
+  }
+};
+
 template <class B>
 class ListStore {
   template <class T>
@@ -46,17 +67,20 @@ class ListStore {
   void make(B &b, const GridView &grid, const Spheres &spheres, const WallPose &pose,
             const int *near, std::size_t n, Real margin, Real pull_off, StepCounts *counts)
   {
-    lists_ = WallLists();
-    if (grid.nearest > 0 || n == 0) return;
-    if (ints_.size() < n * WallLists::kInts) {
-      const std::size_t room = n + n / 8;
-      reals_ = Array<Real>(room * WallLists::kReals);
-      ints_ = Array<std::int32_t>(room * WallLists::kInts);
-    }
-    lists_ = WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts, grid.length);
+    if (!reserve(grid, n)) return;
     b.for_each_by_group(
         n, grid.has_long_lists,
         GatherWork{grid, spheres.x, spheres.radius, pose, near, margin, pull_off, lists_, counts});
+  }
+  // The same for n slots of several meshes.
+  void make(B &b, const GridView &first_grid, const MeshWork *meshes, const int *mesh,
+            const Spheres &spheres, const int *near, std::size_t n, Real margin, Real pull_off,
+            StepCounts *counts)
+  {
+    if (!reserve(first_grid, n)) return;
+    b.for_each_by_group(n, first_grid.has_long_lists,
+                        GatherSlotWork{meshes, mesh, spheres.x, spheres.radius, near, margin,
+                                       pull_off, lists_, counts});
   }
 
   std::size_t bytes() const
@@ -65,6 +89,21 @@ class ListStore {
   }
 
  private:
+  // False: there are none to make.
+  bool reserve(const GridView &grid, std::size_t n)
+  {
+    lists_ = WallLists();
+    if (grid.nearest > 0 || n == 0) return false;
+    if (ints_.size() < n * WallLists::kInts) {
+      const std::size_t room = n + n / 8;
+      reals_ = Array<Real>(room * WallLists::kReals);
+      ints_ = Array<std::int32_t>(room * WallLists::kInts);
+    }
+    lists_ =
+        WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts, grid.length);
+    return true;
+  }
+
   WallLists lists_;
   Array<Real> reals_;
   Array<std::int32_t> ints_;

@@ -21,18 +21,20 @@ struct Touch {
 };
 
 // A sphere's cutoff, past which it feels nothing, and the springs it had in the last step.
-struct QuerySphere {
+template <class Springs>
+struct QuerySphereWith {
   Vec3 x;
   Real radius, cutoff;
-  const Spring *springs;    // read only where cutoff > radius
+  Springs springs;    // read only where cutoff > radius
   int n_springs;
 };
+using QuerySphere = QuerySphereWith<const Spring *>;
 
 // Leaves the contacts on the side that is asked for and, where adhesion acts beyond contact
 // (cutoff > radius), beside those that overlap those that overlapped and have not let go since.
-template <bool kBeyond, int kCapacity>
+template <bool kBeyond, class Springs, int kCapacity>
 LSDCD_FN void keep_acting(const GridView &grid, const SearchSettings &settings,
-                          const QuerySphere &s, ContactSet<kCapacity> &set)
+                          const QuerySphereWith<Springs> &s, ContactSet<kCapacity> &set)
 {
   if (settings.side != 0) keep_side(grid.wall, settings.side * grid.outside, set);
   if constexpr (kBeyond) {
@@ -45,9 +47,10 @@ LSDCD_FN void keep_acting(const GridView &grid, const SearchSettings &settings,
 
 // What is within the cutoff, into a set that is empty: of the sphere's list, or of its cell where `list`
 // is null. Where the set overflows nothing else is valid.
-template <bool kBeyond, class Geometry, int kCapacity>
-LSDCD_FN void search(const GridView &grid, const SearchSettings &settings, const QuerySphere &s,
-                     const ListedFeatures *list, Touch<kCapacity> &out)
+template <bool kBeyond, class Geometry, class Springs, int kCapacity>
+LSDCD_FN void search_in(const GridView &grid, const SearchSettings &settings,
+                        const QuerySphereWith<Springs> &s, const ListedFeatures *list,
+                        Touch<kCapacity> &out)
 {
   out.exact_within = kAnyDistance;
   if (list)
@@ -55,6 +58,16 @@ LSDCD_FN void search(const GridView &grid, const SearchSettings &settings, const
   else
     out.exact_within = find_contacts_in<Geometry>(grid, s.x, s.cutoff, out.set);
   keep_acting<kBeyond>(grid, settings, s, out.set);
+}
+template <bool kBeyond, class Springs, int kCapacity>
+LSDCD_FN void search(const GridView &grid, const SearchSettings &settings,
+                     const QuerySphereWith<Springs> &s, const ListedFeatures *list,
+                     Touch<kCapacity> &out)
+{
+  if (grid.in_floats)
+    search_in<kBeyond, BrickGeometry>(grid, settings, s, list, out);
+  else
+    search_in<kBeyond, WallGeometry>(grid, settings, s, list, out);
 }
 
 // Can a search of this grid miss contacts?
@@ -75,23 +88,27 @@ LSDCD_FN Real tolerance_of(const GridView &grid)
   return grid.in_floats ? BrickGeometry::tolerance(grid) : WallGeometry::tolerance(grid);
 }
 
-// All that a sphere touches. Gives every contact its weight: overlaps are shared as those of a
-// sphere of radius `cutoff`, so that they are greater than 0 as long as a contact holds, and 0 where
-// it lets go. `rule`: memory of the corner rule, which a stack may have no room for.
+// Gives every contact its weight: overlaps are shared as those of a sphere of radius `cutoff`, so
+// that they are greater than 0 as long as a contact holds, and 0 where it lets go.
+template <int kCapacity>
+LSDCD_FN void share(const SearchSettings &settings, Real cutoff, Real tolerance,
+                    CornerRule<kCapacity> &rule, Touch<kCapacity> &out)
+{
+  if (settings.blend && out.set.n > 1)
+    rule.solve(out.set, cutoff, out.weight, tolerance);
+  else
+    for (int i = 0; i < out.set.n; i++) out.weight[i] = 1;
+}
+
+// All that a sphere touches, with weights. `rule`: memory of the corner rule, which a stack may have
+// no room for.
 template <bool kBeyond, int kCapacity>
 LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, const QuerySphere &s,
                          const ListedFeatures *list, CornerRule<kCapacity> &rule,
                          Touch<kCapacity> &out)
 {
-  if (grid.in_floats)
-    search<kBeyond, BrickGeometry>(grid, settings, s, list, out);
-  else
-    search<kBeyond, WallGeometry>(grid, settings, s, list, out);
-  if (out.set.overflow) return;
-  if (settings.blend && out.set.n > 1)
-    rule.solve(out.set, s.cutoff, out.weight, tolerance_of(grid));
-  else
-    for (int i = 0; i < out.set.n; i++) out.weight[i] = 1;
+  search<kBeyond>(grid, settings, s, list, out);
+  if (!out.set.overflow) share(settings, s.cutoff, tolerance_of(grid), rule, out);
 }
 
 // Functions of their own, so that they are compiled once however many laws there are.

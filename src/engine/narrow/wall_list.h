@@ -14,9 +14,9 @@ namespace lsdcd {
 struct WallList {
   static constexpr int kMost = 7;
 
-  Vec3 x;          // the centre when the list was made
-  Real margin;     // length; negative: there is no list
-  Real cutoff;     // how far from its centre a sphere felt the wall then
+  Vec3 x;         // the centre when the list was made
+  Real margin;    // length; negative: there is no list
+  Real cutoff;    // how far from its centre a sphere felt the wall then
   std::int32_t n;
   FeatureCode code[kMost];    // ascending; of the wall, or with `in_floats` of brick records
 };
@@ -36,6 +36,9 @@ struct WallLists {
   {
     return {reals, reinterpret_cast<float *>(reals + 3 * room), ints, room, unit};
   }
+
+  // Those from number k on.
+  WallLists from(std::size_t k) const { return {x + k, lengths + k, n + k, column, unit}; }
 
   // Does list k hold all that a sphere at q can touch, up to a cutoff?
   LSDCD_FN bool holds(std::size_t k, const Vec3 &q, Real up_to) const

@@ -31,6 +31,21 @@ struct ResultColumns {
     return c;
   }
 
+  // Those from number k on.
+  ResultColumns from(std::size_t k) const
+  {
+    ResultColumns c = *this;
+    c.n_contacts += k;
+    c.force.at += k;
+    c.moment.at += k;
+    c.energy.at += k;
+    c.overlap_ratio.at += k;
+    if (!c.weight.at) return c;
+    c.weighted_point.at += k;
+    c.weight.at += k;
+    return c;
+  }
+
   LSDCD_FN void put(std::size_t at, const SphereResult &r, const Vec3 &about_origin) const
   {
     n_contacts[at] = r.n_contacts;

@@ -13,6 +13,13 @@ LSDCD_FN void note_cutoff(const LawJob &job, std::size_t i, Real cutoff)
   if (cutoff > job.grid.cutoff) raise_to(&job.counts->too_large, kNoSphere - i);
 }
 
+LSDCD_FN void note_overlap(const LawJob &job, std::size_t i, Real ratio)
+{
+  if (ratio > 0)
+    raise_to(&job.counts->deepest,
+             std::uint64_t(ascending_bits(static_cast<float>(ratio))) << 32 | (i + 1));
+}
+
 // `uncertain`: overlap of the deepest contact that near sphere k may have beside those that were
 // found. A ratio to its radius is kept, as radii may be elsewhere when it is read.
 LSDCD_FN void keep_uncertain(const LawJob &job, std::size_t k, Real uncertain, Real radius)

@@ -2,6 +2,7 @@
 // is made of them when somebody asks.
 #pragma once
 
+#include "engine/choose/near_meshes.h"
 #include "engine/force/compiled_law.h"
 #include "engine/results/totals.h"
 
@@ -16,9 +17,11 @@ class StepResults {
 
  public:
   // For a step of n near spheres of these; `near`: their indices, or null for all.
+  // `meshes`: which slots are of which mesh, or null where there is one.
   void begin(const LawTraits &traits, const StepSettings &step, const Spheres &spheres,
-             const int *near, std::size_t n, bool may_miss)
+             const int *near, std::size_t n, bool may_miss, const NearMeshes<B> *meshes = nullptr)
   {
+    meshes_ = meshes;
     traits_ = traits;
     step_ = step;
     spheres_ = spheres;
@@ -60,7 +63,7 @@ class StepResults {
     records_.clear();
     if (n_ == 0) return;
     if (step_.per_sphere) fetch_output(b);
-    if (traits_.records) fetch_records(b, records);
+    if (traits_.records && step_.records) fetch_records(b, records);
   }
 
   const std::vector<int> &touching() const { return touching_; }
@@ -74,6 +77,12 @@ class StepResults {
     if (!totals_known_) sum_totals(b);
     return totals_;
   }
+  // Of one of several meshes.
+  WallTotals mesh_totals(B &b, int mesh)
+  {
+    know_mesh_totals(b);
+    return mesh < static_cast<int>(mesh_totals_.size()) ? mesh_totals_[mesh] : WallTotals();
+  }
 
   std::size_t bytes() const
   {
@@ -86,12 +95,22 @@ class StepResults {
   // Before other spheres are near: totals stay those of the last step.
   void outlive_choice(B &b)
   {
+    know_mesh_totals(b);
     if (totals_known_ || !near_ || n_ == 0) return;
     if (kept_near_.size() < n_) kept_near_ = Array<int>(n_ + n_ / 8);
     const int *from = near_;
     int *to = kept_near_.data();
     b.for_each(n_, [=] LSDCD_LAMBDA(std::size_t k) { to[k] = from[k]; });
     near_ = to;
+  }
+
+  void know_mesh_totals(B &b)
+  {
+    if (!meshes_) return;
+    mesh_totals_.clear();
+    for (int m = 0; m < meshes_->n_meshes(); m++)
+      mesh_totals_.push_back(sum(b, meshes_->mesh(), m));
+    meshes_ = nullptr;
   }
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
@@ -118,6 +137,7 @@ class StepResults {
       if (has_heat) to_heat[k] = touches ? from_heat[k] : 0;
       to_sphere[k] = static_cast<int>(i);
     });
+    if (meshes_ && meshes_->n_joint() > 0) join_output(b, to, to_heat);
     const std::vector<SphereOutput> all = b.to_host(out, n);
     const std::vector<Real> heat = b.to_host(heat_out, heat_out.size());
     const std::vector<int> index = b.to_host(sphere, n);
@@ -127,6 +147,33 @@ class StepResults {
       output_.push_back(all[k]);
       if (has_heat) sphere_heat_.push_back(heat[k]);
     }
+  }
+
+  // One output for each joint sphere, at its first slot.
+  void join_output(B &b, SphereOutput *to, Real *to_heat)
+  {
+    const int *first = meshes_->first(), *near = near_;
+    const ResultColumns result = columns_;
+    const Spheres spheres = spheres_;
+    const bool has_heat = traits_.heat;
+    b.for_each(meshes_->n_joint(), [=] LSDCD_LAMBDA(std::size_t g) {
+      SphereResult all = {};
+      Real heat = 0;
+      const int begin = first[g];
+      for (int k = begin; k < first[g + 1]; k++) {
+        to[k] = SphereOutput();
+        if (result.n_contacts[k] == 0) continue;
+        const SphereResult r = result.get(k);
+        all.n_contacts += r.n_contacts;
+        all.force += r.force;
+        all.weighted_point += r.weighted_point;
+        all.weight += r.weight;
+        if (has_heat) heat += to_heat[k];
+      }
+      if (all.n_contacts == 0) return;
+      to[begin] = output_of(all, spheres.x[near[begin]], spheres.radius[near[begin]]);
+      if (has_heat) to_heat[begin] = heat;
+    });
   }
 
   void fetch_records(B &b, const ContactRecord *from)
@@ -150,8 +197,14 @@ class StepResults {
   void sum_totals(B &b)
   {
     totals_known_ = true;
-    totals_ = WallTotals();
-    if (n_ == 0) return;
+    totals_ = sum(b, nullptr, 0);
+  }
+
+  // Over all slots, or those of one mesh where `mesh` tells of each slot.
+  WallTotals sum(B &b, const int *mesh, int only)
+  {
+    WallTotals total;
+    if (n_ == 0) return total;
     const std::size_t n = n_, n_blocks = (n + kTotalsBlock - 1) / kTotalsBlock,
                       n_sums = (n_blocks + kTotalsBlock - 1) / kTotalsBlock;
     Array<WallTotals> blocks(n_blocks), sums(n_sums);
@@ -162,6 +215,7 @@ class StepResults {
     b.for_each(n_blocks, [=] LSDCD_LAMBDA(std::size_t at) {
       WallTotals t;
       for (std::size_t k = at * kTotalsBlock; k < (at + 1) * kTotalsBlock && k < n; k++) {
+        if (mesh && mesh[k] != only) continue;
         if (uncertain && uncertain[k] > 0) add_uncertain(t, uncertain[k]);
         if (result.n_contacts[k] == 0) continue;
         const SphereResult r = result.get(k);
@@ -175,7 +229,8 @@ class StepResults {
         add_block(t, block[k]);
       sum[at] = t;
     });
-    for (const WallTotals &t : b.to_host(sums, n_sums)) add_block(totals_, t);
+    for (const WallTotals &t : b.to_host(sums, n_sums)) add_block(total, t);
+    return total;
   }
 
  private:
@@ -191,6 +246,8 @@ class StepResults {
 
   WallTotals totals_;
   bool totals_known_ = true;
+  const NearMeshes<B> *meshes_ = nullptr;    // until their totals are known
+  std::vector<WallTotals> mesh_totals_;
   std::vector<int> touching_;
   std::vector<SphereOutput> output_;
   std::vector<Real> sphere_heat_;

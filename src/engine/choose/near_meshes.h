@@ -1,0 +1,185 @@
+// The spheres near the meshes of a wall, where it has several: first those near one mesh only, mesh
+// after mesh, then those near several, with a slot for each (sphere, mesh).
+#pragma once
+
+#include "engine/wall_engine.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lsdcd {
+
+// A set of meshes, a bit for each.
+using MeshSet = std::uint32_t;
+static_assert(kMostMeshes <= 8 * sizeof(MeshSet), "a bit for each");
+
+LSDCD_FN bool has_mesh(MeshSet set, int mesh)
+{
+  return set >> mesh & 1;
+}
+LSDCD_FN bool is_alone(MeshSet set)
+{
+  return (set & (set - 1)) == 0;
+}
+
+template <class B>
+class NearMeshes {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+ public:
+  // Begins for n spheres.
+  void clear(B &b, std::size_t n)
+  {
+    n_spheres_ = n;
+    n_found_ = 0;
+    end_.clear();
+    if (set_.size() < n) set_ = Array<MeshSet>(n + n / 8);
+    MeshSet *set = set_.data();
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { set[i] = 0; });
+  }
+
+  // The n spheres that are near the next mesh.
+  void add(B &b, const int *near, std::size_t n)
+  {
+    const int mesh = static_cast<int>(end_.size());
+    reserve(b, n_found_ + n);
+    MeshSet *set = set_.data();
+    int *to = found_.data() + n_found_;
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      to[k] = near[k];
+      set[near[k]] |= MeshSet(1) << mesh;
+    });
+    n_found_ += n;
+    end_.push_back(n_found_);
+  }
+
+  // Ends it: makes the slots.
+  void finish(B &b)
+  {
+    const std::size_t most = n_found_;
+    if (near_.size() < most) {
+      const std::size_t room = most + most / 8;
+      near_ = Array<int>(room);
+      mesh_ = Array<int>(room);
+      joint_ = Array<int>(room);
+      first_ = Array<int>(room + 1);
+      flags_ = Array<char>(room);
+    }
+    begin_.assign(1, 0);
+    n_joint_ = 0;
+    for (std::size_t m = 0; m < end_.size(); m++) {
+      const std::size_t from = m == 0 ? 0 : end_[m - 1], n = end_[m] - from;
+      const int *found = found_.data() + from;
+      const std::size_t at = begin_.back();
+      flag_alone(b, found, n);
+      begin_.push_back(at + keep(b, found, n, near_.data() + at));
+      fill(b, at, begin_.back() - at, static_cast<int>(m));
+      flag_joint(b, found, n, static_cast<int>(m));
+      n_joint_ += keep(b, found, n, joint_.data() + n_joint_);
+    }
+    n_slots_ = begin_.back();
+    if (n_joint_ > 0) make_joint_slots(b);
+  }
+
+  // Slots [begin(m), begin(m + 1)) are of spheres near mesh m alone, those from begin(number of
+  // meshes) on of joint spheres.
+  std::size_t begin(int mesh) const { return begin_[mesh]; }
+  int n_meshes() const { return static_cast<int>(end_.size()); }
+  std::size_t n_slots() const { return n_slots_; }
+  const int *near() const { return near_.data(); }    // sphere of each slot
+  const int *mesh() const { return mesh_.data(); }    // of each slot
+  std::size_t n_joint() const { return n_joint_; }
+  const int *first() const { return first_.data(); }    // slot of each joint sphere, and the end
+  const MeshSet *meshes_of() const { return set_.data(); }    // of each sphere
+  std::size_t n_spheres() const { return n_spheres_; }
+
+  std::size_t bytes() const
+  {
+    return (found_.size() + near_.size() + mesh_.size() + joint_.size() + first_.size()) *
+               sizeof(int) +
+           set_.size() * sizeof(MeshSet) + flags_.size();
+  }
+
+  // The steps of the above. Public because nvcc takes no device lambda from a private function.
+
+  void reserve(B &b, std::size_t n)
+  {
+    if (found_.size() >= n) return;
+    Array<int> wider(n + n / 2);
+    const int *from = found_.data();
+    int *to = wider.data();
+    b.for_each(n_found_, [=] LSDCD_LAMBDA(std::size_t k) { to[k] = from[k]; });
+    b.wait();
+    found_ = std::move(wider);
+  }
+
+  void flag_alone(B &b, const int *found, std::size_t n)
+  {
+    char *flags = flags_.data();
+    const MeshSet *set = set_.data();
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { flags[k] = is_alone(set[found[k]]); });
+  }
+  // A joint sphere counts with the first of its meshes.
+  void flag_joint(B &b, const int *found, std::size_t n, int mesh)
+  {
+    char *flags = flags_.data();
+    const MeshSet *set = set_.data();
+    const MeshSet before = (MeshSet(1) << mesh) - 1;
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      const MeshSet of = set[found[k]];
+      flags[k] = !is_alone(of) && (of & before) == 0;
+    });
+  }
+
+  void fill(B &b, std::size_t at, std::size_t n, int mesh)
+  {
+    int *to = mesh_.data() + at;
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { to[k] = mesh; });
+  }
+
+  void make_joint_slots(B &b)
+  {
+    const std::size_t n = n_joint_;
+    const int *joint = joint_.data();
+    const MeshSet *set = set_.data();
+    int *first = first_.data(), *near = near_.data(), *mesh = mesh_.data();
+    const int begin = static_cast<int>(n_slots_);
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t g) {
+      int count = 0;
+      for (MeshSet of = set[joint[g]]; of != 0; of &= of - 1) count++;
+      first[g] = count;
+    });
+    const int total = b.exclusive_scan(first, n);
+    n_slots_ += total;
+    b.for_each(n + 1, [=] LSDCD_LAMBDA(std::size_t g) {
+      const int at = begin + (g < n ? first[g] : total);
+      first[g] = at;
+      if (g == n) return;
+      int k = at;
+      for (int m = 0; m < kMostMeshes; m++)
+        if (has_mesh(set[joint[g]], m)) {
+          near[k] = joint[g];
+          mesh[k++] = m;
+        }
+    });
+  }
+
+ private:
+  std::size_t keep(B &b, const int *found, std::size_t n, int *to)
+  {
+    if (n == 0) return 0;
+    b.keep(n, found, flags_.data(), to, count_.data());
+    return b.to_host(count_, 1)[0];
+  }
+
+  std::size_t n_spheres_ = 0, n_found_ = 0, n_slots_ = 0, n_joint_ = 0;
+  std::vector<std::size_t> end_, begin_ = {0};
+  Array<MeshSet> set_;    // the meshes that each sphere is near
+  Array<int> found_;      // near spheres, mesh after mesh
+  Array<int> near_, mesh_, joint_, first_;
+  Array<char> flags_;
+  Array<std::uint32_t> count_ = Array<std::uint32_t>(1);
+};
+
+}    // namespace lsdcd

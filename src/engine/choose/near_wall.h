@@ -1,0 +1,188 @@
+// The meshes of a wall, the spheres that a choice finds near them, and their lists of the wall.
+#pragma once
+
+#include "engine/choose/near_list.h"
+#include "engine/choose/near_meshes.h"
+#include "engine/engine_mesh.h"
+#include "engine/narrow/list_store.h"
+
+#include <numeric>
+#include <vector>
+
+namespace lsdcd {
+
+// `counts` in what follows: where kernels count, one StepCounts. What is returned has been read there.
+template <class B>
+class NearWall {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+ public:
+  explicit NearWall(const EngineSettings &settings) :
+      pull_off_(settings.law.pull_off()), meshes_(settings.meshes)
+  {
+  }
+
+  void set_grid(B &b, const GridView &grid, int mesh)
+  {
+    meshes_.at(mesh).set_grid(b, grid);
+    n_ = 0;
+  }
+  void place(const WallPose &pose, int mesh) { meshes_.at(mesh).pose = pose; }
+
+  bool has_several() const { return meshes_.size() > 1; }
+  int n_meshes() const { return static_cast<int>(meshes_.size()); }
+  const EngineMesh<B> &mesh(int m) const { return meshes_[m]; }
+
+  // Chooses among spheres in memory of the backend. `n_springs` of those that are far from the one mesh
+  // becomes 0. A sphere that is too large is in what is returned, and nothing else is valid then.
+  StepCounts choose(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts,
+                    int *n_springs)
+  {
+    all_near_ = false;
+    if (has_several()) return choose_slots(b, spheres, margin, true, counts);
+    const StepCounts seen = choose_by_cells(b, meshes_[0], spheres, margin, counts, n_springs);
+    return seen.too_large ? seen : make_lists(b, spheres, seen, margin, counts, n_springs);
+  }
+  // All spheres are near by their cells, says the host, and will be alone in steps: near() is null.
+  // With several meshes all stay.
+  StepCounts choose_among(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts)
+  {
+    all_near_ = !has_several();
+    if (has_several()) return choose_slots(b, spheres, margin, false, counts);
+    near_.choose_all(b, spheres.n);
+    StepCounts seen = b.to_host(counts, 1)[0];
+    seen.n_near = spheres.n;
+    return make_lists(b, spheres, seen, margin, counts, nullptr);
+  }
+  // Of the latter, which are near.
+  std::vector<int> chosen_among(B &b, int n_spheres)
+  {
+    if (!has_several()) return near_.to_host(b, n_);
+    std::vector<int> all(n_spheres);
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+
+  std::size_t n() const { return n_; }    // near spheres, or slots of several meshes
+  const int *near() const
+  {
+    return has_several() ? slots_.near() : all_near_ ? nullptr : near_.data();
+  }
+  const WallLists &lists() const { return lists_.view(); }
+  const NearMeshes<B> &slots() const { return slots_; }
+
+  // What steps need of the meshes, to where they run, without waiting.
+  const MeshWork *put_works(B &b, const EngineSettings &settings, const StepSettings &step)
+  {
+    if (works_.size() < meshes_.size()) works_ = Array<MeshWork>(meshes_.size());
+    MeshWork *to = works_.data();
+    for (int m = 0; m < n_meshes(); m++, to++) {
+      const MeshWork work = meshes_[m].work(settings, step, m);
+      b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = work; });
+    }
+    return works_.data();
+  }
+
+  // From here on has_moved() tells whether a sphere has gone farther than `margin` from where it is,
+  // relative to any mesh.
+  void keep_centres(B &b, const Spheres &spheres, Real margin)
+  {
+    const std::size_t n = spheres.n;
+    if (centres_.size() < 3 * n) centres_ = Array<Real>(3 * (n + n / 8));
+    const StridedView<Real> to(centres_.data());
+    const StridedView<const Real> x = spheres.x;
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to.put(i, x[i]); });
+    for (EngineMesh<B> &mesh : meshes_) mesh.chosen = mesh.pose;
+    margin_ = margin;
+  }
+  bool has_moved(B &b, const Spheres &spheres)
+  {
+    const StridedView<const Real> was(centres_.data()), x = spheres.x;
+    for (const EngineMesh<B> &mesh : meshes_) {
+      const WallPose pose = mesh.pose, chosen = mesh.chosen;
+      const Real way_sq =
+          b.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
+            return norm_sq(pose.to_mesh(x[i]) - chosen.to_mesh(was[i]));
+          });
+      if (way_sq > margin_ * margin_) return true;
+    }
+    return false;
+  }
+
+  std::size_t bytes() const
+  {
+    std::size_t bytes = near_.bytes() + slots_.bytes() + lists_.bytes() +
+                        centres_.size() * sizeof(Real) + works_.size() * sizeof(MeshWork);
+    for (const EngineMesh<B> &mesh : meshes_) bytes += mesh.bytes();
+    return bytes;
+  }
+
+ private:
+  StepCounts choose_by_cells(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin,
+                             Array<StepCounts> &counts, int *n_springs)
+  {
+    near_.choose(b, mesh.grid, mesh.table, spheres, mesh.pose, margin, pull_off_, counts.data(),
+                 n_springs);
+    return b.to_host(counts, 1)[0];
+  }
+
+  // Of the seen.n_near spheres that are near by their cells leaves those that can touch the mesh.
+  StepCounts prune(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, const StepCounts &seen,
+                   Real margin, Array<StepCounts> &counts, int *n_springs)
+  {
+    if (mesh.grid.nearest > 0 || seen.n_near == 0) return seen;
+    near_.prune(b, mesh.grid, spheres, mesh.pose, seen.n_near, margin, pull_off_, counts.data(),
+                n_springs);
+    return b.to_host(counts, 1)[0];
+  }
+
+  StepCounts make_lists(B &b, const Spheres &spheres, const StepCounts &by_cells, Real margin,
+                        Array<StepCounts> &counts, int *n_springs)
+  {
+    const EngineMesh<B> &mesh = meshes_[0];
+    const StepCounts seen = prune(b, mesh, spheres, by_cells, margin, counts, n_springs);
+    n_ = seen.n_near;
+    lists_.make(b, mesh.grid, spheres, mesh.pose, near_.data(), n_, margin, pull_off_,
+                counts.data());
+    return seen;
+  }
+
+  StepCounts choose_slots(B &b, const Spheres &spheres, Real margin, bool by_cells,
+                          Array<StepCounts> &counts)
+  {
+    StepCounts seen = {};
+    slots_.clear(b, spheres.n);
+    for (const EngineMesh<B> &mesh : meshes_) {
+      if (by_cells) {
+        seen = choose_by_cells(b, mesh, spheres, margin, counts, nullptr);
+        if (seen.too_large) return seen;
+      } else {
+        near_.choose_all(b, spheres.n);
+        seen = b.to_host(counts, 1)[0];
+        seen.n_near = spheres.n;
+      }
+      seen = prune(b, mesh, spheres, seen, margin, counts, nullptr);
+      slots_.add(b, near_.data(), seen.n_near);
+    }
+    slots_.finish(b);
+    n_ = slots_.n_slots();
+    const MeshWork *works = put_works(b, EngineSettings(), StepSettings());
+    lists_.make(b, meshes_[0].grid, works, slots_.mesh(), spheres, slots_.near(), n_, margin,
+                pull_off_, counts.data());
+    return seen;
+  }
+
+  Real pull_off_;
+  std::vector<EngineMesh<B>> meshes_;
+  NearList<B> near_;
+  NearMeshes<B> slots_;
+  ListStore<B> lists_;
+  Array<MeshWork> works_;
+  bool all_near_ = false;
+  std::size_t n_ = 0;
+  Array<Real> centres_;    // when keep_centres() was called
+  Real margin_ = 0;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,425 @@
+// A wall of several meshes acts as one: spheres feel each place once, whatever mesh it is of and
+// whatever frame that is in.
+#include "engine/force/host_law.h"
+#include "engine/host_adapter.h"
+#include "mesh/motion.h"
+#include "support/crowd.h"
+#include "support/laws.h"
+#include "support/meshes.h"
+#include "support/test_engine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kStep = 1e-4;
+
+// Triangles dealt out to n meshes by turns.
+std::vector<TriangleSoup> dealt(const TriangleSoup &soup, int n)
+{
+  std::vector<TriangleSoup> parts(n);
+  for (std::size_t t = 0; t < soup.n_triangles(); t++) {
+    TriangleSoup &part = parts[t % n];
+    part.source = "part";
+    part.corners.insert(part.corners.end(), soup.corners.begin() + 3 * t,
+                        soup.corners.begin() + 3 * t + 3);
+  }
+  return parts;
+}
+
+// Of the m-th mesh; with `turned` each has another, else all are at rest.
+WallPose pose_of(int m, bool turned)
+{
+  if (!turned) return {};
+  MotionTerm term;
+  term.kind = MotionKind::rotate;
+  term.point = {0.3 * m, 1, -2};
+  term.axis = unit_vector(Vec3{1, 0.2 * m, -0.5});
+  term.period = 1;
+  WallMotion motion;
+  motion.add(term);
+  WallPose pose = motion.pose_at(0.05 + 0.03 * m);
+  pose.velocity = pose.angular = {0, 0, 0};
+  return pose;
+}
+
+// A wall whose meshes lie in frames of their own and are placed so that they fit.
+class Wall {
+ public:
+  Wall(std::vector<TriangleSoup> parts, Real cutoff, EngineSettings settings, bool turned) :
+      turned_(turned)
+  {
+    settings.meshes = static_cast<int>(parts.size());
+    GridSettings g;
+    g.cutoff = cutoff;
+    g.in_floats = settings.precision != Precision::double_;
+    for (int m = 0; m < settings.meshes; m++) {
+      for (Vec3 &p : parts[m].corners) p = pose_of(m, turned).to_mesh(p);
+      grids_.emplace_back(build_grid(weld(parts[m], -1), g));
+    }
+    scene = std::make_unique<Scene>(parts[0], cutoff, settings);
+    put_into(*scene->engine);
+  }
+
+  void put_into(WallEngine &engine) const
+  {
+    for (int m = 0; m < static_cast<int>(grids_.size()); m++) {
+      engine.set_grid(grids_[m].view(), m);
+      engine.place_wall(pose_of(m, turned_), m);
+    }
+  }
+
+  std::unique_ptr<Scene> scene;
+
+ private:
+  bool turned_;
+  std::vector<FlatGrid> grids_;
+};
+
+struct Law {
+  const char *name;
+  EngineSettings settings;
+};
+
+std::vector<Law> laws()
+{
+  EngineSettings rolling = hooke_history(kStiffness, 3e4, 50, 20, 0.4), all, records;
+  rolling.law.added.rolling = AddedRolling::epsd2;
+  rolling.law.added.mu_roll = 0.1;
+  all.law = everything(NormalModel::jkr);
+  records = hertz_history(kStiffness, 3e4, 50, 20, 0.4);
+  records.records = true;
+  return {{"hooke", hooke(kStiffness, 50, 20, 0.4)},
+          {"hooke/history", hooke_history(kStiffness, 3e4, 50, 20, 0.4)},
+          {"hertz/history with records", records},
+          {"rolling epsd2", rolling},
+          {"granular jkr, all", all}};
+}
+
+void add_crowd(Scene &to, const MeshReport &r, int n)
+{
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<Real> place(-0.1, 1.1), speed(-3, 3);
+  for (int i = 0; i < n; i++) {
+    Vec3 x, v, omega;
+    for (int d = 0; d < 3; d++) {
+      x[d] = r.lo[d] + place(random) * (r.hi[d] - r.lo[d]);
+      v[d] = speed(random);
+      omega[d] = speed(random);
+    }
+    to.add_sphere(x, kRadius, kMass, v, omega);
+  }
+}
+
+void move(Scene &s)
+{
+  for (int i = 0; i < s.n(); i++) s.set_x(i, s.x(i) + kStep * s.v(i));
+  s.compute(kStep, true, true);
+}
+
+// The same triangles in one mesh, which share no corner, and dealt out to 32. Places of size 10 are
+// rounded to 2e-15 by turning, which a stiffness of 1e5 to 1e6 (corners share their overlap, with
+// angles as small as 1e-2) makes 1e-7 of forces of 1e4 at most.
+void expect_as_one(bool turned, Precision precision, Real tolerance)
+{
+  const TriangleSoup soup = random_soup(600, 5);
+  for (Law &law : laws()) {
+    law.settings.precision = precision;
+    const Real cutoff = cutoff_of(law.settings.law, kRadius);
+    Scene one(soup, cutoff, law.settings);
+    Wall wall(dealt(soup, kMostMeshes), cutoff, law.settings, turned);
+    Scene &several = *wall.scene;
+    add_crowd(one, one.mesh.report, 500);
+    add_crowd(several, one.mesh.report, 500);
+    int touching = 0, joint = 0;
+    for (int step = 0; step < 5; step++) {
+      move(one);
+      move(several);
+    }
+    for (int i = 0; i < one.n(); i++) {
+      touching += one.springs.count(i) > 0;
+      joint += one.springs.count(i) > 1;
+      EXPECT_LE(norm(several.force(i) - one.force(i)), tolerance) << law.name << " " << i;
+      EXPECT_LE(norm(several.torque(i) - one.torque(i)), tolerance) << law.name << " " << i;
+      EXPECT_LE(std::fabs(several.heat(i) - one.heat(i)), tolerance) << law.name << " " << i;
+      EXPECT_EQ(several.springs.count(i), one.springs.count(i)) << law.name << " " << i;
+    }
+    if (law.settings.law.has_history()) {
+      EXPECT_GT(touching, 100) << law.name;
+      EXPECT_GT(joint, 30) << law.name;
+    }
+    ASSERT_EQ(several.engine->n_touching(), one.engine->n_touching()) << law.name;
+    // A kernel with both effects makes records that were not asked for.
+    if (law.settings.records) {
+      EXPECT_EQ(several.engine->n_records(), one.engine->n_records()) << law.name;
+    }
+    EXPECT_EQ(several.engine->totals().contacts, one.engine->totals().contacts) << law.name;
+  }
+}
+
+TEST(several_meshes, at_rest_act_as_one)
+{
+  expect_as_one(false, Precision::double_, 1e-7);
+}
+TEST(several_meshes, in_frames_of_their_own_act_as_one)
+{
+  expect_as_one(true, Precision::double_, 1e-7);
+}
+
+// ---- seams -------------------------------------------------------------------------------------
+
+// The triangles of a plane, each with a mesh of its own: the answer is the plane's k (R - h). Heights
+// and normals of a floor at z = 0 are exact; in turned frames of size 10 both are rounded to 4e-15,
+// against overlaps of 5e-4: 1e-11.
+void expect_plane(bool turned, Real bound)
+{
+  constexpr Real kHalf = 4, kHeight = kRadius * (1 - 1e-3), rim = 0.9 * kHalf;
+  const TriangleSoup floor = floor_mesh(4, kHalf, 1);
+  ASSERT_EQ(floor.n_triangles(), static_cast<std::size_t>(kMostMeshes));
+  Wall wall(dealt(floor, kMostMeshes), kRadius, hooke(kStiffness), turned);
+  Scene &scene = *wall.scene;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<Real> share(0, 1), far(-17, -6);
+  for (int i = 0; i < 20000; i++) {
+    const std::size_t t = 3 * (random() % floor.n_triangles()), k = random() % 3;
+    const Vec3 a = floor.corners[t + k], b = floor.corners[t + (k + 1) % 3],
+               c = floor.corners[t + (k + 2) % 3];
+    Vec3 q = a;    // at a corner, along an edge, over a face
+    const Real u = share(random);
+    if (i % 4 > 0) q += u * (b - a);
+    if (i % 4 > 2) q += share(random) * (1 - u) * (c - a);
+    if (random() % 2) q += std::pow(10., far(random)) * Vec3{share(random), -share(random), 0};
+    if (std::fabs(q.x) > rim || std::fabs(q.y) > rim) q = {0, 0, 0};
+    q.z = i % 3 ? kHeight : -kHeight;
+    scene.add_sphere(q, kRadius, 1);
+  }
+  scene.compute(kStep, true, true);
+  EXPECT_EQ(scene.engine->n_touching(), scene.n()) << "a sphere fell through";
+  const Real f0 = kStiffness * (kRadius - kHeight);
+  for (int i = 0; i < scene.n(); i++) {
+    const Vec3 f = scene.force(i);
+    ASSERT_LE(std::fabs((scene.x(i).z > 0 ? f.z : -f.z) / f0 - 1), bound) << i;
+    ASSERT_LE(std::hypot(f.x, f.y) / f0, bound) << i;
+  }
+}
+
+TEST(several_meshes, have_seams_that_are_not_felt)
+{
+  expect_plane(false, 1e-12);
+}
+TEST(several_meshes, have_seams_that_are_not_felt_in_frames_of_their_own)
+{
+  expect_plane(true, 1e-10);
+}
+
+// Over the seam of two half planes along y, in other frames, and over one plane: 2000 steps in each
+// of which rounding of places by 4e-15 times the stiffness turns speeds by 4e-15 k dt / m = 2e-14.
+TEST(several_meshes, hand_springs_over_at_a_seam)
+{
+  constexpr int kSteps = 2000;
+  const TriangleSoup floor = floor_mesh(2, 4);
+  std::vector<TriangleSoup> halves(2);
+  for (std::size_t t = 0; t < floor.corners.size(); t += 3) {
+    const Real middle = floor.corners[t].y + floor.corners[t + 1].y + floor.corners[t + 2].y;
+    TriangleSoup &half = halves[middle > 0];
+    half.corners.insert(half.corners.end(), floor.corners.begin() + t,
+                        floor.corners.begin() + t + 3);
+  }
+  for (const Law &law : laws()) {
+    if (!law.settings.law.has_history()) continue;
+    const Real cutoff = cutoff_of(law.settings.law, kRadius);
+    Scene one(floor, cutoff, law.settings);
+    Wall wall(halves, cutoff, law.settings, true);
+    for (Scene *s : {&one, wall.scene.get()})
+      s->add_sphere({0.3, -0.01, kRadius - 1e-3}, kRadius, kMass, {0.02, 2, 0}, {0.3, 0, 0.4});
+    for (int step = 0; step < kSteps; step++) {
+      one.step(kStep, {0, 0, -9.81});
+      wall.scene->step(kStep, {0, 0, -9.81});
+    }
+    EXPECT_GT(one.x(0).y, 0) << law.name << ": it does not cross the seam";
+    EXPECT_LE(norm(wall.scene->x(0) - one.x(0)), 1e-10) << law.name;
+    EXPECT_LE(norm(wall.scene->v(0) - one.v(0)), 1e-10) << law.name;
+    EXPECT_LE(norm(wall.scene->omega(0) - one.omega(0)), 1e-10) << law.name;
+  }
+}
+
+// ---- what is counted of each -------------------------------------------------------------------
+
+TEST(several_meshes, in_one_place_are_felt_once)
+{
+  const TriangleSoup floor = floor_mesh(2, 4);
+  Wall wall({floor, floor, floor}, kRadius, hooke(kStiffness), true);
+  wall.scene->add_sphere({0.1, 0.2, 0.49}, kRadius, kMass);
+  wall.scene->compute(kStep, true, true);
+  // Heights of 0.49 are rounded to 4e-15 by turning.
+  EXPECT_NEAR(wall.scene->force(0).z, kStiffness * 0.01, 1e-8);
+  EXPECT_EQ(wall.scene->engine->totals().contacts, 1);
+  EXPECT_EQ(wall.scene->engine->sphere_output()[0].contacts, 1);
+}
+
+// A sphere in a right-angled corner of three plates, each with its own overlap.
+class CornerOfPlates : public ::testing::Test {
+ protected:
+  static constexpr Real kOverlap[3] = {0.01, 0.02, 0.03};
+
+  CornerOfPlates()
+  {
+    std::vector<TriangleSoup> plates(3);
+    for (int m = 0; m < 3; m++)
+      for (Vec3 p : floor_mesh(1, 2).corners)
+        plates[m].corners.push_back(m == 0   ? Vec3{0, p.x + 2, p.y + 2}
+                                    : m == 1 ? Vec3{p.x + 2, 0, p.y + 2}
+                                             : Vec3{p.x + 2, p.y + 2, 0});
+    EngineSettings s = hooke(kStiffness);
+    s.records = true;
+    wall = std::make_unique<Wall>(plates, kRadius, s, true);
+    wall->scene->add_sphere({kRadius - kOverlap[0], kRadius - kOverlap[1], kRadius - kOverlap[2]},
+                            kRadius, kMass);
+    wall->scene->add_sphere({2, 2, kRadius - 0.05}, kRadius, kMass);    // on the third alone
+    wall->scene->compute(kStep, true, true);
+  }
+  WallEngine &engine() { return *wall->scene->engine; }
+
+  std::unique_ptr<Wall> wall;
+};
+
+TEST_F(CornerOfPlates, gives_each_plate_its_own_force_and_contacts)
+{
+  for (int m = 0; m < 3; m++) {
+    const WallTotals t = engine().mesh_totals(m);
+    Vec3 expected = {0, 0, 0};
+    expected[m] = -kStiffness * (kOverlap[m] + (m == 2 ? 0.05 : 0));
+    EXPECT_LE(norm(t.force - expected), 1e-8) << m;
+    EXPECT_EQ(t.contacts, m == 2 ? 2 : 1) << m;
+  }
+}
+
+TEST_F(CornerOfPlates, gives_totals_of_all)
+{
+  const WallTotals t = engine().totals();
+  EXPECT_LE(norm(t.force + kStiffness * Vec3{0.01, 0.02, 0.08}), 1e-8);
+  EXPECT_EQ(t.contacts, 4);
+}
+
+TEST_F(CornerOfPlates, gives_one_output_for_a_sphere)
+{
+  ASSERT_EQ(engine().n_touching(), 2);
+  for (int k = 0; k < 2; k++) {
+    const SphereOutput &out = engine().sphere_output()[k];
+    const bool in_corner = engine().touching()[k] == 0;
+    EXPECT_EQ(out.contacts, in_corner ? 3 : 1);
+    EXPECT_LE(norm(out.force - wall->scene->force(engine().touching()[k])), 1e-12);
+  }
+}
+
+TEST_F(CornerOfPlates, names_the_mesh_of_each_record)
+{
+  ASSERT_EQ(engine().n_records(), 4);
+  Real normal[3] = {0, 0, 0};
+  for (int k = 0; k < 4; k++) normal[engine().records()[k].mesh] += engine().records()[k].normal;
+  for (int m = 0; m < 3; m++)
+    EXPECT_NEAR(normal[m], kStiffness * (kOverlap[m] + (m == 2 ? 0.05 : 0)), 1e-8) << m;
+}
+
+// ---- many contacts, and choices that last -------------------------------------------------------
+
+// 40 faces round a sphere touch it at once: more than a kernel's stack has room for.
+TEST(several_meshes, with_more_contacts_than_a_stack_holds_act_as_one)
+{
+  const TriangleSoup soup = faces_all_round(40);
+  EngineSettings s = hooke_history(kStiffness, 3e4, 50, 20, 0.4);
+  s.corner = Corner::sum;
+  Scene one(soup, 1.1, s);
+  Wall wall(dealt(soup, 5), 1.1, s, true);
+  for (Scene *scene : {&one, wall.scene.get()}) {
+    scene->add_sphere({0.01, 0.02, -0.03}, 1.08, kMass, {1, 2, 3}, {3, -1, 2});
+    for (int step = 0; step < 3; step++) move(*scene);
+  }
+  EXPECT_EQ(one.springs.count(0), 40);
+  EXPECT_EQ(wall.scene->springs.count(0), one.springs.count(0));
+  EXPECT_LE(norm(wall.scene->force(0) - one.force(0)), 1e-7);
+  EXPECT_LE(norm(wall.scene->torque(0) - one.torque(0)), 1e-7);
+}
+
+// The forces on spheres that cross a wall in 200 steps, with a choice in every 20th: they come near
+// meshes and leave them, and their springs with them.
+struct Crossing {
+  std::vector<Real> force;
+  int joint = 0;               // spheres with several springs at the end
+  Vec3 on_mesh = {0, 0, 0};    // the force on mesh 1, summed over steps
+
+  explicit Crossing(WallEngine &engine)
+  {
+    constexpr int kSpheres = 400, kSteps = 200, kChoice = 20;
+    std::mt19937_64 random(9);
+    std::uniform_real_distribution<Real> place(-4.5, 4.5), speed(-30, 30);
+    std::vector<Real> x, v, omega, radius(kSpheres, kRadius), mass(kSpheres, kMass),
+        torque(3 * kSpheres);
+    for (int c = 0; c < 3 * kSpheres; c++) {
+      x.push_back(place(random));
+      v.push_back(speed(random));
+      omega.push_back(speed(random));
+    }
+    Spheres spheres;
+    spheres.n = kSpheres;
+    spheres.x = x.data();
+    spheres.v = v.data();
+    spheres.omega = omega.data();
+    spheres.radius = radius.data();
+    spheres.mass = mass.data();
+    StepSettings step;
+    step.dt = kStep;
+    for (int t = 0; t < kSteps; t++) {
+      if (t % kChoice == 0) engine.choose(spheres, kChoice * kStep * 60);
+      std::vector<Real> now(3 * kSpheres, 0);
+      spheres.force = now.data();
+      spheres.torque = torque.data();
+      engine.start(spheres, step);
+      engine.collect();
+      on_mesh += engine.mesh_totals(1).force;
+      force.insert(force.end(), now.begin(), now.end());
+      for (int c = 0; c < 3 * kSpheres; c++) x[c] += kStep * v[c];
+    }
+    SpringStore springs;
+    engine.springs_to(springs, kSpheres);
+    for (int i = 0; i < kSpheres; i++) joint += springs.count(i) > 1;
+  }
+};
+
+TEST(several_meshes, keep_springs_across_choices)
+{
+  const TriangleSoup soup = random_soup(600, 5);
+  const EngineSettings s = hooke_history(kStiffness, 3e4, 50, 20, 0.4);
+  Scene one(soup, kRadius, s);
+  const Wall wall(dealt(soup, 7), kRadius, s, true);
+  const Crossing expected(*one.engine), got(*wall.scene->engine);
+  EXPECT_GT(expected.joint, 20);
+  EXPECT_EQ(got.joint, expected.joint);
+  // Shear displacements add up what places are rounded by, over contacts of up to 200 steps.
+  for (std::size_t c = 0; c < expected.force.size(); c++)
+    ASSERT_NEAR(got.force[c], expected.force[c], 1e-5);
+}
+
+// Sums are over the same spheres in the same order.
+TEST(several_meshes, act_the_same_through_the_adapter_of_a_host)
+{
+  EngineSettings s = hooke_history(kStiffness, 3e4, 50, 20, 0.4);
+  const Wall wall(dealt(random_soup(600, 5), 7), kRadius, s, true);
+  s.meshes = 7;
+  HostAdapter<CpuBackend> adapter(s, host_law(s), CpuBackend());
+  const auto direct = on_cpu(s);
+  wall.put_into(adapter);
+  wall.put_into(*direct);
+  const Crossing expected(*direct), got(adapter);
+  EXPECT_TRUE(same_bytes(got.force, expected.force));
+  EXPECT_EQ(got.joint, expected.joint);
+  EXPECT_GT(norm(expected.on_mesh), 0);
+  EXPECT_EQ(got.on_mesh, expected.on_mesh);
+}
+
+}    // namespace
+}    // namespace lsdcd
