@@ -1,12 +1,11 @@
 """Run a deck with one wall and with another, read what it dumped, compare."""
 import os
 import subprocess
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parent.parent
+from runs import ROOT, environment
 
 DIAMETER = 0.003    # of the spheres in the decks that are compared
 LAWS = {
@@ -31,12 +30,8 @@ def run_deck(deck, folder, ranks=1, **variables):
         command += ["-var", name, str(value)]
     if ranks > 1:
         command = ["mpirun", "-np", str(ranks)] + command
-    # Open MPI's own files apart, so that runs side by side do not remove each other's.
-    with tempfile.TemporaryDirectory(prefix="mpi") as mpi:
-        environment = dict(os.environ, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
-                           OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                           OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_orte_tmpdir_base=mpi)
-        result = subprocess.run(command, cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+    with environment() as env:
+        result = subprocess.run(command, cwd=folder, env=env, stdin=subprocess.DEVNULL,
                                 capture_output=True, text=True)
     if result.returncode:
         log = folder / "log.lammps"

@@ -89,7 +89,7 @@ lsdcd::Spheres FixWallLsdcdKokkos<DeviceType>::spheres()
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::start()
 {
-  if (wall->cutoff() == 0) return;
+  if (cutoff() == 0) return;
   atomKK->sync(execution_space, X_MASK | RADIUS_MASK | MASK_MASK);
   if (history) in_place().grow(atom->nmax);
   try {

@@ -3,13 +3,12 @@
 
 The outline is extruded from y = 0 to LENGTH, which is the period of the deck's box.
 """
-import argparse
 import math
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from stl import write_stl    # noqa: E402
+from stl import options, quad, write_stl    # noqa: E402
 
 
 def outline(radius, n_lifters, height, width, segments):
@@ -33,22 +32,19 @@ def outline(radius, n_lifters, height, width, segments):
 
 
 def main():
-    p = argparse.ArgumentParser(description=__doc__,
-                                formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+    p = options(__doc__)
     p.add_argument("--radius", type=float, default=10)
     p.add_argument("--length", type=float, default=5)
     p.add_argument("--lifters", type=int, default=6)
     p.add_argument("--height", type=float, default=1, help="of a lifter")
     p.add_argument("--width", type=float, default=0.6, help="of a lifter")
     p.add_argument("--segments", type=int, default=96, help="round the drum")
-    p.add_argument("--out", default="drum.stl")
     a = p.parse_args()
     ring = outline(a.radius, a.lifters, a.height, a.width, a.segments)
     triangles = []
     for (x0, z0), (x1, z1) in zip(ring, ring[1:] + ring[:1]):
-        near0, near1, far0, far1 = (x0, 0, z0), (x1, 0, z1), (x0, a.length, z0), (x1, a.length, z1)
-        triangles += [(near0, near1, far1), (near0, far1, far0)]
-    write_stl(a.out, triangles, "drum with lifters, in diameters of grains")
+        triangles += quad((x0, 0, z0), (x1, 0, z1), (x1, a.length, z1), (x0, a.length, z0))
+    write_stl(Path(a.out) / "drum.stl", triangles, "drum with lifters, in diameters of grains")
 
 
 if __name__ == "__main__":

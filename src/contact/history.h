@@ -118,8 +118,8 @@ LSDCD_FN bool is_held(const WallFeaturesView &wall, FeatureCode feature, const V
                       const Springs &old, int n_old)
 {
   for (int k = 0; k < n_old; k++)
-    if (dot(old[k].normal, normal) > kMoved &&
-        (!is_own(old, k) || old[k].feature == feature || are_adjacent(wall, old[k].feature, feature)))
+    if (dot(old[k].normal, normal) > kMoved && (!is_own(old, k) || old[k].feature == feature ||
+                                                are_adjacent(wall, old[k].feature, feature)))
       return true;
   return false;
 }

@@ -12,13 +12,13 @@ namespace lsdcd {
 
 namespace {
 
-void read_mesh(Tokens &w, WallSettings &s)
+void read_mesh(Tokens &w, MeshSettings &s)
 {
   if (w.done()) w.fail("the file name is missing");
-  s.mesh_file = w.take();
+  s.file = w.take();
 }
 
-void note_placement(WallSettings &s, const std::string &tokens)
+void note_placement(MeshSettings &s, const std::string &tokens)
 {
   s.placement_tokens += (s.placement_tokens.empty() ? "" : ", ") + tokens;
 }
@@ -30,7 +30,7 @@ Real nonzero(Tokens &w, const char *what)
   return value;
 }
 
-void read_scale(Tokens &w, WallSettings &s)
+void read_scale(Tokens &w, MeshSettings &s)
 {
   Vec3 f;
   f.x = f.y = f.z = nonzero(w, "the factor");
@@ -44,7 +44,7 @@ void read_scale(Tokens &w, WallSettings &s)
              (f.x == f.y && f.y == f.z ? "" : " " + number_text(f.y) + " " + number_text(f.z)));
 }
 
-void read_rotate(Tokens &w, WallSettings &s)
+void read_rotate(Tokens &w, MeshSettings &s)
 {
   Vec3 axis;
   axis.x = w.number("the axis (x)");
@@ -57,7 +57,7 @@ void read_rotate(Tokens &w, WallSettings &s)
                         number_text(axis.z) + " " + number_text(degrees));
 }
 
-void read_move(Tokens &w, WallSettings &s)
+void read_move(Tokens &w, MeshSettings &s)
 {
   Vec3 shift;
   shift.x = w.number("x");
@@ -89,7 +89,7 @@ void read_tune(Tokens &w, WallSettings &s)
   s.tune = w.number("the largest error", 0, std::nextafter(Real(1), Real(0)));
 }
 
-void read_cache(Tokens &w, WallSettings &s)
+void read_cache(Tokens &w, MeshSettings &s)
 {
   if (w.done()) w.fail("the file name is missing");
   const std::string file = w.take();
@@ -145,7 +145,7 @@ FileEvery read_file_every(Tokens &w, const std::string &end)
   return file;
 }
 
-void read_torque_about(Tokens &w, WallSettings &s)
+void read_torque_about(Tokens &w, MeshSettings &s)
 {
   s.torque_about_mesh = !w.done() && w.peek() == "mesh";
   if (s.torque_about_mesh) w.take();
@@ -155,7 +155,7 @@ void read_torque_about(Tokens &w, WallSettings &s)
   s.torque_about.z = w.number("z");
 }
 
-void read_temperature(Tokens &w, WallSettings &s)
+void read_temperature(Tokens &w, MeshSettings &s)
 {
   s.has_temperature = true;
   if (!w.done() && w.peek().rfind("v_", 0) == 0) {
@@ -185,15 +185,17 @@ void read_cut(Tokens &w, WallSettings &s)
 }
 
 const Keyword kKeywords[] = {
-    {"mesh", "FILE", "", "STL file", "required", "the wall, ASCII or binary STL", read_mesh},
+    {"mesh", "FILE", "", "STL file", "required",
+     "the wall, ASCII or binary STL; more of them, each with its own keywords after it", nullptr,
+     read_mesh},
     {"scale", "s | sx sy sz", "", "not 0", "1",
-     "multiply coordinates; scale, rotate and move act in the order given", read_scale},
+     "multiply coordinates; scale, rotate and move act in the order given", nullptr, read_scale},
     {"rotate", "ax ay az degrees", "degrees", "axis not 0 0 0", "none",
-     "right-handed rotation about an axis through the origin", read_rotate},
-    {"move", "x y z", "length", "", "0 0 0", "shift", read_move},
+     "right-handed rotation about an axis through the origin", nullptr, read_rotate},
+    {"move", "x y z", "length", "", "0 0 0", "shift", nullptr, read_move},
     {"weld", "tol", "length", ">= 0", "1e-6 of the mesh diagonal",
-     "corners closer than this are one vertex; 0: only equal ones",
-     [](Tokens &w, WallSettings &s) { s.weld = w.number("the tolerance", 0); }},
+     "corners closer than this are one vertex; 0: only equal ones", nullptr,
+     [](Tokens &w, MeshSettings &s) { s.weld = w.number("the tolerance", 0); }},
     {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",
      [](Tokens &w, WallSettings &s) {
        s.grid_length = w.number_or("auto", 0, "L", kAboveZero);
@@ -202,8 +204,8 @@ const Keyword kKeywords[] = {
     {"rmax", "R | auto", "length", "> 0", "auto: the largest radius in the group",
      "largest particle radius that the grid is built for",
      [](Tokens &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
-    {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records", "budget for the grid",
-     read_memory},
+    {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records",
+     "budget for the grid of each mesh", read_memory},
     {"nearest", "all | N [exact]", "", "1 to 32", "all",
      "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre; exact: "
      "all where N are not certified to be enough",
@@ -219,7 +221,7 @@ const Keyword kKeywords[] = {
      "force errors below E",
      read_tune},
     {"cache", "FILE | none", "", "", "none",
-     "file that keeps the grid, so that the next start need not build it", read_cache},
+     "file that keeps the grid, so that the next start need not build it", nullptr, read_cache},
     {"corner", "blend | sum", "", "", "blend",
      "contacts at one place share their overlap, or their forces simply add",
      [](Tokens &w, WallSettings &s) {
@@ -232,26 +234,26 @@ const Keyword kKeywords[] = {
      }},
     {"motion", kMotionSyntax, "velocity, length, time", "period > 0", "none",
      "the mesh moves, as fix move's words say; repeated, each acts on what the earlier ones placed",
-     read_motion},
+     nullptr, read_motion},
     {"wiggle", "x|y|z amplitude period", "length, time", "period > 0", "none",
-     "the mesh moves as fix wall/gran's: by A - A cos(2 pi t/period)", read_wiggle},
+     "the mesh moves as fix wall/gran's: by A - A cos(2 pi t/period)", nullptr, read_wiggle},
     {"servo", kServoSyntax, "force or torque, velocity or 1/time, length or radians",
      "vmax > 0, gain > 0, lo <= 0 <= hi", "none",
      "the mesh moves along or turns about an axis so that it pushes the spheres with TARGET, a "
      "number or v_NAME",
-     read_servo},
+     nullptr, read_servo},
     {"shear", "x|y|z v", "velocity", "", "none",
      "the surface moves while the mesh stays, as fix wall/gran's: surface_vel in one direction; v: "
      "a number or v_NAME",
-     read_shear},
+     nullptr, read_shear},
     {"surface_vel", "vx vy vz", "velocity", "", "0 0 0",
      "the surface moves along itself while the mesh stays, as a conveyor's; each a number or "
      "v_NAME",
-     read_surface_vel},
+     nullptr, read_surface_vel},
     {"surface_angvel", "wx wy wz [cx cy cz]", "1/time, length", "", "0 0 0",
      "it turns along itself about an axis through c (the origin), as a roll's; each w a number or "
      "v_NAME",
-     read_surface_angvel},
+     nullptr, read_surface_angvel},
     {"rolling", "cdt MU | epsd2 MU", "", ">= 0", "none",
      "rolling friction of LIGGGHTS: constant torque, or elastic-plastic spring", read_rolling},
     {"cohesion", "sjkr K", "energy/volume", ">= 0", "none",
@@ -261,20 +263,21 @@ const Keyword kKeywords[] = {
     {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",
      "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step, and "
      "a .pvd file lists them all",
-     [](Tokens &w, WallSettings &s) { s.fields = read_file_every(w, ".vtp"); }},
+     nullptr, [](Tokens &w, MeshSettings &s) { s.fields = read_file_every(w, ".vtp"); }},
     {"mesh_stl", "FILE every N", "", "*.stl, N >= 1", "none",
-     "the mesh where it is, as a binary STL, every N steps; * is the step",
-     [](Tokens &w, WallSettings &s) { s.stl = read_file_every(w, ".stl"); }},
+     "the mesh where it is, as a binary STL, every N steps; * is the step", nullptr,
+     [](Tokens &w, MeshSettings &s) { s.stl = read_file_every(w, ".stl"); }},
     {"torque_about", "x y z | mesh [x y z]", "length", "", "0 0 0",
      "the point that f_ID[4] to f_ID[6] are about; mesh: it moves with the mesh and was at x y z "
      "(0 0 0) before",
-     read_torque_about},
+     nullptr, read_torque_about},
     {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
      [](Tokens &w, WallSettings &s) {
        s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));
      }},
     {"temperature", "T | v_NAME", "temperature", "", "none",
-     "of the wall, for the sub-model heat; v_NAME: an equal-style variable", read_temperature},
+     "of the wall, for the sub-model heat; v_NAME: an equal-style variable", nullptr,
+     read_temperature},
     {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
      [](Tokens &, WallSettings &s) { s.contacts = true; }},
     {"periodic", "", "", "", "off",
@@ -297,6 +300,13 @@ const std::vector<Keyword> &keywords()
 {
   static const std::vector<Keyword> all(std::begin(kKeywords), std::end(kKeywords));
   return all;
+}
+
+bool Keyword::repeats() const
+{
+  for (const char *const word : {"scale", "rotate", "move", "motion"})
+    if (word == std::string(name)) return true;
+  return false;
 }
 
 std::string syntax_of(const Keyword &row)

@@ -9,6 +9,7 @@
 
 namespace lsdcd {
 
+// Either of the wall, or of the mesh before it.
 struct Keyword {
   const char *name;
   const char *values;
@@ -16,7 +17,10 @@ struct Keyword {
   const char *range;
   const char *fallback;
   const char *help;
-  void (*read)(Tokens &, WallSettings &);
+  void (*read)(Tokens &, WallSettings &);                      // null: of a mesh
+  void (*read_of_mesh)(Tokens &, MeshSettings &) = nullptr;    // null: of the wall
+
+  bool repeats() const;    // may it be given more than once?
 };
 
 const std::vector<Keyword> &keywords();

@@ -21,15 +21,15 @@ void read_every(Tokens &w, MassflowSettings &s)
   if (s.every != n) w.fail("N must be a whole number");
 }
 
-// True where the word is one of a wall's that mean the same here.
-bool read_as_wall(const std::string &word, Tokens &w, MassflowSettings &s)
+// True where the word is one of a wall's mesh that means the same here.
+bool read_as_mesh(const std::string &word, Tokens &w, MassflowSettings &s)
 {
-  for (const char *const shared : {"mesh", "scale", "rotate", "move", "weld", "log"})
+  for (const char *const shared : {"mesh", "scale", "rotate", "move", "weld"})
     if (word == shared)
       for (const Keyword &row : keywords())
         if (word == row.name) {
           w.expect(row.name, syntax_of(row));
-          row.read(w, s.surface);
+          row.read_of_mesh(w, s.surface);
           return true;
         }
   return false;
@@ -49,10 +49,13 @@ MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
     seen.push_back(word);
     w.expect("fix massflow/lsdcd", kSyntax);
     if (twice) w.fail("the keyword '" + word + "' is given twice");
-    if (read_as_wall(word, w, settings)) continue;
+    if (read_as_mesh(word, w, settings)) continue;
     if (word == "count") {
       w.expect("count", "count each | once");
       settings.once = w.choice({"each", "once"}) == 1;
+    } else if (word == "log") {
+      w.expect("log", "log full | brief");
+      settings.brief = w.choice({"full", "brief"}) == 1;
     } else if (word == "delete") {
       w.expect("delete", "delete no | yes");
       settings.deletes = w.choice({"no", "yes"}) == 1;
@@ -64,7 +67,7 @@ MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
     }
   }
   w.expect("fix massflow/lsdcd", kSyntax);
-  if (settings.surface.mesh_file.empty()) w.fail("mesh FILE is missing");
+  if (settings.surface.file.empty()) w.fail("mesh FILE is missing");
   return settings;
 }
 

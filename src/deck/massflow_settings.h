@@ -9,7 +9,8 @@
 namespace lsdcd {
 
 struct MassflowSettings {
-  WallSettings surface;    // file, placement, weld and log, as a wall has them
+  MeshSettings surface;    // file, placement and weld, as a mesh of a wall has them
+  bool brief = false;      // one line in the log
   bool once = false;       // a sphere counts the first time only
   bool deletes = false;    // what has passed forward
   int every = 1000;        // steps over which the rate is an average

@@ -67,7 +67,7 @@ void read_variables(Tokens &w, MotionTerm &m)
     w.fail("all variables are NULL, and nothing moves");
 }
 
-void note_motion(WallSettings &s, const std::string &tokens)
+void note_motion(MeshSettings &s, const std::string &tokens)
 {
   s.motion_tokens += (s.motion_tokens.empty() ? "" : ", ") + tokens;
 }
@@ -113,34 +113,34 @@ Real number_or_variable(Tokens &w, const char *what, std::string &variable)
 
 }    // namespace
 
-void read_surface_vel(Tokens &w, WallSettings &s)
+void read_surface_vel(Tokens &w, MeshSettings &s)
 {
   const char *const names[] = {"vx", "vy", "vz"};
   for (int d = 0; d < 3; d++)
     s.surface.velocity[d] = number_or_variable(w, names[d], s.surface_variable[d]);
 }
 
-void read_shear(Tokens &w, WallSettings &s)
+void read_shear(Tokens &w, MeshSettings &s)
 {
   const int d = w.choice({"x", "y", "z"});
   s.surface.velocity[d] = number_or_variable(w, "the speed", s.surface_variable[d]);
 }
 
-void read_motion(Tokens &w, WallSettings &s)
+void read_motion(Tokens &w, MeshSettings &s)
 {
   const std::size_t first = w.at();
   s.motion.add(read_motion_term(w));
   note_motion(s, w.between(first));
 }
 
-void read_wiggle(Tokens &w, WallSettings &s)
+void read_wiggle(Tokens &w, MeshSettings &s)
 {
   const std::size_t first = w.at();
   s.motion.add(read_wiggle_term(w));
   note_motion(s, "wiggle " + w.between(first));
 }
 
-void read_surface_angvel(Tokens &w, WallSettings &s)
+void read_surface_angvel(Tokens &w, MeshSettings &s)
 {
   const char *const names[] = {"wx", "wy", "wz"};
   for (int d = 0; d < 3; d++)

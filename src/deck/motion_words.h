@@ -12,11 +12,11 @@ namespace lsdcd {
 extern const char *const kMotionSyntax;    // what may follow the word motion
 
 // What follows a keyword of the fix. They throw InputError.
-void read_motion(Tokens &w, WallSettings &s);
-void read_wiggle(Tokens &w, WallSettings &s);    // those of fix wall/gran: cosine,
-void read_shear(Tokens &w, WallSettings &s);     // and a velocity of a wall that stays where it is
-void read_surface_vel(Tokens &w, WallSettings &s);
-void read_surface_angvel(Tokens &w, WallSettings &s);
+void read_motion(Tokens &w, MeshSettings &s);
+void read_wiggle(Tokens &w, MeshSettings &s);    // those of fix wall/gran: cosine,
+void read_shear(Tokens &w, MeshSettings &s);     // and a velocity of a wall that stays where it is
+void read_surface_vel(Tokens &w, MeshSettings &s);
+void read_surface_angvel(Tokens &w, MeshSettings &s);
 
 // `fix_modify ID motion ... [motion ...]`, or `motion none`. `taken`: how many words that is.
 struct ModifiedMotion {

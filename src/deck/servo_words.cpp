@@ -82,7 +82,7 @@ Servo read_one_servo(Tokens &w)
 
 }    // namespace
 
-void read_servo(Tokens &w, WallSettings &s)
+void read_servo(Tokens &w, MeshSettings &s)
 {
   const std::size_t first = w.at();
   s.motion.servo() = read_one_servo(w);

@@ -137,6 +137,104 @@ std::string answer_to(const std::string &word, bool granular)
   throw InputError(wrong + "; those are " + all);
 }
 
+// A keyword of a mesh is of the last one before it. Of a wall with one mesh it may stand before
+// that, too.
+void read_keywords(Tokens &w, WallSettings &settings, bool granular)
+{
+  std::vector<std::string> seen, seen_of_mesh, names;
+  std::string early;    // the first keyword of a mesh before any
+  for (const Keyword &row : keywords()) names.push_back(row.name);
+  settings.meshes.resize(1);
+  while (!w.done()) {
+    const std::string word = w.take();
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) refuse_keyword(word, names, granular);
+    const Keyword &row = keywords()[found - names.begin()];
+    w.expect(row.name, syntax_of(row));
+    const bool next = word == "mesh" && !settings.meshes.back().file.empty();
+    if (next && !early.empty())
+      w.fail("there are several, and '" + early +
+             "' comes before the first: keywords of a mesh stand after its mesh FILE");
+    if (next) {
+      settings.meshes.emplace_back();
+      seen_of_mesh.clear();
+    }
+    std::vector<std::string> &given = row.read ? seen : seen_of_mesh;
+    if (!row.repeats() && std::count(given.begin(), given.end(), word))
+      w.fail("the keyword is given twice");
+    given.push_back(word);
+    if (row.read) {
+      row.read(w, settings);
+      continue;
+    }
+    if (word != "mesh" && early.empty() && settings.meshes[0].file.empty()) early = word;
+    row.read_of_mesh(w, settings.meshes.back());
+    if (word == "surface_vel" || word == "shear")
+      if (std::count(given.begin(), given.end(), "shear") &&
+          std::count(given.begin(), given.end(), "surface_vel")) {
+        w.expect("shear", "shear x|y|z v");
+        w.fail("there is a surface_vel, too, which says the same: give one of them");
+      }
+  }
+}
+
+// "mesh 2 'lid.stl'", of a wall with several.
+std::string name_of_mesh(const WallSettings &s, std::size_t k)
+{
+  return "mesh " + std::to_string(k + 1) + " '" + s.meshes[k].file + "'";
+}
+
+// What mesh k has that is that of an earlier one, and would be lost or felt twice.
+void check_apart(Tokens &w, const WallSettings &s, std::size_t k)
+{
+  const MeshSettings &mesh = s.meshes[k];
+  for (std::size_t i = 0; i < k; i++) {
+    const MeshSettings &other = s.meshes[i];
+    const std::string both = name_of_mesh(s, i) + " and " + name_of_mesh(s, k);
+    if (mesh.file == other.file && mesh.placement == other.placement &&
+        mesh.motion_tokens == other.motion_tokens && mesh.servo_tokens == other.servo_tokens) {
+      w.expect("mesh", "mesh FILE");
+      w.fail(
+          both +
+          " are the same file at the same place, and every contact would be felt twice: leave one "
+          "out, or move it");
+    }
+    const struct {
+      const char *keyword;
+      const std::string &name, &of_other;
+    } files[] = {{"mesh_fields", mesh.fields.name, other.fields.name},
+                 {"mesh_stl", mesh.stl.name, other.stl.name},
+                 {"cache", mesh.cache_file, other.cache_file}};
+    for (const auto &file : files)
+      if (!file.name.empty() && file.name == file.of_other) {
+        w.expect(file.keyword, std::string(file.keyword) + " FILE");
+        w.fail(both + " have the same file '" + file.name +
+               "', and one would replace that of the other: give each a name of its own");
+      }
+  }
+}
+
+void check_meshes(Tokens &w, const WallSettings &s)
+{
+  const bool several = s.meshes.size() > 1;
+  if (s.meshes.size() > kMostMeshes)
+    w.fail("there are " + std::to_string(s.meshes.size()) + " meshes, and at most " +
+           std::to_string(kMostMeshes) +
+           " can be in one fix: put those that never come near one another into one STL file, or "
+           "into another fix");
+  for (std::size_t k = 0; k < s.meshes.size(); k++) {
+    const bool has = s.meshes[k].has_temperature;
+    const std::string of = several ? " of " + name_of_mesh(s, k) : "";
+    w.expect("temperature", "granular ... heat radius|area ... mesh FILE temperature T|v_NAME");
+    if (s.law.has_heat() && !has)
+      w.fail((several ? "the temperature" + of : "the wall's temperature") +
+             " is missing, which the sub-model heat needs");
+    if (has && !s.law.has_heat())
+      w.fail("a temperature" + of + " is given, but no sub-model heat uses it");
+    check_apart(w, s, k);
+  }
+}
+
 }    // namespace
 
 WallSettings parse_settings(const std::vector<std::string> &tokens)
@@ -144,34 +242,11 @@ WallSettings parse_settings(const std::vector<std::string> &tokens)
   WallSettings settings;
   Tokens w(tokens);
   read_law(w, settings);
-
-  std::vector<std::string> seen, names;
-  for (const Keyword &row : keywords()) names.push_back(row.name);
   const bool granular = settings.law.style == LawStyle::granular;
-  while (!w.done()) {
-    const std::string word = w.take();
-    const auto found = std::find(names.begin(), names.end(), word);
-    if (found == names.end()) refuse_keyword(word, names, granular);
-    const Keyword &row = keywords()[found - names.begin()];
-    w.expect(row.name, syntax_of(row));
-    const bool repeats = word == "scale" || word == "rotate" || word == "move" || word == "motion";
-    if (!repeats && std::find(seen.begin(), seen.end(), word) != seen.end())
-      w.fail("the keyword is given twice");
-    seen.push_back(word);
-    row.read(w, settings);
-  }
+  read_keywords(w, settings, granular);
   w.expect("fix wall/lsdcd", granular ? granular_syntax() : kLawSyntax);
-  if (settings.mesh_file.empty()) w.fail("mesh FILE is missing");
-  if (std::count(seen.begin(), seen.end(), "shear") &&
-      std::count(seen.begin(), seen.end(), "surface_vel")) {
-    w.expect("shear", "shear x|y|z v");
-    w.fail("there is a surface_vel, too, which says the same: give one of them");
-  }
-  w.expect("temperature", "granular ... heat radius|area ... mesh FILE temperature T|v_NAME");
-  if (settings.law.has_heat() && !settings.has_temperature)
-    w.fail("the wall's temperature is missing, which the sub-model heat needs");
-  if (settings.has_temperature && !settings.law.has_heat())
-    w.fail("a temperature is given, but no sub-model heat uses it");
+  if (settings.meshes[0].file.empty()) w.fail("mesh FILE is missing");
+  check_meshes(w, settings);
   check_tune(w, settings);
   return settings;
 }

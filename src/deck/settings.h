@@ -18,38 +18,50 @@ struct FileEvery {
   int every = 0;    // steps; 0: no file
 };
 
-struct WallSettings {
-  ContactLaw law;          // NULLs resolved; hertz stiffnesses still in pressure units
-  std::string law_name;    // its style; with `granular`, all its words
-  bool has_temperature = false;
-  Real temperature = 0;                // of the wall, where the law has heat
-  std::string temperature_variable;    // its name, where it is a variable
-  std::string mesh_file;
+// One mesh of a wall: what may differ from mesh to mesh.
+struct MeshSettings {
+  std::string file;
   Placement placement;
   std::string placement_tokens;    // for the log: "scale 0.001, move 0 0 1"
   Real weld = -1;                  // length; < 0: kDefaultWeld of the diagonal
-  Real grid_length = 0;            // length; 0: auto
-  Real rmax = 0;                   // length; 0: auto
-  int nearest = 0;                 // primitives of wall per cell; 0: all
-  bool exact = false;              // nearest falls back to complete lists
-  Real tune = -1;                  // largest error that settings may have; < 0: nothing is tuned
-  bool length_given = false, nearest_given = false, precision_given = false;    // not tuned
-  std::size_t memory_budget = GridSettings().memory_budget;                     // bytes
-  Corner corner = Corner::blend;
-  Side side = Side::both;
-  Precision precision = Precision::double_;
+  bool has_temperature = false;
+  Real temperature = 0;                // where the law has heat
+  std::string temperature_variable;    // its name, where it is a variable
   SurfaceMotion surface;
   std::string surface_variable[6];    // in place of its velocity and angular velocity; empty: none
   WallMotion motion;
-  std::string motion_tokens;        // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
-  std::string servo_tokens;         // "force z 100 vmax 0.1"
-  Vec3 torque_about = {0, 0, 0};    // length; a point of the box, or of the mesh
+  std::string motion_tokens;    // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
+  std::string servo_tokens;     // "force z 100 vmax 0.1"
   bool torque_about_mesh = false;
-  Wear wear;           // K and H in pressure units
-  FileEvery stl;       // of the mesh where it is
-  FileEvery fields;    // of numbers per triangle
+  Vec3 torque_about = {0, 0, 0};    // length; a point of the box, or of the mesh
+  FileEvery stl;                    // of the mesh where it is
+  FileEvery fields;                 // of numbers per triangle
+  std::string cache_file;           // empty: none
+
+  bool surface_varies() const
+  {
+    for (const std::string &name : surface_variable)
+      if (!name.empty()) return true;
+    return false;
+  }
+};
+
+struct WallSettings {
+  std::vector<MeshSettings> meshes;
+  ContactLaw law;          // NULLs resolved; hertz stiffnesses still in pressure units
+  std::string law_name;    // its style; with `granular`, all its words
+  Real grid_length = 0;    // length; 0: auto
+  Real rmax = 0;           // length; 0: auto
+  int nearest = 0;         // primitives of wall per cell; 0: all
+  bool exact = false;      // nearest falls back to complete lists
+  Real tune = -1;          // largest error that settings may have; < 0: nothing is tuned
+  bool length_given = false, nearest_given = false, precision_given = false;    // not tuned
+  std::size_t memory_budget = GridSettings().memory_budget;    // bytes, for each mesh
+  Corner corner = Corner::blend;
+  Side side = Side::both;
+  Precision precision = Precision::double_;
+  Wear wear;    // K and H in pressure units
   Device device = Device::automatic;
-  std::string cache_file;    // empty: none
   bool contacts = false;
   bool periodic = false;
   bool brief = false;    // one line in the log
@@ -59,14 +71,21 @@ struct WallSettings {
   Vec3 cut_normal = {0, 0, 0};
   Real cut_offset = 0;
 
-  bool wears() const { return wear.model != WearModel::none; }
-  bool surface_varies() const
+  // As the engine sees it: meshes can move apart.
+  bool moves() const
   {
-    for (const std::string &name : surface_variable)
-      if (!name.empty()) return true;
+    for (const MeshSettings &mesh : meshes)
+      if (mesh.motion.any() || mesh.surface_varies()) return true;
+    return meshes.size() > 1;
+  }
+  bool wears() const { return wear.model != WearModel::none; }
+  bool has_loads(const MeshSettings &mesh) const { return wears() || mesh.fields.every > 0; }
+  bool has_loads() const
+  {
+    for (const MeshSettings &mesh : meshes)
+      if (has_loads(mesh)) return true;
     return false;
   }
-  bool has_loads() const { return wears() || fields.every > 0; }
 };
 
 // `words` begin with FSTYLE. Throws InputError that names the word, what was

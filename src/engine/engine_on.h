@@ -27,8 +27,7 @@ class EngineOn : public InPlaceEngine {
   {
     if (settings.precision == Precision::single_ && !has_single(settings))
       throw InputError("precision single has neither granular, rolling, cohesion, a moving surface "
-                       "or mesh, wear "
-                       "nor mesh_fields: use mixed or double");
+                       "or mesh, several meshes, wear nor mesh_fields: use mixed or double");
     clear_diagnostics(StepCounts());
     unlock_lanes();
   }

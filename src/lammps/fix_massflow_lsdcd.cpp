@@ -30,10 +30,10 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
     const lsdcd::WallMesh mesh = read_mesh();
     surface = std::make_unique<lsdcd::FlowSurface>(mesh);
     if (comm->me == 0)
-      utils::logmesg(lmp, signed_text(settings.surface.brief
-                                          ? std::to_string(mesh.faces.size()) + " triangles"
-                                          : describe(mesh.report, settings.surface.mesh_file)) +
-                              "\n");
+      utils::logmesg(lmp,
+                     signed_text(settings.brief ? std::to_string(mesh.faces.size()) + " triangles"
+                                                : describe(mesh.report, settings.surface.file)) +
+                         "\n");
     if (mesh.report.misoriented_edges > 0)
       warn(
           std::to_string(mesh.report.misoriented_edges) +
@@ -87,9 +87,9 @@ FixMassflowLsdcd::~FixMassflowLsdcd()
 lsdcd::WallMesh FixMassflowLsdcd::read_mesh()
 {
   lsdcd::TriangleSoup soup;
-  soup.source = settings.surface.mesh_file;
+  soup.source = settings.surface.file;
   lsdcd::together(world, comm->me == 0, [&] {
-    soup = lsdcd::read_stl(settings.surface.mesh_file);
+    soup = lsdcd::read_stl(settings.surface.file);
     settings.surface.placement.apply(soup);
   });
   bigint corners = soup.corners.size();

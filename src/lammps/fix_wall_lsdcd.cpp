@@ -1,6 +1,6 @@
 #include "lammps/fix_wall_lsdcd.h"
 
-#include "base/input_words.h"
+#include "base/input_error.h"
 #include "lammps/mpi_material.h"
 
 #include "atom.h"
@@ -34,7 +34,6 @@ class Respa {
 }    // namespace LAMMPS_NS
 
 static constexpr int kContactColumns = 8;
-static constexpr double kHeadroom = 1.1;    // in cutoff, once radii are known to grow
 
 FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker) :
     Fix(lmp, narg, arg), new_engine(maker)
@@ -64,12 +63,14 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     }
     settings.wear.per_work *= force->nktv2p;
     settings.law.added.cohesion /= force->nktv2p;
-    wall = std::make_unique<lsdcd::SharedWall>(world, settings);
-    check_side();
-    check_plane();
     run_clock = {update->atime + (update->ntimestep - update->atimestep) * update->dt,
                  update->ntimestep, update->ntimestep, update->dt};
-    begin_motion();
+    for (std::size_t k = 0; k < settings.meshes.size(); k++) {
+      MeshPart &m = parts.emplace_back(world, settings, static_cast<int>(k));
+      check_side(m);
+      check_plane(m);
+      begin_motion(m);
+    }
 
     make_engine();
   } catch (const lsdcd::InputError &e) {
@@ -79,27 +80,31 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   history = settings.law.has_history();
   springs = lsdcd::SpringStore(settings.law.n_extra());
   records = settings.has_loads();
-  restart_global = records || settings.motion.any();
-  // Of either file; end_of_step() knows which.
-  if (settings.fields.every > 0 || settings.stl.every > 0)
-    nevery = std::gcd(settings.fields.every, settings.stl.every);
+  restart_global = records || any_moves() || several();
+  // Of any file; end_of_step() knows which.
+  int every = 0;
+  for (const MeshPart &m : parts)
+    every = std::gcd(every, std::gcd(m.settings.fields.every, m.settings.stl.every));
+  if (every > 0) nevery = every;
   create_attribute = history || settings.contacts;
   restart_peratom = history;
   maxexchange_dynamic = history || settings.contacts;
   dynamic_group_allow = 1;
 
   scalar_flag = vector_flag = 1;
-  size_vector = kVector;
+  array_flag = several();    // F_ID[1] of an atom-style variable is its column in 29Sep2021
+  size_vector = size_array_cols = kVector;
+  size_array_rows = static_cast<int>(parts.size());
   global_freq = 1;
   extscalar = 1;
   extvector = -1;
+  extarray = 0;
   extlist = new int[kVector + kServo];
   std::fill(extlist, extlist + kVector + kServo, 1);
   extlist[7] = 0;    // the largest overlap is not a sum
   show_servo();
   energy_global_flag = 1;
-  energy = power = 0;
-  std::fill(totals, totals + kTotals, 0.0);
+  virial_global_flag = 1;
 
   if (settings.contacts) {
     peratom_flag = 1;
@@ -111,10 +116,12 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   MPI_Allreduce(MPI_IN_PLACE, &radius, 1, MPI_DOUBLE, MPI_MAX, world);
   if (settings.rmax > 0) radius = settings.rmax;
   log_creation();
-  check_scale();
-  check_periodic();
-  if (radius > 0) check_box(lsdcd::cutoff_of(settings.law, radius));
-  check_surface();
+  for (const MeshPart &m : parts) {
+    check_scale(m);
+    check_periodic(m);
+    if (radius > 0) check_box(m, lsdcd::cutoff_of(settings.law, radius));
+    check_surface(m);
+  }
 
   // Last: Atom would call a fix that was refused after this.
   if (history || settings.contacts) {
@@ -141,7 +148,7 @@ FixWallLsdcd::~FixWallLsdcd()
 int FixWallLsdcd::setmask()
 {
   return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN | PRE_EXCHANGE |
-         (settings.fields.every > 0 || settings.stl.every > 0 ? END_OF_STEP : 0);
+         (nevery > 0 ? END_OF_STEP : 0);
 }
 
 void FixWallLsdcd::init()
@@ -153,11 +160,15 @@ void FixWallLsdcd::init()
     if (std::strncmp(modify->fix[i]->style, "adapt", 5) == 0) adapts = true;
   }
   if (!rigid) std::vector<double>().swap(mass_seen);
-  if (wall->cutoff() > 0) check_box(wall->cutoff());
+  for (const MeshPart &m : parts)
+    if (cutoff() > 0) check_box(m, cutoff());
   if (settings.law.has_heat()) check_heat();
+  make_engine_with_virial();
   check_variables();
-  check_file("mesh_fields", settings.fields);
-  check_file("mesh_stl", settings.stl);
+  for (const MeshPart &m : parts) {
+    check_file(m, "mesh_fields", m.settings.fields);
+    check_file(m, "mesh_stl", m.settings.stl);
+  }
   file_warned = false;
 }
 
@@ -168,8 +179,9 @@ void FixWallLsdcd::setup_pre_force_respa(int /*vflag*/, int ilevel)
   nlevels_respa = ilevel + 1;
 }
 
-void FixWallLsdcd::setup(int /*vflag*/)
+void FixWallLsdcd::setup(int vflag)
 {
+  v_init(vflag);
   list_is_old = true;
   set_up_at = update->ntimestep;
   prepare_springs();
@@ -181,6 +193,7 @@ void FixWallLsdcd::setup(int /*vflag*/)
   if (nlevels_respa) respa->copy_flevel_f(outer);
   begin_step(true);
   collect();
+  check_inserted();
   if (nlevels_respa) respa->copy_f_flevel(outer);
 }
 
@@ -210,8 +223,9 @@ void FixWallLsdcd::make_exchange_room()
 }
 
 // Radii may have been set before a run that has no setup.
-void FixWallLsdcd::pre_force(int /*vflag*/)
+void FixWallLsdcd::pre_force(int vflag)
 {
+  v_init(vflag);
   if (neighbor->ago == 0 && callbacks) ask_for_most_room();
   const bool anew = neighbor->ago == 0 ||
                     (update->ntimestep == update->firststep + 1 && set_up_at != update->firststep);
@@ -227,6 +241,7 @@ void FixWallLsdcd::post_force(int /*vflag*/)
 {
   if (adapts) begin_step(true);
   collect();
+  check_inserted();
 }
 
 void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
@@ -246,11 +261,13 @@ void FixWallLsdcd::begin_step(bool look)
   else if (domain->box_change)
     follow_box();
   check_moving_box();
-  if (engine_moves) engine->place_wall(pose);
+  for (const MeshPart &m : parts)
+    if (engine_moves) engine->place_wall(m.pose, m.index);
   if (rigid) fill_masses();
   if (update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != checked_atoms))) {
     check_timestep();
     look_at_servo_spheres();
+    may_be_new = true;
   }
   start();
 }
@@ -265,213 +282,4 @@ void FixWallLsdcd::post_run()
   log_rebuilds();
   log_lists();
   if (settings.nearest > 0) log_uncertified();
-}
-
-lsdcd::StepSettings FixWallLsdcd::step_settings(lsdcd::Spheres &spheres)
-{
-  lsdcd::StepSettings step;
-  step.dt = update->dt;
-  step.update_history = !update->setupflag;
-  step.per_sphere = settings.contacts;
-  if (settings.surface_varies()) step.surface = &surface;
-  if (settings.law.has_heat()) give_heat(spheres, step);
-  return step;
-}
-
-lsdcd::Spheres FixWallLsdcd::spheres()
-{
-  lsdcd::Spheres s;
-  s.n = atom->nlocal;
-  if (s.n) {
-    s.x = atom->x[0];
-    s.v = atom->v[0];
-    s.omega = atom->omega[0];
-    s.force = atom->f[0];
-    s.torque = atom->torque[0];
-  }
-  s.radius = atom->radius;
-  s.mass = rigid ? mass_seen.data() : atom->rmass;
-  s.mask = igroup ? atom->mask : nullptr;
-  s.group_bit = groupbit;
-  return s;
-}
-
-// Does LAMMPS reneighbour before any atom has gone farther than half the skin? Elsewhere the
-// engine looks at all atoms in every step.
-bool FixWallLsdcd::list_keeps() const
-{
-  return spheres_stay_close() && !group->dynamic[igroup];
-}
-
-void FixWallLsdcd::choose_if_due(const lsdcd::Spheres &s)
-{
-  if (history) springs_to_engine();
-  const bool keeps = list_keeps(),
-             watches = !keeps && !group->dynamic[igroup] && neighbor->skin > 0;
-  // Half the skin is for atoms. One that had gone so far since LAMMPS reneighboured may come back
-  // and go as far on the other side. As much again is for a wall that moves.
-  const double half = 0.5 * neighbor->skin, for_wall = settings.motion.any() ? half : 0;
-  if (!list_is_old && (keeps ? !wall_has_gone(for_wall) : watches && !engine->has_moved(s))) return;
-  const double for_atoms = keeps && neighbor->ago > 0 ? 2 * half : half;
-  engine->choose(s, keeps || watches ? for_atoms + for_wall : 0.0, watches);
-  chosen_pose = pose;
-  list_is_old = false;
-  choices++;
-}
-
-void FixWallLsdcd::start()
-{
-  if (wall->cutoff() == 0) return;    // no spheres yet
-
-  lsdcd::Spheres s = spheres();
-  const lsdcd::StepSettings step = step_settings(s);
-  try {
-    choose_if_due(s);
-    engine->start(s, step);
-  } catch (const std::exception &e) {
-    stop(e);
-  }
-  running = true;
-}
-
-void FixWallLsdcd::collect()
-{
-  if (running) {
-    try {
-      engine->collect();
-    } catch (const std::exception &e) {
-      stop(e);
-    }
-    running = false;
-    n_with_springs = atom->nlocal;
-    steps_run++;
-  }
-  keep_outputs();
-}
-
-// What steps have noted, for warnings and the log.
-void FixWallLsdcd::look()
-{
-  if (wall->cutoff() == 0) return;
-  try {
-    const lsdcd::StepDiagnostics diagnostics = engine->read_diagnostics();
-    uncertified_sum += diagnostics.uncertified;
-    worst_uncertain = std::max(worst_uncertain, diagnostics.uncertain);
-    lists += diagnostics.lists;
-    listed += diagnostics.listed;
-    by_cells += diagnostics.by_cells;
-    if (diagnostics.deepest <= worst_overlap) return;
-    worst_overlap = diagnostics.deepest;
-    worst_step = update->ntimestep;
-    if (!overlap_warned && diagnostics.deepest > kLargeOverlap)
-      worst_tag = tag_of(diagnostics.deepest_sphere);
-  } catch (const std::exception &e) {
-    stop(e);
-  }
-}
-
-// Of the step just computed.
-void FixWallLsdcd::keep_outputs()
-{
-  reduced = false;
-  if (records) add_loads();
-  if (settings.contacts) fill_contacts();
-}
-
-lsdcd::EngineSettings FixWallLsdcd::engine_settings() const
-{
-  lsdcd::EngineSettings want;
-  want.law = settings.law;
-  want.corner = settings.corner;
-  want.side = settings.side;
-  want.precision = settings.precision;
-  want.surface = settings.surface;
-  want.moves = moves_or_varies();
-  want.records = settings.has_loads();
-  want.wear = settings.wear.model;
-  want.device = settings.device;
-  want.device_rank = wall->shared().node_rank();
-  return want;
-}
-
-// Collective, and again where tuning has changed the precision.
-void FixWallLsdcd::make_engine()
-{
-  const lsdcd::EngineSettings want = engine_settings();
-  engine_moves = want.moves;
-  lsdcd::together(world, true, [&] { engine = new_engine(want); });
-}
-
-// Builds the grid when the first spheres come, and again when larger ones do or the box has
-// changed.
-void FixWallLsdcd::update_cutoff()
-{
-  double most[2] = {largest_radius(), worst_overlap};
-  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
-  check_overlap(most[1]);
-
-  const double radius = most[0], old = wall->cutoff();
-  const auto cutoff_of = [this](double r) { return lsdcd::cutoff_of(settings.law, r); };
-  if (radius == 0) return;
-  if (cutoff_of(radius) <= old) {
-    follow_box();
-    return;
-  }
-  if (settings.rmax > 0 && radius > settings.rmax)
-    refuse("atom " + std::to_string(tag_of_radius(radius)) + " has radius " +
-           lsdcd::number_text(radius) + ", more than rmax " + lsdcd::number_text(settings.rmax) +
-           ": raise rmax or use rmax auto");
-
-  rebuild(cutoff_of(settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius)));
-}
-
-// The wall acts through periodic faces by images of its triangles, and the grid is there where
-// spheres can be: both are those of a box. Collective where the box has changed.
-void FixWallLsdcd::follow_box()
-{
-  if (wall->cutoff() > 0 && !wall->fits(mesh_box())) rebuild(wall->cutoff());
-}
-
-void FixWallLsdcd::rebuild(double cutoff)
-{
-  const double old = wall->cutoff();
-  list_is_old = true;
-  if (old > 0) {
-    springs_to_host();
-    // Images get other numbers: a spring on one goes to what that is an image of.
-    const lsdcd::WallFeaturesView features = wall->view().wall;
-    if (history && wall->has_images())
-      springs.rename_features(
-          [&](int /*mesh*/, lsdcd::FeatureCode f) { return lsdcd::own_feature(features, f); });
-  }
-  check_box(cutoff);
-  try {
-    if (settings.tune >= 0 && old == 0) tune(cutoff);
-    wall->build(cutoff, mesh_box());
-    lsdcd::together(world, true, [&] { engine->set_grid(wall->view()); });
-  } catch (const lsdcd::InputError &e) {
-    refuse(e.what());
-  }
-  if (cutoff == old) box_rebuilds++;
-  check_within_cutoff();
-  log_build(old);
-  check_ends(cutoff == old);
-}
-
-// What damping sees of an atom in a rigid body is the mass of the body.
-void FixWallLsdcd::fill_masses()
-{
-  need_on_host();
-  const int nlocal = atom->nlocal;
-  mass_seen.assign(atom->rmass, atom->rmass + nlocal);
-  for (int k = 0; k < modify->nfix; k++) {
-    Fix *fix = modify->fix[k];
-    if (!fix->rigid_flag) continue;
-    int dim;
-    const int *body = (const int *) fix->extract("body", dim);
-    const double *mass = (const double *) fix->extract("masstotal", dim);
-    if (!body || !mass) continue;
-    for (int i = 0; i < nlocal; i++)
-      if (body[i] >= 0 && mass[body[i]] > 0.0) mass_seen[i] = mass[body[i]];
-  }
 }

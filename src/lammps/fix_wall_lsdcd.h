@@ -1,13 +1,12 @@
-// fix wall/lsdcd: forces of a triangle mesh on spheres, in LAMMPS's schedule.
+// fix wall/lsdcd: forces of triangle meshes on spheres, in LAMMPS's schedule.
 #ifndef LMP_FIX_WALL_LSDCD_H
 #define LMP_FIX_WALL_LSDCD_H
 
 #include "fix.h"
 
-#include "lammps/mpi_wall.h"
-#include "output/file_series.h"
-#include "output/wall_loads.h"
+#include "lammps/mesh_part.h"
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -53,23 +52,22 @@ class FixWallLsdcd : public Fix {
   // outputs: fix_wall_lsdcd_output.cpp
   double compute_scalar() override;
   double compute_vector(int) override;
+  double compute_array(int, int) override;
   double memory_usage() override;
   int image(int *&, double **&) override;
 
-  int modify_param(int, char **) override;    // fix_wall_lsdcd_motion.cpp
+  int modify_param(int, char **) override;    // fix_wall_lsdcd_modify.cpp
 
  protected:
-  lsdcd::WallSettings settings;
-  std::string material;    // what a material file filled in, for the log; else empty
-  std::unique_ptr<lsdcd::SharedWall> wall;
+  lsdcd::WallSettings settings;    // of the deck; parts have those of its meshes
+  std::string material;            // what a material file filled in, for the log; else empty
+  std::deque<MeshPart> parts;      // where each stays; there is one at least
   EngineMaker *const new_engine;
   std::unique_ptr<lsdcd::WallEngine> engine;
   lsdcd::SpringStore springs;
-  lsdcd::WallLoads loads;
   bool history, records;
-  std::unique_ptr<lsdcd::FileSeries> series;    // of mesh_fields; on the first process
-  bool continued = false;                       // from a restart file
-  bool file_warned = false;                     // in this run
+  bool continued = false;      // from a restart file
+  bool file_warned = false;    // in this run
   // Springs are with the engine from step to step, and here where LAMMPS moves atoms.
   enum class Where { host, engine };
   Where springs_are = Where::host;
@@ -97,40 +95,30 @@ class FixWallLsdcd : public Fix {
   bigint uncertified_due = 0;    // told from here on
   double worst_uncertain_due = 0;
   bool overlap_warned = false, wall_in_minimize_warned = false;
-  bigint checked_atoms = -1;    // how many there were when the timestep was checked
-  double worst_dt = 1;          // the largest warned of, over what there should be
+  bigint checked_atoms = -1;                // how many there were when the timestep was checked
+  bool may_be_new = false;                  // since then
+  tagint highest_tag = -1;                  // of atoms that are not new; -1: not looked yet
+  double worst_inserted = kLargeOverlap;    // overlap / radius of a new atom warned of
+  double worst_dt = 1;                      // the largest warned of, over what there should be
 
   double farthest_out = 0;    // past a face of the box that spheres were seen to go, and more
-  bool out_warned = false, out_of_reach_warned = false, ends_warned = false;
+  bool out_warned = false;
   bigint box_rebuilds = 0;    // in this run, of grids for another box
 
-  int temperature_variable = -1;
+  // Of the spheres; LAMMPS's own begins anew in some runs from a restart file.
+  StepClock run_clock;
+  bool engine_moves = false;      // it has laws for a wall that moves
+  bool engine_records = false;    // it keeps records of contacts
+  // Of each mesh, for the engine.
+  std::vector<lsdcd::SurfaceMotion> surfaces;
+  std::vector<double> temperatures;
 
-  // Time goes on by one step in each step, whatever the timestep, and whatever number
-  // reset_timestep gives the step: base at base_step, and dt for each step since.
-  struct Clock {
-    lsdcd::Time base;
-    bigint base_step, step;    // step: the last one
-    double dt;
-    lsdcd::Time now() const { return base + lsdcd::Time(step - base_step) * dt; }
-    void advance(const Update &);
-  };
-  Clock clock;        // of the wall's motion
-  Clock run_clock;    // of the spheres; LAMMPS's own begins anew in some runs from a restart file
-  lsdcd::WallPose pose, chosen_pose;    // of the step, and when near atoms were chosen
-  lsdcd::SurfaceMotion surface;         // of the step, where variables give it
-  bool engine_moves = false;            // it has laws for a wall that moves
-
-  double servo_radius = 0, servo_mass = 0;    // the largest, for its gain
-  bool gain_told = false, limit_told = false;
+  double servo_radius = 0, servo_mass = 0;    // the largest, for gains of servos
 
   // Of the vector: totals, volume worn off and power, and with a servo three more.
-  static constexpr int kTotals = 9, kVector = kTotals + 2, kServo = 3;
-  double totals[kTotals], power, energy;    // over all processes, of the last step
-  lsdcd::Vec3 torque_at_origin = {0, 0, 0};
-  bool reduced = false;
+  static constexpr int kTotals = MeshPart::kTotals, kVector = kTotals + 2, kServo = 3;
+  bool reduced = false;    // totals are those of the last step
 
-  std::vector<lsdcd::Stroke> strokes;
   bool drawn = false;    // strokes are there
   std::vector<int> image_kind;
   std::vector<double> image_data;
@@ -149,67 +137,78 @@ class FixWallLsdcd : public Fix {
 
   lsdcd::StepSettings step_settings(lsdcd::Spheres &);    // gives the spheres their heat, too
   void keep_outputs();
-  void update_cutoff();
-  void follow_box();
-  void rebuild(double);
   void begin_step(bool);
   void choose_if_due(const lsdcd::Spheres &);
   bool list_keeps() const;
-  void look();
+  lsdcd::StepDiagnostics look();
   void log_lists();
   void prepare_springs();
   void springs_to_host();
   void springs_to_engine();
   void fill_contacts();
   void reduce_totals();
-  void finish_totals();
+  double output_of(MeshPart &, int);
+  bool torques_share_a_point() const;
+  MeshPart *only_servo();
 
+  bool several() const { return parts.size() > 1; }
+  double cutoff() const { return parts.front().wall.cutoff(); }    // 0 before there are spheres
+  bool any_moves() const;                                          // or was moved
   int row_size() const { return settings.contacts ? size_peratom_cols : 0; }
   void ask_for_room(int);
   void ask_for_most_room();
 
+  // fix_wall_lsdcd_build.cpp, _tune.cpp
   lsdcd::EngineSettings engine_settings() const;
   void make_engine();
-  void tune(double);    // fix_wall_lsdcd_tune.cpp
+  void make_engine_anew();
+  void give_grid(const MeshPart &);
+  void update_cutoff();
+  void follow_box();
+  void rebuild(double);
+  void tune(double);
 
   // fix_wall_lsdcd_motion.cpp
-  lsdcd::Box mesh_bounds(double) const;
-  void begin_motion();
+  void begin_motion(MeshPart &);
   void move_wall();
-  bool moves_or_varies() const;
-  bool has_variables() const;
   int variable_of(const std::string &) const;
   double value_of(const std::string &) const;
-  void evaluate_variables(double);
+  void evaluate_variables(MeshPart &, double);
   void check_variables() const;
-  bool wall_has_gone(double) const;
-  lsdcd::PeriodicBox mesh_box() const;
-  void check_moving_box(const lsdcd::WallPose &, bool) const;
+  void check_moving_box(const MeshPart &, const lsdcd::WallPose &, bool) const;
   void check_moving_box() const;
-  void check_motion() const;
-  std::string motion_text() const;
+  void check_motion(const MeshPart &) const;
+
+  // fix_wall_lsdcd_modify.cpp
+  int modify_motion(MeshPart &, const std::vector<std::string> &);
   void make_engine_that_moves();
-  std::vector<double> motion_data() const;
-  void restart_motion(const std::vector<double> &);
+  void restart_motion(MeshPart &, const std::vector<double> &);
 
   // fix_wall_lsdcd_servo.cpp
-  double servo_push();
+  double servo_push(const MeshPart &);
   void look_at_servo_spheres();
-  double stable_gain(double);
-  void advance_servo(double);
-  double servo_output(int);
+  double stable_gain(const MeshPart &, double);
+  void advance_servo(MeshPart &, double);
+  double servo_output(const MeshPart &, int);
   void show_servo();
-  int modify_servo(const std::vector<std::string> &);
+  int modify_servo(MeshPart &, const std::vector<std::string> &);
+
+  // fix_wall_lsdcd_virial.cpp
+  void make_engine_with_virial();
+  void add_virial();
 
   // fix_wall_lsdcd_loads.cpp
   void add_loads();
-  lsdcd::WallLoads gathered_loads() const;
+  lsdcd::WallLoads gathered_loads(const MeshPart &) const;
+  void add_restart_data(const MeshPart &, std::vector<double> &) const;
+  void restart_part(MeshPart &, const std::vector<double> &, const std::vector<double> &,
+                    const std::vector<double> &, bool);
 
   // fix_wall_lsdcd_files.cpp
-  void check_file(const char *, const lsdcd::FileEvery &) const;
+  void check_file(const MeshPart &, const char *, const lsdcd::FileEvery &) const;
   template <class Work>
   bool try_to_write(const std::string &, const Work &);
-  void write_fields();
+  void write_fields(MeshPart &);
 
   // fix_wall_lsdcd_heat.cpp
   void check_heat();
@@ -218,31 +217,34 @@ class FixWallLsdcd : public Fix {
   // the box, its images and its changes: fix_wall_lsdcd_box.cpp
   lsdcd::PeriodicBox simulation_box() const;
   bool spheres_stay_close() const;
-  void check_box(double) const;
-  void check_scale() const;
-  void check_periodic() const;
-  void check_within_cutoff();
-  void check_ends(bool);
-  std::string likely_scale_text() const;
+  void check_box(const MeshPart &, double) const;
+  void check_scale(const MeshPart &) const;
+  void check_periodic(const MeshPart &) const;
+  void check_within_cutoff(MeshPart &);
+  void check_ends(MeshPart &, bool);
+  std::string likely_scale_text(const MeshPart &) const;
   void check_wrapping();
   void log_rebuilds();
 
   // fix_wall_lsdcd_checks.cpp
-  void check_side() const;
-  void check_plane();
-  void check_surface() const;
+  void check_side(const MeshPart &) const;
+  void check_plane(const MeshPart &);
+  void check_surface(const MeshPart &) const;
   void check_overlap(double);
+  void check_inserted();
   void check_timestep();
   void check_springs();
   double contact_time(double, double) const;
   void log_uncertified();
   void log_creation() const;
-  void log_build(double) const;
+  void log_build(const MeshPart &, double) const;
   void log(const std::string &) const;
   void warn(const std::string &) const;    // by the first process
   [[noreturn]] void refuse(const std::string &) const;
   [[noreturn]] void stop(const std::exception &);    // on this process alone
   std::string signed_text(const std::string &) const;
+  // What is said of one of several meshes, with its name; of the only one as it is.
+  std::string of(const MeshPart &, const std::string &) const;
 };
 
 }    // namespace LAMMPS_NS

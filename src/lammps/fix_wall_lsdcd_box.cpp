@@ -40,13 +40,13 @@ static std::string extents(const lsdcd::Vec3 &lo, const lsdcd::Vec3 &hi)
   return text;
 }
 
-std::string FixWallLsdcd::likely_scale_text() const
+std::string FixWallLsdcd::likely_scale_text(const MeshPart &m) const
 {
   const lsdcd::PeriodicBox box = simulation_box();
   // A box that follows its spheres tells nothing.
   if (box.follows[0] || box.follows[1] || box.follows[2]) return "";
   const lsdcd::Box bounds = box.bounds({0, 0, 0});
-  lsdcd::Vec3 mesh = wall->report().hi - wall->report().lo, room = bounds.hi - bounds.lo;
+  lsdcd::Vec3 mesh = m.wall.report().hi - m.wall.report().lo, room = bounds.hi - bounds.lo;
   if (domain->dimension == 2) {    // an outline may be of any thickness
     mesh.z = mesh.x;
     room.z = room.x;
@@ -57,20 +57,20 @@ std::string FixWallLsdcd::likely_scale_text() const
 }
 
 // Before a grid is built.
-void FixWallLsdcd::check_scale() const
+void FixWallLsdcd::check_scale(const MeshPart &m) const
 {
-  const lsdcd::MeshReport &r = wall->report();
+  const lsdcd::MeshReport &r = m.wall.report();
   const lsdcd::Box box = simulation_box().bounds({0, 0, 0});
-  const std::string likely = likely_scale_text();
+  const std::string likely = likely_scale_text(m);
   if (!likely.empty())
-    warn("the mesh is far larger than the box: it spans " + extents(r.lo, r.hi) + ", the box " +
-         extents(box.lo, box.hi) + likely);
+    warn(of(m, "the mesh is far larger than the box: it spans " + extents(r.lo, r.hi) +
+                   ", the box " + extents(box.lo, box.hi) + likely));
 }
 
-void FixWallLsdcd::check_box(double cutoff) const
+void FixWallLsdcd::check_box(const MeshPart &m, double cutoff) const
 {
-  if (settings.motion.any()) return;    // it may come in later
-  const lsdcd::MeshReport &r = wall->report();
+  if (m.settings.motion.any()) return;    // it may come in later
+  const lsdcd::MeshReport &r = m.wall.report();
   const lsdcd::PeriodicBox box = simulation_box();
   const double near = cutoff + box.margin;
   // What is past a periodic face acts in the box by its image.
@@ -83,8 +83,9 @@ void FixWallLsdcd::check_box(double cutoff) const
     const bool lo_stays = domain->boundary[d][0] < 2, hi_stays = domain->boundary[d][1] < 2;
     if ((r.hi[d] < bounds.lo[d] && lo_stays) || (r.lo[d] > bounds.hi[d] && hi_stays)) {
       const lsdcd::Box b = box.bounds({0, 0, 0});
-      refuse("the mesh is outside the box: it spans " + extents(r.lo, r.hi) + ", the box " +
-             extents(b.lo, b.hi) + "; check the units of the file (scale) and the position (move)");
+      refuse(of(m, "the mesh is outside the box: it spans " + extents(r.lo, r.hi) + ", the box " +
+                       extents(b.lo, b.hi) +
+                       "; check the units of the file (scale) and the position (move)"));
     }
   }
 }
@@ -94,8 +95,7 @@ void FixWallLsdcd::check_box(double cutoff) const
 void FixWallLsdcd::check_wrapping()
 {
   const lsdcd::PeriodicBox box = simulation_box();
-  if (wall->cutoff() == 0 || update->setupflag || !box.any_periodic() || spheres_stay_close())
-    return;
+  if (cutoff() == 0 || update->setupflag || !box.any_periodic() || spheres_stay_close()) return;
   need_on_host();
   double out = 0;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -108,7 +108,9 @@ void FixWallLsdcd::check_wrapping()
   MPI_Allreduce(MPI_IN_PLACE, &out, 1, MPI_DOUBLE, MPI_MAX, world);
   if (out <= box.margin) return;
   farthest_out = std::min({1.5 * out, box.width(0), box.width(1), box.width(2)});
-  if (out_warned || wall->fits(mesh_box())) return;    // nothing of the wall is there
+  bool reaches = false;
+  for (const MeshPart &m : parts) reaches |= !m.wall.fits(m.box_seen(simulation_box()));
+  if (out_warned || !reaches) return;    // nothing of the wall is there
   out_warned = true;
   warn(
       "a particle was " + number_text(out) +
@@ -118,16 +120,16 @@ void FixWallLsdcd::check_wrapping()
 }
 
 // Images of what lies past a face act inside the box, which may not be what the mesh was drawn for.
-void FixWallLsdcd::check_periodic() const
+void FixWallLsdcd::check_periodic(const MeshPart &m) const
 {
   if (settings.periodic || comm->me) return;
   const lsdcd::PeriodicBox box = simulation_box();
-  const double tolerance = wall->report().weld_tolerance;
+  const double tolerance = m.wall.report().weld_tolerance;
   std::string axes;
   for (int k = 0; k < 3; k++) {
     if (!box.periodic[k]) continue;
     double past = 0;
-    for (const lsdcd::Vec3 &x : wall->mesh()->vertices) {
+    for (const lsdcd::Vec3 &x : m.wall.mesh()->vertices) {
       const double at = box.fraction(x)[k];
       past = std::max({past, -at * box.width(k), (at - 1) * box.width(k)});
     }
@@ -135,33 +137,34 @@ void FixWallLsdcd::check_periodic() const
       axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[k]) + " by " + number_text(past);
   }
   if (axes.empty()) return;
-  warn("the mesh reaches past the periodic boundary in " + axes +
-       ": what lies there acts inside the box as well, by its periodic images. Add the keyword "
-       "periodic if that is meant, or make the boundary fixed");
+  warn(of(m, "the mesh reaches past the periodic boundary in " + axes +
+                 ": what lies there acts inside the box as well, by its periodic images. Add the "
+                 "keyword periodic if that is meant, or make the boundary fixed"));
 }
 
-void FixWallLsdcd::check_within_cutoff()
+void FixWallLsdcd::check_within_cutoff(MeshPart &m)
 {
-  if (!wall->out_of_reach()) return;
+  if (!m.wall.out_of_reach()) return;
   const lsdcd::PeriodicBox box = simulation_box();
-  const lsdcd::MeshReport &r = wall->report();
+  const lsdcd::MeshReport &r = m.wall.report();
   const lsdcd::Box b = box.bounds({0, 0, 0});
-  const std::string what = "no particle in the box can touch the mesh: it spans " +
-                           extents(r.lo, r.hi) + ", the box " + extents(b.lo, b.hi) +
-                           likely_scale_text();
+  const std::string what =
+      of(m, "no particle in the box can touch the mesh: it spans " + extents(r.lo, r.hi) +
+                ", the box " + extents(b.lo, b.hi) + likely_scale_text(m));
   if (!box.follows[0] && !box.follows[1] && !box.follows[2])
     refuse(what + "; check scale and move");
-  if (!out_of_reach_warned) warn(what);
-  out_of_reach_warned = true;
+  if (!m.out_of_reach_warned) warn(what);
+  m.out_of_reach_warned = true;
 }
 
 // A mesh that was to continue itself must not open while the box grows.
-void FixWallLsdcd::check_ends(bool box_changed)
+void FixWallLsdcd::check_ends(MeshPart &m, bool box_changed)
 {
-  if (wall->ends_warning().empty() || ends_warned) return;
-  if (settings.periodic && box_changed) refuse("the box has changed, and " + wall->ends_warning());
-  ends_warned = true;
-  warn(wall->ends_warning());
+  if (m.wall.ends_warning().empty() || m.ends_warned) return;
+  if (settings.periodic && box_changed)
+    refuse(of(m, "the box has changed, and " + m.wall.ends_warning()));
+  m.ends_warned = true;
+  warn(of(m, m.wall.ends_warning()));
 }
 
 void FixWallLsdcd::log_rebuilds()

@@ -30,6 +30,12 @@ std::string FixWallLsdcd::signed_text(const std::string &text) const
   return "Fix " + std::string(id) + " wall/lsdcd: " + text;
 }
 
+std::string FixWallLsdcd::of(const MeshPart &m, const std::string &text) const
+{
+  if (settings.meshes.size() == 1) return text;
+  return "mesh " + std::to_string(m.index + 1) + " '" + m.settings.file + "': " + text;
+}
+
 void FixWallLsdcd::refuse(const std::string &problem) const
 {
   error->all(FLERR, signed_text(problem));
@@ -79,29 +85,29 @@ double FixWallLsdcd::largest_radius()
   return largest;
 }
 
-void FixWallLsdcd::check_side() const
+void FixWallLsdcd::check_side(const MeshPart &m) const
 {
-  const lsdcd::MeshReport &r = wall->report();
+  const lsdcd::MeshReport &r = m.wall.report();
   if (settings.side == lsdcd::Side::both || r.oriented) return;
-  throw lsdcd::InputError("side in and side out need a closed, oriented mesh; '" +
-                          settings.mesh_file + "' has " + std::to_string(r.open_edges) + " open, " +
+  throw lsdcd::InputError("side in and side out need a closed, oriented mesh; '" + m.settings.file +
+                          "' has " + std::to_string(r.open_edges) + " open, " +
                           std::to_string(r.nonmanifold_edges) + " non-manifold and " +
                           std::to_string(r.misoriented_edges) +
                           " misoriented edges: repair the mesh or use side both");
 }
 
 // The first process has the mesh.
-void FixWallLsdcd::check_surface() const
+void FixWallLsdcd::check_surface(const MeshPart &m) const
 {
   if (comm->me) return;
-  const lsdcd::PushReport push = lsdcd::faces_pushed(*wall->mesh(), settings.surface);
+  const lsdcd::PushReport push = lsdcd::faces_pushed(*m.wall.mesh(), m.settings.surface);
   if (push.faces == 0) return;
-  warn("surface_vel and surface_angvel push " + std::to_string(push.faces) + " of " +
-       std::to_string(wall->report().facets) + " faces along their normals, by up to " +
-       number_text(push.component) + " (" + number_text(100 * push.share) +
-       " % of the speed there). That part is left out: the mesh itself stays where it is, and "
-       "lifters, blades and screws convey nothing. Where the mesh itself moves, use the keyword "
-       "motion");
+  warn(of(m, "surface_vel and surface_angvel push " + std::to_string(push.faces) + " of " +
+                 std::to_string(m.wall.report().facets) + " faces along their normals, by up to " +
+                 number_text(push.component) + " (" + number_text(100 * push.share) +
+                 " % of the speed there). That part is left out: the mesh itself stays where it "
+                 "is, and lifters, blades and screws convey nothing. Where the mesh itself moves, "
+                 "use the keyword motion"));
 }
 
 // Collective where `worst` is the largest of all processes.
@@ -121,30 +127,63 @@ void FixWallLsdcd::check_overlap(double worst)
        ": stiffen the contact (kn) or lower speeds; shown once");
 }
 
+// The deepest of atoms that came to be in the wall, in the step that they came with: what inserts
+// atoms numbers them on from the highest that there is. Those of a run that goes on have sunk in.
+// Collective.
+void FixWallLsdcd::check_inserted()
+{
+  if (!may_be_new) return;
+  may_be_new = false;
+  const lsdcd::StepDiagnostics seen = look();
+  need_on_host();
+  tagint highest = 0;
+  for (int i = 0; i < atom->nlocal; i++) highest = std::max(highest, tag_of(i));
+  const tagint mine = seen.deepest > kLargeOverlap ? tag_of(seen.deepest_sphere) : 0;
+  const bool goes_on = highest_tag < 0 && update->ntimestep > 0;
+  const bool is_new = mine > highest_tag && !goes_on;
+  struct {
+    double value;
+    int rank;
+  } most = {is_new ? seen.deepest : 0, comm->me};
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+  MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  highest_tag = std::max(highest_tag, highest);
+  if (most.value <= worst_inserted) return;
+  worst_inserted = kWorse * most.value;
+  tagint which = mine;
+  MPI_Bcast(&which, 1, MPI_LMP_TAGINT, most.rank, world);
+  warn("atom " + std::to_string(which) + " comes to be in the wall, which it overlaps by " +
+       number_text(100 * most.value) + " % of its radius in step " +
+       std::to_string(update->ntimestep) +
+       ": it will be thrown out; keep what inserts or creates atoms a radius away from the mesh. "
+       "Told again of one that is deeper");
+}
+
 // Particles of a two-dimensional run feel the mesh where it cuts their plane. Collective.
-void FixWallLsdcd::check_plane()
+void FixWallLsdcd::check_plane(const MeshPart &m)
 {
   if (domain->dimension == 3) return;
-  const lsdcd::MeshReport &r = wall->report();
+  const lsdcd::MeshReport &r = m.wall.report();
   if (!(r.lo.z < 0 && r.hi.z > 0))
-    refuse("in two dimensions particles move in the plane z = 0, which the mesh does not cut: it "
-           "spans z from " +
-           number_text(r.lo.z) + " to " + number_text(r.hi.z) + "; draw the outline out along z" +
-           (r.lo.z < r.hi.z ? ", and put its middle at z = 0 (move 0 0 " +
-                                  number_text(-(r.lo.z + r.hi.z) / 2) + ")"
-                            : ""));
+    refuse(of(m, "in two dimensions particles move in the plane z = 0, which the mesh does not "
+                 "cut: it spans z from " +
+                     number_text(r.lo.z) + " to " + number_text(r.hi.z) +
+                     "; draw the outline out along z" +
+                     (r.lo.z < r.hi.z ? ", and put its middle at z = 0 (move 0 0 " +
+                                            number_text(-(r.lo.z + r.hi.z) / 2) + ")"
+                                      : "")));
   double cut[2] = {0, 0};
-  if (wall->mesh()) {
-    const lsdcd::PlaneCut mine = lsdcd::plane_cut(*wall->mesh());
+  if (m.wall.mesh()) {
+    const lsdcd::PlaneCut mine = lsdcd::plane_cut(*m.wall.mesh());
     cut[0] = static_cast<double>(mine.leaning);
     cut[1] = mine.lean;
   }
   MPI_Allreduce(MPI_IN_PLACE, cut, 2, MPI_DOUBLE, MPI_MAX, world);
   if (cut[0] > 0)
-    warn(
-        number_text(cut[0]) + " faces lean where the mesh cuts the plane z = 0, by up to " +
-        number_text(cut[1]) +
-        " degrees: fix enforce2d throws away what they push along z; draw the outline out along z");
+    warn(of(m, number_text(cut[0]) + " faces lean where the mesh cuts the plane z = 0, by up to " +
+                   number_text(cut[1]) +
+                   " degrees: fix enforce2d throws away what they push along z; draw the outline "
+                   "out along z"));
 }
 
 // Does the stiffness grow with the overlap?
@@ -175,7 +214,7 @@ double FixWallLsdcd::contact_time(double mass, double radius) const
 
 void FixWallLsdcd::check_timestep()
 {
-  if (wall->cutoff() == 0) return;
+  if (cutoff() == 0) return;
   checked_atoms = atom->natoms;
   need_on_host();
   double shortest = INFINITY;
@@ -197,10 +236,14 @@ void FixWallLsdcd::check_timestep()
 void FixWallLsdcd::check_springs()
 {
   springs_checked = true;
+  const auto has = [this](const lsdcd::Spring &s) {
+    return s.mesh < parts.size() && !parts[s.mesh].springs_are_foreign &&
+           parts[s.mesh].wall.has(s.feature);
+  };
   bigint lost[2] = {0, other_law};
   for (int i = 0; history && i < atom->nlocal; i++)
     for (int k = 0; k < springs.count(i); k++)
-      if (!wall->has(springs.of(i)[k].feature)) {
+      if (!has(springs.of(i)[k])) {
         lost[0]++;
         springs.clear(i);
         break;

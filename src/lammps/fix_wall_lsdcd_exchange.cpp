@@ -32,7 +32,7 @@ void FixWallLsdcd::springs_to_engine()
 // Tuning makes another engine, and springs of a restart file are checked on the host.
 void FixWallLsdcd::prepare_springs()
 {
-  if (!springs_checked || (settings.tune >= 0 && wall->cutoff() == 0)) springs_to_host();
+  if (!springs_checked || (settings.tune >= 0 && cutoff() == 0)) springs_to_host();
 }
 
 void FixWallLsdcd::grow_arrays(int nmax)
@@ -118,11 +118,12 @@ int FixWallLsdcd::pack_restart(int i, double *buf)
   springs_to_host();
   buf[0] = size_restart(i);
   springs.pack(i, buf + 1);
-  if (wall->cutoff() > 0 && wall->has_images())
-    for (int k = 0; k < springs.count(i); k++) {
-      double &feature = buf[2 + k * springs.doubles_per_spring()];
-      feature = lsdcd::own_feature(wall->view().wall, static_cast<lsdcd::FeatureCode>(feature));
-    }
+  for (int k = 0; cutoff() > 0 && k < springs.count(i); k++) {
+    lsdcd::Spring s = springs.of(i)[k];
+    const lsdcd::SharedWall &wall = parts[s.mesh].wall;
+    if (wall.has_images()) s.feature = lsdcd::own_feature(wall.view().wall, s.feature);
+    buf[2 + k * springs.doubles_per_spring()] = lsdcd::packed_place(s);
+  }
   return static_cast<int>(buf[0]);
 }
 

@@ -15,14 +15,16 @@
 using namespace LAMMPS_NS;
 
 // Whether files can be made where they are wanted: told before a run, not hours into it.
-void FixWallLsdcd::check_file(const char *keyword, const lsdcd::FileEvery &file) const
+void FixWallLsdcd::check_file(const MeshPart &m, const char *keyword,
+                              const lsdcd::FileEvery &file) const
 {
   if (file.every == 0) return;
   try {
     lsdcd::together(world, comm->me == 0,
                     [&] { lsdcd::WholeFile(lsdcd::file_of_step(file.name, update->ntimestep)); });
   } catch (const lsdcd::InputError &e) {
-    refuse("in '" + std::string(keyword) + "', " + e.what() + "; make the folder, or name another");
+    refuse(of(m, "in '" + std::string(keyword) + "', " + e.what() +
+                     "; make the folder, or name another"));
   }
 }
 
@@ -35,40 +37,39 @@ bool FixWallLsdcd::try_to_write(const std::string &lost, const Work &work)
     return true;
   } catch (const lsdcd::InputError &e) {
     if (!file_warned)
-      warn(
-          std::string(e.what()) + ": " + lost +
-          "; older files are as they were. The run goes on, and tells of no other file that cannot "
-          "be written");
+      warn(std::string(e.what()) + ": " + lost +
+           "; older files are as they were. Make room, or mend the path: the run goes on, tries "
+           "again with the next file and tells of no other that cannot be written");
     file_warned = true;
     return false;
   }
 }
 
 // An average that could not be written goes on to the next file.
-void FixWallLsdcd::write_fields()
+void FixWallLsdcd::write_fields(MeshPart &m)
 {
-  const std::string file = lsdcd::file_of_step(settings.fields.name, update->ntimestep);
+  const std::string file = lsdcd::file_of_step(m.settings.fields.name, update->ntimestep);
   const double time = static_cast<double>(run_clock.now());
-  const lsdcd::WallLoads all = gathered_loads();
+  const lsdcd::WallLoads all = gathered_loads(m);
   const auto write = [&] {
     lsdcd::write_mesh_fields(
-        file, *wall->mesh(),
-        lsdcd::load_fields(*wall->mesh(), all, force->nktv2p, settings.wears(), pose),
-        update->ntimestep, time, pose);
+        file, *m.wall.mesh(),
+        lsdcd::load_fields(*m.wall.mesh(), all, force->nktv2p, settings.wears(), m.pose),
+        update->ntimestep, time, m.pose);
   };
   if (!try_to_write("there are no mesh_fields of this step, and the next file averages over these "
                     "steps, too",
                     write))
     return;
-  loads.begin_average();
-  if (file == settings.fields.name) return;
+  m.loads.begin_average();
+  if (file == m.settings.fields.name) return;
   const auto list = [&] {
-    if (!series) {
-      series = std::make_unique<lsdcd::FileSeries>(settings.fields.name);
-      if (continued) series->read();
+    if (!m.series) {
+      m.series = std::make_unique<lsdcd::FileSeries>(m.settings.fields.name);
+      if (continued) m.series->read();
     }
-    series->add(update->ntimestep, time);
-    series->write();
+    m.series->add(update->ntimestep, time);
+    m.series->write();
   };
   try_to_write("the list of mesh_fields lacks this step until it can be written", list);
 }
@@ -78,10 +79,12 @@ void FixWallLsdcd::end_of_step()
   const auto due = [this](const lsdcd::FileEvery &file) {
     return file.every > 0 && update->ntimestep % file.every == 0;
   };
-  if (due(settings.fields)) write_fields();
-  if (due(settings.stl))
-    try_to_write("there is no mesh_stl of this step", [&] {
-      lsdcd::write_mesh_stl(lsdcd::file_of_step(settings.stl.name, update->ntimestep),
-                            *wall->mesh(), pose);
-    });
+  for (MeshPart &m : parts) {
+    if (due(m.settings.fields)) write_fields(m);
+    if (due(m.settings.stl))
+      try_to_write("there is no mesh_stl of this step", [&] {
+        lsdcd::write_mesh_stl(lsdcd::file_of_step(m.settings.stl.name, update->ntimestep),
+                              *m.wall.mesh(), m.pose);
+      });
+  }
 }

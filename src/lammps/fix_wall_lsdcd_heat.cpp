@@ -22,12 +22,14 @@ void FixWallLsdcd::check_heat()
 #else
   refuse("the sub-model heat needs a LAMMPS with fix heat/flow, of 2 Aug 2023 or later");
 #endif
-  if (settings.temperature_variable.empty()) return;
-  const std::string &name = settings.temperature_variable;
-  temperature_variable = input->variable->find(name.c_str());
-  if (temperature_variable < 0) refuse("there is no variable '" + name + "' for temperature");
-  if (!input->variable->equalstyle(temperature_variable))
-    refuse("variable '" + name + "' for temperature is not of style equal");
+  for (MeshPart &m : parts) {
+    const std::string &name = m.settings.temperature_variable;
+    if (name.empty()) continue;
+    m.temperature_variable = input->variable->find(name.c_str());
+    if (m.temperature_variable < 0) refuse("there is no variable '" + name + "' for temperature");
+    if (!input->variable->equalstyle(m.temperature_variable))
+      refuse("variable '" + name + "' for temperature is not of style equal");
+  }
 }
 
 void FixWallLsdcd::give_heat(lsdcd::Spheres &spheres, lsdcd::StepSettings &step)
@@ -38,7 +40,11 @@ void FixWallLsdcd::give_heat(lsdcd::Spheres &spheres, lsdcd::StepSettings &step)
 #else
   (void) spheres;
 #endif
-  step.wall_temperature = settings.temperature_variable.empty()
-                              ? settings.temperature
-                              : input->variable->compute_equal(temperature_variable);
+  temperatures.clear();
+  for (const MeshPart &m : parts)
+    temperatures.push_back(m.settings.temperature_variable.empty()
+                               ? m.settings.temperature
+                               : input->variable->compute_equal(m.temperature_variable));
+  step.wall_temperature = temperatures.front();
+  if (several()) step.mesh_temperature = temperatures.data();
 }

@@ -6,29 +6,34 @@
 #include "comm.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cstring>
 
 using namespace LAMMPS_NS;
 using lsdcd::WallLoads;
 
-// Of restart data: kFormat, time of the run, how many numbers of the motion, these; then time of
-// the average, facets, edges and vertices of the mesh, number of rows of loads, these.
+// Of restart data: format and time of the run; of a wall with several meshes their number; and of
+// each mesh: how many numbers of its motion, these; then time of the average, facets, edges and
+// vertices of the mesh, number of rows of loads, these.
 static constexpr int kHeader = 5;
-static constexpr double kFormat = -3;
+static constexpr double kOneMesh = -3, kSeveral = -4;
 
 // Of the last step; what setup computes has no duration.
 void FixWallLsdcd::add_loads()
 {
   if (update->setupflag) return;
-  const bool any = wall->cutoff() > 0;
-  loads.add(any ? engine->records() : nullptr, any ? engine->n_records() : 0, update->dt,
-            settings.wear.per_work, any ? wall->view().wall : lsdcd::WallFeaturesView());
+  const bool any = cutoff() > 0;
+  for (MeshPart &m : parts)
+    if (settings.has_loads(m.settings))
+      m.loads.add(any ? engine->records() : nullptr, any ? engine->n_records() : 0, update->dt,
+                  settings.wear.per_work, any ? m.wall.view().wall : lsdcd::WallFeaturesView(),
+                  m.index);
 }
 
 // Of all processes, on the first one; the others get none. Collective.
-WallLoads FixWallLsdcd::gathered_loads() const
+WallLoads FixWallLsdcd::gathered_loads(const MeshPart &m) const
 {
-  const std::vector<double> mine = loads.packed();
+  const std::vector<double> mine = m.loads.packed();
   int n = static_cast<int>(mine.size());
   std::vector<int> count(comm->nprocs), first(comm->nprocs, 0);
   MPI_Gather(&n, 1, MPI_INT, count.data(), 1, MPI_INT, 0, world);
@@ -37,55 +42,91 @@ WallLoads FixWallLsdcd::gathered_loads() const
   MPI_Gatherv(mine.data(), n, MPI_DOUBLE, rows.data(), count.data(), first.data(), MPI_DOUBLE, 0,
               world);
   WallLoads all;
-  all.set_time(loads.time());
+  all.set_time(m.loads.time());
   all.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
   return all;
 }
 
-void FixWallLsdcd::write_restart(FILE *file)
+// On the first process. Collective.
+void FixWallLsdcd::add_restart_data(const MeshPart &m, std::vector<double> &data) const
 {
-  const WallLoads all = gathered_loads();
+  const WallLoads all = gathered_loads(m);
   if (comm->me != 0) return;
-  const lsdcd::MeshReport &r = wall->report();
+  const lsdcd::MeshReport &r = m.wall.report();
   const std::vector<double> rows = all.packed();
-  const std::vector<double> motion = motion_data();
-  std::vector<double> data = {kFormat, double(run_clock.now()), double(motion.size())};
+  const std::vector<double> motion = m.motion_data();
+  data.push_back(double(motion.size()));
   data.insert(data.end(), motion.begin(), motion.end());
   data.insert(data.end(), {all.time(), double(r.facets), double(r.edges), double(r.vertices),
                            double(rows.size() / WallLoads::kPackedLoad)});
   data.insert(data.end(), rows.begin(), rows.end());
+}
+
+void FixWallLsdcd::write_restart(FILE *file)
+{
+  std::vector<double> data = {several() ? kSeveral : kOneMesh, double(run_clock.now())};
+  if (several()) data.push_back(double(parts.size()));
+  for (const MeshPart &m : parts) add_restart_data(m, data);
+  if (comm->me != 0) return;
   const int bytes = static_cast<int>(data.size() * sizeof(double));
   fwrite(&bytes, sizeof bytes, 1, file);
   fwrite(data.data(), sizeof(double), data.size(), file);
 }
 
-// LAMMPS hands the same bytes to every process; the first one keeps them.
+// LAMMPS hands the same bytes to every process; the first one keeps the loads.
 void FixWallLsdcd::restart(char *buffer)
 {
   continued = true;
-  double start[3];
-  std::memcpy(start, buffer, sizeof start);
-  if (start[0] != kFormat) {
+  const auto take = [&buffer](double count) {
+    std::vector<double> numbers(static_cast<std::size_t>(count));
+    std::memcpy(numbers.data(), buffer, numbers.size() * sizeof(double));
+    buffer += numbers.size() * sizeof(double);
+    return numbers;
+  };
+  const double format = take(1)[0];
+  if (format != kOneMesh && format != kSeveral) {
     warn("motion, loads and wear begin anew: the restart file is of another version of this fix");
     return;
   }
-  run_clock.base = start[1];
-  std::vector<double> motion(static_cast<std::size_t>(start[2]));
-  std::memcpy(motion.data(), buffer + sizeof start, motion.size() * sizeof(double));
-  restart_motion(motion);
-  buffer += sizeof start + motion.size() * sizeof(double);
-  if (!records) return;
-  double header[kHeader];
-  std::memcpy(header, buffer, sizeof header);
-  const lsdcd::MeshReport &r = wall->report();
-  if (header[1] != double(r.facets) || header[2] != double(r.edges) ||
-      header[3] != double(r.vertices)) {
+  run_clock.base = take(1)[0];
+  const std::size_t there = format == kSeveral ? static_cast<std::size_t>(take(1)[0]) : 1;
+  for (std::size_t k = 0; k < std::min(there, parts.size()); k++) {
+    const std::vector<double> motion = take(take(1)[0]), header = take(kHeader),
+                              rows = take(header[4] * WallLoads::kPackedLoad);
+    restart_part(parts[k], motion, header, rows, several() || there > 1);
+  }
+  if (there == parts.size()) return;
+  const auto meshes = [](std::size_t n) {
+    return std::to_string(n) + (n == 1 ? " mesh" : " meshes");
+  };
+  warn("the restart file was written with " + meshes(there) + " and this fix has " +
+       std::to_string(parts.size()) + ": " +
+       (there > parts.size() ? "springs, motion, loads and wear of those after mesh " +
+                                   std::to_string(parts.size()) + " are not carried over"
+                             : "those after mesh " + std::to_string(there) +
+                                   " begin anew, without springs, motion, loads and wear"));
+}
+
+// `one_of_many`: springs tell which mesh they are of by its number alone.
+void FixWallLsdcd::restart_part(MeshPart &m, const std::vector<double> &motion,
+                                const std::vector<double> &header, const std::vector<double> &rows,
+                                bool one_of_many)
+{
+  const lsdcd::MeshReport &r = m.wall.report();
+  const bool other = header[1] != double(r.facets) || header[2] != double(r.edges) ||
+                     header[3] != double(r.vertices);
+  if (other && one_of_many) {
+    m.springs_are_foreign = true;
+    warn(of(m, "springs, motion, loads and wear begin anew: the restart file was written with "
+               "another mesh in this place"));
+    return;
+  }
+  restart_motion(m, motion);
+  if (!settings.has_loads(m.settings)) return;
+  if (other) {
     warn("loads and wear begin at zero: the restart file was written with another mesh");
     return;
   }
-  loads.set_time(header[0]);
-  if (comm->me != 0) return;
-  std::vector<double> rows(static_cast<std::size_t>(header[4]) * WallLoads::kPackedLoad);
-  std::memcpy(rows.data(), buffer + sizeof header, rows.size() * sizeof(double));
-  loads.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
+  m.loads.set_time(header[0]);
+  if (comm->me == 0) m.loads.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
 }

@@ -60,15 +60,27 @@ void FixWallLsdcd::log_creation() const
 {
   if (comm->me) return;
   if (settings.brief) {
-    log(signed_text("mesh " + settings.mesh_file + " of " + std::to_string(wall->report().facets) +
-                    " facets, " + settings.law_name + ", " + engine->backend()));
+    std::string meshes;
+    for (const MeshPart &m : parts)
+      meshes +=
+          "mesh " + m.settings.file + " of " + std::to_string(m.wall.report().facets) + " facets, ";
+    log(signed_text(meshes + settings.law_name + ", " + engine->backend()));
     return;
   }
   const lsdcd::ContactLaw &l = settings.law;
-  std::string t = signed_text(wall->mesh_text());
-  if (!settings.placement_tokens.empty()) t += "\n  placement   " + settings.placement_tokens;
-  if (!motion_text().empty()) t += "\n  motion      " + motion_text();
-  if (!settings.servo_tokens.empty()) t += "\n  servo       " + settings.servo_tokens;
+  std::string t;
+  for (const MeshPart &m : parts) {
+    t += (t.empty() ? "" : "\n") + m.wall.mesh_text();
+    const struct {
+      const char *label;
+      std::string text;
+    } lines[] = {{"placement   ", m.settings.placement_tokens},
+                 {"motion      ", m.motion_text()},
+                 {"servo       ", m.settings.servo_tokens}};
+    for (const auto &line : lines)
+      if (!line.text.empty()) t += "\n  " + (line.label + line.text);
+  }
+  t = signed_text(t);
   if (!material.empty()) t += "\n" + material;
   t += "\n  contact     " + settings.law_name;
   if (l.style != LawStyle::granular)
@@ -123,23 +135,24 @@ void FixWallLsdcd::log_creation() const
 }
 
 // `old`: the cutoff before, 0 at first.
-void FixWallLsdcd::log_build(double old) const
+void FixWallLsdcd::log_build(const MeshPart &m, double old) const
 {
-  if (!wall->cache_warning().empty()) warn(wall->cache_warning());
+  const lsdcd::SharedWall &wall = m.wall;
+  if (!wall.cache_warning().empty()) warn(of(m, wall.cache_warning()));
   if (settings.brief) return;
   const bool again = old > 0;
-  std::string t = signed_text("");
+  std::string t = signed_text(of(m, ""));
   if (!again)
-    t += (wall->tune_text().empty() ? "" : wall->tune_text() + "\n  ") + "grid for radius " +
-         number_text(wall->cutoff()) + "\n" + wall->grid_text();
-  else if (wall->cutoff() > old)
-    t += "larger particles, grid rebuilt for radius " + number_text(wall->cutoff());
+    t += (wall.tune_text().empty() ? "" : wall.tune_text() + "\n  ") + "grid for radius " +
+         number_text(wall.cutoff()) + "\n" + wall.grid_text();
+  else if (wall.cutoff() > old)
+    t += "larger particles, grid rebuilt for radius " + number_text(wall.cutoff());
   else
     t += "the box has changed, grid rebuilt at step " + std::to_string(update->ntimestep) +
          " (more of these in this run are counted at its end)";
-  if (!again && wall->shared().node_size() > 1)
-    t += wall->shared().is_shared() ? "\n  one copy per node" : "\n  one copy per process";
-  if (!wall->cache_text().empty()) t += "\n  " + wall->cache_text();
-  const bool one_of_many = again && wall->cutoff() == old && box_rebuilds > 1;
+  if (!again && wall.shared().node_size() > 1)
+    t += wall.shared().is_shared() ? "\n  one copy per node" : "\n  one copy per process";
+  if (!wall.cache_text().empty()) t += "\n  " + wall.cache_text();
+  const bool one_of_many = again && wall.cutoff() == old && box_rebuilds > 1;
   if (!one_of_many) log(t);
 }

@@ -2,70 +2,65 @@
 
 #include "lammps/fix_wall_lsdcd.h"
 
+#include "base/input_words.h"
 #include "deck/motion_words.h"
 
-#include <cstring>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 
+// [mesh K] motion|servo ..., where K counts from 1.
 int FixWallLsdcd::modify_param(int narg, char **arg)
 {
+  std::vector<std::string> words(arg, arg + narg);
+  MeshPart *part = several() ? nullptr : &parts.front();
+  int taken = 0;
+  if (words[0] == "mesh") {
+    double k = 0;
+    if (narg < 3 || !lsdcd::is_number(words[1], &k) || k != std::floor(k) || k < 1 ||
+        k > parts.size())
+      refuse("fix_modify mesh K motion|servo ...: K is the number of a mesh, from 1 to " +
+             std::to_string(parts.size()) + (narg > 1 ? ", not '" + words[1] + "'" : ""));
+    part = &parts[static_cast<std::size_t>(k) - 1];
+    words.erase(words.begin(), words.begin() + 2);
+    taken = 2;
+  }
+  const bool servo = words[0] == "servo";
+  if (!servo && words[0] != "motion") return 0;
+  if (!part)
+    refuse("fix_modify " + words[0] + ": which of the " + std::to_string(parts.size()) +
+           " meshes? Write fix_modify ID mesh K " + words[0] + " ..., with K from 1");
   try {
-    if (std::strcmp(arg[0], "servo") == 0)
-      return modify_servo(std::vector<std::string>(arg, arg + narg));
-    if (std::strcmp(arg[0], "motion") != 0) return 0;
-    const lsdcd::ModifiedMotion read =
-        lsdcd::read_modified_motion(std::vector<std::string>(arg, arg + narg));
-    // It begins where the mesh is; a servo that moves goes on with what it has added to that.
-    const bool holds = settings.motion.servo().holds;
-    const lsdcd::WallPose placed = holds ? pose : settings.motion.terms_at(clock.now());
-    if (holds) settings.motion.servo() = lsdcd::Servo();
-    settings.motion.stop();
-    settings.motion.begin_from(placed);
-    for (const lsdcd::MotionTerm &m : read.terms) settings.motion.add(m);
-    settings.motion_tokens = read.text;
-    begin_motion();
-    make_engine_that_moves();
-    if (!settings.brief)
-      log(signed_text("motion " + (read.terms.empty() ? "none" : motion_text())));
-    return static_cast<int>(read.taken);
+    return taken + (servo ? modify_servo(*part, words) : modify_motion(*part, words));
   } catch (const lsdcd::InputError &e) {
     refuse(e.what());
   }
 }
 
+int FixWallLsdcd::modify_motion(MeshPart &m, const std::vector<std::string> &words)
+{
+  const lsdcd::ModifiedMotion read = lsdcd::read_modified_motion(words);
+  // It begins where the mesh is; a servo that moves goes on with what it has added to that.
+  lsdcd::WallMotion &motion = m.settings.motion;
+  const bool holds = m.servo().holds;
+  const lsdcd::WallPose placed = holds ? m.pose : motion.terms_at(m.clock.now());
+  if (holds) m.servo() = lsdcd::Servo();
+  motion.stop();
+  motion.begin_from(placed);
+  for (const lsdcd::MotionTerm &term : read.terms) motion.add(term);
+  m.settings.motion_tokens = read.text;
+  begin_motion(m);
+  make_engine_that_moves();
+  if (!settings.brief)
+    log(signed_text(of(m, "motion " + (read.terms.empty() ? "none" : m.motion_text()))));
+  return static_cast<int>(read.taken);
+}
+
 // Laws for a wall at rest do not know where it is. Collective.
 void FixWallLsdcd::make_engine_that_moves()
 {
-  restart_global = restart_global || settings.motion.any();
-  if (!settings.motion.any() || engine_moves) return;
-  if (wall->cutoff() > 0) look();
-  springs_to_host();
-  make_engine();
-  if (wall->cutoff() > 0) lsdcd::together(world, true, [&] { engine->set_grid(wall->view()); });
-  list_is_old = true;
-}
-
-// What a restart file keeps of a motion: a number of numbers, all as doubles.
-std::vector<double> FixWallLsdcd::motion_data() const
-{
-  const double high = static_cast<double>(clock.base);
-  std::vector<double> data = {high, static_cast<double>(clock.base - high), double(clock.base_step),
-                              double(clock.step), clock.dt};
-  for (const lsdcd::WallPose &p :
-       {settings.motion.start(), settings.motion.terms_at(clock.now()), pose}) {
-    for (const lsdcd::Vec3 &row : p.row) data.insert(data.end(), {row.x, row.y, row.z});
-    data.insert(data.end(), {p.shift.x, p.shift.y, p.shift.z});
-  }
-  const lsdcd::Servo &s = settings.motion.servo();
-  data.insert(data.end(), {double(s.present), double(s.turns)});
-  for (const lsdcd::Vec3 &v : {s.axis, s.point}) data.insert(data.end(), {v.x, v.y, v.z});
-  data.insert(data.end(), {s.position, s.velocity});
-  data.push_back(double(settings.motion.terms().size()));
-  for (const lsdcd::MotionTerm &m : settings.motion.terms())
-    for (const lsdcd::Vec3 &v : {m.displacement, m.speed}) data.insert(data.end(), {v.x, v.y, v.z});
-  for (const char c : settings.motion_tokens) data.push_back(c);
-  return data;
+  restart_global = restart_global || any_moves();
+  if (any_moves() && !engine_moves) make_engine_anew();
 }
 
 static lsdcd::WallPose pose_from(const double *numbers)
@@ -90,7 +85,7 @@ static lsdcd::Servo servo_from(const double *numbers)
 
 // The same words go on in the step where they were; with others the mesh stays where it was, and
 // these begin there. A servo goes on along the same line, whatever its target is now. Collective.
-void FixWallLsdcd::restart_motion(const std::vector<double> &data)
+void FixWallLsdcd::restart_motion(MeshPart &m, const std::vector<double> &data)
 {
   constexpr int kClock = 5, kPose = 12, kServo = kClock + 3 * kPose, kTerms = kServo + 10,
                 kOfTerm = 6;
@@ -99,36 +94,36 @@ void FixWallLsdcd::restart_motion(const std::vector<double> &data)
   const lsdcd::WallPose first = pose_from(&data[kClock]), placed = pose_from(&data[kClock + kPose]),
                         last = pose_from(&data[kClock + 2 * kPose]);
   const lsdcd::Servo was = servo_from(&data[kServo]);
-  lsdcd::Servo &servo = settings.motion.servo();
+  lsdcd::WallMotion &motion = m.settings.motion;
+  lsdcd::Servo &servo = motion.servo();
   const bool same_line = was.position == 0 || servo.has_line_of(was),
-             same = same_line && tokens == settings.motion_tokens;
-  settings.motion.begin_from(same ? first : same_line ? placed : last);
+             same = same_line && tokens == m.settings.motion_tokens;
+  motion.begin_from(same ? first : same_line ? placed : last);
   if (servo.has_line_of(was)) {
     servo.position = was.position;
     servo.velocity = was.velocity;
   }
-  begin_motion();
+  begin_motion(m);
   if (same) {
-    clock.base = lsdcd::Time(data[0]) + lsdcd::Time(data[1]);
-    clock.base_step = static_cast<bigint>(data[2]);
-    clock.step = static_cast<bigint>(data[3]);
-    clock.dt = data[4];
+    m.clock.base = lsdcd::Time(data[0]) + lsdcd::Time(data[1]);
+    m.clock.base_step = static_cast<bigint>(data[2]);
+    m.clock.step = static_cast<bigint>(data[3]);
+    m.clock.dt = data[4];
     for (std::size_t i = 0; i < n_terms; i++) {
       const double *v = &data[kTerms + 1 + kOfTerm * i];
-      settings.motion.terms()[i].displacement = {v[0], v[1], v[2]};
-      settings.motion.terms()[i].speed = {v[3], v[4], v[5]};
+      motion.terms()[i].displacement = {v[0], v[1], v[2]};
+      motion.terms()[i].speed = {v[3], v[4], v[5]};
     }
-    pose = settings.motion.pose_at(clock.now());
+    m.pose = motion.pose_at(m.clock.now());
   } else if (!tokens.empty()) {
-    warn("the restart file was written with the motion '" + tokens + "' and this fix has " +
-         (settings.motion.moves() ? "'" + settings.motion_tokens + "', which begins"
-                                  : "none: the "
-                                    "mesh stays") +
-         " where the mesh was; the phase is not carried over");
+    warn(of(m, "the restart file was written with the motion '" + tokens + "' and this fix has " +
+                   (motion.moves() ? "'" + m.settings.motion_tokens + "', which begins"
+                                   : "none: the mesh stays") +
+                   " where the mesh was; the phase is not carried over"));
   }
   if (!same_line)
-    warn("the restart file was written with a servo along another line, or this fix has none: the "
-         "mesh is where that had it, at " +
-         lsdcd::number_text(was.position) + ", and its state is not carried over");
+    warn(of(m, "the restart file was written with a servo along another line, or this fix has "
+               "none: the mesh is where that had it, at " +
+                   lsdcd::number_text(was.position) + ", and its state is not carried over"));
   make_engine_that_moves();
 }

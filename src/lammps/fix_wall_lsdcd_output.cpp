@@ -10,67 +10,91 @@
 
 using namespace LAMMPS_NS;
 
-// Of the sums about the origin: torque about what `torque_about` names, and power.
-void FixWallLsdcd::finish_totals()
-{
-  const lsdcd::Vec3 force = {totals[0], totals[1], totals[2]},
-                    torque = {totals[3], totals[4], totals[5]};
-  const lsdcd::Vec3 point =
-      settings.torque_about_mesh ? pose.to_box(settings.torque_about) : settings.torque_about;
-  const lsdcd::Vec3 about = torque - cross(point, force);
-  torque_at_origin = torque;
-  for (int d = 0; d < 3; d++) totals[3 + d] = about[d];
-  // From 0, so that it is not -0 at rest.
-  power = 0 - dot(force, pose.velocity) - dot(torque - cross(pose.shift, force), pose.angular);
-}
-
 // One round of messages per step, and only in steps that ask.
 void FixWallLsdcd::reduce_totals()
 {
   if (reduced) return;
-  const lsdcd::WallTotals t = wall->cutoff() > 0 ? engine->totals() : lsdcd::WallTotals();
-  const double mine[10] = {t.force.x,
-                           t.force.y,
-                           t.force.z,
-                           t.torque.x,
-                           t.torque.y,
-                           t.torque.z,
-                           static_cast<double>(t.contacts),
-                           0.0,
-                           static_cast<double>(t.uncertified),
-                           t.energy};
-  double sum[10];
-  MPI_Allreduce(mine, sum, 10, MPI_DOUBLE, MPI_SUM, world);
-  std::copy(sum, sum + 9, totals);
-  energy = sum[9];
-  MPI_Allreduce(&t.largest_overlap_ratio, &totals[7], 1, MPI_DOUBLE, MPI_MAX, world);
-  finish_totals();
+  constexpr int kSums = 10;
+  std::vector<double> sum, most;
+  for (const MeshPart &m : parts) {
+    lsdcd::WallTotals t;
+    if (cutoff() > 0) t = several() ? engine->mesh_totals(m.index) : engine->totals();
+    sum.insert(sum.end(), {t.force.x, t.force.y, t.force.z, t.torque.x, t.torque.y, t.torque.z,
+                           static_cast<double>(t.contacts), 0.0, static_cast<double>(t.uncertified),
+                           t.energy});
+    most.push_back(t.largest_overlap_ratio);
+  }
+  const int n = static_cast<int>(parts.size());
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), kSums * n, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, most.data(), n, MPI_DOUBLE, MPI_MAX, world);
+  for (MeshPart &m : parts) {
+    const double *mine = sum.data() + kSums * m.index;
+    std::copy(mine, mine + kTotals, m.totals);
+    m.energy = mine[kTotals];
+    m.totals[7] = most[m.index];
+    m.finish_totals();
+  }
   reduced = true;
 }
 
 double FixWallLsdcd::compute_scalar()
 {
   reduce_totals();
-  return energy;
+  double all = parts.front().energy;
+  for (std::size_t k = 1; k < parts.size(); k++) all += parts[k].energy;
+  return all;
 }
 
-double FixWallLsdcd::compute_vector(int i)
+// Of one mesh. Collective.
+double FixWallLsdcd::output_of(MeshPart &m, int i)
 {
   reduce_totals();
-  if (i < kTotals) return totals[i];
-  if (i == kTotals + 1) return power;
-  if (i >= kVector) return servo_output(i - kVector);
+  if (i < kTotals) return m.totals[i];
+  if (i == kTotals + 1) return m.power;
+  if (i >= kVector) return m.servo().present ? servo_output(m, i - kVector) : 0;
   if (!settings.wears()) return 0;
-  double worn = loads.worn();
+  double worn = m.loads.worn();
   MPI_Allreduce(MPI_IN_PLACE, &worn, 1, MPI_DOUBLE, MPI_SUM, world);
   return worn;
+}
+
+double FixWallLsdcd::compute_array(int mesh, int i)
+{
+  return output_of(parts[mesh], i);
+}
+
+bool FixWallLsdcd::torques_share_a_point() const
+{
+  const lsdcd::MeshSettings &first = parts.front().settings;
+  for (const MeshPart &m : parts)
+    if (several() &&
+        (m.settings.torque_about_mesh || !(m.settings.torque_about == first.torque_about)))
+      return false;
+  return true;
+}
+
+// Sums over the meshes; the largest overlap of all; and of the one servo, if there is one.
+double FixWallLsdcd::compute_vector(int i)
+{
+  if (i >= kVector) {
+    MeshPart *with_servo = only_servo();
+    return with_servo ? output_of(*with_servo, i) : 0;
+  }
+  const bool at_origin = i >= 3 && i < 6 && !torques_share_a_point();
+  double all = 0;
+  for (MeshPart &m : parts) {
+    double one = output_of(m, i);
+    if (at_origin) one = m.torque_at_origin[i - 3];
+    all = m.index == 0 ? one : i == 7 ? std::max(all, one) : all + one;
+  }
+  return all;
 }
 
 void FixWallLsdcd::fill_contacts()
 {
   for (int i = 0; i < atom->nlocal; i++)
     std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
-  if (wall->cutoff() == 0) return;
+  if (cutoff() == 0) return;
   const int *touching = engine->touching();
   const lsdcd::SphereOutput *out = engine->sphere_output();
   for (int k = 0; k < engine->n_touching(); k++) {
@@ -84,9 +108,9 @@ void FixWallLsdcd::fill_contacts()
 
 double FixWallLsdcd::memory_usage()
 {
-  double bytes = engine->bytes() + wall->bytes() + mass_seen.capacity() * sizeof(double);
+  double bytes = engine->bytes() + mass_seen.capacity() * sizeof(double);
+  for (const MeshPart &m : parts) bytes += m.wall.bytes() + m.loads.bytes();
   if (history) bytes += springs.bytes();
-  if (records) bytes += loads.bytes();
   if (settings.contacts) bytes += (double) atom->nmax * size_peratom_cols * sizeof(double);
   return bytes;
 }
@@ -102,18 +126,20 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
 #endif
   constexpr int kRow = 10;
   const bool faces = settings.draw == lsdcd::Draw::faces, first = !drawn;
-  if (comm->me == 0 && first) strokes = lsdcd::draw_mesh(*wall->mesh(), settings.draw);
-  if (comm->me == 0 && (first || settings.motion.any())) {
+  if (comm->me == 0 && (first || any_moves())) {
     const int corners = faces ? 3 : 2;
     image_data.clear();
     image_rows.clear();
-    for (lsdcd::Stroke s : strokes) {
-      lsdcd::Vec3 centre = {0, 0, 0};
-      for (lsdcd::Vec3 &c : s.corner) c = pose.to_box(c);
-      for (int k = 0; k < corners; k++) centre += (1.0 / corners) * s.corner[k];
-      if (settings.cut && dot(settings.cut_normal, centre) > settings.cut_offset) continue;
-      image_data.push_back(settings.draw_type);
-      for (const lsdcd::Vec3 &c : s.corner) image_data.insert(image_data.end(), {c.x, c.y, c.z});
+    for (MeshPart &m : parts) {
+      if (first) m.strokes = lsdcd::draw_mesh(*m.wall.mesh(), settings.draw);
+      for (lsdcd::Stroke s : m.strokes) {
+        lsdcd::Vec3 centre = {0, 0, 0};
+        for (lsdcd::Vec3 &c : s.corner) c = m.pose.to_box(c);
+        for (int k = 0; k < corners; k++) centre += (1.0 / corners) * s.corner[k];
+        if (settings.cut && dot(settings.cut_normal, centre) > settings.cut_offset) continue;
+        image_data.push_back(settings.draw_type);
+        for (const lsdcd::Vec3 &c : s.corner) image_data.insert(image_data.end(), {c.x, c.y, c.z});
+      }
     }
     drawn = true;
     image_kind.assign(image_data.size() / kRow, faces ? kTriangle : kLine);

@@ -18,16 +18,18 @@ using lsdcd::number_text;
 using lsdcd::Servo;
 
 // What the mesh pushes the spheres with along the servo's axis. Collective.
-double FixWallLsdcd::servo_push()
+double FixWallLsdcd::servo_push(const MeshPart &m)
 {
   reduce_totals();
-  return settings.motion.servo().push({totals[0], totals[1], totals[2]}, torque_at_origin);
+  return m.servo().push({m.totals[0], m.totals[1], m.totals[2]}, m.torque_at_origin);
 }
 
 // The largest radius and mass that a contact can have. Collective.
 void FixWallLsdcd::look_at_servo_spheres()
 {
-  if (!settings.motion.servo().present) return;
+  bool any = false;
+  for (const MeshPart &m : parts) any |= m.servo().present;
+  if (!any) return;
   need_on_host();
   const bool all = group->dynamic[igroup];
   double most[2] = {0, 0};
@@ -42,20 +44,20 @@ void FixWallLsdcd::look_at_servo_spheres()
 }
 
 // Of as many contacts as there were in the last step, each as steep as any of them can be.
-double FixWallLsdcd::stable_gain(double dt)
+double FixWallLsdcd::stable_gain(const MeshPart &m, double dt)
 {
-  const Servo &s = settings.motion.servo();
+  const Servo &s = m.servo();
   double arm = 1;
   if (s.turns) {
     const lsdcd::Box bounds =
-        lsdcd::placed_bounds(settings.motion.terms_at(clock.now()), mesh_bounds(servo_radius));
+        lsdcd::placed_bounds(m.settings.motion.terms_at(m.clock.now()), m.bounds(servo_radius));
     arm = 0;
     lsdcd::for_corners(bounds, [&](const lsdcd::Vec3 &corner) {
       arm = std::max(arm, norm(cross(s.axis, corner - s.point)));
     });
   }
-  const double overlap = totals[7] * servo_radius + s.fastest * arm * dt,
-               contacts = std::max(1.0, totals[6]);
+  const double overlap = m.totals[7] * servo_radius + s.fastest * arm * dt,
+               contacts = std::max(1.0, m.totals[6]);
   const lsdcd::ContactSlope one =
       lsdcd::contact_slope(settings.law, overlap, servo_radius, servo_mass);
   return lsdcd::servo_gain(contacts * arm * arm * one.stiffness, contacts * arm * arm * one.damping,
@@ -63,45 +65,59 @@ double FixWallLsdcd::stable_gain(double dt)
 }
 
 // Over the time since the last step. All processes have the same sums and go the same way.
-void FixWallLsdcd::advance_servo(double dt)
+void FixWallLsdcd::advance_servo(MeshPart &m, double dt)
 {
-  Servo &s = settings.motion.servo();
+  Servo &s = m.servo();
   if (!s.present || dt == 0) return;
   if (servo_radius == 0) look_at_servo_spheres();
-  const double push = servo_push(), gain = stable_gain(dt);
-  if (gain < s.most_gain && std::isfinite(s.most_gain) && totals[6] > 0 && !gain_told) {
-    gain_told = true;
-    warn("a servo's gain of " + number_text(s.most_gain) + " would not be stable with " +
-         number_text(totals[6]) + " contacts at the timestep " + number_text(dt) + ": " +
-         number_text(gain) + " is used in its place, and less with more of them; shown once");
+  const double push = servo_push(m), gain = stable_gain(m, dt);
+  if (gain < s.most_gain && std::isfinite(s.most_gain) && m.totals[6] > 0 && !m.gain_told) {
+    m.gain_told = true;
+    warn(of(m, "a servo's gain of " + number_text(s.most_gain) + " would not be stable with " +
+                   number_text(m.totals[6]) + " contacts at the timestep " + number_text(dt) +
+                   ": " + number_text(gain) +
+                   " is used in its place, and less with more of them; shown once"));
   }
-  if (!s.advance(push, gain, dt) || limit_told) return;
-  limit_told = true;
-  log(signed_text("the servo is at its limit " + number_text(s.position) + " at step " +
-                  std::to_string(update->ntimestep) + ", where it pushes with " +
-                  number_text(push) + " in place of " + number_text(s.target) + "; said once"));
+  if (!s.advance(push, gain, dt) || m.limit_told) return;
+  m.limit_told = true;
+  log(signed_text(of(m, "the servo is at its limit " + number_text(s.position) + " at step " +
+                            std::to_string(update->ntimestep) + ", where it pushes with " +
+                            number_text(push) + " in place of " + number_text(s.target) +
+                            "; said once")));
 }
 
 // Position, velocity, push.
-double FixWallLsdcd::servo_output(int i)
+double FixWallLsdcd::servo_output(const MeshPart &m, int i)
 {
-  const Servo &s = settings.motion.servo();
-  return i == 0 ? s.position : i == 1 ? s.velocity : servo_push();
+  const Servo &s = m.servo();
+  return i == 0 ? s.position : i == 1 ? s.velocity : servo_push(m);
+}
+
+// The mesh with a servo; null where several have one, or none.
+MeshPart *FixWallLsdcd::only_servo()
+{
+  MeshPart *only = nullptr;
+  for (MeshPart &m : parts) {
+    if (m.servo().present && only) return nullptr;
+    if (m.servo().present) only = &m;
+  }
+  return only;
 }
 
 // What has a servo has its outputs, after those of the rest.
 void FixWallLsdcd::show_servo()
 {
-  if (settings.motion.servo().present) size_vector = kVector + kServo;
+  for (const MeshPart &m : parts)
+    if (m.servo().present) size_vector = size_array_cols = kVector + kServo;
   extlist[kVector] = extlist[kVector + 1] = 0;    // position and speed are no sums
 }
 
 // The mesh stays where it is with none, and goes on from there with another. Along the same line
 // the position and its limits go on, too.
-int FixWallLsdcd::modify_servo(const std::vector<std::string> &words)
+int FixWallLsdcd::modify_servo(MeshPart &m, const std::vector<std::string> &words)
 {
   const lsdcd::ModifiedServo read = lsdcd::read_modified_servo(words);
-  Servo &s = settings.motion.servo();
+  Servo &s = m.servo();
   if (!read.servo.present) {
     s.holds = true;
     s.velocity = 0;
@@ -114,20 +130,20 @@ int FixWallLsdcd::modify_servo(const std::vector<std::string> &words)
              number_text(s.lo) + " " + number_text(s.hi) +
              ", which count from where it began: widen them");
   } else {
-    if (settings.motion.moves())
+    if (m.settings.motion.moves())
       refuse("fix_modify servo: a servo along another line cannot begin while '" +
-             settings.motion_tokens + "' moves the mesh: stop that first (motion none)");
-    settings.motion.begin_from(pose);
+             m.settings.motion_tokens + "' moves the mesh: stop that first (motion none)");
+    m.settings.motion.begin_from(m.pose);
     s = read.servo;
   }
-  settings.servo_tokens = read.text;
-  gain_told = limit_told = false;
+  m.settings.servo_tokens = read.text;
+  m.gain_told = m.limit_told = false;
   servo_radius = 0;    // a run without setup looks then
-  pose = settings.motion.pose_at(clock.now());
+  m.pose = m.settings.motion.pose_at(m.clock.now());
   list_is_old = true;
-  check_motion();
+  check_motion(m);
   make_engine_that_moves();
   show_servo();
-  if (!settings.brief) log(signed_text("servo " + read.text));
+  if (!settings.brief) log(signed_text(of(m, "servo " + read.text)));
   return static_cast<int>(read.taken);
 }

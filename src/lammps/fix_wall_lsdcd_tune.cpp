@@ -2,9 +2,9 @@
 
 #include "lammps/fix_wall_lsdcd.h"
 
-
 #include "atom.h"
 
+#include <algorithm>
 #include <cstdint>
 
 using namespace LAMMPS_NS;
@@ -20,10 +20,14 @@ static std::uint64_t scattered(std::uint64_t tag)
   return z ^ (z >> 31);
 }
 
-// Chosen by tag, so that the choice does not depend on how many processes there are.
+// On the mesh of most triangles, for all. Spheres are chosen by tag, so that the choice does not
+// depend on how many processes there are.
 void FixWallLsdcd::tune(double cutoff)
 {
   need_on_host();
+  MeshPart &m = *std::max_element(parts.begin(), parts.end(), [](const auto &a, const auto &b) {
+    return a.wall.report().facets < b.wall.report().facets;
+  });
   bigint mine = 0, all = 0;
   for (int i = 0; i < atom->nlocal; i++) mine += (atom->mask[i] & groupbit) != 0;
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
@@ -34,10 +38,11 @@ void FixWallLsdcd::tune(double cutoff)
     const std::uint64_t tag = atom->tag ? atom->tag[i] : i;
     if (share < 1 && scattered(tag) >= share * 18446744073709551615.0) continue;
     const double *x = atom->x[i];
-    chosen.push_back({tag, pose.to_mesh({x[0], x[1], x[2]}), atom->radius[i]});
+    chosen.push_back({tag, m.pose.to_mesh({x[0], x[1], x[2]}), atom->radius[i]});
   }
-  wall->tune(cutoff, mesh_box(), chosen);
-  const lsdcd::WallSettings &tuned = wall->settings();
+  m.wall.tune(cutoff, m.box_seen(simulation_box()), chosen);
+  const lsdcd::WallSettings &tuned = m.wall.settings();
+  for (MeshPart &other : parts) other.wall.take_choice(tuned);
   settings.nearest = tuned.nearest;
   settings.exact = tuned.exact;
   settings.precision = tuned.precision;

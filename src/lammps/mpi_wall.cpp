@@ -22,8 +22,8 @@ std::string seconds_since(double start)
 
 }    // namespace
 
-SharedWall::SharedWall(MPI_Comm world, const WallSettings &settings) :
-    settings_(settings), shared_(world)
+SharedWall::SharedWall(MPI_Comm world, const WallSettings &settings, const MeshSettings &of_mesh) :
+    settings_(settings), of_mesh_(of_mesh), shared_(world)
 {
   read();
 }
@@ -34,10 +34,10 @@ void SharedWall::read()
   int rank;
   MPI_Comm_rank(shared_.world(), &rank);
   TriangleSoup soup;
-  soup.source = settings_.mesh_file;
+  soup.source = of_mesh_.file;
   together(shared_.world(), rank == 0, [&] {
-    soup = read_stl(settings_.mesh_file);
-    settings_.placement.apply(soup);
+    soup = read_stl(of_mesh_.file);
+    of_mesh_.placement.apply(soup);
   });
 
   // One writer per node; rank 0 is the first of them. No message goes to a node without room.
@@ -47,12 +47,12 @@ void SharedWall::read()
   if (shared_.writes())
     broadcast_bytes(soup.corners.data(), corners * sizeof(Vec3), 0, shared_.writers());
   together(shared_.world(), shared_.writes(), [&] {
-    mesh_ = std::make_unique<WallMesh>(weld(soup, settings_.weld));
+    mesh_ = std::make_unique<WallMesh>(weld(soup, of_mesh_.weld));
     report_ = mesh_->report;
   });
   static_assert(std::is_trivially_copyable<MeshReport>::value, "sent as bytes");
   MPI_Bcast(&report_, sizeof report_, MPI_BYTE, 0, shared_.world());
-  if (rank == 0) mesh_text_ = describe(report_, settings_.mesh_file);
+  if (rank == 0) mesh_text_ = describe(report_, of_mesh_.file);
 }
 
 // Where centres of spheres can be, with room for a box that grows, so that not every step of a
@@ -138,7 +138,7 @@ void SharedWall::build(Real cutoff, const PeriodicBox &box)
   MPI_Comm_rank(shared_.world(), &rank);
   const GridSettings want = grid_settings(cutoff, box);
   builds_++;
-  cache_file_ = settings_.cache_file;
+  cache_file_ = of_mesh_.cache_file;
   if (!cache_file_.empty() && builds_ > 1) cache_file_ += "." + std::to_string(builds_);
   cache_text_.clear();
   cache_warning_.clear();

@@ -1,4 +1,4 @@
-// The wall of a simulation: mesh and grid, made once per node and read by all.
+// A mesh of a wall and its grid, made once per node and read by all.
 #pragma once
 
 #include "deck/settings.h"
@@ -26,7 +26,7 @@ struct TaggedSphere {
 // on every process.
 class SharedWall {
  public:
-  SharedWall(MPI_Comm world, const WallSettings &settings);
+  SharedWall(MPI_Comm world, const WallSettings &settings, const MeshSettings &of_mesh);
 
   // Makes the grid for particles up to radius `cutoff` with centres in `box`, with the periodic
   // images of the mesh that act there, or reads it from its cache file. The grid of the n-th
@@ -46,6 +46,7 @@ class SharedWall {
   // are this process's spheres of a sample of the scene. Kept for every build to come.
   void tune(Real cutoff, const PeriodicBox &box, const std::vector<TaggedSphere> &mine);
   const WallSettings &settings() const { return settings_; }
+  void take_choice(const WallSettings &tuned);                   // of another mesh
   const std::string &tune_text() const { return tune_text_; }    // of the first process
 
   const MeshReport &report() const { return report_; }
@@ -80,6 +81,7 @@ class SharedWall {
   void write_cache(const GridKey &key, const GridReport &report, const CachedGrid &cached);
 
   WallSettings settings_;
+  MeshSettings of_mesh_;
   MpiShared shared_;
   std::unique_ptr<WallMesh> mesh_;    // where shared_.writes()
   MeshReport report_;

@@ -50,7 +50,8 @@ void SharedWall::tune(Real cutoff, const PeriodicBox &box, const std::vector<Tag
     want.engine.corner = settings_.corner;
     want.engine.side = settings_.side;
     want.engine.precision = settings_.precision;
-    want.engine.surface = settings_.surface;
+    want.engine.surface = of_mesh_.surface;
+    want.engine.moves = settings_.moves();
     want.engine.records = settings_.has_loads();
     want.engine.device = settings_.device;
     want.keep_lists = settings_.nearest_given;
@@ -66,6 +67,14 @@ void SharedWall::tune(Real cutoff, const PeriodicBox &box, const std::vector<Tag
   settings_.nearest = choice.nearest;
   settings_.exact = choice.exact;
   settings_.precision = choice.precision;
+}
+
+void SharedWall::take_choice(const WallSettings &tuned)
+{
+  settings_.grid_length = tuned.grid_length;
+  settings_.nearest = tuned.nearest;
+  settings_.exact = tuned.exact;
+  settings_.precision = tuned.precision;
 }
 
 }    // namespace lsdcd

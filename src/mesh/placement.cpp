@@ -104,6 +104,12 @@ bool Placement::is_identity() const
          shift_ == Vec3{0, 0, 0};
 }
 
+bool Placement::operator==(const Placement &other) const
+{
+  return row_[0] == other.row_[0] && row_[1] == other.row_[1] && row_[2] == other.row_[2] &&
+         shift_ == other.shift_;
+}
+
 Vec3 Placement::apply(const Vec3 &x) const
 {
   return Vec3{dot(row_[0], x), dot(row_[1], x), dot(row_[2], x)} + shift_;

@@ -17,6 +17,7 @@ class Placement {
   void move(const Vec3 &shift);
 
   bool is_identity() const;
+  bool operator==(const Placement &other) const;
   Vec3 apply(const Vec3 &x) const;
 
   // Applies the map to every corner. A mirror (negative determinant) also swaps

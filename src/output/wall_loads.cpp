@@ -40,11 +40,12 @@ Load &WallLoads::load(FeatureCode feature)
 }
 
 void WallLoads::add(const ContactRecord *records, int n, Real dt, Real per_work,
-                    const WallFeaturesView &wall)
+                    const WallFeaturesView &wall, std::uint32_t mesh)
 {
   time_ += dt;
   for (int i = 0; i < n; i++) {
     const ContactRecord &r = records[i];
+    if (r.mesh != mesh) continue;
     Load &to = load(own_feature(wall, r.feature));
     to.normal += r.normal * dt;
     to.shear += r.shear * dt;

@@ -6,6 +6,7 @@
 #include "mesh/wall_mesh.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <unordered_map>
 #include <vector>
 
@@ -26,8 +27,9 @@ class WallLoads {
   // Adds a step of duration dt; per_work as in Wear. The order of the records is the order
   // of summing: the same records give the same bits. What happens to a periodic image happens
   // to the part of the mesh that it is an image of; `wall` may be empty where there are none.
+  // Records of other meshes are left out.
   void add(const ContactRecord *records, int n, Real dt, Real per_work,
-           const WallFeaturesView &wall = {});
+           const WallFeaturesView &wall = {}, std::uint32_t mesh = 0);
 
   // Begins a new average: forgets all but what has worn off.
   void begin_average();

@@ -184,7 +184,10 @@ def steady_heat(checks, folder, load):
     """A sphere pressed between a floor at 400 and a lid at 300 takes 350 and passes on
     2 k a 50, a being the root of R times the overlap, 0.01 on both sides."""
     law = "granular hertz 5e4 0 damping none tangential linear_nohistory 0 0 heat radius 0.7"
-    deck.run_well(f"""\
+    floor, lid = "mesh floor.stl temperature 400", "mesh floor.stl move 0 0 0.98 temperature 300"
+
+    def end(walls, columns):
+        deck.run_well(f"""\
 {load}
 {SETTINGS}
 create_atoms    1 single 0.3 0.2 0.49 units box
@@ -192,14 +195,19 @@ set             group all diameter 1.0 density 2.0
 pair_style      zero 1.3
 pair_coeff      * *
 {HEAT}
-fix             floor all wall/lsdcd {law} mesh floor.stl temperature 400 contacts
-fix             lid all wall/lsdcd {law} mesh floor.stl move 0 0 0.98 temperature 300 contacts
+{walls}
 timestep        0.01
-dump            out all custom 20000 out id c_warmth f_floor[9] f_lid[9]
+dump            out all custom 20000 out id c_warmth {columns}
 dump_modify     out format float %.17g
 run             20000
 """, folder)
-    temperature, warmed, cooled = deck.read_dump(folder / "out")[20000][1]
+        return deck.read_dump(folder / "out")[20000][1]
+
+    temperature, warmed, cooled = end(f"fix floor all wall/lsdcd {law} {floor} contacts\n"
+                                      f"fix lid all wall/lsdcd {law} {lid} contacts", "f_floor[9] f_lid[9]")
+    both, net = end(f"fix both all wall/lsdcd {law} {floor} {lid} contacts", "f_both[9]")
+    checks.at_most("steady state, two meshes of one fix: temperature", abs(both - 350), 1e-9)
+    checks.at_most("steady state, two meshes of one fix: flow", abs(net), 1e-9)
     a = math.sqrt(0.5 * 0.01)
     checks.at_most("steady state: temperature", abs(temperature - 350), 1e-9)
     # The flow is that of temperatures that agree to 1e-9 of 50.

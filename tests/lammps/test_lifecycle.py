@@ -241,6 +241,36 @@ fix wall all WALL
 """ + DUMP + "run 1500\n")
 
 
+def inserted_atoms_are_checked(checks, folder):
+    """A sphere of radius 0.5 put at z = 0.3 over the plane z = 0 overlaps by 40 %."""
+    body = (head() + FORCES + "fix move all nve/sphere\n" +
+            f"fix wall all wall/lsdcd {HOOKE} mesh floor.stl\n")
+    said = re.compile(r"atom (\d+) comes to be in the wall, which it overlaps by (\S+) % of its radius in step (\d+)")
+
+    def put(z, x=0):
+        return f"create_atoms 1 single {x} 0 {z} units box\nset group all diameter 1.0 density 2.0\n"
+
+    text = deck.run_well(body + put(2) + "run 5\n" + put(0.3, 1.5) + "run 5\n" + put(0.35, -1.5) + "run 5\n" +
+                         put(0.2, 2.5) + "run 5\n", folder)
+    checks.fact("spheres put into the wall are told, again where deeper",
+                said.findall(text) == [("2", "40", "5"), ("4", "60", "15")], str(said.findall(text)))
+    text = deck.run_well(body + put(0.3) + "run 0\nwrite_restart in.restart\n", folder)
+    checks.fact("and where a run begins", said.findall(text) == [("1", "40", "0")], str(said.findall(text)))
+    text = deck.run_well(body + put(0.48) + "fix g all gravity 8.0 vector 0 0 -1\n" + put(3, 1) +
+                         "velocity all set 0 0 -9\nrun 600\n", folder)
+    checks.fact("one that falls in is not", "sank into the wall" in text and not said.findall(text))
+    if deck.ON_KOKKOS:    # which has no fix deposit
+        return
+    text = deck.run_well(body + """\
+region low block -2 2 -2 2 0.3 0.3000001 units box
+fix in all deposit 3 1 20 4711 region low near 1.2
+timestep 0.0005
+run 60
+""", folder, 2)
+    checks.fact("spheres of fix deposit too, on 2 ranks", [t[1] for t in said.findall(text)] == ["40"],
+                str(said.findall(text)))
+
+
 def timestep_is_checked(checks, folder):
     """Contact times pi sqrt(m / kn): 0.0321 at a diameter of 1, 0.0114 at 0.5."""
     body = (head() + FORCES + "fix move all nve/sphere\n" +
@@ -336,6 +366,7 @@ def main():
     if not deck.ON_KOKKOS:    # the hosts have no RIGID
         masses_change(checks, folder)
     timestep_is_checked(checks, folder)
+    inserted_atoms_are_checked(checks, folder)
     two_nodes = os.environ.get("LSDCD_TWO_NODES")
     if two_nodes:
         full_node(checks, folder, two_nodes)

@@ -29,7 +29,7 @@ INCLUDE_EXCEPTIONS = {
     ("src/parallel/cuda_bricks.h", "grid/lookup/brick_words.h"),    # CudaBackend::select reads bricks
 }
 LENGTH_EXCEPTIONS = {
-    "src/engine/host_adapter.h", "src/lammps/fix_wall_lsdcd.cpp", "src/parallel/backend_cuda.h",
+    "src/parallel/backend_cuda.h",
 }
 
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}

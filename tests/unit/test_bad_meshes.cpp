@@ -323,10 +323,10 @@ TEST(sizes, of_facets_from_1e_6_to_1e6_radii_are_exact)
 {
   Random random(5);
   const Real radius = 1;
-  for (Real size : {1e-6, 1e-3, 1e3, 1e6}) {
+  for (Real size : {1e-6, 1e-3, 1e6}) {
     TriangleSoup soup;
     soup.source = "facets of one size";
-    const int n = size < 1e3 ? 40 : 4;    // large ones fill the budget
+    const int n = size < 1 ? 40 : 4;    // large ones fill the budget
     for (int i = 0; i < n; i++) {
       const Vec3 at = std::fmax(size, 3.) *
                       Vec3{uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1)};

@@ -282,7 +282,7 @@ TEST(flow_settings, words_are_read)
 {
   const MassflowSettings s = parse_massflow({"mesh", "a.stl", "scale", "2", "count", "once",
                                              "delete", "yes", "every", "50", "weld", "0"});
-  EXPECT_EQ(s.surface.mesh_file, "a.stl");
+  EXPECT_EQ(s.surface.file, "a.stl");
   EXPECT_TRUE(s.once);
   EXPECT_TRUE(s.deletes);
   EXPECT_EQ(s.every, 50);

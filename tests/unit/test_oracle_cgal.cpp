@@ -109,7 +109,7 @@ void expect_same_distance(const Case &c)
   long missed = 0, wrong = 0, false_ones = 0, touching = 0;
   Real largest = 0;
   Vec3 worst = {0, 0, 0};
-  for_points(n_points(1000000), 1, [&](Random &random) {
+  for_points(n_points(200000), 1, [&](Random &random) {
     const Vec3 q = c.query(random);
     const Wide d_sq = c.tree->squared_distance(Kernel::Point_3(q.x, q.y, q.z));
     const Wide d = std::sqrt(d_sq);
@@ -137,7 +137,7 @@ void expect_same_distance(const Case &c)
   EXPECT_EQ(missed, 0) << worst.x << " " << worst.y << " " << worst.z;
   EXPECT_EQ(false_ones, 0) << worst.x << " " << worst.y << " " << worst.z;
   EXPECT_EQ(wrong, 0) << largest << " at " << worst.x << " " << worst.y << " " << worst.z;
-  EXPECT_GT(touching, n_points(1000000) / 10);
+  EXPECT_GT(touching, n_points(200000) / 10);
 }
 
 // ---- an independent definition of local minima --------------------------------------
@@ -300,7 +300,7 @@ void expect_same_minima(const Case &c)
   const GridView view = c.grid.view();
   long missing = 0, extra = 0, doubled = 0, unsure = 0, sure = 0;
   Vec3 where = {0, 0, 0};
-  for_points(n_points(100000), 2, [&](Random &random) {
+  for_points(n_points(30000), 2, [&](Random &random) {
     const Vec3 q = c.query(random);
     const Minima::Map expected = minima.around(q, c.cutoff);
     ContactSet<kPlaces> set;
@@ -339,7 +339,7 @@ void expect_same_minima(const Case &c)
   EXPECT_EQ(missing, 0) << where.x << " " << where.y << " " << where.z;
   EXPECT_EQ(extra, 0) << where.x << " " << where.y << " " << where.z;
   EXPECT_EQ(doubled, 0) << where.x << " " << where.y << " " << where.z;
-  EXPECT_GT(sure, n_points(100000) / 10);
+  EXPECT_GT(sure, n_points(30000) / 10);
 }
 
 // ---- made meshes -------------------------------------------------------------------

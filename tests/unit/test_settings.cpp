@@ -82,7 +82,7 @@ TEST(settings, styles_keep_history_but_hooke)
 TEST(settings, defaults_hold_where_nothing_is_said)
 {
   const WallSettings s = with("");
-  EXPECT_LT(s.weld, 0);
+  EXPECT_LT(s.meshes[0].weld, 0);
   EXPECT_EQ(s.grid_length, 0);
   EXPECT_EQ(s.rmax, 0);
   EXPECT_EQ(s.memory_budget, GridSettings().memory_budget);
@@ -96,14 +96,14 @@ TEST(settings, defaults_hold_where_nothing_is_said)
 
 TEST(settings, scale_takes_one_factor)
 {
-  const Vec3 x = with("scale 2 contacts").placement.apply({1, 1, 1});
+  const Vec3 x = with("scale 2 contacts").meshes[0].placement.apply({1, 1, 1});
   EXPECT_EQ(x.x, 2);
   EXPECT_EQ(x.z, 2);
 }
 
 TEST(settings, scale_takes_three_factors)
 {
-  const Vec3 x = with("scale 2 3 4 contacts").placement.apply({1, 1, 1});
+  const Vec3 x = with("scale 2 3 4 contacts").meshes[0].placement.apply({1, 1, 1});
   EXPECT_EQ(x.x, 2);
   EXPECT_EQ(x.y, 3);
   EXPECT_EQ(x.z, 4);
@@ -116,23 +116,23 @@ TEST(settings, scale_refuses_two_factors)
 
 TEST(settings, scale_and_move_act_in_the_order_given)
 {
-  EXPECT_EQ(with("scale 2 move 1 0 0").placement.apply({1, 0, 0}).x, 3);
-  EXPECT_EQ(with("move 1 0 0 scale 2").placement.apply({1, 0, 0}).x, 4);
+  EXPECT_EQ(with("scale 2 move 1 0 0").meshes[0].placement.apply({1, 0, 0}).x, 3);
+  EXPECT_EQ(with("move 1 0 0 scale 2").meshes[0].placement.apply({1, 0, 0}).x, 4);
 }
 
 TEST(settings, placement_words_may_repeat)
 {
-  EXPECT_EQ(with("move 1 0 0 move 1 0 0").placement.apply({0, 0, 0}).x, 2);
+  EXPECT_EQ(with("move 1 0 0 move 1 0 0").meshes[0].placement.apply({0, 0, 0}).x, 2);
 }
 
 TEST(settings, the_placement_is_told_in_words)
 {
-  EXPECT_EQ(with("scale 0.001 move 0 0 1").placement_tokens, "scale 0.001, move 0 0 1");
+  EXPECT_EQ(with("scale 0.001 move 0 0 1").meshes[0].placement_tokens, "scale 0.001, move 0 0 1");
 }
 
 TEST(settings, rotate_turns_right_handed)
 {
-  const Vec3 x = with("rotate 0 0 1 90").placement.apply({1, 0, 0});
+  const Vec3 x = with("rotate 0 0 1 90").meshes[0].placement.apply({1, 0, 0});
   EXPECT_NEAR(x.x, 0, 1e-15);    // a few roundings of numbers up to 1
   EXPECT_NEAR(x.y, 1, 1e-15);
 }
@@ -233,7 +233,7 @@ TEST(settings, rotate_takes_an_axis_of_any_length)
 {
   for (const char *length : {"1e200", "1e-200"}) {
     const std::string l = length;
-    const Vec3 x = with("rotate " + l + " 0 " + l + " 180").placement.apply({1, 0, 0});
+    const Vec3 x = with("rotate " + l + " 0 " + l + " 180").meshes[0].placement.apply({1, 0, 0});
     EXPECT_NEAR(x.x, 0, 1e-15) << l;    // a few roundings of numbers up to 1
     EXPECT_NEAR(x.z, 1, 1e-15) << l;
   }
@@ -312,7 +312,7 @@ TEST(settings, a_wrong_choice_shows_the_right_ones)
 
 TEST(settings, cache_none_is_no_cache)
 {
-  EXPECT_EQ(with("cache none").cache_file, "");
+  EXPECT_EQ(with("cache none").meshes[0].cache_file, "");
 }
 
 TEST(settings, a_cache_needs_a_file_name)
@@ -325,7 +325,7 @@ TEST(settings, a_cache_is_taken_where_it_is_built)
 {
   std::string why;
   if (cache_available(&why))
-    EXPECT_EQ(with("cache vessel.grid").cache_file, "vessel.grid");
+    EXPECT_EQ(with("cache vessel.grid").meshes[0].cache_file, "vessel.grid");
   else
     EXPECT_TRUE(names(error_with("cache vessel.grid"), "libzstd-dev"));
 }
@@ -359,6 +359,47 @@ TEST(settings, a_keyword_given_twice_is_an_error)
   EXPECT_TRUE(names(error_with("rmax 1 rmax 2"), "twice"));
 }
 
+TEST(settings, keywords_of_a_mesh_are_of_the_one_before_them)
+{
+  const WallSettings s =
+      with("move 1 0 0 weld 0 corner sum mesh b.stl motion linear 1 2 3 contacts "
+           "mesh c.stl surface_vel 1 0 0 weld 1e-3");
+  ASSERT_EQ(s.meshes.size(), 3u);
+  EXPECT_EQ(s.meshes[1].file, "b.stl");
+  EXPECT_EQ(s.meshes[0].placement.apply({0, 0, 0}).x, 1);
+  EXPECT_EQ(s.meshes[1].placement.apply({0, 0, 0}).x, 0);
+  EXPECT_EQ(s.meshes[0].weld, 0);
+  EXPECT_LT(s.meshes[1].weld, 0);
+  EXPECT_EQ(s.meshes[2].weld, 1e-3);
+  EXPECT_TRUE(!s.meshes[0].motion.any() && s.meshes[1].motion.any() && !s.meshes[2].motion.any());
+  EXPECT_EQ(s.meshes[2].surface.velocity, (Vec3{1, 0, 0}));
+  EXPECT_TRUE(s.corner == Corner::sum && s.contacts);
+}
+
+TEST(settings, before_the_only_mesh_its_keywords_may_stand)
+{
+  const WallSettings s = parse("hooke 1e5 NULL 50 NULL 0.5 1 move 1 0 0 contacts mesh a.stl");
+  EXPECT_EQ(s.meshes[0].placement.apply({0, 0, 0}).x, 1);
+}
+
+TEST(settings, of_several_meshes_errors_name_the_one)
+{
+  const std::string law = "hooke 1e5 NULL 50 NULL 0.5 1 ";
+  EXPECT_TRUE(
+      names(error_of(law + "weld 0 mesh a.stl mesh b.stl"), "'weld' comes before the first"));
+  EXPECT_TRUE(names(error_with("mesh a.stl"), "mesh 1 'a.stl' and mesh 2 'a.stl'"));
+  EXPECT_TRUE(names(error_with("mesh b.stl mesh a.stl scale 1"), "mesh 1 'a.stl' and mesh 3"));
+  EXPECT_EQ(with("mesh a.stl move 0 0 1").meshes.size(), 2u);
+  EXPECT_EQ(with("mesh a.stl motion linear 0 0 1").meshes.size(), 2u);
+  EXPECT_TRUE(names(error_with("move 1 0 0 rmax 1 mesh b.stl move 1 0 0 rmax 1"), "twice"));
+  EXPECT_TRUE(names(error_with("mesh_fields f.vtp every 2 mesh b.stl mesh_fields f.vtp every 3"),
+                    "have the same file 'f.vtp'"));
+  std::string many = law;
+  for (int k = 0; k < kMostMeshes; k++) many += " mesh a" + std::to_string(k) + ".stl";
+  EXPECT_EQ(parse(many).meshes.size(), 32u);
+  EXPECT_TRUE(names(error_of(many + " mesh b.stl"), "at most 32"));
+}
+
 TEST(settings, no_mesh_is_an_error)
 {
   EXPECT_TRUE(names(error_of("hooke 1 1 1 1 0.5 1 contacts"), "mesh FILE is missing"));
@@ -375,11 +416,11 @@ TEST(settings, help_lists_every_keyword)
 TEST(settings, surfaces_move_and_turn)
 {
   const WallSettings s = with("surface_vel 1 -2 0.5 surface_angvel 0 0 3 1 2 4");
-  EXPECT_EQ(s.surface.velocity, (Vec3{1, -2, 0.5}));
-  EXPECT_EQ(s.surface.angular, (Vec3{0, 0, 3}));
-  EXPECT_EQ(s.surface.centre, (Vec3{1, 2, 4}));
-  EXPECT_EQ(with("surface_angvel 0 0 3").surface.centre, (Vec3{0, 0, 0}));
-  EXPECT_FALSE(with("").surface.moves());
+  EXPECT_EQ(s.meshes[0].surface.velocity, (Vec3{1, -2, 0.5}));
+  EXPECT_EQ(s.meshes[0].surface.angular, (Vec3{0, 0, 3}));
+  EXPECT_EQ(s.meshes[0].surface.centre, (Vec3{1, 2, 4}));
+  EXPECT_EQ(with("surface_angvel 0 0 3").meshes[0].surface.centre, (Vec3{0, 0, 0}));
+  EXPECT_FALSE(with("").meshes[0].surface.moves());
 }
 
 TEST(settings, motions_are_kept_in_the_order_given)
@@ -387,7 +428,7 @@ TEST(settings, motions_are_kept_in_the_order_given)
   const WallSettings s =
       with("motion wiggle 1 2 3 0.5 wiggle z 0.1 2 scale 2 motion transrot 4 5 6 "
            "7 8 9 0 0 -2 0.25 motion rotate 1 1 1 3 0 0 4 motion linear 1 0 -1");
-  const std::vector<MotionTerm> &m = s.motion.terms();
+  const std::vector<MotionTerm> &m = s.meshes[0].motion.terms();
   ASSERT_EQ(m.size(), 5u);
   EXPECT_EQ(m[0].kind, MotionKind::wiggle);
   EXPECT_EQ(m[0].amplitude, (Vec3{1, 2, 3}));
@@ -401,27 +442,28 @@ TEST(settings, motions_are_kept_in_the_order_given)
   EXPECT_EQ(m[3].kind, MotionKind::rotate);
   EXPECT_EQ(m[3].velocity, (Vec3{0, 0, 0}));
   EXPECT_EQ(m[4].velocity, (Vec3{1, 0, -1}));
-  EXPECT_EQ(s.motion_tokens, "wiggle 1 2 3 0.5, wiggle z 0.1 2, transrot 4 5 6 7 8 9 0 0 -2 0.25, "
-                             "rotate 1 1 1 3 0 0 4, linear 1 0 -1");
-  EXPECT_FALSE(with("").motion.any());
+  EXPECT_EQ(s.meshes[0].motion_tokens,
+            "wiggle 1 2 3 0.5, wiggle z 0.1 2, transrot 4 5 6 7 8 9 0 0 -2 0.25, "
+            "rotate 1 1 1 3 0 0 4, linear 1 0 -1");
+  EXPECT_FALSE(with("").meshes[0].motion.any());
 }
 
 TEST(settings, motions_of_variables)
 {
   const WallSettings s = with("motion variable v_a NULL v_b NULL NULL v_c");
-  const MotionTerm &m = s.motion.terms()[0];
+  const MotionTerm &m = s.meshes[0].motion.terms()[0];
   EXPECT_EQ(m.name[0], "a");
   EXPECT_EQ(m.name[1], "");
   EXPECT_EQ(m.name[2], "b");
   EXPECT_EQ(m.name[5], "c");
-  EXPECT_FALSE(s.surface_varies());
+  EXPECT_FALSE(s.meshes[0].surface_varies());
   const WallSettings belt = with("surface_vel v_u 1 2 surface_angvel 0 0 v_w");
-  EXPECT_EQ(belt.surface_variable[0], "u");
-  EXPECT_EQ(belt.surface_variable[5], "w");
-  EXPECT_EQ(belt.surface.velocity, (Vec3{0, 1, 2}));
-  EXPECT_TRUE(belt.surface_varies());
-  EXPECT_EQ(with("shear y v_u").surface_variable[1], "u");
-  EXPECT_EQ(with("shear y 3").surface.velocity, (Vec3{0, 3, 0}));
+  EXPECT_EQ(belt.meshes[0].surface_variable[0], "u");
+  EXPECT_EQ(belt.meshes[0].surface_variable[5], "w");
+  EXPECT_EQ(belt.meshes[0].surface.velocity, (Vec3{0, 1, 2}));
+  EXPECT_TRUE(belt.meshes[0].surface_varies());
+  EXPECT_EQ(with("shear y v_u").meshes[0].surface_variable[1], "u");
+  EXPECT_EQ(with("shear y 3").meshes[0].surface.velocity, (Vec3{0, 3, 0}));
 }
 
 TEST(settings, wrong_motions_are_refused)
@@ -485,8 +527,8 @@ TEST(settings, wear_is_volume_per_work)
 TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
 {
   const WallSettings s = with("mesh_fields wall_*.vtp every 500");
-  EXPECT_EQ(s.fields.name, "wall_*.vtp");
-  EXPECT_EQ(s.fields.every, 500);
+  EXPECT_EQ(s.meshes[0].fields.name, "wall_*.vtp");
+  EXPECT_EQ(s.meshes[0].fields.every, 500);
   EXPECT_TRUE(s.has_loads());
   EXPECT_TRUE(names(error_with("mesh_fields wall.vtk every 500"), ".vtp"));
   EXPECT_TRUE(names(error_with("mesh_fields wall.vtp 500"), "every"));
@@ -499,8 +541,8 @@ TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
 TEST(settings, mesh_stl_needs_an_stl_file_and_a_number_of_steps)
 {
   const WallSettings s = with("mesh_stl wall_*.stl every 500");
-  EXPECT_EQ(s.stl.name, "wall_*.stl");
-  EXPECT_EQ(s.stl.every, 500);
+  EXPECT_EQ(s.meshes[0].stl.name, "wall_*.stl");
+  EXPECT_EQ(s.meshes[0].stl.every, 500);
   EXPECT_FALSE(s.has_loads());
   EXPECT_TRUE(names(error_with("mesh_stl wall.vtp every 500"), ".stl"));
   EXPECT_TRUE(names(error_with("mesh_stl wall.stl every 0"), "N"));
@@ -508,14 +550,14 @@ TEST(settings, mesh_stl_needs_an_stl_file_and_a_number_of_steps)
 
 TEST(settings, torque_is_about_a_point_of_the_box_or_of_the_mesh)
 {
-  EXPECT_EQ(with("").torque_about, (Vec3{0, 0, 0}));
+  EXPECT_EQ(with("").meshes[0].torque_about, (Vec3{0, 0, 0}));
   const WallSettings box = with("torque_about 1 2 3");
-  EXPECT_FALSE(box.torque_about_mesh);
-  EXPECT_EQ(box.torque_about, (Vec3{1, 2, 3}));
+  EXPECT_FALSE(box.meshes[0].torque_about_mesh);
+  EXPECT_EQ(box.meshes[0].torque_about, (Vec3{1, 2, 3}));
   const WallSettings mesh = with("torque_about mesh contacts");
-  EXPECT_TRUE(mesh.torque_about_mesh && mesh.contacts);
-  EXPECT_EQ(mesh.torque_about, (Vec3{0, 0, 0}));
-  EXPECT_EQ(with("torque_about mesh 4 5 6").torque_about, (Vec3{4, 5, 6}));
+  EXPECT_TRUE(mesh.meshes[0].torque_about_mesh && mesh.contacts);
+  EXPECT_EQ(mesh.meshes[0].torque_about, (Vec3{0, 0, 0}));
+  EXPECT_EQ(with("torque_about mesh 4 5 6").meshes[0].torque_about, (Vec3{4, 5, 6}));
   EXPECT_TRUE(names(error_with("torque_about"), "x"));
   EXPECT_TRUE(names(error_with("torque_about 1 2"), "z"));
   EXPECT_TRUE(names(error_with("torque_about axis"), "axis"));
@@ -605,7 +647,7 @@ TEST(settings, granular_words_come_in_any_order_and_end_at_the_first_keyword)
   EXPECT_EQ(g.k_roll + g.gamma_roll + g.mu_roll, 15);
   EXPECT_EQ(g.conductance, 7);
   EXPECT_EQ(g.k_tangent + g.x_tangent + g.mu, 27);
-  EXPECT_EQ(s.temperature, 300);
+  EXPECT_EQ(s.meshes[0].temperature, 300);
   EXPECT_EQ(s.law.n_extra(), 5);
   EXPECT_TRUE(names(s.law_name, "granular hertz 1e5 3 limit_damping twisting"));
   EXPECT_FALSE(names(s.law_name, "temperature"));

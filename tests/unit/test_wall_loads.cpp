@@ -18,7 +18,7 @@ namespace {
 
 ContactRecord on(FeatureKind kind, std::uint32_t index, Real normal, Real shear, Real wear)
 {
-  return {feature_code(kind, index), 0, normal, shear, wear, {-shear, 0, -normal}};
+  return {feature_code(kind, index), 0, normal, shear, wear, {-shear, 0, -normal}, {0, 0, 0}};
 }
 
 TEST(loads, are_integrals_over_time)

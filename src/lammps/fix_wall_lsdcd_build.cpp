@@ -1,0 +1,129 @@
+// The engine, and the grids of the meshes: made when there are spheres, and again for larger ones
+// or another box.
+
+#include "lammps/fix_wall_lsdcd.h"
+
+#include "base/input_words.h"
+
+#include <vector>
+
+using namespace LAMMPS_NS;
+
+static constexpr double kHeadroom = 1.1;    // in cutoff, once radii are known to grow
+
+lsdcd::EngineSettings FixWallLsdcd::engine_settings() const
+{
+  lsdcd::EngineSettings want;
+  want.law = settings.law;
+  want.corner = settings.corner;
+  want.side = settings.side;
+  want.precision = settings.precision;
+  want.meshes = static_cast<int>(parts.size());
+  want.moves = several();
+  for (const MeshPart &m : parts) {
+    want.moves |= m.moves_or_varies();
+    if (!want.surface.moves()) want.surface = m.settings.surface;
+  }
+  want.records = settings.has_loads() || thermo_virial;
+  want.wear = settings.wear.model;
+  want.device = settings.device;
+  want.device_rank = parts.front().wall.shared().node_rank();
+  return want;
+}
+
+// Collective, and again where tuning has changed the precision.
+void FixWallLsdcd::make_engine()
+{
+  const lsdcd::EngineSettings want = engine_settings();
+  engine_moves = want.moves;
+  engine_records = want.records;
+  lsdcd::together(world, true, [&] { engine = new_engine(want); });
+}
+
+// For other settings, with the springs that there are.
+void FixWallLsdcd::make_engine_anew()
+{
+  if (cutoff() > 0) look();
+  springs_to_host();
+  make_engine();
+  for (const MeshPart &m : parts)
+    if (cutoff() > 0) give_grid(m);
+  list_is_old = true;
+}
+
+// Builds the grid when the first spheres come, and again when larger ones do or the box has
+// changed.
+void FixWallLsdcd::update_cutoff()
+{
+  double most[2] = {largest_radius(), worst_overlap};
+  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
+  check_overlap(most[1]);
+
+  const double radius = most[0], old = cutoff();
+  const auto cutoff_of = [this](double r) { return lsdcd::cutoff_of(settings.law, r); };
+  if (radius == 0) return;
+  if (cutoff_of(radius) <= old) {
+    follow_box();
+    return;
+  }
+  if (settings.rmax > 0 && radius > settings.rmax)
+    refuse("atom " + std::to_string(tag_of_radius(radius)) + " has radius " +
+           lsdcd::number_text(radius) + ", more than rmax " + lsdcd::number_text(settings.rmax) +
+           ": raise rmax or use rmax auto");
+
+  rebuild(cutoff_of(settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius)));
+}
+
+// A wall acts through periodic faces by images of its triangles, and its grid is there where
+// spheres can be: both are those of a box. Collective where the box has changed.
+void FixWallLsdcd::follow_box()
+{
+  if (cutoff() == 0) return;
+  for (const MeshPart &m : parts)
+    if (!m.wall.fits(m.box_seen(simulation_box()))) {
+      rebuild(cutoff());
+      return;
+    }
+}
+
+void FixWallLsdcd::give_grid(const MeshPart &m)
+{
+  lsdcd::together(world, true, [&] { engine->set_grid(m.wall.view(), m.index); });
+}
+
+// The grids that are too small, or for another box.
+void FixWallLsdcd::rebuild(double wanted)
+{
+  const double old = cutoff();
+  list_is_old = true;
+  std::vector<MeshPart *> anew;
+  for (MeshPart &m : parts)
+    if (wanted != old || !m.wall.fits(m.box_seen(simulation_box()))) anew.push_back(&m);
+  if (old > 0) {
+    springs_to_host();
+    // Images get other numbers: a spring on one goes to what that is an image of.
+    for (const MeshPart *m : anew) {
+      const lsdcd::WallFeaturesView features = m->wall.view().wall;
+      if (history && m->wall.has_images())
+        springs.rename_features([&](int mesh, lsdcd::FeatureCode f) {
+          return mesh == m->index ? lsdcd::own_feature(features, f) : f;
+        });
+    }
+  }
+  for (const MeshPart *m : anew) check_box(*m, wanted);
+  try {
+    if (settings.tune >= 0 && old == 0) tune(wanted);
+    for (MeshPart *m : anew) {
+      m->wall.build(wanted, m->box_seen(simulation_box()));
+      give_grid(*m);
+    }
+  } catch (const lsdcd::InputError &e) {
+    refuse(e.what());
+  }
+  if (wanted == old) box_rebuilds++;
+  for (MeshPart *m : anew) {
+    check_within_cutoff(*m);
+    log_build(*m, old);
+    check_ends(*m, wanted == old);
+  }
+}

@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+"""What a run leaves behind that is killed, or whose disk is full: older files whole, and a restart
+that goes on bit for bit."""
+
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import deck
+import scene
+from test_files import arrays, listed, stl_points, warned
+
+LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
+MESH = ("mesh {1} motion wiggle 0 0 0.05 0.5 "
+        "mesh_fields {0}k_*.vtp every 20 mesh_stl {0}now.stl every 5")
+EVERY = 50    # steps between restarts
+KILLS = 2 if os.environ.get("LSDCD_QUICK") else 4
+GOES_ON = 100
+ENDLESS = 1000000
+NAMES = ("a.restart", "b.restart")
+
+
+def text(begin, run, more="", to="", mesh="fine.stl"):
+    restarts = "".join(" " + to + n for n in NAMES)
+    return begin + scene.forces(LAW, mesh=MESH.format(to, mesh)) + f"restart {EVERY}{restarts}\n" + more + run
+
+
+def descendants(pid):
+    """A process with its children and theirs: mpirun's have groups of their own."""
+    try:
+        children = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    except FileNotFoundError:
+        children = []
+    return [pid] + [p for child in children for p in descendants(int(child))]
+
+
+def killed(folder, ranks, wait):
+    """Runs until both restart files are there and `wait` seconds more, then kills all at once."""
+    (folder / "in.killed").write_text(text(scene.CREATE, f"run {ENDLESS}\n"))
+    command = [deck.LMP, "-in", "in.killed", "-log", "none", "-nocite"]
+    if ranks > 1:
+        command = ["mpirun", "-np", str(ranks), "--oversubscribe", *command]
+    with open(folder / "killed.out", "w") as out:
+        run = subprocess.Popen(command, cwd=folder, env=deck.environment(), stdout=out, stderr=out)
+    end = time.time() + 120
+    while not all((folder / n).exists() for n in NAMES) and run.poll() is None and time.time() < end:
+        time.sleep(0.01)
+    time.sleep(wait)
+    ran = run.poll() is None and all((folder / n).exists() for n in NAMES)
+    for pid in descendants(run.pid):
+        try:
+            os.kill(pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+    run.wait()
+    if not ran:
+        sys.exit("the run to kill did not run:\n" + (folder / "killed.out").read_text()[-4000:])
+
+
+def amiss(folder):
+    """Reads every file of the fix to its end; what is wrong with one, as text."""
+    try:
+        for path in folder.glob("k_*.vtp"):
+            arrays(path)
+        stl_points(folder / "now.stl")
+        gone = [f for _, f in listed(folder / "k_series.pvd") if not (folder / f).exists()]
+    except Exception as error:    # of a parser: which, does not matter
+        return repr(error)
+    return f"listed and not there: {gone}" if gone else ""
+
+
+def go_on(folder, mesh="fine.stl"):
+    """Goes on from the newest restart file that can be read; its step. LAMMPS writes them in place,
+    so that the newest may be cut off: the other is why there are two."""
+    for name in sorted(NAMES, key=lambda n: -(folder / n).stat().st_mtime):
+        shutil.copy(folder / name, folder / "last.restart")    # the run writes others over it
+        done = deck.run(text(scene.SETTINGS + "read_restart last.restart\n", f"run {GOES_ON}\n",
+                             scene.dump("continued", 10), mesh=mesh), folder)
+        if done.returncode == 0:
+            return int(deck.read_thermo(done.stdout)[0][0])
+    sys.exit("neither restart file can be read:\n" + done.stdout[-4000:])
+
+
+def kills(checks, folder):
+    chance = random.Random(17)
+    for k in range(KILLS):
+        ranks, wait = 1 + k % 2, chance.uniform(0, 0.3)
+        for path in [*folder.glob("k_*"), *(folder / n for n in NAMES)]:
+            path.unlink(missing_ok=True)
+        killed(folder, ranks, wait)
+        at = f"killed on {ranks} rank{'s' * (ranks > 1)} after {wait:.3f} s"
+        wrong = amiss(folder)
+        checks.fact(f"{at}: files are whole, and those listed are there", not wrong, wrong)
+        step = go_on(folder)
+        names = [f for _, f in listed(folder / "k_series.pvd")]
+        checks.fact(f"{at}: the list goes on from step {step}, each file once",
+                    names == [f"k_{s}.vtp" for s in range(20, step + GOES_ON + 1, 20)], str(names[-3:]))
+        deck.run_well(text(scene.CREATE, f"run {step}\n{scene.dump('unbroken', 10)}run {GOES_ON}\n"),
+                      folder, ranks)
+        checks.at_most(f"{at}: continued as unbroken", deck.largest_difference(
+            deck.read_dump(folder / "unbroken"), deck.read_dump(folder / "continued")), 0)
+
+
+def killed_in_a_write(checks, folder):
+    """In the middle of a file, by the signal that comes where a process's files may not grow further."""
+    def run(limit):
+        files = "mesh_fields same.vtp every 20 mesh_stl same.stl every 20"
+        (folder / "in.limited").write_text(
+            scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl " + files) + "run 100\n")
+        command = f"ulimit -c 0; ulimit -f {limit}; exec '{deck.LMP}' -in in.limited -log none -nocite"
+        return subprocess.run(["sh", "-c", command], cwd=folder, env=deck.environment(),
+                              stdout=subprocess.DEVNULL).returncode
+
+    checks.fact("without a limit it runs", run("unlimited") == 0)
+    before = [(folder / name).read_bytes() for name in ("same.vtp", "same.stl")]
+    half = len(before[1]) // 2 // 512
+    checks.fact("killed in the middle of a file", run(half) == -signal.SIGXFSZ)
+    checks.fact("older files are as they were",
+                before == [(folder / name).read_bytes() for name in ("same.vtp", "same.stl")])
+    left = list(folder.glob("same.*.part-*"))
+    checks.fact("and what it had begun is beside them",
+                len(left) == 1 and left[0].stat().st_size <= half * 512, str(left))
+
+
+def small_disk(folder, kilobytes):
+    """LAMMPS with a disk of this size in `full`; what was on it is kept in `kept`. None where
+    nothing can be mounted."""
+    mount = ["unshare", "--mount", "mount", "-t", "tmpfs", "none", folder]
+    if os.geteuid() != 0 or not shutil.which("unshare"):
+        return None
+    if subprocess.run(mount, stderr=subprocess.DEVNULL).returncode:
+        return None
+    (folder / "full").mkdir()
+    path = folder / "small_disk.sh"
+    path.write_text(f"""#!/bin/sh
+[ -n "$LSDCD_INSIDE" ] || LSDCD_INSIDE=1 exec unshare --mount "$0" "$@"
+mount -t tmpfs -o size={kilobytes}k none full
+'{deck.LMP}' "$@"
+status=$?
+cp -r full kept
+exit $status
+""")
+    path.chmod(0o755)
+    return str(path)
+
+
+def full_disk(checks, folder):
+    # Five .vtp of 140 kB, restart files of 16 kB, an STL of 68 kB, which needs as much once more
+    # while it is replaced.
+    program, lmp = small_disk(folder, 800), deck.LMP
+    if not program:
+        print("SKIP a full disk: only root can mount one")
+        return
+    deck.LMP = program
+    done = deck.run(text(scene.CREATE, "run 300\n", to="full/", mesh="floor.stl"), folder)
+    deck.LMP = lmp
+    told = warned(done.stdout)
+    words = ("full/now.stl", "No space left", "no mesh_stl of this step", "Make room")
+    checks.fact("a full disk: one warning with file, reason, loss and remedy",
+                len(told) == 1 and all(w in told[0] for w in words), str(told))
+    kept = folder / "kept"
+    wrong = amiss(kept)
+    checks.fact("every file there is whole, and listed ones are there", not wrong, wrong)
+    checks.fact("nothing half-written is beside them", not list(kept.glob("*.part*")))
+    checks.fact("LAMMPS stops where it cannot write a restart file", "while writing restart" in done.stdout)
+    for name in NAMES:
+        shutil.copy(kept / name, folder)
+    step = go_on(folder, "floor.stl")
+    checks.fact("and the run goes on from the other one", step >= 2 * EVERY, f"step {step}")
+
+
+def main():
+    checks, folder = deck.Checks(), deck.scratch()
+    scene.write_floor(folder / "floor.stl")
+    scene.write_floor(folder / "fine.stl", cells=80)    # a run that writes files most of its time
+    kills(checks, folder)
+    killed_in_a_write(checks, folder)
+    full_disk(checks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""Meshes that move against fix wall/gran/region with a region that moves: linear, rotate, variable.
+
+A sphere bounces in a box that moves: each wall is a plane, and both codes evaluate the same formulas
+in another order. The oracle is Debian's 29Sep2021 and, with the argument `host`, LAMMPS 4Jul2026
+with our plugin loaded.
+
+LAMMPS takes the velocity of a region from a difference over a step: places of size 2, rounded to
+2e-16, give 2e-12 of a velocity of size 1, and half a dozen bounces make at most twice as much
+each, 1e-10 in all.
+
+Where LAMMPS is wrong the test says so: see host_defects().
+"""
+
+import math
+import sys
+
+import deck
+
+SIDE = 1.5    # half of the box
+PERIOD = 3.0
+POINT, UNIT = "0.3 -0.2 0.1", f"{2 / 3!r} {-2 / 3!r} {1 / 3!r}"
+TURN = f"variable turn equal 2*PI*step*dt/{PERIOD}"
+LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
+        "hooke/history": "hooke/history 1e4 NULL 5 NULL 0.5 1",
+        "granular": "granular hooke 1e4 5 tangential linear_nohistory 0.5 0.5 damping mass_velocity",
+        "granular, history":
+            "granular hooke 1e4 5 tangential linear_history 2857 0.5 0.5 damping mass_velocity"}
+SCENE = """\
+{load}
+units           lj
+atom_style      sphere
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block -9 9 -9 9 -9 9
+create_box      1 box
+create_atoms    1 single {at} units box
+set             atom 1 diameter 1.0 density 2.0
+velocity        all set {v}
+set             atom 1 omega {omega}
+pair_style      zero 1.2
+pair_coeff      * *
+neighbor        0.3 bin
+neigh_modify    delay 0 every 1 check yes
+fix             move all {move}
+fix             pull all gravity 8.0 vector {down}
+timestep        1e-4
+{variables}
+{wall}
+dump            d all custom {every} out id x y z vx vy vz omegax omegay omegaz tqx tqy tqz
+dump_modify     d format float %.17g
+run             {steps}
+"""
+THROWN = {"at": "0.31 -0.42 0.25", "v": "1.0 -0.7 -1.3", "omega": "2.1 -3.3 1.7", "move": "nve/sphere",
+          "down": "0.3 0.2 -1.0", "every": 10, "steps": 20000}
+
+
+def write_box(path):
+    corners = [(x, y, z) for x in (-SIDE, SIDE) for y in (-SIDE, SIDE) for z in (-SIDE, SIDE)]
+    with open(path, "w") as stl:
+        stl.write("solid box\n")
+        for a, b, c, d in ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4),
+                           (1, 5, 7, 3)):
+            for t in ((a, b, c), (a, c, d)):
+                stl.write("facet normal 0 0 1\nouter loop\n" +
+                          "".join("vertex %.17g %.17g %.17g\n" % corners[k] for k in t) +
+                          "endloop\nendfacet\n")
+        stl.write("endsolid box\n")
+
+
+class Box:
+    def __init__(self, folder, load):
+        self.folder, self.load = folder, load
+
+    def run(self, wall, variables, scene):
+        deck.run_well(SCENE.format(load=self.load, variables=variables, wall=wall, **scene), self.folder)
+        return deck.read_dump(self.folder / "out")
+
+    def ours(self, law, words, variables="", scene=THROWN):
+        return self.run(f"fix wall all wall/lsdcd {law} mesh box.stl {words} log brief", variables, scene)
+
+    def theirs(self, law, words, variables, scene=THROWN):
+        return self.run(f"region walls block {-SIDE} {SIDE} {-SIDE} {SIDE} {-SIDE} {SIDE} units box {words}\n"
+                        f"fix wall all wall/gran/region {law} region walls", variables, scene)
+
+
+def cases(name):
+    """Name, variables, words of motion, words of the region."""
+    way = ("variable a equal 0.4*step*dt\nvariable b equal -0.3*step*dt\n"
+           "variable c equal 0.7*step*dt")
+    wave = "variable a equal 0.1*sin(9*step*dt)\nvariable c equal 0.2*(1-cos(7*step*dt))"
+    yield "linear", way, "motion linear 0.4 -0.3 0.7", "move v_a v_b v_c"
+    # Without velocities of its own: both take the difference over the step.
+    yield "variable", wave, "motion variable v_a NULL v_c NULL NULL NULL", "move v_a NULL v_c"
+    if "history" in name:    # see host_defects()
+        return
+    yield "rotate", TURN, f"motion rotate {POINT} {UNIT} {PERIOD}", f"rotate v_turn {POINT} {UNIT}"
+    yield ("transrot", f"{TURN}\n{way}", f"motion transrot 0.4 -0.3 0.7 {POINT} {UNIT} {PERIOD}",
+           f"move v_a v_b v_c rotate v_turn {POINT} {UNIT}")
+
+
+def compare(checks, box):
+    for name, law in LAWS.items():
+        for title, variables, words, region in cases(name):
+            theirs, ours = box.theirs(law, region, variables), box.ours(law, words, variables)
+            touching = sum(any(row[9:12]) for rows in theirs.values() for row in rows.values())
+            checks.fact(f"{name}, {title}: touches", touching > 50, str(touching))
+            checks.at_most(f"{name}, {title}: as fix wall/gran/region",
+                           deck.largest_difference(theirs, ours), 1e-10)
+
+
+def host_defects(checks, box):
+    """What both versions of LAMMPS have wrong with a region that moves, and we do not."""
+    # The velocity is taken with the axis as it is given, and not its direction.
+    law = LAWS["hooke"]
+    one, long = (box.theirs(law, f"rotate v_turn {POINT} {axis}", TURN) for axis in (UNIT, "2 -2 1"))
+    checks.fact("LAMMPS turns faster about a longer axis", deck.largest_difference(one, long) > 0.01)
+    one, long = (box.ours(law, f"motion rotate {POINT} {axis} {PERIOD}") for axis in (UNIT, "2 -2 1"))
+    # Directions that are rounded differ by 1e-16.
+    checks.at_most("here only its direction counts", deck.largest_difference(one, long), 1e-10)
+
+    # A sphere that does not spin is carried by a turntable. Its spring, stretched by m w^2 r/k_t away
+    # from the axis, has to turn with it. Where it keeps its direction in the box, the sphere has to slip by w
+    # times that length for it to turn, and is ahead by 2 pi m w^2/k_t after a turn.
+    w, mass = 2 * math.pi / PERIOD, 2 * math.pi / 6
+    carried = {"at": f"0.6 0.0 {-SIDE + 0.499}", "v": f"0 {0.6 * w!r} 0", "omega": "0 0 0", "move": "nve",
+               "down": "0 0 -1", "every": 30000, "steps": 30000}
+    law = "hooke/history 1e4 2857 5 200 10 1"
+
+    def ahead(dump):
+        x, y = dump[30000][1][:2]
+        return math.atan2(y, x)
+
+    slip = 2 * math.pi * mass * w**2 / 2857
+    theirs = ahead(box.theirs(law, "rotate v_turn 0 0 0 0 0 1", TURN, carried))
+    # Its spring is stretched after the first tenth of the time, during which it slips less.
+    checks.at_most("LAMMPS: springs do not turn with the wall", abs(theirs / slip - 1), 0.1)
+    ours = ahead(box.ours(law, f"motion rotate 0 0 0 0 0 1 {PERIOD}", "", carried))
+    # LAMMPS's velocities of half a step shift it by w dt/2 of the stretch over r, 3e-7.
+    checks.at_most("here they do", abs(ours), slip / 1000)
+
+
+def main():
+    checks, folder = deck.Checks(), deck.scratch()
+    write_box(folder / "box.stl")
+    load = ""
+    if sys.argv[1:] == ["host"]:
+        if not deck.TEST_HOST:
+            print("SKIPPED: no LAMMPS 4Jul2026 (tests/lammps/hosts/build_host.sh)")
+            sys.exit(77)
+        load, deck.LMP = f"plugin load {deck.TEST_HOST_PLUGIN}", deck.TEST_HOST
+    box = Box(folder, load)
+    compare(checks, box)
+    host_defects(checks, box)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()

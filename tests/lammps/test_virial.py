@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""The wall's part of the pressure (fix_modify virial yes), against LAMMPS's flat wall and a closed form."""
+
+import math
+
+import deck
+from test_moving import write_plane
+
+DECK = """\
+units           lj
+atom_style      sphere
+atom_modify     map array
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block -3 3 -3 3 -1 5
+create_box      1 box
+{atoms}
+set             group all diameter 1.0 density 2.0
+pair_style      zero 1.2
+pair_coeff      * *
+fix             move all nve/sphere
+{walls}
+compute         p all pressure NULL fix
+timestep        1e-3
+thermo_style    custom step c_p[1] c_p[2] c_p[3] c_p[4] c_p[5] c_p[6]
+thermo_modify   norm no format float %.17g
+thermo          1
+dump            d all custom 1 spheres id x y z fx fy fz
+dump_modify     d format float %.17g sort id
+run             {steps}
+"""
+VOLUME = 6.0 ** 3
+BED = """\
+lattice         sc 1.2 origin 0 0 0.5
+region          fill block -2.5 2.5 -2.5 2.5 0.4 0.6 units box
+create_atoms    1 region fill
+displace_atoms  all random 0.05 0.05 0.05 4711 units box
+velocity        all create 0.1 17 loop geom"""
+MESH = "fix wall all wall/lsdcd {law} mesh plane.stl {more}\nfix_modify wall virial yes"
+FLAT = "fix flat all wall/harmonic zlo 0.0 5e3 1.0 0.5\nfix_modify flat virial yes"
+FRICTION = "hooke/history 1e4 NULL 5 NULL 0.5 1"
+
+
+def go(folder, walls, atoms=BED, steps=20, ranks=1):
+    text = deck.run_well(DECK.format(walls=walls, atoms=atoms, steps=steps), folder, ranks)
+    return deck.read_thermo(text), deck.read_dump(folder / "spheres")
+
+
+def largest(a, b):
+    return max(abs(u - v) for row, other in zip(a, b) for u, v in zip(row[1:], other[1:]))
+
+
+def against_flat_wall(checks, folder):
+    """A spring of kn is LAMMPS's harmonic wall with kn / 2: the same trajectory, so that pressures of
+    size 1 differ by roundings."""
+    springs = MESH.format(law="hooke 1e4 NULL 0 NULL 0 0", more="")
+    flat, _ = go(folder, FLAT)
+    checks.fact("spheres push the wall", min(row[3] for row in flat) > 0.01)
+    for ranks in (1, 2):
+        mesh, _ = go(folder, springs, ranks=ranks)
+        checks.at_most(f"pressure as of fix wall/harmonic, {ranks} ranks", largest(mesh, flat), 1e-12)
+
+
+def of_a_wall_that_turns(checks, folder):
+    """Arm h n, n being the wall's normal, times the force that the dump has."""
+    period, atom = 5, "create_atoms 1 single -0.4 0.3 0.49 units box\nvelocity all set 1 2 0"
+    thermo, dump = go(folder, MESH.format(
+        law=FRICTION, more=f"motion rotate 0 0 0 0 1 0 {period}"), atom, 40)
+    worst = shear = 0
+    for row in thermo:
+        (x, y, z, *f), = dump[int(row[0])].values()
+        angle = 2 * math.pi * 1e-3 * row[0] / period
+        normal = (math.sin(angle), 0, math.cos(angle))
+        height = x * normal[0] + z * normal[2]
+        r = [height * c for c in normal]
+        expected = [r[0] * f[0], r[1] * f[1], r[2] * f[2], r[0] * f[1], r[0] * f[2], r[1] * f[2]]
+        worst = max([worst] + [abs(p - e / VOLUME) for p, e in zip(row[1:], expected)])
+        shear = max(shear, abs(row[4]))
+    checks.fact("friction gives shear", shear > 1e-3)
+    # Forces of 100 are rounded to 1e-14, from heights to 1e-16 times the stiffness: 1e-12.
+    checks.at_most("arm times force where the wall turns", worst, 1e-12)
+
+
+def is_asked_for(checks, folder):
+    quiet = MESH.format(law=FRICTION, more="").split("\n")[0]
+    thermo, _ = go(folder, quiet, steps=3)
+    checks.at_most("no part of it where it is not asked for", max(abs(v) for row in thermo for v in row[1:]), 0)
+    asked = "fix_modify wall virial yes\n"
+    late = DECK.format(walls=quiet, atoms=BED, steps=10) + asked + "run 10\n"
+    early = DECK.format(walls=quiet + "\n" + asked, atoms=BED, steps=10) + "run 10\n"
+    rows = [deck.read_thermo(deck.run_well(text, folder)) for text in (late, early)]
+    checks.at_most("asked for between runs, the same bits", largest(*rows), 0)
+
+
+def main():
+    checks, folder = deck.Checks(), deck.scratch()
+    write_plane(folder / "plane.stl", 2)
+    against_flat_wall(checks, folder)
+    of_a_wall_that_turns(checks, folder)
+    is_asked_for(checks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
