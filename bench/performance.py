@@ -22,22 +22,15 @@ DEVICES = ("cpu", "cuda")
 PROGRAMS = ("query", "build", "step", "cache")
 KEY = ("program", "case", "triangles", "spheres", "length", "order")
 
-# What is to be reached on an H200, ms, from random to sorted; beside it what a plain
-# prototype and a BVH's closest-point query (cuBQL) took there.
-STATUS_TARGETS = {"10000000": (0.12, 0.07), "60000000": (0.75, 0.42)}
-DISTANCE_TARGETS = {"160": (0.12, 0.07), "10000": (0.15, 0.09), "100000": (0.22, 0.13),
-                    "1000000": (0.40, 0.28)}
+# What a plain prototype and a BVH's closest-point query (cuBQL) took on an H200, ms, random and
+# sorted.
 PROTOTYPE = {"160": (0.160, 0.100), "10000": (0.188, 0.114), "100000": (0.279, 0.166),
              "1000000": (0.470, 0.323)}
 BVH = {"160": (0.66, 0.25), "10000": (1.05, 0.41), "100000": (1.40, 0.65),
        "1000000": (2.65, 1.71)}
-BUILD_TARGETS = {"160": 3, "10000": 5, "100000": 15, "1000000": 60}
 # Yong et al. 2017, Table 2 and figure 9, a K40; its N = all tries every triangle.
 PAPER_MS = {("10000000", "N = 1"): 362, ("10000000", "N = 2"): 565, ("10000000", "N = 3"): 937,
             ("10000000", "complete"): 57899, ("60000000", "N = 2"): 3488}
-FORCE_TARGETS = (0.25, 0.15)    # hooke on particles in place, 160 triangles, chosen anew
-HISTORY_RATIO = 2    # hertz/history there, over its floor
-USUAL_SIZE = "10000000"
 
 
 # ---- rows --------------------------------------------------------------------------------
@@ -168,8 +161,8 @@ def union(cpu, cuda):
 
 # ---- tables ------------------------------------------------------------------------------
 
-def by_order(targets, key_, order):
-    pair = targets.get(key_)
+def by_order(known, key_, order):
+    pair = known.get(key_)
     return number(pair[order == "sorted"]) if pair else ""
 
 
@@ -181,13 +174,10 @@ def status_table(cpu, cuda):
 
     def cells(r):
         lists, kind = r["case"].split(", ")[1:3]
-        target = ""
-        if lists == "complete" and kind == "float":
-            target = by_order(STATUS_TARGETS, r["spheres"], r["order"])
-        return [count(r["spheres"]), lists, kind, r["order"], *cells_of(same(cuda, r)), target,
+        return [count(r["spheres"]), lists, kind, r["order"], *cells_of(same(cuda, r)),
                 number(PAPER_MS.get((r["spheres"], lists), "")), *cells_of(same(cpu, r))]
 
-    heads = ["spheres", "lists", "numbers", "order", "CUDA, ms", "floor", "ratio", "target",
+    heads = ["spheres", "lists", "numbers", "order", "CUDA, ms", "floor", "ratio",
              "the paper's K40", "CPU, ms", "floor", "ratio"]
     return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
 
@@ -201,13 +191,13 @@ def distance_table(cpu, cuda):
     def cells(r):
         kind = r["case"].split(", ")[2]
         known = [by_order(t, r["triangles"], r["order"]) if kind == "float" else ""
-                 for t in (DISTANCE_TARGETS, PROTOTYPE, BVH)]
+                 for t in (PROTOTYPE, BVH)]
         row = same(cpu, r) or same(cuda, r)
         return [count(r["triangles"]), kind, r["order"], facts(row).get("entries", ""),
                 *cells_of(same(cuda, r)), *known, *cells_of(same(cpu, r))]
 
     heads = ["triangles", "numbers", "order", "entries read", "CUDA, ms", "floor", "ratio",
-             "target", "prototype", "BVH", "CPU, ms", "floor", "ratio"]
+             "prototype", "BVH", "CPU, ms", "floor", "ratio"]
     return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
 
 
@@ -227,23 +217,14 @@ def build_table(cpu, cuda):
         inner = same(cuda, dict(r, case=r["case"] + ", without copies"))
         tests = facts(same(cpu, dict(r, case=r["case"] + ", brute force")) or
                       same(cuda, dict(r, case=r["case"] + ", brute force"))).get("tests", "")
-        target = BUILD_TARGETS.get(r["triangles"], "") if r["case"] == "given cell" else ""
         return [count(r["triangles"]), number(r["length"]), count(f["cells"]), f["mean_list"],
-                number(f["grid_mb"]), ms(same(cuda, r)), *cells_of(inner), str(target),
+                number(f["grid_mb"]), ms(same(cuda, r)), *cells_of(inner),
                 *cells_of(same(cpu, r)), f["tests"], tests, brute(cuda, r), brute(cpu, r)]
 
     heads = ["triangles", "cell", "cells kept", "mean list", "MB", "CUDA, ms",
-             "CUDA without copies, ms", "floor", "ratio", "target", "CPU, ms", "floor", "ratio",
+             "CUDA without copies, ms", "floor", "ratio", "CPU, ms", "floor", "ratio",
              "tests", "of brute force", "brute force, CUDA, s", "CPU, s"]
     return table(whole, heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
-
-
-def step_target(row):
-    if "chosen anew" not in row["case"] or row["spheres"] != USUAL_SIZE:
-        return ""
-    if row["case"].startswith("hertz"):
-        return f"ratio {HISTORY_RATIO}"
-    return number(FORCE_TARGETS[row["order"] == "sorted"]) if row["triangles"] == "160" else ""
 
 
 def step_table(cpu, cuda, in_place):
@@ -254,11 +235,11 @@ def step_table(cpu, cuda, in_place):
         f, g, c = facts(r), same(cuda, r), same(cpu, r)
         what = r["case"].replace(", in place", "")
         return [count(r["triangles"]), what, r["order"], count(f["near"]), count(f["contacts"]),
-                *cells_of(g), facts(g).get("ns_per_near", ""), *[step_target(r)] * in_place,
+                *cells_of(g), facts(g).get("ns_per_near", ""),
                 *cells_of(c), facts(c).get("ns_per_near", "")]
 
     heads = ["triangles", "style", "order", "near", "contacts", "CUDA, ms", "floor", "ratio",
-             "ns per near sphere", *["target"] * in_place, "CPU, ms", "floor", "ratio",
+             "ns per near sphere", "CPU, ms", "floor", "ratio",
              "ns per near sphere"]
     return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
 
@@ -308,8 +289,8 @@ def write_parts(found):
 def write_document():
     cpu, cuda = read_rows("cpu"), read_rows("cuda")
     write_parts(parts(cpu, cuda))
-    plot_query(cpu, cuda, DISTANCE_TARGETS, BVH)
-    plot_build(cpu, cuda, BUILD_TARGETS)
+    plot_query(cpu, cuda, BVH)
+    plot_build(cpu, cuda)
 
 
 def main(args, programs, words):

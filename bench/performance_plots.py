@@ -44,7 +44,7 @@ def curve(rows, program, case, order=""):
                   if r["program"] == program and r["case"] == case and r["order"] == order)
 
 
-def plot_query(cpu, cuda, targets, bvh):
+def plot_query(cpu, cuda, bvh):
     figure, axis = axes()
     for device, rows in (("cpu", cpu), ("cuda", cuda)):
         for order, style in (("random", "o-"), ("sorted", "s--")):
@@ -57,17 +57,15 @@ def plot_query(cpu, cuda, targets, bvh):
             axis.plot(x, y, style, color=COLOURS[device], label=f"{label(rows)}, {order}")
             if order == "random":
                 axis.plot(x, floor, ":", color=COLOURS[device], label=f"{label(rows)}, least possible: bytes at copy speed")
-    for known, name, colour in ((bvh, "a BVH (cuBQL) on an H200", "tab:red"),
-                                (targets, "target on an H200", "black")):
-        for k, (order, marker) in enumerate((("random", "+"), ("sorted", "x"))):
-            axis.plot([float(t) for t in known], [pair[k] / 10 for pair in known.values()], marker,
-                      color=colour, label=f"{name}, {order}")
+    for k, (order, marker) in enumerate((("random", "+"), ("sorted", "x"))):
+        axis.plot([float(t) for t in bvh], [pair[k] / 10 for pair in bvh.values()], marker,
+                  color="tab:red", label=f"a BVH (cuBQL) on an H200, {order}")
     axis.set_ylabel("time per sphere, ns")
     axis.set_title("Exact distance to the wall up to 1 sphere radius, single precision")
     save(figure, axis, "performance_query.png")
 
 
-def plot_build(cpu, cuda, targets):
+def plot_build(cpu, cuda):
     figure, axis = axes()
     for device, rows in (("cpu", cpu), ("cuda", cuda)):
         for case, style, name in (("given cell, without copies", "o-", "grid"),
@@ -76,8 +74,6 @@ def plot_build(cpu, cuda, targets):
             if points:
                 axis.plot(*zip(*points), style, color=COLOURS[device],
                           label=f"{name}, {label(rows)}")
-    axis.plot([float(t) for t in targets], list(targets.values()), "k+",
-              label="target on an H200")
     axis.set_ylabel("build time, ms")
     axis.set_title("Building a grid of cells of 0.2 for spheres of radius 1")
     save(figure, axis, "performance_build.png")
