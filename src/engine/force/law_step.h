@@ -249,7 +249,7 @@ struct LawStep {
   Law law;
   LawJob job;
 
-  static constexpr bool kSingle = Law::kSingle;
+  static constexpr bool kSingle = true;
   // Blocks at once on a GPU's processor: 96, 128 or 168 registers are left to a thread. With fewer
   // the kernels spill, which costs more than more blocks bring.
   static constexpr bool kLarge =
@@ -258,7 +258,7 @@ struct LawStep {
   static constexpr int kBlocksAtOnce = kLarge ? 3 : kOnWall || Law::kHistory ? 4 : 5;
 
   // Lists of brick records are left to several().
-  bool has_single() const { return kSingle && job.lists.n && !job.grid.in_floats; }
+  bool has_single() const { return job.lists.n && !job.grid.in_floats; }
   LSDCD_FN void begin() const { clear_next(job); }
   // Asks memory for the wall that near sphere k will read: the only thing that is not in order.
   void ask_ahead(std::size_t k) const
@@ -267,13 +267,7 @@ struct LawStep {
     const int n = job.lists.size(k);
     for (int i = 0; i < n; i++) ask_for(job.grid.wall, job.lists.code(k, i));
   }
-  LSDCD_FN bool single(std::size_t k) const
-  {
-    if constexpr (kSingle)
-      return single_contact(law, job, k);
-    else
-      return false;
-  }
+  LSDCD_FN bool single(std::size_t k) const { return single_contact(law, job, k); }
   LSDCD_FN bool needs_list(std::size_t k) const { return lsdcd::needs_list(law, job, k); }
   template <class Group>
   LSDCD_FN void make_list(const Group &group, std::size_t k) const

@@ -25,11 +25,9 @@ struct WallEffects {
   bool surface, records;
 };
 
-// kSingle: is there a kernel for single contacts beside that for any number? It is quicker, and
-// takes as long again to compile.
-template <class Law, bool kSurface_, bool kRecords_, bool kSingle_ = true>
+template <class Law, bool kSurface_, bool kRecords_>
 struct OnWall : Law {
-  static constexpr bool kSurface = kSurface_, kRecords = kRecords_, kSingle = kSingle_;
+  static constexpr bool kSurface = kSurface_, kRecords = kRecords_;
 };
 
 // What is compiled of a law: the kernel without effects; that and one with both, for
@@ -46,7 +44,7 @@ auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
   }
   if constexpr (kernels == WallKernels::each) return make(OnWall<Law, true, true>{law});
   if constexpr (kernels == WallKernels::both)
-    if (effects.surface || effects.records) return make(OnWall<Law, true, true, false>{law});
+    if (effects.surface || effects.records) return make(OnWall<Law, true, true>{law});
   if constexpr (kernels != WallKernels::each) return make(OnWall<Law, false, false>{law});
 }
 
