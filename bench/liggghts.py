@@ -2,8 +2,8 @@
 
 100 000 spheres of radii 0.35 to 1 in a closed cylinder (radius 50, height 100) of 2 560, 19 968 and
 202 752 triangles; Hertz contacts with shear history, friction and restitution; no contacts between
-spheres. *At the wall*: every sphere overlaps the wall and is fixed in place. *In bulk*: spheres
-fill the cylinder and move freely.
+spheres. *At the wall*: every sphere overlaps the wall and is fixed in place. *Turning*: the same, and
+the cylinder turns round its axis. *In bulk*: spheres fill the cylinder and move freely.
 
 The wall's part of a step is the step with the wall less the step without it, in the same process.
 Set-up and memory are those of a run of 0 steps with the wall less those of one without. Both
@@ -30,11 +30,13 @@ RADIUS, HEIGHT = 50.0, 100.0
 SMALLEST, LARGEST = 0.35, 1.0
 # Segments round the cylinder and along it: 2 round along + round^2 / 4 triangles.
 MESHES = {2560: (64, 12), 19968: (192, 28), 202752: (576, 104)}
-CASES = {"at the wall": "all at the wall, fixed", "in bulk": "in bulk, moving"}
+CASES = {"at the wall": "all at the wall, fixed", "turning": "all at the wall, fixed; the cylinder turns",
+         "in bulk": "in bulk, moving"}
 ORDERS = ("random", "sorted")
 YOUNG, POISSON, RESTITUTION, FRICTION, DENSITY = 1e8, 0.3, 0.5, 0.5, 2500.0
 DT, SPEED, SKIN = 1e-3, 2.5, 0.2    # in bulk, neighbour lists are built every 20 to 30 steps
 SPHERES = 100000
+PERIOD = 250.0    # of the turning cylinder: its sides go 2e-3 of a radius in a step
 
 
 # ---- the scene ---------------------------------------------------------------------------
@@ -117,7 +119,7 @@ def in_bulk(dice, r, n_round):
 def write_spheres(folder, case, order, n, n_round):
     """spheres.data, and still.data with the same spheres at rest."""
     dice = random.Random(7)
-    place = at_the_wall if case == "at the wall" else in_bulk
+    place = in_bulk if case == "in bulk" else at_the_wall
     spheres = []
     for _ in range(n):
         r = dice.uniform(SMALLEST, LARGEST)
@@ -185,9 +187,20 @@ QUIET = "thermo 100000000\n"
 def timed_deck(program, case, steps, chunks):
     """Runs with the wall, then as many without."""
     start, wall, no_wall = PROGRAMS[program]
+    if case == "turning":
+        wall, no_wall = turning(program)
     move = "fix move all nve/sphere\n" if case == "in bulk" else ""
     runs = f"run {max(5, steps // 4)}\n" + f"run {steps}\n" * chunks
     return start + wall + move + QUIET + runs + no_wall + runs
+
+
+def turning(program):
+    """The wall's commands with a cylinder that turns, and those that take it away."""
+    _, wall, no_wall = PROGRAMS[program]
+    if program == "lsdcd":
+        return wall.rstrip() + f" motion rotate 0 0 0 0 0 1 {PERIOD}\n", no_wall
+    return (wall + f"fix turn all move/mesh mesh mesh rotate origin 0. 0. 0. axis 0. 0. 1. period {PERIOD}\n",
+            "unfix turn\n" + no_wall)
 
 
 def start_deck(program, with_wall):
