@@ -49,7 +49,9 @@ void measure(const std::string &folder, Real cell, int n_poses, Device device)
     poses.push_back(pose_of(0.7 * k, 39 + 8. * k / n_poses, k % 3 == 0 ? 92 : 50));
   std::size_t expected = 0;
   for (const int n : {kEveryTriangle, 1, 2, 3}) {
-    const TriangleGrid grid = build_grid(wall, collision_grid(lion, cell, n));
+    GridSettings settings = collision_grid(lion, cell, n);
+    settings.memory_budget = std::size_t(8) << 30;
+    const TriangleGrid grid = build_grid(wall, settings);
     const auto ours = make_body_collision(device);
     ours->set_wall(grid);
     const double cut_ms = milliseconds([&] { ours->set_body(lion); });
