@@ -3,6 +3,7 @@
 
 #include "base/input_error.h"
 #include "bodies/near_piece.h"
+#include "bodies/piece_group.h"
 #include "bodies/subdivide.h"
 #include "grid/flat_grid.h"
 #include "parallel/atomic.h"
@@ -105,6 +106,13 @@ class BodyCollisionOn : public BodyCollision {
         pieces[to++] = piece_of(piece, number, longest);
       });
     });
+    groups_ = Array<PieceGroup>((n + kPiecesOfGroup - 1) / kPiecesOfGroup);
+    group_near_ = Array<char>(groups_.size());
+    PieceGroup *groups = groups_.data();
+    b_.for_each(groups_.size(), [=] LSDCD_LAMBDA(std::size_t g) {
+      const std::size_t begin = g * kPiecesOfGroup, end = begin + kPiecesOfGroup;
+      groups[g] = group_of(pieces, begin, end < n ? end : n);
+    });
     b_.wait();
   }
 
@@ -120,9 +128,15 @@ class BodyCollisionOn : public BodyCollision {
     const std::uint64_t none = 0;
     b_.copy_in(&none, counted.data(), 1);
     std::uint64_t *cut_short = counted.data();
+    const PieceGroup *groups = groups_.data();
+    char *group_near = group_near_.data();
+    b_.for_each(groups_.size(), [=] LSDCD_LAMBDA(std::size_t g) {
+      const PieceGroup group = groups[g];
+      group_near[g] = any_brick_near(grid, pose.corner_at(group.centre), group.radius + more);
+    });
     b_.for_each(n + 1, [=] LSDCD_LAMBDA(std::size_t i) {
       std::uint64_t near = 0;
-      if (i < n) {
+      if (i < n && group_near[i / kPiecesOfGroup]) {
         const Piece piece = pieces[i];
         if (for_each_near(grid, pose.corner_at(piece.centre), unit * piece.radius + more,
                           [&](FeatureCode) { near++; }))
@@ -269,6 +283,8 @@ class BodyCollisionOn : public BodyCollision {
   Array<Vec3> corners_;
   std::size_t n_triangles_ = 0;
   Array<Piece> pieces_;
+  Array<PieceGroup> groups_;
+  Array<char> group_near_;
   Array<std::uint64_t> offset_;    // of each piece's primitives in a pose
   Real size_ = 0, unit_ = 0;       // of the body about its origin; a piece's longest edge
 };
