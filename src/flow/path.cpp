@@ -1,6 +1,6 @@
 #include "flow/path.h"
 
-#include "flow/expansion.h"
+#include "geometry/expansion.h"
 
 #include <algorithm>
 #include <cmath>

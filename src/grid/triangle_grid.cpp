@@ -253,7 +253,9 @@ std::string describe(const GridReport &r)
                       "%s%zu bricks, %zu cells, %zu candidates, lists %.2f on average, %zu at most",
                       name, l.bricks, l.cells, l.candidates, l.mean, l.longest);
   };
-  if (r.nearest > 0)
+  if (r.nearest == kEveryTriangle)
+    n += std::snprintf(text + n, sizeof text - n, "every triangle, ");
+  else if (r.nearest > 0)
     n += std::snprintf(text + n, sizeof text - n, "the nearest %d and a bound, ", r.nearest);
   add("", r.lists);
   if (r.complete.cells > 0) add("\n  complete lists to fall back to: ", r.complete);

@@ -90,6 +90,8 @@ struct GridSettings {
   std::vector<Box> only;
 };
 constexpr int kMostNearest = 32;
+// Instead of N: lists of every primitive within the cutoff, for bodies against the wall.
+constexpr int kEveryTriangle = 0x7ffffffe;
 constexpr std::size_t kListBudget = 1ull << 30;    // bytes, beside the records of the wall
 
 struct ListReport {

@@ -1,0 +1,11 @@
+#include "bodies/collide_on.h"
+#include "parallel/backend_cuda.h"
+
+namespace lsdcd {
+
+std::unique_ptr<BodyCollision> make_cuda_body_collision()
+{
+  return std::make_unique<BodyCollisionOn<CudaBackend>>(CudaBackend());
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,74 @@
+// Which primitives of the wall may meet a piece of the body.
+//
+// Why no pair is missed. A pair meets at a point x, which is in a piece of the body's triangle, so
+// within the piece's radius of its centre c. The list of c's cell holds every triangle of the wall
+// within the grid's cutoff of any point of the cell; with a cutoff of at least the radius the
+// triangle that holds x is one of them. So lists must hold triangles: a complete list of faces,
+// edges and vertices leaves out those that cannot be closest to any point of the cell, and a
+// triangle behind its neighbour's fold is one of these though the piece cuts it.
+//
+// A primitive is left out where its distance from c, rounded, is more than the radius and the
+// grid's tolerance, which covers that rounding. Centres are rounded, too: in the body's frame by
+// one rounding a bisection, 64 at most, then by the pose, as the corners are. All that is less
+// than 128 roundings of the largest coordinate, which the cutoff must have to spare.
+#pragma once
+
+#include "bodies/body_collision.h"
+#include "geometry/primitive_distance.h"
+#include "grid/build/meets.h"
+#include "grid/triangle_grid.h"
+
+namespace lsdcd {
+
+// The grid's primitive as a triangle, for exact tests.
+LSDCD_FN Triangle wall_triangle(const WallFeaturesView &wall, FeatureCode primitive)
+{
+  const std::uint32_t i = feature_index(primitive);
+  const auto at = [&](std::int32_t v) { return wall.vertices[v].position; };
+  switch (feature_kind(primitive)) {
+    case FeatureKind::face: {
+      const FaceVertices &f = wall.face_vertex[i];
+      return {{at(f.v[0]), at(f.v[1]), at(f.v[2])}};
+    }
+    case FeatureKind::edge: {
+      const EdgeVertices &e = wall.edge_vertex[i];
+      return {{at(e.v[0]), at(e.v[1]), at(e.v[1])}};
+    }
+    default: {
+      const auto v = static_cast<std::int32_t>(i);
+      return {{at(v), at(v), at(v)}};
+    }
+  }
+}
+
+LSDCD_FN Triangle body_triangle(const Vec3 *corners, std::uint32_t triangle, const BodyPose &pose)
+{
+  const Vec3 *c = corners + 3 * std::size_t(triangle);
+  return {{pose.corner_at(c[0]), pose.corner_at(c[1]), pose.corner_at(c[2])}};
+}
+
+// Calls visit(primitive) for those of the wall that reach into a ball, of the list of its centre's
+// cell; returns whether that list was cut short.
+template <class Visit>
+LSDCD_FN bool for_each_near(const GridView &grid, const Vec3 &centre, Real radius,
+                            const Visit &visit)
+{
+  const CellAddress at = locate(grid, grid.lists, centre);
+  if (!at.brick || !has_candidates(*at.brick, at.cell)) return false;
+  const Cell cell = grid.lists.cells[cell_index(*at.brick, at.cell)];
+  const std::uint32_t most = static_cast<std::uint32_t>(grid.nearest);
+  const std::uint32_t n = cell.count < most ? cell.count : most;
+  for (std::uint32_t k = 0; k < n; k++) {
+    const FeatureCode code =
+        cell.count == 1 ? cell.first : grid.lists.candidates[cell.first + k].feature;
+    const std::uint32_t i = feature_index(code);
+    Real distance;
+    if (feature_kind(code) == FeatureKind::face
+            ? face_meets(grid.wall.faces[i], centre, radius, 0, distance)
+            : primitive_distance(grid.wall, code, centre) <= radius)
+      visit(code);
+  }
+  return cell.count > most;
+}
+
+}    // namespace lsdcd
