@@ -1,7 +1,7 @@
 // What passes a surface: each fact has a closed form, or follows from the surface being closed.
 #include "deck/massflow_settings.h"
 #include "base/input_error.h"
-#include "flow/expansion.h"
+#include "geometry/expansion.h"
 #include "flow/flow_surface.h"
 #include "support/meshes.h"
 
