@@ -34,17 +34,21 @@ Real rounded(Real x)
 
 }    // namespace
 
+Vec3 rounded_as_in_stl(const Vec3 &corner)
+{
+  return {rounded(corner.x), rounded(corner.y), rounded(corner.z)};
+}
+
 void write_mesh_stl(const std::string &path, const WallMesh &mesh, const WallPose &pose)
 {
   constexpr std::size_t kHeaderText = 80;
-  std::string bytes = "binary STL of fix wall/lsdcd";    // no "solid", by which text begins
+  std::string bytes = "binary STL of lsdcd";    // no "solid", by which text begins
   bytes.resize(kHeaderText, ' ');
   append(bytes, static_cast<std::uint32_t>(mesh.faces.size()));
   for (const auto &f : mesh.faces) {
     Vec3 corner[3];
     for (int k = 0; k < 3; k++) {
-      const Vec3 c = pose.to_box(mesh.vertices[f[k]]);
-      corner[k] = {rounded(c.x), rounded(c.y), rounded(c.z)};
+      corner[k] = rounded_as_in_stl(pose.to_box(mesh.vertices[f[k]]));
     }
     // Of the corners as they are in the file, so that reading and writing it changes nothing.
     const Vec3 n = cross(corner[1] - corner[0], corner[2] - corner[0]);

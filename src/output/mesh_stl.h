@@ -12,4 +12,7 @@ namespace lsdcd {
 // Throws InputError that names the file.
 void write_mesh_stl(const std::string &path, const WallMesh &mesh, const WallPose &pose = {});
 
+// A corner as that file has it: of floats.
+Vec3 rounded_as_in_stl(const Vec3 &corner);
+
 }    // namespace lsdcd

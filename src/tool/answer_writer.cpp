@@ -1,0 +1,172 @@
+#include "tool/answer_writer.h"
+
+#include "base/input_error.h"
+#include "base/whole_file.h"
+#include "contact/wall_geometry.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+namespace lsdcd {
+
+namespace {
+
+constexpr const char *kKinds[] = {"face", "edge", "vertex", "none"};
+
+int kind_of(std::uint32_t feature)
+{
+  return feature == kNoFeature ? 3 : static_cast<int>(feature_kind(feature));
+}
+
+// Numbers in the digits that give them back.
+class CsvWriter : public AnswerWriter {
+ public:
+  CsvWriter(const std::string &path, bool with_ids, bool with_sides) :
+      file_(path), with_ids_(with_ids), with_sides_(with_sides)
+  {
+    text_ = with_ids ? "timestep,id," : "";
+    text_ += "distance,closest_x,closest_y,closest_z,triangle,feature,index";
+    text_ += with_sides ? ",side\n" : "\n";
+  }
+  void write(const PointBlock &points, const AnswerBlock &a) override
+  {
+    for (std::size_t i = 0; i < points.size(); i++) {
+      if (with_ids_) {
+        add(points.step[i], ',');
+        add(points.id[i], ',');
+      }
+      add(a.distance[i], ',');
+      for (int k = 0; k < 3; k++) add(a.closest[3 * i + k], ',');
+      const int kind = kind_of(a.feature[i]);
+      add_index(a.triangle[i], a.triangle[i] != kNoFeature, ',');
+      text_ += kKinds[kind];
+      text_ += ',';
+      add_index(feature_index(a.feature[i]), kind < 3, with_sides_ ? ',' : '\n');
+      if (with_sides_) add(static_cast<int>(a.side[i]), '\n');
+    }
+    flush();
+  }
+  void commit() override
+  {
+    flush();
+    file_.commit();
+  }
+
+ private:
+  template <class T>
+  void add(T value, char after)
+  {
+    char digits[32];
+    char *end = std::to_chars(digits, digits + sizeof digits - 1, value).ptr;
+    *end++ = after;
+    text_.append(digits, end);
+  }
+  // Of nothing: -1.
+  void add_index(std::uint32_t index, bool any, char after)
+  {
+    add(any ? static_cast<std::int64_t>(index) : -1, after);
+  }
+  void flush()
+  {
+    file_.write_at(at_, text_.data(), text_.size());
+    at_ += text_.size();
+    text_.clear();
+  }
+
+  WholeFile file_;
+  std::string text_;
+  std::uint64_t at_ = 0;
+  bool with_ids_, with_sides_;
+};
+
+// A record array; its header is written last, when the number of points is known.
+class NpyWriter : public AnswerWriter {
+ public:
+  NpyWriter(const std::string &path, bool with_ids, bool with_sides) :
+      file_(path), with_ids_(with_ids), with_sides_(with_sides)
+  {
+  }
+  void write(const PointBlock &points, const AnswerBlock &a) override
+  {
+    bytes_.clear();
+    for (std::size_t i = 0; i < points.size(); i++) {
+      if (with_ids_) {
+        add(points.step[i]);
+        add(points.id[i]);
+      }
+      add(a.distance[i]);
+      for (int k = 0; k < 3; k++) add(a.closest[3 * i + k]);
+      const int kind = kind_of(a.feature[i]);
+      add(index(a.triangle[i], a.triangle[i] != kNoFeature));
+      add(index(feature_index(a.feature[i]), kind < 3));
+      add(static_cast<std::int8_t>(kind < 3 ? kind : -1));
+      if (with_sides_) add(a.side[i]);
+    }
+    file_.write_at(at_, bytes_.data(), bytes_.size());
+    at_ += bytes_.size();
+    n_ += points.size();
+  }
+  void commit() override
+  {
+    std::string head = "{'descr': [";
+    if (with_ids_) head += "('timestep', '<i8'), ('id', '<i8'), ";
+    head += "('distance', '<f8'), ('closest', '<f8', (3,)), ('triangle', '<i4'), ('index', '<i4'), "
+            "('feature', '|i1')";
+    if (with_sides_) head += ", ('side', '|i1')";
+    head += "], 'fortran_order': False, 'shape': (" + std::to_string(n_) + ",)}";
+    constexpr std::size_t kStart = 10;
+    head.resize(kHeader - kStart - 1, ' ');
+    head += '\n';
+    const std::string start = {'\x93',
+                               'N',
+                               'U',
+                               'M',
+                               'P',
+                               'Y',
+                               1,
+                               0,
+                               static_cast<char>((kHeader - kStart) & 255),
+                               static_cast<char>((kHeader - kStart) >> 8)};
+    head = start + head;
+    file_.write_at(0, head.data(), head.size());
+    file_.commit();
+  }
+
+ private:
+  static constexpr std::size_t kHeader = 384;    // bytes; a multiple of 64
+
+  template <class T>
+  void add(T value)
+  {
+    const std::size_t end = bytes_.size();
+    bytes_.resize(end + sizeof value);
+    std::memcpy(bytes_.data() + end, &value, sizeof value);
+  }
+  static std::int32_t index(std::uint32_t value, bool any)
+  {
+    return any ? static_cast<std::int32_t>(value) : -1;
+  }
+
+  WholeFile file_;
+  std::vector<char> bytes_;
+  std::uint64_t at_ = kHeader;
+  std::size_t n_ = 0;
+  bool with_ids_, with_sides_;
+};
+
+bool ends_with(const std::string &text, const std::string &end)
+{
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+}    // namespace
+
+std::unique_ptr<AnswerWriter> open_answers(const std::string &path, bool with_ids, bool with_sides)
+{
+  if (ends_with(path, ".csv")) return std::make_unique<CsvWriter>(path, with_ids, with_sides);
+  if (ends_with(path, ".npy")) return std::make_unique<NpyWriter>(path, with_ids, with_sides);
+  throw InputError("--output '" + path + "' ends neither in .csv nor in .npy");
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,40 @@
+// What is found of points, into a file of any size, block by block.
+#pragma once
+
+#include "tool/point_reader.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// As in query/point_work.h.
+struct AnswerBlock {
+  std::vector<double> distance, closest;
+  std::vector<std::uint32_t> triangle, feature;
+  std::vector<std::int8_t> side;    // empty: the mesh has none
+
+  void resize(std::size_t n, bool with_sides)
+  {
+    distance.resize(n);
+    closest.resize(3 * n);
+    triangle.resize(n);
+    feature.resize(n);
+    side.resize(with_sides ? n : 0);
+  }
+};
+
+class AnswerWriter {
+ public:
+  virtual ~AnswerWriter() = default;
+  virtual void write(const PointBlock &points, const AnswerBlock &answers) = 0;
+  virtual void commit() = 0;    // until then the file is not there
+};
+
+// By its name's ending: .csv or .npy; throws InputError for another.
+std::unique_ptr<AnswerWriter> open_answers(const std::string &path, bool with_ids, bool with_sides);
+
+}    // namespace lsdcd

@@ -1,0 +1,180 @@
+#include "tool/distance_command.h"
+
+#include "parallel/threads.h"
+#include "tool/answer_writer.h"
+#include "tool/load_mesh.h"
+#include "tool/mesh_json.h"
+#include "tool/point_answers.h"
+#include "tool/progress.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace lsdcd {
+
+namespace {
+
+struct Options {
+  std::string mesh, points, output, device = "auto";
+  std::vector<double> scale;
+  double weld = -1, radius = 0, cell = 0, memory = 0;
+  std::size_t block = 1 << 18;
+  int threads = 0;
+  bool json = false, progress = false;
+};
+
+struct Totals {
+  std::size_t points = 0, found = 0, inside = 0;
+  double nearest = HUGE_VAL, farthest = 0;    // of those found
+  double seconds = 0, query_seconds = 0;
+
+  void add(const AnswerBlock &a)
+  {
+    for (const double d : a.distance) {
+      if (!std::isfinite(d)) continue;
+      found++;
+      nearest = std::min(nearest, d);
+      farthest = std::max(farthest, d);
+    }
+    points += a.distance.size();
+    inside += std::count(a.side.begin(), a.side.end(), -1);
+  }
+};
+
+double since(std::chrono::steady_clock::time_point then)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
+std::string progress_text(const Totals &t, double share, double seconds)
+{
+  char text[96];
+  std::snprintf(text, sizeof text, "%zu points, %.0f%%, %.2f million/s", t.points, 100 * share,
+                1e-6 * static_cast<double>(t.points) / seconds);
+  return text;
+}
+
+Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
+{
+  const auto start = std::chrono::steady_clock::now();
+  const auto writer = open_answers(o.output, reader.has_ids(), answers.has_sides);
+  Progress progress(o.progress);
+  PointBlock points;
+  AnswerBlock found;
+  Totals totals;
+  for (;;) {
+    reader.read(points, o.block);
+    if (points.size() == 0) break;
+    const auto asked = std::chrono::steady_clock::now();
+    answers.answer(points, found);
+    totals.query_seconds += since(asked);
+    writer->write(points, found);
+    totals.add(found);
+    progress.show(progress_text(totals, reader.share_read(), since(start)));
+  }
+  writer->commit();
+  totals.seconds = since(start);
+  return totals;
+}
+
+void print(const Options &o, const Totals &t, const PointAnswers &answers)
+{
+  const double rate = t.seconds > 0 ? static_cast<double>(t.points) / t.seconds : 0;
+  if (o.json) {
+    nlohmann::json j = {{"points", t.points},
+                        {"found", t.found},
+                        {"radius", o.radius},
+                        {"sides", answers.has_sides},
+                        {"seconds", t.seconds},
+                        {"query_seconds", t.query_seconds},
+                        {"points_per_second", rate},
+                        {"grid_bytes", answers.report.bytes},
+                        {"grid_seconds", answers.report.seconds},
+                        {"device", answers.report.device},
+                        {"output", o.output}};
+    if (answers.has_sides) j["inside"] = t.inside;
+    if (t.found > 0) j.update({{"nearest", t.nearest}, {"farthest", t.farthest}});
+    std::printf("%s\n", j.dump(2).c_str());
+    return;
+  }
+  std::printf("%s: %zu points\n  found       %zu nearer than %g\n", o.output.c_str(), t.points,
+              t.found, o.radius);
+  if (t.found > 0) std::printf("  distances   %g to %g\n", t.nearest, t.farthest);
+  if (answers.has_sides)
+    std::printf("  inside      %zu\n", t.inside);
+  else
+    std::printf("  sides       none: the mesh is not closed and oriented, see lsdcd inspect\n");
+  std::printf(
+      "  time        %.3g s, of which queries %.3g s; %.3g points per second; grid %.3g s\n",
+      t.seconds, t.query_seconds, rate, answers.report.seconds);
+}
+
+void distance(const Options &o)
+{
+  if (!(o.radius > 0) || !std::isfinite(o.radius))
+    throw InputError("--radius is " + std::to_string(o.radius) +
+                     "; give the largest distance that matters, above 0");
+#if defined(_OPENMP)
+  threads_asked_for() = true;    // a program of one user, not one of many processes
+  if (o.threads > 0) omp_set_num_threads(o.threads);
+#endif
+  const auto reader = open_points(o.points);
+  open_answers(o.output, false, false);    // can it be written? Better told before the work
+  const WallMesh mesh = load_mesh(o.mesh, o.scale, o.weld);
+  GridSettings settings;
+  settings.cutoff = o.radius;
+  settings.length = o.cell;
+  settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
+  const auto answers = make_point_answers(mesh, settings, o.device);
+  print(o, stream(o, *reader, *answers), *answers);
+}
+
+}    // namespace
+
+void add_distance_command(CLI::App &app)
+{
+  const auto o = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand(
+      "distance", "distance, closest point, triangle, feature and side of many points");
+  command->add_option("mesh", o->mesh, "STL file, ASCII or binary")->required();
+  command
+      ->add_option("points", o->points,
+                   "lines of numbers (x y z first, or named), .npy (n, 3), or LAMMPS text dump")
+      ->required();
+  command->add_option("-o,--output", o->output, "file to write, .csv or .npy")->required();
+  command->add_option("--radius,--cutoff", o->radius, "nothing as far as this is found")
+      ->required();
+  command->add_option("--scale", o->scale, "of the mesh: one factor, or three (x y z)")
+      ->expected(1, 3);
+  command->add_option("--weld", o->weld,
+                      "weld corners closer than this (default: 1e-6 of the box diagonal)");
+  command->add_option("--grid", o->cell, "cell length (default: chosen)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--memory", o->memory, "of the grid, in MB (default: 1024 beside the mesh)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--device", o->device, "that answers")
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
+      ->capture_default_str();
+  command->add_option("--threads", o->threads, "on the CPU (default: OMP_NUM_THREADS, or all)")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--block", o->block, "points in memory at once")
+      ->check(CLI::Range(std::size_t(1), std::size_t(1) << 26))
+      ->capture_default_str();
+  command->add_flag("--progress", o->progress, "tell how far it is, even where no terminal is");
+  command->add_flag("--json", o->json, "print JSON");
+  command->footer(
+      "A point per line or record, in the order of the points; a dump's have timestep and id "
+      "first.\n"
+      "Columns: distance (inf: nothing found), closest point (then the point itself), triangle (of "
+      "the\n"
+      "file, from 0), feature (face, edge, vertex, none; in .npy 0, 1, 2, -1) and its index in "
+      "the\n"
+      "welded mesh, and, where the mesh is closed, side (1 outside, -1 inside, 0 not found).\n"
+      "Example:\n  lsdcd distance wall.stl points.csv --radius 0.01 -o distances.csv");
+  command->callback([o] { distance(*o); });
+}
+
+}    // namespace lsdcd

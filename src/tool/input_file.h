@@ -1,0 +1,119 @@
+// A file read from its beginning to its end, in bytes or in lines.
+#pragma once
+
+#include "base/input_error.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsdcd {
+
+class InputFile {
+ public:
+  explicit InputFile(const std::string &path) : path_(path), file_(std::fopen(path.c_str(), "rb"))
+  {
+    if (!file_) fail(std::strerror(errno));
+    if (std::fseek(file_.get(), 0, SEEK_END) == 0) size_ = std::ftell(file_.get());
+    std::rewind(file_.get());
+    buffer_.resize(std::size_t(1) << 20);
+    fill();
+  }
+
+  const std::string &path() const { return path_; }
+  long size() const { return size_; }
+  double share_read() const { return size_ > 0 ? double(read_ - (end_ - at_)) / size_ : 0; }
+  long line_number() const { return line_; }
+
+  // What comes first, without taking it; fewer bytes where the file has no more.
+  std::string_view ahead(std::size_t n) const
+  {
+    return {buffer_.data() + at_, std::min(n, end_ - at_)};
+  }
+  // Takes up to n bytes.
+  std::size_t bytes(char *to, std::size_t n)
+  {
+    std::size_t done = 0;
+    while (done < n) {
+      if (at_ == end_ && !fill()) break;
+      const std::size_t part = std::min(n - done, end_ - at_);
+      std::memcpy(to + done, buffer_.data() + at_, part);
+      at_ += part;
+      done += part;
+    }
+    return done;
+  }
+  // The next line without its end, valid until the next call; false: there is none.
+  bool line(std::string_view &text)
+  {
+    for (std::size_t looked = 0;;) {
+      const char *from = buffer_.data() + at_;
+      const void *found = std::memchr(from + looked, '\n', end_ - at_ - looked);
+      if (found) {
+        text = {from, static_cast<std::size_t>(static_cast<const char *>(found) - from)};
+        at_ += text.size() + 1;
+        break;
+      }
+      looked = end_ - at_;
+      if (looked == buffer_.size())
+        fail_at_line(line_ + 1, "has more than 1 MB; is this a text file?");
+      if (!fill()) {
+        if (at_ == end_) return false;
+        text = {buffer_.data() + at_, end_ - at_};
+        at_ = end_;
+        break;
+      }
+    }
+    if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+    line_++;
+    return true;
+  }
+
+  [[noreturn]] void fail(const std::string &what) const { throw InputError(path_ + ": " + what); }
+  [[noreturn]] void fail_at_line(long line, const std::string &what) const
+  {
+    fail("line " + std::to_string(line) + " " + what);
+  }
+
+ private:
+  struct Close {
+    void operator()(std::FILE *file) const { std::fclose(file); }
+  };
+
+  // More of the file behind what is not yet taken; false: there is no more.
+  bool fill()
+  {
+    std::memmove(buffer_.data(), buffer_.data() + at_, end_ - at_);
+    end_ -= at_;
+    at_ = 0;
+    const std::size_t n = std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, file_.get());
+    if (n == 0 && std::ferror(file_.get())) fail(std::strerror(errno));
+    end_ += n;
+    read_ += n;
+    return n > 0;
+  }
+
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  long size_ = 0, line_ = 0;
+  std::vector<char> buffer_;
+  std::size_t at_ = 0, end_ = 0, read_ = 0;
+};
+
+// Words between blanks, commas and semicolons.
+inline void split_words(std::string_view text, std::vector<std::string_view> &words)
+{
+  constexpr std::string_view kBetween = " \t,;";
+  words.clear();
+  for (std::size_t at = text.find_first_not_of(kBetween); at != text.npos;) {
+    const std::size_t end = std::min(text.find_first_of(kBetween, at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = text.find_first_not_of(kBetween, end);
+  }
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,97 @@
+#include "tool/inspect_command.h"
+
+#include "grid/triangle_grid.h"
+#include "tool/load_mesh.h"
+#include "tool/mesh_json.h"
+
+#include <cstdio>
+#include <memory>
+
+namespace lsdcd {
+
+namespace {
+
+struct Options {
+  std::string file;
+  std::vector<double> scale;
+  double weld = -1, radius = 0, length = 0, memory = 0;
+  bool json = false;
+};
+
+nlohmann::json as_json(const ListReport &r)
+{
+  return {{"bricks", r.bricks},  {"cells", r.cells},          {"candidates", r.candidates},
+          {"mean_list", r.mean}, {"longest_list", r.longest}, {"distance_tests", r.distance_tests}};
+}
+
+nlohmann::json as_json(const GridReport &r)
+{
+  nlohmann::json j = as_json(r.lists);
+  j.update({{"length", r.length},
+            {"cutoff", r.cutoff},
+            {"bytes", r.bytes},
+            {"seconds", r.seconds},
+            {"device", r.device}});
+  return j;
+}
+
+void inspect(const Options &o)
+{
+  const WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
+  if (o.json)
+    std::printf("%s\n", as_json(mesh.report).dump(2).c_str());
+  else
+    std::printf("%s\n%s\n", describe(mesh.report, o.file).c_str(),
+                verdict_line(mesh.report).c_str());
+}
+
+void grid(const Options &o)
+{
+  const WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
+  GridSettings settings;
+  settings.length = o.length;
+  settings.cutoff = o.radius;
+  settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
+  const TriangleGrid g = build_grid(mesh, settings);
+  if (o.json)
+    std::printf("%s\n", as_json(g.report).dump(2).c_str());
+  else
+    std::printf("%s\n%s\n", describe(mesh.report, o.file).c_str(), describe(g.report).c_str());
+}
+
+void add_mesh_options(CLI::App *command, Options &o)
+{
+  command->add_option("file", o.file, "STL file, ASCII or binary")->required();
+  command->add_option("--scale", o.scale, "one factor, or three (x y z)")->expected(1, 3);
+  command->add_option("--weld", o.weld,
+                      "weld corners closer than this (default: 1e-6 of the box diagonal)");
+  command->add_flag("--json", o.json, "print JSON");
+}
+
+}    // namespace
+
+void add_inspect_command(CLI::App &app)
+{
+  const auto o = std::make_shared<Options>();
+  CLI::App *command =
+      app.add_subcommand("inspect", "what the mesh is: facets, welds, holes, folds, area, volume");
+  command->footer("Example:\n  lsdcd inspect wall.stl --json");
+  add_mesh_options(command, *o);
+  command->callback([o] { inspect(*o); });
+}
+
+void add_grid_command(CLI::App &app)
+{
+  const auto o = std::make_shared<Options>();
+  CLI::App *command =
+      app.add_subcommand("grid", "what a grid for spheres up to a radius would cost");
+  command->footer("Example:\n  lsdcd grid wall.stl --radius 0.005");
+  add_mesh_options(command, *o);
+  command->add_option("--radius", o->radius, "largest sphere radius")->required();
+  command->add_option("--grid", o->length, "cell length (default: chosen)");
+  command->add_option("--memory", o->memory,
+                      "budget in MB (default: 1024 beside the mesh's own records)");
+  command->callback([o] { grid(*o); });
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,60 @@
+#include "tool/mesh_json.h"
+
+namespace lsdcd {
+
+nlohmann::json as_json(const Vec3 &v)
+{
+  return {v.x, v.y, v.z};
+}
+
+nlohmann::json as_json(const MeshReport &r)
+{
+  return {{"facets", r.facets},
+          {"vertices", r.vertices},
+          {"degenerate_facets", r.degenerate_facets},
+          {"duplicate_facets", r.duplicate_facets},
+          {"edges", r.edges},
+          {"open_edges", r.open_edges},
+          {"nonmanifold_edges", r.nonmanifold_edges},
+          {"misoriented_edges", r.misoriented_edges},
+          {"closed", r.closed},
+          {"oriented", r.oriented},
+          {"weld_tolerance", r.weld_tolerance},
+          {"area", r.area},
+          {"volume", r.volume},
+          {"lo", as_json(r.lo)},
+          {"hi", as_json(r.hi)},
+          {"smallest_edge", r.smallest_edge},
+          {"median_edge", r.median_edge},
+          {"largest_edge", r.largest_edge},
+          {"smallest_height", r.smallest_height},
+          {"largest_fold_degrees", r.largest_fold},
+          {"feature_edges", r.feature_edges},
+          {"clean", problems_of(r).empty()},
+          {"problems", problems_of(r)}};
+}
+
+std::vector<std::string> problems_of(const MeshReport &report)
+{
+  std::vector<std::string> found;
+  const auto count = [&](std::size_t n, const char *one, const char *many) {
+    if (n > 0) found.push_back(std::to_string(n) + " " + (n == 1 ? one : many));
+  };
+  count(report.degenerate_facets, "degenerate facet", "degenerate facets");
+  count(report.duplicate_facets, "duplicate facet", "duplicate facets");
+  count(report.nonmanifold_edges, "edge of more than two facets", "edges of more than two facets");
+  count(report.misoriented_edges, "edge along which windings disagree",
+        "edges along which windings disagree");
+  if (report.oriented && report.volume < 0) found.push_back("normals that point in");
+  return found;
+}
+
+std::string verdict_line(const MeshReport &report)
+{
+  std::string why;
+  for (const std::string &problem : problems_of(report)) why += (why.empty() ? "" : ", ") + problem;
+  const std::string open = report.closed ? "" : ", but open";
+  return "  clean       " + (why.empty() ? "yes" + open : "no: " + why);
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,22 @@
+// What a mesh is, for machines, and whether anything is wrong with it.
+#pragma once
+
+#include "mesh/wall_mesh.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+nlohmann::json as_json(const Vec3 &v);
+nlohmann::json as_json(const MeshReport &report);
+
+// What is wrong with a mesh; nothing: it is clean. That it is open is none: many walls are.
+std::vector<std::string> problems_of(const MeshReport &report);
+
+// A line below describe(): "  clean       yes", or no and why not.
+std::string verdict_line(const MeshReport &report);
+
+}    // namespace lsdcd

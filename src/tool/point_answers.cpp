@@ -1,0 +1,160 @@
+#include "tool/point_answers.h"
+
+#include "base/input_error.h"
+#include "engine/wall_engine.h"
+#include "grid/flat_grid.h"
+#include "query/point_query.h"
+
+#if defined(LSDCD_HAVE_CUDA)
+#include <cuda_runtime_api.h>
+#endif
+
+namespace lsdcd {
+
+namespace {
+
+template <class T>
+StridedView<T> packed(T *at)
+{
+  return {at, 3, 1};
+}
+
+class CpuAnswers : public PointAnswers {
+ public:
+  CpuAnswers(const WallMesh &mesh, const TriangleGrid &grid) :
+      flat_(grid), grid_(flat_.view()), names_(mesh)
+  {
+  }
+  void answer(const PointBlock &points, AnswerBlock &a) override
+  {
+    a.resize(points.size(), has_sides);
+    PointArrays<double> io;
+    io.n = points.size();
+    io.radius = grid_.view.cutoff;
+    io.points = packed(points.xyz.data());
+    io.distance = {a.distance.data(), 1};
+    io.closest = packed(a.closest.data());
+    io.triangle = a.triangle.data();
+    io.feature = a.feature.data();
+    if (has_sides) io.side = a.side.data();
+    answer_points(grid_, names_, io);
+  }
+
+ private:
+  FlatGrid flat_;
+  HostGrid grid_;
+  TriangleTable names_;
+};
+
+#if defined(LSDCD_HAVE_CUDA)
+
+void check(cudaError_t status, const char *what)
+{
+  if (status != cudaSuccess)
+    throw InputError(std::string("CUDA, ") + what + ": " + cudaGetErrorString(status) +
+                     "; try --device cpu, or a smaller --block");
+}
+
+// Memory of the device that grows with what it holds.
+template <class T>
+class DeviceArray {
+ public:
+  DeviceArray() = default;
+  DeviceArray(const DeviceArray &) = delete;
+  DeviceArray &operator=(const DeviceArray &) = delete;
+  ~DeviceArray() { cudaFree(at_); }
+
+  T *of(std::size_t n)
+  {
+    if (n > n_) {
+      cudaFree(at_);
+      at_ = nullptr;
+      n_ = 0;
+      check(cudaMalloc(reinterpret_cast<void **>(&at_), n * sizeof(T)), "memory for a block");
+      n_ = n;
+    }
+    return at_;
+  }
+  void take(const std::vector<T> &from)
+  {
+    check(cudaMemcpy(of(from.size()), from.data(), from.size() * sizeof(T), cudaMemcpyDefault),
+          "copying points");
+  }
+  void give(std::vector<T> &to)
+  {
+    check(cudaMemcpy(to.data(), at_, to.size() * sizeof(T), cudaMemcpyDefault), "copying answers");
+  }
+
+ private:
+  T *at_ = nullptr;
+  std::size_t n_ = 0;
+};
+
+class CudaAnswers : public PointAnswers {
+ public:
+  CudaAnswers(const WallMesh &mesh, const TriangleGrid &grid)
+  {
+    const FlatGrid flat(grid);
+    radius_ = flat.view().cutoff;
+    query_ = make_stream_query(copy_to_cuda(flat.view(), TriangleTable(mesh)), nullptr);
+  }
+  void answer(const PointBlock &points, AnswerBlock &a) override
+  {
+    const std::size_t n = points.size();
+    a.resize(n, has_sides);
+    if (n == 0) return;
+    points_.take(points.xyz);
+    PointArrays<double> io;
+    io.n = n;
+    io.radius = radius_;
+    io.points = packed<const double>(points_.of(3 * n));
+    io.distance = {distance_.of(n), 1};
+    io.closest = packed(closest_.of(3 * n));
+    io.triangle = triangle_.of(n);
+    io.feature = feature_.of(n);
+    if (has_sides) io.side = side_.of(n);
+    query_->answer(io);
+    check(cudaStreamSynchronize(nullptr), "answering");
+    distance_.give(a.distance);
+    closest_.give(a.closest);
+    triangle_.give(a.triangle);
+    feature_.give(a.feature);
+    if (has_sides) side_.give(a.side);
+  }
+
+ private:
+  Real radius_ = 0;
+  std::unique_ptr<StreamQuery> query_;
+  DeviceArray<double> points_, distance_, closest_;
+  DeviceArray<std::uint32_t> triangle_, feature_;
+  DeviceArray<std::int8_t> side_;
+};
+
+#else
+
+using CudaAnswers = CpuAnswers;    // never made: there is no CUDA
+
+#endif
+
+}    // namespace
+
+std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, GridSettings settings,
+                                                 const std::string &device)
+{
+  std::string why;
+  const bool on_cuda = device != "cpu" && cuda_available(&why);
+  if (device == "cuda" && !on_cuda)
+    throw InputError("--device cuda: " + why + "; use --device cpu");
+  settings.sides = mesh.report.closed && mesh.report.oriented;
+  const TriangleGrid grid = build_grid(mesh, settings, on_cuda);
+  std::unique_ptr<PointAnswers> made;
+  if (on_cuda)
+    made = std::make_unique<CudaAnswers>(mesh, grid);
+  else
+    made = std::make_unique<CpuAnswers>(mesh, grid);
+  made->has_sides = settings.sides;
+  made->report = grid.report;
+  return made;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,26 @@
+// Distances of blocks of points to a mesh, on the CPU or a CUDA device.
+#pragma once
+
+#include "mesh/wall_mesh.h"
+#include "grid/triangle_grid.h"
+#include "tool/answer_writer.h"
+
+#include <memory>
+#include <string>
+
+namespace lsdcd {
+
+class PointAnswers {
+ public:
+  virtual ~PointAnswers() = default;
+  virtual void answer(const PointBlock &points, AnswerBlock &answers) = 0;
+
+  bool has_sides = false;
+  GridReport report;
+};
+
+// With a grid up to the cutoff of the settings. device: auto, cpu or cuda; throws InputError.
+std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, GridSettings settings,
+                                                 const std::string &device);
+
+}    // namespace lsdcd

@@ -1,0 +1,255 @@
+#include "tool/point_reader.h"
+
+#include "tool/input_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+namespace lsdcd {
+
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+template <class T>
+bool is_number(std::string_view word, T &value)
+{
+  if (!word.empty() && word[0] == '+') word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+template <class T>
+T number(const InputFile &file, const Words &words, std::size_t column)
+{
+  T value = 0;
+  if (column >= words.size())
+    file.fail_at_line(file.line_number(), "has " + std::to_string(words.size()) +
+                                              " columns, and no number in column " +
+                                              std::to_string(column + 1));
+  if (!is_number(words[column], value))
+    file.fail_at_line(file.line_number(), "has '" + std::string(words[column]) + "' in column " +
+                                              std::to_string(column + 1) + ", which is no number");
+  return value;
+}
+
+class LinesReader : public PointReader {
+ public:
+  explicit LinesReader(InputFile file) : file_(std::move(file)) {}
+
+  void read(PointBlock &block, std::size_t most) override
+  {
+    block.clear();
+    std::string_view line;
+    while (block.size() < most && file_.line(line)) {
+      split_words(line, words_);
+      if (words_.empty() || words_[0][0] == '#') continue;
+      double ignored = 0;
+      if (first_ && std::none_of(words_.begin(), words_.end(),
+                                 [&](auto word) { return is_number(word, ignored); }))
+        take_names();
+      else
+        for (const std::size_t c : column_) block.xyz.push_back(number<double>(file_, words_, c));
+      first_ = false;
+    }
+  }
+  double share_read() const override { return file_.share_read(); }
+
+ private:
+  void take_names()
+  {
+    for (int k = 0; k < 3; k++) {
+      const auto is_it = [&](std::string_view w) {
+        if (w.size() > 2 && w.front() == '"' && w.back() == '"') w = w.substr(1, w.size() - 2);
+        return w.size() == 1 && (w[0] == "xyz"[k] || w[0] == "XYZ"[k]);
+      };
+      const auto found = std::find_if(words_.begin(), words_.end(), is_it);
+      if (found == words_.end())
+        file_.fail_at_line(file_.line_number(), std::string("names columns, but none ") + "xyz"[k] +
+                                                    "; name them x, y and z");
+      column_[k] = found - words_.begin();
+    }
+  }
+
+  InputFile file_;
+  Words words_;
+  std::array<std::size_t, 3> column_ = {0, 1, 2};
+  bool first_ = true;
+};
+
+class DumpReader : public PointReader {
+ public:
+  explicit DumpReader(InputFile file) : file_(std::move(file)) { has_ids_ = true; }
+
+  void read(PointBlock &block, std::size_t most) override
+  {
+    block.clear();
+    while (block.size() < most) {
+      if (left_ == 0 && !snapshot()) return;
+      if (left_ == 0) continue;    // a snapshot of no atoms
+      words_of_line("an atom");
+      for (int k = 0; k < 3; k++) {
+        const double x = number<double>(file_, words_, column_[k]);
+        block.xyz.push_back(scaled_[k] ? lo_[k] + x * (hi_[k] - lo_[k]) : x);
+      }
+      block.step.push_back(step_);
+      block.id.push_back(id_column_ < 0 ? ++order_
+                                        : number<std::int64_t>(file_, words_, id_column_));
+      left_--;
+    }
+  }
+  double share_read() const override { return file_.share_read(); }
+
+ private:
+  void words_of_line(const char *what)
+  {
+    std::string_view line;
+    if (!file_.line(line))
+      file_.fail("ends after line " + std::to_string(file_.line_number()) + ", where " + what +
+                 " should be; is the dump still being written?");
+    split_words(line, words_);
+  }
+
+  // All up to the first atom; false: the file ends.
+  bool snapshot()
+  {
+    std::string_view line;
+    while (file_.line(line)) {
+      split_words(line, words_);
+      if (words_.empty()) continue;
+      if (words_[0] != "ITEM:" || words_.size() < 2)
+        file_.fail_at_line(file_.line_number(),
+                           "is '" + std::string(line.substr(0, 40)) + "', not ITEM: ...");
+      const std::string item(words_[1]);
+      if (item == "ATOMS") {
+        take_columns();
+        return true;
+      }
+      const bool tilted = words_.size() > 3 && words_[3] == "xy";
+      if (item == "BOX") {
+        take_box(tilted);
+        continue;
+      }
+      words_of_line(item.c_str());
+      if (item == "TIMESTEP") step_ = number<std::int64_t>(file_, words_, 0);
+      if (item == "NUMBER") left_ = number<std::int64_t>(file_, words_, 0);
+    }
+    return false;
+  }
+  void take_box(bool tilted)
+  {
+    tilted_ = tilted;
+    for (int k = 0; k < 3; k++) {
+      words_of_line("the box");
+      lo_[k] = number<double>(file_, words_, 0);
+      hi_[k] = number<double>(file_, words_, 1);
+    }
+  }
+  void take_columns()
+  {
+    const auto find = [&](const std::string &name) -> std::ptrdiff_t {
+      const auto at = std::find(words_.begin() + 2, words_.end(), name);
+      return at == words_.end() ? -1 : at - words_.begin() - 2;
+    };
+    id_column_ = find("id");
+    order_ = 0;
+    for (int k = 0; k < 3; k++) {
+      const std::string axis(1, "xyz"[k]);
+      column_[k] = -1;
+      for (const char *ending : {"", "u", "s", "su"}) {
+        if (column_[k] >= 0) break;
+        column_[k] = find(axis + ending);
+        scaled_[k] = ending[0] == 's';
+      }
+      if (column_[k] < 0)
+        file_.fail_at_line(file_.line_number(), "has no column " + axis + ", " + axis + "u or " +
+                                                    axis + "s; dump custom ... id x y z");
+      if (scaled_[k] && tilted_)
+        file_.fail_at_line(file_.line_number(),
+                           "has " + axis + "s of a tilted box; dump custom ... id x y z");
+    }
+  }
+
+  InputFile file_;
+  Words words_;
+  std::int64_t step_ = 0, left_ = 0, order_ = 0;
+  double lo_[3] = {0, 0, 0}, hi_[3] = {1, 1, 1};
+  bool scaled_[3] = {false, false, false}, tilted_ = false;
+  std::ptrdiff_t column_[3] = {-1, -1, -1}, id_column_ = -1;
+};
+
+class NpyReader : public PointReader {
+ public:
+  explicit NpyReader(InputFile file) : file_(std::move(file)) { take_header(); }
+
+  void read(PointBlock &block, std::size_t most) override
+  {
+    block.clear();
+    const std::size_t n = std::min<std::size_t>(most, n_ - done_);
+    block.xyz.resize(3 * n);
+    const std::size_t bytes = 3 * n * (floats_ ? sizeof(float) : sizeof(double));
+    raw_.resize(bytes);
+    char *to = floats_ ? raw_.data() : reinterpret_cast<char *>(block.xyz.data());
+    const std::size_t got = file_.bytes(to, bytes);
+    if (got < bytes)
+      file_.fail("ends in point " + std::to_string(done_ + got / (bytes / n)) + " of " +
+                 std::to_string(n_) + "; it is not whole");
+    for (std::size_t i = 0; floats_ && i < 3 * n; i++) {
+      float x;
+      std::memcpy(&x, raw_.data() + i * sizeof x, sizeof x);
+      block.xyz[i] = x;
+    }
+    done_ += n;
+  }
+  double share_read() const override { return file_.share_read(); }
+
+ private:
+  void take_header()
+  {
+    char start[12] = {};
+    const std::size_t short_bytes = 2;
+    file_.bytes(start, 8);
+    const std::size_t length_bytes = start[6] == 1 ? short_bytes : 4;
+    file_.bytes(start + 8, length_bytes);
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < length_bytes; i++)
+      length |= std::size_t(static_cast<unsigned char>(start[8 + i])) << (8 * i);
+    constexpr std::size_t kMost = 1 << 16;
+    std::string head(std::min(length, kMost), ' ');
+    if (length > kMost || file_.bytes(head.data(), length) < length)
+      file_.fail("its .npy header is not whole");
+    head.erase(std::remove(head.begin(), head.end(), ' '), head.end());
+    floats_ = head.find("'descr':'<f4'") != head.npos;
+    const bool doubles = head.find("'descr':'<f8'") != head.npos;
+    const std::size_t shape = head.find("'shape':(");
+    const char *at = head.data() + shape + 9;
+    const auto [end, error] = std::from_chars(at, head.data() + head.size(), n_);
+    if ((!floats_ && !doubles) || head.find("'fortran_order':False") == head.npos ||
+        shape == head.npos || error != std::errc() || std::strncmp(end, ",3)", 3) != 0)
+      file_.fail("is an array " + head +
+                 "; points are (n, 3), little-endian float32 or float64 in C order: "
+                 "numpy.save(file, numpy.ascontiguousarray(points, float))");
+  }
+
+  InputFile file_;
+  bool floats_ = false;
+  std::size_t n_ = 0, done_ = 0;
+  std::vector<char> raw_;
+};
+
+}    // namespace
+
+std::unique_ptr<PointReader> open_points(const std::string &path)
+{
+  InputFile file(path);
+  if (file.ahead(6) == "\x93NUMPY") return std::make_unique<NpyReader>(std::move(file));
+  if (file.ahead(5) == "ITEM:") return std::make_unique<DumpReader>(std::move(file));
+  if (file.ahead(1 << 12).find('\0') != std::string_view::npos)
+    file.fail("is neither an .npy array, nor a LAMMPS text dump, nor lines of numbers");
+  return std::make_unique<LinesReader>(std::move(file));
+}
+
+}    // namespace lsdcd

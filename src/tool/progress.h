@@ -1,0 +1,38 @@
+// How far long work is, on stderr: a line that is renewed, on a terminal or where it is asked for.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include <unistd.h>
+
+namespace lsdcd {
+
+class Progress {
+ public:
+  explicit Progress(bool asked) : terminal_(isatty(STDERR_FILENO) == 1), on_(asked || terminal_) {}
+  ~Progress() { clear(); }
+
+  // No more often than can be read.
+  void show(const std::string &text)
+  {
+    const auto now = std::chrono::steady_clock::now();
+    if (!on_ || (shown_ && now - last_ < std::chrono::milliseconds(500))) return;
+    last_ = now;
+    shown_ = true;
+    std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", text.c_str());
+    std::fflush(stderr);
+  }
+  void clear()
+  {
+    if (shown_ && terminal_) std::fputs("\r\033[K", stderr);
+    shown_ = false;
+  }
+
+ private:
+  bool terminal_, on_, shown_ = false;
+  std::chrono::steady_clock::time_point last_;
+};
+
+}    // namespace lsdcd

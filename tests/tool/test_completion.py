@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+"""What bash completes of lsdcd's words, with the file that is installed."""
+import pathlib
+import subprocess
+
+from tool_test import TOOL, end, fact
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "src" / "tool" / "lsdcd.bash"
+
+
+def completed(*words):
+    """The last one of them."""
+    script = ('source "$1"; program=$2; shift 2; COMP_WORDS=(lsdcd "$@"); COMP_CWORD=$#; '
+              '_lsdcd "$program"; printf "%s\\n" "${COMPREPLY[@]}"')
+    done = subprocess.run(["bash", "-c", script, "bash", SCRIPT, TOOL, *words], text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    return done.stdout.split()
+
+
+def main():
+    fact("commands", {"inspect", "generate", "distance", "material"} <= set(completed("")), completed(""))
+    fact("commands by their beginning", completed("dist") == ["distance"], completed("dist"))
+    fact("shapes", {"box", "screw"} <= set(completed("generate", "")), completed("generate", ""))
+    fact("a command's options", {"--radius", "--cutoff", "--json", "--output", "-o"} <=
+         set(completed("distance", "wall.stl", "-")), completed("distance", "wall.stl", "-"))
+    fact("a shape's options", completed("generate", "screw", "--pi") == ["--pitch"],
+         completed("generate", "screw", "--pi"))
+    fact("devices", completed("distance", "a", "b", "--device", "cu") == ["cuda"])
+    fact("files are left to bash", completed("inspect", "wall") == [])
+    end()
+
+
+if __name__ == "__main__":
+    main()

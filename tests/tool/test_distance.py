@@ -1,0 +1,224 @@
+#!/usr/bin/env python3
+"""lsdcd distance against every triangle, one by one, in numpy, and against the closed form of a box; the
+same answers for points in CSV, .npy and LAMMPS dumps; and memory that does not grow with the points."""
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+from tool_test import TOOL, end, fact, refused, run, told, write_ascii_stl
+
+DIAGONAL = math.sqrt(14)
+# Distances are right to 4e-13 of the cutoff and 4e-15 of the diagonal (doc/library.md), and the
+# oracle's own rounding is some 1e-15 of the diagonal.
+RADIUS = 1.0
+DISTANCE = 4e-13 * RADIUS + 8e-15 * DIAGONAL
+
+
+def closest_on_triangle(p, a, b, c):
+    """Nearest of: the foot on the plane where it is inside, and the feet on the three edges."""
+    n = np.cross(b - a, c - a)
+    foot = p - np.outer((p - a) @ n / (n @ n), n)
+    inside = np.all([np.cross(v - u, foot - u) @ n >= 0 for u, v in ((a, b), (b, c), (c, a))], axis=0)
+    best, least = foot, np.where(inside, np.linalg.norm(p - foot, axis=1), np.inf)
+    for u, v in ((a, b), (b, c), (c, a)):
+        t = np.clip((p - u) @ (v - u) / ((v - u) @ (v - u)), 0, 1)
+        q = u + np.outer(t, v - u)
+        d = np.linalg.norm(p - q, axis=1)
+        best, least = np.where((d < least)[:, None], q, best), np.minimum(d, least)
+    return best, least
+
+
+def brute_force(points, triangles):
+    each = [closest_on_triangle(points, *t) for t in triangles]
+    return np.array([e[1] for e in each]), np.array([e[0] for e in each])
+
+
+def box_distance(points, hi):
+    """Signed: below 0 inside the box from the origin to hi."""
+    q = np.abs(points - hi / 2) - hi / 2
+    return np.linalg.norm(np.maximum(q, 0), axis=1) + np.minimum(q.max(axis=1), 0)
+
+
+def write_csv(path, points, head=""):
+    path.write_text(head + "".join(",".join(map(repr, map(float, p))) + "\n" for p in points))
+
+
+def write_dump(path, points, columns="x y z", box="pp pp pp", bounds=3 * ["0 1"]):
+    """In two snapshots."""
+    text = ""
+    for step, part in enumerate(np.array_split(points, 2)):
+        text += f"ITEM: TIMESTEP\n{100 * step}\nITEM: NUMBER OF ATOMS\n{len(part)}\n"
+        text += f"ITEM: BOX BOUNDS {box}\n" + "\n".join(bounds) + f"\nITEM: ATOMS type id {columns}\n"
+        text += "".join(f"1 {7 + i} " + " ".join(repr(float(x)) for x in p) + "\n"
+                        for i, p in enumerate(part))
+    path.write_text(text)
+
+
+def peak_memory(folder, *words):
+    """In bytes, of the tool alone: a small process starts it, as what starts it counts until then."""
+    starter = ("import resource, subprocess, sys; done = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL);"
+               "print(done.returncode, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024)")
+    done = subprocess.run([sys.executable, "-S", "-c", starter, TOOL, *map(str, words)], cwd=folder, text=True,
+                          stdout=subprocess.PIPE, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    return map(int, done.stdout.split())
+
+
+def main():
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+    dice = np.random.default_rng(1)
+    told(folder, "generate", "box", "--width", 1, "--depth", 2, "--height", 3, "-o", "box.stl")
+    hi = np.array([1., 2, 3])
+    points = dice.uniform([-1, -1, -1], hi + 1, (4000, 3))
+    np.save(folder / "points.npy", points)
+    write_csv(folder / "points.csv", points)
+    write_dump(folder / "points.dump", points)
+
+    said = told(folder, "distance", "box.stl", "points.npy", "--radius", RADIUS, "-o", "out.npy",
+                "--block", 1000)
+    out = np.load(folder / "out.npy")
+    signed = box_distance(points, hi)
+    near = np.abs(signed) < RADIUS
+    fact("all are answered", len(out) == len(points) == said["points"])
+    fact("distances are the closed form's",
+         np.abs(out["distance"] - np.abs(signed))[near].max() <= DISTANCE)
+    fact("nothing farther is found", np.all(np.isinf(out["distance"][~near])) and (~near).sum() > 0
+         and said["found"] == near.sum() and np.all(out["closest"][~near] == points[~near])
+         and np.all(out["triangle"][~near] == -1) and np.all(out["feature"][~near] == -1))
+    fact("sides are", np.array_equal(out["side"], np.where(near, np.sign(signed), 0)) and
+         said["inside"] == (out["side"] == -1).sum() > 0)
+    fact("closest points are as far as they say", np.abs(
+        np.linalg.norm(points - out["closest"], axis=1) - out["distance"])[near].max() <= DISTANCE)
+    fact("and lie on the box", np.abs(box_distance(out["closest"][near], hi)).max() <= DISTANCE)
+
+    # A heap of random triangles: no two share anything, so that features are the triangle's own.
+    triangles = dice.uniform(0, 1, (40, 1, 3)) * hi + dice.uniform(-.4, .4, (40, 3, 3))
+    write_ascii_stl(folder / "heap.stl", triangles)
+    said = told(folder, "distance", "heap.stl", "points.csv", "--cutoff", RADIUS, "-o", "heap.npy")
+    heap = np.load(folder / "heap.npy")
+    each, feet = brute_force(points, triangles)
+    least = each.min(axis=0)
+    found = least < RADIUS
+    fact("an open mesh has no sides", "side" not in heap.dtype.names and not said["sides"])
+    fact("distances are those of the nearest of all triangles",
+         np.array_equal(np.isfinite(heap["distance"]), found) and
+         np.abs(heap["distance"] - least)[found].max() <= DISTANCE)
+    fact("triangles are the nearest ones", np.array_equal(heap["triangle"][found],
+                                                          each.argmin(axis=0)[found]))
+    nearest = feet[each.argmin(axis=0), np.arange(len(points))]
+    # The foot on a line goes by the angle of the line: it is as right as the square root of nothing, but
+    # of these triangles none is thinner than a hundredth.
+    fact("closest points are its", np.abs(heap["closest"] - nearest)[found].max() <= 100 * DISTANCE)
+    on_corner = np.array([np.abs(triangles[t] - p).max(axis=1).min() <= DISTANCE
+                          for t, p in zip(heap["triangle"], heap["closest"])])
+    fact("features are faces, edges and vertices, these at corners",
+         set(heap["feature"][found]) == {0, 1, 2} and
+         np.array_equal(on_corner[found], heap["feature"][found] == 2))
+
+    for file, columns in (("points.csv", 0), ("points.dump", 2)):
+        told(folder, "distance", "box.stl", file, "--radius", RADIUS, "-o", "other.npy")
+        other = np.load(folder / "other.npy")
+        fact(f"{file}: the same answers as from .npy",
+             all(np.array_equal(other[name], out[name]) for name in out.dtype.names) and
+             len(other.dtype.names) == len(out.dtype.names) + columns)
+    fact("a dump's steps and atoms are told", other["timestep"].tolist() == 2000 * [0] + 2000 * [100] and
+         np.array_equal(other["id"], np.tile(np.arange(2000) + 7, 2)))
+    told(folder, "distance", "box.stl", "points.npy", "--radius", RADIUS, "-o", "out.csv")
+    lines = (folder / "out.csv").read_text().splitlines()
+    rows = [line.split(",") for line in lines[1:]]
+    kinds = {"face": 0, "edge": 1, "vertex": 2, "none": -1}
+    columns = (("distance", 0, float), ("triangle", 4, int), ("index", 6, int), ("side", 7, int),
+               ("feature", 5, kinds.get))
+    fact("CSV has the same answers, in all digits", lines[0] == "distance,closest_x,closest_y,closest_z,"
+         "triangle,feature,index,side" and
+         all([take(r[k]) for r in rows] == out[name].tolist() for name, k, take in columns) and
+         [[float(x) for x in r[1:4]] for r in rows] == out["closest"].tolist())
+
+    np.save(folder / "floats.npy", points.astype(np.float32))
+    told(folder, "distance", "box.stl", "floats.npy", "--radius", RADIUS, "-o", "floats_out.npy")
+    exact = np.abs(box_distance(points.astype(np.float32).astype(float), hi))
+    answered = np.load(folder / "floats_out.npy")["distance"]
+    fact("floats are exact points", np.abs(answered - exact)[np.isfinite(answered)].max() <= DISTANCE)
+    (folder / "named.csv").write_text("# grains\nid; z; y; x\n" + "".join(
+        f"{i}; {z!r}; {y!r}; +{x!r}\n" for i, (x, y, z) in enumerate((abs(points)).tolist())))
+    np.save(folder / "abs.npy", abs(points))
+    answers = []
+    for file in ("named.csv", "abs.npy"):
+        told(folder, "distance", "box.stl", file, "--radius", RADIUS, "-o", "named.npy")
+        answers.append((folder / "named.npy").read_bytes())
+    fact("columns go by their names", answers[0] == answers[1])
+    unit = (points - (-1)) / (hi + 2)
+    write_dump(folder / "scaled.dump", unit, "xs ys zs", bounds=["-1 2", "-1 3", "-1 4"])
+    told(folder, "distance", "box.stl", "scaled.dump", "--radius", RADIUS, "-o", "scaled.npy")
+    answered = np.load(folder / "scaled.npy")["distance"]
+    both = np.isfinite(answered) & near
+    fact("scaled coordinates go by the box", both.sum() >= near.sum() - 1 and
+         np.abs(answered - np.abs(signed))[both].max() <= DISTANCE)
+    told(folder, "distance", "box.stl", "points.npy", "--radius", 2, "--scale", 2, "-o", "double.npy")
+    fact("--scale is the mesh's", np.nanmax(np.abs(np.load(folder / "double.npy")["distance"] - np.where(
+        np.abs(box_distance(points, 2 * hi)) < 2, np.abs(box_distance(points, 2 * hi)), np.nan)))
+        <= 4e-13 * 2 + 16e-15 * DIAGONAL)
+
+    # Twenty times the points, in the memory of a few blocks: 24 bytes of each would be 24 MB more.
+    used = []
+    for n in (50000, 1000000):
+        np.save(folder / "many.npy", dice.uniform(0, 1, (n, 3)))
+        status, peak = peak_memory(folder, "distance", "box.stl", "many.npy", "--radius", .1, "--block",
+                                   20000, "--device", "cpu", "-o", "many_out.npy")
+        used.append(peak)
+    fact("memory does not grow with the points", status == 0 and used[1] - used[0] < 4e6, used)
+
+    done = run(folder, "distance", "box.stl", "points.npy", "--radius", 1, "-o", "out.npy", "--progress",
+               "--block", 100)
+    fact("--progress is on stderr", "points, " in done.stderr and "million/s" in done.stderr and
+         "points per second" in done.stdout, done.stderr)
+    fact("without, and with no terminal, nothing is",
+         run(folder, "distance", "box.stl", "points.npy", "--radius", 1, "-o", "out.npy").stderr == "")
+
+    for path in folder.glob("*out*"):
+        path.unlink()
+    words = ["distance", "box.stl", "points.csv", "-o", "new.csv"]
+    refused(folder, words, "--radius is required", code=2)
+    refused(folder, [*words, "--radius", 0], "--radius is 0", "above 0")
+    refused(folder, [*words[:-1], "new.txt", "--radius", 1], "new.txt", ".csv", ".npy")
+    refused(folder, [*words[:-1], "no/new.csv", "--radius", 1], "no/new.csv")
+    refused(folder, ["distance", "none.stl", *words[2:], "--radius", 1], "none.stl")
+    refused(folder, ["distance", "box.stl", "none.csv", *words[3:], "--radius", 1], "none.csv", "No such file")
+    refused(folder, [*words, "--radius", 1, "--device", "tpu"], "--device", code=2)
+    if said["device"].startswith("CPU"):    # where there is a GPU, it is what answers
+        refused(folder, [*words, "--radius", 1, "--device", "cuda"], "--device cuda", "--device cpu")
+    whole = (folder / "points.npy").read_bytes()
+    np.save(folder / "flat.npy", np.zeros(9))
+    np.save(folder / "fortran.npy", np.asfortranarray(points))
+    np.save(folder / "ints.npy", np.zeros((3, 3), int))
+    dump = (folder / "points.dump").read_text()
+    for name, content, expected in (
+            ("short.npy", whole[:-5], ["point 3999 of 4000"]),
+            ("flat.npy", None, ["(9,)", "(n, 3)"]), ("fortran.npy", None, ["fortran_order", "ascontiguous"]),
+            ("ints.npy", None, ["<i8", "float64"]), ("head.npy", whole[:50], ["header"]),
+            ("word.csv", b"0,0,0\n1,two,3\n", ["line 2", "'two'", "column 2"]),
+            ("few.csv", b"0,0,0\n\n1,2\n", ["line 3", "2 columns"]),
+            ("names.csv", b"a,b,c\n1,2,3\n", ["line 1", "x"]),
+            ("zeros.csv", bytes(100), ["neither"]),
+            ("cut.dump", dump[:len(dump) // 2].rsplit("\n", 1)[0].encode(), ["ends after line", "atom"]),
+            ("none.dump", dump.replace(" x y z", " vx y z").encode(), ["line 9", "no column x"]),
+            ("tilted.dump", dump.replace("S pp", "S xy xz yz pp").replace(" x y z", " xs ys zs").encode(),
+             ["line 9", "tilted"]),
+            ("odd.dump", dump.replace("ITEM: NUMBER", "NUMBER").encode(), ["line 3", "not ITEM"])):
+        if content is not None:
+            (folder / name).write_bytes(content)
+        refused(folder, ["distance", "box.stl", name, "-o", "new.csv", "--radius", 1], name, *expected)
+    (folder / "empty.csv").write_bytes(b"")
+    fact("no points are no error", told(folder, "distance", "box.stl", "empty.csv", "--radius", 1, "-o",
+                                        "none.npy")["points"] == 0 and len(np.load(folder / "none.npy")) == 0)
+    help_text = run(folder, "distance", "--help").stdout
+    fact("--help has an example", "lsdcd distance wall.stl points.csv --radius 0.01 -o" in help_text)
+    end()
+
+
+if __name__ == "__main__":
+    main()
