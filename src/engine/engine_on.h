@@ -5,6 +5,7 @@
 #include "engine/force/compiled_law.h"
 #include "engine/choose/near_wall.h"
 #include "engine/resident_springs.h"
+#include "engine/step_list_store.h"
 #include "engine/results/sphere_error.h"
 #include "engine/results/step_notes.h"
 #include "engine/results/step_results.h"
@@ -91,7 +92,6 @@ class EngineOn : public InPlaceEngine {
     results_.begin(law_.traits, step_, spheres_, wall_.near(), n, may_miss_any(wall_.mesh(0).grid),
                    several ? &wall_.slots() : nullptr);
     if (n == 0) return;
-    if (!B::kOnHost && left_.size() < n) left_ = Array<int>(n + n / 8);
     const MeshWork work = wall_.mesh(0).work(settings_, step_, 0);
     LawJob job = job_of(work.grid, work.settings, spheres_);
     results_.put_into(job);
@@ -101,7 +101,6 @@ class EngineOn : public InPlaceEngine {
     job.counts = counts_.data();
     job.pool = springs_.next(results_.slot());
     job.lanes = lanes_.data();
-    job.left = left_.data();
     // The last step cleared the counts of this one, if it wrote to the other pool.
     if (job.pool.which == pool_written_) clear_counts(job.pool.which);
     pool_written_ = job.pool.which;
@@ -161,7 +160,7 @@ class EngineOn : public InPlaceEngine {
   std::size_t bytes() const override
   {
     return wall_.bytes() + springs_.bytes() + results_.bytes() + lanes_.size() * sizeof(Lane) +
-           left_.size() * sizeof(int);
+           step_lists_.bytes();
   }
 
   B &backend_now() { return b_; }
@@ -201,7 +200,8 @@ class EngineOn : public InPlaceEngine {
       StepCounts cleared = {};
       for (int i = 0; i < 2; i++) {
         cleared.shared_used[i] = seen.shared_used[i];
-        cleared.n_left[i] = seen.n_left[i];
+        cleared.n_found[i] = seen.n_found[i];
+        cleared.n_several[i] = seen.n_several[i];
       }
       *counts = cleared;
     });
@@ -213,13 +213,13 @@ class EngineOn : public InPlaceEngine {
   {
     if (seen.too_large) throw_for(spheres, seen);
     springs_.make_room(wall_.n(), seen);
+    step_lists_.clear(b_, wall_.n(), !wall_.has_several(), counts_.data());
   }
 
   void start_law(LawJob &job, std::size_t n)
   {
-    job.turn = turn_;
+    job.step_lists = step_lists_.next(counts_.data());
     law_.start(law_.law, job, n, b_);
-    turn_ = 1 - turn_;
   }
 
   // Those near one mesh only, mesh after mesh, then those near several.
@@ -268,10 +268,10 @@ class EngineOn : public InPlaceEngine {
   ResidentSprings<B> springs_;
 
   StepResults<B> results_;
-  Array<int> left_;    // near spheres that a GPU's first kernel leaves to the second
+  StepListStore<B> step_lists_;
 
   Array<StepCounts> counts_;
-  int turn_ = 0, pool_written_ = -1;
+  int pool_written_ = -1;
   Array<Lane> lanes_;
 };
 

@@ -162,6 +162,16 @@ struct CpuBackend {
       step_run(work, run * kRun, std::min(m, (run + 1) * kRun), m);
   }
 
+  // Does test(i) hold for any i in [0, n)?
+  struct Flag {};
+  template <class Test>
+  bool any(std::size_t n, Flag &, const Test &test)
+  {
+    for (std::size_t i = 0; i < n; i++)
+      if (test(i)) return true;
+    return false;
+  }
+
   // reduce
   template <class T, class Read>
   T largest(std::size_t n, const Read &read)

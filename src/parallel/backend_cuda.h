@@ -276,22 +276,30 @@ struct CudaBackend {
     });
   }
 
-  // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
+  // step: work.begin(), and of each i in [0, n) work.single(i), or where that says false or
   // !work.has_single(), work.several(i), before that work.make_list(group, i) if work.needs_list(i).
-  // work.left() has room for n, *work.n_left() is 0.
+  // Lists of work.step_lists() have room for n; those to be written are empty.
   template <class Work>
   void step(std::size_t n, const Work &work)
   {
     if (n == 0) return;
-    const auto blocks = static_cast<unsigned>((n + kStepBlock - 1) / kStepBlock);
-    const bool single = work.has_single();
-    if constexpr (Work::kSingle) {
-      if (single) cuda_single<<<blocks, kStepBlock, 0, stream>>>(static_cast<unsigned>(n), work);
-      cuda_check(cudaGetLastError(), "starting a kernel");
-    }
-    cuda_several<<<single ? std::min(blocks, kLeftBlocks) : blocks, kStepBlock, 0, stream>>>(
-        single ? -1 : static_cast<int>(n), work);
+    start_step(static_cast<unsigned>(n), work.has_single(), work, stream);
     cuda_check(cudaGetLastError(), "starting a kernel");
+  }
+
+  // Does test(i) hold for any i in [0, n)? Waits. `flag`: memory for it, kept for the next time.
+  using Flag = HostArray<int>;
+  template <class Test>
+  bool any(std::size_t n, Flag &flag, const Test &test)
+  {
+    if (flag.size() == 0) flag = Flag(1);
+    volatile int *found = flag.data();    // which the device reaches where it is
+    *found = 0;
+    for_each(n, [=] __device__(std::size_t i) {
+      if (test(i)) *found = 1;
+    });
+    wait();
+    return *found;
   }
 
   // reduce

@@ -1,54 +1,103 @@
-// A step over many spheres on an NVIDIA GPU: a thread for each, and a second kernel for those that
-// need more than one contact's registers.
+// A step over many spheres on an NVIDIA GPU: a thread for each, and beside them, at the same time,
+// warps for those that need more than one contact's registers. Such a sphere takes twenty times as
+// long as the others, so that it has to begin with them.
 #pragma once
 
 #include "parallel/cuda_warp.h"
 #include "parallel/lane_group.h"
+#include "parallel/step_lists.h"
 
 #include <cuda_runtime.h>
 
-#include <cstddef>
+#include <algorithm>
 
 namespace lsdcd {
 
 constexpr unsigned kStepBlock = 128;
-constexpr unsigned kLeftBlocks = 528;    // of the second kernel, which share what is left
+// Blocks that share what is listed: beside single() few, as each takes a place of others while it
+// waits for memory, until each of their threads has one.
+constexpr int kFewBlocks = 66, kMostBlocks = 528;
+
+// What several() is for: those listed, or with a null list all of [0, n). The first `blocks` of the
+// kernel do it, of which `few` take the first spheres.
+struct SeveralPart {
+  const int *list, *n_listed;
+  int n, few;
+  unsigned blocks;
+};
 
 template <class Work>
-__global__ void __launch_bounds__(kStepBlock, Work::kBlocksAtOnce)
-    cuda_single(unsigned n, const __grid_constant__ Work work)
+__device__ void do_several(const SeveralPart &part, const Work &work)
 {
-  const unsigned k = blockIdx.x * kStepBlock + threadIdx.x;
-  if (k == 0) work.begin();
-  const bool left = k < n && !work.single(k);
-  const unsigned votes = __ballot_sync(kAllLanes, left);
-  if (votes == 0) return;
-  const int at = room_at(work.n_left(), __popc(votes));
-  if (left) work.left()[at + votes_below(votes)] = static_cast<int>(k);
-}
-
-// What the first kernel has left; n >= 0: all of [0, n), where there was no first kernel.
-template <class Work>
-__global__ void __launch_bounds__(kStepBlock) cuda_several(int n, const __grid_constant__ Work work)
-{
-  const bool all = n >= 0;
-  const int warps = gridDim.x * (kStepBlock / 32), step = 32 * warps;
+  const StepLists &lists = work.step_lists();
+  const int end = part.list ? *part.n_listed : part.n;
+  const int enough = max(part.few, (end + int(kStepBlock) - 1) / int(kStepBlock));
+  const int warps = min(int(part.blocks), enough) * int(kStepBlock / 32), step = 32 * warps;
   const int warp = blockIdx.x * (kStepBlock / 32) + threadIdx.x / 32, lane = threadIdx.x % 32;
-  // What is left is few, and each sphere takes a way of its own through the code: first one a warp.
-  const int first = all ? 32 * warp + lane : lane * warps + warp;
-  if (all && first == 0) work.begin();
-  const int end = all ? n : *work.n_left();
+  if (warp >= warps) return;
+  // What is listed is few, and each sphere takes a way of its own through the code: first one a warp.
+  const int first = part.list ? lane * warps + warp : 32 * warp + lane;
   for (int s = first; __any_sync(kAllLanes, s < end); s += step) {
     const bool has_one = s < end;
-    const int k = !has_one ? 0 : all ? s : work.left()[s];
+    const int k = !has_one ? 0 : part.list ? part.list[s] : s;
     // Lists are long to make: the whole warp makes one after the other.
     unsigned due = __ballot_sync(kAllLanes, has_one && work.needs_list(k));
     for (; due != 0; due &= due - 1)
       work.make_list(LaneGroup<32>(), __shfl_sync(kAllLanes, k, __ffs(due) - 1));
     __syncwarp();
-    if (has_one) work.several(k);
+    const bool again = has_one && work.several(k);
     __syncwarp();
+    if (!part.list || !lists.next) continue;
+    const unsigned votes = __ballot_sync(kAllLanes, again);
+    const int at = room_at(lists.n_next, __popc(votes));
+    if (!again) continue;
+    lists.next[at + votes_below(votes)] = k;
+    lists.listed_in[k] = lists.step + 1;
   }
+}
+
+// several() for a part, and single() for all of [0, n) that are not listed.
+template <class Work>
+__global__ void __launch_bounds__(kStepBlock, Work::kBlocksAtOnce)
+    cuda_step(const SeveralPart part, unsigned n, int *to_clear, const __grid_constant__ Work work)
+{
+  if (blockIdx.x == 0 && threadIdx.x == 0) {
+    work.begin();
+    if (to_clear) *to_clear = 0;
+  }
+  if (blockIdx.x < part.blocks) {
+    do_several(part, work);
+    return;
+  }
+  if constexpr (Work::kSingle) {
+    const StepLists &lists = work.step_lists();
+    const unsigned k = (blockIdx.x - part.blocks) * kStepBlock + threadIdx.x;
+    // Of one that several() is at now it may be the next step already.
+    const bool mine = k < n && !(lists.listed_in && lists.listed_in[k] >= lists.step);
+    const bool left = mine && !work.single(k);
+    const unsigned votes = __ballot_sync(kAllLanes, left);
+    if (votes == 0) return;
+    const int at = room_at(lists.n_found, __popc(votes));
+    if (left) lists.found[at + votes_below(votes)] = static_cast<int>(k);
+  }
+}
+
+// The whole step; `has_single`: is there a first kernel that finds what several() is for?
+template <class Work>
+void start_step(unsigned n, bool has_single, const Work &work, cudaStream_t stream)
+{
+  const unsigned blocks = (n + kStepBlock - 1) / kStepBlock,
+                 several_blocks = std::min<unsigned>(blocks, kMostBlocks);
+  const StepLists &lists = work.step_lists();
+  SeveralPart part = {nullptr, nullptr, static_cast<int>(n), 0, blocks};
+  int *to_clear = nullptr;
+  if (has_single) {
+    part = {lists.last, lists.n_last, 0, kFewBlocks, lists.last ? several_blocks : 0};
+    cuda_step<<<part.blocks + blocks, kStepBlock, 0, stream>>>(part, n, lists.n_found_next, work);
+    to_clear = lists.n_last;    // the next step's `next`
+    part = {lists.found, lists.n_found, 0, kMostBlocks, several_blocks};
+  }
+  cuda_step<<<part.blocks, kStepBlock, 0, stream>>>(part, 0, to_clear, work);
 }
 
 }    // namespace lsdcd

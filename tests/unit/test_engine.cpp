@@ -31,7 +31,7 @@ void expect_same(const Outcome &a, const Outcome &b, const std::string &name)
   EXPECT_GT(a.totals.contacts, 0) << name;
 }
 
-// A backend that has two kernels for a step, as a GPU does, and counts what crosses between host
+// A backend that keeps lists of spheres with several contacts, as a GPU does, and counts what crosses between host
 // and device, and waiting.
 struct CountingBackend : CpuBackend {
   static constexpr bool kOnHost = false;
@@ -39,10 +39,24 @@ struct CountingBackend : CpuBackend {
   void step(std::size_t n, const Work &work)
   {
     work.begin();
+    if (!work.has_single()) {
+      for (std::size_t k = 0; k < n; k++) work.several(k);
+      return;
+    }
+    const StepLists &lists = work.step_lists();
+    const auto do_several = [&](int k) {
+      if (!work.several(k) || !lists.next) return;
+      lists.next[(*lists.n_next)++] = k;
+      lists.listed_in[k] = lists.step + 1;
+    };
+    *lists.n_found_next = 0;
+    const int n_last = lists.last ? *lists.n_last : 0;
+    for (int s = 0; s < n_last; s++) do_several(lists.last[s]);
     for (std::size_t k = 0; k < n; k++)
-      if (!work.has_single() || !work.single(k))
-        work.left()[fetch_add(work.n_left(), 1)] = static_cast<int>(k);
-    for (int s = 0; s < *work.n_left(); s++) work.several(work.left()[s]);
+      if (!(lists.listed_in && lists.listed_in[k] >= lists.step) && !work.single(k))
+        lists.found[(*lists.n_found)++] = static_cast<int>(k);
+    if (lists.last) *lists.n_last = 0;
+    for (int s = 0; s < *lists.n_found; s++) do_several(lists.found[s]);
   }
   static int &crossings()
   {
@@ -62,6 +76,12 @@ struct CountingBackend : CpuBackend {
     return CpuBackend::to_host(a, n);
   }
   void wait() { crossings()++; }
+  template <class Test>
+  bool any(std::size_t n, Flag &flag, const Test &test)
+  {
+    crossings()++;
+    return CpuBackend::any(n, flag, test);
+  }
   template <class T, class Read>
   T largest(std::size_t n, const Read &read)
   {

@@ -101,11 +101,11 @@ class NearWall {
     const StridedView<const Real> was(centres_.data()), x = spheres.x;
     for (const EngineMesh<B> &mesh : meshes_) {
       const WallPose pose = mesh.pose, chosen = mesh.chosen;
-      const Real way_sq =
-          b.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
-            return norm_sq(pose.to_mesh(x[i]) - chosen.to_mesh(was[i]));
-          });
-      if (way_sq > margin_ * margin_) return true;
+      const Real most = margin_ * margin_;
+      if (b.any(spheres.n, flag_, [=] LSDCD_LAMBDA(std::size_t i) {
+            return !(norm_sq(pose.to_mesh(x[i]) - chosen.to_mesh(was[i])) <= most);
+          }))
+        return true;
     }
     return false;
   }
@@ -183,6 +183,7 @@ class NearWall {
   std::size_t n_ = 0;
   Array<Real> centres_;    // when keep_centres() was called
   Real margin_ = 0;
+  typename B::Flag flag_;
 };
 
 }    // namespace lsdcd

@@ -250,6 +250,7 @@ struct JointStep {
   LawJob job;
 
   static constexpr bool kSingle = false;
+  static constexpr int kBlocksAtOnce = 2;    // its kernel has all registers that there are
   bool has_single() const { return false; }
   LSDCD_FN void begin() const { clear_next(job); }
   void ask_ahead(std::size_t) const {}
@@ -273,9 +274,12 @@ struct JointStep {
       put_list(job, group, grid, {x, s.radius, s.cutoff, nullptr, 0}, k);
     }
   }
-  LSDCD_FN void several(std::size_t g) const { joint_contacts(law, job, g); }
-  LSDCD_FN int *left() const { return job.left; }
-  LSDCD_FN int *n_left() const { return job.counts->n_left + job.turn; }
+  LSDCD_FN bool several(std::size_t g) const
+  {
+    joint_contacts(law, job, g);
+    return true;
+  }
+  LSDCD_FN const StepLists &step_lists() const { return job.step_lists; }
 };
 
 // Near spheres [0, n) of one mesh, or the joint spheres [0, n).

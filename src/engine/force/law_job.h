@@ -4,6 +4,7 @@
 #include "engine/narrow/wall_list.h"
 #include "engine/results/result_columns.h"
 #include "engine/force/wall_force.h"
+#include "parallel/step_lists.h"
 
 #include <cstdint>
 
@@ -32,7 +33,7 @@ constexpr std::uint64_t kNoSphere = std::uint64_t(1) << 32;
 struct StepCounts {
   std::uint32_t n_near;
   int shared_used[2];    // slots, of each pool in the last step that wrote it
-  int n_left[2];         // near spheres left to the second kernel, by turns
+  int n_found[2], n_several[2];    // of StepLists, in turn
   int lost;              // spheres left out for want of memory: an error
   // kNoSphere less the index of the first sphere beyond the grid's cutoff, or 0: an error.
   std::uint64_t too_large;
@@ -87,8 +88,7 @@ struct LawJob {
   Real *uncertain = nullptr;    // overlap / radius that k's search may miss; null: nothing can be
   ContactPool pool = {};
   Lane *lanes = nullptr;
-  int *left = nullptr;    // near spheres that the first kernel leaves to the second
-  int turn = 0;           // of StepCounts::n_left
+  StepLists step_lists = {};
 };
 
 LSDCD_FN std::size_t sphere_of(const LawJob &job, std::size_t k)

@@ -196,8 +196,9 @@ LSDCD_FN void put_list(const LawJob &job, const Group &group, const GridView &gr
 }
 
 // Near sphere k with any number of contacts. Its cell is searched where it has no list that holds.
+// True: it has several.
 template <class Law>
-LSDCD_FN void several_contacts(const Law &law, const LawJob &job, std::size_t k)
+LSDCD_FN bool several_contacts(const Law &law, const LawJob &job, std::size_t k)
 {
   const std::size_t i = sphere_of(job, k);
   const Vec3 x = centre_of<Law>(job, i);
@@ -240,6 +241,7 @@ LSDCD_FN void several_contacts(const Law &law, const LawJob &job, std::size_t k)
     if (lane) unlock(&lane->locked);
     done = true;
   }
+  return some.set.n > 1;
 }
 
 // A step's work for Backend::step(): each near sphere by single(), and by several() where that
@@ -250,12 +252,11 @@ struct LawStep {
   LawJob job;
 
   static constexpr bool kSingle = true;
-  // Blocks at once on a GPU's processor: 96, 128 or 168 registers are left to a thread. With fewer
+  // Blocks at once on a GPU's processor: 128 or 168 registers are left to a thread. With fewer
   // the kernels spill, which costs more than more blocks bring.
   static constexpr bool kLarge =
-                            Law::kExtra > 0 || Law::kContactTorque || Law::kHeat || Law::kBeyond,
-                        kOnWall = Law::kSurface || Law::kRecords;
-  static constexpr int kBlocksAtOnce = kLarge ? 3 : kOnWall || Law::kHistory ? 4 : 5;
+      Law::kExtra > 0 || Law::kContactTorque || Law::kHeat || Law::kBeyond;
+  static constexpr int kBlocksAtOnce = kLarge ? 3 : 4;
 
   // Lists of brick records are left to several().
   bool has_single() const { return job.lists.n && !job.grid.in_floats; }
@@ -274,9 +275,8 @@ struct LawStep {
   {
     put_list(job, group, job.grid, near_sphere(law, job, k), k);
   }
-  LSDCD_FN void several(std::size_t k) const { several_contacts(law, job, k); }
-  LSDCD_FN int *left() const { return job.left; }
-  LSDCD_FN int *n_left() const { return job.counts->n_left + job.turn; }
+  LSDCD_FN bool several(std::size_t k) const { return several_contacts(law, job, k); }
+  LSDCD_FN const StepLists &step_lists() const { return job.step_lists; }
 };
 
 }    // namespace lsdcd

@@ -86,7 +86,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
                            const Real *weights, const SphereSink &sink, SphereResult &out)
 {
   using T = typename Law::Number;
-  const std::uint32_t mesh = Law::kSurface ? settings.mesh : 0;
+  [[maybe_unused]] const std::uint32_t mesh = Law::kSurface ? settings.mesh : 0;
   for (int i = 0; i < set.n; i++) {
     const Real weight = weights ? weights[i] : 1;
     const Real overlap = s.radius - set.distance[i], ratio = overlap / s.radius;

@@ -53,7 +53,6 @@ LSDCD_FN void does_not_fit(const LawJob &job, std::size_t k)
 LSDCD_FN void clear_next(const LawJob &job)
 {
   if (job.settings.update) job.counts->shared_used[1 - job.pool.which] = 0;
-  job.counts->n_left[1 - job.turn] = 0;
 }
 
 // What has been counted, for the host.
