@@ -140,7 +140,8 @@ struct CpuBackend {
   }
 
   // keep: of from[0, n) those whose flag is set, in order, into `to`; *total becomes how many.
-  void keep(std::size_t n, const int *from, const char *flags, int *to, std::uint32_t *total)
+  void keep(std::size_t n, const int *from, const char *flags, SelectScratch &, int *to,
+            std::uint32_t *total)
   {
     std::uint32_t kept = 0;
     for (std::size_t k = 0; k < n; k++)

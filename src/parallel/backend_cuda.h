@@ -266,14 +266,21 @@ struct CudaBackend {
   }
 
   // keep: of from[0, n) those whose flag is set, in order, into `to`; *total, on the device, becomes
-  // how many.
+  // how many. Does not wait; the room as above.
   template <class = void>
-  void keep(std::size_t n, const int *from, const char *flags, int *to, std::uint32_t *total)
+  void keep(std::size_t n, const int *from, const char *flags, SelectScratch &room, int *to,
+            std::uint32_t *total)
   {
-    with_scratch([&](void *scratch, std::size_t &bytes) {
-      return cub::DeviceSelect::Flagged(scratch, bytes, from, flags, to, total, static_cast<int>(n),
-                                        stream);
-    });
+    std::size_t bytes = 0;
+    const auto flagged = [&](void *scratch) {
+      cuda_check(cub::DeviceSelect::Flagged(scratch, bytes, from, flags, to, total,
+                                            static_cast<int>(n), stream),
+                 "keeping what is flagged");
+    };
+    flagged(nullptr);
+    if (room.scan.size() < bytes) room.scan = Array<char>(2 * bytes);
+    bytes = room.scan.size();
+    flagged(room.scan.data());
   }
 
   // step: work.begin(), and of each i in [0, n) work.single(i), or where that says false or

@@ -11,24 +11,19 @@ namespace lsdcd {
 // Can near sphere k touch anything after a way of up to the margin?
 struct PruneWork {
   GridView grid;
-  StridedView<const Real> x;
-  const Real *radius;
   WallPose pose;
-  Real margin, pull_off;
-  const int *near;
+  SpheresAtChoice spheres;
+  Real margin;
   char *flags;       // the answers
   int *n_springs;    // of each sphere, or null; those of spheres that cannot are forgotten
 
   template <class Group>
   LSDCD_FN void operator()(const Group &group, std::size_t k) const
   {
-    const int i = near[k];
-    const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr,
-                           0};
-    const bool touches = can_touch(group, grid, s, margin);
+    const bool touches = can_touch(group, grid, spheres.seen_from(pose, k), margin);
     if (group.rank() != 0) return;
     flags[k] = touches;
-    if (!touches && n_springs) n_springs[i] = 0;
+    if (!touches && n_springs) n_springs[spheres.near[k]] = 0;
   }
 };
 
@@ -71,10 +66,10 @@ class NearList {
     if (other_.size() < near_.size()) other_ = Array<int>(near_.size());
     char *flags = flags_.data();
     const int *near = near_.data();
-    b.for_each_by_group(
-        n, grid.has_long_lists,
-        PruneWork{grid, spheres.x, spheres.radius, pose, margin, pull_off, near, flags, n_springs});
-    b.keep(n, near, flags, other_.data(), &counts->n_near);
+    const SpheresAtChoice at_choice = {spheres.x, spheres.radius, pull_off, near};
+    b.for_each_by_group(n, grid.has_long_lists,
+                        PruneWork{grid, pose, at_choice, margin, flags, n_springs});
+    b.keep(n, near, flags, room_, other_.data(), &counts->n_near);
     std::swap(near_, other_);
   }
 

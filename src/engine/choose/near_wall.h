@@ -143,7 +143,7 @@ class NearWall {
     const EngineMesh<B> &mesh = meshes_[0];
     const StepCounts seen = prune(b, mesh, spheres, by_cells, margin, counts, n_springs);
     n_ = seen.n_near;
-    lists_.make(b, mesh.grid, spheres, mesh.pose, near_.data(), n_, margin, pull_off_,
+    lists_.make(b, mesh.grid, mesh.pose, at_choice(spheres, near_.data()), n_, margin,
                 counts.data());
     return seen;
   }
@@ -168,9 +168,14 @@ class NearWall {
     slots_.finish(b);
     n_ = slots_.n_slots();
     const MeshWork *works = put_works(b, EngineSettings(), StepSettings());
-    lists_.make(b, meshes_[0].grid, works, slots_.mesh(), spheres, slots_.near(), n_, margin,
-                pull_off_, counts.data());
+    lists_.make(b, meshes_[0].grid, works, slots_.mesh(), at_choice(spheres, slots_.near()), n_,
+                margin, counts.data());
     return seen;
+  }
+
+  SpheresAtChoice at_choice(const Spheres &spheres, const int *near) const
+  {
+    return {spheres.x, spheres.radius, pull_off_, near};
   }
 
   Real pull_off_;

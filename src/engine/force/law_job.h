@@ -32,9 +32,9 @@ constexpr std::uint64_t kNoSphere = std::uint64_t(1) << 32;
 // What steps count. The first three are of one choice or step, the others since the host looked.
 struct StepCounts {
   std::uint32_t n_near;
-  int shared_used[2];    // slots, of each pool in the last step that wrote it
+  int shared_used[2];              // slots, of each pool in the last step that wrote it
   int n_found[2], n_several[2];    // of StepLists, in turn
-  int lost;              // spheres left out for want of memory: an error
+  int lost;                        // spheres left out for want of memory: an error
   // kNoSphere less the index of the first sphere beyond the grid's cutoff, or 0: an error.
   std::uint64_t too_large;
   std::uint64_t grown;          // likewise of the first sphere that feels more than at the choice
@@ -109,6 +109,20 @@ LSDCD_FN QuerySphere query_sphere_of(const LawJob &job, std::size_t i, const Vec
   }
   return s;
 }
+
+// The same at a choice, when no sphere holds on to anything.
+struct SpheresAtChoice {
+  StridedView<const Real> x;
+  const Real *radius;
+  Real pull_off;
+  const int *near;    // the sphere of each k
+
+  LSDCD_FN QuerySphere seen_from(const WallPose &pose, std::size_t k) const
+  {
+    const int i = near[k];
+    return {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr, 0};
+  }
+};
 
 // The same job from slot `first` on.
 inline LawJob from_slot(LawJob job, std::size_t first)

@@ -9,22 +9,17 @@ namespace lsdcd {
 // Makes the list of near sphere k.
 struct GatherWork {
   GridView grid;
-  StridedView<const Real> x;
-  const Real *radius;
   WallPose pose;
-  const int *near;
-  Real margin, pull_off;
+  SpheresAtChoice spheres;
+  Real margin;
   WallLists lists;
   StepCounts *counts;
 
   template <class Group>
   LSDCD_FN void operator()(const Group &group, std::size_t k) const
   {
-    const int i = near[k];
-    const QuerySphere s = {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr,
-                           0};
     WallList made;
-    gather(group, grid, s, margin, made);
+    gather(group, grid, spheres.seen_from(pose, k), margin, made);
     if (group.rank() != 0) return;
     lists.put(k, made);
     count_one(&counts->lists);
@@ -36,10 +31,8 @@ struct GatherWork {
 struct GatherSlotWork {
   const MeshWork *meshes;
   const int *mesh;    // of each slot
-  StridedView<const Real> x;
-  const Real *radius;
-  const int *near;
-  Real margin, pull_off;
+  SpheresAtChoice spheres;
+  Real margin;
   WallLists lists;
   StepCounts *counts;
 
@@ -47,9 +40,7 @@ struct GatherSlotWork {
   LSDCD_FN void operator()(const Group &group, std::size_t k) const
   {
     const MeshWork &of = meshes[mesh[k]];
-    const GatherWork work = {of.grid,  x,     radius, of.settings.pose, near, margin,
-                             pull_off, lists, counts};
-    work(group, k);
+    GatherWork{of.grid, of.settings.pose, spheres, margin, lists, counts}(group, k);
   }
 };
 
@@ -62,25 +53,21 @@ class ListStore {
   // None where lists of cells hold the nearest primitives.
   const WallLists &view() const { return lists_; }
 
-  // Makes the lists of n near spheres, whose indices are `near`. They will not go farther than
-  // `margin` before the next choice.
-  void make(B &b, const GridView &grid, const Spheres &spheres, const WallPose &pose,
-            const int *near, std::size_t n, Real margin, Real pull_off, StepCounts *counts)
+  // Makes the lists of n near spheres, which will not go farther than `margin` before the next choice.
+  void make(B &b, const GridView &grid, const WallPose &pose, const SpheresAtChoice &spheres,
+            std::size_t n, Real margin, StepCounts *counts)
   {
-    if (!reserve(grid, n)) return;
-    b.for_each_by_group(
-        n, grid.has_long_lists,
-        GatherWork{grid, spheres.x, spheres.radius, pose, near, margin, pull_off, lists_, counts});
+    if (reserve(grid, n))
+      b.for_each_by_group(n, grid.has_long_lists,
+                          GatherWork{grid, pose, spheres, margin, lists_, counts});
   }
   // The same for n slots of several meshes.
   void make(B &b, const GridView &first_grid, const MeshWork *meshes, const int *mesh,
-            const Spheres &spheres, const int *near, std::size_t n, Real margin, Real pull_off,
-            StepCounts *counts)
+            const SpheresAtChoice &spheres, std::size_t n, Real margin, StepCounts *counts)
   {
-    if (!reserve(first_grid, n)) return;
-    b.for_each_by_group(n, first_grid.has_long_lists,
-                        GatherSlotWork{meshes, mesh, spheres.x, spheres.radius, near, margin,
-                                       pull_off, lists_, counts});
+    if (reserve(first_grid, n))
+      b.for_each_by_group(n, first_grid.has_long_lists,
+                          GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
   }
 
   std::size_t bytes() const
