@@ -34,7 +34,7 @@ class Bed:
         self.mesh = folder / "wall.stl"
         self.split = near_square(ranks)
         self.law = GRANULAR if name == "granular" else LAW    # of our wall
-        (self.closed_box if name in ("box", "granular") else self.floor)(million)
+        (self.closed_box if name in ("box", "checked", "granular") else self.floor)(million)
 
     def floor(self, million):
         (px, py), each = self.split, self.atoms / self.ranks
@@ -63,7 +63,8 @@ class Bed:
 
     def closed_box(self, _):
         """A simple cubic lattice pushes against all six walls: the outer spheres overlap them by as much
-        as their neighbours. It does not move, so neighbour lists are built every 50 steps."""
+        as their neighbours. It does not move, so neighbour lists are built every 50 steps; "checked" is
+        the same as most decks have it, where LAMMPS looks in each step whether they need to be."""
         (px, py), each = self.split, self.atoms / self.ranks
         along = max(1, round(each**(1 / 3)))
         sites = [px * along, py * along, math.ceil(self.atoms / (px * py * along**2))]
@@ -74,7 +75,7 @@ class Bed:
         first = (SPACING - 0.5) / SPACING
         self.lattice = f"sc {SPACING**-3!r} origin" + 3 * f" {first!r}"
         self.diameters, self.gravity = "1.0", 0.1
-        self.neighbours = "delay 0 every 50 check no"
+        self.neighbours = f"delay 0 every {'1 check yes' if self.name == 'checked' else '50 check no'}"
         self.boundary = "f f f"
         self.box = " ".join(f"-1 {s + 1!r}" for s in side)
         self.volume = math.prod(s + 2 for s in side)

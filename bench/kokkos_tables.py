@@ -7,9 +7,10 @@ from effects import table
 from hard_cases import write_whole
 from performance import as_csv, count, facts, ms
 
-CASES = {"flat": "flat floor", "box": "closed box", "granular": "closed box, granular",
-         "million": "bumpy floor"}
-TRIANGLES = {"flat": "2", "box": "20172", "granular": "20172", "million": "1000000"}
+CASES = {"flat": "flat floor", "box": "closed box", "checked": "closed box, check yes",
+         "granular": "closed box, granular", "million": "bumpy floor"}
+TRIANGLES = {"flat": "2", "box": "20172", "checked": "20172",
+             "granular": "20172", "million": "1000000"}
 ORDERS = ("random", "sorted")
 GPU_ATOMS = ("1000000", "8000000")
 COPIES = ", copies"

@@ -168,8 +168,10 @@ class NearWall {
     slots_.finish(b);
     n_ = slots_.n_slots();
     const MeshWork *works = put_works(b, EngineSettings(), StepSettings());
-    lists_.make(b, meshes_[0].grid, works, slots_.mesh(), at_choice(spheres, slots_.near()), n_,
-                margin, counts.data());
+    bool long_lists = false;
+    for (const EngineMesh<B> &mesh : meshes_) long_lists |= mesh.grid.has_long_lists;
+    lists_.make(b, meshes_[0].grid, long_lists, works, slots_.mesh(),
+                at_choice(spheres, slots_.near()), n_, margin, counts.data());
     return seen;
   }
 

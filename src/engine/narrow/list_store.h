@@ -61,12 +61,13 @@ class ListStore {
       b.for_each_by_group(n, grid.has_long_lists,
                           GatherWork{grid, pose, spheres, margin, lists_, counts});
   }
-  // The same for n slots of several meshes.
-  void make(B &b, const GridView &first_grid, const MeshWork *meshes, const int *mesh,
-            const SpheresAtChoice &spheres, std::size_t n, Real margin, StepCounts *counts)
+  // The same for n slots of several meshes; `long_lists`: has any of them?
+  void make(B &b, const GridView &first_grid, bool long_lists, const MeshWork *meshes,
+            const int *mesh, const SpheresAtChoice &spheres, std::size_t n, Real margin,
+            StepCounts *counts)
   {
     if (reserve(first_grid, n))
-      b.for_each_by_group(n, first_grid.has_long_lists,
+      b.for_each_by_group(n, long_lists,
                           GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
   }
 
