@@ -3,7 +3,8 @@
 // the first half of nve/sphere. At the end it writes, for each process to the file
 // $LSDCD_COPIES.PID, a line for all before the first step and one per step: 1 if lists of
 // neighbours were built, then copies, bytes and bytes of the largest copy between host and
-// device, then copies and bytes within one of them.
+// device, copies and bytes within one of them, and 1 if the step began with the end of the last
+// in one kernel.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,7 +22,7 @@ struct Space {
 };
 
 struct Step {
-  bool reneighbours = false;
+  bool reneighbours = false, fused = false;
   std::uint64_t copies = 0, bytes = 0, largest = 0, within = 0, bytes_within = 0;
 };
 
@@ -40,9 +41,11 @@ extern "C" {
 
 void kokkosp_begin_parallel_for(const char *name, std::uint32_t, std::uint64_t *)
 {
-  if (std::strstr(name, "NVESphere") &&
-      (std::strstr(name, "InitialIntegrate") || std::strstr(name, "FusedIntegrate")))
+  const bool fused = std::strstr(name, "FusedIntegrate");
+  if (std::strstr(name, "NVESphere") && (fused || std::strstr(name, "InitialIntegrate"))) {
     steps.emplace_back();
+    steps.back().fused = fused;
+  }
   if (std::strstr(name, "NPairKokkosBuild")) steps.back().reneighbours = true;
 }
 
@@ -71,8 +74,8 @@ void kokkosp_finalize_library()
   }
   const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
   for (const Step &s : steps)
-    std::fprintf(f, "%d %llu %llu %llu %llu %llu\n", s.reneighbours, count(s.copies),
-                 count(s.bytes), count(s.largest), count(s.within), count(s.bytes_within));
+    std::fprintf(f, "%d %llu %llu %llu %llu %llu %d\n", s.reneighbours, count(s.copies),
+                 count(s.bytes), count(s.largest), count(s.within), count(s.bytes_within), s.fused);
   std::fclose(f);
 }
 

@@ -119,7 +119,8 @@ def count_copies(host, bed, folder, order, options, rows):
 
         rows.add(("" if wall else NO_WALL) + COPIES, order, steps=len(plain),
                  copies=mean(plain, 1), bytes=mean(plain, 2), largest=max(s[3] for s in plain),
-                 within=mean(plain, 4), seen=seen, list_steps=len(lists),
+                 within=mean(plain, 4), seen=seen, fused=sum(s[6] for s in steps),
+                 list_steps=len(lists),
                  list_copies=mean(lists, 1), list_bytes=mean(lists, 2),
                  list_largest=max((s[3] for s in lists), default=0))
 

@@ -82,10 +82,9 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   records = settings.has_loads();
   restart_global = records || any_moves() || several();
   // Of any file; end_of_step() knows which.
-  int every = 0;
   for (const MeshPart &m : parts)
-    every = std::gcd(every, std::gcd(m.settings.fields.every, m.settings.stl.every));
-  if (every > 0) nevery = every;
+    files_every = std::gcd(files_every, std::gcd(m.settings.fields.every, m.settings.stl.every));
+  if (files_every > 0) nevery = files_every;
   create_attribute = history || settings.contacts;
   restart_peratom = history;
   maxexchange_dynamic = history || settings.contacts;
@@ -147,8 +146,9 @@ FixWallLsdcd::~FixWallLsdcd()
 
 int FixWallLsdcd::setmask()
 {
+  // Where a fix asks for the end of steps, Kokkos's integrators no longer join two halves to one kernel.
   return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN | PRE_EXCHANGE |
-         (nevery > 0 ? END_OF_STEP : 0);
+         (files_every > 0 ? END_OF_STEP : 0);
 }
 
 void FixWallLsdcd::init()

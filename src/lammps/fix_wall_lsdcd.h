@@ -81,6 +81,7 @@ class FixWallLsdcd : public Fix {
   int room = 0;                    // this wall's part of maxexchange
   bool running = false;            // between start and collect
   int nlevels_respa = 0;           // 0 under verlet
+  int files_every = 0;             // steps: some file of a mesh may be due; 0: there are none
 
   bool adapts = false;    // some fix changes radii: a step begins in post_force
   bool rigid = false;     // some rigid fix holds atoms: mass_seen replaces rmass

@@ -90,10 +90,10 @@ void start_step(unsigned n, bool has_single, const Work &work, cudaStream_t stre
                  several_blocks = std::min<unsigned>(blocks, kMostBlocks);
   const StepLists &lists = work.step_lists();
   SeveralPart part = {nullptr, nullptr, static_cast<int>(n), 0, blocks};
-  int *to_clear = nullptr;
+  int *to_clear = lists.n_found_next;
   if (has_single) {
     part = {lists.last, lists.n_last, 0, kFewBlocks, lists.last ? several_blocks : 0};
-    cuda_step<<<part.blocks + blocks, kStepBlock, 0, stream>>>(part, n, lists.n_found_next, work);
+    cuda_step<<<part.blocks + blocks, kStepBlock, 0, stream>>>(part, n, to_clear, work);
     to_clear = lists.n_last;    // the next step's `next`
     part = {lists.found, lists.n_found, 0, kMostBlocks, several_blocks};
   }

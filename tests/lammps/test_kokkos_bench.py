@@ -89,6 +89,9 @@ def rows_of_all(checks, host, folder):
                 copies["seen"])
     checks.fact("of every step but those that warm up and the last",
                 int(copies["steps"]) + int(copies["list_steps"]) == 29, copies["steps"])
+    without = facts(find["flat floor, no wall, copies", "1"])
+    checks.fact("the integrator joins as many steps with the wall as without",
+                copies["fused"] == without["fused"], copies["fused"])
     ratio = float(flat["median_ms"]) / float(none["median_ms"])
     table = step_table(rows, ())
     checks.fact("the table has the ratio", f"| {ratio:.3f} |" in table, table.splitlines()[2])

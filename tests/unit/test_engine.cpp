@@ -39,17 +39,17 @@ struct CountingBackend : CpuBackend {
   void step(std::size_t n, const Work &work)
   {
     work.begin();
+    const StepLists &lists = work.step_lists();
+    *lists.n_found_next = 0;
     if (!work.has_single()) {
       for (std::size_t k = 0; k < n; k++) work.several(k);
       return;
     }
-    const StepLists &lists = work.step_lists();
     const auto do_several = [&](int k) {
       if (!work.several(k) || !lists.next) return;
       lists.next[(*lists.n_next)++] = k;
       lists.listed_in[k] = lists.step + 1;
     };
-    *lists.n_found_next = 0;
     const int n_last = lists.last ? *lists.n_last : 0;
     for (int s = 0; s < n_last; s++) do_several(lists.last[s]);
     for (std::size_t k = 0; k < n; k++)
