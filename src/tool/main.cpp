@@ -1,6 +1,7 @@
 // lsdcd: what can be done with a mesh without a simulation.
 #include "base/input_error.h"
 #include "tool/accuracy_command.h"
+#include "tool/convert_command.h"
 #include "tool/distance_command.h"
 #include "tool/effects_command.h"
 #include "tool/generate_command.h"
@@ -50,6 +51,7 @@ int main(int argc, char **argv)
   int exit_code = kDone;
   add_inspect_command(app);
   add_repair_command(app, exit_code);
+  add_convert_command(app);
   add_generate_command(app);
   add_grid_command(app);
   add_distance_command(app);
