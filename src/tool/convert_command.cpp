@@ -4,6 +4,7 @@
 #include "output/mesh_stl.h"
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
+#include "tool/number_options.h"
 #include "tool/read_mesh.h"
 
 #include <algorithm>
@@ -73,8 +74,7 @@ void add_convert_command(CLI::App &app)
       "Example:\n  lsdcd convert wall.obj --units mm -o wall.stl");
   command->add_option("file", o->file, "mesh, .stl, .obj, .ply or .off")->required();
   command->add_option("-o,--output", o->output, "mesh to write, of the same formats")->required();
-  CLI::Option *scale = command->add_option("--scale", o->scale, "one factor, or three (x y z)");
-  scale->expected(1, 3);
+  CLI::Option *scale = add_scale_option(command, o->scale);
   command
       ->add_option("--units", o->units,
                    "what a length of 1 is in the file: m, cm, mm, um, in or ft; written in metres")

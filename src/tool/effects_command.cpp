@@ -107,6 +107,7 @@ void add_effects_command(CLI::App &app)
   const auto o = std::make_shared<Options>();
   CLI::App *command = app.add_subcommand(
       "effects", "every effect of a wall: its words, bytes per atom and contact, and cost");
+  command->footer("Example:\n  lsdcd effects --measure --device cpu --csv effects.csv");
   command->add_flag("--measure", o->measure, "measure costs here, now");
   command->add_option("--device", o->device, "where to measure")
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}))

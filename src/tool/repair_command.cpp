@@ -4,6 +4,7 @@
 #include "mesh/repair.h"
 #include "output/mesh_file.h"
 #include "tool/mesh_json.h"
+#include "tool/number_options.h"
 
 #include <cstdio>
 #include <memory>
@@ -142,9 +143,11 @@ void add_repair_command(CLI::App &app, int &exit_code)
                    "mesh to write, .stl, .obj, .ply or .off; STL is binary where all corners are\n"
                    "floats, else text with all digits")
       ->required();
-  command->add_option("--weld", o->weld,
-                      "corners closer than this to each other, or to an open edge, are on it\n"
-                      "(default: 1e-6 of the box diagonal)");
+  command
+      ->add_option("--weld", o->weld,
+                   "corners closer than this to each other, or to an open edge, are on it\n"
+                   "(default: 1e-6 of the box diagonal)")
+      ->check(not_below_zero);
   command->add_flag("--open", o->open, "the mesh is meant to be open: ends with 0 all the same");
   command->add_flag("--json", o->json, "print JSON");
   command->callback([o, &exit_code] {
