@@ -25,8 +25,8 @@ TriangleSoup crumpled(const std::vector<Vec3> &x, int n)
   const auto at = [&](int i, int j) { return x[i % n * n + j % n]; };
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++)
-      for (const Vec3 &p : {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1),
-                            at(i, j + 1)})
+      for (const Vec3 &p :
+           {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)})
         soup.corners.push_back(p);
   return soup;
 }
