@@ -1,4 +1,4 @@
-// Things in boxes: those that a question may be about, found by asking of the boxes around many first.
+// Things in boxes: those that a question may be about, found by asking of boxes around many first.
 #pragma once
 
 #include "mesh/periodic_box.h"

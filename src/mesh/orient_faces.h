@@ -9,16 +9,15 @@
 namespace lsdcd {
 
 struct OrientedFaces {
-  std::vector<char> turned;    // for each face: it has to be wound the other way
-  std::size_t faces = 0;       // of these
-  std::size_t shells = 0;      // that are closed and can be oriented
-  std::size_t cavities =
-      0;    // of these, whose normals point in: an odd number of others are round them
+  std::vector<char> turned;     // for each face: it has to be wound the other way
+  std::size_t faces = 0;        // of these
+  std::size_t shells = 0;       // that are closed and can be oriented
+  std::size_t cavities = 0;     // of these, with normals in: an odd number of others are round them
   std::size_t one_sided = 0;    // parts that no turning can orient, as a Moebius strip
 };
 
-// Parts of the mesh hang together by edges of two faces. A closed one points out, or where it bounds
-// a cavity of others, into that; of another the side is kept that more of its area has.
+// Parts of the mesh hang together by edges of two faces. A closed one points out, or where it
+// bounds a cavity of others, into that; of another the side is kept that more of its area has.
 OrientedFaces orient_faces(const WallMesh &mesh);
 
 }    // namespace lsdcd

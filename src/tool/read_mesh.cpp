@@ -36,8 +36,8 @@ void add(const aiMesh &mesh, ReadMesh &read)
   }
 }
 
-// Some errors, as an index without a vertex, assimp only logs, and reads on: "Error, T0: text". That a
-// material is missing is no error of a mesh.
+// Some errors, as an index without a vertex, assimp only logs, and reads on: "Error, T0: text".
+// That a material is missing is no error of a mesh.
 void keep_error(const char *message, char *kept)
 {
   const std::string text = message;

@@ -2,8 +2,8 @@
 #include "base/input_error.h"
 #include "mesh/motion.h"
 #include "support/crowd.h"
-#include "support/laws.h"
 #include "support/meshes.h"
+#include "support/named_laws.h"
 #include "support/test_engine.h"
 
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 #include "engine/host_adapter.h"
 #include "mesh/motion.h"
 #include "support/crowd.h"
-#include "support/laws.h"
 #include "support/meshes.h"
+#include "support/named_laws.h"
 #include "support/test_engine.h"
 
 #include <gtest/gtest.h>

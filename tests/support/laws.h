@@ -2,9 +2,6 @@
 #pragma once
 
 #include "engine/wall_engine.h"
-#include "support/crowd.h"
-
-#include <vector>
 
 namespace lsdcd {
 
@@ -48,27 +45,6 @@ inline EngineSettings granular(NormalModel normal, Real k, Real cohesion = 0)
   g.cohesion = cohesion;
   g.damping = DampingModel::none;
   return s;
-}
-
-struct NamedLaw {
-  const char *name;
-  EngineSettings settings;
-};
-
-// Of every kind that an engine is compiled for.
-inline std::vector<NamedLaw> laws(Real k)
-{
-  EngineSettings rolling = hooke_history(k, 3e4, 50, 20, 0.4), all, records;
-  rolling.law.added.rolling = AddedRolling::epsd2;
-  rolling.law.added.mu_roll = 0.1;
-  all.law = everything(NormalModel::jkr);
-  records = hertz_history(k, 3e4, 50, 20, 0.4);
-  records.records = true;
-  return {{"hooke", hooke(k, 50, 20, 0.4)},
-          {"hooke/history", hooke_history(k, 3e4, 50, 20, 0.4)},
-          {"hertz/history with records", records},
-          {"rolling epsd2", rolling},
-          {"granular jkr, all", all}};
 }
 
 }    // namespace lsdcd

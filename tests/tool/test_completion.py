@@ -18,7 +18,8 @@ def completed(*words):
 
 
 def main():
-    fact("commands", {"inspect", "repair", "convert", "generate", "distance", "material"} <= set(completed("")), completed(""))
+    fact("commands", {"inspect", "repair", "convert", "generate", "distance", "material"} <= set(completed("")),
+         completed(""))
     fact("commands by their beginning", completed("dist") == ["distance"], completed("dist"))
     fact("shapes", {"box", "screw"} <= set(completed("generate", "")), completed("generate", ""))
     fact("a command's options", {"--radius", "--cutoff", "--json", "--output", "-o"} <=

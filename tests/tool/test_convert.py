@@ -57,7 +57,8 @@ def written():
         for ending, read in (("obj", read_obj), ("off", read_off), ("ply", read_ply)):
             said = told(FOLDER, "convert", f"{name}.stl", "-o", f"{name}.{ending}")
             got = read((FOLDER / f"{name}.{ending}").read_bytes())
-            fact(f"{name} in {ending} are the same bits", np.array_equal(got[0], wanted) and said["facets"] == len(wanted))
+            fact(f"{name} in {ending} are the same bits", np.array_equal(got[0], wanted) and
+                 said["facets"] == len(wanted))
             fact(f"{name} in {ending}: each vertex once", got[1] == vertices, (got[1], vertices))
         fact(f"{name} in ply", got[2] == ("<f8" if name == "doubles" else "<f4"), got[2])
         told(FOLDER, "convert", f"{name}.stl", "-o", "out.STL")
@@ -114,8 +115,8 @@ def check_roof(name):
 def read_by_assimp():
     v = "".join("v {} {} {}\n".format(*x) for x in ROOF)
     sides = "".join("f {}/1/1 {}/1/1 {}//1\n".format(*(k + 1 for k in s)) for s in SIDES[:2])
-    (FOLDER / "roof.obj").write_text("# roof\nmtllib none.mtl\no a\n" + v + "vt 0 0\nvn 0 0 1\n" + sides.replace("//", "/1/")
-                                     + "g b\nf -3 -2 -1\nf 4 1 5\nusemtl c\nf 4 3 2 1\n")
+    (FOLDER / "roof.obj").write_text("# roof\nmtllib none.mtl\no a\n" + v + "vt 0 0\nvn 0 0 1\n"
+                                     + sides.replace("//", "/1/") + "g b\nf -3 -2 -1\nf 4 1 5\nusemtl c\nf 4 3 2 1\n")
     check_roof("roof.obj")
     faces = "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in [*SIDES, FLOOR])
     points = "".join("{} {} {}\n".format(*x) for x in ROOF)
@@ -155,7 +156,8 @@ def read_by_assimp():
     (FOLDER / "index.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
     (FOLDER / "index.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")
     (FOLDER / "index.ply").write_text((FOLDER / "text.ply").read_text().replace("3 0 1 4", "3 0 1 9"))
-    for name in ("empty.obj", "index.obj", "index.ply", "broken.ply", "text.off", "far.off", "index.off", "nowhere.obj"):
+    for name in ("empty.obj", "index.obj", "index.ply", "broken.ply", "text.off", "far.off", "index.off",
+                 "nowhere.obj"):
         refused(FOLDER, f"convert {name} -o none.stl".split(), name)
 
 

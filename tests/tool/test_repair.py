@@ -52,8 +52,9 @@ def left_of(triangles):
 
 
 def check(name, triangles, did=(), left=None, within=1., enclosed=None, words=()):
-    """`did`: counts that are told, or those that are above 0, others of NOTHING being 0; `left`: kinds and counts, None of
-    edges where edges tell them; `within`: moved by no more tolerances than that; `enclosed`: volume."""
+    """`did`: counts that are told, or those that are above 0, others of NOTHING being 0; `left`: kinds
+    and counts, None of edges where edges tell them; `within`: moved by no more tolerances than that;
+    `enclosed`: volume."""
     triangles = np.asarray(triangles, float)
     write_ascii_stl(FOLDER / "in.stl", triangles)
     (FOLDER / "out.stl").unlink(missing_ok=True)
@@ -168,9 +169,10 @@ def main():
     fact("they are named", [u["what"] for u in said["left"]] == [MEET])
     nested = np.concatenate([ball, sphere(2, 0.5), sphere(2, 0.25), sphere(2, 0.1, (0.6, 0, 0))])
     check("shells in shells", nested, {"turned_facets": 96, "shells": 4, "cavities": 2}, {}, 0)
-    check("a facet folded onto its neighbour", [[(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(1, 0, 0), (0, 0, 0), (0.25, 0.5, 0)]],
-          {}, {OPEN: 4, MEET: 1}, 0)
-    thin = np.concatenate([box[1:], [(a, m + 1e-9 * (c - m), c), (m + 1e-9 * (c - m), b, c), (a, b, m + 1e-9 * (c - m))]])
+    check("a facet folded onto its neighbour",
+          [[(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(1, 0, 0), (0, 0, 0), (0.25, 0.5, 0)]], {}, {OPEN: 4, MEET: 1}, 0)
+    in_it = m + 1e-9 * (c - m)
+    thin = np.concatenate([box[1:], [(a, in_it, c), (in_it, b, c), (a, b, in_it)]])
     check("a thin facet is kept", thin, {}, {}, 0, 1)
 
     line = [(5., 0, 0), (6., 0, 0), (7., 0, 0)]
