@@ -1,23 +1,21 @@
 #!/usr/bin/env python3
-"""Write the spallation-target vessel as STL files in millimetres, here.
+"""Write the spallation-target vessel as STL files in millimetres.
 
 The vessel is turned on a lathe about z: a cylinder, a converging cone and an
 outlet tube with rounded knuckles between them, and a beam pipe with a round end
 hanging in it (vessel.stl), open at the top and at the bottom. outlet.stl is the
 plate that closes the tube until the deck takes it away. Walls have no thickness.
 """
-import argparse
 import math
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from stl import write_stl    # noqa: E402
+from stl import options, write_stl    # noqa: E402
 
 
 def arguments():
-    p = argparse.ArgumentParser(description=__doc__,
-                                formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+    p = options(__doc__)
     p.add_argument("--radius", type=float, default=50, help="inner radius of the cylinder")
     p.add_argument("--height", type=float, default=100, help="height of the cylinder")
     p.add_argument("--cone", type=float, default=50, help="height of the cone")
@@ -97,7 +95,7 @@ def main():
     pipe[0] = (0.0, pipe[0][1])
     pipe.append((arg.pipe_radius, z_rim))
 
-    write_stl("vessel.stl",
+    write_stl(Path(arg.out) / "vessel.stl",
               turned(subdivided(profile, arg.edge), arg.segments)
               + turned(subdivided(pipe, arg.edge), arg.segments * 2 // 5),
               "spallation-target vessel, millimetres")
@@ -105,7 +103,7 @@ def main():
     plate = 1.25 * arg.tube_radius
     rim = [(plate * math.cos(math.pi / 4 * j), plate * math.sin(math.pi / 4 * j), 0.0)
            for j in range(8)]
-    write_stl("outlet.stl", [((0.0, 0.0, 0.0), rim[j], rim[(j + 1) % 8]) for j in range(8)],
+    write_stl(Path(arg.out) / "outlet.stl", [((0.0, 0.0, 0.0), rim[j], rim[(j + 1) % 8]) for j in range(8)],
               "plate that closes the outlet, millimetres")
 
 

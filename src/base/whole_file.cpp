@@ -82,4 +82,11 @@ void WholeFile::fail(const char *what) const
   throw InputError("'" + path_ + "': " + what + ": " + std::strerror(errno));
 }
 
+void write_whole_file(const std::string &path, const std::string &bytes)
+{
+  WholeFile file(path);
+  file.write_at(0, bytes.data(), bytes.size());
+  file.commit();
+}
+
 }    // namespace lsdcd

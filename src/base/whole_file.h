@@ -28,4 +28,7 @@ class WholeFile {
   int file_ = -1;
 };
 
+// A file of these bytes.
+void write_whole_file(const std::string &path, const std::string &bytes);
+
 }    // namespace lsdcd

@@ -53,14 +53,6 @@ void measure_faces(WallMesh &mesh, const std::vector<FacePlane> &plane)
   report.volume = static_cast<Real>(volume);
 }
 
-// Whether the face runs along the edge from its lower to its higher vertex.
-bool runs_along(const WallMesh &mesh, int face, int edge)
-{
-  int k = 0;
-  while (mesh.face_edges[face][k] != edge) ++k;
-  return mesh.faces[face][k] == mesh.edges[edge][0];
-}
-
 void measure_adjacency(WallMesh &mesh, const std::vector<FacePlane> &plane)
 {
   MeshReport &report = mesh.report;
@@ -83,6 +75,13 @@ void measure_adjacency(WallMesh &mesh, const std::vector<FacePlane> &plane)
 }
 
 }    // namespace
+
+bool runs_along(const WallMesh &mesh, int face, int edge)
+{
+  int k = 0;
+  while (mesh.face_edges[face][k] != edge) ++k;
+  return mesh.faces[face][k] == mesh.edges[edge][0];
+}
 
 void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane)
 {

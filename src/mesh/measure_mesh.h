@@ -12,4 +12,7 @@ namespace lsdcd {
 // holds one entry per face. What was dropped on the way is the welder's to count.
 void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane);
 
+// Does the face run along the edge from its lower to its higher vertex?
+bool runs_along(const WallMesh &mesh, int face, int edge);
+
 }    // namespace lsdcd

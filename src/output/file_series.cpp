@@ -74,9 +74,7 @@ void FileSeries::write() const
     text += kTime + time + kFile + e.file + kEnd + "\n";
   }
   text += "</Collection>\n</VTKFile>\n";
-  WholeFile file(path_);
-  file.write_at(0, text.data(), text.size());
-  file.commit();
+  write_whole_file(path_, text);
 }
 
 }    // namespace lsdcd

@@ -104,9 +104,7 @@ void write_mesh_fields(const std::string &path, const WallMesh &mesh,
   text += data_array("Int32", "offsets", ends);
   text += "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 
-  WholeFile file(path);
-  file.write_at(0, text.data(), text.size());
-  file.commit();
+  write_whole_file(path, text);
 }
 
 }    // namespace lsdcd

@@ -1,28 +1,19 @@
 #include "output/mesh_stl.h"
 
 #include "base/whole_file.h"
+#include "output/file_bytes.h"
 
-#include <cstdint>
-#include <cstring>
+#include <algorithm>
 
 namespace lsdcd {
 
 namespace {
 
-// STL is little-endian whatever the machine is.
-void append(std::string &bytes, std::uint32_t number)
+// Of the corners as they are in the file, so that reading and writing it changes nothing.
+Vec3 normal_of(const Vec3 *corner)
 {
-  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(number >> shift & 255);
-}
-
-void append(std::string &bytes, const Vec3 &a)
-{
-  for (const Real x : {a.x, a.y, a.z}) {
-    const float value = static_cast<float>(x);
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    append(bytes, bits);
-  }
+  const Vec3 n = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  return norm_sq(n) > 0 ? (1 / norm(n)) * n : n;
 }
 
 // volatile: g++ 12 with -O3 makes double -> float -> double of two neighbours at once no change.
@@ -32,6 +23,32 @@ Real rounded(Real x)
   return value;
 }
 
+std::string binary(const TriangleSoup &soup)
+{
+  constexpr std::size_t kHeaderText = 80;
+  std::string bytes = "binary STL of lsdcd";    // no "solid", by which text begins
+  bytes.resize(kHeaderText, ' ');
+  append_number(bytes, static_cast<std::uint32_t>(soup.n_triangles()));
+  for (std::size_t c = 0; c < soup.corners.size(); c += 3) {
+    append_numbers<float>(bytes, normal_of(&soup.corners[c]));
+    for (int k = 0; k < 3; k++) append_numbers<float>(bytes, soup.corners[c + k]);
+    bytes.append(2, '\0');    // attributes
+  }
+  return bytes;
+}
+
+std::string text(const TriangleSoup &soup)
+{
+  std::string bytes = "solid lsdcd\n";
+  for (std::size_t c = 0; c < soup.corners.size(); c += 3) {
+    append_line(bytes, "facet normal", normal_of(&soup.corners[c]));
+    bytes += "outer loop\n";
+    for (int k = 0; k < 3; k++) append_line(bytes, "vertex", soup.corners[c + k]);
+    bytes += "endloop\nendfacet\n";
+  }
+  return bytes + "endsolid lsdcd\n";
+}
+
 }    // namespace
 
 Vec3 rounded_as_in_stl(const Vec3 &corner)
@@ -39,26 +56,24 @@ Vec3 rounded_as_in_stl(const Vec3 &corner)
   return {rounded(corner.x), rounded(corner.y), rounded(corner.z)};
 }
 
+bool are_floats(const std::vector<Vec3> &points)
+{
+  return std::all_of(points.begin(), points.end(),
+                     [](const Vec3 &x) { return rounded_as_in_stl(x) == x; });
+}
+
+void write_stl(const std::string &path, const TriangleSoup &soup)
+{
+  write_whole_file(path, are_floats(soup.corners) ? binary(soup) : text(soup));
+}
+
 void write_mesh_stl(const std::string &path, const WallMesh &mesh, const WallPose &pose)
 {
-  constexpr std::size_t kHeaderText = 80;
-  std::string bytes = "binary STL of lsdcd";    // no "solid", by which text begins
-  bytes.resize(kHeaderText, ' ');
-  append(bytes, static_cast<std::uint32_t>(mesh.faces.size()));
-  for (const auto &f : mesh.faces) {
-    Vec3 corner[3];
-    for (int k = 0; k < 3; k++) {
-      corner[k] = rounded_as_in_stl(pose.to_box(mesh.vertices[f[k]]));
-    }
-    // Of the corners as they are in the file, so that reading and writing it changes nothing.
-    const Vec3 n = cross(corner[1] - corner[0], corner[2] - corner[0]);
-    append(bytes, norm_sq(n) > 0 ? (1 / norm(n)) * n : n);
-    for (const Vec3 &c : corner) append(bytes, c);
-    bytes.append(2, '\0');    // attributes
-  }
-  WholeFile file(path);
-  file.write_at(0, bytes.data(), bytes.size());
-  file.commit();
+  TriangleSoup soup;
+  soup.corners.reserve(3 * mesh.faces.size());
+  for (const auto &f : mesh.faces)
+    for (const int v : f) soup.corners.push_back(rounded_as_in_stl(pose.to_box(mesh.vertices[v])));
+  write_whole_file(path, binary(soup));
 }
 
 }    // namespace lsdcd

@@ -1,18 +1,26 @@
-// The mesh where it is, as an STL file that read_stl() and other programs read.
+// Triangles, and the mesh where it is, as STL files that read_stl() and other programs read.
 #pragma once
 
 #include "mesh/wall_mesh.h"
 #include "mesh/wall_pose.h"
 
 #include <string>
+#include <vector>
 
 namespace lsdcd {
 
-// Binary; corners rounded to float, in the winding of the mesh. It appears whole or not at all.
-// Throws InputError that names the file.
+// All of them write a file whole or not at all, and throw InputError that names it.
+
+// In the soup's order and winding; binary where all corners are floats, else text that tells each
+// to the last bit.
+void write_stl(const std::string &path, const TriangleSoup &soup);
+
+// Binary; corners rounded to float, in the winding of the mesh.
 void write_mesh_stl(const std::string &path, const WallMesh &mesh, const WallPose &pose = {});
 
-// A corner as that file has it: of floats.
+// A corner as a binary file has it: of floats.
 Vec3 rounded_as_in_stl(const Vec3 &corner);
+
+bool are_floats(const std::vector<Vec3> &points);
 
 }    // namespace lsdcd

@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 #include "tool/accuracy_tables.h"
+#include "tool/number_options.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -61,8 +62,10 @@ void add_accuracy_command(CLI::App &app)
   names.push_back("all");
   c->add_option("table", o.tables, "tables to make (default: table2)")->check(CLI::IsMember(names));
   c->add_option("--spheres", o.spheres, "how many (1e7 in the paper)")->capture_default_str();
-  c->add_option("--most-spheres", o.most_spheres, "where figure9 ends (default: --spheres)");
+  c->add_option("--most-spheres", o.most_spheres, "where figure9 ends (default: --spheres)")
+      ->check(above_zero);
   c->add_option("--most-triangles", o.most_triangles, "where mesh ends (1e6 takes a GPU)")
+      ->check(above_zero)
       ->capture_default_str();
   c->add_option("--segments", o.shape.segments, "flat sides of the cylinder")
       ->capture_default_str();
@@ -84,12 +87,17 @@ void add_accuracy_command(CLI::App &app)
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
       ->expected(1, 2)
       ->capture_default_str();
-  c->add_option("--repeats", o.repeats, "timed runs after one to warm up")->capture_default_str();
+  c->add_option("--repeats", o.repeats, "timed runs after one to warm up")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
   c->add_option("--seed", o.seed, "of the spheres")->capture_default_str();
-  c->add_option("--memory", o.memory, "budget of a grid in MB")->capture_default_str();
+  c->add_option("--memory", o.memory, "budget of a grid in MB")
+      ->check(above_zero)
+      ->capture_default_str();
   c->add_option("--csv", o.csv, "write all rows to this file");
   c->add_option("--commit", o.commit, "what was built, for the CSV")->capture_default_str();
-  c->footer("CPU runs take OMP_NUM_THREADS threads, one where it is not set.");
+  c->footer("CPU runs take OMP_NUM_THREADS threads, one where it is not set.\n"
+            "Example:\n  lsdcd accuracy table2 --spheres 1e5 --csv table2.csv");
   c->callback([] { run_accuracy(o); });
 }
 

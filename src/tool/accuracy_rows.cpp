@@ -104,10 +104,7 @@ void AccuracyRows::add(const RowContext &c, const StudyRow &r, const PaperColumn
 
 void AccuracyRows::write_csv(const std::string &path) const
 {
-  const std::string text = kColumns + csv_;
-  WholeFile file(path);
-  file.write_at(0, text.data(), text.size());
-  file.commit();
+  write_whole_file(path, kColumns + csv_);
 }
 
 }    // namespace lsdcd

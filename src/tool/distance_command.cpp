@@ -3,6 +3,7 @@
 #include "parallel/threads.h"
 #include "tool/answer_writer.h"
 #include "tool/load_mesh.h"
+#include "tool/number_options.h"
 #include "tool/mesh_json.h"
 #include "tool/point_answers.h"
 #include "tool/progress.h"
@@ -147,14 +148,11 @@ void add_distance_command(CLI::App &app)
   command->add_option("-o,--output", o->output, "file to write, .csv or .npy")->required();
   command->add_option("--radius,--cutoff", o->radius, "nothing as far as this is found")
       ->required();
-  command->add_option("--scale", o->scale, "of the mesh: one factor, or three (x y z)")
-      ->expected(1, 3);
-  command->add_option("--weld", o->weld,
-                      "weld corners closer than this (default: 1e-6 of the box diagonal)");
-  command->add_option("--grid", o->cell, "cell length (default: chosen)")
-      ->check(CLI::PositiveNumber);
+  add_scale_option(command, o->scale);
+  add_weld_option(command, o->weld);
+  command->add_option("--grid", o->cell, "cell length (default: chosen)")->check(above_zero);
   command->add_option("--memory", o->memory, "of the grid, in MB (default: 1024 beside the mesh)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero);
   command->add_option("--device", o->device, "that answers")
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
       ->capture_default_str();

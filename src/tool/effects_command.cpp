@@ -83,10 +83,7 @@ void measure(const Options &o)
   for (std::size_t i = 0; i < cases.size(); i++)
     print_row(cases[i], cost_text(costs[i].min_ns, cost_over(cases, costs, i), cases[i].over));
   if (o.csv.empty()) return;
-  const std::string text = csv_of(cases, costs, o.commit);
-  WholeFile file(o.csv);
-  file.write_at(0, text.data(), text.size());
-  file.commit();
+  write_whole_file(o.csv, csv_of(cases, costs, o.commit));
 }
 
 // Costs kept in doc/data when this program was built.
@@ -110,6 +107,7 @@ void add_effects_command(CLI::App &app)
   const auto o = std::make_shared<Options>();
   CLI::App *command = app.add_subcommand(
       "effects", "every effect of a wall: its words, bytes per atom and contact, and cost");
+  command->footer("Example:\n  lsdcd effects --measure --device cpu --csv effects.csv");
   command->add_flag("--measure", o->measure, "measure costs here, now");
   command->add_option("--device", o->device, "where to measure")
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}))

@@ -46,7 +46,7 @@ void write(const Output &o, const Triangles &coarse)
         o.file + " is not written, it would not be clean:" + verdict_line(mesh.report).substr(13) +
         "; is one of its lengths below 1e-6 of the whole? Give a larger --edge or "
         "fewer --segments");
-  write_mesh_stl(o.file, weld(soup, 0));
+  write_stl(o.file, soup);
   if (o.json)
     std::printf("%s\n", as_json(mesh.report).dump(2).c_str());
   else

@@ -3,6 +3,7 @@
 #include "grid/triangle_grid.h"
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
+#include "tool/number_options.h"
 
 #include <cstdio>
 #include <memory>
@@ -62,9 +63,8 @@ void grid(const Options &o)
 void add_mesh_options(CLI::App *command, Options &o)
 {
   command->add_option("file", o.file, "STL file, ASCII or binary")->required();
-  command->add_option("--scale", o.scale, "one factor, or three (x y z)")->expected(1, 3);
-  command->add_option("--weld", o.weld,
-                      "weld corners closer than this (default: 1e-6 of the box diagonal)");
+  add_scale_option(command, o.scale);
+  add_weld_option(command, o.weld);
   command->add_flag("--json", o.json, "print JSON");
 }
 
@@ -87,10 +87,14 @@ void add_grid_command(CLI::App &app)
       app.add_subcommand("grid", "what a grid for spheres up to a radius would cost");
   command->footer("Example:\n  lsdcd grid wall.stl --radius 0.005");
   add_mesh_options(command, *o);
-  command->add_option("--radius", o->radius, "largest sphere radius")->required();
-  command->add_option("--grid", o->length, "cell length (default: chosen)");
-  command->add_option("--memory", o->memory,
-                      "budget in MB (default: 1024 beside the mesh's own records)");
+  command->add_option("--radius", o->radius, "largest sphere radius")
+      ->required()
+      ->check(above_zero);
+  command->add_option("--grid", o->length, "cell length (default: chosen)")->check(above_zero);
+  command
+      ->add_option("--memory", o->memory,
+                   "budget in MB (default: 1024 beside the mesh's own records)")
+      ->check(above_zero);
   command->callback([o] { grid(*o); });
 }
 

@@ -11,17 +11,23 @@
 
 namespace lsdcd {
 
-// `scale` holds no factor, one, or three; `tolerance` is that of weld(). Throws InputError.
-inline WallMesh load_mesh(const std::string &file, const std::vector<double> &scale,
-                          double tolerance)
+// `scale` holds no factor, one, or three. Throws InputError.
+inline void apply_scale(TriangleSoup &soup, const std::vector<double> &scale)
 {
   if (scale.size() == 2)
     throw InputError("--scale has two numbers; give one factor or three (x y z)");
-  TriangleSoup soup = read_stl(file);
   Placement placement;
   if (scale.size() == 1) placement.scale({scale[0], scale[0], scale[0]});
   if (scale.size() == 3) placement.scale({scale[0], scale[1], scale[2]});
   placement.apply(soup);
+}
+
+// `tolerance` is that of weld(). Throws InputError.
+inline WallMesh load_mesh(const std::string &file, const std::vector<double> &scale,
+                          double tolerance)
+{
+  TriangleSoup soup = read_stl(file);
+  apply_scale(soup, scale);
   return weld(soup, tolerance);
 }
 

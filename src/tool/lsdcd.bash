@@ -9,6 +9,8 @@ _lsdcd() {
   COMPREPLY=()
   if [ "$before" = --device ]; then
     COMPREPLY=($(compgen -W "auto cpu cuda" -- "$current"))
+  elif [ "$before" = --units ] && [ "$first" = convert ]; then
+    COMPREPLY=($(compgen -W "m cm mm um in ft" -- "$current"))
   elif [[ $current == -* ]]; then
     COMPREPLY=($(compgen -W "$(grep -oE '^  [^ ]*--?[a-z][a-z-]*[^ ]*' <<<"$help" | tr ', ' '\n\n')" -- "$current"))
   else

@@ -1,11 +1,13 @@
 // lsdcd: what can be done with a mesh without a simulation.
 #include "base/input_error.h"
 #include "tool/accuracy_command.h"
+#include "tool/convert_command.h"
 #include "tool/distance_command.h"
 #include "tool/effects_command.h"
 #include "tool/generate_command.h"
 #include "tool/inspect_command.h"
 #include "tool/material.h"
+#include "tool/repair_command.h"
 #include "tool/tradeoff_command.h"
 
 #include <CLI/CLI.hpp>
@@ -44,8 +46,12 @@ int main(int argc, char **argv)
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("lsdcd " LSDCD_VERSION " (" LSDCD_COMMIT ")"));
   app.footer("lsdcd COMMAND --help tells more, with an example.\n"
-             "Ends with 0: done; 1: a file, mesh or number cannot be used; 2: wrong words.");
+             "Ends with 0: done; 1: a file, mesh or number cannot be used; 2: wrong words;\n"
+             "3: repair has written what it cannot mend in full.");
+  int exit_code = kDone;
   add_inspect_command(app);
+  add_repair_command(app, exit_code);
+  add_convert_command(app);
   add_generate_command(app);
   add_grid_command(app);
   add_distance_command(app);
@@ -66,5 +72,5 @@ int main(int argc, char **argv)
     std::fprintf(stderr, "lsdcd: %s\n", e.what());
     return kUnusable;
   }
-  return kDone;
+  return exit_code;
 }

@@ -66,6 +66,7 @@ void add_material_command(CLI::App &app)
   const auto o = std::make_shared<Options>();
   CLI::App *command = app.add_subcommand(
       "material", "what a material file says; with a name, the words that a deck would get");
+  command->footer("Example:\n  lsdcd material glass.lsdcd glass --on aluminium");
   command->add_option("file", o->file, "material file, looked for as in a deck")->required();
   command->add_option("name", o->name, "material of the grains");
   command->add_option("--on", o->wall, "material of the wall (default: the same)");

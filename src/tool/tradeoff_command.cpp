@@ -4,6 +4,7 @@
 #include "base/shared_files.h"
 #include "base/whole_file.h"
 #include "tool/load_mesh.h"
+#include "tool/number_options.h"
 #include "tune/tradeoff.h"
 
 #include <cmath>
@@ -47,14 +48,6 @@ const char *const kHelp =
     "  front           1 where no other setting on the device is better in time or mean force\n"
     "                  error and as good in the other\n"
     "  default         1 for what the fix does by itself";
-
-// CLI11's own check would print the largest number there is.
-std::string above_zero(const std::string &word)
-{
-  char *end = nullptr;
-  const double value = std::strtod(word.c_str(), &end);
-  return *end == 0 && value > 0 && std::isfinite(value) ? "" : word + " is not a number above 0";
-}
 
 std::string formatted(const char *format, double value)
 {
@@ -192,14 +185,14 @@ void add_tradeoff_command(CLI::App &app)
 {
   const auto o = std::make_shared<Options>();
   CLI::App *command = app.add_subcommand("tradeoff", kHelp);
+  command->footer("Example:\n  lsdcd tradeoff wall.stl --radius 0.004 0.005 --csv wall.csv");
   command->add_option("file", o->file, "STL file, ASCII or binary")->required();
   command->add_option("--radius", o->settings.radii, "sphere radii, one or several, each as likely")
       ->required()
       ->expected(1, -1)
       ->check(above_zero);
-  command->add_option("--scale", o->scale, "one factor, or three (x y z)")->expected(1, 3);
-  command->add_option("--weld", o->weld,
-                      "weld corners closer than this (default: 1e-6 of the box diagonal)");
+  add_scale_option(command, o->scale);
+  add_weld_option(command, o->weld);
   command->add_option("--memory", o->memory, "budget of a grid in MB; settings above are left out")
       ->capture_default_str()
       ->check(above_zero);

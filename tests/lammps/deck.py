@@ -23,6 +23,23 @@ KOKKOS_HOST = os.environ.get("LSDCD_KOKKOS_HOST", "") and os.environ["LSDCD_KOKK
 KOKKOS_PLUGIN = os.environ.get("LSDCD_KOKKOS_PLUGIN", "")
 ON_KOKKOS = bool(os.environ.get("LSDCD_KOKKOS"))
 
+# Spheres of diameter 1 in a box of side 6.
+SMALL_BOX = """\
+units           lj
+atom_style      sphere
+atom_modify     map array
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block -3 3 -3 3 -1 5
+create_box      1 box
+{atoms}
+set             group all diameter 1.0 density 2.0
+pair_style      zero 1.2
+pair_coeff      * *
+fix             move all nve/sphere
+"""
+
 MPI_FOLDER = tempfile.TemporaryDirectory(prefix="mpi")
 
 

@@ -6,20 +6,7 @@ import math
 import deck
 from test_moving import write_drum, write_plane
 
-DECK = """\
-units           lj
-atom_style      sphere
-atom_modify     map array
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -3 3 -3 3 -1 5
-create_box      1 box
-{atoms}
-set             group all diameter 1.0 density 2.0
-pair_style      zero 1.2
-pair_coeff      * *
-fix             move all nve/sphere
+DECK = deck.SMALL_BOX + """\
 fix             wall all wall/lsdcd {wall} contacts
 timestep        {dt}
 {more}

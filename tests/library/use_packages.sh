@@ -26,6 +26,8 @@ fact "C++ gives what C gives" test "$(./cpp /examples/die.stl 2>&1)" = "$(./c /e
 fact "Python gives what C gives" test "$(python3 /examples/distance.py /examples/die.stl 2>&1)" = "$(./c /examples/die.stl 2>&1)"
 gives "the tool finds its materials" "material glass" "$(lsdcd material glass.lsdcd 2>&1)"
 gives "the tool reads a mesh" "facets" "$(lsdcd inspect /examples/die.stl 2>&1)"
+lsdcd convert /examples/die.stl -o die.off && lsdcd convert die.off -o die.stl
+gives "the tool reads a mesh by assimp" "192 facets" "$(lsdcd convert die.off -o again.obj 2>&1)"
 fact "the licence is there" test -s /usr/share/doc/lsdcd/LICENSE
 
 if [ "$1" = newer ]; then

@@ -2,8 +2,8 @@
 #include "base/input_error.h"
 #include "mesh/motion.h"
 #include "support/crowd.h"
-#include "support/laws.h"
 #include "support/meshes.h"
+#include "support/named_laws.h"
 #include "support/test_engine.h"
 
 #include <gtest/gtest.h>
@@ -32,26 +32,6 @@ WallMotion rotating(const Vec3 &point, const Vec3 &axis, Real period)
   WallMotion motion;
   motion.add(m);
   return motion;
-}
-
-struct Law {
-  const char *name;
-  EngineSettings settings;
-};
-
-std::vector<Law> laws()
-{
-  EngineSettings cdt = hooke_history(kStiffness, 3e4, 50, 20, 0.4), all, both;
-  cdt.law.added.rolling = AddedRolling::epsd2;
-  cdt.law.added.mu_roll = 0.1;
-  all.law = everything(NormalModel::jkr);
-  both = hertz_history(kStiffness, 3e4, 50, 20, 0.4);
-  both.records = true;
-  return {{"hooke", hooke(kStiffness, 50, 20, 0.4)},
-          {"hooke/history", hooke_history(kStiffness, 3e4, 50, 20, 0.4)},
-          {"hertz/history with records", both},
-          {"rolling epsd2", cdt},
-          {"granular jkr, all", all}};
 }
 
 // Spheres that cross a wall of random triangles, in one scene at rest and in one that is turned
@@ -108,7 +88,7 @@ WallPose some_pose()
 // overlap, with angles as small as 1e-2) makes 1e-7 of forces of 1e4 at most.
 TEST(moving_wall, turned_and_driven_at_constant_velocity_acts_as_at_rest)
 {
-  for (const Law &law : laws()) {
+  for (const NamedLaw &law : laws(kStiffness)) {
     Twins twins(law.settings, some_pose(), Precision::double_);
     for (int k = 0; k < 5; k++) twins.step();
     int touching = 0;

@@ -4,8 +4,8 @@
 #include "engine/host_adapter.h"
 #include "mesh/motion.h"
 #include "support/crowd.h"
-#include "support/laws.h"
 #include "support/meshes.h"
+#include "support/named_laws.h"
 #include "support/test_engine.h"
 
 #include <gtest/gtest.h>
@@ -80,26 +80,6 @@ class Wall {
   std::vector<FlatGrid> grids_;
 };
 
-struct Law {
-  const char *name;
-  EngineSettings settings;
-};
-
-std::vector<Law> laws()
-{
-  EngineSettings rolling = hooke_history(kStiffness, 3e4, 50, 20, 0.4), all, records;
-  rolling.law.added.rolling = AddedRolling::epsd2;
-  rolling.law.added.mu_roll = 0.1;
-  all.law = everything(NormalModel::jkr);
-  records = hertz_history(kStiffness, 3e4, 50, 20, 0.4);
-  records.records = true;
-  return {{"hooke", hooke(kStiffness, 50, 20, 0.4)},
-          {"hooke/history", hooke_history(kStiffness, 3e4, 50, 20, 0.4)},
-          {"hertz/history with records", records},
-          {"rolling epsd2", rolling},
-          {"granular jkr, all", all}};
-}
-
 void add_crowd(Scene &to, const MeshReport &r, int n)
 {
   std::mt19937_64 random(3);
@@ -127,7 +107,7 @@ void move(Scene &s)
 void expect_as_one(bool turned, Precision precision, Real tolerance)
 {
   const TriangleSoup soup = random_soup(600, 5);
-  for (Law &law : laws()) {
+  for (NamedLaw &law : laws(kStiffness)) {
     law.settings.precision = precision;
     const Real cutoff = cutoff_of(law.settings.law, kRadius);
     Scene one(soup, cutoff, law.settings);
@@ -229,7 +209,7 @@ TEST(several_meshes, hand_springs_over_at_a_seam)
     half.corners.insert(half.corners.end(), floor.corners.begin() + t,
                         floor.corners.begin() + t + 3);
   }
-  for (const Law &law : laws()) {
+  for (const NamedLaw &law : laws(kStiffness)) {
     if (!law.settings.law.has_history()) continue;
     const Real cutoff = cutoff_of(law.settings.law, kRadius);
     Scene one(floor, cutoff, law.settings);

@@ -18,7 +18,8 @@ def completed(*words):
 
 
 def main():
-    fact("commands", {"inspect", "generate", "distance", "material"} <= set(completed("")), completed(""))
+    fact("commands", {"inspect", "repair", "convert", "generate", "distance", "material"} <= set(completed("")),
+         completed(""))
     fact("commands by their beginning", completed("dist") == ["distance"], completed("dist"))
     fact("shapes", {"box", "screw"} <= set(completed("generate", "")), completed("generate", ""))
     fact("a command's options", {"--radius", "--cutoff", "--json", "--output", "-o"} <=
@@ -26,6 +27,7 @@ def main():
     fact("a shape's options", completed("generate", "screw", "--pi") == ["--pitch"],
          completed("generate", "screw", "--pi"))
     fact("devices", completed("distance", "a", "b", "--device", "cu") == ["cuda"])
+    fact("units", completed("convert", "a", "--units", "m") == ["m", "mm"])
     fact("files are left to bash", completed("inspect", "wall") == [])
     end()
 

@@ -11,26 +11,13 @@ import tempfile
 import numpy as np
 
 from tool_test import TOOL, end, fact, refused, run, told, write_ascii_stl
+from triangles import closest_on_triangle
 
 DIAGONAL = math.sqrt(14)
 # Distances are right to 4e-13 of the cutoff and 4e-15 of the diagonal (doc/library.md), and the
 # oracle's own rounding is some 1e-15 of the diagonal.
 RADIUS = 1.0
 DISTANCE = 4e-13 * RADIUS + 8e-15 * DIAGONAL
-
-
-def closest_on_triangle(p, a, b, c):
-    """Nearest of: the foot on the plane where it is inside, and the feet on the three edges."""
-    n = np.cross(b - a, c - a)
-    foot = p - np.outer((p - a) @ n / (n @ n), n)
-    inside = np.all([np.cross(v - u, foot - u) @ n >= 0 for u, v in ((a, b), (b, c), (c, a))], axis=0)
-    best, least = foot, np.where(inside, np.linalg.norm(p - foot, axis=1), np.inf)
-    for u, v in ((a, b), (b, c), (c, a)):
-        t = np.clip((p - u) @ (v - u) / ((v - u) @ (v - u)), 0, 1)
-        q = u + np.outer(t, v - u)
-        d = np.linalg.norm(p - q, axis=1)
-        best, least = np.where((d < least)[:, None], q, best), np.minimum(d, least)
-    return best, least
 
 
 def brute_force(points, triangles):

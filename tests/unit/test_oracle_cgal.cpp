@@ -3,6 +3,7 @@
 #include "contact/find_contacts.h"
 #include "grid/triangle_grid.h"
 #include "support/meshes.h"
+#include "support/real_mesh.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -16,8 +17,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <random>
@@ -379,71 +378,34 @@ TEST(made, box_has_a_contact_per_local_minimum)
 
 // ---- real meshes --------------------------------------------------------------------
 
-constexpr const char *kArchive = LSDCD_CGAL_DATA;
-constexpr const char *kMeshes[] = {"lion", "elephant", "fandisk"};
-
-std::string mesh_path(const std::string &name)
+TriangleSoup real_mesh(const std::string &name)
 {
-  return std::string(LSDCD_UNPACKED) + "/data/meshes/" + name + ".off";
-}
-
-// Unpacks the meshes into the build directory. False where the archive is missing.
-bool unpack()
-{
-  bool there = true;
-  for (const char *name : kMeshes) there = there && std::filesystem::exists(mesh_path(name));
-  if (there) return true;
-  if (!std::filesystem::exists(kArchive)) return false;
-  std::filesystem::create_directories(LSDCD_UNPACKED);
-  std::string command = std::string("tar xzf '") + kArchive + "' -C '" + LSDCD_UNPACKED + "'";
-  for (const char *name : kMeshes) command += std::string(" data/meshes/") + name + ".off";
-  return std::system(command.c_str()) == 0;
-}
-
-TriangleSoup read_off(const std::string &name)
-{
-  if (!unpack()) throw std::runtime_error(std::string(kArchive) + " is missing");
-  std::ifstream in(mesh_path(name));
-  std::string word;
-  std::size_t n_vertices = 0, n_faces = 0, n_edges = 0;
-  in >> word >> n_vertices >> n_faces >> n_edges;
-  std::vector<Vec3> p(n_vertices);
-  for (Vec3 &x : p) in >> x.x >> x.y >> x.z;
-  TriangleSoup soup;
-  soup.source = name;
-  for (std::size_t f = 0; f < n_faces; f++) {
-    std::size_t n = 0, v[3] = {0, 0, 0};
-    in >> n >> v[0] >> v[1] >> v[2];
-    if (!in || n != 3) throw std::runtime_error(name + ".off is not all triangles");
-    in.ignore(1000, '\n');
-    for (std::size_t k : v) soup.corners.push_back(p.at(k));
-  }
-  return soup;
+  return read_real_mesh(name, LSDCD_UNPACKED);
 }
 
 TEST(real, lion_has_the_distance_that_cgal_finds)
 {
-  expect_same_distance(Case(read_off("lion")));
+  expect_same_distance(Case(real_mesh("lion")));
 }
 TEST(real, elephant_has_the_distance_that_cgal_finds)
 {
-  expect_same_distance(Case(read_off("elephant")));
+  expect_same_distance(Case(real_mesh("elephant")));
 }
 TEST(real, fandisk_has_the_distance_that_cgal_finds)
 {
-  expect_same_distance(Case(read_off("fandisk")));
+  expect_same_distance(Case(real_mesh("fandisk")));
 }
 TEST(real, lion_has_a_contact_per_local_minimum)
 {
-  expect_same_minima(Case(read_off("lion"), 0.02));
+  expect_same_minima(Case(real_mesh("lion"), 0.02));
 }
 TEST(real, elephant_has_a_contact_per_local_minimum)
 {
-  expect_same_minima(Case(read_off("elephant"), 0.02));
+  expect_same_minima(Case(real_mesh("elephant"), 0.02));
 }
 TEST(real, fandisk_has_a_contact_per_local_minimum)
 {
-  expect_same_minima(Case(read_off("fandisk"), 0.02));
+  expect_same_minima(Case(real_mesh("fandisk"), 0.02));
 }
 
 }    // namespace
@@ -452,8 +414,8 @@ TEST(real, fandisk_has_a_contact_per_local_minimum)
 int main(int argc, char **argv)
 {
   testing::InitGoogleTest(&argc, argv);
-  if (testing::GTEST_FLAG(filter) == "real.*" && !lsdcd::unpack()) {
-    std::printf("skipped: %s is missing; install libcgal-demo\n", lsdcd::kArchive);
+  if (testing::GTEST_FLAG(filter) == "real.*" && !lsdcd::has_real_meshes()) {
+    std::printf("skipped: %s is missing; install libcgal-demo\n", lsdcd::kRealMeshes);
     return 77;
   }
   return RUN_ALL_TESTS();

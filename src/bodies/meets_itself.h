@@ -1,0 +1,19 @@
+// Where a mesh meets itself.
+#pragma once
+
+#include "mesh/wall_mesh.h"
+
+#include <cstddef>
+
+namespace lsdcd {
+
+struct SelfMeetings {
+  std::size_t pairs = 0;      // of faces
+  int first[2] = {-1, -1};    // the first of them, by their numbers
+};
+
+// Pairs of faces with more in common than the corners and edges that they share: they cut, overlap
+// or touch each other. Exact, for the corners as they are.
+SelfMeetings meets_itself(const WallMesh &mesh);
+
+}    // namespace lsdcd

@@ -1,0 +1,164 @@
+#include "mesh/orient_faces.h"
+
+#include "mesh/face_plane.h"
+#include "mesh/measure_mesh.h"
+#include "mesh/periodic_box.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+struct Part {
+  std::vector<int> faces;
+  Box box;
+  Real area = 0, turned_area = 0, volume = 0;    // volume: as it is turned, in units of the box
+  bool closed = true, one_sided = false;
+
+  bool is_shell() const { return closed && !one_sided; }
+};
+
+Real diagonal(const Box &box)
+{
+  return std::hypot(box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z);
+}
+
+bool holds(const Box &outer, const Box &inner)
+{
+  for (int k = 0; k < 3; k++)
+    if (inner.lo[k] < outer.lo[k] || inner.hi[k] > outer.hi[k]) return false;
+  return true;
+}
+
+// The part that a face belongs to, turned as that face is.
+Part gather(const WallMesh &mesh, int first, std::vector<char> &seen, std::vector<char> &turned)
+{
+  Part part;
+  part.faces = {first};
+  seen[first] = 1;
+  for (std::size_t i = 0; i < part.faces.size(); i++) {
+    const int f = part.faces[i];
+    for (const int e : mesh.face_edges[f]) {
+      const int begin = mesh.edge_first[e];
+      if (mesh.edge_first[e + 1] - begin != 2) {
+        part.closed = false;
+        continue;
+      }
+      const int g = mesh.edge_face[begin] == f ? mesh.edge_face[begin + 1] : mesh.edge_face[begin];
+      const char wanted = turned[f] != (runs_along(mesh, f, e) == runs_along(mesh, g, e));
+      if (!seen[g]) {
+        seen[g] = 1;
+        turned[g] = wanted;
+        part.faces.push_back(g);
+      } else if (turned[g] != wanted) {
+        part.one_sided = true;
+      }
+    }
+  }
+  return part;
+}
+
+void measure(const WallMesh &mesh, const std::vector<char> &turned, Part &part)
+{
+  const auto corner = [&](int f, int k) -> const Vec3 & { return mesh.vertices[mesh.faces[f][k]]; };
+  part.box = {corner(part.faces[0], 0), corner(part.faces[0], 0)};
+  for (const int f : part.faces)
+    for (int k = 0; k < 3; k++)
+      for (int i = 0; i < 3; i++) {
+        part.box.lo[i] = std::min(part.box.lo[i], corner(f, k)[i]);
+        part.box.hi[i] = std::max(part.box.hi[i], corner(f, k)[i]);
+      }
+  const Real unit = 1 / diagonal(part.box);
+  const Vec3 middle = 0.5 * part.box.lo + 0.5 * part.box.hi;
+  for (const int f : part.faces) {
+    const FacePlane plane = face_plane(corner(f, 0), corner(f, 1), corner(f, 2));
+    const Real area = plane.area * unit * unit;
+    part.area += area;
+    if (turned[f]) part.turned_area += area;
+    part.volume +=
+        (turned[f] ? -area : area) * dot(plane.normal, unit * (corner(f, 0) - middle)) / 3;
+  }
+}
+
+// How often a closed part goes round a point, by the solid angles of its faces (van Oosterom and
+// Strackee 1983); half a turn where the point is on it.
+Real turns_round(const WallMesh &mesh, const Part &part, const std::vector<char> &turned,
+                 const Vec3 &x)
+{
+  const Real unit = 1 / diagonal(part.box);
+  Real sum = 0;
+  for (const int f : part.faces) {
+    Vec3 d[3];
+    Real r[3];
+    for (int k = 0; k < 3; k++) {
+      d[k] = unit * (mesh.vertices[mesh.faces[f][k]] - x);
+      r[k] = norm(d[k]);
+    }
+    const Real det = dot(d[0], cross(d[1], d[2]));
+    const Real below = r[0] * r[1] * r[2] + dot(d[0], d[1]) * r[2] + dot(d[1], d[2]) * r[0] +
+                       dot(d[2], d[0]) * r[1];
+    sum += (turned[f] ? -1 : 1) * std::atan2(det, below);
+  }
+  return sum / (2 * M_PI);
+}
+
+// Is one shell inside the other? By its first point that is not on the other.
+bool is_inside(const WallMesh &mesh, const Part &inner, const Part &outer,
+               const std::vector<char> &turned)
+{
+  if (!holds(outer.box, inner.box)) return false;
+  constexpr std::size_t kTries = 16;    // shells that touch so much bound nothing between them
+  Real turns = 0;
+  for (std::size_t i = 0; i < std::min(kTries, inner.faces.size()); i++) {
+    const auto &v = mesh.faces[inner.faces[i]];
+    const Vec3 sum = mesh.vertices[v[0]] + mesh.vertices[v[1]] + mesh.vertices[v[2]];
+    turns = std::fabs(turns_round(mesh, outer, turned, (1.0 / 3) * sum));
+    if (std::fabs(turns - 0.5) > 0.25) break;
+  }
+  return turns > 0.5;
+}
+
+}    // namespace
+
+OrientedFaces orient_faces(const WallMesh &mesh)
+{
+  OrientedFaces out;
+  const std::size_t n = mesh.faces.size();
+  out.turned.assign(n, 0);
+  std::vector<char> seen(n, 0);
+  std::vector<Part> parts;
+  for (std::size_t f = 0; f < n; f++) {
+    if (seen[f]) continue;
+    parts.push_back(gather(mesh, static_cast<int>(f), seen, out.turned));
+    measure(mesh, out.turned, parts.back());
+  }
+  const auto turn = [&](Part &part) {
+    for (const int f : part.faces) out.turned[f] = !out.turned[f];
+  };
+  // A volume that is nothing but rounding has no side.
+  const auto has_volume = [](const Part &p) {
+    return p.is_shell() && std::fabs(p.volume) > 1e-12 * p.area;
+  };
+  std::vector<std::size_t> solid;
+  for (std::size_t i = 0; i < parts.size(); i++)
+    if (has_volume(parts[i])) solid.push_back(i);
+  std::vector<int> inside(parts.size(), 0);    // how many shells are round it
+  for (const std::size_t i : solid)
+    for (const std::size_t j : solid)
+      inside[i] += i != j && is_inside(mesh, parts[i], parts[j], out.turned);
+  for (std::size_t i = 0; i < parts.size(); i++) {
+    Part &part = parts[i];
+    const bool cavity = inside[i] % 2 == 1;
+    out.shells += part.is_shell();
+    out.cavities += cavity;
+    out.one_sided += part.one_sided;
+    if (has_volume(part) ? (part.volume > 0) == cavity : part.turned_area > 0.5 * part.area)
+      turn(part);
+  }
+  for (const char t : out.turned) out.faces += t;
+  return out;
+}
+
+}    // namespace lsdcd

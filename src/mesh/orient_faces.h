@@ -1,0 +1,23 @@
+// Windings that agree, and normals of closed shells that point out of what they bound.
+#pragma once
+
+#include "mesh/wall_mesh.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace lsdcd {
+
+struct OrientedFaces {
+  std::vector<char> turned;     // for each face: it has to be wound the other way
+  std::size_t faces = 0;        // of these
+  std::size_t shells = 0;       // that are closed and can be oriented
+  std::size_t cavities = 0;     // of these, with normals in: an odd number of others are round them
+  std::size_t one_sided = 0;    // parts that no turning can orient, as a Moebius strip
+};
+
+// Parts of the mesh hang together by edges of two faces. A closed one points out, or where it
+// bounds a cavity of others, into that; of another the side is kept that more of its area has.
+OrientedFaces orient_faces(const WallMesh &mesh);
+
+}    // namespace lsdcd

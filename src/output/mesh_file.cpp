@@ -1,0 +1,94 @@
+#include "output/mesh_file.h"
+
+#include "base/input_error.h"
+#include "base/whole_file.h"
+#include "mesh/weld_points.h"
+#include "output/file_bytes.h"
+#include "output/mesh_stl.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+namespace {
+
+// Calls f with the three vertices of each triangle.
+template <class F>
+void for_each_triangle(const WeldedPoints &mesh, F f)
+{
+  for (std::size_t c = 0; c < mesh.corner_point.size(); c += 3)
+    f(mesh.corner_point[c], mesh.corner_point[c + 1], mesh.corner_point[c + 2]);
+}
+
+std::string obj(const WeldedPoints &mesh)
+{
+  std::string bytes = "# lsdcd\n";
+  for (const Vec3 &x : mesh.points) append_line(bytes, "v", x);
+  for_each_triangle(mesh, [&](int a, int b, int c) {    // counted from 1
+    bytes += 'f';
+    for (const int v : {a, b, c}) bytes += ' ' + std::to_string(v + 1);
+    bytes += '\n';
+  });
+  return bytes;
+}
+
+std::string off(const WeldedPoints &mesh)
+{
+  std::string bytes = "OFF\n" + std::to_string(mesh.points.size()) + ' ' +
+                      std::to_string(mesh.corner_point.size() / 3) + " 0\n";
+  for (const Vec3 &x : mesh.points) append_line(bytes, "", x);
+  for_each_triangle(mesh, [&](int a, int b, int c) {
+    bytes += '3';
+    for (const int v : {a, b, c}) bytes += ' ' + std::to_string(v);
+    bytes += '\n';
+  });
+  return bytes;
+}
+
+std::string ply(const WeldedPoints &mesh)
+{
+  const bool floats = are_floats(mesh.points);
+  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment lsdcd\nelement vertex " +
+                      std::to_string(mesh.points.size()) + '\n';
+  for (const char *axis : {"x\n", "y\n", "z\n"})
+    bytes += (floats ? "property float " : "property double ") + std::string(axis);
+  bytes += "element face " + std::to_string(mesh.corner_point.size() / 3) +
+           "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vec3 &x : mesh.points) {
+    if (floats)
+      append_numbers<float>(bytes, x);
+    else
+      append_numbers<double>(bytes, x);
+  }
+  for_each_triangle(mesh, [&](int a, int b, int c) {
+    bytes += '\3';
+    for (const int v : {a, b, c}) append_number(bytes, v);
+  });
+  return bytes;
+}
+
+}    // namespace
+
+MeshFormat mesh_format(const std::string &path)
+{
+  std::string ending = path.substr(std::min(path.size(), path.rfind('.')));
+  for (char &c : ending)
+    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
+  if (ending == ".stl") return MeshFormat::stl;
+  if (ending == ".obj") return MeshFormat::obj;
+  if (ending == ".ply") return MeshFormat::ply;
+  if (ending == ".off") return MeshFormat::off;
+  throw InputError("'" + path + "': the name of a mesh ends with .stl, .obj, .ply or .off");
+}
+
+void write_mesh_file(const std::string &path, const TriangleSoup &soup)
+{
+  const MeshFormat format = mesh_format(path);
+  if (format == MeshFormat::stl) return write_stl(path, soup);
+  const WeldedPoints mesh = weld_points(soup.corners, 0);
+  write_whole_file(path, format == MeshFormat::obj   ? obj(mesh)
+                         : format == MeshFormat::ply ? ply(mesh)
+                                                     : off(mesh));
+}
+
+}    // namespace lsdcd

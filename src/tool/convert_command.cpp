@@ -1,0 +1,88 @@
+#include "tool/convert_command.h"
+
+#include "output/mesh_file.h"
+#include "output/mesh_stl.h"
+#include "tool/load_mesh.h"
+#include "tool/mesh_json.h"
+#include "tool/number_options.h"
+#include "tool/read_mesh.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+namespace lsdcd {
+
+namespace {
+
+const std::map<std::string, double> kMetres = {{"m", 1},     {"cm", 1e-2},   {"mm", 1e-3},
+                                               {"um", 1e-6}, {"in", 0.0254}, {"ft", 0.3048}};
+
+struct Options {
+  std::string file, output;
+  std::vector<double> scale;
+  std::string units = "m";
+  bool floats = false, json = false;
+};
+
+void run(const Options &o)
+{
+  mesh_format(o.output);    // before the work
+  ReadMesh read = read_mesh(o.file);
+  TriangleSoup &soup = read.soup;
+  apply_scale(soup, o.scale.empty() ? std::vector<double>{kMetres.at(o.units)} : o.scale);
+  if (o.floats)
+    for (Vec3 &corner : soup.corners) corner = rounded_as_in_stl(corner);
+  write_mesh_file(o.output, soup);
+  Vec3 lo = soup.corners.empty() ? Vec3{0, 0, 0} : soup.corners[0], hi = lo;
+  for (const Vec3 &corner : soup.corners)
+    for (int k = 0; k < 3; k++) {
+      lo[k] = std::min(lo[k], corner[k]);
+      hi[k] = std::max(hi[k], corner[k]);
+    }
+  if (o.json) {
+    const nlohmann::json all = {{"facets", soup.n_triangles()},
+                                {"left_out", read.left_out},
+                                {"lo", as_json(lo)},
+                                {"hi", as_json(hi)}};
+    std::printf("%s\n", all.dump(2).c_str());
+    return;
+  }
+  std::printf("%s: %zu facets from (%g, %g, %g) to (%g, %g, %g)\n", o.output.c_str(),
+              soup.n_triangles(), lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
+  if (read.left_out > 0)
+    std::printf("%zu points and lines of %s are no facets, and left out\n", read.left_out,
+                o.file.c_str());
+}
+
+}    // namespace
+
+void add_convert_command(CLI::App &app)
+{
+  const auto o = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand(
+      "convert", "writes a mesh in another format or other units: STL, OBJ, PLY, OFF");
+  command->footer(
+      "STL is read in all digits; OBJ, PLY and OFF by assimp, which rounds coordinates to float.\n"
+#if !defined(LSDCD_HAVE_ASSIMP)
+      "This lsdcd was built without assimp: it reads STL only.\n"
+#endif
+      "Written are all digits: STL is binary where all corners are floats, else text; PLY is "
+      "binary,\n"
+      "of floats or else of doubles.\n"
+      "Example:\n  lsdcd convert wall.obj --units mm -o wall.stl");
+  command->add_option("file", o->file, "mesh, .stl, .obj, .ply or .off")->required();
+  command->add_option("-o,--output", o->output, "mesh to write, of the same formats")->required();
+  CLI::Option *scale = add_scale_option(command, o->scale);
+  command
+      ->add_option("--units", o->units,
+                   "what a length of 1 is in the file: m, cm, mm, um, in or ft; written in metres")
+      ->check(CLI::IsMember(&kMetres).description(""))
+      ->excludes(scale);
+  command->add_flag("--float", o->floats, "round corners to float, so that STL is binary");
+  command->add_flag("--json", o->json, "print JSON");
+  command->callback([o] { run(*o); });
+}
+
+}    // namespace lsdcd

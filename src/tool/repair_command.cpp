@@ -1,0 +1,158 @@
+#include "tool/repair_command.h"
+
+#include "bodies/meets_itself.h"
+#include "mesh/repair.h"
+#include "output/mesh_file.h"
+#include "tool/mesh_json.h"
+#include "tool/number_options.h"
+
+#include <cstdio>
+#include <memory>
+
+namespace lsdcd {
+
+namespace {
+
+constexpr int kUnmended = 3;    // an exit code; doc/tool.md
+
+struct Options {
+  std::string file, output;
+  double weld = -1;
+  bool open = false, json = false;
+};
+
+nlohmann::json as_json(const RepairReport &r)
+{
+  nlohmann::json left = nlohmann::json::array();
+  for (const Unmended &u : r.left)
+    left.push_back({{"what", u.what}, {"count", u.count}, {"place", as_json(u.place)}});
+  return {{"welded_corners", r.welded_corners},
+          {"degenerate_facets", r.degenerate_facets},
+          {"lost_facets", r.lost_facets},
+          {"duplicate_facets", r.duplicate_facets},
+          {"split_facets", r.split_facets},
+          {"junctions", r.junctions},
+          {"turned_facets", r.turned_facets},
+          {"shells", r.shells},
+          {"cavities", r.cavities},
+          {"boundaries", r.boundaries},
+          {"tolerance", r.tolerance},
+          {"welding_moved", r.welding_moved},
+          {"splitting_moved", r.splitting_moved},
+          {"dropping_moved", r.dropping_moved},
+          {"moved", r.moved()},
+          {"left", left}};
+}
+
+void print(const char *name, const std::string &text)
+{
+  std::printf("  %-12s%s\n", name, text.c_str());
+}
+
+std::string count_of(std::size_t n, const std::string &one, const std::string &many)
+{
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+std::string number(Real x)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+void print(const Options &o, const RepairReport &r)
+{
+  std::printf("repair %s\n", o.file.c_str());
+  print("welded", count_of(r.welded_corners, "corner", "corners") + " to another's place, " +
+                      number(r.welding_moved) + " away at most (tolerance " + number(r.tolerance) +
+                      ")");
+  print("dropped", count_of(r.degenerate_facets, "degenerate facet", "degenerate facets") + ", " +
+                       count_of(r.duplicate_facets, "duplicate", "duplicates"));
+  if (r.lost_facets > 0)
+    print("", count_of(r.lost_facets, "line", "lines") +
+                  " of these that no facet follows any more, " + number(r.dropping_moved) +
+                  " from what is left at most");
+  print("cut", count_of(r.split_facets, "facet", "facets") + " at " +
+                   count_of(r.junctions, "corner", "corners") + " of neighbours, " +
+                   number(r.splitting_moved) + " away at most");
+  print("turned", count_of(r.turned_facets, "facet", "facets") + "; " +
+                      count_of(r.shells, "closed shell", "closed shells") + ", " +
+                      count_of(r.cavities, "of them a cavity", "of them cavities"));
+  print("moved", number(r.moved()) + " at most: no point of the old surface or the new is farther "
+                                     "from the other");
+  for (const Unmended &u : r.left) {
+    const std::string boundaries = " in " + count_of(r.boundaries, "boundary", "boundaries");
+    print("left", std::to_string(u.count) + " " + u.what +
+                      (u.what == kOpenEdges ? boundaries : "") + ", the first at (" +
+                      number(u.place.x) + ", " + number(u.place.y) + ", " + number(u.place.z) +
+                      ")");
+  }
+  if (r.left.empty()) print("left", "nothing to mend");
+}
+
+void add_meetings(RepairedMesh &repaired)
+{
+  const SelfMeetings meetings = meets_itself(repaired.mesh);
+  if (meetings.pairs == 0) return;
+  Vec3 middle = {0, 0, 0};
+  for (const int v : repaired.mesh.faces[meetings.first[0]])
+    middle += (1.0 / 3) * repaired.mesh.vertices[v];
+  repaired.report.left.push_back(
+      {"pairs of facets that cut, overlap or touch", meetings.pairs, middle});
+}
+
+// Returns whether all is mended.
+bool run(const Options &o)
+{
+  mesh_format(o.output);    // before the work
+  RepairedMesh repaired = repair(read_stl(o.file), o.weld);
+  add_meetings(repaired);
+  write_mesh_file(o.output, repaired.soup);
+  const RepairReport &report = repaired.report;
+  if (o.json) {
+    nlohmann::json all = as_json(report);
+    all["mesh"] = as_json(repaired.mesh.report);
+    std::printf("%s\n", all.dump(2).c_str());
+  } else {
+    print(o, report);
+    std::printf("%s\n%s\n", describe(repaired.mesh.report, o.output).c_str(),
+                verdict_line(repaired.mesh.report).c_str());
+  }
+  for (const Unmended &u : report.left)
+    if (!(o.open && u.what == kOpenEdges)) return false;
+  return true;
+}
+
+}    // namespace
+
+void add_repair_command(CLI::App &app, int &exit_code)
+{
+  const auto o = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand("repair", "mends a mesh, and tells what it did");
+  command->footer(
+      "Welds corners, drops degenerate and duplicate facets, cuts facets where corners of\n"
+      "neighbours lie on their open edges, and winds them alike, closed shells with normals out,\n"
+      "cavities in them with normals in. It fills no holes. Ends with 3 where the mesh is written\n"
+      "and something is left that it cannot mend: open edges, edges of more than two facets,\n"
+      "one-sided parts, facets that meet.\n"
+      "Example:\n  lsdcd repair wall.stl -o mended.stl");
+  command->add_option("file", o->file, "STL file, ASCII or binary")->required();
+  command
+      ->add_option("-o,--output", o->output,
+                   "mesh to write, .stl, .obj, .ply or .off; STL is binary where all corners are\n"
+                   "floats, else text with all digits")
+      ->required();
+  command
+      ->add_option("--weld", o->weld,
+                   "corners closer than this to each other, or to an open edge, are on it\n"
+                   "(default: 1e-6 of the box diagonal)")
+      ->check(not_below_zero);
+  command->add_flag("--open", o->open, "the mesh is meant to be open: ends with 0 all the same");
+  command->add_flag("--json", o->json, "print JSON");
+  command->callback([o, &exit_code] {
+    if (!run(*o)) exit_code = kUnmended;
+  });
+}
+
+}    // namespace lsdcd

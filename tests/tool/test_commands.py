@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""Every command of lsdcd through its command line: its help has an example that works, its words are
+taken and others refused, and a table of good and bad uses does what it should. A new command needs a
+row in NEEDS and in GOOD."""
+import json
+import pathlib
+import re
+import shlex
+import tempfile
+
+from tool_test import end, fact, refused, run, write_ascii_stl
+from triangles import cube
+
+# What is missing where a command stands alone.
+NEEDS = {"inspect": "file is required", "repair": "file is required", "convert": "file is required",
+         "generate": "subcommand is required", "grid": "file is required", "distance": "mesh is required",
+         "material": "file is required", "tradeoff": "file is required", "accuracy": None, "effects": None}
+# Words that make an example quick.
+QUICK = {"tradeoff": "--spheres 100 --moving 2 --repeats 1 --seconds 2 --device cpu --plot none",
+         "effects": "--spheres 100 --repeats 1"}
+
+# Words, and what is printed; of --json, keys.
+GOOD = [
+    ("inspect wall.stl", ["facets      12", "closed, normals point out", "clean       yes"]),
+    ("inspect wall.stl --scale 2 --json", {"facets": 12, "volume": 8, "closed": True, "clean": True}),
+    ("inspect apart.stl --weld 0.01 --json", {"vertices": 8, "closed": True}),
+    ("inspect apart.stl --json", {"vertices": 9, "closed": False, "clean": True}),
+    ("grid wall.stl --radius 0.1", ["mesh wall.stl", "cutoff 0.1"]),
+    ("grid wall.stl --radius 0.1 --grid 0.25 --json", {"length": 0.25, "cutoff": 0.1}),
+    ("repair apart.stl --weld 0.01 -o mended.stl --json", {"welded_corners": 3, "moved": 0.005, "left": []}),
+    ("convert wall.stl -o wall.off", ["wall.off: 12 facets from (0, 0, 0) to (1, 1, 1)"]),
+    ("generate box --width 1 --depth 2 --height 3 -o made.stl --json", {"volume": 6}),
+    ("distance wall.stl points.csv --radius 1 -o d.csv --json", {"points": 2, "found": 1}),
+    ("material glass.lsdcd", ["material glass", "density", "kg/m3"]),
+    ("material glass.lsdcd glass --on aluminium", ["granular hertz/material", "tangential"]),
+    ("tradeoff wall.stl --radius 0.1 " + QUICK["tradeoff"], ["default", "rows in tradeoff.csv"]),
+    ("accuracy table2 --spheres 1000 --csv a.csv", ["0.994025", "a.csv"]),
+    ("effects", ["hooke", "hertz", "B/contact"]),
+    ("effects --measure --csv e.csv " + QUICK["effects"], ["spheres with a contact each", "hooke"]),
+]
+
+NO_FILE = "No such file or directory"
+BAD = [    # words, exit code, what is said
+    ("grid wall.stl", 2, ["--radius is required"]),
+    ("grid wall.stl --radius 0", 2, ["--radius", "0 is not a number above 0"]),
+    ("grid wall.stl --radius big", 2, ["--radius", "big"]),
+    ("grid wall.stl --radius 1 --grid -1", 2, ["--grid", "-1"]),
+    ("grid wall.stl --radius 1 --memory 0", 2, ["--memory", "0"]),
+    ("grid wall.stl --radius 0.1 --memory 0.001", 1, ["memory budget", "coarsen"]),
+    ("repair wall.stl", 2, ["--output is required"]),
+    ("repair wall.stl -o no/there.stl", 1, ["no/there.stl", NO_FILE]),
+    ("convert wall.stl -o wall.png", 1, ["wall.png", ".stl, .obj, .ply or .off"]),
+    ("generate cube", 2, ["'cube' is not a command", "box"]),
+    ("distance wall.stl", 2, ["points is required"]),
+    ("distance wall.stl nowhere.csv --radius 1 -o d.csv", 1, ["nowhere.csv", NO_FILE]),
+    ("distance wall.stl points.csv --radius 1 -o d.txt", 1, ["d.txt", ".csv", ".npy"]),
+    ("distance wall.stl points.csv --radius -1 -o d.csv", 1, ["--radius", "-1"]),
+    ("material nothing.lsdcd", 1, ["nothing.lsdcd", "glass.lsdcd"]),
+    ("material glass.lsdcd glas", 1, ["glas", "glass"]),
+    ("material glass.lsdcd glass --units miles", 1, ["miles", "cgs"]),
+    ("material glass.lsdcd glass --normal hooke", 1, ["hooke", "hertz/material"]),
+    ("tradeoff wall.stl --radius 0.1 --csv no/t.csv", 1, ["no/t.csv", NO_FILE]),
+    ("tradeoff wall.stl --radius x", 2, ["--radius", "x"]),
+    ("accuracy table9", 2, ["table9", "table2"]),
+    ("accuracy --spheres 0", 1, ["number of spheres"]),
+    ("accuracy --spheres 1000 --segments 2", 1, ["2 segments", "3"]),
+    ("accuracy --spheres 1000 --repeats 0", 2, ["--repeats"]),
+    ("accuracy --spheres 1000 --csv no/a.csv", 1, ["no/a.csv", NO_FILE]),
+    ("effects --csv e.csv", 1, ["--measure"]),
+    ("effects --measure --spheres 1", 2, ["--spheres"]),
+    ("effects --device tpu", 2, ["--device", "cuda"]),
+]
+# Of all that read a mesh.
+OF_A_MESH = ["inspect {}", "grid {} --radius 1", "tradeoff {} --radius 1", "distance {} points.csv --radius 1 -o d.csv",
+             "repair {} -o new.stl", "convert {} -o new.stl"]
+BAD += [(f"{command.format(mesh)} {words}", code, said) for mesh, words, code, said, commands in (
+    ("nowhere.stl", "", 1, ["nowhere.stl", NO_FILE], OF_A_MESH),
+    ("text.stl", "", 1, ["text.stl", "not an STL"], OF_A_MESH),
+    ("wall.stl", "--scale 1 2", 1, ["one factor or three"], OF_A_MESH[:4] + OF_A_MESH[5:]),
+    ("wall.stl", "--scale 0", 1, ["scale", "none zero"], OF_A_MESH[:4] + OF_A_MESH[5:]),
+    ("wall.stl", "--weld -1", 2, ["--weld", "-1"], OF_A_MESH[:5]),
+    ("wall.stl", "--weld 9", 1, ["weld tolerance of 9"], OF_A_MESH[:5]),
+) for command in commands]
+
+
+def same(value, wanted):
+    return abs(value - wanted) <= 1e-6 * abs(wanted) if isinstance(wanted, float) else value == wanted
+
+
+def scene():
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+    box = cube()
+    write_ascii_stl(folder / "wall.stl", box)
+    box[0, 0] += (0.003, 0.004, 0)
+    write_ascii_stl(folder / "apart.stl", box)
+    (folder / "points.csv").write_text("0.5,0.5,1.25\n9,9,9\n")
+    (folder / "text.stl").write_text("no mesh at all\n")
+    run(folder, "convert", "wall.stl", "-o", "wall.obj")
+    return folder
+
+
+def main():
+    folder = scene()
+    said = run(folder, "--help").stdout
+    commands = re.findall(r"^  ([a-z]+)  ", said.split("Subcommands:")[1], re.M)
+    fact("every command has a row here", set(commands) == set(NEEDS) == {g[0].split()[0] for g in GOOD},
+         set(commands) ^ set(NEEDS))
+    reads_obj = "built without assimp" not in run(folder, "convert", "--help").stdout
+    for command in commands:
+        done = run(folder, command, "--help")
+        examples = re.findall(r"^  lsdcd (.*)$", done.stdout, re.M)
+        fact(f"{command} --help has one example", done.returncode == 0 and len(examples) == 1 and
+             examples[0].startswith(command + " "), examples)
+        if reads_obj or "wall.obj" not in examples[0]:
+            done = run(scene(), *shlex.split(examples[0] + " " + QUICK.get(command, "")))
+            fact(f"and it works: {examples[0]}", done.returncode == 0, done.stderr[-300:])
+        if NEEDS[command]:
+            refused(folder, [command], NEEDS[command], code=2)
+        refused(folder, [command, "--bogus"], code=2)
+
+    for words, wanted in GOOD:
+        done = run(folder, *words.split())
+        if isinstance(wanted, dict):
+            all_of = json.loads(done.stdout)
+            holds = all(same(all_of[key], value) for key, value in wanted.items())
+        else:
+            holds = all(text in done.stdout for text in wanted)
+        fact(words, done.returncode == 0 and holds, done.stderr + done.stdout[:0 if holds else 2000])
+    for words, code, wanted in BAD:
+        refused(folder, words.split(), *wanted, code=code)
+    end()
+
+
+if __name__ == "__main__":
+    main()

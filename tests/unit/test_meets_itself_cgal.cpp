@@ -1,0 +1,77 @@
+// Facets of one mesh that meet, against CGAL's self-intersections with exact predicates.
+#include "bodies/meets_itself.h"
+#include "support/meshes.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace lsdcd {
+namespace {
+
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+
+// A torus of quads cut in two, whose vertices are anywhere: it meets itself in every way.
+TriangleSoup crumpled(const std::vector<Vec3> &x, int n)
+{
+  TriangleSoup soup;
+  const auto at = [&](int i, int j) { return x[i % n * n + j % n]; };
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++)
+      for (const Vec3 &p :
+           {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)})
+        soup.corners.push_back(p);
+  return soup;
+}
+
+std::size_t pairs_of_cgal(const WallMesh &mesh)
+{
+  Mesh m;
+  for (const Vec3 &x : mesh.vertices) m.add_vertex(Point(x.x, x.y, x.z));
+  const auto vertex = [](int v) { return Mesh::Vertex_index(v); };
+  for (const auto &f : mesh.faces) {
+    const auto added = m.add_face(vertex(f[0]), vertex(f[1]), vertex(f[2]));
+    EXPECT_NE(added, Mesh::null_face());
+  }
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+  CGAL::Polygon_mesh_processing::self_intersections(m, std::back_inserter(pairs));
+  return pairs.size();
+}
+
+// On a lattice corners lie on facets, edges cross edges, and facets lie in common planes.
+TEST(meets_itself, has_the_pairs_of_CGAL_where_vertices_are_on_a_lattice_and_where_they_are_not)
+{
+  std::mt19937_64 dice(3);
+  std::size_t pairs = 0;
+  for (int k = 0; k < 300; k++) {
+    const int n = 4, side = k % 3 == 0 ? 3 : 5;
+    std::vector<Vec3> lattice, x;
+    for (int i = 0; i < side * side * side; i++)
+      lattice.push_back({Real(i % side), Real(i / side % side), Real(i / side / side)});
+    std::shuffle(lattice.begin(), lattice.end(), dice);
+    std::uniform_real_distribution<Real> anywhere(-0.4, 0.4);
+    for (int i = 0; i < n * n; i++)
+      x.push_back(k % 3 == 2 ? lattice[i] + Vec3{anywhere(dice), anywhere(dice), anywhere(dice)}
+                             : lattice[i]);
+    const WallMesh mesh = weld(crumpled(x, n), 0);
+    const SelfMeetings found = meets_itself(mesh);
+    EXPECT_EQ(found.pairs, pairs_of_cgal(mesh)) << k;
+    pairs += found.pairs;
+  }
+  EXPECT_GT(pairs, 10000u);
+}
+
+TEST(meets_itself, finds_none_in_a_closed_box)
+{
+  EXPECT_EQ(meets_itself(weld(box_mesh({0, 0, 0}, {1, 2, 3}), -1)).pairs, 0u);
+}
+
+}    // namespace
+}    // namespace lsdcd
