@@ -3,6 +3,7 @@
 #include "grid/triangle_grid.h"
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
+#include "tool/progress.h"
 
 #include <cstdio>
 #include <memory>
@@ -15,7 +16,7 @@ struct Options {
   std::string file;
   std::vector<double> scale;
   double weld = -1, radius = 0, length = 0, memory = 0;
-  bool json = false;
+  bool json = false, progress = false;
 };
 
 nlohmann::json as_json(const ListReport &r)
@@ -52,7 +53,10 @@ void grid(const Options &o)
   settings.length = o.length;
   settings.cutoff = o.radius;
   settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
+  Progress progress(o.progress);
+  settings.progress = [&](const std::string &text) { progress.show(text); };
   const TriangleGrid g = build_grid(mesh, settings);
+  progress.clear();
   if (o.json)
     std::printf("%s\n", as_json(g.report).dump(2).c_str());
   else
@@ -91,6 +95,7 @@ void add_grid_command(CLI::App &app)
   command->add_option("--grid", o->length, "cell length (default: chosen)");
   command->add_option("--memory", o->memory,
                       "budget in MB (default: 1024 beside the mesh's own records)");
+  command->add_flag("--progress", o->progress, "tell how far it is, even where no terminal is");
   command->callback([o] { grid(*o); });
 }
 
