@@ -6,9 +6,11 @@
 #include "on_cuda.h"
 #include "support/meshes.h"
 
+#include <chrono>
 #include <cstdarg>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <fstream>
 
@@ -152,7 +154,16 @@ BenchOptions read_options(int argc, char **argv, const char *about)
   return o;
 }
 
+bool of_one_thread = false;
+
 }    // namespace
+
+double clock_ms()
+{
+  if (of_one_thread) return 1e3 * double(std::clock()) / CLOCKS_PER_SEC;
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double, std::milli>(now).count();
+}
 
 Timing timing_of(std::vector<double> ms)
 {
@@ -187,6 +198,7 @@ void BenchRows::begin(Device device)
 #if defined(LSDCD_HAVE_CUDA)
   if (device == Device::cuda) device_ = cuda_name();
 #endif
+  of_one_thread = device == Device::cpu && threads() == 1;
   copy_gb_s_ = copy_gb_s(device);
 }
 

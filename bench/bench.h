@@ -6,7 +6,6 @@
 #include "mesh/triangle_soup.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -32,6 +31,10 @@ struct Timing {
 // Of times in milliseconds, at least one.
 Timing timing_of(std::vector<double> ms);
 
+// Milliseconds; with rows of one CPU thread those that it works, so that others on the machine do
+// not count.
+double clock_ms();
+
 // Runs f once to warm up, then `repeats` times.
 template <class F>
 Timing time_it(int repeats, F f)
@@ -39,10 +42,9 @@ Timing time_it(int repeats, F f)
   f();
   std::vector<double> ms;
   for (int i = 0; i < repeats; i++) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = clock_ms();
     f();
-    ms.push_back(1e3 *
-                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    ms.push_back(clock_ms() - start);
   }
   return timing_of(std::move(ms));
 }

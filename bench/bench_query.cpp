@@ -1,12 +1,15 @@
 // What a query of many spheres against a wall costs: the paper's question, does a sphere
 // touch, and the exact distance within the cutoff. No copies: spheres and answers stay on the
-// device.
+// device. Distances also through the library, and on the CPU by Embree and CGAL where they are.
 #include "bench.h"
+#include "library_query.h"
+#include "peers.h"
 
 #include "mesh/wall_mesh.h"
 #include "query/sphere_query.h"
 #include "study/spheres.h"
 
+#include <cmath>
 #include <memory>
 
 using namespace lsdcd;
@@ -75,16 +78,85 @@ class Queries {
     row.spheres = n;
     row.length = grid.length;
     row.order = name_of(set.order);
-    // Spheres in, a byte and maybe a distance out.
-    row.bytes = double(n) * (grid.in_floats ? sizeof(FloatSphere) : sizeof(Sphere)) + double(n);
-    if (settings.distance) row.bytes += double(n) * (grid.in_floats ? sizeof(float) : sizeof(Real));
-    const QueryTiming t = query_->time(settings, repeats_);
-    row.timing = {t.median_ms, t.min_ms, t.max_ms, t.repeats};
-    row.facts = facts(grid, query_->status());
+    row.bytes = bytes_of(n, grid.in_floats, settings.distance);
+    row.timing = time(settings);
+    row.facts = format("million_per_s=%.4g ", double(n) / row.timing.median_ms / 1e3) +
+                facts(grid, query_->status());
     rows_.add(row);
+    query_->run(settings);    // for who compares
+  }
+
+  // The same distances through liblsdcd, and how far they are from those of the last measure().
+  void measure_library(LibraryQuery &library, const TriangleGrid &grid, const SphereSet &set)
+  {
+    const std::size_t n = set.exact.size();
+    for (bool with_radii : {false, true}) {
+      const Timing t = grid.in_floats ? library.time(set.rounded.data(), n, with_radii, repeats_)
+                                      : library.time(set.exact.data(), n, with_radii, repeats_);
+      add_other(std::string("library") + (with_radii ? " with radii" : "") + ", complete, " +
+                    (grid.in_floats ? "float" : "double"),
+                grid, set, n, t, library.distances());
+    }
+  }
+
+  void measure_peer(const Peer &peer, const PeerQuery &query, const TriangleGrid &grid,
+                    const SphereSet &set)
+  {
+    // Spread over the whole set, in its order.
+    const std::size_t step =
+        std::max<std::size_t>(1, static_cast<std::size_t>(double(set.exact.size()) / peer.most));
+    SphereSet some = {set.order, {}, {}};
+    for (std::size_t i = 0; i < set.exact.size(); i += step) some.exact.push_back(set.exact[i]);
+    const std::size_t n = some.exact.size();
+    give(grid, some);
+    query_->run(QuerySettings());
+    std::vector<float> distance(n);
+    const Timing t =
+        time_it(std::min(3, repeats_), [&] { query(some.exact.data(), n, distance.data()); });
+    add_other(peer.name, grid, set, n, t, {distance.begin(), distance.end()});
   }
 
  private:
+  Timing time(const QuerySettings &settings)
+  {
+    if (device_ == Device::cpu) return time_it(repeats_, [&] { query_->run(settings); });
+    const QueryTiming t = query_->time(settings, repeats_);
+    return {t.median_ms, t.min_ms, t.max_ms, t.repeats};
+  }
+
+  // Spheres in, a byte and maybe a distance out.
+  static double bytes_of(std::size_t n, bool in_floats, bool distance)
+  {
+    const double bytes = double(n) * ((in_floats ? sizeof(FloatSphere) : sizeof(Sphere)) + 1);
+    return bytes + (distance ? double(n) * (in_floats ? sizeof(float) : sizeof(Real)) : 0);
+  }
+
+  void add_other(const std::string &what, const TriangleGrid &grid, const SphereSet &set,
+                 std::size_t n, const Timing &timing, const std::vector<double> &distance)
+  {
+    BenchRow row;
+    row.what = what;
+    row.triangles = grid.wall.faces.size();
+    row.spheres = n;
+    row.length = grid.length;
+    row.order = name_of(set.order);
+    row.bytes = bytes_of(n, what.find("float") != what.npos, true);
+    row.timing = timing;
+    const std::vector<Real> ours = query_->distance();
+    double most = 0;
+    std::size_t found = 0, only_one = 0;
+    for (std::size_t i = 0; i < n; i++) {
+      found += std::isfinite(distance[i]);
+      if (std::isfinite(distance[i]) != std::isfinite(ours[i]))
+        only_one++;
+      else if (std::isfinite(ours[i]))
+        most = std::max(most, std::fabs(distance[i] - ours[i]));
+    }
+    row.facts = format("million_per_s=%.4g found=%zu found_by_one=%zu largest_difference=%.2g",
+                       double(n) / timing.median_ms / 1e3, found, only_one, most);
+    rows_.add(row);
+  }
+
   void give(const TriangleGrid &grid, const SphereSet &set)
   {
     query_->set_grid(grid);
@@ -139,23 +211,35 @@ void measure_status(const BenchOptions &o, Queries &queries)
 }
 
 // The distance of every sphere of the largest radius, complete lists.
-void measure_distance(const BenchOptions &o, Queries &queries)
+void measure_distance(const BenchOptions &o, Device device, Queries &queries)
 {
   const std::size_t n = static_cast<std::size_t>(o.spheres > 0 ? o.spheres : o.quick ? 1e5 : 1e7);
   const SphereSet random = make_set(n, Order::random, true),
                   sorted = make_set(n, Order::sorted, true);
   for (const TriangleSoup &soup : cylinders(o, 1e6)) {
-    TriangleGrid grid = queries.grid(weld(soup, -1), o.length > 0 ? o.length : 0.2, 0);
+    const Real length = o.length > 0 ? o.length : 0.2;
+    TriangleGrid grid = queries.grid(weld(soup, -1), length, 0);
+    for (const Peer &peer : {embree(), cgal()}) {
+      if (!peer.build || device == Device::cuda) continue;
+      const PeerQuery query = peer.build(soup);
+      for (const SphereSet *set : {&random, &sorted}) queries.measure_peer(peer, query, grid, *set);
+    }
     for (bool in_floats : {false, true}) {
       if (in_floats) add_brick_records(grid);
-      for (const SphereSet *set : {&random, &sorted})
+      LibraryQuery library(soup, length, kCutoff, in_floats, device == Device::cuda);
+      for (const SphereSet *set : {&random, &sorted}) {
         queries.measure("distance", grid, *set, QuerySettings());
+        queries.measure_library(library, grid, *set);
+      }
     }
   }
 }
 
 void measure(const BenchOptions &options, BenchRows &rows)
 {
+  for (const Peer &peer : {embree(), cgal()})
+    if (!peer.build)
+      std::fprintf(stderr, "skipped: %s (%s is not installed)\n", peer.name.c_str(), peer.package);
   for (Device device : options.devices) {
     rows.begin(device);
     int repeats = device == Device::cuda ? 21 : 5;
@@ -163,7 +247,7 @@ void measure(const BenchOptions &options, BenchRows &rows)
     if (options.repeats > 0) repeats = options.repeats;
     Queries queries(device, repeats, rows);
     measure_status(options, queries);
-    measure_distance(options, queries);
+    measure_distance(options, device, queries);
   }
 }
 

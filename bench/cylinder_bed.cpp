@@ -1,10 +1,11 @@
 #include "cylinder_bed.h"
 
+#include "bench.h"
+
 #include "mesh/wall_mesh.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <random>
 #include <tuple>
@@ -133,12 +134,12 @@ CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, LawStyle
 {
   const bool cuda = device == Device::cuda;
   const TriangleSoup soup = wall.mesh();
-  const auto began = std::chrono::steady_clock::now();
+  const double began = clock_ms();
   const WallMesh mesh = weld(soup, -1);
   GridSettings grid;
   grid.cutoff = kLargest;
   grid_ = FlatGrid(build_grid(mesh, grid, cuda));
-  build_ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  build_ms = clock_ms() - began;
   triangles = mesh.faces.size();
 
   EngineSettings e;

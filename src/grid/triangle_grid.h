@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,8 @@ struct GridSettings {
   // Only the bricks that meet one of these, for trials of a grid; empty: all bricks. A
   // query elsewhere finds nothing.
   std::vector<Box> only;
+  // Told how far a build is, between its parts and on a CPU within them, by the thread that asked.
+  std::function<void(const std::string &)> progress;
 };
 constexpr int kMostNearest = 32;
 // Instead of N: lists of every primitive within the cutoff, for bodies against the wall.

@@ -7,6 +7,7 @@
 #include "lammps/mesh_part.h"
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -238,6 +239,7 @@ class FixWallLsdcd : public Fix {
   double contact_time(double, double) const;
   void log_uncertified();
   void log_creation() const;
+  std::function<void(const std::string &)> build_progress(const MeshPart &) const;
   void log_build(const MeshPart &, double) const;
   void log(const std::string &) const;
   void warn(const std::string &) const;    // by the first process

@@ -114,6 +114,7 @@ void FixWallLsdcd::rebuild(double wanted)
   try {
     if (settings.tune >= 0 && old == 0) tune(wanted);
     for (MeshPart *m : anew) {
+      m->wall.progress = build_progress(*m);
       m->wall.build(wanted, m->box_seen(simulation_box()));
       give_grid(*m);
     }

@@ -134,6 +134,17 @@ void FixWallLsdcd::log_creation() const
   log(t);
 }
 
+// A line where a grid takes long, each ten seconds; log() writes those of the first process.
+std::function<void(const std::string &)> FixWallLsdcd::build_progress(const MeshPart &m) const
+{
+  constexpr double kSeconds = 10;
+  return [this, name = of(m, ""), last = MPI_Wtime()](const std::string &text) mutable {
+    if (MPI_Wtime() - last < kSeconds) return;
+    last = MPI_Wtime();
+    log(signed_text(name + text));
+  };
+}
+
 // `old`: the cutoff before, 0 at first.
 void FixWallLsdcd::log_build(const MeshPart &m, double old) const
 {

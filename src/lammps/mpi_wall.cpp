@@ -129,6 +129,7 @@ GridSettings SharedWall::grid_settings(Real cutoff, const PeriodicBox &box) cons
   want.in_floats = settings_.precision != Precision::double_;
   want.may_coarsen = settings_.tune >= 0 && !settings_.length_given;
   want.within = within(cutoff, box);
+  want.progress = progress;
   return want;
 }
 

@@ -10,6 +10,7 @@
 #include "tune/tune.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -69,6 +70,9 @@ class SharedWall {
   const WallMesh *mesh() const { return mesh_.get(); }    // null but on one process per node
 
   std::size_t bytes() const;    // held by this process
+
+  // Told how far a build is, on processes that build.
+  std::function<void(const std::string &)> progress;
 
  private:
   void read();

@@ -129,7 +129,10 @@ void distance(const Options &o)
   settings.cutoff = o.radius;
   settings.length = o.cell;
   settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
+  Progress progress(o.progress);
+  settings.progress = [&](const std::string &text) { progress.show(text); };
   const auto answers = make_point_answers(mesh, settings, o.device);
+  progress.clear();
   print(o, stream(o, *reader, *answers), *answers);
 }
 

@@ -4,6 +4,7 @@
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
 #include "tool/number_options.h"
+#include "tool/progress.h"
 
 #include <cstdio>
 #include <memory>
@@ -16,7 +17,7 @@ struct Options {
   std::string file;
   std::vector<double> scale;
   double weld = -1, radius = 0, length = 0, memory = 0;
-  bool json = false;
+  bool json = false, progress = false;
 };
 
 nlohmann::json as_json(const ListReport &r)
@@ -53,7 +54,10 @@ void grid(const Options &o)
   settings.length = o.length;
   settings.cutoff = o.radius;
   settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
+  Progress progress(o.progress);
+  settings.progress = [&](const std::string &text) { progress.show(text); };
   const TriangleGrid g = build_grid(mesh, settings);
+  progress.clear();
   if (o.json)
     std::printf("%s\n", as_json(g.report).dump(2).c_str());
   else
@@ -95,6 +99,7 @@ void add_grid_command(CLI::App &app)
       ->add_option("--memory", o->memory,
                    "budget in MB (default: 1024 beside the mesh's own records)")
       ->check(above_zero);
+  command->add_flag("--progress", o->progress, "tell how far it is, even where no terminal is");
   command->callback([o] { grid(*o); });
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/give_back_memory.h"
 #include "base/input_error.h"
+#include "grid/build/estimate_lists.h"
 #include "grid/build/fill_lists.h"
 #include "grid/triangle_grid.h"
 
@@ -18,8 +19,11 @@ class GridBuilder {
   using Scratch = typename B::template Scratch<T>;
 
  public:
-  // The wall has to outlive the builder.
-  GridBuilder(B backend, const WallFeatures &wall) : b_(std::move(backend))
+  // The wall and what is told of progress have to outlive the builder.
+  GridBuilder(B backend, const WallFeatures &wall,
+              const std::function<void(const std::string &)> &progress) :
+      b_(std::move(backend)),
+      progress_(progress)
   {
     view_.wall = {put(faces_, wall.faces),
                   put(edges_, wall.edges),
@@ -51,18 +55,19 @@ class GridBuilder {
   {
     const auto start = std::chrono::steady_clock::now();
     view_.plan = plan;
+    progress_.of(plan.length);
     view_.primitives = nearest > 0;
     view_.features = nearest > 0 ? of_primitives_ : of_contact_;
     OctantPairs<B> pairs;
     needed_ = HUGE_VAL;
-    if (!sort_into_octants(b_, view_, nearest > 0 ? n_primitives_ : n_contact_, pairs))
+    if (!sort_into_octants(b_, view_, nearest > 0 ? n_primitives_ : n_contact_, progress_, pairs))
       return false;
     needed_ = double(brick_bytes(plan, pairs.n_bricks));
     if (needed_ > double(budget)) return false;
     // Of nearest primitives the first that is left out stays, as a bound.
     const std::uint32_t most = nearest > 0 ? nearest + 1 : 0xffffffffu;
     BuiltLists<B> built;
-    const bool fits = fill_lists(b_, view_, pairs, most, budget, built, report);
+    const bool fits = fill_lists(b_, view_, pairs, most, budget, progress_, built, report);
     needed_ = std::max(needed_,
                        double(grid_bytes(plan, built.n_bricks, built.n_cells, built.n_candidates)));
     if (!fits) return false;
@@ -119,6 +124,7 @@ class GridBuilder {
   const FeatureCode *of_contact_, *of_primitives_;
   std::size_t n_contact_, n_primitives_;
   BuildView view_ = {};
+  BuildProgress progress_;
   double needed_ = 0;
 };
 
@@ -164,7 +170,7 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   const auto start = std::chrono::steady_clock::now();
   TriangleGrid grid;
   grid.wall = make_features(mesh, settings.sides, settings.nearest > 0);
-  GridBuilder<B> builder(std::move(backend), grid.wall);
+  GridBuilder<B> builder(std::move(backend), grid.wall, settings.progress);
   GridPlan plan = plan_grid(mesh, settings);
   const double budget = double(budget_of(settings, grid));
   constexpr double kNoBudget = 1e18;
@@ -176,9 +182,15 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
     return fill_grid(builder, plan, settings, budget_here, grid, needed);
   };
   double needed = 0;
-  while (!fits(budget, needed)) {
+  for (;;) {
+    const LeastBytes bytes = estimate_bytes(grid.wall, plan, settings);
+    const double of_wall = double(flat_wall_bytes(grid));
+    const bool may_fit = of_wall + bytes.least <= budget;
+    if (may_fit && fits(budget, needed)) break;
+    needed = std::max(needed, of_wall + bytes.least);
     const bool at_end = !may_coarsen || is_coarsest(plan, mesh);
-    if (at_end && may_coarsen) fits(kNoBudget, needed);
+    if (at_end && may_coarsen && may_fit) fits(kNoBudget, needed);
+    if (at_end && may_coarsen && !may_fit) needed = of_wall + bytes.enough;
     if (at_end) throw_over_budget(settings, needed, budget);
     plan = coarser(plan, mesh, settings);
   }

@@ -21,13 +21,22 @@ struct BuiltLists {
   Scratch<Candidate> candidates;
 };
 
+template <class B>
+void find_cells_of(B &b, const BuildView &view, const std::uint32_t *octants,
+                   const std::uint32_t *features, std::size_t n, std::uint64_t *met)
+{
+  b.for_each(
+      n, [=] LSDCD_LAMBDA(std::size_t p) { met[p] = cells_met(view, features[p], octants[p]); });
+}
+
 // Which cells of its octant each pair's feature meets.
 template <class B>
-void find_cells_met(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::uint64_t *met)
+void find_cells_met(B &b, const BuildView &view, const OctantPairs<B> &pairs,
+                    const BuildProgress &progress, std::uint64_t *met)
 {
   const std::uint32_t *octants = pairs.octant.data(), *features = pairs.feature.data();
-  b.for_each(pairs.n, [=] LSDCD_LAMBDA(std::size_t p) {
-    met[p] = cells_met(view, features[p], octants[p]);
+  progress.in_parts(B::kOnHost, "finding cells", pairs.n, [&](std::size_t from, std::size_t n) {
+    find_cells_of(b, view, octants + from, features + from, n, met + from);
   });
 }
 
@@ -89,40 +98,41 @@ void finish_bricks(B &b, const OctantPairs<B> &pairs, const std::uint32_t *cells
   });
 }
 
+// Of n cells from a first one on.
 template <class B>
 void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const std::uint64_t *met,
                  const std::uint32_t *counts, const std::uint32_t *offsets,
-                 const std::uint64_t *lists, const Brick *bricks, Cell *cells,
-                 Candidate *candidates)
+                 const std::uint64_t *lists, const Brick *bricks, std::size_t from, std::size_t n,
+                 Cell *cells, Candidate *candidates)
 {
   const std::uint32_t *first = pairs.first.data(), *features = pairs.feature.data(),
                       *slots = pairs.slot.data();
-  b.for_each(pairs.n_bricks * kBrickCells, [=] LSDCD_LAMBDA(std::size_t i) {
-    const std::size_t octant = i / kOctantCells, brick = octant / 8;
+  b.for_each(n, [=] LSDCD_LAMBDA(std::size_t of_part) {
+    const std::size_t i = from + of_part, octant = i / kOctantCells, brick = octant / 8;
     const int k = static_cast<int>(i % kOctantCells),
               c = cell_of_octant(static_cast<int>(octant % 8), k);
-    const std::uint32_t n = counts[brick * kBrickCells + c];
-    if (n == 0) return;
+    const std::uint32_t count = counts[brick * kBrickCells + c];
+    if (count == 0) return;
     const std::uint32_t start = static_cast<std::uint32_t>(lists[brick * kLayers + (c >> 6)] +
                                                            offsets[brick * kBrickCells + c]);
-    Cell out = {start, n};
+    Cell out = {start, count};
     const Vec3 centre = CellCentres(view.plan, slots[brick]).at(c);
     std::uint32_t at = 0;
     for (std::uint32_t p = first[octant]; p < first[octant + 1]; p++) {
       if (!(met[p] >> k & 1)) continue;
-      if (n == 1) {
+      if (count == 1) {
         out.first = features[p];
         break;
       }
       Real distance = 0;
       meets(view, features[p], centre, view.plan.half_diagonal, distance);
       const Candidate candidate = make_candidate(features[p], distance);
-      if (n <= kLongList)
-        insert_nearest(candidates + start, at++, n, candidate);
+      if (count <= kLongList)
+        insert_nearest(candidates + start, at++, count, candidate);
       else
         candidates[start + at++] = candidate;
     }
-    if (n > kLongList) heap_sort(candidates + start, n);
+    if (count > kLongList) heap_sort(candidates + start, count);
     cells[cell_index(bricks[brick], c)] = out;
   });
 }
@@ -131,7 +141,8 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
 // would not fit `budget` bytes.
 template <class B>
 bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::uint32_t most,
-                std::size_t budget, BuiltLists<B> &out, ListReport &report)
+                std::size_t budget, const BuildProgress &progress, BuiltLists<B> &out,
+                ListReport &report)
 {
   using Built = BuiltLists<B>;
   const std::size_t n_bricks = pairs.n_bricks, n_words = n_bricks * kLayers,
@@ -140,7 +151,7 @@ bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::u
   typename Built::template Scratch<std::uint32_t> count(n_cells), offset(n_cells), cell(n_words),
       single(n_words), longest(n_words);
   typename Built::template Scratch<Brick> brick(n_bricks);
-  find_cells_met(b, view, pairs, met.data());
+  find_cells_met(b, view, pairs, progress, met.data());
   count_cells(b, pairs, met.data(), most, count.data());
   sum_words(b, n_words, count.data(), brick.data(), offset.data(), list.data(), cell.data(),
             single.data(), longest.data());
@@ -165,8 +176,10 @@ bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::u
   out.cells = typename Built::template Scratch<Cell>(n_occupied);
   out.candidates = typename Built::template Scratch<Candidate>(n_list);
   finish_bricks(b, pairs, cell.data(), view.plan.table_size(), brick.data(), out.brick_of.data());
-  write_lists(b, view, pairs, met.data(), count.data(), offset.data(), list.data(), brick.data(),
-              out.cells.data(), out.candidates.data());
+  progress.in_parts(B::kOnHost, "writing lists", n_cells, [&](std::size_t from, std::size_t n) {
+    write_lists(b, view, pairs, met.data(), count.data(), offset.data(), list.data(), brick.data(),
+                from, n, out.cells.data(), out.candidates.data());
+  });
   out.bricks = std::move(brick);
   return true;
 }

@@ -1,6 +1,7 @@
 // Sorting features into octants of bricks, on any backend.
 #pragma once
 
+#include "grid/build/build_progress.h"
 #include "grid/build/rasterise.h"
 #include "grid/lookup/locate.h"
 
@@ -114,7 +115,8 @@ void number_bricks(B &b, OctantPairs<B> &out)
 
 // False where there would be more pairs than can be numbered.
 template <class B>
-bool sort_into_octants(B &b, const BuildView &view, std::size_t n_features, OctantPairs<B> &out)
+bool sort_into_octants(B &b, const BuildView &view, std::size_t n_features,
+                       const BuildProgress &progress, OctantPairs<B> &out)
 {
   using Pairs = OctantPairs<B>;
   typename Pairs::template Scratch<std::uint64_t> offset(n_features + 1);
@@ -132,6 +134,7 @@ bool sort_into_octants(B &b, const BuildView &view, std::size_t n_features, Octa
   // With one run the counts stay; with more they are made a second time.
   std::uint64_t n = 0;
   for (const PartRun &run : runs) {
+    progress.tell("counting bricks", double(run.first) / double(n_parts + 1));
     count_octants(b, view, offsets, run, met.data(), count.data());
     n += b.exclusive_scan(count.data(), run.n);
   }
@@ -141,6 +144,7 @@ bool sort_into_octants(B &b, const BuildView &view, std::size_t n_features, Octa
   out.feature = typename Pairs::template Scratch<std::uint32_t>(n);
   std::size_t base = 0;
   for (const PartRun &run : runs) {
+    progress.tell("sorting into bricks", double(run.first) / double(n_parts + 1));
     std::size_t in_run = n;
     if (runs.size() > 1) {
       count_octants(b, view, offsets, run, met.data(), count.data());

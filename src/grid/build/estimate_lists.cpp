@@ -1,0 +1,104 @@
+#include "grid/build/estimate_lists.h"
+
+#include "grid/build/rasterise.h"
+#include "parallel/threads.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+// A part is one brick of a feature's box. Sampled are this many, or this share of all, so that the
+// estimate takes no time beside the build.
+constexpr std::uint64_t kMostSamples = 1 << 14, kFewestSamples = 256, kOneOf = 64;
+
+struct Sum {
+  double n = 0, total = 0, squares = 0;
+
+  void add(double x)
+  {
+    n++;
+    total += x;
+    squares += x * x;
+  }
+  double mean() const { return total / n; }
+  // Four standard errors below the mean.
+  double least() const
+  {
+    const double variance = std::max(0., squares / n - mean() * mean());
+    return std::max(0., mean() - 4 * std::sqrt(variance / n));
+  }
+};
+
+}    // namespace
+
+ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool primitives,
+                            const std::vector<std::uint64_t> &only)
+{
+  const std::vector<FeatureCode> &features = primitives ? wall.primitives : wall.contact_features;
+  BuildView view = {};
+  view.wall = wall.view();
+  view.features = features.data();
+  view.primitives = primitives;
+  view.plan = plan;
+  view.only = only.empty() ? nullptr : only.data();
+
+  const std::int64_t n = static_cast<std::int64_t>(features.size());
+  std::uint64_t n_parts = 0;
+#pragma omp parallel for schedule(static) num_threads(threads()) reduction(+ : n_parts) if (n > 4096)
+  for (std::int64_t i = 0; i < n; i++) n_parts += brick_box(view, features[i]).count();
+  const std::uint64_t n_samples = std::min(kMostSamples, n_parts / kOneOf);
+  if (n_samples < kFewestSamples) return {};
+
+  // One part of each run of parts, nowhere in step with the mesh: the golden ratio's multiples.
+  const double run = double(n_parts) / double(n_samples);
+  const auto sample_at = [&](std::uint64_t s) {
+    const double within = double(s) * 0.6180339887498949;
+    return static_cast<std::uint64_t>((double(s) + within - std::floor(within)) * run);
+  };
+  Sum entries, pairs;
+  std::uint64_t first = 0, sample = 0;
+  for (std::int64_t i = 0; i < n && sample < n_samples; i++) {
+    const BrickBox box = brick_box(view, features[i]);
+    const std::uint64_t end = first + box.count();
+    for (; sample < n_samples && sample_at(sample) < end; sample++) {
+      const std::uint32_t slot = brick_slot(plan, box, sample_at(sample) - first);
+      const unsigned octants = octants_met(view, features[i], slot);
+      int cells = 0;
+      for (unsigned o = 0; o < 8; o++)
+        if (octants >> o & 1) cells += count_bits(cells_met(view, features[i], slot * 8 + o));
+      entries.add(cells);
+      pairs.add(count_bits(octants));
+    }
+    first = end;
+  }
+  const double all = double(n_parts);
+  return {all * entries.mean(), all * entries.least(), all * pairs.least()};
+}
+
+LeastBytes estimate_bytes(const WallFeatures &wall, const GridPlan &plan,
+                          const GridSettings &settings)
+{
+  LeastBytes bytes;
+  if (!std::isfinite(plan.least_bytes())) return bytes;
+  const std::vector<std::uint64_t> only = bricks_that_meet(plan, settings.only);
+  const auto add = [&](int nearest) {
+    const ListEstimate lists = estimate_lists(wall, plan, nearest > 0, only);
+    constexpr double kMostNumbers = 0xffffffff;
+    if (lists.least_pairs > kMostNumbers) bytes.least = bytes.enough = HUGE_VAL;
+    // Nearest lists are cut short.
+    if (nearest > 0 && nearest != kEveryTriangle) return;
+    if (lists.least_entries > kMostNumbers) bytes.least = bytes.enough = HUGE_VAL;
+    // An entry is a candidate, or where it is single the cell of it.
+    static_assert(sizeof(Candidate) == sizeof(Cell), "counted as one");
+    bytes.least += lists.least_entries * sizeof(Candidate);
+    bytes.enough += 1.25 * lists.entries * sizeof(Candidate);
+  };
+  add(settings.nearest);
+  if (settings.nearest > 0 && settings.exact) add(0);
+  return bytes;
+}
+
+}    // namespace lsdcd

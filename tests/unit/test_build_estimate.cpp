@@ -1,0 +1,107 @@
+// What a grid's lists will hold is known before they are made.
+#include "base/input_error.h"
+#include "engine/wall_engine.h"
+#include "grid/build/estimate_lists.h"
+#include "grid/triangle_grid.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace lsdcd;
+
+namespace {
+
+// Of long slivers: each has a part in very many bricks.
+WallMesh slivers(int n)
+{
+  return weld(cylinder_mesh(n, 1, 50, 100), -1);
+}
+
+// An entry is a candidate; the report counts all of them, one by one.
+void compare(const WallMesh &mesh, Real cutoff, int nearest)
+{
+  GridSettings settings;
+  settings.cutoff = settings.length = cutoff;
+  settings.nearest = nearest;
+  settings.memory_budget = std::size_t(4) << 30;
+  const TriangleGrid grid = build_grid(mesh, settings);
+  const double entries = double(grid.report.lists.candidates);
+  const ListEstimate about = estimate_lists(grid.wall, plan_grid(mesh, settings), nearest > 0, {});
+  ASSERT_GT(about.least_entries, 0);
+  // Four standard errors on each side; the numbers are the same in every run.
+  EXPECT_LE(about.least_entries, entries);
+  EXPECT_GE(2 * about.entries - about.least_entries, entries);
+  // Worth having: some 400 parts and more are sampled, whose numbers of cells differ by no more
+  // than twice their mean; 4 * 2 / sqrt(400).
+  EXPECT_NEAR(about.entries, entries, 0.4 * entries);
+}
+
+}    // namespace
+
+TEST(BuildEstimate, entries_of_slivers_are_as_estimated)
+{
+  compare(slivers(500), 0.5, 0);
+}
+
+TEST(BuildEstimate, entries_of_a_fine_mesh_are_as_estimated)
+{
+  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), 1, 0);
+}
+
+TEST(BuildEstimate, entries_of_lists_of_every_triangle_are_as_estimated)
+{
+  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), 1, kEveryTriangle);
+}
+
+TEST(BuildEstimate, a_given_cell_that_cannot_fit_is_refused_before_anything_is_built)
+{
+  std::vector<std::string> told;
+  GridSettings settings;
+  settings.cutoff = settings.length = 0.5;
+  settings.memory_budget = std::size_t(20) << 20;
+  settings.progress = [&](const std::string &text) { told.push_back(text); };
+  try {
+    build_grid(slivers(2000), settings);
+    FAIL() << "it was built";
+  } catch (const InputError &e) {
+    const std::string why = e.what();
+    EXPECT_NE(why.find("grid 0.5 takes "), why.npos) << why;
+    EXPECT_NE(why.find("leave grid out"), why.npos) << why;
+  }
+  EXPECT_TRUE(told.empty()) << told.front();
+}
+
+TEST(BuildEstimate, a_chosen_cell_is_not_built_where_it_cannot_fit)
+{
+  std::vector<std::string> told;
+  GridSettings settings;
+  settings.cutoff = 0.5;
+  settings.memory_budget = std::size_t(60) << 20;
+  settings.progress = [&](const std::string &text) { told.push_back(text); };
+  const TriangleGrid grid = build_grid(slivers(2000), settings);
+  EXPECT_GT(grid.length, 0.7);    // not the first
+  ASSERT_FALSE(told.empty());
+  EXPECT_EQ(told.front().find("grid 0.5:"), std::string::npos) << told.front();
+  // The last cell that was tried is the one that was taken.
+  char name[40];
+  std::snprintf(name, sizeof name, "grid %.6g:", double(grid.length));
+  EXPECT_EQ(told.back().find(name), 0u) << told.back();
+}
+
+TEST(BuildEstimate, progress_names_each_part_of_a_build)
+{
+  std::vector<std::string> told;
+  GridSettings settings;
+  settings.cutoff = 1;
+  settings.progress = [&](const std::string &text) { told.push_back(text); };
+  build_grid(weld(cylinder_mesh(100, 20, 50, 100), -1), settings);
+  for (const char *part : {"sorting into bricks", "finding cells", "writing lists"}) {
+    bool found = false;
+    for (const std::string &text : told) found |= text.find(part) != text.npos;
+    EXPECT_TRUE(found) << part;
+  }
+}
