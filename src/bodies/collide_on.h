@@ -36,10 +36,10 @@ class BodyCollisionOn : public BodyCollision {
                        "periodic images: build it with collision_grid()");
     const FlatGrid flat(grid);
     const GridView view = flat.view();
-    Array<char> block(view.block_bytes);
-    b_.copy_in(view.block, block.data(), block.size());
-    block_ = std::move(block);
-    grid_ = moved_view(view, block_.data());
+    const auto block = std::make_shared<Array<char>>(view.block_bytes);
+    b_.copy_in(view.block, block->data(), block->size());
+    grid_ = moved_view(view, block->data());
+    block_ = block;
     largest_code_ = 0;
     for (const FeatureCode code : grid.wall.primitives)
       largest_code_ = std::max(largest_code_, code);
@@ -60,7 +60,17 @@ class BodyCollisionOn : public BodyCollision {
     unit_ = longest;
   }
 
+  std::unique_ptr<BodyCollision> with_same_wall() const override
+  {
+    auto other = std::make_unique<BodyCollisionOn>(b_);
+    other->block_ = block_;
+    other->grid_ = grid_;
+    other->largest_code_ = largest_code_;
+    return other;
+  }
+
   std::size_t n_pieces() const override { return pieces_.size(); }
+  bool on_cuda() const override { return !B::kOnHost; }
   std::string device() const override { return b_.name(); }
 
   Collision collide(const BodyPose &pose, bool with_segments) override
@@ -266,7 +276,7 @@ class BodyCollisionOn : public BodyCollision {
 
   B b_;
   GridView grid_ = {};
-  Array<char> block_;
+  std::shared_ptr<Array<char>> block_;    // the grid's
   Array<Vec3> corners_;
   std::size_t n_triangles_ = 0;
   Array<Piece> pieces_;
