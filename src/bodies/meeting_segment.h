@@ -6,8 +6,7 @@
 namespace lsdcd {
 
 // The segment that two triangles have in common, rounded; `flat`: they lie in one plane, or one has
-// no area, and what they share is no such segment: both ends are the middle of where their boxes
-// overlap.
+// no area, and what they share is no such segment.
 struct MeetingSegment {
   Vec3 from, to;
   bool flat;
@@ -39,19 +38,6 @@ LSDCD_FN Vec3 unit_normal(const Triangle &t)
   return length > 0 ? (1 / length) * n : Vec3{0, 0, 0};
 }
 
-LSDCD_FN Vec3 middle_of_overlap(const Triangle &a, const Triangle &b)
-{
-  Vec3 middle = {0, 0, 0};
-  for (int k = 0; k < 3; k++) {
-    const Real lo = fmax(fmin(a[0][k], fmin(a[1][k], a[2][k])),
-                         fmin(b[0][k], fmin(b[1][k], b[2][k]))),
-               hi = fmin(fmax(a[0][k], fmax(a[1][k], a[2][k])),
-                         fmax(b[0][k], fmax(b[1][k], b[2][k])));
-    middle[k] = Real(0.5) * (lo + hi);
-  }
-  return middle;
-}
-
 }    // namespace meeting_segment_detail
 
 // Of two triangles that meet.
@@ -59,10 +45,8 @@ LSDCD_FN MeetingSegment meeting_segment(const Triangle &a, const Triangle &b)
 {
   using namespace meeting_segment_detail;
   const triangles_meet_detail::Sides of_a(b, a), of_b(a, b);
-  if (of_a.all_on(0) || of_b.all_on(0) || of_a.apart() || of_b.apart()) {
-    const Vec3 middle = middle_of_overlap(a, b);
-    return {middle, middle, true};
-  }
+  if (of_a.all_on(0) || of_b.all_on(0) || of_a.apart() || of_b.apart())
+    return {{0, 0, 0}, {0, 0, 0}, true};
   const Vec3 normal_a = unit_normal(a), normal_b = unit_normal(b);
   Vec3 x[2], y[2];
   cut(a, of_a, normal_b, b[0], x);

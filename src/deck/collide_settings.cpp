@@ -10,7 +10,8 @@ namespace {
 const char *const kSyntax =
     "compute ID group lsdcd/collide FIX_ID mesh FILE [scale s | sx sy sz] [rotate ax ay az "
     "degrees] "
-    "[move x y z] [weld tol] [bodies one | molecule] [grid L | auto] [nearest N | all] [memory MB] "
+    "[move x y z] [weld tol] [bodies one | molecule] [atoms FILE] [grid L | auto] [nearest N | "
+    "all] [memory MB] "
     "[device cpu | cuda | auto] [log full | brief]";
 
 void read_nearest(Tokens &w, CollideSettings &s)
@@ -26,6 +27,10 @@ bool read_word(const std::string &word, Tokens &w, CollideSettings &s)
   if (word == "bodies") {
     w.expect("bodies", "bodies one | molecule");
     s.molecules = w.choice({"one", "molecule"}) == 1;
+  } else if (word == "atoms") {
+    w.expect("atoms", "atoms FILE");
+    if (w.done()) w.fail("the file name is missing");
+    s.atoms_file = w.take();
   } else if (word == "grid") {
     w.expect("grid", "grid L | auto");
     s.grid_length = w.number_or("auto", 0, "L", kAboveZero);

@@ -25,6 +25,8 @@ using lsdcd::Vec3;
 
 namespace {
 
+constexpr double kRim = 1e-6;    // for rounding
+
 BodyPose moved(BodyPose pose, const Vec3 &by)
 {
   pose.shift += by;
@@ -166,57 +168,57 @@ void ComputeCollideLsdcd::evaluate()
   }
 }
 
-// A body and its images in a periodic box, against each mesh where that is now. What they have in
-// common counts in the box: of a mesh that is longer than the box, only what is in it.
+// A body and its images in a periodic box, against each mesh where that is now. A pair of triangles
+// counts once, whichever images meet.
 void ComputeCollideLsdcd::collide(int body, const BodyPose &pose, const FixWallLsdcd &fix,
                                   const lsdcd::PeriodicBox &box)
 {
-  const Vec3 centre = pose.corner_at(middle), at = box.fraction(centre);
-  int lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0};
-  for (int k = 0; k < 3; k++) {
-    if (!box.periodic[k]) continue;
-    const int home = -static_cast<int>(std::floor(at[k])),
-              more = 1 + static_cast<int>(reach / box.width(k));
-    lo[k] = home - more, hi[k] = home + more;
-  }
   for (std::size_t m = 0; m < meshes.size(); m++) {
+    const lsdcd::WallPose &wall = fix.meshes()[m].pose;
     std::vector<lsdcd::BodyPair> pairs;
-    for (int i = lo[0]; i <= hi[0]; i++)
-      for (int j = lo[1]; j <= hi[1]; j++)
-        for (int k = lo[2]; k <= hi[2]; k++) {
-          const Vec3 shift =
-              double(i) * box.edge[0] + double(j) * box.edge[1] + double(k) * box.edge[2];
-          add_pairs(m, moved(pose, shift), fix.meshes()[m].pose, box, pairs);
-        }
+    for_images(pose, wall, meshes[m].bounds, box, [&](const Vec3 &shift) {
+      const lsdcd::Collision meets =
+          meshes[m].collision->collide(in_frame_of(wall, moved(pose, shift)));
+      pairs.insert(pairs.end(), meets.pairs.begin(), meets.pairs.end());
+      found.back() += static_cast<double>(meets.uncertain);
+    });
     std::sort(pairs.begin(), pairs.end());
     found[body] += static_cast<double>(std::unique(pairs.begin(), pairs.end()) - pairs.begin());
   }
 }
 
-void ComputeCollideLsdcd::add_pairs(std::size_t mesh, const BodyPose &pose,
-                                    const lsdcd::WallPose &wall, const lsdcd::PeriodicBox &box,
-                                    std::vector<lsdcd::BodyPair> &pairs)
+// Calls visit(shift) for images of the body, in the box's frame, whose ball reaches into the box
+// around a mesh.
+template <class Visit>
+void ComputeCollideLsdcd::for_images(const BodyPose &pose, const lsdcd::WallPose &wall,
+                                     const lsdcd::Box &bounds, const lsdcd::PeriodicBox &box,
+                                     const Visit &visit) const
 {
-  // Is the body's ball clear of the mesh's box?
-  const lsdcd::Box &bounds = meshes[mesh].bounds;
-  const Vec3 c = wall.to_mesh(pose.corner_at(middle));
-  Vec3 out = {0, 0, 0};
-  for (int d = 0; d < 3; d++) out[d] = std::max({bounds.lo[d] - c[d], c[d] - bounds.hi[d], 0.0});
-  if (norm(out) > reach * (1 + 1e-6)) return;
-  const lsdcd::Collision meets =
-      meshes[mesh].collision->collide(in_frame_of(wall, pose), box.any_periodic());
-  found.back() += static_cast<double>(meets.uncertain);
-  for (std::size_t i = 0; i < meets.pairs.size(); i++) {
-    bool inside = true;
-    if (box.any_periodic()) {
-      constexpr double kRim = 1e-9;    // of the box; what is on a face may be in two images
-      const Vec3 half = 0.5 * (meets.segments[i].from + meets.segments[i].to),
-                 f = box.fraction(wall.to_box(half));
-      for (int d = 0; d < 3; d++)
-        inside = inside && (!box.periodic[d] || (f[d] >= -kRim && f[d] <= 1 + kRim));
-    }
-    if (inside) pairs.push_back(meets.pairs[i]);
+  const Vec3 centre = pose.corner_at(middle), at = box.fraction(centre);
+  int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
+  for (int k = 0; k < 3; k++) {
+    if (!box.periodic[k]) continue;
+    double lo = HUGE_VAL, hi = -HUGE_VAL;    // of the mesh, from the body, in boxes
+    lsdcd::for_corners(bounds, [&](const Vec3 &corner) {
+      const double f = box.fraction(wall.to_box(corner))[k] - at[k];
+      lo = std::min(lo, f);
+      hi = std::max(hi, f);
+    });
+    const double past = reach / box.width(k) + kRim;
+    first[k] = static_cast<int>(std::ceil(lo - past));
+    last[k] = static_cast<int>(std::floor(hi + past));
   }
+  for (int i = first[0]; i <= last[0]; i++)
+    for (int j = first[1]; j <= last[1]; j++)
+      for (int k = first[2]; k <= last[2]; k++) {
+        const Vec3 shift =
+            double(i) * box.edge[0] + double(j) * box.edge[1] + double(k) * box.edge[2];
+        const Vec3 c = wall.to_mesh(centre + shift);
+        Vec3 out = {0, 0, 0};
+        for (int d = 0; d < 3; d++)
+          out[d] = std::max({bounds.lo[d] - c[d], c[d] - bounds.hi[d], 0.0});
+        if (norm(out) <= reach * (1 + kRim)) visit(shift);
+      }
 }
 
 // Bodies that meet the wall.

@@ -54,7 +54,7 @@ class ComputeCollideLsdcd : public Compute {
   lsdcd::CollideSettings settings;
   std::vector<Body> bodies;
   std::unordered_map<tagint, Place> place_of;    // by an atom's tag
-  std::unique_ptr<lsdcd::PosePoints> points;     // of the first body, as all others have them
+  std::unique_ptr<lsdcd::PosePoints> points;     // that all bodies have, where their mesh is
   lsdcd::Vec3 middle = {0, 0, 0};                // of the mesh, and how far it reaches from there
   double reach = 0;
   std::vector<Against> meshes;
@@ -66,15 +66,17 @@ class ComputeCollideLsdcd : public Compute {
   std::vector<Member> gather_members() const;
   std::vector<double> gather_sums() const;
   lsdcd::BodyPose pose_of(int, const std::vector<double> &) const;
-  std::string name_of(int) const;
+  std::vector<lsdcd::Vec3> read_points() const;
+  std::string name_of(int) const, kind_text() const;
 
   const class FixWallLsdcd &wall() const;
   void make_collisions(const lsdcd::WallMesh &);
   void check_wall(const FixWallLsdcd &) const;
   void evaluate();
   void collide(int, const lsdcd::BodyPose &, const FixWallLsdcd &, const lsdcd::PeriodicBox &);
-  void add_pairs(std::size_t, const lsdcd::BodyPose &, const lsdcd::WallPose &,
-                 const lsdcd::PeriodicBox &, std::vector<lsdcd::BodyPair> &);
+  template <class Visit>
+  void for_images(const lsdcd::BodyPose &, const lsdcd::WallPose &, const lsdcd::Box &,
+                  const lsdcd::PeriodicBox &, const Visit &) const;
   bool is_mine(int) const;
   bool has_any() const;
   void log(const lsdcd::WallMesh &) const;

@@ -3,6 +3,7 @@
 #include "lammps/compute_collide_lsdcd.h"
 
 #include "base/input_error.h"
+#include "base/input_words.h"
 
 #include "lammps/mpi_shared.h"
 
@@ -12,6 +13,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
+#include <sstream>
 
 using namespace LAMMPS_NS;
 using lsdcd::InputError;
@@ -60,7 +63,44 @@ std::vector<ComputeCollideLsdcd::Member> ComputeCollideLsdcd::gather_members() c
   return all;
 }
 
-// The first body's atoms are the points by which all are placed, those of others in the order of
+std::string ComputeCollideLsdcd::kind_text() const
+{
+  return settings.atoms_file.empty() ? "the first body as it was defined"
+                                     : "the atoms of file " + settings.atoms_file;
+}
+
+// x y z a line; empty lines and those from # are left out. The first process reads.
+std::vector<Vec3> ComputeCollideLsdcd::read_points() const
+{
+  const std::string &name = settings.atoms_file;
+  std::vector<Vec3> all;
+  lsdcd::together(world, comm->me == 0, [&] {
+    std::ifstream file(name);
+    if (!file) throw InputError("cannot read file " + name + ": give x y z of an atom a line");
+    std::string line;
+    for (int number = 1; std::getline(file, line); number++) {
+      std::istringstream words(line);
+      std::string word;
+      Vec3 x = {0, 0, 0};
+      int n = 0;
+      for (; words >> word && word[0] != '#'; n++)
+        if (n > 2 || !lsdcd::is_number(word, &x[n]))
+          throw InputError("file " + name + ": line " + std::to_string(number) + " has '" + word +
+                           "'; give x y z of an atom a line");
+      if (n == 1 || n == 2)
+        throw InputError("file " + name + ": line " + std::to_string(number) + " has " +
+                         std::to_string(n) + " numbers; give x y z of an atom a line");
+      if (n == 3) all.push_back(x);
+    }
+  });
+  int n = static_cast<int>(all.size());
+  MPI_Bcast(&n, 1, MPI_INT, 0, world);
+  all.resize(n);
+  lsdcd::broadcast_bytes(all.data(), n * sizeof(Vec3), 0, world);
+  return all;
+}
+
+// The first body's atoms, or those of a file, are the points by which all are placed, in the order of
 // their tags.
 void ComputeCollideLsdcd::find_bodies()
 {
@@ -82,12 +122,18 @@ void ComputeCollideLsdcd::find_bodies()
     place_of[m.tag] = {static_cast<int>(bodies.size()) - 1, sizes.back()++};
   }
   std::vector<Vec3> first;
-  for (int k = 0; k < sizes[0]; k++) first.push_back(all[k].x);
+  if (settings.atoms_file.empty())
+    for (int k = 0; k < sizes[0]; k++) first.push_back(all[k].x);
+  else
+    first = read_points();
   try {
     points = std::make_unique<PosePoints>(first);
   } catch (const InputError &e) {
-    throw InputError(name_of(0) + " is not known to turn: " + e.what());
+    throw InputError(kind_text() + ": " + e.what());
   }
+  if (first.size() != static_cast<std::size_t>(sizes[0]))
+    throw InputError("file " + settings.atoms_file + " has " + std::to_string(first.size()) +
+                     " atoms, and " + name_of(0) + " has " + std::to_string(sizes[0]));
   for (std::size_t b = 0; b < bodies.size(); b++)
     if (sizes[b] != sizes[0])
       throw InputError(name_of(static_cast<int>(b)) + " has " + std::to_string(sizes[b]) +
@@ -119,17 +165,17 @@ lsdcd::BodyPose ComputeCollideLsdcd::pose_of(int body, const std::vector<double>
 {
   const double *mine = &sums[PosePoints::kSums * body];
   if (mine[0] != static_cast<double>(points->size()))
-    throw InputError(name_of(body) + " had " + std::to_string(points->size()) + " atoms, and " +
-                     std::to_string(points->size() - static_cast<std::size_t>(mine[0])) +
-                     " of them are lost: define the compute again");
+    throw InputError(name_of(body) + " has " + std::to_string(static_cast<long>(mine[0])) +
+                     " of its " + std::to_string(points->size()) +
+                     " atoms left: define the compute again");
   double off = 0;
   const lsdcd::BodyPose pose = points->fit(mine, bodies[body].near, off);
   constexpr double kRigid = 1e-3;    // of its size
   if (!(off <= kRigid * points->radius())) {
     char text[64];
     std::snprintf(text, sizeof text, "%.3g", off);
-    throw InputError(name_of(body) +
-                     " is no rigid copy of the first one as it was: its atoms are " + text +
+    throw InputError(name_of(body) + " is no rigid copy of " + kind_text() + ": its atoms are " +
+                     text +
                      " off, root mean square; they must move as one, by fix rigid, rigid/small or "
                      "move, and have their tags in one order");
   }

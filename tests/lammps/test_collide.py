@@ -212,6 +212,31 @@ run             0
     checks.fact("several meshes, and runs", [r[1:] for r in rows] == [["1", "16"], ["1", "8"], ["0", "0"]], str(rows))
 
 
+def check_restart(checks, folder):
+    """With the places of its atoms in a file a body is found wherever it is: after a restart, too."""
+    write_data(folder / "cubes.data", three_cubes())
+    write_stl(folder / "cube.stl", cube())
+    (folder / "atoms.txt").write_text("# where cube.stl is\n" + "".join("{!r} {!r} {!r}\n".format(*map(float, p)) for p in CORNERS))
+    after = WALL + """
+""" + BY_MOVE.replace("group one", "group two").replace(" one", " two") + """
+compute         c cubes lsdcd/collide wall mesh cube.stl bodies molecule grid 0.4 atoms atoms.txt
+""" + THERMO.format(more="c_c[1][2] c_c[2][2] c_c[3][2]")
+    first = begin("p p f") + after + "run 100\nwrite_restart half.restart\nundump atoms\n"
+    rows = compare(checks, "bodies whose atoms are in a file", folder, first,
+                   lambda t: (np.array([0, 0, 1.0]), np.zeros(3)), 1, 3)
+    again = SETTINGS.replace("atom_style      sphere\n", "") + """read_restart half.restart
+fix mol all property/atom mol ghost yes
+pair_style      zero 0.5
+pair_coeff      * *
+""" + WALL + """
+compute         c cubes lsdcd/collide wall mesh cube.stl bodies molecule grid 0.4 atoms atoms.txt
+thermo_style    custom step c_c c_c[1] c_c[2] c_c[3] c_c[1][2] c_c[2][2] c_c[3][2]
+run             0
+"""
+    last = deck.read_thermo(deck.run_well(again, folder, 2))
+    checks.fact("and where a restart file has them", last == [rows[100]] and rows[100][PAIRS] > 0, str((last, rows[100])))
+
+
 def main():
     host = "host" in sys.argv[1:]
     if host and not deck.TEST_HOST:
@@ -230,6 +255,7 @@ def main():
         check_moving_wall(checks, folder, ranks, BY_MOVE if host else RIGID)
         check_image(checks, folder, ranks)
     check_several(checks, folder)
+    check_restart(checks, folder)
     checks.done(folder)
 
 
