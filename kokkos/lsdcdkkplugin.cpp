@@ -1,8 +1,7 @@
-// Registers fixes wall/lsdcd, wall/lsdcd/kk and massflow/lsdcd with the Kokkos LAMMPS that loads this file.
+// Registers the styles of this library, and fix wall/lsdcd/kk, with the Kokkos LAMMPS that loads this file.
 
 #include "fix_wall_lsdcd_kokkos.h"
 
-#include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/plugin_styles.h"
 
 #include <cstdio>
@@ -11,10 +10,7 @@
 #include <sstream>
 #include <string>
 
-using LAMMPS_NS::FixMassflowLsdcd;
-using LAMMPS_NS::FixWallLsdcd;
 using LAMMPS_NS::FixWallLsdcdKokkos;
-using lsdcd::add_fix_style;
 using lsdcd::create_fix;
 
 // Where Kokkos computes, and how vectors lie in its memory, in LAMMPS's words; older ones have
@@ -91,13 +87,9 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
                                                                          void *regfunc)
 {
   if (!lsdcd::host_matches(lmp) || !kokkos_matches()) return;
-  add_fix_style(lmp, handle, regfunc, "wall/lsdcd", "fix wall/lsdcd: DEM walls from an STL mesh",
-                create_fix<FixWallLsdcd>);
-  add_fix_style(lmp, handle, regfunc, "massflow/lsdcd",
-                "fix massflow/lsdcd: what passes a surface from an STL mesh",
-                create_fix<FixMassflowLsdcd>);
+  lsdcd::add_plain_styles(lmp, handle, regfunc);
   const auto add = [&](const char *name, lammpsplugin_factory2 *create) {
-    add_fix_style(lmp, handle, regfunc, name, "the same with Kokkos", create);
+    lsdcd::add_style("fix", lmp, handle, regfunc, name, "the same with Kokkos", create);
   };
   add("wall/lsdcd/kk", create_fix<FixWallLsdcdKokkos<LMPDeviceType>>);
   add("wall/lsdcd/kk/device", create_fix<FixWallLsdcdKokkos<LMPDeviceType>>);

@@ -1,6 +1,8 @@
-/* Distances from points to a triangle mesh, exact and many at once, on the CPU or an NVIDIA GPU.
+/* Distances from points to a triangle mesh, exact and many at once, on the CPU or an NVIDIA GPU; and
+ * which triangles of a rigid body meet which of a wall.
  *
  *   mesh -> grid, for distances up to a cutoff -> queries of points in arrays of the caller
+ *   two meshes -> body -> its collisions with the wall, pose by pose
  *
  * A function returns LSDCD_OK, 0, or the code of an error, whose text lsdcd_last_error() has. It
  * then has changed nothing but, where a query failed, the arrays of its answers, which hold
@@ -9,7 +11,7 @@
  *
  * Threads: each function says "any" where any number of threads may call it at once, with the same
  * objects; "own" where no other thread may use the object that it takes at the same time.
- * What a grid or stream is made from may be freed before it.
+ * What a grid, stream or body is made from may be freed before it.
  */
 #ifndef LSDCD_H
 #define LSDCD_H
@@ -173,6 +175,64 @@ LSDCD_API void lsdcd_stream_free(lsdcd_stream *stream);
 /* 1 where there is a CUDA device that this library can use; else 0, and lsdcd_last_error() says
  * why. Any. */
 LSDCD_API int lsdcd_has_cuda(void);
+
+/* ---- bodies --------------------------------------------------------------------------------- */
+
+/* A rigid body against a wall, both meshes, neither need be closed. Faces count, not volumes: a body
+ * that is whole inside a closed wall meets nothing. */
+typedef struct lsdcd_body lsdcd_body;
+
+typedef struct lsdcd_body_options {
+  size_t size; /* of this struct */
+  double cell; /* edge of a cell of the wall's grid, to which the body is cut; 0: the median edge of
+                    the body. Longer ones take less memory, and are quicker until the wall has many
+                    triangles in one */
+  int nearest; /* 0: exact; N, up to 32: the N triangles of the wall nearest to a cell, which may
+                    miss pairs */
+  double memory; /* most bytes of the grid; 0: 1 GiB beside the wall's own records */
+  int threads;   /* that make it, on the CPU; 0: OMP_NUM_THREADS, or one */
+  int device; /* LSDCD_CPU or LSDCD_CUDA, the device that is current: for all that the body does */
+  const lsdcd_body *same_wall; /* a body whose wall this one shares, with its grid and device: then
+                                  `wall`, and `cell` to `device`, are not given; null: none */
+} lsdcd_body_options;
+/* `options` may be null: all defaults. Any. */
+LSDCD_API int lsdcd_body_make(const lsdcd_mesh *wall, const lsdcd_mesh *mesh,
+                              const lsdcd_body_options *options, lsdcd_body **body);
+
+typedef struct lsdcd_body_facts {
+  size_t size;      /* of this struct; set by the caller */
+  size_t triangles; /* those with an area */
+  size_t pieces;    /* that they are cut into */
+  double cell;
+  size_t grid_bytes;
+  int nearest, device;
+} lsdcd_body_facts;
+/* Any. */
+LSDCD_API int lsdcd_body_get_facts(const lsdcd_body *body, lsdcd_body_facts *facts);
+
+/* A pose, arrays of the caller, and what is found. A pose is `matrix`, or `position`, `quaternion`
+ * or both: a point x of the body's mesh is at R x + t in the wall's frame. Corners in a pose are
+ * rounded to doubles; for these the answer is exact, and touching is meeting.
+ * Pairs ascend by the body's triangle; each array is of `room` pairs, or null: not asked for. */
+typedef struct lsdcd_collision {
+  size_t size;              /* of this struct */
+  int threads;              /* on the CPU; 0: OMP_NUM_THREADS, or one */
+  int collides;             /* answer: does any pair meet? */
+  const double *matrix;     /* 12 numbers, rows of R, each with its t behind it */
+  const double *position;   /* 3 numbers, t; null: 0 */
+  const double *quaternion; /* 4 numbers, w x y z, R; null: as the mesh is */
+  size_t room;              /* pairs that the arrays hold; of more, the first are written */
+  uint32_t *wall_triangle;  /* by its number as given, from 0; LSDCD_NONE: one without area */
+  uint32_t *body_triangle;
+  double *segment;  /* 6 numbers a pair: from x y z to x y z, what both have in common, rounded; not
+                        numbers where they lie in one plane */
+  size_t pairs;     /* answer: all there are, so the room that all take */
+  size_t uncertain; /* answer, with `nearest` N: pieces where pairs may be missing; 0: exact */
+} lsdcd_collision;
+/* Own. */
+LSDCD_API int lsdcd_collide(lsdcd_body *body, lsdcd_collision *collision);
+/* Null is fine. Own. */
+LSDCD_API void lsdcd_body_free(lsdcd_body *body);
 
 #if defined(__cplusplus)
 }

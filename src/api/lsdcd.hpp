@@ -153,6 +153,96 @@ class Stream {
   std::unique_ptr<lsdcd_stream, c::Free<lsdcd_stream_free>> handle_;
 };
 
+// All that is 0 has its default.
+struct BodyOptions : lsdcd_body_options {
+  BodyOptions() : lsdcd_body_options() { size = sizeof(lsdcd_body_options); }
+};
+using BodyFacts = lsdcd_body_facts;
+
+// Pair i: triangles wall[i] and body[i], by their numbers in the meshes, and the segment that they
+// share, x y z x y z, not numbers where they lie in one plane.
+struct BodyPairs {
+  std::vector<std::uint32_t> wall, body;
+  std::vector<double> segments;    // where asked for
+  std::size_t uncertain = 0;       // pieces where `nearest` may have missed pairs
+  explicit operator bool() const { return !wall.empty(); }
+};
+
+// A rigid body against a wall, for a sequence of poses.
+class Body {
+ public:
+  Body(const Mesh &wall, const Mesh &mesh, const lsdcd_body_options &options = BodyOptions())
+  {
+    make(wall.get(), mesh, options);
+  }
+  // Against the wall of another body, which both then share.
+  Body(const Body &same_wall, const Mesh &mesh)
+  {
+    BodyOptions options;
+    options.same_wall = same_wall.get();
+    make(nullptr, mesh, options);
+  }
+
+  BodyFacts facts() const
+  {
+    BodyFacts f = {};
+    f.size = sizeof f;
+    c::check(lsdcd_body_get_facts(get(), &f));
+    return f;
+  }
+
+  // `position`: 3 numbers; `quaternion`: 4, w x y z.
+  bool collides(const double *position, const double *quaternion = nullptr, int threads = 0)
+  {
+    lsdcd_collision c = posed(position, quaternion, threads);
+    c::check(lsdcd_collide(handle_.get(), &c));
+    return c.collides != 0;
+  }
+  BodyPairs collide(const double *position, const double *quaternion = nullptr,
+                    bool segments = false, int threads = 0)
+  {
+    lsdcd_collision c = posed(position, quaternion, threads);
+    BodyPairs out;
+    // Once where the room of the last pose is enough.
+    do {
+      c.room = room_ = c.pairs > room_ ? c.pairs : room_;
+      out.wall.resize(c.room);
+      out.body.resize(c.room);
+      out.segments.resize(segments ? 6 * c.room : 0);
+      c.wall_triangle = out.wall.data();
+      c.body_triangle = out.body.data();
+      c.segment = segments ? out.segments.data() : nullptr;
+      c::check(lsdcd_collide(handle_.get(), &c));
+    } while (c.pairs > c.room);
+    out.wall.resize(c.pairs);
+    out.body.resize(c.pairs);
+    out.segments.resize(segments ? 6 * c.pairs : 0);
+    out.uncertain = c.uncertain;
+    return out;
+  }
+  const lsdcd_body *get() const { return handle_.get(); }
+  lsdcd_body *get() { return handle_.get(); }
+
+ private:
+  void make(const lsdcd_mesh *wall, const Mesh &mesh, const lsdcd_body_options &options)
+  {
+    lsdcd_body *made = nullptr;
+    c::check(lsdcd_body_make(wall, mesh.get(), &options, &made));
+    handle_.reset(made);
+  }
+  static lsdcd_collision posed(const double *position, const double *quaternion, int threads)
+  {
+    lsdcd_collision c = {};
+    c.size = sizeof c;
+    c.position = position;
+    c.quaternion = quaternion;
+    c.threads = threads;
+    return c;
+  }
+  std::unique_ptr<lsdcd_body, c::Free<lsdcd_body_free>> handle_;
+  std::size_t room_ = 1024;    // pairs
+};
+
 }    // namespace lsdcd
 
 #endif

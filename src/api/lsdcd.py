@@ -1,9 +1,14 @@
-"""Distances from points to a triangle mesh, exact and many at once, for numpy arrays.
+"""Distances from points to a triangle mesh, exact and many at once, for numpy arrays; and rigid bodies
+against a wall.
 
     import lsdcd
     grid = lsdcd.Mesh("wall.stl").grid(cutoff=0.01)
     answer = grid.query(points, "distance triangle side")    # points: (n, 3), float32 or float64
     answer.distance, answer.triangle, answer.side
+
+    body = lsdcd.Body(lsdcd.Mesh("wall.stl"), lsdcd.Mesh("body.stl"))
+    found = body.collide(position=(0, 0, 1), quaternion=(1, 0, 0, 0))
+    found.collides, found.wall, found.body                    # triangles, pair by pair
 
 A query lets other Python threads run, and any number of threads may ask one grid at once. What is
 told about lsdcd.h holds here; its errors are lsdcd.Error with a `code`. LSDCD_LIBRARY may name the
@@ -44,6 +49,16 @@ _Query = _struct(
     ("radius", _real), ("distance", _at), ("distance_step", _step), ("closest", _at),
     ("closest_row", _step), ("closest_column", _step), ("normal", _at), ("normal_row", _step),
     ("normal_column", _step), ("triangle", _at), ("feature", _at), ("side", _at), ("status", _at))
+_BodyOptions = _struct(
+    "_BodyOptions", ("cell", _real), ("nearest", _int), ("memory", _real), ("threads", _int),
+    ("device", _int), ("same_wall", _at))
+_BodyFacts = _struct(
+    "_BodyFacts", ("triangles", _size), ("pieces", _size), ("cell", _real), ("grid_bytes", _size),
+    ("nearest", _int), ("device", _int))
+_Collision = _struct(
+    "_Collision", ("threads", _int), ("collides", _int), ("matrix", _at), ("position", _at),
+    ("quaternion", _at), ("room", _size), ("wall_triangle", _at), ("body_triangle", _at),
+    ("segment", _at), ("pairs", _size), ("uncertain", _size))
 
 
 class Error(ValueError):
@@ -65,13 +80,15 @@ def _load():
     for text in ("version", "last_error", "mesh_report", "grid_report"):
         getattr(lib, "lsdcd_" + text).restype = ctypes.c_char_p
     lib.lsdcd_mesh_report.argtypes = lib.lsdcd_grid_report.argtypes = [_at]
-    lib.lsdcd_mesh_free.argtypes = lib.lsdcd_grid_free.argtypes = [_at]
-    lib.lsdcd_mesh_free.restype = lib.lsdcd_grid_free.restype = None
+    for kind in ("mesh", "grid", "body"):
+        free = getattr(lib, f"lsdcd_{kind}_free")
+        free.argtypes, free.restype = [_at], None
     lib.lsdcd_mesh_read.argtypes = [ctypes.c_char_p, _real, _at]
     lib.lsdcd_mesh_from_corners.argtypes = [_at, _size, _real, _at]
-    for call in ("mesh_get_facts", "grid_get_facts", "query_host"):
+    for call in ("mesh_get_facts", "grid_get_facts", "query_host", "body_get_facts", "collide"):
         getattr(lib, "lsdcd_" + call).argtypes = [_at, _at]
     lib.lsdcd_grid_build.argtypes = [_at, _at, _at]
+    lib.lsdcd_body_make.argtypes = [_at, _at, _at, _at]
     return lib
 
 
@@ -189,3 +206,62 @@ class Grid:
             setattr(query, word, getattr(answer, word).ctypes.data)
         _check(_lib.lsdcd_query_host(self._handle, ctypes.byref(query)))
         return answer
+
+
+class Body:
+    """A rigid body's Mesh against a wall's Mesh, or against the wall of another Body, which both then
+    share; the words are those of lsdcd_body_options. One thread at a time."""
+
+    def __init__(self, wall, mesh, cell=0.0, nearest=0, memory=0.0, threads=0, device="cpu"):
+        self._handle, self._room = _at(), 1024
+        options = _sized(_BodyOptions, cell=cell, nearest=nearest, memory=memory, threads=threads,
+                         device=("cpu", "cuda").index(device))
+        if isinstance(wall, Body):
+            options.same_wall = wall._handle
+        _check(_lib.lsdcd_body_make(None if isinstance(wall, Body) else wall._handle, mesh._handle,
+                                    ctypes.byref(options), ctypes.byref(self._handle)))
+
+    def __del__(self):
+        if getattr(self, "_handle", None) and _lib:
+            _lib.lsdcd_body_free(self._handle)
+
+    @property
+    def facts(self):
+        return _facts(_BodyFacts, _lib.lsdcd_body_get_facts, self._handle)
+
+    def collide(self, position=None, quaternion=None, matrix=None, segments=False, threads=0):
+        """Of a pose, `position` (x, y, z), `quaternion` (w, x, y, z) or both, or `matrix`, (3, 4) or
+        (4, 4): collides; wall and body, the triangles of each pair; where asked for segments,
+        (n, 2, 3), from one point to another, nan where a pair lies in one plane; uncertain."""
+        pose = {"position": _numbers(position, (3,), "position"),
+                "quaternion": _numbers(quaternion, (4,), "quaternion"),
+                "matrix": _numbers(matrix, (4, 4) if np.shape(matrix) == (4, 4) else (3, 4), "matrix")}
+        if pose["matrix"] is not None and len(pose["matrix"]) == 4:
+            if pose["matrix"][3].tolist() != [0, 0, 0, 1]:
+                raise TypeError("the last row of matrix is not 0, 0, 0, 1")
+        ask = _sized(_Collision, threads=threads, **{k: v.ctypes.data for k, v in pose.items() if v is not None})
+        while True:
+            ask.room = self._room
+            wall, body = np.empty(ask.room, np.uint32), np.empty(ask.room, np.uint32)
+            ask.wall_triangle, ask.body_triangle = wall.ctypes.data, body.ctypes.data
+            if segments:
+                found = np.empty((ask.room, 2, 3))
+                ask.segment = found.ctypes.data
+            _check(_lib.lsdcd_collide(self._handle, ctypes.byref(ask)))
+            if ask.pairs <= ask.room:
+                break
+            self._room = ask.pairs
+        answer = SimpleNamespace(collides=bool(ask.collides), wall=wall[:ask.pairs], body=body[:ask.pairs],
+                                 uncertain=ask.uncertain)
+        if segments:
+            answer.segments = found[:ask.pairs]
+        return answer
+
+
+def _numbers(values, shape, name):
+    if values is None:
+        return None
+    values = np.ascontiguousarray(values, dtype=np.float64)
+    if values.shape != shape:
+        raise TypeError(f"{name} has the shape {values.shape}, not {shape}")
+    return values

@@ -60,11 +60,14 @@ class BodyCollision {
   // many for the grid's cells.
   virtual void set_body(const TriangleSoup &body) = 0;
   virtual std::size_t n_pieces() const = 0;
+  // Another with the same wall, of which there is one copy, and no body yet; on the same device.
+  virtual std::unique_ptr<BodyCollision> with_same_wall() const = 0;
 
   // Throws InputError where the pose is no rigid motion, or so far off that the cells have too few
   // digits.
   virtual Collision collide(const BodyPose &pose, bool with_segments = false) = 0;
 
+  virtual bool on_cuda() const = 0;
   virtual std::string device() const = 0;
 };
 

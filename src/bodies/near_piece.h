@@ -14,6 +14,7 @@
 #pragma once
 
 #include "bodies/body_collision.h"
+#include "bodies/subdivide.h"
 #include "geometry/primitive_distance.h"
 #include "grid/build/meets.h"
 #include "grid/triangle_grid.h"
@@ -69,6 +70,19 @@ LSDCD_FN bool for_each_near(const GridView &grid, const Vec3 &centre, Real radiu
       visit(code);
   }
   return cell.count > most;
+}
+
+// Does the piece before, of the same triangle, have this primitive, too? It does where that is
+// within its ball, as its list holds all such. Few pairs of large triangles are left: one for each
+// run of pieces.
+LSDCD_FN bool is_of_piece_before(const GridView &grid, const Piece *pieces, std::size_t i,
+                                 const BodyPose &pose, Real unit, FeatureCode primitive)
+{
+  if (i == 0 || grid.nearest != kEveryTriangle) return false;
+  const Piece before = pieces[i - 1];
+  return before.triangle == pieces[i].triangle &&
+         primitive_distance(grid.wall, primitive, pose.corner_at(before.centre)) <=
+             unit * before.radius;
 }
 
 }    // namespace lsdcd

@@ -6,6 +6,7 @@
 
 #include "grid/cache/grid_cache.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lsdcd {
@@ -312,6 +313,27 @@ bool Keyword::repeats() const
 std::string syntax_of(const Keyword &row)
 {
   return std::string(row.name) + (*row.values ? " " : "") + row.values;
+}
+
+bool read_mesh_word(const std::string &word, Tokens &w, MeshSettings &mesh)
+{
+  for (const char *const shared : {"mesh", "scale", "rotate", "move", "weld"})
+    if (word == shared)
+      for (const Keyword &row : keywords())
+        if (word == row.name) {
+          w.expect(row.name, syntax_of(row));
+          row.read_of_mesh(w, mesh);
+          return true;
+        }
+  return false;
+}
+
+bool is_twice(const std::string &word, std::vector<std::string> &seen)
+{
+  const bool repeats = word == "scale" || word == "rotate" || word == "move";
+  const bool twice = !repeats && std::find(seen.begin(), seen.end(), word) != seen.end();
+  seen.push_back(word);
+  return twice;
 }
 
 }    // namespace lsdcd

@@ -26,4 +26,10 @@ struct Keyword {
 const std::vector<Keyword> &keywords();
 std::string syntax_of(const Keyword &row);
 
+// Reads the values of a word that means the same for any mesh: mesh, scale, rotate, move, weld. False:
+// it is none of these.
+bool read_mesh_word(const std::string &word, Tokens &w, MeshSettings &mesh);
+// Of a keyword of a command that may be given once only; `seen` has those before it.
+bool is_twice(const std::string &word, std::vector<std::string> &seen);
+
 }    // namespace lsdcd

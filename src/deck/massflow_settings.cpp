@@ -3,8 +3,6 @@
 #include "base/input_words.h"
 #include "deck/keywords.h"
 
-#include <algorithm>
-
 namespace lsdcd {
 
 namespace {
@@ -21,20 +19,6 @@ void read_every(Tokens &w, MassflowSettings &s)
   if (s.every != n) w.fail("N must be a whole number");
 }
 
-// True where the word is one of a wall's mesh that means the same here.
-bool read_as_mesh(const std::string &word, Tokens &w, MassflowSettings &s)
-{
-  for (const char *const shared : {"mesh", "scale", "rotate", "move", "weld"})
-    if (word == shared)
-      for (const Keyword &row : keywords())
-        if (word == row.name) {
-          w.expect(row.name, syntax_of(row));
-          row.read_of_mesh(w, s.surface);
-          return true;
-        }
-  return false;
-}
-
 }    // namespace
 
 MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
@@ -44,12 +28,10 @@ MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
   std::vector<std::string> seen;
   while (!w.done()) {
     const std::string word = w.take();
-    const bool repeats = word == "scale" || word == "rotate" || word == "move";
-    const bool twice = !repeats && std::find(seen.begin(), seen.end(), word) != seen.end();
-    seen.push_back(word);
+    const bool twice = is_twice(word, seen);
     w.expect("fix massflow/lsdcd", kSyntax);
     if (twice) w.fail("the keyword '" + word + "' is given twice");
-    if (read_as_mesh(word, w, settings)) continue;
+    if (read_mesh_word(word, w, settings.surface)) continue;
     if (word == "count") {
       w.expect("count", "count each | once");
       settings.once = w.choice({"each", "once"}) == 1;

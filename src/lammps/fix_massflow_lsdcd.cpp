@@ -2,7 +2,7 @@
 
 #include "base/input_words.h"
 #include "lammps/host_box.h"
-#include "lammps/mpi_shared.h"
+#include "lammps/mpi_mesh.h"
 
 #include "atom.h"
 #if __has_include("atom_masks.h")
@@ -82,27 +82,14 @@ FixMassflowLsdcd::~FixMassflowLsdcd()
   if (restart_peratom) atom->delete_callback(id, Atom::RESTART);
 }
 
-// The file is read by the first process alone: it may not be there on other nodes. Every process
-// keeps the whole surface.
+// Every process keeps the whole surface.
 lsdcd::WallMesh FixMassflowLsdcd::read_mesh()
 {
-  lsdcd::TriangleSoup soup;
-  soup.source = settings.surface.file;
-  lsdcd::together(world, comm->me == 0, [&] {
-    soup = lsdcd::read_stl(settings.surface.file);
-    settings.surface.placement.apply(soup);
-  });
-  bigint corners = soup.corners.size();
-  MPI_Bcast(&corners, 1, MPI_LMP_BIGINT, 0, world);
-  lsdcd::WallMesh mesh;
-  lsdcd::together(world, true, [&] { soup.corners.resize(corners); });
-  lsdcd::broadcast_bytes(soup.corners.data(), corners * sizeof(Vec3), 0, world);
-  lsdcd::together(world, true, [&] {
-    mesh = lsdcd::weld(soup, settings.surface.weld);
-    if (mesh.faces.empty())
-      throw lsdcd::InputError(soup.source + ": all triangles have no area, and nothing passes such "
-                                            "a surface; check the file, or make weld smaller");
-  });
+  lsdcd::WallMesh mesh = lsdcd::read_together(world, settings.surface);
+  if (mesh.faces.empty())
+    throw lsdcd::InputError(settings.surface.file +
+                            ": all triangles have no area, and nothing passes such a surface; "
+                            "check the file, or make weld smaller");
   return mesh;
 }
 

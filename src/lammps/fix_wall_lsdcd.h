@@ -59,6 +59,9 @@ class FixWallLsdcd : public Fix {
 
   int modify_param(int, char **) override;    // fix_wall_lsdcd_modify.cpp
 
+  // For compute lsdcd/collide: what there is of each mesh, and where it is in this step.
+  const std::deque<MeshPart> &meshes() const { return parts; }
+
  protected:
   lsdcd::WallSettings settings;    // of the deck; parts have those of its meshes
   std::string material;            // what a material file filled in, for the log; else empty

@@ -1,5 +1,9 @@
 #include "lammps/plugin_styles.h"
 
+#include "lammps/compute_collide_lsdcd.h"
+#include "lammps/fix_massflow_lsdcd.h"
+#include "lammps/fix_wall_lsdcd.h"
+
 #include "lammps.h"
 
 #include <cstdio>
@@ -30,18 +34,31 @@ bool host_matches(void *lmp)
   return false;
 }
 
-void add_fix_style(void *lmp, void *handle, void *regfunc, const char *name, const char *info,
-                   lammpsplugin_factory2 *create)
+void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const char *name,
+               const char *info, lammpsplugin_factory2 *create)
 {
   lammpsplugin_t plugin{};
   plugin.version = static_cast<LAMMPS_NS::LAMMPS *>(lmp)->version;
-  plugin.style = "fix";
+  plugin.style = kind;
   plugin.name = name;
   plugin.info = info;
   plugin.author = "the LSDCD authors";
   plugin.creator.v2 = create;
   plugin.handle = handle;
   reinterpret_cast<lammpsplugin_regfunc>(regfunc)(&plugin, lmp);
+}
+
+void add_plain_styles(void *lmp, void *handle, void *regfunc)
+{
+  using namespace LAMMPS_NS;
+  add_style("fix", lmp, handle, regfunc, "wall/lsdcd", "fix wall/lsdcd: DEM walls from an STL mesh",
+            create_fix<FixWallLsdcd>);
+  add_style("fix", lmp, handle, regfunc, "massflow/lsdcd",
+            "fix massflow/lsdcd: what passes a surface from an STL mesh",
+            create_fix<FixMassflowLsdcd>);
+  add_style("compute", lmp, handle, regfunc, "lsdcd/collide",
+            "compute lsdcd/collide: rigid bodies against the walls of fix wall/lsdcd",
+            create_style<Compute, ComputeCollideLsdcd>);
 }
 
 }    // namespace lsdcd

@@ -1,4 +1,4 @@
-// What plugin files of this library share: the check of the host, and telling it a style.
+// What plugin files of this library share: the check of the host, and telling it styles.
 #pragma once
 
 #include "fix.h"
@@ -12,13 +12,24 @@ namespace lsdcd {
 // why it does not match. Touches no object of LAMMPS.
 bool host_matches(void *lmp);
 
-void add_fix_style(void *lmp, void *handle, void *regfunc, const char *name, const char *info,
-                   lammpsplugin_factory2 *create);
+// Of a kind, "fix" or "compute".
+void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const char *name,
+               const char *info, lammpsplugin_factory2 *create);
 
+// As LAMMPS reads it back: a pointer to the kind's own class.
+template <class Base, class Style>
+void *create_style(void *lmp, int narg, char **arg)
+{
+  Base *made = new Style(static_cast<LAMMPS_NS::LAMMPS *>(lmp), narg, arg);
+  return made;
+}
 template <class Fix>
 void *create_fix(void *lmp, int narg, char **arg)
 {
-  return new Fix(static_cast<LAMMPS_NS::LAMMPS *>(lmp), narg, arg);
+  return create_style<LAMMPS_NS::Fix, Fix>(lmp, narg, arg);
 }
+
+// All that do not need Kokkos.
+void add_plain_styles(void *lmp, void *handle, void *regfunc);
 
 }    // namespace lsdcd

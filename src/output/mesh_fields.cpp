@@ -1,44 +1,13 @@
 #include "output/mesh_fields.h"
 
 #include "base/whole_file.h"
+#include "output/vtk_array.h"
 
 #include <cstdint>
-#include <cstring>
 
 namespace lsdcd {
 
 namespace {
-
-std::string base64(const std::vector<unsigned char> &bytes)
-{
-  static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = bytes.size() - i;
-    const std::uint32_t three = std::uint32_t(bytes[i]) << 16 |
-                                (n > 1 ? std::uint32_t(bytes[i + 1]) << 8 : 0) |
-                                (n > 2 ? std::uint32_t(bytes[i + 2]) : 0);
-    text += letters[three >> 18];
-    text += letters[three >> 12 & 63];
-    text += n > 1 ? letters[three >> 6 & 63] : '=';
-    text += n > 2 ? letters[three & 63] : '=';
-  }
-  return text;
-}
-
-// An array as VTK's "binary": the number of bytes in 64 bits, then the values.
-template <class T>
-std::string data_array(const char *type, const std::string &name, const std::vector<T> &values,
-                       const std::string &more = "")
-{
-  const std::uint64_t n_bytes = values.size() * sizeof(T);
-  std::vector<unsigned char> bytes(sizeof n_bytes + n_bytes);
-  std::memcpy(bytes.data(), &n_bytes, sizeof n_bytes);
-  if (n_bytes > 0) std::memcpy(bytes.data() + sizeof n_bytes, values.data(), n_bytes);
-  return std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\"" + more +
-         " format=\"binary\">" + base64(bytes) + "</DataArray>\n";
-}
 
 Real face_area(const WallMesh &mesh, std::size_t face)
 {
@@ -87,9 +56,7 @@ void write_mesh_fields(const std::string &path, const WallMesh &mesh,
   const std::string n_points = std::to_string(mesh.vertices.size());
   const std::string n_faces = std::to_string(mesh.faces.size());
 
-  std::string text = "<?xml version=\"1.0\"?>\n"
-                     "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                     "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n";
+  std::string text = std::string(kVtkHead) + "<FieldData>\n";
   text += data_array<double>("Float64", "TimeValue", {time}, " NumberOfTuples=\"1\"");
   text += data_array<std::int64_t>("Int64", "step", {step}, " NumberOfTuples=\"1\"");
   text += "</FieldData>\n<Piece NumberOfPoints=\"" + n_points + "\" NumberOfPolys=\"" + n_faces +
@@ -102,7 +69,7 @@ void write_mesh_fields(const std::string &path, const WallMesh &mesh,
   text += "</Points>\n<Polys>\n";
   text += data_array("Int32", "connectivity", corners);
   text += data_array("Int32", "offsets", ends);
-  text += "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+  text += std::string("</Polys>\n") + kVtkEnd;
 
   write_whole_file(path, text);
 }

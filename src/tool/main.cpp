@@ -1,6 +1,7 @@
 // lsdcd: what can be done with a mesh without a simulation.
 #include "base/input_error.h"
 #include "tool/accuracy_command.h"
+#include "tool/collide_command.h"
 #include "tool/convert_command.h"
 #include "tool/distance_command.h"
 #include "tool/effects_command.h"
@@ -42,7 +43,8 @@ bool are_commands(const CLI::App &app, char **word)
 
 int main(int argc, char **argv)
 {
-  CLI::App app{"lsdcd: meshes of DEM walls, their grids, distances to them, and materials"};
+  CLI::App app{
+      "lsdcd: meshes of DEM walls, their grids, distances to them, bodies in them, and materials"};
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("lsdcd " LSDCD_VERSION " (" LSDCD_COMMIT ")"));
   app.footer("lsdcd COMMAND --help tells more, with an example.\n"
@@ -55,6 +57,7 @@ int main(int argc, char **argv)
   add_generate_command(app);
   add_grid_command(app);
   add_distance_command(app);
+  add_collide_command(app);
   add_material_command(app);
   add_tradeoff_command(app);
   add_accuracy_command(app);

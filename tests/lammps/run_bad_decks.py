@@ -35,6 +35,8 @@ def main():
     floor = (deck.HERE / "decks" / "floor.stl").read_bytes()
     (folder / "floor.stl").write_bytes(floor)
     (folder / "bad.lsdcd").write_text("units si\nmaterial glass\n  youngs_modulus soft Pa\n")
+    (folder / "points.txt").write_text("0 0 0\n1 0 0\n0 1 0\n")
+    (folder / "unit.txt").write_text("0 0 0\n1 0 0\n0 1 0\n\n0 0 1\n")
     (folder / "truncated.stl").write_bytes(floor[:len(floor) // 2])
     decks = [(path, ranks) for path in sorted((deck.HERE / "bad_decks").glob("in.*")) for ranks in (1, 2)]
     with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as some:

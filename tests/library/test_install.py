@@ -20,6 +20,9 @@ failed = 0
 CUBE_FACES = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7),
               (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]
 WANTED = "inf 0.25\n"
+# Two heights above a floor of one large triangle; then its four upright sides, of two triangles each, in it.
+WANTED_PAIRS = "0 0 8 \n"
+FLOOR = "solid floor\nfacet normal 0 0 1\nouter loop\nvertex -20 -20 0\nvertex 20 -20 0\nvertex 0 30 0\nendloop\nendfacet\nendsolid\n"
 
 PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(user LANGUAGES C CXX)
@@ -29,6 +32,9 @@ target_link_libraries(in_c lsdcd::core)
 add_executable(in_cpp distance.cpp)
 set_target_properties(in_cpp PROPERTIES CXX_STANDARD 17)
 target_link_libraries(in_cpp lsdcd::{last})
+add_executable(collide collide.cpp)
+set_target_properties(collide PROPERTIES CXX_STANDARD 17)
+target_link_libraries(collide lsdcd::{last})
 """
 
 
@@ -88,7 +94,7 @@ def check_builds(prefix, work, libraries):
     fact("the example in C compiles by pkg-config", code == 0, text)
     gives("and gives the distances", WANTED, "./c", "cube.stl", folder=work, **there)
 
-    for example in ("distance.c", "distance.cpp"):
+    for example in ("distance.c", "distance.cpp", "collide.cpp"):
         os.symlink(os.path.join(examples, example), os.path.join(work, example))
     for components in (["core"], ["core", "cuda"]):
         build = os.path.join(work, "build_" + components[-1])
@@ -107,6 +113,7 @@ def check_builds(prefix, work, libraries):
         for program in ("in_c", "in_cpp"):
             gives(f"and {program} gives the distances", WANTED, os.path.join(build, program), "cube.stl",
                   folder=work)
+        gives("and collide the pairs", WANTED_PAIRS, os.path.join(build, "collide"), "floor.stl", "cube.stl", folder=work)
     code, text = run(os.path.join(work, "c"), "nowhere.stl", folder=work, **there)
     fact("an error has its text", code != 0 and "nowhere.stl" in text, text)
 
@@ -115,6 +122,8 @@ def check_python(prefix, work):
     path = find(prefix, "lsdcd.py")
     gives("the example in Python gives the distances", WANTED, PYTHON,
           os.path.join(ROOT, "examples", "library", "distance.py"), "cube.stl", folder=work, PYTHONPATH=path)
+    gives("and the pairs", WANTED_PAIRS, PYTHON,
+          os.path.join(ROOT, "examples", "library", "collide.py"), "floor.stl", "cube.stl", folder=work, PYTHONPATH=path)
     gives("the module's own test", "all good", PYTHON,
           os.path.join(ROOT, "tests", "library", "use_module.py"), folder=work, PYTHONPATH=path)
 
@@ -160,6 +169,8 @@ def main():
             return 1
         os.rename(installed, prefix)
         write_cube(os.path.join(work, "cube.stl"))
+        with open(os.path.join(work, "floor.stl"), "w", encoding="ascii") as f:
+            f.write(FLOOR)
         libraries = find(prefix, "liblsdcd.so.0")
         check_symbols(prefix, os.path.join(libraries, "liblsdcd.so.0"))
         check_builds(prefix, work, libraries)

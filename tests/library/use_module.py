@@ -92,4 +92,28 @@ for t in threads:
 for t in threads:
     t.join()
 assert not wrong
+
+# A body: the cube half through a floor of one large triangle, then above it. Its four upright sides
+# meet the floor, two triangles each, in segments as long as the cube's perimeter, 8.
+floor = lsdcd.Mesh([[[-20, -20, 0], [20, -20, 0], [0, 30, 0]]])
+body = lsdcd.Body(floor, mesh, cell=0.5)
+found = body.collide(position=(0, 0, 0.25), segments=True)
+upright = [t for t, face in enumerate(CUBE_FACES) if len({v >> 2 for v in face}) == 2]
+assert found.collides and found.wall.tolist() == [0] * 8 and found.body.tolist() == upright, found
+assert abs(np.linalg.norm(found.segments[:, 1] - found.segments[:, 0], axis=1).sum() - 8) < 1e-14
+assert found.uncertain == 0 and body.facts.triangles == 12 and body.facts.cell == 0.5
+assert not body.collide((0, 0, 1.25)).collides and len(body.collide((0, 0, 1.25)).wall) == 0
+turned = np.eye(4)
+turned[:3] = [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0.25]]    # about z, by 90 degrees
+for matrix in (turned, turned[:3]):
+    assert body.collide(matrix=matrix).body.tolist() == upright
+assert body.collide((0, 0, 0.25), quaternion=[np.sqrt(.5), 0, 0, np.sqrt(.5)]).body.tolist() == upright
+assert lsdcd.Body(body, mesh).collide((0, 0, 0.25)).body.tolist() == upright
+blades = np.array([[[x, 0, -1], [x + .001, 0, -1], [x, 0, 1]] for x in np.linspace(-5, 5, 3000)])
+assert lsdcd.Body(body, lsdcd.Mesh(blades)).collide((0, 0, 0)).body.tolist() == list(range(3000))
+assert refused(lsdcd.Error, "pose", lambda: body.collide()).code == "argument"
+assert refused(lsdcd.Error, "no rotation", lambda: body.collide(matrix=2 * turned[:3])).code == "input"
+assert refused(lsdcd.Error, "same_wall", lambda: lsdcd.Body(body, mesh, cell=1)).code == "argument"
+refused(TypeError, "position has the shape", lambda: body.collide((0, 0)))
+refused(TypeError, "last row", lambda: body.collide(matrix=np.ones((4, 4))))
 print("all good")

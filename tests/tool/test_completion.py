@@ -24,6 +24,8 @@ def main():
     fact("shapes", {"box", "screw"} <= set(completed("generate", "")), completed("generate", ""))
     fact("a command's options", {"--radius", "--cutoff", "--json", "--output", "-o"} <=
          set(completed("distance", "wall.stl", "-")), completed("distance", "wall.stl", "-"))
+    fact("poses of a body", completed("collide", "wall.stl", "body.stl", "--po") == ["--pose", "--poses"],
+         completed("collide", "wall.stl", "body.stl", "--po"))
     fact("a shape's options", completed("generate", "screw", "--pi") == ["--pitch"],
          completed("generate", "screw", "--pi"))
     fact("devices", completed("distance", "a", "b", "--device", "cu") == ["cuda"])

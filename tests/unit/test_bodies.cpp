@@ -199,6 +199,34 @@ TEST(bodies, triangles_in_one_plane_are_flagged)
   for (const MeetingSegment &s : found.segments) EXPECT_TRUE(s.flat);
 }
 
+// One small blade through the middle of each triangle of a floor, and of each body a second time
+// shifted out of it: more pairs than there is room for at first, then none.
+TEST(bodies, many_pairs_find_room)
+{
+  const TriangleSoup floor = floor_mesh(200, 1);
+  ASSERT_EQ(floor.n_triangles(), 80000u);
+  const WallMesh mesh = weld(floor, 0);
+  TriangleSoup body;
+  body.source = "blades";
+  const Real a = 1e-3;    // a fifth of the floor's legs
+  for (std::size_t t = 0; t < floor.n_triangles(); t++) {
+    const Vec3 *c = &floor.corners[3 * t], middle = (1. / 3) * (c[0] + c[1] + c[2]);
+    for (const Vec3 &off : {Vec3{-a, 0, -a}, Vec3{a, 0, -a}, Vec3{0, 0, a}})
+      body.corners.push_back(middle + off);
+  }
+  const TriangleGrid grid = build_grid(mesh, collision_grid(body, 0.02));
+  const auto collision = collision_of(grid, body);
+  for (const Real up : {0., 0., 0.1}) {
+    BodyPose pose;
+    pose.shift.z = up;
+    const Collision found = collision->collide(pose, true);
+    ASSERT_EQ(found.pairs.size(), up > 0 ? 0u : 80000u);
+    ASSERT_EQ(found.segments.size(), found.pairs.size());
+    for (std::uint32_t t = 0; t < found.pairs.size(); t++)
+      ASSERT_TRUE((found.pairs[t] == BodyPair{t, feature_code(FeatureKind::face, t)})) << t;
+  }
+}
+
 // Lists of one triangle miss pairs, and say of how many pieces that may be so.
 TEST(bodies, nearest_lists_find_no_pair_too_many_and_say_where_they_were_cut_short)
 {
@@ -229,6 +257,7 @@ TEST(bodies, wrong_use_is_an_error)
   of_features.cutoff = 0.1;
   auto collision = make_body_collision(test_device());
   EXPECT_THROW(collision->set_body(body), InputError);
+  EXPECT_THROW(collision->collide(BodyPose()), InputError);
   EXPECT_THROW(collision->set_wall(build_grid(mesh, of_features)), InputError);
   collision->set_wall(build_grid(mesh, collision_grid(body, 0.1)));
   EXPECT_THROW(collision->set_body(TriangleSoup()), InputError);
@@ -236,6 +265,7 @@ TEST(bodies, wrong_use_is_an_error)
   TriangleSoup no_number = body;
   no_number.corners[4].y = std::nan("");
   EXPECT_THROW(collision->set_body(no_number), InputError);
+  EXPECT_THROW(collision->collide(BodyPose()), InputError);
   collision->set_body(body);
   BodyPose pose;
   pose.row[0] = {1.001, 0, 0};

@@ -1,0 +1,190 @@
+// lsdcd_body_*, lsdcd_collide
+#include "api/c_border.h"
+#include "api/call_threads.h"
+#include "api/device_memory.h"
+#include "api/objects.h"
+#include "bodies/mesh_collision.h"
+#include "bodies/read_pose.h"
+#include "engine/wall_engine.h"
+
+#include <cmath>
+#include <limits>
+
+using namespace lsdcd;
+
+struct lsdcd_body {
+  MeshCollision in;
+  int nearest, device;
+  int gpu = -1;    // on which, where it is one
+};
+
+namespace {
+
+int current_gpu(int device)
+{
+#if defined(LSDCD_HAVE_CUDA)
+  if (device == LSDCD_CUDA) return current_cuda_device();
+#endif
+  (void) device;
+  return -1;
+}
+
+void refuse(const std::string &text)
+{
+  throw ApiError(LSDCD_ERROR_ARGUMENT, "`lsdcd_body_options`: " + text);
+}
+
+MeshCollisionSettings settings_of(const lsdcd_body_options &o)
+{
+  if (!(o.cell >= 0) || !std::isfinite(o.cell))
+    refuse("cell is " + std::to_string(o.cell) + "; give a length, or 0 to have it chosen");
+  if (o.nearest < 0 || o.nearest > kMostNearest)
+    refuse("nearest is " + std::to_string(o.nearest) + "; it is 0, for all, or up to " +
+           std::to_string(kMostNearest));
+  if (!(o.memory >= 0) || !(o.memory < 1e18))
+    refuse("memory is " + std::to_string(o.memory) + "; give bytes, or 0 for the default");
+  if (o.device != LSDCD_CPU && o.device != LSDCD_CUDA)
+    refuse("device is neither LSDCD_CPU nor LSDCD_CUDA");
+  std::string why;
+  if (o.device == LSDCD_CUDA && !cuda_available(&why))
+    throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why + "; use LSDCD_CPU");
+  MeshCollisionSettings s;
+  s.cell = o.cell;
+  s.nearest = o.nearest;
+  s.memory = static_cast<std::size_t>(o.memory);
+  s.device = o.device == LSDCD_CUDA ? Device::cuda : Device::cpu;
+  return s;
+}
+
+void check_gpu(const lsdcd_body &body)
+{
+  if (current_gpu(body.device) != body.gpu)
+    throw ApiError(LSDCD_ERROR_DEVICE, "the body is on CUDA device " + std::to_string(body.gpu) +
+                                           ", and another one is current: call cudaSetDevice()");
+}
+
+lsdcd_body *with_same_wall(const lsdcd_mesh *wall, const lsdcd_mesh &mesh,
+                           const lsdcd_body_options &o)
+{
+  if (wall || o.cell != 0 || o.nearest != 0 || o.memory != 0 || o.device != 0)
+    refuse("same_wall is given, so that wall, cell, nearest, memory and device are that body's: "
+           "leave them out");
+  check_gpu(*o.same_wall);
+  return new lsdcd_body{MeshCollision(o.same_wall->in, mesh.in->mesh), o.same_wall->nearest,
+                        o.same_wall->device, o.same_wall->gpu};
+}
+
+BodyPose pose_of(const lsdcd_collision &c)
+{
+  if (c.matrix && (c.position || c.quaternion))
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`matrix` is given beside `position` or `quaternion`");
+  if (!c.matrix && !c.position && !c.quaternion)
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "there is no pose: give `matrix`, or `position`, `quaternion` or both");
+  if (c.matrix) return pose_of_matrix(c.matrix);
+  const double as_it_is[4] = {1, 0, 0, 0};
+  const Vec3 at = c.position ? Vec3{c.position[0], c.position[1], c.position[2]} : Vec3{0, 0, 0};
+  return pose_of_quaternion(at, c.quaternion ? c.quaternion : as_it_is);
+}
+
+lsdcd_collision checked_collision(const lsdcd_collision *given)
+{
+  const lsdcd_collision c = checked(given, "lsdcd_collision");
+  if (c.threads < 0)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`threads` is " + std::to_string(c.threads));
+  if (c.room == 0 && (c.wall_triangle || c.body_triangle || c.segment))
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "there are arrays for pairs, but `room` is 0: give how many pairs they hold");
+  const std::pair<const void *, const char *> arrays[] = {{c.matrix, "matrix"},
+                                                          {c.position, "position"},
+                                                          {c.quaternion, "quaternion"},
+                                                          {c.wall_triangle, "wall_triangle"},
+                                                          {c.body_triangle, "body_triangle"},
+                                                          {c.segment, "segment"}};
+  for (const auto &[array, name] : arrays)
+    if (array && only_on_device(array))
+      throw ApiError(LSDCD_ERROR_DEVICE,
+                     std::string("the array `") + name + "` is in a GPU's memory: give the host's");
+  return c;
+}
+
+void hand_out_pairs(const MeshCollision &of, const Collision &found, const lsdcd_collision &c)
+{
+  const std::size_t n = std::min(c.room, found.pairs.size());
+  for (std::size_t i = 0; i < n; i++) {
+    if (c.wall_triangle) c.wall_triangle[i] = of.wall_triangle(found.pairs[i]);
+    if (c.body_triangle) c.body_triangle[i] = of.body_triangle(found.pairs[i]);
+    if (!c.segment) continue;
+    const MeetingSegment &s = found.segments[i];
+    for (int k = 0; k < 3; k++) {
+      const double none = std::numeric_limits<double>::quiet_NaN();
+      c.segment[6 * i + k] = s.flat ? none : s.from[k];
+      c.segment[6 * i + 3 + k] = s.flat ? none : s.to[k];
+    }
+  }
+}
+
+}    // namespace
+
+extern "C" {
+
+int lsdcd_body_make(const lsdcd_mesh *wall, const lsdcd_mesh *mesh,
+                    const lsdcd_body_options *options, lsdcd_body **body)
+{
+  return at_c_border([&] {
+    need(body, "body");
+    need(mesh, "mesh");
+    lsdcd_body_options o = {};
+    o.size = sizeof o;
+    if (options) o = checked(options, "lsdcd_body_options");
+    if (o.threads < 0) refuse("threads is " + std::to_string(o.threads));
+    const CallThreads threads(o.threads);
+    if (o.same_wall) {
+      *body = with_same_wall(wall, *mesh, o);
+      return;
+    }
+    need(wall, "wall");
+    const MeshCollisionSettings settings = settings_of(o);
+    *body = new lsdcd_body{MeshCollision(wall->in->mesh, mesh->in->mesh, settings), o.nearest,
+                           o.device, current_gpu(o.device)};
+  });
+}
+
+int lsdcd_body_get_facts(const lsdcd_body *body, lsdcd_body_facts *facts)
+{
+  return at_c_border([&] {
+    need(body, "body");
+    lsdcd_body_facts f = checked(facts, "lsdcd_body_facts");
+    f.triangles = body->in.n_triangles();
+    f.pieces = body->in.n_pieces();
+    f.cell = body->in.grid().length;
+    f.grid_bytes = body->in.grid().bytes;
+    f.nearest = body->nearest;
+    f.device = body->device;
+    hand_out(f, facts);
+  });
+}
+
+int lsdcd_collide(lsdcd_body *body, lsdcd_collision *collision)
+{
+  return at_c_border([&] {
+    need(body, "body");
+    lsdcd_collision c = checked_collision(collision);
+    const BodyPose pose = pose_of(c);
+    check_gpu(*body);
+    const CallThreads threads(c.threads);
+    const Collision found = body->in.collide(pose, c.segment != nullptr);
+    hand_out_pairs(body->in, found, c);
+    c.collides = found.any();
+    c.pairs = found.pairs.size();
+    c.uncertain = found.uncertain;
+    hand_out(c, collision);
+  });
+}
+
+void lsdcd_body_free(lsdcd_body *body)
+{
+  delete body;
+}
+
+}    // extern "C"

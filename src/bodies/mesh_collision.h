@@ -1,0 +1,56 @@
+// A body's mesh against a wall's mesh, with triangles by their numbers in the files.
+#pragma once
+
+#include "bodies/body_collision.h"
+#include "mesh/wall_mesh.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace lsdcd {
+
+struct MeshCollisionSettings {
+  Real cell = 0;             // length; 0: chosen, as collision_grid() does
+  int nearest = 0;           // 0: exact; N: the paper's lists
+  std::size_t memory = 0;    // bytes of the wall's grid; 0: the default
+  Device device = Device::cpu;
+};
+
+// What a pair has where welding left no face of a triangle of the wall: it has no area.
+constexpr std::uint32_t kNoFace = 0xffffffff;
+
+class MeshCollision {
+ public:
+  // Faces of the body are its triangles: those without area are left out. Throws InputError.
+  MeshCollision(const WallMesh &wall, const WallMesh &body, const MeshCollisionSettings &settings);
+  // Another body against the same wall, whose grid both share; on the same device.
+  MeshCollision(const MeshCollision &same_wall, const WallMesh &body);
+
+  Collision collide(const BodyPose &pose, bool with_segments = false)
+  {
+    return collision_->collide(pose, with_segments);
+  }
+  // In their files, from 0.
+  std::uint32_t wall_triangle(const BodyPair &pair) const
+  {
+    return feature_kind(pair.wall) == FeatureKind::face ? (*wall_facet_)[feature_index(pair.wall)]
+                                                        : kNoFace;
+  }
+  std::uint32_t body_triangle(const BodyPair &pair) const { return body_facet_[pair.triangle]; }
+
+  const GridReport &grid() const { return grid_; }
+  std::size_t n_triangles() const { return body_facet_.size(); }
+  std::size_t n_pieces() const { return collision_->n_pieces(); }
+  std::string device() const { return collision_->device(); }
+
+ private:
+  void set_body(const WallMesh &body);
+
+  std::unique_ptr<BodyCollision> collision_;
+  std::shared_ptr<const std::vector<std::uint32_t>> wall_facet_;
+  std::vector<std::uint32_t> body_facet_;
+  GridReport grid_;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,289 @@
+#include "lammps/compute_collide_lsdcd.h"
+
+#include "base/input_error.h"
+
+#include "lammps/fix_wall_lsdcd.h"
+#include "lammps/host_box.h"
+#include "lammps/mpi_mesh.h"
+#include "lammps/mpi_shared.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "memory.h"
+#include "modify.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using lsdcd::BodyPose;
+using lsdcd::Vec3;
+
+namespace {
+
+constexpr double kRim = 1e-6;    // for rounding
+
+BodyPose moved(BodyPose pose, const Vec3 &by)
+{
+  pose.shift += by;
+  return pose;
+}
+
+// A pose in the box, as seen from a mesh.
+BodyPose in_frame_of(const lsdcd::WallPose &wall, const BodyPose &pose)
+{
+  BodyPose there;
+  for (int d = 0; d < 3; d++) {
+    const Vec3 column = wall.turn_to_mesh({pose.row[0][d], pose.row[1][d], pose.row[2][d]});
+    for (int r = 0; r < 3; r++) there.row[r][d] = column[r];
+  }
+  there.shift = wall.to_mesh(pose.shift);
+  return there;
+}
+
+}    // namespace
+
+ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg)
+{
+  try {
+    settings = lsdcd::parse_collide(std::vector<std::string>(arg + 3, arg + narg));
+    const lsdcd::WallMesh mesh = lsdcd::read_together(world, settings.mesh);
+    if (mesh.faces.empty())
+      throw lsdcd::InputError(settings.mesh.file +
+                              ": all triangles have no area; check the file, or make weld smaller");
+    middle = 0.5 * (mesh.report.lo + mesh.report.hi);
+    for (const Vec3 &x : mesh.vertices) reach = std::max(reach, norm(x - middle));
+    find_bodies();
+    make_collisions(mesh);
+    log(mesh);
+  } catch (const lsdcd::InputError &e) {
+    refuse(e.what());
+  }
+  found.assign(bodies.size() + 1, 0.0);
+
+  scalar_flag = vector_flag = array_flag = 1;
+  extscalar = extvector = extarray = 0;
+  size_vector = 3;
+  size_array_rows = static_cast<int>(bodies.size());
+  size_array_cols = 2;
+  vector = new double[size_vector];
+  memory->create(array, size_array_rows, size_array_cols, "lsdcd/collide:array");
+}
+
+ComputeCollideLsdcd::~ComputeCollideLsdcd()
+{
+  delete[] vector;
+  memory->destroy(array);
+}
+
+const FixWallLsdcd &ComputeCollideLsdcd::wall() const
+{
+  for (int i = 0; i < modify->nfix; i++)
+    if (settings.wall == modify->fix[i]->id) {
+      const auto *fix = dynamic_cast<const FixWallLsdcd *>(modify->fix[i]);
+      if (fix) return *fix;
+      refuse("fix " + settings.wall + " is of style " + modify->fix[i]->style +
+             "; give the ID of a fix wall/lsdcd");
+    }
+  refuse("there is no fix '" + settings.wall +
+         "': give the ID of a fix wall/lsdcd, which is defined before the compute");
+}
+
+bool ComputeCollideLsdcd::is_mine(int body) const
+{
+  return body % comm->nprocs == comm->me;
+}
+bool ComputeCollideLsdcd::has_any() const
+{
+  return comm->me < static_cast<int>(bodies.size());
+}
+
+// Only processes that have bodies keep grids.
+void ComputeCollideLsdcd::make_collisions(const lsdcd::WallMesh &body)
+{
+  lsdcd::MeshCollisionSettings how;
+  how.cell = settings.grid_length;
+  how.nearest = settings.nearest;
+  how.memory = settings.memory;
+  how.device = settings.device;
+  for (const MeshPart &part : wall().meshes()) {
+    const lsdcd::WallMesh mesh = lsdcd::copy_together(world, part.wall.mesh());
+    Against one;
+    one.report = part.wall.report();
+    one.bounds = {one.report.lo, one.report.hi};
+    lsdcd::together(world, has_any(), [&] {
+      one.collision = std::make_unique<lsdcd::MeshCollision>(mesh, body, how);
+    });
+    meshes.push_back(std::move(one));
+  }
+}
+
+// The same wall as when the compute was defined?
+void ComputeCollideLsdcd::check_wall(const FixWallLsdcd &fix) const
+{
+  bool same = fix.meshes().size() == meshes.size();
+  for (std::size_t m = 0; same && m < meshes.size(); m++) {
+    const lsdcd::MeshReport &now = fix.meshes()[m].wall.report(), &was = meshes[m].report;
+    same = now.facets == was.facets && now.vertices == was.vertices && now.area == was.area &&
+           norm(now.lo - was.lo) == 0 && norm(now.hi - was.hi) == 0;
+  }
+  if (!same)
+    refuse("fix " + settings.wall +
+           " has other meshes than when the compute was defined: define the compute again");
+}
+
+void ComputeCollideLsdcd::init()
+{
+  check_wall(wall());
+  evaluated_at = -1;    // atoms may have been moved since
+}
+
+void ComputeCollideLsdcd::evaluate()
+{
+  if (evaluated_at == update->ntimestep) return;
+  const FixWallLsdcd &fix = wall();
+  const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
+  const std::vector<double> sums = gather_sums();
+  found.assign(bodies.size() + 1, 0.0);
+  const int n = static_cast<int>(bodies.size());
+  try {
+    lsdcd::together(world, true, [&] {
+      for (int body = 0; body < n; body++)
+        if (is_mine(body)) collide(body, pose_of(body, sums), fix, box);
+    });
+  } catch (const lsdcd::InputError &e) {
+    refuse("at step " + std::to_string(update->ntimestep) + ": " + e.what());
+  }
+  MPI_Allreduce(MPI_IN_PLACE, found.data(), n + 1, MPI_DOUBLE, MPI_SUM, world);
+  evaluated_at = update->ntimestep;
+  constexpr int kX = 2;    // of the sums
+  for (int body = 0; body < n; body++) {
+    const double *s = &sums[lsdcd::PosePoints::kSums * body];
+    bodies[body].near += (1 / s[0]) * Vec3{s[kX], s[kX + 1], s[kX + 2]};
+  }
+}
+
+// A body and its images in a periodic box, against each mesh where that is now. A pair of triangles
+// counts once, whichever images meet.
+void ComputeCollideLsdcd::collide(int body, const BodyPose &pose, const FixWallLsdcd &fix,
+                                  const lsdcd::PeriodicBox &box)
+{
+  for (std::size_t m = 0; m < meshes.size(); m++) {
+    const lsdcd::WallPose &wall = fix.meshes()[m].pose;
+    std::vector<lsdcd::BodyPair> pairs;
+    for_images(pose, wall, meshes[m].bounds, box, [&](const Vec3 &shift) {
+      const lsdcd::Collision meets =
+          meshes[m].collision->collide(in_frame_of(wall, moved(pose, shift)));
+      pairs.insert(pairs.end(), meets.pairs.begin(), meets.pairs.end());
+      found.back() += static_cast<double>(meets.uncertain);
+    });
+    std::sort(pairs.begin(), pairs.end());
+    found[body] += static_cast<double>(std::unique(pairs.begin(), pairs.end()) - pairs.begin());
+  }
+}
+
+// Calls visit(shift) for images of the body, in the box's frame, whose ball reaches into the box
+// around a mesh.
+template <class Visit>
+void ComputeCollideLsdcd::for_images(const BodyPose &pose, const lsdcd::WallPose &wall,
+                                     const lsdcd::Box &bounds, const lsdcd::PeriodicBox &box,
+                                     const Visit &visit) const
+{
+  const Vec3 centre = pose.corner_at(middle), at = box.fraction(centre);
+  int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
+  for (int k = 0; k < 3; k++) {
+    if (!box.periodic[k]) continue;
+    double lo = HUGE_VAL, hi = -HUGE_VAL;    // of the mesh, from the body, in boxes
+    lsdcd::for_corners(bounds, [&](const Vec3 &corner) {
+      const double f = box.fraction(wall.to_box(corner))[k] - at[k];
+      lo = std::min(lo, f);
+      hi = std::max(hi, f);
+    });
+    const double past = reach / box.width(k) + kRim;
+    first[k] = static_cast<int>(std::ceil(lo - past));
+    last[k] = static_cast<int>(std::floor(hi + past));
+  }
+  for (int i = first[0]; i <= last[0]; i++)
+    for (int j = first[1]; j <= last[1]; j++)
+      for (int k = first[2]; k <= last[2]; k++) {
+        const Vec3 shift =
+            double(i) * box.edge[0] + double(j) * box.edge[1] + double(k) * box.edge[2];
+        const Vec3 c = wall.to_mesh(centre + shift);
+        Vec3 out = {0, 0, 0};
+        for (int d = 0; d < 3; d++)
+          out[d] = std::max({bounds.lo[d] - c[d], c[d] - bounds.hi[d], 0.0});
+        if (norm(out) <= reach * (1 + kRim)) visit(shift);
+      }
+}
+
+// Bodies that meet the wall.
+double ComputeCollideLsdcd::compute_scalar()
+{
+  invoked_scalar = update->ntimestep;
+  evaluate();
+  return scalar = static_cast<double>(
+             std::count_if(found.begin(), found.end() - 1, [](double pairs) { return pairs > 0; }));
+}
+
+// Pairs of all bodies; bodies; pieces that may have missed pairs.
+void ComputeCollideLsdcd::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  evaluate();
+  vector[0] = 0;
+  for (std::size_t body = 0; body < bodies.size(); body++) vector[0] += found[body];
+  vector[1] = static_cast<double>(bodies.size());
+  vector[2] = found.back();
+}
+
+// Of each body: its molecule, 0 where there is one body; its pairs.
+void ComputeCollideLsdcd::compute_array()
+{
+  invoked_array = update->ntimestep;
+  evaluate();
+  for (std::size_t body = 0; body < bodies.size(); body++) {
+    array[body][0] = static_cast<double>(bodies[body].molecule);
+    array[body][1] = found[body];
+  }
+}
+
+double ComputeCollideLsdcd::memory_usage()
+{
+  double bytes = static_cast<double>(place_of.size()) * (sizeof(Place) + 4 * sizeof(void *));
+  for (const Against &one : meshes)
+    if (one.collision) bytes += static_cast<double>(one.collision->grid().bytes);
+  return bytes;
+}
+
+void ComputeCollideLsdcd::log(const lsdcd::WallMesh &mesh) const
+{
+  if (comm->me != 0) return;
+  std::string text = std::to_string(bodies.size()) + (bodies.size() == 1 ? " body" : " bodies") +
+                     " of " + std::to_string(points->size()) + " atoms and " +
+                     std::to_string(mesh.faces.size()) + " triangles";
+  for (const Against &one : meshes) {
+    char line[160];
+    std::snprintf(
+        line, sizeof line, "\n  against %zu triangles of fix %s: %zu pieces, cells of %g, %.3g MB",
+        one.report.facets, settings.wall.c_str(), one.collision->n_pieces(),
+        one.collision->grid().length, 1e-6 * static_cast<double>(one.collision->grid().bytes));
+    if (!settings.brief) text += line;
+  }
+  if (!settings.brief) text += "\n" + describe(mesh.report, settings.mesh.file);
+  utils::logmesg(lmp, signed_text(text) + "\n");
+}
+
+std::string ComputeCollideLsdcd::signed_text(const std::string &text) const
+{
+  return "Compute " + std::string(id) + " lsdcd/collide: " + text;
+}
+
+void ComputeCollideLsdcd::refuse(const std::string &problem) const
+{
+  error->all(FLERR, signed_text(problem));
+}

@@ -1,0 +1,18 @@
+// Meshes that every process has whole.
+#pragma once
+
+#include "deck/settings.h"
+#include "mesh/wall_mesh.h"
+
+#include <mpi.h>
+
+namespace lsdcd {
+
+// The file is read by the first process alone: it may not be there on other nodes. Collective;
+// throws InputError on all.
+WallMesh read_together(MPI_Comm world, const MeshSettings &settings);
+
+// A copy of a mesh that the first process has; others give null. Its faces keep their numbers.
+WallMesh copy_together(MPI_Comm world, const WallMesh *mesh);
+
+}    // namespace lsdcd

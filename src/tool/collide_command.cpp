@@ -1,0 +1,228 @@
+#include "tool/collide_command.h"
+
+#include "base/input_error.h"
+#include "parallel/threads.h"
+#include "tool/load_mesh.h"
+#include "tool/mesh_json.h"
+#include "tool/pair_writer.h"
+#include "tool/pose_reader.h"
+#include "tool/progress.h"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+namespace lsdcd {
+
+namespace {
+
+struct Options {
+  std::string wall, body, poses, output, segments, device = "auto";
+  std::vector<double> pose, scale, body_scale;
+  double weld = -1, cell = 0, memory = 0;
+  int nearest = 0, threads = 0;
+  bool json = false, progress = false;
+};
+
+struct Totals {
+  std::vector<std::size_t> pairs;    // of each pose
+  std::size_t all = 0, colliding = 0, first = 0, most = 0;
+  std::uint64_t uncertain = 0;
+  double seconds = 0;    // of collisions alone
+
+  void add(const Collision &found)
+  {
+    const std::size_t n = found.pairs.size();
+    if (n > 0 && colliding++ == 0) first = pairs.size();
+    if (pairs.empty() || n > pairs[most]) most = pairs.size();
+    pairs.push_back(n);
+    all += n;
+    uncertain += found.uncertain;
+  }
+};
+
+double since(std::chrono::steady_clock::time_point then)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
+std::string progress_text(const Totals &t, double share)
+{
+  char text[96];
+  std::snprintf(text, sizeof text, "%zu poses, %.0f%%, %.3g a second", t.pairs.size(), 100 * share,
+                static_cast<double>(t.pairs.size()) / t.seconds);
+  return text;
+}
+
+// Each pose of the file, or the one that was given.
+template <class Visit>
+void each_pose(const Options &o, const Visit &visit)
+{
+  if (o.poses.empty()) {
+    visit(o.pose.empty() ? BodyPose() : pose_of_numbers(o.pose), 1);
+    return;
+  }
+  PoseReader reader(o.poses);
+  BodyPose pose;
+  while (reader.read(pose)) visit(pose, reader.share_read());
+}
+
+Totals run(const Options &o, MeshCollision &collision, PairWriter *pairs, PairWriter *segments)
+{
+  Progress progress(o.progress);
+  Totals totals;
+  each_pose(o, [&](const BodyPose &pose, double share) {
+    const auto asked = std::chrono::steady_clock::now();
+    Collision found;
+    try {
+      found = collision.collide(pose, segments != nullptr);
+    } catch (const InputError &e) {
+      throw InputError("pose " + std::to_string(totals.pairs.size()) + ": " + e.what());
+    }
+    totals.seconds += since(asked);
+    if (pairs) pairs->write(totals.pairs.size(), collision, found);
+    if (segments) segments->write(totals.pairs.size(), collision, found);
+    totals.add(found);
+    progress.show(progress_text(totals, share));
+  });
+  if (totals.pairs.empty()) throw InputError(o.poses + ": there is no pose in it");
+  return totals;
+}
+
+void print(const Options &o, const Totals &t, const MeshCollision &collision)
+{
+  const std::size_t n = t.pairs.size();
+  const GridReport &grid = collision.grid();
+  const double ms = 1e3 * t.seconds / static_cast<double>(n);
+  if (o.json) {
+    nlohmann::json j = {{"poses", n},
+                        {"colliding", t.colliding},
+                        {"pairs", t.all},
+                        {"pairs_of_pose", t.pairs},
+                        {"exact", o.nearest == 0},
+                        {"uncertain_pieces", t.uncertain},
+                        {"triangles", collision.n_triangles()},
+                        {"pieces", collision.n_pieces()},
+                        {"cell", grid.length},
+                        {"grid_bytes", grid.bytes},
+                        {"grid_seconds", grid.seconds},
+                        {"milliseconds_per_pose", ms},
+                        {"device", collision.device()}};
+    if (!o.output.empty()) j["output"] = o.output;
+    if (!o.segments.empty()) j["segments"] = o.segments;
+    std::printf("%s\n", j.dump(2).c_str());
+    return;
+  }
+  std::printf("%s against %s\n", o.body.c_str(), o.wall.c_str());
+  if (n == 1)
+    std::printf("  collides    %s\n  pairs       %zu\n", t.all > 0 ? "yes" : "no", t.all);
+  else if (t.colliding == 0)
+    std::printf("  collides    in none of %zu poses\n", n);
+  else
+    std::printf("  collides    in %zu of %zu poses, first in pose %zu (from 0)\n"
+                "  pairs       %zu in all, most in pose %zu: %zu\n",
+                t.colliding, n, t.first, t.all, t.most, t.pairs[t.most]);
+  if (o.nearest > 0)
+    std::printf("  certain     %s: %llu pieces in cells with more than %d triangles\n",
+                t.uncertain > 0 ? "no" : "yes", static_cast<unsigned long long>(t.uncertain),
+                o.nearest);
+  std::printf("  body        %zu triangles in %zu pieces, for cells of %g\n"
+              "  time        %.3g ms a pose; grid %.3g s, %.3g MB; %s\n",
+              collision.n_triangles(), collision.n_pieces(), grid.length, ms, grid.seconds,
+              1e-6 * static_cast<double>(grid.bytes), collision.device().c_str());
+}
+
+void check(const Options &o)
+{
+  if (!o.output.empty() && o.output == o.segments)
+    throw InputError("--output and --segments are the same file, " + o.output);
+  if (!o.pose.empty()) pose_of_numbers(o.pose);
+  if (!o.poses.empty()) {
+    BodyPose first;
+    PoseReader(o.poses).read(first);
+  }
+}
+
+void collide(const Options &o)
+{
+#if defined(_OPENMP)
+  threads_asked_for() = true;    // a program of one user, not one of many processes
+  if (o.threads > 0) omp_set_num_threads(o.threads);
+#endif
+  check(o);
+  std::unique_ptr<PairWriter> pairs, segments;
+  if (!o.output.empty()) pairs = open_pairs(o.output);
+  if (!o.segments.empty()) segments = open_segments(o.segments);
+  const WallMesh wall = load_mesh(o.wall, o.scale, o.weld),
+                 body = load_mesh(o.body, o.body_scale, o.weld);
+  MeshCollisionSettings settings;
+  settings.cell = o.cell;
+  settings.nearest = o.nearest;
+  settings.memory = static_cast<std::size_t>(o.memory * 1048576);
+  settings.device = o.device == "cpu"    ? Device::cpu
+                    : o.device == "cuda" ? Device::cuda
+                                         : Device::automatic;
+  MeshCollision collision(wall, body, settings);
+  const Totals totals = run(o, collision, pairs.get(), segments.get());
+  if (pairs) pairs->commit();
+  if (segments) segments->commit();
+  print(o, totals, collision);
+}
+
+void add_options(CLI::App &command, Options &o)
+{
+  command.add_option("wall", o.wall, "STL file, ASCII or binary")->required();
+  command.add_option("body", o.body, "STL file of the rigid body")->required();
+  CLI::Option *one = command.add_option(
+      "--pose", o.pose,
+      "where the body is: x y z, x y z qw qx qy qz, or 12 numbers (default: as it is)");
+  one->expected(3, 12)->option_text("3, 7 or 12 NUMBERS");
+  command.add_option("--poses", o.poses, "file with a pose a line")->excludes(one);
+  command.add_option("-o,--output", o.output, "pairs of triangles that meet, to a .csv file");
+  command.add_option("--segments", o.segments,
+                     "where they cut each other, to a .csv file or lines for ParaView, .vtp");
+  command.add_option("--scale", o.scale, "of the wall: one factor, or three (x y z)")
+      ->expected(1, 3);
+  command.add_option("--body-scale", o.body_scale, "of the body: one factor, or three")
+      ->expected(1, 3);
+  command.add_option("--weld", o.weld,
+                     "weld corners closer than this (default: 1e-6 of each box diagonal)");
+  command.add_option("--grid", o.cell, "cell length (default: the median edge of the body)")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--nearest", o.nearest, "triangles a cell, which may miss pairs (default: all)")
+      ->check(CLI::Range(1, kMostNearest));
+  command.add_option("--memory", o.memory, "of the grid, in MB (default: 1024 beside the mesh)")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--device", o.device, "that answers")
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
+      ->capture_default_str();
+  command.add_option("--threads", o.threads, "on the CPU (default: OMP_NUM_THREADS, or all)")
+      ->check(CLI::Range(1, 4096));
+  command.add_flag("--progress", o.progress, "tell how far it is, even where no terminal is");
+  command.add_flag("--json", o.json, "print JSON");
+}
+
+}    // namespace
+
+void add_collide_command(CLI::App &app)
+{
+  const auto o = std::make_shared<Options>();
+  CLI::App *command =
+      app.add_subcommand("collide", "which triangles of a rigid body meet which of a wall");
+  add_options(*command, *o);
+  command->footer(
+      "A pose turns the body about the origin of its file by a unit quaternion, w first, and then\n"
+      "moves it by x y z; or it is three rows of a rotation matrix, each with its number of the\n"
+      "shift. In a file empty lines and those from # are left out, and a first line of names.\n"
+      "Touching is meeting. Surfaces count: a body whole inside a closed wall meets nothing.\n"
+      "Columns of pairs: pose (from 0), wall_triangle and body_triangle (of the files, from 0; "
+      "-1:\n"
+      "one without area); of segments also from_x to to_z, nan where both lie in one plane.\n"
+      "Examples:\n"
+      "  lsdcd collide wall.stl body.stl --pose 0 0 1.5 0.7071 0.7071 0 0 -o pairs.csv\n"
+      "  lsdcd collide wall.stl body.stl --poses path.txt --segments cuts.vtp");
+  command->callback([o] { collide(*o); });
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,26 @@
+// Pairs of triangles that meet, into a file, pose by pose.
+#pragma once
+
+#include "bodies/mesh_collision.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+namespace lsdcd {
+
+class PairWriter {
+ public:
+  virtual ~PairWriter() = default;
+  virtual void write(std::size_t pose, const MeshCollision &of, const Collision &found) = 0;
+  virtual void commit() = 0;    // until then the file is not there
+};
+
+// Pose and triangles; .csv by its name's ending. Throws InputError for another.
+std::unique_ptr<PairWriter> open_pairs(const std::string &path);
+
+// And where each pair cuts: .csv, or .vtp, lines with pose and triangles as their data, which are
+// kept in memory until the end. Pairs in one plane have no line; their numbers in .csv are nan.
+std::unique_ptr<PairWriter> open_segments(const std::string &path);
+
+}    // namespace lsdcd

@@ -1,0 +1,263 @@
+#!/usr/bin/env python3
+"""compute lsdcd/collide: cubes of four atoms, driven by fix move and fix rigid, through a floor of one
+large triangle. How many of a cube's 12 triangles have corners on both sides of the floor's plane is
+counted from the atoms as they are dumped, by a linear map in place of the compute's rotation.
+
+usage: test_collide.py [host]: under the LAMMPS of hosts/build_host.sh, which has no package RIGID: there
+fix move turns each body about an axis of its own
+"""
+import math
+import sys
+
+import deck
+import numpy as np
+
+HALF = 0.5    # of a cube
+CORNERS = 0.3 * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])    # its atoms
+FLOOR = [[(-40, -40, 0), (40, -40, 0), (0, 60, 0)]]
+
+SETTINGS = """\
+units           lj
+atom_style      sphere
+atom_modify     map array
+newton          off
+comm_modify     vel yes cutoff 2.5
+"""
+FORCES = """\
+pair_style      zero 0.5
+pair_coeff      * *
+neighbor        0.3 bin
+timestep        0.01
+group           dust id 1
+group           cubes subtract all dust
+"""
+THERMO = """\
+thermo          5
+thermo_style    custom step c_c c_c[1] c_c[2] c_c[3] {more}
+dump            atoms cubes custom 5 atoms id xu yu zu
+dump_modify     atoms format float %.17g sort id
+"""
+RIGID = "fix go cubes rigid/nve molecule"
+RIGID_SMALL = "fix go cubes rigid/nve/small molecule"
+# Axes off the bodies' centres, so that these swing as they turn.
+BY_MOVE = "".join(f"group one{k} molecule {k}\nfix go{k} one{k} move rotate {words}\n" for k, words in
+                  ((1, "-3 1.6 1 1 0.2 0.1 2.1"), (2, "0.5 -1 0.6 0.3 1 0 1.7"), (3, "2 -0.3 0.4 0 1 0.3 2.9")))
+STEP, COLLIDING, PAIRS, BODIES, UNCERTAIN, FIRST = range(6)
+
+
+def cube():
+    """Triangles of the cube about the origin."""
+    triangles = []
+    for axis in range(3):
+        for side in (-HALF, HALF):
+            corners = []
+            for u, v in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+                p = [0, 0, 0]
+                p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = side, u * HALF, v * HALF
+                corners.append(p)
+            a, b, c, d = corners
+            triangles += [(a, b, c), (a, c, d)]
+    return np.array(triangles, dtype=float)
+
+
+def write_stl(path, triangles):
+    with open(path, "w") as stl:
+        stl.write("solid s\n")
+        for t in triangles:
+            stl.write("facet normal 0 0 0\nouter loop\n" +
+                      "".join("vertex {!r} {!r} {!r}\n".format(*map(float, p)) for p in t) +
+                      "endloop\nendfacet\n")
+        stl.write("endsolid s\n")
+
+
+def turn(axis, angle):
+    """Rodrigues."""
+    x, y, z = np.array(axis) / np.linalg.norm(axis)
+    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * k @ k
+
+
+def write_data(path, cubes, box=6.0):
+    """An atom of dust, and cubes: (centre, turn, velocity, angular velocity), a molecule each."""
+    atoms, velocities, molecules = ["1 1 0.1 1.0 5.5 5.5 5.5"], ["1 0 0 0 0 0 0"], ["1 0"]
+    for molecule, (centre, r, v, w) in enumerate(cubes, 1):
+        for corner in CORNERS:
+            off = r @ corner
+            x, u, number = np.array(centre) + off, np.array(v) + np.cross(w, off), len(atoms) + 1
+            atoms.append("{} 1 0.2 1.0 {!r} {!r} {!r}".format(number, *map(float, x)))
+            molecules.append(f"{number} {molecule}")
+            velocities.append("{} {!r} {!r} {!r} 0 0 0".format(number, *map(float, u)))
+    with open(path, "w") as data:
+        data.write(f"cubes\n\n{len(atoms)} atoms\n1 atom types\n" +
+                   "".join(f"{-box} {box} {d}lo {d}hi\n" for d in "xyz") +
+                   "\nAtoms # sphere\n\n" + "\n".join(atoms) +
+                   "\n\nVelocities\n\n" + "\n".join(velocities) +
+                   "\n\nMolecules\n\n" + "\n".join(molecules) + "\n")
+
+
+def pairs_of(atoms, normal, through):
+    """Triangles of one cube with corners on both sides of a plane."""
+    x = np.array(atoms)
+    centre = x.mean(axis=0)
+    matrix = (x - centre).T @ np.linalg.pinv(CORNERS.T)
+    height = (cube() @ matrix.T + centre - through) @ normal
+    assert np.abs(height).min() > 1e-9, "a corner is on the plane: choose other numbers"
+    return int(((height.min(axis=1) < 0) & (height.max(axis=1) > 0)).sum())
+
+
+def compare(checks, name, folder, text, plane, ranks, cubes):
+    """Each row of the last run against the dump; plane(time): normal and a point."""
+    rows = {int(r[STEP]): r for r in deck.read_thermo(deck.run_well(text, folder, ranks))}
+    steps, wrong, seen = deck.read_dump(folder / "atoms"), [], set()
+    for step, atoms in steps.items():
+        normal, through = plane(0.01 * step)
+        each = [pairs_of([atoms[2 + 4 * k + i] for i in range(4)], normal, through) for k in range(cubes)]
+        expected = [step, sum(n > 0 for n in each), sum(each), cubes, 0, *each]
+        if step not in rows or rows[step][:len(expected)] != expected:
+            wrong.append((expected, rows.get(step)))
+        seen.update(each)
+    checks.fact(f"{name}, {ranks} rank{'s' * (ranks > 1)}",
+                not wrong and len(steps) > 10 and 0 in seen and len(seen) > 2, str(wrong[:2]))
+    return rows
+
+
+WALL = "fix wall dust wall/lsdcd hooke 1e4 NULL 20 0 0 0 mesh floor.stl"
+
+
+def begin(boundary="f f f"):
+    return SETTINGS + f"boundary {boundary}\nfix mol all property/atom mol ghost yes\nread_data cubes.data fix mol NULL Molecules\n" + FORCES
+
+
+def check_moved(checks, folder, ranks):
+    """One body that fix move swings about an axis; its mesh is where the atoms are at first."""
+    tilt = turn([1, 2, 3], 0.7)
+    write_data(folder / "cubes.data", [([0.3, -0.2, 1.9], tilt, [0, 0, 0], [0, 0, 0])])
+    write_stl(folder / "tilted.stl", cube() @ tilt.T + [0.3, -0.2, 1.9])
+    text = begin() + WALL + """
+fix             go cubes move rotate 0.3 2.3 1.9 1 0.2 0 5.3
+compute         c cubes lsdcd/collide wall mesh tilted.stl
+""" + THERMO.format(more="c_c[1][2]") + "fix avg all ave/time 5 1 5 c_c c_c[1] file avg.txt\nrun 400\n"
+    rows = compare(checks, "a body that fix move drives through the floor", folder, text,
+                   lambda t: (np.array([0, 0, 1.0]), np.zeros(3)), ranks, 1)
+    lines = [list(map(float, line.split())) for line in (folder / "avg.txt").read_text().split("\n")
+             if line and not line.startswith("#")]
+    checks.fact("fix ave/time reads it", len(lines) == len(rows) and
+                all(row[1:] == rows[int(row[0])][COLLIDING:PAIRS + 1] for row in lines))
+
+
+def three_cubes():
+    """They spin and fall, one through the box's face; not turned at first, where the mesh is."""
+    return [([-3, 0.1, 1.5], np.eye(3), [0.0, 0.0, -0.7], [1.0, 2.0, 0.5]),
+            ([0, 0.2, 0.9], turn([1, 1, 0], 1.0), [0.1, 0.0, -0.3], [0.0, -3.0, 1.0]),
+            ([3, -0.3, 1.2], turn([0, 1, 2], 2.0), [1.0, 0.0, -0.5], [2.0, 0.0, 0.0])]
+
+
+def check_three(checks, folder, ranks, drive):
+    write_data(folder / "cubes.data", three_cubes())
+    write_stl(folder / "cube.stl", cube())
+    text = begin("p p f") + WALL + f"""
+{drive}
+compute         c cubes lsdcd/collide wall mesh cube.stl move -3 0.1 1.5 bodies molecule grid 0.4 log brief
+""" + THERMO.format(more="c_c[1][2] c_c[2][2] c_c[3][2] c_c[3][1]") + "run 300\n"
+    rows = compare(checks, f"three bodies, {drive.splitlines()[-1].split(' ', 2)[2][:24]}", folder, text,
+                   lambda t: (np.array([0, 0, 1.0]), np.zeros(3)), ranks, 3)
+    checks.fact("rows have molecules", all(row[FIRST + 3] == 3 for row in rows.values()))
+
+
+def check_moving_wall(checks, folder, ranks, drive):
+    """The floor turns about y, then sinks as well."""
+    write_data(folder / "cubes.data", three_cubes())
+    write_stl(folder / "cube.stl", cube())
+    text = begin() + WALL + f""" motion rotate 0 0 0 0 1 0 8 motion linear 0 0 -0.2
+{drive}
+compute         c cubes lsdcd/collide wall mesh cube.stl move -3 0.1 1.5 bodies molecule grid 0.4
+""" + THERMO.format(more="c_c[1][2] c_c[2][2] c_c[3][2]") + "run 200\n"
+    compare(checks, "bodies and a wall that moves", folder, text,
+            lambda t: (turn([0, 1, 0], 2 * math.pi * t / 8) @ [0, 0, 1.0], np.array([0, 0, -0.2 * t])), ranks, 3)
+
+
+def check_image(checks, folder, ranks):
+    """A plate near the upper face in x meets the image of a body at the lower one; where that face is
+    not periodic it meets nothing."""
+    write_data(folder / "cubes.data", [([-5.7, 0, 0], np.eye(3), [0, 0, 0], [0, 0, 0])])
+    write_stl(folder / "cube.stl", cube())
+    write_stl(folder / "floor.stl", [[(5.9, -3, -3), (5.9, 3, -3), (5.9, 0, 4)]])
+    for boundary, expected in (("p f f", [1, 8]), ("f f f", [0, 0])):
+        text = begin(boundary) + WALL + """
+compute         c cubes lsdcd/collide wall mesh cube.stl move -5.7 0 0
+thermo_style    custom step c_c c_c[1]
+run             0
+"""
+        rows = deck.read_thermo(deck.run_well(text, folder, ranks))
+        checks.fact(f"an image across a face, {boundary}, {ranks} ranks", rows[-1][1:] == expected, str(rows))
+    write_stl(folder / "floor.stl", FLOOR)
+
+
+def check_several(checks, folder):
+    """Pairs of all meshes of a wall; between runs atoms may be put elsewhere."""
+    write_data(folder / "cubes.data", [([0, 0, 0.2], np.eye(3), [0, 0, 0], [0, 0, 0])])
+    write_stl(folder / "cube.stl", cube())
+    text = begin() + WALL + """ mesh floor.stl move 0 0 0.4 mesh floor.stl move 0 0 2
+compute         c cubes lsdcd/collide wall mesh cube.stl move 0 0 0.2 grid 0.3
+thermo_style    custom step c_c c_c[1]
+run             0
+displace_atoms  cubes move 0 0 1.6
+run             0
+displace_atoms  cubes move 0 0 2.3
+run             0
+"""
+    done = deck.run_well(text, folder)
+    rows = [line.split() for line in done.split("\n") if line.split()[:1] == ["0"] and len(line.split()) == 3]
+    # 4 upright sides of 2 triangles in each of two floors, then in one, then in none.
+    checks.fact("several meshes, and runs", [r[1:] for r in rows] == [["1", "16"], ["1", "8"], ["0", "0"]], str(rows))
+
+
+def check_restart(checks, folder):
+    """With the places of its atoms in a file a body is found wherever it is: after a restart, too."""
+    write_data(folder / "cubes.data", three_cubes())
+    write_stl(folder / "cube.stl", cube())
+    (folder / "atoms.txt").write_text("# where cube.stl is\n" + "".join("{!r} {!r} {!r}\n".format(*map(float, p)) for p in CORNERS))
+    after = WALL + """
+""" + BY_MOVE.replace("group one", "group two").replace(" one", " two") + """
+compute         c cubes lsdcd/collide wall mesh cube.stl bodies molecule grid 0.4 atoms atoms.txt
+""" + THERMO.format(more="c_c[1][2] c_c[2][2] c_c[3][2]")
+    first = begin("p p f") + after + "run 100\nwrite_restart half.restart\nundump atoms\n"
+    rows = compare(checks, "bodies whose atoms are in a file", folder, first,
+                   lambda t: (np.array([0, 0, 1.0]), np.zeros(3)), 1, 3)
+    again = SETTINGS.replace("atom_style      sphere\n", "") + """read_restart half.restart
+fix mol all property/atom mol ghost yes
+pair_style      zero 0.5
+pair_coeff      * *
+""" + WALL + """
+compute         c cubes lsdcd/collide wall mesh cube.stl bodies molecule grid 0.4 atoms atoms.txt
+thermo_style    custom step c_c c_c[1] c_c[2] c_c[3] c_c[1][2] c_c[2][2] c_c[3][2]
+run             0
+"""
+    last = deck.read_thermo(deck.run_well(again, folder, 2))
+    checks.fact("and where a restart file has them", last == [rows[100]] and rows[100][PAIRS] > 0, str((last, rows[100])))
+
+
+def main():
+    host = "host" in sys.argv[1:]
+    if host and not deck.TEST_HOST:
+        print("SKIPPED: no LAMMPS of hosts/build_host.sh (LSDCD_TEST_HOST)")
+        sys.exit(77)
+    if host:
+        global SETTINGS
+        SETTINGS = f"plugin load {deck.TEST_HOST_PLUGIN}\n" + SETTINGS
+        deck.LMP = deck.TEST_HOST
+    checks, folder = deck.Checks(), deck.scratch()
+    write_stl(folder / "floor.stl", FLOOR)
+    for ranks in (1, 3):
+        check_moved(checks, folder, ranks)
+        for drive in [BY_MOVE] if host else [BY_MOVE, RIGID, RIGID_SMALL]:
+            check_three(checks, folder, ranks, drive)
+        check_moving_wall(checks, folder, ranks, BY_MOVE if host else RIGID)
+        check_image(checks, folder, ranks)
+    check_several(checks, folder)
+    check_restart(checks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+"""lsdcd collide against closed forms: a cube through a floor of squares, counted by hand, and blades that
+each cut one triangle; what files hold; and what is refused."""
+import base64
+import math
+import pathlib
+import re
+import tempfile
+
+import numpy as np
+
+from tool_test import end, fact, refused, run, told, write_ascii_stl
+
+
+def floor(n, half):
+    """Squares of [-half, half]^2 at z = 0, two triangles each, below and above the diagonal x = y."""
+    at = np.linspace(-half, half, n + 1)
+    triangles = []
+    for i in range(n):
+        for j in range(n):
+            a, b, c, d = ((at[i + k], at[j + m], 0) for k, m in ((0, 0), (1, 0), (1, 1), (0, 1)))
+            triangles += [(a, b, c), (a, c, d)]
+    return triangles
+
+
+def cube(half):
+    """Sides in x, y, then z, two triangles each."""
+    triangles = []
+    for axis in range(3):
+        for sign in (-1, 1):
+            corners = []
+            for u, v in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+                p = [0, 0, 0]
+                p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = sign * half, u * half, v * half
+                corners.append(p)
+            a, b, c, d = corners if sign > 0 else corners[::-1]
+            triangles += [(a, b, c), (a, c, d)]
+    return triangles
+
+
+def read_pairs(path):
+    rows = [line.split(",") for line in path.read_text().splitlines()]
+    return rows[0], np.array(rows[1:], dtype=float).reshape(len(rows) - 1, len(rows[0]))
+
+
+def read_vtp(path):
+    text = path.read_text()
+    kinds = {"Int64": np.int64, "Float64": np.float64}
+    arrays = {}
+    for kind, name, data in re.findall(r'type="(\w+)" Name="(\w+)"[^>]*>([^<]*)<', text):
+        raw = base64.b64decode(data)
+        assert np.frombuffer(raw[:8], np.uint64)[0] == len(raw) - 8
+        arrays[name] = np.frombuffer(raw[8:], kinds[kind])
+    return arrays, dict(re.findall(r'(NumberOf\w+)="(\d+)"', text))
+
+
+def check_cube(folder):
+    """In the middle of a triangle of a floor of two the cube's four upright sides have 2 triangles each."""
+    write_ascii_stl(folder / "floor.stl", floor(1, 4))
+    write_ascii_stl(folder / "cube.stl", cube(0.5))
+    words = "collide", "floor.stl", "cube.stl"
+    middle = "2", "-2"
+    for device in ("auto", "cpu"):
+        said = told(folder, *words, "--pose", *middle, "0.25", "--device", device)
+        fact(f"the cube's upright sides meet the floor, device {device}",
+             said["pairs"] == 8 and said["pairs_of_pose"] == [8] and said["colliding"] == 1
+             and said["triangles"] == 12 and said["exact"], said)
+    above = told(folder, *words, "--pose", *middle, "0.75")
+    fact("above it nothing does", above["pairs"] == above["colliding"] == 0)
+    fact("standing on it is touching", told(folder, *words, "--pose", *middle, "0.5")["pairs"] == 10)
+    fact("without a pose the body is as it is", told(folder, *words)["pairs"] > 8)
+    half = math.sqrt(0.5)
+    upright = told(folder, *words, "--pose", *middle, "0.25", half, half, 0, 0, "-o", "turned.csv")
+    _, rows = read_pairs(folder / "turned.csv")
+    # About x by 90 degrees y goes to z: sides in x and z are upright.
+    fact("a quaternion turns the body", upright["pairs"] == 8 and
+         rows[:, 2].tolist() == [0, 1, 2, 3, 8, 9, 10, 11], rows.tolist())
+    told(folder, *words, "--pose", 1, 0, 0, 2, 0, 0, -1, -2, 0, 1, 0, 0.25, "-o", "matrix.csv")
+    fact("and so does a matrix", (folder / "matrix.csv").read_text() == (folder / "turned.csv").read_text())
+    done = run(folder, *words, "--pose", *middle, "0.25")
+    fact("people are told yes", done.returncode == 0 and "collides    yes" in done.stdout, done.stdout)
+    done = run(folder, *words, "--pose", *middle, "0.75")
+    fact("and no, which is no error", done.returncode == 0 and "collides    no" in done.stdout, done.stdout)
+    scaled = told(folder, *words, "--pose", *middle, "0.75", "--body-scale", 2)
+    fact("the body's scale is of the body", scaled["pairs"] == 8, scaled)
+    near = told(folder, *words, "--nearest", 1, "--grid", 1)
+    fact("nearest lists say that they may miss pairs", not near["exact"] and near["uncertain_pieces"] > 0, near)
+
+
+def check_many(folder):
+    """A small blade through the middle of each triangle; it sinks in ten poses, and comes out below."""
+    triangles = floor(12, 3)
+    write_ascii_stl(folder / "squares.stl", triangles)
+    a = 0.01
+    middle = np.mean(triangles, axis=1)
+    blades = [[m + (-a, 0, -a), m + (a, 0, -a), m + (0, 0, a)] for m in middle]
+    write_ascii_stl(folder / "blades.stl", blades)
+    heights = np.linspace(0.05, -0.05, 10)
+    (folder / "path.txt").write_text("x,y,z,qw,qx,qy,qz\n# sinks\n\n" + "".join(f"0,0,{z!r},1,0,0,0\n" for z in heights))
+    said = told(folder, "collide", "squares.stl", "blades.stl", "--poses", "path.txt", "-o", "pairs.csv",
+                "--segments", "cuts.csv", "--threads", 2)
+    # In: the lower edge is below 0 and the tip above.
+    inside = [k for k, z in enumerate(heights) if z - a <= 0 <= z + a]
+    n = len(triangles)
+    fact("each pose has the pairs of its height", len(inside) > 1 and
+         said["pairs_of_pose"] == [n if k in inside else 0 for k in range(10)], said["pairs_of_pose"])
+    head, rows = read_pairs(folder / "pairs.csv")
+    expected = [(k, t, t) for k in inside for t in range(n)]
+    fact("pairs are each blade and its triangle, by pose", head == ["pose", "wall_triangle", "body_triangle"]
+         and rows.tolist() == [list(map(float, e)) for e in expected])
+    head, cuts = read_pairs(folder / "cuts.csv")
+    fact("segments have the same pairs first", len(head) == 9 and np.array_equal(cuts[:, :3], rows))
+    # At height z a blade is 1 - (a - z) / 2 a from its tip: so wide. Coordinates are below 4.
+    width = np.array([2 * a * (a + heights[int(k)]) / (2 * a) for k in cuts[:, 0]])
+    rounding = 64 * 4 * 2.3e-16
+    fact("and are as wide as the blade there", np.abs(np.abs(cuts[:, 6] - cuts[:, 3]) - width).max() < rounding
+         and np.abs(cuts[:, [5, 8]]).max() < rounding and np.abs(
+             (cuts[:, 3:5] + cuts[:, 6:8]) / 2 - middle[cuts[:, 1].astype(int), :2]).max() < rounding)
+    told(folder, "collide", "squares.stl", "blades.stl", "--poses", "path.txt", "--segments", "cuts.vtp",
+         "--threads", 1)
+    arrays, numbers = read_vtp(folder / "cuts.vtp")
+    fact("lines for ParaView are these segments", np.array_equal(arrays["points"], cuts[:, 3:].ravel())
+         and np.array_equal(arrays["pose"], cuts[:, 0]) and np.array_equal(arrays["wall_triangle"], cuts[:, 1])
+         and np.array_equal(arrays["body_triangle"], cuts[:, 2])
+         and np.array_equal(arrays["connectivity"], np.arange(2 * len(cuts)))
+         and np.array_equal(arrays["offsets"], 2 * np.arange(1, len(cuts) + 1))
+         and numbers["NumberOfLines"] == str(len(cuts)), numbers)
+    done = run(folder, "collide", "squares.stl", "blades.stl", "--poses", "path.txt", "--progress")
+    fact("people get a summary, and progress", f"in {len(inside)} of 10 poses, first in pose {inside[0]}" in done.stdout
+         and "poses, " in done.stderr, done.stdout + done.stderr)
+    # In one plane there is no segment.
+    told(folder, "collide", "squares.stl", "squares.stl", "--segments", "flat.csv")
+    told(folder, "collide", "squares.stl", "squares.stl", "--segments", "flat.vtp")
+    _, flat = read_pairs(folder / "flat.csv")
+    fact("pairs in one plane have no segment", len(flat) > n and np.isnan(flat[:, 3:]).all()
+         and len(read_vtp(folder / "flat.vtp")[0]["points"]) == 0)
+
+
+def check_refused(folder):
+    words = ("collide", "floor.stl", "cube.stl")
+    refused(folder, [*words, "--pose", 1, 2, 3, 4], "has 4 numbers", "x y z qw qx qy qz")
+    refused(folder, [*words, "--pose", 0, 0, 0, 1, 1, 0, 0], "length 1.41", "unit")
+    refused(folder, [*words, "--pose", 0, 0, "1e20"], "pose 0", "too few digits")
+    refused(folder, [*words, "--pose", *[2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "no rotation")
+    refused(folder, [*words, "--pose", 0, 0, "here"], "--pose", "here", code=2)
+    refused(folder, [*words, "--pose", 0, 0, 0, "--poses", "path.txt"], "excludes", code=2)
+    refused(folder, [*words, "--device", "tpu"], "--device", code=2)
+    refused(folder, [*words, "--nearest", 0], "--nearest", code=2)
+    refused(folder, ["collide", "floor.stl"], "body is required", code=2)
+    refused(folder, ["collide", "nowhere.stl", "cube.stl"], "nowhere.stl")
+    refused(folder, ["collide", "floor.stl", "nowhere.stl"], "nowhere.stl")
+    refused(folder, [*words, "--poses", "nowhere.txt"], "nowhere.txt")
+    refused(folder, [*words, "-o", "pairs.txt"], "pairs.txt", ".csv")
+    refused(folder, [*words, "--segments", "cuts.stl"], "cuts.stl", ".vtp")
+    refused(folder, [*words, "-o", "a.csv", "--segments", "a.csv"], "the same file")
+    refused(folder, [*words, "-o", "no/such/folder.csv"], "no/such/folder.csv")
+    refused(folder, [*words, "--grid", "1e-6"], "cell")
+    bad = folder / "bad.txt"
+    for text, says in (("0 0 0\n0 0\n", ("line 2", "has 2 numbers")), ("x y z\n1 2 oops\n", ("line 2", "'oops'")),
+                       ("", ("no pose",)), ("# none\n", ("no pose",)), ("0 0 nan\n", ("line 1", "not finite")),
+                       ("0 0 0\n0 0 1e20\n", ("pose 1", "too few digits"))):
+        bad.write_text(text)
+        refused(folder, [*words, "--poses", "bad.txt", "-o", "left.csv"], *says)
+    done = run(folder, "collide", "--help")
+    fact("--help has an example", done.returncode == 0 and "lsdcd collide wall.stl body.stl --pose" in done.stdout)
+
+
+def main():
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+    check_cube(folder)
+    check_many(folder)
+    check_refused(folder)
+    end()
+
+
+if __name__ == "__main__":
+    main()
