@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <future>
 #include <memory>
 
 namespace lsdcd {
@@ -58,24 +59,39 @@ std::string progress_text(const Totals &t, double share, double seconds)
   return text;
 }
 
+// With several threads one block is read and one written while one is answered.
 Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
 {
   const auto start = std::chrono::steady_clock::now();
   const auto writer = open_answers(o.output, reader.has_ids(), answers.has_sides);
   Progress progress(o.progress);
-  PointBlock points;
-  AnswerBlock found;
+  const auto how = threads() > 1 ? std::launch::async : std::launch::deferred;
+  PointBlock blocks[3];
+  AnswerBlock answered[2];
   Totals totals;
-  for (;;) {
-    reader.read(points, o.block);
+  const auto read = [&](int k) {
+    return std::async(how, [&, k] {
+      reader.read(blocks[k % 3], o.block);
+      return reader.share_read();
+    });
+  };
+  std::future<double> reading = read(0);
+  std::future<void> writing;
+  for (int k = 0;; k++) {
+    const PointBlock &points = blocks[k % 3];
+    AnswerBlock &found = answered[k % 2];
+    const double share = reading.get();
     if (points.size() == 0) break;
+    reading = read(k + 1);
     const auto asked = std::chrono::steady_clock::now();
     answers.answer(points, found);
     totals.query_seconds += since(asked);
-    writer->write(points, found);
+    if (writing.valid()) writing.get();
+    writing = std::async(how, [&writer, &b = points, &a = found] { writer->write(b, a); });
     totals.add(found);
-    progress.show(progress_text(totals, reader.share_read(), since(start)));
+    progress.show(progress_text(totals, share, since(start)));
   }
+  if (writing.valid()) writing.get();
   writer->commit();
   totals.seconds = since(start);
   return totals;

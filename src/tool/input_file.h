@@ -107,12 +107,14 @@ class InputFile {
 // Words between blanks, commas and semicolons.
 inline void split_words(std::string_view text, std::vector<std::string_view> &words)
 {
-  constexpr std::string_view kBetween = " \t,;";
+  const auto between = [](char c) { return c == ' ' || c == '\t' || c == ',' || c == ';'; };
   words.clear();
-  for (std::size_t at = text.find_first_not_of(kBetween); at != text.npos;) {
-    const std::size_t end = std::min(text.find_first_of(kBetween, at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = text.find_first_not_of(kBetween, end);
+  for (const char *at = text.data(), *end = at + text.size();;) {
+    while (at != end && between(*at)) at++;
+    if (at == end) return;
+    const char *word = at;
+    while (at != end && !between(*at)) at++;
+    words.emplace_back(word, at - word);
   }
 }
 

@@ -37,6 +37,14 @@ set_target_properties(collide PROPERTIES CXX_STANDARD 17)
 target_link_libraries(collide lsdcd::{last})
 """
 
+CUDA_PROJECT = """cmake_minimum_required(VERSION 3.22)
+project(user LANGUAGES CXX CUDA)
+find_package(lsdcd 0.1 REQUIRED COMPONENTS core cuda)
+add_executable(in_cuda distance.cu)
+set_target_properties(in_cuda PROPERTIES CUDA_STANDARD 17 CUDA_ARCHITECTURES OFF)
+target_link_libraries(in_cuda lsdcd::cuda)
+"""
+
 
 def fact(name, true, detail=""):
     global failed
@@ -118,6 +126,29 @@ def check_builds(prefix, work, libraries):
     fact("an error has its text", code != 0 and "nowhere.stl" in text, text)
 
 
+def check_cuda(prefix, work):
+    if not CUDA:
+        print("skipped: the example in CUDA (this build has none)")
+        return
+    folder = os.path.join(work, "cuda")
+    os.mkdir(folder)
+    os.symlink(os.path.join(ROOT, "examples", "library", "distance.cu"), os.path.join(folder, "distance.cu"))
+    with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as f:
+        f.write(CUDA_PROJECT)
+    code, text = run(os.environ["LSDCD_CMAKE"], "-S", ".", "-B", "build", "-D", "CMAKE_PREFIX_PATH=" + prefix,
+                     "-D", "CMAKE_CUDA_COMPILER=" + os.environ["LSDCD_NVCC"],
+                     "-D", "CMAKE_CUDA_HOST_COMPILER=" + os.environ["LSDCD_CXX"], folder=folder)
+    if code == 0:
+        code, text = run(os.environ["LSDCD_CMAKE"], "--build", "build", folder=folder)
+    fact("the example in CUDA builds by find_package", code == 0, text)
+    program = os.path.join(folder, "build", "in_cuda")
+    cube = os.path.join(work, "cube.stl")
+    if os.path.exists("/dev/nvidia0"):
+        gives("and in_cuda gives the distances", WANTED, program, cube, folder=work)
+    else:
+        print("skipped: running the example in CUDA (no GPU)")
+
+
 def check_python(prefix, work):
     path = find(prefix, "lsdcd.py")
     gives("the example in Python gives the distances", WANTED, PYTHON,
@@ -174,6 +205,7 @@ def main():
         libraries = find(prefix, "liblsdcd.so.0")
         check_symbols(prefix, os.path.join(libraries, "liblsdcd.so.0"))
         check_builds(prefix, work, libraries)
+        check_cuda(prefix, work)
         check_python(prefix, work)
         check_tool(prefix, work)
         for name in ("LICENSE", "CITATION.cff", "library.md", "distance.cpp"):
