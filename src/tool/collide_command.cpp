@@ -4,6 +4,7 @@
 #include "parallel/threads.h"
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
+#include "tool/number_options.h"
 #include "tool/pair_writer.h"
 #include "tool/pose_reader.h"
 #include "tool/progress.h"
@@ -185,15 +186,14 @@ void add_options(CLI::App &command, Options &o)
       ->expected(1, 3);
   command.add_option("--body-scale", o.body_scale, "of the body: one factor, or three")
       ->expected(1, 3);
-  command.add_option("--weld", o.weld,
-                     "weld corners closer than this (default: 1e-6 of each box diagonal)");
+  add_weld_option(&command, o.weld);
   command.add_option("--grid", o.cell, "cell length (default: the median edge of the body)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero);
   command
       .add_option("--nearest", o.nearest, "triangles a cell, which may miss pairs (default: all)")
       ->check(CLI::Range(1, kMostNearest));
   command.add_option("--memory", o.memory, "of the grid, in MB (default: 1024 beside the mesh)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero);
   command.add_option("--device", o.device, "that answers")
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
       ->capture_default_str();
@@ -219,9 +219,8 @@ void add_collide_command(CLI::App &app)
       "Columns of pairs: pose (from 0), wall_triangle and body_triangle (of the files, from 0; "
       "-1:\n"
       "one without area); of segments also from_x to to_z, nan where both lie in one plane.\n"
-      "Examples:\n"
-      "  lsdcd collide wall.stl body.stl --pose 0 0 1.5 0.7071 0.7071 0 0 -o pairs.csv\n"
-      "  lsdcd collide wall.stl body.stl --poses path.txt --segments cuts.vtp");
+      "Example:\n"
+      "  lsdcd collide wall.stl body.stl --pose 0 0 1.5 0.7071 0.7071 0 0 -o pairs.csv");
   command->callback([o] { collide(*o); });
 }
 

@@ -13,7 +13,7 @@ from triangles import cube
 
 # What is missing where a command stands alone.
 NEEDS = {"inspect": "file is required", "repair": "file is required", "convert": "file is required",
-         "generate": "subcommand is required", "grid": "file is required", "distance": "mesh is required",
+         "generate": "subcommand is required", "grid": "file is required", "distance": "mesh is required", "collide": "wall is required",
          "material": "file is required", "tradeoff": "file is required", "accuracy": None, "effects": None}
 # Words that make an example quick.
 QUICK = {"tradeoff": "--spheres 100 --moving 2 --repeats 1 --seconds 2 --device cpu --plot none",
@@ -31,6 +31,8 @@ GOOD = [
     ("convert wall.stl -o wall.off", ["wall.off: 12 facets from (0, 0, 0) to (1, 1, 1)"]),
     ("generate box --width 1 --depth 2 --height 3 -o made.stl --json", {"volume": 6}),
     ("distance wall.stl points.csv --radius 1 -o d.csv --json", {"points": 2, "found": 1}),
+    ("collide wall.stl body.stl --pose 0.5 0.5 0.5", ["collides    yes", "12 triangles"]),
+    ("collide wall.stl body.stl --pose 3 0 0 --json", {"poses": 1, "colliding": 0, "pairs": 0}),
     ("material glass.lsdcd", ["material glass", "density", "kg/m3"]),
     ("material glass.lsdcd glass --on aluminium", ["granular hertz/material", "tangential"]),
     ("tradeoff wall.stl --radius 0.1 " + QUICK["tradeoff"], ["default", "rows in tradeoff.csv"]),
@@ -55,6 +57,9 @@ BAD = [    # words, exit code, what is said
     ("distance wall.stl nowhere.csv --radius 1 -o d.csv", 1, ["nowhere.csv", NO_FILE]),
     ("distance wall.stl points.csv --radius 1 -o d.txt", 1, ["d.txt", ".csv", ".npy"]),
     ("distance wall.stl points.csv --radius -1 -o d.csv", 1, ["--radius", "-1"]),
+    ("collide wall.stl", 2, ["body is required"]),
+    ("collide wall.stl body.stl --pose 0 0", 2, ["--pose"]),
+    ("collide wall.stl body.stl --pose 0 0 0 2 0 0 0", 1, ["quaternion"]),
     ("material nothing.lsdcd", 1, ["nothing.lsdcd", "glass.lsdcd"]),
     ("material glass.lsdcd glas", 1, ["glas", "glass"]),
     ("material glass.lsdcd glass --units miles", 1, ["miles", "cgs"]),
@@ -72,14 +77,14 @@ BAD = [    # words, exit code, what is said
 ]
 # Of all that read a mesh.
 OF_A_MESH = ["inspect {}", "grid {} --radius 1", "tradeoff {} --radius 1", "distance {} points.csv --radius 1 -o d.csv",
-             "repair {} -o new.stl", "convert {} -o new.stl"]
+             "repair {} -o new.stl", "collide {} body.stl", "convert {} -o new.stl"]
 BAD += [(f"{command.format(mesh)} {words}", code, said) for mesh, words, code, said, commands in (
     ("nowhere.stl", "", 1, ["nowhere.stl", NO_FILE], OF_A_MESH),
     ("text.stl", "", 1, ["text.stl", "not an STL"], OF_A_MESH),
     ("wall.stl", "--scale 1 2", 1, ["one factor or three"], OF_A_MESH[:4] + OF_A_MESH[5:]),
     ("wall.stl", "--scale 0", 1, ["scale", "none zero"], OF_A_MESH[:4] + OF_A_MESH[5:]),
-    ("wall.stl", "--weld -1", 2, ["--weld", "-1"], OF_A_MESH[:5]),
-    ("wall.stl", "--weld 9", 1, ["weld tolerance of 9"], OF_A_MESH[:5]),
+    ("wall.stl", "--weld -1", 2, ["--weld", "-1"], OF_A_MESH[:6]),
+    ("wall.stl", "--weld 9", 1, ["weld tolerance of 9"], OF_A_MESH[:6]),
 ) for command in commands]
 
 
@@ -90,7 +95,8 @@ def same(value, wanted):
 def scene():
     folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
     box = cube()
-    write_ascii_stl(folder / "wall.stl", box)
+    for name in ("wall.stl", "body.stl"):
+        write_ascii_stl(folder / name, box)
     box[0, 0] += (0.003, 0.004, 0)
     write_ascii_stl(folder / "apart.stl", box)
     (folder / "points.csv").write_text("0.5,0.5,1.25\n9,9,9\n")
