@@ -196,9 +196,9 @@ LSDCD_FN void put_list(const LawJob &job, const Group &group, const GridView &gr
 }
 
 // Near sphere k with any number of contacts. Its cell is searched where it has no list that holds.
-// True: it has several.
+// True: it has several. A function of its own, so that single_contact() beside it has its registers.
 template <class Law>
-LSDCD_FN bool several_contacts(const Law &law, const LawJob &job, std::size_t k)
+LSDCD_NOINLINE bool several_contacts(const Law &law, const LawJob &job, std::size_t k)
 {
   const std::size_t i = sphere_of(job, k);
   const Vec3 x = centre_of<Law>(job, i);
