@@ -5,6 +5,7 @@
 
 #include "lsdcd.h"
 
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>

@@ -1,8 +1,9 @@
-// The body against the wall on one backend: one source for all.
+// The body against the wall on one backend: one source for all, in one file, in the order of a pose.
 #pragma once
 
 #include "base/input_error.h"
 #include "bodies/check_body.h"
+#include "bodies/exact_pairs.h"
 #include "bodies/near_piece.h"
 #include "bodies/piece_group.h"
 #include "bodies/sort_pairs.h"
@@ -40,6 +41,11 @@ class BodyCollisionOn : public BodyCollision {
     b_.copy_in(view.block, block->data(), block->size());
     grid_ = moved_view(view, block->data());
     block_ = block;
+    const auto corners = std::make_shared<WallFeatures>();
+    corners->vertices = grid.wall.vertices;
+    corners->face_vertex = grid.wall.face_vertex;
+    corners->edge_vertex = grid.wall.edge_vertex;
+    wall_ = corners;
     largest_code_ = 0;
     for (const FeatureCode code : grid.wall.primitives)
       largest_code_ = std::max(largest_code_, code);
@@ -53,6 +59,7 @@ class BodyCollisionOn : public BodyCollision {
     check_body(body, longest);
     pieces_ = Array<Piece>();    // no body, should this one fail
     n_triangles_ = body.n_triangles();
+    body_ = body.corners;
     corners_ = b_.from_host(body.corners);
     size_ = 0;
     for (const Vec3 &x : body.corners) size_ = std::max(size_, norm(x));
@@ -64,6 +71,7 @@ class BodyCollisionOn : public BodyCollision {
   {
     auto other = std::make_unique<BodyCollisionOn>(b_);
     other->block_ = block_;
+    other->wall_ = wall_;
     other->grid_ = grid_;
     other->largest_code_ = largest_code_;
     return other;
@@ -87,6 +95,7 @@ class BodyCollisionOn : public BodyCollision {
       out.pairs.push_back(pair);
       if (with_segments) out.segments.push_back(segments_.data()[i]);
     }
+    if (tally_.data()[kUnsure] > 0) add_exact(pose, with_segments, out);
     return out;
   }
 
@@ -132,6 +141,7 @@ class BodyCollisionOn : public BodyCollision {
     });
     grow(near_, kFirstRoom);
     grow(met_, near_.size());
+    grow(unsure_, near_.size());
     b_.wait();
   }
 
@@ -151,6 +161,7 @@ class BodyCollisionOn : public BodyCollision {
                          " pairs, more than fit: use shorter cells");
       grow(near_, n);
       grow(met_, near_.size());
+      grow(unsure_, near_.size());
     }
   }
 
@@ -166,7 +177,8 @@ class BodyCollisionOn : public BodyCollision {
     BodyPair *near = near_.data();
     const std::uint64_t room = near_.size();
     b_.for_each(groups_.size(), [=] LSDCD_LAMBDA(std::size_t g) {
-      if (g == 0) counts[kNear] = counts[kMet] = counts[kCutShort] = 0;
+      if (g == 0)
+        for (int k = 0; k < kCounts; k++) counts[k] = 0;
       const PieceGroup group = groups[g];
       group_near[g] = any_brick_near(grid, pose.corner_at(group.centre), group.radius + more);
     });
@@ -193,14 +205,15 @@ class BodyCollisionOn : public BodyCollision {
       });
   }
 
-  // The exact test of each, into met_.
+  // The test of each by rounded signs: those that meet into met_, those where these do not decide
+  // into unsure_.
   void test_near(const BodyPose &pose)
   {
     const WallFeaturesView wall = grid_.wall;
     const Vec3 *corners = corners_.data();
     std::uint64_t *counts = counts_.data();
     const BodyPair *near = near_.data();
-    BodyPair *met = met_.data();
+    BodyPair *met = met_.data(), *unsure = unsure_.data();
     std::size_t most = near_.size();    // how many there are is known where kernels run
     if constexpr (B::kOnHost) most = std::min<std::size_t>(most, counts[kNear]);
     b_.for_each(
@@ -208,9 +221,10 @@ class BodyCollisionOn : public BodyCollision {
         [=] LSDCD_LAMBDA(std::size_t i) {
           if (i >= counts[kNear]) return;
           const BodyPair pair = near[i];
-          if (triangles_meet(body_triangle(corners, pair.triangle, pose),
-                             wall_triangle(wall, pair.wall)))
-            met[take_one(counts + kMet)] = pair;
+          const int meet = triangles_meet_rounded(body_triangle(corners, pair.triangle, pose),
+                                                  wall_triangle(wall, pair.wall));
+          if (meet > 0) met[take_one(counts + kMet)] = pair;
+          if (meet == 0) unsure[take_one(counts + kUnsure)] = pair;
         },
         64);
   }
@@ -230,12 +244,21 @@ class BodyCollisionOn : public BodyCollision {
       const BodyPair *met = met_.data();
       MeetingSegment *found = found_.data();
       b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
-        found[i] = meeting_segment(body_triangle(corners, met[i].triangle, pose),
-                                   wall_triangle(wall, met[i].wall));
+        found[i] = meeting_segment<triangles_meet_detail::RoundedSign>(
+            body_triangle(corners, met[i].triangle, pose), wall_triangle(wall, met[i].wall));
       });
       b_.receive(found_, segments_, n);
     }
     b_.wait();
+  }
+
+  void add_exact(const BodyPose &pose, bool with_segments, Collision &out)
+  {
+    const std::size_t n = tally_.data()[kUnsure];
+    grow(unsure_pairs_, n);
+    b_.receive(unsure_, unsure_pairs_, n);
+    b_.wait();
+    add_exact_pairs(wall_->view(), body_.data(), pose, unsure_pairs_.data(), n, with_segments, out);
   }
 
   // To n and a quarter; what is in it is lost.
@@ -250,7 +273,7 @@ class BodyCollisionOn : public BodyCollision {
  private:
   static constexpr std::uint64_t kMostPairs = std::uint64_t(1) << 28;    // near ones, of a pose
   static constexpr std::size_t kFirstRoom = 1 << 16;
-  enum { kNear, kMet, kCutShort, kCounts };    // of a pose: pairs, pairs, pieces
+  enum { kNear, kMet, kUnsure, kCutShort, kCounts };    // of a pose: pairs, and last pieces
 
   // 2 / 3 of the longest edge (subdivide.h), and what piece_of() adds to it.
   static constexpr Real kMostRadius = (2. / 3) * (1 + 2e-6);
@@ -277,6 +300,9 @@ class BodyCollisionOn : public BodyCollision {
   B b_;
   GridView grid_ = {};
   std::shared_ptr<Array<char>> block_;    // the grid's
+  // Wall and body on the host, for exact signs: corners of the wall's primitives, and the body's.
+  std::shared_ptr<const WallFeatures> wall_;
+  std::vector<Vec3> body_;
   Array<Vec3> corners_;
   std::size_t n_triangles_ = 0;
   Array<Piece> pieces_;
@@ -288,8 +314,8 @@ class BodyCollisionOn : public BodyCollision {
   // Of the last pose; `tally_` is what `counts_` was.
   Array<std::uint64_t> counts_ = Array<std::uint64_t>(kCounts);
   HostArray<std::uint64_t> tally_ = HostArray<std::uint64_t>(kCounts);
-  Array<BodyPair> near_, met_;
-  HostArray<BodyPair> pairs_;
+  Array<BodyPair> near_, met_, unsure_;
+  HostArray<BodyPair> pairs_, unsure_pairs_;
   Array<MeetingSegment> found_;
   HostArray<MeetingSegment> segments_;
 };

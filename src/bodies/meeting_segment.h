@@ -17,8 +17,9 @@ namespace meeting_segment_detail {
 // Where the plane with this normal through x cuts a triangle: the two sides at its corner that is
 // alone. The signs of `sides` are exact and the distances rounded, so that where they differ the
 // point stays on its side.
-LSDCD_FN void cut(const Triangle &t, const triangles_meet_detail::Sides &sides, const Vec3 &normal,
-                  const Vec3 &x, Vec3 (&ends)[2])
+template <class Sides>
+LSDCD_FN void cut(const Triangle &t, const Sides &sides, const Vec3 &normal, const Vec3 &x,
+                  Vec3 (&ends)[2])
 {
   const int i = sides.alone();
   const Real height = sides.of[i] == 0 ? 0 : fabs(dot(normal, t[i] - x));
@@ -40,11 +41,12 @@ LSDCD_FN Vec3 unit_normal(const Triangle &t)
 
 }    // namespace meeting_segment_detail
 
-// Of two triangles that meet.
+// Of two triangles that meet; `Sign`: where rounded signs have decided that, these do.
+template <class Sign = triangles_meet_detail::ExactSign>
 LSDCD_FN MeetingSegment meeting_segment(const Triangle &a, const Triangle &b)
 {
   using namespace meeting_segment_detail;
-  const triangles_meet_detail::Sides of_a(b, a), of_b(a, b);
+  const triangles_meet_detail::SidesBy<Sign> of_a(b, a), of_b(a, b);
   if (of_a.all_on(0) || of_b.all_on(0) || of_a.apart() || of_b.apart())
     return {{0, 0, 0}, {0, 0, 0}, true};
   const Vec3 normal_a = unit_normal(a), normal_b = unit_normal(b);

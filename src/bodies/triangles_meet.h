@@ -14,13 +14,28 @@ struct Triangle {
 
 namespace triangles_meet_detail {
 
+// Signs of four points: exact, or 0 where rounded numbers do not decide.
+struct ExactSign {
+  LSDCD_FN static int of(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d)
+  {
+    return orientation(a, b, c, d);
+  }
+};
+struct RoundedSign {
+  LSDCD_FN static int of(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d)
+  {
+    return rounded_orientation(a, b, c, d);
+  }
+};
+
 // On which side of the plane of one triangle the corners of another are.
-struct Sides {
+template <class Sign>
+struct SidesBy {
   int of[3];
 
-  LSDCD_FN Sides(const Triangle &plane, const Triangle &t)
+  LSDCD_FN SidesBy(const Triangle &plane, const Triangle &t)
   {
-    for (int k = 0; k < 3; k++) of[k] = orientation(plane[0], plane[1], plane[2], t[k]);
+    for (int k = 0; k < 3; k++) of[k] = Sign::of(plane[0], plane[1], plane[2], t[k]);
   }
   LSDCD_FN bool all_on(int side) const { return of[0] == side && of[1] == side && of[2] == side; }
   LSDCD_FN bool apart() const { return all_on(1) || all_on(-1); }
@@ -39,18 +54,24 @@ struct Sides {
     return i * of[k] <= 0 && j * of[k] <= 0 ? of[k] : 0;
   }
 };
+using Sides = SidesBy<ExactSign>;
 
 // Devillers and Guigue (2002), for triangles whose planes cut each other and which both reach both
 // sides of, or touch, the other's plane. Each is turned so that corner 0 is on its own, and the
 // other's winding so that it is on the positive side. On the line of both planes each has an
-// interval, and two signs tell whether they overlap.
-LSDCD_FN bool crossing(const Triangle &a, const Triangle &b, const Sides &of_a, const Sides &of_b)
+// interval, and two signs, each of which must not be 1, tell whether they overlap: the larger.
+template <class Sign>
+LSDCD_FN int crossing(const Triangle &a, const Triangle &b, const SidesBy<Sign> &of_a,
+                      const SidesBy<Sign> &of_b)
 {
   const int i = of_a.alone(), j = of_b.alone();
   const int flip_b = of_a.side_of(i) < 0, flip_a = of_b.side_of(j) < 0;
   const Vec3 &a0 = a[i], &a1 = a[(i + 1 + flip_a) % 3], &a2 = a[(i + 2 - flip_a) % 3];
   const Vec3 &b0 = b[j], &b1 = b[(j + 1 + flip_b) % 3], &b2 = b[(j + 2 - flip_b) % 3];
-  return orientation(a0, a1, b0, b1) <= 0 && orientation(a0, a2, b2, b0) <= 0;
+  const int first = Sign::of(a0, a1, b0, b1);
+  if (first > 0) return first;
+  const int second = Sign::of(a0, a2, b2, b0);
+  return first > second ? first : second;
 }
 
 LSDCD_FN bool boxes_overlap(const Vec3 *a, int n_a, const Vec3 *b, int n_b)
@@ -170,7 +191,21 @@ LSDCD_FN bool triangles_meet(const Triangle &a, const Triangle &b)
   const Sides of_b(a, b);
   if (of_b.apart()) return false;
   if (of_a.all_on(0) || of_b.all_on(0)) return meet_flat(a, b);
-  return crossing(a, b, of_a, of_b);
+  return crossing(a, b, of_a, of_b) <= 0;
+}
+
+// The same by rounded signs alone: 1 yes, -1 no, 0 where they do not decide.
+LSDCD_FN int triangles_meet_rounded(const Triangle &a, const Triangle &b)
+{
+  using namespace triangles_meet_detail;
+  if (!boxes_overlap(a.corner, 3, b.corner, 3)) return -1;
+  const SidesBy<RoundedSign> of_a(b, a);
+  if (of_a.apart()) return -1;
+  const SidesBy<RoundedSign> of_b(a, b);
+  if (of_b.apart()) return -1;
+  for (int k = 0; k < 3; k++)
+    if (of_a.of[k] == 0 || of_b.of[k] == 0) return 0;
+  return -crossing(a, b, of_a, of_b);
 }
 
 }    // namespace lsdcd

@@ -80,9 +80,9 @@ inline LSDCD_NOINLINE int exact_in_plane(Vec3 a, Vec3 b, Vec3 c, int u, int v)
 
 }    // namespace orientation_detail
 
-// The sign of det(a - d, b - d, c - d): 1 where a, b, c turn to the left as seen from d, 0 where
-// all four are in one plane.
-LSDCD_FN int orientation(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d)
+// The sign of det(a - d, b - d, c - d): 1 where a, b, c turn to the left as seen from d, -1 to the
+// right; 0 where rounded numbers do not decide.
+LSDCD_FN int rounded_orientation(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d)
 {
   using namespace orientation_detail;
   const Vec3 ad = a - d, bd = b - d, cd = c - d;
@@ -94,7 +94,14 @@ LSDCD_FN int orientation(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3
       (fabs(bc) + fabs(cb)) * za + (fabs(ca) + fabs(ac)) * zb + (fabs(ab) + fabs(ba)) * zc;
   const Real bound = 4 * kRoundoff * permanent + kLost;
   if (fabs(det) > bound && za + zb + zc < kLargest) return det > 0 ? 1 : -1;
-  return exact(a, b, c, d);
+  return 0;
+}
+
+// The same; 0 where all four are in one plane.
+LSDCD_FN int orientation(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d)
+{
+  const int rounded = rounded_orientation(a, b, c, d);
+  return rounded != 0 ? rounded : orientation_detail::exact(a, b, c, d);
 }
 
 // The same of the projections of three points along an axis, 0 to 2: 1 where a, b, c turn to the

@@ -1,0 +1,43 @@
+// Pairs that rounded signs do not decide, by exact ones. They touch or lie in one plane, are few
+// and take long, so that the host finds them whatever the backend.
+#pragma once
+
+#include "bodies/near_piece.h"
+#include "parallel/backend_cpu.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace lsdcd {
+
+// Adds to `out` those of n pairs that meet; sorts these. `corners`: of the body.
+inline void add_exact_pairs(const WallFeaturesView &wall, const Vec3 *corners, const BodyPose &pose,
+                            BodyPair *pairs, std::size_t n, bool with_segments, Collision &out)
+{
+  struct Tested {
+    BodyPair pair;
+    bool meet;
+    MeetingSegment segment;
+  };
+  std::sort(pairs, pairs + n);
+  std::vector<Tested> all(std::unique(pairs, pairs + n) - pairs);
+  CpuBackend().for_each(all.size(), [&](std::size_t i) {
+    const Triangle of_body = body_triangle(corners, pairs[i].triangle, pose),
+                   of_wall = wall_triangle(wall, pairs[i].wall);
+    all[i] = {pairs[i], triangles_meet(of_body, of_wall), {}};
+    if (with_segments && all[i].meet) all[i].segment = meeting_segment(of_body, of_wall);
+  });
+  for (std::size_t i = 0; i < out.pairs.size(); i++)
+    all.push_back({out.pairs[i], true, with_segments ? out.segments[i] : MeetingSegment()});
+  std::sort(all.begin(), all.end(),
+            [](const Tested &a, const Tested &b) { return a.pair < b.pair; });
+  out.pairs.clear();
+  out.segments.clear();
+  for (const Tested &t : all) {
+    if (!t.meet) continue;
+    out.pairs.push_back(t.pair);
+    if (with_segments) out.segments.push_back(t.segment);
+  }
+}
+
+}    // namespace lsdcd
