@@ -189,8 +189,13 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
     if (may_fit && fits(budget, needed)) break;
     needed = std::max(needed, of_wall + bytes.least);
     const bool at_end = !may_coarsen || is_coarsest(plan, mesh);
-    if (at_end && may_coarsen && may_fit) fits(kNoBudget, needed);
-    if (at_end && may_coarsen && !may_fit) needed = of_wall + bytes.enough;
+    if (at_end && may_coarsen) {
+      // Exactly, where that is quick.
+      if (may_fit || bytes.enough == 0)
+        fits(kNoBudget, needed);
+      else
+        needed = of_wall + bytes.enough;
+    }
     if (at_end) throw_over_budget(settings, needed, budget);
     plan = coarser(plan, mesh, settings);
   }
