@@ -14,20 +14,11 @@ namespace lsdcd {
 
 namespace {
 
-struct Point {
-  float x, y, z;
-};
-Point operator-(const Point &a, const Point &b)
-{
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
+using Point = Vec3Of<float>;
+
 Point along(const Point &a, float s, const Point &u)
 {
-  return {a.x + s * u.x, a.y + s * u.y, a.z + s * u.z};
-}
-float dot(const Point &a, const Point &b)
-{
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+  return a + s * u;
 }
 
 // Ericson 2005, section 5.1.5, as in Embree's own example of a closest point.

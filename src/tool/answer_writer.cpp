@@ -3,8 +3,8 @@
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "contact/wall_geometry.h"
+#include "tool/csv_file.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -19,64 +19,43 @@ int kind_of(std::uint32_t feature)
   return feature == kNoFeature ? 3 : static_cast<int>(feature_kind(feature));
 }
 
-// Numbers in the digits that give them back.
 class CsvWriter : public AnswerWriter {
  public:
   CsvWriter(const std::string &path, bool with_ids, bool with_sides) :
       file_(path), with_ids_(with_ids), with_sides_(with_sides)
   {
-    text_ = with_ids ? "timestep,id," : "";
-    text_ += "distance,closest_x,closest_y,closest_z,triangle,feature,index";
-    text_ += with_sides ? ",side\n" : "\n";
+    if (with_ids) file_.add("timestep,id,");
+    file_.add("distance,closest_x,closest_y,closest_z,triangle,feature,index");
+    file_.add(with_sides ? ",side\n" : "\n");
   }
   void write(const PointBlock &points, const AnswerBlock &a) override
   {
     for (std::size_t i = 0; i < points.size(); i++) {
       if (with_ids_) {
-        add(points.step[i], ',');
-        add(points.id[i], ',');
+        file_.add(points.step[i], ',');
+        file_.add(points.id[i], ',');
       }
-      add(a.distance[i], ',');
-      for (int k = 0; k < 3; k++) add(a.closest[3 * i + k], ',');
+      file_.add(a.distance[i], ',');
+      for (int k = 0; k < 3; k++) file_.add(a.closest[3 * i + k], ',');
       const int kind = kind_of(a.feature[i]);
       add_index(a.triangle[i], a.triangle[i] != kNoFeature, ',');
-      text_ += kKinds[kind];
-      text_ += ',';
+      file_.add(kKinds[kind]);
+      file_.add(",");
       add_index(feature_index(a.feature[i]), kind < 3, with_sides_ ? ',' : '\n');
-      if (with_sides_) add(static_cast<int>(a.side[i]), '\n');
+      if (with_sides_) file_.add(static_cast<int>(a.side[i]), '\n');
     }
-    flush();
+    file_.flush();
   }
-  void commit() override
-  {
-    flush();
-    file_.commit();
-  }
+  void commit() override { file_.commit(); }
 
  private:
-  template <class T>
-  void add(T value, char after)
-  {
-    char digits[32];
-    char *end = std::to_chars(digits, digits + sizeof digits - 1, value).ptr;
-    *end++ = after;
-    text_.append(digits, end);
-  }
   // Of nothing: -1.
   void add_index(std::uint32_t index, bool any, char after)
   {
-    add(any ? static_cast<std::int64_t>(index) : -1, after);
-  }
-  void flush()
-  {
-    file_.write_at(at_, text_.data(), text_.size());
-    at_ += text_.size();
-    text_.clear();
+    file_.add(any ? static_cast<std::int64_t>(index) : -1, after);
   }
 
-  WholeFile file_;
-  std::string text_;
-  std::uint64_t at_ = 0;
+  CsvFile file_;
   bool with_ids_, with_sides_;
 };
 

@@ -3,8 +3,8 @@
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "output/vtk_array.h"
+#include "tool/csv_file.h"
 
-#include <charconv>
 #include <vector>
 
 namespace lsdcd {
@@ -22,58 +22,35 @@ bool ends_in(const std::string &path, const std::string &ending)
          path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-// Numbers in the digits that give them back.
 class CsvPairs : public PairWriter {
  public:
   CsvPairs(const std::string &path, bool with_segments) : file_(path), with_segments_(with_segments)
   {
-    text_ = "pose,wall_triangle,body_triangle";
-    text_ += with_segments ? ",from_x,from_y,from_z,to_x,to_y,to_z\n" : "\n";
+    file_.add("pose,wall_triangle,body_triangle");
+    file_.add(with_segments ? ",from_x,from_y,from_z,to_x,to_y,to_z\n" : "\n");
   }
   void write(std::size_t pose, const MeshCollision &of, const Collision &found) override
   {
     for (std::size_t i = 0; i < found.pairs.size(); i++) {
-      add(pose, ',');
-      add(number_of(of.wall_triangle(found.pairs[i])), ',');
-      add(number_of(of.body_triangle(found.pairs[i])), with_segments_ ? ',' : '\n');
+      file_.add(pose, ',');
+      file_.add(number_of(of.wall_triangle(found.pairs[i])), ',');
+      file_.add(number_of(of.body_triangle(found.pairs[i])), with_segments_ ? ',' : '\n');
       if (!with_segments_) continue;
       const MeetingSegment &s = found.segments[i];
       const Real numbers[6] = {s.from.x, s.from.y, s.from.z, s.to.x, s.to.y, s.to.z};
       for (int k = 0; k < 6; k++) {
-        const char after = k < 5 ? ',' : '\n';
         if (s.flat)
-          (text_ += "nan") += after;
+          file_.add(k < 5 ? "nan," : "nan\n");
         else
-          add(numbers[k], after);
+          file_.add(numbers[k], k < 5 ? ',' : '\n');
       }
     }
-    flush();
+    file_.flush();
   }
-  void commit() override
-  {
-    flush();
-    file_.commit();
-  }
+  void commit() override { file_.commit(); }
 
  private:
-  template <class T>
-  void add(T value, char after)
-  {
-    char digits[32];
-    char *end = std::to_chars(digits, digits + sizeof digits - 1, value).ptr;
-    *end++ = after;
-    text_.append(digits, end);
-  }
-  void flush()
-  {
-    file_.write_at(at_, text_.data(), text_.size());
-    at_ += text_.size();
-    text_.clear();
-  }
-
-  WholeFile file_;
-  std::string text_;
-  std::uint64_t at_ = 0;
+  CsvFile file_;
   bool with_segments_;
 };
 
