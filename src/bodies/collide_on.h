@@ -9,7 +9,7 @@
 #include "bodies/piece_group.h"
 #include "bodies/sort_pairs.h"
 #include "bodies/subdivide.h"
-#include "grid/flat_grid.h"
+#include "grid/lookup/grid_on.h"
 #include "parallel/atomic.h"
 #include "parallel/take_one.h"
 
@@ -36,12 +36,8 @@ class BodyCollisionOn : public BodyCollision {
     if (grid.nearest == 0 || grid.in_floats || grid.wall.images.any())
       throw InputError("a body needs a wall's grid with lists of triangles in double, without "
                        "periodic images: build it with collision_grid()");
-    const FlatGrid flat(grid);
-    const GridView view = flat.view();
-    const auto block = std::make_shared<Array<char>>(view.block_bytes);
-    b_.copy_in(view.block, block->data(), block->size());
-    grid_ = moved_view(view, block->data());
-    block_ = block;
+    shared_ = std::make_shared<GridOn<B>>(b_, FlatGrid(grid));
+    grid_ = shared_->view;
     const auto corners = std::make_shared<WallFeatures>();
     corners->vertices = grid.wall.vertices;
     corners->face_vertex = grid.wall.face_vertex;
@@ -71,7 +67,7 @@ class BodyCollisionOn : public BodyCollision {
   std::unique_ptr<BodyCollision> with_same_wall() const override
   {
     auto other = std::make_unique<BodyCollisionOn>(b_);
-    other->block_ = block_;
+    other->shared_ = shared_;
     other->wall_ = wall_;
     other->grid_ = grid_;
     other->largest_code_ = largest_code_;
@@ -299,8 +295,8 @@ class BodyCollisionOn : public BodyCollision {
   }
 
   B b_;
+  std::shared_ptr<const GridOn<B>> shared_;
   GridView grid_ = {};
-  std::shared_ptr<Array<char>> block_;    // the grid's
   // Wall and body on the host, for exact signs: corners of the wall's primitives, and the body's.
   std::shared_ptr<const WallFeatures> wall_;
   std::vector<Vec3> body_;
