@@ -136,9 +136,7 @@ class BodyCollisionOn : public BodyCollision {
       const std::size_t begin = g * kPiecesOfGroup, end = begin + kPiecesOfGroup;
       groups[g] = group_of(pieces, begin, end < n ? end : n);
     });
-    grow(near_, kFirstRoom);
-    grow(met_, near_.size());
-    grow(unsure_, near_.size());
+    grow_pairs(kFirstRoom);
     b_.wait();
   }
 
@@ -156,9 +154,7 @@ class BodyCollisionOn : public BodyCollision {
       if (n > kMostPairs)
         throw InputError("the body is near the wall in " + std::to_string(n) +
                          " pairs, more than fit: use shorter cells");
-      grow(near_, n);
-      grow(met_, near_.size());
-      grow(unsure_, near_.size());
+      grow_pairs(n);
     }
   }
 
@@ -258,6 +254,10 @@ class BodyCollisionOn : public BodyCollision {
     add_exact_pairs(wall_->view(), body_.data(), pose, unsure_pairs_.data(), n, with_segments, out);
   }
 
+  void grow_pairs(std::size_t n)
+  {
+    for (Array<BodyPair> *pairs : {&near_, &met_, &unsure_}) grow(*pairs, n);
+  }
   // To n and a quarter; what is in it is lost.
   template <class A>
   static void grow(A &array, std::size_t n)
