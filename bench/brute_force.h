@@ -3,7 +3,7 @@
 
 #include "geometry/closest_point.h"
 #include "geometry/primitive_distance.h"
-#include "grid/flat_grid.h"
+#include "grid/lookup/grid_on.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +21,8 @@ inline std::size_t all_cells(const TriangleGrid &grid)
 template <class B>
 double brute_force_ms(B &b, const TriangleGrid &grid, std::size_t n, std::size_t stride)
 {
-  const FlatGrid flat(grid);
-  const GridView host = flat.view();
-  typename B::template Array<char> block(host.block_bytes);
-  b.copy_in(host.block, block.data(), block.size());
-  const GridView view = moved_view(host, block.data());
+  const GridOn<B> on(b, FlatGrid(grid));
+  const GridView view = on.view;
   const std::uint32_t n_faces = static_cast<std::uint32_t>(grid.wall.faces.size());
   // No launch of a GPU shall take long.
   const std::size_t run = std::max<std::size_t>(1, (std::size_t(1) << 36) / n_faces);

@@ -28,6 +28,13 @@ class WholeFile {
   int file_ = -1;
 };
 
+// Does the name of a file, not all of it, end so?
+inline bool ends_in(const std::string &path, const std::string &ending)
+{
+  return path.size() > ending.size() &&
+         path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+}
+
 // A file of these bytes.
 void write_whole_file(const std::string &path, const std::string &bytes);
 

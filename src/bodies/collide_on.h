@@ -9,7 +9,7 @@
 #include "bodies/piece_group.h"
 #include "bodies/sort_pairs.h"
 #include "bodies/subdivide.h"
-#include "grid/flat_grid.h"
+#include "grid/lookup/grid_on.h"
 #include "parallel/atomic.h"
 #include "parallel/take_one.h"
 
@@ -36,12 +36,8 @@ class BodyCollisionOn : public BodyCollision {
     if (grid.nearest == 0 || grid.in_floats || grid.wall.images.any())
       throw InputError("a body needs a wall's grid with lists of triangles in double, without "
                        "periodic images: build it with collision_grid()");
-    const FlatGrid flat(grid);
-    const GridView view = flat.view();
-    const auto block = std::make_shared<Array<char>>(view.block_bytes);
-    b_.copy_in(view.block, block->data(), block->size());
-    grid_ = moved_view(view, block->data());
-    block_ = block;
+    shared_ = std::make_shared<GridOn<B>>(b_, FlatGrid(grid));
+    grid_ = shared_->view;
     const auto corners = std::make_shared<WallFeatures>();
     corners->vertices = grid.wall.vertices;
     corners->face_vertex = grid.wall.face_vertex;
@@ -71,7 +67,7 @@ class BodyCollisionOn : public BodyCollision {
   std::unique_ptr<BodyCollision> with_same_wall() const override
   {
     auto other = std::make_unique<BodyCollisionOn>(b_);
-    other->block_ = block_;
+    other->shared_ = shared_;
     other->wall_ = wall_;
     other->grid_ = grid_;
     other->largest_code_ = largest_code_;
@@ -140,9 +136,7 @@ class BodyCollisionOn : public BodyCollision {
       const std::size_t begin = g * kPiecesOfGroup, end = begin + kPiecesOfGroup;
       groups[g] = group_of(pieces, begin, end < n ? end : n);
     });
-    grow(near_, kFirstRoom);
-    grow(met_, near_.size());
-    grow(unsure_, near_.size());
+    grow_pairs(kFirstRoom);
     b_.wait();
   }
 
@@ -160,9 +154,7 @@ class BodyCollisionOn : public BodyCollision {
       if (n > kMostPairs)
         throw InputError("the body is near the wall in " + std::to_string(n) +
                          " pairs, more than fit: use shorter cells");
-      grow(near_, n);
-      grow(met_, near_.size());
-      grow(unsure_, near_.size());
+      grow_pairs(n);
     }
   }
 
@@ -262,6 +254,10 @@ class BodyCollisionOn : public BodyCollision {
     add_exact_pairs(wall_->view(), body_.data(), pose, unsure_pairs_.data(), n, with_segments, out);
   }
 
+  void grow_pairs(std::size_t n)
+  {
+    for (Array<BodyPair> *pairs : {&near_, &met_, &unsure_}) grow(*pairs, n);
+  }
   // To n and a quarter; what is in it is lost.
   template <class A>
   static void grow(A &array, std::size_t n)
@@ -299,8 +295,8 @@ class BodyCollisionOn : public BodyCollision {
   }
 
   B b_;
+  std::shared_ptr<const GridOn<B>> shared_;
   GridView grid_ = {};
-  std::shared_ptr<Array<char>> block_;    // the grid's
   // Wall and body on the host, for exact signs: corners of the wall's primitives, and the body's.
   std::shared_ptr<const WallFeatures> wall_;
   std::vector<Vec3> body_;

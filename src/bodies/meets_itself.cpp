@@ -50,7 +50,7 @@ int line_up(const WallMesh &mesh, int f, int g, Triangle &a, Triangle &b)
 
 }    // namespace
 
-SelfMeetings meets_itself(const WallMesh &mesh)
+SelfMeetings meets_itself(const WallMesh &mesh, const std::function<void(double)> &progress)
 {
   const int n = static_cast<int>(mesh.faces.size());
   std::vector<Box> boxes(n);
@@ -64,6 +64,7 @@ SelfMeetings meets_itself(const WallMesh &mesh)
   const BoxTree tree(boxes);
   SelfMeetings out;
   for (int f = 0; f < n; f++) {
+    if (progress && f % 1024 == 0) progress(double(f) / n);
     int first = n;
     const auto overlaps = [&](const Box &b) {
       for (int k = 0; k < 3; k++)

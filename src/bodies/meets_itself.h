@@ -4,6 +4,7 @@
 #include "mesh/wall_mesh.h"
 
 #include <cstddef>
+#include <functional>
 
 namespace lsdcd {
 
@@ -13,7 +14,8 @@ struct SelfMeetings {
 };
 
 // Pairs of faces with more in common than the corners and edges that they share: they cut, overlap
-// or touch each other. Exact, for the corners as they are.
-SelfMeetings meets_itself(const WallMesh &mesh);
+// or touch each other. Exact, for the corners as they are. `progress` is told now and then which
+// share is done.
+SelfMeetings meets_itself(const WallMesh &mesh, const std::function<void(double)> &progress = {});
 
 }    // namespace lsdcd

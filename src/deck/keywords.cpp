@@ -1,6 +1,7 @@
 // Over 300 lines: a table with a row for each keyword.
 #include "deck/keywords.h"
 
+#include "base/whole_file.h"
 #include "deck/motion_words.h"
 #include "deck/servo_words.h"
 
@@ -134,7 +135,7 @@ FileEvery read_file_every(Tokens &w, const std::string &end)
   if (w.done()) w.fail("the file name is missing");
   file.name = w.take();
   const std::string &name = file.name;
-  if (name.size() <= end.size() || name.compare(name.size() - end.size(), end.size(), end) != 0)
+  if (!ends_in(name, end))
     w.fail("the file name '" + name + "' must end in " + end + ", by which other programs know it");
   const std::size_t star = name.find('*');
   if (star != std::string::npos && name.find('/', star) != std::string::npos)

@@ -89,8 +89,8 @@ class EngineOn : public InPlaceEngine {
   {
     const std::size_t n = wall_.n();
     const bool several = wall_.has_several();
-    results_.begin(law_.traits, step_, spheres_, wall_.near(), n, may_miss_any(wall_.mesh(0).grid),
-                   several ? &wall_.slots() : nullptr);
+    results_.begin(law_.traits, step_, spheres_, wall_.near(), n,
+                   may_miss_any(wall_.mesh(0).grid.view), several ? &wall_.slots() : nullptr);
     if (n == 0) return;
     const MeshWork work = wall_.mesh(0).work(settings_, step_, 0);
     LawJob job = job_of(work.grid, work.settings, spheres_);
@@ -253,7 +253,7 @@ class EngineOn : public InPlaceEngine {
       Array<Real> radius(1);
       Real *to = radius.data();
       read_radius(spheres, i, to);
-      throw_too_large(i, b_.to_host(radius, 1)[0], wall_.mesh(0).grid.cutoff);
+      throw_too_large(i, b_.to_host(radius, 1)[0], wall_.mesh(0).grid.view.cutoff);
     }
     if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown));
     throw_too_many_contacts(seen.lost, kMostContacts);

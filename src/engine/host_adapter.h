@@ -55,7 +55,7 @@ class HostAdapter : public WallEngine {
     name_spheres();
     springs_to_waiting();
     engine_.set_grid(grid, mesh);
-    meshes_.at(mesh).set_grid(cpu_, grid);
+    meshes_.at(mesh).grid = GridOn<CpuBackend>(cpu_, grid);
     near_host_.clear();
   }
 
@@ -233,11 +233,11 @@ class HostAdapter : public WallEngine {
     std::vector<int> near;
     for (const EngineMesh<CpuBackend> &mesh : meshes_) {
       StepCounts seen = {};
-      near_.choose(cpu_, mesh.grid, mesh.table, spheres, mesh.pose, margin,
+      near_.choose(cpu_, mesh.grid.view, mesh.grid.table, spheres, mesh.pose, margin,
                    settings_.law.pull_off(), &seen, nullptr);
       if (seen.too_large) {
         const int i = static_cast<int>(kNoSphere - seen.too_large);
-        throw_too_large(i, spheres.radius[i], mesh.grid.cutoff);
+        throw_too_large(i, spheres.radius[i], mesh.grid.view.cutoff);
       }
       const std::vector<int> more = near_.to_host(cpu_, seen.n_near), before = std::move(near);
       near.clear();

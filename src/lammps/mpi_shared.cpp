@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <new>
 
 namespace lsdcd {
@@ -51,8 +49,8 @@ void MpiShared::release()
     MPI_Win_free(&window_);
   }
   window_ = MPI_WIN_NULL;
-  std::free(own_);
-  own_ = block_ = nullptr;
+  own_ = {};
+  block_ = nullptr;
   bytes_ = 0;
 }
 
@@ -79,13 +77,15 @@ char *MpiShared::allocate(std::size_t bytes)
     MPI_Win_shared_query(window_, 0, &size, &unit, &base);
   } else {
     if (window_ != MPI_WIN_NULL) MPI_Win_free(&window_);
-    base = own_ = static_cast<char *>(std::calloc(bytes_ + kAlign, 1));
-    if (!own_) error = "out of memory for the wall grid";
+    try {
+      own_ = OwnedArray<char, LargeMemory>(bytes_);
+    } catch (const std::bad_alloc &) {
+      error = "out of memory for the wall grid";
+    }
+    base = own_.data();
   }
   throw_together(world_, error);    // other nodes may have had room
-  block_ = aligned(base);
-  if (is_shared() && writes()) std::memset(block_, 0, bytes_);
-  return block_;
+  return block_ = aligned(base);
 }
 
 void MpiShared::publish()

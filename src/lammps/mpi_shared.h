@@ -1,6 +1,9 @@
 // One block of memory per node, written by one process and read by all of them.
 #pragma once
 
+#include "base/large_memory.h"
+#include "parallel/owned_array.h"
+
 #include <cstddef>
 #include <exception>
 #include <mpi.h>
@@ -25,7 +28,7 @@ class MpiShared {
   int node_size() const { return node_size_; }
 
   // Gives up the last block and makes one of `bytes` (the writer's number counts),
-  // 64-byte aligned, all zero. Only the writer may write, before publish().
+  // 64-byte aligned. Only the writer may write, before publish().
   char *allocate(std::size_t bytes);
   void publish();
   const char *block() const { return block_; }
@@ -38,7 +41,7 @@ class MpiShared {
   MPI_Comm world_, node_, writers_;
   int node_rank_, node_size_;
   MPI_Win window_ = MPI_WIN_NULL;
-  char *own_ = nullptr;    // where sharing is not possible, or not needed
+  OwnedArray<char, LargeMemory> own_;    // where sharing is not possible, or not needed
   char *block_ = nullptr;
   std::size_t bytes_ = 0;
 };

@@ -127,8 +127,13 @@ TriangleSoup soup_of(const WallMesh &mesh, const std::vector<char> &turned)
 
 }    // namespace
 
-RepairedMesh repair(const TriangleSoup &soup, Real tolerance)
+RepairedMesh repair(const TriangleSoup &soup, Real tolerance,
+                    const std::function<void(const std::string &)> &progress)
 {
+  const auto tell = [&](const char *what) {
+    if (progress) progress(what);
+  };
+  tell("welding corners");
   RepairedMesh out;
   RepairReport &report = out.report;
   tolerance = report.tolerance = weld(soup, tolerance).report.weld_tolerance;    // and checks
@@ -146,6 +151,7 @@ RepairedMesh repair(const TriangleSoup &soup, Real tolerance)
 
   // Pieces may lay open edges bare that others lie on; edges get shorter, so that this ends.
   for (;;) {
+    tell("cutting facets at corners of neighbours");
     const SplitFaces split = split_faces(mesh, tolerance);
     if (split.junctions == 0) break;
     report.junctions += split.junctions;
@@ -162,6 +168,7 @@ RepairedMesh repair(const TriangleSoup &soup, Real tolerance)
     measure_dropped(mesh, old_corners, tolerance, report);
   }
   mesh.source = soup.source;
+  tell("winding facets");
   const OrientedFaces oriented = orient_faces(mesh);
   report.turned_facets = oriented.faces;
   report.shells = oriented.shells;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,8 @@ struct RepairedMesh {
 // Welds corners within the tolerance (as weld() takes it), drops degenerate and duplicate facets,
 // cuts facets where corners of neighbours lie on their open edges, and winds facets as their
 // neighbours, closed parts with normals out. Throws InputError as weld() does, and where no facet
-// is left.
-RepairedMesh repair(const TriangleSoup &soup, Real tolerance);
+// is left. `progress` is told what comes next.
+RepairedMesh repair(const TriangleSoup &soup, Real tolerance,
+                    const std::function<void(const std::string &)> &progress = {});
 
 }    // namespace lsdcd

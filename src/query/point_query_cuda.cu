@@ -2,25 +2,16 @@
 #include "query/point_query.h"
 #include "query/radius_error.h"
 
-#include "grid/lookup/brick_words.h"
+#include "grid/lookup/grid_on.h"
 
 namespace lsdcd {
 
-class DeviceGrid {
+class DeviceGrid : public GridOn<CudaBackend> {
  public:
-  DeviceGrid(const GridView &grid, const TriangleTable &names)
+  DeviceGrid(const GridView &grid, const TriangleTable &names) : GridOn(CudaBackend(), grid, true)
   {
     CudaBackend b;
     device = current_cuda_device();
-    block_ = CudaBackend::Array<char>(grid.block_bytes);
-    b.copy_in(grid.block, block_.data(), grid.block_bytes);
-    view = moved_view(grid, block_.data());
-    const std::vector<BrickWord> words = brick_words(grid);
-    words_ = b.from_host(words);
-    table = BrickTable(words, words_.data());
-    coarse = CoarseTable(grid);
-    coarse_words_ = b.from_host(coarse_words(grid, coarse));
-    coarse.words = coarse_words_.data();
     of_face_ = b.from_host(names.of_face);
     of_edge_ = b.from_host(names.of_edge);
     of_vertex_ = b.from_host(names.of_vertex);
@@ -28,15 +19,10 @@ class DeviceGrid {
   }
 
   int device = 0;
-  GridView view;
-  BrickTable table;
-  CoarseTable coarse;
   TriangleNames names;
 
  private:
-  CudaBackend::Array<char> block_;
-  CudaBackend::Array<BrickWord> words_;
-  CudaBackend::Array<std::uint32_t> coarse_words_, of_face_, of_edge_, of_vertex_;
+  CudaBackend::Array<std::uint32_t> of_face_, of_edge_, of_vertex_;
 };
 
 std::shared_ptr<const DeviceGrid> copy_to_cuda(const GridView &grid, const TriangleTable &names)

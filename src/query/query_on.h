@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/input_error.h"
-#include "grid/flat_grid.h"
+#include "grid/lookup/grid_on.h"
 #include "query/grid_work.h"
 #include "query/one_pass.h"
 #include "query/radius_error.h"
@@ -24,18 +24,7 @@ class QueryOn : public SphereQuery {
   void set_grid(const TriangleGrid &grid) override
   {
     n_faces_ = static_cast<std::uint32_t>(grid.wall.faces.size());
-    const FlatGrid flat(grid);
-    const GridView view = flat.view();
-    Array<char> block(view.block_bytes);
-    b_.copy_in(view.block, block.data(), block.size());
-    block_ = std::move(block);
-    grid_ = moved_view(view, block_.data());
-    const std::vector<BrickWord> words = brick_words(view);
-    words_ = b_.from_host(words);
-    table_ = BrickTable(words, words_.data());
-    coarse_ = CoarseTable(view);
-    coarse_words_ = b_.from_host(coarse_words(view, coarse_));
-    coarse_.words = coarse_words_.data();
+    grid_ = GridOn<B>(b_, FlatGrid(grid), true);
   }
 
   void set_spheres(const Sphere *spheres, std::size_t n) override
@@ -90,7 +79,7 @@ class QueryOn : public SphereQuery {
   {
     return {status_.data(), distance_.data(), float_distance_.data(), read_.data()};
   }
-  const GridView &grid() const { return grid_; }
+  const GridView &grid() const { return grid_.view; }
   std::size_t n() const { return n_; }
   B &backend() { return b_; }
 
@@ -99,15 +88,15 @@ class QueryOn : public SphereQuery {
   void prepare(const QuerySettings &settings)
   {
     const bool paper = settings.inside == InsideTest::formula_five;
-    if (paper && !settings.every_face && (grid_.nearest == 0 || grid_.in_floats))
+    if (paper && !settings.every_face && (grid_.view.nearest == 0 || grid_.view.in_floats))
       throw InputError("the paper's inside test needs lists of triangles in double: give a "
                        "grid of `nearest N`, or try every face");
-    if (settings.every_face && grid_.in_floats)
+    if (settings.every_face && grid_.view.in_floats)
       throw InputError("every face can be tried in double only; give a grid without records "
                        "in float");
     fit(status_, true);
-    fit(distance_, settings.distance && !grid_.in_floats);
-    fit(float_distance_, settings.distance && grid_.in_floats);
+    fit(distance_, settings.distance && !grid_.view.in_floats);
+    fit(float_distance_, settings.distance && grid_.view.in_floats);
     fit(read_, settings.read);
     const std::uint64_t none = 0;
     if (too_large_.size() == 0) too_large_ = Array<std::uint64_t>(1);
@@ -132,7 +121,7 @@ class QueryOn : public SphereQuery {
   {
     if (settings.inside == InsideTest::formula_five)
       start_with<WallDistances<InsideTest::formula_five>>(spheres, settings);
-    else if (grid_.in_floats)
+    else if (grid_.view.in_floats)
       start_with<BrickDistances>(spheres, settings);
     else
       start_with<WallDistances<InsideTest::exact>>(spheres, settings);
@@ -141,7 +130,7 @@ class QueryOn : public SphereQuery {
   template <class Distances, class S>
   void start_with(const S *spheres, const QuerySettings &settings)
   {
-    const GridView grid = grid_;
+    const GridView grid = grid_.view;
     const AnswerArrays out = answers();
     const std::uint32_t n_faces = n_faces_;
     if (settings.every_face)
@@ -160,8 +149,11 @@ class QueryOn : public SphereQuery {
   void run_grid(const S *spheres)
   {
     using Filter = typename Work::Filter;
-    const TooLarge<S> too_large = {static_cast<decltype(S::r)>(grid_.cutoff), too_large_.data()};
-    way_.run(b_, n_, Work{grid_, table_, spheres, answers(), Filter(grid_), coarse_, too_large, 0});
+    const TooLarge<S> too_large = {static_cast<decltype(S::r)>(grid_.view.cutoff),
+                                   too_large_.data()};
+    way_.run(b_, n_,
+             Work{grid_.view, grid_.table, spheres, answers(), Filter(grid_.view), grid_.coarse,
+                  too_large, 0});
   }
 
   template <class S>
@@ -170,7 +162,7 @@ class QueryOn : public SphereQuery {
     const std::uint64_t first = b_.to_host(too_large_, 1)[0];
     if (first == 0) return;
     const std::size_t i = ~first;
-    throw_too_large(i, b_.to_host(spheres, i + 1)[i].r, grid_.cutoff);
+    throw_too_large(i, b_.to_host(spheres, i + 1)[i].r, grid_.view.cutoff);
   }
 
   template <class T, class Other>
@@ -194,12 +186,7 @@ class QueryOn : public SphereQuery {
 
   B b_;
   Way way_;
-  GridView grid_ = {};
-  Array<char> block_;
-  Array<BrickWord> words_;
-  BrickTable table_;
-  CoarseTable coarse_;
-  Array<std::uint32_t> coarse_words_;
+  GridOn<B> grid_;
   std::uint32_t n_faces_ = 0;
   Array<Sphere> sphere_;
   Array<FloatSphere> float_sphere_;

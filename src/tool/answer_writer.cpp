@@ -134,17 +134,12 @@ class NpyWriter : public AnswerWriter {
   bool with_ids_, with_sides_;
 };
 
-bool ends_with(const std::string &text, const std::string &end)
-{
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 }    // namespace
 
 std::unique_ptr<AnswerWriter> open_answers(const std::string &path, bool with_ids, bool with_sides)
 {
-  if (ends_with(path, ".csv")) return std::make_unique<CsvWriter>(path, with_ids, with_sides);
-  if (ends_with(path, ".npy")) return std::make_unique<NpyWriter>(path, with_ids, with_sides);
+  if (ends_in(path, ".csv")) return std::make_unique<CsvWriter>(path, with_ids, with_sides);
+  if (ends_in(path, ".npy")) return std::make_unique<NpyWriter>(path, with_ids, with_sides);
   throw InputError("--output '" + path + "' ends neither in .csv nor in .npy");
 }
 

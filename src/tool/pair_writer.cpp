@@ -16,12 +16,6 @@ std::int64_t number_of(std::uint32_t triangle)
   return triangle == kNoFace ? -1 : static_cast<std::int64_t>(triangle);
 }
 
-bool ends_in(const std::string &path, const std::string &ending)
-{
-  return path.size() > ending.size() &&
-         path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 class CsvPairs : public PairWriter {
  public:
   CsvPairs(const std::string &path, bool with_segments) : file_(path), with_segments_(with_segments)

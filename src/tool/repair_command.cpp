@@ -5,6 +5,7 @@
 #include "output/mesh_file.h"
 #include "tool/mesh_json.h"
 #include "tool/number_options.h"
+#include "tool/progress.h"
 
 #include <cstdio>
 #include <memory>
@@ -18,7 +19,7 @@ constexpr int kUnmended = 3;    // an exit code; doc/tool.md
 struct Options {
   std::string file, output;
   double weld = -1;
-  bool open = false, json = false;
+  bool open = false, json = false, progress = false;
 };
 
 nlohmann::json as_json(const RepairReport &r)
@@ -91,9 +92,11 @@ void print(const Options &o, const RepairReport &r)
   if (r.left.empty()) print("left", "nothing to mend");
 }
 
-void add_meetings(RepairedMesh &repaired)
+void add_meetings(RepairedMesh &repaired, Progress &progress)
 {
-  const SelfMeetings meetings = meets_itself(repaired.mesh);
+  const SelfMeetings meetings = meets_itself(repaired.mesh, [&](double share) {
+    progress.show("looking for facets that meet: " + std::to_string(int(100 * share)) + " %");
+  });
   if (meetings.pairs == 0) return;
   Vec3 middle = {0, 0, 0};
   for (const int v : repaired.mesh.faces[meetings.first[0]])
@@ -106,8 +109,11 @@ void add_meetings(RepairedMesh &repaired)
 bool run(const Options &o)
 {
   mesh_format(o.output);    // before the work
-  RepairedMesh repaired = repair(read_stl(o.file), o.weld);
-  add_meetings(repaired);
+  Progress progress(o.progress);
+  RepairedMesh repaired =
+      repair(read_stl(o.file), o.weld, [&](const std::string &text) { progress.show(text); });
+  add_meetings(repaired, progress);
+  progress.clear();
   write_mesh_file(o.output, repaired.soup);
   const RepairReport &report = repaired.report;
   if (o.json) {
@@ -149,6 +155,7 @@ void add_repair_command(CLI::App &app, int &exit_code)
                    "(default: 1e-6 of the box diagonal)")
       ->check(not_below_zero);
   command->add_flag("--open", o->open, "the mesh is meant to be open: ends with 0 all the same");
+  command->add_flag("--progress", o->progress, "tell how far it is, even where no terminal is");
   command->add_flag("--json", o->json, "print JSON");
   command->callback([o, &exit_code] {
     if (!run(*o)) exit_code = kUnmended;

@@ -15,9 +15,10 @@ MPI_Comm_split_type(MPI_Comm comm, int type, int key, MPI_Info info, MPI_Comm *p
   return PMPI_Comm_split(comm, rank % 2, key, part);
 }
 
-extern "C" void *__libc_calloc(std::size_t, std::size_t);
+extern "C" void *__libc_memalign(std::size_t, std::size_t);
 
-extern "C" __attribute__((visibility("default"))) void *calloc(std::size_t n, std::size_t size)
+extern "C" __attribute__((visibility("default"))) void *aligned_alloc(std::size_t align,
+                                                                      std::size_t size)
 {
-  return full && n * size > 1000000 ? nullptr : __libc_calloc(n, size);
+  return full && size > 1000000 ? nullptr : __libc_memalign(align, size);
 }

@@ -189,6 +189,9 @@ def main():
     done = run(FOLDER, "repair", "in.stl", "-o", "out.stl")
     fact("people get a table", done.returncode == 0 and all(w in done.stdout for w in (
         "welded", "dropped", "cut", "turned", "moved", "left        nothing", "clean       yes")), done.stdout)
+    fact("without --progress, and with no terminal, nothing is on stderr", done.stderr == "", done.stderr)
+    done = run(FOLDER, "repair", "in.stl", "-o", "out.stl", "--progress")
+    fact("progress is on stderr", done.returncode == 0 and "welding corners\n" in done.stderr, done.stderr)
     write_ascii_stl(FOLDER / "line.stl", [line])
     refused(FOLDER, "repair line.stl -o new.stl".split(), "line.stl", "none of its 1 facets")
     refused(FOLDER, "repair in.stl -o new.stl --weld 1e9".split(), "weld tolerance of 1e+09", "smaller")

@@ -21,16 +21,23 @@ WallMesh slivers(int n)
   return weld(cylinder_mesh(n, 1, 50, 100), -1);
 }
 
-// An entry is a candidate; the report counts all of them, one by one.
-void compare(const WallMesh &mesh, Real cutoff, int nearest)
+GridSettings settings_of(Real cutoff, int nearest)
 {
   GridSettings settings;
   settings.cutoff = settings.length = cutoff;
   settings.nearest = nearest;
   settings.memory_budget = std::size_t(4) << 30;
+  return settings;
+}
+
+// An entry is a candidate; the report counts all of them, one by one.
+void compare(const WallMesh &mesh, const GridSettings &settings)
+{
   const TriangleGrid grid = build_grid(mesh, settings);
   const double entries = double(grid.report.lists.candidates);
-  const ListEstimate about = estimate_lists(grid.wall, plan_grid(mesh, settings), nearest > 0, {});
+  const GridPlan plan = plan_grid(mesh, settings);
+  const ListEstimate about =
+      estimate_lists(grid.wall, plan, settings.nearest > 0, bricks_that_meet(plan, settings.only));
   ASSERT_GT(about.least_entries, 0);
   // Four standard errors on each side; the numbers are the same in every run.
   EXPECT_LE(about.least_entries, entries);
@@ -38,23 +45,58 @@ void compare(const WallMesh &mesh, Real cutoff, int nearest)
   // Worth having: some 400 parts and more are sampled, whose numbers of cells differ by no more
   // than twice their mean; 4 * 2 / sqrt(400).
   EXPECT_NEAR(about.entries, entries, 0.4 * entries);
+  // What a message names as enough.
+  EXPECT_GE(estimate_bytes(grid.wall, plan, settings).enough,
+            double(flat_bytes(grid) - flat_wall_bytes(grid)));
+}
+
+LeastBytes bytes_of_slivers(int nearest, bool exact)
+{
+  const WallMesh mesh = slivers(500);
+  GridSettings settings = settings_of(0.5, nearest);
+  settings.exact = exact;
+  return estimate_bytes(make_features(mesh, false, true), plan_grid(mesh, settings), settings);
 }
 
 }    // namespace
 
 TEST(BuildEstimate, entries_of_slivers_are_as_estimated)
 {
-  compare(slivers(500), 0.5, 0);
+  compare(slivers(500), settings_of(0.5, 0));
 }
 
 TEST(BuildEstimate, entries_of_a_fine_mesh_are_as_estimated)
 {
-  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), 1, 0);
+  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), settings_of(1, 0));
 }
 
 TEST(BuildEstimate, entries_of_lists_of_every_triangle_are_as_estimated)
 {
-  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), 1, kEveryTriangle);
+  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), settings_of(1, kEveryTriangle));
+}
+
+TEST(BuildEstimate, entries_of_a_part_are_as_estimated)
+{
+  GridSettings settings = settings_of(1, 0);
+  settings.only = {{{0, 0, 0}, {60, 60, 60}}};
+  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), settings);
+}
+
+TEST(BuildEstimate, lists_that_are_cut_short_may_have_any_size)
+{
+  EXPECT_EQ(bytes_of_slivers(8, false).least, 0);
+  EXPECT_EQ(bytes_of_slivers(8, false).enough, 0);
+}
+
+TEST(BuildEstimate, complete_lists_beside_short_ones_count)
+{
+  EXPECT_GT(bytes_of_slivers(0, false).least, 0);
+  EXPECT_EQ(bytes_of_slivers(8, true).least, bytes_of_slivers(0, false).least);
+}
+
+TEST(BuildEstimate, lists_of_every_triangle_count)
+{
+  EXPECT_GT(bytes_of_slivers(kEveryTriangle, false).least, 0);
 }
 
 TEST(BuildEstimate, a_given_cell_that_cannot_fit_is_refused_before_anything_is_built)

@@ -1,6 +1,6 @@
 #include "base/input_error.h"
 #include "contact/find_contacts.h"
-#include "grid/triangle_grid.h"
+#include "grid/flat_grid.h"
 #include "parallel/threads.h"
 #include "support/brute_force.h"
 #include "support/device.h"
@@ -8,9 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cinttypes>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <random>
 
@@ -278,28 +281,12 @@ TEST(grid, a_list_holds_for_centres_up_to_the_margin_from_its_cell)
   EXPECT_GT(found, 100000);
 }
 
-// A block of bytes on a 64-byte boundary, zero before it is written.
-struct Block {
-  explicit Block(const TriangleGrid &grid) : bytes_(flat_bytes(grid) + 64, 0)
-  {
-    flatten(grid, at());
-  }
-  char *at()
-  {
-    return bytes_.data() + (64 - reinterpret_cast<std::uintptr_t>(bytes_.data()) % 64) % 64;
-  }
-
- private:
-  std::vector<char> bytes_;
-};
-
 TEST(grid, flat_view_gives_the_contacts_of_view)
 {
   const TriangleSoup soup = tangle(14, 40, 6);
   const TriangleGrid grid = grid_of(soup, 0.3);
-  Block block(grid);
-  const GridView a = grid.view(), b = flat_view(block.at());
-  EXPECT_EQ(b.block, block.at());
+  const FlatGrid flat(grid);
+  const GridView a = grid.view(), b = flat.view();
   EXPECT_EQ(b.block_bytes, flat_bytes(grid));
   EXPECT_EQ(a.origin, b.origin);
   EXPECT_EQ(a.length, b.length);
@@ -325,15 +312,66 @@ TEST(grid, flat_view_gives_the_contacts_of_view)
 TEST(grid, flat_block_can_be_moved)
 {
   const TriangleGrid grid = grid_of(box_mesh({0, 0, 0}, {1, 1, 1}), 0.3);
-  Block first(grid), second(grid);
-  std::memset(second.at(), 0, flat_bytes(grid));
-  std::memcpy(second.at(), first.at(), flat_bytes(grid));
-  std::memset(first.at(), 0xff, flat_bytes(grid));
+  FlatGrid first(grid), second(flat_bytes(grid));
+  std::memcpy(second.block(), first.block(), flat_bytes(grid));
+  std::memset(first.block(), 0xff, flat_bytes(grid));
   ContactSet<kPlaces> set;
-  find_contacts(flat_view(second.at()), {0.5, 0.5, 1.2}, 0.3, set);
+  find_contacts(second.view(), {0.5, 0.5, 1.2}, 0.3, set);
   ASSERT_EQ(set.n, 1);
   EXPECT_NEAR(set.distance[0], 0.2, 1e-15);
 }
+
+// Cache files are written from it.
+TEST(grid, flat_block_has_nothing_of_what_its_memory_held)
+{
+  const TriangleGrid grid = grid_of(tangle(14, 40, 6), 0.3);
+  FlatGrid zeros(flat_bytes(grid)), ones(flat_bytes(grid));
+  std::memset(zeros.block(), 0, zeros.bytes());
+  std::memset(ones.block(), 0xff, ones.bytes());
+  flatten(grid, zeros.block());
+  flatten(grid, ones.block());
+  EXPECT_EQ(std::memcmp(zeros.block(), ones.block(), zeros.bytes()), 0);
+}
+
+constexpr std::size_t kLargePage = 2 << 20;
+
+TEST(grid, flat_block_lies_on_64_bytes_and_from_4_MB_on_a_large_page)
+{
+  for (const std::size_t bytes : {std::size_t(1), std::size_t(1000), 2 * kLargePage - 1,
+                                  2 * kLargePage, 2 * kLargePage + 1, 5 * kLargePage}) {
+    FlatGrid flat(bytes);
+    EXPECT_EQ(flat.bytes(), bytes);
+    const std::size_t align = bytes < 2 * kLargePage ? 64 : kLargePage;
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(flat.block()) % align, 0u) << bytes;
+  }
+}
+
+#if defined(__linux__)
+// "hg" among the flags of the mapping that begins at an address or before.
+bool asks_for_large_pages(const void *at)
+{
+  std::ifstream maps("/proc/self/smaps");
+  bool here = false;
+  for (std::string line; std::getline(maps, line);) {
+    std::uintptr_t from = 0, to = 0;
+    if (std::sscanf(line.c_str(), "%" SCNxPTR "-%" SCNxPTR " ", &from, &to) == 2)
+      here =
+          from <= reinterpret_cast<std::uintptr_t>(at) && reinterpret_cast<std::uintptr_t>(at) < to;
+    else if (here && line.rfind("VmFlags:", 0) == 0)
+      return line.find(" hg") != std::string::npos;
+  }
+  return false;
+}
+
+TEST(grid, a_large_flat_block_asks_for_large_pages)
+{
+  if (!std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"))
+    GTEST_SKIP() << "the kernel has no transparent large pages";
+  FlatGrid flat(2 * kLargePage);
+  EXPECT_TRUE(asks_for_large_pages(flat.block()));
+  EXPECT_TRUE(asks_for_large_pages(flat.block() + flat.bytes() - 1));
+}
+#endif
 
 #if defined(_OPENMP)
 TEST(grid, one_and_two_threads_build_the_same_bytes)
@@ -347,8 +385,8 @@ TEST(grid, one_and_two_threads_build_the_same_bytes)
     const TriangleGrid two = grid_of(soup, 0.3);
     omp_set_num_threads(before);
     ASSERT_EQ(flat_bytes(one), flat_bytes(two));
-    Block a(one), b(two);
-    EXPECT_EQ(std::memcmp(a.at(), b.at(), flat_bytes(one)), 0);
+    FlatGrid a(one), b(two);
+    EXPECT_EQ(std::memcmp(a.block(), b.block(), flat_bytes(one)), 0);
   }
 }
 #endif

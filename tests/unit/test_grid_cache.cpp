@@ -1,5 +1,6 @@
 #include "base/input_error.h"
 #include "grid/cache/grid_cache.h"
+#include "grid/flat_grid.h"
 #include "parallel/threads.h"
 #include "support/meshes.h"
 #include "support/temp_dir.h"
@@ -43,8 +44,8 @@ GridSettings some_settings()
 // A grid, flat, and the key of its mesh and settings.
 struct Made {
   explicit Made(const TriangleSoup &soup, const GridSettings &settings = some_settings()) :
-      mesh(weld(soup, -1)), grid(build_grid(mesh, settings)), block(flat_bytes(grid)),
-      key(grid_key(mesh, settings))
+      settings(settings), mesh(weld(soup, -1)), grid(build_grid(mesh, settings)),
+      block(flat_bytes(grid)), key(grid_key(mesh, settings))
   {
     flatten(grid, block.data());
   }
@@ -68,6 +69,7 @@ struct Made {
     return cached.state();
   }
 
+  GridSettings settings;
   WallMesh mesh;
   TriangleGrid grid;
   std::vector<char> block;
@@ -234,6 +236,20 @@ TEST(grid_cache, an_empty_file_is_damaged)
 {
   TempDir dir;
   EXPECT_EQ(box().state(dir.write("empty", "")), CacheState::damaged);
+}
+
+TEST(grid_cache, two_builds_make_the_same_file)
+{
+  TempDir dir;
+  const TriangleGrid again = build_grid(cylinder().mesh, cylinder().settings);
+  FlatGrid block(flat_bytes(again));
+  std::memset(block.block(), 'x', block.bytes());
+  flatten(again, block.block());
+  cylinder().write(dir.path("first"));
+  // With the other's report, which has its seconds.
+  write_grid_cache(dir.path("again"), cylinder().key, cylinder().grid.report, block.block(),
+                   block.bytes());
+  EXPECT_TRUE(content(dir.path("again")) == content(dir.path("first")));
 }
 
 // ---- of something else -------------------------------------------------------------------

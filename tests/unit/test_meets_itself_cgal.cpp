@@ -73,5 +73,15 @@ TEST(meets_itself, finds_none_in_a_closed_box)
   EXPECT_EQ(meets_itself(weld(box_mesh({0, 0, 0}, {1, 2, 3}), -1)).pairs, 0u);
 }
 
+TEST(meets_itself, tells_its_share_of_the_facets_in_order)
+{
+  const WallMesh mesh = weld(floor_mesh(40, 1), -1);
+  std::vector<double> told;
+  meets_itself(mesh, [&](double share) { told.push_back(share); });
+  ASSERT_GT(told.size(), 2u);
+  for (std::size_t k = 0; k < told.size(); k++)
+    EXPECT_EQ(told[k], double(k) * 1024 / double(mesh.faces.size()));
+}
+
 }    // namespace
 }    // namespace lsdcd

@@ -25,7 +25,7 @@ class NearWall {
 
   void set_grid(B &b, const GridView &grid, int mesh)
   {
-    meshes_.at(mesh).set_grid(b, grid);
+    meshes_.at(mesh).grid = GridOn<B>(b, grid);
     n_ = 0;
   }
   void place(const WallPose &pose, int mesh) { meshes_.at(mesh).pose = pose; }
@@ -114,7 +114,7 @@ class NearWall {
   {
     std::size_t bytes = near_.bytes() + slots_.bytes() + lists_.bytes() +
                         centres_.size() * sizeof(Real) + works_.size() * sizeof(MeshWork);
-    for (const EngineMesh<B> &mesh : meshes_) bytes += mesh.bytes();
+    for (const EngineMesh<B> &mesh : meshes_) bytes += mesh.grid.bytes();
     return bytes;
   }
 
@@ -122,8 +122,8 @@ class NearWall {
   StepCounts choose_by_cells(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin,
                              Array<StepCounts> &counts, int *n_springs)
   {
-    near_.choose(b, mesh.grid, mesh.table, spheres, mesh.pose, margin, pull_off_, counts.data(),
-                 n_springs);
+    near_.choose(b, mesh.grid.view, mesh.grid.table, spheres, mesh.pose, margin, pull_off_,
+                 counts.data(), n_springs);
     return b.to_host(counts, 1)[0];
   }
 
@@ -131,9 +131,9 @@ class NearWall {
   StepCounts prune(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, const StepCounts &seen,
                    Real margin, Array<StepCounts> &counts, int *n_springs)
   {
-    if (mesh.grid.nearest > 0 || seen.n_near == 0) return seen;
-    near_.prune(b, mesh.grid, spheres, mesh.pose, seen.n_near, margin, pull_off_, counts.data(),
-                n_springs);
+    if (mesh.grid.view.nearest > 0 || seen.n_near == 0) return seen;
+    near_.prune(b, mesh.grid.view, spheres, mesh.pose, seen.n_near, margin, pull_off_,
+                counts.data(), n_springs);
     return b.to_host(counts, 1)[0];
   }
 
@@ -143,7 +143,7 @@ class NearWall {
     const EngineMesh<B> &mesh = meshes_[0];
     const StepCounts seen = prune(b, mesh, spheres, by_cells, margin, counts, n_springs);
     n_ = seen.n_near;
-    lists_.make(b, mesh.grid, mesh.pose, at_choice(spheres, near_.data()), n_, margin,
+    lists_.make(b, mesh.grid.view, mesh.pose, at_choice(spheres, near_.data()), n_, margin,
                 counts.data());
     return seen;
   }
@@ -169,8 +169,8 @@ class NearWall {
     n_ = slots_.n_slots();
     const MeshWork *works = put_works(b, EngineSettings(), StepSettings());
     bool long_lists = false;
-    for (const EngineMesh<B> &mesh : meshes_) long_lists |= mesh.grid.has_long_lists;
-    lists_.make(b, meshes_[0].grid, long_lists, works, slots_.mesh(),
+    for (const EngineMesh<B> &mesh : meshes_) long_lists |= mesh.grid.view.has_long_lists;
+    lists_.make(b, meshes_[0].grid.view, long_lists, works, slots_.mesh(),
                 at_choice(spheres, slots_.near()), n_, margin, counts.data());
     return seen;
   }

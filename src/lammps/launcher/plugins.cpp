@@ -1,5 +1,6 @@
 #include "lammps/launcher/plugins.h"
 
+#include "base/whole_file.h"
 #include "lammps/plugin_api.h"
 
 #include "comm.h"
@@ -174,8 +175,7 @@ void provide_plugins(LAMMPS *lmp)
     std::vector<std::string> files;
     for (const auto &entry : fs::directory_iterator(folder, none)) {
       const std::string name = entry.path().string();
-      if (name.size() > 9 && name.compare(name.size() - 9, 9, "plugin.so") == 0)
-        files.push_back(name);
+      if (ends_in(name, "plugin.so")) files.push_back(name);
     }
     std::sort(files.begin(), files.end());    // the same order on every process
     for (const std::string &file : files) count += load(lmp, file);

@@ -1,0 +1,58 @@
+// A grid where a backend computes, with what searches there read beside it.
+#pragma once
+
+#include "grid/flat_grid.h"
+#include "grid/lookup/brick_words.h"
+#include "grid/lookup/coarse_table.h"
+
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace lsdcd {
+
+template <class B>
+class GridOn {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+ public:
+  GridView view = {};
+  BrickTable table;
+  CoarseTable coarse;    // where asked for
+
+  GridOn() = default;
+  // Borrows a block that lies where B computes, and copies it elsewhere.
+  GridOn(B b, const GridView &on_host, bool with_coarse = false) : view(on_host)
+  {
+    if constexpr (!B::kOnHost) {
+      if (!on_host.block) throw std::logic_error("a device needs the view of a flat grid block");
+      block_ = Array<char>(on_host.block_bytes);
+      b.copy_in(on_host.block, block_.data(), block_.size());
+      view = moved_view(on_host, block_.data());
+    }
+    const std::vector<BrickWord> words = brick_words(on_host);
+    words_ = b.from_host(words);
+    table = BrickTable(words, words_.data());
+    if (!with_coarse) return;
+    coarse = CoarseTable(on_host);
+    coarse_words_ = b.from_host(coarse_words(on_host, coarse));
+    coarse.words = coarse_words_.data();
+  }
+  // Keeps what the other one would borrow.
+  GridOn(B b, FlatGrid &&flat, bool with_coarse = false) :
+      GridOn(std::move(b), flat.view(), with_coarse)
+  {
+    if constexpr (B::kOnHost) flat_ = std::move(flat);
+  }
+
+  std::size_t bytes() const { return block_.size() + words_.size() * sizeof(BrickWord); }
+
+ private:
+  FlatGrid flat_;
+  Array<char> block_;
+  Array<BrickWord> words_;
+  Array<std::uint32_t> coarse_words_;
+};
+
+}    // namespace lsdcd
