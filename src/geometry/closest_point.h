@@ -23,6 +23,9 @@ constexpr Real kAnyDistance = 1e300;
 constexpr Real kNoDistance = 1e-140;
 constexpr ClosestPoint kNoClosestPoint = {false, 0, {0, 0, 0}};
 
+// Tests of records are joined by & and not by &&: a GPU's thread then reads a record at once, and waits
+// for memory once.
+
 // `at_rim` is set where the closest point may lie past a side, by the tolerance at most, or by the
 // rounding that the tolerance covers.
 LSDCD_FN ClosestPoint closest_on_face(const FaceRecord &face, const Vec3 &q, Real tolerance,
@@ -30,10 +33,10 @@ LSDCD_FN ClosestPoint closest_on_face(const FaceRecord &face, const Vec3 &q, Rea
 {
   const Vec3 d = q - face.anchor;
   const Real h = dot(face.normal, d);
-  if (!(fabs(h) <= within)) return kNoClosestPoint;
   const Real a = dot(face.inward[0], d), b = dot(face.inward[1], d) + face.height,
              c = dot(face.inward[2], d);
-  if (!(a >= -tolerance && b >= -tolerance && c >= -tolerance)) return kNoClosestPoint;
+  if (!((fabs(h) <= within) & (a >= -tolerance) & (b >= -tolerance) & (c >= -tolerance)))
+    return kNoClosestPoint;
   at_rim = a < tolerance || b < tolerance || c < tolerance;
   if (h < 0) return {true, -h, -face.normal};
   return {true, h, face.normal};
@@ -53,11 +56,15 @@ LSDCD_FN bool before_corners(const Vec3 *corner, const Vec3 &q, Real tolerance)
   return true;
 }
 
-LSDCD_FN bool inside_wedge(const EdgeRecord &edge, const Vec3 *edge_inward, const Vec3 &d,
-                           Real tolerance)
+// Is d on the edge's side of its first two faces, of the others?
+LSDCD_FN bool inside_first_two(const EdgeRecord &edge, const Vec3 &d, Real tolerance)
 {
-  if (edge.n_faces > 0 && !(dot(edge.inward[0], d) <= tolerance)) return false;
-  if (edge.n_faces > 1 && !(dot(edge.inward[1], d) <= tolerance)) return false;
+  return ((edge.n_faces < 1) | (dot(edge.inward[0], d) <= tolerance)) &
+         ((edge.n_faces < 2) | (dot(edge.inward[1], d) <= tolerance));
+}
+LSDCD_FN bool inside_others(const EdgeRecord &edge, const Vec3 *edge_inward, const Vec3 &d,
+                            Real tolerance)
+{
   for (std::uint32_t k = 2; k < edge.n_faces; k++)
     if (!(dot(edge_inward[edge.more + k - 2], d) <= tolerance)) return false;
   return true;
@@ -68,8 +75,9 @@ LSDCD_FN ClosestPoint closest_on_edge(const EdgeRecord &edge, const Vec3 *edge_i
 {
   const Vec3 d = q - edge.anchor;
   const Real along = dot(edge.direction, d);
-  if (!(along >= -tolerance && along <= edge.length + tolerance)) return kNoClosestPoint;
-  if (!inside_wedge(edge, edge_inward, d, tolerance)) return kNoClosestPoint;
+  const bool may = (along >= -tolerance) & (along <= edge.length + tolerance) &
+                   inside_first_two(edge, d, tolerance);
+  if (!may || !inside_others(edge, edge_inward, d, tolerance)) return kNoClosestPoint;
   const Vec3 radial = d - along * edge.direction;
   const Real distance = norm(radial);
   if (!(distance <= within)) return kNoClosestPoint;
@@ -120,17 +128,18 @@ LSDCD_FN bool may_be_closest(const WallFeaturesView &wall, FeatureCode feature, 
     case FeatureKind::face: {
       const FaceRecord &face = wall.faces[i];
       const Vec3 d = q - face.anchor;
-      return fabs(dot(face.normal, d)) <= within && dot(face.inward[0], d) >= -tolerance &&
-             dot(face.inward[1], d) + face.height >= -tolerance &&
-             dot(face.inward[2], d) >= -tolerance;
+      return (fabs(dot(face.normal, d)) <= within) & (dot(face.inward[0], d) >= -tolerance) &
+             (dot(face.inward[1], d) + face.height >= -tolerance) &
+             (dot(face.inward[2], d) >= -tolerance);
     }
     case FeatureKind::edge: {
       const EdgeRecord &edge = wall.edges[i];
       const Vec3 d = q - edge.anchor;
       const Real along = dot(edge.direction, d);
-      return along >= -tolerance && along <= edge.length + tolerance &&
-             inside_wedge(edge, wall.edge_inward, d, tolerance) &&
-             norm_sq(d - along * edge.direction) <= within_sq;
+      const bool may = (along >= -tolerance) & (along <= edge.length + tolerance) &
+                       inside_first_two(edge, d, tolerance) &
+                       (norm_sq(d - along * edge.direction) <= within_sq);
+      return may && inside_others(edge, wall.edge_inward, d, tolerance);
     }
     default: {
       const Vec3 d = q - wall.vertices[i].position;
