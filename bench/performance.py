@@ -201,6 +201,27 @@ def distance_table(cpu, cuda):
     return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
 
 
+def one_core_table(cpu):
+    """The distances of one core, by other libraries, too."""
+    rows = of(cpu, "query")
+
+    def speed(r, start):
+        row = next((x for x in rows if x["case"].startswith(start) and
+                    all(x[k] == r[k] for k in ("triangles", "order", "device"))), None)
+        return number(facts(row).get("million_per_s", "")) if row else ""
+
+    ways = {"ours, double": "distance, complete, double", "ours, float": "distance, complete, float",
+            "library, double": "library, complete, double", "Embree, float": "Embree", "CGAL, double": "CGAL"}
+    mine = [r for r in rows if r["case"] == ways["ours, double"] and speed(r, ways["Embree, float"])]
+
+    def cells(r):
+        return [count(r["triangles"]), r["order"], *[speed(r, start) for start in ways.values()]]
+
+    names = ", ".join(dict.fromkeys(r["case"].split(",")[0] for r in rows
+                                    if r["case"].startswith(("Embree", "CGAL"))))
+    return table(mine, ["triangles", "order", *ways], cells) + f"\n\n* {names}.\n" + machines({"cpu": mine})
+
+
 def build_table(cpu, cuda):
     cpu, cuda = of(cpu, "build"), of(cuda, "build")
     whole = [r for r in union(cpu, cuda) if r["case"] in ("given cell", "chosen cell")]
@@ -261,7 +282,7 @@ def cache_table(cpu):
 def parts(cpu, cuda):
     """The generated parts of the document, with their markers."""
     text = {"status": status_table(cpu, cuda), "distance": distance_table(cpu, cuda),
-             "build": build_table(cpu, cuda),
+             "one_core": one_core_table(cpu), "build": build_table(cpu, cuda),
              "step": step_table(cpu, cuda, False),
              "in_place": step_table(cpu, cuda, True), "cache": cache_table(cpu)}
     return between_markers(text)
