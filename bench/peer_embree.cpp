@@ -16,11 +16,6 @@ namespace {
 
 using Point = Vec3Of<float>;
 
-Point along(const Point &a, float s, const Point &u)
-{
-  return a + s * u;
-}
-
 // Ericson 2005, section 5.1.5, as in Embree's own example of a closest point.
 Point nearest_on(const Point &a, const Point &b, const Point &c, const Point &p)
 {
@@ -31,11 +26,11 @@ Point nearest_on(const Point &a, const Point &b, const Point &c, const Point &p)
   if (ub >= 0 && vb <= ub) return b;
   if (vc >= 0 && uc <= vc) return c;
   const float area_c = ua * vb - ub * va, area_b = uc * va - ua * vc, area_a = ub * vc - uc * vb;
-  if (area_c <= 0 && ua >= 0 && ub <= 0) return along(a, ua / (ua - ub), u);
-  if (area_b <= 0 && va >= 0 && vc <= 0) return along(a, va / (va - vc), v);
-  if (area_a <= 0 && vb >= ub && uc >= vc) return along(b, (vb - ub) / (vb - ub + uc - vc), c - b);
+  if (area_c <= 0 && ua >= 0 && ub <= 0) return a + ua / (ua - ub) * u;
+  if (area_b <= 0 && va >= 0 && vc <= 0) return a + va / (va - vc) * v;
+  if (area_a <= 0 && vb >= ub && uc >= vc) return b + (vb - ub) / (vb - ub + uc - vc) * (c - b);
   const float whole = 1 / (area_a + area_b + area_c);
-  return along(along(a, area_b * whole, u), area_c * whole, v);
+  return a + area_b * whole * u + area_c * whole * v;
 }
 
 struct Scene {

@@ -23,8 +23,8 @@ constexpr Real kAnyDistance = 1e300;
 constexpr Real kNoDistance = 1e-140;
 constexpr ClosestPoint kNoClosestPoint = {false, 0, {0, 0, 0}};
 
-// Tests of records are joined by & and not by &&: a GPU's thread then reads a record at once, and waits
-// for memory once.
+// Tests of a record are joined by &, not by &&: a GPU's thread then reads the whole record first,
+// and waits for memory once.
 
 // `at_rim` is set where the closest point may lie past a side, by the tolerance at most, or by the
 // rounding that the tolerance covers.
@@ -56,7 +56,8 @@ LSDCD_FN bool before_corners(const Vec3 *corner, const Vec3 &q, Real tolerance)
   return true;
 }
 
-// Is d on the edge's side of its first two faces, of the others?
+// Is the point at d from an edge's anchor past that edge, seen from its first two faces? From the
+// others?
 LSDCD_FN bool inside_first_two(const EdgeRecord &edge, const Vec3 &d, Real tolerance)
 {
   return ((edge.n_faces < 1) | (dot(edge.inward[0], d) <= tolerance)) &

@@ -1,4 +1,5 @@
-// A grid as one flat block in memory of its own, aligned as views want it.
+// A grid as one flat block in memory of its own, aligned as views want it. Moving keeps it
+// where it is.
 #pragma once
 
 #include "base/large_memory.h"
@@ -17,7 +18,6 @@ class FlatGrid {
   // For a block that the caller fills.
   explicit FlatGrid(std::size_t bytes) : memory_(bytes) {}
 
-  // Moving keeps the memory where it is.
   char *block() { return memory_.data(); }
   std::size_t bytes() const { return memory_.size(); }
   GridView view() const { return flat_view(memory_.data()); }

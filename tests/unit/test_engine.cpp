@@ -12,6 +12,7 @@
 #include "support/test_engine.h"
 
 #include <cstdlib>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <random>
 

@@ -3,6 +3,7 @@
 #include "grid/cache/cache_format.h"
 #include "parallel/threads.h"
 
+#include <cstring>
 #include <zstd.h>
 
 namespace lsdcd {

@@ -5,7 +5,6 @@
 #include "grid/lookup/locate.h"
 
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 namespace lsdcd {
