@@ -85,19 +85,47 @@ lsdcd::Spheres FixWallLsdcdKokkos<DeviceType>::spheres()
   return s;
 }
 
-// Before the forces between atoms, when a GPU has little to do: the host waits for a choice.
+// Between the forces among atoms and the next kernel, for which Kokkos may wait until they are there.
+template <class DeviceType>
+int FixWallLsdcdKokkos<DeviceType>::setmask()
+{
+  return FixWallLsdcd::setmask() | (lsdcd::kOnHost<DeviceType> ? 0 : PRE_REVERSE);
+}
+
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::start()
 {
   if (cutoff() == 0) return;
-  atomKK->sync(execution_space, X_MASK | RADIUS_MASK | MASK_MASK);
+  atomKK->sync(execution_space,
+               X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK);
   if (history) in_place().grow(atom->nmax);
+  in_place().ready();
+  running = true;
+  begun = false;
+}
+
+// On a GPU: the forces among atoms are under way, and the wall's are found beside them.
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int /*eflag*/, int /*vflag*/)
+{
+  if (!running) return;
+  in_place().begin_beside();
+  give_step();
+  in_place().end_beside();
+}
+
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::give_step()
+{
+  lsdcd::Spheres s = spheres();
+  const lsdcd::StepSettings step = step_settings(s);
   try {
-    choose_if_due(spheres());
+    choose_if_due(s);
+    engine->start(s, step);
   } catch (const std::exception &e) {
     stop(e);
   }
-  running = true;
+  begun = true;
 }
 
 template <class DeviceType>
@@ -106,9 +134,7 @@ void FixWallLsdcdKokkos<DeviceType>::collect()
   if (running) {
     atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
                                       MASK_MASK | F_MASK | TORQUE_MASK);
-    lsdcd::Spheres s = spheres();
-    const lsdcd::StepSettings step = step_settings(s);
-    engine->start(s, step);
+    if (!begun) give_step();
   }
   const bool ran = running;
   FixWallLsdcd::collect();

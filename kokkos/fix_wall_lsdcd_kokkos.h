@@ -14,7 +14,9 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   FixWallLsdcdKokkos(class LAMMPS *, int, char **);
 
   // schedule
+  int setmask() override;
   void setup_pre_exchange() override { pre_exchange(); }
+  void pre_reverse(int, int) override;
 
   void grow_arrays(int) override;
 
@@ -42,12 +44,14 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   {
     return static_cast<lsdcd::InPlaceEngine &>(*engine);
   }
+  void give_step();
   void springs_to_device();
   static bool sends_from_host(ExecutionSpace);
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);
 
   Kokkos::View<double *, DeviceType> d_mass_seen;
+  bool begun = false;    // has the engine been given the step?
 };
 
 }    // namespace LAMMPS_NS

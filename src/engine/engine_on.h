@@ -76,21 +76,41 @@ class EngineOn : public InPlaceEngine {
   {
     spheres_ = spheres;
     step_ = step;
+    if (is_beside_) run(true);
+    has_run_ = is_beside_;
   }
 
   void collect() override
   {
-    run();
+    if (has_run_)
+      results_.add_forces(b_);
+    else
+      run();
+    has_run_ = false;
     fetch();
   }
 
+  void ready() override { beside_.ready(b_); }
+  void begin_beside() override
+  {
+    beside_.begin(b_);
+    is_beside_ = true;
+  }
+  void end_beside() override
+  {
+    is_beside_ = false;
+    beside_.end(b_);
+  }
+
   // The two halves of collect(): the work, without waiting for it, and what is asked for of it.
-  void run()
+  // `adds_later`: forces are left to the results.
+  void run(bool adds_later = false)
   {
     const std::size_t n = wall_.n();
     const bool several = wall_.has_several();
     results_.begin(law_.traits, step_, spheres_, wall_.near(), n,
-                   may_miss_any(wall_.mesh(0).grid.view), several ? &wall_.slots() : nullptr);
+                   may_miss_any(wall_.mesh(0).grid.view), adds_later,
+                   several ? &wall_.slots() : nullptr);
     if (n == 0) return;
     const MeshWork work = wall_.mesh(0).work(settings_, step_, 0);
     LawJob job = job_of(work.grid, work.settings, spheres_);
@@ -262,6 +282,8 @@ class EngineOn : public InPlaceEngine {
   EngineSettings settings_;
   CompiledLaw<B> law_;
   B b_;
+  typename B::Beside beside_;
+  bool is_beside_ = false, has_run_ = false;    // the step that was started
   NearWall<B> wall_;
   Spheres spheres_;
   StepSettings step_;

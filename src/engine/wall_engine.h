@@ -176,6 +176,15 @@ class WallEngine {
 // notes what collect() does; that fetches what the step's settings ask for.
 class InPlaceEngine : public WallEngine {
  public:
+  // A step beside the host's own work, where a GPU has room for both. ready(): what steps read of
+  // spheres is there once the host's stream has done what it has been given, and does not change
+  // until collect(). What is asked for between begin_beside() and end_beside() does not wait for what
+  // the host gives its stream after ready(): choose(), has_moved() and a start(), which
+  // begins at once here. Forces and torques are added by collect(), after that work.
+  virtual void ready() = 0;
+  virtual void begin_beside() = 0;
+  virtual void end_beside() = 0;
+
   // Per sphere there are a first spring and a count, which follow it through sorting; `n` spheres
   // are the process's own.
   virtual void grow(int n) = 0;    // room for n; new spheres have none

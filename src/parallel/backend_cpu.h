@@ -64,6 +64,13 @@ struct CpuBackend {
   }
   void wait() {}
 
+  // beside: here one thing comes after the other.
+  struct Beside {
+    void ready(CpuBackend &) {}
+    void begin(CpuBackend &) {}
+    void end(CpuBackend &) {}
+  };
+
   // for_each: f(i) for i in [0, n), in any order and possibly at once.
   // The last argument is for GPUs: how many run together.
   template <class F>

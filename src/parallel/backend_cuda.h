@@ -1,6 +1,7 @@
 // The five verbs of a backend on an NVIDIA GPU: allocate, copy, for_each, reduce, scan/sort.
 #pragma once
 
+#include "parallel/cuda_beside.h"
 #include "parallel/cuda_check.h"
 #include "parallel/cuda_mark.h"
 #include "parallel/owned_array.h"
@@ -172,6 +173,15 @@ struct CudaBackend {
     return value;
   }
   void wait() { cuda_check(cudaStreamSynchronize(stream), "running on the device"); }
+
+  // beside: what is started between begin() and end() waits only for what came before ready().
+  struct Beside {
+    void ready(CudaBackend &b) { streams.ready(b.stream); }
+    void begin(CudaBackend &b) { streams.begin(b.stream); }
+    void end(CudaBackend &b) { streams.end(b.stream); }
+
+    CudaBeside streams;
+  };
 
   // for_each: f(i) for i in [0, n), in any order and at once.
   template <class F>

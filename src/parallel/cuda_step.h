@@ -19,12 +19,23 @@ constexpr unsigned kStepBlock = 128;
 constexpr int kFewBlocks = 66, kMostBlocks = 528;
 
 // What several() is for: those listed, or with a null list all of [0, n). The first `blocks` of the
-// kernel do it, of which `few` take the first spheres.
+// kernel do it, of which `few` take the first spheres. `leaves_lists`: is one that needs a list left
+// to the next kernel, where more threads share them?
 struct SeveralPart {
   const int *list, *n_listed;
   int n, few;
   unsigned blocks;
+  bool leaves_lists;
 };
+
+// Puts k into a list of which `n` is the length, for each lane that has one to put.
+__device__ inline void put_listed(bool has_one, int k, int *list, int *n)
+{
+  const unsigned votes = __ballot_sync(kAllLanes, has_one);
+  if (votes == 0) return;
+  const int at = room_at(n, __popc(votes));
+  if (has_one) list[at + votes_below(votes)] = k;
+}
 
 template <class Work>
 __device__ void do_several(const SeveralPart &part, const Work &work)
@@ -38,21 +49,24 @@ __device__ void do_several(const SeveralPart &part, const Work &work)
   // What is listed is few, and each sphere takes a way of its own through the code: first one a warp.
   const int first = part.list ? lane * warps + warp : 32 * warp + lane;
   for (int s = first; __any_sync(kAllLanes, s < end); s += step) {
-    const bool has_one = s < end;
+    bool has_one = s < end;
     const int k = !has_one ? 0 : part.list ? part.list[s] : s;
-    // Lists are long to make: the whole warp makes one after the other.
-    unsigned due = __ballot_sync(kAllLanes, has_one && work.needs_list(k));
-    for (; due != 0; due &= due - 1)
-      work.make_list(LaneGroup<32>(), __shfl_sync(kAllLanes, k, __ffs(due) - 1));
-    __syncwarp();
+    const bool is_due = has_one && work.needs_list(k);
+    if (part.leaves_lists) {
+      put_listed(is_due, k, lists.found, lists.n_found);
+      has_one = has_one && !is_due;
+    } else {
+      // Lists are long to make: the whole warp makes one after the other.
+      unsigned due = __ballot_sync(kAllLanes, is_due);
+      for (; due != 0; due &= due - 1)
+        work.make_list(LaneGroup<32>(), __shfl_sync(kAllLanes, k, __ffs(due) - 1));
+      __syncwarp();
+    }
     const bool again = has_one && work.several(k);
     __syncwarp();
     if (!part.list || !lists.next) continue;
-    const unsigned votes = __ballot_sync(kAllLanes, again);
-    const int at = room_at(lists.n_next, __popc(votes));
-    if (!again) continue;
-    lists.next[at + votes_below(votes)] = k;
-    lists.listed_in[k] = lists.step + 1;
+    put_listed(again, k, lists.next, lists.n_next);
+    if (again) lists.listed_in[k] = lists.step + 1;
   }
 }
 
@@ -74,11 +88,7 @@ __global__ void __launch_bounds__(kStepBlock, Work::kBlocksAtOnce)
     const unsigned k = (blockIdx.x - part.blocks) * kStepBlock + threadIdx.x;
     // Of one that several() is at now it may be the next step already.
     const bool mine = k < n && !(lists.listed_in && lists.listed_in[k] >= lists.step);
-    const bool left = mine && !work.single(k);
-    const unsigned votes = __ballot_sync(kAllLanes, left);
-    if (votes == 0) return;
-    const int at = room_at(lists.n_found, __popc(votes));
-    if (left) lists.found[at + votes_below(votes)] = static_cast<int>(k);
+    put_listed(mine && !work.single(k), static_cast<int>(k), lists.found, lists.n_found);
   }
 }
 
@@ -89,13 +99,13 @@ void start_step(unsigned n, bool has_single, const Work &work, cudaStream_t stre
   const unsigned blocks = (n + kStepBlock - 1) / kStepBlock,
                  several_blocks = std::min<unsigned>(blocks, kMostBlocks);
   const StepLists &lists = work.step_lists();
-  SeveralPart part = {nullptr, nullptr, static_cast<int>(n), 0, blocks};
+  SeveralPart part = {nullptr, nullptr, static_cast<int>(n), 0, blocks, false};
   int *to_clear = lists.n_found_next;
   if (has_single) {
-    part = {lists.last, lists.n_last, 0, kFewBlocks, lists.last ? several_blocks : 0};
+    part = {lists.last, lists.n_last, 0, kFewBlocks, lists.last ? several_blocks : 0, true};
     cuda_step<<<part.blocks + blocks, kStepBlock, 0, stream>>>(part, n, to_clear, work);
     to_clear = lists.n_last;    // the next step's `next`
-    part = {lists.found, lists.n_found, 0, kMostBlocks, several_blocks};
+    part = {lists.found, lists.n_found, 0, kMostBlocks, several_blocks, false};
   }
   cuda_step<<<part.blocks, kStepBlock, 0, stream>>>(part, 0, to_clear, work);
 }

@@ -5,7 +5,8 @@ namespace lsdcd {
 
 // Lists of indices into what the step is over, and how many each has. Null: there is no such list.
 struct StepLists {
-  int *found = nullptr, *n_found = nullptr;    // single() has said no to them in this step
+  // What is left to the second kernel of this step: single() has said no, or they need a list.
+  int *found = nullptr, *n_found = nullptr;
   int *n_found_next = nullptr;                 // of the next step, to be cleared
   // What several() has asked for again: in the last step, and in this one. Most have several
   // contacts for many steps, so that these need not be found first.

@@ -8,7 +8,8 @@ namespace lsdcd {
 namespace {
 
 // Brings a host's spheres to where an engine has its particles, and forces back. Vectors lie there
-// as x x x y y y z z z in one step and as x y z x y z in the next.
+// as x x x y y y z z z in one step and as x y z x y z in the next; in two of four steps choice and step
+// are beside the host's work.
 class InPlaceForHost : public WallEngine {
  public:
   InPlaceForHost(std::unique_ptr<InPlaceEngine> engine, bool cuda) :
@@ -23,14 +24,15 @@ class InPlaceForHost : public WallEngine {
   Real largest_radius(const Spheres &s) override { return engine_->largest_radius(places(s)); }
   void choose(const Spheres &s, Real margin, bool watch) override
   {
-    engine_->choose(places(s), margin, watch);
+    const Spheres placed = places(s);
+    by_turns([&] { engine_->choose(placed, margin, watch); });
   }
   bool has_moved(const Spheres &s) override { return engine_->has_moved(places(s)); }
 
   void start(const Spheres &host, const StepSettings &step) override
   {
     host_ = host;
-    packed_ = !packed_;
+    turn_++;
     const std::size_t n = host.n;
     Spheres s = places(host);
     s.v = put_vectors(v_, host.v, n);
@@ -41,7 +43,7 @@ class InPlaceForHost : public WallEngine {
     s.mass = put(mass_, host.mass, n);
     s.temperature = put(temperature_, host.temperature, n);
     s.heat_flow = put(heat_, host.heat_flow, n);
-    engine_->start(s, step);
+    by_turns([&] { engine_->start(s, step); });
   }
 
   void collect() override
@@ -70,6 +72,17 @@ class InPlaceForHost : public WallEngine {
   std::size_t bytes() const override { return engine_->bytes(); }
 
  private:
+  template <class Work>
+  void by_turns(const Work &work)
+  {
+    const bool beside = turn_ / 2 % 2 == 1;
+    if (beside) {
+      engine_->ready();
+      engine_->begin_beside();
+    }
+    work();
+    if (beside) engine_->end_beside();
+  }
   // What a choice reads.
   Spheres places(const Spheres &host)
   {
@@ -88,8 +101,8 @@ class InPlaceForHost : public WallEngine {
   }
   StridedView<Real> rows_in(Real *at, std::size_t n) const
   {
-    return packed_ ? StridedView<Real>(at)
-                   : StridedView<Real>(at, 1, static_cast<std::ptrdiff_t>(n));
+    return turn_ % 2 == 1 ? StridedView<Real>(at)
+                          : StridedView<Real>(at, 1, static_cast<std::ptrdiff_t>(n));
   }
   StridedView<const Real> put_vectors(DeviceArray<Real> &to, const StridedView<const Real> &from,
                                       std::size_t n) const
@@ -106,7 +119,7 @@ class InPlaceForHost : public WallEngine {
   }
 
   std::unique_ptr<InPlaceEngine> engine_;
-  bool packed_ = false;
+  int turn_ = 0;
   Spheres host_;
   DeviceArray<Real> x_, v_, omega_, force_, torque_, radius_, mass_, temperature_, heat_;
   DeviceArray<int> mask_;

@@ -46,18 +46,25 @@ struct CountingBackend : CpuBackend {
       for (std::size_t k = 0; k < n; k++) work.several(k);
       return;
     }
-    const auto do_several = [&](int k) {
+    const auto do_several = [&](int k, bool leaves_lists) {
+      if (work.needs_list(k)) {
+        if (leaves_lists) {
+          lists.found[(*lists.n_found)++] = k;
+          return;
+        }
+        work.make_list(LaneGroup<1>(), k);
+      }
       if (!work.several(k) || !lists.next) return;
       lists.next[(*lists.n_next)++] = k;
       lists.listed_in[k] = lists.step + 1;
     };
     const int n_last = lists.last ? *lists.n_last : 0;
-    for (int s = 0; s < n_last; s++) do_several(lists.last[s]);
+    for (int s = 0; s < n_last; s++) do_several(lists.last[s], true);
     for (std::size_t k = 0; k < n; k++)
       if (!(lists.listed_in && lists.listed_in[k] >= lists.step) && !work.single(k))
         lists.found[(*lists.n_found)++] = static_cast<int>(k);
     if (lists.last) *lists.n_last = 0;
-    for (int s = 0; s < *lists.n_found; s++) do_several(lists.found[s]);
+    for (int s = 0; s < *lists.n_found; s++) do_several(lists.found[s], false);
   }
   static int &crossings()
   {
@@ -253,7 +260,9 @@ class Particles {
     return s;
   }
 
+  void set_force(const std::vector<Real> &to) { force_.put(to); }
   std::vector<Real> force() { return force_.get(3 * n_); }
+  std::vector<Real> torque() { return torque_.get(3 * n_); }
   SpringStore springs()
   {
     SpringStore store;
@@ -284,6 +293,31 @@ bool same_springs(const SpringStore &a, int i, const SpringStore &b, int j)
     return std::vector<Spring>(store.of(k), store.of(k) + store.count(k));
   };
   return same_bytes(of(a, i), of(b, j));
+}
+
+TEST(engine, adds_forces_found_beside_to_what_the_host_has_put_there)
+{
+  const int n = 3000;
+  const Real of_host = 3;
+  Particles beside(with_history(), n, 0.5), after(with_history(), n, 0.5);
+  for (int k = 0; k < 3; k++) {
+    const Spheres a = beside.spheres(), b = after.spheres();
+    const std::vector<Real> others(3 * n, of_host);
+    beside.engine->ready();
+    beside.engine->begin_beside();
+    beside.engine->choose(a, 0);
+    beside.engine->start(a, StepSettings());
+    beside.engine->end_beside();
+    beside.set_force(others);
+    beside.engine->collect();
+    after.engine->choose(b, 0);
+    after.set_force(others);
+    after.engine->start(b, StepSettings());
+    after.engine->collect();
+    EXPECT_TRUE(same_bytes(beside.force(), after.force()));
+    EXPECT_TRUE(same_bytes(beside.torque(), after.torque()));
+    EXPECT_NE(beside.force(), others);
+  }
 }
 
 TEST(engine, a_list_that_is_kept_gives_the_same_bits)

@@ -84,11 +84,13 @@ LSDCD_FN int count_acting(const ContactsView &set, const Real *weight)
   return n;
 }
 
-// The wall's force and torque on sphere i at x, which stay with k for totals.
+// The wall's force and torque on sphere i at x, which stay with k for totals, and until they are
+// added where that is later.
 LSDCD_FN void give(const LawJob &job, std::size_t k, std::size_t i, const Vec3 &x,
                    const SphereResult &out)
 {
   job.result.put(k, out, cross(x, out.force) + out.torque);
+  if (job.result.torque.at) return;
   job.force.add(i, out.force);
   job.torque.add(i, out.torque);
 }

@@ -12,11 +12,17 @@ struct ResultColumns {
   Column<Real> energy, overlap_ratio;
   StridedView<Real> weighted_point;    // these two only where they are asked for
   Column<Real> weight;
+  StridedView<Real> torque;    // only where forces are added later
 
-  static constexpr std::size_t kReals = 8, kRealsWithPoint = 12;    // of a result
+  // Numbers of a result.
+  static constexpr std::size_t reals(bool with_point, bool with_torque)
+  {
+    return 8 + (with_point ? 4 : 0) + (with_torque ? 3 : 0);
+  }
 
-  // Columns of `room` results in one array; `with_point`: it has kRealsWithPoint for each.
-  static ResultColumns of(Real *at, std::size_t room, bool with_point, int *n_contacts)
+  // Columns of `room` results in one array.
+  static ResultColumns of(Real *at, std::size_t room, bool with_point, bool with_torque,
+                          int *n_contacts)
   {
     const auto next = static_cast<std::ptrdiff_t>(room);
     ResultColumns c;
@@ -25,9 +31,11 @@ struct ResultColumns {
     c.moment = {at + 3 * next, 1, next};
     c.energy = {at + 6 * next};
     c.overlap_ratio = {at + 7 * next};
+    if (with_torque) c.torque = {at + 8 * next, 1, next};
     if (!with_point) return c;
-    c.weighted_point = {at + 8 * next, 1, next};
-    c.weight = {at + 11 * next};
+    at += (with_torque ? 11 : 8) * next;
+    c.weighted_point = {at, 1, next};
+    c.weight = {at + 3 * next};
     return c;
   }
 
@@ -40,6 +48,7 @@ struct ResultColumns {
     c.moment.at += k;
     c.energy.at += k;
     c.overlap_ratio.at += k;
+    if (c.torque.at) c.torque.at += k;
     if (!c.weight.at) return c;
     c.weighted_point.at += k;
     c.weight.at += k;
@@ -53,6 +62,7 @@ struct ResultColumns {
     moment.put(at, about_origin);
     energy[at] = r.energy;
     overlap_ratio[at] = r.overlap_ratio;
+    if (torque.at) torque.put(at, r.torque);
     if (!weight.at) return;
     weighted_point.put(at, r.weighted_point);
     weight[at] = r.weight;

@@ -16,10 +16,11 @@ class StepResults {
   using Array = typename B::template Array<T>;
 
  public:
-  // For a step of n near spheres of these; `near`: their indices, or null for all.
-  // `meshes`: which slots are of which mesh, or null where there is one.
+  // For a step of n near spheres of these; `near`: their indices, or null for all. `adds_later`:
+  // will add_forces() be called? `meshes`: which slots are of which mesh, or null where there is one.
   void begin(const LawTraits &traits, const StepSettings &step, const Spheres &spheres,
-             const int *near, std::size_t n, bool may_miss, const NearMeshes<B> *meshes = nullptr)
+             const int *near, std::size_t n, bool may_miss, bool adds_later,
+             const NearMeshes<B> *meshes = nullptr)
   {
     meshes_ = meshes;
     traits_ = traits;
@@ -39,10 +40,10 @@ class StepResults {
     else if (uncertain_.size() < n)
       uncertain_ = Array<Real>(n + n / 8);
     const std::size_t room = n_contacts_.size(),
-                      numbers = room * (step.per_sphere ? ResultColumns::kRealsWithPoint
-                                                        : ResultColumns::kReals);
+                      numbers = room * ResultColumns::reals(step.per_sphere, adds_later);
     if (numbers_.size() < numbers) numbers_ = Array<Real>(numbers);
-    columns_ = ResultColumns::of(numbers_.data(), room, step.per_sphere, n_contacts_.data());
+    columns_ = ResultColumns::of(numbers_.data(), room, step.per_sphere, adds_later,
+                                 n_contacts_.data());
   }
 
   void put_into(LawJob &job)
@@ -51,6 +52,29 @@ class StepResults {
     job.heat = heat_.data();
     job.uncertain = uncertain_.data();
   }
+
+  // Adds forces and torques to the spheres, in the order in which a step does it by itself.
+  void add_forces(B &b)
+  {
+    if (n_ == 0) return;
+    const std::size_t n_alone = meshes_ ? meshes_->begin(meshes_->n_meshes()) : n_;
+    const ResultColumns result = columns_;
+    const int *near = near_;
+    const StridedView<Real> force = spheres_.force, torque = spheres_.torque;
+    const auto add = [=] LSDCD_LAMBDA(std::size_t k) {
+      if (result.n_contacts[k] == 0) return;
+      const std::size_t i = near ? near[k] : k;
+      force.add(i, result.force[k]);
+      torque.add(i, result.torque[k]);
+    };
+    b.for_each(n_alone, add);
+    if (!meshes_ || meshes_->n_joint() == 0) return;
+    const int *first = meshes_->first();
+    b.for_each(meshes_->n_joint(), [=] LSDCD_LAMBDA(std::size_t g) {
+      for (int k = first[g]; k < first[g + 1]; k++) add(k);
+    });
+  }
+
   int *slot() { return slot_.data(); }
   const Array<int> &n_contacts() const { return n_contacts_; }
 
