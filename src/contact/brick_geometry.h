@@ -43,14 +43,15 @@ class BrickGeometry {
     }
   }
 
-  LSDCD_FN ClosestPoint closest_point(FeatureCode code, Real within) const
+  LSDCD_FN ClosestPoint closest_point(FeatureCode code, Real within,
+                                      const FeatureRecord * = nullptr) const
   {
-    return closest_point(code, within, 0);
+    return closest_point_with(code, within, 0);
   }
   // Could there be a closest point with so much more of tolerance (length)?
   LSDCD_FN bool may_be_closest(FeatureCode code, Real within, Real more) const
   {
-    return closest_point(code, within, more).found;
+    return closest_point_with(code, within, more).found;
   }
 
   LSDCD_FN const FaceParts &parts(FeatureCode face) const
@@ -66,7 +67,7 @@ class BrickGeometry {
   }
 
  private:
-  LSDCD_FN ClosestPoint closest_point(FeatureCode code, Real within, Real more) const
+  LSDCD_FN ClosestPoint closest_point_with(FeatureCode code, Real within, Real more) const
   {
     const std::uint32_t i = feature_index(code);
     const float limit = static_cast<float>(within),

@@ -45,12 +45,12 @@ LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const Clos
 }
 
 // Adds what a feature holds. The geometry tells where the closest point is and what its codes
-// stand for: WallGeometry in double, BrickGeometry in float.
+// stand for: WallGeometry in double, BrickGeometry in float. `copy`: of its record, or null.
 template <class Geometry, int kPlaces>
 LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radius,
-                          ContactSet<kPlaces> &set)
+                          ContactSet<kPlaces> &set, const FeatureRecord *copy = nullptr)
 {
-  const ClosestPoint closest = geometry.closest_point(code, radius);
+  const ClosestPoint closest = geometry.closest_point(code, radius, copy);
   if (closest.found && closest.distance < radius)
     add_once(set, geometry.feature(code), closest, geometry.tolerance());
 }
@@ -59,9 +59,10 @@ LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radiu
 // long, and would be compiled into each law's kernels many times.
 template <class Geometry, int kPlaces>
 LSDCD_NOINLINE void add_feature_apart(const Geometry &geometry, FeatureCode code, Real radius,
-                                      ContactSet<kPlaces> &set)
+                                      ContactSet<kPlaces> &set,
+                                      const FeatureRecord *copy = nullptr)
 {
-  add_feature(geometry, code, radius, set);
+  add_feature(geometry, code, radius, set, copy);
 }
 
 // A face and what it stands for. Above the face's inside nothing else of it is near.

@@ -25,9 +25,10 @@ class WallGeometry {
   // The feature of the wall that a code in a list stands for.
   LSDCD_FN FeatureCode feature(FeatureCode code) const { return code; }
 
-  LSDCD_FN ClosestPoint closest_point(FeatureCode code, Real within) const
+  LSDCD_FN ClosestPoint closest_point(FeatureCode code, Real within,
+                                      const FeatureRecord *copy = nullptr) const
   {
-    return closest_point_on(grid_.wall, code, q_, grid_.tolerance, within);
+    return closest_point_on(grid_.wall, code, q_, grid_.tolerance, within, copy);
   }
   // Could there be a closest point with so much more of tolerance (length)?
   LSDCD_FN bool may_be_closest(FeatureCode code, Real within, Real more) const

@@ -150,14 +150,17 @@ LSDCD_FN bool may_be_closest(const WallFeaturesView &wall, FeatureCode feature, 
   }
 }
 
+// `copy`: of the feature's record, or null.
 LSDCD_FN ClosestPoint closest_point_on(const WallFeaturesView &wall, FeatureCode feature,
-                                       const Vec3 &q, Real tolerance, Real within = kAnyDistance)
+                                       const Vec3 &q, Real tolerance, Real within = kAnyDistance,
+                                       const FeatureRecord *copy = nullptr)
 {
   const std::uint32_t i = feature_index(feature);
   switch (feature_kind(feature)) {
     case FeatureKind::face: {
       bool at_rim = false;
-      const ClosestPoint closest = closest_on_face(wall.faces[i], q, tolerance, within, at_rim);
+      const FaceRecord &face = copy ? copy->face : wall.faces[i];
+      const ClosestPoint closest = closest_on_face(face, q, tolerance, within, at_rim);
       if (!closest.found || !at_rim) return closest;
       Vec3 corner[3];
       for (int k = 0; k < 3; k++) corner[k] = wall.vertices[wall.face_vertex[i].v[k]].position;
@@ -165,9 +168,11 @@ LSDCD_FN ClosestPoint closest_point_on(const WallFeaturesView &wall, FeatureCode
       return kNoClosestPoint;
     }
     case FeatureKind::edge:
-      return closest_on_edge(wall.edges[i], wall.edge_inward, q, tolerance, within);
+      return closest_on_edge(copy ? copy->edge : wall.edges[i], wall.edge_inward, q, tolerance,
+                             within);
     default:
-      return closest_on_vertex(wall.vertices[i], wall.vertex_direction, q, tolerance, within);
+      return closest_on_vertex(copy ? copy->vertex : wall.vertices[i], wall.vertex_direction, q,
+                               tolerance, within);
   }
 }
 

@@ -78,6 +78,30 @@ LSDCD_FN FeatureCode own_feature(const WallFeaturesView &wall, FeatureCode featu
   return feature_code(kind, static_cast<std::uint32_t>(of[i - n]));
 }
 
+// The record of one feature.
+union FeatureRecord {
+  FaceRecord face;
+  EdgeRecord edge;
+  VertexRecord vertex;
+};
+
+inline FeatureRecord record_of(const WallFeaturesView &wall, FeatureCode feature)
+{
+  const std::uint32_t i = feature_index(feature);
+  FeatureRecord record;
+  switch (feature_kind(feature)) {
+    case FeatureKind::face:
+      record.face = wall.faces[i];
+      break;
+    case FeatureKind::edge:
+      record.edge = wall.edges[i];
+      break;
+    default:
+      record.vertex = wall.vertices[i];
+  }
+  return record;
+}
+
 // Asks a host's memory for the record of a feature, which is read soon.
 inline void ask_for(const WallFeaturesView &wall, FeatureCode feature)
 {

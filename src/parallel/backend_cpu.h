@@ -158,7 +158,6 @@ struct CpuBackend {
 
   // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
   // !work.has_single(), work.several(i), before that work.make_list(group, i) if work.needs_list(i).
-  // work.ask_ahead(i) is called some time before.
   template <class Work>
   void step(std::size_t n, const Work &work)
   {
@@ -167,7 +166,7 @@ struct CpuBackend {
     const std::int64_t m = static_cast<std::int64_t>(n), n_runs = (m + kRun - 1) / kRun;
 #pragma omp parallel for schedule(dynamic) num_threads(threads()) if (n_runs > 4)
     for (std::int64_t run = 0; run < n_runs; run++)
-      step_run(work, run * kRun, std::min(m, (run + 1) * kRun), m);
+      step_run(work, run * kRun, std::min(m, (run + 1) * kRun));
   }
 
   // Does test(i) hold for any i in [0, n)?
@@ -230,20 +229,16 @@ struct CpuBackend {
   }
 
  private:
-  static constexpr std::int64_t kAhead = 8;    // of the step that is asked for
-
   // single() is compiled into the loop whole, with its contact in registers; several() is rare,
   // and long.
   template <class Work>
   [[gnu::noinline, gnu::flatten]] static void step_run(const Work &work, std::int64_t begin,
-                                                       std::int64_t end, std::int64_t n)
+                                                       std::int64_t end)
   {
     const bool has_single = work.has_single();
-    for (std::int64_t i = begin; i < end; i++) {
-      if (i + kAhead < n) work.ask_ahead(static_cast<std::size_t>(i + kAhead));
+    for (std::int64_t i = begin; i < end; i++)
       if (!has_single || !work.single(static_cast<std::size_t>(i)))
         step_several(work, static_cast<std::size_t>(i));
-    }
   }
   template <class Work>
   [[gnu::noinline]] static void step_several(const Work &work, std::size_t i)

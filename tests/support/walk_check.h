@@ -211,7 +211,7 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
   Real reals[WallLists::kReals];
   std::int32_t ints[WallLists::kInts];
   const WallLists lists = {reals, reinterpret_cast<float *>(reals + 3), ints, 1, grid.length};
-  lists.put(0, made);
+  lists.put(0, made, grid.wall);
 
   Numbers r(mesh.pairs.seed + 0xd1342543de82ull * (i + 1));
   const Real margin = lists.margin(0);

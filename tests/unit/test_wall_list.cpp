@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 namespace lsdcd {
 namespace {
@@ -38,7 +39,7 @@ class OneList {
   OneList(const GridView &grid, const Vec3 &q, Real radius, Real cutoff)
   {
     has_list = gather(LaneGroup<1>(), grid, {q, radius, cutoff, nullptr, 0}, kAnyDistance, made);
-    lists.put(0, made);
+    lists.put(0, made, grid.wall);
   }
   OneList(const GridView &grid, const Vec3 &q, Real radius) : OneList(grid, q, radius, radius) {}
   bool holds(const Vec3 &q, Real cutoff) const { return lists.holds(0, q, cutoff); }
@@ -52,6 +53,54 @@ class OneList {
   std::int32_t ints_[WallLists::kInts];
   WallLists lists = WallLists::of(reals_, ints_, 1, 1);
 };
+
+template <class Record>
+bool same_record(const Record &a, const Record &b)
+{
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+TEST(wall_list, keeps_copies_of_the_records_that_it_names_while_there_is_room)
+{
+  const Wall box(box_mesh({2, 2, 2}, {3, 3, 3}), 0.5);
+  const WallFeaturesView wall = box.view().wall;
+  std::vector<FeatureCode> codes;
+  for (FeatureKind kind : {FeatureKind::face, FeatureKind::edge, FeatureKind::vertex})
+    for (std::uint32_t i = 0; i < 2; i++) codes.push_back(feature_code(kind, i));
+  FeatureRecord records[8];
+  RecordCopies::Place places[3] = {};
+  int used = 0;
+  const RecordCopies copies = {records, places, &used, 8};
+  const auto has = [&](std::size_t k, int i, FeatureCode code) {
+    const FeatureRecord *copy = copies.of(k, i);
+    if (!copy) return false;
+    const std::uint32_t at = feature_index(code);
+    switch (feature_kind(code)) {
+      case FeatureKind::face:
+        return same_record(copy->face, wall.faces[at]);
+      case FeatureKind::edge:
+        return same_record(copy->edge, wall.edges[at]);
+      default:
+        return same_record(copy->vertex, wall.vertices[at]);
+    }
+  };
+  const auto put = [&](std::size_t k, int from, int n) { copies.put(k, wall, &codes[from], n); };
+  put(0, 0, 6);
+  for (int i = 0; i < 6; i++) EXPECT_TRUE(has(0, i, codes[i])) << i;
+  EXPECT_FALSE(copies.of(0, 6));
+  put(1, 4, 2);
+  EXPECT_TRUE(has(1, 0, codes[4]) && has(1, 1, codes[5]));
+  // No room: the wall's own, also where there was a copy.
+  put(2, 0, 1);
+  put(1, 0, 3);
+  EXPECT_FALSE(copies.of(2, 0) || copies.of(1, 0));
+  // A shorter list takes the room of the longer one.
+  put(0, 3, 2);
+  EXPECT_TRUE(has(0, 0, codes[3]) && has(0, 1, codes[4]));
+  EXPECT_FALSE(copies.of(0, 2));
+  put(1, 1, 2);
+  EXPECT_TRUE(has(1, 0, codes[1]) && has(1, 1, codes[2]));
+}
 
 Vec3 in_grid(Numbers &r, const GridView &grid)
 {

@@ -253,7 +253,6 @@ struct JointStep {
   static constexpr int kBlocksAtOnce = 2;    // its kernel has all registers that there are
   bool has_single() const { return false; }
   LSDCD_FN void begin() const { clear_next(job); }
-  void ask_ahead(std::size_t) const {}
   LSDCD_FN bool single(std::size_t) const { return false; }
   LSDCD_FN bool needs_list(std::size_t g) const
   {

@@ -194,7 +194,7 @@ LSDCD_FN void put_list(const LawJob &job, const Group &group, const GridView &gr
   if (s.cutoff > job.lists.cutoff(k)) raise_to(&job.counts->grown, kNoSphere - sphere_of(job, k));
   count_one(&job.counts->lists);
   add_to(&job.counts->listed, made.n);
-  job.lists.put(k, made);
+  job.lists.put(k, made, grid.wall);
 }
 
 // Near sphere k with any number of contacts. Its cell is searched where it has no list that holds.
@@ -263,13 +263,6 @@ struct LawStep {
   // Lists of brick records are left to several().
   bool has_single() const { return job.lists.n && !job.grid.in_floats; }
   LSDCD_FN void begin() const { clear_next(job); }
-  // Asks memory for the wall that near sphere k will read: the only thing that is not in order.
-  void ask_ahead(std::size_t k) const
-  {
-    if (!has_single()) return;
-    const int n = job.lists.size(k);
-    for (int i = 0; i < n; i++) ask_for(job.grid.wall, job.lists.code(k, i));
-  }
   LSDCD_FN bool single(std::size_t k) const { return single_contact(law, job, k); }
   LSDCD_FN bool needs_list(std::size_t k) const { return lsdcd::needs_list(law, job, k); }
   template <class Group>

@@ -4,6 +4,8 @@
 #include "engine/force/law_job.h"
 #include "parallel/atomic.h"
 
+#include <algorithm>
+
 namespace lsdcd {
 
 // Makes the list of near sphere k.
@@ -21,7 +23,7 @@ struct GatherWork {
     WallList made;
     gather(group, grid, spheres.seen_from(pose, k), margin, made);
     if (group.rank() != 0) return;
-    lists.put(k, made);
+    lists.put(k, made, grid.wall);
     count_one(&counts->lists);
     add_to(&counts->listed, made.n);
   }
@@ -73,7 +75,8 @@ class ListStore {
 
   std::size_t bytes() const
   {
-    return reals_.size() * sizeof(Real) + ints_.size() * sizeof(std::int32_t);
+    return reals_.size() * sizeof(Real) + ints_.size() * sizeof(std::int32_t) +
+           places_.size() * sizeof(RecordCopies::Place) + used_ * sizeof(FeatureRecord);
   }
 
  private:
@@ -89,12 +92,31 @@ class ListStore {
     }
     lists_ =
         WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts, grid.length);
+    if (B::kOnHost && !grid.in_floats) reserve_copies(n);
     return true;
   }
+
+  // What is not written takes no memory.
+  void reserve_copies(std::size_t n)
+  {
+    if (places_.size() < n) {
+      places_ = Array<RecordCopies::Place>(n + n / 8);
+      records_ = Array<FeatureRecord>(kCopies * places_.size());
+    }
+    std::fill_n(places_.data(), n, RecordCopies::Place());
+    used_ = 0;
+    const std::size_t room = std::min<std::size_t>(records_.size(), 1u << 30);
+    lists_.copies = {records_.data(), places_.data(), &used_, static_cast<int>(room)};
+  }
+
+  static constexpr int kCopies = 4;    // for each list, in the mean; lists have 1 to 4 features
 
   WallLists lists_;
   Array<Real> reals_;
   Array<std::int32_t> ints_;
+  Array<FeatureRecord> records_;    // on a host
+  Array<RecordCopies::Place> places_;
+  int used_ = 0;
 };
 
 }    // namespace lsdcd

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "contact/find_contacts.h"
+#include "engine/narrow/record_copies.h"
 #include "grid/lookup/near_within.h"
 #include "parallel/lane_group.h"
 
@@ -30,15 +31,19 @@ struct WallLists {
   std::int32_t *n = nullptr;    // columns n, code[0], code[1], ...
   std::size_t column = 0;
   Real unit = 1;
+  RecordCopies copies = {};
 
   // Columns of `room` lists; unit: a length of the size of radii.
   static WallLists of(Real *reals, std::int32_t *ints, std::size_t room, Real unit)
   {
-    return {reals, reinterpret_cast<float *>(reals + 3 * room), ints, room, unit};
+    return {reals, reinterpret_cast<float *>(reals + 3 * room), ints, room, unit, {}};
   }
 
   // Those from number k on.
-  WallLists from(std::size_t k) const { return {x + k, lengths + k, n + k, column, unit}; }
+  WallLists from(std::size_t k) const
+  {
+    return {x + k, lengths + k, n + k, column, unit, copies.from(k)};
+  }
 
   // Does list k hold all that a sphere at q can touch, up to a cutoff?
   LSDCD_FN bool holds(std::size_t k, const Vec3 &q, Real up_to) const
@@ -54,7 +59,7 @@ struct WallLists {
   {
     return static_cast<FeatureCode>(n[(i + 1) * column + k]);
   }
-  LSDCD_FN void put(std::size_t k, const WallList &list) const
+  LSDCD_FN void put(std::size_t k, const WallList &list, const WallFeaturesView &wall) const
   {
     for (int d = 0; d < 3; d++) x[d * column + k] = list.x[d];
     // Rounded down, and up.
@@ -63,6 +68,9 @@ struct WallLists {
     n[k] = list.n;
     for (int i = 0; i < list.n; i++)
       n[(i + 1) * column + k] = static_cast<std::int32_t>(list.code[i]);
+#if !defined(__CUDA_ARCH__)
+    if (copies.records) copies.put(k, wall, list.code, list.n);
+#endif
   }
 };
 
@@ -208,10 +216,12 @@ LSDCD_FN void find_in_list(const GridView &grid, const ListedFeatures &list, con
   if (n == 0) return;
   const Geometry geometry(grid, q);
   for (int i = 0; i < n; i++) {
+    const FeatureCode code = list.lists.code(list.k, i);
+    const FeatureRecord *copy = list.lists.copies.of(list.k, i);
     if constexpr (kCapacity == 1)
-      add_feature(geometry, list.lists.code(list.k, i), cutoff, set);
+      add_feature(geometry, code, cutoff, set, copy);
     else
-      add_feature_apart(geometry, list.lists.code(list.k, i), cutoff, set);
+      add_feature_apart(geometry, code, cutoff, set, copy);
     if (set.overflow) return;    // nothing else is valid
   }
 }
