@@ -255,7 +255,7 @@ def compare(options, executables, folder, named):
             for order in options.orders:
                 write_spheres(folder, case, order, options.spheres, n_round)
                 if start is None:
-                    start = {p: start_costs(e, p, folder, 1 + (triangles < 1e5))
+                    start = {p: start_costs(e, p, folder, 3)
                              for p, e in executables.items()}
                 check = same_work(executables, folder)
                 steps = options.steps * (10 if case == "in bulk" else 1)
