@@ -105,6 +105,9 @@ struct FlatHeader {
   std::uint64_t offset[kArrays];
 };
 
+// What a core of a processor has of a cache of its own, or half of it.
+constexpr std::size_t kNearMemory = std::size_t(1) << 20;
+
 template <class T>
 std::size_t array_bytes(const std::vector<T> &a)
 {
@@ -143,6 +146,8 @@ GridView TriangleGrid::view() const
   v.nearest = nearest;
   v.in_floats = in_floats;
   v.has_long_lists = lists.candidates.size() > 64 * lists.cells.size();
+  v.is_large =
+      array_bytes(wall.faces) + array_bytes(wall.edges) + array_bytes(wall.vertices) > kNearMemory;
   v.wall.n_faces = static_cast<std::uint32_t>(wall.images.n_faces);
   v.wall.n_edges = static_cast<std::uint32_t>(wall.images.n_edges);
   v.wall.n_vertices = static_cast<std::uint32_t>(wall.images.n_vertices);

@@ -68,6 +68,7 @@ struct GridView {
   std::int32_t nearest;
   std::int32_t in_floats;         // codes in lists are of brick records
   std::int32_t has_long_lists;    // have they more than 64 candidates on average?
+  std::int32_t is_large;          // are the wall's records more than stay near a processor?
   CellListsView lists;            // what a query reads
   CellListsView complete;         // what it falls back to where N were not enough, or null
   BrickRecordsView records;

@@ -216,7 +216,7 @@ class Particles {
       n_(n)
   {
     engine = cuda ? make_cuda_engine_in_place(settings, 0, nullptr) : make_cpu_engine(settings);
-    const WallMesh mesh = weld(floor_mesh(40, 10, 7), -1);
+    const WallMesh mesh = weld(floor_mesh(60, 10, 7), -1);    // of more than a CPU keeps near
     GridSettings g;
     g.cutoff = cutoff;
     grid = build_grid(mesh, g);

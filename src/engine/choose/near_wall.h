@@ -168,9 +168,12 @@ class NearWall {
     slots_.finish(b);
     n_ = slots_.n_slots();
     const MeshWork *works = put_works(b, EngineSettings(), StepSettings());
-    bool long_lists = false;
-    for (const EngineMesh<B> &mesh : meshes_) long_lists |= mesh.grid.view.has_long_lists;
-    lists_.make(b, meshes_[0].grid.view, long_lists, works, slots_.mesh(),
+    bool long_lists = false, large = false;
+    for (const EngineMesh<B> &mesh : meshes_) {
+      long_lists |= mesh.grid.view.has_long_lists;
+      large |= mesh.grid.view.is_large;
+    }
+    lists_.make(b, meshes_[0].grid.view, long_lists, large, works, slots_.mesh(),
                 at_choice(spheres, slots_.near()), n_, margin, counts.data());
     return seen;
   }

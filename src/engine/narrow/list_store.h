@@ -59,16 +59,16 @@ class ListStore {
   void make(B &b, const GridView &grid, const WallPose &pose, const SpheresAtChoice &spheres,
             std::size_t n, Real margin, StepCounts *counts)
   {
-    if (reserve(grid, n))
+    if (reserve(grid, grid.is_large, n))
       b.for_each_by_group(n, grid.has_long_lists,
                           GatherWork{grid, pose, spheres, margin, lists_, counts});
   }
-  // The same for n slots of several meshes; `long_lists`: has any of them?
-  void make(B &b, const GridView &first_grid, bool long_lists, const MeshWork *meshes,
+  // The same for n slots of several meshes; `long_lists`, `large`: has any of them, and is any?
+  void make(B &b, const GridView &first_grid, bool long_lists, bool large, const MeshWork *meshes,
             const int *mesh, const SpheresAtChoice &spheres, std::size_t n, Real margin,
             StepCounts *counts)
   {
-    if (reserve(first_grid, n))
+    if (reserve(first_grid, large, n))
       b.for_each_by_group(n, long_lists,
                           GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
   }
@@ -80,8 +80,8 @@ class ListStore {
   }
 
  private:
-  // False: there are none to make.
-  bool reserve(const GridView &grid, std::size_t n)
+  // `large`: a wall whose records are read faster as copies. False: there are no lists to make.
+  bool reserve(const GridView &grid, bool large, std::size_t n)
   {
     lists_ = WallLists();
     if (grid.nearest > 0 || n == 0) return false;
@@ -92,7 +92,7 @@ class ListStore {
     }
     lists_ =
         WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts, grid.length);
-    if (B::kOnHost && !grid.in_floats) reserve_copies(n);
+    if (B::kOnHost && large && !grid.in_floats) reserve_copies(n);
     return true;
   }
 

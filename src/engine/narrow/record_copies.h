@@ -1,5 +1,5 @@
-// Copies of the wall's records, side by side in the order of the lists that name them, for a step on
-// a CPU: those of a large wall are far apart in memory, and each is waited for, with its page.
+// Copies of a large wall's records, side by side in the order of the lists that name them, for a step
+// on a CPU: the wall's own are far apart in memory, and each is waited for, with its page.
 #pragma once
 
 #include "geometry/wall_records.h"
