@@ -110,7 +110,12 @@ void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int /*eflag*/, int /*vflag*/)
 {
   if (!running) return;
   in_place().begin_beside();
-  give_step();
+  try {
+    give_step();
+  } catch (...) {    // of LAMMPS, where a library goes on after an error
+    in_place().end_beside();
+    throw;
+  }
   in_place().end_beside();
 }
 

@@ -76,16 +76,18 @@ class EngineOn : public InPlaceEngine {
   {
     spheres_ = spheres;
     step_ = step;
-    if (is_beside_) run(true);
+    if (is_beside_) run(next_results_, true);
     has_run_ = is_beside_;
   }
 
   void collect() override
   {
-    if (has_run_)
+    if (has_run_) {
+      std::swap(results_, next_results_);
       results_.add_forces(b_);
-    else
+    } else {
       run();
+    }
     has_run_ = false;
     fetch();
   }
@@ -103,33 +105,7 @@ class EngineOn : public InPlaceEngine {
   }
 
   // The two halves of collect(): the work, without waiting for it, and what is asked for of it.
-  // `adds_later`: forces are left to the results.
-  void run(bool adds_later = false)
-  {
-    const std::size_t n = wall_.n();
-    const bool several = wall_.has_several();
-    results_.begin(law_.traits, step_, spheres_, wall_.near(), n,
-                   may_miss_any(wall_.mesh(0).grid.view), adds_later,
-                   several ? &wall_.slots() : nullptr);
-    if (n == 0) return;
-    const MeshWork work = wall_.mesh(0).work(settings_, step_, 0);
-    LawJob job = job_of(work.grid, work.settings, spheres_);
-    results_.put_into(job);
-    job.near = wall_.near();
-    job.lists = wall_.lists();
-    job.springs = springs_.view();
-    job.counts = counts_.data();
-    job.pool = springs_.next(results_.slot());
-    job.lanes = lanes_.data();
-    // The last step cleared the counts of this one, if it wrote to the other pool.
-    if (job.pool.which == pool_written_) clear_counts(job.pool.which);
-    pool_written_ = job.pool.which;
-    if (several)
-      start_slots(job);
-    else
-      start_law(job, n);
-    if (step_.update_history) springs_.swap();
-  }
+  void run() { run(results_, false); }
   void fetch() { results_.fetch(b_, springs_.records(step_.update_history)); }
 
   const WallTotals &totals() const override { return const_cast<EngineOn *>(this)->sum_totals(); }
@@ -179,8 +155,8 @@ class EngineOn : public InPlaceEngine {
 
   std::size_t bytes() const override
   {
-    return wall_.bytes() + springs_.bytes() + results_.bytes() + lanes_.size() * sizeof(Lane) +
-           step_lists_.bytes();
+    return wall_.bytes() + springs_.bytes() + results_.bytes() + next_results_.bytes() +
+           lanes_.size() * sizeof(Lane) + step_lists_.bytes();
   }
 
   B &backend_now() { return b_; }
@@ -228,6 +204,34 @@ class EngineOn : public InPlaceEngine {
   }
 
  private:
+  // `adds_later`: forces are left to the results.
+  void run(StepResults<B> &results, bool adds_later)
+  {
+    const std::size_t n = wall_.n();
+    const bool several = wall_.has_several();
+    results.begin(law_.traits, step_, spheres_, wall_.near(), n,
+                  may_miss_any(wall_.mesh(0).grid.view), adds_later,
+                  several ? &wall_.slots() : nullptr);
+    if (n == 0) return;
+    const MeshWork work = wall_.mesh(0).work(settings_, step_, 0);
+    LawJob job = job_of(work.grid, work.settings, spheres_);
+    results.put_into(job);
+    job.near = wall_.near();
+    job.lists = wall_.lists();
+    job.springs = springs_.view();
+    job.counts = counts_.data();
+    job.pool = springs_.next(results.slot());
+    job.lanes = lanes_.data();
+    // The last step cleared the counts of this one, if it wrote to the other pool.
+    if (job.pool.which == pool_written_) clear_counts(job.pool.which);
+    pool_written_ = job.pool.which;
+    if (several)
+      start_slots(job);
+    else
+      start_law(job, n);
+    if (step_.update_history) springs_.swap();
+  }
+
   // After a choice.
   void use(const Spheres &spheres, const StepCounts &seen)
   {
@@ -289,7 +293,7 @@ class EngineOn : public InPlaceEngine {
   StepSettings step_;
   ResidentSprings<B> springs_;
 
-  StepResults<B> results_;
+  StepResults<B> results_, next_results_;    // of the last step, and of one begun beside
   StepListStore<B> step_lists_;
 
   Array<StepCounts> counts_;

@@ -180,7 +180,8 @@ class InPlaceEngine : public WallEngine {
   // spheres is there once the host's stream has done what it has been given, and does not change
   // until collect(). What is asked for between begin_beside() and end_beside() does not wait for what
   // the host gives its stream after ready(): choose(), has_moved() and a start(), which
-  // begins at once here. Forces and torques are added by collect(), after that work.
+  // begins at once here. Forces and torques are added by collect(), after that work; until then
+  // totals are those of the last step.
   virtual void ready() = 0;
   virtual void begin_beside() = 0;
   virtual void end_beside() = 0;

@@ -810,22 +810,39 @@ TEST(engine, takes_no_slots_from_the_next_step)
 }
 
 // A variable of another fix may ask for a wall's force between the forces of atoms and the wall's.
-TEST(engine, keeps_the_totals_of_the_last_step_through_a_choice)
+void keep_the_totals_of_the_last_step(bool beside)
 {
   AllTouching all;
+  const auto begin = [&](bool begins) {
+    if (!beside) return;
+    if (begins) all.engine->ready();
+    begins ? all.engine->begin_beside() : all.engine->end_beside();
+  };
   const std::vector<Vec3> x = all.x;
   for (int i = 0; i < all.n; i += 2) all.x[i].x += 100;
+  begin(true);
   all.choose();
   all.engine->start(all.spheres, all.step);
+  begin(false);
   all.engine->collect();
   // More spheres than there was memory for before, and other columns.
   all.x = x;
+  begin(true);
   all.choose();
   all.step.per_sphere = true;
   all.engine->start(all.spheres, all.step);
+  begin(false);
   EXPECT_EQ(all.engine->totals().contacts, all.n / 2 * kAllRound);
   all.engine->collect();
   EXPECT_EQ(all.engine->totals().contacts, all.n * kAllRound);
+}
+TEST(engine, keeps_the_totals_of_the_last_step_through_a_choice)
+{
+  keep_the_totals_of_the_last_step(false);
+}
+TEST(engine, keeps_the_totals_of_the_last_step_through_a_step_beside)
+{
+  keep_the_totals_of_the_last_step(true);
 }
 
 // LAMMPS's buffers have room for so many numbers of an atom.
