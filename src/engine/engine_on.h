@@ -177,11 +177,6 @@ class EngineOn : public InPlaceEngine {
     b_.for_each(kLanes, [=] LSDCD_LAMBDA(std::size_t i) { lanes[i].locked = 0; });
   }
 
-  void read_radius(const Spheres &spheres, int i, Real *to)
-  {
-    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { to[0] = spheres.radius[i]; });
-  }
-
   void clear_counts(int pool)
   {
     StepCounts *counts = counts_.data();
@@ -274,10 +269,7 @@ class EngineOn : public InPlaceEngine {
     clear_diagnostics(seen);
     if (seen.too_large) {
       const int i = static_cast<int>(kNoSphere - seen.too_large);
-      Array<Real> radius(1);
-      Real *to = radius.data();
-      read_radius(spheres, i, to);
-      throw_too_large(i, b_.to_host(radius, 1)[0], wall_.mesh(0).grid.view.cutoff);
+      throw_too_large(i, b_.read_one(spheres.radius + i), wall_.mesh(0).grid.view.cutoff);
     }
     if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown));
     throw_too_many_contacts(seen.lost, kMostContacts);
