@@ -59,8 +59,7 @@ LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radiu
 // long, and would be compiled into each law's kernels many times.
 template <class Geometry, int kPlaces>
 LSDCD_NOINLINE void add_feature_apart(const Geometry &geometry, FeatureCode code, Real radius,
-                                      ContactSet<kPlaces> &set,
-                                      const FeatureRecord *copy = nullptr)
+                                      ContactSet<kPlaces> &set, const FeatureRecord *copy = nullptr)
 {
   add_feature(geometry, code, radius, set, copy);
 }

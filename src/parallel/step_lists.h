@@ -7,7 +7,7 @@ namespace lsdcd {
 struct StepLists {
   // What is left to the second kernel of this step: single() has said no, or they need a list.
   int *found = nullptr, *n_found = nullptr;
-  int *n_found_next = nullptr;                 // of the next step, to be cleared
+  int *n_found_next = nullptr;    // of the next step, to be cleared
   // What several() has asked for again: in the last step, and in this one. Most have several
   // contacts for many steps, so that these need not be found first.
   int *last = nullptr, *n_last = nullptr;

@@ -42,8 +42,8 @@ class StepResults {
     const std::size_t room = n_contacts_.size(),
                       numbers = room * ResultColumns::reals(step.per_sphere, adds_later);
     if (numbers_.size() < numbers) numbers_ = Array<Real>(numbers);
-    columns_ = ResultColumns::of(numbers_.data(), room, step.per_sphere, adds_later,
-                                 n_contacts_.data());
+    columns_ =
+        ResultColumns::of(numbers_.data(), room, step.per_sphere, adds_later, n_contacts_.data());
   }
 
   void put_into(LawJob &job)
