@@ -85,7 +85,8 @@ lsdcd::Spheres FixWallLsdcdKokkos<DeviceType>::spheres()
   return s;
 }
 
-// Between the forces among atoms and the next kernel, for which Kokkos may wait until they are there.
+// LAMMPS calls pre_reverse() once the GPU has been given the forces between atoms, and before the next
+// kernel, for which Kokkos may wait until they are done.
 template <class DeviceType>
 int FixWallLsdcdKokkos<DeviceType>::setmask()
 {
@@ -104,7 +105,7 @@ void FixWallLsdcdKokkos<DeviceType>::start()
   begun = false;
 }
 
-// On a GPU: the forces among atoms are under way, and the wall's are found beside them.
+// The GPU is at the forces between atoms, and finds the wall's beside them.
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int /*eflag*/, int /*vflag*/)
 {

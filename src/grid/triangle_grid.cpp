@@ -105,7 +105,7 @@ struct FlatHeader {
   std::uint64_t offset[kArrays];
 };
 
-// What a core of a processor has of a cache of its own, or half of it.
+// A cache of one core of a processor holds so many bytes and the spheres of a step beside them.
 constexpr std::size_t kNearMemory = std::size_t(1) << 20;
 
 template <class T>

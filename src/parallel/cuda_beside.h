@@ -46,7 +46,7 @@ class CudaBeside {
   }
 
  private:
-  // Its kernels are short and go first: the others have enough to do.
+  // Its kernels go first: they are short, and the first stream's have work for all of the GPU.
   void make()
   {
     int lowest = 0, highest = 0;
