@@ -145,7 +145,6 @@ GridView TriangleGrid::view() const
   v.outside = outside;
   v.nearest = nearest;
   v.in_floats = in_floats;
-  v.has_long_lists = lists.candidates.size() > 64 * lists.cells.size();
   v.is_large =
       array_bytes(wall.faces) + array_bytes(wall.edges) + array_bytes(wall.vertices) > kNearMemory;
   v.wall.n_faces = static_cast<std::uint32_t>(wall.images.n_faces);

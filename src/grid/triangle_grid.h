@@ -66,11 +66,10 @@ struct GridView {
   // 0: `lists` are complete. N: `lists` hold the N nearest primitives and, where there are
   // more within the cutoff, the next one as a bound of all that was left out.
   std::int32_t nearest;
-  std::int32_t in_floats;         // codes in lists are of brick records
-  std::int32_t has_long_lists;    // have they more than 64 candidates on average?
-  std::int32_t is_large;          // are the wall's records more than stay near a processor?
-  CellListsView lists;            // what a query reads
-  CellListsView complete;         // what it falls back to where N were not enough, or null
+  std::int32_t in_floats;    // codes in lists are of brick records
+  std::int32_t is_large;     // are the wall's records more than stay near a processor?
+  CellListsView lists;       // what a query reads
+  CellListsView complete;    // what it falls back to where N were not enough, or null
   BrickRecordsView records;
   const char *block;    // the flat block all of this lies in, or null
   std::size_t block_bytes;

@@ -86,11 +86,12 @@ struct CpuBackend {
     for (std::int64_t i = 0; i < m; i++) f(static_cast<std::size_t>(i));
   }
 
-  // f(group, i), likewise, by all threads of a group; `long_work`: is there work for many?
+  // f(group, mine, i), likewise, by threads that share their work; one that is there only to help
+  // has an i that is not `mine`.
   template <class F>
-  void for_each_by_group(std::size_t n, bool /*long_work*/, const F &f)
+  void for_each_together(std::size_t n, const F &f)
   {
-    for_each(n, [&](std::size_t i) { f(LaneGroup<1>(), i); });
+    for_each(n, [&](std::size_t i) { f(LaneGroup<1>(), true, i); });
   }
 
   // What f() takes, in milliseconds.
@@ -162,7 +163,7 @@ struct CpuBackend {
   }
 
   // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i), before that work.make_list(group, i) if work.needs_list(i).
+  // !work.has_single(), work.several(i), before that work.make_list(group, true, i) if work.needs_list(i).
   template <class Work>
   void step(std::size_t n, const Work &work)
   {
@@ -248,7 +249,7 @@ struct CpuBackend {
   template <class Work>
   [[gnu::noinline]] static void step_several(const Work &work, std::size_t i)
   {
-    if (work.needs_list(i)) work.make_list(LaneGroup<1>(), i);
+    if (work.needs_list(i)) work.make_list(LaneGroup<1>(), true, i);
     work.several(i);
   }
 };

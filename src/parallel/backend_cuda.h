@@ -33,6 +33,17 @@ __global__ void cuda_for_each(std::size_t n, const __grid_constant__ F f)
   if (i < n) f(i);
 }
 
+// The same, a warp's threads together. They wait for memory: 80 registers for each leave room for
+// more of them.
+constexpr unsigned kTogetherBlock = 128, kTogetherBlocks = 6;
+template <class F>
+__global__ void __launch_bounds__(kTogetherBlock, kTogetherBlocks)
+    cuda_for_each_together(std::size_t n, const __grid_constant__ F f)
+{
+  const std::size_t i = std::size_t(blockIdx.x) * kTogetherBlock + threadIdx.x;
+  f(LaneGroup<32>(), i < n, i < n ? i : 0);
+}
+
 // The same over parts of things: thing i has offset[i + 1] - offset[i] of them.
 template <class F>
 __global__ void cuda_for_each_part(const std::uint64_t *offset, std::size_t begin, std::size_t end,
@@ -192,17 +203,15 @@ struct CudaBackend {
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
-  // f(group, i), likewise, by all threads of a group; `long_work`: is there work for many?
+  // f(group, mine, i), likewise, by threads that share their work; one that is there only to help
+  // has an i that is not `mine`.
   template <class F>
-  void for_each_by_group(std::size_t n, bool long_work, const F &f)
+  void for_each_together(std::size_t n, const F &f)
   {
-    constexpr unsigned kMany = 8, kBlock = 128;
-    if (long_work)
-      for_each(
-          kMany * n, [=] __device__(std::size_t k) { f(LaneGroup<kMany>(), k / kMany); }, kBlock);
-    else
-      for_each(
-          n, [=] __device__(std::size_t k) { f(LaneGroup<1>(), k); }, kBlock);
+    if (n == 0) return;
+    const std::size_t blocks = (n + kTogetherBlock - 1) / kTogetherBlock;
+    cuda_for_each_together<<<static_cast<unsigned>(blocks), kTogetherBlock, 0, stream>>>(n, f);
+    cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
   // What the kernels started in f() take on the device, in milliseconds.
@@ -294,7 +303,7 @@ struct CudaBackend {
   }
 
   // step: work.begin(), and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i), before that work.make_list(group, i) if work.needs_list(i).
+  // !work.has_single(), work.several(i), before that work.make_list(group, true, i) if work.needs_list(i).
   // Lists of work.step_lists() have room for n; those to be written are empty.
   template <class Work>
   void step(std::size_t n, const Work &work)

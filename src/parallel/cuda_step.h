@@ -56,10 +56,8 @@ __device__ void do_several(const SeveralPart &part, const Work &work)
       put_listed(is_due, k, lists.found, lists.n_found);
       has_one = has_one && !is_due;
     } else {
-      // Lists are long to make: the whole warp makes one after the other.
-      unsigned due = __ballot_sync(kAllLanes, is_due);
-      for (; due != 0; due &= due - 1)
-        work.make_list(LaneGroup<32>(), __shfl_sync(kAllLanes, k, __ffs(due) - 1));
+      // Lists are long to make: the whole warp helps.
+      if (__any_sync(kAllLanes, is_due)) work.make_list(LaneGroup<32>(), is_due, k);
       __syncwarp();
     }
     const bool again = has_one && work.several(k);

@@ -1,55 +1,107 @@
-// Threads of a GPU that search one list together, each a part of it; on a CPU a single thread.
+// Threads of a GPU that share their work, so that one with little helps one with much; on a CPU a
+// single thread.
 #pragma once
 
 #include "base/vec3.h"
 
 namespace lsdcd {
 
-// kSize_: a power of 2 up to 32. All threads of a group must call its functions together.
+// kSize: 1, or 32 for all threads of a warp. All of them must call its functions together.
 template <unsigned kSize_>
 struct LaneGroup {
   static constexpr unsigned kSize = kSize_;
-  static constexpr unsigned kAll = kSize == 32 ? ~0u : (1u << kSize) - 1;
+  static_assert(kSize == 1 || kSize == 32, "a thread or a warp");
+  static constexpr unsigned kAll = kSize == 32 ? ~0u : 1u;
 
   LSDCD_FN static unsigned rank()
   {
 #if defined(__CUDA_ARCH__)
-    return threadIdx.x % kSize;
-#else
-    return 0;
+    if constexpr (kSize > 1) return threadIdx.x % kSize;
 #endif
+    return 0;
   }
   // A bit for each thread that says yes.
   LSDCD_FN static unsigned vote(bool yes)
   {
 #if defined(__CUDA_ARCH__)
-    if constexpr (kSize > 1) {
-      const unsigned begin = threadIdx.x % 32 / kSize * kSize;
-      return __ballot_sync(kAll << begin, yes) >> begin & kAll;
-    }
+    if constexpr (kSize > 1) return __ballot_sync(kAll, yes);
 #endif
     return yes;
   }
   // What the thread of this rank has.
   template <class T>
-  LSDCD_FN static T of(T value, unsigned rank)
+  LSDCD_FN static T of(T value, [[maybe_unused]] unsigned rank)
   {
 #if defined(__CUDA_ARCH__)
-    if constexpr (kSize > 1)
-      return __shfl_sync(kAll << threadIdx.x % 32 / kSize * kSize, value, rank, kSize);
+    if constexpr (kSize > 1) return __shfl_sync(kAll, value, rank);
 #endif
-    (void) rank;
     return value;
   }
-  // Rank of the first of some votes.
-  LSDCD_FN static unsigned first(unsigned votes)
+  LSDCD_FN static Vec3 of(const Vec3 &v, unsigned rank)
+  {
+    return {of(v.x, rank), of(v.y, rank), of(v.z, rank)};
+  }
+  LSDCD_FN static unsigned count([[maybe_unused]] unsigned votes)
   {
 #if defined(__CUDA_ARCH__)
-    return __ffs(votes) - 1;
-#else
-    return __builtin_ctz(votes);
+    if constexpr (kSize > 1) return __popc(votes);
 #endif
+    return votes;
+  }
+  // Rank of the first of some votes; 0 where there are none.
+  LSDCD_FN static unsigned first([[maybe_unused]] unsigned votes)
+  {
+#if defined(__CUDA_ARCH__)
+    if constexpr (kSize > 1) return votes ? __ffs(votes) - 1 : 0;
+#endif
+    return 0;
+  }
+  // Of vote number n, counted from 0.
+  LSDCD_FN static unsigned nth(unsigned votes, unsigned n)
+  {
+    unsigned at = 0;
+    for (unsigned half = kSize / 2; half > 0; half /= 2) {
+      const unsigned below = count(votes >> at & ((1u << half) - 1));
+      if (n < below) continue;
+      n -= below;
+      at += half;
+    }
+    return at;
   }
 };
+
+// How the threads of a group are dealt out among those that have work: as many to each.
+template <class Group>
+struct Shares {
+  unsigned size = 1;    // of a share
+  unsigned owner;       // the thread that this one works for
+  unsigned turn;        // its number among those that do
+  bool helps;           // is there work for it?
+  unsigned own;         // a bit for each thread that works for this one
+
+  // `busy`: a bit for each thread that has work; not 0.
+  LSDCD_FN Shares(const Group &group, unsigned busy)
+  {
+    const unsigned n = group.count(busy), rank = group.rank(), bit = 1u << rank;
+    while (2 * size * n <= group.kSize) size *= 2;
+    helps = rank / size < n;
+    owner = helps ? group.nth(busy, rank / size) : 0;
+    turn = rank % size;
+    const unsigned before = group.count(busy & (bit - 1));
+    own = busy & bit ? (group.kAll >> (group.kSize - size)) << before * size : 0;
+  }
+};
+
+// Calls f(mine, mesh), all threads together, for each mesh that any of them has; `mine`: has this one?
+template <class Group, class F>
+LSDCD_FN void mesh_by_mesh(const Group &group, bool mine, int mesh, const F &f)
+{
+  for (unsigned left = group.vote(mine); left != 0; left = group.vote(mine)) {
+    const int next = group.of(mesh, group.first(left));
+    const bool now = mine && mesh == next;
+    f(now, next);
+    mine = mine && !now;
+  }
+}
 
 }    // namespace lsdcd

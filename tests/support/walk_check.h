@@ -201,11 +201,11 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
   WallList made;
   const QuerySphere sphere = {from, w.sphere.radius, w.cutoff, nullptr, 0};
   const LaneGroup<1> alone;
-  if (!gather(alone, grid, sphere, kAnyDistance, made)) return out;
+  if (!gather(alone, true, grid, sphere, kAnyDistance, made)) return out;
   out.with_list = 1;
   if (mesh.gathered < 1) {
     const Real margin = made.margin;
-    gather_within<Geometry>(alone, grid, from, w.cutoff, mesh.gathered * margin, made);
+    gather_within<Geometry>(alone, true, grid, from, w.cutoff, mesh.gathered * margin, made);
     made.margin = margin;
   }
   Real reals[WallLists::kReals];
@@ -215,7 +215,7 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
 
   Numbers r(mesh.pairs.seed + 0xd1342543de82ull * (i + 1));
   const Real margin = lists.margin(0);
-  const bool chosen = can_touch(alone, grid, sphere, mesh.gathered * margin);
+  const bool chosen = can_touch(alone, true, grid, sphere, mesh.gathered * margin);
   Vec3 q = from;
   for (int step = 0; step < kWalkSteps; step++) {
     if (step == 0)

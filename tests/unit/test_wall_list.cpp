@@ -38,7 +38,8 @@ class OneList {
  public:
   OneList(const GridView &grid, const Vec3 &q, Real radius, Real cutoff)
   {
-    has_list = gather(LaneGroup<1>(), grid, {q, radius, cutoff, nullptr, 0}, kAnyDistance, made);
+    has_list =
+        gather(LaneGroup<1>(), true, grid, {q, radius, cutoff, nullptr, 0}, kAnyDistance, made);
     lists.put(0, made, grid.wall);
   }
   OneList(const GridView &grid, const Vec3 &q, Real radius) : OneList(grid, q, radius, radius) {}

@@ -18,10 +18,11 @@ struct PruneWork {
   int *n_springs;    // of each sphere, or null; those of spheres that cannot are forgotten
 
   template <class Group>
-  LSDCD_FN void operator()(const Group &group, std::size_t k) const
+  LSDCD_FN void operator()(const Group &group, bool mine, std::size_t k) const
   {
-    const bool touches = can_touch(group, grid, spheres.seen_from(pose, k), margin);
-    if (group.rank() != 0) return;
+    spheres.ask_ahead(grid, pose, k);
+    const bool touches = can_touch(group, mine, grid, spheres.seen_from(pose, k), margin);
+    if (!mine) return;
     flags[k] = touches;
     if (!touches && n_springs) n_springs[spheres.near[k]] = 0;
   }
@@ -66,9 +67,8 @@ class NearList {
     if (other_.size() < near_.size()) other_ = Array<int>(near_.size());
     char *flags = flags_.data();
     const int *near = near_.data();
-    const SpheresAtChoice at_choice = {spheres.x, spheres.radius, pull_off, near};
-    b.for_each_by_group(n, grid.has_long_lists,
-                        PruneWork{grid, pose, at_choice, margin, flags, n_springs});
+    const SpheresAtChoice at_choice = {spheres.x, spheres.radius, pull_off, near, n};
+    b.for_each_together(n, PruneWork{grid, pose, at_choice, margin, flags, n_springs});
     b.keep(n, near, flags, room_, other_.data(), &counts->n_near);
     std::swap(near_, other_);
   }

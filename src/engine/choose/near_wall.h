@@ -168,19 +168,16 @@ class NearWall {
     slots_.finish(b);
     n_ = slots_.n_slots();
     const MeshWork *works = put_works(b, EngineSettings(), StepSettings());
-    bool long_lists = false, large = false;
-    for (const EngineMesh<B> &mesh : meshes_) {
-      long_lists |= mesh.grid.view.has_long_lists;
-      large |= mesh.grid.view.is_large;
-    }
-    lists_.make(b, meshes_[0].grid.view, long_lists, large, works, slots_.mesh(),
+    bool large = false;
+    for (const EngineMesh<B> &mesh : meshes_) large |= mesh.grid.view.is_large;
+    lists_.make(b, meshes_[0].grid.view, large, works, slots_.mesh(),
                 at_choice(spheres, slots_.near()), n_, margin, counts.data());
     return seen;
   }
 
   SpheresAtChoice at_choice(const Spheres &spheres, const int *near) const
   {
-    return {spheres.x, spheres.radius, pull_off_, near};
+    return {spheres.x, spheres.radius, pull_off_, near, n_};
   }
 
   Real pull_off_;

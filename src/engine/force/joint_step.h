@@ -263,14 +263,17 @@ struct JointStep {
     return false;
   }
   template <class Group>
-  LSDCD_FN void make_list(const Group &group, std::size_t g) const
+  LSDCD_FN void make_list(const Group &group, bool mine, std::size_t g) const
   {
     const JointSphere s = joint_sphere(job, g, pull_off_of(law));
-    for (int k = s.begin; k < s.end; k++) {
-      const Vec3 x = seen_from(job, s, k).x;
-      if (job.lists.holds(k, x, s.cutoff)) continue;
-      const GridView &grid = job.joint.meshes[job.joint.mesh[k]].grid;
-      put_list(job, group, grid, {x, s.radius, s.cutoff, nullptr, 0}, k);
+    for (int k = s.begin; group.vote(mine && k < s.end); k++) {
+      const bool in = mine && k < s.end;
+      const Vec3 x = in ? seen_from(job, s, k).x : Vec3{0, 0, 0};
+      const bool due = in && !job.lists.holds(k, x, s.cutoff);
+      mesh_by_mesh(group, due, due ? job.joint.mesh[k] : 0, [&](bool of_mesh, int m) {
+        put_list(job, group, of_mesh, job.joint.meshes[m].grid, {x, s.radius, s.cutoff, nullptr, 0},
+                 k);
+      });
     }
   }
   LSDCD_FN bool several(std::size_t g) const

@@ -116,11 +116,23 @@ struct SpheresAtChoice {
   const Real *radius;
   Real pull_off;
   const int *near;    // the sphere of each k
+  std::size_t n;
 
   LSDCD_FN QuerySphere seen_from(const WallPose &pose, std::size_t k) const
   {
     const int i = near[k];
     return {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr, 0};
+  }
+  // Asks a CPU's memory for what a search of a large wall reads first for a sphere soon after k.
+  LSDCD_FN void ask_ahead([[maybe_unused]] const GridView &grid,
+                          [[maybe_unused]] const WallPose &pose,
+                          [[maybe_unused]] std::size_t k) const
+  {
+#if !defined(__CUDA_ARCH__)
+    constexpr std::size_t kPlaces = 4;
+    if (grid.is_large && k + kPlaces < n)
+      ask_for_candidates(grid, pose.to_mesh(x[near[k + kPlaces]]));
+#endif
   }
 };
 

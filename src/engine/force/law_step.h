@@ -185,12 +185,12 @@ LSDCD_FN bool needs_list(const Law &law, const LawJob &job, std::size_t k)
 
 // Makes the list of slot k, whose sphere is s, anew.
 template <class Group>
-LSDCD_FN void put_list(const LawJob &job, const Group &group, const GridView &grid,
+LSDCD_FN void put_list(const LawJob &job, const Group &group, bool mine, const GridView &grid,
                        const QuerySphere &s, std::size_t k)
 {
   WallList made;
-  gather(group, grid, s, kAnyDistance, made);
-  if (group.rank() != 0) return;
+  gather(group, mine, grid, s, kAnyDistance, made);
+  if (!mine) return;
   if (s.cutoff > job.lists.cutoff(k)) raise_to(&job.counts->grown, kNoSphere - sphere_of(job, k));
   count_one(&job.counts->lists);
   add_to(&job.counts->listed, made.n);
@@ -266,9 +266,9 @@ struct LawStep {
   LSDCD_FN bool single(std::size_t k) const { return single_contact(law, job, k); }
   LSDCD_FN bool needs_list(std::size_t k) const { return lsdcd::needs_list(law, job, k); }
   template <class Group>
-  LSDCD_FN void make_list(const Group &group, std::size_t k) const
+  LSDCD_FN void make_list(const Group &group, bool mine, std::size_t k) const
   {
-    put_list(job, group, job.grid, near_sphere(law, job, k), k);
+    put_list(job, group, mine, job.grid, near_sphere(law, job, k), k);
   }
   LSDCD_FN bool several(std::size_t k) const { return several_contacts(law, job, k); }
   LSDCD_FN const StepLists &step_lists() const { return job.step_lists; }

@@ -18,11 +18,12 @@ struct GatherWork {
   StepCounts *counts;
 
   template <class Group>
-  LSDCD_FN void operator()(const Group &group, std::size_t k) const
+  LSDCD_FN void operator()(const Group &group, bool mine, std::size_t k) const
   {
+    spheres.ask_ahead(grid, pose, k);
     WallList made;
-    gather(group, grid, spheres.seen_from(pose, k), margin, made);
-    if (group.rank() != 0) return;
+    gather(group, mine, grid, spheres.seen_from(pose, k), margin, made);
+    if (!mine) return;
     lists.put(k, made, grid.wall);
     count_one(&counts->lists);
     add_to(&counts->listed, made.n);
@@ -39,10 +40,12 @@ struct GatherSlotWork {
   StepCounts *counts;
 
   template <class Group>
-  LSDCD_FN void operator()(const Group &group, std::size_t k) const
+  LSDCD_FN void operator()(const Group &group, bool mine, std::size_t k) const
   {
-    const MeshWork &of = meshes[mesh[k]];
-    GatherWork{of.grid, of.settings.pose, spheres, margin, lists, counts}(group, k);
+    mesh_by_mesh(group, mine, mesh[k], [&](bool of_mesh, int m) {
+      const MeshWork &of = meshes[m];
+      GatherWork{of.grid, of.settings.pose, spheres, margin, lists, counts}(group, of_mesh, k);
+    });
   }
 };
 
@@ -60,17 +63,14 @@ class ListStore {
             std::size_t n, Real margin, StepCounts *counts)
   {
     if (reserve(grid, grid.is_large, n))
-      b.for_each_by_group(n, grid.has_long_lists,
-                          GatherWork{grid, pose, spheres, margin, lists_, counts});
+      b.for_each_together(n, GatherWork{grid, pose, spheres, margin, lists_, counts});
   }
-  // The same for n slots of several meshes; `long_lists`, `large`: has any of them, and is any?
-  void make(B &b, const GridView &first_grid, bool long_lists, bool large, const MeshWork *meshes,
-            const int *mesh, const SpheresAtChoice &spheres, std::size_t n, Real margin,
-            StepCounts *counts)
+  // The same for n slots of several meshes; `large`: is any of them?
+  void make(B &b, const GridView &first_grid, bool large, const MeshWork *meshes, const int *mesh,
+            const SpheresAtChoice &spheres, std::size_t n, Real margin, StepCounts *counts)
   {
     if (reserve(first_grid, large, n))
-      b.for_each_by_group(n, long_lists,
-                          GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
+      b.for_each_together(n, GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
   }
 
   std::size_t bytes() const

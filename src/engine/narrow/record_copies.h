@@ -37,8 +37,11 @@ struct RecordCopies {
 
   // Copies the n records that list k names now; one list by one thread. Where room has run out it
   // has none, and the wall's own are read.
-  void put(std::size_t k, const WallFeaturesView &wall, const FeatureCode *code, int n) const
+  LSDCD_FN void put([[maybe_unused]] std::size_t k, [[maybe_unused]] const WallFeaturesView &wall,
+                    [[maybe_unused]] const FeatureCode *code, [[maybe_unused]] int n) const
   {
+#if !defined(__CUDA_ARCH__)
+    if (!records) return;
     Place &place = places[k];
     place.n = 0;
     if (n > place.room) {
@@ -49,6 +52,7 @@ struct RecordCopies {
     }
     for (int i = 0; i < n; i++) records[place.first + i] = record_of(wall, code[i]);
     place.n = static_cast<std::int16_t>(n);
+#endif
   }
 };
 

@@ -127,27 +127,28 @@ LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings,
   touch_with<kBeyond>(grid, settings, s, list, rule, out);
 }
 
-// Can it touch anything after a way of up to the margin?
+// Can it touch anything after a way of up to the margin? Where it is not `mine` a thread only helps
+// others of its group.
 template <class Group>
-LSDCD_NOINLINE bool can_touch(const Group &group, const GridView &grid, const QuerySphere &s,
-                              Real margin)
+LSDCD_NOINLINE bool can_touch(const Group &group, bool mine, const GridView &grid,
+                              const QuerySphere &s, Real margin)
 {
-  if (grid.in_floats) return can_touch<BrickGeometry>(group, grid, s.x, s.cutoff, margin);
-  return can_touch<WallGeometry>(group, grid, s.x, s.cutoff, margin);
+  if (grid.in_floats) return can_touch<BrickGeometry>(group, mine, grid, s.x, s.cutoff, margin);
+  return can_touch<WallGeometry>(group, mine, grid, s.x, s.cutoff, margin);
 }
 
-// Makes the list of a sphere anew, for a way of up to `margin` at most, the same for each thread of a
-// group; false: it has none, its cell has to be searched.
+// Makes the list of a sphere anew, for a way of up to `margin` at most; false: it has none, its cell
+// has to be searched.
 template <class Group>
-LSDCD_NOINLINE bool gather(const Group &group, const GridView &grid, const QuerySphere &s,
-                           Real margin, WallList &list)
+LSDCD_NOINLINE bool gather(const Group &group, bool mine, const GridView &grid,
+                           const QuerySphere &s, Real margin, WallList &list)
 {
   const Real most = kListMargin * s.radius, m = margin < most ? margin : most;
   if (grid.in_floats)
-    gather_for<BrickGeometry>(group, grid, s.x, s.cutoff, m, list);
+    gather_for<BrickGeometry>(group, mine, grid, s.x, s.cutoff, m, list);
   else
-    gather_for<WallGeometry>(group, grid, s.x, s.cutoff, m, list);
-  return list.margin >= 0;
+    gather_for<WallGeometry>(group, mine, grid, s.x, s.cutoff, m, list);
+  return mine && list.margin >= 0;
 }
 
 }    // namespace lsdcd

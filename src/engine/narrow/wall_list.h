@@ -3,9 +3,8 @@
 #pragma once
 
 #include "contact/find_contacts.h"
+#include "engine/narrow/near_search.h"
 #include "engine/narrow/record_copies.h"
-#include "grid/lookup/near_within.h"
-#include "parallel/lane_group.h"
 
 namespace lsdcd {
 
@@ -68,9 +67,7 @@ struct WallLists {
     n[k] = list.n;
     for (int i = 0; i < list.n; i++)
       n[(i + 1) * column + k] = static_cast<std::int32_t>(list.code[i]);
-#if !defined(__CUDA_ARCH__)
-    if (copies.records) copies.put(k, wall, list.code, list.n);
-#endif
+    copies.put(k, wall, list.code, list.n);
   }
 };
 
@@ -117,53 +114,6 @@ LSDCD_FN bool insert_code(WallList &list, FeatureCode code)
   return true;
 }
 
-// Calls found(code) for what a sphere at q with this cutoff could touch after a way of up to the
-// margin, until that says false; returns whether it did not. Stops with false, too, where a candidate
-// may be nearer than `close`. A contact on such a way is in the complete list of the cell that it is
-// found from, and that cell meets the ball round q. Lists of cells hold for a margin of their own.
-// The threads of a group divide the candidates, and each is told of all.
-template <class Geometry, class Group, class Found>
-LSDCD_FN bool for_each_within(const Group &group, const GridView &grid, const Vec3 &q, Real cutoff,
-                              Real margin, Real close, const Found &found)
-{
-  int lo[3], hi[3];
-  if (!cells_in_ball(grid, q, past_lists(grid, margin), lo, hi)) return true;
-  const Geometry geometry(grid, q);
-  // Each half-space of a feature's region moves by the margin at most; one tolerance more is for
-  // rounding.
-  const Real more = margin + geometry.tolerance(), within = (1 + Real(2e-6)) * cutoff + more;
-  for (int k = lo[2]; k < hi[2]; k++)
-    for (int j = lo[1]; j < hi[1]; j++)
-      for (int i = lo[0]; i < hi[0]; i++) {
-        const Brick *brick = brick_at(grid, grid.lists, i, j, k);
-        const int in_brick = cell_in_brick(i, j, k);
-        if (!brick || !has_candidates(*brick, in_brick)) continue;
-        const Cell cell = grid.lists.cells[cell_index(*brick, in_brick)];
-        if (cell.count == 1) {
-          if (geometry.may_be_closest(cell.first, within, more) && !found(cell.first)) return false;
-          continue;
-        }
-        // A list ascends in its bounds on the distance from the cell's centre.
-        const Real half = Real(0.5);
-        const Vec3 centre = grid.origin + grid.length * Vec3{i + half, j + half, k + half};
-        const Real away = norm(q - centre), enough = within + away;
-        const std::uint32_t end = cell.first + cell.count;
-        for (std::uint32_t c = cell.first + group.rank();; c += group.kSize) {
-          Candidate candidate = {};
-          bool near = c < end;
-          if (near) candidate = grid.lists.candidates[c];
-          near = near && candidate.bound <= enough;
-          if (group.vote(near && candidate.bound + away < close)) return false;
-          unsigned votes =
-              group.vote(near && geometry.may_be_closest(candidate.feature, within, more));
-          for (; votes != 0; votes &= votes - 1)
-            if (!found(group.of(candidate.feature, group.first(votes)))) return false;
-          if (group.vote(near) != group.kAll) break;
-        }
-      }
-  return true;
-}
-
 // Begins a list of a sphere at q.
 LSDCD_FN void begin_list(WallList &list, const Vec3 &q, Real cutoff, Real margin)
 {
@@ -175,35 +125,42 @@ LSDCD_FN void begin_list(WallList &list, const Vec3 &q, Real cutoff, Real margin
 
 // The list of a sphere at q for a margin; false: it is too long.
 template <class Geometry, class Group>
-LSDCD_FN bool gather_within(const Group &group, const GridView &grid, const Vec3 &q, Real cutoff,
-                            Real margin, WallList &list)
+LSDCD_FN bool gather_within(const Group &group, bool mine, const GridView &grid, const Vec3 &q,
+                            Real cutoff, Real margin, WallList &list)
 {
-  begin_list(list, q, cutoff, margin);
-  return for_each_within<Geometry>(group, grid, q, cutoff, margin, -1,
+  if (mine) begin_list(list, q, cutoff, margin);
+  return for_each_within<Geometry>(group, mine, grid,
+                                   {q, cutoff, margin, past_lists(grid, margin), -1},
                                    [&](FeatureCode code) { return insert_code(list, code); });
 }
 
 // Makes the list of a sphere anew, for the margin or, where that is too long, for less. `cutoff`:
 // how far it feels the wall from its centre.
 template <class Geometry, class Group>
-LSDCD_FN void gather_for(const Group &group, const GridView &grid, const Vec3 &q, Real cutoff,
-                         Real margin, WallList &list)
+LSDCD_FN void gather_for(const Group &group, bool mine, const GridView &grid, const Vec3 &q,
+                         Real cutoff, Real margin, WallList &list)
 {
   Real m = margin_at(grid, q, margin);
-  for (int i = 0; i <= kMostShrinks && m >= 0; i++, m /= kShrink)
-    if (gather_within<Geometry>(group, grid, q, cutoff, m, list)) return;
-  begin_list(list, q, cutoff, -1);
+  bool missing = mine && m >= 0;
+  const bool has_room = missing;
+  for (int i = 0; i <= kMostShrinks && group.vote(missing); i++, m /= kShrink)
+    if (gather_within<Geometry>(group, missing, grid, q, cutoff, m, list)) missing = false;
+  if (mine && (missing || !has_room)) begin_list(list, q, cutoff, -1);
 }
 
 // Can a sphere at q touch anything after a way of up to the margin? True where that would take too
-// long to find out.
+// long to find out. What is nearest is in the list of a cell no farther than it has to go until that
+// is within the grid's cutoff.
 template <class Geometry, class Group>
-LSDCD_FN bool can_touch(const Group &group, const GridView &grid, const Vec3 &q, Real cutoff,
-                        Real margin)
+LSDCD_FN bool can_touch(const Group &group, bool mine, const GridView &grid, const Vec3 &q,
+                        Real cutoff, Real margin)
 {
-  return !(margin_at(grid, q, margin) >= margin) ||
-         !for_each_within<Geometry>(group, grid, q, cutoff, margin, cutoff,
-                                    [](FeatureCode) { return false; });
+  const bool too_long = !(margin_at(grid, q, margin) >= margin);
+  const Real past = past_lists(grid, cutoff + margin - grid.cutoff);
+  return !for_each_within<Geometry>(group, mine && !too_long, grid,
+                                    {q, cutoff, margin, past, cutoff},
+                                    [](FeatureCode) { return false; }) ||
+         too_long;
 }
 
 // Local minima of the distance from q to the listed features, in the order of their numbers, so

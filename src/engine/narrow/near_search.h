@@ -1,0 +1,139 @@
+// The features of the wall that a sphere could touch after a little way, from the cells near it.
+#pragma once
+
+#include "geometry/wall_records.h"
+#include "grid/lookup/near_within.h"
+#include "parallel/lane_group.h"
+
+namespace lsdcd {
+
+// The cells that a ball meets, those that have candidates, one after the other.
+class CellsInBall {
+ public:
+  // `mine`: false: there is none.
+  LSDCD_FN CellsInBall(bool mine, const GridView &grid, const Vec3 &q, Real radius)
+  {
+    open_ = mine && cells_in_ball(grid, q, radius, lo_, hi_);
+    i_ = lo_[0] - 1;
+    j_ = lo_[1];
+    k_ = lo_[2];
+  }
+  LSDCD_FN void close() { open_ = false; }
+  // False: there is none any more.
+  LSDCD_FN bool next(const GridView &grid, Cell &cell)
+  {
+    while (open_ && step()) {
+      const Brick *brick = brick_at(grid, grid.lists, i_, j_, k_);
+      const int in_brick = cell_in_brick(i_, j_, k_);
+      if (!brick || !has_candidates(*brick, in_brick)) continue;
+      cell = grid.lists.cells[cell_index(*brick, in_brick)];
+      return true;
+    }
+    return open_ = false;
+  }
+  LSDCD_FN Vec3 centre(const GridView &grid) const
+  {
+    const Real half = Real(0.5);
+    return grid.origin + grid.length * Vec3{i_ + half, j_ + half, k_ + half};
+  }
+
+ private:
+  LSDCD_FN bool step()
+  {
+    if (++i_ < hi_[0]) return true;
+    i_ = lo_[0];
+    if (++j_ < hi_[1]) return true;
+    j_ = lo_[1];
+    return ++k_ < hi_[2];
+  }
+
+  bool open_;
+  int lo_[3] = {0, 0, 0}, hi_[3] = {0, 0, 0}, i_, j_, k_;
+};
+
+// How many candidates ahead a CPU asks for their records.
+constexpr std::uint32_t kAhead = 8;
+
+// Asks a CPU's memory for the first candidates of a sphere at q, whose turn comes soon.
+inline void ask_for_candidates(const GridView &grid, const Vec3 &q)
+{
+  const CellAddress at = locate(grid, grid.lists, q);
+  if (!at.brick || !has_candidates(*at.brick, at.cell)) return;
+  const Cell cell = grid.lists.cells[cell_index(*at.brick, at.cell)];
+  if (cell.count > 1) __builtin_prefetch(grid.lists.candidates + cell.first);
+  asm volatile("");    // as in ask_for()
+}
+
+// What a sphere at q could touch after a way of up to `margin`. Lengths.
+struct NearSearch {
+  Vec3 q;
+  Real cutoff, margin;
+  Real past;     // how far from q the cells are that are looked at
+  Real close;    // the search ends where a candidate may be nearer
+};
+
+// Calls found(code) for what is found until that says false; returns whether it did not. A contact
+// on the way is in the complete list of the cell that it is found from, and that cell meets the ball
+// round q; lists of cells hold for a margin of their own. Each thread of a group has a search, or
+// none where it is not `mine`; they share the candidates, and each is told of its own.
+template <class Geometry, class Group, class Found>
+LSDCD_FN bool for_each_within(const Group &group, bool mine, const GridView &grid,
+                              const NearSearch &search, const Found &found)
+{
+  const Candidate *candidates = grid.lists.candidates;
+  // Each half-space of a feature's region moves by the margin at most; one tolerance more is for
+  // rounding.
+  const Real more = search.margin + Geometry::tolerance(grid),
+             within = (1 + Real(2e-6)) * search.cutoff + more;
+  CellsInBall cells(mine, grid, search.q, search.past);
+  std::uint32_t at = 0, end = 0;    // of the cell's candidates those that are left
+  Real enough = 0;                  // past this bound none is near
+  bool complete = true;
+  for (;;) {
+    Cell cell = {};
+    while (at == end && cells.next(grid, cell)) {
+      if (cell.count == 1) {
+        if (!Geometry(grid, search.q).may_be_closest(cell.first, within, more)) continue;
+        complete = found(cell.first);
+      } else {
+        // A list ascends in its bounds on the distance from the cell's centre.
+        const Real away = norm(search.q - cells.centre(grid)), least = candidates[cell.first].bound;
+        complete = !(least + away < search.close);
+        if (complete && least <= within + away) {
+          at = cell.first;
+          end = at + cell.count;
+          enough = within + away;
+          Geometry::ask_for(grid, candidates + at, cell.count < kAhead ? cell.count : kAhead);
+        }
+      }
+      if (!complete) cells.close();
+    }
+    const unsigned busy = group.vote(at < end);
+    if (busy == 0) return complete;
+    const Shares<Group> share(group, busy);
+    const Vec3 q = group.of(search.q, share.owner);
+    const Real its_enough = group.of(enough, share.owner),
+               its_within = group.of(within, share.owner), its_more = group.of(more, share.owner);
+    const std::uint32_t c = group.of(at, share.owner) + share.turn,
+                        c_end = group.of(end, share.owner);
+    bool near = share.helps && c < c_end;
+    if (near && c + kAhead < c_end) Geometry::ask_for(grid, candidates + c + kAhead, 1);
+    const Candidate candidate = near ? candidates[c] : Candidate();
+    near = near && candidate.bound <= its_enough;
+    unsigned hits = group.vote(near && Geometry(grid, q).may_be_closest(candidate.feature,
+                                                                        its_within, its_more)) &
+                    share.own;
+    const bool all_near = (group.vote(near) & share.own) == share.own;
+    if (at < end) at = all_near ? at + share.size : end;
+    for (; group.vote(hits != 0); hits &= hits - 1) {
+      const FeatureCode code = group.of(candidate.feature, group.first(hits));
+      if (hits == 0 || found(code)) continue;
+      complete = false;
+      cells.close();
+      at = end;
+      hits = 0;
+    }
+  }
+}
+
+}    // namespace lsdcd
