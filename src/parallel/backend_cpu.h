@@ -163,7 +163,8 @@ struct CpuBackend {
   }
 
   // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i), before that work.make_list(group, true, i) if work.needs_list(i).
+  // !work.has_single(), work.several(i), before that work.make_list(group, true, i) if
+  // work.needs_list(i).
   template <class Work>
   void step(std::size_t n, const Work &work)
   {

@@ -303,8 +303,8 @@ struct CudaBackend {
   }
 
   // step: work.begin(), and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i), before that work.make_list(group, true, i) if work.needs_list(i).
-  // Lists of work.step_lists() have room for n; those to be written are empty.
+  // !work.has_single(), work.several(i), before that work.make_list(group, mine, i) by a warp if
+  // work.needs_list(i). Lists of work.step_lists() have room for n; those to be written are empty.
   template <class Work>
   void step(std::size_t n, const Work &work)
   {

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -394,6 +395,38 @@ TEST(wall_list, is_made_anew_for_the_sphere_that_left_its_margin_alone)
   const StepDiagnostics diagnostics = bed.engine->read_diagnostics();
   EXPECT_EQ(diagnostics.lists, 1);
   EXPECT_EQ(diagnostics.listed, OneList(wall.view(), bed.centre(3), 0.5).made.n);
+}
+
+// Of a point outside of a box of the origin.
+Real distance_from_box(const Vec3 &q, Real half)
+{
+  Vec3 past;
+  for (int d = 0; d < 3; d++) past[d] = std::max(std::fabs(q[d]) - half, Real(0));
+  return norm(past);
+}
+
+// The margins are larger than that of the lists of cells, so that other cells than the sphere's own
+// have to be looked at. Rounding moves a distance by less than 1e-12.
+TEST(wall_list, a_sphere_is_near_wherever_the_wall_is_within_its_cutoff_and_the_margin)
+{
+  constexpr Real kHalf = 1, kCutoff = 0.5;
+  const Wall box(box_mesh({-kHalf, -kHalf, -kHalf}, {kHalf, kHalf, kHalf}), kCutoff);
+  const GridView grid = box.view();
+  Numbers r(17);
+  int missed = 0, near = 0, far = 0;
+  for (int i = 0; i < 100000; i++) {
+    const Vec3 q = r.in(kHalf, 2.5) * r.direction();
+    const Real cutoff = kCutoff * r.in(0.2, 1), margin = grid.length * r.in(0.1, 1);
+    const bool found =
+        can_touch(LaneGroup<1>(), true, grid, {q, cutoff, cutoff, nullptr, 0}, margin);
+    const Real d = distance_from_box(q, kHalf);
+    missed += !found && d > 0 && d < cutoff + margin - 1e-12;
+    near += found;
+    far += !found;
+  }
+  EXPECT_EQ(missed, 0);
+  EXPECT_GT(near, 1000);
+  EXPECT_GT(far, 1000);
 }
 
 TEST(wall_list, a_sphere_that_cannot_touch_anything_by_its_own_radius_is_not_near)
