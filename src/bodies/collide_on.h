@@ -115,7 +115,7 @@ class BodyCollisionOn : public BodyCollision {
       at[t] = n;
     });
     const std::uint64_t n = b_.exclusive_scan(at, n_triangles + 1);
-    if (const std::uint64_t t = b_.to_host(deep, 1)[0])
+    if (const std::uint64_t t = b_.read_one(deep.data()))
       throw InputError(source + ", triangle " + std::to_string(t) +
                        " cannot be cut down to cells of " + std::to_string(longest) +
                        ": use longer ones");

@@ -232,7 +232,7 @@ class EngineOn : public InPlaceEngine {
   {
     if (seen.too_large) throw_for(spheres, seen);
     springs_.make_room(wall_.n(), seen);
-    step_lists_.clear(b_, wall_.n(), !wall_.has_several(), counts_.data());
+    step_lists_.clear(b_, wall_.n(), !wall_.has_several(), wall_.seem_several(), counts_.data());
   }
 
   void start_law(LawJob &job, std::size_t n)
@@ -262,7 +262,7 @@ class EngineOn : public InPlaceEngine {
 
   const WallTotals &sum_totals() { return results_.totals(b_); }
 
-  StepCounts read_counts() { return b_.to_host(counts_, 1)[0]; }
+  StepCounts read_counts() { return b_.read_one(counts_.data()); }
 
   [[noreturn]] void throw_for(const Spheres &spheres, const StepCounts &seen)
   {

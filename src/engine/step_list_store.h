@@ -12,8 +12,8 @@ class StepListStore {
 
  public:
   // After a choice of n near spheres. `keeps`: steps are over all of them, so that those with several
-  // contacts are kept from step to step.
-  void clear(B &b, std::size_t n, bool keeps, StepCounts *counts)
+  // contacts are kept from step to step. `several`: of each, does it seem to have them now? Or null.
+  void clear(B &b, std::size_t n, bool keeps, const char *several, StepCounts *counts)
   {
     if (B::kOnHost) return;
     keeps_ = keeps;
@@ -22,10 +22,13 @@ class StepListStore {
       room_ = n + n / 8;
       memory_ = Array<int>(4 * room_);
     }
-    int *listed_in = column(3);
-    b.for_each(n + 2, [=] LSDCD_LAMBDA(std::size_t k) {
-      if (k < n) listed_in[k] = 0;
-      if (k < 2) counts->n_found[k] = counts->n_several[k] = 0;
+    int *listed_in = column(3), *first = column(0);    // of the first step
+    b.for_each(2,
+               [=] LSDCD_LAMBDA(std::size_t k) { counts->n_found[k] = counts->n_several[k] = 0; });
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      const bool has_several = several && several[k];
+      listed_in[k] = has_several;
+      if (has_several) first[fetch_add(counts->n_several, 1)] = static_cast<int>(k);
     });
   }
 

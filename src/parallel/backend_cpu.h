@@ -17,6 +17,13 @@
 #include <utility>
 #include <vector>
 
+// Compiles a function with all that it calls; with sanitizers that would take minutes.
+#if defined(__SANITIZE_ADDRESS__)
+#define LSDCD_FLATTEN
+#else
+#define LSDCD_FLATTEN gnu::flatten
+#endif
+
 namespace lsdcd {
 
 struct CpuBackend {
@@ -239,8 +246,8 @@ struct CpuBackend {
   // single() is compiled into the loop whole, with its contact in registers; several() is rare,
   // and long.
   template <class Work>
-  [[gnu::noinline, gnu::flatten]] static void step_run(const Work &work, std::int64_t begin,
-                                                       std::int64_t end)
+  [[gnu::noinline, LSDCD_FLATTEN]] static void step_run(const Work &work, std::int64_t begin,
+                                                        std::int64_t end)
   {
     const bool has_single = work.has_single();
     for (std::int64_t i = begin; i < end; i++)

@@ -2,6 +2,7 @@
 // single thread.
 #pragma once
 
+#include "base/bits.h"
 #include "base/vec3.h"
 
 namespace lsdcd {
@@ -41,19 +42,15 @@ struct LaneGroup {
   {
     return {of(v.x, rank), of(v.y, rank), of(v.z, rank)};
   }
-  LSDCD_FN static unsigned count([[maybe_unused]] unsigned votes)
+  LSDCD_FN static unsigned count(unsigned votes)
   {
-#if defined(__CUDA_ARCH__)
-    if constexpr (kSize > 1) return __popc(votes);
-#endif
+    if constexpr (kSize > 1) return static_cast<unsigned>(count_bits(votes));
     return votes;
   }
   // Rank of the first of some votes; 0 where there are none.
   LSDCD_FN static unsigned first([[maybe_unused]] unsigned votes)
   {
-#if defined(__CUDA_ARCH__)
-    if constexpr (kSize > 1) return votes ? __ffs(votes) - 1 : 0;
-#endif
+    if constexpr (kSize > 1) return votes ? lowest_bit(votes) : 0;
     return 0;
   }
   // Of vote number n, counted from 0.
@@ -92,13 +89,13 @@ struct Shares {
   }
 };
 
-// Calls f(mine, mesh), all threads together, for each mesh that any of them has; `mine`: has this one?
+// Calls f(mine, value), all threads together, for each value that any of them has; `mine`: has this one?
 template <class Group, class F>
-LSDCD_FN void mesh_by_mesh(const Group &group, bool mine, int mesh, const F &f)
+LSDCD_FN void by_value(const Group &group, bool mine, int value, const F &f)
 {
   for (unsigned left = group.vote(mine); left != 0; left = group.vote(mine)) {
-    const int next = group.of(mesh, group.first(left));
-    const bool now = mine && mesh == next;
+    const int next = group.of(value, group.first(left));
+    const bool now = mine && value == next;
     f(now, next);
     mine = mine && !now;
   }

@@ -216,7 +216,7 @@ class CudaStreamQuery : public StreamQuery {
   template <class T>
   void refuse_too_large(const PointArrays<T> &io)
   {
-    const std::uint64_t first = b_.to_host(too_large_, 1)[0];
+    const std::uint64_t first = b_.read_one(too_large_.data());
     if (first == 0) return;
     throw_too_large(~first,
                     b_.read_one(io.radii.at + static_cast<std::ptrdiff_t>(~first) * io.radii.step),

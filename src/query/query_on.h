@@ -159,7 +159,7 @@ class QueryOn : public SphereQuery {
   template <class S>
   void refuse_too_large(const Array<S> &spheres)
   {
-    const std::uint64_t first = b_.to_host(too_large_, 1)[0];
+    const std::uint64_t first = b_.read_one(too_large_.data());
     if (first == 0) return;
     const std::size_t i = ~first;
     throw_too_large(i, b_.to_host(spheres, i + 1)[i].r, grid_.view.cutoff);

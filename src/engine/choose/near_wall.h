@@ -51,7 +51,7 @@ class NearWall {
     all_near_ = !has_several();
     if (has_several()) return choose_slots(b, spheres, margin, false, counts);
     near_.choose_all(b, spheres.n);
-    StepCounts seen = b.to_host(counts, 1)[0];
+    StepCounts seen = b.read_one(counts.data());
     seen.n_near = spheres.n;
     return make_lists(b, spheres, seen, margin, counts, nullptr);
   }
@@ -69,6 +69,8 @@ class NearWall {
   {
     return has_several() ? slots_.near() : all_near_ ? nullptr : near_.data();
   }
+  // Of each, does it seem to touch several features now? Null: not known.
+  const char *seem_several() const { return has_several() ? nullptr : lists_.several(); }
   const WallLists &lists() const { return lists_.view(); }
   const NearMeshes<B> &slots() const { return slots_; }
 
@@ -124,7 +126,7 @@ class NearWall {
   {
     near_.choose(b, mesh.grid.view, mesh.grid.table, spheres, mesh.pose, margin, pull_off_,
                  counts.data(), n_springs);
-    return b.to_host(counts, 1)[0];
+    return b.read_one(counts.data());
   }
 
   // Of the seen.n_near spheres that are near by their cells leaves those that can touch the mesh.
@@ -134,7 +136,7 @@ class NearWall {
     if (mesh.grid.view.nearest > 0 || seen.n_near == 0) return seen;
     near_.prune(b, mesh.grid.view, spheres, mesh.pose, seen.n_near, margin, pull_off_,
                 counts.data(), n_springs);
-    return b.to_host(counts, 1)[0];
+    return b.read_one(counts.data());
   }
 
   StepCounts make_lists(B &b, const Spheres &spheres, const StepCounts &by_cells, Real margin,
@@ -159,7 +161,7 @@ class NearWall {
         if (seen.too_large) return seen;
       } else {
         near_.choose_all(b, spheres.n);
-        seen = b.to_host(counts, 1)[0];
+        seen = b.read_one(counts.data());
         seen.n_near = spheres.n;
       }
       seen = prune(b, mesh, spheres, seen, margin, counts, nullptr);

@@ -270,7 +270,7 @@ struct JointStep {
       const bool in = mine && k < s.end;
       const Vec3 x = in ? seen_from(job, s, k).x : Vec3{0, 0, 0};
       const bool due = in && !job.lists.holds(k, x, s.cutoff);
-      mesh_by_mesh(group, due, due ? job.joint.mesh[k] : 0, [&](bool of_mesh, int m) {
+      by_value(group, due, due ? job.joint.mesh[k] : 0, [&](bool of_mesh, int m) {
         put_list(job, group, of_mesh, job.joint.meshes[m].grid, {x, s.radius, s.cutoff, nullptr, 0},
                  k);
       });

@@ -15,15 +15,18 @@ struct GatherWork {
   SpheresAtChoice spheres;
   Real margin;
   WallLists lists;
+  char *several;    // does each seem to touch several features now? Null: not asked for
   StepCounts *counts;
 
   template <class Group>
   LSDCD_FN void operator()(const Group &group, bool mine, std::size_t k) const
   {
     spheres.ask_ahead(grid, pose, k);
+    const QuerySphere s = spheres.seen_from(pose, k);
     WallList made;
-    gather(group, mine, grid, spheres.seen_from(pose, k), margin, made);
+    gather(group, mine, grid, s, margin, made);
     if (!mine) return;
+    if (several) several[k] = touches_several(grid, s, made);
     lists.put(k, made, grid.wall);
     count_one(&counts->lists);
     add_to(&counts->listed, made.n);
@@ -42,9 +45,10 @@ struct GatherSlotWork {
   template <class Group>
   LSDCD_FN void operator()(const Group &group, bool mine, std::size_t k) const
   {
-    mesh_by_mesh(group, mine, mesh[k], [&](bool of_mesh, int m) {
+    by_value(group, mine, mesh[k], [&](bool of_mesh, int m) {
       const MeshWork &of = meshes[m];
-      GatherWork{of.grid, of.settings.pose, spheres, margin, lists, counts}(group, of_mesh, k);
+      const GatherWork work = {of.grid, of.settings.pose, spheres, margin, lists, nullptr, counts};
+      work(group, of_mesh, k);
     });
   }
 };
@@ -62,9 +66,14 @@ class ListStore {
   void make(B &b, const GridView &grid, const WallPose &pose, const SpheresAtChoice &spheres,
             std::size_t n, Real margin, StepCounts *counts)
   {
-    if (reserve(grid, grid.is_large, n))
-      b.for_each_together(n, GatherWork{grid, pose, spheres, margin, lists_, counts});
+    if (!reserve(grid, grid.is_large, n)) return;
+    if (!B::kOnHost && several_.size() < n) several_ = Array<char>(n + n / 8);
+    b.for_each_together(n,
+                        GatherWork{grid, pose, spheres, margin, lists_, several_.data(), counts});
   }
+  // Of each of these, does it seem to touch several features now? For steps on a GPU, which begin with
+  // those; null: not known.
+  const char *several() const { return lists_.n ? several_.data() : nullptr; }
   // The same for n slots of several meshes; `large`: is any of them?
   void make(B &b, const GridView &first_grid, bool large, const MeshWork *meshes, const int *mesh,
             const SpheresAtChoice &spheres, std::size_t n, Real margin, StepCounts *counts)
@@ -75,7 +84,7 @@ class ListStore {
 
   std::size_t bytes() const
   {
-    return reals_.size() * sizeof(Real) + ints_.size() * sizeof(std::int32_t) +
+    return several_.size() + reals_.size() * sizeof(Real) + ints_.size() * sizeof(std::int32_t) +
            places_.size() * sizeof(RecordCopies::Place) + used_ * sizeof(FeatureRecord);
   }
 
@@ -114,6 +123,7 @@ class ListStore {
   WallLists lists_;
   Array<Real> reals_;
   Array<std::int32_t> ints_;
+  Array<char> several_;             // not on a host
   Array<FeatureRecord> records_;    // on a host
   Array<RecordCopies::Place> places_;
   int used_ = 0;

@@ -137,6 +137,16 @@ LSDCD_NOINLINE bool can_touch(const Group &group, bool mine, const GridView &gri
   return can_touch<WallGeometry>(group, mine, grid, s.x, s.cutoff, margin);
 }
 
+// Does a sphere seem to touch several of the features of its list where it is? No answer depends on this.
+LSDCD_FN bool touches_several(const GridView &grid, const QuerySphere &s, const WallList &list)
+{
+  if (list.n < 2 || grid.in_floats) return false;
+  const WallGeometry geometry(grid, s.x);
+  int n = 0;
+  for (int i = 0; i < list.n; i++) n += geometry.may_be_closest(list.code[i], s.cutoff, 0);
+  return n > 1;
+}
+
 // Makes the list of a sphere anew, for a way of up to `margin` at most; false: it has none, its cell
 // has to be searched.
 template <class Group>

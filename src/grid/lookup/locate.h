@@ -1,6 +1,7 @@
 // From a point to its cell: arithmetic, one table, one bit.
 #pragma once
 
+#include "base/bits.h"
 #include "grid/triangle_grid.h"
 
 namespace lsdcd {
@@ -11,33 +12,6 @@ struct CellAddress {
   std::int32_t cell;
   Vec3 from_centre;    // q - cell centre
 };
-
-LSDCD_FN int count_bits(std::uint64_t word)
-{
-#if defined(__CUDA_ARCH__)
-  return __popcll(word);
-#else
-  return __builtin_popcountll(word);
-#endif
-}
-LSDCD_FN int count_bits(std::uint32_t word)
-{
-#if defined(__CUDA_ARCH__)
-  return __popc(word);
-#else
-  return __builtin_popcount(word);
-#endif
-}
-
-// Of a word that is not 0.
-LSDCD_FN unsigned lowest_bit(unsigned word)
-{
-#if defined(__CUDA_ARCH__)
-  return __ffs(word) - 1;
-#else
-  return __builtin_ctz(word);
-#endif
-}
 
 // `cell` counts those of the brick, of which the layer is.
 LSDCD_FN bool has_candidates(const BrickLayer &layer, int cell)
