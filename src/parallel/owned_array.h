@@ -16,7 +16,10 @@ class OwnedArray {
       data_(n > 0 ? static_cast<T *>(Memory::allocate(n * sizeof(T))) : nullptr), n_(n)
   {
   }
-  ~OwnedArray() { Memory::free(data_); }
+  ~OwnedArray()
+  {
+    if (data_) Memory::free(data_);    // a GPU's driver is asked even of nothing
+  }
   OwnedArray(OwnedArray &&other) noexcept { swap(other); }
   OwnedArray &operator=(OwnedArray &&other) noexcept
   {
