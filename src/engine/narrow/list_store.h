@@ -71,9 +71,6 @@ class ListStore {
     b.for_each_together(n,
                         GatherWork{grid, pose, spheres, margin, lists_, several_.data(), counts});
   }
-  // Of each of these, does it seem to touch several features now? For steps on a GPU, which begin with
-  // those; null: not known.
-  const char *several() const { return lists_.n ? several_.data() : nullptr; }
   // The same for n slots of several meshes; `large`: is any of them?
   void make(B &b, const GridView &first_grid, bool large, const MeshWork *meshes, const int *mesh,
             const SpheresAtChoice &spheres, std::size_t n, Real margin, StepCounts *counts)
@@ -81,6 +78,10 @@ class ListStore {
     if (reserve(first_grid, large, n))
       b.for_each_together(n, GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
   }
+
+  // Of each of the n of one mesh, does it seem to touch several features now? For steps on a GPU, which
+  // begin with those; null: not known.
+  const char *several() const { return lists_.n ? several_.data() : nullptr; }
 
   std::size_t bytes() const
   {
