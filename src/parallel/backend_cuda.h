@@ -109,7 +109,7 @@ struct CudaBackend {
     {
       if (!pooled())
         Memory::free(at);
-      else if (at)
+      else
         cudaFreeAsync(at, nullptr);
     }
 

@@ -162,7 +162,7 @@ class QueryOn : public SphereQuery {
     const std::uint64_t first = b_.read_one(too_large_.data());
     if (first == 0) return;
     const std::size_t i = ~first;
-    throw_too_large(i, b_.to_host(spheres, i + 1)[i].r, grid_.view.cutoff);
+    throw_too_large(i, b_.read_one(spheres.data() + i).r, grid_.view.cutoff);
   }
 
   template <class T, class Other>

@@ -24,8 +24,8 @@ cd "$top"
   tar -c --null --files-from=- --ignore-failed-read | tar -x -C "$debian/root/lsdcd"
 if [ -e /etc/resolv.conf ]; then cp -L /etc/resolv.conf "$debian/etc/resolv.conf"; fi
 
-# Mounts are seen by these commands only, and end with them. Laws compile in a third of the time where
-# each need not be one quick function.
+# Mounts are seen by these commands only, and end with them. Laws compile in half the time where each
+# need not be one quick function.
 status=0
 unshare --mount --fork bash -euc '
   mount -t proc proc "$0/proc"
