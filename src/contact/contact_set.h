@@ -62,6 +62,24 @@ struct ContactSet {
     n = 0;
     overflow = false;
   }
+  // By the features' numbers. Sets are small, and from lists nearly in order.
+  LSDCD_FN void sort()
+  {
+    for (int i = 1; i < n; i++) {
+      const FeatureCode f = feature[i];
+      const Vec3 n_unit = normal[i];
+      const Real d = distance[i];
+      int j = i;
+      for (; j > 0 && feature[j - 1] > f; j--) {
+        feature[j] = feature[j - 1];
+        normal[j] = normal[j - 1];
+        distance[j] = distance[j - 1];
+      }
+      feature[j] = f;
+      normal[j] = n_unit;
+      distance[j] = d;
+    }
+  }
   LSDCD_FN void remove(int i)
   {
     n--;

@@ -64,6 +64,14 @@ LSDCD_FN Vec3 in_own_frame(const Spring *, int, const Vec3 &h)
   return h;
 }
 
+// Was the feature of an old spring left: is it in no contact now?
+LSDCD_FN bool is_left(const ContactsView &set, FeatureCode feature)
+{
+  for (int j = 0; j < set.n; j++)
+    if (set.feature[j] == feature) return false;
+  return true;
+}
+
 // From which spring of the last step a contact begins, and how much of it it takes.
 struct Transfer {
   int from;     // index of the old spring; -1: a new one
@@ -90,13 +98,10 @@ LSDCD_FN Transfer transfer_of(const WallFeaturesView &wall, const ContactsView &
       best_cos = c;
       best = k;
     }
-    if (own && c > moved_cos && are_adjacent(wall, old[k].feature, set.feature[i])) {
-      bool left = true;
-      for (int j = 0; j < set.n && left; j++) left = set.feature[j] != old[k].feature;
-      if (left) {
-        moved_cos = c;
-        moved = k;
-      }
+    if (own && c > moved_cos && are_adjacent(wall, old[k].feature, set.feature[i]) &&
+        is_left(set, old[k].feature)) {
+      moved_cos = c;
+      moved = k;
     }
   }
   if (moved >= 0) return {moved, 1};
@@ -110,17 +115,21 @@ LSDCD_FN Vec3 handed_on(const Vec3 &h, const Transfer &in, const Springs &old, c
   return in.part * transport(h, old[in.from].normal, normal);
 }
 
-// Does a contact that the sphere does not touch hold it, by an adhesion that only
-// touching begins? It does where it held before, or where a contact next to it and
-// nearly aligned did, or one of another mesh: what holds goes along over seams.
+// Does contact i, which the sphere does not touch, hold it, by an adhesion that only touching begins?
+// It does where it held before, or where a contact next to it and nearly aligned did, or one of
+// another mesh: what holds goes along over seams. `shares`: contacts share their overlap, so that
+// the next contact may begin beside the last one; else it begins where that one was left.
 template <class Springs>
-LSDCD_FN bool is_held(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &normal,
+LSDCD_FN bool is_held(const WallFeaturesView &wall, const ContactsView &set, int i, bool shares,
                       const Springs &old, int n_old)
 {
-  for (int k = 0; k < n_old; k++)
-    if (dot(old[k].normal, normal) > kMoved && (!is_own(old, k) || old[k].feature == feature ||
-                                                are_adjacent(wall, old[k].feature, feature)))
+  for (int k = 0; k < n_old; k++) {
+    if (!(dot(old[k].normal, set.normal[i]) > kMoved)) continue;
+    if (!is_own(old, k) || old[k].feature == set.feature[i]) return true;
+    if (are_adjacent(wall, old[k].feature, set.feature[i]) &&
+        (shares || is_left(set, old[k].feature)))
       return true;
+  }
   return false;
 }
 

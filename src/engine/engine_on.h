@@ -132,7 +132,7 @@ class EngineOn : public InPlaceEngine {
   StepDiagnostics read_diagnostics() override
   {
     const StepCounts seen = read_counts();
-    if (seen.too_large || seen.lost || seen.grown) throw_for(spheres_, seen);
+    if (seen.too_large || seen.no_lane || seen.no_slots || seen.grown) throw_for(spheres_, seen);
     clear_diagnostics(seen);
     return diagnostics_of(seen);
   }
@@ -272,7 +272,8 @@ class EngineOn : public InPlaceEngine {
       throw_too_large(i, b_.read_one(spheres.radius + i), wall_.mesh(0).grid.view.cutoff);
     }
     if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown));
-    throw_too_many_contacts(seen.lost, kMostContacts);
+    if (seen.no_lane) throw_too_many_contacts(kMostContacts);
+    throw_no_slots();
   }
 
   EngineSettings settings_;

@@ -89,24 +89,12 @@ class HostAdapter : public WallEngine {
     for (std::size_t k = 0; k < which.size(); k++) near_host_[k] = near_host_[which[k]];
     near_host_.resize(which.size());
     if (traits_.history) move_springs(was, spheres.n);
-    if (watch) {
-      centres_.resize(3 * static_cast<std::size_t>(spheres.n));
-      for (int i = 0; i < spheres.n; i++) StridedView<Real>(centres_.data()).put(i, spheres.x[i]);
-      for (EngineMesh<CpuBackend> &mesh : meshes_) mesh.chosen = mesh.pose;
-    }
-    margin_ = margin;
+    if (watch) centres_.keep(cpu_, spheres, meshes_, margin);
   }
 
   bool has_moved(const Spheres &spheres) override
   {
-    const StridedView<const Real> was(centres_.data());
-    return cpu_.largest<Real>(spheres.n, [&](std::size_t i) -> Real {
-      Real most = 0;
-      for (const EngineMesh<CpuBackend> &mesh : meshes_)
-        most =
-            std::max(most, norm_sq(mesh.pose.to_mesh(spheres.x[i]) - mesh.chosen.to_mesh(was[i])));
-      return most;
-    }) > margin_ * margin_;
+    return centres_.has_moved(cpu_, spheres, meshes_);
   }
 
   void start(const Spheres &spheres, const StepSettings &step) override
@@ -217,8 +205,7 @@ class HostAdapter : public WallEngine {
   {
     return engine_.bytes() + motion_.bytes() + size_.bytes() + response_.bytes() +
            n_contacts_.bytes() + heat_.bytes() + near_.bytes() + waiting_.bytes() +
-           (near_host_.capacity() + touching_.capacity()) * sizeof(int) +
-           centres_.capacity() * sizeof(Real);
+           (near_host_.capacity() + touching_.capacity()) * sizeof(int) + centres_.bytes();
   }
 
  private:
@@ -376,8 +363,7 @@ class HostAdapter : public WallEngine {
   std::vector<EngineMesh<CpuBackend>> meshes_;
   NearList<CpuBackend> near_;
   std::vector<int> near_host_, touching_;
-  std::vector<Real> centres_;    // at the last choice
-  Real margin_ = 0;
+  KeptCentres<CpuBackend> centres_;
 
   Mirror<Motion> motion_;
   Mirror<Real> size_;    // radii, then masses

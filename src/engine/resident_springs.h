@@ -67,15 +67,16 @@ class ResidentSprings {
     count_ = std::move(count);
   }
 
-  // For steps over n near spheres, each of which has a slot of its own. With two for each beside,
-  // or twice what was shared last, and some for spheres with many contacts, none runs out.
+  // For steps over n near spheres, each of which has a slot of its own for a single contact. Those
+  // with several share what is beside: three for each sphere, as in the corner of a box, or twice
+  // what was shared last, and some for spheres with many contacts.
   void make_room(std::size_t n, const StepCounts &last)
   {
     n_near_ = n;
     wanted_ = 0;
     if (!traits_.history && !traits_.records) return;
     const std::size_t shared = std::max(last.shared_used[0], last.shared_used[1]);
-    wanted_ = n + std::max(2 * n, 2 * shared) + kSpareSlots;
+    wanted_ = n + std::max(3 * n, 2 * shared) + kSpareSlots;
   }
 
   // Leaves of sphere i the springs on meshes of set[i].
@@ -289,7 +290,7 @@ class ResidentSprings {
 
  private:
   static constexpr std::size_t kUnknown = ~std::size_t(0);
-  static constexpr std::size_t kSpareSlots = 65536;
+  static constexpr std::size_t kSpareSlots = 1 << 18;
 
   int per_spring() const
   {

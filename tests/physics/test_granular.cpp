@@ -93,6 +93,24 @@ TEST(jkr, holds_only_what_has_touched)
   EXPECT_EQ(s.at(-gap).z, 0);
 }
 
+// With the rule that adds forces each side of a hinge holds what has touched that side.
+TEST(jkr, on_one_side_of_a_hinge_is_not_held_by_the_other)
+{
+  const Jkr jkr;
+  EngineSettings law = jkr.law();
+  law.corner = Corner::sum;
+  const Real angle = kPi / 18, height = kRadius - 1e-6, gap = 0.5 * jkr.pull_off();
+  Scene scene(hinge_mesh(10, 4), cutoff_of(law.law, kRadius), law);
+  // The other side is at a distance of cos(angle) z - sin(angle) x.
+  scene.add_sphere({(std::cos(angle) * height - kRadius - gap) / std::sin(angle), 0.11, height},
+                   kRadius, kMass);
+  scene.compute(1e-6);
+  const Vec3 first = scene.force(0);
+  EXPECT_LT(first.z, 0);
+  scene.compute(1e-6);
+  EXPECT_EQ(scene.force(0), first);
+}
+
 TEST(jkr, loses_the_work_between_touch_and_pull_off_in_a_cycle)
 {
   // By the contact radius a: overlap and force in closed form, the work between a at no
@@ -154,22 +172,25 @@ TEST(jkr, sphere_slides_under_a_ceiling_of_triangles_without_falling)
   // is 0.9 of the pull-off force. Its springs go along.
   const Jkr jkr;
   const Real weight = 0.9 * 3 * kPi * jkr.gamma * kRadius;
-  EngineSettings law = jkr.law();
-  law.law.granular.damping = DampingModel::mass_velocity;
-  law.law.granular.eta = 50;
-  Scene scene(floor_mesh(16, 2, 5), cutoff_of(law.law, kRadius), law);
-  const Real touch = -kRadius + 1e-6;
-  scene.add_sphere({-1, 0.11, touch}, kRadius, kMass, {0, 0, 0});
-  const Real dt = 2e-4;
-  // Let down gently, then pushed along.
-  for (int i = 0; i < 20000; i++)
-    scene.step(dt, {0, 0, -weight / kMass * std::min(1.0, i / 15000.0)});
-  scene.set_v(0, {0.5, 0.1, 0});
-  for (int i = 0; i < 20000; i++) scene.step(dt, {0, 0, -weight / kMass});
-  EXPECT_NEAR(scene.x(0).x, 1, 1e-9);    // nothing brakes it
-  EXPECT_LT(scene.x(0).z, touch);
-  EXPECT_GT(scene.x(0).z, touch - jkr.pull_off());
-  EXPECT_NEAR(scene.force(0).z, weight, 1e-6);
+  for (const Corner corner : {Corner::blend, Corner::sum}) {
+    EngineSettings law = jkr.law();
+    law.corner = corner;
+    law.law.granular.damping = DampingModel::mass_velocity;
+    law.law.granular.eta = 50;
+    Scene scene(floor_mesh(16, 2, 5), cutoff_of(law.law, kRadius), law);
+    const Real touch = -kRadius + 1e-6;
+    scene.add_sphere({-1, 0.11, touch}, kRadius, kMass, {0, 0, 0});
+    const Real dt = 2e-4;
+    // Let down gently, then pushed along.
+    for (int i = 0; i < 20000; i++)
+      scene.step(dt, {0, 0, -weight / kMass * std::min(1.0, i / 15000.0)});
+    scene.set_v(0, {0.5, 0.1, 0});
+    for (int i = 0; i < 20000; i++) scene.step(dt, {0, 0, -weight / kMass});
+    EXPECT_NEAR(scene.x(0).x, 1, 1e-9);    // nothing brakes it
+    EXPECT_LT(scene.x(0).z, touch);
+    EXPECT_GT(scene.x(0).z, touch - jkr.pull_off());
+    EXPECT_NEAR(scene.force(0).z, weight, 1e-6);
+  }
 }
 
 TEST(jkr, on_the_faces_of_a_drum_pulls_as_one_wall)

@@ -629,6 +629,62 @@ TEST(engine, many_springs_take_shared_places)
   EXPECT_GT(three, 300);
 }
 
+// `n` spheres of one radius over another wall.
+struct OverWall : Particles {
+  OverWall(const EngineSettings &settings, int n, const TriangleSoup &soup, Real radius) :
+      Particles(settings, n, radius), wall(grid_of(soup, radius))
+  {
+    engine->set_grid(wall.view());
+    host_v.assign(3 * n, 0);
+    host_radius.assign(n, radius);
+  }
+  static TriangleGrid grid_of(const TriangleSoup &soup, Real radius)
+  {
+    GridSettings g;
+    g.cutoff = radius;
+    return build_grid(weld(soup, -1), g);
+  }
+  FlatGrid wall;
+};
+
+// As many as fill a corner between one choice and the next, from no contact to three each.
+TEST(engine, has_room_for_springs_of_spheres_that_all_come_into_a_corner)
+{
+  const int n = 200000;
+  OverWall p(with_history(), n, box_mesh({0, 0, 0}, {10, 10, 10}), 0.5);
+  p.host_x.assign(3 * n, 0.51);
+  p.engine->choose(p.spheres(), 0.1);
+  p.step(0);
+  EXPECT_EQ(p.engine->totals().contacts, 0);
+  p.host_x.assign(3 * n, 0.49);
+  p.step(0);
+  EXPECT_NO_THROW(p.engine->read_diagnostics());
+  EXPECT_EQ(p.engine->totals().contacts, 3 * n);
+}
+
+// Its old springs are in the pool that the step has left.
+TEST(engine, a_sphere_with_more_contacts_than_there_is_room_for_is_an_error_and_has_no_springs)
+{
+  EngineSettings s = with_history();
+  s.corner = Corner::sum;
+  OverWall p(s, 1, faces_all_round(800), 1.01);
+  p.host_x = {0.1, 0, 0};
+  p.engine->choose(p.spheres(), 0.2);
+  p.step(0);
+  EXPECT_GT(p.springs().count(0), 100);
+  EXPECT_NO_THROW(p.engine->read_diagnostics());
+  p.host_x = {0, 0, 0};
+  p.step(0);
+  EXPECT_EQ(p.springs().count(0), 0);
+  try {
+    p.engine->read_diagnostics();
+    ADD_FAILURE() << "nothing is said";
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("more than 512 separate places"), std::string::npos)
+        << e.what();
+  }
+}
+
 // Walls on which there are single contacts, several, and some that are uncertain.
 std::vector<Case> walls()
 {

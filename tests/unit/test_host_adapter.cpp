@@ -195,6 +195,15 @@ TEST(host_adapter, says_that_spheres_have_moved_past_the_margin_alone)
   EXPECT_TRUE(p.has_moved());
 }
 
+TEST(host_adapter, says_that_a_sphere_at_no_number_has_moved)
+{
+  Pair p;
+  p.place(0b0001, 0);
+  p.choose(0.1, true);
+  p.move(2, {0, 0, std::nan("")});
+  EXPECT_TRUE(p.has_moved());
+}
+
 // Other fixes ask for the last step's totals when spheres are chosen already.
 TEST(host_adapter, totals_of_the_last_step_name_its_sphere_after_another_choice)
 {

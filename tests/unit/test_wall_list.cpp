@@ -461,6 +461,22 @@ TEST(wall_list, a_sphere_that_grows_after_the_choice_is_felt_and_then_an_error)
   }
 }
 
+TEST(wall_list, a_sphere_that_shrinks_may_grow_to_what_it_was_at_the_choice)
+{
+  const Wall wall(floor_mesh(10, 5, 3), 0.5);
+  Bed bed(wall, hooke(1e3));
+  bed.add({0.31, 0.17, 0.49}, 0.5);
+  bed.choose(0.2);
+  bed.step();
+  // Past the margin of its list, which is made anew while it is smaller.
+  bed.radius[0] = 0.495;
+  bed.put(0, {0.37, 0.17, 0.49});
+  bed.step();
+  bed.radius[0] = 0.5;
+  bed.step();
+  EXPECT_NO_THROW(bed.engine->read_diagnostics());
+}
+
 TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_time)
 {
   for (bool in_floats : {false, true}) {
@@ -528,9 +544,7 @@ TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_s
         contacts += kept.engine->totals().contacts;
         const StepDiagnostics seen = kept.engine->read_diagnostics();
         lists += seen.lists;
-        // Cells give the contacts in another order, and sums of it.
         by_cells += seen.by_cells > 0;
-        if (seen.by_cells > 0) continue;
         differ += !same_bytes(kept.force, anew.force) || !same_bytes(kept.torque, anew.torque);
       }
       const std::string &name = soup.source;

@@ -1,9 +1,9 @@
 // The meshes of a wall, the spheres that a choice finds near them, and their lists of the wall.
 #pragma once
 
+#include "engine/choose/kept_centres.h"
 #include "engine/choose/near_list.h"
 #include "engine/choose/near_meshes.h"
-#include "engine/engine_mesh.h"
 #include "engine/narrow/list_store.h"
 
 #include <numeric>
@@ -86,36 +86,17 @@ class NearWall {
     return works_.data();
   }
 
-  // From here on has_moved() tells whether a sphere has gone farther than `margin` from where it is,
-  // relative to any mesh.
+  // See KeptCentres.
   void keep_centres(B &b, const Spheres &spheres, Real margin)
   {
-    const std::size_t n = spheres.n;
-    if (centres_.size() < 3 * n) centres_ = Array<Real>(3 * (n + n / 8));
-    const StridedView<Real> to(centres_.data());
-    const StridedView<const Real> x = spheres.x;
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to.put(i, x[i]); });
-    for (EngineMesh<B> &mesh : meshes_) mesh.chosen = mesh.pose;
-    margin_ = margin;
+    centres_.keep(b, spheres, meshes_, margin);
   }
-  bool has_moved(B &b, const Spheres &spheres)
-  {
-    const StridedView<const Real> was(centres_.data()), x = spheres.x;
-    for (const EngineMesh<B> &mesh : meshes_) {
-      const WallPose pose = mesh.pose, chosen = mesh.chosen;
-      const Real most = margin_ * margin_;
-      if (b.any(spheres.n, flag_, [=] LSDCD_LAMBDA(std::size_t i) {
-            return !(norm_sq(pose.to_mesh(x[i]) - chosen.to_mesh(was[i])) <= most);
-          }))
-        return true;
-    }
-    return false;
-  }
+  bool has_moved(B &b, const Spheres &spheres) { return centres_.has_moved(b, spheres, meshes_); }
 
   std::size_t bytes() const
   {
-    std::size_t bytes = near_.bytes() + slots_.bytes() + lists_.bytes() +
-                        centres_.size() * sizeof(Real) + works_.size() * sizeof(MeshWork);
+    std::size_t bytes = near_.bytes() + slots_.bytes() + lists_.bytes() + centres_.bytes() +
+                        works_.size() * sizeof(MeshWork);
     for (const EngineMesh<B> &mesh : meshes_) bytes += mesh.grid.bytes();
     return bytes;
   }
@@ -190,9 +171,7 @@ class NearWall {
   Array<MeshWork> works_;
   bool all_near_ = false;
   std::size_t n_ = 0;
-  Array<Real> centres_;    // when keep_centres() was called
-  Real margin_ = 0;
-  typename B::Flag flag_;
+  KeptCentres<B> centres_;
 };
 
 }    // namespace lsdcd

@@ -162,7 +162,7 @@ LSDCD_FN void apply_joint_law(const Law &law, const LawJob &job, const JointSphe
   SphereSink sink = {};
   const int n_acting = count_acting(all.set.view(), all.weight);
   if (!take_slots<Law>(job, s.begin, n_acting, first, sink)) {
-    does_not_fit(job, s.begin);
+    does_not_fit(job, s.begin, s.i, job.counts->no_slots);
     return;
   }
   for (int k = s.begin, from = 0; k < s.end; k++) {
@@ -236,7 +236,7 @@ LSDCD_FN void joint_contacts(const Law &law, const LawJob &job, std::size_t g)
       apply_joint_law(law, job, s, lane->touch, end);
     } else {
       for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
-      does_not_fit(job, s.begin);
+      does_not_fit(job, s.begin, s.i, job.counts->no_lane);
     }
     unlock(&lane->locked);
     done = true;

@@ -110,7 +110,7 @@ LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::s
   int first = 0;
   SphereSink sink = {};
   if (!take_slots<Law>(job, k, count_acting(set, weight), first, sink)) {
-    does_not_fit(job, k);
+    does_not_fit(job, k, i, job.counts->no_slots);
     return;
   }
   add_motion<Law>(job, job.settings.pose, i, s);
@@ -183,15 +183,19 @@ LSDCD_FN bool needs_list(const Law &law, const LawJob &job, std::size_t k)
   return !job.lists.holds(k, s.x, s.cutoff);
 }
 
-// Makes the list of slot k, whose sphere is s, anew.
+// Makes the list of slot k, whose sphere is s, anew: for no less than at the choice, as a sphere that
+// has shrunk may grow to that again.
 template <class Group>
 LSDCD_FN void put_list(const LawJob &job, const Group &group, bool mine, const GridView &grid,
-                       const QuerySphere &s, std::size_t k)
+                       QuerySphere s, std::size_t k)
 {
   WallList made;
+  const Real chosen = mine ? job.lists.cutoff(k) : 0;
+  const bool has_grown = s.cutoff > chosen;
+  if (!has_grown) s.cutoff = chosen;
   gather(group, mine, grid, s, kAnyDistance, made);
   if (!mine) return;
-  if (s.cutoff > job.lists.cutoff(k)) raise_to(&job.counts->grown, kNoSphere - sphere_of(job, k));
+  if (has_grown) raise_to(&job.counts->grown, kNoSphere - sphere_of(job, k));
   count_one(&job.counts->lists);
   add_to(&job.counts->listed, made.n);
   job.lists.put(k, made, grid.wall);
@@ -238,7 +242,7 @@ LSDCD_NOINLINE bool several_contacts(const Law &law, const LawJob &job, std::siz
       keep_uncertain(job, k, may_miss(s.cutoff, exact_within), radius);
       apply_law(law, job, k, i, x, radius, set, weight);
     } else {
-      does_not_fit(job, k);
+      does_not_fit(job, k, i, job.counts->no_lane);
     }
     if (lane) unlock(&lane->locked);
     done = true;

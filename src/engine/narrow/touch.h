@@ -40,13 +40,14 @@ LSDCD_FN void keep_acting(const GridView &grid, const SearchSettings &settings,
   if constexpr (kBeyond) {
     for (int i = set.n - 1; i >= 0; i--)
       if (set.distance[i] >= s.radius &&
-          !is_held(grid.wall, set.feature[i], set.normal[i], s.springs, s.n_springs))
+          !is_held(grid.wall, set.view(), i, settings.blend, s.springs, s.n_springs))
         set.remove(i);
   }
 }
 
 // What is within the cutoff, into a set that is empty: of the sphere's list, or of its cell where `list`
-// is null. Where the set overflows nothing else is valid.
+// is null. In the order of the features' numbers, so that the corner rule and sums give the same bits
+// from both. Where the set overflows nothing else is valid.
 template <bool kBeyond, class Geometry, class Springs, int kCapacity>
 LSDCD_FN void search_in(const GridView &grid, const SearchSettings &settings,
                         const QuerySphereWith<Springs> &s, const ListedFeatures *list,
@@ -58,6 +59,7 @@ LSDCD_FN void search_in(const GridView &grid, const SearchSettings &settings,
   else
     out.exact_within = find_contacts_in<Geometry>(grid, s.x, s.cutoff, out.set);
   keep_acting<kBeyond>(grid, settings, s, out.set);
+  out.set.sort();
 }
 template <bool kBeyond, class Springs, int kCapacity>
 LSDCD_FN void search(const GridView &grid, const SearchSettings &settings,

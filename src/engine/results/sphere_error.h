@@ -29,11 +29,19 @@ struct SphereError : InputError {
   throw SphereError(i, text);
 }
 
-[[noreturn]] inline void throw_too_many_contacts(int spheres, int most)
+[[noreturn]] inline void throw_too_many_contacts(int most)
 {
-  throw InputError(std::to_string(spheres) +
-                   " spheres touch the wall in more separate places than there is memory for (" +
-                   std::to_string(most) + " each); the mesh is far finer than its overlap");
+  throw InputError("a sphere touches the wall in more than " + std::to_string(most) +
+                   " separate places: the mesh is far finer than its overlap; stiffen the contact "
+                   "or coarsen the mesh");
+}
+
+[[noreturn]] inline void throw_no_slots()
+{
+  throw InputError(
+      "spheres that touch the wall in several places became so many since near spheres "
+      "were chosen that the memory for their springs ran out; choose more often, with a "
+      "smaller skin, or continue from a restart file, which makes room for them");
 }
 
 [[noreturn]] inline void throw_has_grown(int i)

@@ -41,11 +41,13 @@ LSDCD_FN void touches_nothing(const LawJob &job, std::size_t k, std::size_t i)
   if (n_springs && job.settings.update && n_springs[i] != 0) n_springs[i] = 0;
 }
 
-// There is no memory for the contacts of near sphere k: an error, once the host looks.
-LSDCD_FN void does_not_fit(const LawJob &job, std::size_t k)
+// There is no memory for the contacts of near sphere k, which is sphere i: an error, once the host
+// looks. `counter`: what was used up. Until then the sphere has no springs, as its old ones are in
+// the other pool.
+LSDCD_FN void does_not_fit(const LawJob &job, std::size_t k, std::size_t i, int &counter)
 {
-  fetch_add(&job.counts->lost, 1);
-  job.result.n_contacts[k] = 0;
+  fetch_add(&counter, 1);
+  touches_nothing(job, k, i);
 }
 
 // What counts of the next step begin with, which writes to the other pool where this one moves
