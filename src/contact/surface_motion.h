@@ -12,13 +12,22 @@ struct SurfaceMotion {
 
   bool moves() const { return norm_sq(velocity) > 0 || norm_sq(angular) > 0; }
 
-  // Velocity of the surface at point p, in the plane with unit normal n. What would
-  // push along n is left out: the wall stays where it is.
-  LSDCD_FN Vec3 along(const Vec3 &p, const Vec3 &n) const
+  // Velocity of the surface that is at point p, a time `back` ago, in the plane with unit normal n.
+  // What would push along n is left out: the wall stays where it is.
+  LSDCD_FN Vec3 along(const Vec3 &p, const Vec3 &n, Real back) const
   {
-    const Vec3 u = velocity + cross(angular, p - centre);
+    const Vec3 turning = cross(angular, p - centre);
+    const Vec3 u = velocity + turning - back * cross(angular, turning);
     return u - dot(u, n) * n;
   }
 };
+
+// A vector across the unit normal n, turned about it by the angle of a step: its tangent as a series.
+LSDCD_FN Vec3 turn_about(const Vec3 &n, Real angle, const Vec3 &h)
+{
+  if (angle == 0) return h;
+  const Real tangent = angle * (1 + angle * angle / 3);
+  return (1 / sqrt(1 + tangent * tangent)) * (h + tangent * cross(n, h));
+}
 
 }    // namespace lsdcd

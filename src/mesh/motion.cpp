@@ -54,10 +54,13 @@ void turn(WallPose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, R
     for (int i = 0; i < 3; i++) row[i][j] = column[i];
   }
   std::copy(row, row + 3, pose.row);
-  const Vec3 arm = turned(pose.shift - point);
+  const Vec3 to_arm = cross(angular, turned(pose.shift - point)), v = turned(pose.velocity),
+             w = turned(pose.angular);
   pose.shift = turned(pose.shift) + (point - turned(point));
-  pose.velocity = turned(pose.velocity) + cross(angular, arm);
-  pose.angular = turned(pose.angular) + angular;
+  pose.acceleration = turned(pose.acceleration) + cross(angular, 2 * v + to_arm);
+  pose.spin_up = turned(pose.spin_up) + cross(angular, w);
+  pose.velocity = v + to_arm;
+  pose.angular = w + angular;
 }
 
 // A term's displacement and its derivative.
@@ -99,8 +102,7 @@ Vec3 unit_vector(const Vec3 &a)
 void WallMotion::begin_from(const WallPose &pose)
 {
   const WallPose at_home;
-  start_ = pose;
-  start_.velocity = start_.angular = {0, 0, 0};
+  start_ = pose.still();
   start_.placed = !(pose.row[0] == at_home.row[0] && pose.row[1] == at_home.row[1] &&
                     pose.row[2] == at_home.row[2] && pose.shift == at_home.shift);
 }

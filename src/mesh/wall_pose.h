@@ -11,7 +11,10 @@ struct WallPose {
   // In the frame of the box: of the mesh's origin, and right-handed.
   Vec3 velocity = {0, 0, 0};    // length/time
   Vec3 angular = {0, 0, 0};     // 1/time
-  bool placed = false;          // false: the mesh is where its file puts it, and stays there
+  // Their derivatives, so far as the mesh turns: what a wiggle or a servo does to its speed is left out.
+  Vec3 acceleration = {0, 0, 0};    // length/time^2
+  Vec3 spin_up = {0, 0, 0};         // 1/time^2
+  bool placed = false;              // false: the mesh is where its file puts it, and stays there
 
   // Vectors, from one frame to the other.
   LSDCD_FN Vec3 turn_to_box(const Vec3 &a) const
@@ -25,6 +28,14 @@ struct WallPose {
   // Points.
   LSDCD_FN Vec3 to_box(const Vec3 &x) const { return placed ? turn_to_box(x) + shift : x; }
   LSDCD_FN Vec3 to_mesh(const Vec3 &x) const { return placed ? turn_to_mesh(x - shift) : x; }
+
+  // It, at rest there.
+  WallPose still() const
+  {
+    WallPose pose = *this;
+    pose.velocity = pose.angular = pose.acceleration = pose.spin_up = {0, 0, 0};
+    return pose;
+  }
 
   // Velocity of a point of the mesh that is at x in the mesh's frame, in that frame.
   LSDCD_FN Vec3 velocity_in_mesh(const Vec3 &x) const

@@ -78,9 +78,8 @@ struct Twins {
 
 WallPose some_pose()
 {
-  WallPose pose = rotating({1, 2, 3}, {1, -1, 0.5}, 1).pose_at(0.137);
+  WallPose pose = rotating({1, 2, 3}, {1, -1, 0.5}, 1).pose_at(0.137).still();
   pose.velocity = {3, -2, 1};
-  pose.angular = {0, 0, 0};
   return pose;
 }
 
@@ -142,7 +141,8 @@ TEST(moving_wall, reports_in_the_frame_of_the_box)
   }
 }
 
-// A drum round z that turns: V = w x c at the point of contact; its normal part pushes.
+// A drum round z that turns: V = w x c at the point of contact, of half a step ago as the sphere's
+// velocity is; its normal part pushes.
 TEST(moving_wall, a_turning_drum_drags_and_pushes_with_the_velocity_at_the_contact)
 {
   const Real gamma_n = 7, gamma_t = 3, w = 4;
@@ -159,7 +159,8 @@ TEST(moving_wall, a_turning_drum_drags_and_pushes_with_the_velocity_at_the_conta
     drum.set_x(0, at + (kRadius - overlap) * normal);
     drum.engine->place_wall(pose);
     drum.compute(kStep);
-    const Vec3 slip = v - cross({0, 0, w}, at);
+    const Vec3 turning = cross({0, 0, w}, at);
+    const Vec3 slip = v - (turning - kStep / 2 * cross({0, 0, w}, turning));
     const Real v_normal = dot(slip, normal);
     const Vec3 along = slip - v_normal * normal - kRadius * cross(omega, normal);
     const Vec3 expected =
@@ -226,6 +227,89 @@ TEST(moving_wall, rolling_and_twisting_are_relative_to_it)
   EXPECT_LE(norm(turntable.torque(0)), 1e-12);
 }
 
+// A sphere that does not turn, held by friction at a radius of 1 on a turntable of 2000 steps a turn,
+// which the motion of the mesh or that of its surface turns.
+struct Turntable {
+  static constexpr int kSteps = 2000;
+  static constexpr Real kOmega = 2 * M_PI, kDt = 1.0 / kSteps;
+
+  explicit Turntable(bool mesh_turns) :
+      mesh_turns(mesh_turns), scene(floor_mesh(4, 2), kRadius, settings(mesh_turns)),
+      motion(rotating({0, 0, 0}, {0, 0, 1}, 1))
+  {
+    scene.add_sphere({1, 0, kRadius - 20 / kStiffness}, kRadius, kMass, {0, kOmega, 0});
+    scene.more_forces = [](Scene &s, Real) { s.add_force(0, {0, 0, 0}, -s.torque(0)); };
+    place();
+    scene.compute(kDt, false);
+  }
+  static EngineSettings settings(bool mesh_turns)
+  {
+    EngineSettings s = hooke_history(kStiffness, 3e4, 50, 25, 1e6);
+    if (mesh_turns) return moving(s);
+    s.surface.angular = {0, 0, kOmega};
+    return s;
+  }
+  void place()
+  {
+    if (mesh_turns) scene.engine->place_wall(motion.pose_at(Time(n) / kSteps));
+  }
+  void turns(int many)
+  {
+    for (int k = 0; k < many * kSteps; k++) {
+      n++;
+      place();
+      scene.step(kDt, {0, 0, -10});
+    }
+  }
+  Real radius() const { return std::hypot(scene.x(0).x, scene.x(0).y); }
+
+  bool mesh_turns;
+  Scene scene;
+  WallMotion motion;
+  int n = 0;
+};
+
+// Velocities of half a step apart would draw it in by pi omega dt = 1e-2 a turn. What is left is of
+// the order of (omega dt)^2 = 1e-5, of which a turn can make 2 pi times as much.
+TEST(moving_wall, what_it_carries_keeps_its_radius)
+{
+  for (const bool mesh_turns : {true, false}) {
+    Turntable table(mesh_turns);
+    table.turns(5);    // the swinging has died out
+    const Real before = table.radius();
+    table.turns(5);
+    EXPECT_NEAR(table.radius(), before, 5 * 2 * M_PI * 1e-5) << mesh_turns;
+  }
+}
+
+// Springs turn with a surface that turns as they do with a mesh: else the sphere lags behind by
+// 2 pi m omega^2/kt = 0.017 a turn. Both differ by rounding and by (omega dt)^3 = 3e-8 a step.
+TEST(moving_wall, a_surface_that_turns_carries_as_far_as_a_mesh_that_does)
+{
+  Turntable mesh(true), surface(false);
+  mesh.turns(5);
+  surface.turns(5);
+  EXPECT_LE(norm(mesh.scene.x(0) - surface.scene.x(0)), 1e-4);
+}
+
+// Rolling and twisting, too.
+TEST(moving_wall, rolling_and_twisting_are_relative_to_a_surface_that_turns)
+{
+  EngineSettings law;
+  law.law = everything(NormalModel::hooke);
+  law.law.granular.heat = HeatModel::none;
+  law.surface.angular = {0.3, 0, 1.7};
+  Scene scene(floor_mesh(4, 2), kRadius, law);
+  scene.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
+  law.surface.angular = {0, 0, 0};
+  Scene at_rest(floor_mesh(4, 2), kRadius, law);
+  at_rest.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
+  scene.compute(kStep);
+  EXPECT_EQ(norm(at_rest.torque(0)), 0);
+  // Only twisting resists a turning about the normal.
+  EXPECT_GT(scene.torque(0).z, 0);
+}
+
 // A belt on a machine that moves: the surface's velocity is in the frame of the mesh.
 TEST(moving_wall, a_moving_surface_moves_with_it)
 {
@@ -233,8 +317,7 @@ TEST(moving_wall, a_moving_surface_moves_with_it)
   const SurfaceMotion belt = {{1.5, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   s.surface = belt;
   Scene scene(floor_mesh(4, 2), kRadius, moving(s));
-  WallPose pose = rotating({0, 0, 0}, {0, 0, 1}, 4).pose_at(1);
-  pose.angular = {0, 0, 0};
+  WallPose pose = rotating({0, 0, 0}, {0, 0, 1}, 4).pose_at(1).still();
   pose.velocity = {0.25, 0, 0};
   scene.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
   scene.engine->place_wall(pose);

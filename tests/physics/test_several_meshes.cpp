@@ -42,9 +42,7 @@ WallPose pose_of(int m, bool turned)
   term.period = 1;
   WallMotion motion;
   motion.add(term);
-  WallPose pose = motion.pose_at(0.05 + 0.03 * m);
-  pose.velocity = pose.angular = {0, 0, 0};
-  return pose;
+  return motion.pose_at(0.05 + 0.03 * m).still();
 }
 
 // A wall whose meshes lie in frames of their own and are placed so that they fit.

@@ -26,8 +26,9 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.wall_temperature = step.mesh_temperature ? step.mesh_temperature[mesh] : step.wall_temperature;
   s.surface = step.surface ? step.surface[mesh] : engine.surface;
   s.pose = pose;
-  s.wall_velocity = pose.turn_to_mesh(pose.velocity);
-  s.wall_angular = pose.turn_to_mesh(pose.angular);
+  s.back = s.update ? step.dt / 2 : 0;
+  s.wall_velocity = pose.turn_to_mesh(pose.velocity - s.back * pose.acceleration);
+  s.wall_angular = pose.turn_to_mesh(pose.angular - s.back * pose.spin_up);
   s.wear = engine.wear;
   return s;
 }

@@ -45,18 +45,23 @@ struct ForceSettings {
   std::uint32_t mesh;    // of the wall's
   Real dt;
   bool update;
-  bool with_point;                     // fill weighted_point and weight
-  Real wall_temperature;               // read only where the law has heat
-  SurfaceMotion surface;               // read only where the surface moves
-  WallPose pose;                       // likewise
-  Vec3 wall_velocity, wall_angular;    // of the pose, in the frame of the mesh
+  bool with_point;          // fill weighted_point and weight
+  Real wall_temperature;    // read only where the law has heat
+  SurfaceMotion surface;    // read only where the surface moves
+  WallPose pose;            // likewise
+  // Spheres' velocities are those of half a step ago, as far back as this (time; 0 in a setup): a wall
+  // that turns is seen at the same time. Else what lies still on a turntable would seem to slip outward,
+  // and friction would draw it in.
+  Real back;
+  Vec3 wall_velocity, wall_angular;    // of the pose then, in the frame of the mesh
   WearModel wear;                      // read only where there are records
 };
 
-// What contact i begins with: its memory of the last step, turned with its normal.
+// What contact i begins with: its memory of the last step, turned with its normal, and about that with
+// a surface that turns.
 template <class Law, class Springs>
-LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ContactsView &set, int i,
-                           const SphereStateWith<Springs> &s)
+LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ForceSettings &settings,
+                           const ContactsView &set, int i, const SphereStateWith<Springs> &s)
 {
   using T = typename Law::Number;
   ContactMemory<T, Law::kExtra> memory = {};
@@ -64,7 +69,12 @@ LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ContactsView &set
     const Transfer in = transfer_of(wall, set, i, s.springs, s.n_springs);
     if (in.from < 0) return memory;
     const auto turned = [&](const Vec3 &h) {
-      return vec_cast<T>(handed_on(h, in, s.springs, set.normal[i]));
+      const Vec3 &n = set.normal[i];
+      Vec3 now = handed_on(h, in, s.springs, n);
+      if constexpr (Law::kSurface)
+        if (settings.update)
+          now = turn_about(n, settings.dt * dot(settings.surface.angular, n), now);
+      return vec_cast<T>(now);
     };
     memory.shear = turned(s.springs[in.from].shear);
     if constexpr (Law::kExtra > 0) {
@@ -100,7 +110,11 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     const Vec3 closest = s.x - set.distance[i] * n;
     Vec3 v = s.v;
     if constexpr (Law::kSurface)
-      if (settings.pose.placed) v -= settings.wall_velocity + cross(settings.wall_angular, closest);
+      if (settings.pose.placed) {
+        const Vec3 turning = cross(settings.wall_angular, closest);
+        v -= settings.wall_velocity + turning -
+             settings.back * cross(settings.wall_angular, turning);
+      }
     const Real v_normal = dot(v, n);
     Contact<T> c;
     c.normal = vec_cast<T>(n);
@@ -109,20 +123,20 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     c.mass = static_cast<T>(s.mass);
     c.v_normal = static_cast<T>(v_normal);
     Vec3 along = v - v_normal * n;
-    if constexpr (Law::kSurface) along -= settings.surface.along(closest, n);
+    if constexpr (Law::kSurface) along -= settings.surface.along(closest, n, settings.back);
     c.v_tangent = vec_cast<T>(along - s.radius * cross(s.omega, n));
     c.dt = static_cast<T>(settings.dt);
     c.update = settings.update;
     if constexpr (Law::kContactTorque) {
       // Rolling and twisting are relative to a wall that turns.
       Vec3 omega = s.omega;
-      if constexpr (Law::kSurface) omega -= settings.wall_angular;
+      if constexpr (Law::kSurface) omega -= settings.wall_angular + settings.surface.angular;
       c.omega = vec_cast<T>(omega);
     }
     if constexpr (Law::kHeat)
       c.wall_warmer = static_cast<T>(settings.wall_temperature - s.temperature);
 
-    auto memory = begin_memory<Law>(grid.wall, set, i, s);
+    auto memory = begin_memory<Law>(grid.wall, settings, set, i, s);
     const auto f = law.evaluate(c, memory);
     if constexpr (Law::kHistory) {
       const int at = out.n_contacts;
