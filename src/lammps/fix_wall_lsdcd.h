@@ -162,6 +162,7 @@ class FixWallLsdcd : public Fix {
   int row_size() const { return settings.contacts ? size_peratom_cols : 0; }
   void ask_for_room(int);
   void ask_for_most_room();
+  const double *restart_row(int, int);
 
   // fix_wall_lsdcd_build.cpp, _tune.cpp
   lsdcd::EngineSettings engine_settings() const;

@@ -6,6 +6,7 @@
 #include "engine/force/law_job.h"
 
 #include "atom.h"
+#include "error.h"
 #include "memory.h"
 #include "modify.h"
 
@@ -106,10 +107,13 @@ int FixWallLsdcd::size_restart(int i)
   return 1 + springs.packed_size(i);
 }
 
+// Of all processes: LAMMPS writes what the first one says, and makes rows that wide. Collective.
 int FixWallLsdcd::maxsize_restart()
 {
   springs_to_host();
-  return 1 + springs.largest_packed_size();
+  int largest = 1 + springs.largest_packed_size();
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
+  return largest;
 }
 
 // The images of another run may have other numbers.
@@ -127,11 +131,31 @@ int FixWallLsdcd::pack_restart(int i, double *buf)
   return static_cast<int>(buf[0]);
 }
 
+// What fix number nth of the restart file kept of atom i. Rows of atom->extra are as wide as the file
+// says; where that is too little, numbers of the next atom have been read over those of this one.
+const double *FixWallLsdcd::restart_row(int i, int nth)
+{
+  const double *extra = atom->extra[i];
+  int at = 0;
+  for (int n = 0;; n++) {
+    const double size = at < atom->nextra_store ? extra[at] : 0;
+    if (!(size >= 1 && size <= atom->nextra_store - at))
+      error->one(FLERR,
+                 signed_text("atom " + std::to_string(tag_of(i)) +
+                             " has more numbers in the restart file than the " +
+                             std::to_string(atom->nextra_store) +
+                             " that it has room for: an earlier version of this fix wrote it on "
+                             "several processes and spoilt its springs. Write it again with this "
+                             "version, or give the fix another ID to go on without springs"));
+    if (n == nth) return extra + at;
+    at += static_cast<int>(size);
+  }
+}
+
 void FixWallLsdcd::unpack_restart(int i, int nth)
 {
   springs_to_host();
-  const double *extra = atom->extra[i];
-  for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
+  const double *extra = restart_row(i, nth);
   // Another law of the file's fix may have kept more or less for each contact, and this one none.
   const int count = static_cast<int>(extra[1]), size = static_cast<int>(extra[0]);
   if (count == 0) return;

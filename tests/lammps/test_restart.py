@@ -7,6 +7,9 @@ two pieces through a file (equal to the last bit), and a run in one piece only
 without damping (equal but for rounding of the repeated evaluation).
 """
 
+import re
+import struct
+
 import deck
 import scene
 
@@ -19,8 +22,20 @@ UNDAMPED_SIDES = "hooke 1e4 NULL 1e-300 NULL 0 0"    # 0 is not a number to LAMM
 FIRST, SECOND = 700, 800
 
 
-def write(law, folder, ranks=1, name="two"):
-    deck.run_well(scene.CREATE + scene.forces(law) + f"run {FIRST}\nwrite_restart {name}.restart\n" +
+# On two processes the first one has a sphere in the air, and the other one those on the floor.
+FEW = scene.SETTINGS + f"""\
+processors      2 1 1
+region          box {scene.BOX}
+create_box      1 box
+create_atoms    1 single -4 0 7 units box
+""" + "".join(f"create_atoms 1 single {x} {y} 0.6 units box\n" for x in (1, 3) for y in (-2, 0, 2)) + """\
+set             group all diameter 1.0 density 2.0
+velocity        all set 0.5 0.3 0
+"""
+
+
+def write(law, folder, ranks=1, name="two", create=scene.CREATE):
+    deck.run_well(create + scene.forces(law) + f"run {FIRST}\nwrite_restart {name}.restart\n" +
                   scene.dump(name, 50) + f"run {SECOND}\n", folder, ranks)
     return deck.read_dump(folder / name)
 
@@ -29,6 +44,27 @@ def proceed(law, folder, ranks=1, restart="two.restart", name="continued", **mor
     text = deck.run_well(scene.SETTINGS + f"read_restart {restart}\n" + scene.forces(law, **more) +
                          scene.dump(name, 50) + f"run {SECOND}\n", folder, ranks)
     return deck.read_dump(folder / name), text
+
+
+def rows(checks, folder):
+    """Rows of restart data are as wide as the atom with most contacts on any process needs."""
+    law = LAWS["hooke_history"]
+    two = write(law, folder, 2, "few", FEW)
+    touching = {atom for atom, row in two[FIRST].items() if row[9] > 0}
+    checks.fact("rows: only the second process has contacts", touching and 1 not in touching, str(touching))
+    for ranks in (1, 2):
+        continued = proceed(law, folder, ranks, "few.restart")[0]
+        checks.at_most(f"rows: written so on 2 ranks, read on {ranks}",
+                       deck.largest_difference(two, continued), 0)
+    # As versions wrote it that asked the first process alone: the width follows the last name.
+    data = bytearray((folder / "few.restart").read_bytes())
+    width = list(re.finditer(rb"wall/lsdcd(/kk)?\0", data))[-1].end()
+    data[width:width + 4] = struct.pack("<i", 2)
+    (folder / "narrow.restart").write_bytes(data)
+    done = deck.run(scene.SETTINGS + "read_restart narrow.restart\n" + scene.forces(law), folder)
+    checks.fact("rows: a file whose rows are too narrow is refused", done.returncode != 0 and
+                "more numbers in the restart file than the 2 that it has room for" in done.stdout,
+                done.stdout[-300:] if done.returncode == 0 else "")
 
 
 def main():
@@ -65,8 +101,10 @@ def main():
     text = proceed(law, folder)[1]
     checks.fact("another mesh: springs are dropped with a warning", "lose their springs" in text)
 
-    # Settled with damping, then without it: in one piece, and in two through a file.
     scene.write_floor(folder / "floor.stl")
+    rows(checks, folder)
+
+    # Settled with damping, then without it: in one piece, and in two through a file.
     write(law, folder)
     begin = scene.SETTINGS + "read_restart two.restart\n" + scene.forces(UNDAMPED, sides=UNDAMPED_SIDES)
     deck.run_well(begin + scene.dump("one", 50) + f"run {FIRST + SECOND}\n", folder)
