@@ -17,13 +17,16 @@ int FixWallLsdcd::modify_param(int narg, char **arg)
   int taken = 0;
   if (words[0] == "mesh") {
     double k = 0;
-    if (narg < 3 || !lsdcd::is_number(words[1], &k) || k != std::floor(k) || k < 1 ||
+    if (narg < 2 || !lsdcd::is_number(words[1], &k) || k != std::floor(k) || k < 1 ||
         k > parts.size())
       refuse("fix_modify mesh K motion|servo ...: K is the number of a mesh, from 1 to " +
              std::to_string(parts.size()) + (narg > 1 ? ", not '" + words[1] + "'" : ""));
     part = &parts[static_cast<std::size_t>(k) - 1];
     words.erase(words.begin(), words.begin() + 2);
     taken = 2;
+    if (words.empty() || (words[0] != "motion" && words[0] != "servo"))
+      refuse("fix_modify mesh " + std::string(arg[1]) + ": motion ... or servo ... must follow" +
+             (words.empty() ? "" : ", not '" + words[0] + "'"));
   }
   const bool servo = words[0] == "servo";
   if (!servo && words[0] != "motion") return 0;
