@@ -196,6 +196,7 @@ class FixWallLsdcd : public Fix {
   double stable_gain(const MeshPart &, double);
   void advance_servo(MeshPart &, double);
   double servo_output(const MeshPart &, int);
+  void check_limits(const MeshPart &, const std::string &) const;
   void show_servo();
   int modify_servo(MeshPart &, const std::vector<std::string> &);
 

@@ -105,6 +105,7 @@ void FixWallLsdcd::restart_motion(MeshPart &m, const std::vector<double> &data)
   if (servo.has_line_of(was)) {
     servo.position = was.position;
     servo.velocity = was.velocity;
+    check_limits(m, "read_restart");
   }
   begin_motion(m);
   if (same) {

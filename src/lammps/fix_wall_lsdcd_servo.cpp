@@ -112,6 +112,16 @@ void FixWallLsdcd::show_servo()
   extlist[kVector] = extlist[kVector + 1] = 0;    // position and speed are no sums
 }
 
+// Of a servo that goes on where it is: the next step would take it inside of them at any speed.
+void FixWallLsdcd::check_limits(const MeshPart &m, const std::string &command) const
+{
+  const Servo &s = m.servo();
+  if (s.position < s.lo || s.position > s.hi)
+    refuse(of(m, command + ": the servo is at " + number_text(s.position) +
+                     ", outside of the limits " + number_text(s.lo) + " " + number_text(s.hi) +
+                     ", which count from where it began: widen them"));
+}
+
 // The mesh stays where it is with none, and goes on from there with another. Along the same line
 // the position and its limits go on, too.
 int FixWallLsdcd::modify_servo(MeshPart &m, const std::vector<std::string> &words)
@@ -125,10 +135,7 @@ int FixWallLsdcd::modify_servo(MeshPart &m, const std::vector<std::string> &word
     const double position = s.position;
     s = read.servo;
     s.position = position;
-    if (position < s.lo || position > s.hi)
-      refuse("fix_modify servo: it is at " + number_text(position) + ", outside of the limits " +
-             number_text(s.lo) + " " + number_text(s.hi) +
-             ", which count from where it began: widen them");
+    check_limits(m, "fix_modify servo");
   } else {
     if (m.settings.motion.moves())
       refuse("fix_modify servo: a servo along another line cannot begin while '" +

@@ -276,16 +276,19 @@ def restart(checks, folder):
             checks.fact(f"{motion}{ranks} ranks: the piston moves", travelled > 0.01, f"{travelled:.3g}")
             checks.at_most(f"{motion}{ranks} ranks: continued to the bit", deck.largest_difference(a, b), 0)
 
-    def go_on(words, more="run 0\n"):
+    def go_on(words, more="run 0\n", start=deck.run_well):
         rest = head(text) + "read_restart r.restart\n" + text[text.index("pair_style"):].replace(servo, words)
-        return deck.run_well(rest + "thermo_style custom step f_wall[12]\nthermo_modify format float %.17g\n" +
-                             more, folder)
+        return start(rest + "thermo_style custom step f_wall[12]\nthermo_modify format float %.17g\n" +
+                     more, folder)
 
     deck.run_well(text + "timestep 0.002\nrun 1500\nvariable p equal f_wall[12]\nprint 'place $(v_p:%.17g)'\n"
                   "write_restart r.restart\n", folder)
     log = go_on("servo force z -10 vmax 0.1")
     checks.fact("another target goes on from there", "another line" not in log and
                 deck.read_thermo(log)[-1][1] < -0.1, str(deck.read_thermo(log)))
+    done = go_on("servo force z -10 vmax 0.1 limits -0.01 0", start=deck.run)
+    checks.fact("narrower limits are refused", done.returncode != 0 and
+                "outside of the limits -0.01 0" in done.stdout.replace("\n", " "), done.stdout[-300:])
     log = go_on("servo force x 10 vmax 0.1")
     checks.fact("another line is told of, and begins at 0", "with a servo along another line" in log and
                 deck.read_thermo(log)[-1][1] == 0)
