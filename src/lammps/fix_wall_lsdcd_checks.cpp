@@ -240,7 +240,7 @@ void FixWallLsdcd::check_springs()
     return s.mesh < parts.size() && !parts[s.mesh].springs_are_foreign &&
            parts[s.mesh].wall.has(s.feature);
   };
-  bigint lost[2] = {0, other_law};
+  bigint lost[3] = {0, other_law, unnamed};
   for (int i = 0; history && i < atom->nlocal; i++)
     for (int k = 0; k < springs.count(i); k++)
       if (!has(springs.of(i)[k])) {
@@ -248,7 +248,7 @@ void FixWallLsdcd::check_springs()
         springs.clear(i);
         break;
       }
-  MPI_Allreduce(MPI_IN_PLACE, lost, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, lost, 3, MPI_LMP_BIGINT, MPI_SUM, world);
   const char *const other[] = {"mesh", "contact law"};
   for (int k = 0; k < 2; k++)
     if (lost[k])
@@ -256,4 +256,8 @@ void FixWallLsdcd::check_springs()
            " atoms lose their springs: the restart file was written with "
            "another " +
            other[k]);
+  if (lost[2])
+    warn(std::to_string(lost[2]) +
+         " atoms keep springs of a restart file of an earlier version of this fix, which does not "
+         "say which sub-models they are of: they must be those of this fix");
 }

@@ -4,6 +4,7 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "engine/force/law_job.h"
+#include "model/spring_kind.h"
 
 #include "atom.h"
 #include "error.h"
@@ -156,11 +157,14 @@ void FixWallLsdcd::unpack_restart(int i, int nth)
 {
   springs_to_host();
   const double *extra = restart_row(i, nth);
-  // Another law of the file's fix may have kept more or less for each contact, and this one none.
+  // Another law of the file's fix may have kept other numbers for each contact, and this one none.
   const int count = static_cast<int>(extra[1]), size = static_cast<int>(extra[0]);
   if (count == 0) return;
-  if (history && size == 2 + count * springs.doubles_per_spring())
-    springs.unpack(i, extra + 1);
-  else
+  const bool mine = kind_in_file < 0 || kind_in_file == lsdcd::spring_kind(settings.law);
+  if (!history || !mine || size != 2 + count * springs.doubles_per_spring()) {
     other_law++;
+    return;
+  }
+  springs.unpack(i, extra + 1);
+  if (kind_in_file < 0) unnamed++;
 }

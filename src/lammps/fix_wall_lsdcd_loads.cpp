@@ -2,6 +2,8 @@
 
 #include "lammps/fix_wall_lsdcd.h"
 
+#include "model/spring_kind.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "update.h"
@@ -12,11 +14,12 @@
 using namespace LAMMPS_NS;
 using lsdcd::WallLoads;
 
-// Of restart data: format and time of the run; of a wall with several meshes their number; and of
+// Of restart data: format, kind of the springs, time of the run and number of meshes; and of
 // each mesh: how many numbers of its motion, these; then time of the average, facets, edges and
-// vertices of the mesh, number of rows of loads, these.
+// vertices of the mesh, number of rows of loads, these. Before, there was no kind, and a number of
+// meshes only of several.
 static constexpr int kHeader = 5;
-static constexpr double kOneMesh = -3, kSeveral = -4;
+static constexpr double kFormat = -5, kOldOneMesh = -3, kOldSeveral = -4;
 
 // Of the last step; what setup computes has no duration.
 void FixWallLsdcd::add_loads()
@@ -64,8 +67,8 @@ void FixWallLsdcd::add_restart_data(const MeshPart &m, std::vector<double> &data
 
 void FixWallLsdcd::write_restart(FILE *file)
 {
-  std::vector<double> data = {several() ? kSeveral : kOneMesh, double(run_clock.now())};
-  if (several()) data.push_back(double(parts.size()));
+  std::vector<double> data = {kFormat, double(lsdcd::spring_kind(settings.law)),
+                              double(run_clock.now()), double(parts.size())};
   for (const MeshPart &m : parts) add_restart_data(m, data);
   if (comm->me != 0) return;
   const int bytes = static_cast<int>(data.size() * sizeof(double));
@@ -84,12 +87,13 @@ void FixWallLsdcd::restart(char *buffer)
     return numbers;
   };
   const double format = take(1)[0];
-  if (format != kOneMesh && format != kSeveral) {
+  if (format != kFormat && format != kOldOneMesh && format != kOldSeveral) {
     warn("motion, loads and wear begin anew: the restart file is of another version of this fix");
     return;
   }
+  if (format == kFormat) kind_in_file = static_cast<int>(take(1)[0]);
   run_clock.base = take(1)[0];
-  const std::size_t there = format == kSeveral ? static_cast<std::size_t>(take(1)[0]) : 1;
+  const std::size_t there = format == kOldOneMesh ? 1 : static_cast<std::size_t>(take(1)[0]);
   for (std::size_t k = 0; k < std::min(there, parts.size()); k++) {
     const std::vector<double> motion = take(take(1)[0]), header = take(kHeader),
                               rows = take(header[4] * WallLoads::kPackedLoad);

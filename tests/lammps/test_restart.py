@@ -24,7 +24,7 @@ FIRST, SECOND = 700, 800
 
 # On two processes the first one has a sphere in the air, and the other one those on the floor.
 FEW = scene.SETTINGS + f"""\
-processors      2 1 1
+processors      * 1 1
 region          box {scene.BOX}
 create_box      1 box
 create_atoms    1 single -4 0 7 units box
@@ -34,8 +34,8 @@ velocity        all set 0.5 0.3 0
 """
 
 
-def write(law, folder, ranks=1, name="two", create=scene.CREATE):
-    deck.run_well(create + scene.forces(law) + f"run {FIRST}\nwrite_restart {name}.restart\n" +
+def write(law, folder, ranks=1, name="two", create=scene.CREATE, **more):
+    deck.run_well(create + scene.forces(law, **more) + f"run {FIRST}\nwrite_restart {name}.restart\n" +
                   scene.dump(name, 50) + f"run {SECOND}\n", folder, ranks)
     return deck.read_dump(folder / name)
 
@@ -65,6 +65,45 @@ def rows(checks, folder):
     checks.fact("rows: a file whose rows are too narrow is refused", done.returncode != 0 and
                 "more numbers in the restart file than the 2 that it has room for" in done.stdout,
                 done.stdout[-300:] if done.returncode == 0 else "")
+
+
+def kinds(checks, folder):
+    """Springs go on where their numbers are what they were."""
+    def law(tangential):
+        return f"granular hertz 1e5 700 tangential {tangential} 1e4 0.6 0.4"
+
+    write(law("mindlin/force"), folder, name="kind", create=FEW)
+    text = proceed(law("mindlin"), folder, restart="kind.restart")[1]
+    checks.fact("kinds: a force is not taken for a displacement", "6 atoms lose their springs: the restart "
+                "file was written with another contact law" in text)
+    two = write(law("mindlin"), folder, name="kind", create=FEW)
+    text = proceed(law("linear_history"), folder, restart="kind.restart")[1]
+    checks.fact("kinds: a displacement is one in any law", "lose their springs" not in text)
+
+    # Earlier versions wrote springs without data of the whole fix: here these are of another fix.
+    data = (folder / "kind.restart").read_bytes()
+    (folder / "plain.restart").write_bytes(re.sub(rb"wall(\0....wall/lsdcd\0)", rb"lost\1", data, 1, re.S))
+    continued, text = proceed(law("mindlin"), folder, restart="plain.restart")
+    checks.at_most("kinds: springs of an earlier version go on", deck.largest_difference(two, continued), 0)
+    checks.fact("kinds: with a warning", "6 atoms keep springs of a restart file of an earlier version" in text)
+
+
+def earlier_format(checks, folder):
+    """Data of a fix with one mesh that moves, as version -3 of them was."""
+    law = LAWS["hooke_history"]
+    moving = {"mesh": "mesh floor.stl motion wiggle 0 0 0.1 0.9"}
+    two = write(law, folder, name="moving", create=FEW, **moving)
+    data = (folder / "moving.restart").read_bytes()
+    at = data.index(struct.pack("<d", -5))
+    n = struct.unpack_from("<i", data, at - 4)[0] // 8
+    numbers = list(struct.unpack_from(f"<{n}d", data, at))
+    old = [-3, numbers[2]] + numbers[4:]
+    (folder / "moving.restart").write_bytes(data[:at - 4] + struct.pack(f"<i{len(old)}d", 8 * len(old), *old) +
+                                            data[at + 8 * n:])
+    continued, text = proceed(law, folder, restart="moving.restart", **moving)
+    checks.at_most("data of version -3 are read", deck.largest_difference(two, continued), 0)
+    checks.fact("and say that they do not name the springs", "6 atoms keep springs of a restart file of an "
+                "earlier version" in text)
 
 
 def main():
@@ -103,6 +142,8 @@ def main():
 
     scene.write_floor(folder / "floor.stl")
     rows(checks, folder)
+    kinds(checks, folder)
+    earlier_format(checks, folder)
 
     # Settled with damping, then without it: in one piece, and in two through a file.
     write(law, folder)

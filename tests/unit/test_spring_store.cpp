@@ -1,9 +1,11 @@
 #include "contact/spring_store.h"
+#include "model/spring_kind.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 namespace lsdcd {
@@ -179,6 +181,35 @@ TEST(spring_store, extra_numbers_go_wherever_their_springs_go)
   expect_springs(to, 0, kThree);
   expect_extra(to, 0, kExtra);
   EXPECT_EQ(from.largest_packed_size(), 1 + 3 * 9);
+}
+
+// As many numbers as each other, and of another meaning.
+TEST(spring_kind, differs_where_the_numbers_are_not_the_same)
+{
+  std::vector<ContactLaw> laws(9);
+  laws[0].style = LawStyle::hooke_history;
+  laws[1].added.rolling = AddedRolling::epsd2;
+  for (std::size_t i = 2; i < laws.size(); i++) laws[i].style = LawStyle::granular;
+  laws[2].granular.tangential = TangentialModel::mindlin_force;
+  laws[3].granular.tangential = TangentialModel::mindlin_rescale;
+  laws[4].granular.tangential = TangentialModel::mindlin_rescale_force;
+  laws[5].granular.rolling = true;
+  laws[6].granular.twisting = TwistingModel::marshall;
+  laws[7].granular.twisting = TwistingModel::sds;
+  laws[8].granular.normal = NormalModel::jkr;
+  std::set<int> seen;
+  for (const ContactLaw &law : laws) EXPECT_TRUE(seen.insert(spring_kind(law)).second);
+}
+
+TEST(spring_kind, is_the_same_for_displacements_of_all_laws)
+{
+  ContactLaw hertz, linear, mindlin;
+  hertz.style = LawStyle::hertz_history;
+  linear.style = mindlin.style = LawStyle::granular;
+  linear.granular.tangential = TangentialModel::linear_history;
+  mindlin.granular.tangential = TangentialModel::mindlin;
+  EXPECT_EQ(spring_kind(hertz), spring_kind(linear));
+  EXPECT_EQ(spring_kind(hertz), spring_kind(mindlin));
 }
 
 }    // namespace
