@@ -259,5 +259,5 @@ void FixWallLsdcd::check_springs()
   if (lost[2])
     warn(std::to_string(lost[2]) +
          " atoms keep springs of a restart file of an earlier version of this fix, which does not "
-         "say which sub-models they are of: they must be those of this fix");
+         "say of which mesh and sub-models they are: they must be those of this fix");
 }

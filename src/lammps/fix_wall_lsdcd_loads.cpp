@@ -9,6 +9,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -16,10 +17,16 @@ using lsdcd::WallLoads;
 
 // Of restart data: format, kind of the springs, time of the run and number of meshes; and of
 // each mesh: how many numbers of its motion, these; then time of the average, facets, edges and
-// vertices of the mesh, number of rows of loads, these. Before, there was no kind, and a number of
-// meshes only of several.
-static constexpr int kHeader = 5;
+// vertices of the mesh, number of rows of loads, fingerprint of the mesh, these rows. Before, there
+// was no kind and no fingerprint, and a number of meshes only of several.
+static constexpr int kHeader = 6, kOldHeader = 5;
 static constexpr double kFormat = -5, kOldOneMesh = -3, kOldSeveral = -4;
+
+// What fits a double, exactly.
+static double number_of(std::uint64_t fingerprint)
+{
+  return double(fingerprint >> 11);
+}
 
 // Of the last step; what setup computes has no duration.
 void FixWallLsdcd::add_loads()
@@ -60,8 +67,9 @@ void FixWallLsdcd::add_restart_data(const MeshPart &m, std::vector<double> &data
   const std::vector<double> motion = m.motion_data();
   data.push_back(double(motion.size()));
   data.insert(data.end(), motion.begin(), motion.end());
-  data.insert(data.end(), {all.time(), double(r.facets), double(r.edges), double(r.vertices),
-                           double(rows.size() / WallLoads::kPackedLoad)});
+  data.insert(data.end(),
+              {all.time(), double(r.facets), double(r.edges), double(r.vertices),
+               double(rows.size() / WallLoads::kPackedLoad), number_of(m.wall.mesh_fingerprint())});
   data.insert(data.end(), rows.begin(), rows.end());
 }
 
@@ -95,7 +103,8 @@ void FixWallLsdcd::restart(char *buffer)
   run_clock.base = take(1)[0];
   const std::size_t there = format == kOldOneMesh ? 1 : static_cast<std::size_t>(take(1)[0]);
   for (std::size_t k = 0; k < std::min(there, parts.size()); k++) {
-    const std::vector<double> motion = take(take(1)[0]), header = take(kHeader),
+    const std::vector<double> motion = take(take(1)[0]),
+                              header = take(format == kFormat ? kHeader : kOldHeader),
                               rows = take(header[4] * WallLoads::kPackedLoad);
     restart_part(parts[k], motion, header, rows, several() || there > 1);
   }
@@ -117,10 +126,12 @@ void FixWallLsdcd::restart_part(MeshPart &m, const std::vector<double> &motion,
                                 bool one_of_many)
 {
   const lsdcd::MeshReport &r = m.wall.report();
-  const bool other = header[1] != double(r.facets) || header[2] != double(r.edges) ||
-                     header[3] != double(r.vertices);
+  const bool other =
+      header[1] != double(r.facets) || header[2] != double(r.edges) ||
+      header[3] != double(r.vertices) ||
+      (header.size() == kHeader && header[5] != number_of(m.wall.mesh_fingerprint()));
+  m.springs_are_foreign = other;
   if (other && one_of_many) {
-    m.springs_are_foreign = true;
     warn(of(m, "springs, motion, loads and wear begin anew: the restart file was written with "
                "another mesh in this place"));
     return;

@@ -2,6 +2,7 @@
 
 #include "base/input_words.h"
 #include "grid/loose_ends.h"
+#include "mesh/fingerprint.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,9 +50,11 @@ void SharedWall::read()
   together(shared_.world(), shared_.writes(), [&] {
     mesh_ = std::make_unique<WallMesh>(weld(soup, of_mesh_.weld));
     report_ = mesh_->report;
+    if (rank == 0) mesh_fingerprint_ = fingerprint(*mesh_);
   });
   static_assert(std::is_trivially_copyable<MeshReport>::value, "sent as bytes");
   MPI_Bcast(&report_, sizeof report_, MPI_BYTE, 0, shared_.world());
+  MPI_Bcast(&mesh_fingerprint_, 1, MPI_UINT64_T, 0, shared_.world());
   if (rank == 0) mesh_text_ = describe(report_, of_mesh_.file);
 }
 

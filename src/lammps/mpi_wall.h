@@ -51,6 +51,7 @@ class SharedWall {
   const std::string &tune_text() const { return tune_text_; }    // of the first process
 
   const MeshReport &report() const { return report_; }
+  std::uint64_t mesh_fingerprint() const { return mesh_fingerprint_; }    // as placed by the deck
   const std::string &mesh_text() const { return mesh_text_; }    // of the process that read it
   const std::string &grid_text() const { return grid_text_; }    // on every process
   // What the last build had to do with its cache file, and what was wrong with it;
@@ -89,6 +90,7 @@ class SharedWall {
   MpiShared shared_;
   std::unique_ptr<WallMesh> mesh_;    // where shared_.writes()
   MeshReport report_;
+  std::uint64_t mesh_fingerprint_ = 0;
   std::string mesh_text_, grid_text_, tune_text_;
   std::string cache_file_, cache_text_, cache_warning_, ends_warning_;    // of the last build
   PeriodicBox box_;                                                       // likewise

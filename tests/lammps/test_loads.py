@@ -101,6 +101,10 @@ def main():
     text = deck.run_well(scene.SETTINGS + "read_restart half.restart\n" + forces("c_*.vtp") +
                          "run 10\n", folder)
     checks.fact("another mesh: loads begin at zero, with a warning", "begin at zero" in text)
+    scene.write_floor(folder / "floor.stl", side=6.49)
+    text = deck.run_well(scene.SETTINGS + "read_restart half.restart\n" + forces("c_*.vtp") +
+                         "run 10\n", folder)
+    checks.fact("also of one with as many triangles", "begin at zero" in text)
 
     done = deck.run(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields no/such.vtp every 5")
                     + "run 10\n", folder)

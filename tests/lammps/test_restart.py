@@ -97,13 +97,24 @@ def earlier_format(checks, folder):
     at = data.index(struct.pack("<d", -5))
     n = struct.unpack_from("<i", data, at - 4)[0] // 8
     numbers = list(struct.unpack_from(f"<{n}d", data, at))
-    old = [-3, numbers[2]] + numbers[4:]
+    old = [-3, numbers[2]] + numbers[4:-1]    # without the fingerprint; there are no rows of loads
     (folder / "moving.restart").write_bytes(data[:at - 4] + struct.pack(f"<i{len(old)}d", 8 * len(old), *old) +
                                             data[at + 8 * n:])
     continued, text = proceed(law, folder, restart="moving.restart", **moving)
     checks.at_most("data of version -3 are read", deck.largest_difference(two, continued), 0)
     checks.fact("and say that they do not name the springs", "6 atoms keep springs of a restart file of an "
                 "earlier version" in text)
+
+
+def meshes(checks, folder):
+    """A mesh is that of the file where all of it is, however often it has as many triangles."""
+    law = LAWS["hooke_history"]
+    write(law, folder, name="mesh", create=FEW)
+    scene.write_floor(folder / "floor.stl", side=6.49)
+    text = proceed(law, folder, restart="mesh.restart")[1]
+    checks.fact("meshes: springs of another one with as many triangles are dropped", "6 atoms lose their "
+                "springs: the restart file was written with another mesh" in text)
+    scene.write_floor(folder / "floor.stl")
 
 
 def main():
@@ -144,6 +155,7 @@ def main():
     rows(checks, folder)
     kinds(checks, folder)
     earlier_format(checks, folder)
+    meshes(checks, folder)
 
     # Settled with damping, then without it: in one piece, and in two through a file.
     write(law, folder)

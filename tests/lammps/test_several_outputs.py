@@ -174,6 +174,9 @@ def check_restart(checks, folder):
     text = proceed(folder, walls.replace("yhi.stl", "fine.stl"), "half.restart", "c", 10)[1]
     checks.fact("restart: another mesh is named", "mesh 4 'fine.stl': springs, motion, loads and wear "
                 "begin anew" in text)
+    text = proceed(folder, walls.replace("yhi.stl", "yhi.stl move 0 1e-3 0"), "half.restart", "c", 10)[1]
+    checks.fact("restart: another one with as many triangles, too", "mesh 4 'yhi.stl': springs, motion, loads "
+                "and wear begin anew" in text)
 
 
 def check_ranks(checks, folder):

@@ -1,4 +1,5 @@
 #include "base/input_error.h"
+#include "mesh/fingerprint.h"
 #include "mesh/wall_mesh.h"
 
 #include <gtest/gtest.h>
@@ -474,6 +475,33 @@ TEST(inspect, an_open_mesh_shows_no_volume)
   const auto block = describe(weld({{kA, kB, kC}}).report, "sheet.stl");
   EXPECT_NE(block.find("surface     open"), std::string::npos);
   EXPECT_EQ(block.find("volume"), std::string::npos);
+}
+
+TEST(fingerprint, is_the_same_for_the_same_triangles)
+{
+  EXPECT_EQ(fingerprint(weld(kCube)), fingerprint(weld(kCube)));
+}
+
+TEST(fingerprint, sees_the_last_bit_of_a_vertex)
+{
+  const std::uint64_t whole = fingerprint(weld(kCube));
+  WallMesh cube = weld(kCube);
+  for (Vec3 &v : cube.vertices)
+    for (int d = 0; d < 3; d++) {
+      const Real was = v[d];
+      v[d] = std::nextafter(was, 2.);
+      EXPECT_NE(fingerprint(cube), whole);
+      v[d] = was;
+    }
+}
+
+TEST(fingerprint, sees_the_order_and_the_winding_of_faces)
+{
+  Triangles turned = kCube, swapped = kCube;
+  std::swap(turned.back()[1], turned.back()[2]);
+  std::swap(swapped[10], swapped[11]);
+  EXPECT_NE(fingerprint(weld(turned)), fingerprint(weld(kCube)));
+  EXPECT_NE(fingerprint(weld(swapped)), fingerprint(weld(kCube)));
 }
 
 }    // namespace
