@@ -104,18 +104,43 @@ class InputFile {
   std::size_t at_ = 0, end_ = 0, read_ = 0;
 };
 
-// Words between blanks, commas and semicolons.
+inline bool is_blank(char c)
+{
+  return c == ' ' || c == '\t';
+}
+
+inline std::string_view without_blanks(std::string_view text)
+{
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// Words between blanks.
 inline void split_words(std::string_view text, std::vector<std::string_view> &words)
 {
-  const auto between = [](char c) { return c == ' ' || c == '\t' || c == ',' || c == ';'; };
   words.clear();
-  for (const char *at = text.data(), *end = at + text.size();;) {
-    while (at != end && between(*at)) at++;
-    if (at == end) return;
-    const char *word = at;
-    while (at != end && !between(*at)) at++;
-    words.emplace_back(word, at - word);
+  for (text = without_blanks(text); !text.empty(); text = without_blanks(text)) {
+    std::size_t n = 0;
+    while (n < text.size() && !is_blank(text[n])) n++;
+    words.push_back(text.substr(0, n));
+    text.remove_prefix(n);
   }
+}
+
+// In a line with commas or semicolons each of them ends a field, also one with nothing in it; in
+// another fields are the words.
+inline void split_fields(std::string_view text, std::vector<std::string_view> &fields)
+{
+  constexpr const char *kEnds = ",;";
+  std::size_t end = text.find_first_of(kEnds);
+  if (end == text.npos) return split_words(text, fields);
+  fields.clear();
+  for (; end != text.npos; end = text.find_first_of(kEnds)) {
+    fields.push_back(without_blanks(text.substr(0, end)));
+    text.remove_prefix(end + 1);
+  }
+  fields.push_back(without_blanks(text));
 }
 
 }    // namespace lsdcd

@@ -1,6 +1,6 @@
 #include "tool/point_reader.h"
 
-#include "tool/input_file.h"
+#include "tool/field_lines.h"
 
 #include <algorithm>
 #include <array>
@@ -14,49 +14,22 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-template <class T>
-bool is_number(std::string_view word, T &value)
-{
-  if (!word.empty() && word[0] == '+') word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
-}
-
-template <class T>
-T number(const InputFile &file, const Words &words, std::size_t column)
-{
-  T value = 0;
-  if (column >= words.size())
-    file.fail_at_line(file.line_number(), "has " + std::to_string(words.size()) +
-                                              " columns, and no number in column " +
-                                              std::to_string(column + 1));
-  if (!is_number(words[column], value))
-    file.fail_at_line(file.line_number(), "has '" + std::string(words[column]) + "' in column " +
-                                              std::to_string(column + 1) + ", which is no number");
-  return value;
-}
-
 class LinesReader : public PointReader {
  public:
-  explicit LinesReader(InputFile file) : file_(std::move(file)) {}
+  explicit LinesReader(InputFile file) : lines_(std::move(file)) {}
 
   void read(PointBlock &block, std::size_t most) override
   {
     block.clear();
-    std::string_view line;
-    while (block.size() < most && file_.line(line)) {
-      split_words(line, words_);
-      if (words_.empty() || words_[0][0] == '#') continue;
-      double ignored = 0;
-      if (first_ && std::none_of(words_.begin(), words_.end(),
-                                 [&](auto word) { return is_number(word, ignored); }))
+    while (block.size() < most && lines_.next()) {
+      if (lines_.are_names())
         take_names();
       else
-        for (const std::size_t c : column_) block.xyz.push_back(number<double>(file_, words_, c));
-      first_ = false;
+        for (const std::size_t c : column_)
+          block.xyz.push_back(number<double>(lines_.file(), lines_.fields(), c));
     }
   }
-  double share_read() const override { return file_.share_read(); }
+  double share_read() const override { return lines_.file().share_read(); }
 
  private:
   void take_names()
@@ -66,18 +39,16 @@ class LinesReader : public PointReader {
         if (w.size() > 2 && w.front() == '"' && w.back() == '"') w = w.substr(1, w.size() - 2);
         return w.size() == 1 && (w[0] == "xyz"[k] || w[0] == "XYZ"[k]);
       };
-      const auto found = std::find_if(words_.begin(), words_.end(), is_it);
-      if (found == words_.end())
-        file_.fail_at_line(file_.line_number(), std::string("names columns, but none ") + "xyz"[k] +
-                                                    "; name them x, y and z");
-      column_[k] = found - words_.begin();
+      const Words &names = lines_.fields();
+      const auto found = std::find_if(names.begin(), names.end(), is_it);
+      if (found == names.end())
+        lines_.fail(std::string("names columns, but none ") + "xyz"[k] + "; name them x, y and z");
+      column_[k] = found - names.begin();
     }
   }
 
-  InputFile file_;
-  Words words_;
+  FieldLines lines_;
   std::array<std::size_t, 3> column_ = {0, 1, 2};
-  bool first_ = true;
 };
 
 class DumpReader : public PointReader {

@@ -2,20 +2,7 @@
 
 #include "bodies/read_pose.h"
 
-#include <charconv>
-
 namespace lsdcd {
-
-namespace {
-
-bool read_number(std::string_view word, double &value)
-{
-  if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
-}
-
-}    // namespace
 
 BodyPose pose_of_numbers(const std::vector<double> &n)
 {
@@ -30,28 +17,15 @@ BodyPose pose_of_numbers(const std::vector<double> &n)
 
 bool PoseReader::read(BodyPose &pose)
 {
-  std::string_view line;
-  while (file_.line(line)) {
-    split_words(line, words_);
-    if (words_.empty() || words_[0][0] == '#') continue;
+  while (lines_.next()) {
+    if (lines_.are_names()) continue;
     numbers_.clear();
-    std::string_view unread;
-    for (const std::string_view word : words_) {
-      double value = 0;
-      if (read_number(word, value))
-        numbers_.push_back(value);
-      else if (unread.empty())
-        unread = word;
-    }
-    const bool names = first_ && numbers_.empty();
-    first_ = false;
-    if (names) continue;
-    if (!unread.empty())
-      file_.fail_at_line(file_.line_number(), "has '" + std::string(unread) + "', no number");
+    for (std::size_t k = 0; k < lines_.fields().size(); k++)
+      numbers_.push_back(number<double>(lines_.file(), lines_.fields(), k));
     try {
       pose = pose_of_numbers(numbers_);
     } catch (const InputError &e) {
-      file_.fail_at_line(file_.line_number(), std::string("cannot be used: ") + e.what());
+      lines_.fail(std::string("cannot be used: ") + e.what());
     }
     return true;
   }

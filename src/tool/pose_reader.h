@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bodies/body_collision.h"
-#include "tool/input_file.h"
+#include "tool/field_lines.h"
 
 #include <memory>
 #include <string>
@@ -15,18 +15,15 @@ namespace lsdcd {
 // matrix, each with its number of the shift. Throws InputError.
 BodyPose pose_of_numbers(const std::vector<double> &numbers);
 
-// A pose a line; words of numbers between blanks, commas or semicolons. Lines that are empty or
-// begin with # are left out, and a first one that has no number.
+// A pose a line. A first line without a number is left out.
 class PoseReader {
  public:
-  explicit PoseReader(const std::string &path) : file_(path) {}
+  explicit PoseReader(const std::string &path) : lines_(InputFile(path)) {}
   bool read(BodyPose &pose);    // false: there are no more
-  double share_read() const { return file_.share_read(); }
+  double share_read() const { return lines_.file().share_read(); }
 
  private:
-  InputFile file_;
-  bool first_ = true;
-  std::vector<std::string_view> words_;
+  FieldLines lines_;
   std::vector<double> numbers_;
 };
 

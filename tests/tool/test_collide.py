@@ -158,7 +158,9 @@ def check_refused(folder):
     bad = folder / "bad.txt"
     for text, says in (("0 0 0\n0 0\n", ("line 2", "has 2 numbers")), ("x y z\n1 2 oops\n", ("line 2", "'oops'")),
                        ("", ("no pose",)), ("# none\n", ("no pose",)), ("0 0 nan\n", ("line 1", "not finite")),
-                       ("0 0 0\n0 0 1e20\n", ("pose 1", "too few digits"))):
+                       ("0 0 0\n0 0 1e20\n", ("pose 1", "too few digits")),
+                       ("0,,0,0\n", ("line 1", "nothing in column 2")), ("0,1;0,2;0,3\n", ("line 1", "decimal commas")),
+                       ("x y z\n0 0 0 1 0 0 0\n", ("line 2", "has 7 columns", "line 1 names 3"))):
         bad.write_text(text)
         refused(folder, [*words, "--poses", "bad.txt", "-o", "left.csv"], *says)
     done = run(folder, "collide", "--help")

@@ -138,6 +138,15 @@ def main():
         told(folder, "distance", "box.stl", file, "--radius", RADIUS, "-o", "named.npy")
         answers.append((folder / "named.npy").read_bytes())
     fact("columns go by their names", answers[0] == answers[1])
+    # A name or a value of nothing keeps its column, and one may have blanks in it.
+    for name, head, row in (("index", ",x,y,z", "{i},{x!r},{y!r},{z!r}"),
+                            ("gaps", "id,name,x,y,z,r", "{i},,{x!r},{y!r},{z!r},"),
+                            ("blanks", "particle id, x, y, z", "{i}, {x!r}, {y!r}, {z!r}")):
+        (folder / "columns.csv").write_text(head + "\n" + "".join(
+            row.format(i=i, x=x, y=y, z=z) + "\n" for i, (x, y, z) in enumerate(abs(points[:50]).tolist())))
+        told(folder, "distance", "box.stl", "columns.csv", "--radius", RADIUS, "-o", "columns.npy")
+        fact(f"columns stay in place: {name}",
+             np.array_equal(np.load(folder / "columns.npy"), np.load(folder / "named.npy")[:50]))
     unit = (points - (-1)) / (hi + 2)
     write_dump(folder / "scaled.dump", unit, "xs ys zs", bounds=["-1 2", "-1 3", "-1 4"])
     told(folder, "distance", "box.stl", "scaled.dump", "--radius", RADIUS, "-o", "scaled.npy")
@@ -190,6 +199,13 @@ def main():
             ("word.csv", b"0,0,0\n1,two,3\n", ["line 2", "'two'", "column 2"]),
             ("few.csv", b"0,0,0\n\n1,2\n", ["line 3", "2 columns"]),
             ("names.csv", b"a,b,c\n1,2,3\n", ["line 1", "x"]),
+            ("hole.csv", b"x,y,z\n1,,3\n", ["line 2", "nothing in column 2"]),
+            ("hole3.csv", b"1,,2,3\n", ["line 1", "nothing in column 2"]),
+            ("wide.csv", b"x,y,z\n0,1,2,3\n", ["line 2", "has 4 columns", "line 1 names 3"]),
+            ("spaced.txt", b"grain id x y z\n0 1 2 3\n", ["line 2", "has 4 columns", "line 1 names 5"]),
+            ("decimal.csv", b"x;y;z\n0,1;0,2;0,3\n", ["line 2", "both ',' and ';'", "decimal commas as points"]),
+            ("half.csv", b"0,001;2;3\n", ["line 1", "decimal commas as points"]),
+            ("blank.csv", b"0,1 0,2 0,3\n", ["line 1", "'1 0' in column 2"]),
             ("zeros.csv", bytes(100), ["neither"]),
             ("cut.dump", dump[:len(dump) // 2].rsplit("\n", 1)[0].encode(), ["ends after line", "atom"]),
             ("none.dump", dump.replace(" x y z", " vx y z").encode(), ["line 9", "no column x"]),

@@ -1,0 +1,91 @@
+// Lines of fields, the first of which may name them: CSV, or words between blanks.
+#pragma once
+
+#include "tool/input_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lsdcd {
+
+// All of the word; whatever the locale.
+template <class T>
+bool read_number(std::string_view word, T &value)
+{
+  if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+// The number in a column of the line that was read last.
+template <class T>
+T number(const InputFile &file, const std::vector<std::string_view> &words, std::size_t column)
+{
+  T value = 0;
+  if (column >= words.size())
+    file.fail_at_line(file.line_number(), "has " + std::to_string(words.size()) +
+                                              " columns, and no number in column " +
+                                              std::to_string(column + 1));
+  if (words[column].empty())
+    file.fail_at_line(file.line_number(), "has nothing in column " + std::to_string(column + 1) +
+                                              ", where a number should be");
+  if (!read_number(words[column], value))
+    file.fail_at_line(file.line_number(), "has '" + std::string(words[column]) + "' in column " +
+                                              std::to_string(column + 1) + ", which is no number");
+  return value;
+}
+
+class FieldLines {
+ public:
+  explicit FieldLines(InputFile file) : file_(std::move(file)) {}
+
+  const InputFile &file() const { return file_; }
+  const std::vector<std::string_view> &fields() const { return fields_; }
+  // Is this the first line, and no field of it a number?
+  bool are_names() const { return are_names_; }
+
+  // The next line that is neither empty nor from #; false: there is none.
+  bool next()
+  {
+    for (std::string_view line; file_.line(line);) {
+      line = without_blanks(line);
+      if (line.empty() || line[0] == '#') continue;
+      // 0,1;0,2 would be read as four numbers.
+      if (line.find(',') != line.npos && line.find(';') != line.npos)
+        fail("has both ',' and ';': write decimal commas as points, and separate fields by one "
+             "of them");
+      split_fields(line, fields_);
+      double ignored = 0;
+      are_names_ = first_ && std::none_of(fields_.begin(), fields_.end(),
+                                          [&](auto word) { return read_number(word, ignored); });
+      first_ = false;
+      if (are_names_) {
+        named_ = fields_.size();
+        named_at_ = file_.line_number();
+      }
+      if (named_ > 0 && fields_.size() != named_)
+        fail("has " + std::to_string(fields_.size()) + " columns, and line " +
+             std::to_string(named_at_) + " names " + std::to_string(named_) +
+             ": give each line a value for each name, with '.' in decimals");
+      return true;
+    }
+    return false;
+  }
+  [[noreturn]] void fail(const std::string &what) const
+  {
+    file_.fail_at_line(file_.line_number(), what);
+  }
+
+ private:
+  InputFile file_;
+  std::vector<std::string_view> fields_;
+  bool first_ = true, are_names_ = false;
+  std::size_t named_ = 0;    // 0: there is no line of names
+  long named_at_ = 0;
+};
+
+}    // namespace lsdcd
