@@ -99,7 +99,8 @@ class DumpReader : public PointReader {
         take_columns();
         return true;
       }
-      const bool tilted = words_.size() > 3 && words_[3] == "xy";
+      // Bounds of a tilted box, or, of any three edges, abc.
+      const bool tilted = words_.size() > 3 && (words_[3] == "xy" || words_[3] == "abc");
       if (item == "BOX") {
         take_box(tilted);
         continue;

@@ -211,6 +211,8 @@ def main():
             ("none.dump", dump.replace(" x y z", " vx y z").encode(), ["line 9", "no column x"]),
             ("tilted.dump", dump.replace("S pp", "S xy xz yz pp").replace(" x y z", " xs ys zs").encode(),
              ["line 9", "tilted"]),
+            ("general.dump", dump.replace("S pp", "S abc origin pp").replace("0 1\n", "1 0 0 0\n").replace(
+                " x y z", " xs ys zs").encode(), ["line 9", "tilted"]),
             ("odd.dump", dump.replace("ITEM: NUMBER", "NUMBER").encode(), ["line 3", "not ITEM"])):
         if content is not None:
             (folder / name).write_bytes(content)
