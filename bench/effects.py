@@ -45,7 +45,7 @@ def has_gpu():
 
 
 def measure(build, device):
-    part = kept(device) + ".part"
+    part = kept(device) + ".part.csv"
     os.makedirs(os.path.dirname(part), exist_ok=True)
     command = [os.path.join(build, "bin", "lsdcd"), "effects", "--measure", "--device", device,
                *DEVICES[device], "--commit", commit(), "--csv", part]

@@ -3,6 +3,7 @@
 #include "base/input_error.h"
 #include "tool/accuracy_tables.h"
 #include "tool/number_options.h"
+#include "tool/output_file.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -23,6 +24,7 @@ void run_accuracy(AccuracyOptions &o)
   if (o.rim_caps) o.shape.caps = Caps::rim;
   if (!(o.spheres >= 1) || !(o.spheres < 4294967296.) || !(o.most_spheres < 4294967296.))
     throw InputError("the number of spheres must be from 1 to 4294967295");
+  check_outputs({{"--csv", o.csv, ".csv"}});
   std::vector<std::string> tables = o.tables;
   if (std::find(tables.begin(), tables.end(), "all") != tables.end()) tables = kAccuracyTables;
   AccuracyRows rows;

@@ -5,6 +5,7 @@
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
 #include "tool/number_options.h"
+#include "tool/output_file.h"
 #include "tool/pair_writer.h"
 #include "tool/pose_reader.h"
 #include "tool/progress.h"
@@ -135,8 +136,7 @@ void print(const Options &o, const Totals &t, const MeshCollision &collision)
 
 void check(const Options &o)
 {
-  if (!o.output.empty() && o.output == o.segments)
-    throw InputError("--output and --segments are the same file, " + o.output);
+  check_outputs({{"--output", o.output}, {"--segments", o.segments}}, {o.wall, o.body, o.poses});
   if (!o.pose.empty()) pose_of_numbers(o.pose);
   if (!o.poses.empty()) {
     BodyPose first;

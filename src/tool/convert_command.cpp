@@ -5,6 +5,7 @@
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
 #include "tool/number_options.h"
+#include "tool/output_file.h"
 #include "tool/read_mesh.h"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ struct Options {
 void run(const Options &o)
 {
   mesh_format(o.output);    // before the work
+  check_outputs({{"--output", o.output}}, {o.file});
   ReadMesh read = read_mesh(o.file);
   TriangleSoup &soup = read.soup;
   apply_scale(soup, o.scale.empty() ? std::vector<double>{kMetres.at(o.units)} : o.scale);

@@ -5,6 +5,7 @@
 #include "tool/load_mesh.h"
 #include "tool/number_options.h"
 #include "tool/mesh_json.h"
+#include "tool/output_file.h"
 #include "tool/point_answers.h"
 #include "tool/progress.h"
 
@@ -138,6 +139,7 @@ void distance(const Options &o)
   threads_asked_for() = true;    // a program of one user, not one of many processes
   if (o.threads > 0) omp_set_num_threads(o.threads);
 #endif
+  check_outputs({{"--output", o.output}}, {o.mesh, o.points});
   const auto reader = open_points(o.points);
   open_answers(o.output, false, false);    // can it be written? Better told before the work
   const WallMesh mesh = load_mesh(o.mesh, o.scale, o.weld);

@@ -3,6 +3,7 @@
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "effects/effects.h"
+#include "tool/output_file.h"
 
 #include <cstdio>
 #include <map>
@@ -122,6 +123,7 @@ void add_effects_command(CLI::App &app)
   command->add_option("--commit", o->commit, "what to call this build in it");
   command->callback([o] {
     if (!o->csv.empty() && !o->measure) throw InputError("--csv keeps what --measure measures");
+    check_outputs({{"--csv", o->csv, ".csv"}});
     if (o->measure)
       measure(*o);
     else

@@ -3,6 +3,7 @@
 #include "base/input_error.h"
 #include "output/mesh_stl.h"
 #include "tool/mesh_json.h"
+#include "tool/output_file.h"
 #include "tool/shapes.h"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ int segments_of(const Output &o, double radius)
 
 void write(const Output &o, const Triangles &coarse)
 {
+  check_outputs({{"--output", o.file, ".stl"}});
   TriangleSoup soup;
   soup.source = o.file;
   for (const auto &t : o.edge > 0 ? refined(coarse, o.edge) : coarse)

@@ -5,6 +5,7 @@
 #include "output/mesh_file.h"
 #include "tool/mesh_json.h"
 #include "tool/number_options.h"
+#include "tool/output_file.h"
 #include "tool/progress.h"
 
 #include <cstdio>
@@ -109,6 +110,7 @@ void add_meetings(RepairedMesh &repaired, Progress &progress)
 bool run(const Options &o)
 {
   mesh_format(o.output);    // before the work
+  check_outputs({{"--output", o.output}}, {o.file});
   Progress progress(o.progress);
   RepairedMesh repaired =
       repair(read_stl(o.file), o.weld, [&](const std::string &text) { progress.show(text); });

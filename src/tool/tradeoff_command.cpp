@@ -5,6 +5,7 @@
 #include "base/whole_file.h"
 #include "tool/load_mesh.h"
 #include "tool/number_options.h"
+#include "tool/output_file.h"
 #include "tune/tradeoff.h"
 
 #include <cmath>
@@ -153,6 +154,8 @@ void tradeoff(Options &o)
   if (o.settings.cuda && !gpu) throw InputError("--device cuda: " + why + "; use cpu or auto");
   o.settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
   if (o.plot.empty()) o.plot = std::filesystem::path(o.csv).replace_extension(".png").string();
+  check_outputs({{"--csv", o.csv, ".csv"}, {"--plot", o.plot == "none" ? "" : o.plot, ".png"}},
+                {o.file});
   const WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
   WholeFile file(o.csv);    // now, rather than fail when all is done
   std::printf("%s, %zu triangles\n", o.file.c_str(), mesh.faces.size());
@@ -221,7 +224,7 @@ void add_tradeoff_command(CLI::App &app)
   command->add_option("--csv", o->csv, "file for the rows, written whole or not at all")
       ->capture_default_str();
   command->add_option("--plot", o->plot,
-                      "picture, or `none` (default: the name of the CSV with .png)");
+                      "picture, .png, or `none` (default: the name of the CSV with .png)");
   command->callback([o] { tradeoff(*o); });
 }
 

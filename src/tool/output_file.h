@@ -1,0 +1,45 @@
+// Names of the files that a command writes, checked before its work.
+#pragma once
+
+#include "base/input_error.h"
+#include "base/whole_file.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+struct OutputFile {
+  const char *option;
+  std::string path;           // empty: not asked for
+  const char *ending = "";    // that the name needs; empty: what writes it looks itself
+};
+
+// Throws InputError where one would replace a file that the command reads, or another of them, or
+// has not its ending.
+inline void check_outputs(const std::vector<OutputFile> &outputs,
+                          const std::vector<std::string> &inputs = {})
+{
+  namespace fs = std::filesystem;
+  std::error_code failed;    // of a file that is not there: it is no other's
+  for (std::size_t i = 0; i < outputs.size(); i++) {
+    const OutputFile &o = outputs[i];
+    if (o.path.empty()) continue;
+    const std::string what = std::string(o.option) + " " + o.path;
+    if (*o.ending && !ends_in(o.path, o.ending))
+      throw InputError(what + ": end the name in " + o.ending);
+    for (const std::string &input : inputs)
+      if (!input.empty() && fs::equivalent(o.path, input, failed))
+        throw InputError(what + " would replace " + input +
+                         ", which this command reads: give another name");
+    for (std::size_t k = 0; k < i; k++)
+      if (!outputs[k].path.empty() && fs::weakly_canonical(fs::absolute(o.path)) ==
+                                          fs::weakly_canonical(fs::absolute(outputs[k].path)))
+        throw InputError(std::string(outputs[k].option) + " and " + o.option +
+                         " are the same file, " + o.path + ": give two names");
+  }
+}
+
+}    // namespace lsdcd
