@@ -49,6 +49,20 @@ std::string nearest(const std::string &word, const std::vector<std::string> &nam
                            });
 }
 
+bool is_near(const std::string &word, const std::string &name)
+{
+  return edit_distance(word, name) < std::min({std::size_t(3), word.size(), name.size()});
+}
+
+std::string nearest_or_all(const std::string &word, const std::vector<std::string> &names)
+{
+  const std::string near = nearest(word, names);
+  if (is_near(word, near)) return "the nearest is '" + near + "'";
+  std::string all;
+  for (const std::string &name : names) all += (all.empty() ? "" : ", ") + name;
+  return "those are " + all;
+}
+
 bool is_like(const std::string &word, const std::string &name)
 {
   return 3 * edit_distance(word, name) <= std::max(word.size(), name.size());

@@ -20,6 +20,10 @@ std::string range_text(Real low, Real high);
 
 // The name that takes the fewest inserted, deleted, changed or swapped letters.
 std::string nearest(const std::string &word, const std::vector<std::string> &names);
+// Not if more than two letters differ, or all of them.
+bool is_near(const std::string &word, const std::string &name);
+// "the nearest is 'x'" where that is near; else "those are x, y".
+std::string nearest_or_all(const std::string &word, const std::vector<std::string> &names);
 // May the word be meant to be the name? Not if more than a third of its letters differ.
 bool is_like(const std::string &word, const std::string &name);
 

@@ -2,7 +2,6 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
-#include "deck/material_command.h"
 #include "material/contact_moduli.h"
 #include "material/material_units.h"
 #include "model/contact_law.h"
@@ -55,10 +54,11 @@ Real tsuji_number(Real e)
 
 class Filler {
  public:
-  Filler(const MaterialCommand &command, const std::string &units) :
-      c_(command), units_(units), file_(read_materials(find_material_file(c_.file))),
-      particle_(file_.material(c_.particle)), wall_(file_.material(c_.wall)),
-      pair_(file_.pair(c_.particle, c_.wall)), same_(c_.particle == c_.wall)
+  Filler(const MaterialCommand &command, const std::string &units, const MaterialWords &words) :
+      c_(command), units_(units), words_(words), with_(std::string("'") + words.with + " "),
+      file_(read_materials(find_material_file(c_.file))), particle_(file_.material(c_.particle)),
+      wall_(file_.material(c_.wall)), pair_(file_.pair(c_.particle, c_.wall)),
+      same_(c_.particle == c_.wall)
   {
   }
 
@@ -67,14 +67,13 @@ class Filler {
     // A second name without `on` is the likely slip.
     for (const MaterialSection &m : file_.materials)
       if (c_.sub_models.empty() && !c_.rest.empty() && c_.rest[0] == m.first)
-        fail_material("write 'on " + m.first + "' for the wall's material");
+        fail("write '" + std::string(words_.on) + " " + m.first + "' for the wall's material");
 
     for (const Override &o : c_.overrides)
       if (const Property *p = find_property(o.key);
           p && !p->of_pair && !same_ && o.of.empty() && particle_.find(o.key) && wall_.find(o.key))
-        fail_material("'" + o.key +
-                      "' of both materials is in the file: say whose it is, as 'with " + c_.wall +
-                      " " + o.key + " VALUE'");
+        fail("'" + o.key + "' of both materials is in the file: say whose it is, as " + with_ +
+             c_.wall + " " + o.key + " VALUE'");
 
     tell("material    " + both() + ", " + file_.path + ", in units " + units_);
     set_contact();
@@ -133,7 +132,7 @@ class Filler {
     const Stated *s = number ? nullptr : m.find(key);
     if (!number && !s)
       throw InputError("in 'material', " + m.place + ": '" + m.first + "' has no " + key +
-                       ": add it there, or write 'with " + (same_ ? "" : m.first + " ") + key +
+                       ": add it there, or write " + with_ + (same_ ? "" : m.first + " ") + key +
                        " VALUE'");
     const Real si = number ? *number / in_units(1, p, units_) : s->value;
     tell(m.first, key, in_deck(m, key, si), s);
@@ -147,7 +146,7 @@ class Filler {
     const Stated *s = pair_ && !number ? pair_->find(key) : nullptr;
     if (!number && !s)
       throw InputError("in 'material', " + file_.path + " has no " + key + " of " + both() +
-                       ": write 'with " + key + " VALUE', or add it to the file under 'pair " +
+                       ": write " + with_ + key + " VALUE', or add it to the file under 'pair " +
                        c_.particle + " " + c_.wall + "'");
     const std::string text = exact_text(number ? *number : s->value);
     tell(both(), key, text, s);
@@ -193,8 +192,8 @@ class Filler {
   std::string default_damping()
   {
     if (c_.normal == "hertz/material") return "coeff_restitution";
-    tell_more("no damping: " + c_.normal +
-              " goes with none that takes a restitution; 'with eta VALUE damping velocity', say");
+    tell_more("no damping: " + c_.normal + " goes with none that takes a restitution; " + with_ +
+              "eta VALUE damping velocity', say");
     return "none";
   }
 
@@ -203,18 +202,17 @@ class Filler {
     const bool takes = c_.normal == "hertz/material";    // a restitution
     if (const Real *eta = c_.override_of("eta")) {
       if (c_.damping.empty())
-        fail_material("'with eta' is the number of a damping model: name it, such as 'damping "
-                      "velocity'");
+        fail(with_ + "eta' is the number of a damping model: name it, such as 'damping "
+                     "velocity'");
       tell("damping " + c_.damping, "eta", exact_text(*eta), nullptr);
       return exact_text(*eta);
     }
     if (c_.damping == "none" || (c_.damping.empty() && !takes)) return "0";
     if (!takes ||
         (!c_.damping.empty() && c_.damping != "tsuji" && c_.damping != "coeff_restitution"))
-      fail_material("'damping " + c_.damping + "' with " + c_.normal +
-                    " does not take the material's restitution: give its own number as 'with eta "
-                    "VALUE'" +
-                    (takes ? ", or use tsuji or coeff_restitution" : ""));
+      fail("'damping " + c_.damping + "' with " + c_.normal +
+           " does not take the material's restitution: give its own number as " + with_ +
+           "eta VALUE'" + (takes ? ", or use tsuji or coeff_restitution" : ""));
     return of_pair("restitution");
   }
 
@@ -255,8 +253,12 @@ class Filler {
     return tokens;
   }
 
+  [[noreturn]] void fail(const std::string &problem) const { fail_material(problem, words_); }
+
   const MaterialCommand &c_;
   std::string units_, report_;
+  const MaterialWords &words_;
+  std::string with_;    // as "'with ", to quote
   MaterialFile file_;
   const MaterialSection &particle_, &wall_;
   const MaterialSection *pair_;
@@ -267,11 +269,12 @@ class Filler {
 
 }    // namespace
 
-FilledTokens fill_material(const std::vector<std::string> &tokens, const std::string &units)
+FilledTokens fill_material(const std::vector<std::string> &tokens, const std::string &units,
+                           const MaterialWords &words)
 {
   if (!has_material(tokens)) return {tokens, ""};
-  const MaterialCommand command = read_material_command(tokens);
-  return Filler(command, units).fill();
+  const MaterialCommand command = read_material_command(tokens, words);
+  return Filler(command, units, words).fill();
 }
 
 std::vector<std::string> words_of_29sep2021(std::vector<std::string> filled)

@@ -3,6 +3,7 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "deck/granular_words.h"
+#include "deck/keywords.h"
 #include "material/material_file.h"
 
 #include <algorithm>
@@ -15,6 +16,8 @@ const char *const kMaterialSyntax =
     "...] "
     "[sub-models, NULL for a number of the file] mesh FILE [keywords]";
 
+const MaterialWords kDeckWords = {"on", "with", kMaterialSyntax};
+
 namespace {
 
 std::string take(Tokens &w, const char *what)
@@ -23,16 +26,32 @@ std::string take(Tokens &w, const char *what)
   return w.take();
 }
 
+bool is_family(const std::string &word)
+{
+  const std::vector<std::string> all = granular_families();
+  return std::find(all.begin(), all.end(), word) != all.end();
+}
+
+// Does what comes behind the material begin with the word?
+bool is_behind(const std::string &word)
+{
+  const std::vector<Keyword> &all = keywords();
+  return is_family(word) ||
+         std::any_of(all.begin(), all.end(), [&](const Keyword &k) { return word == k.name; });
+}
+
 // KEY VALUE, or MATERIAL KEY VALUE; as long as they follow.
-void read_overrides(Tokens &w, MaterialCommand &c)
+void read_overrides(Tokens &w, MaterialCommand &c, const std::string &with)
 {
   const auto is_key = [&] { return !w.done() && (w.peek() == "eta" || find_property(w.peek())); };
   const auto is_name = [&] { return !w.done() && (w.peek() == c.particle || w.peek() == c.wall); };
-  if (!is_key() && !is_name())
-    w.fail("'with' needs a property and its value, such as restitution 0.9");
+  if (w.done() || is_behind(w.peek()))
+    w.fail("'" + with + "' needs a property and its value, such as restitution 0.9");
+  if (!is_key() && !is_name()) w.fail(not_a_property(w.peek()));
   while (is_key() || is_name()) {
     const std::string of = is_key() ? "" : w.take();
-    if (!is_key()) w.fail("after 'with " + of + "' comes a property of it and its value");
+    if (!is_key() && !w.done() && !is_behind(w.peek())) w.fail(not_a_property(w.peek()));
+    if (!is_key()) w.fail("after '" + with + " " + of + "' comes a property of it and its value");
     const std::string key = w.take();
     const Property *p = find_property(key);
     if (!of.empty() && (!p || p->of_pair))
@@ -43,15 +62,18 @@ void read_overrides(Tokens &w, MaterialCommand &c)
                                  p ? p->most : Tokens::kHuge);
     c.overrides.push_back({of, key, number});
   }
+  // A keyword may be misspelt, too: that is left to those who know them.
+  if (w.done() || is_behind(w.peek())) return;
+  for (const Property &p : properties())
+    if (is_near(w.peek(), p.name)) w.fail(not_a_property(w.peek()));
 }
 
 // Keyword, model, numbers.
 void read_sub_models(Tokens &w, MaterialCommand &c)
 {
-  const std::vector<std::string> families = granular_families();
   while (!w.done()) {
     const std::string key = w.peek();
-    if (std::find(families.begin(), families.end(), key) == families.end()) return;
+    if (!is_family(key)) return;
     c.sub_models.push_back(w.take());
     if (key == "limit_damping" || w.done()) continue;
     if (key == "tangential") c.has_tangential = true;
@@ -80,10 +102,11 @@ bool has_material(const std::vector<std::string> &tokens)
   return false;
 }
 
-MaterialCommand read_material_command(const std::vector<std::string> &tokens)
+MaterialCommand read_material_command(const std::vector<std::string> &tokens,
+                                      const MaterialWords &words)
 {
   Tokens w(tokens);
-  w.expect("material", kMaterialSyntax);
+  w.expect("material", words.syntax);
   MaterialCommand c;
   c.style = w.take();
   if (c.style == "granular") {
@@ -97,20 +120,22 @@ MaterialCommand read_material_command(const std::vector<std::string> &tokens)
   c.particle = c.wall = take(w, "the material's name");
   if (!w.done() && w.peek() == "on") {
     w.take();
-    c.wall = take(w, "the wall's material");
+    if (w.done() || w.peek() == "mesh" || w.peek() == "with")
+      w.fail(std::string("the wall's material is missing after '") + words.on + "'");
+    c.wall = w.take();
   }
   if (!w.done() && w.peek() == "with") {
     w.take();
-    read_overrides(w, c);
+    read_overrides(w, c, words.with);
   }
   read_sub_models(w, c);
   while (!w.done()) c.rest.push_back(w.take());
   return c;
 }
 
-void fail_material(const std::string &problem)
+void fail_material(const std::string &problem, const MaterialWords &words)
 {
-  throw InputError("in 'material', " + problem + ". Syntax: " + kMaterialSyntax);
+  throw InputError("in 'material', " + problem + ". Syntax: " + words.syntax);
 }
 
 }    // namespace lsdcd

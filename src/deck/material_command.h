@@ -10,6 +10,12 @@ namespace lsdcd {
 
 extern const char *const kMaterialSyntax;
 
+// How messages call what can be written: in a deck, or as options of a program.
+struct MaterialWords {
+  const char *on, *with, *syntax;
+};
+extern const MaterialWords kDeckWords;
+
 // A number of the deck, in its units. `of`: the material; empty: of the pair, or of whichever
 // material's the file does not know.
 struct Override {
@@ -34,9 +40,10 @@ struct MaterialCommand {
 bool has_material(const std::vector<std::string> &tokens);
 
 // Throws InputError that shows the syntax.
-MaterialCommand read_material_command(const std::vector<std::string> &tokens);
+MaterialCommand read_material_command(const std::vector<std::string> &tokens,
+                                      const MaterialWords &words = kDeckWords);
 
 // The same error from those who look at what was read.
-[[noreturn]] void fail_material(const std::string &problem);
+[[noreturn]] void fail_material(const std::string &problem, const MaterialWords &words);
 
 }    // namespace lsdcd

@@ -114,12 +114,7 @@ class Reader {
   {
     const Property *p = find_property(tokens[0]);
     const bool in_pair = !section.second.empty();
-    if (!p) {
-      std::vector<std::string> names;
-      for (const Property &known : properties()) names.push_back(known.name);
-      fail("'" + tokens[0] + "' is not a property; the nearest is '" + nearest(tokens[0], names) +
-           "'");
-    }
+    if (!p) fail(not_a_property(tokens[0]));
     const std::string example = std::string(p->name) + " VALUE " + p->unit + "  # source";
     if (p->of_pair && !in_pair)
       fail("'" + tokens[0] + "' is a property of two surfaces: write it under 'pair " +
@@ -182,6 +177,13 @@ const Property *find_property(const std::string &name)
   return nullptr;
 }
 
+std::string not_a_property(const std::string &word)
+{
+  std::vector<std::string> names;
+  for (const Property &p : properties()) names.push_back(p.name);
+  return "'" + word + "' is not a property; " + nearest_or_all(word, names);
+}
+
 const Stated *MaterialSection::find(const std::string &property) const
 {
   for (const Stated &s : stated)
@@ -197,8 +199,8 @@ const MaterialSection &MaterialFile::material(const std::string &name) const
     names.push_back(m.first);
   }
   if (names.empty()) throw InputError(path + " has no materials");
-  throw InputError("'" + name + "' is not a material of " + path + "; the nearest is '" +
-                   nearest(name, names) + "'");
+  throw InputError("'" + name + "' is not a material of " + path + "; " +
+                   nearest_or_all(name, names));
 }
 
 const MaterialSection *MaterialFile::pair(const std::string &a, const std::string &b) const

@@ -21,6 +21,9 @@ struct Property {
 const std::vector<Property> &properties();
 const Property *find_property(const std::string &name);    // null: no such property
 
+// "'x' is not a property; the nearest is 'y'", or which there are.
+std::string not_a_property(const std::string &word);
+
 // A number as a file states it.
 struct Stated {
   const Property *property;
@@ -41,7 +44,7 @@ struct MaterialFile {
   std::string path;
   std::vector<MaterialSection> materials, pairs;
 
-  // Throws InputError that names the nearest.
+  // Throws InputError that names the nearest, or all.
   const MaterialSection &material(const std::string &name) const;
   const MaterialSection *pair(const std::string &a, const std::string &b) const;    // null: none
 };

@@ -10,6 +10,10 @@ namespace lsdcd {
 
 namespace {
 
+const MaterialWords kWords = {"--on", "--with",
+                              "lsdcd material FILE NAME [--on WALL] [--normal "
+                              "hertz/material|jkr|dmt] [--with [MATERIAL] KEY VALUE ...]"};
+
 struct Options {
   std::string file, name, wall, normal = "hertz/material", units = "si";
   std::vector<std::string> with;
@@ -46,7 +50,7 @@ void run(const Options &o)
   if (!o.wall.empty()) words.insert(words.end(), {"on", o.wall});
   if (!o.with.empty()) words.push_back("with");
   words.insert(words.end(), o.with.begin(), o.with.end());
-  const FilledTokens filled = fill_material(words, o.units);
+  const FilledTokens filled = fill_material(words, o.units, kWords);
   std::printf("%s\n", filled.report.c_str());
   print(" ", filled.tokens);
   if (!o.wall.empty()) return;

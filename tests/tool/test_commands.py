@@ -62,6 +62,7 @@ BAD = [    # words, exit code, what is said
     ("collide wall.stl body.stl --pose 0 0 0 2 0 0 0", 1, ["quaternion"]),
     ("material nothing.lsdcd", 1, ["nothing.lsdcd", "glass.lsdcd"]),
     ("material glass.lsdcd glas", 1, ["glas", "glass"]),
+    ("material glass.lsdcd glass --with restituion 0.5", 1, ["'restituion' is not a property", "'restitution'", "[--with"]),
     ("material glass.lsdcd glass --units miles", 1, ["miles", "cgs"]),
     ("material glass.lsdcd glass --normal hooke", 1, ["hooke", "hertz/material"]),
     ("tradeoff wall.stl --radius 0.1 --csv no/t.csv", 1, ["no/t.csv", NO_FILE]),

@@ -214,6 +214,38 @@ TEST_F(fill_material_words, with_overrides_that_cannot_be_meant_are_refused)
                    {"after 'with steel' comes a property"}));
 }
 
+TEST_F(fill_material_words, with_a_misspelt_property_name_it_and_the_nearest)
+{
+  const std::vector<std::string> said = {"'restituion' is not a property", "'restitution'"};
+  EXPECT_TRUE(says(error_of("granular material FILE glass with restituion 1 mesh a"), said));
+  EXPECT_TRUE(says(error_of("granular material FILE glass with eta 1 restituion 1 mesh a"), said));
+  EXPECT_TRUE(says(error_of("granular material FILE glass on steel with steel youngs_modulu 1"),
+                   {"'youngs_modulu' is not a property", "'youngs_modulus'"}));
+}
+
+TEST_F(fill_material_words, with_a_misspelt_keyword_leave_it_to_the_keywords)
+{
+  EXPECT_TRUE(says(filled("granular material FILE glass with restitution 1 rmaxx 1 mesh a"),
+                   {"rmaxx 1 mesh a"}));
+}
+
+TEST_F(fill_material_words, are_called_what_the_caller_calls_them)
+{
+  const auto error = [&](const std::vector<std::string> &tokens) {
+    try {
+      fill_material(tokens, "si", {"--on", "--with", "TOOL"});
+    } catch (const InputError &e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_TRUE(says(error({"granular", "material", file, "steel"}), {"'--with restitution VALUE'"}));
+  EXPECT_TRUE(says(error({"granular", "material", file, "glass", "steel"}),
+                   {"'--on steel'", "Syntax: TOOL"}));
+  EXPECT_TRUE(says(error({"granular", "material", file, "glass", "with"}),
+                   {"'--with' needs", "Syntax: TOOL"}));
+}
+
 // The wall's numbers given, where the file has none: as with a file that has them.
 TEST_F(fill_material_words, with_overrides_give_the_partner_what_the_file_does_not_know)
 {
@@ -264,6 +296,8 @@ TEST_F(fill_material_words, that_are_missing_are_asked_for)
   EXPECT_TRUE(says(error_of("granular material"), {"file name", "Syntax: granular"}));
   EXPECT_TRUE(says(error_of("granular material FILE"), {"material's name", "Syntax: granular"}));
   EXPECT_TRUE(says(error_of("granular material FILE glass on"), {"wall's material"}));
+  EXPECT_TRUE(says(error_of("granular material FILE glass on mesh floor.stl"),
+                   {"wall's material is missing after 'on'"}));
 }
 
 TEST_F(fill_material_words, with_an_unknown_material_name_the_nearest)
@@ -271,6 +305,12 @@ TEST_F(fill_material_words, with_an_unknown_material_name_the_nearest)
   EXPECT_TRUE(says(error_of("granular material FILE gloss mesh a"), {"'gloss'", "'glass'"}));
   EXPECT_TRUE(
       says(error_of("granular material FILE glass on steal mesh a"), {"'steal'", "'steel'"}));
+}
+
+TEST_F(fill_material_words, with_a_material_like_none_list_them)
+{
+  EXPECT_TRUE(says(error_of("granular material FILE glass on copper mesh a"),
+                   {"'copper'", "those are glass, steel, bare"}));
 }
 
 TEST_F(fill_material_words, with_two_names_in_a_row_are_told_of_on)
