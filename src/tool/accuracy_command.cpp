@@ -19,11 +19,20 @@ Device device_of(const std::string &name)
   return Device::automatic;
 }
 
+constexpr int kMostRows = 1000000;    // more than any memory has triangles for
+
+// Spheres are counted in 32 bits.
+std::string sphere_count(const std::string &word)
+{
+  double n;
+  return is_number(word, &n) && n >= 1 && n < 4294967296.
+             ? ""
+             : word + " is not a number from 1 to 4294967295";
+}
+
 void run_accuracy(AccuracyOptions &o)
 {
   if (o.rim_caps) o.shape.caps = Caps::rim;
-  if (!(o.spheres >= 1) || !(o.spheres < 4294967296.) || !(o.most_spheres < 4294967296.))
-    throw InputError("the number of spheres must be from 1 to 4294967295");
   check_outputs({{"--csv", o.csv, ".csv"}});
   std::vector<std::string> tables = o.tables;
   if (std::find(tables.begin(), tables.end(), "all") != tables.end()) tables = kAccuracyTables;
@@ -63,21 +72,28 @@ void add_accuracy_command(CLI::App &app)
   std::vector<std::string> names = kAccuracyTables;
   names.push_back("all");
   c->add_option("table", o.tables, "tables to make (default: table2)")->check(CLI::IsMember(names));
-  c->add_option("--spheres", o.spheres, "how many (1e7 in the paper)")->capture_default_str();
+  c->add_option("--spheres", o.spheres, "how many (1e7 in the paper)")
+      ->check(sphere_count)
+      ->capture_default_str();
   c->add_option("--most-spheres", o.most_spheres, "where figure9 ends (default: --spheres)")
-      ->check(above_zero);
+      ->check(sphere_count);
   c->add_option("--most-triangles", o.most_triangles, "where mesh ends (1e6 takes a GPU)")
       ->check(above_zero)
       ->capture_default_str();
   c->add_option("--segments", o.shape.segments, "flat sides of the cylinder")
+      ->check(CLI::Range(3, kMostRows))
       ->capture_default_str();
   c->add_option("--along", o.shape.along, "rows of triangles along its axis")
+      ->check(CLI::Range(1, kMostRows))
       ->capture_default_str();
   c->add_option("--slant", o.shape.slant, "more rows that diagonals climb: obtuse triangles")
+      ->check(CLI::Range(0, kMostRows))
       ->capture_default_str();
   c->add_flag("--rim-caps", o.rim_caps, "cut the ends from a corner of the rim: obtuse too");
-  c->add_option("--cube", o.cube, "side of the cube that spheres are in")->capture_default_str();
-  c->add_option("--radius", o.largest, "largest radius")->capture_default_str();
+  c->add_option("--cube", o.cube, "side of the cube that spheres are in")
+      ->check(above_zero)
+      ->capture_default_str();
+  c->add_option("--radius", o.largest, "largest radius")->check(above_zero)->capture_default_str();
   c->add_option("--inside", o.inside, "exact, or paper: its formula (5)")
       ->check(CLI::IsMember({"exact", "paper"}))
       ->capture_default_str();

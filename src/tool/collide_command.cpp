@@ -137,7 +137,11 @@ void print(const Options &o, const Totals &t, const MeshCollision &collision)
 void check(const Options &o)
 {
   check_outputs({{"--output", o.output}, {"--segments", o.segments}}, {o.wall, o.body, o.poses});
-  if (!o.pose.empty()) pose_of_numbers(o.pose);
+  try {
+    if (!o.pose.empty()) pose_of_numbers(o.pose);
+  } catch (const InputError &e) {
+    throw CLI::ValidationError("--pose", e.what());
+  }
   if (!o.poses.empty()) {
     BodyPose first;
     PoseReader(o.poses).read(first);
@@ -155,7 +159,7 @@ void collide(const Options &o)
   if (!o.output.empty()) pairs = open_pairs(o.output);
   if (!o.segments.empty()) segments = open_segments(o.segments);
   const WallMesh wall = load_mesh(o.wall, o.scale, o.weld),
-                 body = load_mesh(o.body, o.body_scale, o.weld);
+                 body = load_mesh(o.body, o.body_scale, o.weld, "--body-scale");
   MeshCollisionSettings settings;
   settings.cell = o.cell;
   settings.nearest = o.nearest;
@@ -182,10 +186,8 @@ void add_options(CLI::App &command, Options &o)
   command.add_option("-o,--output", o.output, "pairs of triangles that meet, to a .csv file");
   command.add_option("--segments", o.segments,
                      "where they cut each other, to a .csv file or lines for ParaView, .vtp");
-  command.add_option("--scale", o.scale, "of the wall: one factor, or three (x y z)")
-      ->expected(1, 3);
-  command.add_option("--body-scale", o.body_scale, "of the body: one factor, or three")
-      ->expected(1, 3);
+  add_scale_option(&command, o.scale, "--scale", "of the wall: one factor, or three (x y z)");
+  add_scale_option(&command, o.body_scale, "--body-scale", "of the body: one factor, or three");
   add_weld_option(&command, o.weld);
   command.add_option("--grid", o.cell, "cell length (default: the median edge of the body)")
       ->check(above_zero);

@@ -132,9 +132,6 @@ void print(const Options &o, const Totals &t, const PointAnswers &answers)
 
 void distance(const Options &o)
 {
-  if (!(o.radius > 0) || !std::isfinite(o.radius))
-    throw InputError("--radius is " + std::to_string(o.radius) +
-                     "; give the largest distance that matters, above 0");
 #if defined(_OPENMP)
   threads_asked_for() = true;    // a program of one user, not one of many processes
   if (o.threads > 0) omp_set_num_threads(o.threads);
@@ -168,7 +165,8 @@ void add_distance_command(CLI::App &app)
       ->required();
   command->add_option("-o,--output", o->output, "file to write, .csv or .npy")->required();
   command->add_option("--radius,--cutoff", o->radius, "nothing as far as this is found")
-      ->required();
+      ->required()
+      ->check(above_zero);
   add_scale_option(command, o->scale);
   add_weld_option(command, o->weld);
   command->add_option("--grid", o->cell, "cell length (default: chosen)")->check(above_zero);

@@ -1,21 +1,22 @@
 // The mesh that the words of a command name.
 #pragma once
 
-#include "base/input_error.h"
 #include "mesh/placement.h"
 #include "mesh/triangle_soup.h"
 #include "mesh/wall_mesh.h"
+
+#include <CLI/CLI.hpp>
 
 #include <string>
 #include <vector>
 
 namespace lsdcd {
 
-// `scale` holds no factor, one, or three. Throws InputError.
-inline void apply_scale(TriangleSoup &soup, const std::vector<double> &scale)
+// `scale` holds no factor, one, or three. Throws InputError, or what the wrong words of a command do.
+inline void apply_scale(TriangleSoup &soup, const std::vector<double> &scale,
+                        const char *option = "--scale")
 {
-  if (scale.size() == 2)
-    throw InputError("--scale has two numbers; give one factor or three (x y z)");
+  if (scale.size() == 2) throw CLI::ValidationError(option, "takes one factor or three (x y z)");
   Placement placement;
   if (scale.size() == 1) placement.scale({scale[0], scale[0], scale[0]});
   if (scale.size() == 3) placement.scale({scale[0], scale[1], scale[2]});
@@ -24,10 +25,10 @@ inline void apply_scale(TriangleSoup &soup, const std::vector<double> &scale)
 
 // `tolerance` is that of weld(). Throws InputError.
 inline WallMesh load_mesh(const std::string &file, const std::vector<double> &scale,
-                          double tolerance)
+                          double tolerance, const char *option = "--scale")
 {
   TriangleSoup soup = read_stl(file);
-  apply_scale(soup, scale);
+  apply_scale(soup, scale, option);
   return weld(soup, tolerance);
 }
 

@@ -1,5 +1,6 @@
 // lsdcd: what can be done with a mesh without a simulation.
 #include "base/input_error.h"
+#include "base/input_words.h"
 #include "tool/accuracy_command.h"
 #include "tool/collide_command.h"
 #include "tool/convert_command.h"
@@ -16,6 +17,7 @@
 #include <cstdio>
 #include <new>
 #include <string>
+#include <vector>
 
 using namespace lsdcd;
 
@@ -39,6 +41,29 @@ bool are_commands(const CLI::App &app, char **word)
   return false;
 }
 
+// Names the first option that there is not, and the nearest. False: all are there. CLI11 would ask
+// first for what is missing, and does not say what may have been meant.
+bool is_option_unknown(const CLI::App &app, const std::string &name)
+{
+  for (const CLI::App *command : app.get_subcommands())
+    if (is_option_unknown(*command, name + " " + command->get_name())) return true;
+  std::vector<std::string> names;
+  for (const CLI::Option *option : app.get_options()) {
+    for (const std::string &one : option->get_lnames()) names.push_back("--" + one);
+    for (const std::string &one : option->get_snames()) names.push_back("-" + one);
+  }
+  for (const std::string &word : app.remaining()) {
+    double number;
+    if (word.size() < 2 || word[0] != '-' || word == "--" || is_number(word, &number)) continue;
+    const std::string given = word.substr(0, word.find('=')), near = nearest(given, names);
+    std::fprintf(stderr, "lsdcd: '%s' is not an option of %s; %s\n", given.c_str(), name.c_str(),
+                 is_near(given, near) ? ("the nearest is '" + near + "'").c_str()
+                                      : (name + " --help has those").c_str());
+    return true;
+  }
+  return false;
+}
+
 }    // namespace
 
 int main(int argc, char **argv)
@@ -48,7 +73,7 @@ int main(int argc, char **argv)
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("lsdcd " LSDCD_VERSION " (" LSDCD_COMMIT ")"));
   app.footer("lsdcd COMMAND --help tells more, with an example.\n"
-             "Ends with 0: done; 1: a file, mesh or number cannot be used; 2: wrong words;\n"
+             "Ends with 0: done; 1: a file or mesh cannot be used; 2: wrong words;\n"
              "3: repair has written what it cannot mend in full.");
   int exit_code = kDone;
   add_inspect_command(app);
@@ -67,6 +92,7 @@ int main(int argc, char **argv)
     if (argc > 1 && !are_commands(app, argv + 1)) return kUsage;
     app.parse(argc, argv);
   } catch (const CLI::ParseError &e) {
+    if (e.get_exit_code() != 0 && is_option_unknown(app, "lsdcd")) return kUsage;
     return app.exit(e) == 0 ? kDone : kUsage;
   } catch (const std::bad_alloc &) {
     std::fprintf(stderr, "lsdcd: no memory left\n");

@@ -74,8 +74,12 @@ void add_material_command(CLI::App &app)
   command->add_option("file", o->file, "material file, looked for as in a deck")->required();
   command->add_option("name", o->name, "material of the grains");
   command->add_option("--on", o->wall, "material of the wall (default: the same)");
-  command->add_option("--normal", o->normal, "hertz/material, jkr or dmt")->capture_default_str();
-  command->add_option("--units", o->units, "si, cgs, micro or nano")->capture_default_str();
+  command->add_option("--normal", o->normal, "of the contact")
+      ->check(CLI::IsMember({"hertz/material", "jkr", "dmt"}))
+      ->capture_default_str();
+  command->add_option("--units", o->units, "of the deck")
+      ->check(CLI::IsMember({"si", "cgs", "micro", "nano"}))
+      ->capture_default_str();
   command->add_option("--with", o->with,
                       "properties and values in place of the file's, or [material] property value "
                       "where the file has none");

@@ -1,37 +1,37 @@
 // Options of numbers that several commands have, and their limits.
 #pragma once
 
+#include "base/input_words.h"
+
 #include <CLI/CLI.hpp>
 
-#include <cmath>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 namespace lsdcd {
 
 // Checks of words. CLI11's own would print the largest number there is.
-inline bool is_number(const std::string &word, double &value)
-{
-  char *end = nullptr;
-  value = std::strtod(word.c_str(), &end);
-  return end != word.c_str() && *end == 0 && std::isfinite(value);
-}
 inline std::string above_zero(const std::string &word)
 {
   double value;
-  return is_number(word, value) && value > 0 ? "" : word + " is not a number above 0";
+  return is_number(word, &value) && value > 0 ? "" : word + " is not a number above 0";
 }
 inline std::string not_below_zero(const std::string &word)
 {
   double value;
-  return is_number(word, value) && value >= 0 ? "" : word + " is not a number of 0 or more";
+  return is_number(word, &value) && value >= 0 ? "" : word + " is not a number of 0 or more";
+}
+inline std::string not_zero(const std::string &word)
+{
+  double value;
+  return is_number(word, &value) && value != 0 ? "" : word + " is not a number other than 0";
 }
 
-inline CLI::Option *add_scale_option(CLI::App *command, std::vector<double> &scale)
+inline CLI::Option *add_scale_option(CLI::App *command, std::vector<double> &scale,
+                                     const char *name = "--scale",
+                                     const char *help = "of the mesh: one factor, or three (x y z)")
 {
-  return command->add_option("--scale", scale, "of the mesh: one factor, or three (x y z)")
-      ->expected(1, 3);
+  return command->add_option(name, scale, help)->expected(1, 3)->check(not_zero);
 }
 
 // `weld` stays below 0 where it is not given.

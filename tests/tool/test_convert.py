@@ -90,7 +90,7 @@ def written():
     refused(FOLDER, "convert nowhere.stl -o out2.stl".split(), "nowhere.stl")
     refused(FOLDER, "convert floats.stl -o out2.stl --units km".split(), "--units", "km", "mm", code=2)
     refused(FOLDER, "convert floats.stl -o out2.stl --units mm --scale 2".split(), "--units", "--scale", code=2)
-    refused(FOLDER, "convert floats.stl -o out2.stl --scale 0".split(), "scale", "0")
+    refused(FOLDER, "convert floats.stl -o out2.stl --scale 0".split(), "--scale", "0", code=2)
     done = run(FOLDER, "convert", "--help")
     if "built without assimp" in done.stdout:
         refused(FOLDER, "convert floats.obj -o out2.stl".split(), "floats.obj", "built without assimp",

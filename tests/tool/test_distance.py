@@ -179,7 +179,7 @@ def main():
         path.unlink()
     words = ["distance", "box.stl", "points.csv", "-o", "new.csv"]
     refused(folder, words, "--radius is required", code=2)
-    refused(folder, [*words, "--radius", 0], "--radius is 0", "above 0")
+    refused(folder, [*words, "--radius", 0], "--radius", "0 is not a number above 0", code=2)
     refused(folder, [*words[:-1], "new.txt", "--radius", 1], "new.txt", ".csv", ".npy")
     refused(folder, [*words[:-1], "no/new.csv", "--radius", 1], "no/new.csv")
     refused(folder, ["distance", "none.stl", *words[2:], "--radius", 1], "none.stl")
