@@ -93,6 +93,7 @@ Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
     progress.show(progress_text(totals, share, since(start)));
   }
   if (writing.valid()) writing.get();
+  if (totals.points == 0) throw InputError(o.points + ": there is no point in it");
   writer->commit();
   totals.seconds = since(start);
   return totals;

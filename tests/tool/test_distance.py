@@ -217,9 +217,8 @@ def main():
         if content is not None:
             (folder / name).write_bytes(content)
         refused(folder, ["distance", "box.stl", name, "-o", "new.csv", "--radius", 1], name, *expected)
-    (folder / "empty.csv").write_bytes(b"")
-    fact("no points are no error", told(folder, "distance", "box.stl", "empty.csv", "--radius", 1, "-o",
-                                        "none.npy")["points"] == 0 and len(np.load(folder / "none.npy")) == 0)
+    (folder / "empty.csv").write_text("x,y,z\n")
+    refused(folder, ["distance", "box.stl", "empty.csv", "--radius", 1, "-o", "none.npy"], "empty.csv", "no point")
     help_text = run(folder, "distance", "--help").stdout
     fact("--help has an example", "lsdcd distance wall.stl points.csv --radius 0.01 -o" in help_text)
     end()
