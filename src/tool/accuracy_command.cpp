@@ -68,7 +68,7 @@ const char *kAbout =
 void add_accuracy_command(CLI::App &app)
 {
   static AccuracyOptions o;
-  CLI::App *c = app.add_subcommand("accuracy", kAbout);
+  CLI::App *c = app.add_subcommand("accuracy", "the paper's study, its numbers beside ours");
   std::vector<std::string> names = kAccuracyTables;
   names.push_back("all");
   c->add_option("table", o.tables, "tables to make (default: table2)")->check(CLI::IsMember(names));
@@ -114,7 +114,8 @@ void add_accuracy_command(CLI::App &app)
       ->capture_default_str();
   c->add_option("--csv", o.csv, "write all rows to this file");
   c->add_option("--commit", o.commit, "what was built, for the CSV")->capture_default_str();
-  c->footer("CPU runs take OMP_NUM_THREADS threads, one where it is not set.\n"
+  c->footer(std::string(kAbout) +
+            "\nCPU runs take OMP_NUM_THREADS threads, one where it is not set.\n"
             "Example:\n  lsdcd accuracy table2 --spheres 1e5 --csv table2.csv");
   c->callback([] { run_accuracy(o); });
 }

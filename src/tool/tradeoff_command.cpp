@@ -29,7 +29,6 @@ struct Options {
 };
 
 const char *const kHelp =
-    "what each setting buys and costs on a mesh: a CSV and a plot\n\n"
     "Tries cells of half to four times the default length, lists of 1, 2, 3, 4 and 8 nearest "
     "triangles, 2 and 4 of them with a fallback (exact), and all; precision double, mixed and "
     "single; corner blend and sum; on each device. Spheres are placed at random beside the "
@@ -187,8 +186,10 @@ void tradeoff(Options &o)
 void add_tradeoff_command(CLI::App &app)
 {
   const auto o = std::make_shared<Options>();
-  CLI::App *command = app.add_subcommand("tradeoff", kHelp);
-  command->footer("Example:\n  lsdcd tradeoff wall.stl --radius 0.004 0.005 --csv wall.csv");
+  CLI::App *command = app.add_subcommand(
+      "tradeoff", "what each setting buys and costs on a mesh: a CSV and a plot");
+  command->footer(std::string(kHelp) +
+                  "\nExample:\n  lsdcd tradeoff wall.stl --radius 0.004 0.005 --csv wall.csv");
   command->add_option("file", o->file, "STL file, ASCII or binary")->required();
   command->add_option("--radius", o->settings.radii, "sphere radii, one or several, each as likely")
       ->required()

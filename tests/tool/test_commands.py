@@ -117,6 +117,8 @@ def main():
     commands = re.findall(r"^  ([a-z]+)  ", said.split("Subcommands:")[1], re.M)
     fact("every command has a row here", set(commands) == set(NEEDS) == {g[0].split()[0] for g in GOOD},
          set(commands) ^ set(NEEDS))
+    listed = said.split("Subcommands:\n")[1].split("\n\n")[0].splitlines()
+    fact("each has one line in --help", len(listed) == len(commands), listed)
     reads_obj = "built without assimp" not in run(folder, "convert", "--help").stdout
     for command in commands:
         done = run(folder, command, "--help")
