@@ -1,17 +1,18 @@
 #include "base/input_words.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 namespace lsdcd {
 
 bool is_number(const std::string &word, Real *value)
 {
-  char *end = nullptr;
-  *value = std::strtod(word.c_str(), &end);
-  return end != word.c_str() && *end == '\0' && std::isfinite(*value);
+  const char *begin = word.data(), *const all = begin + word.size();
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') begin++;
+  const auto [end, error] = std::from_chars(begin, all, *value);
+  return error == std::errc() && end == all && std::isfinite(*value);
 }
 
 std::string number_text(Real value)

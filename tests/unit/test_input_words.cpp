@@ -1,0 +1,31 @@
+#include "base/input_words.h"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+
+namespace lsdcd {
+namespace {
+
+TEST(input_words, are_numbers_with_a_point_in_any_locale)
+{
+  if (!std::setlocale(LC_NUMERIC, "de_DE.UTF-8")) GTEST_SKIP() << "no locale de_DE.UTF-8";
+  Real value = 0, with_comma = 0;
+  const bool is_one = is_number("0.5", &value), is_comma = is_number("0,5", &with_comma);
+  std::setlocale(LC_NUMERIC, "C");
+  EXPECT_TRUE(is_one);
+  EXPECT_EQ(value, 0.5);
+  EXPECT_FALSE(is_comma);
+}
+
+TEST(input_words, are_numbers_with_a_plus_before_them)
+{
+  Real value = 0;
+  EXPECT_TRUE(is_number("+1e-3", &value));
+  EXPECT_EQ(value, 1e-3);
+  for (const char *word : {"", "+", "+-1", "1x", " 1", "nan", "inf", "1e999"})
+    EXPECT_FALSE(is_number(word, &value)) << word;
+}
+
+}    // namespace
+}    // namespace lsdcd
