@@ -331,7 +331,8 @@ bool read_mesh_word(const std::string &word, Tokens &w, MeshSettings &mesh)
 
 bool is_twice(const std::string &word, std::vector<std::string> &seen)
 {
-  const bool repeats = word == "scale" || word == "rotate" || word == "move";
+  const bool repeats = std::any_of(std::begin(kKeywords), std::end(kKeywords),
+                                   [&](const Keyword &k) { return word == k.name && k.repeats(); });
   const bool twice = !repeats && std::find(seen.begin(), seen.end(), word) != seen.end();
   seen.push_back(word);
   return twice;

@@ -1,4 +1,5 @@
 #include "base/input_words.h"
+#include "deck/keywords.h"
 
 #include <gtest/gtest.h>
 
@@ -25,6 +26,15 @@ TEST(input_words, are_numbers_with_a_plus_before_them)
   EXPECT_EQ(value, 1e-3);
   for (const char *word : {"", "+", "+-1", "1x", " 1", "nan", "inf", "1e999"})
     EXPECT_FALSE(is_number(word, &value)) << word;
+}
+
+// What may be given twice is said in one place.
+TEST(input_words, repeat_as_the_keywords_do)
+{
+  for (const Keyword &row : keywords()) {
+    std::vector<std::string> seen = {row.name};
+    EXPECT_EQ(is_twice(row.name, seen), !row.repeats()) << row.name;
+  }
 }
 
 }    // namespace
