@@ -149,10 +149,12 @@ RepairedMesh repair(const TriangleSoup &soup, Real tolerance,
   report.degenerate_facets = mesh.report.degenerate_facets;
   report.duplicate_facets = mesh.report.duplicate_facets;
 
-  // Pieces may lay open edges bare that others lie on; edges get shorter, so that this ends.
+  // Pieces may lay open edges bare that others lie on. A piece that equals a face is dropped, so that
+  // open edges may come back; this ends because no face is cut twice and vertices stay the same.
+  CutBefore cut_before;
   for (;;) {
     tell("cutting facets at corners of neighbours");
-    const SplitFaces split = split_faces(mesh, tolerance);
+    const SplitFaces split = split_faces(mesh, tolerance, cut_before);
     if (split.junctions == 0) break;
     report.junctions += split.junctions;
     report.splitting_moved += split.moved;

@@ -26,15 +26,24 @@ bool is_open(const WallMesh &mesh, std::size_t edge)
 
 class Cutter {
  public:
-  Cutter(const WallMesh &mesh, SplitFaces &out) : x_(mesh.vertices), out_(out) {}
+  Cutter(const WallMesh &mesh, SplitFaces &out, CutBefore &before) :
+      x_(mesh.vertices), out_(out), before_(before)
+  {
+  }
 
-  void cut(int face, const Piece &whole)
+  void cut(int face, Piece whole)
   {
     face_ = face;
     normal_ = plane_of(whole).normal;
-    const std::size_t before = out_.junctions;
+    std::array<int, 3> corners = whole.corner;
+    std::sort(corners.begin(), corners.end());
+    if (before_.count(corners))
+      for (auto &on : whole.on) on.clear();
+    const std::size_t junctions = out_.junctions;
     divide(whole);
-    out_.faces += out_.junctions > before;
+    if (out_.junctions == junctions) return;
+    out_.faces++;
+    before_.insert(corners);
   }
 
  private:
@@ -74,13 +83,14 @@ class Cutter {
 
   const std::vector<Vec3> &x_;
   SplitFaces &out_;
+  CutBefore &before_;
   int face_ = 0;
   Vec3 normal_ = {0, 0, 0};
 };
 
 }    // namespace
 
-SplitFaces split_faces(const WallMesh &mesh, Real tolerance)
+SplitFaces split_faces(const WallMesh &mesh, Real tolerance, CutBefore &before)
 {
   std::vector<char> is_end(mesh.vertices.size(), 0);
   for (std::size_t e = 0; e < mesh.edges.size(); e++)
@@ -88,7 +98,7 @@ SplitFaces split_faces(const WallMesh &mesh, Real tolerance)
   const CornersOnEdge corners(mesh.vertices, is_end);
 
   SplitFaces out;
-  Cutter cutter(mesh, out);
+  Cutter cutter(mesh, out, before);
   for (std::size_t f = 0; f < mesh.faces.size(); f++) {
     Piece whole = {mesh.faces[f], {}};
     for (int k = 0; k < 3; k++)

@@ -4,7 +4,9 @@
 
 #include "mesh/wall_mesh.h"
 
+#include <array>
 #include <cstddef>
+#include <set>
 #include <vector>
 
 namespace lsdcd {
@@ -17,8 +19,12 @@ struct SplitFaces {
   Real moved = 0;               // length; the farthest that such a corner was from its side
 };
 
+// Vertices of faces, ascending.
+using CutBefore = std::set<std::array<int, 3>>;
+
 // By corners of open edges no farther than `tolerance` (a length) from another open edge. No piece
-// is degenerate or turned over: where one would be, the corner is left where it is.
-SplitFaces split_faces(const WallMesh &mesh, Real tolerance);
+// is degenerate or turned over: where one would be, the corner is left where it is. A face of
+// `before` is left whole; those that are cut join it.
+SplitFaces split_faces(const WallMesh &mesh, Real tolerance, CutBefore &before);
 
 }    // namespace lsdcd

@@ -107,6 +107,17 @@ def moebius(n=24):
     return grid(n, 2, place)
 
 
+def equal_pieces():
+    """A piece of a facet that is cut equals another facet and goes; what was its neighbour is open again."""
+    return [[(.24979, .50022, .99973), (.74977, .75021, .99995), (.24981, 1.00012, 1.00021)],
+            [(.99981, 1.00002, 1.00005), (1.00018, .24968, .0001), (.75032, .24977, .99982)],
+            [(.4997, .5, 1.00028), (.99999, .24968, -.0001), (.99973, .24987, -.00031)],
+            [(.50006, .99969, 1.00025), (.99999, .74998, -.00004), (.25033, 1.00025, .99975)],
+            [(.24992, .99995, 1.0001), (-.00025, .49976, .99988), (.99991, .2499, -.00029)],
+            [(.4999, .49985, -.0002), (1.00014, .24967, -.00024), (.25023, 1.00008, 1.00013)],
+            [(.00021, .24979, .99999), (.00032, .00005, .00004), (.2499, 1.00027, .99979)]]
+
+
 def main():
     n = 5
     ball, box = sphere(n), cube()
@@ -148,6 +159,10 @@ def main():
     fact("and by as much is moved", abs(said["moved"] / (0.7 * said["tolerance"]) - 1) < 1e-3, said["moved"])
     check("several corners on an edge", cube(1, 4, 1, 1, 1, 1), {"split_facets": 4, "junctions": 12}, {}, 0, 1)
     check("corners on all edges", cube(1, 2, 3, 5, 4, 8), ["split_facets"], {}, 1, 1)
+
+    write_ascii_stl(FOLDER / "in.stl", equal_pieces())
+    done = run(FOLDER, "repair", "in.stl", "-o", "out.stl", "--weld", 3.9266e-4, timeout=20)
+    fact("no facet is cut twice, so that cutting ends", done.returncode == 3, done.stderr)
 
     check("a hole", box[1:], {"turned_facets": 0, "boundaries": 1}, {OPEN: 3}, 0)
     check("an open mesh that is meant to be", box[1:], {}, {OPEN: 3}, 0, words=["--open"])
