@@ -2,11 +2,11 @@
 
 #include "mesh/assemble.h"
 #include "mesh/classes.h"
+#include "mesh/near_images.h"
 #include "mesh/weld_points.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace lsdcd {
@@ -14,50 +14,6 @@ namespace lsdcd {
 namespace {
 
 constexpr int kNone = -1;
-
-// Slabs of space in units of the edges of a box: between lo and hi along each edge.
-struct Slabs {
-  Vec3 lo, hi;
-
-  bool meet(const Vec3 &least, const Vec3 &most) const
-  {
-    for (int k = 0; k < 3; k++)
-      if (most[k] < lo[k] || least[k] > hi[k]) return false;
-    return true;
-  }
-};
-
-void include(Vec3 &least, Vec3 &most, const Vec3 &x)
-{
-  for (int k = 0; k < 3; k++) {
-    least[k] = std::min(least[k], x[k]);
-    most[k] = std::max(most[k], x[k]);
-  }
-}
-
-// A facet of the mesh, or what is left of one: an edge without a face, a point without an edge.
-struct Part {
-  std::array<int, 3> vertex;    // of the mesh; the last is repeated where there are fewer
-  int face, edge;               // of the mesh; kNone where it is none
-};
-
-std::vector<Part> parts_of(const WallMesh &mesh)
-{
-  std::vector<Part> parts;
-  parts.reserve(mesh.faces.size());
-  for (std::size_t f = 0; f < mesh.faces.size(); f++)
-    parts.push_back({mesh.faces[f], static_cast<int>(f), kNone});
-  for (std::size_t e = 0; e < mesh.edges.size(); e++)
-    if (mesh.edge_first[e] == mesh.edge_first[e + 1])
-      parts.push_back(
-          {{mesh.edges[e][0], mesh.edges[e][1], mesh.edges[e][1]}, kNone, static_cast<int>(e)});
-  for (std::size_t v = 0; v < mesh.vertices.size(); v++)
-    if (mesh.vertex_first[v] == mesh.vertex_first[v + 1]) {
-      const int i = static_cast<int>(v);
-      parts.push_back({{i, i, i}, kNone, kNone});
-    }
-  return parts;
-}
 
 // All that images are made of, before welding: points of the mesh and then those of images.
 struct Copies {
@@ -69,29 +25,15 @@ struct Copies {
   std::vector<int> bare_edge_of;    // of the mesh
 };
 
-void copy_part(const Part &part, const std::array<int, 3> &points, Copies &out)
+void copy_part(const FacetPart &part, const std::array<int, 3> &points, Copies &out)
 {
-  if (part.face != kNone) {
+  if (part.face != kNoPart) {
     out.corners.insert(out.corners.end(), points.begin(), points.end());
     out.face_of.push_back(part.face);
-  } else if (part.edge != kNone) {
+  } else if (part.edge != kNoPart) {
     out.bare_edges.push_back({points[0], points[1]});
     out.bare_edge_of.push_back(part.edge);
   }
-}
-
-// Sums of periodic edges by which an image may come within the slabs, but for none at all.
-std::vector<Vec3> shifts_of(const PeriodicBox &box, Real depth)
-{
-  int most[3];
-  for (int k = 0; k < 3; k++)
-    most[k] = box.periodic[k] ? static_cast<int>(std::ceil(depth / box.width(k))) : 0;
-  std::vector<Vec3> shifts;
-  for (int c = -most[2]; c <= most[2]; c++)
-    for (int b = -most[1]; b <= most[1]; b++)
-      for (int a = -most[0]; a <= most[0]; a++)
-        if (a || b || c) shifts.push_back({Real(a), Real(b), Real(c)});
-  return shifts;
 }
 
 Copies copies_of(const WallMesh &mesh, const PeriodicBox &box, Real depth)
@@ -100,42 +42,33 @@ Copies copies_of(const WallMesh &mesh, const PeriodicBox &box, Real depth)
   out.points = mesh.vertices;
   const std::size_t n_vertices = mesh.vertices.size();
   for (std::size_t v = 0; v < n_vertices; v++) out.vertex_of.push_back(static_cast<int>(v));
-  const std::vector<Part> parts = parts_of(mesh);
-  for (const Part &part : parts) copy_part(part, part.vertex, out);
+  const std::vector<FacetPart> parts = parts_of(mesh);
+  for (const FacetPart &part : parts) copy_part(part, part.vertex, out);
 
-  Slabs slabs;
-  for (int k = 0; k < 3; k++) {
-    const Real past = box.periodic[k] ? depth / box.width(k) : HUGE_VAL;
-    slabs.lo[k] = -past;
-    slabs.hi[k] = 1 + past;
-  }
-  std::vector<Vec3> at(n_vertices);    // in units of the edges
-  for (std::size_t v = 0; v < n_vertices; v++) at[v] = box.fraction(mesh.vertices[v]);
-  Vec3 least = at[0], most = at[0];
-  for (const Vec3 &x : at) include(least, most, x);
-
-  std::vector<int> point_of(n_vertices);
-  for (const Vec3 &s : shifts_of(box, depth)) {
-    if (!slabs.meet(least + s, most + s)) continue;
-    const Vec3 shift = s.x * box.edge[0] + s.y * box.edge[1] + s.z * box.edge[2];
-    std::fill(point_of.begin(), point_of.end(), kNone);
-    for (const Part &part : parts) {
-      Vec3 lo = at[part.vertex[0]], hi = lo;
-      include(lo, hi, at[part.vertex[1]]);
-      include(lo, hi, at[part.vertex[2]]);
-      if (!slabs.meet(lo + s, hi + s)) continue;
-      std::array<int, 3> points;
-      for (int k = 0; k < 3; k++) {
-        const int v = part.vertex[k];
-        if (point_of[v] == kNone) {
-          point_of[v] = static_cast<int>(out.points.size());
-          out.points.push_back(mesh.vertices[v] + shift);
-          out.vertex_of.push_back(v);
-        }
-        points[k] = point_of[v];
-      }
-      copy_part(part, points, out);
+  std::vector<int> point_of(n_vertices, kNone);
+  std::size_t first_of_shift = n_vertices;    // of the points
+  std::array<int, 3> by = {0, 0, 0};
+  Vec3 shift = {0, 0, 0};
+  for (const PartImage &image : near_images(mesh, parts, box, depth)) {
+    if (image.by != by) {
+      by = image.by;
+      shift = Real(by[0]) * box.edge[0] + Real(by[1]) * box.edge[1] + Real(by[2]) * box.edge[2];
+      for (std::size_t p = first_of_shift; p < out.points.size(); p++)
+        point_of[out.vertex_of[p]] = kNone;
+      first_of_shift = out.points.size();
     }
+    const FacetPart &part = parts[image.part];
+    std::array<int, 3> points;
+    for (int k = 0; k < 3; k++) {
+      const int v = part.vertex[k];
+      if (point_of[v] == kNone) {
+        point_of[v] = static_cast<int>(out.points.size());
+        out.points.push_back(mesh.vertices[v] + shift);
+        out.vertex_of.push_back(v);
+      }
+      points[k] = point_of[v];
+    }
+    copy_part(part, points, out);
   }
   return out;
 }
@@ -228,7 +161,11 @@ WallMesh with_images(const WallMesh &mesh, const PeriodicBox &box, Real depth)
               copies.bare_edge_of[e]);
 
   whole.report = mesh.report;
-  for (const Vec3 &x : whole.vertices) include(whole.report.lo, whole.report.hi, x);
+  for (const Vec3 &x : whole.vertices)
+    for (int k = 0; k < 3; k++) {
+      whole.report.lo[k] = std::min(whole.report.lo[k], x[k]);
+      whole.report.hi[k] = std::max(whole.report.hi[k], x[k]);
+    }
   return whole;
 }
 

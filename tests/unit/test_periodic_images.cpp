@@ -2,6 +2,7 @@
 
 #include "mesh/periodic_images.h"
 
+#include "base/input_error.h"
 #include "contact/find_contacts.h"
 #include "contact/history.h"
 #include "grid/loose_ends.h"
@@ -194,6 +195,54 @@ TEST(periodic_images, a_mesh_far_from_all_faces_has_none)
 {
   const WallMesh mesh = weld(box_mesh({1, 1, 1}, {2, 2, 2}), -1);
   EXPECT_FALSE(with_images(mesh, box_of({3, 3, 3}), 0.9).images.any());
+}
+
+TEST(periodic_images, what_lies_several_boxes_past_a_face_has_its_image_in_the_box)
+{
+  const PeriodicBox box = tilted_box();
+  const Vec3 lo = box.corner + 0.5 * (box.edge[0] + box.edge[1] + box.edge[2]);
+  for (int away = 1; away <= 4; away++) {
+    TriangleSoup soup = box_mesh(lo, lo + Vec3{0.3, 0.3, 0.3});
+    for (Vec3 &x : soup.corners) x += Real(away) * (box.edge[0] - box.edge[1]);
+    const WallMesh whole = with_images(weld(soup, -1), box, 0.1);
+    ASSERT_EQ(whole.images.face_of.size(), 12u) << away;
+    for (std::size_t v = 8; v < 16; v++)
+      for (int k = 0; k < 3; k++)
+        EXPECT_NEAR(whole.vertices[v][k], lo[k] + 0.15, 0.15 + 1e-13) << away;
+  }
+}
+
+// The images lie on the floor and each other: each more would be in every cell of the grid.
+TEST(periodic_images, a_floor_of_many_boxes_has_only_the_nearest_images)
+{
+  PeriodicBox box = box_of({2, 2, 2});
+  box.periodic[2] = false;
+  TriangleSoup floor = square(2, 400);
+  for (Vec3 &x : floor.corners) x += Vec3{-190, -190, 0};
+  EXPECT_EQ(with_images(weld(floor, -1), box, 0.1).images.face_of.size(), 2u * (8 + 3 + 3 + 1));
+}
+
+// Leaning along the periodic axis they are at other heights.
+TEST(periodic_images, a_leaning_face_of_many_boxes_has_all_that_reach_the_box)
+{
+  PeriodicBox box = box_of({2, 2, 2});
+  box.periodic[1] = box.periodic[2] = false;
+  TriangleSoup chute = square(2, 20);
+  for (Vec3 &x : chute.corners) x.z = 0.1 * x.x;
+  EXPECT_EQ(with_images(weld(chute, -1), box, 0.1).images.face_of.size(), 4u * 6 + 4u * 7);
+}
+
+TEST(periodic_images, a_mesh_too_far_away_for_images_is_refused_with_its_distance)
+{
+  TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
+  for (Vec3 &x : soup.corners) x += Vec3{4e6, 0, 0};
+  try {
+    with_images(weld(soup, -1), box_of({2, 2, 2}), 0.1);
+    FAIL() << "not refused";
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("reaches 2e+06 box lengths"), std::string::npos)
+        << e.what();
+  }
 }
 
 TEST(periodic_images, an_image_on_top_of_the_mesh_is_dropped)

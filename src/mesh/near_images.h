@@ -1,0 +1,41 @@
+// Which images of the facets of a mesh come near a periodic box.
+#pragma once
+
+#include "mesh/periodic_box.h"
+#include "mesh/wall_mesh.h"
+
+#include <array>
+#include <tuple>
+#include <vector>
+
+namespace lsdcd {
+
+constexpr int kNoPart = -1;
+
+// A facet of the mesh, or what is left of one: an edge without a face, a point without an edge.
+struct FacetPart {
+  std::array<int, 3> vertex;    // of the mesh; the last is repeated where there are fewer
+  int face, edge;               // of the mesh; kNoPart where it is none
+};
+
+std::vector<FacetPart> parts_of(const WallMesh &mesh);
+
+// A part moved by a sum of periodic edges.
+struct PartImage {
+  std::array<int, 3> by;
+  int part;
+
+  // The last edge first.
+  bool operator<(const PartImage &other) const
+  {
+    return std::tie(by[2], by[1], by[0], part) <
+           std::tie(other.by[2], other.by[1], other.by[0], other.part);
+  }
+};
+
+// Those that come within `depth` (length) of the box, ascending. Throws InputError where there are
+// more than vertex numbers can count.
+std::vector<PartImage> near_images(const WallMesh &mesh, const std::vector<FacetPart> &parts,
+                                   const PeriodicBox &box, Real depth);
+
+}    // namespace lsdcd
