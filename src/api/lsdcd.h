@@ -69,7 +69,8 @@ typedef struct lsdcd_mesh_facts {
   size_t triangles;              /* as given */
   size_t faces, edges, vertices; /* after welding; faces without area are none */
   size_t open_edges;             /* edges of one face */
-  int closed, oriented;          /* both: the mesh has an inside */
+  int closed, oriented;          /* oriented: closed, and has an inside: windings agree, those of
+                                    closed shells with each other, too */
   double area, volume;           /* the volume is < 0 where normals point in */
   double lo[3], hi[3];
 } lsdcd_mesh_facts;

@@ -35,7 +35,7 @@ lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "nothing is asked for: all arrays of answers are null");
   if (q.side && !grid.has_sides)
     throw ApiError(LSDCD_ERROR_SIDE, "the mesh is not closed and oriented, so that it has no side; "
-                                     "`lsdcd inspect` tells where it is open");
+                                     "`lsdcd inspect` tells why");
   if (q.radii && q.radius != 0)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`radii` and `radius` are both given");
   if (!q.radii && q.radius == 0) q.radius = grid.grid.view.cutoff;

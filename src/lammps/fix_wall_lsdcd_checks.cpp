@@ -92,8 +92,10 @@ void FixWallLsdcd::check_side(const MeshPart &m) const
   throw lsdcd::InputError("side in and side out need a closed, oriented mesh; '" + m.settings.file +
                           "' has " + std::to_string(r.open_edges) + " open, " +
                           std::to_string(r.nonmanifold_edges) + " non-manifold and " +
-                          std::to_string(r.misoriented_edges) +
-                          " misoriented edges: repair the mesh or use side both");
+                          std::to_string(r.misoriented_edges) + " misoriented edges, and " +
+                          std::to_string(r.inverted_facets) +
+                          " facets of closed shells that are wound against the others: repair the "
+                          "mesh (lsdcd repair) or use side both");
 }
 
 // The first process has the mesh.

@@ -1,5 +1,8 @@
 #include "mesh/measure_mesh.h"
 
+#include "base/input_error.h"
+#include "mesh/orient_faces.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -71,7 +74,8 @@ void measure_adjacency(WallMesh &mesh, const std::vector<FacePlane> &plane)
     if (fold > kFeatureFold) ++report.feature_edges;
   }
   report.closed = !mesh.faces.empty() && report.open_edges == 0 && report.nonmanifold_edges == 0;
-  report.oriented = report.closed && report.misoriented_edges == 0;
+  if (report.closed && report.misoriented_edges == 0) report.inverted_facets = inverted_faces(mesh);
+  report.oriented = report.closed && report.misoriented_edges == 0 && report.inverted_facets == 0;
 }
 
 }    // namespace

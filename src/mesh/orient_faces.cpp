@@ -1,5 +1,6 @@
 #include "mesh/orient_faces.h"
 
+#include "mesh/box_tree.h"
 #include "mesh/face_plane.h"
 #include "mesh/measure_mesh.h"
 #include "mesh/periodic_box.h"
@@ -120,37 +121,58 @@ bool is_inside(const WallMesh &mesh, const Part &inner, const Part &outer,
   return turns > 0.5;
 }
 
+std::vector<Part> parts_of(const WallMesh &mesh, std::vector<char> &turned)
+{
+  std::vector<char> seen(mesh.faces.size(), 0);
+  std::vector<Part> parts;
+  for (std::size_t f = 0; f < mesh.faces.size(); f++)
+    if (!seen[f]) parts.push_back(gather(mesh, static_cast<int>(f), seen, turned));
+  return parts;
+}
+
+// A volume that is nothing but rounding has no side.
+bool has_volume(const Part &part)
+{
+  return part.is_shell() && std::fabs(part.volume) > 1e-12 * part.area;
+}
+
+// Of each part, whether it bounds a cavity: an odd number of others is round it.
+std::vector<char> find_cavities(const WallMesh &mesh, const std::vector<Part> &parts,
+                                const std::vector<char> &turned)
+{
+  std::vector<std::size_t> solid;
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < parts.size(); i++)
+    if (has_volume(parts[i])) {
+      solid.push_back(i);
+      boxes.push_back(parts[i].box);
+    }
+  const BoxTree tree(boxes);
+  std::vector<char> cavity(parts.size(), 0);
+  for (const std::size_t i : solid)
+    tree.visit([&](const Box &box) { return holds(box, parts[i].box); },
+               [&](int j) {
+                 if (solid[j] != i && is_inside(mesh, parts[i], parts[solid[j]], turned))
+                   cavity[i] = !cavity[i];
+               });
+  return cavity;
+}
+
 }    // namespace
 
 OrientedFaces orient_faces(const WallMesh &mesh)
 {
   OrientedFaces out;
-  const std::size_t n = mesh.faces.size();
-  out.turned.assign(n, 0);
-  std::vector<char> seen(n, 0);
-  std::vector<Part> parts;
-  for (std::size_t f = 0; f < n; f++) {
-    if (seen[f]) continue;
-    parts.push_back(gather(mesh, static_cast<int>(f), seen, out.turned));
-    measure(mesh, out.turned, parts.back());
-  }
+  out.turned.assign(mesh.faces.size(), 0);
+  std::vector<Part> parts = parts_of(mesh, out.turned);
+  for (Part &part : parts) measure(mesh, out.turned, part);
   const auto turn = [&](Part &part) {
     for (const int f : part.faces) out.turned[f] = !out.turned[f];
   };
-  // A volume that is nothing but rounding has no side.
-  const auto has_volume = [](const Part &p) {
-    return p.is_shell() && std::fabs(p.volume) > 1e-12 * p.area;
-  };
-  std::vector<std::size_t> solid;
-  for (std::size_t i = 0; i < parts.size(); i++)
-    if (has_volume(parts[i])) solid.push_back(i);
-  std::vector<int> inside(parts.size(), 0);    // how many shells are round it
-  for (const std::size_t i : solid)
-    for (const std::size_t j : solid)
-      inside[i] += i != j && is_inside(mesh, parts[i], parts[j], out.turned);
+  const std::vector<char> cavities = find_cavities(mesh, parts, out.turned);
   for (std::size_t i = 0; i < parts.size(); i++) {
     Part &part = parts[i];
-    const bool cavity = inside[i] % 2 == 1;
+    const bool cavity = cavities[i];
     out.shells += part.is_shell();
     out.cavities += cavity;
     out.one_sided += part.one_sided;
@@ -159,6 +181,20 @@ OrientedFaces orient_faces(const WallMesh &mesh)
   }
   for (const char t : out.turned) out.faces += t;
   return out;
+}
+
+std::size_t inverted_faces(const WallMesh &mesh)
+{
+  std::vector<char> turned(mesh.faces.size(), 0);
+  std::vector<Part> parts = parts_of(mesh, turned);
+  if (parts.size() < 2) return 0;
+  for (Part &part : parts) measure(mesh, turned, part);
+  const std::vector<char> cavities = find_cavities(mesh, parts, turned);
+  std::size_t out = 0, in = 0;
+  for (std::size_t i = 0; i < parts.size(); i++)
+    if (has_volume(parts[i]))
+      ((parts[i].volume > 0) != bool(cavities[i]) ? out : in) += parts[i].faces.size();
+  return std::min(out, in);
 }
 
 }    // namespace lsdcd

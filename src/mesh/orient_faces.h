@@ -20,4 +20,8 @@ struct OrientedFaces {
 // bounds a cavity of others, into that; of another the side is kept that more of its area has.
 OrientedFaces orient_faces(const WallMesh &mesh);
 
+// Of a mesh whose windings agree along its edges: faces of closed parts that point in where the
+// others, which are more, point out, or the other way round. Only with none is there one outside.
+std::size_t inverted_faces(const WallMesh &mesh);
+
 }    // namespace lsdcd

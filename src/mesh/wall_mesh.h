@@ -22,8 +22,9 @@ struct MeshReport {
   std::size_t open_edges = 0;             // one face
   std::size_t nonmanifold_edges = 0;      // more than two faces
   std::size_t misoriented_edges = 0;      // two faces that run along it the same way
+  std::size_t inverted_facets = 0;        // of closed shells that point in where others point out
   bool closed = false;                    // every edge that has faces has two of them
-  bool oriented = false;                  // closed, no misoriented edge
+  bool oriented = false;                  // closed, no misoriented edge, no inverted facet
   Real weld_tolerance = 0;                // length
   Real area = 0;                          // length^2
   Real volume = 0;                        // length^3, signed; > 0 when normals point out

@@ -17,6 +17,7 @@ nlohmann::json as_json(const MeshReport &r)
           {"open_edges", r.open_edges},
           {"nonmanifold_edges", r.nonmanifold_edges},
           {"misoriented_edges", r.misoriented_edges},
+          {"inverted_facets", r.inverted_facets},
           {"closed", r.closed},
           {"oriented", r.oriented},
           {"weld_tolerance", r.weld_tolerance},
@@ -45,6 +46,8 @@ std::vector<std::string> problems_of(const MeshReport &report)
   count(report.nonmanifold_edges, "edge of more than two facets", "edges of more than two facets");
   count(report.misoriented_edges, "edge along which windings disagree",
         "edges along which windings disagree");
+  count(report.inverted_facets, "facet of a closed shell wound against the others",
+        "facets of closed shells wound against the others");
   if (report.oriented && report.volume < 0) found.push_back("normals that point in");
   return found;
 }

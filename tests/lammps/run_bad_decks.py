@@ -30,6 +30,17 @@ def check(checks, path, ranks, done):
             checks.fact(f"{name}: does not crash", False, crash)
 
 
+def two_shells():
+    """Tetrahedra, the second inside out."""
+    text = "solid two\n"
+    for x, turn in ((0, 1), (2, -1)):
+        p = [(x, 0, 0), (x + 1, 0, 0), (x, 1, 0), (x, 0, 1)]
+        for face in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)):
+            text += "facet normal 0 0 0\nouter loop\n"
+            text += "".join("vertex %g %g %g\n" % p[k] for k in face[::turn]) + "endloop\nendfacet\n"
+    return text + "endsolid two\n"
+
+
 def main():
     checks, folder = deck.Checks(), deck.scratch()
     floor = (deck.HERE / "decks" / "floor.stl").read_bytes()
@@ -38,6 +49,9 @@ def main():
     (folder / "points.txt").write_text("0 0 0\n1 0 0\n0 1 0\n")
     (folder / "unit.txt").write_text("0 0 0\n1 0 0\n0 1 0\n\n0 0 1\n")
     (folder / "truncated.stl").write_bytes(floor[:len(floor) // 2])
+    (folder / "two.stl").write_text(two_shells())
+    (folder / "line.stl").write_text("solid s\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                                     "vertex 2 0 0\nendloop\nendfacet\nendsolid s\n")
     decks = [(path, ranks) for path in sorted((deck.HERE / "bad_decks").glob("in.*")) for ranks in (1, 2)]
     with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as some:
         runs = [some.submit(deck.run, path, folder, ranks=ranks, timeout=120) for path, ranks in decks]

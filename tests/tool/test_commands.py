@@ -25,6 +25,8 @@ GOOD = [
     ("inspect wall.stl --scale 2 --json", {"facets": 12, "volume": 8, "closed": True, "clean": True}),
     ("inspect apart.stl --weld 0.01 --json", {"vertices": 8, "closed": True}),
     ("inspect apart.stl --json", {"vertices": 9, "closed": False, "clean": True}),
+    ("inspect two.stl", ["normals of some shells point in", "no: 12 facets of closed shells wound against the others"]),
+    ("distance two.stl points.csv --radius 1 -o d.csv --json", {"sides": False}),
     ("grid wall.stl --radius 0.1", ["mesh wall.stl", "cutoff 0.1"]),
     ("grid wall.stl --radius 0.1 --grid 0.25 --json", {"length": 0.25, "cutoff": 0.1}),
     ("repair apart.stl --weld 0.01 -o mended.stl --json", {"welded_corners": 3, "moved": 0.005, "left": []}),
@@ -103,6 +105,7 @@ def scene():
     box = cube()
     for name in ("wall.stl", "body.stl"):
         write_ascii_stl(folder / name, box)
+    write_ascii_stl(folder / "two.stl", [*box, *cube(at=(3, 0, 0))[:, ::-1]])    # the second inside out
     box[0, 0] += (0.003, 0.004, 0)
     write_ascii_stl(folder / "apart.stl", box)
     (folder / "points.csv").write_text("0.5,0.5,1.25\n9,9,9\n")

@@ -42,6 +42,18 @@ Triangles box(const Vec3 &lo, const Vec3 &hi)
   return out;
 }
 
+Triangles turned(Triangles triangles)
+{
+  for (auto &t : triangles) std::swap(t[0], t[1]);
+  return triangles;
+}
+
+Triangles joined(Triangles a, const Triangles &b)
+{
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 const Triangles kCube = box({0, 0, 0}, {1, 1, 1});
 const Vec3 kA = {0, 0, 0}, kB = {1, 0, 0}, kC = {0, 1, 0}, kD = {0, 0, 1};
 
@@ -296,6 +308,44 @@ TEST(weld, turned_facet_leaves_three_misoriented_edges)
   EXPECT_EQ(report.misoriented_edges, 3u);
   EXPECT_TRUE(report.closed);
   EXPECT_FALSE(report.oriented);
+}
+
+TEST(weld, a_shell_wound_against_another_leaves_the_mesh_without_sides)
+{
+  const auto report = weld(joined(kCube, turned(box({3, 0, 0}, {4, 1, 1})))).report;
+  EXPECT_EQ(report.misoriented_edges, 0u);
+  EXPECT_EQ(report.inverted_facets, 12u);
+  EXPECT_TRUE(report.closed);
+  EXPECT_FALSE(report.oriented);
+}
+
+TEST(weld, shells_all_wound_inside_out_are_oriented)
+{
+  const auto report = weld(turned(joined(kCube, box({3, 0, 0}, {4, 1, 1})))).report;
+  EXPECT_EQ(report.inverted_facets, 0u);
+  EXPECT_TRUE(report.oriented);
+}
+
+TEST(weld, a_cavity_points_the_other_way)
+{
+  const Triangles inner = box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75});
+  EXPECT_EQ(weld(joined(kCube, turned(inner))).report.inverted_facets, 0u);
+  EXPECT_EQ(weld(joined(kCube, inner)).report.inverted_facets, 12u);
+}
+
+TEST(weld, a_solid_in_a_cavity_points_out)
+{
+  const Triangles cavity = turned(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}));
+  const Triangles solid = box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6});
+  EXPECT_TRUE(weld(joined(joined(kCube, cavity), solid)).report.oriented);
+}
+
+TEST(weld, a_closed_sheet_without_volume_has_no_say)
+{
+  const Vec3 p = {3, 0, 0}, q = {4, 0, 0}, r = {4, 1, 0}, t = {3, 1, 0};
+  const Triangles sheet = {{p, q, t}, {q, r, t}, {p, r, q}, {p, t, r}};
+  EXPECT_TRUE(weld(joined(kCube, sheet)).report.oriented);
+  EXPECT_TRUE(weld(joined(turned(kCube), sheet)).report.oriented);
 }
 
 TEST(weld, three_faces_on_an_edge_are_nonmanifold)
