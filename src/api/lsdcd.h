@@ -156,7 +156,8 @@ typedef struct lsdcd_query {
   uint32_t *triangle; /* by its number as given, from 0; of several, the lowest; LSDCD_NONE also
                          for the edge or corner of a triangle without area */
   uint32_t *feature;
-  int8_t *side; /* 1 outside, and on the mesh; -1 inside; 0 where not found or not certified */
+  int8_t *side; /* 1 outside, and on the mesh; -1 inside; 0 where not found or not certified, and
+                   where an edge or corner of triangles without area is nearest */
   uint8_t *status;
 } lsdcd_query;
 

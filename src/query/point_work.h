@@ -104,13 +104,16 @@ LSDCD_FN Nearest nearest_of(const GridView &grid, const Answer &a, const Vec3 &q
   return {feature, point, any_perpendicular({0, 0, 0})};
 }
 
-// Of a closed wall: 1 outside and on the wall, -1 inside, 0 where that is not known.
+// Of a closed wall: 1 outside and on the wall, -1 inside, 0 where that is not known. What is left of
+// a facet without area is nowhere between out and in: it has no outward direction.
 LSDCD_FN std::int8_t side_of(const GridView &grid, const Answer &a, const Vec3 &q,
                              const Nearest &nearest)
 {
   if (!a.found() || !a.certified) return 0;
   if (nearest.point == q) return 1;
-  return grid.outside * dot(outward(grid.wall, nearest.feature), nearest.normal) < 0 ? -1 : 1;
+  const Vec3 out = outward(grid.wall, nearest.feature);
+  if (out == Vec3{0, 0, 0}) return 0;
+  return grid.outside * dot(out, nearest.normal) < 0 ? -1 : 1;
 }
 
 // As GridWork, for the loops that run either. `table`: for loops that ask for cells.

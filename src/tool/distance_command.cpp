@@ -190,7 +190,8 @@ void add_distance_command(CLI::App &app)
       "the\n"
       "file, from 0), feature (face, edge, vertex, none; in .npy 0, 1, 2, -1) and its index in "
       "the\n"
-      "welded mesh, and, where the mesh is closed, side (1 outside, -1 inside, 0 not found).\n"
+      "welded mesh, and, where the mesh is closed, side (1 outside, -1 inside, 0 not found,\n"
+      "or nearest to a facet without area).\n"
       "Example:\n  lsdcd distance wall.stl points.csv --radius 0.01 -o distances.csv");
   command->callback([o] { distance(*o); });
 }

@@ -185,6 +185,17 @@ TEST(library, the_side_is_that_of_the_box)
     }
 }
 
+TEST(library, the_side_at_a_triangle_without_area_is_not_known)
+{
+  TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
+  soup.corners.insert(soup.corners.end(), {{0, 0, -0.1}, {0, 0, 0.1}, {0, 0, 0}});
+  const All<double> a(grid_of(soup), {0.1, 0, 0, 0, 0, 0.2, 0.9, 0, 0}, true);
+  EXPECT_EQ(a.status[0], LSDCD_FOUND | LSDCD_CERTIFIED);
+  EXPECT_EQ(a.side[0], 0);     // its edge is nearest
+  EXPECT_EQ(a.side[1], 0);     // its corner
+  EXPECT_EQ(a.side[2], -1);    // the box
+}
+
 TEST(library, normals_that_point_in_do_not_change_the_side)
 {
   TriangleSoup box = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
