@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace lsdcd {
@@ -26,6 +27,10 @@ std::string directory_of(const std::string &path)
 
 WholeFile::WholeFile(const std::string &path) : path_(path)
 {
+  // To replace a device or a pipe would take it from the system, /dev/null even.
+  struct stat there;
+  if (stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode))
+    throw InputError("'" + path + "': is not a regular file; give the name of a file, new or old");
   // Behind a link it is the file that is replaced, not the link.
   std::error_code not_there;
   const auto target = std::filesystem::canonical(path, not_there);

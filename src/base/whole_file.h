@@ -9,8 +9,8 @@ namespace lsdcd {
 
 // Written under a temporary name in the same directory, then put in place of what
 // was there. Several at once, of any number of processes, leave the file of the
-// last to finish. All but the destructor throw InputError that names the file and
-// what the system said.
+// last to finish. What is there and no regular file, as /dev/stdout, is refused. All but the
+// destructor throw InputError that names the file and what the system said.
 class WholeFile {
  public:
   explicit WholeFile(const std::string &path);

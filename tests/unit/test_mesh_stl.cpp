@@ -1,10 +1,15 @@
 // The mesh as an STL file.
+#include "base/input_error.h"
+#include "base/whole_file.h"
 #include "mesh/motion.h"
 #include "output/mesh_stl.h"
 #include "support/meshes.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
+
+#include <string>
+#include <sys/stat.h>
 
 namespace lsdcd {
 namespace {
@@ -42,6 +47,22 @@ TEST(mesh_stl, of_a_mesh_that_moves_has_its_places_in_float_and_outward_normals)
   EXPECT_TRUE(again.report.closed && again.report.oriented);
   // Floats of places of size 3 are off by 1.2e-7; each of 3 lengths by at most twice that.
   EXPECT_NEAR(again.report.volume, 6, 6 * 3 * 2.4e-7);
+}
+
+TEST(whole_file, a_pipe_is_refused_and_stays)
+{
+  const TempDir dir;
+  const std::string pipe = dir.path("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  try {
+    write_whole_file(pipe, "text");
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("pipe': is not a regular file"), std::string::npos);
+  }
+  struct stat there;
+  ASSERT_EQ(stat(pipe.c_str(), &there), 0);
+  EXPECT_TRUE(S_ISFIFO(there.st_mode));
 }
 
 }    // namespace
