@@ -3,6 +3,7 @@
 #include "api/call_threads.h"
 #include "api/device_memory.h"
 #include "api/objects.h"
+#include "base/input_words.h"
 #include "bodies/mesh_collision.h"
 #include "bodies/read_pose.h"
 #include "engine/wall_engine.h"
@@ -37,12 +38,12 @@ void refuse(const std::string &text)
 MeshCollisionSettings settings_of(const lsdcd_body_options &o)
 {
   if (!(o.cell >= 0) || !std::isfinite(o.cell))
-    refuse("cell is " + std::to_string(o.cell) + "; give a length, or 0 to have it chosen");
+    refuse("cell is " + number_text(o.cell) + "; give a length, or 0 to have it chosen");
   if (o.nearest < 0 || o.nearest > kMostNearest)
     refuse("nearest is " + std::to_string(o.nearest) + "; it is 0, for all, or up to " +
            std::to_string(kMostNearest));
   if (!(o.memory >= 0) || !(o.memory < 1e18))
-    refuse("memory is " + std::to_string(o.memory) + "; give bytes, or 0 for the default");
+    refuse("memory is " + number_text(o.memory) + "; give bytes, or 0 for the default");
   if (o.device != LSDCD_CPU && o.device != LSDCD_CUDA)
     refuse("device is neither LSDCD_CPU nor LSDCD_CUDA");
   std::string why;

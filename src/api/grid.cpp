@@ -2,6 +2,7 @@
 #include "api/c_border.h"
 #include "api/call_threads.h"
 #include "api/objects.h"
+#include "base/input_words.h"
 #include "engine/wall_engine.h"
 #include "grid/cache/grid_cache.h"
 
@@ -19,9 +20,9 @@ void refuse(const std::string &text)
 GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
 {
   if (!(o.cutoff > 0) || !std::isfinite(o.cutoff))
-    refuse("cutoff is " + std::to_string(o.cutoff) + "; give the largest distance that matters");
+    refuse("cutoff is " + number_text(o.cutoff) + "; give the largest distance that matters");
   if (!(o.cell >= 0) || !std::isfinite(o.cell))
-    refuse("cell is " + std::to_string(o.cell) + "; give a length, or 0 to have it chosen");
+    refuse("cell is " + number_text(o.cell) + "; give a length, or 0 to have it chosen");
   if (o.nearest < 0 || o.nearest > kMostNearest)
     refuse("nearest is " + std::to_string(o.nearest) + "; it is 0, for all, or up to " +
            std::to_string(kMostNearest));
@@ -29,7 +30,7 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   if (o.precision != LSDCD_DOUBLE && o.precision != LSDCD_FLOAT)
     refuse("precision is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
   if (!(o.memory >= 0) || !(o.memory < 1e18))
-    refuse("memory is " + std::to_string(o.memory) + "; give bytes, or 0 for the default");
+    refuse("memory is " + number_text(o.memory) + "; give bytes, or 0 for the default");
   if (o.threads < 0) refuse("threads is " + std::to_string(o.threads));
   if (o.device != LSDCD_CPU && o.device != LSDCD_CUDA)
     refuse("device is neither LSDCD_CPU nor LSDCD_CUDA");

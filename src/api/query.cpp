@@ -3,6 +3,7 @@
 #include "api/call_threads.h"
 #include "api/device_memory.h"
 #include "api/objects.h"
+#include "base/input_words.h"
 #include "engine/wall_engine.h"
 
 #include <cmath>
@@ -40,11 +41,11 @@ lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`radii` and `radius` are both given");
   if (!q.radii && q.radius == 0) q.radius = grid.grid.view.cutoff;
   if (!(q.radius >= 0))
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`radius` is " + std::to_string(q.radius));
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`radius` is " + number_text(q.radius));
   if (q.radius > grid.grid.view.cutoff)
-    throw ApiError(LSDCD_ERROR_CUTOFF, "`radius` is " + std::to_string(q.radius) +
+    throw ApiError(LSDCD_ERROR_CUTOFF, "`radius` is " + number_text(q.radius) +
                                            ", more than the grid's cutoff " +
-                                           std::to_string(grid.grid.view.cutoff) +
+                                           number_text(grid.grid.view.cutoff) +
                                            ": build the grid with a larger cutoff");
   return q;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "base/input_words.h"
 #include "bodies/body_collision.h"
 
 #include <algorithm>
@@ -32,8 +33,7 @@ inline void check_body(const TriangleSoup &body, Real longest)
     for (int k = 0; k < 3; k++)
       if (!(std::fabs(x[k]) <= kLargestLength))
         throw InputError(body.source + ", triangle " + std::to_string(c / 3 + 1) + ": coordinate " +
-                         "xyz"[k] + " is " + std::to_string(x[k]) +
-                         ", beyond 1e100; repair the mesh");
+                         "xyz"[k] + " is " + number_text(x[k]) + ", beyond 1e100; repair the mesh");
     if (c % 3 != 2) continue;
     const Vec3 u = (1 / longest) * (body.corners[c - 1] - body.corners[c - 2]),
                v = (1 / longest) * (x - body.corners[c - 2]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "base/input_words.h"
 #include "bodies/check_body.h"
 #include "bodies/exact_pairs.h"
 #include "bodies/near_piece.h"
@@ -117,7 +118,7 @@ class BodyCollisionOn : public BodyCollision {
     const std::uint64_t n = b_.exclusive_scan(at, n_triangles + 1);
     if (const std::uint64_t t = b_.read_one(deep.data()))
       throw InputError(source + ", triangle " + std::to_string(t) +
-                       " cannot be cut down to cells of " + std::to_string(longest) +
+                       " cannot be cut down to cells of " + number_text(longest) +
                        ": use longer ones");
     if (n > kMostPieces) throw_too_many_pieces(source, Real(n));
     pieces_ = Array<Piece>(n);
@@ -290,7 +291,7 @@ class BodyCollisionOn : public BodyCollision {
     check_rotation(pose);
     if (!(kMostRadius * unit_ + slack(pose) + grid_.tolerance <= grid_.cutoff))
       throw InputError("the body is so far from the origin, or so large, that cells of " +
-                       std::to_string(grid_.length) +
+                       number_text(grid_.length) +
                        " have too few digits there: move wall and body nearer to the origin");
   }
 

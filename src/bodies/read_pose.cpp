@@ -1,6 +1,7 @@
 #include "bodies/read_pose.h"
 
 #include "base/input_error.h"
+#include "base/input_words.h"
 #include "bodies/check_body.h"
 
 #include <cmath>
@@ -14,7 +15,7 @@ void check_finite(const Real *numbers, int n, const char *what)
   for (int k = 0; k < n; k++)
     if (!std::isfinite(numbers[k]))
       throw InputError(std::string("the pose's ") + what + " is not finite: number " +
-                       std::to_string(k + 1) + " is " + std::to_string(numbers[k]));
+                       std::to_string(k + 1) + " is " + number_text(numbers[k]));
 }
 
 }    // namespace
@@ -40,7 +41,7 @@ BodyPose pose_of_quaternion(const Vec3 &at, const Real *quaternion)
   for (int k = 0; k < 4; k++) length += quaternion[k] * quaternion[k];
   length = std::sqrt(length);
   if (!(std::fabs(length - 1) <= 1e-3))
-    throw InputError("the pose's quaternion has the length " + std::to_string(length) +
+    throw InputError("the pose's quaternion has the length " + number_text(length) +
                      ": give a unit one, w x y z");
   const Real w = quaternion[0] / length, x = quaternion[1] / length, y = quaternion[2] / length,
              z = quaternion[3] / length;

@@ -1,21 +1,16 @@
 #include "mesh/wall_mesh.h"
 
+#include "base/input_words.h"
+
 #include <cmath>
 #include <cstdio>
 
 namespace lsdcd {
 namespace {
 
-std::string text(Real value)
-{
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", value);
-  return buffer;
-}
-
 std::string text(const Vec3 &a)
 {
-  return "(" + text(a.x) + ", " + text(a.y) + ", " + text(a.z) + ")";
+  return "(" + number_text(a.x) + ", " + number_text(a.y) + ", " + number_text(a.z) + ")";
 }
 
 std::string counted(std::size_t n, const char *one, const char *many)
@@ -46,18 +41,19 @@ std::string describe(const MeshReport &report, const std::string &source)
                      counted(report.duplicate_facets, "duplicate", "duplicates") + " dropped");
   line("vertices", std::to_string(report.vertices) + ", welded from " +
                        counted(report.corners, "corner", "corners") + " (tolerance " +
-                       text(report.weld_tolerance) + ")");
+                       number_text(report.weld_tolerance) + ")");
   line("edges", std::to_string(report.edges) + ", " + std::to_string(report.open_edges) +
                     " open, " + std::to_string(report.nonmanifold_edges) + " non-manifold, " +
                     std::to_string(report.misoriented_edges) + " misoriented");
   line("surface", surface(report));
-  line("area", text(report.area));
-  if (report.oriented) line("volume", text(std::fabs(report.volume)));
+  line("area", number_text(report.area));
+  if (report.oriented) line("volume", number_text(std::fabs(report.volume)));
   line("box", text(report.lo) + " to " + text(report.hi));
-  line("edge length", text(report.smallest_edge) + " smallest, " + text(report.median_edge) +
-                          " median, " + text(report.largest_edge) + " largest");
-  line("thinnest", "face " + text(report.smallest_height) + " high");
-  line("folds", text(report.largest_fold) + " degrees at most, " +
+  line("edge length", number_text(report.smallest_edge) + " smallest, " +
+                          number_text(report.median_edge) + " median, " +
+                          number_text(report.largest_edge) + " largest");
+  line("thinnest", "face " + number_text(report.smallest_height) + " high");
+  line("folds", number_text(report.largest_fold) + " degrees at most, " +
                     counted(report.feature_edges, "edge", "edges") + " above 30");
   return block;
 }

@@ -1,6 +1,8 @@
 #include "mesh/wall_mesh.h"
 
 #include "base/input_error.h"
+#include "base/input_words.h"
+#include "mesh/assemble.h"
 #include "mesh/face_plane.h"
 #include "mesh/index_table.h"
 #include "mesh/measure_mesh.h"
@@ -9,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -21,13 +22,6 @@ using Pair = std::array<int, 2>;
 
 // Squares of lengths outside 1e-100 .. 1e100 would leave the range of Real.
 constexpr Real kLargestLength = 1e100;
-
-std::string text(Real value)
-{
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", value);
-  return buffer;
-}
 
 // The diagonal of the bounding box, once every coordinate has been checked.
 Real checked_diagonal(const TriangleSoup &soup)
@@ -44,14 +38,14 @@ Real checked_diagonal(const TriangleSoup &soup)
       const Real x = soup.corners[c][i];
       if (!(std::fabs(x) <= kLargestLength))    // also false for NaN
         throw InputError(soup.source + ", facet " + std::to_string(c / 3 + 1) + ": coordinate " +
-                         "xyz"[i] + " is " + text(x) +
+                         "xyz"[i] + " is " + number_text(x) +
                          ", beyond 1e100; repair the mesh or give a smaller scale");
       lo[i] = std::min(lo[i], x);
       hi[i] = std::max(hi[i], x);
     }
   const Real diagonal = std::hypot(hi.x - lo.x, hi.y - lo.y, hi.z - lo.z);
   if (diagonal > 0 && diagonal < 1 / kLargestLength)
-    throw InputError(soup.source + ": the mesh is only " + text(diagonal) +
+    throw InputError(soup.source + ": the mesh is only " + number_text(diagonal) +
                      " across; give a larger scale");
   return diagonal;
 }
@@ -60,8 +54,8 @@ Real checked_tolerance(Real tolerance, Real diagonal, const std::string &source)
 {
   if (tolerance < 0) return kDefaultWeld * diagonal;
   if (std::isnan(tolerance) || (diagonal > 0 && tolerance >= diagonal))
-    throw InputError(source + ": a weld tolerance of " + text(tolerance) +
-                     " would weld the whole mesh, " + text(diagonal) +
+    throw InputError(source + ": a weld tolerance of " + number_text(tolerance) +
+                     " would weld the whole mesh, " + number_text(diagonal) +
                      " across, into one point; give a smaller one");
   return tolerance;
 }

@@ -1,6 +1,7 @@
 #include "tool/shapes.h"
 
 #include "base/input_error.h"
+#include "base/input_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,9 +68,9 @@ Profile rounded_corner(const RadiusHeight &before, const RadiusHeight &at,
   if (used <= 1e-9 * first) return {at};    // straight on, or no rounding
   if (used > first / 2 || used > last / 2)
     throw InputError(
-        "--knuckle " + std::to_string(round) +
+        "--knuckle " + number_text(round) +
         " is too large to round the wall between cylinder, cone and tube; the largest is " +
-        std::to_string(std::min(first, last) / 2 * std::tan(half)));
+        number_text(std::min(first, last) / 2 * std::tan(half)));
   const Real length = std::hypot(u.r + w.r, u.z + w.z);
   const RadiusHeight centre = {at.r + (u.r + w.r) / length * round / std::sin(half),
                                at.z + (u.z + w.z) / length * round / std::sin(half)};
@@ -158,7 +159,7 @@ Triangles refined(Triangles coarse, Real edge)
     Triangles finer;
     for (const auto &t : coarse) split(t, edge, finer);
     if (finer.size() > kMostTriangles)
-      throw InputError("--edge " + std::to_string(edge) +
+      throw InputError("--edge " + number_text(edge) +
                        " would make more than 20 million triangles; give a larger one");
     coarse = std::move(finer);
   }

@@ -282,7 +282,7 @@ TEST(library, eight_threads_at_once_get_what_one_gets)
           shared.distances(points, 1 + t);
           different[t]++;
         } catch (const lsdcd::Error &e) {
-          const std::string number = std::to_string(1 + t) + ".000000";
+          const std::string number = "is " + std::to_string(1 + t) + ",";
           different[t] += std::string(e.what()).find(number) == std::string::npos;
         }
       }
@@ -408,6 +408,12 @@ TEST_F(Wrong, a_radius_below_0_or_not_a_number)
     q.radius = bad;
     refused(LSDCD_ERROR_ARGUMENT, "`radius` is");
   }
+}
+
+TEST_F(Wrong, a_radius_in_nanometres_is_told_with_its_digits)
+{
+  q.radius = -2e-9;
+  refused(LSDCD_ERROR_ARGUMENT, "`radius` is -2e-09");
 }
 
 TEST_F(Wrong, radius_and_radii_together)

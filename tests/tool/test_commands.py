@@ -69,6 +69,8 @@ BAD = [    # words, exit code, what is said
     ("material glass.lsdcd glass --normal hooke", 2, ["hooke", "hertz/material"]),
     ("tradeoff wall.stl --radius 0.1 --csv no/t.csv", 1, ["no/t.csv", NO_FILE]),
     ("tradeoff wall.stl --radius x", 2, ["--radius", "x"]),
+    ("generate box --width 1e-9 --depth 1e-9 --height 1e-9 --edge 1e-14 -o made.stl", 1, ["--edge 1e-14"]),
+    ("distance wall.stl points.csv --radius -1e-9 -o d.csv", 1, ["--radius is -1e-09"]),
     ("accuracy table9", 2, ["table9", "table2"]),
     ("accuracy --spheres 0", 2, ["0 is not a number from 1 to"]),
     ("accuracy --spheres 1000 --segments 2", 2, ["--segments", "3"]),

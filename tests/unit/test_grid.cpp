@@ -455,6 +455,18 @@ TEST(grid, where_no_length_fits_a_budget_that_does_is_named)
   }
 }
 
+TEST(grid, the_budget_that_does_is_named_with_its_digits)
+{
+  TriangleSoup soup;
+  soup.corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  GridSettings settings;
+  settings.cutoff = 0.5;
+  settings.memory_budget = 1;
+  const std::string message = build_error(weld(soup, -1), settings);
+  settings.memory_budget = named_bytes(message, "the coarsest grid of this mesh takes ") - 100;
+  EXPECT_NE(build_error(weld(soup, -1), settings), "") << message;
+}
+
 TEST(grid, cells_are_of_the_reach_by_default_and_smaller_for_nearest_lists)
 {
   const WallMesh mesh = weld(floor_mesh(60, 1, 3), -1);

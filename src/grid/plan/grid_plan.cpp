@@ -1,21 +1,14 @@
 #include "grid/plan/grid_plan.h"
 
 #include "base/input_error.h"
+#include "base/input_words.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace lsdcd {
 
 namespace {
-
-std::string number(Real value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
 
 // Bricks along an axis for which cell numbers still fit an int.
 constexpr std::int32_t kMostBricks = 1 << 27;
@@ -138,7 +131,7 @@ Real default_length(const WallMesh &mesh, Real cutoff, int nearest)
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
 {
   if (!(settings.cutoff > 0) || !std::isfinite(settings.cutoff))
-    throw InputError("grid cutoff is " + number(settings.cutoff) +
+    throw InputError("grid cutoff is " + number_text(settings.cutoff) +
                      "; it must be the largest particle radius, above 0");
   const Real length = settings.length > 0 ? settings.length
                                           : default_length(mesh, settings.cutoff, settings.nearest);
@@ -185,13 +178,20 @@ std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vec
 
 void throw_over_budget(const GridSettings &settings, double needed, double budget)
 {
-  const auto mebibytes = [](double bytes) { return number(std::ceil(bytes / 104857.6) / 10); };
+  // To four digits; up, so that what is given is enough.
+  const auto rounded_up = [](double x) {
+    const double digit = std::pow(10, std::floor(std::log10(x)) - 3);
+    return std::ceil(x / digit) * digit;
+  };
+  constexpr double kMebi = 1048576;
   const bool given = settings.length > 0 && !settings.may_coarsen;
-  std::string text = given ? "grid " + number(settings.length) : "the coarsest grid of this mesh";
+  std::string text =
+      given ? "grid " + number_text(settings.length) : "the coarsest grid of this mesh";
   if (std::isfinite(needed))
-    text += " takes " + mebibytes(needed) + " MB" + (given ? " at least" : "") +
-            ", the mesh's own records among them, and the memory budget is " + mebibytes(budget) +
-            " MB: give that, or ";
+    text += " takes " + number_text(rounded_up(needed / kMebi)) + " MB" +
+            (given ? " at least" : "") +
+            ", the mesh's own records among them, and the memory budget is " +
+            number_text(budget / kMebi) + " MB: give that, or ";
   else
     text += " has more cells than can be numbered: ";
   throw InputError(
