@@ -1,5 +1,6 @@
 #include "grid/brick_records.h"
 
+#include "base/input_error.h"
 #include "grid/triangle_grid.h"
 #include "parallel/threads.h"
 
@@ -115,11 +116,11 @@ void add_records(TriangleGrid &grid, CellLists &lists, BrickRecords &out)
       for (FeatureCode code : codes) first[b][static_cast<int>(feature_kind(code))]++;
     }
   }
-  std::array<std::uint32_t, 3> at = {static_cast<std::uint32_t>(out.faces.size()),
-                                     static_cast<std::uint32_t>(out.edges.size()),
-                                     static_cast<std::uint32_t>(out.vertices.size())};
+  std::array<std::uint64_t, 3> at = {out.faces.size(), out.edges.size(), out.vertices.size()};
   for (std::int64_t b = 0; b <= n_bricks; b++)
-    for (int k = 0; k < 3; k++) at[k] += std::exchange(first[b][k], at[k]);
+    for (int k = 0; k < 3; k++)
+      at[k] += std::exchange(first[b][k], static_cast<std::uint32_t>(at[k]));
+  for (const std::uint64_t n : at) check_record_number(n);
   const bool with_parts = &lists == &grid.lists && grid.nearest > 0;
   out.faces.resize(first[n_bricks][0]);
   out.face_of.resize(first[n_bricks][0]);
@@ -192,6 +193,15 @@ std::vector<Vec3f> floats(const std::vector<Vec3> &in)
 }
 
 }    // namespace
+
+void check_record_number(std::uint64_t n)
+{
+  if (n > kMaxFeatures)
+    throw InputError("the mesh's copies in floats, in each brick of the grid one of what it lists, "
+                     "are " +
+                     std::to_string(n) + ", and only " + std::to_string(kMaxFeatures) +
+                     " can be numbered: use precision double, or longer cells");
+}
 
 std::size_t BrickRecords::bytes() const
 {

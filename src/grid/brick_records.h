@@ -61,6 +61,9 @@ struct BrickRecords {
 
 struct TriangleGrid;
 
+// Throws InputError where records of a kind are more than codes can number.
+void check_record_number(std::uint64_t n);
+
 // Makes the records and rewrites the codes of all lists.
 void add_brick_records(TriangleGrid &grid);
 

@@ -1,6 +1,9 @@
 #include "base/input_error.h"
 #include "contact/find_contacts.h"
+#include "grid/brick_records.h"
+#include "grid/build/fill_lists.h"
 #include "grid/flat_grid.h"
+#include "parallel/backend_cpu.h"
 #include "parallel/threads.h"
 #include "support/brute_force.h"
 #include "support/device.h"
@@ -478,6 +481,33 @@ TEST(grid, cells_are_of_the_reach_by_default_and_smaller_for_nearest_lists)
   ASSERT_LT(third, 0.5 * settings.cutoff);
   ASSERT_GT(third, 0.2 * settings.cutoff);
   EXPECT_EQ(build_grid(mesh, settings, test_on_cuda()).length, third);
+}
+
+TEST(grid, candidates_of_a_layer_are_summed_in_64_bits)
+{
+  CpuBackend b;
+  const std::vector<std::uint32_t> counts(64, 0x80000000u);
+  std::vector<std::uint32_t> offsets(64), singles(1), longests(1);
+  std::vector<std::uint64_t> lists(1), cells(1);
+  Brick brick;
+  sum_words(b, 1, counts.data(), &brick, offsets.data(), lists.data(), cells.data(), singles.data(),
+            longests.data());
+  EXPECT_EQ(lists[0], std::uint64_t(1) << 37);
+}
+
+TEST(grid, more_cells_than_32_bits_number_are_not_filled)
+{
+  BuiltLists<CpuBackend> lists;
+  lists.n_cells = 0xffffffff;
+  EXPECT_TRUE(lists.can_be_numbered());
+  lists.n_cells++;
+  EXPECT_FALSE(lists.can_be_numbered());
+}
+
+TEST(grid, more_copies_in_floats_than_codes_number_are_refused)
+{
+  EXPECT_NO_THROW(check_record_number(0x3fffffff));
+  EXPECT_THROW(check_record_number(0x40000000), InputError);
 }
 
 TEST(grid, hopeless_length_is_refused)

@@ -70,6 +70,7 @@ class GridBuilder {
     const bool fits = fill_lists(b_, view_, pairs, most, budget, progress_, built, report);
     needed_ = std::max(needed_,
                        double(grid_bytes(plan, built.n_bricks, built.n_cells, built.n_candidates)));
+    if (!built.can_be_numbered()) needed_ = HUGE_VAL;
     if (!fits) return false;
     b_.wait();
     report.seconds = seconds_since(start);

@@ -15,6 +15,10 @@ struct BuiltLists {
   using Scratch = typename B::template Scratch<T>;
 
   std::size_t n_bricks = 0, n_cells = 0, n_candidates = 0;
+
+  // Cells and candidates are numbered in 32 bits.
+  bool can_be_numbered() const { return n_cells <= 0xffffffffull && n_candidates < 0xffffffffull; }
+
   Scratch<std::int32_t> brick_of;
   Scratch<Brick> bricks;
   Scratch<Cell> cells;
@@ -58,15 +62,16 @@ void count_cells(B &b, const OctantPairs<B> &pairs, const std::uint64_t *met, st
 // Words are 64 cells, a layer of a brick: their masks, and what they add up to.
 template <class B>
 void sum_words(B &b, std::size_t n_words, const std::uint32_t *counts, Brick *bricks,
-               std::uint32_t *offsets, std::uint64_t *lists, std::uint32_t *cells,
+               std::uint32_t *offsets, std::uint64_t *lists, std::uint64_t *cells,
                std::uint32_t *singles, std::uint32_t *longests)
 {
   b.for_each(n_words, [=] LSDCD_LAMBDA(std::size_t w) {
     std::uint64_t mask = 0;
-    std::uint32_t list = 0, single = 0, longest = 0;
+    std::uint64_t list = 0;    // may be more than the numbers of candidates that there are
+    std::uint32_t single = 0, longest = 0;
     for (int c = 0; c < 64; c++) {
       const std::uint32_t n = counts[w * 64 + c];
-      offsets[w * 64 + c] = list;
+      offsets[w * 64 + c] = static_cast<std::uint32_t>(list);
       if (n == 0) continue;
       mask |= std::uint64_t(1) << c;
       if (n > 1)
@@ -77,21 +82,21 @@ void sum_words(B &b, std::size_t n_words, const std::uint32_t *counts, Brick *br
     }
     bricks[w / kLayers].layer[w % kLayers].mask = mask;
     lists[w] = list;
-    cells[w] = static_cast<std::uint32_t>(count_bits(mask));
+    cells[w] = static_cast<std::uint64_t>(count_bits(mask));
     singles[w] = single;
     longests[w] = longest;
   });
 }
 
 template <class B>
-void finish_bricks(B &b, const OctantPairs<B> &pairs, const std::uint32_t *cells,
+void finish_bricks(B &b, const OctantPairs<B> &pairs, const std::uint64_t *cells,
                    std::size_t table_size, Brick *bricks, std::int32_t *brick_of)
 {
   const std::uint32_t *slots = pairs.slot.data();
   b.for_each(table_size, [=] LSDCD_LAMBDA(std::size_t i) { brick_of[i] = -1; });
   b.for_each(pairs.n_bricks, [=] LSDCD_LAMBDA(std::size_t i) {
     for (int k = 0; k < kLayers; k++) {
-      bricks[i].layer[k].first_cell = cells[i * kLayers + k];
+      bricks[i].layer[k].first_cell = static_cast<std::uint32_t>(cells[i * kLayers + k]);
       bricks[i].layer[k].pad = 0;
     }
     brick_of[slots[i]] = static_cast<std::int32_t>(i);
@@ -138,7 +143,7 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
 }
 
 // Lists of at most `most` candidates a cell. False, with no more than counts in `out`, if they
-// would not fit `budget` bytes.
+// would not fit `budget` bytes, or cannot be numbered.
 template <class B>
 bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::uint32_t most,
                 std::size_t budget, const BuildProgress &progress, BuiltLists<B> &out,
@@ -147,9 +152,9 @@ bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::u
   using Built = BuiltLists<B>;
   const std::size_t n_bricks = pairs.n_bricks, n_words = n_bricks * kLayers,
                     n_cells = n_bricks * kBrickCells;
-  typename Built::template Scratch<std::uint64_t> met(pairs.n), list(n_words);
-  typename Built::template Scratch<std::uint32_t> count(n_cells), offset(n_cells), cell(n_words),
-      single(n_words), longest(n_words);
+  typename Built::template Scratch<std::uint64_t> met(pairs.n), list(n_words), cell(n_words);
+  typename Built::template Scratch<std::uint32_t> count(n_cells), offset(n_cells), single(n_words),
+      longest(n_words);
   typename Built::template Scratch<Brick> brick(n_bricks);
   find_cells_met(b, view, pairs, progress, met.data());
   count_cells(b, pairs, met.data(), most, count.data());
@@ -160,7 +165,7 @@ bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::u
   out.n_bricks = n_bricks;
   out.n_cells = n_occupied;
   out.n_candidates = n_list;
-  if (n_list >= 0xffffffffull || grid_bytes(view.plan, n_bricks, n_occupied, n_list) > budget)
+  if (!out.can_be_numbered() || grid_bytes(view.plan, n_bricks, n_occupied, n_list) > budget)
     return false;
   report = ListReport();
   report.bricks = n_bricks;
