@@ -4,6 +4,7 @@
 #include "mesh/wall_mesh.h"
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace lsdcd {
@@ -14,6 +15,9 @@ namespace lsdcd {
 // the counts of what was dropped.
 WallMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
                   std::vector<std::array<int, 2>> bare_edges);
+
+// Throws InputError where the ends of n edges are more than an int can number.
+void check_edge_number(std::size_t n, const std::string &source);
 
 // Fills vertex_first and vertex_edge from the edges.
 void connect_vertices(WallMesh &mesh);

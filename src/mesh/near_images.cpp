@@ -40,7 +40,7 @@ class NearImages {
   NearImages(const WallMesh &mesh, const std::vector<FacetPart> &parts, const PeriodicBox &box,
              Real depth) :
       mesh_(mesh),
-      box_(box)
+      box_(box), n_parts_(parts.size())
   {
     for (int k = 0; k < 3; k++) {
       past_[k] = box.periodic[k] ? depth / box.width(k) : HUGE_VAL;
@@ -62,14 +62,18 @@ class NearImages {
     include(lo, hi, at_[part.vertex[1]]);
     include(lo, hi, at_[part.vertex[2]]);
     int first[3], last[3];
-    for (int k = 0; k < 3; k++) set_range(part, k, lo[k], hi[k], first[k], last[k]);
+    Real more = 1;
+    for (int k = 0; k < 3; k++) {
+      set_range(part, k, lo[k], hi[k], first[k], last[k]);
+      more *= std::max(last[k] - first[k] + 1, 0);
+    }
+    check_number(more);
     for (int c = first[2]; c <= last[2]; c++)
       for (int b = first[1]; b <= last[1]; b++)
         for (int a = first[0]; a <= last[0]; a++) {
           const Vec3 s = {Real(a), Real(b), Real(c)};
           if ((a || b || c) && slabs_.meet(lo + s, hi + s)) all_.push_back({{a, b, c}, number});
         }
-    check_number();
   }
 
   void set_range(const FacetPart &part, int k, Real lo, Real hi, int &first, int &last) const
@@ -99,9 +103,10 @@ class NearImages {
     return std::fabs(dot(plane.normal, box_.edge[k])) <= 1e-6 * norm(box_.edge[k]);
   }
 
-  void check_number() const
+  // Each has three vertices and edges of its own at most, and these two ends.
+  void check_number(Real more) const
   {
-    if (all_.size() + mesh_.faces.size() > std::numeric_limits<int>::max() / 6)
+    if (static_cast<Real>(n_parts_ + all_.size()) + more > std::numeric_limits<int>::max() / 6)
       refuse("has more periodic images in the box than vertex numbers can count");
   }
   [[noreturn]] void refuse(const std::string &what) const
@@ -112,6 +117,7 @@ class NearImages {
 
   const WallMesh &mesh_;
   const PeriodicBox &box_;
+  std::size_t n_parts_;
   Real past_[3];
   Slabs slabs_;
   std::vector<Vec3> at_;    // vertices in units of the edges

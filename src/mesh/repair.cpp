@@ -165,11 +165,11 @@ RepairedMesh repair(const TriangleSoup &soup, Real tolerance,
   if (mesh.faces.empty())
     throw InputError(soup.source + ": none of its " + std::to_string(soup.n_triangles()) +
                      " facets has an area, nothing is left; give a smaller --weld");
+  mesh.source = soup.source;
   if (report.degenerate_facets > 0) {
     connect_vertices(mesh);
     measure_dropped(mesh, old_corners, tolerance, report);
   }
-  mesh.source = soup.source;
   tell("winding facets");
   const OrientedFaces oriented = orient_faces(mesh);
   report.turned_facets = oriented.faces;

@@ -153,6 +153,7 @@ void build_edges(WallMesh &mesh, const std::vector<Pair> &bare_edges)
 
 void build_vertex_edges(WallMesh &mesh)
 {
+  check_edge_number(mesh.edges.size(), mesh.source);
   mesh.vertex_first.assign(mesh.vertices.size() + 1, 0);
   for (const Pair &edge : mesh.edges)
     for (const int v : edge) ++mesh.vertex_first[v + 1];
@@ -164,6 +165,14 @@ void build_vertex_edges(WallMesh &mesh)
 }
 
 }    // namespace
+
+void check_edge_number(std::size_t n, const std::string &source)
+{
+  if (n > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 2)
+    throw InputError(source + ": " + std::to_string(n) +
+                     " edges are more than numbers of their ends can count (1073 million); use a "
+                     "coarser mesh");
+}
 
 WallMesh weld(const TriangleSoup &soup, Real tolerance)
 {

@@ -245,6 +245,15 @@ TEST(periodic_images, a_mesh_too_far_away_for_images_is_refused_with_its_distanc
   }
 }
 
+TEST(periodic_images, more_images_than_can_be_numbered_are_refused_before_they_are_made)
+{
+  TriangleSoup chute = square(2, 1e5);
+  for (Vec3 &x : chute.corners) x.z = 0.1 * x.x + 0.1 * x.y;
+  PeriodicBox box = box_of({2, 2, 2});
+  box.periodic[2] = false;
+  EXPECT_THROW(with_images(weld(chute, -1), box, 0.1), InputError);
+}
+
 TEST(periodic_images, an_image_on_top_of_the_mesh_is_dropped)
 {
   // Two boxes long: each half lies on the image of the other.

@@ -1,4 +1,5 @@
 #include "base/input_error.h"
+#include "mesh/assemble.h"
 #include "mesh/fingerprint.h"
 #include "mesh/wall_mesh.h"
 
@@ -495,6 +496,12 @@ TEST(weld, a_coordinate_out_of_range_names_the_facet)
     cube[3][1].y = bad;
     EXPECT_NE(error_of(cube).find("part.stl, facet 4: coordinate y"), std::string::npos);
   }
+}
+
+TEST(weld, more_edges_than_an_int_numbers_the_ends_of_are_refused)
+{
+  EXPECT_NO_THROW(check_edge_number((1u << 30) - 1, "part.stl"));
+  EXPECT_THROW(check_edge_number(1u << 30, "part.stl"), InputError);
 }
 
 TEST(weld, a_mesh_too_small_to_square_is_refused)
