@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -47,12 +48,21 @@ std::string quoted(std::string_view word)
   return text + (word.size() > kLongest ? "...'" : "'");
 }
 
-// from_chars reports 1e-400 and 1e400 alike. The first is zero, the second is infinite.
-bool is_underflow(std::string_view digits)
+// from_chars reports 1e-400 and 1e400 alike. The first is zero, the second is infinite: the power of
+// ten of the first digit that is not 0 tells.
+bool is_underflow(std::string_view number)
 {
-  const auto e = digits.find_first_of("eE");
-  if (e != std::string_view::npos) return e + 1 < digits.size() && digits[e + 1] == '-';
-  return digits.find('.') < 300;    // fewer digits than that before the point do not overflow
+  const auto e = std::min(number.find_first_of("eE"), number.size());
+  const auto digits = number.substr(0, e), exponent = number.substr(std::min(e + 1, number.size()));
+  const auto first = digits.find_first_of("123456789"), point = std::min(digits.find('.'), e);
+  if (first == digits.npos) return true;
+  long long power = 0;
+  const char *sign = exponent.data();
+  const auto *begin = sign + (!exponent.empty() && *sign == '+');
+  const auto read = std::from_chars(begin, exponent.data() + exponent.size(), power);
+  if (read.ec == std::errc::result_out_of_range) return *begin == '-';
+  power = std::clamp<long long>(power, -1000000000000, 1000000000000);    // as far as files go
+  return power + static_cast<long long>(point) < static_cast<long long>(first);
 }
 
 class Reader {

@@ -132,6 +132,19 @@ TEST(read_stl, a_number_too_small_for_a_double_is_zero)
   EXPECT_EQ(soup.corners[0].x, 0);
 }
 
+TEST(read_stl, a_number_is_too_small_by_its_digits_and_its_exponent)
+{
+  const std::string small = "-0." + std::string(400, '0') + "1e+50";
+  EXPECT_EQ(read(solid(facet(small + " 0 0", "1 0 0", "0 1 0"))).corners[0].x, 0);
+}
+
+TEST(read_stl, a_number_too_large_for_a_double_is_not_finite_whatever_its_exponent)
+{
+  const std::string large = "1" + std::string(700, '0') + "e-100";
+  const auto error = error_of(solid(facet(large + " 0 0", "1 0 0", "0 1 0")));
+  EXPECT_TRUE(contains(error, "not a finite number")) << error;
+}
+
 TEST(read_stl, every_solid_of_a_file_is_read)
 {
   EXPECT_EQ(read(solid(kFacet) + solid(kFacet + kFacet)).n_triangles(), 3u);
