@@ -1,6 +1,7 @@
 #include "lammps/mpi_mesh.h"
 
 #include "lammps/mpi_shared.h"
+#include "mesh/measure_mesh.h"
 
 #include <cstdint>
 
@@ -36,7 +37,10 @@ WallMesh read_together(MPI_Comm world, const MeshSettings &settings)
   });
   send_corners(world, soup);
   WallMesh mesh;
-  together(world, true, [&] { mesh = weld(soup, settings.weld); });
+  together(world, true, [&] {
+    mesh = weld(soup, settings.weld);
+    check_has_area(mesh);
+  });
   return mesh;
 }
 

@@ -3,6 +3,7 @@
 #include "base/input_words.h"
 #include "grid/loose_ends.h"
 #include "mesh/fingerprint.h"
+#include "mesh/measure_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,7 @@ void SharedWall::read()
     broadcast_bytes(soup.corners.data(), corners * sizeof(Vec3), 0, shared_.writers());
   together(shared_.world(), shared_.writes(), [&] {
     mesh_ = std::make_unique<WallMesh>(weld(soup, of_mesh_.weld));
+    check_has_area(*mesh_);
     report_ = mesh_->report;
     if (rank == 0) mesh_fingerprint_ = fingerprint(*mesh_);
   });

@@ -87,6 +87,14 @@ bool runs_along(const WallMesh &mesh, int face, int edge)
   return mesh.faces[face][k] == mesh.edges[edge][0];
 }
 
+void check_has_area(const WallMesh &mesh)
+{
+  if (!mesh.faces.empty()) return;
+  throw InputError(mesh.source + ": none of its " + std::to_string(mesh.report.facets) +
+                   " facets has an area, so that there is no wall; export the mesh again, or, "
+                   "where facets are small, give a smaller weld tolerance");
+}
+
 void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane)
 {
   mesh.report.vertices = mesh.vertices.size();

@@ -15,4 +15,7 @@ void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane);
 // Does the face run along the edge from its lower to its higher vertex?
 bool runs_along(const WallMesh &mesh, int face, int edge);
 
+// Throws InputError where no facet has an area: what is left, edges and points, is no wall.
+void check_has_area(const WallMesh &mesh);
+
 }    // namespace lsdcd

@@ -140,7 +140,7 @@ void distance(const Options &o)
   check_outputs({{"--output", o.output}}, {o.mesh, o.points});
   const auto reader = open_points(o.points);
   open_answers(o.output, false, false);    // can it be written? Better told before the work
-  const WallMesh mesh = load_mesh(o.mesh, o.scale, o.weld);
+  const WallMesh mesh = load_wall(o.mesh, o.scale, o.weld);
   GridSettings settings;
   settings.cutoff = o.radius;
   settings.length = o.cell;

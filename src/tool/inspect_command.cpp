@@ -49,7 +49,7 @@ void inspect(const Options &o)
 
 void grid(const Options &o)
 {
-  const WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
+  const WallMesh mesh = load_wall(o.file, o.scale, o.weld);
   GridSettings settings;
   settings.length = o.length;
   settings.cutoff = o.radius;

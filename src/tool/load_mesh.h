@@ -1,6 +1,7 @@
 // The mesh that the words of a command name.
 #pragma once
 
+#include "mesh/measure_mesh.h"
 #include "mesh/placement.h"
 #include "mesh/triangle_soup.h"
 #include "mesh/wall_mesh.h"
@@ -30,6 +31,15 @@ inline WallMesh load_mesh(const std::string &file, const std::vector<double> &sc
   TriangleSoup soup = read_stl(file);
   apply_scale(soup, scale, option);
   return weld(soup, tolerance);
+}
+
+// That has to be one: edges and points without a face are none.
+inline WallMesh load_wall(const std::string &file, const std::vector<double> &scale,
+                          double tolerance)
+{
+  WallMesh mesh = load_mesh(file, scale, tolerance);
+  check_has_area(mesh);
+  return mesh;
 }
 
 }    // namespace lsdcd

@@ -155,7 +155,7 @@ void tradeoff(Options &o)
   if (o.plot.empty()) o.plot = std::filesystem::path(o.csv).replace_extension(".png").string();
   check_outputs({{"--csv", o.csv, ".csv"}, {"--plot", o.plot == "none" ? "" : o.plot, ".png"}},
                 {o.file});
-  const WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
+  const WallMesh mesh = load_wall(o.file, o.scale, o.weld);
   WholeFile file(o.csv);    // now, rather than fail when all is done
   std::printf("%s, %zu triangles\n", o.file.c_str(), mesh.faces.size());
   std::printf("      grid  nearest  precision  corner  device   missed %%  force error: mean  "

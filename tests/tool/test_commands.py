@@ -91,6 +91,7 @@ OF_A_MESH = ["inspect {}", "grid {} --radius 1", "tradeoff {} --radius 1", "dist
 BAD += [(f"{command.format(mesh)} {words}", code, said) for mesh, words, code, said, commands in (
     ("nowhere.stl", "", 1, ["nowhere.stl", NO_FILE], OF_A_MESH),
     ("text.stl", "", 1, ["text.stl", "not an STL"], OF_A_MESH),
+    ("line.stl", "", 1, ["line.stl", "none of its 1 facets has an area"], OF_A_MESH[1:6]),
     ("wall.stl", "--scale 1 2", 2, ["one factor or three"], OF_A_MESH[:4] + OF_A_MESH[5:]),
     ("wall.stl", "--scale 0", 2, ["--scale", "0 is not a number other than 0"], OF_A_MESH[:4] + OF_A_MESH[5:]),
     ("wall.stl", "--weld -1", 2, ["--weld", "-1"], OF_A_MESH[:6]),
@@ -110,6 +111,7 @@ def scene():
     write_ascii_stl(folder / "two.stl", [*box, *cube(at=(3, 0, 0))[:, ::-1]])    # the second inside out
     box[0, 0] += (0.003, 0.004, 0)
     write_ascii_stl(folder / "apart.stl", box)
+    write_ascii_stl(folder / "line.stl", [[(0, 0, 0), (1, 0, 0), (2, 0, 0)]])
     (folder / "points.csv").write_text("0.5,0.5,1.25\n9,9,9\n")
     (folder / "text.stl").write_text("no mesh at all\n")
     run(folder, "convert", "wall.stl", "-o", "wall.obj")
