@@ -140,6 +140,8 @@ FileEvery read_file_every(Tokens &w, const std::string &end)
   const std::size_t star = name.find('*');
   if (star != std::string::npos && name.find('/', star) != std::string::npos)
     w.fail("'" + name + "' has its * in the name of a folder; put it into the file's own name");
+  if (star != std::string::npos && name.find('*', star + 1) != std::string::npos)
+    w.fail("'" + name + "' has more than one *; only one is the step: leave the others out");
   if (w.done() || w.take() != "every") w.fail("'every N' is missing");
   const Real n = w.number("N", 1, 2147483647);
   file.every = static_cast<int>(n);

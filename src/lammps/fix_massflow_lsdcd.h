@@ -43,6 +43,8 @@ class FixMassflowLsdcd : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
+  const std::string &mesh_file() const { return settings.surface.file; }
+
  private:
   enum : unsigned { kCounted = 1, kToDelete = 2 };
   // Of the totals: columns of a type, and what follows those of all types.

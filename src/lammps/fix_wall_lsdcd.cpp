@@ -52,6 +52,8 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     const lsdcd::FilledTokens filled = lsdcd::fill_material(
         world, std::vector<std::string>(arg + 3, arg + narg), update->unit_style);
     material = filled.report;
+    for (int i = 3; i + 1 < narg && !material.empty() && material_file.empty(); i++)
+      if (std::strcmp(arg[i], "material") == 0) material_file = arg[i + 1];
     settings = lsdcd::parse_settings(filled.tokens);
     if (settings.draw_type > atom->ntypes)
       throw lsdcd::InputError("in 'draw', there is no atom type " +
@@ -169,6 +171,7 @@ void FixWallLsdcd::init()
     check_file(m, "mesh_fields", m.settings.fields);
     check_file(m, "mesh_stl", m.settings.stl);
   }
+  check_files_apart();
   file_warned = false;
 }
 

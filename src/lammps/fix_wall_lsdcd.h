@@ -4,6 +4,7 @@
 
 #include "fix.h"
 
+#include "deck/deck_files.h"
 #include "lammps/mesh_part.h"
 
 #include <deque>
@@ -61,10 +62,12 @@ class FixWallLsdcd : public Fix {
 
   // For compute lsdcd/collide: what there is of each mesh, and where it is in this step.
   const std::deque<MeshPart> &meshes() const { return parts; }
+  std::vector<lsdcd::DeckFile> files() const;    // that it reads and writes
 
  protected:
   lsdcd::WallSettings settings;    // of the deck; parts have those of its meshes
   std::string material;            // what a material file filled in, for the log; else empty
+  std::string material_file;       // as the deck names it
   std::deque<MeshPart> parts;      // where each stays; there is one at least
   EngineMaker *const new_engine;
   std::unique_ptr<lsdcd::WallEngine> engine;
@@ -218,6 +221,9 @@ class FixWallLsdcd : public Fix {
   template <class Work>
   bool try_to_write(const std::string &, const Work &);
   void write_fields(MeshPart &);
+
+  // fix_wall_lsdcd_others.cpp
+  void check_files_apart() const;
 
   // fix_wall_lsdcd_heat.cpp
   void check_heat();

@@ -44,7 +44,8 @@ def two_shells():
 def main():
     checks, folder = deck.Checks(), deck.scratch()
     floor = (deck.HERE / "decks" / "floor.stl").read_bytes()
-    (folder / "floor.stl").write_bytes(floor)
+    for name in ("floor.stl", "lid.stl"):
+        (folder / name).write_bytes(floor)
     (folder / "bad.lsdcd").write_text("units si\nmaterial glass\n  youngs_modulus soft Pa\n")
     (folder / "points.txt").write_text("0 0 0\n1 0 0\n0 1 0\n")
     (folder / "unit.txt").write_text("0 0 0\n1 0 0\n0 1 0\n\n0 0 1\n")

@@ -1,4 +1,5 @@
 #include "base/input_error.h"
+#include "deck/deck_files.h"
 #include "deck/granular_words.h"
 #include "deck/motion_words.h"
 #include "deck/settings.h"
@@ -536,6 +537,26 @@ TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
   EXPECT_TRUE(names(error_with("mesh_fields wall.vtp every 1.5"), "whole"));
   EXPECT_TRUE(names(error_with("mesh_fields"), "file name"));
   EXPECT_TRUE(names(error_with("mesh_fields a_*/wall.vtp every 5"), "folder"));
+  EXPECT_TRUE(names(error_with("mesh_fields a_*_*.vtp every 5"), "only one is the step"));
+}
+
+TEST(deck_files, are_one_however_the_folder_is_spelled)
+{
+  EXPECT_TRUE(are_one_file({"mesh", "a.stl"}, {"mesh_stl", "./no/../a.stl", 5, true}, 0));
+  EXPECT_FALSE(are_one_file({"mesh", "a.stl"}, {"mesh_stl", "no/a.stl", 5, true}, 0));
+}
+
+// A run that goes on from step 100 with the mesh of that step does not write it again.
+TEST(deck_files, a_series_is_a_file_that_it_will_write)
+{
+  const DeckFile series = {"mesh_stl", "a_*.stl", 50, true};
+  EXPECT_TRUE(are_one_file(series, {"mesh", "a_100.stl"}, 0));
+  EXPECT_TRUE(are_one_file({"mesh", "a_100.stl"}, series, 99));
+  EXPECT_FALSE(are_one_file(series, {"mesh", "a_100.stl"}, 100));
+  EXPECT_FALSE(are_one_file(series, {"mesh", "a_101.stl"}, 0));
+  EXPECT_FALSE(are_one_file(series, {"mesh", "a_0100.stl"}, 0));
+  EXPECT_FALSE(are_one_file(series, {"mesh", "a_.stl"}, 0));
+  EXPECT_FALSE(are_one_file(series, {"mesh", "a.stl"}, 0));
 }
 
 TEST(settings, mesh_stl_needs_an_stl_file_and_a_number_of_steps)
