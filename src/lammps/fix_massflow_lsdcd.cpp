@@ -39,6 +39,9 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
           std::to_string(mesh.report.misoriented_edges) +
           " edges of the mesh join facets that are wound in opposite ways: forward is not the same "
           "side everywhere; turn the facets over");
+    const std::string outside =
+        lsdcd::outside_box({mesh.report.lo, mesh.report.hi}, *domain, neighbor->skin);
+    if (!outside.empty()) throw lsdcd::InputError(outside);
     check_length(mesh);
   } catch (const lsdcd::InputError &e) {
     refuse(e.what());

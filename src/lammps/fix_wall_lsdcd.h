@@ -234,6 +234,7 @@ class FixWallLsdcd : public Fix {
   bool spheres_stay_close() const;
   void check_box(const MeshPart &, double) const;
   void check_scale(const MeshPart &) const;
+  void check_small(const MeshPart &, double) const;
   void check_periodic(const MeshPart &) const;
   void check_within_cutoff(MeshPart &);
   void check_ends(MeshPart &, bool);

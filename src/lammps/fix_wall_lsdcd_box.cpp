@@ -31,15 +31,6 @@ bool FixWallLsdcd::spheres_stay_close() const
   return lsdcd::atoms_stay_close(*neighbor);
 }
 
-static std::string extents(const lsdcd::Vec3 &lo, const lsdcd::Vec3 &hi)
-{
-  std::string text;
-  for (int k = 0; k < 3; k++)
-    text += std::string(k ? ", " : "") + "xyz"[k] + " from " + number_text(lo[k]) + " to " +
-            number_text(hi[k]);
-  return text;
-}
-
 std::string FixWallLsdcd::likely_scale_text(const MeshPart &m) const
 {
   const lsdcd::PeriodicBox box = simulation_box();
@@ -63,31 +54,34 @@ void FixWallLsdcd::check_scale(const MeshPart &m) const
   const lsdcd::Box box = simulation_box().bounds({0, 0, 0});
   const std::string likely = likely_scale_text(m);
   if (!likely.empty())
-    warn(of(m, "the mesh is far larger than the box: it spans " + extents(r.lo, r.hi) +
-                   ", the box " + extents(box.lo, box.hi) + likely));
+    warn(of(m, "the mesh is far larger than the box: it spans " +
+                   lsdcd::extents_text({r.lo, r.hi}) + ", the box " + lsdcd::extents_text(box) +
+                   likely));
 }
 
 void FixWallLsdcd::check_box(const MeshPart &m, double cutoff) const
 {
   if (m.settings.motion.any()) return;    // it may come in later
   const lsdcd::MeshReport &r = m.wall.report();
-  const lsdcd::PeriodicBox box = simulation_box();
-  const double near = cutoff + box.margin;
-  // What is past a periodic face acts in the box by its image.
-  lsdcd::Vec3 past = {near, near, near};
-  for (int k = 0; k < 3; k++)
-    if (box.periodic[k]) past[k] += box.width(k);
-  const lsdcd::Box bounds = box.bounds(past);
-  for (int d = 0; d < 3; d++) {
-    // A shrink-wrapped face follows the atoms, wherever the mesh is.
-    const bool lo_stays = domain->boundary[d][0] < 2, hi_stays = domain->boundary[d][1] < 2;
-    if ((r.hi[d] < bounds.lo[d] && lo_stays) || (r.lo[d] > bounds.hi[d] && hi_stays)) {
-      const lsdcd::Box b = box.bounds({0, 0, 0});
-      refuse(of(m, "the mesh is outside the box: it spans " + extents(r.lo, r.hi) + ", the box " +
-                       extents(b.lo, b.hi) +
-                       "; check the units of the file (scale) and the position (move)"));
-    }
-  }
+  const std::string wrong =
+      lsdcd::outside_box({r.lo, r.hi}, *domain, cutoff + simulation_box().margin);
+  if (!wrong.empty()) refuse(of(m, wrong));
+}
+
+// A mesh smaller than a sphere is hardly meant to be.
+void FixWallLsdcd::check_small(const MeshPart &m, double radius) const
+{
+  const lsdcd::MeshReport &r = m.wall.report();
+  lsdcd::Vec3 size = r.hi - r.lo;
+  if (domain->dimension == 2) size.z = 0;    // an outline may be of any thickness
+  if (norm(size) >= radius) return;
+  const std::string placed = m.settings.placement_tokens;
+  warn(of(m, "the mesh is " + number_text(norm(size)) + " across, and spheres have radius " +
+                 number_text(radius) + ": " +
+                 (placed.find("scale") == std::string::npos
+                      ? "the file is probably in other units: add a scale"
+                      : "the file is probably in the deck's units, and the scale in '" + placed +
+                            "' is not needed")));
 }
 
 // Where LAMMPS does not look in every step how far atoms have moved, they may go further past a
@@ -148,9 +142,9 @@ void FixWallLsdcd::check_within_cutoff(MeshPart &m)
   const lsdcd::PeriodicBox box = simulation_box();
   const lsdcd::MeshReport &r = m.wall.report();
   const lsdcd::Box b = box.bounds({0, 0, 0});
-  const std::string what =
-      of(m, "no particle in the box can touch the mesh: it spans " + extents(r.lo, r.hi) +
-                ", the box " + extents(b.lo, b.hi) + likely_scale_text(m));
+  const std::string what = of(m, "no particle in the box can touch the mesh: it spans " +
+                                     lsdcd::extents_text({r.lo, r.hi}) + ", the box " +
+                                     lsdcd::extents_text(b) + likely_scale_text(m));
   if (!box.follows[0] && !box.follows[1] && !box.follows[2])
     refuse(what + "; check scale and move");
   if (!m.out_of_reach_warned) warn(what);

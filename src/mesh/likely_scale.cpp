@@ -5,12 +5,18 @@
 
 namespace lsdcd {
 
-// A floor may be far larger than a box along two axes. No wall of use is along all three.
+// A floor may be far larger than a box along two axes. No wall of use is along all three. Of a mesh
+// that is flat along an axis the other two have to tell millimetres from metres.
 Real likely_scale(const Vec3 &mesh, const Vec3 &box)
 {
-  constexpr Real kTooLarge = 20;
-  const Real least = std::min({mesh.x / box.x, mesh.y / box.y, mesh.z / box.z});
-  if (!(least > kTooLarge)) return 1;
+  constexpr Real kTooLarge = 20, kFlatTooLarge = 300, kFlat = 1e-6;
+  Real least = HUGE_VAL, limit = kTooLarge;
+  for (int k = 0; k < 3; k++)
+    if (mesh[k] > kFlat * norm(mesh))
+      least = std::min(least, mesh[k] / box[k]);
+    else
+      limit = kFlatTooLarge;
+  if (!(least > limit)) return 1;
   const Real ratio = norm(mesh) / norm(box);
   Real best = 1;
   // Micrometres, millimetres, centimetres, inches and feet to metres.

@@ -6,7 +6,8 @@
 namespace lsdcd {
 
 // `mesh` and `box` are extents (length). 1 unless the mesh is many times larger than the box along
-// every axis; else the factor between two common units of length that makes them alike.
+// every axis in which it has an extent; else the factor between two common units of length that
+// makes them alike.
 Real likely_scale(const Vec3 &mesh, const Vec3 &box);
 
 }    // namespace lsdcd

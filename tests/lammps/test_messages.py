@@ -115,6 +115,16 @@ def main():
         checks.fact(f"nearest is told {times} times in {steps} steps, two a part",
                     len(told) == times, "\n".join(told))
 
+    # Other units than the deck's. The floor is 4 wide and flat, its spheres have radius 0.5.
+    text = deck.run_well(BOX + fix("scale 1000") + "run 0\n", folder)
+    checks.fact("a flat floor in millimetres is told, and its scale",
+                lines(text, "WARNING: Fix w", "far larger than the box", "add scale 0.001"))
+    text = deck.run_well(BOX + fix("scale 0.001") + "run 0\nrun 0\n", folder)
+    checks.fact("a mesh smaller than a sphere is told once, with its scale",
+                len(lines(text, "WARNING: Fix w", "spheres have radius 0.5", "'scale 0.001' is not needed")) == 1)
+    text = deck.run_well(BOX + fix() + "run 0\n", folder)
+    checks.fact("a floor of the deck's units is not", not lines(text, "probably in"))
+
     # A quiet log.
     text = deck.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)
     checks.fact("log brief is one line", len(lines(text, "wall/lsdcd:")) == 1 and

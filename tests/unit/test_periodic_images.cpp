@@ -329,6 +329,11 @@ TEST(likely_scale, millimetres_in_a_box_of_metres)
   EXPECT_EQ(likely_scale({100, 80, 120}, {0.12, 0.12, 0.12}), 1e-3);
 }
 
+TEST(likely_scale, a_flat_floor_in_millimetres_in_a_box_of_metres)
+{
+  EXPECT_EQ(likely_scale({80, 80, 0}, {0.1, 0.1, 0.06}), 1e-3);
+}
+
 TEST(likely_scale, a_floor_wider_than_the_box_is_none)
 {
   EXPECT_EQ(likely_scale({2000, 2000, 0}, {10, 10, 10}), 1);
