@@ -185,6 +185,7 @@ void read_cut(Tokens &w, WallSettings &s)
   s.cut_normal.x = w.number("the normal (x)");
   s.cut_normal.y = w.number("the normal (y)");
   s.cut_normal.z = w.number("the normal (z)");
+  if (s.cut_normal == Vec3{0, 0, 0}) w.fail("the normal must not be 0 0 0");
   s.cut_offset = w.number("the offset");
 }
 
@@ -295,7 +296,8 @@ const Keyword kKeywords[] = {
      "what dump image shows, in the colour of an atom type: fix ID type DIAMETER 0 for lines, "
      "fix ID type 1 0 for faces",
      read_draw},
-    {"cut", "nx ny nz d", "", "", "none", "dump image leaves out the part with n.x > d", read_cut},
+    {"cut", "nx ny nz d", "", "n not 0 0 0", "none", "dump image leaves out the part with n.x > d",
+     read_cut},
 };
 
 }    // namespace

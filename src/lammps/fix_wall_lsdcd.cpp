@@ -264,6 +264,7 @@ void FixWallLsdcd::begin_step(bool look)
   else if (domain->box_change)
     follow_box();
   check_moving_box();
+  check_gone();
   for (const MeshPart &m : parts)
     if (engine_moves) engine->place_wall(m.pose, m.index);
   if (rigid) fill_masses();

@@ -104,7 +104,7 @@ class FixWallLsdcd : public Fix {
   double worst_uncertain = 0;    // overlap / radius that they may have missed
   bigint uncertified_due = 0;    // told from here on
   double worst_uncertain_due = 0;
-  bool overlap_warned = false, wall_in_minimize_warned = false;
+  bool overlap_warned = false, wall_in_minimize_warned = false, points_warned = false;
   bigint checked_atoms = -1;                // how many there were when the timestep was checked
   bool may_be_new = false;                  // since then
   tagint highest_tag = -1;                  // of atoms that are not new; -1: not looked yet
@@ -233,6 +233,7 @@ class FixWallLsdcd : public Fix {
   lsdcd::PeriodicBox simulation_box() const;
   bool spheres_stay_close() const;
   void check_box(const MeshPart &, double) const;
+  void check_gone();
   void check_scale(const MeshPart &) const;
   void check_small(const MeshPart &, double) const;
   void check_periodic(const MeshPart &) const;
@@ -243,6 +244,7 @@ class FixWallLsdcd : public Fix {
   void log_rebuilds();
 
   // fix_wall_lsdcd_checks.cpp
+  void check_points();
   void check_side(const MeshPart &) const;
   void check_plane(const MeshPart &);
   void check_surface(const MeshPart &) const;

@@ -13,6 +13,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 using lsdcd::number_text;
@@ -66,6 +67,32 @@ void FixWallLsdcd::check_box(const MeshPart &m, double cutoff) const
   const std::string wrong =
       lsdcd::outside_box({r.lo, r.hi}, *domain, cutoff + simulation_box().margin);
   if (!wrong.empty()) refuse(of(m, wrong));
+}
+
+// A mesh that moves may begin outside of the box and come in. One that was in it and has left
+// acts on nothing.
+void FixWallLsdcd::check_gone()
+{
+  for (MeshPart &m : parts) {
+    if (!m.settings.motion.any() || m.gone_warned) continue;
+    lsdcd::Box now = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    lsdcd::for_corners(m.bounds(0), [&](const lsdcd::Vec3 &corner) {
+      const lsdcd::Vec3 at = m.pose.to_box(corner);
+      for (int k = 0; k < 3; k++) {
+        now.lo[k] = std::min(now.lo[k], at[k]);
+        now.hi[k] = std::max(now.hi[k], at[k]);
+      }
+    });
+    const bool in_box = lsdcd::outside_box(now, *domain, cutoff()).empty();
+    m.was_in_box |= in_box;
+    if (in_box || !m.was_in_box) continue;
+    m.gone_warned = true;
+    const lsdcd::Box box = simulation_box().bounds({0, 0, 0});
+    warn(of(m, "the mesh has moved out of the box, where it acts on no atom: in step " +
+                   std::to_string(update->ntimestep) + " it spans " + lsdcd::extents_text(now) +
+                   ", the box " + lsdcd::extents_text(box) +
+                   "; check the motion and its units. Shown once"));
+  }
 }
 
 // A mesh smaller than a sphere is hardly meant to be.

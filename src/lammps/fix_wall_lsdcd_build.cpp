@@ -61,7 +61,10 @@ void FixWallLsdcd::update_cutoff()
 
   const double radius = most[0], old = cutoff();
   const auto cutoff_of = [this](double r) { return lsdcd::cutoff_of(settings.law, r); };
-  if (radius == 0) return;
+  if (radius == 0) {
+    check_points();
+    return;
+  }
   if (cutoff_of(radius) <= old) {
     follow_box();
     return;

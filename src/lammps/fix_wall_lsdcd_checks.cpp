@@ -85,6 +85,18 @@ double FixWallLsdcd::largest_radius()
   return largest;
 }
 
+// A group of points feels no wall. Collective.
+void FixWallLsdcd::check_points()
+{
+  if (points_warned) return;
+  need_on_host();
+  const bigint atoms = group->count(igroup);
+  if (atoms == 0) return;
+  points_warned = true;
+  warn("all " + std::to_string(atoms) + " atoms of group " + group->names[igroup] +
+       " have radius 0: the wall acts on none; set diameter");
+}
+
 void FixWallLsdcd::check_side(const MeshPart &m) const
 {
   const lsdcd::MeshReport &r = m.wall.report();

@@ -50,7 +50,8 @@ struct MeshPart {
   void finish_totals();    // from sums about the origin
 
   bool out_of_reach_warned = false, ends_warned = false;
-  bool springs_are_foreign = false;    // those of a restart file are of another mesh
+  bool was_in_box = false, gone_warned = false;    // of a mesh that moves
+  bool springs_are_foreign = false;                // those of a restart file are of another mesh
 
   lsdcd::Servo &servo() { return settings.motion.servo(); }
   const lsdcd::Servo &servo() const { return settings.motion.servo(); }

@@ -125,6 +125,16 @@ def main():
     text = deck.run_well(BOX + fix() + "run 0\n", folder)
     checks.fact("a floor of the deck's units is not", not lines(text, "probably in"))
 
+    # Walls that act on nothing.
+    text = deck.run_well(BOX + "unfix move\nset group all diameter 0\n" + fix() + "run 0\nrun 0\n", folder)
+    checks.fact("a group of points is told once",
+                len(lines(text, "WARNING: Fix w", "all 1 atoms of group all have radius 0", "set diameter")) == 1)
+    text = deck.run_well(BOX + fix("motion linear 0 0 -450") + "run 4\nrun 4\n", folder)
+    checks.fact("a mesh that leaves the box is told once, with the step",
+                len(lines(text, "WARNING: Fix w", "has moved out of the box", "in step 4")) == 1)
+    text = deck.run_well(BOX + fix("move 0 0 9 motion linear 0 0 -450") + "run 8\n", folder)
+    checks.fact("one that has yet to come in is not", not lines(text, "has moved out of"))
+
     # A quiet log.
     text = deck.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)
     checks.fact("log brief is one line", len(lines(text, "wall/lsdcd:")) == 1 and

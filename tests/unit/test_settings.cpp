@@ -540,6 +540,11 @@ TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
   EXPECT_TRUE(names(error_with("mesh_fields a_*_*.vtp every 5"), "only one is the step"));
 }
 
+TEST(settings, cut_needs_a_normal)
+{
+  EXPECT_TRUE(names(error_with("cut 0 0 0 1"), "the normal must not be 0 0 0"));
+}
+
 TEST(deck_files, are_one_however_the_folder_is_spelled)
 {
   EXPECT_TRUE(are_one_file({"mesh", "a.stl"}, {"mesh_stl", "./no/../a.stl", 5, true}, 0));
