@@ -191,8 +191,7 @@ void check_apart(Tokens &w, const WallSettings &s, std::size_t k)
   for (std::size_t i = 0; i < k; i++) {
     const MeshSettings &other = s.meshes[i];
     const std::string both = name_of_mesh(s, i) + " and " + name_of_mesh(s, k);
-    if (mesh.file == other.file && mesh.placement == other.placement &&
-        mesh.motion_tokens == other.motion_tokens && mesh.servo_tokens == other.servo_tokens) {
+    if (are_one_mesh(mesh, other)) {
       w.expect("mesh", "mesh FILE");
       w.fail(
           both +
@@ -236,6 +235,12 @@ void check_meshes(Tokens &w, const WallSettings &s)
 }
 
 }    // namespace
+
+bool are_one_mesh(const MeshSettings &a, const MeshSettings &b)
+{
+  return a.file == b.file && a.placement == b.placement && a.motion_tokens == b.motion_tokens &&
+         a.servo_tokens == b.servo_tokens;
+}
 
 WallSettings parse_settings(const std::vector<std::string> &tokens)
 {

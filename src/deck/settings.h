@@ -46,6 +46,9 @@ struct MeshSettings {
   }
 };
 
+// The same file, which is always at the same place.
+bool are_one_mesh(const MeshSettings &a, const MeshSettings &b);
+
 struct WallSettings {
   std::vector<MeshSettings> meshes;
   ContactLaw law;          // NULLs resolved; hertz stiffnesses still in pressure units

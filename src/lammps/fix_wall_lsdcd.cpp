@@ -172,6 +172,7 @@ void FixWallLsdcd::init()
     check_file(m, "mesh_stl", m.settings.stl);
   }
   check_files_apart();
+  check_doubled();
   file_warned = false;
 }
 

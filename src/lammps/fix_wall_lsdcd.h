@@ -105,6 +105,7 @@ class FixWallLsdcd : public Fix {
   bigint uncertified_due = 0;    // told from here on
   double worst_uncertain_due = 0;
   bool overlap_warned = false, wall_in_minimize_warned = false, points_warned = false;
+  bool doubled_warned = false;
   bigint checked_atoms = -1;                // how many there were when the timestep was checked
   bool may_be_new = false;                  // since then
   tagint highest_tag = -1;                  // of atoms that are not new; -1: not looked yet
@@ -224,6 +225,8 @@ class FixWallLsdcd : public Fix {
 
   // fix_wall_lsdcd_others.cpp
   void check_files_apart() const;
+  bool shares_atoms_with(const Fix &);
+  void check_doubled();
 
   // fix_wall_lsdcd_heat.cpp
   void check_heat();

@@ -5,6 +5,7 @@
 #include "base/input_error.h"
 #include "lammps/fix_massflow_lsdcd.h"
 
+#include "atom.h"
 #include "comm.h"
 #include "modify.h"
 #include "update.h"
@@ -55,5 +56,37 @@ void FixWallLsdcd::check_files_apart() const
     lsdcd::together(world, comm->me == 0, look);
   } catch (const lsdcd::InputError &e) {
     refuse(e.what());
+  }
+}
+
+// Now, or as they may come in a group that has none yet. Collective.
+bool FixWallLsdcd::shares_atoms_with(const Fix &other)
+{
+  if (igroup == other.igroup || igroup == 0 || other.igroup == 0) return true;
+  need_on_host();
+  int shares = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    shares |= (atom->mask[i] & groupbit) && (atom->mask[i] & other.groupbit);
+  MPI_Allreduce(MPI_IN_PLACE, &shares, 1, MPI_INT, MPI_MAX, world);
+  return shares != 0;
+}
+
+// The later of two fixes tells that both have the same mesh, which one fix refuses. Collective.
+void FixWallLsdcd::check_doubled()
+{
+  for (int i = 0; i < modify->nfix && modify->fix[i] != this && !doubled_warned; i++) {
+    const auto *other = dynamic_cast<const FixWallLsdcd *>(modify->fix[i]);
+    if (!other) continue;
+    for (const MeshPart &m : parts) {
+      bool same = false;
+      for (const MeshPart &of_other : other->meshes())
+        same |= lsdcd::are_one_mesh(m.settings, of_other.settings);
+      if (!same || !shares_atoms_with(*other)) continue;
+      doubled_warned = true;
+      warn("mesh '" + m.settings.file + "' is at the same place in fix " + other->id +
+           ", whose group shares atoms with this one's: they feel every contact twice; leave one "
+           "out, or move it");
+      break;
+    }
   }
 }

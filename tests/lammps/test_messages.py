@@ -135,6 +135,19 @@ def main():
     text = deck.run_well(BOX + fix("move 0 0 9 motion linear 0 0 -450") + "run 8\n", folder)
     checks.fact("one that has yet to come in is not", not lines(text, "has moved out of"))
 
+    # The same wall in two fixes.
+    twice = "WARNING: Fix lid", "'floor.stl' is at the same place in fix w", "twice"
+    both = BOX + "group one id 2\ngroup none empty\n" + fix()
+    text = deck.run_well(both + fix(name="lid") + "run 0\nrun 0\n", folder, 2)
+    checks.fact("the same mesh in two fixes is told once", len(lines(text, *twice)) == 1)
+    text = deck.run_well(both + fix(name="lid", more="move 0 0 1e-3") + "run 0\n", folder)
+    checks.fact("at another place it is not", not lines(text, *twice))
+    text = deck.run_well(both + fix(name="lid").replace(" all ", " one ") + "run 0\n", folder)
+    checks.fact("in groups that share an atom it is", len(lines(text, *twice)) == 1)
+    text = deck.run_well(both.replace(" all wall", " none wall") + fix(name="lid").replace(" all ", " one ") +
+                         "run 0\n", folder)
+    checks.fact("in groups that share none it is not", not lines(text, *twice))
+
     # A quiet log.
     text = deck.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)
     checks.fact("log brief is one line", len(lines(text, "wall/lsdcd:")) == 1 and
