@@ -89,20 +89,11 @@ void FixWallLsdcd::log_creation() const
          number_text(l.mu) + (l.limit_damping ? ", limit_damping" : "");
   std::string effects, kept;
   for (const lsdcd::Effect &e : lsdcd::effects_of(engine_settings())) {
-    const auto cost = lsdcd::kept_costs().find(e.kind);
-    const bool first = effects.empty();
-    effects += (first ? "" : ", ") + e.name;
-    if (cost != lsdcd::kept_costs().end())
-      effects +=
-          (first ? " " : " +") +
-          number_text(std::max(0.0, std::round(first ? cost->second.ns : cost->second.over_ns))) +
-          " ns";
+    effects += (effects.empty() ? "" : ", ") + e.name;
     if (e.bytes_per_contact > 0)
       kept += ", " + std::to_string(e.bytes_per_contact) + " for " + e.name;
   }
   t += "\n  effects     " + effects;
-  if (!lsdcd::kept_costs().empty())
-    t += "\n              (times per contact, as measured on " + lsdcd::kept_costs_where() + ")";
   t += "\n  per atom    ";
   if (history)
     t += "8 bytes, and per contact " + std::to_string(sizeof(lsdcd::Spring)) +

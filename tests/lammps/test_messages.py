@@ -148,6 +148,11 @@ def main():
                          "run 0\n", folder)
     checks.fact("in groups that share none it is not", not lines(text, *twice))
 
+    # Costs are those of another machine: lsdcd effects has them, with its name.
+    text = deck.run_well(BOX + fix() + "run 0\n", folder)
+    checks.fact("the log lists effects without times",
+                lines(text, "  effects     normal spring, normal damping") and not lines(text, " ns"))
+
     # A quiet log.
     text = deck.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)
     checks.fact("log brief is one line", len(lines(text, "wall/lsdcd:")) == 1 and
