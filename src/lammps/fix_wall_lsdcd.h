@@ -97,6 +97,7 @@ class FixWallLsdcd : public Fix {
   std::vector<double> mass_seen;
 
   static constexpr double kLargeOverlap = 0.1;    // of a radius; past it there is a warning
+  static constexpr double kWorse = 1.1;           // what is warned of again
   double worst_overlap = 0;    // overlap / radius since the last look, on this process
   tagint worst_tag = 0;
   bigint worst_step = 0;
@@ -110,7 +111,10 @@ class FixWallLsdcd : public Fix {
   bool may_be_new = false;                  // since then
   tagint highest_tag = -1;                  // of atoms that are not new; -1: not looked yet
   double worst_inserted = kLargeOverlap;    // overlap / radius of a new atom warned of
-  double worst_dt = 1;                      // the largest warned of, over what there should be
+  // The last atoms of which some came to be in the wall; 0 once none is deep in it.
+  tagint placed_after = 0, placed_until = 0;
+  double placed_overlap = 0;
+  double worst_dt = 1;    // the largest warned of, over what there should be
 
   double farthest_out = 0;    // past a face of the box that spheres were seen to go, and more
   bool out_warned = false;
@@ -151,7 +155,8 @@ class FixWallLsdcd : public Fix {
   void begin_step(bool);
   void choose_if_due(const lsdcd::Spheres &);
   bool list_keeps() const;
-  lsdcd::StepDiagnostics look();
+  lsdcd::StepDiagnostics read_notes();
+  void look();    // fix_wall_lsdcd_overlaps.cpp
   void log_lists();
   void prepare_springs();
   void springs_to_host();
@@ -223,6 +228,13 @@ class FixWallLsdcd : public Fix {
   bool try_to_write(const std::string &, const Work &);
   void write_fields(MeshPart &);
 
+  // fix_wall_lsdcd_overlaps.cpp
+  void note_overlap(const lsdcd::StepDiagnostics &);
+  void check_overlap(double);
+  void check_inserted();
+  double radius_of(tagint);
+  std::string overlap_text(double, tagint);
+
   // fix_wall_lsdcd_others.cpp
   void check_files_apart() const;
   bool shares_atoms_with(const Fix &);
@@ -251,8 +263,6 @@ class FixWallLsdcd : public Fix {
   void check_side(const MeshPart &) const;
   void check_plane(const MeshPart &);
   void check_surface(const MeshPart &) const;
-  void check_overlap(double);
-  void check_inserted();
   void check_timestep();
   void check_springs();
   double contact_time(double, double) const;

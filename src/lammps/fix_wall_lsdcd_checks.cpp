@@ -23,7 +23,6 @@ using lsdcd::LawStyle;
 using lsdcd::number_text;
 
 static constexpr double kStepsPerContact = 10;
-static constexpr double kWorse = 1.1;    // what is warned of again
 
 std::string FixWallLsdcd::signed_text(const std::string &text) const
 {
@@ -122,55 +121,6 @@ void FixWallLsdcd::check_surface(const MeshPart &m) const
                  " % of the speed there). That part is left out: the mesh itself stays where it "
                  "is, and lifters, blades and screws convey nothing. Where the mesh itself moves, "
                  "use the keyword motion"));
-}
-
-// Collective where `worst` is the largest of all processes.
-void FixWallLsdcd::check_overlap(double worst)
-{
-  if (overlap_warned || worst <= kLargeOverlap) return;
-  overlap_warned = true;
-  struct {
-    double value;
-    int rank;
-  } most = {worst_overlap, comm->me};
-  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
-  bigint which[2] = {worst_tag, worst_step};
-  MPI_Bcast(which, 2, MPI_LMP_BIGINT, most.rank, world);
-  warn("atom " + std::to_string(which[0]) + " sank into the wall by " +
-       number_text(100 * most.value) + " % of its radius by step " + std::to_string(which[1]) +
-       ": stiffen the contact (kn) or lower speeds; shown once");
-}
-
-// The deepest of atoms that came to be in the wall, in the step that they came with: what inserts
-// atoms numbers them on from the highest that there is. Those of a run that goes on have sunk in.
-// Collective.
-void FixWallLsdcd::check_inserted()
-{
-  if (!may_be_new) return;
-  may_be_new = false;
-  const lsdcd::StepDiagnostics seen = look();
-  need_on_host();
-  tagint highest = 0;
-  for (int i = 0; i < atom->nlocal; i++) highest = std::max(highest, tag_of(i));
-  const tagint mine = seen.deepest > kLargeOverlap ? tag_of(seen.deepest_sphere) : 0;
-  const bool goes_on = highest_tag < 0 && update->ntimestep > 0;
-  const bool is_new = mine > highest_tag && !goes_on;
-  struct {
-    double value;
-    int rank;
-  } most = {is_new ? seen.deepest : 0, comm->me};
-  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
-  MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  highest_tag = std::max(highest_tag, highest);
-  if (most.value <= worst_inserted) return;
-  worst_inserted = kWorse * most.value;
-  tagint which = mine;
-  MPI_Bcast(&which, 1, MPI_LMP_TAGINT, most.rank, world);
-  warn("atom " + std::to_string(which) + " comes to be in the wall, which it overlaps by " +
-       number_text(100 * most.value) + " % of its radius in step " +
-       std::to_string(update->ntimestep) +
-       ": it will be thrown out; keep what inserts or creates atoms a radius away from the mesh. "
-       "Told again of one that is deeper");
 }
 
 // Particles of a two-dimensional run feel the mesh where it cuts their plane. Collective.

@@ -101,26 +101,21 @@ void FixWallLsdcd::collect()
   keep_outputs();
 }
 
-// What steps have noted since the last look, for warnings and the log.
-lsdcd::StepDiagnostics FixWallLsdcd::look()
+// What steps have noted since the last look, for the log.
+lsdcd::StepDiagnostics FixWallLsdcd::read_notes()
 {
   lsdcd::StepDiagnostics diagnostics;
   if (cutoff() == 0) return diagnostics;
   try {
     diagnostics = engine->read_diagnostics();
-    uncertified_sum += diagnostics.uncertified;
-    worst_uncertain = std::max(worst_uncertain, diagnostics.uncertain);
-    lists += diagnostics.lists;
-    listed += diagnostics.listed;
-    by_cells += diagnostics.by_cells;
-    if (diagnostics.deepest <= worst_overlap) return diagnostics;
-    worst_overlap = diagnostics.deepest;
-    worst_step = update->ntimestep;
-    if (!overlap_warned && diagnostics.deepest > kLargeOverlap)
-      worst_tag = tag_of(diagnostics.deepest_sphere);
   } catch (const std::exception &e) {
     stop(e);
   }
+  uncertified_sum += diagnostics.uncertified;
+  worst_uncertain = std::max(worst_uncertain, diagnostics.uncertain);
+  lists += diagnostics.lists;
+  listed += diagnostics.listed;
+  by_cells += diagnostics.by_cells;
   return diagnostics;
 }
 

@@ -245,7 +245,7 @@ def inserted_atoms_are_checked(checks, folder):
     """A sphere of radius 0.5 put at z = 0.3 over the plane z = 0 overlaps by 40 %."""
     body = (head() + FORCES + "fix move all nve/sphere\n" +
             f"fix wall all wall/lsdcd {HOOKE} mesh floor.stl\n")
-    said = re.compile(r"atom (\d+) comes to be in the wall, which it overlaps by (\S+) % of its radius in step (\d+)")
+    said = re.compile(r"atom (\d+) comes to be in the wall, which it overlaps by (\S+) % of its radius 0.5 in step (\d+)")
 
     def put(z, x=0):
         return f"create_atoms 1 single {x} 0 {z} units box\nset group all diameter 1.0 density 2.0\n"
@@ -259,6 +259,14 @@ def inserted_atoms_are_checked(checks, folder):
     text = deck.run_well(body + put(0.48) + "fix g all gravity 8.0 vector 0 0 -1\n" + put(3, 1) +
                          "velocity all set 0 0 -9\nrun 600\n", folder)
     checks.fact("one that falls in is not", "sank into the wall" in text and not said.findall(text))
+    checks.fact("and its radius is told", re.search(r"sank into the wall by \S+ % of its radius 0.5 by step", text))
+    # Both are in the wall, and only the deeper one is told; then one more falls in.
+    both = body + put(0.3) + put(0.32, 1.5) + "timestep 0.001\n"
+    text = deck.run_well(both + "run 100\n", folder)
+    checks.fact("spheres that were put into the wall have not sunk", len(said.findall(text)) == 1 and
+                "sank" not in text)
+    text = deck.run_well(both + "run 100\nvelocity all set 0 0 -40\nrun 80\n", folder)
+    checks.fact("once they were out they may", "sank into the wall" in text)
     if deck.ON_KOKKOS:    # which has no fix deposit
         return
     text = deck.run_well(body + """\

@@ -93,7 +93,7 @@ def main():
     deep = "set group all z 0.3\n"
     text = deck.run_well(BOX + deep + fix(name="base") + "run 1\nminimize 0 0 1 1\n", folder)
     checks.fact("a warning names the fix and the atom",
-                lines(text, "WARNING: Fix base wall/lsdcd: atom 2 sank"))
+                lines(text, "WARNING: Fix base wall/lsdcd: atom 2 comes to be"))
     checks.fact("that of a minimization too", lines(text, "Fix base wall/lsdcd: no effect"))
     done = deck.run(BOX + fix(name="base", more="sclae 2") + "run 1\n", folder)
     checks.fact("an error names the fix", "Fix base wall/lsdcd: 'sclae'" in done.stdout)

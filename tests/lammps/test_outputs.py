@@ -157,7 +157,9 @@ def main():
     for inward in (False, True):
         write_cube(folder / "cube.stl", inward)
         for side, force in (("in", 6000), ("out", -4000)):
-            thermo, _, _ = go(folder, atoms=low, mesh="cube.stl", more=f"side {side} contacts")
+            thermo, _, text = go(folder, atoms=low, mesh="cube.stl", more=f"side {side} contacts")
+            checks.fact(f"side {side}: a centre past the wall is asked about",
+                        ("centre is past the wall" in text) == (side == "in"))
             checks.fact(f"side {side}, wound {'in' if inward else 'out'}wards: back to its side",
                         close(thermo[0][4], -force), str(thermo[0][4]))
 
