@@ -195,8 +195,9 @@ def read_times(output):
     loops = re.findall(r"^Loop time of (\S+) on .* for (\d+) steps", output, re.M)[1:]
     pair = re.findall(r"^Pair\s*\|\s*\S+\s*\|\s*(\S+)", output, re.M)[1:]
     builds = re.findall(r"^Neighbor list builds = (\d+)", output, re.M)[1:]
-    lists = re.findall(r": (\d+) steps, near atoms chosen (\d+) times", output)[1:]
+    lists = re.findall(r": (\d+) steps?( and the setup)?: atoms near the wall chosen (\d+) time", output)[1:]
     return {"ms": [1e3 * float(t) / int(n) for t, n in loops],
             "pair": [1e3 * float(p) / int(n) for p, (_, n) in zip(pair, loops)],
             "builds": sum(map(int, builds)),
-            "wall_steps": sum(int(a) for a, _ in lists), "lists": sum(int(b) for _, b in lists)}
+            "wall_steps": sum(int(steps) + bool(setup) for steps, setup, _ in lists),
+            "lists": sum(int(chosen) for _, _, chosen in lists)}

@@ -81,8 +81,9 @@ class FixWallLsdcd : public Fix {
   int n_with_springs = 0;     // atoms whose springs are with the engine
   bool list_is_old = true;    // of near atoms
   bigint set_up_at = -1;      // the step in which a run was set up
-  bigint steps_run = 0, choices = 0, lists = 0, listed = 0, by_cells = 0;    // in this run
-  bool callbacks = false;                                                    // registered with Atom
+  bigint steps_run = 0, setups = 0, choices = 0, lists = 0, listed = 0,
+         by_cells = 0;             // in this run
+  bool callbacks = false;          // registered with Atom
   bool springs_checked = false;    // against this mesh: they may come from a restart file
   int kind_in_file = -1;           // of its springs (model/spring_kind.h); -1: it does not say
   bigint other_law = 0;            // atoms of that file with springs of another law

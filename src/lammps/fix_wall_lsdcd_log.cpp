@@ -11,27 +11,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 using namespace LAMMPS_NS;
 using lsdcd::LawStyle;
 using lsdcd::number_text;
+
+static std::string counted(bigint n, const std::string &what)
+{
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
 
 // How often near atoms were chosen and lists of the wall made in this run. Collective.
 void FixWallLsdcd::log_lists()
 {
   bigint sum[3] = {lists, listed, by_cells};
   MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (steps_run > 0 && !settings.brief) {
-    std::string t = signed_text(std::to_string(steps_run) + " steps, near atoms chosen " +
-                                std::to_string(choices) + " times");
+  if (steps_run + setups > 0 && !settings.brief) {
+    std::string t = signed_text(counted(steps_run, "step") + (setups > 0 ? " and the setup" : "") +
+                                ": atoms near the wall chosen " + counted(choices, "time"));
     if (!list_keeps()) t += " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
-    if (sum[0] > 0)
-      t += ", " + std::to_string(sum[0]) + " lists of the wall made, " +
-           number_text(static_cast<double>(sum[1]) / sum[0]) + " features each";
-    if (sum[2] > 0) t += "; " + std::to_string(sum[2]) + " times a cell was searched instead";
+    if (sum[0] > 0) {
+      char features[32];
+      std::snprintf(features, sizeof features, "%.2f", static_cast<double>(sum[1]) / sum[0]);
+      t += ", wall neighbor lists made " + counted(sum[0], "time") + ", " + features +
+           " mesh features each";
+    }
+    if (sum[2] > 0) t += ", a grid cell searched instead " + counted(sum[2], "time");
     log(t);
   }
-  steps_run = choices = lists = listed = by_cells = 0;
+  steps_run = setups = choices = lists = listed = by_cells = 0;
 }
 
 // What nearest lists may have cost so far: after the first run, and when it has grown much since

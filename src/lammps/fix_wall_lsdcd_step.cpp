@@ -96,7 +96,7 @@ void FixWallLsdcd::collect()
     }
     running = false;
     n_with_springs = atom->nlocal;
-    steps_run++;
+    (update->setupflag ? setups : steps_run)++;
   }
   keep_outputs();
 }

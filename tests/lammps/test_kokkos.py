@@ -85,8 +85,8 @@ def lists(checks, folder):
         if deck.DEVICE_MOVES:
             checks.fact(f"{name}: atoms move on the device", "switching to legacy" not in output)
         for form, said in (("plain", plain_output), ("kk", output)):
-            found = re.search(r": (\d+) steps, near atoms chosen (\d+) times(.*), (\d+) lists of the "
-                              r"wall made, (\S+) features each", said)
+            found = re.search(r": (\d+) steps and the setup: atoms near the wall chosen (\d+) times?(.*), "
+                              r"wall neighbor lists made (\d+) times?, (\S+) mesh features each", said)
             steps, chosen, made = (int(found.group(k)) for k in (1, 2, 4))
             checks.fact(f"{name}, {form}: near atoms are kept from step to step",
                         chosen < steps / 5, found.group(0))

@@ -153,6 +153,13 @@ def main():
     checks.fact("the log lists effects without times",
                 lines(text, "  effects     normal spring, normal damping") and not lines(text, " ns"))
 
+    # What a run did: its steps, and how often lists were made.
+    text = deck.run_well(BOX + fix() + "run 1\nrun 4 pre no\n", folder)
+    checks.fact("a run has as many steps as were asked for",
+                lines(text, "Fix w wall/lsdcd: 1 step and the setup: atoms near the wall chosen 1 time, "
+                      "wall neighbor lists made 1 time, 1.00 mesh features each"))
+    checks.fact("and no setup where it had none", lines(text, "Fix w wall/lsdcd: 4 steps: atoms near"))
+
     # A quiet log.
     text = deck.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)
     checks.fact("log brief is one line", len(lines(text, "wall/lsdcd:")) == 1 and
