@@ -286,7 +286,8 @@ const Keyword kKeywords[] = {
     {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
      [](Tokens &, WallSettings &s) { s.contacts = true; }},
     {"periodic", "", "", "", "off",
-     "the mesh continues itself across periodic faces and reaches past them by R",
+     "the mesh is meant to reach past periodic faces or to continue itself there; it acts "
+     "through them in any case",
      [](Tokens &, WallSettings &s) { s.periodic = true; }},
     {"log", "full | brief", "", "", "full", "brief: one line about the wall in place of all",
      [](Tokens &w, WallSettings &s) {
