@@ -42,7 +42,7 @@ def parts(rows_of):
 
     heads = ["triangles", "device", "spheres", "order", "contacts", "step, ms", "ns per contact",
              "over the smallest mesh", "with a new choice, ms", "weld and build, ms", "grid, MB",
-             "engine with its grid, MB"]
+             "engine, MB (on a GPU with the grid)"]
     text = table([r for r in rows if r["case"] == KEPT], heads, cells)
     return performance.between_markers({"mesh-size": text + "\n\n" + performance.machines(rows_of)})
 
