@@ -6,7 +6,11 @@
 #include "atom.h"
 #include "error.h"
 #include "input.h"
+#include "modify.h"
+#include "update.h"
 #include "variable.h"
+
+#include <algorithm>
 
 using namespace LAMMPS_NS;
 
@@ -40,11 +44,17 @@ void FixWallLsdcd::give_heat(lsdcd::Spheres &spheres, lsdcd::StepSettings &step)
 #else
   (void) spheres;
 #endif
+  const bool varies = std::any_of(parts.begin(), parts.end(), [](const MeshPart &m) {
+    return !m.settings.temperature_variable.empty();
+  });
+  // A variable's computes keep their values until they are cleared.
+  if (varies) modify->clearstep_compute();
   temperatures.clear();
   for (const MeshPart &m : parts)
     temperatures.push_back(m.settings.temperature_variable.empty()
                                ? m.settings.temperature
                                : input->variable->compute_equal(m.temperature_variable));
+  if (varies) modify->addstep_compute(update->ntimestep + 1);
   step.wall_temperature = temperatures.front();
   if (several()) step.mesh_temperature = temperatures.data();
 }

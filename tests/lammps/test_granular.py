@@ -127,7 +127,7 @@ def many(count=200):
     return SETTINGS + "\n".join(lines) + "\nvelocity all create 2.0 99 loop geom\n"
 
 
-def run(folder, scene, wall, steps, every, load="", more="", columns=""):
+def run(folder, scene, wall, steps, every, load="", more="", columns="", thermo=100000):
     text = f"""\
 {load}
 {scene}
@@ -142,7 +142,7 @@ timestep        1e-4
 dump            out all custom {every} out id x y z vx vy vz omegax omegay omegaz &
                 fx fy fz tqx tqy tqz {columns}
 dump_modify     out format float %.17g sort id
-thermo          100000
+thermo          {thermo}
 run             {steps}
 """
     (folder / "in.deck").write_text(text)
@@ -178,6 +178,17 @@ def heat(checks, folder, load):
         compare(checks, folder, f"heat {model}, a variable", f"{law} mesh floor.stl temperature v_ramp",
                 f"{law} zplane 0.0 NULL temperature v_ramp", load,
                 more=HEAT + ramp, columns="c_warmth c_taken")
+
+
+def heat_of_a_compute(checks, folder, load):
+    """A wall's temperature that follows where the sphere is, in steps with thermo output or not."""
+    wall = (f"wall/lsdcd granular {NORMALS['jkr'].format(eta=40)} {SLIDE} heat area 3 mesh floor.stl "
+            "temperature v_there")
+    there = "compute there all reduce ave x\nvariable there equal 1000*c_there\n"
+    often, seldom = (run(folder, ONE, wall, 500, 100, load, more=HEAT + there, columns="c_warmth",
+                         thermo=thermo) for thermo in (1, 500))
+    checks.at_most("heat, a variable with a compute: seldom thermo output as often",
+                   deck.largest_difference(often, seldom), 0)
 
 
 def steady_heat(checks, folder, load):
@@ -271,6 +282,7 @@ def main():
     for name, (ours, hosts) in laws().items():
         compare(checks, folder, name, f"{ours} mesh floor.stl", f"{hosts} zplane 0.0 NULL", load)
     heat(checks, folder, load)
+    heat_of_a_compute(checks, folder, load)
     steady_heat(checks, folder, load)
     host_defects(checks, folder, load)
     checks.done(folder)
