@@ -70,6 +70,7 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
   maxexchange = kTrackSize;
   mine.assign(kColumns * atom->ntypes + kAfterTypes, 0.0);
   totals = mine;
+  time_seen = simulated_time();    // for a run without setup
 
   // Last: Atom would call a fix that was refused after this.
   FixMassflowLsdcd::grow_arrays(atom->nmax);
@@ -128,6 +129,7 @@ void FixMassflowLsdcd::setup(int /*vflag*/)
 {
   near_within = neighbor->skin > 0 ? 2 * neighbor->skin : 1e150;
   far = 8 * near_within;
+  time_seen = simulated_time();
   follow_box();
   all_were_seen = look_at_all = true;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -136,6 +138,12 @@ void FixMassflowLsdcd::setup(int /*vflag*/)
     t.clear -= norm(x - t.last);
     t.last = x;
   }
+}
+
+// At the end of a step dt may be that of the next one already, as fix dt/reset sets it there.
+double FixMassflowLsdcd::simulated_time() const
+{
+  return update->atime + (update->ntimestep - update->atimestep) * update->dt;
 }
 
 // Images of the surface move with the box.
@@ -164,8 +172,11 @@ void FixMassflowLsdcd::end_of_step()
   all_were_seen = look_at_all;
   look_at_all = false;
   reduced = false;
-  window_time += update->dt;
-  if (++window_steps == settings.every) end_window();
+  const double now = simulated_time();
+  window_time += now - time_seen;
+  time_seen = now;
+  // A restart file may bring more steps than this fix averages over.
+  if (++window_steps >= settings.every) end_window();
 }
 
 // An atom that is not near was last looked at when its clearance was two skins or more, and LAMMPS

@@ -75,6 +75,7 @@ class FixMassflowLsdcd : public Fix {
   // Of the window over which the rate is an average, on all processes.
   double window_time = 0, window_start = 0, rate = 0;
   int window_steps = 0;
+  double time_seen = 0;    // LAMMPS's, at the end of the last step
 
   lsdcd::WallMesh read_mesh();
   void check_length(const lsdcd::WallMesh &) const;
@@ -85,6 +86,7 @@ class FixMassflowLsdcd : public Fix {
   double net_mass();
   void end_window();
   double mass_of(int) const;
+  double simulated_time() const;
 
   std::string signed_text(const std::string &) const;
   void warn(const std::string &) const;

@@ -163,6 +163,32 @@ def check_restart(checks, folder):
                 last[FORWARD] == len(first) and last[BACKWARD] == 0, str(last))
 
 
+def check_window(checks, folder):
+    """The rate after a restart with a shorter window, and with a timestep that changes."""
+    deck.run_well(begin() + forces("every 64") + "run 40\nwrite_restart mid.restart\n", folder)
+    rows = table(SETTINGS + "read_restart mid.restart\n" + forces("every 8") + "run 8\n", folder)
+    first = mass_of(passed(over_plate(spheres()), 40))
+    # The window that was begun ends in the first step, the others each 8 steps after.
+    checks.at_most("a window that is more than full when a run goes on ends at once",
+                   abs(rows[44][RATE] * 41 / STEPS_PER_LENGTH / first - 1), 1e-6)
+
+    # Fix dt/reset acts before this fix or after it, more often than a window ends.
+    wrong, rates = [], set()
+    for place in ("fix             m ", "thermo          "):
+        text = begin() + forces("every 16").replace(
+            place, "fix g all gravity 1 vector 0 0 -1\nfix r all dt/reset 6 NULL NULL 0.0078125 units box\n" + place)
+        text = text.replace("f_m[2][3]\n", "f_m[2][3] time\nthermo_modify format float %.17g\n")
+        rows = table(text + "run 128\n", folder)
+        for step in range(16, 129, 16):
+            last, row = rows[step - 16], rows[step]
+            rate = (row[NET] - last[NET]) / (row[-1] - last[-1])
+            rates.add(rate)
+            if abs(row[RATE] - rate) > 1e-9 * rate:
+                wrong.append((place, step, row[RATE], rate))
+    checks.fact("where fix dt/reset changes the timestep the rate's time is that of its steps",
+                not wrong and len(rates) > 2, str(wrong[:1]))
+
+
 def check_delete(checks, folder):
     over, every = over_plate(spheres()), spheres()
     wrong = []
@@ -349,6 +375,7 @@ def main():
     check_up(checks, folder)
     check_periodic(checks, folder)
     check_restart(checks, folder)
+    check_window(checks, folder)
     check_delete(checks, folder)
     check_springs(checks, folder)
     check_bounce(checks, folder)
