@@ -143,9 +143,11 @@ void SharedWall::build(Real cutoff, const PeriodicBox &box)
   int rank;
   MPI_Comm_rank(shared_.world(), &rank);
   const GridSettings want = grid_settings(cutoff, box);
-  builds_++;
-  cache_file_ = of_mesh_.cache_file;
-  if (!cache_file_.empty() && builds_ > 1) cache_file_ += "." + std::to_string(builds_);
+  // A box that changes in many steps would leave a file in each.
+  const bool for_box = cutoff == cutoff_;
+  cutoffs_ += !for_box;
+  cache_file_ = for_box ? "" : of_mesh_.cache_file;
+  if (!cache_file_.empty() && cutoffs_ > 1) cache_file_ += "." + std::to_string(cutoffs_);
   cache_text_.clear();
   cache_warning_.clear();
   ends_warning_.clear();

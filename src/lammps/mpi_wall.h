@@ -31,7 +31,7 @@ class SharedWall {
 
   // Makes the grid for particles up to radius `cutoff` with centres in `box`, with the periodic
   // images of the mesh that act there, or reads it from its cache file. The grid of the n-th
-  // call, n > 1, is kept in a file of its own, FILE.n.
+  // cutoff, n > 1, is kept in a file of its own, FILE.n; that of another box in none.
   void build(Real cutoff, const PeriodicBox &box);
 
   // Is the grid right for spheres in this box, too? Images follow it to kBoxTolerance of the
@@ -96,7 +96,7 @@ class SharedWall {
   PeriodicBox box_;                                                       // likewise
   Box within_ = kNoLimit;
   std::uint64_t cells_ = 0;
-  int builds_ = 0;
+  int cutoffs_ = 0;    // that there were builds for
   Real cutoff_ = 0;
 };
 

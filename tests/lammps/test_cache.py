@@ -5,6 +5,7 @@ Numbers are compared as printed with 17 digits: to the last bit.
 """
 
 import os
+import re
 import subprocess
 import sys
 
@@ -35,6 +36,20 @@ class Run:
 
 def go(folder, words, ranks=1, run=RUN, env=None):
     return Run(deck.run_well(text_of(words, run), folder, ranks, env=env))
+
+
+def box_changes(checks, folder):
+    """The grid is rebuilt for the box in many steps, then for larger spheres."""
+    text = deck.SMALL_BOX.replace("f f f", "p p f", 1).format(atoms="create_atoms 1 single 0 0 0.6 units box") + \
+        "fix squeeze all deform 1 x erate -0.05\nthermo 50\n" + \
+        f"fix wall all wall/lsdcd {LAW} mesh floor.stl cache box periodic\ntimestep 0.001\n" + \
+        "run 20\nset group all diameter 1.1\nrun 20\n"
+    output = deck.run_well(text, folder)
+    times = [int(n) for n in re.findall(r"the grid was rebuilt (\d+) times", output)]
+    files = sorted(p.name for p in folder.glob("box*"))
+    checks.fact("a box that changes: grids are rebuilt often", len(times) == 2 and min(times) > 5, str(times))
+    checks.fact("a box that changes: files of the first grid and of that for larger spheres alone",
+                files == ["box", "box.2"], " ".join(files))
 
 
 def main():
@@ -96,6 +111,8 @@ def main():
              read=1, written=1)
         for name in ("cache", "cache.2"):
             (folder / name).unlink()
+
+    box_changes(checks, folder)
 
     # Nodes that share no memory, and maybe no files.
     two_nodes = os.environ.get("LSDCD_TWO_NODES")
