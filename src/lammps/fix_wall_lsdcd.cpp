@@ -204,6 +204,7 @@ void FixWallLsdcd::setup(int vflag)
 void FixWallLsdcd::min_setup(int /*vflag*/)
 {
   if (callbacks) ask_for_most_room();
+  clear_outputs();
   if (wall_in_minimize_warned) return;
   wall_in_minimize_warned = true;
   warn("no effect in a minimization, as fix wall/gran has none");

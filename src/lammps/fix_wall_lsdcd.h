@@ -164,6 +164,7 @@ class FixWallLsdcd : public Fix {
   void springs_to_engine();
   void fill_contacts();
   void reduce_totals();
+  void clear_outputs();
   double output_of(MeshPart &, int);
   bool torques_share_a_point() const;
   MeshPart *only_servo();

@@ -37,6 +37,21 @@ void FixWallLsdcd::reduce_totals()
   reduced = true;
 }
 
+// Where the wall does not act, as in a minimization, those of the last step would be added to its
+// energy and pressure.
+void FixWallLsdcd::clear_outputs()
+{
+  std::fill(virial, virial + 6, 0.0);
+  for (MeshPart &m : parts) {
+    std::fill(m.totals, m.totals + kTotals, 0.0);
+    m.torque_at_origin = {0, 0, 0};
+    m.power = m.energy = 0;
+  }
+  reduced = true;
+  for (int i = 0; settings.contacts && i < atom->nlocal; i++)
+    std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
+}
+
 double FixWallLsdcd::compute_scalar()
 {
   reduce_totals();

@@ -82,6 +82,28 @@ thermo_modify   format float %.17g norm no""", steps=1)
                 abs(last[5] - 100) < 0.1 and abs(last[6] - 500) < 0.1, str(last[3:]))
 
 
+def in_minimization(checks, folder):
+    """After a run in which both spheres touch. In a minimization the wall does not act."""
+    columns = " ".join(f"f_wall[{k}]" for k in range(1, 12))
+    rows, _, text = go(folder, extra=f"""\
+fix_modify      wall energy yes virial yes
+compute         push all pressure NULL virial
+thermo_style    custom step pe c_push f_wall {columns}
+run             1
+min_style       cg
+minimize        0 0 2 2
+write_dump      all custom minimized id {CONTACTS} modify sort id
+""")
+    rows_in = next(iter(deck.read_dump(folder / "minimized").values()))
+    there = deck.read_thermo(text.split("Minimization stats")[0])
+    checks.fact("before and after a minimization there are energy, virial and vector",
+                all(row[1] > 0 and row[2] > 0 and row[8] < 0 for row in rows), str(rows[0]))
+    checks.fact("in a minimization they are 0", len(there) > 0 and not any(any(row[1:]) for row in there),
+                str(there))
+    checks.fact("in a minimization rows of contacts are 0",
+                not any(any(row) for row in rows_in.values()), str(rows_in))
+
+
 def main():
     checks, folder = deck.Checks(), deck.scratch()
     (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
@@ -193,6 +215,7 @@ def main():
             pictures.append((folder / "wall.0.ppm").read_bytes())
         checks.fact(f"dump image shows the mesh: draw {what}", pictures[0] != pictures[1])
     in_commands(checks, folder)
+    in_minimization(checks, folder)
     checks.done(folder)
 
 
