@@ -118,6 +118,7 @@ int FixMassflowLsdcd::setmask()
 
 void FixMassflowLsdcd::init()
 {
+  watch.init(*update);
   for (int i = 0; settings.deletes && i < modify->nfix; i++)
     if (modify->fix[i]->rigid_flag)
       warn("delete yes does not tell fix " + std::string(modify->fix[i]->id) +
@@ -127,6 +128,9 @@ void FixMassflowLsdcd::init()
 // Between runs atoms may be put anywhere: only time steps let them pass.
 void FixMassflowLsdcd::setup(int /*vflag*/)
 {
+  if (watch.sees_snapshot(*update))
+    refuse("a rerun has no steps, and what passes between its snapshots is not counted: unfix " +
+           std::string(id) + " before it");
   near_within = neighbor->skin > 0 ? 2 * neighbor->skin : 1e150;
   far = 8 * near_within;
   time_seen = simulated_time();

@@ -6,6 +6,7 @@
 
 #include "deck/massflow_settings.h"
 #include "flow/flow_surface.h"
+#include "lammps/rerun_watch.h"
 
 #include <memory>
 #include <string>
@@ -61,6 +62,7 @@ class FixMassflowLsdcd : public Fix {
 
   lsdcd::MassflowSettings settings;
   std::unique_ptr<lsdcd::FlowSurface> surface;
+  RerunWatch watch;
   std::vector<Track> tracks;
   std::vector<int> near;        // atoms looked at in every step
   double near_within = 0;       // atoms with less clearance are near

@@ -155,6 +155,7 @@ int FixWallLsdcd::setmask()
 
 void FixWallLsdcd::init()
 {
+  watch.init(*update);
   nlevels_respa = 0;
   rigid = adapts = false;
   for (int i = 0; i < modify->nfix; i++) {
@@ -188,6 +189,8 @@ void FixWallLsdcd::setup(int vflag)
   v_init(vflag);
   list_is_old = true;
   set_up_at = update->ntimestep;
+  rerun = watch.sees_snapshot(*update);
+  if (rerun) begin_snapshot();
   prepare_springs();
   if (!springs_checked) check_springs();
   if (callbacks) ask_for_most_room();
@@ -231,6 +234,7 @@ void FixWallLsdcd::make_exchange_room()
 void FixWallLsdcd::pre_force(int vflag)
 {
   v_init(vflag);
+  rerun = false;
   if (neighbor->ago == 0 && callbacks) ask_for_most_room();
   const bool anew = neighbor->ago == 0 ||
                     (update->ntimestep == update->firststep + 1 && set_up_at != update->firststep);
@@ -259,7 +263,7 @@ void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
 // `look`: may there be new spheres, or other radii?
 void FixWallLsdcd::begin_step(bool look)
 {
-  run_clock.advance(*update);
+  advance(run_clock);
   move_wall();
   if (look)
     update_cutoff();

@@ -6,6 +6,7 @@
 
 #include "deck/deck_files.h"
 #include "lammps/mesh_part.h"
+#include "lammps/rerun_watch.h"
 
 #include <deque>
 #include <functional>
@@ -80,6 +81,9 @@ class FixWallLsdcd : public Fix {
   Where springs_are = Where::host;
   int n_with_springs = 0;     // atoms whose springs are with the engine
   bool list_is_old = true;    // of near atoms
+  RerunWatch watch;
+  bool rerun = false;         // this is a snapshot of one
+  bool rerun_told = false;    // what is not known there
   bigint set_up_at = -1;      // the step in which a run was set up
   bigint steps_run = 0, setups = 0, choices = 0, lists = 0, listed = 0,
          by_cells = 0;             // in this run
@@ -189,6 +193,7 @@ class FixWallLsdcd : public Fix {
 
   // fix_wall_lsdcd_motion.cpp
   void begin_motion(MeshPart &);
+  void advance(StepClock &) const;
   void move_wall();
   int variable_of(const std::string &) const;
   double value_of(const std::string &) const;
@@ -212,6 +217,10 @@ class FixWallLsdcd : public Fix {
   void check_limits(const MeshPart &, const std::string &) const;
   void show_servo();
   int modify_servo(MeshPart &, const std::vector<std::string> &);
+
+  // fix_wall_lsdcd_rerun.cpp
+  void begin_snapshot();
+  void check_snapshot(const MeshPart &) const;
 
   // fix_wall_lsdcd_virial.cpp
   void make_engine_with_virial();

@@ -80,7 +80,7 @@ void FixWallLsdcd::end_of_step()
     return file.every > 0 && update->ntimestep % file.every == 0;
   };
   for (MeshPart &m : parts) {
-    if (due(m.settings.fields)) write_fields(m);
+    if (due(m.settings.fields) && !rerun) write_fields(m);
     if (due(m.settings.stl))
       try_to_write("there is no mesh_stl of this step", [&] {
         lsdcd::write_mesh_stl(lsdcd::file_of_step(m.settings.stl.name, update->ntimestep),

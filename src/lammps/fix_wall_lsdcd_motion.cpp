@@ -32,13 +32,21 @@ bool FixWallLsdcd::any_moves() const
   return false;
 }
 
+void FixWallLsdcd::advance(StepClock &clock) const
+{
+  if (rerun)
+    clock.jump_to(*update);
+  else
+    clock.advance(*update);
+}
+
 // Poses last: what servos ask for and variables may read is of where meshes were.
 void FixWallLsdcd::move_wall()
 {
   for (MeshPart &m : parts) {
     if (!m.moves_or_varies()) continue;
     const lsdcd::Time before = m.clock.now();
-    m.clock.advance(*update);
+    advance(m.clock);
     const double passed = static_cast<double>(m.clock.now() - before);
     if (m.has_variables()) {
       modify->clearstep_compute();

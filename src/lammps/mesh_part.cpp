@@ -19,6 +19,12 @@ void StepClock::advance(const Update &update)
   step = update.ntimestep;
 }
 
+void StepClock::jump_to(const Update &update)
+{
+  dt = update.dt;
+  step = update.ntimestep;
+}
+
 // Torque about what `torque_about` names, and power.
 void MeshPart::finish_totals()
 {
@@ -38,6 +44,14 @@ bool MeshPart::has_variables() const
   if (settings.surface_varies() || !servo().target_name.empty()) return true;
   for (const lsdcd::MotionTerm &m : settings.motion.terms())
     if (m.kind == lsdcd::MotionKind::variable) return true;
+  return false;
+}
+
+bool MeshPart::takes_differences() const
+{
+  for (const lsdcd::MotionTerm &m : settings.motion.terms())
+    for (int d = 0; d < 3; d++)
+      if (!m.name[d].empty() && m.name[3 + d].empty()) return true;
   return false;
 }
 
@@ -92,10 +106,7 @@ std::string MeshPart::motion_text() const
   if (!motion.moves()) return motion.start().placed ? "none; the mesh stays where it is" : "";
   constexpr int kSamples = 64;
   std::string text = settings.motion_tokens;
-  bool differences = false;
-  for (const lsdcd::MotionTerm &m : motion.terms())
-    for (int d = 0; d < 3; d++) differences |= !m.name[d].empty() && m.name[3 + d].empty();
-  if (differences) text += "; where v_v is NULL velocities are differences over a step";
+  if (takes_differences()) text += "; where v_v is NULL velocities are differences over a step";
   if (has_variables()) return text;
   double most = 0;
   for (int i = 0; i < kSamples; i++)

@@ -21,6 +21,8 @@ struct StepClock {
   double dt;
   lsdcd::Time now() const { return base + lsdcd::Time(step - base_step) * dt; }
   void advance(const class Update &);
+  // To a step that no run led to: time is what it would be there, with this timestep.
+  void jump_to(const class Update &);
 };
 
 struct MeshPart {
@@ -57,6 +59,7 @@ struct MeshPart {
   const lsdcd::Servo &servo() const { return settings.motion.servo(); }
   bool moves_or_varies() const { return settings.motion.any() || settings.surface_varies(); }
   bool has_variables() const;
+  bool takes_differences() const;    // for velocities that its variables do not give
 
   lsdcd::Box bounds(double past) const;    // in its own frame
   // Has any point of it that a sphere can touch gone farther than this since near atoms were

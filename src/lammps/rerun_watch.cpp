@@ -1,0 +1,23 @@
+#include "lammps/rerun_watch.h"
+
+#include "update.h"
+
+using namespace LAMMPS_NS;
+
+// Commands between runs initialise fixes, too: outside of a run, or with the steps of the last one.
+void RerunWatch::init(const Update &update)
+{
+  constexpr int kDynamics = 1;
+  if (update.whichflag != kDynamics) return;
+  if (update.firststep != first || update.laststep != last) inits = 0;
+  first = update.firststep;
+  last = update.laststep;
+  inits++;
+}
+
+bool RerunWatch::sees_snapshot(const Update &update)
+{
+  const bool twice = inits > 1;
+  inits = 0;
+  return twice || update.ntimestep != update.firststep;
+}

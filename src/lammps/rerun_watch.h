@@ -1,0 +1,24 @@
+// Tells the command rerun from a run.
+#ifndef LMP_RERUN_WATCH_H
+#define LMP_RERUN_WATCH_H
+
+#include "lmptype.h"
+
+namespace LAMMPS_NS {
+
+// LAMMPS has no word for it. Rerun initialises all and then the fixes once more before its first
+// snapshot, and sets each snapshot up at its own step; a run is set up once, at its first step.
+class RerunWatch {
+ public:
+  void init(const class Update &);    // in the fix's init()
+  // In the fix's setup(): is this a snapshot of a rerun?
+  bool sees_snapshot(const class Update &);
+
+ private:
+  bigint first = -1, last = -1;    // steps of the run that was initialised
+  int inits = 0;                   // of it, without a setup since
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
