@@ -4,10 +4,12 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "base/input_words.h"
+#include "model/contact_slope.h"
 
 #include <vector>
 
 using namespace LAMMPS_NS;
+using lsdcd::number_text;
 
 static constexpr double kHeadroom = 1.1;    // in cutoff, once radii are known to grow
 
@@ -96,6 +98,15 @@ void FixWallLsdcd::give_grid(const MeshPart &m)
   lsdcd::together(world, true, [&] { engine->set_grid(m.wall.view(), m.index); });
 }
 
+// What overlaps rounded to floats make of the pull-off force, of itself; 0 where none are or
+// nothing holds. `radius`: the largest.
+static double pull_off_rounding(const lsdcd::WallSettings &settings, const lsdcd::GridView &grid,
+                                double radius)
+{
+  if (settings.precision == lsdcd::Precision::double_) return 0;
+  return lsdcd::pull_off_slope(settings.law, radius) * 1e-6 * (radius + 14 * grid.length);
+}
+
 // The grids that are too small, or for another box.
 void FixWallLsdcd::rebuild(double wanted)
 {
@@ -131,5 +142,10 @@ void FixWallLsdcd::rebuild(double wanted)
     check_within_cutoff(*m);
     log_build(*m, old);
     check_ends(*m, wanted == old);
+    const double rounding = pull_off_rounding(settings, m->wall.view(), wanted);
+    if (old == 0 && m == anew.front() && settings.precision_given && rounding > 0.1)
+      warn("with precision mixed overlaps are rounded so that forces may be wrong by " +
+           number_text(rounding) +
+           " of the pull-off force: use precision double, or softer particles");
   }
 }

@@ -45,4 +45,14 @@ ContactSlope contact_slope(const ContactLaw &law, Real overlap, Real radius, Rea
                                          : classic_slope(law, overlap, radius, mass);
 }
 
+Real pull_off_slope(const ContactLaw &law, Real radius)
+{
+  const bool jkr = law.is(NormalModel::jkr);
+  if (!jkr && !law.is(NormalModel::dmt)) return 0;
+  const Real pi = 3.14159265358979323846,
+             pull = (jkr ? 3 : 4) * pi * law.granular.cohesion * radius,
+             overlap = std::pow(pull / (law.granular.k_normal * std::sqrt(radius)), 2. / 3);
+  return contact_slope(law, overlap, radius, 1).stiffness / pull;
+}
+
 }    // namespace lsdcd

@@ -1,4 +1,4 @@
-// How steeply the force of a contact can change.
+// How steeply the force of a contact can change, and what holds an adhesive one.
 #pragma once
 
 #include "model/contact_law.h"
@@ -11,5 +11,9 @@ struct ContactSlope {
   Real damping = 0;      // force/velocity
 };
 ContactSlope contact_slope(const ContactLaw &law, Real overlap, Real radius, Real mass);
+
+// What share of the pull-off force of dmt and jkr a change of the overlap makes, where that force
+// is in balance with the elastic one: per length. 0 for laws that do not hold.
+Real pull_off_slope(const ContactLaw &law, Real radius);
 
 }    // namespace lsdcd

@@ -3,6 +3,7 @@
 #include "parallel/threads.h"
 #include "engine/force/force_settings.h"
 #include "engine/force/law_job.h"
+#include "model/contact_slope.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +63,11 @@ Real usual_force(const ContactLaw &law, Real radius)
          (law.style == LawStyle::hertz_history ? std::sqrt(overlap * radius) : 1);
 }
 
+bool is_adhesive(const ContactLaw &law)
+{
+  return law.is(NormalModel::dmt) || law.is(NormalModel::jkr);
+}
+
 // Changes 32 MB, line by line.
 void fill_caches()
 {
@@ -82,8 +88,9 @@ double seconds_now(bool waits)
 ContactLaw spring_of(const ContactLaw &law)
 {
   const bool granular = law.style == LawStyle::granular;
-  const bool linear = granular ? law.is(NormalModel::hooke) : law.style != LawStyle::hertz_history;
-  const Real k = granular ? law.granular.k_normal : law.k_normal;
+  const bool linear = granular ? law.is(NormalModel::hooke) || is_adhesive(law)
+                               : law.style != LawStyle::hertz_history;
+  const Real k = is_adhesive(law) ? 1 : granular ? law.granular.k_normal : law.k_normal;
   ContactLaw spring;
   spring.style = linear ? LawStyle::hooke : LawStyle::hertz_history;
   spring.k_normal = k > 0 ? k : 1;
@@ -139,8 +146,21 @@ AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
     const bool touches =
         reference.first[i] < reference.first[i + 1] || trial.first[i] < trial.first[i + 1];
     if (!touches) continue;
-    const Real force = norm(reference.force[i]), error = norm(trial.force[i] - reference.force[i]);
-    errors.push_back(error / std::fmax(force, usual_force(spring, radius)));
+    Real force = norm(reference.force[i]), error = norm(trial.force[i] - reference.force[i]),
+         least = usual_force(spring, radius), of_pull = 0;
+    if (is_adhesive(law)) {
+      // These are overlaps. An error of one weighs most where a sphere is held lightly, as others are
+      // or will be, if not this.
+      const auto slope = [&](Real overlap) {
+        return contact_slope(law, overlap, radius, 1).stiffness;
+      };
+      of_pull = error * pull_off_slope(law, radius);
+      const Real steepest = slope(std::fmax(force, norm(trial.force[i])));
+      force *= steepest;
+      error *= steepest;
+      least *= slope(least);
+    }
+    errors.push_back(std::fmax(error / std::fmax(force, least), of_pull));
     sum_errors += error;
     sum_forces += force;
   }

@@ -9,7 +9,8 @@
 namespace lsdcd {
 
 // The normal spring of a law alone, and where it has none one of stiffness 1: what forces
-// of spheres at rest are compared by, as all other sub-models take the same contacts.
+// of spheres at rest are compared by, as all other sub-models take the same contacts. Of an
+// adhesive law one of stiffness 1, whose forces are overlaps.
 ContactLaw spring_of(const ContactLaw &law);
 
 // Contacts and forces of spheres at rest.
@@ -32,7 +33,8 @@ WallAnswers answer(const GridView &grid, const EngineSettings &engine, const Sph
 // A contact this shallow is there or not by rounding: it is not counted. Of a radius.
 constexpr Real kGrazing = 1e-4;
 // Forces of a sphere are compared to the larger of its own and that of one contact
-// with this overlap: a grazing contact's force is all rounding. Of a radius.
+// with this overlap: a grazing contact's force is all rounding. Of a radius. With an adhesive law
+// the error that the same overlaps make where a sphere is held lightly is compared to the pull-off force.
 constexpr Real kUsualOverlap = 1e-2;
 
 struct AnswerError {

@@ -180,6 +180,12 @@ def main():
                          "size 64 64\nrun 2\n", folder)
     checks.fact("the log tells once why lines may not be seen",
                 len(lines(text, "dump image draws", "diameter is 0")) == 1)
+    # Steel, then something soft.
+    for modulus, wrong in ((1e11, True), (1e4, False)):
+        law = f"granular jkr {modulus:g} 0 0.25 0.05 damping none tangential linear_nohistory 0 0"
+        text = deck.run_well(BOX + fix("precision mixed", law=law) + "run 0\n", folder)
+        checks.fact(f"precision mixed with jkr, modulus {modulus:g}: {'told' if wrong else 'not told'}",
+                    len(lines(text, "WARNING: Fix w wall/lsdcd: with precision mixed")) == wrong)
     checks.done(folder)
 
 

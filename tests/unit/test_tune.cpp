@@ -4,6 +4,7 @@
 #include "base/input_error.h"
 #include "contact/find_contacts.h"
 #include "mesh/triangle_soup.h"
+#include "model/contact_slope.h"
 #include "support/device.h"
 #include "support/meshes.h"
 #include "tune/wall_parts.h"
@@ -250,6 +251,25 @@ TEST_F(Compare, forces_are_compared_to_their_own_size_or_a_usual_one)
   EXPECT_DOUBLE_EQ(error(answers_of({below}, 0.25), answers_of({below}, 0.5)).largest, 0.25);
   EXPECT_DOUBLE_EQ(error(answers_of({below}, 10), answers_of({}, 0)).largest, 1);
   EXPECT_DOUBLE_EQ(error(answers_of({}, 0), answers_of({below}, 3)).largest, 3);    // a false one
+}
+
+// A hard sphere that is hardly sticky is held at an overlap of 4e-8 of its radius.
+TEST_F(Compare, overlaps_of_adhesive_laws_are_compared_to_those_that_hold)
+{
+  law = ContactLaw();
+  law.style = LawStyle::granular;
+  law.granular.modulus = 4e10;
+  law.granular.k_normal = 4. / 3 * law.granular.modulus;
+  law.granular.cohesion = 0.05;
+  for (const NormalModel normal : {NormalModel::jkr, NormalModel::dmt}) {
+    law.granular.normal = normal;
+    // Hertz's force is the pull at the overlap `held`, where it rises by 3/2 of force over overlap.
+    const Real pull = (normal == NormalModel::jkr ? 3 : 4) * M_PI * law.granular.cohesion,
+               held = std::pow(pull / law.granular.k_normal, 2. / 3), off = 1e-10;
+    const Real dmt = 1.5 * off / held, jkr = contact_slope(law, held, 1, 1).stiffness * off / pull;
+    EXPECT_NEAR(error(answers_of({below}, 1e-3), answers_of({below}, 1e-3 + off)).largest,
+                normal == NormalModel::jkr ? jkr : dmt, 1e-5 * dmt);
+  }
 }
 
 // ---- choosing --------------------------------------------------------------------------
