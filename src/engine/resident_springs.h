@@ -290,7 +290,7 @@ class ResidentSprings {
 
  private:
   static constexpr std::size_t kUnknown = ~std::size_t(0);
-  static constexpr std::size_t kSpareSlots = 1 << 18;
+  static constexpr std::size_t kSpareSlots = 65536;
 
   int per_spring() const
   {

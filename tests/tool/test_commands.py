@@ -70,7 +70,7 @@ BAD = [    # words, exit code, what is said
     ("tradeoff wall.stl --radius 0.1 --csv no/t.csv", 1, ["no/t.csv", NO_FILE]),
     ("tradeoff wall.stl --radius x", 2, ["--radius", "x"]),
     ("generate box --width 1e-9 --depth 1e-9 --height 1e-9 --edge 1e-14 -o made.stl", 1, ["--edge 1e-14"]),
-    ("distance wall.stl points.csv --radius -1e-9 -o d.csv", 1, ["--radius is -1e-09"]),
+    ("distance wall.stl points.csv --radius -1e-9 -o d.csv", 2, ["--radius", "-1e-9 is not a number above 0"]),
     ("accuracy table9", 2, ["table9", "table2"]),
     ("accuracy --spheres 0", 2, ["0 is not a number from 1 to"]),
     ("accuracy --spheres 1000 --segments 2", 2, ["--segments", "3"]),

@@ -67,10 +67,10 @@ TEST(effects, that_are_off_take_no_memory_of_the_engine)
   const std::vector<EffectCase> cases = effect_cases();
   const std::vector<EffectCost> costs = measure_effects(cases, Device::cpu, 500, 1);
   const std::size_t least = costs[0].engine_bytes;
-  // As the engine grows its arrays: by an eighth more; two pools of three slots for each sphere
+  // As the engine grows its arrays: by an eighth more; two pools of four slots for each sphere
   // and 65536 to spare.
   const auto grown = [](std::size_t n) { return n + n / 8; };
-  const std::size_t slots = 2 * grown(3 * 500 + 65536);
+  const std::size_t slots = 2 * grown(4 * 500 + 65536);
   for (std::size_t i = 0; i < cases.size(); i++) {
     const EngineSettings &s = cases[i].settings;
     const bool history = s.law.has_history();
