@@ -63,7 +63,9 @@ PointArrays<T> arrays_of(const lsdcd_query &q)
   io.n = q.n;
   io.points = vectors(static_cast<const T *>(q.points), q.points_row, q.points_column);
   io.radii = {static_cast<const T *>(q.radii), q.radii_step == 0 ? 1 : q.radii_step};
-  io.radius = q.radius;
+  // The largest of this type that is not above it, so that all paths ask for the same.
+  io.radius = static_cast<T>(q.radius);
+  if (io.radius > q.radius) io.radius = std::nextafter(static_cast<T>(q.radius), T(0));
   io.distance = {static_cast<T *>(q.distance), q.distance_step == 0 ? 1 : q.distance_step};
   io.closest = vectors(static_cast<T *>(q.closest), q.closest_row, q.closest_column);
   io.normal = vectors(static_cast<T *>(q.normal), q.normal_row, q.normal_column);
