@@ -13,7 +13,6 @@
 #include "update.h"
 
 #include <algorithm>
-#include <cmath>
 
 using namespace LAMMPS_NS;
 using lsdcd::number_text;
@@ -75,14 +74,7 @@ void FixWallLsdcd::check_gone()
 {
   for (MeshPart &m : parts) {
     if (!m.settings.motion.any() || m.gone_warned) continue;
-    lsdcd::Box now = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
-    lsdcd::for_corners(m.bounds(0), [&](const lsdcd::Vec3 &corner) {
-      const lsdcd::Vec3 at = m.pose.to_box(corner);
-      for (int k = 0; k < 3; k++) {
-        now.lo[k] = std::min(now.lo[k], at[k]);
-        now.hi[k] = std::max(now.hi[k], at[k]);
-      }
-    });
+    const lsdcd::Box now = lsdcd::placed_bounds(m.pose, m.bounds(0));
     const bool in_box = lsdcd::outside_box(now, *domain, cutoff()).empty();
     m.was_in_box |= in_box;
     if (in_box || !m.was_in_box) continue;

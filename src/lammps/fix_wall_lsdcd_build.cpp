@@ -76,8 +76,8 @@ void FixWallLsdcd::update_cutoff()
            lsdcd::number_text(radius) + ", more than rmax " + lsdcd::number_text(settings.rmax) +
            ": raise rmax or use rmax auto");
 
-  for (const MeshPart &m : parts)
-    if (old == 0) check_small(m, radius);
+  if (old == 0)
+    for (const MeshPart &m : parts) check_small(m, radius);
   rebuild(cutoff_of(settings.rmax > 0 ? settings.rmax : (old > 0 ? kHeadroom * radius : radius)));
 }
 

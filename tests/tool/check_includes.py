@@ -28,9 +28,6 @@ MOST_LINES = 300
 INCLUDE_EXCEPTIONS = {
     ("src/parallel/cuda_bricks.h", "grid/lookup/brick_words.h"),    # CudaBackend::select reads bricks
 }
-LENGTH_EXCEPTIONS = {
-    "src/parallel/backend_cuda.h",
-}
 
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
 SOURCE = re.compile(r"\.(h|cuh|cpp|cu)(\.in)?$")
@@ -65,7 +62,7 @@ def wrong_include(room, included):
 
 
 def violations(root):
-    unused = INCLUDE_EXCEPTIONS | LENGTH_EXCEPTIONS
+    unused = set(INCLUDE_EXCEPTIONS)
     for path in sources(root):
         with open(os.path.join(root, path), encoding="utf-8") as f:
             lines = f.read().splitlines()
@@ -81,10 +78,7 @@ def violations(root):
             elif why:
                 yield f"{path}:{number}: {include[1]} {why}"
         if len(lines) > MOST_LINES and not any(f"Over {MOST_LINES} lines: " in s for s in lines[:5]):
-            if path in LENGTH_EXCEPTIONS:
-                unused = unused - {path}
-            else:
-                yield f"{path}: {len(lines)} lines and no '// Over {MOST_LINES} lines: reason'"
+            yield f"{path}: {len(lines)} lines and no '// Over {MOST_LINES} lines: reason'"
     for entry in sorted(map(str, unused)):
         yield f"check_includes.py: the exception {entry} is not needed"
 
