@@ -8,6 +8,7 @@ there is a GPU, with CUDA. CUDA rows are kept in doc/data/hard_cases_cuda.tsv, w
 commit and device, so that the table has them on a machine without a GPU too.
 """
 import argparse
+import glob
 import os
 import re
 import subprocess
@@ -24,15 +25,19 @@ SKIPPED = 77    # exit code of a device test without its device
 
 def programs():
     """Device tests with hard cases, in the order of the CMake files."""
-    names = []
+    names, sources = [], []
     for room in ("physics", "unit"):
         folder = os.path.join(ROOT, "tests", room)
+        for path in sorted(glob.glob(os.path.join(folder, "test_*.cpp"))):
+            with open(path) as source:
+                if "support/hard_case.h" in source.read():
+                    sources.append(os.path.splitext(os.path.basename(path))[0])
         with open(os.path.join(folder, "CMakeLists.txt")) as f:
-            for name in re.findall(r"^\s*lsdcd_device_test\((\w+)", f.read(), re.M):
-                with open(os.path.join(folder, name + ".cpp")) as source:
-                    if "support/hard_case.h" in source.read():
-                        names.append(name)
-    return names
+            names += re.findall(r"^\s*lsdcd_(?:device|engine)_test\((\w+)", f.read(), re.M)
+    unknown = set(sources) - set(names)
+    if unknown:
+        raise SystemExit(f"{', '.join(unknown)}: has hard cases, but no CMake file has it as a test")
+    return [name for name in names if name in sources]
 
 
 def git(*words):
