@@ -152,28 +152,30 @@ TEXT = """{begin}
 
 ## Which setting?
 
-**Keep the default.** It misses nothing, its forces are exact, and on most walls it is as fast
-as anything that is. What the other settings do to the vessel of `examples/vessel`
+**Keep the default.** It misses nothing, its forces are exact, and nothing is faster on a CPU.
+What the other settings do to the vessel of `examples/vessel`
 ({triangles} triangles, grains of {least} to {largest} m):
 
 {first}
-Time is what a step costs per sphere beside the wall (in it or within reach). Read it so:
+Time is what a step costs per sphere beside the wall (in it or within reach), with lists that hold.
+Read it so:
 
-* **Memory is short, or lists are long** (spheres much larger than triangles): another `grid`.
-  It never changes an answer. Twice the cell takes about half the memory; what it does to
-  the time is in the table and differs from wall to wall.
+* **`grid`** never changes an answer. It is for memory and for the time of a set-up: a step reads each
+  sphere's list of the wall, and no cells.
 * **`precision mixed`, `single`:** no contact is missed, forces are good to six digits on the
-  mean and to three at the worst, energy is kept as well. On a CPU they gain nothing and take
-  more memory, for the copies in float; they are there for GPUs.
+  mean and to three at the worst, energy is kept as well. They gain nothing here: a CPU takes more than
+  twice the time, and an H200 is as fast in doubles. They are for GPUs whose doubles are slow; none
+  of these was measured.
 * **`corner sum`** takes the same contacts and time, but counts shallow folds twice: see the
   drift of a rolling sphere. It is for comparing with walls that do so.
-* **`nearest N exact`** misses nothing and keeps both kinds of list: more memory and, where
-  complete lists are short, more time.
 * **`nearest N`** misses contacts, the more the smaller N and the larger spheres are against
   triangles and cells; a missed contact is an error of 1 for its sphere, and
   `f_ID[9]` counts the spheres for which one may be missing. Spheres sink in and are thrown
-  out: drifts of 1 and more. Only for walls of triangles far larger than the spheres, or to
-  repeat the paper (below).
+  out: drifts of 1 and more. It saves no time either: it searches cells in each step, since what it
+  misses depends on the cell, where `all` reads a list. It saves the memory of complete lists, and
+  repeats the paper (below).
+* **`nearest N exact`** misses nothing, searches cells as well and keeps both kinds of list: it is the
+  slowest.
 
 `tune 1e-3` in the deck measures this on your own scene and chooses, always among settings that
 miss nothing. `lsdcd tradeoff wall.stl --radius R` makes the whole table and this picture
@@ -191,7 +193,7 @@ sides, each pulled along the normal of its face. One that leaves the wall counts
 gained or lost until then, one that goes through the wall 1. About 2e-4 of the bouncing drift is the
 integrator's. Spheres are uniform in the band within reach of the
 wall, none deeper in it than half its radius. CPU times are those of one core with its
-caches filled by other work.
+caches filled by other work; GPU times those of a GPU beside a CPU host, whose copies are in them.
 
 {runs}
 
