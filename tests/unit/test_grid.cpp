@@ -183,6 +183,37 @@ TEST(grid, is_complete_on_needles)
   for (Real length : {0., 0.02, 0.3}) expect_complete(needles(), 0.3, length, 10000, 14);
 }
 
+// What a GPU does cell by cell a CPU does for all cells of an octant at once, to the bit: grids are the
+// same on both.
+TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)
+{
+  std::uint64_t cells = 0;
+  for (const TriangleSoup &soup : {tangle(12, 20, 8), needles(), box_mesh({0, 0, 0}, {1, 1, 1})})
+    for (Real length : {0.0625, 0.1, 0.3}) {
+      const WallMesh mesh = weld(soup, -1);
+      const WallFeatures features = make_features(mesh, false);
+      GridSettings settings;
+      settings.cutoff = 0.25;
+      settings.length = length;
+      const BuildView b = {features.view(), nullptr, false, plan_grid(mesh, settings), nullptr};
+      for (std::uint32_t f = 0; f < features.faces.size(); f++) {
+        const BrickBox box = brick_box(b, feature_code(FeatureKind::face, f));
+        for (std::uint64_t i = 0; i < 8 * box.count(); i++) {
+          const std::uint32_t octant = 8 * brick_slot(b.plan, box, i / 8) + i % 8;
+          const auto meets = [&](const Vec3 &c, Real around) {
+            Real distance;
+            return face_meets(features.faces[f], c, around + b.plan.widened(), b.plan.cutoff,
+                              distance);
+          };
+          const std::uint64_t met = face_cells(b.plan, octant, features.faces[f]);
+          ASSERT_EQ(met, cells_where(b.plan, octant, meets)) << soup.source << " " << f;
+          cells += count_bits(met);
+        }
+      }
+    }
+  EXPECT_GT(cells, 100000u);
+}
+
 TEST(grid, is_complete_at_every_cell_length)
 {
   for (Real length : {0.013, 0.05, 0.1, 0.29, 0.6, 3.0}) {

@@ -16,12 +16,16 @@ namespace lsdcd {
 // `cutoff` of the feature, and if so set `distance` to c's distance from the
 // feature's plane, line or point. Lengths.
 
-// Is `sum`, the value of a half-space with normal length sqrt(length_sq), above
-// `around`? A short sum is left alone: rounding would decide its direction.
+// The square that a sum of two half-spaces, with normal length sqrt(length_sq), may have at most if it
+// is above 0. A short sum is left alone: rounding would decide its direction.
+LSDCD_FN Real square_of_past(Real length_sq, Real around)
+{
+  constexpr Real kShort = 1e-12, kAny = 1.7976931348623157e308;
+  return length_sq > kShort ? around * around * length_sq : kAny;
+}
 LSDCD_FN bool is_past(Real sum, Real length_sq, Real around)
 {
-  constexpr Real kShort = 1e-12;
-  return sum > 0 && length_sq > kShort && sum * sum > around * around * length_sq;
+  return sum > 0 && sum * sum > square_of_past(length_sq, around);
 }
 
 LSDCD_FN bool face_meets(const FaceRecord &face, const Vec3 &c, Real around, Real cutoff,

@@ -5,6 +5,8 @@
 #include "grid/build/meets.h"
 #include "grid/plan/grid_plan.h"
 
+#include <cstring>
+
 namespace lsdcd {
 
 // What the kernels of the build share.
@@ -148,6 +150,58 @@ LSDCD_FN std::uint64_t cells_where(const GridPlan &plan, std::uint32_t octant_ke
   return met;
 }
 
+// Below 0 where x is: the bits of x.
+inline std::int64_t sign_of(Real x)
+{
+  std::int64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+// The cells of an octant that a face meets: face_meets() of all 64, to the bit, where cells of a column
+// share what x and y add to each half-space and a processor tests several side by side.
+inline std::uint64_t face_cells(const GridPlan &plan, std::uint32_t octant_key,
+                                const FaceRecord &face)
+{
+  constexpr int kColumns = kOctantSide * kOctantSide;
+  const CellCentres centres(plan, octant_key >> 3);
+  Vec3 d[kOctantSide];    // of the cells on the diagonal: all that the others are made of
+  for (int i = 0; i < kOctantSide; i++) {
+    const int on_diagonal = i * (1 + kOctantSide + kColumns);
+    d[i] = centres.at(cell_of_octant(octant_key & 7, on_diagonal)) - face.anchor;
+  }
+  const Vec3 normal[4] = {face.inward[0], face.inward[1], face.inward[2], face.normal};
+  Real of_column[4][kColumns];
+  for (int h = 0; h < 4; h++)
+    for (int c = 0; c < kColumns; c++)
+      of_column[h][c] = normal[h].x * d[c % kOctantSide].x + normal[h].y * d[c / kOctantSide].y;
+
+  const Real around = plan.half_diagonal + plan.widened(), reach = plan.cutoff + around;
+  Real past[3];
+  for (int k = 0; k < 3; k++)
+    past[k] = square_of_past(2 + 2 * dot(face.inward[k], face.inward[(k + 1) % 3]), around);
+  std::uint64_t met = 0;
+  for (int z = 0; z < kOctantSide; z++) {
+    const Real up[4] = {normal[0].z * d[z].z, normal[1].z * d[z].z, normal[2].z * d[z].z,
+                        normal[3].z * d[z].z};
+    // Below 0 where a test fails: signs, unlike branches, let compilers pack several cells.
+    std::int64_t fails[kColumns];
+    for (int c = 0; c < kColumns; c++) {
+      const Real s[3] = {-(of_column[0][c] + up[0]), -(of_column[1][c] + up[1]) - face.height,
+                         -(of_column[2][c] + up[2])};
+      std::int64_t fail = sign_of(reach - fabs(of_column[3][c] + up[3]));
+      for (int k = 0; k < 3; k++) {
+        const Real sum = s[k] + s[(k + 1) % 3];
+        fail |= sign_of(around - s[k]) | (sign_of(past[k] - sum * sum) & ~sign_of(sum));
+      }
+      fails[c] = fail;
+    }
+    for (int c = 0; c < kColumns; c++)
+      met |= static_cast<std::uint64_t>(fails[c] >= 0) << (z * kColumns + c);
+  }
+  return met;
+}
+
 // Which cells of an octant the feature meets. The record is read once for all of them.
 LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::uint32_t octant_key)
 {
@@ -161,9 +215,13 @@ LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::u
   switch (feature_kind(feature)) {
     case FeatureKind::face: {
       const FaceRecord face = b.wall.faces[i];
+#if !defined(__CUDA_ARCH__)
+      return face_cells(b.plan, octant_key, face);
+#else
       return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
         return face_meets(face, c, around + widened, cutoff, distance);
       });
+#endif
     }
     case FeatureKind::edge: {
       const EdgeRecord edge = b.wall.edges[i];
