@@ -6,6 +6,7 @@ import re
 import shutil
 import statistics
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -16,23 +17,28 @@ COLUMNS = ("program", "case", "device", "commit", "compiler", "triangles", "sphe
            "repeats", "median_ms", "min_ms", "max_ms", "bytes", "copy_gb_s", "floor_ms", "ratio", "facts")
 
 
+# A process begins with the peak of the one that started it, so a small one is put between.
+PEAK = ("import resource, subprocess, sys; status = subprocess.call(sys.argv[2:]); "
+        "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, file=open(sys.argv[1], 'w')); "
+        "sys.exit(status)")
+
+
 class Run:
     """One process on one core: its output, wall-clock seconds and peak resident memory, MB."""
 
     def __init__(self, program, text, folder):
-        deck, log = folder / "in.deck", folder / "out.txt"
+        deck, log, peak = folder / "in.deck", folder / "out.txt", folder / "peak.txt"
         deck.write_text(text)
         env = {**os.environ, "OMP_NUM_THREADS": "1"}
         began = time.monotonic()
         with open(log, "w") as out:
-            process = subprocess.Popen([program, "-in", deck.name, "-log", "none"], cwd=folder, env=env,
-                                       stdout=out, stderr=subprocess.STDOUT)
-            _, status, usage = os.wait4(process.pid, 0)
-            process.returncode = status
-        self.seconds, self.peak_mb = time.monotonic() - began, usage.ru_maxrss / 1024
+            done = subprocess.run([sys.executable, "-c", PEAK, peak.name, program, "-in", deck.name, "-log", "none"],
+                                  cwd=folder, env=env, stdout=out, stderr=subprocess.STDOUT)
+        self.seconds = time.monotonic() - began
         self.output = log.read_text(errors="replace")
-        if status != 0 or "ERROR" in self.output:
+        if done.returncode != 0 or "ERROR" in self.output:
             raise SystemExit(f"{program} failed:\n{self.output[-3000:]}")
+        self.peak_mb = int(peak.read_text()) * 1024 / 1e6
 
     def step_ms(self):
         """ms per step of each run of the deck that has steps, by the program's own clock."""

@@ -33,7 +33,7 @@ def programs():
                 if "support/hard_case.h" in source.read():
                     sources.append(os.path.splitext(os.path.basename(path))[0])
         with open(os.path.join(folder, "CMakeLists.txt")) as f:
-            names += re.findall(r"^\s*lsdcd_(?:device|engine)_test\((\w+)", f.read(), re.M)
+            names += re.findall(r"^\s*lsdcd_(?:cpu|device|engine)_test\((\w+)", f.read(), re.M)
     unknown = set(sources) - set(names)
     if unknown:
         raise SystemExit(f"{', '.join(unknown)}: has hard cases, but no CMake file has it as a test")

@@ -1,10 +1,17 @@
 // Memory that was freed, given back to the operating system.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <vector>
 
 #if defined(__GLIBC__)
 #include <malloc.h>
+#endif
+#if defined(__linux__)
+#include <sys/mman.h>
 #endif
 
 namespace lsdcd {
@@ -15,6 +22,34 @@ inline void give_back_memory()
 #if defined(__GLIBC__)
   malloc_trim(0);
 #endif
+}
+
+// Calls copy(begin, end) for one part of n elements after another, and gives their pages back on the way:
+// an array and its copy are never in memory whole. What lay at `from`, memory of malloc's, is gone.
+template <class T, class Copy>
+void drain(T *from, std::size_t n, const Copy &copy)
+{
+  constexpr std::size_t kPart = (std::size_t(1) << 20) / sizeof(T) + 1;
+  for (std::size_t i = 0; i < n; i += kPart) {
+    T *const end = from + std::min(i + kPart, n);
+    copy(from + i, end);
+#if defined(__linux__)
+    constexpr std::uintptr_t kPage = 4096;
+    const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(from + i) + kPage - 1) / kPage,
+                         last = reinterpret_cast<std::uintptr_t>(end) / kPage;
+    if (first < last)
+      madvise(reinterpret_cast<void *>(first * kPage), (last - first) * kPage, MADV_DONTNEED);
+#endif
+  }
+}
+
+template <class T>
+std::vector<T> drained(T *from, std::size_t n)
+{
+  std::vector<T> to;
+  to.reserve(n);
+  drain(from, n, [&](T *begin, T *end) { to.insert(to.end(), begin, end); });
+  return to;
 }
 
 }    // namespace lsdcd

@@ -182,9 +182,9 @@ std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid)
   return settings.memory_budget > 0 ? settings.memory_budget : kListBudget + flat_wall_bytes(grid);
 }
 
-// Calls copied(array) for each array that is in the block.
-template <class Grid, class Copied>
-void flatten_arrays(Grid &grid, char *block, const Copied &copied)
+// Puts each array where it belongs in the block by copy(array, place).
+template <class Grid, class Copy>
+void flatten_arrays(Grid &grid, char *block, const Copy &copy)
 {
   // Copied from zeroed memory, so that equal grids make equal blocks.
   FlatHeader header;
@@ -197,10 +197,9 @@ void flatten_arrays(Grid &grid, char *block, const Copied &copied)
   each_array(grid, [&](auto &a) {
     const std::size_t bytes = array_bytes(a);
     header.offset[i++] = bytes > 0 ? at : 0;
-    if (bytes > 0) std::memcpy(block + at, a.data(), bytes);
+    if (bytes > 0) copy(a, block + at);
     std::memset(block + at + bytes, 0, rounded(bytes) - bytes);
     at += rounded(bytes);
-    copied(a);
   });
   header.scalars.block_bytes = at;
   std::memset(block, 0, rounded(sizeof header));
@@ -209,13 +208,18 @@ void flatten_arrays(Grid &grid, char *block, const Copied &copied)
 
 void flatten(const TriangleGrid &grid, char *block)
 {
-  flatten_arrays(grid, block, [](const auto &) {});
+  flatten_arrays(grid, block,
+                 [](const auto &a, char *to) { std::memcpy(to, a.data(), array_bytes(a)); });
 }
 
 void move_flat(TriangleGrid &grid, char *block)
 {
-  flatten_arrays(grid, block, [](auto &a) {
+  flatten_arrays(grid, block, [](auto &a, char *to) {
     const bool large = array_bytes(a) > (1 << 20);
+    drain(a.data(), a.size(), [&](const auto *begin, const auto *end) {
+      std::memcpy(to, begin, (end - begin) * sizeof *begin);
+      to += (end - begin) * sizeof *begin;
+    });
     std::decay_t<decltype(a)>().swap(a);
     if (large) give_back_memory();
   });

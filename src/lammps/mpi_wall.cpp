@@ -1,5 +1,6 @@
 #include "lammps/mpi_wall.h"
 
+#include "base/give_back_memory.h"
 #include "base/input_words.h"
 #include "grid/loose_ends.h"
 #include "mesh/fingerprint.h"
@@ -53,6 +54,8 @@ void SharedWall::read()
     check_has_area(*mesh_);
     report_ = mesh_->report;
     if (rank == 0) mesh_fingerprint_ = fingerprint(*mesh_);
+    soup = TriangleSoup();
+    give_back_memory();
   });
   static_assert(std::is_trivially_copyable<MeshReport>::value, "sent as bytes");
   MPI_Bcast(&report_, sizeof report_, MPI_BYTE, 0, shared_.world());

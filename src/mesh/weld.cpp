@@ -191,6 +191,12 @@ WallMesh weld(const TriangleSoup &soup, Real tolerance)
   build_edges(mesh, bare_edges);
   build_vertex_edges(mesh);
   measure_mesh(mesh, plane);
+  // They grew by doubling, and stay as long as the wall.
+  mesh.vertices.shrink_to_fit();
+  mesh.faces.shrink_to_fit();
+  mesh.face_facet.shrink_to_fit();
+  mesh.edges.shrink_to_fit();
+  mesh.edge_face.shrink_to_fit();
   return mesh;
 }
 

@@ -356,6 +356,19 @@ TEST(grid, flat_block_can_be_moved)
 }
 
 // Cache files are written from it.
+// Arrays of some MB, so that they go in several parts.
+TEST(grid, moved_into_a_block_is_what_is_copied_into_one)
+{
+  GridSettings settings;
+  settings.cutoff = 0.2;
+  TriangleGrid grid = build_grid(weld(cylinder_mesh(256, 64, 1, 3), -1), settings);
+  ASSERT_GT(grid.lists.candidates.size() * sizeof(Candidate), std::size_t(3) << 20);
+  std::vector<char> copied(flat_bytes(grid)), moved(copied.size());
+  flatten(grid, copied.data());
+  move_flat(grid, moved.data());
+  EXPECT_EQ(copied, moved);
+}
+
 TEST(grid, flat_block_has_nothing_of_what_its_memory_held)
 {
   const TriangleGrid grid = grid_of(tangle(14, 40, 6), 0.3);

@@ -62,6 +62,7 @@ class GridBuilder {
     needed_ = HUGE_VAL;
     if (!sort_into_octants(b_, view_, nearest > 0 ? n_primitives_ : n_contact_, progress_, pairs))
       return false;
+    give_back_memory();    // what sorting took
     needed_ = double(brick_bytes(plan, pairs.n_bricks));
     if (needed_ > double(budget)) return false;
     // Of nearest primitives the first that is left out stays, as a bound.
@@ -79,7 +80,10 @@ class GridBuilder {
     lists.brick_of = b_.to_host(built.brick_of, built.brick_of.size());
     lists.bricks = b_.to_host(built.bricks, built.n_bricks);
     lists.cells = b_.to_host(built.cells, built.n_cells);
-    lists.candidates = b_.to_host(built.candidates, built.n_candidates);
+    if constexpr (B::kOnHost)
+      lists.candidates = drained(built.candidates.data(), built.n_candidates);
+    else
+      lists.candidates = b_.to_host(built.candidates, built.n_candidates);
     return true;
   }
 

@@ -1,6 +1,7 @@
 // From sorted octants to occupancy masks, cells and lists, on any backend.
 #pragma once
 
+#include "base/give_back_memory.h"
 #include "grid/build/candidate_list.h"
 #include "grid/build/octant_pairs.h"
 
@@ -145,7 +146,7 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
 // Lists of at most `most` candidates a cell. False, with no more than counts in `out`, if they
 // would not fit `budget` bytes, or cannot be numbered.
 template <class B>
-bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::uint32_t most,
+bool fill_lists(B &b, const BuildView &view, OctantPairs<B> &pairs, std::uint32_t most,
                 std::size_t budget, const BuildProgress &progress, BuiltLists<B> &out,
                 ListReport &report)
 {
@@ -157,6 +158,9 @@ bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, std::u
       longest(n_words);
   typename Built::template Scratch<Brick> brick(n_bricks);
   find_cells_met(b, view, pairs, progress, met.data());
+  pairs.octant =
+      typename Built::template Scratch<std::uint32_t>();    // before candidates take the most
+  give_back_memory();
   count_cells(b, pairs, met.data(), most, count.data());
   sum_words(b, n_words, count.data(), brick.data(), offset.data(), list.data(), cell.data(),
             single.data(), longest.data());
