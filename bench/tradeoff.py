@@ -152,7 +152,7 @@ TEXT = """{begin}
 
 ## Which setting?
 
-**Keep the default.** It misses nothing, its forces are exact, and nothing is faster on a CPU.
+**Keep the default.** It misses nothing, its forces are exact, and no other is faster on a CPU by more than noise.
 What the other settings do to the vessel of `examples/vessel`
 ({triangles} triangles, grains of {least} to {largest} m):
 
