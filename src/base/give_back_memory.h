@@ -12,6 +12,7 @@
 #endif
 #if defined(__linux__)
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 namespace lsdcd {
@@ -34,11 +35,12 @@ void drain(T *from, std::size_t n, const Copy &copy)
     T *const end = from + std::min(i + kPart, n);
     copy(from + i, end);
 #if defined(__linux__)
-    constexpr std::uintptr_t kPage = 4096;
-    const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(from + i) + kPage - 1) / kPage,
-                         last = reinterpret_cast<std::uintptr_t>(end) / kPage;
+    // Whole pages of this machine alone: the last bytes of the part may share one with what is not copied.
+    static const std::uintptr_t page = sysconf(_SC_PAGESIZE);
+    const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(from + i) + page - 1) / page,
+                         last = reinterpret_cast<std::uintptr_t>(end) / page;
     if (first < last)
-      madvise(reinterpret_cast<void *>(first * kPage), (last - first) * kPage, MADV_DONTNEED);
+      madvise(reinterpret_cast<void *>(first * page), (last - first) * page, MADV_DONTNEED);
 #endif
   }
 }
