@@ -91,7 +91,7 @@ class FixWallLsdcd : public Fix {
   bool springs_checked = false;    // against this mesh: they may come from a restart file
   int kind_in_file = -1;           // of its springs (model/spring_kind.h); -1: it does not say
   bigint other_law = 0;            // atoms of that file with springs of another law
-  bigint unnamed = 0;              // atoms with springs of a file that does not say which
+  bigint unnamed = 0;              // atoms of a file of an earlier version, which does not say
   int room = 0;                    // this wall's part of maxexchange
   bool running = false;            // between start and collect
   int nlevels_respa = 0;           // 0 under verlet

@@ -213,15 +213,11 @@ void FixWallLsdcd::check_springs()
         break;
       }
   MPI_Allreduce(MPI_IN_PLACE, lost, 3, MPI_LMP_BIGINT, MPI_SUM, world);
-  const char *const other[] = {"mesh", "contact law"};
-  for (int k = 0; k < 2; k++)
+  const char *const file[] = {"was written with another mesh",
+                              "was written with another contact law",
+                              "is of an earlier version of this fix, whose meshes number edges "
+                              "otherwise"};
+  for (int k = 0; k < 3; k++)
     if (lost[k])
-      warn(std::to_string(lost[k]) +
-           " atoms lose their springs: the restart file was written with "
-           "another " +
-           other[k]);
-  if (lost[2])
-    warn(std::to_string(lost[2]) +
-         " atoms keep springs of a restart file of an earlier version of this fix, which does not "
-         "say of which mesh and sub-models they are: they must be those of this fix");
+      warn(std::to_string(lost[k]) + " atoms lose their springs: the restart file " + file[k]);
 }

@@ -160,11 +160,14 @@ void FixWallLsdcd::unpack_restart(int i, int nth)
   // Another law of the file's fix may have kept other numbers for each contact, and this one none.
   const int count = static_cast<int>(extra[1]), size = static_cast<int>(extra[0]);
   if (count == 0) return;
-  const bool mine = kind_in_file < 0 || kind_in_file == lsdcd::spring_kind(settings.law);
+  if (kind_in_file < 0) {
+    unnamed++;
+    return;
+  }
+  const bool mine = kind_in_file == lsdcd::spring_kind(settings.law);
   if (!history || !mine || size != 2 + count * springs.doubles_per_spring()) {
     other_law++;
     return;
   }
   springs.unpack(i, extra + 1);
-  if (kind_in_file < 0) unnamed++;
 }

@@ -126,20 +126,21 @@ void FixWallLsdcd::restart_part(MeshPart &m, const std::vector<double> &motion,
                                 bool one_of_many)
 {
   const lsdcd::MeshReport &r = m.wall.report();
-  const bool other =
-      header[1] != double(r.facets) || header[2] != double(r.edges) ||
-      header[3] != double(r.vertices) ||
-      (header.size() == kHeader && header[5] != number_of(m.wall.mesh_fingerprint()));
+  // Without a fingerprint edges have other numbers, whatever the mesh.
+  const bool other = header.size() != kHeader || header[1] != double(r.facets) ||
+                     header[2] != double(r.edges) || header[3] != double(r.vertices) ||
+                     header[5] != number_of(m.wall.mesh_fingerprint());
   m.springs_are_foreign = other;
   if (other && one_of_many) {
     warn(of(m, "springs, motion, loads and wear begin anew: the restart file was written with "
-               "another mesh in this place"));
+               "another mesh in this place, or by an earlier version of this fix"));
     return;
   }
   restart_motion(m, motion);
   if (!settings.has_loads(m.settings)) return;
   if (other) {
-    warn("loads and wear begin at zero: the restart file was written with another mesh");
+    warn("loads and wear begin at zero: the restart file was written with another mesh, or by an "
+         "earlier version of this fix");
     return;
   }
   m.loads.set_time(header[0]);

@@ -19,6 +19,9 @@ WallMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
 // Throws InputError where the ends of n edges are more than an int can number.
 void check_edge_number(std::size_t n, const std::string &source);
 
+// Gives edge e the number number[e]. The edges of vertices are left to the caller.
+void number_edges(WallMesh &mesh, const std::vector<int> &number);
+
 // Fills vertex_first and vertex_edge from the edges.
 void connect_vertices(WallMesh &mesh);
 

@@ -74,30 +74,18 @@ Copies copies_of(const WallMesh &mesh, const PeriodicBox &box, Real depth)
 }
 
 // Gives the edges of `mesh` that `whole` has too their numbers there; others come behind. The
-// edges of both ascend in their vertices. Returns the new number of each.
+// edges of `whole` ascend in their vertices. Returns the new number of each.
 std::vector<int> keep_edge_numbers(const WallMesh &mesh, WallMesh &whole)
 {
-  const std::size_t n = whole.edges.size();
-  std::vector<int> number(n);
-  std::size_t own = 0, next = mesh.edges.size();
-  for (std::size_t e = 0; e < n; e++)
-    number[e] = static_cast<int>(
-        own < mesh.edges.size() && whole.edges[e] == mesh.edges[own] ? own++ : next++);
-
-  std::vector<int> old(n);
-  for (std::size_t e = 0; e < n; e++) old[number[e]] = static_cast<int>(e);
-  const WallMesh before = whole;
-  whole.edge_face.clear();
-  for (std::size_t e = 0; e < n; e++) {
-    whole.edges[e] = before.edges[old[e]];
-    whole.edge_first[e] = static_cast<int>(whole.edge_face.size());
-    whole.edge_face.insert(whole.edge_face.end(),
-                           before.edge_face.begin() + before.edge_first[old[e]],
-                           before.edge_face.begin() + before.edge_first[old[e] + 1]);
+  std::vector<int> number(whole.edges.size(), -1);
+  int next = 0;
+  for (const auto &edge : mesh.edges) {
+    const auto found = std::lower_bound(whole.edges.begin(), whole.edges.end(), edge);
+    number[found - whole.edges.begin()] = next++;
   }
-  whole.edge_first[n] = static_cast<int>(whole.edge_face.size());
-  for (auto &face : whole.face_edges)
-    for (int &e : face) e = number[e];
+  for (int &e : number)
+    if (e < 0) e = next++;
+  number_edges(whole, number);
   return number;
 }
 

@@ -179,6 +179,7 @@ WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_prim
   out.edges.reserve(n_edges);
   out.edge_vertex.reserve(n_edges);
   if (with_sides) out.edge_out.reserve(n_edges);
+  std::size_t n_used = 0;    // up to the last edge that can hold a contact
   for (std::size_t i = 0; i < n_edges; i++) {
     const auto &ends = mesh.edges[i];
     EdgeRecord e = make_edge(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
@@ -199,9 +200,9 @@ WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_prim
     out.edges.push_back(e);
     out.edge_vertex.push_back({{ends[0], ends[1]}});
     if (with_sides) out.edge_out.push_back(outward);
-    if (!is_flat(e))
-      out.contact_features.push_back(
-          feature_code(FeatureKind::edge, static_cast<std::uint32_t>(i)));
+    if (is_flat(e)) continue;
+    out.contact_features.push_back(feature_code(FeatureKind::edge, static_cast<std::uint32_t>(i)));
+    n_used = i + 1;
   }
 
   out.vertices.reserve(n_vertices);
@@ -229,7 +230,10 @@ WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_prim
     }
     out.vertices.push_back(v);
   }
+  out.edges.resize(n_used);
+  out.edges.shrink_to_fit();
   if (with_sides) {
+    out.edge_out.resize(n_used);
     out.vertex_out.assign(n_vertices, Vec3{0, 0, 0});
     for (std::size_t f = 0; f < n_faces; f++)
       for (int k = 0; k < 3; k++) {

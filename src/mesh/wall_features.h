@@ -8,8 +8,8 @@
 
 namespace lsdcd {
 
-// Records of every face and of the edges and vertices that can hold a contact of
-// their own. A flat edge cannot: its faces, closed by a tolerance, cover it.
+// Records of every face and vertex, and of edges up to the last that can hold a contact of its own. A
+// flat edge cannot: its faces, closed by a tolerance, cover it. The mesh numbers flat edges last.
 struct WallFeatures {
   std::vector<FaceRecord> faces;
   std::vector<EdgeRecord> edges;

@@ -151,6 +151,32 @@ void build_edges(WallMesh &mesh, const std::vector<Pair> &bare_edges)
   mesh.edge_first.push_back(static_cast<int>(mesh.edge_face.size()));
 }
 
+// Two planes with less between them are one: more than a few roundings of a normal, and less than
+// those of a corner in a file make of it.
+constexpr Real kFlatFold = 1e-12;    // radian
+
+// Do its two faces lie in one plane, by normals that may be rounded?
+bool seems_flat(const WallMesh &mesh, const std::vector<FacePlane> &plane, int e)
+{
+  if (mesh.edge_first[e + 1] - mesh.edge_first[e] != 2) return false;
+  const int f = mesh.edge_face[mesh.edge_first[e]], g = mesh.edge_face[mesh.edge_first[e] + 1];
+  const Vec3 &a = plane[f].normal, &b = plane[g].normal;
+  return norm(runs_along(mesh, f, e) == runs_along(mesh, g, e) ? a + b : a - b) <= kFlatFold;
+}
+
+// Flat edges hold no contact; with the last numbers, they need no records (mesh/wall_features.h).
+void number_flat_edges_last(WallMesh &mesh, const std::vector<FacePlane> &plane)
+{
+  const int n = static_cast<int>(mesh.edges.size());
+  std::vector<int> number(n, -1);
+  int next = 0;
+  for (int e = 0; e < n; ++e)
+    if (!seems_flat(mesh, plane, e)) number[e] = next++;
+  for (int &k : number)
+    if (k < 0) k = next++;
+  number_edges(mesh, number);
+}
+
 void build_vertex_edges(WallMesh &mesh)
 {
   check_edge_number(mesh.edges.size(), mesh.source);
@@ -189,14 +215,13 @@ WallMesh weld(const TriangleSoup &soup, Real tolerance)
   std::vector<Pair> bare_edges;
   sort_facets(welded.corner_point, mesh, plane, bare_edges);
   build_edges(mesh, bare_edges);
+  number_flat_edges_last(mesh, plane);
   build_vertex_edges(mesh);
   measure_mesh(mesh, plane);
   // They grew by doubling, and stay as long as the wall.
   mesh.vertices.shrink_to_fit();
   mesh.faces.shrink_to_fit();
   mesh.face_facet.shrink_to_fit();
-  mesh.edges.shrink_to_fit();
-  mesh.edge_face.shrink_to_fit();
   return mesh;
 }
 
@@ -209,6 +234,29 @@ WallMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
   sort_facets(corners, mesh, plane, bare_edges);
   build_edges(mesh, bare_edges);
   return mesh;
+}
+
+void number_edges(WallMesh &mesh, const std::vector<int> &number)
+{
+  const std::size_t n = mesh.edges.size();
+  std::vector<int> old(n), first, faces;
+  for (std::size_t e = 0; e < n; ++e) old[number[e]] = static_cast<int>(e);
+  std::vector<Pair> edges;
+  edges.reserve(n);
+  first.reserve(n + 1);
+  faces.reserve(mesh.edge_face.size());
+  for (const int e : old) {
+    edges.push_back(mesh.edges[e]);
+    first.push_back(static_cast<int>(faces.size()));
+    faces.insert(faces.end(), mesh.edge_face.begin() + mesh.edge_first[e],
+                 mesh.edge_face.begin() + mesh.edge_first[e + 1]);
+  }
+  first.push_back(static_cast<int>(faces.size()));
+  mesh.edges = std::move(edges);
+  mesh.edge_first = std::move(first);
+  mesh.edge_face = std::move(faces);
+  for (auto &face : mesh.face_edges)
+    for (int &e : face) e = number[e];
 }
 
 void connect_vertices(WallMesh &mesh)

@@ -183,6 +183,16 @@ TEST(grid, is_complete_on_needles)
   for (Real length : {0., 0.02, 0.3}) expect_complete(needles(), 0.3, length, 10000, 14);
 }
 
+// Of a cube: its twelve edges alone, of its six diagonals the vertices alone.
+TEST(grid, flat_edges_have_no_records)
+{
+  const WallFeatures cube = make_features(weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1), true);
+  EXPECT_EQ(cube.edges.size(), 12u);
+  EXPECT_EQ(cube.edge_out.size(), 12u);
+  EXPECT_EQ(cube.edge_vertex.size(), 18u);
+  EXPECT_EQ(cube.contact_features.size(), 12u + 12u + 8u);
+}
+
 // What a GPU does cell by cell a CPU does for all cells of an octant at once, to the bit: grids are the
 // same on both.
 TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)

@@ -417,6 +417,19 @@ TEST(weld, no_edge_is_listed_twice)
   EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end());
 }
 
+// Of a cube: the diagonals of its sides, whichever way their facets are wound.
+TEST(weld, edges_that_look_flat_have_the_last_numbers)
+{
+  auto cube = kCube;
+  std::swap(cube[3][0], cube[3][1]);
+  const auto mesh = weld(cube);
+  ASSERT_EQ(mesh.edges.size(), 18u);
+  for (std::size_t e = 0; e < 18; ++e) {
+    const auto &v = mesh.edges[e];
+    EXPECT_EQ(norm(mesh.vertices[v[1]] - mesh.vertices[v[0]]) > 1.1, e >= 12) << e;
+  }
+}
+
 TEST(weld, area_and_volume_of_a_box)
 {
   const auto report = weld(box({-1, 0, 2}, {1, 3, 6})).report;
