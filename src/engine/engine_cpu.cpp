@@ -1,11 +1,13 @@
 #include "engine/engine_on.h"
-#include "engine/force/host_law.h"
+#include "engine/force/compile_law.h"
+#include "parallel/backend_cpu.h"
 
 namespace lsdcd {
 
 std::unique_ptr<InPlaceEngine> make_cpu_engine(const EngineSettings &settings)
 {
-  return std::make_unique<EngineOn<CpuBackend>>(settings, host_law(settings), CpuBackend());
+  return std::make_unique<EngineOn<CpuBackend>>(settings, law_for<CpuBackend>(settings),
+                                                CpuBackend());
 }
 
 }    // namespace lsdcd

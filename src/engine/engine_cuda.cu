@@ -1,5 +1,6 @@
-#include "engine/force/cuda_law.h"
+#include "engine/force/compile_law.h"
 #include "engine/host_adapter.h"
+#include "parallel/backend_cuda.h"
 
 namespace lsdcd {
 
@@ -43,7 +44,7 @@ CudaBackend on(cudaStream_t stream)
 class CudaEngine : private Stream, public HostAdapter<CudaBackend> {
  public:
   explicit CudaEngine(const EngineSettings &settings) :
-      Stream(settings.device_rank), HostAdapter(settings, cuda_law(settings), on(get()))
+      Stream(settings.device_rank), HostAdapter(settings, law_for<CudaBackend>(settings), on(get()))
   {
   }
 };
@@ -60,7 +61,7 @@ std::unique_ptr<InPlaceEngine> make_cuda_engine_in_place(const EngineSettings &s
 {
   // The host code has chosen its device with a CUDA runtime of its own.
   cuda_check(cudaSetDevice(device), "choosing the GPU of the particles");
-  return std::make_unique<EngineOn<CudaBackend>>(settings, cuda_law(settings),
+  return std::make_unique<EngineOn<CudaBackend>>(settings, law_for<CudaBackend>(settings),
                                                  on(static_cast<cudaStream_t>(stream)));
 }
 

@@ -3,7 +3,8 @@
 #include "example_effect/saturating_damping.h"
 
 #include "engine/engine_on.h"
-#include "engine/force/host_law.h"
+#include "engine/force/compile_law.h"
+#include "parallel/backend_cpu.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 
@@ -19,13 +20,13 @@ template <class T>
 using SaturatingLaw = ContactModel<T, HookeNormal, SaturatingDamping, LinearNoHistory>;
 
 // Step 3: the law, compiled for a kernel.
-HostLaw compiled(const SaturatingLaw<Real> &law)
+CompiledLaw<CpuBackend> compiled(const SaturatingLaw<Real> &law)
 {
-  return MakeHostLaw<WallKernels::plain>{{false, false}}(law);
+  return MakeLaw<CpuBackend, WallKernels::plain>{{false, false}}(law);
 }
 
 // Step 4: a closed form. One sphere on a floor, the force of one step.
-Real force_at(Real v_normal, const HostLaw &law)
+Real force_at(Real v_normal, const CompiledLaw<CpuBackend> &law)
 {
   Scene scene(floor_mesh(2, 2), 0.5, hooke(1));
   scene.use(std::make_unique<EngineOn<CpuBackend>>(EngineSettings(), law, CpuBackend()));
@@ -38,7 +39,7 @@ Real force_at(Real v_normal, const HostLaw &law)
 TEST(example_effect, damps_as_its_formula_says)
 {
   const Real k = 1e4, gamma = 30, v0 = 0.2;
-  const HostLaw law = compiled({{k}, {gamma, v0}, {0, 0}, false});
+  const CompiledLaw<CpuBackend> law = compiled({{k}, {gamma, v0}, {0, 0}, false});
   for (const Real v : {-2.0, -0.2, -0.01, 0.0, 0.3})
     EXPECT_NEAR(force_at(v, law), k * 0.01 - 2 * gamma * v0 * v / (v0 + std::fabs(v)), 1e-9);
 }

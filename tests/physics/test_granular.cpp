@@ -1,6 +1,7 @@
 // The sub-models of `granular` against closed forms.
-#include "engine/force/host_law.h"
+#include "engine/force/compile_law.h"
 #include "model/normal.h"
+#include "parallel/backend_cpu.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 
@@ -582,7 +583,7 @@ TEST(granular, parameters_and_compiled_laws_agree_on_what_is_kept)
         g.rolling = more & 1;
         g.twisting = more & 2 ? TwistingModel::sds : TwistingModel::none;
         g.heat = more & 4 ? HeatModel::area : HeatModel::none;
-        const LawTraits traits = host_law(s).traits;
+        const LawTraits traits = law_for<CpuBackend>(s).traits;
         laws += traits.history == s.law.has_history() && traits.heat == s.law.has_heat() &&
                 traits.n_extra == s.law.n_extra();
       }

@@ -1,6 +1,6 @@
 // A wall of several meshes acts as one: spheres feel each place once, whatever mesh it is of and
 // whatever frame that is in.
-#include "engine/force/host_law.h"
+#include "engine/force/compile_law.h"
 #include "engine/host_adapter.h"
 #include "mesh/motion.h"
 #include "support/crowd.h"
@@ -388,7 +388,7 @@ TEST(several_meshes, act_the_same_through_the_adapter_of_a_host)
   EngineSettings s = hooke_history(kStiffness, 3e4, 50, 20, 0.4);
   const Wall wall(dealt(random_soup(600, 5), 7), kRadius, s, true);
   s.meshes = 7;
-  HostAdapter<CpuBackend> adapter(s, host_law(s), CpuBackend());
+  HostAdapter<CpuBackend> adapter(s, law_for<CpuBackend>(s), CpuBackend());
   const auto direct = on_cpu(s);
   wall.put_into(adapter);
   wall.put_into(*direct);

@@ -2,7 +2,7 @@
 // source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches.
 #include "contact/spring_store.h"
 #include "effects/effects.h"
-#include "engine/force/host_law.h"
+#include "engine/force/compile_law.h"
 #include "engine/host_adapter.h"
 #include "grid/lookup/near_within.h"
 #include "parallel/backend_cpu.h"
@@ -147,7 +147,7 @@ std::unique_ptr<WallEngine> by_two_kernels(const EngineSettings &s)
 
 std::unique_ptr<WallEngine> by_adapter(const EngineSettings &s)
 {
-  return std::make_unique<HostAdapter<CpuBackend>>(s, host_law(s), CpuBackend());
+  return std::make_unique<HostAdapter<CpuBackend>>(s, law_for<CpuBackend>(s), CpuBackend());
 }
 
 ContactLaw history()

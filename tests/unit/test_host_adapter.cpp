@@ -1,6 +1,6 @@
 // The adapter of a host whose arrays are elsewhere: springs and indices across choices of other near
 // spheres. That it gives what the CPU's engine gives is in test_engine.cpp.
-#include "engine/force/host_law.h"
+#include "engine/force/compile_law.h"
 #include "engine/host_adapter.h"
 #include "support/crowd.h"
 #include "support/test_engine.h"
@@ -20,8 +20,8 @@ class Pair {
     GridSettings g;
     g.cutoff = 0.5;
     flat_ = FlatGrid(build_grid(weld(floor_mesh(10, 5, 3), -1), g));
-    adapter =
-        std::make_unique<HostAdapter<CpuBackend>>(settings_, host_law(settings_), CpuBackend());
+    adapter = std::make_unique<HostAdapter<CpuBackend>>(settings_, law_for<CpuBackend>(settings_),
+                                                        CpuBackend());
     direct = on_cpu(settings_);
     set_grid();
   }

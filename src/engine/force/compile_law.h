@@ -1,0 +1,44 @@
+// How a law is compiled for a backend.
+#pragma once
+
+#include "engine/force/joint_step.h"
+#include "engine/force/laws.h"
+
+namespace lsdcd {
+
+// The law that the settings ask for.
+template <class B>
+CompiledLaw<B> law_for(const EngineSettings &settings);
+
+// Those of `granular`, one function per normal sub-model: a source file each, compiled for each backend.
+template <class B>
+CompiledLaw<B> hooke_law(const EngineSettings &settings);
+template <class B>
+CompiledLaw<B> hertz_law(const EngineSettings &settings);
+template <class B>
+CompiledLaw<B> dmt_law(const EngineSettings &settings);
+template <class B>
+CompiledLaw<B> jkr_law(const EngineSettings &settings);
+
+// Those of the classic styles with effects of LIGGGHTS, and on walls with effects.
+template <class B>
+CompiledLaw<B> added_law(const EngineSettings &settings);
+template <class B>
+CompiledLaw<B> on_wall_law(const EngineSettings &settings);
+
+// For with_..._law() of laws.h.
+template <class B, WallKernels kernels>
+struct MakeLaw {
+  WallEffects effects;
+
+  template <class Law>
+  CompiledLaw<B> operator()(const Law &law) const
+  {
+    return on_wall<kernels>(law, effects, [](const auto &compiled) {
+      using L = std::decay_t<decltype(compiled)>;
+      return CompiledLaw<B>{traits_of<L>(), LawBytes(compiled), start_law<L, B>};
+    });
+  }
+};
+
+}    // namespace lsdcd

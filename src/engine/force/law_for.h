@@ -1,0 +1,32 @@
+// Which compiled law the settings ask for. Compiled once for each backend, with the classic styles.
+#pragma once
+
+#include "engine/force/compile_law.h"
+
+namespace lsdcd {
+
+template <class B>
+CompiledLaw<B> law_for(const EngineSettings &settings)
+{
+  const ContactLaw &law = settings.law;
+  if (law.style != LawStyle::granular && law.added.any()) return added_law<B>(settings);
+  if (law.style != LawStyle::granular) {
+    const WallEffects effects = wall_effects(settings);
+    if (effects.surface || effects.records) return on_wall_law<B>(settings);
+    if (settings.precision == Precision::single_)
+      return with_classic_law<float>(law, MakeLaw<B, WallKernels::plain>{});
+    return with_classic_law<Real>(law, MakeLaw<B, WallKernels::plain>{});
+  }
+  switch (law.granular.normal) {
+    case NormalModel::hertz:
+      return hertz_law<B>(settings);
+    case NormalModel::dmt:
+      return dmt_law<B>(settings);
+    case NormalModel::jkr:
+      return jkr_law<B>(settings);
+    default:
+      return hooke_law<B>(settings);
+  }
+}
+
+}    // namespace lsdcd
