@@ -236,13 +236,15 @@ def same_work(executables, folder):
 
 
 def start_costs(executable, program, folder, repeats):
-    """Set-up seconds and peak memory, MB, that the wall adds to a run of 0 steps."""
-    runs = {w: [decks.Run(executable, start_deck(program, w), folder) for _ in range(repeats)]
-            for w in (True, False)}
-    seconds, peak = ({w: statistics.median(getattr(r, what) for r in rs) for w, rs in runs.items()}
-                     for what in ("seconds", "peak_mb"))
-    return {"setup_s": f"{seconds[True] - seconds[False]:.3g}",
-            "memory_mb": f"{peak[True] - peak[False]:.4g}"}
+    """Set-up seconds and peak memory, MB, that the wall adds to a run of 0 steps: medians over pairs of
+    runs with it and without, one after the other, as the first runs of a machine at rest are slow."""
+    pairs = [[decks.Run(executable, start_deck(program, w), folder) for w in (True, False)]
+             for _ in range(repeats)]
+
+    def added(what):
+        return statistics.median(getattr(wall, what) - getattr(none, what) for wall, none in pairs)
+
+    return {"setup_s": f"{added('seconds'):.3g}", "memory_mb": f"{added('peak_mb'):.4g}"}
 
 
 def compare(options, executables, folder, named):
@@ -255,7 +257,7 @@ def compare(options, executables, folder, named):
             for order in options.orders:
                 write_spheres(folder, case, order, options.spheres, n_round)
                 if start is None:
-                    start = {p: start_costs(e, p, folder, 3)
+                    start = {p: start_costs(e, p, folder, 5)
                              for p, e in executables.items()}
                 check = same_work(executables, folder)
                 steps = options.steps * (10 if case == "in bulk" else 1)
