@@ -151,8 +151,7 @@ void build_edges(WallMesh &mesh, const std::vector<Pair> &bare_edges)
   mesh.edge_first.push_back(static_cast<int>(mesh.edge_face.size()));
 }
 
-// Two planes with less between them are one: more than a few roundings of a normal, and less than
-// those of a corner in a file make of it.
+// More than rounding leaves between the normals of two faces in one plane.
 constexpr Real kFlatFold = 1e-12;    // radian
 
 // Do its two faces lie in one plane, by normals that may be rounded?
