@@ -365,7 +365,6 @@ TEST(grid, flat_block_can_be_moved)
   EXPECT_NEAR(set.distance[0], 0.2, 1e-15);
 }
 
-// Cache files are written from it.
 // Arrays of some MB, so that they go in several parts.
 TEST(grid, moved_into_a_block_is_what_is_copied_into_one)
 {
@@ -379,6 +378,7 @@ TEST(grid, moved_into_a_block_is_what_is_copied_into_one)
   EXPECT_EQ(copied, moved);
 }
 
+// Cache files are written from it.
 TEST(grid, flat_block_has_nothing_of_what_its_memory_held)
 {
   const TriangleGrid grid = grid_of(tangle(14, 40, 6), 0.3);
