@@ -151,7 +151,8 @@ class FixWallLsdcd : public Fix {
   virtual void fill_masses();
   virtual double largest_radius();    // of the group, on this process
   virtual void need_on_host() {}      // before atom data are read outside of a step
-  virtual tagint tag_of(int);         // 0 where atoms have none
+  tagint tag_on_host(int) const;      // after need_on_host(); 0 where atoms have none
+  virtual tagint tag_of(int);         // the same at any time, of few: each is a copy from a GPU
   virtual void make_exchange_room();
   tagint tag_of_radius(double);    // the first of the group that has it
 

@@ -40,9 +40,13 @@ void FixWallLsdcd::refuse(const std::string &problem) const
   error->all(FLERR, signed_text(problem));
 }
 
-tagint FixWallLsdcd::tag_of(int i)
+tagint FixWallLsdcd::tag_on_host(int i) const
 {
   return atom->tag_enable ? atom->tag[i] : 0;
+}
+tagint FixWallLsdcd::tag_of(int i)
+{
+  return tag_on_host(i);
 }
 
 tagint FixWallLsdcd::tag_of_radius(double radius)
@@ -51,7 +55,7 @@ tagint FixWallLsdcd::tag_of_radius(double radius)
   bigint first = MAXBIGINT;
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->radius[i] == radius && (group->dynamic[igroup] || (atom->mask[i] & groupbit)))
-      first = std::min<bigint>(first, tag_of(i));
+      first = std::min<bigint>(first, tag_on_host(i));
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_LMP_BIGINT, MPI_MIN, world);
   return static_cast<tagint>(first);
 }
