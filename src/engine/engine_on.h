@@ -66,8 +66,8 @@ class EngineOn : public InPlaceEngine {
   {
     if (wall_.has_several()) results_.outlive_choice(b_);
     springs_.grow(b_, spheres.n);
-    use(spheres, wall_.choose_among(b_, spheres, margin, counts_));
-    return wall_.chosen_among(b_, spheres.n);
+    use(spheres, wall_.choose(b_, spheres, margin, counts_, nullptr, true));
+    return wall_.chosen(b_, spheres.n);
   }
 
   bool has_moved(const Spheres &spheres) override { return wall_.has_moved(b_, spheres); }

@@ -220,8 +220,7 @@ class HostAdapter : public WallEngine {
     std::vector<int> near;
     for (const EngineMesh<CpuBackend> &mesh : meshes_) {
       StepCounts seen = {};
-      near_.choose(cpu_, mesh.grid.view, mesh.grid.table, spheres, mesh.pose, margin,
-                   settings_.law.pull_off(), &seen, nullptr);
+      near_.choose(cpu_, mesh, spheres, margin, settings_.law.pull_off(), false, &seen, nullptr);
       if (seen.too_large) {
         const int i = static_cast<int>(kNoSphere - seen.too_large);
         throw_too_large(i, spheres.radius[i], mesh.grid.view.cutoff);

@@ -1,4 +1,5 @@
 // The five verbs of a backend on the host: allocate, copy, for_each, reduce, scan/sort.
+// Over 300 lines: it has the verbs of backend_cuda.h in their order, so that one reads both side by side.
 #pragma once
 
 #include "parallel/atomic.h"
@@ -79,6 +80,20 @@ struct CpuBackend {
   }
   void wait() {}
 
+  // ask: what is at `at`; answer() tells.
+  template <class T>
+  using Asked = T;
+  template <class T>
+  void ask(const T *at, T &asked)
+  {
+    asked = *at;
+  }
+  template <class T>
+  T answer(const T &asked)
+  {
+    return asked;
+  }
+
   // beside: here one thing comes after the other.
   struct Beside {
     void ready(CpuBackend &) {}
@@ -97,10 +112,11 @@ struct CpuBackend {
   }
 
   // f(group, mine, i), likewise, by threads that share their work; one that is there only to help
-  // has an i that is not `mine`.
+  // has an i that is not `mine`. With `n_at`: for *n_at in place of n, or none if that is more.
   template <class F>
-  void for_each_together(std::size_t n, const F &f)
+  void for_each_together(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
   {
+    if (n_at) n = *n_at <= n ? *n_at : 0;
     for_each(n, [&](std::size_t i) { f(LaneGroup<1>(), true, i); });
   }
 
@@ -126,11 +142,13 @@ struct CpuBackend {
         f(static_cast<std::size_t>(i), at - offset[i], at - run.first);
   }
 
-  // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
-  // `total` becomes how many. check() is told of each i, with what read() has read of it;
-  // may_keep() is asked with that, its row of slots() and the brick table, keep() by that row
-  // of those that it leaves, and where it notes(), note() is told.
-  struct SelectScratch {};
+  // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n; `total`
+  // becomes how many. check() is told of each i, with what read() has read of it. may_keep() and
+  // find() are asked by its row of places(), and where looks_twice() keep_after_all() of what was
+  // found. Where it notes(), note() is told.
+  struct SelectScratch {
+    std::size_t bytes() const { return 0; }
+  };
   template <class Work>
   void select(std::size_t n, const Work &work, SelectScratch &, int *to, std::uint32_t *total)
   {
@@ -138,21 +156,22 @@ struct CpuBackend {
     constexpr std::int64_t kBlock = 4096;
     const std::int64_t n_blocks = (static_cast<std::int64_t>(n) + kBlock - 1) / kBlock;
     std::vector<int> found(n_blocks, 0);
-#pragma omp parallel for schedule(static) num_threads(threads()) if (n_blocks > 1)
+#pragma omp parallel for schedule(dynamic) num_threads(threads()) if (n_blocks > 1)
     for (std::int64_t b = 0; b < n_blocks; b++) {
       const std::int64_t lo = b * kBlock;
       const std::int64_t hi = std::min(lo + kBlock, static_cast<std::int64_t>(n));
       int count = 0;
       for (std::int64_t k = lo; k < hi; k++) {
         const std::size_t i = static_cast<std::size_t>(k);
-        const Vec3 slot = work.places()[i];
+        const Vec3 place = work.places()[i];
         const auto item = work.read(i);
         work.check(i, item);
-        const bool kept = work.may_keep(item, slot, work.table) && work.keep(slot, work.table);
+        const bool kept = work.may_keep(item, place, work.table) &&
+                          work.find(place, work.table) != Work::kNotFound;
         if (work.notes()) work.note(i, kept);
         if (kept) to[lo + count++] = static_cast<int>(i);
       }
-      found[b] = count;
+      found[b] = work.looks_twice() ? look_again(work, to + lo, count) : count;
     }
     std::uint32_t n_kept = 0;
     for (std::int64_t b = 0; b < n_blocks; b++) {
@@ -160,6 +179,11 @@ struct CpuBackend {
       n_kept += found[b];
     }
     *total = n_kept;
+  }
+  // On a GPU a second look may have too little room.
+  bool had_room(std::uint32_t /*total*/, SelectScratch &)
+  {
+    return true;
   }
 
   // keep: of from[0, n) those whose flag is set, in order, into `to`; *total becomes how many.
@@ -246,6 +270,24 @@ struct CpuBackend {
   }
 
  private:
+  // Of n items leaves those that are kept after all, and returns how many. What is read first is asked for
+  // a few items ahead.
+  template <class Work>
+  static int look_again(const Work &work, int *items, int n)
+  {
+    constexpr int kAhead = 4;
+    int n_kept = 0;
+    for (int k = 0; k < n; k++) {
+      if (k + kAhead < n) work.ask_ahead(work.places()[items[k + kAhead]]);
+      const int i = items[k];
+      if (work.keep_after_all(LaneGroup<1>(), true, i, Work::kNotFound))
+        items[n_kept++] = i;
+      else if (work.notes())
+        work.note(i, false);
+    }
+    return n_kept;
+  }
+
   // single() is compiled into the loop whole, with its contact in registers; several() is rare,
   // and long.
   template <class Work>

@@ -39,10 +39,13 @@ __global__ void cuda_for_each(std::size_t n, const __grid_constant__ F f)
 constexpr unsigned kTogetherBlock = 128, kTogetherBlocks = 6;
 template <class F>
 __global__ void __launch_bounds__(kTogetherBlock, kTogetherBlocks)
-    cuda_for_each_together(std::size_t n, const __grid_constant__ F f)
+    cuda_for_each_together(std::size_t most, const std::uint32_t *n_at, const __grid_constant__ F f)
 {
-  const std::size_t i = std::size_t(blockIdx.x) * kTogetherBlock + threadIdx.x;
-  f(LaneGroup<32>(), i < n, i < n ? i : 0);
+  const std::size_t n = !n_at           ? most
+                        : *n_at <= most ? *n_at
+                                        : 0,
+                    i = std::size_t(blockIdx.x) * kTogetherBlock + threadIdx.x;
+  if (i / 32 * 32 < n) f(LaneGroup<32>(), i < n, i < n ? i : 0);
 }
 
 // The same over parts of things: thing i has offset[i + 1] - offset[i] of them.
@@ -186,6 +189,28 @@ struct CudaBackend {
   }
   void wait() { cuda_check(cudaStreamSynchronize(stream), "running on the device"); }
 
+  // ask: what is at `at` once all that was started before has ended. answer() waits for that alone,
+  // not for what was started since.
+  template <class T>
+  struct Asked {
+    HostArray<T> value;
+    CudaEvent there;
+  };
+  template <class T>
+  void ask(const T *at, Asked<T> &asked)
+  {
+    if (asked.value.size() == 0) asked.value = HostArray<T>(1);
+    cuda_check(cudaMemcpyAsync(asked.value.data(), at, sizeof(T), cudaMemcpyDeviceToHost, stream),
+               "copying from the device");
+    asked.there.record(stream);
+  }
+  template <class T>
+  T answer(const Asked<T> &asked)
+  {
+    asked.there.wait();
+    return *asked.value.data();
+  }
+
   // beside: what is started between begin() and end() waits only for what came before ready().
   struct Beside {
     void ready(CudaBackend &b) { streams.ready(b.stream); }
@@ -205,13 +230,14 @@ struct CudaBackend {
   }
 
   // f(group, mine, i), likewise, by threads that share their work; one that is there only to help
-  // has an i that is not `mine`.
+  // has an i that is not `mine`. With `n_at`: for *n_at in place of n, or none if that is more.
   template <class F>
-  void for_each_together(std::size_t n, const F &f)
+  void for_each_together(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
   {
     if (n == 0) return;
     const std::size_t blocks = (n + kTogetherBlock - 1) / kTogetherBlock;
-    cuda_for_each_together<<<static_cast<unsigned>(blocks), kTogetherBlock, 0, stream>>>(n, f);
+    cuda_for_each_together<<<static_cast<unsigned>(blocks), kTogetherBlock, 0, stream>>>(n, n_at,
+                                                                                         f);
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
@@ -249,40 +275,63 @@ struct CudaBackend {
   // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
   // `total`, where the kernels run, becomes how many. check() is told of each i that
   // may_be_large(), by what read() has read of it; may_keep() is asked with that, its row of
-  // slots() and the brick table, keep() by that row of those that it leaves, and where it
-  // notes(), note() is told. Does not wait. The room is kept for the next time, until when it
-  // must not be freed.
+  // places() and the brick table, find() by that row of those that it leaves, and where
+  // looks_twice() keep_after_all() with what was found of each, by threads that share their work.
+  // Where it notes(), note() is told. Does not wait. The room is kept for the next time, until when
+  // it must not be freed.
   struct SelectScratch {
     Array<unsigned> words;
-    Array<std::uint32_t> in_tile;
-    Array<char> scan;
+    Array<SecondLookList::Item> items;
+    Array<unsigned> length;
+    Array<unsigned long long> counts;
+    unsigned turn = 0;
     CudaLimits limits;
+    Array<char> scan;    // of keep()
+
+    SecondLookList list()
+    {
+      return {items.data(), length.data(),
+              static_cast<unsigned>(items.size() / SecondLookList::kLists)};
+    }
+    std::size_t bytes() const
+    {
+      return words.size() * sizeof(unsigned) + items.size() * sizeof(SecondLookList::Item) +
+             scan.size();
+    }
   };
   template <class Work>
   void select(std::size_t n, const Work &work, SelectScratch &room, int *to, std::uint32_t *total)
   {
-    const unsigned n_tiles = static_cast<unsigned>((n + kMarkTile - 1) / kMarkTile);
-    std::size_t bytes = 0;
-    cuda_check(cub::DeviceScan::ExclusiveSum(nullptr, bytes, room.in_tile.data(),
-                                             room.in_tile.data(), n_tiles + 1, stream),
-               "sizing a scan");
-    if (room.in_tile.size() < n_tiles + 1) {
-      const std::size_t tiles = n_tiles + n_tiles / 8 + 1;
-      room.words = Array<unsigned>(tiles * kMarkWords);
-      room.in_tile = Array<std::uint32_t>(tiles);
+    const unsigned n_tiles = static_cast<unsigned>((n + kMarkTile - 1) / kMarkTile),
+                   n_words = n_tiles * kMarkWords, processors = room.limits.processors();
+    if (room.words.size() < n_words) room.words = Array<unsigned>(n_words + n_words / 8);
+    if (room.counts.size() == 0) room.counts = zeros<unsigned long long>(processors + 1);
+    SecondLookList list;
+    if (work.looks_twice()) {
+      if (room.length.size() == 0) {
+        room.length = zeros<unsigned>(SecondLookList::kLengths);
+        reserve_second_look(room, kFirstRoom);
+      }
+      list = room.list();
     }
-    if (room.scan.size() < bytes) room.scan = Array<char>(2 * bytes);
-    std::uint32_t *in_tile = room.in_tile.data();
-    cuda_check(cudaMemsetAsync(in_tile + n_tiles, 0, sizeof *in_tile, stream), "clearing memory");
-    if (n_tiles > 0)
-      start_mark(static_cast<unsigned>(n), work, room.limits, room.words.data(), in_tile, stream);
-    bytes = room.scan.size();
-    cuda_check(cub::DeviceScan::ExclusiveSum(room.scan.data(), bytes, in_tile, in_tile, n_tiles + 1,
-                                             stream),
-               "scanning");
-    cuda_gather<<<n_tiles / kGatherTiles + 1, kGatherBlock, 0, stream>>>(room.words.data(), in_tile,
-                                                                         n_tiles, to, total);
+    unsigned *words = room.words.data();
+    if (n > 0) start_mark(static_cast<unsigned>(n), work, room.limits, words, list, stream);
+    if (list.items)
+      for_each_together(SecondLookList::kLists * std::size_t(list.room),
+                        SecondLook<Work>{work, list, words});
+    const unsigned each =
+        std::max((n_words + processors - 1) / processors, kGatherBlock);    // of a block
+    cuda_gather<<<n_words / each + 1, kGatherBlock, 0, stream>>>(
+        words, n_words, each, {room.counts.data(), ++room.turn}, list, to, total);
     cuda_check(cudaGetLastError(), "starting a kernel");
+  }
+  // Given the total, was there room for a second look at all? If not there is now: select again.
+  bool had_room(std::uint32_t total, SelectScratch &room)
+  {
+    if (total != kNoRoom) return true;
+    const unsigned most = read_one(room.list().longest());
+    reserve_second_look(room, most + most / 8);
+    return false;
   }
 
   // keep: of from[0, n) those whose flag is set, in order, into `to`; *total, on the device, becomes
@@ -396,6 +445,22 @@ struct CudaBackend {
   }
 
  private:
+  static constexpr unsigned kFirstRoom = 128;    // of a list of a second look
+
+  static void reserve_second_look(SelectScratch &room, unsigned of_list)
+  {
+    const std::size_t n = SecondLookList::kLists * ((std::size_t(of_list) + 31) / 32 * 32);
+    room.items = Array<SecondLookList::Item>(n);
+  }
+
+  template <class T>
+  Array<T> zeros(std::size_t n)
+  {
+    Array<T> a(n);
+    cuda_check(cudaMemsetAsync(a.data(), 0, n * sizeof(T), stream), "clearing memory");
+    return a;
+  }
+
   // CUB asks twice: for the size of its scratch memory, then to run.
   template <class Call>
   void with_scratch(Call call)

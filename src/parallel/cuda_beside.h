@@ -1,9 +1,7 @@
 // A second stream of an NVIDIA GPU, for work beside what the first one does.
 #pragma once
 
-#include "parallel/cuda_check.h"
-
-#include <cuda_runtime.h>
+#include "parallel/cuda_event.h"
 
 #include <utility>
 
@@ -16,8 +14,6 @@ class CudaBeside {
   {
     if (!second_) return;
     cudaStreamSynchronize(second_);
-    cudaEventDestroy(ready_);
-    cudaEventDestroy(done_);
     cudaStreamDestroy(second_);
   }
   CudaBeside(const CudaBeside &) = delete;
@@ -27,22 +23,22 @@ class CudaBeside {
   void ready(cudaStream_t first)
   {
     if (!second_) make();
-    cuda_check(cudaEventRecord(ready_, first), "recording an event");
+    ready_.record(first);
   }
 
   // `stream` becomes the second one.
   void begin(cudaStream_t &stream)
   {
     first_ = std::exchange(stream, second_);
-    cuda_check(cudaStreamWaitEvent(second_, ready_, 0), "ordering two streams");
+    ready_.hold(second_);
   }
 
   // `stream` becomes the first one again, which waits for what the second was given.
   void end(cudaStream_t &stream)
   {
-    cuda_check(cudaEventRecord(done_, second_), "recording an event");
+    done_.record(second_);
     stream = first_;
-    cuda_check(cudaStreamWaitEvent(first_, done_, 0), "ordering two streams");
+    done_.hold(first_);
   }
 
  private:
@@ -53,12 +49,10 @@ class CudaBeside {
     cuda_check(cudaDeviceGetStreamPriorityRange(&lowest, &highest), "asking for priorities");
     cuda_check(cudaStreamCreateWithPriority(&second_, cudaStreamNonBlocking, highest),
                "creating a stream");
-    cuda_check(cudaEventCreateWithFlags(&ready_, cudaEventDisableTiming), "creating an event");
-    cuda_check(cudaEventCreateWithFlags(&done_, cudaEventDisableTiming), "creating an event");
   }
 
   cudaStream_t first_ = nullptr, second_ = nullptr;
-  cudaEvent_t ready_ = nullptr, done_ = nullptr;
+  CudaEvent ready_, done_;
 };
 
 }    // namespace lsdcd

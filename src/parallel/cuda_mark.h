@@ -4,8 +4,10 @@
 #include "base/strided_view.h"
 #include "parallel/cuda_bricks.h"
 #include "parallel/cuda_limits.h"
-#include "parallel/cuda_warp.h"
+#include "parallel/cuda_second_look.h"
 
+#include <cub/block/block_reduce.cuh>
+#include <cub/block/block_scan.cuh>
 #include <cuda_pipeline_primitives.h>
 #include <cuda_runtime.h>
 
@@ -52,12 +54,12 @@ __device__ inline void bring_rows(const StridedView<const double> &rows, std::si
   __pipeline_commit();
 }
 
-// Bits of the items to keep, and how many there are in each tile. Warps stay and take one tile
+// Bits of the items to keep, or none and a list for a second look. Warps stay and take one tile
 // after the other. Few may be kept, and more is read of those alone, by full warps.
 template <bool kTableNear, class Work>
 __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
     cuda_mark(unsigned n, const __grid_constant__ Work work, unsigned *words,
-              std::uint32_t *in_tile)
+              const SecondLookList list)
 {
   constexpr unsigned kEach = kMarkTile / 32;
   extern __shared__ uint4 mark_shared[];
@@ -107,26 +109,25 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
     }
     __syncwarp();
 #pragma unroll 1    // nearly always one turn
-    for (unsigned w = lane; w < waiting; w += 32) {
-      const unsigned i = mine.waiting[w];
-      if (work.keep(cell_slot_of(i), table)) atomicOr(&mine.kept[i / 32], 1u << (i % 32));
+    for (unsigned turn_first = 0; turn_first < waiting; turn_first += 32) {
+      const unsigned w = turn_first + lane, i = mine.waiting[min(w, waiting - 1)];
+      const std::uint32_t found = w < waiting ? work.find(cell_slot_of(i), table) : Work::kNotFound;
+      const bool kept = found != Work::kNotFound;
+      if (kept) atomicOr(&mine.kept[i / 32], 1u << (i % 32));
+      if (list.items) list.put(kept, {first + i, found});
     }
     __syncwarp();
     if (work.notes())
       for (unsigned i = lane; i <= last; i += 32)
         work.note(first + i, mine.kept[i / 32] >> lane & 1u);
-    if (lane < kMarkWords) words[tile * kMarkWords + lane] = mine.kept[lane];
-    unsigned sum = lane < kMarkWords ? __popc(mine.kept[lane]) : 0;
-    for (unsigned step = kMarkWords / 2; step > 0; step /= 2)
-      sum += __shfl_down_sync(kAllLanes, sum, step);
-    if (lane == 0) in_tile[tile] = sum;
+    if (lane < kMarkWords) words[tile * kMarkWords + lane] = list.items ? 0 : mine.kept[lane];
     __syncwarp();
   }
 }
 
 template <class Work>
 void start_mark(unsigned n, const Work &work, CudaLimits &limits, unsigned *words,
-                std::uint32_t *in_tile, cudaStream_t stream)
+                const SecondLookList &list, cudaStream_t stream)
 {
   const CudaLimits::Shape shape =
       limits.shape(kMarkWarps, kMarkBlocks, sizeof(MarkTile), BrickTableNear::bytes(work.table));
@@ -134,34 +135,63 @@ void start_mark(unsigned n, const Work &work, CudaLimits &limits, unsigned *word
   const auto kernel = shape.has_table ? cuda_mark<true, Work> : cuda_mark<false, Work>;
   limits.allow(kernel, shape.shared);
   kernel<<<std::min((n + of_block - 1) / of_block, limits.processors() * kMarkBlocks),
-           32 * shape.warps, shape.shared, stream>>>(n, work, words, in_tile);
+           32 * shape.warps, shape.shared, stream>>>(n, work, words, list);
   cuda_check(cudaGetLastError(), "starting a kernel");
 }
 
-// From bits to a list, a warp for 32 words; before[t]: how many are kept in tiles before t.
-constexpr unsigned kGatherBlock = 256, kGatherTiles = kGatherBlock / kMarkWords;
+// From bits to a list: each block counts those of its words, waits for what blocks before it have
+// counted, and writes its own. *total becomes how many there are, or kNoRoom where a second look had
+// too little room.
+constexpr std::uint32_t kNoRoom = ~std::uint32_t(0);
+constexpr unsigned kGatherBlock = 1024;
+struct GatherCounts {
+  volatile unsigned long long *of_block;    // low word: what it counted; high word: in which turn
+  unsigned turn;                            // another one for each gathering
+};
 __global__ static void __launch_bounds__(kGatherBlock)
-    cuda_gather(const unsigned *words, const std::uint32_t *before, unsigned n_tiles, int *to,
-                std::uint32_t *total)
+    cuda_gather(const unsigned *words, unsigned n_words, unsigned each, const GatherCounts counts,
+                const SecondLookList list, int *to, std::uint32_t *total)
 {
-  const unsigned lane = threadIdx.x % 32, word = blockIdx.x * blockDim.x + threadIdx.x,
-                 n_words = n_tiles * kMarkWords;
-  if (word == 0) *total = before[n_tiles];
-  const unsigned mine = word < n_words ? words[word] : 0;
-  // Of the words of its tile, those before this one.
-  std::uint32_t ahead = __popc(mine);
-  for (unsigned d = 1; d < kMarkWords; d *= 2) {
-    const std::uint32_t from = __shfl_up_sync(kAllLanes, ahead, d);
-    if (lane % kMarkWords >= d) ahead += from;
+  using Sum = cub::BlockReduce<unsigned, kGatherBlock>;
+  using Scan = cub::BlockScan<unsigned, kGatherBlock>;
+  __shared__ union {
+    typename Sum::TempStorage sum;
+    typename Scan::TempStorage scan;
+  } shared;
+  __shared__ unsigned before;
+  const unsigned begin = blockIdx.x * each, end = min(begin + each, n_words);
+  unsigned n = 0;
+  for (unsigned w = begin + threadIdx.x; w < end; w += kGatherBlock) n += __popc(words[w]);
+  n = Sum(shared.sum).Sum(n);
+  if (threadIdx.x == 0)
+    counts.of_block[blockIdx.x] = static_cast<unsigned long long>(counts.turn) << 32 | n;
+  __syncthreads();
+
+  // Blocks begin in the order of their numbers, so that those before this one are at work or done.
+  unsigned ahead = 0;
+  for (unsigned b = threadIdx.x; b < blockIdx.x; b += kGatherBlock) {
+    unsigned long long counted = 0;
+    do counted = counts.of_block[b];
+    while (counted >> 32 != counts.turn);
+    ahead += static_cast<unsigned>(counted);
   }
-  ahead -= __popc(mine);
-  if (word < n_words) ahead += before[word / kMarkWords];
-  for (unsigned left = __ballot_sync(kAllLanes, mine != 0); left != 0; left &= left - 1) {
-    const int w = __ffs(left) - 1;
-    const unsigned given = __shfl_sync(kAllLanes, mine, w);
-    const std::uint32_t at = __shfl_sync(kAllLanes, ahead, w);
-    if ((given >> lane) & 1u)
-      to[at + votes_below(given)] = static_cast<int>((word - lane + w) * 32 + lane);
+  ahead = Sum(shared.sum).Sum(ahead);
+  if (threadIdx.x == 0) before = ahead;
+  if (blockIdx.x == gridDim.x - 1 && threadIdx.x < 32) {
+    const bool was_short = list.length && list.empty();
+    if (threadIdx.x == 0) *total = was_short ? kNoRoom : ahead + n;
+  }
+  __syncthreads();
+
+  int *next = to + before;
+  for (unsigned first = begin; first < end; first += kGatherBlock) {
+    const unsigned w = first + threadIdx.x, word = w < end ? words[w] : 0;
+    unsigned at, all;
+    Scan(shared.scan).ExclusiveSum(__popc(word), at, all);
+    __syncthreads();
+    for (unsigned left = word; left != 0; left &= left - 1)
+      next[at++] = static_cast<int>(w * 32 + __ffs(left) - 1);
+    next += all;
   }
 }
 

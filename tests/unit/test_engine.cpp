@@ -102,12 +102,17 @@ struct CountingBackend : CpuBackend {
     crossings()++;
     return CpuBackend::exclusive_scan(values, n);
   }
+  // Every second time there is too little room, as on a GPU that meets more near spheres than before.
   template <class Work>
   void select(std::size_t n, const Work &work, SelectScratch &room, int *to, std::uint32_t *total)
   {
     crossings()++;
     CpuBackend::select(n, work, room, to, total);
+    was_short = !was_short;
+    if (was_short) *total = ~std::uint32_t(0);
   }
+  bool had_room(std::uint32_t total, SelectScratch &) { return total != ~std::uint32_t(0); }
+  bool was_short = false;
 };
 
 using CountingLaw = CompiledLaw<CountingBackend>;
@@ -369,7 +374,7 @@ TEST(engine, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
   EXPECT_GT(far, 1000);    // it is not near everywhere
 }
 
-TEST(engine, the_first_look_of_a_choice_with_a_margin_leaves_out_none_that_the_second_keeps)
+TEST(engine, the_bricks_of_a_choice_with_a_margin_leave_out_none_that_its_cells_keep)
 {
   GridSettings g;
   g.cutoff = 0.5;
@@ -386,17 +391,17 @@ TEST(engine, the_first_look_of_a_choice_with_a_margin_leaves_out_none_that_the_s
   int kept = 0, missed = 0, left_out = 0;
   for (int k = 0; k < 300000; k++) {
     const Vec3 q = {at(random), at(random), at(random)};
-    choice.margin = margins(random);
-    choice.fixed_margin = choice.filter.margin(choice.margin * grid.inv_length / kBrickSide);
+    choice.past = margins(random);
+    choice.fixed_margin = choice.filter.margin(choice.past * grid.inv_length / kBrickSide);
     const bool may = choice.may_keep({0.5, 0}, q, choice.table);
-    const bool keeps = choice.keep(q, choice.table);
+    const bool keeps = choice.find(q, choice.table) != choice.kNotFound;
     kept += keeps;
     missed += keeps && !may;
     left_out += !may;
   }
   EXPECT_EQ(missed, 0);
   EXPECT_GT(kept, 1000);
-  EXPECT_GT(left_out, 1000);    // the first look saves something
+  EXPECT_GT(left_out, 1000);    // bricks save something
 }
 
 TEST(engine, springs_follow_through_pack_and_unpack)

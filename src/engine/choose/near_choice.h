@@ -1,5 +1,6 @@
-// Which spheres could be near the wall after a way of up to `margin`, as Backend::select asks:
-// what is read of all of them, and what only those in a brick of the grid need.
+// Which spheres could be near the wall after a way of up to a margin, as Backend::select asks: what
+// is read of all of them, what only those in a brick of the grid need, and what only those that are
+// near by their cells.
 #pragma once
 
 #include "parallel/atomic.h"
@@ -9,16 +10,17 @@
 
 namespace lsdcd {
 
-// kMoves: is the margin more than 0?
-template <bool kMoves>
+// kPast: do cells past the lists' own margin matter?
+template <bool kPast>
 struct NearChoice {
   GridView grid;
   BrickTable table;
   BrickFilter<Real> filter;
   Spheres spheres;
   WallPose pose;
-  Real margin;
+  Real margin, past;     // lengths; past: what is left of it once the lists' own is taken from it
   Real pull_off;         // of the law, at a radius of 1
+  bool by_features;      // look twice: at cells, then at the features that they list
   StepCounts *counts;    // too_large becomes the first sphere that reaches past the grid
   int *n_springs;        // of each sphere, or null: those of spheres that are far are forgotten
   std::uint32_t fixed_margin = 0;    // of the filter
@@ -55,17 +57,34 @@ struct NearChoice {
   {
     const BrickGuess guess = filter.guess(pose.to_mesh(x));
     // With a margin it is enough to look at one brick where no other is within the margin.
-    const bool sure = !guess.unsure & (!kMoves || (guess.inside && fixed_margin > 0 &&
-                                                   filter.is_clear(guess, fixed_margin)));
+    const bool sure = !guess.unsure & (!kPast || (guess.inside && fixed_margin > 0 &&
+                                                  filter.is_clear(guess, fixed_margin)));
     bool may = !sure;
     if (guess.inside & sure) may = near_table.at(filter.slot(grid, guess));
     return may & in_group(item);
   }
+  // The cell that it is in, kNoCell where several may matter, or kNotFound where no candidate is near.
+  static constexpr std::uint32_t kNotFound = kNoCell - 1;
   template <class Table>
-  LSDCD_FN bool keep(const Vec3 &x, const Table &near_table) const
+  LSDCD_FN std::uint32_t find(const Vec3 &x, const Table &near_table) const
   {
-    return near_within(grid, near_table, pose.to_mesh(x), kMoves ? margin : 0);
+    const Vec3 q = pose.to_mesh(x);
+    if constexpr (kPast) return near_within(grid, near_table, q, past) ? kNoCell : kNotFound;
+    const std::uint32_t cell = occupied_cell(grid, near_table, q);
+    return cell != kNoCell ? cell : kNotFound;
   }
+
+  LSDCD_FN bool looks_twice() const { return by_features; }
+  // `found`: by find(), or kNotFound where that is not known.
+  template <class Group>
+  LSDCD_FN bool keep_after_all(const Group &group, bool mine, std::size_t i,
+                               std::uint32_t found) const
+  {
+    const QuerySphere s = seen_at_choice(pose, spheres.x[i], spheres.radius[i], pull_off);
+    return can_touch(group, mine, grid, s, margin, found == kNotFound ? kNoCell : found);
+  }
+  // Asks a CPU's memory for what keep_after_all() of a large wall reads first.
+  LSDCD_FN void ask_ahead(const Vec3 &x) const { ask_for_search(grid, pose, x); }
 
   LSDCD_FN bool notes() const { return n_springs; }
   LSDCD_FN void note(std::size_t i, bool near) const

@@ -36,27 +36,30 @@ class NearWall {
 
   // Chooses among spheres in memory of the backend. `n_springs` of those that are far from the one mesh
   // becomes 0. A sphere that is too large is in what is returned, and nothing else is valid then.
+  // `alone`: near spheres will be alone in steps, one after the other, and near() of one mesh is null.
   StepCounts choose(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts,
-                    int *n_springs)
+                    int *n_springs, bool alone = false)
   {
-    all_near_ = false;
-    if (has_several()) return choose_slots(b, spheres, margin, true, counts);
-    const StepCounts seen = choose_by_cells(b, meshes_[0], spheres, margin, counts, n_springs);
-    return seen.too_large ? seen : make_lists(b, spheres, seen, margin, counts, n_springs);
+    are_alone_ = alone && !has_several();
+    if (has_several()) return choose_slots(b, spheres, margin, counts);
+    const GridView &grid = meshes_[0].grid.view;
+    SpheresAtChoice at_choice = {spheres.x, spheres.radius, pull_off_, nullptr, 0};
+    StepCounts seen;
+    do {
+      start_choice(b, meshes_[0], spheres, margin, counts, n_springs);
+      b.ask(counts.data(), asked_);
+      // A GPU need not wait until the host knows how many there are.
+      at_choice.near = near_.data();
+      lists_.make_early(b, grid, meshes_[0].pose, at_choice, margin, counts.data());
+      seen = b.answer(asked_);
+    } while (!seen.too_large && !near_.had_room(b, seen));
+    if (seen.too_large) return seen;
+    n_ = at_choice.n = seen.n_near;
+    lists_.make(b, grid, meshes_[0].pose, at_choice, margin, counts.data());
+    return seen;
   }
-  // All spheres are near by their cells, says the host, and will be alone in steps: near() is null.
-  // With several meshes all stay.
-  StepCounts choose_among(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts)
-  {
-    all_near_ = !has_several();
-    if (has_several()) return choose_slots(b, spheres, margin, false, counts);
-    near_.choose_all(b, spheres.n);
-    StepCounts seen = b.read_one(counts.data());
-    seen.n_near = spheres.n;
-    return make_lists(b, spheres, seen, margin, counts, nullptr);
-  }
-  // Of the latter, which are near.
-  std::vector<int> chosen_among(B &b, int n_spheres)
+  // Of spheres that are alone, which are near.
+  std::vector<int> chosen(B &b, int n_spheres)
   {
     if (!has_several()) return near_.to_host(b, n_);
     std::vector<int> all(n_spheres);
@@ -67,7 +70,7 @@ class NearWall {
   std::size_t n() const { return n_; }    // near spheres, or slots of several meshes
   const int *near() const
   {
-    return has_several() ? slots_.near() : all_near_ ? nullptr : near_.data();
+    return has_several() ? slots_.near() : are_alone_ ? nullptr : near_.data();
   }
   // Of each, does it seem to touch several features now? Null: not known.
   const char *seem_several() const { return has_several() ? nullptr : lists_.several(); }
@@ -102,50 +105,24 @@ class NearWall {
   }
 
  private:
-  StepCounts choose_by_cells(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin,
-                             Array<StepCounts> &counts, int *n_springs)
+  // By features, where these are listed with bounds on all that is near.
+  void start_choice(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin,
+                    Array<StepCounts> &counts, int *n_springs)
   {
-    near_.choose(b, mesh.grid.view, mesh.grid.table, spheres, mesh.pose, margin, pull_off_,
-                 counts.data(), n_springs);
-    return b.read_one(counts.data());
+    near_.choose(b, mesh, spheres, margin, pull_off_, mesh.grid.view.nearest == 0, counts.data(),
+                 n_springs);
   }
 
-  // Of the seen.n_near spheres that are near by their cells leaves those that can touch the mesh.
-  StepCounts prune(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, const StepCounts &seen,
-                   Real margin, Array<StepCounts> &counts, int *n_springs)
-  {
-    if (mesh.grid.view.nearest > 0 || seen.n_near == 0) return seen;
-    near_.prune(b, mesh.grid.view, spheres, mesh.pose, seen.n_near, margin, pull_off_,
-                counts.data(), n_springs);
-    return b.read_one(counts.data());
-  }
-
-  StepCounts make_lists(B &b, const Spheres &spheres, const StepCounts &by_cells, Real margin,
-                        Array<StepCounts> &counts, int *n_springs)
-  {
-    const EngineMesh<B> &mesh = meshes_[0];
-    const StepCounts seen = prune(b, mesh, spheres, by_cells, margin, counts, n_springs);
-    n_ = seen.n_near;
-    lists_.make(b, mesh.grid.view, mesh.pose, at_choice(spheres, near_.data()), n_, margin,
-                counts.data());
-    return seen;
-  }
-
-  StepCounts choose_slots(B &b, const Spheres &spheres, Real margin, bool by_cells,
-                          Array<StepCounts> &counts)
+  StepCounts choose_slots(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts)
   {
     StepCounts seen = {};
     slots_.clear(b, spheres.n);
     for (const EngineMesh<B> &mesh : meshes_) {
-      if (by_cells) {
-        seen = choose_by_cells(b, mesh, spheres, margin, counts, nullptr);
-        if (seen.too_large) return seen;
-      } else {
-        near_.choose_all(b, spheres.n);
+      do {
+        start_choice(b, mesh, spheres, margin, counts, nullptr);
         seen = b.read_one(counts.data());
-        seen.n_near = spheres.n;
-      }
-      seen = prune(b, mesh, spheres, seen, margin, counts, nullptr);
+      } while (!seen.too_large && !near_.had_room(b, seen));
+      if (seen.too_large) return seen;
       slots_.add(b, near_.data(), seen.n_near);
     }
     slots_.finish(b);
@@ -154,13 +131,8 @@ class NearWall {
     bool large = false;
     for (const EngineMesh<B> &mesh : meshes_) large |= mesh.grid.view.is_large;
     lists_.make(b, meshes_[0].grid.view, large, works, slots_.mesh(),
-                at_choice(spheres, slots_.near()), n_, margin, counts.data());
+                {spheres.x, spheres.radius, pull_off_, slots_.near(), n_}, margin, counts.data());
     return seen;
-  }
-
-  SpheresAtChoice at_choice(const Spheres &spheres, const int *near) const
-  {
-    return {spheres.x, spheres.radius, pull_off_, near, n_};
   }
 
   Real pull_off_;
@@ -169,8 +141,9 @@ class NearWall {
   NearMeshes<B> slots_;
   ListStore<B> lists_;
   Array<MeshWork> works_;
-  bool all_near_ = false;
+  bool are_alone_ = false;
   std::size_t n_ = 0;
+  typename B::template Asked<StepCounts> asked_;
   KeptCentres<B> centres_;
 };
 

@@ -36,7 +36,7 @@ struct StepCounts {
   int n_found[2], n_several[2];    // of StepLists, in turn
   // Spheres left out, a time for each step, as they have more contacts than a lane or as all shared
   // slots were taken: an error.
-  int no_lane, no_slots;
+  int no_lane, no_slots, unused;    // unused: so that there is no byte that nothing writes
   // kNoSphere less the index of the first sphere beyond the grid's cutoff, or 0: an error.
   std::uint64_t too_large;
   std::uint64_t grown;          // likewise of the first sphere that feels more than at the choice
@@ -113,28 +113,36 @@ LSDCD_FN QuerySphere query_sphere_of(const LawJob &job, std::size_t i, const Vec
 }
 
 // The same at a choice, when no sphere holds on to anything.
+LSDCD_FN QuerySphere seen_at_choice(const WallPose &pose, const Vec3 &x, Real radius, Real pull_off)
+{
+  return {pose.to_mesh(x), radius, cutoff_of(radius, pull_off), nullptr, 0};
+}
+// Asks a CPU's memory for what a search of a large wall reads first for a sphere at x, whose turn
+// comes soon.
+LSDCD_FN void ask_for_search([[maybe_unused]] const GridView &grid,
+                             [[maybe_unused]] const WallPose &pose, [[maybe_unused]] const Vec3 &x)
+{
+#if !defined(__CUDA_ARCH__)
+  if (grid.is_large) ask_for_candidates(grid, pose.to_mesh(x));
+#endif
+}
+
 struct SpheresAtChoice {
   StridedView<const Real> x;
   const Real *radius;
   Real pull_off;
   const int *near;    // the sphere of each k
-  std::size_t n;
+  std::size_t n;      // of these; 0: what is read first for them is not asked for
 
   LSDCD_FN QuerySphere seen_from(const WallPose &pose, std::size_t k) const
   {
     const int i = near[k];
-    return {pose.to_mesh(x[i]), radius[i], cutoff_of(radius[i], pull_off), nullptr, 0};
+    return seen_at_choice(pose, x[i], radius[i], pull_off);
   }
-  // Asks a CPU's memory for what a search of a large wall reads first for a sphere soon after k.
-  LSDCD_FN void ask_ahead([[maybe_unused]] const GridView &grid,
-                          [[maybe_unused]] const WallPose &pose,
-                          [[maybe_unused]] std::size_t k) const
+  LSDCD_FN void ask_ahead(const GridView &grid, const WallPose &pose, std::size_t k) const
   {
-#if !defined(__CUDA_ARCH__)
     constexpr std::size_t kPlaces = 4;
-    if (grid.is_large && k + kPlaces < n)
-      ask_for_candidates(grid, pose.to_mesh(x[near[k + kPlaces]]));
-#endif
+    if (k + kPlaces < n) ask_for_search(grid, pose, x[near[k + kPlaces]]);
   }
 };
 

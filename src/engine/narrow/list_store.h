@@ -5,6 +5,7 @@
 #include "parallel/atomic.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lsdcd {
 
@@ -62,21 +63,32 @@ class ListStore {
   // None where lists of cells hold the nearest primitives.
   const WallLists &view() const { return lists_; }
 
-  // Makes the lists of n near spheres, which will not go farther than `margin` before the next choice.
-  void make(B &b, const GridView &grid, const WallPose &pose, const SpheresAtChoice &spheres,
-            std::size_t n, Real margin, StepCounts *counts)
+  // Makes the lists of near spheres, which will not go farther than `margin` before the next choice.
+  // Early, on a GPU: of the counts->n_near that there will be, if there is room for them.
+  void make_early(B &b, const GridView &grid, const WallPose &pose, const SpheresAtChoice &spheres,
+                  Real margin, StepCounts *counts)
   {
-    if (!reserve(grid, grid.is_large, n)) return;
-    if (!B::kOnHost && several_.size() < n) several_ = Array<char>(n + n / 8);
-    b.for_each_together(n,
-                        GatherWork{grid, pose, spheres, margin, lists_, several_.data(), counts});
+    early_ = 0;
+    if (B::kOnHost || grid.nearest > 0) return;
+    early_ = std::min(several_.size(), ints_.size() / WallLists::kInts);
+    set_view(grid);
+    b.for_each_together(early_, gather(grid, pose, spheres, margin, counts), &counts->n_near);
+  }
+  // Of spheres.n, where they were not made early.
+  void make(B &b, const GridView &grid, const WallPose &pose, const SpheresAtChoice &spheres,
+            Real margin, StepCounts *counts)
+  {
+    const std::size_t n = spheres.n, early = std::exchange(early_, 0);
+    if (!reserve(grid, grid.is_large, n) || n <= early) return;
+    if (!B::kOnHost) several_ = Array<char>(n + n / 8);
+    b.for_each_together(n, gather(grid, pose, spheres, margin, counts));
   }
   // The same for n slots of several meshes; `large`: is any of them?
   void make(B &b, const GridView &first_grid, bool large, const MeshWork *meshes, const int *mesh,
-            const SpheresAtChoice &spheres, std::size_t n, Real margin, StepCounts *counts)
+            const SpheresAtChoice &spheres, Real margin, StepCounts *counts)
   {
-    if (reserve(first_grid, large, n))
-      b.for_each_together(n, GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
+    if (reserve(first_grid, large, spheres.n))
+      b.for_each_together(spheres.n, GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
   }
 
   // Of each of the n of one mesh, does it seem to touch several features now? For steps on a GPU, which
@@ -90,6 +102,18 @@ class ListStore {
   }
 
  private:
+  GatherWork gather(const GridView &grid, const WallPose &pose, const SpheresAtChoice &spheres,
+                    Real margin, StepCounts *counts)
+  {
+    return {grid, pose, spheres, margin, lists_, several_.data(), counts};
+  }
+
+  void set_view(const GridView &grid)
+  {
+    lists_ =
+        WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts, grid.length);
+  }
+
   // `large`: a wall whose records are read faster as copies. False: there are no lists to make.
   bool reserve(const GridView &grid, bool large, std::size_t n)
   {
@@ -100,8 +124,7 @@ class ListStore {
       reals_ = Array<Real>(room * WallLists::kReals);
       ints_ = Array<std::int32_t>(room * WallLists::kInts);
     }
-    lists_ =
-        WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts, grid.length);
+    set_view(grid);
     if (B::kOnHost && large && !grid.in_floats) reserve_copies(n);
     return true;
   }
@@ -122,6 +145,7 @@ class ListStore {
   static constexpr int kCopies = 4;    // for each list, in the mean; lists have 1 to 4 features
 
   WallLists lists_;
+  std::size_t early_ = 0;    // how many lists make_early() had room for
   Array<Real> reals_;
   Array<std::int32_t> ints_;
   Array<char> several_;             // not on a host

@@ -10,10 +10,20 @@ namespace lsdcd {
 // The cells that a ball meets, those that have candidates, one after the other.
 class CellsInBall {
  public:
-  // `mine`: false: there is none.
-  LSDCD_FN CellsInBall(bool mine, const GridView &grid, const Vec3 &q, Real radius)
+  // `mine`: false: there is none. With a radius of 0 it is the cell that holds q; `cell`: its index in
+  // lists.cells, or kNoCell where that is not known.
+  LSDCD_FN CellsInBall(bool mine, const GridView &grid, const Vec3 &q, Real radius,
+                       std::uint32_t cell) :
+      cell_(radius > 0 ? kNoCell : cell)
   {
-    open_ = mine && cells_in_ball(grid, q, radius, lo_, hi_);
+    if (radius > 0) {
+      open_ = mine && cells_in_ball(grid, q, radius, lo_, hi_);
+    } else {
+      const CellSlot p = cell_slot_of(grid, q);
+      open_ = mine && p.inside;
+      const int at[3] = {p.i, p.j, p.k};
+      for (int d = 0; d < 3; d++) hi_[d] = (lo_[d] = open_ ? at[d] : 0) + 1;
+    }
     i_ = lo_[0] - 1;
     j_ = lo_[1];
     k_ = lo_[2];
@@ -23,10 +33,14 @@ class CellsInBall {
   LSDCD_FN bool next(const GridView &grid, Cell &cell)
   {
     while (open_ && step()) {
-      const Brick *brick = brick_at(grid, grid.lists, i_, j_, k_);
-      const int in_brick = cell_in_brick(i_, j_, k_);
-      if (!brick || !has_candidates(*brick, in_brick)) continue;
-      cell = grid.lists.cells[cell_index(*brick, in_brick)];
+      std::uint32_t at = cell_;
+      if (at == kNoCell) {
+        const Brick *brick = brick_at(grid, grid.lists, i_, j_, k_);
+        const int in_brick = cell_in_brick(i_, j_, k_);
+        if (!brick || !has_candidates(*brick, in_brick)) continue;
+        at = cell_index(*brick, in_brick);
+      }
+      cell = grid.lists.cells[at];
       return true;
     }
     return open_ = false;
@@ -47,6 +61,7 @@ class CellsInBall {
     return ++k_ < hi_[2];
   }
 
+  std::uint32_t cell_;
   bool open_;
   int lo_[3] = {0, 0, 0}, hi_[3] = {0, 0, 0}, i_, j_, k_;
 };
@@ -68,8 +83,9 @@ inline void ask_for_candidates(const GridView &grid, const Vec3 &q)
 struct NearSearch {
   Vec3 q;
   Real cutoff, margin;
-  Real past;     // how far from q the cells are that are looked at
-  Real close;    // the search ends where a candidate may be nearer
+  Real past;             // how far from q the cells are that are looked at
+  Real close;            // the search ends where a candidate may be nearer
+  std::uint32_t cell;    // of q, in lists.cells, or kNoCell where it is not known
 };
 
 // Calls found(code) for what is found until that says false; returns whether it did not. A contact
@@ -85,7 +101,7 @@ LSDCD_FN bool for_each_within(const Group &group, bool mine, const GridView &gri
   // rounding.
   const Real more = search.margin + Geometry::tolerance(grid),
              within = (1 + Real(2e-6)) * search.cutoff + more;
-  CellsInBall cells(mine, grid, search.q, search.past);
+  CellsInBall cells(mine, grid, search.q, search.past, search.cell);
   std::uint32_t at = 0, end = 0;    // of the cell's candidates those that are left
   Real enough = 0;                  // past this bound none is near
   bool complete = true;

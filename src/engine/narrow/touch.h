@@ -130,13 +130,14 @@ LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings,
 }
 
 // Can it touch anything after a way of up to the margin? Where it is not `mine` a thread only helps
-// others of its group.
+// others of its group. `cell`: see NearSearch.
 template <class Group>
 LSDCD_NOINLINE bool can_touch(const Group &group, bool mine, const GridView &grid,
-                              const QuerySphere &s, Real margin)
+                              const QuerySphere &s, Real margin, std::uint32_t cell = kNoCell)
 {
-  if (grid.in_floats) return can_touch<BrickGeometry>(group, mine, grid, s.x, s.cutoff, margin);
-  return can_touch<WallGeometry>(group, mine, grid, s.x, s.cutoff, margin);
+  if (grid.in_floats)
+    return can_touch<BrickGeometry>(group, mine, grid, s.x, s.cutoff, margin, cell);
+  return can_touch<WallGeometry>(group, mine, grid, s.x, s.cutoff, margin, cell);
 }
 
 // Does a sphere seem to touch several of the features of its list where it is? No answer depends on this.

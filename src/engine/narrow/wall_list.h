@@ -130,7 +130,7 @@ LSDCD_FN bool gather_within(const Group &group, bool mine, const GridView &grid,
 {
   if (mine) begin_list(list, q, cutoff, margin);
   return for_each_within<Geometry>(group, mine, grid,
-                                   {q, cutoff, margin, past_lists(grid, margin), -1},
+                                   {q, cutoff, margin, past_lists(grid, margin), -1, kNoCell},
                                    [&](FeatureCode code) { return insert_code(list, code); });
 }
 
@@ -150,15 +150,15 @@ LSDCD_FN void gather_for(const Group &group, bool mine, const GridView &grid, co
 
 // Can a sphere at q touch anything after a way of up to the margin? True where that would take too
 // long to find out. What is nearest is in the list of a cell no farther than it has to go until that
-// is within the grid's cutoff.
+// is within the grid's cutoff. `cell`: see NearSearch.
 template <class Geometry, class Group>
 LSDCD_FN bool can_touch(const Group &group, bool mine, const GridView &grid, const Vec3 &q,
-                        Real cutoff, Real margin)
+                        Real cutoff, Real margin, std::uint32_t cell)
 {
   const bool too_long = !(margin_at(grid, q, margin) >= margin);
   const Real past = past_lists(grid, cutoff + margin - grid.cutoff);
   return !for_each_within<Geometry>(group, mine && !too_long, grid,
-                                    {q, cutoff, margin, past, cutoff},
+                                    {q, cutoff, margin, past, cutoff, cell},
                                     [](FeatureCode) { return false; }) ||
          too_long;
 }
