@@ -45,17 +45,18 @@ class NearWall {
     const GridView &grid = meshes_[0].grid.view;
     SpheresAtChoice at_choice = {spheres.x, spheres.radius, pull_off_, nullptr, 0};
     StepCounts seen;
+    std::size_t early = 0;
     do {
       start_choice(b, meshes_[0], spheres, margin, counts, n_springs);
       b.ask(counts.data(), asked_);
       // A GPU need not wait until the host knows how many there are.
       at_choice.near = near_.data();
-      lists_.make_early(b, grid, meshes_[0].pose, at_choice, margin, counts.data());
+      early = lists_.make_early(b, grid, meshes_[0].pose, at_choice, margin, counts.data());
       seen = b.answer(asked_);
     } while (!seen.too_large && !near_.had_room(b, seen));
     if (seen.too_large) return seen;
     n_ = at_choice.n = seen.n_near;
-    lists_.make(b, grid, meshes_[0].pose, at_choice, margin, counts.data());
+    lists_.make(b, grid, meshes_[0].pose, at_choice, margin, counts.data(), early);
     return seen;
   }
   // Of spheres that are alone, which are near.

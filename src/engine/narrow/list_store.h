@@ -5,7 +5,6 @@
 #include "parallel/atomic.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace lsdcd {
 
@@ -64,21 +63,21 @@ class ListStore {
   const WallLists &view() const { return lists_; }
 
   // Makes the lists of near spheres, which will not go farther than `margin` before the next choice.
-  // Early, on a GPU: of the counts->n_near that there will be, if there is room for them.
-  void make_early(B &b, const GridView &grid, const WallPose &pose, const SpheresAtChoice &spheres,
-                  Real margin, StepCounts *counts)
+  // Early, on a GPU: of the counts->n_near that there will be, if there is room for them. Returns the room.
+  std::size_t make_early(B &b, const GridView &grid, const WallPose &pose,
+                         const SpheresAtChoice &spheres, Real margin, StepCounts *counts)
   {
-    early_ = 0;
-    if (B::kOnHost || grid.nearest > 0) return;
-    early_ = std::min(several_.size(), ints_.size() / WallLists::kInts);
+    if (B::kOnHost || grid.nearest > 0) return 0;
+    const std::size_t room = std::min(several_.size(), ints_.size() / WallLists::kInts);
     set_view(grid);
-    b.for_each_together(early_, gather(grid, pose, spheres, margin, counts), &counts->n_near);
+    b.for_each_together(room, gather(grid, pose, spheres, margin, counts), &counts->n_near);
+    return room;
   }
-  // Of spheres.n, where they were not made early.
+  // Of spheres.n, unless they are among the `early` that there was room for.
   void make(B &b, const GridView &grid, const WallPose &pose, const SpheresAtChoice &spheres,
-            Real margin, StepCounts *counts)
+            Real margin, StepCounts *counts, std::size_t early)
   {
-    const std::size_t n = spheres.n, early = std::exchange(early_, 0);
+    const std::size_t n = spheres.n;
     if (!reserve(grid, grid.is_large, n) || n <= early) return;
     if (!B::kOnHost) several_ = Array<char>(n + n / 8);
     b.for_each_together(n, gather(grid, pose, spheres, margin, counts));
@@ -145,7 +144,6 @@ class ListStore {
   static constexpr int kCopies = 4;    // for each list, in the mean; lists have 1 to 4 features
 
   WallLists lists_;
-  std::size_t early_ = 0;    // how many lists make_early() had room for
   Array<Real> reals_;
   Array<std::int32_t> ints_;
   Array<char> several_;             // not on a host
