@@ -4,6 +4,7 @@
 #include "error.h"
 #include "group.h"
 #include "lammps.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -94,6 +95,25 @@ int FixWallLsdcdKokkos<DeviceType>::setmask()
 }
 
 template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::init()
+{
+  FixWallLsdcd::init();
+  adds_early = others_only_add();
+}
+
+// Do fixes before this one in the deck only add forces, so that their order does not matter?
+template <class DeviceType>
+bool FixWallLsdcdKokkos<DeviceType>::others_only_add() const
+{
+  for (int k = 0; modify->fix[k] != this; k++) {
+    const std::string style = modify->fix[k]->style;
+    const bool only_adds = style.rfind("gravity", 0) == 0 || style.rfind("wall/", 0) == 0;
+    if ((modify->fmask[k] & POST_FORCE) && !only_adds) return false;
+  }
+  return true;
+}
+
+template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::start()
 {
   if (cutoff() == 0) return;
@@ -110,14 +130,16 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int /*eflag*/, int /*vflag*/)
 {
   if (!running) return;
+  if (adds_early) atomKK->sync(execution_space, F_MASK | TORQUE_MASK);
   in_place().begin_beside();
   try {
     give_step();
   } catch (...) {    // of LAMMPS, where a library goes on after an error
-    in_place().end_beside();
+    in_place().end_beside(false);
     throw;
   }
-  in_place().end_beside();
+  in_place().end_beside(adds_early);
+  if (adds_early) atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
 }
 
 template <class DeviceType>

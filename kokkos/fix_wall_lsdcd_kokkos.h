@@ -15,6 +15,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
 
   // schedule
   int setmask() override;
+  void init() override;
   void setup_pre_exchange() override { pre_exchange(); }
   void pre_reverse(int, int) override;
 
@@ -45,13 +46,15 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
     return static_cast<lsdcd::InPlaceEngine &>(*engine);
   }
   void give_step();
+  bool others_only_add() const;
   void springs_to_device();
   static bool sends_from_host(ExecutionSpace);
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);
 
   Kokkos::View<double *, DeviceType> d_mass_seen;
-  bool begun = false;    // has the engine been given the step?
+  bool begun = false;         // has the engine been given the step?
+  bool adds_early = false;    // and adds its forces right behind those between atoms?
 };
 
 }    // namespace LAMMPS_NS

@@ -84,7 +84,7 @@ class EngineOn : public InPlaceEngine {
   {
     if (has_run_) {
       std::swap(results_, next_results_);
-      results_.add_forces(b_);
+      if (!has_added_) results_.add_forces(b_);
     } else {
       run();
     }
@@ -98,10 +98,12 @@ class EngineOn : public InPlaceEngine {
     beside_.begin(b_);
     is_beside_ = true;
   }
-  void end_beside() override
+  void end_beside(bool adds_now) override
   {
     is_beside_ = false;
     beside_.end(b_);
+    has_added_ = has_run_ && adds_now;
+    if (has_added_) next_results_.add_forces(b_);
   }
 
   // The two halves of collect(): the work, without waiting for it, and what is asked for of it.
@@ -280,7 +282,7 @@ class EngineOn : public InPlaceEngine {
   CompiledLaw<B> law_;
   B b_;
   typename B::Beside beside_;
-  bool is_beside_ = false, has_run_ = false;    // the step that was started
+  bool is_beside_ = false, has_run_ = false, has_added_ = false;    // the step that was started
   NearWall<B> wall_;
   Spheres spheres_;
   StepSettings step_;

@@ -130,7 +130,8 @@ class WallEngine {
   // cutoff (index and radius in the message).
   virtual void choose(const Spheres &spheres, Real margin, bool watch = false) = 0;
 
-  // Has a sphere moved relative to the wall by more than the margin of the last choice?
+  // Has a sphere that could touch the wall where it is now moved, relative to the wall, by more than
+  // the margin of the last choice? Others may go as far as they like.
   virtual bool has_moved(const Spheres &spheres) = 0;
 
   // Begins a step. Until collect() the host must not change x, v or omega, and may change force
@@ -180,11 +181,12 @@ class InPlaceEngine : public WallEngine {
   // spheres is there once the host's stream has done what it has been given, and does not change
   // until collect(). What is asked for between begin_beside() and end_beside() does not wait for what
   // the host gives its stream after ready(): choose(), has_moved() and a start(), which
-  // begins at once here. Forces and torques are added by collect(), after that work; until then
-  // totals are those of the last step.
+  // begins at once here. Forces and torques are added by collect(), after that work, or with
+  // `adds_now` after what the host has given its stream by then; until collect() totals are those of
+  // the last step.
   virtual void ready() = 0;
   virtual void begin_beside() = 0;
-  virtual void end_beside() = 0;
+  virtual void end_beside(bool adds_now) = 0;
 
   // Per sphere there are a first spring and a count, which follow it through sorting; `n` spheres
   // are the process's own.

@@ -280,7 +280,7 @@ struct CpuBackend {
     for (int k = 0; k < n; k++) {
       if (k + kAhead < n) work.ask_ahead(work.places()[items[k + kAhead]]);
       const int i = items[k];
-      if (work.keep_after_all(LaneGroup<1>(), true, i, Work::kNotFound))
+      if (work.keep_after_all(LaneGroup<1>(), true, i, Work::kNotKnown))
         items[n_kept++] = i;
       else if (work.notes())
         work.note(i, false);

@@ -41,11 +41,9 @@ template <class F>
 __global__ void __launch_bounds__(kTogetherBlock, kTogetherBlocks)
     cuda_for_each_together(std::size_t most, const std::uint32_t *n_at, const __grid_constant__ F f)
 {
-  const std::size_t n = !n_at           ? most
-                        : *n_at <= most ? *n_at
-                                        : 0,
+  const std::size_t n = n_at ? *n_at : most,
                     i = std::size_t(blockIdx.x) * kTogetherBlock + threadIdx.x;
-  if (i / 32 * 32 < n) f(LaneGroup<32>(), i < n, i < n ? i : 0);
+  if (n <= most && i / 32 * 32 < n) f(LaneGroup<32>(), i < n, i < n ? i : 0);
 }
 
 // The same over parts of things: thing i has offset[i + 1] - offset[i] of them.

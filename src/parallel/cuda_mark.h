@@ -75,7 +75,7 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
       return work.table;
   }();
   __syncthreads();
-  const auto cell_slot_of = [&](unsigned i) {
+  const auto place_of = [&](unsigned i) {
     return Vec3{mine.slot[i][0], mine.slot[i][1], mine.slot[i][2]};
   };
 
@@ -102,7 +102,7 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
 #pragma unroll
     for (unsigned k = 0; k < kEach; k++) {
       const unsigned i = lane + k * 32;
-      const bool may = work.may_keep(item[k], cell_slot_of(min(i, last)), table) & (i <= last);
+      const bool may = work.may_keep(item[k], place_of(min(i, last)), table) & (i <= last);
       const unsigned votes = __ballot_sync(kAllLanes, may);
       if (may) mine.waiting[waiting + votes_below(votes)] = static_cast<std::uint8_t>(i);
       waiting += __popc(votes);
@@ -111,7 +111,7 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
 #pragma unroll 1    // nearly always one turn
     for (unsigned turn_first = 0; turn_first < waiting; turn_first += 32) {
       const unsigned w = turn_first + lane, i = mine.waiting[min(w, waiting - 1)];
-      const std::uint32_t found = w < waiting ? work.find(cell_slot_of(i), table) : Work::kNotFound;
+      const std::uint32_t found = w < waiting ? work.find(place_of(i), table) : Work::kNotFound;
       const bool kept = found != Work::kNotFound;
       if (kept) atomicOr(&mine.kept[i / 32], 1u << (i % 32));
       if (list.items) list.put(kept, {first + i, found});

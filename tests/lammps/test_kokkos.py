@@ -97,6 +97,18 @@ def lists(checks, folder):
                         found.group(0))
 
 
+def forces_set_before(checks, folder):
+    """By a fix before the wall in the deck: the wall's forces are not among those that it replaces."""
+    body = scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 100) + "run 600\n"
+    body = re.sub(r"(?=^fix +wall )", "fix pushes all setforce 0.0 0.0 -4.0\n", body, flags=re.M)
+    plain, _ = go(folder, PLAIN, body)
+    kokkos, _ = go(folder, deck.KOKKOS, body)
+    pushed = sum(row[9] > 0 for row in plain[600].values())
+    checks.fact("spheres are pushed onto the floor", pushed > 20, str(pushed))
+    checks.at_most("forces set before the wall: as the plain fix", deck.largest_difference(plain, kokkos),
+                   1e-9)
+
+
 def atoms_that_come_and_go(checks, folder):
     body = (scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 50) + "run 600\n" + TAKEN_OUT)
     for ranks in (1, 2):
@@ -169,6 +181,7 @@ def main():
     single_contacts(checks, folder)
     scene.write_floor(folder / "floor.stl")
     lists(checks, folder)
+    forces_set_before(checks, folder)
     atoms_that_come_and_go(checks, folder)
     # These do not depend on how atoms move, and mix in fixes that move them over the host.
     if not deck.DEVICE_MOVES:

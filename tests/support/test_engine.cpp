@@ -9,7 +9,7 @@ namespace {
 
 // Brings a host's spheres to where an engine has its particles, and forces back. Vectors lie there
 // as x x x y y y z z z in one step and as x y z x y z in the next; in two of four steps choice and step
-// are beside the host's work.
+// are beside the host's work, and in one of these forces are added at once.
 class InPlaceForHost : public WallEngine {
  public:
   InPlaceForHost(std::unique_ptr<InPlaceEngine> engine, bool cuda) :
@@ -81,7 +81,7 @@ class InPlaceForHost : public WallEngine {
       engine_->begin_beside();
     }
     work();
-    if (beside) engine_->end_beside();
+    if (beside) engine_->end_beside(turn_ % 2 == 1);
   }
   // What a choice reads.
   Spheres places(const Spheres &host)

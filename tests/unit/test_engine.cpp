@@ -300,7 +300,8 @@ bool same_springs(const SpringStore &a, int i, const SpringStore &b, int j)
   return same_bytes(of(a, i), of(b, j));
 }
 
-TEST(engine, adds_forces_found_beside_to_what_the_host_has_put_there)
+// `now`: to what the host has put there before the step beside has ended, and not before collect().
+void add_forces_found_beside(bool now)
 {
   const int n = 3000;
   const Real of_host = 3;
@@ -312,8 +313,9 @@ TEST(engine, adds_forces_found_beside_to_what_the_host_has_put_there)
     beside.engine->begin_beside();
     beside.engine->choose(a, 0);
     beside.engine->start(a, StepSettings());
-    beside.engine->end_beside();
-    beside.set_force(others);
+    if (now) beside.set_force(others);
+    beside.engine->end_beside(now);
+    if (!now) beside.set_force(others);
     beside.engine->collect();
     after.engine->choose(b, 0);
     after.set_force(others);
@@ -323,6 +325,14 @@ TEST(engine, adds_forces_found_beside_to_what_the_host_has_put_there)
     EXPECT_TRUE(same_bytes(beside.torque(), after.torque()));
     EXPECT_NE(beside.force(), others);
   }
+}
+TEST(engine, adds_forces_found_beside_to_what_the_host_has_put_there)
+{
+  add_forces_found_beside(false);
+}
+TEST(engine, adds_forces_found_beside_at_once_where_asked)
+{
+  add_forces_found_beside(true);
 }
 
 TEST(engine, a_list_that_is_kept_gives_the_same_bits)
@@ -402,6 +412,34 @@ TEST(engine, the_bricks_of_a_choice_with_a_margin_leave_out_none_that_its_cells_
   EXPECT_EQ(missed, 0);
   EXPECT_GT(kept, 1000);
   EXPECT_GT(left_out, 1000);    // bricks save something
+}
+
+// Spheres jump about where no wall is, and now and then one comes down to it.
+TEST(engine, a_choice_holds_until_a_sphere_that_has_gone_far_is_at_the_wall)
+{
+  const int n = 2000, n_steps = 60;
+  Particles kept(with_history(), n, 0.5), anew(with_history(), n, 0.5);
+  kept.engine->choose(kept.spheres(), 0.05, true);
+  std::mt19937_64 random(6);
+  std::uniform_int_distribution<int> any(0, n - 1);
+  std::uniform_real_distribution<Real> far(3, 9);
+  int held = 0, chosen = 0, same = 0;
+  for (int k = 0; k < n_steps; k++) {
+    const bool comes_down = k % 5 == 4;
+    for (int jump = 0; jump < 20; jump++) {
+      const int i = 3 * any(random) + 2;
+      kept.host_x[i] = anew.host_x[i] = comes_down && jump == 0 ? 0.2 : far(random);
+    }
+    const bool moved = kept.engine->has_moved(kept.spheres());
+    EXPECT_EQ(moved, comes_down);
+    if (moved) kept.engine->choose(kept.spheres(), 0.05, true);
+    (moved ? chosen : held)++;
+    kept.step(0);
+    anew.step(0, Particles::Choice::now);
+    same += same_bytes(kept.force(), anew.force());
+  }
+  EXPECT_EQ(same, n_steps);
+  EXPECT_EQ(held, 4 * chosen);
 }
 
 TEST(engine, springs_follow_through_pack_and_unpack)
@@ -877,7 +915,7 @@ void keep_the_totals_of_the_last_step(bool beside)
   const auto begin = [&](bool begins) {
     if (!beside) return;
     if (begins) all.engine->ready();
-    begins ? all.engine->begin_beside() : all.engine->end_beside();
+    begins ? all.engine->begin_beside() : all.engine->end_beside(false);
   };
   const std::vector<Vec3> x = all.x;
   for (int i = 0; i < all.n; i += 2) all.x[i].x += 100;

@@ -185,14 +185,23 @@ TEST(host_adapter, says_that_spheres_have_moved_past_the_margin_alone)
   p.place(0b0001, 0);
   p.choose(0.1, true);
   EXPECT_FALSE(p.has_moved());
-  p.move(2, {0, 0, 0.09});    // one that is far counts, too
+  p.move(0, {0.06, 0.06, 0});
   EXPECT_FALSE(p.has_moved());
-  p.move(2, {0, 0, 0.02});
+  p.move(0, {0.02, 0.02, 0});
+  EXPECT_TRUE(p.has_moved());
+}
+
+TEST(host_adapter, says_that_a_sphere_has_moved_once_it_is_at_the_wall)
+{
+  Pair p;
+  p.place(0b0001, 0);
+  p.choose(0.1, true);
+  p.move(2, {0, 0, 3});
+  EXPECT_FALSE(p.has_moved());
+  p.move(2, {0, 0, -6.55});
   EXPECT_TRUE(p.has_moved());
   p.choose(0.1, true);
   EXPECT_FALSE(p.has_moved());
-  p.move(0, {0.08, 0.08, 0});
-  EXPECT_TRUE(p.has_moved());
 }
 
 TEST(host_adapter, says_that_a_sphere_at_no_number_has_moved)

@@ -2,16 +2,40 @@
 #pragma once
 
 #include "engine/engine_mesh.h"
+#include "grid/lookup/brick_words.h"
 
 #include <vector>
 
 namespace lsdcd {
 
+// Could sphere i touch a mesh, and has it gone farther than the margin since the choice?
+struct HasMoved {
+  GridView grid;
+  BrickTable table;
+  WallPose pose, chosen;
+  StridedView<const Real> x, was;
+  Real margin_sq;
+  bool cells_first;
+
+  // Reading where it was costs a GPU more than looking for its cell, and a CPU less.
+  LSDCD_FN bool operator()(std::size_t i) const
+  {
+    const Vec3 q = pose.to_mesh(x[i]);
+    if (cells_first && !may_touch(q)) return false;
+    return !(norm_sq(q - chosen.to_mesh(was[i])) <= margin_sq) && (cells_first || may_touch(q));
+  }
+  // A place that is no number may.
+  LSDCD_FN bool may_touch(const Vec3 &q) const
+  {
+    return occupied_cell(grid, table, q) != kNoCell || !(norm_sq(q) >= 0);
+  }
+};
+
 template <class B>
 class KeptCentres {
  public:
-  // From here on has_moved() tells whether a sphere has gone farther than `margin` (length) from where
-  // it is, relative to any mesh.
+  // From here on has_moved() tells whether a sphere that could touch a mesh where it is then has gone
+  // farther than `margin` (length) from where it is now, relative to that mesh.
   void keep(B &b, const Spheres &spheres, std::vector<EngineMesh<B>> &meshes, Real margin)
   {
     const std::size_t n = spheres.n;
@@ -23,17 +47,14 @@ class KeptCentres {
     margin_ = margin;
   }
 
-  // A place that is no number has moved.
   bool has_moved(B &b, const Spheres &spheres, const std::vector<EngineMesh<B>> &meshes)
   {
-    const StridedView<const Real> was(x_.data()), x = spheres.x;
+    const StridedView<const Real> was(x_.data());
     for (const EngineMesh<B> &mesh : meshes) {
-      const WallPose pose = mesh.pose, chosen = mesh.chosen;
-      const Real most = margin_ * margin_;
-      if (b.any(spheres.n, flag_, [=] LSDCD_LAMBDA(std::size_t i) {
-            return !(norm_sq(pose.to_mesh(x[i]) - chosen.to_mesh(was[i])) <= most);
-          }))
-        return true;
+      const HasMoved test = {mesh.grid.view,    mesh.grid.table, mesh.pose,
+                             mesh.chosen,       spheres.x,       was,
+                             margin_ * margin_, !B::kOnHost};
+      if (b.any(spheres.n, flag_, test)) return true;
     }
     return false;
   }

@@ -63,25 +63,25 @@ struct NearChoice {
     if (guess.inside & sure) may = near_table.at(filter.slot(grid, guess));
     return may & in_group(item);
   }
-  // The cell that it is in, kNoCell where several may matter, or kNotFound where no candidate is near.
-  static constexpr std::uint32_t kNotFound = kNoCell - 1;
+  // The cell that it is in, kNotKnown where several may matter, or kNotFound where no candidate is near.
+  static constexpr std::uint32_t kNotKnown = kNoCell, kNotFound = kNoCell - 1;
   template <class Table>
   LSDCD_FN std::uint32_t find(const Vec3 &x, const Table &near_table) const
   {
     const Vec3 q = pose.to_mesh(x);
-    if constexpr (kPast) return near_within(grid, near_table, q, past) ? kNoCell : kNotFound;
+    if constexpr (kPast) return near_within(grid, near_table, q, past) ? kNotKnown : kNotFound;
     const std::uint32_t cell = occupied_cell(grid, near_table, q);
     return cell != kNoCell ? cell : kNotFound;
   }
 
   LSDCD_FN bool looks_twice() const { return by_features; }
-  // `found`: by find(), or kNotFound where that is not known.
+  // `found`: by find(), or kNotKnown.
   template <class Group>
   LSDCD_FN bool keep_after_all(const Group &group, bool mine, std::size_t i,
                                std::uint32_t found) const
   {
     const QuerySphere s = seen_at_choice(pose, spheres.x[i], spheres.radius[i], pull_off);
-    return can_touch(group, mine, grid, s, margin, found == kNotFound ? kNoCell : found);
+    return can_touch(group, mine, grid, s, margin, found);
   }
   // Asks a CPU's memory for what keep_after_all() of a large wall reads first.
   LSDCD_FN void ask_ahead(const Vec3 &x) const { ask_for_search(grid, pose, x); }
