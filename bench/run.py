@@ -44,14 +44,15 @@ def main():
     parser.add_argument("--quick", action="store_true",
                         help="small sizes, to see that all runs; rows go to DIR/bench")
     parser.add_argument("--write-only", action="store_true",
-                        help="make tables and plots from the rows that are kept")
+                        help="make tables and plots from the rows that are kept; without names "
+                             "all of doc/performance.md")
     parser.add_argument("--rows-to", metavar="DIR", help="leave the rows there, write nothing else")
     parser.add_argument("--commit", metavar="NAME", help="what was built, where git does not know")
     args, rest = parser.parse_known_args()
     names = []
     while rest and not rest[0].startswith("-"):
         names.append(rest.pop(0))
-    names = names or list(performance.PROGRAMS)
+    names = names or [*performance.PROGRAMS, *(COMPARISONS if args.write_only else ())]
     known = [*performance.PROGRAMS, *DOCUMENTS, *COMPARISONS]
     for name in names:
         if name not in known:
