@@ -54,7 +54,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
 
   Kokkos::View<double *, DeviceType> d_mass_seen;
   bool begun = false;         // has the engine been given the step?
-  bool adds_early = false;    // and adds its forces right behind those between atoms?
+  bool adds_early = false;    // are forces added right behind those between atoms?
 };
 
 }    // namespace LAMMPS_NS
