@@ -153,6 +153,56 @@ TEST(library, a_search_in_float_is_off_by_its_rounding_alone)
   expect_nearest<float>(grid_of(soup, 0, false, LSDCD_FLOAT), soup, kInFloat, true);
 }
 
+// Points within twice the float tolerance of an edge's own plane, at any height over it: where a
+// float decides wrongly which feature is nearest.
+std::vector<double> points_at_edges(const TriangleSoup &soup, double tolerance, std::size_t n)
+{
+  std::mt19937 r(5);
+  std::uniform_real_distribution<double> part(0, 1), off(-2 * tolerance, 2 * tolerance),
+      digits(-8, 0);
+  std::uniform_int_distribution<std::size_t> which(0, soup.corners.size() - 1);
+  std::vector<double> points;
+  for (std::size_t i = 0; i < n; i++) {
+    const std::size_t k = which(r), first = k / 3 * 3;
+    const Vec3 a = soup.corners[k], b = soup.corners[first + (k + 1) % 3],
+               c = soup.corners[first + (k + 2) % 3];
+    const Vec3 normal = cross(b - a, c - a), up = (1 / norm(normal)) * normal;
+    const Vec3 across = (1 / norm(b - a)) * cross(b - a, up);
+    const Vec3 q = a + (i % 4 ? part(r) : 0.) * (b - a) + off(r) * across +
+                   (kCutoff * std::pow(10., digits(r))) * up;
+    points.insert(points.end(), {q.x, q.y, q.z});
+  }
+  return points;
+}
+
+// The bound of doc/theory.md, "Floats": three tolerances of 16 units of float rounding of cutoff + 14 cells.
+TEST(library, a_search_in_float_is_off_by_its_bound_at_most_at_edges_too)
+{
+  const TriangleSoup soup = box_and_cylinder();
+  double largest = 0;
+  for (const double cell : {0.1 * kCutoff, kCutoff}) {
+    lsdcd::GridOptions options(kCutoff);
+    options.precision = LSDCD_FLOAT;
+    options.cell = cell;
+    const lsdcd::Grid grid(lsdcd::Mesh(numbers(soup)), options);
+    const double bound = 3e-6 * (kCutoff + 14 * cell);
+    const std::vector<double> points = points_at_edges(soup, bound / 3, 20000);
+    const All<double> a(grid, points);
+    for (std::size_t i = 0; i < a.status.size(); i++) {
+      const Vec3 q = point(points, i);
+      const double truth = brute(soup, q);
+      if (!(a.status[i] & LSDCD_FOUND)) {
+        ASSERT_GE(truth, kCutoff - bound) << i;
+        continue;
+      }
+      ASSERT_NEAR(a.distance[i], truth, bound) << i;
+      ASSERT_NEAR(norm(q - point(a.closest, i)), truth, bound) << i;
+      largest = std::max(largest, std::fabs(a.distance[i] - truth) / bound);
+    }
+  }
+  EXPECT_GT(largest, 0.2);    // some points are where a float picks the other feature
+}
+
 TEST(library, answers_of_nearest_lists_that_are_certified_are_right)
 {
   const TriangleSoup soup = box_and_cylinder();

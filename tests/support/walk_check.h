@@ -172,20 +172,33 @@ LSDCD_FN void compare_with_all(const GridView &grid, const FeatureCode *features
                       .found;
 }
 
-// Contacts of cells, to the bit. Which of several near points stands for all of them may
-// depend on their order, which is another one in cells: the points of all listed features count.
+// Contacts of cells that no listed feature has. In double: to the bit. Which of several near points
+// stands for all of them may depend on their order, which is another one in cells: the points of all
+// listed features count. In float an edge of a shallow fold may hold a contact by the tolerance
+// alone, on the side where its faces hold it, too. Some cells list such an edge, others do not: what
+// counts is that the list has the same point of the wall.
 template <class Geometry>
 LSDCD_FN long not_listed(const GridView &grid, const WallLists &lists, const Vec3 &q, Real cutoff,
                          const WalkSet &cells)
 {
   const Geometry geometry(grid, q);
-  WalkSet feet;
+  WalkSet listed;
   for (int k = 0; k < lists.size(0); k++) {
     const ClosestPoint closest = geometry.closest_point(lists.code(0, k), cutoff);
     if (closest.found)
-      feet.add(geometry.feature(lists.code(0, k)), closest.normal, closest.distance);
+      listed.add(geometry.feature(lists.code(0, k)), closest.normal, closest.distance);
   }
-  return not_in(cells, feet);
+  if (!grid.in_floats) return not_in(cells, listed);
+  const Real same = kSamePoint * geometry.tolerance();
+  long n = 0;
+  for (int k = 0; k < cells.n; k++) {
+    bool found = false;
+    for (int i = 0; i < listed.n && !found; i++)
+      found =
+          norm(cells.distance[k] * cells.normal[k] - listed.distance[i] * listed.normal[i]) <= same;
+    n += !found;
+  }
+  return n;
 }
 
 constexpr int kWalkSteps = 16;

@@ -157,6 +157,26 @@ TEST(property, the_nearest_contact_is_the_distance_to_all_triangles)
 
 // ---- lists of the wall -----------------------------------------------------------------------
 
+std::vector<FeatureCode> features_of(const Wall &wall)
+{
+  std::vector<FeatureCode> features = wall.grid.wall.contact_features;
+  std::sort(features.begin(), features.end());
+  return features;
+}
+
+// `features`: features_of(wall).
+template <class T>
+WalkMesh<T> walk_mesh(const Wall &wall, const std::vector<FeatureCode> &features,
+                      const std::vector<LongTriangle<T>> &triangles, std::uint64_t seed,
+                      Real gathered)
+{
+  PairMesh<T> pairs = wall.pairs(triangles, seed);
+  // Regions of features are wider by what float rounds, and so is a closest point's place twice: 1.5
+  // tolerances past the rim, and the height.
+  pairs.tolerance += Real(2.5) * float_error(pairs.grid);
+  return {pairs, features.data(), static_cast<int>(features.size()), gathered};
+}
+
 // Walks of spheres on as many meshes as n_steps take, their lists gathered for a share of the
 // margin; `first`: the first mesh and sphere that failed.
 Walks walk(double n_steps, bool in_floats, Real gathered, std::string &first)
@@ -170,26 +190,18 @@ Walks walk(double n_steps, bool in_floats, Real gathered, std::string &first)
   for_meshes(std::max(1l, static_cast<long>(spheres / per_mesh)), !cuda, [&](long i) {
     const std::uint64_t seed = seed_of(i);
     const Wall wall(seed, cuda, in_floats);
-    std::vector<FeatureCode> features = wall.grid.wall.contact_features;
-    std::sort(features.begin(), features.end());
-    const auto walk_mesh = [&](const auto &triangles) {
-      auto pairs = wall.pairs(triangles, seed);
-      // Regions of features are wider by what float rounds, and so is a closest point's place twice: 1.5
-      // tolerances past the rim, and the height.
-      pairs.tolerance += Real(2.5) * float_error(pairs.grid);
-      return WalkMesh<std::decay_t<decltype(pairs.triangle->dual[0].x)>>{
-          pairs, features.data(), static_cast<int>(features.size()), gathered};
-    };
+    const std::vector<FeatureCode> features = features_of(wall);
     std::vector<Walks> walks(per_mesh);
     if (features.empty()) return;
     if (cuda) {
 #if defined(LSDCD_HAVE_CUDA)
       const auto triangles = long_triangles<DoubleDouble>(wall.made.soup);
-      walks = check_walks_on_cuda(wall.grid, walk_mesh(triangles), per_mesh);
+      walks = check_walks_on_cuda(wall.grid, walk_mesh(wall, features, triangles, seed, gathered),
+                                  per_mesh);
 #endif
     } else {
       const auto triangles = long_triangles<long double>(wall.made.soup);
-      const auto mesh = walk_mesh(triangles);
+      const auto mesh = walk_mesh(wall, features, triangles, seed, gathered);
       for (long k = 0; k < per_mesh; k++) walks[k] = check_walk(mesh, k);
     }
     Walks mine;
@@ -236,6 +248,23 @@ TEST(property, a_list_holds_every_contact_inside_of_its_margin)
     none("nearest contacts at no distance to all triangles", t.wrong);
     EXPECT_GT(t.with_list, t.spheres / 2);
     EXPECT_GT(t.touching, t.steps / 4);
+  }
+}
+
+// Seeds at which a cell lists an edge of a shallow fold that holds a contact by the float tolerance alone,
+// and the list of the wall does not: the list has a face with the same point.
+TEST(property, a_list_has_the_contact_that_a_float_finds_on_the_edge_of_a_shallow_fold)
+{
+  if (test_on_cuda()) GTEST_SKIP() << "seeds of the CPU";
+  constexpr long kWalks[][2] = {{55, 32757}, {164, 9920}, {183, 30652}, {197, 1033}, {290, 5839}};
+  for (const auto &[number, sphere] : kWalks) {
+    const std::uint64_t seed = Numbers(1000003ull + static_cast<std::uint64_t>(number)).next();
+    const Wall wall(seed, false, true);
+    const auto triangles = long_triangles<long double>(wall.made.soup);
+    const std::vector<FeatureCode> features = features_of(wall);
+    const Walks walks = check_walk(walk_mesh(wall, features, triangles, seed, 1), sphere);
+    EXPECT_GT(walks.touching, 0) << number;
+    EXPECT_EQ(walks.by_cells, 0) << number;
   }
 }
 
