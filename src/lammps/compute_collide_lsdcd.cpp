@@ -114,8 +114,8 @@ void ComputeCollideLsdcd::make_collisions(const lsdcd::WallMesh &body)
   for (const MeshPart &part : wall().meshes()) {
     const lsdcd::WallMesh mesh = lsdcd::copy_together(world, part.wall.mesh());
     Against one;
-    one.report = part.wall.report();
-    one.bounds = {one.report.lo, one.report.hi};
+    one.fingerprint = part.wall.mesh_fingerprint();
+    one.bounds = part.bounds(0);
     lsdcd::together(world, has_any(), [&] {
       one.collision = std::make_unique<lsdcd::MeshCollision>(mesh, body, how);
     });
@@ -127,11 +127,8 @@ void ComputeCollideLsdcd::make_collisions(const lsdcd::WallMesh &body)
 void ComputeCollideLsdcd::check_wall(const FixWallLsdcd &fix) const
 {
   bool same = fix.meshes().size() == meshes.size();
-  for (std::size_t m = 0; same && m < meshes.size(); m++) {
-    const lsdcd::MeshReport &now = fix.meshes()[m].wall.report(), &was = meshes[m].report;
-    same = now.facets == was.facets && now.vertices == was.vertices && now.area == was.area &&
-           norm(now.lo - was.lo) == 0 && norm(now.hi - was.hi) == 0;
-  }
+  for (std::size_t m = 0; same && m < meshes.size(); m++)
+    same = fix.meshes()[m].wall.mesh_fingerprint() == meshes[m].fingerprint;
   if (!same)
     refuse("fix " + settings.wall +
            " has other meshes than when the compute was defined: define the compute again");
@@ -266,15 +263,21 @@ void ComputeCollideLsdcd::log(const lsdcd::WallMesh &mesh) const
   std::string text = std::to_string(bodies.size()) + (bodies.size() == 1 ? " body" : " bodies") +
                      " of " + std::to_string(points->size()) + " atoms and " +
                      std::to_string(mesh.faces.size()) + " triangles";
-  for (const Against &one : meshes) {
+  for (std::size_t m = 0; m < meshes.size(); m++) {
+    const Against &one = meshes[m];
     char line[160];
     std::snprintf(
         line, sizeof line, "\n  against %zu triangles of fix %s: %zu pieces, cells of %g, %.3g MB",
-        one.report.facets, settings.wall.c_str(), one.collision->n_pieces(),
+        wall().meshes()[m].wall.report().facets, settings.wall.c_str(), one.collision->n_pieces(),
         one.collision->grid().length, 1e-6 * static_cast<double>(one.collision->grid().bytes));
     if (!settings.brief) text += line;
   }
-  if (!settings.brief) text += "\n" + describe(mesh.report, settings.mesh.file);
+  if (!settings.brief) {
+    if (settings.atoms_file.empty())
+      text += "\n  the mesh is taken to be where " + name_of(0) + " is now, in step " +
+              std::to_string(update->ntimestep) + "; the keyword atoms tells it in any step";
+    text += "\n" + describe(mesh.report, settings.mesh.file);
+  }
   utils::logmesg(lmp, signed_text(text) + "\n");
 }
 

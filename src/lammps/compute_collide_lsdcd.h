@@ -9,6 +9,7 @@
 #include "deck/collide_settings.h"
 #include "mesh/periodic_box.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -47,8 +48,8 @@ class ComputeCollideLsdcd : public Compute {
   // A mesh of the wall, against which this process tries bodies; none where it has none.
   struct Against {
     std::unique_ptr<lsdcd::MeshCollision> collision;
-    lsdcd::MeshReport report;    // to know it again
-    lsdcd::Box bounds;           // in its own frame
+    std::uint64_t fingerprint;    // to know it again
+    lsdcd::Box bounds;            // in its own frame
   };
 
   lsdcd::CollideSettings settings;

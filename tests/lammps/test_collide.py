@@ -212,6 +212,31 @@ run             0
     checks.fact("several meshes, and runs", [r[1:] for r in rows] == [["1", "16"], ["1", "8"], ["0", "0"]], str(rows))
 
 
+def check_other_wall(checks, folder):
+    """Half of a square, and the half across its diagonal: as many triangles and vertices, the same area and
+    bounds. The cube stands in the first one, 4 upright sides of 2 triangles, and clear of the other."""
+    a, b, c, d = (-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)
+    write_data(folder / "cubes.data", [([-1.5, -1.5, 0.2], np.eye(3), [0, 0, 0], [0, 0, 0])])
+    write_stl(folder / "cube.stl", cube())
+    write_stl(folder / "half.stl", [(a, b, d)])
+    write_stl(folder / "other.stl", [(c, d, b)])
+    compute = "compute c cubes lsdcd/collide wall mesh cube.stl move -1.5 -1.5 0.2\n"
+    first = begin() + WALL.replace("floor", "half") + "\n" + compute + "thermo_style custom step c_c[1]\nrun 0\n"
+    again = "unfix wall\n" + WALL.replace("floor", "{}") + "\n"
+
+    def pairs(text):
+        return deck.read_thermo(deck.run_well(first + text + "run 0\n", folder))[-1][1]
+
+    done = deck.run(first + again.format("other") + "run 0\n", folder, 2)
+    checks.fact("a wall with another mesh of the same size is refused", done.returncode != 0 and
+                "fix wall has other meshes than when the compute was defined" in done.stdout,
+                str(deck.read_thermo(done.stdout)))
+    checks.fact("the compute defined again sees that mesh",
+                pairs(again.format("other") + "thermo_style one\nuncompute c\n" + compute +
+                      "thermo_style custom step c_c[1]\n") == 0)
+    checks.fact("the same wall made again is the same", pairs(again.format("half")) == 8)
+
+
 def check_restart(checks, folder):
     """With the places of its atoms in a file a body is found wherever it is: after a restart, too."""
     write_data(folder / "cubes.data", three_cubes())
@@ -222,6 +247,10 @@ def check_restart(checks, folder):
 compute         c cubes lsdcd/collide wall mesh cube.stl bodies molecule grid 0.4 atoms atoms.txt
 """ + THERMO.format(more="c_c[1][2] c_c[2][2] c_c[3][2]")
     first = begin("p p f") + after + "run 100\nwrite_restart half.restart\nundump atoms\n"
+    told = "is taken to be where the body of molecule 1 is now, in step 0"
+    checks.fact("bodies whose atoms are in a file: now does not matter", told not in deck.run_well(first, folder))
+    here = deck.run_well(first.replace(" atoms atoms.txt", ""), folder)
+    checks.fact("without it the log says what is taken to be now", here.count(told) == 1)
     rows = compare(checks, "bodies whose atoms are in a file", folder, first,
                    lambda t: (np.array([0, 0, 1.0]), np.zeros(3)), 1, 3)
     again = SETTINGS.replace("atom_style      sphere\n", "") + """read_restart half.restart
@@ -255,6 +284,7 @@ def main():
         check_moving_wall(checks, folder, ranks, BY_MOVE if host else RIGID)
         check_image(checks, folder, ranks)
     check_several(checks, folder)
+    check_other_wall(checks, folder)
     check_restart(checks, folder)
     checks.done(folder)
 
