@@ -4,11 +4,8 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "atom.h"
-#include "error.h"
-#include "input.h"
 #include "modify.h"
 #include "update.h"
-#include "variable.h"
 
 #include <algorithm>
 
@@ -26,14 +23,6 @@ void FixWallLsdcd::check_heat()
 #else
   refuse("the sub-model heat needs a LAMMPS with fix heat/flow, of 2 Aug 2023 or later");
 #endif
-  for (MeshPart &m : parts) {
-    const std::string &name = m.settings.temperature_variable;
-    if (name.empty()) continue;
-    m.temperature_variable = input->variable->find(name.c_str());
-    if (m.temperature_variable < 0) refuse("there is no variable '" + name + "' for temperature");
-    if (!input->variable->equalstyle(m.temperature_variable))
-      refuse("variable '" + name + "' for temperature is not of style equal");
-  }
 }
 
 void FixWallLsdcd::give_heat(lsdcd::Spheres &spheres, lsdcd::StepSettings &step)
@@ -53,7 +42,7 @@ void FixWallLsdcd::give_heat(lsdcd::Spheres &spheres, lsdcd::StepSettings &step)
   for (const MeshPart &m : parts)
     temperatures.push_back(m.settings.temperature_variable.empty()
                                ? m.settings.temperature
-                               : input->variable->compute_equal(m.temperature_variable));
+                               : value_of(m.settings.temperature_variable));
   if (varies) modify->addstep_compute(update->ntimestep + 1);
   step.wall_temperature = temperatures.front();
   if (several()) step.mesh_temperature = temperatures.data();

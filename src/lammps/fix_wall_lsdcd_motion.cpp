@@ -62,15 +62,21 @@ void FixWallLsdcd::move_wall()
 int FixWallLsdcd::variable_of(const std::string &name) const
 {
   const int variable = input->variable->find(name.c_str());
-  if (variable < 0) refuse("there is no variable '" + name + "', by which the wall moves");
+  if (variable < 0) refuse("there is no variable '" + name + "', which the wall reads");
   if (!input->variable->equalstyle(variable))
-    refuse("variable '" + name + "', by which the wall moves, is not of style equal");
+    refuse("variable '" + name + "', which the wall reads, is not of style equal");
   return variable;
 }
 
+// Where it is no number nothing would touch the wall, or a servo would run away. Equal-style
+// variables are the same on all processes.
 double FixWallLsdcd::value_of(const std::string &name) const
 {
-  return input->variable->compute_equal(variable_of(name));
+  const double value = input->variable->compute_equal(variable_of(name));
+  if (!std::isfinite(value))
+    refuse("variable '" + name + "', which the wall reads, is " + number_text(value) + " in step " +
+           std::to_string(update->ntimestep) + ": it must be a finite number in every step");
+  return value;
 }
 
 // `passed`: time since they were evaluated last; 0 where a run begins.
@@ -107,8 +113,8 @@ void FixWallLsdcd::check_variables() const
         if (!name.empty()) variable_of(name);
     for (const std::string &name : part.settings.surface_variable)
       if (!name.empty()) variable_of(name);
-    const std::string &target = part.servo().target_name;
-    if (!target.empty()) variable_of(target);
+    for (const std::string &name : {part.servo().target_name, part.settings.temperature_variable})
+      if (!name.empty()) variable_of(name);
   }
 }
 

@@ -38,7 +38,6 @@ struct MeshPart {
   StepClock clock;                      // of its motion
   lsdcd::WallPose pose, chosen_pose;    // of the step, and when near atoms were chosen
   lsdcd::SurfaceMotion surface;         // of the step, where variables give it
-  int temperature_variable = -1;
   bool gain_told = false, limit_told = false;    // of a servo
 
   lsdcd::WallLoads loads;

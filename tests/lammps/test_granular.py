@@ -127,8 +127,8 @@ def many(count=200):
     return SETTINGS + "\n".join(lines) + "\nvelocity all create 2.0 99 loop geom\n"
 
 
-def run(folder, scene, wall, steps, every, load="", more="", columns="", thermo=100000):
-    text = f"""\
+def script(scene, wall, steps, every, load="", more="", columns="", thermo=100000):
+    return f"""\
 {load}
 {scene}
 pair_style      zero 1.3
@@ -145,8 +145,10 @@ dump_modify     out format float %.17g sort id
 thermo          {thermo}
 run             {steps}
 """
-    (folder / "in.deck").write_text(text)
-    deck.run_well(folder / "in.deck", folder)
+
+
+def run(folder, *words, **more):
+    deck.run_well(script(*words, **more), folder)
     return deck.read_dump(folder / "out")
 
 
@@ -189,6 +191,10 @@ def heat_of_a_compute(checks, folder, load):
                          thermo=thermo) for thermo in (1, 500))
     checks.at_most("heat, a variable with a compute: seldom thermo output as often",
                    deck.largest_difference(often, seldom), 0)
+    nowhere = "variable there equal exp(1000*(step>4))-1\n"    # from step 5 on
+    done = deck.run(script(ONE, wall, 9, 1, load, more=HEAT + nowhere, columns="c_warmth"), folder)
+    checks.fact("heat, a variable that is no number stops the run", done.returncode != 0 and
+                "variable 'there', which the wall reads, is inf in step 5" in done.stdout, done.stdout[-300:])
 
 
 def steady_heat(checks, folder, load):

@@ -6,6 +6,7 @@ test_parity.py.
 """
 
 import math
+import re
 import sys
 
 import deck
@@ -455,13 +456,34 @@ def refused(checks, folder):
     done = deck.run("variable d atom x\n" + text.replace("short.stl", "short.stl motion variable v_d "
                                                          "NULL NULL NULL NULL NULL"), folder)
     checks.fact("a variable of another style is refused",
-                "'d', by which the wall moves, is not of style equal" in done.stdout)
+                "'d', which the wall reads, is not of style equal" in done.stdout)
+
+
+def no_numbers(checks, folder):
+    """Variables that are finite until step 4, and then are not: on several processes all end."""
+    bad = {"nan": "exp(1000*(step>4))-exp(1000*(step>4))", "inf": "exp(1000*(step>4))-1"}
+    cases = [("motion variable v_d NULL NULL NULL NULL NULL", "nan", 2),
+             ("motion variable v_d NULL NULL NULL NULL NULL", "inf", 1),
+             ("motion variable v_z NULL NULL v_d NULL NULL", "nan", 1),
+             ("surface_vel 0 v_d 0", "nan", 1), ("surface_angvel 0 0 v_d", "nan", 1),
+             ("servo force z v_d vmax 1", "nan", 2)]
+    for words, value, ranks in cases:
+        text = DRUM.replace("fix             wall", f"variable d equal {bad[value]}\nvariable z equal 0\n"
+                            "fix             wall")
+        done = deck.run(text.format(bc="f", lo=0, hi=4, law=LAW, mesh="short.stl", out="x", steps=9,
+                                    motion=words), folder, ranks)
+        errors = [line for line in done.stdout.split("\n") if line.startswith("ERROR")]
+        # The sign of a nan that inf - inf gives differs between processors.
+        said = re.search(rf"Fix wall wall/lsdcd: variable 'd', which the wall reads, is -?{value} in step 5:",
+                         errors[0] if errors else "")
+        checks.fact(f"{words}: {value} stops {ranks} rank{'s' * (ranks > 1)} in its step",
+                    done.returncode != 0 and len(errors) == 1 and said, str(errors) if errors else "it runs on")
 
 
 PARTS = {"wall_gran": compare_with_wall_gran, "words": compare_words, "frames": compare_frames, "comes": wall_comes,
          "leaves": wall_leaves_its_box,
          "ranks": ranks_and_restart, "searches": searches,
-         "stopped": stopped, "drum": periodic_drum, "refused": refused}
+         "stopped": stopped, "drum": periodic_drum, "refused": refused, "no_numbers": no_numbers}
 
 
 def main():
