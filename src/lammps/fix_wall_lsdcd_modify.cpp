@@ -43,15 +43,16 @@ int FixWallLsdcd::modify_param(int narg, char **arg)
 int FixWallLsdcd::modify_motion(MeshPart &m, const std::vector<std::string> &words)
 {
   const lsdcd::ModifiedMotion read = lsdcd::read_modified_motion(words);
-  // It begins where the mesh is; a servo that moves goes on with what it has added to that.
+  // It begins where the mesh is; a servo that moves goes on with what it has added to that. Words
+  // without terms are of a motion that was stopped: restart files say so.
   lsdcd::WallMotion &motion = m.settings.motion;
   const bool holds = m.servo().holds;
   const lsdcd::WallPose placed = holds ? m.pose : motion.terms_at(m.clock.now());
-  if (holds) m.servo() = lsdcd::Servo();
+  if (holds) m.servo().position = 0;
   motion.stop();
   motion.begin_from(placed);
   for (const lsdcd::MotionTerm &term : read.terms) motion.add(term);
-  m.settings.motion_tokens = read.text;
+  if (motion.moves()) m.settings.motion_tokens = read.text;
   begin_motion(m);
   make_engine_that_moves();
   if (!settings.brief)
@@ -78,6 +79,7 @@ static lsdcd::Servo servo_from(const double *numbers)
 {
   lsdcd::Servo s;
   s.present = numbers[0] != 0;
+  s.holds = numbers[0] == 2;
   s.turns = numbers[1] != 0;
   s.axis = {numbers[2], numbers[3], numbers[4]};
   s.point = {numbers[5], numbers[6], numbers[7]};
@@ -87,7 +89,8 @@ static lsdcd::Servo servo_from(const double *numbers)
 }
 
 // The same words go on in the step where they were; with others the mesh stays where it was, and
-// these begin there. A servo goes on along the same line, whatever its target is now. Collective.
+// these begin there. A servo goes on along the same line, whatever its target is now. What was
+// stopped stays so. Collective.
 void FixWallLsdcd::restart_motion(MeshPart &m, const std::vector<double> &data)
 {
   constexpr int kClock = 5, kPose = 12, kServo = kClock + 3 * kPose, kTerms = kServo + 10,
@@ -100,12 +103,22 @@ void FixWallLsdcd::restart_motion(MeshPart &m, const std::vector<double> &data)
   lsdcd::WallMotion &motion = m.settings.motion;
   lsdcd::Servo &servo = motion.servo();
   const bool same_line = was.position == 0 || servo.has_line_of(was),
-             same = same_line && tokens == m.settings.motion_tokens;
+             same = same_line && tokens == m.settings.motion_tokens,
+             stopped = n_terms == 0 && !tokens.empty();
   motion.begin_from(same ? first : same_line ? placed : last);
+  const std::string so =
+      " was stopped when the restart file was written, and stays so: fix_modify ";
+  if (same && stopped) {
+    motion.stop();
+    warn(
+        of(m, "the motion '" + tokens + "'" + so + "motion starts another from where the mesh is"));
+  }
   if (servo.has_line_of(was)) {
     servo.position = was.position;
     servo.velocity = was.velocity;
+    servo.holds = was.holds;
     check_limits(m, "read_restart");
+    if (servo.holds) warn(of(m, "the servo" + so + "servo lets it go on"));
   }
   begin_motion(m);
   if (same) {
@@ -119,7 +132,7 @@ void FixWallLsdcd::restart_motion(MeshPart &m, const std::vector<double> &data)
       motion.terms()[i].speed = {v[3], v[4], v[5]};
     }
     m.pose = motion.pose_at(m.clock.now());
-  } else if (!tokens.empty()) {
+  } else if (motion.moves() ? !tokens.empty() : n_terms > 0) {
     warn(of(m, "the restart file was written with the motion '" + tokens + "' and this fix has " +
                    (motion.moves() ? "'" + m.settings.motion_tokens + "', which begins"
                                    : "none: the mesh stays") +

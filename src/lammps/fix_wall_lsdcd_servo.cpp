@@ -68,7 +68,7 @@ double FixWallLsdcd::stable_gain(const MeshPart &m, double dt)
 void FixWallLsdcd::advance_servo(MeshPart &m, double dt)
 {
   Servo &s = m.servo();
-  if (!s.present || dt == 0) return;
+  if (!s.present || s.holds || dt == 0) return;
   if (servo_radius == 0) look_at_servo_spheres();
   const double push = servo_push(m), gain = stable_gain(m, dt);
   if (gain < s.most_gain && std::isfinite(s.most_gain) && m.totals[6] > 0 && !m.gain_told) {

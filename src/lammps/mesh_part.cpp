@@ -126,7 +126,7 @@ std::vector<double> MeshPart::motion_data() const
     data.insert(data.end(), {p.shift.x, p.shift.y, p.shift.z});
   }
   const lsdcd::Servo &s = servo();
-  data.insert(data.end(), {double(s.present), double(s.turns)});
+  data.insert(data.end(), {double(s.present + s.holds), double(s.turns)});
   for (const lsdcd::Vec3 &v : {s.axis, s.point}) data.insert(data.end(), {v.x, v.y, v.z});
   data.insert(data.end(), {s.position, s.velocity});
   data.push_back(double(motion.terms().size()));

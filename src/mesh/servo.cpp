@@ -7,8 +7,6 @@ namespace lsdcd {
 
 bool Servo::advance(Real push, Real gain, Real dt)
 {
-  velocity = 0;
-  if (holds) return false;
   const Real wanted = std::min(gain, most_gain) * (target - push),
              v = std::max(-fastest, std::min(fastest, wanted)), next = position + v * dt,
              allowed = std::max(lo, std::min(hi, next));

@@ -354,6 +354,22 @@ def stopped(checks, folder):
     for step in (100, 300):
         checks.at_most(f"whole turns at step {step} are none, to the bit",
                        apart(places(folder, f"g_{step}.vtp"), places(folder, "h_100.vtp")), 0)
+    # Half an eighth of a turn: a wiggle by 0.4 stands at 0.4 sin 45. It stays there through restart files.
+    words = "mesh floor.stl mesh_fields s_*.vtp every 100 motion wiggle 0.4 0 0 0.8"
+    deck.run_well(scene.CREATE + scene.forces(soft, mesh=words) + "run 100\nfix_modify wall motion none\n"
+                  "run 100\nwrite_restart s.restart\n", folder)
+    again = scene.SETTINGS + "read_restart s.restart\n"
+    for end in (300, 400):
+        log = deck.run_well(again + scene.forces(soft, mesh=words) + "run 100\nwrite_restart s.restart\n", folder)
+        off = [x - y for x, y in zip(places(folder, f"s_{end}.vtp")[::3], places(folder, "h_100.vtp")[::3])]
+        checks.at_most(f"a motion that was stopped stays so at step {end}",
+                       max(abs(x - 0.4 * math.sqrt(0.5)) for x in off), 1e-14)
+        checks.fact("and a warning tells of it", "the motion 'wiggle 0.4 0 0 0.8' was stopped when" in log)
+    log = deck.run_well(again + scene.forces(soft, mesh=words.replace("wiggle 0.4 0 0 0.8", "linear 0 0 1")) +
+                        "run 100\n", folder)
+    checks.at_most("another motion begins there", apart(places(folder, "s_500.vtp"),
+                                                        moved(places(folder, "s_400.vtp"), 0, 0.1)), 1e-14)
+    checks.fact("and a warning names both", "with the motion 'wiggle 0.4 0 0 0.8' and this fix has 'linear 0 0 1'" in log)
     # dump image draws what stands there: a quarter turn, and the same mesh placed so.
     pictures = []
     for name, words in (("moved", "motion rotate 0 0 0 0 0 1 0.4"), ("placed", "rotate 0 0 1 90"),

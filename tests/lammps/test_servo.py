@@ -2,6 +2,7 @@
 """Meshes that a servo moves: pistons, a lever; closed forms, LAMMPS's own walls, restart, ranks."""
 
 import math
+import re
 import sys
 
 import deck
@@ -289,6 +290,21 @@ def restart(checks, folder):
     done = go_on("servo force z -10 vmax 0.1 limits -0.01 0", start=deck.run)
     checks.fact("narrower limits are refused", done.returncode != 0 and
                 "outside of the limits -0.01 0" in done.stdout.replace("\n", " "), done.stdout[-300:])
+    # Where it was stopped it is still, until it is told to go on; also one that a motion then took along.
+    at = "print 'at $(f_wall[12]:%.17g)'\n"
+
+    def told(log):
+        return [float(x) for x in re.findall(r"^at (\S+)$", log, re.M)]
+
+    for more in ("", "fix_modify wall motion none\n"):
+        first = told(deck.run_well(text + "timestep 0.002\nrun 1500\nfix_modify wall servo none\n" + more +
+                                   "run 100\n" + at + "write_restart r.restart\n", folder))
+        log = go_on(servo, f"run 200\n{at}fix_modify wall {servo}\nrun 200\n{at}")
+        then = told(log)
+        checks.fact("a servo that was stopped stays so", len(then) == 2 and first == then[:1], f"{first}, {then}")
+        checks.fact("and a warning tells of it", "the servo was stopped when" in log)
+        checks.fact("until fix_modify lets it go on", then[-1] < then[0], str(then))
+    deck.run_well(text + "timestep 0.002\nrun 1500\nwrite_restart r.restart\n", folder)
     log = go_on("servo force x 10 vmax 0.1")
     checks.fact("another line is told of, and begins at 0", "with a servo along another line" in log and
                 deck.read_thermo(log)[-1][1] == 0)
