@@ -82,7 +82,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   history = settings.law.has_history();
   springs = lsdcd::SpringStore(settings.law.n_extra());
   records = settings.has_loads();
-  restart_global = history || records || any_moves() || several();
+  restart_global = 1;
   // Of any file; end_of_step() knows which.
   for (const MeshPart &m : parts)
     files_every = std::gcd(files_every, std::gcd(m.settings.fields.every, m.settings.stl.every));

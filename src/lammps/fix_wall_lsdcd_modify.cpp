@@ -63,7 +63,6 @@ int FixWallLsdcd::modify_motion(MeshPart &m, const std::vector<std::string> &wor
 // Laws for a wall at rest do not know where it is. Collective.
 void FixWallLsdcd::make_engine_that_moves()
 {
-  restart_global = restart_global || any_moves();
   if (any_moves() && !engine_moves) make_engine_anew();
 }
 

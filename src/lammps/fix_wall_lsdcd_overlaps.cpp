@@ -91,7 +91,7 @@ void FixWallLsdcd::check_inserted()
   tagint highest = 0;
   for (int i = 0; i < atom->nlocal; i++) highest = std::max(highest, tag_on_host(i));
   const tagint mine = seen.deepest > kLargeOverlap ? tag_of(seen.deepest_sphere) : 0;
-  const bool goes_on = highest_tag < 0 && update->ntimestep > 0;
+  const bool goes_on = highest_tag < 0 && (continued || update->ntimestep > 0);
   const bool is_new = mine > highest_tag && !goes_on;
   struct {
     double value;

@@ -256,6 +256,12 @@ def inserted_atoms_are_checked(checks, folder):
                 said.findall(text) == [("2", "40", "5"), ("4", "60", "15")], str(said.findall(text)))
     text = deck.run_well(body + put(0.3) + "run 0\nwrite_restart in.restart\n", folder)
     checks.fact("and where a run begins", said.findall(text) == [("1", "40", "0")], str(said.findall(text)))
+    again = body[body.index(FORCES):] + "reset_timestep 0\nrun 0\n"
+    for law in (HOOKE, HISTORY):
+        deck.run_well(body.replace(HOOKE, law) + put(0.3) + "run 1\nwrite_restart in.restart\n", folder)
+        text = deck.run_well(scene.SETTINGS + "read_restart in.restart\n" + again.replace(HOOKE, law), folder)
+        checks.fact("a run that goes on from a restart file at step 0 is not a new one", not said.findall(text) and
+                    "atom 1 sank into the wall" in text, str(said.findall(text)))
     text = deck.run_well(body + put(0.48) + "fix g all gravity 8.0 vector 0 0 -1\n" + put(3, 1) +
                          "velocity all set 0 0 -9\nrun 600\n", folder)
     checks.fact("one that falls in is not", "sank into the wall" in text and not said.findall(text))
