@@ -123,6 +123,9 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     if (radius > 0) check_box(m, lsdcd::cutoff_of(settings.law, radius));
     check_surface(m);
   }
+  if (several() && settings.corner == lsdcd::Corner::sum)
+    warn("with corner sum a sphere over a seam where two meshes meet is pushed by both: use corner "
+         "blend, or one mesh of all triangles");
 
   // Last: Atom would call a fix that was refused after this.
   if (history || settings.contacts) {

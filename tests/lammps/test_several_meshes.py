@@ -68,6 +68,16 @@ def check_seam(checks, folder):
                         "two": f"fix wall all wall/lsdcd {SMOOTH} mesh left.stl\n"
                                f"fix other all wall/lsdcd {SMOOTH} mesh right.stl"}.items():
         force[name] = go(folder, walls, "a", 0, **at)[0][0][1][11]
+    # Beside the rim its overlap is less by x^2/(2 h), 1e-12 of 1e-3.
+    beside = dict(at, atoms="create_atoms 1 single 1e-6 0.11 0.499 units box")
+    for name, meshes, times in (("two", HALVES, 2), ("one", "mesh whole.stl", 1)):
+        dump, text = go(folder, f"fix wall all wall/lsdcd {SMOOTH} {meshes} corner sum", "b", 0, **beside)
+        checks.at_most(f"seam: corner sum of {name}, {times} times the force",
+                       abs(dump[0][1][11] / (times * 1e4 * 0.001) - 1), 1e-8)
+        checks.fact(f"seam: corner sum of {name}, warned of {times - 1} times",
+                    text.count("with corner sum a sphere over a seam") == times - 1)
+    text = go(folder, f"fix wall all wall/lsdcd {SMOOTH} {HALVES}", "b", 0, **beside)[1]
+    checks.fact("seam: corner blend is not warned of", "with corner sum" not in text)
     # k (R - h), with R and h of order 1 and their difference 1e-3: 1e-13 of the force.
     checks.at_most("seam: over it the force is the plane's", abs(force["one"] / (1e4 * 0.001) - 1), 1e-12)
     checks.at_most("seam: two fixes feel it twice", abs(force["two"] / (2 * 1e4 * 0.001) - 1), 1e-12)
