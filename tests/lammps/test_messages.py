@@ -153,6 +153,15 @@ def main():
     checks.fact("the log lists effects without times",
                 lines(text, "  effects     normal spring, normal damping") and not lines(text, " ns"))
 
+    # Why there is no CUDA, as the build was configured.
+    cache = deck.LIB.parent / "CMakeCache.txt"
+    left_out = "LSDCD_CUDA:BOOL=OFF" in cache.read_text() if cache.exists() else None
+    if left_out is not None:
+        device = lines(text, "  device      ")[0]
+        checks.fact("the log tells a build without the CUDA engine from one without its toolkit",
+                    ("left out of this build by LSDCD_CUDA=OFF" in device) == left_out and
+                    not (left_out and "toolkit" in device), device)
+
     # What a run did: its steps, and how often lists were made.
     text = deck.run_well(BOX + fix() + "run 1\nrun 4 pre no\n", folder)
     checks.fact("a run has as many steps as were asked for",
