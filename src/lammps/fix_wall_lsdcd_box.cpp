@@ -133,6 +133,7 @@ void FixWallLsdcd::check_wrapping()
 }
 
 // Images of what lies past a face act inside the box, which may not be what the mesh was drawn for.
+// Where its motion allows no images check_moving_box() refuses it.
 void FixWallLsdcd::check_periodic(const MeshPart &m) const
 {
   if (settings.periodic || comm->me) return;
@@ -140,7 +141,7 @@ void FixWallLsdcd::check_periodic(const MeshPart &m) const
   const double tolerance = m.wall.report().weld_tolerance;
   std::string axes;
   for (int k = 0; k < 3; k++) {
-    if (!box.periodic[k]) continue;
+    if (!box.periodic[k] || (m.settings.motion.any() && !m.keeps_edge(box, k))) continue;
     double past = 0;
     for (const lsdcd::Vec3 &x : m.wall.mesh()->vertices) {
       const double at = box.fraction(x)[k];

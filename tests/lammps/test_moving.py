@@ -446,6 +446,12 @@ def refused(checks, folder):
                                     motion=words), folder)
         checks.fact(f"{name} is refused", done.returncode != 0 and says in done.stdout,
                     "" if says in done.stdout else done.stdout[-400:])
+    # What a motion does not allow is not advised.
+    for words, advised in (("", True), ("motion rotate 0 0 0 0 0 1 2", True), ("motion linear 0 0 1", False)):
+        done = deck.run(DRUM.format(bc="p", lo=0, hi=4, law=LAW, mesh="short.stl move 0 0 0.5", out="x", steps=0,
+                                    motion=words), folder)
+        checks.fact(f"past a periodic face, {words or 'at rest'}: periodic is {'' if advised else 'not '}advised",
+                    ("Add the keyword periodic" in done.stdout) == advised == (done.returncode == 0))
     # In the middle of the box, moving to its face: when it is there; turning: before.
     # Without gravity, or the spheres fall out of the box.
     plate = DRUM.replace("mesh {mesh} {motion}", "mesh plate.stl move 0 0 2 {motion}")

@@ -88,6 +88,25 @@ TEST(Servo, loop_is_stable_up_to_a_tenth_of_the_contact_time)
   EXPECT_GT(tried, 50);
 }
 
+// What the manual says of LAMMPS's steps without a servo, for the steepest mode of n spheres between
+// walls: 4 sin^2(n pi/(2 (n + 1))) times one contact, and 4 where n is large.
+TEST(Servo, chains_alone_are_stable_while_their_damping_is_resolved)
+{
+  const Real pi = 3.14159265358979323846, mass = 2, k = 1e4, dt = 1e-3;
+  const int n = 8;
+  const Real steepest = 4 * std::pow(std::sin(n * pi / (2 * (n + 1))), 2);
+  for (Real times : {0.99, 1.01}) {
+    const Real c = (times * 4 / steepest * mass - k * dt * dt) / (2 * dt);
+    Chains chains(n, 1, mass, k, c, dt);
+    for (int i = 0; i < n; i++) chains.v[i] = i % 2 ? 1 : -1;
+    for (int t = 0; t < 2000; t++) chains.step(0, 0);
+    if (times < 1)
+      EXPECT_LT(std::fabs(chains.v[n / 2]), 1);
+    else
+      EXPECT_GT(std::fabs(chains.v[n / 2]), 1000);
+  }
+}
+
 // The oracle is the root of the loop's own quadratic: lambda^2 + lambda (g + d - 1) - d.
 TEST(Servo, loop_on_a_fixed_contact_grows_from_four_times_the_gain)
 {
