@@ -200,8 +200,8 @@ class FixWallLsdcd : public Fix {
   double value_of(const std::string &) const;
   void evaluate_variables(MeshPart &, double);
   void check_variables() const;
-  void check_moving_box(const MeshPart &, const lsdcd::WallPose &, bool) const;
-  void check_moving_box() const;
+  void check_moving_box(MeshPart &, const lsdcd::WallPose &, bool) const;
+  void check_moving_box();
   void check_motion(const MeshPart &) const;
 
   // fix_wall_lsdcd_modify.cpp

@@ -118,28 +118,31 @@ void FixWallLsdcd::check_variables() const
   }
 }
 
-// Of a pose: a mesh may act through a periodic face only where its images move as it does.
-void FixWallLsdcd::check_moving_box(const MeshPart &m, const lsdcd::WallPose &at, bool ahead) const
+// Of a pose: a mesh may act through a periodic face only where its images move as it does. Collective.
+void FixWallLsdcd::check_moving_box(MeshPart &m, const lsdcd::WallPose &at, bool ahead) const
 {
   const lsdcd::PeriodicBox box = simulation_box();
   if (!box.any_periodic()) return;
-  const lsdcd::Box bounds = m.bounds(0);
   for (int k = 0; k < 3; k++) {
     if (!box.periodic[k] || m.keeps_edge(box, k)) continue;
     const double depth = (cutoff() + box.margin) / box.width(k);
-    double lo = HUGE_VAL, hi = -HUGE_VAL;
-    lsdcd::for_corners(bounds, [&](const lsdcd::Vec3 &corner) {
-      const double f = box.fraction(at.to_box(corner))[k];
-      lo = std::min(lo, f);
-      hi = std::max(hi, f);
+    const auto is_clear = [depth](double f) {
+      return f > depth && f < 1 - depth;
+    };    // a NaN is not
+    bool clear = true;
+    lsdcd::for_corners(m.bounds(0), [&](const lsdcd::Vec3 &corner) {
+      clear &= is_clear(box.fraction(at.to_box(corner))[k]);
     });
-    if (lo > depth && hi < 1 - depth) continue;
+    if (clear) continue;
+    double lo, hi;
+    m.find_range(box, k, at, lo, hi);
+    if (is_clear(lo) && is_clear(hi)) continue;
     const std::string axis(1, "xyz"[k]);
     refuse(of(m, "the moving mesh " + std::string(ahead ? "will reach" : "reaches") +
                      " the periodic face in " + axis +
                      (ahead ? "" : " at step " + std::to_string(update->ntimestep)) +
-                     ": its bounds go from " + number_text(lo) + " to " + number_text(hi) +
-                     " of the box, and must stay " + number_text(depth) +
+                     ": it goes from " + number_text(lo) + " to " + number_text(hi) +
+                     " of the box and must stay " + number_text(depth) +
                      " away from 0 and 1. A mesh acts through a periodic face only where it moves "
                      "across " +
                      axis + " and turns about nothing but " + axis +
@@ -148,10 +151,10 @@ void FixWallLsdcd::check_moving_box(const MeshPart &m, const lsdcd::WallPose &at
 }
 
 // In all of the longest period, where a run begins; in later steps only where it is.
-void FixWallLsdcd::check_moving_box() const
+void FixWallLsdcd::check_moving_box()
 {
   constexpr int kSamples = 256;
-  for (const MeshPart &m : parts) {
+  for (MeshPart &m : parts) {
     const lsdcd::WallMotion &motion = m.settings.motion;
     if (!motion.any()) continue;
     check_moving_box(m, m.pose, false);

@@ -62,6 +62,21 @@ lsdcd::Box MeshPart::bounds(double past) const
   return {r.lo - more, r.hi + more};
 }
 
+void MeshPart::find_range(const lsdcd::PeriodicBox &box, int k, const lsdcd::WallPose &at,
+                          double &lo, double &hi)
+{
+  double range[2];
+  if (wall.mesh()) {
+    if (!vertices) vertices = std::make_unique<lsdcd::PointTree>(wall.mesh()->vertices);
+    const lsdcd::Vec3 along = at.turn_to_mesh(cross(box.edge[(k + 1) % 3], box.edge[(k + 2) % 3]));
+    range[0] = box.fraction(at.to_box(vertices->farthest_along(-1 * along)))[k];
+    range[1] = box.fraction(at.to_box(vertices->farthest_along(along)))[k];
+  }
+  MPI_Bcast(range, 2, MPI_DOUBLE, 0, wall.shared().world());
+  lo = range[0];
+  hi = range[1];
+}
+
 bool MeshPart::has_gone(double farther_than) const
 {
   return settings.motion.any() &&

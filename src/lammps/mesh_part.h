@@ -4,6 +4,7 @@
 
 #include "lammps/mpi_wall.h"
 #include "lmptype.h"
+#include "mesh/point_tree.h"
 #include "output/file_series.h"
 #include "output/wall_loads.h"
 
@@ -35,9 +36,9 @@ struct MeshPart {
   lsdcd::MeshSettings settings;    // with the motion that fix_modify has given it
   lsdcd::SharedWall wall;
 
-  StepClock clock;                      // of its motion
-  lsdcd::WallPose pose, chosen_pose;    // of the step, and when near atoms were chosen
-  lsdcd::SurfaceMotion surface;         // of the step, where variables give it
+  StepClock clock;                               // of its motion
+  lsdcd::WallPose pose, chosen_pose;             // of the step, and when near atoms were chosen
+  lsdcd::SurfaceMotion surface;                  // of the step, where variables give it
   bool gain_told = false, limit_told = false;    // of a servo
 
   lsdcd::WallLoads loads;
@@ -50,6 +51,8 @@ struct MeshPart {
   lsdcd::Vec3 torque_at_origin = {0, 0, 0};
   void finish_totals();    // from sums about the origin
 
+  std::unique_ptr<lsdcd::PointTree> vertices;    // of a process that has the mesh; once asked for
+
   bool out_of_reach_warned = false, ends_warned = false;
   bool was_in_box = false, gone_warned = false;    // of a mesh that moves
   bool springs_are_foreign = false;                // those of a restart file are of another mesh
@@ -61,6 +64,9 @@ struct MeshPart {
   bool takes_differences() const;    // for velocities that its variables do not give
 
   lsdcd::Box bounds(double past) const;    // in its own frame
+  // From where to where its vertices go along edge k of the box at a pose, as parts of the box. Collective.
+  void find_range(const lsdcd::PeriodicBox &box, int k, const lsdcd::WallPose &at, double &lo,
+                  double &hi);
   // Has any point of it that a sphere can touch gone farther than this since near atoms were
   // chosen?
   bool has_gone(double farther_than) const;

@@ -430,6 +430,35 @@ def periodic_drum(checks, folder):
     checks.at_most("a periodic drum as a long one", deck.largest_difference(*dumps), 1e-9)
 
 
+def between_faces(checks, folder):
+    """A round drum turns between periodic faces that the corners of its bounds would reach: 2 to a vertex, and the
+    sphere's radius 0.25 and the skin 0.3 to keep away. In it nothing is felt of them."""
+    def drum(half, bc="p p", mesh="short.stl", motion="motion rotate 0 0 0 0 0 1 2", steps=1500, end=""):
+        text = DRUM.replace("box block -3 3 -3 3", f"box block -3 3 -{half} {half}" if bc == "f p" else
+                            f"box block -{half} {half} -{half} {half}").replace("f f {bc}", bc + " p")
+        return text.replace("diameter 1.0", "diameter 0.5").format(
+            lo=0, hi=4, law=LAW, mesh=mesh, out=bc[0], steps=steps, motion=motion) + end
+
+    for bc in ("p p", "f f"):
+        deck.run_well(drum(2.6, bc), folder)
+    dumps = [deck.read_dump(folder / name) for name in "pf"]
+    checks.fact("a drum between periodic faces: spheres touch it", touching(dumps[0]) > 50)
+    checks.at_most("they move as without these", deck.largest_difference(*dumps), 0)
+    deck.run_well(drum(2.6, steps=30, end="fix_modify wall motion none\nrun 1\n"), folder, 2)
+    done = deck.run(drum(2.54), folder, 2)
+    checks.fact("too near to them it is refused", done.returncode != 0 and
+                "reaches the periodic face in x at step 0" in done.stdout, done.stdout[-300:])
+    # A prism of three sides, its corners 1.73 up and down and 2 once it has turned.
+    done = deck.run(drum(2.54, "f p", "corner.stl"), folder)
+    checks.fact("one that will be is told of before", done.returncode != 0 and
+                "will reach the periodic face in y" in done.stdout, done.stdout[-300:])
+    # Finite variables that add up to more than a number can be, then turned: 0 times that.
+    big = "motion variable NULL v_big NULL NULL NULL NULL "
+    done = deck.run("variable big equal 1e308\n" + drum(2.6, motion=2 * big + "motion rotate 0 0 0 0 0 1 2"), folder)
+    checks.fact("what is nowhere is not between the faces", done.returncode != 0 and
+                "reaches the periodic face in x" in done.stdout, done.stdout[-300:])
+
+
 def refused(checks, folder):
     write_plane(folder / "plate.stl", 2, 1.0)
     cases = [("the periodic face in z", "p", "motion rotate 0 0 0 1 0 0 2",
@@ -505,7 +534,7 @@ def no_numbers(checks, folder):
 PARTS = {"wall_gran": compare_with_wall_gran, "words": compare_words, "frames": compare_frames, "comes": wall_comes,
          "leaves": wall_leaves_its_box,
          "ranks": ranks_and_restart, "searches": searches,
-         "stopped": stopped, "drum": periodic_drum, "refused": refused, "no_numbers": no_numbers}
+         "stopped": stopped, "drum": periodic_drum, "between": between_faces, "refused": refused, "no_numbers": no_numbers}
 
 
 def main():
