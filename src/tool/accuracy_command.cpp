@@ -1,4 +1,4 @@
-#include "tool/accuracy_command.h"
+#include "tool/commands.h"
 
 #include "base/input_error.h"
 #include "tool/accuracy_tables.h"
@@ -65,59 +65,57 @@ const char *kAbout =
 
 }    // namespace
 
-void add_accuracy_command(CLI::App &app)
+void add_accuracy_command(Command &program)
 {
   static AccuracyOptions o;
-  CLI::App *c = app.add_subcommand("accuracy", "the paper's study, its numbers beside ours");
+  Command c = program.command("accuracy", "the paper's study, its numbers beside ours");
   std::vector<std::string> names = kAccuracyTables;
   names.push_back("all");
-  c->add_option("table", o.tables, "tables to make (default: table2)")->check(CLI::IsMember(names));
-  c->add_option("--spheres", o.spheres, "how many (1e7 in the paper)")
-      ->check(sphere_count)
-      ->capture_default_str();
-  c->add_option("--most-spheres", o.most_spheres, "where figure9 ends (default: --spheres)")
-      ->check(sphere_count);
-  c->add_option("--most-triangles", o.most_triangles, "where mesh ends (1e6 takes a GPU)")
-      ->check(above_zero)
-      ->capture_default_str();
-  c->add_option("--segments", o.shape.segments, "flat sides of the cylinder")
-      ->check(CLI::Range(3, kMostRows))
-      ->capture_default_str();
-  c->add_option("--along", o.shape.along, "rows of triangles along its axis")
-      ->check(CLI::Range(1, kMostRows))
-      ->capture_default_str();
-  c->add_option("--slant", o.shape.slant, "more rows that diagonals climb: obtuse triangles")
-      ->check(CLI::Range(0, kMostRows))
-      ->capture_default_str();
-  c->add_flag("--rim-caps", o.rim_caps, "cut the ends from a corner of the rim: obtuse too");
-  c->add_option("--cube", o.cube, "side of the cube that spheres are in")
-      ->check(above_zero)
-      ->capture_default_str();
-  c->add_option("--radius", o.largest, "largest radius")->check(above_zero)->capture_default_str();
-  c->add_option("--inside", o.inside, "exact, or paper: its formula (5)")
-      ->check(CLI::IsMember({"exact", "paper"}))
-      ->capture_default_str();
-  c->add_option("--order", o.orders, "random, sorted (along a Z-curve) or both")
-      ->check(CLI::IsMember({"random", "sorted"}))
-      ->expected(1, 2)
-      ->capture_default_str();
-  c->add_option("--device", o.devices, "auto, cpu, cuda; several one after another")
-      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
-      ->expected(1, 2)
-      ->capture_default_str();
-  c->add_option("--repeats", o.repeats, "timed runs after one to warm up")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  c->add_option("--seed", o.seed, "of the spheres")->capture_default_str();
-  c->add_option("--memory", o.memory, "budget of a grid in MB")
-      ->check(above_zero)
-      ->capture_default_str();
-  c->add_option("--csv", o.csv, "write all rows to this file");
-  c->add_option("--commit", o.commit, "what was built, for the CSV")->capture_default_str();
-  c->footer(std::string(kAbout) +
-            "\nCPU runs take OMP_NUM_THREADS threads, one where it is not set.\n"
-            "Example:\n  lsdcd accuracy table2 --spheres 1e5 --csv table2.csv");
-  c->callback([] { run_accuracy(o); });
+  c.option("table", o.tables, "tables to make (default: table2)").one_of(names);
+  c.option("--spheres", o.spheres, "how many (1e7 in the paper)")
+      .check(sphere_count)
+      .shows_default();
+  c.option("--most-spheres", o.most_spheres, "where figure9 ends (default: --spheres)")
+      .check(sphere_count);
+  c.option("--most-triangles", o.most_triangles, "where mesh ends (1e6 takes a GPU)")
+      .check(above_zero)
+      .shows_default();
+  c.option("--segments", o.shape.segments, "flat sides of the cylinder")
+      .range(3, kMostRows)
+      .shows_default();
+  c.option("--along", o.shape.along, "rows of triangles along its axis")
+      .range(1, kMostRows)
+      .shows_default();
+  c.option("--slant", o.shape.slant, "more rows that diagonals climb: obtuse triangles")
+      .range(0, kMostRows)
+      .shows_default();
+  c.flag("--rim-caps", o.rim_caps, "cut the ends from a corner of the rim: obtuse too");
+  c.option("--cube", o.cube, "side of the cube that spheres are in")
+      .check(above_zero)
+      .shows_default();
+  c.option("--radius", o.largest, "largest radius").check(above_zero).shows_default();
+  c.option("--inside", o.inside, "exact, or paper: its formula (5)")
+      .one_of({"exact", "paper"})
+      .shows_default();
+  c.option("--order", o.orders, "random, sorted (along a Z-curve) or both")
+      .one_of({"random", "sorted"})
+      .words(1, 2)
+      .shows_default();
+  c.option("--device", o.devices, "auto, cpu, cuda; several one after another")
+      .one_of({"auto", "cpu", "cuda"})
+      .words(1, 2)
+      .shows_default();
+  c.option("--repeats", o.repeats, "timed runs after one to warm up")
+      .range(1, 10000)
+      .shows_default();
+  c.option("--seed", o.seed, "of the spheres").shows_default();
+  c.option("--memory", o.memory, "budget of a grid in MB").check(above_zero).shows_default();
+  c.option("--csv", o.csv, "write all rows to this file");
+  c.option("--commit", o.commit, "what was built, for the CSV").shows_default();
+  c.footer(std::string(kAbout) +
+           "\nCPU runs take OMP_NUM_THREADS threads, one where it is not set.\n"
+           "Example:\n  lsdcd accuracy table2 --spheres 1e5 --csv table2.csv");
+  c.runs([] { run_accuracy(o); });
 }
 
 }    // namespace lsdcd

@@ -1,4 +1,4 @@
-#include "tool/collide_command.h"
+#include "tool/commands.h"
 
 #include "base/input_error.h"
 #include "parallel/threads.h"
@@ -140,7 +140,7 @@ void check(const Options &o)
   try {
     if (!o.pose.empty()) pose_of_numbers(o.pose);
   } catch (const InputError &e) {
-    throw CLI::ValidationError("--pose", e.what());
+    throw_usage_error("--pose", e.what());
   }
   if (!o.poses.empty()) {
     BodyPose first;
@@ -174,46 +174,45 @@ void collide(const Options &o)
   print(o, totals, collision);
 }
 
-void add_options(CLI::App &command, Options &o)
+void add_options(Command &command, Options &o)
 {
-  command.add_option("wall", o.wall, "STL file, ASCII or binary")->required();
-  command.add_option("body", o.body, "STL file of the rigid body")->required();
-  CLI::Option *one = command.add_option(
+  command.option("wall", o.wall, "STL file, ASCII or binary").required();
+  command.option("body", o.body, "STL file of the rigid body").required();
+  Option one = command.option(
       "--pose", o.pose,
       "where the body is: x y z, x y z qw qx qy qz, or 12 numbers (default: as it is)");
-  one->expected(3, 12)->option_text("3, 7 or 12 NUMBERS");
-  command.add_option("--poses", o.poses, "file with a pose a line")->excludes(one);
-  command.add_option("-o,--output", o.output, "pairs of triangles that meet, to a .csv file");
-  command.add_option("--segments", o.segments,
-                     "where they cut each other, to a .csv file or lines for ParaView, .vtp");
-  add_scale_option(&command, o.scale, "--scale", "of the wall: one factor, or three (x y z)");
-  add_scale_option(&command, o.body_scale, "--body-scale", "of the body: one factor, or three");
-  add_weld_option(&command, o.weld);
-  command.add_option("--grid", o.cell, "cell length (default: the median edge of the body)")
-      ->check(above_zero);
-  command
-      .add_option("--nearest", o.nearest, "triangles a cell, which may miss pairs (default: all)")
-      ->check(CLI::Range(1, kMostNearest));
-  command.add_option("--memory", o.memory, "of the grid, in MB (default: 1024 beside the mesh)")
-      ->check(above_zero);
-  command.add_option("--device", o.device, "that answers")
-      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
-      ->capture_default_str();
-  command.add_option("--threads", o.threads, "on the CPU (default: OMP_NUM_THREADS, or all)")
-      ->check(CLI::Range(1, 4096));
-  command.add_flag("--progress", o.progress, "tell how far it is, even where no terminal is");
-  command.add_flag("--json", o.json, "print JSON");
+  one.words(3, 12).shows_words("3, 7 or 12 NUMBERS");
+  command.option("--poses", o.poses, "file with a pose a line").excludes(one);
+  command.option("-o,--output", o.output, "pairs of triangles that meet, to a .csv file");
+  command.option("--segments", o.segments,
+                 "where they cut each other, to a .csv file or lines for ParaView, .vtp");
+  add_scale_option(command, o.scale, "--scale", "of the wall: one factor, or three (x y z)");
+  add_scale_option(command, o.body_scale, "--body-scale", "of the body: one factor, or three");
+  add_weld_option(command, o.weld);
+  command.option("--grid", o.cell, "cell length (default: the median edge of the body)")
+      .check(above_zero);
+  command.option("--nearest", o.nearest, "triangles a cell, which may miss pairs (default: all)")
+      .range(1, kMostNearest);
+  command.option("--memory", o.memory, "of the grid, in MB (default: 1024 beside the mesh)")
+      .check(above_zero);
+  command.option("--device", o.device, "that answers")
+      .one_of({"auto", "cpu", "cuda"})
+      .shows_default();
+  command.option("--threads", o.threads, "on the CPU (default: OMP_NUM_THREADS, or all)")
+      .range(1, 4096);
+  command.flag("--progress", o.progress, "tell how far it is, even where no terminal is");
+  command.flag("--json", o.json, "print JSON");
 }
 
 }    // namespace
 
-void add_collide_command(CLI::App &app)
+void add_collide_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
-  CLI::App *command =
-      app.add_subcommand("collide", "which triangles of a rigid body meet which of a wall");
-  add_options(*command, *o);
-  command->footer(
+  Command command =
+      program.command("collide", "which triangles of a rigid body meet which of a wall");
+  add_options(command, *o);
+  command.footer(
       "A pose turns the body about the origin of its file by a unit quaternion, w first, and then\n"
       "moves it by x y z; or it is three rows of a rotation matrix, each with its number of the\n"
       "shift. In a file empty lines and those from # are left out, and a first line of names.\n"
@@ -223,7 +222,7 @@ void add_collide_command(CLI::App &app)
       "one without area); of segments also from_x to to_z, nan where both lie in one plane.\n"
       "Example:\n"
       "  lsdcd collide wall.stl body.stl --pose 0 0 1.5 0.7071 0.7071 0 0 -o pairs.csv");
-  command->callback([o] { collide(*o); });
+  command.runs([o] { collide(*o); });
 }
 
 }    // namespace lsdcd

@@ -1,4 +1,4 @@
-#include "tool/convert_command.h"
+#include "tool/commands.h"
 
 #include "output/mesh_file.h"
 #include "output/mesh_stl.h"
@@ -26,6 +26,14 @@ struct Options {
   std::string units = "m";
   bool floats = false, json = false;
 };
+
+std::string known_unit(const std::string &word)
+{
+  if (kMetres.count(word)) return "";
+  std::string all;
+  for (const auto &[unit, metres] : kMetres) all += (all.empty() ? "" : ",") + unit;
+  return word + " not in {" + all + "}";
+}
 
 void run(const Options &o)
 {
@@ -60,12 +68,12 @@ void run(const Options &o)
 
 }    // namespace
 
-void add_convert_command(CLI::App &app)
+void add_convert_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
-  CLI::App *command = app.add_subcommand(
+  Command command = program.command(
       "convert", "writes a mesh in another format or other units: STL, OBJ, PLY, OFF");
-  command->footer(
+  command.footer(
       "STL is read in all digits; OBJ, PLY and OFF by assimp, which rounds coordinates to float.\n"
 #if !defined(LSDCD_HAVE_ASSIMP)
       "This lsdcd was built without assimp: it reads STL only.\n"
@@ -74,17 +82,17 @@ void add_convert_command(CLI::App &app)
       "binary,\n"
       "of floats or else of doubles.\n"
       "Example:\n  lsdcd convert wall.obj --units mm -o wall.stl");
-  command->add_option("file", o->file, "mesh, .stl, .obj, .ply or .off")->required();
-  command->add_option("-o,--output", o->output, "mesh to write, of the same formats")->required();
-  CLI::Option *scale = add_scale_option(command, o->scale);
+  command.option("file", o->file, "mesh, .stl, .obj, .ply or .off").required();
+  command.option("-o,--output", o->output, "mesh to write, of the same formats").required();
+  Option scale = add_scale_option(command, o->scale);
   command
-      ->add_option("--units", o->units,
-                   "what a length of 1 is in the file: m, cm, mm, um, in or ft; written in metres")
-      ->check(CLI::IsMember(&kMetres).description(""))
-      ->excludes(scale);
-  command->add_flag("--float", o->floats, "round corners to float, so that STL is binary");
-  command->add_flag("--json", o->json, "print JSON");
-  command->callback([o] { run(*o); });
+      .option("--units", o->units,
+              "what a length of 1 is in the file: m, cm, mm, um, in or ft; written in metres")
+      .check(known_unit)
+      .excludes(scale);
+  command.flag("--float", o->floats, "round corners to float, so that STL is binary");
+  command.flag("--json", o->json, "print JSON");
+  command.runs([o] { run(*o); });
 }
 
 }    // namespace lsdcd

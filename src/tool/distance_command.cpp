@@ -1,4 +1,4 @@
-#include "tool/distance_command.h"
+#include "tool/commands.h"
 
 #include "parallel/threads.h"
 #include "tool/answer_writer.h"
@@ -154,36 +154,36 @@ void distance(const Options &o)
 
 }    // namespace
 
-void add_distance_command(CLI::App &app)
+void add_distance_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
-  CLI::App *command = app.add_subcommand(
+  Command command = program.command(
       "distance", "distance, closest point, triangle, feature and side of many points");
-  command->add_option("mesh", o->mesh, "STL file, ASCII or binary")->required();
+  command.option("mesh", o->mesh, "STL file, ASCII or binary").required();
   command
-      ->add_option("points", o->points,
-                   "lines of numbers (x y z first, or named), .npy (n, 3), or LAMMPS text dump")
-      ->required();
-  command->add_option("-o,--output", o->output, "file to write, .csv or .npy")->required();
-  command->add_option("--radius,--cutoff", o->radius, "nothing as far as this is found")
-      ->required()
-      ->check(above_zero);
+      .option("points", o->points,
+              "lines of numbers (x y z first, or named), .npy (n, 3), or LAMMPS text dump")
+      .required();
+  command.option("-o,--output", o->output, "file to write, .csv or .npy").required();
+  command.option("--radius,--cutoff", o->radius, "nothing as far as this is found")
+      .required()
+      .check(above_zero);
   add_scale_option(command, o->scale);
   add_weld_option(command, o->weld);
-  command->add_option("--grid", o->cell, "cell length (default: chosen)")->check(above_zero);
-  command->add_option("--memory", o->memory, "of the grid, in MB (default: 1024 beside the mesh)")
-      ->check(above_zero);
-  command->add_option("--device", o->device, "that answers")
-      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
-      ->capture_default_str();
-  command->add_option("--threads", o->threads, "on the CPU (default: OMP_NUM_THREADS, or all)")
-      ->check(CLI::Range(1, 4096));
-  command->add_option("--block", o->block, "points in memory at once")
-      ->check(CLI::Range(std::size_t(1), std::size_t(1) << 26))
-      ->capture_default_str();
-  command->add_flag("--progress", o->progress, "tell how far it is, even where no terminal is");
-  command->add_flag("--json", o->json, "print JSON");
-  command->footer(
+  command.option("--grid", o->cell, "cell length (default: chosen)").check(above_zero);
+  command.option("--memory", o->memory, "of the grid, in MB (default: 1024 beside the mesh)")
+      .check(above_zero);
+  command.option("--device", o->device, "that answers")
+      .one_of({"auto", "cpu", "cuda"})
+      .shows_default();
+  command.option("--threads", o->threads, "on the CPU (default: OMP_NUM_THREADS, or all)")
+      .range(1, 4096);
+  command.option("--block", o->block, "points in memory at once")
+      .range(std::size_t(1), std::size_t(1) << 26)
+      .shows_default();
+  command.flag("--progress", o->progress, "tell how far it is, even where no terminal is");
+  command.flag("--json", o->json, "print JSON");
+  command.footer(
       "A point per line or record, in the order of the points; a dump's have timestep and id "
       "first.\n"
       "Columns: distance (inf: nothing found), closest point (then the point itself), triangle (of "
@@ -193,7 +193,7 @@ void add_distance_command(CLI::App &app)
       "welded mesh, and, where the mesh is closed, side (1 outside, -1 inside, 0 not found,\n"
       "or nearest to a facet without area).\n"
       "Example:\n  lsdcd distance wall.stl points.csv --radius 0.01 -o distances.csv");
-  command->callback([o] { distance(*o); });
+  command.runs([o] { distance(*o); });
 }
 
 }    // namespace lsdcd

@@ -1,4 +1,4 @@
-#include "tool/effects_command.h"
+#include "tool/commands.h"
 
 #include "base/input_error.h"
 #include "base/whole_file.h"
@@ -103,25 +103,25 @@ void list()
 
 }    // namespace
 
-void add_effects_command(CLI::App &app)
+void add_effects_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
-  CLI::App *command = app.add_subcommand(
+  Command command = program.command(
       "effects", "every effect of a wall: its words, bytes per atom and contact, and cost");
-  command->footer("Example:\n  lsdcd effects --measure --device cpu --csv effects.csv");
-  command->add_flag("--measure", o->measure, "measure costs here, now");
-  command->add_option("--device", o->device, "where to measure")
-      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
-      ->capture_default_str();
-  command->add_option("--spheres", o->spheres, "contacts to measure with")
-      ->check(CLI::Range(100, 100000000))
-      ->capture_default_str();
-  command->add_option("--repeats", o->repeats, "of which the least is taken")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  command->add_option("--csv", o->csv, "file for what was measured");
-  command->add_option("--commit", o->commit, "what to call this build in it");
-  command->callback([o] {
+  command.footer("Example:\n  lsdcd effects --measure --device cpu --csv effects.csv");
+  command.flag("--measure", o->measure, "measure costs here, now");
+  command.option("--device", o->device, "where to measure")
+      .one_of({"auto", "cpu", "cuda"})
+      .shows_default();
+  command.option("--spheres", o->spheres, "contacts to measure with")
+      .range(100, 100000000)
+      .shows_default();
+  command.option("--repeats", o->repeats, "of which the least is taken")
+      .range(1, 10000)
+      .shows_default();
+  command.option("--csv", o->csv, "file for what was measured");
+  command.option("--commit", o->commit, "what to call this build in it");
+  command.runs([o] {
     if (!o->csv.empty() && !o->measure) throw InputError("--csv keeps what --measure measures");
     check_outputs({{"--csv", o->csv, ".csv"}});
     if (o->measure)

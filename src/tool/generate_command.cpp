@@ -1,8 +1,9 @@
-#include "tool/generate_command.h"
+#include "tool/commands.h"
 
 #include "base/input_error.h"
 #include "output/mesh_stl.h"
 #include "tool/mesh_json.h"
+#include "tool/number_options.h"
 #include "tool/output_file.h"
 #include "tool/shapes.h"
 
@@ -69,45 +70,42 @@ void need_less(const char *option, double value, const std::string &what, double
 // Subcommands with the options that all shapes have.
 class Shapes {
  public:
-  explicit Shapes(CLI::App *generate) : generate_(generate) {}
+  explicit Shapes(Command &generate) : generate_(generate), command_(generate) {}
 
-  CLI::App *add(const char *name, const char *text, const char *example)
+  Command add(const char *name, const char *text, const char *example)
   {
-    command_ = generate_->add_subcommand(name, text);
-    command_->footer(std::string("Example:\n  lsdcd generate ") + name + " " + example);
+    command_ = generate_.command(name, text);
+    command_.footer(std::string("Example:\n  lsdcd generate ") + name + " " + example);
     o_ = std::make_shared<Output>();
-    command_->add_option("-o,--output", o_->file, "STL file to write, binary")->required();
+    command_.option("-o,--output", o_->file, "STL file to write, binary").required();
     length("--edge", o_->edge, "no edge is longer than this (default: as few triangles as can be)");
-    command_->add_flag("--json", o_->json, "print JSON");
+    command_.flag("--json", o_->json, "print JSON");
     return command_;
   }
   void length(const char *option, double &value, const char *text, bool needed = false)
   {
-    const auto positive = CLI::Validator(
-        [](std::string &word) {
-          double x = 0;
-          const bool number = CLI::detail::lexical_cast(word, x);
-          return number && x > 0 && x < 1e30 ? std::string()
-                                             : "'" + word + "' is not a length above 0";
-        },
-        "LENGTH");
-    CLI::Option *added = command_->add_option(option, value, text)->check(positive);
+    const auto positive = [](const std::string &word) -> std::string {
+      double x = 0;
+      return is_number(word, &x) && x > 0 && x < 1e30 ? ""
+                                                      : "'" + word + "' is not a length above 0";
+    };
+    Option added = command_.option(option, value, text).check(positive, "LENGTH");
     if (needed)
-      added->required();
+      added.required();
     else if (value > 0)
-      added->capture_default_str();
+      added.shows_default();
   }
   void round()
   {
     command_
-        ->add_option("--segments", o_->segments,
-                     "sides of the polygon that a circle is (default: 64, more where --edge asks)")
-        ->check(CLI::Range(3, kMostSegments));
+        .option("--segments", o_->segments,
+                "sides of the polygon that a circle is (default: 64, more where --edge asks)")
+        .range(3, kMostSegments);
   }
   std::shared_ptr<Output> output() const { return o_; }
 
  private:
-  CLI::App *generate_, *command_ = nullptr;
+  Command generate_, command_;    // the second: the last that was added
   std::shared_ptr<Output> o_;
 };
 
@@ -121,20 +119,18 @@ struct Sizes {
 void add_flat(Shapes &shapes)
 {
   const auto s = std::make_shared<Sizes>();
-  CLI::App *plane = shapes.add("plane", "a rectangle about the origin at z = 0, facing up; open",
-                               "--width 0.2 --depth 0.1 --edge 0.01 -o floor.stl");
+  Command plane = shapes.add("plane", "a rectangle about the origin at z = 0, facing up; open",
+                             "--width 0.2 --depth 0.1 --edge 0.01 -o floor.stl");
   shapes.length("--width", s->width, "along x", true);
   shapes.length("--depth", s->depth, "along y", true);
-  plane->callback([o = shapes.output(), s] { write(*o, plane_shape(s->width, s->depth)); });
+  plane.runs([o = shapes.output(), s] { write(*o, plane_shape(s->width, s->depth)); });
 
-  CLI::App *box = shapes.add("box", "from the origin to (width, depth, height); closed",
-                             "--width 0.2 --depth 0.1 --height 0.3 -o box.stl");
+  Command box = shapes.add("box", "from the origin to (width, depth, height); closed",
+                           "--width 0.2 --depth 0.1 --height 0.3 -o box.stl");
   shapes.length("--width", s->width, "along x", true);
   shapes.length("--depth", s->depth, "along y", true);
   shapes.length("--height", s->height, "along z", true);
-  box->callback([o = shapes.output(), s] {
-    write(*o, box_shape({s->width, s->depth, s->height}));
-  });
+  box.runs([o = shapes.output(), s] { write(*o, box_shape({s->width, s->depth, s->height})); });
 }
 
 void turn(const Output &o, Profile profile, bool open, double radius)
@@ -149,24 +145,24 @@ void turn(const Output &o, Profile profile, bool open, double radius)
 void add_round(Shapes &shapes)
 {
   const auto s = std::make_shared<Sizes>();
-  CLI::App *cylinder = shapes.add("cylinder", "about the z axis from z = 0 on; closed",
-                                  "--radius 0.05 --height 0.2 --open -o tube.stl");
+  Command cylinder = shapes.add("cylinder", "about the z axis from z = 0 on; closed",
+                                "--radius 0.05 --height 0.2 --open -o tube.stl");
   shapes.length("--radius", s->radius, "its radius", true);
   shapes.length("--height", s->height, "along z", true);
   shapes.round();
-  cylinder->add_flag("--open", s->flag, "without its ends");
-  cylinder->callback([o = shapes.output(), s] {
+  cylinder.flag("--open", s->flag, "without its ends");
+  cylinder.runs([o = shapes.output(), s] {
     turn(*o, {{s->radius, 0}, {s->radius, s->height}}, s->flag, s->radius);
   });
 
-  CLI::App *cone = shapes.add("cone", "about the z axis from z = 0 on, or a frustum; closed",
-                              "--radius 0.05 --top 0.02 --height 0.1 -o cone.stl");
+  Command cone = shapes.add("cone", "about the z axis from z = 0 on, or a frustum; closed",
+                            "--radius 0.05 --top 0.02 --height 0.1 -o cone.stl");
   shapes.length("--radius", s->radius, "at z = 0", true);
   shapes.length("--top", s->top, "radius at the top (default: a tip)");
   shapes.length("--height", s->height, "along z", true);
   shapes.round();
-  cone->add_flag("--open", s->flag, "without its ends");
-  cone->callback([o = shapes.output(), s] {
+  cone.flag("--open", s->flag, "without its ends");
+  cone.runs([o = shapes.output(), s] {
     turn(*o, {{s->radius, 0}, {s->top, s->height}}, s->flag, std::max(s->radius, s->top));
   });
 }
@@ -174,7 +170,7 @@ void add_round(Shapes &shapes)
 void add_bins(Shapes &shapes)
 {
   const auto s = std::make_shared<Sizes>();
-  CLI::App *hopper = shapes.add(
+  Command hopper = shapes.add(
       "hopper", "a bin above a cone with an outlet at z = 0; open, a wall without thickness",
       "--radius 0.1 --height 0.3 --cone 0.1 --outlet 0.03 --edge 0.01 -o hopper.stl");
   shapes.length("--radius", s->radius, "of the bin", true);
@@ -182,13 +178,13 @@ void add_bins(Shapes &shapes)
   shapes.length("--cone", s->cone, "height of the cone (default: a flat floor)");
   shapes.length("--outlet", s->outlet, "radius of the outlet", true);
   shapes.round();
-  hopper->callback([o = shapes.output(), s] {
+  hopper.runs([o = shapes.output(), s] {
     need_less("--outlet", s->outlet, "--radius", s->radius);
     turn(*o, {{s->outlet, 0}, {s->radius, s->cone}, {s->radius, s->cone + s->height}}, true,
          s->radius);
   });
 
-  CLI::App *vessel = shapes.add(
+  Command vessel = shapes.add(
       "vessel",
       "a cylinder above a cone above a tube that ends at z = 0, with rounded\n"
       "knuckles between them; open, a wall without thickness",
@@ -200,7 +196,7 @@ void add_bins(Shapes &shapes)
   shapes.length("--tube", s->tube, "length of the tube", true);
   shapes.length("--knuckle", s->knuckle, "radius of the roundings (default: none)");
   shapes.round();
-  vessel->callback([o = shapes.output(), s] {
+  vessel.runs([o = shapes.output(), s] {
     need_less("--outlet", s->outlet, "--radius", s->radius);
     const Profile p = {{s->outlet, 0},
                        {s->outlet, s->tube},
@@ -220,17 +216,17 @@ void add_bins(Shapes &shapes)
 void add_machines(Shapes &shapes)
 {
   const auto s = std::make_shared<Sizes>();
-  CLI::App *drum = shapes.add(
+  Command drum = shapes.add(
       "drum", "a drum about the y axis from y = 0 on, with lifters; open at its ends",
       "--radius 0.5 --length 0.3 --lifters 8 --height 0.05 --thickness 0.03 -o drum.stl");
   shapes.length("--radius", s->radius, "of the drum", true);
   shapes.length("--length", s->length, "along y", true);
-  drum->add_option("--lifters", s->number, "how many (default: none)")->check(CLI::Range(2, 1000));
+  drum.option("--lifters", s->number, "how many (default: none)").range(2, 1000);
   shapes.length("--height", s->height, "of a lifter (default: a tenth of the radius)");
   shapes.length("--thickness", s->thickness, "of a lifter (default: a twentieth of the radius)");
   shapes.round();
-  drum->add_flag("--closed", s->flag, "with its ends");
-  drum->callback([o = shapes.output(), s] {
+  drum.flag("--closed", s->flag, "with its ends");
+  drum.runs([o = shapes.output(), s] {
     DrumShape d = {s->radius,
                    s->length,
                    s->number,
@@ -249,7 +245,7 @@ void add_machines(Shapes &shapes)
     write(*o, drum_shape(d));
   });
 
-  CLI::App *screw = shapes.add(
+  Command screw = shapes.add(
       "screw", "a shaft along y from y = 0 on, with a right-handed blade; closed",
       "--radius 0.06 --shaft 0.015 --pitch 0.1 --turns 3 --thickness 0.004 -o screw.stl");
   shapes.length("--radius", s->radius, "of the blade", true);
@@ -258,9 +254,9 @@ void add_machines(Shapes &shapes)
   shapes.length("--thickness", s->thickness, "of the blade, along y", true);
   shapes.length("--stub", s->stub,
                 "of shaft before and after the blade (default: a tenth of a pitch)");
-  screw->add_option("--turns", s->number, "of the blade")->required()->check(CLI::Range(1, 1000));
+  screw.option("--turns", s->number, "of the blade").required().range(1, 1000);
   shapes.round();
-  screw->callback([o = shapes.output(), s] {
+  screw.runs([o = shapes.output(), s] {
     need_less("--shaft", s->shaft, "--radius", s->radius);
     need_less("--thickness", s->thickness, "--pitch", s->pitch);
     write(*o, screw_shape({s->radius, s->shaft, s->pitch, s->thickness,
@@ -271,12 +267,12 @@ void add_machines(Shapes &shapes)
 
 }    // namespace
 
-void add_generate_command(CLI::App &app)
+void add_generate_command(Command &program)
 {
-  CLI::App *generate = app.add_subcommand("generate", "writes the mesh of a simple shape");
-  generate->require_subcommand(1);
-  generate->footer("lsdcd generate SHAPE --help tells a shape's sizes.\n"
-                   "Example:\n  lsdcd generate box --width 2 --depth 1 --height 1 -o box.stl");
+  Command generate = program.command("generate", "writes the mesh of a simple shape");
+  generate.needs_a_command();
+  generate.footer("lsdcd generate SHAPE --help tells a shape's sizes.\n"
+                  "Example:\n  lsdcd generate box --width 2 --depth 1 --height 1 -o box.stl");
   Shapes shapes(generate);
   add_flat(shapes);
   add_round(shapes);

@@ -1,4 +1,4 @@
-#include "tool/inspect_command.h"
+#include "tool/commands.h"
 
 #include "grid/triangle_grid.h"
 #include "tool/load_mesh.h"
@@ -64,43 +64,39 @@ void grid(const Options &o)
     std::printf("%s\n%s\n", describe(mesh.report, o.file).c_str(), describe(g.report).c_str());
 }
 
-void add_mesh_options(CLI::App *command, Options &o)
+void add_mesh_options(Command &command, Options &o)
 {
-  command->add_option("file", o.file, "STL file, ASCII or binary")->required();
+  command.option("file", o.file, "STL file, ASCII or binary").required();
   add_scale_option(command, o.scale);
   add_weld_option(command, o.weld);
-  command->add_flag("--json", o.json, "print JSON");
+  command.flag("--json", o.json, "print JSON");
 }
 
 }    // namespace
 
-void add_inspect_command(CLI::App &app)
+void add_inspect_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
-  CLI::App *command =
-      app.add_subcommand("inspect", "what the mesh is: facets, welds, holes, folds, area, volume");
-  command->footer("Example:\n  lsdcd inspect wall.stl --json");
+  Command command =
+      program.command("inspect", "what the mesh is: facets, welds, holes, folds, area, volume");
+  command.footer("Example:\n  lsdcd inspect wall.stl --json");
   add_mesh_options(command, *o);
-  command->callback([o] { inspect(*o); });
+  command.runs([o] { inspect(*o); });
 }
 
-void add_grid_command(CLI::App &app)
+void add_grid_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
-  CLI::App *command =
-      app.add_subcommand("grid", "what a grid for spheres up to a radius would cost");
-  command->footer("Example:\n  lsdcd grid wall.stl --radius 0.005");
+  Command command = program.command("grid", "what a grid for spheres up to a radius would cost");
+  command.footer("Example:\n  lsdcd grid wall.stl --radius 0.005");
   add_mesh_options(command, *o);
-  command->add_option("--radius", o->radius, "largest sphere radius")
-      ->required()
-      ->check(above_zero);
-  command->add_option("--grid", o->length, "cell length (default: chosen)")->check(above_zero);
+  command.option("--radius", o->radius, "largest sphere radius").required().check(above_zero);
+  command.option("--grid", o->length, "cell length (default: chosen)").check(above_zero);
   command
-      ->add_option("--memory", o->memory,
-                   "budget in MB (default: 1024 beside the mesh's own records)")
-      ->check(above_zero);
-  command->add_flag("--progress", o->progress, "tell how far it is, even where no terminal is");
-  command->callback([o] { grid(*o); });
+      .option("--memory", o->memory, "budget in MB (default: 1024 beside the mesh's own records)")
+      .check(above_zero);
+  command.flag("--progress", o->progress, "tell how far it is, even where no terminal is");
+  command.runs([o] { grid(*o); });
 }
 
 }    // namespace lsdcd

@@ -6,8 +6,6 @@
 #include "mesh/triangle_soup.h"
 #include "mesh/wall_mesh.h"
 
-#include <CLI/CLI.hpp>
-
 #include <string>
 #include <vector>
 
@@ -17,7 +15,7 @@ namespace lsdcd {
 inline void apply_scale(TriangleSoup &soup, const std::vector<double> &scale,
                         const char *option = "--scale")
 {
-  if (scale.size() == 2) throw CLI::ValidationError(option, "takes one factor or three (x y z)");
+  if (scale.size() == 2) throw_usage_error(option, "takes one factor or three (x y z)");
   Placement placement;
   if (scale.size() == 1) placement.scale({scale[0], scale[0], scale[0]});
   if (scale.size() == 3) placement.scale({scale[0], scale[1], scale[2]});

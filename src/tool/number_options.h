@@ -3,8 +3,6 @@
 
 #include "base/input_words.h"
 
-#include <CLI/CLI.hpp>
-
 #include <string>
 #include <vector>
 
@@ -27,20 +25,19 @@ inline std::string not_zero(const std::string &word)
   return is_number(word, &value) && value != 0 ? "" : word + " is not a number other than 0";
 }
 
-inline CLI::Option *add_scale_option(CLI::App *command, std::vector<double> &scale,
-                                     const char *name = "--scale",
-                                     const char *help = "of the mesh: one factor, or three (x y z)")
+inline Option add_scale_option(Command &command, std::vector<double> &scale,
+                               const char *name = "--scale",
+                               const char *help = "of the mesh: one factor, or three (x y z)")
 {
-  return command->add_option(name, scale, help)->expected(1, 3)->check(not_zero);
+  return command.option(name, scale, help).words(1, 3).check(not_zero);
 }
 
 // `weld` stays below 0 where it is not given.
-inline void add_weld_option(CLI::App *command, double &weld)
+inline void add_weld_option(Command &command, double &weld)
 {
   command
-      ->add_option("--weld", weld,
-                   "weld corners closer than this (default: 1e-6 of the box diagonal)")
-      ->check(not_below_zero);
+      .option("--weld", weld, "weld corners closer than this (default: 1e-6 of the box diagonal)")
+      .check(not_below_zero);
 }
 
 }    // namespace lsdcd

@@ -1,4 +1,4 @@
-#include "tool/repair_command.h"
+#include "tool/commands.h"
 
 #include "bodies/meets_itself.h"
 #include "mesh/repair.h"
@@ -134,32 +134,32 @@ bool run(const Options &o)
 
 }    // namespace
 
-void add_repair_command(CLI::App &app, int &exit_code)
+void add_repair_command(Command &program, int &exit_code)
 {
   const auto o = std::make_shared<Options>();
-  CLI::App *command = app.add_subcommand("repair", "mends a mesh, and tells what it did");
-  command->footer(
+  Command command = program.command("repair", "mends a mesh, and tells what it did");
+  command.footer(
       "Welds corners, drops degenerate and duplicate facets, cuts facets where corners of\n"
       "neighbours lie on their open edges, and winds them alike, closed shells with normals out,\n"
       "cavities in them with normals in. It fills no holes. Ends with 3 where the mesh is written\n"
       "and something is left that it cannot mend: open edges, edges of more than two facets,\n"
       "one-sided parts, facets that meet.\n"
       "Example:\n  lsdcd repair wall.stl -o mended.stl");
-  command->add_option("file", o->file, "STL file, ASCII or binary")->required();
+  command.option("file", o->file, "STL file, ASCII or binary").required();
   command
-      ->add_option("-o,--output", o->output,
-                   "mesh to write, .stl, .obj, .ply or .off; STL is binary where all corners are\n"
-                   "floats, else text with all digits")
-      ->required();
+      .option("-o,--output", o->output,
+              "mesh to write, .stl, .obj, .ply or .off; STL is binary where all corners are\n"
+              "floats, else text with all digits")
+      .required();
   command
-      ->add_option("--weld", o->weld,
-                   "corners closer than this to each other, or to an open edge, are on it\n"
-                   "(default: 1e-6 of the box diagonal)")
-      ->check(not_below_zero);
-  command->add_flag("--open", o->open, "the mesh is meant to be open: ends with 0 all the same");
-  command->add_flag("--progress", o->progress, "tell how far it is, even where no terminal is");
-  command->add_flag("--json", o->json, "print JSON");
-  command->callback([o, &exit_code] {
+      .option("--weld", o->weld,
+              "corners closer than this to each other, or to an open edge, are on it\n"
+              "(default: 1e-6 of the box diagonal)")
+      .check(not_below_zero);
+  command.flag("--open", o->open, "the mesh is meant to be open: ends with 0 all the same");
+  command.flag("--progress", o->progress, "tell how far it is, even where no terminal is");
+  command.flag("--json", o->json, "print JSON");
+  command.runs([o, &exit_code] {
     if (!run(*o)) exit_code = kUnmended;
   });
 }

@@ -1,4 +1,4 @@
-#include "tool/tradeoff_command.h"
+#include "tool/commands.h"
 
 #include "base/input_error.h"
 #include "base/shared_files.h"
@@ -183,50 +183,49 @@ void tradeoff(Options &o)
 
 }    // namespace
 
-void add_tradeoff_command(CLI::App &app)
+void add_tradeoff_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
-  CLI::App *command = app.add_subcommand(
-      "tradeoff", "what each setting buys and costs on a mesh: a CSV and a plot");
-  command->footer(std::string(kHelp) +
-                  "\nExample:\n  lsdcd tradeoff wall.stl --radius 0.004 0.005 --csv wall.csv");
-  command->add_option("file", o->file, "STL file, ASCII or binary")->required();
-  command->add_option("--radius", o->settings.radii, "sphere radii, one or several, each as likely")
-      ->required()
-      ->expected(1, -1)
-      ->check(above_zero);
+  Command command =
+      program.command("tradeoff", "what each setting buys and costs on a mesh: a CSV and a plot");
+  command.footer(std::string(kHelp) +
+                 "\nExample:\n  lsdcd tradeoff wall.stl --radius 0.004 0.005 --csv wall.csv");
+  command.option("file", o->file, "STL file, ASCII or binary").required();
+  command.option("--radius", o->settings.radii, "sphere radii, one or several, each as likely")
+      .required()
+      .words(1, -1)
+      .check(above_zero);
   add_scale_option(command, o->scale);
   add_weld_option(command, o->weld);
-  command->add_option("--memory", o->memory, "budget of a grid in MB; settings above are left out")
-      ->capture_default_str()
-      ->check(above_zero);
+  command.option("--memory", o->memory, "budget of a grid in MB; settings above are left out")
+      .shows_default()
+      .check(above_zero);
   command
-      ->add_option("--device", o->device,
-                   "auto: the CPU, and the GPU where there is one; cpu; cuda: the GPU alone")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"auto", "cpu", "cuda"}));
+      .option("--device", o->device,
+              "auto: the CPU, and the GPU where there is one; cpu; cuda: the GPU alone")
+      .shows_default()
+      .one_of({"auto", "cpu", "cuda"});
   command
-      ->add_option("--seconds", o->settings.seconds,
-                   "after these no further settings are tried; the default comes first")
-      ->capture_default_str()
-      ->check(above_zero);
+      .option("--seconds", o->settings.seconds,
+              "after these no further settings are tried; the default comes first")
+      .shows_default()
+      .check(above_zero);
   command
-      ->add_option("--spheres", o->settings.spheres,
-                   "spheres beside the wall, for errors and times (16 times as many on a GPU)")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 10000000));
-  command->add_option("--moving", o->settings.moving, "spheres that bounce, and that roll")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--repeats", o->settings.repeats, "of a timed step; the quickest counts")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
-  command->add_option("--seed", o->settings.seed, "of places and radii")->capture_default_str();
-  command->add_option("--csv", o->csv, "file for the rows, written whole or not at all")
-      ->capture_default_str();
-  command->add_option("--plot", o->plot,
-                      "picture, .png, or `none` (default: the name of the CSV with .png)");
-  command->callback([o] { tradeoff(*o); });
+      .option("--spheres", o->settings.spheres,
+              "spheres beside the wall, for errors and times (16 times as many on a GPU)")
+      .shows_default()
+      .range(1, 10000000);
+  command.option("--moving", o->settings.moving, "spheres that bounce, and that roll")
+      .shows_default()
+      .range(1, 100000);
+  command.option("--repeats", o->settings.repeats, "of a timed step; the quickest counts")
+      .shows_default()
+      .range(1, 1000);
+  command.option("--seed", o->settings.seed, "of places and radii").shows_default();
+  command.option("--csv", o->csv, "file for the rows, written whole or not at all").shows_default();
+  command.option("--plot", o->plot,
+                 "picture, .png, or `none` (default: the name of the CSV with .png)");
+  command.runs([o] { tradeoff(*o); });
 }
 
 }    // namespace lsdcd

@@ -6,6 +6,7 @@ usage: check_includes.py [ROOT]
 * A file includes its own room and rooms on lower floors (FLOORS, from the lowest). Rooms of one
   floor do not include each other, but for the pairs in BESIDE.
 * Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name.
+* A header of ONLY_IN, which is slow to compile, is included by its one file.
 * src itself has no source file: each lies in a room, and each room has a floor.
 * A file of more than MOST_LINES lines says why in one of its first five lines:
   "// Over 300 lines: reason".
@@ -22,6 +23,7 @@ FLOORS = [["base"], ["parallel"], ["geometry"], ["mesh"], ["grid"], ["contact"],
 BESIDE = {("study", "query")}
 LAMMPS_ROOMS = {"lammps", "kokkos"}
 GENERATED = {"effects": "effects_measured.h", "grid": "lsdcd_grid_sources.h"}
+ONLY_IN = {"CLI/CLI.hpp": "src/tool/command.cpp"}
 MOST_LINES = 300
 
 # What is not yet as it should be; an entry that is no longer needed is a violation, too.
@@ -32,6 +34,7 @@ INCLUDE_EXCEPTIONS = {
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
 SOURCE = re.compile(r"\.(h|cuh|cpp|cu)(\.in)?$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
+SYSTEM_INCLUDE = re.compile(r"^\s*#\s*include\s*<([^>]+)>")
 
 
 def sources(root):
@@ -77,6 +80,9 @@ def violations(root):
                 unused = unused - {(path, include[1])}
             elif why:
                 yield f"{path}:{number}: {include[1]} {why}"
+            system = SYSTEM_INCLUDE.match(line)
+            if system and ONLY_IN.get(system[1], path) != path:
+                yield f"{path}:{number}: {system[1]} is for {ONLY_IN[system[1]]} only"
         if len(lines) > MOST_LINES and not any(f"Over {MOST_LINES} lines: " in s for s in lines[:5]):
             yield f"{path}: {len(lines)} lines and no '// Over {MOST_LINES} lines: reason'"
     for entry in sorted(map(str, unused)):

@@ -1,4 +1,4 @@
-#include "tool/material.h"
+#include "tool/commands.h"
 
 #include "deck/fill_material.h"
 #include "material/material_file.h"
@@ -65,25 +65,25 @@ void run(const Options &o)
 
 }    // namespace
 
-void add_material_command(CLI::App &app)
+void add_material_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
-  CLI::App *command = app.add_subcommand(
+  Command command = program.command(
       "material", "what a material file says; with a name, the words that a deck would get");
-  command->footer("Example:\n  lsdcd material glass.lsdcd glass --on aluminium");
-  command->add_option("file", o->file, "material file, looked for as in a deck")->required();
-  command->add_option("name", o->name, "material of the grains");
-  command->add_option("--on", o->wall, "material of the wall (default: the same)");
-  command->add_option("--normal", o->normal, "of the contact")
-      ->check(CLI::IsMember({"hertz/material", "jkr", "dmt"}))
-      ->capture_default_str();
-  command->add_option("--units", o->units, "of the deck")
-      ->check(CLI::IsMember({"si", "cgs", "micro", "nano"}))
-      ->capture_default_str();
-  command->add_option("--with", o->with,
-                      "properties and values in place of the file's, or [material] property value "
-                      "where the file has none");
-  command->callback([o] { run(*o); });
+  command.footer("Example:\n  lsdcd material glass.lsdcd glass --on aluminium");
+  command.option("file", o->file, "material file, looked for as in a deck").required();
+  command.option("name", o->name, "material of the grains");
+  command.option("--on", o->wall, "material of the wall (default: the same)");
+  command.option("--normal", o->normal, "of the contact")
+      .one_of({"hertz/material", "jkr", "dmt"})
+      .shows_default();
+  command.option("--units", o->units, "of the deck")
+      .one_of({"si", "cgs", "micro", "nano"})
+      .shows_default();
+  command.option("--with", o->with,
+                 "properties and values in place of the file's, or [material] property value "
+                 "where the file has none");
+  command.runs([o] { run(*o); });
 }
 
 }    // namespace lsdcd

@@ -1,0 +1,21 @@
+// The commands of lsdcd: each adds itself to the program.
+#pragma once
+
+#include "tool/command.h"
+
+namespace lsdcd {
+
+void add_inspect_command(Command &program);
+// `exit_code`: set where the mesh is written and something is left that cannot be mended.
+void add_repair_command(Command &program, int &exit_code);
+void add_convert_command(Command &program);
+void add_generate_command(Command &program);
+void add_grid_command(Command &program);
+void add_distance_command(Command &program);
+void add_collide_command(Command &program);
+void add_material_command(Command &program);
+void add_tradeoff_command(Command &program);
+void add_accuracy_command(Command &program);
+void add_effects_command(Command &program);
+
+}    // namespace lsdcd
