@@ -22,11 +22,19 @@ class InputFile {
     std::rewind(file_.get());
     buffer_.resize(std::size_t(1) << 20);
     fill();
+    if (ahead(3) == "\xEF\xBB\xBF") at_ = 3;    // a byte order mark is no text
   }
 
   const std::string &path() const { return path_; }
-  long size() const { return size_; }
-  double share_read() const { return size_ > 0 ? double(read_ - (end_ - at_)) / size_ : 0; }
+  long size() const { return size_; }    // 0: not known, as of a pipe
+  long taken() const { return read_ - static_cast<long>(end_ - at_); }
+  void go_to(long byte)
+  {
+    if (std::fseek(file_.get(), byte, SEEK_SET) != 0) fail(std::strerror(errno));
+    read_ = byte;
+    at_ = end_ = 0;
+  }
+  double share_read() const { return size_ > 0 ? double(taken()) / size_ : 0; }
   long line_number() const { return line_; }
 
   // What comes first, without taking it; fewer bytes where the file has no more.
@@ -93,15 +101,15 @@ class InputFile {
     const std::size_t n = std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, file_.get());
     if (n == 0 && std::ferror(file_.get())) fail(std::strerror(errno));
     end_ += n;
-    read_ += n;
+    read_ += static_cast<long>(n);
     return n > 0;
   }
 
   std::string path_;
   std::unique_ptr<std::FILE, Close> file_;
-  long size_ = 0, line_ = 0;
+  long size_ = 0, line_ = 0, read_ = 0;
   std::vector<char> buffer_;
-  std::size_t at_ = 0, end_ = 0, read_ = 0;
+  std::size_t at_ = 0, end_ = 0;
 };
 
 inline bool is_blank(char c)

@@ -153,61 +153,116 @@ class DumpReader : public PointReader {
   std::ptrdiff_t column_[3] = {-1, -1, -1}, id_column_ = -1;
 };
 
+// Numbers of an array, `stride` apart as doubles. Integers beyond 2^53 are rounded.
+template <class T>
+void to_doubles(const char *raw, std::size_t n, double *to, std::size_t stride)
+{
+  for (std::size_t i = 0; i < n; i++) {
+    T x;
+    std::memcpy(&x, raw + i * sizeof x, sizeof x);
+    to[i * stride] = static_cast<double>(x);
+  }
+}
+
+struct NumberType {
+  const char *name;    // numpy's
+  std::size_t bytes;
+  void (*to_doubles)(const char *raw, std::size_t n, double *to, std::size_t stride);
+};
+
+template <class T>
+constexpr NumberType number_type(const char *name)
+{
+  return {name, sizeof(T), to_doubles<T>};
+}
+
+constexpr NumberType kNumberTypes[] = {
+    number_type<double>("<f8"),        number_type<float>("<f4"),
+    number_type<std::int64_t>("<i8"),  number_type<std::int32_t>("<i4"),
+    number_type<std::int16_t>("<i2"),  number_type<std::int8_t>("|i1"),
+    number_type<std::uint64_t>("<u8"), number_type<std::uint32_t>("<u4"),
+    number_type<std::uint16_t>("<u2"), number_type<std::uint8_t>("|u1")};
+
 class NpyReader : public PointReader {
  public:
-  explicit NpyReader(InputFile file) : file_(std::move(file)) { take_header(); }
+  explicit NpyReader(InputFile file)
+  {
+    const bool by_columns = take_header(file);
+    const long start = file.taken();
+    const std::string path = file.path();
+    files_.push_back(std::move(file));
+    if (!by_columns) return;
+    const std::size_t kept = std::max(files_[0].size() - start, 0L) / (3 * type_->bytes);
+    if (files_[0].size() == 0)
+      files_[0].fail("is in Fortran order, which cannot be read from a pipe; give the file, or "
+                     "numpy.save(file, numpy.ascontiguousarray(points))");
+    if (kept < n_) fail_in_point(kept);
+    for (const long column : {1, 2}) {
+      files_.emplace_back(path);
+      files_.back().go_to(start + column * static_cast<long>(n_ * type_->bytes));
+    }
+  }
 
   void read(PointBlock &block, std::size_t most) override
   {
     block.clear();
     const std::size_t n = std::min<std::size_t>(most, n_ - done_);
     block.xyz.resize(3 * n);
-    const std::size_t bytes = 3 * n * (floats_ ? sizeof(float) : sizeof(double));
-    raw_.resize(bytes);
-    char *to = floats_ ? raw_.data() : reinterpret_cast<char *>(block.xyz.data());
-    const std::size_t got = file_.bytes(to, bytes);
-    if (got < bytes)
-      file_.fail("ends in point " + std::to_string(done_ + got / (bytes / n)) + " of " +
-                 std::to_string(n_) + "; it is not whole");
-    for (std::size_t i = 0; floats_ && i < 3 * n; i++) {
-      float x;
-      std::memcpy(&x, raw_.data() + i * sizeof x, sizeof x);
-      block.xyz[i] = x;
+    const std::size_t stride = files_.size(), each = 3 * n / stride;
+    raw_.resize(each * type_->bytes);
+    for (std::size_t k = 0; k < stride; k++) {
+      const std::size_t got = files_[k].bytes(raw_.data(), raw_.size());
+      if (got < raw_.size()) fail_in_point(done_ + got / (raw_.size() / n));
+      type_->to_doubles(raw_.data(), each, block.xyz.data() + k, stride);
     }
     done_ += n;
   }
-  double share_read() const override { return file_.share_read(); }
+  double share_read() const override { return n_ > 0 ? double(done_) / double(n_) : 0; }
 
  private:
-  void take_header()
+  // Is the array in Fortran order?
+  bool take_header(InputFile &file)
   {
     char start[12] = {};
     const std::size_t short_bytes = 2;
-    file_.bytes(start, 8);
+    file.bytes(start, 8);
     const std::size_t length_bytes = start[6] == 1 ? short_bytes : 4;
-    file_.bytes(start + 8, length_bytes);
+    file.bytes(start + 8, length_bytes);
     std::size_t length = 0;
     for (std::size_t i = 0; i < length_bytes; i++)
       length |= std::size_t(static_cast<unsigned char>(start[8 + i])) << (8 * i);
     constexpr std::size_t kMost = 1 << 16;
     std::string head(std::min(length, kMost), ' ');
-    if (length > kMost || file_.bytes(head.data(), length) < length)
-      file_.fail("its .npy header is not whole");
-    head.erase(std::remove(head.begin(), head.end(), ' '), head.end());
-    floats_ = head.find("'descr':'<f4'") != head.npos;
-    const bool doubles = head.find("'descr':'<f8'") != head.npos;
+    if (length > kMost || file.bytes(head.data(), length) < length)
+      file.fail("its .npy header is not whole");
+    const auto is_space = [](char c) { return c == ' ' || c == '\n'; };
+    head.erase(std::remove_if(head.begin(), head.end(), is_space), head.end());
+    for (const NumberType &type : kNumberTypes)
+      if (head.find("'descr':'" + std::string(type.name) + "'") != head.npos) type_ = &type;
+    const bool by_columns = head.find("'fortran_order':True") != head.npos;
     const std::size_t shape = head.find("'shape':(");
     const char *at = head.data() + shape + 9;
+    if (!type_ || shape == head.npos ||
+        (!by_columns && head.find("'fortran_order':False") == head.npos))
+      fail_as_array(file, head);
     const auto [end, error] = std::from_chars(at, head.data() + head.size(), n_);
-    if ((!floats_ && !doubles) || head.find("'fortran_order':False") == head.npos ||
-        shape == head.npos || error != std::errc() || std::strncmp(end, ",3)", 3) != 0)
-      file_.fail("is an array " + head +
-                 "; points are (n, 3), little-endian float32 or float64 in C order: "
-                 "numpy.save(file, numpy.ascontiguousarray(points, float))");
+    if (error != std::errc() || std::strncmp(end, ",3)", 3) != 0) fail_as_array(file, head);
+    return by_columns;
+  }
+  [[noreturn]] static void fail_as_array(const InputFile &file, const std::string &head)
+  {
+    file.fail("is an array " + head +
+              "; points are (n, 3), of integers or little-endian float32 or float64: "
+              "numpy.save(file, numpy.asarray(points, float).reshape(-1, 3))");
+  }
+  [[noreturn]] void fail_in_point(std::size_t point) const
+  {
+    files_[0].fail("ends in point " + std::to_string(point) + " of " + std::to_string(n_) +
+                   "; it is not whole");
   }
 
-  InputFile file_;
-  bool floats_ = false;
+  std::vector<InputFile> files_;    // in Fortran order one at each of the columns x, y and z
+  const NumberType *type_ = nullptr;
   std::size_t n_ = 0, done_ = 0;
   std::vector<char> raw_;
 };

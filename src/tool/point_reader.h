@@ -34,8 +34,8 @@ class PointReader {
   bool has_ids_ = false;
 };
 
-// By what is in it: a .npy array (n, 3) of floats or doubles, a text dump of LAMMPS, or lines with
-// numbers between commas, semicolons or blanks.
+// By what is in it: a .npy array (n, 3) of floats, doubles or integers, a text dump of LAMMPS, or
+// lines with numbers between commas, semicolons or blanks.
 std::unique_ptr<PointReader> open_points(const std::string &path);
 
 }    // namespace lsdcd

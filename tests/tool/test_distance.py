@@ -125,6 +125,28 @@ def main():
          all([take(r[k]) for r in rows] == out[name].tolist() for name, k, take in columns) and
          [[float(x) for x in r[1:4]] for r in rows] == out["closest"].tolist())
 
+    # A file begins with a byte order mark where a program on Windows wrote it. What a caller has as
+    # x, y and z, one after the other, numpy keeps in Fortran order: here in four blocks.
+    (folder / "mark.csv").write_bytes(b"\xef\xbb\xbf" + (folder / "points.csv").read_bytes())
+    (folder / "mark_named.csv").write_bytes(b"\xef\xbb\xbfx,y,z\n" + (folder / "points.csv").read_bytes())
+    np.save(folder / "fortran.npy", np.array([points[:, 0], points[:, 1], points[:, 2]]).T)
+    for file in ("mark.csv", "mark_named.csv", "fortran.npy"):
+        done = run(folder, "distance", "box.stl", file, "--radius", RADIUS, "-o", "other.npy", "--block", 1000)
+        fact(f"{file}: the same answers as without", done.returncode == 0 and
+             np.array_equal(np.load(folder / "other.npy"), out), done.stderr)
+    # Unsigned bytes that would be negative as signed ones; the others on both sides of 0.
+    told(folder, "generate", "box", "--width", 200, "--depth", 200, "--height", 200, "-o", "large.stl")
+    for kind in ("i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "f4"):
+        whole = dice.integers(*((0, 255) if kind[0] == "u" else (-128, 127)), (500, 3)).astype(kind)
+        for order in "CF":
+            np.save(folder / "whole.npy", np.array(whole, order=order))
+            done = run(folder, "distance", "large.stl", "whole.npy", "--radius", 1000, "-o", "other.npy")
+            got = np.load(folder / "other.npy")["distance"] if done.returncode == 0 else np.array([np.inf])
+            # In whole numbers a box's distance has rounding in its square root alone.
+            wanted = np.abs(box_distance(whole.astype(float), np.array([200., 200, 200])))
+            fact(f"{kind}, order {order}: distances are the closed form's",
+                 np.abs(got - wanted).max() <= 4e-13 * 1000 + 8e-15 * 350, done.stderr)
+
     np.save(folder / "floats.npy", points.astype(np.float32))
     told(folder, "distance", "box.stl", "floats.npy", "--radius", RADIUS, "-o", "floats_out.npy")
     exact = np.abs(box_distance(points.astype(np.float32).astype(float), hi))
@@ -189,13 +211,16 @@ def main():
         refused(folder, [*words, "--radius", 1, "--device", "cuda"], "--device cuda", "--device cpu")
     whole = (folder / "points.npy").read_bytes()
     np.save(folder / "flat.npy", np.zeros(9))
-    np.save(folder / "fortran.npy", np.asfortranarray(points))
-    np.save(folder / "ints.npy", np.zeros((3, 3), int))
+    by_columns = (folder / "fortran.npy").read_bytes()
+    np.save(folder / "complex.npy", np.zeros((3, 3), complex))
+    np.save(folder / "big_endian.npy", np.zeros((3, 3), ">f8"))
     dump = (folder / "points.dump").read_text()
     for name, content, expected in (
             ("short.npy", whole[:-5], ["point 3999 of 4000"]),
-            ("flat.npy", None, ["(9,)", "(n, 3)"]), ("fortran.npy", None, ["fortran_order", "ascontiguous"]),
-            ("ints.npy", None, ["<i8", "float64"]), ("head.npy", whole[:50], ["header"]),
+            ("flat.npy", None, ["(9,)", "(n, 3)"]), ("short_columns.npy", by_columns[:-5], ["point 3999 of 4000"]),
+            ("many_columns.npy", by_columns.replace(b"(4000, 3)", b"(4" + 18 * b"0" + b", 3)"), ["is not whole"]),
+            ("complex.npy", None, ["<c16", "float64"]), ("big_endian.npy", None, [">f8", "little-endian"]),
+            ("head.npy", whole[:50], ["header"]),
             ("word.csv", b"0,0,0\n1,two,3\n", ["line 2", "'two'", "column 2"]),
             ("few.csv", b"0,0,0\n\n1,2\n", ["line 3", "2 columns"]),
             ("names.csv", b"a,b,c\n1,2,3\n", ["line 1", "x"]),
