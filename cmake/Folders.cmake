@@ -5,3 +5,12 @@ if(CMAKE_LIBRARY_ARCHITECTURE AND EXISTS /etc/debian_version)
 endif()
 include(GNUInstallDirs)
 set(LSDCD_PYTHON_DIR lib/python3/dist-packages CACHE PATH "Python modules")
+
+# lsdcd_gzip(FILE): made/FILE.gz in the build, with CMake's variables filled in; compressed as Debian wants
+# man pages and changelogs.
+function(lsdcd_gzip file)
+  get_filename_component(name ${file} NAME)
+  set(made ${PROJECT_BINARY_DIR}/made/${name})
+  configure_file(${file} ${made} @ONLY)
+  execute_process(COMMAND gzip -9nc ${made} OUTPUT_FILE ${made}.gz COMMAND_ERROR_IS_FATAL ANY)
+endfunction()

@@ -18,6 +18,9 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_COMPONENTS_ALL library dev python data)
 
+string(TIMESTAMP today "%a, %d %b %Y %H:%M:%S +0000" UTC)
+lsdcd_gzip(cmake/debian/changelog)
+
 # lsdcd_package(component name section depends text...)
 macro(lsdcd_package component name section depends text)
   string(TOUPPER ${component} upper)
@@ -25,6 +28,9 @@ macro(lsdcd_package component name section depends text)
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
   set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "${depends}")
   set(CPACK_COMPONENT_${upper}_DESCRIPTION "${text}")
+  # Debian asks for these in every package.
+  install(FILES cmake/debian/copyright ${PROJECT_BINARY_DIR}/made/changelog.gz
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component} EXCLUDE_FROM_ALL)
 endmacro()
 lsdcd_package(library liblsdcd${PROJECT_VERSION_MAJOR} libs "" "Distances from points to a triangle mesh")
 lsdcd_package(dev liblsdcd-dev libdevel "liblsdcd${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION})"
@@ -43,7 +49,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
 if(TARGET lsdcd_tool)
   list(APPEND CPACK_COMPONENTS_ALL tool)
-  lsdcd_package(tool lsdcd science "lsdcd-data (= ${PROJECT_VERSION})"
+  # Python runs the plot's script.
+  lsdcd_package(tool lsdcd science "lsdcd-data (= ${PROJECT_VERSION}), python3:any"
     "Looks at meshes, grids and materials of DEM walls")
   set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "python3-matplotlib")
 endif()

@@ -10,6 +10,7 @@ import sys
 import tempfile
 
 TOOL = os.environ["LSDCD_TOOL"]
+MAN_PAGE = pathlib.Path(__file__).resolve().parents[2] / "src" / "tool" / "lsdcd.1"
 FLOOR = str(pathlib.Path(__file__).resolve().parent.parent / "lammps" / "decks" / "floor.stl")
 
 failed = 0
@@ -42,6 +43,9 @@ def main():
     done = run("--version")
     fact("--version is a number", done.returncode == 0
          and re.match(r"lsdcd \d+\.\d+\.\d+ ", done.stdout) is not None, done.stdout)
+    commands = re.findall(r"^  (\w+) {3,}(.*)$", run("--help").stdout.split("Subcommands:")[1], re.M)
+    fact("the man page has the commands with what they are for",
+         len(commands) > 10 and re.findall(r"^\.TP\n\.B ([a-z]+)\n(\w.*)$", MAN_PAGE.read_text(), re.M) == commands)
     for scale in (["2"], ["2", "3", "4"]):
         fact(f"--scale takes {len(scale)}", run("inspect", FLOOR, "--scale", *scale).returncode == 0)
     with tempfile.NamedTemporaryFile(suffix=".stl") as zeros:
