@@ -35,6 +35,7 @@ const char *kWords =
     "  --length L            of cells\n"
     "  --repeats N           timed runs after one to warm up\n"
     "  --brute-limit TESTS   measure a brute force of up to so many tests whole\n"
+    "  --part NAME           of the queries: status, distance or near-and-far alone\n"
     "  --quick               small sizes, to see that all runs\n"
     "  --csv FILE            write the rows there too\n"
     "  --commit NAME         what was built\n";
@@ -137,6 +138,8 @@ BenchOptions read_options(int argc, char **argv, const char *about)
       o.repeats = static_cast<int>(number(word, value));
     else if (word == "--brute-limit")
       o.brute_limit = number(word, value);
+    else if (word == "--part")
+      o.part = value;
     else if (word == "--csv")
       o.csv = value;
     else if (word == "--commit")
@@ -145,6 +148,8 @@ BenchOptions read_options(int argc, char **argv, const char *about)
       stop("no such option: " + word);
   }
   if (!device.empty() && device != "cpu" && device != "cuda") stop("no such device: " + device);
+  if (!o.part.empty() && o.part != "status" && o.part != "distance" && o.part != "near-and-far")
+    stop("no such part: " + o.part);
   std::string why;
   const bool cuda = cuda_available(&why);
   if (device == "cuda" && !cuda) stop("device cuda: " + why);

@@ -1,8 +1,10 @@
 // What a query of many spheres against a wall costs: the paper's question, does a sphere
 // touch, and the exact distance within the cutoff. No copies: spheres and answers stay on the
-// device. Distances also through the library, and on the CPU by Embree and CGAL where they are.
+// device. Distances also through the library, and on one core beside Embree and CGAL where they are
+// (near_and_far.h).
 #include "bench.h"
 #include "library_query.h"
+#include "near_and_far.h"
 #include "peers.h"
 
 #include "mesh/wall_mesh.h"
@@ -97,23 +99,6 @@ class Queries {
                     (grid.in_floats ? "float" : "double"),
                 grid, set, n, t, library.distances());
     }
-  }
-
-  void measure_peer(const Peer &peer, const PeerQuery &query, const TriangleGrid &grid,
-                    const SphereSet &set)
-  {
-    // Spread over the whole set, in its order.
-    const std::size_t step =
-        std::max<std::size_t>(1, static_cast<std::size_t>(double(set.exact.size()) / peer.most));
-    SphereSet some = {set.order, {}, {}};
-    for (std::size_t i = 0; i < set.exact.size(); i += step) some.exact.push_back(set.exact[i]);
-    const std::size_t n = some.exact.size();
-    give(grid, some);
-    query_->run(QuerySettings());
-    std::vector<float> distance(n);
-    const Timing t =
-        time_it(std::min(3, repeats_), [&] { query(some.exact.data(), n, distance.data()); });
-    add_other(peer.name, grid, set, n, t, {distance.begin(), distance.end()});
   }
 
  private:
@@ -219,11 +204,6 @@ void measure_distance(const BenchOptions &o, Device device, Queries &queries)
   for (const TriangleSoup &soup : cylinders(o, 1e6)) {
     const Real length = o.length > 0 ? o.length : 0.2;
     TriangleGrid grid = queries.grid(weld(soup, -1), length, 0);
-    for (const Peer &peer : {embree(), cgal()}) {
-      if (!peer.build || device == Device::cuda) continue;
-      const PeerQuery query = peer.build(soup);
-      for (const SphereSet *set : {&random, &sorted}) queries.measure_peer(peer, query, grid, *set);
-    }
     for (bool in_floats : {false, true}) {
       if (in_floats) add_brick_records(grid);
       LibraryQuery library(soup, length, kCutoff, in_floats, device == Device::cuda);
@@ -246,8 +226,12 @@ void measure(const BenchOptions &options, BenchRows &rows)
     if (options.quick) repeats = 3;
     if (options.repeats > 0) repeats = options.repeats;
     Queries queries(device, repeats, rows);
-    measure_status(options, queries);
-    measure_distance(options, device, queries);
+    const auto wanted = [&](const char *part) {
+      return options.part.empty() || options.part == part;
+    };
+    if (wanted("status")) measure_status(options, queries);
+    if (wanted("distance")) measure_distance(options, device, queries);
+    if (wanted("near-and-far") && device == Device::cpu) measure_near_and_far(options, rows);
   }
 }
 

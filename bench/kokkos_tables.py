@@ -142,10 +142,9 @@ def machines(rows):
 
 def parts(on_cpu, on_gpu):
     """The generated parts of the document, with their markers."""
-    both = on_gpu + on_cpu
     text = {"kokkos-cuda": step_table(on_gpu) + "\n\n" + machines(on_gpu),
             "kokkos-cpu": step_table(on_cpu) + "\n\n" + machines(on_cpu),
-            "kokkos-scaling": scaling_table(both), "kokkos-copies": copies_table(both)}
+            "kokkos-scaling": scaling_table(on_gpu), "kokkos-copies": copies_table(on_gpu + on_cpu)}
     return performance.between_markers(text)
 
 

@@ -38,6 +38,11 @@ LibraryQuery::LibraryQuery(const TriangleSoup &mesh, Real cell, Real cutoff, boo
   lsdcd_mesh_free(read);
   check(code);
   grid_.reset(grid, [](void *at) { lsdcd_grid_free(static_cast<lsdcd_grid *>(at)); });
+  lsdcd_grid_facts facts = {};
+  facts.size = sizeof facts;
+  check(lsdcd_grid_get_facts(grid, &facts));
+  cell_ = facts.cell;
+  grid_bytes_ = static_cast<double>(facts.bytes);
   if (!cuda) return;
   lsdcd_stream *stream = nullptr;
   check(lsdcd_stream_open(grid, nullptr, &stream));

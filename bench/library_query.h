@@ -16,6 +16,7 @@ namespace lsdcd {
 
 class LibraryQuery {
  public:
+  // A cell of 0 is chosen.
   LibraryQuery(const TriangleSoup &mesh, Real cell, Real cutoff, bool in_floats, bool cuda);
 
   // Distance and status of spheres that lie as x y z r. Without their radii, the cutoff is that of
@@ -24,6 +25,8 @@ class LibraryQuery {
   Timing time(const FloatSphere *spheres, std::size_t n, bool with_radii, int repeats);
   // Of the last run.
   std::vector<double> distances() const;
+  double cell() const { return cell_; }
+  double grid_bytes() const { return grid_bytes_; }
 
  private:
   template <class T>
@@ -31,6 +34,7 @@ class LibraryQuery {
 
   std::shared_ptr<void> grid_, stream_;
   bool cuda_;
+  double cell_ = 0, grid_bytes_ = 0;
   std::size_t n_ = 0;
   DeviceArray<char> spheres_, distance_;
   DeviceArray<std::uint8_t> status_;

@@ -38,11 +38,11 @@ PeerQuery build(const TriangleSoup &mesh)
   }
   made->tree.rebuild(made->triangles.cbegin(), made->triangles.cend());
   made->tree.accelerate_distance_queries();
-  return [made](const Sphere *spheres, std::size_t n, float *distance) {
+  return [made](const Sphere *spheres, std::size_t n, double *distance) {
     for (std::size_t i = 0; i < n; i++) {
       const Sphere &s = spheres[i];
       const double d = std::sqrt(made->tree.squared_distance({s.x, s.y, s.z}));
-      distance[i] = d < s.r ? static_cast<float>(d) : HUGE_VALF;
+      distance[i] = d < s.r ? d : HUGE_VAL;
     }
   };
 }

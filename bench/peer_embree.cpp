@@ -2,8 +2,6 @@
 #include "peers.h"
 
 #if defined(LSDCD_BENCH_EMBREE)
-#include "parallel/threads.h"
-
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -56,9 +54,9 @@ bool nearer(RTCPointQueryFunctionArguments *args)
   const Point *t = nearest.corners + 3 * std::size_t(args->primID);
   const Point p = {args->query->x, args->query->y, args->query->z};
   const Point apart = p - nearest_on(t[0], t[1], t[2], p);
-  const float distance = std::sqrt(dot(apart, apart));
-  if (!(distance < args->query->radius)) return false;
-  args->query->radius = nearest.distance = distance;
+  const float squared = dot(apart, apart);
+  if (!(squared < args->query->radius * args->query->radius)) return false;
+  args->query->radius = nearest.distance = std::sqrt(squared);
   return true;
 }
 
@@ -82,10 +80,8 @@ PeerQuery build(const TriangleSoup &mesh)
   rtcReleaseGeometry(triangles);
   rtcSetSceneBuildQuality(made->scene, RTC_BUILD_QUALITY_HIGH);
   rtcCommitScene(made->scene);
-  return [made](const Sphere *spheres, std::size_t n, float *distance) {
-    const std::int64_t m = static_cast<std::int64_t>(n);
-#pragma omp parallel for schedule(dynamic, 1024) num_threads(threads())
-    for (std::int64_t i = 0; i < m; i++) {
+  return [made](const Sphere *spheres, std::size_t n, double *distance) {
+    for (std::size_t i = 0; i < n; i++) {
       RTCPointQuery query = {static_cast<float>(spheres[i].x), static_cast<float>(spheres[i].y),
                              static_cast<float>(spheres[i].z), 0, static_cast<float>(spheres[i].r)};
       RTCPointQueryContext context;

@@ -11,7 +11,7 @@
 namespace lsdcd {
 
 // Distances of the first n spheres' centres to a mesh, infinite where not within the radius.
-using PeerQuery = std::function<void(const Sphere *spheres, std::size_t n, float *distance)>;
+using PeerQuery = std::function<void(const Sphere *spheres, std::size_t n, double *distance)>;
 
 struct Peer {
   std::string name;

@@ -1,5 +1,6 @@
 """Runs the benchmark programs, keeps their rows and writes the tables of doc/performance.md; those
-that show how a measurement works, not what a wall costs, are in doc/notes/performance.md.
+that show how a measurement works, not what a wall costs, are in doc/notes/performance.md, and what a
+point costs is in doc/library.md, too.
 
 Programs print rows of one format (bench.h). They are kept in doc/data/performance_DEVICE.csv,
 so that the document has those of a device on a machine without it too; a row replaces the one
@@ -16,21 +17,16 @@ from performance_plots import plot_build, plot_query
 
 DOCUMENT = os.path.join(ROOT, "doc", "performance.md")
 NOTES = os.path.join(ROOT, "doc", "notes", "performance.md")
-IN_NOTES = ("kokkos-cpu", "kokkos-copies")
+LIBRARY = os.path.join(ROOT, "doc", "library.md")
+ELSEWHERE = {"kokkos-cpu": NOTES, "kokkos-copies": NOTES, "point-costs": LIBRARY}
 DATA = os.path.join(ROOT, "doc", "data")
 DEVICES = ("cpu", "cuda")
 PROGRAMS = ("query", "build", "step", "cache")
 KEY = ("program", "case", "triangles", "spheres", "length", "order")
 
-# What a plain prototype and a BVH's closest-point query (cuBQL) took on an H200, ms, random and
-# sorted.
-PROTOTYPE = {"160": (0.160, 0.100), "10000": (0.188, 0.114), "100000": (0.279, 0.166),
-             "1000000": (0.470, 0.323)}
-BVH = {"160": (0.66, 0.25), "10000": (1.05, 0.41), "100000": (1.40, 0.65),
-       "1000000": (2.65, 1.71)}
-# Yong et al. 2017, Table 2 and figure 9, a K40; its N = all tries every triangle.
+# Yong et al. 2017, Table 2 and figure 9, a K40. Its N = all tries every triangle, as no query here does.
 PAPER_MS = {("10000000", "N = 1"): 362, ("10000000", "N = 2"): 565, ("10000000", "N = 3"): 937,
-            ("10000000", "complete"): 57899, ("60000000", "N = 2"): 3488}
+            ("60000000", "N = 2"): 3488}
 
 
 # ---- rows --------------------------------------------------------------------------------
@@ -132,6 +128,15 @@ def same(rows, row):
     return find(rows, **{k: row[k] for k in KEY if k != "length"}, length=float(row["length"]))
 
 
+def which(mine, others):
+    """Which rows of a table are one machine's, where others have been made on another."""
+    for column in ("spheres", "triangles"):
+        values = {r[column] for r in mine}
+        if others and values.isdisjoint(r[column] for r in others):
+            return f", rows of {', '.join(count(v) for v in sorted(values, key=int))} {column}"
+    return ""
+
+
 def machines(rows_of):
     """Which machines and commits the rows of a table are from."""
     lines = []
@@ -140,11 +145,12 @@ def machines(rows_of):
             lines.append(f"* {device.upper()}: no rows are kept yet.")
         for name in dict.fromkeys(r["device"] for r in rows):
             mine = [r for r in rows if r["device"] == name]
+            others = [r for r in rows if r["device"] != name]
             commits = ", ".join(dict.fromkeys(r["commit"] for r in mine))
             speeds = [float(r["copy_gb_s"]) for r in mine]
             repeats = ", ".join(dict.fromkeys(r["repeats"] for r in mine if r["repeats"] != "1"))
-            lines.append(f"* {name}: commit {commits}, {mine[0]['compiler']}; medians of {repeats} "
-                         f"(least to most); copying {min(speeds):.4g} to {max(speeds):.4g} GB/s, "
+            lines.append(f"* {name}{which(mine, others)}: commit {commits}, {mine[0]['compiler']}; medians of "
+                         f"{repeats} (least to most); copying {min(speeds):.4g} to {max(speeds):.4g} GB/s, "
                          "read and written.")
     return "\n".join(lines)
 
@@ -160,11 +166,6 @@ def union(cpu, cuda):
 
 
 # ---- tables ------------------------------------------------------------------------------
-
-def by_order(known, key_, order):
-    pair = known.get(key_)
-    return number(pair[order == "sorted"]) if pair else ""
-
 
 def status_table(cpu, cuda):
     def is_status(case):
@@ -190,36 +191,73 @@ def distance_table(cpu, cuda):
 
     def cells(r):
         kind = r["case"].split(", ")[2]
-        known = [by_order(t, r["triangles"], r["order"]) if kind == "float" else ""
-                 for t in (PROTOTYPE, BVH)]
         row = same(cpu, r) or same(cuda, r)
         return [count(r["triangles"]), kind, r["order"], facts(row).get("entries", ""),
-                *cells_of(same(cuda, r)), *known, *cells_of(same(cpu, r))]
+                *cells_of(same(cuda, r)), *cells_of(same(cpu, r))]
 
     heads = ["triangles", "numbers", "order", "entries read", "CUDA, ms", "floor", "ratio",
-             "prototype", "BVH", "CPU, ms", "floor", "ratio"]
+             "CPU, ms", "floor", "ratio"]
     return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
 
 
-def one_core_table(cpu):
-    """The distances of one core, by other libraries, too."""
-    rows = of(cpu, "query")
+def near_and_far(cpu):
+    return of(cpu, "query", lambda case: case.startswith(("near, ", "far, ")))
 
-    def speed(r, start):
-        row = next((x for x in rows if x["case"].startswith(start) and
-                    all(x[k] == r[k] for k in ("triangles", "order", "device"))), None)
-        return number(facts(row).get("million_per_s", "")) if row else ""
 
-    ways = {"ours, double": "distance, complete, double", "ours, float": "distance, complete, float",
-            "library, double": "library, complete, double", "Embree, float": "Embree", "CGAL, double": "CGAL"}
-    mine = [r for r in rows if r["case"] == ways["ours, double"] and speed(r, ways["Embree, float"])]
+def near_and_far_tables(cpu):
+    """Distances on one core by the library and by others, near the mesh and far from it; and set-up."""
+    rows = near_and_far(cpu)
+    ways = {"library, double": "library, double", "library, float": "library, float",
+            "Embree, float": "Embree", "CGAL, double, no radius": "CGAL"}
+
+    def of_way(r, start):
+        place = r["case"].split(", ")[0]
+        return next((x for x in rows if x["case"].startswith(f"{place}, {start}") and
+                     x["triangles"] == r["triangles"] and x["order"] == r["order"]), None)
+
+    def ns(row):
+        if not row:
+            return ""
+        median, least, most = (number(float(row[k]) * 1e6 / float(row["spheres"]))
+                               for k in ("median_ms", "min_ms", "max_ms"))
+        return f"{median} ({least} to {most})"
 
     def cells(r):
-        return [count(r["triangles"]), r["order"], *[speed(r, start) for start in ways.values()]]
+        embree = of_way(r, "Embree")
+        ratio = number(float(facts(embree)["ns_per_point"]) / float(facts(r)["ns_per_point"])) if embree else ""
+        return [r["case"].split(",")[0], count(r["triangles"]), r["order"],
+                *[ns(of_way(r, start)) for start in ways.values()], ratio]
 
-    names = ", ".join(dict.fromkeys(r["case"].split(",")[0] for r in rows
-                                    if r["case"].startswith(("Embree", "CGAL"))))
-    return table(mine, ["triangles", "order", *ways], cells) + f"\n\n* {names}.\n" + machines({"cpu": mine})
+    def set_up(r):
+        found = [facts(of_way(r, start)) for start in ways.values()]
+        return [count(r["triangles"]), *[cell for way, f in zip(ways, found) for cell in
+                                         [number(f.get("setup_s", ""))] +
+                                         [number(f.get("grid_mb", ""))] * way.startswith("library")]]
+
+    mine = [r for r in rows if r["case"].endswith("library, double")]
+    once = [r for r in mine if r["case"].startswith("near") and r["order"] == "random"]
+    names = ", ".join(dict.fromkeys(r["case"].split(", ")[1] for r in rows if "library" not in r["case"]))
+    heads = [head for way in ways for head in [way + ", s"] + ["grid, MB"] * way.startswith("library")]
+    return (table(mine, ["points", "triangles", "order", *[way + ", ns" for way in ways], "Embree / library"], cells) +
+            "\n\nSet-up, once for a mesh:\n\n" + table(once, ["triangles", *heads], set_up) +
+            f"\n\n* {names}.\n" + machines({"cpu": rows}))
+
+
+def point_costs(cpu):
+    """Of these distances the library's and Embree's, in microseconds."""
+    rows = near_and_far(cpu)
+    columns = [(place, order) for place in ("near", "far") for order in ("sorted", "random")]
+
+    def us(triangles, way, place, order):
+        row = next((x for x in rows if x["case"].startswith(f"{place}, {way}") and x["triangles"] == triangles and
+                    x["order"] == order), None)
+        return number(float(facts(row)["ns_per_point"]) / 1e3, 2) if row else ""
+
+    def cells(triangles):
+        return [count(triangles), *[us(triangles, way, *c) for way in ("library, double", "Embree") for c in columns]]
+
+    heads = [f"{way}{place}, {order}" for way in ("", "Embree: ") for place, order in columns]
+    return table(dict.fromkeys(r["triangles"] for r in rows), ["triangles", *heads], cells)
 
 
 def build_table(cpu, cuda):
@@ -255,11 +293,11 @@ def step_table(cpu, cuda, in_place):
     def cells(r):
         f, g, c = facts(r), same(cuda, r), same(cpu, r)
         what = r["case"].replace(", in place", "")
-        return [count(r["triangles"]), what, r["order"], count(f["near"]), count(f["contacts"]),
+        return [count(r["spheres"]), count(r["triangles"]), what, r["order"], count(f["near"]), count(f["contacts"]),
                 *cells_of(g), facts(g).get("ns_per_near", ""),
                 *cells_of(c), facts(c).get("ns_per_near", "")]
 
-    heads = ["triangles", "style", "order", "near", "contacts", "CUDA, ms", "floor", "ratio",
+    heads = ["spheres", "triangles", "style", "order", "near", "contacts", "CUDA, ms", "floor", "ratio",
              "ns per near sphere", "CPU, ms", "floor", "ratio",
              "ns per near sphere"]
     return table(union(cpu, cuda), heads, cells) + "\n\n" + machines({"cpu": cpu, "cuda": cuda})
@@ -282,7 +320,7 @@ def cache_table(cpu):
 def parts(cpu, cuda):
     """The generated parts of the document, with their markers."""
     text = {"status": status_table(cpu, cuda), "distance": distance_table(cpu, cuda),
-             "one_core": one_core_table(cpu), "build": build_table(cpu, cuda),
+             "near-and-far": near_and_far_tables(cpu), "point-costs": point_costs(cpu), "build": build_table(cpu, cuda),
              "step": step_table(cpu, cuda, False),
              "in_place": step_table(cpu, cuda, True), "cache": cache_table(cpu)}
     return between_markers(text)
@@ -302,7 +340,7 @@ def end(name):
 
 def write_parts(found):
     for name, text in found.items():
-        document = NOTES if name in IN_NOTES else DOCUMENT
+        document = ELSEWHERE.get(name, DOCUMENT)
         put_between(document, begin(name), end(name), text)
         print("wrote", name, "in", os.path.relpath(document, ROOT))
 
@@ -310,7 +348,7 @@ def write_parts(found):
 def write_document():
     cpu, cuda = read_rows("cpu"), read_rows("cuda")
     write_parts(parts(cpu, cuda))
-    plot_query(cpu, cuda, BVH)
+    plot_query(cpu, cuda)
     plot_build(cpu, cuda)
 
 

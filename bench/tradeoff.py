@@ -157,7 +157,9 @@ What the other settings do to the vessel of `examples/vessel`
 ({triangles} triangles, grains of {least} to {largest} m):
 
 {first}
-Time is what a step costs per sphere beside the wall (in it or within reach), with lists that hold.
+Time is what a step costs per sphere beside the wall (in it or within reach). With `nearest N`, `exact` or not, a
+step searches cells; with the others it reads lists of the wall that were made before and hold. So times of `nearest N`
+and of *all* are not of the same work; where both search cells, they are [below](#against-the-mesh).
 Read it so:
 
 * **`grid`** never changes an answer. It is for memory and for the time of a set-up: a step reads each

@@ -17,6 +17,8 @@ std::uint32_t spread(std::uint32_t x)
   return (x | x << 2) & 0x09249249;
 }
 
+}    // namespace
+
 std::uint32_t place_on_curve(const SphereBox &box, const Vec3 &at)
 {
   std::uint32_t key = 0;
@@ -28,8 +30,6 @@ std::uint32_t place_on_curve(const SphereBox &box, const Vec3 &at)
   }
   return key;
 }
-
-}    // namespace
 
 std::vector<Sphere> make_spheres(const SphereBox &box, std::size_t n, Order order)
 {

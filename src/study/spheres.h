@@ -34,10 +34,12 @@ struct SphereBox {
   }
 };
 
+// Where a point of the box is on a Z-curve of 1024 steps per side.
+std::uint32_t place_on_curve(const SphereBox &box, const Vec3 &at);
+
 enum class Order { random, sorted };
 
-// The first n spheres of a box, as they come or sorted along a Z-curve of 1024 steps
-// per side.
+// The first n spheres of a box, as they come or sorted along the curve.
 std::vector<Sphere> make_spheres(const SphereBox &box, std::size_t n, Order order);
 
 }    // namespace lsdcd

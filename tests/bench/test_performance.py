@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The benchmark driver keeps rows by program, case, sizes and order, doc/performance.md holds what
+"""The benchmark driver keeps rows by program, case, sizes and order, the pages hold what
 the rows that are kept say, and every program prints rows of the one format."""
 
 import os
@@ -46,7 +46,8 @@ def test_rows():
 
 
 def test_document():
-    text = pathlib.Path(performance.DOCUMENT).read_text() + pathlib.Path(performance.NOTES).read_text()
+    text = "".join(pathlib.Path(page).read_text()
+                   for page in (performance.DOCUMENT, performance.NOTES, performance.LIBRARY))
     found = {}
     for tables in (performance, kokkos_tables):
         found.update(tables.parts(tables.read_rows("cpu"), tables.read_rows("cuda")))
@@ -62,7 +63,7 @@ def test_programs():
         done = subprocess.run([sys.executable, str(ROOT / "bench" / "run.py"), "--build", BUILD,
                                "--only", "cpu", "--quick", "--rows-to", folder, "--commit", "x",
                                "query", "build", "step", "--spheres", "1000", "--repeats", "1",
-                               "--most-triangles", "200"],
+                               "--most-triangles", "1000"],
                               env=dict(os.environ, OMP_NUM_THREADS="1"), stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True)
         fact("a quick run ends well", done.returncode == 0, done.stdout[-500:] * done.returncode)
@@ -77,11 +78,32 @@ def test_programs():
                                             float(r["bytes"]) - 1) > 1e-3]    # digits printed
         fact("the floor is the bytes over that speed", with_bytes and not off, str(off[:1]))
         found = performance.parts(rows, [])
-        fact("tables are made of them", all("| " in found[k] for k in ("status", "build", "step")))
+        fact("tables are made of them",
+             all("| " in found[k] for k in ("status", "build", "step")) and "| near | 960 |" in found["near-and-far"])
+        test_near_and_far(rows)
         wrong = subprocess.run([os.path.join(BUILD, "bin", "bench_query"), "--spheres", "none"],
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         fact("a word that makes no sense ends a program with a line that says so",
              wrong.returncode == 2 and "--spheres" in wrong.stdout, wrong.stdout)
+
+
+def test_near_and_far(rows):
+    near, far = ([r for r in rows if r["case"].startswith(place)] for place in ("near, ", "far, "))
+    fact("points near the mesh are all found, on one core, in both orders",
+         {r["order"] for r in near} == {"random", "sorted"} and
+         all(performance.facts(r)["found"] == r["spheres"] and "1 thread" in r["device"] for r in near))
+    fact("of those far from it none is", far and all(performance.facts(r)["found"] == "0" for r in far))
+    # In double both are right to 4e-13 of the radius and 4e-15 of the diagonal. In float a point, the corners
+    # and a closest point that is found from them, all below 2, are each off by up to sqrt(3) 2^-24: 3.1e-7.
+    radius, diagonal = 0.005 * 12**0.5, 12**0.5
+    for name, limit in (("CGAL", 2 * (4e-13 * radius + 4e-15 * diagonal)), ("Embree", 4e-7), ("library, float", 4e-7)):
+        its = [performance.facts(r) for r in near + far if name in r["case"]]
+        if not its:
+            print(f"skipped: distances by {name} (not installed)")
+            continue
+        fact(f"{name} finds the same points at the same distances",
+             all(f["found_by_one"] == "0" and float(f["largest_difference"]) <= limit for f in its),
+             str([f["largest_difference"] for f in its]))
 
 
 def test_comparisons():

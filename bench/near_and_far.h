@@ -1,0 +1,11 @@
+// Distances of points near a mesh, and of points far from it, by the library and by its peers.
+#pragma once
+
+#include "bench.h"
+
+namespace lsdcd {
+
+// On one core: a row a way, mesh, place and order.
+void measure_near_and_far(const BenchOptions &options, BenchRows &rows);
+
+}    // namespace lsdcd
