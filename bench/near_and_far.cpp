@@ -64,24 +64,6 @@ std::vector<Sphere> near_points(const TriangleSoup &mesh, Real radius, std::size
   return points;
 }
 
-// Points of the box that the library does not find.
-std::vector<Sphere> far_points(LibraryQuery &library, const SphereBox &box, std::size_t n)
-{
-  std::vector<Sphere> points;
-  for (std::uint64_t i = 0; points.size() < n; i += n) {
-    std::vector<Sphere> some(n);
-    for (std::size_t k = 0; k < n; k++) {
-      some[k] = box.sphere(i + k);
-      some[k].r = box.largest;
-    }
-    library.time(some.data(), n, false, 1);
-    const std::vector<double> distance = library.distances();
-    for (std::size_t k = 0; k < n && points.size() < n; k++)
-      if (!std::isfinite(distance[k])) points.push_back(some[k]);
-  }
-  return points;
-}
-
 void sort(std::vector<Sphere> &points, const SphereBox &box)
 {
   std::vector<std::pair<std::uint32_t, Sphere>> placed;
@@ -146,6 +128,24 @@ Way peer_way(const Peer &peer, const TriangleSoup &mesh)
           time,      [=] { return *distance; }};
 }
 
+// Points of the box that a way does not find.
+std::vector<Sphere> far_points(const Way &way, const SphereBox &box, std::size_t n)
+{
+  std::vector<Sphere> points;
+  for (std::uint64_t i = 0; points.size() < n; i += n) {
+    std::vector<Sphere> some(n);
+    for (std::size_t k = 0; k < n; k++) {
+      some[k] = box.sphere(i + k);
+      some[k].r = box.largest;
+    }
+    way.time(some);
+    const std::vector<double> distance = way.distances();
+    for (std::size_t k = 0; k < n && points.size() < n; k++)
+      if (!std::isfinite(distance[k])) points.push_back(some[k]);
+  }
+  return points;
+}
+
 // All ways in turn, `repeats` times, so that what slows the machine slows all of them.
 void compare(const std::vector<Way> &ways, const std::vector<Sphere> &points, int repeats,
              BenchRow row, const std::string &place, BenchRows &rows)
@@ -203,10 +203,9 @@ void measure_near_and_far(const BenchOptions &o, BenchRows &rows)
     std::vector<Way> ways = {library_way(mesh, radius, false), library_way(mesh, radius, true)};
     for (const Peer &peer : {embree(), cgal()})
       if (peer.build) ways.push_back(peer_way(peer, mesh));
-    LibraryQuery library(mesh, 0, radius, false, false);
     for (const bool near : {true, false}) {
       std::vector<Sphere> points =
-          near ? near_points(mesh, radius, n) : far_points(library, box, n);
+          near ? near_points(mesh, radius, n) : far_points(ways[0], box, n);
       BenchRow row;
       row.triangles = mesh.n_triangles();
       for (const char *order : {"random", "sorted"}) {

@@ -237,7 +237,8 @@ def near_and_far_tables(cpu):
     mine = [r for r in rows if r["case"].endswith("library, double")]
     once = [r for r in mine if r["case"].startswith("near") and r["order"] == "random"]
     names = ", ".join(dict.fromkeys(r["case"].split(", ")[1] for r in rows if "library" not in r["case"]))
-    heads = [head for way in ways for head in [way + ", s"] + ["grid, MB"] * way.startswith("library")]
+    heads = [head for way in ways for head in
+             [way.replace(", no radius", "") + ", s"] + ["grid, MB"] * way.startswith("library")]
     return (table(mine, ["points", "triangles", "order", *[way + ", ns" for way in ways], "Embree / library"], cells) +
             "\n\nSet-up, once for a mesh:\n\n" + table(once, ["triangles", *heads], set_up) +
             f"\n\n* {names}.\n" + machines({"cpu": rows}))

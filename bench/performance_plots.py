@@ -47,18 +47,23 @@ def curve(rows, program, case, order=""):
 def plot_query(cpu, cuda):
     figure, axis = axes()
     for device, rows in (("cpu", cpu), ("cuda", cuda)):
-        for order, style in (("random", "o-"), ("sorted", "s--")):
-            points = [(x, float(r["median_ms"]) * 1e6 / float(r["spheres"]),
-                       float(r["floor_ms"]) * 1e6 / float(r["spheres"]))
-                      for x, r in curve(rows, "query", "distance, complete, float", order)]
-            if not points:
-                continue
-            x, y, floor = zip(*points)
-            axis.plot(x, y, style, color=COLOURS[device], label=f"{label(rows)}, {order}")
-            if order == "random":
-                axis.plot(x, floor, ":", color=COLOURS[device], label=f"{label(rows)}, least possible: bytes at copy speed")
+        names = dict.fromkeys(r["device"] for r in rows if r["case"] == "distance, complete, float")
+        for k, name in enumerate(names):    # a curve a machine
+            its = [r for r in rows if r["device"] == name]
+            colour = COLOURS[device] if k == 0 else f"C{4 + k}"
+            for order, style in (("random", "o-"), ("sorted", "s--")):
+                points = [(x, float(r["median_ms"]) * 1e6 / float(r["spheres"]),
+                           float(r["floor_ms"]) * 1e6 / float(r["spheres"]))
+                          for x, r in curve(its, "query", "distance, complete, float", order)]
+                if not points:
+                    continue
+                x, y, floor = zip(*points)
+                axis.plot(x, y, style, color=colour, label=f"{label(its)}, {order}")
+                if order == "random":
+                    axis.plot(x, floor, ":" if len(x) > 1 else "_", color=colour,
+                              label=f"{label(its)}, bytes at copy speed")
     axis.set_ylabel("time per sphere, ns")
-    axis.set_title("Exact distance to the wall up to 1 sphere radius, in float; 7 % of the spheres are that near")
+    axis.set_title("Distance to the wall up to 1 sphere radius, in float;\n7 % of the spheres are that near")
     save(figure, axis, "performance_query.png")
 
 

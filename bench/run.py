@@ -13,7 +13,8 @@ plane (floor.py), mesh-size the same contacts with 1e2 to 1e7 triangles (mesh_si
 NAME --words lists the words of the first three.
 
 Rows of the four are kept in doc/data/performance_DEVICE.csv (performance.py). Further words
-go to them, as --spheres 1e6; bench_query --help lists them. On a machine lent for a GPU:
+go to them, as --spheres 1e6; bench_query --help lists them. query --part near-and-far times
+distances on one core beside Embree and CGAL. On a machine lent for a GPU:
   run.py --build build --only cuda --rows-to DIR query build step
 then, where the repository is, copy DIR/*.csv to doc/data and run.py --write-only.
 """
