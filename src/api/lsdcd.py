@@ -24,6 +24,7 @@ import numpy as np
 _size, _step, _int, _real, _at = (ctypes.c_size_t, ctypes.c_ssize_t, ctypes.c_int, ctypes.c_double,
                                   ctypes.c_void_p)
 ERRORS = ("ok", "argument", "input", "cutoff", "side", "device", "memory", "internal")
+DEVICES = ("cpu", "cuda")
 FOUND, CERTIFIED = 1, 2
 NONE = 0xffffffff
 
@@ -112,26 +113,45 @@ def _facts(struct, call, handle):
     return SimpleNamespace(**{k: tuple(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
 
 
-class Mesh:
+def _chosen(name, word, words):
+    """The index of a word among those that there are."""
+    if word not in words:
+        raise ValueError(f"{name} is {word!r}; it is {' or '.join(map(repr, words))}")
+    return words.index(word)
+
+
+class _Owner:
+    """Owns `_handle`, memory of the library, which `_free` frees: once, so that it has one owner."""
+
+    def __init__(self):
+        self._handle = _at()
+
+    def __del__(self):
+        if getattr(self, "_handle", None):
+            self._free(self._handle)
+
+    def __reduce_ex__(self, protocol):    # what copy, deepcopy and pickle ask for
+        raise TypeError(f"a {type(self).__name__} holds memory of the library and is neither copied nor pickled; "
+                        "share it, or make another one")
+
+
+class Mesh(_Owner):
     """From an STL file; from triangles, (n, 3, 3); or from vertices, (m, 3), and faces, (n, 3)."""
+    _free = _lib.lsdcd_mesh_free
 
     def __init__(self, source, faces=None, weld=-1.0):
-        self._handle = _at()
+        super().__init__()
         if isinstance(source, (str, bytes, os.PathLike)):
             _check(_lib.lsdcd_mesh_read(os.fsencode(source), weld, ctypes.byref(self._handle)))
             return
         corners = np.asarray(source, dtype=np.float64)
         if faces is not None:
-            corners = corners[np.asarray(faces)]
+            corners = corners[_numbers_of(faces, len(corners))]
         corners = np.ascontiguousarray(corners)
         if corners.ndim != 3 or corners.shape[1:] != (3, 3):
             raise TypeError(f"triangles have the shape {corners.shape}, not (n, 3, 3)")
         _check(_lib.lsdcd_mesh_from_corners(corners.ctypes.data, len(corners), weld,
                                             ctypes.byref(self._handle)))
-
-    def __del__(self):
-        if getattr(self, "_handle", None) and _lib:
-            _lib.lsdcd_mesh_free(self._handle)
 
     @property
     def facts(self):
@@ -145,22 +165,19 @@ class Mesh:
              cache=None, threads=0, device="cpu"):
         """A Grid for distances up to `cutoff`; the words are those of lsdcd_grid_options."""
         options = _sized(_GridOptions, cutoff=cutoff, cell=cell, nearest=nearest, exact=exact,
-                         precision=("double", "float").index(precision), memory=memory,
+                         precision=_chosen("precision", precision, ("double", "float")), memory=memory,
                          cache=os.fsencode(cache) if cache else None, threads=threads,
-                         device=("cpu", "cuda").index(device))
+                         device=_chosen("device", device, DEVICES))
         return Grid(self, options)
 
 
-class Grid:
+class Grid(_Owner):
     """Made by Mesh.grid()."""
+    _free = _lib.lsdcd_grid_free
 
     def __init__(self, mesh, options):
-        self._handle = _at()
+        super().__init__()
         _check(_lib.lsdcd_grid_build(mesh._handle, ctypes.byref(options), ctypes.byref(self._handle)))
-
-    def __del__(self):
-        if getattr(self, "_handle", None) and _lib:
-            _lib.lsdcd_grid_free(self._handle)
 
     @property
     def facts(self):
@@ -172,13 +189,16 @@ class Grid:
 
     def query(self, points, want="distance", radius=None, threads=0):
         """Answers for points, (n, 3), as arrays named by `want`: distance, closest, normal,
-        triangle, feature, side, status. `radius`: one, or (n,); by default the cutoff."""
+        triangle, feature, side, status. `radius`: one above 0, or (n,); by default the cutoff. Of one
+        point, (3,), the arrays have no first dimension."""
         points = np.asarray(points)
         if points.dtype not in (np.float32, np.float64):
             points = points.astype(np.float64)
-        if points.ndim != 2 or points.shape[1] != 3:
-            raise TypeError(f"points have the shape {points.shape}, not (n, 3)")
-        n, real = len(points), points.dtype
+        if points.ndim not in (1, 2) or points.shape[-1] != 3:
+            raise TypeError(f"points have the shape {points.shape}, not (n, 3) or (3,)")
+        shape, real = points.shape[:-1], points.dtype
+        points = points.reshape(-1, 3)
+        n = len(points)
         # The library takes steps of whole numbers, and 0 for packed.
         if any(s == 0 or s % real.itemsize for s in points.strides) or not real.isnative:
             points = np.ascontiguousarray(points, dtype=real.newbyteorder("="))
@@ -191,12 +211,14 @@ class Grid:
             query.radius = float(radius)
         elif radius is not None:
             radius = np.ascontiguousarray(radius, dtype=real)
-            if radius.shape != (n,):
-                raise TypeError(f"radius has the shape {radius.shape}, not ({n},)")
+            if radius.shape != shape:
+                raise TypeError(f"radius has the shape {radius.shape}, not {shape}")
+            if not (radius > 0).all():
+                raise TypeError(f"radius is {radius[~(radius > 0)][0]} at a point, not above 0")
             query.radii = radius.ctypes.data
-        kinds = {"distance": ((n,), real), "closest": ((n, 3), real), "normal": ((n, 3), real),
-                 "triangle": ((n,), np.uint32), "feature": ((n,), np.uint32), "side": ((n,), np.int8),
-                 "status": ((n,), np.uint8)}
+        kinds = {"distance": (shape, real), "closest": ((*shape, 3), real), "normal": ((*shape, 3), real),
+                 "triangle": (shape, np.uint32), "feature": (shape, np.uint32), "side": (shape, np.int8),
+                 "status": (shape, np.uint8)}
         words = want.split() if isinstance(want, str) else list(want)
         unknown = sorted(set(words) - set(kinds))
         if unknown:
@@ -208,22 +230,20 @@ class Grid:
         return answer
 
 
-class Body:
+class Body(_Owner):
     """A rigid body's Mesh against a wall's Mesh, or against the wall of another Body, which both then
     share; the words are those of lsdcd_body_options. One thread at a time."""
+    _free = _lib.lsdcd_body_free
 
     def __init__(self, wall, mesh, cell=0.0, nearest=0, memory=0.0, threads=0, device="cpu"):
-        self._handle, self._room = _at(), 1024
+        super().__init__()
+        self._room = 1024
         options = _sized(_BodyOptions, cell=cell, nearest=nearest, memory=memory, threads=threads,
-                         device=("cpu", "cuda").index(device))
+                         device=_chosen("device", device, DEVICES))
         if isinstance(wall, Body):
             options.same_wall = wall._handle
         _check(_lib.lsdcd_body_make(None if isinstance(wall, Body) else wall._handle, mesh._handle,
                                     ctypes.byref(options), ctypes.byref(self._handle)))
-
-    def __del__(self):
-        if getattr(self, "_handle", None) and _lib:
-            _lib.lsdcd_body_free(self._handle)
 
     @property
     def facts(self):
@@ -256,6 +276,17 @@ class Body:
         if segments:
             answer.segments = found[:ask.pairs]
         return answer
+
+
+def _numbers_of(faces, n):
+    """Faces as numbers of n vertices."""
+    faces = np.asarray(faces)
+    if faces.size and faces.dtype.kind not in "iu":
+        raise TypeError(f"faces are of type {faces.dtype}, not whole numbers")
+    wrong = faces[(faces < 0) | (faces >= n)]
+    if len(wrong):
+        raise ValueError(f"a face has the vertex {wrong[0]}; there are {n}, numbered from 0")
+    return faces
 
 
 def _numbers(values, shape, name):

@@ -1,4 +1,6 @@
 """Arrays, layouts, threads and errors of the Python module, against a cube's closed form."""
+import copy
+import pickle
 import sys
 import threading
 
@@ -74,6 +76,23 @@ refused(TypeError, "(n, 3)", lambda: grid.query(points[:, :2]))
 refused(TypeError, "height", lambda: grid.query(points, "height"))
 refused(TypeError, "radius", lambda: grid.query(points, radius=0))
 refused(TypeError, "shape", lambda: grid.query(points, radius=[0.1]))
+for bad in (0, -0.1, float("nan")):
+    refused(TypeError, f"radius is {bad}", lambda: grid.query(points[:2], radius=[0.1, bad]))
+
+# One point, as one of many.
+single = grid.query([1.2, 0, 0], want, radius=0.3)
+assert (single.distance.shape, single.closest.shape, single.triangle.shape) == ((), (3,), ()), single
+many = grid.query([[1.2, 0, 0]], want, radius=0.3)
+assert all((getattr(single, word) == getattr(many, word)[0]).all() for word in want.split())
+refused(TypeError, "(3,)", lambda: grid.query([1.2, 0]))
+
+# Words and faces that there are not.
+refused(ValueError, "device is 'gpu'; it is 'cpu' or 'cuda'", lambda: mesh.grid(cutoff=1, device="gpu"))
+refused(ValueError, "device is 'gpu'", lambda: lsdcd.Body(mesh, mesh, device="gpu"))
+refused(ValueError, "precision is 'half'", lambda: mesh.grid(cutoff=1, precision="half"))
+refused(ValueError, "vertex -1; there are 8", lambda: lsdcd.Mesh(vertices, [[0, 1, -1]]))
+refused(ValueError, "vertex 8; there are 8", lambda: lsdcd.Mesh(vertices, [[0, 1, 8]]))
+refused(TypeError, "whole numbers", lambda: lsdcd.Mesh(vertices, [[0.0, 1, 2]]))
 
 # A grid keeps what it needs.
 alone = lsdcd.Mesh(vertices, faces).grid(cutoff=CUTOFF)
@@ -116,4 +135,21 @@ assert refused(lsdcd.Error, "no rotation", lambda: body.collide(matrix=2 * turne
 assert refused(lsdcd.Error, "same_wall", lambda: lsdcd.Body(body, mesh, cell=1)).code == "argument"
 refused(TypeError, "position has the shape", lambda: body.collide((0, 0)))
 refused(TypeError, "last row", lambda: body.collide(matrix=np.ones((4, 4))))
+c, s = np.cos(np.float32(0.7)), np.sin(np.float32(0.7))
+rounded = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0.25]], dtype=np.float32)
+assert body.collide(matrix=rounded).body.tolist() == upright
+
+# An object of the library has one owner, and is freed once.
+freed = []
+for kind in (lsdcd.Mesh, lsdcd.Grid, lsdcd.Body):
+    kind._free = staticmethod(lambda handle, free=kind._free: (freed.append(handle.value), free(handle)))
+owners = [lsdcd.Mesh(vertices, faces)]
+owners += [owners[0].grid(cutoff=CUTOFF), lsdcd.Body(floor, owners[0])]
+handles = [owner._handle.value for owner in owners]
+for owner in owners:
+    for duplicate in (copy.copy, copy.deepcopy, pickle.dumps):
+        refused(TypeError, f"a {type(owner).__name__} holds memory of the library", lambda: duplicate(owner))
+assert not freed
+del owner, owners
+assert sorted(freed) == sorted(handles), (freed, handles)
 print("all good")
