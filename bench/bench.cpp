@@ -35,7 +35,7 @@ const char *kWords =
     "  --length L            of cells\n"
     "  --repeats N           timed runs after one to warm up\n"
     "  --brute-limit TESTS   measure a brute force of up to so many tests whole\n"
-    "  --part NAME           of the queries: status, distance or near-and-far alone\n"
+    "  --part NAME           of the queries: status, distance, near-and-far or calls alone\n"
     "  --quick               small sizes, to see that all runs\n"
     "  --csv FILE            write the rows there too\n"
     "  --commit NAME         what was built\n";
@@ -148,7 +148,8 @@ BenchOptions read_options(int argc, char **argv, const char *about)
       stop("no such option: " + word);
   }
   if (!device.empty() && device != "cpu" && device != "cuda") stop("no such device: " + device);
-  if (!o.part.empty() && o.part != "status" && o.part != "distance" && o.part != "near-and-far")
+  if (!o.part.empty() && o.part != "status" && o.part != "distance" && o.part != "near-and-far" &&
+      o.part != "calls")
     stop("no such part: " + o.part);
   std::string why;
   const bool cuda = cuda_available(&why);

@@ -3,6 +3,7 @@
 // device. Distances also through the library, and on one core beside Embree and CGAL where they are
 // (near_and_far.h).
 #include "bench.h"
+#include "call_cost.h"
 #include "library_query.h"
 #include "near_and_far.h"
 #include "peers.h"
@@ -232,6 +233,7 @@ void measure(const BenchOptions &options, BenchRows &rows)
     if (wanted("status")) measure_status(options, queries);
     if (wanted("distance")) measure_distance(options, device, queries);
     if (wanted("near-and-far") && device == Device::cpu) measure_near_and_far(options, rows);
+    if (wanted("calls") && device == Device::cpu) measure_calls(options, rows);
   }
 }
 

@@ -261,6 +261,23 @@ def point_costs(cpu):
     return table(dict.fromkeys(r["triangles"] for r in rows), ["triangles", *heads], cells)
 
 
+def calls_table(cpu):
+    """What calls of the library cost by how many points they have."""
+    rows = of(cpu, "query", lambda case: case.startswith("call"))
+
+    def ns(case, points):
+        row = find(rows, case=case, spheres=points)
+        return number(1e6 * float(row["median_ms"])) if row else ""
+
+    def cells(r):
+        return [count(r["spheres"]), ns("call, near", r["spheres"]), ns("call, far", r["spheres"])]
+
+    text = table([r for r in rows if r["case"] == "call, near"], ["points in a call", "near, ns", "far, ns"], cells)
+    poses = [f"\n\n{r['case'].removeprefix('call, ').capitalize()}: {number(1e6 * float(r['median_ms']))} ns."
+             for r in rows if "pose" in r["case"]]
+    return text + "".join(poses) + "\n\n" + machines({"cpu": rows})
+
+
 def build_table(cpu, cuda):
     cpu, cuda = of(cpu, "build"), of(cuda, "build")
     whole = [r for r in union(cpu, cuda) if r["case"] in ("given cell", "chosen cell")]
@@ -321,7 +338,8 @@ def cache_table(cpu):
 def parts(cpu, cuda):
     """The generated parts of the document, with their markers."""
     text = {"status": status_table(cpu, cuda), "distance": distance_table(cpu, cuda),
-             "near-and-far": near_and_far_tables(cpu), "point-costs": point_costs(cpu), "build": build_table(cpu, cuda),
+            "near-and-far": near_and_far_tables(cpu), "point-costs": point_costs(cpu), "calls": calls_table(cpu),
+            "build": build_table(cpu, cuda),
              "step": step_table(cpu, cuda, False),
              "in_place": step_table(cpu, cuda, True), "cache": cache_table(cpu)}
     return between_markers(text)

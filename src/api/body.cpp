@@ -102,8 +102,9 @@ lsdcd_collision checked_collision(const lsdcd_collision *given)
                                                           {c.wall_triangle, "wall_triangle"},
                                                           {c.body_triangle, "body_triangle"},
                                                           {c.segment, "segment"}};
+  const DeviceMemory device;
   for (const auto &[array, name] : arrays)
-    if (array && only_on_device(array))
+    if (array && device.only_there(array))
       throw ApiError(LSDCD_ERROR_DEVICE,
                      std::string("the array `") + name + "` is in a GPU's memory: give the host's");
   return c;

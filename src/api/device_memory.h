@@ -3,25 +3,62 @@
 #pragma once
 
 #include <dlfcn.h>
+#include <link.h>
 
+#include <atomic>
 #include <cstdint>
 
 namespace lsdcd {
 
-inline bool only_on_device(const void *array)
-{
+// What a call knows of the driver. dlopen() takes microseconds, so it is asked only after the
+// process has loaded something since the last time: the driver may come with a later library.
+class DeviceMemory {
+ public:
+  bool only_there(const void *array) const
+  {
+    constexpr int kMemoryType = 2, kIsManaged = 8;
+    constexpr unsigned kDevice = 2;
+    const auto at = static_cast<unsigned long long>(reinterpret_cast<std::uintptr_t>(array));
+    unsigned type = 0, managed = 0;
+    // A pointer that the driver does not know is the host's.
+    if (!ask_ || ask_(&type, kMemoryType, at) != 0 || type != kDevice) return false;
+    return ask_(&managed, kIsManaged, at) != 0 || managed == 0;
+  }
+
+ private:
   using Ask = int (*)(void *, int, unsigned long long);
-  void *driver = dlopen("libcuda.so.1", RTLD_NOLOAD | RTLD_LAZY);
-  if (!driver) return false;
-  const Ask ask = reinterpret_cast<Ask>(dlsym(driver, "cuPointerGetAttribute"));
-  dlclose(driver);    // the process keeps it
-  constexpr int kMemoryType = 2, kIsManaged = 8;
-  constexpr unsigned kDevice = 2;
-  const auto at = static_cast<unsigned long long>(reinterpret_cast<std::uintptr_t>(array));
-  unsigned type = 0, managed = 0;
-  // A pointer that the driver does not know is the host's.
-  if (!ask || ask(&type, kMemoryType, at) != 0 || type != kDevice) return false;
-  return ask(&managed, kIsManaged, at) != 0 || managed == 0;
-}
+
+  // cuPointerGetAttribute(), or null.
+  static Ask ask_loaded_driver()
+  {
+    static std::atomic<Ask> found{nullptr};
+    static std::atomic<unsigned long long> asked_at{0};
+    if (const Ask ask = found) return ask;
+    const unsigned long long loads = n_loads();
+    if (asked_at == loads) return nullptr;
+    // It stays loaded from here on, as `found` points into it.
+    void *driver = dlopen("libcuda.so.1", RTLD_NOLOAD | RTLD_NODELETE | RTLD_LAZY);
+    if (driver) {
+      found = reinterpret_cast<Ask>(dlsym(driver, "cuPointerGetAttribute"));
+      dlclose(driver);
+    }
+    asked_at = loads;
+    return found;
+  }
+  // How many objects the process has loaded so far, those that are gone among them.
+  static unsigned long long n_loads()
+  {
+    unsigned long long loads = 0;
+    dl_iterate_phdr(
+        [](dl_phdr_info *info, std::size_t, void *to) {
+          *static_cast<unsigned long long *>(to) = info->dlpi_adds;
+          return 1;
+        },
+        &loads);
+    return loads;
+  }
+
+  Ask ask_ = ask_loaded_driver();
+};
 
 }    // namespace lsdcd

@@ -32,7 +32,8 @@ lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given)
   if (q.n > static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max()) / 64)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`n` is " + std::to_string(q.n));
   if (q.n > 0) need(q.points, "points");
-  if (!q.distance && !q.closest && !q.normal && !q.triangle && !q.feature && !q.side && !q.status)
+  if (q.n > 0 && !q.distance && !q.closest && !q.normal && !q.triangle && !q.feature && !q.side &&
+      !q.status)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "nothing is asked for: all arrays of answers are null");
   if (q.side && !grid.has_sides)
     throw ApiError(LSDCD_ERROR_SIDE, "the mesh is not closed and oriented, so that it has no side; "
@@ -99,8 +100,9 @@ int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
     const ApiGrid &g = *grid->in;
     const lsdcd_query q = checked_query(g, query);
     if (q.n == 0) return;
-    each_given(q, [](const void *array, const char *name) {
-      if (only_on_device(array))
+    const DeviceMemory device;
+    each_given(q, [&](const void *array, const char *name) {
+      if (device.only_there(array))
         throw ApiError(LSDCD_ERROR_DEVICE, std::string("the array `") + name +
                                                "` is in a GPU's memory: use lsdcd_query_stream()");
     });
@@ -171,19 +173,31 @@ int lsdcd_query_stream(lsdcd_stream *stream, const lsdcd_query *query)
 
 #else
 
+namespace {
+
+[[noreturn]] void throw_no_cuda()
+{
+  throw ApiError(LSDCD_ERROR_DEVICE,
+                 "this build of the library is for the CPU only; use lsdcd_query_host()");
+}
+
+}    // namespace
+
 int lsdcd_stream_open(const lsdcd_grid *grid, void *, lsdcd_stream **stream)
 {
   return at_c_border([&] {
     need(stream, "stream");
     need(grid, "grid");
-    throw ApiError(LSDCD_ERROR_DEVICE, "this build of the library is for the CPU only; "
-                                       "use lsdcd_query_host()");
+    throw_no_cuda();
   });
 }
 
 int lsdcd_query_stream(lsdcd_stream *stream, const lsdcd_query *)
 {
-  return at_c_border([&] { need(stream, "stream"); });
+  return at_c_border([&] {
+    need(stream, "stream");
+    throw_no_cuda();
+  });
 }
 
 #endif

@@ -20,6 +20,7 @@ struct NearFirstCpu {
   template <class B, class Work>
   void run(B &b, std::size_t n, const Work &work)
   {
+    if (n <= kBlock) return answer_block(work, 0, n);    // starting threads takes longer
     b.for_each((n + kBlock - 1) / kBlock, [&](std::size_t block) {
       answer_block(work, block * kBlock, std::min(n, (block + 1) * kBlock));
     });
@@ -36,7 +37,7 @@ struct NearFirstCpu {
   };
 
   template <class Work>
-  static void answer_block(const Work &work, std::size_t from, std::size_t to)
+  [[gnu::noinline]] static void answer_block(const Work &work, std::size_t from, std::size_t to)
   {
     using S = typename Work::Item;
     const GridView &grid = work.grid;
