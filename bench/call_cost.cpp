@@ -64,8 +64,7 @@ void measure_calls(const BenchOptions &options, BenchRows &rows)
       q.distance = distance.data();
       row.what = near ? "call, near" : "call, far";
       row.spheres = n;
-      row.timing =
-          time_call(repeats, std::max<std::size_t>(1, points / n), [&] { grid.query(q); });
+      row.timing = time_call(repeats, std::max<std::size_t>(1, points / n), [&] { grid.query(q); });
       rows.add(row);
     }
   Body body(wall, mesh_of(box_mesh({-5, -5, -5}, {5, 5, 5})));

@@ -1,4 +1,5 @@
-// What every function of lsdcd.h does: no exception leaves it, and its error keeps a text.
+// What every function of lsdcd.h does: no exception leaves it, its error keeps a text, and numbers in
+// texts have a point whatever the program's locale.
 #pragma once
 
 #include "api/lsdcd.h"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <locale.h>
 #include <new>
 #include <string>
 
@@ -21,14 +23,34 @@ struct ApiError : InputError {
 // Keeps the text for this thread; returns the code.
 int keep_error(int code, const char *text) noexcept;
 
+// While it lives, this thread has the locale "C".
+class CLocale {
+ public:
+  CLocale() = default;
+  ~CLocale() { uselocale(before_); }
+  CLocale(const CLocale &) = delete;
+  CLocale &operator=(const CLocale &) = delete;
+
+ private:
+  static locale_t c_locale()
+  {
+    static const locale_t made = newlocale(LC_ALL_MASK, "C", nullptr);
+    return made;
+  }
+  locale_t before_ = uselocale(c_locale());
+};
+
 template <class Body>
 int at_c_border(const Body &body) noexcept
 {
+  const CLocale locale;
   try {
     body();
     return LSDCD_OK;
   } catch (const ApiError &e) {
     return keep_error(e.code, e.what());
+  } catch (const NegativeRadiusError &e) {
+    return keep_error(LSDCD_ERROR_ARGUMENT, e.what());
   } catch (const RadiusError &e) {
     return keep_error(LSDCD_ERROR_CUTOFF, e.what());
   } catch (const InputError &e) {

@@ -145,17 +145,18 @@ typedef struct lsdcd_query {
   int threads; /* on the CPU; 0: OMP_NUM_THREADS, or one */
   const void *points;
   ptrdiff_t points_row, points_column;
-  const void *radii; /* of each point; null: `radius` is that of all */
+  const void *radii; /* of each point, >= 0, at 0 nothing is found; null: `radius` is that of all */
   ptrdiff_t radii_step;
-  double radius; /* 0: the cutoff */
+  double radius; /* >= 0; 0: the cutoff */
   void *distance;
   ptrdiff_t distance_step;
   void *closest;
   ptrdiff_t closest_row, closest_column;
   void *normal; /* unit, from the mesh to the point */
   ptrdiff_t normal_row, normal_column;
-  uint32_t *triangle; /* by its number as given, from 0; of several, the lowest; LSDCD_NONE also
-                         for the edge or corner of a triangle without area */
+  uint32_t *triangle; /* by its number as given, from 0; of several at the same distance, rounded,
+                         the lowest; LSDCD_NONE also for the edge or corner of a triangle without
+                         area */
   uint32_t *feature;
   int8_t *side; /* 1 outside, and on the mesh; -1 inside; 0 where not found or not certified, and
                    where an edge or corner of triangles without area is nearest */
@@ -221,7 +222,8 @@ typedef struct lsdcd_collision {
   size_t size;              /* of this struct */
   int threads;              /* on the CPU; 0: OMP_NUM_THREADS, or one */
   int collides;             /* answer: does any pair meet? */
-  const double *matrix;     /* 12 numbers, rows of R, each with its t behind it */
+  const double *matrix;     /* 12 numbers, rows of R, each with its t behind it. R is a rotation to
+                               1e-6, as floats are, and made one */
   const double *position;   /* 3 numbers, t; null: 0 */
   const double *quaternion; /* 4 numbers, w x y z, R; null: as the mesh is */
   size_t room;              /* pairs that the arrays hold; of more, the first are written */

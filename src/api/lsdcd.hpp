@@ -17,7 +17,8 @@ namespace lsdcd {
 
 class Error : public std::runtime_error {
  public:
-  explicit Error(int code) : std::runtime_error(lsdcd_last_error()), code_(code) {}
+  explicit Error(int code) : Error(code, lsdcd_last_error()) {}
+  Error(int code, const std::string &text) : std::runtime_error(text), code_(code) {}
   int code() const noexcept { return code_; }    // LSDCD_ERROR_*
 
  private:
@@ -61,7 +62,8 @@ class Mesh {
   {
     lsdcd_mesh *made = nullptr;
     if (corners.size() % 9 != 0)
-      throw std::invalid_argument("lsdcd::Mesh: corners are not nine numbers a triangle");
+      throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::Mesh: there are " + std::to_string(corners.size()) +
+                                            " corners' numbers, which is not nine a triangle");
     c::check(lsdcd_mesh_from_corners(corners.data(), corners.size() / 9, weld, &made));
     handle_.reset(made);
   }
@@ -126,6 +128,9 @@ class Grid {
   template <class T>
   std::vector<T> distances(const std::vector<T> &points, double radius = 0) const
   {
+    if (points.size() % 3 != 0)
+      throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::Grid: there are " + std::to_string(points.size()) +
+                                            " points' numbers, which is not three a point");
     std::vector<T> out(points.size() / 3);
     Query<T> q(points.data(), out.size());
     q.radius = radius;
@@ -169,6 +174,11 @@ struct BodyPairs {
   explicit operator bool() const { return !wall.empty(); }
 };
 
+// A pose as a matrix, 12 numbers: rows of R, each with its t behind it. body.collide(Matrix{numbers})
+struct Matrix {
+  const double *numbers;
+};
+
 // A rigid body against a wall, for a sequence of poses.
 class Body {
  public:
@@ -195,14 +205,35 @@ class Body {
   // `position`: 3 numbers; `quaternion`: 4, w x y z.
   bool collides(const double *position, const double *quaternion = nullptr, int threads = 0)
   {
-    lsdcd_collision c = posed(position, quaternion, threads);
-    c::check(lsdcd_collide(handle_.get(), &c));
-    return c.collides != 0;
+    return any_of(posed(position, quaternion, threads));
   }
+  bool collides(Matrix matrix, int threads = 0) { return any_of(posed(matrix, threads)); }
   BodyPairs collide(const double *position, const double *quaternion = nullptr,
                     bool segments = false, int threads = 0)
   {
-    lsdcd_collision c = posed(position, quaternion, threads);
+    return pairs_of(posed(position, quaternion, threads), segments);
+  }
+  BodyPairs collide(Matrix matrix, bool segments = false, int threads = 0)
+  {
+    return pairs_of(posed(matrix, threads), segments);
+  }
+  const lsdcd_body *get() const { return handle_.get(); }
+  lsdcd_body *get() { return handle_.get(); }
+
+ private:
+  void make(const lsdcd_mesh *wall, const Mesh &mesh, const lsdcd_body_options &options)
+  {
+    lsdcd_body *made = nullptr;
+    c::check(lsdcd_body_make(wall, mesh.get(), &options, &made));
+    handle_.reset(made);
+  }
+  bool any_of(lsdcd_collision c)
+  {
+    c::check(lsdcd_collide(handle_.get(), &c));
+    return c.collides != 0;
+  }
+  BodyPairs pairs_of(lsdcd_collision c, bool segments)
+  {
     BodyPairs out;
     // Once where the room of the last pose is enough.
     do {
@@ -221,16 +252,6 @@ class Body {
     out.uncertain = c.uncertain;
     return out;
   }
-  const lsdcd_body *get() const { return handle_.get(); }
-  lsdcd_body *get() { return handle_.get(); }
-
- private:
-  void make(const lsdcd_mesh *wall, const Mesh &mesh, const lsdcd_body_options &options)
-  {
-    lsdcd_body *made = nullptr;
-    c::check(lsdcd_body_make(wall, mesh.get(), &options, &made));
-    handle_.reset(made);
-  }
   static lsdcd_collision posed(const double *position, const double *quaternion, int threads)
   {
     lsdcd_collision c = {};
@@ -238,6 +259,12 @@ class Body {
     c.position = position;
     c.quaternion = quaternion;
     c.threads = threads;
+    return c;
+  }
+  static lsdcd_collision posed(Matrix matrix, int threads)
+  {
+    lsdcd_collision c = posed(nullptr, nullptr, threads);
+    c.matrix = matrix.numbers;
     return c;
   }
   std::unique_ptr<lsdcd_body, c::Free<lsdcd_body_free>> handle_;

@@ -43,13 +43,21 @@ inline void check_body(const TriangleSoup &body, Real longest)
   }
   if (!(n <= Real(kMostPieces))) throw_too_many_pieces(body.source, n);
 }
-inline void check_rotation(const BodyPose &pose)
+// How far products of rows are from those of a rotation, at most.
+inline Real rotation_error(const BodyPose &pose)
 {
+  Real most = 0;
   for (int i = 0; i < 3; i++)
     for (int j = 0; j <= i; j++)
-      if (!(std::fabs(dot(pose.row[i], pose.row[j]) - (i == j)) <= 1e-8))
-        throw InputError("the pose's matrix is no rotation: rows are not unit vectors at right "
-                         "angles to 1e-8");
+      most = std::max(most, std::fabs(dot(pose.row[i], pose.row[j]) - (i == j)));
+  return most;
+}
+inline void check_rotation(const BodyPose &pose, Real tolerance = 1e-8)
+{
+  if (!(rotation_error(pose) <= tolerance))
+    throw InputError("the pose's matrix is no rotation: rows are not unit vectors at right angles "
+                     "to " +
+                     number_text(tolerance));
   if (!(dot(pose.row[0], cross(pose.row[1], pose.row[2])) > 0))
     throw InputError("the pose's matrix mirrors the body: its determinant is -1");
 }

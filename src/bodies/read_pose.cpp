@@ -18,6 +18,20 @@ void check_finite(const Real *numbers, int n, const char *what)
                        std::to_string(k + 1) + " is " + number_text(numbers[k]));
 }
 
+// Newton's steps to the nearest rotation. Each squares the error; one of doubles is left as it is.
+void make_rotation(BodyPose &pose)
+{
+  constexpr Real kOfDoubles = 1e-14;
+  while (rotation_error(pose) > kOfDoubles) {
+    const BodyPose old = pose;
+    for (int i = 0; i < 3; i++) {
+      pose.row[i] = Real(1.5) * old.row[i];
+      for (int j = 0; j < 3; j++)
+        pose.row[i] -= Real(0.5) * dot(old.row[i], old.row[j]) * old.row[j];
+    }
+  }
+}
+
 }    // namespace
 
 BodyPose pose_of_matrix(const Real *numbers)
@@ -28,7 +42,8 @@ BodyPose pose_of_matrix(const Real *numbers)
     pose.row[i] = {numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2]};
     pose.shift[i] = numbers[4 * i + 3];
   }
-  check_rotation(pose);
+  check_rotation(pose, 1e-6);
+  make_rotation(pose);
   return pose;
 }
 

@@ -5,7 +5,8 @@
 
 namespace lsdcd {
 
-// Twelve numbers: rows of the rotation matrix, each with its number of the shift. Throws InputError.
+// Twelve numbers: rows of the rotation matrix, each with its number of the shift. One that is a rotation
+// to 1e-6, as floats are, is made one to rounding; else InputError is thrown.
 BodyPose pose_of_matrix(const Real *numbers);
 
 // A quaternion w x y z that turns the body about its origin, which goes to `at`. It is made a unit

@@ -65,14 +65,15 @@ struct AnswerArrays {
   }
 };
 
-// The first sphere with a radius that the grid's lists were not built for, or that is no number.
+// The first sphere with a radius that the grid's lists were not built for, or that is none: below 0,
+// or not a number.
 // Radii are compared in the spheres' digits: in float, the cutoff is one of them, rounded.
 template <class S>
 struct TooLarge {
   decltype(S::r) cutoff;
   std::uint64_t *first;    // ~ of its index, the largest of all; 0: none
 
-  LSDCD_FN bool is(const S &s) const { return !(s.r <= cutoff); }
+  LSDCD_FN bool is(const S &s) const { return !(s.r >= 0 && s.r <= cutoff); }
   LSDCD_FN void note(std::size_t i, const S &s) const
   {
     if (is(s)) raise_to(first, ~static_cast<std::uint64_t>(i));

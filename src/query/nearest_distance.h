@@ -25,12 +25,18 @@ LSDCD_FN Answer far_answer()
   return {kAnyDistance, true, 0};
 }
 
+// Of features at the same distance, by their codes in lists: which is found? Here whichever comes first.
+struct FirstOfEqual {
+  LSDCD_FN bool operator()(FeatureCode, FeatureCode) const { return false; }
+};
+
 // Entries of a cell's list, the nearest first, as long as they can change the answer.
-// `limit`: entries that are tried; one more is only a bound.
-template <bool kPrimitives, class Distances>
+// `limit`: entries that are tried; one more is only a bound. `before(a, b)`: is a found, not b, where both
+// are at the same distance?
+template <bool kPrimitives, class Distances, class Before>
 LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists, const Vec3 &q,
                                 Real radius, std::uint32_t limit, const CellAddress &at,
-                                const Cell &cell)
+                                const Cell &cell, const Before &before)
 {
   const Distances distances(grid, q, at);
   // Nothing farther than the nearest so far is of interest.
@@ -40,7 +46,8 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists
     const Real distance =
         kPrimitives ? distances.primitive(code, nearest) : distances.feature(code, nearest);
     // A sphere touches what is nearer than its radius.
-    if (!(distance < nearest)) return;
+    if (!(distance <= nearest)) return;
+    if (distance == nearest && (found == kNoFeature || !before(code, found))) return;
     nearest = distance;
     found = code;
   };
@@ -128,32 +135,34 @@ constexpr std::uint32_t kWholeList = 0xffffffffu;
 // at `at`, in the cell `cell` of grid.lists. kComplete: grid.nearest is 0. Certified answers are
 // exact, but for the rounding of Distances and with the paper's test. Lists of nearest primitives
 // fall back to complete ones where the grid has them.
-template <bool kComplete, class Distances>
+template <bool kComplete, class Distances, class Before = FirstOfEqual>
 LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
-                             const CellAddress &at, const Cell &cell)
+                             const CellAddress &at, const Cell &cell, const Before &before = {})
 {
   if (kComplete)
-    return nearest_in_cell<false, Distances>(grid, grid.lists, q, radius, kWholeList, at, cell);
+    return nearest_in_cell<false, Distances>(grid, grid.lists, q, radius, kWholeList, at, cell,
+                                             before);
   const Answer first = nearest_in_cell<true, Distances>(
-      grid, grid.lists, q, radius, static_cast<std::uint32_t>(grid.nearest), at, cell);
+      grid, grid.lists, q, radius, static_cast<std::uint32_t>(grid.nearest), at, cell, before);
   if (first.certified || !grid.complete.bricks) return first;
   // The complete lists have cells of their own.
   const CellAddress there = locate(grid, grid.complete, q);
   Answer second = far_answer();
   if (there.brick && has_candidates(*there.brick, there.cell))
     second = nearest_in_cell<false, Distances>(grid, grid.complete, q, radius, kWholeList, there,
-                                               cell_of(grid.complete, there));
+                                               cell_of(grid.complete, there), before);
   second.read += first.read;
   return second;
 }
 
 // The same for any q.
-template <bool kComplete, class Distances>
-LSDCD_FN Answer nearest_distance(const GridView &grid, const Vec3 &q, Real radius)
+template <bool kComplete, class Distances, class Before = FirstOfEqual>
+LSDCD_FN Answer nearest_distance(const GridView &grid, const Vec3 &q, Real radius,
+                                 const Before &before = {})
 {
   const CellAddress at = locate(grid, grid.lists, q);
   if (!at.brick || !has_candidates(*at.brick, at.cell)) return far_answer();
-  return nearest_from<kComplete, Distances>(grid, q, radius, at, cell_of(grid.lists, at));
+  return nearest_from<kComplete, Distances>(grid, q, radius, at, cell_of(grid.lists, at), before);
 }
 
 // No grid: every face of the wall, the paper's N = all. Its edges and vertices without a

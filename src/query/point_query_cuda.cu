@@ -104,7 +104,7 @@ class CudaStreamQuery : public StreamQuery {
     else
       with_point_work(grid_->view, grid_->table, io, grid_->names, too_large_.data(),
                       [&](const auto &work) { start(work, io.n); });
-    if (io.radii.at) refuse_too_large(io);
+    if (io.radii.at) refuse_bad_radius(io);
   }
 
   template <class Work>
@@ -214,13 +214,13 @@ class CudaStreamQuery : public StreamQuery {
     return array.data();
   }
   template <class T>
-  void refuse_too_large(const PointArrays<T> &io)
+  void refuse_bad_radius(const PointArrays<T> &io)
   {
     const std::uint64_t first = b_.read_one(too_large_.data());
     if (first == 0) return;
-    throw_too_large(~first,
-                    b_.read_one(io.radii.at + static_cast<std::ptrdiff_t>(~first) * io.radii.step),
-                    grid_->view.cutoff);
+    throw_bad_radius(~first,
+                     b_.read_one(io.radii.at + static_cast<std::ptrdiff_t>(~first) * io.radii.step),
+                     grid_->view.cutoff);
   }
 
   std::shared_ptr<const DeviceGrid> grid_;

@@ -58,18 +58,38 @@ LSDCD_FN Nearest at_closest(FeatureCode feature, const Vec3 &q, const ClosestPoi
   return {feature, q - closest.distance * closest.normal, closest.normal};
 }
 
+// The wall's code of a feature that lists name.
+template <bool kFloats>
+LSDCD_FN FeatureCode feature_of_wall(const GridView &grid, FeatureCode listed)
+{
+  if (!kFloats) return listed;
+  const FeatureKind kind = feature_kind(listed);
+  const std::uint32_t *of = kind == FeatureKind::face   ? grid.records.face_of
+                            : kind == FeatureKind::edge ? grid.records.edge_of
+                                                        : grid.records.vertex_of;
+  return feature_code(kind, of[feature_index(listed)]);
+}
+
+// Of features at the same distance the one with the lowest triangle is found, and of that one's the lowest
+// code: lists of other cells have them in another order.
+template <bool kFloats>
+struct LowestTriangle {
+  const GridView &grid;
+  const TriangleNames &names;
+
+  LSDCD_FN bool operator()(FeatureCode listed_a, FeatureCode listed_b) const
+  {
+    const FeatureCode a = feature_of_wall<kFloats>(grid, listed_a),
+                      b = feature_of_wall<kFloats>(grid, listed_b);
+    const std::uint32_t of_a = names.of(a), of_b = names.of(b);
+    return of_a < of_b || (of_a == of_b && a < b);
+  }
+};
+
 template <bool kFloats>
 LSDCD_FN Nearest nearest_of(const GridView &grid, const Answer &a, const Vec3 &q)
 {
-  FeatureCode feature = a.feature;
-  if (kFloats) {
-    const std::uint32_t i = feature_index(feature);
-    const FeatureKind kind = feature_kind(feature);
-    const std::uint32_t *of = kind == FeatureKind::face   ? grid.records.face_of
-                              : kind == FeatureKind::edge ? grid.records.edge_of
-                                                          : grid.records.vertex_of;
-    feature = feature_code(kind, of[i]);
-  }
+  FeatureCode feature = feature_of_wall<kFloats>(grid, a.feature);
   ClosestPoint closest = closest_point_on(grid.wall, feature, q, grid.tolerance);
   // A triangle of nearest lists stands for its edges and vertices as well.
   if (a.primitive && feature_kind(feature) == FeatureKind::face) {
@@ -141,7 +161,8 @@ struct PointWork {
   LSDCD_FN void answer(std::size_t i, const Item &s) const
   {
     check(i, s);
-    keep(i, s, nearest_distance<kComplete, Distances>(grid, s.centre(), radius(s)));
+    keep(i, s,
+         nearest_distance<kComplete, Distances>(grid, s.centre(), radius(s), lowest_triangle()));
   }
 
   LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
@@ -150,10 +171,12 @@ struct PointWork {
   {
     const Vec3 q = s.centre();
     keep(i, s,
-         nearest_from<kComplete, Distances>(grid, q, radius(s), address_inside(grid, q), cell));
+         nearest_from<kComplete, Distances>(grid, q, radius(s), address_inside(grid, q), cell,
+                                            lowest_triangle()));
   }
 
  private:
+  LSDCD_FN LowestTriangle<kFloats> lowest_triangle() const { return {grid, names}; }
   LSDCD_FN Real radius(const Item &s) const
   {
     return io.radii.at ? static_cast<Real>(s.r) : io.radius;

@@ -47,9 +47,9 @@ class QueryOn : public SphereQuery {
     b_.wait();
     if (settings.every_face || n_ == 0) return;
     if (in_float_)
-      refuse_too_large(float_sphere_);
+      refuse_bad_radius(float_sphere_);
     else
-      refuse_too_large(sphere_);
+      refuse_bad_radius(sphere_);
   }
 
   QueryTiming time(const QuerySettings &settings, int repeats) override
@@ -157,12 +157,12 @@ class QueryOn : public SphereQuery {
   }
 
   template <class S>
-  void refuse_too_large(const Array<S> &spheres)
+  void refuse_bad_radius(const Array<S> &spheres)
   {
     const std::uint64_t first = b_.read_one(too_large_.data());
     if (first == 0) return;
     const std::size_t i = ~first;
-    throw_too_large(i, b_.read_one(spheres.data() + i).r, grid_.view.cutoff);
+    throw_bad_radius(i, b_.read_one(spheres.data() + i).r, grid_.view.cutoff);
   }
 
   template <class T, class Other>

@@ -1,15 +1,27 @@
 // The library through its headers, against brute force over the bare triangles.
 #include "lsdcd.hpp"
+#include "support/comma_locale.h"
 #include "support/meshes.h"
 #include "support/query_oracle.h"
 #include "support/temp_dir.h"
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <random>
 #include <thread>
+
+// The library's calls of dlopen() come here: it takes microseconds, and a query should take less.
+static std::atomic<int> n_dlopens{0};
+extern "C" __attribute__((visibility("default"))) void *dlopen(const char *file, int mode)
+{
+  n_dlopens++;
+  return reinterpret_cast<void *(*) (const char *, int)>(dlsym(RTLD_NEXT, "dlopen"))(file, mode);
+}
 
 namespace {
 
@@ -297,6 +309,64 @@ TEST(library, radii_bound_what_is_found)
   EXPECT_EQ(All<double>(grid, points, false, 0.19).status[0], LSDCD_CERTIFIED);
 }
 
+// Of a box whose triangles come in any order; points on a lattice are as near to two, three or more of them.
+// Coordinates and most distances are exact there, and those that differ do so by more than 0.01.
+class Ties : public ::testing::Test {
+ protected:
+  static TriangleSoup shuffled_box()
+  {
+    const TriangleSoup box = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
+    std::vector<std::size_t> order(box.n_triangles());
+    for (std::size_t t = 0; t < order.size(); t++) order[t] = t;
+    std::shuffle(order.begin(), order.end(), std::mt19937(3));
+    TriangleSoup soup;
+    for (const std::size_t t : order)
+      soup.corners.insert(soup.corners.end(), &box.corners[3 * t], &box.corners[3 * t] + 3);
+    return soup;
+  }
+  static std::vector<double> lattice()
+  {
+    std::vector<double> points;
+    for (int i = 0; i < 11 * 11 * 11; i++)
+      for (const int k : {i % 11, i / 11 % 11, i / 121}) points.push_back(0.25 * (k - 5));
+    return points;
+  }
+  const TriangleSoup soup = shuffled_box();
+  const lsdcd::Mesh mesh{numbers(soup)};
+  const std::vector<double> points = lattice();
+};
+
+TEST_F(Ties, give_the_lowest_triangle_whatever_the_cutoff)
+{
+  std::vector<std::uint32_t> lowest;
+  for (std::size_t i = 0; i < points.size() / 3; i++) {
+    const double least = brute(soup, point(points, i));
+    lowest.push_back(0);
+    while (distance_to(soup, lowest[i], point(points, i)) > least + 1e-9) lowest[i]++;
+  }
+  for (const int nearest : {0, 4})
+    for (const double cutoff : {0.3, 0.55, 1.1, 1.7, 4.}) {
+      lsdcd::GridOptions options(cutoff);
+      options.nearest = nearest;
+      const All<double> a(lsdcd::Grid(mesh, options), points);
+      std::size_t wrong = 0;
+      for (std::size_t i = 0; i < lowest.size(); i++)
+        wrong += a.status[i] == (LSDCD_FOUND | LSDCD_CERTIFIED) && a.triangle[i] != lowest[i];
+      EXPECT_EQ(wrong, 0u) << "cutoff " << cutoff << " nearest " << nearest;
+    }
+}
+
+TEST_F(Ties, give_the_same_closest_point_whatever_the_cutoff)
+{
+  const All<double> far(lsdcd::Grid(mesh, 4), points), near(lsdcd::Grid(mesh, 1.1), points);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < near.status.size(); i++)
+    if (near.status[i] & LSDCD_FOUND)
+      wrong +=
+          near.feature[i] != far.feature[i] || !(point(near.closest, i) == point(far.closest, i));
+  EXPECT_EQ(wrong, 0u);
+}
+
 TEST(library, a_point_that_is_no_number_is_far)
 {
   const std::vector<double> points = {NAN, 0, 0, HUGE_VAL, 1, 1, 1, -HUGE_VAL, 1};
@@ -378,6 +448,58 @@ TEST(library, a_cache_is_read_the_second_time)
   EXPECT_NE(beside.report().find("left as it is"), std::string::npos) << beside.report();
 }
 
+// What numbers have in every locale: the reports begin with these.
+TEST(library, reports_have_points_in_numbers_whatever_the_locale)
+{
+  const lsdcd::CommaLocale commas;
+  if (!commas.works()) GTEST_SKIP() << "this C library takes no locale of ours";
+  const lsdcd::Mesh mesh(numbers(lsdcd::box_mesh({0, 0, 0}, {0.5, 1, 1})));
+  EXPECT_NE(mesh.report().find("(0.5, 1, 1)"), std::string::npos) << mesh.report();
+  const std::string grid = lsdcd::Grid(mesh, 0.25).report();
+  EXPECT_NE(grid.find("cutoff 0.25"), std::string::npos) << grid;
+}
+
+TEST(library, the_callers_locale_stays)
+{
+  const lsdcd::CommaLocale commas;
+  if (!commas.works()) GTEST_SKIP() << "this C library takes no locale of ours";
+  const lsdcd::Mesh mesh(numbers(box_and_cylinder()));
+  char half[8];
+  std::snprintf(half, sizeof half, "%g", 0.5);
+  EXPECT_STREQ(half, "0,5");
+}
+
+// ---- the CUDA driver ----------------------------------------------------------------------
+
+TEST(library, a_query_looks_for_the_driver_only_after_something_was_loaded)
+{
+  const lsdcd::Grid grid = grid_of(box_and_cylinder());
+  const std::vector<double> points = {1.25, 0, 0};
+  grid.distances(points);
+  const int before = n_dlopens;
+  for (int k = 0; k < 100; k++) grid.distances(points);
+  EXPECT_EQ(n_dlopens, before);
+}
+
+// In a process of its own, which keeps that driver.
+TEST(library, a_driver_that_is_loaded_after_the_first_query_is_noticed)
+{
+  if (dlopen("libcuda.so.1", RTLD_NOLOAD | RTLD_LAZY)) GTEST_SKIP() << "a driver is loaded";
+  const lsdcd::Grid grid = grid_of(box_and_cylinder());
+  const std::vector<double> points = {1.25, 0, 0};
+  const auto load_between_two = [&] {
+    grid.distances(points);
+    if (!dlopen(LSDCD_FAKE_CUDA, RTLD_NOW)) std::exit(2);
+    try {
+      grid.distances(points);
+    } catch (const lsdcd::Error &e) {
+      std::exit(e.code() == LSDCD_ERROR_DEVICE ? 0 : 3);
+    }
+    std::exit(4);
+  };
+  EXPECT_EXIT(load_between_two(), ::testing::ExitedWithCode(0), "");
+}
+
 // ---- wrong use ----------------------------------------------------------------------------
 
 class Wrong : public ::testing::Test {
@@ -437,6 +559,25 @@ TEST_F(Wrong, no_points_are_no_error)
   EXPECT_EQ(lsdcd_query_host(grid.get(), &q), LSDCD_OK);
 }
 
+TEST_F(Wrong, an_empty_batch_is_no_error_in_cpp)
+{
+  EXPECT_TRUE(grid.distances(std::vector<double>()).empty());
+}
+
+TEST_F(Wrong, points_and_corners_with_numbers_left_over)
+{
+  const auto code_of = [](const auto &call) {
+    try {
+      call();
+    } catch (const lsdcd::Error &e) {
+      return e.code();
+    }
+    return LSDCD_OK + 0;
+  };
+  EXPECT_EQ(code_of([&] { grid.distances(std::vector<double>(4)); }), LSDCD_ERROR_ARGUMENT);
+  EXPECT_EQ(code_of([&] { lsdcd::Mesh(std::vector<double>(10)); }), LSDCD_ERROR_ARGUMENT);
+}
+
 TEST_F(Wrong, a_radius_beyond_the_cutoff)
 {
   q.radius = std::nextafter(kCutoff, 1);
@@ -445,10 +586,18 @@ TEST_F(Wrong, a_radius_beyond_the_cutoff)
 
 TEST_F(Wrong, one_of_many_radii_beyond_the_cutoff)
 {
-  for (double bad : {std::nextafter(kCutoff, 1), double(NAN)}) {
-    const double radii[2] = {0.1, bad};
+  const double radii[2] = {0.1, std::nextafter(kCutoff, 1)};
+  q.radii = radii;
+  expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_CUTOFF, "sphere 1 has radius");
+}
+
+TEST_F(Wrong, one_of_many_radii_below_0_or_not_a_number)
+{
+  for (double bad : {-0.1, double(NAN)}) {
+    const double radii[2] = {0, bad};
     q.radii = radii;
-    expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_CUTOFF, "sphere 1 has radius");
+    expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_ARGUMENT,
+           "point 1 (from 0) has the radius");
   }
 }
 
@@ -544,6 +693,15 @@ TEST_F(Wrong, a_grid_over_its_budget)
   lsdcd_grid *g = nullptr;
   expect(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_INPUT, "grid 0.0001");
 }
+
+#if !defined(LSDCD_HAVE_CUDA)
+TEST_F(Wrong, a_stream_without_cuda)
+{
+  int not_one = 0;
+  expect(lsdcd_query_stream(reinterpret_cast<lsdcd_stream *>(&not_one), &q), LSDCD_ERROR_DEVICE,
+         "CPU only");
+}
+#endif
 
 TEST_F(Wrong, a_gpu_that_is_not_there)
 {

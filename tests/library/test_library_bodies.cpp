@@ -97,6 +97,8 @@ TEST(library_bodies, a_quaternion_and_a_matrix_turn_the_body_alike)
   const std::vector<std::uint32_t> upright = {0, 1, 2, 3, 8, 9, 10, 11};
   EXPECT_EQ(body.collide(kThrough, quaternion).body, upright);
   std::uint32_t triangles[8];
+  EXPECT_EQ(body.collide(lsdcd::Matrix{matrix}).body, upright);
+  EXPECT_TRUE(body.collides(lsdcd::Matrix{matrix}));
   lsdcd_collision c = {};
   c.size = sizeof c;
   c.matrix = matrix;
@@ -105,6 +107,24 @@ TEST(library_bodies, a_quaternion_and_a_matrix_turn_the_body_alike)
   ASSERT_EQ(lsdcd_collide(body.get(), &c), LSDCD_OK) << lsdcd_last_error();
   EXPECT_EQ(c.collides, 1);
   EXPECT_EQ(std::vector<std::uint32_t>(triangles, triangles + 8), upright);
+}
+
+// Rounded to float each of its numbers is off by up to 2^-25, 3e-8, so products of rows by up to
+// 2 sqrt(3) times that, 1e-7.
+TEST(library_bodies, a_rotation_of_floats_is_taken)
+{
+  const float c = std::cos(0.7f), s = std::sin(0.7f);
+  const double matrix[12] = {c, -s, 0, 1, s, c, 0, -1, 0, 0, 1, 0.25};
+  EXPECT_NE(c * double(c) + s * double(s), 1);
+  expect_upright_sides(cube_on_floor().collide(lsdcd::Matrix{matrix}));
+}
+
+// The bottom of the cube, at half of what a row stretches, is 1.5e-7 above the floor once it is not stretched
+// by 4e-7, and 0.5e-7 below it with that.
+TEST(library_bodies, a_rotation_of_floats_is_made_orthogonal)
+{
+  const double s = 1 + 4e-7, matrix[12] = {s, 0, 0, 1, 0, s, 0, -1, 0, 0, s, 0.5 + 1.5e-7};
+  EXPECT_FALSE(cube_on_floor().collides(lsdcd::Matrix{matrix}));
 }
 
 TEST(library_bodies, too_little_room_gets_the_first_pairs_and_the_number_of_all)
@@ -358,6 +378,9 @@ TEST_F(WrongBody, poses_that_are_no_rigid_motion)
   refused(LSDCD_ERROR_INPUT, "no rotation");
   c.matrix = mirrored;
   refused(LSDCD_ERROR_INPUT, "mirrors");
+  const double nearly[12] = {1 + 2e-6, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  c.matrix = nearly;
+  refused(LSDCD_ERROR_INPUT, "to 1e-06");
 }
 
 TEST_F(WrongBody, arrays_without_room)
