@@ -25,14 +25,14 @@ LSDCD_FN Answer far_answer()
   return {kAnyDistance, true, 0};
 }
 
-// Of features at the same distance, by their codes in lists: which is found? Here whichever comes first.
+// Of features at the same distance whichever comes first in a list is found.
 struct FirstOfEqual {
-  LSDCD_FN bool operator()(FeatureCode, FeatureCode) const { return false; }
+  static constexpr bool kOrders = false;
 };
 
 // Entries of a cell's list, the nearest first, as long as they can change the answer.
-// `limit`: entries that are tried; one more is only a bound. `before(a, b)`: is a found, not b, where both
-// are at the same distance?
+// `limit`: entries that are tried; one more is only a bound. Where Before orders features at the same
+// distance, before(a, b) says by codes of the list whether a is found, not b.
 template <bool kPrimitives, class Distances, class Before>
 LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists, const Vec3 &q,
                                 Real radius, std::uint32_t limit, const CellAddress &at,
@@ -46,8 +46,9 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists
     const Real distance =
         kPrimitives ? distances.primitive(code, nearest) : distances.feature(code, nearest);
     // A sphere touches what is nearer than its radius.
-    if (!(distance <= nearest)) return;
-    if (distance == nearest && (found == kNoFeature || !before(code, found))) return;
+    if (!(Before::kOrders ? distance <= nearest : distance < nearest)) return;
+    if constexpr (Before::kOrders)
+      if (distance == nearest && (found == kNoFeature || !before(code, found))) return;
     nearest = distance;
     found = code;
   };

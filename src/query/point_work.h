@@ -74,6 +74,7 @@ LSDCD_FN FeatureCode feature_of_wall(const GridView &grid, FeatureCode listed)
 // code: lists of other cells have them in another order.
 template <bool kFloats>
 struct LowestTriangle {
+  static constexpr bool kOrders = true;
   const GridView &grid;
   const TriangleNames &names;
 
