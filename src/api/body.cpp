@@ -51,6 +51,7 @@ MeshCollisionSettings settings_of(const lsdcd_body_options &o)
     throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why + "; use LSDCD_CPU");
   MeshCollisionSettings s;
   s.cell = o.cell;
+  s.cell_name = "`cell`";
   s.nearest = o.nearest;
   s.memory = static_cast<std::size_t>(o.memory);
   s.device = o.device == LSDCD_CUDA ? Device::cuda : Device::cpu;
@@ -91,8 +92,7 @@ BodyPose pose_of(const lsdcd_collision &c)
 lsdcd_collision checked_collision(const lsdcd_collision *given)
 {
   const lsdcd_collision c = checked(given, "lsdcd_collision");
-  if (c.threads < 0)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`threads` is " + std::to_string(c.threads));
+  check_threads(c.threads);
   if (c.room == 0 && (c.wall_triangle || c.body_triangle || c.segment))
     throw ApiError(LSDCD_ERROR_ARGUMENT,
                    "there are arrays for pairs, but `room` is 0: give how many pairs they hold");
@@ -139,7 +139,7 @@ int lsdcd_body_make(const lsdcd_mesh *wall, const lsdcd_mesh *mesh,
     lsdcd_body_options o = {};
     o.size = sizeof o;
     if (options) o = checked(options, "lsdcd_body_options");
-    if (o.threads < 0) refuse("threads is " + std::to_string(o.threads));
+    check_threads(o.threads);
     const CallThreads threads(o.threads);
     if (o.same_wall) {
       *body = with_same_wall(wall, *mesh, o);

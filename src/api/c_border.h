@@ -56,7 +56,8 @@ int at_c_border(const Body &body) noexcept
   } catch (const InputError &e) {
     return keep_error(LSDCD_ERROR_INPUT, e.what());
   } catch (const std::bad_alloc &) {
-    return keep_error(LSDCD_ERROR_MEMORY, "no memory left: use a coarser grid or fewer triangles");
+    return keep_error(LSDCD_ERROR_MEMORY,
+                      "no memory left: free some; a grid takes less with a larger `cell`");
   } catch (const std::exception &e) {
     return keep_error(LSDCD_ERROR_INTERNAL, e.what());
   } catch (...) {
@@ -67,6 +68,15 @@ int at_c_border(const Body &body) noexcept
 inline void need(const void *pointer, const char *name)
 {
   if (!pointer) throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("`") + name + "` is null");
+}
+
+// Of a call, 0: the default. More than this end a process; the tool has the same limit.
+inline void check_threads(int n)
+{
+  constexpr int kMost = 4096;
+  if (n < 0 || n > kMost)
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "`threads` is " + std::to_string(n) + "; it is 0 to " + std::to_string(kMost));
 }
 
 // A caller's struct, of this version or an earlier one; `least`: bytes of the first version.

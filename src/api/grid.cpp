@@ -31,11 +31,12 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
     refuse("precision is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
   if (!(o.memory >= 0) || !(o.memory < 1e18))
     refuse("memory is " + number_text(o.memory) + "; give bytes, or 0 for the default");
-  if (o.threads < 0) refuse("threads is " + std::to_string(o.threads));
+  check_threads(o.threads);
   if (o.device != LSDCD_CPU && o.device != LSDCD_CUDA)
     refuse("device is neither LSDCD_CPU nor LSDCD_CUDA");
   GridSettings s;
   s.length = o.cell;
+  s.length_name = "`cell`";
   s.cutoff = o.cutoff;
   s.memory_budget = static_cast<std::size_t>(o.memory);
   s.sides = with_sides;
@@ -125,7 +126,9 @@ int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, 
     else
       making.without_cache();
     made->grid = HostGrid(made->flat.view());
-    made->has_sides = from.has_sides();
+    made->has_sides = settings.sides && made->grid.view.outside != 0;
+    if (settings.sides && !made->has_sides)
+      made->report += "\n  no sides: triangles of the mesh cut, overlap or touch each other";
     *grid = new lsdcd_grid{std::move(made)};
   });
 }

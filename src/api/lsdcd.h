@@ -40,7 +40,8 @@ enum {
   LSDCD_ERROR_ARGUMENT = 1, /* a null pointer, a number or a struct that makes no sense */
   LSDCD_ERROR_INPUT = 2,    /* a file, mesh or setting that cannot be used */
   LSDCD_ERROR_CUTOFF = 3,   /* a radius beyond the grid's cutoff */
-  LSDCD_ERROR_SIDE = 4,     /* the side of a mesh that has none: open, or not oriented */
+  LSDCD_ERROR_SIDE = 4,     /* the side of a mesh that has none: open, not oriented, or it
+                               cuts itself */
   LSDCD_ERROR_DEVICE = 5,   /* no CUDA, or an array where it cannot be reached */
   LSDCD_ERROR_MEMORY = 6,   /* none left */
   LSDCD_ERROR_INTERNAL = 7  /* a defect of this library */
@@ -69,10 +70,13 @@ typedef struct lsdcd_mesh_facts {
   size_t triangles;              /* as given */
   size_t faces, edges, vertices; /* after welding; faces without area are none */
   size_t open_edges;             /* edges of one face */
-  int closed, oriented;          /* oriented: closed, and has an inside: windings agree, those of
-                                    closed shells with each other, too */
-  double area, volume;           /* the volume is < 0 where normals point in */
+  int closed, oriented;          /* oriented: closed, windings agree, those of closed shells with
+                                    each other, too, and no shells meet */
+  double area, volume;           /* the volume is < 0 where normals point in; what lies in two
+                                    shells counts twice */
   double lo[3], hi[3];
+  size_t meeting_pairs; /* of triangles of different closed shells, which cut, overlap or
+                                    touch each other there */
 } lsdcd_mesh_facts;
 /* Any. */
 LSDCD_API int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts);
@@ -110,7 +114,8 @@ typedef struct lsdcd_grid_facts {
   double cutoff, cell;
   size_t bytes;
   int nearest;
-  int has_sides;  /* is the mesh closed and oriented? */
+  int has_sides;  /* is the mesh closed and oriented, with no triangles that cut, overlap or touch
+                     each other? */
   int from_cache; /* was it read, not built? */
 } lsdcd_grid_facts;
 /* Any. */

@@ -35,8 +35,8 @@ def _struct(name, *fields):
 
 _MeshFacts = _struct(
     "_MeshFacts", ("triangles", _size), ("faces", _size), ("edges", _size), ("vertices", _size),
-    ("open_edges", _size), ("closed", _int), ("oriented", _int), ("area", _real), ("volume", _real),
-    ("lo", _real * 3), ("hi", _real * 3))
+    ("open_edges", _size), ("closed", _int), ("oriented", _int),
+    ("area", _real), ("volume", _real), ("lo", _real * 3), ("hi", _real * 3), ("meeting_pairs", _size))
 _GridOptions = _struct(
     "_GridOptions", ("cutoff", _real), ("cell", _real), ("nearest", _int), ("exact", _int),
     ("precision", _int), ("memory", _real), ("cache", ctypes.c_char_p), ("threads", _int),
@@ -146,7 +146,7 @@ class Mesh(_Owner):
             return
         corners = np.asarray(source, dtype=np.float64)
         if faces is not None:
-            corners = corners[_numbers_of(faces, len(corners))]
+            corners = corners[_vertex_numbers(faces, len(corners))]
         corners = np.ascontiguousarray(corners)
         if corners.ndim != 3 or corners.shape[1:] != (3, 3):
             raise TypeError(f"triangles have the shape {corners.shape}, not (n, 3, 3)")
@@ -278,8 +278,8 @@ class Body(_Owner):
         return answer
 
 
-def _numbers_of(faces, n):
-    """Faces as numbers of n vertices."""
+def _vertex_numbers(faces, n):
+    """Faces as an array of numbers of n vertices."""
     faces = np.asarray(faces)
     if faces.size and faces.dtype.kind not in "iu":
         raise TypeError(f"faces are of type {faces.dtype}, not whole numbers")

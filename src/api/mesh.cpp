@@ -73,6 +73,7 @@ int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts)
     f.edges = m.edges.size();
     f.vertices = m.vertices.size();
     f.open_edges = m.report.open_edges;
+    f.meeting_pairs = m.report.meeting_pairs;
     f.closed = m.report.closed;
     f.oriented = m.report.oriented;
     f.area = m.report.area;

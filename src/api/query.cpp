@@ -27,8 +27,7 @@ lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given)
   lsdcd_query q = checked(given, "lsdcd_query");
   if (q.type != LSDCD_DOUBLE && q.type != LSDCD_FLOAT)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`type` is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
-  if (q.threads < 0)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`threads` is " + std::to_string(q.threads));
+  check_threads(q.threads);
   if (q.n > static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max()) / 64)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`n` is " + std::to_string(q.n));
   if (q.n > 0) need(q.points, "points");
@@ -36,8 +35,8 @@ lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given)
       !q.status)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "nothing is asked for: all arrays of answers are null");
   if (q.side && !grid.has_sides)
-    throw ApiError(LSDCD_ERROR_SIDE, "the mesh is not closed and oriented, so that it has no side; "
-                                     "`lsdcd inspect` tells why");
+    throw ApiError(LSDCD_ERROR_SIDE, "the mesh is not closed and oriented, or cuts itself, so that "
+                                     "it has no side; `lsdcd inspect` tells why");
   if (q.radii && q.radius != 0)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`radii` and `radius` are both given");
   if (!q.radii && q.radius == 0) q.radius = grid.grid.view.cutoff;

@@ -19,7 +19,7 @@ constexpr std::uint64_t kMostPieces = std::uint64_t(1) << 28;
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", n);
   throw InputError(source + ": in cells of the wall's grid the body has " + text +
-                   " pieces, more than 2^28: build the grid with longer cells");
+                   " pieces, more than 2^28: give longer cells");
 }
 
 // Before anything is counted one by one: no piece has a larger area than one with equal sides.
@@ -43,18 +43,17 @@ inline void check_body(const TriangleSoup &body, Real longest)
   }
   if (!(n <= Real(kMostPieces))) throw_too_many_pieces(body.source, n);
 }
-// How far products of rows are from those of a rotation, at most.
-inline Real rotation_error(const BodyPose &pose)
+// Are rows unit vectors at right angles?
+inline bool is_orthogonal(const BodyPose &pose, Real tolerance)
 {
-  Real most = 0;
   for (int i = 0; i < 3; i++)
     for (int j = 0; j <= i; j++)
-      most = std::max(most, std::fabs(dot(pose.row[i], pose.row[j]) - (i == j)));
-  return most;
+      if (!(std::fabs(dot(pose.row[i], pose.row[j]) - (i == j)) <= tolerance)) return false;
+  return true;
 }
 inline void check_rotation(const BodyPose &pose, Real tolerance = 1e-8)
 {
-  if (!(rotation_error(pose) <= tolerance))
+  if (!is_orthogonal(pose, tolerance))
     throw InputError("the pose's matrix is no rotation: rows are not unit vectors at right angles "
                      "to " +
                      number_text(tolerance));

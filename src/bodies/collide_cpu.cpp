@@ -39,7 +39,7 @@ GridSettings collision_grid(const TriangleSoup &body, Real length, int nearest)
     length = edges[edges.size() / 2];
     if (!(length > 0))
       throw InputError(body.source + ": most edges of the body have no length; give the length of "
-                                     "the grid's cells");
+                                     "a cell");
   }
   settings.length = length;
   // 2 / 3 of a cell, the most that a piece reaches from its centroid, and a thousandth for

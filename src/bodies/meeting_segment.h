@@ -1,7 +1,7 @@
 // Where two triangles cut each other.
 #pragma once
 
-#include "bodies/triangles_meet.h"
+#include "geometry/triangles_meet.h"
 
 namespace lsdcd {
 

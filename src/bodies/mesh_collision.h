@@ -6,14 +6,16 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace lsdcd {
 
 struct MeshCollisionSettings {
-  Real cell = 0;             // length; 0: chosen, as collision_grid() does
-  int nearest = 0;           // 0: exact; N: the paper's lists
-  std::size_t memory = 0;    // bytes of the wall's grid; 0: the default
+  Real cell = 0;                     // length; 0: chosen, as collision_grid() does
+  std::string cell_name = "grid";    // for messages: what the caller calls it
+  int nearest = 0;                   // 0: exact; N: the paper's lists
+  std::size_t memory = 0;            // bytes of the wall's grid; 0: the default
   Device device = Device::cpu;
 };
 

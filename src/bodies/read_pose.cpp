@@ -22,7 +22,7 @@ void check_finite(const Real *numbers, int n, const char *what)
 void make_rotation(BodyPose &pose)
 {
   constexpr Real kOfDoubles = 1e-14;
-  while (rotation_error(pose) > kOfDoubles) {
+  while (!is_orthogonal(pose, kOfDoubles)) {
     const BodyPose old = pose;
     for (int i = 0; i < 3; i++) {
       pose.row[i] = Real(1.5) * old.row[i];

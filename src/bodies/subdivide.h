@@ -1,7 +1,7 @@
 // A body's triangles in pieces, by longest-edge bisection.
 #pragma once
 
-#include "bodies/triangles_meet.h"
+#include "geometry/triangles_meet.h"
 
 #include <cstdint>
 

@@ -253,8 +253,12 @@ GridView moved_view(const GridView &view, const char *to)
 std::string describe(const GridReport &r)
 {
   char text[1024];
-  int n = std::snprintf(text, sizeof text, "  grid %.6g (%s), cutoff %.6g: ", r.length,
-                        r.length_chosen ? "chosen" : "given", r.cutoff);
+  int n = std::snprintf(text, sizeof text, "  grid %.6g (%s", r.length,
+                        r.length_chosen ? "chosen" : "given");
+  if (r.too_fine > 0)
+    n += std::snprintf(text + n, sizeof text - n, "; %.6g takes too much time or memory",
+                       r.too_fine);
+  n += std::snprintf(text + n, sizeof text - n, "), cutoff %.6g: ", r.cutoff);
   const auto add = [&](const char *name, const ListReport &l) {
     n +=
         std::snprintf(text + n, sizeof text - n,

@@ -61,7 +61,7 @@ struct GridView {
   Real cutoff;                // largest radius that the lists are complete for
   Real tolerance;             // closes face, edge and vertex regions; length
   Real margin;                // a list holds for centres up to this far from its cell, too; length
-  Real outside;               // +1 where normals point out of a closed wall, -1 where in
+  Real outside;    // +1 where normals point out of a closed wall, -1 where in; 0: unknown
   std::int32_t n_bricks[3];
   // 0: `lists` are complete. N: `lists` hold the N nearest primitives and, where there are
   // more within the cutoff, the next one as a bound of all that was left out.
@@ -76,10 +76,11 @@ struct GridView {
 };
 
 struct GridSettings {
-  Real length = 0;                  // 0: chosen from the mesh, the cutoff and the budget
-  Real cutoff = 0;                  // > 0
-  std::size_t memory_budget = 0;    // bytes, of all of it; 0: kListBudget for lists
-  bool sides = false;               // keep what `side in|out` needs
+  Real length = 0;    // 0: chosen from the mesh, the cutoff and the budget
+  Real cutoff = 0;    // > 0
+  // Bytes, of all of it. 0: kListBudget for lists, and a build within BuildLimit.
+  std::size_t memory_budget = 0;
+  bool sides = false;        // keep what `side in|out` needs
   int nearest = 0;           // 0: complete lists; N, at most kMostNearest: the N nearest primitives
   bool exact = false;        // with nearest: complete lists as well, to fall back to
   bool in_floats = false;    // brick records, for queries in float
@@ -89,6 +90,7 @@ struct GridSettings {
   // Only the bricks that meet one of these, for trials of a grid; empty: all bricks. A
   // query elsewhere finds nothing.
   std::vector<Box> only;
+  std::string length_name = "grid";    // of `length`, for messages: what the caller calls it
   // Told how far a build is, between its parts and on a CPU within them, by the thread that asked.
   std::function<void(const std::string &)> progress;
 };
@@ -96,6 +98,18 @@ constexpr int kMostNearest = 32;
 // Instead of N: lists of every primitive within the cutoff, for bodies against the wall.
 constexpr int kEveryTriangle = 0x7ffffffe;
 constexpr std::size_t kListBudget = 1ull << 30;    // bytes, beside the records of the wall
+
+// What a build may take where no memory is given: chosen cells are made larger until it is kept, a
+// given length is refused. In units of a distance test, 10 to 20 ns of one core; and bytes beside the
+// records of the wall.
+struct BuildLimit {
+  double work, bytes;
+
+  explicit BuildLimit(std::size_t triangles) :
+      work(1e8 + 2e3 * double(triangles)), bytes(128e6 + 2e3 * double(triangles))
+  {
+  }
+};
 
 struct ListReport {
   std::size_t bricks = 0, cells = 0, candidates = 0;    // cells that have candidates
@@ -108,6 +122,7 @@ struct ListReport {
 struct GridReport {
   Real length = 0, cutoff = 0;
   bool length_chosen = false;
+  Real too_fine = 0;    // the length that was chosen first, where that took too much; else 0
   int nearest = 0;
   ListReport lists, complete;    // as in GridView
   std::size_t records = 0, record_bytes = 0;

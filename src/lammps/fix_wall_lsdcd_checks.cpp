@@ -104,6 +104,12 @@ void FixWallLsdcd::check_side(const MeshPart &m) const
 {
   const lsdcd::MeshReport &r = m.wall.report();
   if (settings.side == lsdcd::Side::both || r.oriented) return;
+  if (r.meeting_pairs > 0)
+    throw lsdcd::InputError("side in and side out need shells that are apart; those of '" +
+                            m.settings.file + "' cut or touch each other at " +
+                            std::to_string(r.meeting_pairs) +
+                            " pairs of facets: make one shell of them (a boolean union), or use "
+                            "side both");
   throw lsdcd::InputError("side in and side out need a closed, oriented mesh; '" + m.settings.file +
                           "' has " + std::to_string(r.open_edges) + " open, " +
                           std::to_string(r.nonmanifold_edges) + " non-manifold and " +

@@ -174,6 +174,11 @@ void SharedWall::build(Real cutoff, const PeriodicBox &box)
     build_block(mesh, want, report);
     if (caches) write_cache(key, report, *cached);
   }
+  if (want.sides && view().outside == 0)
+    throw InputError("side in and side out need a mesh that does not meet itself; facets of '" +
+                     of_mesh_.file +
+                     "' cut, overlap or touch each other, see lsdcd inspect: make one shell of "
+                     "them (a boolean union), or use side both");
   together(shared_.world(), rank == 0, [&] { note_images(mesh); });
   broadcast_text(grid_text_, 0, shared_.world());
   broadcast_text(ends_warning_, 0, shared_.world());

@@ -10,6 +10,14 @@
 
 namespace lsdcd {
 
+// Have they a point in common?
+inline bool overlap(const Box &a, const Box &b)
+{
+  for (int k = 0; k < 3; k++)
+    if (a.lo[k] > b.hi[k] || b.lo[k] > a.hi[k]) return false;
+  return true;
+}
+
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box> &boxes) :
@@ -24,11 +32,36 @@ class BoxTree {
   template <class MayHold, class Found>
   void visit(MayHold &&may_hold, Found &&found) const
   {
-    if (!things_.empty()) visit(1, 0, things_.size(), may_hold, found);
+    if (!things_.empty()) visit(root(), may_hold, found);
+  }
+  // Calls found(i, j) once for every two things whose boxes overlap.
+  template <class Found>
+  void visit_pairs(Found &&found) const
+  {
+    if (!things_.empty()) visit_pairs(root(), found);
+  }
+  // The same for thing i of this tree and thing j of another.
+  template <class Found>
+  void visit_pairs(const BoxTree &other, Found &&found) const
+  {
+    if (!things_.empty() && !other.things_.empty()) visit_pairs(root(), other, other.root(), found);
   }
 
  private:
   static constexpr std::size_t kLeaf = 4;
+
+  // A node, and its things.
+  struct Node {
+    std::size_t number, first, last;
+
+    std::size_t size() const { return last - first; }
+    Node half(int side) const
+    {
+      const std::size_t middle = first + size() / 2;
+      return {2 * number + side, side ? middle : first, side ? last : middle};
+    }
+  };
+  Node root() const { return {1, 0, things_.size()}; }
 
   // Halves of a range along the longest side of what is in it; node n has 2 n and 2 n + 1.
   void build(std::size_t node, std::size_t first, std::size_t last)
@@ -53,18 +86,45 @@ class BoxTree {
   }
 
   template <class MayHold, class Found>
-  void visit(std::size_t node, std::size_t first, std::size_t last, MayHold &may_hold,
-             Found &found) const
+  void visit(const Node &node, MayHold &may_hold, Found &found) const
   {
-    if (!may_hold(around_[node])) return;
-    if (last - first > kLeaf) {
-      const std::size_t half = first + (last - first) / 2;
-      visit(2 * node, first, half, may_hold, found);
-      visit(2 * node + 1, half, last, may_hold, found);
+    if (!may_hold(around_[node.number])) return;
+    if (node.size() > kLeaf) {
+      visit(node.half(0), may_hold, found);
+      visit(node.half(1), may_hold, found);
       return;
     }
-    for (std::size_t i = first; i < last; i++)
+    for (std::size_t i = node.first; i < node.last; i++)
       if (may_hold(things_[i])) found(number_[i]);
+  }
+  template <class Found>
+  void visit_pairs(const Node &node, Found &found) const
+  {
+    if (node.size() > kLeaf) {
+      visit_pairs(node.half(0), found);
+      visit_pairs(node.half(1), found);
+      visit_pairs(node.half(0), *this, node.half(1), found);
+      return;
+    }
+    for (std::size_t i = node.first; i < node.last; i++)
+      for (std::size_t j = i + 1; j < node.last; j++)
+        if (overlap(things_[i], things_[j])) found(number_[i], number_[j]);
+  }
+  template <class Found>
+  void visit_pairs(const Node &node, const BoxTree &other, const Node &its, Found &found) const
+  {
+    if (!overlap(around_[node.number], other.around_[its.number])) return;
+    if (std::max(node.size(), its.size()) > kLeaf) {
+      for (const int side : {0, 1})
+        if (node.size() > its.size())
+          visit_pairs(node.half(side), other, its, found);
+        else
+          visit_pairs(node, other, its.half(side), found);
+      return;
+    }
+    for (std::size_t i = node.first; i < node.last; i++)
+      for (std::size_t j = its.first; j < its.last; j++)
+        if (overlap(things_[i], other.things_[j])) found(number_[i], other.number_[j]);
   }
 
   std::vector<Box> things_;    // in the order of number_

@@ -21,6 +21,9 @@ std::string counted(std::size_t n, const char *one, const char *many)
 std::string surface(const MeshReport &report)
 {
   if (!report.closed) return "open";
+  if (report.meeting_pairs > 0)
+    return "closed, but cuts or touches itself: " +
+           counted(report.meeting_pairs, "pair of facets", "pairs of facets");
   if (report.inverted_facets > 0) return "closed, normals of some shells point in, of others out";
   if (!report.oriented) return "closed, not all facets face the same side";
   return report.volume > 0 ? "closed, normals point out" : "closed, normals point in";

@@ -74,8 +74,11 @@ void measure_adjacency(WallMesh &mesh, const std::vector<FacePlane> &plane)
     if (fold > kFeatureFold) ++report.feature_edges;
   }
   report.closed = !mesh.faces.empty() && report.open_edges == 0 && report.nonmanifold_edges == 0;
-  if (report.closed && report.misoriented_edges == 0) report.inverted_facets = inverted_faces(mesh);
-  report.oriented = report.closed && report.misoriented_edges == 0 && report.inverted_facets == 0;
+  if (!report.closed || report.misoriented_edges > 0) return;
+  const ShellFaults faults = faults_of_shells(mesh);
+  report.inverted_facets = faults.inverted_faces;
+  report.meeting_pairs = faults.meetings.pairs;
+  report.oriented = report.inverted_facets == 0 && report.meeting_pairs == 0;
 }
 
 }    // namespace
@@ -85,6 +88,13 @@ bool runs_along(const WallMesh &mesh, int face, int edge)
   int k = 0;
   while (mesh.face_edges[face][k] != edge) ++k;
   return mesh.faces[face][k] == mesh.edges[edge][0];
+}
+
+void check_meetings(WallMesh &mesh)
+{
+  if (!mesh.report.oriented) return;
+  mesh.report.meeting_pairs = meets_itself(mesh).pairs;
+  mesh.report.oriented = mesh.report.meeting_pairs == 0;
 }
 
 void check_has_area(const WallMesh &mesh)

@@ -15,6 +15,10 @@ void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane);
 // Does the face run along the edge from its lower to its higher vertex?
 bool runs_along(const WallMesh &mesh, int face, int edge);
 
+// Looks at the facets of an oriented mesh for pairs of one shell that meet, too: with any the mesh
+// is not oriented. Takes about as long as welding.
+void check_meetings(WallMesh &mesh);
+
 // Throws InputError where no facet has an area: what is left, edges and points, is no wall.
 void check_has_area(const WallMesh &mesh);
 

@@ -183,18 +183,23 @@ OrientedFaces orient_faces(const WallMesh &mesh)
   return out;
 }
 
-std::size_t inverted_faces(const WallMesh &mesh)
+ShellFaults faults_of_shells(const WallMesh &mesh)
 {
+  ShellFaults faults;
   std::vector<char> turned(mesh.faces.size(), 0);
   std::vector<Part> parts = parts_of(mesh, turned);
-  if (parts.size() < 2) return 0;
+  if (parts.size() < 2) return faults;
   for (Part &part : parts) measure(mesh, turned, part);
   const std::vector<char> cavities = find_cavities(mesh, parts, turned);
   std::size_t out = 0, in = 0;
   for (std::size_t i = 0; i < parts.size(); i++)
     if (has_volume(parts[i]))
       ((parts[i].volume > 0) != bool(cavities[i]) ? out : in) += parts[i].faces.size();
-  return std::min(out, in);
+  faults.inverted_faces = std::min(out, in);
+  std::vector<std::vector<int>> shells;
+  for (Part &part : parts) shells.push_back(std::move(part.faces));
+  faults.meetings = shells_meet(mesh, shells);
+  return faults;
 }
 
 }    // namespace lsdcd

@@ -1,6 +1,7 @@
 // Windings that agree, and normals of closed shells that point out of what they bound.
 #pragma once
 
+#include "mesh/meets_itself.h"
 #include "mesh/wall_mesh.h"
 
 #include <cstddef>
@@ -20,8 +21,15 @@ struct OrientedFaces {
 // bounds a cavity of others, into that; of another the side is kept that more of its area has.
 OrientedFaces orient_faces(const WallMesh &mesh);
 
-// Of a mesh whose windings agree along its edges: faces of closed parts that point in where the
-// others, which are more, point out, or the other way round. Only with none is there one outside.
-std::size_t inverted_faces(const WallMesh &mesh);
+// Why the closed shells of a mesh have no inside in common.
+struct ShellFaults {
+  // Faces of shells that point in where the others, which are more, point out, or the other way
+  // round.
+  std::size_t inverted_faces = 0;
+  SelfMeetings meetings;    // of faces of different shells
+};
+
+// Of a closed mesh whose windings agree along its edges.
+ShellFaults faults_of_shells(const WallMesh &mesh);
 
 }    // namespace lsdcd

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <memory>
 
 namespace lsdcd {
@@ -127,18 +128,27 @@ Bytes read_whole(const std::string &path)
   struct stat info;
   if (fstat(fileno(file.get()), &info) != 0) throw fail(std::strerror(errno));
   if (S_ISDIR(info.st_mode)) throw fail("it is a directory");
+  if (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode)) throw fail("it is a device");
 
   // The size is a hint: a pipe has none, and a file may grow while it is read.
-  std::size_t capacity = kBeginning;
+  std::size_t capacity = kBeginning, most = std::numeric_limits<std::size_t>::max();
+  const std::size_t size = static_cast<std::size_t>(std::max<off_t>(info.st_size, 0));
   Bytes bytes{std::unique_ptr<char[]>(new char[capacity])};
   for (;;) {
     bytes.size += std::fread(bytes.data.get() + bytes.size, 1, capacity - bytes.size, file.get());
     if (std::ferror(file.get())) throw fail(std::strerror(errno));
-    if (bytes.size < capacity) return bytes;
-    const std::size_t size = static_cast<std::size_t>(std::max<off_t>(info.st_size, 0));
-    if (capacity == kBeginning && size > capacity)
-      check_beginning(bytes.data.get(), capacity, size, path);
-    capacity = std::max(2 * capacity, size + 1);
+    if (bytes.size < capacity || bytes.size == most) return bytes;
+    if (capacity == kBeginning) {
+      const char *begin = bytes.data.get();
+      const bool is_text =
+          begins_as_stl_text(begin, capacity) || !has_control_byte(begin, capacity);
+      // Of a pipe of a binary STL what that promises, and one byte, which is one too many.
+      if (size == 0 && !is_text)
+        most = std::max(capacity, kHeaderBytes + kFacetBytes * promised_facets(begin) + 1);
+      else if (size == 0 || size > capacity)
+        check_beginning(begin, capacity, std::max(size, capacity), path);
+    }
+    capacity = std::min(std::max(2 * capacity, size + 1), most);
     std::unique_ptr<char[]> larger(new char[capacity]);
     std::memcpy(larger.get(), bytes.data.get(), bytes.size);
     bytes.data = std::move(larger);

@@ -14,7 +14,7 @@ inline void cuda_check(cudaError_t status, const char *what)
   if (status == cudaSuccess) return;
   throw InputError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status) +
                    (status == cudaErrorMemoryAllocation
-                        ? "; use a coarser grid, fewer processes per GPU, or device cpu"
+                        ? "; free memory of the GPU, with fewer processes on it, or use the CPU"
                         : ""));
 }
 

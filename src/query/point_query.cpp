@@ -30,7 +30,7 @@ void answer_on_cpu(const HostGrid &grid, const TriangleTable &names, const Point
   CpuBackend b;
   with_point_work(grid.view, grid.table, io, names.view(), &too_large,
                   [&](const auto &work) { NearFirstCpu().run(b, io.n, work); });
-  if (too_large != 0) throw_bad_radius(~too_large, io.radii[~too_large], grid.view.cutoff);
+  if (too_large != 0) throw_bad_radius("point", ~too_large, io.radii[~too_large], grid.view.cutoff);
 }
 
 }    // namespace

@@ -218,7 +218,7 @@ class CudaStreamQuery : public StreamQuery {
   {
     const std::uint64_t first = b_.read_one(too_large_.data());
     if (first == 0) return;
-    throw_bad_radius(~first,
+    throw_bad_radius("point", ~first,
                      b_.read_one(io.radii.at + static_cast<std::ptrdiff_t>(~first) * io.radii.step),
                      grid_->view.cutoff);
   }

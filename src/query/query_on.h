@@ -162,7 +162,7 @@ class QueryOn : public SphereQuery {
     const std::uint64_t first = b_.read_one(too_large_.data());
     if (first == 0) return;
     const std::size_t i = ~first;
-    throw_bad_radius(i, b_.read_one(spheres.data() + i).r, grid_.view.cutoff);
+    throw_bad_radius("sphere", i, b_.read_one(spheres.data() + i).r, grid_.view.cutoff);
   }
 
   template <class T, class Other>

@@ -17,18 +17,18 @@ struct NegativeRadiusError : InputError {
   using InputError::InputError;
 };
 
-[[noreturn]] inline void throw_bad_radius(std::size_t i, Real radius, Real cutoff)
+// `of`: what it is to the caller.
+[[noreturn]] inline void throw_bad_radius(const char *of, std::size_t i, Real radius, Real cutoff)
 {
   char text[200];
   if (!(radius >= 0)) {
-    std::snprintf(text, sizeof text, "point %zu (from 0) has the radius %.9g: give lengths", i,
-                  radius);
+    std::snprintf(text, sizeof text, "%s %zu has radius %.9g: give 0 or more", of, i, radius);
     throw NegativeRadiusError(text);
   }
   std::snprintf(text, sizeof text,
-                "sphere %zu has radius %.9g, more than the grid's cutoff %.9g: build the grid with "
-                "a cutoff of the largest radius, or try every face",
-                i, radius, cutoff);
+                "%s %zu has radius %.9g, more than the grid's cutoff %.9g: build the grid with "
+                "a cutoff of the largest radius",
+                of, i, radius, cutoff);
   throw RadiusError(text);
 }
 

@@ -125,7 +125,8 @@ void print(const Options &o, const Totals &t, const PointAnswers &answers)
   if (answers.has_sides)
     std::printf("  inside      %zu\n", t.inside);
   else
-    std::printf("  sides       none: the mesh is not closed and oriented, see lsdcd inspect\n");
+    std::printf("  sides       none: the mesh is not closed and oriented, or cuts itself: see "
+                "lsdcd inspect\n");
   std::printf(
       "  time        %.3g s, of which queries %.3g s; %.3g points per second; grid %.3g s\n",
       t.seconds, t.query_seconds, rate, answers.report.seconds);

@@ -39,7 +39,8 @@ nlohmann::json as_json(const GridReport &r)
 
 void inspect(const Options &o)
 {
-  const WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
+  WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
+  check_meetings(mesh);
   if (o.json)
     std::printf("%s\n", as_json(mesh.report).dump(2).c_str());
   else

@@ -18,6 +18,7 @@ nlohmann::json as_json(const MeshReport &r)
           {"nonmanifold_edges", r.nonmanifold_edges},
           {"misoriented_edges", r.misoriented_edges},
           {"inverted_facets", r.inverted_facets},
+          {"meeting_pairs", r.meeting_pairs},
           {"closed", r.closed},
           {"oriented", r.oriented},
           {"weld_tolerance", r.weld_tolerance},
@@ -48,6 +49,8 @@ std::vector<std::string> problems_of(const MeshReport &report)
         "edges along which windings disagree");
   count(report.inverted_facets, "facet of a closed shell wound against the others",
         "facets of closed shells wound against the others");
+  count(report.meeting_pairs, "pair of facets that cut or touch each other",
+        "pairs of facets that cut or touch each other");
   if (report.oriented && report.volume < 0) found.push_back("normals that point in");
   return found;
 }

@@ -152,7 +152,7 @@ std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, GridSetti
     made = std::make_unique<CudaAnswers>(mesh, grid);
   else
     made = std::make_unique<CpuAnswers>(mesh, grid);
-  made->has_sides = settings.sides;
+  made->has_sides = settings.sides && grid.outside != 0;
   made->report = grid.report;
   return made;
 }

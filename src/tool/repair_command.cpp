@@ -1,6 +1,6 @@
 #include "tool/commands.h"
 
-#include "bodies/meets_itself.h"
+#include "mesh/meets_itself.h"
 #include "mesh/repair.h"
 #include "output/mesh_file.h"
 #include "tool/mesh_json.h"
@@ -93,11 +93,9 @@ void print(const Options &o, const RepairReport &r)
   if (r.left.empty()) print("left", "nothing to mend");
 }
 
-void add_meetings(RepairedMesh &repaired, Progress &progress)
+void add_meetings(RepairedMesh &repaired)
 {
-  const SelfMeetings meetings = meets_itself(repaired.mesh, [&](double share) {
-    progress.show("looking for facets that meet: " + std::to_string(int(100 * share)) + " %");
-  });
+  const SelfMeetings meetings = meets_itself(repaired.mesh);
   if (meetings.pairs == 0) return;
   Vec3 middle = {0, 0, 0};
   for (const int v : repaired.mesh.faces[meetings.first[0]])
@@ -114,7 +112,8 @@ bool run(const Options &o)
   Progress progress(o.progress);
   RepairedMesh repaired =
       repair(read_stl(o.file), o.weld, [&](const std::string &text) { progress.show(text); });
-  add_meetings(repaired, progress);
+  progress.show("looking for facets that meet");
+  add_meetings(repaired);
   progress.clear();
   write_mesh_file(o.output, repaired.soup);
   const RepairReport &report = repaired.report;

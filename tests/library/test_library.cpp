@@ -269,6 +269,61 @@ TEST(library, normals_that_point_in_do_not_change_the_side)
   EXPECT_EQ(a.side[2], 1);    // on it
 }
 
+// At (0.95, 1.5, 1.5), inside of the first, a face of the second is nearest, which says outside.
+TEST(library, closed_shells_that_cut_each_other_have_no_sides)
+{
+  TriangleSoup soup = lsdcd::box_mesh({0, 0, 0}, {2, 2, 2});
+  lsdcd::append(soup, lsdcd::box_mesh({1, 1, 1}, {3, 3, 3}));
+  const lsdcd::Mesh mesh(numbers(soup));
+  EXPECT_GT(mesh.facts().meeting_pairs, 0u);
+  EXPECT_TRUE(mesh.facts().closed);
+  EXPECT_FALSE(mesh.facts().oriented);
+  EXPECT_NE(mesh.report().find("cuts or touches itself"), std::string::npos) << mesh.report();
+  const lsdcd::Grid grid(mesh, kCutoff);
+  EXPECT_FALSE(grid.facts().has_sides);
+  const double at[3] = {0.95, 1.5, 1.5};
+  std::int8_t side = 7;
+  lsdcd::Query<double> q{at, 1};
+  q.side = &side;
+  EXPECT_EQ(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_SIDE);
+  EXPECT_EQ(side, 7);
+}
+
+TEST(library, a_shell_that_cuts_itself_has_no_sides_from_a_cache_too)
+{
+  TriangleSoup soup = lsdcd::box_mesh({0, 0, 0}, {1, 1, 1});
+  for (Vec3 &p : soup.corners)
+    if (norm(p) == 0) p = {2, 0.5, 0.25};    // through the face across
+  lsdcd::TempDir folder;
+  const std::string file = folder.path("grid.cache");
+  const lsdcd::Mesh mesh(numbers(soup));
+  for (const bool again : {false, true}) {
+    lsdcd::GridOptions options(kCutoff);
+    if (std::string(LSDCD_TEST_CACHE) != "no") options.cache = file.c_str();
+    const lsdcd::Grid grid(mesh, options);
+    EXPECT_EQ(bool(grid.facts().from_cache), again && options.cache);
+    EXPECT_FALSE(grid.facts().has_sides);
+    EXPECT_NE(grid.report().find("no sides"), std::string::npos) << grid.report();
+  }
+}
+
+TEST(library, a_cavity_has_the_side_of_what_is_round_it)
+{
+  TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}),
+               cavity = lsdcd::box_mesh({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  for (std::size_t i = 0; i < cavity.corners.size(); i += 3)
+    std::swap(cavity.corners[i], cavity.corners[i + 1]);
+  lsdcd::append(soup, cavity);
+  const lsdcd::Grid grid(lsdcd::Mesh(numbers(soup)), kCutoff);
+  const std::vector<double> points = random_points<double>(2000);
+  const All<double> a(grid, points, true);
+  for (std::size_t i = 0; i < a.side.size(); i++) {
+    const Vec3 q = point(points, i);
+    const double half = std::max({std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
+    if (a.status[i] & LSDCD_FOUND) EXPECT_EQ(a.side[i], half > 0.5 && half < 1 ? -1 : 1) << i;
+  }
+}
+
 TEST(library, arrays_of_any_layout_have_the_same_answers)
 {
   const lsdcd::Grid grid = grid_of(box_and_cylinder());
@@ -489,11 +544,11 @@ TEST(library, a_driver_that_is_loaded_after_the_first_query_is_noticed)
   const std::vector<double> points = {1.25, 0, 0};
   const auto load_between_two = [&] {
     grid.distances(points);
-    if (!dlopen(LSDCD_FAKE_CUDA, RTLD_NOW)) std::exit(-1);
+    if (!dlopen(LSDCD_FAKE_CUDA, RTLD_NOW)) std::_Exit(-1);
     double distance;
     lsdcd::Query<double> q(points.data(), 1);
     q.distance = &distance;
-    std::exit(lsdcd_query_host(grid.get(), &q));
+    std::_Exit(lsdcd_query_host(grid.get(), &q));
   };
   EXPECT_EXIT(load_between_two(), ::testing::ExitedWithCode(LSDCD_ERROR_DEVICE), "");
 }
@@ -586,7 +641,7 @@ TEST_F(Wrong, one_of_many_radii_beyond_the_cutoff)
 {
   const double radii[2] = {0.1, std::nextafter(kCutoff, 1)};
   q.radii = radii;
-  expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_CUTOFF, "sphere 1 has radius");
+  expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_CUTOFF, "point 1 has radius 0.4");
 }
 
 TEST_F(Wrong, one_of_many_radii_below_0_or_not_a_number)
@@ -594,8 +649,7 @@ TEST_F(Wrong, one_of_many_radii_below_0_or_not_a_number)
   for (double bad : {-0.1, double(NAN)}) {
     const double radii[2] = {0, bad};
     q.radii = radii;
-    expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_ARGUMENT,
-           "point 1 (from 0) has the radius");
+    expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_ARGUMENT, "point 1 has radius");
   }
 }
 
@@ -680,16 +734,36 @@ TEST_F(Wrong, options_that_make_no_grid)
   expect_bad([](auto &o) { o.precision = 2; }, "precision");
   expect_bad([](auto &o) { o.memory = -1; }, "memory");
   expect_bad([](auto &o) { o.threads = -1; }, "threads");
+  expect_bad([](auto &o) { o.threads = 50000; }, "`threads` is 50000; it is 0 to 4096");
   expect_bad([](auto &o) { o.device = 2; }, "device");
 }
 
 TEST_F(Wrong, a_grid_over_its_budget)
 {
   lsdcd::GridOptions o(kCutoff);
-  o.cell = 1e-4;
+  o.cell = 8e-3;
   o.memory = 1e6;
   lsdcd_grid *g = nullptr;
-  expect(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_INPUT, "grid 0.0001");
+  expect(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_INPUT, "`cell` 0.008");
+  EXPECT_NE(std::strstr(lsdcd_last_error(), "or leave `cell` out"), nullptr) << lsdcd_last_error();
+  o.cell = 0;
+  o.memory = 1e3;
+  expect(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_INPUT, "MB: give that");
+  EXPECT_EQ(std::strstr(lsdcd_last_error(), "coarsen"), nullptr) << lsdcd_last_error();
+}
+
+TEST_F(Wrong, a_cell_that_would_take_too_long)
+{
+  lsdcd::GridOptions o(kCutoff);
+  o.cell = 8e-3;
+  lsdcd_grid *g = nullptr;
+  expect(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_INPUT, "`cell` 0.008 is too fine");
+}
+
+TEST_F(Wrong, more_threads_than_a_process_can_have)
+{
+  q.threads = 50000;
+  refused(LSDCD_ERROR_ARGUMENT, "`threads` is 50000");
 }
 
 #if !defined(LSDCD_HAVE_CUDA)

@@ -295,7 +295,7 @@ TEST_F(WrongBody, options_that_make_no_sense)
   not_made(LSDCD_ERROR_ARGUMENT, "memory is -1");
   o = in_cells(0.3);
   o.threads = -2;
-  not_made(LSDCD_ERROR_ARGUMENT, "threads is -2");
+  not_made(LSDCD_ERROR_ARGUMENT, "`threads` is -2");
   o = in_cells(0.3);
   o.device = 9;
   not_made(LSDCD_ERROR_ARGUMENT, "device is neither");
@@ -305,7 +305,7 @@ TEST_F(WrongBody, cells_too_short_for_the_memory)
 {
   o = in_cells(0.001);
   o.memory = 1e6;
-  not_made(LSDCD_ERROR_INPUT, "");
+  not_made(LSDCD_ERROR_INPUT, "`cell` 0.001 takes");
 }
 
 TEST_F(WrongBody, cells_too_short_for_the_body)

@@ -26,6 +26,10 @@ GOOD = [
     ("inspect apart.stl --weld 0.01 --json", {"vertices": 8, "closed": True}),
     ("inspect apart.stl --json", {"vertices": 9, "closed": False, "clean": True}),
     ("inspect two.stl", ["normals of some shells point in", "no: 12 facets of closed shells wound against the others"]),
+    ("inspect cut.stl", ["closed, but cuts or touches itself", "pairs of facets that cut or touch"]),
+    ("inspect knot.stl", ["closed, but cuts or touches itself"]),
+    ("inspect cut.stl --json", {"closed": True, "oriented": False, "clean": False}),
+    ("distance knot.stl points.csv --radius 1 -o d.csv --json", {"sides": False}),
     ("distance two.stl points.csv --radius 1 -o d.csv --json", {"sides": False}),
     ("grid wall.stl --radius 0.1", ["mesh wall.stl", "cutoff 0.1"]),
     ("grid wall.stl --radius 0.1 --grid 0.25 --json", {"length": 0.25, "cutoff": 0.1}),
@@ -50,7 +54,7 @@ BAD = [    # words, exit code, what is said
     ("grid wall.stl --radius big", 2, ["--radius", "big"]),
     ("grid wall.stl --radius 1 --grid -1", 2, ["--grid", "-1"]),
     ("grid wall.stl --radius 1 --memory 0", 2, ["--memory", "0"]),
-    ("grid wall.stl --radius 0.1 --memory 0.001", 1, ["memory budget", "coarsen"]),
+    ("grid wall.stl --radius 0.1 --memory 0.001", 1, ["memory budget", "MB: give that"]),
     ("repair wall.stl", 2, ["--output is required"]),
     ("repair wall.stl -o no/there.stl", 1, ["no/there.stl", NO_FILE]),
     ("convert wall.stl -o wall.png", 1, ["wall.png", ".stl, .obj, .ply or .off"]),
@@ -91,6 +95,7 @@ OF_A_MESH = ["inspect {}", "grid {} --radius 1", "tradeoff {} --radius 1", "dist
 BAD += [(f"{command.format(mesh)} {words}", code, said) for mesh, words, code, said, commands in (
     ("nowhere.stl", "", 1, ["nowhere.stl", NO_FILE], OF_A_MESH),
     ("text.stl", "", 1, ["text.stl", "not an STL"], OF_A_MESH),
+    ("/dev/zero", "", 1, ["/dev/zero", "it is a device"], OF_A_MESH[:1]),
     ("line.stl", "", 1, ["line.stl", "none of its 1 facets has an area"], OF_A_MESH[1:6]),
     ("wall.stl", "--scale 1 2", 2, ["one factor or three"], OF_A_MESH[:4] + OF_A_MESH[5:]),
     ("wall.stl", "--scale 0", 2, ["--scale", "0 is not a number other than 0"], OF_A_MESH[:4] + OF_A_MESH[5:]),
@@ -109,6 +114,10 @@ def scene():
     for name in ("wall.stl", "body.stl"):
         write_ascii_stl(folder / name, box)
     write_ascii_stl(folder / "two.stl", [*box, *cube(at=(3, 0, 0))[:, ::-1]])    # the second inside out
+    write_ascii_stl(folder / "cut.stl", [*box, *cube(at=(0.5, 0.5, 0.5))])
+    knot = box.copy()
+    knot[(knot == 0).all(axis=2)] = (2, 0.5, 0.25)    # a corner, through the face across
+    write_ascii_stl(folder / "knot.stl", knot)
     box[0, 0] += (0.003, 0.004, 0)
     write_ascii_stl(folder / "apart.stl", box)
     write_ascii_stl(folder / "line.stl", [[(0, 0, 0), (1, 0, 0), (2, 0, 0)]])

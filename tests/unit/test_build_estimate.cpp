@@ -46,16 +46,16 @@ void compare(const WallMesh &mesh, const GridSettings &settings)
   // than twice their mean; 4 * 2 / sqrt(400).
   EXPECT_NEAR(about.entries, entries, 0.4 * entries);
   // What a message names as enough.
-  EXPECT_GE(estimate_bytes(grid.wall, plan, settings).enough,
+  EXPECT_GE(estimate_build(grid.wall, plan, settings).enough_bytes,
             double(flat_bytes(grid) - flat_wall_bytes(grid)));
 }
 
-LeastBytes bytes_of_slivers(int nearest, bool exact)
+BuildEstimate estimate_of_slivers(int nearest, bool exact)
 {
   const WallMesh mesh = slivers(500);
   GridSettings settings = settings_of(0.5, nearest);
   settings.exact = exact;
-  return estimate_bytes(make_features(mesh, false, true), plan_grid(mesh, settings), settings);
+  return estimate_build(make_features(mesh, false, true), plan_grid(mesh, settings), settings);
 }
 
 }    // namespace
@@ -84,19 +84,18 @@ TEST(BuildEstimate, entries_of_a_part_are_as_estimated)
 
 TEST(BuildEstimate, lists_that_are_cut_short_may_have_any_size)
 {
-  EXPECT_EQ(bytes_of_slivers(8, false).least, 0);
-  EXPECT_EQ(bytes_of_slivers(8, false).enough, 0);
+  EXPECT_EQ(estimate_of_slivers(8, false).least_bytes, 0);
 }
 
 TEST(BuildEstimate, complete_lists_beside_short_ones_count)
 {
-  EXPECT_GT(bytes_of_slivers(0, false).least, 0);
-  EXPECT_EQ(bytes_of_slivers(8, true).least, bytes_of_slivers(0, false).least);
+  EXPECT_GT(estimate_of_slivers(0, false).least_bytes, 0);
+  EXPECT_EQ(estimate_of_slivers(8, true).least_bytes, estimate_of_slivers(0, false).least_bytes);
 }
 
 TEST(BuildEstimate, lists_of_every_triangle_count)
 {
-  EXPECT_GT(bytes_of_slivers(kEveryTriangle, false).least, 0);
+  EXPECT_GT(estimate_of_slivers(kEveryTriangle, false).least_bytes, 0);
 }
 
 TEST(BuildEstimate, a_given_cell_that_cannot_fit_is_refused_before_anything_is_built)
@@ -132,6 +131,42 @@ TEST(BuildEstimate, a_chosen_cell_is_not_built_where_it_cannot_fit)
   char name[40];
   std::snprintf(name, sizeof name, "grid %.6g:", double(grid.length));
   EXPECT_EQ(told.back().find(name), 0u) << told.back();
+}
+
+TEST(BuildEstimate, the_smallest_cutoffs_take_a_coarser_cell_and_say_so)
+{
+  TriangleSoup one;
+  one.corners = {{0, 0, 0}, {1, 0.25, 0.25}, {0.125, 1, 0.5}};
+  for (const Real cutoff : {1e-6, 4.9e-324}) {
+    GridSettings settings;
+    settings.cutoff = cutoff;
+    const TriangleGrid grid = build_grid(weld(one, -1), settings);
+    EXPECT_GT(grid.length, 1e-4);
+    // The limit is of entries of 8 bytes or of the table, whichever are more; and a brick's 128
+    // bytes have 64 entries and more, or a quarter.
+    EXPECT_LT(double(grid.report.bytes), 2.25 * BuildLimit(1).bytes);
+    EXPECT_NE(describe(grid.report).find("takes too much time or memory"), std::string::npos)
+        << describe(grid.report);
+  }
+}
+
+std::string why_refused(const GridSettings &settings)
+{
+  try {
+    build_grid(slivers(500), settings);
+  } catch (const InputError &e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(BuildEstimate, a_given_cell_over_the_limit_is_refused_where_no_budget_lifts_it)
+{
+  GridSettings settings;
+  settings.cutoff = settings.length = 0.1;
+  EXPECT_NE(why_refused(settings).find("grid 0.1 is too fine"), std::string::npos);
+  settings.memory_budget = std::size_t(20) << 20;
+  EXPECT_NE(why_refused(settings).find("budget is 20 MB"), std::string::npos);
 }
 
 TEST(BuildEstimate, progress_names_each_part_of_a_build)

@@ -967,7 +967,7 @@ TEST(query, a_sphere_larger_than_the_reach_is_refused_by_its_index_and_both_leng
 {
   const std::string words =
       "sphere 600 has radius 0.6, more than the grid's cutoff 0.1: build the grid with a cutoff of "
-      "the largest radius, or try every face";
+      "the largest radius";
   EXPECT_EQ(refusal<Sphere>({600, 699}, 0.6), words);
 }
 

@@ -8,6 +8,7 @@
 
 #include <cctype>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -300,6 +301,53 @@ std::string path_error(const std::string &path)
     return error.what();
   }
   return "accepted";
+}
+
+// Zeros are a binary STL of no facets, of which no more than a beginning is read.
+TEST(read_stl, a_pipe_without_end_is_refused_at_once)
+{
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  std::size_t written = 0;
+  std::thread writer([&] {
+    const std::vector<char> zeros(4096, 0);
+    const auto before = std::signal(SIGPIPE, SIG_IGN);
+    while (written < (std::size_t(64) << 20)) {
+      const auto n = write(ends[1], zeros.data(), zeros.size());
+      if (n < 0) break;    // nobody reads any more
+      written += static_cast<std::size_t>(n);
+    }
+    close(ends[1]);
+    std::signal(SIGPIPE, before);
+  });
+  const std::string error = path_error("/dev/fd/" + std::to_string(ends[0]));
+  close(ends[0]);
+  writer.join();
+  EXPECT_TRUE(contains(error, "0 facets promised by the header")) << error;
+  EXPECT_LT(written, std::size_t(1) << 20);    // and what the pipe itself holds, 64 kB
+}
+
+TEST(read_stl, a_binary_file_comes_through_a_pipe)
+{
+  std::string records;
+  for (int i = 0; i < 5000; ++i) records += kRecord;
+  const std::string bytes = binary("", 5000, records);
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  std::thread writer([&] {
+    for (std::size_t done = 0; done < bytes.size();)
+      done += static_cast<std::size_t>(write(ends[1], bytes.data() + done, bytes.size() - done));
+    close(ends[1]);
+  });
+  const auto soup = read_stl("/dev/fd/" + std::to_string(ends[0]));
+  writer.join();
+  close(ends[0]);
+  EXPECT_EQ(soup.n_triangles(), 5000u);
+}
+
+TEST(read_stl, a_device_is_not_a_mesh)
+{
+  EXPECT_TRUE(contains(path_error("/dev/zero"), "it is a device"));
 }
 
 TEST(read_stl, missing_file_is_named)

@@ -1,6 +1,6 @@
 // Pairs of triangles of which one sees whether they meet: touching, in one plane, without an area,
 // a last digit apart, of any size. tests/unit/test_triangles_cgal.cpp has random ones.
-#include "bodies/triangles_meet.h"
+#include "geometry/triangles_meet.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Do two triangles meet: against CGAL's exact kernel, which knows triangles, segments and points
 // apart. LSDCD_QUICK=1 tries a tenth.
-#include "bodies/triangles_meet.h"
+#include "geometry/triangles_meet.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #include "base/input_error.h"
 #include "mesh/assemble.h"
 #include "mesh/fingerprint.h"
+#include "mesh/measure_mesh.h"
 #include "mesh/wall_mesh.h"
 
 #include <gtest/gtest.h>
@@ -339,6 +340,45 @@ TEST(weld, a_solid_in_a_cavity_points_out)
   const Triangles cavity = turned(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}));
   const Triangles solid = box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6});
   EXPECT_TRUE(weld(joined(joined(kCube, cavity), solid)).report.oriented);
+}
+
+TEST(weld, shells_that_cut_or_touch_each_other_leave_the_mesh_without_sides)
+{
+  const Triangles two = box({0, 0, 0}, {2, 2, 2});
+  const Triangles others[] = {box({1, 1, 1}, {3, 3, 3}),              // cuts
+                              box({0.5, 0.5, 0.5}, {1.5, 1.5, 9}),    // goes through a face
+                              box({2, 0.5, 0.5}, {3, 1.5, 1.5}),      // touches
+                              turned(box({1, 0.5, 0.5}, {2, 1.5, 1.5}))};
+  for (const Triangles &other : others) {
+    const auto report = weld(joined(two, other)).report;
+    EXPECT_GT(report.meeting_pairs, 0u);
+    EXPECT_TRUE(report.closed);
+    EXPECT_FALSE(report.oriented);
+  }
+}
+
+TEST(weld, shells_in_each_others_box_that_do_not_meet_keep_the_mesh_oriented)
+{
+  Triangles ring = box({0, 0, 0}, {4, 4, 1});
+  for (auto &t : ring)    // a ramp, over which the other one floats
+    for (Vec3 &p : t)
+      if (p.x > 2) p.z += 3;
+  const auto report = weld(joined(ring, box({0.5, 1, 2.5}, {1.5, 2, 3.5}))).report;
+  EXPECT_EQ(report.meeting_pairs, 0u);
+  EXPECT_TRUE(report.oriented);
+}
+
+TEST(weld, a_shell_that_cuts_itself_is_found_where_it_is_looked_for)
+{
+  Triangles bad = kCube;
+  for (auto &t : bad)
+    for (Vec3 &p : t)
+      if (norm(p) == 0) p = {2, 0.5, 0.25};    // through the face across
+  WallMesh mesh = weld(bad);
+  EXPECT_TRUE(mesh.report.oriented);
+  check_meetings(mesh);
+  EXPECT_GT(mesh.report.meeting_pairs, 0u);
+  EXPECT_FALSE(mesh.report.oriented);
 }
 
 TEST(weld, a_closed_sheet_without_volume_has_no_say)

@@ -6,6 +6,7 @@
 #include "grid/build/estimate_lists.h"
 #include "grid/build/fill_lists.h"
 #include "grid/triangle_grid.h"
+#include "mesh/meets_itself.h"
 
 #include <chrono>
 #include <cmath>
@@ -167,8 +168,15 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
   return needed <= budget;
 }
 
-// Plans, builds, and where the length was left to us tries coarser ones until
-// the budget holds.
+// How often a plan has to become coarser, at least, until what is `over` times too much can fit: a
+// grid has no more than length^-3 of anything.
+inline int least_steps(double over)
+{
+  if (!std::isfinite(over)) return 1;
+  return std::max(1, static_cast<int>(std::log(over) / (3 * std::log(kCoarser))));
+}
+
+// Plans, builds, and where the length was left to us tries coarser ones until budget and limit hold.
 template <class B>
 TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &settings)
 {
@@ -178,34 +186,52 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   GridBuilder<B> builder(std::move(backend), grid.wall, settings.progress);
   GridPlan plan = plan_grid(mesh, settings);
   const double budget = double(budget_of(settings, grid));
+  const BuildLimit limit(mesh.faces.size());
+  const bool is_limited = settings.memory_budget == 0;
   constexpr double kNoBudget = 1e18;
   const bool may_coarsen = settings.length <= 0 || settings.may_coarsen;
+  const Real first_length = plan.length;
   const auto fits = [&](double budget_here, double &needed) {
     grid.lists = grid.complete = CellLists();
     grid.records = BrickRecords();
     grid.report = GridReport();
     return fill_grid(builder, plan, settings, budget_here, grid, needed);
   };
-  double needed = 0;
+  const double of_wall = double(flat_wall_bytes(grid));
+  // Of a plan that was found too large, by `needed` bytes at least; exactly where that is quick.
+  const auto refuse = [&](const BuildEstimate &e, double needed) {
+    if (may_coarsen && e.enough_bytes == 0)
+      fits(kNoBudget, needed);
+    else if (may_coarsen)
+      needed = std::max(needed, of_wall + e.enough_bytes);
+    throw_over_budget(settings, needed, budget);
+  };
   for (;;) {
-    const LeastBytes bytes = estimate_bytes(grid.wall, plan, settings);
-    const double of_wall = double(flat_wall_bytes(grid));
-    const bool may_fit = of_wall + bytes.least <= budget;
-    if (may_fit && fits(budget, needed)) break;
-    needed = std::max(needed, of_wall + bytes.least);
+    const BuildEstimate e = estimate_build(grid.wall, plan, settings);
     const bool at_end = !may_coarsen || is_coarsest(plan, mesh);
-    if (at_end && may_coarsen) {
-      // Exactly, where that is quick.
-      if (may_fit || bytes.enough == 0)
-        fits(kNoBudget, needed);
-      else
-        needed = of_wall + bytes.enough;
+    const double least = std::max(e.least_bytes, plan.least_bytes()),
+                 too_much = std::max(e.work / limit.work, least / limit.bytes);
+    const bool is_over_limit = is_limited && too_much > 1 && !(may_coarsen && at_end);
+    double needed = of_wall + least;
+    if (of_wall + e.least_bytes <= budget && !is_over_limit && fits(budget, needed)) break;
+    if (at_end && is_over_limit && of_wall + least <= budget) throw_over_limit(settings, too_much);
+    if (at_end) refuse(e, needed);
+    if (plan.length == first_length) {
+      // Better told now than after all coarser ones.
+      const GridPlan tried = plan;
+      while (!is_coarsest(plan, mesh)) plan = coarser(plan, mesh, settings);
+      const BuildEstimate last = estimate_build(grid.wall, plan, settings);
+      if (of_wall + last.least_bytes > budget) refuse(last, of_wall + last.least_bytes);
+      plan = tried;
     }
-    if (at_end) throw_over_budget(settings, needed, budget);
-    plan = coarser(plan, mesh, settings);
+    const double over =
+        std::max((needed - of_wall) / std::max(budget - of_wall, 1.), is_limited ? too_much : 0);
+    for (int i = least_steps(over); i > 0 && !is_coarsest(plan, mesh); i--)
+      plan = coarser(plan, mesh, settings);
   }
 
   grid.outside = mesh.report.volume < 0 ? -1 : 1;
+  if (settings.sides && settings.only.empty() && meets_itself(mesh).pairs > 0) grid.outside = 0;
   grid.report.nearest = settings.nearest;
   grid.report.records =
       grid.records.faces.size() + grid.records.edges.size() + grid.records.vertices.size();
@@ -214,6 +240,7 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   grid.report.length = plan.length;
   grid.report.cutoff = plan.cutoff;
   grid.report.length_chosen = settings.length <= 0;
+  grid.report.too_fine = plan.length > first_length ? first_length : 0;
   grid.report.bytes = flat_bytes(grid);
   grid.report.seconds = GridBuilder<B>::seconds_since(start);
   return grid;

@@ -13,6 +13,7 @@ namespace {
 // A part is one brick of a feature's box. Sampled are this many, or this share of all, so that the
 // estimate takes no time beside the build.
 constexpr std::uint64_t kMostSamples = 1 << 14, kFewestSamples = 256, kOneOf = 64;
+constexpr double kPartWork = 8;    // to look at a part takes as long as so many distance tests
 
 struct Sum {
   double n = 0, total = 0, squares = 0;
@@ -75,30 +76,32 @@ ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool
     first = end;
   }
   const double all = double(n_parts);
-  return {all * entries.mean(), all * entries.least(), all * pairs.least()};
+  return {all * entries.mean(), all * entries.least(), all * pairs.least(),
+          all * (kPartWork + kOctantCells * pairs.mean())};
 }
 
-LeastBytes estimate_bytes(const WallFeatures &wall, const GridPlan &plan,
-                          const GridSettings &settings)
+BuildEstimate estimate_build(const WallFeatures &wall, const GridPlan &plan,
+                             const GridSettings &settings)
 {
-  LeastBytes bytes;
-  if (!std::isfinite(plan.least_bytes())) return bytes;
+  BuildEstimate out;
+  if (!std::isfinite(plan.least_bytes())) return out;
   const std::vector<std::uint64_t> only = bricks_that_meet(plan, settings.only);
   const auto add = [&](int nearest) {
     const ListEstimate lists = estimate_lists(wall, plan, nearest > 0, only);
     constexpr double kMostNumbers = 0xffffffff;
-    if (lists.least_pairs > kMostNumbers) bytes.least = bytes.enough = HUGE_VAL;
-    // Nearest lists are cut short.
-    if (nearest > 0 && nearest != kEveryTriangle) return;
-    if (lists.least_entries > kMostNumbers) bytes.least = bytes.enough = HUGE_VAL;
+    if (lists.least_pairs > kMostNumbers) out.least_bytes = out.enough_bytes = HUGE_VAL;
+    out.work += lists.work;
+    const bool cut_short = nearest > 0 && nearest != kEveryTriangle;
+    if (!cut_short && lists.least_entries > kMostNumbers)
+      out.least_bytes = out.enough_bytes = HUGE_VAL;
     // An entry is a candidate, or where it is single the cell of it.
     static_assert(sizeof(Candidate) == sizeof(Cell), "counted as one");
-    bytes.least += lists.least_entries * sizeof(Candidate);
-    bytes.enough += 1.25 * lists.entries * sizeof(Candidate);
+    if (!cut_short) out.least_bytes += lists.least_entries * sizeof(Candidate);
+    out.enough_bytes += 1.25 * lists.entries * sizeof(Candidate);
   };
   add(settings.nearest);
   if (settings.nearest > 0 && settings.exact) add(0);
-  return bytes;
+  return out;
 }
 
 }    // namespace lsdcd

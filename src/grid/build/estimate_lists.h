@@ -14,18 +14,19 @@ namespace lsdcd {
 // quickly made.
 struct ListEstimate {
   double entries = 0, least_entries = 0, least_pairs = 0;
+  double work = 0;    // that is expected, as of BuildLimit
 };
 
 // `only`: as of bricks_that_meet().
 ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool primitives,
                             const std::vector<std::uint64_t> &only);
 
-// Bytes of the lists of a grid: at least these, or these expected and a quarter more; infinite
-// where they cannot be numbered.
-struct LeastBytes {
-  double least = 0, enough = 0;
+// Of the lists of a grid: at least these bytes, or these expected and a quarter more, infinite where
+// they cannot be numbered; and the work of making them, as of BuildLimit.
+struct BuildEstimate {
+  double least_bytes = 0, enough_bytes = 0, work = 0;
 };
-LeastBytes estimate_bytes(const WallFeatures &wall, const GridPlan &plan,
-                          const GridSettings &settings);
+BuildEstimate estimate_build(const WallFeatures &wall, const GridPlan &plan,
+                             const GridSettings &settings);
 
 }    // namespace lsdcd

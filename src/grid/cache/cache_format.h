@@ -90,11 +90,11 @@ class Unpacker {
 template <class Report, class Visit>
 void each_field(Report &r, Visit &visit)
 {
-  auto &[length, cutoff, length_chosen, nearest, lists, complete, records, record_bytes, bytes,
-         seconds, device] = r;
+  auto &[length, cutoff, length_chosen, too_fine, nearest, lists, complete, records, record_bytes,
+         bytes, seconds, device] = r;
   const auto all = [&](auto &...field) { (visit(field), ...); };
-  all(length, cutoff, length_chosen, nearest, lists, complete, records, record_bytes, bytes,
-      seconds, device);
+  all(length, cutoff, length_chosen, too_fine, nearest, lists, complete, records, record_bytes,
+      bytes, seconds, device);
 }
 
 inline std::size_t frames_in(std::size_t bytes)

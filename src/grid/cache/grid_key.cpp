@@ -64,7 +64,8 @@ Hash version_hash()
 Hash settings_hash(const GridSettings &s)
 {
   const auto &[length, cutoff, memory_budget, sides, nearest, exact, in_floats, may_coarsen, within,
-               only, progress] = s;
+               only, length_name, progress] = s;
+  (void) length_name;
   (void) progress;
   return Hasher().of(length, cutoff, memory_budget, sides, nearest, exact, in_floats, may_coarsen,
                      within.lo, within.hi, only);

@@ -133,8 +133,12 @@ GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
   if (!(settings.cutoff > 0) || !std::isfinite(settings.cutoff))
     throw InputError("grid cutoff is " + number_text(settings.cutoff) +
                      "; it must be the largest particle radius, above 0");
-  const Real length = settings.length > 0 ? settings.length
-                                          : default_length(mesh, settings.cutoff, settings.nearest);
+  // A billionth of the mesh: smaller cells cannot be numbered, and the smallest numbers do not grow.
+  const Real least = Real(0x1p-30) * norm(mesh.report.hi - mesh.report.lo);
+  const Real length =
+      settings.length > 0
+          ? settings.length
+          : std::max(default_length(mesh, settings.cutoff, settings.nearest), least);
   return plan_with_length(mesh, settings, length,
                           least_volume(mesh, settings.cutoff, settings.within));
 }
@@ -146,7 +150,7 @@ bool is_coarsest(const GridPlan &plan, const WallMesh &mesh)
 
 GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings)
 {
-  return plan_with_length(mesh, settings, plan.length * Real(1.25), plan.least_volume);
+  return plan_with_length(mesh, settings, plan.length * kCoarser, plan.least_volume);
 }
 
 std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vector<Box> &boxes)
@@ -185,17 +189,30 @@ void throw_over_budget(const GridSettings &settings, double needed, double budge
   };
   constexpr double kMebi = 1048576;
   const bool given = settings.length > 0 && !settings.may_coarsen;
+  const std::string name = settings.length_name;
   std::string text =
-      given ? "grid " + number_text(settings.length) : "the coarsest grid of this mesh";
+      given ? name + " " + number_text(settings.length) : "the coarsest grid of this mesh";
   if (std::isfinite(needed))
     text += " takes " + number_text(rounded_up(needed / kMebi)) + " MB" +
             (given ? " at least" : "") +
             ", the mesh's own records among them, and the memory budget is " +
-            number_text(budget / kMebi) + " MB: give that, or ";
+            number_text(budget / kMebi) + " MB: give that" + (given ? ", or " : "");
   else
-    text += " has more cells than can be numbered: ";
-  throw InputError(
-      text + (given ? "leave grid out, which takes the finest that fits" : "coarsen the mesh"));
+    text += " has more cells than can be numbered: " +
+            std::string(given ? "" : "give a smaller cutoff, or a mesh of fewer triangles");
+  throw InputError(text +
+                   (given ? "leave " + name + " out, which takes the finest that fits" : ""));
+}
+
+void throw_over_limit(const GridSettings &settings, double times)
+{
+  const std::string &name = settings.length_name;
+  throw InputError(name + " " + number_text(settings.length) +
+                   " is too fine for this mesh: its build takes " + number_text(std::ceil(times)) +
+                   " times the limit of 1 s and 20 us a triangle, or 128 MB and 2 kB a triangle; "
+                   "leave " +
+                   name +
+                   " out to have one chosen within it, or give a memory budget, which lifts it");
 }
 
 }    // namespace lsdcd

@@ -68,6 +68,8 @@ Real default_length(const WallMesh &mesh, Real cutoff, int nearest);
 // From the settings, or where they leave the length open from the mesh and reach.
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
 
+constexpr Real kCoarser = 1.25;
+
 // The next coarser plan of a search for one that fits, until a cell is larger than the mesh.
 bool is_coarsest(const GridPlan &plan, const WallMesh &mesh);
 GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings);
@@ -84,5 +86,7 @@ std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks);
 // `needed`: bytes that the grid of the length that was asked for takes at least; or, of a length
 // to be chosen, those of the coarsest grid.
 [[noreturn]] void throw_over_budget(const GridSettings &settings, double needed, double budget);
+// Of a given length, whose build takes so many times what BuildLimit allows.
+[[noreturn]] void throw_over_limit(const GridSettings &settings, double times);
 
 }    // namespace lsdcd
