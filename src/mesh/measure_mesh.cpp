@@ -90,10 +90,10 @@ bool runs_along(const WallMesh &mesh, int face, int edge)
   return mesh.faces[face][k] == mesh.edges[edge][0];
 }
 
-void check_meetings(WallMesh &mesh)
+void note_meetings(WallMesh &mesh, const SelfMeetings &meetings)
 {
   if (!mesh.report.oriented) return;
-  mesh.report.meeting_pairs = meets_itself(mesh).pairs;
+  mesh.report.meeting_pairs = meetings.pairs;
   mesh.report.oriented = mesh.report.meeting_pairs == 0;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/face_plane.h"
+#include "mesh/meets_itself.h"
 #include "mesh/wall_mesh.h"
 
 #include <vector>
@@ -15,9 +16,8 @@ void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane);
 // Does the face run along the edge from its lower to its higher vertex?
 bool runs_along(const WallMesh &mesh, int face, int edge);
 
-// Looks at the facets of an oriented mesh for pairs of one shell that meet, too: with any the mesh
-// is not oriented. Takes about as long as welding.
-void check_meetings(WallMesh &mesh);
+// Takes it into the report that these facets of the mesh meet: with any it is not oriented.
+void note_meetings(WallMesh &mesh, const SelfMeetings &meetings);
 
 // Throws InputError where no facet has an area: what is left, edges and points, is no wall.
 void check_has_area(const WallMesh &mesh);

@@ -24,7 +24,7 @@ struct MeshReport {
   std::size_t misoriented_edges = 0;    // two faces that run along it the same way
   std::size_t inverted_facets = 0;      // of closed shells that point in where others point out
   // Pairs of facets that cut, overlap or touch each other: of different closed shells, or, after
-  // check_meetings(), of any.
+  // note_meetings(), of any.
   std::size_t meeting_pairs = 0;
   bool closed = false;        // every edge that has faces has two of them
   bool oriented = false;      // closed, no misoriented edge, inverted facet or meeting pair

@@ -40,7 +40,7 @@ nlohmann::json as_json(const GridReport &r)
 void inspect(const Options &o)
 {
   WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
-  check_meetings(mesh);
+  if (mesh.report.oriented) note_meetings(mesh, meets_itself(mesh));
   if (o.json)
     std::printf("%s\n", as_json(mesh.report).dump(2).c_str());
   else

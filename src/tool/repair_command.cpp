@@ -1,5 +1,6 @@
 #include "tool/commands.h"
 
+#include "mesh/measure_mesh.h"
 #include "mesh/meets_itself.h"
 #include "mesh/repair.h"
 #include "output/mesh_file.h"
@@ -97,6 +98,7 @@ void add_meetings(RepairedMesh &repaired)
 {
   const SelfMeetings meetings = meets_itself(repaired.mesh);
   if (meetings.pairs == 0) return;
+  note_meetings(repaired.mesh, meetings);
   Vec3 middle = {0, 0, 0};
   for (const int v : repaired.mesh.faces[meetings.first[0]])
     middle += (1.0 / 3) * repaired.mesh.vertices[v];
