@@ -320,7 +320,9 @@ TEST(library, a_cavity_has_the_side_of_what_is_round_it)
   for (std::size_t i = 0; i < a.side.size(); i++) {
     const Vec3 q = point(points, i);
     const double half = std::max({std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
-    if (a.status[i] & LSDCD_FOUND) EXPECT_EQ(a.side[i], half > 0.5 && half < 1 ? -1 : 1) << i;
+    if (a.status[i] & LSDCD_FOUND) {
+      EXPECT_EQ(a.side[i], half > 0.5 && half < 1 ? -1 : 1) << i;
+    }
   }
 }
 
