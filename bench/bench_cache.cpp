@@ -62,8 +62,6 @@ void measure(const BenchOptions &o, BenchRows &rows)
     for (double length : lengths) {
       GridSettings settings;
       settings.length = length;
-      if (length > 0)
-        settings.memory_budget = std::size_t(16) << 30;    // lifts the limit of a build
       settings.cutoff = 1;
       measure_grid(mesh, settings, o.repeats > 0 ? o.repeats : o.quick ? 2 : 5, rows);
     }

@@ -156,7 +156,6 @@ FlatGrid grid_of(const WallMesh &mesh, Real length, Device device)
 {
   GridSettings settings;
   settings.length = length;
-  if (length > 0) settings.memory_budget = std::size_t(16) << 30;    // lifts the limit of a build
   settings.cutoff = kCutoff;
   return FlatGrid(build_grid(mesh, settings, device == Device::cuda));
 }

@@ -39,6 +39,7 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   s.length_name = "`cell`";
   s.cutoff = o.cutoff;
   s.memory_budget = static_cast<std::size_t>(o.memory);
+  s.limited = true;
   s.sides = with_sides;
   s.nearest = o.nearest;
   s.exact = o.exact != 0;

@@ -27,6 +27,7 @@ MeshCollision::MeshCollision(const WallMesh &wall, const WallMesh &body,
   GridSettings of_grid = collision_grid(faces_of(body), settings.cell,
                                         settings.nearest == 0 ? kEveryTriangle : settings.nearest);
   of_grid.memory_budget = settings.memory;
+  of_grid.limited = true;
   of_grid.length_name = settings.cell_name;
   const TriangleGrid grid = build_grid(wall, of_grid, collision_->on_cuda());
   grid_ = grid.report;

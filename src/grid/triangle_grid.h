@@ -76,11 +76,11 @@ struct GridView {
 };
 
 struct GridSettings {
-  Real length = 0;    // 0: chosen from the mesh, the cutoff and the budget
-  Real cutoff = 0;    // > 0
-  // Bytes, of all of it. 0: kListBudget for lists, and a build within BuildLimit.
-  std::size_t memory_budget = 0;
-  bool sides = false;        // keep what `side in|out` needs
+  Real length = 0;                  // 0: chosen from the mesh, the cutoff and the budget
+  Real cutoff = 0;                  // > 0
+  std::size_t memory_budget = 0;    // bytes, of all of it; 0: kListBudget for lists
+  bool limited = false;             // keep the build within BuildLimit where no budget is given
+  bool sides = false;               // keep what `side in|out` needs
   int nearest = 0;           // 0: complete lists; N, at most kMostNearest: the N nearest primitives
   bool exact = false;        // with nearest: complete lists as well, to fall back to
   bool in_floats = false;    // brick records, for queries in float
@@ -99,8 +99,8 @@ constexpr int kMostNearest = 32;
 constexpr int kEveryTriangle = 0x7ffffffe;
 constexpr std::size_t kListBudget = 1ull << 30;    // bytes, beside the records of the wall
 
-// What a build may take where no memory is given: chosen cells are made larger until it is kept, a
-// given length is refused. In units of a distance test, 10 to 20 ns of one core; and bytes beside the
+// What a build may take that is limited: chosen cells are made larger until it is kept, a given
+// length is refused. In units of a distance test, 10 to 20 ns of one core; and bytes beside the
 // records of the wall.
 struct BuildLimit {
   double work, bytes;

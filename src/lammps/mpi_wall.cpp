@@ -131,6 +131,7 @@ GridSettings SharedWall::grid_settings(Real cutoff, const PeriodicBox &box) cons
   want.length = settings_.grid_length;
   want.cutoff = cutoff;
   want.memory_budget = settings_.memory_budget;
+  want.limited = !(want.length > 0);    // a length that is given may take its time
   want.sides = settings_.side != Side::both;
   want.nearest = settings_.nearest;
   want.exact = settings_.exact;

@@ -146,6 +146,7 @@ void distance(const Options &o)
   settings.cutoff = o.radius;
   settings.length = o.cell;
   settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
+  settings.limited = true;
   Progress progress(o.progress);
   settings.progress = [&](const std::string &text) { progress.show(text); };
   const auto answers = make_point_answers(mesh, settings, o.device);

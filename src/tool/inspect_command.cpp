@@ -55,6 +55,7 @@ void grid(const Options &o)
   settings.length = o.length;
   settings.cutoff = o.radius;
   settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
+  settings.limited = !(o.length > 0);    // as fix wall/lsdcd
   Progress progress(o.progress);
   settings.progress = [&](const std::string &text) { progress.show(text); };
   const TriangleGrid g = build_grid(mesh, settings);

@@ -142,7 +142,6 @@ Scene::Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Rea
   g.length = grid_length;
   g.cutoff = cutoff;
   g.sides = settings.side != Side::both;
-  if (grid_length > 0) g.memory_budget = std::size_t(4) << 30;    // lifts the limit of a build
   g.nearest = nearest;
   g.exact = exact;
   g.in_floats = settings.precision != Precision::double_;

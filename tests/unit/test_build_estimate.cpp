@@ -140,6 +140,7 @@ TEST(BuildEstimate, the_smallest_cutoffs_take_a_coarser_cell_and_say_so)
   for (const Real cutoff : {1e-6, 4.9e-324}) {
     GridSettings settings;
     settings.cutoff = cutoff;
+    settings.limited = true;
     const TriangleGrid grid = build_grid(weld(one, -1), settings);
     EXPECT_GT(grid.length, 1e-4);
     // The limit is of entries of 8 bytes or of the table, whichever are more; and a brick's 128
@@ -163,6 +164,7 @@ std::string why_refused(const GridSettings &settings)
 TEST(BuildEstimate, a_given_cell_over_the_limit_is_refused_where_no_budget_lifts_it)
 {
   GridSettings settings;
+  settings.limited = true;
   settings.cutoff = settings.length = 0.1;
   EXPECT_NE(why_refused(settings).find("grid 0.1 is too fine"), std::string::npos);
   settings.memory_budget = std::size_t(20) << 20;

@@ -187,7 +187,7 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   GridPlan plan = plan_grid(mesh, settings);
   const double budget = double(budget_of(settings, grid));
   const BuildLimit limit(mesh.faces.size());
-  const bool is_limited = settings.memory_budget == 0;
+  const bool is_limited = settings.limited && settings.memory_budget == 0;
   constexpr double kNoBudget = 1e18;
   const bool may_coarsen = settings.length <= 0 || settings.may_coarsen;
   const Real first_length = plan.length;
