@@ -4,8 +4,8 @@
 usage: free_when_off.py [--build DIR]
 
 Compiles the kernels of four laws twice: with the sources as they are, and with a copy
-from which every branch of the effects (moving surfaces, records, couples, heat, adhesion
-past touch, extra memory, rolling, twisting, cohesion) and what it reads has been cut out.
+from which every branch of the effects (moving surfaces, records, contact torques, heat, extra memory)
+and what it reads has been cut out.
 Counts the instructions that run (callgrind) and those that the GPU's kernel has (SASS,
 where there is nvcc). Exits with 1 where two counts differ. DIR is a build of LSDCD with tests.
 """
@@ -26,8 +26,7 @@ FLAGS = ["-std=c++17", "-O3", "-DNDEBUG", "-ffp-contract=off"]
 WALL_FORCE = "engine/force/wall_force.h"
 BRANCHES = {WALL_FORCE: ["Law::kSurface", "Law::kRecords", "Law::kContactTorque", "Law::kHeat",
                          "Law::kExtra > 0"],
-            "model/contact_model.h": ["Rolling::kOn", "Twisting::kOn", "Heat::kOn",
-                                      "Cohesion::kOn"]}
+            "model/contact_model.h": ["kContactTorque", "kHeat", "kFull"]}
 MEMBERS = {WALL_FORCE: ["SurfaceMotion surface;", "WallPose pose;",
                         "Vec3 wall_velocity, wall_angular;", "WearModel wear;", "ContactRecord *records;",
                         "Real *heat;", "Real *extra;", "const Real *extra;", "Real temperature;",

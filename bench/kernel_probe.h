@@ -15,9 +15,7 @@ using ProbedLaw = OnWall<HookeHistoryLaw<Real>, false, false>;
 #elif PROBE_LAW == 2
 using ProbedLaw = OnWall<HertzHistoryLaw<Real>, false, false>;
 #else
-using ProbedLaw = OnWall<GranularModel<Real, HertzNormal<Real>, SpringFriction<Real, false>,
-                                       NoRolling<Real>, NoTwisting<Real>, NoHeat<Real>>,
-                         false, false>;
+using ProbedLaw = OnWall<GranularModel<Real, TouchingNormal<Real>, true, false>, false, false>;
 #endif
 
 // Search, law and result of one sphere, as the kernels have them; `sink` has room for 8 contacts.

@@ -5,18 +5,13 @@
 
 namespace lsdcd {
 
-template <class T>
-struct NoCohesion {
-  static constexpr bool kOn = false;
-};
-
 // `sjkr` of LIGGGHTS: k times the area in which a plane cuts the sphere, pi (R^2 - r^2)
 // with the centre's distance r = R - overlap. Friction does not see it.
 template <class T>
 struct SjkrCohesion {
-  static constexpr bool kOn = true;
-  T k;    // energy/length^3
+  T k;    // energy/length^3; 0: off
 
+  LSDCD_FN bool is_on() const { return k > 0; }
   LSDCD_FN T pull(const Contact<T> &c) const
   {
     return T(3.14159265358979323846) * k * c.overlap * (2 * c.radius - c.overlap);

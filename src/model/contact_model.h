@@ -5,7 +5,12 @@
 //   kBeyond, pull_off  does it act past touch, and up to what distance at radius 1?
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
 //   evaluate(contact, memory)
-// An effect that is not among the template arguments costs no instruction and no memory.
+// and where it has what they ask for
+//   keeps(k)           is the k-th of these vectors and scalars kept from step to step?
+//   has_heat()         is there a heat flow?
+// The classic laws, and those of `granular` that most scenes have, have what they need and no more: no
+// instruction and no memory for an effect that is off. What few scenes ask for is in one law, with a
+// branch for each effect: it keeps and exchanges what is on.
 #pragma once
 
 #include "model/cohesion.h"
@@ -67,32 +72,37 @@ struct FullForce : ContactForce<T> {
   T heat;                      // power into the sphere
 };
 
-// A classic style with effects of LIGGGHTS beside it.
-template <class Base, class Rolling, class Cohesion>
+// A classic style with effects of LIGGGHTS beside it. kHistory_: does it keep anything?
+template <class Base, bool kHistory_>
 struct AddedModel {
   using Number = typename Base::Number;
   using T = Number;
-  static constexpr int kVectors = Rolling::kVectors, kScalars = 0, kExtra = 3 * kVectors;
-  static constexpr bool kHistory = Base::kHistory || kVectors > 0;
-  static constexpr bool kBeyond = false, kContactTorque = Rolling::kOn, kHeat = false;
+  static constexpr bool kHistory = kHistory_;
+  static constexpr int kVectors = kHistory ? 1 : 0, kScalars = 0, kExtra = 3 * kVectors;
+  static constexpr bool kBeyond = false, kContactTorque = true, kHeat = false;
 
   Base base;
-  Rolling rolling;
-  Cohesion cohesion;
+  LiggghtsRolling<T> rolling;
+  SjkrCohesion<T> cohesion;
   T k_tangent;    // per unit of Base::scale()
+
+  LSDCD_FN bool keeps(int) const { return rolling.model == AddedRolling::epsd2; }
 
   LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
   {
     ContactMemory<T, 0> sliding = {memory.shear};
     FullForce<T> out = {base.evaluate(c, sliding), {0, 0, 0}, 0};
     memory.shear = sliding.shear;
-    if constexpr (Rolling::kOn) {
+    if (rolling.is_on()) {
       const T scale = base.scale(c);
-      out.contact_torque = rolling.contact_torque(c, base.elastic.force(c, scale), out.normal,
-                                                  scale * k_tangent, memory, 0);
-      out.energy += rolling.energy(c, scale * k_tangent, memory, 0);
+      if (rolling.model == AddedRolling::cdt) {
+        out.contact_torque = rolling.cdt(c, base.elastic.force(c, scale));
+      } else if constexpr (kHistory) {
+        out.contact_torque = rolling.epsd2(c, out.normal, scale * k_tangent, memory, 0);
+        out.energy += rolling.energy(c, scale * k_tangent, memory, 0);
+      }
     }
-    if constexpr (Cohesion::kOn) {
+    if (cohesion.is_on()) {
       out.normal -= cohesion.pull(c);
       out.energy += cohesion.energy(c);
     }
@@ -100,63 +110,92 @@ struct AddedModel {
   }
 };
 
-// The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026.
-template <class T, class Normal, class Tangential, class Rolling, class Twisting, class Heat>
+// The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026. kFull: with those that few scenes
+// ask for (`mindlin_rescale`, rolling, twisting, heat), each of which may be off.
+template <class T, class Normal, bool kHistory_, bool kFull>
 struct GranularModel {
   using Number = T;
-  static constexpr bool kHistory =
-      Tangential::kHistory || Normal::kBeyond || Rolling::kOn || Twisting::kOn;
-  static constexpr int kVectors = Rolling::kVectors;
-  static constexpr int kScalars = Tangential::kScalars + (Twisting::kOn ? 1 : 0);
+  static constexpr bool kHistory = kHistory_;
+  static constexpr int kVectors = kHistory && kFull ? 1 : 0, kScalars = 2 * kVectors;
   static constexpr int kExtra = 3 * kVectors + kScalars;
   static constexpr bool kBeyond = Normal::kBeyond;
-  static constexpr bool kContactTorque = Rolling::kOn || Twisting::kOn, kHeat = Heat::kOn;
+  static constexpr bool kContactTorque = kHistory && kFull, kHeat = kFull;
 
   // Places in ContactMemory::extra.
-  static constexpr int kRolled = 0, kRadius = 3 * kVectors, kTwist = kRadius + Tangential::kScalars;
+  static constexpr int kRolled = 0, kRadius = 3, kTwist = 4;
 
   Normal elastic;
   GranularDamping<T> damping;
-  Tangential tangential;
-  Rolling rolling;
-  Twisting twisting;
-  Heat conduction;
-  bool sized;    // does anything need the contact radius, though the normal force does not?
+  GranularFriction<T> tangential;
+  SdsRolling<T> rolling;
+  SpringTwisting<T> twisting;
+  Conduction<T> conduction;
+  bool sized;    // does anything need the contact radius, though the normal force may not?
   bool limit_damping;
+
+  LSDCD_FN bool keeps(int k) const
+  {
+    return k == 0 ? rolling.is_on : k == 1 ? tangential.rescale : twisting.is_on();
+  }
+  LSDCD_FN bool has_heat() const { return conduction.is_on(); }
 
   LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
   {
-    const T a = Normal::kSized || sized ? elastic.contact_radius(c) : T(0);
+    const T a = sized || elastic.is_sized() ? elastic.contact_radius(c) : T(0);
     const T f = elastic.force(c, a), gamma = damping.coefficient(c, a, f);
 
     FullForce<T> out;
     out.normal = f - gamma * c.v_normal;
     if (limit_damping && out.normal < 0) out.normal = 0;
     out.energy = elastic.energy(c, a);
-    // What pulls holds the surfaces together also where the forces cancel.
-    T limit;
-    if constexpr (Normal::kAdhesive)
-      limit = elastic.limit(c, f);
-    else
-      limit = fabs(out.normal);
+    const T limit = elastic.limit(c, f, out.normal);
 
-    out.tangential = tangential.force(c, a, gamma, tangential.mu * limit, memory, kRadius);
-    out.energy += tangential.energy(a, memory);
+    out.tangential = friction(c, a, gamma, tangential.mu * limit, memory);
+    if constexpr (kHistory) out.energy += tangential.energy(a, memory);
     out.contact_torque = {0, 0, 0};
-    if constexpr (Rolling::kOn) {
-      out.contact_torque += rolling.contact_torque(c, limit, memory, kRolled);
-      out.energy += rolling.energy(memory, kRolled);
-    }
-    if constexpr (Twisting::kOn) {
-      const TwistCoefficients<T> t = twisting.coefficients(limit, a, tangential.stiffness(a),
-                                                           tangential.x * gamma, tangential.mu);
-      out.contact_torque += twisting.contact_torque(c, t, memory, kTwist) * c.normal;
-      out.energy += twisting.energy(t, memory, kTwist);
-    }
     out.heat = 0;
-    if constexpr (Heat::kOn) out.heat = conduction.flow(c, a);
+    if constexpr (kContactTorque) {
+      if (rolling.is_on) {
+        out.contact_torque += rolling.contact_torque(c, limit, memory, kRolled);
+        out.energy += rolling.energy(memory, kRolled);
+      }
+      if (twisting.is_on()) {
+        const TwistCoefficients<T> t = twisting.coefficients(limit, a, tangential.stiffness(a),
+                                                             tangential.x * gamma, tangential.mu);
+        out.contact_torque += twisting.contact_torque(c, t, memory, kTwist) * c.normal;
+        out.energy += twisting.energy(t, memory, kTwist);
+      }
+    }
+    if constexpr (kHeat)
+      if (has_heat()) out.heat = conduction.flow(c, a);
     return out;
   }
+
+ private:
+  LSDCD_FN Vec3Of<T> friction(const Contact<T> &c, T a, T gamma, T limit,
+                              ContactMemory<T, kExtra> &memory) const
+  {
+    if constexpr (!kHistory) {
+      return tangential.slip_force(c, gamma, limit);
+    } else {
+      if constexpr (kFull) {
+        if (!tangential.spring) return tangential.slip_force(c, gamma, limit);
+        if (tangential.rescale) tangential.rescale_spring(a, memory, kRadius);
+      }
+      return tangential.spring_force(c, a, gamma, limit, memory);
+    }
+  }
 };
+
+// Numbers that a law keeps of a contact beside its shear displacement.
+template <class Law>
+LSDCD_FN int n_extra(const Law &law)
+{
+  int n = 0;
+  if constexpr (Law::kExtra > 0)
+    for (int k = 0; k < Law::kVectors + Law::kScalars; k++)
+      if (law.keeps(k)) n += k < Law::kVectors ? 3 : 1;
+  return n;
+}
 
 }    // namespace lsdcd

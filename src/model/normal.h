@@ -2,13 +2,13 @@
 // Each has
 //   contact_radius(c)   length
 //   force(c, a)         elastic force, > 0 where it pushes
-//   limit(c, a, f)      the force that friction is proportional to
 //   energy(c, a)        what is held
 // with a the contact radius, which a law computes only where something needs it.
 #pragma once
 
 #include "base/cube_root.h"
 #include "model/contact.h"
+#include "model/contact_law.h"
 
 namespace lsdcd {
 
@@ -19,12 +19,12 @@ LSDCD_FN Real cutoff_of(Real radius, Real pull_off)
   return pull_off > 0 ? radius + pull_off * cube_root(radius) : radius;
 }
 
+// ---- the classic styles ------------------------------------------------------------------
+
 // Linear spring. k: force/length.
 template <class T>
 struct HookeNormal {
-  static constexpr bool kSized = false;       // does force() use a?
-  static constexpr bool kAdhesive = false;    // may it pull?
-  static constexpr bool kBeyond = false;      // also past touch?
+  static constexpr bool kSized = false;    // does force() use a?
   T k;
 
   LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
@@ -35,7 +35,7 @@ struct HookeNormal {
 // Hertz: F = k a overlap, a = sqrt(R overlap). k: force/length^2, 4/3 of the modulus.
 template <class T>
 struct HertzNormal {
-  static constexpr bool kSized = true, kAdhesive = false, kBeyond = false;
+  static constexpr bool kSized = true;
   T k;
 
   LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
@@ -46,32 +46,46 @@ struct HertzNormal {
   }
 };
 
-// Derjaguin, Muller and Toporov 1975: Hertz less a constant pull 4 pi gamma R while the
-// spheres touch. cohesion: gamma, energy/length^2.
+// ---- the sub-models of `granular` --------------------------------------------------------
+// Each also has limit(c, f, normal): the force that friction is proportional to, where the elastic
+// force is f and the one with damping `normal`. What pulls holds the surfaces together also where the
+// forces cancel.
+
+// `hooke`, `hertz` and `dmt`: one kernel for the three, as the choice is the same for all contacts of a
+// wall. DMT (Derjaguin, Muller and Toporov 1975) is Hertz less a constant pull 4 pi gamma R while the
+// spheres touch.
 template <class T>
-struct DmtNormal {
-  static constexpr bool kSized = true, kAdhesive = true, kBeyond = false;
-  T k;
-  T pull;    // 4 pi gamma
+struct TouchingNormal {
+  static constexpr bool kBeyond = false;    // does it act past touch?
+  NormalModel model;
+  T k;       // force/length (hooke), force/length^2
+  T pull;    // 4 pi gamma, force/length; 0 but for dmt
 
-  LSDCD_FN DmtNormal(T k_, T cohesion) : k(k_), pull(T(4 * 3.14159265358979323846) * cohesion) {}
-
+  LSDCD_FN bool is_sized() const { return model != NormalModel::hooke; }    // does force() use a?
   LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
-  LSDCD_FN T force(const Contact<T> &c, T a) const { return a * k * c.overlap - pull * c.radius; }
-  LSDCD_FN T limit(const Contact<T> &c, T f) const { return fabs(f + 2 * pull * c.radius); }
+  LSDCD_FN T force(const Contact<T> &c, T a) const
+  {
+    if (!is_sized()) return k * c.overlap;
+    return a * k * c.overlap - pull * c.radius;
+  }
+  LSDCD_FN T limit(const Contact<T> &c, T f, T normal) const
+  {
+    return fabs(model == NormalModel::dmt ? f + 2 * pull * c.radius : normal);
+  }
   LSDCD_FN T energy(const Contact<T> &c, T a) const
   {
+    if (!is_sized()) return T(0.5) * k * c.overlap * c.overlap;
     return T(0.4) * k * a * c.overlap * c.overlap - pull * c.radius * c.overlap;
   }
 };
 
-// Johnson, Kendall and Roberts 1971. The contact radius solves
+// `jkr` (Johnson, Kendall and Roberts 1971). The contact radius solves
 //   overlap = a^2/R - 2 sqrt(pi gamma a/E),
 // and the force is 4 E a^3/(3 R) - 4 sqrt(pi gamma E a^3). What has touched holds until
 // the pull is greatest, 3 pi gamma R, at an overlap of -(3 pi^2 gamma^2 R/(16 E^2))^(1/3).
 template <class T>
 struct JkrNormal {
-  static constexpr bool kSized = true, kAdhesive = true, kBeyond = true;
+  static constexpr bool kBeyond = true;
   T modulus, cohesion;
   T root;           // sqrt(pi gamma E)
   T size;           // (4 pi gamma/E)^(1/3): a = size R^(2/3) y^2 with y = 1 at overlap 0
@@ -84,6 +98,8 @@ struct JkrNormal {
     size = static_cast<T>(cube_root(4 * pi * ratio));
     pull_off = cube_root(3 * pi * pi * ratio * ratio / 16);
   }
+
+  LSDCD_FN bool is_sized() const { return true; }
 
   // With a = s y^2, s = size R^(2/3), the overlap is y^4 - y in units of s^2/R. Newton's
   // method from above: the left side is convex and rises for y > 4^(-1/3) = 0.63, and
@@ -110,7 +126,7 @@ struct JkrNormal {
   {
     return T(4) / 3 * modulus * a * a * a / c.radius - 4 * root * a * sqrt(a);
   }
-  LSDCD_FN T limit(const Contact<T> &c, T f) const
+  LSDCD_FN T limit(const Contact<T> &c, T f, T) const
   {
     return fabs(f + T(6 * 3.14159265358979323846) * cohesion * c.radius);
   }

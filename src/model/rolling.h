@@ -2,22 +2,16 @@
 #pragma once
 
 #include "model/contact.h"
+#include "model/contact_law.h"
 
 namespace lsdcd {
-
-template <class T>
-struct NoRolling {
-  static constexpr bool kOn = false;
-  static constexpr int kVectors = 0;
-};
 
 // `sds`: spring, dashpot and slider (Luding 2008; Wang et al. 2015 for the velocity). The
 // force that they give acts at the lever arm R on both sides of the contact, so that it
 // turns the sphere and does not push it. Its spring is the vector `at` of the memory.
 template <class T>
 struct SdsRolling {
-  static constexpr bool kOn = true;
-  static constexpr int kVectors = 1;
+  bool is_on;
   T k, gamma, mu;    // force/length, mass/time, 1
 
   // `limit_force`: what the sliding limit is proportional to
@@ -48,9 +42,6 @@ struct SdsRolling {
 };
 
 // ---- of LIGGGHTS, beside a classic style -------------------------------------------------
-// contact_torque(c, elastic, normal, k_tangent, memory, at): the contact torque on the sphere, where the
-// contact bears the elastic force `elastic` and in all, damping included, `normal`, with
-// the tangential stiffness k_tangent (force/length).
 
 // The part of the sphere's turning that rolls.
 template <class T>
@@ -59,42 +50,30 @@ LSDCD_FN Vec3Of<T> rolling_part(const Vec3Of<T> &omega, const Vec3Of<T> &normal)
   return omega - dot(omega, normal) * normal;
 }
 
-// `cdt`, constant directional torque: mu k_n overlap R against the rolling, whatever its
-// speed (Ai et al. 2011, model A). Near rest it changes sign from step to step, as any
-// constant friction does, and the spin stays within a step's change of 0.
 template <class T>
-struct CdtRolling {
-  static constexpr bool kOn = true;
-  static constexpr int kVectors = 0;
+struct LiggghtsRolling {
+  AddedRolling model;
   T mu;
 
-  template <class Memory>
-  LSDCD_FN Vec3Of<T> contact_torque(const Contact<T> &c, T elastic, T, T, Memory &, int) const
+  LSDCD_FN bool is_on() const { return model != AddedRolling::none; }
+
+  // `cdt`, constant directional torque: mu k_n overlap R against the rolling, whatever its
+  // speed (Ai et al. 2011, model A). Near rest it changes sign from step to step, as any
+  // constant friction does, and the spin stays within a step's change of 0. `elastic`: the elastic force.
+  LSDCD_FN Vec3Of<T> cdt(const Contact<T> &c, T elastic) const
   {
     const Vec3Of<T> rolls = rolling_part(c.omega, c.normal);
     const T rate = norm(rolls);
     if (!(rate > 0)) return {0, 0, 0};
     return (-mu * elastic * c.radius / rate) * rolls;
   }
-  template <class Memory>
-  LSDCD_FN T energy(const Contact<T> &, T, const Memory &, int) const
-  {
-    return 0;
-  }
-};
 
-// `epsd2`, elastic-plastic spring: a contact torque that grows by k_t R^2 per angle rolled, up to
-// mu |F_n| R (Iwashita and Oda 1998; Ai et al. 2011, model C without its dashpot). The
-// contact torque is the vector `at` of the memory.
-template <class T>
-struct Epsd2Rolling {
-  static constexpr bool kOn = true;
-  static constexpr int kVectors = 1;
-  T mu;
-
+  // `epsd2`, elastic-plastic spring: a contact torque that grows by k_t R^2 per angle rolled, up to
+  // mu |F_n| R (Iwashita and Oda 1998; Ai et al. 2011, model C without its dashpot). The
+  // contact torque is the vector `at` of the memory. `normal`: the normal force, damping included;
+  // `k_tangent`: force/length.
   template <class Memory>
-  LSDCD_FN Vec3Of<T> contact_torque(const Contact<T> &c, T, T normal, T k_tangent, Memory &m,
-                                    int at) const
+  LSDCD_FN Vec3Of<T> epsd2(const Contact<T> &c, T normal, T k_tangent, Memory &m, int at) const
   {
     Vec3Of<T> held = m.vec(at);
     if (c.update) {
@@ -107,6 +86,7 @@ struct Epsd2Rolling {
     m.put(at, held);
     return held;
   }
+  // What epsd2 holds.
   template <class Memory>
   LSDCD_FN T energy(const Contact<T> &c, T k_tangent, const Memory &m, int at) const
   {

@@ -60,50 +60,33 @@ struct LinearHistory {
 };
 
 // ---- the sub-models of `granular` --------------------------------------------------------
-// force(c, a, damping, limit, memory): the friction at a contact of radius a, where
-// `damping` is the normal damping's coefficient (mass/time).
+// a: the contact's radius. `damping`: the normal damping's coefficient (mass/time).
 
-// `linear_nohistory`
+// `linear_nohistory` without a spring, else `linear_history`, and where `sized` `mindlin`: the
+// stiffness goes with the contact radius. `shear displacement` is the displacement, or the spring's
+// force where `of_force`. With `rescale` it shrinks with the contact as that unloads (Thornton et al.
+// 2013), which takes the radius of the step before.
 template <class T>
-struct SlipFriction {
-  static constexpr bool kHistory = false;
-  static constexpr int kScalars = 0;
-  T x, mu;
+struct GranularFriction {
+  T k, x, mu;    // k: 0 where there is no spring
+  bool spring, sized, of_force, rescale;
 
-  LSDCD_FN T stiffness(T) const { return 0; }
-  template <class Memory>
-  LSDCD_FN Vec3Of<T> force(const Contact<T> &c, T, T damping, T limit, Memory &, int) const
+  LSDCD_FN T stiffness(T a) const { return sized ? k * a : k; }
+  LSDCD_FN Vec3Of<T> slip_force(const Contact<T> &c, T damping, T limit) const
   {
     return viscous_friction(c.v_tangent, x * damping, limit);
   }
+  // The contact has the radius a, and in the step before had that of the scalar `at`.
   template <class Memory>
-  LSDCD_FN T energy(T, const Memory &) const
+  LSDCD_FN void rescale_spring(T a, Memory &m, int at) const
   {
-    return 0;
+    if (a < m.extra[at]) m.shear = (a / m.extra[at]) * m.shear;
+    m.extra[at] = a;
   }
-};
-
-// `linear_history`, and `mindlin` where `sized`: the stiffness goes with the contact
-// radius. `shear displacement` is the displacement, or the spring's force where `of_force`. With
-// kRescale it shrinks with the contact as that unloads (Thornton et al. 2013), which
-// takes the radius of the step before: the scalar `at` of the memory.
-template <class T, bool kRescale>
-struct SpringFriction {
-  static constexpr bool kHistory = true;
-  static constexpr int kScalars = kRescale ? 1 : 0;
-  T k, x, mu;
-  bool sized, of_force;
-
-  LSDCD_FN T stiffness(T a) const { return sized ? k * a : k; }
-
   template <class Memory>
-  LSDCD_FN Vec3Of<T> force(const Contact<T> &c, T a, T damping, T limit, Memory &m, int at) const
+  LSDCD_FN Vec3Of<T> spring_force(const Contact<T> &c, T a, T damping, T limit, Memory &m) const
   {
     const T stiff = stiffness(a);
-    if constexpr (kRescale) {
-      if (a < m.extra[at]) m.shear = (a / m.extra[at]) * m.shear;
-      m.extra[at] = a;
-    }
     if (c.update) m.shear += (of_force ? -stiff * c.dt : c.dt) * c.v_tangent;
 
     const Vec3Of<T> viscous = (-x * damping) * c.v_tangent;

@@ -2,13 +2,9 @@
 #pragma once
 
 #include "model/contact.h"
+#include "model/contact_law.h"
 
 namespace lsdcd {
-
-template <class T>
-struct NoTwisting {
-  static constexpr bool kOn = false;
-};
 
 // What resists a twist at one contact.
 template <class T>
@@ -21,14 +17,14 @@ struct TwistCoefficients {
 // tangential ones and the contact radius.
 template <class T>
 struct SpringTwisting {
-  static constexpr bool kOn = true;
-  bool marshall;
+  TwistingModel model;
   T k, gamma, mu;    // torque/angle, torque time/angle, length; not for marshall
 
+  LSDCD_FN bool is_on() const { return model != TwistingModel::none; }
   LSDCD_FN TwistCoefficients<T> coefficients(T limit_force, T a, T k_tangent, T gamma_tangent,
                                              T mu_tangent) const
   {
-    if (!marshall) return {k, gamma, mu * limit_force};
+    if (model != TwistingModel::marshall) return {k, gamma, mu * limit_force};
     const T half_sq = T(0.5) * a * a;
     return {half_sq * k_tangent, half_sq * gamma_tangent, T(2) / 3 * a * mu_tangent * limit_force};
   }

@@ -117,17 +117,17 @@ struct CountingBackend : CpuBackend {
 
 using CountingLaw = CompiledLaw<CountingBackend>;
 
-// Of granular laws only the one with every effect is compiled.
+// Of granular laws only JKR's is compiled.
 struct MakeCountingLaw {
   WallEffects effects;
 
   template <class Law>
   CountingLaw operator()(const Law &law) const
   {
-    if constexpr (!Law::kContactTorque || (Law::kHeat && Law::kExtra == 5))
-      return on_wall<WallKernels::both>(law, effects, [](const auto &compiled) {
+    if constexpr (!Law::kHeat || Law::kBeyond)
+      return on_wall<WallKernels::plain_or_both>(law, effects, [](const auto &compiled) {
         using L = std::decay_t<decltype(compiled)>;
-        return CountingLaw{traits_of<L>(), LawBytes(compiled), start_law<L, CountingBackend>};
+        return CountingLaw{traits_of(compiled), LawBytes(compiled), start_law<L, CountingBackend>};
       });
     else
       throw std::logic_error("not compiled for this test");
@@ -141,8 +141,7 @@ CountingLaw counting_law(const EngineSettings &s)
     if (s.precision == Precision::single_) return with_classic_law<float>(s.law, make);
     return with_classic_law<Real>(s.law, make);
   }
-  const GranularLaw &g = s.law.granular;
-  return with_granular_law(s.law, JkrNormal<Real>(g.modulus, g.cohesion), make);
+  return with_granular_law(s.law, make);
 }
 
 std::unique_ptr<WallEngine> by_two_kernels(const EngineSettings &s)
@@ -510,8 +509,7 @@ TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
   Particles particles(with_history(), 2000, 0.5, false);
   particles.engine = std::make_unique<EngineOn<CountingBackend>>(
       with_history(),
-      CompiledLaw<CountingBackend>{traits_of<Law>(), LawBytes(law),
-                                   start_law<Law, CountingBackend>},
+      CompiledLaw<CountingBackend>{traits_of(law), LawBytes(law), start_law<Law, CountingBackend>},
       CountingBackend());
   particles.engine->set_grid(particles.flat.view());
   particles.engine->grow(2000);

@@ -10,17 +10,10 @@ namespace lsdcd {
 template <class B>
 CompiledLaw<B> law_for(const EngineSettings &settings);
 
-// Those of `granular`, one function per normal sub-model: a source file each, compiled for each backend.
+// Those of `granular`, of the classic styles with effects of LIGGGHTS, and of these styles on walls with
+// effects: a source file each, compiled for each backend.
 template <class B>
-CompiledLaw<B> hooke_law(const EngineSettings &settings);
-template <class B>
-CompiledLaw<B> hertz_law(const EngineSettings &settings);
-template <class B>
-CompiledLaw<B> dmt_law(const EngineSettings &settings);
-template <class B>
-CompiledLaw<B> jkr_law(const EngineSettings &settings);
-
-// Those of the classic styles with effects of LIGGGHTS, and on walls with effects.
+CompiledLaw<B> granular_law(const EngineSettings &settings);
 template <class B>
 CompiledLaw<B> added_law(const EngineSettings &settings);
 template <class B>
@@ -36,7 +29,7 @@ struct MakeLaw {
   {
     return on_wall<kernels>(law, effects, [](const auto &compiled) {
       using L = std::decay_t<decltype(compiled)>;
-      return CompiledLaw<B>{traits_of<L>(), LawBytes(compiled), start_law<L, B>};
+      return CompiledLaw<B>{traits_of(compiled), LawBytes(compiled), start_law<L, B>};
     });
   }
 };

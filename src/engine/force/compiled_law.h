@@ -18,9 +18,11 @@ struct LawTraits {
 };
 
 template <class Law>
-LawTraits traits_of()
+LawTraits traits_of(const Law &law)
 {
-  return {Law::kHistory, Law::kHeat, Law::kRecords, Law::kExtra};
+  bool heat = false;
+  if constexpr (Law::kHeat) heat = law.has_heat();
+  return {Law::kHistory, heat, Law::kRecords, n_extra(law)};
 }
 
 // The parameters of any law, as bytes.

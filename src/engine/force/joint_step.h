@@ -161,7 +161,7 @@ LSDCD_FN void apply_joint_law(const Law &law, const LawJob &job, const JointSphe
   int first = 0, n_done = 0;
   SphereSink sink = {};
   const int n_acting = count_acting(all.set.view(), all.weight);
-  if (!take_slots<Law>(job, s.begin, n_acting, first, sink)) {
+  if (!take_slots(law, job, s.begin, n_acting, first, sink)) {
     does_not_fit(job, s.begin, s.i, job.counts->no_slots);
     return;
   }
@@ -182,24 +182,26 @@ LSDCD_FN void apply_joint_law(const Law &law, const LawJob &job, const JointSphe
     state.n_springs = seen.n_springs;
     if constexpr (Law::kExtra > 0)
       if (seen.n_springs > 0)
-        state.extra = job.springs.extra + std::size_t(job.springs.first[s.i]) * Law::kExtra;
-    add_motion<Law>(job, pose, s.i, state);
+        state.extra = job.springs.extra + std::size_t(job.springs.first[s.i]) * n_extra(law);
+    add_motion(law, job, pose, s.i, state);
 
     SphereSink to_mesh = sink;
     if constexpr (Law::kHistory) to_mesh.springs += n_done;
-    if constexpr (Law::kExtra > 0) to_mesh.extra += n_done * Law::kExtra;
+    if constexpr (Law::kExtra > 0) to_mesh.extra += n_done * n_extra(law);
     if constexpr (Law::kRecords) to_mesh.records += n_done;
-    if constexpr (Law::kHeat) {
-      to_mesh.heat = job.heat + k;
-      *to_mesh.heat = 0;
-    }
+    if constexpr (Law::kHeat)
+      if (law.has_heat()) {
+        to_mesh.heat = job.heat + k;
+        *to_mesh.heat = 0;
+      }
     SphereResult out = {};
     add_contacts(mesh.grid, law, mesh.settings, state, set, all.weight + from, to_mesh, out);
     from = to;
     note_overlap(job, s.i, out.overlap_ratio);
     if (out.n_contacts == 0) continue;
     if constexpr (Law::kRecords) job.pool.slot[k] = first + n_done;
-    if constexpr (Law::kHeat) job.heat_flow[s.i] += *to_mesh.heat;
+    if constexpr (Law::kHeat)
+      if (law.has_heat()) job.heat_flow[s.i] += *to_mesh.heat;
     n_done += out.n_contacts;
     if (pose.placed) to_box(pose, out);
     give(job, k, s.i, s.x, out);

@@ -9,24 +9,13 @@ template <class B>
 CompiledLaw<B> law_for(const EngineSettings &settings)
 {
   const ContactLaw &law = settings.law;
-  if (law.style != LawStyle::granular && law.added.any()) return added_law<B>(settings);
-  if (law.style != LawStyle::granular) {
-    const WallEffects effects = wall_effects(settings);
-    if (effects.surface || effects.records) return on_wall_law<B>(settings);
-    if (settings.precision == Precision::single_)
-      return with_classic_law<float>(law, MakeLaw<B, WallKernels::plain>{});
-    return with_classic_law<Real>(law, MakeLaw<B, WallKernels::plain>{});
-  }
-  switch (law.granular.normal) {
-    case NormalModel::hertz:
-      return hertz_law<B>(settings);
-    case NormalModel::dmt:
-      return dmt_law<B>(settings);
-    case NormalModel::jkr:
-      return jkr_law<B>(settings);
-    default:
-      return hooke_law<B>(settings);
-  }
+  if (law.style == LawStyle::granular) return granular_law<B>(settings);
+  if (law.added.any()) return added_law<B>(settings);
+  const WallEffects effects = wall_effects(settings);
+  if (effects.surface || effects.records) return on_wall_law<B>(settings);
+  if (settings.precision == Precision::single_)
+    return with_classic_law<float>(law, MakeLaw<B, WallKernels::plain>{});
+  return with_classic_law<Real>(law, MakeLaw<B, WallKernels::plain>{});
 }
 
 }    // namespace lsdcd

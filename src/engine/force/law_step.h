@@ -28,7 +28,8 @@ LSDCD_FN void to_box(const WallPose &pose, SphereResult &out)
 
 // Sphere i at x, without what only a contact needs: most of those near the wall touch nothing.
 template <class Law>
-LSDCD_FN SphereState state_at(const LawJob &job, std::size_t i, const Vec3 &x, Real radius)
+LSDCD_FN SphereState state_at(const Law &law, const LawJob &job, std::size_t i, const Vec3 &x,
+                              Real radius)
 {
   SphereState s = {};
   s.x = x;
@@ -37,13 +38,13 @@ LSDCD_FN SphereState state_at(const LawJob &job, std::size_t i, const Vec3 &x, R
     s.n_springs = job.springs.count[i];
     const std::size_t first = s.n_springs > 0 ? job.springs.first[i] : 0;
     s.springs = job.springs.pool + first;
-    if constexpr (Law::kExtra > 0) s.extra = job.springs.extra + first * Law::kExtra;
+    if constexpr (Law::kExtra > 0) s.extra = job.springs.extra + first * n_extra(law);
   }
   return s;
 }
 
 template <class Law, class Springs>
-LSDCD_FN void add_motion(const LawJob &job, const WallPose &pose, std::size_t i,
+LSDCD_FN void add_motion(const Law &law, const LawJob &job, const WallPose &pose, std::size_t i,
                          SphereStateWith<Springs> &s)
 {
   s.v = job.v[i];
@@ -53,24 +54,27 @@ LSDCD_FN void add_motion(const LawJob &job, const WallPose &pose, std::size_t i,
     s.omega = pose.turn_to_mesh(s.omega);
   }
   s.mass = job.mass[i];
-  if constexpr (Law::kHeat) s.temperature = job.temperature[i];
+  if constexpr (Law::kHeat)
+    if (law.has_heat()) s.temperature = job.temperature[i];
 }
 
 // Where near sphere k puts what n contacts leave behind, from slot `first` on; false: no memory.
 template <class Law>
-LSDCD_FN bool take_slots(const LawJob &job, std::size_t k, int n, int &first, SphereSink &sink)
+LSDCD_FN bool take_slots(const Law &law, const LawJob &job, std::size_t k, int n, int &first,
+                         SphereSink &sink)
 {
   const ContactPool &pool = job.pool;
   first = static_cast<int>(k);
   if constexpr (Law::kSurface) first += job.first_slot;
-  if constexpr (Law::kHeat) sink.heat = job.heat + k;
+  if constexpr (Law::kHeat)
+    if (law.has_heat()) sink.heat = job.heat + k;
   if constexpr (Law::kHistory || Law::kRecords) {
     if (n > 1) {
       first = pool.shared + fetch_add(&job.counts->shared_used[pool.which], n);
       if (first > pool.size - n) return false;
     }
     if constexpr (Law::kHistory) sink.springs = pool.springs + first;
-    if constexpr (Law::kExtra > 0) sink.extra = pool.extra + std::size_t(first) * Law::kExtra;
+    if constexpr (Law::kExtra > 0) sink.extra = pool.extra + std::size_t(first) * n_extra(law);
     if constexpr (Law::kRecords) sink.records = pool.records + first;
   }
   return true;
@@ -106,16 +110,17 @@ LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::s
     touches_nothing(job, k, i);
     return;
   }
-  SphereState s = state_at<Law>(job, i, x, radius);
+  SphereState s = state_at(law, job, i, x, radius);
   int first = 0;
   SphereSink sink = {};
-  if (!take_slots<Law>(job, k, count_acting(set, weight), first, sink)) {
+  if (!take_slots(law, job, k, count_acting(set, weight), first, sink)) {
     does_not_fit(job, k, i, job.counts->no_slots);
     return;
   }
-  add_motion<Law>(job, job.settings.pose, i, s);
+  add_motion(law, job, job.settings.pose, i, s);
   SphereResult out = {};
-  if constexpr (Law::kHeat) *sink.heat = 0;
+  if constexpr (Law::kHeat)
+    if (law.has_heat()) *sink.heat = 0;
   add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
   note_overlap(job, i, out.overlap_ratio);
   if constexpr (Law::kHistory)
@@ -126,7 +131,8 @@ LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::s
   job.result.n_contacts[k] = out.n_contacts;
   if (out.n_contacts == 0) return;
   if constexpr (Law::kRecords) job.pool.slot[k] = first;
-  if constexpr (Law::kHeat) job.heat_flow[i] += *sink.heat;
+  if constexpr (Law::kHeat)
+    if (law.has_heat()) job.heat_flow[i] += *sink.heat;
   Vec3 at = x;
   if constexpr (Law::kSurface)
     if (job.settings.pose.placed) {

@@ -34,92 +34,53 @@ auto with_added_law(const ContactLaw &p, const Make &make)
   const AddedEffects &a = p.added;
   return with_classic_law<Real>(p, [&](const auto &base) {
     using Base = std::decay_t<decltype(base)>;
-    const auto with_cohesion = [&](const auto &rolling) {
-      using Rolling = std::decay_t<decltype(rolling)>;
-      if constexpr (Rolling::kOn)
-        if (!(a.cohesion > 0))
-          return make(AddedModel<Base, Rolling, NoCohesion<Real>>{base, rolling, {}, p.k_tangent});
-      return make(
-          AddedModel<Base, Rolling, SjkrCohesion<Real>>{base, rolling, {a.cohesion}, p.k_tangent});
-    };
-    switch (a.rolling) {
-      case AddedRolling::cdt:
-        return with_cohesion(CdtRolling<Real>{a.mu_roll});
-      case AddedRolling::epsd2:
-        return with_cohesion(Epsd2Rolling<Real>{a.mu_roll});
-      default:
-        return with_cohesion(NoRolling<Real>{});
-    }
+    const LiggghtsRolling<Real> rolling = {a.rolling, a.mu_roll};
+    if constexpr (!Base::kHistory)
+      if (!p.has_history())
+        return make(AddedModel<Base, false>{base, rolling, {a.cohesion}, p.k_tangent});
+    return make(AddedModel<Base, true>{base, rolling, {a.cohesion}, p.k_tangent});
   });
 }
 
-// `granular` with one normal sub-model, its other sub-models chosen one after another:
-// each function here adds one template argument, and the last calls make(law).
-template <class Normal, class Make>
-class GranularLaws {
-  using T = Real;
-
- public:
-  GranularLaws(const ContactLaw &p, const Normal &normal, const Make &make) :
-      p_(p), g_(p.granular), normal_(normal), make_(make)
-  {
-  }
-
-  auto choose() const
-  {
-    const T k = g_.k_tangent, x = g_.x_tangent, mu = g_.mu;
-    const TangentialModel t = g_.tangential;
-    const bool sized = t != TangentialModel::linear_history;
-    const bool of_force =
-        t == TangentialModel::mindlin_force || t == TangentialModel::mindlin_rescale_force;
-    if (t == TangentialModel::linear_nohistory) return with_rolling(SlipFriction<T>{x, mu});
-    if (p_.has_rescale()) return with_rolling(SpringFriction<T, true>{k, x, mu, sized, of_force});
-    return with_rolling(SpringFriction<T, false>{k, x, mu, sized, of_force});
-  }
-
- private:
-  template <class Tangential>
-  auto with_rolling(const Tangential &t) const
-  {
-    if (g_.rolling) return with_twisting(t, SdsRolling<T>{g_.k_roll, g_.gamma_roll, g_.mu_roll});
-    return with_twisting(t, NoRolling<T>{});
-  }
-  template <class Tangential, class Rolling>
-  auto with_twisting(const Tangential &t, const Rolling &r) const
-  {
-    if (g_.twisting != TwistingModel::none)
-      return with_heat(t, r,
-                       SpringTwisting<T>{g_.twisting == TwistingModel::marshall, g_.k_twist,
-                                         g_.gamma_twist, g_.mu_twist});
-    return with_heat(t, r, NoTwisting<T>{});
-  }
-  template <class Tangential, class Rolling, class Twisting>
-  auto with_heat(const Tangential &t, const Rolling &r, const Twisting &w) const
-  {
-    if (g_.heat != HeatModel::none)
-      return make(t, r, w, Conduction<T>{g_.heat == HeatModel::area, g_.conductance});
-    return make(t, r, w, NoHeat<T>{});
-  }
-  template <class Tangential, class Rolling, class Twisting, class Heat>
-  auto make(const Tangential &t, const Rolling &r, const Twisting &w, const Heat &h) const
-  {
-    const bool sized = g_.damping == DampingModel::viscoelastic ||
-                       g_.tangential >= TangentialModel::mindlin ||
-                       g_.twisting == TwistingModel::marshall || g_.heat != HeatModel::none;
-    return make_(GranularModel<T, Normal, Tangential, Rolling, Twisting, Heat>{
-        normal_, {g_.damping, g_.eta}, t, r, w, h, sized, p_.limit_damping});
-  }
-
-  const ContactLaw &p_;
-  const GranularLaw &g_;
-  Normal normal_;
-  Make make_;
-};
-
-template <class Normal, class Make>
-auto with_granular_law(const ContactLaw &p, const Normal &normal, const Make &make)
+// `granular` with one normal sub-model.
+template <bool kHistory, bool kFull, class Normal>
+GranularModel<Real, Normal, kHistory, kFull> granular_model(const ContactLaw &p,
+                                                            const Normal &normal)
 {
-  return GranularLaws<Normal, Make>(p, normal, make).choose();
+  const GranularLaw &g = p.granular;
+  const TangentialModel t = g.tangential;
+  const bool spring = t != TangentialModel::linear_nohistory,
+             mindlin = t >= TangentialModel::mindlin;
+  const bool of_force =
+      t == TangentialModel::mindlin_force || t == TangentialModel::mindlin_rescale_force;
+  const bool sized = g.damping == DampingModel::viscoelastic || mindlin ||
+                     g.twisting == TwistingModel::marshall || g.heat != HeatModel::none;
+  return {normal,
+          {g.damping, g.eta},
+          {spring ? g.k_tangent : 0, g.x_tangent, g.mu, spring, mindlin, of_force, p.has_rescale()},
+          {g.rolling, g.k_roll, g.gamma_roll, g.mu_roll},
+          {g.twisting, g.k_twist, g.gamma_twist, g.mu_twist},
+          {g.heat, g.conductance},
+          sized,
+          p.limit_damping};
+}
+
+// `granular`: calls make(law) with the smallest law that has all that is asked for.
+template <class Make>
+auto with_granular_law(const ContactLaw &p, const Make &make)
+{
+  const GranularLaw &g = p.granular;
+  if (g.normal == NormalModel::jkr)
+    return make(granular_model<true, true>(p, JkrNormal<Real>(g.modulus, g.cohesion)));
+  const Real pull =
+      g.normal == NormalModel::dmt ? 4 * Real(3.14159265358979323846) * g.cohesion : 0;
+  const TouchingNormal<Real> normal = {g.normal, g.k_normal, pull};
+  const bool full = p.has_rolling() || p.has_twisting() || p.has_heat() || p.has_rescale();
+  if (p.has_history())
+    return full ? make(granular_model<true, true>(p, normal))
+                : make(granular_model<true, false>(p, normal));
+  return full ? make(granular_model<false, true>(p, normal))
+              : make(granular_model<false, false>(p, normal));
 }
 
 }    // namespace lsdcd

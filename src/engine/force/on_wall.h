@@ -30,22 +30,20 @@ struct OnWall : Law {
   static constexpr bool kSurface = kSurface_, kRecords = kRecords_;
 };
 
-// What is compiled of a law: the kernel without effects; that and one with both, for
-// either; or one for each choice of at least one effect.
-enum class WallKernels { plain, both, each };
+// Which kernels a law has: the one without effects; the one for a moving surface and the one for both
+// effects, which serves records alone, too; the one without effects and the one for both.
+enum class WallKernels { plain, moving_or_both, plain_or_both };
 
 // Calls make(law) with the law that has the effects.
 template <WallKernels kernels, class Law, class Make>
 auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
 {
-  if constexpr (kernels == WallKernels::each) {
-    if (effects.surface && !effects.records) return make(OnWall<Law, true, false>{law});
-    if (effects.records && !effects.surface) return make(OnWall<Law, false, true>{law});
-  }
-  if constexpr (kernels == WallKernels::each) return make(OnWall<Law, true, true>{law});
-  if constexpr (kernels == WallKernels::both)
-    if (effects.surface || effects.records) return make(OnWall<Law, true, true>{law});
-  if constexpr (kernels != WallKernels::each) return make(OnWall<Law, false, false>{law});
+  if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law});
+  if constexpr (kernels == WallKernels::moving_or_both)
+    if (!effects.records) return make(OnWall<Law, true, false>{law});
+  if constexpr (kernels == WallKernels::plain_or_both)
+    if (!effects.records && !effects.surface) return make(OnWall<Law, false, false>{law});
+  if constexpr (kernels != WallKernels::plain) return make(OnWall<Law, true, true>{law});
 }
 
 }    // namespace lsdcd

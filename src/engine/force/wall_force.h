@@ -14,7 +14,7 @@ struct SphereStateWith {
   Vec3 x, v, omega;
   Real radius, mass;
   Springs springs;      // of the last step
-  const Real *extra;    // n_extra numbers for each of them
+  const Real *extra;    // n_extra(law) numbers for each of them
   int n_springs;
   Real temperature;    // read only where the law has heat
 };
@@ -35,7 +35,7 @@ struct alignas(16) SphereResult {
 // history, extra numbers beside it, heat, records.
 struct SphereSink {
   Spring *springs;           // one per contact
-  Real *extra;               // Law::kExtra per contact
+  Real *extra;               // n_extra(law) per contact
   Real *heat;                // power into the sphere
   ContactRecord *records;    // one per contact
 };
@@ -60,8 +60,9 @@ struct ForceSettings {
 // What contact i begins with: its memory of the last step, turned with its normal, and about that with
 // a surface that turns.
 template <class Law, class Springs>
-LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ForceSettings &settings,
-                           const ContactsView &set, int i, const SphereStateWith<Springs> &s)
+LSDCD_FN auto begin_memory(const Law &law, const WallFeaturesView &wall,
+                           const ForceSettings &settings, const ContactsView &set, int i,
+                           const SphereStateWith<Springs> &s)
 {
   using T = typename Law::Number;
   ContactMemory<T, Law::kExtra> memory = {};
@@ -78,14 +79,29 @@ LSDCD_FN auto begin_memory(const WallFeaturesView &wall, const ForceSettings &se
     };
     memory.shear = turned(s.springs[in.from].shear);
     if constexpr (Law::kExtra > 0) {
-      const Real *old = s.extra + in.from * Law::kExtra;
-      for (int k = 0; k < 3 * Law::kVectors; k += 3)
-        memory.put(k, turned(in_own_frame(s.springs, in.from, {old[k], old[k + 1], old[k + 2]})));
-      for (int k = 3 * Law::kVectors; k < Law::kExtra; k++)
-        memory.extra[k] = static_cast<T>(in.part * old[k]);
+      const Real *old = s.extra + in.from * n_extra(law);
+      for (int k = 0; k < Law::kVectors; k++)
+        if (law.keeps(k)) {
+          memory.put(3 * k, turned(in_own_frame(s.springs, in.from, {old[0], old[1], old[2]})));
+          old += 3;
+        }
+      for (int k = 0; k < Law::kScalars; k++)
+        if (law.keeps(Law::kVectors + k))
+          memory.extra[3 * Law::kVectors + k] = static_cast<T>(in.part * *old++);
     }
   }
   return memory;
+}
+
+// Writes what the law keeps beside the shear displacement: n_extra(law) numbers, vectors first.
+template <class Law, class Memory>
+LSDCD_FN void keep_extra(const Law &law, const Memory &memory, Real *to)
+{
+  for (int k = 0; k < Law::kVectors; k++)
+    if (law.keeps(k))
+      for (int j = 0; j < 3; j++) *to++ = memory.extra[3 * k + j];
+  for (int k = 0; k < Law::kScalars; k++)
+    if (law.keeps(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
 }
 
 // The half of the kernel that each law has of its own. Numbers are of type Law::Number
@@ -134,15 +150,14 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       c.omega = vec_cast<T>(omega);
     }
     if constexpr (Law::kHeat)
-      c.wall_warmer = static_cast<T>(settings.wall_temperature - s.temperature);
+      if (law.has_heat()) c.wall_warmer = static_cast<T>(settings.wall_temperature - s.temperature);
 
-    auto memory = begin_memory<Law>(grid.wall, settings, set, i, s);
+    auto memory = begin_memory(law, grid.wall, settings, set, i, s);
     const auto f = law.evaluate(c, memory);
     if constexpr (Law::kHistory) {
       const int at = out.n_contacts;
       sink.springs[at] = {vec_cast<Real>(memory.shear), n, set.feature[i], mesh};
-      if constexpr (Law::kExtra > 0)
-        for (int k = 0; k < Law::kExtra; k++) sink.extra[at * Law::kExtra + k] = memory.extra[k];
+      if constexpr (Law::kExtra > 0) keep_extra(law, memory, sink.extra + at * n_extra(law));
     }
     const Vec3 tangential = weight * vec_cast<Real>(f.tangential);
     if constexpr (Law::kRecords) {
@@ -160,7 +175,8 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     out.torque -= s.radius * cross(n, tangential);
     out.energy += weight * f.energy;
     if constexpr (Law::kContactTorque) out.torque += weight * vec_cast<Real>(f.contact_torque);
-    if constexpr (Law::kHeat) *sink.heat += weight * f.heat;
+    if constexpr (Law::kHeat)
+      if (law.has_heat()) *sink.heat += weight * f.heat;
     if (settings.with_point) {
       const Real w = weight * fabs(f.normal);
       out.weight += w;
