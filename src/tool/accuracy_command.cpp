@@ -1,12 +1,14 @@
 #include "tool/commands.h"
 
 #include "base/input_error.h"
+#include "base/whole_file.h"
 #include "tool/accuracy_tables.h"
 #include "tool/number_options.h"
 #include "tool/output_file.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 namespace lsdcd {
 
@@ -36,13 +38,17 @@ void run_accuracy(AccuracyOptions &o)
   check_outputs({{"--csv", o.csv, ".csv"}});
   std::vector<std::string> tables = o.tables;
   if (std::find(tables.begin(), tables.end(), "all") != tables.end()) tables = kAccuracyTables;
+  std::optional<WholeFile> file;
+  if (!o.csv.empty()) file.emplace(o.csv);    // now, rather than fail when all is done
   AccuracyRows rows;
   for (const std::string &device : o.devices)
     for (const std::string &order : o.orders)
       make_accuracy_tables(o, tables, device_of(device),
                            order == "sorted" ? Order::sorted : Order::random, rows);
-  if (!o.csv.empty()) {
-    rows.write_csv(o.csv);
+  if (file) {
+    const std::string text = rows.csv();
+    file->write_at(0, text.data(), text.size());
+    file->commit();
     std::printf("\n%s\n", o.csv.c_str());
   }
 }

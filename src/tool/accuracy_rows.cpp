@@ -1,6 +1,5 @@
 #include "tool/accuracy_rows.h"
 
-#include "base/whole_file.h"
 
 #include <cstdio>
 
@@ -102,9 +101,9 @@ void AccuracyRows::add(const RowContext &c, const StudyRow &r, const PaperColumn
   csv_ += line + '\n';
 }
 
-void AccuracyRows::write_csv(const std::string &path) const
+std::string AccuracyRows::csv() const
 {
-  write_whole_file(path, kColumns + csv_);
+  return kColumns + csv_;
 }
 
 }    // namespace lsdcd

@@ -26,8 +26,8 @@ class AccuracyRows {
   void add(const RowContext &context, const StudyRow &row, const PaperColumns &paper = {},
            const std::string &note = "");
 
-  // Every row so far, with a heading; written whole or not at all.
-  void write_csv(const std::string &path) const;
+  // Every row so far, with a heading.
+  std::string csv() const;
 
  private:
   std::string csv_;

@@ -151,16 +151,25 @@ void split(const std::array<Vec3, 3> &t, Real edge, Triangles &out)
 
 constexpr std::size_t kMostTriangles = 20000000;
 
+[[noreturn]] void refuse_edge(Real edge)
+{
+  throw InputError("--edge " + number_text(edge) +
+                   " would make more than 20 million triangles; give a larger one");
+}
+
 // A new edge is shorter than sqrt(3)/2 of the longest edge before, so that this ends.
 Triangles refined(Triangles coarse, Real edge)
 {
+  // No triangle with edges so short has more than this area: what would be too many is refused at once.
+  const Real largest = std::sqrt(Real(3)) / 4 * edge * edge;
+  Real area = 0;
+  for (const auto &[a, b, c] : coarse) area += norm(cross(b - a, c - a)) / 2;
+  if (area > largest * kMostTriangles) refuse_edge(edge);
   for (std::size_t before = 0; before != coarse.size();) {
     before = coarse.size();
     Triangles finer;
     for (const auto &t : coarse) split(t, edge, finer);
-    if (finer.size() > kMostTriangles)
-      throw InputError("--edge " + number_text(edge) +
-                       " would make more than 20 million triangles; give a larger one");
+    if (finer.size() > kMostTriangles) refuse_edge(edge);
     coarse = std::move(finer);
   }
   return coarse;

@@ -42,7 +42,7 @@ GOOD = [
     ("material glass.lsdcd", ["material glass", "density", "kg/m3"]),
     ("material glass.lsdcd glass --on aluminium", ["granular hertz/material", "tangential"]),
     ("tradeoff wall.stl --radius 0.1 " + QUICK["tradeoff"], ["default", "rows in tradeoff.csv"]),
-    ("accuracy table2 --spheres 1000 --csv a.csv", ["0.994025", "a.csv"]),
+    ("accuracy table2 --spheres 1e5 --csv table2.csv", ["0.994025", "table2.csv"]),
     ("effects", ["hooke", "hertz", "B/contact"]),
     ("effects --measure --csv e.csv " + QUICK["effects"], ["spheres with a contact each", "hooke"]),
 ]
@@ -142,8 +142,10 @@ def main():
         fact(f"{command} --help has one example", done.returncode == 0 and len(examples) == 1 and
              examples[0].startswith(command + " "), examples)
         if reads_obj or "wall.obj" not in examples[0]:
-            done = run(scene(), *shlex.split(examples[0] + " " + QUICK.get(command, "")))
-            fact(f"and it works: {examples[0]}", done.returncode == 0, done.stderr[-300:])
+            words = (examples[0] + " " + QUICK.get(command, "")).strip()
+            if words not in [row[0] for row in GOOD]:    # those are run below
+                done = run(scene(), *shlex.split(words))
+                fact(f"and it works: {words}", done.returncode == 0, done.stderr[-300:])
         if NEEDS[command]:
             refused(folder, [command], NEEDS[command], code=2)
         refused(folder, [command, "--bogus"], code=2)

@@ -47,13 +47,14 @@ def main():
     fact("no plot was asked for and none is there", not list(folder.glob("*.png")))
     fact("nothing else is left", sorted(p.name for p in folder.iterdir()) == ["tradeoff.csv"])
 
-    # The same errors from the same seed, others from another.
-    run(folder, str(FLOOR), "--radius", "0.4", "0.5", *FAST, "--plot", "none", "--csv", "again.csv")
-    run(folder, str(FLOOR), "--radius", "0.4", "0.5", *FAST, "--plot", "none", "--csv", "other.csv",
+    # The same errors from the same seed, others from another, as far as four seconds go.
+    run(folder, str(FLOOR), "--radius", "0.4", "0.5", *FAST, "--plot", "none", "--seconds", "4", "--csv", "again.csv")
+    run(folder, str(FLOOR), "--radius", "0.4", "0.5", *FAST, "--plot", "none", "--seconds", "4", "--csv", "other.csv",
         "--seed", "7")
     errors = [[r["force_largest"] for r in rows(folder / f)]
               for f in ("tradeoff.csv", "again.csv", "other.csv")]
-    fact("one seed gives one set of errors", errors[0] == errors[1] != errors[2])
+    n = min(map(len, errors))
+    fact("one seed gives one set of errors", n > 4 and errors[0][:n] == errors[1][:n] != errors[2][:n], str(n))
 
     try:
         import matplotlib    # noqa: F401
@@ -61,15 +62,15 @@ def main():
     except ImportError:
         has_matplotlib = False
     if has_matplotlib:
-        done = run(folder, str(FLOOR), "--radius", "0.5", *FAST, "--csv", "drawn.csv")
+        done = run(folder, str(FLOOR), "--radius", "0.5", *FAST, "--seconds", "1", "--csv", "drawn.csv")
         png = folder / "drawn.png"
         fact("the plot is drawn", done.returncode == 0 and png.exists() and
              png.read_bytes()[:4] == b"\x89PNG", done.stdout[-300:])
 
     # A copy of the tool without its script: as if nothing could draw.
     alone = shutil.copy(TOOL, folder / "alone")
-    done = run(folder, str(FLOOR), "--radius", "0.5", *FAST, "--csv", "alone.csv", tool=alone)
-    fact("without a plot the rows are there", len(rows(folder / "alone.csv")) >= 48)
+    done = run(folder, str(FLOOR), "--radius", "0.5", *FAST, "--seconds", "1", "--csv", "alone.csv", tool=alone)
+    fact("without a plot the rows are there", len(rows(folder / "alone.csv")) > 0)
     fact("and how to draw it is told", done.returncode == 1 and "python3-matplotlib" in done.stdout and
          "alone.csv" in done.stdout, done.stdout[-300:])
 
