@@ -1,5 +1,4 @@
 // The body against the wall on one backend: one source for all.
-// Over 300 lines: all that a pose goes through, in its order.
 #pragma once
 
 #include "base/input_error.h"

@@ -1,4 +1,3 @@
-// Over 300 lines: a table with a row for each keyword.
 #include "deck/keywords.h"
 
 #include "base/whole_file.h"

@@ -1,6 +1,5 @@
 // The engine of a backend for a host whose arrays are in other memory: near spheres travel packed,
 // forces and torques come back, springs stay until the host asks for them.
-// Over 300 lines: each function is one half of a copy whose other half is beside it.
 #pragma once
 
 #include "parallel/backend_cpu.h"

@@ -1,6 +1,5 @@
 // The springs of a process's spheres where the engine computes. A step reads one pool and
 // writes the other.
-// Over 300 lines: all that reads or writes springs has to know the two pools.
 #pragma once
 
 #include "contact/spring_store.h"

@@ -1,5 +1,4 @@
 // The five verbs of a backend on the host: allocate, copy, for_each, reduce, scan/sort.
-// Over 300 lines: it has the verbs of backend_cuda.h in their order, so that one reads both side by side.
 #pragma once
 
 #include "parallel/atomic.h"
@@ -18,14 +17,12 @@
 #include <utility>
 #include <vector>
 
-// Compiles a function with all that it calls, which is quick to run and slow to compile. With
-// sanitizers it would take minutes; -D LSDCD_FLATTEN= does without.
-#if !defined(LSDCD_FLATTEN)
+// Compiles a function with all that it calls, which is quick to run and slow to compile: with
+// sanitizers it would take minutes.
 #if defined(__SANITIZE_ADDRESS__)
 #define LSDCD_FLATTEN
 #else
 #define LSDCD_FLATTEN gnu::flatten
-#endif
 #endif
 
 namespace lsdcd {

@@ -1,5 +1,4 @@
 // The five verbs of a backend on an NVIDIA GPU: allocate, copy, for_each, reduce, scan/sort.
-// Over 300 lines: all verbs share one stream and its scratch memory.
 #pragma once
 
 #include "parallel/cuda_beside.h"

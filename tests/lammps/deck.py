@@ -53,6 +53,8 @@ def environment():
     env.update(OMPI_MCA_ess_singleton_isolated="1")
     # All processes are on one machine: looking for networks takes 0.2 s of each start.
     env.update(OMPI_MCA_pml="ob1")
+    # After an error it gives the others a second or two to end by themselves.
+    env.update(OMPI_MCA_odls_base_sigkill_timeout="0")
     # All such processes give their folder the same name and remove it when they end. Each gets a
     # parent folder of its own, so that none removes the folder of another.
     env.update(OMPI_MCA_orte_tmpdir_base=tempfile.mkdtemp(dir=MPI_FOLDER.name))

@@ -13,7 +13,7 @@ import deck
 CRASHES = ("Segmentation", "signal", "Backtrace", "backtrace", "terminate called", "Aborted")
 
 
-AT_ONCE = 6    # after an error mpirun waits for a second
+AT_ONCE = 3    # others are tested beside
 
 
 def check(checks, path, ranks, done):

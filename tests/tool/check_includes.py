@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the house of src and kokkos: who includes whom, where files lie, how long they are.
+"""Checks the house of src and kokkos: who includes whom, where files lie.
 
 usage: check_includes.py [ROOT]
 
@@ -8,8 +8,6 @@ usage: check_includes.py [ROOT]
 * Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name.
 * A header of ONLY_IN, which is slow to compile, is included by its one file.
 * src itself has no source file: each lies in a room, and each room has a floor.
-* A file of more than MOST_LINES lines says why in one of its first five lines:
-  "// Over 300 lines: reason".
 
 Prints one line per violation, and exits with 1 if there is one.
 """
@@ -24,7 +22,6 @@ BESIDE = {("study", "query")}
 LAMMPS_ROOMS = {"lammps", "kokkos"}
 GENERATED = {"effects": "effects_measured.h", "grid": "lsdcd_grid_sources.h"}
 ONLY_IN = {"CLI/CLI.hpp": "src/tool/command.cpp"}
-MOST_LINES = 300
 
 # What is not yet as it should be; an entry that is no longer needed is a violation, too.
 INCLUDE_EXCEPTIONS = {
@@ -83,8 +80,6 @@ def violations(root):
             system = SYSTEM_INCLUDE.match(line)
             if system and ONLY_IN.get(system[1], path) != path:
                 yield f"{path}:{number}: {system[1]} is for {ONLY_IN[system[1]]} only"
-        if len(lines) > MOST_LINES and not any(f"Over {MOST_LINES} lines: " in s for s in lines[:5]):
-            yield f"{path}: {len(lines)} lines and no '// Over {MOST_LINES} lines: reason'"
     for entry in sorted(map(str, unused)):
         yield f"check_includes.py: the exception {entry} is not needed"
 

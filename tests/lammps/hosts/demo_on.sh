@@ -24,15 +24,13 @@ cd "$top"
   tar -c --null --files-from=- --ignore-failed-read | tar -x -C "$debian/root/lsdcd"
 if [ -e /etc/resolv.conf ]; then cp -L /etc/resolv.conf "$debian/etc/resolv.conf"; fi
 
-# Mounts are seen by these commands only, and end with them. Laws compile in half the time where each
-# need not be one quick function.
+# Mounts are seen by these commands only, and end with them.
 status=0
 unshare --mount --fork bash -euc '
   mount -t proc proc "$0/proc"
   mount -t sysfs sys "$0/sys"
   mount --rbind /dev "$0/dev"
   exec chroot "$0" env -i HOME=/root TERM=dumb PATH=/usr/sbin:/usr/bin:/sbin:/bin LSDCD_QUICK=1 \
-    CXXFLAGS=-DLSDCD_FLATTEN= \
     /root/lsdcd/run demo' "$debian" 2>&1 </dev/null | tee "$debian/root/demo.log" || status=$?
 if grep -q '^./run: could not install' "$debian/root/demo.log"; then skip "its packages cannot be installed"; fi
 
