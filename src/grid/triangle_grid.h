@@ -84,6 +84,7 @@ struct GridSettings {
   int nearest = 0;           // 0: complete lists; N, at most kMostNearest: the N nearest primitives
   bool exact = false;        // with nearest: complete lists as well, to fall back to
   bool in_floats = false;    // brick records, for queries in float
+  bool for_gpu = false;      // spheres are on a GPU: a length that is chosen is shorter
   bool may_coarsen = false;    // a length that is given may grow too, until the budget holds
   // Where centres of spheres can be. The grid is cut off there.
   Box within = kNoLimit;

@@ -136,6 +136,7 @@ GridSettings SharedWall::grid_settings(Real cutoff, const PeriodicBox &box) cons
   want.nearest = settings_.nearest;
   want.exact = settings_.exact;
   want.in_floats = settings_.precision != Precision::double_;
+  want.for_gpu = settings_.device != Device::cpu && cuda_available(nullptr);
   want.may_coarsen = settings_.tune >= 0 && !settings_.length_given;
   want.within = within(cutoff, box);
   want.progress = progress;

@@ -45,6 +45,7 @@ class Measuring {
     grid_settings_.memory_budget = std::size_t(1) << 40;    // rows over the budget are left out
     plan_settings_ = grid_settings_;
     plan_settings_.memory_budget = settings.memory_budget;
+    plan_settings_.for_gpu = settings.cuda;
     engine_.law = law_to_time();
   }
 
@@ -52,13 +53,17 @@ class Measuring {
   {
     std::vector<Real> lengths = lengths_to_try(mesh_, plan_settings_);
     // The default first, then what costs least to build.
-    const Real standard = plan_grid(mesh_, plan_settings_).length;
-    standard_ = *std::min_element(lengths.begin(), lengths.end(), [&](Real a, Real b) {
-      return std::fabs(a - standard) < std::fabs(b - standard);
-    });
-    std::sort(lengths.begin(), lengths.end(), [&](Real a, Real b) {
-      return a != b && (a == standard_ || (b != standard_ && a > b));
-    });
+    for (bool gpu : {false, true}) {
+      GridSettings of_device = plan_settings_;
+      of_device.for_gpu = gpu;
+      const Real standard = plan_grid(mesh_, of_device).length;
+      standard_[gpu] = *std::min_element(lengths.begin(), lengths.end(), [&](Real a, Real b) {
+        return std::fabs(a - standard) < std::fabs(b - standard);
+      });
+    }
+    const Real first = standard_[!settings_.cpu];
+    std::sort(lengths.begin(), lengths.end(),
+              [&](Real a, Real b) { return a != b && (a == first || (b != first && a > b)); });
     for (Real length : lengths) {
       if (is_late() && !result_.rows.empty()) {
         late_ += static_cast<int>(3 * list_kinds().size());
@@ -124,8 +129,6 @@ class Measuring {
                           sample_, engine_.law);
       row.bounce_drift = bounce_drift(grid.view(), engine_, starts_);
       row.roll_drift = roll_drift(grid.view(), engine_, starts_);
-      row.is_default = choice.length == standard_ && choice.nearest == 0 &&
-                       choice.precision == Precision::double_ && corner == Corner::blend;
       if (settings_.cpu) time(trial, row, false);
       if (settings_.cuda) time(trial, row, true);
     }
@@ -138,6 +141,8 @@ class Measuring {
     engine->set_grid(on_cuda ? trial.flat() : trial.made().view());
     const SphereSample &sample = on_cuda ? gpu_sample_ : sample_;
     row.on_cuda = on_cuda;
+    row.is_default = row.choice.length == standard_[on_cuda] && row.choice.nearest == 0 &&
+                     row.choice.precision == Precision::double_ && row.corner == Corner::blend;
     row.device = engine->backend();
     row.checked = sample_.n();
     row.spheres = sample.n();
@@ -153,7 +158,7 @@ class Measuring {
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   GridSettings grid_settings_, plan_settings_;
   EngineSettings engine_;
-  Real standard_ = 0;
+  Real standard_[2] = {};    // the default length on a CPU, on a GPU
   SphereSample sample_, gpu_sample_;
   DriftStarts starts_;
   WallAnswers reference_[2];    // of corner blend, of corner sum

@@ -25,8 +25,11 @@ std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &setti
   if (settings.length > 0) return {standard};
   const double budget = double(settings.memory_budget > 0 ? settings.memory_budget : kListBudget);
   std::vector<Real> lengths;
-  const Real of_nearest = default_length(mesh, settings.cutoff, 1);
-  for (Real length : {0.5 * of_nearest, of_nearest, 2 * of_nearest, 4 * of_nearest, standard}) {
+  const Real of_nearest = default_length(mesh, settings.cutoff, 1, false);
+  std::vector<Real> all = {0.5 * of_nearest, of_nearest, 2 * of_nearest, 4 * of_nearest, standard};
+  if (settings.for_gpu) all.push_back(default_length(mesh, settings.cutoff, 0, false));
+  std::sort(all.begin(), all.end());
+  for (Real length : all) {
     length = rounded(std::min(length, settings.cutoff));
     if (!lengths.empty() && length < 1.1 * lengths.back()) continue;
     GridSettings one = settings;

@@ -193,6 +193,39 @@ TEST(grid, flat_edges_have_no_records)
   EXPECT_EQ(cube.contact_features.size(), 12u + 12u + 8u);
 }
 
+// The cell that is chosen for spheres on a GPU, over the cutoff: of a floor of 2 n^2 triangles over
+// [-1, 1]^2.
+Real chosen_for_gpu(int n, Real cutoff, int nearest, Real given)
+{
+  GridSettings settings;
+  settings.cutoff = cutoff;
+  settings.nearest = nearest;
+  settings.length = given;
+  settings.for_gpu = true;
+  return plan_grid(weld(floor_mesh(n, 1), -1), settings).length / cutoff;
+}
+
+TEST(grid, for_a_gpu_a_cell_is_half_of_the_cutoff_where_triangles_are_large)
+{
+  EXPECT_EQ(chosen_for_gpu(2, 0.25, 0, 0), 0.5);
+}
+
+TEST(grid, for_a_gpu_a_cell_goes_with_the_edges_of_small_triangles)
+{
+  // Edges of 0.02, and of 0.02 sqrt(2): the median is one of the former.
+  EXPECT_NEAR(chosen_for_gpu(100, 0.1, 0, 0), 2 * 0.02 / 0.1, 1e-12);
+}
+
+TEST(grid, for_a_gpu_a_cell_is_a_quarter_of_the_cutoff_at_least)
+{
+  EXPECT_EQ(chosen_for_gpu(100, 0.5, 0, 0), 0.25);
+}
+
+TEST(grid, for_a_gpu_a_given_cell_stays)
+{
+  EXPECT_NEAR(chosen_for_gpu(2, 0.25, 0, 0.2), 0.8, 1e-15);
+}
+
 // What a GPU does cell by cell a CPU does for all cells of an octant at once, to the bit: grids are the
 // same on both.
 TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)

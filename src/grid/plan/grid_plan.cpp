@@ -117,12 +117,16 @@ std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks)
   return plan.table_size() * sizeof(std::int32_t) + bricks * kBrickBytes;
 }
 
-Real default_length(const WallMesh &mesh, Real cutoff, int nearest)
+Real default_length(const WallMesh &mesh, Real cutoff, int nearest, bool for_gpu)
 {
   // Complete lists are read when a sphere's list of the wall is gathered, not in every step. With
   // cells of the radius that takes no longer than with smaller ones, and the lists take less
   // memory than the mesh's records. Larger cells name too many spheres that touch nothing.
-  if (nearest == 0) return cutoff;
+  if (nearest == 0 && !for_gpu) return cutoff;
+  // On a GPU a sphere waits for each candidate of its cell in turn. Half of that length, and less where
+  // triangles are small, makes choices 1.4 to 3 times as fast; below that memory grows and little is gained.
+  if (nearest == 0)
+    return std::clamp(2 * mesh.report.median_edge, Real(0.25) * cutoff, Real(0.5) * cutoff);
   // Nearest lists are searched in every step. A third of an edge keeps them at one or two entries;
   // past the radius a longer cell saves nothing, below a fifth of it memory grows without gain.
   return std::clamp(Real(0.3) * mesh.report.median_edge, Real(0.2) * cutoff, cutoff);
@@ -138,7 +142,8 @@ GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
   const Real length =
       settings.length > 0
           ? settings.length
-          : std::max(default_length(mesh, settings.cutoff, settings.nearest), least);
+          : std::max(default_length(mesh, settings.cutoff, settings.nearest, settings.for_gpu),
+                     least);
   return plan_with_length(mesh, settings, length,
                           least_volume(mesh, settings.cutoff, settings.within));
 }

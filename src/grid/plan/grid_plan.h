@@ -62,8 +62,9 @@ struct CellCentres {
   }
 };
 
-// The cell edge where none is given, of complete lists or of the nearest primitives.
-Real default_length(const WallMesh &mesh, Real cutoff, int nearest);
+// The cell edge where none is given, of complete lists or of the nearest primitives, for spheres on a
+// CPU or on a GPU.
+Real default_length(const WallMesh &mesh, Real cutoff, int nearest, bool for_gpu);
 
 // From the settings, or where they leave the length open from the mesh and reach.
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
