@@ -1,5 +1,11 @@
 // A drum: the same spheres at the wall of a closed cylinder of 2e4 triangles at rest, and turning
 // about its axis, with spheres that it carries along and with spheres that stay behind.
+//
+// Rows differ in the wall and in what slides, and in nothing else. In each of them the places are other
+// memory in each step, as those that a host code has integrated anew are; spheres that are carried along
+// have the wall's velocity. Choices of near spheres are not in the times but in a fact: a host code makes
+// them for whatever moves, and not for the wall alone. Runs of the rows take turns, so that what else the
+// machine does is in all of them.
 #include "bench.h"
 #include "cylinder_bed.h"
 
@@ -27,10 +33,35 @@ WallPose turned(int step, Real dt)
   return pose;
 }
 
+struct Case {
+  const char *what;
+  bool turns, carries;
+};
+constexpr Case kCases[] = {{"hertz/history, at rest", false, false},
+                           {"hertz/history, turning, carried along", true, true},
+                           {"hertz/history, turning, staying behind", true, false}};
+constexpr Real kDt = 1e-6;
+
+// What spheres have in each step: where the wall takes them, or where they are.
+std::vector<Real> places(const BedSpheres &b, bool carries)
+{
+  std::vector<Real> all;
+  all.reserve(kSteps * b.x.size());
+  for (int k = 0; k < kSteps; k++) {
+    const WallPose pose = carries ? turned(k, kDt) : WallPose();
+    for (std::size_t i = 0; i < b.x.size(); i += 3) {
+      const Vec3 x = pose.to_box({b.x[i], b.x[i + 1], b.x[i + 2]});
+      all.insert(all.end(), {x.x, x.y, x.z});
+    }
+  }
+  return all;
+}
+
 class Drum {
  public:
-  Drum(const GridView &grid, const BedSpheres &b, Device device) :
-      x_(device == Device::cuda), rest_(device == Device::cuda), places_(b.x)
+  // `x`: places of all steps.
+  Drum(const GridView &grid, const BedSpheres &b, const Real *x, const Case &of, Device device) :
+      x_(x), case_(of), rest_(device == Device::cuda)
   {
     const bool cuda = device == Device::cuda;
     EngineSettings e;
@@ -47,6 +78,10 @@ class Drum {
 
     const std::size_t n = b.radius.size();
     std::vector<Real> all = b.v;
+    for (std::size_t i = 0; of.carries && i < all.size(); i += 3) {
+      const Vec3 v = cross(turned(0, kDt).angular, {b.x[i], b.x[i + 1], b.x[i + 2]});
+      for (int d = 0; d < 3; d++) all[i + d] += v[d];
+    }
     all.insert(all.end(), b.omega.begin(), b.omega.end());
     all.insert(all.end(), b.radius.begin(), b.radius.end());
     all.insert(all.end(), b.mass.begin(), b.mass.end());
@@ -61,54 +96,45 @@ class Drum {
     spheres_.torque = at + 11 * n;
   }
 
-  // Steps of a wall that turns or does not, with the spheres where it takes them or where they are.
-  void run(bool turns, bool carries)
+  // Near spheres, anew.
+  void choose()
   {
-    if (turns) {
-      engine_->place_wall(turned(0, kDt));
-      choose();
-    }
+    if (case_.turns) engine_->place_wall(turned(0, kDt));
+    spheres_.x = x_;
+    engine_->choose(spheres_, kMargin);
+    engine_->read_diagnostics();
+  }
+  void steps()
+  {
     StepSettings step;
     step.dt = kDt;
     for (int k = 0; k < kSteps; k++) {
-      if (turns) engine_->place_wall(turned(k, kDt));
-      if (carries) spheres_.x = x_.data() + k * places_.size();
+      if (case_.turns) engine_->place_wall(turned(k, kDt));
+      spheres_.x = x_ + k * 3 * static_cast<std::size_t>(spheres_.n);
       engine_->start(spheres_, step);
       engine_->collect();
     }
-    engine_->read_diagnostics();
-  }
-
-  // All places that carried spheres have, beforehand.
-  void put_places(bool carries)
-  {
-    std::vector<Real> all;
-    for (int k = 0; k < (carries ? kSteps : 1); k++) {
-      const WallPose pose = turned(k, kDt);
-      for (std::size_t i = 0; i < places_.size(); i += 3) {
-        const Vec3 x = pose.to_box({places_[i], places_[i + 1], places_[i + 2]});
-        all.insert(all.end(), {x.x, x.y, x.z});
-      }
-    }
-    spheres_.x = x_.put(all);
-    choose();
+    lists_ = static_cast<double>(engine_->read_diagnostics().lists);
   }
   std::int64_t contacts() const { return engine_->totals().contacts; }
+  // Made anew in a step, of each sphere.
+  double lists() const { return lists_ / kSteps / spheres_.n; }
 
  private:
-  static constexpr Real kDt = 1e-6;
-
-  void choose()
-  {
-    spheres_.x = x_.data();
-    engine_->choose(spheres_, kMargin);
-  }
-
+  const Real *x_;
+  Case case_;
   std::unique_ptr<InPlaceEngine> engine_;
-  DeviceArray<Real> x_, rest_;
-  std::vector<Real> places_;
+  DeviceArray<Real> rest_;
   Spheres spheres_;
+  double lists_ = 0;
 };
+
+double ms_of(Drum &drum, void (Drum::*what)())
+{
+  const double start = clock_ms();
+  (drum.*what)();
+  return clock_ms() - start;
+}
 
 void measure(const BenchOptions &o, BenchRows &rows)
 {
@@ -122,26 +148,38 @@ void measure(const BenchOptions &o, BenchRows &rows)
   for (Device device : o.devices) {
     rows.begin(device);
     for (bool sorted : {false, true}) {
-      Drum drum(grid.view(), BedSpheres(wall, n, sorted), device);
+      const BedSpheres bed(wall, n, sorted);
+      DeviceArray<Real> still(device == Device::cuda), carried(device == Device::cuda);
+      still.put(places(bed, false));
+      carried.put(places(bed, true));
+      std::vector<std::unique_ptr<Drum>> drums;
+      for (const Case &c : kCases)
+        drums.push_back(std::make_unique<Drum>(grid.view(), bed,
+                                               (c.carries ? carried : still).data(), c, device));
+      std::vector<double> steps[3], choices[3];
+      for (int k = 0; k <= repeats; k++)    // one to warm up
+        for (std::size_t c = 0; c < drums.size(); c++) {
+          const double choice = ms_of(*drums[c], &Drum::choose);
+          const double all = ms_of(*drums[c], &Drum::steps);
+          if (k == 0) continue;
+          choices[c].push_back(choice);
+          steps[c].push_back(all / kSteps);
+        }
       BenchRow row;
       row.triangles = mesh.faces.size();
       row.spheres = n;
       row.order = sorted ? "sorted" : "random";
-      double at_rest = 0;
-      const auto add = [&](const char *what, bool turns, bool carries) {
-        drum.put_places(carries);
-        row.what = what;
-        row.timing = time_it(repeats, [&] { drum.run(turns, carries); });
-        for (double *ms : {&row.timing.median_ms, &row.timing.min_ms, &row.timing.max_ms})
-          *ms /= kSteps;
-        if (!turns) at_rest = row.timing.median_ms;
-        row.facts = format("contacts=%lld over_rest=%.3f", static_cast<long long>(drum.contacts()),
-                           row.timing.median_ms / at_rest);
+      const Timing at_rest = timing_of(steps[0]);
+      for (std::size_t c = 0; c < drums.size(); c++) {
+        row.what = kCases[c].what;
+        row.timing = timing_of(steps[c]);
+        row.facts =
+            format("contacts=%lld lists_anew=%.4f choice_ms=%.2f over_rest=%.3f over_rest_min=%.3f",
+                   static_cast<long long>(drums[c]->contacts()), drums[c]->lists(),
+                   timing_of(choices[c]).median_ms, row.timing.median_ms / at_rest.median_ms,
+                   row.timing.min_ms / at_rest.min_ms);
         rows.add(row);
-      };
-      add("hertz/history, at rest", false, false);
-      add("hertz/history, turning, carried along", true, true);
-      add("hertz/history, turning, staying behind", true, false);
+      }
     }
   }
 }
