@@ -321,6 +321,23 @@ class Bed {
   }
 };
 
+// A cutoff that grew with each new list would hide that a sphere has grown, and make lists longer.
+TEST(wall_list, that_is_made_anew_a_thousand_times_has_the_cutoff_of_the_choice)
+{
+  const Wall wall(floor_mesh(4, 2), 0.5);
+  Bed bed(wall, hooke(1e3));
+  bed.add(kOverFloor, 0.42);
+  bed.choose(0.1);
+  for (int k = 0; k < 1000; k++) {
+    bed.put(0, kOverFloor + Vec3{k % 2 ? 0 : 0.05, 0, 0});
+    bed.step();
+  }
+  EXPECT_EQ(bed.engine->read_diagnostics().lists, 1001);    // and that of the choice
+  bed.radius[0] *= 1 + 5e-6;
+  bed.step();
+  EXPECT_THROW(bed.engine->read_diagnostics(), InputError);
+}
+
 TEST(wall_list, spheres_without_one_touch_what_all_features_say)
 {
   const Real k = 1e3, radius = 0.2;

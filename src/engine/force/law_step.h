@@ -204,7 +204,7 @@ LSDCD_FN void put_list(const LawJob &job, const Group &group, bool mine, const G
   if (has_grown) raise_to(&job.counts->grown, kNoSphere - sphere_of(job, k));
   count_one(&job.counts->lists);
   add_to(&job.counts->listed, made.n);
-  job.lists.put(k, made, grid.wall);
+  job.lists.put(k, made, grid.wall, !has_grown);
 }
 
 // Near sphere k with any number of contacts. Its cell is searched where it has no list that holds.

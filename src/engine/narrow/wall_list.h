@@ -58,12 +58,15 @@ struct WallLists {
   {
     return static_cast<FeatureCode>(n[(i + 1) * column + k]);
   }
-  LSDCD_FN void put(std::size_t k, const WallList &list, const WallFeaturesView &wall) const
+  // `keeps_cutoff`: list k already has the list's cutoff, which is not rounded up once more.
+  LSDCD_FN void put(std::size_t k, const WallList &list, const WallFeaturesView &wall,
+                    bool keeps_cutoff = false) const
   {
     for (int d = 0; d < 3; d++) x[d * column + k] = list.x[d];
     // Rounded down, and up.
     lengths[k] = static_cast<float>((1 - Real(1e-6)) * (list.margin / unit));
-    lengths[column + k] = static_cast<float>((1 + Real(1e-6)) * (list.cutoff / unit));
+    if (!keeps_cutoff)
+      lengths[column + k] = static_cast<float>((1 + Real(1e-6)) * (list.cutoff / unit));
     n[k] = list.n;
     for (int i = 0; i < list.n; i++)
       n[(i + 1) * column + k] = static_cast<std::int32_t>(list.code[i]);
