@@ -48,6 +48,7 @@ struct ForceSettings {
   bool with_point;          // fill weighted_point and weight
   Real wall_temperature;    // read only where the law has heat
   SurfaceMotion surface;    // read only where the surface moves
+  bool surface_moves;       // in itself; else `surface` is left out, which changes no bit
   WallPose pose;            // likewise
   // Spheres' velocities are those of half a step ago, as far back as this (time; 0 in a setup): a wall
   // that turns is seen at the same time. Else what lies still on a turntable would seem to slip outward,
@@ -73,7 +74,7 @@ LSDCD_FN auto begin_memory(const Law &law, const WallFeaturesView &wall,
       const Vec3 &n = set.normal[i];
       Vec3 now = handed_on(h, in, s.springs, n);
       if constexpr (Law::kSurface)
-        if (settings.update)
+        if (settings.update && settings.surface_moves)
           now = turn_about(n, settings.dt * dot(settings.surface.angular, n), now);
       return vec_cast<T>(now);
     };
@@ -139,7 +140,8 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     c.mass = static_cast<T>(s.mass);
     c.v_normal = static_cast<T>(v_normal);
     Vec3 along = v - v_normal * n;
-    if constexpr (Law::kSurface) along -= settings.surface.along(closest, n, settings.back);
+    if constexpr (Law::kSurface)
+      if (settings.surface_moves) along -= settings.surface.along(closest, n, settings.back);
     c.v_tangent = vec_cast<T>(along - s.radius * cross(s.omega, n));
     c.dt = static_cast<T>(settings.dt);
     c.update = settings.update;
