@@ -195,16 +195,17 @@ struct CpuBackend {
 
   // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
   // !work.has_single(), work.several(i), before that work.make_list(group, true, i) if
-  // work.needs_list(i).
+  // work.needs_list(i), and with a list that is new work.single(i) once more.
   template <class Work>
   void step(std::size_t n, const Work &work)
   {
-    constexpr std::int64_t kRun = 64;
     work.begin();
-    const std::int64_t m = static_cast<std::int64_t>(n), n_runs = (m + kRun - 1) / kRun;
-#pragma omp parallel for schedule(dynamic) num_threads(threads()) if (n_runs > 4)
-    for (std::int64_t run = 0; run < n_runs; run++)
-      step_run(work, run * kRun, std::min(m, (run + 1) * kRun));
+    const std::int64_t m = static_cast<std::int64_t>(n);
+    // Long enough that several items of a run need lists, and enough runs for all threads.
+    const std::int64_t run = std::min(kRun, std::max<std::int64_t>(64, m / (8 * threads())));
+#pragma omp parallel for schedule(dynamic) num_threads(threads()) if (m > 256)
+    for (std::int64_t begin = 0; begin < m; begin += run)
+      step_run(work, begin, std::min(m, begin + run));
   }
 
   // Does test(i) hold for any i in [0, n)?
@@ -285,22 +286,68 @@ struct CpuBackend {
     return n_kept;
   }
 
-  // single() is compiled into the loop whole, with its contact in registers; several() is rare,
-  // and long.
+  // Items of a step that a thread takes at once, at most.
+  static constexpr std::int64_t kRun = 512;
+  struct Items {
+    int n = 0;
+    std::int64_t at[kRun];
+
+    void add(std::int64_t i) { at[n++] = i; }
+  };
+
   template <class Work>
-  [[gnu::noinline, LSDCD_FLATTEN]] static void step_run(const Work &work, std::int64_t begin,
-                                                        std::int64_t end)
+  static void step_run(const Work &work, std::int64_t begin, std::int64_t end)
+  {
+    Items left;
+    if (work.has_single())
+      step_singles(work, begin, end, left);
+    else
+      for (std::int64_t i = begin; i < end; i++) left.add(i);
+    if (left.n > 0) step_left(work, left);
+  }
+  // single() is compiled into the loop whole, with its contact in registers; the rest is rare, and
+  // long.
+  template <class Work>
+  [[gnu::noinline, LSDCD_FLATTEN]] static void step_singles(const Work &work, std::int64_t begin,
+                                                            std::int64_t end, Items &left)
+  {
+    for (std::int64_t i = begin; i < end; i++)
+      if (!work.single(static_cast<std::size_t>(i))) left.add(i);
+  }
+  // Those that need lists get them, and go through single() once more.
+  template <class Work>
+  [[gnu::noinline]] static void step_left(const Work &work, const Items &left)
   {
     const bool has_single = work.has_single();
-    for (std::int64_t i = begin; i < end; i++)
-      if (!has_single || !work.single(static_cast<std::size_t>(i)))
-        step_several(work, static_cast<std::size_t>(i));
+    Items due, several;
+    for (int k = 0; k < left.n; k++)
+      (work.needs_list(static_cast<std::size_t>(left.at[k])) ? due : several).add(left.at[k]);
+    for (int k = 0; k < due.n; k++) {
+      if (k % kAsked == 0) ask_for_lists(work, due.at + k, std::min(kAsked, due.n - k));
+      const std::int64_t i = due.at[k];
+      work.make_list(LaneGroup<1>(), true, static_cast<std::size_t>(i));
+      if (has_single)
+        step_singles(work, i, i + 1, several);
+      else
+        several.add(i);
+    }
+    for (int k = 0; k < several.n; k++) work.several(static_cast<std::size_t>(several.at[k]));
   }
+
+  // Asks for what the lists of n items are made from, at most kAsked: else each would wait for memory
+  // several times.
+  static constexpr int kAsked = 32;
   template <class Work>
-  [[gnu::noinline]] static void step_several(const Work &work, std::size_t i)
+  static void ask_for_lists([[maybe_unused]] const Work &work,
+                            [[maybe_unused]] const std::int64_t *items, [[maybe_unused]] int n)
   {
-    if (work.needs_list(i)) work.make_list(LaneGroup<1>(), true, i);
-    work.several(i);
+    if constexpr (Work::kSingle) {
+      if (n < 2) return;
+      typename Work::Ahead ahead[kAsked];
+      for (int k = 0; k < n; k++) ahead[k] = work.list_ahead(static_cast<std::size_t>(items[k]));
+      for (int part = 0; part < Work::Ahead::kParts; part++)
+        for (int k = 0; k < n; k++) work.ask_for(ahead[k], part);
+    }
   }
 };
 

@@ -280,6 +280,13 @@ struct LawStep {
   {
     put_list(job, group, mine, job.grid, near_sphere(law, job, k), k);
   }
+  // What make_list() will read, part by part of a CPU's memory.
+  using Ahead = SearchAhead;
+  Ahead list_ahead(std::size_t k) const
+  {
+    return Ahead(job.grid, centre_of<Law>(job, sphere_of(job, k)));
+  }
+  void ask_for(Ahead &ahead, int part) const { ahead.ask_for(job.grid, part); }
   LSDCD_FN bool several(std::size_t k) const { return several_contacts(law, job, k); }
   LSDCD_FN const StepLists &step_lists() const { return job.step_lists; }
 };

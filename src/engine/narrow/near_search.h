@@ -79,6 +79,56 @@ inline void ask_for_candidates(const GridView &grid, const Vec3 &q)
   asm volatile("");    // as in ask_for()
 }
 
+// What a search from q will read first, which a CPU's memory is asked for part by part, as each is found
+// in the one before: the brick's number, the brick, the cell, its first candidates, their records. With many
+// searches all of them wait at once.
+class SearchAhead {
+ public:
+  static constexpr int kParts = 5;
+
+  SearchAhead() = default;
+  SearchAhead(const GridView &grid, const Vec3 &q)
+  {
+    const CellSlot p = cell_slot_of(grid, q);
+    if (!p.inside) return;
+    in_brick_ = cell_in_brick(p);
+    at_ = grid.lists.brick_of + brick_slot(grid, p);
+  }
+
+  // Part 0, then 1, and so on.
+  void ask_for(const GridView &grid, int part)
+  {
+    if (!at_) return;
+    if (part == 1) {
+      const std::int32_t brick = *static_cast<const std::int32_t *>(at_);
+      at_ = brick < 0 ? nullptr : grid.lists.bricks[brick].layer + (in_brick_ >> 6);
+    } else if (part == 2) {
+      const BrickLayer &layer = *static_cast<const BrickLayer *>(at_);
+      at_ = has_candidates(layer, in_brick_) ? grid.lists.cells + cell_index(layer, in_brick_)
+                                             : nullptr;
+    } else if (part == 3) {
+      const Cell cell = *static_cast<const Cell *>(at_);
+      n_ = cell.count < kAhead ? cell.count : kAhead;
+      at_ = grid.lists.candidates + cell.first;
+      if (n_ == 1) {    // the cell has it inline
+        if (!grid.in_floats) lsdcd::ask_for(grid.wall, cell.first);
+        at_ = nullptr;
+      }
+    } else if (part == 4) {
+      const Candidate *candidates = static_cast<const Candidate *>(at_);
+      for (std::uint32_t i = 0; !grid.in_floats && i < n_; i++)
+        lsdcd::ask_for(grid.wall, candidates[i].feature);
+      return;
+    }
+    __builtin_prefetch(at_);
+  }
+
+ private:
+  const void *at_ = nullptr;    // what is asked for; null: there is no more
+  std::int32_t in_brick_ = 0;
+  std::uint32_t n_ = 0;
+};
+
 // What a sphere at q could touch after a way of up to `margin`. Lengths.
 struct NearSearch {
   Vec3 q;
