@@ -29,7 +29,7 @@ if(LSDCD_CUDA)
   endif()
   # Code for the GPU that is here. Without one: code for compute capability 8.0 (A100), which 8.6 and 8.9
   # run, and PTX, of which the driver makes code for later ones at their first run.
-  if(NOT CMAKE_CUDA_ARCHITECTURES)
+  if(NOT CMAKE_CUDA_ARCHITECTURES AND NOT DEFINED ENV{CUDAARCHS})
     file(GLOB gpus /dev/nvidia[0-9]*)
     if(gpus AND CMAKE_VERSION VERSION_GREATER_EQUAL 3.24)
       set(CMAKE_CUDA_ARCHITECTURES native)
