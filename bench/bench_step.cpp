@@ -157,7 +157,8 @@ FlatGrid grid_of(const WallMesh &mesh, Real length, Device device)
   GridSettings settings;
   settings.length = length;
   settings.cutoff = kCutoff;
-  return FlatGrid(build_grid(mesh, settings, device == Device::cuda));
+  settings.for_gpu = device == Device::cuda;
+  return FlatGrid(build_grid(mesh, settings, settings.for_gpu));
 }
 
 void measure(const BenchOptions &o, BenchRows &rows)

@@ -144,8 +144,9 @@ void measure(const BenchOptions &o, BenchRows &rows)
   const WallMesh mesh = weld(wall.mesh(), -1);
   GridSettings settings;
   settings.cutoff = 1;
-  const FlatGrid grid(build_grid(mesh, settings));
   for (Device device : o.devices) {
+    settings.for_gpu = device == Device::cuda;
+    const FlatGrid grid(build_grid(mesh, settings));
     rows.begin(device);
     for (bool sorted : {false, true}) {
       const BedSpheres bed(wall, n, sorted);

@@ -138,6 +138,7 @@ CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, LawStyle
   const WallMesh mesh = weld(soup, -1);
   GridSettings grid;
   grid.cutoff = kLargest;
+  grid.for_gpu = cuda;
   grid_ = FlatGrid(build_grid(mesh, grid, cuda));
   build_ms = clock_ms() - began;
   triangles = mesh.faces.size();
