@@ -226,6 +226,18 @@ TEST(grid, for_a_gpu_a_given_cell_stays)
   EXPECT_NEAR(chosen_for_gpu(2, 0.25, 0, 0.2), 0.8, 1e-15);
 }
 
+TEST(grid, coarser_cells_for_a_gpu_come_to_those_of_a_cpu)
+{
+  const WallMesh mesh = weld(floor_mesh(100, 1), -1);
+  GridSettings settings;
+  settings.cutoff = 0.5;
+  GridPlan of_cpu = plan_grid(mesh, settings);
+  settings.for_gpu = true;
+  GridPlan of_gpu = plan_grid(mesh, settings);
+  while (of_gpu.length < of_cpu.length) of_gpu = coarser(of_gpu, mesh, settings);
+  EXPECT_EQ(of_gpu.length, of_cpu.length);
+}
+
 // What a GPU does cell by cell a CPU does for all cells of an octant at once, to the bit: grids are the
 // same on both.
 TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)

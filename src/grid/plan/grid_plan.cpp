@@ -155,7 +155,10 @@ bool is_coarsest(const GridPlan &plan, const WallMesh &mesh)
 
 GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings)
 {
-  return plan_with_length(mesh, settings, plan.length * kCoarser, plan.least_volume);
+  // By way of the cutoff, with which a CPU begins: what fits is then no coarser on a GPU.
+  const Real next = plan.length * kCoarser;
+  const bool past = plan.length < plan.cutoff && next > plan.cutoff;
+  return plan_with_length(mesh, settings, past ? plan.cutoff : next, plan.least_volume);
 }
 
 std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vector<Box> &boxes)
