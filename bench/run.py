@@ -10,7 +10,8 @@ accuracy.py), effects doc/effects.md (effects.py), hard-cases doc/hard_cases.md
 (hard_cases.py). Four compare, also into doc/performance.md: kokkos times steps of a LAMMPS with
 Kokkos (kokkos.py), liggghts our wall against LIGGGHTS's (liggghts.py), floor a mesh against a flat
 plane (floor.py), mesh-size the same contacts with 1e2 to 1e7 triangles (mesh_size.py). run.py
-NAME --words lists the words of the first three.
+NAME --words lists the words of the first three. Two print their rows and write no document: turning times
+spheres that a turning wall carries along or leaves behind, cells steps by the length of cells.
 
 Rows of the four are kept in doc/data/performance_DEVICE.csv (performance.py). Further words
 go to them, as --spheres 1e6; bench_query --help lists them. query --part near-and-far times
@@ -19,6 +20,8 @@ distances on one core beside Embree and CGAL. On a machine lent for a GPU:
 then, where the repository is, copy DIR/*.csv to doc/data and run.py --write-only.
 """
 import argparse
+import os
+import subprocess
 import sys
 
 import accuracy
@@ -35,6 +38,15 @@ DOCUMENTS = {"accuracy": [tradeoff.main, accuracy.main], "effects": [effects.mai
              "hard-cases": [hard_cases.main]}
 COMPARISONS = {"kokkos": kokkos.main, "liggghts": liggghts.main, "floor": floor.main,
                "mesh-size": mesh_size.main}
+
+PRINTED = ["turning", "cells"]
+
+
+def print_rows(name, args, rest):
+    """Runs one of PRINTED with its own words; returns its exit status."""
+    words = ["--device", args.only] if args.only else []
+    words += ["--quick"] if args.quick else []
+    return subprocess.run([os.path.join(args.build, "bin", "bench_" + name), *words, *rest]).returncode
 
 
 def main():
@@ -54,7 +66,7 @@ def main():
     while rest and not rest[0].startswith("-"):
         names.append(rest.pop(0))
     names = names or [*performance.PROGRAMS, *(COMPARISONS if args.write_only else ())]
-    known = [*performance.PROGRAMS, *DOCUMENTS, *COMPARISONS]
+    known = [*performance.PROGRAMS, *DOCUMENTS, *COMPARISONS, *PRINTED]
     for name in names:
         if name not in known:
             print(f"no benchmark '{name}'; there are: {', '.join(known)}", file=sys.stderr)
@@ -66,6 +78,8 @@ def main():
             return status
     for name in names:
         status = COMPARISONS[name](args, rest) if name in COMPARISONS else 0
+        if name in PRINTED:
+            status = print_rows(name, args, rest)
         if status != 0:
             return status
     for name in names:
