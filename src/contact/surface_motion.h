@@ -11,8 +11,6 @@ struct SurfaceMotion {
   Vec3 centre = {0, 0, 0};      // length
 
   bool moves() const { return norm_sq(velocity) > 0 || norm_sq(angular) > 0; }
-  // Is along() exactly 0 everywhere?
-  bool is_still() const { return velocity == Vec3{0, 0, 0} && angular == Vec3{0, 0, 0}; }
 
   // Velocity of the surface that is at point p, a time `back` ago, in the plane with unit normal n.
   // What would push along n is left out: the wall stays where it is.

@@ -125,6 +125,11 @@ bool SharedWall::fits(const PeriodicBox &box) const
   return true;
 }
 
+bool SharedWall::uses_gpu() const
+{
+  return settings_.device != Device::cpu && cuda_available(nullptr);
+}
+
 GridSettings SharedWall::grid_settings(Real cutoff, const PeriodicBox &box) const
 {
   GridSettings want;
@@ -136,7 +141,8 @@ GridSettings SharedWall::grid_settings(Real cutoff, const PeriodicBox &box) cons
   want.nearest = settings_.nearest;
   want.exact = settings_.exact;
   want.in_floats = settings_.precision != Precision::double_;
-  want.for_gpu = settings_.device != Device::cpu && cuda_available(nullptr);
+  // Asked for a length that is chosen only, so that devices share the cache of one that is given.
+  want.for_gpu = !(want.length > 0) && uses_gpu();
   want.may_coarsen = settings_.tune >= 0 && !settings_.length_given;
   want.within = within(cutoff, box);
   want.progress = progress;
@@ -237,9 +243,7 @@ void SharedWall::build_block(const WallMesh &whole, const GridSettings &want, Gr
   std::unique_ptr<TriangleGrid> grid;
   std::size_t bytes = 0;
   together(shared_.world(), shared_.writes(), [&] {
-    std::string why;
-    const bool on_cuda = settings_.device != Device::cpu && cuda_available(&why);
-    grid = std::make_unique<TriangleGrid>(build_grid(whole, want, on_cuda));
+    grid = std::make_unique<TriangleGrid>(build_grid(whole, want, uses_gpu()));
     bytes = flat_bytes(*grid);
     report = grid->report;
     cells_ = report.lists.cells;

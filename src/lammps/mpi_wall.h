@@ -77,6 +77,7 @@ class SharedWall {
 
  private:
   void read();
+  bool uses_gpu() const;
   GridSettings grid_settings(Real cutoff, const PeriodicBox &box) const;
   Box within(Real cutoff, const PeriodicBox &box) const;
   WallMesh whole(Real cutoff, const PeriodicBox &box) const;

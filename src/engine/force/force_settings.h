@@ -25,7 +25,7 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.with_point = step.per_sphere;
   s.wall_temperature = step.mesh_temperature ? step.mesh_temperature[mesh] : step.wall_temperature;
   s.surface = step.surface ? step.surface[mesh] : engine.surface;
-  s.surface_moves = !s.surface.is_still();
+  s.surface_moves = s.surface.moves();
   s.pose = pose;
   s.back = s.update ? step.dt / 2 : 0;
   s.wall_velocity = pose.turn_to_mesh(pose.velocity - s.back * pose.acceleration);
