@@ -1,8 +1,8 @@
 #include "bench.h"
 
 #include "base/whole_file.h"
-#include "parallel/backend_cpu.h"
-#include "parallel/threads.h"
+#include "backend/backend_cpu.h"
+#include "backend/threads.h"
 #include "on_cuda.h"
 #include "support/meshes.h"
 

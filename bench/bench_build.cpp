@@ -4,8 +4,8 @@
 #include "brute_force.h"
 #include "on_cuda.h"
 
-#include "parallel/backend_cpu.h"
-#include "parallel/threads.h"
+#include "backend/backend_cpu.h"
+#include "backend/threads.h"
 
 using namespace lsdcd;
 

@@ -23,15 +23,15 @@ LAWS = ["hooke", "hooke/history", "hertz/history", "granular hertz, linear_histo
 NVCC = shutil.which("nvcc") or "/usr/local/cuda/bin/nvcc"
 FLAGS = ["-std=c++17", "-O3", "-DNDEBUG", "-ffp-contract=off"]
 # Effects' branches in headers of the kernel, and the members that only they read.
-WALL_FORCE = "engine/force/wall_force.h"
+WALL_FORCE = "engine/step/wall_force.h"
 BRANCHES = {WALL_FORCE: ["Law::kSurface", "Law::kRecords", "Law::kContactTorque", "Law::kHeat",
                          "Law::kExtra > 0"],
-            "model/contact_model.h": ["kContactTorque", "kHeat", "kFull"]}
+            "law/contact_model.h": ["kContactTorque", "kHeat", "kFull"]}
 MEMBERS = {WALL_FORCE: ["SurfaceMotion surface;", "bool surface_moves;", "WallPose pose;",
                         "Vec3 wall_velocity, wall_angular;", "WearModel wear;", "ContactRecord *records;",
                         "Real *heat;", "Real *extra;", "const Real *extra;", "Real temperature;",
                         "Real wall_temperature;"],
-           "model/contact.h": ["Vec3Of<T> omega;", "T wall_warmer;"]}
+           "law/contact.h": ["Vec3Of<T> omega;", "T wall_warmer;"]}
 
 
 def end_of_statement(text, at):

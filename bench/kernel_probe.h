@@ -2,9 +2,9 @@
 // sources as they are and with effects cut out of them.
 #pragma once
 
-#include "engine/force/on_wall.h"
-#include "engine/force/wall_force.h"
-#include "model/contact_model.h"
+#include "engine/step/on_wall.h"
+#include "engine/step/wall_force.h"
+#include "law/contact_model.h"
 
 namespace lsdcd {
 

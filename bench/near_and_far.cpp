@@ -1,7 +1,7 @@
 #include "near_and_far.h"
 
 #include "library_query.h"
-#include "parallel/threads.h"
+#include "backend/threads.h"
 #include "peers.h"
 #include "study/spheres.h"
 

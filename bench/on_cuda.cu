@@ -1,6 +1,6 @@
 #include "on_cuda.h"
 
-#include "parallel/backend_cuda.h"
+#include "backend/backend_cuda.h"
 
 #include <algorithm>
 

@@ -10,7 +10,7 @@
 #include "base/input_error.h"
 #include "base/strided_view.h"
 #include "engine/wall_engine.h"
-#include "parallel/threads.h"
+#include "backend/threads.h"
 
 #include <memory>
 #include <type_traits>

@@ -1,7 +1,7 @@
 // How many threads a call has.
 #pragma once
 
-#include "parallel/threads.h"
+#include "backend/threads.h"
 
 namespace lsdcd {
 

@@ -1,7 +1,7 @@
 #include "bodies/collide_on.h"
 
 #include "base/input_error.h"
-#include "parallel/backend_cpu.h"
+#include "backend/backend_cpu.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "bodies/collide_on.h"
-#include "parallel/backend_cuda.h"
+#include "backend/backend_cuda.h"
 
 namespace lsdcd {
 

@@ -10,8 +10,8 @@
 #include "bodies/sort_pairs.h"
 #include "bodies/subdivide.h"
 #include "grid/lookup/grid_on.h"
-#include "parallel/atomic.h"
-#include "parallel/take_one.h"
+#include "backend/atomic.h"
+#include "backend/take_one.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bodies/near_piece.h"
-#include "parallel/backend_cpu.h"
+#include "backend/backend_cpu.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,7 +1,7 @@
 // Where a surface that is said to move would have to take the mesh along.
 #pragma once
 
-#include "contact/surface_motion.h"
+#include "motion/surface_motion.h"
 #include "mesh/wall_mesh.h"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "engine/engine_on.h"
-#include "engine/force/compile_law.h"
-#include "parallel/backend_cpu.h"
+#include "engine/step/compile_law.h"
+#include "backend/backend_cpu.h"
 
 namespace lsdcd {
 

@@ -1,6 +1,6 @@
-#include "engine/force/compile_law.h"
+#include "engine/step/compile_law.h"
 #include "engine/host_adapter.h"
-#include "parallel/backend_cuda.h"
+#include "backend/backend_cuda.h"
 
 namespace lsdcd {
 

@@ -1,8 +1,8 @@
 // One mesh of a wall, as an engine has it.
 #pragma once
 
-#include "engine/force/force_settings.h"
-#include "engine/force/law_job.h"
+#include "engine/step/force_settings.h"
+#include "engine/step/law_job.h"
 #include "grid/lookup/grid_on.h"
 
 namespace lsdcd {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/input_error.h"
-#include "engine/force/compiled_law.h"
+#include "engine/step/compiled_law.h"
 #include "engine/choose/near_wall.h"
 #include "engine/resident_springs.h"
 #include "engine/step_list_store.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "contact/spring_store.h"
-#include "engine/force/compiled_law.h"
+#include "engine/step/compiled_law.h"
 
 #include <algorithm>
 #include <cstring>

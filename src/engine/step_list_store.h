@@ -1,7 +1,7 @@
 // Memory for the lists that the kernels of a step on a GPU hand on.
 #pragma once
 
-#include "engine/force/law_job.h"
+#include "engine/step/law_job.h"
 
 namespace lsdcd {
 

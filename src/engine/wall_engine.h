@@ -4,11 +4,11 @@
 #include "base/strided_view.h"
 #include "base/vec3.h"
 #include "contact/spring_store.h"
-#include "engine/force/on_wall.h"
+#include "engine/step/on_wall.h"
 #include "grid/triangle_grid.h"
 #include "mesh/wall_mesh.h"
-#include "mesh/wall_pose.h"
-#include "model/contact_law.h"
+#include "motion/wall_pose.h"
+#include "law/contact_law.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 
 #include "base/input_error.h"
 #include "grid/triangle_grid.h"
-#include "parallel/threads.h"
+#include "backend/threads.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "base/large_memory.h"
 #include "grid/triangle_grid.h"
-#include "parallel/owned_array.h"
+#include "backend/owned_array.h"
 
 namespace lsdcd {
 

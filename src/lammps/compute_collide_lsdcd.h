@@ -6,7 +6,7 @@
 
 #include "bodies/fit_pose.h"
 #include "bodies/mesh_collision.h"
-#include "deck/collide_settings.h"
+#include "input/collide_settings.h"
 #include "mesh/periodic_box.h"
 
 #include <cstdint>

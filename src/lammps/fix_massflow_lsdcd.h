@@ -4,7 +4,7 @@
 
 #include "fix.h"
 
-#include "deck/massflow_settings.h"
+#include "input/massflow_settings.h"
 #include "flow/flow_surface.h"
 #include "lammps/rerun_watch.h"
 

@@ -4,7 +4,7 @@
 
 #include "fix.h"
 
-#include "deck/deck_files.h"
+#include "input/deck_files.h"
 #include "lammps/mesh_part.h"
 #include "lammps/rerun_watch.h"
 
@@ -89,7 +89,7 @@ class FixWallLsdcd : public Fix {
          by_cells = 0;             // in this run
   bool callbacks = false;          // registered with Atom
   bool springs_checked = false;    // against this mesh: they may come from a restart file
-  int kind_in_file = -1;           // of its springs (model/spring_kind.h); -1: it does not say
+  int kind_in_file = -1;           // of its springs (law/spring_kind.h); -1: it does not say
   bigint other_law = 0;            // atoms of that file with springs of another law
   bigint unnamed = 0;              // atoms of a file of an earlier version, which does not say
   int room = 0;                    // this wall's part of maxexchange

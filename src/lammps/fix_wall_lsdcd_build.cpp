@@ -4,7 +4,7 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "base/input_words.h"
-#include "model/contact_slope.h"
+#include "law/contact_slope.h"
 
 #include <vector>
 

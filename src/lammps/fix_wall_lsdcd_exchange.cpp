@@ -3,8 +3,8 @@
 
 #include "lammps/fix_wall_lsdcd.h"
 
-#include "engine/force/law_job.h"
-#include "model/spring_kind.h"
+#include "engine/step/law_job.h"
+#include "law/spring_kind.h"
 
 #include "atom.h"
 #include "error.h"

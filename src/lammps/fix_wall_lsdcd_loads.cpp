@@ -2,7 +2,7 @@
 
 #include "lammps/fix_wall_lsdcd.h"
 
-#include "model/spring_kind.h"
+#include "law/spring_kind.h"
 
 #include "atom.h"
 #include "comm.h"

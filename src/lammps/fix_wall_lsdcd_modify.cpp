@@ -3,7 +3,7 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "base/input_words.h"
-#include "deck/motion_words.h"
+#include "input/motion_words.h"
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "base/input_words.h"
-#include "deck/servo_words.h"
-#include "model/contact_slope.h"
+#include "input/servo_words.h"
+#include "law/contact_slope.h"
 
 #include "atom.h"
 #include "group.h"

@@ -1,7 +1,7 @@
 // `material` in a fix's words, on all processes.
 #pragma once
 
-#include "deck/fill_material.h"
+#include "input/fill_material.h"
 
 #include <mpi.h>
 

@@ -1,7 +1,7 @@
 // Meshes that every process has whole.
 #pragma once
 
-#include "deck/settings.h"
+#include "input/settings.h"
 #include "mesh/wall_mesh.h"
 
 #include <mpi.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/large_memory.h"
-#include "parallel/owned_array.h"
+#include "backend/owned_array.h"
 
 #include <cstddef>
 #include <exception>

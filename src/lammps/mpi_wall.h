@@ -1,7 +1,7 @@
 // A mesh of a wall and its grid, made once per node and read by all.
 #pragma once
 
-#include "deck/settings.h"
+#include "input/settings.h"
 #include "grid/cache/grid_cache.h"
 #include "grid/triangle_grid.h"
 #include "lammps/mpi_shared.h"

@@ -2,7 +2,7 @@
 
 #include "geometry/triangles_meet.h"
 #include "mesh/box_tree.h"
-#include "parallel/threads.h"
+#include "backend/threads.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Numbers per triangle, as a file that ParaView and other VTK programs read.
 #pragma once
 
-#include "mesh/wall_pose.h"
+#include "motion/wall_pose.h"
 #include "output/wall_loads.h"
 
 #include <string>

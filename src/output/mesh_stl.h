@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mesh/wall_mesh.h"
-#include "mesh/wall_pose.h"
+#include "motion/wall_pose.h"
 
 #include <string>
 #include <vector>

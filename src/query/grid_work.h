@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grid/lookup/brick_filter.h"
-#include "parallel/atomic.h"
+#include "backend/atomic.h"
 #include "query/nearest_distance.h"
 #include "query/sphere_query.h"
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "grid/lookup/brick_filter.h"
-#include "parallel/cuda_early.h"
-#include "parallel/cuda_warp.h"
+#include "backend/cuda_early.h"
+#include "backend/cuda_warp.h"
 #include "query/sphere.h"
 
 #include <cuda_pipeline_primitives.h>

@@ -5,8 +5,8 @@
 // What one lane would read for too long is left to a warp each in the last.
 #pragma once
 
-#include "parallel/backend_cuda.h"
-#include "parallel/cuda_limits.h"
+#include "backend/backend_cuda.h"
+#include "backend/cuda_limits.h"
 #include "query/list_near_cuda.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "query/point_query.h"
 
 #include "mesh/wall_mesh.h"
-#include "parallel/backend_cpu.h"
+#include "backend/backend_cpu.h"
 #include "query/near_first_cpu.h"
 #include "query/radius_error.h"
 

@@ -1,5 +1,5 @@
 #include "base/input_error.h"
-#include "parallel/backend_cpu.h"
+#include "backend/backend_cpu.h"
 #include "query/near_first_cpu.h"
 #include "query/query_on.h"
 

@@ -3,7 +3,7 @@
 #include "geometry/closest_point.h"
 #include "geometry/primitive_distance.h"
 #include "grid/lookup/locate.h"
-#include "parallel/backend_cpu.h"
+#include "backend/backend_cpu.h"
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 #include "study/spheres.h"
 
-#include "parallel/backend_cpu.h"
+#include "backend/backend_cpu.h"
 
 namespace lsdcd {
 

@@ -1,7 +1,7 @@
 #include "tool/commands.h"
 
 #include "base/input_error.h"
-#include "parallel/threads.h"
+#include "backend/threads.h"
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
 #include "tool/number_options.h"

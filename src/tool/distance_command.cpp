@@ -1,6 +1,6 @@
 #include "tool/commands.h"
 
-#include "parallel/threads.h"
+#include "backend/threads.h"
 #include "tool/answer_writer.h"
 #include "tool/load_mesh.h"
 #include "tool/number_options.h"

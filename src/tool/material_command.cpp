@@ -1,6 +1,6 @@
 #include "tool/commands.h"
 
-#include "deck/fill_material.h"
+#include "input/fill_material.h"
 #include "material/material_file.h"
 
 #include <cstdio>

@@ -1,9 +1,9 @@
 #include "tune/wall_answers.h"
 
-#include "parallel/threads.h"
-#include "engine/force/force_settings.h"
-#include "engine/force/law_job.h"
-#include "model/contact_slope.h"
+#include "backend/threads.h"
+#include "engine/step/force_settings.h"
+#include "engine/step/law_job.h"
+#include "law/contact_slope.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // lose a smaller share of their speed than slow ones.
 #pragma once
 
-#include "model/contact.h"
+#include "law/contact.h"
 
 namespace lsdcd {
 

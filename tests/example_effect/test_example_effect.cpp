@@ -3,8 +3,8 @@
 #include "example_effect/saturating_damping.h"
 
 #include "engine/engine_on.h"
-#include "engine/force/compile_law.h"
-#include "parallel/backend_cpu.h"
+#include "engine/step/compile_law.h"
+#include "backend/backend_cpu.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 

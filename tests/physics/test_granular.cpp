@@ -1,7 +1,7 @@
 // The sub-models of `granular` against closed forms.
-#include "engine/force/compile_law.h"
-#include "model/normal.h"
-#include "parallel/backend_cpu.h"
+#include "engine/step/compile_law.h"
+#include "law/submodels/normal.h"
+#include "backend/backend_cpu.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 

@@ -1,6 +1,6 @@
 // A mesh that moves as a rigid body: Galilei's and Newton's answers.
 #include "base/input_error.h"
-#include "mesh/motion.h"
+#include "motion/motion.h"
 #include "support/crowd.h"
 #include "support/meshes.h"
 #include "support/named_laws.h"

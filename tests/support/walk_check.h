@@ -2,7 +2,7 @@
 // step.
 #pragma once
 
-#include "engine/narrow/touch.h"
+#include "engine/lists/touch.h"
 #include "support/pair_check.h"
 
 namespace lsdcd {

@@ -1,7 +1,7 @@
 // Pairs of spheres and meshes checked on a GPU.
 #include "support/properties.h"
 
-#include "parallel/backend_cuda.h"
+#include "backend/backend_cuda.h"
 
 #include <cstring>
 

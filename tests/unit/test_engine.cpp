@@ -2,10 +2,10 @@
 // source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches.
 #include "contact/spring_store.h"
 #include "effects/effects.h"
-#include "engine/force/compile_law.h"
+#include "engine/step/compile_law.h"
 #include "engine/host_adapter.h"
 #include "grid/lookup/near_within.h"
-#include "parallel/backend_cpu.h"
+#include "backend/backend_cpu.h"
 #include "support/crowd.h"
 #include "support/device.h"
 #include "support/device_memory.h"

@@ -1,6 +1,6 @@
 // `material` in a deck's words becomes the numbers that could have stood there.
 #include "base/input_error.h"
-#include "deck/fill_material.h"
+#include "input/fill_material.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>

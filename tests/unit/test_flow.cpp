@@ -1,5 +1,5 @@
 // What passes a surface: each fact has a closed form, or follows from the surface being closed.
-#include "deck/massflow_settings.h"
+#include "input/massflow_settings.h"
 #include "base/input_error.h"
 #include "geometry/expansion.h"
 #include "flow/flow_surface.h"

@@ -1,7 +1,7 @@
 #include "base/input_error.h"
 #include "grid/cache/grid_cache.h"
 #include "grid/flat_grid.h"
-#include "parallel/threads.h"
+#include "backend/threads.h"
 #include "support/meshes.h"
 #include "support/temp_dir.h"
 

@@ -1,5 +1,5 @@
 #include "base/input_words.h"
-#include "deck/keywords.h"
+#include "input/keywords.h"
 #include "support/comma_locale.h"
 
 #include <gtest/gtest.h>

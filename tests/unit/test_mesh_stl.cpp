@@ -1,7 +1,7 @@
 // The mesh as an STL file.
 #include "base/input_error.h"
 #include "base/whole_file.h"
-#include "mesh/motion.h"
+#include "motion/motion.h"
 #include "output/mesh_stl.h"
 #include "support/meshes.h"
 #include "support/temp_dir.h"

@@ -9,7 +9,7 @@
 #include "support/query_checks.h"
 #include "support/random_mesh.h"
 
-#include "parallel/backend_cpu.h"
+#include "backend/backend_cpu.h"
 
 #include <gtest/gtest.h>
 

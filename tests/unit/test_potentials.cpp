@@ -1,6 +1,6 @@
 // The material files that come with the project.
 #include "base/input_error.h"
-#include "deck/fill_material.h"
+#include "input/fill_material.h"
 #include "material/material_file.h"
 
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 
 #include "base/input_error.h"
 #include "contact/brick_geometry.h"
-#include "parallel/backend_cpu.h"
+#include "backend/backend_cpu.h"
 #include "query/query_on.h"
 
 #include <gtest/gtest.h>

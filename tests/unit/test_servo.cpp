@@ -1,6 +1,6 @@
 // The loop of a servo: stable on chains of spheres up to the timestep of their contacts.
-#include "mesh/motion.h"
-#include "model/contact_slope.h"
+#include "motion/motion.h"
+#include "law/contact_slope.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "base/input_error.h"
-#include "deck/deck_files.h"
-#include "deck/granular_words.h"
-#include "deck/motion_words.h"
-#include "deck/settings.h"
+#include "input/deck_files.h"
+#include "input/granular_words.h"
+#include "input/motion_words.h"
+#include "input/settings.h"
 #include "effects/effects.h"
 #include "grid/cache/grid_cache.h"
 

@@ -1,5 +1,5 @@
 #include "contact/spring_store.h"
-#include "model/spring_kind.h"
+#include "law/spring_kind.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "base/input_error.h"
 #include "contact/find_contacts.h"
 #include "mesh/triangle_soup.h"
-#include "model/contact_slope.h"
+#include "law/contact_slope.h"
 #include "support/device.h"
 #include "support/meshes.h"
 #include "tune/wall_parts.h"

@@ -1,6 +1,6 @@
 // Lists of the wall: what one holds, how far it holds, and what an engine does with it. Walks inside
 // the margin on random meshes are in test_properties.cpp.
-#include "engine/narrow/touch.h"
+#include "engine/lists/touch.h"
 #include "engine/results/sphere_error.h"
 #include "support/brute_force.h"
 #include "support/crowd.h"

@@ -1,5 +1,5 @@
 // Poses and velocities of moving meshes against closed forms in long double.
-#include "mesh/motion.h"
+#include "motion/motion.h"
 #include "mesh/point_tree.h"
 
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 // near by their cells.
 #pragma once
 
-#include "parallel/atomic.h"
-#include "engine/force/law_job.h"
+#include "backend/atomic.h"
+#include "engine/step/law_job.h"
 #include "grid/lookup/brick_filter.h"
 #include "grid/lookup/near_within.h"
 

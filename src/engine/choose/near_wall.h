@@ -4,7 +4,7 @@
 #include "engine/choose/kept_centres.h"
 #include "engine/choose/near_list.h"
 #include "engine/choose/near_meshes.h"
-#include "engine/narrow/list_store.h"
+#include "engine/lists/list_store.h"
 
 #include <numeric>
 #include <vector>

@@ -2,7 +2,7 @@
 // number, so that neighbours are written and read together.
 #pragma once
 
-#include "engine/force/wall_force.h"
+#include "engine/step/wall_force.h"
 
 namespace lsdcd {
 

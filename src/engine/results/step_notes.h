@@ -2,8 +2,8 @@
 // nothing, what its search may have missed, that its contacts do not fit.
 #pragma once
 
-#include "parallel/atomic.h"
-#include "engine/force/law_job.h"
+#include "backend/atomic.h"
+#include "engine/step/law_job.h"
 
 namespace lsdcd {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/choose/near_meshes.h"
-#include "engine/force/compiled_law.h"
+#include "engine/step/compiled_law.h"
 #include "engine/results/totals.h"
 
 #include <vector>

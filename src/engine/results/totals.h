@@ -1,7 +1,7 @@
 // From the results of single spheres to sums, the same way on every backend.
 #pragma once
 
-#include "engine/force/wall_force.h"
+#include "engine/step/wall_force.h"
 
 namespace lsdcd {
 

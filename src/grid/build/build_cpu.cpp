@@ -1,5 +1,5 @@
 #include "grid/build/build_grid.h"
-#include "parallel/backend_cpu.h"
+#include "backend/backend_cpu.h"
 
 namespace lsdcd {
 

@@ -1,5 +1,5 @@
 #include "grid/build/build_grid.h"
-#include "parallel/backend_cuda.h"
+#include "backend/backend_cuda.h"
 
 namespace lsdcd {
 

@@ -1,7 +1,7 @@
 #include "grid/build/estimate_lists.h"
 
 #include "grid/build/rasterise.h"
-#include "parallel/threads.h"
+#include "backend/threads.h"
 
 #include <algorithm>
 #include <cmath>

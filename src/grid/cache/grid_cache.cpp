@@ -1,7 +1,7 @@
 #include "grid/cache/grid_cache.h"
 
 #include "grid/cache/cache_format.h"
-#include "parallel/threads.h"
+#include "backend/threads.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,7 +1,7 @@
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "grid/cache/cache_format.h"
-#include "parallel/threads.h"
+#include "backend/threads.h"
 
 #include <cstring>
 #include <zstd.h>

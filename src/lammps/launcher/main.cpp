@@ -1,6 +1,6 @@
 // lmp-lsdcd: LAMMPS's own command line, with plugins.
 
-#include "deck/settings.h"
+#include "input/settings.h"
 #include "lammps/launcher/plugins.h"
 
 #include "input.h"

@@ -1,0 +1,37 @@
+// A point in what a stream of an NVIDIA GPU has been given.
+#pragma once
+
+#include "backend/cuda_check.h"
+
+#include <cuda_runtime.h>
+
+namespace lsdcd {
+
+class CudaEvent {
+ public:
+  CudaEvent() = default;
+  ~CudaEvent()
+  {
+    if (event_) cudaEventDestroy(event_);
+  }
+  CudaEvent(const CudaEvent &) = delete;
+  CudaEvent &operator=(const CudaEvent &) = delete;
+
+  void record(cudaStream_t stream)
+  {
+    if (!event_)
+      cuda_check(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming), "creating an event");
+    cuda_check(cudaEventRecord(event_, stream), "recording an event");
+  }
+  // What `stream` is given from now on runs once this is reached.
+  void hold(cudaStream_t stream) const
+  {
+    cuda_check(cudaStreamWaitEvent(stream, event_, 0), "ordering two streams");
+  }
+  void wait() const { cuda_check(cudaEventSynchronize(event_), "running on the device"); }
+
+ private:
+  cudaEvent_t event_ = nullptr;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,69 @@
+// What a kernel whose blocks stay needs to know of the device.
+#pragma once
+
+#include "backend/cuda_check.h"
+
+#include <cuda_runtime.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace lsdcd {
+
+class CudaLimits {
+ public:
+  unsigned processors()
+  {
+    ask();
+    return processors_;
+  }
+  // For blocks of up to `most_warps`, `blocks` at once on a processor, whose warps need
+  // `of_warp` bytes of shared memory each, and which go faster with `table` bytes more, 0 where
+  // that is not possible: with these if half of the warps or more still fit.
+  struct Shape {
+    unsigned warps;
+    std::size_t shared;
+    bool has_table;
+  };
+  Shape shape(unsigned most_warps, unsigned blocks, std::size_t of_warp, std::size_t table)
+  {
+    ask();
+    const std::size_t room = most_shared_ / blocks,
+                      beside = room > table ? (room - table) / of_warp : 0;
+    const bool has_table = table > 0 && 2 * beside >= most_warps;
+    const unsigned warps = static_cast<unsigned>(
+        std::clamp<std::size_t>(has_table ? beside : room / of_warp, 1, most_warps));
+    return {warps, warps * of_warp + (has_table ? table : 0), has_table};
+  }
+  // Before a kernel is started with so much.
+  template <class... Parameters>
+  void allow(void (*kernel)(Parameters...), std::size_t shared)
+  {
+    const void *at = reinterpret_cast<const void *>(kernel);
+    if (at == allowed_ && shared <= allowed_shared_) return;
+    cuda_check(cudaFuncSetAttribute(at, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                    static_cast<int>(shared)),
+               "asking for shared memory");
+    allowed_ = at;
+    allowed_shared_ = shared;
+  }
+
+ private:
+  void ask()
+  {
+    if (processors_ > 0) return;
+    int device = 0, shared = 0, processors = 0;
+    cuda_check(cudaGetDevice(&device), "asking for the device");
+    cuda_check(cudaDeviceGetAttribute(&shared, cudaDevAttrMaxSharedMemoryPerBlockOptin, device),
+               "asking for the device's limits");
+    cuda_check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device),
+               "asking for the device's limits");
+    most_shared_ = static_cast<std::size_t>(shared);
+    processors_ = static_cast<unsigned>(processors);
+  }
+  std::size_t most_shared_ = 0, allowed_shared_ = 0;
+  unsigned processors_ = 0;
+  const void *allowed_ = nullptr;    // the last kernel, and what it may have
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,111 @@
+// A step over many spheres on an NVIDIA GPU: a thread for each, and beside them, at the same time,
+// warps for those that need more than one contact's registers. Such a sphere takes twenty times as
+// long as the others, so that it has to begin with them.
+#pragma once
+
+#include "backend/cuda_warp.h"
+#include "backend/lane_group.h"
+#include "backend/step_lists.h"
+
+#include <cuda_runtime.h>
+
+#include <algorithm>
+
+namespace lsdcd {
+
+constexpr unsigned kStepBlock = 128;
+// Blocks that share what is listed: beside single() few, as each takes a place of others while it
+// waits for memory, until each of their threads has one.
+constexpr int kFewBlocks = 66, kMostBlocks = 528;
+
+// What several() is for: those listed, or with a null list all of [0, n). The first `blocks` of the
+// kernel do it, of which `few` take the first spheres. `leaves_lists`: is one that needs a list left
+// to the next kernel, where more threads share them?
+struct SeveralPart {
+  const int *list, *n_listed;
+  int n, few;
+  unsigned blocks;
+  bool leaves_lists;
+};
+
+// Puts k into a list of which `n` is the length, for each lane that has one to put.
+__device__ inline void put_listed(bool has_one, int k, int *list, int *n)
+{
+  const unsigned votes = __ballot_sync(kAllLanes, has_one);
+  if (votes == 0) return;
+  const int at = room_at(n, __popc(votes));
+  if (has_one) list[at + votes_below(votes)] = k;
+}
+
+template <class Work>
+__device__ void do_several(const SeveralPart &part, const Work &work)
+{
+  const StepLists &lists = work.step_lists();
+  const int end = part.list ? *part.n_listed : part.n;
+  const int enough = max(part.few, (end + int(kStepBlock) - 1) / int(kStepBlock));
+  const int warps = min(int(part.blocks), enough) * int(kStepBlock / 32), step = 32 * warps;
+  const int warp = blockIdx.x * (kStepBlock / 32) + threadIdx.x / 32, lane = threadIdx.x % 32;
+  if (warp >= warps) return;
+  // What is listed is few, and each sphere takes a way of its own through the code: first one a warp.
+  const int first = part.list ? lane * warps + warp : 32 * warp + lane;
+  for (int s = first; __any_sync(kAllLanes, s < end); s += step) {
+    bool has_one = s < end;
+    const int k = !has_one ? 0 : part.list ? part.list[s] : s;
+    const bool is_due = has_one && work.needs_list(k);
+    if (part.leaves_lists) {
+      put_listed(is_due, k, lists.found, lists.n_found);
+      has_one = has_one && !is_due;
+    } else {
+      // Lists are long to make: the whole warp helps.
+      if (__any_sync(kAllLanes, is_due)) work.make_list(LaneGroup<32>(), is_due, k);
+      __syncwarp();
+    }
+    const bool again = has_one && work.several(k);
+    __syncwarp();
+    if (!part.list || !lists.next) continue;
+    put_listed(again, k, lists.next, lists.n_next);
+    if (again) lists.listed_in[k] = lists.step + 1;
+  }
+}
+
+// several() for a part, and single() for all of [0, n) that are not listed.
+template <class Work>
+__global__ void __launch_bounds__(kStepBlock, Work::kBlocksAtOnce)
+    cuda_step(const SeveralPart part, unsigned n, int *to_clear, const __grid_constant__ Work work)
+{
+  if (blockIdx.x == 0 && threadIdx.x == 0) {
+    work.begin();
+    if (to_clear) *to_clear = 0;
+  }
+  if (blockIdx.x < part.blocks) {
+    do_several(part, work);
+    return;
+  }
+  if constexpr (Work::kSingle) {
+    const StepLists &lists = work.step_lists();
+    const unsigned k = (blockIdx.x - part.blocks) * kStepBlock + threadIdx.x;
+    // Of one that several() is at now it may be the next step already.
+    const bool mine = k < n && !(lists.listed_in && lists.listed_in[k] >= lists.step);
+    put_listed(mine && !work.single(k), static_cast<int>(k), lists.found, lists.n_found);
+  }
+}
+
+// The whole step; `has_single`: is there a first kernel that finds what several() is for?
+template <class Work>
+void start_step(unsigned n, bool has_single, const Work &work, cudaStream_t stream)
+{
+  const unsigned blocks = (n + kStepBlock - 1) / kStepBlock,
+                 several_blocks = std::min<unsigned>(blocks, kMostBlocks);
+  const StepLists &lists = work.step_lists();
+  SeveralPart part = {nullptr, nullptr, static_cast<int>(n), 0, blocks, false};
+  int *to_clear = lists.n_found_next;
+  if (has_single) {
+    part = {lists.last, lists.n_last, 0, kFewBlocks, lists.last ? several_blocks : 0, true};
+    cuda_step<<<part.blocks + blocks, kStepBlock, 0, stream>>>(part, n, to_clear, work);
+    to_clear = lists.n_last;    // the next step's `next`
+    part = {lists.found, lists.n_found, 0, kMostBlocks, several_blocks, false};
+  }
+  cuda_step<<<part.blocks, kStepBlock, 0, stream>>>(part, 0, to_clear, work);
+}
+
+}    // namespace lsdcd

@@ -1,8 +1,0 @@
-#include "engine/force/law_for.h"
-#include "parallel/backend_cpu.h"
-
-namespace lsdcd {
-
-template CompiledLaw<CpuBackend> law_for<CpuBackend>(const EngineSettings &);
-
-}    // namespace lsdcd

@@ -1,0 +1,205 @@
+// The features of the wall that a sphere could touch after a little way, from the cells near it.
+#pragma once
+
+#include "geometry/wall_records.h"
+#include "grid/lookup/near_within.h"
+#include "backend/lane_group.h"
+
+namespace lsdcd {
+
+// The cells that a ball meets, those that have candidates, one after the other.
+class CellsInBall {
+ public:
+  // `mine`: false: there is none. With a radius of 0 it is the cell that holds q; `cell`: its index in
+  // lists.cells, or kNoCell where that is not known.
+  LSDCD_FN CellsInBall(bool mine, const GridView &grid, const Vec3 &q, Real radius,
+                       std::uint32_t cell) :
+      cell_(radius > 0 ? kNoCell : cell)
+  {
+    if (radius > 0) {
+      open_ = mine && cells_in_ball(grid, q, radius, lo_, hi_);
+    } else {
+      const CellSlot p = cell_slot_of(grid, q);
+      open_ = mine && p.inside;
+      const int at[3] = {p.i, p.j, p.k};
+      for (int d = 0; d < 3; d++) hi_[d] = (lo_[d] = open_ ? at[d] : 0) + 1;
+    }
+    i_ = lo_[0] - 1;
+    j_ = lo_[1];
+    k_ = lo_[2];
+  }
+  LSDCD_FN void close() { open_ = false; }
+  // False: there is none any more.
+  LSDCD_FN bool next(const GridView &grid, Cell &cell)
+  {
+    while (open_ && step()) {
+      std::uint32_t at = cell_;
+      if (at == kNoCell) {
+        const Brick *brick = brick_at(grid, grid.lists, i_, j_, k_);
+        const int in_brick = cell_in_brick(i_, j_, k_);
+        if (!brick || !has_candidates(*brick, in_brick)) continue;
+        at = cell_index(*brick, in_brick);
+      }
+      cell = grid.lists.cells[at];
+      return true;
+    }
+    return open_ = false;
+  }
+  LSDCD_FN Vec3 centre(const GridView &grid) const
+  {
+    const Real half = Real(0.5);
+    return grid.origin + grid.length * Vec3{i_ + half, j_ + half, k_ + half};
+  }
+
+ private:
+  LSDCD_FN bool step()
+  {
+    if (++i_ < hi_[0]) return true;
+    i_ = lo_[0];
+    if (++j_ < hi_[1]) return true;
+    j_ = lo_[1];
+    return ++k_ < hi_[2];
+  }
+
+  std::uint32_t cell_;
+  bool open_;
+  int lo_[3] = {0, 0, 0}, hi_[3] = {0, 0, 0}, i_, j_, k_;
+};
+
+// How many candidates ahead a CPU asks for their records.
+constexpr std::uint32_t kAhead = 8;
+
+// Asks a CPU's memory for the first candidates of a sphere at q, whose turn comes soon.
+inline void ask_for_candidates(const GridView &grid, const Vec3 &q)
+{
+  const CellAddress at = locate(grid, grid.lists, q);
+  if (!at.brick || !has_candidates(*at.brick, at.cell)) return;
+  const Cell cell = grid.lists.cells[cell_index(*at.brick, at.cell)];
+  if (cell.count > 1) __builtin_prefetch(grid.lists.candidates + cell.first);
+  asm volatile("");    // as in ask_for()
+}
+
+// What a search from q will read first, which a CPU's memory is asked for part by part, as each is found
+// in the one before: the brick's number, the brick, the cell, its first candidates, their records. With many
+// searches all of them wait at once.
+class SearchAhead {
+ public:
+  static constexpr int kParts = 5;
+
+  SearchAhead() = default;
+  SearchAhead(const GridView &grid, const Vec3 &q)
+  {
+    const CellSlot p = cell_slot_of(grid, q);
+    if (!p.inside) return;
+    in_brick_ = cell_in_brick(p);
+    at_ = grid.lists.brick_of + brick_slot(grid, p);
+  }
+
+  // Part 0, then 1, and so on.
+  void ask_for(const GridView &grid, int part)
+  {
+    if (!at_) return;
+    if (part == 1) {
+      const std::int32_t brick = *static_cast<const std::int32_t *>(at_);
+      at_ = brick < 0 ? nullptr : grid.lists.bricks[brick].layer + (in_brick_ >> 6);
+    } else if (part == 2) {
+      const BrickLayer &layer = *static_cast<const BrickLayer *>(at_);
+      at_ = has_candidates(layer, in_brick_) ? grid.lists.cells + cell_index(layer, in_brick_)
+                                             : nullptr;
+    } else if (part == 3) {
+      const Cell cell = *static_cast<const Cell *>(at_);
+      n_ = cell.count < kAhead ? cell.count : kAhead;
+      at_ = grid.lists.candidates + cell.first;
+      if (n_ == 1) {    // the cell has it inline
+        if (!grid.in_floats) lsdcd::ask_for(grid.wall, cell.first);
+        at_ = nullptr;
+      }
+    } else if (part == 4) {
+      const Candidate *candidates = static_cast<const Candidate *>(at_);
+      for (std::uint32_t i = 0; !grid.in_floats && i < n_; i++)
+        lsdcd::ask_for(grid.wall, candidates[i].feature);
+      return;
+    }
+    __builtin_prefetch(at_);
+  }
+
+ private:
+  const void *at_ = nullptr;    // what is asked for; null: there is no more
+  std::int32_t in_brick_ = 0;
+  std::uint32_t n_ = 0;
+};
+
+// What a sphere at q could touch after a way of up to `margin`. Lengths.
+struct NearSearch {
+  Vec3 q;
+  Real cutoff, margin;
+  Real past;             // how far from q the cells are that are looked at
+  Real close;            // the search ends where a candidate may be nearer
+  std::uint32_t cell;    // of q, in lists.cells, or kNoCell where it is not known
+};
+
+// Calls found(code) for what is found until that says false; returns whether it did not. A contact
+// on the way is in the complete list of the cell that it is found from, and that cell meets the ball
+// round q; lists of cells hold for a margin of their own. Each thread of a group has a search, or
+// none where it is not `mine`; they share the candidates, and each is told of its own.
+template <class Geometry, class Group, class Found>
+LSDCD_FN bool for_each_within(const Group &group, bool mine, const GridView &grid,
+                              const NearSearch &search, const Found &found)
+{
+  const Candidate *candidates = grid.lists.candidates;
+  // Each half-space of a feature's region moves by the margin at most; one tolerance more is for
+  // rounding.
+  const Real more = search.margin + Geometry::tolerance(grid),
+             within = (1 + Real(2e-6)) * search.cutoff + more;
+  CellsInBall cells(mine, grid, search.q, search.past, search.cell);
+  std::uint32_t at = 0, end = 0;    // of the cell's candidates those that are left
+  Real enough = 0;                  // past this bound none is near
+  bool complete = true;
+  for (;;) {
+    Cell cell = {};
+    while (at == end && cells.next(grid, cell)) {
+      if (cell.count == 1) {
+        if (!Geometry(grid, search.q).may_be_closest(cell.first, within, more)) continue;
+        complete = found(cell.first);
+      } else {
+        // A list ascends in its bounds on the distance from the cell's centre.
+        const Real away = norm(search.q - cells.centre(grid)), least = candidates[cell.first].bound;
+        complete = !(least + away < search.close);
+        if (complete && least <= within + away) {
+          at = cell.first;
+          end = at + cell.count;
+          enough = within + away;
+          Geometry::ask_for(grid, candidates + at, cell.count < kAhead ? cell.count : kAhead);
+        }
+      }
+      if (!complete) cells.close();
+    }
+    const unsigned busy = group.vote(at < end);
+    if (busy == 0) return complete;
+    const Shares<Group> share(group, busy);
+    const Vec3 q = group.of(search.q, share.owner);
+    const Real its_enough = group.of(enough, share.owner),
+               its_within = group.of(within, share.owner), its_more = group.of(more, share.owner);
+    const std::uint32_t c = group.of(at, share.owner) + share.turn,
+                        c_end = group.of(end, share.owner);
+    bool near = share.helps && c < c_end;
+    if (near && c + kAhead < c_end) Geometry::ask_for(grid, candidates + c + kAhead, 1);
+    const Candidate candidate = near ? candidates[c] : Candidate();
+    near = near && candidate.bound <= its_enough;
+    unsigned hits = group.vote(near && Geometry(grid, q).may_be_closest(candidate.feature,
+                                                                        its_within, its_more)) &
+                    share.own;
+    const bool all_near = (group.vote(near) & share.own) == share.own;
+    if (at < end) at = all_near ? at + share.size : end;
+    for (; group.vote(hits != 0); hits &= hits - 1) {
+      const FeatureCode code = group.of(candidate.feature, group.first(hits));
+      if (hits == 0 || found(code)) continue;
+      complete = false;
+      cells.close();
+      at = end;
+      hits = 0;
+    }
+  }
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,59 @@
+// Copies of a large wall's records, side by side in the order of the lists that name them, for a step
+// on a CPU: the wall's own are far apart in memory, and each is waited for, with its page.
+#pragma once
+
+#include "geometry/wall_records.h"
+#include "backend/atomic.h"
+
+namespace lsdcd {
+
+struct RecordCopies {
+  // Of one list: copies of its first n records, and for how many there is room.
+  struct Place {
+    std::int32_t first;
+    std::int16_t n, room;
+  };
+
+  FeatureRecord *records = nullptr;    // null: there are none
+  Place *places = nullptr;             // of each list
+  int *used = nullptr, capacity = 0;
+
+  // Those from list k on.
+  RecordCopies from(std::size_t k) const
+  {
+    RecordCopies c = *this;
+    if (records) c.places += k;
+    return c;
+  }
+
+  // The copy of record i of list k; null: there is none.
+  LSDCD_FN const FeatureRecord *of([[maybe_unused]] std::size_t k, [[maybe_unused]] int i) const
+  {
+#if !defined(__CUDA_ARCH__)
+    if (records && i < places[k].n) return records + places[k].first + i;
+#endif
+    return nullptr;
+  }
+
+  // Copies the n records that list k names now; one list by one thread. Where room has run out it
+  // has none, and the wall's own are read.
+  LSDCD_FN void put([[maybe_unused]] std::size_t k, [[maybe_unused]] const WallFeaturesView &wall,
+                    [[maybe_unused]] const FeatureCode *code, [[maybe_unused]] int n) const
+  {
+#if !defined(__CUDA_ARCH__)
+    if (!records) return;
+    Place &place = places[k];
+    place.n = 0;
+    if (n > place.room) {
+      if (__atomic_load_n(used, __ATOMIC_RELAXED) > capacity - n) return;
+      const int first = fetch_add(used, n);
+      if (first > capacity - n) return;
+      place = {first, 0, static_cast<std::int16_t>(n)};
+    }
+    for (int i = 0; i < n; i++) records[place.first + i] = record_of(wall, code[i]);
+    place.n = static_cast<std::int16_t>(n);
+#endif
+  }
+};
+
+}    // namespace lsdcd

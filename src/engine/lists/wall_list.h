@@ -1,0 +1,189 @@
+// Lists of the wall (Verlet lists): the features that a sphere can touch while its centre stays
+// within a margin of where it was. A step tests these alone and reads no cell.
+#pragma once
+
+#include "contact/find_contacts.h"
+#include "engine/lists/near_search.h"
+#include "engine/lists/record_copies.h"
+
+namespace lsdcd {
+
+// The list of one sphere. There is no room for more than kMost features: where more are close the
+// margin shrinks, and where that does not help the sphere has no list and its cell is searched
+// instead.
+struct WallList {
+  static constexpr int kMost = 7;
+
+  Vec3 x;         // the centre when the list was made
+  Real margin;    // length; negative: there is no list
+  Real cutoff;    // how far from its centre a sphere felt the wall then
+  std::int32_t n;
+  FeatureCode code[kMost];    // ascending; of the wall, or with `in_floats` of brick records
+};
+
+// The lists of many, a column per number, so that neighbours read neighbouring words.
+struct WallLists {
+  static constexpr std::size_t kReals = 4, kInts = 1 + WallList::kMost;    // of a list
+
+  Real *x = nullptr;            // columns x, y, z
+  float *lengths = nullptr;     // columns margin, cutoff; in units, as walls may be 1e-60 in size
+  std::int32_t *n = nullptr;    // columns n, code[0], code[1], ...
+  std::size_t column = 0;
+  Real unit = 1;
+  RecordCopies copies = {};
+
+  // Columns of `room` lists; unit: a length of the size of radii.
+  static WallLists of(Real *reals, std::int32_t *ints, std::size_t room, Real unit)
+  {
+    return {reals, reinterpret_cast<float *>(reals + 3 * room), ints, room, unit, {}};
+  }
+
+  // Those from number k on.
+  WallLists from(std::size_t k) const
+  {
+    return {x + k, lengths + k, n + k, column, unit, copies.from(k)};
+  }
+
+  // Does list k hold all that a sphere at q can touch, up to a cutoff?
+  LSDCD_FN bool holds(std::size_t k, const Vec3 &q, Real up_to) const
+  {
+    const Real m = margin(k);
+    const Vec3 way = q - Vec3{x[k], x[column + k], x[2 * column + k]};
+    return m >= 0 && norm_sq(way) <= m * m && up_to <= cutoff(k);
+  }
+  LSDCD_FN Real margin(std::size_t k) const { return unit * lengths[k]; }
+  LSDCD_FN Real cutoff(std::size_t k) const { return unit * lengths[column + k]; }
+  LSDCD_FN int size(std::size_t k) const { return n[k]; }
+  LSDCD_FN FeatureCode code(std::size_t k, int i) const
+  {
+    return static_cast<FeatureCode>(n[(i + 1) * column + k]);
+  }
+  // `keeps_cutoff`: list k already has the list's cutoff, which is not rounded up once more.
+  LSDCD_FN void put(std::size_t k, const WallList &list, const WallFeaturesView &wall,
+                    bool keeps_cutoff = false) const
+  {
+    for (int d = 0; d < 3; d++) x[d * column + k] = list.x[d];
+    // Rounded down, and up.
+    lengths[k] = static_cast<float>((1 - Real(1e-6)) * (list.margin / unit));
+    if (!keeps_cutoff)
+      lengths[column + k] = static_cast<float>((1 + Real(1e-6)) * (list.cutoff / unit));
+    n[k] = list.n;
+    for (int i = 0; i < list.n; i++)
+      n[(i + 1) * column + k] = static_cast<std::int32_t>(list.code[i]);
+    copies.put(k, wall, list.code, list.n);
+  }
+};
+
+// List k of many.
+struct ListedFeatures {
+  WallLists lists;
+  std::size_t k;
+};
+
+// How far a sphere may go before its list is made anew, as a share of its radius. Far enough that
+// lists last hundreds of steps, near enough that most have one or two features.
+constexpr Real kListMargin = 0.05;
+// What the margin is divided by where a list is too long, and how often.
+constexpr Real kShrink = 4;
+constexpr int kMostShrinks = 3;
+
+// The largest margin, at most `margin`, that the lists of cells allow at q. A ball within it meets
+// few cells; codes of brick records are only valid in one brick, so the ball must stay there.
+LSDCD_FN Real margin_at(const GridView &grid, const Vec3 &q, Real margin)
+{
+  Real m = margin < grid.length ? margin : grid.length;
+  if (!grid.in_floats) return m;
+  const Real brick = kBrickSide * grid.length;
+  for (int d = 0; d < 3; d++) {
+    const Real u = (q[d] - grid.origin[d]) / brick, in = (u - floor(u)) * brick;
+    // Less what cells_in_ball() takes for rounding, so that it finds no cell of the next brick.
+    const Real room = (in < brick - in ? in : brick - in) - Real(1e-6) * grid.length -
+                      64 * kRoundoff * (fabs(q[d]) + fabs(grid.origin[d]) + brick);
+    if (room < m) m = room;
+  }
+  return m;
+}
+
+// Puts a code into a list where it belongs, once. False: there is no room for it.
+LSDCD_FN bool insert_code(WallList &list, FeatureCode code)
+{
+  int at = list.n;
+  while (at > 0 && list.code[at - 1] > code) at--;
+  if (at > 0 && list.code[at - 1] == code) return true;
+  if (list.n == WallList::kMost) return false;
+  for (int i = list.n; i > at; i--) list.code[i] = list.code[i - 1];
+  list.code[at] = code;
+  list.n++;
+  return true;
+}
+
+// Begins a list of a sphere at q.
+LSDCD_FN void begin_list(WallList &list, const Vec3 &q, Real cutoff, Real margin)
+{
+  list.n = 0;
+  list.x = q;
+  list.margin = margin;
+  list.cutoff = cutoff;
+}
+
+// The list of a sphere at q for a margin; false: it is too long.
+template <class Geometry, class Group>
+LSDCD_FN bool gather_within(const Group &group, bool mine, const GridView &grid, const Vec3 &q,
+                            Real cutoff, Real margin, WallList &list)
+{
+  if (mine) begin_list(list, q, cutoff, margin);
+  return for_each_within<Geometry>(group, mine, grid,
+                                   {q, cutoff, margin, past_lists(grid, margin), -1, kNoCell},
+                                   [&](FeatureCode code) { return insert_code(list, code); });
+}
+
+// Makes the list of a sphere anew, for the margin or, where that is too long, for less. `cutoff`:
+// how far it feels the wall from its centre.
+template <class Geometry, class Group>
+LSDCD_FN void gather_for(const Group &group, bool mine, const GridView &grid, const Vec3 &q,
+                         Real cutoff, Real margin, WallList &list)
+{
+  Real m = margin_at(grid, q, margin);
+  bool missing = mine && m >= 0;
+  const bool has_room = missing;
+  for (int i = 0; i <= kMostShrinks && group.vote(missing); i++, m /= kShrink)
+    if (gather_within<Geometry>(group, missing, grid, q, cutoff, m, list)) missing = false;
+  if (mine && (missing || !has_room)) begin_list(list, q, cutoff, -1);
+}
+
+// Can a sphere at q touch anything after a way of up to the margin? True where that would take too
+// long to find out. What is nearest is in the list of a cell no farther than it has to go until that
+// is within the grid's cutoff. `cell`: see NearSearch.
+template <class Geometry, class Group>
+LSDCD_FN bool can_touch(const Group &group, bool mine, const GridView &grid, const Vec3 &q,
+                        Real cutoff, Real margin, std::uint32_t cell)
+{
+  const bool too_long = !(margin_at(grid, q, margin) >= margin);
+  const Real past = past_lists(grid, cutoff + margin - grid.cutoff);
+  return !for_each_within<Geometry>(group, mine && !too_long, grid,
+                                    {q, cutoff, margin, past, cutoff, cell},
+                                    [](FeatureCode) { return false; }) ||
+         too_long;
+}
+
+// Local minima of the distance from q to the listed features, in the order of their numbers, so
+// that an answer does not depend on when the list was made.
+template <class Geometry, int kCapacity>
+LSDCD_FN void find_in_list(const GridView &grid, const ListedFeatures &list, const Vec3 &q,
+                           Real cutoff, ContactSet<kCapacity> &set)
+{
+  const int n = list.lists.size(list.k);
+  if (n == 0) return;
+  const Geometry geometry(grid, q);
+  for (int i = 0; i < n; i++) {
+    const FeatureCode code = list.lists.code(list.k, i);
+    const FeatureRecord *copy = list.lists.copies.of(list.k, i);
+    if constexpr (kCapacity == 1)
+      add_feature(geometry, code, cutoff, set, copy);
+    else
+      add_feature_apart(geometry, code, cutoff, set, copy);
+    if (set.overflow) return;    // nothing else is valid
+  }
+}
+
+}    // namespace lsdcd

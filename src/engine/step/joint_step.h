@@ -1,0 +1,301 @@
+// A step over the spheres that are near several meshes of a wall: their contacts with all of these
+// share their overlap as those with one mesh do.
+#pragma once
+
+#include "engine/step/law_step.h"
+
+namespace lsdcd {
+
+// The springs of a sphere as one mesh sees them: those of other meshes turned to its frame.
+struct SpringsSeen {
+  const Spring *springs;
+  const MeshWork *meshes;
+  std::uint32_t mesh;
+
+  LSDCD_FN Spring operator[](int k) const;
+};
+LSDCD_FN bool is_own(const SpringsSeen &seen, int k)
+{
+  return seen.springs[k].mesh == seen.mesh;
+}
+LSDCD_FN Vec3 in_own_frame(const SpringsSeen &seen, int k, const Vec3 &h)
+{
+  if (is_own(seen, k)) return h;
+  const WallPose &from = seen.meshes[seen.springs[k].mesh].settings.pose;
+  return seen.meshes[seen.mesh].settings.pose.turn_to_mesh(from.turn_to_box(h));
+}
+LSDCD_FN Spring SpringsSeen::operator[](int k) const
+{
+  Spring s = springs[k];
+  s.normal = in_own_frame(*this, k, s.normal);
+  s.shear = in_own_frame(*this, k, s.shear);
+  return s;
+}
+
+// A sphere near several meshes, in the frame of the box: one slot for each mesh.
+struct JointSphere {
+  int begin, end;
+  std::size_t i;
+  Vec3 x;
+  Real radius, cutoff;
+};
+
+LSDCD_FN JointSphere joint_sphere(const LawJob &job, std::size_t g, Real pull_off)
+{
+  JointSphere s;
+  s.begin = job.joint.first[g];
+  s.end = job.joint.first[g + 1];
+  s.i = sphere_of(job, s.begin);
+  s.x = job.x[s.i];
+  s.radius = job.radius[s.i];
+  s.cutoff = pull_off > 0 ? cutoff_of(s.radius, pull_off) : s.radius;
+  return s;
+}
+
+// It, as the mesh of slot k sees it.
+LSDCD_FN QuerySphereWith<SpringsSeen> seen_from(const LawJob &job, const JointSphere &s, int k)
+{
+  const int mesh = job.joint.mesh[k];
+  const SpringsView &springs = job.springs;
+  QuerySphereWith<SpringsSeen> seen = {job.joint.meshes[mesh].settings.pose.to_mesh(s.x),
+                                       s.radius,
+                                       s.cutoff,
+                                       {springs.pool, job.joint.meshes, std::uint32_t(mesh)},
+                                       0};
+  if (springs.count.at) seen.n_springs = springs.count[s.i];
+  if (seen.n_springs > 0) seen.springs.springs += springs.first[s.i];
+  return seen;
+}
+
+// Takes contact c out; the others keep their order. `end`: of the contacts of n meshes.
+template <int kCapacity>
+LSDCD_FN void take_out(ContactSet<kCapacity> &all, int c, int *end, int n)
+{
+  for (int m = 0; m < n; m++)
+    if (end[m] > c) end[m]--;
+  all.n--;
+  for (; c < all.n; c++) {
+    all.feature[c] = all.feature[c + 1];
+    all.normal[c] = all.normal[c + 1];
+    all.distance[c] = all.distance[c + 1];
+  }
+}
+
+// What the n-th mesh adds to the contacts of those before it, whose contacts end at `end`. Where two
+// have the same closest point it is one contact: of the nearer mesh, or of the one with the larger kind
+// of feature there, or of the earlier.
+template <int kCapacity>
+LSDCD_FN void add_mesh(const WallPose &pose, const ContactSet<kCapacity> &of_mesh, Real tolerance,
+                       ContactSet<kCapacity> &all, int *end, int n)
+{
+  for (int c = 0; c < of_mesh.n; c++) {
+    const Vec3 normal = pose.turn_to_box(of_mesh.normal[c]);
+    const Real distance = of_mesh.distance[c];
+    bool is_new = true;
+    for (int b = n > 0 ? end[n - 1] - 1 : -1; b >= 0 && is_new; b--) {
+      const Vec3 apart = all.distance[b] * all.normal[b] - distance * normal;
+      if (norm_sq(apart) > kSamePoint * kSamePoint * tolerance * tolerance) continue;
+      if (distance < all.distance[b] ||
+          (distance == all.distance[b] &&
+           feature_kind(of_mesh.feature[c]) < feature_kind(all.feature[b])))
+        take_out(all, b, end, n);
+      else
+        is_new = false;
+    }
+    if (is_new) all.add(of_mesh.feature[c], normal, distance);
+  }
+}
+
+// All that the sphere touches, mesh after mesh, in the frame of the box: what is of slot
+// begin + k ends at end[k]. `of_mesh` and `rule`: memory.
+template <bool kBeyond, int kCapacity>
+LSDCD_FN void touch_meshes(const LawJob &job, const JointSphere &s, Touch<kCapacity> &of_mesh,
+                           CornerRule<kCapacity> &rule, Touch<kCapacity> &all, int *end)
+{
+  Real tolerance = 0;
+  all.exact_within = kAnyDistance;
+  for (int k = s.begin; k < s.end; k++) {
+    const MeshWork &mesh = job.joint.meshes[job.joint.mesh[k]];
+    const QuerySphereWith<SpringsSeen> seen = seen_from(job, s, k);
+    const ListedFeatures list = {job.lists, static_cast<std::size_t>(k)};
+    const bool holds = job.lists.n && job.lists.holds(k, seen.x, s.cutoff);
+    if (job.lists.n && !holds) count_one(&job.counts->by_cells);
+    of_mesh.set.clear();
+    search<kBeyond>(mesh.grid, mesh.settings.search, seen, holds ? &list : nullptr, of_mesh);
+    tolerance = fmax(tolerance, tolerance_of(mesh.grid));
+    if (!of_mesh.set.overflow)
+      add_mesh(mesh.settings.pose, of_mesh.set, tolerance, all.set, end, k - s.begin);
+    all.set.overflow |= of_mesh.set.overflow;
+    if (all.set.overflow) return;
+    if (of_mesh.exact_within < all.exact_within) all.exact_within = of_mesh.exact_within;
+    end[k - s.begin] = all.set.n;
+  }
+  share(job.settings.search, s.cutoff, tolerance, rule, all);
+}
+// A function of its own, so that it is compiled once however many laws there are.
+template <bool kBeyond>
+LSDCD_NOINLINE void touch_meshes(const LawJob &job, const JointSphere &s, Touch<kContacts> &all,
+                                 int *end)
+{
+  Touch<kContacts> of_mesh;
+  CornerRule<kContacts> rule;
+  touch_meshes<kBeyond>(job, s, of_mesh, rule, all, end);
+}
+template <bool kBeyond>
+LSDCD_NOINLINE void touch_meshes(const LawJob &job, const JointSphere &s, Lane &lane, int *end)
+{
+  lane.touch.set.clear();
+  touch_meshes<kBeyond>(job, s, lane.of_mesh, lane.rule, lane.touch, end);
+}
+
+// Applies the law to its contacts, in the frame of the mesh of each.
+template <class Law, int kCapacity>
+LSDCD_FN void apply_joint_law(const Law &law, const LawJob &job, const JointSphere &s,
+                              Touch<kCapacity> &all, const int *end)
+{
+  for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
+  if (all.set.n == 0) {
+    touches_nothing(job, s.begin, s.i);
+    return;
+  }
+  int first = 0, n_done = 0;
+  SphereSink sink = {};
+  const int n_acting = count_acting(all.set.view(), all.weight);
+  if (!take_slots(law, job, s.begin, n_acting, first, sink)) {
+    does_not_fit(job, s.begin, s.i, job.counts->no_slots);
+    return;
+  }
+  for (int k = s.begin, from = 0; k < s.end; k++) {
+    const int to = end[k - s.begin], n = to - from;
+    if (n == 0) continue;
+    const MeshWork &mesh = job.joint.meshes[job.joint.mesh[k]];
+    const WallPose &pose = mesh.settings.pose;
+    for (int c = from; c < to; c++) all.set.normal[c] = pose.turn_to_mesh(all.set.normal[c]);
+    const ContactsView set = {n, all.set.feature.data() + from, all.set.normal.data() + from,
+                              all.set.distance.data() + from};
+
+    const QuerySphereWith<SpringsSeen> seen = seen_from(job, s, k);
+    SphereStateWith<SpringsSeen> state = {};
+    state.x = seen.x;
+    state.radius = s.radius;
+    state.springs = seen.springs;
+    state.n_springs = seen.n_springs;
+    if constexpr (Law::kExtra > 0)
+      if (seen.n_springs > 0)
+        state.extra = job.springs.extra + std::size_t(job.springs.first[s.i]) * n_extra(law);
+    add_motion(law, job, pose, s.i, state);
+
+    SphereSink to_mesh = sink;
+    if constexpr (Law::kHistory) to_mesh.springs += n_done;
+    if constexpr (Law::kExtra > 0) to_mesh.extra += n_done * n_extra(law);
+    if constexpr (Law::kRecords) to_mesh.records += n_done;
+    if constexpr (Law::kHeat)
+      if (law.has_heat()) {
+        to_mesh.heat = job.heat + k;
+        *to_mesh.heat = 0;
+      }
+    SphereResult out = {};
+    add_contacts(mesh.grid, law, mesh.settings, state, set, all.weight + from, to_mesh, out);
+    from = to;
+    note_overlap(job, s.i, out.overlap_ratio);
+    if (out.n_contacts == 0) continue;
+    if constexpr (Law::kRecords) job.pool.slot[k] = first + n_done;
+    if constexpr (Law::kHeat)
+      if (law.has_heat()) job.heat_flow[s.i] += *to_mesh.heat;
+    n_done += out.n_contacts;
+    if (pose.placed) to_box(pose, out);
+    give(job, k, s.i, s.x, out);
+  }
+  if constexpr (Law::kHistory)
+    if (job.settings.update) {
+      if (n_done > 0) job.pool.first[s.i] = first;
+      job.pool.count[s.i] = n_done;
+    }
+}
+
+template <class Law>
+LSDCD_FN void joint_contacts(const Law &law, const LawJob &job, std::size_t g)
+{
+  const JointSphere s = joint_sphere(job, g, pull_off_of(law));
+  note_cutoff(job, s.i, s.cutoff);
+  int end[kMostMeshes];
+  Touch<kContacts> some;
+  touch_meshes<Law::kBeyond>(job, s, some, end);
+  if (job.uncertain)
+    for (int k = s.begin + 1; k < s.end; k++) job.uncertain[k] = 0;
+  if (!some.set.overflow) {
+    keep_uncertain(job, s.begin, may_miss(s.cutoff, some.exact_within), s.radius);
+    apply_joint_law(law, job, s, some, end);
+    return;
+  }
+  // As in several_contacts().
+  for (bool done = false; !done;) {
+    Lane *lane = job.lanes + g % kLanes;
+    if (!try_lock(&lane->locked)) continue;
+    touch_meshes<Law::kBeyond>(job, s, *lane, end);
+    if (!lane->touch.set.overflow) {
+      keep_uncertain(job, s.begin, may_miss(s.cutoff, lane->touch.exact_within), s.radius);
+      apply_joint_law(law, job, s, lane->touch, end);
+    } else {
+      for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
+      does_not_fit(job, s.begin, s.i, job.counts->no_lane);
+    }
+    unlock(&lane->locked);
+    done = true;
+  }
+}
+
+// The work of it for Backend::step(), of sphere g.
+template <class Law>
+struct JointStep {
+  Law law;
+  LawJob job;
+
+  static constexpr bool kSingle = false;
+  static constexpr int kBlocksAtOnce = 2;    // its kernel has all registers that there are
+  bool has_single() const { return false; }
+  LSDCD_FN void begin() const { clear_next(job); }
+  LSDCD_FN bool single(std::size_t) const { return false; }
+  LSDCD_FN bool needs_list(std::size_t g) const
+  {
+    if (!job.lists.n) return false;
+    const JointSphere s = joint_sphere(job, g, pull_off_of(law));
+    for (int k = s.begin; k < s.end; k++)
+      if (!job.lists.holds(k, seen_from(job, s, k).x, s.cutoff)) return true;
+    return false;
+  }
+  template <class Group>
+  LSDCD_FN void make_list(const Group &group, bool mine, std::size_t g) const
+  {
+    const JointSphere s = joint_sphere(job, g, pull_off_of(law));
+    for (int k = s.begin; group.vote(mine && k < s.end); k++) {
+      const bool in = mine && k < s.end;
+      const Vec3 x = in ? seen_from(job, s, k).x : Vec3{0, 0, 0};
+      const bool due = in && !job.lists.holds(k, x, s.cutoff);
+      by_value(group, due, due ? job.joint.mesh[k] : 0, [&](bool of_mesh, int m) {
+        put_list(job, group, of_mesh, job.joint.meshes[m].grid, {x, s.radius, s.cutoff, nullptr, 0},
+                 k);
+      });
+    }
+  }
+  LSDCD_FN bool several(std::size_t g) const
+  {
+    joint_contacts(law, job, g);
+    return true;
+  }
+  LSDCD_FN const StepLists &step_lists() const { return job.step_lists; }
+};
+
+// Near spheres [0, n) of one mesh, or the joint spheres [0, n).
+template <class Law, class Backend>
+void start_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend &backend)
+{
+  if constexpr (Law::kSurface)
+    if (job.joint.meshes) {
+      backend.step(n, JointStep<Law>{bytes.as<Law>(), job});
+      return;
+    }
+  backend.step(n, LawStep<Law>{bytes.as<Law>(), job});
+}
+
+}    // namespace lsdcd

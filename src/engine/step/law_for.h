@@ -1,0 +1,21 @@
+// Which compiled law the settings ask for. Compiled once for each backend, with the classic styles.
+#pragma once
+
+#include "engine/step/compile_law.h"
+
+namespace lsdcd {
+
+template <class B>
+CompiledLaw<B> law_for(const EngineSettings &settings)
+{
+  const ContactLaw &law = settings.law;
+  if (law.style == LawStyle::granular) return granular_law<B>(settings);
+  if (law.added.any()) return added_law<B>(settings);
+  const WallEffects effects = wall_effects(settings);
+  if (effects.surface || effects.records) return on_wall_law<B>(settings);
+  if (settings.precision == Precision::single_)
+    return with_classic_law<float>(law, MakeLaw<B, WallKernels::plain>{});
+  return with_classic_law<Real>(law, MakeLaw<B, WallKernels::plain>{});
+}
+
+}    // namespace lsdcd

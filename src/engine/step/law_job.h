@@ -1,0 +1,180 @@
+// A step's work for the kernels of a contact law over the spheres near the wall, on any backend.
+#pragma once
+
+#include "engine/lists/wall_list.h"
+#include "engine/results/result_columns.h"
+#include "engine/step/wall_force.h"
+#include "backend/step_lists.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// Contacts that a kernel has room for on its stack: enough for nearly every sphere. One with more
+// takes a lane, which has room for kMostContacts.
+constexpr int kContacts = 8;
+constexpr int kMostContacts = 512;
+
+// What spheres leave in memory that they share in a step. Where one has a single contact its shear
+// history and its record have the slot of its own number; with more it takes slots from `shared` on.
+struct ContactPool {
+  int shared, size;
+  int which;             // of the two pools
+  int *first, *count;    // of each sphere
+  int *slot;             // first one of each near sphere, where there are records
+  Spring *springs;
+  Real *extra;
+  ContactRecord *records;
+};
+
+constexpr std::uint64_t kNoSphere = std::uint64_t(1) << 32;
+
+// What steps count. The first three are of one choice or step, the others since the host looked.
+struct StepCounts {
+  std::uint32_t n_near;
+  int shared_used[2];              // slots, of each pool in the last step that wrote it
+  int n_found[2], n_several[2];    // of StepLists, in turn
+  // Spheres left out, a time for each step, as they have more contacts than a lane or as all shared
+  // slots were taken: an error.
+  int no_lane, no_slots, unused;    // unused: so that there is no byte that nothing writes
+  // kNoSphere less the index of the first sphere beyond the grid's cutoff, or 0: an error.
+  std::uint64_t too_large;
+  std::uint64_t grown;          // likewise of the first sphere that feels more than at the choice
+  std::uint64_t uncertified;    // answers
+  // As ascending bits: the largest overlap / radius, with 1 + the index of its sphere
+  // below it, and the largest that an answer which was not certified may have missed.
+  std::uint64_t deepest, uncertain;
+  std::uint64_t lists, listed,
+      by_cells;    // lists made in steps, their features; searches of cells
+};
+
+// Memory for the contacts of one sphere that has many: too much for a stack. Whoever holds the lock
+// has it.
+struct Lane {
+  int locked;
+  Touch<kMostContacts> touch, of_mesh;    // of_mesh: of one after the other, where several are near
+  CornerRule<kMostContacts> rule;
+};
+constexpr int kLanes = 8;    // 1 MB each
+
+// What a step needs of one mesh.
+struct MeshWork {
+  GridView grid;
+  ForceSettings settings;
+};
+
+// Spheres that are near several meshes. Sphere g has slots first[g] to first[g + 1], one for each of
+// these meshes in ascending order; all that is of a k is of such a slot.
+struct JointSpheres {
+  const MeshWork *meshes = nullptr;    // null: there are none in this job
+  const int *first = nullptr;
+  const int *mesh = nullptr;    // of each slot
+};
+
+struct LawJob {
+  GridView grid = {};
+  ForceSettings settings = {};
+  const int *near = nullptr;    // sphere of each k; null: sphere k
+  int first_slot = 0;           // in the pool, of k = 0; read only where the wall can move
+  JointSpheres joint = {};
+  WallLists lists = {};    // of each k; none: cells are searched
+  StridedView<const Real> x, v, omega;
+  Column<const Real> radius, mass, temperature;
+  SpringsView springs = {};    // of the last step
+
+  StepCounts *counts = nullptr;
+  StridedView<Real> force, torque;    // added to
+  Real *heat_flow = nullptr;          // likewise, where the law has heat
+  ResultColumns result = {};          // of each k
+  Real *heat = nullptr;               // of each k, where the law has heat
+  Real *uncertain = nullptr;    // overlap / radius that k's search may miss; null: nothing can be
+  ContactPool pool = {};
+  Lane *lanes = nullptr;
+  StepLists step_lists = {};
+};
+
+LSDCD_FN std::size_t sphere_of(const LawJob &job, std::size_t k)
+{
+  return job.near ? job.near[k] : k;
+}
+
+// Sphere i at x, as the search sees it. `beyond`: does the law act beyond contact? `pull_off`: of
+// the law, at a radius of 1.
+LSDCD_FN QuerySphere query_sphere_of(const LawJob &job, std::size_t i, const Vec3 &x, Real radius,
+                                     bool beyond, Real pull_off)
+{
+  QuerySphere s = {x, radius, radius, nullptr, 0};
+  if (beyond) {
+    s.cutoff = cutoff_of(radius, pull_off);
+    s.n_springs = job.springs.count[i];
+    s.springs = job.springs.pool + (s.n_springs > 0 ? job.springs.first[i] : 0);
+  }
+  return s;
+}
+
+// The same at a choice, when no sphere holds on to anything.
+LSDCD_FN QuerySphere seen_at_choice(const WallPose &pose, const Vec3 &x, Real radius, Real pull_off)
+{
+  return {pose.to_mesh(x), radius, cutoff_of(radius, pull_off), nullptr, 0};
+}
+// Asks a CPU's memory for what a search of a large wall reads first for a sphere at x, whose turn
+// comes soon.
+LSDCD_FN void ask_for_search([[maybe_unused]] const GridView &grid,
+                             [[maybe_unused]] const WallPose &pose, [[maybe_unused]] const Vec3 &x)
+{
+#if !defined(__CUDA_ARCH__)
+  if (grid.is_large) ask_for_candidates(grid, pose.to_mesh(x));
+#endif
+}
+
+struct SpheresAtChoice {
+  StridedView<const Real> x;
+  const Real *radius;
+  Real pull_off;
+  const int *near;    // the sphere of each k
+  std::size_t n;      // of these; 0: what is read first for them is not asked for
+
+  LSDCD_FN QuerySphere seen_from(const WallPose &pose, std::size_t k) const
+  {
+    const int i = near[k];
+    return seen_at_choice(pose, x[i], radius[i], pull_off);
+  }
+  LSDCD_FN void ask_ahead(const GridView &grid, const WallPose &pose, std::size_t k) const
+  {
+    constexpr std::size_t kPlaces = 4;
+    if (k + kPlaces < n) ask_for_search(grid, pose, x[near[k + kPlaces]]);
+  }
+};
+
+// The same job from slot `first` on.
+inline LawJob from_slot(LawJob job, std::size_t first)
+{
+  job.near += first;
+  job.first_slot = static_cast<int>(first);
+  if (job.lists.n) job.lists = job.lists.from(first);
+  job.result = job.result.from(first);
+  if (job.heat) job.heat += first;
+  if (job.uncertain) job.uncertain += first;
+  if (job.pool.slot) job.pool.slot += first;
+  return job;
+}
+
+// The part of a job that the spheres decide.
+inline LawJob job_of(const GridView &grid, const ForceSettings &settings, const Spheres &spheres)
+{
+  LawJob job;
+  job.grid = grid;
+  job.settings = settings;
+  job.x = spheres.x;
+  job.v = spheres.v;
+  job.omega = spheres.omega;
+  job.radius = {spheres.radius};
+  job.mass = {spheres.mass};
+  job.temperature = {spheres.temperature};
+  job.force = spheres.force;
+  job.torque = spheres.torque;
+  job.heat_flow = spheres.heat_flow;
+  return job;
+}
+
+}    // namespace lsdcd

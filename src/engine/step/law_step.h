@@ -1,0 +1,294 @@
+// A step of a contact law over the spheres near the wall: one body for every backend.
+#pragma once
+
+#include "engine/step/compiled_law.h"
+#include "engine/results/step_notes.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// Where sphere i is, as the search sees it: in the frame of the mesh.
+template <class Law>
+LSDCD_FN Vec3 centre_of(const LawJob &job, std::size_t i)
+{
+  const Vec3 x = job.x[i];
+  if constexpr (Law::kSurface) return job.settings.pose.to_mesh(x);
+  return x;
+}
+
+// Turned back to the frame of the box.
+LSDCD_FN void to_box(const WallPose &pose, SphereResult &out)
+{
+  out.force = pose.turn_to_box(out.force);
+  out.torque = pose.turn_to_box(out.torque);
+  if (out.weight > 0)
+    out.weighted_point = pose.turn_to_box(out.weighted_point) + out.weight * pose.shift;
+}
+
+// Sphere i at x, without what only a contact needs: most of those near the wall touch nothing.
+template <class Law>
+LSDCD_FN SphereState state_at(const Law &law, const LawJob &job, std::size_t i, const Vec3 &x,
+                              Real radius)
+{
+  SphereState s = {};
+  s.x = x;
+  s.radius = radius;
+  if constexpr (Law::kHistory) {
+    s.n_springs = job.springs.count[i];
+    const std::size_t first = s.n_springs > 0 ? job.springs.first[i] : 0;
+    s.springs = job.springs.pool + first;
+    if constexpr (Law::kExtra > 0) s.extra = job.springs.extra + first * n_extra(law);
+  }
+  return s;
+}
+
+template <class Law, class Springs>
+LSDCD_FN void add_motion(const Law &law, const LawJob &job, const WallPose &pose, std::size_t i,
+                         SphereStateWith<Springs> &s)
+{
+  s.v = job.v[i];
+  s.omega = job.omega[i];
+  if constexpr (Law::kSurface) {
+    s.v = pose.turn_to_mesh(s.v);
+    s.omega = pose.turn_to_mesh(s.omega);
+  }
+  s.mass = job.mass[i];
+  if constexpr (Law::kHeat)
+    if (law.has_heat()) s.temperature = job.temperature[i];
+}
+
+// Where near sphere k puts what n contacts leave behind, from slot `first` on; false: no memory.
+template <class Law>
+LSDCD_FN bool take_slots(const Law &law, const LawJob &job, std::size_t k, int n, int &first,
+                         SphereSink &sink)
+{
+  const ContactPool &pool = job.pool;
+  first = static_cast<int>(k);
+  if constexpr (Law::kSurface) first += job.first_slot;
+  if constexpr (Law::kHeat)
+    if (law.has_heat()) sink.heat = job.heat + k;
+  if constexpr (Law::kHistory || Law::kRecords) {
+    if (n > 1) {
+      first = pool.shared + fetch_add(&job.counts->shared_used[pool.which], n);
+      if (first > pool.size - n) return false;
+    }
+    if constexpr (Law::kHistory) sink.springs = pool.springs + first;
+    if constexpr (Law::kExtra > 0) sink.extra = pool.extra + std::size_t(first) * n_extra(law);
+    if constexpr (Law::kRecords) sink.records = pool.records + first;
+  }
+  return true;
+}
+
+LSDCD_FN int count_acting(const ContactsView &set, const Real *weight)
+{
+  if (!weight) return set.n;
+  int n = 0;
+  for (int i = 0; i < set.n; i++) n += weight[i] > 0;
+  return n;
+}
+
+// The wall's force and torque on sphere i at x, which stay with k for totals, and until they are
+// added where that is later.
+LSDCD_FN void give(const LawJob &job, std::size_t k, std::size_t i, const Vec3 &x,
+                   const SphereResult &out)
+{
+  job.result.put(k, out, cross(x, out.force) + out.torque);
+  if (job.result.torque.at) return;
+  job.force.add(i, out.force);
+  job.torque.add(i, out.torque);
+}
+
+// Applies the law to the contacts of near sphere k, which is sphere i: force, torque, and what is
+// kept of them. The moment about the origin is, so that totals can be made when the spheres are
+// elsewhere. `weight` null: all are 1.
+template <class Law>
+LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::size_t i,
+                        const Vec3 &x, Real radius, const ContactsView &set, const Real *weight)
+{
+  if (set.n == 0) {
+    touches_nothing(job, k, i);
+    return;
+  }
+  SphereState s = state_at(law, job, i, x, radius);
+  int first = 0;
+  SphereSink sink = {};
+  if (!take_slots(law, job, k, count_acting(set, weight), first, sink)) {
+    does_not_fit(job, k, i, job.counts->no_slots);
+    return;
+  }
+  add_motion(law, job, job.settings.pose, i, s);
+  SphereResult out = {};
+  if constexpr (Law::kHeat)
+    if (law.has_heat()) *sink.heat = 0;
+  add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
+  note_overlap(job, i, out.overlap_ratio);
+  if constexpr (Law::kHistory)
+    if (job.settings.update) {
+      if (out.n_contacts > 0) job.pool.first[i] = first;
+      job.pool.count[i] = out.n_contacts;
+    }
+  job.result.n_contacts[k] = out.n_contacts;
+  if (out.n_contacts == 0) return;
+  if constexpr (Law::kRecords) job.pool.slot[k] = first;
+  if constexpr (Law::kHeat)
+    if (law.has_heat()) job.heat_flow[i] += *sink.heat;
+  Vec3 at = x;
+  if constexpr (Law::kSurface)
+    if (job.settings.pose.placed) {
+      to_box(job.settings.pose, out);
+      at = job.x[i];
+    }
+  give(job, k, i, at, out);
+}
+
+template <class Law>
+LSDCD_FN Real pull_off_of(const Law &law)
+{
+  if constexpr (Law::kBeyond)
+    return law.elastic.pull_off;
+  else
+    return 0;
+}
+
+// Near sphere k, where it has one contact or none, as nearly all have: with room for one nothing is
+// indexed and all is in registers. False, and nothing done, where it has more or no list that
+// holds.
+template <class Law>
+LSDCD_FN bool single_contact(const Law &law, const LawJob &job, std::size_t k)
+{
+  const std::size_t i = sphere_of(job, k);
+  const Vec3 x = centre_of<Law>(job, i);
+  const Real radius = job.radius[i];
+  const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
+  if (!job.lists.holds(k, x, s.cutoff)) return false;
+  ContactSet<1> set;
+  find_in_list<WallGeometry>(job.grid, {job.lists, k}, x, s.cutoff, set);
+  keep_acting<Law::kBeyond>(job.grid, job.settings.search, s, set);
+  if (set.overflow) return false;
+  note_cutoff(job, i, s.cutoff);
+  apply_law(law, job, k, i, x, radius, set.view(), nullptr);
+  return true;
+}
+
+// Near sphere k, as the search sees it.
+template <class Law>
+LSDCD_FN QuerySphere near_sphere(const Law &law, const LawJob &job, std::size_t k)
+{
+  const std::size_t i = sphere_of(job, k);
+  return query_sphere_of(job, i, centre_of<Law>(job, i), job.radius[i], Law::kBeyond,
+                         pull_off_of(law));
+}
+
+// Is the list of near sphere k used up?
+template <class Law>
+LSDCD_FN bool needs_list(const Law &law, const LawJob &job, std::size_t k)
+{
+  if (!job.lists.n) return false;
+  const QuerySphere s = near_sphere(law, job, k);
+  return !job.lists.holds(k, s.x, s.cutoff);
+}
+
+// Makes the list of slot k, whose sphere is s, anew: for no less than at the choice, as a sphere that
+// has shrunk may grow to that again.
+template <class Group>
+LSDCD_FN void put_list(const LawJob &job, const Group &group, bool mine, const GridView &grid,
+                       QuerySphere s, std::size_t k)
+{
+  WallList made;
+  const Real chosen = mine ? job.lists.cutoff(k) : 0;
+  const bool has_grown = s.cutoff > chosen;
+  if (!has_grown) s.cutoff = chosen;
+  gather(group, mine, grid, s, kAnyDistance, made);
+  if (!mine) return;
+  if (has_grown) raise_to(&job.counts->grown, kNoSphere - sphere_of(job, k));
+  count_one(&job.counts->lists);
+  add_to(&job.counts->listed, made.n);
+  job.lists.put(k, made, grid.wall, !has_grown);
+}
+
+// Near sphere k with any number of contacts. Its cell is searched where it has no list that holds.
+// True: it has several. A function of its own, so that single_contact() beside it has its registers.
+template <class Law>
+LSDCD_NOINLINE bool several_contacts(const Law &law, const LawJob &job, std::size_t k)
+{
+  const std::size_t i = sphere_of(job, k);
+  const Vec3 x = centre_of<Law>(job, i);
+  const Real radius = job.radius[i];
+  const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
+  note_cutoff(job, i, s.cutoff);
+  const ListedFeatures listed = {job.lists, k};
+  const ListedFeatures *list = job.lists.n ? &listed : nullptr;
+  if (list && !job.lists.holds(k, x, s.cutoff)) {
+    count_one(&job.counts->by_cells);
+    list = nullptr;
+  }
+
+  Touch<kContacts> some;
+  touch<Law::kBeyond>(job.grid, job.settings.search, s, list, some);
+  ContactsView set = some.set.view();
+  const Real *weight = some.weight;
+  Real exact_within = some.exact_within;
+  // A lane is taken, used and given back in one turn: on a GPU threads that wait for it must not
+  // hold up the one that has it.
+  for (bool done = false; !done;) {
+    Lane *lane = nullptr;
+    bool fits = true;
+    if (some.set.overflow) {
+      lane = job.lanes + k % kLanes;
+      if (!try_lock(&lane->locked)) continue;
+      lane->touch.set.clear();
+      touch_in<Law::kBeyond>(lane->rule, job.grid, job.settings.search, s, list, lane->touch);
+      set = lane->touch.set.view();
+      weight = lane->touch.weight;
+      exact_within = lane->touch.exact_within;
+      fits = !lane->touch.set.overflow;
+    }
+    if (fits) {
+      keep_uncertain(job, k, may_miss(s.cutoff, exact_within), radius);
+      apply_law(law, job, k, i, x, radius, set, weight);
+    } else {
+      does_not_fit(job, k, i, job.counts->no_lane);
+    }
+    if (lane) unlock(&lane->locked);
+    done = true;
+  }
+  return some.set.n > 1;
+}
+
+// A step's work for Backend::step(): each near sphere by single(), and by several() where that
+// says false or where there is none.
+template <class Law>
+struct LawStep {
+  Law law;
+  LawJob job;
+
+  static constexpr bool kSingle = true;
+  // Blocks at once on a GPU's processor: 128 or 168 registers are left to a thread. With fewer
+  // the kernels spill, which costs more than more blocks bring.
+  static constexpr bool kLarge =
+      Law::kExtra > 0 || Law::kContactTorque || Law::kHeat || Law::kBeyond;
+  static constexpr int kBlocksAtOnce = kLarge ? 3 : 4;
+
+  // Lists of brick records are left to several().
+  bool has_single() const { return job.lists.n && !job.grid.in_floats; }
+  LSDCD_FN void begin() const { clear_next(job); }
+  LSDCD_FN bool single(std::size_t k) const { return single_contact(law, job, k); }
+  LSDCD_FN bool needs_list(std::size_t k) const { return lsdcd::needs_list(law, job, k); }
+  template <class Group>
+  LSDCD_FN void make_list(const Group &group, bool mine, std::size_t k) const
+  {
+    put_list(job, group, mine, job.grid, near_sphere(law, job, k), k);
+  }
+  // What make_list() will read, part by part of a CPU's memory.
+  using Ahead = SearchAhead;
+  Ahead list_ahead(std::size_t k) const
+  {
+    return Ahead(job.grid, centre_of<Law>(job, sphere_of(job, k)));
+  }
+  void ask_for(Ahead &ahead, int part) const { ahead.ask_for(job.grid, part); }
+  LSDCD_FN bool several(std::size_t k) const { return several_contacts(law, job, k); }
+  LSDCD_FN const StepLists &step_lists() const { return job.step_lists; }
+};
+
+}    // namespace lsdcd

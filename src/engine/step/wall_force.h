@@ -1,0 +1,190 @@
+// THE kernel: the wall's force and torque on one sphere.
+#pragma once
+
+#include "engine/lists/touch.h"
+#include "engine/wall_engine.h"
+#include "law/contact.h"
+#include "law/submodels/normal.h"
+
+namespace lsdcd {
+
+// One sphere's state at the start of the step, in the frame of the mesh.
+template <class Springs>
+struct SphereStateWith {
+  Vec3 x, v, omega;
+  Real radius, mass;
+  Springs springs;      // of the last step
+  const Real *extra;    // n_extra(law) numbers for each of them
+  int n_springs;
+  Real temperature;    // read only where the law has heat
+};
+using SphereState = SphereStateWith<const Spring *>;
+
+// What the wall does to it, in that frame. n_contacts counts the contacts that bear, and the springs.
+struct alignas(16) SphereResult {
+  Vec3 force, torque;
+  Real energy;
+  Real overlap_ratio;     // largest overlap / radius
+  Vec3 weighted_point;    // sum of |normal force| * contact point
+  Real weight;            // sum of |normal force|
+  int n_contacts;
+  int pad;    // keeps the record free of indeterminate bytes
+};
+
+// Where a sphere's springs go, and what few laws return: written only where the law has
+// history, extra numbers beside it, heat, records.
+struct SphereSink {
+  Spring *springs;           // one per contact
+  Real *extra;               // n_extra(law) per contact
+  Real *heat;                // power into the sphere
+  ContactRecord *records;    // one per contact
+};
+
+struct ForceSettings {
+  SearchSettings search;
+  std::uint32_t mesh;    // of the wall's
+  Real dt;
+  bool update;
+  bool with_point;          // fill weighted_point and weight
+  Real wall_temperature;    // read only where the law has heat
+  SurfaceMotion surface;    // read only where the surface moves
+  bool surface_moves;       // in itself; else `surface` is left out, which changes no bit
+  WallPose pose;            // likewise
+  // Spheres' velocities are those of half a step ago, as far back as this (time; 0 in a setup): a wall
+  // that turns is seen at the same time. Else what lies still on a turntable would seem to slip outward,
+  // and friction would draw it in.
+  Real back;
+  Vec3 wall_velocity, wall_angular;    // of the pose then, in the frame of the mesh
+  WearModel wear;                      // read only where there are records
+};
+
+// What contact i begins with: its memory of the last step, turned with its normal, and about that with
+// a surface that turns.
+template <class Law, class Springs>
+LSDCD_FN auto begin_memory(const Law &law, const WallFeaturesView &wall,
+                           const ForceSettings &settings, const ContactsView &set, int i,
+                           const SphereStateWith<Springs> &s)
+{
+  using T = typename Law::Number;
+  ContactMemory<T, Law::kExtra> memory = {};
+  if constexpr (Law::kHistory) {
+    const Transfer in = transfer_of(wall, set, i, s.springs, s.n_springs);
+    if (in.from < 0) return memory;
+    const auto turned = [&](const Vec3 &h) {
+      const Vec3 &n = set.normal[i];
+      Vec3 now = handed_on(h, in, s.springs, n);
+      if constexpr (Law::kSurface)
+        if (settings.update && settings.surface_moves)
+          now = turn_about(n, settings.dt * dot(settings.surface.angular, n), now);
+      return vec_cast<T>(now);
+    };
+    memory.shear = turned(s.springs[in.from].shear);
+    if constexpr (Law::kExtra > 0) {
+      const Real *old = s.extra + in.from * n_extra(law);
+      for (int k = 0; k < Law::kVectors; k++)
+        if (law.keeps(k)) {
+          memory.put(3 * k, turned(in_own_frame(s.springs, in.from, {old[0], old[1], old[2]})));
+          old += 3;
+        }
+      for (int k = 0; k < Law::kScalars; k++)
+        if (law.keeps(Law::kVectors + k))
+          memory.extra[3 * Law::kVectors + k] = static_cast<T>(in.part * *old++);
+    }
+  }
+  return memory;
+}
+
+// Writes what the law keeps beside the shear displacement: n_extra(law) numbers, vectors first.
+template <class Law, class Memory>
+LSDCD_FN void keep_extra(const Law &law, const Memory &memory, Real *to)
+{
+  for (int k = 0; k < Law::kVectors; k++)
+    if (law.keeps(k))
+      for (int j = 0; j < 3; j++) *to++ = memory.extra[3 * k + j];
+  for (int k = 0; k < Law::kScalars; k++)
+    if (law.keeps(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
+}
+
+// The half of the kernel that each law has of its own. Numbers are of type Law::Number
+// inside the law, Real outside. `weights` null: all are 1.
+template <class Law, class Springs>
+LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
+                           const SphereStateWith<Springs> &s, const ContactsView &set,
+                           const Real *weights, const SphereSink &sink, SphereResult &out)
+{
+  using T = typename Law::Number;
+  [[maybe_unused]] const std::uint32_t mesh = Law::kSurface ? settings.mesh : 0;
+  for (int i = 0; i < set.n; i++) {
+    const Real weight = weights ? weights[i] : 1;
+    const Real overlap = s.radius - set.distance[i], ratio = overlap / s.radius;
+    if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
+    // A contact that bears nothing, as the far face of a thin plate, is none. Nor has
+    // it a spring yet: cut to the friction limit of its own slight overlap, that would
+    // be gone when it takes over the force.
+    if (!(weight > 0)) continue;
+
+    const Vec3 n = set.normal[i];
+    const Vec3 closest = s.x - set.distance[i] * n;
+    Vec3 v = s.v;
+    if constexpr (Law::kSurface)
+      if (settings.pose.placed) {
+        const Vec3 turning = cross(settings.wall_angular, closest);
+        v -= settings.wall_velocity + turning -
+             settings.back * cross(settings.wall_angular, turning);
+      }
+    const Real v_normal = dot(v, n);
+    Contact<T> c;
+    c.normal = vec_cast<T>(n);
+    c.overlap = static_cast<T>(overlap);
+    c.radius = static_cast<T>(s.radius);
+    c.mass = static_cast<T>(s.mass);
+    c.v_normal = static_cast<T>(v_normal);
+    Vec3 along = v - v_normal * n;
+    if constexpr (Law::kSurface)
+      if (settings.surface_moves) along -= settings.surface.along(closest, n, settings.back);
+    c.v_tangent = vec_cast<T>(along - s.radius * cross(s.omega, n));
+    c.dt = static_cast<T>(settings.dt);
+    c.update = settings.update;
+    if constexpr (Law::kContactTorque) {
+      // Rolling and twisting are relative to a wall that turns.
+      Vec3 omega = s.omega;
+      if constexpr (Law::kSurface) omega -= settings.wall_angular + settings.surface.angular;
+      c.omega = vec_cast<T>(omega);
+    }
+    if constexpr (Law::kHeat)
+      if (law.has_heat()) c.wall_warmer = static_cast<T>(settings.wall_temperature - s.temperature);
+
+    auto memory = begin_memory(law, grid.wall, settings, set, i, s);
+    const auto f = law.evaluate(c, memory);
+    if constexpr (Law::kHistory) {
+      const int at = out.n_contacts;
+      sink.springs[at] = {vec_cast<Real>(memory.shear), n, set.feature[i], mesh};
+      if constexpr (Law::kExtra > 0) keep_extra(law, memory, sink.extra + at * n_extra(law));
+    }
+    const Vec3 tangential = weight * vec_cast<Real>(f.tangential);
+    if constexpr (Law::kRecords) {
+      const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
+      ContactRecord &record = sink.records[out.n_contacts];
+      record = {set.feature[i],           mesh,         normal, norm(tangential), 0,
+                -normal * n - tangential, s.x - closest};
+      if (settings.wear != WearModel::none)
+        record.wear_power =
+            wear_power(settings.wear, pressing, norm(c.v_tangent), v_normal, norm(along));
+    }
+    out.n_contacts++;
+
+    out.force += (weight * f.normal) * n + tangential;
+    out.torque -= s.radius * cross(n, tangential);
+    out.energy += weight * f.energy;
+    if constexpr (Law::kContactTorque) out.torque += weight * vec_cast<Real>(f.contact_torque);
+    if constexpr (Law::kHeat)
+      if (law.has_heat()) *sink.heat += weight * f.heat;
+    if (settings.with_point) {
+      const Real w = weight * fabs(f.normal);
+      out.weight += w;
+      out.weighted_point += w * closest;
+    }
+  }
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,27 @@
+// Input words of compute lsdcd/collide -> CollideSettings.
+#pragma once
+
+#include "input/settings.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+struct CollideSettings {
+  std::string wall;     // ID of a fix wall/lsdcd
+  MeshSettings mesh;    // of the body: file, placement and weld, as a mesh of a wall has them
+  std::string
+      atoms_file;    // where its atoms are as its mesh is; empty: those of the first body now
+  bool molecules = false;    // a body per molecule, not one of all atoms
+  Real grid_length = 0;      // length; 0: the median edge of the body
+  int nearest = 0;           // triangles a cell; 0: all
+  std::size_t memory = 0;    // bytes; 0: the default
+  Device device = Device::cpu;
+  bool brief = false;    // one line in the log
+};
+
+// Throws InputError that names the word, what was expected and the syntax.
+CollideSettings parse_collide(const std::vector<std::string> &tokens);
+
+}    // namespace lsdcd

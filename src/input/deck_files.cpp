@@ -1,0 +1,54 @@
+#include "input/deck_files.h"
+
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+
+namespace lsdcd {
+
+std::vector<DeckFile> files_of(const WallSettings &settings)
+{
+  std::vector<DeckFile> files;
+  for (const MeshSettings &m : settings.meshes) {
+    files.push_back({"mesh", m.file});
+    if (m.fields.every > 0) files.push_back({"mesh_fields", m.fields.name, m.fields.every, true});
+    if (m.stl.every > 0) files.push_back({"mesh_stl", m.stl.name, m.stl.every, true});
+    if (!m.cache_file.empty()) files.push_back({"cache", m.cache_file, 0, true});
+  }
+  return files;
+}
+
+namespace {
+
+std::string with_plain_folder(const std::string &path)
+{
+  std::error_code failed;
+  const std::filesystem::path whole = std::filesystem::absolute(path, failed),
+                              folder =
+                                  std::filesystem::weakly_canonical(whole.parent_path(), failed);
+  return failed ? path : (folder / whole.filename()).string();
+}
+
+// Is `name` that of a series' file of a step to come?
+bool will_be(const std::string &series, int every, const std::string &name, long long now)
+{
+  const std::size_t star = series.find('*');
+  if (every == 0 || star == std::string::npos || name.size() < series.size()) return false;
+  const std::size_t after = series.size() - star - 1, digits = name.size() - star - after;
+  if (name.compare(0, star, series, 0, star) != 0 ||
+      name.compare(star + digits, after, series, star + 1, after) != 0)
+    return false;
+  const std::string number = name.substr(star, digits);
+  const long long step = std::strtoll(number.c_str(), nullptr, 10);
+  return std::to_string(step) == number && step > now && step % every == 0;
+}
+
+}    // namespace
+
+bool are_one_file(const DeckFile &a, const DeckFile &b, long long now)
+{
+  const std::string one = with_plain_folder(a.name), other = with_plain_folder(b.name);
+  return one == other || will_be(one, a.every, other, now) || will_be(other, b.every, one, now);
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,345 @@
+#include "input/keywords.h"
+
+#include "base/whole_file.h"
+#include "input/motion_words.h"
+#include "input/servo_words.h"
+
+#include "grid/cache/grid_cache.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+void read_mesh(Tokens &w, MeshSettings &s)
+{
+  if (w.done()) w.fail("the file name is missing");
+  s.file = w.take();
+}
+
+void note_placement(MeshSettings &s, const std::string &tokens)
+{
+  s.placement_tokens += (s.placement_tokens.empty() ? "" : ", ") + tokens;
+}
+
+Real nonzero(Tokens &w, const char *what)
+{
+  const Real value = w.number(what);
+  if (value == 0) w.fail(std::string(what) + " must not be zero");
+  return value;
+}
+
+void read_scale(Tokens &w, MeshSettings &s)
+{
+  Vec3 f;
+  f.x = f.y = f.z = nonzero(w, "the factor");
+  if (w.number_follows()) {
+    f.y = nonzero(w, "the y factor");
+    f.z = nonzero(w, "the z factor (give one factor or three)");
+  }
+  s.placement.scale(f);
+  note_placement(
+      s, "scale " + number_text(f.x) +
+             (f.x == f.y && f.y == f.z ? "" : " " + number_text(f.y) + " " + number_text(f.z)));
+}
+
+void read_rotate(Tokens &w, MeshSettings &s)
+{
+  Vec3 axis;
+  axis.x = w.number("the axis (x)");
+  axis.y = w.number("the axis (y)");
+  axis.z = w.number("the axis (z)");
+  const Real degrees = w.number("the angle");
+  if (axis == Vec3{0, 0, 0}) w.fail("the axis must not be 0 0 0");
+  s.placement.rotate(axis, degrees);
+  note_placement(s, "rotate " + number_text(axis.x) + " " + number_text(axis.y) + " " +
+                        number_text(axis.z) + " " + number_text(degrees));
+}
+
+void read_move(Tokens &w, MeshSettings &s)
+{
+  Vec3 shift;
+  shift.x = w.number("x");
+  shift.y = w.number("y");
+  shift.z = w.number("z");
+  s.placement.move(shift);
+  note_placement(s, "move " + number_text(shift.x) + " " + number_text(shift.y) + " " +
+                        number_text(shift.z));
+}
+
+void read_memory(Tokens &w, WallSettings &s)
+{
+  s.memory_budget = static_cast<std::size_t>(w.number("the budget", 1, 1e9) * 1024 * 1024);
+}
+
+void read_nearest(Tokens &w, WallSettings &s)
+{
+  s.nearest_given = true;
+  const Real n = w.number_or("all", 0, "N", 1, kMostNearest);
+  s.nearest = static_cast<int>(n);
+  if (s.nearest != n) w.fail("N must be a whole number");
+  if (s.nearest == 0 || w.done() || w.peek() != "exact") return;
+  s.exact = true;
+  w.take();
+}
+
+void read_tune(Tokens &w, WallSettings &s)
+{
+  s.tune = w.number("the largest error", 0, std::nextafter(Real(1), Real(0)));
+}
+
+void read_cache(Tokens &w, MeshSettings &s)
+{
+  if (w.done()) w.fail("the file name is missing");
+  const std::string file = w.take();
+  if (file == "none") return;
+  std::string why;
+  if (!cache_available(&why)) w.fail(why);
+  s.cache_file = file;
+}
+
+// Of LIGGGHTS, beside the classic styles; granular has its own.
+void only_classic(Tokens &w, const WallSettings &s, const char *instead)
+{
+  if (s.law.style == LawStyle::granular)
+    w.fail(std::string("it goes with the classic styles; granular has ") + instead);
+}
+
+void read_rolling(Tokens &w, WallSettings &s)
+{
+  only_classic(w, s, "'rolling sds' before mesh");
+  s.law.added.rolling = static_cast<AddedRolling>(1 + w.choice({"cdt", "epsd2"}));
+  s.law.added.mu_roll = w.number("MU", 0);
+}
+
+void read_cohesion(Tokens &w, WallSettings &s)
+{
+  only_classic(w, s, "the normal sub-models dmt and jkr");
+  w.choice({"sjkr"});
+  s.law.added.cohesion = w.number("K", 0);
+}
+
+void read_wear(Tokens &w, WallSettings &s)
+{
+  s.wear.model = static_cast<WearModel>(1 + w.choice({"archard", "finnie"}));
+  s.wear.per_work = w.number("K", 0);
+  if (s.wear.model == WearModel::archard) s.wear.per_work /= w.number("H", kAboveZero);
+}
+
+FileEvery read_file_every(Tokens &w, const std::string &end)
+{
+  FileEvery file;
+  if (w.done()) w.fail("the file name is missing");
+  file.name = w.take();
+  const std::string &name = file.name;
+  if (!ends_in(name, end))
+    w.fail("the file name '" + name + "' must end in " + end + ", by which other programs know it");
+  const std::size_t star = name.find('*');
+  if (star != std::string::npos && name.find('/', star) != std::string::npos)
+    w.fail("'" + name + "' has its * in the name of a folder; put it into the file's own name");
+  if (star != std::string::npos && name.find('*', star + 1) != std::string::npos)
+    w.fail("'" + name + "' has more than one *; only one is the step: leave the others out");
+  if (w.done() || w.take() != "every") w.fail("'every N' is missing");
+  const Real n = w.number("N", 1, 2147483647);
+  file.every = static_cast<int>(n);
+  if (file.every != n) w.fail("N must be a whole number");
+  return file;
+}
+
+void read_torque_about(Tokens &w, MeshSettings &s)
+{
+  s.torque_about_mesh = !w.done() && w.peek() == "mesh";
+  if (s.torque_about_mesh) w.take();
+  if (s.torque_about_mesh && !w.number_follows()) return;
+  s.torque_about.x = w.number("x");
+  s.torque_about.y = w.number("y");
+  s.torque_about.z = w.number("z");
+}
+
+void read_temperature(Tokens &w, MeshSettings &s)
+{
+  s.has_temperature = true;
+  if (!w.done() && w.peek().rfind("v_", 0) == 0) {
+    s.temperature_variable = w.take().substr(2);
+    if (s.temperature_variable.empty()) w.fail("the variable's name is missing after v_");
+  } else {
+    s.temperature = w.number("T");
+  }
+}
+
+void read_draw(Tokens &w, WallSettings &s)
+{
+  s.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
+  if (!w.number_follows()) return;
+  const Real type = w.number("the atom type", 1, 1e6);
+  s.draw_type = static_cast<int>(type);
+  if (s.draw_type != type) w.fail("the atom type must be a whole number");
+}
+
+void read_cut(Tokens &w, WallSettings &s)
+{
+  s.cut = true;
+  s.cut_normal.x = w.number("the normal (x)");
+  s.cut_normal.y = w.number("the normal (y)");
+  s.cut_normal.z = w.number("the normal (z)");
+  if (s.cut_normal == Vec3{0, 0, 0}) w.fail("the normal must not be 0 0 0");
+  s.cut_offset = w.number("the offset");
+}
+
+const Keyword kKeywords[] = {
+    {"mesh", "FILE", "", "STL file", "required",
+     "the wall, ASCII or binary STL; more of them, each with its own keywords after it", nullptr,
+     read_mesh},
+    {"scale", "s | sx sy sz", "", "not 0", "1",
+     "multiply coordinates; scale, rotate and move act in the order given", nullptr, read_scale},
+    {"rotate", "ax ay az degrees", "degrees", "axis not 0 0 0", "none",
+     "right-handed rotation about an axis through the origin", nullptr, read_rotate},
+    {"move", "x y z", "length", "", "0 0 0", "shift", nullptr, read_move},
+    {"weld", "tol", "length", ">= 0", "1e-6 of the mesh diagonal",
+     "corners closer than this are one vertex; 0: only equal ones", nullptr,
+     [](Tokens &w, MeshSettings &s) { s.weld = w.number("the tolerance", 0); }},
+    {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",
+     [](Tokens &w, WallSettings &s) {
+       s.grid_length = w.number_or("auto", 0, "L", kAboveZero);
+       s.length_given = s.grid_length > 0;
+     }},
+    {"rmax", "R | auto", "length", "> 0", "auto: the largest radius in the group",
+     "largest particle radius that the grid is built for",
+     [](Tokens &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
+    {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records",
+     "budget for the grid of each mesh", read_memory},
+    {"nearest", "all | N [exact]", "", "1 to 32", "all",
+     "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre; exact: "
+     "all where N are not certified to be enough",
+     read_nearest},
+    {"precision", "double | mixed | single", "", "", "double",
+     "mixed: contacts in float, forces in double; single: both in float",
+     [](Tokens &w, WallSettings &s) {
+       s.precision = static_cast<Precision>(w.choice({"double", "mixed", "single"}));
+       s.precision_given = true;
+     }},
+    {"tune", "E", "", "0 to below 1", "off",
+     "choose grid, nearest and precision, where not given, by measuring: missed contacts and "
+     "force errors below E",
+     read_tune},
+    {"cache", "FILE | none", "", "", "none",
+     "file that keeps the grid, so that the next start need not build it", nullptr, read_cache},
+    {"corner", "blend | sum", "", "", "blend",
+     "contacts at one place share their overlap, or their forces simply add",
+     [](Tokens &w, WallSettings &s) {
+       s.corner = static_cast<Corner>(w.choice({"blend", "sum"}));
+     }},
+    {"side", "both | in | out", "", "", "both",
+     "where particles belong; in and out need a closed, oriented mesh",
+     [](Tokens &w, WallSettings &s) {
+       s.side = static_cast<Side>(w.choice({"both", "in", "out"}));
+     }},
+    {"motion", kMotionSyntax, "velocity, length, time", "period > 0", "none",
+     "the mesh moves, as fix move's words say; repeated, each acts on what the earlier ones placed",
+     nullptr, read_motion},
+    {"wiggle", "x|y|z amplitude period", "length, time", "period > 0", "none",
+     "the mesh moves as fix wall/gran's: by A - A cos(2 pi t/period)", nullptr, read_wiggle},
+    {"servo", kServoSyntax, "force or torque, velocity or 1/time, length or radians",
+     "vmax > 0, gain > 0, lo <= 0 <= hi", "none",
+     "the mesh moves along or turns about an axis so that it pushes the spheres with TARGET, a "
+     "number or v_NAME",
+     nullptr, read_servo},
+    {"shear", "x|y|z v", "velocity", "", "none",
+     "the surface moves while the mesh stays, as fix wall/gran's: surface_vel in one direction; v: "
+     "a number or v_NAME",
+     nullptr, read_shear},
+    {"surface_vel", "vx vy vz", "velocity", "", "0 0 0",
+     "the surface moves along itself while the mesh stays, as a conveyor's; each a number or "
+     "v_NAME",
+     nullptr, read_surface_vel},
+    {"surface_angvel", "wx wy wz [cx cy cz]", "1/time, length", "", "0 0 0",
+     "it turns along itself about an axis through c (the origin), as a roll's; each w a number or "
+     "v_NAME",
+     nullptr, read_surface_angvel},
+    {"rolling", "cdt MU | epsd2 MU", "", ">= 0", "none",
+     "rolling friction of LIGGGHTS: constant torque, or elastic-plastic spring", read_rolling},
+    {"cohesion", "sjkr K", "energy/volume", ">= 0", "none",
+     "cohesion of LIGGGHTS: K times the area of contact", read_cohesion},
+    {"wear", "archard K H | finnie K", "K H: none, pressure; K: 1/pressure", ">= 0, H > 0", "none",
+     "volume that wears off the triangles: K F s/H, or by angle and energy of impacts", read_wear},
+    {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",
+     "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step, and "
+     "a .pvd file lists them all",
+     nullptr, [](Tokens &w, MeshSettings &s) { s.fields = read_file_every(w, ".vtp"); }},
+    {"mesh_stl", "FILE every N", "", "*.stl, N >= 1", "none",
+     "the mesh where it is, as a binary STL, every N steps; * is the step", nullptr,
+     [](Tokens &w, MeshSettings &s) { s.stl = read_file_every(w, ".stl"); }},
+    {"torque_about", "x y z | mesh [x y z]", "length", "", "0 0 0",
+     "the point that f_ID[4] to f_ID[6] are about; mesh: it moves with the mesh and was at x y z "
+     "(0 0 0) before",
+     nullptr, read_torque_about},
+    {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
+     [](Tokens &w, WallSettings &s) {
+       s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));
+     }},
+    {"temperature", "T | v_NAME", "temperature", "", "none",
+     "of the wall, for the sub-model heat; v_NAME: an equal-style variable", nullptr,
+     read_temperature},
+    {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
+     [](Tokens &, WallSettings &s) { s.contacts = true; }},
+    {"periodic", "", "", "", "off",
+     "the mesh is meant to reach past periodic faces or to continue itself there; it acts "
+     "through them in any case",
+     [](Tokens &, WallSettings &s) { s.periodic = true; }},
+    {"log", "full | brief", "", "", "full", "brief: one line about the wall in place of all",
+     [](Tokens &w, WallSettings &s) {
+       s.brief = w.choice({"full", "brief"}) == 1;
+     }},
+    {"draw", "edges | faces | contours [type]", "", "", "edges 1",
+     "what dump image shows, in the colour of an atom type: fix ID type DIAMETER 0 for lines, "
+     "fix ID type 1 0 for faces",
+     read_draw},
+    {"cut", "nx ny nz d", "", "n not 0 0 0", "none", "dump image leaves out the part with n.x > d",
+     read_cut},
+};
+
+}    // namespace
+
+const std::vector<Keyword> &keywords()
+{
+  static const std::vector<Keyword> all(std::begin(kKeywords), std::end(kKeywords));
+  return all;
+}
+
+bool Keyword::repeats() const
+{
+  for (const char *const word : {"scale", "rotate", "move", "motion"})
+    if (word == std::string(name)) return true;
+  return false;
+}
+
+std::string syntax_of(const Keyword &row)
+{
+  return std::string(row.name) + (*row.values ? " " : "") + row.values;
+}
+
+bool read_mesh_word(const std::string &word, Tokens &w, MeshSettings &mesh)
+{
+  for (const char *const shared : {"mesh", "scale", "rotate", "move", "weld"})
+    if (word == shared)
+      for (const Keyword &row : keywords())
+        if (word == row.name) {
+          w.expect(row.name, syntax_of(row));
+          row.read_of_mesh(w, mesh);
+          return true;
+        }
+  return false;
+}
+
+bool is_twice(const std::string &word, std::vector<std::string> &seen)
+{
+  const bool repeats = std::any_of(std::begin(kKeywords), std::end(kKeywords),
+                                   [&](const Keyword &k) { return word == k.name && k.repeats(); });
+  const bool twice = !repeats && std::find(seen.begin(), seen.end(), word) != seen.end();
+  seen.push_back(word);
+  return twice;
+}
+
+}    // namespace lsdcd

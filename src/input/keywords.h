@@ -1,0 +1,35 @@
+// The keywords of fix wall/lsdcd: one row each, and what reads its values.
+#pragma once
+
+#include "base/input_words.h"
+#include "input/settings.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// Either of the wall, or of the mesh before it.
+struct Keyword {
+  const char *name;
+  const char *values;
+  const char *unit;
+  const char *range;
+  const char *fallback;
+  const char *help;
+  void (*read)(Tokens &, WallSettings &);                      // null: of a mesh
+  void (*read_of_mesh)(Tokens &, MeshSettings &) = nullptr;    // null: of the wall
+
+  bool repeats() const;    // may it be given more than once?
+};
+
+const std::vector<Keyword> &keywords();
+std::string syntax_of(const Keyword &row);
+
+// Reads the values of a word that means the same for any mesh: mesh, scale, rotate, move, weld. False:
+// it is none of these.
+bool read_mesh_word(const std::string &word, Tokens &w, MeshSettings &mesh);
+// Of a keyword of a command that may be given once only; `seen` has those before it.
+bool is_twice(const std::string &word, std::vector<std::string> &seen);
+
+}    // namespace lsdcd

@@ -1,0 +1,56 @@
+#include "input/massflow_settings.h"
+
+#include "base/input_words.h"
+#include "input/keywords.h"
+
+namespace lsdcd {
+
+namespace {
+
+const char *const kSyntax =
+    "fix ID group massflow/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x "
+    "y "
+    "z] [weld tol] [count each | once] [delete no | yes] [every N] [log full | brief]";
+
+void read_every(Tokens &w, MassflowSettings &s)
+{
+  const Real n = w.number("N", 1, 2147483647);
+  s.every = static_cast<int>(n);
+  if (s.every != n) w.fail("N must be a whole number");
+}
+
+}    // namespace
+
+MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
+{
+  MassflowSettings settings;
+  Tokens w(tokens);
+  std::vector<std::string> seen;
+  while (!w.done()) {
+    const std::string word = w.take();
+    const bool twice = is_twice(word, seen);
+    w.expect("fix massflow/lsdcd", kSyntax);
+    if (twice) w.fail("the keyword '" + word + "' is given twice");
+    if (read_mesh_word(word, w, settings.surface)) continue;
+    if (word == "count") {
+      w.expect("count", "count each | once");
+      settings.once = w.choice({"each", "once"}) == 1;
+    } else if (word == "log") {
+      w.expect("log", "log full | brief");
+      settings.brief = w.choice({"full", "brief"}) == 1;
+    } else if (word == "delete") {
+      w.expect("delete", "delete no | yes");
+      settings.deletes = w.choice({"no", "yes"}) == 1;
+    } else if (word == "every") {
+      w.expect("every", "every N");
+      read_every(w, settings);
+    } else {
+      w.fail("'" + word + "' is not a keyword");
+    }
+  }
+  w.expect("fix massflow/lsdcd", kSyntax);
+  if (settings.surface.file.empty()) w.fail("mesh FILE is missing");
+  return settings;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,22 @@
+// Input words of fix massflow/lsdcd -> MassflowSettings.
+#pragma once
+
+#include "input/settings.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+struct MassflowSettings {
+  MeshSettings surface;    // file, placement and weld, as a mesh of a wall has them
+  bool brief = false;      // one line in the log
+  bool once = false;       // a sphere counts the first time only
+  bool deletes = false;    // what has passed forward
+  int every = 1000;        // steps over which the rate is an average
+};
+
+// Throws InputError that names the word, what was expected and the syntax.
+MassflowSettings parse_massflow(const std::vector<std::string> &tokens);
+
+}    // namespace lsdcd

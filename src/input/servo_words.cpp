@@ -1,0 +1,108 @@
+#include "input/servo_words.h"
+
+#include <algorithm>
+#include <string>
+
+namespace lsdcd {
+
+const char *const kServoSyntax =
+    "force x|y|z|axis ax ay az TARGET vmax V [gain G] [limits lo hi] | torque x|y|z|axis ax ay az "
+    "[through px py pz] TARGET vmax W [gain G] [limits lo hi]";
+
+namespace {
+
+Vec3 read_vector(Tokens &w, const char *x, const char *y, const char *z)
+{
+  Vec3 a;
+  a.x = w.number(x);
+  a.y = w.number(y);
+  a.z = w.number(z);
+  return a;
+}
+
+void read_line(Tokens &w, Servo &s)
+{
+  const int d = w.choice({"x", "y", "z", "axis"});
+  Vec3 axis = {d == 0 ? 1.0 : 0.0, d == 1 ? 1.0 : 0.0, d == 2 ? 1.0 : 0.0};
+  if (d == 3) axis = read_vector(w, "ax", "ay", "az");
+  if (axis == Vec3{0, 0, 0}) w.fail("the axis ax ay az must not be 0 0 0");
+  s.axis = unit_vector(axis);
+  if (w.done() || w.peek() != "through") return;
+  if (!s.turns) w.fail("through is of torque: a force has no place");
+  w.take();
+  s.point = read_vector(w, "px", "py", "pz");
+}
+
+void read_target(Tokens &w, Servo &s)
+{
+  const char *const kTarget = "the target (number or v_NAME)";
+  if (w.done() || w.peek().rfind("v_", 0) != 0) {
+    s.target = w.number(kTarget);
+    return;
+  }
+  s.target_name = w.take().substr(2);
+  if (s.target_name.empty()) w.fail("the variable's name is missing after v_");
+}
+
+void read_limits(Tokens &w, Servo &s)
+{
+  s.lo = w.number("lo");
+  s.hi = w.number("hi");
+  if (s.lo > s.hi)
+    w.fail("the limits " + number_text(s.lo) + " " + number_text(s.hi) +
+           " are reversed: the lower one comes first");
+  if (s.lo > 0 || s.hi < 0)
+    w.fail("the limits " + number_text(s.lo) + " " + number_text(s.hi) +
+           " do not contain 0, which is where the servo begins");
+}
+
+Servo read_one_servo(Tokens &w)
+{
+  Servo s;
+  s.present = true;
+  s.turns = w.choice({"force", "torque"}) == 1;
+  read_line(w, s);
+  read_target(w, s);
+  std::vector<std::string> seen;
+  while (!w.done()) {
+    const std::string word = w.peek();
+    if (word != "vmax" && word != "gain" && word != "limits") break;
+    if (std::count(seen.begin(), seen.end(), word)) w.fail(word + " is given twice");
+    seen.push_back(w.take());
+    if (word == "vmax") s.fastest = w.number("vmax", kAboveZero);
+    if (word == "gain") s.most_gain = w.number("the gain", kAboveZero);
+    if (word == "limits") read_limits(w, s);
+  }
+  if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one too many");
+  if (s.fastest == 0)
+    w.fail("vmax is missing, the speed at which the mesh moves up to the spheres" +
+           (w.done() ? "" : "; '" + w.peek() + "' is no word of a servo"));
+  return s;
+}
+
+}    // namespace
+
+void read_servo(Tokens &w, MeshSettings &s)
+{
+  const std::size_t first = w.at();
+  s.motion.servo() = read_one_servo(w);
+  s.servo_tokens = w.between(first);
+}
+
+ModifiedServo read_modified_servo(const std::vector<std::string> &tokens)
+{
+  ModifiedServo read;
+  Tokens w(tokens);
+  w.expect("servo", std::string("fix_modify ID servo ") + kServoSyntax + " | none");
+  w.take();
+  const std::size_t first = w.at();
+  if (!w.done() && w.peek() == "none")
+    w.take();
+  else
+    read.servo = read_one_servo(w);
+  read.text = w.between(first);
+  read.taken = w.at();
+  return read;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,276 @@
+#include "input/settings.h"
+
+#include "base/input_words.h"
+#include "input/granular_words.h"
+#include "input/keywords.h"
+#include "input/material_command.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+namespace {
+
+// What is given is kept, the rest is tuned.
+void check_tune(Tokens &w, const WallSettings &s)
+{
+  if (s.tune < 0) return;
+  w.expect("tune", "tune E");
+  if (s.nearest > 0 && !s.exact)
+    w.fail("nothing bounds the error of 'nearest " + std::to_string(s.nearest) +
+           "'; use 'nearest " + std::to_string(s.nearest) + " exact' or leave nearest out");
+  if (s.length_given && s.nearest_given && s.precision_given)
+    w.fail("grid, nearest and precision are all given and nothing is left to choose");
+}
+
+const char *const kLawSyntax =
+    "hooke|hooke/history|hertz/history kn kt|NULL gamman gammat|NULL xmu dampflag [limit_damping] "
+    "mesh FILE [keywords], or granular NORMAL ... mesh FILE [keywords]";
+
+void read_law(Tokens &w, WallSettings &s)
+{
+  const std::vector<std::string> names = {"hooke", "hooke/history", "hertz/history", "granular"};
+  w.expect("fix wall/lsdcd", kLawSyntax);
+  if (w.done()) w.fail("the contact style is missing");
+  const auto found = std::find(names.begin(), names.end(), w.peek());
+  if (found == names.end()) w.fail("'" + w.peek() + "' is not a contact style");
+  s.law_name = w.take();
+  s.law.style = static_cast<LawStyle>(found - names.begin());
+  if (s.law.style == LawStyle::granular) {
+    s.law = read_granular(w, s.law_name);
+    return;
+  }
+
+  // The numbers, NULLs and limits of fix wall/gran.
+  w.expect(s.law_name, kLawSyntax);
+  ContactLaw &law = s.law;
+  law.k_normal = w.number("kn", 0);
+  law.k_tangent = w.number_or("NULL", law.k_normal * 2 / 7, "kt", 0);
+  law.gamma_normal = w.number("gamman", 0);
+  law.gamma_tangent = w.number_or("NULL", law.gamma_normal / 2, "gammat", 0);
+  law.mu = w.number("xmu", 0, 10000);
+  const Real dampflag = w.number("dampflag", 0, 1);
+  if (dampflag != 0 && dampflag != 1) w.fail("dampflag must be 0 or 1");
+  if (dampflag == 0) law.gamma_tangent = 0;
+  if (!w.done() && w.peek() == "limit_damping") {
+    law.limit_damping = true;
+    w.take();
+  }
+}
+
+// Tokens of fix wall/gran and of LIGGGHTS, and what does their work here.
+std::string answer_to(const std::string &word, bool granular)
+{
+  const char *const kMoves =
+      "the words are motion wiggle Ax Ay Az period, and wiggle x|y|z amplitude period";
+  const char *const kServo = "the words are servo force|torque x|y|z|axis ax ay az TARGET vmax V";
+  const char *const kFlat =
+      "the wall is a mesh: write mesh FILE in its place, or use fix wall/gran";
+  const char *const kBelt =
+      "the words are surface_vel vx vy vz and surface_angvel wx wy wz [cx cy cz]";
+  const char *const kSpeed = "it is not needed: folds are measured, and all of them are walls";
+  const char *const kReport = "the mesh is always looked through and told in the log: leave it out";
+  const char *const kWeld = "the word for joining corners is weld tol";
+  const char *const kLoads = "see mesh_fields FILE every N, and force and torque in f_ID[1] to "
+                             "f_ID[6]";
+  const char *const kNumbers =
+      "the contact's numbers stand before mesh, or come from granular material FILE NAME";
+  const struct {
+    const char *word;
+    const char *answer;
+  } foreign[] = {
+      {"target_val", kServo},
+      {"vel_max", kServo},
+      {"ctrlPV", kServo},
+      {"vibrate", kMoves},
+      {"move/mesh", "the words are motion linear, rotate, wiggle, transrot and variable"},
+      {"zplane", kFlat},
+      {"yplane", kFlat},
+      {"xplane", kFlat},
+      {"zcylinder", kFlat},
+      {"region", kFlat},
+      {"primitive", kFlat},
+      {"velocity", kBelt},
+      {"vel", kBelt},
+      {"surface_ang_vel", kBelt},
+      {"surface_omega", kBelt},
+      {"curvature", kSpeed},
+      {"curvature_tolerant", kSpeed},
+      {"heal", kReport},
+      {"verbose", kReport},
+      {"element_exclusion_list", kReport},
+      {"min_feature_length", kWeld},
+      {"stress", kLoads},
+      {"reference_point", "the words are torque_about x y z"},
+      {"type", kNumbers},
+      {"model", kNumbers},
+      {"file", "the word is mesh FILE"},
+      {"rolling_friction", "the words are rolling cdt MU and rolling epsd2 MU"},
+  };
+  for (const auto &row : foreign)
+    if (word == row.word) return row.answer;
+  for (const std::string &family : granular_families())
+    if (word == family)
+      return granular || word == "limit_damping" ? "it comes before mesh and other keywords"
+                                                 : "it goes with the style granular, before mesh";
+  return "";
+}
+
+[[noreturn]] void refuse_keyword(const std::string &word, const std::vector<std::string> &names,
+                                 bool granular)
+{
+  const std::string wrong = "'" + word + "' is not a keyword";
+  const std::string answer = answer_to(word, granular);
+  if (!answer.empty()) throw InputError(wrong + " here: " + answer);
+  std::vector<std::string> known = granular_families();
+  known.insert(granular ? known.end() : known.begin(), names.begin(), names.end());
+  const std::string near = nearest(word, known);
+  const auto row = std::find(names.begin(), names.end(), near);
+  if (is_like(word, near)) {
+    const std::string of_family = granular || row == names.end() ? answer_to(near, granular) : "";
+    throw InputError(wrong + "; the nearest is '" +
+                     (of_family.empty() ? syntax_of(keywords()[row - names.begin()]) + "'"
+                                        : near + "': " + of_family));
+  }
+  std::string all;
+  for (const std::string &name : names) all += (all.empty() ? "" : ", ") + name;
+  throw InputError(wrong + "; those are " + all);
+}
+
+// A keyword of a mesh is of the last one before it. Of a wall with one mesh it may stand before
+// that, too.
+void read_keywords(Tokens &w, WallSettings &settings, bool granular)
+{
+  std::vector<std::string> seen, seen_of_mesh, names;
+  std::string early;    // the first keyword of a mesh before any
+  for (const Keyword &row : keywords()) names.push_back(row.name);
+  settings.meshes.resize(1);
+  while (!w.done()) {
+    const std::string word = w.take();
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) refuse_keyword(word, names, granular);
+    const Keyword &row = keywords()[found - names.begin()];
+    w.expect(row.name, syntax_of(row));
+    const bool next = word == "mesh" && !settings.meshes.back().file.empty();
+    if (next && !early.empty())
+      w.fail("there are several, and '" + early +
+             "' comes before the first: keywords of a mesh stand after its mesh FILE");
+    if (next) {
+      settings.meshes.emplace_back();
+      seen_of_mesh.clear();
+    }
+    std::vector<std::string> &given = row.read ? seen : seen_of_mesh;
+    if (!row.repeats() && std::count(given.begin(), given.end(), word))
+      w.fail("the keyword is given twice");
+    given.push_back(word);
+    if (row.read) {
+      row.read(w, settings);
+      continue;
+    }
+    if (word != "mesh" && early.empty() && settings.meshes[0].file.empty()) early = word;
+    row.read_of_mesh(w, settings.meshes.back());
+    if (word == "surface_vel" || word == "shear")
+      if (std::count(given.begin(), given.end(), "shear") &&
+          std::count(given.begin(), given.end(), "surface_vel")) {
+        w.expect("shear", "shear x|y|z v");
+        w.fail("there is a surface_vel, too, which says the same: give one of them");
+      }
+  }
+}
+
+// "mesh 2 'lid.stl'", of a wall with several.
+std::string name_of_mesh(const WallSettings &s, std::size_t k)
+{
+  return "mesh " + std::to_string(k + 1) + " '" + s.meshes[k].file + "'";
+}
+
+// What mesh k has that is that of an earlier one, and would be lost or felt twice.
+void check_apart(Tokens &w, const WallSettings &s, std::size_t k)
+{
+  const MeshSettings &mesh = s.meshes[k];
+  for (std::size_t i = 0; i < k; i++) {
+    const MeshSettings &other = s.meshes[i];
+    const std::string both = name_of_mesh(s, i) + " and " + name_of_mesh(s, k);
+    if (are_one_mesh(mesh, other)) {
+      w.expect("mesh", "mesh FILE");
+      w.fail(
+          both +
+          " are the same file at the same place, and every contact would be felt twice: leave one "
+          "out, or move it");
+    }
+    const struct {
+      const char *keyword;
+      const std::string &name, &of_other;
+    } files[] = {{"mesh_fields", mesh.fields.name, other.fields.name},
+                 {"mesh_stl", mesh.stl.name, other.stl.name},
+                 {"cache", mesh.cache_file, other.cache_file}};
+    for (const auto &file : files)
+      if (!file.name.empty() && file.name == file.of_other) {
+        w.expect(file.keyword, std::string(file.keyword) + " FILE");
+        w.fail(both + " have the same file '" + file.name +
+               "', and one would replace that of the other: give each a name of its own");
+      }
+  }
+}
+
+void check_meshes(Tokens &w, const WallSettings &s)
+{
+  const bool several = s.meshes.size() > 1;
+  if (s.meshes.size() > kMostMeshes)
+    w.fail("there are " + std::to_string(s.meshes.size()) + " meshes, and at most " +
+           std::to_string(kMostMeshes) +
+           " can be in one fix: put those that never come near one another into one STL file, or "
+           "into another fix");
+  for (std::size_t k = 0; k < s.meshes.size(); k++) {
+    const bool has = s.meshes[k].has_temperature;
+    const std::string of = several ? " of " + name_of_mesh(s, k) : "";
+    w.expect("temperature", "granular ... heat radius|area ... mesh FILE temperature T|v_NAME");
+    if (s.law.has_heat() && !has)
+      w.fail((several ? "the temperature" + of : "the wall's temperature") +
+             " is missing, which the sub-model heat needs");
+    if (has && !s.law.has_heat())
+      w.fail("a temperature" + of + " is given, but no sub-model heat uses it");
+    check_apart(w, s, k);
+  }
+}
+
+}    // namespace
+
+bool are_one_mesh(const MeshSettings &a, const MeshSettings &b)
+{
+  return a.file == b.file && a.placement == b.placement && a.motion_tokens == b.motion_tokens &&
+         a.servo_tokens == b.servo_tokens;
+}
+
+WallSettings parse_settings(const std::vector<std::string> &tokens)
+{
+  WallSettings settings;
+  Tokens w(tokens);
+  read_law(w, settings);
+  const bool granular = settings.law.style == LawStyle::granular;
+  read_keywords(w, settings, granular);
+  w.expect("fix wall/lsdcd", granular ? granular_syntax() : kLawSyntax);
+  if (settings.meshes[0].file.empty()) w.fail("mesh FILE is missing");
+  check_meshes(w, settings);
+  check_tune(w, settings);
+  return settings;
+}
+
+std::string settings_help()
+{
+  std::string help = std::string("fix ID group wall/lsdcd ") + kLawSyntax + "\n  " +
+                     granular_syntax() + ", of\n" + granular_help() +
+                     "  or, with numbers from a file, " + kMaterialSyntax + "\n  keywords\n";
+  for (const Keyword &row : keywords()) {
+    std::string line = "  " + syntax_of(row);
+    line.resize(std::max<std::size_t>(line.size() + 1, 38), ' ');
+    line += row.help;
+    std::string facts;
+    for (const char *fact : {row.unit, row.range})
+      if (*fact) facts += std::string(fact) + "; ";
+    help += line + " (" + facts + "default " + row.fallback + ")\n";
+  }
+  return help;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,101 @@
+// Input words of fix wall/lsdcd -> WallSettings. One row per keyword.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "motion/motion.h"
+#include "mesh/placement.h"
+#include "output/mesh_image.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// A file written again and again; with '*' in its name, one for each such step.
+struct FileEvery {
+  std::string name;
+  int every = 0;    // steps; 0: no file
+};
+
+// One mesh of a wall: what may differ from mesh to mesh.
+struct MeshSettings {
+  std::string file;
+  Placement placement;
+  std::string placement_tokens;    // for the log: "scale 0.001, move 0 0 1"
+  Real weld = -1;                  // length; < 0: kDefaultWeld of the diagonal
+  bool has_temperature = false;
+  Real temperature = 0;                // where the law has heat
+  std::string temperature_variable;    // its name, where it is a variable
+  SurfaceMotion surface;
+  std::string surface_variable[6];    // in place of its velocity and angular velocity; empty: none
+  WallMotion motion;
+  std::string motion_tokens;    // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
+  std::string servo_tokens;     // "force z 100 vmax 0.1"
+  bool torque_about_mesh = false;
+  Vec3 torque_about = {0, 0, 0};    // length; a point of the box, or of the mesh
+  FileEvery stl;                    // of the mesh where it is
+  FileEvery fields;                 // of numbers per triangle
+  std::string cache_file;           // empty: none
+
+  bool surface_varies() const
+  {
+    for (const std::string &name : surface_variable)
+      if (!name.empty()) return true;
+    return false;
+  }
+};
+
+// The same file, which is always at the same place.
+bool are_one_mesh(const MeshSettings &a, const MeshSettings &b);
+
+struct WallSettings {
+  std::vector<MeshSettings> meshes;
+  ContactLaw law;          // NULLs resolved; hertz stiffnesses still in pressure units
+  std::string law_name;    // its style; with `granular`, all its words
+  Real grid_length = 0;    // length; 0: auto
+  Real rmax = 0;           // length; 0: auto
+  int nearest = 0;         // primitives of wall per cell; 0: all
+  bool exact = false;      // nearest falls back to complete lists
+  Real tune = -1;          // largest error that settings may have; < 0: nothing is tuned
+  bool length_given = false, nearest_given = false, precision_given = false;    // not tuned
+  std::size_t memory_budget = GridSettings().memory_budget;    // bytes, for each mesh
+  Corner corner = Corner::blend;
+  Side side = Side::both;
+  Precision precision = Precision::double_;
+  Wear wear;    // K and H in pressure units
+  Device device = Device::automatic;
+  bool contacts = false;
+  bool periodic = false;
+  bool brief = false;    // one line in the log
+  Draw draw = Draw::edges;
+  int draw_type = 1;    // atom type whose colour the mesh takes
+  bool cut = false;     // dump image leaves out centres with dot(normal, x) > offset
+  Vec3 cut_normal = {0, 0, 0};
+  Real cut_offset = 0;
+
+  // As the engine sees it: meshes can move apart.
+  bool moves() const
+  {
+    for (const MeshSettings &mesh : meshes)
+      if (mesh.motion.any() || mesh.surface_varies()) return true;
+    return meshes.size() > 1;
+  }
+  bool wears() const { return wear.model != WearModel::none; }
+  bool has_loads(const MeshSettings &mesh) const { return wears() || mesh.fields.every > 0; }
+  bool has_loads() const
+  {
+    for (const MeshSettings &mesh : meshes)
+      if (has_loads(mesh)) return true;
+    return false;
+  }
+};
+
+// `words` begin with FSTYLE. Throws InputError that names the word, what was
+// expected and the syntax.
+WallSettings parse_settings(const std::vector<std::string> &tokens);
+
+// The command with every keyword, its unit, range and default; several lines.
+std::string settings_help();
+
+}    // namespace lsdcd

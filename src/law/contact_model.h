@@ -1,0 +1,201 @@
+// A contact law put together from sub-models at compile time. Every law has
+//   Number             the type that it computes in
+//   kHistory           does it keep a ContactMemory<Number, kExtra> per contact?
+//   kVectors, kScalars what of that is beside the shear displacement: vectors, then scalars
+//   kBeyond, pull_off  does it act past touch, and up to what distance at radius 1?
+//   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
+//   evaluate(contact, memory)
+// and where it has what they ask for
+//   keeps(k)           is the k-th of these vectors and scalars kept from step to step?
+//   has_heat()         is there a heat flow?
+// The classic laws, and those of `granular` that most scenes have, have what they need and no more: no
+// instruction and no memory for an effect that is off. What few scenes ask for is in one law, with a
+// branch for each effect: it keeps and exchanges what is on.
+#pragma once
+
+#include "law/submodels/cohesion.h"
+#include "law/contact.h"
+#include "law/submodels/damping.h"
+#include "law/submodels/heat.h"
+#include "law/submodels/normal.h"
+#include "law/submodels/rolling.h"
+#include "law/submodels/tangential.h"
+#include "law/submodels/twisting.h"
+
+namespace lsdcd {
+
+// The classic styles.
+template <class T, template <class> class Normal, template <class> class Damping,
+          template <class> class Tangential>
+struct ContactModel {
+  using Number = T;
+  static constexpr bool kHistory = Tangential<T>::kHistory;
+  static constexpr int kVectors = 0, kScalars = 0, kExtra = 0;
+  static constexpr bool kBeyond = false, kContactTorque = false, kHeat = false;
+
+  Normal<T> elastic;
+  Damping<T> damping;
+  Tangential<T> tangential;
+  bool limit_damping;
+
+  // What the stiffnesses are multiplied by: the contact radius, or 1.
+  LSDCD_FN T scale(const Contact<T> &c) const
+  {
+    return Normal<T>::kSized ? elastic.contact_radius(c) : T(1);
+  }
+
+  LSDCD_FN ContactForce<T> evaluate(const Contact<T> &c, ContactMemory<T, 0> &memory) const
+  {
+    const T scale = this->scale(c);
+    ContactForce<T> out;
+    out.normal = elastic.force(c, scale) + damping.force(c, scale);
+    if (limit_damping && out.normal < 0) out.normal = 0;
+    out.tangential = tangential.force(c, scale, out.normal, memory.shear);
+    out.energy = elastic.energy(c, scale);
+    if constexpr (kHistory) out.energy += tangential.energy(scale, memory.shear);
+    return out;
+  }
+};
+
+// With the formulas of LAMMPS 29Sep2021.
+template <class T>
+using HookeLaw = ContactModel<T, HookeNormal, MassVelocityDamping, LinearNoHistory>;
+template <class T>
+using HookeHistoryLaw = ContactModel<T, HookeNormal, MassVelocityDamping, LinearHistory>;
+template <class T>
+using HertzHistoryLaw = ContactModel<T, HertzNormal, MassVelocityDamping, LinearHistory>;
+
+// Of laws with kContactTorque or kHeat.
+template <class T>
+struct FullForce : ContactForce<T> {
+  Vec3Of<T> contact_torque;    // torque on the sphere that no force at the contact gives
+  T heat;                      // power into the sphere
+};
+
+// A classic style with effects of LIGGGHTS beside it. kHistory_: does it keep anything?
+template <class Base, bool kHistory_>
+struct AddedModel {
+  using Number = typename Base::Number;
+  using T = Number;
+  static constexpr bool kHistory = kHistory_;
+  static constexpr int kVectors = kHistory ? 1 : 0, kScalars = 0, kExtra = 3 * kVectors;
+  static constexpr bool kBeyond = false, kContactTorque = true, kHeat = false;
+
+  Base base;
+  LiggghtsRolling<T> rolling;
+  SjkrCohesion<T> cohesion;
+  T k_tangent;    // per unit of Base::scale()
+
+  LSDCD_FN bool keeps(int) const { return rolling.model == AddedRolling::epsd2; }
+
+  LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
+  {
+    ContactMemory<T, 0> sliding = {memory.shear};
+    FullForce<T> out = {base.evaluate(c, sliding), {0, 0, 0}, 0};
+    memory.shear = sliding.shear;
+    if (rolling.is_on()) {
+      const T scale = base.scale(c);
+      if (rolling.model == AddedRolling::cdt) {
+        out.contact_torque = rolling.cdt(c, base.elastic.force(c, scale));
+      } else if constexpr (kHistory) {
+        out.contact_torque = rolling.epsd2(c, out.normal, scale * k_tangent, memory, 0);
+        out.energy += rolling.energy(c, scale * k_tangent, memory, 0);
+      }
+    }
+    if (cohesion.is_on()) {
+      out.normal -= cohesion.pull(c);
+      out.energy += cohesion.energy(c);
+    }
+    return out;
+  }
+};
+
+// The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026. kFull: with those that few scenes
+// ask for (`mindlin_rescale`, rolling, twisting, heat), each of which may be off.
+template <class T, class Normal, bool kHistory_, bool kFull>
+struct GranularModel {
+  using Number = T;
+  static constexpr bool kHistory = kHistory_;
+  static constexpr int kVectors = kHistory && kFull ? 1 : 0, kScalars = 2 * kVectors;
+  static constexpr int kExtra = 3 * kVectors + kScalars;
+  static constexpr bool kBeyond = Normal::kBeyond;
+  static constexpr bool kContactTorque = kHistory && kFull, kHeat = kFull;
+
+  // Places in ContactMemory::extra.
+  static constexpr int kRolled = 0, kRadius = 3, kTwist = 4;
+
+  Normal elastic;
+  GranularDamping<T> damping;
+  GranularFriction<T> tangential;
+  SdsRolling<T> rolling;
+  SpringTwisting<T> twisting;
+  Conduction<T> conduction;
+  bool sized;    // does anything need the contact radius, though the normal force may not?
+  bool limit_damping;
+
+  LSDCD_FN bool keeps(int k) const
+  {
+    return k == 0 ? rolling.is_on : k == 1 ? tangential.rescale : twisting.is_on();
+  }
+  LSDCD_FN bool has_heat() const { return conduction.is_on(); }
+
+  LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
+  {
+    const T a = sized || elastic.is_sized() ? elastic.contact_radius(c) : T(0);
+    const T f = elastic.force(c, a), gamma = damping.coefficient(c, a, f);
+
+    FullForce<T> out;
+    out.normal = f - gamma * c.v_normal;
+    if (limit_damping && out.normal < 0) out.normal = 0;
+    out.energy = elastic.energy(c, a);
+    const T limit = elastic.limit(c, f, out.normal);
+
+    out.tangential = friction(c, a, gamma, tangential.mu * limit, memory);
+    if constexpr (kHistory) out.energy += tangential.energy(a, memory);
+    out.contact_torque = {0, 0, 0};
+    out.heat = 0;
+    if constexpr (kContactTorque) {
+      if (rolling.is_on) {
+        out.contact_torque += rolling.contact_torque(c, limit, memory, kRolled);
+        out.energy += rolling.energy(memory, kRolled);
+      }
+      if (twisting.is_on()) {
+        const TwistCoefficients<T> t = twisting.coefficients(limit, a, tangential.stiffness(a),
+                                                             tangential.x * gamma, tangential.mu);
+        out.contact_torque += twisting.contact_torque(c, t, memory, kTwist) * c.normal;
+        out.energy += twisting.energy(t, memory, kTwist);
+      }
+    }
+    if constexpr (kHeat)
+      if (has_heat()) out.heat = conduction.flow(c, a);
+    return out;
+  }
+
+ private:
+  LSDCD_FN Vec3Of<T> friction(const Contact<T> &c, T a, T gamma, T limit,
+                              ContactMemory<T, kExtra> &memory) const
+  {
+    if constexpr (!kHistory) {
+      return tangential.slip_force(c, gamma, limit);
+    } else {
+      if constexpr (kFull) {
+        if (!tangential.spring) return tangential.slip_force(c, gamma, limit);
+        if (tangential.rescale) tangential.rescale_spring(a, memory, kRadius);
+      }
+      return tangential.spring_force(c, a, gamma, limit, memory);
+    }
+  }
+};
+
+// Numbers that a law keeps of a contact beside its shear displacement.
+template <class Law>
+LSDCD_FN int n_extra(const Law &law)
+{
+  int n = 0;
+  if constexpr (Law::kExtra > 0)
+    for (int k = 0; k < Law::kVectors + Law::kScalars; k++)
+      if (law.keeps(k)) n += k < Law::kVectors ? 3 : 1;
+  return n;
+}
+
+}    // namespace lsdcd

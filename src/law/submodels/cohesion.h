@@ -1,0 +1,26 @@
+// Cohesion beside a normal law: a pull that acts where the surfaces touch.
+#pragma once
+
+#include "law/contact.h"
+
+namespace lsdcd {
+
+// `sjkr` of LIGGGHTS: k times the area in which a plane cuts the sphere, pi (R^2 - r^2)
+// with the centre's distance r = R - overlap. Friction does not see it.
+template <class T>
+struct SjkrCohesion {
+  T k;    // energy/length^3; 0: off
+
+  LSDCD_FN bool is_on() const { return k > 0; }
+  LSDCD_FN T pull(const Contact<T> &c) const
+  {
+    return T(3.14159265358979323846) * k * c.overlap * (2 * c.radius - c.overlap);
+  }
+  // Of the surfaces that have come together; < 0.
+  LSDCD_FN T energy(const Contact<T> &c) const
+  {
+    return T(-3.14159265358979323846) * k * c.overlap * c.overlap * (c.radius - c.overlap / 3);
+  }
+};
+
+}    // namespace lsdcd

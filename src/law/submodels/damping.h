@@ -1,0 +1,47 @@
+// Normal damping: F = -(coefficient) v_normal.
+#pragma once
+
+#include "law/contact.h"
+#include "law/contact_law.h"
+
+namespace lsdcd {
+
+// The classic styles: coefficient = scale m gamma.
+// gamma: 1/time with HookeNormal, 1/(time length) with HertzNormal.
+template <class T>
+struct MassVelocityDamping {
+  T gamma;
+
+  LSDCD_FN T force(const Contact<T> &c, T scale) const
+  {
+    return -scale * c.mass * gamma * c.v_normal;
+  }
+};
+
+// Those of `granular`; which one is the same for all contacts of a wall.
+template <class T>
+struct GranularDamping {
+  DampingModel model;
+  T eta;
+
+  // mass/time, at a contact of radius a with the elastic force f
+  LSDCD_FN T coefficient(const Contact<T> &c, T a, T f) const
+  {
+    switch (model) {
+      case DampingModel::velocity:
+        return eta;
+      case DampingModel::mass_velocity:
+        return eta * c.mass;
+      case DampingModel::viscoelastic:
+        return eta * c.mass * a;
+      case DampingModel::stiffness: {    // per root of mass times secant stiffness
+        const T stiffness = c.mass * f / c.overlap;
+        return stiffness > 0 ? eta * sqrt(stiffness) : T(0);
+      }
+      default:
+        return 0;
+    }
+  }
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,23 @@
+// Heat that a contact conducts from the wall into the sphere.
+#pragma once
+
+#include "law/contact.h"
+#include "law/contact_law.h"
+
+namespace lsdcd {
+
+// `radius`: 2 k a dT (Vargas and McCarthy 2001); `area`: h pi a^2 dT. Power.
+template <class T>
+struct Conduction {
+  HeatModel model;
+  T conductance;    // power/(length temperature), power/(length^2 temperature)
+
+  LSDCD_FN bool is_on() const { return model != HeatModel::none; }
+  LSDCD_FN T flow(const Contact<T> &c, T a) const
+  {
+    const T per_kelvin = model == HeatModel::area ? T(3.14159265358979323846) * a * a : 2 * a;
+    return conductance * per_kelvin * c.wall_warmer;
+  }
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,143 @@
+// Normal elasticity: the force that an overlap gives, and the size of the contact.
+// Each has
+//   contact_radius(c)   length
+//   force(c, a)         elastic force, > 0 where it pushes
+//   energy(c, a)        what is held
+// with a the contact radius, which a law computes only where something needs it.
+#pragma once
+
+#include "base/cube_root.h"
+#include "law/contact.h"
+#include "law/contact_law.h"
+
+namespace lsdcd {
+
+// How far from its centre a sphere feels the wall; `pull_off` is that of radius 1 and
+// greater than 0 only for adhesion that acts past touch.
+LSDCD_FN Real cutoff_of(Real radius, Real pull_off)
+{
+  return pull_off > 0 ? radius + pull_off * cube_root(radius) : radius;
+}
+
+// ---- the classic styles ------------------------------------------------------------------
+
+// Linear spring. k: force/length.
+template <class T>
+struct HookeNormal {
+  static constexpr bool kSized = false;    // does force() use a?
+  T k;
+
+  LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
+  LSDCD_FN T force(const Contact<T> &c, T) const { return k * c.overlap; }
+  LSDCD_FN T energy(const Contact<T> &c, T) const { return T(0.5) * k * c.overlap * c.overlap; }
+};
+
+// Hertz: F = k a overlap, a = sqrt(R overlap). k: force/length^2, 4/3 of the modulus.
+template <class T>
+struct HertzNormal {
+  static constexpr bool kSized = true;
+  T k;
+
+  LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
+  LSDCD_FN T force(const Contact<T> &c, T a) const { return a * k * c.overlap; }
+  LSDCD_FN T energy(const Contact<T> &c, T a) const
+  {
+    return T(0.4) * k * a * c.overlap * c.overlap;
+  }
+};
+
+// ---- the sub-models of `granular` --------------------------------------------------------
+// Each also has limit(c, f, normal): the force that friction is proportional to, where the elastic
+// force is f and the one with damping `normal`. What pulls holds the surfaces together also where the
+// forces cancel.
+
+// `hooke`, `hertz` and `dmt`: one kernel for the three, as the choice is the same for all contacts of a
+// wall. DMT (Derjaguin, Muller and Toporov 1975) is Hertz less a constant pull 4 pi gamma R while the
+// spheres touch.
+template <class T>
+struct TouchingNormal {
+  static constexpr bool kBeyond = false;    // does it act past touch?
+  NormalModel model;
+  T k;       // force/length (hooke), force/length^2
+  T pull;    // 4 pi gamma, force/length; 0 but for dmt
+
+  LSDCD_FN bool is_sized() const { return model != NormalModel::hooke; }    // does force() use a?
+  LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
+  LSDCD_FN T force(const Contact<T> &c, T a) const
+  {
+    if (!is_sized()) return k * c.overlap;
+    return a * k * c.overlap - pull * c.radius;
+  }
+  LSDCD_FN T limit(const Contact<T> &c, T f, T normal) const
+  {
+    return fabs(model == NormalModel::dmt ? f + 2 * pull * c.radius : normal);
+  }
+  LSDCD_FN T energy(const Contact<T> &c, T a) const
+  {
+    if (!is_sized()) return T(0.5) * k * c.overlap * c.overlap;
+    return T(0.4) * k * a * c.overlap * c.overlap - pull * c.radius * c.overlap;
+  }
+};
+
+// `jkr` (Johnson, Kendall and Roberts 1971). The contact radius solves
+//   overlap = a^2/R - 2 sqrt(pi gamma a/E),
+// and the force is 4 E a^3/(3 R) - 4 sqrt(pi gamma E a^3). What has touched holds until
+// the pull is greatest, 3 pi gamma R, at an overlap of -(3 pi^2 gamma^2 R/(16 E^2))^(1/3).
+template <class T>
+struct JkrNormal {
+  static constexpr bool kBeyond = true;
+  T modulus, cohesion;
+  T root;           // sqrt(pi gamma E)
+  T size;           // (4 pi gamma/E)^(1/3): a = size R^(2/3) y^2 with y = 1 at overlap 0
+  Real pull_off;    // for a radius of 1; length^(2/3)
+
+  JkrNormal(T modulus_, T cohesion_) : modulus(modulus_), cohesion(cohesion_)
+  {
+    const Real ratio = Real(cohesion_) / Real(modulus_), pi = 3.14159265358979323846;
+    root = static_cast<T>(sqrt(pi * Real(cohesion_) * Real(modulus_)));
+    size = static_cast<T>(cube_root(4 * pi * ratio));
+    pull_off = cube_root(3 * pi * pi * ratio * ratio / 16);
+  }
+
+  LSDCD_FN bool is_sized() const { return true; }
+
+  // With a = s y^2, s = size R^(2/3), the overlap is y^4 - y in units of s^2/R. Newton's
+  // method from above: the left side is convex and rises for y > 4^(-1/3) = 0.63, and
+  // contacts hold down to y = (3/4)^(1/3) = 0.91.
+  LSDCD_FN T contact_radius(const Contact<T> &c) const
+  {
+    const T cube = static_cast<T>(cube_root(c.radius)), s = size * cube * cube;
+    const T unit = s * s / c.radius;
+    if (!(unit > 0)) return sqrt(c.overlap > 0 ? c.overlap * c.radius : T(0));
+    const T q = c.overlap / unit;
+    // Two bounds from above, of which one is near for small and one for large q.
+    T y = 1;
+    if (q > 0) {
+      const T small = 1 + q / 3, large = 1 + sqrt(sqrt(q));
+      y = small < large ? small : large;
+    }
+    for (int k = 0; k < 6; k++) {
+      const T cubed = y * y * y;
+      y -= (y * cubed - y - q) / (4 * cubed - 1);
+    }
+    return s * y * y;
+  }
+  LSDCD_FN T force(const Contact<T> &c, T a) const
+  {
+    return T(4) / 3 * modulus * a * a * a / c.radius - 4 * root * a * sqrt(a);
+  }
+  LSDCD_FN T limit(const Contact<T> &c, T f, T) const
+  {
+    return fabs(f + T(6 * 3.14159265358979323846) * cohesion * c.radius);
+  }
+  // Of the bodies and of the surface that the contact has done away with.
+  LSDCD_FN T energy(const Contact<T> &c, T a) const
+  {
+    const T cubed = a * a * a, per_radius = 1 / c.radius;
+    return T(8) / 15 * modulus * cubed * a * a * per_radius * per_radius -
+           T(8) / 3 * root * cubed * sqrt(a) * per_radius +
+           T(2 * 3.14159265358979323846) * cohesion * a * a;
+  }
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,112 @@
+// Tangential friction, with and without a spring, limited by Coulomb's law.
+#pragma once
+
+#include "law/contact.h"
+
+namespace lsdcd {
+
+// Friction that grows with the slip up to `limit`; `viscous`: force time/length.
+template <class T>
+LSDCD_FN Vec3Of<T> viscous_friction(const Vec3Of<T> &v_tangent, T viscous, T limit)
+{
+  const T speed = norm(v_tangent);
+  if (!(speed > 0)) return {0, 0, 0};
+  const T drag = viscous * speed;
+  return (-(drag < limit ? drag : limit) / speed) * v_tangent;
+}
+
+// ---- the classic styles ------------------------------------------------------------------
+
+// Viscous friction up to mu |F_normal| (`hooke`).
+template <class T>
+struct LinearNoHistory {
+  static constexpr bool kHistory = false;
+  T gamma, mu;
+
+  LSDCD_FN Vec3Of<T> force(const Contact<T> &c, T, T f_normal, Vec3Of<T> &) const
+  {
+    return viscous_friction(c.v_tangent, c.mass * gamma, mu * fabs(f_normal));
+  }
+  LSDCD_FN T energy(T, const Vec3Of<T> &) const { return 0; }
+};
+
+// A spring and a dashpot in the tangent plane; where they exceed mu |F_normal|
+// the spring is cut back to what the limit allows (`*/history`; Silbert et al.
+// 2001). `shear displacement` is moved with the contact where c.update is set.
+template <class T>
+struct LinearHistory {
+  static constexpr bool kHistory = true;
+  T k, gamma, mu;
+
+  LSDCD_FN Vec3Of<T> force(const Contact<T> &c, T scale, T f_normal, Vec3Of<T> &shear) const
+  {
+    if (c.update) shear += c.dt * c.v_tangent;
+    const T stretched = norm(shear);
+    if (c.update) shear -= dot(shear, c.normal) * c.normal;
+
+    const Vec3Of<T> viscous = (c.mass * gamma) * c.v_tangent;
+    const Vec3Of<T> f = -scale * (k * shear + viscous);
+    const T size = norm(f), limit = mu * fabs(f_normal);
+    if (!(size > limit)) return f;
+    if (!(stretched > 0)) return {0, 0, 0};
+    const T part = limit / size;
+    if (c.update && k > 0) shear = part * (shear + (1 / k) * viscous) - (1 / k) * viscous;
+    return part * f;
+  }
+  LSDCD_FN T energy(T scale, const Vec3Of<T> &shear) const
+  {
+    return T(0.5) * scale * k * norm_sq(shear);
+  }
+};
+
+// ---- the sub-models of `granular` --------------------------------------------------------
+// a: the contact's radius. `damping`: the normal damping's coefficient (mass/time).
+
+// `linear_nohistory` without a spring, else `linear_history`, and where `sized` `mindlin`: the
+// stiffness goes with the contact radius. `shear displacement` is the displacement, or the spring's
+// force where `of_force`. With `rescale` it shrinks with the contact as that unloads (Thornton et al.
+// 2013), which takes the radius of the step before.
+template <class T>
+struct GranularFriction {
+  T k, x, mu;    // k: 0 where there is no spring
+  bool spring, sized, of_force, rescale;
+
+  LSDCD_FN T stiffness(T a) const { return sized ? k * a : k; }
+  LSDCD_FN Vec3Of<T> slip_force(const Contact<T> &c, T damping, T limit) const
+  {
+    return viscous_friction(c.v_tangent, x * damping, limit);
+  }
+  // The contact has the radius a, and in the step before had that of the scalar `at`.
+  template <class Memory>
+  LSDCD_FN void rescale_spring(T a, Memory &m, int at) const
+  {
+    if (a < m.extra[at]) m.shear = (a / m.extra[at]) * m.shear;
+    m.extra[at] = a;
+  }
+  template <class Memory>
+  LSDCD_FN Vec3Of<T> spring_force(const Contact<T> &c, T a, T damping, T limit, Memory &m) const
+  {
+    const T stiff = stiffness(a);
+    if (c.update) m.shear += (of_force ? -stiff * c.dt : c.dt) * c.v_tangent;
+
+    const Vec3Of<T> viscous = (-x * damping) * c.v_tangent;
+    const Vec3Of<T> f = (of_force ? m.shear : -stiff * m.shear) + viscous;
+    const T size = norm(f);
+    if (!(size > limit)) return f;
+    if (!(norm_sq(m.shear) > 0)) return {0, 0, 0};
+    const Vec3Of<T> cut = (limit / size) * f;
+    if (of_force)
+      m.shear = cut - viscous;
+    else if (stiff > 0)
+      m.shear = (-1 / stiff) * (cut - viscous);
+    return cut;
+  }
+  template <class Memory>
+  LSDCD_FN T energy(T a, const Memory &m) const
+  {
+    const T stiff = stiffness(a), sq = norm_sq(m.shear);
+    return of_force ? (stiff > 0 ? T(0.5) * sq / stiff : T(0)) : T(0.5) * stiff * sq;
+  }
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,55 @@
+// Twisting resistance: a contact torque against the turning of a sphere on the spot.
+#pragma once
+
+#include "law/contact.h"
+#include "law/contact_law.h"
+
+namespace lsdcd {
+
+// What resists a twist at one contact.
+template <class T>
+struct TwistCoefficients {
+  T k, gamma, limit;    // torque/angle, torque time/angle, torque
+};
+
+// `sds` and `marshall`: spring, dashpot and slider (Marshall 2009, equations 30 to 44).
+// The angle is the scalar `at` of the memory. `marshall` takes its coefficients from the
+// tangential ones and the contact radius.
+template <class T>
+struct SpringTwisting {
+  TwistingModel model;
+  T k, gamma, mu;    // torque/angle, torque time/angle, length; not for marshall
+
+  LSDCD_FN bool is_on() const { return model != TwistingModel::none; }
+  LSDCD_FN TwistCoefficients<T> coefficients(T limit_force, T a, T k_tangent, T gamma_tangent,
+                                             T mu_tangent) const
+  {
+    if (model != TwistingModel::marshall) return {k, gamma, mu * limit_force};
+    const T half_sq = T(0.5) * a * a;
+    return {half_sq * k_tangent, half_sq * gamma_tangent, T(2) / 3 * a * mu_tangent * limit_force};
+  }
+
+  // The contact torque about the normal.
+  template <class Memory>
+  LSDCD_FN T contact_torque(const Contact<T> &c, const TwistCoefficients<T> &t, Memory &m,
+                            int at) const
+  {
+    const T rate = dot(c.omega, c.normal);
+    T angle = m.extra[at];
+    if (c.update) angle += c.dt * rate;
+    T contact_torque = -t.k * angle - t.gamma * rate;
+    if (fabs(contact_torque) > t.limit) {
+      contact_torque = rate > 0 ? -t.limit : (rate < 0 ? t.limit : T(0));
+      if (t.k > 0) angle = (-contact_torque - t.gamma * rate) / t.k;
+    }
+    m.extra[at] = angle;
+    return contact_torque;
+  }
+  template <class Memory>
+  LSDCD_FN T energy(const TwistCoefficients<T> &t, const Memory &m, int at) const
+  {
+    return T(0.5) * t.k * m.extra[at] * m.extra[at];
+  }
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,183 @@
+#include "base/input_error.h"
+#include "mesh/io/read_stl_text.h"
+#include "mesh/triangle_soup.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+namespace lsdcd {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 84;     // 80 of text, 4 of facet count
+constexpr std::size_t kFacetBytes = 50;      // normal, 3 corners, 2 bytes of attributes
+constexpr std::size_t kBeginning = 65536;    // read first, and looked at before the rest
+
+// STL is little-endian and unaligned whatever the machine is.
+std::uint32_t read_u32(const char *bytes)
+{
+  const auto *b = reinterpret_cast<const unsigned char *>(bytes);
+  return std::uint32_t{b[0]} | std::uint32_t{b[1]} << 8 | std::uint32_t{b[2]} << 16 |
+         std::uint32_t{b[3]} << 24;
+}
+
+float read_f32(const char *bytes)
+{
+  const std::uint32_t bits = read_u32(bytes);
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+std::uint64_t promised_facets(const char *bytes)
+{
+  return read_u32(bytes + kHeaderBytes - 4);
+}
+
+// A byte that no text holds, near the beginning.
+bool has_control_byte(const char *bytes, std::size_t size)
+{
+  return std::any_of(bytes, bytes + std::min<std::size_t>(size, 1024), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 && !(c >= '\t' && c <= '\r') && c != 0x1a;
+  });
+}
+
+// A header may say anything, "solid" too, so the size decides first. What fits
+// neither kind is damaged; it is read as what it most resembles, for the message.
+bool is_binary(const char *bytes, std::size_t size)
+{
+  if (size >= kHeaderBytes && size - kHeaderBytes == kFacetBytes * promised_facets(bytes))
+    return true;
+  return !begins_as_stl_text(bytes, size) && has_control_byte(bytes, size);
+}
+
+void check_binary_size(const char *bytes, std::size_t size, const std::string &source)
+{
+  if (size < kHeaderBytes)
+    throw InputError(source + ", facet 1: the file ends after " + std::to_string(size) +
+                     " bytes, inside the header of 84 of a binary STL; it is truncated: "
+                     "copy or export it again");
+  const std::uint64_t promised = promised_facets(bytes);
+  const std::uint64_t whole = (size - kHeaderBytes) / kFacetBytes;
+  const std::string count = std::to_string(promised) + " facets promised";
+  if (whole < promised)
+    throw InputError(source + ", facet " + std::to_string(whole + 1) + ": the file ends after " +
+                     std::to_string(size) + " bytes, with " + count + " (" +
+                     std::to_string(kHeaderBytes + kFacetBytes * promised) +
+                     " bytes); it is truncated or not an STL: copy or export it again");
+  const std::uint64_t extra = size - kHeaderBytes - kFacetBytes * promised;
+  if (extra > 0)
+    throw InputError(source + ", facet " + std::to_string(promised + 1) + ": " + count +
+                     " by the header, but " + std::to_string(extra) +
+                     " bytes follow them; correct the count (bytes 81 to 84) or, if it is not "
+                     "an STL, export the mesh again");
+}
+
+void read_binary(const char *bytes, TriangleSoup &soup)
+{
+  const std::uint64_t n = promised_facets(bytes);
+  soup.corners.resize(3 * n);    // the file is known to be that long
+  for (std::uint64_t facet = 0; facet < n; ++facet) {
+    const char *at = bytes + kHeaderBytes + kFacetBytes * facet + 12;    // past the normal
+    for (int i = 0; i < 9; ++i) {
+      const float value = read_f32(at + 4 * i);
+      if (!std::isfinite(value))
+        throw InputError(soup.source + ", facet " + std::to_string(facet + 1) + ": coordinate " +
+                         "xyz"[i % 3] + " of vertex " + std::to_string(i / 3 + 1) + " is " +
+                         std::to_string(value) +
+                         ", not a finite number; repair or export the mesh again");
+      soup.corners[3 * facet + i / 3][i % 3] = value;
+    }
+  }
+}
+
+// What `size` bytes that begin with these cannot be, told before the rest of them is read.
+void check_beginning(const char *bytes, std::size_t n, std::size_t size, const std::string &source)
+{
+  if (size - kHeaderBytes == kFacetBytes * promised_facets(bytes)) return;
+  if (has_control_byte(bytes, n)) {
+    if (!begins_as_stl_text(bytes, n)) check_binary_size(bytes, size, source);
+  } else if (!begins_with_solid(bytes, n)) {
+    TriangleSoup none;
+    none.source = source;
+    read_stl_text(bytes, n, none);
+  }
+}
+
+struct Bytes {
+  std::unique_ptr<char[]> data;    // not a vector: nothing to clear
+  std::size_t size = 0;
+};
+
+Bytes read_whole(const std::string &path)
+{
+  const auto fail = [&](const char *why) {
+    return InputError(path + ": cannot read the mesh: " + why +
+                      "; give the path of an STL file that this user can read");
+  };
+  std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rb"),
+                                                        std::fclose);
+  if (!file) throw fail(std::strerror(errno));
+  struct stat info;
+  if (fstat(fileno(file.get()), &info) != 0) throw fail(std::strerror(errno));
+  if (S_ISDIR(info.st_mode)) throw fail("it is a directory");
+  if (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode)) throw fail("it is a device");
+
+  // The size is a hint: a pipe has none, and a file may grow while it is read.
+  std::size_t capacity = kBeginning, most = std::numeric_limits<std::size_t>::max();
+  const std::size_t size = static_cast<std::size_t>(std::max<off_t>(info.st_size, 0));
+  Bytes bytes{std::unique_ptr<char[]>(new char[capacity])};
+  for (;;) {
+    bytes.size += std::fread(bytes.data.get() + bytes.size, 1, capacity - bytes.size, file.get());
+    if (std::ferror(file.get())) throw fail(std::strerror(errno));
+    if (bytes.size < capacity || bytes.size == most) return bytes;
+    if (capacity == kBeginning) {
+      const char *begin = bytes.data.get();
+      const bool is_text =
+          begins_as_stl_text(begin, capacity) || !has_control_byte(begin, capacity);
+      // Of a pipe of a binary STL what that promises, and one byte, which is one too many.
+      if (size == 0 && !is_text)
+        most = std::max(capacity, kHeaderBytes + kFacetBytes * promised_facets(begin) + 1);
+      else if (size == 0 || size > capacity)
+        check_beginning(begin, capacity, std::max(size, capacity), path);
+    }
+    capacity = std::min(std::max(2 * capacity, size + 1), most);
+    std::unique_ptr<char[]> larger(new char[capacity]);
+    std::memcpy(larger.get(), bytes.data.get(), bytes.size);
+    bytes.data = std::move(larger);
+  }
+}
+
+}    // namespace
+
+TriangleSoup read_stl(const std::string &path)
+{
+  const Bytes bytes = read_whole(path);
+  return read_stl_bytes(bytes.data.get(), bytes.size, path);
+}
+
+TriangleSoup read_stl_bytes(const char *bytes, std::size_t size, const std::string &source)
+{
+  TriangleSoup soup;
+  soup.source = source;
+  if (size == 0) throw InputError(source + ", line 1: the file is empty; export the mesh again");
+  if (is_binary(bytes, size)) {
+    check_binary_size(bytes, size, source);
+    read_binary(bytes, soup);
+  } else {
+    read_stl_text(bytes, size, soup);
+  }
+  if (soup.corners.empty())
+    throw InputError(source + ", facet 1: the file holds no facets; export the mesh again, with "
+                              "its triangles");
+  return soup;
+}
+
+}    // namespace lsdcd

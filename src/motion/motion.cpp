@@ -1,0 +1,200 @@
+#include "motion/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+constexpr Real kTwoPi = 6.28318530717958647692;
+
+// Of the angle 2 pi t/period, exact at whole quarters. A timestep is a double: its products are
+// uncertain by 2^-53 of themselves, and what that alone parts from a quarter is one.
+void sine_cosine(Time t, Real period, Real &sine, Real &cosine)
+{
+  const Time turns = std::fmod(t, Time(period)) / period;    // fmod is exact
+  const Time quarters = std::floor(4 * turns + Time(0.5));
+  Time rest = turns - quarters / 4;
+  constexpr Time kUncertain = 2.3e-16L;
+  if (std::fabs(rest) <= kUncertain * std::fabs(t / period)) rest = 0;
+  const Real angle = kTwoPi * static_cast<Real>(rest);
+  const Real s = rest == 0 ? 0 : std::sin(angle), c = rest == 0 ? 1 : std::cos(angle);
+  const int quarter = (static_cast<int>(quarters) + 8) % 4;
+  const Real turned[] = {s, c, -s, -c};
+  sine = turned[quarter];
+  cosine = turned[(quarter + 1) % 4];
+}
+
+struct Rotation {
+  Vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+  Vec3 operator()(const Vec3 &a) const { return {dot(row[0], a), dot(row[1], a), dot(row[2], a)}; }
+};
+
+Rotation rotation(const Vec3 &k, Real s, Real c)
+{
+  Rotation r;
+  if (s == 0 && c == 1) return r;
+  const Real d = 1 - c;
+  r.row[0] = {c + d * k.x * k.x, d * k.x * k.y - s * k.z, d * k.x * k.z + s * k.y};
+  r.row[1] = {d * k.y * k.x + s * k.z, c + d * k.y * k.y, d * k.y * k.z - s * k.x};
+  r.row[2] = {d * k.z * k.x - s * k.y, d * k.z * k.y + s * k.x, c + d * k.z * k.z};
+  return r;
+}
+
+// What is placed turns about an axis with sine s and cosine c, and goes on at the speed `omega`.
+void turn(WallPose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, Real omega)
+{
+  const Rotation turned = rotation(axis, s, c);
+  const Vec3 angular = omega * axis;
+  Vec3 row[3] = {};
+  for (int j = 0; j < 3; j++) {    // columns of the product
+    const Vec3 column = turned({pose.row[0][j], pose.row[1][j], pose.row[2][j]});
+    for (int i = 0; i < 3; i++) row[i][j] = column[i];
+  }
+  std::copy(row, row + 3, pose.row);
+  const Vec3 to_arm = cross(angular, turned(pose.shift - point)), v = turned(pose.velocity),
+             w = turned(pose.angular);
+  pose.shift = turned(pose.shift) + (point - turned(point));
+  pose.acceleration = turned(pose.acceleration) + cross(angular, 2 * v + to_arm);
+  pose.spin_up = turned(pose.spin_up) + cross(angular, w);
+  pose.velocity = v + to_arm;
+  pose.angular = w + angular;
+}
+
+// A term's displacement and its derivative.
+void shift_of(const MotionTerm &m, Time t, Vec3 &shift, Vec3 &velocity)
+{
+  Real s, c;
+  const Real omega = m.period > 0 ? kTwoPi / m.period : 0;
+  switch (m.kind) {
+    case MotionKind::wiggle:
+      sine_cosine(t, m.period, s, c);
+      shift = s * m.amplitude;
+      velocity = omega * c * m.amplitude;
+      return;
+    case MotionKind::cosine:
+      sine_cosine(t, m.period, s, c);
+      shift = m.amplitude - c * m.amplitude;
+      velocity = omega * s * m.amplitude;
+      return;
+    case MotionKind::variable:
+      shift = m.displacement;
+      velocity = m.speed;
+      return;
+    default:
+      for (int d = 0; d < 3; d++) shift[d] = static_cast<Real>(m.velocity[d] * t);
+      velocity = m.velocity;
+  }
+}
+
+}    // namespace
+
+Vec3 unit_vector(const Vec3 &a)
+{
+  const Real largest = std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
+  const Vec3 scaled = {a.x / largest, a.y / largest, a.z / largest};
+  const Real length = norm(scaled);
+  return {scaled.x / length, scaled.y / length, scaled.z / length};
+}
+
+void WallMotion::begin_from(const WallPose &pose)
+{
+  const WallPose at_home;
+  start_ = pose.still();
+  start_.placed = !(pose.row[0] == at_home.row[0] && pose.row[1] == at_home.row[1] &&
+                    pose.row[2] == at_home.row[2] && pose.shift == at_home.shift);
+}
+
+// Each term maps x to R (x - point) + point + shift; R is 1 where it does not turn.
+WallPose WallMotion::terms_at(Time t) const
+{
+  WallPose pose = start_;
+  if (moves()) pose.placed = true;
+  for (const MotionTerm &m : terms_) {
+    Vec3 shift, velocity;
+    shift_of(m, t, shift, velocity);
+    if (m.turns()) {
+      Real s, c;
+      sine_cosine(t, m.period, s, c);
+      turn(pose, m.point, m.axis, s, c, kTwoPi / m.period);
+    }
+    pose.shift += shift;
+    pose.velocity += velocity;
+  }
+  return pose;
+}
+
+WallPose WallMotion::pose_at(Time t) const
+{
+  WallPose pose = terms_at(t);
+  const Servo &s = servo_;
+  if (!s.present) return pose;
+  pose.placed = true;
+  if (s.turns) {
+    turn(pose, s.point, s.axis, std::sin(s.position), std::cos(s.position), s.velocity);
+  } else {
+    pose.shift += s.position * s.axis;
+    pose.velocity += s.velocity * s.axis;
+  }
+  return pose;
+}
+
+Real WallMotion::longest_period() const
+{
+  Real longest = 0;
+  for (const MotionTerm &m : terms_) longest = std::max(longest, m.period);
+  return longest;
+}
+
+bool WallMotion::keeps(const Vec3 &direction) const
+{
+  // Parallel and perpendicular to rounding: axes are unit vectors.
+  constexpr Real kRounding = 1e-12;
+  const auto crosses = [&](const Vec3 &v) {
+    return std::fabs(dot(v, direction)) > kRounding * norm(v);
+  };
+  if (norm(start_.turn_to_box(direction) - direction) > kRounding || crosses(start_.shift))
+    return false;
+  if (servo_.present &&
+      (servo_.turns ? norm(cross(servo_.axis, direction)) > kRounding : crosses(servo_.axis)))
+    return false;
+  for (const MotionTerm &m : terms_) {
+    if (m.turns() && norm(cross(m.axis, direction)) > kRounding) return false;
+    if (crosses(m.velocity) || crosses(m.amplitude)) return false;
+    for (int d = 0; m.kind == MotionKind::variable && d < 3; d++)
+      if (!m.name[d].empty() && direction[d] != 0) return false;
+  }
+  return true;
+}
+
+// What a rigid motion does to a point is affine in it, so its size is largest at a corner.
+Real farthest_between(const WallPose &a, const WallPose &b, const Box &box)
+{
+  Real most = 0;
+  for_corners(box, [&](const Vec3 &x) { most = std::max(most, norm(b.to_box(x) - a.to_box(x))); });
+  return most;
+}
+
+Real fastest_in(const WallPose &pose, const Box &box)
+{
+  Real most = 0;
+  for_corners(box, [&](const Vec3 &x) { most = std::max(most, norm(pose.velocity_in_mesh(x))); });
+  return most;
+}
+
+Box placed_bounds(const WallPose &pose, const Box &box)
+{
+  Box around = {pose.to_box(box.lo), pose.to_box(box.lo)};
+  for_corners(box, [&](const Vec3 &x) {
+    const Vec3 at = pose.to_box(x);
+    for (int d = 0; d < 3; d++) {
+      around.lo[d] = std::min(around.lo[d], at[d]);
+      around.hi[d] = std::max(around.hi[d], at[d]);
+    }
+  });
+  return around;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,83 @@
+// How a mesh moves as a rigid body: terms in the words of LAMMPS's fix move, one acting on what
+// the ones before it have placed, and last a servo.
+#pragma once
+
+#include "mesh/periodic_box.h"
+#include "motion/servo.h"
+#include "motion/wall_pose.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// A product of 1e9 steps and a timestep is exact to 2^-64 of itself here.
+using Time = long double;
+
+// cosine: `wiggle` of fix wall/gran, which begins at rest: x + A (1 - cos(2 pi t/period)).
+enum class MotionKind { linear, wiggle, cosine, rotate, transrot, variable };
+
+struct MotionTerm {
+  MotionKind kind = MotionKind::linear;
+  Vec3 velocity = {0, 0, 0};     // length/time; of linear and transrot
+  Vec3 amplitude = {0, 0, 0};    // length; of wiggle and cosine
+  Vec3 point = {0, 0, 0};        // length; the axis passes through it at time 0
+  Vec3 axis = {0, 0, 1};         // right-handed, unit
+  Real period = 0;               // time; 0: nothing repeats
+  // Equal-style variables of the displacement (x, y, z) and its velocity; empty: none. Their
+  // values are filled in before a pose is asked for.
+  std::string name[6];
+  Vec3 displacement = {0, 0, 0}, speed = {0, 0, 0};
+
+  bool turns() const { return kind == MotionKind::rotate || kind == MotionKind::transrot; }
+};
+
+// A direction that is not zero, as a unit vector; (0, 0, a) becomes exactly (0, 0, 1).
+Vec3 unit_vector(const Vec3 &a);
+
+class WallMotion {
+ public:
+  // What the terms act on. Length, and at rest.
+  void begin_from(const WallPose &pose);
+  const WallPose &start() const { return start_; }
+
+  void add(const MotionTerm &term) { terms_.push_back(term); }
+  void stop() { terms_.clear(); }
+  std::vector<MotionTerm> &terms() { return terms_; }
+  const std::vector<MotionTerm> &terms() const { return terms_; }
+
+  // Acts on what all terms have placed.
+  Servo &servo() { return servo_; }
+  const Servo &servo() const { return servo_; }
+
+  bool moves() const { return !terms_.empty(); }
+  // false: the mesh is as its file has it
+  bool any() const { return moves() || servo_.present || start_.placed; }
+
+  // What the terms give at time t since they began. Computed from t and nothing else (and from the values of
+  // variables), so that it is as exact after 1e9 steps as after one. After a whole number of
+  // periods a term gives the bits that it began with; a time that rounding parts from such a
+  // number, and no more, counts as one.
+  WallPose terms_at(Time t) const;
+  // The same with the servo where it is now.
+  WallPose pose_at(Time t) const;
+
+  Real longest_period() const;    // 0: no term has one
+
+  // Does it leave places along this unit vector as they are, and turn about nothing but it?
+  bool keeps(const Vec3 &direction) const;
+
+ private:
+  WallPose start_;
+  std::vector<MotionTerm> terms_;
+  Servo servo_;
+};
+
+// The largest distance between where two poses put a point of this box, in the mesh's frame.
+Real farthest_between(const WallPose &a, const WallPose &b, const Box &box);
+// The largest speed of a point of it.
+Real fastest_in(const WallPose &pose, const Box &box);
+// The box around it where the pose puts it.
+Box placed_bounds(const WallPose &pose, const Box &box);
+
+}    // namespace lsdcd
