@@ -182,7 +182,7 @@ class FixWallLsdcd : public Fix {
   void ask_for_most_room();
   const double *restart_row(int, int);
 
-  // fix_wall_lsdcd_build.cpp, _tune.cpp
+  // fix_wall_lsdcd_build.cpp
   lsdcd::EngineSettings engine_settings() const;
   void make_engine();
   void make_engine_anew();
@@ -190,7 +190,6 @@ class FixWallLsdcd : public Fix {
   void update_cutoff();
   void follow_box();
   void rebuild(double);
-  void tune(double);
 
   // fix_wall_lsdcd_motion.cpp
   void begin_motion(MeshPart &);

@@ -31,10 +31,10 @@ void FixWallLsdcd::springs_to_engine()
   springs_are = Where::engine;
 }
 
-// Tuning makes another engine, and springs of a restart file are checked on the host.
+// Springs of a restart file are checked on the host.
 void FixWallLsdcd::prepare_springs()
 {
-  if (!springs_checked || (settings.tune >= 0 && cutoff() == 0)) springs_to_host();
+  if (!springs_checked) springs_to_host();
 }
 
 void FixWallLsdcd::grow_arrays(int nmax)

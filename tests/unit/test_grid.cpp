@@ -674,5 +674,17 @@ TEST(grid, position_that_is_not_a_number_touches_nothing)
   }
 }
 
+TEST(grid_length, that_may_coarsen_does_where_the_budget_asks_for_it)
+{
+  const WallMesh mesh = weld(cylinder_mesh(60, 25, 1, 2.5), -1);
+  GridSettings settings;
+  settings.cutoff = 0.1;
+  settings.length = 0.01;
+  settings.memory_budget = 2 << 20;
+  EXPECT_THROW(build_grid(mesh, settings, test_on_cuda()), InputError);
+  settings.may_coarsen = true;
+  EXPECT_GT(build_grid(mesh, settings, test_on_cuda()).length, 0.01);
+}
+
 }    // namespace
 }    // namespace lsdcd
