@@ -88,9 +88,6 @@ struct GridSettings {
   bool may_coarsen = false;    // a length that is given may grow too, until the budget holds
   // Where centres of spheres can be. The grid is cut off there.
   Box within = kNoLimit;
-  // Only the bricks that meet one of these, for trials of a grid; empty: all bricks. A
-  // query elsewhere finds nothing.
-  std::vector<Box> only;
   std::string length_name = "grid";    // of `length`, for messages: what the caller calls it
   // Told how far a build is, between its parts and on a CPU within them, by the thread that asked.
   std::function<void(const std::string &)> progress;

@@ -36,8 +36,7 @@ void compare(const WallMesh &mesh, const GridSettings &settings)
   const TriangleGrid grid = build_grid(mesh, settings);
   const double entries = double(grid.report.lists.candidates);
   const GridPlan plan = plan_grid(mesh, settings);
-  const ListEstimate about =
-      estimate_lists(grid.wall, plan, settings.nearest > 0, bricks_that_meet(plan, settings.only));
+  const ListEstimate about = estimate_lists(grid.wall, plan, settings.nearest > 0);
   ASSERT_GT(about.least_entries, 0);
   // Four standard errors on each side; the numbers are the same in every run.
   EXPECT_LE(about.least_entries, entries);
@@ -73,13 +72,6 @@ TEST(BuildEstimate, entries_of_a_fine_mesh_are_as_estimated)
 TEST(BuildEstimate, entries_of_lists_of_every_triangle_are_as_estimated)
 {
   compare(weld(cylinder_mesh(200, 99, 50, 100), -1), settings_of(1, kEveryTriangle));
-}
-
-TEST(BuildEstimate, entries_of_a_part_are_as_estimated)
-{
-  GridSettings settings = settings_of(1, 0);
-  settings.only = {{{0, 0, 0}, {60, 60, 60}}};
-  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), settings);
 }
 
 TEST(BuildEstimate, lists_that_are_cut_short_may_have_any_size)

@@ -35,8 +35,7 @@ struct Sum {
 
 }    // namespace
 
-ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool primitives,
-                            const std::vector<std::uint64_t> &only)
+ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool primitives)
 {
   const std::vector<FeatureCode> &features = primitives ? wall.primitives : wall.contact_features;
   BuildView view = {};
@@ -44,7 +43,6 @@ ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool
   view.features = features.data();
   view.primitives = primitives;
   view.plan = plan;
-  view.only = only.empty() ? nullptr : only.data();
 
   const std::int64_t n = static_cast<std::int64_t>(features.size());
   std::uint64_t n_parts = 0;
@@ -85,9 +83,8 @@ BuildEstimate estimate_build(const WallFeatures &wall, const GridPlan &plan,
 {
   BuildEstimate out;
   if (!std::isfinite(plan.least_bytes())) return out;
-  const std::vector<std::uint64_t> only = bricks_that_meet(plan, settings.only);
   const auto add = [&](int nearest) {
-    const ListEstimate lists = estimate_lists(wall, plan, nearest > 0, only);
+    const ListEstimate lists = estimate_lists(wall, plan, nearest > 0);
     constexpr double kMostNumbers = 0xffffffff;
     if (lists.least_pairs > kMostNumbers) out.least_bytes = out.enough_bytes = HUGE_VAL;
     out.work += lists.work;

@@ -64,11 +64,11 @@ Hash version_hash()
 Hash settings_hash(const GridSettings &s)
 {
   const auto &[length, cutoff, memory_budget, limited, sides, nearest, exact, in_floats, for_gpu,
-               may_coarsen, within, only, length_name, progress] = s;
+               may_coarsen, within, length_name, progress] = s;
   (void) length_name;
   (void) progress;
   return Hasher().of(length, cutoff, memory_budget, limited, sides, nearest, exact, in_floats,
-                     for_gpu, may_coarsen, within.lo, within.hi, only);
+                     for_gpu, may_coarsen, within.lo, within.hi);
 }
 
 Hash mesh_hash(const WallMesh &mesh)
