@@ -78,9 +78,6 @@ void read_nearest(Tokens &w, WallSettings &s)
   const Real n = w.number_or("all", 0, "N", 1, kMostNearest);
   s.nearest = static_cast<int>(n);
   if (s.nearest != n) w.fail("N must be a whole number");
-  if (s.nearest == 0 || w.done() || w.peek() != "exact") return;
-  s.exact = true;
-  w.take();
 }
 
 void read_cache(Tokens &w, MeshSettings &s)
@@ -200,9 +197,8 @@ const Keyword kKeywords[] = {
      [](Tokens &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
     {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records",
      "budget for the grid of each mesh", read_memory},
-    {"nearest", "all | N [exact]", "", "1 to 32", "all",
-     "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre; exact: "
-     "all where N are not certified to be enough",
+    {"nearest", "all | N", "", "1 to 32", "all",
+     "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre",
      read_nearest},
     {"precision", "double | mixed | single", "", "", "double",
      "mixed: contacts in float, forces in double; single: both in float",

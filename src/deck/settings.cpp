@@ -96,6 +96,8 @@ std::string answer_to(const std::string &word, bool granular)
       {"rolling_friction", "the words are rolling cdt MU and rolling epsd2 MU"},
       {"tune", "run lsdcd tradeoff FILE --radius R --below E, which measures and prints the words "
                "to write in its place"},
+      {"exact", "a grid no longer keeps both kinds of list; write nearest all, which is exact, or "
+                "nearest N, which counts uncertified answers in f_ID[9]"},
   };
   for (const auto &row : foreign)
     if (word == row.word) return row.answer;

@@ -56,7 +56,6 @@ struct WallSettings {
   Real grid_length = 0;    // length; 0: auto
   Real rmax = 0;           // length; 0: auto
   int nearest = 0;         // primitives of wall per cell; 0: all
-  bool exact = false;      // nearest falls back to complete lists
   std::size_t memory_budget = GridSettings().memory_budget;    // bytes, for each mesh
   Corner corner = Corner::blend;
   Side side = Side::both;

@@ -58,7 +58,7 @@ void FixWallLsdcd::log_uncertified()
                               std::to_string(sum) + " answers were not certified exact");
   if (sum > 0)
     t += "; contacts overlapping by up to " + number_text(100 * worst) +
-         " % of a radius may have been missed (nearest N exact or nearest all certify all). Told "
+         " % of a radius may have been missed (nearest all certifies all). Told "
          "again when they are ten times as many or could be twice as deep";
   log(t);
 }
@@ -112,8 +112,7 @@ void FixWallLsdcd::log_creation() const
     t += "; " + std::to_string(size_peratom_cols * sizeof(double)) + " bytes for contacts";
   t += "\n  search      ";
   if (settings.nearest > 0)
-    t += "nearest " + std::to_string(settings.nearest) +
-         (settings.exact ? ", complete lists where that is not certified" : "");
+    t += "nearest " + std::to_string(settings.nearest);
   else
     t += "all that can touch";
   const char *const precisions[] = {"double", "mixed", "single"};

@@ -134,8 +134,7 @@ constexpr std::uint32_t kWholeList = 0xffffffffu;
 
 // The nearest point of the wall within `radius` (length, at most grid.cutoff) of q, which lies
 // at `at`, in the cell `cell` of grid.lists. kComplete: grid.nearest is 0. Certified answers are
-// exact, but for the rounding of Distances and with the paper's test. Lists of nearest primitives
-// fall back to complete ones where the grid has them.
+// exact, but for the rounding of Distances and with the paper's test.
 template <bool kComplete, class Distances, class Before = FirstOfEqual>
 LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
                              const CellAddress &at, const Cell &cell, const Before &before = {})
@@ -143,17 +142,8 @@ LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
   if (kComplete)
     return nearest_in_cell<false, Distances>(grid, grid.lists, q, radius, kWholeList, at, cell,
                                              before);
-  const Answer first = nearest_in_cell<true, Distances>(
+  return nearest_in_cell<true, Distances>(
       grid, grid.lists, q, radius, static_cast<std::uint32_t>(grid.nearest), at, cell, before);
-  if (first.certified || !grid.complete.bricks) return first;
-  // The complete lists have cells of their own.
-  const CellAddress there = locate(grid, grid.complete, q);
-  Answer second = far_answer();
-  if (there.brick && has_candidates(*there.brick, there.cell))
-    second = nearest_in_cell<false, Distances>(grid, grid.complete, q, radius, kWholeList, there,
-                                               cell_of(grid.complete, there), before);
-  second.read += first.read;
-  return second;
 }
 
 // The same for any q.

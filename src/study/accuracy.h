@@ -25,7 +25,6 @@ struct StudySettings {
 // Which lists a measurement reads.
 struct StudyLists {
   int nearest = 0;            // N triangles; 0: complete lists
-  bool exact = false;         // with N: complete lists as well
   bool every_face = false;    // no lists: the paper's N = all
   Real length = 0;            // cell edge
 };

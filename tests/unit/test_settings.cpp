@@ -214,6 +214,11 @@ TEST(settings, words_of_other_walls_are_answered)
   }
 }
 
+TEST(settings, nearest_exact_is_told_what_to_write)
+{
+  EXPECT_TRUE(names(error_with("nearest 2 exact"), "write nearest all"));
+}
+
 TEST(settings, out_of_range_gives_the_range)
 {
   const std::vector<std::pair<std::string, std::string>> cases = {

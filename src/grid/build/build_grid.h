@@ -123,7 +123,7 @@ class GridBuilder {
   double needed_ = 0;
 };
 
-// Lists of one kind or both, and the copies in float: whether they fit the budget. `needed` are
+// The lists, and the copies in float: whether they fit the budget. `needed` are
 // bytes that they take, or where they do not fit at least take.
 template <class B>
 bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings &settings,
@@ -133,17 +133,10 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
   const double for_lists = budget - double(of_wall);
   needed = of_wall + plan.least_bytes();
   if (needed > budget) return false;
-  double taken = 0;
-  const auto fill = [&](int nearest, CellLists &lists, ListReport &report) {
-    const bool fits =
-        builder.build(plan, nearest, static_cast<std::size_t>(for_lists - taken), lists, report);
-    needed = std::max(needed, of_wall + taken + builder.needed());
-    taken += grid_bytes(plan, lists.bricks.size(), lists.cells.size(), lists.candidates.size());
-    return fits;
-  };
-  if (!fill(settings.nearest, grid.lists, grid.report.lists)) return false;
-  if (settings.nearest > 0 && settings.exact && !fill(0, grid.complete, grid.report.complete))
-    return false;
+  const bool lists_fit = builder.build(plan, settings.nearest, static_cast<std::size_t>(for_lists),
+                                       grid.lists, grid.report.lists);
+  needed = std::max(needed, of_wall + builder.needed());
+  if (!lists_fit) return false;
   grid.origin = plan.origin;
   grid.length = plan.length;
   grid.cutoff = plan.cutoff;
@@ -180,7 +173,7 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   const bool may_coarsen = settings.length <= 0 || settings.may_coarsen;
   const Real first_length = plan.length;
   const auto fits = [&](double budget_here, double &needed) {
-    grid.lists = grid.complete = CellLists();
+    grid.lists = CellLists();
     grid.records = BrickRecords();
     grid.report = GridReport();
     return fill_grid(builder, plan, settings, budget_here, grid, needed);

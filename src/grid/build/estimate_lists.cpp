@@ -83,21 +83,17 @@ BuildEstimate estimate_build(const WallFeatures &wall, const GridPlan &plan,
 {
   BuildEstimate out;
   if (!std::isfinite(plan.least_bytes())) return out;
-  const auto add = [&](int nearest) {
-    const ListEstimate lists = estimate_lists(wall, plan, nearest > 0);
-    constexpr double kMostNumbers = 0xffffffff;
-    if (lists.least_pairs > kMostNumbers) out.least_bytes = out.enough_bytes = HUGE_VAL;
-    out.work += lists.work;
-    const bool cut_short = nearest > 0 && nearest != kEveryTriangle;
-    if (!cut_short && lists.least_entries > kMostNumbers)
-      out.least_bytes = out.enough_bytes = HUGE_VAL;
-    // An entry is a candidate, or where it is single the cell of it.
-    static_assert(sizeof(Candidate) == sizeof(Cell), "counted as one");
-    if (!cut_short) out.least_bytes += lists.least_entries * sizeof(Candidate);
-    out.enough_bytes += 1.25 * lists.entries * sizeof(Candidate);
-  };
-  add(settings.nearest);
-  if (settings.nearest > 0 && settings.exact) add(0);
+  const ListEstimate lists = estimate_lists(wall, plan, settings.nearest > 0);
+  constexpr double kMostNumbers = 0xffffffff;
+  if (lists.least_pairs > kMostNumbers) out.least_bytes = out.enough_bytes = HUGE_VAL;
+  out.work = lists.work;
+  const bool cut_short = settings.nearest > 0 && settings.nearest != kEveryTriangle;
+  if (!cut_short && lists.least_entries > kMostNumbers)
+    out.least_bytes = out.enough_bytes = HUGE_VAL;
+  // An entry is a candidate, or where it is single the cell of it.
+  static_assert(sizeof(Candidate) == sizeof(Cell), "counted as one");
+  if (!cut_short) out.least_bytes += lists.least_entries * sizeof(Candidate);
+  out.enough_bytes += 1.25 * lists.entries * sizeof(Candidate);
   return out;
 }
 
