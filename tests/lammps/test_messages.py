@@ -148,7 +148,7 @@ def main():
                          "run 0\n", folder)
     checks.fact("in groups that share none it is not", not lines(text, *twice))
 
-    # Costs are those of another machine: lsdcd effects has them, with its name.
+    # Costs are those of another machine: doc/effects.md has them, with its name.
     text = deck.run_well(BOX + fix() + "run 0\n", folder)
     checks.fact("the log lists effects without times",
                 lines(text, "  effects     normal spring, normal damping") and not lines(text, " ns"))
