@@ -3,8 +3,8 @@
 #pragma once
 
 #include "mesh/wall_mesh.h"
-#include "query/sphere_query.h"
 #include "study/cylinder.h"
+#include "study/sphere_query.h"
 #include "study/spheres.h"
 
 #include <memory>

@@ -3,9 +3,9 @@
 #include "grid/flat_grid.h"
 #include "grid/plan/grid_plan.h"
 #include "parallel/threads.h"
-#include "query/sphere_query.h"
 #include "study/drift.h"
 #include "study/lengths_to_try.h"
+#include "study/sphere_query.h"
 
 #include <algorithm>
 #include <chrono>

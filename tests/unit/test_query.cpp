@@ -7,7 +7,7 @@
 #include "base/input_error.h"
 #include "contact/brick_geometry.h"
 #include "parallel/backend_cpu.h"
-#include "query/query_on.h"
+#include "study/sphere_query_on.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -404,7 +404,7 @@ TEST(query, a_list_that_lanes_read_together_ends_as_for_one)
 {
   std::size_t read = 0;
   for (const Case &c : all_cases()) {
-    expect_lanes_read_as_one<WallDistances<InsideTest::exact>>(c, false, read);
+    expect_lanes_read_as_one<WallDistances>(c, false, read);
     expect_lanes_read_as_one<BrickDistances>(c, true, read);
   }
   EXPECT_GT(read, 8 * FourLanes::kCount);    // some lists take many turns
