@@ -82,6 +82,11 @@ def find(rows, kind, **wanted):
     return None
 
 
+def has_queries(rows):
+    """Rows of earlier days have no times of queries."""
+    return any(row["status_ns"] for row in rows)
+
+
 def line(rows, name, **wanted):
     """A row of a table, or nothing where the setting was not measured on the CPU."""
     row, gpu = find(rows, "cpu", **wanted), find(rows, "cuda", **wanted)
@@ -89,16 +94,19 @@ def line(rows, name, **wanted):
         return ""
 
     def ns(row, column):
-        return f"{row[column]:.3g}" if row and row.get(column) else "-"
+        return f"{row[column]:.3g}" if row and row[column] else "-"
 
-    return (f"| {name} | {percent(row['missed'])} | {error(row['force_mean'])} | "
-            f"{error(row['force_largest'])} | {error(row['bounce_drift'])} | "
-            f"{error(row['roll_drift'])} | {ns(row, 'ns_per_sphere')} | {ns(gpu, 'ns_per_sphere')} | "
-            f"{ns(row, 'status_ns')} | {ns(gpu, 'status_ns')} | {row['bytes'] / 1e6:.3g} |\n")
+    cells = [name, percent(row["missed"]), error(row["force_mean"]), error(row["force_largest"]),
+             error(row["bounce_drift"]), error(row["roll_drift"]), f"{row['ns_per_sphere']:.0f}", ns(gpu, "ns_per_sphere")]
+    if has_queries(rows):
+        cells += [ns(row, "status_ns"), ns(gpu, "status_ns")]
+    return "| " + " | ".join(cells + [f"{row['bytes'] / 1e6:.3g}"]) + " |\n"
 
 
-HEAD = ("| setting | missed contacts | force error, mean | largest | energy drift: bouncing | rolling "
-        "| ns a step, CPU core | GPU | ns a query, CPU core | GPU | MB |\n|" + " --- |" * 11 + "\n")
+def head(rows):
+    cells = ["setting", "missed contacts", "force error, mean", "largest", "energy drift: bouncing", "rolling",
+             "ns a step, CPU core", "GPU"] + ["ns a query, CPU core", "GPU"] * has_queries(rows) + ["MB"]
+    return "| " + " | ".join(cells) + " |\n|" + " --- |" * len(cells) + "\n"
 
 
 def lengths(rows):
@@ -112,7 +120,7 @@ def standard(rows):
 def first_screen(rows):
     default = standard(rows)["grid"]
     base = dict(grid=default, corner="blend", precision="double")
-    out = HEAD + line(rows, "**nothing** (the default)", **base, nearest="all")
+    out = head(rows) + line(rows, "**nothing** (the default)", **base, nearest="all")
     for length in lengths(rows):
         if length != default:
             times = float(length) / float(default)
@@ -128,7 +136,7 @@ def first_screen(rows):
 
 
 def full_table(rows):
-    out = HEAD
+    out = head(rows)
     for length in lengths(rows):
         for nearest in plot_tradeoff.COLOURS:
             for precision in plot_tradeoff.MARKERS:
@@ -161,8 +169,8 @@ What the other settings do to the vessel of `examples/vessel`
 {first}
 Times are per sphere beside the wall (in it or within reach). A *step* of `nearest N` searches cells; with *all* it
 reads lists of the wall that were made before and hold. So steps of `nearest N` and of *all* are not the same work. A
-*query*, which asks whether a sphere touches the wall, searches cells with both: what N saves is seen there, and
-[below](#against-the-mesh).
+*query*, which asks whether a sphere touches the wall, searches cells with both: what N saves in time is seen
+[there](#against-the-mesh).
 Read it so:
 
 * **`grid`** never changes an answer. It is for memory and for the time of a set-up: a step reads each
