@@ -236,7 +236,8 @@ list vouches for. {triangles} triangles, {spheres} spheres, cube {cube}, seed {s
 {runs}
 
 Times are of the query alone (median of the repeats), status only, everything on the device,
-geometry in double; copies are in the CSV. CPU times are of a machine that also did other
+geometry in double; copies are in the CSV. A query searches cells with N triangles and with all of them; a step
+of the fix with all reads lists that were made before ([above](#which-setting)). CPU times are of a machine that also did other
 work: upper bounds. Spheres are in random order, or sorted along a
 Z-curve where a column says so. Times of the paper are of a Tesla K40; it does not say whether its copies are in
 them. Its *all* tries every triangle, and its time stands beside ours that does so.

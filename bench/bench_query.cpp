@@ -9,7 +9,7 @@
 #include "peers.h"
 
 #include "mesh/wall_mesh.h"
-#include "query/sphere_query.h"
+#include "study/sphere_query.h"
 #include "study/spheres.h"
 
 #include <cmath>

@@ -3,9 +3,9 @@
 
 usage: effects.py [--build DIR] [--write-only] [--only cpu|cuda]
 
-Runs `lsdcd effects --measure` on one core and, where there is a GPU, with CUDA. Rows are
-kept, so that the document has those of a device on a machine without it too: the CPU's in
-src/effects/effects_cpu.csv, which the program shows, the GPU's in doc/data/effects_cuda.csv.
+Runs bench_effects on one core and, where there is a GPU, with CUDA. Rows are kept in
+doc/data/effects_DEVICE.csv, so that the document has those of a device on a machine without
+it too.
 --write-only makes the tables and the plot from what is kept.
 """
 import argparse
@@ -19,14 +19,12 @@ from hard_cases import ROOT, commit, write_whole
 
 DOCUMENT = os.path.join(ROOT, "doc", "effects.md")
 PLOT = os.path.join(ROOT, "doc", "img", "effects.png")
-DEVICES = {"cpu": ["--spheres", "5000", "--repeats", "401"],
-           "cuda": ["--spheres", "200000", "--repeats", "31"]}
+DEVICES = {"cpu": ["5000", "401"], "cuda": ["200000", "31"]}    # spheres, repeats
 BEGIN, END = "<!-- costs:begin -->", "<!-- costs:end -->"
 
 
 def kept(device):
-    folder = ("src", "effects") if device == "cpu" else ("doc", "data")
-    return os.path.join(ROOT, *folder, f"effects_{device}.csv")
+    return os.path.join(ROOT, "doc", "data", f"effects_{device}.csv")
 
 
 def rows_of(device):
@@ -45,16 +43,13 @@ def has_gpu():
 
 
 def measure(build, device):
-    part = kept(device) + ".part.csv"
-    os.makedirs(os.path.dirname(part), exist_ok=True)
-    command = [os.path.join(build, "bin", "lsdcd"), "effects", "--measure", "--device", device,
-               *DEVICES[device], "--commit", commit(), "--csv", part]
+    command = [os.path.join(build, "bin", "bench_effects"), device, *DEVICES[device], commit()]
     print(" ".join(command), flush=True)
     threads = "1" if device == "cpu" else str(os.cpu_count() or 1)
-    if subprocess.run(command, env=dict(os.environ, OMP_NUM_THREADS=threads)).returncode != 0:
-        return False
-    os.replace(part, kept(device))
-    return True
+    done = subprocess.run(command, env=dict(os.environ, OMP_NUM_THREADS=threads), stdout=subprocess.PIPE, text=True)
+    if done.returncode == 0:
+        write_whole(kept(device), done.stdout)
+    return done.returncode == 0
 
 
 def ns(row, column):

@@ -82,20 +82,31 @@ def find(rows, kind, **wanted):
     return None
 
 
+def has_queries(rows):
+    """Rows of earlier days have no times of queries."""
+    return any(row["status_ns"] for row in rows)
+
+
 def line(rows, name, **wanted):
     """A row of a table, or nothing where the setting was not measured on the CPU."""
     row, gpu = find(rows, "cpu", **wanted), find(rows, "cuda", **wanted)
     if row is None:
         return ""
-    on_gpu = f"{gpu['ns_per_sphere']:.3g}" if gpu else "-"
-    return (f"| {name} | {percent(row['missed'])} | {error(row['force_mean'])} | "
-            f"{error(row['force_largest'])} | {error(row['bounce_drift'])} | "
-            f"{error(row['roll_drift'])} | {row['ns_per_sphere']:.0f} | {on_gpu} | "
-            f"{row['bytes'] / 1e6:.3g} |\n")
+
+    def ns(row, column):
+        return f"{row[column]:.3g}" if row and row[column] else "-"
+
+    cells = [name, percent(row["missed"]), error(row["force_mean"]), error(row["force_largest"]),
+             error(row["bounce_drift"]), error(row["roll_drift"]), f"{row['ns_per_sphere']:.0f}", ns(gpu, "ns_per_sphere")]
+    if has_queries(rows):
+        cells += [ns(row, "status_ns"), ns(gpu, "status_ns")]
+    return "| " + " | ".join(cells + [f"{row['bytes'] / 1e6:.3g}"]) + " |\n"
 
 
-HEAD = ("| setting | missed contacts | force error, mean | largest | energy drift: bouncing | rolling "
-        "| ns, CPU core | ns, GPU | MB |\n|" + " --- |" * 9 + "\n")
+def head(rows):
+    cells = ["setting", "missed contacts", "force error, mean", "largest", "energy drift: bouncing", "rolling",
+             "ns a step, CPU core", "GPU"] + ["ns a query, CPU core", "GPU"] * has_queries(rows) + ["MB"]
+    return "| " + " | ".join(cells) + " |\n|" + " --- |" * len(cells) + "\n"
 
 
 def lengths(rows):
@@ -109,7 +120,7 @@ def standard(rows):
 def first_screen(rows):
     default = standard(rows)["grid"]
     base = dict(grid=default, corner="blend", precision="double")
-    out = HEAD + line(rows, "**nothing** (the default)", **base, nearest="all")
+    out = head(rows) + line(rows, "**nothing** (the default)", **base, nearest="all")
     for length in lengths(rows):
         if length != default:
             times = float(length) / float(default)
@@ -119,14 +130,13 @@ def first_screen(rows):
         out += line(rows, f"`precision {precision}`", **{**base, "precision": precision},
                     nearest="all")
     out += line(rows, "`corner sum`", **{**base, "corner": "sum"}, nearest="all")
-    out += line(rows, "`nearest 4 exact`", **base, nearest="4 exact")
     for n in ("8", "4", "3", "2", "1"):
         out += line(rows, f"`nearest {n}`", **base, nearest=n)
     return out
 
 
 def full_table(rows):
-    out = HEAD
+    out = head(rows)
     for length in lengths(rows):
         for nearest in plot_tradeoff.COLOURS:
             for precision in plot_tradeoff.MARKERS:
@@ -157,9 +167,10 @@ What the other settings do to the vessel of `examples/vessel`
 ({triangles} triangles, grains of {least} to {largest} m):
 
 {first}
-Time is what a step costs per sphere beside the wall (in it or within reach). With `nearest N`, `exact` or not, a
-step searches cells; with the others it reads lists of the wall that were made before and hold. So times of `nearest N`
-and of *all* are not of the same work; where both search cells, they are [below](#against-the-mesh).
+Times are per sphere beside the wall (in it or within reach). A *step* of `nearest N` searches cells; with *all* it
+reads lists of the wall that were made before and hold. So steps of `nearest N` and of *all* are not the same work. A
+*query*, which asks whether a sphere touches the wall, searches cells with both: what N saves in time is seen
+[there](#against-the-mesh).
 Read it so:
 
 * **`grid`** never changes an answer. It is for memory and for the time of a set-up: a step reads each
@@ -176,12 +187,9 @@ Read it so:
   out: drifts of 1 and more. It saves no time either: it searches cells in each step, since what it
   misses depends on the cell, where `all` reads a list. It saves the memory of complete lists, and
   repeats the paper (below).
-* **`nearest N exact`** misses nothing, searches cells as well and keeps both kinds of list: it is the
-  slowest.
 
-`tune 1e-3` in the deck measures this on your own scene and chooses, always among settings that
-miss nothing. `lsdcd tradeoff wall.stl --radius R` makes the whole table and this picture
-for your own mesh:
+`lsdcd tradeoff wall.stl --radius R --below 1e-3` makes the whole table and this picture for your own mesh, and prints the
+words for a deck: the fastest setting with missed contacts and errors of forces below 1e-3.
 
 ![Error of forces against time and memory, vessel](img/tradeoff_vessel.png)
 

@@ -26,7 +26,6 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   if (o.nearest < 0 || o.nearest > kMostNearest)
     refuse("nearest is " + std::to_string(o.nearest) + "; it is 0, for all, or up to " +
            std::to_string(kMostNearest));
-  if (o.exact && o.nearest == 0) refuse("exact needs nearest N; complete lists are exact");
   if (o.precision != LSDCD_DOUBLE && o.precision != LSDCD_FLOAT)
     refuse("precision is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
   if (!(o.memory >= 0) || !(o.memory < 1e18))
@@ -42,7 +41,6 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   s.limited = true;
   s.sides = with_sides;
   s.nearest = o.nearest;
-  s.exact = o.exact != 0;
   s.in_floats = o.precision == LSDCD_FLOAT;
   return s;
 }

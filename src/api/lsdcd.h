@@ -98,7 +98,6 @@ typedef struct lsdcd_grid_options {
   double cutoff;     /* the largest distance that will be asked for; > 0 */
   double cell;       /* edge of a cell: time against memory; 0: chosen */
   int nearest;       /* 0: complete lists, always exact; N: the N triangles nearest to a cell */
-  int exact;         /* with N: complete lists as well, for points that are not certified */
   int precision;     /* of the search: LSDCD_DOUBLE, or LSDCD_FLOAT, quicker on a GPU */
   double memory;     /* most bytes; 0: 1 GiB beside the mesh's own records */
   const char *cache; /* file that keeps the grid; one that does not fit is replaced; null: none */
@@ -129,7 +128,7 @@ LSDCD_API void lsdcd_grid_free(lsdcd_grid *grid);
 
 /* Bits of a point's status. Only a certified answer is sure: what is FOUND is the nearest of the
  * whole mesh, and where nothing is, nothing is within the radius. All are certified but with
- * `nearest` N and not `exact`. */
+ * `nearest` N. */
 enum { LSDCD_FOUND = 1, LSDCD_CERTIFIED = 2 };
 
 /* A feature is 0 (face), 1 (edge) or 2 (vertex) and a number of the welded mesh. */

@@ -38,9 +38,8 @@ _MeshFacts = _struct(
     ("open_edges", _size), ("closed", _int), ("oriented", _int),
     ("area", _real), ("volume", _real), ("lo", _real * 3), ("hi", _real * 3), ("meeting_pairs", _size))
 _GridOptions = _struct(
-    "_GridOptions", ("cutoff", _real), ("cell", _real), ("nearest", _int), ("exact", _int),
-    ("precision", _int), ("memory", _real), ("cache", ctypes.c_char_p), ("threads", _int),
-    ("device", _int))
+    "_GridOptions", ("cutoff", _real), ("cell", _real), ("nearest", _int), ("precision", _int),
+    ("memory", _real), ("cache", ctypes.c_char_p), ("threads", _int), ("device", _int))
 _GridFacts = _struct(
     "_GridFacts", ("cutoff", _real), ("cell", _real), ("bytes", _size), ("nearest", _int),
     ("has_sides", _int), ("from_cache", _int))
@@ -161,10 +160,10 @@ class Mesh(_Owner):
     def report(self):
         return _lib.lsdcd_mesh_report(self._handle).decode()
 
-    def grid(self, cutoff, cell=0.0, nearest=0, exact=False, precision="double", memory=0.0,
-             cache=None, threads=0, device="cpu"):
+    def grid(self, cutoff, cell=0.0, nearest=0, precision="double", memory=0.0, cache=None,
+             threads=0, device="cpu"):
         """A Grid for distances up to `cutoff`; the words are those of lsdcd_grid_options."""
-        options = _sized(_GridOptions, cutoff=cutoff, cell=cell, nearest=nearest, exact=exact,
+        options = _sized(_GridOptions, cutoff=cutoff, cell=cell, nearest=nearest,
                          precision=_chosen("precision", precision, ("double", "float")), memory=memory,
                          cache=os.fsencode(cache) if cache else None, threads=threads,
                          device=_chosen("device", device, DEVICES))

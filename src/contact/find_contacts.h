@@ -137,12 +137,8 @@ template <class Geometry, int kPlaces>
 LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
                                ContactSet<kPlaces> &set)
 {
-  if (grid.nearest > 0) {
-    const Real exact_within = find_in_nearest<Geometry>(grid, grid.lists, q, radius, set);
-    if (exact_within >= radius || !grid.complete.bricks) return exact_within;
-    set.clear();
-  }
-  find_in_complete<Geometry>(grid, grid.nearest > 0 ? grid.complete : grid.lists, q, radius, set);
+  if (grid.nearest > 0) return find_in_nearest<Geometry>(grid, grid.lists, q, radius, set);
+  find_in_complete<Geometry>(grid, grid.lists, q, radius, set);
   return kAnyDistance;
 }
 

@@ -1,7 +1,5 @@
 #include "effects/effects.h"
 
-#include <algorithm>
-
 namespace lsdcd {
 
 namespace {
@@ -159,14 +157,6 @@ int bytes_per_contact(const EngineSettings &settings)
 {
   if (!settings.law.has_history()) return 0;
   return static_cast<int>(sizeof(Spring) + settings.law.n_extra() * sizeof(Real));
-}
-
-double cost_over(const std::vector<EffectCase> &cases, const std::vector<EffectCost> &costs,
-                 std::size_t i)
-{
-  const auto base = std::find_if(cases.begin(), cases.end(),
-                                 [&](const EffectCase &c) { return c.name == cases[i].over; });
-  return base == cases.end() ? 0 : costs[i].min_ns - costs[base - cases.begin()].min_ns;
 }
 
 }    // namespace lsdcd

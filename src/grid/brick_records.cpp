@@ -68,9 +68,10 @@ class Named {
 
 // Codes that the lists of a brick name, ascending, each once; with nearest lists also
 // the parts of its faces.
-void codes_of(const TriangleGrid &grid, const CellLists &lists, const Brick &brick,
-              std::size_t n_cells, Named &named, std::vector<FeatureCode> &codes)
+void codes_of(const TriangleGrid &grid, const Brick &brick, std::size_t n_cells, Named &named,
+              std::vector<FeatureCode> &codes)
 {
+  const CellLists &lists = grid.lists;
   codes.clear();
   named.next_brick();
   const auto add = [&](FeatureCode code) {
@@ -84,7 +85,7 @@ void codes_of(const TriangleGrid &grid, const CellLists &lists, const Brick &bri
       for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++)
         add(lists.candidates[i].feature);
   }
-  const std::size_t n = &lists == &grid.lists && grid.nearest > 0 ? codes.size() : 0;
+  const std::size_t n = grid.nearest > 0 ? codes.size() : 0;
   for (std::size_t i = 0; i < n; i++)
     if (feature_kind(codes[i]) == FeatureKind::face)
       for (FeatureCode part : grid.wall.face_parts[feature_index(codes[i])].part)
@@ -92,8 +93,9 @@ void codes_of(const TriangleGrid &grid, const CellLists &lists, const Brick &bri
   std::sort(codes.begin(), codes.end());
 }
 
-void add_records(TriangleGrid &grid, CellLists &lists, BrickRecords &out)
+void add_records(TriangleGrid &grid, BrickRecords &out)
 {
+  CellLists &lists = grid.lists;
   const std::int64_t n_bricks = static_cast<std::int64_t>(lists.bricks.size());
   std::vector<std::size_t> table_of(n_bricks);
   for (std::size_t i = 0; i < lists.brick_of.size(); i++)
@@ -111,17 +113,17 @@ void add_records(TriangleGrid &grid, CellLists &lists, BrickRecords &out)
     Named named(grid.wall);
 #pragma omp for schedule(dynamic, 64)
     for (std::int64_t b = 0; b < n_bricks; b++) {
-      codes_of(grid, lists, lists.bricks[b], n_cells(b), named, codes);
+      codes_of(grid, lists.bricks[b], n_cells(b), named, codes);
       first[b] = {0, 0, 0};
       for (FeatureCode code : codes) first[b][static_cast<int>(feature_kind(code))]++;
     }
   }
-  std::array<std::uint64_t, 3> at = {out.faces.size(), out.edges.size(), out.vertices.size()};
+  std::array<std::uint64_t, 3> at = {0, 0, 0};
   for (std::int64_t b = 0; b <= n_bricks; b++)
     for (int k = 0; k < 3; k++)
       at[k] += std::exchange(first[b][k], static_cast<std::uint32_t>(at[k]));
   for (const std::uint64_t n : at) check_record_number(n);
-  const bool with_parts = &lists == &grid.lists && grid.nearest > 0;
+  const bool with_parts = grid.nearest > 0;
   out.faces.resize(first[n_bricks][0]);
   out.face_of.resize(first[n_bricks][0]);
   if (with_parts) out.face_parts.resize(first[n_bricks][0]);
@@ -137,7 +139,7 @@ void add_records(TriangleGrid &grid, CellLists &lists, BrickRecords &out)
 #pragma omp for schedule(dynamic, 64)
     for (std::int64_t b = 0; b < n_bricks; b++) {
       const Brick &brick = lists.bricks[b];
-      codes_of(grid, lists, brick, n_cells(b), named, codes);
+      codes_of(grid, brick, n_cells(b), named, codes);
       std::array<std::size_t, 4> begin;    // of each kind in `codes`
       for (int k = 0; k < 4; k++)
         begin[k] =
@@ -214,8 +216,7 @@ std::size_t BrickRecords::bytes() const
 void add_brick_records(TriangleGrid &grid)
 {
   BrickRecords &out = grid.records;
-  add_records(grid, grid.lists, out);
-  if (!grid.complete.bricks.empty()) add_records(grid, grid.complete, out);
+  add_records(grid, out);
   out.edge_inward = floats(grid.wall.edge_inward);
   out.vertex_direction = floats(grid.wall.vertex_direction);
   grid.in_floats = true;

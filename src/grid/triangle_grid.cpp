@@ -19,7 +19,7 @@ std::size_t rounded(std::size_t bytes)
 
 // The arrays of a grid, in the order of a flat block: first where a grid owns them,
 // then where a view points to them.
-constexpr int kArrays = 31, kWallArrays = 14;
+constexpr int kArrays = 27, kWallArrays = 14;
 
 template <class Grid, class Visit>
 void each_array(Grid &g, Visit visit)
@@ -38,12 +38,10 @@ void each_array(Grid &g, Visit visit)
   visit(g.wall.images.face_of);
   visit(g.wall.images.edge_of);
   visit(g.wall.images.vertex_of);
-  for (auto *lists : {&g.lists, &g.complete}) {
-    visit(lists->brick_of);
-    visit(lists->bricks);
-    visit(lists->cells);
-    visit(lists->candidates);
-  }
+  visit(g.lists.brick_of);
+  visit(g.lists.bricks);
+  visit(g.lists.cells);
+  visit(g.lists.candidates);
   visit(g.records.faces);
   visit(g.records.edges);
   visit(g.records.vertices);
@@ -72,12 +70,10 @@ void each_pointer(GridView &v, Visit visit)
   visit(v.wall.face_of);
   visit(v.wall.edge_of);
   visit(v.wall.vertex_of);
-  for (CellListsView *lists : {&v.lists, &v.complete}) {
-    visit(lists->brick_of);
-    visit(lists->bricks);
-    visit(lists->cells);
-    visit(lists->candidates);
-  }
+  visit(v.lists.brick_of);
+  visit(v.lists.bricks);
+  visit(v.lists.cells);
+  visit(v.lists.candidates);
   visit(v.records.faces);
   visit(v.records.edges);
   visit(v.records.vertices);
@@ -259,25 +255,20 @@ std::string describe(const GridReport &r)
     n += std::snprintf(text + n, sizeof text - n, "; %.6g takes too much time or memory",
                        r.too_fine);
   n += std::snprintf(text + n, sizeof text - n, "), cutoff %.6g: ", r.cutoff);
-  const auto add = [&](const char *name, const ListReport &l) {
-    n +=
-        std::snprintf(text + n, sizeof text - n,
-                      "%s%zu bricks, %zu cells, %zu candidates, lists %.2f on average, %zu at most",
-                      name, l.bricks, l.cells, l.candidates, l.mean, l.longest);
-  };
   if (r.nearest == kEveryTriangle)
     n += std::snprintf(text + n, sizeof text - n, "every triangle, ");
   else if (r.nearest > 0)
     n += std::snprintf(text + n, sizeof text - n, "the nearest %d and a bound, ", r.nearest);
-  add("", r.lists);
-  if (r.complete.cells > 0) add("\n  complete lists to fall back to: ", r.complete);
+  const ListReport &l = r.lists;
+  n += std::snprintf(text + n, sizeof text - n,
+                     "%zu bricks, %zu cells, %zu candidates, lists %.2f on average, %zu at most",
+                     l.bricks, l.cells, l.candidates, l.mean, l.longest);
   if (r.records > 0)
     n += std::snprintf(text + n, sizeof text - n, "\n  %zu features in float, by brick, %s",
                        r.records, amount(double(r.record_bytes)).c_str());
-  std::snprintf(text + n, sizeof text - n,
-                "\n  %s, built in %.3f s with %.3g distance tests at most on %s",
-                amount(double(r.bytes)).c_str(), r.seconds,
-                double(r.lists.distance_tests + r.complete.distance_tests), r.device.c_str());
+  std::snprintf(
+      text + n, sizeof text - n, "\n  %s, built in %.3f s with %.3g distance tests at most on %s",
+      amount(double(r.bytes)).c_str(), r.seconds, double(l.distance_tests), r.device.c_str());
   return text;
 }
 

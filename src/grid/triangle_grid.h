@@ -68,8 +68,7 @@ struct GridView {
   std::int32_t nearest;
   std::int32_t in_floats;    // codes in lists are of brick records
   std::int32_t is_large;     // are the wall's records more than stay near a processor?
-  CellListsView lists;       // what a query reads
-  CellListsView complete;    // what it falls back to where N were not enough, or null
+  CellListsView lists;
   BrickRecordsView records;
   const char *block;    // the flat block all of this lies in, or null
   std::size_t block_bytes;
@@ -82,15 +81,11 @@ struct GridSettings {
   bool limited = false;             // keep the build within BuildLimit where no budget is given
   bool sides = false;               // keep what `side in|out` needs
   int nearest = 0;           // 0: complete lists; N, at most kMostNearest: the N nearest primitives
-  bool exact = false;        // with nearest: complete lists as well, to fall back to
   bool in_floats = false;    // brick records, for queries in float
   bool for_gpu = false;      // spheres are on a GPU: a length that is chosen is shorter
   bool may_coarsen = false;    // a length that is given may grow too, until the budget holds
   // Where centres of spheres can be. The grid is cut off there.
   Box within = kNoLimit;
-  // Only the bricks that meet one of these, for trials of a grid; empty: all bricks. A
-  // query elsewhere finds nothing.
-  std::vector<Box> only;
   std::string length_name = "grid";    // of `length`, for messages: what the caller calls it
   // Told how far a build is, between its parts and on a CPU within them, by the thread that asked.
   std::function<void(const std::string &)> progress;
@@ -125,7 +120,7 @@ struct GridReport {
   bool length_chosen = false;
   Real too_fine = 0;    // the length that was chosen first, where that took too much; else 0
   int nearest = 0;
-  ListReport lists, complete;    // as in GridView
+  ListReport lists;
   std::size_t records = 0, record_bytes = 0;
   std::size_t bytes = 0;
   double seconds = 0;
@@ -148,7 +143,7 @@ struct TriangleGrid {
   std::int32_t n_bricks[3] = {0, 0, 0};
   int nearest = 0;
   bool in_floats = false;
-  CellLists lists, complete;
+  CellLists lists;
   BrickRecords records;
   GridReport report;
 

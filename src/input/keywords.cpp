@@ -7,7 +7,6 @@
 #include "grid/cache/grid_cache.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace lsdcd {
 
@@ -76,18 +75,9 @@ void read_memory(Tokens &w, WallSettings &s)
 
 void read_nearest(Tokens &w, WallSettings &s)
 {
-  s.nearest_given = true;
   const Real n = w.number_or("all", 0, "N", 1, kMostNearest);
   s.nearest = static_cast<int>(n);
   if (s.nearest != n) w.fail("N must be a whole number");
-  if (s.nearest == 0 || w.done() || w.peek() != "exact") return;
-  s.exact = true;
-  w.take();
-}
-
-void read_tune(Tokens &w, WallSettings &s)
-{
-  s.tune = w.number("the largest error", 0, std::nextafter(Real(1), Real(0)));
 }
 
 void read_cache(Tokens &w, MeshSettings &s)
@@ -201,29 +191,20 @@ const Keyword kKeywords[] = {
      "corners closer than this are one vertex; 0: only equal ones", nullptr,
      [](Tokens &w, MeshSettings &s) { s.weld = w.number("the tolerance", 0); }},
     {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",
-     [](Tokens &w, WallSettings &s) {
-       s.grid_length = w.number_or("auto", 0, "L", kAboveZero);
-       s.length_given = s.grid_length > 0;
-     }},
+     [](Tokens &w, WallSettings &s) { s.grid_length = w.number_or("auto", 0, "L", kAboveZero); }},
     {"rmax", "R | auto", "length", "> 0", "auto: the largest radius in the group",
      "largest particle radius that the grid is built for",
      [](Tokens &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
     {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records",
      "budget for the grid of each mesh", read_memory},
-    {"nearest", "all | N [exact]", "", "1 to 32", "all",
-     "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre; exact: "
-     "all where N are not certified to be enough",
+    {"nearest", "all | N", "", "1 to 32", "all",
+     "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre",
      read_nearest},
     {"precision", "double | mixed | single", "", "", "double",
      "mixed: contacts in float, forces in double; single: both in float",
      [](Tokens &w, WallSettings &s) {
        s.precision = static_cast<Precision>(w.choice({"double", "mixed", "single"}));
-       s.precision_given = true;
      }},
-    {"tune", "E", "", "0 to below 1", "off",
-     "choose grid, nearest and precision, where not given, by measuring: missed contacts and "
-     "force errors below E",
-     read_tune},
     {"cache", "FILE | none", "", "", "none",
      "file that keeps the grid, so that the next start need not build it", nullptr, read_cache},
     {"corner", "blend | sum", "", "", "blend",

@@ -11,18 +11,6 @@ namespace lsdcd {
 
 namespace {
 
-// What is given is kept, the rest is tuned.
-void check_tune(Tokens &w, const WallSettings &s)
-{
-  if (s.tune < 0) return;
-  w.expect("tune", "tune E");
-  if (s.nearest > 0 && !s.exact)
-    w.fail("nothing bounds the error of 'nearest " + std::to_string(s.nearest) +
-           "'; use 'nearest " + std::to_string(s.nearest) + " exact' or leave nearest out");
-  if (s.length_given && s.nearest_given && s.precision_given)
-    w.fail("grid, nearest and precision are all given and nothing is left to choose");
-}
-
 const char *const kLawSyntax =
     "hooke|hooke/history|hertz/history kn kt|NULL gamman gammat|NULL xmu dampflag [limit_damping] "
     "mesh FILE [keywords], or granular NORMAL ... mesh FILE [keywords]";
@@ -58,7 +46,7 @@ void read_law(Tokens &w, WallSettings &s)
   }
 }
 
-// Tokens of fix wall/gran and of LIGGGHTS, and what does their work here.
+// Tokens of fix wall/gran and of LIGGGHTS, and retired ones, and what does their work here.
 std::string answer_to(const std::string &word, bool granular)
 {
   const char *const kMoves =
@@ -106,6 +94,10 @@ std::string answer_to(const std::string &word, bool granular)
       {"model", kNumbers},
       {"file", "the word is mesh FILE"},
       {"rolling_friction", "the words are rolling cdt MU and rolling epsd2 MU"},
+      {"tune", "run lsdcd tradeoff FILE --radius R --below E, which measures and prints the words "
+               "to write in its place"},
+      {"exact", "a grid no longer keeps both kinds of list; write nearest all, which is exact, or "
+                "nearest N, which counts uncertified answers in f_ID[9]"},
   };
   for (const auto &row : foreign)
     if (word == row.word) return row.answer;
@@ -252,7 +244,6 @@ WallSettings parse_settings(const std::vector<std::string> &tokens)
   w.expect("fix wall/lsdcd", granular ? granular_syntax() : kLawSyntax);
   if (settings.meshes[0].file.empty()) w.fail("mesh FILE is missing");
   check_meshes(w, settings);
-  check_tune(w, settings);
   return settings;
 }
 

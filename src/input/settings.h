@@ -56,9 +56,6 @@ struct WallSettings {
   Real grid_length = 0;    // length; 0: auto
   Real rmax = 0;           // length; 0: auto
   int nearest = 0;         // primitives of wall per cell; 0: all
-  bool exact = false;      // nearest falls back to complete lists
-  Real tune = -1;          // largest error that settings may have; < 0: nothing is tuned
-  bool length_given = false, nearest_given = false, precision_given = false;    // not tuned
   std::size_t memory_budget = GridSettings().memory_budget;    // bytes, for each mesh
   Corner corner = Corner::blend;
   Side side = Side::both;

@@ -89,9 +89,8 @@ class FixWallLsdcd : public Fix {
          by_cells = 0;             // in this run
   bool callbacks = false;          // registered with Atom
   bool springs_checked = false;    // against this mesh: they may come from a restart file
-  int kind_in_file = -1;           // of its springs (law/spring_kind.h); -1: it does not say
+  int kind_in_file = -1;           // of its springs (model/spring_kind.h)
   bigint other_law = 0;            // atoms of that file with springs of another law
-  bigint unnamed = 0;              // atoms of a file of an earlier version, which does not say
   int room = 0;                    // this wall's part of maxexchange
   bool running = false;            // between start and collect
   int nlevels_respa = 0;           // 0 under verlet
@@ -180,9 +179,8 @@ class FixWallLsdcd : public Fix {
   int row_size() const { return settings.contacts ? size_peratom_cols : 0; }
   void ask_for_room(int);
   void ask_for_most_room();
-  const double *restart_row(int, int);
 
-  // fix_wall_lsdcd_build.cpp, _tune.cpp
+  // fix_wall_lsdcd_build.cpp
   lsdcd::EngineSettings engine_settings() const;
   void make_engine();
   void make_engine_anew();
@@ -190,7 +188,6 @@ class FixWallLsdcd : public Fix {
   void update_cutoff();
   void follow_box();
   void rebuild(double);
-  void tune(double);
 
   // fix_wall_lsdcd_motion.cpp
   void begin_motion(MeshPart &);

@@ -33,7 +33,7 @@ lsdcd::EngineSettings FixWallLsdcd::engine_settings() const
   return want;
 }
 
-// Collective, and again where tuning has changed the precision.
+// Collective.
 void FixWallLsdcd::make_engine()
 {
   const lsdcd::EngineSettings want = engine_settings();
@@ -128,7 +128,6 @@ void FixWallLsdcd::rebuild(double wanted)
   }
   for (const MeshPart *m : anew) check_box(*m, wanted);
   try {
-    if (settings.tune >= 0 && old == 0) tune(wanted);
     for (MeshPart *m : anew) {
       m->wall.progress = build_progress(*m);
       m->wall.build(wanted, m->box_seen(simulation_box()));
@@ -143,7 +142,7 @@ void FixWallLsdcd::rebuild(double wanted)
     log_build(*m, old);
     check_ends(*m, wanted == old);
     const double rounding = pull_off_rounding(settings, m->wall.view(), wanted);
-    if (old == 0 && m == anew.front() && settings.precision_given && rounding > 0.1)
+    if (old == 0 && m == anew.front() && rounding > 0.1)
       warn("with precision mixed overlaps are rounded so that forces may be wrong by " +
            number_text(rounding) +
            " of the pull-off force: use precision double, or softer particles");

@@ -214,7 +214,7 @@ void FixWallLsdcd::check_springs()
     return s.mesh < parts.size() && !parts[s.mesh].springs_are_foreign &&
            parts[s.mesh].wall.has(s.feature);
   };
-  bigint lost[3] = {0, other_law, unnamed};
+  bigint lost[2] = {0, other_law};
   for (int i = 0; history && i < atom->nlocal; i++)
     for (int k = 0; k < springs.count(i); k++)
       if (!has(springs.of(i)[k])) {
@@ -222,12 +222,10 @@ void FixWallLsdcd::check_springs()
         springs.clear(i);
         break;
       }
-  MPI_Allreduce(MPI_IN_PLACE, lost, 3, MPI_LMP_BIGINT, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, lost, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   const char *const file[] = {"was written with another mesh",
-                              "was written with another contact law",
-                              "is of an earlier version of this fix, whose meshes number edges "
-                              "otherwise"};
-  for (int k = 0; k < 3; k++)
+                              "was written with another contact law"};
+  for (int k = 0; k < 2; k++)
     if (lost[k])
       warn(std::to_string(lost[k]) + " atoms lose their springs: the restart file " + file[k]);
 }

@@ -31,10 +31,10 @@ void FixWallLsdcd::springs_to_engine()
   springs_are = Where::engine;
 }
 
-// Tuning makes another engine, and springs of a restart file are checked on the host.
+// Springs of a restart file are checked on the host.
 void FixWallLsdcd::prepare_springs()
 {
-  if (!springs_checked || (settings.tune >= 0 && cutoff() == 0)) springs_to_host();
+  if (!springs_checked) springs_to_host();
 }
 
 void FixWallLsdcd::grow_arrays(int nmax)
@@ -132,38 +132,14 @@ int FixWallLsdcd::pack_restart(int i, double *buf)
   return static_cast<int>(buf[0]);
 }
 
-// What fix number nth of the restart file kept of atom i. Rows of atom->extra are as wide as the file
-// says; where that is too little, numbers of the next atom have been read over those of this one.
-const double *FixWallLsdcd::restart_row(int i, int nth)
-{
-  const double *extra = atom->extra[i];
-  int at = 0;
-  for (int n = 0;; n++) {
-    const double size = at < atom->nextra_store ? extra[at] : 0;
-    if (!(size >= 1 && size <= atom->nextra_store - at))
-      error->one(FLERR,
-                 signed_text("atom " + std::to_string(tag_of(i)) +
-                             " has more numbers in the restart file than the " +
-                             std::to_string(atom->nextra_store) +
-                             " that it has room for: an earlier version of this fix wrote it on "
-                             "several processes and spoilt its springs. Write it again with this "
-                             "version, or give the fix another ID to go on without springs"));
-    if (n == nth) return extra + at;
-    at += static_cast<int>(size);
-  }
-}
-
 void FixWallLsdcd::unpack_restart(int i, int nth)
 {
   springs_to_host();
-  const double *extra = restart_row(i, nth);
+  const double *extra = atom->extra[i];
+  for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
   // Another law of the file's fix may have kept other numbers for each contact, and this one none.
   const int count = static_cast<int>(extra[1]), size = static_cast<int>(extra[0]);
   if (count == 0) return;
-  if (kind_in_file < 0) {
-    unnamed++;
-    return;
-  }
   const bool mine = kind_in_file == lsdcd::spring_kind(settings.law);
   if (!history || !mine || size != 2 + count * springs.doubles_per_spring()) {
     other_law++;

@@ -17,10 +17,9 @@ using lsdcd::WallLoads;
 
 // Of restart data: format, kind of the springs, time of the run and number of meshes; and of
 // each mesh: how many numbers of its motion, these; then time of the average, facets, edges and
-// vertices of the mesh, number of rows of loads, fingerprint of the mesh, these rows. Before, there
-// was no kind and no fingerprint, and a number of meshes only of several.
-static constexpr int kHeader = 6, kOldHeader = 5;
-static constexpr double kFormat = -5, kOldOneMesh = -3, kOldSeveral = -4;
+// vertices of the mesh, number of rows of loads, fingerprint of the mesh, these rows.
+static constexpr int kHeader = 6;
+static constexpr double kFormat = -5;
 
 // What fits a double, exactly.
 static double number_of(std::uint64_t fingerprint)
@@ -94,17 +93,16 @@ void FixWallLsdcd::restart(char *buffer)
     buffer += numbers.size() * sizeof(double);
     return numbers;
   };
-  const double format = take(1)[0];
-  if (format != kFormat && format != kOldOneMesh && format != kOldSeveral) {
-    warn("motion, loads and wear begin anew: the restart file is of another version of this fix");
-    return;
-  }
-  if (format == kFormat) kind_in_file = static_cast<int>(take(1)[0]);
+  if (take(1)[0] != kFormat)
+    refuse(
+        "the restart file was written by another version of this fix, whose data it cannot read: "
+        "go on with that version, or give the fix another ID to begin without springs, motion, "
+        "loads and wear");
+  kind_in_file = static_cast<int>(take(1)[0]);
   run_clock.base = take(1)[0];
-  const std::size_t there = format == kOldOneMesh ? 1 : static_cast<std::size_t>(take(1)[0]);
+  const std::size_t there = static_cast<std::size_t>(take(1)[0]);
   for (std::size_t k = 0; k < std::min(there, parts.size()); k++) {
-    const std::vector<double> motion = take(take(1)[0]),
-                              header = take(format == kFormat ? kHeader : kOldHeader),
+    const std::vector<double> motion = take(take(1)[0]), header = take(kHeader),
                               rows = take(header[4] * WallLoads::kPackedLoad);
     restart_part(parts[k], motion, header, rows, several() || there > 1);
   }
@@ -126,21 +124,19 @@ void FixWallLsdcd::restart_part(MeshPart &m, const std::vector<double> &motion,
                                 bool one_of_many)
 {
   const lsdcd::MeshReport &r = m.wall.report();
-  // Without a fingerprint edges have other numbers, whatever the mesh.
-  const bool other = header.size() != kHeader || header[1] != double(r.facets) ||
-                     header[2] != double(r.edges) || header[3] != double(r.vertices) ||
+  const bool other = header[1] != double(r.facets) || header[2] != double(r.edges) ||
+                     header[3] != double(r.vertices) ||
                      header[5] != number_of(m.wall.mesh_fingerprint());
   m.springs_are_foreign = other;
   if (other && one_of_many) {
     warn(of(m, "springs, motion, loads and wear begin anew: the restart file was written with "
-               "another mesh in this place, or by an earlier version of this fix"));
+               "another mesh in this place"));
     return;
   }
   restart_motion(m, motion);
   if (!settings.has_loads(m.settings)) return;
   if (other) {
-    warn("loads and wear begin at zero: the restart file was written with another mesh, or by an "
-         "earlier version of this fix");
+    warn("loads and wear begin at zero: the restart file was written with another mesh");
     return;
   }
   m.loads.set_time(header[0]);

@@ -4,7 +4,6 @@
 
 #include "base/input_words.h"
 #include "effects/effects.h"
-#include "tune/trial_grid.h"
 
 #include "comm.h"
 #include "update.h"
@@ -59,7 +58,7 @@ void FixWallLsdcd::log_uncertified()
                               std::to_string(sum) + " answers were not certified exact");
   if (sum > 0)
     t += "; contacts overlapping by up to " + number_text(100 * worst) +
-         " % of a radius may have been missed (nearest N exact or nearest all certify all). Told "
+         " % of a radius may have been missed (nearest all certifies all). Told "
          "again when they are ten times as many or could be twice as deep";
   log(t);
 }
@@ -112,17 +111,13 @@ void FixWallLsdcd::log_creation() const
   if (settings.contacts)
     t += "; " + std::to_string(size_peratom_cols * sizeof(double)) + " bytes for contacts";
   t += "\n  search      ";
-  if (settings.tune >= 0)
-    t += "tuned once there are particles, for errors below " + number_text(settings.tune);
-  else {
-    if (settings.nearest > 0)
-      t += "nearest " + std::to_string(settings.nearest) +
-           (settings.exact ? ", complete lists where that is not certified" : "");
-    else
-      t += "all that can touch";
-    t += std::string(", precision ") + lsdcd::precision_name(settings.precision);
-  }
+  if (settings.nearest > 0)
+    t += "nearest " + std::to_string(settings.nearest);
+  else
+    t += "all that can touch";
+  const char *const precisions[] = {"double", "mixed", "single"};
   const char *const sides[] = {"both", "in", "out"};
+  t += std::string(", precision ") + precisions[static_cast<int>(settings.precision)];
   t += std::string("\n  corners     ") +
        (settings.corner == lsdcd::Corner::blend ? "blend" : "sum") + ", side " +
        sides[static_cast<int>(settings.side)];
@@ -154,8 +149,7 @@ void FixWallLsdcd::log_build(const MeshPart &m, double old) const
   const bool again = old > 0;
   std::string t = signed_text(of(m, ""));
   if (!again)
-    t += (wall.tune_text().empty() ? "" : wall.tune_text() + "\n  ") + "grid for radius " +
-         number_text(wall.cutoff()) + "\n" + wall.grid_text();
+    t += "grid for radius " + number_text(wall.cutoff()) + "\n" + wall.grid_text();
   else if (wall.cutoff() > old)
     t += "larger particles, grid rebuilt for radius " + number_text(wall.cutoff());
   else

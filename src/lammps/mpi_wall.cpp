@@ -139,11 +139,9 @@ GridSettings SharedWall::grid_settings(Real cutoff, const PeriodicBox &box) cons
   want.limited = !(want.length > 0);    // a length that is given may take its time
   want.sides = settings_.side != Side::both;
   want.nearest = settings_.nearest;
-  want.exact = settings_.exact;
   want.in_floats = settings_.precision != Precision::double_;
   // Asked for a length that is chosen only, so that devices share the cache of one that is given.
   want.for_gpu = !(want.length > 0) && uses_gpu();
-  want.may_coarsen = settings_.tune >= 0 && !settings_.length_given;
   want.within = within(cutoff, box);
   want.progress = progress;
   return want;

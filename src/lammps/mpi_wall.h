@@ -7,7 +7,6 @@
 #include "lammps/mpi_shared.h"
 #include "mesh/periodic_images.h"
 #include "mesh/wall_mesh.h"
-#include "tune/tune.h"
 
 #include <cstdint>
 #include <functional>
@@ -17,13 +16,7 @@
 
 namespace lsdcd {
 
-struct TaggedSphere {
-  std::uint64_t tag;
-  Vec3 x;         // length
-  Real radius;    // length
-};
-
-// Making, tuning and building are collective over `world` and throw the same InputError
+// Making and building are collective over `world` and throw the same InputError
 // on every process.
 class SharedWall {
  public:
@@ -42,13 +35,6 @@ class SharedWall {
   bool has_images() const { return view().wall.same_vertex; }
   // No sphere in the box can touch the wall.
   bool out_of_reach() const { return cells_ == 0; }
-
-  // Chooses cell length, lists and precision for all processes by settings.tune; `mine`
-  // are this process's spheres of a sample of the scene. Kept for every build to come.
-  void tune(Real cutoff, const PeriodicBox &box, const std::vector<TaggedSphere> &mine);
-  const WallSettings &settings() const { return settings_; }
-  void take_choice(const WallSettings &tuned);                   // of another mesh
-  const std::string &tune_text() const { return tune_text_; }    // of the first process
 
   const MeshReport &report() const { return report_; }
   std::uint64_t mesh_fingerprint() const { return mesh_fingerprint_; }    // as placed by the deck
@@ -92,7 +78,7 @@ class SharedWall {
   std::unique_ptr<WallMesh> mesh_;    // where shared_.writes()
   MeshReport report_;
   std::uint64_t mesh_fingerprint_ = 0;
-  std::string mesh_text_, grid_text_, tune_text_;
+  std::string mesh_text_, grid_text_;
   std::string cache_file_, cache_text_, cache_warning_, ends_warning_;    // of the last build
   PeriodicBox box_;                                                       // likewise
   Box within_ = kNoLimit;

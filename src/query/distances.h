@@ -3,12 +3,11 @@
 #pragma once
 
 #include "contact/brick_geometry.h"
-#include "query/triangle_tests.h"
+#include "geometry/primitive_distance.h"
 
 namespace lsdcd {
 
 // The wall's own records, in double. Pieces are whole triangles, as in the paper.
-template <InsideTest kInside>
 class WallDistances {
  public:
   LSDCD_FN WallDistances(const GridView &grid, const Vec3 &q, const CellAddress &) :
@@ -16,13 +15,12 @@ class WallDistances {
   {
   }
 
-  // The paper's test can put a triangle nearer than the bound in its list.
-  static constexpr bool kBounded = kInside == InsideTest::exact;
+  // No entry of a list is nearer than its bound.
+  static constexpr bool kBounded = true;
 
   LSDCD_FN Real primitive(FeatureCode code, Real) const
   {
-    return kInside == InsideTest::exact ? primitive_distance(grid_.wall, code, q_)
-                                        : formula_five_distance(grid_.wall, code, q_);
+    return primitive_distance(grid_.wall, code, q_);
   }
   LSDCD_FN Real feature(FeatureCode code, Real within) const
   {
@@ -30,7 +28,7 @@ class WallDistances {
     return closest.found ? closest.distance : kAnyDistance;
   }
 
- private:
+ protected:
   const GridView &grid_;
   const Vec3 &q_;
 };

@@ -4,14 +4,9 @@
 #include "grid/lookup/brick_filter.h"
 #include "backend/atomic.h"
 #include "query/nearest_distance.h"
-#include "query/sphere_query.h"
+#include "query/sphere.h"
 
 namespace lsdcd {
-
-LSDCD_FN std::uint8_t status_of(const Answer &a)
-{
-  return (a.found() ? kTouching : 0) | (a.certified ? kCertified : 0);
-}
 
 // Arrays of one query; which of them are null says what is kept. Distances that were found
 // in float are kept in float. They are infinite where no wall is within the radius.

@@ -19,6 +19,14 @@ struct Answer {
   LSDCD_FN bool found() const { return distance < kAnyDistance; }
 };
 
+// Bits of an answer's status.
+constexpr std::uint8_t kTouching = 1, kCertified = 2;
+
+LSDCD_FN std::uint8_t status_of(const Answer &a)
+{
+  return (a.found() ? kTouching : 0) | (a.certified ? kCertified : 0);
+}
+
 // Where the wall is nowhere near.
 LSDCD_FN Answer far_answer()
 {
@@ -134,8 +142,7 @@ constexpr std::uint32_t kWholeList = 0xffffffffu;
 
 // The nearest point of the wall within `radius` (length, at most grid.cutoff) of q, which lies
 // at `at`, in the cell `cell` of grid.lists. kComplete: grid.nearest is 0. Certified answers are
-// exact, but for the rounding of Distances and with the paper's test. Lists of nearest primitives
-// fall back to complete ones where the grid has them.
+// exact, but for the rounding of Distances.
 template <bool kComplete, class Distances, class Before = FirstOfEqual>
 LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
                              const CellAddress &at, const Cell &cell, const Before &before = {})
@@ -143,17 +150,8 @@ LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
   if (kComplete)
     return nearest_in_cell<false, Distances>(grid, grid.lists, q, radius, kWholeList, at, cell,
                                              before);
-  const Answer first = nearest_in_cell<true, Distances>(
+  return nearest_in_cell<true, Distances>(
       grid, grid.lists, q, radius, static_cast<std::uint32_t>(grid.nearest), at, cell, before);
-  if (first.certified || !grid.complete.bricks) return first;
-  // The complete lists have cells of their own.
-  const CellAddress there = locate(grid, grid.complete, q);
-  Answer second = far_answer();
-  if (there.brick && has_candidates(*there.brick, there.cell))
-    second = nearest_in_cell<false, Distances>(grid, grid.complete, q, radius, kWholeList, there,
-                                               cell_of(grid.complete, there), before);
-  second.read += first.read;
-  return second;
 }
 
 // The same for any q.
@@ -164,24 +162,6 @@ LSDCD_FN Answer nearest_distance(const GridView &grid, const Vec3 &q, Real radiu
   const CellAddress at = locate(grid, grid.lists, q);
   if (!at.brick || !has_candidates(*at.brick, at.cell)) return far_answer();
   return nearest_from<kComplete, Distances>(grid, q, radius, at, cell_of(grid.lists, at), before);
-}
-
-// No grid: every face of the wall, the paper's N = all. Its edges and vertices without a
-// face are left out.
-template <class Distances>
-LSDCD_FN Answer nearest_of_all(const GridView &grid, std::uint32_t n_faces, const Vec3 &q,
-                               Real radius)
-{
-  const Distances distances(grid, q, {nullptr, 0, {0, 0, 0}});
-  Real nearest = radius;
-  bool found = false;
-  for (std::uint32_t face = 0; face < n_faces; face++) {
-    const Real distance = distances.primitive(feature_code(FeatureKind::face, face), nearest);
-    if (!(distance < nearest)) continue;
-    nearest = distance;
-    found = true;
-  }
-  return {found ? nearest : kAnyDistance, true, n_faces};
 }
 
 }    // namespace lsdcd

@@ -121,15 +121,14 @@ class CudaStreamQuery : public StreamQuery {
     way_.template reserve<SphereOf<T>>(io.n);
     const AnswerArrays out = answers(io);
     const GridView &grid = grid_->view;
-    using InDouble = WallDistances<InsideTest::exact>;
     if (grid.in_floats && grid.nearest == 0)
       run<BrickDistances, true>(spheres, io.n, out);
     else if (grid.in_floats)
       run<BrickDistances, false>(spheres, io.n, out);
     else if (grid.nearest == 0)
-      run<InDouble, true>(spheres, io.n, out);
+      run<WallDistances, true>(spheres, io.n, out);
     else
-      run<InDouble, false>(spheres, io.n, out);
+      run<WallDistances, false>(spheres, io.n, out);
     hand_back(io, out);
   }
 

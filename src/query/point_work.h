@@ -207,15 +207,14 @@ void with_point_work(const GridView &grid, const BrickTable &table, const PointA
 {
   const TooLarge<SphereOf<T>> check = {static_cast<T>(grid.cutoff), too_large};
   const bool only = io.only_distance();
-  using InDouble = WallDistances<InsideTest::exact>;
   if (grid.in_floats && grid.nearest == 0)
     run(PointWork<BrickDistances, T, true, true>{grid, table, io, names, check, only});
   else if (grid.in_floats)
     run(PointWork<BrickDistances, T, false, true>{grid, table, io, names, check, only});
   else if (grid.nearest == 0)
-    run(PointWork<InDouble, T, true, false>{grid, table, io, names, check, only});
+    run(PointWork<WallDistances, T, true, false>{grid, table, io, names, check, only});
   else
-    run(PointWork<InDouble, T, false, false>{grid, table, io, names, check, only});
+    run(PointWork<WallDistances, T, false, false>{grid, table, io, names, check, only});
 }
 
 }    // namespace lsdcd

@@ -77,13 +77,12 @@ Real AccuracyStudy::agreement(const std::vector<std::uint8_t> &touching) const
 void AccuracyStudy::set_grid(const StudyLists &lists)
 {
   if (has_grid_ && lists.length == of_grid_.length &&
-      (lists.every_face || (lists.nearest == of_grid_.nearest && lists.exact == of_grid_.exact)))
+      (lists.every_face || lists.nearest == of_grid_.nearest))
     return;
   GridSettings grid;
   grid.length = lists.length;
   grid.cutoff = box_.largest;
   grid.nearest = lists.nearest;
-  grid.exact = lists.exact;
   grid.memory_budget = settings_.memory_budget;
   const bool on_cuda = settings_.device != Device::cpu && cuda_available(nullptr);
   grid_ = TriangleGrid();

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "mesh/wall_mesh.h"
-#include "query/sphere_query.h"
 #include "study/cylinder.h"
+#include "study/sphere_query.h"
 #include "study/spheres.h"
 
 #include <memory>
@@ -25,7 +25,6 @@ struct StudySettings {
 // Which lists a measurement reads.
 struct StudyLists {
   int nearest = 0;            // N triangles; 0: complete lists
-  bool exact = false;         // with N: complete lists as well
   bool every_face = false;    // no lists: the paper's N = all
   Real length = 0;            // cell edge
 };

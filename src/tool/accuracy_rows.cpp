@@ -38,7 +38,7 @@ std::string lists_name(const StudyLists &lists)
 {
   if (lists.every_face) return "every triangle";
   if (lists.nearest == 0) return "complete";
-  return std::to_string(lists.nearest) + (lists.exact ? " exact" : "");
+  return std::to_string(lists.nearest);
 }
 
 void AccuracyRows::begin(const std::string &title)

@@ -11,7 +11,7 @@ import sys
 
 FLOOR = 1e-17    # where errors of 0 are drawn
 COLOURS = {"all": "black", "1": "#d62728", "2": "#ff7f0e", "3": "#bcbd22", "4": "#2ca02c",
-           "8": "#17becf", "2 exact": "#1f77b4", "4 exact": "#9467bd"}
+           "8": "#17becf"}
 MARKERS = {"double": "o", "mixed": "s", "single": "^"}
 
 
@@ -86,8 +86,8 @@ def read(path):
     with open(path, newline="") as f:
         rows = list(csv.DictReader(f))
     for row in rows:
-        for key in ("ns_per_sphere", "bytes", "force_mean"):
-            row[key] = float(row[key])
+        for key in ("ns_per_sphere", "status_ns", "bytes", "force_mean"):
+            row[key] = float(row.get(key, 0))    # rows of earlier days have no status_ns
     return rows
 
 

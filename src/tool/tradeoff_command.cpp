@@ -6,7 +6,7 @@
 #include "tool/load_mesh.h"
 #include "tool/number_options.h"
 #include "tool/output_file.h"
-#include "tune/tradeoff.h"
+#include "study/tradeoff.h"
 
 #include <cmath>
 #include <cstdio>
@@ -24,15 +24,14 @@ namespace {
 struct Options {
   std::string file, device = "auto", csv = "tradeoff.csv", plot;
   std::vector<double> scale;
-  double weld = -1, memory = 1024;
+  double weld = -1, memory = 1024, below = 0;
   TradeoffSettings settings;
 };
 
 const char *const kHelp =
     "Tries cells of half to four times the default length, lists of 1, 2, 3, 4 and 8 nearest "
-    "triangles, 2 and 4 of them with a fallback (exact), and all; precision double, mixed and "
-    "single; corner blend and sum; on each device. Spheres are placed at random beside the "
-    "wall. Columns of the CSV:\n"
+    "triangles, and all; precision double, mixed and single; corner blend and sum; on each device. "
+    "Spheres are placed at random beside the wall. Columns of the CSV:\n"
     "  missed          contacts missed / contacts; against `nearest all` in double\n"
     "  uncertified     spheres whose answer is not certified exact / spheres\n"
     "  force_median, force_largest   error of a sphere's force / that force, or that of an\n"
@@ -43,11 +42,16 @@ const char *const kHelp =
     "                  pulled along its face's normal. One that leaves the wall counts with what\n"
     "                  it had gained or lost until then; one that goes through it 1\n"
     "  roll_drift      the same for spheres that roll without slip over five radii\n"
-    "  ns_per_sphere   of a step, on one core with caches filled by other work; or on the GPU\n"
+    "  ns_per_sphere   of a step, on one core with caches filled by other work; or on the GPU. It\n"
+    "                  searches cells with nearest N, and reads lists made before with all\n"
+    "  status_ns       of asking whether a sphere touches, which searches cells with either\n"
     "  bytes           of the grid\n"
     "  front           1 where no other setting on the device is better in time or mean force\n"
     "                  error and as good in the other\n"
-    "  default         1 for what the fix does by itself";
+    "  default         1 for what the fix does by itself\n"
+    "--below E takes nearest N only where all its answers are certified, and of settings within a\n"
+    "tenth of the fastest the one with the smallest error. Of a million spheres the largest error\n"
+    "in float can be twenty times that of some thousand: ask for less than you need.";
 
 std::string formatted(const char *format, double value)
 {
@@ -85,7 +89,7 @@ std::string csv_of(const Tradeoff &tradeoff, const WallMesh &mesh, const Tradeof
   std::string out =
       "mesh,triangles,least_radius,largest_radius,kind,device,grid,nearest,precision,corner,missed,"
       "uncertified,force_median,force_largest,force_mean,bounce_drift,roll_drift,ns_per_sphere,"
-      "bytes,front,default,contacts,spheres,moving,repeats,order,seed,commit\n";
+      "status_ns,bytes,front,default,contacts,spheres,moving,repeats,order,seed,commit\n";
   const auto number = [](double value) { return formatted("%.5g", value); };
   const std::string name = std::filesystem::path(mesh.source).filename().string();
   for (const TradeoffRow &r : tradeoff.rows) {
@@ -96,8 +100,8 @@ std::string csv_of(const Tradeoff &tradeoff, const WallMesh &mesh, const Tradeof
                                              r.on_cuda ? "cuda" : "cpu",
                                              quoted(device_name(r)),
                                              number(r.choice.length),
-                                             lists_name(r.choice),
-                                             precision_name(r.choice.precision),
+                                             nearest_word(r.choice),
+                                             precision_word(r.choice),
                                              r.corner == Corner::blend ? "blend" : "sum",
                                              number(r.error.missed_share()),
                                              number(double(r.error.uncertified) / r.checked),
@@ -107,6 +111,7 @@ std::string csv_of(const Tradeoff &tradeoff, const WallMesh &mesh, const Tradeof
                                              number(r.bounce_drift),
                                              number(r.roll_drift),
                                              number(r.ns_per_sphere),
+                                             number(r.status_ns),
                                              std::to_string(r.bytes),
                                              r.on_front ? "1" : "0",
                                              r.is_default ? "1" : "0",
@@ -144,6 +149,19 @@ void draw(const std::string &csv, const std::string &plot)
                      std::string(python) + " " + script + " " + csv + " " + plot);
 }
 
+// The words to put into a deck.
+void print_words(const Tradeoff &result, double below, bool on_cuda)
+{
+  const TradeoffRow *row = fastest_below(result.rows, below, on_cuda);
+  if (!row)
+    throw InputError("no setting that was measured keeps errors below " + formatted("%g", below) +
+                     " on the " + (on_cuda ? "GPU" : "CPU") +
+                     ": give a larger --below, or more --memory or --seconds where settings were "
+                     "left out");
+  std::printf("below %g on the %s: %s\n", below, on_cuda ? "GPU" : "CPU",
+              words_of(row->choice).c_str());
+}
+
 void tradeoff(Options &o)
 {
   std::string why;
@@ -159,14 +177,15 @@ void tradeoff(Options &o)
   WholeFile file(o.csv);    // now, rather than fail when all is done
   std::printf("%s, %zu triangles\n", o.file.c_str(), mesh.faces.size());
   std::printf("      grid  nearest  precision  corner  device   missed %%  force error: mean  "
-              "largest  bounce    roll  ns/sphere        MB\n");
+              "largest  bounce    roll  ns/sphere   status        MB\n");
   const Tradeoff result = measure_tradeoff(mesh, o.settings, [](const TradeoffRow &r) {
-    std::printf(
-        "%10.4g  %-7s  %-9s  %-6s  %-6s  %8.3g  %17.2g  %7.2g  %6.1g  %6.1g  %9.1f  %8.3g%s\n",
-        r.choice.length, lists_name(r.choice).c_str(), precision_name(r.choice.precision),
-        r.corner == Corner::blend ? "blend" : "sum", r.on_cuda ? "cuda" : "cpu",
-        100 * r.error.missed_share(), r.error.mean, r.error.largest, r.bounce_drift, r.roll_drift,
-        r.ns_per_sphere, r.bytes / 1e6, r.is_default ? "  default" : "");
+    std::printf("%10.4g  %-7s  %-9s  %-6s  %-6s  %8.3g  %17.2g  %7.2g  %6.1g  %6.1g  %9.1f  %7.1f  "
+                "%8.3g%s\n",
+                r.choice.length, nearest_word(r.choice).c_str(), precision_word(r.choice),
+                r.corner == Corner::blend ? "blend" : "sum", r.on_cuda ? "cuda" : "cpu",
+                100 * r.error.missed_share(), r.error.mean, r.error.largest, r.bounce_drift,
+                r.roll_drift, r.ns_per_sphere, r.status_ns, r.bytes / 1e6,
+                r.is_default ? "  default" : "");
     std::fflush(stdout);
   });
   for (const std::string &what : result.left_out)
@@ -175,6 +194,8 @@ void tradeoff(Options &o)
   file.write_at(0, text.data(), text.size());
   file.commit();
   std::printf("rows in %s\n", o.csv.c_str());
+  if (o.below > 0 && o.settings.cpu) print_words(result, o.below, false);
+  if (o.below > 0 && o.settings.cuda) print_words(result, o.below, true);
   std::fflush(stdout);
   if (o.plot == "none") return;
   draw(o.csv, o.plot);
@@ -189,11 +210,16 @@ void add_tradeoff_command(Command &program)
   Command command =
       program.command("tradeoff", "what each setting buys and costs on a mesh: a CSV and a plot");
   command.footer(std::string(kHelp) +
-                 "\nExample:\n  lsdcd tradeoff wall.stl --radius 0.004 0.005 --csv wall.csv");
+                 "\nExample:\n  lsdcd tradeoff wall.stl --radius 0.004 0.005 --below 1e-3");
   command.option("file", o->file, "STL file, ASCII or binary").required();
   command.option("--radius", o->settings.radii, "sphere radii, one or several, each as likely")
       .required()
       .words(1, -1)
+      .check(above_zero);
+  command
+      .option("--below", o->below,
+              "print the words for a deck: the fastest setting with missed contacts / contacts "
+              "and all errors of forces below this")
       .check(above_zero);
   add_scale_option(command, o->scale);
   add_weld_option(command, o->weld);

@@ -148,10 +148,15 @@ def main():
                          "run 0\n", folder)
     checks.fact("in groups that share none it is not", not lines(text, *twice))
 
-    # Costs are those of another machine: lsdcd effects has them, with its name.
+    # Costs are those of another machine: doc/effects.md has them, with its name.
     text = deck.run_well(BOX + fix() + "run 0\n", folder)
     checks.fact("the log lists effects without times",
                 lines(text, "  effects     normal spring, normal damping") and not lines(text, " ns"))
+
+    # Words that say the default.
+    text = deck.run_well(BOX + fix("grid auto rmax auto memory 1024 cache none nearest all precision double corner blend "
+                                   "side both device auto log full draw edges 1") + "run 0\n", folder)
+    checks.fact("words that say the default are taken without a word", not lines(text, "WARNING"), text[-300:])
 
     # Why there is no CUDA, as the build was configured.
     cache = deck.LIB.parent / "CMakeCache.txt"

@@ -297,9 +297,7 @@ def searches(checks, folder):
     plain = go("plain")
     near = sum(row[9] > 0 for rows in plain.values() for row in rows.values())
     checks.fact("spheres touch", near > 30, str(near))
-    for name, words in (("tune 0.01", {"more": "tune 0.01"}),
-                        ("nearest 2 exact", {"more": "nearest 2 exact"}),
-                        ("a grid for larger spheres", {"more": "rmax 0.7 grid 0.3"}),
+    for name, words in (("a grid for larger spheres", {"more": "rmax 0.7 grid 0.3"}),
                         ("choices by the engine", {"neigh": "delay 10 every 10 check no"}),
                         ("two runs without setup", {"run": "run 300 post no\nrun 300 pre no\n"})):
         checks.at_most(f"{name}: as plain", deck.largest_difference(plain, go("other", **words)), 0)

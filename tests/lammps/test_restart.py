@@ -7,7 +7,6 @@ two pieces through a file (equal to the last bit), and a run in one piece only
 without damping (equal but for rounding of the repeated evaluation).
 """
 
-import re
 import struct
 
 import deck
@@ -20,7 +19,6 @@ LAWS = {"hooke_history": "hooke/history 1e4 NULL 120 NULL 0.4 1",
 UNDAMPED = "hooke/history 1e4 NULL 0 NULL 0.4 0"
 UNDAMPED_SIDES = "hooke 1e4 NULL 1e-300 NULL 0 0"    # 0 is not a number to LAMMPS 4Jul2026
 FIRST, SECOND = 700, 800
-OF_EARLIER = "6 atoms lose their springs: the restart file is of an earlier version of this fix"
 
 
 # On two processes the first one has a sphere in the air, and the other one those on the floor.
@@ -57,15 +55,6 @@ def rows(checks, folder):
         continued = proceed(law, folder, ranks, "few.restart")[0]
         checks.at_most(f"rows: written so on 2 ranks, read on {ranks}",
                        deck.largest_difference(two, continued), 0)
-    # As versions wrote it that asked the first process alone: the width follows the last name.
-    data = bytearray((folder / "few.restart").read_bytes())
-    width = list(re.finditer(rb"wall/lsdcd(/kk)?\0", data))[-1].end()
-    data[width:width + 4] = struct.pack("<i", 2)
-    (folder / "narrow.restart").write_bytes(data)
-    done = deck.run(scene.SETTINGS + "read_restart narrow.restart\n" + scene.forces(law), folder)
-    checks.fact("rows: a file whose rows are too narrow is refused", done.returncode != 0 and
-                "more numbers in the restart file than the 2 that it has room for" in done.stdout,
-                done.stdout[-300:] if done.returncode == 0 else "")
 
 
 def kinds(checks, folder):
@@ -81,30 +70,15 @@ def kinds(checks, folder):
     text = proceed(law("linear_history"), folder, restart="kind.restart")[1]
     checks.fact("kinds: a displacement is one in any law", "lose their springs" not in text)
 
-    # Earlier versions wrote springs without data of the whole fix: here these are of another fix.
-    data = (folder / "kind.restart").read_bytes()
-    (folder / "plain.restart").write_bytes(re.sub(rb"wall(\0....wall/lsdcd(?:/kk)?\0)", rb"lost\1", data, 1, re.S))
-    text = proceed(law("mindlin"), folder, restart="plain.restart")[1]
-    checks.fact("kinds: springs of an earlier version are dropped", OF_EARLIER in text)
 
-
-def earlier_format(checks, folder):
-    """Data of a fix with one mesh that moves, as version -3 of them was: without springs' names."""
-    moving = {"mesh": "mesh floor.stl motion wiggle 0 0 0.1 0.9"}
-    for name in ("hooke", "hooke_history"):
-        two = write(LAWS[name], folder, name="moving", create=FEW, **moving)
-        data = (folder / "moving.restart").read_bytes()
-        at = data.index(struct.pack("<d", -5))
-        n = struct.unpack_from("<i", data, at - 4)[0] // 8
-        numbers = list(struct.unpack_from(f"<{n}d", data, at))
-        old = [-3, numbers[2]] + numbers[4:-1]    # without the fingerprint; there are no rows of loads
-        (folder / "moving.restart").write_bytes(data[:at - 4] + struct.pack(f"<i{len(old)}d", 8 * len(old), *old) +
-                                                data[at + 8 * n:])
-        continued, text = proceed(LAWS[name], folder, restart="moving.restart", **moving)
-        if name == "hooke":
-            checks.at_most("motion of version -3 goes on", deck.largest_difference(two, continued), 0)
-        else:
-            checks.fact("springs of version -3 are dropped", OF_EARLIER in text)
+def another_format(checks, folder):
+    """Data of another version are refused: here only their number says so."""
+    write(LAWS["hooke"], folder, name="other", create=FEW)
+    data = (folder / "other.restart").read_bytes()
+    (folder / "other.restart").write_bytes(data.replace(struct.pack("<d", -5), struct.pack("<d", -4), 1))
+    done = deck.run(scene.SETTINGS + "read_restart other.restart\n" + scene.forces(LAWS["hooke"]) + "run 0\n", folder)
+    checks.fact("another version is refused", done.returncode != 0 and "written by another version of this fix" in
+                done.stdout and "give the fix another ID" in done.stdout, done.stdout[-300:])
 
 
 def meshes(checks, folder):
@@ -155,7 +129,7 @@ def main():
     scene.write_floor(folder / "floor.stl")
     rows(checks, folder)
     kinds(checks, folder)
-    earlier_format(checks, folder)
+    another_format(checks, folder)
     meshes(checks, folder)
 
     # Settled with damping, then without it: in one piece, and in two through a file.

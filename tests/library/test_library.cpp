@@ -100,12 +100,10 @@ struct All {
   }
 };
 
-lsdcd::Grid grid_of(const TriangleSoup &soup, int nearest = 0, bool exact = false,
-                    int precision = LSDCD_DOUBLE)
+lsdcd::Grid grid_of(const TriangleSoup &soup, int nearest = 0, int precision = LSDCD_DOUBLE)
 {
   lsdcd::GridOptions options(kCutoff);
   options.nearest = nearest;
-  options.exact = exact;
   options.precision = precision;
   return lsdcd::Grid(lsdcd::Mesh(numbers(soup)), options);
 }
@@ -161,8 +159,8 @@ TEST(library, complete_lists_give_what_brute_force_gives)
 TEST(library, a_search_in_float_is_off_by_its_rounding_alone)
 {
   const TriangleSoup soup = box_and_cylinder();
-  expect_nearest<double>(grid_of(soup, 0, false, LSDCD_FLOAT), soup, kInFloat, true);
-  expect_nearest<float>(grid_of(soup, 0, false, LSDCD_FLOAT), soup, kInFloat, true);
+  expect_nearest<double>(grid_of(soup, 0, LSDCD_FLOAT), soup, kInFloat, true);
+  expect_nearest<float>(grid_of(soup, 0, LSDCD_FLOAT), soup, kInFloat, true);
 }
 
 // Points within twice the float tolerance of an edge's own plane, at any height over it: where a
@@ -218,10 +216,8 @@ TEST(library, a_search_in_float_is_off_by_its_bound_at_most_at_edges_too)
 TEST(library, answers_of_nearest_lists_that_are_certified_are_right)
 {
   const TriangleSoup soup = box_and_cylinder();
-  for (int precision : {LSDCD_DOUBLE, LSDCD_FLOAT}) {
-    expect_nearest<double>(grid_of(soup, 2, false, precision), soup, kInFloat, false);
-    expect_nearest<double>(grid_of(soup, 1, true, precision), soup, kInFloat, true);
-  }
+  for (int precision : {LSDCD_DOUBLE, LSDCD_FLOAT})
+    expect_nearest<double>(grid_of(soup, 2, precision), soup, kInFloat, false);
 }
 
 TEST(library, the_side_is_that_of_the_box)
@@ -229,7 +225,7 @@ TEST(library, the_side_is_that_of_the_box)
   const TriangleSoup box = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
   for (int nearest : {0, 1})
     for (int precision : {LSDCD_DOUBLE, LSDCD_FLOAT}) {
-      const lsdcd::Grid grid = grid_of(box, nearest, false, precision);
+      const lsdcd::Grid grid = grid_of(box, nearest, precision);
       std::vector<double> points = random_points<double>(20000);
       // Some within 1e-9 of a wall, where a float cannot tell.
       for (std::size_t i = 0; i < 300; i++) points[3 * i] = 1 + (i % 2 ? 1e-9 : -1e-9);
@@ -732,7 +728,6 @@ TEST_F(Wrong, options_that_make_no_grid)
   expect_bad([](auto &o) { o.cutoff = HUGE_VAL; }, "cutoff");
   expect_bad([](auto &o) { o.cell = -1; }, "cell");
   expect_bad([](auto &o) { o.nearest = 33; }, "nearest");
-  expect_bad([](auto &o) { o.exact = 1; }, "exact");
   expect_bad([](auto &o) { o.precision = 2; }, "precision");
   expect_bad([](auto &o) { o.memory = -1; }, "memory");
   expect_bad([](auto &o) { o.threads = -1; }, "threads");

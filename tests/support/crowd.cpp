@@ -103,11 +103,10 @@ ContactLaw everything(NormalModel normal)
 
 std::vector<Search> other_searches()
 {
-  return {{"nearest 2", 2, false, Precision::double_},
-          {"nearest 2 exact", 2, true, Precision::double_},
-          {"mixed", 0, false, Precision::mixed},
-          {"nearest 3, mixed", 3, false, Precision::mixed},
-          {"single", 0, false, Precision::single_}};
+  return {{"nearest 2", 2, Precision::double_},
+          {"mixed", 0, Precision::mixed},
+          {"nearest 3, mixed", 3, Precision::mixed},
+          {"single", 0, Precision::single_}};
 }
 
 namespace {
@@ -125,7 +124,7 @@ const Wall &wall_of(const Case &c, const GridSettings &g)
   static Wall last;
   const GridSettings &had = last.settings;
   if (last.name == c.name && had.cutoff == g.cutoff && had.nearest == g.nearest &&
-      had.exact == g.exact && had.in_floats == g.in_floats)
+      had.in_floats == g.in_floats)
     return last;
   const WallMesh mesh = mesh_of(c);
   last = {c.name, g, mesh.report, FlatGrid(build_grid(mesh, g))};
@@ -155,7 +154,6 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
   g.cutoff = cutoff_of(law, c.cutoff);
   g.length = c.length;
   g.nearest = search.nearest;
-  g.exact = search.exact;
   g.in_floats = search.precision != Precision::double_;
   g.within = within(c);
   const Wall &built = wall_of(c, g);

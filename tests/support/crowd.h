@@ -52,10 +52,9 @@ struct Outcome {
 struct Search {
   const char *name;
   int nearest;
-  bool exact;
   Precision precision;
 };
-constexpr Search kComplete = {"complete", 0, false, Precision::double_};
+constexpr Search kComplete = {"complete", 0, Precision::double_};
 std::vector<Search> other_searches();
 
 using EngineMaker = std::function<std::unique_ptr<WallEngine>(const EngineSettings &)>;

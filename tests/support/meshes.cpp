@@ -134,7 +134,7 @@ void append(TriangleSoup &soup, const TriangleSoup &more)
 }
 
 Scene::Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Real grid_length,
-             Real weld_tolerance, int nearest, bool exact) :
+             Real weld_tolerance, int nearest) :
     mesh(weld(soup, weld_tolerance)),
     springs(settings.law.n_extra())
 {
@@ -143,7 +143,6 @@ Scene::Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Rea
   g.cutoff = cutoff;
   g.sides = settings.side != Side::both;
   g.nearest = nearest;
-  g.exact = exact;
   g.in_floats = settings.precision != Precision::double_;
   grid = build_grid(mesh, g, test_on_cuda());
   flat_ = FlatGrid(grid);

@@ -39,7 +39,7 @@ void append(TriangleSoup &soup, const TriangleSoup &more);
 class Scene {
  public:
   Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Real grid_length = 0,
-        Real weld_tolerance = -1, int nearest = 0, bool exact = false);
+        Real weld_tolerance = -1, int nearest = 0);
 
   void use(std::unique_ptr<WallEngine> other);    // in place of the test's engine
 

@@ -3,7 +3,7 @@
 
 #include "support/query_oracle.h"
 
-#include "query/query_on.h"
+#include "study/sphere_query_on.h"
 #include "study/spheres.h"
 
 #include <memory>

@@ -21,7 +21,6 @@ TWICE = ["collide wall.stl body.stl -o a.csv --segments ./a.csv"]
 ENDINGS = [    # words, what is said
     ("tradeoff wall.stl --radius 0.1 --csv t.stl" + QUICK, "--csv t.stl: end the name in .csv"),
     ("tradeoff wall.stl --radius 0.1 --plot t.pdf" + QUICK, "--plot t.pdf: end the name in .png"),
-    ("effects --measure --spheres 100 --repeats 1 --csv e.stl", "--csv e.stl: end the name in .csv"),
     ("accuracy --spheres 1000 --csv a.txt", "--csv a.txt: end the name in .csv"),
     ("generate box --width 1 --depth 1 --height 1 -o x.txt", "--output x.txt: end the name in .stl"),
 ]

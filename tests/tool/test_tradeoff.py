@@ -5,6 +5,7 @@ wrong with its arguments."""
 import csv
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -35,16 +36,19 @@ def rows(path):
 
 def main():
     folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
-    done = run(folder, str(FLOOR), "--radius", "0.4", "0.5", *FAST, "--plot", "none")
+    done = run(folder, str(FLOOR), "--radius", "0.4", "0.5", *FAST, "--plot", "none", "--below", "1e-12")
     fact("the rows are written", done.returncode == 0 and (folder / "tradeoff.csv").exists(),
          done.stdout[-300:])
     table = rows(folder / "tradeoff.csv")
-    fact("every setting has a row", len(table) % 48 == 0 and len(table) >= 48, str(len(table)))
+    fact("every setting has a row", len(table) % 36 == 0 and len(table) >= 36, str(len(table)))
     fact("one is the default", [r["default"] for r in table].count("1") == 1)
     fact("some are on the front", any(r["front"] == "1" for r in table))
     fact("rows say what they are of", all(r["commit"] and r["device"] and r["order"] == "sorted" and
                                           r["triangles"] == "2" for r in table))
     fact("no plot was asked for and none is there", not list(folder.glob("*.png")))
+    words = re.search(r"^below 1e-12 on the CPU: grid (\S+) nearest all precision double$", done.stdout, re.M)
+    fact("the words for a bound that floats do not keep are of a row in double", words and
+         any(r["grid"] == words[1] and float(r["force_largest"]) < 1e-12 for r in table), done.stdout[-300:])
     fact("nothing else is left", sorted(p.name for p in folder.iterdir()) == ["tradeoff.csv"])
 
     # The same errors from the same seed, others from another, as far as four seconds go.
@@ -74,7 +78,12 @@ def main():
     fact("and how to draw it is told", done.returncode == 1 and "python3-matplotlib" in done.stdout and
          "alone.csv" in done.stdout, done.stdout[-300:])
 
+    done = run(folder, str(FLOOR), "--radius", "0.5", *FAST, "--plot", "none", "--memory", "0.001", "--below", "0.1")
+    fact("where nothing keeps the bound it fails and says so", done.returncode == 1 and
+         "no setting that was measured keeps errors below 0.1 on the CPU" in done.stdout, done.stdout[-300:])
+
     for words, expected in [([str(FLOOR)], "--radius"),
+                            ([str(FLOOR), "--radius", "0.5", "--below", "0"], "--below"),
                             ([str(FLOOR), "--radius", "-1"], "--radius"),
                             ([str(FLOOR), "--radius", "0.5", "--device", "tpu"], "--device"),
                             ([str(FLOOR), "--radius", "0.5", "--seconds", "0"], "--seconds"),

@@ -36,8 +36,7 @@ void compare(const WallMesh &mesh, const GridSettings &settings)
   const TriangleGrid grid = build_grid(mesh, settings);
   const double entries = double(grid.report.lists.candidates);
   const GridPlan plan = plan_grid(mesh, settings);
-  const ListEstimate about =
-      estimate_lists(grid.wall, plan, settings.nearest > 0, bricks_that_meet(plan, settings.only));
+  const ListEstimate about = estimate_lists(grid.wall, plan, settings.nearest > 0);
   ASSERT_GT(about.least_entries, 0);
   // Four standard errors on each side; the numbers are the same in every run.
   EXPECT_LE(about.least_entries, entries);
@@ -50,11 +49,10 @@ void compare(const WallMesh &mesh, const GridSettings &settings)
             double(flat_bytes(grid) - flat_wall_bytes(grid)));
 }
 
-BuildEstimate estimate_of_slivers(int nearest, bool exact)
+BuildEstimate estimate_of_slivers(int nearest)
 {
   const WallMesh mesh = slivers(500);
-  GridSettings settings = settings_of(0.5, nearest);
-  settings.exact = exact;
+  const GridSettings settings = settings_of(0.5, nearest);
   return estimate_build(make_features(mesh, false, true), plan_grid(mesh, settings), settings);
 }
 
@@ -75,27 +73,19 @@ TEST(BuildEstimate, entries_of_lists_of_every_triangle_are_as_estimated)
   compare(weld(cylinder_mesh(200, 99, 50, 100), -1), settings_of(1, kEveryTriangle));
 }
 
-TEST(BuildEstimate, entries_of_a_part_are_as_estimated)
-{
-  GridSettings settings = settings_of(1, 0);
-  settings.only = {{{0, 0, 0}, {60, 60, 60}}};
-  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), settings);
-}
-
 TEST(BuildEstimate, lists_that_are_cut_short_may_have_any_size)
 {
-  EXPECT_EQ(estimate_of_slivers(8, false).least_bytes, 0);
+  EXPECT_EQ(estimate_of_slivers(8).least_bytes, 0);
 }
 
-TEST(BuildEstimate, complete_lists_beside_short_ones_count)
+TEST(BuildEstimate, complete_lists_count)
 {
-  EXPECT_GT(estimate_of_slivers(0, false).least_bytes, 0);
-  EXPECT_EQ(estimate_of_slivers(8, true).least_bytes, estimate_of_slivers(0, false).least_bytes);
+  EXPECT_GT(estimate_of_slivers(0).least_bytes, 0);
 }
 
 TEST(BuildEstimate, lists_of_every_triangle_count)
 {
-  EXPECT_GT(estimate_of_slivers(kEveryTriangle, false).least_bytes, 0);
+  EXPECT_GT(estimate_of_slivers(kEveryTriangle).least_bytes, 0);
 }
 
 TEST(BuildEstimate, a_given_cell_that_cannot_fit_is_refused_before_anything_is_built)

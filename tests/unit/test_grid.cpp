@@ -250,7 +250,7 @@ TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)
       GridSettings settings;
       settings.cutoff = 0.25;
       settings.length = length;
-      const BuildView b = {features.view(), nullptr, false, plan_grid(mesh, settings), nullptr};
+      const BuildView b = {features.view(), nullptr, false, plan_grid(mesh, settings)};
       for (std::uint32_t f = 0; f < features.faces.size(); f++) {
         const BrickBox box = brick_box(b, feature_code(FeatureKind::face, f));
         for (std::uint64_t i = 0; i < 8 * box.count(); i++) {
@@ -672,6 +672,18 @@ TEST(grid, position_that_is_not_a_number_touches_nothing)
     EXPECT_EQ(set.n, 0);
     EXPECT_FALSE(near_wall(grid.view(), q));
   }
+}
+
+TEST(grid_length, that_may_coarsen_does_where_the_budget_asks_for_it)
+{
+  const WallMesh mesh = weld(cylinder_mesh(60, 25, 1, 2.5), -1);
+  GridSettings settings;
+  settings.cutoff = 0.1;
+  settings.length = 0.01;
+  settings.memory_budget = 2 << 20;
+  EXPECT_THROW(build_grid(mesh, settings, test_on_cuda()), InputError);
+  settings.may_coarsen = true;
+  EXPECT_GT(build_grid(mesh, settings, test_on_cuda()).length, 0.01);
 }
 
 }    // namespace

@@ -124,10 +124,10 @@ TEST(grid_cache, a_grid_reads_the_same_wherever_it_lies)
 TEST(grid_cache, lists_of_the_nearest_and_records_in_floats_come_back_too)
 {
   TempDir dir;
-  for (const bool exact : {false, true}) {
+  for (const bool in_floats : {false, true}) {
     GridSettings settings = some_settings();
     settings.nearest = 2;
-    settings.exact = settings.in_floats = exact;
+    settings.in_floats = in_floats;
     const Made made(cylinder_mesh(20, 3, 1, 2), settings);
     made.write(dir.path("grid"));
     EXPECT_EQ(made.state(dir.path("grid")), CacheState::usable);
@@ -325,7 +325,6 @@ TEST(grid_cache, every_setting_is_told)
   EXPECT_EQ(with([](GridSettings &s) { s.memory_budget++; }), CacheState::other_settings);
   EXPECT_EQ(with([](GridSettings &s) { s.sides = true; }), CacheState::other_settings);
   EXPECT_EQ(with([](GridSettings &s) { s.nearest = 1; }), CacheState::other_settings);
-  EXPECT_EQ(with([](GridSettings &s) { s.exact = true; }), CacheState::other_settings);
   EXPECT_EQ(with([](GridSettings &s) { s.in_floats = true; }), CacheState::other_settings);
 }
 

@@ -16,14 +16,12 @@ namespace {
 
 constexpr int kPlaces = 512;
 
-TriangleGrid grid_of(const WallMesh &mesh, Real cutoff, Real length, int nearest,
-                     bool exact = false)
+TriangleGrid grid_of(const WallMesh &mesh, Real cutoff, Real length, int nearest)
 {
   GridSettings settings;
   settings.cutoff = cutoff;
   settings.length = length;
   settings.nearest = nearest;
-  settings.exact = exact;
   return build_grid(mesh, settings, test_on_cuda());
 }
 
@@ -108,7 +106,7 @@ struct Shares {
 };
 
 // Good and bad random meshes; feature records are the same, so that equal means equal.
-Shares compare_with_complete(int nearest, bool exact)
+Shares compare_with_complete(int nearest)
 {
   Shares shares;
   for (std::uint64_t seed = 1; seed <= 60; seed++) {
@@ -116,7 +114,7 @@ Shares compare_with_complete(int nearest, bool exact)
     const WallMesh mesh = weld(made.soup, 0);
     if (norm(mesh.report.hi - mesh.report.lo) > 60 * made.cutoff) continue;
     const Real length = 0.4 * made.cutoff;
-    const TriangleGrid some = grid_of(mesh, made.cutoff, length, nearest, exact),
+    const TriangleGrid some = grid_of(mesh, made.cutoff, length, nearest),
                        all = grid_of(mesh, made.cutoff, length, 0);
     const GridView some_view = some.view(), all_view = all.view();
     Numbers random(seed);
@@ -143,25 +141,16 @@ Shares compare_with_complete(int nearest, bool exact)
 TEST(certificates, are_never_wrong)
 {
   for (int n = 1; n <= 8; n++) {
-    const Shares s = compare_with_complete(n, false);
+    const Shares s = compare_with_complete(n);
     EXPECT_GT(s.certified, 100) << n;
   }
 }
 
 TEST(certificates, are_refused_where_contacts_are_missed)
 {
-  const Shares s = compare_with_complete(1, false);
+  const Shares s = compare_with_complete(1);
   EXPECT_GT(s.differ, 100);
   EXPECT_GT(s.uncertified, s.differ);
-}
-
-TEST(nearest_exact, equals_complete_lists_and_certifies_all)
-{
-  for (int n : {1, 2, 5}) {
-    const Shares s = compare_with_complete(n, true);
-    EXPECT_EQ(s.uncertified, 0) << n;
-    EXPECT_GT(s.certified, 1000) << n;
-  }
 }
 
 // A facet with no area leaves its edges; they stand for themselves.
@@ -180,8 +169,8 @@ TEST(nearest_lists, hold_edges_and_points_that_have_no_face)
 struct Box {
   Scene scene;
 
-  explicit Box(int nearest, bool exact = false) :
-      scene(box_mesh({0, 0, 0}, {3, 2, 1}), 0.3, hooke(1e4), 0.2, -1, nearest, exact)
+  explicit Box(int nearest) :
+      scene(box_mesh({0, 0, 0}, {3, 2, 1}), 0.3, hooke(1e4), 0.2, -1, nearest)
   {
     Numbers random(4);
     for (int i = 0; i < 3000; i++)
@@ -221,18 +210,6 @@ TEST(nearest_in_the_engine, counts_every_sphere_that_is_not_certified)
   }
   EXPECT_EQ(box.scene.engine->totals().uncertified, uncertified);
   EXPECT_GT(without_contact, 0);
-}
-
-TEST(nearest_in_the_engine, exact_gives_the_forces_of_complete_lists)
-{
-  Box all(0), exact(2, true), some(2);
-  int differ = 0;
-  for (int i = 0; i < all.scene.n(); i++) {
-    EXPECT_EQ(exact.scene.force(i), all.scene.force(i)) << i;
-    differ += !(some.scene.force(i) == all.scene.force(i));
-  }
-  EXPECT_EQ(exact.scene.engine->totals().uncertified, 0);
-  EXPECT_GT(differ, 0);    // or the fall-back was not needed
 }
 
 TEST(nearest_in_the_engine, complete_lists_are_certain)

@@ -129,18 +129,16 @@ class query_oracle : public testing::TestWithParam<Mesh> {
     wall_ = &walls.try_emplace(m.triangles, m).first->second;
   }
 
-  QueryCounts check(int nearest, bool exact)
+  QueryCounts check(int nearest)
   {
     GridSettings g;
     g.cutoff = kCutoff;
     g.length = setting("LSDCD_LENGTH", 0);
     g.nearest = nearest;
-    g.exact = exact;
     g.memory_budget = std::size_t(32) << 30;
     const TriangleGrid grid = build_grid(wall_->mesh, g, test_on_cuda());
     const QueryCounts c = wall_->checks->check(grid);
-    std::string lists = "complete";
-    if (nearest > 0) lists = std::to_string(nearest) + (exact ? " exact" : "");
+    const std::string lists = nearest > 0 ? std::to_string(nearest) : "complete";
     std::printf("  %s, %zu triangles, L %.4g, %s: %zu spheres, %zu near, %zu touch, missed %zu, "
                 "false %zu, wrong %zu; certified %.6f of all, %.6f of the near; %.3f ms\n",
                 GetParam().name, wall_->mesh.faces.size(), grid.length, lists.c_str(), c.spheres,
@@ -212,18 +210,13 @@ void expect_exact(const QueryCounts &c)
 
 TEST_P(query_oracle, complete_lists_miss_nothing)
 {
-  expect_exact(check(0, false));
-}
-
-TEST_P(query_oracle, nearest_exact_misses_nothing)
-{
-  for (int n : {1, 2, 3, 8}) expect_exact(check(n, true));
+  expect_exact(check(0));
 }
 
 TEST_P(query_oracle, certified_answers_are_right)
 {
   for (int n = 1; n <= 8; n++) {
-    const QueryCounts c = check(n, false);
+    const QueryCounts c = check(n);
     EXPECT_EQ(c.certified_missed, 0u) << n;
     EXPECT_EQ(c.certified_false, 0u) << n;
     EXPECT_EQ(c.certified_wrong, 0u) << n;

@@ -7,7 +7,7 @@
 #include "base/input_error.h"
 #include "contact/brick_geometry.h"
 #include "backend/backend_cpu.h"
-#include "query/query_on.h"
+#include "study/sphere_query_on.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -44,13 +44,12 @@ struct Case {
     }
   }
 
-  TriangleGrid grid(int nearest, bool exact = false, bool in_floats = false) const
+  TriangleGrid grid(int nearest, bool in_floats = false) const
   {
     GridSettings settings;
     settings.cutoff = cutoff;
     settings.length = length;
     settings.nearest = nearest;
-    settings.exact = exact;
     settings.in_floats = in_floats;
     settings.memory_budget = 256 << 20;
     try {
@@ -205,39 +204,6 @@ TEST(query, some_answers_of_short_lists_are_wrong_and_none_of_these_certified)
   EXPECT_GT(wrong, 1000u);
 }
 
-TEST(query, nearest_exact_gives_the_answers_of_complete_lists)
-{
-  for (const Case &c : all_cases()) {
-    const TriangleGrid complete = c.grid(0);
-    const Answers a = ask(complete, c.spheres);
-    for (int n : {1, 3, 8}) {
-      const TriangleGrid grid = c.grid(n, true);
-      const Answers b = ask(grid, c.spheres);
-      expect_right(c, b, c.tolerance(grid), false, std::to_string(n) + " exact");
-      for (std::size_t i = 0; i < c.spheres.size(); i++) {
-        ASSERT_TRUE(b.certified(i));
-        // Two closest points within the tolerance of a side can differ by it.
-        if (a.touching(i) && b.touching(i)) {
-          ASSERT_NEAR(a.distance[i], b.distance[i], 2 * c.tolerance(grid)) << c.soup.source;
-        }
-      }
-    }
-  }
-}
-
-TEST(query, falling_back_reads_both_lists)
-{
-  const Case &c = all_cases()[1];
-  const Answers first = ask(c.grid(1), c.spheres), second = ask(c.grid(0), c.spheres),
-                both = ask(c.grid(1, true), c.spheres);
-  std::size_t fallen_back = 0;
-  for (std::size_t i = 0; i < c.spheres.size(); i++) {
-    fallen_back += !first.certified(i);
-    EXPECT_EQ(both.read[i], first.read[i] + (first.certified(i) ? 0 : second.read[i])) << i;
-  }
-  EXPECT_GT(fallen_back, 100u);
-}
-
 TEST(query, longer_lists_of_one_grid_are_those_of_another)
 {
   // The first N entries of a longer list, and the next as a bound, are the list of N.
@@ -272,9 +238,9 @@ TEST(query, answers_in_float_are_within_float_rounding_of_a_brick)
   for (std::size_t k : {0, 1, 2, 3}) {
     const Case &c = all_cases()[k];
     for (int n : {0, 2, 4}) {
-      const TriangleGrid grid = c.grid(n, n == 4, true);
+      const TriangleGrid grid = c.grid(n, true);
       const Answers a = ask(grid, c.spheres);
-      expect_right(c, a, 2 * BrickGeometry::tolerance(grid.view()), n == 2,
+      expect_right(c, a, 2 * BrickGeometry::tolerance(grid.view()), n > 0,
                    "floats, " + std::to_string(n));
     }
   }
@@ -286,7 +252,7 @@ TEST(query, gives_the_same_bits_on_both_devices)
   for (const Case &c : all_cases())
     for (const bool in_floats : {false, true})
       for (int n : {0, 1, 3}) {
-        const TriangleGrid grid = c.grid(n, n == 3, in_floats);
+        const TriangleGrid grid = c.grid(n, in_floats);
         const Answers cpu = ask(grid, c.spheres, {}, Device::cpu),
                       cuda = ask(grid, c.spheres, {}, Device::cuda);
         EXPECT_EQ(cpu.status, cuda.status) << c.soup.source;
@@ -345,7 +311,7 @@ TEST(query, asking_for_the_cell_first_changes_no_bit)
   for (const Case &c : all_cases())
     for (const bool in_floats : {false, true})
       for (int n : {0, 1, 3}) {
-        const TriangleGrid grid = c.grid(n, n == 3, in_floats);
+        const TriangleGrid grid = c.grid(n, in_floats);
         QueryOn<CpuBackend, CellFirst> query{CpuBackend()};
         query.set_grid(grid);
         const Answers a = ask(query, c.spheres), b = ask(grid, c.spheres, {}, Device::cpu);
@@ -399,7 +365,7 @@ class FourLanes {
 template <class Distances>
 void expect_lanes_read_as_one(const Case &c, bool in_floats, std::size_t &read)
 {
-  const TriangleGrid grid = c.grid(0, false, in_floats);
+  const TriangleGrid grid = c.grid(0, in_floats);
   const GridView view = grid.view();
   std::vector<Sphere> spheres;
   std::vector<Cell> cells;
@@ -438,7 +404,7 @@ TEST(query, a_list_that_lanes_read_together_ends_as_for_one)
 {
   std::size_t read = 0;
   for (const Case &c : all_cases()) {
-    expect_lanes_read_as_one<WallDistances<InsideTest::exact>>(c, false, read);
+    expect_lanes_read_as_one<WallDistances>(c, false, read);
     expect_lanes_read_as_one<BrickDistances>(c, true, read);
   }
   EXPECT_GT(read, 8 * FourLanes::kCount);    // some lists take many turns
@@ -751,7 +717,7 @@ void expect_same_bits_of_all_kinds(const Case &c, const std::vector<Sphere> &sph
 {
   for (const bool in_floats : {false, true})
     for (const int nearest : {0, 2}) {
-      const TriangleGrid grid = c.grid(nearest, nearest > 0, in_floats);
+      const TriangleGrid grid = c.grid(nearest, in_floats);
       expect_same_bits(grid, spheres, what + ", double");
       expect_same_bits(grid, as<FloatSphere>(spheres), what + ", float");
     }
@@ -773,13 +739,13 @@ TEST(query, gives_the_same_bits_on_both_devices_of_any_number_of_spheres)
   };
   expect_same_bits_of_all_kinds(c, many(kManySpheres, 1, [&](std::size_t) { return anywhere(2); }),
                                 "mixed");
-  expect_same_bits(c.grid(0, false, true),
+  expect_same_bits(c.grid(0, true),
                    as<FloatSphere>(many(kManySpheres, 1,
                                         [&](std::size_t) {
                                           return Vec3{0, 0, 3 * hi.z} + anywhere(0);
                                         })),
                    "all far");
-  expect_same_bits(c.grid(0, false, true),
+  expect_same_bits(c.grid(0, true),
                    as<FloatSphere>(many(kManySpheres, 1,
                                         [&](std::size_t) {
                                           Vec3 x = anywhere(0);
@@ -878,7 +844,7 @@ TEST(query, float_spheres_are_answered_as_double_ones_in_the_same_places)
     floats.back().r = std::nextafter(f.r, 0.f);
     same.back().r = floats.back().r;
   }
-  const TriangleGrid grid = c.grid(2, true);
+  const TriangleGrid grid = c.grid(2);
   const Answers a = ask(grid, floats), b = ask(grid, same);
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.distance, b.distance);
@@ -1128,7 +1094,7 @@ TEST(formula_five, is_refused_where_lists_hold_no_triangles)
   QuerySettings paper;
   paper.inside = InsideTest::formula_five;
   EXPECT_THROW(ask(c.grid(0), c.spheres, paper), InputError);
-  EXPECT_THROW(ask(c.grid(2, false, true), c.spheres, paper), InputError);
+  EXPECT_THROW(ask(c.grid(2, true), c.spheres, paper), InputError);
   EXPECT_NO_THROW(ask(c.grid(2), c.spheres, paper));
   paper.every_face = true;
   EXPECT_NO_THROW(ask(c.grid(0), c.spheres, paper));

@@ -189,7 +189,7 @@ TEST(settings, a_word_like_no_keyword_is_told_all_of_them)
 {
   const std::string error = error_with("colour red");
   EXPECT_FALSE(names(error, "the nearest"));
-  for (const char *keyword : {"mesh", "tune", "surface_angvel", "log"})
+  for (const char *keyword : {"mesh", "grid", "surface_angvel", "log"})
     EXPECT_TRUE(names(error, keyword));
 }
 
@@ -206,11 +206,17 @@ TEST(settings, words_of_other_walls_are_answered)
       {"type 1", "before mesh"},
       {"file a.stl", "mesh FILE"},
       {"damping tsuji", "style granular"},
-      {"limit_damping", "before mesh"}};
+      {"limit_damping", "before mesh"},
+      {"tune 1e-3", "lsdcd tradeoff FILE --radius R --below E"}};
   for (const auto &c : cases) {
     EXPECT_TRUE(names(error_with(c.first), c.second));
     EXPECT_FALSE(names(error_with(c.first), "nearest"));
   }
+}
+
+TEST(settings, nearest_exact_is_told_what_to_write)
+{
+  EXPECT_TRUE(names(error_with("nearest 2 exact"), "write nearest all"));
 }
 
 TEST(settings, out_of_range_gives_the_range)
@@ -220,7 +226,6 @@ TEST(settings, out_of_range_gives_the_range)
       {"weld -1", "the tolerance = -1 is out of range: it must be 0 or more."},
       {"memory 0.5", "it must be from 1 to 1e+09."},
       {"nearest 33", "it must be from 1 to 32."},
-      {"tune 1", "it must be from 0 to below 1."},
       {"draw edges 0", "it must be from 1 to 1e+06."},
       {"wear archard 1 0", "H = 0 is out of range: it must be above 0."}};
   for (const auto &c : cases) EXPECT_TRUE(names(error_with(c.first), c.second));
@@ -331,30 +336,6 @@ TEST(settings, a_cache_is_taken_where_it_is_built)
     EXPECT_TRUE(names(error_with("cache vessel.grid"), "libzstd-dev"));
 }
 
-TEST(settings, tune_takes_an_error_from_0_to_below_1)
-{
-  EXPECT_EQ(with("tune 1e-3").tune, 1e-3);
-  EXPECT_EQ(with("tune 0").tune, 0);
-  EXPECT_LT(with("").tune, 0);
-  for (const char *bad : {"tune", "tune -1", "tune 1", "tune 2", "tune nan", "tune small"})
-    EXPECT_TRUE(names(error_with(bad), "tune E")) << bad;
-}
-
-TEST(settings, tune_keeps_what_is_given)
-{
-  EXPECT_TRUE(with("tune 1e-3 grid 0.1").length_given);
-  EXPECT_FALSE(with("tune 1e-3 grid auto").length_given);
-  EXPECT_TRUE(with("nearest all tune 1e-3").nearest_given);
-  EXPECT_TRUE(with("tune 1e-3 precision double").precision_given);
-  EXPECT_TRUE(names(error_with("tune 0 grid 1 nearest all precision mixed"), "nothing is left"));
-}
-
-TEST(settings, tune_does_not_promise_anything_of_nearest_lists_that_do_not_fall_back)
-{
-  EXPECT_TRUE(names(error_with("nearest 3 tune 1e-3"), "'nearest 3 exact'"));
-  EXPECT_TRUE(with("nearest 3 exact tune 1e-3").nearest_given);
-}
-
 TEST(settings, a_keyword_given_twice_is_an_error)
 {
   EXPECT_TRUE(names(error_with("rmax 1 rmax 2"), "twice"));
@@ -409,8 +390,8 @@ TEST(settings, no_mesh_is_an_error)
 TEST(settings, help_lists_every_keyword)
 {
   for (const char *name :
-       {"mesh", "scale", "rotate", "move", "weld", "grid", "rmax", "memory", "cache", "tune",
-        "corner", "side", "device", "contacts", "periodic", "draw", "cut"})
+       {"mesh", "scale", "rotate", "move", "weld", "grid", "rmax", "memory", "cache", "corner",
+        "side", "device", "contacts", "periodic", "draw", "cut"})
     EXPECT_TRUE(names(settings_help(), std::string("\n  ") + name));
 }
 

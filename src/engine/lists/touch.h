@@ -75,7 +75,7 @@ LSDCD_FN void search(const GridView &grid, const SearchSettings &settings,
 // Can a search of this grid miss contacts?
 LSDCD_FN bool may_miss_any(const GridView &grid)
 {
-  return grid.nearest > 0 && !grid.complete.bricks;
+  return grid.nearest > 0;
 }
 
 // Overlap of the deepest contact that may be missing; 0: certified.

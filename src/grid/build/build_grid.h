@@ -88,12 +88,6 @@ class GridBuilder {
     return true;
   }
 
-  // Builds only the bricks whose bit is set from now on; empty: all.
-  void restrict_to(const std::vector<std::uint64_t> &bricks)
-  {
-    view_.only = bricks.empty() ? nullptr : copy(only_, bricks);
-  }
-
   std::string name() const { return b_.name(); }
   // Bytes that the last build takes, while it goes on too; at least these where it did not fit.
   double needed() const { return needed_; }
@@ -108,11 +102,7 @@ class GridBuilder {
   template <class T>
   const T *put(Scratch<T> &to, const std::vector<T> &from)
   {
-    return B::kOnHost ? from.data() : copy(to, from);
-  }
-  template <class T>
-  const T *copy(Scratch<T> &to, const std::vector<T> &from)
-  {
+    if (B::kOnHost) return from.data();
     to = Scratch<T>(from.size());
     b_.copy_in(from.data(), to.data(), from.size());
     return to.data();
@@ -126,7 +116,6 @@ class GridBuilder {
   Scratch<FaceVertices> face_vertex_;
   Scratch<EdgeVertices> edge_vertex_;
   Scratch<FeatureCode> contact_features_, primitives_;
-  Scratch<std::uint64_t> only_;
   const FeatureCode *of_contact_, *of_primitives_;
   std::size_t n_contact_, n_primitives_;
   BuildView view_ = {};
@@ -134,7 +123,7 @@ class GridBuilder {
   double needed_ = 0;
 };
 
-// Lists of one kind or both, and the copies in float: whether they fit the budget. `needed` are
+// The lists, and the copies in float: whether they fit the budget. `needed` are
 // bytes that they take, or where they do not fit at least take.
 template <class B>
 bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings &settings,
@@ -144,18 +133,10 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
   const double for_lists = budget - double(of_wall);
   needed = of_wall + plan.least_bytes();
   if (needed > budget) return false;
-  builder.restrict_to(bricks_that_meet(plan, settings.only));
-  double taken = 0;
-  const auto fill = [&](int nearest, CellLists &lists, ListReport &report) {
-    const bool fits =
-        builder.build(plan, nearest, static_cast<std::size_t>(for_lists - taken), lists, report);
-    needed = std::max(needed, of_wall + taken + builder.needed());
-    taken += grid_bytes(plan, lists.bricks.size(), lists.cells.size(), lists.candidates.size());
-    return fits;
-  };
-  if (!fill(settings.nearest, grid.lists, grid.report.lists)) return false;
-  if (settings.nearest > 0 && settings.exact && !fill(0, grid.complete, grid.report.complete))
-    return false;
+  const bool lists_fit = builder.build(plan, settings.nearest, static_cast<std::size_t>(for_lists),
+                                       grid.lists, grid.report.lists);
+  needed = std::max(needed, of_wall + builder.needed());
+  if (!lists_fit) return false;
   grid.origin = plan.origin;
   grid.length = plan.length;
   grid.cutoff = plan.cutoff;
@@ -192,7 +173,7 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   const bool may_coarsen = settings.length <= 0 || settings.may_coarsen;
   const Real first_length = plan.length;
   const auto fits = [&](double budget_here, double &needed) {
-    grid.lists = grid.complete = CellLists();
+    grid.lists = CellLists();
     grid.records = BrickRecords();
     grid.report = GridReport();
     return fill_grid(builder, plan, settings, budget_here, grid, needed);
@@ -231,7 +212,7 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   }
 
   grid.outside = mesh.report.volume < 0 ? -1 : 1;
-  if (settings.sides && settings.only.empty() && meets_itself(mesh).pairs > 0) grid.outside = 0;
+  if (settings.sides && meets_itself(mesh).pairs > 0) grid.outside = 0;
   grid.report.nearest = settings.nearest;
   grid.report.records =
       grid.records.faces.size() + grid.records.edges.size() + grid.records.vertices.size();

@@ -35,8 +35,7 @@ struct Sum {
 
 }    // namespace
 
-ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool primitives,
-                            const std::vector<std::uint64_t> &only)
+ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool primitives)
 {
   const std::vector<FeatureCode> &features = primitives ? wall.primitives : wall.contact_features;
   BuildView view = {};
@@ -44,7 +43,6 @@ ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool
   view.features = features.data();
   view.primitives = primitives;
   view.plan = plan;
-  view.only = only.empty() ? nullptr : only.data();
 
   const std::int64_t n = static_cast<std::int64_t>(features.size());
   std::uint64_t n_parts = 0;
@@ -85,22 +83,17 @@ BuildEstimate estimate_build(const WallFeatures &wall, const GridPlan &plan,
 {
   BuildEstimate out;
   if (!std::isfinite(plan.least_bytes())) return out;
-  const std::vector<std::uint64_t> only = bricks_that_meet(plan, settings.only);
-  const auto add = [&](int nearest) {
-    const ListEstimate lists = estimate_lists(wall, plan, nearest > 0, only);
-    constexpr double kMostNumbers = 0xffffffff;
-    if (lists.least_pairs > kMostNumbers) out.least_bytes = out.enough_bytes = HUGE_VAL;
-    out.work += lists.work;
-    const bool cut_short = nearest > 0 && nearest != kEveryTriangle;
-    if (!cut_short && lists.least_entries > kMostNumbers)
-      out.least_bytes = out.enough_bytes = HUGE_VAL;
-    // An entry is a candidate, or where it is single the cell of it.
-    static_assert(sizeof(Candidate) == sizeof(Cell), "counted as one");
-    if (!cut_short) out.least_bytes += lists.least_entries * sizeof(Candidate);
-    out.enough_bytes += 1.25 * lists.entries * sizeof(Candidate);
-  };
-  add(settings.nearest);
-  if (settings.nearest > 0 && settings.exact) add(0);
+  const ListEstimate lists = estimate_lists(wall, plan, settings.nearest > 0);
+  constexpr double kMostNumbers = 0xffffffff;
+  if (lists.least_pairs > kMostNumbers) out.least_bytes = out.enough_bytes = HUGE_VAL;
+  out.work = lists.work;
+  const bool cut_short = settings.nearest > 0 && settings.nearest != kEveryTriangle;
+  if (!cut_short && lists.least_entries > kMostNumbers)
+    out.least_bytes = out.enough_bytes = HUGE_VAL;
+  // An entry is a candidate, or where it is single the cell of it.
+  static_assert(sizeof(Candidate) == sizeof(Cell), "counted as one");
+  if (!cut_short) out.least_bytes += lists.least_entries * sizeof(Candidate);
+  out.enough_bytes += 1.25 * lists.entries * sizeof(Candidate);
   return out;
 }
 

@@ -4,9 +4,6 @@
 #include "grid/plan/grid_plan.h"
 #include "mesh/wall_features.h"
 
-#include <cstdint>
-#include <vector>
-
 namespace lsdcd {
 
 // Entries of all lists, and pairs of a feature and an octant that are sorted for them: what is
@@ -17,9 +14,7 @@ struct ListEstimate {
   double work = 0;    // that is expected, as of BuildLimit
 };
 
-// `only`: as of bricks_that_meet().
-ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool primitives,
-                            const std::vector<std::uint64_t> &only);
+ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool primitives);
 
 // Of the lists of a grid: at least these bytes, or these expected and a quarter more, infinite where
 // they cannot be numbered; and the work of making them, as of BuildLimit.

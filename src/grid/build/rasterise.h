@@ -15,7 +15,6 @@ struct BuildView {
   const FeatureCode *features;    // all that can hold a contact, or all primitives
   bool primitives;
   GridPlan plan;
-  const std::uint64_t *only;    // a bit per slot of the brick table, or null: all bricks
 };
 
 // Can a sphere of the grid's cutoff, centred within `around` of c, have a contact
@@ -110,7 +109,6 @@ LSDCD_FN std::uint32_t brick_slot(const GridPlan &plan, const BrickBox &box, std
 LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, std::uint32_t slot)
 {
   const GridPlan &plan = b.plan;
-  if (b.only && !(b.only[slot >> 6] >> (slot & 63) & 1)) return 0;
   const std::uint32_t nx = plan.n_bricks[0], ny = plan.n_bricks[1];
   const Vec3 centre = plan.brick_centre(static_cast<std::int32_t>(slot % nx),
                                         static_cast<std::int32_t>(slot / nx % ny),

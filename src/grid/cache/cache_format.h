@@ -16,7 +16,7 @@ namespace lsdcd {
 
 constexpr char kMagic[16] = {'L', 'S', 'D', 'C', 'D', ' ', 'g', 'r',
                              'i', 'd', ' ', 'c', 'a', 'c', 'h', 'e'};
-constexpr std::uint64_t kFormat = 2;
+constexpr std::uint64_t kFormat = 3;
 constexpr std::size_t kFrameBytes = std::size_t(1) << 20;
 constexpr int kLevel = 1;    // of zstd
 
@@ -90,11 +90,11 @@ class Unpacker {
 template <class Report, class Visit>
 void each_field(Report &r, Visit &visit)
 {
-  auto &[length, cutoff, length_chosen, too_fine, nearest, lists, complete, records, record_bytes,
-         bytes, seconds, device] = r;
+  auto &[length, cutoff, length_chosen, too_fine, nearest, lists, records, record_bytes, bytes,
+         seconds, device] = r;
   const auto all = [&](auto &...field) { (visit(field), ...); };
-  all(length, cutoff, length_chosen, too_fine, nearest, lists, complete, records, record_bytes,
-      bytes, seconds, device);
+  all(length, cutoff, length_chosen, too_fine, nearest, lists, records, record_bytes, bytes,
+      seconds, device);
 }
 
 inline std::size_t frames_in(std::size_t bytes)

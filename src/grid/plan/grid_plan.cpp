@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace lsdcd {
 
@@ -159,33 +160,6 @@ GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings 
   const Real next = plan.length * kCoarser;
   const bool past = plan.length < plan.cutoff && next > plan.cutoff;
   return plan_with_length(mesh, settings, past ? plan.cutoff : next, plan.least_volume);
-}
-
-std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vector<Box> &boxes)
-{
-  if (boxes.empty()) return {};
-  std::vector<std::uint64_t> bits(plan.table_size() / 64 + 1, 0);
-  const Real side = kBrickSide * plan.length;
-  for (const Box &box : boxes) {
-    std::int64_t first[3], last[3];
-    for (int k = 0; k < 3; k++) {
-      // A point on the rim of two bricks may be looked up in either.
-      const Real rim = Real(1e-6) * side, most = plan.n_bricks[k] - 1;
-      const auto slot = [&](Real at) {
-        return static_cast<std::int64_t>(
-            std::clamp(std::floor((at - plan.origin[k]) / side), Real(0), most));
-      };
-      first[k] = slot(box.lo[k] - rim);
-      last[k] = slot(box.hi[k] + rim);
-    }
-    for (std::int64_t z = first[2]; z <= last[2]; z++)
-      for (std::int64_t y = first[1]; y <= last[1]; y++)
-        for (std::int64_t x = first[0]; x <= last[0]; x++) {
-          const std::size_t brick = (z * plan.n_bricks[1] + y) * plan.n_bricks[0] + x;
-          bits[brick / 64] |= std::uint64_t(1) << brick % 64;
-        }
-  }
-  return bits;
 }
 
 void throw_over_budget(const GridSettings &settings, double needed, double budget)

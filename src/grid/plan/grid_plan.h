@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace lsdcd {
 
@@ -74,10 +73,6 @@ constexpr Real kCoarser = 1.25;
 // The next coarser plan of a search for one that fits, until a cell is larger than the mesh.
 bool is_coarsest(const GridPlan &plan, const WallMesh &mesh);
 GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings);
-
-// A bit per slot of the brick table, set where the brick meets one of the boxes; empty
-// where there are no boxes.
-std::vector<std::uint64_t> bricks_that_meet(const GridPlan &plan, const std::vector<Box> &boxes);
 
 // Bytes of the finished arrays, and of the bricks while they are built.
 std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cells,

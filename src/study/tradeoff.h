@@ -2,8 +2,7 @@
 #pragma once
 
 #include "mesh/wall_mesh.h"
-#include "tune/trial_grid.h"
-#include "tune/wall_answers.h"
+#include "study/wall_answers.h"
 
 #include <cstdint>
 #include <functional>
@@ -23,6 +22,13 @@ struct TradeoffSettings {
   std::uint64_t seed = 1;
 };
 
+// What the keywords `grid`, `nearest` and `precision` say.
+struct GridChoice {
+  Real length;    // of a cell
+  int nearest;    // 0: complete lists
+  Precision precision;
+};
+
 struct TradeoffRow {
   GridChoice choice;
   Corner corner;
@@ -30,7 +36,8 @@ struct TradeoffRow {
   std::string device;
   AnswerError error;    // against complete lists in double with the same corner rule
   Real bounce_drift, roll_drift;
-  double ns_per_sphere;
+  double ns_per_sphere;    // of a step: it searches cells with nearest N, and reads lists with all
+  double status_ns;        // of asking whether a sphere touches: it searches cells with either
   std::size_t bytes;       // of the grid
   int checked, spheres;    // for errors, and timed
   bool is_default = false;
@@ -43,7 +50,10 @@ struct Tradeoff {
   std::vector<std::string> left_out;    // in words
 };
 
-// Cells of half to four times the default length, all kinds of list, three precisions, both
+// The lists that are tried for each cell length, the complete ones first.
+constexpr int kTriedNearest[] = {0, 1, 2, 3, 4, 8};
+
+// Cells of half to four times the default length, all lists, three precisions, both
 // corner rules, each device: spheres in the order in which LAMMPS sorts them, uniform in the
 // band within the cutoff. Hooke with springs at rest for errors and times. The default comes
 // first. Errors and drifts are computed once, on the CPU: those of a GPU are the same bits.
@@ -51,5 +61,16 @@ Tradeoff measure_tradeoff(const WallMesh &mesh, const TradeoffSettings &settings
                           const std::function<void(const TradeoffRow &)> &progress);
 
 void mark_front(std::vector<TradeoffRow> &rows);
+
+// "all" or N; "double", "mixed" or "single"; "grid 0.4 nearest all precision double".
+std::string nearest_word(const GridChoice &choice);
+const char *precision_word(const GridChoice &choice);
+std::string words_of(const GridChoice &choice);
+
+// Of one device the fastest row, with corner blend, whose missed contacts / contacts and largest
+// error of a force are below `bound`, and whose answers are all certified: where some are not, the
+// next sphere may miss a contact. Of rows within a tenth of the fastest, a difference that noise
+// makes, the one with the smallest error. Null: there is none.
+const TradeoffRow *fastest_below(const std::vector<TradeoffRow> &rows, Real bound, bool on_cuda);
 
 }    // namespace lsdcd

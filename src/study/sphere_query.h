@@ -4,7 +4,7 @@
 #include "engine/wall_engine.h"
 #include "grid/triangle_grid.h"
 #include "query/sphere.h"
-#include "query/triangle_tests.h"
+#include "study/formula_five.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,9 +13,6 @@
 #include <vector>
 
 namespace lsdcd {
-
-// Bits of a sphere's status.
-constexpr std::uint8_t kTouching = 1, kCertified = 2;
 
 struct QuerySettings {
   InsideTest inside = InsideTest::exact;

@@ -1,8 +1,11 @@
-#include "tune/tradeoff.h"
+#include "study/tradeoff.h"
 
+#include "grid/flat_grid.h"
 #include "grid/plan/grid_plan.h"
-#include "tune/drift.h"
-#include "tune/tune_lengths.h"
+#include "backend/threads.h"
+#include "study/drift.h"
+#include "study/lengths_to_try.h"
+#include "study/sphere_query.h"
 
 #include <algorithm>
 #include <chrono>
@@ -24,14 +27,6 @@ ContactLaw law_to_time()
   law.gamma_tangent = 25;
   law.mu = 0.5;
   return law;
-}
-
-std::string name(const GridChoice &choice)
-{
-  char length[32];
-  std::snprintf(length, sizeof length, "%.4g", choice.length);
-  return std::string("grid ") + length + " nearest " + lists_name(choice) + " precision " +
-         precision_name(choice.precision);
 }
 
 class Measuring {
@@ -65,16 +60,20 @@ class Measuring {
     std::sort(lengths.begin(), lengths.end(),
               [&](Real a, Real b) { return a != b && (a == first || (b != first && a > b)); });
     for (Real length : lengths) {
-      if (is_late() && !result_.rows.empty()) {
-        late_ += static_cast<int>(3 * list_kinds().size());
-        continue;
-      }
       grid_settings_.length = length;
-      TrialGrid grid(mesh_, grid_settings_, settings_.cuda);
-      if (sample_.n() == 0) make_sample(grid);
-      for (const ListKind &kind : list_kinds())
-        for (Precision precision : {Precision::double_, Precision::mixed, Precision::single_})
-          try_choice(grid, {length, kind.nearest, kind.exact, precision});
+      for (int nearest : kTriedNearest) {
+        if (is_late() && !result_.rows.empty()) {
+          late_ += 3;
+          continue;
+        }
+        grid_settings_.nearest = nearest;
+        TriangleGrid grid = build_grid(mesh_, grid_settings_, settings_.cuda);
+        if (sample_.n() == 0) make_sample(grid);
+        for (Precision precision : {Precision::double_, Precision::mixed, Precision::single_}) {
+          if (precision == Precision::mixed) add_brick_records(grid);    // single reads them, too
+          try_choice(grid, {length, nearest, precision});
+        }
+      }
     }
     if (late_ > 0) leave_out(std::to_string(late_) + " settings for which there was no time");
     mark_front(result_.rows);
@@ -89,12 +88,10 @@ class Measuring {
   }
   void leave_out(const std::string &what) { result_.left_out.push_back(what); }
 
-  void make_sample(TrialGrid &trial)
+  void make_sample(const TriangleGrid &grid)
   {
     Random random(settings_.seed);
-    const TriangleGrid &grid = trial.make(0, false, false);
-    const auto anywhere = [](const Vec3 &) { return true; };
-    add_band_spheres(grid, settings_.spheres, settings_.radii, random, anywhere, sample_);
+    add_band_spheres(grid, settings_.spheres, settings_.radii, random, sample_);
     sort_by_bins(sample_, 2 * grid_settings_.cutoff);
     starts_ = drift_starts(mesh_, grid.view(), grid_settings_.cutoff, settings_.moving, random);
     for (Corner corner : {Corner::blend, Corner::sum}) {
@@ -107,17 +104,20 @@ class Measuring {
       for (int k = 0; k < kGpuFactor; k++) gpu_sample_.add(sample_.x[i], sample_.radius[i]);
   }
 
-  void try_choice(TrialGrid &trial, const GridChoice &choice)
+  void try_choice(const TriangleGrid &grid, const GridChoice &choice)
   {
     if (is_late() && !result_.rows.empty()) {
       late_++;
       return;
     }
-    const TriangleGrid &grid =
-        trial.make(choice.nearest, choice.exact, choice.precision != Precision::double_);
     const std::size_t bytes = flat_bytes(grid);
     if (bytes > settings_.memory_budget)
-      return leave_out(name(choice) + ": " + std::to_string(bytes >> 20) + " MB");
+      return leave_out(words_of(choice) + ": " + std::to_string(bytes >> 20) + " MB");
+    const FlatGrid flat(grid);
+    const GridView view = flat.view();
+    double status_ns[2] = {};    // on a CPU, on a GPU
+    if (settings_.cpu) status_ns[false] = status_time(grid, false);
+    if (settings_.cuda) status_ns[true] = status_time(grid, true);
     for (Corner corner : {Corner::blend, Corner::sum}) {
       engine_.corner = corner;
       engine_.precision = choice.precision;
@@ -125,21 +125,42 @@ class Measuring {
       row.choice = choice;
       row.corner = corner;
       row.bytes = bytes;
-      row.error = compare(reference_[corner == Corner::sum], answer(grid.view(), engine_, sample_),
-                          sample_, engine_.law);
-      row.bounce_drift = bounce_drift(grid.view(), engine_, starts_);
-      row.roll_drift = roll_drift(grid.view(), engine_, starts_);
-      if (settings_.cpu) time(trial, row, false);
-      if (settings_.cuda) time(trial, row, true);
+      row.error = compare(reference_[corner == Corner::sum], answer(view, engine_, sample_),
+                          sample_, engine_.law.k_normal);
+      row.bounce_drift = bounce_drift(view, engine_, starts_);
+      row.roll_drift = roll_drift(view, engine_, starts_);
+      for (bool on_cuda : {false, true}) {
+        if (!(on_cuda ? settings_.cuda : settings_.cpu)) continue;
+        row.status_ns = status_ns[on_cuda];
+        time(view, row, on_cuda);
+      }
     }
   }
 
-  void time(TrialGrid &trial, TradeoffRow row, bool on_cuda)
+  const SphereSample &timed(bool on_cuda) const { return on_cuda ? gpu_sample_ : sample_; }
+
+  double status_time(const TriangleGrid &grid, bool on_cuda)
+  {
+    std::unique_ptr<OneThread> one_thread;
+    if (!on_cuda) one_thread = std::make_unique<OneThread>();
+    const SphereSample &sample = timed(on_cuda);
+    std::vector<Sphere> spheres;
+    for (int i = 0; i < sample.n(); i++)
+      spheres.push_back({sample.x[i].x, sample.x[i].y, sample.x[i].z, sample.radius[i]});
+    const auto query = make_sphere_query(on_cuda ? Device::cuda : Device::cpu);
+    query->set_grid(grid);
+    query->set_spheres(spheres.data(), spheres.size());
+    QuerySettings status;
+    status.distance = false;
+    return 1e6 * query->time(status, settings_.repeats).min_ms / std::max(1, sample.n());
+  }
+
+  void time(const GridView &grid, TradeoffRow row, bool on_cuda)
   {
     engine_.device = on_cuda ? Device::cuda : Device::cpu;
     const auto engine = make_engine(engine_);
-    engine->set_grid(on_cuda ? trial.flat() : trial.made().view());
-    const SphereSample &sample = on_cuda ? gpu_sample_ : sample_;
+    engine->set_grid(grid);
+    const SphereSample &sample = timed(on_cuda);
     row.on_cuda = on_cuda;
     row.is_default = row.choice.length == standard_[on_cuda] && row.choice.nearest == 0 &&
                      row.choice.precision == Precision::double_ && row.corner == Corner::blend;
@@ -167,6 +188,45 @@ class Measuring {
 };
 
 }    // namespace
+
+std::string nearest_word(const GridChoice &choice)
+{
+  return choice.nearest == 0 ? "all" : std::to_string(choice.nearest);
+}
+
+const char *precision_word(const GridChoice &choice)
+{
+  const char *const words[] = {"double", "mixed", "single"};
+  return words[static_cast<int>(choice.precision)];
+}
+
+std::string words_of(const GridChoice &choice)
+{
+  char length[32];
+  std::snprintf(length, sizeof length, "%.4g", choice.length);
+  return std::string("grid ") + length + " nearest " + nearest_word(choice) + " precision " +
+         precision_word(choice);
+}
+
+const TradeoffRow *fastest_below(const std::vector<TradeoffRow> &rows, Real bound, bool on_cuda)
+{
+  constexpr double kNoise = 1.1;
+  std::vector<const TradeoffRow *> good;
+  for (const TradeoffRow &row : rows)
+    if (row.on_cuda == on_cuda && row.corner == Corner::blend && row.error.uncertified == 0 &&
+        row.error.missed_share() < bound && row.error.largest < bound)
+      good.push_back(&row);
+  const auto faster = [](const TradeoffRow *a, const TradeoffRow *b) {
+    return a->ns_per_sphere < b->ns_per_sphere;
+  };
+  const auto fastest = std::min_element(good.begin(), good.end(), faster);
+  const TradeoffRow *best = nullptr;
+  for (const TradeoffRow *row : good)
+    if (row->ns_per_sphere <= kNoise * (*fastest)->ns_per_sphere &&
+        (!best || row->error.largest < best->error.largest))
+      best = row;
+  return best;
+}
 
 void mark_front(std::vector<TradeoffRow> &rows)
 {

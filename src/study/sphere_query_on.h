@@ -4,9 +4,9 @@
 #include "base/input_error.h"
 #include "grid/lookup/grid_on.h"
 #include "query/grid_work.h"
-#include "query/one_pass.h"
 #include "query/radius_error.h"
-#include "query/sphere_query.h"
+#include "study/one_pass.h"
+#include "study/sphere_query.h"
 
 #include <algorithm>
 
@@ -120,11 +120,11 @@ class QueryOn : public SphereQuery {
   void start_on(const S *spheres, const QuerySettings &settings)
   {
     if (settings.inside == InsideTest::formula_five)
-      start_with<WallDistances<InsideTest::formula_five>>(spheres, settings);
+      start_with<FormulaFiveDistances>(spheres, settings);
     else if (grid_.view.in_floats)
       start_with<BrickDistances>(spheres, settings);
     else
-      start_with<WallDistances<InsideTest::exact>>(spheres, settings);
+      start_with<WallDistances>(spheres, settings);
   }
 
   template <class Distances, class S>

@@ -1,7 +1,7 @@
 #include "base/input_error.h"
 #include "backend/backend_cpu.h"
 #include "query/near_first_cpu.h"
-#include "query/query_on.h"
+#include "study/sphere_query_on.h"
 
 namespace lsdcd {
 

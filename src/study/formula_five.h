@@ -1,7 +1,7 @@
 // The paper's distance from a point to a triangle, kept for its study.
 #pragma once
 
-#include "geometry/primitive_distance.h"
+#include "query/nearest_distance.h"
 
 namespace lsdcd {
 
@@ -32,6 +32,40 @@ LSDCD_FN Real formula_five_distance(const WallFeaturesView &wall, FeatureCode pr
   if (formula_five_inside(a, b, c, q)) return fabs(dot(face.normal, q - face.anchor));
   return fmin(segment_distance(a, b, q),
               fmin(segment_distance(b, c, q), segment_distance(c, a, q)));
+}
+
+class FormulaFiveDistances : public WallDistances {
+ public:
+  LSDCD_FN FormulaFiveDistances(const GridView &grid, const Vec3 &q, const CellAddress &at) :
+      WallDistances(grid, q, at)
+  {
+  }
+
+  // It can put a triangle nearer than the bound in its list.
+  static constexpr bool kBounded = false;
+
+  LSDCD_FN Real primitive(FeatureCode code, Real) const
+  {
+    return formula_five_distance(grid_.wall, code, q_);
+  }
+};
+
+// No grid: every face of the wall, the paper's N = all. Its edges and vertices without a
+// face are left out.
+template <class Distances>
+LSDCD_FN Answer nearest_of_all(const GridView &grid, std::uint32_t n_faces, const Vec3 &q,
+                               Real radius)
+{
+  const Distances distances(grid, q, {nullptr, 0, {0, 0, 0}});
+  Real nearest = radius;
+  bool found = false;
+  for (std::uint32_t face = 0; face < n_faces; face++) {
+    const Real distance = distances.primitive(feature_code(FeatureKind::face, face), nearest);
+    if (!(distance < nearest)) continue;
+    nearest = distance;
+    found = true;
+  }
+  return {found ? nearest : kAnyDistance, true, n_faces};
 }
 
 }    // namespace lsdcd

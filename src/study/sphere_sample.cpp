@@ -1,4 +1,4 @@
-#include "tune/sphere_sample.h"
+#include "study/sphere_sample.h"
 
 #include "contact/find_contacts.h"
 
@@ -21,8 +21,7 @@ bool is_deep(const GridView &grid, const Vec3 &x, Real radius)
 }    // namespace
 
 void add_band_spheres(const TriangleGrid &grid, int n, const std::vector<Real> &radii,
-                      Random &random, const std::function<bool(const Vec3 &)> &allowed,
-                      SphereSample &sample)
+                      Random &random, SphereSample &sample)
 {
   const CellLists &lists = grid.lists;
   if (lists.bricks.empty() || radii.empty()) return;
@@ -44,7 +43,7 @@ void add_band_spheres(const TriangleGrid &grid, int n, const std::vector<Real> &
     for (int k = 0; k < 3; k++)
       x[k] += grid.length * (at[k] - Real(0.5) * kBrickSide + uniform_below_one(random));
     const Real radius = radii[random() % radii.size()];
-    if (allowed(x) && !is_deep(view, x, radius)) sample.add(x, radius);
+    if (!is_deep(view, x, radius)) sample.add(x, radius);
   }
 }
 

@@ -2,18 +2,13 @@
 #pragma once
 
 #include "engine/wall_engine.h"
-#include "tune/sphere_sample.h"
+#include "study/sphere_sample.h"
 
 #include <vector>
 
 namespace lsdcd {
 
-// The normal spring of a law alone, and where it has none one of stiffness 1: what forces
-// of spheres at rest are compared by, as all other sub-models take the same contacts. Of an
-// adhesive law one of stiffness 1, whose forces are overlaps.
-ContactLaw spring_of(const ContactLaw &law);
-
-// Contacts and forces of spheres at rest.
+// Contacts of spheres at rest, and forces of linear springs: all sub-models take the same contacts.
 struct WallAnswers {
   struct Place {
     Vec3 closest;    // from the sphere's centre to the wall, length
@@ -26,15 +21,14 @@ struct WallAnswers {
   long uncertified = 0;    // spheres whose lists may lack a contact
 };
 
-// On the CPU, whose numbers are those of every device. Of `engine` the spring of the law,
-// corner rule, side and precision count.
+// On the CPU, whose numbers are those of every device. Of `engine` the stiffness, corner rule and
+// precision count.
 WallAnswers answer(const GridView &grid, const EngineSettings &engine, const SphereSample &sample);
 
 // A contact this shallow is there or not by rounding: it is not counted. Of a radius.
 constexpr Real kGrazing = 1e-4;
 // Forces of a sphere are compared to the larger of its own and that of one contact
-// with this overlap: a grazing contact's force is all rounding. Of a radius. With an adhesive law
-// the error that the same overlaps make where a sphere is held lightly is compared to the pull-off force.
+// with this overlap: a grazing contact's force is all rounding. Of a radius.
 constexpr Real kUsualOverlap = 1e-2;
 
 struct AnswerError {
@@ -49,7 +43,7 @@ struct AnswerError {
 };
 
 AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
-                    const SphereSample &sample, const ContactLaw &law);
+                    const SphereSample &sample, Real stiffness);
 
 // Seconds of a step (start and collect) on the sample, the quickest of `repeats`: of one
 // core, however busy the others are, or on the clock where the engine is a GPU's. Before

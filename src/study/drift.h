@@ -3,7 +3,7 @@
 
 #include "engine/wall_engine.h"
 #include "mesh/wall_mesh.h"
-#include "tune/sphere_sample.h"
+#include "study/sphere_sample.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "tune/drift.h"
+#include "study/drift.h"
 
 #include "contact/find_contacts.h"
 

@@ -1,4 +1,4 @@
-#include "tune/tune_lengths.h"
+#include "study/lengths_to_try.h"
 
 #include "grid/plan/grid_plan.h"
 
@@ -22,7 +22,6 @@ Real rounded(Real length)
 std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &settings)
 {
   const Real standard = plan_grid(mesh, settings).length;
-  if (settings.length > 0) return {standard};
   const double budget = double(settings.memory_budget > 0 ? settings.memory_budget : kListBudget);
   std::vector<Real> lengths;
   const Real of_nearest = default_length(mesh, settings.cutoff, 1, false);

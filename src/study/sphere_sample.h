@@ -4,7 +4,6 @@
 #include "grid/triangle_grid.h"
 
 #include <cstdint>
-#include <functional>
 #include <random>
 #include <vector>
 
@@ -32,13 +31,11 @@ inline Real uniform_below_one(Random &random)
 
 // Adds up to n spheres with centres uniform in the cells that have candidates: the band
 // within the cutoff of the wall, and half a cell more. Each radius is one of `radii`, all as
-// likely. Only centres that `allowed` takes; gives up where it takes next to none. No
-// sphere overlaps the wall by more than half its radius: there a closest point that enters a face
-// over a concave edge takes force at once, and the least rounding is a jump. The lists of
-// the grid must be complete.
+// likely. No sphere overlaps the wall by more than half its radius: there a closest point that
+// enters a face over a concave edge takes force at once, and the least rounding is a jump. The
+// lists of the grid must be complete.
 void add_band_spheres(const TriangleGrid &grid, int n, const std::vector<Real> &radii,
-                      Random &random, const std::function<bool(const Vec3 &)> &allowed,
-                      SphereSample &sample);
+                      Random &random, SphereSample &sample);
 
 // Spheres in the order in which LAMMPS sorts atoms: by bins of the given size, x fastest.
 void sort_by_bins(SphereSample &sample, Real bin);

@@ -1,9 +1,8 @@
-#include "tune/wall_answers.h"
+#include "study/wall_answers.h"
 
 #include "backend/threads.h"
 #include "engine/step/force_settings.h"
 #include "engine/step/law_job.h"
-#include "law/contact_slope.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,18 +55,6 @@ bool find_places(const GridView &grid, const SearchSettings &search, const Vec3 
   return true;
 }
 
-Real usual_force(const ContactLaw &law, Real radius)
-{
-  const Real overlap = kUsualOverlap * radius;
-  return law.k_normal * overlap *
-         (law.style == LawStyle::hertz_history ? std::sqrt(overlap * radius) : 1);
-}
-
-bool is_adhesive(const ContactLaw &law)
-{
-  return law.is(NormalModel::dmt) || law.is(NormalModel::jkr);
-}
-
 // Changes 32 MB, line by line.
 void fill_caches()
 {
@@ -85,18 +72,6 @@ double seconds_now(bool waits)
 
 }    // namespace
 
-ContactLaw spring_of(const ContactLaw &law)
-{
-  const bool granular = law.style == LawStyle::granular;
-  const bool linear = granular ? law.is(NormalModel::hooke) || is_adhesive(law)
-                               : law.style != LawStyle::hertz_history;
-  const Real k = is_adhesive(law) ? 1 : granular ? law.granular.k_normal : law.k_normal;
-  ContactLaw spring;
-  spring.style = linear ? LawStyle::hooke : LawStyle::hertz_history;
-  spring.k_normal = k > 0 ? k : 1;
-  return spring;
-}
-
 WallAnswers answer(const GridView &grid, const EngineSettings &engine, const SphereSample &sample)
 {
   WallAnswers out;
@@ -111,7 +86,8 @@ WallAnswers answer(const GridView &grid, const EngineSettings &engine, const Sph
   }
 
   EngineSettings on_cpu = engine;
-  on_cpu.law = spring_of(engine.law);
+  on_cpu.law = ContactLaw();
+  on_cpu.law.k_normal = engine.law.k_normal;
   on_cpu.device = Device::cpu;
   const auto cpu = make_engine(on_cpu);
   cpu->set_grid(grid);
@@ -125,9 +101,8 @@ WallAnswers answer(const GridView &grid, const EngineSettings &engine, const Sph
 }
 
 AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
-                    const SphereSample &sample, const ContactLaw &law)
+                    const SphereSample &sample, Real stiffness)
 {
-  const ContactLaw spring = spring_of(law);
   constexpr Real kSamePoint = 1e-3;    // of a radius
   AnswerError out;
   out.uncertified = trial.uncertified;
@@ -146,21 +121,8 @@ AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
     const bool touches =
         reference.first[i] < reference.first[i + 1] || trial.first[i] < trial.first[i + 1];
     if (!touches) continue;
-    Real force = norm(reference.force[i]), error = norm(trial.force[i] - reference.force[i]),
-         least = usual_force(spring, radius), of_pull = 0;
-    if (is_adhesive(law)) {
-      // These are overlaps. An error of one weighs most where a sphere is held lightly, as others are
-      // or will be, if not this.
-      const auto slope = [&](Real overlap) {
-        return contact_slope(law, overlap, radius, 1).stiffness;
-      };
-      of_pull = error * pull_off_slope(law, radius);
-      const Real steepest = slope(std::fmax(force, norm(trial.force[i])));
-      force *= steepest;
-      error *= steepest;
-      least *= slope(least);
-    }
-    errors.push_back(std::fmax(error / std::fmax(force, least), of_pull));
+    const Real force = norm(reference.force[i]), error = norm(trial.force[i] - reference.force[i]);
+    errors.push_back(error / std::fmax(force, stiffness * kUsualOverlap * radius));
     sum_errors += error;
     sum_forces += force;
   }

@@ -1,5 +1,5 @@
 #include "query/near_first_cuda.h"
-#include "query/query_on.h"
+#include "study/sphere_query_on.h"
 
 namespace lsdcd {
 

@@ -1,0 +1,16 @@
+// Cell lengths that are worth a try.
+#pragma once
+
+#include "grid/triangle_grid.h"
+#include "mesh/wall_mesh.h"
+
+#include <vector>
+
+namespace lsdcd {
+
+// Half, once, twice and four times the default of nearest lists, and the default of these settings:
+// ascending, to four digits so that a deck can say them. None is above the cutoff, or takes more
+// than the memory budget at least; where all do, the first coarser one.
+std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &settings);
+
+}    // namespace lsdcd
