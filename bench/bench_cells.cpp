@@ -76,7 +76,7 @@ class Bed {
       cuda_(device == Device::cuda), x_(cuda_), r_(cuda_), zero_(cuda_)
   {
     settings_.device = device;
-    settings_.law.style = LawStyle::hertz_history;
+    settings_.law = classic_law(NormalModel::hertz, true);
     settings_.law.k_normal = 1e5;
     settings_.law.k_tangent = 3e4;
     settings_.law.mu = Real(0.5);

@@ -20,7 +20,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
       for (bool sorted : {false, true}) {
         const EvenCylinder wall(size);
         const BedSpheres spheres(wall, n, sorted);
-        CylinderBed bed(wall, spheres, LawStyle::hertz_history, device);
+        CylinderBed bed(wall, spheres, classic_law(NormalModel::hertz, true), device);
         BenchRow row;
         row.triangles = bed.triangles;
         row.spheres = n;

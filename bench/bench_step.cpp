@@ -42,7 +42,7 @@ Bodies make_bodies(const SphereBox &box, int n, Order order)
 }
 
 struct Style {
-  LawStyle style;
+  ContactLaw law;
   const char *name;
 };
 
@@ -52,7 +52,7 @@ struct Style {
 constexpr double kPlaceAndRadius = 4 * sizeof(Real);
 double bytes_of_touching(const Style &style, double contacts)
 {
-  const double spring = style.style == LawStyle::hertz_history ? 2 * sizeof(Spring) : 0;
+  const double spring = style.law.has_history() ? 2 * sizeof(Spring) : 0;
   return contacts * ((7 + 2 * 6) * sizeof(Real) + spring);
 }
 
@@ -72,10 +72,10 @@ EngineSettings engine_settings(const Style &style, Device device)
 {
   EngineSettings e;
   e.device = device;
-  e.law.style = style.style;
+  e.law = style.law;
   e.law.k_normal = 1e5;
   e.law.k_tangent = 3e4;
-  e.law.gamma_normal = 50;
+  e.law.eta = 50;
   e.law.gamma_tangent = 25;
   e.law.mu = 0.5;
   return e;
@@ -168,7 +168,8 @@ void measure(const BenchOptions &o, BenchRows &rows)
   };
   const int n = number(1e6), n_in_place = number(1e7);
   const int repeats = o.repeats > 0 ? o.repeats : o.quick ? 3 : 9;
-  const Style styles[] = {{LawStyle::hooke, "hooke"}, {LawStyle::hertz_history, "hertz/history"}};
+  const Style styles[] = {{classic_law(NormalModel::hooke, false), "hooke"},
+                          {classic_law(NormalModel::hertz, true), "hertz/history"}};
   for (Device device : o.devices) {
     rows.begin(device);
     for (Order order : {Order::random, Order::sorted}) {

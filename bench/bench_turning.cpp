@@ -66,10 +66,10 @@ class Drum {
     const bool cuda = device == Device::cuda;
     EngineSettings e;
     e.device = device;
-    e.law.style = LawStyle::hertz_history;
+    e.law = classic_law(NormalModel::hertz, true);
     e.law.k_normal = 1e5;
     e.law.k_tangent = 3e4;
-    e.law.gamma_normal = 50;
+    e.law.eta = 50;
     e.law.gamma_tangent = 25;
     e.law.mu = Real(0.5);
     e.moves = true;

@@ -126,7 +126,7 @@ BedSpheres::BedSpheres(const EvenCylinder &wall, int n, bool sorted)
   }
 }
 
-CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, LawStyle style,
+CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, const ContactLaw &law,
                          Device device) :
     x_(device == Device::cuda),
     v_(device == Device::cuda), omega_(device == Device::cuda), radius_(device == Device::cuda),
@@ -145,10 +145,10 @@ CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, LawStyle
 
   EngineSettings e;
   e.device = device;
-  e.law.style = style;
+  e.law = law;
   e.law.k_normal = 1e5;
   e.law.k_tangent = 3e4;
-  e.law.gamma_normal = 50;
+  e.law.eta = 50;
   e.law.gamma_tangent = 25;
   e.law.mu = Real(0.5);
   engine_ = cuda ? make_cuda_engine_in_place(e, 0, nullptr) : make_cpu_engine(e);

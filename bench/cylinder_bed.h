@@ -35,7 +35,8 @@ struct BedSpheres {
 
 class CylinderBed {
  public:
-  CylinderBed(const EvenCylinder &wall, const BedSpheres &spheres, LawStyle style, Device device);
+  CylinderBed(const EvenCylinder &wall, const BedSpheres &spheres, const ContactLaw &law,
+              Device device);
 
   void choose();        // near spheres, anew
   void steps(int n);    // with the near spheres as they are; waits at the end

@@ -31,7 +31,7 @@ MEMBERS = {WALL_FORCE: ["SurfaceMotion surface;", "bool surface_moves;", "WallPo
                         "Vec3 wall_velocity, wall_angular;", "WearModel wear;", "ContactRecord *records;",
                         "Real *heat;", "Real *extra;", "const Real *extra;", "Real temperature;",
                         "Real wall_temperature;"],
-           "law/contact.h": ["Vec3Of<T> omega;", "T wall_warmer;"]}
+           "law/contact.h": ["Vec3Of<T> omega;", "T temperature_difference;"]}
 
 
 def end_of_statement(text, at):

@@ -4,13 +4,13 @@ namespace lsdcd {
 
 namespace {
 
-EngineSettings classic(LawStyle style)
+EngineSettings classic(NormalModel normal, bool history)
 {
   EngineSettings s;
-  s.law.style = style;
+  s.law = classic_law(normal, history);
   s.law.k_normal = 1e5;
   s.law.k_tangent = 3e4;
-  s.law.gamma_normal = 50;
+  s.law.eta = 50;
   s.law.gamma_tangent = 25;
   s.law.mu = 0.5;
   return s;
@@ -19,17 +19,17 @@ EngineSettings classic(LawStyle style)
 EngineSettings granular(NormalModel normal, TangentialModel tangential)
 {
   EngineSettings s;
-  s.law.style = LawStyle::granular;
-  GranularLaw &g = s.law.granular;
+  s.law = granular_law(NormalModel::hooke);
+  ContactLaw &g = s.law;
   g.normal = normal;
   g.k_normal = 1e5;
   g.modulus = 7.5e4;
-  g.cohesion = 0.1;
+  g.surface_energy = 0.1;
   g.damping = DampingModel::none;
   g.eta = 0.1;
   g.tangential = tangential;
   g.k_tangent = 3e4;
-  g.x_tangent = 0.5;
+  g.xgammat = 0.5;
   g.mu = 0.5;
   return s;
 }
@@ -52,17 +52,18 @@ std::vector<EffectCase> effect_cases()
     cases.push_back({name, words, over, s});
   };
 
-  begin("hooke", "hooke", "", classic(LawStyle::hooke));
-  begin("tangential spring", "hooke/history", "hooke", classic(LawStyle::hooke_history));
-  begin("hertz stiffness", "hertz/history", "tangential spring", classic(LawStyle::hertz_history));
+  begin("hooke", "hooke", "", classic(NormalModel::hooke, false));
+  begin("tangential spring", "hooke/history", "hooke", classic(NormalModel::hooke, true));
+  begin("hertz stiffness", "hertz/history", "tangential spring", classic(NormalModel::hertz, true));
   add("rolling cdt", "rolling cdt", "hooke", [](EngineSettings &s) {
-    s.law.added = {AddedRolling::cdt, 0.1, 0};
+    s.law.rolling = {RollingModel::cdt, {0.1}};
   });
   add("rolling epsd2", "rolling epsd2", "tangential spring", [](EngineSettings &s) {
-    s.law.added = {AddedRolling::epsd2, 0.1, 0};
+    s.law.rolling = {RollingModel::epsd2, {0.1}};
   });
-  add("cohesion sjkr", "cohesion sjkr", "hooke",
-      [](EngineSettings &s) { s.law.added.cohesion = 1e3; });
+  add("cohesion sjkr", "cohesion sjkr", "hooke", [](EngineSettings &s) {
+    s.law.cohesion = {CohesionModel::sjkr, {1e3}};
+  });
   add("moving surface", "surface_vel, surface_angvel", "hooke", [](EngineSettings &s) {
     s.surface = {{1, 0, 0}, {0, 0, 0.1}, {0, 0, 0}};
   });
@@ -74,15 +75,11 @@ std::vector<EffectCase> effect_cases()
 
   begin("granular hooke", "granular hooke ... linear_nohistory", "hooke",
         granular(NormalModel::hooke, TangentialModel::linear_nohistory));
-  const auto normal = [](NormalModel n) {
-    return [n](EngineSettings &s) { s.law.granular.normal = n; };
-  };
+  const auto normal = [](NormalModel n) { return [n](EngineSettings &s) { s.law.normal = n; }; };
   add("hertz", "granular hertz, hertz/material", "granular hooke", normal(NormalModel::hertz));
   add("dmt", "granular dmt", "hertz", normal(NormalModel::dmt));
   add("jkr", "granular jkr", "hertz", normal(NormalModel::jkr));
-  const auto damping = [](DampingModel d) {
-    return [d](EngineSettings &s) { s.law.granular.damping = d; };
-  };
+  const auto damping = [](DampingModel d) { return [d](EngineSettings &s) { s.law.damping = d; }; };
   add("damping velocity", "damping velocity", "hertz", damping(DampingModel::velocity));
   add("damping mass_velocity", "damping mass_velocity", "hertz",
       damping(DampingModel::mass_velocity));
@@ -90,7 +87,7 @@ std::vector<EffectCase> effect_cases()
   add("damping tsuji", "damping tsuji, coeff_restitution", "hertz",
       damping(DampingModel::stiffness));
   const auto tangential = [](TangentialModel t) {
-    return [t](EngineSettings &s) { s.law.granular.tangential = t; };
+    return [t](EngineSettings &s) { s.law.tangential = t; };
   };
   add("linear_history", "tangential linear_history", "hertz",
       tangential(TangentialModel::linear_history));
@@ -99,50 +96,38 @@ std::vector<EffectCase> effect_cases()
       tangential(TangentialModel::mindlin_force));
   add("mindlin_rescale", "tangential mindlin_rescale", "mindlin",
       tangential(TangentialModel::mindlin_rescale));
+  add("mindlin_rescale/force", "tangential mindlin_rescale/force", "mindlin/force",
+      tangential(TangentialModel::mindlin_rescale_force));
   add("rolling sds", "rolling sds", "mindlin", [](EngineSettings &s) {
-    s.law.granular.rolling = true;
-    s.law.granular.k_roll = 1e4;
-    s.law.granular.gamma_roll = 10;
-    s.law.granular.mu_roll = 0.1;
+    s.law.rolling = {RollingModel::sds, {1e4, 10, 0.1}};
   });
   const auto twisting = [](TwistingModel t) {
-    return [t](EngineSettings &s) {
-      s.law.granular.twisting = t;
-      s.law.granular.k_twist = 1e4;
-      s.law.granular.gamma_twist = 10;
-      s.law.granular.mu_twist = 0.1;
-    };
+    return [t](EngineSettings &s) { s.law.twisting = {t, {1e4, 10, 0.1}}; };
   };
   add("twisting marshall", "twisting marshall", "mindlin", twisting(TwistingModel::marshall));
   add("twisting sds", "twisting sds", "mindlin", twisting(TwistingModel::sds));
-  const auto heat = [](HeatModel h) {
-    return [h](EngineSettings &s) {
-      s.law.granular.heat = h;
-      s.law.granular.conductance = 1;
-    };
-  };
+  const auto heat = [](HeatModel h) { return [h](EngineSettings &s) { s.law.heat = {h, {1}}; }; };
   add("heat radius", "heat radius", "hertz", heat(HeatModel::radius));
   add("heat area", "heat area", "hertz", heat(HeatModel::area));
 
   // In common combinations.
-  EngineSettings s = classic(LawStyle::hertz_history);
-  s.law.added = {AddedRolling::epsd2, 0.1, 1e3};
+  EngineSettings s = classic(NormalModel::hertz, true);
+  s.law.rolling = {RollingModel::epsd2, {0.1}};
+  s.law.cohesion = {CohesionModel::sjkr, {1e3}};
   begin("sticky grains", "hertz/history, rolling epsd2, cohesion sjkr", "", s);
-  s = classic(LawStyle::hertz_history);
+  s = classic(NormalModel::hertz, true);
   s.surface.velocity = {1, 0, 0};
   s.records = true;
   s.wear = WearModel::archard;
   begin("belt that wears", "hertz/history, surface_vel, wear archard", "", s);
   s = granular(NormalModel::hertz, TangentialModel::mindlin);
-  s.law.granular.damping = DampingModel::stiffness;
+  s.law.damping = DampingModel::stiffness;
   begin("dry grains", "granular hertz, tsuji, mindlin", "", s);
-  s.law.granular.rolling = true;
-  s.law.granular.twisting = TwistingModel::marshall;
-  s.law.granular.k_roll = 1e4;
-  s.law.granular.mu_roll = 0.1;
+  s.law.rolling = {RollingModel::sds, {1e4, 0, 0.1}};
+  s.law.twisting = TwistingModel::marshall;
   begin("rough grains", "granular hertz, tsuji, mindlin, rolling sds, twisting marshall", "", s);
-  s.law.granular.normal = NormalModel::jkr;
-  s.law.granular.heat = HeatModel::area;
+  s.law.normal = NormalModel::jkr;
+  s.law.heat = {HeatModel::area, {0}};
   begin("hot powder", "granular jkr, tsuji, mindlin, rolling sds, twisting marshall, heat area", "",
         s);
   return cases;

@@ -1,43 +1,47 @@
 #include "effects/effects.h"
 
+#include "law/sub_models.h"
+
 namespace lsdcd {
 
 namespace {
 
-constexpr int kNumber = sizeof(Real), kVector = 3 * kNumber;
-
-void add_classic(const ContactLaw &law, std::vector<Effect> &effects)
+void add_friction(const ContactLaw &law, bool damps, std::vector<Effect> &effects)
 {
-  effects.push_back({"normal spring", 0});
-  if (law.style == LawStyle::hertz_history) effects.push_back({"hertz stiffness", 0});
-  if (law.gamma_normal > 0) effects.push_back({"normal damping", 0});
-  if (law.mu > 0 && law.style != LawStyle::hooke && law.k_tangent > 0)
+  if (law.tangential == TangentialModel::linear_history_classic && law.mu > 0 && law.k_tangent > 0)
     effects.push_back({"tangential spring", 0});
-  if (law.mu > 0 && law.gamma_tangent > 0) effects.push_back({"tangential damping", 0});
+  if (law.is_classic() ? law.mu > 0 && law.gamma_tangent > 0 : damps && law.xgammat > 0)
+    effects.push_back({"tangential damping", 0});
   effects.push_back({law.mu > 0 ? "sliding limit" : "no friction", 0});
-  if (law.added.rolling == AddedRolling::cdt) effects.push_back({"rolling cdt", 0});
-  if (law.added.rolling == AddedRolling::epsd2) effects.push_back({"rolling epsd2", kVector});
-  if (law.added.cohesion > 0) effects.push_back({"cohesion sjkr", 0});
 }
 
-void add_granular(const ContactLaw &law, std::vector<Effect> &effects)
+void add_law(const ContactLaw &law, std::vector<Effect> &effects)
 {
-  const GranularLaw &g = law.granular;
-  const char *const normals[] = {"linear spring", "hertz spring", "dmt adhesion", "jkr adhesion"};
-  effects.push_back({normals[static_cast<int>(g.normal)], 0});
-
-  const bool damps = g.damping != DampingModel::none && g.eta > 0;
-  if (damps) effects.push_back({"normal damping", 0});
-
-  if (g.tangential != TangentialModel::linear_nohistory)
-    effects.push_back({"tangential spring", 0});
-  if (law.has_rescale()) effects.push_back({"rescaling on unloading", kNumber});
-  if (damps && g.x_tangent > 0) effects.push_back({"tangential damping", 0});
-  effects.push_back({g.mu > 0 ? "sliding limit" : "no friction", 0});
-
-  if (law.has_rolling()) effects.push_back({"rolling resistance", kVector});
-  if (law.has_twisting()) effects.push_back({"twisting resistance", kNumber});
-  if (law.has_heat()) effects.push_back({"heat conduction", 0});
+  const bool damps = law.damping != DampingModel::none && law.eta > 0;
+  const auto add = [&effects](const char *name, int bytes) {
+    if (*name) effects.push_back({name, bytes});
+  };
+  for (const SubModel *row : rows_of(law)) {
+    const int bytes = row->kept.beside_shear * static_cast<int>(sizeof(Real));
+    switch (row->family) {
+      case Family::style:
+        add("normal spring", 0);
+        add(row->effect, 0);
+        if (damps) add("normal damping", 0);
+        add_friction(law, damps, effects);
+        break;
+      case Family::damping:
+        if (damps) add(row->effect, 0);
+        break;
+      case Family::tangential:
+        add(row->effect, 0);
+        if (row->kept.effect) add(row->kept.effect, bytes);
+        add_friction(law, damps, effects);
+        break;
+      default:
+        add(row->effect, bytes);
+    }
+  }
 }
 
 }    // namespace
@@ -45,10 +49,7 @@ void add_granular(const ContactLaw &law, std::vector<Effect> &effects)
 std::vector<Effect> effects_of(const EngineSettings &s)
 {
   std::vector<Effect> effects;
-  if (s.law.style == LawStyle::granular)
-    add_granular(s.law, effects);
-  else
-    add_classic(s.law, effects);
+  add_law(s.law, effects);
   if (s.surface.moves()) effects.push_back({"moving surface", 0});
   if (s.moves) effects.push_back({"moving wall", 0});
   if (s.records) effects.push_back({"loads of triangles", 0});

@@ -26,7 +26,7 @@ void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &s
 
 bool has_single(const EngineSettings &settings)
 {
-  return settings.law.style != LawStyle::granular && !settings.law.added.any() &&
+  return settings.law.is_classic() && !settings.law.is_extended() &&
          !settings.surface.moves() && !settings.moves && settings.meshes == 1 && !settings.records;
 }
 

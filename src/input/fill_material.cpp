@@ -4,7 +4,7 @@
 #include "base/input_words.h"
 #include "material/contact_moduli.h"
 #include "material/material_units.h"
-#include "law/contact_law.h"
+#include "law/sub_models.h"
 
 #include <charconv>
 #include <cmath>
@@ -19,24 +19,6 @@ std::string exact_text(Real value)
   char buffer[40];
   return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
 }
-
-// Numbers of sub-models that are properties, where the deck says NULL.
-struct NullNumber {
-  const char *keyword, *model;
-  std::size_t index;
-  const char *property;
-};
-
-const NullNumber kNullNumbers[] = {
-    {"tangential", "linear_nohistory", 1, "sliding_friction"},
-    {"tangential", "linear_history", 2, "sliding_friction"},
-    {"tangential", "mindlin", 2, "sliding_friction"},
-    {"tangential", "mindlin/force", 2, "sliding_friction"},
-    {"tangential", "mindlin_rescale", 2, "sliding_friction"},
-    {"tangential", "mindlin_rescale/force", 2, "sliding_friction"},
-    {"rolling", "sds", 2, "rolling_friction"},
-    {"heat", "radius", 0, "thermal_conductivity"},
-};
 
 // What tsuji takes in a pair style of LAMMPS for the restitution e. The fit is for the mass of one
 // of two equal spheres; LAMMPS has it with the effective mass, half of that. It falls with its
@@ -240,16 +222,19 @@ class Filler {
     return text;
   }
 
+  // NULL where a sub-model takes a number that is a property.
   std::vector<std::string> fill_nulls()
   {
     std::vector<std::string> tokens = c_.sub_models;
     for (std::size_t i = 0; i + 1 < tokens.size(); i++)
-      for (const NullNumber &n : kNullNumbers) {
-        const std::size_t at = i + 2 + n.index;
-        if (tokens[i] != n.keyword || tokens[i + 1] != n.model) continue;
-        if (at >= tokens.size() || tokens[at] != "NULL") continue;
-        tokens[at] = find_property(n.property)->of_pair ? of_pair(n.property) : conductivity();
-      }
+      for (const SubModel &row : sub_models())
+        if (row.with == GoesWith::granular && tokens[i] == family_word(row.family) &&
+            tokens[i + 1] == row.name)
+          for (std::size_t k = 0; k < row.parameters.size() && i + 2 + k < tokens.size(); k++)
+            if (const char *property = row.parameters[k].property;
+                property && tokens[i + 2 + k] == "NULL")
+              tokens[i + 2 + k] =
+                  find_property(property)->of_pair ? of_pair(property) : conductivity();
     return tokens;
   }
 

@@ -7,189 +7,64 @@ namespace lsdcd {
 
 namespace {
 
-// What sub-models say about one another before all of them are known.
-struct Draft {
-  ContactLaw law;
-  std::string normal_name, damping_name = "viscoelastic";
-  Real young = 0, poisson = 0;    // of material sub-models; young 0: there is none
-  Real second = 0;                // eta or e, the second number of the normal sub-model
-};
-
-struct SubModel {
-  const char *family;    // "" for the normal one, which has no word of its own
-  const char *name;
-  const char *parameters;
-  void (*read)(Tokens &, Draft &);
-};
-
-GranularLaw &parts(Draft &d)
-{
-  return d.law.granular;
-}
-
-void read_stiffness(Tokens &w, Draft &d, NormalModel model)
-{
-  parts(d).normal = model;
-  parts(d).k_normal = w.number("kn", 0);
-  d.second = w.number("eta (or e)", 0);
-}
-
-// Effective modulus of a sphere and a wall of one material, as LAMMPS has it since 2023.
-void read_material(Tokens &w, Draft &d, NormalModel model)
-{
-  parts(d).normal = model;
-  d.young = w.number("E", kAboveZero);
-  d.second = w.number("eta (or e)", 0);
-  d.poisson = w.number("nu", -1 + 1e-12, 0.5);
-  parts(d).modulus = d.young / (2 * (1 - d.poisson * d.poisson));
-  parts(d).k_normal = Real(4) / 3 * parts(d).modulus;
-  if (model != NormalModel::hertz) parts(d).cohesion = w.number("gamma", 0);
-}
-
-void read_slip(Tokens &w, Draft &d)
-{
-  parts(d).x_tangent = w.number("x_gammat", 0);
-  parts(d).mu = w.number("mu", 0);
-}
-
-void read_tangential(Tokens &w, Draft &d, TangentialModel model)
-{
-  parts(d).tangential = model;
-  if (model == TangentialModel::linear_history) {
-    parts(d).k_tangent = w.number("kt", 0);
-  } else {
-    parts(d).k_tangent = w.number_or("NULL", -1, "kt", 0);
-    if (parts(d).k_tangent < 0) {
-      if (d.young == 0)
-        w.fail("kt can be NULL only where the normal sub-model has E and nu, not with '" +
-               d.normal_name + "'");
-      // 8 G of the contact of a sphere and a wall of one material.
-      parts(d).k_tangent = 8 * d.young / (4 * (2 - d.poisson) * (1 + d.poisson));
-    }
-  }
-  read_slip(w, d);
-}
-
-void read_damping(Draft &d, DampingModel model, const char *name)
-{
-  parts(d).damping = model;
-  d.damping_name = name;
-}
-
-void read_heat(Tokens &w, Draft &d, HeatModel model, const char *what)
-{
-  parts(d).heat = model;
-  parts(d).conductance = w.number(what, 0);
-}
-
-const SubModel kSubModels[] = {
-    {"", "hooke", "kn eta|e",
-     [](Tokens &w, Draft &d) { read_stiffness(w, d, NormalModel::hooke); }},
-    {"", "hertz", "kn eta|e",
-     [](Tokens &w, Draft &d) { read_stiffness(w, d, NormalModel::hertz); }},
-    {"", "hertz/material", "E eta|e nu",
-     [](Tokens &w, Draft &d) { read_material(w, d, NormalModel::hertz); }},
-    {"", "dmt", "E eta nu gamma",
-     [](Tokens &w, Draft &d) { read_material(w, d, NormalModel::dmt); }},
-    {"", "jkr", "E eta nu gamma",
-     [](Tokens &w, Draft &d) { read_material(w, d, NormalModel::jkr); }},
-
-    {"damping", "none", "",
-     [](Tokens &, Draft &d) { read_damping(d, DampingModel::none, "none"); }},
-    {"damping", "velocity", "",
-     [](Tokens &, Draft &d) { read_damping(d, DampingModel::velocity, "velocity"); }},
-    {"damping", "mass_velocity", "",
-     [](Tokens &, Draft &d) { read_damping(d, DampingModel::mass_velocity, "mass_velocity"); }},
-    {"damping", "viscoelastic", "",
-     [](Tokens &, Draft &d) { read_damping(d, DampingModel::viscoelastic, "viscoelastic"); }},
-    {"damping", "tsuji", "",
-     [](Tokens &, Draft &d) { read_damping(d, DampingModel::stiffness, "tsuji"); }},
-    {"damping", "coeff_restitution", "",
-     [](Tokens &, Draft &d) { read_damping(d, DampingModel::stiffness, "coeff_restitution"); }},
-
-    {"tangential", "linear_nohistory", "x_gammat mu", read_slip},
-    {"tangential", "linear_history", "kt x_gammat mu",
-     [](Tokens &w, Draft &d) { read_tangential(w, d, TangentialModel::linear_history); }},
-    {"tangential", "mindlin", "kt|NULL x_gammat mu",
-     [](Tokens &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin); }},
-    {"tangential", "mindlin/force", "kt|NULL x_gammat mu",
-     [](Tokens &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin_force); }},
-    {"tangential", "mindlin_rescale", "kt|NULL x_gammat mu",
-     [](Tokens &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin_rescale); }},
-    {"tangential", "mindlin_rescale/force", "kt|NULL x_gammat mu",
-     [](Tokens &w, Draft &d) { read_tangential(w, d, TangentialModel::mindlin_rescale_force); }},
-
-    {"rolling", "none", "", [](Tokens &, Draft &) {}},
-    {"rolling", "sds", "k gamma mu",
-     [](Tokens &w, Draft &d) {
-       parts(d).rolling = true;
-       parts(d).k_roll = w.number("k", 0);
-       parts(d).gamma_roll = w.number("gamma", 0);
-       parts(d).mu_roll = w.number("mu", 0);
-     }},
-
-    {"twisting", "none", "", [](Tokens &, Draft &) {}},
-    {"twisting", "marshall", "",
-     [](Tokens &, Draft &d) { parts(d).twisting = TwistingModel::marshall; }},
-    {"twisting", "sds", "k gamma mu",
-     [](Tokens &w, Draft &d) {
-       parts(d).twisting = TwistingModel::sds;
-       parts(d).k_twist = w.number("k", 0);
-       parts(d).gamma_twist = w.number("gamma", 0);
-       parts(d).mu_twist = w.number("mu", 0);
-     }},
-
-    {"heat", "none", "", [](Tokens &, Draft &) {}},
-    {"heat", "radius", "k", [](Tokens &w, Draft &d) { read_heat(w, d, HeatModel::radius, "k"); }},
-    {"heat", "area", "h", [](Tokens &w, Draft &d) { read_heat(w, d, HeatModel::area, "h"); }},
-};
-
 std::string with_gap(const std::string &a, const std::string &b)
 {
   return a.empty() || b.empty() ? a + b : a + " " + b;
 }
 
-// "tangential linear_history kt x_gammat mu"
-std::string syntax_of(const SubModel &row)
+// "tangential linear_history kt xgammat mu"
+std::string words_of(const SubModel &row)
 {
-  return with_gap(with_gap(row.family, row.name), row.parameters);
+  return with_gap(family_word(row.family), syntax_of(row));
 }
 
 // "tangential linear_nohistory|linear_history|..."
-std::string choices_of(const std::string &family)
+std::string choices_of(Family family)
 {
   std::string names;
-  for (const SubModel &row : kSubModels)
-    if (row.family == family) names += (names.empty() ? "" : "|") + std::string(row.name);
-  return with_gap(family, names);
+  for (const SubModel *row : sub_models(family, GoesWith::granular))
+    names += (names.empty() ? "" : "|") + std::string(row->name);
+  return with_gap(family_word(family), names);
 }
 
-void read_sub_model(Tokens &w, Draft &d, const std::string &family)
+const Family kFamilies[] = {Family::damping, Family::tangential, Family::rolling, Family::twisting,
+                            Family::heat};
+
+template <class Model>
+void choose(Chosen<Model> &chosen, const SubModel &row, const std::vector<Real> &given)
 {
-  w.expect(with_gap("granular", family), choices_of(family));
+  chosen.model = static_cast<Model>(row.model);
+  std::copy(given.begin(), given.end(), chosen.numbers);
+}
+
+void read_sub_model(Tokens &w, LawDraft &d, Family family)
+{
+  w.expect(with_gap("granular", family_word(family)), choices_of(family));
   if (w.done()) w.fail("the name of the sub-model is missing");
-  for (const SubModel &row : kSubModels) {
-    if (row.family != family || w.peek() != row.name) continue;
+  for (const SubModel *row : sub_models(family, GoesWith::granular)) {
+    if (w.peek() != row->name) continue;
     w.take();
-    w.expect(with_gap("granular", with_gap(row.family, row.name)), syntax_of(row));
-    if (family.empty()) d.normal_name = row.name;
-    row.read(w, d);
+    w.expect(with_gap("granular", with_gap(family_word(family), row->name)), words_of(*row));
+    if (family == Family::normal) d.normal_name = row->name;
+    if (family == Family::damping) d.damping_name = row->name;
+    read_numbers(w, *row, d);
     return;
   }
   w.fail("'" + w.peek() + "' is not a sub-model");
 }
 
 // What the second number of the normal sub-model means is known only in the end.
-void resolve_damping(Tokens &w, Draft &d)
+void resolve_damping(Tokens &w, LawDraft &d)
 {
-  GranularLaw &g = parts(d);
+  ContactLaw &g = d.law;
   g.eta = d.second;
   if (g.damping != DampingModel::stiffness) return;
-  w.expect("granular damping " + d.damping_name,
+  w.expect(std::string("granular damping ") + d.damping_name,
            "granular hooke|hertz kn e, or hertz/material E e nu, with 0 < e <= 1");
   if (g.normal == NormalModel::dmt || g.normal == NormalModel::jkr)
-    w.fail("the damping does not go with the adhesive sub-model '" + d.normal_name + "'");
-  const bool exact = d.damping_name == "coeff_restitution";
+    w.fail("the damping does not go with the adhesive sub-model '" + std::string(d.normal_name) +
+           "'");
+  const bool exact = d.damping_name == std::string("coeff_restitution");
   if (d.second > 1 || (exact && d.second == 0))
     w.fail("e = " + number_text(d.second) +
            " is out of range: it must be above 0 and at most 1, as the second number of the "
@@ -199,14 +74,46 @@ void resolve_damping(Tokens &w, Draft &d)
 
 }    // namespace
 
+void read_numbers(Tokens &w, const SubModel &row, LawDraft &d)
+{
+  std::vector<Real> given;
+  for (const Parameter &p : row.parameters) {
+    const bool null = p.may_be_null && !w.done() && w.peek() == "NULL";
+    given.push_back(null ? NAN : w.number(p.name, p.least, p.most));
+    if (p.is_flag && given.back() != 0 && given.back() != 1)
+      w.fail(std::string(p.name) + " must be 0 or 1");
+    if (!null) continue;
+    w.take();
+    if (row.with == GoesWith::granular && d.young == 0)
+      w.fail(std::string(p.name) +
+             " can be NULL only where the normal sub-model has E and nu, not "
+             "with '" +
+             d.normal_name + "'");
+  }
+  if (row.set) return row.set(given.data(), d);
+  switch (row.family) {
+    case Family::rolling:
+      return choose(d.law.rolling, row, given);
+    case Family::twisting:
+      return choose(d.law.twisting, row, given);
+    case Family::heat:
+      return choose(d.law.heat, row, given);
+    default:
+      return choose(d.law.cohesion, row, given);
+  }
+}
+
 std::vector<std::string> granular_families()
 {
-  return {"damping", "tangential", "rolling", "twisting", "heat", "limit_damping"};
+  std::vector<std::string> words;
+  for (Family family : kFamilies) words.push_back(family_word(family));
+  words.push_back("limit_damping");
+  return words;
 }
 
 std::string granular_syntax()
 {
-  return "granular " + choices_of("") +
+  return "granular " + choices_of(Family::normal) +
          " ... tangential MODEL ... [damping MODEL] [rolling MODEL ...] [twisting MODEL ...] "
          "[heat MODEL ...] [limit_damping] mesh FILE [keywords]";
 }
@@ -214,41 +121,45 @@ std::string granular_syntax()
 std::string granular_help()
 {
   std::string help;
-  for (const SubModel &row : kSubModels) help += "    " + syntax_of(row) + "\n";
+  for (const SubModel &row : sub_models())
+    if (row.with == GoesWith::granular) help += "    " + words_of(row) + "\n";
   return help;
 }
 
 ContactLaw read_granular(Tokens &w, std::string &text)
 {
-  Draft d;
-  d.law.style = LawStyle::granular;
+  LawDraft d;
+  d.law = granular_law(NormalModel::hooke);
   const std::size_t first = w.at();
-  read_sub_model(w, d, "");
+  read_sub_model(w, d, Family::normal);
 
-  const std::vector<std::string> families = granular_families();
+  const std::vector<std::string> words = granular_families();
   std::vector<std::string> seen;
   const auto has = [&](const std::string &word) {
     return std::find(seen.begin(), seen.end(), word) != seen.end();
   };
-  while (!w.done() && std::find(families.begin(), families.end(), w.peek()) != families.end()) {
-    const std::string word = w.take();
-    w.expect("granular " + word, word == "limit_damping" ? word : choices_of(word));
-    if (has(word)) w.fail("it is given twice");
-    seen.push_back(word);
-    if (word == "limit_damping")
+  const std::string tangential = family_word(Family::tangential);
+  while (!w.done()) {
+    const auto at = std::find(words.begin(), words.end(), w.peek());
+    if (at == words.end()) break;
+    const bool limit = w.take() == "limit_damping";
+    w.expect("granular " + *at, limit ? *at : choices_of(kFamilies[at - words.begin()]));
+    if (has(*at)) w.fail("it is given twice");
+    seen.push_back(*at);
+    if (limit)
       d.law.limit_damping = true;
     else
-      read_sub_model(w, d, word);
+      read_sub_model(w, d, kFamilies[at - words.begin()]);
   }
   text = "granular " + w.between(first);
 
-  if (!has("tangential")) {
-    w.expect("granular", choices_of("tangential"));
+  if (!has(tangential)) {
+    w.expect("granular", choices_of(Family::tangential));
     w.fail("the tangential sub-model is missing");
   }
   if (d.law.limit_damping && (d.law.is(NormalModel::dmt) || d.law.is(NormalModel::jkr))) {
     w.expect("granular limit_damping", granular_syntax());
-    w.fail("an adhesive sub-model, '" + d.normal_name + "', has to pull");
+    w.fail("an adhesive sub-model, '" + std::string(d.normal_name) + "', has to pull");
   }
   resolve_damping(w, d);
   return d.law;

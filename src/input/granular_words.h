@@ -1,13 +1,16 @@
-// The words of `granular` -> ContactLaw, in LAMMPS's syntax. One row per sub-model.
+// The words of contact laws -> ContactLaw, by the rows of sub_models.h.
 #pragma once
 
 #include "base/input_words.h"
-#include "law/contact_law.h"
+#include "law/sub_models.h"
 
 #include <string>
 #include <vector>
 
 namespace lsdcd {
+
+// The numbers of one sub-model, whose name has been read.
+void read_numbers(Tokens &w, const SubModel &row, LawDraft &draft);
 
 // `w` is past the word granular; reads up to the first word that is none of its own.
 // `text` becomes what was read, for the log.

@@ -1,6 +1,7 @@
 #include "input/keywords.h"
 
 #include "base/whole_file.h"
+#include "input/granular_words.h"
 #include "input/motion_words.h"
 #include "input/servo_words.h"
 
@@ -90,26 +91,49 @@ void read_cache(Tokens &w, MeshSettings &s)
   s.cache_file = file;
 }
 
-// Of LIGGGHTS, beside the classic styles; granular has its own.
-void only_classic(Tokens &w, const WallSettings &s, const char *instead)
+// Sub-models beside a classic style: "cdt MU | epsd2 MU", and a line about each.
+std::string choices_beside_classic(Family family)
 {
-  if (s.law.style == LawStyle::granular)
+  std::string text;
+  for (const SubModel *row : sub_models(family, GoesWith::classic))
+    text += (text.empty() ? "" : " | ") + syntax_of(*row);
+  return text;
+}
+std::string help_beside_classic(Family family)
+{
+  std::string text;
+  for (const SubModel *row : sub_models(family, GoesWith::classic))
+    text += (text.empty() ? "" : "; ") + std::string(row->name) + ": " + row->help;
+  return text;
+}
+
+void read_beside_classic(Tokens &w, WallSettings &s, Family family, const char *instead)
+{
+  if (!s.law.is_classic())
     w.fail(std::string("it goes with the classic styles; granular has ") + instead);
+  const std::vector<const SubModel *> rows = sub_models(family, GoesWith::classic);
+  std::vector<std::string> names;
+  for (const SubModel *row : rows) names.push_back(row->name);
+  LawDraft draft;
+  draft.law = s.law;
+  read_numbers(w, *rows[w.choice(names)], draft);
+  s.law = draft.law;
 }
 
 void read_rolling(Tokens &w, WallSettings &s)
 {
-  only_classic(w, s, "'rolling sds' before mesh");
-  s.law.added.rolling = static_cast<AddedRolling>(1 + w.choice({"cdt", "epsd2"}));
-  s.law.added.mu_roll = w.number("MU", 0);
+  read_beside_classic(w, s, Family::rolling, "'rolling sds' before mesh");
 }
 
 void read_cohesion(Tokens &w, WallSettings &s)
 {
-  only_classic(w, s, "the normal sub-models dmt and jkr");
-  w.choice({"sjkr"});
-  s.law.added.cohesion = w.number("K", 0);
+  read_beside_classic(w, s, Family::cohesion, "the normal sub-models dmt and jkr");
 }
+
+const std::string kRolling = choices_beside_classic(Family::rolling),
+                  kRollingHelp = help_beside_classic(Family::rolling),
+                  kCohesion = choices_beside_classic(Family::cohesion),
+                  kCohesionHelp = help_beside_classic(Family::cohesion);
 
 void read_wear(Tokens &w, WallSettings &s)
 {
@@ -239,10 +263,9 @@ const Keyword kKeywords[] = {
      "it turns along itself about an axis through c (the origin), as a roll's; each w a number or "
      "v_NAME",
      nullptr, read_surface_angvel},
-    {"rolling", "cdt MU | epsd2 MU", "", ">= 0", "none",
-     "rolling friction of LIGGGHTS: constant torque, or elastic-plastic spring", read_rolling},
-    {"cohesion", "sjkr K", "energy/volume", ">= 0", "none",
-     "cohesion of LIGGGHTS: K times the area of contact", read_cohesion},
+    {"rolling", kRolling.c_str(), "", ">= 0", "none", kRollingHelp.c_str(), read_rolling},
+    {"cohesion", kCohesion.c_str(), "energy/volume", ">= 0", "none", kCohesionHelp.c_str(),
+     read_cohesion},
     {"wear", "archard K H | finnie K", "K H: none, pressure; K: 1/pressure", ">= 0, H > 0", "none",
      "volume that wears off the triangles: K F s/H, or by angle and energy of impacts", read_wear},
     {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",

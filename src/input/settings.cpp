@@ -11,39 +11,40 @@ namespace lsdcd {
 
 namespace {
 
-const char *const kLawSyntax =
-    "hooke|hooke/history|hertz/history kn kt|NULL gamman gammat|NULL xmu dampflag [limit_damping] "
-    "mesh FILE [keywords], or granular NORMAL ... mesh FILE [keywords]";
+// "hooke|hooke/history|... kn kt|NULL ... [limit_damping] mesh FILE [keywords], or granular ..."
+std::string law_syntax()
+{
+  const std::vector<const SubModel *> styles = sub_models(Family::style, GoesWith::classic);
+  std::string names;
+  for (const SubModel *row : styles) names += (names.empty() ? "" : "|") + std::string(row->name);
+  return names + " " + parameters_text(*styles[0]) +
+         " [limit_damping] mesh FILE [keywords], or granular NORMAL ... mesh FILE [keywords]";
+}
 
 void read_law(Tokens &w, WallSettings &s)
 {
-  const std::vector<std::string> names = {"hooke", "hooke/history", "hertz/history", "granular"};
-  w.expect("fix wall/lsdcd", kLawSyntax);
+  w.expect("fix wall/lsdcd", law_syntax());
   if (w.done()) w.fail("the contact style is missing");
-  const auto found = std::find(names.begin(), names.end(), w.peek());
-  if (found == names.end()) w.fail("'" + w.peek() + "' is not a contact style");
-  s.law_name = w.take();
-  s.law.style = static_cast<LawStyle>(found - names.begin());
-  if (s.law.style == LawStyle::granular) {
+  s.law_name = w.peek();
+  if (s.law_name == "granular") {
+    w.take();
     s.law = read_granular(w, s.law_name);
     return;
   }
-
-  // The numbers, NULLs and limits of fix wall/gran.
-  w.expect(s.law_name, kLawSyntax);
-  ContactLaw &law = s.law;
-  law.k_normal = w.number("kn", 0);
-  law.k_tangent = w.number_or("NULL", law.k_normal * 2 / 7, "kt", 0);
-  law.gamma_normal = w.number("gamman", 0);
-  law.gamma_tangent = w.number_or("NULL", law.gamma_normal / 2, "gammat", 0);
-  law.mu = w.number("xmu", 0, 10000);
-  const Real dampflag = w.number("dampflag", 0, 1);
-  if (dampflag != 0 && dampflag != 1) w.fail("dampflag must be 0 or 1");
-  if (dampflag == 0) law.gamma_tangent = 0;
-  if (!w.done() && w.peek() == "limit_damping") {
-    law.limit_damping = true;
+  for (const SubModel *row : sub_models(Family::style, GoesWith::classic)) {
+    if (s.law_name != row->name) continue;
     w.take();
+    w.expect(row->name, law_syntax());
+    LawDraft draft;
+    read_numbers(w, *row, draft);
+    s.law = draft.law;
+    if (!w.done() && w.peek() == "limit_damping") {
+      s.law.limit_damping = true;
+      w.take();
+    }
+    return;
   }
+  w.fail("'" + s.law_name + "' is not a contact style");
 }
 
 // Tokens of fix wall/gran and of LIGGGHTS, and retired ones, and what does their work here.
@@ -239,9 +240,9 @@ WallSettings parse_settings(const std::vector<std::string> &tokens)
   WallSettings settings;
   Tokens w(tokens);
   read_law(w, settings);
-  const bool granular = settings.law.style == LawStyle::granular;
+  const bool granular = !settings.law.is_classic();
   read_keywords(w, settings, granular);
-  w.expect("fix wall/lsdcd", granular ? granular_syntax() : kLawSyntax);
+  w.expect("fix wall/lsdcd", granular ? granular_syntax() : law_syntax());
   if (settings.meshes[0].file.empty()) w.fail("mesh FILE is missing");
   check_meshes(w, settings);
   return settings;
@@ -249,7 +250,7 @@ WallSettings parse_settings(const std::vector<std::string> &tokens)
 
 std::string settings_help()
 {
-  std::string help = std::string("fix ID group wall/lsdcd ") + kLawSyntax + "\n  " +
+  std::string help = std::string("fix ID group wall/lsdcd ") + law_syntax() + "\n  " +
                      granular_syntax() + ", of\n" + granular_help() +
                      "  or, with numbers from a file, " + kMaterialSyntax + "\n  keywords\n";
   for (const Keyword &row : keywords()) {

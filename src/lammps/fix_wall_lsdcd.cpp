@@ -59,12 +59,12 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
       throw lsdcd::InputError("in 'draw', there is no atom type " +
                               std::to_string(settings.draw_type));
     // A pressure in some unit systems is not a force per area in the same units.
-    if (settings.law.style == lsdcd::LawStyle::hertz_history) {
+    if (settings.law.is_classic() && settings.law.is(lsdcd::NormalModel::hertz)) {
       settings.law.k_normal /= force->nktv2p;
       settings.law.k_tangent /= force->nktv2p;
     }
     settings.wear.per_work *= force->nktv2p;
-    settings.law.added.cohesion /= force->nktv2p;
+    settings.law.cohesion.numbers[0] /= force->nktv2p;    // sjkr's; a pressure
     run_clock = {update->atime + (update->ntimestep - update->atimestep) * update->dt,
                  update->ntimestep, update->ntimestep, update->dt};
     for (std::size_t k = 0; k < settings.meshes.size(); k++) {

@@ -89,7 +89,7 @@ class FixWallLsdcd : public Fix {
          by_cells = 0;             // in this run
   bool callbacks = false;          // registered with Atom
   bool springs_checked = false;    // against this mesh: they may come from a restart file
-  int kind_in_file = -1;           // of its springs (model/spring_kind.h)
+  int kind_in_file = -1;           // ContactLaw::history_kind()
   bigint other_law = 0;            // atoms of that file with springs of another law
   int room = 0;                    // this wall's part of maxexchange
   bool running = false;            // between start and collect

@@ -19,7 +19,6 @@
 #include <cmath>
 
 using namespace LAMMPS_NS;
-using lsdcd::LawStyle;
 using lsdcd::number_text;
 
 static constexpr double kStepsPerContact = 10;
@@ -163,8 +162,7 @@ void FixWallLsdcd::check_plane(const MeshPart &m)
 // Does the stiffness grow with the overlap?
 static bool is_hertzian(const lsdcd::ContactLaw &law)
 {
-  if (law.style == LawStyle::granular) return !law.is(lsdcd::NormalModel::hooke);
-  return law.style == LawStyle::hertz_history;
+  return !law.is(lsdcd::NormalModel::hooke);
 }
 
 // Duration of a binary contact: half a period of the damped spring between a
@@ -173,9 +171,7 @@ static bool is_hertzian(const lsdcd::ContactLaw &law)
 double FixWallLsdcd::contact_time(double mass, double radius) const
 {
   const lsdcd::ContactLaw &law = settings.law;
-  const bool granular = law.style == LawStyle::granular;
-  double k = granular ? law.granular.k_normal : law.k_normal;
-  double gamma = granular ? 0 : law.gamma_normal;
+  double k = law.k_normal, gamma = law.is_classic() ? law.eta : 0;
   if (is_hertzian(law)) {
     const double root = std::sqrt(0.01 * radius * radius);
     k *= 1.5 * root;

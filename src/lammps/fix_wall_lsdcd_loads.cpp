@@ -2,7 +2,6 @@
 
 #include "lammps/fix_wall_lsdcd.h"
 
-#include "law/spring_kind.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -74,7 +73,7 @@ void FixWallLsdcd::add_restart_data(const MeshPart &m, std::vector<double> &data
 
 void FixWallLsdcd::write_restart(FILE *file)
 {
-  std::vector<double> data = {kFormat, double(lsdcd::spring_kind(settings.law)),
+  std::vector<double> data = {kFormat, double(settings.law.history_kind()),
                               double(run_clock.now()), double(parts.size())};
   for (const MeshPart &m : parts) add_restart_data(m, data);
   if (comm->me != 0) return;

@@ -13,7 +13,6 @@
 #include <cstdio>
 
 using namespace LAMMPS_NS;
-using lsdcd::LawStyle;
 using lsdcd::number_text;
 
 static std::string counted(bigint n, const std::string &what)
@@ -91,9 +90,9 @@ void FixWallLsdcd::log_creation() const
   t = signed_text(t);
   if (!material.empty()) t += "\n" + material;
   t += "\n  contact     " + settings.law_name;
-  if (l.style != LawStyle::granular)
+  if (l.is_classic())
     t += ", kn " + number_text(l.k_normal) + ", kt " + number_text(l.k_tangent) + ", gamman " +
-         number_text(l.gamma_normal) + ", gammat " + number_text(l.gamma_tangent) + ", xmu " +
+         number_text(l.eta) + ", gammat " + number_text(l.gamma_tangent) + ", xmu " +
          number_text(l.mu) + (l.limit_damping ? ", limit_damping" : "");
   std::string effects, kept;
   for (const lsdcd::Effect &e : lsdcd::effects_of(engine_settings())) {

@@ -8,16 +8,16 @@ namespace lsdcd {
 // One sphere-wall contact in one step. T is the type that forces are computed in.
 template <class T>
 struct Contact {
-  Vec3Of<T> normal;       // unit, wall -> centre
-  T overlap;              // length, > 0 where they touch
-  T radius;               // of the sphere; its effective radius against a wall
-  T mass;                 // of the sphere, or of the rigid body it belongs to
-  T v_normal;             // length/time, > 0 when it moves away from the wall
-  Vec3Of<T> v_tangent;    // length/time, of the sphere's surface at the contact
-  Vec3Of<T> omega;        // 1/time, of the sphere; set only where the law has kContactTorque
-  T wall_warmer;          // temperature, wall less sphere; set only where it has kHeat
-  T dt;                   // time
-  bool update;            // false: springs act but do not move (setup)
+  Vec3Of<T> normal;            // unit, wall -> centre
+  T overlap;                   // length, > 0 where they touch
+  T radius;                    // of the sphere; its effective radius against a wall
+  T mass;                      // of the sphere, or of the rigid body it belongs to
+  T v_normal;                  // length/time, > 0 when it moves away from the wall
+  Vec3Of<T> v_tangent;         // length/time, of the sphere's surface at the contact
+  Vec3Of<T> omega;             // 1/time, of the sphere; set only where the law has kContactTorque
+  T temperature_difference;    // wall less sphere; set only where it has kHeat
+  T dt;                        // time
+  bool update;                 // false: springs act but do not move (setup)
 };
 
 template <class T>
@@ -31,6 +31,7 @@ struct ContactForce {
 // any, further numbers: first vectors of the tangent plane, then scalars.
 template <class T, int kExtra>
 struct ContactMemory {
+  static constexpr int kSize = kExtra;
   Vec3Of<T> shear;
   T extra[kExtra];
 
@@ -42,6 +43,7 @@ struct ContactMemory {
 };
 template <class T>
 struct ContactMemory<T, 0> {
+  static constexpr int kSize = 0;
   Vec3Of<T> shear;
 };
 

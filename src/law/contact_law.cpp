@@ -1,14 +1,59 @@
 #include "law/contact_law.h"
 
-#include "law/submodels/normal.h"
+#include "law/sub_models.h"
 
 #include <cmath>
+#include <string>
 
 namespace lsdcd {
 
+bool ContactLaw::has_history() const
+{
+  if (is(NormalModel::jkr)) return true;
+  for (const SubModel *row : rows_of(*this))
+    if (row->kept.what) return true;
+  return false;
+}
+
+int ContactLaw::n_extra() const
+{
+  int n = 0;
+  for (const SubModel *row : rows_of(*this)) n += row->kept.beside_shear;
+  return n;
+}
+
+// FNV-1a, of 31 bits.
+int ContactLaw::history_kind() const
+{
+  std::uint32_t hash = 2166136261u;
+  for (const SubModel *row : rows_of(*this)) {
+    if (!row->kept.what) continue;
+    for (const char c : row->kept.what + std::string(";"))
+      hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  }
+  return static_cast<int>(hash >> 1);
+}
+
+ContactLaw classic_law(NormalModel normal, bool history)
+{
+  ContactLaw law;
+  law.normal = normal;
+  if (history) law.tangential = TangentialModel::linear_history_classic;
+  return law;
+}
+
+ContactLaw granular_law(NormalModel normal)
+{
+  ContactLaw law;
+  law.normal = normal;
+  law.damping = DampingModel::viscoelastic;
+  law.tangential = TangentialModel::linear_nohistory;
+  return law;
+}
+
 Real ContactLaw::pull_off() const
 {
-  return is(NormalModel::jkr) ? JkrNormal<Real>(granular.modulus, granular.cohesion).pull_off : 0;
+  return is(NormalModel::jkr) ? JkrNormal<Real>(modulus, surface_energy).pull_off : 0;
 }
 
 Real tsuji_damping(Real e)

@@ -1,111 +1,80 @@
-// The parameters of a contact law, as numbers: what input words become.
+// A contact law: one sub-model of each family and its numbers. sub_models.h has the table of all.
 #pragma once
 
-#include "base/real.h"
+#include "law/submodels/cohesion.h"
+#include "law/submodels/damping.h"
+#include "law/submodels/heat.h"
+#include "law/submodels/normal.h"
+#include "law/submodels/rolling.h"
+#include "law/submodels/tangential.h"
+#include "law/submodels/twisting.h"
 
 namespace lsdcd {
 
-enum class LawStyle { hooke, hooke_history, hertz_history, granular };
+constexpr int kMaxNumbers = 4;    // of a sub-model
 
-enum class NormalModel { hooke, hertz, dmt, jkr };
-enum class DampingModel { none, velocity, mass_velocity, viscoelastic, stiffness };
-enum class TangentialModel {
-  linear_nohistory,
-  linear_history,
-  mindlin,
-  mindlin_force,
-  mindlin_rescale,
-  mindlin_rescale_force
-};
-enum class TwistingModel { none, marshall, sds };
-enum class HeatModel { none, radius, area };
+// A sub-model that may be left out, and its numbers in the order of its row.
+template <class Model>
+struct Chosen {
+  Model model = Model::none;
+  Real numbers[kMaxNumbers] = {};
 
-// The sub-models of `granular`, with what follows from material constants filled in.
-struct GranularLaw {
-  NormalModel normal = NormalModel::hooke;
-  Real k_normal = 0;    // force/length (hooke), force/length^2 (others)
-  Real modulus = 0;     // of the contact, 3/4 k_normal; force/length^2 (dmt, jkr)
-  Real cohesion = 0;    // surface energy, energy/length^2 (dmt, jkr)
-
-  DampingModel damping = DampingModel::viscoelastic;
-  Real eta = 0;    // mass/time, 1/time, 1/(time length), or none (stiffness)
-
-  TangentialModel tangential = TangentialModel::linear_nohistory;
-  Real k_tangent = 0;    // force/length (linear), force/length^2 (mindlin)
-  Real x_tangent = 0;    // tangential damping per normal damping
-  Real mu = 0;           // sliding friction coefficient
-
-  bool rolling = false;
-  Real k_roll = 0;        // force/length
-  Real gamma_roll = 0;    // mass/time
-  Real mu_roll = 0;       // rolling friction coefficient
-
-  TwistingModel twisting = TwistingModel::none;
-  Real k_twist = 0;        // torque/angle (sds)
-  Real gamma_twist = 0;    // torque time/angle (sds)
-  Real mu_twist = 0;       // length (sds)
-
-  HeatModel heat = HeatModel::none;
-  Real conductance =
-      0;    // power/(length temperature) (radius), power/(length^2 temperature) (area)
+  bool is_on() const { return model != Model::none; }
+  Chosen &operator=(Model other)    // the numbers stay
+  {
+    model = other;
+    return *this;
+  }
 };
 
-// Of LIGGGHTS; beside one of the classic styles.
-enum class AddedRolling { none, cdt, epsd2 };
-struct AddedEffects {
-  AddedRolling rolling = AddedRolling::none;
-  Real mu_roll = 0;     // rolling friction coefficient
-  Real cohesion = 0;    // energy/length^3 (sjkr); 0: none
-
-  bool any() const { return rolling != AddedRolling::none || cohesion > 0; }
-};
-
+// As numbers, after NULLs and units are resolved. The default is the style `hooke`.
 struct ContactLaw {
-  LawStyle style = LawStyle::hooke;
+  NormalModel normal = NormalModel::hooke;
+  Real k_normal = 0;          // force/length (hooke), force/length^2 (others)
+  Real modulus = 0;           // of the contact, 3/4 k_normal; force/length^2 (dmt, jkr)
+  Real surface_energy = 0;    // energy/length^2 (dmt, jkr)
 
-  // The classic styles, after NULLs and unit conversion are resolved.
-  Real k_normal = 0;         // force/length (hooke), force/length^2 (hertz)
-  Real k_tangent = 0;        // same dimensions as k_normal
-  Real gamma_normal = 0;     // 1/time (hooke), 1/(time length) (hertz)
-  Real gamma_tangent = 0;    // same dimensions as gamma_normal; 0 where dampflag is 0
-  Real mu = 0;               // friction coefficient
+  DampingModel damping = DampingModel::classic;
+  Real eta = 0;    // see DampingModel
 
-  GranularLaw granular;    // where style is granular
-  AddedEffects added;      // where it is not
+  TangentialModel tangential = TangentialModel::linear_nohistory_classic;
+  Real k_tangent = 0;        // force/length (linear), force/length^2 (mindlin, hertz/history)
+  Real gamma_tangent = 0;    // 1/time, or 1/(time length) (hertz/history); 0 but in classic styles
+  Real xgammat = 0;          // tangential damping per normal damping; 0 in classic styles
+  Real mu = 0;               // sliding friction coefficient
+
+  Chosen<RollingModel> rolling;
+  Chosen<TwistingModel> twisting;
+  Chosen<HeatModel> heat;
+  Chosen<CohesionModel> cohesion;
+
   bool limit_damping = false;
 
-  bool is(NormalModel model) const
-  {
-    return style == LawStyle::granular && granular.normal == model;
-  }
-  bool has_rolling() const { return style == LawStyle::granular && granular.rolling; }
-  bool has_twisting() const
-  {
-    return style == LawStyle::granular && granular.twisting != TwistingModel::none;
-  }
-  bool has_heat() const { return style == LawStyle::granular && granular.heat != HeatModel::none; }
-  bool has_rescale() const
-  {
-    return style == LawStyle::granular && granular.tangential >= TangentialModel::mindlin_rescale;
-  }
+  bool is(NormalModel model) const { return normal == model; }
+  // One of LAMMPS's styles before `granular`, whose formulas are their own?
+  bool is_classic() const { return damping == DampingModel::classic; }
+  bool has_heat() const { return heat.is_on(); }
+  // Does the tangential spring shrink as the contact unloads?
+  bool rescales() const { return tangential >= TangentialModel::mindlin_rescale; }
+  // Has it something of LIGGGHTS beside a classic style?
+  bool is_extended() const { return is_classic() && (rolling.is_on() || cohesion.is_on()); }
+
   // Is anything kept from step to step? Adhesion past touch is: it holds what touched.
-  bool has_history() const
-  {
-    if (style != LawStyle::granular)
-      return style != LawStyle::hooke || added.rolling == AddedRolling::epsd2;
-    return granular.tangential != TangentialModel::linear_nohistory || is(NormalModel::jkr) ||
-           has_rolling() || has_twisting();
-  }
-  // Numbers kept beside a contact's tangential spring.
-  int n_extra() const
-  {
-    const bool rolled = has_rolling() || added.rolling == AddedRolling::epsd2;
-    return 3 * rolled + has_twisting() + has_rescale();
-  }
+  bool has_history() const;
+  // Numbers kept beside a contact's shear displacement.
+  int n_extra() const;
+  // What is kept, as a number for restart files: equal where the kept numbers mean the same.
+  int history_kind() const;
+
   // The distance past touch at which adhesion lets go of a sphere of radius 1;
   // it goes with the cube root of the radius. 0: nothing acts past touch.
   Real pull_off() const;
 };
+
+// `hooke`, `hooke/history` and `hertz/history`, without numbers.
+ContactLaw classic_law(NormalModel normal, bool history);
+// `granular` with its default damping and linear_nohistory, without numbers.
+ContactLaw granular_law(NormalModel normal);
 
 // Damping per root of mass times secant stiffness that returns the restitution e.
 // tsuji: a fit for Hertz contacts, right to 1.1e-3 (Tsuji, Tanaka and Ishida 1992), whose

@@ -2,7 +2,7 @@
 //   Number             the type that it computes in
 //   kHistory           does it keep a ContactMemory<Number, kExtra> per contact?
 //   kVectors, kScalars what of that is beside the shear displacement: vectors, then scalars
-//   kBeyond, pull_off  does it act past touch, and up to what distance at radius 1?
+//   kBeyondContact, pull_off  does it act past touch, and up to what distance at radius 1?
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
 //   evaluate(contact, memory)
 // and where it has what they ask for
@@ -31,7 +31,7 @@ struct ContactModel {
   using Number = T;
   static constexpr bool kHistory = Tangential<T>::kHistory;
   static constexpr int kVectors = 0, kScalars = 0, kExtra = 0;
-  static constexpr bool kBeyond = false, kContactTorque = false, kHeat = false;
+  static constexpr bool kBeyondContact = false, kContactTorque = false, kHeat = false;
 
   Normal<T> elastic;
   Damping<T> damping;
@@ -41,7 +41,7 @@ struct ContactModel {
   // What the stiffnesses are multiplied by: the contact radius, or 1.
   LSDCD_FN T scale(const Contact<T> &c) const
   {
-    return Normal<T>::kSized ? elastic.contact_radius(c) : T(1);
+    return Normal<T>::kUsesContactRadius ? elastic.contact_radius(c) : T(1);
   }
 
   LSDCD_FN ContactForce<T> evaluate(const Contact<T> &c, ContactMemory<T, 0> &memory) const
@@ -79,14 +79,14 @@ struct AddedModel {
   using T = Number;
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory ? 1 : 0, kScalars = 0, kExtra = 3 * kVectors;
-  static constexpr bool kBeyond = false, kContactTorque = true, kHeat = false;
+  static constexpr bool kBeyondContact = false, kContactTorque = true, kHeat = false;
 
   Base base;
-  LiggghtsRolling<T> rolling;
+  ClassicRolling<T> rolling;
   SjkrCohesion<T> cohesion;
   T k_tangent;    // per unit of Base::scale()
 
-  LSDCD_FN bool keeps(int) const { return rolling.model == AddedRolling::epsd2; }
+  LSDCD_FN bool keeps(int) const { return rolling.keeps_vector(); }
 
   LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
   {
@@ -95,12 +95,9 @@ struct AddedModel {
     memory.shear = sliding.shear;
     if (rolling.is_on()) {
       const T scale = base.scale(c);
-      if (rolling.model == AddedRolling::cdt) {
-        out.contact_torque = rolling.cdt(c, base.elastic.force(c, scale));
-      } else if constexpr (kHistory) {
-        out.contact_torque = rolling.epsd2(c, out.normal, scale * k_tangent, memory, 0);
-        out.energy += rolling.energy(c, scale * k_tangent, memory, 0);
-      }
+      const RollingInput<T> in = {c, base.elastic.force(c, scale), out.normal, fabs(out.normal),
+                                  scale * k_tangent};
+      rolling.act(in, memory, 0, out.contact_torque, out.energy);
     }
     if (cohesion.is_on()) {
       out.normal -= cohesion.pull(c);
@@ -118,7 +115,7 @@ struct GranularModel {
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory && kFull ? 1 : 0, kScalars = 2 * kVectors;
   static constexpr int kExtra = 3 * kVectors + kScalars;
-  static constexpr bool kBeyond = Normal::kBeyond;
+  static constexpr bool kBeyondContact = Normal::kBeyondContact;
   static constexpr bool kContactTorque = kHistory && kFull, kHeat = kFull;
 
   // Places in ContactMemory::extra.
@@ -127,21 +124,22 @@ struct GranularModel {
   Normal elastic;
   GranularDamping<T> damping;
   GranularFriction<T> tangential;
-  SdsRolling<T> rolling;
+  GranularRolling<T> rolling;
   SpringTwisting<T> twisting;
   Conduction<T> conduction;
-  bool sized;    // does anything need the contact radius, though the normal force may not?
+  bool uses_contact_radius;    // does anything, though the normal force may not?
   bool limit_damping;
 
   LSDCD_FN bool keeps(int k) const
   {
-    return k == 0 ? rolling.is_on : k == 1 ? tangential.rescale : twisting.is_on();
+    return k == 0 ? rolling.keeps_vector() : k == 1 ? tangential.rescale : twisting.is_on();
   }
   LSDCD_FN bool has_heat() const { return conduction.is_on(); }
 
   LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
   {
-    const T a = sized || elastic.is_sized() ? elastic.contact_radius(c) : T(0);
+    const T a =
+        uses_contact_radius || elastic.uses_contact_radius() ? elastic.contact_radius(c) : T(0);
     const T f = elastic.force(c, a), gamma = damping.coefficient(c, a, f);
 
     FullForce<T> out;
@@ -155,13 +153,11 @@ struct GranularModel {
     out.contact_torque = {0, 0, 0};
     out.heat = 0;
     if constexpr (kContactTorque) {
-      if (rolling.is_on) {
-        out.contact_torque += rolling.contact_torque(c, limit, memory, kRolled);
-        out.energy += rolling.energy(memory, kRolled);
-      }
+      rolling.act({c, f, out.normal, limit, tangential.stiffness(a)}, memory, kRolled,
+                  out.contact_torque, out.energy);
       if (twisting.is_on()) {
-        const TwistCoefficients<T> t = twisting.coefficients(limit, a, tangential.stiffness(a),
-                                                             tangential.x * gamma, tangential.mu);
+        const TwistCoefficients<T> t = twisting.coefficients(
+            limit, a, tangential.stiffness(a), tangential.xgammat * gamma, tangential.mu);
         out.contact_torque += twisting.contact_torque(c, t, memory, kTwist) * c.normal;
         out.energy += twisting.energy(t, memory, kTwist);
       }

@@ -217,7 +217,7 @@ Real roll_drift(const GridView &grid, EngineSettings engine, const DriftStarts &
   const Real radius = starts.radius, speed = kSpeed * std::sqrt(radius);
   engine.device = Device::cpu;
   engine.law = ContactLaw();
-  engine.law.style = LawStyle::hooke_history;
+  engine.law = classic_law(NormalModel::hooke, true);
   engine.law.k_normal = kStiffness / radius;
   engine.law.k_tangent = engine.law.k_normal * 2 / 7;
   engine.law.mu = 10000;

@@ -20,10 +20,10 @@ constexpr int kGpuFactor = 16;    // times the spheres, to fill a GPU
 ContactLaw law_to_time()
 {
   ContactLaw law;
-  law.style = LawStyle::hooke_history;
+  law = classic_law(NormalModel::hooke, true);
   law.k_normal = 1e5;
   law.k_tangent = 3e4;
-  law.gamma_normal = 50;
+  law.eta = 50;
   law.gamma_tangent = 25;
   law.mu = 0.5;
   return law;

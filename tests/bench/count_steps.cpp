@@ -27,7 +27,8 @@ int main(int argc, char **argv)
   const EvenCylinder wall(1000);
   const BedSpheres spheres(wall, kSpheres, true);
   const bool history = std::strcmp(argv[1], "hertz/history") == 0;
-  CylinderBed bed(wall, spheres, history ? LawStyle::hertz_history : LawStyle::hooke, Device::cpu);
+  CylinderBed bed(wall, spheres, history ? classic_law(NormalModel::hertz, true) : ContactLaw(),
+                  Device::cpu);
   bed.steps(2);    // memory is taken and contacts are known
   counted_steps(&bed, std::strcmp(argv[2], "anew") == 0);
   std::printf("%d spheres, %d steps, %lld contacts\n", kSpheres, kSteps,

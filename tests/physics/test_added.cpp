@@ -13,16 +13,15 @@ constexpr Real kStiffness = 1e5, kTangent = 3e4, kRadius = 0.5, kMass = 2, kG = 
 constexpr Real kMuRoll = 0.02;
 const Real kLevel = kRadius - kMass * kG / kStiffness;
 
-EngineSettings with_rolling(EngineSettings s, AddedRolling rolling)
+EngineSettings with_rolling(EngineSettings s, RollingModel rolling)
 {
-  s.law.added.rolling = rolling;
-  s.law.added.mu_roll = kMuRoll;
+  s.law.rolling = {rolling, {kMuRoll}};
   return s;
 }
 
 EngineSettings with_cohesion(EngineSettings s, Real k)
 {
-  s.law.added.cohesion = k;
+  s.law.cohesion = {CohesionModel::sjkr, {k}};
   return s;
 }
 
@@ -43,7 +42,7 @@ TEST(cdt, stops_a_rolling_sphere_at_the_analytic_distance)
 {
   const Real exact = 0.7 * 0.3 * 0.3 / (kMuRoll * kG);
   Scene scene(floor_mesh(16, 2, 3), kRadius,
-              with_rolling(hooke(kStiffness, 50, 5000, 0.3), AddedRolling::cdt));
+              with_rolling(hooke(kStiffness, 50, 5000, 0.3), RollingModel::cdt));
   // Viscous friction creeps by 5/7 mu g/(5000/s) = 3e-5, 1e-4 of the speed.
   EXPECT_NEAR(way_until_it_stops(scene, 1e-5), exact, 1e-4 * exact);
 }
@@ -54,7 +53,7 @@ TEST(cdt, stops_a_rolling_sphere_at_the_analytic_distance)
 TEST(cdt, lets_a_belt_carry_a_sphere_to_its_speed)
 {
   const Real u = 0.5, mu = 0.3, dt = 1e-5;
-  EngineSettings s = with_rolling(hooke(kStiffness, 50, 5000, mu), AddedRolling::cdt);
+  EngineSettings s = with_rolling(hooke(kStiffness, 50, 5000, mu), RollingModel::cdt);
   s.surface.velocity = {u, 0, 0};
   Scene scene(floor_mesh(16, 2, 3), kRadius, s);
   scene.add_sphere({-1.5, 0.13, kLevel}, kRadius, kMass);
@@ -81,7 +80,7 @@ TEST(epsd2, stops_a_rolling_sphere_at_the_analytic_distance)
   for (const Real k : {300.0, 3e4}) {
     const Real yields = kMuRoll * kMass * kG / k;
     const Real exact = 0.7 * 0.3 * 0.3 / (kMuRoll * kG) + yields / 2;
-    EngineSettings s = with_rolling(hooke(kStiffness, 50, 5000, 0.3), AddedRolling::epsd2);
+    EngineSettings s = with_rolling(hooke(kStiffness, 50, 5000, 0.3), RollingModel::epsd2);
     s.law.k_tangent = k;
     Scene scene(floor_mesh(16, 2, 3), kRadius, s);
     EXPECT_NEAR(way_until_it_stops(scene, 1e-5), exact, 1e-4 * exact) << k;
@@ -91,7 +90,7 @@ TEST(epsd2, stops_a_rolling_sphere_at_the_analytic_distance)
 TEST(epsd2, holds_a_couple_that_grows_with_the_angle_up_to_its_limit)
 {
   const Real overlap = 0.01, dt = 1e-4, limit = kMuRoll * kStiffness * overlap * kRadius;
-  EngineSettings s = with_rolling(hooke(kStiffness), AddedRolling::epsd2);
+  EngineSettings s = with_rolling(hooke(kStiffness), RollingModel::epsd2);
   s.law.k_tangent = kTangent;
   Scene scene(floor_mesh(4, 2), kRadius, s);
   const Vec3 omega = {0.3, -0.2, 5};    // what twists does not roll
@@ -115,7 +114,7 @@ TEST(epsd2, grows_with_the_contact_radius_of_hertz)
 {
   const Real overlap = 0.01, dt = 1e-4;
   Scene scene(floor_mesh(4, 2), kRadius,
-              with_rolling(hertz_history(kStiffness, kTangent, 0, 0, 0), AddedRolling::epsd2));
+              with_rolling(hertz_history(kStiffness, kTangent, 0, 0, 0), RollingModel::epsd2));
   scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, 0}, {0.01, 0, 0});
   scene.compute(dt);
   const Real contact_torque =
@@ -129,7 +128,7 @@ TEST(cdt, is_mu_times_the_elastic_force_times_the_radius)
   for (const bool hertz : {false, true}) {
     EngineSettings s =
         hertz ? hertz_history(kStiffness, kTangent, 30, 0, 0) : hooke(kStiffness, 30);
-    Scene scene(floor_mesh(4, 2), kRadius, with_rolling(s, AddedRolling::cdt));
+    Scene scene(floor_mesh(4, 2), kRadius, with_rolling(s, RollingModel::cdt));
     // It sinks in, so that damping adds to the force, which cdt does not see.
     scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, -1}, {3, -4, 7});
     scene.compute(1e-4);
@@ -192,7 +191,7 @@ TEST(sjkr, energy_is_the_work_of_its_force)
 TEST(rolling_and_cohesion, act_together_as_each_alone)
 {
   const Real overlap = 0.01;
-  EngineSettings s = with_rolling(hooke(kStiffness, 0, 0, 0), AddedRolling::cdt);
+  EngineSettings s = with_rolling(hooke(kStiffness, 0, 0, 0), RollingModel::cdt);
   Scene both(floor_mesh(4, 2), kRadius, with_cohesion(s, 4e4));
   both.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, 0}, {3, -4, 0});
   both.compute(1e-4);

@@ -176,8 +176,8 @@ TEST(jkr, sphere_slides_under_a_ceiling_of_triangles_without_falling)
   for (const Corner corner : {Corner::blend, Corner::sum}) {
     EngineSettings law = jkr.law();
     law.corner = corner;
-    law.law.granular.damping = DampingModel::mass_velocity;
-    law.law.granular.eta = 50;
+    law.law.damping = DampingModel::mass_velocity;
+    law.law.eta = 50;
     Scene scene(floor_mesh(16, 2, 5), cutoff_of(law.law, kRadius), law);
     const Real touch = -kRadius + 1e-6;
     scene.add_sphere({-1, 0.11, touch}, kRadius, kMass, {0, 0, 0});
@@ -239,8 +239,8 @@ TEST(damping, coeff_restitution_returns_what_is_set)
   for (NormalModel normal : {NormalModel::hooke, NormalModel::hertz})
     for (Real e : {0.1, 0.3, 0.5, 0.7, 0.9, 1.0}) {
       EngineSettings law = granular(normal, kK);
-      law.law.granular.damping = DampingModel::stiffness;
-      law.law.granular.eta = restitution_damping(normal, e);
+      law.law.damping = DampingModel::stiffness;
+      law.law.eta = restitution_damping(normal, e);
       EXPECT_NEAR(restitution(law, 0.5, 2000), e, 1e-3) << e;
     }
 }
@@ -250,8 +250,8 @@ TEST(damping, tsuji_returns_what_is_set)
   // The fit itself is off by 1.1e-3 at most (at 0.8).
   for (Real e : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
     EngineSettings law = granular(NormalModel::hertz, kK);
-    law.law.granular.damping = DampingModel::stiffness;
-    law.law.granular.eta = tsuji_damping(e);
+    law.law.damping = DampingModel::stiffness;
+    law.law.eta = tsuji_damping(e);
     EXPECT_NEAR(restitution(law, 0.5, 2000), e, 1.2e-3) << e;
   }
 }
@@ -262,8 +262,8 @@ TEST(damping, coefficients_are_those_of_their_names)
   const Real overlap = 0.01, speed = 0.3, eta = 7, a = std::sqrt(kRadius * overlap);
   const auto drag = [&](DampingModel model) {
     EngineSettings law = granular(NormalModel::hertz, kK);
-    law.law.granular.damping = model;
-    law.law.granular.eta = eta;
+    law.law.damping = model;
+    law.law.eta = eta;
     OneSphere s(law);
     const Real still = s.at(overlap).z;
     s.scene.set_v(0, {0, 0, speed});
@@ -281,9 +281,9 @@ TEST(damping, coefficients_are_those_of_their_names)
 EngineSettings with_tangential(TangentialModel model, Real k, Real mu)
 {
   EngineSettings law = granular(NormalModel::hertz, kK);
-  law.law.granular.tangential = model;
-  law.law.granular.k_tangent = k;
-  law.law.granular.mu = mu;
+  law.law.tangential = model;
+  law.law.k_tangent = k;
+  law.law.mu = mu;
   return law;
 }
 
@@ -338,9 +338,9 @@ TEST(tangential, friction_of_what_adheres_counts_twice_the_pull_off)
       {jkr.law(), 3 * kPi * jkr.gamma * kRadius}};
   for (const auto &[base, pull] : laws) {
     EngineSettings law = base;
-    law.law.granular.tangential = TangentialModel::linear_history;
-    law.law.granular.k_tangent = 1e5;
-    law.law.granular.mu = 0.5;
+    law.law.tangential = TangentialModel::linear_history;
+    law.law.k_tangent = 1e5;
+    law.law.mu = 0.5;
     OneSphere s(law);
     s.scene.set_v(0, {1, 0, 0});
     const Vec3 f = s.at(overlap, 0.1);
@@ -355,17 +355,14 @@ TEST(rolling, sds_stops_a_rolling_sphere_at_seven_tenths_of_v2_over_mu_g)
   // A contact torque mu_r N R against a sphere that rolls without slipping: 7/5 m v' = -mu_r m g.
   const Real g = 10, mu_roll = 0.05, v = 0.8, dt = 2e-5, k_roll = 2e4;
   EngineSettings law = granular(NormalModel::hooke, kK);
-  GranularLaw &p = law.law.granular;
+  ContactLaw &p = law.law;
   p.damping = DampingModel::mass_velocity;
   p.eta = 100;
   p.tangential = TangentialModel::linear_history;
   p.k_tangent = 1e5;
-  p.x_tangent = 1;
+  p.xgammat = 1;
   p.mu = 10;
-  p.rolling = true;
-  p.k_roll = k_roll;
-  p.gamma_roll = 200;
-  p.mu_roll = mu_roll;
+  p.rolling = {RollingModel::sds, {k_roll, 200, mu_roll}};
   Scene scene(floor_mesh(16, 2, 3), kRadius, law);
   scene.add_sphere({-1, 0.13, kRadius - kMass * g / kK}, kRadius, kMass, {v, 0, 0},
                    {0, v / kRadius, 0});
@@ -389,17 +386,14 @@ TEST(twisting, stops_a_spinning_sphere_at_the_angle_of_its_limit)
   const Real a = std::sqrt(kRadius * overlap), inertia = 0.4 * kMass * kRadius * kRadius;
   for (TwistingModel model : {TwistingModel::sds, TwistingModel::marshall}) {
     EngineSettings law = granular(NormalModel::hertz, kK);
-    GranularLaw &p = law.law.granular;
+    ContactLaw &p = law.law;
     p.damping = DampingModel::mass_velocity;
     p.eta = 300;
     p.tangential = TangentialModel::linear_history;
     p.k_tangent = 1e6;
-    p.x_tangent = 1;
+    p.xgammat = 1;
     p.mu = mu;
-    p.twisting = model;
-    p.k_twist = 2e3;
-    p.gamma_twist = 1;
-    p.mu_twist = 0.01;
+    p.twisting = {model, {2e3, 1, 0.01}};
     const Real limit = (model == TwistingModel::sds ? 0.01 : 2.0 / 3 * a * mu) * kMass * g;
     const Real k = model == TwistingModel::sds ? 2e3 : 0.5 * 1e6 * a * a;
     Scene scene(floor_mesh(16, 2, 3), kRadius, law);
@@ -421,7 +415,7 @@ TEST(twisting, marshall_of_a_mindlin_contact_takes_the_stiffness_at_its_size)
 {
   // Marshall 2009, equation 32: k_t a a^2/2 with k_t a the tangential stiffness.
   EngineSettings law = with_tangential(TangentialModel::mindlin, 3e4, 100);
-  law.law.granular.twisting = TwistingModel::marshall;
+  law.law.twisting = TwistingModel::marshall;
   OneSphere s(law);
   const Real overlap = 0.01, a = std::sqrt(kRadius * overlap), angle = 1e-4;
   s.scene.set_omega(0, {0, 0, 1});
@@ -434,8 +428,7 @@ TEST(heat, flows_by_the_radius_or_the_area_of_the_contact)
   const Real overlap = 0.01, a = std::sqrt(kRadius * overlap), conductance = 0.7;
   for (HeatModel model : {HeatModel::radius, HeatModel::area}) {
     EngineSettings law = granular(NormalModel::hertz, kK);
-    law.law.granular.heat = model;
-    law.law.granular.conductance = conductance;
+    law.law.heat = {model, {conductance}};
     OneSphere s(law);
     s.scene.wall_temperature = 400;
     s.scene.sphere_temperature = 300;
@@ -453,20 +446,16 @@ TEST(heat, flows_by_the_radius_or_the_area_of_the_contact)
 EngineSettings everything(NormalModel normal)
 {
   EngineSettings law = granular(normal, kK, 2);
-  GranularLaw &p = law.law.granular;
+  ContactLaw &p = law.law;
   p.damping = DampingModel::viscoelastic;
   p.eta = 40;
   p.tangential = TangentialModel::mindlin_rescale_force;
   p.k_tangent = 5e4;
-  p.x_tangent = 0.7;
+  p.xgammat = 0.7;
   p.mu = 0.6;
-  p.rolling = true;
-  p.k_roll = 3e4;
-  p.gamma_roll = 20;
-  p.mu_roll = 0.1;
+  p.rolling = {RollingModel::sds, {3e4, 20, 0.1}};
   p.twisting = TwistingModel::marshall;
-  p.heat = HeatModel::area;
-  p.conductance = 3;
+  p.heat = {HeatModel::area, {3}};
   return law;
 }
 
@@ -515,10 +504,8 @@ TEST(granular, a_shallow_fold_bears_heat_and_couples_as_the_flat_wall_does)
   // it: contact torques and heat of both, each whole, would be twice the flat wall's. They are its
   // to the fold's angle.
   EngineSettings law = everything(NormalModel::jkr);
-  law.law.granular.mu = 0;    // all torque is contact torques then
-  law.law.granular.twisting = TwistingModel::sds;
-  law.law.granular.gamma_twist = 0.4;
-  law.law.granular.mu_twist = 0.1;
+  law.law.mu = 0;    // all torque is contact torques then
+  law.law.twisting = {TwistingModel::sds, {0, 0.4, 0.1}};
   Scene fold(hinge_mesh(2, 2), cutoff_of(law.law, kRadius), law);
   OneSphere flat(law);
   fold.add_sphere({-0.0085, 0.07, kRadius - 0.01}, kRadius, kMass, {1, 0, 0}, {1, 2, 3});
@@ -558,14 +545,14 @@ TEST(granular, what_a_law_keeps_is_what_its_effects_need)
   EngineSettings law = granular(NormalModel::hertz, kK);
   EXPECT_FALSE(law.law.has_history());
   EXPECT_EQ(law.law.n_extra(), 0);
-  law.law.granular.tangential = TangentialModel::mindlin_force;
+  law.law.tangential = TangentialModel::mindlin_force;
   EXPECT_TRUE(law.law.has_history());
   EXPECT_EQ(law.law.n_extra(), 0);
-  law.law.granular.tangential = TangentialModel::mindlin_rescale;
+  law.law.tangential = TangentialModel::mindlin_rescale;
   EXPECT_EQ(law.law.n_extra(), 1);
-  law.law.granular.twisting = TwistingModel::sds;
+  law.law.twisting = TwistingModel::sds;
   EXPECT_EQ(law.law.n_extra(), 2);
-  law.law.granular.rolling = true;
+  law.law.rolling = RollingModel::sds;
   EXPECT_EQ(law.law.n_extra(), 5);
   EXPECT_TRUE(granular(NormalModel::jkr, kK, 1).law.has_history());
   EXPECT_EQ(granular(NormalModel::jkr, kK, 1).law.n_extra(), 0);
@@ -573,14 +560,15 @@ TEST(granular, what_a_law_keeps_is_what_its_effects_need)
 
 TEST(granular, parameters_and_compiled_laws_agree_on_what_is_kept)
 {
+  const int first = static_cast<int>(TangentialModel::linear_nohistory);
   int laws = 0;
   for (int normal = 0; normal < 4; normal++)
     for (int tangential = 0; tangential < 6; tangential++)
       for (int more = 0; more < 8; more++) {
         EngineSettings s = granular(static_cast<NormalModel>(normal), kK, 1);
-        GranularLaw &g = s.law.granular;
-        g.tangential = static_cast<TangentialModel>(tangential);
-        g.rolling = more & 1;
+        ContactLaw &g = s.law;
+        g.tangential = static_cast<TangentialModel>(first + tangential);
+        g.rolling = more & 1 ? RollingModel::sds : RollingModel::none;
         g.twisting = more & 2 ? TwistingModel::sds : TwistingModel::none;
         g.heat = more & 4 ? HeatModel::area : HeatModel::none;
         const LawTraits traits = law_for<CpuBackend>(s).traits;

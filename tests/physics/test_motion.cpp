@@ -137,7 +137,7 @@ void expect_smooth_slide(const TriangleSoup &soup, const EngineSettings &law, co
 {
   Scene scene(soup, kRadius, law);
   const Real dt = 1e-3, overlap = 0.02;
-  const Real scale = law.law.style == LawStyle::hertz_history ? std::sqrt(overlap * kRadius) : 1;
+  const Real scale = law.law.is(NormalModel::hertz) ? std::sqrt(overlap * kRadius) : 1;
   scene.add_sphere(from, kRadius, kMass, v);
   Vec3 last = {0, 0, 0};
   for (int i = 1; i <= n_steps; i++) {

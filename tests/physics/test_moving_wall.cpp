@@ -209,7 +209,7 @@ TEST(moving_wall, rolling_and_twisting_are_relative_to_it)
 {
   EngineSettings law;
   law.law = everything(NormalModel::hooke);
-  law.law.granular.heat = HeatModel::none;
+  law.law.heat = HeatModel::none;
   const Real w = 1.7;
   Scene turntable(floor_mesh(4, 2), kRadius, moving(law)), at_rest(floor_mesh(4, 2), kRadius, law);
   turntable.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
@@ -297,7 +297,7 @@ TEST(moving_wall, rolling_and_twisting_are_relative_to_a_surface_that_turns)
 {
   EngineSettings law;
   law.law = everything(NormalModel::hooke);
-  law.law.granular.heat = HeatModel::none;
+  law.law.heat = HeatModel::none;
   law.surface.angular = {0.3, 0, 1.7};
   Scene scene(floor_mesh(4, 2), kRadius, law);
   scene.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);

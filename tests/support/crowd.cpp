@@ -65,13 +65,12 @@ Box within(const Case &c)
   return box.bounds({box.margin, box.margin, box.margin});
 }
 
-ContactLaw classic(LawStyle style)
+ContactLaw classic(NormalModel normal, bool history)
 {
-  ContactLaw law;
-  law.style = style;
+  ContactLaw law = classic_law(normal, history);
   law.k_normal = 1e5;
   law.k_tangent = 2e4;
-  law.gamma_normal = 50;
+  law.eta = 50;
   law.gamma_tangent = 25;
   law.mu = 0.4;
   return law;
@@ -80,24 +79,20 @@ ContactLaw classic(LawStyle style)
 ContactLaw everything(NormalModel normal)
 {
   ContactLaw law;
-  law.style = LawStyle::granular;
-  GranularLaw &g = law.granular;
+  law = granular_law(NormalModel::hooke);
+  ContactLaw &g = law;
   g.normal = normal;
   g.k_normal = 1e5;
   g.modulus = 0.75e5;
-  g.cohesion = 300;
+  g.surface_energy = 300;
   g.eta = 20;
   g.tangential = TangentialModel::mindlin_rescale_force;
   g.k_tangent = 5e4;
-  g.x_tangent = 0.7;
+  g.xgammat = 0.7;
   g.mu = 0.4;
-  g.rolling = true;
-  g.k_roll = 3e4;
-  g.gamma_roll = 20;
-  g.mu_roll = 0.1;
+  g.rolling = {RollingModel::sds, {3e4, 20, 0.1}};
   g.twisting = TwistingModel::marshall;
-  g.heat = HeatModel::area;
-  g.conductance = 3;
+  g.heat = {HeatModel::area, {3}};
   return law;
 }
 

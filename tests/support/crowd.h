@@ -34,7 +34,7 @@ bool same_bytes(const std::vector<T> &a, const std::vector<T> &b)
   return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-ContactLaw classic(LawStyle style);
+ContactLaw classic(NormalModel normal, bool history);
 // `granular` with every further effect at once.
 ContactLaw everything(NormalModel normal);
 

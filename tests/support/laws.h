@@ -8,9 +8,8 @@ namespace lsdcd {
 inline EngineSettings hooke(Real k, Real gamma_normal = 0, Real gamma_tangent = 0, Real mu = 0)
 {
   EngineSettings s;
-  s.law.style = LawStyle::hooke;
   s.law.k_normal = k;
-  s.law.gamma_normal = gamma_normal;
+  s.law.eta = gamma_normal;
   s.law.gamma_tangent = gamma_tangent;
   s.law.mu = mu;
   return s;
@@ -20,7 +19,7 @@ inline EngineSettings hooke_history(Real k, Real k_tangent, Real gamma_normal, R
                                     Real mu)
 {
   EngineSettings s = hooke(k, gamma_normal, gamma_tangent, mu);
-  s.law.style = LawStyle::hooke_history;
+  s.law.tangential = TangentialModel::linear_history_classic;
   s.law.k_tangent = k_tangent;
   return s;
 }
@@ -29,7 +28,7 @@ inline EngineSettings hertz_history(Real k, Real k_tangent, Real gamma_normal, R
                                     Real mu)
 {
   EngineSettings s = hooke_history(k, k_tangent, gamma_normal, gamma_tangent, mu);
-  s.law.style = LawStyle::hertz_history;
+  s.law.normal = NormalModel::hertz;
   return s;
 }
 
@@ -37,12 +36,12 @@ inline EngineSettings hertz_history(Real k, Real k_tangent, Real gamma_normal, R
 inline EngineSettings granular(NormalModel normal, Real k, Real cohesion = 0)
 {
   EngineSettings s;
-  s.law.style = LawStyle::granular;
-  GranularLaw &g = s.law.granular;
+  s.law = granular_law(NormalModel::hooke);
+  ContactLaw &g = s.law;
   g.normal = normal;
   g.k_normal = k;
   g.modulus = 0.75 * k;
-  g.cohesion = cohesion;
+  g.surface_energy = cohesion;
   g.damping = DampingModel::none;
   return s;
 }

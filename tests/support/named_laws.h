@@ -16,8 +16,7 @@ struct NamedLaw {
 inline std::vector<NamedLaw> laws(Real k)
 {
   EngineSettings rolling = hooke_history(k, 3e4, 50, 20, 0.4), all, records;
-  rolling.law.added.rolling = AddedRolling::epsd2;
-  rolling.law.added.mu_roll = 0.1;
+  rolling.law.rolling = {RollingModel::epsd2, {0.1}};
   all.law = everything(NormalModel::jkr);
   records = hertz_history(k, 3e4, 50, 20, 0.4);
   records.records = true;

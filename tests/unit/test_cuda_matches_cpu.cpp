@@ -18,7 +18,8 @@ Outcome run_on(Device device, const Case &c, const ContactLaw &law,
   return run_steps(c, law, make, 20000, search, wall);
 }
 
-constexpr LawStyle kStyles[] = {LawStyle::hooke, LawStyle::hooke_history, LawStyle::hertz_history};
+const ContactLaw kStyles[] = {classic(NormalModel::hooke, false), classic(NormalModel::hooke, true),
+                              classic(NormalModel::hertz, true)};
 
 TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
 {
@@ -60,9 +61,9 @@ TEST(cuda_engine, gives_the_forces_of_the_cpu_engine)
 {
   // Same source, no contraction, IEEE division and root on both: no tolerance.
   for (const Case &c : cases())
-    for (LawStyle style : kStyles) {
-      const Outcome cpu = run_on(Device::cpu, c, classic(style));
-      const Outcome cuda = run_on(Device::cuda, c, classic(style));
+    for (const ContactLaw &law : kStyles) {
+      const Outcome cpu = run_on(Device::cpu, c, law);
+      const Outcome cuda = run_on(Device::cuda, c, law);
       EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << c.name;
       EXPECT_TRUE(same_bytes(cpu.torque, cuda.torque)) << c.name;
       EXPECT_GT(cpu.totals.contacts, 0) << c.name;
@@ -73,8 +74,8 @@ TEST(cuda_engine, gives_the_forces_of_the_cpu_engine_however_it_searches)
 {
   for (const Search &search : other_searches())
     for (const Case &c : cases()) {
-      const Outcome cpu = run_on(Device::cpu, c, classic(LawStyle::hertz_history), search);
-      const Outcome cuda = run_on(Device::cuda, c, classic(LawStyle::hertz_history), search);
+      const Outcome cpu = run_on(Device::cpu, c, classic(NormalModel::hertz, true), search);
+      const Outcome cuda = run_on(Device::cuda, c, classic(NormalModel::hertz, true), search);
       EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << c.name << ", " << search.name;
       EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << c.name << ", " << search.name;
       EXPECT_EQ(cpu.totals.uncertified, cuda.totals.uncertified) << c.name << ", " << search.name;
@@ -85,8 +86,8 @@ TEST(cuda_engine, gives_the_forces_of_the_cpu_engine_however_it_searches)
 TEST(cuda_engine, gives_the_springs_of_the_cpu_engine)
 {
   for (const Case &c : cases()) {
-    const Outcome cpu = run_on(Device::cpu, c, classic(LawStyle::hertz_history));
-    const Outcome cuda = run_on(Device::cuda, c, classic(LawStyle::hertz_history));
+    const Outcome cpu = run_on(Device::cpu, c, classic(NormalModel::hertz, true));
+    const Outcome cuda = run_on(Device::cuda, c, classic(NormalModel::hertz, true));
     EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << c.name;
     EXPECT_GT(cpu.springs.size(), 0u) << c.name;
   }
@@ -95,8 +96,8 @@ TEST(cuda_engine, gives_the_springs_of_the_cpu_engine)
 TEST(cuda_engine, gives_the_totals_and_outputs_of_the_cpu_engine)
 {
   for (const Case &c : cases()) {
-    const Outcome cpu = run_on(Device::cpu, c, classic(LawStyle::hooke_history));
-    const Outcome cuda = run_on(Device::cuda, c, classic(LawStyle::hooke_history));
+    const Outcome cpu = run_on(Device::cpu, c, classic(NormalModel::hooke, true));
+    const Outcome cuda = run_on(Device::cuda, c, classic(NormalModel::hooke, true));
     EXPECT_EQ(cpu.totals.contacts, cuda.totals.contacts) << c.name;
     EXPECT_EQ(cpu.totals.energy, cuda.totals.energy) << c.name;
     EXPECT_TRUE(cpu.totals.force == cuda.totals.force) << c.name;
@@ -142,8 +143,8 @@ TEST(cuda_engine, gives_what_every_effect_gives_on_the_cpu)
 TEST(cuda_engine, gives_the_same_bits_twice)
 {
   const Case c = cases()[5];
-  const Outcome once = run_on(Device::cuda, c, classic(LawStyle::hertz_history));
-  const Outcome twice = run_on(Device::cuda, c, classic(LawStyle::hertz_history));
+  const Outcome once = run_on(Device::cuda, c, classic(NormalModel::hertz, true));
+  const Outcome twice = run_on(Device::cuda, c, classic(NormalModel::hertz, true));
   EXPECT_TRUE(same_bytes(once.force, twice.force));
   EXPECT_TRUE(same_bytes(once.springs, twice.springs));
   EXPECT_EQ(once.totals.energy, twice.totals.energy);

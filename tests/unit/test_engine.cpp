@@ -124,7 +124,7 @@ struct MakeCountingLaw {
   template <class Law>
   CountingLaw operator()(const Law &law) const
   {
-    if constexpr (!Law::kHeat || Law::kBeyond)
+    if constexpr (!Law::kHeat || Law::kBeyondContact)
       return on_wall<WallKernels::plain_or_both>(law, effects, [](const auto &compiled) {
         using L = std::decay_t<decltype(compiled)>;
         return CountingLaw{traits_of(compiled), LawBytes(compiled), start_law<L, CountingBackend>};
@@ -137,7 +137,7 @@ struct MakeCountingLaw {
 CountingLaw counting_law(const EngineSettings &s)
 {
   const MakeCountingLaw make = {wall_effects(s)};
-  if (s.law.style != LawStyle::granular) {
+  if (s.law.is_classic()) {
     if (s.precision == Precision::single_) return with_classic_law<float>(s.law, make);
     return with_classic_law<Real>(s.law, make);
   }
@@ -156,7 +156,7 @@ std::unique_ptr<WallEngine> by_adapter(const EngineSettings &s)
 
 ContactLaw history()
 {
-  return classic(LawStyle::hertz_history);
+  return classic(NormalModel::hertz, true);
 }
 
 TEST(engine, gives_what_every_effect_gives_on_the_host)
@@ -505,7 +505,7 @@ TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
 {
   using Law = OnWall<HertzHistoryLaw<Real>, false, false>;
   const ContactLaw p = history();
-  const Law law = {{{p.k_normal}, {p.gamma_normal}, {p.k_tangent, p.gamma_tangent, p.mu}, false}};
+  const Law law = {{{p.k_normal}, {p.eta}, {p.k_tangent, p.gamma_tangent, p.mu}, false}};
   Particles particles(with_history(), 2000, 0.5, false);
   particles.engine = std::make_unique<EngineOn<CountingBackend>>(
       with_history(),
@@ -749,7 +749,7 @@ TEST(engine, with_two_kernels_gives_what_one_pass_gives_on_one_side_of_the_wall)
 {
   for (Side side : {Side::in, Side::out}) {
     EngineSettings s;
-    s.law = classic(LawStyle::hooke);
+    s.law = classic(NormalModel::hooke, false);
     s.side = side;
     const auto outcome = [&](const EngineMaker &make) {
       Scene scene(box_mesh({0, 0, 0}, {4, 4, 4}), 0.6, s);
@@ -790,7 +790,7 @@ TEST(engine, takes_spheres_whose_kind_of_contact_changes_from_step_to_step)
   TriangleSoup soup = faces_all_round(kAllRound);
   append(soup, box_mesh({20, 20, 20}, {30, 30, 30}));
   EngineSettings s;
-  s.law = classic(LawStyle::hertz_history);
+  s.law = classic(NormalModel::hertz, true);
   s.corner = Corner::sum;    // each face counts
   Scene host(soup, 1.1, s), device(soup, 1.1, s), ahead(soup, 1.1, s);
   host.use(on_cpu(s));
@@ -828,7 +828,7 @@ TEST(engine, takes_more_spheres_with_several_contacts_than_a_kernel_has_threads)
 {
   const int n = kMostLanes + 5000;
   EngineSettings s;
-  s.law = classic(LawStyle::hooke);
+  s.law = classic(NormalModel::hooke, false);
   const auto outcome = [&](const EngineMaker &make) {
     Scene scene(box_mesh({20, 20, 20}, {30, 30, 30}), 1.1, s);
     scene.use(make(s));
@@ -854,7 +854,7 @@ struct AllTouching {
       torque(test_on_cuda()), radius(test_on_cuda()), mass(test_on_cuda())
   {
     EngineSettings s;
-    s.law = classic(LawStyle::hertz_history);
+    s.law = classic(NormalModel::hertz, true);
     s.corner = Corner::sum;
     engine = test_on_cuda() ? make_cuda_engine_in_place(s, 0, nullptr) : make_cpu_engine(s);
     for (int i = 0; i < n; i++) x.push_back(place_in({0, 0, n}, i));

@@ -16,7 +16,7 @@ class Pair {
  public:
   Pair()
   {
-    settings_.law = classic(LawStyle::hertz_history);
+    settings_.law = classic(NormalModel::hertz, true);
     GridSettings g;
     g.cutoff = 0.5;
     flat_ = FlatGrid(build_grid(weld(floor_mesh(10, 5, 3), -1), g));

@@ -197,26 +197,27 @@ TEST(ContactSlope, is_the_derivative_of_the_force)
   ContactLaw law;
   law.k_normal = 1e4;
   law.k_tangent = 3e3;
-  law.gamma_normal = 20;
+  law.eta = 20;
   law.gamma_tangent = 30;
   ContactSlope s = contact_slope(law, overlap, radius, mass);
   EXPECT_EQ(s.stiffness, 1e4);
   EXPECT_EQ(s.damping, 60);
-  law.style = LawStyle::hertz_history;    // k sqrt(R) overlap^1.5
+  law.normal = NormalModel::hertz;    // k sqrt(R) overlap^1.5
+  law.tangential = TangentialModel::linear_history_classic;
   s = contact_slope(law, overlap, radius, mass);
   EXPECT_NEAR(s.stiffness, 1.5 * 1e4 * a, 1e-11 * s.stiffness);
   EXPECT_NEAR(s.damping, 60 * a, 1e-11);
 
-  law.style = LawStyle::granular;
-  law.granular.normal = NormalModel::jkr;
-  law.granular.modulus = 7.5e3;
-  law.granular.k_normal = 1e4;
-  law.granular.cohesion = 5;
-  law.granular.damping = DampingModel::mass_velocity;
-  law.granular.eta = 7;
-  law.granular.x_tangent = 2;
-  law.granular.tangential = TangentialModel::mindlin;
-  law.granular.k_tangent = 8e3;
+  law = granular_law(NormalModel::hooke);
+  law.normal = NormalModel::jkr;
+  law.modulus = 7.5e3;
+  law.k_normal = 1e4;
+  law.surface_energy = 5;
+  law.damping = DampingModel::mass_velocity;
+  law.eta = 7;
+  law.xgammat = 2;
+  law.tangential = TangentialModel::mindlin;
+  law.k_tangent = 8e3;
   s = contact_slope(law, overlap, radius, mass);
   EXPECT_EQ(s.damping, 7 * 2 * 2);
   // JKR by the contact radius x: overlap x^2/R - 2 sqrt(pi g x/E), force 4 E x^3/(3R) - 4 sqrt(pi g E x^3).

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <numeric>
 #include <sstream>
 
 namespace lsdcd {
@@ -573,11 +575,11 @@ TEST(settings, torque_is_about_a_point_of_the_box_or_of_the_mesh)
 TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
 {
   const WallSettings s = with("rolling epsd2 0.05 cohesion sjkr 3e5");
-  EXPECT_EQ(s.law.added.rolling, AddedRolling::epsd2);
-  EXPECT_EQ(s.law.added.mu_roll, 0.05);
-  EXPECT_EQ(s.law.added.cohesion, 3e5);
-  EXPECT_EQ(with("rolling cdt 0.1").law.added.rolling, AddedRolling::cdt);
-  EXPECT_FALSE(with("").law.added.any());
+  EXPECT_EQ(s.law.rolling.model, RollingModel::epsd2);
+  EXPECT_EQ(s.law.rolling.numbers[0], 0.05);
+  EXPECT_EQ(s.law.cohesion.numbers[0], 3e5);
+  EXPECT_EQ(with("rolling cdt 0.1").law.rolling.model, RollingModel::cdt);
+  EXPECT_FALSE(with("").law.is_extended());
   EXPECT_TRUE(names(error_with("rolling sds 1 1 1"), "epsd2"));
   EXPECT_TRUE(names(error_with("rolling cdt"), "MU"));
   EXPECT_TRUE(names(error_with("rolling cdt -0.1"), "MU"));
@@ -587,9 +589,15 @@ TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
 
 // ---- granular ------------------------------------------------------------------------
 
-GranularLaw law_of(const std::string &tokens)
+template <class Model>
+Real sum(const Chosen<Model> &chosen)
 {
-  return parse("granular " + tokens + " mesh a.stl").law.granular;
+  return std::accumulate(std::begin(chosen.numbers), std::end(chosen.numbers), Real(0));
+}
+
+ContactLaw law_of(const std::string &tokens)
+{
+  return parse("granular " + tokens + " mesh a.stl").law;
 }
 
 std::string granular_error(const std::string &tokens)
@@ -606,20 +614,20 @@ TEST(settings, granular_reads_every_normal_sub_model)
   EXPECT_EQ(law_of("hertz 7e4 3" + kSlip).normal, NormalModel::hertz);
   EXPECT_EQ(law_of("dmt 7e4 3 0.3 2" + kSlip).normal, NormalModel::dmt);
   EXPECT_EQ(law_of("jkr 7e4 3 0.3 2" + kSlip).normal, NormalModel::jkr);
-  EXPECT_EQ(law_of("jkr 7e4 3 0.3 2" + kSlip).cohesion, 2);
+  EXPECT_EQ(law_of("jkr 7e4 3 0.3 2" + kSlip).surface_energy, 2);
 }
 
 TEST(settings, granular_takes_the_modulus_of_a_sphere_and_a_wall_of_one_material)
 {
   // LAMMPS's manual: 960/(2 (1 - 0.2^2)) = 500.
-  const GranularLaw g = law_of("hertz/material 960 3 0.2" + kSlip);
+  const ContactLaw g = law_of("hertz/material 960 3 0.2" + kSlip);
   EXPECT_NEAR(g.modulus, 500, 1e-12);
   EXPECT_NEAR(g.k_normal, 2000.0 / 3, 1e-12);
 }
 
 TEST(settings, granular_kt_null_is_eight_times_the_shear_modulus_of_the_contact)
 {
-  const GranularLaw g = law_of("hertz/material 1e5 3 0.25 tangential mindlin NULL 1 0.5");
+  const ContactLaw g = law_of("hertz/material 1e5 3 0.25 tangential mindlin NULL 1 0.5");
   EXPECT_NEAR(g.k_tangent, 8e5 / (4 * 1.75 * 1.25), 1e-9);
   EXPECT_TRUE(names(granular_error("hertz 1e5 3 tangential mindlin NULL 1 0.5"), "E and nu"));
 }
@@ -648,12 +656,12 @@ TEST(settings, granular_words_come_in_any_order_and_end_at_the_first_keyword)
   const WallSettings s =
       parse("granular hertz 1e5 3 limit_damping twisting sds 1 2 3 rolling sds 4 5 6 heat area 7 "
             "tangential mindlin_rescale/force 8 9 10 damping velocity temperature 300 mesh a.stl");
-  const GranularLaw &g = s.law.granular;
+  const ContactLaw &g = s.law;
   EXPECT_TRUE(s.law.limit_damping);
-  EXPECT_EQ(g.k_twist + g.gamma_twist + g.mu_twist, 6);
-  EXPECT_EQ(g.k_roll + g.gamma_roll + g.mu_roll, 15);
-  EXPECT_EQ(g.conductance, 7);
-  EXPECT_EQ(g.k_tangent + g.x_tangent + g.mu, 27);
+  EXPECT_EQ(sum(g.twisting), 6);
+  EXPECT_EQ(sum(g.rolling), 15);
+  EXPECT_EQ(sum(g.heat), 7);
+  EXPECT_EQ(g.k_tangent + g.xgammat + g.mu, 27);
   EXPECT_EQ(s.meshes[0].temperature, 300);
   EXPECT_EQ(s.law.n_extra(), 5);
   EXPECT_TRUE(names(s.law_name, "granular hertz 1e5 3 limit_damping twisting"));
@@ -667,7 +675,7 @@ TEST(settings, granular_none_turns_nothing_on)
       "damping none mesh a.stl");
   EXPECT_FALSE(s.law.has_history());
   EXPECT_FALSE(s.law.has_heat());
-  EXPECT_EQ(s.law.granular.damping, DampingModel::none);
+  EXPECT_EQ(s.law.damping, DampingModel::none);
 }
 
 TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
@@ -678,8 +686,8 @@ TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
       {"hook 1e5 3" + kSlip, "hooke|hertz|hertz/material|dmt|jkr"},
       {"hertz -1e5 3" + kSlip, "kn = -1e5 is out of range"},
       {"hertz nan 3" + kSlip, "kn must be a number, not 'nan'"},
-      {"hertz 1e5 -3" + kSlip, "eta (or e) = -3 is out of range"},
-      {"hertz 1e5" + kSlip, "eta (or e) must be a number, not 'tangential'"},
+      {"hertz 1e5 -3" + kSlip, "eta|e = -3 is out of range"},
+      {"hertz 1e5" + kSlip, "eta|e must be a number, not 'tangential'"},
       {"hertz/material 0 3 0.3" + kSlip, "E = 0 is out of range"},
       {"hertz/material 1e5 3 0.6" + kSlip, "nu = 0.6 is out of range"},
       {"hertz/material 1e5 3 -1" + kSlip, "nu = -1 is out of range"},
@@ -688,7 +696,7 @@ TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
       {"hertz 1e5 3 tangential", "'mesh' is not a sub-model"},
       {"hertz 1e5 3 tangential mindlinn 1 1 1", "mindlin_rescale/force"},
       {"hertz 1e5 3 tangential linear_history 1 1", "mu must be a number, not 'mesh'"},
-      {"hertz 1e5 3 tangential linear_history 1 1", "tangential linear_history kt x_gammat mu"},
+      {"hertz 1e5 3 tangential linear_history 1 1", "tangential linear_history kt xgammat mu"},
       {"hertz 1e5 3 tangential linear_history NULL 1 1", "kt must be a number"},
       {"hertz 1e5 3" + kSlip + kSlip, "given twice"},
       {"hertz 1e5 3" + kSlip + " rolling sds 1 2", "rolling sds k gamma mu"},

@@ -1,5 +1,5 @@
 #include "contact/spring_store.h"
-#include "law/spring_kind.h"
+#include "law/contact_law.h"
 
 #include <gtest/gtest.h>
 
@@ -184,32 +184,31 @@ TEST(spring_store, extra_numbers_go_wherever_their_springs_go)
 }
 
 // As many numbers as each other, and of another meaning.
-TEST(spring_kind, differs_where_the_numbers_are_not_the_same)
+TEST(history_kind, differs_where_the_numbers_are_not_the_same)
 {
-  std::vector<ContactLaw> laws(9);
-  laws[0].style = LawStyle::hooke_history;
-  laws[1].added.rolling = AddedRolling::epsd2;
-  for (std::size_t i = 2; i < laws.size(); i++) laws[i].style = LawStyle::granular;
-  laws[2].granular.tangential = TangentialModel::mindlin_force;
-  laws[3].granular.tangential = TangentialModel::mindlin_rescale;
-  laws[4].granular.tangential = TangentialModel::mindlin_rescale_force;
-  laws[5].granular.rolling = true;
-  laws[6].granular.twisting = TwistingModel::marshall;
-  laws[7].granular.twisting = TwistingModel::sds;
-  laws[8].granular.normal = NormalModel::jkr;
+  std::vector<ContactLaw> laws(9, granular_law(NormalModel::hooke));
+  laws[0] = classic_law(NormalModel::hooke, true);
+  laws[1] = classic_law(NormalModel::hooke, false);
+  laws[1].rolling = RollingModel::epsd2;
+  laws[2].tangential = TangentialModel::mindlin_force;
+  laws[3].tangential = TangentialModel::mindlin_rescale;
+  laws[4].tangential = TangentialModel::mindlin_rescale_force;
+  laws[5].rolling = RollingModel::sds;
+  laws[6].twisting = TwistingModel::marshall;
+  laws[7].twisting = TwistingModel::sds;
+  laws[8].normal = NormalModel::jkr;
   std::set<int> seen;
-  for (const ContactLaw &law : laws) EXPECT_TRUE(seen.insert(spring_kind(law)).second);
+  for (const ContactLaw &law : laws) EXPECT_TRUE(seen.insert(law.history_kind()).second);
 }
 
-TEST(spring_kind, is_the_same_for_displacements_of_all_laws)
+TEST(history_kind, is_the_same_for_displacements_of_all_laws)
 {
-  ContactLaw hertz, linear, mindlin;
-  hertz.style = LawStyle::hertz_history;
-  linear.style = mindlin.style = LawStyle::granular;
-  linear.granular.tangential = TangentialModel::linear_history;
-  mindlin.granular.tangential = TangentialModel::mindlin;
-  EXPECT_EQ(spring_kind(hertz), spring_kind(linear));
-  EXPECT_EQ(spring_kind(hertz), spring_kind(mindlin));
+  const ContactLaw hertz = classic_law(NormalModel::hertz, true);
+  ContactLaw linear = granular_law(NormalModel::hooke), mindlin = linear;
+  linear.tangential = TangentialModel::linear_history;
+  mindlin.tangential = TangentialModel::mindlin;
+  EXPECT_EQ(hertz.history_kind(), linear.history_kind());
+  EXPECT_EQ(hertz.history_kind(), mindlin.history_kind());
 }
 
 }    // namespace

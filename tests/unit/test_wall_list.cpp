@@ -537,7 +537,7 @@ TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_s
     for (Precision precision : {Precision::double_, Precision::mixed}) {
       const Wall wall(soup, cutoff, precision == Precision::mixed);
       EngineSettings s;
-      s.law = classic(LawStyle::hertz_history);
+      s.law = classic(NormalModel::hertz, true);
       s.precision = precision;
       Bed kept(wall, s), anew(wall, s);
       Numbers r(8);

@@ -32,12 +32,12 @@ using QuerySphere = QuerySphereWith<const Spring *>;
 
 // Leaves the contacts on the side that is asked for and, where adhesion acts beyond contact
 // (cutoff > radius), beside those that overlap those that overlapped and have not let go since.
-template <bool kBeyond, class Springs, int kCapacity>
+template <bool kBeyondContact, class Springs, int kCapacity>
 LSDCD_FN void keep_acting(const GridView &grid, const SearchSettings &settings,
                           const QuerySphereWith<Springs> &s, ContactSet<kCapacity> &set)
 {
   if (settings.side != 0) keep_side(grid.wall, settings.side * grid.outside, set);
-  if constexpr (kBeyond) {
+  if constexpr (kBeyondContact) {
     for (int i = set.n - 1; i >= 0; i--)
       if (set.distance[i] >= s.radius &&
           !is_held(grid.wall, set.view(), i, settings.blend, s.springs, s.n_springs))
@@ -48,7 +48,7 @@ LSDCD_FN void keep_acting(const GridView &grid, const SearchSettings &settings,
 // What is within the cutoff, into a set that is empty: of the sphere's list, or of its cell where `list`
 // is null. In the order of the features' numbers, so that the corner rule and sums give the same bits
 // from both. Where the set overflows nothing else is valid.
-template <bool kBeyond, class Geometry, class Springs, int kCapacity>
+template <bool kBeyondContact, class Geometry, class Springs, int kCapacity>
 LSDCD_FN void search_in(const GridView &grid, const SearchSettings &settings,
                         const QuerySphereWith<Springs> &s, const ListedFeatures *list,
                         Touch<kCapacity> &out)
@@ -58,18 +58,18 @@ LSDCD_FN void search_in(const GridView &grid, const SearchSettings &settings,
     find_in_list<Geometry>(grid, *list, s.x, s.cutoff, out.set);
   else
     out.exact_within = find_contacts_in<Geometry>(grid, s.x, s.cutoff, out.set);
-  keep_acting<kBeyond>(grid, settings, s, out.set);
+  keep_acting<kBeyondContact>(grid, settings, s, out.set);
   out.set.sort();
 }
-template <bool kBeyond, class Springs, int kCapacity>
+template <bool kBeyondContact, class Springs, int kCapacity>
 LSDCD_FN void search(const GridView &grid, const SearchSettings &settings,
                      const QuerySphereWith<Springs> &s, const ListedFeatures *list,
                      Touch<kCapacity> &out)
 {
   if (grid.in_floats)
-    search_in<kBeyond, BrickGeometry>(grid, settings, s, list, out);
+    search_in<kBeyondContact, BrickGeometry>(grid, settings, s, list, out);
   else
-    search_in<kBeyond, WallGeometry>(grid, settings, s, list, out);
+    search_in<kBeyondContact, WallGeometry>(grid, settings, s, list, out);
 }
 
 // Can a search of this grid miss contacts?
@@ -104,29 +104,29 @@ LSDCD_FN void share(const SearchSettings &settings, Real cutoff, Real tolerance,
 
 // All that a sphere touches, with weights. `rule`: memory of the corner rule, which a stack may have
 // no room for.
-template <bool kBeyond, int kCapacity>
+template <bool kBeyondContact, int kCapacity>
 LSDCD_FN void touch_with(const GridView &grid, const SearchSettings &settings, const QuerySphere &s,
                          const ListedFeatures *list, CornerRule<kCapacity> &rule,
                          Touch<kCapacity> &out)
 {
-  search<kBeyond>(grid, settings, s, list, out);
+  search<kBeyondContact>(grid, settings, s, list, out);
   if (!out.set.overflow) share(settings, s.cutoff, tolerance_of(grid), rule, out);
 }
 
 // Functions of their own, so that they are compiled once however many laws there are.
-template <bool kBeyond, int kCapacity>
+template <bool kBeyondContact, int kCapacity>
 LSDCD_NOINLINE void touch_in(CornerRule<kCapacity> &rule, const GridView &grid,
                              const SearchSettings &settings, const QuerySphere &s,
                              const ListedFeatures *list, Touch<kCapacity> &out)
 {
-  touch_with<kBeyond>(grid, settings, s, list, rule, out);
+  touch_with<kBeyondContact>(grid, settings, s, list, rule, out);
 }
-template <bool kBeyond, int kCapacity>
+template <bool kBeyondContact, int kCapacity>
 LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings,
                           const QuerySphere &s, const ListedFeatures *list, Touch<kCapacity> &out)
 {
   CornerRule<kCapacity> rule;
-  touch_with<kBeyond>(grid, settings, s, list, rule, out);
+  touch_with<kBeyondContact>(grid, settings, s, list, rule, out);
 }
 
 // Can it touch anything after a way of up to the margin? Where it is not `mine` a thread only helps

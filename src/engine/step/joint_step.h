@@ -108,7 +108,7 @@ LSDCD_FN void add_mesh(const WallPose &pose, const ContactSet<kCapacity> &of_mes
 
 // All that the sphere touches, mesh after mesh, in the frame of the box: what is of slot
 // begin + k ends at end[k]. `of_mesh` and `rule`: memory.
-template <bool kBeyond, int kCapacity>
+template <bool kBeyondContact, int kCapacity>
 LSDCD_FN void touch_meshes(const LawJob &job, const JointSphere &s, Touch<kCapacity> &of_mesh,
                            CornerRule<kCapacity> &rule, Touch<kCapacity> &all, int *end)
 {
@@ -121,7 +121,7 @@ LSDCD_FN void touch_meshes(const LawJob &job, const JointSphere &s, Touch<kCapac
     const bool holds = job.lists.n && job.lists.holds(k, seen.x, s.cutoff);
     if (job.lists.n && !holds) count_one(&job.counts->by_cells);
     of_mesh.set.clear();
-    search<kBeyond>(mesh.grid, mesh.settings.search, seen, holds ? &list : nullptr, of_mesh);
+    search<kBeyondContact>(mesh.grid, mesh.settings.search, seen, holds ? &list : nullptr, of_mesh);
     tolerance = fmax(tolerance, tolerance_of(mesh.grid));
     if (!of_mesh.set.overflow)
       add_mesh(mesh.settings.pose, of_mesh.set, tolerance, all.set, end, k - s.begin);
@@ -133,19 +133,19 @@ LSDCD_FN void touch_meshes(const LawJob &job, const JointSphere &s, Touch<kCapac
   share(job.settings.search, s.cutoff, tolerance, rule, all);
 }
 // A function of its own, so that it is compiled once however many laws there are.
-template <bool kBeyond>
+template <bool kBeyondContact>
 LSDCD_NOINLINE void touch_meshes(const LawJob &job, const JointSphere &s, Touch<kContacts> &all,
                                  int *end)
 {
   Touch<kContacts> of_mesh;
   CornerRule<kContacts> rule;
-  touch_meshes<kBeyond>(job, s, of_mesh, rule, all, end);
+  touch_meshes<kBeyondContact>(job, s, of_mesh, rule, all, end);
 }
-template <bool kBeyond>
+template <bool kBeyondContact>
 LSDCD_NOINLINE void touch_meshes(const LawJob &job, const JointSphere &s, Lane &lane, int *end)
 {
   lane.touch.set.clear();
-  touch_meshes<kBeyond>(job, s, lane.of_mesh, lane.rule, lane.touch, end);
+  touch_meshes<kBeyondContact>(job, s, lane.of_mesh, lane.rule, lane.touch, end);
 }
 
 // Applies the law to its contacts, in the frame of the mesh of each.
@@ -220,7 +220,7 @@ LSDCD_FN void joint_contacts(const Law &law, const LawJob &job, std::size_t g)
   note_cutoff(job, s.i, s.cutoff);
   int end[kMostMeshes];
   Touch<kContacts> some;
-  touch_meshes<Law::kBeyond>(job, s, some, end);
+  touch_meshes<Law::kBeyondContact>(job, s, some, end);
   if (job.uncertain)
     for (int k = s.begin + 1; k < s.end; k++) job.uncertain[k] = 0;
   if (!some.set.overflow) {
@@ -232,7 +232,7 @@ LSDCD_FN void joint_contacts(const Law &law, const LawJob &job, std::size_t g)
   for (bool done = false; !done;) {
     Lane *lane = job.lanes + g % kLanes;
     if (!try_lock(&lane->locked)) continue;
-    touch_meshes<Law::kBeyond>(job, s, *lane, end);
+    touch_meshes<Law::kBeyondContact>(job, s, *lane, end);
     if (!lane->touch.set.overflow) {
       keep_uncertain(job, s.begin, may_miss(s.cutoff, lane->touch.exact_within), s.radius);
       apply_joint_law(law, job, s, lane->touch, end);

@@ -9,8 +9,8 @@ template <class B>
 CompiledLaw<B> law_for(const EngineSettings &settings)
 {
   const ContactLaw &law = settings.law;
-  if (law.style == LawStyle::granular) return granular_law<B>(settings);
-  if (law.added.any()) return added_law<B>(settings);
+  if (!law.is_classic()) return granular_law<B>(settings);
+  if (law.is_extended()) return added_law<B>(settings);
   const WallEffects effects = wall_effects(settings);
   if (effects.surface || effects.records) return on_wall_law<B>(settings);
   if (settings.precision == Precision::single_)

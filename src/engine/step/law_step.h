@@ -145,7 +145,7 @@ LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::s
 template <class Law>
 LSDCD_FN Real pull_off_of(const Law &law)
 {
-  if constexpr (Law::kBeyond)
+  if constexpr (Law::kBeyondContact)
     return law.elastic.pull_off;
   else
     return 0;
@@ -160,11 +160,11 @@ LSDCD_FN bool single_contact(const Law &law, const LawJob &job, std::size_t k)
   const std::size_t i = sphere_of(job, k);
   const Vec3 x = centre_of<Law>(job, i);
   const Real radius = job.radius[i];
-  const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
+  const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyondContact, pull_off_of(law));
   if (!job.lists.holds(k, x, s.cutoff)) return false;
   ContactSet<1> set;
   find_in_list<WallGeometry>(job.grid, {job.lists, k}, x, s.cutoff, set);
-  keep_acting<Law::kBeyond>(job.grid, job.settings.search, s, set);
+  keep_acting<Law::kBeyondContact>(job.grid, job.settings.search, s, set);
   if (set.overflow) return false;
   note_cutoff(job, i, s.cutoff);
   apply_law(law, job, k, i, x, radius, set.view(), nullptr);
@@ -176,7 +176,7 @@ template <class Law>
 LSDCD_FN QuerySphere near_sphere(const Law &law, const LawJob &job, std::size_t k)
 {
   const std::size_t i = sphere_of(job, k);
-  return query_sphere_of(job, i, centre_of<Law>(job, i), job.radius[i], Law::kBeyond,
+  return query_sphere_of(job, i, centre_of<Law>(job, i), job.radius[i], Law::kBeyondContact,
                          pull_off_of(law));
 }
 
@@ -215,7 +215,7 @@ LSDCD_NOINLINE bool several_contacts(const Law &law, const LawJob &job, std::siz
   const std::size_t i = sphere_of(job, k);
   const Vec3 x = centre_of<Law>(job, i);
   const Real radius = job.radius[i];
-  const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyond, pull_off_of(law));
+  const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyondContact, pull_off_of(law));
   note_cutoff(job, i, s.cutoff);
   const ListedFeatures listed = {job.lists, k};
   const ListedFeatures *list = job.lists.n ? &listed : nullptr;
@@ -225,7 +225,7 @@ LSDCD_NOINLINE bool several_contacts(const Law &law, const LawJob &job, std::siz
   }
 
   Touch<kContacts> some;
-  touch<Law::kBeyond>(job.grid, job.settings.search, s, list, some);
+  touch<Law::kBeyondContact>(job.grid, job.settings.search, s, list, some);
   ContactsView set = some.set.view();
   const Real *weight = some.weight;
   Real exact_within = some.exact_within;
@@ -238,7 +238,8 @@ LSDCD_NOINLINE bool several_contacts(const Law &law, const LawJob &job, std::siz
       lane = job.lanes + k % kLanes;
       if (!try_lock(&lane->locked)) continue;
       lane->touch.set.clear();
-      touch_in<Law::kBeyond>(lane->rule, job.grid, job.settings.search, s, list, lane->touch);
+      touch_in<Law::kBeyondContact>(lane->rule, job.grid, job.settings.search, s, list,
+                                    lane->touch);
       set = lane->touch.set.view();
       weight = lane->touch.weight;
       exact_within = lane->touch.exact_within;
@@ -267,7 +268,7 @@ struct LawStep {
   // Blocks at once on a GPU's processor: 128 or 168 registers are left to a thread. With fewer
   // the kernels spill, which costs more than more blocks bring.
   static constexpr bool kLarge =
-      Law::kExtra > 0 || Law::kContactTorque || Law::kHeat || Law::kBeyond;
+      Law::kExtra > 0 || Law::kContactTorque || Law::kHeat || Law::kBeyondContact;
   static constexpr int kBlocksAtOnce = kLarge ? 3 : 4;
 
   // Lists of brick records are left to several().

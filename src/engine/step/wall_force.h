@@ -152,7 +152,8 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       c.omega = vec_cast<T>(omega);
     }
     if constexpr (Law::kHeat)
-      if (law.has_heat()) c.wall_warmer = static_cast<T>(settings.wall_temperature - s.temperature);
+      if (law.has_heat())
+        c.temperature_difference = static_cast<T>(settings.wall_temperature - s.temperature);
 
     auto memory = begin_memory(law, grid.wall, settings, set, i, s);
     const auto f = law.evaluate(c, memory);

@@ -5,6 +5,8 @@
 
 namespace lsdcd {
 
+enum class CohesionModel { none, sjkr };
+
 // `sjkr` of LIGGGHTS: k times the area in which a plane cuts the sphere, pi (R^2 - r^2)
 // with the centre's distance r = R - overlap. Friction does not see it.
 template <class T>

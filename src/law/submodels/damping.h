@@ -2,9 +2,12 @@
 #pragma once
 
 #include "law/contact.h"
-#include "law/contact_law.h"
 
 namespace lsdcd {
+
+// What eta is: nothing; mass/time; 1/time; 1/(time length); a number, per root of mass times secant
+// stiffness; and that of classic styles, 1/time (hooke) or 1/(time length) (hertz).
+enum class DampingModel { none, velocity, mass_velocity, viscoelastic, stiffness, classic };
 
 // The classic styles: coefficient = scale m gamma.
 // gamma: 1/time with HookeNormal, 1/(time length) with HertzNormal.

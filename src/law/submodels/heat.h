@@ -2,9 +2,10 @@
 #pragma once
 
 #include "law/contact.h"
-#include "law/contact_law.h"
 
 namespace lsdcd {
+
+enum class HeatModel { none, radius, area };
 
 // `radius`: 2 k a dT (Vargas and McCarthy 2001); `area`: h pi a^2 dT. Power.
 template <class T>
@@ -16,7 +17,7 @@ struct Conduction {
   LSDCD_FN T flow(const Contact<T> &c, T a) const
   {
     const T per_kelvin = model == HeatModel::area ? T(3.14159265358979323846) * a * a : 2 * a;
-    return conductance * per_kelvin * c.wall_warmer;
+    return conductance * per_kelvin * c.temperature_difference;
   }
 };
 

@@ -8,9 +8,10 @@
 
 #include "base/cube_root.h"
 #include "law/contact.h"
-#include "law/contact_law.h"
 
 namespace lsdcd {
+
+enum class NormalModel { hooke, hertz, dmt, jkr };
 
 // How far from its centre a sphere feels the wall; `pull_off` is that of radius 1 and
 // greater than 0 only for adhesion that acts past touch.
@@ -24,7 +25,7 @@ LSDCD_FN Real cutoff_of(Real radius, Real pull_off)
 // Linear spring. k: force/length.
 template <class T>
 struct HookeNormal {
-  static constexpr bool kSized = false;    // does force() use a?
+  static constexpr bool kUsesContactRadius = false;    // does force()?
   T k;
 
   LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
@@ -35,7 +36,7 @@ struct HookeNormal {
 // Hertz: F = k a overlap, a = sqrt(R overlap). k: force/length^2, 4/3 of the modulus.
 template <class T>
 struct HertzNormal {
-  static constexpr bool kSized = true;
+  static constexpr bool kUsesContactRadius = true;
   T k;
 
   LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
@@ -56,16 +57,16 @@ struct HertzNormal {
 // spheres touch.
 template <class T>
 struct TouchingNormal {
-  static constexpr bool kBeyond = false;    // does it act past touch?
+  static constexpr bool kBeyondContact = false;    // does it act past touch?
   NormalModel model;
   T k;       // force/length (hooke), force/length^2
   T pull;    // 4 pi gamma, force/length; 0 but for dmt
 
-  LSDCD_FN bool is_sized() const { return model != NormalModel::hooke; }    // does force() use a?
+  LSDCD_FN bool uses_contact_radius() const { return model != NormalModel::hooke; }    // in force()
   LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
   LSDCD_FN T force(const Contact<T> &c, T a) const
   {
-    if (!is_sized()) return k * c.overlap;
+    if (!uses_contact_radius()) return k * c.overlap;
     return a * k * c.overlap - pull * c.radius;
   }
   LSDCD_FN T limit(const Contact<T> &c, T f, T normal) const
@@ -74,7 +75,7 @@ struct TouchingNormal {
   }
   LSDCD_FN T energy(const Contact<T> &c, T a) const
   {
-    if (!is_sized()) return T(0.5) * k * c.overlap * c.overlap;
+    if (!uses_contact_radius()) return T(0.5) * k * c.overlap * c.overlap;
     return T(0.4) * k * a * c.overlap * c.overlap - pull * c.radius * c.overlap;
   }
 };
@@ -85,21 +86,21 @@ struct TouchingNormal {
 // the pull is greatest, 3 pi gamma R, at an overlap of -(3 pi^2 gamma^2 R/(16 E^2))^(1/3).
 template <class T>
 struct JkrNormal {
-  static constexpr bool kBeyond = true;
-  T modulus, cohesion;
+  static constexpr bool kBeyondContact = true;
+  T modulus, surface_energy;
   T root;           // sqrt(pi gamma E)
   T size;           // (4 pi gamma/E)^(1/3): a = size R^(2/3) y^2 with y = 1 at overlap 0
   Real pull_off;    // for a radius of 1; length^(2/3)
 
-  JkrNormal(T modulus_, T cohesion_) : modulus(modulus_), cohesion(cohesion_)
+  JkrNormal(T modulus_, T surface_energy_) : modulus(modulus_), surface_energy(surface_energy_)
   {
-    const Real ratio = Real(cohesion_) / Real(modulus_), pi = 3.14159265358979323846;
-    root = static_cast<T>(sqrt(pi * Real(cohesion_) * Real(modulus_)));
+    const Real ratio = Real(surface_energy_) / Real(modulus_), pi = 3.14159265358979323846;
+    root = static_cast<T>(sqrt(pi * Real(surface_energy_) * Real(modulus_)));
     size = static_cast<T>(cube_root(4 * pi * ratio));
     pull_off = cube_root(3 * pi * pi * ratio * ratio / 16);
   }
 
-  LSDCD_FN bool is_sized() const { return true; }
+  LSDCD_FN bool uses_contact_radius() const { return true; }
 
   // With a = s y^2, s = size R^(2/3), the overlap is y^4 - y in units of s^2/R. Newton's
   // method from above: the left side is convex and rises for y > 4^(-1/3) = 0.63, and
@@ -128,7 +129,7 @@ struct JkrNormal {
   }
   LSDCD_FN T limit(const Contact<T> &c, T f, T) const
   {
-    return fabs(f + T(6 * 3.14159265358979323846) * cohesion * c.radius);
+    return fabs(f + T(6 * 3.14159265358979323846) * surface_energy * c.radius);
   }
   // Of the bodies and of the surface that the contact has done away with.
   LSDCD_FN T energy(const Contact<T> &c, T a) const
@@ -136,7 +137,7 @@ struct JkrNormal {
     const T cubed = a * a * a, per_radius = 1 / c.radius;
     return T(8) / 15 * modulus * cubed * a * a * per_radius * per_radius -
            T(8) / 3 * root * cubed * sqrt(a) * per_radius +
-           T(2 * 3.14159265358979323846) * cohesion * a * a;
+           T(2 * 3.14159265358979323846) * surface_energy * a * a;
   }
 };
 

@@ -1,28 +1,48 @@
 // Rolling resistance: a contact torque against the turning of a sphere along the wall.
+//
+// A model is a struct with
+//   kModel                           its place in RollingModel
+//   kKeepsVector                     does a contact keep a vector of the tangent plane for it?
+//   contact_torque(n, in, m, at)     torque on the sphere
+//   energy(n, in, m, at)             what is held
+// n are its numbers in the order of its row (sub_models.cpp), m the contact's memory, at the place of its
+// vector in it. It is one of GranularRolling or of ClassicRolling below.
 #pragma once
 
 #include "law/contact.h"
-#include "law/contact_law.h"
 
 namespace lsdcd {
 
-// `sds`: spring, dashpot and slider (Luding 2008; Wang et al. 2015 for the velocity). The
+enum class RollingModel { none, sds, cdt, epsd2 };
+
+// What a model may ask for.
+template <class T>
+struct RollingInput {
+  const Contact<T> &contact;
+  T elastic;      // normal force without damping
+  T normal;       // normal force
+  T limit;        // > 0, the force that sliding limits are proportional to
+  T k_tangent;    // tangential stiffness, force/length
+};
+
+// `sds` k gamma mu: spring, dashpot and slider (Luding 2008; Wang et al. 2015 for the velocity). The
 // force that they give acts at the lever arm R on both sides of the contact, so that it
-// turns the sphere and does not push it. Its spring is the vector `at` of the memory.
+// turns the sphere and does not push it. The vector is the spring's displacement.
 template <class T>
 struct SdsRolling {
-  bool is_on;
-  T k, gamma, mu;    // force/length, mass/time, 1
+  static constexpr RollingModel kModel = RollingModel::sds;
+  static constexpr bool kKeepsVector = true;
 
-  // `limit_force`: what the sliding limit is proportional to
   template <class Memory>
-  LSDCD_FN Vec3Of<T> contact_torque(const Contact<T> &c, T limit_force, Memory &m, int at) const
+  LSDCD_FN static Vec3Of<T> contact_torque(const T *n, const RollingInput<T> &in, Memory &m, int at)
   {
+    const Contact<T> &c = in.contact;
+    const T k = n[0], gamma = n[1], mu = n[2];
     const Vec3Of<T> v = c.radius * cross(c.omega, c.normal);
     Vec3Of<T> rolled = m.vec(at);
     if (c.update) rolled += c.dt * v;
     Vec3Of<T> f = -k * rolled - gamma * v;
-    const T size = norm(f), limit = mu * limit_force;
+    const T size = norm(f), limit = mu * in.limit;
     if (size > limit) {
       if (norm_sq(rolled) > 0) {
         f = (limit / size) * f;
@@ -35,13 +55,13 @@ struct SdsRolling {
     return c.radius * cross(c.normal, f);
   }
   template <class Memory>
-  LSDCD_FN T energy(const Memory &m, int at) const
+  LSDCD_FN static T energy(const T *n, const RollingInput<T> &, const Memory &m, int at)
   {
-    return T(0.5) * k * norm_sq(m.vec(at));
+    return T(0.5) * n[0] * norm_sq(m.vec(at));
   }
 };
 
-// ---- of LIGGGHTS, beside a classic style -------------------------------------------------
+// ---- of LIGGGHTS -------------------------------------------------------------------------
 
 // The part of the sphere's turning that rolls.
 template <class T>
@@ -50,49 +70,100 @@ LSDCD_FN Vec3Of<T> rolling_part(const Vec3Of<T> &omega, const Vec3Of<T> &normal)
   return omega - dot(omega, normal) * normal;
 }
 
+// `cdt` mu, constant directional torque: mu k_n overlap R against the rolling, whatever its
+// speed (Ai et al. 2011, model A). Near rest it changes sign from step to step, as any
+// constant friction does, and the spin stays within a step's change of 0.
 template <class T>
-struct LiggghtsRolling {
-  AddedRolling model;
-  T mu;
+struct CdtRolling {
+  static constexpr RollingModel kModel = RollingModel::cdt;
+  static constexpr bool kKeepsVector = false;
 
-  LSDCD_FN bool is_on() const { return model != AddedRolling::none; }
-
-  // `cdt`, constant directional torque: mu k_n overlap R against the rolling, whatever its
-  // speed (Ai et al. 2011, model A). Near rest it changes sign from step to step, as any
-  // constant friction does, and the spin stays within a step's change of 0. `elastic`: the elastic force.
-  LSDCD_FN Vec3Of<T> cdt(const Contact<T> &c, T elastic) const
+  template <class Memory>
+  LSDCD_FN static Vec3Of<T> contact_torque(const T *n, const RollingInput<T> &in, Memory &, int)
   {
+    const Contact<T> &c = in.contact;
     const Vec3Of<T> rolls = rolling_part(c.omega, c.normal);
     const T rate = norm(rolls);
     if (!(rate > 0)) return {0, 0, 0};
-    return (-mu * elastic * c.radius / rate) * rolls;
+    return (-n[0] * in.elastic * c.radius / rate) * rolls;
   }
-
-  // `epsd2`, elastic-plastic spring: a contact torque that grows by k_t R^2 per angle rolled, up to
-  // mu |F_n| R (Iwashita and Oda 1998; Ai et al. 2011, model C without its dashpot). The
-  // contact torque is the vector `at` of the memory. `normal`: the normal force, damping included;
-  // `k_tangent`: force/length.
   template <class Memory>
-  LSDCD_FN Vec3Of<T> epsd2(const Contact<T> &c, T normal, T k_tangent, Memory &m, int at) const
+  LSDCD_FN static T energy(const T *, const RollingInput<T> &, const Memory &, int)
   {
+    return 0;
+  }
+};
+
+// `epsd2` mu, elastic-plastic spring: a contact torque that grows by k_t R^2 per angle rolled, up to
+// mu |F_n| R (Iwashita and Oda 1998; Ai et al. 2011, model C without its dashpot). The vector is the
+// contact torque.
+template <class T>
+struct Epsd2Rolling {
+  static constexpr RollingModel kModel = RollingModel::epsd2;
+  static constexpr bool kKeepsVector = true;
+
+  template <class Memory>
+  LSDCD_FN static Vec3Of<T> contact_torque(const T *n, const RollingInput<T> &in, Memory &m, int at)
+  {
+    const Contact<T> &c = in.contact;
     Vec3Of<T> held = m.vec(at);
     if (c.update) {
-      const T stiff = k_tangent * c.radius * c.radius;
+      const T stiff = in.k_tangent * c.radius * c.radius;
       held -= (stiff * c.dt) * rolling_part(c.omega, c.normal);
       held = rolling_part(held, c.normal);
     }
-    const T size = norm(held), limit = mu * fabs(normal) * c.radius;
+    const T size = norm(held), limit = n[0] * fabs(in.normal) * c.radius;
     if (size > limit) held = (limit / size) * held;
     m.put(at, held);
     return held;
   }
-  // What epsd2 holds.
   template <class Memory>
-  LSDCD_FN T energy(const Contact<T> &c, T k_tangent, const Memory &m, int at) const
+  LSDCD_FN static T energy(const T *, const RollingInput<T> &in, const Memory &m, int at)
   {
-    const T stiff = k_tangent * c.radius * c.radius;
+    const T stiff = in.k_tangent * in.contact.radius * in.contact.radius;
     return stiff > 0 ? T(0.5) * norm_sq(m.vec(at)) / stiff : T(0);
   }
 };
+
+// ---- the family --------------------------------------------------------------------------
+
+// Those of Models that one kernel has; which one acts is the same for all contacts of a wall.
+template <class T, template <class> class... Models>
+struct Rolling {
+  RollingModel model;
+  T numbers[3];
+
+  LSDCD_FN bool is_on() const { return ((model == Models<T>::kModel) || ...); }
+  LSDCD_FN bool keeps_vector() const
+  {
+    return ((model == Models<T>::kModel && Models<T>::kKeepsVector) || ...);
+  }
+  // Writes the contact torque, adds to the energy. Where the model is not on, nothing.
+  template <class Memory>
+  LSDCD_FN void act(const RollingInput<T> &in, Memory &m, int at, Vec3Of<T> &torque,
+                    T &energy) const
+  {
+    (act_as<Models<T>>(in, m, at, torque, energy), ...);
+  }
+
+ private:
+  template <class Model, class Memory>
+  LSDCD_FN void act_as(const RollingInput<T> &in, Memory &m, int at, Vec3Of<T> &torque,
+                       T &energy) const
+  {
+    // A kernel without memory is for models that keep nothing.
+    if constexpr (Memory::kSize > 0 || !Model::kKeepsVector)
+      if (model == Model::kModel) {
+        torque += Model::contact_torque(numbers, in, m, at);
+        energy += Model::energy(numbers, in, m, at);
+      }
+  }
+};
+
+// The models that go with `granular`, and those that go with a classic style.
+template <class T>
+using GranularRolling = Rolling<T, SdsRolling>;
+template <class T>
+using ClassicRolling = Rolling<T, CdtRolling, Epsd2Rolling>;
 
 }    // namespace lsdcd

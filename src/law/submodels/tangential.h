@@ -5,6 +5,17 @@
 
 namespace lsdcd {
 
+enum class TangentialModel {
+  linear_nohistory_classic,
+  linear_history_classic,
+  linear_nohistory,
+  linear_history,
+  mindlin,
+  mindlin_force,
+  mindlin_rescale,
+  mindlin_rescale_force
+};
+
 // Friction that grows with the slip up to `limit`; `viscous`: force time/length.
 template <class T>
 LSDCD_FN Vec3Of<T> viscous_friction(const Vec3Of<T> &v_tangent, T viscous, T limit)
@@ -32,7 +43,7 @@ struct LinearNoHistory {
 
 // A spring and a dashpot in the tangent plane; where they exceed mu |F_normal|
 // the spring is cut back to what the limit allows (`*/history`; Silbert et al.
-// 2001). `shear displacement` is moved with the contact where c.update is set.
+// 2001). The shear displacement is moved with the contact where c.update is set.
 template <class T>
 struct LinearHistory {
   static constexpr bool kHistory = true;
@@ -62,19 +73,19 @@ struct LinearHistory {
 // ---- the sub-models of `granular` --------------------------------------------------------
 // a: the contact's radius. `damping`: the normal damping's coefficient (mass/time).
 
-// `linear_nohistory` without a spring, else `linear_history`, and where `sized` `mindlin`: the
-// stiffness goes with the contact radius. `shear displacement` is the displacement, or the spring's
+// `linear_nohistory` without a spring, else `linear_history`, and where `by_radius` `mindlin`: the
+// stiffness goes with the contact radius. `shear` is the displacement, or the spring's
 // force where `of_force`. With `rescale` it shrinks with the contact as that unloads (Thornton et al.
 // 2013), which takes the radius of the step before.
 template <class T>
 struct GranularFriction {
-  T k, x, mu;    // k: 0 where there is no spring
-  bool spring, sized, of_force, rescale;
+  T k, xgammat, mu;    // k: 0 where there is no spring
+  bool spring, by_radius, of_force, rescale;
 
-  LSDCD_FN T stiffness(T a) const { return sized ? k * a : k; }
+  LSDCD_FN T stiffness(T a) const { return by_radius ? k * a : k; }
   LSDCD_FN Vec3Of<T> slip_force(const Contact<T> &c, T damping, T limit) const
   {
-    return viscous_friction(c.v_tangent, x * damping, limit);
+    return viscous_friction(c.v_tangent, xgammat * damping, limit);
   }
   // The contact has the radius a, and in the step before had that of the scalar `at`.
   template <class Memory>
@@ -89,7 +100,7 @@ struct GranularFriction {
     const T stiff = stiffness(a);
     if (c.update) m.shear += (of_force ? -stiff * c.dt : c.dt) * c.v_tangent;
 
-    const Vec3Of<T> viscous = (-x * damping) * c.v_tangent;
+    const Vec3Of<T> viscous = (-xgammat * damping) * c.v_tangent;
     const Vec3Of<T> f = (of_force ? m.shear : -stiff * m.shear) + viscous;
     const T size = norm(f);
     if (!(size > limit)) return f;

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "law/contact.h"
-#include "law/contact_law.h"
 
 namespace lsdcd {
+
+enum class TwistingModel { none, marshall, sds };
 
 // What resists a twist at one contact.
 template <class T>

@@ -1,0 +1,267 @@
+#include "law/sub_models.h"
+
+#include "base/input_words.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <type_traits>
+
+namespace lsdcd {
+
+namespace {
+
+// ---- numbers of several rows -------------------------------------------------------------
+
+const Parameter kStiffness = {"kn", "force/length"}, kHertzStiffness = {"kn", "force/length^2"};
+const Parameter kEta = {"eta|e", "of the damping"};
+const Parameter kYoung = {"E", "force/length^2", kAboveZero};
+const Parameter kPoisson = {"nu", "1", -1 + 1e-12, 0.5};
+const Parameter kSurfaceEnergy = {"gamma", "energy/length^2"};
+const Parameter kXgammat = {"xgammat", "1"};
+const Parameter kMu = {"mu", "1", 0, Tokens::kHuge, false, "sliding_friction"};
+const Parameter kMindlin = {"kt", "force/length^2", 0, Tokens::kHuge, true};
+
+std::vector<Parameter> classic_numbers(const char *stiffness, const char *damping)
+{
+  return {{"kn", stiffness},      {"kt", stiffness, 0, Tokens::kHuge, true},
+          {"gamman", damping},    {"gammat", damping, 0, Tokens::kHuge, true},
+          {"xmu", "1", 0, 10000}, {"dampflag", "0 or 1", 0, 1, false, nullptr, true}};
+}
+
+// ---- what numbers mean -------------------------------------------------------------------
+
+// The defaults are those of `fix wall/gran`.
+template <NormalModel normal, bool history>
+void set_classic(const Real *n, LawDraft &d)
+{
+  d.law = classic_law(normal, history);
+  d.law.k_normal = n[0];
+  d.law.k_tangent = std::isnan(n[1]) ? n[0] * 2 / 7 : n[1];
+  d.law.eta = n[2];
+  d.law.gamma_tangent = std::isnan(n[3]) ? n[2] / 2 : n[3];
+  d.law.mu = n[4];
+  if (n[5] == 0) d.law.gamma_tangent = 0;
+}
+
+template <NormalModel model>
+void set_stiffness(const Real *n, LawDraft &d)
+{
+  d.law.normal = model;
+  d.law.k_normal = n[0];
+  d.second = n[1];
+}
+
+// Effective modulus of a sphere and a wall of one material, as LAMMPS has it since 2023.
+template <NormalModel model>
+void set_material(const Real *n, LawDraft &d)
+{
+  d.law.normal = model;
+  d.young = n[0];
+  d.second = n[1];
+  d.poisson = n[2];
+  d.law.modulus = d.young / (2 * (1 - d.poisson * d.poisson));
+  d.law.k_normal = Real(4) / 3 * d.law.modulus;
+  if (model != NormalModel::hertz) d.law.surface_energy = n[3];
+}
+
+template <DampingModel model>
+void set_damping(const Real *, LawDraft &d)
+{
+  d.law.damping = model;
+}
+
+void set_slip(const Real *n, LawDraft &d)
+{
+  d.law.tangential = TangentialModel::linear_nohistory;
+  d.law.xgammat = n[0];
+  d.law.mu = n[1];
+}
+
+// NULL: 8 G of the contact of a sphere and a wall of one material.
+template <TangentialModel model>
+void set_spring(const Real *n, LawDraft &d)
+{
+  d.law.tangential = model;
+  d.law.k_tangent = std::isnan(n[0]) ? 8 * d.young / (4 * (2 - d.poisson) * (1 + d.poisson)) : n[0];
+  d.law.xgammat = n[1];
+  d.law.mu = n[2];
+}
+
+// ---- the table ---------------------------------------------------------------------------
+
+// A place in a family's enum.
+template <class Enum, std::enable_if_t<std::is_enum<Enum>::value, int> = 0>
+constexpr int operator+(Enum model)
+{
+  return static_cast<int>(model);
+}
+
+constexpr GoesWith kClassic = GoesWith::classic, kGranular = GoesWith::granular;
+constexpr Kept kNothing = {};
+constexpr Kept kShear = {"shear displacement"}, kShearForce = {"shear force"};
+
+enum Style { hooke, hooke_history, hertz_history };
+
+std::vector<SubModel> make_table()
+{
+  using F = Family;
+  using N = NormalModel;
+  using D = DampingModel;
+  using T = TangentialModel;
+  using R = RollingModel;
+  using W = TwistingModel;
+  using H = HeatModel;
+  using C = CohesionModel;
+  constexpr auto copied = nullptr;
+  // clang-format off
+  return {
+      // The styles of LAMMPS before `granular`; their formulas are those of 29Sep2021.
+      {F::style, "hooke", Style::hooke, kClassic, classic_numbers("force/length", "1/time"),
+       set_classic<N::hooke, false>, kNothing, "",
+       "linear spring, viscous friction (Silbert et al. 2001)"},
+      {F::style, "hooke/history", Style::hooke_history, kClassic, classic_numbers("force/length",
+       "1/time"), set_classic<N::hooke, true>, kShear, "",
+       "linear springs along and across the normal (Silbert et al. 2001)"},
+      {F::style, "hertz/history", Style::hertz_history, kClassic, classic_numbers("pressure",
+       "1/(time length)"), set_classic<N::hertz, true>, kShear, "hertz stiffness",
+       "springs that stiffen with the contact radius (Brilliantov et al. 1996)"},
+
+      {F::normal, "hooke", +N::hooke, kGranular, {kStiffness, kEta}, set_stiffness<N::hooke>,
+       kNothing, "linear spring", "linear spring"},
+      {F::normal, "hertz", +N::hertz, kGranular, {kHertzStiffness, kEta}, set_stiffness<N::hertz>,
+       kNothing, "hertz spring", "elastic sphere on a plane (Hertz 1882)"},
+      {F::normal, "hertz/material", +N::hertz, kGranular, {kYoung, kEta, kPoisson},
+       set_material<N::hertz>, kNothing, "hertz spring", "hertz of one material"},
+      {F::normal, "dmt", +N::dmt, kGranular, {kYoung, kEta, kPoisson, kSurfaceEnergy},
+       set_material<N::dmt>, kNothing, "dmt adhesion",
+       "hertz less a constant pull (Derjaguin, Muller and Toporov 1975)"},
+      {F::normal, "jkr", +N::jkr, kGranular, {kYoung, kEta, kPoisson, kSurfaceEnergy},
+       set_material<N::jkr>, kNothing, "jkr adhesion",
+       "adhesion that holds past touch (Johnson, Kendall and Roberts 1971)"},
+
+      {F::damping, "none", +D::none, kGranular, {}, set_damping<D::none>, kNothing, "", "none"},
+      {F::damping, "velocity", +D::velocity, kGranular, {}, set_damping<D::velocity>, kNothing,
+       "normal damping", "eta v"},
+      {F::damping, "mass_velocity", +D::mass_velocity, kGranular, {}, set_damping<D::mass_velocity>,
+       kNothing, "normal damping", "eta m v"},
+      {F::damping, "viscoelastic", +D::viscoelastic, kGranular, {}, set_damping<D::viscoelastic>,
+       kNothing, "normal damping", "eta m a v (Brilliantov et al. 1996)"},
+      {F::damping, "tsuji", +D::stiffness, kGranular, {}, set_damping<D::stiffness>, kNothing,
+       "normal damping", "restitution e, by a fit (Tsuji, Tanaka and Ishida 1992)"},
+      {F::damping, "coeff_restitution", +D::stiffness, kGranular, {}, set_damping<D::stiffness>,
+       kNothing, "normal damping", "restitution e, exactly (Brilliantov et al. 1996)"},
+
+      {F::tangential, "linear_nohistory", +T::linear_nohistory, kGranular, {kXgammat, kMu},
+       set_slip, kNothing, "", "viscous friction"},
+      {F::tangential, "linear_history", +T::linear_history, kGranular, {{"kt", "force/length"},
+       kXgammat, kMu}, set_spring<T::linear_history>, kShear, "tangential spring",
+       "linear spring (Luding 2008)"},
+      {F::tangential, "mindlin", +T::mindlin, kGranular, {kMindlin, kXgammat, kMu},
+       set_spring<T::mindlin>, kShear, "tangential spring",
+       "spring that stiffens with the contact radius (Mindlin 1949)"},
+      {F::tangential, "mindlin/force", +T::mindlin_force, kGranular, {kMindlin, kXgammat, kMu},
+       set_spring<T::mindlin_force>, kShearForce, "tangential spring",
+       "mindlin that keeps the force"},
+      {F::tangential, "mindlin_rescale", +T::mindlin_rescale, kGranular, {kMindlin, kXgammat, kMu},
+       set_spring<T::mindlin_rescale>, {"shear displacement, contact radius", 1,
+       "rescaling on unloading"}, "tangential spring",
+       "mindlin that shrinks as the contact unloads (Thornton et al. 2013)"},
+      {F::tangential, "mindlin_rescale/force", +T::mindlin_rescale_force, kGranular, {kMindlin,
+       kXgammat, kMu}, set_spring<T::mindlin_rescale_force>, {"shear force, contact radius", 1,
+       "rescaling on unloading"}, "tangential spring", "mindlin_rescale that keeps the force"},
+
+      {F::rolling, "none", +R::none, kGranular, {}, copied, kNothing, "", "none"},
+      {F::rolling, "sds", +R::sds, kGranular, {{"k", "force/length"}, {"gamma", "mass/time"}, {"mu",
+       "1", 0, Tokens::kHuge, false, "rolling_friction"}}, copied, {"rolling displacement", 3},
+       "rolling resistance", "spring, dashpot, slider (Luding 2008; Wang et al. 2015)"},
+      {F::rolling, "cdt", +R::cdt, kClassic, {{"MU", "1"}}, copied, kNothing, "rolling cdt",
+       "constant torque (LIGGGHTS; Ai et al. 2011)"},
+      {F::rolling, "epsd2", +R::epsd2, kClassic, {{"MU", "1"}}, copied, {"rolling torque", 3},
+       "rolling epsd2", "elastic-plastic spring (LIGGGHTS; Ai et al. 2011)"},
+
+      {F::twisting, "none", +W::none, kGranular, {}, copied, kNothing, "", "none"},
+      {F::twisting, "marshall", +W::marshall, kGranular, {}, copied, {"twist angle of marshall", 1},
+       "twisting resistance", "spring, dashpot, slider by the tangential ones (Marshall 2009)"},
+      {F::twisting, "sds", +W::sds, kGranular, {{"k", "torque/angle"}, {"gamma",
+       "torque time/angle"}, {"mu", "length"}}, copied, {"twist angle of sds", 1},
+       "twisting resistance", "spring, dashpot, slider (Luding 2008)"},
+
+      {F::heat, "none", +H::none, kGranular, {}, copied, kNothing, "", "none"},
+      {F::heat, "radius", +H::radius, kGranular, {{"k", "power/(length temperature)", 0,
+       Tokens::kHuge, false, "thermal_conductivity"}}, copied, kNothing, "heat conduction",
+       "2 k a dT (Vargas and McCarthy 2001)"},
+      {F::heat, "area", +H::area, kGranular, {{"h", "power/(length^2 temperature)"}}, copied,
+       kNothing, "heat conduction", "h pi a^2 dT"},
+
+      {F::cohesion, "sjkr", +C::sjkr, kClassic, {{"K", "energy/volume"}}, copied, kNothing,
+       "cohesion sjkr", "K times the area of contact (LIGGGHTS)"},
+  };
+  // clang-format on
+}
+
+const SubModel &find_row(Family family, int model)
+{
+  for (const SubModel &row : sub_models())
+    if (row.family == family && row.model == model) return row;
+  throw std::logic_error("sub_models.cpp has no row of this sub-model");
+}
+
+}    // namespace
+
+const std::vector<SubModel> &sub_models()
+{
+  static const std::vector<SubModel> table = make_table();
+  return table;
+}
+
+std::vector<const SubModel *> sub_models(Family family, GoesWith with)
+{
+  std::vector<const SubModel *> rows;
+  for (const SubModel &row : sub_models())
+    if (row.family == family && row.with == with) rows.push_back(&row);
+  return rows;
+}
+
+const char *family_word(Family family)
+{
+  const char *const words[] = {"",        "",         "damping", "tangential",
+                               "rolling", "twisting", "heat",    "cohesion"};
+  return words[static_cast<int>(family)];
+}
+
+std::vector<const SubModel *> rows_of(const ContactLaw &law)
+{
+  std::vector<const SubModel *> rows;
+  const auto add = [&rows](Family family, int model) { rows.push_back(&find_row(family, model)); };
+  if (law.is_classic()) {
+    const bool history = law.tangential == TangentialModel::linear_history_classic;
+    add(Family::style, law.is(NormalModel::hertz) ? Style::hertz_history
+                       : history                  ? Style::hooke_history
+                                                  : Style::hooke);
+  } else {
+    add(Family::normal, +law.normal);
+    add(Family::damping, +law.damping);
+    add(Family::tangential, +law.tangential);
+  }
+  if (law.rolling.is_on()) add(Family::rolling, +law.rolling.model);
+  if (law.twisting.is_on()) add(Family::twisting, +law.twisting.model);
+  if (law.heat.is_on()) add(Family::heat, +law.heat.model);
+  if (law.cohesion.is_on()) add(Family::cohesion, +law.cohesion.model);
+  return rows;
+}
+
+std::string parameters_text(const SubModel &row)
+{
+  std::string text;
+  for (const Parameter &p : row.parameters)
+    text += (text.empty() ? "" : " ") + std::string(p.name) + (p.may_be_null ? "|NULL" : "");
+  return text;
+}
+
+std::string syntax_of(const SubModel &row)
+{
+  const std::string numbers = parameters_text(row);
+  return row.name + (numbers.empty() ? "" : " " + numbers);
+}
+
+}    // namespace lsdcd

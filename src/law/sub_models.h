@@ -1,0 +1,71 @@
+// The table of sub-models. A row is all that the program knows of one beside its formula: what a script
+// writes, what a contact keeps, which number a material has, how the log calls it.
+#pragma once
+
+#include "law/contact_law.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+enum class Family { style, normal, damping, tangential, rolling, twisting, heat, cohesion };
+
+// A number that a script gives.
+struct Parameter {
+  const char *name;
+  const char *unit;    // "1": none
+  Real least = 0, most = 1.7976931348623157e308;
+  bool may_be_null = false;          // NULL: derived from the numbers before it
+  const char *property = nullptr;    // of a material file, where it is one
+  bool is_flag = false;              // 0 or 1
+};
+
+// What a contact keeps from step to step.
+struct Kept {
+  const char *what =
+      nullptr;             // null: nothing. Equal words are the same numbers to a restart file
+  int beside_shear = 0;    // how many numbers beside the shear displacement
+  const char *effect = nullptr;    // how the log calls what they are for, where it is not the row's
+};
+
+// A law while a script is read.
+struct LawDraft {
+  ContactLaw law;
+  const char *normal_name = "", *damping_name = "viscoelastic";
+  Real young = 0,
+       poisson = 0;    // of normal sub-models with material constants; young 0: not given
+  Real second = 0;     // eta or e, the second number of the normal sub-model
+};
+
+// With which styles a sub-model goes.
+enum class GoesWith { classic, granular };
+
+struct SubModel {
+  Family family;
+  const char *name;
+  int model;    // of the family's enum
+  GoesWith with;
+  std::vector<Parameter> parameters;
+  // `given`: a number for each parameter, NaN for NULL. Null: the numbers are copied to the Chosen of
+  // the family.
+  void (*set)(const Real *given, LawDraft &draft);
+  Kept kept;
+  const char *effect;    // as the log calls it; empty: it has none
+  const char *help;      // one line, with the source of the formula
+};
+
+const std::vector<SubModel> &sub_models();
+std::vector<const SubModel *> sub_models(Family family, GoesWith with);
+
+// The words of a family in scripts: "tangential"; empty for style and normal.
+const char *family_word(Family family);
+
+// The rows of a law, in the order of families; of two rows with one formula, the first.
+std::vector<const SubModel *> rows_of(const ContactLaw &law);
+
+// "k gamma mu", and "sds k gamma mu"
+std::string parameters_text(const SubModel &row);
+std::string syntax_of(const SubModel &row);
+
+}    // namespace lsdcd

@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""Adds `rolling plastic K MU` to copies of the files that doc/design.md names, as it tells.
+
+usage: rolling_model.py SRC OUT     the sources, and where the two changed files go
+
+A model that keeps something takes two files: its formula in the header of its family, and its row.
+"""
+import os
+import sys
+
+FORMULA = """\
+// `plastic` K MU: a contact torque that grows by K per angle rolled, up to MU |F| R.
+template <class T>
+struct PlasticRolling {
+  static constexpr RollingModel kModel = RollingModel::plastic;
+  static constexpr bool kKeepsVector = true;
+
+  template <class Memory>
+  LSDCD_FN static Vec3Of<T> contact_torque(const T *n, const RollingInput<T> &in, Memory &m, int at)
+  {
+    const Contact<T> &c = in.contact;
+    Vec3Of<T> held = m.vec(at);
+    if (c.update) held -= (n[0] * c.dt) * rolling_part(c.omega, c.normal);
+    const T size = norm(held), limit = n[1] * in.limit * c.radius;
+    if (size > limit) held = (limit / size) * held;
+    m.put(at, held);
+    return held;
+  }
+  template <class Memory>
+  LSDCD_FN static T energy(const T *n, const RollingInput<T> &, const Memory &m, int at)
+  {
+    return T(0.5) * norm_sq(m.vec(at)) / n[0];
+  }
+};
+
+"""
+ROW = """\
+      {F::rolling, "plastic", +R::plastic, kGranular,
+       {{"K", "torque/angle", kAboveZero}, {"MU", "1"}}, copied, {"plastic torque", 3},
+       "plastic rolling", "torque up to a limit"},
+"""
+EDITS = {
+    "law/submodels/rolling.h": [
+        ("enum class RollingModel { none, sds, cdt, epsd2 };",
+         "enum class RollingModel { none, sds, cdt, epsd2, plastic };"),
+        ("// ---- the family ", FORMULA + "// ---- the family "),
+        ("using GranularRolling = Rolling<T, SdsRolling>;",
+         "using GranularRolling = Rolling<T, SdsRolling, PlasticRolling>;")],
+    "law/sub_models.cpp": [("      {F::rolling, \"cdt\"", ROW + "      {F::rolling, \"cdt\"")],
+}
+
+
+def main():
+    src, out = sys.argv[1:]
+    for path, edits in EDITS.items():
+        with open(os.path.join(src, path), encoding="utf-8") as f:
+            text = f.read()
+        for old, new in edits:
+            if text.count(old) != 1:
+                raise SystemExit(f"{path} does not have once: {old!r}")
+            text = text.replace(old, new)
+        to = os.path.join(out, path)
+        os.makedirs(os.path.dirname(to), exist_ok=True)
+        with open(to, "w", encoding="utf-8") as f:
+            f.write(text)
+
+
+if __name__ == "__main__":
+    main()

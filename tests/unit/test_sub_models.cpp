@@ -1,0 +1,105 @@
+// The table of sub-models: what is said of each is said everywhere.
+#include "law/sub_models.h"
+
+#include "effects/effects.h"
+#include "input/granular_words.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace lsdcd {
+namespace {
+
+std::string name_of(const SubModel &row)
+{
+  return std::string(family_word(row.family)) + " " + row.name;
+}
+
+bool is_off(const SubModel &row)
+{
+  return row.name == std::string("none");
+}
+
+TEST(sub_models, have_names_and_numbers_of_their_own)
+{
+  std::set<std::string> seen;
+  for (const SubModel &row : sub_models()) {
+    const char *const style = row.with == GoesWith::classic ? "classic " : "granular ";
+    EXPECT_TRUE(seen.insert(style + name_of(row)).second) << name_of(row);
+    EXPECT_LE(row.parameters.size(), row.set ? 6u : std::size_t(kMaxNumbers)) << name_of(row);
+    EXPECT_TRUE(row.help && *row.help) << name_of(row);
+    for (const Parameter &p : row.parameters) EXPECT_TRUE(p.unit && *p.unit) << name_of(row);
+  }
+}
+
+// What keeps different numbers has different words, and the same words the same count.
+TEST(sub_models, say_what_they_keep)
+{
+  for (const SubModel &row : sub_models()) {
+    if (row.kept.beside_shear > 0) EXPECT_TRUE(row.kept.what) << name_of(row);
+    for (const SubModel &other : sub_models())
+      if (row.kept.what && other.kept.what && row.kept.what == std::string(other.kept.what))
+        EXPECT_EQ(row.kept.beside_shear, other.kept.beside_shear) << name_of(row);
+  }
+}
+
+// `lsdcd effects` and ./run bench effects have each.
+TEST(sub_models, have_a_case_in_the_table_of_effects)
+{
+  std::set<const SubModel *> seen;
+  for (const EffectCase &c : effect_cases())
+    for (const SubModel *row : rows_of(c.settings.law)) seen.insert(row);
+  for (const SubModel &row : sub_models()) {
+    // Of two rows with one formula, the first stands for both.
+    const auto first = std::find_if(
+        sub_models().begin(), sub_models().end(),
+        [&](const SubModel &r) { return r.family == row.family && r.model == row.model; });
+    if (!is_off(row)) EXPECT_TRUE(seen.count(&*first)) << name_of(row);
+  }
+}
+
+TEST(sub_models, of_granular_are_in_its_help)
+{
+  const std::string help = granular_help();
+  for (const SubModel &row : sub_models())
+    if (row.with == GoesWith::granular)
+      EXPECT_NE(help.find(syntax_of(row) + "\n"), std::string::npos) << name_of(row);
+}
+
+// ---- the page ------------------------------------------------------------------------------
+
+std::string csv_row(const SubModel &row)
+{
+  std::string numbers;
+  for (const Parameter &p : row.parameters)
+    numbers += (numbers.empty() ? "" : ", ") + std::string(p.name) + ": " + p.unit;
+  const std::string word = row.family == Family::normal ? "granular" : family_word(row.family);
+  return "   \"" + word + (word.empty() ? "" : " ") + syntax_of(row) + "\", \"" + numbers +
+         "\", \"" + (row.kept.what ? row.kept.what : "") + "\", \"" + row.help + "\"\n";
+}
+
+std::string page_table()
+{
+  std::string table;
+  for (const SubModel &row : sub_models())
+    if (!is_off(row)) table += csv_row(row);
+  return table;
+}
+
+TEST(sub_models, are_listed_in_the_page_of_the_fix)
+{
+  std::ifstream file(std::string(LSDCD_TEST_DIR) + "/../doc/fix_wall_lsdcd.rst");
+  std::stringstream page;
+  page << file.rdbuf();
+  ASSERT_FALSE(page.str().empty());
+  EXPECT_NE(page.str().find(page_table()), std::string::npos)
+      << "the table of sub-models in doc/fix_wall_lsdcd.rst should be\n"
+      << page_table();
+}
+
+}    // namespace
+}    // namespace lsdcd
