@@ -203,7 +203,7 @@ void FixWallLsdcd::setup(int vflag)
   if (nlevels_respa) respa->copy_flevel_f(outer);
   begin_step(true);
   collect();
-  check_inserted();
+  check_new_spheres();
   if (nlevels_respa) respa->copy_f_flevel(outer);
 }
 
@@ -253,7 +253,7 @@ void FixWallLsdcd::post_force(int /*vflag*/)
 {
   if (adapts) begin_step(true);
   collect();
-  check_inserted();
+  check_new_spheres();
 }
 
 void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
@@ -288,9 +288,9 @@ void FixWallLsdcd::begin_step(bool look)
 void FixWallLsdcd::post_run()
 {
   look();
-  double worst = worst_overlap;
-  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, world);
-  check_overlap(worst);
+  double worst = overlaps.worst();
+  host.max(&worst, 1);
+  overlaps.check_sunk(worst);
   check_wrapping();
   log_rebuilds();
   log_lists();

@@ -5,8 +5,10 @@
 #include "fix.h"
 
 #include "input/deck_files.h"
+#include "lammps/lammps_host.h"
 #include "lammps/mesh_part.h"
 #include "lammps/rerun_watch.h"
+#include "wall/overlap_monitor.h"
 
 #include <deque>
 #include <functional>
@@ -66,6 +68,8 @@ class FixWallLsdcd : public Fix {
   std::vector<lsdcd::DeckFile> files() const;    // that it reads and writes
 
  protected:
+  friend class LammpsHost;
+  LammpsHost host = LammpsHost(*this);
   lsdcd::WallSettings settings;    // of the deck; parts have those of its meshes
   std::string material;            // what a material file filled in, for the log; else empty
   std::string material_file;       // as the deck names it
@@ -101,25 +105,16 @@ class FixWallLsdcd : public Fix {
   bool rigid = false;     // some rigid fix holds atoms: mass_seen replaces rmass
   std::vector<double> mass_seen;
 
-  static constexpr double kLargeOverlap = 0.1;    // of a radius; past it there is a warning
-  static constexpr double kWorse = 1.1;           // what is warned of again
-  double worst_overlap = 0;    // overlap / radius since the last look, on this process
-  tagint worst_tag = 0;
-  bigint worst_step = 0;
+  lsdcd::OverlapMonitor overlaps = lsdcd::OverlapMonitor(host);
   bigint uncertified_sum = 0;    // answers not certified so far, on this process
   double worst_uncertain = 0;    // overlap / radius that they may have missed
   bigint uncertified_due = 0;    // told from here on
   double worst_uncertain_due = 0;
-  bool overlap_warned = false, wall_in_minimize_warned = false, points_warned = false;
+  bool wall_in_minimize_warned = false, points_warned = false;
   bool doubled_warned = false;
-  bigint checked_atoms = -1;                // how many there were when the timestep was checked
-  bool may_be_new = false;                  // since then
-  tagint highest_tag = -1;                  // of atoms that are not new; -1: not looked yet
-  double worst_inserted = kLargeOverlap;    // overlap / radius of a new atom warned of
-  // The last atoms of which some came to be in the wall; 0 once none is deep in it.
-  tagint placed_after = 0, placed_until = 0;
-  double placed_overlap = 0;
-  double worst_dt = 1;    // the largest warned of, over what there should be
+  bigint checked_atoms = -1;    // how many there were when the timestep was checked
+  bool may_be_new = false;      // spheres, since then
+  double worst_dt = 1;          // the largest warned of, over what there should be
 
   double farthest_out = 0;    // past a face of the box that spheres were seen to go, and more
   bool out_warned = false;
@@ -162,7 +157,8 @@ class FixWallLsdcd : public Fix {
   void choose_if_due(const lsdcd::Spheres &);
   bool list_keeps() const;
   lsdcd::StepDiagnostics read_notes();
-  void look();    // fix_wall_lsdcd_overlaps.cpp
+  void look();
+  void check_new_spheres();
   void log_lists();
   void prepare_springs();
   void springs_to_host();
@@ -239,13 +235,6 @@ class FixWallLsdcd : public Fix {
   template <class Work>
   bool try_to_write(const std::string &, const Work &);
   void write_fields(MeshPart &);
-
-  // fix_wall_lsdcd_overlaps.cpp
-  void note_overlap(const lsdcd::StepDiagnostics &);
-  void check_overlap(double);
-  void check_inserted();
-  double radius_of(tagint);
-  std::string overlap_text(double, tagint);
 
   // fix_wall_lsdcd_others.cpp
   void check_files_apart() const;

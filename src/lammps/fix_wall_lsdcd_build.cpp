@@ -57,9 +57,9 @@ void FixWallLsdcd::make_engine_anew()
 // changed.
 void FixWallLsdcd::update_cutoff()
 {
-  double most[2] = {largest_radius(), worst_overlap};
+  double most[2] = {largest_radius(), overlaps.worst()};
   MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
-  check_overlap(most[1]);
+  overlaps.check_sunk(most[1]);
 
   const double radius = most[0], old = cutoff();
   const auto cutoff_of = [this](double r) { return lsdcd::cutoff_of(settings.law, r); };

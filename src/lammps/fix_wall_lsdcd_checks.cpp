@@ -23,6 +23,7 @@ using lsdcd::LawStyle;
 using lsdcd::number_text;
 
 static constexpr double kStepsPerContact = 10;
+static constexpr double kWorse = 1.1;    // times what was warned of: warned of again
 
 std::string FixWallLsdcd::signed_text(const std::string &text) const
 {

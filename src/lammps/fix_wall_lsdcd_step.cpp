@@ -119,6 +119,19 @@ lsdcd::StepDiagnostics FixWallLsdcd::read_notes()
   return diagnostics;
 }
 
+void FixWallLsdcd::look()
+{
+  overlaps.note(read_notes(), update->ntimestep);
+}
+
+// Collective.
+void FixWallLsdcd::check_new_spheres()
+{
+  if (!may_be_new) return;
+  may_be_new = false;
+  overlaps.check_new(read_notes(), update->ntimestep, continued || update->ntimestep > 0);
+}
+
 // Of the step just computed.
 void FixWallLsdcd::keep_outputs()
 {

@@ -17,7 +17,7 @@ import sys
 
 FLOORS = [["base"], ["backend"], ["geometry"], ["mesh"], ["motion"], ["grid"], ["contact"], ["law"], ["engine"],
           ["bodies", "query", "tune", "study", "effects", "output", "material", "flow"],
-          ["input"], ["lammps", "tool", "api"], ["kokkos"]]
+          ["input"], ["wall"], ["lammps", "tool", "api"], ["kokkos"]]
 BESIDE = {("study", "query")}
 LAMMPS_ROOMS = {"lammps", "kokkos"}
 GENERATED = {"effects": "effects_measured.h", "grid": "lsdcd_grid_sources.h"}

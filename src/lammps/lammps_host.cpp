@@ -1,0 +1,59 @@
+#include "lammps/lammps_host.h"
+
+#include "lammps/fix_wall_lsdcd.h"
+
+#include "atom.h"
+#include "comm.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+void LammpsHost::max(double *numbers, int n)
+{
+  MPI_Allreduce(MPI_IN_PLACE, numbers, n, MPI_DOUBLE, MPI_MAX, fix.world);
+}
+
+int LammpsHost::max_rank(double &number)
+{
+  struct {
+    double value;
+    int rank;
+  } most = {number, fix.comm->me};
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, fix.world);
+  number = most.value;
+  return most.rank;
+}
+
+void LammpsHost::broadcast(void *data, std::size_t bytes, int from)
+{
+  lsdcd::broadcast_bytes(data, bytes, from, fix.world);
+}
+
+std::int64_t LammpsHost::tag(int sphere)
+{
+  return fix.tag_of(sphere);
+}
+
+std::int64_t LammpsHost::highest_tag()
+{
+  fix.need_on_host();
+  tagint highest = 0;
+  for (int i = 0; i < fix.atom->nlocal; i++) highest = std::max(highest, fix.tag_on_host(i));
+  return highest;
+}
+
+double LammpsHost::radius_of_tag(std::int64_t tag)
+{
+  fix.need_on_host();
+  const Atom &atom = *fix.atom;
+  double radius = 0;
+  for (int i = 0; atom.tag_enable && i < atom.nlocal; i++)
+    if (atom.tag[i] == tag) radius = atom.radius[i];
+  return radius;
+}
+
+void LammpsHost::warn(const std::string &text)
+{
+  fix.warn(text);
+}

@@ -1,0 +1,27 @@
+// LAMMPS as the host of a wall.
+#ifndef LMP_LAMMPS_HOST_H
+#define LMP_LAMMPS_HOST_H
+
+#include "wall/host.h"
+
+namespace LAMMPS_NS {
+
+class LammpsHost : public lsdcd::Host {
+ public:
+  explicit LammpsHost(class FixWallLsdcd &fix) : fix(fix) {}
+
+  void max(double *, int) override;
+  int max_rank(double &) override;
+  void broadcast(void *, std::size_t, int) override;
+  std::int64_t tag(int) override;
+  std::int64_t highest_tag() override;
+  double radius_of_tag(std::int64_t) override;
+  void warn(const std::string &) override;
+
+ private:
+  FixWallLsdcd &fix;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,60 @@
+// The host of the wall's unit tests finds processes that would wait for each other forever.
+#include "support/fake_host.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace lsdcd {
+namespace {
+
+TEST(FakeHost, finds_the_largest_numbers_of_all_processes)
+{
+  on_processes(2, [](FakeHost &host) {
+    Real numbers[2] = {host.rank() == 0 ? 1.0 : 2.0, host.rank() == 0 ? -3.0 : -4.0};
+    host.max(numbers, 2);
+    EXPECT_EQ(numbers[0], 2);
+    EXPECT_EQ(numbers[1], -3);
+  });
+}
+
+TEST(FakeHost, names_the_lowest_rank_that_has_the_largest_number)
+{
+  on_processes(3, [](FakeHost &host) {
+    Real number = host.rank() == 0 ? 1 : 2;
+    EXPECT_EQ(host.max_rank(number), 1);
+    EXPECT_EQ(number, 2);
+  });
+}
+
+TEST(FakeHost, hands_over_what_one_process_has)
+{
+  on_processes(2, [](FakeHost &host) {
+    int number = host.rank();
+    host.broadcast(&number, sizeof number, 1);
+    EXPECT_EQ(number, 1);
+  });
+}
+
+TEST(FakeHost, refuses_a_call_that_one_process_does_not_make)
+{
+  const auto one_calls = [](FakeHost &host) {
+    Real number = 0;
+    if (host.rank() == 1) host.max(&number, 1);
+  };
+  EXPECT_THROW(on_processes(2, one_calls), std::logic_error);
+}
+
+TEST(FakeHost, refuses_calls_in_another_order)
+{
+  const auto other_order = [](FakeHost &host) {
+    Real number = 0;
+    if (host.rank() == 0) host.max(&number, 1);
+    host.max_rank(number);
+    if (host.rank() == 1) host.max(&number, 1);
+  };
+  EXPECT_THROW(on_processes(2, other_order), std::logic_error);
+}
+
+}    // namespace
+}    // namespace lsdcd
