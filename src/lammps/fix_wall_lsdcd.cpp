@@ -190,7 +190,7 @@ void FixWallLsdcd::setup_pre_force_respa(int /*vflag*/, int ilevel)
 void FixWallLsdcd::setup(int vflag)
 {
   v_init(vflag);
-  list_is_old = true;
+  schedule.expire();
   set_up_at = update->ntimestep;
   rerun = watch.sees_snapshot(*update);
   if (rerun) begin_snapshot();
@@ -242,7 +242,7 @@ void FixWallLsdcd::pre_force(int vflag)
   const bool anew = neighbor->ago == 0 ||
                     (update->ntimestep == update->firststep + 1 && set_up_at != update->firststep);
   if (anew || adapts) {
-    list_is_old = true;
+    schedule.expire();
     prepare_springs();
   }
   if (!adapts) begin_step(anew);
@@ -293,6 +293,9 @@ void FixWallLsdcd::post_run()
   overlaps.check_sunk(worst);
   check_wrapping();
   log_rebuilds();
-  log_lists();
-  if (settings.nearest > 0) log_uncertified();
+  search.end_run(settings.brief,
+                 sphere_drift().kind == lsdcd::SphereDrift::bounded
+                     ? ""
+                     : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)");
+  if (settings.nearest > 0) search.log_uncertified(settings.nearest, settings.brief);
 }

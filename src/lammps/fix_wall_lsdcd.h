@@ -8,7 +8,9 @@
 #include "lammps/lammps_host.h"
 #include "lammps/mesh_part.h"
 #include "lammps/rerun_watch.h"
+#include "wall/choice_schedule.h"
 #include "wall/overlap_monitor.h"
+#include "wall/search_report.h"
 
 #include <deque>
 #include <functional>
@@ -83,14 +85,12 @@ class FixWallLsdcd : public Fix {
   // Springs are with the engine from step to step, and here where LAMMPS moves atoms.
   enum class Where { host, engine };
   Where springs_are = Where::host;
-  int n_with_springs = 0;     // atoms whose springs are with the engine
-  bool list_is_old = true;    // of near atoms
+  int n_with_springs = 0;    // atoms whose springs are with the engine
+  lsdcd::ChoiceSchedule schedule;
   RerunWatch watch;
-  bool rerun = false;         // this is a snapshot of one
-  bool rerun_told = false;    // what is not known there
-  bigint set_up_at = -1;      // the step in which a run was set up
-  bigint steps_run = 0, setups = 0, choices = 0, lists = 0, listed = 0,
-         by_cells = 0;             // in this run
+  bool rerun = false;              // this is a snapshot of one
+  bool rerun_told = false;         // what is not known there
+  bigint set_up_at = -1;           // the step in which a run was set up
   bool callbacks = false;          // registered with Atom
   bool springs_checked = false;    // against this mesh: they may come from a restart file
   int kind_in_file = -1;           // of its springs (law/spring_kind.h); -1: it does not say
@@ -106,10 +106,7 @@ class FixWallLsdcd : public Fix {
   std::vector<double> mass_seen;
 
   lsdcd::OverlapMonitor overlaps = lsdcd::OverlapMonitor(host);
-  bigint uncertified_sum = 0;    // answers not certified so far, on this process
-  double worst_uncertain = 0;    // overlap / radius that they may have missed
-  bigint uncertified_due = 0;    // told from here on
-  double worst_uncertain_due = 0;
+  lsdcd::SearchReport search = lsdcd::SearchReport(host);
   bool wall_in_minimize_warned = false, points_warned = false;
   bool doubled_warned = false;
   bigint checked_atoms = -1;    // how many there were when the timestep was checked
@@ -155,11 +152,10 @@ class FixWallLsdcd : public Fix {
   void keep_outputs();
   void begin_step(bool);
   void choose_if_due(const lsdcd::Spheres &);
-  bool list_keeps() const;
+  lsdcd::SphereDrift sphere_drift() const;
   lsdcd::StepDiagnostics read_notes();
   void look();
   void check_new_spheres();
-  void log_lists();
   void prepare_springs();
   void springs_to_host();
   void springs_to_engine();
@@ -267,7 +263,6 @@ class FixWallLsdcd : public Fix {
   void check_timestep();
   void check_springs();
   double contact_time(double, double) const;
-  void log_uncertified();
   void log_creation() const;
   std::function<void(const std::string &)> build_progress(const MeshPart &) const;
   void log_build(const MeshPart &, double) const;

@@ -50,7 +50,7 @@ void FixWallLsdcd::make_engine_anew()
   make_engine();
   for (const MeshPart &m : parts)
     if (cutoff() > 0) give_grid(m);
-  list_is_old = true;
+  schedule.expire();
 }
 
 // Builds the grid when the first spheres come, and again when larger ones do or the box has
@@ -111,7 +111,7 @@ static double pull_off_rounding(const lsdcd::WallSettings &settings, const lsdcd
 void FixWallLsdcd::rebuild(double wanted)
 {
   const double old = cutoff();
-  list_is_old = true;
+  schedule.expire();
   std::vector<MeshPart *> anew;
   for (MeshPart &m : parts)
     if (wanted != old || !m.wall.fits(m.box_seen(simulation_box()))) anew.push_back(&m);

@@ -21,7 +21,7 @@ void FixWallLsdcd::begin_motion(MeshPart &m)
   m.clock = {0, update->ntimestep, update->ntimestep, update->dt};
   m.surface = m.settings.surface;
   m.pose = m.settings.motion.pose_at(0);
-  list_is_old = true;
+  schedule.expire();
   check_motion(m);
 }
 

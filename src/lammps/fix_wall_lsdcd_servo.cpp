@@ -147,7 +147,7 @@ int FixWallLsdcd::modify_servo(MeshPart &m, const std::vector<std::string> &word
   m.gain_told = m.limit_told = false;
   servo_radius = 0;    // a run without setup looks then
   m.pose = m.settings.motion.pose_at(m.clock.now());
-  list_is_old = true;
+  schedule.expire();
   check_motion(m);
   make_engine_that_moves();
   show_servo();

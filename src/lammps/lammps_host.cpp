@@ -9,6 +9,11 @@
 
 using namespace LAMMPS_NS;
 
+void LammpsHost::sum(double *numbers, int n)
+{
+  MPI_Allreduce(MPI_IN_PLACE, numbers, n, MPI_DOUBLE, MPI_SUM, fix.world);
+}
+
 void LammpsHost::max(double *numbers, int n)
 {
   MPI_Allreduce(MPI_IN_PLACE, numbers, n, MPI_DOUBLE, MPI_MAX, fix.world);
@@ -51,6 +56,11 @@ double LammpsHost::radius_of_tag(std::int64_t tag)
   for (int i = 0; atom.tag_enable && i < atom.nlocal; i++)
     if (atom.tag[i] == tag) radius = atom.radius[i];
   return radius;
+}
+
+void LammpsHost::log(const std::string &text)
+{
+  fix.log(fix.signed_text(text));
 }
 
 void LammpsHost::warn(const std::string &text)

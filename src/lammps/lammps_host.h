@@ -10,12 +10,14 @@ class LammpsHost : public lsdcd::Host {
  public:
   explicit LammpsHost(class FixWallLsdcd &fix) : fix(fix) {}
 
+  void sum(double *, int) override;
   void max(double *, int) override;
   int max_rank(double &) override;
   void broadcast(void *, std::size_t, int) override;
   std::int64_t tag(int) override;
   std::int64_t highest_tag() override;
   double radius_of_tag(std::int64_t) override;
+  void log(const std::string &) override;
   void warn(const std::string &) override;
 
  private:

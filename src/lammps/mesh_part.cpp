@@ -77,12 +77,6 @@ void MeshPart::find_range(const lsdcd::PeriodicBox &box, int k, const lsdcd::Wal
   hi = range[1];
 }
 
-bool MeshPart::has_gone(double farther_than) const
-{
-  return settings.motion.any() &&
-         lsdcd::farthest_between(chosen_pose, pose, bounds(wall.cutoff())) > farther_than;
-}
-
 // It does where it moves across that edge and turns about nothing but it.
 bool MeshPart::keeps_edge(const lsdcd::PeriodicBox &box, int k) const
 {

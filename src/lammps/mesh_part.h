@@ -37,7 +37,7 @@ struct MeshPart {
   lsdcd::SharedWall wall;
 
   StepClock clock;                               // of its motion
-  lsdcd::WallPose pose, chosen_pose;             // of the step, and when near atoms were chosen
+  lsdcd::WallPose pose;                          // of the step
   lsdcd::SurfaceMotion surface;                  // of the step, where variables give it
   bool gain_told = false, limit_told = false;    // of a servo
 
@@ -67,9 +67,6 @@ struct MeshPart {
   // From where to where its vertices go along edge k of the box at a pose, as parts of the box. Collective.
   void find_range(const lsdcd::PeriodicBox &box, int k, const lsdcd::WallPose &at, double &lo,
                   double &hi);
-  // Has any point of it that a sphere can touch gone farther than this since near atoms were
-  // chosen?
-  bool has_gone(double farther_than) const;
   // Whether it looks the same from each of its images across the faces that edge k joins.
   bool keeps_edge(const lsdcd::PeriodicBox &box, int k) const;
   lsdcd::PeriodicBox box_seen(const lsdcd::PeriodicBox &box) const;    // from its own frame

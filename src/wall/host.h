@@ -16,6 +16,8 @@ class Host {
 
   // Collective.
 
+  // Each of the n numbers becomes the sum over all processes.
+  virtual void sum(Real *numbers, int n) = 0;
   // Each of the n numbers becomes the largest of all processes.
   virtual void max(Real *numbers, int n) = 0;
   // The number becomes the largest of all processes. Returns the lowest rank that has it.
@@ -28,6 +30,7 @@ class Host {
   virtual std::int64_t tag(int sphere) = 0;            // the ID of a sphere; 0: spheres have none
   virtual std::int64_t highest_tag() = 0;              // of its spheres; 0: none, or no IDs
   virtual Real radius_of_tag(std::int64_t tag) = 0;    // length; 0: this process has no such sphere
+  virtual void log(const std::string &text) = 0;       // shown once, by the first process
   virtual void warn(const std::string &text) = 0;      // shown once, by the first process
 };
 

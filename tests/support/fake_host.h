@@ -18,16 +18,18 @@ void on_processes(int n, const std::function<void(FakeHost &)> &work);
 class FakeHost : public Host {
  public:
   // What a test gives, and finds.
-  std::vector<std::int64_t> tags;    // of the spheres of this process
-  std::vector<Real> radii;           // of them
-  std::vector<std::string> warnings;
+  std::vector<std::int64_t> tags;              // of the spheres of this process
+  std::vector<Real> radii;                     // of them
+  std::vector<std::string> lines, warnings;    // of this process, whatever its rank
 
+  void sum(Real *numbers, int n) override;
   void max(Real *numbers, int n) override;
   int max_rank(Real &number) override;
   void broadcast(void *data, std::size_t bytes, int from) override;
   std::int64_t tag(int sphere) override { return tags.at(sphere); }
   std::int64_t highest_tag() override;
   Real radius_of_tag(std::int64_t tag) override;
+  void log(const std::string &text) override { lines.push_back(text); }
   void warn(const std::string &text) override { warnings.push_back(text); }
   int rank() const { return rank_; }
 

@@ -8,6 +8,16 @@
 namespace lsdcd {
 namespace {
 
+TEST(FakeHost, sums_the_numbers_of_all_processes)
+{
+  on_processes(2, [](FakeHost &host) {
+    Real numbers[2] = {host.rank() + 1.0, 4};
+    host.sum(numbers, 2);
+    EXPECT_EQ(numbers[0], 3);
+    EXPECT_EQ(numbers[1], 8);
+  });
+}
+
 TEST(FakeHost, finds_the_largest_numbers_of_all_processes)
 {
   on_processes(2, [](FakeHost &host) {
