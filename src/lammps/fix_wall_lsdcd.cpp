@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -82,11 +81,10 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   history = settings.law.has_history();
   springs = lsdcd::SpringStore(settings.law.n_extra());
   records = settings.has_loads();
+  loads = std::make_unique<lsdcd::LoadRecorder>(host, settings);
+  wall_files = std::make_unique<lsdcd::WallFiles>(host, settings, force->nktv2p);
   restart_global = 1;
-  // Of any file; end_of_step() knows which.
-  for (const MeshPart &m : parts)
-    files_every = std::gcd(files_every, std::gcd(m.settings.fields.every, m.settings.stl.every));
-  if (files_every > 0) nevery = files_every;
+  if (wall_files->every() > 0) nevery = wall_files->every();
   create_attribute = history || settings.contacts;
   restart_peratom = history;
   maxexchange_dynamic = history || settings.contacts;
@@ -153,7 +151,7 @@ int FixWallLsdcd::setmask()
 {
   // Where a fix asks for the end of steps, Kokkos's integrators no longer join two halves to one kernel.
   return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN | PRE_EXCHANGE |
-         (files_every > 0 ? END_OF_STEP : 0);
+         (wall_files->every() > 0 ? END_OF_STEP : 0);
 }
 
 void FixWallLsdcd::init()
@@ -171,13 +169,13 @@ void FixWallLsdcd::init()
   if (settings.law.has_heat()) check_heat();
   make_engine_with_virial();
   check_variables();
-  for (const MeshPart &m : parts) {
-    check_file(m, "mesh_fields", m.settings.fields);
-    check_file(m, "mesh_stl", m.settings.stl);
+  try {
+    wall_files->begin_run(update->ntimestep);
+  } catch (const lsdcd::InputError &e) {
+    refuse(e.what());
   }
   check_files_apart();
   check_doubled();
-  file_warned = false;
 }
 
 // Respa calls this once per level before setup(): the only way to its number of
@@ -283,6 +281,14 @@ void FixWallLsdcd::begin_step(bool look)
     may_be_new = true;
   }
   start();
+}
+
+void FixWallLsdcd::end_of_step()
+{
+  std::vector<lsdcd::PlacedMesh> meshes;
+  for (const MeshPart &m : parts) meshes.push_back({m.wall.mesh(), m.pose});
+  wall_files->write_due(update->ntimestep, static_cast<double>(run_clock.now()), meshes,
+                        rerun ? nullptr : loads.get());
 }
 
 void FixWallLsdcd::post_run()

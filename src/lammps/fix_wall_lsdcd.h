@@ -11,6 +11,7 @@
 #include "wall/choice_schedule.h"
 #include "wall/overlap_monitor.h"
 #include "wall/search_report.h"
+#include "wall/wall_files.h"
 
 #include <deque>
 #include <functional>
@@ -38,7 +39,7 @@ class FixWallLsdcd : public Fix {
   void pre_force(int) override;
   void post_force(int) override;
   void post_force_respa(int, int, int) override;
-  void end_of_step() override;    // fix_wall_lsdcd_files.cpp
+  void end_of_step() override;
   void post_run() override;
 
   // springs on the move and in restart files: fix_wall_lsdcd_exchange.cpp
@@ -80,8 +81,9 @@ class FixWallLsdcd : public Fix {
   std::unique_ptr<lsdcd::WallEngine> engine;
   lsdcd::SpringStore springs;
   bool history, records;
-  bool continued = false;      // from a restart file
-  bool file_warned = false;    // in this run
+  std::unique_ptr<lsdcd::LoadRecorder> loads;
+  std::unique_ptr<lsdcd::WallFiles> wall_files;
+  bool continued = false;    // from a restart file
   // Springs are with the engine from step to step, and here where LAMMPS moves atoms.
   enum class Where { host, engine };
   Where springs_are = Where::host;
@@ -99,7 +101,6 @@ class FixWallLsdcd : public Fix {
   int room = 0;                    // this wall's part of maxexchange
   bool running = false;            // between start and collect
   int nlevels_respa = 0;           // 0 under verlet
-  int files_every = 0;             // steps: some file of a mesh may be due; 0: there are none
 
   bool adapts = false;    // some fix changes radii: a step begins in post_force
   bool rigid = false;     // some rigid fix holds atoms: mass_seen replaces rmass
@@ -221,16 +222,9 @@ class FixWallLsdcd : public Fix {
 
   // fix_wall_lsdcd_loads.cpp
   void add_loads();
-  lsdcd::WallLoads gathered_loads(const MeshPart &) const;
   void add_restart_data(const MeshPart &, std::vector<double> &) const;
   void restart_part(MeshPart &, const std::vector<double> &, const std::vector<double> &,
                     const std::vector<double> &, bool);
-
-  // fix_wall_lsdcd_files.cpp
-  void check_file(const MeshPart &, const char *, const lsdcd::FileEvery &) const;
-  template <class Work>
-  bool try_to_write(const std::string &, const Work &);
-  void write_fields(MeshPart &);
 
   // fix_wall_lsdcd_others.cpp
   void check_files_apart() const;

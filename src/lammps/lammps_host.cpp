@@ -24,7 +24,7 @@ int LammpsHost::max_rank(double &number)
   struct {
     double value;
     int rank;
-  } most = {number, fix.comm->me};
+  } most = {number, rank()};
   MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, fix.world);
   number = most.value;
   return most.rank;
@@ -33,6 +33,29 @@ int LammpsHost::max_rank(double &number)
 void LammpsHost::broadcast(void *data, std::size_t bytes, int from)
 {
   lsdcd::broadcast_bytes(data, bytes, from, fix.world);
+}
+
+std::vector<double> LammpsHost::gather(const std::vector<double> &mine)
+{
+  const int nprocs = fix.comm->nprocs;
+  int n = static_cast<int>(mine.size());
+  std::vector<int> count(nprocs), first(nprocs, 0);
+  MPI_Gather(&n, 1, MPI_INT, count.data(), 1, MPI_INT, 0, fix.world);
+  for (int p = 1; p < nprocs; p++) first[p] = first[p - 1] + count[p - 1];
+  std::vector<double> all(rank() == 0 ? first.back() + count.back() : 0);
+  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), count.data(), first.data(), MPI_DOUBLE, 0,
+              fix.world);
+  return all;
+}
+
+void LammpsHost::fail_together(const std::string &error)
+{
+  lsdcd::throw_together(fix.world, error);
+}
+
+int LammpsHost::rank() const
+{
+  return fix.comm->me;
 }
 
 std::int64_t LammpsHost::tag(int sphere)

@@ -14,6 +14,9 @@ class LammpsHost : public lsdcd::Host {
   void max(double *, int) override;
   int max_rank(double &) override;
   void broadcast(void *, std::size_t, int) override;
+  std::vector<double> gather(const std::vector<double> &) override;
+  void fail_together(const std::string &) override;
+  int rank() const override;
   std::int64_t tag(int) override;
   std::int64_t highest_tag() override;
   double radius_of_tag(std::int64_t) override;

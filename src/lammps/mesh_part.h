@@ -5,8 +5,7 @@
 #include "lammps/mpi_wall.h"
 #include "lmptype.h"
 #include "mesh/point_tree.h"
-#include "output/file_series.h"
-#include "output/wall_loads.h"
+#include "output/mesh_image.h"
 
 #include <memory>
 #include <string>
@@ -41,9 +40,7 @@ struct MeshPart {
   lsdcd::SurfaceMotion surface;                  // of the step, where variables give it
   bool gain_told = false, limit_told = false;    // of a servo
 
-  lsdcd::WallLoads loads;
-  std::unique_ptr<lsdcd::FileSeries> series;    // of mesh_fields; on the first process
-  std::vector<lsdcd::Stroke> strokes;           // of its picture; likewise
+  std::vector<lsdcd::Stroke> strokes;    // of its picture; on the first process
 
   // Over all processes, of the last step: force, torque, contacts, largest overlap, uncertified.
   static constexpr int kTotals = 9;

@@ -1,5 +1,7 @@
 #include "support/fake_host.h"
 
+#include "base/input_error.h"
+
 #include <algorithm>
 #include <condition_variable>
 #include <cstring>
@@ -107,6 +109,20 @@ void FakeHost::broadcast(void *data, std::size_t bytes, int from)
   const std::vector<Bytes> all =
       meet("broadcast of " + std::to_string(bytes) + " from " + std::to_string(from), data, bytes);
   std::memcpy(data, all[from].data(), bytes);
+}
+
+std::vector<Real> FakeHost::gather(const std::vector<Real> &mine)
+{
+  std::vector<Real> all;
+  for (const std::vector<Real> &of_one : meet("gather", mine))
+    if (rank_ == 0) all.insert(all.end(), of_one.begin(), of_one.end());
+  return all;
+}
+
+void FakeHost::fail_together(const std::string &error)
+{
+  for (const Bytes &text : meet("fail_together", error.data(), error.size()))
+    if (!text.empty()) throw InputError(std::string(text.begin(), text.end()));
 }
 
 std::int64_t FakeHost::highest_tag()

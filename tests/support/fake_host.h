@@ -26,12 +26,14 @@ class FakeHost : public Host {
   void max(Real *numbers, int n) override;
   int max_rank(Real &number) override;
   void broadcast(void *data, std::size_t bytes, int from) override;
+  std::vector<Real> gather(const std::vector<Real> &mine) override;
+  void fail_together(const std::string &error) override;
+  int rank() const override { return rank_; }
   std::int64_t tag(int sphere) override { return tags.at(sphere); }
   std::int64_t highest_tag() override;
   Real radius_of_tag(std::int64_t tag) override;
   void log(const std::string &text) override { lines.push_back(text); }
   void warn(const std::string &text) override { warnings.push_back(text); }
-  int rank() const { return rank_; }
 
  private:
   friend void on_processes(int, const std::function<void(FakeHost &)> &);

@@ -1,4 +1,5 @@
 // The host of the wall's unit tests finds processes that would wait for each other forever.
+#include "base/input_error.h"
 #include "support/fake_host.h"
 
 #include <gtest/gtest.h>
@@ -44,6 +45,33 @@ TEST(FakeHost, hands_over_what_one_process_has)
     host.broadcast(&number, sizeof number, 1);
     EXPECT_EQ(number, 1);
   });
+}
+
+TEST(FakeHost, gathers_numbers_on_the_first_process)
+{
+  on_processes(2, [](FakeHost &host) {
+    const std::vector<Real> mine(host.rank() + 1, host.rank());
+    const std::vector<Real> all = {0, 1, 1};
+    EXPECT_EQ(host.gather(mine), host.rank() == 0 ? all : std::vector<Real>());
+  });
+}
+
+TEST(FakeHost, throws_an_error_of_one_process_on_all)
+{
+  on_processes(2, [](FakeHost &host) {
+    const auto fail = [] { throw std::runtime_error("no room"); };
+    try {
+      together(host, host.rank() == 1, fail);
+      FAIL() << "nothing is thrown";
+    } catch (const InputError &e) {
+      EXPECT_STREQ(e.what(), "no room");
+    }
+  });
+}
+
+TEST(FakeHost, throws_nothing_where_all_is_well)
+{
+  on_processes(2, [](FakeHost &host) { together(host, true, [] {}); });
 }
 
 TEST(FakeHost, refuses_a_call_that_one_process_does_not_make)
