@@ -67,10 +67,10 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     run_clock = {update->atime + (update->ntimestep - update->atimestep) * update->dt,
                  update->ntimestep, update->ntimestep, update->dt};
     for (std::size_t k = 0; k < settings.meshes.size(); k++) {
-      MeshPart &m = parts.emplace_back(world, settings, static_cast<int>(k));
+      MeshPart &m = parts.emplace_back(world, host, settings, static_cast<int>(k), step_now());
       check_side(m);
       check_plane(m);
-      begin_motion(m);
+      check_motion(m);
     }
 
     make_engine();
@@ -264,7 +264,7 @@ void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
 // `look`: may there be new spheres, or other radii?
 void FixWallLsdcd::begin_step(bool look)
 {
-  advance(run_clock);
+  run_clock.advance(step_now());
   move_wall();
   if (look)
     update_cutoff();
@@ -273,7 +273,7 @@ void FixWallLsdcd::begin_step(bool look)
   check_moving_box();
   check_gone();
   for (const MeshPart &m : parts)
-    if (engine_moves) engine->place_wall(m.pose, m.index);
+    if (engine_moves) engine->place_wall(m.motion.pose(), m.index);
   if (rigid) fill_masses();
   if (update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != checked_atoms))) {
     check_timestep();
@@ -286,7 +286,7 @@ void FixWallLsdcd::begin_step(bool look)
 void FixWallLsdcd::end_of_step()
 {
   std::vector<lsdcd::PlacedMesh> meshes;
-  for (const MeshPart &m : parts) meshes.push_back({m.wall.mesh(), m.pose});
+  for (const MeshPart &m : parts) meshes.push_back({m.wall.mesh(), m.motion.pose()});
   wall_files->write_due(update->ntimestep, static_cast<double>(run_clock.now()), meshes,
                         rerun ? nullptr : loads.get());
 }

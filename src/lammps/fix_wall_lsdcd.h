@@ -119,7 +119,7 @@ class FixWallLsdcd : public Fix {
   bigint box_rebuilds = 0;    // in this run, of grids for another box
 
   // Of the spheres; LAMMPS's own begins anew in some runs from a restart file.
-  StepClock run_clock;
+  lsdcd::StepClock run_clock;
   bool engine_moves = false;      // it has laws for a wall that moves
   bool engine_records = false;    // it keeps records of contacts
   // Of each mesh, for the engine.
@@ -186,12 +186,8 @@ class FixWallLsdcd : public Fix {
   void tune(double);
 
   // fix_wall_lsdcd_motion.cpp
-  void begin_motion(MeshPart &);
-  void advance(StepClock &) const;
+  lsdcd::Step step_now() const;
   void move_wall();
-  int variable_of(const std::string &) const;
-  double value_of(const std::string &) const;
-  void evaluate_variables(MeshPart &, double);
   void check_variables() const;
   void check_moving_box(MeshPart &, const lsdcd::WallPose &, bool) const;
   void check_moving_box();
@@ -199,22 +195,18 @@ class FixWallLsdcd : public Fix {
 
   // fix_wall_lsdcd_modify.cpp
   int modify_motion(MeshPart &, const std::vector<std::string> &);
-  void make_engine_that_moves();
-  void restart_motion(MeshPart &, const std::vector<double> &);
+  int modify_servo(MeshPart &, const std::vector<std::string> &);
+  void motion_has_changed(const MeshPart &);
 
   // fix_wall_lsdcd_servo.cpp
-  double servo_push(const MeshPart &);
+  lsdcd::ServoLoad servo_load(const MeshPart &);
   void look_at_servo_spheres();
-  double stable_gain(const MeshPart &, double);
   void advance_servo(MeshPart &, double);
   double servo_output(const MeshPart &, int);
-  void check_limits(const MeshPart &, const std::string &) const;
   void show_servo();
-  int modify_servo(MeshPart &, const std::vector<std::string> &);
 
   // fix_wall_lsdcd_rerun.cpp
   void begin_snapshot();
-  void check_snapshot(const MeshPart &) const;
 
   // fix_wall_lsdcd_virial.cpp
   void make_engine_with_virial();

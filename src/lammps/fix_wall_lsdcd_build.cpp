@@ -23,7 +23,7 @@ lsdcd::EngineSettings FixWallLsdcd::engine_settings() const
   want.meshes = static_cast<int>(parts.size());
   want.moves = several();
   for (const MeshPart &m : parts) {
-    want.moves |= m.moves_or_varies();
+    want.moves |= m.motion.moves_or_varies();
     if (!want.surface.moves()) want.surface = m.settings.surface;
   }
   want.records = settings.has_loads() || thermo_virial;

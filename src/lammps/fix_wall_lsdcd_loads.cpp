@@ -2,6 +2,7 @@
 
 #include "lammps/fix_wall_lsdcd.h"
 
+#include "base/input_error.h"
 #include "law/spring_kind.h"
 
 #include "atom.h"
@@ -45,7 +46,7 @@ void FixWallLsdcd::add_restart_data(const MeshPart &m, std::vector<double> &data
   if (comm->me != 0) return;
   const lsdcd::MeshReport &r = m.wall.report();
   const std::vector<double> rows = all.packed();
-  const std::vector<double> motion = m.motion_data();
+  const std::vector<double> motion = m.motion.state();
   data.push_back(double(motion.size()));
   data.insert(data.end(), motion.begin(), motion.end());
   data.insert(data.end(),
@@ -118,7 +119,12 @@ void FixWallLsdcd::restart_part(MeshPart &m, const std::vector<double> &motion,
                "another mesh in this place, or by an earlier version of this fix"));
     return;
   }
-  restart_motion(m, motion);
+  try {
+    m.motion.restore(motion, step_now());
+  } catch (const lsdcd::InputError &e) {
+    refuse(e.what());
+  }
+  motion_has_changed(m);
   if (!settings.has_loads(m.settings)) return;
   if (other) {
     warn("loads and wear begin at zero: the restart file was written with another mesh, or by an "

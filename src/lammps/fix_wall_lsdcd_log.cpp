@@ -37,7 +37,7 @@ void FixWallLsdcd::log_creation() const
       const char *label;
       std::string text;
     } lines[] = {{"placement   ", m.settings.placement_tokens},
-                 {"motion      ", m.motion_text()},
+                 {"motion      ", m.motion.text(m.bounds(0))},
                  {"servo       ", m.settings.servo_tokens}};
     for (const auto &line : lines)
       if (!line.text.empty()) t += "\n  " + (line.label + line.text);

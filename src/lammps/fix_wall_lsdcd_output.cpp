@@ -146,7 +146,7 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
       if (first) m.strokes = lsdcd::draw_mesh(*m.wall.mesh(), settings.draw);
       for (lsdcd::Stroke s : m.strokes) {
         lsdcd::Vec3 centre = {0, 0, 0};
-        for (lsdcd::Vec3 &c : s.corner) c = m.pose.to_box(c);
+        for (lsdcd::Vec3 &c : s.corner) c = m.motion.pose().to_box(c);
         for (int k = 0; k < corners; k++) centre += (1.0 / corners) * s.corner[k];
         if (settings.cut && dot(settings.cut_normal, centre) > settings.cut_offset) continue;
         image_data.push_back(settings.draw_type);

@@ -21,7 +21,7 @@ lsdcd::StepSettings FixWallLsdcd::step_settings(lsdcd::Spheres &spheres)
   step.records = records || vflag_global;
   if (several() || parts.front().settings.surface_varies()) {
     surfaces.clear();
-    for (const MeshPart &m : parts) surfaces.push_back(m.surface);
+    for (const MeshPart &m : parts) surfaces.push_back(m.motion.surface());
     step.surface = surfaces.data();
   }
   if (settings.law.has_heat()) give_heat(spheres, step);
@@ -65,7 +65,7 @@ void FixWallLsdcd::choose_if_due(const lsdcd::Spheres &s)
   if (history) springs_to_engine();
   std::vector<lsdcd::MovingMesh> moving;
   for (const MeshPart &m : parts)
-    if (m.settings.motion.any()) moving.push_back({m.pose, m.bounds(cutoff())});
+    if (m.settings.motion.any()) moving.push_back({m.motion.pose(), m.bounds(cutoff())});
   const lsdcd::Choice choice =
       schedule.next(sphere_drift(), moving, [&] { return engine->has_moved(s); });
   if (!choice.is_due) return;

@@ -38,7 +38,7 @@ void FixWallLsdcd::tune(double cutoff)
     const std::uint64_t tag = atom->tag ? atom->tag[i] : i;
     if (share < 1 && scattered(tag) >= share * 18446744073709551615.0) continue;
     const double *x = atom->x[i];
-    chosen.push_back({tag, m.pose.to_mesh({x[0], x[1], x[2]}), atom->radius[i]});
+    chosen.push_back({tag, m.motion.pose().to_mesh({x[0], x[1], x[2]}), atom->radius[i]});
   }
   m.wall.tune(cutoff, m.box_seen(simulation_box()), chosen);
   const lsdcd::WallSettings &tuned = m.wall.settings();

@@ -1,11 +1,17 @@
 #include "lammps/lammps_host.h"
 
+#include "base/input_words.h"
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "atom.h"
 #include "comm.h"
+#include "input.h"
+#include "modify.h"
+#include "update.h"
+#include "variable.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 
@@ -51,6 +57,35 @@ std::vector<double> LammpsHost::gather(const std::vector<double> &mine)
 void LammpsHost::fail_together(const std::string &error)
 {
   lsdcd::throw_together(fix.world, error);
+}
+
+int LammpsHost::find_variable(const std::string &name) const
+{
+  Variable &all = *fix.input->variable;
+  const int variable = all.find(name.c_str());
+  if (variable < 0) fix.refuse("there is no variable '" + name + "', which the wall reads");
+  if (!all.equalstyle(variable))
+    fix.refuse("variable '" + name + "', which the wall reads, is not of style equal");
+  return variable;
+}
+
+// Equal-style variables are the same on all processes. A variable's computes keep their values until
+// they are cleared. Where one is no number nothing would touch the wall, or a servo would run away.
+std::vector<double> LammpsHost::variables(const std::vector<std::string> &names)
+{
+  std::vector<double> values;
+  if (names.empty()) return values;
+  fix.modify->clearstep_compute();
+  for (const std::string &name : names) {
+    values.push_back(fix.input->variable->compute_equal(find_variable(name)));
+    if (!std::isfinite(values.back()))
+      fix.refuse("variable '" + name + "', which the wall reads, is " +
+                 lsdcd::number_text(values.back()) + " in step " +
+                 std::to_string(fix.update->ntimestep) +
+                 ": it must be a finite number in every step");
+  }
+  fix.modify->addstep_compute(fix.update->ntimestep + 1);
+  return values;
 }
 
 int LammpsHost::rank() const

@@ -32,6 +32,10 @@ class Host {
   // Throws InputError on all processes if a text is not empty: that of the lowest such rank.
   virtual void fail_together(const std::string &error) = 0;
 
+  // Values of the program's variables with these names in this step, in this order: finite, and the
+  // same on all processes. The program ends the run where there is no such variable or number.
+  virtual std::vector<Real> variables(const std::vector<std::string> &names) = 0;
+
   // Of this process alone. Spheres are counted from 0, in the order of the last step.
 
   virtual int rank() const = 0;                        // from 0, which is the first process

@@ -125,6 +125,13 @@ void FakeHost::fail_together(const std::string &error)
     if (!text.empty()) throw InputError(std::string(text.begin(), text.end()));
 }
 
+std::vector<Real> FakeHost::variables(const std::vector<std::string> &names)
+{
+  std::vector<Real> all;
+  for (const std::string &name : names) all.push_back(values.at(name));
+  return all;
+}
+
 std::int64_t FakeHost::highest_tag()
 {
   return tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end());

@@ -4,6 +4,7 @@
 #include "wall/host.h"
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ class FakeHost : public Host {
   // What a test gives, and finds.
   std::vector<std::int64_t> tags;              // of the spheres of this process
   std::vector<Real> radii;                     // of them
+  std::map<std::string, Real> values;          // of variables
   std::vector<std::string> lines, warnings;    // of this process, whatever its rank
 
   void sum(Real *numbers, int n) override;
@@ -28,6 +30,7 @@ class FakeHost : public Host {
   void broadcast(void *data, std::size_t bytes, int from) override;
   std::vector<Real> gather(const std::vector<Real> &mine) override;
   void fail_together(const std::string &error) override;
+  std::vector<Real> variables(const std::vector<std::string> &names) override;
   int rank() const override { return rank_; }
   std::int64_t tag(int sphere) override { return tags.at(sphere); }
   std::int64_t highest_tag() override;
