@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -68,10 +67,10 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     run_clock = {update->atime + (update->ntimestep - update->atimestep) * update->dt,
                  update->ntimestep, update->ntimestep, update->dt};
     for (std::size_t k = 0; k < settings.meshes.size(); k++) {
-      MeshPart &m = parts.emplace_back(world, settings, static_cast<int>(k));
+      MeshPart &m = parts.emplace_back(world, host, settings, static_cast<int>(k), step_now());
       check_side(m);
       check_plane(m);
-      begin_motion(m);
+      check_motion(m);
     }
 
     make_engine();
@@ -82,11 +81,10 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   history = settings.law.has_history();
   springs = lsdcd::SpringStore(settings.law.n_extra());
   records = settings.has_loads();
+  loads = std::make_unique<lsdcd::LoadRecorder>(host, settings);
+  wall_files = std::make_unique<lsdcd::WallFiles>(host, settings, force->nktv2p);
   restart_global = 1;
-  // Of any file; end_of_step() knows which.
-  for (const MeshPart &m : parts)
-    files_every = std::gcd(files_every, std::gcd(m.settings.fields.every, m.settings.stl.every));
-  if (files_every > 0) nevery = files_every;
+  if (wall_files->every() > 0) nevery = wall_files->every();
   create_attribute = history || settings.contacts;
   restart_peratom = history;
   maxexchange_dynamic = history || settings.contacts;
@@ -153,7 +151,7 @@ int FixWallLsdcd::setmask()
 {
   // Where a fix asks for the end of steps, Kokkos's integrators no longer join two halves to one kernel.
   return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN | PRE_EXCHANGE |
-         (files_every > 0 ? END_OF_STEP : 0);
+         (wall_files->every() > 0 ? END_OF_STEP : 0);
 }
 
 void FixWallLsdcd::init()
@@ -171,13 +169,13 @@ void FixWallLsdcd::init()
   if (settings.law.has_heat()) check_heat();
   make_engine_with_virial();
   check_variables();
-  for (const MeshPart &m : parts) {
-    check_file(m, "mesh_fields", m.settings.fields);
-    check_file(m, "mesh_stl", m.settings.stl);
+  try {
+    wall_files->begin_run(update->ntimestep);
+  } catch (const lsdcd::InputError &e) {
+    refuse(e.what());
   }
   check_files_apart();
   check_doubled();
-  file_warned = false;
 }
 
 // Respa calls this once per level before setup(): the only way to its number of
@@ -190,7 +188,7 @@ void FixWallLsdcd::setup_pre_force_respa(int /*vflag*/, int ilevel)
 void FixWallLsdcd::setup(int vflag)
 {
   v_init(vflag);
-  list_is_old = true;
+  schedule.expire();
   set_up_at = update->ntimestep;
   rerun = watch.sees_snapshot(*update);
   if (rerun) begin_snapshot();
@@ -203,7 +201,7 @@ void FixWallLsdcd::setup(int vflag)
   if (nlevels_respa) respa->copy_flevel_f(outer);
   begin_step(true);
   collect();
-  check_inserted();
+  check_new_spheres();
   if (nlevels_respa) respa->copy_f_flevel(outer);
 }
 
@@ -242,7 +240,7 @@ void FixWallLsdcd::pre_force(int vflag)
   const bool anew = neighbor->ago == 0 ||
                     (update->ntimestep == update->firststep + 1 && set_up_at != update->firststep);
   if (anew || adapts) {
-    list_is_old = true;
+    schedule.expire();
     prepare_springs();
   }
   if (!adapts) begin_step(anew);
@@ -253,7 +251,7 @@ void FixWallLsdcd::post_force(int /*vflag*/)
 {
   if (adapts) begin_step(true);
   collect();
-  check_inserted();
+  check_new_spheres();
 }
 
 void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
@@ -266,7 +264,7 @@ void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
 // `look`: may there be new spheres, or other radii?
 void FixWallLsdcd::begin_step(bool look)
 {
-  advance(run_clock);
+  run_clock.advance(step_now());
   move_wall();
   if (look)
     update_cutoff();
@@ -275,7 +273,7 @@ void FixWallLsdcd::begin_step(bool look)
   check_moving_box();
   check_gone();
   for (const MeshPart &m : parts)
-    if (engine_moves) engine->place_wall(m.pose, m.index);
+    if (engine_moves) engine->place_wall(m.motion.pose(), m.index);
   if (rigid) fill_masses();
   if (update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != checked_atoms))) {
     check_timestep();
@@ -285,14 +283,25 @@ void FixWallLsdcd::begin_step(bool look)
   start();
 }
 
+void FixWallLsdcd::end_of_step()
+{
+  std::vector<lsdcd::PlacedMesh> meshes;
+  for (const MeshPart &m : parts) meshes.push_back({m.wall.mesh(), m.motion.pose()});
+  wall_files->write_due(update->ntimestep, static_cast<double>(run_clock.now()), meshes,
+                        rerun ? nullptr : loads.get());
+}
+
 void FixWallLsdcd::post_run()
 {
   look();
-  double worst = worst_overlap;
-  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, world);
-  check_overlap(worst);
+  double worst = overlaps.worst();
+  host.max(&worst, 1);
+  overlaps.check_sunk(worst);
   check_wrapping();
   log_rebuilds();
-  log_lists();
-  if (settings.nearest > 0) log_uncertified();
+  search.end_run(settings.brief,
+                 sphere_drift().kind == lsdcd::SphereDrift::bounded
+                     ? ""
+                     : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)");
+  if (settings.nearest > 0) search.log_uncertified(settings.nearest, settings.brief);
 }

@@ -5,8 +5,13 @@
 #include "fix.h"
 
 #include "input/deck_files.h"
+#include "lammps/lammps_host.h"
 #include "lammps/mesh_part.h"
 #include "lammps/rerun_watch.h"
+#include "wall/choice_schedule.h"
+#include "wall/overlap_monitor.h"
+#include "wall/search_report.h"
+#include "wall/wall_files.h"
 
 #include <deque>
 #include <functional>
@@ -34,7 +39,7 @@ class FixWallLsdcd : public Fix {
   void pre_force(int) override;
   void post_force(int) override;
   void post_force_respa(int, int, int) override;
-  void end_of_step() override;    // fix_wall_lsdcd_files.cpp
+  void end_of_step() override;
   void post_run() override;
 
   // springs on the move and in restart files: fix_wall_lsdcd_exchange.cpp
@@ -66,6 +71,8 @@ class FixWallLsdcd : public Fix {
   std::vector<lsdcd::DeckFile> files() const;    // that it reads and writes
 
  protected:
+  friend class LammpsHost;
+  LammpsHost host = LammpsHost(*this);
   lsdcd::WallSettings settings;    // of the deck; parts have those of its meshes
   std::string material;            // what a material file filled in, for the log; else empty
   std::string material_file;       // as the deck names it
@@ -74,19 +81,18 @@ class FixWallLsdcd : public Fix {
   std::unique_ptr<lsdcd::WallEngine> engine;
   lsdcd::SpringStore springs;
   bool history, records;
-  bool continued = false;      // from a restart file
-  bool file_warned = false;    // in this run
+  std::unique_ptr<lsdcd::LoadRecorder> loads;
+  std::unique_ptr<lsdcd::WallFiles> wall_files;
+  bool continued = false;    // from a restart file
   // Springs are with the engine from step to step, and here where LAMMPS moves atoms.
   enum class Where { host, engine };
   Where springs_are = Where::host;
-  int n_with_springs = 0;     // atoms whose springs are with the engine
-  bool list_is_old = true;    // of near atoms
+  int n_with_springs = 0;    // atoms whose springs are with the engine
+  lsdcd::ChoiceSchedule schedule;
   RerunWatch watch;
-  bool rerun = false;         // this is a snapshot of one
-  bool rerun_told = false;    // what is not known there
-  bigint set_up_at = -1;      // the step in which a run was set up
-  bigint steps_run = 0, setups = 0, choices = 0, lists = 0, listed = 0,
-         by_cells = 0;             // in this run
+  bool rerun = false;              // this is a snapshot of one
+  bool rerun_told = false;         // what is not known there
+  bigint set_up_at = -1;           // the step in which a run was set up
   bool callbacks = false;          // registered with Atom
   bool springs_checked = false;    // against this mesh: they may come from a restart file
   int kind_in_file = -1;           // ContactLaw::history_kind()
@@ -94,38 +100,25 @@ class FixWallLsdcd : public Fix {
   int room = 0;                    // this wall's part of maxexchange
   bool running = false;            // between start and collect
   int nlevels_respa = 0;           // 0 under verlet
-  int files_every = 0;             // steps: some file of a mesh may be due; 0: there are none
 
   bool adapts = false;    // some fix changes radii: a step begins in post_force
   bool rigid = false;     // some rigid fix holds atoms: mass_seen replaces rmass
   std::vector<double> mass_seen;
 
-  static constexpr double kLargeOverlap = 0.1;    // of a radius; past it there is a warning
-  static constexpr double kWorse = 1.1;           // what is warned of again
-  double worst_overlap = 0;    // overlap / radius since the last look, on this process
-  tagint worst_tag = 0;
-  bigint worst_step = 0;
-  bigint uncertified_sum = 0;    // answers not certified so far, on this process
-  double worst_uncertain = 0;    // overlap / radius that they may have missed
-  bigint uncertified_due = 0;    // told from here on
-  double worst_uncertain_due = 0;
-  bool overlap_warned = false, wall_in_minimize_warned = false, points_warned = false;
+  lsdcd::OverlapMonitor overlaps = lsdcd::OverlapMonitor(host);
+  lsdcd::SearchReport search = lsdcd::SearchReport(host);
+  bool wall_in_minimize_warned = false, points_warned = false;
   bool doubled_warned = false;
-  bigint checked_atoms = -1;                // how many there were when the timestep was checked
-  bool may_be_new = false;                  // since then
-  tagint highest_tag = -1;                  // of atoms that are not new; -1: not looked yet
-  double worst_inserted = kLargeOverlap;    // overlap / radius of a new atom warned of
-  // The last atoms of which some came to be in the wall; 0 once none is deep in it.
-  tagint placed_after = 0, placed_until = 0;
-  double placed_overlap = 0;
-  double worst_dt = 1;    // the largest warned of, over what there should be
+  bigint checked_atoms = -1;    // how many there were when the timestep was checked
+  bool may_be_new = false;      // spheres, since then
+  double worst_dt = 1;          // the largest warned of, over what there should be
 
   double farthest_out = 0;    // past a face of the box that spheres were seen to go, and more
   bool out_warned = false;
   bigint box_rebuilds = 0;    // in this run, of grids for another box
 
   // Of the spheres; LAMMPS's own begins anew in some runs from a restart file.
-  StepClock run_clock;
+  lsdcd::StepClock run_clock;
   bool engine_moves = false;      // it has laws for a wall that moves
   bool engine_records = false;    // it keeps records of contacts
   // Of each mesh, for the engine.
@@ -159,10 +152,10 @@ class FixWallLsdcd : public Fix {
   void keep_outputs();
   void begin_step(bool);
   void choose_if_due(const lsdcd::Spheres &);
-  bool list_keeps() const;
+  lsdcd::SphereDrift sphere_drift() const;
   lsdcd::StepDiagnostics read_notes();
-  void look();    // fix_wall_lsdcd_overlaps.cpp
-  void log_lists();
+  void look();
+  void check_new_spheres();
   void prepare_springs();
   void springs_to_host();
   void springs_to_engine();
@@ -190,12 +183,8 @@ class FixWallLsdcd : public Fix {
   void rebuild(double);
 
   // fix_wall_lsdcd_motion.cpp
-  void begin_motion(MeshPart &);
-  void advance(StepClock &) const;
+  lsdcd::Step step_now() const;
   void move_wall();
-  int variable_of(const std::string &) const;
-  double value_of(const std::string &) const;
-  void evaluate_variables(MeshPart &, double);
   void check_variables() const;
   void check_moving_box(MeshPart &, const lsdcd::WallPose &, bool) const;
   void check_moving_box();
@@ -203,22 +192,18 @@ class FixWallLsdcd : public Fix {
 
   // fix_wall_lsdcd_modify.cpp
   int modify_motion(MeshPart &, const std::vector<std::string> &);
-  void make_engine_that_moves();
-  void restart_motion(MeshPart &, const std::vector<double> &);
+  int modify_servo(MeshPart &, const std::vector<std::string> &);
+  void motion_has_changed(const MeshPart &);
 
   // fix_wall_lsdcd_servo.cpp
-  double servo_push(const MeshPart &);
+  lsdcd::ServoLoad servo_load(const MeshPart &);
   void look_at_servo_spheres();
-  double stable_gain(const MeshPart &, double);
   void advance_servo(MeshPart &, double);
   double servo_output(const MeshPart &, int);
-  void check_limits(const MeshPart &, const std::string &) const;
   void show_servo();
-  int modify_servo(MeshPart &, const std::vector<std::string> &);
 
   // fix_wall_lsdcd_rerun.cpp
   void begin_snapshot();
-  void check_snapshot(const MeshPart &) const;
 
   // fix_wall_lsdcd_virial.cpp
   void make_engine_with_virial();
@@ -226,23 +211,9 @@ class FixWallLsdcd : public Fix {
 
   // fix_wall_lsdcd_loads.cpp
   void add_loads();
-  lsdcd::WallLoads gathered_loads(const MeshPart &) const;
   void add_restart_data(const MeshPart &, std::vector<double> &) const;
   void restart_part(MeshPart &, const std::vector<double> &, const std::vector<double> &,
                     const std::vector<double> &, bool);
-
-  // fix_wall_lsdcd_files.cpp
-  void check_file(const MeshPart &, const char *, const lsdcd::FileEvery &) const;
-  template <class Work>
-  bool try_to_write(const std::string &, const Work &);
-  void write_fields(MeshPart &);
-
-  // fix_wall_lsdcd_overlaps.cpp
-  void note_overlap(const lsdcd::StepDiagnostics &);
-  void check_overlap(double);
-  void check_inserted();
-  double radius_of(tagint);
-  std::string overlap_text(double, tagint);
 
   // fix_wall_lsdcd_others.cpp
   void check_files_apart() const;
@@ -275,7 +246,6 @@ class FixWallLsdcd : public Fix {
   void check_timestep();
   void check_springs();
   double contact_time(double, double) const;
-  void log_uncertified();
   void log_creation() const;
   std::function<void(const std::string &)> build_progress(const MeshPart &) const;
   void log_build(const MeshPart &, double) const;

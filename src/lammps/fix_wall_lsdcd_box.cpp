@@ -74,7 +74,7 @@ void FixWallLsdcd::check_gone()
 {
   for (MeshPart &m : parts) {
     if (!m.settings.motion.any() || m.gone_warned) continue;
-    const lsdcd::Box now = lsdcd::placed_bounds(m.pose, m.bounds(0));
+    const lsdcd::Box now = lsdcd::placed_bounds(m.motion.pose(), m.bounds(0));
     const bool in_box = lsdcd::outside_box(now, *domain, cutoff()).empty();
     m.was_in_box |= in_box;
     if (in_box || !m.was_in_box) continue;

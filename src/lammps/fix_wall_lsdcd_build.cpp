@@ -23,7 +23,7 @@ lsdcd::EngineSettings FixWallLsdcd::engine_settings() const
   want.meshes = static_cast<int>(parts.size());
   want.moves = several();
   for (const MeshPart &m : parts) {
-    want.moves |= m.moves_or_varies();
+    want.moves |= m.motion.moves_or_varies();
     if (!want.surface.moves()) want.surface = m.settings.surface;
   }
   want.records = settings.has_loads() || thermo_virial;
@@ -50,16 +50,16 @@ void FixWallLsdcd::make_engine_anew()
   make_engine();
   for (const MeshPart &m : parts)
     if (cutoff() > 0) give_grid(m);
-  list_is_old = true;
+  schedule.expire();
 }
 
 // Builds the grid when the first spheres come, and again when larger ones do or the box has
 // changed.
 void FixWallLsdcd::update_cutoff()
 {
-  double most[2] = {largest_radius(), worst_overlap};
+  double most[2] = {largest_radius(), overlaps.worst()};
   MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
-  check_overlap(most[1]);
+  overlaps.check_sunk(most[1]);
 
   const double radius = most[0], old = cutoff();
   const auto cutoff_of = [this](double r) { return lsdcd::cutoff_of(settings.law, r); };
@@ -111,7 +111,7 @@ static double pull_off_rounding(const lsdcd::WallSettings &settings, const lsdcd
 void FixWallLsdcd::rebuild(double wanted)
 {
   const double old = cutoff();
-  list_is_old = true;
+  schedule.expire();
   std::vector<MeshPart *> anew;
   for (MeshPart &m : parts)
     if (wanted != old || !m.wall.fits(m.box_seen(simulation_box()))) anew.push_back(&m);

@@ -6,6 +6,7 @@
 #include "contact/faces_pushed.h"
 #include "engine/results/sphere_error.h"
 #include "mesh/plane_cut.h"
+#include "wall/mesh_name.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -22,6 +23,7 @@ using namespace LAMMPS_NS;
 using lsdcd::number_text;
 
 static constexpr double kStepsPerContact = 10;
+static constexpr double kWorse = 1.1;    // times what was warned of: warned of again
 
 std::string FixWallLsdcd::signed_text(const std::string &text) const
 {
@@ -30,8 +32,7 @@ std::string FixWallLsdcd::signed_text(const std::string &text) const
 
 std::string FixWallLsdcd::of(const MeshPart &m, const std::string &text) const
 {
-  if (settings.meshes.size() == 1) return text;
-  return "mesh " + std::to_string(m.index + 1) + " '" + m.settings.file + "': " + text;
+  return lsdcd::with_mesh_name(settings, m.index, text);
 }
 
 void FixWallLsdcd::refuse(const std::string &problem) const

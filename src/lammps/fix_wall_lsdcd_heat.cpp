@@ -4,10 +4,6 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "atom.h"
-#include "modify.h"
-#include "update.h"
-
-#include <algorithm>
 
 using namespace LAMMPS_NS;
 
@@ -33,17 +29,15 @@ void FixWallLsdcd::give_heat(lsdcd::Spheres &spheres, lsdcd::StepSettings &step)
 #else
   (void) spheres;
 #endif
-  const bool varies = std::any_of(parts.begin(), parts.end(), [](const MeshPart &m) {
-    return !m.settings.temperature_variable.empty();
-  });
-  // A variable's computes keep their values until they are cleared.
-  if (varies) modify->clearstep_compute();
+  std::vector<std::string> names;
+  for (const MeshPart &m : parts)
+    if (!m.settings.temperature_variable.empty()) names.push_back(m.settings.temperature_variable);
+  const std::vector<double> values = host.variables(names);
+  auto next = values.begin();
   temperatures.clear();
   for (const MeshPart &m : parts)
-    temperatures.push_back(m.settings.temperature_variable.empty()
-                               ? m.settings.temperature
-                               : value_of(m.settings.temperature_variable));
-  if (varies) modify->addstep_compute(update->ntimestep + 1);
+    temperatures.push_back(m.settings.temperature_variable.empty() ? m.settings.temperature
+                                                                   : *next++);
   step.wall_temperature = temperatures.front();
   if (several()) step.mesh_temperature = temperatures.data();
 }

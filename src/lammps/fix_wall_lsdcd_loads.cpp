@@ -2,6 +2,7 @@
 
 #include "lammps/fix_wall_lsdcd.h"
 
+#include "base/input_error.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -31,38 +32,19 @@ void FixWallLsdcd::add_loads()
 {
   if (update->setupflag) return;
   const bool any = cutoff() > 0;
-  for (MeshPart &m : parts)
-    if (settings.has_loads(m.settings))
-      m.loads.add(any ? engine->records() : nullptr, any ? engine->n_records() : 0, update->dt,
-                  settings.wear.per_work, any ? m.wall.view().wall : lsdcd::WallFeaturesView(),
-                  m.index);
-}
-
-// Of all processes, on the first one; the others get none. Collective.
-WallLoads FixWallLsdcd::gathered_loads(const MeshPart &m) const
-{
-  const std::vector<double> mine = m.loads.packed();
-  int n = static_cast<int>(mine.size());
-  std::vector<int> count(comm->nprocs), first(comm->nprocs, 0);
-  MPI_Gather(&n, 1, MPI_INT, count.data(), 1, MPI_INT, 0, world);
-  for (int p = 1; p < comm->nprocs; p++) first[p] = first[p - 1] + count[p - 1];
-  std::vector<double> rows(comm->me == 0 ? first.back() + count.back() : 0);
-  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, rows.data(), count.data(), first.data(), MPI_DOUBLE, 0,
-              world);
-  WallLoads all;
-  all.set_time(m.loads.time());
-  all.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
-  return all;
+  for (const MeshPart &m : parts)
+    loads->add(m.index, any ? engine->records() : nullptr, any ? engine->n_records() : 0,
+               update->dt, any ? m.wall.view().wall : lsdcd::WallFeaturesView());
 }
 
 // On the first process. Collective.
 void FixWallLsdcd::add_restart_data(const MeshPart &m, std::vector<double> &data) const
 {
-  const WallLoads all = gathered_loads(m);
+  const WallLoads all = loads->gathered(m.index);
   if (comm->me != 0) return;
   const lsdcd::MeshReport &r = m.wall.report();
   const std::vector<double> rows = all.packed();
-  const std::vector<double> motion = m.motion_data();
+  const std::vector<double> motion = m.motion.state();
   data.push_back(double(motion.size()));
   data.insert(data.end(), motion.begin(), motion.end());
   data.insert(data.end(),
@@ -86,6 +68,7 @@ void FixWallLsdcd::write_restart(FILE *file)
 void FixWallLsdcd::restart(char *buffer)
 {
   continued = true;
+  wall_files->continue_lists();
   const auto take = [&buffer](double count) {
     std::vector<double> numbers(static_cast<std::size_t>(count));
     std::memcpy(numbers.data(), buffer, numbers.size() * sizeof(double));
@@ -132,12 +115,16 @@ void FixWallLsdcd::restart_part(MeshPart &m, const std::vector<double> &motion,
                "another mesh in this place"));
     return;
   }
-  restart_motion(m, motion);
+  try {
+    m.motion.restore(motion, step_now());
+  } catch (const lsdcd::InputError &e) {
+    refuse(e.what());
+  }
+  motion_has_changed(m);
   if (!settings.has_loads(m.settings)) return;
   if (other) {
     warn("loads and wear begin at zero: the restart file was written with another mesh");
     return;
   }
-  m.loads.set_time(header[0]);
-  if (comm->me == 0) m.loads.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
+  loads->restore(m.index, header[0], rows);
 }

@@ -15,53 +15,6 @@
 using namespace LAMMPS_NS;
 using lsdcd::number_text;
 
-static std::string counted(bigint n, const std::string &what)
-{
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
-// How often near atoms were chosen and lists of the wall made in this run. Collective.
-void FixWallLsdcd::log_lists()
-{
-  bigint sum[3] = {lists, listed, by_cells};
-  MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (steps_run + setups > 0 && !settings.brief) {
-    std::string t = signed_text(counted(steps_run, "step") + (setups > 0 ? " and the setup" : "") +
-                                ": atoms near the wall chosen " + counted(choices, "time"));
-    if (!list_keeps()) t += " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
-    if (sum[0] > 0) {
-      char features[32];
-      std::snprintf(features, sizeof features, "%.2f", static_cast<double>(sum[1]) / sum[0]);
-      t += ", wall neighbor lists made " + counted(sum[0], "time") + ", " + features +
-           " mesh features each";
-    }
-    if (sum[2] > 0) t += ", a grid cell searched instead " + counted(sum[2], "time");
-    log(t);
-  }
-  steps_run = setups = choices = lists = listed = by_cells = 0;
-}
-
-// What nearest lists may have cost so far: after the first run, and when it has grown much since
-// it was told. `run ... every` comes here at every pause. Collective.
-void FixWallLsdcd::log_uncertified()
-{
-  bigint sum = 0;
-  double worst = 0;
-  MPI_Allreduce(&uncertified_sum, &sum, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  MPI_Allreduce(&worst_uncertain, &worst, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (sum < uncertified_due && worst < worst_uncertain_due) return;
-  uncertified_due = std::max<bigint>(1, 10 * sum);
-  worst_uncertain_due = worst > 0 ? 2 * worst : INFINITY;
-  if (settings.brief && sum == 0) return;
-  std::string t = signed_text("nearest " + std::to_string(settings.nearest) + ": " +
-                              std::to_string(sum) + " answers were not certified exact");
-  if (sum > 0)
-    t += "; contacts overlapping by up to " + number_text(100 * worst) +
-         " % of a radius may have been missed (nearest all certifies all). Told "
-         "again when they are ten times as many or could be twice as deep";
-  log(t);
-}
-
 // In the columns of the mesh report.
 void FixWallLsdcd::log_creation() const
 {
@@ -82,7 +35,7 @@ void FixWallLsdcd::log_creation() const
       const char *label;
       std::string text;
     } lines[] = {{"placement   ", m.settings.placement_tokens},
-                 {"motion      ", m.motion_text()},
+                 {"motion      ", m.motion.text(m.bounds(0))},
                  {"servo       ", m.settings.servo_tokens}};
     for (const auto &line : lines)
       if (!line.text.empty()) t += "\n  " + (line.label + line.text);

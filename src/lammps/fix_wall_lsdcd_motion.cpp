@@ -5,24 +5,17 @@
 #include "base/input_words.h"
 
 #include "domain.h"
-#include "input.h"
-#include "modify.h"
 #include "update.h"
-#include "variable.h"
-
-#include <algorithm>
-#include <cmath>
 
 using namespace LAMMPS_NS;
 using lsdcd::number_text;
 
-void FixWallLsdcd::begin_motion(MeshPart &m)
+lsdcd::Step FixWallLsdcd::step_now() const
 {
-  m.clock = {0, update->ntimestep, update->ntimestep, update->dt};
-  m.surface = m.settings.surface;
-  m.pose = m.settings.motion.pose_at(0);
-  list_is_old = true;
-  check_motion(m);
+  return {update->ntimestep, update->dt,
+          rerun               ? lsdcd::Step::snapshot
+          : update->setupflag ? lsdcd::Step::setup
+                              : lsdcd::Step::step};
 }
 
 bool FixWallLsdcd::any_moves() const
@@ -32,89 +25,25 @@ bool FixWallLsdcd::any_moves() const
   return false;
 }
 
-void FixWallLsdcd::advance(StepClock &clock) const
-{
-  if (rerun)
-    clock.jump_to(*update);
-  else
-    clock.advance(*update);
-}
-
 // Poses last: what servos ask for and variables may read is of where meshes were.
 void FixWallLsdcd::move_wall()
 {
   for (MeshPart &m : parts) {
-    if (!m.moves_or_varies()) continue;
-    const lsdcd::Time before = m.clock.now();
-    advance(m.clock);
-    const double passed = static_cast<double>(m.clock.now() - before);
-    if (m.has_variables()) {
-      modify->clearstep_compute();
-      evaluate_variables(m, passed);
-      modify->addstep_compute(update->ntimestep + 1);
-    }
+    if (!m.motion.moves_or_varies()) continue;
+    const double passed = m.motion.advance(step_now());
     if (!update->setupflag) advance_servo(m, passed);
   }
   for (MeshPart &m : parts)
-    if (m.moves_or_varies()) m.pose = m.settings.motion.pose_at(m.clock.now());
-}
-
-int FixWallLsdcd::variable_of(const std::string &name) const
-{
-  const int variable = input->variable->find(name.c_str());
-  if (variable < 0) refuse("there is no variable '" + name + "', which the wall reads");
-  if (!input->variable->equalstyle(variable))
-    refuse("variable '" + name + "', which the wall reads, is not of style equal");
-  return variable;
-}
-
-// Where it is no number nothing would touch the wall, or a servo would run away. Equal-style
-// variables are the same on all processes.
-double FixWallLsdcd::value_of(const std::string &name) const
-{
-  const double value = input->variable->compute_equal(variable_of(name));
-  if (!std::isfinite(value))
-    refuse("variable '" + name + "', which the wall reads, is " + number_text(value) + " in step " +
-           std::to_string(update->ntimestep) + ": it must be a finite number in every step");
-  return value;
-}
-
-// `passed`: time since they were evaluated last; 0 where a run begins.
-void FixWallLsdcd::evaluate_variables(MeshPart &part, double passed)
-{
-  for (lsdcd::MotionTerm &m : part.settings.motion.terms()) {
-    if (m.kind != lsdcd::MotionKind::variable) continue;
-    for (int d = 0; d < 3; d++) {
-      if (m.name[d].empty()) continue;
-      const double was = m.displacement[d];
-      m.displacement[d] = value_of(m.name[d]);
-      if (!m.name[3 + d].empty())
-        m.speed[d] = value_of(m.name[3 + d]);
-      else if (passed > 0)
-        m.speed[d] = (m.displacement[d] - was) / passed;
-    }
-  }
-  lsdcd::Servo &servo = part.servo();
-  if (!servo.target_name.empty()) servo.target = value_of(servo.target_name);
-  for (int d = 0; d < 3; d++) {
-    if (!part.settings.surface_variable[d].empty())
-      part.surface.velocity[d] = value_of(part.settings.surface_variable[d]);
-    if (!part.settings.surface_variable[3 + d].empty())
-      part.surface.angular[d] = value_of(part.settings.surface_variable[3 + d]);
-  }
+    if (m.motion.moves_or_varies()) m.motion.place();
 }
 
 // That they are there, before a run.
 void FixWallLsdcd::check_variables() const
 {
-  for (const MeshPart &part : parts) {
-    for (const lsdcd::MotionTerm &m : part.settings.motion.terms())
-      for (const std::string &name : m.name)
-        if (!name.empty()) variable_of(name);
-    for (const std::string &name : part.settings.surface_variable)
-      if (!name.empty()) variable_of(name);
-    for (const std::string &name : {part.servo().target_name, part.settings.temperature_variable})
-      if (!name.empty()) variable_of(name);
+  for (const MeshPart &m : parts) {
+    for (const std::string &name : m.motion.variables()) host.find_variable(name);
+    const std::string &temperature = m.settings.temperature_variable;
+    if (!temperature.empty()) host.find_variable(temperature);
   }
 }
 
@@ -157,11 +86,10 @@ void FixWallLsdcd::check_moving_box()
   for (MeshPart &m : parts) {
     const lsdcd::WallMotion &motion = m.settings.motion;
     if (!motion.any()) continue;
-    check_moving_box(m, m.pose, false);
-    if (!update->setupflag || m.has_variables()) continue;
+    check_moving_box(m, m.motion.pose(), false);
+    if (!update->setupflag || m.motion.has_variables()) continue;
     for (int i = 1; i < kSamples; i++)
-      check_moving_box(m, motion.pose_at(m.clock.now() + motion.longest_period() * i / kSamples),
-                       true);
+      check_moving_box(m, m.motion.pose_in(motion.longest_period() * i / kSamples), true);
   }
 }
 

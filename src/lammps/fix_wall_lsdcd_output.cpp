@@ -67,10 +67,7 @@ double FixWallLsdcd::output_of(MeshPart &m, int i)
   if (i < kTotals) return m.totals[i];
   if (i == kTotals + 1) return m.power;
   if (i >= kVector) return m.servo().present ? servo_output(m, i - kVector) : 0;
-  if (!settings.wears()) return 0;
-  double worn = m.loads.worn();
-  MPI_Allreduce(MPI_IN_PLACE, &worn, 1, MPI_DOUBLE, MPI_SUM, world);
-  return worn;
+  return settings.wears() ? loads->worn(m.index) : 0;
 }
 
 double FixWallLsdcd::compute_array(int mesh, int i)
@@ -123,8 +120,8 @@ void FixWallLsdcd::fill_contacts()
 
 double FixWallLsdcd::memory_usage()
 {
-  double bytes = engine->bytes() + mass_seen.capacity() * sizeof(double);
-  for (const MeshPart &m : parts) bytes += m.wall.bytes() + m.loads.bytes();
+  double bytes = engine->bytes() + loads->bytes() + mass_seen.capacity() * sizeof(double);
+  for (const MeshPart &m : parts) bytes += m.wall.bytes();
   if (history) bytes += springs.bytes();
   if (settings.contacts) bytes += (double) atom->nmax * size_peratom_cols * sizeof(double);
   return bytes;
@@ -149,7 +146,7 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
       if (first) m.strokes = lsdcd::draw_mesh(*m.wall.mesh(), settings.draw);
       for (lsdcd::Stroke s : m.strokes) {
         lsdcd::Vec3 centre = {0, 0, 0};
-        for (lsdcd::Vec3 &c : s.corner) c = m.pose.to_box(c);
+        for (lsdcd::Vec3 &c : s.corner) c = m.motion.pose().to_box(c);
         for (int k = 0; k < corners; k++) centre += (1.0 / corners) * s.corner[k];
         if (settings.cut && dot(settings.cut_normal, centre) > settings.cut_offset) continue;
         image_data.push_back(settings.draw_type);

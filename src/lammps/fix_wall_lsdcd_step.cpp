@@ -21,7 +21,7 @@ lsdcd::StepSettings FixWallLsdcd::step_settings(lsdcd::Spheres &spheres)
   step.records = records || vflag_global;
   if (several() || parts.front().settings.surface_varies()) {
     surfaces.clear();
-    for (const MeshPart &m : parts) surfaces.push_back(m.surface);
+    for (const MeshPart &m : parts) surfaces.push_back(m.motion.surface());
     step.surface = surfaces.data();
   }
   if (settings.law.has_heat()) give_heat(spheres, step);
@@ -46,29 +46,32 @@ lsdcd::Spheres FixWallLsdcd::spheres()
   return s;
 }
 
-// Does LAMMPS reneighbour before any atom has gone farther than half the skin? Elsewhere the
-// engine looks at all atoms in every step.
-bool FixWallLsdcd::list_keeps() const
+// Half the skin is for atoms, and as much again for a wall that moves.
+lsdcd::SphereDrift FixWallLsdcd::sphere_drift() const
 {
-  return spheres_stay_close() && !group->dynamic[igroup];
+  lsdcd::SphereDrift drift;
+  if (group->dynamic[igroup]) return drift;
+  drift.distance = 0.5 * neighbor->skin;
+  drift.has_begun = neighbor->ago > 0;
+  if (spheres_stay_close())
+    drift.kind = lsdcd::SphereDrift::bounded;
+  else if (neighbor->skin > 0)
+    drift.kind = lsdcd::SphereDrift::watched;
+  return drift;
 }
 
 void FixWallLsdcd::choose_if_due(const lsdcd::Spheres &s)
 {
   if (history) springs_to_engine();
-  const bool keeps = list_keeps(),
-             watches = !keeps && !group->dynamic[igroup] && neighbor->skin > 0;
-  // Half the skin is for atoms. One that had gone so far since LAMMPS reneighboured may come back
-  // and go as far on the other side. As much again is for a wall that moves.
-  const double half = 0.5 * neighbor->skin, for_wall = any_moves() ? half : 0;
-  bool wall_has_gone = false;
-  for (const MeshPart &m : parts) wall_has_gone |= keeps && m.has_gone(for_wall);
-  if (!list_is_old && (keeps ? !wall_has_gone : watches && !engine->has_moved(s))) return;
-  const double for_atoms = keeps && neighbor->ago > 0 ? 2 * half : half;
-  engine->choose(s, keeps || watches ? for_atoms + for_wall : 0.0, watches);
-  for (MeshPart &m : parts) m.chosen_pose = m.pose;
-  list_is_old = false;
-  choices++;
+  std::vector<lsdcd::MovingMesh> moving;
+  for (const MeshPart &m : parts)
+    if (m.settings.motion.any()) moving.push_back({m.motion.pose(), m.bounds(cutoff())});
+  const lsdcd::Choice choice =
+      schedule.next(sphere_drift(), moving, [&] { return engine->has_moved(s); });
+  if (!choice.is_due) return;
+  engine->choose(s, choice.margin, choice.watch);
+  schedule.note_choice(moving);
+  search.count_choice();
 }
 
 void FixWallLsdcd::start()
@@ -96,7 +99,7 @@ void FixWallLsdcd::collect()
     }
     running = false;
     n_with_springs = atom->nlocal;
-    (update->setupflag ? setups : steps_run)++;
+    search.count_step(update->setupflag);
   }
   keep_outputs();
 }
@@ -111,12 +114,21 @@ lsdcd::StepDiagnostics FixWallLsdcd::read_notes()
   } catch (const std::exception &e) {
     stop(e);
   }
-  uncertified_sum += diagnostics.uncertified;
-  worst_uncertain = std::max(worst_uncertain, diagnostics.uncertain);
-  lists += diagnostics.lists;
-  listed += diagnostics.listed;
-  by_cells += diagnostics.by_cells;
+  search.add(diagnostics);
   return diagnostics;
+}
+
+void FixWallLsdcd::look()
+{
+  overlaps.note(read_notes(), update->ntimestep);
+}
+
+// Collective.
+void FixWallLsdcd::check_new_spheres()
+{
+  if (!may_be_new) return;
+  may_be_new = false;
+  overlaps.check_new(read_notes(), update->ntimestep, continued || update->ntimestep > 0);
 }
 
 // Of the step just computed.

@@ -18,7 +18,7 @@ void FixWallLsdcd::add_virial()
   if (cutoff() == 0) return;
   const lsdcd::ContactRecord *record = engine->records();
   for (int k = 0; k < engine->n_records(); k++) {
-    const lsdcd::WallPose &pose = parts[record[k].mesh].pose;
+    const lsdcd::WallPose &pose = parts[record[k].mesh].motion.pose();
     const lsdcd::Vec3 r = pose.turn_to_box(record[k].arm), f = -pose.turn_to_box(record[k].force);
     double part[6] = {r.x * f.x, r.y * f.y, r.z * f.z, r.x * f.y, r.x * f.z, r.y * f.z};
     for (int c = 0; c < 6; c++) virial[c] += part[c];

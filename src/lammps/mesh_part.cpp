@@ -1,33 +1,13 @@
 #include "lammps/mesh_part.h"
 
-#include "base/input_words.h"
-
-#include "update.h"
-
 #include <algorithm>
 
 using namespace LAMMPS_NS;
 
-void StepClock::advance(const Update &update)
-{
-  const bigint elapsed = update.setupflag ? 0 : 1;
-  if (update.ntimestep != step + elapsed || update.dt != dt) {
-    base = now();
-    base_step = update.ntimestep - elapsed;
-    dt = update.dt;
-  }
-  step = update.ntimestep;
-}
-
-void StepClock::jump_to(const Update &update)
-{
-  dt = update.dt;
-  step = update.ntimestep;
-}
-
 // Torque about what `torque_about` names, and power.
 void MeshPart::finish_totals()
 {
+  const lsdcd::WallPose &pose = motion.pose();
   const lsdcd::Vec3 force = {totals[0], totals[1], totals[2]},
                     torque = {totals[3], totals[4], totals[5]};
   const lsdcd::Vec3 point =
@@ -37,22 +17,6 @@ void MeshPart::finish_totals()
   for (int d = 0; d < 3; d++) totals[3 + d] = about[d];
   // From 0, so that it is not -0 at rest.
   power = 0 - dot(force, pose.velocity) - dot(torque - cross(pose.shift, force), pose.angular);
-}
-
-bool MeshPart::has_variables() const
-{
-  if (settings.surface_varies() || !servo().target_name.empty()) return true;
-  for (const lsdcd::MotionTerm &m : settings.motion.terms())
-    if (m.kind == lsdcd::MotionKind::variable) return true;
-  return false;
-}
-
-bool MeshPart::takes_differences() const
-{
-  for (const lsdcd::MotionTerm &m : settings.motion.terms())
-    for (int d = 0; d < 3; d++)
-      if (!m.name[d].empty() && m.name[3 + d].empty()) return true;
-  return false;
 }
 
 lsdcd::Box MeshPart::bounds(double past) const
@@ -75,12 +39,6 @@ void MeshPart::find_range(const lsdcd::PeriodicBox &box, int k, const lsdcd::Wal
   MPI_Bcast(range, 2, MPI_DOUBLE, 0, wall.shared().world());
   lo = range[0];
   hi = range[1];
-}
-
-bool MeshPart::has_gone(double farther_than) const
-{
-  return settings.motion.any() &&
-         lsdcd::farthest_between(chosen_pose, pose, bounds(wall.cutoff())) > farther_than;
 }
 
 // It does where it moves across that edge and turns about nothing but it.
@@ -113,40 +71,4 @@ lsdcd::PeriodicBox MeshPart::box_seen(const lsdcd::PeriodicBox &real) const
     box.follows[k] = true;    // no limit for the grid
   }
   return box;
-}
-
-std::string MeshPart::motion_text() const
-{
-  const lsdcd::WallMotion &motion = settings.motion;
-  if (!motion.moves()) return motion.start().placed ? "none; the mesh stays where it is" : "";
-  constexpr int kSamples = 64;
-  std::string text = settings.motion_tokens;
-  if (takes_differences()) text += "; where v_v is NULL velocities are differences over a step";
-  if (has_variables()) return text;
-  double most = 0;
-  for (int i = 0; i < kSamples; i++)
-    most = std::max(
-        most, lsdcd::fastest_in(motion.pose_at(motion.longest_period() * i / kSamples), bounds(0)));
-  return text + "; corners of its bounds go at up to " + lsdcd::number_text(most);
-}
-
-std::vector<double> MeshPart::motion_data() const
-{
-  const lsdcd::WallMotion &motion = settings.motion;
-  const double high = static_cast<double>(clock.base);
-  std::vector<double> data = {high, static_cast<double>(clock.base - high), double(clock.base_step),
-                              double(clock.step), clock.dt};
-  for (const lsdcd::WallPose &p : {motion.start(), motion.terms_at(clock.now()), pose}) {
-    for (const lsdcd::Vec3 &row : p.row) data.insert(data.end(), {row.x, row.y, row.z});
-    data.insert(data.end(), {p.shift.x, p.shift.y, p.shift.z});
-  }
-  const lsdcd::Servo &s = servo();
-  data.insert(data.end(), {double(s.present + s.holds), double(s.turns)});
-  for (const lsdcd::Vec3 &v : {s.axis, s.point}) data.insert(data.end(), {v.x, v.y, v.z});
-  data.insert(data.end(), {s.position, s.velocity});
-  data.push_back(double(motion.terms().size()));
-  for (const lsdcd::MotionTerm &m : motion.terms())
-    for (const lsdcd::Vec3 &v : {m.displacement, m.speed}) data.insert(data.end(), {v.x, v.y, v.z});
-  for (const char c : settings.motion_tokens) data.push_back(c);
-  return data;
 }

@@ -1,13 +1,12 @@
 // One block of memory per node, written by one process and read by all of them.
 #pragma once
 
+#include "base/error_text.h"
 #include "base/large_memory.h"
 #include "backend/owned_array.h"
 
 #include <cstddef>
-#include <exception>
 #include <mpi.h>
-#include <new>
 #include <string>
 
 namespace lsdcd {
@@ -54,17 +53,7 @@ void throw_together(MPI_Comm comm, const std::string &error);
 template <class Work>
 void together(MPI_Comm comm, bool here, Work &&work)
 {
-  std::string error;
-  if (here) {
-    try {
-      work();
-    } catch (const std::bad_alloc &) {
-      error = "out of memory";
-    } catch (const std::exception &e) {
-      error = *e.what() ? e.what() : "unknown error";
-    }
-  }
-  throw_together(comm, error);
+  throw_together(comm, here ? error_of(work) : "");
 }
 
 // A broadcast of more bytes than an int can count.

@@ -4,15 +4,13 @@
 
 #include "mesh/periodic_box.h"
 #include "motion/servo.h"
+#include "motion/step_clock.h"
 #include "motion/wall_pose.h"
 
 #include <string>
 #include <vector>
 
 namespace lsdcd {
-
-// A product of 1e9 steps and a timestep is exact to 2^-64 of itself here.
-using Time = long double;
 
 // cosine: `wiggle` of fix wall/gran, which begins at rest: x + A (1 - cos(2 pi t/period)).
 enum class MotionKind { linear, wiggle, cosine, rotate, transrot, variable };

@@ -18,7 +18,7 @@ import sys
 
 FLOORS = [["base"], ["backend"], ["geometry"], ["mesh"], ["motion"], ["grid"], ["contact"], ["law"], ["engine"],
           ["bodies", "query", "study", "effects", "output", "material", "flow"],
-          ["input"], ["lammps", "tool", "api"], ["kokkos"]]
+          ["input"], ["wall"], ["lammps", "tool", "api"], ["kokkos"]]
 BESIDE = {("study", "query")}
 STUDY_ROOMS = {"study", "tool"}
 LAMMPS_ROOMS = {"lammps", "kokkos"}

@@ -1,0 +1,127 @@
+#include "lammps/lammps_host.h"
+
+#include "base/input_words.h"
+#include "lammps/fix_wall_lsdcd.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "input.h"
+#include "modify.h"
+#include "update.h"
+#include "variable.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+void LammpsHost::sum(double *numbers, int n)
+{
+  MPI_Allreduce(MPI_IN_PLACE, numbers, n, MPI_DOUBLE, MPI_SUM, fix.world);
+}
+
+void LammpsHost::max(double *numbers, int n)
+{
+  MPI_Allreduce(MPI_IN_PLACE, numbers, n, MPI_DOUBLE, MPI_MAX, fix.world);
+}
+
+int LammpsHost::max_rank(double &number)
+{
+  struct {
+    double value;
+    int rank;
+  } most = {number, rank()};
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, fix.world);
+  number = most.value;
+  return most.rank;
+}
+
+void LammpsHost::broadcast(void *data, std::size_t bytes, int from)
+{
+  lsdcd::broadcast_bytes(data, bytes, from, fix.world);
+}
+
+std::vector<double> LammpsHost::gather(const std::vector<double> &mine)
+{
+  const int nprocs = fix.comm->nprocs;
+  int n = static_cast<int>(mine.size());
+  std::vector<int> count(nprocs), first(nprocs, 0);
+  MPI_Gather(&n, 1, MPI_INT, count.data(), 1, MPI_INT, 0, fix.world);
+  for (int p = 1; p < nprocs; p++) first[p] = first[p - 1] + count[p - 1];
+  std::vector<double> all(rank() == 0 ? first.back() + count.back() : 0);
+  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), count.data(), first.data(), MPI_DOUBLE, 0,
+              fix.world);
+  return all;
+}
+
+void LammpsHost::fail_together(const std::string &error)
+{
+  lsdcd::throw_together(fix.world, error);
+}
+
+int LammpsHost::find_variable(const std::string &name) const
+{
+  Variable &all = *fix.input->variable;
+  const int variable = all.find(name.c_str());
+  if (variable < 0) fix.refuse("there is no variable '" + name + "', which the wall reads");
+  if (!all.equalstyle(variable))
+    fix.refuse("variable '" + name + "', which the wall reads, is not of style equal");
+  return variable;
+}
+
+// Equal-style variables are the same on all processes. A variable's computes keep their values until
+// they are cleared. Where one is no number nothing would touch the wall, or a servo would run away.
+std::vector<double> LammpsHost::variables(const std::vector<std::string> &names)
+{
+  std::vector<double> values;
+  if (names.empty()) return values;
+  fix.modify->clearstep_compute();
+  for (const std::string &name : names) {
+    values.push_back(fix.input->variable->compute_equal(find_variable(name)));
+    if (!std::isfinite(values.back()))
+      fix.refuse("variable '" + name + "', which the wall reads, is " +
+                 lsdcd::number_text(values.back()) + " in step " +
+                 std::to_string(fix.update->ntimestep) +
+                 ": it must be a finite number in every step");
+  }
+  fix.modify->addstep_compute(fix.update->ntimestep + 1);
+  return values;
+}
+
+int LammpsHost::rank() const
+{
+  return fix.comm->me;
+}
+
+std::int64_t LammpsHost::tag(int sphere)
+{
+  return fix.tag_of(sphere);
+}
+
+std::int64_t LammpsHost::highest_tag()
+{
+  fix.need_on_host();
+  tagint highest = 0;
+  for (int i = 0; i < fix.atom->nlocal; i++) highest = std::max(highest, fix.tag_on_host(i));
+  return highest;
+}
+
+double LammpsHost::radius_of_tag(std::int64_t tag)
+{
+  fix.need_on_host();
+  const Atom &atom = *fix.atom;
+  double radius = 0;
+  for (int i = 0; atom.tag_enable && i < atom.nlocal; i++)
+    if (atom.tag[i] == tag) radius = atom.radius[i];
+  return radius;
+}
+
+void LammpsHost::log(const std::string &text)
+{
+  fix.log(fix.signed_text(text));
+}
+
+void LammpsHost::warn(const std::string &text)
+{
+  fix.warn(text);
+}

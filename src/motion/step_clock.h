@@ -1,0 +1,36 @@
+// The time of a wall, which the host's steps count.
+#pragma once
+
+#include "base/real.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// A product of 1e9 steps and a timestep is exact to 2^-64 of itself here.
+using Time = long double;
+
+// A step of the host.
+struct Step {
+  enum Kind {
+    setup,      // begins a run: no time has passed since the last step
+    step,       // follows the last step
+    snapshot    // no steps led to it: only its number tells its time
+  };
+  std::int64_t number = 0;
+  Real dt = 0;    // time
+  Kind kind = step;
+};
+
+// Time goes on by one dt in each step, whatever number the host gives the step: base at base_step, and
+// dt for each step since.
+struct StepClock {
+  Time base = 0;
+  std::int64_t base_step = 0, last_step = 0;
+  Real dt = 0;
+
+  Time now() const { return base + Time(last_step - base_step) * dt; }
+  void advance(const Step &to);
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,39 @@
+#include "wall/choice_schedule.h"
+
+#include "motion/motion.h"
+
+namespace lsdcd {
+
+bool ChoiceSchedule::any_has_gone(Real farther_than, const std::vector<MovingMesh> &moving) const
+{
+  if (moving.size() != chosen_.size()) return true;
+  for (std::size_t k = 0; k < moving.size(); k++)
+    if (farthest_between(chosen_[k], moving[k].pose, moving[k].bounds) > farther_than) return true;
+  return false;
+}
+
+Choice ChoiceSchedule::next(const SphereDrift &drift, const std::vector<MovingMesh> &moving,
+                            const std::function<bool()> &has_moved) const
+{
+  const bool bounded = drift.kind == SphereDrift::bounded,
+             watched = drift.kind == SphereDrift::watched;
+  // A wall that moves may go as far as spheres do.
+  const Real of_spheres = bounded && drift.has_begun ? 2 * drift.distance : drift.distance,
+             of_wall = moving.empty() ? 0 : drift.distance;
+  Choice choice;
+  choice.is_due = expired_ || (bounded   ? any_has_gone(of_wall, moving)
+                               : watched ? has_moved()
+                                         : true);
+  choice.margin = bounded || watched ? of_spheres + of_wall : 0;
+  choice.watch = watched;
+  return choice;
+}
+
+void ChoiceSchedule::note_choice(const std::vector<MovingMesh> &moving)
+{
+  expired_ = false;
+  chosen_.clear();
+  for (const MovingMesh &m : moving) chosen_.push_back(m.pose);
+}
+
+}    // namespace lsdcd

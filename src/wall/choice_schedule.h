@@ -1,0 +1,60 @@
+// When the spheres near the wall are chosen anew.
+#pragma once
+
+#include "base/vec3.h"
+#include "mesh/periodic_box.h"
+#include "motion/wall_pose.h"
+
+#include <functional>
+#include <vector>
+
+namespace lsdcd {
+
+// How far spheres go before the host expires a choice.
+struct SphereDrift {
+  enum Kind {
+    bounded,    // none goes farther than `distance` between two calls of expire()
+    watched,    // any distance: the engine looks at all spheres in each step
+    unknown     // likewise, and spheres join and leave the group: the engine chooses in each step
+  };
+  Kind kind = unknown;
+  Real distance = 0;    // length; of watched: how far a sphere goes before a new choice
+  // Only of bounded: have spheres moved since the host counted their drift from 0? One that has gone
+  // `distance` one way may go as far the other way.
+  bool has_begun = false;
+};
+
+// A mesh that moves, as it is in this step.
+struct MovingMesh {
+  WallPose pose;
+  Box bounds;    // length, in the mesh's own frame; around all places where a sphere touches it
+};
+
+// What WallEngine::choose() is called with.
+struct Choice {
+  bool is_due = false;
+  Real margin = 0;       // length
+  bool watch = false;    // has_moved() will be asked
+};
+
+class ChoiceSchedule {
+ public:
+  // The next step is due, whatever has moved.
+  void expire() { expired_ = true; }
+
+  // Whether spheres are chosen in this step. `moving`: the meshes that move, always in the same order.
+  // `has_moved`: has a sphere gone farther than the last margin? It is asked only where that decides.
+  Choice next(const SphereDrift &drift, const std::vector<MovingMesh> &moving,
+              const std::function<bool()> &has_moved) const;
+
+  // Spheres were chosen in this step.
+  void note_choice(const std::vector<MovingMesh> &moving);
+
+ private:
+  bool any_has_gone(Real farther_than, const std::vector<MovingMesh> &moving) const;
+
+  bool expired_ = true;
+  std::vector<WallPose> chosen_;    // of the moving meshes, in the step of the last choice
+};
+
+}    // namespace lsdcd

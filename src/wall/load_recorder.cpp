@@ -1,0 +1,46 @@
+#include "wall/load_recorder.h"
+
+namespace lsdcd {
+
+LoadRecorder::LoadRecorder(Host &host, const WallSettings &settings) :
+    host_(host), settings_(settings), loads_(settings.meshes.size())
+{
+}
+
+void LoadRecorder::add(int mesh, const ContactRecord *records, int n, Real dt,
+                       const WallFeaturesView &features)
+{
+  if (settings_.has_loads(settings_.meshes[mesh]))
+    loads_[mesh].add(records, n, dt, settings_.wear.per_work, features, mesh);
+}
+
+Real LoadRecorder::worn(int mesh) const
+{
+  Real worn = loads_[mesh].worn();
+  host_.sum(&worn, 1);
+  return worn;
+}
+
+WallLoads LoadRecorder::gathered(int mesh) const
+{
+  const std::vector<Real> rows = host_.gather(loads_[mesh].packed());
+  WallLoads all;
+  all.set_time(loads_[mesh].time());
+  all.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
+  return all;
+}
+
+void LoadRecorder::restore(int mesh, Real time, const std::vector<double> &rows)
+{
+  loads_[mesh].set_time(time);
+  if (host_.rank() == 0) loads_[mesh].add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
+}
+
+std::size_t LoadRecorder::bytes() const
+{
+  std::size_t bytes = 0;
+  for (const WallLoads &l : loads_) bytes += l.bytes();
+  return bytes;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,45 @@
+// Loads and wear of a wall's meshes, added up over the steps on all processes.
+#pragma once
+
+#include "input/settings.h"
+#include "output/wall_loads.h"
+#include "wall/host.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace lsdcd {
+
+// Meshes are counted from 0. One without wear and without mesh_fields has no loads.
+class LoadRecorder {
+ public:
+  // Both must outlive it. settings.wear.per_work is volume per work in the host's units.
+  LoadRecorder(Host &host, const WallSettings &settings);
+
+  // A step of duration `dt` (time): what contacts of this process did to all meshes. `features`: of
+  // the mesh with its periodic images; empty where there are no records.
+  void add(int mesh, const ContactRecord *records, int n, Real dt,
+           const WallFeaturesView &features);
+
+  // Volume (length^3) worn off the mesh so far, on all processes. Collective.
+  Real worn(int mesh) const;
+
+  // Loads of all processes, on the first one; elsewhere only their time. Collective.
+  WallLoads gathered(int mesh) const;
+
+  // The average begins anew; what has worn off stays.
+  void begin_average(int mesh) { loads_[mesh].begin_average(); }
+
+  // Of a restart file, before the first step: the time of the average and rows as of
+  // WallLoads::packed(), the same on all processes. The first one keeps the rows.
+  void restore(int mesh, Real time, const std::vector<double> &rows);
+
+  std::size_t bytes() const;    // of this process
+
+ private:
+  Host &host_;
+  const WallSettings &settings_;
+  std::vector<WallLoads> loads_;    // of this process; one per mesh
+};
+
+}    // namespace lsdcd

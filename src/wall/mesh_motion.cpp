@@ -1,0 +1,285 @@
+#include "wall/mesh_motion.h"
+
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "wall/mesh_name.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+namespace {
+
+// Parts of the numbers in a restart file: the clock; poses of the start, without the servo, and last;
+// the servo; how many terms there are; their values; then the letters of their words.
+constexpr int kClock = 5, kPose = 12, kServo = kClock + 3 * kPose, kTerms = kServo + 10,
+              kOfTerm = 6;
+
+WallPose pose_from(const double *numbers)
+{
+  WallPose p;
+  for (int i = 0; i < 3; i++) p.row[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+  p.shift = {numbers[9], numbers[10], numbers[11]};
+  return p;
+}
+
+Servo servo_from(const double *numbers)
+{
+  Servo s;
+  s.present = numbers[0] != 0;
+  s.holds = numbers[0] == 2;
+  s.turns = numbers[1] != 0;
+  s.axis = {numbers[2], numbers[3], numbers[4]};
+  s.point = {numbers[5], numbers[6], numbers[7]};
+  s.position = numbers[8];
+  s.velocity = numbers[9];
+  return s;
+}
+
+// Calls `visit` with the name and the value of each variable of a mesh.
+template <class Visit>
+void for_variables(MeshSettings &mesh, SurfaceMotion &surface, const Visit &visit)
+{
+  const auto one = [&](const std::string &name, Real &value) {
+    if (!name.empty()) visit(name, value);
+  };
+  for (MotionTerm &m : mesh.motion.terms())
+    for (int d = 0; d < 3; d++) {
+      one(m.name[d], m.displacement[d]);
+      one(m.name[3 + d], m.speed[d]);
+    }
+  one(mesh.motion.servo().target_name, mesh.motion.servo().target);
+  for (int d = 0; d < 3; d++) {
+    one(mesh.surface_variable[d], surface.velocity[d]);
+    one(mesh.surface_variable[3 + d], surface.angular[d]);
+  }
+}
+
+}    // namespace
+
+MeshMotion::MeshMotion(Host &host, WallSettings &wall, int mesh, const Step &now) :
+    host_(host), wall_(wall), mesh_(mesh)
+{
+  begin(now);
+}
+
+std::string MeshMotion::named(const std::string &text) const
+{
+  return with_mesh_name(wall_, mesh_, text);
+}
+
+void MeshMotion::begin(const Step &now)
+{
+  clock_ = {0, now.number, now.number, now.dt};
+  surface_ = settings().surface;
+  place();
+}
+
+bool MeshMotion::moves_or_varies() const
+{
+  return settings().motion.any() || settings().surface_varies();
+}
+
+std::vector<std::string> MeshMotion::variables() const
+{
+  std::vector<std::string> names;
+  SurfaceMotion unused;
+  for_variables(settings(), unused,
+                [&](const std::string &name, Real &) { names.push_back(name); });
+  return names;
+}
+
+bool MeshMotion::has_variables() const
+{
+  return !variables().empty();
+}
+
+bool MeshMotion::takes_differences() const
+{
+  for (const MotionTerm &m : settings().motion.terms())
+    for (int d = 0; d < 3; d++)
+      if (!m.name[d].empty() && m.name[3 + d].empty()) return true;
+  return false;
+}
+
+Real MeshMotion::advance(const Step &to)
+{
+  const Time before = clock_.now();
+  clock_.advance(to);
+  const Real passed = static_cast<Real>(clock_.now() - before);
+  std::vector<MotionTerm> &terms = settings().motion.terms();
+  std::vector<Vec3> was;
+  for (const MotionTerm &m : terms) was.push_back(m.displacement);
+  const std::vector<Real> values = host_.variables(variables());
+  auto next = values.begin();
+  for_variables(settings(), surface_, [&](const std::string &, Real &value) { value = *next++; });
+  for (std::size_t i = 0; i < terms.size() && passed > 0; i++)
+    for (int d = 0; d < 3; d++)
+      if (!terms[i].name[d].empty() && terms[i].name[3 + d].empty())
+        terms[i].speed[d] = (terms[i].displacement[d] - was[i][d]) / passed;
+  return passed;
+}
+
+WallPose MeshMotion::pose_in(Time later) const
+{
+  return settings().motion.pose_at(clock_.now() + later);
+}
+
+WallPose MeshMotion::pose_without_servo() const
+{
+  return settings().motion.terms_at(clock_.now());
+}
+
+// Words without terms are of a motion that was stopped: restart files say so.
+void MeshMotion::change(const ModifiedMotion &to, const Step &now)
+{
+  WallMotion &motion = settings().motion;
+  const bool holds = servo().holds;
+  const WallPose placed = holds ? pose_ : pose_without_servo();
+  if (holds) servo().position = 0;
+  motion.stop();
+  motion.begin_from(placed);
+  for (const MotionTerm &term : to.terms) motion.add(term);
+  if (motion.moves()) settings().motion_tokens = to.text;
+  begin(now);
+}
+
+void MeshMotion::change(const ModifiedServo &to)
+{
+  Servo &s = servo();
+  if (!to.servo.present) {
+    s.holds = true;
+    s.velocity = 0;
+  } else if (s.has_line_of(to.servo)) {
+    const Real position = s.position;
+    s = to.servo;
+    s.position = position;
+    check_limits("fix_modify servo");
+  } else {
+    if (settings().motion.moves())
+      throw InputError("fix_modify servo: a servo along another line cannot begin while '" +
+                       settings().motion_tokens +
+                       "' moves the mesh: stop that first (motion none)");
+    settings().motion.begin_from(pose_);
+    s = to.servo;
+  }
+  settings().servo_tokens = to.text;
+  place();
+}
+
+// Of a servo that goes on where it is: the next step would take it inside of them at any speed.
+void MeshMotion::check_limits(const std::string &command) const
+{
+  const Servo &s = servo();
+  if (s.position < s.lo || s.position > s.hi)
+    throw InputError(named(command + ": the servo is at " + number_text(s.position) +
+                           ", outside of the limits " + number_text(s.lo) + " " +
+                           number_text(s.hi) + ", which count from where it began: widen them"));
+}
+
+void MeshMotion::check_snapshot(const Step &at) const
+{
+  if (servo().present && !servo().holds)
+    throw InputError(
+        named("in a rerun a servo is not where it was, as it follows from the loads of all "
+              "steps before: leave servo out, and give its places by motion variable"));
+  if (takes_differences())
+    throw InputError(
+        named("in a rerun there is no step over which the velocity of motion variable could be "
+              "a difference: give v_vx v_vy v_vz in place of NULL"));
+  StepClock there = clock_;
+  there.advance(at);
+  if (settings().motion.moves() && there.now() < 0)
+    throw InputError(
+        named("in a rerun the snapshot of step " + std::to_string(at.number) + " is before step " +
+              std::to_string(clock_.base_step) +
+              ", in which the motion of the mesh begins: before the fix is defined, reset_timestep "
+              "to the step in which the run that was dumped defined it"));
+}
+
+std::string MeshMotion::text(const Box &bounds) const
+{
+  const WallMotion &motion = settings().motion;
+  if (!motion.moves()) return motion.start().placed ? "none; the mesh stays where it is" : "";
+  constexpr int kSamples = 64;
+  std::string text = settings().motion_tokens;
+  if (takes_differences()) text += "; where v_v is NULL velocities are differences over a step";
+  if (has_variables()) return text;
+  Real most = 0;
+  for (int i = 0; i < kSamples; i++)
+    most =
+        std::max(most, fastest_in(motion.pose_at(motion.longest_period() * i / kSamples), bounds));
+  return text + "; corners of its bounds go at up to " + number_text(most);
+}
+
+std::vector<double> MeshMotion::state() const
+{
+  const WallMotion &motion = settings().motion;
+  const double high = static_cast<double>(clock_.base);
+  std::vector<double> data = {high, static_cast<double>(clock_.base - high),
+                              double(clock_.base_step), double(clock_.last_step), clock_.dt};
+  for (const WallPose &p : {motion.start(), pose_without_servo(), pose_}) {
+    for (const Vec3 &row : p.row) data.insert(data.end(), {row.x, row.y, row.z});
+    data.insert(data.end(), {p.shift.x, p.shift.y, p.shift.z});
+  }
+  const Servo &s = servo();
+  data.insert(data.end(), {double(s.present + s.holds), double(s.turns)});
+  for (const Vec3 &v : {s.axis, s.point}) data.insert(data.end(), {v.x, v.y, v.z});
+  data.insert(data.end(), {s.position, s.velocity});
+  data.push_back(double(motion.terms().size()));
+  for (const MotionTerm &m : motion.terms())
+    for (const Vec3 &v : {m.displacement, m.speed}) data.insert(data.end(), {v.x, v.y, v.z});
+  for (const char c : settings().motion_tokens) data.push_back(c);
+  return data;
+}
+
+// A servo goes on along the same line, whatever its target is now. What was stopped stays so.
+void MeshMotion::restore(const std::vector<double> &data, const Step &now)
+{
+  const std::size_t n_terms = static_cast<std::size_t>(data[kTerms]);
+  const std::string tokens(data.begin() + kTerms + 1 + kOfTerm * n_terms, data.end());
+  const WallPose first = pose_from(&data[kClock]), placed = pose_from(&data[kClock + kPose]),
+                 last = pose_from(&data[kClock + 2 * kPose]);
+  const Servo was = servo_from(&data[kServo]);
+  WallMotion &motion = settings().motion;
+  const std::string &own_tokens = settings().motion_tokens;
+  const bool same_line = was.position == 0 || servo().has_line_of(was),
+             same = same_line && tokens == own_tokens, stopped = n_terms == 0 && !tokens.empty();
+  motion.begin_from(same ? first : same_line ? placed : last);
+  const std::string so =
+      " was stopped when the restart file was written, and stays so: fix_modify ";
+  if (same && stopped) {
+    motion.stop();
+    host_.warn(
+        named("the motion '" + tokens + "'" + so + "motion starts another from where the mesh is"));
+  }
+  if (servo().has_line_of(was)) {
+    servo().position = was.position;
+    servo().velocity = was.velocity;
+    servo().holds = was.holds;
+    check_limits("read_restart");
+    if (servo().holds) host_.warn(named("the servo" + so + "servo lets it go on"));
+  }
+  begin(now);
+  if (same) {
+    clock_ = {Time(data[0]) + Time(data[1]), static_cast<std::int64_t>(data[2]),
+              static_cast<std::int64_t>(data[3]), data[4]};
+    for (std::size_t i = 0; i < n_terms; i++) {
+      const double *v = &data[kTerms + 1 + kOfTerm * i];
+      motion.terms()[i].displacement = {v[0], v[1], v[2]};
+      motion.terms()[i].speed = {v[3], v[4], v[5]};
+    }
+    place();
+  } else if (motion.moves() ? !tokens.empty() : n_terms > 0) {
+    host_.warn(
+        named("the restart file was written with the motion '" + tokens + "' and this fix has " +
+              (motion.moves() ? "'" + own_tokens + "', which begins" : "none: the mesh stays") +
+              " where the mesh was; the phase is not carried over"));
+  }
+  if (!same_line)
+    host_.warn(named("the restart file was written with a servo along another line, or this fix "
+                     "has none: the mesh is where that had it, at " +
+                     number_text(was.position) + ", and its state is not carried over"));
+}
+
+}    // namespace lsdcd

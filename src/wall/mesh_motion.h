@@ -1,0 +1,70 @@
+// Where a mesh is in each step: its motion, the clock of that, and the variables it hangs on.
+#pragma once
+
+#include "input/motion_words.h"
+#include "input/servo_words.h"
+#include "input/settings.h"
+#include "motion/step_clock.h"
+#include "wall/host.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// Functions throw InputError, the same on all processes, with a text that names the mesh.
+class MeshMotion {
+ public:
+  // Of the mesh with this number, from 0. Motion, servo and their words in `wall` change with those
+  // given later. Host and settings must outlive it. Its time is 0 at `now`.
+  MeshMotion(Host &host, WallSettings &wall, int mesh, const Step &now);
+
+  const WallPose &pose() const { return pose_; }               // in this step
+  const SurfaceMotion &surface() const { return surface_; }    // likewise
+
+  bool moves_or_varies() const;    // does the engine see a motion?
+  bool has_variables() const;
+  bool takes_differences() const;    // for velocities that no variable gives
+  // Names of the variables, in the order in which they are evaluated.
+  std::vector<std::string> variables() const;
+
+  // The clock goes on to this step, and variables get their values. Returns the time that has passed.
+  // Collective where it has variables.
+  Real advance(const Step &to);
+  // Puts the mesh where the motion and the servo have it now.
+  void place() { pose_ = pose_in(0); }
+  WallPose pose_in(Time later) const;    // that much time from now
+  WallPose pose_without_servo() const;
+
+  // Another motion, from where the mesh is, or none. A servo goes on with what it has added.
+  void change(const ModifiedMotion &to, const Step &now);
+  // Another servo, from where the mesh is, or none. Along the same line its position goes on.
+  void change(const ModifiedServo &to);
+
+  // Throws where the pose or velocities in a snapshot are not known from its time alone.
+  void check_snapshot(const Step &at) const;
+
+  // A line for the log; empty: nothing moves. `bounds`: of the mesh in its own frame.
+  std::string text(const Box &bounds) const;
+
+  // For a restart file: numbers, the same on all processes. With the same words the motion goes on
+  // where it was. With others it begins where the mesh was, and the first process warns.
+  std::vector<double> state() const;
+  void restore(const std::vector<double> &state, const Step &now);
+
+ private:
+  MeshSettings &settings() const { return wall_.meshes[mesh_]; }
+  Servo &servo() const { return settings().motion.servo(); }
+  std::string named(const std::string &text) const;
+  void begin(const Step &now);
+  void check_limits(const std::string &command) const;
+
+  Host &host_;
+  WallSettings &wall_;
+  int mesh_;
+  StepClock clock_;
+  WallPose pose_;
+  SurfaceMotion surface_;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,82 @@
+#include "wall/overlap_monitor.h"
+
+#include "base/input_words.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+namespace {
+
+const char *const kWrongSide =
+    "its centre is past the wall: is the side that side in or out names that of the spheres, "
+    "or should it be both?";
+
+}    // namespace
+
+void OverlapMonitor::note(const StepDiagnostics &seen, std::int64_t step)
+{
+  if (seen.deepest <= kLarge) placed_overlap_ = 0;
+  if (sunk_warned_ || seen.deepest <= std::max(worst_, kLarge)) return;
+  const std::int64_t tag = host_.tag(seen.deepest_sphere);
+  if (tag > placed_after_ && tag <= placed_until_ && seen.deepest <= kWorse * placed_overlap_) {
+    placed_overlap_ = std::min(placed_overlap_, seen.deepest);
+    return;
+  }
+  worst_ = seen.deepest;
+  worst_step_ = step;
+  worst_tag_ = tag;
+}
+
+// Collective: the sphere is on one process, and its radius is needed by the first.
+std::string OverlapMonitor::overlap_text(Real overlap, std::int64_t tag)
+{
+  Real radius = host_.radius_of_tag(tag);
+  host_.max(&radius, 1);
+  return number_text(100 * overlap) + " % of its radius" +
+         (radius > 0 ? " " + number_text(radius) : "");
+}
+
+void OverlapMonitor::check_sunk(Real worst)
+{
+  if (sunk_warned_ || worst <= kLarge) return;
+  sunk_warned_ = true;
+  Real most = worst_;
+  const int rank = host_.max_rank(most);
+  std::int64_t which[2] = {worst_tag_, worst_step_};
+  host_.broadcast(which, sizeof which, rank);
+  const std::string overlap = overlap_text(most, which[0]);
+  host_.warn("atom " + std::to_string(which[0]) + " sank into the wall by " + overlap +
+             " by step " + std::to_string(which[1]) + ": " +
+             (most > 1 ? kWrongSide : "stiffen the contact (kn) or lower speeds") + "; shown once");
+}
+
+// What inserts spheres numbers them on from the highest tag that there is.
+void OverlapMonitor::check_new(const StepDiagnostics &seen, std::int64_t step, bool goes_on)
+{
+  Real highest = static_cast<Real>(host_.highest_tag());    // exact: tags are below 2^53
+  std::int64_t tag = seen.deepest > kLarge ? host_.tag(seen.deepest_sphere) : 0;
+  const bool is_new = tag > highest_tag_ && !(highest_tag_ < 0 && goes_on);
+  Real most = is_new ? seen.deepest : 0;
+  const int rank = host_.max_rank(most);
+  host_.max(&highest, 1);
+  if (!is_new) note(seen, step);
+  if (most > kLarge) {
+    if (placed_overlap_ == 0) placed_after_ = highest_tag_;
+    placed_until_ = static_cast<std::int64_t>(highest);
+    placed_overlap_ = std::max(placed_overlap_, most);
+  }
+  highest_tag_ = std::max(highest_tag_, static_cast<std::int64_t>(highest));
+  if (most <= worst_new_) return;
+  worst_new_ = kWorse * most;
+  host_.broadcast(&tag, sizeof tag, rank);
+  const std::string overlap = overlap_text(most, tag);
+  host_.warn("atom " + std::to_string(tag) + " comes to be in the wall, which it overlaps by " +
+             overlap + " in step " + std::to_string(step) + ": " +
+             (most > 1 ? kWrongSide
+                       : "it will be thrown out; keep what inserts or creates atoms a radius away "
+                         "from the mesh") +
+             ". A deeper one is reported again");
+}
+
+}    // namespace lsdcd

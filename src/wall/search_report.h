@@ -1,0 +1,40 @@
+// What the search for contacts had to do, in lines for the log.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "wall/host.h"
+
+#include <cstdint>
+#include <string>
+
+namespace lsdcd {
+
+class SearchReport {
+ public:
+  explicit SearchReport(Host &host) : host_(host) {}
+
+  void count_step(bool is_setup) { (is_setup ? setups_ : steps_)++; }
+  void count_choice() { choices_++; }
+  // What the engine has noted since the last call.
+  void add(const StepDiagnostics &seen);
+
+  // Logs the counts of a run, unless `brief` or where there was no step, and counts anew. `advice`
+  // follows the number of choices. Collective.
+  void end_run(bool brief, const std::string &advice);
+
+  // Logs how many answers of nearest lists were not certified since this object was made: at the first
+  // call, and when they are ten times as many or may have missed contacts twice as deep. With `brief`
+  // only where there are any. Collective.
+  void log_uncertified(int nearest, bool brief);
+
+ private:
+  Host &host_;
+  std::int64_t steps_ = 0, setups_ = 0, choices_ = 0;          // of this run, on all processes
+  std::int64_t lists_ = 0, listed_ = 0, cell_searches_ = 0;    // of this run, on this process
+  std::int64_t uncertified_ = 0;                               // on this process
+  Real uncertain_ =
+      0;    // on this process; overlap / radius of the deepest contact they may have missed
+  Real uncertified_due_ = 0, uncertain_due_ = 0;    // on all processes: logged from here on
+};
+
+}    // namespace lsdcd

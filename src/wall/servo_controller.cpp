@@ -1,0 +1,53 @@
+#include "wall/servo_controller.h"
+
+#include "base/input_words.h"
+#include "law/contact_slope.h"
+#include "wall/mesh_name.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+// Of as many contacts as there were in the last step, each as steep as any of them can be.
+Real ServoController::stable_gain(const ServoLoad &load, const WallPose &placed, Real dt) const
+{
+  const Servo &s = servo();
+  Real arm = 1;
+  if (s.turns) {
+    const Vec3 past = {load.radius, load.radius, load.radius};
+    const Box bounds = placed_bounds(placed, {extents_.lo - past, extents_.hi + past});
+    arm = 0;
+    for_corners(bounds, [&](const Vec3 &corner) {
+      arm = std::max(arm, norm(cross(s.axis, corner - s.point)));
+    });
+  }
+  const Real overlap = load.overlap * load.radius + s.fastest * arm * dt,
+             contacts = std::max<Real>(1, load.contacts);
+  const ContactSlope one = contact_slope(wall_.law, overlap, load.radius, load.mass);
+  return servo_gain(contacts * arm * arm * one.stiffness, contacts * arm * arm * one.damping, dt);
+}
+
+void ServoController::advance(const ServoLoad &load, const WallPose &placed, Real dt,
+                              std::int64_t step)
+{
+  Servo &s = servo();
+  const Real pushes = push(load), gain = stable_gain(load, placed, dt);
+  if (gain < s.most_gain && std::isfinite(s.most_gain) && load.contacts > 0 && !gain_told_) {
+    gain_told_ = true;
+    host_.warn(with_mesh_name(
+        wall_, mesh_,
+        "a servo's gain of " + number_text(s.most_gain) + " would not be stable with " +
+            number_text(load.contacts) + " contacts at the timestep " + number_text(dt) + ": " +
+            number_text(gain) + " is used in its place, and less with more of them; shown once"));
+  }
+  if (!s.advance(pushes, gain, dt) || limit_told_) return;
+  limit_told_ = true;
+  host_.log(with_mesh_name(wall_, mesh_,
+                           "the servo is at its limit " + number_text(s.position) + " at step " +
+                               std::to_string(step) + ", where it pushes with " +
+                               number_text(pushes) + " in place of " + number_text(s.target) +
+                               "; said once"));
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,54 @@
+// The velocity of a servo in each step, from the load of the last one.
+#pragma once
+
+#include "input/settings.h"
+#include "wall/host.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// What spheres did to a mesh in the last step: of all processes, and the same on all.
+struct ServoLoad {
+  Vec3 force = {0, 0, 0};     // on the mesh
+  Vec3 torque = {0, 0, 0};    // about the origin of the box
+  Real contacts = 0;          // how many
+  Real overlap = 0;           // the largest, over the sphere's radius
+  // The largest that a contact can have, now or later.
+  Real radius = 0;    // length
+  Real mass = 0;
+};
+
+class ServoController {
+ public:
+  // Of the mesh with this number, from 0, whose extents in its own frame these are. The servo is
+  // wall.meshes[mesh].motion.servo(). Host and settings must outlive it.
+  ServoController(Host &host, WallSettings &wall, int mesh, const Box &extents) :
+      host_(host), wall_(wall), mesh_(mesh), extents_(extents)
+  {
+  }
+
+  bool acts() const { return servo().present && !servo().holds; }
+  // What the mesh pushes the spheres with along the servo's axis: a force, or a torque about it.
+  Real push(const ServoLoad &load) const { return servo().push(load.force, load.torque); }
+
+  // Moves a servo that acts over the time `dt` > 0 up to this step. Without the servo the mesh is where
+  // `placed` has it. Logs, once for a servo, that a gain that is given would not be stable, and that a
+  // limit stops it.
+  void advance(const ServoLoad &load, const WallPose &placed, Real dt, std::int64_t step);
+
+  // Of another servo all is told again.
+  void begin_anew() { gain_told_ = limit_told_ = false; }
+
+ private:
+  Servo &servo() const { return wall_.meshes[mesh_].motion.servo(); }
+  Real stable_gain(const ServoLoad &load, const WallPose &placed, Real dt) const;
+
+  Host &host_;
+  WallSettings &wall_;
+  int mesh_;
+  Box extents_;
+  bool gain_told_ = false, limit_told_ = false;
+};
+
+}    // namespace lsdcd

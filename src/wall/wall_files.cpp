@@ -1,0 +1,107 @@
+#include "wall/wall_files.h"
+
+#include "base/input_error.h"
+#include "base/whole_file.h"
+#include "output/mesh_fields.h"
+#include "output/mesh_stl.h"
+#include "wall/mesh_name.h"
+
+#include <numeric>
+
+namespace lsdcd {
+
+WallFiles::WallFiles(Host &host, const WallSettings &settings, Real pressure_unit) :
+    host_(host), settings_(settings), pressure_unit_(pressure_unit), series_(settings.meshes.size())
+{
+}
+
+int WallFiles::every() const
+{
+  int every = 0;
+  for (const MeshSettings &m : settings_.meshes)
+    every = std::gcd(every, std::gcd(m.fields.every, m.stl.every));
+  return every;
+}
+
+void WallFiles::check(int mesh, const char *keyword, const FileEvery &file, std::int64_t step)
+{
+  if (file.every == 0) return;
+  try {
+    together(host_, host_.rank() == 0, [&] { WholeFile(file_of_step(file.name, step)); });
+  } catch (const InputError &e) {
+    throw InputError(with_mesh_name(settings_, mesh,
+                                    "in '" + std::string(keyword) + "', " + e.what() +
+                                        "; make the folder, or name another"));
+  }
+}
+
+void WallFiles::begin_run(std::int64_t step)
+{
+  warned_ = false;
+  for (std::size_t k = 0; k < settings_.meshes.size(); k++) {
+    check(static_cast<int>(k), "mesh_fields", settings_.meshes[k].fields, step);
+    check(static_cast<int>(k), "mesh_stl", settings_.meshes[k].stl, step);
+  }
+}
+
+// Returns whether the first process could. Else it tells what is lost.
+bool WallFiles::try_to_write(const std::string &lost, const std::function<void()> &write)
+{
+  try {
+    together(host_, host_.rank() == 0, write);
+    return true;
+  } catch (const InputError &e) {
+    if (!warned_)
+      host_.warn(std::string(e.what()) + ": " + lost +
+                 "; older files are as they were. Make room, or mend the path: the run goes on, "
+                 "tries again with the next file and tells of no other that cannot be written");
+    warned_ = true;
+    return false;
+  }
+}
+
+void WallFiles::write_fields(int mesh, std::int64_t step, double time, const PlacedMesh &now,
+                             LoadRecorder &loads)
+{
+  const std::string name = settings_.meshes[mesh].fields.name, file = file_of_step(name, step);
+  const WallLoads all = loads.gathered(mesh);
+  const auto write = [&] {
+    write_mesh_fields(file, *now.mesh,
+                      load_fields(*now.mesh, all, pressure_unit_, settings_.wears(), now.pose),
+                      step, time, now.pose);
+  };
+  if (!try_to_write("there are no mesh_fields of this step, and the next file averages over these "
+                    "steps, too",
+                    write))
+    return;
+  loads.begin_average(mesh);
+  if (file == name) return;
+  const auto list = [&] {
+    std::unique_ptr<FileSeries> &series = series_[mesh];
+    if (!series) {
+      series = std::make_unique<FileSeries>(name);
+      if (continues_) series->read();
+    }
+    series->add(step, time);
+    series->write();
+  };
+  try_to_write("the list of mesh_fields lacks this step until it can be written", list);
+}
+
+void WallFiles::write_due(std::int64_t step, double time, const std::vector<PlacedMesh> &meshes,
+                          LoadRecorder *loads)
+{
+  const auto is_due = [step](const FileEvery &file) {
+    return file.every > 0 && step % file.every == 0;
+  };
+  for (std::size_t k = 0; k < meshes.size(); k++) {
+    const MeshSettings &m = settings_.meshes[k];
+    if (is_due(m.fields) && loads) write_fields(static_cast<int>(k), step, time, meshes[k], *loads);
+    if (is_due(m.stl))
+      try_to_write("there is no mesh_stl of this step", [&] {
+        write_mesh_stl(file_of_step(m.stl.name, step), *meshes[k].mesh, meshes[k].pose);
+      });
+  }
+}
+
+}    // namespace lsdcd

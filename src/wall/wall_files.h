@@ -1,0 +1,59 @@
+// Files of a wall's meshes that a run writes every so many steps.
+#pragma once
+
+#include "output/file_series.h"
+#include "wall/load_recorder.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// A mesh where it is in this step.
+struct PlacedMesh {
+  const WallMesh *mesh;    // of the first process; elsewhere it may be null
+  WallPose pose;
+};
+
+// The first process writes. A file that cannot be written is warned of once a run, and the run goes
+// on: it may be weeks old.
+class WallFiles {
+ public:
+  // Host and settings must outlive it. `pressure_unit`: a force per area of 1 in the host's unit of
+  // pressure.
+  WallFiles(Host &host, const WallSettings &settings, Real pressure_unit);
+
+  // Files are due in multiples of this many steps only; 0: there are none.
+  int every() const;
+
+  // Goes on with the lists of files that an earlier run wrote.
+  void continue_lists() { continues_ = true; }
+
+  // Before a run. Throws InputError on all processes where a file cannot be made: told now, not hours
+  // later. Collective.
+  void begin_run(std::int64_t step);
+
+  // Writes what is due in this step, at `time`. `loads`: null where they are not known, and there are
+  // no mesh_fields then. An average that is written begins anew; one that could not be written goes on
+  // to the next file. Collective.
+  void write_due(std::int64_t step, double time, const std::vector<PlacedMesh> &meshes,
+                 LoadRecorder *loads);
+
+ private:
+  void check(int mesh, const char *keyword, const FileEvery &file, std::int64_t step);
+  bool try_to_write(const std::string &lost, const std::function<void()> &write);
+  void write_fields(int mesh, std::int64_t step, double time, const PlacedMesh &now,
+                    LoadRecorder &loads);
+
+  Host &host_;
+  const WallSettings &settings_;
+  Real pressure_unit_;
+  bool continues_ = false;
+  bool warned_ = false;                                // in this run
+  std::vector<std::unique_ptr<FileSeries>> series_;    // of mesh_fields; on the first process
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,144 @@
+// When near spheres are chosen anew: whatever moves, none comes to the wall unseen.
+#include "wall/choice_schedule.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kDistance = 0.25;
+
+SphereDrift drift(SphereDrift::Kind kind, bool has_begun = false)
+{
+  SphereDrift d;
+  d.kind = kind;
+  d.distance = kDistance;
+  d.has_begun = has_begun;
+  return d;
+}
+
+MovingMesh moved_by(const Vec3 &shift)
+{
+  MovingMesh mesh;
+  mesh.bounds = {{-1, -1, -1}, {1, 1, 1}};
+  mesh.pose.placed = true;
+  mesh.pose.shift = shift;
+  return mesh;
+}
+
+// About z.
+MovingMesh turned_by(Real angle)
+{
+  MovingMesh mesh = moved_by({0, 0, 0});
+  mesh.pose.row[0] = {std::cos(angle), -std::sin(angle), 0};
+  mesh.pose.row[1] = {std::sin(angle), std::cos(angle), 0};
+  return mesh;
+}
+
+// The next step after a choice with these meshes.
+ChoiceSchedule after_choice(const std::vector<MovingMesh> &moving = {})
+{
+  ChoiceSchedule schedule;
+  schedule.note_choice(moving);
+  return schedule;
+}
+
+bool never_asked()
+{
+  ADD_FAILURE() << "the engine need not look at spheres";
+  return false;
+}
+
+TEST(ChoiceSchedule, first_step_is_due)
+{
+  EXPECT_TRUE(ChoiceSchedule().next(drift(SphereDrift::bounded), {}, never_asked).is_due);
+}
+
+TEST(ChoiceSchedule, choice_holds_until_it_expires)
+{
+  ChoiceSchedule schedule = after_choice();
+  EXPECT_FALSE(schedule.next(drift(SphereDrift::bounded), {}, never_asked).is_due);
+  schedule.expire();
+  EXPECT_TRUE(schedule.next(drift(SphereDrift::bounded), {}, never_asked).is_due);
+}
+
+TEST(ChoiceSchedule, margin_is_how_far_spheres_go)
+{
+  const Choice choice = ChoiceSchedule().next(drift(SphereDrift::bounded), {}, never_asked);
+  EXPECT_EQ(choice.margin, kDistance);
+  EXPECT_FALSE(choice.watch);
+}
+
+TEST(ChoiceSchedule, margin_is_twice_as_much_once_spheres_have_moved)
+{
+  EXPECT_EQ(ChoiceSchedule().next(drift(SphereDrift::bounded, true), {}, never_asked).margin,
+            2 * kDistance);
+}
+
+TEST(ChoiceSchedule, wall_that_moves_has_a_margin_of_its_own)
+{
+  const std::vector<MovingMesh> wall = {moved_by({0, 0, 0})};
+  EXPECT_EQ(ChoiceSchedule().next(drift(SphereDrift::bounded, true), wall, never_asked).margin,
+            3 * kDistance);
+}
+
+TEST(ChoiceSchedule, is_due_once_the_wall_has_gone_its_margin)
+{
+  const ChoiceSchedule schedule = after_choice({moved_by({5, 0, 0})});
+  const SphereDrift bounded = drift(SphereDrift::bounded);
+  EXPECT_FALSE(schedule.next(bounded, {moved_by({5, 0, 0.249})}, never_asked).is_due);
+  EXPECT_TRUE(schedule.next(bounded, {moved_by({5, 0, 0.251})}, never_asked).is_due);
+}
+
+TEST(ChoiceSchedule, is_due_once_any_of_several_meshes_has_gone)
+{
+  const ChoiceSchedule schedule = after_choice({moved_by({0, 0, 0}), moved_by({5, 0, 0})});
+  const std::vector<MovingMesh> now = {moved_by({0, 0, 0}), moved_by({5.3, 0, 0})};
+  EXPECT_TRUE(schedule.next(drift(SphereDrift::bounded), now, never_asked).is_due);
+}
+
+// A corner is sqrt(2) from the axis, and goes along a chord of 2 sqrt(2) sin(angle/2).
+TEST(ChoiceSchedule, counts_how_far_the_corners_of_a_turning_wall_go)
+{
+  const ChoiceSchedule schedule = after_choice({turned_by(0)});
+  const SphereDrift bounded = drift(SphereDrift::bounded);
+  const Real angle = 2 * std::asin(kDistance / (2 * std::sqrt(2.0)));
+  EXPECT_FALSE(schedule.next(bounded, {turned_by(0.99 * angle)}, never_asked).is_due);
+  EXPECT_TRUE(schedule.next(bounded, {turned_by(1.01 * angle)}, never_asked).is_due);
+}
+
+TEST(ChoiceSchedule, is_due_where_another_mesh_begins_to_move)
+{
+  EXPECT_TRUE(
+      after_choice().next(drift(SphereDrift::bounded), {moved_by({0, 0, 0})}, never_asked).is_due);
+}
+
+TEST(ChoiceSchedule, asks_the_engine_where_spheres_go_any_distance)
+{
+  const ChoiceSchedule schedule = after_choice();
+  const SphereDrift watched = drift(SphereDrift::watched);
+  EXPECT_FALSE(schedule.next(watched, {}, [] { return false; }).is_due);
+  const Choice choice = schedule.next(watched, {}, [] { return true; });
+  EXPECT_TRUE(choice.is_due);
+  EXPECT_TRUE(choice.watch);
+  EXPECT_EQ(choice.margin, kDistance);
+}
+
+TEST(ChoiceSchedule, watched_margin_does_not_grow_with_what_spheres_have_gone)
+{
+  EXPECT_EQ(ChoiceSchedule().next(drift(SphereDrift::watched, true), {}, never_asked).margin,
+            kDistance);
+}
+
+TEST(ChoiceSchedule, is_due_in_each_step_where_spheres_come_and_go)
+{
+  const Choice choice = after_choice().next(drift(SphereDrift::unknown), {}, never_asked);
+  EXPECT_TRUE(choice.is_due);
+  EXPECT_FALSE(choice.watch);
+  EXPECT_EQ(choice.margin, 0);
+}
+
+}    // namespace
+}    // namespace lsdcd

@@ -1,0 +1,117 @@
+// Loads and wear of a wall's meshes over two processes.
+#include "support/fake_host.h"
+#include "wall/load_recorder.h"
+
+#include <gtest/gtest.h>
+
+namespace lsdcd {
+namespace {
+
+// A wall of two meshes that wear, by half a volume per work.
+WallSettings wall()
+{
+  WallSettings settings;
+  settings.meshes.resize(2);
+  settings.wear.model = WearModel::archard;
+  settings.wear.per_work = 0.5;
+  return settings;
+}
+
+ContactRecord on_face(std::uint32_t face, std::uint32_t mesh, Real normal, Real wear_power)
+{
+  return {feature_code(FeatureKind::face, face), mesh, normal, 0, wear_power, {0, 0, -normal}, {}};
+}
+
+// A step of 2: the process presses face `rank` of mesh 0, and both press face 7 of mesh 1.
+void add_step(LoadRecorder &loads, int rank)
+{
+  const ContactRecord records[] = {on_face(rank, 0, 3, 10), on_face(7, 1, 4, 100)};
+  for (int mesh : {0, 1}) loads.add(mesh, records, 2, 2, {});
+}
+
+TEST(LoadRecorder, adds_up_wear_of_all_processes)
+{
+  on_processes(2, [](FakeHost &host) {
+    const WallSettings settings = wall();
+    LoadRecorder loads(host, settings);
+    add_step(loads, host.rank());
+    EXPECT_EQ(loads.worn(0), 2 * 10);    // 0.5 x 10 x 2 on each process
+    EXPECT_EQ(loads.worn(1), 2 * 100);
+  });
+}
+
+TEST(LoadRecorder, gathers_loads_of_all_processes_on_the_first)
+{
+  on_processes(2, [](FakeHost &host) {
+    const WallSettings settings = wall();
+    LoadRecorder loads(host, settings);
+    add_step(loads, host.rank());
+    const std::vector<double> separate = loads.gathered(0).packed(),
+                              common = loads.gathered(1).packed();
+    if (host.rank() != 0) {
+      EXPECT_TRUE(separate.empty());
+      return;
+    }
+    // Rows of the two faces: feature, integral of the normal force, ...
+    ASSERT_EQ(separate.size(), 2 * WallLoads::kPackedLoad);
+    EXPECT_EQ(separate[1], 3 * 2);
+    EXPECT_EQ(separate[WallLoads::kPackedLoad + 1], 3 * 2);
+    // One row of the face that both have pressed.
+    ASSERT_EQ(common.size(), WallLoads::kPackedLoad);
+    EXPECT_EQ(common[1], 2 * 4 * 2);
+  });
+}
+
+TEST(LoadRecorder, tells_the_time_of_an_average_on_all_processes)
+{
+  on_processes(2, [](FakeHost &host) {
+    const WallSettings settings = wall();
+    LoadRecorder loads(host, settings);
+    add_step(loads, host.rank());
+    add_step(loads, host.rank());
+    EXPECT_EQ(loads.gathered(0).time(), 4);
+  });
+}
+
+TEST(LoadRecorder, begins_an_average_of_one_mesh_and_keeps_its_wear)
+{
+  on_processes(2, [](FakeHost &host) {
+    const WallSettings settings = wall();
+    LoadRecorder loads(host, settings);
+    add_step(loads, host.rank());
+    loads.begin_average(0);
+    EXPECT_EQ(loads.gathered(0).time(), 0);
+    EXPECT_EQ(loads.worn(0), 20);
+    EXPECT_EQ(loads.gathered(1).time(), 2);
+  });
+}
+
+TEST(LoadRecorder, records_nothing_of_a_mesh_without_wear_and_mesh_fields)
+{
+  on_processes(2, [](FakeHost &host) {
+    WallSettings settings = wall();
+    settings.wear.model = WearModel::none;
+    settings.meshes[1].fields.every = 10;
+    LoadRecorder loads(host, settings);
+    add_step(loads, host.rank());
+    EXPECT_TRUE(loads.gathered(0).packed().empty());
+    EXPECT_EQ(loads.gathered(0).time(), 0);
+    EXPECT_EQ(loads.gathered(1).time(), 2);
+  });
+}
+
+// Every process has the numbers of a restart file, which count once.
+TEST(LoadRecorder, goes_on_from_what_a_restart_file_has)
+{
+  on_processes(2, [](FakeHost &host) {
+    const WallSettings settings = wall();
+    LoadRecorder loads(host, settings);
+    loads.restore(0, 5, {0, 1, 2, 3, 70, 0, 0, 0});    // the fifth number is the volume worn off
+    add_step(loads, host.rank());
+    EXPECT_EQ(loads.worn(0), 70 + 20);
+    EXPECT_EQ(loads.gathered(0).time(), 5 + 2);
+  });
+}
+
+}    // namespace
+}    // namespace lsdcd

@@ -1,0 +1,406 @@
+// Where a mesh is in each step: by its clock, by variables, after other words and restarts.
+#include "base/input_error.h"
+#include "support/fake_host.h"
+#include "wall/mesh_motion.h"
+
+#include <gtest/gtest.h>
+
+namespace lsdcd {
+namespace {
+
+// A wall of one mesh, of one process, that began at step 100 with a dt of 0.5.
+struct Wall {
+  WallSettings settings;
+  FakeHost host;
+
+  Wall() : settings() { settings.meshes.resize(1); }
+  MeshSettings &mesh() { return settings.meshes[0]; }
+  Servo &servo() { return mesh().motion.servo(); }
+  void linear(const Vec3 &velocity)
+  {
+    MotionTerm term;
+    term.velocity = velocity;
+    mesh().motion.add(term);
+    mesh().motion_tokens = "linear";
+  }
+  // Displacement in x by variable `x`; its velocity by `vx`, or by differences.
+  void by_variable(bool with_velocity)
+  {
+    MotionTerm term;
+    term.kind = MotionKind::variable;
+    term.name[0] = "x";
+    if (with_velocity) term.name[3] = "vx";
+    mesh().motion.add(term);
+    mesh().motion_tokens = "variable";
+  }
+  void servo_along_z(Real lo = -10, Real hi = 10)
+  {
+    servo().present = true;
+    servo().lo = lo;
+    servo().hi = hi;
+  }
+};
+
+constexpr std::int64_t kFirst = 100;
+constexpr Real kDt = 0.5;
+
+Step step(int n)
+{
+  return {kFirst + n, kDt};
+}
+
+void run(MeshMotion &motion, int first, int last)
+{
+  for (int n = first; n <= last; n++) {
+    motion.advance(step(n));
+    motion.place();
+  }
+}
+
+Vec3 where(const MeshMotion &motion)
+{
+  return motion.pose().to_box({0, 0, 0});
+}
+
+TEST(MeshMotion, moves_with_time)
+{
+  Wall wall;
+  wall.linear({2, 0, 0});
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  run(motion, 1, 3);
+  EXPECT_EQ(where(motion), (Vec3{3, 0, 0}));
+}
+
+TEST(MeshMotion, tells_how_much_time_has_passed)
+{
+  Wall wall;
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  EXPECT_EQ(motion.advance(step(1)), kDt);
+  EXPECT_EQ(motion.advance({kFirst + 1, kDt, Step::setup}), 0);
+}
+
+TEST(MeshMotion, knows_where_it_will_be)
+{
+  Wall wall;
+  wall.linear({2, 0, 0});
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  run(motion, 1, 1);
+  EXPECT_EQ(motion.pose_in(4).shift, (Vec3{1 + 8, 0, 0}));
+}
+
+TEST(MeshMotion, follows_variables)
+{
+  Wall wall;
+  wall.by_variable(true);
+  wall.host.values = {{"x", 7}, {"vx", 3}};
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  run(motion, 1, 1);
+  EXPECT_EQ(where(motion), (Vec3{7, 0, 0}));
+  EXPECT_EQ(motion.pose().velocity, (Vec3{3, 0, 0}));
+}
+
+TEST(MeshMotion, takes_differences_for_velocities_that_no_variable_gives)
+{
+  Wall wall;
+  wall.by_variable(false);
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  wall.host.values = {{"x", 7}};
+  run(motion, 1, 1);
+  wall.host.values = {{"x", 8}};
+  run(motion, 2, 2);
+  EXPECT_EQ(motion.pose().velocity, (Vec3{1 / kDt, 0, 0}));
+}
+
+// The run before has left a velocity, and a setup passes no time.
+TEST(MeshMotion, keeps_the_velocity_where_no_time_passes)
+{
+  Wall wall;
+  wall.by_variable(false);
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  wall.host.values = {{"x", 7}};
+  run(motion, 1, 1);
+  motion.advance({kFirst + 1, kDt, Step::setup});
+  motion.place();
+  EXPECT_EQ(motion.pose().velocity, (Vec3{7 / kDt, 0, 0}));
+}
+
+TEST(MeshMotion, gives_variables_to_the_surface_and_the_servo)
+{
+  Wall wall;
+  wall.servo_along_z();
+  wall.servo().target_name = "load";
+  wall.mesh().surface_variable[1] = "belt";
+  wall.mesh().surface_variable[5] = "spin";
+  wall.host.values = {{"load", 5}, {"belt", 6}, {"spin", 7}};
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  run(motion, 1, 1);
+  EXPECT_EQ(wall.servo().target, 5);
+  EXPECT_EQ(motion.surface().velocity, (Vec3{0, 6, 0}));
+  EXPECT_EQ(motion.surface().angular, (Vec3{0, 0, 7}));
+}
+
+TEST(MeshMotion, names_its_variables_in_the_order_of_their_evaluation)
+{
+  Wall wall;
+  wall.by_variable(true);
+  wall.servo().target_name = "load";
+  wall.mesh().surface_variable[0] = "belt";
+  const MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  EXPECT_EQ(motion.variables(), (std::vector<std::string>{"x", "vx", "load", "belt"}));
+}
+
+// fix_modify motion
+
+TEST(MeshMotion, goes_on_with_another_motion_from_where_it_is)
+{
+  Wall wall;
+  wall.linear({2, 0, 0});
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  run(motion, 1, 2);
+  motion.change(read_modified_motion({"motion", "linear", "0", "3", "0"}), step(2));
+  EXPECT_EQ(where(motion), (Vec3{2, 0, 0}));
+  run(motion, 3, 4);
+  EXPECT_EQ(where(motion), (Vec3{2, 3, 0}));
+}
+
+TEST(MeshMotion, stays_where_it_is_without_a_motion)
+{
+  Wall wall;
+  wall.linear({2, 0, 0});
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  run(motion, 1, 2);
+  motion.change(read_modified_motion({"motion", "none"}), step(2));
+  run(motion, 3, 4);
+  EXPECT_EQ(where(motion), (Vec3{2, 0, 0}));
+  EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}), "none; the mesh stays where it is");
+}
+
+TEST(MeshMotion, keeps_what_a_servo_has_added_to_another_motion)
+{
+  Wall wall;
+  wall.servo_along_z();
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  wall.servo().position = 5;
+  run(motion, 1, 1);
+  motion.change(read_modified_motion({"motion", "linear", "0", "3", "0"}), step(1));
+  EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
+  EXPECT_EQ(wall.servo().position, 5);
+}
+
+// fix_modify servo
+
+TEST(MeshMotion, stops_a_servo_where_it_is)
+{
+  Wall wall;
+  wall.servo_along_z();
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  wall.servo().position = 5;
+  wall.servo().velocity = 1;
+  motion.change(ModifiedServo());
+  EXPECT_TRUE(wall.servo().holds);
+  EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
+  EXPECT_EQ(motion.pose().velocity, (Vec3{0, 0, 0}));
+}
+
+ModifiedServo servo_along(const Vec3 &axis, Real lo, Real hi)
+{
+  ModifiedServo to;
+  to.servo.present = true;
+  to.servo.axis = axis;
+  to.servo.lo = lo;
+  to.servo.hi = hi;
+  return to;
+}
+
+TEST(MeshMotion, goes_on_along_the_line_of_a_servo)
+{
+  Wall wall;
+  wall.servo_along_z();
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  wall.servo().position = 5;
+  motion.change(servo_along({0, 0, 1}, 0, 6));
+  EXPECT_EQ(wall.servo().position, 5);
+  EXPECT_EQ(wall.servo().hi, 6);
+}
+
+TEST(MeshMotion, refuses_limits_that_a_servo_is_past)
+{
+  Wall wall;
+  wall.servo_along_z();
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  wall.servo().position = 5;
+  EXPECT_THROW(motion.change(servo_along({0, 0, 1}, 0, 4)), InputError);
+}
+
+TEST(MeshMotion, begins_along_another_line_from_where_it_is)
+{
+  Wall wall;
+  wall.servo_along_z();
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  wall.servo().position = 5;
+  run(motion, 1, 1);
+  motion.change(servo_along({1, 0, 0}, -1, 1));
+  EXPECT_EQ(wall.servo().position, 0);
+  EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
+}
+
+TEST(MeshMotion, refuses_another_line_while_a_motion_moves_it)
+{
+  Wall wall;
+  wall.linear({2, 0, 0});
+  wall.servo_along_z();
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  EXPECT_THROW(motion.change(servo_along({1, 0, 0}, -1, 1)), InputError);
+}
+
+// rerun
+
+void expect_refused(Wall &wall, const Step &at, const std::string &why)
+{
+  const MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  try {
+    motion.check_snapshot(at);
+    ADD_FAILURE() << "not refused: " << why;
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find(why), std::string::npos) << e.what();
+  }
+}
+
+TEST(MeshMotion, is_known_in_a_snapshot_from_its_time)
+{
+  Wall wall;
+  wall.linear({2, 0, 0});
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  const Step at = {kFirst + 6, kDt, Step::snapshot};
+  motion.check_snapshot(at);
+  motion.advance(at);
+  motion.place();
+  EXPECT_EQ(where(motion), (Vec3{6, 0, 0}));
+}
+
+TEST(MeshMotion, is_not_known_in_a_snapshot_before_it_began)
+{
+  Wall wall;
+  wall.linear({2, 0, 0});
+  expect_refused(wall, {kFirst - 1, kDt, Step::snapshot}, "snapshot of step 99 is before step 100");
+}
+
+TEST(MeshMotion, is_not_known_in_a_snapshot_with_a_servo)
+{
+  Wall wall;
+  wall.servo_along_z();
+  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot}, "in a rerun a servo is not where it was");
+}
+
+TEST(MeshMotion, has_no_differences_in_a_snapshot)
+{
+  Wall wall;
+  wall.by_variable(false);
+  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot}, "give v_vx v_vy v_vz in place of NULL");
+}
+
+// restart files
+
+// Where a wall is at step 5 that has read what `before` wrote at step 3.
+Vec3 where_it_goes_on(Wall &before, Wall &after)
+{
+  MeshMotion first(before.host, before.settings, 0, step(0));
+  run(first, 1, 3);
+  MeshMotion second(after.host, after.settings, 0, step(3));
+  second.restore(first.state(), step(3));
+  run(second, 4, 5);
+  return where(second);
+}
+
+TEST(MeshMotion, goes_on_after_a_restart)
+{
+  Wall before, after;
+  before.linear({2, 0, 0});
+  after.linear({2, 0, 0});
+  EXPECT_EQ(where_it_goes_on(before, after), (Vec3{5, 0, 0}));
+  EXPECT_TRUE(after.host.warnings.empty());
+}
+
+TEST(MeshMotion, begins_another_motion_after_a_restart_from_where_it_was)
+{
+  Wall before, after;
+  before.linear({2, 0, 0});
+  after.linear({0, 3, 0});
+  after.mesh().motion_tokens = "other";
+  EXPECT_EQ(where_it_goes_on(before, after), (Vec3{3, 3, 0}));
+  ASSERT_EQ(after.host.warnings.size(), 1);
+  EXPECT_NE(after.host.warnings[0].find("the phase is not carried over"), std::string::npos);
+}
+
+TEST(MeshMotion, that_was_stopped_stays_so_after_a_restart)
+{
+  Wall before, after;
+  before.linear({2, 0, 0});
+  after.linear({2, 0, 0});
+  MeshMotion first(before.host, before.settings, 0, step(0));
+  run(first, 1, 3);
+  first.change(ModifiedMotion(), step(3));
+  MeshMotion second(after.host, after.settings, 0, step(3));
+  second.restore(first.state(), step(3));
+  run(second, 4, 5);
+  EXPECT_EQ(where(second), (Vec3{3, 0, 0}));
+  ASSERT_EQ(after.host.warnings.size(), 1);
+  EXPECT_NE(after.host.warnings[0].find("was stopped when the restart file was written"),
+            std::string::npos);
+}
+
+TEST(MeshMotion, servo_is_where_it_was_after_a_restart)
+{
+  Wall before, after;
+  before.servo_along_z();
+  before.servo().position = 5;
+  after.servo_along_z();
+  EXPECT_EQ(where_it_goes_on(before, after), (Vec3{0, 0, 5}));
+  EXPECT_EQ(after.servo().position, 5);
+}
+
+TEST(MeshMotion, refuses_a_servo_that_is_past_its_limits_after_a_restart)
+{
+  Wall before, after;
+  before.servo_along_z();
+  before.servo().position = 5;
+  after.servo_along_z(0, 4);
+  EXPECT_THROW(where_it_goes_on(before, after), InputError);
+}
+
+TEST(MeshMotion, is_where_a_servo_had_it_that_is_not_there_after_a_restart)
+{
+  Wall before, after;
+  before.servo_along_z();
+  before.servo().position = 5;
+  EXPECT_EQ(where_it_goes_on(before, after), (Vec3{0, 0, 5}));
+  ASSERT_EQ(after.host.warnings.size(), 1);
+  EXPECT_NE(after.host.warnings[0].find("its state is not carried over"), std::string::npos);
+}
+
+TEST(MeshMotion, has_the_values_of_variables_after_a_restart)
+{
+  Wall before, after;
+  before.by_variable(false);
+  after.by_variable(false);
+  before.host.values = {{"x", 7}};
+  MeshMotion first(before.host, before.settings, 0, step(0));
+  run(first, 1, 1);
+  MeshMotion second(after.host, after.settings, 0, step(1));
+  second.restore(first.state(), step(1));
+  EXPECT_EQ(where(second), (Vec3{7, 0, 0}));
+  EXPECT_EQ(second.pose().velocity, (Vec3{7 / kDt, 0, 0}));
+}
+
+// A line of the log
+
+TEST(MeshMotion, tells_how_fast_its_corners_go)
+{
+  Wall wall;
+  wall.linear({3, 4, 0});
+  const MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}), "linear; corners of its bounds go at up to 5");
+}
+
+}    // namespace
+}    // namespace lsdcd

@@ -1,0 +1,160 @@
+// Warnings of spheres that are deep in the wall, on two processes.
+#include "support/fake_host.h"
+#include "wall/overlap_monitor.h"
+
+#include <gtest/gtest.h>
+
+namespace lsdcd {
+namespace {
+
+StepDiagnostics deepest(Real overlap, int sphere)
+{
+  StepDiagnostics seen;
+  seen.deepest = overlap;
+  seen.deepest_sphere = sphere;
+  return seen;
+}
+
+// Process 0 has spheres 1 and 2, process 1 has 3 and 4; their radii are their tags.
+void give_spheres(FakeHost &host)
+{
+  host.tags = host.rank() == 0 ? std::vector<std::int64_t>{1, 2} : std::vector<std::int64_t>{3, 4};
+  host.radii.assign(host.tags.begin(), host.tags.end());
+}
+
+void check_sunk(FakeHost &host, OverlapMonitor &monitor)
+{
+  Real worst = monitor.worst();
+  host.max(&worst, 1);
+  monitor.check_sunk(worst);
+}
+
+// What the first process warns of where the spheres 1 to 4 overlap so, in step 7.
+std::vector<std::string> warned_of_sunk(const std::vector<Real> &overlaps)
+{
+  std::vector<std::string> warnings;
+  on_processes(2, [&](FakeHost &host) {
+    give_spheres(host);
+    OverlapMonitor monitor(host);
+    for (int i : {0, 1}) monitor.note(deepest(overlaps[2 * host.rank() + i], i), 7);
+    check_sunk(host, monitor);
+    check_sunk(host, monitor);
+    if (host.rank() == 0) warnings = host.warnings;
+  });
+  return warnings;
+}
+
+// Looks at spheres 1 to 4 that the run has, then at one with `tag` in place of 4, on process 1,
+// which overlaps so in each of the next steps. Returns the warnings of the first process.
+std::vector<std::string> warned_of_new(std::int64_t tag, const std::vector<Real> &overlaps,
+                                       bool goes_on = true)
+{
+  std::vector<std::string> warnings;
+  on_processes(2, [&](FakeHost &host) {
+    give_spheres(host);
+    OverlapMonitor monitor(host);
+    monitor.check_new({}, 0, goes_on);
+    if (host.rank() == 1) host.tags[1] = tag;
+    std::int64_t step = 100;
+    for (Real overlap : overlaps) {
+      const StepDiagnostics seen = host.rank() == 1 ? deepest(overlap, 1) : StepDiagnostics();
+      if (step == 100)
+        monitor.check_new(seen, step, true);
+      else
+        monitor.note(seen, step);
+      step++;
+    }
+    check_sunk(host, monitor);
+    if (host.rank() == 0) warnings = host.warnings;
+  });
+  return warnings;
+}
+
+TEST(OverlapMonitor, tells_once_of_the_sphere_that_sank_deepest_on_all_processes)
+{
+  const std::vector<std::string> told = warned_of_sunk({0.2, 0.15, 0.25, 0.12});
+  ASSERT_EQ(told.size(), 1);
+  EXPECT_EQ(told[0],
+            "atom 3 sank into the wall by 25 % of its radius 3 by step 7: stiffen the contact (kn) "
+            "or lower speeds; shown once");
+}
+
+TEST(OverlapMonitor, is_silent_up_to_a_tenth_of_the_radius)
+{
+  EXPECT_TRUE(warned_of_sunk({0.1, 0.05, 0.1, 0}).empty());
+}
+
+TEST(OverlapMonitor, names_the_side_where_a_centre_is_past_the_wall)
+{
+  const std::vector<std::string> told = warned_of_sunk({1.01, 0, 0, 0});
+  ASSERT_EQ(told.size(), 1);
+  EXPECT_NE(told[0].find("its centre is past the wall"), std::string::npos);
+}
+
+TEST(OverlapMonitor, tells_of_a_new_sphere_that_was_put_into_the_wall)
+{
+  const std::vector<std::string> told = warned_of_new(5, {0.5});
+  ASSERT_EQ(told.size(), 1);
+  EXPECT_EQ(told[0].find("atom 5 comes to be in the wall, which it overlaps by 50 % of its radius "
+                         "4 in step 100: it will be thrown out"),
+            0);
+}
+
+TEST(OverlapMonitor, takes_a_sphere_that_was_there_before_for_one_that_sank)
+{
+  const std::vector<std::string> told = warned_of_new(4, {0.5});
+  ASSERT_EQ(told.size(), 1);
+  EXPECT_EQ(told[0].find("atom 4 sank"), 0);
+}
+
+TEST(OverlapMonitor, does_not_tell_again_of_a_new_sphere_that_is_on_its_way_out)
+{
+  EXPECT_EQ(warned_of_new(5, {0.5, 0.54, 0.4, 0.2}).size(), 1);
+}
+
+TEST(OverlapMonitor, tells_of_a_new_sphere_that_sinks_deeper)
+{
+  const std::vector<std::string> told = warned_of_new(5, {0.5, 0.56});
+  ASSERT_EQ(told.size(), 2);
+  EXPECT_EQ(told[1].find("atom 5 sank into the wall by 56 %"), 0);
+}
+
+TEST(OverlapMonitor, tells_of_a_new_sphere_that_was_out_and_sank_again)
+{
+  const std::vector<std::string> told = warned_of_new(5, {0.5, 0.1, 0.2});
+  ASSERT_EQ(told.size(), 2);
+  EXPECT_EQ(told[1].find("atom 5 sank into the wall by 20 %"), 0);
+}
+
+// What the first process warns of where spheres come one after the other and overlap so.
+std::vector<std::string> warned_of_coming(const std::vector<Real> &overlaps, bool goes_on)
+{
+  std::vector<std::string> warnings;
+  on_processes(2, [&](FakeHost &host) {
+    OverlapMonitor monitor(host);
+    for (Real overlap : overlaps) {
+      const int n = static_cast<int>(host.tags.size());
+      host.tags.push_back(2 * n + host.rank() + 1);
+      host.radii.push_back(1);
+      monitor.check_new(host.rank() == 1 ? deepest(overlap, n) : StepDiagnostics(), n, goes_on);
+    }
+    if (host.rank() == 0) warnings = host.warnings;
+  });
+  return warnings;
+}
+
+TEST(OverlapMonitor, tells_again_of_new_spheres_that_are_a_tenth_deeper)
+{
+  const std::vector<std::string> told = warned_of_coming({0.5, 0.54, 0.56}, false);
+  ASSERT_EQ(told.size(), 2);
+  EXPECT_EQ(told[1].find("atom 6 comes to be in the wall, which it overlaps by 56 %"), 0);
+}
+
+TEST(OverlapMonitor, takes_the_first_spheres_of_a_run_that_goes_on_for_old_ones)
+{
+  EXPECT_TRUE(warned_of_coming({0.5}, true).empty());
+  EXPECT_EQ(warned_of_coming({0.5}, false).size(), 1);
+}
+
+}    // namespace
+}    // namespace lsdcd

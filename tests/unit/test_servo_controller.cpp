@@ -1,0 +1,140 @@
+// A servo's velocity from the load of the last step, on two processes.
+#include "support/fake_host.h"
+#include "wall/servo_controller.h"
+
+#include <gtest/gtest.h>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kDt = 0.01;
+
+// A servo along z that shall push with 100 upwards, of a wall with springs of 1e4 and no damping.
+WallSettings wall()
+{
+  WallSettings settings;
+  settings.meshes.resize(1);
+  settings.law.k_normal = 1e4;
+  Servo &s = settings.meshes[0].motion.servo();
+  s.present = true;
+  s.target = 100;
+  s.fastest = 1e6;
+  return settings;
+}
+
+// Spheres that press a mesh down with this force, each with a radius of 0.5 and a mass of 1.
+ServoLoad pressed(Real force, Real contacts)
+{
+  ServoLoad load;
+  load.force = {0, 0, -force};
+  load.contacts = contacts;
+  load.radius = 0.5;
+  load.mass = 1;
+  return load;
+}
+
+struct Moved {
+  Real velocity, position;
+  std::vector<std::string> lines, warnings;
+};
+
+// After `steps` steps with the same load. Extents of the mesh are a cube of 2 about the origin.
+Moved after(WallSettings settings, const ServoLoad &load, int steps = 1)
+{
+  FakeHost host;
+  ServoController controller(host, settings, 0, {{-1, -1, -1}, {1, 1, 1}});
+  for (int i = 0; i < steps; i++) controller.advance(load, WallPose(), kDt, 7);
+  const Servo &s = settings.meshes[0].motion.servo();
+  return {s.velocity, s.position, host.lines, host.warnings};
+}
+
+// The gain is a quarter of what is stable: 1/(2 k dt).
+TEST(ServoController, moves_by_what_is_missing_of_its_push)
+{
+  const Moved moved = after(wall(), pressed(60, 1));
+  EXPECT_NEAR(moved.velocity, (100 - 60) / (2 * 1e4 * kDt), 1e-13);
+  EXPECT_NEAR(moved.position, moved.velocity * kDt, 1e-15);
+}
+
+TEST(ServoController, is_slower_the_more_contacts_there_are)
+{
+  EXPECT_NEAR(after(wall(), pressed(60, 8)).velocity, 40 / (2 * 8 * 1e4 * kDt), 1e-14);
+}
+
+TEST(ServoController, takes_no_contact_for_one)
+{
+  EXPECT_NEAR(after(wall(), pressed(0, 0)).velocity, 100 / (2 * 1e4 * kDt), 1e-13);
+}
+
+// A torque by the arm squared: the farthest corner of the mesh and a sphere's radius is
+// 1.5 sqrt(2) from the axis.
+TEST(ServoController, counts_the_arm_of_contacts_where_it_turns)
+{
+  WallSettings settings = wall();
+  settings.meshes[0].motion.servo().turns = true;
+  ServoLoad load = pressed(0, 1);
+  load.torque = {0, 0, -60};
+  EXPECT_NEAR(after(settings, load).velocity, 40 / (2 * 4.5 * 1e4 * kDt), 1e-14);
+}
+
+TEST(ServoController, pushes_against_what_spheres_exert)
+{
+  WallSettings settings = wall();
+  FakeHost host;
+  EXPECT_EQ(ServoController(host, settings, 0, {}).push(pressed(60, 1)), 60);
+}
+
+TEST(ServoController, does_not_act_where_it_holds)
+{
+  WallSettings settings = wall();
+  FakeHost host;
+  const ServoController controller(host, settings, 0, {});
+  EXPECT_TRUE(controller.acts());
+  settings.meshes[0].motion.servo().holds = true;
+  EXPECT_FALSE(controller.acts());
+}
+
+TEST(ServoController, warns_once_of_a_gain_that_would_not_be_stable)
+{
+  WallSettings settings = wall();
+  settings.meshes[0].motion.servo().most_gain = 1;
+  const Moved moved = after(settings, pressed(60, 1), 2);
+  ASSERT_EQ(moved.warnings.size(), 1);
+  EXPECT_EQ(moved.warnings[0].find("a servo's gain of 1 would not be stable with 1 contacts at the "
+                                   "timestep 0.01: 0.005 is used in its place"),
+            0);
+}
+
+TEST(ServoController, does_not_warn_of_a_gain_before_there_are_contacts)
+{
+  WallSettings settings = wall();
+  settings.meshes[0].motion.servo().most_gain = 1;
+  EXPECT_TRUE(after(settings, pressed(0, 0)).warnings.empty());
+}
+
+TEST(ServoController, logs_once_that_a_limit_stops_it)
+{
+  WallSettings settings = wall();
+  settings.meshes[0].motion.servo().hi = 1e-4;
+  const Moved moved = after(settings, pressed(60, 1), 3);
+  EXPECT_EQ(moved.position, 1e-4);
+  ASSERT_EQ(moved.lines.size(), 1);
+  EXPECT_EQ(moved.lines[0],
+            "the servo is at its limit 0.0001 at step 7, where it pushes with 60 in place of 100; "
+            "said once");
+}
+
+TEST(ServoController, tells_of_another_servo_again)
+{
+  WallSettings settings = wall();
+  settings.meshes[0].motion.servo().hi = 1e-4;
+  FakeHost host;
+  ServoController controller(host, settings, 0, {});
+  controller.advance(pressed(60, 1), WallPose(), kDt, 7);
+  controller.begin_anew();
+  controller.advance(pressed(60, 1), WallPose(), kDt, 8);
+  EXPECT_EQ(host.lines.size(), 2);
+}
+
+}    // namespace
+}    // namespace lsdcd

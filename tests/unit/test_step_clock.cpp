@@ -1,0 +1,57 @@
+// Time as the host's steps count it.
+#include "motion/step_clock.h"
+
+#include <gtest/gtest.h>
+
+namespace lsdcd {
+namespace {
+
+// 0 at step 10.
+StepClock clock()
+{
+  return {0, 10, 10, 0.5};
+}
+
+Real time_after(const std::vector<Step> &steps)
+{
+  StepClock c = clock();
+  for (const Step &s : steps) c.advance(s);
+  return static_cast<Real>(c.now());
+}
+
+TEST(StepClock, goes_on_by_dt_in_each_step)
+{
+  EXPECT_EQ(time_after({{11, 0.5}, {12, 0.5}}), 1);
+}
+
+TEST(StepClock, stands_still_where_a_run_is_set_up)
+{
+  EXPECT_EQ(time_after({{11, 0.5}, {11, 0.5, Step::setup}, {12, 0.5}}), 1);
+}
+
+TEST(StepClock, counts_each_step_with_its_own_dt)
+{
+  EXPECT_EQ(time_after({{11, 0.5}, {12, 0.25}, {13, 0.25}}), 1);
+}
+
+TEST(StepClock, goes_on_whatever_number_a_step_gets)
+{
+  EXPECT_EQ(time_after({{11, 0.5}, {0, 0.5, Step::setup}, {1, 0.5}}), 1);
+}
+
+TEST(StepClock, knows_the_time_of_a_snapshot_by_its_number)
+{
+  EXPECT_EQ(time_after({{14, 0.5, Step::snapshot}}), 2);
+  EXPECT_EQ(time_after({{14, 0.5, Step::snapshot}, {8, 0.5, Step::snapshot}}), -1);
+}
+
+// Each addition of 0.1 rounds, a product once.
+TEST(StepClock, does_not_add_up_rounding)
+{
+  StepClock c = {0, 0, 0, 0.1};
+  for (int i = 1; i <= 1000000; i++) c.advance({i, 0.1});
+  EXPECT_EQ(static_cast<Real>(c.now()), 1e5);
+}
+
+}    // namespace
+}    // namespace lsdcd

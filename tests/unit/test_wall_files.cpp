@@ -1,0 +1,225 @@
+// Files that a run writes of a wall's meshes, on two processes, of which the first has the meshes.
+#include "base/input_error.h"
+#include "mesh/triangle_soup.h"
+#include "support/fake_host.h"
+#include "support/meshes.h"
+#include "support/temp_dir.h"
+#include "wall/wall_files.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace lsdcd {
+namespace {
+
+// A wall of one mesh, a square of two faces.
+struct Wall {
+  WallSettings settings;
+  WallMesh mesh = weld(floor_mesh(1, 1), -1);
+
+  Wall() : settings() { settings.meshes.resize(1); }
+  MeshSettings &files() { return settings.meshes[0]; }
+};
+
+// One process of it, with loads of steps of 1.
+struct Process {
+  FakeHost &host;
+  LoadRecorder loads;
+  WallFiles files;
+  std::vector<PlacedMesh> placed;
+  bool rerun = false;
+
+  Process(FakeHost &host_, const Wall &wall) :
+      host(host_), loads(host, wall.settings),
+      files(host, wall.settings, 1), placed{{host.rank() == 0 ? &wall.mesh : nullptr, {}}}
+  {
+  }
+
+  void step(std::int64_t number)
+  {
+    loads.add(0, nullptr, 0, 1, {});
+    files.write_due(number, static_cast<double>(number), placed, rerun ? nullptr : &loads);
+  }
+  void steps(std::int64_t first, std::int64_t last)
+  {
+    for (std::int64_t i = first; i <= last; i++) step(i);
+  }
+};
+
+bool exists(const std::string &path)
+{
+  return std::filesystem::exists(path);
+}
+
+TEST(WallFiles, are_due_in_multiples_of_the_common_divisor)
+{
+  on_processes(1, [](FakeHost &host) {
+    Wall wall;
+    EXPECT_EQ(WallFiles(host, wall.settings, 1).every(), 0);
+    wall.settings.meshes.resize(2);
+    wall.settings.meshes[0].stl.every = 12;
+    wall.settings.meshes[1].fields.every = 20;
+    EXPECT_EQ(WallFiles(host, wall.settings, 1).every(), 4);
+  });
+}
+
+TEST(WallFiles, are_written_in_due_steps_only)
+{
+  TempDir dir;
+  Wall wall;
+  wall.files().stl = {dir.path("wall*.stl"), 2};
+  wall.files().fields = {dir.path("wall*.vtp"), 3};
+  on_processes(2, [&](FakeHost &host) { Process(host, wall).steps(1, 4); });
+  for (int step = 1; step <= 4; step++) {
+    EXPECT_EQ(exists(dir.path("wall" + std::to_string(step) + ".stl")), step % 2 == 0) << step;
+    EXPECT_EQ(exists(dir.path("wall" + std::to_string(step) + ".vtp")), step == 3) << step;
+  }
+}
+
+TEST(WallFiles, show_the_mesh_where_it_is)
+{
+  TempDir dir;
+  Wall wall;
+  wall.files().stl = {dir.path("wall.stl"), 1};
+  on_processes(2, [&](FakeHost &host) {
+    Process process(host, wall);
+    process.placed[0].pose.placed = true;
+    process.placed[0].pose.shift = {0, 0, 8};
+    process.step(1);
+  });
+  for (const Vec3 &corner : read_stl(dir.path("wall.stl")).corners) EXPECT_EQ(corner.z, 8);
+}
+
+TEST(WallFiles, begin_a_new_average_with_each_file)
+{
+  TempDir dir;
+  Wall wall;
+  wall.files().fields = {dir.path("wall.vtp"), 3};
+  on_processes(2, [&](FakeHost &host) {
+    Process process(host, wall);
+    process.steps(1, 4);
+    EXPECT_EQ(process.loads.gathered(0).time(), 1);
+  });
+}
+
+TEST(WallFiles, average_over_the_steps_of_a_file_that_could_not_be_written)
+{
+  TempDir dir;
+  Wall wall;
+  wall.files().fields = {dir.path("missing/wall.vtp"), 3};
+  on_processes(2, [&](FakeHost &host) {
+    Process process(host, wall);
+    process.steps(1, 4);
+    EXPECT_EQ(process.loads.gathered(0).time(), 4);
+  });
+}
+
+TEST(WallFiles, that_cannot_be_written_are_warned_of_once_a_run)
+{
+  TempDir dir;
+  Wall wall;
+  wall.files().stl = {dir.path("later/wall.stl"), 1};
+  on_processes(2, [&](FakeHost &host) {
+    Process process(host, wall);
+    const auto run = [&] {
+      host.broadcast(nullptr, 0, 0);    // both are here
+      if (host.rank() == 0) std::filesystem::create_directory(dir.path("later"));
+      process.files.begin_run(0);
+      if (host.rank() == 0) std::filesystem::remove_all(dir.path("later"));
+      process.steps(1, 3);
+    };
+    run();
+    EXPECT_EQ(host.warnings.size(), 1);
+    run();
+    ASSERT_EQ(host.warnings.size(), 2);
+    EXPECT_NE(host.warnings[1].find("there is no mesh_stl of this step"), std::string::npos);
+  });
+}
+
+TEST(WallFiles, that_cannot_be_made_are_refused_before_a_run_on_all_processes)
+{
+  TempDir dir;
+  Wall wall;
+  wall.files().fields = {dir.path("missing/wall.vtp"), 1};
+  on_processes(2, [&](FakeHost &host) {
+    Process process(host, wall);
+    try {
+      process.files.begin_run(0);
+      ADD_FAILURE() << "nothing is thrown";
+    } catch (const InputError &e) {
+      EXPECT_EQ(std::string(e.what()).find("in 'mesh_fields', "), 0) << e.what();
+      EXPECT_NE(std::string(e.what()).find("missing"), std::string::npos) << e.what();
+    }
+  });
+}
+
+TEST(WallFiles, leave_nothing_behind_before_a_run)
+{
+  TempDir dir;
+  Wall wall;
+  wall.files().stl = {dir.path("wall.stl"), 1};
+  on_processes(2, [&](FakeHost &host) { Process(host, wall).files.begin_run(0); });
+  EXPECT_FALSE(exists(dir.path("wall.stl")));
+}
+
+TEST(WallFiles, are_without_mesh_fields_where_loads_are_not_known)
+{
+  TempDir dir;
+  Wall wall;
+  wall.files().stl = {dir.path("wall.stl"), 1};
+  wall.files().fields = {dir.path("wall.vtp"), 1};
+  on_processes(2, [&](FakeHost &host) {
+    Process process(host, wall);
+    process.rerun = true;
+    process.step(1);
+  });
+  EXPECT_TRUE(exists(dir.path("wall.stl")));
+  EXPECT_FALSE(exists(dir.path("wall.vtp")));
+}
+
+int files_listed(const std::string &path)
+{
+  std::ifstream in(path);
+  int n = 0;
+  for (std::string line; std::getline(in, line);) n += line.find("<DataSet") != std::string::npos;
+  return n;
+}
+
+TEST(WallFiles, go_on_with_the_list_of_an_earlier_run_where_that_is_asked_for)
+{
+  TempDir dir;
+  Wall wall;
+  wall.files().fields = {dir.path("wall*.vtp"), 1};
+  const auto run = [&](std::int64_t first, std::int64_t last, bool continues) {
+    on_processes(2, [&](FakeHost &host) {
+      Process process(host, wall);
+      if (continues) process.files.continue_lists();
+      process.steps(first, last);
+    });
+    return files_listed(dir.path("wallseries.pvd"));
+  };
+  EXPECT_EQ(run(1, 2, false), 2);
+  EXPECT_EQ(run(3, 5, true), 5);
+  EXPECT_EQ(run(6, 6, false), 1);
+}
+
+TEST(WallFiles, of_several_meshes_name_the_mesh_in_errors)
+{
+  TempDir dir;
+  Wall wall;
+  wall.settings.meshes.resize(2);
+  wall.settings.meshes[1].file = "lid.stl";
+  wall.settings.meshes[1].stl = {dir.path("missing/lid.stl"), 1};
+  on_processes(2, [&](FakeHost &host) {
+    try {
+      WallFiles(host, wall.settings, 1).begin_run(0);
+      ADD_FAILURE() << "nothing is thrown";
+    } catch (const InputError &e) {
+      EXPECT_EQ(std::string(e.what()).find("mesh 2 'lid.stl': in 'mesh_stl', "), 0) << e.what();
+    }
+  });
+}
+
+}    // namespace
+}    // namespace lsdcd
