@@ -73,7 +73,7 @@ class FixWallLsdcd : public Fix {
  protected:
   friend class LammpsHost;
   LammpsHost host = LammpsHost(*this);
-  lsdcd::WallSettings settings;    // of the deck; parts have those of its meshes
+  lsdcd::WallSettings settings;    // of the deck, and motions given later
   std::string material;            // what a material file filled in, for the log; else empty
   std::string material_file;       // as the deck names it
   std::deque<MeshPart> parts;      // where each stays; there is one at least

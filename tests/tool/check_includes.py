@@ -6,7 +6,7 @@ usage: check_includes.py [ROOT]
 * A file includes its own room and rooms on lower floors (FLOORS, from the lowest). Rooms of one
   floor do not include each other, but for the pairs in BESIDE.
 * The study is for STUDY_ROOMS, bench/ and tests: what it measures is no part of a plugin or the library.
-* Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name.
+* Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name, and of MPI.
 * A header of ONLY_IN, which is slow to compile, is included by its one file.
 * src itself has no source file: each lies in a room, and each room has a floor.
 
@@ -82,6 +82,8 @@ def violations(root):
             elif why:
                 yield f"{path}:{number}: {include[1]} {why}"
             system = SYSTEM_INCLUDE.match(line)
+            if system and system[1] == "mpi.h" and room not in LAMMPS_ROOMS:
+                yield f"{path}:{number}: mpi.h is for {', '.join(sorted(LAMMPS_ROOMS))} only"
             if system and ONLY_IN.get(system[1], path) != path:
                 yield f"{path}:{number}: {system[1]} is for {ONLY_IN[system[1]]} only"
     for entry in sorted(map(str, unused)):
