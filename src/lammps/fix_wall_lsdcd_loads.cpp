@@ -55,8 +55,8 @@ void FixWallLsdcd::add_restart_data(const MeshPart &m, std::vector<double> &data
 
 void FixWallLsdcd::write_restart(FILE *file)
 {
-  std::vector<double> data = {kFormat, double(settings.law.history_kind()),
-                              double(run_clock.now()), double(parts.size())};
+  std::vector<double> data = {kFormat, double(settings.law.history_kind()), double(run_clock.now()),
+                              double(parts.size())};
   for (const MeshPart &m : parts) add_restart_data(m, data);
   if (comm->me != 0) return;
   const int bytes = static_cast<int>(data.size() * sizeof(double));

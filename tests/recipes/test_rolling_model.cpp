@@ -12,8 +12,8 @@ namespace {
 EngineSettings of_words()
 {
   EngineSettings s;
-  s.law = parse_settings({"granular", "hooke", "1e4", "0", "tangential", "linear_nohistory", "0", "0",
-                          "rolling", "plastic", "50", "0.1", "mesh", "a.stl"})
+  s.law = parse_settings({"granular", "hooke", "1e4", "0", "tangential", "linear_nohistory", "0",
+                          "0", "rolling", "plastic", "50", "0.1", "mesh", "a.stl"})
               .law;
   return s;
 }

@@ -55,9 +55,10 @@ TEST(sub_models, have_a_case_in_the_table_of_effects)
     for (const SubModel *row : rows_of(c.settings.law)) seen.insert(row);
   for (const SubModel &row : sub_models()) {
     // Of two rows with one formula, the first stands for both.
-    const auto first = std::find_if(
-        sub_models().begin(), sub_models().end(),
-        [&](const SubModel &r) { return r.family == row.family && r.model == row.model; });
+    const auto first =
+        std::find_if(sub_models().begin(), sub_models().end(), [&](const SubModel &r) {
+          return r.family == row.family && r.model == row.model;
+        });
     if (!is_off(row)) EXPECT_TRUE(seen.count(&*first)) << name_of(row);
   }
 }
