@@ -232,23 +232,33 @@ def write_table(rows, out):
                   f"{size(one.relative)}\t{one.note}\n")
 
 
+def apart(values, absolute, relative):
+    many = f"{values} value{'s' * (values != 1)}"
+    return many if math.isinf(absolute) else f"{many}, largest difference {size(absolute)}, relative {size(relative)}"
+
+
 def list_rows(rows, most=40):
-    """All where they are few; else some, and each quantity over all scripts."""
-    for deck_name, form, ranks, one in rows[:most]:
-        apart = f"largest {size(one.absolute)}, relative {size(one.relative)}" if not math.isinf(one.absolute) else ""
-        say(f"  {deck_name}, {form} on {ranks}: {one.quantity}: {one.values} value{'s' * (one.values != 1)} "
-            f"{apart}{', ' * bool(apart and one.note)}{one.note}")
+    """All where they are few; else each quantity over all scripts, then scripts."""
     if len(rows) <= most:
+        for deck_name, form, ranks, one in rows:
+            say(f"  {deck_name}, {form} on {ranks}: {one.quantity}: {apart(*one[1:4])}{one.note and ', ' + one.note}")
         return
-    say(f"  ... and {len(rows) - most} more lines (--table FILE has all). By quantity:")
-    by_quantity = {}
-    for deck_name, _, _, one in rows:
+    by_quantity, by_deck = {}, {}
+    for deck_name, form, ranks, one in rows:
         known = by_quantity.setdefault(one.quantity, [set(), 0, 0.0, 0.0])
-        known[0].add(deck_name)
+        known[0].add((deck_name, form, ranks))
         known[1] += one.values
         known[2:] = max(known[2], one.absolute), max(known[3], one.relative)
-    for quantity, (decks, values, absolute, relative) in sorted(by_quantity.items(), key=lambda q: -len(q[1][0]))[:most]:
-        say(f"  {quantity}: {values} values in {len(decks)} scripts, largest {size(absolute)}, relative {size(relative)}")
+        by_deck.setdefault((deck_name, form, ranks), []).append(one)
+    for quantity, (decks, *of) in sorted(by_quantity.items(), key=lambda q: -len(q[1][0]))[:most]:
+        say(f"  {quantity}: in {len(decks)} runs, {apart(*of)}")
+    say("of which")
+    for (deck_name, form, ranks), ones in list(by_deck.items())[:most]:
+        worst = max(ones, key=lambda one: one.relative)
+        say(f"  {deck_name}, {form} on {ranks}: {len(ones)} quantities; {worst.quantity}: {apart(*worst[1:4])}"
+            f"{worst.note and ', ' + worst.note}")
+    if len(by_quantity) > most or len(by_deck) > most:
+        say(f"  ... of {len(by_quantity)} quantities and {len(by_deck)} runs; --table FILE has all")
 
 
 # ---- words -------------------------------------------------------------------------------
@@ -261,7 +271,7 @@ def read_words(words):
     p.add_argument("--only", metavar="PATTERN", help="scripts whose name has a match of a regular expression")
     p.add_argument("--quick", action="store_true", help="a sample, on 1 and 2 processes, in two minutes")
     p.add_argument("--ranks", metavar="LIST", help="numbers of processes (1,2,4)")
-    p.add_argument("--thorough", action="store_true", help="recorded runs on each of them, not on 1 and one other")
+    p.add_argument("--thorough", action="store_true", help="each script on each of them, not on them in turns")
     p.add_argument("--forms", default=",".join(FORMS), metavar="LIST", help="of plain, host, kk (all)")
     p.add_argument("--without-recorded", action="store_true", help="laws of contact only")
     p.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs at once (one a core)")
@@ -298,28 +308,29 @@ def reference_of(o, kokkos_folder, version):
     folder, name = programs.export(o.commit)
     # Inside the sources, as ours is: ccache then knows what both have in common.
     build = folder / "source" / ("build-cuda" if o.cuda else "build")
-    program = programs.Program(name, build, version)
-    if ("plain" in o.forms and not program.lmp) or (kokkos_folder and not program.plugin):
-        programs.build(folder / "source", build, kokkos_folder, o)
+    with programs.alone(folder):
         program = programs.Program(name, build, version)
+        if ("plain" in o.forms and not program.lmp) or (kokkos_folder and not program.plugin):
+            programs.build(folder / "source", build, kokkos_folder, o)
+            program = programs.Program(name, build, version)
     return program, folder / "source", CACHE / "bits" / "answers"
 
 
-def ranks_of(script, form, ranks, thorough):
-    """Numbers of processes: all for laws. A recorded run: one, what it was recorded on, and 2 or 4 in turns; it
-    takes most of the time to start processes. With Kokkos: one, and another in turns."""
-    if thorough or script.parts and form != "kk":
+def ranks_of(k, script, ranks, thorough):
+    """Numbers of processes of script k. To start processes takes most of the time, so that laws are run on the
+    first number and on the others in turns, and of recorded runs a third."""
+    if thorough:
         return ranks
     first, *others = ranks
-    turn = others[sum(script.name.encode()) % len(others):][:1] if others else []
-    return [n for n in ranks if n == first or [n] == turn or n == script.ranks]
+    turn = [others[k % len(others)]] if others and (script.parts or k % 3 == 0) else []
+    return [n for n in ranks if n == first or n in turn or n == script.ranks]
 
 
 def jobs_of(scripts, forms, ranks, thorough):
     """lmp-lsdcd runs all but what needs LAMMPS 4Jul2026, that runs the rest, and with Kokkos all again."""
-    return [Job(script, form, n) for script in scripts for form in forms
+    return [Job(script, form, n) for k, script in enumerate(scripts) for f, form in enumerate(forms)
             if not (script.new and form == "plain") and (script.new or form != "host")
-            for n in ranks_of(script, form, ranks, thorough)]
+            for n in ranks_of(k + f, script, ranks, thorough)]
 
 
 def main(words=None):
@@ -358,7 +369,8 @@ def main(words=None):
         scripts = catalogue(scratch / "files", o.only, 8 if o.quick else 1)
         if not o.without_recorded and "plain" in forms:
             wanted = record.FEW if o.quick else None
-            folder, runs = record.recorded(reference, source, wanted, o.jobs)
+            with programs.alone(CACHE / "bits" / "recorded"):
+                folder, runs = record.recorded(reference, source, wanted, o.jobs)
             scripts += [from_record(name, one, folder / "store") for name, one in runs
                         if (not o.only or o.only.search(name)) and not re.search(r"\btune\b", one["deck"])]
             skipped += [f"runs of {name}: {why}" for name, why in record.LEFT_OUT.items() if not o.quick]

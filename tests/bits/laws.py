@@ -8,7 +8,7 @@ import itertools
 import math
 import random
 
-STEPS = 60    # of each of a script's runs: two contacts long
+STEPS = 100    # of each of a script's runs: spheres slide and roll over some folds and rims
 
 # ---- laws --------------------------------------------------------------------------------
 
@@ -128,11 +128,11 @@ EFFECTS = {
     "surface_variable": effect("surface_vel v_wave v_speed 0", before=WAVE, laws=SOME),
     "turntable": effect("surface_angvel 0 0 3 0.1 0.2 0"),
     "machine": effect("surface_vel 1.0 0.5 0 motion rotate 0 0 0 0 0 1 8", laws=SOME),
-    "archard": effect("mesh_fields SCRIPT_*.vtp every 20", wall="wear archard 1e-3 1e5"),
-    "turning_wear": effect(TURN + " mesh_fields SCRIPT_*.vtp every 60",
+    "archard": effect("mesh_fields SCRIPT_*.vtp every 30", wall="wear archard 1e-3 1e5"),
+    "turning_wear": effect(TURN + " mesh_fields SCRIPT_*.vtp every 100",
                            wall="wear finnie 1e-3"),
     "fields": effect("mesh_fields SCRIPT.vtp every 30"),
-    "stl": effect(TURN + " mesh_stl SCRIPT_*.stl every 60", laws=("hooke",)),
+    "stl": effect(TURN + " mesh_stl SCRIPT_*.stl every 100", laws=("hooke",)),
     "mixed": effect(wall="precision mixed"),
     "mixed_turning": effect(TURN, wall="precision mixed"),
     "single": effect(wall="precision single", laws=CLASSIC),
@@ -147,9 +147,9 @@ EFFECTS = {
     "outside": effect(wall="side out", scene="pillar", laws=SOME),
     "two_meshes": effect(f"{PLATE}"),
     "one_moves": effect(f"{PLATE} motion rotate 0 0 0 0 0 1 8"),
-    "both_move": effect(f"motion wiggle 0 0 0.05 0.04 {PLATE} motion linear 0.5 0 0 mesh_stl SCRIPT.stl every 60"),
-    "two_with_wear": effect(f"mesh_fields SCRIPT_a.vtp every 60 {PLATE} motion rotate 0 0 0 0 0 1 8 "
-                            "mesh_fields SCRIPT_b.vtp every 60", wall="wear finnie 1e-3", laws=SOME + ("hooke",)),
+    "both_move": effect(f"motion wiggle 0 0 0.05 0.04 {PLATE} motion linear 0.5 0 0 mesh_stl SCRIPT.stl every 100"),
+    "two_with_wear": effect(f"mesh_fields SCRIPT_a.vtp every 100 {PLATE} motion rotate 0 0 0 0 0 1 8 "
+                            "mesh_fields SCRIPT_b.vtp every 100", wall="wear finnie 1e-3", laws=SOME + ("hooke",)),
     "two_nearest": effect(f"{PLATE} motion rotate 0 0 0 0 0 1 8", wall="nearest 2", laws=SOME),
     "two_mixed": effect(f"{PLATE} motion rotate 0 0 0 0 0 1 8", wall="precision mixed", laws=SOME),
     "servo": effect(SERVO, servo=True),
@@ -269,10 +269,14 @@ def spheres(scene):
         elif scene == "outline":
             z = 0.0
             y = above(x, radius * draw.uniform(0.96, 1.04))
-        velocity = [draw.uniform(-1.5, 1.5), draw.uniform(-1.5, 1.5), draw.uniform(-1.5, 0.2)]
+        # Along the sheet, and a little against it.
+        u, v = draw.uniform(-6, 6), draw.uniform(-6, 6)
+        velocity = [u, v, u * (height(x + 1e-3) - height(x - 1e-3)) / 2e-3 + draw.uniform(-1.5, 0.2)]
         turning = [draw.uniform(-12, 12) for _ in range(3)]
         if scene == "outline":
-            velocity, turning = [velocity[0], velocity[2], 0.0], [0.0, 0.0, turning[2]]
+            velocity, turning = [u, velocity[2], 0.0], [0.0, 0.0, turning[2]]
+        elif scene in ("box", "pillar"):
+            velocity = [u / 4, v / 4, draw.uniform(-1.5, 0.2)]
         some.append((radius, (x, y, z), velocity, turning))
     return some
 
@@ -329,7 +333,7 @@ pair_coeff      * *
 neighbor        0.2 bin
 neigh_modify    {neigh}
 fix             move all nve/sphere
-fix             pull all gravity 10.0 vector {pull}
+fix             pull all gravity 60.0 vector {pull}
 {before}timestep        2.5e-4
 fix             wall all wall/lsdcd {law} {mesh} {added} {wall} contacts
 {after}thermo_style    custom step atoms {columns} {totals}

@@ -1,10 +1,13 @@
 """The two programs: sources of a commit exported outside the tree and built there, and what is in a build folder."""
 
+import contextlib
+import fcntl
 import hashlib
 import os
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -26,6 +29,15 @@ def say(text):
     print(text, flush=True)
 
 
+@contextlib.contextmanager
+def alone(folder):
+    """A second comparison waits until the first one has made what both want."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with open(folder / "lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
 def git(*words, stdout=subprocess.PIPE):
     return subprocess.run(["git", "-C", str(ROOT), *words], stdout=stdout, stderr=subprocess.PIPE)
 
@@ -44,24 +56,30 @@ def export(commit):
             fail(f"'{commit}' is no commit here, no folder of a build and no archive of sources")
         name = done.stdout.decode().strip()[:12]
     folder = CACHE / "bits" / name
-    source = folder / "source"
-    if not (source / "CMakeLists.txt").exists():
-        folder.mkdir(parents=True, exist_ok=True)
-        # Unpacked beside and renamed: whole or not there.
-        part = folder / f"source.part-{os.getpid()}"
-        part.mkdir()
-        archive = commit if os.path.isfile(commit) else folder / f"sources-{os.getpid()}.tar"
-        if archive != commit:
-            with open(archive, "wb") as out:
-                if git("archive", name, stdout=out).returncode:
-                    fail(f"git archive {name} does not work")
-        with tarfile.open(archive) as tar:
-            tar.extractall(part)
-        if archive != commit:
-            archive.unlink()
-        inside = [p for p in part.iterdir()]
-        (inside[0] if len(inside) == 1 else part).rename(source)
+    with alone(folder):
+        if not (folder / "source" / "CMakeLists.txt").exists():
+            unpack(commit, name, folder)
     return folder, name
+
+
+def unpack(commit, name, folder):
+    """Beside its place, then renamed: it is there whole or not at all."""
+    part = folder / "part"
+    shutil.rmtree(part, ignore_errors=True)
+    part.mkdir()
+    archive = folder / "sources.tar"
+    if os.path.isfile(commit):
+        shutil.copy(commit, archive)
+    else:
+        with open(archive, "wb") as out:
+            if git("archive", name, stdout=out).returncode:
+                fail(f"git archive {name} does not work")
+    with tarfile.open(archive) as tar:
+        tar.extractall(part)
+    archive.unlink()
+    inside = list(part.iterdir())
+    (inside[0] if len(inside) == 1 else part).rename(folder / "source")
+    shutil.rmtree(part, ignore_errors=True)
 
 
 def build(source, folder, kokkos_host, o):
