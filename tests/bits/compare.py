@@ -160,14 +160,15 @@ class Comparison:
     def one_by_one(self, job, whose):
         """A deck of a batch stopped, which keeps the others from running."""
         if len(job.script.parts) == 1:
-            job.error = f"stops with {whose}"
+            words = self.run(job, self.reference)[1]["stdout"].decode().split("\n")
+            job.error = f"stops with {whose}: " + next((line for line in words if line.startswith("ERROR")), words[0])
             return
         for name in job.script.parts:
             one = Job(single(job.script, name), job.form, job.ranks)
             self.compare(one)
             job.found += one.found
             if one.error:
-                job.error = f"{job.error}; {name} {one.error}" if job.error else f"{name} {one.error}"
+                job.error = (job.error or "") + f"\n    {name} {one.error}"
 
     def list_differences(self, job, files, ours, unsteady):
         by_deck = {}

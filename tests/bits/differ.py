@@ -3,6 +3,7 @@ largest absolute and relative difference. Files are compared byte by byte; only 
 looked into, as dumps (columns by name), thermo tables, other text, or binary files.
 """
 
+import base64
 import collections
 import difflib
 import itertools
@@ -108,7 +109,33 @@ def is_row(line):
     return bool(words) and all(number(w) is not None for w in words)
 
 
+ARRAY = re.compile(r'<DataArray type="(Float64|Int64|Int32)" Name="(\w+)"[^>]*>([^<]+)<')
+FORMATS = {"Float64": "d", "Int64": "q", "Int32": "i"}
+
+
+def compare_arrays(name, a, b, sizes):
+    """Numbers in VTK's XML are base64 of a length and of binary data; the text without them."""
+    ours = {array: text for _, array, text in ARRAY.findall(b)}
+    for kind, array, text in ARRAY.findall(a):
+        other = ours.get(array, text)
+        if text == other:
+            continue
+        u, v = ([each[0] for each in struct.iter_unpack("<" + FORMATS[kind], base64.b64decode(words)[8:])]
+                for words in (text, other))
+        if len(u) != len(v):
+            sizes.add(f"{name}: {array}, length", float(len(u)), float(len(v)))
+        for p, q in zip(u, v):
+            if struct.pack("<d", p) != struct.pack("<d", q):
+                sizes.add(f"{name}: {array}", float(p), float(q))
+    return tuple(re.sub(ARRAY, r'<DataArray type="\1" Name="\2">NUMBERS<', text) for text in (a, b))
+
+
 def compare_text(name, a, b, sizes):
+    if a.startswith("<?xml") and "<DataArray" in a:
+        before = len(sizes.of)
+        a, b = compare_arrays(name, a, b, sizes)
+        if a == b and len(sizes.of) > before:
+            return
     one, two = a.split("\n"), b.split("\n")
     if len(one) != len(two):
         # Lines that came or went, then rows of numbers by themselves where these are as many.

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The bit harness itself: a changed byte is found and sized, equal folders pass, a missing file is an error."""
 
+import base64
 import os
 import pathlib
 import re
@@ -83,6 +84,12 @@ def contents(checks):
                 str(found))
     checks.fact("any changed byte is found", all(one(data, data[:k] + bytes([data[k] ^ 1]) + data[k + 1:], "b")
                                                  for k in range(len(data))))
+    def vtp(*values):
+        text = base64.b64encode(struct.pack(f"<Q{len(values)}d", 8 * len(values), *values)).decode()
+        return f'<?xml version="1.0"?>\n<DataArray type="Float64" Name="wear" format="binary">{text}</DataArray>\n'.encode()
+
+    found = one(vtp(1.0, 2.0), vtp(1.0, 2.5), "vtp")
+    checks.fact("a number in a VTK file", list(found) == ["vtp: wear"] and found["vtp: wear"].absolute == 0.5, str(found))
     found = one(data, data + b"\0", "restart")
     checks.fact("another length", found["restart: length in bytes"].absolute == 1, str(found))
     found = {d.quantity: d for d in differ.compare({"a": b"1", "b": b"2"}, {"a": b"1"})}
