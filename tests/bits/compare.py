@@ -11,7 +11,7 @@ usage: compare.py COMMIT [--build FOLDER] [--only PATTERN] [--quick] [--ranks 1,
 
 COMMIT is anything that git knows, an archive of its sources (git archive), or a folder in which it was
 built. Its sources are exported to ~/.cache/lsdcd/bits/COMMIT and built there once; what it answers is kept
-there as checksums, so that it runs once for each script. The program in build/ has to be built before:
+there as checksums, so that it runs once for each script. build/ has to be there, and is brought up to date:
   cmake --preset cuda -B build -D LSDCD_CUDA=OFF && cmake --build build --target lmp-lsdcd
 
 Scripts are
@@ -196,7 +196,7 @@ class Comparison:
 # ---- what may differ ---------------------------------------------------------------------
 
 def read_accepted(path):
-    """[(script, quantity, relative, absolute, derivation)] of lines `script | quantity | bound | derivation`."""
+    """[(script, quantity, bound, derivation)] of lines `script | quantity | bound | derivation`."""
     rows = []
     for number, line in enumerate(path.read_text().splitlines() if path.exists() else [], 1):
         if not line.strip() or line.startswith("#"):
@@ -285,7 +285,7 @@ def read_words(words):
     p.add_argument("--accepted", default=str(HERE / "accepted.txt"), metavar="FILE", help="what may differ")
     p.add_argument("--table", metavar="FILE", help="write all differences there, with tabs")
     p.add_argument("--keep", metavar="FOLDER", help="leave the decks and files that differ there")
-    p.add_argument("--stale", action="store_true", help="take a program that is older than the sources")
+    p.add_argument("--as-built", action="store_true", help="take the program as it is; else it is built again")
     p.add_argument("--list", action="store_true", help="names of the scripts, and no more")
     o = p.parse_args(words)
     try:
@@ -347,8 +347,9 @@ def main(words=None):
     if not ours.lmp and not ours.plugin:
         programs.fail(f"{o.build} has neither bin/lmp-lsdcd nor a plugin for Kokkos; build it first: cmake --preset cuda "
                       f"-B {o.build} -D LSDCD_CUDA=OFF && cmake --build {o.build} --target lmp-lsdcd")
-    if not o.stale:
-        ours.check_age(ROOT)
+    if not o.as_built:
+        ours.bring_up_to_date()
+        ours = programs.Program("this one", o.build, version)
     host = programs.Host(host_lmp, shlex.split(o.kokkos_flags)) if host_lmp else None
 
     skipped, forms = [], []
@@ -402,7 +403,9 @@ def main(words=None):
     values = sum(row[3].values for row in rows)
     say(f"{len(jobs) - len(failed)} runs compared in {time.time() - start:.0f} s: " +
         (f"{values} values differ, in {len(rows)} quantities of {len({row[0] for row in rows})} scripts" if rows else
-         "0 bytes differ") + (f"; {len(failed)} runs could not be compared" if failed else "") + (f"; {len(known)} quantities differ as {o.accepted} allows" if known else ""))
+         "0 bytes differ") +
+        (f"; {len(failed)} runs could not be compared" if failed else "") +
+        (f"; {len(known)} quantities differ as {o.accepted} allows" if known else ""))
     if not jobs:
         say("no script has such a name")
     return 2 if failed or not jobs else 1 if rows else 0

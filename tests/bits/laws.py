@@ -161,7 +161,8 @@ EFFECTS = {
     "box_changes": effect("", boundary="p p f", laws=SOME, before="fix grow all deform 5 x scale 1.01 y scale 1.01\n"),
     "shrinking": effect("", boundary="s s f", laws=SOME),
     "plane": effect("", scene="outline", boundary="f f p"),
-    "virial": effect(after="fix_modify wall energy yes virial yes\n", columns="press pe pxx pzz pxz", laws=SOME + ("slider",)),
+    "virial": effect(after="fix_modify wall energy yes virial yes\n", columns="press pe pxx pzz pxz",
+                     laws=SOME + ("slider",)),
     "virial_turning": effect(TURN, after="fix_modify wall energy yes virial yes\n", columns="press pe pyz",
                              laws=SOME),
     "new_motion": effect(TURN, between="fix_modify wall motion linear 0 0 -0.1\n", laws=SOME),
@@ -174,7 +175,8 @@ EFFECTS = {
     "rarely_turning": effect(TURN, neigh="delay 10 every 10 check no", laws=SOME),
     "sorted": effect("", settings="atom_modify sort 7 1.0\n", laws=SOME),
     "growing": effect("", before="variable d equal 0.5+1e-3*step\ngroup some id 1:150:5\n"
-                      "fix grow some adapt 20 atom diameter v_d\n", wall="rmax 0.6", settings="atom_style sphere 1\n", laws=SOME),
+                      "fix grow some adapt 20 atom diameter v_d\n", wall="rmax 0.6",
+                      settings="atom_style sphere 1\n", laws=SOME),
     "deleted": effect("", between="group odd id 1:150:2\ndelete_atoms group odd compress no\n", laws=SOME),
     "respa": effect("", before="run_style respa 2 2\n", laws=CLASSIC),
     "massflow": effect("", before="fix flow all massflow/lsdcd mesh level.stl\n",
@@ -302,8 +304,9 @@ def write_files(folder):
     """All that the decks read."""
     write_stl(folder / "sheet.stl", sheet())
     write_stl(folder / "full.stl", sheet(full=True))
-    write_stl(folder / "plate.stl", [((-3, -3, 0.1), (3.2, -3, 0.1), (3.2, 3, 0.1)), ((-3, -3, 0.1), (3.2, 3, 0.1), (-3, 3, 0.1))])
-    write_stl(folder / "level.stl", [((-5, -5, 0.5), (5, -5, 0.5), (5, 5, 0.5)), ((-5, -5, 0.5), (5, 5, 0.5), (-5, 5, 0.5))])
+    for name, (lo, hi, z) in {"plate": (-3, 3.2, 0.1), "level": (-5, 5, 0.5)}.items():
+        a, b, c, d = (lo, lo, z), (hi, lo, z), (hi, hi, z), (lo, hi, z)
+        write_stl(folder / f"{name}.stl", [(a, b, c), (a, c, d)])
     write_stl(folder / "box.stl", block((-4, -4, -0.5), (4, 4, 5)))
     write_stl(folder / "pillar.stl", block((-2, -2, -1), (2, 2, 4)))
     write_stl(folder / "paddle.stl", [((-2, 0, -1), (2, 0, -1), (2, 0, 2)), ((-2, 0, -1), (2, 0, 2), (-2, 0, 2))])

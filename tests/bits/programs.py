@@ -123,14 +123,13 @@ class Program:
         self.plugin = next((p for p in plugins if p.exists()), None)
         self.of = {"plain": content(self.lmp), "host": content(self.plugin), "kk": content(self.plugin)}
 
-    def check_age(self, root):
-        """That it was built from the sources that are there."""
-        newest = max(((p.stat().st_mtime, p) for part in ("src", "kokkos", "cmake") for p in (root / part).rglob("*")
-                      if p.is_file()), default=(0, None))
-        for path, target in ((self.lmp, "lmp-lsdcd"), (self.plugin, self.plugin and self.plugin.stem)):
-            if path and path.stat().st_mtime < newest[0]:
-                fail(f"{path} is older than {newest[1].relative_to(root)}; build it first: cmake --build "
-                     f"{self.folder} --target {target} (or --stale to compare it all the same)")
+    def bring_up_to_date(self):
+        """Builds again what the sources have changed since."""
+        targets = [path.stem for path in (self.lmp, self.plugin) if path]
+        done = subprocess.run(["cmake", "--build", self.folder, "--target", *targets], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True)
+        if done.returncode:
+            fail(f"{self.folder} does not build:\n" + "\n".join(done.stdout.splitlines()[-30:]))
 
 
 class Host:
