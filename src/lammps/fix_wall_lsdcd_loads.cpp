@@ -19,7 +19,7 @@ using lsdcd::WallLoads;
 // each mesh: how many numbers of its motion, these; then time of the average, facets, edges and
 // vertices of the mesh, number of rows of loads, fingerprint of the mesh, these rows.
 static constexpr int kHeader = 6;
-static constexpr double kFormat = -5;
+static constexpr double kFormat = -6;
 
 // What fits a double, exactly.
 static double number_of(std::uint64_t fingerprint)
