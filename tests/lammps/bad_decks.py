@@ -1,0 +1,323 @@
+"""Input scripts that must end with an error, for run_bad_decks.py.
+
+Each table has one script and a row per case: its name, the words that replace {} in the script, and the
+parts that the message must have.
+"""
+
+WALL = """\
+units           lj
+atom_style      sphere
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block -3 3 -3 3 -1 5
+create_box      1 box
+create_atoms    1 single 0.3 0.2 1.5 units box
+set             atom 1 diameter 1.0 density 2.0
+pair_style      gran/hooke 1000 NULL 50 NULL 0.5 0
+pair_coeff      * *
+fix             move all nve/sphere
+"""
+FLOW = """\
+units           lj
+atom_style      sphere
+boundary        f f f
+region          box block -3 3 -3 3 -1 5
+create_box      1 box
+create_atoms    1 single 0.3 0.2 1.5 units box
+set             atom 1 diameter 1.0 density 2.0
+pair_style      zero 1.0
+pair_coeff      * *
+"""
+NO_RADIUS = """\
+units           lj
+atom_style      atomic
+boundary        f f f
+newton          off
+region          box block -3 3 -3 3 -1 5
+create_box      1 box
+create_atoms    1 single 0.3 0.2 1.5 units box
+pair_style      lj/cut 1.0
+pair_coeff      * * 1 1
+mass            1 1.0
+fix             move all nve
+"""
+HOOKE = "fix             wall all wall/lsdcd hooke 1e4 NULL 5 NULL 0.5 1 "
+RUN = "run             1\n"
+
+
+def changed(script, *changes):
+    for old, new in changes:
+        assert script.count(old) == 1, old
+        script = script.replace(old, new)
+    return script
+
+
+def atoms(*places):
+    return "".join(f"create_atoms    1 single {place} units box\n" for place in places)
+
+
+def body(made):
+    """The script of a wall and a rigid body, whose atoms are made by the lines `made`."""
+    return f"""\
+units           lj
+atom_style      sphere
+boundary        f f f
+region          box block -3 3 -3 3 -1 5
+create_box      1 box
+{made}set             type 1 diameter 0.2 density 2.0
+pair_style      zero 1.0
+pair_coeff      * *
+fix             move all nve
+fix             wall all wall/lsdcd hooke 1e4 NULL 20 NULL 0.1 1 mesh floor.stl
+"""
+
+
+TWO_DIMENSIONS = changed(WALL, ("atom_style", "dimension       2\natom_style"), ("f f f", "f f p"),
+                         ("-1 5", "-0.5 0.5"), ("0.3 0.2 1.5", "0.3 1.5 0"))
+FOUR_ATOMS = atoms("0.3 0.2 1.5", "0.6 0.2 1.5", "0.3 0.6 1.5", "0.3 0.2 1.9")
+MOLECULES = """\
+fix             mol all property/atom mol
+set             group all mol 1
+set             atom 4 mol {}
+"""
+
+TABLES = [
+    # fix wall/lsdcd: the words after mesh.
+    (WALL + HOOKE + "mesh {}\n" + RUN, [
+        ("grid_over_budget", "floor.stl grid 0.01 memory 1",
+         "grid 0.01 takes", "at least", "memory budget is 1 MB", "leave grid out"),
+        ("mesh_fields_of_two_fixes", "floor.stl mesh_fields a.vtp every 5\n"
+         "fix             lid all wall/lsdcd hooke 1e4 NULL 5 NULL 0.5 1 mesh floor.stl move 0 0 3 "
+         "mesh_fields a.vtp every 5",
+         "Fix wall wall/lsdcd", "in 'mesh_fields', 'a.vtp' is the mesh_fields file that fix lid writes",
+         "name another file"),
+        ("mesh_stl_is_mesh", "floor.stl mesh_stl ./floor.stl every 5",
+         "Fix wall wall/lsdcd", "in 'mesh_stl', './floor.stl' is 'floor.stl', the mesh file that this fix reads",
+         "name another file"),
+        ("mesh_stl_is_mesh_of_massflow", "lid.stl mesh_stl floor.stl every 5\n"
+         "fix             count all massflow/lsdcd mesh floor.stl",
+         "Fix wall wall/lsdcd", "in 'mesh_stl', 'floor.stl' is the mesh file that fix count reads",
+         "name another file"),
+        ("meshes_common_twice", "floor.stl corner sum mesh floor.stl move 0 0 1 corner sum",
+         "Fix wall wall/lsdcd", "'corner'", "the keyword is given twice"),
+        ("meshes_missing_file", "floor.stl mesh nowhere.stl", "Fix wall wall/lsdcd", "nowhere.stl"),
+        ("meshes_of_mesh_twice", "floor.stl weld 0 mesh floor.stl move 0 0 1 weld 0 weld 1e-6",
+         "Fix wall wall/lsdcd", "'weld'", "the keyword is given twice"),
+        ("meshes_one_file", "floor.stl mesh_stl a_*.stl every 5 mesh floor.stl move 0 0 3 mesh_stl a_*.stl every 7",
+         "Fix wall wall/lsdcd", "'mesh_stl'", "have the same file 'a_*.stl'", "give each a name of its own"),
+        ("meshes_outside_box", "floor.stl mesh floor.stl move 0 0 300",
+         "Fix wall wall/lsdcd", "mesh 2 'floor.stl': the mesh is outside the box"),
+        ("meshes_side_of_open", "floor.stl mesh floor.stl move 0 0 3 side in",
+         "Fix wall wall/lsdcd", "side in and side out need a closed", "'floor.stl'"),
+        ("meshes_single", "floor.stl precision single mesh floor.stl move 0 0 3",
+         "precision single has neither", "several meshes"),
+        ("meshes_too_many", " mesh ".join(f"floor.stl move 0 0 {z}" for z in range(1, 34)),
+         "Fix wall wall/lsdcd", "there are 33 meshes, and at most 32 can be in one fix"),
+        ("meshes_twice", "floor.stl corner sum mesh floor.stl scale 1 surface_vel 1 0 0",
+         "Fix wall wall/lsdcd", "mesh 1 'floor.stl' and mesh 2 'floor.stl' are the same file at the same place",
+         "leave one out"),
+        ("missing_file", "no_such_file.stl", "no_such_file.stl"),
+        ("motion_negative_period", "floor.stl motion wiggle 0 0 0.1 -2",
+         "Fix wall wall/lsdcd", "'motion'", "the period = -2 is out of range: it must be above 0"),
+        ("motion_no_axis", "floor.stl motion rotate 0 0 0 0 0 0 2",
+         "Fix wall wall/lsdcd", "'motion'", "the axis Rx Ry Rz must not be 0 0 0"),
+        ("motion_no_variable", "floor.stl motion variable NULL NULL v_u NULL NULL NULL",
+         "Fix wall wall/lsdcd", "there is no variable 'u', which the wall reads"),
+        ("motion_single", "floor.stl motion linear 0 0 1 precision single",
+         "precision single has neither", "a moving surface or mesh"),
+        ("motion_speed_variable", "floor.stl motion linear 0 0 v_u",
+         "Fix wall wall/lsdcd", "'motion'", "Vz must be a number, not the variable 'v_u'", "Use motion variable"),
+        ("motion_two_centres", "floor.stl motion rotate 0 0 0 0 0 1 2 1 1 1",
+         "Fix wall wall/lsdcd", "'motion'", "there is one centre P, one axis R and one period"),
+        ("motion_unknown_word", "floor.stl motion slide 1 0 0",
+         "Fix wall wall/lsdcd", "'motion'", "'slide' is not one of its values", "linear Vx Vy Vz"),
+        ("no_area", "line.stl", "line.stl", "none of its 1 facets has an area"),
+        ("outside_box", "floor.stl move 0 0 100", "outside the box", "z from 100 to 100", "scale", "move"),
+        ("retired_nearest_exact", "floor.stl nearest 2 exact",
+         "no longer keeps both kinds of list", "write nearest all", "nearest N, which counts"),
+        ("retired_tune", "floor.stl tune 1e-3",
+         "lsdcd tradeoff FILE --radius R --below E", "words to write in its place"),
+        ("rmax_too_small", "floor.stl rmax 0.4", "Fix wall wall/lsdcd: atom 1 has radius 0.5", "rmax 0.4"),
+        ("servo_limits_without_0", "floor.stl servo force z 100 vmax 1 limits 0.1 0.2",
+         "Fix wall wall/lsdcd", "'servo'", "the limits 0.1 0.2 do not contain 0"),
+        ("servo_negative_gain", "floor.stl servo torque y through 0 0 1 100 vmax 1 gain -1",
+         "Fix wall wall/lsdcd", "'servo'", "the gain = -1 is out of range"),
+        ("servo_no_target", "floor.stl servo force z",
+         "Fix wall wall/lsdcd", "'servo'", "the target (number or v_NAME) is missing"),
+        ("servo_no_vmax", "floor.stl servo force z 100", "Fix wall wall/lsdcd", "'servo'", "vmax is missing"),
+        ("servo_reversed_limits", "floor.stl servo force z 100 vmax 1 limits 0.1 -0.1",
+         "Fix wall wall/lsdcd", "'servo'", "the limits 0.1 -0.1 are reversed"),
+        ("servo_target_word", "floor.stl servo force z vmax 1",
+         "Fix wall wall/lsdcd", "'servo'", "the target (number or v_NAME)"),
+        ("servo_two", "floor.stl servo force z 100 vmax 1 servo torque z 1 vmax 1",
+         "Fix wall wall/lsdcd", "'servo'", "the keyword is given twice"),
+        ("servo_unknown_option", "floor.stl servo force z 100 speed 1",
+         "Fix wall wall/lsdcd", "'servo'",
+         "vmax is missing, the speed at which the mesh moves up to the spheres; 'speed' is no word of a servo"),
+        ("servo_unknown_word", "floor.stl servo press z 100 vmax 1",
+         "Fix wall wall/lsdcd", "'servo'", "'press' is not one of its values"),
+        ("servo_zero_axis", "floor.stl servo force axis 0 0 0 100 vmax 1",
+         "Fix wall wall/lsdcd", "'servo'", "the axis ax ay az must not be 0 0 0"),
+        ("servo_zero_vmax", "floor.stl servo force z 100 vmax 0",
+         "Fix wall wall/lsdcd", "'servo'", "vmax = 0 is out of range"),
+        ("side_of_inverted_shell", "two.stl side in",
+         "closed, oriented mesh", "4 facets of closed shells that are wound against the others", "lsdcd repair"),
+        ("side_of_open_mesh", "floor.stl side in", "closed, oriented mesh", "4 open"),
+        ("side_of_shell_that_cuts_itself", "knot.stl side in",
+         "a mesh that does not meet itself", "'knot.stl'", "lsdcd inspect", "side both"),
+        ("side_of_shells_that_cut", "cut.stl side in",
+         "shells that are apart", "'cut.stl' cut or touch each other at", "pairs of facets", "side both"),
+        ("too_few_words", "floor.stl move 0 0", "the value of z is missing", "move x y z"),
+        ("truncated_mesh", "truncated.stl", "truncated.stl"),
+        ("unknown_keyword", "floor.stl sclae 2", "'sclae' is not a keyword", "'scale s | sx sy sz'"),
+        ("wiggle_period", "floor.stl wiggle z 0.1 0",
+         "Fix wall wall/lsdcd", "'wiggle'", "the period = 0 is out of range"),
+    ]),
+    (changed(WALL, ("f f f", "p p f")) + HOOKE + "mesh {}\n" + RUN, [
+        ("meshes_through_periodic", "floor.stl mesh floor.stl move 0 0 1 motion rotate 0 0 0 0 0 1 2",
+         "Fix wall wall/lsdcd: mesh 2 'floor.stl': the moving mesh reaches the periodic face in x at step 0",
+         "make the boundary fixed"),
+        ("motion_through_periodic", "floor.stl motion rotate 0 0 0 0 0 1 2",
+         "Fix wall wall/lsdcd: the moving mesh reaches the periodic face in x at step 0", "make the boundary fixed"),
+    ]),
+    (TWO_DIMENSIONS + HOOKE + "mesh {}\n" + RUN, [
+        ("motion_out_of_plane", "floor.stl rotate 1 0 0 90 motion rotate 0 0 0 1 0 0 2",
+         "Fix wall wall/lsdcd: in two dimensions a mesh must move in the plane z = 0 and turn about z",
+         "'rotate 0 0 0 1 0 0 2'"),
+        ("servo_out_of_plane", "floor.stl rotate 1 0 0 90 servo force z 1 vmax 1",
+         "Fix wall wall/lsdcd",
+         "in two dimensions a mesh must move in the plane z = 0 and turn about z, not by 'servo force z 1 vmax 1'"),
+    ]),
+    (NO_RADIUS + HOOKE + "mesh {}\n" + RUN, [
+        ("no_radius", "floor.stl", "radius", "atom_style sphere"),
+    ]),
+
+    # fix wall/lsdcd: the words after its style. Then fix_modify.
+    (WALL + "fix             wall all wall/lsdcd {}\n" + RUN, [
+        ("granular_heat_without_host",
+         "granular hertz 1e5 3 tangential linear_nohistory 0 0 heat area 1 mesh floor.stl temperature 300",
+         "the sub-model heat needs a LAMMPS with fix heat/flow"),
+        ("granular_nan", "granular hertz nan 3 tangential linear_nohistory 0 0 mesh floor.stl",
+         "kn must be a number, not 'nan'", "Syntax: hertz kn"),
+        ("granular_no_tangential", "granular hertz 1e5 3 mesh floor.stl",
+         "the tangential sub-model is missing", "Syntax: tangential linear_nohistory"),
+        ("granular_restitution_above_1",
+         "granular hertz 1e5 1.5 tangential linear_nohistory 0 0 damping tsuji mesh floor.stl",
+         "e = 1.5 is out of range", "0 < e <= 1"),
+        ("granular_unknown_sub_model", "granular hertz 1e5 3 tangential mindling 1 1 1 mesh floor.stl",
+         "'mindling' is not a sub-model", "Syntax: tangential linear_nohistory"),
+        ("material_units", "granular material glass.lsdcd glass mesh floor.stl",
+         "the deck is in units lj", "'units si'"),
+        ("meshes_keyword_first", "hooke 1e4 NULL 5 NULL 0.5 1 move 0 0 1 mesh floor.stl mesh floor.stl move 0 0 2",
+         "Fix wall wall/lsdcd", "'mesh'", "'move' comes before the first", "stand after its mesh FILE"),
+        ("meshes_no_temperature",
+         "granular hertz 1e4 5 tangential linear_nohistory 0 0 heat radius 0.7 "
+         "mesh floor.stl temperature 300 mesh floor.stl move 0 0 3",
+         "Fix wall wall/lsdcd", "the temperature of mesh 2 'floor.stl' is missing"),
+        ("negative_kn", "hooke -1e4 NULL 5 NULL 0.5 1 mesh floor.stl",
+         "kn = -1e4 is out of range: it must be 0 or more"),
+        ("no_mesh", "hooke 1e4 NULL 5 NULL 0.5 1", "mesh FILE is missing"),
+        ("not_a_number", "hooke 1e4 NULL five NULL 0.5 1 mesh floor.stl",
+         "gamman must be a number, not 'five'", "Syntax"),
+        ("too_few_numbers", "hooke 1e4 NULL 5 NULL 0.5 mesh floor.stl",
+         "dampflag must be a number, not 'mesh'", "Syntax"),
+        ("unknown_style", "hook hooke 1e4 5 mesh floor.stl", "'hook' is not a contact style", "hertz/history"),
+    ]),
+    (changed(WALL, ("lj", "si")) + "fix             wall all wall/lsdcd {} mesh floor.stl\n" + RUN, [
+        ("material_bad_file", "granular material bad.lsdcd glass",
+         "bad.lsdcd line 3", "'soft' is not a number", "youngs_modulus VALUE Pa  # source"),
+        ("material_classic_style", "hertz/history material glass.lsdcd glass",
+         "hertz/history cannot be filled", "kn 485693", "granular material"),
+        ("material_missing_file", "granular material glas.lsdcd glass",
+         "'glas.lsdcd'", "LSDCD_POTENTIALS", "glass.lsdcd"),
+        ("material_not_measured", "granular material steel.lsdcd steel",
+         "no restitution of steel on steel", "with restitution VALUE"),
+        ("material_unknown", "granular material glass.lsdcd gloss",
+         "'gloss' is not a material", "the nearest is 'glass'"),
+        ("material_wrong_damping", "granular material glass.lsdcd glass damping velocity",
+         "'damping velocity' with hertz/material", "with eta VALUE"),
+    ]),
+    (WALL + HOOKE + "mesh floor.stl mesh floor.stl move 0 0 3\nfix_modify wall {}\n", [
+        ("modify_mesh_alone", "mesh 2",
+         "Fix wall wall/lsdcd", "fix_modify mesh 2: motion ... or servo ... must follow ("),
+        ("modify_mesh_other_word", "mesh 2 energy yes",
+         "Fix wall wall/lsdcd", "fix_modify mesh 2: motion ... or servo ... must follow, not 'energy'"),
+        ("modify_no_mesh", "mesh 3 motion linear 0 0 1",
+         "Fix wall wall/lsdcd", "K is the number of a mesh, from 1 to 2, not '3'"),
+        ("modify_which_mesh", "motion linear 0 0 1",
+         "Fix wall wall/lsdcd", "fix_modify motion: which of the 2 meshes", "fix_modify ID mesh K motion"),
+    ]),
+
+    # fix massflow/lsdcd
+    (FLOW + "fix             m all massflow/lsdcd mesh {}\n" + RUN, [
+        ("massflow_every", "floor.stl every 0", "N = 0 is out of range", "Syntax: every N"),
+        ("massflow_missing_file", "nothere.stl", "Fix m massflow/lsdcd", "nothere.stl"),
+        ("massflow_outside_box", "floor.stl move 0 0 100",
+         "Fix m massflow/lsdcd", "the mesh is outside the box", "z from 100 to 100", "scale", "move"),
+        ("massflow_unknown_keyword", "floor.stl cuont once",
+         "Fix m massflow/lsdcd", "'cuont' is not a keyword", "count each | once"),
+    ]),
+    (changed(FLOW, ("sphere", "hybrid sphere bond"), ("set             atom 1 diameter 1.0 density 2.0\n", ""))
+     + "fix             m all massflow/lsdcd mesh {}\n" + RUN, [
+        ("massflow_delete_bonded", "floor.stl delete yes",
+         "delete yes leaves bonds without their atoms", "an atom style without bonds"),
+    ]),
+
+    # compute lsdcd/collide
+    (body(FOUR_ATOMS) + "compute         c all lsdcd/collide {}\n" + RUN, [
+        ("collide_atoms_differ", "wall mesh floor.stl atoms unit.txt", "is no rigid copy of the atoms of file"),
+        ("collide_atoms_file", "wall mesh floor.stl atoms floor.stl", "floor.stl: line 1 has 'solid'", "x y z"),
+        ("collide_atoms_missing", "wall mesh floor.stl atoms nothere.txt", "nothere.txt"),
+        ("collide_atoms_number", "wall mesh floor.stl atoms points.txt", "points.txt has 3 atoms", "has 4"),
+        ("collide_fix_is_gone", "wall mesh floor.stl\n"
+         "unfix           wall\n"
+         "thermo_style    custom step c_c",
+         "there is no fix 'wall'"),
+        ("collide_lost_atoms", "wall mesh floor.stl\n"
+         "region          top block 0.5 INF INF INF INF INF\n"
+         "delete_atoms    region top\n"
+         "thermo_style    custom step c_c",
+         "at step 0", "has 3 of its 4 atoms left"),
+        ("collide_missing_file", "wall mesh nothere.stl", "Compute c lsdcd/collide", "nothere.stl"),
+        ("collide_nearest", "wall mesh floor.stl nearest 1.5", "N must be a whole number", "Syntax: nearest N"),
+        ("collide_no_fix", "wal mesh floor.stl", "Compute c lsdcd/collide", "there is no fix 'wal'", "defined before"),
+        ("collide_no_mesh", "wall grid 0.5", "mesh FILE is missing"),
+        ("collide_no_molecules", "wall mesh floor.stl bodies molecule",
+         "atoms with molecule IDs", "fix property/atom mol"),
+        ("collide_no_words", "", "FIX_ID is missing", "Syntax: compute ID group lsdcd/collide FIX_ID mesh FILE"),
+        ("collide_not_rigid", "wall mesh floor.stl\n"
+         "velocity        all create 1e6 4711 loop geom\n"
+         "thermo          1\n"
+         "thermo_style    custom step c_c",
+         "at step 1", "is no rigid copy", "fix rigid"),
+        ("collide_other_fix", "move mesh floor.stl", "fix move is of style nve", "give the ID of a fix wall/lsdcd"),
+        ("collide_other_wall", "wall mesh floor.stl\n"
+         "unfix           wall\n"
+         "fix             wall all wall/lsdcd hooke 1e4 NULL 20 NULL 0.1 1 mesh floor.stl scale 2\n"
+         "thermo_style    custom step c_c",
+         "fix wall has other meshes than when the compute was defined"),
+        ("collide_short_cells", "wall mesh floor.stl grid 1e-7", "cell"),
+        ("collide_twice", "wall mesh floor.stl grid 1 grid 2", "the keyword 'grid' is given twice"),
+        ("collide_unknown_keyword", "wall mesh floor.stl bodie one", "'bodie' is not a keyword", "bodies one"),
+    ]),
+    (body(FOUR_ATOMS) + "{}\n" + RUN, [
+        ("collide_no_atoms", "group           none empty\n"
+         "compute         c none lsdcd/collide wall mesh floor.stl",
+         "the group has no atoms"),
+    ]),
+    (body("{}") + "compute         c all lsdcd/collide wall mesh floor.stl\n" + RUN, [
+        ("collide_on_a_line", atoms("0 0 1", "1 0 1", "2 0 1"), "on a line"),
+        ("collide_two_atoms", atoms("0.3 0.2 1.5", "0.6 0.2 1.5"), "2 atoms", "three or more"),
+    ]),
+    (body(FOUR_ATOMS + MOLECULES)
+     + "compute         c all lsdcd/collide wall mesh floor.stl bodies molecule\n" + RUN, [
+        ("collide_no_molecule", "0", "atom 4 of the group is in no molecule", "bodies one"),
+        ("collide_sizes", "2",
+         "the body of molecule 2 has 1 atoms, and the body of molecule 1 3", "a compute for each kind"),
+    ]),
+]
+
+# name: (script, parts of the message)
+CASES = {name: (script.replace("{}", words), message) for script, rows in TABLES for name, words, *message in rows}
+assert len(CASES) == sum(len(rows) for _, rows in TABLES), "two cases have the same name"
