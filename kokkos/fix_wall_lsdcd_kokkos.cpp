@@ -145,14 +145,7 @@ void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int /*eflag*/, int /*vflag*/)
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::give_step()
 {
-  lsdcd::Spheres s = spheres();
-  const lsdcd::StepSettings step = step_settings(s);
-  try {
-    choose_if_due(s);
-    engine->start(s, step);
-  } catch (const std::exception &e) {
-    stop(e);
-  }
+  FixWallLsdcd::give_step();
   begun = true;
 }
 

@@ -79,6 +79,7 @@ class EngineOn : public InPlaceEngine {
     if (is_beside_) run(next_results_, true);
     has_run_ = is_beside_;
   }
+  bool has_begun() const override { return has_run_; }
 
   void collect() override
   {

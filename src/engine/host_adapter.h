@@ -115,6 +115,7 @@ class HostAdapter : public WallEngine {
     b.receive(response_.device, response_.host, n);
     if (traits_.heat) b.receive(heat_.device, heat_.host, 2 * n);
   }
+  bool has_begun() const override { return true; }
 
   void collect() override
   {

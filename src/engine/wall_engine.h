@@ -138,6 +138,9 @@ class WallEngine {
   // and torque.
   virtual void start(const Spheres &spheres, const StepSettings &step) = 0;
 
+  // After start(): has the work begun, so that collect() only waits for it? Else collect() does it.
+  virtual bool has_begun() const = 0;
+
   // Ends it: adds forces and torques, and replaces the springs (unless update_history is false)
   // and the totals.
   virtual void collect() = 0;

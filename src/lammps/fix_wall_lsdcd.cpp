@@ -14,6 +14,7 @@
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "timer.h"
 #include "update.h"
 
 #include <algorithm>
@@ -203,6 +204,7 @@ void FixWallLsdcd::setup(int vflag)
   collect();
   check_new_spheres();
   if (nlevels_respa) respa->copy_f_flevel(outer);
+  if (!rerun) times.begin_run();    // as the loop time, which has the snapshots of a rerun
 }
 
 void FixWallLsdcd::min_setup(int /*vflag*/)
@@ -285,10 +287,12 @@ void FixWallLsdcd::begin_step(bool look)
 
 void FixWallLsdcd::end_of_step()
 {
+  times.begin();
   std::vector<lsdcd::PlacedMesh> meshes;
   for (const MeshPart &m : parts) meshes.push_back({m.wall.mesh(), m.motion.pose()});
   wall_files->write_due(update->ntimestep, static_cast<double>(run_clock.now()), meshes,
                         rerun ? nullptr : loads.get());
+  times.end(lsdcd::TimeReport::files);
 }
 
 void FixWallLsdcd::post_run()
@@ -304,4 +308,5 @@ void FixWallLsdcd::post_run()
                      ? ""
                      : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)");
   if (settings.nearest > 0) search.log_uncertified(settings.nearest, settings.brief);
+  times.end_run(settings.brief, timer->get_wall(Timer::TOTAL));
 }

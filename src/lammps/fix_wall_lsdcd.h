@@ -11,6 +11,7 @@
 #include "wall/choice_schedule.h"
 #include "wall/overlap_monitor.h"
 #include "wall/search_report.h"
+#include "wall/time_report.h"
 #include "wall/wall_files.h"
 
 #include <deque>
@@ -107,6 +108,7 @@ class FixWallLsdcd : public Fix {
 
   lsdcd::OverlapMonitor overlaps = lsdcd::OverlapMonitor(host);
   lsdcd::SearchReport search = lsdcd::SearchReport(host);
+  lsdcd::TimeReport times = lsdcd::TimeReport(host);
   bool wall_in_minimize_warned = false, points_warned = false;
   bool doubled_warned = false;
   bigint checked_atoms = -1;    // how many there were when the timestep was checked
@@ -151,6 +153,7 @@ class FixWallLsdcd : public Fix {
   lsdcd::StepSettings step_settings(lsdcd::Spheres &);    // gives the spheres their heat, too
   void keep_outputs();
   void begin_step(bool);
+  void give_step();
   void choose_if_due(const lsdcd::Spheres &);
   lsdcd::SphereDrift sphere_drift() const;
   lsdcd::StepDiagnostics read_notes();

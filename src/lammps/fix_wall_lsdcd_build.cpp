@@ -110,6 +110,7 @@ static double pull_off_rounding(const lsdcd::WallSettings &settings, const lsdcd
 // The grids that are too small, or for another box.
 void FixWallLsdcd::rebuild(double wanted)
 {
+  times.begin();
   const double old = cutoff();
   schedule.expire();
   std::vector<MeshPart *> anew;
@@ -136,6 +137,7 @@ void FixWallLsdcd::rebuild(double wanted)
   } catch (const lsdcd::InputError &e) {
     refuse(e.what());
   }
+  times.end(lsdcd::TimeReport::grids);
   if (wanted == old) box_rebuilds++;
   for (MeshPart *m : anew) {
     check_within_cutoff(*m);

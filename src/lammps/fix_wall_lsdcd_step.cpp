@@ -74,29 +74,39 @@ void FixWallLsdcd::choose_if_due(const lsdcd::Spheres &s)
   search.count_choice();
 }
 
-void FixWallLsdcd::start()
+void FixWallLsdcd::give_step()
 {
-  if (cutoff() == 0) return;    // no spheres yet
-
   lsdcd::Spheres s = spheres();
   const lsdcd::StepSettings step = step_settings(s);
   try {
+    times.begin();
     choose_if_due(s);
+    times.end(lsdcd::TimeReport::choice);
     engine->start(s, step);
+    if (engine->has_begun()) times.end(lsdcd::TimeReport::forces);
   } catch (const std::exception &e) {
     stop(e);
   }
+}
+
+void FixWallLsdcd::start()
+{
+  if (cutoff() == 0) return;    // no spheres yet
+  give_step();
   running = true;
 }
 
 void FixWallLsdcd::collect()
 {
   if (running) {
+    const bool waits = engine->has_begun();
+    times.begin();
     try {
       engine->collect();
     } catch (const std::exception &e) {
       stop(e);
     }
+    times.end(waits ? lsdcd::TimeReport::waiting : lsdcd::TimeReport::forces);
     running = false;
     n_with_springs = atom->nlocal;
     search.count_step(update->setupflag);

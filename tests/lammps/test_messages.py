@@ -2,6 +2,7 @@
 """What the fix says: whose warning it is, of which atom, once, and before hours are lost."""
 
 import math
+import re
 
 import deck
 
@@ -173,6 +174,28 @@ def main():
                 lines(text, "Fix w wall/lsdcd: 1 step and the setup: atoms near the wall chosen 1 time, "
                       "wall neighbor lists made 1 time, 1.00 mesh features each"))
     checks.fact("and no setup where it had none", lines(text, "Fix w wall/lsdcd: 4 steps: atoms near"))
+
+    # Where its time went; radii grow, and with them the grid.
+    grow = "variable d equal 1.0+0.4*(step>2)\nfix grow all adapt 1 atom diameter v_d\n"
+    timed = BOX.replace("sphere\n", "sphere 1\n", 1) + grow + fix("mesh_stl timed_*.stl every 2 {}") + "run {}\n"
+
+    def table(more, steps):
+        text = deck.run_well(timed.format(more, steps), folder)
+        title = lines(text, "timing breakdown of the wall")
+        return title, [line.split("|") for line in text.split("\n") if re.match(r"  \w+ +\| [\d.]", line)]
+
+    title, rows = table("", 10)
+    checks.fact("a run ends with the wall's times",
+                len(title) == 1 and re.search(r"^Fix w wall/lsdcd: .*, [\d.]+ % of the loop time:$", title[0]) and
+                [row[0].strip() for row in rows] == ["Choice", "Forces", "Grids", "Files"], f"{title} {rows}")
+    shares, of_loop = (sum(float(row[column]) for row in rows) for column in (5, 6))
+    rounding = 0.005 * len(rows) + 1e-9
+    checks.at_most("their shares add up to 100 %", abs(shares - 100), rounding)
+    told = float(re.search(r"(\S+) % of", title[0])[1])
+    checks.at_most("and those of the loop to that of the wall", abs(of_loop - told), rounding + 0.005)
+    checks.fact("no more than which it is", 0 < told < 100)
+    for what, more, steps in (("log brief", "log brief", 10), ("a run of 0 steps", "", 0)):
+        checks.fact(f"{what} has no such times", table(more, steps) == ([], []))
 
     # A quiet log.
     text = deck.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)

@@ -46,6 +46,8 @@ class InPlaceForHost : public WallEngine {
     by_turns([&] { engine_->start(s, step); });
   }
 
+  bool has_begun() const override { return engine_->has_begun(); }
+
   void collect() override
   {
     engine_->collect();

@@ -1,0 +1,136 @@
+// The table of a run's times, from two processes whose clocks the tests turn.
+#include "support/fake_host.h"
+#include "wall/time_report.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace lsdcd {
+namespace {
+
+using Section = TimeReport::Section;
+
+struct Spent {
+  Section section;
+  Real seconds[2];    // on each process
+};
+
+void spend(TimeReport &report, Real &now, Real seconds, Section section)
+{
+  now += 100;    // outside of the wall
+  report.begin();
+  now += seconds;
+  report.end(section);
+}
+
+// What the first process logs at the end of `runs` runs, in each of which `all` is spent.
+std::vector<std::string> logged(const std::vector<Spent> &all, Real loop, bool brief = false,
+                                int runs = 1)
+{
+  std::vector<std::string> lines;
+  on_processes(2, [&](FakeHost &host) {
+    Real now = 0;
+    TimeReport report(host, [&] { return now; });
+    for (int run = 0; run < runs; run++) {
+      for (const Spent &s : all) spend(report, now, s.seconds[host.rank()], s.section);
+      report.end_run(brief, loop);
+    }
+    if (host.rank() == 0) lines = host.lines;
+  });
+  return lines;
+}
+
+const std::vector<Spent> two_sections = {
+    {TimeReport::choice, {1, 3}}, {TimeReport::forces, {1, 4}}, {TimeReport::forces, {3, 8}}};
+
+TEST(TimeReport, has_least_average_and_most_of_the_processes)
+{
+  const std::vector<std::string> lines = logged(two_sections, 20);
+  ASSERT_EQ(lines.size(), 1);
+  EXPECT_EQ(lines[0], "timing breakdown of the wall, 50.00 % of the loop time:\n"
+                      "  Section |  min time  |  avg time  |  max time  |%varavg| %total| %loop\n"
+                      "  ----------------------------------------------------------------------\n"
+                      "  Choice  | 1          | 2          | 3          |  50.0 | 20.00 | 10.00\n"
+                      "  Forces  | 4          | 8          | 12         |  50.0 | 80.00 | 40.00");
+}
+
+TEST(TimeReport, has_no_share_of_a_loop_time_that_is_not_known)
+{
+  const std::vector<std::string> lines = logged(two_sections, 0);
+  ASSERT_EQ(lines.size(), 1);
+  EXPECT_EQ(lines[0], "timing breakdown of the wall:\n"
+                      "  Section |  min time  |  avg time  |  max time  |%varavg| %total\n"
+                      "  ---------------------------------------------------------------\n"
+                      "  Choice  | 1          | 2          | 3          |  50.0 | 20.00\n"
+                      "  Forces  | 4          | 8          | 12         |  50.0 | 80.00");
+}
+
+TEST(TimeReport, keeps_a_section_of_one_process)
+{
+  const std::vector<std::string> lines = logged({{TimeReport::files, {0, 2}}}, 0);
+  ASSERT_EQ(lines.size(), 1);
+  EXPECT_NE(lines[0].find("\n  Files   | 0          | 1          | 2          | 100.0 |100.00"),
+            std::string::npos)
+      << lines[0];
+}
+
+TEST(TimeReport, has_shares_that_add_up_to_100)
+{
+  std::vector<Spent> all;
+  for (int k = 0; k < TimeReport::kSections; k++)
+    all.push_back({static_cast<Section>(k), {1 / (k + 3.0), k / 7.0}});
+  const std::vector<std::string> lines = logged(all, 0);
+  ASSERT_EQ(lines.size(), 1);
+  std::istringstream text(lines[0]);
+  Real sum = 0;
+  int rows = -3;    // after a head of three lines
+  for (std::string line; std::getline(text, line); rows++)
+    if (rows >= 0) sum += std::stod(line.substr(line.rfind('|') + 1));
+  EXPECT_EQ(rows, TimeReport::kSections);
+  EXPECT_NEAR(sum, 100, 0.005 * rows);    // of each, half of its last digit
+}
+
+TEST(TimeReport, counts_from_the_end_of_one_section_to_that_of_the_next)
+{
+  on_processes(1, [](FakeHost &host) {
+    Real now = 0;
+    TimeReport report(host, [&] { return now; });
+    report.begin();
+    now = 1;
+    report.end(TimeReport::choice);
+    now = 4;
+    report.end(TimeReport::forces);
+    report.end_run(false, 0);
+    ASSERT_EQ(host.lines.size(), 1);
+    EXPECT_NE(host.lines[0].find("Choice  | 1          | 1 "), std::string::npos) << host.lines[0];
+    EXPECT_NE(host.lines[0].find("Forces  | 3          | 3 "), std::string::npos) << host.lines[0];
+  });
+}
+
+TEST(TimeReport, counts_each_run_anew)
+{
+  const std::vector<std::string> lines = logged(two_sections, 20, false, 2);
+  ASSERT_EQ(lines.size(), 2);
+  EXPECT_EQ(lines[0], lines[1]);
+}
+
+TEST(TimeReport, forgets_what_was_before_a_run)
+{
+  on_processes(2, [](FakeHost &host) {
+    Real now = 0;
+    TimeReport report(host, [&] { return now; });
+    spend(report, now, 1, TimeReport::grids);
+    report.begin_run();
+    report.end_run(false, 20);
+    EXPECT_TRUE(host.lines.empty());
+  });
+}
+
+TEST(TimeReport, logs_nothing_where_brief)
+{
+  EXPECT_TRUE(logged(two_sections, 20, true).empty());
+}
+
+}    // namespace
+}    // namespace lsdcd
