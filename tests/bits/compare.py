@@ -374,7 +374,7 @@ def main(words=None):
             with programs.alone(CACHE / "bits" / "recorded"):
                 folder, runs = record.recorded(reference, source, wanted, o.jobs)
             scripts += [from_record(name, one, folder / "store") for name, one in runs
-                        if (not o.only or o.only.search(name)) and not re.search(r"\btune\b", one["deck"])]
+                        if not o.only or o.only.search(name)]
             skipped += [f"runs of {name}: {why}" for name, why in record.LEFT_OUT.items() if not o.quick]
         if o.list:
             for script in scripts:

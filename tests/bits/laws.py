@@ -137,7 +137,6 @@ EFFECTS = {
     "mixed_turning": effect(TURN, wall="precision mixed"),
     "single": effect(wall="precision single", laws=CLASSIC),
     "nearest": effect(wall="nearest 2"),
-    "nearest_exact": effect(wall="nearest 2 exact", laws=SOME),
     "nearest_mixed": effect(TURN, wall="nearest 3 precision mixed", laws=SOME),
     "sum": effect(wall="corner sum"),
     "grid": effect(wall="grid 0.3 rmax 0.7 memory 64", laws=SOME),

@@ -22,7 +22,6 @@ PYTHON = "/usr/bin/python3" if os.path.exists("/usr/bin/python3") else sys.execu
 # Scripts whose runs are not repeated, and why.
 LEFT_OUT = {
     "test_crashes": "kills its runs at times of the clock",
-    "test_tune": "settings are chosen by measured times",
     "test_cache": "several runs at once share files",
     "test_launcher": "asks for help and preloads libraries",
     "test_device": "depends on the GPU that is there",
