@@ -75,7 +75,8 @@ def another_format(checks, folder):
     """Data of another version are refused: here only their number says so."""
     write(LAWS["hooke"], folder, name="other", create=FEW)
     data = (folder / "other.restart").read_bytes()
-    (folder / "other.restart").write_bytes(data.replace(struct.pack("<d", -6), struct.pack("<d", -5), 1))
+    at = data.index(struct.pack("<d", -6), data.index(b"wall/lsdcd"))
+    (folder / "other.restart").write_bytes(data[:at] + struct.pack("<d", -5) + data[at + 8:])
     done = deck.run(scene.SETTINGS + "read_restart other.restart\n" + scene.forces(LAWS["hooke"]) + "run 0\n", folder)
     checks.fact("another version is refused", done.returncode != 0 and "written by another version of this fix" in
                 done.stdout and "give the fix another ID" in done.stdout, done.stdout[-300:])
