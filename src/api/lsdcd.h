@@ -58,7 +58,8 @@ LSDCD_API const char *lsdcd_last_error(void);
 
 typedef struct lsdcd_mesh lsdcd_mesh;
 
-/* Reads an STL file, ASCII or binary. Corners closer than `weld` (length) become one; < 0: 1e-6 of
+/* Reads a mesh file, by the end of its name: STL, ASCII or binary; where the library was built with
+ * assimp also OBJ, PLY and OFF, in floats. Corners closer than `weld` (length) become one; < 0: 1e-6 of
  * the diagonal of the mesh. The mesh need be neither closed nor manifold. Any. */
 LSDCD_API int lsdcd_mesh_read(const char *file, double weld, lsdcd_mesh **mesh);
 /* The same from corners: nine numbers a triangle, copied. Any. */

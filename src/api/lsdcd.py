@@ -135,7 +135,8 @@ class _Owner:
 
 
 class Mesh(_Owner):
-    """From an STL file; from triangles, (n, 3, 3); or from vertices, (m, 3), and faces, (n, 3)."""
+    """From a file (STL; built with assimp also OBJ, PLY and OFF); from triangles, (n, 3, 3); or from vertices,
+    (m, 3), and faces, (n, 3)."""
     _free = _lib.lsdcd_mesh_free
 
     def __init__(self, source, faces=None, weld=-1.0):

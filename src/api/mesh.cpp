@@ -1,6 +1,7 @@
 // lsdcd_mesh_*
 #include "api/c_border.h"
 #include "api/objects.h"
+#include "mesh/io/read_mesh.h"
 
 #include <cmath>
 #include <limits>
@@ -48,7 +49,7 @@ int lsdcd_mesh_read(const char *file, double weld, lsdcd_mesh **mesh)
   return at_c_border([&] {
     need(mesh, "mesh");
     need(file, "file");
-    *mesh = welded(read_stl(file), weld);
+    *mesh = welded(read_mesh(file).soup, weld);
   });
 }
 

@@ -1,6 +1,7 @@
 #include "lammps/mpi_mesh.h"
 
 #include "lammps/mpi_shared.h"
+#include "mesh/io/read_mesh.h"
 #include "mesh/measure_mesh.h"
 
 #include <cstdint>
@@ -32,7 +33,7 @@ WallMesh read_together(MPI_Comm world, const MeshSettings &settings)
   TriangleSoup soup;
   soup.source = settings.file;
   together(world, is_first(world), [&] {
-    soup = read_stl(settings.file);
+    soup = read_mesh(settings.file).soup;
     settings.placement.apply(soup);
   });
   send_corners(world, soup);

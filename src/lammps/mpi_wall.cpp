@@ -4,6 +4,7 @@
 #include "base/input_words.h"
 #include "grid/loose_ends.h"
 #include "mesh/fingerprint.h"
+#include "mesh/io/read_mesh.h"
 #include "mesh/measure_mesh.h"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ void SharedWall::read()
   TriangleSoup soup;
   soup.source = of_mesh_.file;
   together(shared_.world(), rank == 0, [&] {
-    soup = read_stl(of_mesh_.file);
+    soup = read_mesh(of_mesh_.file).soup;
     of_mesh_.placement.apply(soup);
   });
 

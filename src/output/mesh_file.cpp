@@ -2,11 +2,10 @@
 
 #include "base/input_error.h"
 #include "base/whole_file.h"
+#include "mesh/io/read_mesh.h"
 #include "mesh/weld_points.h"
 #include "output/file_bytes.h"
 #include "output/mesh_stl.h"
-
-#include <algorithm>
 
 namespace lsdcd {
 
@@ -71,9 +70,7 @@ std::string ply(const WeldedPoints &mesh)
 
 MeshFormat mesh_format(const std::string &path)
 {
-  std::string ending = path.substr(std::min(path.size(), path.rfind('.')));
-  for (char &c : ending)
-    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
+  const std::string ending = name_ending(path);
   if (ending == ".stl") return MeshFormat::stl;
   if (ending == ".obj") return MeshFormat::obj;
   if (ending == ".ply") return MeshFormat::ply;

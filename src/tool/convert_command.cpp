@@ -1,12 +1,12 @@
 #include "tool/commands.h"
 
+#include "mesh/io/read_mesh.h"
 #include "output/mesh_file.h"
 #include "output/mesh_stl.h"
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
 #include "tool/number_options.h"
 #include "tool/output_file.h"
-#include "tool/read_mesh.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -74,10 +74,9 @@ void add_convert_command(Command &program)
   Command command = program.command(
       "convert", "writes a mesh in another format or other units: STL, OBJ, PLY, OFF");
   command.footer(
-      "STL is read in all digits; OBJ, PLY and OFF by assimp, which rounds coordinates to float.\n"
-#if !defined(LSDCD_HAVE_ASSIMP)
-      "This lsdcd was built without assimp: it reads STL only.\n"
-#endif
+      std::string("STL is read in all digits; OBJ, PLY and OFF by assimp, which rounds coordinates "
+                  "to float.\n") +
+      (has_assimp() ? "" : "This lsdcd was built without assimp: it reads STL only.\n") +
       "Written are all digits: STL is binary where all corners are floats, else text; PLY is "
       "binary,\n"
       "of floats or else of doubles.\n"

@@ -1,9 +1,9 @@
 // The mesh that the words of a command name.
 #pragma once
 
+#include "mesh/io/read_mesh.h"
 #include "mesh/measure_mesh.h"
 #include "mesh/placement.h"
-#include "mesh/triangle_soup.h"
 #include "mesh/wall_mesh.h"
 
 #include <string>
@@ -26,7 +26,7 @@ inline void apply_scale(TriangleSoup &soup, const std::vector<double> &scale,
 inline WallMesh load_mesh(const std::string &file, const std::vector<double> &scale,
                           double tolerance, const char *option = "--scale")
 {
-  TriangleSoup soup = read_stl(file);
+  TriangleSoup soup = read_mesh(file).soup;
   apply_scale(soup, scale, option);
   return weld(soup, tolerance);
 }

@@ -1,5 +1,6 @@
 #include "tool/commands.h"
 
+#include "mesh/io/read_mesh.h"
 #include "mesh/measure_mesh.h"
 #include "mesh/meets_itself.h"
 #include "mesh/repair.h"
@@ -113,7 +114,7 @@ bool run(const Options &o)
   check_outputs({{"--output", o.output}}, {o.file});
   Progress progress(o.progress);
   RepairedMesh repaired =
-      repair(read_stl(o.file), o.weld, [&](const std::string &text) { progress.show(text); });
+      repair(read_mesh(o.file).soup, o.weld, [&](const std::string &text) { progress.show(text); });
   progress.show("looking for facets that meet");
   add_meetings(repaired);
   progress.clear();

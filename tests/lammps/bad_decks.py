@@ -118,6 +118,8 @@ TABLES = [
          "Fix wall wall/lsdcd", "mesh 1 'floor.stl' and mesh 2 'floor.stl' are the same file at the same place",
          "leave one out"),
         ("missing_file", "no_such_file.stl", "no_such_file.stl"),
+        ("missing_file_of_no_format", "wall.vtk",
+         "wall.vtk", "endings of names that are known: .stl, .obj, .ply, .off"),
         ("motion_negative_period", "floor.stl motion wiggle 0 0 0.1 -2",
          "Fix wall wall/lsdcd", "'motion'", "the period = -2 is out of range: it must be above 0"),
         ("motion_no_axis", "floor.stl motion rotate 0 0 0 0 0 0 2",
@@ -253,6 +255,8 @@ TABLES = [
     (FLOW + "fix             m all massflow/lsdcd mesh {}\n" + RUN, [
         ("massflow_every", "floor.stl every 0", "N = 0 is out of range", "Syntax: every N"),
         ("massflow_missing_file", "nothere.stl", "Fix m massflow/lsdcd", "nothere.stl"),
+        ("massflow_missing_file_of_no_format", "wall.vtk",
+         "wall.vtk", "endings of names that are known: .stl, .obj, .ply, .off"),
         ("massflow_outside_box", "floor.stl move 0 0 100",
          "Fix m massflow/lsdcd", "the mesh is outside the box", "z from 100 to 100", "scale", "move"),
         ("massflow_unknown_keyword", "floor.stl cuont once",

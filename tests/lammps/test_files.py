@@ -120,6 +120,26 @@ def stl_points(path):
     return [v for row in struct.iter_unpack("<12x9f2x", data[84:]) for v in row]
 
 
+def write_ply(path, points):
+    """Triangles of these corners, in floats."""
+    n = len(points) // 9
+    head = ("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+            "property float z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n")
+    path.write_bytes(head.format(3 * n, n).encode() + struct.pack(f"<{9 * n}f", *points) +
+                     b"".join(struct.pack("<B3i", 3, 3 * t, 3 * t + 1, 3 * t + 2) for t in range(n)))
+
+
+def ply(checks, folder):
+    go(folder, "mesh_stl p.stl every 50", "run 50\n")
+    write_ply(folder / "p.ply", stl_points(folder / "p.stl"))
+    done = deck.run(scene.CREATE + scene.forces(LAW, mesh="mesh p.ply mesh_stl q.stl every 50") + "run 50\n", folder)
+    if "built without assimp" in done.stdout:
+        checks.fact("a PLY without assimp: an error", done.returncode != 0)
+    else:
+        checks.fact("a mesh from a PLY has the bits of that from an STL", done.returncode == 0 and
+                    (folder / "p.stl").read_bytes() == (folder / "q.stl").read_bytes(), done.stdout[-300:])
+
+
 def stl(checks, folder):
     go(folder, f"{TURN} mesh_stl s_*.stl every 40 mesh_fields s_*.vtp every 60", "run 130\n")
     names = {p.name for p in folder.glob("s_*")}
@@ -197,7 +217,7 @@ def not_written(checks, folder):
 def main():
     checks, folder = deck.Checks(), deck.scratch()
     scene.write_floor(folder / "floor.stl")
-    for part in (series, forces, continued, stl, not_written):
+    for part in (series, forces, continued, stl, ply, not_written):
         part(checks, folder)
     checks.done(folder)
 

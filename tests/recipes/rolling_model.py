@@ -5,8 +5,9 @@ usage: rolling_model.py SRC OUT     the sources, and where the two changed files
 
 A model that keeps something takes two files: its formula in the header of its family, and its row.
 """
-import os
 import sys
+
+from edit_copy import edit_copy
 
 FORMULA = """\
 // `plastic` K MU: a contact torque that grows by K per angle rolled, up to MU |F| R.
@@ -53,16 +54,7 @@ EDITS = {
 def main():
     src, out = sys.argv[1:]
     for path, edits in EDITS.items():
-        with open(os.path.join(src, path), encoding="utf-8") as f:
-            text = f.read()
-        for old, new in edits:
-            if text.count(old) != 1:
-                raise SystemExit(f"{path} does not have once: {old!r}")
-            text = text.replace(old, new)
-        to = os.path.join(out, path)
-        os.makedirs(os.path.dirname(to), exist_ok=True)
-        with open(to, "w", encoding="utf-8") as f:
-            f.write(text)
+        edit_copy(src, out, path, edits)
 
 
 if __name__ == "__main__":

@@ -85,7 +85,7 @@ def written():
     fact("people get a line", done.returncode == 0 and f"out.ply: {len(FLOATS)} facets from (-0.3" in done.stdout,
          done.stdout)
     refused(FOLDER, "convert floats.stl -o out.step".split(), "'out.step'", ".stl, .obj, .ply or .off")
-    refused(FOLDER, "convert floats.vtk -o out.stl".split(), "'floats.vtk'", ".stl, .obj, .ply or .off")
+    refused(FOLDER, "convert floats.vtk -o out.stl".split(), "floats.vtk", ".stl, .obj, .ply, .off")
     refused(FOLDER, "convert floats.stl -o no/out.stl".split(), "no/out.stl")
     refused(FOLDER, "convert nowhere.stl -o out2.stl".split(), "nowhere.stl")
     refused(FOLDER, "convert floats.stl -o out2.stl --units km".split(), "--units", "km", "mm", code=2)

@@ -1,7 +1,7 @@
-#include "tool/read_mesh.h"
+// OBJ, PLY and OFF, by the library assimp.
+#include "mesh/io/read_mesh.h"
 
 #include "base/input_error.h"
-#include "output/mesh_file.h"
 
 #include <cmath>
 #include <memory>
@@ -14,9 +14,9 @@
 
 namespace lsdcd {
 
+#if defined(LSDCD_HAVE_ASSIMP)
 namespace {
 
-#if defined(LSDCD_HAVE_ASSIMP)
 void add(const aiMesh &mesh, ReadMesh &read)
 {
   for (unsigned f = 0; f < mesh.mNumFaces; f++) {
@@ -46,8 +46,10 @@ void keep_error(const char *message, char *kept)
     error = text.substr(text.find(": ") + 2, text.find_last_not_of('\n') - text.find(": ") - 1);
 }
 
+}    // namespace
+
 // In C, whose calls other versions of the library have, too.
-ReadMesh read_by_assimp(const std::string &path)
+ReadMesh read_assimp(const std::string &path)
 {
   std::string error;
   const aiLogStream log = {keep_error, reinterpret_cast<char *>(&error)};
@@ -61,25 +63,26 @@ ReadMesh read_by_assimp(const std::string &path)
   ReadMesh read;
   read.soup.source = path;
   for (unsigned m = 0; m < scene->mNumMeshes; m++) add(*scene->mMeshes[m], read);
-  return read;
-}
-#else
-ReadMesh read_by_assimp(const std::string &path)
-{
-  throw InputError(path + ": this lsdcd was built without assimp, which reads OBJ, PLY and OFF; "
-                          "give an STL file, or install libassimp-dev and build it again");
-}
-#endif
-
-}    // namespace
-
-ReadMesh read_mesh(const std::string &path)
-{
-  if (mesh_format(path) == MeshFormat::stl) return {read_stl(path), 0};
-  ReadMesh read = read_by_assimp(path);
   if (read.soup.corners.empty())
     throw InputError(path + ": the mesh has no facets; give a mesh with triangles or polygons");
   return read;
 }
+
+bool has_assimp()
+{
+  return true;
+}
+#else
+ReadMesh read_assimp(const std::string &path)
+{
+  throw InputError(path + ": this lsdcd was built without assimp, which reads OBJ, PLY and OFF; "
+                          "give an STL file, or install libassimp-dev and build it again");
+}
+
+bool has_assimp()
+{
+  return false;
+}
+#endif
 
 }    // namespace lsdcd

@@ -1,0 +1,63 @@
+#include "mesh/io/read_mesh.h"
+
+#include "base/input_error.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+// The readers beside read_stl(), each in the file of its name. They throw InputError that names the
+// file, the place in it, the value and the remedy.
+ReadMesh read_assimp(const std::string &path);
+
+namespace {
+
+ReadMesh read_stl_mesh(const std::string &path)
+{
+  return {read_stl(path), 0};
+}
+
+struct Format {
+  const char *ending;
+  ReadMesh (*read)(const std::string &path);
+};
+
+const Format kFormats[] = {
+    {".stl", read_stl_mesh},
+    {".obj", read_assimp},
+    {".ply", read_assimp},
+    {".off", read_assimp},
+};
+
+std::string all_endings()
+{
+  std::string all;
+  for (const Format &f : kFormats) all += (all.empty() ? "" : ", ") + std::string(f.ending);
+  return all;
+}
+
+}    // namespace
+
+std::string name_ending(const std::string &path)
+{
+  std::string ending = path.substr(std::min(path.size(), path.rfind('.')));
+  for (char &c : ending)
+    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
+  return ending;
+}
+
+ReadMesh read_mesh(const std::string &path)
+{
+  const std::string ending = name_ending(path);
+  for (const Format &f : kFormats)
+    if (ending == f.ending) return f.read(path);
+  try {
+    return read_stl_mesh(path);
+  } catch (const InputError &e) {
+    throw InputError(std::string(e.what()) +
+                     " (it was read as STL; endings of names that are known: " + all_endings() +
+                     ")");
+  }
+}
+
+}    // namespace lsdcd

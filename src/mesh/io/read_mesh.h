@@ -1,0 +1,26 @@
+// A mesh from a file of any format that is known.
+#pragma once
+
+#include "mesh/triangle_soup.h"
+
+#include <cstddef>
+#include <string>
+
+namespace lsdcd {
+
+struct ReadMesh {
+  TriangleSoup soup;
+  std::size_t left_out = 0;    // points and lines, which are no facets
+};
+
+// By the name's ending, as the table in read_mesh.cpp says; a file with another name is read as STL.
+// OBJ, PLY and OFF are read by assimp, if it was there when this was built. It cuts polygons into
+// triangles and rounds coordinates to float. Throws InputError that names the file.
+ReadMesh read_mesh(const std::string &path);
+
+bool has_assimp();
+
+// The name's end from its last dot on, in lower case.
+std::string name_ending(const std::string &path);
+
+}    // namespace lsdcd

@@ -1,0 +1,68 @@
+// Which format a file is read as.
+#include "base/input_error.h"
+#include "mesh/io/read_mesh.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+
+namespace lsdcd {
+namespace {
+
+const char *const kStl = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                         "vertex 0 1 0\nendloop\nendfacet\nendsolid s\n";
+// The same triangle, and a line, which is no facet.
+const char *const kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\n";
+const std::vector<Vec3> kTriangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+std::string error_of(const std::string &path)
+{
+  try {
+    read_mesh(path);
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+bool contains(const std::string &text, const std::string &part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+TEST(read_mesh, the_case_of_an_ending_does_not_matter)
+{
+  const TempDir dir;
+  EXPECT_EQ(name_ending("a.b/Wall.StL"), ".stl");
+  EXPECT_EQ(read_mesh(dir.write("wall.StL", kStl)).soup.corners, kTriangle);
+}
+
+TEST(read_mesh, a_name_without_a_known_ending_is_read_as_stl)
+{
+  const TempDir dir;
+  EXPECT_EQ(read_mesh(dir.write("wall", kStl)).soup.corners, kTriangle);
+  EXPECT_EQ(read_mesh(dir.write("wall.mesh", kStl)).soup.corners, kTriangle);
+}
+
+TEST(read_mesh, an_error_of_an_unknown_ending_names_those_that_are_known)
+{
+  const TempDir dir;
+  const std::string path = dir.write("wall.vtk", kObj), error = error_of(path);
+  EXPECT_TRUE(contains(error, path)) << error;
+  EXPECT_TRUE(contains(error, ".stl, .obj, .ply, .off")) << error;
+}
+
+TEST(read_mesh, an_obj_is_read_by_assimp_and_lines_are_counted)
+{
+  const TempDir dir;
+  const std::string path = dir.write("wall.obj", kObj);
+  if (has_assimp()) {
+    const ReadMesh read = read_mesh(path);
+    EXPECT_EQ(read.soup.corners, kTriangle);
+    EXPECT_EQ(read.left_out, 1u);
+  } else {
+    EXPECT_TRUE(contains(error_of(path), "built without assimp"));
+  }
+}
+
+}    // namespace
+}    // namespace lsdcd
