@@ -1,6 +1,6 @@
 #include "bench.h"
 
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "backend/backend_cpu.h"
 #include "backend/threads.h"
 #include "on_cuda.h"
@@ -232,7 +232,7 @@ void BenchRows::put(const std::string &line)
 void BenchRows::end() const
 {
   if (csv_.empty()) return;
-  WholeFile file(csv_);
+  AtomicFile file(csv_);
   file.write_at(0, text_.data(), text_.size());
   file.commit();
 }

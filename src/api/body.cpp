@@ -133,7 +133,7 @@ extern "C" {
 int lsdcd_body_make(const lsdcd_mesh *wall, const lsdcd_mesh *mesh,
                     const lsdcd_body_options *options, lsdcd_body **body)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(body, "body");
     need(mesh, "mesh");
     lsdcd_body_options o = {};
@@ -154,7 +154,7 @@ int lsdcd_body_make(const lsdcd_mesh *wall, const lsdcd_mesh *mesh,
 
 int lsdcd_body_get_facts(const lsdcd_body *body, lsdcd_body_facts *facts)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(body, "body");
     lsdcd_body_facts f = checked(facts, "lsdcd_body_facts");
     f.triangles = body->in.n_triangles();
@@ -163,13 +163,13 @@ int lsdcd_body_get_facts(const lsdcd_body *body, lsdcd_body_facts *facts)
     f.grid_bytes = body->in.grid().bytes;
     f.nearest = body->nearest;
     f.device = body->device;
-    hand_out(f, facts);
+    copy_out(f, facts);
   });
 }
 
 int lsdcd_collide(lsdcd_body *body, lsdcd_collision *collision)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(body, "body");
     lsdcd_collision c = checked_collision(collision);
     const BodyPose pose = pose_of(c);
@@ -180,7 +180,7 @@ int lsdcd_collide(lsdcd_body *body, lsdcd_collision *collision)
     c.collides = found.any();
     c.pairs = found.pairs.size();
     c.uncertain = found.uncertain;
-    hand_out(c, collision);
+    copy_out(c, collision);
   });
 }
 

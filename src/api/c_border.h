@@ -41,7 +41,7 @@ class CLocale {
 };
 
 template <class Body>
-int at_c_border(const Body &body) noexcept
+int guard(const Body &body) noexcept
 {
   const CLocale locale;
   try {
@@ -95,7 +95,7 @@ T checked(const T *given, const char *name, std::size_t least = sizeof(T))
 
 // The same the other way round.
 template <class T>
-void hand_out(const T &made, T *to)
+void copy_out(const T &made, T *to)
 {
   const std::size_t size = to->size;
   std::memcpy(to, &made, size);

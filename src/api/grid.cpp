@@ -46,9 +46,9 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
 }
 
 // The grid and its report, from the cache where that has it.
-class Making {
+class CachedGridBuild {
  public:
-  Making(ApiGrid &grid, const WallMesh &mesh, const GridSettings &settings, bool on_cuda) :
+  CachedGridBuild(ApiGrid &grid, const WallMesh &mesh, const GridSettings &settings, bool on_cuda) :
       grid_(grid), mesh_(mesh), settings_(settings), on_cuda_(on_cuda)
   {
   }
@@ -108,7 +108,7 @@ extern "C" {
 
 int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, lsdcd_grid **grid)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(grid, "grid");
     need(mesh, "mesh");
     const lsdcd_grid_options o = checked(options, "lsdcd_grid_options");
@@ -119,7 +119,7 @@ int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, 
       throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why + "; build with LSDCD_CPU");
     const CallThreads threads(o.threads);
     auto made = std::make_shared<ApiGrid>(from.mesh);
-    Making making(*made, from.mesh, settings, o.device == LSDCD_CUDA);
+    CachedGridBuild making(*made, from.mesh, settings, o.device == LSDCD_CUDA);
     if (o.cache && *o.cache)
       making.with_cache(o.cache);
     else
@@ -134,7 +134,7 @@ int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, 
 
 int lsdcd_grid_get_facts(const lsdcd_grid *grid, lsdcd_grid_facts *facts)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(grid, "grid");
     lsdcd_grid_facts f = checked(facts, "lsdcd_grid_facts");
     const ApiGrid &g = *grid->in;
@@ -144,7 +144,7 @@ int lsdcd_grid_get_facts(const lsdcd_grid *grid, lsdcd_grid_facts *facts)
     f.nearest = g.grid.view.nearest;
     f.has_sides = g.has_sides;
     f.from_cache = g.from_cache;
-    hand_out(f, facts);
+    copy_out(f, facts);
   });
 }
 

@@ -46,7 +46,7 @@ extern "C" {
 
 int lsdcd_mesh_read(const char *file, double weld, lsdcd_mesh **mesh)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(mesh, "mesh");
     need(file, "file");
     *mesh = welded(read_mesh(file).soup, weld);
@@ -56,7 +56,7 @@ int lsdcd_mesh_read(const char *file, double weld, lsdcd_mesh **mesh)
 int lsdcd_mesh_from_corners(const double *corners, size_t n_triangles, double weld,
                             lsdcd_mesh **mesh)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(mesh, "mesh");
     need(corners, "corners");
     *mesh = welded(soup_of(corners, n_triangles), weld);
@@ -65,7 +65,7 @@ int lsdcd_mesh_from_corners(const double *corners, size_t n_triangles, double we
 
 int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(mesh, "mesh");
     lsdcd_mesh_facts f = checked(facts, "lsdcd_mesh_facts");
     const WallMesh &m = mesh->in->mesh;
@@ -83,7 +83,7 @@ int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts)
       f.lo[k] = m.report.lo[k];
       f.hi[k] = m.report.hi[k];
     }
-    hand_out(f, facts);
+    copy_out(f, facts);
   });
 }
 

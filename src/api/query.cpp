@@ -94,7 +94,7 @@ extern "C" {
 
 int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(grid, "grid");
     const ApiGrid &g = *grid->in;
     const lsdcd_query q = checked_query(g, query);
@@ -116,7 +116,7 @@ int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
 int lsdcd_has_cuda(void)
 {
   bool yes = false;
-  at_c_border([&] {
+  guard([&] {
     std::string why;
     yes = cuda_available(&why);
     if (!yes) throw ApiError(LSDCD_ERROR_DEVICE, why);
@@ -128,7 +128,7 @@ int lsdcd_has_cuda(void)
 
 int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **stream)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(stream, "stream");
     need(grid, "grid");
     std::string why;
@@ -152,7 +152,7 @@ int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **
 
 int lsdcd_query_stream(lsdcd_stream *stream, const lsdcd_query *query)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(stream, "stream");
     const lsdcd_query q = checked_query(*stream->grid, query);
     if (q.n == 0) return;
@@ -184,7 +184,7 @@ namespace {
 
 int lsdcd_stream_open(const lsdcd_grid *grid, void *, lsdcd_stream **stream)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(stream, "stream");
     need(grid, "grid");
     throw_no_cuda();
@@ -193,7 +193,7 @@ int lsdcd_stream_open(const lsdcd_grid *grid, void *, lsdcd_stream **stream)
 
 int lsdcd_query_stream(lsdcd_stream *stream, const lsdcd_query *)
 {
-  return at_c_border([&] {
+  return guard([&] {
     need(stream, "stream");
     throw_no_cuda();
   });

@@ -28,7 +28,7 @@ inline void give_back_memory()
 // Calls copy(begin, end) for one part of n elements after another, and gives their pages back on the way:
 // an array and its copy are never in memory whole. What lay at `from`, memory of malloc's, is gone.
 template <class T, class Copy>
-void drain(T *from, std::size_t n, const Copy &copy)
+void move_and_release(T *from, std::size_t n, const Copy &copy)
 {
   constexpr std::size_t kPart = (std::size_t(1) << 20) / sizeof(T) + 1;
   for (std::size_t i = 0; i < n; i += kPart) {
@@ -50,7 +50,7 @@ std::vector<T> drained(T *from, std::size_t n)
 {
   std::vector<T> to;
   to.reserve(n);
-  drain(from, n, [&](T *begin, T *end) { to.insert(to.end(), begin, end); });
+  move_and_release(from, n, [&](T *begin, T *end) { to.insert(to.end(), begin, end); });
   return to;
 }
 

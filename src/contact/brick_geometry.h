@@ -60,10 +60,10 @@ class BrickGeometry {
     return grid_.records.face_parts[feature_index(face)];
   }
 
-  LSDCD_FN Over over(FeatureCode face, Real within) const
+  LSDCD_FN FaceRegion over(FeatureCode face, Real within) const
   {
     const BrickFace f = grid_.records.faces[feature_index(face)];
-    if (!(fabs(height(f.plane)) <= static_cast<float>(within))) return Over::far;
+    if (!(fabs(height(f.plane)) <= static_cast<float>(within))) return FaceRegion::far;
     return over_sides(f, tolerance_);
   }
 
@@ -94,11 +94,11 @@ class BrickGeometry {
     return dot(plane.normal, p_) + plane.offset;
   }
 
-  LSDCD_FN Over over_sides(const BrickFace &f, float tolerance) const
+  LSDCD_FN FaceRegion over_sides(const BrickFace &f, float tolerance) const
   {
     const float a = height(f.side[0]), b = height(f.side[1]), c = height(f.side[2]);
-    if (!(a >= -tolerance && b >= -tolerance && c >= -tolerance)) return Over::outside;
-    return a < tolerance || b < tolerance || c < tolerance ? Over::rim : Over::inside;
+    if (!(a >= -tolerance && b >= -tolerance && c >= -tolerance)) return FaceRegion::outside;
+    return a < tolerance || b < tolerance || c < tolerance ? FaceRegion::rim : FaceRegion::inside;
   }
 
   // Forces and springs want a normal that is unit in double.
@@ -112,10 +112,10 @@ class BrickGeometry {
   {
     const BrickFace f = grid_.records.faces[i];
     const float h = height(f.plane);
-    const Over over = over_sides(f, tolerance);
+    const FaceRegion over = over_sides(f, tolerance);
     // Both before a branch, so that a GPU asks for all of the record at once.
-    if (!(fabs(h) <= within) | (over == Over::outside)) return kNoClosestPoint;
-    if (over == Over::rim) {
+    if (!(fabs(h) <= within) | (over == FaceRegion::outside)) return kNoClosestPoint;
+    if (over == FaceRegion::rim) {
       Vec3 corner[3];
       for (int k = 0; k < 3; k++) {
         const FaceVertices &v = grid_.wall.face_vertex[grid_.records.face_of[i]];

@@ -33,7 +33,7 @@ class CornerRule {
     bool apart = true;
     n_ = 0;
     for (int i = 0; i < set.n; i++) {
-      if (is_level(set, radius, i, tolerance)) {
+      if (lies_in_tangent_plane(set, radius, i, tolerance)) {
         weight[i] = 0;
         continue;
       }
@@ -49,7 +49,8 @@ class CornerRule {
 
  private:
   // Does closest point i lie in the tangent plane of a contact on a larger kind of feature?
-  LSDCD_FN static bool is_level(const ContactSet<kPlaces> &set, Real radius, int i, Real tolerance)
+  LSDCD_FN static bool lies_in_tangent_plane(const ContactSet<kPlaces> &set, Real radius, int i,
+                                             Real tolerance)
   {
     const FeatureKind kind = feature_kind(set.feature[i]);
     if (kind == FeatureKind::face) return false;
@@ -180,9 +181,9 @@ class CornerRule {
     Real most = 0;
     for (int k = 0; k < m; k++) {
       if (!(target_[k] > kTiny)) continue;
-      const Real cutoff = l_[active_[k]] / target_[k];
-      if (leaving < 0 || cutoff < most) {
-        most = cutoff;
+      const Real max_step = l_[active_[k]] / target_[k];
+      if (leaving < 0 || max_step < most) {
+        most = max_step;
         leaving = k;
       }
     }
@@ -228,9 +229,9 @@ class CornerRule {
     for (int k = 0; k < m; k++) {
       if (target_[k] > 0) continue;
       const Real from = l_[active_[k]];
-      const Real cutoff = from > 0 ? from / (from - target_[k]) : 0;
-      if (cutoff < part || blocking < 0) {
-        part = cutoff;
+      const Real max_step = from > 0 ? from / (from - target_[k]) : 0;
+      if (max_step < part || blocking < 0) {
+        part = max_step;
         blocking = k;
       }
     }

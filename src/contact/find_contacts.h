@@ -58,8 +58,9 @@ LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radiu
 // The same as a function of its own, for searches that few spheres need: the tests of features are
 // long, and would be compiled into each law's kernels many times.
 template <class Geometry, int kPlaces>
-LSDCD_NOINLINE void add_feature_apart(const Geometry &geometry, FeatureCode code, Real radius,
-                                      ContactSet<kPlaces> &set, const FeatureRecord *copy = nullptr)
+LSDCD_NOINLINE void add_feature_noinline(const Geometry &geometry, FeatureCode code, Real radius,
+                                         ContactSet<kPlaces> &set,
+                                         const FeatureRecord *copy = nullptr)
 {
   add_feature(geometry, code, radius, set, copy);
 }
@@ -70,14 +71,14 @@ LSDCD_NOINLINE void add_primitive(const Geometry &geometry, FeatureCode primitiv
                                   ContactSet<kPlaces> &set)
 {
   if (feature_kind(primitive) == FeatureKind::face) {
-    const Over over = geometry.over(primitive, radius);
-    if (over == Over::far) return;
-    if (over != Over::inside)
+    const FaceRegion over = geometry.over(primitive, radius);
+    if (over == FaceRegion::far) return;
+    if (over != FaceRegion::inside)
       for (FeatureCode part : geometry.parts(primitive).part)
-        if (part != kNoFeature) add_feature_apart(geometry, part, radius, set);
-    if (over == Over::outside) return;
+        if (part != kNoFeature) add_feature_noinline(geometry, part, radius, set);
+    if (over == FaceRegion::outside) return;
   }
-  add_feature_apart(geometry, primitive, radius, set);
+  add_feature_noinline(geometry, primitive, radius, set);
 }
 
 template <class Geometry, int kPlaces>
@@ -89,7 +90,7 @@ LSDCD_FN void find_in_complete(const GridView &grid, const CellListsView &lists,
   const Cell cell = lists.cells[cell_index(*at.brick, at.cell)];
   const Geometry geometry(grid, q, at);
   if (cell.count == 1) {
-    add_feature_apart(geometry, cell.first, radius, set);
+    add_feature_noinline(geometry, cell.first, radius, set);
     return;
   }
   // A list ascends in distance from the cell's centre: past this bound no
@@ -98,7 +99,7 @@ LSDCD_FN void find_in_complete(const GridView &grid, const CellListsView &lists,
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
     const Candidate candidate = lists.candidates[i];
     if (candidate.bound > enough) break;
-    add_feature_apart(geometry, candidate.feature, radius, set);
+    add_feature_noinline(geometry, candidate.feature, radius, set);
     if (set.overflow) break;    // nothing else is valid
   }
 }

@@ -8,7 +8,7 @@ namespace lsdcd {
 
 // Where a point lies over a face: farther from its plane than asked, past a side, within
 // the tolerance of a side, or inside.
-enum class Over { far, outside, rim, inside };
+enum class FaceRegion { far, outside, rim, inside };
 
 class WallGeometry {
  public:
@@ -51,13 +51,13 @@ class WallGeometry {
     return grid_.wall.face_parts[feature_index(face)];
   }
 
-  LSDCD_FN Over over(FeatureCode face, Real within) const
+  LSDCD_FN FaceRegion over(FeatureCode face, Real within) const
   {
     const FaceRecord &f = grid_.wall.faces[feature_index(face)];
-    if (!(fabs(dot(f.normal, q_ - f.anchor)) <= within)) return Over::far;
+    if (!(fabs(dot(f.normal, q_ - f.anchor)) <= within)) return FaceRegion::far;
     bool at_rim = false;
-    if (!closest_on_face(f, q_, grid_.tolerance, within, at_rim).found) return Over::outside;
-    return at_rim ? Over::rim : Over::inside;
+    if (!closest_on_face(f, q_, grid_.tolerance, within, at_rim).found) return FaceRegion::outside;
+    return at_rim ? FaceRegion::rim : FaceRegion::inside;
   }
 
  private:

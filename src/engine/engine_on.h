@@ -53,7 +53,7 @@ class EngineOn : public InPlaceEngine {
 
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
-    results_.outlive_choice(b_);
+    results_.detach_from_near_list(b_);
     springs_.grow(b_, spheres.n);
     use(spheres, wall_.choose(b_, spheres, margin, counts_, springs_.count()));
     forget_far_meshes();
@@ -64,7 +64,7 @@ class EngineOn : public InPlaceEngine {
   // Steps are over these alone, one after the other. Springs are still those of other spheres.
   std::vector<int> choose_among(const Spheres &spheres, Real margin)
   {
-    if (wall_.has_several()) results_.outlive_choice(b_);
+    if (wall_.has_several()) results_.detach_from_near_list(b_);
     springs_.grow(b_, spheres.n);
     use(spheres, wall_.choose(b_, spheres, margin, counts_, nullptr, true));
     return wall_.chosen(b_, spheres.n);

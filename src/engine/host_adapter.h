@@ -51,7 +51,7 @@ class HostAdapter : public WallEngine {
 
   void set_grid(const GridView &grid, int mesh = 0) override
   {
-    name_spheres();
+    flush_diagnostics();
     springs_to_waiting();
     engine_.set_grid(grid, mesh);
     meshes_.at(mesh).grid = GridOn<CpuBackend>(cpu_, grid);
@@ -75,7 +75,7 @@ class HostAdapter : public WallEngine {
   // would take longer. The engine tells of these which can touch something.
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
-    name_spheres();
+    flush_diagnostics();
     const std::vector<int> was = std::exchange(near_host_, near_by_cells(spheres, margin));
     const std::size_t n = near_host_.size();
     motion_.reserve(n);
@@ -179,7 +179,7 @@ class HostAdapter : public WallEngine {
 
   StepDiagnostics read_diagnostics() override
   {
-    name_spheres();
+    flush_diagnostics();
     const StepDiagnostics diagnostics = diagnostics_;
     diagnostics_ = StepDiagnostics();
     return diagnostics;
@@ -243,7 +243,7 @@ class HostAdapter : public WallEngine {
   }
 
   // Gives what steps left behind the host's indices, before other spheres are near.
-  void name_spheres()
+  void flush_diagnostics()
   {
     totals();
     const StepDiagnostics seen = read_engine();

@@ -118,8 +118,8 @@ LSDCD_FN ClosestPoint closest_on_vertex(const VertexRecord &vertex, const Vec3 *
 }
 
 // Is q within `tolerance` of the region in which a feature is a local minimum of distance, and the
-// feature within `within`? True wherever foot_on() finds one with these, and past sharp corners of
-// faces; no root and no division.
+// feature within `within`? True wherever closest_on_face(), closest_on_edge() or closest_on_vertex()
+// finds one with these, and past sharp corners of faces; no root and no division.
 LSDCD_FN bool may_be_closest(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &q,
                              Real tolerance, Real within)
 {

@@ -1,7 +1,7 @@
 #include "grid/loose_ends.h"
 
 #include "geometry/primitive_distance.h"
-#include "mesh/classes.h"
+#include "mesh/union_find.h"
 
 #include <algorithm>
 #include <array>
@@ -62,7 +62,7 @@ class Meetings {
   bool has(int vertex, int axis) { return meets_[part_.of(vertex)][axis]; }
 
  private:
-  Classes part_;
+  UnionFind part_;
   std::vector<std::array<bool, 3>> meets_;
 };
 

@@ -212,7 +212,7 @@ void move_flat(TriangleGrid &grid, char *block)
 {
   flatten_arrays(grid, block, [](auto &a, char *to) {
     const bool large = array_bytes(a) > (1 << 20);
-    drain(a.data(), a.size(), [&](const auto *begin, const auto *end) {
+    move_and_release(a.data(), a.size(), [&](const auto *begin, const auto *end) {
       std::memcpy(to, begin, (end - begin) * sizeof *begin);
       to += (end - begin) * sizeof *begin;
     });

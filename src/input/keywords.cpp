@@ -1,6 +1,6 @@
 #include "input/keywords.h"
 
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "input/granular_words.h"
 #include "input/motion_words.h"
 #include "input/servo_words.h"

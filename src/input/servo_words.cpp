@@ -69,12 +69,12 @@ Servo read_one_servo(Tokens &w)
     if (word != "vmax" && word != "gain" && word != "limits") break;
     if (std::count(seen.begin(), seen.end(), word)) w.fail(word + " is given twice");
     seen.push_back(w.take());
-    if (word == "vmax") s.fastest = w.number("vmax", kAboveZero);
-    if (word == "gain") s.most_gain = w.number("the gain", kAboveZero);
+    if (word == "vmax") s.max_speed = w.number("vmax", kAboveZero);
+    if (word == "gain") s.max_gain = w.number("the gain", kAboveZero);
     if (word == "limits") read_limits(w, s);
   }
   if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one too many");
-  if (s.fastest == 0)
+  if (s.max_speed == 0)
     w.fail("vmax is missing, the speed at which the mesh moves up to the spheres" +
            (w.done() ? "" : "; '" + w.peek() + "' is no word of a servo"));
   return s;

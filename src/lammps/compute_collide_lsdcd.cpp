@@ -62,7 +62,7 @@ ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
     make_collisions(mesh);
     log(mesh);
   } catch (const lsdcd::InputError &e) {
-    refuse(e.what());
+    fatal(e.what());
   }
   found.assign(bodies.size() + 1, 0.0);
 
@@ -87,11 +87,11 @@ const FixWallLsdcd &ComputeCollideLsdcd::wall() const
     if (settings.wall == modify->fix[i]->id) {
       const auto *fix = dynamic_cast<const FixWallLsdcd *>(modify->fix[i]);
       if (fix) return *fix;
-      refuse("fix " + settings.wall + " is of style " + modify->fix[i]->style +
-             "; give the ID of a fix wall/lsdcd");
+      fatal("fix " + settings.wall + " is of style " + modify->fix[i]->style +
+            "; give the ID of a fix wall/lsdcd");
     }
-  refuse("there is no fix '" + settings.wall +
-         "': give the ID of a fix wall/lsdcd, which is defined before the compute");
+  fatal("there is no fix '" + settings.wall +
+        "': give the ID of a fix wall/lsdcd, which is defined before the compute");
 }
 
 bool ComputeCollideLsdcd::is_mine(int body) const
@@ -116,7 +116,7 @@ void ComputeCollideLsdcd::make_collisions(const lsdcd::WallMesh &body)
     Against one;
     one.fingerprint = part.wall.mesh_fingerprint();
     one.bounds = part.bounds(0);
-    lsdcd::together(world, has_any(), [&] {
+    lsdcd::run_collectively(world, has_any(), [&] {
       one.collision = std::make_unique<lsdcd::MeshCollision>(mesh, body, how);
     });
     meshes.push_back(std::move(one));
@@ -130,8 +130,8 @@ void ComputeCollideLsdcd::check_wall(const FixWallLsdcd &fix) const
   for (std::size_t m = 0; same && m < meshes.size(); m++)
     same = fix.meshes()[m].wall.mesh_fingerprint() == meshes[m].fingerprint;
   if (!same)
-    refuse("fix " + settings.wall +
-           " has other meshes than when the compute was defined: define the compute again");
+    fatal("fix " + settings.wall +
+          " has other meshes than when the compute was defined: define the compute again");
 }
 
 void ComputeCollideLsdcd::init()
@@ -149,12 +149,12 @@ void ComputeCollideLsdcd::evaluate()
   found.assign(bodies.size() + 1, 0.0);
   const int n = static_cast<int>(bodies.size());
   try {
-    lsdcd::together(world, true, [&] {
+    lsdcd::run_collectively(world, true, [&] {
       for (int body = 0; body < n; body++)
         if (is_mine(body)) collide(body, pose_of(body, sums), fix, box);
     });
   } catch (const lsdcd::InputError &e) {
-    refuse("at step " + std::to_string(update->ntimestep) + ": " + e.what());
+    fatal("at step " + std::to_string(update->ntimestep) + ": " + e.what());
   }
   MPI_Allreduce(MPI_IN_PLACE, found.data(), n + 1, MPI_DOUBLE, MPI_SUM, world);
   evaluated_at = update->ntimestep;
@@ -278,15 +278,15 @@ void ComputeCollideLsdcd::log(const lsdcd::WallMesh &mesh) const
               std::to_string(update->ntimestep) + "; the keyword atoms tells it in any step";
     text += "\n" + describe(mesh.report, settings.mesh.file);
   }
-  utils::logmesg(lmp, signed_text(text) + "\n");
+  utils::logmesg(lmp, with_fix_id(text) + "\n");
 }
 
-std::string ComputeCollideLsdcd::signed_text(const std::string &text) const
+std::string ComputeCollideLsdcd::with_fix_id(const std::string &text) const
 {
   return "Compute " + std::string(id) + " lsdcd/collide: " + text;
 }
 
-void ComputeCollideLsdcd::refuse(const std::string &problem) const
+void ComputeCollideLsdcd::fatal(const std::string &problem) const
 {
-  error->all(FLERR, signed_text(problem));
+  error->all(FLERR, with_fix_id(problem));
 }

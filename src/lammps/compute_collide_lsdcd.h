@@ -81,8 +81,8 @@ class ComputeCollideLsdcd : public Compute {
   bool is_mine(int) const;
   bool has_any() const;
   void log(const lsdcd::WallMesh &) const;
-  std::string signed_text(const std::string &) const;
-  [[noreturn]] void refuse(const std::string &) const;
+  std::string with_fix_id(const std::string &) const;
+  [[noreturn]] void fatal(const std::string &) const;
 };
 
 }    // namespace LAMMPS_NS

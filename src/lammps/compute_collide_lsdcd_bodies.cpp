@@ -74,7 +74,7 @@ std::vector<Vec3> ComputeCollideLsdcd::read_points() const
 {
   const std::string &name = settings.atoms_file;
   std::vector<Vec3> all;
-  lsdcd::together(world, comm->me == 0, [&] {
+  lsdcd::run_collectively(world, comm->me == 0, [&] {
     std::ifstream file(name);
     if (!file) throw InputError("cannot read file " + name + ": give x y z of an atom a line");
     std::string line;

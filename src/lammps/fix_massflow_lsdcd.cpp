@@ -31,7 +31,7 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
     surface = std::make_unique<lsdcd::FlowSurface>(mesh);
     if (comm->me == 0)
       utils::logmesg(lmp,
-                     signed_text(settings.brief ? std::to_string(mesh.faces.size()) + " triangles"
+                     with_fix_id(settings.brief ? std::to_string(mesh.faces.size()) + " triangles"
                                                 : describe(mesh.report, settings.surface.file)) +
                          "\n");
     if (mesh.report.misoriented_edges > 0)
@@ -44,10 +44,10 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
     if (!outside.empty()) throw lsdcd::InputError(outside);
     check_length(mesh);
   } catch (const lsdcd::InputError &e) {
-    refuse(e.what());
+    fatal(e.what());
   }
   if (settings.deletes && atom->molecular)
-    refuse("delete yes leaves bonds without their atoms: use an atom style without bonds");
+    fatal("delete yes leaves bonds without their atoms: use an atom style without bonds");
 
 #if __has_include("atom_masks.h")
   // All that a host with its atoms on a GPU has to bring for counting; deletion takes everything.
@@ -129,8 +129,8 @@ void FixMassflowLsdcd::init()
 void FixMassflowLsdcd::setup(int /*vflag*/)
 {
   if (watch.sees_snapshot(*update))
-    refuse("a rerun has no steps, and what passes between its snapshots is not counted: unfix " +
-           std::string(id) + " before it");
+    fatal("a rerun has no steps, and what passes between its snapshots is not counted: unfix " +
+          std::string(id) + " before it");
   near_within = neighbor->skin > 0 ? 2 * neighbor->skin : 1e150;
   far = 8 * near_within;
   time_seen = simulated_time();
@@ -201,7 +201,7 @@ void FixMassflowLsdcd::look(int i)
   if (moved >= t.clear) {
     if (!was_near && !all_were_seen)
       error->one(FLERR,
-                 signed_text("atom " + std::to_string(atom->tag_enable ? atom->tag[i] : 0) +
+                 with_fix_id("atom " + std::to_string(atom->tag_enable ? atom->tag[i] : 0) +
                              " moved by more than the skin " + number_text(neighbor->skin) +
                              " in one step, and whether it passed is not known: make the timestep "
                              "smaller or the skin larger (neighbor), or have all atoms looked at "
@@ -239,17 +239,17 @@ void FixMassflowLsdcd::count(int i, lsdcd::Passes passes)
   row[kBackwardMass] += passes.backward * mass_of(i);
 }
 
-std::string FixMassflowLsdcd::signed_text(const std::string &text) const
+std::string FixMassflowLsdcd::with_fix_id(const std::string &text) const
 {
   return "Fix " + std::string(id) + " massflow/lsdcd: " + text;
 }
 
 void FixMassflowLsdcd::warn(const std::string &problem) const
 {
-  if (comm->me == 0) error->warning(FLERR, signed_text(problem));
+  if (comm->me == 0) error->warning(FLERR, with_fix_id(problem));
 }
 
-void FixMassflowLsdcd::refuse(const std::string &problem) const
+void FixMassflowLsdcd::fatal(const std::string &problem) const
 {
-  error->all(FLERR, signed_text(problem));
+  error->all(FLERR, with_fix_id(problem));
 }

@@ -90,9 +90,9 @@ class FixMassflowLsdcd : public Fix {
   double mass_of(int) const;
   double simulated_time() const;
 
-  std::string signed_text(const std::string &) const;
+  std::string with_fix_id(const std::string &) const;
   void warn(const std::string &) const;
-  [[noreturn]] void refuse(const std::string &) const;
+  [[noreturn]] void fatal(const std::string &) const;
 };
 
 }    // namespace LAMMPS_NS

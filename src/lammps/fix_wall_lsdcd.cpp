@@ -46,7 +46,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
 #endif
 
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-    refuse("atoms need a radius, omega and torque: use atom_style sphere");
+    fatal("atoms need a radius, omega and torque: use atom_style sphere");
 
   try {
     const lsdcd::FilledTokens filled = lsdcd::fill_material(
@@ -76,7 +76,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
 
     make_engine();
   } catch (const lsdcd::InputError &e) {
-    refuse(e.what());
+    fatal(e.what());
   }
 
   history = settings.law.has_history();
@@ -173,7 +173,7 @@ void FixWallLsdcd::init()
   try {
     wall_files->begin_run(update->ntimestep);
   } catch (const lsdcd::InputError &e) {
-    refuse(e.what());
+    fatal(e.what());
   }
   check_files_apart();
   check_doubled();
@@ -218,7 +218,7 @@ void FixWallLsdcd::min_setup(int /*vflag*/)
 
 void FixWallLsdcd::pre_exchange()
 {
-  look();
+  poll_diagnostics();
   check_wrapping();
   if (history) make_exchange_room();
 }
@@ -297,7 +297,7 @@ void FixWallLsdcd::end_of_step()
 
 void FixWallLsdcd::post_run()
 {
-  look();
+  poll_diagnostics();
   double worst = overlaps.worst();
   host.max(&worst, 1);
   overlaps.check_sunk(worst);

@@ -157,7 +157,7 @@ class FixWallLsdcd : public Fix {
   void choose_if_due(const lsdcd::Spheres &);
   lsdcd::SphereDrift sphere_drift() const;
   lsdcd::StepDiagnostics read_notes();
-  void look();
+  void poll_diagnostics();
   void check_new_spheres();
   void prepare_springs();
   void springs_to_host();
@@ -254,9 +254,9 @@ class FixWallLsdcd : public Fix {
   void log_build(const MeshPart &, double) const;
   void log(const std::string &) const;
   void warn(const std::string &) const;    // by the first process
-  [[noreturn]] void refuse(const std::string &) const;
+  [[noreturn]] void fatal(const std::string &) const;
   [[noreturn]] void stop(const std::exception &);    // on this process alone
-  std::string signed_text(const std::string &) const;
+  std::string with_fix_id(const std::string &) const;
   // What is said of one of several meshes, with its name; of the only one as it is.
   std::string of(const MeshPart &, const std::string &) const;
 };

@@ -65,7 +65,7 @@ void FixWallLsdcd::check_box(const MeshPart &m, double cutoff) const
   const lsdcd::MeshReport &r = m.wall.report();
   const std::string wrong =
       lsdcd::outside_box({r.lo, r.hi}, *domain, cutoff + simulation_box().margin);
-  if (!wrong.empty()) refuse(of(m, wrong));
+  if (!wrong.empty()) fatal(of(m, wrong));
 }
 
 // A mesh that moves may begin outside of the box and come in. One that was in it and has left
@@ -165,8 +165,7 @@ void FixWallLsdcd::check_within_cutoff(MeshPart &m)
   const std::string what = of(m, "no particle in the box can touch the mesh: it spans " +
                                      lsdcd::extents_text({r.lo, r.hi}) + ", the box " +
                                      lsdcd::extents_text(b) + likely_scale_text(m));
-  if (!box.follows[0] && !box.follows[1] && !box.follows[2])
-    refuse(what + "; check scale and move");
+  if (!box.follows[0] && !box.follows[1] && !box.follows[2]) fatal(what + "; check scale and move");
   if (!m.out_of_reach_warned) warn(what);
   m.out_of_reach_warned = true;
 }
@@ -176,7 +175,7 @@ void FixWallLsdcd::check_ends(MeshPart &m, bool box_changed)
 {
   if (m.wall.ends_warning().empty() || m.ends_warned) return;
   if (settings.periodic && box_changed)
-    refuse(of(m, "the box has changed, and " + m.wall.ends_warning()));
+    fatal(of(m, "the box has changed, and " + m.wall.ends_warning()));
   m.ends_warned = true;
   warn(of(m, m.wall.ends_warning()));
 }
@@ -184,7 +183,7 @@ void FixWallLsdcd::check_ends(MeshPart &m, bool box_changed)
 void FixWallLsdcd::log_rebuilds()
 {
   if (box_rebuilds > 1 && !settings.brief)
-    log(signed_text("the grid was rebuilt " + std::to_string(box_rebuilds) +
+    log(with_fix_id("the grid was rebuilt " + std::to_string(box_rebuilds) +
                     " times in this run, as the box changed"));
   box_rebuilds = 0;
 }

@@ -39,13 +39,13 @@ void FixWallLsdcd::make_engine()
   const lsdcd::EngineSettings want = engine_settings();
   engine_moves = want.moves;
   engine_records = want.records;
-  lsdcd::together(world, true, [&] { engine = new_engine(want); });
+  lsdcd::run_collectively(world, true, [&] { engine = new_engine(want); });
 }
 
 // For other settings, with the springs that there are.
 void FixWallLsdcd::make_engine_anew()
 {
-  if (cutoff() > 0) look();
+  if (cutoff() > 0) poll_diagnostics();
   springs_to_host();
   make_engine();
   for (const MeshPart &m : parts)
@@ -72,9 +72,9 @@ void FixWallLsdcd::update_cutoff()
     return;
   }
   if (settings.rmax > 0 && radius > settings.rmax)
-    refuse("atom " + std::to_string(tag_of_radius(radius)) + " has radius " +
-           lsdcd::number_text(radius) + ", more than rmax " + lsdcd::number_text(settings.rmax) +
-           ": raise rmax or use rmax auto");
+    fatal("atom " + std::to_string(tag_of_radius(radius)) + " has radius " +
+          lsdcd::number_text(radius) + ", more than rmax " + lsdcd::number_text(settings.rmax) +
+          ": raise rmax or use rmax auto");
 
   if (old == 0)
     for (const MeshPart &m : parts) check_small(m, radius);
@@ -95,7 +95,7 @@ void FixWallLsdcd::follow_box()
 
 void FixWallLsdcd::give_grid(const MeshPart &m)
 {
-  lsdcd::together(world, true, [&] { engine->set_grid(m.wall.view(), m.index); });
+  lsdcd::run_collectively(world, true, [&] { engine->set_grid(m.wall.view(), m.index); });
 }
 
 // What overlaps rounded to floats make of the pull-off force, of itself; 0 where none are or
@@ -135,7 +135,7 @@ void FixWallLsdcd::rebuild(double wanted)
       give_grid(*m);
     }
   } catch (const lsdcd::InputError &e) {
-    refuse(e.what());
+    fatal(e.what());
   }
   times.end(lsdcd::TimeReport::grids);
   if (wanted == old) box_rebuilds++;

@@ -25,7 +25,7 @@ using lsdcd::number_text;
 static constexpr double kStepsPerContact = 10;
 static constexpr double kWorse = 1.1;    // times what was warned of: warned of again
 
-std::string FixWallLsdcd::signed_text(const std::string &text) const
+std::string FixWallLsdcd::with_fix_id(const std::string &text) const
 {
   return "Fix " + std::string(id) + " wall/lsdcd: " + text;
 }
@@ -35,9 +35,9 @@ std::string FixWallLsdcd::of(const MeshPart &m, const std::string &text) const
   return lsdcd::with_mesh_name(settings, m.index, text);
 }
 
-void FixWallLsdcd::refuse(const std::string &problem) const
+void FixWallLsdcd::fatal(const std::string &problem) const
 {
-  error->all(FLERR, signed_text(problem));
+  error->all(FLERR, with_fix_id(problem));
 }
 
 tagint FixWallLsdcd::tag_on_host(int i) const
@@ -63,14 +63,14 @@ tagint FixWallLsdcd::tag_of_radius(double radius)
 void FixWallLsdcd::stop(const std::exception &e)
 {
   const auto *one = dynamic_cast<const lsdcd::SphereError *>(&e);
-  if (!one) error->one(FLERR, signed_text(e.what()));
+  if (!one) error->one(FLERR, with_fix_id(e.what()));
   error->one(FLERR,
-             signed_text("atom " + std::to_string(tag_of(one->sphere)) + " " + one->problem));
+             with_fix_id("atom " + std::to_string(tag_of(one->sphere)) + " " + one->problem));
 }
 
 void FixWallLsdcd::warn(const std::string &problem) const
 {
-  if (comm->me == 0) error->warning(FLERR, signed_text(problem));
+  if (comm->me == 0) error->warning(FLERR, with_fix_id(problem));
 }
 
 void FixWallLsdcd::log(const std::string &lines) const
@@ -139,13 +139,13 @@ void FixWallLsdcd::check_plane(const MeshPart &m)
   if (domain->dimension == 3) return;
   const lsdcd::MeshReport &r = m.wall.report();
   if (!(r.lo.z < 0 && r.hi.z > 0))
-    refuse(of(m, "in two dimensions particles move in the plane z = 0, which the mesh does not "
-                 "cut: it spans z from " +
-                     number_text(r.lo.z) + " to " + number_text(r.hi.z) +
-                     "; draw the outline out along z" +
-                     (r.lo.z < r.hi.z ? ", and put its middle at z = 0 (move 0 0 " +
-                                            number_text(-(r.lo.z + r.hi.z) / 2) + ")"
-                                      : "")));
+    fatal(of(m, "in two dimensions particles move in the plane z = 0, which the mesh does not "
+                "cut: it spans z from " +
+                    number_text(r.lo.z) + " to " + number_text(r.hi.z) +
+                    "; draw the outline out along z" +
+                    (r.lo.z < r.hi.z ? ", and put its middle at z = 0 (move 0 0 " +
+                                           number_text(-(r.lo.z + r.hi.z) / 2) + ")"
+                                     : "")));
   double cut[2] = {0, 0};
   if (m.wall.mesh()) {
     const lsdcd::PlaneCut mine = lsdcd::plane_cut(*m.wall.mesh());

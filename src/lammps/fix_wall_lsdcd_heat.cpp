@@ -14,10 +14,10 @@ void FixWallLsdcd::check_heat()
 {
 #if HOST_HAS_HEAT
   if (!atom->temperature_flag || !atom->heatflow_flag)
-    refuse("the sub-model heat needs a temperature and a heat flow per atom: fix ID all "
-           "property/atom temperature heatflow ghost yes, and fix heat/flow to change them");
+    fatal("the sub-model heat needs a temperature and a heat flow per atom: fix ID all "
+          "property/atom temperature heatflow ghost yes, and fix heat/flow to change them");
 #else
-  refuse("the sub-model heat needs a LAMMPS with fix heat/flow, of 2 Aug 2023 or later");
+  fatal("the sub-model heat needs a LAMMPS with fix heat/flow, of 2 Aug 2023 or later");
 #endif
 }
 

@@ -76,10 +76,9 @@ void FixWallLsdcd::restart(char *buffer)
     return numbers;
   };
   if (take(1)[0] != kFormat)
-    refuse(
-        "the restart file was written by another version of this fix, whose data it cannot read: "
-        "go on with that version, or give the fix another ID to begin without springs, motion, "
-        "loads and wear");
+    fatal("the restart file was written by another version of this fix, whose data it cannot read: "
+          "go on with that version, or give the fix another ID to begin without springs, motion, "
+          "loads and wear");
   kind_in_file = static_cast<int>(take(1)[0]);
   run_clock.base = take(1)[0];
   const std::size_t there = static_cast<std::size_t>(take(1)[0]);
@@ -118,7 +117,7 @@ void FixWallLsdcd::restart_part(MeshPart &m, const std::vector<double> &motion,
   try {
     m.motion.restore(motion, step_now());
   } catch (const lsdcd::InputError &e) {
-    refuse(e.what());
+    fatal(e.what());
   }
   motion_has_changed(m);
   if (!settings.has_loads(m.settings)) return;

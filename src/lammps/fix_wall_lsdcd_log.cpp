@@ -24,7 +24,7 @@ void FixWallLsdcd::log_creation() const
     for (const MeshPart &m : parts)
       meshes +=
           "mesh " + m.settings.file + " of " + std::to_string(m.wall.report().facets) + " facets, ";
-    log(signed_text(meshes + settings.law_name + ", " + engine->backend()));
+    log(with_fix_id(meshes + settings.law_name + ", " + engine->backend()));
     return;
   }
   const lsdcd::ContactLaw &l = settings.law;
@@ -40,7 +40,7 @@ void FixWallLsdcd::log_creation() const
     for (const auto &line : lines)
       if (!line.text.empty()) t += "\n  " + (line.label + line.text);
   }
-  t = signed_text(t);
+  t = with_fix_id(t);
   if (!material.empty()) t += "\n" + material;
   t += "\n  contact     " + settings.law_name;
   if (l.is_classic())
@@ -88,7 +88,7 @@ std::function<void(const std::string &)> FixWallLsdcd::build_progress(const Mesh
   return [this, name = of(m, ""), last = MPI_Wtime()](const std::string &text) mutable {
     if (MPI_Wtime() - last < kSeconds) return;
     last = MPI_Wtime();
-    log(signed_text(name + text));
+    log(with_fix_id(name + text));
   };
 }
 
@@ -99,7 +99,7 @@ void FixWallLsdcd::log_build(const MeshPart &m, double old) const
   if (!wall.cache_warning().empty()) warn(of(m, wall.cache_warning()));
   if (settings.brief) return;
   const bool again = old > 0;
-  std::string t = signed_text(of(m, ""));
+  std::string t = with_fix_id(of(m, ""));
   if (!again)
     t += "grid for radius " + number_text(wall.cutoff()) + "\n" + wall.grid_text();
   else if (wall.cutoff() > old)

@@ -19,24 +19,24 @@ int FixWallLsdcd::modify_param(int narg, char **arg)
     double k = 0;
     if (narg < 2 || !lsdcd::is_number(words[1], &k) || k != std::floor(k) || k < 1 ||
         k > parts.size())
-      refuse("fix_modify mesh K motion|servo ...: K is the number of a mesh, from 1 to " +
-             std::to_string(parts.size()) + (narg > 1 ? ", not '" + words[1] + "'" : ""));
+      fatal("fix_modify mesh K motion|servo ...: K is the number of a mesh, from 1 to " +
+            std::to_string(parts.size()) + (narg > 1 ? ", not '" + words[1] + "'" : ""));
     part = &parts[static_cast<std::size_t>(k) - 1];
     words.erase(words.begin(), words.begin() + 2);
     taken = 2;
     if (words.empty() || (words[0] != "motion" && words[0] != "servo"))
-      refuse("fix_modify mesh " + std::string(arg[1]) + ": motion ... or servo ... must follow" +
-             (words.empty() ? "" : ", not '" + words[0] + "'"));
+      fatal("fix_modify mesh " + std::string(arg[1]) + ": motion ... or servo ... must follow" +
+            (words.empty() ? "" : ", not '" + words[0] + "'"));
   }
   const bool servo = words[0] == "servo";
   if (!servo && words[0] != "motion") return 0;
   if (!part)
-    refuse("fix_modify " + words[0] + ": which of the " + std::to_string(parts.size()) +
-           " meshes? Write fix_modify ID mesh K " + words[0] + " ..., with K from 1");
+    fatal("fix_modify " + words[0] + ": which of the " + std::to_string(parts.size()) +
+          " meshes? Write fix_modify ID mesh K " + words[0] + " ..., with K from 1");
   try {
     return taken + (servo ? modify_servo(*part, words) : modify_motion(*part, words));
   } catch (const lsdcd::InputError &e) {
-    refuse(e.what());
+    fatal(e.what());
   }
 }
 
@@ -46,7 +46,7 @@ int FixWallLsdcd::modify_motion(MeshPart &m, const std::vector<std::string> &wor
   m.motion.change(read, step_now());
   motion_has_changed(m);
   if (!settings.brief)
-    log(signed_text(of(m, "motion " + (read.terms.empty() ? "none" : m.motion.text(m.bounds(0))))));
+    log(with_fix_id(of(m, "motion " + (read.terms.empty() ? "none" : m.motion.text(m.bounds(0))))));
   return static_cast<int>(read.taken);
 }
 
@@ -58,7 +58,7 @@ int FixWallLsdcd::modify_servo(MeshPart &m, const std::vector<std::string> &word
   servo_radius = 0;    // a run without setup looks then
   motion_has_changed(m);
   show_servo();
-  if (!settings.brief) log(signed_text(of(m, "servo " + read.text)));
+  if (!settings.brief) log(with_fix_id(of(m, "servo " + read.text)));
   return static_cast<int>(read.taken);
 }
 

@@ -67,15 +67,15 @@ void FixWallLsdcd::check_moving_box(MeshPart &m, const lsdcd::WallPose &at, bool
     m.find_range(box, k, at, lo, hi);
     if (is_clear(lo) && is_clear(hi)) continue;
     const std::string axis(1, "xyz"[k]);
-    refuse(of(m, "the moving mesh " + std::string(ahead ? "will reach" : "reaches") +
-                     " the periodic face in " + axis +
-                     (ahead ? "" : " at step " + std::to_string(update->ntimestep)) +
-                     ": it goes from " + number_text(lo) + " to " + number_text(hi) +
-                     " of the box and must stay " + number_text(depth) +
-                     " away from 0 and 1. A mesh acts through a periodic face only where it moves "
-                     "across " +
-                     axis + " and turns about nothing but " + axis +
-                     ": make the boundary fixed, or the box larger"));
+    fatal(of(m, "the moving mesh " + std::string(ahead ? "will reach" : "reaches") +
+                    " the periodic face in " + axis +
+                    (ahead ? "" : " at step " + std::to_string(update->ntimestep)) +
+                    ": it goes from " + number_text(lo) + " to " + number_text(hi) +
+                    " of the box and must stay " + number_text(depth) +
+                    " away from 0 and 1. A mesh acts through a periodic face only where it moves "
+                    "across " +
+                    axis + " and turns about nothing but " + axis +
+                    ": make the boundary fixed, or the box larger"));
   }
 }
 
@@ -100,6 +100,6 @@ void FixWallLsdcd::check_motion(const MeshPart &m) const
   if (domain->dimension != 2 || !motion.any() || motion.keeps({0, 0, 1})) return;
   std::string words = m.settings.motion_tokens;
   if (m.servo().present) words += (words.empty() ? "servo " : " servo ") + m.settings.servo_tokens;
-  refuse(of(m, "in two dimensions a mesh must move in the plane z = 0 and turn about z, not by '" +
-                   words + "'"));
+  fatal(of(m, "in two dimensions a mesh must move in the plane z = 0 and turn about z, not by '" +
+                  words + "'"));
 }

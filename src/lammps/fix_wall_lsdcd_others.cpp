@@ -53,9 +53,9 @@ void FixWallLsdcd::check_files_apart() const
     }
   };
   try {
-    lsdcd::together(world, comm->me == 0, look);
+    lsdcd::run_collectively(world, comm->me == 0, look);
   } catch (const lsdcd::InputError &e) {
-    refuse(e.what());
+    fatal(e.what());
   }
 }
 

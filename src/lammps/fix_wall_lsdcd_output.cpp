@@ -144,7 +144,7 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
     image_rows.clear();
     for (MeshPart &m : parts) {
       if (first) m.strokes = lsdcd::draw_mesh(*m.wall.mesh(), settings.draw);
-      for (lsdcd::Stroke s : m.strokes) {
+      for (lsdcd::ImageObject s : m.strokes) {
         lsdcd::Vec3 centre = {0, 0, 0};
         for (lsdcd::Vec3 &c : s.corner) c = m.motion.pose().to_box(c);
         for (int k = 0; k < corners; k++) centre += (1.0 / corners) * s.corner[k];
@@ -159,7 +159,7 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
       image_rows.push_back(image_data.data() + i);
     // LAMMPS does not say which diameter the deck gives.
     if (!settings.brief && !faces && first)
-      log(signed_text("dump image draws the mesh as " + std::to_string(image_kind.size()) +
+      log(with_fix_id("dump image draws the mesh as " + std::to_string(image_kind.size()) +
                       " lines; where nothing is seen of it, their diameter is 0: write fix " +
                       std::string(id) + " type DIAMETER 0"));
   }

@@ -16,7 +16,7 @@ void FixWallLsdcd::begin_snapshot()
   try {
     for (const MeshPart &m : parts) m.motion.check_snapshot(step_now());
   } catch (const lsdcd::InputError &e) {
-    refuse(e.what());
+    fatal(e.what());
   }
   springs_to_host();
   for (int i = 0; history && i < atom->nlocal; i++) springs.clear(i);

@@ -128,7 +128,7 @@ lsdcd::StepDiagnostics FixWallLsdcd::read_notes()
   return diagnostics;
 }
 
-void FixWallLsdcd::look()
+void FixWallLsdcd::poll_diagnostics()
 {
   overlaps.note(read_notes(), update->ntimestep);
 }

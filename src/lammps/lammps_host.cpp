@@ -63,9 +63,9 @@ int LammpsHost::find_variable(const std::string &name) const
 {
   Variable &all = *fix.input->variable;
   const int variable = all.find(name.c_str());
-  if (variable < 0) fix.refuse("there is no variable '" + name + "', which the wall reads");
+  if (variable < 0) fix.fatal("there is no variable '" + name + "', which the wall reads");
   if (!all.equalstyle(variable))
-    fix.refuse("variable '" + name + "', which the wall reads, is not of style equal");
+    fix.fatal("variable '" + name + "', which the wall reads, is not of style equal");
   return variable;
 }
 
@@ -79,10 +79,10 @@ std::vector<double> LammpsHost::variables(const std::vector<std::string> &names)
   for (const std::string &name : names) {
     values.push_back(fix.input->variable->compute_equal(find_variable(name)));
     if (!std::isfinite(values.back()))
-      fix.refuse("variable '" + name + "', which the wall reads, is " +
-                 lsdcd::number_text(values.back()) + " in step " +
-                 std::to_string(fix.update->ntimestep) +
-                 ": it must be a finite number in every step");
+      fix.fatal("variable '" + name + "', which the wall reads, is " +
+                lsdcd::number_text(values.back()) + " in step " +
+                std::to_string(fix.update->ntimestep) +
+                ": it must be a finite number in every step");
   }
   fix.modify->addstep_compute(fix.update->ntimestep + 1);
   return values;
@@ -118,7 +118,7 @@ double LammpsHost::radius_of_tag(std::int64_t tag)
 
 void LammpsHost::log(const std::string &text)
 {
-  fix.log(fix.signed_text(text));
+  fix.log(fix.with_fix_id(text));
 }
 
 void LammpsHost::warn(const std::string &text)

@@ -30,7 +30,7 @@ struct MeshPart {
   lsdcd::MeshMotion motion;
   lsdcd::ServoController servo_controller;
 
-  std::vector<lsdcd::Stroke> strokes;    // of its picture; on the first process
+  std::vector<lsdcd::ImageObject> strokes;    // of its picture; on the first process
 
   // Over all processes, of the last step: force, torque, contacts, largest overlap, uncertified.
   static constexpr int kTotals = 9;

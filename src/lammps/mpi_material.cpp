@@ -10,7 +10,7 @@ FilledTokens fill_material(MPI_Comm world, const std::vector<std::string> &token
   int rank;
   MPI_Comm_rank(world, &rank);
   FilledTokens filled;
-  together(world, rank == 0, [&] { filled = fill_material(tokens, units); });
+  run_collectively(world, rank == 0, [&] { filled = fill_material(tokens, units); });
 
   std::string text;    // each word with a NUL, which none can contain
   for (const std::string &word : filled.tokens) text.append(word.c_str(), word.size() + 1);

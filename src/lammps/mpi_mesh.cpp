@@ -15,7 +15,7 @@ void send_corners(MPI_Comm world, TriangleSoup &soup)
 {
   std::uint64_t corners = soup.corners.size();
   MPI_Bcast(&corners, 1, MPI_UINT64_T, 0, world);
-  together(world, true, [&] { soup.corners.resize(corners); });
+  run_collectively(world, true, [&] { soup.corners.resize(corners); });
   broadcast_bytes(soup.corners.data(), corners * sizeof(Vec3), 0, world);
 }
 
@@ -32,13 +32,13 @@ WallMesh read_together(MPI_Comm world, const MeshSettings &settings)
 {
   TriangleSoup soup;
   soup.source = settings.file;
-  together(world, is_first(world), [&] {
+  run_collectively(world, is_first(world), [&] {
     soup = read_mesh(settings.file).soup;
     settings.placement.apply(soup);
   });
   send_corners(world, soup);
   WallMesh mesh;
-  together(world, true, [&] {
+  run_collectively(world, true, [&] {
     mesh = weld(soup, settings.weld);
     check_has_area(mesh);
   });
@@ -48,7 +48,7 @@ WallMesh read_together(MPI_Comm world, const MeshSettings &settings)
 WallMesh copy_together(MPI_Comm world, const WallMesh *mesh)
 {
   TriangleSoup soup;
-  together(world, is_first(world), [&] {
+  run_collectively(world, is_first(world), [&] {
     const auto add = [&](int a, int b, int c) {
       for (const int v : {a, b, c}) soup.corners.push_back(mesh->vertices[v]);
     };
@@ -65,7 +65,7 @@ WallMesh copy_together(MPI_Comm world, const WallMesh *mesh)
   });
   send_corners(world, soup);
   WallMesh copy;
-  together(world, true, [&] { copy = weld(soup, 0); });
+  run_collectively(world, true, [&] { copy = weld(soup, 0); });
   return copy;
 }
 

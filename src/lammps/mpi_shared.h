@@ -51,7 +51,7 @@ void throw_together(MPI_Comm comm, const std::string &error);
 
 // Runs `work` where `here`; whatever it throws is thrown on every process of `comm`.
 template <class Work>
-void together(MPI_Comm comm, bool here, Work &&work)
+void run_collectively(MPI_Comm comm, bool here, Work &&work)
 {
   throw_together(comm, here ? error_of(work) : "");
 }

@@ -39,7 +39,7 @@ void SharedWall::read()
   MPI_Comm_rank(shared_.world(), &rank);
   TriangleSoup soup;
   soup.source = of_mesh_.file;
-  together(shared_.world(), rank == 0, [&] {
+  run_collectively(shared_.world(), rank == 0, [&] {
     soup = read_mesh(of_mesh_.file).soup;
     of_mesh_.placement.apply(soup);
   });
@@ -47,10 +47,10 @@ void SharedWall::read()
   // One writer per node; rank 0 is the first of them. No message goes to a node without room.
   std::uint64_t corners = soup.corners.size();
   MPI_Bcast(&corners, 1, MPI_UINT64_T, 0, shared_.world());
-  together(shared_.world(), shared_.writes(), [&] { soup.corners.resize(corners); });
+  run_collectively(shared_.world(), shared_.writes(), [&] { soup.corners.resize(corners); });
   if (shared_.writes())
     broadcast_bytes(soup.corners.data(), corners * sizeof(Vec3), 0, shared_.writers());
-  together(shared_.world(), shared_.writes(), [&] {
+  run_collectively(shared_.world(), shared_.writes(), [&] {
     mesh_ = std::make_unique<WallMesh>(weld(soup, of_mesh_.weld));
     check_has_area(*mesh_);
     report_ = mesh_->report;
@@ -166,13 +166,13 @@ void SharedWall::build(Real cutoff, const PeriodicBox &box)
   within_ = want.within;
 
   WallMesh with_images;    // the mesh itself is not copied for a box without them
-  together(shared_.world(), shared_.writes() && box.any_periodic(),
-           [&] { with_images = whole(cutoff, box); });
+  run_collectively(shared_.world(), shared_.writes() && box.any_periodic(),
+                   [&] { with_images = whole(cutoff, box); });
   const WallMesh &mesh = mesh_ && !box.any_periodic() ? *mesh_ : with_images;
   GridKey key = {};
   std::unique_ptr<CachedGrid> cached;
   const bool caches = rank == 0 && !cache_file_.empty();
-  together(shared_.world(), caches, [&] {
+  run_collectively(shared_.world(), caches, [&] {
     key = grid_key(mesh, want);
     cached = std::make_unique<CachedGrid>(cache_file_, key);
   });
@@ -186,7 +186,7 @@ void SharedWall::build(Real cutoff, const PeriodicBox &box)
                      of_mesh_.file +
                      "' cut, overlap or touch each other, see lsdcd inspect: make one shell of "
                      "them (a boolean union), or use side both");
-  together(shared_.world(), rank == 0, [&] { note_images(mesh); });
+  run_collectively(shared_.world(), rank == 0, [&] { note_images(mesh); });
   broadcast_text(grid_text_, 0, shared_.world());
   broadcast_text(ends_warning_, 0, shared_.world());
   MPI_Bcast(&cells_, 1, MPI_UINT64_T, 0, shared_.world());
@@ -224,7 +224,7 @@ bool SharedWall::read_cache(CachedGrid *cached)
   if (bytes == 0) return false;
   char *block = shared_.allocate(bytes);
   int good = 0;
-  together(shared_.world(), cached, [&] { good = cached->read(block); });
+  run_collectively(shared_.world(), cached, [&] { good = cached->read(block); });
   MPI_Bcast(&good, 1, MPI_INT, 0, shared_.world());
   if (!good) return false;
   if (shared_.writes()) broadcast_bytes(block, bytes, 0, shared_.writers());
@@ -241,7 +241,7 @@ void SharedWall::build_block(const WallMesh &whole, const GridSettings &want, Gr
 {
   std::unique_ptr<TriangleGrid> grid;
   std::size_t bytes = 0;
-  together(shared_.world(), shared_.writes(), [&] {
+  run_collectively(shared_.world(), shared_.writes(), [&] {
     grid = std::make_unique<TriangleGrid>(build_grid(whole, want, uses_gpu()));
     bytes = flat_bytes(*grid);
     report = grid->report;

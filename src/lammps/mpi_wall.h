@@ -28,7 +28,7 @@ class SharedWall {
   void build(Real cutoff, const PeriodicBox &box);
 
   // Is the grid right for spheres in this box, too? Images follow it to kBoxTolerance of the
-  // reach. The same on all processes.
+  // cutoff. The same on all processes.
   bool fits(const PeriodicBox &box) const;
   static constexpr Real kBoxTolerance = 1e-4;
 

@@ -1,7 +1,7 @@
 #include "mesh/periodic_images.h"
 
 #include "mesh/assemble.h"
-#include "mesh/classes.h"
+#include "mesh/union_find.h"
 #include "mesh/near_images.h"
 #include "mesh/weld_points.h"
 
@@ -122,7 +122,7 @@ WallMesh with_images(const WallMesh &mesh, const PeriodicBox &box, Real depth)
     facet = mesh.face_facet[face];
   }
   images.vertex_of.assign(whole.vertices.size() - n_vertices, 0);
-  Classes same(whole.vertices.size());
+  UnionFind same(whole.vertices.size());
   for (std::size_t p = n_vertices; p < copies.points.size(); p++) {
     const int v = point[p];
     if (v >= static_cast<int>(n_vertices)) images.vertex_of[v - n_vertices] = copies.vertex_of[p];

@@ -2,7 +2,7 @@
 
 #include "base/input_error.h"
 #include "mesh/assemble.h"
-#include "mesh/classes.h"
+#include "mesh/union_find.h"
 #include "mesh/corners_on_edge.h"
 #include "mesh/face_plane.h"
 #include "mesh/measure_mesh.h"
@@ -89,7 +89,7 @@ void name_what_is_left(const WallMesh &mesh, RepairReport &report)
 {
   Unmended open = {kOpenEdges}, many = {"edges of more than two facets"},
            against = {"edges along which windings disagree"};
-  Classes together(mesh.vertices.size());
+  UnionFind together(mesh.vertices.size());
   std::vector<int> ends;
   const auto count = [&](Unmended &one, std::size_t e) {
     if (one.count++ > 0) return;

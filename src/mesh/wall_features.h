@@ -48,7 +48,7 @@ struct WallFeatures {
   }
 };
 
-// `with_sides` adds the pseudonormals that tell inside from outside, `with_pieces` the
+// `with_sides` adds the pseudonormals that tell inside from outside, `with_primitives` the
 // primitives and the parts of faces.
 WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_primitives = false);
 

@@ -4,7 +4,7 @@
 #include "base/input_words.h"
 #include "mesh/assemble.h"
 #include "mesh/face_plane.h"
-#include "mesh/index_table.h"
+#include "mesh/hash_index.h"
 #include "mesh/measure_mesh.h"
 #include "mesh/weld_points.h"
 
@@ -71,7 +71,7 @@ void sort_facets(const std::vector<int> &corner_point, WallMesh &mesh,
                  std::vector<FacePlane> &plane, std::vector<Pair> &bare_edges)
 {
   const std::size_t n_facets = corner_point.size() / 3;
-  IndexTable seen;
+  HashIndex seen;
   for (std::size_t facet = 0; facet < n_facets; ++facet) {
     const Triple face = {corner_point[3 * facet], corner_point[3 * facet + 1],
                          corner_point[3 * facet + 2]};

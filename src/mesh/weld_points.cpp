@@ -1,6 +1,6 @@
 #include "mesh/weld_points.h"
 
-#include "mesh/index_table.h"
+#include "mesh/hash_index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ WeldedPoints weld_equal(const std::vector<Vec3> &corners)
 {
   WeldedPoints out;
   out.corner_point.reserve(corners.size());
-  IndexTable table;
+  HashIndex table;
   for (const Vec3 &corner : corners) {
     const Vec3 x = corner + Vec3{0, 0, 0};    // -0.0 becomes 0.0, which has other bits
     const int fresh = static_cast<int>(out.points.size());
@@ -63,7 +63,7 @@ class PointGrid {
     // enough for cell numbers to be exact integers.
     cell_ = std::max(8 * tolerance, std::ldexp(extent, -50));
     tolerance_ = tolerance;
-    next_.assign(points.size(), IndexTable::kNone);
+    next_.assign(points.size(), HashIndex::kNone);
   }
 
   void insert(int point)
@@ -73,7 +73,7 @@ class PointGrid {
         table_.find_or_insert(hash(cell), n_cells(), [&](int c) { return cells_[c] == cell; });
     if (head == n_cells()) {
       cells_.push_back(cell);
-      first_.push_back(IndexTable::kNone);
+      first_.push_back(HashIndex::kNone);
     }
     next_[point] = first_[head];
     first_[head] = point;
@@ -84,19 +84,19 @@ class PointGrid {
   {
     const Vec3 cutoff = {cutoff_, cutoff_, cutoff_};
     const Cell lo = cell_of(x - cutoff), hi = cell_of(x + cutoff);
-    int best = IndexTable::kNone;
+    int best = HashIndex::kNone;
     Real best_distance = tolerance_;
     for (std::int64_t i = lo.i; i <= hi.i; ++i)
       for (std::int64_t j = lo.j; j <= hi.j; ++j)
         for (std::int64_t k = lo.k; k <= hi.k; ++k) {
           const Cell cell = {i, j, k};
           const int head = table_.find(hash(cell), [&](int c) { return cells_[c] == cell; });
-          if (head == IndexTable::kNone) continue;
-          for (int p = first_[head]; p != IndexTable::kNone; p = next_[p]) {
+          if (head == HashIndex::kNone) continue;
+          for (int p = first_[head]; p != HashIndex::kNone; p = next_[p]) {
             const Vec3 d = points_[p] - x;
             const Real distance = std::hypot(d.x, d.y, d.z);    // squares might underflow
             if (distance > best_distance) continue;
-            if (distance == best_distance && best != IndexTable::kNone && p > best) continue;
+            if (distance == best_distance && best != HashIndex::kNone && p > best) continue;
             best = p;
             best_distance = distance;
           }
@@ -120,7 +120,7 @@ class PointGrid {
   const std::vector<Vec3> &points_;
   Vec3 lo_;
   Real cutoff_, cell_, tolerance_;
-  IndexTable table_;    // of cells_
+  HashIndex table_;    // of cells_
   std::vector<Cell> cells_;
   std::vector<int> first_;    // point in each cell, and from it
   std::vector<int> next_;     // to the others
@@ -138,7 +138,7 @@ WeldedPoints weld_points(const std::vector<Vec3> &corners, Real tolerance)
   PointGrid grid(points, tolerance);
   std::vector<int> moved;
   for (int p = 0; p < static_cast<int>(points.size()); ++p) {
-    if (grid.nearest(points[p]) == IndexTable::kNone)
+    if (grid.nearest(points[p]) == HashIndex::kNone)
       grid.insert(p);
     else
       moved.push_back(p);
@@ -146,12 +146,12 @@ WeldedPoints weld_points(const std::vector<Vec3> &corners, Real tolerance)
   if (moved.empty()) return exact;
 
   // Only now are all points known, so that the nearest does not depend on order.
-  std::vector<int> target(points.size(), IndexTable::kNone);
+  std::vector<int> target(points.size(), HashIndex::kNone);
   for (const int p : moved) target[p] = grid.nearest(points[p]);
   WeldedPoints out;
   std::vector<int> renumbered(points.size());
   for (std::size_t p = 0; p < points.size(); ++p) {
-    if (target[p] != IndexTable::kNone) continue;
+    if (target[p] != HashIndex::kNone) continue;
     renumbered[p] = static_cast<int>(out.points.size());
     out.points.push_back(points[p]);
   }

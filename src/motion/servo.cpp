@@ -7,8 +7,8 @@ namespace lsdcd {
 
 bool Servo::advance(Real push, Real gain, Real dt)
 {
-  const Real wanted = std::min(gain, most_gain) * (target - push),
-             v = std::max(-fastest, std::min(fastest, wanted)), next = position + v * dt,
+  const Real wanted = std::min(gain, max_gain) * (target - push),
+             v = std::max(-max_speed, std::min(max_speed, wanted)), next = position + v * dt,
              allowed = std::max(lo, std::min(hi, next));
   velocity = allowed == next ? v : (allowed - position) / dt;
   position = allowed;

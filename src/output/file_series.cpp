@@ -1,6 +1,6 @@
 #include "output/file_series.h"
 
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "output/mesh_fields.h"
 
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "output/vtk_array.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "output/mesh_file.h"
 
 #include "base/input_error.h"
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "mesh/io/read_mesh.h"
 #include "mesh/weld_points.h"
 #include "output/file_bytes.h"

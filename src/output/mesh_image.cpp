@@ -29,7 +29,7 @@ bool is_feature(const WallMesh &mesh, std::size_t edge)
   return std::fabs(cosine) < kFoldCosine;
 }
 
-void add_contour(const WallMesh &mesh, int axis, Real level, std::vector<Stroke> &strokes)
+void add_contour(const WallMesh &mesh, int axis, Real level, std::vector<ImageObject> &strokes)
 {
   for (const auto &face : mesh.faces) {
     Vec3 cut[3];
@@ -43,7 +43,7 @@ void add_contour(const WallMesh &mesh, int axis, Real level, std::vector<Stroke>
   }
 }
 
-void add_contours(const WallMesh &mesh, std::vector<Stroke> &strokes)
+void add_contours(const WallMesh &mesh, std::vector<ImageObject> &strokes)
 {
   const Vec3 lo = mesh.report.lo, side = mesh.report.hi - mesh.report.lo;
   int longest = 2;    // level cuts where sides are about equal
@@ -58,9 +58,9 @@ void add_contours(const WallMesh &mesh, std::vector<Stroke> &strokes)
 
 }    // namespace
 
-std::vector<Stroke> draw_mesh(const WallMesh &mesh, Draw what)
+std::vector<ImageObject> draw_mesh(const WallMesh &mesh, Draw what)
 {
-  std::vector<Stroke> strokes;
+  std::vector<ImageObject> strokes;
   if (what == Draw::faces)
     for (const auto &f : mesh.faces)
       strokes.push_back({{mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]}});

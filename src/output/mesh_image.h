@@ -14,10 +14,10 @@ enum class Draw {
 };
 
 // A line (two corners) or, for Draw::faces, a triangle (three).
-struct Stroke {
+struct ImageObject {
   Vec3 corner[3];
 };
 
-std::vector<Stroke> draw_mesh(const WallMesh &mesh, Draw what);
+std::vector<ImageObject> draw_mesh(const WallMesh &mesh, Draw what);
 
 }    // namespace lsdcd

@@ -1,6 +1,6 @@
 #include "output/mesh_stl.h"
 
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "output/file_bytes.h"
 
 #include <algorithm>

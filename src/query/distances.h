@@ -47,10 +47,10 @@ class BrickDistances {
   LSDCD_FN Real primitive(FeatureCode code, Real within) const
   {
     if (feature_kind(code) != FeatureKind::face) return feature(code, within);
-    const Over over = geometry_.over(code, within);
-    if (over == Over::far) return kAnyDistance;
-    Real nearest = over == Over::outside ? kAnyDistance : feature(code, within);
-    if (over == Over::inside) return nearest;
+    const FaceRegion over = geometry_.over(code, within);
+    if (over == FaceRegion::far) return kAnyDistance;
+    Real nearest = over == FaceRegion::outside ? kAnyDistance : feature(code, within);
+    if (over == FaceRegion::inside) return nearest;
     for (FeatureCode part : geometry_.parts(code).part)
       if (part != kNoFeature) nearest = fmin(nearest, feature(part, within));
     return nearest;

@@ -43,13 +43,13 @@ template <class T>
 __device__ T read_once(const T &from)
 {
   static_assert(sizeof(T) % sizeof(uint4) == 0 && alignof(T) % sizeof(uint4) == 0, "in pieces");
-  constexpr unsigned kPrimitives = sizeof(T) / sizeof(uint4);
-  uint4 primitive[kPrimitives];
+  constexpr unsigned kChunks = sizeof(T) / sizeof(uint4);
+  uint4 chunks[kChunks];
 #pragma unroll
-  for (unsigned k = 0; k < kPrimitives; k++)
-    primitive[k] = __ldcs(reinterpret_cast<const uint4 *>(&from) + k);
+  for (unsigned k = 0; k < kChunks; k++)
+    chunks[k] = __ldcs(reinterpret_cast<const uint4 *>(&from) + k);
   T out;
-  std::memcpy(&out, primitive, sizeof out);
+  std::memcpy(&out, chunks, sizeof out);
   return out;
 }
 

@@ -1,7 +1,7 @@
 #include "tool/commands.h"
 
 #include "base/input_error.h"
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "tool/accuracy_tables.h"
 #include "tool/number_options.h"
 #include "tool/output_file.h"
@@ -38,7 +38,7 @@ void run_accuracy(AccuracyOptions &o)
   check_outputs({{"--csv", o.csv, ".csv"}});
   std::vector<std::string> tables = o.tables;
   if (std::find(tables.begin(), tables.end(), "all") != tables.end()) tables = kAccuracyTables;
-  std::optional<WholeFile> file;
+  std::optional<AtomicFile> file;
   if (!o.csv.empty()) file.emplace(o.csv);    // now, rather than fail when all is done
   AccuracyRows rows;
   for (const std::string &device : o.devices)

@@ -1,7 +1,7 @@
 #include "tool/answer_writer.h"
 
 #include "base/input_error.h"
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "contact/wall_geometry.h"
 #include "tool/csv_file.h"
 
@@ -127,7 +127,7 @@ class NpyWriter : public AnswerWriter {
     return any ? static_cast<std::int32_t>(value) : -1;
   }
 
-  WholeFile file_;
+  AtomicFile file_;
   std::vector<char> bytes_;
   std::uint64_t at_ = kHeader;
   std::size_t n_ = 0;

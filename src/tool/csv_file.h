@@ -1,7 +1,7 @@
 // Lines of numbers in a file that is there whole or not at all.
 #pragma once
 
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 
 #include <charconv>
 #include <string>
@@ -35,7 +35,7 @@ class CsvFile {
   }
 
  private:
-  WholeFile file_;
+  AtomicFile file_;
   std::string text_;
   std::uint64_t at_ = 0;
 };

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/input_error.h"
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 
 #include <cstddef>
 #include <filesystem>

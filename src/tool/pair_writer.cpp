@@ -1,7 +1,7 @@
 #include "tool/pair_writer.h"
 
 #include "base/input_error.h"
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "output/vtk_array.h"
 #include "tool/csv_file.h"
 
@@ -87,7 +87,7 @@ class VtpSegments : public PairWriter {
   }
 
  private:
-  WholeFile file_;
+  AtomicFile file_;
   std::vector<double> points_;
   std::vector<std::int64_t> pose_, wall_, body_;
 };

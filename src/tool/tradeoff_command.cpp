@@ -2,7 +2,7 @@
 
 #include "base/input_error.h"
 #include "base/shared_files.h"
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "tool/load_mesh.h"
 #include "tool/number_options.h"
 #include "tool/output_file.h"
@@ -174,7 +174,7 @@ void tradeoff(Options &o)
   check_outputs({{"--csv", o.csv, ".csv"}, {"--plot", o.plot == "none" ? "" : o.plot, ".png"}},
                 {o.file});
   const WallMesh mesh = load_wall(o.file, o.scale, o.weld);
-  WholeFile file(o.csv);    // now, rather than fail when all is done
+  AtomicFile file(o.csv);    // now, rather than fail when all is done
   std::printf("%s, %zu triangles\n", o.file.c_str(), mesh.faces.size());
   std::printf("      grid  nearest  precision  corner  device   missed %%  force error: mean  "
               "largest  bounce    roll  ns/sphere   status        MB\n");

@@ -48,7 +48,7 @@ class Host {
 
 // Runs `work` where `here`. What it throws is thrown on all processes, as InputError. Collective.
 template <class Work>
-void together(Host &host, bool here, Work &&work)
+void run_collectively(Host &host, bool here, Work &&work)
 {
   host.fail_together(here ? error_of(work) : "");
 }

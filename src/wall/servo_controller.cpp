@@ -22,7 +22,7 @@ Real ServoController::stable_gain(const ServoLoad &load, const WallPose &placed,
       arm = std::max(arm, norm(cross(s.axis, corner - s.point)));
     });
   }
-  const Real overlap = load.overlap * load.radius + s.fastest * arm * dt,
+  const Real overlap = load.overlap * load.radius + s.max_speed * arm * dt,
              contacts = std::max<Real>(1, load.contacts);
   const ContactSlope one = contact_slope(wall_.law, overlap, load.radius, load.mass);
   return servo_gain(contacts * arm * arm * one.stiffness, contacts * arm * arm * one.damping, dt);
@@ -33,11 +33,11 @@ void ServoController::advance(const ServoLoad &load, const WallPose &placed, Rea
 {
   Servo &s = servo();
   const Real pushes = push(load), gain = stable_gain(load, placed, dt);
-  if (gain < s.most_gain && std::isfinite(s.most_gain) && load.contacts > 0 && !gain_told_) {
+  if (gain < s.max_gain && std::isfinite(s.max_gain) && load.contacts > 0 && !gain_told_) {
     gain_told_ = true;
     host_.warn(with_mesh_name(
         wall_, mesh_,
-        "a servo's gain of " + number_text(s.most_gain) + " would not be stable with " +
+        "a servo's gain of " + number_text(s.max_gain) + " would not be stable with " +
             number_text(load.contacts) + " contacts at the timestep " + number_text(dt) + ": " +
             number_text(gain) + " is used in its place, and less with more of them; shown once"));
   }

@@ -1,7 +1,7 @@
 #include "wall/wall_files.h"
 
 #include "base/input_error.h"
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "output/mesh_fields.h"
 #include "output/mesh_stl.h"
 #include "wall/mesh_name.h"
@@ -27,7 +27,7 @@ void WallFiles::check(int mesh, const char *keyword, const FileEvery &file, std:
 {
   if (file.every == 0) return;
   try {
-    together(host_, host_.rank() == 0, [&] { WholeFile(file_of_step(file.name, step)); });
+    run_collectively(host_, host_.rank() == 0, [&] { AtomicFile(file_of_step(file.name, step)); });
   } catch (const InputError &e) {
     throw InputError(with_mesh_name(settings_, mesh,
                                     "in '" + std::string(keyword) + "', " + e.what() +
@@ -48,7 +48,7 @@ void WallFiles::begin_run(std::int64_t step)
 bool WallFiles::try_to_write(const std::string &lost, const std::function<void()> &write)
 {
   try {
-    together(host_, host_.rank() == 0, write);
+    run_collectively(host_, host_.rank() == 0, write);
     return true;
   } catch (const InputError &e) {
     if (!warned_)

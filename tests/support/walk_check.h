@@ -68,7 +68,7 @@ LSDCD_FN Walker walker_of(const WalkMesh<T> &mesh, std::uint64_t i)
   const Real cutoff = r.below(4) ? s.radius : r.in(s.radius, grid.cutoff);
   if (r.below(2)) return {s, cutoff, s.x + s.radius * r.direction()};
 
-  const Real most = kListMargin * s.radius, margin = most < grid.length ? most : grid.length;
+  const Real most = kSkinFraction * s.radius, margin = most < grid.length ? most : grid.length;
   const Real in = Real(1e-3) * margin, side = r.below(2) ? 1 : -1;
   const FeatureCode code = mesh.features[r.below(mesh.n_features)];
   const std::uint32_t at = feature_index(code);

@@ -61,7 +61,7 @@ TEST(FakeHost, throws_an_error_of_one_process_on_all)
   on_processes(2, [](FakeHost &host) {
     const auto fail = [] { throw std::runtime_error("no room"); };
     try {
-      together(host, host.rank() == 1, fail);
+      run_collectively(host, host.rank() == 1, fail);
       FAIL() << "nothing is thrown";
     } catch (const InputError &e) {
       EXPECT_STREQ(e.what(), "no room");
@@ -71,7 +71,7 @@ TEST(FakeHost, throws_an_error_of_one_process_on_all)
 
 TEST(FakeHost, throws_nothing_where_all_is_well)
 {
-  on_processes(2, [](FakeHost &host) { together(host, true, [] {}); });
+  on_processes(2, [](FakeHost &host) { run_collectively(host, true, [] {}); });
 }
 
 TEST(FakeHost, refuses_a_call_that_one_process_does_not_make)

@@ -1,6 +1,6 @@
 // The mesh as an STL file.
 #include "base/input_error.h"
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "motion/motion.h"
 #include "output/mesh_stl.h"
 #include "support/meshes.h"

@@ -11,12 +11,12 @@
 namespace lsdcd {
 namespace {
 
-Servo servo(Real target, Real fastest)
+Servo servo(Real target, Real max_speed)
 {
   Servo s;
   s.present = true;
   s.target = target;
-  s.fastest = fastest;
+  s.max_speed = max_speed;
   return s;
 }
 
@@ -148,7 +148,7 @@ TEST(Servo, moves_at_most_at_its_speed_and_stops_at_its_limits)
 TEST(Servo, own_gain_is_an_upper_bound)
 {
   Servo s = servo(1, 10);
-  s.most_gain = 0.25;
+  s.max_gain = 0.25;
   s.advance(0, 3, 0.01);
   EXPECT_EQ(s.velocity, 0.25);
   s.advance(0, 0.125, 0.01);

@@ -18,7 +18,7 @@ WallSettings wall()
   Servo &s = settings.meshes[0].motion.servo();
   s.present = true;
   s.target = 100;
-  s.fastest = 1e6;
+  s.max_speed = 1e6;
   return settings;
 }
 
@@ -97,7 +97,7 @@ TEST(ServoController, does_not_act_where_it_holds)
 TEST(ServoController, warns_once_of_a_gain_that_would_not_be_stable)
 {
   WallSettings settings = wall();
-  settings.meshes[0].motion.servo().most_gain = 1;
+  settings.meshes[0].motion.servo().max_gain = 1;
   const Moved moved = after(settings, pressed(60, 1), 2);
   ASSERT_EQ(moved.warnings.size(), 1);
   EXPECT_EQ(moved.warnings[0].find("a servo's gain of 1 would not be stable with 1 contacts at the "
@@ -108,7 +108,7 @@ TEST(ServoController, warns_once_of_a_gain_that_would_not_be_stable)
 TEST(ServoController, does_not_warn_of_a_gain_before_there_are_contacts)
 {
   WallSettings settings = wall();
-  settings.meshes[0].motion.servo().most_gain = 1;
+  settings.meshes[0].motion.servo().max_gain = 1;
   EXPECT_TRUE(after(settings, pressed(0, 0)).warnings.empty());
 }
 

@@ -137,8 +137,8 @@ TEST(wall_list, holds_as_far_as_its_margin_and_no_farther)
   const OneList list(wall.view(), kOverFloor, 0.5);
   ASSERT_TRUE(list.has_list);
   // It is rounded down, by 1e-6 and to a float.
-  EXPECT_LE(list.margin(), kListMargin * 0.5);
-  EXPECT_GE(list.margin(), kListMargin * 0.5 * (1 - 1.1e-6));
+  EXPECT_LE(list.margin(), kSkinFraction * 0.5);
+  EXPECT_GE(list.margin(), kSkinFraction * 0.5 * (1 - 1.1e-6));
   Numbers r(2);
   for (int k = 0; k < 1000; k++) {
     const Vec3 way = list.margin() * r.direction();
@@ -176,7 +176,7 @@ TEST(wall_list, has_a_smaller_margin_where_more_than_seven_features_are_close)
     int shrunk = 0;
     for (Real off = 1e-4; off < 0.2; off *= 1.1) {
       const OneList list(wall.view(), on_axis(off), 0.2);
-      shrunk += list.has_list && list.margin() < 0.9 * kListMargin * 0.2;
+      shrunk += list.has_list && list.margin() < 0.9 * kSkinFraction * 0.2;
     }
     EXPECT_GT(shrunk, 0) << n;
   }
@@ -245,7 +245,7 @@ TEST(wall_list, of_brick_records_stays_in_one_brick)
       q[d] = grid.origin[d] + r.below(grid.n_bricks[d]) * kBrickSide * grid.length +
              (r.below(2) ? 1 : -1) * r.log_in(1e-17, 1e-2);
     }
-    const Real most = kListMargin * r.log_in(1e-3, 0.5), margin = margin_at(grid, q, most);
+    const Real most = kSkinFraction * r.log_in(1e-3, 0.5), margin = margin_at(grid, q, most);
     EXPECT_LE(margin, most);
     cut += margin < most;
     none += !(margin > 0);
@@ -405,7 +405,7 @@ TEST(wall_list, is_made_anew_for_the_sphere_that_left_its_margin_alone)
   bed.choose(0.2);
   bed.step();
   bed.engine->read_diagnostics();
-  const Real margin = kListMargin * 0.5;
+  const Real margin = kSkinFraction * 0.5;
   bed.put(3, bed.centre(3) + Vec3{1.001 * margin, 0, 0});
   bed.put(4, bed.centre(4) + Vec3{0.999 * margin, 0, 0});
   bed.step();
@@ -509,7 +509,7 @@ TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_ti
     ASSERT_EQ(kept.engine->n_near(), 1);
     // To a place over the floor, a third of a margin a step.
     const Vec3 way = Vec3{-0.5, -0.5, 0.4} - outside;
-    const int steps = static_cast<int>(norm(way) / (kListMargin * 0.5 / 3));
+    const int steps = static_cast<int>(norm(way) / (kSkinFraction * 0.5 / 3));
     int touching = 0;
     for (int k = 0; k <= steps; k++) {
       kept.put(0, outside + (static_cast<Real>(k) / steps) * way);
@@ -530,7 +530,7 @@ TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_ti
 TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_step)
 {
   constexpr int kSteps = 1000, kSpheres = 40;
-  const Real cutoff = 0.5, step = 0.3 * kListMargin * cutoff;
+  const Real cutoff = 0.5, step = 0.3 * kSkinFraction * cutoff;
   const TriangleSoup soups[] = {floor_mesh(20, 10, 7), box_mesh({0, 0, 0}, {4, 4, 4}),
                                 random_soup(60, 3), random_soup(1000, 3)};
   for (const TriangleSoup &soup : soups)

@@ -22,7 +22,7 @@ class NearList {
   {
     const std::size_t n = spheres.n;
     if (near_.size() < n) near_ = Array(n + n / 8);
-    if (past_lists(mesh.grid.view, margin) > 0)
+    if (excess_margin(mesh.grid.view, margin) > 0)
       select<true>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
     else
       select<false>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
@@ -41,7 +41,7 @@ class NearList {
               bool by_features, StepCounts *counts, int *n_springs)
   {
     const GridView &grid = mesh.grid.view;
-    const Real past = past_lists(grid, margin);
+    const Real past = excess_margin(grid, margin);
     NearChoice<kPast> choice = {grid,    mesh.grid.table, BrickFilter<Real>(grid),
                                 spheres, mesh.pose,       margin,
                                 past,    pull_off,        by_features,

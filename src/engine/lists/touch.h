@@ -156,7 +156,7 @@ template <class Group>
 LSDCD_NOINLINE bool gather(const Group &group, bool mine, const GridView &grid,
                            const QuerySphere &s, Real margin, WallList &list)
 {
-  const Real most = kListMargin * s.radius, m = margin < most ? margin : most;
+  const Real most = kSkinFraction * s.radius, m = margin < most ? margin : most;
   if (grid.in_floats)
     gather_for<BrickGeometry>(group, mine, grid, s.x, s.cutoff, m, list);
   else

@@ -82,7 +82,7 @@ struct ListedFeatures {
 
 // How far a sphere may go before its list is made anew, as a share of its radius. Far enough that
 // lists last hundreds of steps, near enough that most have one or two features.
-constexpr Real kListMargin = 0.05;
+constexpr Real kSkinFraction = 0.05;
 // What the margin is divided by where a list is too long, and how often.
 constexpr Real kShrink = 4;
 constexpr int kMostShrinks = 3;
@@ -133,7 +133,7 @@ LSDCD_FN bool gather_within(const Group &group, bool mine, const GridView &grid,
 {
   if (mine) begin_list(list, q, cutoff, margin);
   return for_each_within<Geometry>(group, mine, grid,
-                                   {q, cutoff, margin, past_lists(grid, margin), -1, kNoCell},
+                                   {q, cutoff, margin, excess_margin(grid, margin), -1, kNoCell},
                                    [&](FeatureCode code) { return insert_code(list, code); });
 }
 
@@ -159,7 +159,7 @@ LSDCD_FN bool can_touch(const Group &group, bool mine, const GridView &grid, con
                         Real cutoff, Real margin, std::uint32_t cell)
 {
   const bool too_long = !(margin_at(grid, q, margin) >= margin);
-  const Real past = past_lists(grid, cutoff + margin - grid.cutoff);
+  const Real past = excess_margin(grid, cutoff + margin - grid.cutoff);
   return !for_each_within<Geometry>(group, mine && !too_long, grid,
                                     {q, cutoff, margin, past, cutoff, cell},
                                     [](FeatureCode) { return false; }) ||
@@ -181,7 +181,7 @@ LSDCD_FN void find_in_list(const GridView &grid, const ListedFeatures &list, con
     if constexpr (kCapacity == 1)
       add_feature(geometry, code, cutoff, set, copy);
     else
-      add_feature_apart(geometry, code, cutoff, set, copy);
+      add_feature_noinline(geometry, code, cutoff, set, copy);
     if (set.overflow) return;    // nothing else is valid
   }
 }

@@ -117,7 +117,7 @@ class StepResults {
   }
 
   // Before other spheres are near: totals stay those of the last step.
-  void outlive_choice(B &b)
+  void detach_from_near_list(B &b)
   {
     know_mesh_totals(b);
     if (totals_known_ || !near_ || n_ == 0) return;

@@ -1,5 +1,5 @@
 #include "base/input_error.h"
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "grid/cache/cache_format.h"
 #include "backend/threads.h"
 
@@ -24,7 +24,7 @@ std::size_t write_grid_cache(const std::string &path, const GridKey &key, const 
   front.header_bytes = table + n * (sizeof(std::uint64_t) + sizeof(Hash));
 
   // The header goes in last, when the frames are known.
-  WholeFile file(path);
+  AtomicFile file(path);
   std::uint64_t end = front.header_bytes;
   const std::int64_t at_once = threads();
   const std::size_t room = ZSTD_compressBound(kFrameBytes);

@@ -30,7 +30,7 @@ LSDCD_FN bool cells_in_ball(const GridView &grid, const Vec3 &q, Real margin, in
 }
 
 // What is left of a margin once the lists' own is taken from it.
-LSDCD_FN Real past_lists(const GridView &grid, Real margin)
+LSDCD_FN Real excess_margin(const GridView &grid, Real margin)
 {
   return margin > grid.margin ? margin - grid.margin : Real(0);
 }

@@ -65,7 +65,7 @@ struct CellCentres {
 // CPU or on a GPU.
 Real default_length(const WallMesh &mesh, Real cutoff, int nearest, bool for_gpu);
 
-// From the settings, or where they leave the length open from the mesh and reach.
+// From the settings, or where they leave the length open from the mesh and the cutoff.
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
 
 constexpr Real kCoarser = 1.25;

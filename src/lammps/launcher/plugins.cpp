@@ -1,6 +1,6 @@
 #include "lammps/launcher/plugins.h"
 
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 #include "lammps/plugin_api.h"
 
 #include "comm.h"

@@ -11,12 +11,12 @@ namespace lsdcd {
 // was there. Several at once, of any number of processes, leave the file of the
 // last to finish. What is there and no regular file, as /dev/stdout, is refused. All but the
 // destructor throw InputError that names the file and what the system said.
-class WholeFile {
+class AtomicFile {
  public:
-  explicit WholeFile(const std::string &path);
-  ~WholeFile();    // without commit() nothing is left
-  WholeFile(const WholeFile &) = delete;
-  WholeFile &operator=(const WholeFile &) = delete;
+  explicit AtomicFile(const std::string &path);
+  ~AtomicFile();    // without commit() nothing is left
+  AtomicFile(const AtomicFile &) = delete;
+  AtomicFile &operator=(const AtomicFile &) = delete;
 
   void write_at(std::uint64_t offset, const void *data, std::size_t bytes);
   void commit();    // on the disk first, then under its name

@@ -1,4 +1,4 @@
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
 
 #include "base/input_error.h"
 
@@ -25,7 +25,7 @@ std::string directory_of(const std::string &path)
 
 }    // namespace
 
-WholeFile::WholeFile(const std::string &path) : path_(path)
+AtomicFile::AtomicFile(const std::string &path) : path_(path)
 {
   // To replace a device or a pipe would take it from the system, /dev/null even.
   struct stat there;
@@ -49,14 +49,14 @@ WholeFile::WholeFile(const std::string &path) : path_(path)
   if (file_ < 0) fail("cannot make a file there");
 }
 
-WholeFile::~WholeFile()
+AtomicFile::~AtomicFile()
 {
   if (file_ < 0) return;
   close(file_);
   unlink(temporary_.c_str());
 }
 
-void WholeFile::write_at(std::uint64_t offset, const void *data, std::size_t bytes)
+void AtomicFile::write_at(std::uint64_t offset, const void *data, std::size_t bytes)
 {
   const char *from = static_cast<const char *>(data);
   while (bytes > 0) {
@@ -69,7 +69,7 @@ void WholeFile::write_at(std::uint64_t offset, const void *data, std::size_t byt
   }
 }
 
-void WholeFile::commit()
+void AtomicFile::commit()
 {
   if (fsync(file_) != 0) fail("cannot write");
   if (rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot put the file in place");
@@ -82,14 +82,14 @@ void WholeFile::commit()
   close(directory);
 }
 
-void WholeFile::fail(const char *what) const
+void AtomicFile::fail(const char *what) const
 {
   throw InputError("'" + path_ + "': " + what + ": " + std::strerror(errno));
 }
 
 void write_whole_file(const std::string &path, const std::string &bytes)
 {
-  WholeFile file(path);
+  AtomicFile file(path);
   file.write_at(0, bytes.data(), bytes.size());
   file.commit();
 }

@@ -28,9 +28,9 @@ std::uint64_t hash_three(Word a, Word b, Word c)
   return mix_bits(mix_bits(mix_bits(bits[0]) + bits[1]) + bits[2]);
 }
 
-class IndexTable {
+class HashIndex {
  public:
-  IndexTable() : slots_(1024, Slot{0, kNone}) {}
+  HashIndex() : slots_(1024, Slot{0, kNone}) {}
 
   static constexpr int kNone = -1;
 

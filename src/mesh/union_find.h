@@ -9,9 +9,9 @@
 namespace lsdcd {
 
 // Each class is named by its lowest member.
-class Classes {
+class UnionFind {
  public:
-  explicit Classes(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
 
   int of(int i)
   {
