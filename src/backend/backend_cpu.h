@@ -1,4 +1,4 @@
-// The five verbs of a backend on the host: allocate, copy, for_each, reduce, scan/sort.
+// A backend on the host. doc/design.md, "Adding a backend", lists what a backend has.
 #pragma once
 
 #include "backend/atomic.h"

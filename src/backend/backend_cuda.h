@@ -1,4 +1,4 @@
-// The five verbs of a backend on an NVIDIA GPU: allocate, copy, for_each, reduce, scan/sort.
+// A backend on an NVIDIA GPU. doc/design.md, "Adding a backend", lists what a backend has.
 #pragma once
 
 #include "backend/cuda_beside.h"
