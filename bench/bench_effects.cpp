@@ -170,13 +170,13 @@ int main(int argc, char **argv)
 {
   const int spheres = argc == 5 ? std::atoi(argv[2]) : 0,
             repeats = argc == 5 ? std::atoi(argv[3]) : 0;
-  if (spheres < 1 || repeats < 1) {
+  const bool cuda = argc > 1 && std::strcmp(argv[1], "cuda") == 0;
+  if (spheres < 1 || repeats < 1 || (!cuda && std::strcmp(argv[1], "cpu") != 0)) {
     std::fprintf(stderr, "usage: bench_effects cpu|cuda SPHERES REPEATS COMMIT\n");
     return 2;
   }
   try {
-    measure(std::strcmp(argv[1], "cuda") == 0 ? Device::cuda : Device::cpu, spheres, repeats,
-            argv[4]);
+    measure(cuda ? Device::cuda : Device::cpu, spheres, repeats, argv[4]);
   } catch (const InputError &e) {
     std::fprintf(stderr, "bench_effects: %s\n", e.what());
     return 1;

@@ -2,9 +2,9 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
+#include "law/sub_models.h"
 #include "material/contact_moduli.h"
 #include "material/material_units.h"
-#include "law/sub_models.h"
 
 #include <charconv>
 #include <cmath>

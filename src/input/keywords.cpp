@@ -128,6 +128,7 @@ void read_rolling(Tokens &w, WallSettings &s)
 void read_cohesion(Tokens &w, WallSettings &s)
 {
   read_beside_classic(w, s, Family::cohesion, "the normal sub-models dmt and jkr");
+  if (s.law.cohesion.numbers[0] == 0) s.law.cohesion = CohesionModel::none;    // costs nothing
 }
 
 const std::string kRolling = choices_beside_classic(Family::rolling),
@@ -203,9 +204,8 @@ void read_cut(Tokens &w, WallSettings &s)
 }
 
 const Keyword kKeywords[] = {
-    {"mesh", "FILE", "", "STL file", "required",
-     "the wall, ASCII or binary STL; more of them, each with its own keywords after it", nullptr,
-     read_mesh},
+    {"mesh", "FILE", "", "STL, OBJ, PLY, OFF", "required",
+     "the wall; more of them, each with its own keywords after it", nullptr, read_mesh},
     {"scale", "s | sx sy sz", "", "not 0", "1",
      "multiply coordinates; scale, rotate and move act in the order given", nullptr, read_scale},
     {"rotate", "ax ay az degrees", "degrees", "axis not 0 0 0", "none",

@@ -3,6 +3,7 @@
 #include "law/sub_models.h"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 namespace lsdcd {

@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-constexpr int kMaxNumbers = 4;    // of a sub-model
+constexpr int kMaxNumbers = 3;    // of a sub-model that may be left out
 
 // A sub-model that may be left out, and its numbers in the order of its row.
 template <class Model>

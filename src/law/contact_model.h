@@ -117,6 +117,7 @@ struct GranularModel {
   static constexpr int kExtra = 3 * kVectors + kScalars;
   static constexpr bool kBeyondContact = Normal::kBeyondContact;
   static constexpr bool kContactTorque = kHistory && kFull, kHeat = kFull;
+  static_assert(GranularRolling<T>::kAllKeep, "a law without memory has no contact torque");
 
   // Places in ContactMemory::extra.
   static constexpr int kRolled = 0, kRadius = 3, kTwist = 4;

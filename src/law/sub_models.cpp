@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <type_traits>
 
 namespace lsdcd {
 
@@ -12,14 +11,14 @@ namespace {
 
 // ---- numbers of several rows -------------------------------------------------------------
 
-const Parameter kStiffness = {"kn", "force/length"}, kHertzStiffness = {"kn", "force/length^2"};
-const Parameter kEta = {"eta|e", "of the damping"};
-const Parameter kYoung = {"E", "force/length^2", kAboveZero};
-const Parameter kPoisson = {"nu", "1", -1 + 1e-12, 0.5};
-const Parameter kSurfaceEnergy = {"gamma", "energy/length^2"};
-const Parameter kXgammat = {"xgammat", "1"};
-const Parameter kMu = {"mu", "1", 0, Tokens::kHuge, false, "sliding_friction"};
-const Parameter kMindlin = {"kt", "force/length^2", 0, Tokens::kHuge, true};
+constexpr Parameter kStiffness = {"kn", "force/length"}, kHertzStiffness = {"kn", "force/length^2"};
+constexpr Parameter kEta = {"eta|e", "of the damping"}, kEtaAlone = {"eta", "of the damping"};
+constexpr Parameter kYoung = {"E", "force/length^2", kAboveZero};
+constexpr Parameter kPoisson = {"nu", "1", -1 + 1e-12, 0.5};
+constexpr Parameter kSurfaceEnergy = {"gamma", "energy/length^2"};
+constexpr Parameter kXgammat = {"xgammat", "1"};
+constexpr Parameter kMu = {"mu", "1", 0, Tokens::kHuge, false, "sliding_friction"};
+constexpr Parameter kMindlin = {"kt", "force/length^2", 0, Tokens::kHuge, true};
 
 std::vector<Parameter> classic_numbers(const char *stiffness, const char *damping)
 {
@@ -89,9 +88,9 @@ void set_spring(const Real *n, LawDraft &d)
 
 // ---- the table ---------------------------------------------------------------------------
 
-// A place in a family's enum.
-template <class Enum, std::enable_if_t<std::is_enum<Enum>::value, int> = 0>
-constexpr int operator+(Enum model)
+// The number of a model in its family's enum.
+template <class Enum>
+constexpr int at(Enum model)
 {
   return static_cast<int>(model);
 }
@@ -126,74 +125,74 @@ std::vector<SubModel> make_table()
        "1/(time length)"), set_classic<N::hertz, true>, kShear, "hertz stiffness",
        "springs that stiffen with the contact radius (Brilliantov et al. 1996)"},
 
-      {F::normal, "hooke", +N::hooke, kGranular, {kStiffness, kEta}, set_stiffness<N::hooke>,
+      {F::normal, "hooke", at(N::hooke), kGranular, {kStiffness, kEta}, set_stiffness<N::hooke>,
        kNothing, "linear spring", "linear spring"},
-      {F::normal, "hertz", +N::hertz, kGranular, {kHertzStiffness, kEta}, set_stiffness<N::hertz>,
+      {F::normal, "hertz", at(N::hertz), kGranular, {kHertzStiffness, kEta}, set_stiffness<N::hertz>,
        kNothing, "hertz spring", "elastic sphere on a plane (Hertz 1882)"},
-      {F::normal, "hertz/material", +N::hertz, kGranular, {kYoung, kEta, kPoisson},
+      {F::normal, "hertz/material", at(N::hertz), kGranular, {kYoung, kEta, kPoisson},
        set_material<N::hertz>, kNothing, "hertz spring", "hertz of one material"},
-      {F::normal, "dmt", +N::dmt, kGranular, {kYoung, kEta, kPoisson, kSurfaceEnergy},
+      {F::normal, "dmt", at(N::dmt), kGranular, {kYoung, kEtaAlone, kPoisson, kSurfaceEnergy},
        set_material<N::dmt>, kNothing, "dmt adhesion",
        "hertz less a constant pull (Derjaguin, Muller and Toporov 1975)"},
-      {F::normal, "jkr", +N::jkr, kGranular, {kYoung, kEta, kPoisson, kSurfaceEnergy},
+      {F::normal, "jkr", at(N::jkr), kGranular, {kYoung, kEtaAlone, kPoisson, kSurfaceEnergy},
        set_material<N::jkr>, kNothing, "jkr adhesion",
        "adhesion that holds past touch (Johnson, Kendall and Roberts 1971)"},
 
-      {F::damping, "none", +D::none, kGranular, {}, set_damping<D::none>, kNothing, "", "none"},
-      {F::damping, "velocity", +D::velocity, kGranular, {}, set_damping<D::velocity>, kNothing,
+      {F::damping, "none", at(D::none), kGranular, {}, set_damping<D::none>, kNothing, "", "none"},
+      {F::damping, "velocity", at(D::velocity), kGranular, {}, set_damping<D::velocity>, kNothing,
        "normal damping", "eta v"},
-      {F::damping, "mass_velocity", +D::mass_velocity, kGranular, {}, set_damping<D::mass_velocity>,
+      {F::damping, "mass_velocity", at(D::mass_velocity), kGranular, {}, set_damping<D::mass_velocity>,
        kNothing, "normal damping", "eta m v"},
-      {F::damping, "viscoelastic", +D::viscoelastic, kGranular, {}, set_damping<D::viscoelastic>,
+      {F::damping, "viscoelastic", at(D::viscoelastic), kGranular, {}, set_damping<D::viscoelastic>,
        kNothing, "normal damping", "eta m a v (Brilliantov et al. 1996)"},
-      {F::damping, "tsuji", +D::stiffness, kGranular, {}, set_damping<D::stiffness>, kNothing,
+      {F::damping, "tsuji", at(D::stiffness), kGranular, {}, set_damping<D::stiffness>, kNothing,
        "normal damping", "restitution e, by a fit (Tsuji, Tanaka and Ishida 1992)"},
-      {F::damping, "coeff_restitution", +D::stiffness, kGranular, {}, set_damping<D::stiffness>,
+      {F::damping, "coeff_restitution", at(D::stiffness), kGranular, {}, set_damping<D::stiffness>,
        kNothing, "normal damping", "restitution e, exactly (Brilliantov et al. 1996)"},
 
-      {F::tangential, "linear_nohistory", +T::linear_nohistory, kGranular, {kXgammat, kMu},
+      {F::tangential, "linear_nohistory", at(T::linear_nohistory), kGranular, {kXgammat, kMu},
        set_slip, kNothing, "", "viscous friction"},
-      {F::tangential, "linear_history", +T::linear_history, kGranular, {{"kt", "force/length"},
+      {F::tangential, "linear_history", at(T::linear_history), kGranular, {{"kt", "force/length"},
        kXgammat, kMu}, set_spring<T::linear_history>, kShear, "tangential spring",
        "linear spring (Luding 2008)"},
-      {F::tangential, "mindlin", +T::mindlin, kGranular, {kMindlin, kXgammat, kMu},
+      {F::tangential, "mindlin", at(T::mindlin), kGranular, {kMindlin, kXgammat, kMu},
        set_spring<T::mindlin>, kShear, "tangential spring",
        "spring that stiffens with the contact radius (Mindlin 1949)"},
-      {F::tangential, "mindlin/force", +T::mindlin_force, kGranular, {kMindlin, kXgammat, kMu},
+      {F::tangential, "mindlin/force", at(T::mindlin_force), kGranular, {kMindlin, kXgammat, kMu},
        set_spring<T::mindlin_force>, kShearForce, "tangential spring",
        "mindlin that keeps the force"},
-      {F::tangential, "mindlin_rescale", +T::mindlin_rescale, kGranular, {kMindlin, kXgammat, kMu},
+      {F::tangential, "mindlin_rescale", at(T::mindlin_rescale), kGranular, {kMindlin, kXgammat, kMu},
        set_spring<T::mindlin_rescale>, {"shear displacement, contact radius", 1,
        "rescaling on unloading"}, "tangential spring",
        "mindlin that shrinks as the contact unloads (Thornton et al. 2013)"},
-      {F::tangential, "mindlin_rescale/force", +T::mindlin_rescale_force, kGranular, {kMindlin,
+      {F::tangential, "mindlin_rescale/force", at(T::mindlin_rescale_force), kGranular, {kMindlin,
        kXgammat, kMu}, set_spring<T::mindlin_rescale_force>, {"shear force, contact radius", 1,
        "rescaling on unloading"}, "tangential spring", "mindlin_rescale that keeps the force"},
 
-      {F::rolling, "none", +R::none, kGranular, {}, copied, kNothing, "", "none"},
-      {F::rolling, "sds", +R::sds, kGranular, {{"k", "force/length"}, {"gamma", "mass/time"}, {"mu",
+      {F::rolling, "none", at(R::none), kGranular, {}, copied, kNothing, "", "none"},
+      {F::rolling, "sds", at(R::sds), kGranular, {{"k", "force/length"}, {"gamma", "mass/time"}, {"mu",
        "1", 0, Tokens::kHuge, false, "rolling_friction"}}, copied, {"rolling displacement", 3},
        "rolling resistance", "spring, dashpot, slider (Luding 2008; Wang et al. 2015)"},
-      {F::rolling, "cdt", +R::cdt, kClassic, {{"MU", "1"}}, copied, kNothing, "rolling cdt",
+      {F::rolling, "cdt", at(R::cdt), kClassic, {{"MU", "1"}}, copied, kNothing, "rolling cdt",
        "constant torque (LIGGGHTS; Ai et al. 2011)"},
-      {F::rolling, "epsd2", +R::epsd2, kClassic, {{"MU", "1"}}, copied, {"rolling torque", 3},
+      {F::rolling, "epsd2", at(R::epsd2), kClassic, {{"MU", "1"}}, copied, {"rolling torque", 3},
        "rolling epsd2", "elastic-plastic spring (LIGGGHTS; Ai et al. 2011)"},
 
-      {F::twisting, "none", +W::none, kGranular, {}, copied, kNothing, "", "none"},
-      {F::twisting, "marshall", +W::marshall, kGranular, {}, copied, {"twist angle of marshall", 1},
+      {F::twisting, "none", at(W::none), kGranular, {}, copied, kNothing, "", "none"},
+      {F::twisting, "marshall", at(W::marshall), kGranular, {}, copied, {"twist angle of marshall", 1},
        "twisting resistance", "spring, dashpot, slider by the tangential ones (Marshall 2009)"},
-      {F::twisting, "sds", +W::sds, kGranular, {{"k", "torque/angle"}, {"gamma",
+      {F::twisting, "sds", at(W::sds), kGranular, {{"k", "torque/angle"}, {"gamma",
        "torque time/angle"}, {"mu", "length"}}, copied, {"twist angle of sds", 1},
        "twisting resistance", "spring, dashpot, slider (Luding 2008)"},
 
-      {F::heat, "none", +H::none, kGranular, {}, copied, kNothing, "", "none"},
-      {F::heat, "radius", +H::radius, kGranular, {{"k", "power/(length temperature)", 0,
+      {F::heat, "none", at(H::none), kGranular, {}, copied, kNothing, "", "none"},
+      {F::heat, "radius", at(H::radius), kGranular, {{"k", "power/(length temperature)", 0,
        Tokens::kHuge, false, "thermal_conductivity"}}, copied, kNothing, "heat conduction",
        "2 k a dT (Vargas and McCarthy 2001)"},
-      {F::heat, "area", +H::area, kGranular, {{"h", "power/(length^2 temperature)"}}, copied,
+      {F::heat, "area", at(H::area), kGranular, {{"h", "power/(length^2 temperature)"}}, copied,
        kNothing, "heat conduction", "h pi a^2 dT"},
 
-      {F::cohesion, "sjkr", +C::sjkr, kClassic, {{"K", "energy/volume"}}, copied, kNothing,
+      {F::cohesion, "sjkr", at(C::sjkr), kClassic, {{"K", "energy/volume"}}, copied, kNothing,
        "cohesion sjkr", "K times the area of contact (LIGGGHTS)"},
   };
   // clang-format on
@@ -239,14 +238,14 @@ std::vector<const SubModel *> rows_of(const ContactLaw &law)
                        : history                  ? Style::hooke_history
                                                   : Style::hooke);
   } else {
-    add(Family::normal, +law.normal);
-    add(Family::damping, +law.damping);
-    add(Family::tangential, +law.tangential);
+    add(Family::normal, at(law.normal));
+    add(Family::damping, at(law.damping));
+    add(Family::tangential, at(law.tangential));
   }
-  if (law.rolling.is_on()) add(Family::rolling, +law.rolling.model);
-  if (law.twisting.is_on()) add(Family::twisting, +law.twisting.model);
-  if (law.heat.is_on()) add(Family::heat, +law.heat.model);
-  if (law.cohesion.is_on()) add(Family::cohesion, +law.cohesion.model);
+  if (law.rolling.is_on()) add(Family::rolling, at(law.rolling.model));
+  if (law.twisting.is_on()) add(Family::twisting, at(law.twisting.model));
+  if (law.heat.is_on()) add(Family::heat, at(law.heat.model));
+  if (law.cohesion.is_on()) add(Family::cohesion, at(law.cohesion.model));
   return rows;
 }
 

@@ -176,7 +176,7 @@ void collide(const Options &o)
 
 void add_options(Command &command, Options &o)
 {
-  command.option("wall", o.wall, "STL file, ASCII or binary").required();
+  command.option("wall", o.wall, "mesh: .stl, .obj, .ply or .off").required();
   command.option("body", o.body, "STL file of the rigid body").required();
   Option one = command.option(
       "--pose", o.pose,

@@ -161,7 +161,7 @@ void add_distance_command(Command &program)
   const auto o = std::make_shared<Options>();
   Command command = program.command(
       "distance", "distance, closest point, triangle, feature and side of many points");
-  command.option("mesh", o->mesh, "STL file, ASCII or binary").required();
+  command.option("mesh", o->mesh, "mesh: .stl, .obj, .ply or .off").required();
   command
       .option("points", o->points,
               "lines of numbers (x y z first, or named), .npy (n, 3), or LAMMPS text dump")

@@ -68,7 +68,7 @@ void grid(const Options &o)
 
 void add_mesh_options(Command &command, Options &o)
 {
-  command.option("file", o.file, "STL file, ASCII or binary").required();
+  command.option("file", o.file, "mesh: .stl, .obj, .ply or .off").required();
   add_scale_option(command, o.scale);
   add_weld_option(command, o.weld);
   command.flag("--json", o.json, "print JSON");

@@ -147,7 +147,7 @@ void add_repair_command(Command &program, int &exit_code)
       "and something is left that it cannot mend: open edges, edges of more than two facets,\n"
       "one-sided parts, facets that meet.\n"
       "Example:\n  lsdcd repair wall.stl -o mended.stl");
-  command.option("file", o->file, "STL file, ASCII or binary").required();
+  command.option("file", o->file, "mesh: .stl, .obj, .ply or .off").required();
   command
       .option("-o,--output", o->output,
               "mesh to write, .stl, .obj, .ply or .off; STL is binary where all corners are\n"

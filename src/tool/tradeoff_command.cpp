@@ -211,7 +211,7 @@ void add_tradeoff_command(Command &program)
       program.command("tradeoff", "what each setting buys and costs on a mesh: a CSV and a plot");
   command.footer(std::string(kHelp) +
                  "\nExample:\n  lsdcd tradeoff wall.stl --radius 0.004 0.005 --below 1e-3");
-  command.option("file", o->file, "STL file, ASCII or binary").required();
+  command.option("file", o->file, "mesh: .stl, .obj, .ply or .off").required();
   command.option("--radius", o->settings.radii, "sphere radii, one or several, each as likely")
       .required()
       .words(1, -1)

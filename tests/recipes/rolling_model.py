@@ -3,7 +3,7 @@
 
 usage: rolling_model.py SRC OUT     the sources, and where the two changed files go
 
-A model that keeps something takes two files: its formula in the header of its family, and its row.
+It takes two files: the formula in the header of its family, and the row.
 """
 import sys
 
@@ -36,7 +36,7 @@ struct PlasticRolling {
 
 """
 ROW = """\
-      {F::rolling, "plastic", +R::plastic, kGranular,
+      {F::rolling, "plastic", at(R::plastic), kGranular,
        {{"K", "torque/angle", kAboveZero}, {"MU", "1"}}, copied, {"plastic torque", 3},
        "plastic rolling", "torque up to a limit"},
 """

@@ -580,6 +580,7 @@ TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
   EXPECT_EQ(s.law.cohesion.numbers[0], 3e5);
   EXPECT_EQ(with("rolling cdt 0.1").law.rolling.model, RollingModel::cdt);
   EXPECT_FALSE(with("").law.is_extended());
+  EXPECT_FALSE(with("cohesion sjkr 0").law.is_extended());
   EXPECT_TRUE(names(error_with("rolling sds 1 1 1"), "epsd2"));
   EXPECT_TRUE(names(error_with("rolling cdt"), "MU"));
   EXPECT_TRUE(names(error_with("rolling cdt -0.1"), "MU"));

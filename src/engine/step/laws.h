@@ -5,6 +5,7 @@
 #include "law/contact_model.h"
 
 #include <iterator>
+#include <stdexcept>
 #include <type_traits>
 
 namespace lsdcd {
@@ -24,12 +25,14 @@ auto with_classic_law(const ContactLaw &p, Make make)
   return make(HookeLaw<T>{{k}, damping, LinearNoHistory<T>{gamma_tangent, mu}, p.limit_damping});
 }
 
-// A family's model with its numbers.
+// A rolling model with its numbers, among those of one kernel.
 template <class Family, class Model>
 Family family_of(const Chosen<Model> &chosen)
 {
   Family family = {chosen.model, {}};
   for (std::size_t k = 0; k < std::size(family.numbers); k++) family.numbers[k] = chosen.numbers[k];
+  if (chosen.is_on() && !family.is_on())
+    throw std::logic_error("no compiled law has this rolling model: name it in rolling.h");
   return family;
 }
 

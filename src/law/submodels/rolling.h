@@ -130,6 +130,7 @@ struct Epsd2Rolling {
 // Those of Models that one kernel has; which one acts is the same for all contacts of a wall.
 template <class T, template <class> class... Models>
 struct Rolling {
+  static constexpr bool kAllKeep = (Models<T>::kKeepsVector && ...);
   RollingModel model;
   T numbers[3];
 

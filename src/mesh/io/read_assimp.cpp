@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <mutex>
 
 #if defined(LSDCD_HAVE_ASSIMP)
 #include <assimp/cimport.h>
@@ -51,13 +52,16 @@ void keep_error(const char *message, char *kept)
 // In C, whose calls other versions of the library have, too.
 ReadMesh read_assimp(const std::string &path)
 {
+  // assimp has one log for all threads, and hands every message to all streams.
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
   std::string error;
   const aiLogStream log = {keep_error, reinterpret_cast<char *>(&error)};
   aiAttachLogStream(&log);
   const std::unique_ptr<const aiScene, decltype(&aiReleaseImport)> scene(
       aiImportFile(path.c_str(), aiProcess_Triangulate | aiProcess_ValidateDataStructure),
       aiReleaseImport);
-  aiDetachAllLogStreams();
+  aiDetachLogStream(&log);
   if (!scene) error = aiGetErrorString();
   if (!error.empty()) throw InputError(path + ": cannot be read: " + error);
   ReadMesh read;
