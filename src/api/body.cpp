@@ -110,7 +110,7 @@ lsdcd_collision checked_collision(const lsdcd_collision *given)
   return c;
 }
 
-void hand_out_pairs(const MeshCollision &of, const Collision &found, const lsdcd_collision &c)
+void copy_out_pairs(const MeshCollision &of, const Collision &found, const lsdcd_collision &c)
 {
   const std::size_t n = std::min(c.room, found.pairs.size());
   for (std::size_t i = 0; i < n; i++) {
@@ -176,7 +176,7 @@ int lsdcd_collide(lsdcd_body *body, lsdcd_collision *collision)
     check_gpu(*body);
     const CallThreads threads(c.threads);
     const Collision found = body->in.collide(pose, c.segment != nullptr);
-    hand_out_pairs(body->in, found, c);
+    copy_out_pairs(body->in, found, c);
     c.collides = found.any();
     c.pairs = found.pairs.size();
     c.uncertain = found.uncertain;

@@ -71,13 +71,6 @@ struct WallSettings {
   Vec3 cut_normal = {0, 0, 0};
   Real cut_offset = 0;
 
-  // As the engine sees it: meshes can move apart.
-  bool moves() const
-  {
-    for (const MeshSettings &mesh : meshes)
-      if (mesh.motion.any() || mesh.surface_varies()) return true;
-    return meshes.size() > 1;
-  }
   bool wears() const { return wear.model != WearModel::none; }
   bool has_loads(const MeshSettings &mesh) const { return wears() || mesh.fields.every > 0; }
   bool has_loads() const

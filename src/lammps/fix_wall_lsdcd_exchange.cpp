@@ -6,7 +6,6 @@
 #include "engine/step/law_job.h"
 
 #include "atom.h"
-#include "error.h"
 #include "memory.h"
 #include "modify.h"
 

@@ -8,10 +8,6 @@
 #include "comm.h"
 #include "update.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-
 using namespace LAMMPS_NS;
 using lsdcd::number_text;
 

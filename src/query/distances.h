@@ -7,7 +7,7 @@
 
 namespace lsdcd {
 
-// The wall's own records, in double. Pieces are whole triangles, as in the paper.
+// The wall's own records, in double. Primitives are whole triangles, as in the paper.
 class WallDistances {
  public:
   LSDCD_FN WallDistances(const GridView &grid, const Vec3 &q, const CellAddress &) :

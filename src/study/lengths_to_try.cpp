@@ -40,7 +40,8 @@ std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &setti
     GridPlan plan = plan_grid(mesh, settings);
     while (plan.least_bytes() > budget && !is_coarsest(plan, mesh))
       plan = coarser(plan, mesh, settings);
-    lengths.push_back(plan.length);
+    const Real length = rounded(plan.length);
+    lengths.push_back(length < plan.length ? rounded(Real(1.001) * plan.length) : length);
   }
   return lengths;
 }

@@ -149,17 +149,17 @@ void draw(const std::string &csv, const std::string &plot)
                      std::string(python) + " " + script + " " + csv + " " + plot);
 }
 
-// The words to put into a deck.
-void print_words(const Tradeoff &result, double below, bool on_cuda)
+// The words to put into a deck. Returns what is wrong; empty: nothing.
+std::string print_words(const Tradeoff &result, double below, bool on_cuda)
 {
   const TradeoffRow *row = fastest_below(result.rows, below, on_cuda);
   if (!row)
-    throw InputError("no setting that was measured keeps errors below " + formatted("%g", below) +
-                     " on the " + (on_cuda ? "GPU" : "CPU") +
-                     ": give a larger --below, or more --memory or --seconds where settings were "
-                     "left out");
+    return "no setting that was measured keeps errors below " + formatted("%g", below) +
+           " on the " + (on_cuda ? "GPU" : "CPU") +
+           ": give a larger --below, or more --memory or --seconds where settings were left out";
   std::printf("below %g on the %s: %s\n", below, on_cuda ? "GPU" : "CPU",
               words_of(row->choice).c_str());
+  return "";
 }
 
 void tradeoff(Options &o)
@@ -194,12 +194,19 @@ void tradeoff(Options &o)
   file.write_at(0, text.data(), text.size());
   file.commit();
   std::printf("rows in %s\n", o.csv.c_str());
-  if (o.below > 0 && o.settings.cpu) print_words(result, o.below, false);
-  if (o.below > 0 && o.settings.cuda) print_words(result, o.below, true);
+  // Rows and plot are there whether or not a device has a setting that is good enough.
+  std::string none;
+  for (const bool gpu_ones : {false, true})
+    if (o.below > 0 && (gpu_ones ? o.settings.cuda : o.settings.cpu)) {
+      const std::string error = print_words(result, o.below, gpu_ones);
+      none += (none.empty() || error.empty() ? "" : "; ") + error;
+    }
   std::fflush(stdout);
-  if (o.plot == "none") return;
-  draw(o.csv, o.plot);
-  std::printf("plot in %s\n", o.plot.c_str());
+  if (o.plot != "none") {
+    draw(o.csv, o.plot);
+    std::printf("plot in %s\n", o.plot.c_str());
+  }
+  if (!none.empty()) throw InputError(none);
 }
 
 }    // namespace

@@ -18,7 +18,8 @@ class SearchReport {
   // What the engine has noted since the last call.
   void add(const StepDiagnostics &seen);
 
-  // Logs the counts of a run, unless `brief` or where there was no step, and counts anew. `advice`
+  // Logs the counts of a run, unless `brief` or where there was neither a step nor a
+  // setup, and counts anew. `advice`
   // follows the number of choices. Collective.
   void end_run(bool brief, const std::string &advice);
 
@@ -31,9 +32,10 @@ class SearchReport {
   Host &host_;
   std::int64_t steps_ = 0, setups_ = 0, choices_ = 0;          // of this run, on all processes
   std::int64_t lists_ = 0, listed_ = 0, cell_searches_ = 0;    // of this run, on this process
-  std::int64_t uncertified_ = 0;                               // on this process
-  Real uncertain_ =
-      0;    // on this process; overlap / radius of the deepest contact they may have missed
+  // On this process: answers that were not certified, and overlap / radius of the deepest contact that
+  // they may have missed.
+  std::int64_t uncertified_ = 0;
+  Real uncertain_ = 0;
   Real uncertified_due_ = 0, uncertain_due_ = 0;    // on all processes: logged from here on
 };
 

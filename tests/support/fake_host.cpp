@@ -51,11 +51,12 @@ void on_processes(int n, const std::function<void(FakeHost &)> &work)
 std::vector<FakeHost::Bytes> FakeHost::meet(const std::string &call, const void *data,
                                             std::size_t bytes)
 {
+  const char *first = static_cast<const char *>(data);
+  if (!meeting_) return {Bytes(first, first + bytes)};    // the only process
   Meeting &m = *meeting_;
   std::unique_lock<std::mutex> lock(m.mutex);
   if (m.here == 0) m.call = call;
   if (m.call != call) throw std::logic_error("one process calls " + call + ", another " + m.call);
-  const char *first = static_cast<const char *>(data);
   m.now[rank_].assign(first, first + bytes);
   const int mine = m.held;
   if (++m.here == static_cast<int>(m.now.size())) {
@@ -75,7 +76,7 @@ std::vector<std::vector<Real>> FakeHost::meet(const std::string &call,
   std::vector<std::vector<Real>> all;
   for (const Bytes &b : meet(call, numbers.data(), numbers.size() * sizeof(Real))) {
     all.emplace_back(b.size() / sizeof(Real));
-    std::memcpy(all.back().data(), b.data(), b.size());
+    if (!b.empty()) std::memcpy(all.back().data(), b.data(), b.size());
   }
   return all;
 }
@@ -127,6 +128,9 @@ void FakeHost::fail_together(const std::string &error)
 
 std::vector<Real> FakeHost::variables(const std::vector<std::string> &names)
 {
+  std::string call = "variables";
+  for (const std::string &name : names) call += " " + name;
+  if (!names.empty()) meet(call, nullptr, 0);
   std::vector<Real> all;
   for (const std::string &name : names) all.push_back(values.at(name));
   return all;
