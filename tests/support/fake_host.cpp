@@ -109,7 +109,7 @@ void FakeHost::broadcast(void *data, std::size_t bytes, int from)
 {
   const std::vector<Bytes> all =
       meet("broadcast of " + std::to_string(bytes) + " from " + std::to_string(from), data, bytes);
-  std::memcpy(data, all[from].data(), bytes);
+  if (bytes > 0) std::memcpy(data, all[from].data(), bytes);
 }
 
 std::vector<Real> FakeHost::gather(const std::vector<Real> &mine)
