@@ -21,10 +21,7 @@ std::string words_of(const SubModel &row)
 // "tangential linear_nohistory|linear_history|..."
 std::string choices_of(Family family)
 {
-  std::string names;
-  for (const SubModel *row : sub_models(family, GoesWith::granular))
-    names += (names.empty() ? "" : "|") + std::string(row->name);
-  return with_gap(family_word(family), names);
+  return with_gap(family_word(family), names_text(family, GoesWith::granular));
 }
 
 const Family kFamilies[] = {Family::damping, Family::tangential, Family::rolling, Family::twisting,

@@ -14,10 +14,8 @@ namespace {
 // "hooke|hooke/history|... kn kt|NULL ... [limit_damping] mesh FILE [keywords], or granular ..."
 std::string law_syntax()
 {
-  const std::vector<const SubModel *> styles = sub_models(Family::style, GoesWith::classic);
-  std::string names;
-  for (const SubModel *row : styles) names += (names.empty() ? "" : "|") + std::string(row->name);
-  return names + " " + parameters_text(*styles[0]) +
+  return names_text(Family::style, GoesWith::classic) + " " +
+         parameters_text(*sub_models(Family::style, GoesWith::classic)[0]) +
          " [limit_damping] mesh FILE [keywords], or granular NORMAL ... mesh FILE [keywords]";
 }
 

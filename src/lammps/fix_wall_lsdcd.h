@@ -96,11 +96,12 @@ class FixWallLsdcd : public Fix {
   bigint set_up_at = -1;           // the step in which a run was set up
   bool callbacks = false;          // registered with Atom
   bool springs_checked = false;    // against this mesh: they may come from a restart file
-  int kind_in_file = -1;           // ContactLaw::history_kind()
-  bigint other_law = 0;            // atoms of that file with springs of another law
-  int room = 0;                    // this wall's part of maxexchange
-  bool running = false;            // between start and collect
-  int nlevels_respa = 0;           // 0 under verlet
+  // Springs of the restart file: is ContactLaw::history_kind() that of this law?
+  bool springs_mean_same = false;
+  bigint other_law = 0;     // atoms of that file with springs of another law
+  int room = 0;             // this wall's part of maxexchange
+  bool running = false;     // between start and collect
+  int nlevels_respa = 0;    // 0 under verlet
 
   bool adapts = false;    // some fix changes radii: a step begins in post_force
   bool rigid = false;     // some rigid fix holds atoms: mass_seen replaces rmass

@@ -138,8 +138,7 @@ void FixWallLsdcd::unpack_restart(int i, int nth)
   // Another law of the file's fix may have kept other numbers for each contact, and this one none.
   const int count = static_cast<int>(extra[1]), size = static_cast<int>(extra[0]);
   if (count == 0) return;
-  const bool mine = kind_in_file == settings.law.history_kind();
-  if (!history || !mine || size != 2 + count * springs.doubles_per_spring()) {
+  if (!history || !springs_mean_same || size != 2 + count * springs.doubles_per_spring()) {
     other_law++;
     return;
   }

@@ -79,7 +79,7 @@ void FixWallLsdcd::restart(char *buffer)
     fatal("the restart file was written by another version of this fix, whose data it cannot read: "
           "go on with that version, or give the fix another ID to begin without springs, motion, "
           "loads and wear");
-  kind_in_file = static_cast<int>(take(1)[0]);
+  springs_mean_same = take(1)[0] == settings.law.history_kind();
   run_clock.base = take(1)[0];
   const std::size_t there = static_cast<std::size_t>(take(1)[0]);
   for (std::size_t k = 0; k < std::min(there, parts.size()); k++) {

@@ -221,6 +221,14 @@ std::vector<const SubModel *> sub_models(Family family, GoesWith with)
   return rows;
 }
 
+std::string names_text(Family family, GoesWith with)
+{
+  std::string names;
+  for (const SubModel *row : sub_models(family, with))
+    names += (names.empty() ? "" : "|") + std::string(row->name);
+  return names;
+}
+
 const char *family_word(Family family)
 {
   const char *const words[] = {"",        "",         "damping", "tangential",

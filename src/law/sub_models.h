@@ -23,9 +23,9 @@ struct Parameter {
 
 // What a contact keeps from step to step.
 struct Kept {
-  const char *what =
-      nullptr;             // null: nothing. Equal words are the same numbers to a restart file
-  int beside_shear = 0;    // how many numbers beside the shear displacement
+  // Null: nothing. Equal words are the same numbers to a restart file.
+  const char *what = nullptr;
+  int beside_shear = 0;            // how many numbers beside the shear displacement
   const char *effect = nullptr;    // how the log calls what they are for, where it is not the row's
 };
 
@@ -33,9 +33,9 @@ struct Kept {
 struct LawDraft {
   ContactLaw law;
   const char *normal_name = "", *damping_name = "viscoelastic";
-  Real young = 0,
-       poisson = 0;    // of normal sub-models with material constants; young 0: not given
-  Real second = 0;     // eta or e, the second number of the normal sub-model
+  // Of normal sub-models with material constants; young 0: not given.
+  Real young = 0, poisson = 0;
+  Real second = 0;    // eta or e, the second number of the normal sub-model
 };
 
 // With which styles a sub-model goes.
@@ -57,6 +57,9 @@ struct SubModel {
 
 const std::vector<SubModel> &sub_models();
 std::vector<const SubModel *> sub_models(Family family, GoesWith with);
+
+// Their names: "none|sds".
+std::string names_text(Family family, GoesWith with);
 
 // The words of a family in scripts: "tangential"; empty for style and normal.
 const char *family_word(Family family);

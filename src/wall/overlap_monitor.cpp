@@ -54,8 +54,8 @@ void OverlapMonitor::check_sunk(Real worst)
 // What inserts spheres numbers them on from the highest tag that there is.
 void OverlapMonitor::check_new(const StepDiagnostics &seen, std::int64_t step, bool goes_on)
 {
-  Real highest = static_cast<Real>(
-      host_.highest_tag());    // exact below 2^53, as LAMMPS's IDs are but in a BIGBIG build
+  // Exact below 2^53. Larger IDs, which only a BIGBIG build has, could take a new sphere for an old one.
+  Real highest = static_cast<Real>(host_.highest_tag());
   std::int64_t tag = seen.deepest > kLarge ? host_.tag(seen.deepest_sphere) : 0;
   const bool is_new = tag > highest_tag_ && !(highest_tag_ < 0 && goes_on);
   Real most = is_new ? seen.deepest : 0;

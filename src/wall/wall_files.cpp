@@ -1,7 +1,7 @@
 #include "wall/wall_files.h"
 
-#include "base/input_error.h"
 #include "base/atomic_file.h"
+#include "base/input_error.h"
 #include "output/mesh_fields.h"
 #include "output/mesh_stl.h"
 #include "wall/mesh_name.h"
