@@ -55,11 +55,12 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
 {
 #if LSDCD_DEVICE_EXCHANGE
-  if (springs_are == Where::engine) {
+  if (history->is_with_engine()) {
     // One more for the offset of an atom's numbers in the message. A process on its own packs
     // hardly any atom, those that leave a fixed box, and need not look at all of them.
-    int largest = 1 + (comm->nprocs > 1 ? in_place().largest_packed_size(n_with_springs)
-                                        : in_place().most_packed_size());
+    int largest =
+        1 + (comm->nprocs > 1 ? in_place().largest_packed_size(history->spheres_of_engine())
+                              : in_place().most_packed_size());
     MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
     ask_for_room(largest);
     return;
@@ -119,7 +120,7 @@ void FixWallLsdcdKokkos<DeviceType>::start()
   if (cutoff() == 0) return;
   atomKK->sync(execution_space,
                X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK);
-  if (history) in_place().grow(atom->nmax);
+  if (history->is_kept()) in_place().grow(atom->nmax);
   in_place().ready();
   running = true;
   begun = false;

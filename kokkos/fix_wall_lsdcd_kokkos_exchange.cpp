@@ -10,7 +10,7 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::grow_arrays(int nmax)
 {
   FixWallLsdcd::grow_arrays(nmax);
-  if (springs_are == Where::engine) in_place().grow(nmax);
+  if (history->is_with_engine()) in_place().grow(nmax);
 }
 
 #if LSDCD_DEVICE_EXCHANGE
@@ -19,7 +19,7 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::springs_to_device()
 {
   in_place().grow(atom->nmax);
-  springs_to_engine();
+  history->to_engine(atom->nlocal);
 }
 
 // Atoms on a GPU whose messages leave from the host.
@@ -94,7 +94,7 @@ int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
   const int *comes = from.template view<DeviceType>().data();
   double *at = buffer.template view<DeviceType>().data();
   int size = pack_rows(n, leaves, comes, at);
-  if (history) {
+  if (history->is_kept()) {
     springs_to_device();
     size += in_place().pack(n, leaves, comes, at + size);
   }
@@ -120,10 +120,10 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffe
   const int n_second = n - n_first, rows = n_first * row_size();
   unpack_rows(n_first, places, at);
   if (n_second > 0) unpack_rows(n_second, places + n_first, at + second);
-  if (!history) return;
+  if (!history->is_kept()) return;
   springs_to_device();
   in_place().unpack(n, places, at + rows, n_first, second + n_second * row_size() - rows);
-  n_with_springs = std::max(n_with_springs, atom->nlocal);
+  history->set_spheres_of_engine(std::max(history->spheres_of_engine(), atom->nlocal));
 }
 
 template <class DeviceType>
@@ -137,7 +137,7 @@ void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, Bi
     for (int i = 0; i < n; i++)
       std::copy_n(rows.data() + std::size_t(from[i]) * size, size, array_atom[i]);
   }
-  if (!history) return;
+  if (!history->is_kept()) return;
   springs_to_device();
   using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
   sorter.sort(LMPDeviceType(), Ints(in_place().first_spring(), atom->nlocal));

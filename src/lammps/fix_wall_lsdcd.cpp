@@ -67,6 +67,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     settings.law.cohesion.numbers[0] /= force->nktv2p;    // sjkr's; a pressure
     run_clock = {update->atime + (update->ntimestep - update->atimestep) * update->dt,
                  update->ntimestep, update->ntimestep, update->dt};
+    history = std::make_unique<lsdcd::ContactHistory>(host, settings);
     for (std::size_t k = 0; k < settings.meshes.size(); k++) {
       MeshPart &m = parts.emplace_back(world, host, settings, static_cast<int>(k), step_now());
       check_side(m);
@@ -79,16 +80,14 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     fatal(e.what());
   }
 
-  history = settings.law.has_history();
-  springs = lsdcd::SpringStore(settings.law.n_extra());
   records = settings.has_loads();
   loads = std::make_unique<lsdcd::LoadRecorder>(host, settings);
   wall_files = std::make_unique<lsdcd::WallFiles>(host, settings, force->nktv2p);
   restart_global = 1;
   if (wall_files->every() > 0) nevery = wall_files->every();
-  create_attribute = history || settings.contacts;
-  restart_peratom = history;
-  maxexchange_dynamic = history || settings.contacts;
+  create_attribute = history->is_kept() || settings.contacts;
+  restart_peratom = history->is_kept();
+  maxexchange_dynamic = history->is_kept() || settings.contacts;
   dynamic_group_allow = 1;
 
   scalar_flag = vector_flag = 1;
@@ -127,11 +126,11 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
          "blend, or one mesh of all triangles");
 
   // Last: Atom would call a fix that was refused after this.
-  if (history || settings.contacts) {
+  if (history->is_kept() || settings.contacts) {
     FixWallLsdcd::grow_arrays(atom->nmax);
     for (int i = 0; i < atom->nlocal; i++) FixWallLsdcd::set_arrays(i);
     atom->add_callback(Atom::GROW);
-    if (history) atom->add_callback(Atom::RESTART);
+    if (history->is_kept()) atom->add_callback(Atom::RESTART);
     callbacks = true;
     ask_for_most_room();
   }
@@ -141,7 +140,7 @@ FixWallLsdcd::~FixWallLsdcd()
 {
   if (callbacks) {
     atom->delete_callback(id, Atom::GROW);
-    if (history) atom->delete_callback(id, Atom::RESTART);
+    if (history->is_kept()) atom->delete_callback(id, Atom::RESTART);
   }
   memory->destroy(array_atom);
   delete[] extlist;
@@ -194,7 +193,7 @@ void FixWallLsdcd::setup(int vflag)
   rerun = watch.sees_snapshot(*update);
   if (rerun) begin_snapshot();
   prepare_springs();
-  if (!springs_checked) check_springs();
+  if (!history->is_checked()) check_springs();
   if (callbacks) ask_for_most_room();
 
   Respa *respa = reinterpret_cast<Respa *>(update->integrate);
@@ -220,15 +219,14 @@ void FixWallLsdcd::pre_exchange()
 {
   poll_diagnostics();
   check_wrapping();
-  if (history) make_exchange_room();
+  if (history->is_kept()) make_exchange_room();
 }
 
 // An atom that arrives may leave again in the next direction: room for the
 // largest of all processes.
 void FixWallLsdcd::make_exchange_room()
 {
-  springs_to_host();
-  int largest = springs.largest_packed_size();
+  int largest = springs_on_host().largest_packed_size();
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
   ask_for_room(1 + largest);    // and its offset, which messages of Kokkos tell
 }

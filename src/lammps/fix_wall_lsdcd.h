@@ -9,6 +9,7 @@
 #include "lammps/mesh_part.h"
 #include "lammps/rerun_watch.h"
 #include "wall/choice_schedule.h"
+#include "wall/contact_history.h"
 #include "wall/overlap_monitor.h"
 #include "wall/search_report.h"
 #include "wall/time_report.h"
@@ -80,28 +81,20 @@ class FixWallLsdcd : public Fix {
   std::deque<MeshPart> parts;      // where each stays; there is one at least
   EngineMaker *const new_engine;
   std::unique_ptr<lsdcd::WallEngine> engine;
-  lsdcd::SpringStore springs;
-  bool history, records;
+  std::unique_ptr<lsdcd::ContactHistory> history;
+  bool records = false;
   std::unique_ptr<lsdcd::LoadRecorder> loads;
   std::unique_ptr<lsdcd::WallFiles> wall_files;
   bool continued = false;    // from a restart file
-  // Springs are with the engine from step to step, and here where LAMMPS moves atoms.
-  enum class Where { host, engine };
-  Where springs_are = Where::host;
-  int n_with_springs = 0;    // atoms whose springs are with the engine
   lsdcd::ChoiceSchedule schedule;
   RerunWatch watch;
-  bool rerun = false;              // this is a snapshot of one
-  bool rerun_told = false;         // what is not known there
-  bigint set_up_at = -1;           // the step in which a run was set up
-  bool callbacks = false;          // registered with Atom
-  bool springs_checked = false;    // against this mesh: they may come from a restart file
-  // Springs of the restart file: is ContactLaw::history_kind() that of this law?
-  bool springs_mean_same = false;
-  bigint other_law = 0;     // atoms of that file with springs of another law
-  int room = 0;             // this wall's part of maxexchange
-  bool running = false;     // between start and collect
-  int nlevels_respa = 0;    // 0 under verlet
+  bool rerun = false;         // this is a snapshot of one
+  bool rerun_told = false;    // what is not known there
+  bigint set_up_at = -1;      // the step in which a run was set up
+  bool callbacks = false;     // registered with Atom
+  int room = 0;               // this wall's part of maxexchange
+  bool running = false;       // between start and collect
+  int nlevels_respa = 0;      // 0 under verlet
 
   bool adapts = false;    // some fix changes radii: a step begins in post_force
   bool rigid = false;     // some rigid fix holds atoms: mass_seen replaces rmass
@@ -160,9 +153,9 @@ class FixWallLsdcd : public Fix {
   lsdcd::StepDiagnostics read_notes();
   void poll_diagnostics();
   void check_new_spheres();
+  lsdcd::SpringStore &springs_on_host();
+  lsdcd::FeatureCode without_image(int, lsdcd::FeatureCode) const;    // of a mesh
   void prepare_springs();
-  void springs_to_host();
-  void springs_to_engine();
   void fill_contacts();
   void reduce_totals();
   void clear_outputs();

@@ -40,13 +40,14 @@ void FixWallLsdcd::make_engine()
   engine_moves = want.moves;
   engine_records = want.records;
   lsdcd::run_collectively(world, true, [&] { engine = new_engine(want); });
+  history->set_engine(*engine);
 }
 
 // For other settings, with the springs that there are.
 void FixWallLsdcd::make_engine_anew()
 {
   if (cutoff() > 0) poll_diagnostics();
-  springs_to_host();
+  springs_on_host();
   make_engine();
   for (const MeshPart &m : parts)
     if (cutoff() > 0) give_grid(m);
@@ -117,15 +118,12 @@ void FixWallLsdcd::rebuild(double wanted)
   for (MeshPart &m : parts)
     if (wanted != old || !m.wall.fits(m.box_seen(simulation_box()))) anew.push_back(&m);
   if (old > 0) {
-    springs_to_host();
+    springs_on_host();
     // Images get other numbers: a spring on one goes to what that is an image of.
-    for (const MeshPart *m : anew) {
-      const lsdcd::WallFeaturesView features = m->wall.view().wall;
-      if (history && m->wall.has_images())
-        springs.rename_features([&](int mesh, lsdcd::FeatureCode f) {
-          return mesh == m->index ? lsdcd::own_feature(features, f) : f;
-        });
-    }
+    for (const MeshPart *m : anew)
+      history->rename_features([&](int mesh, lsdcd::FeatureCode f) {
+        return mesh == m->index ? without_image(mesh, f) : f;
+      });
   }
   for (const MeshPart *m : anew) check_box(*m, wanted);
   try {

@@ -206,23 +206,8 @@ void FixWallLsdcd::check_timestep()
 // the law that it was written with keeps. Collective: not every process has such atoms.
 void FixWallLsdcd::check_springs()
 {
-  springs_checked = true;
-  const auto has = [this](const lsdcd::Spring &s) {
+  history->check_restored(atom->nlocal, [this](const lsdcd::Spring &s) {
     return s.mesh < parts.size() && !parts[s.mesh].springs_are_foreign &&
            parts[s.mesh].wall.has(s.feature);
-  };
-  bigint lost[2] = {0, other_law};
-  for (int i = 0; history && i < atom->nlocal; i++)
-    for (int k = 0; k < springs.count(i); k++)
-      if (!has(springs.of(i)[k])) {
-        lost[0]++;
-        springs.clear(i);
-        break;
-      }
-  MPI_Allreduce(MPI_IN_PLACE, lost, 2, MPI_LMP_BIGINT, MPI_SUM, world);
-  const char *const file[] = {"was written with another mesh",
-                              "was written with another contact law"};
-  for (int k = 0; k < 2; k++)
-    if (lost[k])
-      warn(std::to_string(lost[k]) + " atoms lose their springs: the restart file " + file[k]);
+  });
 }

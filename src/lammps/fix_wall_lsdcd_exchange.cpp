@@ -3,8 +3,6 @@
 
 #include "lammps/fix_wall_lsdcd.h"
 
-#include "engine/step/law_job.h"
-
 #include "atom.h"
 #include "memory.h"
 #include "modify.h"
@@ -13,31 +11,26 @@
 
 using namespace LAMMPS_NS;
 
-void FixWallLsdcd::springs_to_host()
+lsdcd::SpringStore &FixWallLsdcd::springs_on_host()
 {
-  if (!history || springs_are == Where::host) return;
-  engine->springs_to(springs, n_with_springs);
-  springs.grow(atom->nmax);
-  springs_are = Where::host;
+  return history->on_host(atom->nmax);
 }
 
-void FixWallLsdcd::springs_to_engine()
+lsdcd::FeatureCode FixWallLsdcd::without_image(int mesh, lsdcd::FeatureCode feature) const
 {
-  if (springs_are == Where::engine) return;
-  engine->springs_from(springs, atom->nlocal);
-  n_with_springs = atom->nlocal;
-  springs_are = Where::engine;
+  const lsdcd::SharedWall &wall = parts[mesh].wall;
+  return wall.has_images() ? lsdcd::own_feature(wall.view().wall, feature) : feature;
 }
 
 // Springs of a restart file are checked on the host.
 void FixWallLsdcd::prepare_springs()
 {
-  if (!springs_checked) springs_to_host();
+  if (!history->is_checked()) springs_on_host();
 }
 
 void FixWallLsdcd::grow_arrays(int nmax)
 {
-  if (history) springs.grow(nmax);
+  if (history->is_kept() && !history->is_with_engine()) springs_on_host().grow(nmax);
   if (settings.contacts)
     memory->grow(array_atom, nmax, size_peratom_cols, "fix_wall_lsdcd:array_atom");
 }
@@ -46,30 +39,26 @@ void FixWallLsdcd::grow_arrays(int nmax)
 // were deleted or displaced.
 void FixWallLsdcd::copy_arrays(int i, int j, int /*delflag*/)
 {
-  springs_to_host();
-  if (history) springs.copy(i, j);
+  if (history->is_kept()) springs_on_host().copy(i, j);
   if (settings.contacts) std::copy_n(array_atom[i], size_peratom_cols, array_atom[j]);
 }
 
 void FixWallLsdcd::set_arrays(int i)
 {
-  springs_to_host();
-  if (history) springs.clear(i);
+  if (history->is_kept()) springs_on_host().clear(i);
   if (settings.contacts) std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
 }
 
 int FixWallLsdcd::pack_exchange(int i, double *buf)
 {
-  springs_to_host();
-  const int n = history ? springs.pack(i, buf) : 0;
+  const int n = history->is_kept() ? springs_on_host().pack(i, buf) : 0;
   if (settings.contacts) std::copy_n(array_atom[i], size_peratom_cols, buf + n);
   return n + row_size();
 }
 
 int FixWallLsdcd::unpack_exchange(int i, double *buf)
 {
-  springs_to_host();
-  const int n = history ? springs.unpack(i, buf) : 0;
+  const int n = history->is_kept() ? springs_on_host().unpack(i, buf) : 0;
   if (settings.contacts) std::copy_n(buf + n, size_peratom_cols, array_atom[i]);
   return n + row_size();
 }
@@ -96,21 +85,19 @@ void FixWallLsdcd::ask_for_room(int springs_take)
 // the pre_exchange() of a fix before this one. No sphere has more contacts than this.
 void FixWallLsdcd::ask_for_most_room()
 {
-  ask_for_room(history ? 2 + springs.doubles_per_spring() * lsdcd::kMostContacts : 0);
+  ask_for_room(history->is_kept() ? 1 + history->max_packed_size() : 0);
 }
 
 // In restart files the first number is the size, by which other fixes skip it.
 int FixWallLsdcd::size_restart(int i)
 {
-  springs_to_host();
-  return 1 + springs.packed_size(i);
+  return 1 + springs_on_host().packed_size(i);
 }
 
 // Of all processes: LAMMPS writes what the first one says, and makes rows that wide. Collective.
 int FixWallLsdcd::maxsize_restart()
 {
-  springs_to_host();
-  int largest = 1 + springs.largest_packed_size();
+  int largest = 1 + springs_on_host().largest_packed_size();
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
   return largest;
 }
@@ -118,29 +105,17 @@ int FixWallLsdcd::maxsize_restart()
 // The images of another run may have other numbers.
 int FixWallLsdcd::pack_restart(int i, double *buf)
 {
-  springs_to_host();
-  buf[0] = size_restart(i);
-  springs.pack(i, buf + 1);
-  for (int k = 0; cutoff() > 0 && k < springs.count(i); k++) {
-    lsdcd::Spring s = springs.of(i)[k];
-    const lsdcd::SharedWall &wall = parts[s.mesh].wall;
-    if (wall.has_images()) s.feature = lsdcd::own_feature(wall.view().wall, s.feature);
-    buf[2 + k * springs.doubles_per_spring()] = lsdcd::packed_place(s);
-  }
+  springs_on_host();
+  buf[0] = 1 + history->pack_restart(i, buf + 1, [this](int mesh, lsdcd::FeatureCode feature) {
+    return cutoff() > 0 ? without_image(mesh, feature) : feature;
+  });
   return static_cast<int>(buf[0]);
 }
 
 void FixWallLsdcd::unpack_restart(int i, int nth)
 {
-  springs_to_host();
   const double *extra = atom->extra[i];
   for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
-  // Another law of the file's fix may have kept other numbers for each contact, and this one none.
-  const int count = static_cast<int>(extra[1]), size = static_cast<int>(extra[0]);
-  if (count == 0) return;
-  if (!history || !springs_mean_same || size != 2 + count * springs.doubles_per_spring()) {
-    other_law++;
-    return;
-  }
-  springs.unpack(i, extra + 1);
+  springs_on_host();
+  history->unpack_restart(i, extra + 1, static_cast<int>(extra[0]) - 1);
 }

@@ -79,7 +79,7 @@ void FixWallLsdcd::restart(char *buffer)
     fatal("the restart file was written by another version of this fix, whose data it cannot read: "
           "go on with that version, or give the fix another ID to begin without springs, motion, "
           "loads and wear");
-  springs_mean_same = take(1)[0] == settings.law.history_kind();
+  history->set_kind_of_file(take(1)[0]);
   run_clock.base = take(1)[0];
   const std::size_t there = static_cast<std::size_t>(take(1)[0]);
   for (std::size_t k = 0; k < std::min(there, parts.size()); k++) {

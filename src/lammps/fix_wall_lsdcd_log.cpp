@@ -51,7 +51,7 @@ void FixWallLsdcd::log_creation() const
   }
   t += "\n  effects     " + effects;
   t += "\n  per atom    ";
-  if (history)
+  if (history->is_kept())
     t += "8 bytes, and per contact " + std::to_string(sizeof(lsdcd::Spring)) +
          " for its spring and place" + kept + ", which move and restart with the atom";
   else

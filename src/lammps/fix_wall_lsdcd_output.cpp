@@ -120,9 +120,9 @@ void FixWallLsdcd::fill_contacts()
 
 double FixWallLsdcd::memory_usage()
 {
-  double bytes = engine->bytes() + loads->bytes() + mass_seen.capacity() * sizeof(double);
+  double bytes =
+      engine->bytes() + loads->bytes() + history->bytes() + mass_seen.capacity() * sizeof(double);
   for (const MeshPart &m : parts) bytes += m.wall.bytes();
-  if (history) bytes += springs.bytes();
   if (settings.contacts) bytes += (double) atom->nmax * size_peratom_cols * sizeof(double);
   return bytes;
 }

@@ -18,11 +18,10 @@ void FixWallLsdcd::begin_snapshot()
   } catch (const lsdcd::InputError &e) {
     fatal(e.what());
   }
-  springs_to_host();
-  for (int i = 0; history && i < atom->nlocal; i++) springs.clear(i);
+  for (int i = 0; history->is_kept() && i < atom->nlocal; i++) springs_on_host().clear(i);
   if (rerun_told) return;
   rerun_told = true;
-  if (history)
+  if (history->is_kept())
     warn("a rerun does not know the springs of contacts, which no dump has: friction, rolling, "
          "twisting and adhesion past touch begin at 0 in each snapshot");
   if (settings.has_loads())

@@ -62,7 +62,7 @@ lsdcd::SphereDrift FixWallLsdcd::sphere_drift() const
 
 void FixWallLsdcd::choose_if_due(const lsdcd::Spheres &s)
 {
-  if (history) springs_to_engine();
+  history->to_engine(atom->nlocal);
   std::vector<lsdcd::MovingMesh> moving;
   for (const MeshPart &m : parts)
     if (m.settings.motion.any()) moving.push_back({m.motion.pose(), m.bounds(cutoff())});
@@ -108,7 +108,7 @@ void FixWallLsdcd::collect()
     }
     times.end(waits ? lsdcd::TimeReport::waiting : lsdcd::TimeReport::forces);
     running = false;
-    n_with_springs = atom->nlocal;
+    history->set_spheres_of_engine(atom->nlocal);
     search.count_step(update->setupflag);
   }
   keep_outputs();

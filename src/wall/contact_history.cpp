@@ -1,0 +1,79 @@
+#include "wall/contact_history.h"
+
+#include "engine/step/law_job.h"
+
+#include <string>
+
+namespace lsdcd {
+
+SpringStore &ContactHistory::on_host(int room)
+{
+  if (with_engine_) {
+    engine_->springs_to(springs_, n_with_engine_);
+    springs_.grow(room);
+    with_engine_ = false;
+  }
+  return springs_;
+}
+
+void ContactHistory::to_engine(int n)
+{
+  if (with_engine_ || !is_kept()) return;
+  engine_->springs_from(springs_, n);
+  n_with_engine_ = n;
+  with_engine_ = true;
+}
+
+int ContactHistory::max_packed_size() const
+{
+  return is_kept() ? 1 + springs_.doubles_per_spring() * kMostContacts : 0;
+}
+
+int ContactHistory::pack_restart(int i, double *buffer, const FeatureName &name) const
+{
+  const int size = springs_.pack(i, buffer);
+  for (int k = 0; k < springs_.count(i); k++) {
+    Spring s = springs_.of(i)[k];
+    s.feature = name(static_cast<int>(s.mesh), s.feature);
+    buffer[1 + k * springs_.doubles_per_spring()] = packed_place(s);
+  }
+  return size;
+}
+
+// Another law may have kept other numbers for each contact, and this one none.
+void ContactHistory::unpack_restart(int i, const double *buffer, int size)
+{
+  const int count = static_cast<int>(buffer[0]);
+  if (count == 0) return;
+  if (!is_kept() || !kind_is_ours_ || size != 1 + count * springs_.doubles_per_spring())
+    other_law_++;
+  else
+    springs_.unpack(i, buffer);
+}
+
+void ContactHistory::check_restored(int n, const std::function<bool(const Spring &)> &is_there)
+{
+  checked_ = true;
+  Real lost[2] = {0, static_cast<Real>(other_law_)};
+  for (int i = 0; is_kept() && i < n; i++)
+    for (int k = 0; k < springs_.count(i); k++)
+      if (!is_there(springs_.of(i)[k])) {
+        lost[0]++;
+        springs_.clear(i);
+        break;
+      }
+  host_.sum(lost, 2);
+  const char *const file[] = {"was written with another mesh",
+                              "was written with another contact law"};
+  for (int k = 0; k < 2; k++)
+    if (lost[k] > 0)
+      host_.warn(std::to_string(static_cast<std::int64_t>(lost[k])) +
+                 " atoms lose their springs: the restart file " + file[k]);
+}
+
+void ContactHistory::rename_features(const FeatureName &name)
+{
+  if (is_kept()) springs_.rename_features(name);
+}
+
+}    // namespace lsdcd

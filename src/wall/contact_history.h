@@ -1,0 +1,73 @@
+// What contacts keep from step to step: with the engine in steps, on the host where spheres move.
+#pragma once
+
+#include "contact/spring_store.h"
+#include "engine/wall_engine.h"
+#include "input/settings.h"
+#include "wall/host.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+namespace lsdcd {
+
+// Spheres are counted from 0, in the order of the host. Where the law keeps nothing, nothing is moved,
+// packed or asked of the engine.
+class ContactHistory {
+ public:
+  // Both must outlive it. The numbers that a contact keeps are those of wall.law.
+  ContactHistory(Host &host, const WallSettings &wall) :
+      host_(host), law_(wall.law), springs_(wall.law.n_extra())
+  {
+  }
+
+  bool is_kept() const { return law_.has_history(); }
+
+  // The engine of the steps from now on. What another had must be on the host.
+  void set_engine(WallEngine &engine) { engine_ = &engine; }
+
+  // Of the spheres of this process, on the host from now on, with room for `room` spheres.
+  SpringStore &on_host(int room);
+  // The history of the n spheres of this process goes to the engine, if it is not there.
+  void to_engine(int n);
+  bool is_with_engine() const { return with_engine_; }
+  // The engine has the history of the first n spheres of the host.
+  void set_spheres_of_engine(int n) { n_with_engine_ = n; }
+  int spheres_of_engine() const { return n_with_engine_; }
+
+  // Numbers that one sphere has in a message or a file, at most.
+  int max_packed_size() const;
+
+  // The name that a feature of a mesh gets.
+  using FeatureName = std::function<FeatureCode(int mesh, FeatureCode feature)>;
+  void rename_features(const FeatureName &name);    // on the host
+
+  // Restart files; with the history on the host. They tell the kind of history that they have
+  // (ContactLaw::history_kind()).
+  // Features are written with the names that `name` gives them. Returns the numbers written.
+  int pack_restart(int i, double *buffer, const FeatureName &name) const;
+  // Before the first sphere is unpacked.
+  void set_kind_of_file(double kind) { kind_is_ours_ = kind == law_.history_kind(); }
+  // `size` numbers of one sphere. What another law wrote is not taken, but counted.
+  void unpack_restart(int i, const double *buffer, int size);
+  // Drops the history of spheres that name a feature which is not there, and warns of these and of those
+  // of another law. Of the first n spheres; looks once. Collective.
+  void check_restored(int n, const std::function<bool(const Spring &)> &is_there);
+  bool is_checked() const { return checked_; }
+
+  std::size_t bytes() const { return is_kept() ? springs_.bytes() : 0; }
+
+ private:
+  Host &host_;
+  const ContactLaw &law_;
+  WallEngine *engine_ = nullptr;
+  SpringStore springs_;
+  bool with_engine_ = false;
+  int n_with_engine_ = 0;
+  bool checked_ = false;
+  bool kind_is_ours_ = false;
+  std::int64_t other_law_ = 0;    // spheres of the restart file with springs of another law
+};
+
+}    // namespace lsdcd
