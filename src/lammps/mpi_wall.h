@@ -31,7 +31,7 @@ class SharedWall {
   bool fits(const PeriodicBox &box) const;
   static constexpr Real kBoxTolerance = 1e-4;
 
-  bool has_images() const { return view().wall.same_vertex; }
+  bool has_images() const { return view().wall.images.same_vertex; }
   // No sphere in the box can touch the wall.
   bool out_of_reach() const { return cells_ == 0; }
 
