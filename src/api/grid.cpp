@@ -4,7 +4,7 @@
 #include "api/objects.h"
 #include "base/input_words.h"
 #include "engine/wall_engine.h"
-#include "grid/cache/grid_cache.h"
+#include "grid/cache/load_or_build.h"
 
 #include <cmath>
 
@@ -45,61 +45,19 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   return s;
 }
 
-// The grid and its report, from the cache where that has it.
-class CachedGridBuild {
+// Memory of this process.
+class OwnPlace : public GridPlace {
  public:
-  CachedGridBuild(ApiGrid &grid, const WallMesh &mesh, const GridSettings &settings, bool on_cuda) :
-      grid_(grid), mesh_(mesh), settings_(settings), on_cuda_(on_cuda)
-  {
-  }
+  explicit OwnPlace(FlatGrid &grid) : grid_(grid) {}
 
-  void without_cache()
+  char *allocate(std::size_t bytes) override
   {
-    const TriangleGrid made = build_grid(mesh_, settings_, on_cuda_);
-    grid_.flat = FlatGrid(made);
-    report_ = made.report;
-    grid_.report = describe(report_);
-  }
-  void with_cache(const std::string &file)
-  {
-    const GridKey key = grid_key(mesh_, settings_);
-    CachedGrid cached(file, key);
-    if (cached.state() == CacheState::usable) {
-      FlatGrid read(cached.block_bytes());
-      if (cached.read(read.block())) {
-        grid_.flat = std::move(read);
-        grid_.from_cache = true;
-        grid_.report =
-            describe(cached.report()) + "\n  not built now, read from cache '" + file + "'";
-        return;
-      }
-    }
-    without_cache();
-    grid_.report += "\n  " + keep(file, key, cached);
+    grid_ = FlatGrid(bytes);
+    return grid_.block();
   }
 
  private:
-  // A cache that cannot be written costs a line of the report, no more.
-  std::string keep(const std::string &file, const GridKey &key, const CachedGrid &cached)
-  {
-    const std::string name = "cache '" + file + "' ";
-    if (cached.state() == CacheState::foreign)
-      return name + cached.problem() + "; it is left as it is and the grid is not kept";
-    try {
-      const GridView view = grid_.flat.view();
-      write_grid_cache(file, key, report_, view.block, grid_.flat.bytes());
-    } catch (const InputError &e) {
-      return "the grid is not kept: cache " + std::string(e.what());
-    }
-    if (cached.state() == CacheState::missing) return "written to " + name;
-    return name + cached.problem() + "; the grid was built and the file replaced";
-  }
-
-  ApiGrid &grid_;
-  const WallMesh &mesh_;
-  const GridSettings &settings_;
-  bool on_cuda_;
-  GridReport report_;
+  FlatGrid &grid_;
 };
 
 }    // namespace
@@ -119,11 +77,13 @@ int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, 
       throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why + "; build with LSDCD_CPU");
     const CallThreads threads(o.threads);
     auto made = std::make_shared<ApiGrid>(from.mesh);
-    CachedGridBuild making(*made, from.mesh, settings, o.device == LSDCD_CUDA);
-    if (o.cache && *o.cache)
-      making.with_cache(o.cache);
-    else
-      making.without_cache();
+    OwnPlace place(made->flat);
+    const LoadedGrid loaded = load_or_build_grid(o.cache ? o.cache : "", from.mesh, settings,
+                                                 o.device == LSDCD_CUDA, place);
+    made->from_cache = loaded.from_cache;
+    made->report = describe(loaded.report);
+    for (const std::string &line : {loaded.cache_warning, loaded.cache_text})
+      if (!line.empty()) made->report += "\n  " + line;
     made->grid = HostGrid(made->flat.view());
     made->has_sides = settings.sides && made->grid.view.outside != 0;
     if (settings.sides && !made->has_sides)

@@ -17,7 +17,7 @@
 #include "bodies/subdivide.h"
 #include "geometry/primitive_distance.h"
 #include "grid/build/meets.h"
-#include "grid/triangle_grid.h"
+#include "grid/lookup/locate.h"
 
 namespace lsdcd {
 

@@ -40,9 +40,9 @@ LSDCD_FN bool are_adjacent(const WallFeaturesView &wall, FeatureCode a, FeatureC
 {
   std::int32_t va[3], vb[3];
   const int na = feature_vertices(wall, a, va), nb = feature_vertices(wall, b, vb);
-  if (wall.same_vertex) {
-    for (int i = 0; i < na; i++) va[i] = wall.same_vertex[va[i]];
-    for (int j = 0; j < nb; j++) vb[j] = wall.same_vertex[vb[j]];
+  if (wall.images.same_vertex) {
+    for (int i = 0; i < na; i++) va[i] = wall.images.same_vertex[va[i]];
+    for (int j = 0; j < nb; j++) vb[j] = wall.images.same_vertex[vb[j]];
   }
   for (int i = 0; i < na; i++)
     for (int j = 0; j < nb; j++)

@@ -2,13 +2,12 @@
 #pragma once
 
 #include "base/input_error.h"
-#include "engine/step/compiled_law.h"
 #include "engine/choose/near_wall.h"
 #include "engine/resident_springs.h"
-#include "engine/step_list_store.h"
 #include "engine/results/sphere_error.h"
-#include "engine/results/step_notes.h"
-#include "engine/results/step_results.h"
+#include "engine/step/compiled_law.h"
+#include "engine/step_list_store.h"
+#include "engine/step_results.h"
 
 #include <string>
 #include <utility>
@@ -159,7 +158,7 @@ class EngineOn : public InPlaceEngine {
   std::size_t bytes() const override
   {
     return wall_.bytes() + springs_.bytes() + results_.bytes() + next_results_.bytes() +
-           lanes_.size() * sizeof(Lane) + step_lists_.bytes();
+           lanes_.size() * sizeof(Lane) + step_lists_.bytes() + works_.size() * sizeof(MeshWork);
   }
 
   B &backend_now() { return b_; }
@@ -186,6 +185,19 @@ class EngineOn : public InPlaceEngine {
     b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { counts->shared_used[pool] = 0; });
   }
 
+  // What the next step needs of all meshes, without waiting.
+  const MeshWork *put_works()
+  {
+    const std::size_t n = wall_.n_meshes();
+    if (works_.size() < n) works_ = Array<MeshWork>(n);
+    MeshWork *to = works_.data();
+    for (int m = 0; m < wall_.n_meshes(); m++, to++) {
+      const MeshWork work = mesh_work(m);
+      b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = work; });
+    }
+    return works_.data();
+  }
+
   // What has been counted since the host looked.
   void clear_diagnostics(const StepCounts &seen)
   {
@@ -202,6 +214,12 @@ class EngineOn : public InPlaceEngine {
   }
 
  private:
+  MeshWork mesh_work(int m) const
+  {
+    const EngineMesh<B> &mesh = wall_.mesh(m);
+    return {mesh.grid.view, force_settings(settings_, step_, mesh.pose, m)};
+  }
+
   // `adds_later`: forces are left to the results.
   void run(StepResults<B> &results, bool adds_later)
   {
@@ -211,7 +229,7 @@ class EngineOn : public InPlaceEngine {
                   may_miss_any(wall_.mesh(0).grid.view), adds_later,
                   several ? &wall_.slots() : nullptr);
     if (n == 0) return;
-    const MeshWork work = wall_.mesh(0).work(settings_, step_, 0);
+    const MeshWork work = mesh_work(0);
     LawJob job = job_of(work.grid, work.settings, spheres_);
     results.put_into(job);
     job.near = wall_.near();
@@ -252,14 +270,14 @@ class EngineOn : public InPlaceEngine {
       const std::size_t begin = slots.begin(m), n = slots.begin(m + 1) - begin;
       if (n == 0) continue;
       LawJob of_mesh = from_slot(job, begin);
-      const MeshWork work = wall_.mesh(m).work(settings_, step_, m);
+      const MeshWork work = mesh_work(m);
       of_mesh.grid = work.grid;
       of_mesh.settings = work.settings;
       start_law(of_mesh, n);
     }
     if (slots.n_joint() == 0) return;
     LawJob joint = job;
-    joint.joint = {wall_.put_works(b_, settings_, step_), slots.first(), slots.mesh()};
+    joint.joint = {put_works(), slots.first(), slots.mesh()};
     start_law(joint, slots.n_joint());
   }
 
@@ -291,6 +309,7 @@ class EngineOn : public InPlaceEngine {
 
   StepResults<B> results_, next_results_;    // of the last step, and of one begun beside
   StepListStore<B> step_lists_;
+  Array<MeshWork> works_;    // of several meshes
 
   Array<StepCounts> counts_;
   int pool_written_ = -1;

@@ -4,11 +4,12 @@
 #include "base/strided_view.h"
 #include "base/vec3.h"
 #include "contact/spring_store.h"
-#include "engine/step/on_wall.h"
 #include "grid/triangle_grid.h"
-#include "mesh/wall_mesh.h"
-#include "motion/wall_pose.h"
 #include "law/contact_law.h"
+#include "law/wear.h"
+#include "mesh/wall_mesh.h"
+#include "motion/surface_motion.h"
+#include "motion/wall_pose.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -89,6 +90,18 @@ struct SphereOutput {
   Vec3 force;       // sum over them, on the sphere
   Vec3 point;       // mean contact point on the wall, weighted by normal force
   Real radius;      // 0 where nothing touches
+};
+
+// What one contact does to the wall in one step.
+struct ContactRecord {
+  FeatureCode feature;
+  std::uint32_t mesh;    // of the wall's
+  Real normal;           // force on the wall, > 0 where the sphere presses
+  Real shear;            // size of the force along the wall
+  Real wear_power;       // see law/wear.h; 0 without wear
+  // In the frame of the mesh:
+  Vec3 force;    // on the wall
+  Vec3 arm;      // from the closest point to the sphere's centre
 };
 
 // What steps have left behind since the host last looked.

@@ -1,5 +1,7 @@
 #include "flow/flow_surface.h"
 
+#include "geometry/primitive_distance.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,32 +9,64 @@ namespace lsdcd {
 
 namespace {
 
-std::vector<Corners> triangles_of(const WallMesh &mesh)
+using Corners = std::array<Vec3, 3>;
+
+std::vector<Box> boxes_of(const WallMesh &mesh)
 {
-  std::vector<Corners> out;
+  std::vector<Box> out;
   out.reserve(mesh.faces.size());
   for (const std::array<int, 3> &f : mesh.faces)
-    out.push_back({mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]});
+    out.push_back(box_around(mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]));
   return out;
+}
+
+Real distance(const Box &box, const Vec3 &q)
+{
+  Real sum = 0;
+  for (int d = 0; d < 3; d++) {
+    const Real out = std::max({box.lo[d] - q[d], q[d] - box.hi[d], Real(0)});
+    sum += out * out;
+  }
+  return std::sqrt(sum);
+}
+
+// Never more than the distance but for rounding: where the triangle is too thin to tell its plane,
+// all of it is near its sides.
+Real distance(const Corners &t, const Vec3 &q)
+{
+  constexpr Real kThin = 1e-6;
+  const Real sides = std::min({segment_distance(t[0], t[1], q), segment_distance(t[1], t[2], q),
+                               segment_distance(t[2], t[0], q)});
+  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+  const Real twice_area = norm(normal);
+  const Real longest_sq =
+      std::max({norm_sq(t[1] - t[0]), norm_sq(t[2] - t[1]), norm_sq(t[0] - t[2])});
+  if (!(twice_area > kThin * longest_sq))
+    return std::max(Real(0), sides - 2 * kThin * std::sqrt(longest_sq));
+  for (int k = 0; k < 3; k++)
+    if (dot(cross(normal, t[(k + 1) % 3] - t[k]), q - t[k]) < 0) return sides;
+  return std::min(sides, std::fabs(dot(normal, q - t[0])) / twice_area);
 }
 
 }    // namespace
 
 Box in_fractions(const Box &box, const PeriodicBox &periodic)
 {
-  Box out = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
-  for (int i = 0; i < 8; i++) {
-    const Vec3 at = periodic.fraction(
-        {i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z});
-    for (int k = 0; k < 3; k++) {
-      out.lo[k] = std::min(out.lo[k], at[k]);
-      out.hi[k] = std::max(out.hi[k], at[k]);
-    }
-  }
+  Box out = {periodic.fraction(box.lo), periodic.fraction(box.lo)};
+  for_corners(box, [&](const Vec3 &x) { extend(out, periodic.fraction(x)); });
   return out;
 }
 
-FlowSurface::FlowSurface(const WallMesh &mesh) : tree_(triangles_of(mesh)) {}
+FlowSurface::FlowSurface(const WallMesh &mesh) :
+    vertices_(mesh.vertices), faces_(mesh.faces), tree_(boxes_of(mesh))
+{
+}
+
+std::array<Vec3, 3> FlowSurface::corners(int face) const
+{
+  const std::array<int, 3> &f = faces_[face];
+  return {vertices_[f[0]], vertices_[f[1]], vertices_[f[2]]};
+}
 
 Vec3 FlowSurface::cells_between(const Vec3 &from, const Vec3 &to, const PeriodicBox &box)
 {
@@ -69,11 +103,14 @@ Passes FlowSurface::passes(const Place &from, const Vec3 &to, const PeriodicBox 
   Passes passes;
   for_images(Path(from, {to}, box).bounds(), box, [&](const Vec3 &cells) {
     const Path path({from.at, from.cells - cells}, {to, -cells}, box);
-    tree_.for_each_in(path.bounds(), [&](const Corners &t) {
-      const int through = path.crosses(t[0], t[1], t[2]);
-      passes.forward += through > 0;
-      passes.backward += through < 0;
-    });
+    const Box near = path.bounds();
+    tree_.visit([&](const Box &around) { return overlap(around, near); },
+                [&](int i) {
+                  const Corners t = corners(i);
+                  const int through = path.crosses(t[0], t[1], t[2]);
+                  passes.forward += through > 0;
+                  passes.backward += through < 0;
+                });
   });
   return passes;
 }
@@ -92,7 +129,9 @@ Real FlowSurface::clearance(const Vec3 &x, const PeriodicBox &box, Real most) co
   for_images({x - all_round, x + all_round}, box, [&](const Vec3 &cells) {
     Vec3 at = x;
     for (int k = 0; k < 3; k++) at += -cells[k] * box.edge[k];
-    within = tree_.distance(at, within);
+    within = tree_.least(
+        within, [&](const Box &around) { return distance(around, at); },
+        [&](int i) { return distance(corners(i), at); });
   });
   return within - kRoom * largest;
 }

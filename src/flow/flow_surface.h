@@ -2,8 +2,12 @@
 #pragma once
 
 #include "flow/path.h"
-#include "flow/triangle_tree.h"
+#include "mesh/box_tree.h"
 #include "mesh/wall_mesh.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
 
 namespace lsdcd {
 
@@ -34,13 +38,20 @@ class FlowSurface {
   // How far images have moved where the box has changed, and the clearances with them, at most.
   Real images_move(const PeriodicBox &before, const PeriodicBox &now) const;
 
-  std::size_t bytes() const { return tree_.bytes(); }
+  std::size_t bytes() const
+  {
+    return tree_.bytes() + vertices_.capacity() * sizeof(Vec3) +
+           faces_.capacity() * sizeof faces_[0];
+  }
 
  private:
+  std::array<Vec3, 3> corners(int face) const;
   template <class F>
   void for_images(const Box &near, const PeriodicBox &box, F &&f) const;
 
-  TriangleTree tree_;
+  std::vector<Vec3> vertices_;
+  std::vector<std::array<int, 3>> faces_;
+  BoxTree tree_;    // of the boxes around faces
 };
 
 }    // namespace lsdcd

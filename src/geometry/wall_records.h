@@ -49,6 +49,12 @@ struct FaceParts {
   FeatureCode part[6];
 };
 
+// As PeriodicImages of the mesh; null and 0 where there are none.
+struct PeriodicImagesView {
+  const std::int32_t *same_vertex, *face_of, *edge_of, *vertex_of;
+  std::uint32_t n_faces, n_edges, n_vertices;
+};
+
 struct WallFeaturesView {
   const FaceRecord *faces;
   const EdgeRecord *edges;
@@ -60,21 +66,40 @@ struct WallFeaturesView {
   const Vec3 *edge_out;    // angle-weighted pseudonormals; only read where a side is set
   const Vec3 *vertex_out;
   const FaceParts *face_parts;    // only read where lists hold primitives
-  // As in PeriodicImages of the mesh; null and 0 where there are none.
-  const std::int32_t *same_vertex, *face_of, *edge_of, *vertex_of;
-  std::uint32_t n_faces, n_edges, n_vertices;
+  PeriodicImagesView images;
+
+  // Calls visit() with each array of a view or of WallFeatures.
+  template <class Wall, class Visit>
+  static constexpr void each_array(Wall &wall, const Visit &visit)
+  {
+    visit(wall.faces);
+    visit(wall.edges);
+    visit(wall.vertices);
+    visit(wall.edge_inward);
+    visit(wall.vertex_direction);
+    visit(wall.face_vertex);
+    visit(wall.edge_vertex);
+    visit(wall.edge_out);
+    visit(wall.vertex_out);
+    visit(wall.face_parts);
+    visit(wall.images.same_vertex);
+    visit(wall.images.face_of);
+    visit(wall.images.edge_of);
+    visit(wall.images.vertex_of);
+  }
 };
 
 // The part of the mesh itself that a feature is, or is an image of.
 LSDCD_FN FeatureCode own_feature(const WallFeaturesView &wall, FeatureCode feature)
 {
-  if (!wall.same_vertex) return feature;
+  const PeriodicImagesView &images = wall.images;
+  if (!images.same_vertex) return feature;
   const FeatureKind kind = feature_kind(feature);
   const std::uint32_t i = feature_index(feature);
   const bool face = kind == FeatureKind::face, edge = kind == FeatureKind::edge;
-  const std::uint32_t n = face ? wall.n_faces : (edge ? wall.n_edges : wall.n_vertices);
+  const std::uint32_t n = face ? images.n_faces : (edge ? images.n_edges : images.n_vertices);
   if (i < n) return feature;
-  const std::int32_t *of = face ? wall.face_of : (edge ? wall.edge_of : wall.vertex_of);
+  const std::int32_t *of = face ? images.face_of : (edge ? images.edge_of : images.vertex_of);
   return feature_code(kind, static_cast<std::uint32_t>(of[i - n]));
 }
 

@@ -205,14 +205,6 @@ void check_record_number(std::uint64_t n)
                      " can be numbered: use precision double, or longer cells");
 }
 
-std::size_t BrickRecords::bytes() const
-{
-  const std::size_t word = sizeof(std::uint32_t);
-  return faces.size() * (sizeof(BrickFace) + word) + edges.size() * (sizeof(BrickEdge) + word) +
-         vertices.size() * (sizeof(BrickVertex) + word) + face_parts.size() * sizeof(FaceParts) +
-         (edge_inward.size() + vertex_direction.size()) * sizeof(Vec3f);
-}
-
 void add_brick_records(TriangleGrid &grid)
 {
   BrickRecords &out = grid.records;

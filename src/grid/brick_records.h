@@ -46,6 +46,21 @@ struct BrickRecordsView {
   const std::uint32_t *face_of, *edge_of, *vertex_of;    // the feature that it copies
   const FaceParts *face_parts;                           // in records; with nearest lists
   const Vec3f *edge_inward, *vertex_direction;           // as in WallFeaturesView
+
+  // Calls visit() with each array of a view or of BrickRecords.
+  template <class Records, class Visit>
+  static constexpr void each_array(Records &records, const Visit &visit)
+  {
+    visit(records.faces);
+    visit(records.edges);
+    visit(records.vertices);
+    visit(records.face_of);
+    visit(records.edge_of);
+    visit(records.vertex_of);
+    visit(records.face_parts);
+    visit(records.edge_inward);
+    visit(records.vertex_direction);
+  }
 };
 
 struct BrickRecords {
@@ -55,8 +70,6 @@ struct BrickRecords {
   std::vector<std::uint32_t> face_of, edge_of, vertex_of;
   std::vector<FaceParts> face_parts;
   std::vector<Vec3f> edge_inward, vertex_direction;
-
-  std::size_t bytes() const;
 };
 
 struct TriangleGrid;

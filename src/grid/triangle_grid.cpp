@@ -1,5 +1,6 @@
 #include "grid/triangle_grid.h"
 
+#include "base/array_list.h"
 #include "base/give_back_memory.h"
 
 #include <cstdio>
@@ -17,82 +18,7 @@ std::size_t rounded(std::size_t bytes)
   return (bytes + kAlign - 1) / kAlign * kAlign;
 }
 
-// The arrays of a grid, in the order of a flat block: first where a grid owns them,
-// then where a view points to them.
-constexpr int kArrays = 27, kWallArrays = 14;
-
-template <class Grid, class Visit>
-void each_array(Grid &g, Visit visit)
-{
-  visit(g.wall.faces);
-  visit(g.wall.edges);
-  visit(g.wall.vertices);
-  visit(g.wall.edge_inward);
-  visit(g.wall.vertex_direction);
-  visit(g.wall.face_vertex);
-  visit(g.wall.edge_vertex);
-  visit(g.wall.edge_out);
-  visit(g.wall.vertex_out);
-  visit(g.wall.face_parts);
-  visit(g.wall.images.same_vertex);
-  visit(g.wall.images.face_of);
-  visit(g.wall.images.edge_of);
-  visit(g.wall.images.vertex_of);
-  visit(g.lists.brick_of);
-  visit(g.lists.bricks);
-  visit(g.lists.cells);
-  visit(g.lists.candidates);
-  visit(g.records.faces);
-  visit(g.records.edges);
-  visit(g.records.vertices);
-  visit(g.records.face_of);
-  visit(g.records.edge_of);
-  visit(g.records.vertex_of);
-  visit(g.records.face_parts);
-  visit(g.records.edge_inward);
-  visit(g.records.vertex_direction);
-}
-
-template <class Visit>
-void each_pointer(GridView &v, Visit visit)
-{
-  visit(v.wall.faces);
-  visit(v.wall.edges);
-  visit(v.wall.vertices);
-  visit(v.wall.edge_inward);
-  visit(v.wall.vertex_direction);
-  visit(v.wall.face_vertex);
-  visit(v.wall.edge_vertex);
-  visit(v.wall.edge_out);
-  visit(v.wall.vertex_out);
-  visit(v.wall.face_parts);
-  visit(v.wall.same_vertex);
-  visit(v.wall.face_of);
-  visit(v.wall.edge_of);
-  visit(v.wall.vertex_of);
-  visit(v.lists.brick_of);
-  visit(v.lists.bricks);
-  visit(v.lists.cells);
-  visit(v.lists.candidates);
-  visit(v.records.faces);
-  visit(v.records.edges);
-  visit(v.records.vertices);
-  visit(v.records.face_of);
-  visit(v.records.edge_of);
-  visit(v.records.vertex_of);
-  visit(v.records.face_parts);
-  visit(v.records.edge_inward);
-  visit(v.records.vertex_direction);
-}
-
-// Points the arrays of a view to `at`, one after another.
-void point(GridView &view, const char *const *at)
-{
-  int i = 0;
-  each_pointer(view, [&](auto *&pointer) {
-    pointer = reinterpret_cast<std::remove_reference_t<decltype(pointer)>>(at[i++]);
-  });
-}
+constexpr int kArrays = count_arrays<GridView>();
 
 // Front of a flat block: the scalars in a view without pointers, and where each
 // array starts (0: it is empty).
@@ -103,12 +29,6 @@ struct FlatHeader {
 
 // A cache of one core of a processor holds so many bytes and the spheres of a step beside them.
 constexpr std::size_t kNearMemory = std::size_t(1) << 20;
-
-template <class T>
-std::size_t array_bytes(const std::vector<T> &a)
-{
-  return a.size() * sizeof(T);
-}
 
 std::string amount(double bytes)
 {
@@ -132,6 +52,7 @@ Vec3 brick_centre(const TriangleGrid &grid, std::size_t slot)
 GridView TriangleGrid::view() const
 {
   GridView v = {};
+  v.wall = wall.view();
   v.origin = origin;
   v.length = length;
   v.inv_length = 1 / length;
@@ -143,33 +64,22 @@ GridView TriangleGrid::view() const
   v.in_floats = in_floats;
   v.is_large =
       array_bytes(wall.faces) + array_bytes(wall.edges) + array_bytes(wall.vertices) > kNearMemory;
-  v.wall.n_faces = static_cast<std::uint32_t>(wall.images.n_faces);
-  v.wall.n_edges = static_cast<std::uint32_t>(wall.images.n_edges);
-  v.wall.n_vertices = static_cast<std::uint32_t>(wall.images.n_vertices);
   for (int k = 0; k < 3; k++) v.n_bricks[k] = n_bricks[k];
-  const char *at[kArrays];
-  int i = 0;
-  each_array(*this, [&](const auto &a) {
-    at[i++] = a.empty() ? nullptr : reinterpret_cast<const char *>(a.data());
-  });
-  point(v, at);
+  point_to(v, *this);
   return v;
 }
 
 std::size_t flat_bytes(const TriangleGrid &grid)
 {
   std::size_t total = rounded(sizeof(FlatHeader));
-  each_array(grid, [&](const auto &a) { total += rounded(array_bytes(a)); });
+  GridView::each_array(grid, [&](const auto &a) { total += rounded(array_bytes(a)); });
   return total;
 }
 
 std::size_t flat_wall_bytes(const TriangleGrid &grid)
 {
   std::size_t total = rounded(sizeof(FlatHeader)) + kArrays * kAlign;
-  int i = 0;
-  each_array(grid, [&](const auto &a) {
-    if (i++ < kWallArrays) total += rounded(array_bytes(a));
-  });
+  WallFeaturesView::each_array(grid.wall, [&](const auto &a) { total += rounded(array_bytes(a)); });
   return total;
 }
 
@@ -186,11 +96,11 @@ void flatten_arrays(Grid &grid, char *block, const Copy &copy)
   FlatHeader header;
   std::memset(static_cast<void *>(&header), 0, sizeof header);
   header.scalars = grid.view();
-  const char *nowhere[kArrays] = {};
+  const void *nowhere[kArrays] = {};
   point(header.scalars, nowhere);
   std::size_t at = rounded(sizeof(FlatHeader));
   int i = 0;
-  each_array(grid, [&](auto &a) {
+  GridView::each_array(grid, [&](auto &a) {
     const std::size_t bytes = array_bytes(a);
     header.offset[i++] = bytes > 0 ? at : 0;
     if (bytes > 0) copy(a, block + at);
@@ -225,7 +135,7 @@ GridView flat_view(const char *block)
 {
   FlatHeader header;
   std::memcpy(static_cast<void *>(&header), block, sizeof header);
-  const char *at[kArrays];
+  const void *at[kArrays];
   for (int i = 0; i < kArrays; i++)
     at[i] = header.offset[i] > 0 ? block + header.offset[i] : nullptr;
   GridView v = header.scalars;
@@ -237,7 +147,7 @@ GridView flat_view(const char *block)
 GridView moved_view(const GridView &view, const char *to)
 {
   GridView moved = view;
-  each_pointer(moved, [&](auto *&pointer) {
+  GridView::each_array(moved, [&](auto *&pointer) {
     if (pointer)
       pointer = reinterpret_cast<std::remove_reference_t<decltype(pointer)>>(
           to + (reinterpret_cast<const char *>(pointer) - view.block));

@@ -51,6 +51,16 @@ struct CellListsView {
   const Brick *bricks;
   const Cell *cells;
   const Candidate *candidates;
+
+  // Calls visit() with each array of a view or of CellLists.
+  template <class Lists, class Visit>
+  static constexpr void each_array(Lists &lists, const Visit &visit)
+  {
+    visit(lists.brick_of);
+    visit(lists.bricks);
+    visit(lists.cells);
+    visit(lists.candidates);
+  }
 };
 
 // Borrowed view of a grid on the host or on a device; trivially copyable.
@@ -72,6 +82,15 @@ struct GridView {
   BrickRecordsView records;
   const char *block;    // the flat block all of this lies in, or null
   std::size_t block_bytes;
+
+  // Calls visit() with each array of a view or of a TriangleGrid, in the order of a flat block.
+  template <class Grid, class Visit>
+  static constexpr void each_array(Grid &grid, const Visit &visit)
+  {
+    WallFeaturesView::each_array(grid.wall, visit);
+    CellListsView::each_array(grid.lists, visit);
+    BrickRecordsView::each_array(grid.records, visit);
+  }
 };
 
 struct GridSettings {
@@ -176,9 +195,4 @@ GridView moved_view(const GridView &view, const char *to);
 // Centre of the brick at a slot in the table.
 Vec3 brick_centre(const TriangleGrid &grid, std::size_t slot);
 
-// Is there any candidate in the cell that holds q? Most spheres stop here.
-LSDCD_FN bool near_wall(const GridView &grid, const Vec3 &q);
-
 }    // namespace lsdcd
-
-#include "grid/lookup/locate.h"

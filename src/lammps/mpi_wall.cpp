@@ -2,6 +2,7 @@
 
 #include "base/give_back_memory.h"
 #include "base/input_words.h"
+#include "grid/cache/load_or_build.h"
 #include "grid/loose_ends.h"
 #include "mesh/fingerprint.h"
 #include "mesh/io/read_mesh.h"
@@ -10,19 +11,41 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <type_traits>
 
 namespace lsdcd {
 
 namespace {
 
-std::string seconds_since(double start)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f s", MPI_Wtime() - start);
-  return text;
-}
+// Memory of each node. Rank 0 has the cache file, which other nodes may not see.
+class NodePlace : public GridPlace {
+ public:
+  NodePlace(MpiShared &shared, int rank) : shared_(shared), rank_(rank) {}
+
+  bool is_first() const override { return rank_ == 0; }
+  bool builds() const override { return shared_.writes(); }
+  void run(bool here, const std::function<void()> &work) override
+  {
+    run_collectively(shared_.world(), here, work);
+  }
+  std::uint64_t of_first(std::uint64_t number) override
+  {
+    MPI_Bcast(&number, 1, MPI_UINT64_T, 0, shared_.world());
+    return number;
+  }
+  char *allocate(std::size_t bytes) override { return block_ = shared_.allocate(bytes); }
+  void publish(bool from_file) override
+  {
+    if (from_file && shared_.writes())
+      broadcast_bytes(block_, shared_.bytes(), 0, shared_.writers());
+    shared_.publish();
+  }
+
+ private:
+  MpiShared &shared_;
+  int rank_;
+  char *block_ = nullptr;
+};
 
 }    // namespace
 
@@ -156,10 +179,8 @@ void SharedWall::build(Real cutoff, const PeriodicBox &box)
   // A box that changes in many steps would leave a file in each.
   const bool for_box = cutoff == cutoff_;
   cutoffs_ += !for_box;
-  cache_file_ = for_box ? "" : of_mesh_.cache_file;
-  if (!cache_file_.empty() && cutoffs_ > 1) cache_file_ += "." + std::to_string(cutoffs_);
-  cache_text_.clear();
-  cache_warning_.clear();
+  std::string cache_file = for_box ? "" : of_mesh_.cache_file;
+  if (!cache_file.empty() && cutoffs_ > 1) cache_file += "." + std::to_string(cutoffs_);
   ends_warning_.clear();
   cutoff_ = cutoff;
   box_ = box;
@@ -169,18 +190,12 @@ void SharedWall::build(Real cutoff, const PeriodicBox &box)
   run_collectively(shared_.world(), shared_.writes() && box.any_periodic(),
                    [&] { with_images = whole(cutoff, box); });
   const WallMesh &mesh = mesh_ && !box.any_periodic() ? *mesh_ : with_images;
-  GridKey key = {};
-  std::unique_ptr<CachedGrid> cached;
-  const bool caches = rank == 0 && !cache_file_.empty();
-  run_collectively(shared_.world(), caches, [&] {
-    key = grid_key(mesh, want);
-    cached = std::make_unique<CachedGrid>(cache_file_, key);
-  });
-  if (cache_file_.empty() || !read_cache(cached.get())) {
-    GridReport report;
-    build_block(mesh, want, report);
-    if (caches) write_cache(key, report, *cached);
-  }
+  NodePlace place(shared_, rank);
+  const LoadedGrid loaded = load_or_build_grid(cache_file, mesh, want, uses_gpu(), place);
+  cache_text_ = loaded.cache_text;
+  cache_warning_ = loaded.cache_warning;
+  cells_ = loaded.report.lists.cells;
+  grid_text_ = describe(loaded.report);
   if (want.sides && view().outside == 0)
     throw InputError("side in and side out need a mesh that does not meet itself; facets of '" +
                      of_mesh_.file +
@@ -212,69 +227,6 @@ void SharedWall::note_images(const WallMesh &whole)
                   " open edges face a gap of up to " + number_text(loose.widest) +
                   "; make the mesh as long as the box, " + number_text(box_.width(loose.axis)) +
                   ", or let its ends overlap";
-}
-
-// Rank 0 alone looks at the file and decides for all; what it reads goes to the
-// writers of other nodes, who may not see that file.
-bool SharedWall::read_cache(CachedGrid *cached)
-{
-  const double start = MPI_Wtime();
-  std::uint64_t bytes = cached && cached->state() == CacheState::usable ? cached->block_bytes() : 0;
-  MPI_Bcast(&bytes, 1, MPI_UINT64_T, 0, shared_.world());
-  if (bytes == 0) return false;
-  char *block = shared_.allocate(bytes);
-  int good = 0;
-  run_collectively(shared_.world(), cached, [&] { good = cached->read(block); });
-  MPI_Bcast(&good, 1, MPI_INT, 0, shared_.world());
-  if (!good) return false;
-  if (shared_.writes()) broadcast_bytes(block, bytes, 0, shared_.writers());
-  shared_.publish();
-  if (cached) {
-    grid_text_ = describe(cached->report());
-    cells_ = cached->report().lists.cells;
-    cache_text_ = "not built now, read from cache '" + cache_file_ + "' in " + seconds_since(start);
-  }
-  return true;
-}
-
-void SharedWall::build_block(const WallMesh &whole, const GridSettings &want, GridReport &report)
-{
-  std::unique_ptr<TriangleGrid> grid;
-  std::size_t bytes = 0;
-  run_collectively(shared_.world(), shared_.writes(), [&] {
-    grid = std::make_unique<TriangleGrid>(build_grid(whole, want, uses_gpu()));
-    bytes = flat_bytes(*grid);
-    report = grid->report;
-    cells_ = report.lists.cells;
-    grid_text_ = describe(report);
-  });
-  char *block = shared_.allocate(bytes);
-  if (shared_.writes()) move_flat(*grid, block);
-  shared_.publish();
-}
-
-// A cache that cannot be written costs a warning, never the run.
-void SharedWall::write_cache(const GridKey &key, const GridReport &report, const CachedGrid &cached)
-{
-  const double start = MPI_Wtime();
-  const bool missing = cached.state() == CacheState::missing;
-  if (!missing) cache_warning_ = "cache '" + cache_file_ + "' " + cached.problem();
-  if (cached.state() == CacheState::foreign) {
-    cache_warning_ += "; it is left as it is and the grid is not kept: name another file";
-    return;
-  }
-  std::size_t written;
-  try {
-    written = write_grid_cache(cache_file_, key, report, shared_.block(), shared_.bytes());
-  } catch (const std::exception &e) {
-    cache_warning_ += (missing ? "the grid is not kept: cache " : "; it was not replaced: ") +
-                      std::string(e.what());
-    return;
-  }
-  if (!missing) cache_warning_ += "; the grid was built and the file replaced";
-  char size[32];
-  std::snprintf(size, sizeof size, "%.1f MB", written / 1e6);
-  cache_text_ = "written to cache '" + cache_file_ + "', " + size + " in " + seconds_since(start);
 }
 
 bool SharedWall::has(FeatureCode feature) const

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "input/settings.h"
-#include "grid/cache/grid_cache.h"
 #include "grid/triangle_grid.h"
 #include "lammps/mpi_shared.h"
 #include "mesh/periodic_images.h"
@@ -32,7 +31,7 @@ class SharedWall {
   bool fits(const PeriodicBox &box) const;
   static constexpr Real kBoxTolerance = 1e-4;
 
-  bool has_images() const { return view().wall.same_vertex; }
+  bool has_images() const { return view().wall.images.same_vertex; }
   // No sphere in the box can touch the wall.
   bool out_of_reach() const { return cells_ == 0; }
 
@@ -67,10 +66,7 @@ class SharedWall {
   GridSettings grid_settings(Real cutoff, const PeriodicBox &box) const;
   Box within(Real cutoff, const PeriodicBox &box) const;
   WallMesh whole(Real cutoff, const PeriodicBox &box) const;
-  bool read_cache(CachedGrid *cached);
-  void build_block(const WallMesh &whole, const GridSettings &want, GridReport &report);
   void note_images(const WallMesh &whole);
-  void write_cache(const GridKey &key, const GridReport &report, const CachedGrid &cached);
 
   WallSettings settings_;
   MeshSettings of_mesh_;
@@ -79,8 +75,8 @@ class SharedWall {
   MeshReport report_;
   std::uint64_t mesh_fingerprint_ = 0;
   std::string mesh_text_, grid_text_;
-  std::string cache_file_, cache_text_, cache_warning_, ends_warning_;    // of the last build
-  PeriodicBox box_;                                                       // likewise
+  std::string cache_text_, cache_warning_, ends_warning_;    // of the last build
+  PeriodicBox box_;                                          // likewise
   Box within_ = kNoLimit;
   std::uint64_t cells_ = 0;
   int cutoffs_ = 0;    // that there were builds for

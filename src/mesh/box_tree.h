@@ -10,14 +10,6 @@
 
 namespace lsdcd {
 
-// Have they a point in common?
-inline bool overlap(const Box &a, const Box &b)
-{
-  for (int k = 0; k < 3; k++)
-    if (a.lo[k] > b.hi[k] || b.lo[k] > a.hi[k]) return false;
-  return true;
-}
-
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box> &boxes) :
@@ -34,6 +26,14 @@ class BoxTree {
   {
     if (!things_.empty()) visit(root(), may_hold, found);
   }
+  // The least of `most` and of_thing(i) of all things. of_box(box) is no more than of_thing(i) of any
+  // thing in the box. Of two halves the one with less comes first.
+  template <class OfBox, class OfThing>
+  Real least(Real most, OfBox &&of_box, OfThing &&of_thing) const
+  {
+    if (!things_.empty() && of_box(bounds()) < most) lower(root(), most, of_box, of_thing);
+    return most;
+  }
   // Calls found(i, j) once for every two things whose boxes overlap.
   template <class Found>
   void visit_pairs(Found &&found) const
@@ -45,6 +45,13 @@ class BoxTree {
   void visit_pairs(const BoxTree &other, Found &&found) const
   {
     if (!things_.empty() && !other.things_.empty()) visit_pairs(root(), other, other.root(), found);
+  }
+
+  const Box &bounds() const { return around_[1]; }    // where there is a thing
+  std::size_t bytes() const
+  {
+    return (things_.capacity() + around_.capacity()) * sizeof(Box) +
+           number_.capacity() * sizeof(int);
   }
 
  private:
@@ -68,10 +75,7 @@ class BoxTree {
   {
     Box all = things_[number_[first]];
     for (std::size_t i = first; i < last; i++)
-      for (int k = 0; k < 3; k++) {
-        all.lo[k] = std::min(all.lo[k], things_[number_[i]].lo[k]);
-        all.hi[k] = std::max(all.hi[k], things_[number_[i]].hi[k]);
-      }
+      for (const Vec3 &x : {things_[number_[i]].lo, things_[number_[i]].hi}) extend(all, x);
     if (node >= around_.size()) around_.resize(2 * node);
     around_[node] = all;
     if (last - first <= kLeaf) return;
@@ -96,6 +100,20 @@ class BoxTree {
     }
     for (std::size_t i = node.first; i < node.last; i++)
       if (may_hold(things_[i])) found(number_[i]);
+  }
+  template <class OfBox, class OfThing>
+  void lower(const Node &node, Real &most, OfBox &of_box, OfThing &of_thing) const
+  {
+    if (node.size() > kLeaf) {
+      const Node half[2] = {node.half(0), node.half(1)};
+      const Real of_half[2] = {of_box(around_[half[0].number]), of_box(around_[half[1].number])};
+      const int first = of_half[1] < of_half[0];
+      for (const int i : {first, 1 - first})
+        if (of_half[i] < most) lower(half[i], most, of_box, of_thing);
+      return;
+    }
+    for (std::size_t i = node.first; i < node.last; i++)
+      if (of_box(things_[i]) < most) most = std::min(most, of_thing(number_[i]));
   }
   template <class Found>
   void visit_pairs(const Node &node, Found &found) const

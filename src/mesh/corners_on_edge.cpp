@@ -87,15 +87,13 @@ std::vector<CornersOnEdge::On> CornersOnEdge::on(int a, int b, Real tolerance) c
 
 Real CornersOnEdge::distance(const Vec3 &x) const
 {
-  Real least = std::numeric_limits<Real>::infinity();
   const auto to_box = [&](const Box &box) {
     Vec3 d;
     for (int k = 0; k < 3; k++) d[k] = std::max({box.lo[k] - x[k], x[k] - box.hi[k], Real(0)});
     return length(d);
   };
-  tree_.visit([&](const Box &box) { return to_box(box) < least; },
-              [&](int i) { least = std::min(least, length(corners_[used_[i]] - x)); });
-  return least;
+  return tree_.least(std::numeric_limits<Real>::infinity(), to_box,
+                     [&](int i) { return length(corners_[used_[i]] - x); });
 }
 
 }    // namespace lsdcd

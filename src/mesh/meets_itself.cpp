@@ -16,12 +16,6 @@ namespace {
 
 using namespace triangles_meet_detail;
 
-Triangle triangle_of(const WallMesh &mesh, int face)
-{
-  const auto &v = mesh.faces[face];
-  return {{mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]}};
-}
-
 // More than rounding adds to a dot product of differences of coordinates, or of their cross
 // products, in units of the lengths of its factors: u = 2^-53 in each of at most 30 operations,
 // 3.4e-15.
@@ -121,13 +115,8 @@ class FacePairs {
 
 Box box_of(const WallMesh &mesh, int face)
 {
-  const Triangle t = triangle_of(mesh, face);
-  Box box;
-  for (int k = 0; k < 3; k++) {
-    box.lo[k] = std::min({t[0][k], t[1][k], t[2][k]});
-    box.hi[k] = std::max({t[0][k], t[1][k], t[2][k]});
-  }
-  return box;
+  const auto &v = mesh.faces[face];
+  return box_around(mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]);
 }
 
 BoxTree tree_of(const WallMesh &mesh, const std::vector<int> &faces)
@@ -154,13 +143,8 @@ SelfMeetings shells_meet(const WallMesh &mesh, const std::vector<std::vector<int
   std::vector<Box> boxes;
   for (const auto &shell : shells) {
     Box around = box_of(mesh, shell[0]);
-    for (const int f : shell) {
-      const Box box = box_of(mesh, f);
-      for (int k = 0; k < 3; k++) {
-        around.lo[k] = std::min(around.lo[k], box.lo[k]);
-        around.hi[k] = std::max(around.hi[k], box.hi[k]);
-      }
-    }
+    for (const int f : shell)
+      for (const int v : mesh.faces[f]) extend(around, mesh.vertices[v]);
     boxes.push_back(around);
   }
   std::vector<std::unique_ptr<BoxTree>> trees(shells.size());

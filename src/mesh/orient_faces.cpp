@@ -66,11 +66,7 @@ void measure(const WallMesh &mesh, const std::vector<char> &turned, Part &part)
   const auto corner = [&](int f, int k) -> const Vec3 & { return mesh.vertices[mesh.faces[f][k]]; };
   part.box = {corner(part.faces[0], 0), corner(part.faces[0], 0)};
   for (const int f : part.faces)
-    for (int k = 0; k < 3; k++)
-      for (int i = 0; i < 3; i++) {
-        part.box.lo[i] = std::min(part.box.lo[i], corner(f, k)[i]);
-        part.box.hi[i] = std::max(part.box.hi[i], corner(f, k)[i]);
-      }
+    for (int k = 0; k < 3; k++) extend(part.box, corner(f, k));
   const Real unit = 1 / diagonal(part.box);
   const Vec3 middle = 0.5 * part.box.lo + 0.5 * part.box.hi;
   for (const int f : part.faces) {

@@ -1,7 +1,5 @@
 #include "mesh/periodic_box.h"
 
-#include <algorithm>
-
 namespace lsdcd {
 
 namespace {
@@ -35,10 +33,8 @@ Box PeriodicBox::bounds(const Vec3 &past) const
       const Real part = past[k] / width(k);
       x += (i >> k & 1 ? 1 + part : -part) * edge[k];
     }
-    for (int d = 0; d < 3; d++) {
-      box.lo[d] = i ? std::min(box.lo[d], x[d]) : x[d];
-      box.hi[d] = i ? std::max(box.hi[d], x[d]) : x[d];
-    }
+    if (i == 0) box = {x, x};
+    extend(box, x);
   }
   return box;
 }

@@ -1,5 +1,6 @@
 #include "mesh/wall_features.h"
 
+#include "base/array_list.h"
 #include "base/input_error.h"
 
 #include <cmath>
@@ -156,6 +157,16 @@ void add_primitives(const WallMesh &mesh, WallFeatures &out)
 }
 
 }    // namespace
+
+WallFeaturesView WallFeatures::view() const
+{
+  WallFeaturesView v = {};
+  point_to(v, *this);
+  v.images.n_faces = static_cast<std::uint32_t>(images.n_faces);
+  v.images.n_edges = static_cast<std::uint32_t>(images.n_edges);
+  v.images.n_vertices = static_cast<std::uint32_t>(images.n_vertices);
+  return v;
+}
 
 WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_primitives)
 {

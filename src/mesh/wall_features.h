@@ -26,26 +26,7 @@ struct WallFeatures {
   // and vertices without a face stand for themselves.
   std::vector<FeatureCode> primitives;
 
-  WallFeaturesView view() const
-  {
-    return {faces.data(),
-            edges.data(),
-            vertices.data(),
-            edge_inward.data(),
-            vertex_direction.data(),
-            face_vertex.data(),
-            edge_vertex.data(),
-            edge_out.data(),
-            vertex_out.data(),
-            face_parts.data(),
-            images.any() ? images.same_vertex.data() : nullptr,
-            images.face_of.data(),
-            images.edge_of.data(),
-            images.vertex_of.data(),
-            static_cast<std::uint32_t>(images.n_faces),
-            static_cast<std::uint32_t>(images.n_edges),
-            static_cast<std::uint32_t>(images.n_vertices)};
-  }
+  WallFeaturesView view() const;
 };
 
 // `with_sides` adds the pseudonormals that tell inside from outside, `with_primitives` the

@@ -1,6 +1,7 @@
 #include "mesh/weld_points.h"
 
 #include "mesh/hash_index.h"
+#include "mesh/periodic_box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,18 +26,10 @@ WeldedPoints weld_equal(const std::vector<Vec3> &corners)
   return out;
 }
 
-struct Box {
-  Vec3 lo, hi;
-};
-
 Box bounds(const std::vector<Vec3> &points)
 {
   Box box = {points[0], points[0]};
-  for (const Vec3 &x : points)
-    for (int i = 0; i < 3; ++i) {
-      box.lo[i] = std::min(box.lo[i], x[i]);
-      box.hi[i] = std::max(box.hi[i], x[i]);
-    }
+  for (const Vec3 &x : points) extend(box, x);
   return box;
 }
 

@@ -187,13 +187,7 @@ Real fastest_in(const WallPose &pose, const Box &box)
 Box placed_bounds(const WallPose &pose, const Box &box)
 {
   Box around = {pose.to_box(box.lo), pose.to_box(box.lo)};
-  for_corners(box, [&](const Vec3 &x) {
-    const Vec3 at = pose.to_box(x);
-    for (int d = 0; d < 3; d++) {
-      around.lo[d] = std::min(around.lo[d], at[d]);
-      around.hi[d] = std::max(around.hi[d], at[d]);
-    }
-  });
+  for_corners(box, [&](const Vec3 &x) { extend(around, pose.to_box(x)); });
   return around;
 }
 

@@ -1,7 +1,7 @@
 // What contacts do to a wall over time: forces on its parts, and the volume that wears off.
 #pragma once
 
-#include "engine/step/on_wall.h"
+#include "engine/wall_engine.h"
 #include "mesh/wall_features.h"
 #include "mesh/wall_mesh.h"
 

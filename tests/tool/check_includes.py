@@ -5,6 +5,7 @@ usage: check_includes.py [ROOT]
 
 * A file includes its own room and rooms on lower floors (FLOORS, from the lowest). Rooms of one
   floor do not include each other, but for the pairs in BESIDE.
+* Inside a room a file includes its own folder and lower ones (FOLDERS, from the lowest).
 * The study is for STUDY_ROOMS, bench/ and tests: what it measures is no part of a plugin or the library.
 * Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name, and of MPI.
 * A header of ONLY_IN, which is slow to compile, is included by its one file.
@@ -20,6 +21,14 @@ FLOORS = [["base"], ["backend"], ["geometry"], ["mesh"], ["motion"], ["grid"], [
           ["bodies", "query", "study", "effects", "output", "material", "flow"],
           ["input"], ["wall"], ["lammps", "tool", "api"], ["kokkos"]]
 BESIDE = {("study", "query")}
+# Of each room with folders. "." stands for the files that lie in none, but for those that are named.
+FOLDERS = {
+    "mesh": [".", "io"],
+    "grid": [".", "lookup", "plan", "build", "cache"],
+    "law": ["contact.h", "submodels", "."],
+    "engine": ["wall_engine.h", "results", "lists", "choose", "step", "."],
+    "lammps": [".", "launcher"],
+}
 STUDY_ROOMS = {"study", "tool"}
 LAMMPS_ROOMS = {"lammps", "kokkos"}
 GENERATED = {"grid": "lsdcd_grid_sources.h"}
@@ -49,8 +58,23 @@ def room_of(path):
     return "kokkos" if parts[0] == "kokkos" else parts[1] if len(parts) > 2 else None
 
 
-def wrong_include(room, included):
-    """Why a file of `room` may not include this; None: it may."""
+def folder_of(room, path):
+    """The entry of FOLDERS[room] for one of its files."""
+    first, *rest = path.split(f"{room}/", 1)[1].split("/")
+    return first if rest or first in FOLDERS.get(room, []) else "."
+
+
+def wrong_folder(room, path, included):
+    """Why a file of a room may not include another one of it; None: it may."""
+    order = FOLDERS.get(room, ["."])
+    here, there = folder_of(room, path), folder_of(room, included)
+    if there in order and order.index(there) <= order.index(here):
+        return None
+    return f"lies in {there}, which is not below {here} in FOLDERS"
+
+
+def wrong_include(room, path, included):
+    """Why this file of `room` may not include that; None: it may."""
     if "/" not in included:
         if room in LAMMPS_ROOMS or GENERATED.get(room) == included:
             return None
@@ -60,7 +84,9 @@ def wrong_include(room, included):
         return f"is of an unknown room {other}"
     if other == "study" and room not in STUDY_ROOMS:
         return "lies in the study, which is for the tool, bench/ and tests"
-    if other == room or FLOOR[other] < FLOOR[room] or (room, other) in BESIDE:
+    if other == room:
+        return wrong_folder(room, path, included)
+    if FLOOR[other] < FLOOR[room] or (room, other) in BESIDE:
         return None
     return f"lies in a room {'beside' if FLOOR[other] == FLOOR[room] else 'above'} {room}"
 
@@ -74,9 +100,12 @@ def violations(root):
         if room not in FLOOR:
             yield f"{path}: lies in no room" if room is None else f"{path}: room {room} has no floor"
             continue
+        if folder_of(room, path) not in FOLDERS.get(room, ["."]):
+            yield f"{path}: its folder has no place in FOLDERS"
+            continue
         for number, line in enumerate(lines, 1):
             include = INCLUDE.match(line)
-            why = include and wrong_include(room, include[1])
+            why = include and wrong_include(room, path, include[1])
             if why and (path, include[1]) in INCLUDE_EXCEPTIONS:
                 unused = unused - {(path, include[1])}
             elif why:

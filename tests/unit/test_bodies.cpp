@@ -2,6 +2,7 @@
 // test has its own oracle (test_triangles, test_triangles_cgal).
 #include "base/input_error.h"
 #include "bodies/body_collision.h"
+#include "grid/lookup/locate.h"
 #include "support/device.h"
 #include "support/random_mesh.h"
 

@@ -1,7 +1,8 @@
 // Where spheres and meshes were at a choice, to tell when it holds no longer.
 #pragma once
 
-#include "engine/engine_mesh.h"
+#include "engine/choose/engine_mesh.h"
+#include "engine/wall_engine.h"
 #include "grid/lookup/brick_words.h"
 
 #include <vector>

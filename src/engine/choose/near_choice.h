@@ -4,7 +4,8 @@
 #pragma once
 
 #include "backend/atomic.h"
-#include "engine/step/law_job.h"
+#include "engine/choose/spheres_at_choice.h"
+#include "engine/results/step_counts.h"
 #include "grid/lookup/brick_filter.h"
 #include "grid/lookup/near_within.h"
 

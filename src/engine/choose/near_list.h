@@ -1,8 +1,8 @@
 // Choosing the spheres that could be near a mesh: the broad phase.
 #pragma once
 
+#include "engine/choose/engine_mesh.h"
 #include "engine/choose/near_choice.h"
-#include "engine/engine_mesh.h"
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/choose/kept_centres.h"
+#include "engine/choose/list_store.h"
 #include "engine/choose/near_list.h"
 #include "engine/choose/near_meshes.h"
-#include "engine/lists/list_store.h"
 
 #include <numeric>
 #include <vector>
@@ -78,16 +78,16 @@ class NearWall {
   const WallLists &lists() const { return lists_.view(); }
   const NearMeshes<B> &slots() const { return slots_; }
 
-  // What steps need of the meshes, to where they run, without waiting.
-  const MeshWork *put_works(B &b, const EngineSettings &settings, const StepSettings &step)
+  // Public because nvcc takes no device lambda from a private function. Does not wait.
+  const PlacedGrid *put_grids(B &b)
   {
-    if (works_.size() < meshes_.size()) works_ = Array<MeshWork>(meshes_.size());
-    MeshWork *to = works_.data();
+    if (placed_.size() < meshes_.size()) placed_ = Array<PlacedGrid>(meshes_.size());
+    PlacedGrid *to = placed_.data();
     for (int m = 0; m < n_meshes(); m++, to++) {
-      const MeshWork work = meshes_[m].work(settings, step, m);
-      b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = work; });
+      const PlacedGrid placed = {meshes_[m].grid.view, meshes_[m].pose};
+      b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = placed; });
     }
-    return works_.data();
+    return placed_.data();
   }
 
   // See KeptCentres.
@@ -100,7 +100,7 @@ class NearWall {
   std::size_t bytes() const
   {
     std::size_t bytes = near_.bytes() + slots_.bytes() + lists_.bytes() + centres_.bytes() +
-                        works_.size() * sizeof(MeshWork);
+                        placed_.size() * sizeof(PlacedGrid);
     for (const EngineMesh<B> &mesh : meshes_) bytes += mesh.grid.bytes();
     return bytes;
   }
@@ -128,10 +128,10 @@ class NearWall {
     }
     slots_.finish(b);
     n_ = slots_.n_slots();
-    const MeshWork *works = put_works(b, EngineSettings(), StepSettings());
+    const PlacedGrid *grids = put_grids(b);
     bool large = false;
     for (const EngineMesh<B> &mesh : meshes_) large |= mesh.grid.view.is_large;
-    lists_.make(b, meshes_[0].grid.view, large, works, slots_.mesh(),
+    lists_.make(b, meshes_[0].grid.view, large, grids, slots_.mesh(),
                 {spheres.x, spheres.radius, pull_off_, slots_.near(), n_}, margin, counts.data());
     return seen;
   }
@@ -141,7 +141,7 @@ class NearWall {
   NearList<B> near_;
   NearMeshes<B> slots_;
   ListStore<B> lists_;
-  Array<MeshWork> works_;
+  Array<PlacedGrid> placed_;
   bool are_alone_ = false;
   std::size_t n_ = 0;
   typename B::template Asked<StepCounts> asked_;

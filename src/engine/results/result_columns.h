@@ -2,7 +2,8 @@
 // number, so that neighbours are written and read together.
 #pragma once
 
-#include "engine/step/wall_force.h"
+#include "base/strided_view.h"
+#include "engine/results/sphere_result.h"
 
 namespace lsdcd {
 

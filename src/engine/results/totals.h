@@ -1,7 +1,8 @@
 // From the results of single spheres to sums, the same way on every backend.
 #pragma once
 
-#include "engine/step/wall_force.h"
+#include "engine/results/sphere_result.h"
+#include "engine/wall_engine.h"
 
 namespace lsdcd {
 

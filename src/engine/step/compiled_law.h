@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/step/law_job.h"
+#include "engine/step/on_wall.h"
 
 #include <cstddef>
 #include <cstring>

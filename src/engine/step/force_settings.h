@@ -34,4 +34,10 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   return s;
 }
 
+// What a step needs of one mesh.
+struct MeshWork {
+  GridView grid;
+  ForceSettings settings;
+};
+
 }    // namespace lsdcd

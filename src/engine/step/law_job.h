@@ -3,7 +3,8 @@
 
 #include "engine/lists/wall_list.h"
 #include "engine/results/result_columns.h"
-#include "engine/step/wall_force.h"
+#include "engine/results/step_counts.h"
+#include "engine/step/force_settings.h"
 #include "backend/step_lists.h"
 
 #include <cstdint>
@@ -27,27 +28,6 @@ struct ContactPool {
   ContactRecord *records;
 };
 
-constexpr std::uint64_t kNoSphere = std::uint64_t(1) << 32;
-
-// What steps count. The first three are of one choice or step, the others since the host looked.
-struct StepCounts {
-  std::uint32_t n_near;
-  int shared_used[2];              // slots, of each pool in the last step that wrote it
-  int n_found[2], n_several[2];    // of StepLists, in turn
-  // Spheres left out, a time for each step, as they have more contacts than a lane or as all shared
-  // slots were taken: an error.
-  int no_lane, no_slots, unused;    // unused: so that there is no byte that nothing writes
-  // kNoSphere less the index of the first sphere beyond the grid's cutoff, or 0: an error.
-  std::uint64_t too_large;
-  std::uint64_t grown;          // likewise of the first sphere that feels more than at the choice
-  std::uint64_t uncertified;    // answers
-  // As ascending bits: the largest overlap / radius, with 1 + the index of its sphere
-  // below it, and the largest that an answer which was not certified may have missed.
-  std::uint64_t deepest, uncertain;
-  std::uint64_t lists, listed,
-      by_cells;    // lists made in steps, their features; searches of cells
-};
-
 // Memory for the contacts of one sphere that has many: too much for a stack. Whoever holds the lock
 // has it.
 struct Lane {
@@ -56,12 +36,6 @@ struct Lane {
   CornerRule<kMostContacts> rule;
 };
 constexpr int kLanes = 8;    // 1 MB each
-
-// What a step needs of one mesh.
-struct MeshWork {
-  GridView grid;
-  ForceSettings settings;
-};
 
 // Spheres that are near several meshes. Sphere g has slots first[g] to first[g + 1], one for each of
 // these meshes in ascending order; all that is of a k is of such a slot.
@@ -111,40 +85,6 @@ LSDCD_FN QuerySphere query_sphere_of(const LawJob &job, std::size_t i, const Vec
   }
   return s;
 }
-
-// The same at a choice, when no sphere holds on to anything.
-LSDCD_FN QuerySphere seen_at_choice(const WallPose &pose, const Vec3 &x, Real radius, Real pull_off)
-{
-  return {pose.to_mesh(x), radius, cutoff_of(radius, pull_off), nullptr, 0};
-}
-// Asks a CPU's memory for what a search of a large wall reads first for a sphere at x, whose turn
-// comes soon.
-LSDCD_FN void ask_for_search([[maybe_unused]] const GridView &grid,
-                             [[maybe_unused]] const WallPose &pose, [[maybe_unused]] const Vec3 &x)
-{
-#if !defined(__CUDA_ARCH__)
-  if (grid.is_large) ask_for_candidates(grid, pose.to_mesh(x));
-#endif
-}
-
-struct SpheresAtChoice {
-  StridedView<const Real> x;
-  const Real *radius;
-  Real pull_off;
-  const int *near;    // the sphere of each k
-  std::size_t n;      // of these; 0: what is read first for them is not asked for
-
-  LSDCD_FN QuerySphere seen_from(const WallPose &pose, std::size_t k) const
-  {
-    const int i = near[k];
-    return seen_at_choice(pose, x[i], radius[i], pull_off);
-  }
-  LSDCD_FN void ask_ahead(const GridView &grid, const WallPose &pose, std::size_t k) const
-  {
-    constexpr std::size_t kPlaces = 4;
-    if (k + kPlaces < n) ask_for_search(grid, pose, x[near[k + kPlaces]]);
-  }
-};
 
 // The same job from slot `first` on.
 inline LawJob from_slot(LawJob job, std::size_t first)

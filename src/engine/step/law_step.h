@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/step/compiled_law.h"
-#include "engine/results/step_notes.h"
+#include "engine/step/step_notes.h"
 
 #include <cstdint>
 

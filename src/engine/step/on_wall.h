@@ -2,23 +2,7 @@
 // be recorded. Compiled into a law's kernel only where it is asked for.
 #pragma once
 
-#include "motion/surface_motion.h"
-#include "geometry/feature_code.h"
-#include "law/wear.h"
-
 namespace lsdcd {
-
-// What one contact does to the wall in one step.
-struct ContactRecord {
-  FeatureCode feature;
-  std::uint32_t mesh;    // of the wall's
-  Real normal;           // force on the wall, > 0 where the sphere presses
-  Real shear;            // size of the force along the wall
-  Real wear_power;       // see law/wear.h; 0 without wear
-  // In the frame of the mesh:
-  Vec3 force;    // on the wall
-  Vec3 arm;      // from the closest point to the sphere's centre
-};
 
 // Which of the two a kernel has.
 struct WallEffects {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/lists/touch.h"
+#include "engine/results/sphere_result.h"
 #include "engine/wall_engine.h"
 #include "law/contact.h"
 #include "law/submodels/normal.h"
@@ -19,17 +20,6 @@ struct SphereStateWith {
   Real temperature;    // read only where the law has heat
 };
 using SphereState = SphereStateWith<const Spring *>;
-
-// What the wall does to it, in that frame. n_contacts counts the contacts that bear, and the springs.
-struct alignas(16) SphereResult {
-  Vec3 force, torque;
-  Real energy;
-  Real overlap_ratio;     // largest overlap / radius
-  Vec3 weighted_point;    // sum of |normal force| * contact point
-  Real weight;            // sum of |normal force|
-  int n_contacts;
-  int pad;    // keeps the record free of indeterminate bytes
-};
 
 // Where a sphere's springs go, and what few laws return: written only where the law has
 // history, extra numbers beside it, heat, records.

@@ -1,6 +1,7 @@
 // Building the grid: octants -> cells -> lists, one source for every backend.
 #pragma once
 
+#include "base/array_list.h"
 #include "base/give_back_memory.h"
 #include "base/input_error.h"
 #include "grid/build/estimate_lists.h"
@@ -11,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace lsdcd {
 
@@ -26,25 +28,15 @@ class GridBuilder {
       b_(std::move(backend)),
       progress_(progress)
   {
-    view_.wall = {put(faces_, wall.faces),
-                  put(edges_, wall.edges),
-                  put(vertices_, wall.vertices),
-                  put(edge_inward_, wall.edge_inward),
-                  put(vertex_direction_, wall.vertex_direction),
-                  put(face_vertex_, wall.face_vertex),
-                  put(edge_vertex_, wall.edge_vertex),
-                  nullptr,
-                  nullptr,
-                  nullptr,
-                  nullptr,
-                  nullptr,
-                  nullptr,
-                  nullptr,
-                  0,
-                  0,
-                  0};
-    of_contact_ = put(contact_features_, wall.contact_features);
-    of_primitives_ = put(primitives_, wall.primitives);
+    view_.wall.faces = put(wall.faces);
+    view_.wall.edges = put(wall.edges);
+    view_.wall.vertices = put(wall.vertices);
+    view_.wall.edge_inward = put(wall.edge_inward);
+    view_.wall.vertex_direction = put(wall.vertex_direction);
+    view_.wall.face_vertex = put(wall.face_vertex);
+    view_.wall.edge_vertex = put(wall.edge_vertex);
+    of_contact_ = put(wall.contact_features);
+    of_primitives_ = put(wall.primitives);
     n_contact_ = wall.contact_features.size();
     n_primitives_ = wall.primitives.size();
   }
@@ -100,22 +92,16 @@ class GridBuilder {
  private:
   // Where the backend can read an array that lives as long as the builder: on a device, a copy.
   template <class T>
-  const T *put(Scratch<T> &to, const std::vector<T> &from)
+  const T *put(const std::vector<T> &from)
   {
-    if (B::kOnHost) return from.data();
-    to = Scratch<T>(from.size());
-    b_.copy_in(from.data(), to.data(), from.size());
-    return to.data();
+    if constexpr (B::kOnHost) return from.data();
+    Scratch<char> &copy = copies_.emplace_back(array_bytes(from));
+    b_.copy_in(reinterpret_cast<const char *>(from.data()), copy.data(), copy.size());
+    return reinterpret_cast<const T *>(copy.data());
   }
 
   B b_;
-  Scratch<FaceRecord> faces_;
-  Scratch<EdgeRecord> edges_;
-  Scratch<VertexRecord> vertices_;
-  Scratch<Vec3> edge_inward_, vertex_direction_;
-  Scratch<FaceVertices> face_vertex_;
-  Scratch<EdgeVertices> edge_vertex_;
-  Scratch<FeatureCode> contact_features_, primitives_;
+  std::vector<Scratch<char>> copies_;
   const FeatureCode *of_contact_, *of_primitives_;
   std::size_t n_contact_, n_primitives_;
   BuildView view_ = {};
@@ -216,7 +202,8 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
   grid.report.nearest = settings.nearest;
   grid.report.records =
       grid.records.faces.size() + grid.records.edges.size() + grid.records.vertices.size();
-  grid.report.record_bytes = grid.records.bytes();
+  BrickRecordsView::each_array(grid.records,
+                               [&](const auto &a) { grid.report.record_bytes += array_bytes(a); });
   grid.report.device = builder.name();
   grid.report.length = plan.length;
   grid.report.cutoff = plan.cutoff;

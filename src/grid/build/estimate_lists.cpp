@@ -1,5 +1,6 @@
 #include "grid/build/estimate_lists.h"
 
+#include "base/bits.h"
 #include "grid/build/rasterise.h"
 #include "backend/threads.h"
 

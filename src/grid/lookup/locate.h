@@ -101,6 +101,7 @@ LSDCD_FN CellAddress locate(const GridView &grid, const CellListsView &lists, co
   return {lists.bricks + b, cell_in_brick(p), from_cell_centre(grid, p)};
 }
 
+// Does the cell that holds q have candidates? For most spheres it has none.
 LSDCD_FN bool near_wall(const GridView &grid, const Vec3 &q)
 {
   const CellAddress at = locate(grid, grid.lists, q);

@@ -1,8 +1,10 @@
 // Memory for the lists of the wall of near spheres, where the engine computes.
 #pragma once
 
-#include "engine/step/law_job.h"
 #include "backend/atomic.h"
+#include "engine/choose/engine_mesh.h"
+#include "engine/choose/spheres_at_choice.h"
+#include "engine/results/step_counts.h"
 
 #include <algorithm>
 
@@ -35,7 +37,7 @@ struct GatherWork {
 
 // The same for slots of several meshes.
 struct GatherSlotWork {
-  const MeshWork *meshes;
+  const PlacedGrid *meshes;
   const int *mesh;    // of each slot
   SpheresAtChoice spheres;
   Real margin;
@@ -46,8 +48,8 @@ struct GatherSlotWork {
   LSDCD_FN void operator()(const Group &group, bool mine, std::size_t k) const
   {
     by_value(group, mine, mesh[k], [&](bool of_mesh, int m) {
-      const MeshWork &of = meshes[m];
-      const GatherWork work = {of.grid, of.settings.pose, spheres, margin, lists, nullptr, counts};
+      const PlacedGrid &of = meshes[m];
+      const GatherWork work = {of.grid, of.pose, spheres, margin, lists, nullptr, counts};
       work(group, of_mesh, k);
     });
   }
@@ -83,7 +85,7 @@ class ListStore {
     b.for_each_together(n, gather(grid, pose, spheres, margin, counts));
   }
   // The same for n slots of several meshes; `large`: is any of them?
-  void make(B &b, const GridView &first_grid, bool large, const MeshWork *meshes, const int *mesh,
+  void make(B &b, const GridView &first_grid, bool large, const PlacedGrid *meshes, const int *mesh,
             const SpheresAtChoice &spheres, Real margin, StepCounts *counts)
   {
     if (reserve(first_grid, large, spheres.n))

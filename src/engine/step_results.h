@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/choose/near_meshes.h"
-#include "engine/step/compiled_law.h"
 #include "engine/results/totals.h"
+#include "engine/step/compiled_law.h"
 
 #include <vector>
 

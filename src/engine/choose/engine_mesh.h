@@ -1,9 +1,8 @@
 // One mesh of a wall, as an engine has it.
 #pragma once
 
-#include "engine/step/force_settings.h"
-#include "engine/step/law_job.h"
 #include "grid/lookup/grid_on.h"
+#include "motion/wall_pose.h"
 
 namespace lsdcd {
 
@@ -11,11 +10,12 @@ template <class B>
 struct EngineMesh {
   GridOn<B> grid;
   WallPose pose, chosen;    // chosen: at the last choice
+};
 
-  MeshWork work(const EngineSettings &settings, const StepSettings &step, int mesh) const
-  {
-    return {grid.view, force_settings(settings, step, pose, mesh)};
-  }
+// What making lists needs of it, where kernels run.
+struct PlacedGrid {
+  GridView grid;
+  WallPose pose;
 };
 
 }    // namespace lsdcd

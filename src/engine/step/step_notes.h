@@ -57,18 +57,4 @@ LSDCD_FN void clear_next(const LawJob &job)
   if (job.settings.update) job.counts->shared_used[1 - job.pool.which] = 0;
 }
 
-// What has been counted, for the host.
-inline StepDiagnostics diagnostics_of(const StepCounts &seen)
-{
-  StepDiagnostics diagnostics;
-  diagnostics.deepest = from_ascending_bits(static_cast<std::uint32_t>(seen.deepest >> 32));
-  diagnostics.deepest_sphere = static_cast<int>(seen.deepest & 0xffffffffu) - 1;
-  diagnostics.uncertified = static_cast<std::int64_t>(seen.uncertified);
-  diagnostics.uncertain = from_ascending_bits(static_cast<std::uint32_t>(seen.uncertain));
-  diagnostics.lists = static_cast<std::int64_t>(seen.lists);
-  diagnostics.listed = static_cast<std::int64_t>(seen.listed);
-  diagnostics.by_cells = static_cast<std::int64_t>(seen.by_cells);
-  return diagnostics;
-}
-
 }    // namespace lsdcd

@@ -1,0 +1,108 @@
+#include "grid/cache/load_or_build.h"
+
+#include "grid/cache/grid_cache.h"
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+namespace lsdcd {
+
+namespace {
+
+class StopWatch {
+ public:
+  std::string text() const
+  {
+    const std::chrono::duration<double> passed = Clock::now() - start_;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3f s", passed.count());
+    return text;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+// `cached`: null but on the first process.
+bool read(const std::string &file, CachedGrid *cached, GridPlace &place, LoadedGrid &out)
+{
+  const StopWatch watch;
+  const bool usable = cached && cached->state() == CacheState::usable;
+  const std::uint64_t bytes = place.of_first(usable ? cached->block_bytes() : 0);
+  if (bytes == 0) return false;
+  char *block = place.allocate(bytes);
+  bool good = false;
+  place.run(cached, [&] { good = cached->read(block); });
+  out.from_cache = place.of_first(good);
+  if (!out.from_cache) return false;
+  place.publish(true);
+  if (cached) {
+    out.report = cached->report();
+    out.cache_text = "not built now, read from cache '" + file + "' in " + watch.text();
+  }
+  return true;
+}
+
+// Returns the block.
+char *build(const WallMesh &mesh, const GridSettings &settings, bool on_cuda, GridPlace &place,
+            LoadedGrid &out)
+{
+  std::unique_ptr<TriangleGrid> grid;
+  std::size_t bytes = 0;
+  place.run(place.builds(), [&] {
+    grid = std::make_unique<TriangleGrid>(build_grid(mesh, settings, on_cuda));
+    bytes = flat_bytes(*grid);
+    out.report = grid->report;
+  });
+  char *block = place.allocate(bytes);
+  if (grid) move_flat(*grid, block);
+  place.publish(false);
+  return block;
+}
+
+void write(const std::string &file, const GridKey &key, const CachedGrid &cached, const char *block,
+           LoadedGrid &out)
+{
+  const StopWatch watch;
+  const bool missing = cached.state() == CacheState::missing;
+  if (!missing) out.cache_warning = "cache '" + file + "' " + cached.problem();
+  if (cached.state() == CacheState::foreign) {
+    out.cache_warning += "; it is left as it is and the grid is not kept: name another file";
+    return;
+  }
+  std::size_t written;
+  try {
+    written = write_grid_cache(file, key, out.report, block, flat_view(block).block_bytes);
+  } catch (const std::exception &e) {
+    out.cache_warning += (missing ? "the grid is not kept: cache " : "; it was not replaced: ") +
+                         std::string(e.what());
+    return;
+  }
+  if (!missing) out.cache_warning += "; the grid was built and the file replaced";
+  char size[32];
+  std::snprintf(size, sizeof size, "%.1f MB", written / 1e6);
+  out.cache_text = "written to cache '" + file + "', " + size + " in " + watch.text();
+}
+
+}    // namespace
+
+LoadedGrid load_or_build_grid(const std::string &cache_file, const WallMesh &mesh,
+                              const GridSettings &settings, bool on_cuda, GridPlace &place)
+{
+  LoadedGrid out;
+  GridKey key = {};
+  std::unique_ptr<CachedGrid> cached;
+  place.run(place.is_first() && !cache_file.empty(), [&] {
+    key = grid_key(mesh, settings);
+    cached = std::make_unique<CachedGrid>(cache_file, key);
+  });
+  if (!cache_file.empty() && read(cache_file, cached.get(), place, out)) return out;
+  const char *block = build(mesh, settings, on_cuda, place, out);
+  if (cached) write(cache_file, key, *cached, block, out);
+  return out;
+}
+
+}    // namespace lsdcd
