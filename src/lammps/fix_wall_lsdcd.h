@@ -12,6 +12,7 @@
 #include "wall/contact_history.h"
 #include "wall/overlap_monitor.h"
 #include "wall/search_report.h"
+#include "wall/step_totals.h"
 #include "wall/time_report.h"
 #include "wall/wall_files.h"
 
@@ -123,9 +124,11 @@ class FixWallLsdcd : public Fix {
 
   double servo_radius = 0, servo_mass = 0;    // the largest, for gains of servos
 
-  // Of the vector: totals, volume worn off and power, and with a servo three more.
-  static constexpr int kTotals = MeshPart::kTotals, kVector = kTotals + 2, kServo = 3;
-  bool reduced = false;    // totals are those of the last step
+  // Of the vector: force, torque, contacts, largest overlap, uncertified; volume worn off, power; and
+  // with a servo three more.
+  static constexpr int kTotals = 9, kWorn = kTotals, kPower = kTotals + 1, kVector = kTotals + 2,
+                       kServo = 3;
+  std::unique_ptr<lsdcd::StepTotals> totals;
 
   bool drawn = false;    // strokes are there
   std::vector<int> image_kind;
@@ -160,7 +163,6 @@ class FixWallLsdcd : public Fix {
   void reduce_totals();
   void clear_outputs();
   double output_of(MeshPart &, int);
-  bool torques_share_a_point() const;
   MeshPart *only_servo();
 
   bool several() const { return parts.size() > 1; }

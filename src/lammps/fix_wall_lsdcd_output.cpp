@@ -10,31 +10,12 @@
 
 using namespace LAMMPS_NS;
 
-// One round of messages per step, and only in steps that ask.
+// Collective.
 void FixWallLsdcd::reduce_totals()
 {
-  if (reduced) return;
-  constexpr int kSums = 10;
-  std::vector<double> sum, most;
-  for (const MeshPart &m : parts) {
-    lsdcd::WallTotals t;
-    if (cutoff() > 0) t = several() ? engine->mesh_totals(m.index) : engine->totals();
-    sum.insert(sum.end(), {t.force.x, t.force.y, t.force.z, t.torque.x, t.torque.y, t.torque.z,
-                           static_cast<double>(t.contacts), 0.0, static_cast<double>(t.uncertified),
-                           t.energy});
-    most.push_back(t.largest_overlap_ratio);
-  }
-  const int n = static_cast<int>(parts.size());
-  MPI_Allreduce(MPI_IN_PLACE, sum.data(), kSums * n, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(MPI_IN_PLACE, most.data(), n, MPI_DOUBLE, MPI_MAX, world);
-  for (MeshPart &m : parts) {
-    const double *mine = sum.data() + kSums * m.index;
-    std::copy(mine, mine + kTotals, m.totals);
-    m.energy = mine[kTotals];
-    m.totals[7] = most[m.index];
-    m.finish_totals();
-  }
-  reduced = true;
+  std::vector<lsdcd::WallPose> poses;
+  for (const MeshPart &m : parts) poses.push_back(m.motion.pose());
+  totals->reduce(cutoff() > 0 ? engine.get() : nullptr, poses);
 }
 
 // Where the wall does not act, as in a minimization, those of the last step would be added to its
@@ -42,12 +23,7 @@ void FixWallLsdcd::reduce_totals()
 void FixWallLsdcd::clear_outputs()
 {
   std::fill(virial, virial + 6, 0.0);
-  for (MeshPart &m : parts) {
-    std::fill(m.totals, m.totals + kTotals, 0.0);
-    m.torque_at_origin = {0, 0, 0};
-    m.power = m.energy = 0;
-  }
-  reduced = true;
+  totals->clear();
   for (int i = 0; settings.contacts && i < atom->nlocal; i++)
     std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
 }
@@ -55,19 +31,25 @@ void FixWallLsdcd::clear_outputs()
 double FixWallLsdcd::compute_scalar()
 {
   reduce_totals();
-  double all = parts.front().energy;
-  for (std::size_t k = 1; k < parts.size(); k++) all += parts[k].energy;
-  return all;
+  return totals->of_all().energy;
+}
+
+// In the columns of the vector.
+static double column(const lsdcd::MeshTotals &t, int i)
+{
+  const double after_torque[] = {t.contacts, t.overlap, t.uncertified};
+  return i < 3 ? t.force[i] : i < 6 ? t.torque[i - 3] : after_torque[i - 6];
 }
 
 // Of one mesh. Collective.
 double FixWallLsdcd::output_of(MeshPart &m, int i)
 {
   reduce_totals();
-  if (i < kTotals) return m.totals[i];
-  if (i == kTotals + 1) return m.power;
-  if (i >= kVector) return m.servo().present ? servo_output(m, i - kVector) : 0;
-  return settings.wears() ? loads->worn(m.index) : 0;
+  const lsdcd::MeshTotals &t = totals->mesh(m.index);
+  if (i < kTotals) return column(t, i);
+  if (i == kWorn) return settings.wears() ? loads->worn(m.index) : 0;
+  if (i == kPower) return t.power;
+  return m.servo().present ? servo_output(m, i - kVector) : 0;
 }
 
 double FixWallLsdcd::compute_array(int mesh, int i)
@@ -75,31 +57,20 @@ double FixWallLsdcd::compute_array(int mesh, int i)
   return output_of(parts[mesh], i);
 }
 
-bool FixWallLsdcd::torques_share_a_point() const
-{
-  const lsdcd::MeshSettings &first = parts.front().settings;
-  for (const MeshPart &m : parts)
-    if (several() &&
-        (m.settings.torque_about_mesh || !(m.settings.torque_about == first.torque_about)))
-      return false;
-  return true;
-}
-
-// Sums over the meshes; the largest overlap of all; and of the one servo, if there is one.
+// Of all meshes; and of the one servo, if there is one.
 double FixWallLsdcd::compute_vector(int i)
 {
   if (i >= kVector) {
     MeshPart *with_servo = only_servo();
     return with_servo ? output_of(*with_servo, i) : 0;
   }
-  const bool at_origin = i >= 3 && i < 6 && !torques_share_a_point();
-  double all = 0;
-  for (MeshPart &m : parts) {
-    double one = output_of(m, i);
-    if (at_origin) one = m.torque_at_origin[i - 3];
-    all = m.index == 0 ? one : i == 7 ? std::max(all, one) : all + one;
-  }
-  return all;
+  reduce_totals();
+  const lsdcd::MeshTotals all = totals->of_all();
+  if (i < kTotals) return column(all, i);
+  if (i == kPower) return all.power;
+  double worn = 0;
+  for (MeshPart &m : parts) worn += output_of(m, i);
+  return worn;
 }
 
 void FixWallLsdcd::fill_contacts()

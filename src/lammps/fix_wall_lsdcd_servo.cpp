@@ -15,12 +15,8 @@ using lsdcd::Servo;
 lsdcd::ServoLoad FixWallLsdcd::servo_load(const MeshPart &m)
 {
   reduce_totals();
-  return {{m.totals[0], m.totals[1], m.totals[2]},
-          m.torque_at_origin,
-          m.totals[6],
-          m.totals[7],
-          servo_radius,
-          servo_mass};
+  const lsdcd::MeshTotals &t = totals->mesh(m.index);
+  return {t.force, t.torque_at_origin, t.contacts, t.overlap, servo_radius, servo_mass};
 }
 
 // The largest radius and mass that a contact can have. Collective.

@@ -144,7 +144,7 @@ void FixWallLsdcd::check_new_spheres()
 // Of the step just computed.
 void FixWallLsdcd::keep_outputs()
 {
-  reduced = false;
+  totals->expire();
   if (records) add_loads();
   if (vflag_global) add_virial();
   if (settings.contacts) fill_contacts();

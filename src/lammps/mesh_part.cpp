@@ -4,21 +4,6 @@
 
 using namespace LAMMPS_NS;
 
-// Torque about what `torque_about` names, and power.
-void MeshPart::finish_totals()
-{
-  const lsdcd::WallPose &pose = motion.pose();
-  const lsdcd::Vec3 force = {totals[0], totals[1], totals[2]},
-                    torque = {totals[3], totals[4], totals[5]};
-  const lsdcd::Vec3 point =
-      settings.torque_about_mesh ? pose.to_box(settings.torque_about) : settings.torque_about;
-  const lsdcd::Vec3 about = torque - cross(point, force);
-  torque_at_origin = torque;
-  for (int d = 0; d < 3; d++) totals[3 + d] = about[d];
-  // From 0, so that it is not -0 at rest.
-  power = 0 - dot(force, pose.velocity) - dot(torque - cross(pose.shift, force), pose.angular);
-}
-
 lsdcd::Box MeshPart::bounds(double past) const
 {
   const lsdcd::MeshReport &r = wall.report();

@@ -32,12 +32,6 @@ struct MeshPart {
 
   std::vector<lsdcd::ImageObject> strokes;    // of its picture; on the first process
 
-  // Over all processes, of the last step: force, torque, contacts, largest overlap, uncertified.
-  static constexpr int kTotals = 9;
-  double totals[kTotals] = {0}, power = 0, energy = 0;
-  lsdcd::Vec3 torque_at_origin = {0, 0, 0};
-  void finish_totals();    // from sums about the origin
-
   std::unique_ptr<lsdcd::PointTree> vertices;    // of a process that has the mesh; once asked for
 
   bool out_of_reach_warned = false, ends_warned = false;

@@ -1,0 +1,77 @@
+#include "wall/step_totals.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+void StepTotals::clear()
+{
+  std::fill(meshes_.begin(), meshes_.end(), MeshTotals());
+  reduced_ = true;
+}
+
+void StepTotals::reduce(const WallEngine *engine, const std::vector<WallPose> &poses)
+{
+  if (reduced_) return;
+  constexpr int kSums = 9;
+  const int n = static_cast<int>(meshes_.size());
+  std::vector<Real> sum, most;
+  for (int k = 0; k < n; k++) {
+    WallTotals t;
+    if (engine) t = n > 1 ? engine->mesh_totals(k) : engine->totals();
+    sum.insert(sum.end(),
+               {t.force.x, t.force.y, t.force.z, t.torque.x, t.torque.y, t.torque.z,
+                static_cast<Real>(t.contacts), static_cast<Real>(t.uncertified), t.energy});
+    most.push_back(t.largest_overlap_ratio);
+  }
+  host_.sum(sum.data(), kSums * n);
+  host_.max(most.data(), n);
+  for (int k = 0; k < n; k++) {
+    const Real *const s = sum.data() + kSums * k;
+    const MeshSettings &settings = settings_.meshes[k];
+    const WallPose &pose = poses[k];
+    MeshTotals &m = meshes_[k];
+    m.force = {s[0], s[1], s[2]};
+    m.torque_at_origin = {s[3], s[4], s[5]};
+    m.contacts = s[6];
+    m.overlap = most[k];
+    m.uncertified = s[7];
+    m.energy = s[8];
+    const Vec3 about =
+        settings.torque_about_mesh ? pose.to_box(settings.torque_about) : settings.torque_about;
+    m.torque = m.torque_at_origin - cross(about, m.force);
+    // From 0, so that it is not -0 at rest.
+    m.power = 0 - dot(m.force, pose.velocity) -
+              dot(m.torque_at_origin - cross(pose.shift, m.force), pose.angular);
+  }
+  reduced_ = true;
+}
+
+bool StepTotals::torques_share_a_point() const
+{
+  if (settings_.meshes.size() == 1) return true;
+  const Vec3 &first = settings_.meshes.front().torque_about;
+  return std::all_of(settings_.meshes.begin(), settings_.meshes.end(), [&](const MeshSettings &m) {
+    return !m.torque_about_mesh && m.torque_about == first;
+  });
+}
+
+MeshTotals StepTotals::of_all() const
+{
+  MeshTotals all = meshes_.front();
+  for (std::size_t k = 1; k < meshes_.size(); k++) {
+    const MeshTotals &m = meshes_[k];
+    all.force += m.force;
+    all.torque += m.torque;
+    all.torque_at_origin += m.torque_at_origin;
+    all.contacts += m.contacts;
+    all.overlap = std::max(all.overlap, m.overlap);
+    all.uncertified += m.uncertified;
+    all.power += m.power;
+    all.energy += m.energy;
+  }
+  if (!torques_share_a_point()) all.torque = all.torque_at_origin;
+  return all;
+}
+
+}    // namespace lsdcd

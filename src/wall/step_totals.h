@@ -1,0 +1,57 @@
+// What spheres did to the meshes of a wall in the last step: sums over all processes.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "input/settings.h"
+#include "wall/host.h"
+
+#include <vector>
+
+namespace lsdcd {
+
+// Of one mesh.
+struct MeshTotals {
+  Vec3 force = {0, 0, 0};     // on the mesh
+  Vec3 torque = {0, 0, 0};    // on the mesh, about the point of MeshSettings::torque_about
+  Vec3 torque_at_origin = {0, 0, 0};    // on the mesh, about the origin of the box
+  Real contacts = 0;                    // how many
+  Real overlap = 0;                     // the largest overlap / radius
+  Real uncertified = 0;                 // spheres whose answer was not certified exact
+  Real power = 0;                       // of the mesh on the spheres, by its motion
+  Real energy = 0;                      // elastic, in overlaps and springs
+};
+
+// Sums are made when they are asked for: one round of messages in a step, and only in some steps.
+class StepTotals {
+ public:
+  // Both must outlive it.
+  StepTotals(Host &host, const WallSettings &settings) :
+      host_(host), settings_(settings), meshes_(settings.meshes.size())
+  {
+  }
+
+  // A step has been computed.
+  void expire() { reduced_ = false; }
+  // The wall acts on nothing: all is 0 until the next step.
+  void clear();
+
+  // Makes the sums, once a step. `engine`: null while there are no spheres. `poses`: of the meshes in
+  // this step. Collective.
+  void reduce(const WallEngine *engine, const std::vector<WallPose> &poses);
+
+  // Of the last reduce().
+  const MeshTotals &mesh(int k) const { return meshes_[k]; }
+  // Over all meshes: sums, and the largest overlap. Torques are about the origin of the box if the
+  // meshes have their torques about different points.
+  MeshTotals of_all() const;
+
+ private:
+  bool torques_share_a_point() const;
+
+  Host &host_;
+  const WallSettings &settings_;
+  std::vector<MeshTotals> meshes_;
+  bool reduced_ = false;
+};
+
+}    // namespace lsdcd
