@@ -195,9 +195,6 @@ GridView moved_view(const GridView &view, const char *to);
 // Centre of the brick at a slot in the table.
 Vec3 brick_centre(const TriangleGrid &grid, std::size_t slot);
 
-// Is there any candidate in the cell that holds q? Most spheres stop here.
-LSDCD_FN bool near_wall(const GridView &grid, const Vec3 &q);
-
 }    // namespace lsdcd
 
 #include "grid/lookup/locate.h"
