@@ -68,15 +68,6 @@ std::string quoted(const std::string &text)
   return text.find_first_of(",\"") == std::string::npos ? text : '"' + text + '"';
 }
 
-const char *compiler()
-{
-#if defined(__clang__)
-  return "clang " __clang_version__;
-#else
-  return "g++ " __VERSION__;
-#endif
-}
-
 double cpu_copy_gb_s()
 {
   constexpr std::size_t kBytes = std::size_t(1) << 29;
@@ -163,6 +154,15 @@ BenchOptions read_options(int argc, char **argv, const char *about)
 bool of_one_thread = false;
 
 }    // namespace
+
+const char *compiler()
+{
+#if defined(__clang__)
+  return "clang " __clang_version__;
+#else
+  return "g++ " __VERSION__;
+#endif
+}
 
 double clock_ms()
 {

@@ -89,4 +89,7 @@ int run_bench(int argc, char **argv, const char *program, const char *about,
 // printf into a string.
 std::string format(const char *how, ...) __attribute__((format(printf, 1, 2)));
 
+// The compiler and its version.
+const char *compiler();
+
 }    // namespace lsdcd

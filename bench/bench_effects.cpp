@@ -3,6 +3,8 @@
 // Spheres lie on a floor of 20 000 triangles, each with one contact, in a step as the fix makes
 // it. Cases take turns, so that what disturbs the machine disturbs all alike; the least of the
 // times is nearest to the truth, since disturbances only add.
+#include "bench.h"
+
 #include "effects/effects.h"
 
 #include "base/input_error.h"
@@ -135,15 +137,6 @@ double cost_over(const std::vector<EffectCase> &cases, const std::vector<EffectC
   for (std::size_t k = 0; k < cases.size(); k++)
     if (cases[k].name == cases[i].over) return costs[i].min_ns - costs[k].min_ns;
   return 0;
-}
-
-const char *compiler()
-{
-#if defined(__clang__)
-  return "clang " __clang_version__;
-#else
-  return "g++ " __VERSION__;
-#endif
 }
 
 // Fields are separated by semicolons: words and devices have commas in them.

@@ -1,10 +1,9 @@
 // What a query of many spheres against a wall costs: the paper's question, does a sphere
 // touch, and the exact distance within the cutoff. No copies: spheres and answers stay on the
-// device. Distances also through the library, and on one core beside Embree and CGAL where they are
-// (near_and_far.h).
+// device. Distances through the library on one core, beside Embree and CGAL where they are
+// (near_and_far.h), and what its calls cost.
 #include "bench.h"
 #include "call_cost.h"
-#include "library_query.h"
 #include "near_and_far.h"
 #include "peers.h"
 
@@ -12,7 +11,6 @@
 #include "study/sphere_query.h"
 #include "study/spheres.h"
 
-#include <cmath>
 #include <memory>
 
 using namespace lsdcd;
@@ -86,20 +84,6 @@ class Queries {
     row.facts = format("million_per_s=%.4g ", double(n) / row.timing.median_ms / 1e3) +
                 facts(grid, query_->status());
     rows_.add(row);
-    query_->run(settings);    // for who compares
-  }
-
-  // The same distances through liblsdcd, and how far they are from those of the last measure().
-  void measure_library(LibraryQuery &library, const TriangleGrid &grid, const SphereSet &set)
-  {
-    const std::size_t n = set.exact.size();
-    for (bool with_radii : {false, true}) {
-      const Timing t = grid.in_floats ? library.time(set.rounded.data(), n, with_radii, repeats_)
-                                      : library.time(set.exact.data(), n, with_radii, repeats_);
-      add_other(std::string("library") + (with_radii ? " with radii" : "") + ", complete, " +
-                    (grid.in_floats ? "float" : "double"),
-                grid, set, n, t, library.distances());
-    }
   }
 
  private:
@@ -115,32 +99,6 @@ class Queries {
   {
     const double bytes = double(n) * ((in_floats ? sizeof(FloatSphere) : sizeof(Sphere)) + 1);
     return bytes + (distance ? double(n) * (in_floats ? sizeof(float) : sizeof(Real)) : 0);
-  }
-
-  void add_other(const std::string &what, const TriangleGrid &grid, const SphereSet &set,
-                 std::size_t n, const Timing &timing, const std::vector<double> &distance)
-  {
-    BenchRow row;
-    row.what = what;
-    row.triangles = grid.wall.faces.size();
-    row.spheres = n;
-    row.length = grid.length;
-    row.order = name_of(set.order);
-    row.bytes = bytes_of(n, what.find("float") != what.npos, true);
-    row.timing = timing;
-    const std::vector<Real> ours = query_->distance();
-    double most = 0;
-    std::size_t found = 0, only_one = 0;
-    for (std::size_t i = 0; i < n; i++) {
-      found += std::isfinite(distance[i]);
-      if (std::isfinite(distance[i]) != std::isfinite(ours[i]))
-        only_one++;
-      else if (std::isfinite(ours[i]))
-        most = std::max(most, std::fabs(distance[i] - ours[i]));
-    }
-    row.facts = format("million_per_s=%.4g found=%zu found_by_one=%zu largest_difference=%.2g",
-                       double(n) / timing.median_ms / 1e3, found, only_one, most);
-    rows_.add(row);
   }
 
   void give(const TriangleGrid &grid, const SphereSet &set)
@@ -197,7 +155,7 @@ void measure_status(const BenchOptions &o, Queries &queries)
 }
 
 // The distance of every sphere of the largest radius, complete lists.
-void measure_distance(const BenchOptions &o, Device device, Queries &queries)
+void measure_distance(const BenchOptions &o, Queries &queries)
 {
   const std::size_t n = static_cast<std::size_t>(o.spheres > 0 ? o.spheres : o.quick ? 1e5 : 1e7);
   const SphereSet random = make_set(n, Order::random, true),
@@ -207,11 +165,8 @@ void measure_distance(const BenchOptions &o, Device device, Queries &queries)
     TriangleGrid grid = queries.grid(weld(soup, -1), length, 0);
     for (bool in_floats : {false, true}) {
       if (in_floats) add_brick_records(grid);
-      LibraryQuery library(soup, length, kCutoff, in_floats, device == Device::cuda);
-      for (const SphereSet *set : {&random, &sorted}) {
+      for (const SphereSet *set : {&random, &sorted})
         queries.measure("distance", grid, *set, QuerySettings());
-        queries.measure_library(library, grid, *set);
-      }
     }
   }
 }
@@ -231,7 +186,7 @@ void measure(const BenchOptions &options, BenchRows &rows)
       return options.part.empty() || options.part == part;
     };
     if (wanted("status")) measure_status(options, queries);
-    if (wanted("distance")) measure_distance(options, device, queries);
+    if (wanted("distance")) measure_distance(options, queries);
     if (wanted("near-and-far") && device == Device::cpu) measure_near_and_far(options, rows);
     if (wanted("calls") && device == Device::cpu) measure_calls(options, rows);
   }

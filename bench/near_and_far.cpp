@@ -96,15 +96,15 @@ struct Way {
 Way library_way(const TriangleSoup &mesh, Real radius, bool in_floats)
 {
   const double start = clock_ms();
-  const auto library = std::make_shared<LibraryQuery>(mesh, 0, radius, in_floats, false);
+  const auto library = std::make_shared<LibraryQuery>(mesh, radius, in_floats);
   const double seconds = (clock_ms() - start) / 1e3;
   const auto time = [=](const std::vector<Sphere> &points) {
-    if (!in_floats) return library->time(points.data(), points.size(), false, 1);
+    if (!in_floats) return library->time(points.data(), points.size());
     std::vector<FloatSphere> rounded;
     for (const Sphere &s : points)
       rounded.push_back({static_cast<float>(s.x), static_cast<float>(s.y), static_cast<float>(s.z),
                          static_cast<float>(s.r)});
-    return library->time(rounded.data(), rounded.size(), false, 1);
+    return library->time(rounded.data(), rounded.size());
   };
   return {in_floats ? "library, float" : "library, double",
           format("setup_s=%.4g grid_mb=%.1f", seconds, library->grid_bytes() / 1e6),

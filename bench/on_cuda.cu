@@ -27,11 +27,6 @@ double cuda_copy_gb_s()
   return 2 * double(kBytes) / least / 1e6;
 }
 
-double cuda_milliseconds(const std::function<void()> &f)
-{
-  return CudaBackend().milliseconds(f);
-}
-
 double cuda_brute_force_ms(const TriangleGrid &grid, std::size_t n, std::size_t stride)
 {
   CudaBackend b;

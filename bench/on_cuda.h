@@ -4,15 +4,12 @@
 #include "brute_force.h"
 
 #include <cstddef>
-#include <functional>
 #include <string>
 
 namespace lsdcd {
 
 std::string cuda_name();
 double cuda_copy_gb_s();
-// What f() puts into the default stream, there.
-double cuda_milliseconds(const std::function<void()> &f);
 double cuda_brute_force_ms(const TriangleGrid &grid, std::size_t n, std::size_t stride);
 
 }    // namespace lsdcd

@@ -54,9 +54,9 @@ template <class Visit>
 LSDCD_FN bool for_each_near(const GridView &grid, const Vec3 &centre, Real radius,
                             const Visit &visit)
 {
-  const CellAddress at = locate(grid, grid.lists, centre);
-  if (!at.brick || !has_candidates(*at.brick, at.cell)) return false;
-  const Cell cell = grid.lists.cells[cell_index(*at.brick, at.cell)];
+  CellAddress at;
+  Cell cell;
+  if (!find_cell(grid, centre, at, cell)) return false;
   const std::uint32_t most = static_cast<std::uint32_t>(grid.nearest);
   const std::uint32_t n = cell.count < most ? cell.count : most;
   for (std::uint32_t k = 0; k < n; k++) {

@@ -43,7 +43,7 @@ LSDCD_FN bool any_brick_near(const GridView &grid, const Vec3 &centre, Real radi
   for (int z = first[2]; z <= last[2]; z++)
     for (int y = first[1]; y <= last[1]; y++)
       for (int x = first[0]; x <= last[0]; x++)
-        if (brick_at(grid, grid.lists, x * kBrickSide, y * kBrickSide, z * kBrickSide)) return true;
+        if (brick_at(grid, x * kBrickSide, y * kBrickSide, z * kBrickSide)) return true;
   return false;
 }
 

@@ -7,7 +7,7 @@
 
 namespace lsdcd {
 
-// Two tests closed by the tolerance can both answer at a seam; then their closest point
+// Two tests closed by the tolerance can both answer at a seam; then their closest
 // points lie this many tolerances apart at most (each is off by one, twice).
 constexpr Real kSamePoint = 4;
 
@@ -82,12 +82,12 @@ LSDCD_NOINLINE void add_primitive(const Geometry &geometry, FeatureCode primitiv
 }
 
 template <class Geometry, int kPlaces>
-LSDCD_FN void find_in_complete(const GridView &grid, const CellListsView &lists, const Vec3 &q,
-                               Real radius, ContactSet<kPlaces> &set)
+LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
+                               ContactSet<kPlaces> &set)
 {
-  const CellAddress at = locate(grid, lists, q);
-  if (!at.brick || !has_candidates(*at.brick, at.cell)) return;
-  const Cell cell = lists.cells[cell_index(*at.brick, at.cell)];
+  CellAddress at;
+  Cell cell;
+  if (!find_cell(grid, q, at, cell)) return;
   const Geometry geometry(grid, q, at);
   if (cell.count == 1) {
     add_feature_noinline(geometry, cell.first, radius, set);
@@ -97,7 +97,7 @@ LSDCD_FN void find_in_complete(const GridView &grid, const CellListsView &lists,
   // feature can be within the radius.
   const Real enough = radius + norm(at.from_centre);
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
-    const Candidate candidate = lists.candidates[i];
+    const Candidate candidate = grid.lists.candidates[i];
     if (candidate.bound > enough) break;
     add_feature_noinline(geometry, candidate.feature, radius, set);
     if (set.overflow) break;    // nothing else is valid
@@ -106,12 +106,12 @@ LSDCD_FN void find_in_complete(const GridView &grid, const CellListsView &lists,
 
 // Returns the radius up to which the set is certain to be complete.
 template <class Geometry, int kPlaces>
-LSDCD_FN Real find_in_nearest(const GridView &grid, const CellListsView &lists, const Vec3 &q,
-                              Real radius, ContactSet<kPlaces> &set)
+LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
+                              ContactSet<kPlaces> &set)
 {
-  const CellAddress at = locate(grid, lists, q);
-  if (!at.brick || !has_candidates(*at.brick, at.cell)) return kAnyDistance;
-  const Cell cell = lists.cells[cell_index(*at.brick, at.cell)];
+  CellAddress at;
+  Cell cell;
+  if (!find_cell(grid, q, at, cell)) return kAnyDistance;
   const Geometry geometry(grid, q, at);
   if (cell.count == 1) {
     add_primitive(geometry, cell.first, radius, set);
@@ -119,7 +119,7 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const CellListsView &lists, 
   }
   const Real off_centre = norm(at.from_centre);
   for (std::uint32_t k = 0; k < cell.count; k++) {
-    const Candidate candidate = lists.candidates[cell.first + k];
+    const Candidate candidate = grid.lists.candidates[cell.first + k];
     if (candidate.bound > radius + off_centre) break;
     // The tolerance is for the rounding of distances.
     if (k == static_cast<std::uint32_t>(grid.nearest))
@@ -138,8 +138,8 @@ template <class Geometry, int kPlaces>
 LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
                                ContactSet<kPlaces> &set)
 {
-  if (grid.nearest > 0) return find_in_nearest<Geometry>(grid, grid.lists, q, radius, set);
-  find_in_complete<Geometry>(grid, grid.lists, q, radius, set);
+  if (grid.nearest > 0) return find_in_nearest<Geometry>(grid, q, radius, set);
+  find_in_complete<Geometry>(grid, q, radius, set);
   return kAnyDistance;
 }
 

@@ -19,7 +19,7 @@ struct FaceRecord {
   Real height;    // distance of corner 0 from edge 1
 };
 
-// An edge as a segment and the in-plane inward normals of its faces: a closest point
+// An edge as a segment and the in-plane inward normals of its faces: a closest
 // point on it is a local minimum of distance if no face lets the distance fall.
 struct EdgeRecord {
   Vec3 anchor;       // its first vertex

@@ -91,21 +91,18 @@ void read_cache(Tokens &w, MeshSettings &s)
   s.cache_file = file;
 }
 
-// Sub-models beside a classic style: "cdt MU | epsd2 MU", and a line about each.
-std::string choices_beside_classic(Family family)
-{
-  std::string text;
-  for (const SubModel *row : sub_models(family, GoesWith::classic))
-    text += (text.empty() ? "" : " | ") + syntax_of(*row);
-  return text;
-}
-std::string help_beside_classic(Family family)
-{
-  std::string text;
-  for (const SubModel *row : sub_models(family, GoesWith::classic))
-    text += (text.empty() ? "" : "; ") + std::string(row->name) + ": " + row->help;
-  return text;
-}
+// A family's sub-models beside a classic style: "cdt MU | epsd2 MU", and a line about each.
+struct BesideClassic {
+  std::string syntax, help;
+
+  explicit BesideClassic(Family family)
+  {
+    for (const SubModel *row : sub_models(family, GoesWith::classic)) {
+      syntax += (syntax.empty() ? "" : " | ") + syntax_of(*row);
+      help += (help.empty() ? "" : "; ") + std::string(row->name) + ": " + row->help;
+    }
+  }
+};
 
 void read_beside_classic(Tokens &w, WallSettings &s, Family family, const char *instead)
 {
@@ -131,10 +128,7 @@ void read_cohesion(Tokens &w, WallSettings &s)
   if (s.law.cohesion.numbers[0] == 0) s.law.cohesion = CohesionModel::none;    // costs nothing
 }
 
-const std::string kRolling = choices_beside_classic(Family::rolling),
-                  kRollingHelp = help_beside_classic(Family::rolling),
-                  kCohesion = choices_beside_classic(Family::cohesion),
-                  kCohesionHelp = help_beside_classic(Family::cohesion);
+const BesideClassic kRolling(Family::rolling), kCohesion(Family::cohesion);
 
 void read_wear(Tokens &w, WallSettings &s)
 {
@@ -263,8 +257,8 @@ const Keyword kKeywords[] = {
      "it turns along itself about an axis through c (the origin), as a roll's; each w a number or "
      "v_NAME",
      nullptr, read_surface_angvel},
-    {"rolling", kRolling.c_str(), "", ">= 0", "none", kRollingHelp.c_str(), read_rolling},
-    {"cohesion", kCohesion.c_str(), "energy/volume", ">= 0", "none", kCohesionHelp.c_str(),
+    {"rolling", kRolling.syntax.c_str(), "", ">= 0", "none", kRolling.help.c_str(), read_rolling},
+    {"cohesion", kCohesion.syntax.c_str(), "energy/volume", ">= 0", "none", kCohesion.help.c_str(),
      read_cohesion},
     {"wear", "archard K H | finnie K", "K H: none, pressure; K: 1/pressure", ">= 0, H > 0", "none",
      "volume that wears off the triangles: K F s/H, or by angle and energy of impacts", read_wear},

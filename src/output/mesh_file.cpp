@@ -7,6 +7,8 @@
 #include "output/file_bytes.h"
 #include "output/mesh_stl.h"
 
+#include <iterator>
+
 namespace lsdcd {
 
 namespace {
@@ -19,8 +21,9 @@ void for_each_triangle(const WeldedPoints &mesh, F f)
     f(mesh.corner_point[c], mesh.corner_point[c + 1], mesh.corner_point[c + 2]);
 }
 
-std::string obj(const WeldedPoints &mesh)
+std::string obj(const TriangleSoup &soup)
 {
+  const WeldedPoints mesh = weld_points(soup.corners, 0);
   std::string bytes = "# lsdcd\n";
   for (const Vec3 &x : mesh.points) append_line(bytes, "v", x);
   for_each_triangle(mesh, [&](int a, int b, int c) {    // counted from 1
@@ -31,8 +34,9 @@ std::string obj(const WeldedPoints &mesh)
   return bytes;
 }
 
-std::string off(const WeldedPoints &mesh)
+std::string off(const TriangleSoup &soup)
 {
+  const WeldedPoints mesh = weld_points(soup.corners, 0);
   std::string bytes = "OFF\n" + std::to_string(mesh.points.size()) + ' ' +
                       std::to_string(mesh.corner_point.size() / 3) + " 0\n";
   for (const Vec3 &x : mesh.points) append_line(bytes, "", x);
@@ -44,8 +48,9 @@ std::string off(const WeldedPoints &mesh)
   return bytes;
 }
 
-std::string ply(const WeldedPoints &mesh)
+std::string ply(const TriangleSoup &soup)
 {
+  const WeldedPoints mesh = weld_points(soup.corners, 0);
   const bool floats = are_floats(mesh.points);
   std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment lsdcd\nelement vertex " +
                       std::to_string(mesh.points.size()) + '\n';
@@ -66,26 +71,42 @@ std::string ply(const WeldedPoints &mesh)
   return bytes;
 }
 
-}    // namespace
+struct Format {
+  const char *ending;
+  std::string (*bytes_of)(const TriangleSoup &soup);
+};
 
-MeshFormat mesh_format(const std::string &path)
+const Format kFormats[] = {
+    {".stl", stl_bytes},
+    {".obj", obj},
+    {".ply", ply},
+    {".off", off},
+};
+
+const Format &format_of(const std::string &path)
 {
   const std::string ending = name_ending(path);
-  if (ending == ".stl") return MeshFormat::stl;
-  if (ending == ".obj") return MeshFormat::obj;
-  if (ending == ".ply") return MeshFormat::ply;
-  if (ending == ".off") return MeshFormat::off;
-  throw InputError("'" + path + "': the name of a mesh ends with .stl, .obj, .ply or .off");
+  std::string all;
+  for (const Format &f : kFormats) {
+    if (ending == f.ending) return f;
+    all += (all.empty()                    ? ""
+            : &f + 1 == std::end(kFormats) ? " or "
+                                           : ", ") +
+           std::string(f.ending);
+  }
+  throw InputError("'" + path + "': the name of a mesh ends with " + all);
+}
+
+}    // namespace
+
+void check_mesh_name(const std::string &path)
+{
+  format_of(path);
 }
 
 void write_mesh_file(const std::string &path, const TriangleSoup &soup)
 {
-  const MeshFormat format = mesh_format(path);
-  if (format == MeshFormat::stl) return write_stl(path, soup);
-  const WeldedPoints mesh = weld_points(soup.corners, 0);
-  write_whole_file(path, format == MeshFormat::obj   ? obj(mesh)
-                         : format == MeshFormat::ply ? ply(mesh)
-                                                     : off(mesh));
+  write_whole_file(path, format_of(path).bytes_of(soup));
 }
 
 }    // namespace lsdcd

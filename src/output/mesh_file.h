@@ -7,12 +7,10 @@
 
 namespace lsdcd {
 
-enum class MeshFormat { stl, obj, ply, off };
+// Throws InputError, which names the endings that are known, where the name has another.
+void check_mesh_name(const std::string &path);
 
-// By the name's ending, in any case. Throws InputError that names those that are known.
-MeshFormat mesh_format(const std::string &path);
-
-// By its ending. STL and PLY are binary, of floats where all corners are floats; else STL is text,
+// By its ending, in any case. STL and PLY are binary, of floats where all corners are floats; else STL is text,
 // and PLY of doubles. OBJ and OFF are text. Text tells every number to the last bit. Corners of
 // equal coordinates are one vertex. The file appears whole or not at all; throws InputError that
 // names it.

@@ -62,9 +62,9 @@ bool are_floats(const std::vector<Vec3> &points)
                      [](const Vec3 &x) { return rounded_as_in_stl(x) == x; });
 }
 
-void write_stl(const std::string &path, const TriangleSoup &soup)
+std::string stl_bytes(const TriangleSoup &soup)
 {
-  write_whole_file(path, are_floats(soup.corners) ? binary(soup) : text(soup));
+  return are_floats(soup.corners) ? binary(soup) : text(soup);
 }
 
 void write_mesh_stl(const std::string &path, const WallMesh &mesh, const WallPose &pose)

@@ -9,13 +9,12 @@
 
 namespace lsdcd {
 
-// All of them write a file whole or not at all, and throw InputError that names it.
+// The bytes of a file, in the soup's order and winding; binary where all corners are floats, else text
+// that tells each to the last bit.
+std::string stl_bytes(const TriangleSoup &soup);
 
-// In the soup's order and winding; binary where all corners are floats, else text that tells each
-// to the last bit.
-void write_stl(const std::string &path, const TriangleSoup &soup);
-
-// Binary; corners rounded to float, in the winding of the mesh.
+// Binary; corners rounded to float, in the winding of the mesh. The file appears whole or not at all;
+// throws InputError that names it.
 void write_mesh_stl(const std::string &path, const WallMesh &mesh, const WallPose &pose = {});
 
 // A corner as a binary file has it: of floats.

@@ -135,8 +135,8 @@ struct GridWork {
   {
     if constexpr (kTogether) {
       const Vec3 q = s.centre();
-      const Answer a = nearest_together<Distances>(grid, grid.lists, q, s.r,
-                                                   address_inside(grid, q), cell, lanes);
+      const Answer a =
+          nearest_together<Distances>(grid, q, s.r, address_inside(grid, q), cell, lanes);
       if (lanes.lane() == 0) out.keep(i, a);
     }
   }

@@ -42,9 +42,9 @@ struct FirstOfEqual {
 // `limit`: entries that are tried; one more is only a bound. Where Before orders features at the same
 // distance, before(a, b) says by codes of the list whether a is found, not b.
 template <bool kPrimitives, class Distances, class Before>
-LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists, const Vec3 &q,
-                                Real radius, std::uint32_t limit, const CellAddress &at,
-                                const Cell &cell, const Before &before)
+LSDCD_FN Answer nearest_in_cell(const GridView &grid, const Vec3 &q, Real radius,
+                                std::uint32_t limit, const CellAddress &at, const Cell &cell,
+                                const Before &before)
 {
   const Distances distances(grid, q, at);
   // Nothing farther than the nearest so far is of interest.
@@ -68,11 +68,11 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const CellListsView &lists
   const Real off_centre = single ? 0 : norm(at.from_centre);
   // The next entry is asked for before this one is tried, which takes reading of its own.
   Candidate next = {cell.first, 0};
-  if (!single) next = lists.candidates[cell.first];
+  if (!single) next = grid.lists.candidates[cell.first];
   for (std::uint32_t k = 0; k < cell.count; k++) {
     const Candidate candidate = next;
     if (!single) {
-      if (k + 1 < cell.count) next = lists.candidates[cell.first + k + 1];
+      if (k + 1 < cell.count) next = grid.lists.candidates[cell.first + k + 1];
       // A distance that need not be right ends nothing.
       const bool past = candidate.bound > (Distances::kBounded ? nearest : radius) + off_centre;
       if (k == limit || (past && Distances::kBounded)) return answer(past, k + 1);
@@ -94,9 +94,8 @@ LSDCD_FN Real nearer(Real first, Real second)
 // nearest before that entry comes from the lanes below, so that the list ends where it would
 // end for one thread.
 template <class Distances, class Lanes>
-LSDCD_FN Answer nearest_together(const GridView &grid, const CellListsView &lists, const Vec3 &q,
-                                 Real radius, const CellAddress &at, const Cell &cell,
-                                 const Lanes &lanes)
+LSDCD_FN Answer nearest_together(const GridView &grid, const Vec3 &q, Real radius,
+                                 const CellAddress &at, const Cell &cell, const Lanes &lanes)
 {
   static_assert(Distances::kBounded, "a list is read to its end where bounds do not hold");
   const Distances distances(grid, q, at);
@@ -111,7 +110,7 @@ LSDCD_FN Answer nearest_together(const GridView &grid, const CellListsView &list
     Real least = nearest;    // of the entries up to this one
     Real bound = 0;
     if (there) {
-      const Candidate candidate = lists.candidates[cell.first + k];
+      const Candidate candidate = grid.lists.candidates[cell.first + k];
       bound = candidate.bound;
       least = nearer(nearest, distances.feature(candidate.feature, nearest));
     }
@@ -132,12 +131,6 @@ LSDCD_FN Answer nearest_together(const GridView &grid, const CellListsView &list
   return answer(cell.count);
 }
 
-// Where `at` has candidates.
-LSDCD_FN Cell cell_of(const CellListsView &lists, const CellAddress &at)
-{
-  return lists.cells[cell_index(*at.brick, at.cell)];
-}
-
 constexpr std::uint32_t kWholeList = 0xffffffffu;
 
 // The nearest point of the wall within `radius` (length, at most grid.cutoff) of q, which lies
@@ -148,10 +141,9 @@ LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
                              const CellAddress &at, const Cell &cell, const Before &before = {})
 {
   if (kComplete)
-    return nearest_in_cell<false, Distances>(grid, grid.lists, q, radius, kWholeList, at, cell,
-                                             before);
-  return nearest_in_cell<true, Distances>(
-      grid, grid.lists, q, radius, static_cast<std::uint32_t>(grid.nearest), at, cell, before);
+    return nearest_in_cell<false, Distances>(grid, q, radius, kWholeList, at, cell, before);
+  return nearest_in_cell<true, Distances>(grid, q, radius, static_cast<std::uint32_t>(grid.nearest),
+                                          at, cell, before);
 }
 
 // The same for any q.
@@ -159,9 +151,10 @@ template <bool kComplete, class Distances, class Before = FirstOfEqual>
 LSDCD_FN Answer nearest_distance(const GridView &grid, const Vec3 &q, Real radius,
                                  const Before &before = {})
 {
-  const CellAddress at = locate(grid, grid.lists, q);
-  if (!at.brick || !has_candidates(*at.brick, at.cell)) return far_answer();
-  return nearest_from<kComplete, Distances>(grid, q, radius, at, cell_of(grid.lists, at), before);
+  CellAddress at;
+  Cell cell;
+  if (!find_cell(grid, q, at, cell)) return far_answer();
+  return nearest_from<kComplete, Distances>(grid, q, radius, at, cell, before);
 }
 
 }    // namespace lsdcd

@@ -14,9 +14,9 @@ namespace {
 // The nearest primitive of the cell that holds p; kNoFeature in cells away from the wall.
 FeatureCode listed_at(const GridView &grid, const Vec3 &p)
 {
-  const CellAddress at = locate(grid, grid.lists, p);
-  if (!at.brick || !has_candidates(*at.brick, at.cell)) return kNoFeature;
-  const Cell cell = grid.lists.cells[cell_index(*at.brick, at.cell)];
+  CellAddress at;
+  Cell cell;
+  if (!find_cell(grid, p, at, cell)) return kNoFeature;
   return cell.count == 1 ? cell.first : grid.lists.candidates[cell.first].feature;
 }
 

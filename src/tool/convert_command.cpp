@@ -37,7 +37,7 @@ std::string known_unit(const std::string &word)
 
 void run(const Options &o)
 {
-  mesh_format(o.output);    // before the work
+  check_mesh_name(o.output);    // before the work
   check_outputs({{"--output", o.output}}, {o.file});
   ReadMesh read = read_mesh(o.file);
   TriangleSoup &soup = read.soup;

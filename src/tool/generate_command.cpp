@@ -1,5 +1,6 @@
 #include "tool/commands.h"
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
 #include "output/mesh_stl.h"
 #include "tool/mesh_json.h"
@@ -49,7 +50,7 @@ void write(const Output &o, const Triangles &coarse)
         o.file + " is not written, it would not be clean:" + verdict_line(mesh.report).substr(13) +
         "; is one of its lengths below 1e-6 of the whole? Give a larger --edge or "
         "fewer --segments");
-  write_stl(o.file, soup);
+  write_whole_file(o.file, stl_bytes(soup));
   if (o.json)
     std::printf("%s\n", as_json(mesh.report).dump(2).c_str());
   else

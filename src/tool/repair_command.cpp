@@ -110,7 +110,7 @@ void add_meetings(RepairedMesh &repaired)
 // Returns whether all is mended.
 bool run(const Options &o)
 {
-  mesh_format(o.output);    // before the work
+  check_mesh_name(o.output);    // before the work
   check_outputs({{"--output", o.output}}, {o.file});
   Progress progress(o.progress);
   RepairedMesh repaired =

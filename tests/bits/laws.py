@@ -170,6 +170,9 @@ EFFECTS = {
     "timestep": effect(TURN, between="reset_timestep 1000\ntimestep 2e-4\n", laws=SOME),
     "balance": effect("", before="fix even all balance 20 1.0 shift xyz 5 1.02\n", laws=SOME),
     "balance_turning": effect(TURN, before="fix even all balance 20 1.0 shift xyz 5 1.02\n", laws=SOME),
+    # Jumps over folds in one step: a spring goes along or is left by the angle that it turns (kMoved).
+    "jumps": effect("motion variable v_jump NULL NULL v_still NULL NULL", laws=SOME,
+                    before="variable jump equal 0.25*((step%10)>4)\nvariable still equal 0\n"),
     "rarely": effect("", neigh="delay 10 every 10 check no", laws=SOME),
     "rarely_turning": effect(TURN, neigh="delay 10 every 10 check no", laws=SOME),
     "sorted": effect("", settings="atom_modify sort 7 1.0\n", laws=SOME),

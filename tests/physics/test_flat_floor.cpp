@@ -95,29 +95,7 @@ void expect_plane(const TriangleSoup &soup, Real weld_tolerance = -1, Real force
   }
 }
 
-// Half of the floor x < 0 in n strips, the other half in m: T-junctions at x = 0.
-// `gap` (length) sets the halves apart; `angle` turns all about z, so that the
-// junctions are off the line by rounding.
-TriangleSoup split_floor(int n, int m, Real gap, Real angle)
-{
-  TriangleSoup soup;
-  soup.source = "split floor";
-  const auto half = [&](Real x0, Real x1, int strips) {
-    for (int i = 0; i < strips; i++) {
-      const Real y0 = -kHalf + 2 * kHalf * i / strips, y1 = -kHalf + 2 * kHalf * (i + 1) / strips;
-      soup.corners.insert(soup.corners.end(), {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}});
-      soup.corners.insert(soup.corners.end(), {{x0, y0, 0}, {x1, y1, 0}, {x0, y1, 0}});
-    }
-  };
-  half(-kHalf, -gap / 2, n);
-  half(gap / 2, kHalf, m);
-  for (Vec3 &p : soup.corners)
-    p = {std::cos(angle) * p.x - std::sin(angle) * p.y,
-         std::sin(angle) * p.x + std::cos(angle) * p.y, 0};
-  return soup;
-}
-
-// The same floor turned by `tilt` about the y axis.
+// A floor turned by `tilt` about the y axis.
 TriangleSoup tilted(TriangleSoup soup, Real tilt, Real height)
 {
   for (Vec3 &p : soup.corners) p = {p.x, p.y, tilt * p.x + height};
@@ -147,8 +125,8 @@ TEST(flat_floor, of_20000_jittered_triangles_of_mixed_winding_is_a_plane)
 TEST(flat_floor, with_t_junctions_is_a_plane)
 {
   // Beside the junction its rim answers too, and bears nothing.
-  expect_plane(split_floor(1, 7, 0, 0), -1, kExact, kExact, false, 0.7 * kHalf);
-  expect_plane(split_floor(3, 10, 0, 0.3), -1, kExact, kExact, false, 0.7 * kHalf);
+  expect_plane(split_floor(1, 7, 0, kHalf), -1, kExact, kExact, false, 0.7 * kHalf);
+  expect_plane(turned(split_floor(3, 10, 0, kHalf), 0.3), -1, kExact, kExact, false, 0.7 * kHalf);
 }
 
 TEST(flat_floor, with_facets_given_twice_is_a_plane)
@@ -170,7 +148,7 @@ TEST(flat_floor, laid_twice_with_other_triangles_is_a_plane)
 TEST(flat_floor, with_a_seam_1e_7_apart_is_a_plane_when_welded)
 {
   // The weld, 1e-6 of the diagonal, closes the seam: facets change, the plane not.
-  expect_plane(split_floor(4, 4, 1e-7, 0));
+  expect_plane(split_floor(4, 4, 1e-7, kHalf));
 }
 
 TEST(flat_floor, with_a_seam_1e_7_apart_is_a_plane_when_not_welded)
@@ -179,13 +157,14 @@ TEST(flat_floor, with_a_seam_1e_7_apart_is_a_plane_when_not_welded)
   // distance, 1e-14 / 2.5e-3 of the least overlap here, and lean by gap/h.
   const Real gap = 1e-7, least_height = 0.4 * kRadius, least_overlap = 1e-3 * kRadius;
   const Real lean = gap / least_height;
-  expect_plane(split_floor(4, 4, gap, 0), 0, lean * lean + gap * gap / least_overlap, lean, false);
+  expect_plane(split_floor(4, 4, gap, kHalf), 0, lean * lean + gap * gap / least_overlap, lean,
+               false);
 }
 
 TEST(flat_floor, with_halves_that_overlap_by_1e_7_is_a_plane)
 {
   // As beside a T-junction.
-  expect_plane(split_floor(4, 9, -1e-7, 0), 0, kExact, kExact, false);
+  expect_plane(split_floor(4, 9, -1e-7, kHalf), 0, kExact, kExact, false);
 }
 
 TEST(flat_floor, on_a_sheet_1e_7_below_is_a_plane)

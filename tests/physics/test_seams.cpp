@@ -147,37 +147,12 @@ TEST(seams, of_200000_triangles_are_not_felt)
                floor_mesh(316, kHalf, 3));
 }
 
-// Half of the floor x < 0 in n strips, the other half in m: T-junctions at x = 0.
-TriangleSoup split_floor(int n, int m, Real gap)
-{
-  TriangleSoup soup;
-  soup.source = "split floor";
-  const auto half = [&](Real x0, Real x1, int strips) {
-    for (int i = 0; i < strips; i++) {
-      const Real y0 = -kHalf + 2 * kHalf * i / strips, y1 = -kHalf + 2 * kHalf * (i + 1) / strips;
-      soup.corners.insert(soup.corners.end(), {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}});
-      soup.corners.insert(soup.corners.end(), {{x0, y0, 0}, {x1, y1, 0}, {x0, y1, 0}});
-    }
-  };
-  half(-kHalf, -gap / 2, n);
-  half(gap / 2, kHalf, m);
-  return soup;
-}
-
-TriangleSoup turned(TriangleSoup soup, Real angle)
-{
-  for (Vec3 &p : soup.corners)
-    p = {std::cos(angle) * p.x - std::sin(angle) * p.y,
-         std::sin(angle) * p.x + std::cos(angle) * p.y, p.z};
-  return soup;
-}
-
 TEST(seams, with_t_junctions_are_not_felt)
 {
-  expect_plane("5", "T-junctions along x = 0", split_floor(1, 7, 0), {}, -1, 0.9 * kHalf);
+  expect_plane("5", "T-junctions along x = 0", split_floor(1, 7, 0, kHalf), {}, -1, 0.9 * kHalf);
   // Turned, the junctions lie off the line by roundings: gaps of 1e-15.
-  expect_plane("5", "T-junctions off their line by rounding", turned(split_floor(3, 10, 0), 0.3),
-               {}, -1, 0.6 * kHalf);
+  expect_plane("5", "T-junctions off their line by rounding",
+               turned(split_floor(3, 10, 0, kHalf), 0.3), {}, -1, 0.6 * kHalf);
 }
 
 TEST(seams, of_two_files_are_not_felt)
@@ -233,7 +208,7 @@ TEST(seams, of_vertices_1e_7_apart_are_felt_as_far_as_the_gaps_reach)
                {lean * lean + kGap * kGap / (2 * kHeight) / kOverlap, lean,
                 "over a gap g the rims lean by g/h, g^2/2h farther away"},
                0);
-  expect_plane("9", "a gap of 1e-7 between two halves, not welded", split_floor(4, 9, kGap),
+  expect_plane("9", "a gap of 1e-7 between two halves, not welded", split_floor(4, 9, kGap, kHalf),
                {lean * lean + kGap * kGap / (2 * kHeight) / kOverlap, lean,
                 "over a gap g the rims lean by g/h, g^2/2h farther away"},
                0);
@@ -241,8 +216,8 @@ TEST(seams, of_vertices_1e_7_apart_are_felt_as_far_as_the_gaps_reach)
 
 TEST(seams, of_halves_that_overlap_by_1e_7_are_not_felt)
 {
-  expect_plane("10", "two halves that overlap by 1e-7, not welded", split_floor(4, 9, -kGap), {}, 0,
-               0.9 * kHalf);
+  expect_plane("10", "two halves that overlap by 1e-7, not welded", split_floor(4, 9, -kGap, kHalf),
+               {}, 0, 0.9 * kHalf);
 }
 
 TEST(seams, of_vertices_lifted_by_1e_7_shift_the_force_by_their_lift_over_the_overlap)

@@ -128,6 +128,30 @@ TriangleSoup faces_all_round(int n)
   return soup;
 }
 
+TriangleSoup split_floor(int n, int m, Real gap, Real half)
+{
+  TriangleSoup soup;
+  soup.source = "split floor";
+  const auto add = [&](Real x0, Real x1, int strips) {
+    for (int i = 0; i < strips; i++) {
+      const Real y0 = -half + 2 * half * i / strips, y1 = -half + 2 * half * (i + 1) / strips;
+      soup.corners.insert(soup.corners.end(), {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}});
+      soup.corners.insert(soup.corners.end(), {{x0, y0, 0}, {x1, y1, 0}, {x0, y1, 0}});
+    }
+  };
+  add(-half, -gap / 2, n);
+  add(gap / 2, half, m);
+  return soup;
+}
+
+TriangleSoup turned(TriangleSoup soup, Real angle)
+{
+  for (Vec3 &p : soup.corners)
+    p = {std::cos(angle) * p.x - std::sin(angle) * p.y,
+         std::sin(angle) * p.x + std::cos(angle) * p.y, p.z};
+  return soup;
+}
+
 void append(TriangleSoup &soup, const TriangleSoup &more)
 {
   soup.corners.insert(soup.corners.end(), more.corners.begin(), more.corners.end());

@@ -17,6 +17,13 @@ namespace lsdcd {
 // chosen at random; z stays exactly 0.
 TriangleSoup floor_mesh(int n, Real half, unsigned seed = 0);
 
+// The same floor, its half x < 0 in n strips, the other half in m: T-junctions at x = 0. `gap` (length)
+// sets the halves apart.
+TriangleSoup split_floor(int n, int m, Real gap, Real half);
+
+// Turned about z by an angle in radians.
+TriangleSoup turned(TriangleSoup soup, Real angle);
+
 // A closed cylinder along z, radius r, 0 <= z <= h, n segments round, m along.
 TriangleSoup cylinder_mesh(int n, int m, Real r, Real h);
 

@@ -139,9 +139,9 @@ TEST(bodies, face_behind_its_neighbours_fold_is_found)
   settings.nearest = 0;
   const TriangleGrid of_features = build_grid(mesh, settings);
   const GridView view = of_features.view();
-  const CellAddress at = locate(view, view.lists, {1, 0.55, 0.26});
-  ASSERT_TRUE(at.brick && has_candidates(*at.brick, at.cell));
-  const Cell cell = view.lists.cells[cell_index(*at.brick, at.cell)];
+  CellAddress at;
+  Cell cell;
+  ASSERT_TRUE(find_cell(view, {1, 0.55, 0.26}, at, cell));
   ASSERT_EQ(cell.count, 1u);
   EXPECT_EQ(cell.first, feature_code(FeatureKind::face, 0));
 }

@@ -18,6 +18,15 @@ Outcome run_on(Device device, const Case &c, const ContactLaw &law,
   return run_steps(c, law, make, 20000, search, wall);
 }
 
+GridSettings grid_settings(const Case &c)
+{
+  GridSettings g;
+  g.within = within(c);
+  g.cutoff = c.cutoff;
+  g.length = c.length;
+  return g;
+}
+
 const ContactLaw kStyles[] = {classic(NormalModel::hooke, false), classic(NormalModel::hooke, true),
                               classic(NormalModel::hertz, true)};
 
@@ -25,10 +34,7 @@ TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
 {
   for (const Case &c : cases()) {
     const WallMesh mesh = mesh_of(c);
-    GridSettings g;
-    g.within = within(c);
-    g.cutoff = c.cutoff;
-    g.length = c.length;
+    const GridSettings g = grid_settings(c);
     const TriangleGrid cpu = build_grid(mesh, g, false), cuda = build_grid(mesh, g, true);
     EXPECT_TRUE(same_bytes(cpu.lists.brick_of, cuda.lists.brick_of)) << c.name;
     EXPECT_TRUE(same_bytes(cpu.lists.bricks, cuda.lists.bricks)) << c.name;
@@ -42,10 +48,7 @@ TEST(cuda_grid, has_the_same_nearest_lists_and_float_records_as_the_cpu_grid)
 {
   for (const Case &c : cases()) {
     const WallMesh mesh = mesh_of(c);
-    GridSettings g;
-    g.within = within(c);
-    g.cutoff = c.cutoff;
-    g.length = c.length;
+    GridSettings g = grid_settings(c);
     g.nearest = 3;
     g.in_floats = true;
     const TriangleGrid cpu = build_grid(mesh, g, false), cuda = build_grid(mesh, g, true);

@@ -365,14 +365,16 @@ TEST(engine, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
   const std::vector<BrickWord> words = brick_words(grid);
   const BrickTable table(words, words.data());
   std::mt19937_64 random(3);
-  std::uniform_real_distribution<Real> at(-12, 12), up(-3, 3), unit(-1, 1), margins(0, 1.5);
+  std::uniform_real_distribution<Real> across(-12, 12), up(-3, 3), unit(-1, 1), margins(0, 1.5);
   int near = 0, missed = 0, far = 0;
   for (int k = 0; k < 200000; k++) {
-    const Vec3 q = {at(random), at(random), up(random)};
+    const Vec3 q = {across(random), across(random), up(random)};
+    CellAddress at;
+    Cell cell;
     Vec3 way = {unit(random), unit(random), unit(random)};
     const Real margin = margins(random);
     way = (margin * std::fabs(unit(random)) / norm(way)) * way;
-    if (near_wall(grid, q + way)) {
+    if (find_cell(grid, q + way, at, cell)) {
       near++;
       missed += !near_within(grid, table, q, margin);
     } else

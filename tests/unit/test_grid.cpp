@@ -332,7 +332,7 @@ TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
 // Does the list of a cell hold a feature?
 bool lists(const GridView &grid, const CellSlot &at, FeatureCode feature)
 {
-  const Brick *brick = brick_at(grid, grid.lists, at.i, at.j, at.k);
+  const Brick *brick = brick_at(grid, at.i, at.j, at.k);
   if (!brick || !has_candidates(*brick, cell_in_brick(at))) return false;
   const Cell cell = grid.lists.cells[cell_index(*brick, cell_in_brick(at))];
   if (cell.count == 1) return cell.first == feature;
@@ -670,7 +670,7 @@ TEST(grid, position_that_is_not_a_number_touches_nothing)
     ContactSet<kPlaces> set;
     find_contacts(grid.view(), q, 0.3, set);
     EXPECT_EQ(set.n, 0);
-    EXPECT_FALSE(near_wall(grid.view(), q));
+    EXPECT_FALSE(locate(grid.view(), q).brick);
   }
 }
 

@@ -62,11 +62,30 @@ Vec3 where(const MeshMotion &motion)
   return motion.pose().to_box({0, 0, 0});
 }
 
-TEST(MeshMotion, moves_with_time)
+// A mesh that goes along x by 1 a step.
+struct WallAlongX : Wall {
+  WallAlongX() { linear({2, 0, 0}); }
+};
+class AlongX : public testing::Test {
+ protected:
+  WallAlongX wall;
+  MeshMotion motion{wall.host, wall.settings, 0, step(0)};
+};
+
+// A mesh that its servo has moved by 5.
+struct WallWithServo : Wall {
+  WallWithServo() { servo_along_z(); }
+};
+class ServoAtFive : public testing::Test {
+ protected:
+  ServoAtFive() { wall.servo().position = 5; }
+
+  WallWithServo wall;
+  MeshMotion motion{wall.host, wall.settings, 0, step(0)};
+};
+
+TEST_F(AlongX, moves_with_time)
 {
-  Wall wall;
-  wall.linear({2, 0, 0});
-  MeshMotion motion(wall.host, wall.settings, 0, step(0));
   run(motion, 1, 3);
   EXPECT_EQ(where(motion), (Vec3{3, 0, 0}));
 }
@@ -79,11 +98,8 @@ TEST(MeshMotion, tells_how_much_time_has_passed)
   EXPECT_EQ(motion.advance({kFirst + 1, kDt, Step::setup}), 0);
 }
 
-TEST(MeshMotion, knows_where_it_will_be)
+TEST_F(AlongX, knows_where_it_will_be)
 {
-  Wall wall;
-  wall.linear({2, 0, 0});
-  MeshMotion motion(wall.host, wall.settings, 0, step(0));
   run(motion, 1, 1);
   EXPECT_EQ(motion.pose_in(4).shift, (Vec3{1 + 8, 0, 0}));
 }
@@ -151,11 +167,8 @@ TEST(MeshMotion, names_its_variables_in_the_order_of_their_evaluation)
 
 // fix_modify motion
 
-TEST(MeshMotion, goes_on_with_another_motion_from_where_it_is)
+TEST_F(AlongX, goes_on_with_another_motion_from_where_it_is)
 {
-  Wall wall;
-  wall.linear({2, 0, 0});
-  MeshMotion motion(wall.host, wall.settings, 0, step(0));
   run(motion, 1, 2);
   motion.change(read_modified_motion({"motion", "linear", "0", "3", "0"}), step(2));
   EXPECT_EQ(where(motion), (Vec3{2, 0, 0}));
@@ -163,11 +176,8 @@ TEST(MeshMotion, goes_on_with_another_motion_from_where_it_is)
   EXPECT_EQ(where(motion), (Vec3{2, 3, 0}));
 }
 
-TEST(MeshMotion, stays_where_it_is_without_a_motion)
+TEST_F(AlongX, stays_where_it_is_without_a_motion)
 {
-  Wall wall;
-  wall.linear({2, 0, 0});
-  MeshMotion motion(wall.host, wall.settings, 0, step(0));
   run(motion, 1, 2);
   motion.change(read_modified_motion({"motion", "none"}), step(2));
   run(motion, 3, 4);
@@ -175,12 +185,8 @@ TEST(MeshMotion, stays_where_it_is_without_a_motion)
   EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}), "none; the mesh stays where it is");
 }
 
-TEST(MeshMotion, keeps_what_a_servo_has_added_to_another_motion)
+TEST_F(ServoAtFive, keeps_what_a_servo_has_added_to_another_motion)
 {
-  Wall wall;
-  wall.servo_along_z();
-  MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  wall.servo().position = 5;
   run(motion, 1, 1);
   motion.change(read_modified_motion({"motion", "linear", "0", "3", "0"}), step(1));
   EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
@@ -189,12 +195,8 @@ TEST(MeshMotion, keeps_what_a_servo_has_added_to_another_motion)
 
 // fix_modify servo
 
-TEST(MeshMotion, stops_a_servo_where_it_is)
+TEST_F(ServoAtFive, stops_a_servo_where_it_is)
 {
-  Wall wall;
-  wall.servo_along_z();
-  MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  wall.servo().position = 5;
   wall.servo().velocity = 1;
   motion.change(ModifiedServo());
   EXPECT_TRUE(wall.servo().holds);
@@ -212,32 +214,20 @@ ModifiedServo servo_along(const Vec3 &axis, Real lo, Real hi)
   return to;
 }
 
-TEST(MeshMotion, goes_on_along_the_line_of_a_servo)
+TEST_F(ServoAtFive, goes_on_along_the_line_of_a_servo)
 {
-  Wall wall;
-  wall.servo_along_z();
-  MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  wall.servo().position = 5;
   motion.change(servo_along({0, 0, 1}, 0, 6));
   EXPECT_EQ(wall.servo().position, 5);
   EXPECT_EQ(wall.servo().hi, 6);
 }
 
-TEST(MeshMotion, refuses_limits_that_a_servo_is_past)
+TEST_F(ServoAtFive, refuses_limits_that_a_servo_is_past)
 {
-  Wall wall;
-  wall.servo_along_z();
-  MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  wall.servo().position = 5;
   EXPECT_THROW(motion.change(servo_along({0, 0, 1}, 0, 4)), InputError);
 }
 
-TEST(MeshMotion, begins_along_another_line_from_where_it_is)
+TEST_F(ServoAtFive, begins_along_another_line_from_where_it_is)
 {
-  Wall wall;
-  wall.servo_along_z();
-  MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  wall.servo().position = 5;
   run(motion, 1, 1);
   motion.change(servo_along({1, 0, 0}, -1, 1));
   EXPECT_EQ(wall.servo().position, 0);
@@ -266,11 +256,8 @@ void expect_refused(Wall &wall, const Step &at, const std::string &why)
   }
 }
 
-TEST(MeshMotion, is_known_in_a_snapshot_from_its_time)
+TEST_F(AlongX, is_known_in_a_snapshot_from_its_time)
 {
-  Wall wall;
-  wall.linear({2, 0, 0});
-  MeshMotion motion(wall.host, wall.settings, 0, step(0));
   const Step at = {kFirst + 6, kDt, Step::snapshot};
   motion.check_snapshot(at);
   motion.advance(at);

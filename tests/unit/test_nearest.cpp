@@ -65,10 +65,10 @@ TEST(nearest_lists, hold_the_nearest_triangles_in_order_and_the_next_as_a_bound)
       while (cells < 300) {
         const Vec3 q = random_centre(random, w.soup.corners.data(), int(w.soup.n_triangles()),
                                      mesh.report.lo, mesh.report.hi, w.cutoff);
-        const CellAddress at = locate(view, view.lists, q);
-        if (!at.brick || !has_candidates(*at.brick, at.cell)) continue;
+        CellAddress at;
+        Cell cell;
+        if (!find_cell(view, q, at, cell)) continue;
         cells++;
-        const Cell cell = view.lists.cells[cell_index(*at.brick, at.cell)];
         const std::vector<Real> d = distances(triangles, q - at.from_centre);
         // A list holds what is within the cutoff and half a diagonal, and the next as a bound.
         const Real limit = w.cutoff + grid.tolerance + 0.5 * std::sqrt(3.) * w.length * (1 + 1e-6);

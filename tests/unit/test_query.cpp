@@ -383,9 +383,8 @@ void expect_lanes_read_as_one(const Case &c, bool in_floats, std::size_t &read)
     threads.emplace_back([&, lane] {
       for (std::size_t i = 0; i < cells.size(); i++) {
         const Vec3 q = spheres[i].centre();
-        answers[lane].push_back(nearest_together<Distances>(view, view.lists, q, spheres[i].r,
-                                                            locate(view, view.lists, q), cells[i],
-                                                            FourLanes(shared, lane)));
+        answers[lane].push_back(nearest_together<Distances>(view, q, spheres[i].r, locate(view, q),
+                                                            cells[i], FourLanes(shared, lane)));
       }
     });
   for (std::thread &t : threads) t.join();
@@ -820,9 +819,9 @@ TEST(query, bits_of_bricks_give_the_list_that_their_table_gives)
     std::size_t occupied = 0;
     for (const Sphere &s : c.spheres) {
       const Vec3 x = s.centre();
-      const CellAddress at = locate(view, view.lists, x);
-      const Cell cell =
-          at.brick && has_candidates(*at.brick, at.cell) ? cell_of(view.lists, at) : Cell{0, 0};
+      CellAddress at;
+      Cell cell = {0, 0};
+      find_cell(view, x, at, cell);
       const Cell by_words = cell_by_words(view, BrickTable(words, words.data()), x);
       EXPECT_EQ(by_words.first, cell.first) << c.soup.source;
       EXPECT_EQ(by_words.count, cell.count) << c.soup.source;

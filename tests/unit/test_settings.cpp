@@ -216,11 +216,6 @@ TEST(settings, words_of_other_walls_are_answered)
   }
 }
 
-TEST(settings, nearest_exact_is_told_what_to_write)
-{
-  EXPECT_TRUE(names(error_with("nearest 2 exact"), "write nearest all"));
-}
-
 TEST(settings, out_of_range_gives_the_range)
 {
   const std::vector<std::pair<std::string, std::string>> cases = {
@@ -251,81 +246,41 @@ TEST(settings, log_is_full_or_brief)
 {
   EXPECT_FALSE(with("log full").brief);
   EXPECT_TRUE(with("log brief").brief);
-  EXPECT_TRUE(names(error_with("log none"), "log full | brief"));
 }
 
-TEST(settings, an_unknown_style_shows_the_known_ones)
+TEST(settings, wrong_words_are_named_with_what_is_right)
 {
-  EXPECT_TRUE(
-      names(error_of("hertz 1 1 1 1 0.5 1 mesh a.stl"), "hooke|hooke/history|hertz/history"));
-}
-
-TEST(settings, no_style_is_an_error)
-{
-  EXPECT_TRUE(names(error_of(""), "contact style is missing"));
-}
-
-TEST(settings, a_word_for_a_number_is_named)
-{
-  EXPECT_TRUE(names(error_of("hooke 1e5 NULL fifty NULL 0.5 1 mesh a.stl"), "'fifty'"));
-}
-
-TEST(settings, too_few_numbers_show_the_syntax)
-{
-  const std::string error = error_of("hooke 1e5 NULL 50 NULL 0.5 mesh a.stl");
-  EXPECT_TRUE(names(error, "dampflag must be a number, not 'mesh'"));
-  EXPECT_TRUE(names(error, "Syntax: hooke|"));
-}
-
-TEST(settings, a_value_missing_at_the_end_is_named)
-{
-  EXPECT_TRUE(names(error_with("move 1 2"), "the value of z is missing"));
-}
-
-TEST(settings, a_number_with_a_tail_is_not_a_number)
-{
-  EXPECT_TRUE(names(error_with("weld 1e-6m"), "'1e-6m'"));
-}
-
-TEST(settings, infinite_and_nan_are_not_numbers)
-{
-  EXPECT_TRUE(names(error_with("grid inf"), "'inf'"));
-  EXPECT_TRUE(names(error_with("grid nan"), "'nan'"));
-}
-
-TEST(settings, negative_stiffness_is_out_of_range)
-{
-  EXPECT_TRUE(names(error_of("hooke -1 NULL 50 NULL 0.5 1 mesh a.stl"), "out of range"));
-}
-
-TEST(settings, friction_above_10000_is_out_of_range)
-{
-  EXPECT_TRUE(names(error_of("hooke 1 NULL 50 NULL 10001 1 mesh a.stl"), "xmu = 10001"));
-}
-
-TEST(settings, dampflag_is_0_or_1)
-{
-  EXPECT_TRUE(names(error_of("hooke 1 NULL 50 NULL 1 0.5 mesh a.stl"), "0 or 1"));
-}
-
-TEST(settings, a_zero_cell_is_out_of_range)
-{
-  EXPECT_TRUE(names(error_with("grid 0"), "out of range"));
-}
-
-TEST(settings, a_wrong_choice_shows_the_right_ones)
-{
-  EXPECT_TRUE(names(error_with("corner round"), "blend | sum"));
+  const std::string law = "hooke 1e5 NULL 50 NULL 0.5 1 mesh a.stl ";
+  const struct {
+    const char *what;
+    std::string line, told;
+  } cases[] = {
+      {"no style", "", "contact style is missing"},
+      {"an unknown style", "hertz 1 1 1 1 0.5 1 mesh a.stl", "hooke|hooke/history|hertz/history"},
+      {"no mesh", "hooke 1 1 1 1 0.5 1 contacts", "mesh FILE is missing"},
+      {"a word for a number", "hooke 1e5 NULL fifty NULL 0.5 1 mesh a.stl", "'fifty'"},
+      {"too few numbers", "hooke 1e5 NULL 50 NULL 0.5 mesh a.stl",
+       "dampflag must be a number, not 'mesh'"},
+      {"too few numbers: the syntax", "hooke 1e5 NULL 50 NULL 0.5 mesh a.stl", "Syntax: hooke|"},
+      {"a negative stiffness", "hooke -1 NULL 50 NULL 0.5 1 mesh a.stl", "out of range"},
+      {"a dampflag between 0 and 1", "hooke 1 NULL 50 NULL 1 0.5 mesh a.stl", "0 or 1"},
+      {"a value missing at the end", law + "move 1 2", "the value of z is missing"},
+      {"a number with a tail", law + "weld 1e-6m", "'1e-6m'"},
+      {"an infinite number", law + "grid inf", "'inf'"},
+      {"no number", law + "grid nan", "'nan'"},
+      {"a wrong choice", law + "corner round", "blend | sum"},
+      {"a wrong choice of logs", law + "log none", "log full | brief"},
+      {"a cache without a name", law + "cache", "the file name is missing"},
+      {"a keyword twice", law + "rmax 1 rmax 2", "twice"},
+      {"a cut without a normal", law + "cut 0 0 0 1", "the normal must not be 0 0 0"},
+      {"N and exact", law + "nearest 2 exact", "write nearest all"},
+  };
+  for (const auto &c : cases) EXPECT_TRUE(names(error_of(c.line), c.told)) << c.what;
 }
 
 TEST(settings, cache_none_is_no_cache)
 {
   EXPECT_EQ(with("cache none").meshes[0].cache_file, "");
-}
-
-TEST(settings, a_cache_needs_a_file_name)
-{
-  EXPECT_TRUE(names(error_with("cache"), "the file name is missing"));
 }
 
 // In a build without the libraries it is refused with the remedy.
@@ -336,11 +291,6 @@ TEST(settings, a_cache_is_taken_where_it_is_built)
     EXPECT_EQ(with("cache vessel.grid").meshes[0].cache_file, "vessel.grid");
   else
     EXPECT_TRUE(names(error_with("cache vessel.grid"), "libzstd-dev"));
-}
-
-TEST(settings, a_keyword_given_twice_is_an_error)
-{
-  EXPECT_TRUE(names(error_with("rmax 1 rmax 2"), "twice"));
 }
 
 TEST(settings, keywords_of_a_mesh_are_of_the_one_before_them)
@@ -382,11 +332,6 @@ TEST(settings, of_several_meshes_errors_name_the_one)
   for (int k = 0; k < kMostMeshes; k++) many += " mesh a" + std::to_string(k) + ".stl";
   EXPECT_EQ(parse(many).meshes.size(), 32u);
   EXPECT_TRUE(names(error_of(many + " mesh b.stl"), "at most 32"));
-}
-
-TEST(settings, no_mesh_is_an_error)
-{
-  EXPECT_TRUE(names(error_of("hooke 1 1 1 1 0.5 1 contacts"), "mesh FILE is missing"));
 }
 
 TEST(settings, help_lists_every_keyword)
@@ -521,11 +466,6 @@ TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
   EXPECT_TRUE(names(error_with("mesh_fields"), "file name"));
   EXPECT_TRUE(names(error_with("mesh_fields a_*/wall.vtp every 5"), "folder"));
   EXPECT_TRUE(names(error_with("mesh_fields a_*_*.vtp every 5"), "only one is the step"));
-}
-
-TEST(settings, cut_needs_a_normal)
-{
-  EXPECT_TRUE(names(error_with("cut 0 0 0 1"), "the normal must not be 0 0 0"));
 }
 
 TEST(deck_files, are_one_however_the_folder_is_spelled)

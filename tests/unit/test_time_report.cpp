@@ -41,38 +41,43 @@ std::vector<std::string> logged(const std::vector<Spent> &all, Real loop, bool b
   return lines;
 }
 
+// The one table of a run.
+std::string table(const std::vector<Spent> &all, Real loop)
+{
+  const std::vector<std::string> lines = logged(all, loop);
+  EXPECT_EQ(lines.size(), 1);
+  return lines.empty() ? "" : lines[0];
+}
+
 const std::vector<Spent> two_sections = {
     {TimeReport::choice, {1, 3}}, {TimeReport::forces, {1, 4}}, {TimeReport::forces, {3, 8}}};
 
 TEST(TimeReport, has_least_average_and_most_of_the_processes)
 {
-  const std::vector<std::string> lines = logged(two_sections, 20);
-  ASSERT_EQ(lines.size(), 1);
-  EXPECT_EQ(lines[0], "timing breakdown of the wall, 50.00 % of the loop time:\n"
-                      "  Section |  min time  |  avg time  |  max time  |%varavg| %total| %loop\n"
-                      "  ----------------------------------------------------------------------\n"
-                      "  Choice  | 1          | 2          | 3          |  50.0 | 20.00 | 10.00\n"
-                      "  Forces  | 4          | 8          | 12         |  50.0 | 80.00 | 40.00");
+  EXPECT_EQ(table(two_sections, 20),
+            "timing breakdown of the wall, 50.00 % of the loop time:\n"
+            "  Section |  min time  |  avg time  |  max time  |%varavg| %total| %loop\n"
+            "  ----------------------------------------------------------------------\n"
+            "  Choice  | 1          | 2          | 3          |  50.0 | 20.00 | 10.00\n"
+            "  Forces  | 4          | 8          | 12         |  50.0 | 80.00 | 40.00");
 }
 
 TEST(TimeReport, has_no_share_of_a_loop_time_that_is_not_known)
 {
-  const std::vector<std::string> lines = logged(two_sections, 0);
-  ASSERT_EQ(lines.size(), 1);
-  EXPECT_EQ(lines[0], "timing breakdown of the wall:\n"
-                      "  Section |  min time  |  avg time  |  max time  |%varavg| %total\n"
-                      "  ---------------------------------------------------------------\n"
-                      "  Choice  | 1          | 2          | 3          |  50.0 | 20.00\n"
-                      "  Forces  | 4          | 8          | 12         |  50.0 | 80.00");
+  EXPECT_EQ(table(two_sections, 0),
+            "timing breakdown of the wall:\n"
+            "  Section |  min time  |  avg time  |  max time  |%varavg| %total\n"
+            "  ---------------------------------------------------------------\n"
+            "  Choice  | 1          | 2          | 3          |  50.0 | 20.00\n"
+            "  Forces  | 4          | 8          | 12         |  50.0 | 80.00");
 }
 
 TEST(TimeReport, keeps_a_section_of_one_process)
 {
-  const std::vector<std::string> lines = logged({{TimeReport::files, {0, 2}}}, 0);
-  ASSERT_EQ(lines.size(), 1);
-  EXPECT_NE(lines[0].find("\n  Files   | 0          | 1          | 2          | 100.0 |100.00"),
+  const std::string text = table({{TimeReport::files, {0, 2}}}, 0);
+  EXPECT_NE(text.find("\n  Files   | 0          | 1          | 2          | 100.0 |100.00"),
             std::string::npos)
-      << lines[0];
+      << text;
 }
 
 TEST(TimeReport, has_shares_that_add_up_to_100)
@@ -80,9 +85,7 @@ TEST(TimeReport, has_shares_that_add_up_to_100)
   std::vector<Spent> all;
   for (int k = 0; k < TimeReport::kSections; k++)
     all.push_back({static_cast<Section>(k), {1 / (k + 3.0), k / 7.0}});
-  const std::vector<std::string> lines = logged(all, 0);
-  ASSERT_EQ(lines.size(), 1);
-  std::istringstream text(lines[0]);
+  std::istringstream text(table(all, 0));
   Real sum = 0;
   int rows = -3;    // after a head of three lines
   for (std::string line; std::getline(text, line); rows++)

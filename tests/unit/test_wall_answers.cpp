@@ -81,7 +81,9 @@ TEST(band_spheres, are_all_within_reach_and_none_is_deep)
   ASSERT_EQ(sample.n(), 5000);
   long touching = 0;
   for (int i = 0; i < sample.n(); i++) {
-    EXPECT_TRUE(near_wall(grid.view(), sample.x[i]));
+    CellAddress at;
+    Cell cell;
+    EXPECT_TRUE(find_cell(grid.view(), sample.x[i], at, cell));
     ContactSet<64> set;
     find_contacts(grid.view(), sample.x[i], sample.radius[i], set);
     for (int k = 0; k < set.n; k++) EXPECT_GE(set.distance[k], 0.5 * sample.radius[i]);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <utility>
 
 namespace lsdcd {
 namespace {
@@ -91,28 +92,19 @@ TEST(WallFiles, show_the_mesh_where_it_is)
   for (const Vec3 &corner : read_stl(dir.path("wall.stl")).corners) EXPECT_EQ(corner.z, 8);
 }
 
-TEST(WallFiles, begin_a_new_average_with_each_file)
+// Of four steps, where a file is due in the third.
+TEST(WallFiles, begin_a_new_average_with_each_file_that_is_written)
 {
   TempDir dir;
-  Wall wall;
-  wall.files().fields = {dir.path("wall.vtp"), 3};
-  on_processes(2, [&](FakeHost &host) {
-    Process process(host, wall);
-    process.steps(1, 4);
-    EXPECT_EQ(process.loads.gathered(0).time(), 1);
-  });
-}
-
-TEST(WallFiles, average_over_the_steps_of_a_file_that_could_not_be_written)
-{
-  TempDir dir;
-  Wall wall;
-  wall.files().fields = {dir.path("missing/wall.vtp"), 3};
-  on_processes(2, [&](FakeHost &host) {
-    Process process(host, wall);
-    process.steps(1, 4);
-    EXPECT_EQ(process.loads.gathered(0).time(), 4);
-  });
+  for (const auto &[file, time] : {std::pair("wall.vtp", 1), std::pair("missing/wall.vtp", 4)}) {
+    Wall wall;
+    wall.files().fields = {dir.path(file), 3};
+    on_processes(2, [&, time = time](FakeHost &host) {
+      Process process(host, wall);
+      process.steps(1, 4);
+      EXPECT_EQ(process.loads.gathered(0).time(), time);
+    });
+  }
 }
 
 TEST(WallFiles, that_cannot_be_written_are_warned_of_once_a_run)
@@ -137,21 +129,35 @@ TEST(WallFiles, that_cannot_be_written_are_warned_of_once_a_run)
   });
 }
 
+void expect_refused(const WallSettings &settings, const std::string &begin)
+{
+  on_processes(2, [&](FakeHost &host) {
+    try {
+      WallFiles(host, settings, 1).begin_run(0);
+      ADD_FAILURE() << "nothing is thrown";
+    } catch (const InputError &e) {
+      EXPECT_EQ(std::string(e.what()).find(begin), 0) << e.what();
+      EXPECT_NE(std::string(e.what()).find("missing"), std::string::npos) << e.what();
+    }
+  });
+}
+
 TEST(WallFiles, that_cannot_be_made_are_refused_before_a_run_on_all_processes)
 {
   TempDir dir;
   Wall wall;
   wall.files().fields = {dir.path("missing/wall.vtp"), 1};
-  on_processes(2, [&](FakeHost &host) {
-    Process process(host, wall);
-    try {
-      process.files.begin_run(0);
-      ADD_FAILURE() << "nothing is thrown";
-    } catch (const InputError &e) {
-      EXPECT_EQ(std::string(e.what()).find("in 'mesh_fields', "), 0) << e.what();
-      EXPECT_NE(std::string(e.what()).find("missing"), std::string::npos) << e.what();
-    }
-  });
+  expect_refused(wall.settings, "in 'mesh_fields', ");
+}
+
+TEST(WallFiles, of_several_meshes_name_the_mesh_in_errors)
+{
+  TempDir dir;
+  Wall wall;
+  wall.settings.meshes.resize(2);
+  wall.settings.meshes[1].file = "lid.stl";
+  wall.settings.meshes[1].stl = {dir.path("missing/lid.stl"), 1};
+  expect_refused(wall.settings, "mesh 2 'lid.stl': in 'mesh_stl', ");
 }
 
 TEST(WallFiles, leave_nothing_behind_before_a_run)
@@ -202,23 +208,6 @@ TEST(WallFiles, go_on_with_the_list_of_an_earlier_run_where_that_is_asked_for)
   EXPECT_EQ(run(1, 2, false), 2);
   EXPECT_EQ(run(3, 5, true), 5);
   EXPECT_EQ(run(6, 6, false), 1);
-}
-
-TEST(WallFiles, of_several_meshes_name_the_mesh_in_errors)
-{
-  TempDir dir;
-  Wall wall;
-  wall.settings.meshes.resize(2);
-  wall.settings.meshes[1].file = "lid.stl";
-  wall.settings.meshes[1].stl = {dir.path("missing/lid.stl"), 1};
-  on_processes(2, [&](FakeHost &host) {
-    try {
-      WallFiles(host, wall.settings, 1).begin_run(0);
-      ADD_FAILURE() << "nothing is thrown";
-    } catch (const InputError &e) {
-      EXPECT_EQ(std::string(e.what()).find("mesh 2 'lid.stl': in 'mesh_stl', "), 0) << e.what();
-    }
-  });
 }
 
 }    // namespace

@@ -35,7 +35,7 @@ class CellsInBall {
     while (open_ && step()) {
       std::uint32_t at = cell_;
       if (at == kNoCell) {
-        const Brick *brick = brick_at(grid, grid.lists, i_, j_, k_);
+        const Brick *brick = brick_at(grid, i_, j_, k_);
         const int in_brick = cell_in_brick(i_, j_, k_);
         if (!brick || !has_candidates(*brick, in_brick)) continue;
         at = cell_index(*brick, in_brick);
@@ -72,9 +72,9 @@ constexpr std::uint32_t kAhead = 8;
 // Asks a CPU's memory for the first candidates of a sphere at q, whose turn comes soon.
 inline void ask_for_candidates(const GridView &grid, const Vec3 &q)
 {
-  const CellAddress at = locate(grid, grid.lists, q);
-  if (!at.brick || !has_candidates(*at.brick, at.cell)) return;
-  const Cell cell = grid.lists.cells[cell_index(*at.brick, at.cell)];
+  CellAddress at;
+  Cell cell;
+  if (!find_cell(grid, q, at, cell)) return;
   if (cell.count > 1) __builtin_prefetch(grid.lists.candidates + cell.first);
   asm volatile("");    // as in ask_for()
 }

@@ -103,8 +103,7 @@ LSDCD_FN BrickSlot brick_place_of(const GridView &grid, const Vec3 &q)
   const bool inside = i.fits & j.fits & k.fits & ((i.value >> 3) < nx) & ((j.value >> 3) < ny) &
                       ((k.value >> 3) < nz);
   const std::uint32_t slot = ((k.value >> 3) * ny + (j.value >> 3)) * nx + (i.value >> 3);
-  return {inside ? slot : kNoBrick,
-          static_cast<std::int32_t>((k.value & 7) << 6 | (j.value & 7) << 3 | (i.value & 7))};
+  return {inside ? slot : kNoBrick, cell_in_brick(i.value, j.value, k.value)};
 }
 
 // The address that locate() gives, to the bit, without its brick, which nothing needs once the
@@ -115,8 +114,7 @@ LSDCD_FN CellAddress address_inside(const GridView &grid, const Vec3 &q)
                    (q.z - grid.origin.z) * grid.inv_length};
   const WholeNumber i = whole_below(at.x), j = whole_below(at.y), k = whole_below(at.z);
   const Real half = Real(0.5);
-  return {nullptr,
-          static_cast<std::int32_t>((k.value & 7) << 6 | (j.value & 7) << 3 | (i.value & 7)),
+  return {nullptr, cell_in_brick(i.value, j.value, k.value),
           grid.length * Vec3{at.x - i.real - half, at.y - j.real - half, at.z - k.real - half}};
 }
 
@@ -128,8 +126,8 @@ LSDCD_FN std::uint32_t brick_in(const BrickWord &word, const BrickSlot &at)
 
 constexpr std::uint32_t kNoCell = 0xffffffffu;
 
-// Index in lists.cells of the cell that holds q; kNoCell where it has no candidates, as
-// near_wall(grid, q) is false. `table`: as BrickTable.
+// Index in lists.cells of the cell that holds q; kNoCell where it has no candidates, as find_cell()
+// says. `table`: as BrickTable.
 template <class Table>
 LSDCD_FN std::uint32_t occupied_cell(const GridView &grid, const Table &table, const Vec3 &q)
 {

@@ -59,10 +59,14 @@ LSDCD_FN CellSlot cell_slot_of(const GridView &grid, const Vec3 &q)
 }
 
 // Of its brick, in the table.
+LSDCD_FN std::size_t brick_slot(const GridView &grid, int i, int j, int k)
+{
+  return (static_cast<std::size_t>(k >> 3) * grid.n_bricks[1] + (j >> 3)) * grid.n_bricks[0] +
+         (i >> 3);
+}
 LSDCD_FN std::size_t brick_slot(const GridView &grid, const CellSlot &p)
 {
-  return (static_cast<std::size_t>(p.k >> 3) * grid.n_bricks[1] + (p.j >> 3)) * grid.n_bricks[0] +
-         (p.i >> 3);
+  return brick_slot(grid, p.i, p.j, p.k);
 }
 
 LSDCD_FN std::int32_t cell_in_brick(int i, int j, int k)
@@ -75,14 +79,10 @@ LSDCD_FN std::int32_t cell_in_brick(const CellSlot &p)
 }
 
 // The brick of a cell of the grid; null where no wall is near.
-LSDCD_FN const Brick *brick_at(const GridView &grid, const CellListsView &lists, int i, int j,
-                               int k)
+LSDCD_FN const Brick *brick_at(const GridView &grid, int i, int j, int k)
 {
-  const std::size_t at =
-      (static_cast<std::size_t>(k >> 3) * grid.n_bricks[1] + (j >> 3)) * grid.n_bricks[0] +
-      (i >> 3);
-  const std::int32_t b = lists.brick_of[at];
-  return b < 0 ? nullptr : lists.bricks + b;
+  const std::int32_t b = grid.lists.brick_of[brick_slot(grid, i, j, k)];
+  return b < 0 ? nullptr : grid.lists.bricks + b;
 }
 
 // Length.
@@ -92,20 +92,22 @@ LSDCD_FN Vec3 from_cell_centre(const GridView &grid, const CellSlot &p)
   return grid.length * Vec3{p.at.x - p.i - half, p.at.y - p.j - half, p.at.z - p.k - half};
 }
 
-LSDCD_FN CellAddress locate(const GridView &grid, const CellListsView &lists, const Vec3 &q)
+LSDCD_FN CellAddress locate(const GridView &grid, const Vec3 &q)
 {
   const CellSlot p = cell_slot_of(grid, q);
   if (!p.inside) return {nullptr, 0, {0, 0, 0}};
-  const std::int32_t b = lists.brick_of[brick_slot(grid, p)];
-  if (b < 0) return {nullptr, 0, {0, 0, 0}};
-  return {lists.bricks + b, cell_in_brick(p), from_cell_centre(grid, p)};
+  const Brick *brick = brick_at(grid, p.i, p.j, p.k);
+  if (!brick) return {nullptr, 0, {0, 0, 0}};
+  return {brick, cell_in_brick(p), from_cell_centre(grid, p)};
 }
 
-// Does the cell that holds q have candidates? For most spheres it has none.
-LSDCD_FN bool near_wall(const GridView &grid, const Vec3 &q)
+// The cell that holds q, and where q is in it. False: it has no candidates; `cell` is not set then.
+LSDCD_FN bool find_cell(const GridView &grid, const Vec3 &q, CellAddress &at, Cell &cell)
 {
-  const CellAddress at = locate(grid, grid.lists, q);
-  return at.brick && has_candidates(*at.brick, at.cell);
+  at = locate(grid, q);
+  if (!at.brick || !has_candidates(*at.brick, at.cell)) return false;
+  cell = grid.lists.cells[cell_index(*at.brick, at.cell)];
+  return true;
 }
 
 }    // namespace lsdcd
