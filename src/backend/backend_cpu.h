@@ -2,7 +2,7 @@
 #pragma once
 
 #include "backend/atomic.h"
-#include "backend/lane_group.h"
+#include "backend/warp.h"
 #include "base/strided_view.h"
 #include "backend/threads.h"
 #include "backend/owned_array.h"
@@ -108,13 +108,13 @@ struct CpuBackend {
     for (std::int64_t i = 0; i < m; i++) f(static_cast<std::size_t>(i));
   }
 
-  // f(group, mine, i), likewise, by threads that share their work; one that is there only to help
+  // f(warp, mine, i), likewise, by threads that share their work; one that is there only to help
   // has an i that is not `mine`. With `n_at`: for *n_at in place of n, or none if that is more.
   template <class F>
   void for_each_together(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
   {
     if (n_at) n = *n_at <= n ? *n_at : 0;
-    for_each(n, [&](std::size_t i) { f(LaneGroup<1>(), true, i); });
+    for_each(n, [&](std::size_t i) { f(Warp<1>(), true, i); });
   }
 
   // What f() takes, in milliseconds.
@@ -194,7 +194,7 @@ struct CpuBackend {
   }
 
   // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i), before that work.make_list(group, true, i) if
+  // !work.has_single(), work.several(i), before that work.make_list(warp, true, i) if
   // work.needs_list(i), and with a list that is new work.single(i) once more.
   template <class Work>
   void step(std::size_t n, const Work &work)
@@ -278,7 +278,7 @@ struct CpuBackend {
     for (int k = 0; k < n; k++) {
       if (k + kAhead < n) work.ask_ahead(work.places()[items[k + kAhead]]);
       const int i = items[k];
-      if (work.keep_after_all(LaneGroup<1>(), true, i, Work::kNotKnown))
+      if (work.keep_after_all(Warp<1>(), true, i, Work::kNotKnown))
         items[n_kept++] = i;
       else if (work.notes())
         work.note(i, false);
@@ -325,7 +325,7 @@ struct CpuBackend {
     for (int k = 0; k < due.n; k++) {
       if (k % kAsked == 0) ask_for_lists(work, due.at + k, std::min(kAsked, due.n - k));
       const std::int64_t i = due.at[k];
-      work.make_list(LaneGroup<1>(), true, static_cast<std::size_t>(i));
+      work.make_list(Warp<1>(), true, static_cast<std::size_t>(i));
       if (has_single)
         step_singles(work, i, i + 1, several);
       else

@@ -6,7 +6,7 @@
 #include "backend/cuda_mark.h"
 #include "backend/owned_array.h"
 #include "backend/cuda_step.h"
-#include "backend/lane_group.h"
+#include "backend/warp.h"
 
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_reduce.cuh>
@@ -42,7 +42,7 @@ __global__ void __launch_bounds__(kTogetherBlock, kTogetherBlocks)
 {
   const std::size_t n = n_at ? *n_at : most,
                     i = std::size_t(blockIdx.x) * kTogetherBlock + threadIdx.x;
-  if (n <= most && i / 32 * 32 < n) f(LaneGroup<32>(), i < n, i < n ? i : 0);
+  if (n <= most && i / kWarpSize * kWarpSize < n) f(Warp<kWarpSize>(), i < n, i < n ? i : 0);
 }
 
 // The same over parts of things: thing i has offset[i + 1] - offset[i] of them.
@@ -226,7 +226,7 @@ struct CudaBackend {
     cuda_check(cudaGetLastError(), "starting a kernel");
   }
 
-  // f(group, mine, i), likewise, by threads that share their work; one that is there only to help
+  // f(warp, mine, i), likewise, by threads that share their work; one that is there only to help
   // has an i that is not `mine`. With `n_at`: for *n_at in place of n, or none if that is more.
   template <class F>
   void for_each_together(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
@@ -350,7 +350,7 @@ struct CudaBackend {
   }
 
   // step: work.begin(), and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i), before that work.make_list(group, mine, i) by a warp if
+  // !work.has_single(), work.several(i), before that work.make_list(warp, mine, i) by a warp if
   // work.needs_list(i). Lists of work.step_lists() have room for n; those to be written are empty.
   template <class Work>
   void step(std::size_t n, const Work &work)
@@ -446,7 +446,8 @@ struct CudaBackend {
 
   static void reserve_second_look(SelectScratch &room, unsigned of_list)
   {
-    const std::size_t n = SecondLookList::kLists * ((std::size_t(of_list) + 31) / 32 * 32);
+    const std::size_t n =
+        SecondLookList::kLists * ((std::size_t(of_list) + kWarpSize - 1) / kWarpSize * kWarpSize);
     room.items = Array<SecondLookList::Item>(n);
   }
 

@@ -17,10 +17,11 @@
 
 namespace lsdcd {
 
-constexpr unsigned kMarkTile = 128, kMarkWords = kMarkTile / 32;    // items of a warp at a time
+constexpr unsigned kMarkTile = 128,
+                   kMarkWords = kMarkTile / kWarpSize;    // items of a warp at a time
 
 // Warps of a block at most, and blocks at once on a processor: 48 registers a thread.
-constexpr unsigned kMarkWarps = 20, kMarkBlocks = 2, kMarkBlock = 32 * kMarkWarps;
+constexpr unsigned kMarkWarps = 20, kMarkBlocks = 2, kMarkBlock = kWarpSize * kMarkWarps;
 
 // A warp's tile: rows of the items' slots, those to look at more closely, and bits of those
 // that are kept.
@@ -35,16 +36,16 @@ struct alignas(16) MarkTile {
 __device__ inline void bring_rows(const StridedView<const double> &rows, std::size_t first,
                                   unsigned n, double (*to)[3])
 {
-  const unsigned lane = threadIdx.x % 32;
+  const unsigned lane = Warp<kWarpSize>::rank();
   if (n == kMarkTile && rows.row == 3 && rows.column == 1 &&
       reinterpret_cast<std::uintptr_t>(rows.of(first)) % sizeof(uint4) == 0) {
     const uint4 *from = reinterpret_cast<const uint4 *>(rows.of(first)) + lane;
     uint4 *there = reinterpret_cast<uint4 *>(to) + lane;
 #pragma unroll
-    for (unsigned k = 0; k < kMarkTile * 3 * sizeof(double) / sizeof(uint4); k += 32)
+    for (unsigned k = 0; k < kMarkTile * 3 * sizeof(double) / sizeof(uint4); k += kWarpSize)
       __pipeline_memcpy_async(there + k, from + k, sizeof(uint4));
   } else {
-    for (unsigned i = lane; i < n; i += 32) {
+    for (unsigned i = lane; i < n; i += kWarpSize) {
       const Vec3 row = rows[first + i];
       to[i][0] = row.x;
       to[i][1] = row.y;
@@ -61,12 +62,13 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
     cuda_mark(unsigned n, const __grid_constant__ Work work, unsigned *words,
               const SecondLookList list)
 {
-  constexpr unsigned kEach = kMarkTile / 32;
+  constexpr unsigned kEach = kMarkTile / kWarpSize;
   extern __shared__ uint4 mark_shared[];
   __shared__ unsigned turns;
-  const unsigned lane = threadIdx.x % 32, n_warps = blockDim.x / 32;
+  const Warp<kWarpSize> warp;
+  const unsigned lane = warp.rank(), n_warps = blockDim.x / kWarpSize;
   MarkTile *const tiles = reinterpret_cast<MarkTile *>(mark_shared),
-                  &mine = tiles[threadIdx.x / 32];
+                  &mine = tiles[threadIdx.x / kWarpSize];
   if (threadIdx.x == 0) turns = n_warps;
   const auto table = [&] {
     if constexpr (kTableNear)
@@ -80,7 +82,7 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
   };
 
   // A block has every gridDim.x-th tile, and its warps take them as they come.
-  for (unsigned turn = threadIdx.x / 32;;) {
+  for (unsigned turn = threadIdx.x / kWarpSize;;) {
     const unsigned tile = turn * gridDim.x + blockIdx.x, first = tile * kMarkTile;
     if (first >= n) return;
     const unsigned last = min(n - first, kMarkTile) - 1;
@@ -88,28 +90,30 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
     typename Work::Item item[kEach];
     bool odd = false;
 #pragma unroll
-    for (unsigned k = 0; k < kEach; k++) item[k] = work.read(first + min(lane + k * 32, last));
+    for (unsigned k = 0; k < kEach; k++)
+      item[k] = work.read(first + min(lane + k * kWarpSize, last));
     if (lane < kMarkWords) mine.kept[lane] = 0;
-    turn = room_at(&turns, 1);
+    turn = warp.take_room(&turns, 1);
 #pragma unroll
     for (unsigned k = 0; k < kEach; k++) odd = odd || work.may_be_large(item[k]);
     if (odd)
-      for (unsigned i = lane; i <= last; i += 32) work.check(first + i, work.read(first + i));
+      for (unsigned i = lane; i <= last; i += kWarpSize)
+        work.check(first + i, work.read(first + i));
     __pipeline_wait_prior(0);
     __syncwarp();
 
     unsigned waiting = 0;
 #pragma unroll
     for (unsigned k = 0; k < kEach; k++) {
-      const unsigned i = lane + k * 32;
+      const unsigned i = lane + k * kWarpSize;
       const bool may = work.may_keep(item[k], place_of(min(i, last)), table) & (i <= last);
-      const unsigned votes = __ballot_sync(kAllLanes, may);
-      if (may) mine.waiting[waiting + votes_below(votes)] = static_cast<std::uint8_t>(i);
-      waiting += __popc(votes);
+      const unsigned votes = warp.vote(may);
+      if (may) mine.waiting[waiting + warp.count_below(votes)] = static_cast<std::uint8_t>(i);
+      waiting += warp.count(votes);
     }
     __syncwarp();
 #pragma unroll 1    // nearly always one turn
-    for (unsigned turn_first = 0; turn_first < waiting; turn_first += 32) {
+    for (unsigned turn_first = 0; turn_first < waiting; turn_first += kWarpSize) {
       const unsigned w = turn_first + lane, i = mine.waiting[min(w, waiting - 1)];
       const std::uint32_t found = w < waiting ? work.find(place_of(i), table) : Work::kNotFound;
       const bool kept = found != Work::kNotFound;
@@ -118,7 +122,7 @@ __global__ void __launch_bounds__(kMarkBlock, kMarkBlocks)
     }
     __syncwarp();
     if (work.notes())
-      for (unsigned i = lane; i <= last; i += 32)
+      for (unsigned i = lane; i <= last; i += kWarpSize)
         work.note(first + i, mine.kept[i / 32] >> lane & 1u);
     if (lane < kMarkWords) words[tile * kMarkWords + lane] = list.items ? 0 : mine.kept[lane];
     __syncwarp();
@@ -135,7 +139,7 @@ void start_mark(unsigned n, const Work &work, CudaLimits &limits, unsigned *word
   const auto kernel = shape.has_table ? cuda_mark<true, Work> : cuda_mark<false, Work>;
   limits.allow(kernel, shape.shared);
   kernel<<<std::min((n + of_block - 1) / of_block, limits.processors() * kMarkBlocks),
-           32 * shape.warps, shape.shared, stream>>>(n, work, words, list);
+           kWarpSize * shape.warps, shape.shared, stream>>>(n, work, words, list);
   cuda_check(cudaGetLastError(), "starting a kernel");
 }
 
@@ -177,7 +181,7 @@ __global__ static void __launch_bounds__(kGatherBlock)
   }
   ahead = Sum(shared.sum).Sum(ahead);
   if (threadIdx.x == 0) before = ahead;
-  if (blockIdx.x == gridDim.x - 1 && threadIdx.x < 32) {
+  if (blockIdx.x == gridDim.x - 1 && threadIdx.x < kWarpSize) {
     const bool was_short = list.length && list.empty();
     if (threadIdx.x == 0) *total = was_short ? kNoRoom : ahead + n;
   }

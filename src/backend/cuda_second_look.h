@@ -1,7 +1,7 @@
 // The second look of a choice on an NVIDIA GPU, at the items that the first one, a mark, leaves.
 #pragma once
 
-#include "backend/cuda_warp.h"
+#include "backend/warp.h"
 
 #include <cuda_runtime.h>
 
@@ -26,9 +26,11 @@ struct SecondLookList {
   // A warp's items, for each lane that has one.
   __device__ void put(bool has_one, const Item &item) const
   {
-    const unsigned votes = __ballot_sync(kAllLanes, has_one), list = blockIdx.x % kLists;
+    const Warp<kWarpSize> warp;
+    const unsigned votes = warp.vote(has_one), list = blockIdx.x % kLists;
     if (votes == 0) return;
-    const unsigned at = room_at(length + list * kStride, __popc(votes)) + votes_below(votes);
+    const unsigned at =
+        warp.take_room(length + list * kStride, warp.count(votes)) + warp.count_below(votes);
     if (has_one && at < room) items[list * room + at] = item;
   }
   // Is there an item number k, counted over the room of all lists?
@@ -42,11 +44,12 @@ struct SecondLookList {
   __host__ __device__ unsigned *longest() const { return length + kLists * kStride; }
   __device__ bool empty() const
   {
-    static_assert(kLists == 32, "one for each lane");
-    unsigned most = length[threadIdx.x % 32 * kStride];
-    length[threadIdx.x % 32 * kStride] = 0;
-    for (unsigned d = 16; d > 0; d /= 2) most = max(most, __shfl_xor_sync(kAllLanes, most, d));
-    if (threadIdx.x % 32 == 0) *longest() = most;
+    static_assert(kLists == kWarpSize, "one for each thread");
+    const Warp<kWarpSize> warp;
+    unsigned &mine = length[warp.rank() * kStride];
+    const unsigned most = warp.largest(mine);
+    mine = 0;
+    if (warp.rank() == 0) *longest() = most;
     return most > room;
   }
 };
@@ -58,14 +61,14 @@ struct SecondLook {
   SecondLookList list;
   unsigned *words;
 
-  template <class Group>
-  __device__ void operator()(const Group &group, bool, std::size_t number) const
+  template <unsigned kSize>
+  __device__ void operator()(const Warp<kSize> &warp, bool, std::size_t number) const
   {
     const unsigned k = static_cast<unsigned>(number);
     const bool mine = list.has(k);
-    if (!group.vote(mine)) return;
+    if (!warp.vote(mine)) return;
     const SecondLookList::Item item = mine ? list.items[k] : SecondLookList::Item();
-    const bool kept = work.keep_after_all(group, mine, item.index, item.found);
+    const bool kept = work.keep_after_all(warp, mine, item.index, item.found);
     if (!mine) return;
     if (kept)
       atomicOr(words + item.index / 32, 1u << item.index % 32);

@@ -3,8 +3,7 @@
 // long as the others, so that it has to begin with them.
 #pragma once
 
-#include "backend/cuda_warp.h"
-#include "backend/lane_group.h"
+#include "backend/warp.h"
 #include "backend/step_lists.h"
 
 #include <cuda_runtime.h>
@@ -13,7 +12,7 @@
 
 namespace lsdcd {
 
-constexpr unsigned kStepBlock = 128;
+constexpr unsigned kStepBlock = 128, kStepWarps = kStepBlock / kWarpSize;
 // Blocks that share what is listed: beside single() few, as each takes a place of others while it
 // waits for memory, until each of their threads has one.
 constexpr int kFewBlocks = 66, kMostBlocks = 528;
@@ -31,10 +30,11 @@ struct SeveralPart {
 // Puts k into a list of which `n` is the length, for each lane that has one to put.
 __device__ inline void put_listed(bool has_one, int k, int *list, int *n)
 {
-  const unsigned votes = __ballot_sync(kAllLanes, has_one);
+  const Warp<kWarpSize> warp;
+  const unsigned votes = warp.vote(has_one);
   if (votes == 0) return;
-  const int at = room_at(n, __popc(votes));
-  if (has_one) list[at + votes_below(votes)] = k;
+  const int at = warp.take_room(n, warp.count(votes));
+  if (has_one) list[at + warp.count_below(votes)] = k;
 }
 
 template <class Work>
@@ -43,12 +43,13 @@ __device__ void do_several(const SeveralPart &part, const Work &work)
   const StepLists &lists = work.step_lists();
   const int end = part.list ? *part.n_listed : part.n;
   const int enough = max(part.few, (end + int(kStepBlock) - 1) / int(kStepBlock));
-  const int warps = min(int(part.blocks), enough) * int(kStepBlock / 32), step = 32 * warps;
-  const int warp = blockIdx.x * (kStepBlock / 32) + threadIdx.x / 32, lane = threadIdx.x % 32;
-  if (warp >= warps) return;
+  const Warp<kWarpSize> warp;
+  const int warps = min(int(part.blocks), enough) * int(kStepWarps), step = kWarpSize * warps;
+  const int number = blockIdx.x * kStepWarps + threadIdx.x / kWarpSize, rank = warp.rank();
+  if (number >= warps) return;
   // What is listed is few, and each sphere takes a way of its own through the code: first one a warp.
-  const int first = part.list ? lane * warps + warp : 32 * warp + lane;
-  for (int s = first; __any_sync(kAllLanes, s < end); s += step) {
+  const int first = part.list ? rank * warps + number : kWarpSize * number + rank;
+  for (int s = first; warp.any(s < end); s += step) {
     bool has_one = s < end;
     const int k = !has_one ? 0 : part.list ? part.list[s] : s;
     const bool is_due = has_one && work.needs_list(k);
@@ -57,7 +58,7 @@ __device__ void do_several(const SeveralPart &part, const Work &work)
       has_one = has_one && !is_due;
     } else {
       // Lists are long to make: the whole warp helps.
-      if (__any_sync(kAllLanes, is_due)) work.make_list(LaneGroup<32>(), is_due, k);
+      if (warp.any(is_due)) work.make_list(warp, is_due, k);
       __syncwarp();
     }
     const bool again = has_one && work.several(k);

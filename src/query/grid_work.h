@@ -3,6 +3,7 @@
 
 #include "grid/lookup/brick_filter.h"
 #include "backend/atomic.h"
+#include "backend/warp.h"
 #include "query/nearest_distance.h"
 #include "query/sphere.h"
 
@@ -129,15 +130,15 @@ struct GridWork {
   static constexpr bool kTogether = kComplete && Distances::kBounded;
   static constexpr std::uint32_t kLongForOne = 32;
   LSDCD_FN bool is_long(const Cell &cell) const { return kTogether && cell.count > kLongForOne; }
-  template <class Lanes>
+  template <unsigned kSize>
   LSDCD_FN void answer_together(std::size_t i, const S &s, const Cell &cell,
-                                const Lanes &lanes) const
+                                const Warp<kSize> &warp) const
   {
     if constexpr (kTogether) {
       const Vec3 q = s.centre();
       const Answer a =
-          nearest_together<Distances>(grid, q, s.r, address_inside(grid, q), cell, lanes);
-      if (lanes.lane() == 0) out.keep(i, a);
+          nearest_together<Distances>(grid, q, s.r, address_inside(grid, q), cell, warp);
+      if (warp.rank() == 0) out.keep(i, a);
     }
   }
 };

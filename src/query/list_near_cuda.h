@@ -4,7 +4,7 @@
 
 #include "grid/lookup/brick_filter.h"
 #include "backend/cuda_early.h"
-#include "backend/cuda_warp.h"
+#include "backend/warp.h"
 #include "query/sphere.h"
 
 #include <cuda_pipeline_primitives.h>
@@ -33,7 +33,7 @@ constexpr unsigned kNearTile = kNearBlock *kNearEach<S>;
 // Spheres are in as many lists as a warp has lanes: a list has every so many-th block's, and they
 // count in as many slots. A list grows from its front by those whose cell has one candidate, and
 // from its back by those with several.
-constexpr unsigned kNearLists = 32;
+constexpr unsigned kNearLists = kWarpSize;
 struct NearCounts {
   struct alignas(128) OfList {
     unsigned long long n;    // one candidate: low word; several: high word
@@ -57,6 +57,7 @@ __global__ void __launch_bounds__(kNearBlock, kNearBlocks)
 {
   using S = typename Work::Item;
   constexpr unsigned kEach = kNearEach<S>;
+  const Warp<kWarpSize> warp;
   let_next_begin();
   __shared__ uint4 room[kNearTile<S> * sizeof(S) / sizeof(uint4)];
   __shared__ std::uint16_t maybe_at[kNearTile<S>];
@@ -101,17 +102,17 @@ __global__ void __launch_bounds__(kNearBlock, kNearBlocks)
 #pragma unroll
   for (unsigned k = 0; k < kEach; k++) {
     const bool there = threadIdx.x + k * kNearBlock < n_tile;
-    votes[k] = __ballot_sync(kAllLanes, there && (word[k] >> (bit >> 5 * k) % 32 & 1u));
-    all += __popc(votes[k]);
+    votes[k] = warp.vote(there && (word[k] >> (bit >> 5 * k) % 32 & 1u));
+    all += warp.count(votes[k]);
   }
-  unsigned to = room_at(&n_maybe, all);
+  unsigned to = warp.take_room(&n_maybe, all);
 #pragma unroll
   for (unsigned k = 0; k < kEach; k++) {
-    if (votes[k] >> threadIdx.x % 32 & 1u) {
-      const unsigned at = to + votes_below(votes[k]);
+    if (votes[k] >> warp.rank() & 1u) {
+      const unsigned at = to + warp.count_below(votes[k]);
       maybe_at[at] = static_cast<std::uint16_t>(threadIdx.x + k * kNearBlock);
     }
-    to += __popc(votes[k]);
+    to += warp.count(votes[k]);
   }
   for (unsigned four = 4 * threadIdx.x; four < n_tile; four += 4 * kNearBlock)
     if (four + 4 <= n_tile)
@@ -122,8 +123,8 @@ __global__ void __launch_bounds__(kNearBlock, kNearBlocks)
 
   // Few may be in a brick, and those in full warps, nearly always in one turn.
   const unsigned mine = blockIdx.x % kNearLists, n_turns = n_maybe;
-  for (unsigned first = threadIdx.x / 32 * 32; first < n_turns; first += kNearBlock) {
-    const unsigned m = first + threadIdx.x % 32;
+  for (unsigned first = threadIdx.x / kWarpSize * kWarpSize; first < n_turns; first += kNearBlock) {
+    const unsigned m = first + warp.rank();
     NearSphere<S> near;
     near.pad = 0;
     std::uint32_t cell = kNoCell;
@@ -135,16 +136,15 @@ __global__ void __launch_bounds__(kNearBlock, kNearBlocks)
       if (cell != kNoCell) near.cell = *work.list(cell);
     }
     const bool is_near = cell != kNoCell, is_one = is_near && near.cell.count == 1;
-    const unsigned one = __ballot_sync(kAllLanes, is_one),
-                   several = __ballot_sync(kAllLanes, is_near && !is_one);
+    const unsigned one = warp.vote(is_one), several = warp.vote(is_near && !is_one);
     unsigned long long at = 0;
-    if (threadIdx.x % 32 == 0 && (one | several) != 0)
+    if (warp.rank() == 0 && (one | several) != 0)
       at = atomicAdd(&lists.counts->list[mine].n,
-                     static_cast<unsigned long long>(__popc(several)) << 32 | __popc(one));
-    at = __shfl_sync(kAllLanes, at, 0);
+                     static_cast<unsigned long long>(warp.count(several)) << 32 | warp.count(one));
+    at = warp.of(at, 0);
     const unsigned to =
-        is_one ? static_cast<unsigned>(at) + votes_below(one)
-               : lists.room - 1 - static_cast<unsigned>(at >> 32) - votes_below(several);
+        is_one ? static_cast<unsigned>(at) + warp.count_below(one)
+               : lists.room - 1 - static_cast<unsigned>(at >> 32) - warp.count_below(several);
     if (is_near) lists.list(mine)[to] = near;
   }
 }

@@ -16,24 +16,6 @@
 
 namespace lsdcd {
 
-// A warp, for what its threads do together.
-struct WarpLanes {
-  static constexpr unsigned kCount = 32;
-
-  __device__ unsigned lane() const { return threadIdx.x % 32; }
-  __device__ unsigned vote(bool yes) const { return __ballot_sync(kAllLanes, yes); }
-  template <class T>
-  __device__ T from(T value, unsigned lane) const
-  {
-    return __shfl_sync(kAllLanes, value, lane);
-  }
-  template <class T>
-  __device__ T from_below(T value, unsigned step) const
-  {
-    return __shfl_up_sync(kAllLanes, value, step);
-  }
-};
-
 // Of a processor's blocks that answer: 64 registers a thread where there is one candidate, 80
 // where there are several.
 constexpr unsigned kAnswerBlock = 256, kSinglesBlocks = 4, kSeveralBlocks = 3;
@@ -58,11 +40,7 @@ __device__ T read_once(const T &from)
 // `n`: of the list that is this lane's number.
 class NearTurns {
  public:
-  __device__ explicit NearTurns(unsigned n) : n_(n), longest_(n)
-  {
-    for (unsigned other = 1; other < kNearLists; other *= 2)
-      longest_ = max(longest_, __shfl_xor_sync(kAllLanes, longest_, other));
-  }
+  __device__ explicit NearTurns(unsigned n) : n_(n), longest_(Warp<kWarpSize>::largest(n)) {}
 
   // Calls answer(list, k) for this thread's.
   template <class Answer>
@@ -71,7 +49,7 @@ class NearTurns {
     for (unsigned turn = blockIdx.x; turn / kNearLists * kAnswerBlock < longest_;
          turn += gridDim.x) {
       const unsigned list = turn % kNearLists, k = turn / kNearLists * kAnswerBlock + threadIdx.x;
-      if (k < __shfl_sync(kAllLanes, n_, list)) answer(list, k);
+      if (k < Warp<kWarpSize>::of(n_, list)) answer(list, k);
     }
   }
 
@@ -81,7 +59,7 @@ class NearTurns {
  private:
   unsigned n_, longest_;
 };
-static_assert(kNearLists == 32, "a lane for each");
+static_assert(kNearLists == kWarpSize, "a thread for each");
 
 // Answers the listed spheres whose cell has one candidate.
 template <class Work>
@@ -90,7 +68,7 @@ __global__ void __launch_bounds__(kAnswerBlock, kSinglesBlocks)
 {
   wait_for_last_kernel();
   let_next_begin();
-  NearTurns(static_cast<unsigned>(lists.counts->list[threadIdx.x % 32].n))
+  NearTurns(static_cast<unsigned>(lists.counts->list[threadIdx.x % kWarpSize].n))
       .take([&](unsigned list, unsigned k) {
         const NearSphere<typename Work::Item> near = read_once(lists.list(list)[k]);
         work.answer(near.sphere, near.s, Cell{near.cell.first, 1});
@@ -110,7 +88,7 @@ __global__ void __launch_bounds__(kAnswerBlock, kSeveralBlocks)
     if (threadIdx.x < kNearLists) next_counts->list[threadIdx.x].n = 0;
     if (threadIdx.x == 0) next_counts->with_long = 0;
   }
-  NearTurns(static_cast<unsigned>(lists.counts->list[threadIdx.x % 32].n >> 32))
+  NearTurns(static_cast<unsigned>(lists.counts->list[threadIdx.x % kWarpSize].n >> 32))
       .take([&](unsigned list, unsigned k) {
         const NearSphere<typename Work::Item> near =
             read_once(lists.list(list)[lists.room - 1 - k]);
@@ -134,10 +112,10 @@ __global__ void __launch_bounds__(kAnswerBlock)
                 const NearCounts *counts, unsigned most_long)
 {
   const unsigned n = min(counts->with_long, most_long);
-  for (unsigned k = (blockIdx.x * kAnswerBlock + threadIdx.x) / 32; k < n;
-       k += gridDim.x * (kAnswerBlock / 32)) {
+  for (unsigned k = (blockIdx.x * kAnswerBlock + threadIdx.x) / kWarpSize; k < n;
+       k += gridDim.x * (kAnswerBlock / kWarpSize)) {
     const NearSphere<typename Work::Item> one = long_list[k];
-    work.answer_together(one.sphere, one.s, one.cell, WarpLanes());
+    work.answer_together(one.sphere, one.s, one.cell, Warp<kWarpSize>());
   }
 }
 

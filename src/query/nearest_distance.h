@@ -88,14 +88,14 @@ LSDCD_FN Real nearer(Real first, Real second)
   return second < first ? second : first;
 }
 
-// The same from a complete list by many at once: each of `lanes` tries an entry, and all of
+// The same from a complete list by many threads at once: each tries an entry, and all of
 // them call this together with the same arguments and get the same answer. An entry's distance
 // is asked for with what was nearest before the lanes' turn; what one thread would have found
 // nearest before that entry comes from the lanes below, so that the list ends where it would
 // end for one thread.
-template <class Distances, class Lanes>
+template <class Distances, class Threads>
 LSDCD_FN Answer nearest_together(const GridView &grid, const Vec3 &q, Real radius,
-                                 const CellAddress &at, const Cell &cell, const Lanes &lanes)
+                                 const CellAddress &at, const Cell &cell, const Threads &warp)
 {
   static_assert(Distances::kBounded, "a list is read to its end where bounds do not hold");
   const Distances distances(grid, q, at);
@@ -104,8 +104,8 @@ LSDCD_FN Answer nearest_together(const GridView &grid, const Vec3 &q, Real radiu
   const auto answer = [&](std::uint32_t read) -> Answer {
     return {nearest < radius ? nearest : kAnyDistance, true, read};
   };
-  for (std::uint32_t first = 0; first < cell.count; first += Lanes::kCount) {
-    const std::uint32_t k = first + lanes.lane();
+  for (std::uint32_t first = 0; first < cell.count; first += Threads::kSize) {
+    const std::uint32_t k = first + warp.rank();
     const bool there = k < cell.count;
     Real least = nearest;    // of the entries up to this one
     Real bound = 0;
@@ -114,19 +114,19 @@ LSDCD_FN Answer nearest_together(const GridView &grid, const Vec3 &q, Real radiu
       bound = candidate.bound;
       least = nearer(nearest, distances.feature(candidate.feature, nearest));
     }
-    for (unsigned step = 1; step < Lanes::kCount; step *= 2) {
-      const Real below = lanes.from_below(least, step);
-      if (lanes.lane() >= step) least = nearer(below, least);
+    for (unsigned step = 1; step < Threads::kSize; step *= 2) {
+      const Real below = warp.from_below(least, step);
+      if (warp.rank() >= step) least = nearer(below, least);
     }
-    Real before = lanes.from_below(least, 1);
-    if (lanes.lane() == 0) before = nearest;
-    const unsigned past = lanes.vote(there && bound > before + off_centre);
+    Real before = warp.from_below(least, 1);
+    if (warp.rank() == 0) before = nearest;
+    const unsigned past = warp.vote(there && bound > before + off_centre);
     if (past) {
       const unsigned end = lowest_bit(past);
-      nearest = lanes.from(before, end);
+      nearest = warp.of(before, end);
       return answer(first + end + 1);
     }
-    nearest = lanes.from(least, Lanes::kCount - 1);
+    nearest = warp.of(least, Threads::kSize - 1);
   }
   return answer(cell.count);
 }

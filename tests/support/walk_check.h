@@ -213,7 +213,7 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
   out.spheres = 1;
   WallList made;
   const QuerySphere sphere = {from, w.sphere.radius, w.cutoff, nullptr, 0};
-  const LaneGroup<1> alone;
+  const Warp<1> alone;
   if (!gather(alone, true, grid, sphere, kAnyDistance, made)) return out;
   out.with_list = 1;
   if (mesh.gathered < 1) {

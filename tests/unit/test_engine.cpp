@@ -52,7 +52,7 @@ struct CountingBackend : CpuBackend {
           lists.found[(*lists.n_found)++] = k;
           return;
         }
-        work.make_list(LaneGroup<1>(), true, k);
+        work.make_list(Warp<1>(), true, k);
       }
       if (!work.several(k) || !lists.next) return;
       lists.next[(*lists.n_next)++] = k;

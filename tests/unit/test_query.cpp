@@ -324,17 +324,17 @@ TEST(query, asking_for_the_cell_first_changes_no_bit)
 // Four threads in place of a warp.
 class FourLanes {
  public:
-  static constexpr unsigned kCount = 4;
+  static constexpr unsigned kSize = 4;
   struct Shared {
-    Shared() { pthread_barrier_init(&barrier, nullptr, kCount); }
+    Shared() { pthread_barrier_init(&barrier, nullptr, kSize); }
     ~Shared() { pthread_barrier_destroy(&barrier); }
     pthread_barrier_t barrier;
-    Real value[kCount];
+    Real value[kSize];
   };
 
   FourLanes(Shared &shared, unsigned lane) : shared_(shared), lane_(lane) {}
-  unsigned lane() const { return lane_; }
-  Real from(Real value, unsigned lane) const
+  unsigned rank() const { return lane_; }
+  Real of(Real value, unsigned lane) const
   {
     shared_.value[lane_] = value;
     pthread_barrier_wait(&shared_.barrier);
@@ -344,14 +344,14 @@ class FourLanes {
   }
   Real from_below(Real value, unsigned step) const
   {
-    return from(value, lane_ >= step ? lane_ - step : lane_);
+    return of(value, lane_ >= step ? lane_ - step : lane_);
   }
   unsigned vote(bool yes) const
   {
     shared_.value[lane_] = yes;
     pthread_barrier_wait(&shared_.barrier);
     unsigned all = 0;
-    for (unsigned k = 0; k < kCount; k++)
+    for (unsigned k = 0; k < kSize; k++)
       if (shared_.value[k] > 0) all |= 1u << k;
     pthread_barrier_wait(&shared_.barrier);
     return all;
@@ -377,9 +377,9 @@ void expect_lanes_read_as_one(const Case &c, bool in_floats, std::size_t &read)
     cells.push_back(cell);
   }
   FourLanes::Shared shared;
-  std::vector<Answer> answers[FourLanes::kCount];
+  std::vector<Answer> answers[FourLanes::kSize];
   std::vector<std::thread> threads;
-  for (unsigned lane = 0; lane < FourLanes::kCount; lane++)
+  for (unsigned lane = 0; lane < FourLanes::kSize; lane++)
     threads.emplace_back([&, lane] {
       for (std::size_t i = 0; i < cells.size(); i++) {
         const Vec3 q = spheres[i].centre();
@@ -406,7 +406,7 @@ TEST(query, a_list_that_lanes_read_together_ends_as_for_one)
     expect_lanes_read_as_one<WallDistances>(c, false, read);
     expect_lanes_read_as_one<BrickDistances>(c, true, read);
   }
-  EXPECT_GT(read, 8 * FourLanes::kCount);    // some lists take many turns
+  EXPECT_GT(read, 8 * FourLanes::kSize);    // some lists take many turns
 }
 
 // Numbers at, next to and far from the sides of cells and of the whole grid, and no numbers.

@@ -39,8 +39,7 @@ class OneList {
  public:
   OneList(const GridView &grid, const Vec3 &q, Real radius, Real cutoff)
   {
-    has_list =
-        gather(LaneGroup<1>(), true, grid, {q, radius, cutoff, nullptr, 0}, kAnyDistance, made);
+    has_list = gather(Warp<1>(), true, grid, {q, radius, cutoff, nullptr, 0}, kAnyDistance, made);
     lists.put(0, made, grid.wall);
   }
   OneList(const GridView &grid, const Vec3 &q, Real radius) : OneList(grid, q, radius, radius) {}
@@ -434,8 +433,7 @@ TEST(wall_list, a_sphere_is_near_wherever_the_wall_is_within_its_cutoff_and_the_
   for (int i = 0; i < 100000; i++) {
     const Vec3 q = r.in(kHalf, 2.5) * r.direction();
     const Real cutoff = kCutoff * r.in(0.2, 1), margin = grid.length * r.in(0.1, 1);
-    const bool found =
-        can_touch(LaneGroup<1>(), true, grid, {q, cutoff, cutoff, nullptr, 0}, margin);
+    const bool found = can_touch(Warp<1>(), true, grid, {q, cutoff, cutoff, nullptr, 0}, margin);
     const Real d = distance_from_box(q, kHalf);
     missed += !found && d > 0 && d < cutoff + margin - 1e-12;
     near += found;

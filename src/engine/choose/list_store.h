@@ -20,13 +20,13 @@ struct GatherWork {
   char *several;    // does each seem to touch several features now? Null: not asked for
   StepCounts *counts;
 
-  template <class Group>
-  LSDCD_FN void operator()(const Group &group, bool mine, std::size_t k) const
+  template <unsigned kSize>
+  LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
     spheres.ask_ahead(grid, pose, k);
     const QuerySphere s = spheres.seen_from(pose, k);
     WallList made;
-    gather(group, mine, grid, s, margin, made);
+    gather(warp, mine, grid, s, margin, made);
     if (!mine) return;
     if (several) several[k] = touches_several(grid, s, made);
     lists.put(k, made, grid.wall);
@@ -44,13 +44,13 @@ struct GatherSlotWork {
   WallLists lists;
   StepCounts *counts;
 
-  template <class Group>
-  LSDCD_FN void operator()(const Group &group, bool mine, std::size_t k) const
+  template <unsigned kSize>
+  LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
-    by_value(group, mine, mesh[k], [&](bool of_mesh, int m) {
+    for_each_distinct(warp, mine, mesh[k], [&](bool of_mesh, int m) {
       const PlacedGrid &of = meshes[m];
       const GatherWork work = {of.grid, of.pose, spheres, margin, lists, nullptr, counts};
-      work(group, of_mesh, k);
+      work(warp, of_mesh, k);
     });
   }
 };

@@ -77,12 +77,12 @@ struct NearChoice {
 
   LSDCD_FN bool looks_twice() const { return by_features; }
   // `found`: by find(), or kNotKnown.
-  template <class Group>
-  LSDCD_FN bool keep_after_all(const Group &group, bool mine, std::size_t i,
+  template <unsigned kSize>
+  LSDCD_FN bool keep_after_all(const Warp<kSize> &warp, bool mine, std::size_t i,
                                std::uint32_t found) const
   {
     const QuerySphere s = seen_at_choice(pose, spheres.x[i], spheres.radius[i], pull_off);
-    return can_touch(group, mine, grid, s, margin, found);
+    return can_touch(warp, mine, grid, s, margin, found);
   }
   // Asks a CPU's memory for what keep_after_all() of a large wall reads first.
   LSDCD_FN void ask_ahead(const Vec3 &x) const { ask_for_search(grid, pose, x); }

@@ -3,7 +3,7 @@
 
 #include "geometry/wall_records.h"
 #include "grid/lookup/near_within.h"
-#include "backend/lane_group.h"
+#include "backend/warp.h"
 
 namespace lsdcd {
 
@@ -140,10 +140,10 @@ struct NearSearch {
 
 // Calls found(code) for what is found until that says false; returns whether it did not. A contact
 // on the way is in the complete list of the cell that it is found from, and that cell meets the ball
-// round q; lists of cells hold for a margin of their own. Each thread of a group has a search, or
+// round q; lists of cells hold for a margin of their own. Each thread of a warp has a search, or
 // none where it is not `mine`; they share the candidates, and each is told of its own.
-template <class Geometry, class Group, class Found>
-LSDCD_FN bool for_each_within(const Group &group, bool mine, const GridView &grid,
+template <class Geometry, unsigned kSize, class Found>
+LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView &grid,
                               const NearSearch &search, const Found &found)
 {
   const Candidate *candidates = grid.lists.candidates;
@@ -174,25 +174,25 @@ LSDCD_FN bool for_each_within(const Group &group, bool mine, const GridView &gri
       }
       if (!complete) cells.close();
     }
-    const unsigned busy = group.vote(at < end);
+    const unsigned busy = warp.vote(at < end);
     if (busy == 0) return complete;
-    const Shares<Group> share(group, busy);
-    const Vec3 q = group.of(search.q, share.owner);
-    const Real its_enough = group.of(enough, share.owner),
-               its_within = group.of(within, share.owner), its_more = group.of(more, share.owner);
-    const std::uint32_t c = group.of(at, share.owner) + share.turn,
-                        c_end = group.of(end, share.owner);
-    bool near = share.helps && c < c_end;
+    const WorkSplit<kSize> split(warp, busy);
+    const Vec3 q = warp.of(search.q, split.owner);
+    const Real its_enough = warp.of(enough, split.owner), its_within = warp.of(within, split.owner),
+               its_more = warp.of(more, split.owner);
+    const std::uint32_t c = warp.of(at, split.owner) + split.turn,
+                        c_end = warp.of(end, split.owner);
+    bool near = split.helps && c < c_end;
     if (near && c + kAhead < c_end) Geometry::ask_for(grid, candidates + c + kAhead, 1);
     const Candidate candidate = near ? candidates[c] : Candidate();
     near = near && candidate.bound <= its_enough;
-    unsigned hits = group.vote(near && Geometry(grid, q).may_be_closest(candidate.feature,
-                                                                        its_within, its_more)) &
-                    share.own;
-    const bool all_near = (group.vote(near) & share.own) == share.own;
-    if (at < end) at = all_near ? at + share.size : end;
-    for (; group.vote(hits != 0); hits &= hits - 1) {
-      const FeatureCode code = group.of(candidate.feature, group.first(hits));
+    unsigned hits = warp.vote(near && Geometry(grid, q).may_be_closest(candidate.feature,
+                                                                       its_within, its_more)) &
+                    split.own;
+    const bool all_near = (warp.vote(near) & split.own) == split.own;
+    if (at < end) at = all_near ? at + split.size : end;
+    for (; warp.vote(hits != 0); hits &= hits - 1) {
+      const FeatureCode code = warp.of(candidate.feature, warp.first(hits));
       if (hits == 0 || found(code)) continue;
       complete = false;
       cells.close();

@@ -130,14 +130,14 @@ LSDCD_NOINLINE void touch(const GridView &grid, const SearchSettings &settings,
 }
 
 // Can it touch anything after a way of up to the margin? Where it is not `mine` a thread only helps
-// others of its group. `cell`: see NearSearch.
-template <class Group>
-LSDCD_NOINLINE bool can_touch(const Group &group, bool mine, const GridView &grid,
+// others of its warp. `cell`: see NearSearch.
+template <unsigned kSize>
+LSDCD_NOINLINE bool can_touch(const Warp<kSize> &warp, bool mine, const GridView &grid,
                               const QuerySphere &s, Real margin, std::uint32_t cell = kNoCell)
 {
   if (grid.in_floats)
-    return can_touch<BrickGeometry>(group, mine, grid, s.x, s.cutoff, margin, cell);
-  return can_touch<WallGeometry>(group, mine, grid, s.x, s.cutoff, margin, cell);
+    return can_touch<BrickGeometry>(warp, mine, grid, s.x, s.cutoff, margin, cell);
+  return can_touch<WallGeometry>(warp, mine, grid, s.x, s.cutoff, margin, cell);
 }
 
 // Does a sphere seem to touch several of the features of its list where it is? No answer depends on this.
@@ -152,15 +152,15 @@ LSDCD_FN bool touches_several(const GridView &grid, const QuerySphere &s, const 
 
 // Makes the list of a sphere anew, for a way of up to `margin` at most; false: it has none, its cell
 // has to be searched.
-template <class Group>
-LSDCD_NOINLINE bool gather(const Group &group, bool mine, const GridView &grid,
+template <unsigned kSize>
+LSDCD_NOINLINE bool gather(const Warp<kSize> &warp, bool mine, const GridView &grid,
                            const QuerySphere &s, Real margin, WallList &list)
 {
   const Real most = kSkinFraction * s.radius, m = margin < most ? margin : most;
   if (grid.in_floats)
-    gather_for<BrickGeometry>(group, mine, grid, s.x, s.cutoff, m, list);
+    gather_for<BrickGeometry>(warp, mine, grid, s.x, s.cutoff, m, list);
   else
-    gather_for<WallGeometry>(group, mine, grid, s.x, s.cutoff, m, list);
+    gather_for<WallGeometry>(warp, mine, grid, s.x, s.cutoff, m, list);
   return mine && list.margin >= 0;
 }
 

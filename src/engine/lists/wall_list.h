@@ -127,40 +127,40 @@ LSDCD_FN void begin_list(WallList &list, const Vec3 &q, Real cutoff, Real margin
 }
 
 // The list of a sphere at q for a margin; false: it is too long.
-template <class Geometry, class Group>
-LSDCD_FN bool gather_within(const Group &group, bool mine, const GridView &grid, const Vec3 &q,
+template <class Geometry, unsigned kSize>
+LSDCD_FN bool gather_within(const Warp<kSize> &warp, bool mine, const GridView &grid, const Vec3 &q,
                             Real cutoff, Real margin, WallList &list)
 {
   if (mine) begin_list(list, q, cutoff, margin);
-  return for_each_within<Geometry>(group, mine, grid,
+  return for_each_within<Geometry>(warp, mine, grid,
                                    {q, cutoff, margin, excess_margin(grid, margin), -1, kNoCell},
                                    [&](FeatureCode code) { return insert_code(list, code); });
 }
 
 // Makes the list of a sphere anew, for the margin or, where that is too long, for less. `cutoff`:
 // how far it feels the wall from its centre.
-template <class Geometry, class Group>
-LSDCD_FN void gather_for(const Group &group, bool mine, const GridView &grid, const Vec3 &q,
+template <class Geometry, unsigned kSize>
+LSDCD_FN void gather_for(const Warp<kSize> &warp, bool mine, const GridView &grid, const Vec3 &q,
                          Real cutoff, Real margin, WallList &list)
 {
   Real m = margin_at(grid, q, margin);
   bool missing = mine && m >= 0;
   const bool has_room = missing;
-  for (int i = 0; i <= kMostShrinks && group.vote(missing); i++, m /= kShrink)
-    if (gather_within<Geometry>(group, missing, grid, q, cutoff, m, list)) missing = false;
+  for (int i = 0; i <= kMostShrinks && warp.vote(missing); i++, m /= kShrink)
+    if (gather_within<Geometry>(warp, missing, grid, q, cutoff, m, list)) missing = false;
   if (mine && (missing || !has_room)) begin_list(list, q, cutoff, -1);
 }
 
 // Can a sphere at q touch anything after a way of up to the margin? True where that would take too
 // long to find out. What is nearest is in the list of a cell no farther than it has to go until that
 // is within the grid's cutoff. `cell`: see NearSearch.
-template <class Geometry, class Group>
-LSDCD_FN bool can_touch(const Group &group, bool mine, const GridView &grid, const Vec3 &q,
+template <class Geometry, unsigned kSize>
+LSDCD_FN bool can_touch(const Warp<kSize> &warp, bool mine, const GridView &grid, const Vec3 &q,
                         Real cutoff, Real margin, std::uint32_t cell)
 {
   const bool too_long = !(margin_at(grid, q, margin) >= margin);
   const Real past = excess_margin(grid, cutoff + margin - grid.cutoff);
-  return !for_each_within<Geometry>(group, mine && !too_long, grid,
+  return !for_each_within<Geometry>(warp, mine && !too_long, grid,
                                     {q, cutoff, margin, past, cutoff, cell},
                                     [](FeatureCode) { return false; }) ||
          too_long;

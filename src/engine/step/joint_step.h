@@ -264,16 +264,16 @@ struct JointStep {
       if (!job.lists.holds(k, seen_from(job, s, k).x, s.cutoff)) return true;
     return false;
   }
-  template <class Group>
-  LSDCD_FN void make_list(const Group &group, bool mine, std::size_t g) const
+  template <unsigned kSize>
+  LSDCD_FN void make_list(const Warp<kSize> &warp, bool mine, std::size_t g) const
   {
     const JointSphere s = joint_sphere(job, g, pull_off_of(law));
-    for (int k = s.begin; group.vote(mine && k < s.end); k++) {
+    for (int k = s.begin; warp.vote(mine && k < s.end); k++) {
       const bool in = mine && k < s.end;
       const Vec3 x = in ? seen_from(job, s, k).x : Vec3{0, 0, 0};
       const bool due = in && !job.lists.holds(k, x, s.cutoff);
-      by_value(group, due, due ? job.joint.mesh[k] : 0, [&](bool of_mesh, int m) {
-        put_list(job, group, of_mesh, job.joint.meshes[m].grid, {x, s.radius, s.cutoff, nullptr, 0},
+      for_each_distinct(warp, due, due ? job.joint.mesh[k] : 0, [&](bool of_mesh, int m) {
+        put_list(job, warp, of_mesh, job.joint.meshes[m].grid, {x, s.radius, s.cutoff, nullptr, 0},
                  k);
       });
     }

@@ -191,15 +191,15 @@ LSDCD_FN bool needs_list(const Law &law, const LawJob &job, std::size_t k)
 
 // Makes the list of slot k, whose sphere is s, anew: for no less than at the choice, as a sphere that
 // has shrunk may grow to that again.
-template <class Group>
-LSDCD_FN void put_list(const LawJob &job, const Group &group, bool mine, const GridView &grid,
+template <unsigned kSize>
+LSDCD_FN void put_list(const LawJob &job, const Warp<kSize> &warp, bool mine, const GridView &grid,
                        QuerySphere s, std::size_t k)
 {
   WallList made;
   const Real chosen = mine ? job.lists.cutoff(k) : 0;
   const bool has_grown = s.cutoff > chosen;
   if (!has_grown) s.cutoff = chosen;
-  gather(group, mine, grid, s, kAnyDistance, made);
+  gather(warp, mine, grid, s, kAnyDistance, made);
   if (!mine) return;
   if (has_grown) raise_to(&job.counts->grown, kNoSphere - sphere_of(job, k));
   count_one(&job.counts->lists);
@@ -276,10 +276,10 @@ struct LawStep {
   LSDCD_FN void begin() const { clear_next(job); }
   LSDCD_FN bool single(std::size_t k) const { return single_contact(law, job, k); }
   LSDCD_FN bool needs_list(std::size_t k) const { return lsdcd::needs_list(law, job, k); }
-  template <class Group>
-  LSDCD_FN void make_list(const Group &group, bool mine, std::size_t k) const
+  template <unsigned kSize>
+  LSDCD_FN void make_list(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
-    put_list(job, group, mine, job.grid, near_sphere(law, job, k), k);
+    put_list(job, warp, mine, job.grid, near_sphere(law, job, k), k);
   }
   // What make_list() will read, part by part of a CPU's memory.
   using Ahead = SearchAhead;

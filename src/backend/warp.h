@@ -1,0 +1,147 @@
+// Threads of a GPU's warp that share their work, so that one with little helps one with much; on a CPU a
+// single thread.
+#pragma once
+
+#include "base/bits.h"
+#include "base/vec3.h"
+
+namespace lsdcd {
+
+constexpr unsigned kWarpSize = 32;
+
+// kSize: 1, or kWarpSize for all threads of a warp. All of them must call its functions together.
+template <unsigned kSize_>
+struct Warp {
+  static constexpr unsigned kSize = kSize_;
+  static_assert(kSize == 1 || kSize == kWarpSize, "a thread or a warp");
+  static constexpr unsigned kAll = kSize == kWarpSize ? ~0u : 1u;
+
+  LSDCD_FN static unsigned rank()
+  {
+#if defined(__CUDA_ARCH__)
+    if constexpr (kSize > 1) return threadIdx.x % kSize;
+#endif
+    return 0;
+  }
+  // A bit for each thread that says yes.
+  LSDCD_FN static unsigned vote(bool yes)
+  {
+#if defined(__CUDA_ARCH__)
+    if constexpr (kSize > 1) return __ballot_sync(kAll, yes);
+#endif
+    return yes;
+  }
+  LSDCD_FN static bool any(bool yes)
+  {
+#if defined(__CUDA_ARCH__)
+    if constexpr (kSize > 1) return __any_sync(kAll, yes);
+#endif
+    return yes;
+  }
+  // The value that the thread of this rank has.
+  template <class T>
+  LSDCD_FN static T of(T value, [[maybe_unused]] unsigned rank)
+  {
+#if defined(__CUDA_ARCH__)
+    if constexpr (kSize > 1) return __shfl_sync(kAll, value, rank);
+#endif
+    return value;
+  }
+  LSDCD_FN static Vec3 of(const Vec3 &v, unsigned rank)
+  {
+    return {of(v.x, rank), of(v.y, rank), of(v.z, rank)};
+  }
+  // The value that the thread `step` ranks below has; its own where there is none.
+  template <class T>
+  LSDCD_FN static T from_below(T value, [[maybe_unused]] unsigned step)
+  {
+#if defined(__CUDA_ARCH__)
+    if constexpr (kSize > 1) return __shfl_up_sync(kAll, value, step);
+#endif
+    return value;
+  }
+  // The largest value that any thread has.
+  LSDCD_FN static unsigned largest(unsigned value)
+  {
+#if defined(__CUDA_ARCH__)
+    for (unsigned apart = 1; apart < kSize; apart *= 2)
+      value = max(value, __shfl_xor_sync(kAll, value, apart));
+#endif
+    return value;
+  }
+
+  LSDCD_FN static unsigned count(unsigned votes)
+  {
+    if constexpr (kSize > 1) return static_cast<unsigned>(count_bits(votes));
+    return votes;
+  }
+  // Of votes, those of lower ranks than this thread's.
+  LSDCD_FN static unsigned count_below(unsigned votes)
+  {
+    return count(votes & ((1u << rank()) - 1));
+  }
+  // Rank of the first of some votes; 0 where there are none.
+  LSDCD_FN static unsigned first([[maybe_unused]] unsigned votes)
+  {
+    if constexpr (kSize > 1) return votes ? lowest_bit(votes) : 0;
+    return 0;
+  }
+  // Rank of vote number n, counted from 0.
+  LSDCD_FN static unsigned nth(unsigned votes, unsigned n)
+  {
+    unsigned at = 0;
+    for (unsigned half = kSize / 2; half > 0; half /= 2) {
+      const unsigned below = count(votes >> at & ((1u << half) - 1));
+      if (n < below) continue;
+      n -= below;
+      at += half;
+    }
+    return at;
+  }
+#if defined(__CUDACC__)
+  // Takes room for n things of the warp at `end`, which many warps share; returns where it begins.
+  template <class T>
+  __device__ static T take_room(T *end, unsigned n)
+  {
+    T at = 0;
+    if (rank() == 0 && n > 0) at = atomicAdd(end, static_cast<T>(n));
+    return of(at, 0);
+  }
+#endif
+};
+
+// How a warp's threads are dealt out among those that have work: to each as many.
+template <unsigned kSize>
+struct WorkSplit {
+  unsigned size = 1;    // threads for each that has work
+  unsigned owner;       // the thread that this one works for
+  unsigned turn;        // its number among those that do
+  bool helps;           // is there work for it?
+  unsigned own;         // a bit for each thread that works for this one
+
+  // `busy`: a bit for each thread that has work; not 0.
+  LSDCD_FN WorkSplit(const Warp<kSize> &warp, unsigned busy)
+  {
+    const unsigned n = warp.count(busy), rank = warp.rank(), bit = 1u << rank;
+    while (2 * size * n <= kSize) size *= 2;
+    helps = rank / size < n;
+    owner = helps ? warp.nth(busy, rank / size) : 0;
+    turn = rank % size;
+    const unsigned before = warp.count(busy & (bit - 1));
+    own = busy & bit ? (warp.kAll >> (kSize - size)) << before * size : 0;
+  }
+};
+
+// Calls f(mine, value), all threads together, for each value that any of them has; `mine`: has this one?
+template <unsigned kSize, class F>
+LSDCD_FN void for_each_distinct(const Warp<kSize> &warp, bool mine, int value, const F &f)
+{
+  for (unsigned left = warp.vote(mine); left != 0; left = warp.vote(mine)) {
+    const int next = warp.of(value, warp.first(left));
+    const bool now = mine && value == next;
+    f(now, next);
+    mine = mine && !now;
+  }
+}
+
+}    // namespace lsdcd
