@@ -17,14 +17,6 @@
 #include <utility>
 #include <vector>
 
-// Compiles a function with all that it calls, which is quick to run and slow to compile: with
-// sanitizers it would take minutes.
-#if defined(__SANITIZE_ADDRESS__)
-#define LSDCD_FLATTEN
-#else
-#define LSDCD_FLATTEN gnu::flatten
-#endif
-
 namespace lsdcd {
 
 struct CpuBackend {
@@ -111,7 +103,7 @@ struct CpuBackend {
   // f(warp, mine, i), likewise, by threads that share their work; one that is there only to help
   // has an i that is not `mine`. With `n_at`: for *n_at in place of n, or none if that is more.
   template <class F>
-  void for_each_together(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
+  void for_each_in_warps(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
   {
     if (n_at) n = *n_at <= n ? *n_at : 0;
     for_each(n, [&](std::size_t i) { f(Warp<1>(), true, i); });
@@ -139,73 +131,14 @@ struct CpuBackend {
         f(static_cast<std::size_t>(i), at - offset[i], at - run.first);
   }
 
-  // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n; `total`
-  // becomes how many. check() is told of each i, with what read() has read of it. may_keep() and
-  // find() are asked by its row of places(), and where looks_twice() keep_after_all() of what was
-  // found. Where it notes(), note() is told.
-  struct SelectScratch {
-    std::size_t bytes() const { return 0; }
-  };
-  template <class Work>
-  void select(std::size_t n, const Work &work, SelectScratch &, int *to, std::uint32_t *total)
-  {
-    // Blocks of one size whatever the number of threads, so that order is fixed.
-    constexpr std::int64_t kBlock = 4096;
-    const std::int64_t n_blocks = (static_cast<std::int64_t>(n) + kBlock - 1) / kBlock;
-    std::vector<int> found(n_blocks, 0);
-#pragma omp parallel for schedule(dynamic) num_threads(threads()) if (n_blocks > 1)
-    for (std::int64_t b = 0; b < n_blocks; b++) {
-      const std::int64_t lo = b * kBlock;
-      const std::int64_t hi = std::min(lo + kBlock, static_cast<std::int64_t>(n));
-      int count = 0;
-      for (std::int64_t k = lo; k < hi; k++) {
-        const std::size_t i = static_cast<std::size_t>(k);
-        const Vec3 place = work.places()[i];
-        const auto item = work.read(i);
-        work.check(i, item);
-        const bool kept = work.may_keep(item, place, work.table) &&
-                          work.find(place, work.table) != Work::kNotFound;
-        if (work.notes()) work.note(i, kept);
-        if (kept) to[lo + count++] = static_cast<int>(i);
-      }
-      found[b] = work.looks_twice() ? look_again(work, to + lo, count) : count;
-    }
-    std::uint32_t n_kept = 0;
-    for (std::int64_t b = 0; b < n_blocks; b++) {
-      std::copy(to + b * kBlock, to + b * kBlock + found[b], to + n_kept);
-      n_kept += found[b];
-    }
-    *total = n_kept;
-  }
-  // On a GPU a second look may have too little room.
-  bool had_room(std::uint32_t /*total*/, SelectScratch &)
-  {
-    return true;
-  }
-
-  // keep: of from[0, n) those whose flag is set, in order, into `to`; *total becomes how many.
-  void keep(std::size_t n, const int *from, const char *flags, SelectScratch &, int *to,
-            std::uint32_t *total)
+  // compact: of from[0, n) those whose flag is set, in order, into `to`; *total becomes how many.
+  void compact(std::size_t n, const int *from, const char *flags, Array<char> & /*scratch*/,
+               int *to, std::uint32_t *total)
   {
     std::uint32_t kept = 0;
     for (std::size_t k = 0; k < n; k++)
       if (flags[k]) to[kept++] = from[k];
     *total = kept;
-  }
-
-  // step: work.begin() once, and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i), before that work.make_list(warp, true, i) if
-  // work.needs_list(i), and with a list that is new work.single(i) once more.
-  template <class Work>
-  void step(std::size_t n, const Work &work)
-  {
-    work.begin();
-    const std::int64_t m = static_cast<std::int64_t>(n);
-    // Long enough that several items of a run need lists, and enough runs for all threads.
-    const std::int64_t run = std::min(kRun, std::max<std::int64_t>(64, m / (8 * threads())));
-#pragma omp parallel for schedule(dynamic) num_threads(threads()) if (m > 256)
-    for (std::int64_t begin = 0; begin < m; begin += run)
-      step_run(work, begin, std::min(m, begin + run));
   }
 
   // Does test(i) hold for any i in [0, n)?
@@ -265,89 +198,6 @@ struct CpuBackend {
   {
     const int n = threads();
     return "CPU, " + std::to_string(n) + (n == 1 ? " thread" : " threads");
-  }
-
- private:
-  // Of n items leaves those that are kept after all, and returns how many. What is read first is asked for
-  // a few items ahead.
-  template <class Work>
-  static int look_again(const Work &work, int *items, int n)
-  {
-    constexpr int kAhead = 4;
-    int n_kept = 0;
-    for (int k = 0; k < n; k++) {
-      if (k + kAhead < n) work.ask_ahead(work.places()[items[k + kAhead]]);
-      const int i = items[k];
-      if (work.keep_after_all(Warp<1>(), true, i, Work::kNotKnown))
-        items[n_kept++] = i;
-      else if (work.notes())
-        work.note(i, false);
-    }
-    return n_kept;
-  }
-
-  // Items of a step that a thread takes at once, at most.
-  static constexpr std::int64_t kRun = 512;
-  struct Items {
-    int n = 0;
-    std::int64_t at[kRun];
-
-    void add(std::int64_t i) { at[n++] = i; }
-  };
-
-  template <class Work>
-  static void step_run(const Work &work, std::int64_t begin, std::int64_t end)
-  {
-    Items left;
-    if (work.has_single())
-      step_singles(work, begin, end, left);
-    else
-      for (std::int64_t i = begin; i < end; i++) left.add(i);
-    if (left.n > 0) step_left(work, left);
-  }
-  // single() is compiled into the loop whole, with its contact in registers; the rest is rare, and
-  // long.
-  template <class Work>
-  [[gnu::noinline, LSDCD_FLATTEN]] static void step_singles(const Work &work, std::int64_t begin,
-                                                            std::int64_t end, Items &left)
-  {
-    for (std::int64_t i = begin; i < end; i++)
-      if (!work.single(static_cast<std::size_t>(i))) left.add(i);
-  }
-  // Those that need lists get them, and go through single() once more.
-  template <class Work>
-  [[gnu::noinline]] static void step_left(const Work &work, const Items &left)
-  {
-    const bool has_single = work.has_single();
-    Items due, several;
-    for (int k = 0; k < left.n; k++)
-      (work.needs_list(static_cast<std::size_t>(left.at[k])) ? due : several).add(left.at[k]);
-    for (int k = 0; k < due.n; k++) {
-      if (k % kAsked == 0) ask_for_lists(work, due.at + k, std::min(kAsked, due.n - k));
-      const std::int64_t i = due.at[k];
-      work.make_list(Warp<1>(), true, static_cast<std::size_t>(i));
-      if (has_single)
-        step_singles(work, i, i + 1, several);
-      else
-        several.add(i);
-    }
-    for (int k = 0; k < several.n; k++) work.several(static_cast<std::size_t>(several.at[k]));
-  }
-
-  // Asks for what the lists of n items are made from, at most kAsked: else each would wait for memory
-  // several times.
-  static constexpr int kAsked = 32;
-  template <class Work>
-  static void ask_for_lists([[maybe_unused]] const Work &work,
-                            [[maybe_unused]] const std::int64_t *items, [[maybe_unused]] int n)
-  {
-    if constexpr (Work::kSingle) {
-      if (n < 2) return;
-      typename Work::Ahead ahead[kAsked];
-      for (int k = 0; k < n; k++) ahead[k] = work.list_ahead(static_cast<std::size_t>(items[k]));
-      for (int part = 0; part < Work::Ahead::kParts; part++)
-        for (int k = 0; k < n; k++) work.ask_for(ahead[k], part);
-    }
   }
 };
 

@@ -3,9 +3,8 @@
 
 #include "backend/cuda_beside.h"
 #include "backend/cuda_check.h"
-#include "backend/cuda_mark.h"
+#include "backend/cuda_launch.h"
 #include "backend/owned_array.h"
-#include "backend/cuda_step.h"
 #include "backend/warp.h"
 
 #include <cub/device/device_radix_sort.cuh>
@@ -35,13 +34,13 @@ __global__ void cuda_for_each(std::size_t n, const __grid_constant__ F f)
 
 // The same, a warp's threads together. They wait for memory: 80 registers for each leave room for
 // more of them.
-constexpr unsigned kTogetherBlock = 128, kTogetherBlocks = 6;
+constexpr unsigned kInWarpsBlock = 128, kInWarpsBlocks = 6;
 template <class F>
-__global__ void __launch_bounds__(kTogetherBlock, kTogetherBlocks)
-    cuda_for_each_together(std::size_t most, const std::uint32_t *n_at, const __grid_constant__ F f)
+__global__ void __launch_bounds__(kInWarpsBlock, kInWarpsBlocks)
+    cuda_for_each_in_warps(std::size_t most, const std::uint32_t *n_at, const __grid_constant__ F f)
 {
   const std::size_t n = n_at ? *n_at : most,
-                    i = std::size_t(blockIdx.x) * kTogetherBlock + threadIdx.x;
+                    i = std::size_t(blockIdx.x) * kInWarpsBlock + threadIdx.x;
   if (n <= most && i / kWarpSize * kWarpSize < n) f(Warp<kWarpSize>(), i < n, i < n ? i : 0);
 }
 
@@ -217,25 +216,30 @@ struct CudaBackend {
     CudaBeside streams;
   };
 
+  // launch: a kernel that is written for a GPU.
+  template <class... Parameters, class... Arguments>
+  void launch(void (*kernel)(Parameters...), const LaunchShape &shape,
+              const Arguments &...arguments)
+  {
+    lsdcd::launch(stream, kernel, shape, arguments...);
+  }
+
   // for_each: f(i) for i in [0, n), in any order and at once.
   template <class F>
   void for_each(std::size_t n, const F &f, unsigned block = 256)
   {
     if (n == 0) return;
-    cuda_for_each<<<static_cast<unsigned>((n + block - 1) / block), block, 0, stream>>>(n, f);
-    cuda_check(cudaGetLastError(), "starting a kernel");
+    launch(cuda_for_each<F>, {static_cast<unsigned>((n + block - 1) / block), block}, n, f);
   }
 
   // f(warp, mine, i), likewise, by threads that share their work; one that is there only to help
   // has an i that is not `mine`. With `n_at`: for *n_at in place of n, or none if that is more.
   template <class F>
-  void for_each_together(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
+  void for_each_in_warps(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
   {
     if (n == 0) return;
-    const std::size_t blocks = (n + kTogetherBlock - 1) / kTogetherBlock;
-    cuda_for_each_together<<<static_cast<unsigned>(blocks), kTogetherBlock, 0, stream>>>(n, n_at,
-                                                                                         f);
-    cuda_check(cudaGetLastError(), "starting a kernel");
+    const std::size_t blocks = (n + kInWarpsBlock - 1) / kInWarpsBlock;
+    launch(cuda_for_each_in_warps<F>, {static_cast<unsigned>(blocks), kInWarpsBlock}, n, n_at, f);
   }
 
   // What the kernels started in f() take on the device, in milliseconds.
@@ -264,100 +268,26 @@ struct CudaBackend {
   {
     if (run.n == 0) return;
     const unsigned block = 256;
-    cuda_for_each_part<<<static_cast<unsigned>((run.n + block - 1) / block), block, 0, stream>>>(
-        offset, run.begin, run.end, run.first, run.n, f);
-    cuda_check(cudaGetLastError(), "starting a kernel");
+    launch(cuda_for_each_part<F>, {static_cast<unsigned>((run.n + block - 1) / block), block},
+           offset, run.begin, run.end, run.first, run.n, f);
   }
 
-  // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
-  // `total`, where the kernels run, becomes how many. check() is told of each i that
-  // may_be_large(), by what read() has read of it; may_keep() is asked with that, its row of
-  // places() and the brick table, find() by that row of those that it leaves, and where
-  // looks_twice() keep_after_all() with what was found of each, by threads that share their work.
-  // Where it notes(), note() is told. Does not wait. The room is kept for the next time, until when
-  // it must not be freed.
-  struct SelectScratch {
-    Array<unsigned> words;
-    Array<SecondLookList::Item> items;
-    Array<unsigned> length;
-    Array<unsigned long long> counts;
-    unsigned turn = 0;
-    CudaLimits limits;
-    Array<char> scan;    // of keep()
-
-    SecondLookList list()
-    {
-      return {items.data(), length.data(),
-              static_cast<unsigned>(items.size() / SecondLookList::kLists)};
-    }
-    std::size_t bytes() const
-    {
-      return words.size() * sizeof(unsigned) + items.size() * sizeof(SecondLookList::Item) +
-             scan.size();
-    }
-  };
-  template <class Work>
-  void select(std::size_t n, const Work &work, SelectScratch &room, int *to, std::uint32_t *total)
-  {
-    const unsigned n_tiles = static_cast<unsigned>((n + kMarkTile - 1) / kMarkTile),
-                   n_words = n_tiles * kMarkWords, processors = room.limits.processors();
-    if (room.words.size() < n_words) room.words = Array<unsigned>(n_words + n_words / 8);
-    if (room.counts.size() == 0) room.counts = zeros<unsigned long long>(processors + 1);
-    SecondLookList list;
-    if (work.looks_twice()) {
-      if (room.length.size() == 0) {
-        room.length = zeros<unsigned>(SecondLookList::kLengths);
-        reserve_second_look(room, kFirstRoom);
-      }
-      list = room.list();
-    }
-    unsigned *words = room.words.data();
-    if (n > 0) start_mark(static_cast<unsigned>(n), work, room.limits, words, list, stream);
-    if (list.items)
-      for_each_together(SecondLookList::kLists * std::size_t(list.room),
-                        SecondLook<Work>{work, list, words});
-    const unsigned each =
-        std::max((n_words + processors - 1) / processors, kGatherBlock);    // of a block
-    cuda_gather<<<n_words / each + 1, kGatherBlock, 0, stream>>>(
-        words, n_words, each, {room.counts.data(), ++room.turn}, list, to, total);
-    cuda_check(cudaGetLastError(), "starting a kernel");
-  }
-  // Given the total, was there room for a second look at all? If not there is now: select again.
-  bool had_room(std::uint32_t total, SelectScratch &room)
-  {
-    if (total != kNoRoom) return true;
-    const unsigned most = read_one(room.list().longest());
-    reserve_second_look(room, most + most / 8);
-    return false;
-  }
-
-  // keep: of from[0, n) those whose flag is set, in order, into `to`; *total, on the device, becomes
-  // how many. Does not wait; the room as above.
+  // compact: of from[0, n) those whose flag is set, in order, into `to`; *total, on the device, becomes
+  // how many. Does not wait: `scratch` must not be freed before it has ended.
   template <class = void>
-  void keep(std::size_t n, const int *from, const char *flags, SelectScratch &room, int *to,
-            std::uint32_t *total)
+  void compact(std::size_t n, const int *from, const char *flags, Array<char> &scratch, int *to,
+               std::uint32_t *total)
   {
     std::size_t bytes = 0;
-    const auto flagged = [&](void *scratch) {
-      cuda_check(cub::DeviceSelect::Flagged(scratch, bytes, from, flags, to, total,
-                                            static_cast<int>(n), stream),
+    const auto flagged = [&](void *at) {
+      cuda_check(cub::DeviceSelect::Flagged(at, bytes, from, flags, to, total, static_cast<int>(n),
+                                            stream),
                  "keeping what is flagged");
     };
     flagged(nullptr);
-    if (room.scan.size() < bytes) room.scan = Array<char>(2 * bytes);
-    bytes = room.scan.size();
-    flagged(room.scan.data());
-  }
-
-  // step: work.begin(), and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i), before that work.make_list(warp, mine, i) by a warp if
-  // work.needs_list(i). Lists of work.step_lists() have room for n; those to be written are empty.
-  template <class Work>
-  void step(std::size_t n, const Work &work)
-  {
-    if (n == 0) return;
-    start_step(static_cast<unsigned>(n), work.has_single(), work, stream);
-    cuda_check(cudaGetLastError(), "starting a kernel");
+    if (scratch.size() < bytes) scratch = Array<char>(2 * bytes);
+    bytes = scratch.size();
+    flagged(scratch.data());
   }
 
   // Does test(i) hold for any i in [0, n)? Waits. `flag`: memory for it, kept for the next time.
@@ -442,23 +372,6 @@ struct CudaBackend {
   }
 
  private:
-  static constexpr unsigned kFirstRoom = 128;    // of a list of a second look
-
-  static void reserve_second_look(SelectScratch &room, unsigned of_list)
-  {
-    const std::size_t n =
-        SecondLookList::kLists * ((std::size_t(of_list) + kWarpSize - 1) / kWarpSize * kWarpSize);
-    room.items = Array<SecondLookList::Item>(n);
-  }
-
-  template <class T>
-  Array<T> zeros(std::size_t n)
-  {
-    Array<T> a(n);
-    cuda_check(cudaMemsetAsync(a.data(), 0, n * sizeof(T), stream), "clearing memory");
-    return a;
-  }
-
   // CUB asks twice: for the size of its scratch memory, then to run.
   template <class Call>
   void with_scratch(Call call)

@@ -11,7 +11,6 @@
 #include "bodies/subdivide.h"
 #include "grid/lookup/grid_on.h"
 #include "backend/atomic.h"
-#include "backend/take_one.h"
 
 #include <algorithm>
 #include <cmath>
@@ -180,7 +179,7 @@ class BodyCollisionOn : public BodyCollision {
       const bool cut_short = for_each_near(
           grid, pose.corner_at(piece.centre), unit * piece.radius + more, [&](FeatureCode code) {
             if (is_of_piece_before(grid, pieces, i, pose, unit, code)) return;
-            const std::uint64_t to = take_one(counts + kNear);
+            const std::uint64_t to = fetch_add_one(counts + kNear);
             if (to < room) near[to] = {piece.triangle, code};
           });
       if (cut_short) count_one(counts + kCutShort);
@@ -216,8 +215,8 @@ class BodyCollisionOn : public BodyCollision {
           const BodyPair pair = near[i];
           const int meet = triangles_meet_rounded(body_triangle(corners, pair.triangle, pose),
                                                   wall_triangle(wall, pair.wall));
-          if (meet > 0) met[take_one(counts + kMet)] = pair;
-          if (meet == 0) unsure[take_one(counts + kUnsure)] = pair;
+          if (meet > 0) met[fetch_add_one(counts + kMet)] = pair;
+          if (meet == 0) unsure[fetch_add_one(counts + kUnsure)] = pair;
         },
         64);
   }

@@ -1,6 +1,6 @@
-#include "engine/step/compile_law.h"
+#include "engine/choose/selection_cuda.h"
 #include "engine/host_adapter.h"
-#include "backend/backend_cuda.h"
+#include "engine/step/compile_law.h"
 
 namespace lsdcd {
 

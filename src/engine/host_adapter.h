@@ -2,7 +2,7 @@
 // forces and torques come back, springs stay until the host asks for them.
 #pragma once
 
-#include "backend/backend_cpu.h"
+#include "engine/choose/selection_cpu.h"
 #include "engine/engine_on.h"
 
 #include <algorithm>
