@@ -53,6 +53,16 @@ LSDCD_FN void count_one(std::uint64_t *at)
   add_to(at, 1);
 }
 
+// Sets a flag that any thread may set.
+LSDCD_FN void set_flag(int *flag)
+{
+#if defined(__CUDA_ARCH__)
+  *static_cast<volatile int *>(flag) = 1;
+#else
+  __atomic_store_n(flag, 1, __ATOMIC_RELAXED);
+#endif
+}
+
 // A lock is 0 while it is free. Threads of a GPU's warp wait for each other one by one.
 LSDCD_FN bool try_lock(int *lock)
 {

@@ -1,9 +1,10 @@
-// A backend on an NVIDIA GPU. doc/design.md, "Adding a backend", lists what a backend has.
+// The backend of an NVIDIA GPU; backend.h says what its functions do.
 #pragma once
 
-#include "backend/cuda_beside.h"
+#include "backend/backend.h"
 #include "backend/cuda_check.h"
 #include "backend/cuda_launch.h"
+#include "backend/cuda_side_stream.h"
 #include "backend/owned_array.h"
 #include "backend/warp.h"
 
@@ -44,32 +45,14 @@ __global__ void __launch_bounds__(kInWarpsBlock, kInWarpsBlocks)
   if (n <= most && i / kWarpSize * kWarpSize < n) f(Warp<kWarpSize>(), i < n, i < n ? i : 0);
 }
 
-// The same over parts of things: thing i has offset[i + 1] - offset[i] of them.
-template <class F>
-__global__ void cuda_for_each_part(const std::uint64_t *offset, std::size_t begin, std::size_t end,
-                                   std::uint64_t first, std::uint64_t n,
-                                   const __grid_constant__ F f)
-{
-  const std::uint64_t k = std::uint64_t(blockIdx.x) * blockDim.x + threadIdx.x;
-  if (k >= n) return;
-  // The last thing that begins at or before this part.
-  std::size_t lo = begin, hi = end;
-  while (hi - lo > 1) {
-    const std::size_t middle = lo + (hi - lo) / 2;
-    if (offset[middle] <= first + k)
-      lo = middle;
-    else
-      hi = middle;
-  }
-  f(lo, first + k - offset[lo], k);
-}
-
 struct CudaBackend {
   static constexpr bool kOnHost = false;    // is its memory the host's?
 
   cudaStream_t stream = nullptr;
 
-  // allocate
+  CudaBackend() = default;
+  explicit CudaBackend(void *cuda_stream) : stream(static_cast<cudaStream_t>(cuda_stream)) {}
+
   struct Memory {
     static void *allocate(std::size_t bytes)
     {
@@ -132,91 +115,41 @@ struct CudaBackend {
   template <class T>
   using Scratch = OwnedArray<T, PooledMemory>;
 
-  // copy; the host array may change once copy_in returns.
   template <class T>
   void copy_in(const T *host, T *to, std::size_t n)
   {
-    if (n == 0) return;
-    cuda_check(cudaMemcpyAsync(to, host, n * sizeof(T), cudaMemcpyHostToDevice, stream),
-               "copying to the device");
-    wait();
-  }
-  // The same without waiting, with page-locked host memory.
-  template <class T>
-  void send(const HostArray<T> &host, Array<T> &to, std::size_t n)
-  {
-    cuda_check(
-        cudaMemcpyAsync(to.data(), host.data(), n * sizeof(T), cudaMemcpyHostToDevice, stream),
-        "copying to the device");
-  }
-  template <class T>
-  void receive(const Array<T> &from, HostArray<T> &host, std::size_t n)
-  {
-    cuda_check(
-        cudaMemcpyAsync(host.data(), from.data(), n * sizeof(T), cudaMemcpyDeviceToHost, stream),
-        "copying from the device");
-  }
-  template <class T>
-  Array<T> from_host(const std::vector<T> &host)
-  {
-    Array<T> a(host.size());
-    copy_in(host.data(), a.data(), host.size());
-    return a;
-  }
-  template <class T, class Memory>
-  std::vector<T> to_host(const OwnedArray<T, Memory> &a, std::size_t n)
-  {
-    std::vector<T> host(n);
     if (n > 0)
-      cuda_check(
-          cudaMemcpyAsync(host.data(), a.data(), n * sizeof(T), cudaMemcpyDeviceToHost, stream),
-          "copying from the device");
-    wait();
-    return host;
+      cuda_check(cudaMemcpyAsync(to, host, n * sizeof(T), cudaMemcpyHostToDevice, stream),
+                 "copying to the device");
   }
   template <class T>
-  T read_one(const T *at)
+  void copy_out(const T *from, T *host, std::size_t n)
   {
-    T value;
-    cuda_check(cudaMemcpyAsync(&value, at, sizeof(T), cudaMemcpyDeviceToHost, stream),
-               "copying from the device");
-    wait();
-    return value;
+    if (n > 0)
+      cuda_check(cudaMemcpyAsync(host, from, n * sizeof(T), cudaMemcpyDeviceToHost, stream),
+                 "copying from the device");
   }
   void wait() { cuda_check(cudaStreamSynchronize(stream), "running on the device"); }
 
-  // ask: what is at `at` once all that was started before has ended. answer() waits for that alone,
-  // not for what was started since.
-  template <class T>
-  struct Asked {
-    HostArray<T> value;
-    CudaEvent there;
+  class Event {
+   public:
+    void record(CudaBackend &b) { event_.record(b.stream); }
+    void wait() const { event_.wait(); }
+
+   private:
+    CudaEvent event_;
   };
-  template <class T>
-  void ask(const T *at, Asked<T> &asked)
-  {
-    if (asked.value.size() == 0) asked.value = HostArray<T>(1);
-    cuda_check(cudaMemcpyAsync(asked.value.data(), at, sizeof(T), cudaMemcpyDeviceToHost, stream),
-               "copying from the device");
-    asked.there.record(stream);
-  }
-  template <class T>
-  T answer(const Asked<T> &asked)
-  {
-    asked.there.wait();
-    return *asked.value.data();
-  }
+  class SideStream {
+   public:
+    void ready(CudaBackend &b) { streams_.ready(b.stream); }
+    void begin(CudaBackend &b) { streams_.begin(b.stream); }
+    void end(CudaBackend &b) { streams_.end(b.stream); }
 
-  // beside: what is started between begin() and end() waits only for what came before ready().
-  struct Beside {
-    void ready(CudaBackend &b) { streams.ready(b.stream); }
-    void begin(CudaBackend &b) { streams.begin(b.stream); }
-    void end(CudaBackend &b) { streams.end(b.stream); }
-
-    CudaBeside streams;
+   private:
+    CudaSideStream streams_;
   };
 
-  // launch: a kernel that is written for a GPU.
+  // A kernel that is written for a GPU.
   template <class... Parameters, class... Arguments>
   void launch(void (*kernel)(Parameters...), const LaunchShape &shape,
               const Arguments &...arguments)
@@ -224,7 +157,6 @@ struct CudaBackend {
     lsdcd::launch(stream, kernel, shape, arguments...);
   }
 
-  // for_each: f(i) for i in [0, n), in any order and at once.
   template <class F>
   void for_each(std::size_t n, const F &f, unsigned block = 256)
   {
@@ -232,8 +164,8 @@ struct CudaBackend {
     launch(cuda_for_each<F>, {static_cast<unsigned>((n + block - 1) / block), block}, n, f);
   }
 
-  // f(warp, mine, i), likewise, by threads that share their work; one that is there only to help
-  // has an i that is not `mine`. With `n_at`: for *n_at in place of n, or none if that is more.
+  // A thread that is there only to help has an i that is not `mine`. With `n_at`: for *n_at in place of n, or
+  // none if that is more.
   template <class F>
   void for_each_in_warps(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
   {
@@ -242,7 +174,7 @@ struct CudaBackend {
     launch(cuda_for_each_in_warps<F>, {static_cast<unsigned>(blocks), kInWarpsBlock}, n, n_at, f);
   }
 
-  // What the kernels started in f() take on the device, in milliseconds.
+  // Of the kernels that f() starts.
   template <class F>
   double milliseconds(const F &f)
   {
@@ -260,20 +192,8 @@ struct CudaBackend {
     return ms;
   }
 
-  // for_each over parts of things: thing i has offset[i + 1] - offset[i] of them. Calls
-  // f(i, part, k), k counting the parts of the run.
-  static constexpr std::uint64_t kMostParts = 1 << 27;    // in a run
-  template <class Run, class F>
-  void for_each_part(const std::uint64_t *offset, const Run &run, const F &f)
-  {
-    if (run.n == 0) return;
-    const unsigned block = 256;
-    launch(cuda_for_each_part<F>, {static_cast<unsigned>((run.n + block - 1) / block), block},
-           offset, run.begin, run.end, run.first, run.n, f);
-  }
-
-  // compact: of from[0, n) those whose flag is set, in order, into `to`; *total, on the device, becomes
-  // how many. Does not wait: `scratch` must not be freed before it has ended.
+  // Of from[0, n) those whose flag is set, into `to`; *total, on the device, becomes how many. Does not wait:
+  // `scratch` must not be freed before it has ended.
   template <class = void>
   void compact(std::size_t n, const int *from, const char *flags, Array<char> &scratch, int *to,
                std::uint32_t *total)
@@ -290,22 +210,6 @@ struct CudaBackend {
     flagged(scratch.data());
   }
 
-  // Does test(i) hold for any i in [0, n)? Waits. `flag`: memory for it, kept for the next time.
-  using Flag = HostArray<int>;
-  template <class Test>
-  bool any(std::size_t n, Flag &flag, const Test &test)
-  {
-    if (flag.size() == 0) flag = Flag(1);
-    volatile int *found = flag.data();    // which the device reaches where it is
-    *found = 0;
-    for_each(n, [=] __device__(std::size_t i) {
-      if (test(i)) *found = 1;
-    });
-    wait();
-    return *found;
-  }
-
-  // reduce
   template <class T, class Read>
   T largest(std::size_t n, const Read &read)
   {
@@ -316,33 +220,20 @@ struct CudaBackend {
     with_scratch([&](void *scratch, std::size_t &bytes) {
       return cub::DeviceReduce::Max(scratch, bytes, values, out.data(), n, stream);
     });
-    return read_one(out.data());
+    return read_one(*this, out.data());
   }
-  template <class T>
-  T sum(const T *values, std::size_t n)
-  {
-    if (n == 0) return T(0);
-    Scratch<T> out = scratch<T>(1);
-    with_scratch([&](void *scratch, std::size_t &bytes) {
-      return cub::DeviceReduce::Sum(scratch, bytes, values, out.data(), n, stream);
-    });
-    return read_one(out.data());
-  }
-
-  // scan: values become the sums of what was before them; returns the total.
   template <class T>
   T exclusive_scan(T *values, std::size_t n)
   {
     if (n == 0) return T(0);
-    const T last = read_one(values + n - 1);
+    const T last = read_one(*this, values + n - 1);
     with_scratch([&](void *scratch, std::size_t &bytes) {
       return cub::DeviceScan::ExclusiveSum(scratch, bytes, values, values, n, stream);
     });
-    return last + read_one(values + n - 1);
+    return last + read_one(*this, values + n - 1);
   }
 
-  // sort: stable, by key, over the bits of the largest one. A template, so that only who sorts
-  // compiles it.
+  // Over the bits of the largest key. A template, so that only who sorts compiles it.
   template <class = void>
   void sort_pairs(Scratch<std::uint32_t> &keys, Scratch<std::uint32_t> &values,
                   std::uint32_t largest)
@@ -397,5 +288,7 @@ struct CudaBackend {
     if (stream) wait();
   }
 };
+
+static_assert(is_backend<CudaBackend>, "see backend.h");
 
 }    // namespace lsdcd

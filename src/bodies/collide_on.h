@@ -56,7 +56,7 @@ class BodyCollisionOn : public BodyCollision {
     pieces_ = Array<Piece>();    // no body, should this one fail
     n_triangles_ = body.n_triangles();
     body_ = body.corners;
-    corners_ = b_.from_host(body.corners);
+    corners_ = from_host(b_, body.corners);
     size_ = 0;
     for (const Vec3 &x : body.corners) size_ = std::max(size_, norm(x));
     cut(longest, body.source);
@@ -114,7 +114,7 @@ class BodyCollisionOn : public BodyCollision {
       at[t] = n;
     });
     const std::uint64_t n = b_.exclusive_scan(at, n_triangles + 1);
-    if (const std::uint64_t t = b_.read_one(deep.data()))
+    if (const std::uint64_t t = read_one(b_, deep.data()))
       throw InputError(source + ", triangle " + std::to_string(t) +
                        " cannot be cut down to cells of " + number_text(longest) +
                        ": use longer ones");
@@ -146,7 +146,7 @@ class BodyCollisionOn : public BodyCollision {
     for (;;) {
       find_near(pose);
       test_near(pose);
-      b_.receive(counts_, tally_, kCounts);
+      b_.copy_out(counts_.data(), tally_.data(), kCounts);
       b_.wait();
       const std::uint64_t n = tally_.data()[kNear];
       if (n <= near_.size()) return;
@@ -227,7 +227,7 @@ class BodyCollisionOn : public BodyCollision {
     if (n == 0) return;
     grow(pairs_, n);
     sort_pairs(b_, met_.data(), n, static_cast<std::uint32_t>(n_triangles_), largest_code_);
-    b_.receive(met_, pairs_, n);
+    b_.copy_out(met_.data(), pairs_.data(), n);
     if (with_segments) {
       grow(found_, n);
       grow(segments_, n);
@@ -239,7 +239,7 @@ class BodyCollisionOn : public BodyCollision {
         found[i] = meeting_segment<triangles_meet_detail::RoundedSign>(
             body_triangle(corners, met[i].triangle, pose), wall_triangle(wall, met[i].wall));
       });
-      b_.receive(found_, segments_, n);
+      b_.copy_out(found_.data(), segments_.data(), n);
     }
     b_.wait();
   }
@@ -248,7 +248,7 @@ class BodyCollisionOn : public BodyCollision {
   {
     const std::size_t n = tally_.data()[kUnsure];
     grow(unsure_pairs_, n);
-    b_.receive(unsure_, unsure_pairs_, n);
+    b_.copy_out(unsure_.data(), unsure_pairs_.data(), n);
     b_.wait();
     add_exact_pairs(wall_->view(), body_.data(), pose, unsure_pairs_.data(), n, with_segments, out);
   }

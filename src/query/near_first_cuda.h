@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 namespace lsdcd {
 
@@ -127,8 +128,8 @@ class NearFirst {
   {
     if (counts_.size() == 0) {
       long_list_ = CudaBackend::Array<char>(kMaxLong * sizeof(NearSphere<Sphere>));
-      counts_ = CudaBackend::Array<NearCounts>(2);
-      cuda_check(cudaMemset(counts_.data(), 0, 2 * sizeof(NearCounts)), "clearing memory");
+      CudaBackend b;
+      counts_ = from_host(b, std::vector<NearCounts>(2));
     }
     const std::size_t most = room<S>(std::min(n, kRun)) * kNearLists * sizeof(NearSphere<S>);
     if (list_.size() < most) list_ = CudaBackend::Array<char>(most);

@@ -31,7 +31,7 @@ class NearList {
   // Of the above, given what it counted. False: choose again.
   bool had_room(B &b, const StepCounts &seen) { return selection_.had_room(b, seen.n_near); }
 
-  std::vector<int> to_host(B &b, std::size_t n) { return b.to_host(near_, n); }
+  std::vector<int> to_host(B &b, std::size_t n) { return lsdcd::to_host(b, near_, n); }
   std::size_t bytes() const { return near_.size() * sizeof(int) + selection_.bytes(); }
 
  private:

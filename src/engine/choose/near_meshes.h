@@ -170,7 +170,7 @@ class NearMeshes {
   {
     if (n == 0) return 0;
     b.compact(n, found, flags_.data(), scratch_, to, count_.data());
-    return b.read_one(count_.data());
+    return read_one(b, count_.data());
   }
 
   std::size_t n_spheres_ = 0, n_found_ = 0, n_slots_ = 0, n_joint_ = 0;

@@ -49,7 +49,7 @@ class Selection<CudaBackend> {
   bool had_room(CudaBackend &b, std::uint32_t total)
   {
     if (total != kNoRoom) return true;
-    const unsigned longest = b.read_one(lists().longest());
+    const unsigned longest = read_one(b, lists().longest());
     reserve(longest + longest / 8);
     return false;
   }
@@ -89,7 +89,7 @@ class Selection<CudaBackend> {
   template <class T>
   static Array<T> zeros(CudaBackend &b, std::size_t n)
   {
-    return b.from_host(std::vector<T>(n, 0));
+    return from_host(b, std::vector<T>(n, 0));
   }
 
   Array<unsigned> words_;    // a bit for each sphere
