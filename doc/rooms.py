@@ -19,15 +19,13 @@ WIDTH, HEIGHT, ROW, GAP, LINE_GAP, MARGIN = 92, 30, 62, 22, 26, 16    # of boxes
 
 
 def includes():
-    """{room: the rooms that it includes}, without the exceptions of check_includes.py"""
+    """{room: the rooms that it includes}"""
     rooms = {}
     for path in sorted(check_includes.sources(ROOT)):
         room = check_includes.room_of(path)
         with open(os.path.join(ROOT, path), encoding="utf-8") as f:
             names = [m[1] for m in map(check_includes.INCLUDE.match, f) if m]
-        rooms.setdefault(room, set()).update(
-            name.split("/")[0] for name in names
-            if "/" in name and (path, name) not in check_includes.INCLUDE_EXCEPTIONS)
+        rooms.setdefault(room, set()).update(name.split("/")[0] for name in names if "/" in name)
     return {room: sorted(others - {room}) for room, others in sorted(rooms.items())}
 
 

@@ -19,10 +19,25 @@ LSDCD_FN int fetch_add(int *at, int n)
 #endif
 }
 
+// The same of 1, where many threads add to one number at once.
+LSDCD_FN std::uint64_t fetch_add_one(std::uint64_t *at)
+{
+#if defined(__CUDA_ARCH__)
+  // One addition for all lanes that are here: thousands to one number would wait for each other.
+  const unsigned lanes = __activemask(), lane = threadIdx.x % 32;
+  const unsigned first = __ffs(lanes) - 1;
+  unsigned long long begin = 0;
+  if (lane == first) begin = atomicAdd(reinterpret_cast<unsigned long long *>(at), __popc(lanes));
+  return __shfl_sync(lanes, begin, first) + __popc(lanes & ((1u << lane) - 1));
+#else
+  return __atomic_fetch_add(at, 1, __ATOMIC_RELAXED);
+#endif
+}
+
 LSDCD_FN void add_to(std::uint64_t *at, std::uint32_t n)
 {
 #if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
-  // One addition for all lanes that are here: thousands to one number would wait for each other.
+  // As above.
   const unsigned lanes = __activemask();
   const unsigned sum = __reduce_add_sync(lanes, static_cast<unsigned>(n));
   if (threadIdx.x % 32 == __ffs(lanes) - 1)
@@ -36,6 +51,16 @@ LSDCD_FN void add_to(std::uint64_t *at, std::uint32_t n)
 LSDCD_FN void count_one(std::uint64_t *at)
 {
   add_to(at, 1);
+}
+
+// Sets a flag that any thread may set.
+LSDCD_FN void set_flag(int *flag)
+{
+#if defined(__CUDA_ARCH__)
+  *static_cast<volatile int *>(flag) = 1;
+#else
+  __atomic_store_n(flag, 1, __ATOMIC_RELAXED);
+#endif
 }
 
 // A lock is 0 while it is free. Threads of a GPU's warp wait for each other one by one.

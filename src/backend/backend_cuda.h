@@ -1,11 +1,11 @@
-// A backend on an NVIDIA GPU. doc/design.md, "Adding a backend", lists what a backend has.
+// The backend of an NVIDIA GPU; backend.h says what its functions do.
 #pragma once
 
-#include "backend/cuda_beside.h"
+#include "backend/backend.h"
 #include "backend/cuda_check.h"
-#include "backend/cuda_mark.h"
+#include "backend/cuda_launch.h"
+#include "backend/cuda_side_stream.h"
 #include "backend/owned_array.h"
-#include "backend/cuda_step.h"
 #include "backend/warp.h"
 
 #include <cub/device/device_radix_sort.cuh>
@@ -35,34 +35,14 @@ __global__ void cuda_for_each(std::size_t n, const __grid_constant__ F f)
 
 // The same, a warp's threads together. They wait for memory: 80 registers for each leave room for
 // more of them.
-constexpr unsigned kTogetherBlock = 128, kTogetherBlocks = 6;
+constexpr unsigned kInWarpsBlock = 128, kInWarpsBlocks = 6;
 template <class F>
-__global__ void __launch_bounds__(kTogetherBlock, kTogetherBlocks)
-    cuda_for_each_together(std::size_t most, const std::uint32_t *n_at, const __grid_constant__ F f)
+__global__ void __launch_bounds__(kInWarpsBlock, kInWarpsBlocks)
+    cuda_for_each_in_warps(std::size_t most, const std::uint32_t *n_at, const __grid_constant__ F f)
 {
   const std::size_t n = n_at ? *n_at : most,
-                    i = std::size_t(blockIdx.x) * kTogetherBlock + threadIdx.x;
+                    i = std::size_t(blockIdx.x) * kInWarpsBlock + threadIdx.x;
   if (n <= most && i / kWarpSize * kWarpSize < n) f(Warp<kWarpSize>(), i < n, i < n ? i : 0);
-}
-
-// The same over parts of things: thing i has offset[i + 1] - offset[i] of them.
-template <class F>
-__global__ void cuda_for_each_part(const std::uint64_t *offset, std::size_t begin, std::size_t end,
-                                   std::uint64_t first, std::uint64_t n,
-                                   const __grid_constant__ F f)
-{
-  const std::uint64_t k = std::uint64_t(blockIdx.x) * blockDim.x + threadIdx.x;
-  if (k >= n) return;
-  // The last thing that begins at or before this part.
-  std::size_t lo = begin, hi = end;
-  while (hi - lo > 1) {
-    const std::size_t middle = lo + (hi - lo) / 2;
-    if (offset[middle] <= first + k)
-      lo = middle;
-    else
-      hi = middle;
-  }
-  f(lo, first + k - offset[lo], k);
 }
 
 struct CudaBackend {
@@ -70,7 +50,9 @@ struct CudaBackend {
 
   cudaStream_t stream = nullptr;
 
-  // allocate
+  CudaBackend() = default;
+  explicit CudaBackend(void *cuda_stream) : stream(static_cast<cudaStream_t>(cuda_stream)) {}
+
   struct Memory {
     static void *allocate(std::size_t bytes)
     {
@@ -133,112 +115,66 @@ struct CudaBackend {
   template <class T>
   using Scratch = OwnedArray<T, PooledMemory>;
 
-  // copy; the host array may change once copy_in returns.
   template <class T>
   void copy_in(const T *host, T *to, std::size_t n)
   {
-    if (n == 0) return;
-    cuda_check(cudaMemcpyAsync(to, host, n * sizeof(T), cudaMemcpyHostToDevice, stream),
-               "copying to the device");
-    wait();
-  }
-  // The same without waiting, with page-locked host memory.
-  template <class T>
-  void send(const HostArray<T> &host, Array<T> &to, std::size_t n)
-  {
-    cuda_check(
-        cudaMemcpyAsync(to.data(), host.data(), n * sizeof(T), cudaMemcpyHostToDevice, stream),
-        "copying to the device");
-  }
-  template <class T>
-  void receive(const Array<T> &from, HostArray<T> &host, std::size_t n)
-  {
-    cuda_check(
-        cudaMemcpyAsync(host.data(), from.data(), n * sizeof(T), cudaMemcpyDeviceToHost, stream),
-        "copying from the device");
-  }
-  template <class T>
-  Array<T> from_host(const std::vector<T> &host)
-  {
-    Array<T> a(host.size());
-    copy_in(host.data(), a.data(), host.size());
-    return a;
-  }
-  template <class T, class Memory>
-  std::vector<T> to_host(const OwnedArray<T, Memory> &a, std::size_t n)
-  {
-    std::vector<T> host(n);
     if (n > 0)
-      cuda_check(
-          cudaMemcpyAsync(host.data(), a.data(), n * sizeof(T), cudaMemcpyDeviceToHost, stream),
-          "copying from the device");
-    wait();
-    return host;
+      cuda_check(cudaMemcpyAsync(to, host, n * sizeof(T), cudaMemcpyHostToDevice, stream),
+                 "copying to the device");
   }
   template <class T>
-  T read_one(const T *at)
+  void copy_out(const T *from, T *host, std::size_t n)
   {
-    T value;
-    cuda_check(cudaMemcpyAsync(&value, at, sizeof(T), cudaMemcpyDeviceToHost, stream),
-               "copying from the device");
-    wait();
-    return value;
+    if (n > 0)
+      cuda_check(cudaMemcpyAsync(host, from, n * sizeof(T), cudaMemcpyDeviceToHost, stream),
+                 "copying from the device");
   }
   void wait() { cuda_check(cudaStreamSynchronize(stream), "running on the device"); }
 
-  // ask: what is at `at` once all that was started before has ended. answer() waits for that alone,
-  // not for what was started since.
-  template <class T>
-  struct Asked {
-    HostArray<T> value;
-    CudaEvent there;
+  class Event {
+   public:
+    void record(CudaBackend &b) { event_.record(b.stream); }
+    void wait() const { event_.wait(); }
+
+   private:
+    CudaEvent event_;
   };
-  template <class T>
-  void ask(const T *at, Asked<T> &asked)
-  {
-    if (asked.value.size() == 0) asked.value = HostArray<T>(1);
-    cuda_check(cudaMemcpyAsync(asked.value.data(), at, sizeof(T), cudaMemcpyDeviceToHost, stream),
-               "copying from the device");
-    asked.there.record(stream);
-  }
-  template <class T>
-  T answer(const Asked<T> &asked)
-  {
-    asked.there.wait();
-    return *asked.value.data();
-  }
+  class SideStream {
+   public:
+    void ready(CudaBackend &b) { streams_.ready(b.stream); }
+    void begin(CudaBackend &b) { streams_.begin(b.stream); }
+    void end(CudaBackend &b) { streams_.end(b.stream); }
 
-  // beside: what is started between begin() and end() waits only for what came before ready().
-  struct Beside {
-    void ready(CudaBackend &b) { streams.ready(b.stream); }
-    void begin(CudaBackend &b) { streams.begin(b.stream); }
-    void end(CudaBackend &b) { streams.end(b.stream); }
-
-    CudaBeside streams;
+   private:
+    CudaSideStream streams_;
   };
 
-  // for_each: f(i) for i in [0, n), in any order and at once.
+  // A kernel that is written for a GPU.
+  template <class... Parameters, class... Arguments>
+  void launch(void (*kernel)(Parameters...), const LaunchShape &shape,
+              const Arguments &...arguments)
+  {
+    lsdcd::launch(stream, kernel, shape, arguments...);
+  }
+
   template <class F>
   void for_each(std::size_t n, const F &f, unsigned block = 256)
   {
     if (n == 0) return;
-    cuda_for_each<<<static_cast<unsigned>((n + block - 1) / block), block, 0, stream>>>(n, f);
-    cuda_check(cudaGetLastError(), "starting a kernel");
+    launch(cuda_for_each<F>, {static_cast<unsigned>((n + block - 1) / block), block}, n, f);
   }
 
-  // f(warp, mine, i), likewise, by threads that share their work; one that is there only to help
-  // has an i that is not `mine`. With `n_at`: for *n_at in place of n, or none if that is more.
+  // A thread that is there only to help has an i that is not `mine`. With `n_at`: for *n_at in place of n, or
+  // none if that is more.
   template <class F>
-  void for_each_together(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
+  void for_each_in_warps(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
   {
     if (n == 0) return;
-    const std::size_t blocks = (n + kTogetherBlock - 1) / kTogetherBlock;
-    cuda_for_each_together<<<static_cast<unsigned>(blocks), kTogetherBlock, 0, stream>>>(n, n_at,
-                                                                                         f);
-    cuda_check(cudaGetLastError(), "starting a kernel");
+    const std::size_t blocks = (n + kInWarpsBlock - 1) / kInWarpsBlock;
+    launch(cuda_for_each_in_warps<F>, {static_cast<unsigned>(blocks), kInWarpsBlock}, n, n_at, f);
   }
 
-  // What the kernels started in f() take on the device, in milliseconds.
+  // Of the kernels that f() starts.
   template <class F>
   double milliseconds(const F &f)
   {
@@ -256,126 +192,24 @@ struct CudaBackend {
     return ms;
   }
 
-  // for_each over parts of things: thing i has offset[i + 1] - offset[i] of them. Calls
-  // f(i, part, k), k counting the parts of the run.
-  static constexpr std::uint64_t kMostParts = 1 << 27;    // in a run
-  template <class Run, class F>
-  void for_each_part(const std::uint64_t *offset, const Run &run, const F &f)
-  {
-    if (run.n == 0) return;
-    const unsigned block = 256;
-    cuda_for_each_part<<<static_cast<unsigned>((run.n + block - 1) / block), block, 0, stream>>>(
-        offset, run.begin, run.end, run.first, run.n, f);
-    cuda_check(cudaGetLastError(), "starting a kernel");
-  }
-
-  // select: the i in [0, n) that `work` keeps, ascending, into `to`, which has room for n;
-  // `total`, where the kernels run, becomes how many. check() is told of each i that
-  // may_be_large(), by what read() has read of it; may_keep() is asked with that, its row of
-  // places() and the brick table, find() by that row of those that it leaves, and where
-  // looks_twice() keep_after_all() with what was found of each, by threads that share their work.
-  // Where it notes(), note() is told. Does not wait. The room is kept for the next time, until when
-  // it must not be freed.
-  struct SelectScratch {
-    Array<unsigned> words;
-    Array<SecondLookList::Item> items;
-    Array<unsigned> length;
-    Array<unsigned long long> counts;
-    unsigned turn = 0;
-    CudaLimits limits;
-    Array<char> scan;    // of keep()
-
-    SecondLookList list()
-    {
-      return {items.data(), length.data(),
-              static_cast<unsigned>(items.size() / SecondLookList::kLists)};
-    }
-    std::size_t bytes() const
-    {
-      return words.size() * sizeof(unsigned) + items.size() * sizeof(SecondLookList::Item) +
-             scan.size();
-    }
-  };
-  template <class Work>
-  void select(std::size_t n, const Work &work, SelectScratch &room, int *to, std::uint32_t *total)
-  {
-    const unsigned n_tiles = static_cast<unsigned>((n + kMarkTile - 1) / kMarkTile),
-                   n_words = n_tiles * kMarkWords, processors = room.limits.processors();
-    if (room.words.size() < n_words) room.words = Array<unsigned>(n_words + n_words / 8);
-    if (room.counts.size() == 0) room.counts = zeros<unsigned long long>(processors + 1);
-    SecondLookList list;
-    if (work.looks_twice()) {
-      if (room.length.size() == 0) {
-        room.length = zeros<unsigned>(SecondLookList::kLengths);
-        reserve_second_look(room, kFirstRoom);
-      }
-      list = room.list();
-    }
-    unsigned *words = room.words.data();
-    if (n > 0) start_mark(static_cast<unsigned>(n), work, room.limits, words, list, stream);
-    if (list.items)
-      for_each_together(SecondLookList::kLists * std::size_t(list.room),
-                        SecondLook<Work>{work, list, words});
-    const unsigned each =
-        std::max((n_words + processors - 1) / processors, kGatherBlock);    // of a block
-    cuda_gather<<<n_words / each + 1, kGatherBlock, 0, stream>>>(
-        words, n_words, each, {room.counts.data(), ++room.turn}, list, to, total);
-    cuda_check(cudaGetLastError(), "starting a kernel");
-  }
-  // Given the total, was there room for a second look at all? If not there is now: select again.
-  bool had_room(std::uint32_t total, SelectScratch &room)
-  {
-    if (total != kNoRoom) return true;
-    const unsigned most = read_one(room.list().longest());
-    reserve_second_look(room, most + most / 8);
-    return false;
-  }
-
-  // keep: of from[0, n) those whose flag is set, in order, into `to`; *total, on the device, becomes
-  // how many. Does not wait; the room as above.
+  // Of from[0, n) those whose flag is set, into `to`; *total, on the device, becomes how many. Does not wait:
+  // `scratch` must not be freed before it has ended.
   template <class = void>
-  void keep(std::size_t n, const int *from, const char *flags, SelectScratch &room, int *to,
-            std::uint32_t *total)
+  void compact(std::size_t n, const int *from, const char *flags, Array<char> &scratch, int *to,
+               std::uint32_t *total)
   {
     std::size_t bytes = 0;
-    const auto flagged = [&](void *scratch) {
-      cuda_check(cub::DeviceSelect::Flagged(scratch, bytes, from, flags, to, total,
-                                            static_cast<int>(n), stream),
+    const auto flagged = [&](void *at) {
+      cuda_check(cub::DeviceSelect::Flagged(at, bytes, from, flags, to, total, static_cast<int>(n),
+                                            stream),
                  "keeping what is flagged");
     };
     flagged(nullptr);
-    if (room.scan.size() < bytes) room.scan = Array<char>(2 * bytes);
-    bytes = room.scan.size();
-    flagged(room.scan.data());
+    if (scratch.size() < bytes) scratch = Array<char>(2 * bytes);
+    bytes = scratch.size();
+    flagged(scratch.data());
   }
 
-  // step: work.begin(), and of each i in [0, n) work.single(i), or where that says false or
-  // !work.has_single(), work.several(i), before that work.make_list(warp, mine, i) by a warp if
-  // work.needs_list(i). Lists of work.step_lists() have room for n; those to be written are empty.
-  template <class Work>
-  void step(std::size_t n, const Work &work)
-  {
-    if (n == 0) return;
-    start_step(static_cast<unsigned>(n), work.has_single(), work, stream);
-    cuda_check(cudaGetLastError(), "starting a kernel");
-  }
-
-  // Does test(i) hold for any i in [0, n)? Waits. `flag`: memory for it, kept for the next time.
-  using Flag = HostArray<int>;
-  template <class Test>
-  bool any(std::size_t n, Flag &flag, const Test &test)
-  {
-    if (flag.size() == 0) flag = Flag(1);
-    volatile int *found = flag.data();    // which the device reaches where it is
-    *found = 0;
-    for_each(n, [=] __device__(std::size_t i) {
-      if (test(i)) *found = 1;
-    });
-    wait();
-    return *found;
-  }
-
-  // reduce
   template <class T, class Read>
   T largest(std::size_t n, const Read &read)
   {
@@ -386,33 +220,20 @@ struct CudaBackend {
     with_scratch([&](void *scratch, std::size_t &bytes) {
       return cub::DeviceReduce::Max(scratch, bytes, values, out.data(), n, stream);
     });
-    return read_one(out.data());
+    return read_one(*this, out.data());
   }
-  template <class T>
-  T sum(const T *values, std::size_t n)
-  {
-    if (n == 0) return T(0);
-    Scratch<T> out = scratch<T>(1);
-    with_scratch([&](void *scratch, std::size_t &bytes) {
-      return cub::DeviceReduce::Sum(scratch, bytes, values, out.data(), n, stream);
-    });
-    return read_one(out.data());
-  }
-
-  // scan: values become the sums of what was before them; returns the total.
   template <class T>
   T exclusive_scan(T *values, std::size_t n)
   {
     if (n == 0) return T(0);
-    const T last = read_one(values + n - 1);
+    const T last = read_one(*this, values + n - 1);
     with_scratch([&](void *scratch, std::size_t &bytes) {
       return cub::DeviceScan::ExclusiveSum(scratch, bytes, values, values, n, stream);
     });
-    return last + read_one(values + n - 1);
+    return last + read_one(*this, values + n - 1);
   }
 
-  // sort: stable, by key, over the bits of the largest one. A template, so that only who sorts
-  // compiles it.
+  // Over the bits of the largest key. A template, so that only who sorts compiles it.
   template <class = void>
   void sort_pairs(Scratch<std::uint32_t> &keys, Scratch<std::uint32_t> &values,
                   std::uint32_t largest)
@@ -442,23 +263,6 @@ struct CudaBackend {
   }
 
  private:
-  static constexpr unsigned kFirstRoom = 128;    // of a list of a second look
-
-  static void reserve_second_look(SelectScratch &room, unsigned of_list)
-  {
-    const std::size_t n =
-        SecondLookList::kLists * ((std::size_t(of_list) + kWarpSize - 1) / kWarpSize * kWarpSize);
-    room.items = Array<SecondLookList::Item>(n);
-  }
-
-  template <class T>
-  Array<T> zeros(std::size_t n)
-  {
-    Array<T> a(n);
-    cuda_check(cudaMemsetAsync(a.data(), 0, n * sizeof(T), stream), "clearing memory");
-    return a;
-  }
-
   // CUB asks twice: for the size of its scratch memory, then to run.
   template <class Call>
   void with_scratch(Call call)
@@ -484,5 +288,7 @@ struct CudaBackend {
     if (stream) wait();
   }
 };
+
+static_assert(is_backend<CudaBackend>, "see backend.h");
 
 }    // namespace lsdcd

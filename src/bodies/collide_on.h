@@ -11,7 +11,6 @@
 #include "bodies/subdivide.h"
 #include "grid/lookup/grid_on.h"
 #include "backend/atomic.h"
-#include "backend/take_one.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +56,7 @@ class BodyCollisionOn : public BodyCollision {
     pieces_ = Array<Piece>();    // no body, should this one fail
     n_triangles_ = body.n_triangles();
     body_ = body.corners;
-    corners_ = b_.from_host(body.corners);
+    corners_ = from_host(b_, body.corners);
     size_ = 0;
     for (const Vec3 &x : body.corners) size_ = std::max(size_, norm(x));
     cut(longest, body.source);
@@ -115,7 +114,7 @@ class BodyCollisionOn : public BodyCollision {
       at[t] = n;
     });
     const std::uint64_t n = b_.exclusive_scan(at, n_triangles + 1);
-    if (const std::uint64_t t = b_.read_one(deep.data()))
+    if (const std::uint64_t t = read_one(b_, deep.data()))
       throw InputError(source + ", triangle " + std::to_string(t) +
                        " cannot be cut down to cells of " + number_text(longest) +
                        ": use longer ones");
@@ -147,7 +146,7 @@ class BodyCollisionOn : public BodyCollision {
     for (;;) {
       find_near(pose);
       test_near(pose);
-      b_.receive(counts_, tally_, kCounts);
+      b_.copy_out(counts_.data(), tally_.data(), kCounts);
       b_.wait();
       const std::uint64_t n = tally_.data()[kNear];
       if (n <= near_.size()) return;
@@ -180,7 +179,7 @@ class BodyCollisionOn : public BodyCollision {
       const bool cut_short = for_each_near(
           grid, pose.corner_at(piece.centre), unit * piece.radius + more, [&](FeatureCode code) {
             if (is_of_piece_before(grid, pieces, i, pose, unit, code)) return;
-            const std::uint64_t to = take_one(counts + kNear);
+            const std::uint64_t to = fetch_add_one(counts + kNear);
             if (to < room) near[to] = {piece.triangle, code};
           });
       if (cut_short) count_one(counts + kCutShort);
@@ -216,8 +215,8 @@ class BodyCollisionOn : public BodyCollision {
           const BodyPair pair = near[i];
           const int meet = triangles_meet_rounded(body_triangle(corners, pair.triangle, pose),
                                                   wall_triangle(wall, pair.wall));
-          if (meet > 0) met[take_one(counts + kMet)] = pair;
-          if (meet == 0) unsure[take_one(counts + kUnsure)] = pair;
+          if (meet > 0) met[fetch_add_one(counts + kMet)] = pair;
+          if (meet == 0) unsure[fetch_add_one(counts + kUnsure)] = pair;
         },
         64);
   }
@@ -228,7 +227,7 @@ class BodyCollisionOn : public BodyCollision {
     if (n == 0) return;
     grow(pairs_, n);
     sort_pairs(b_, met_.data(), n, static_cast<std::uint32_t>(n_triangles_), largest_code_);
-    b_.receive(met_, pairs_, n);
+    b_.copy_out(met_.data(), pairs_.data(), n);
     if (with_segments) {
       grow(found_, n);
       grow(segments_, n);
@@ -240,7 +239,7 @@ class BodyCollisionOn : public BodyCollision {
         found[i] = meeting_segment<triangles_meet_detail::RoundedSign>(
             body_triangle(corners, met[i].triangle, pose), wall_triangle(wall, met[i].wall));
       });
-      b_.receive(found_, segments_, n);
+      b_.copy_out(found_.data(), segments_.data(), n);
     }
     b_.wait();
   }
@@ -249,7 +248,7 @@ class BodyCollisionOn : public BodyCollision {
   {
     const std::size_t n = tally_.data()[kUnsure];
     grow(unsure_pairs_, n);
-    b_.receive(unsure_, unsure_pairs_, n);
+    b_.copy_out(unsure_.data(), unsure_pairs_.data(), n);
     b_.wait();
     add_exact_pairs(wall_->view(), body_.data(), pose, unsure_pairs_.data(), n, with_segments, out);
   }

@@ -48,7 +48,7 @@ class BrickGeometry {
   {
     return closest_point_with(code, within, 0);
   }
-  LSDCD_FN static void ask_for(const GridView &, const Candidate *, std::uint32_t) {}
+  LSDCD_FN static void prefetch(const GridView &, const Candidate *, std::uint32_t) {}
   // Could there be a closest point with so much more of tolerance (length)?
   LSDCD_FN bool may_be_closest(FeatureCode code, Real within, Real more) const
   {

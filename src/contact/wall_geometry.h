@@ -30,14 +30,14 @@ class WallGeometry {
   {
     return closest_point_on(grid_.wall, code, q_, grid_.tolerance, within, copy);
   }
-  // Asks a CPU's memory for the records of n candidates of a large wall, which are read soon.
-  LSDCD_FN static void ask_for([[maybe_unused]] const GridView &grid,
-                               [[maybe_unused]] const Candidate *candidates,
-                               [[maybe_unused]] std::uint32_t n)
+  // On a CPU: the records of n candidates of a large wall, which are read soon.
+  LSDCD_FN static void prefetch([[maybe_unused]] const GridView &grid,
+                                [[maybe_unused]] const Candidate *candidates,
+                                [[maybe_unused]] std::uint32_t n)
   {
 #if !defined(__CUDA_ARCH__)
     for (std::uint32_t i = 0; grid.is_large && i < n; i++)
-      lsdcd::ask_for(grid.wall, candidates[i].feature);
+      lsdcd::prefetch(grid.wall, candidates[i].feature);
 #endif
   }
   // Could there be a closest point with so much more of tolerance (length)?

@@ -1,6 +1,6 @@
+#include "engine/choose/selection_cpu.h"
 #include "engine/engine_on.h"
 #include "engine/step/compile_law.h"
-#include "backend/backend_cpu.h"
 
 namespace lsdcd {
 

@@ -1,50 +1,18 @@
-#include "engine/step/compile_law.h"
+#include "backend/cuda_device.h"
+#include "engine/choose/selection_cuda.h"
 #include "engine/host_adapter.h"
-#include "backend/backend_cuda.h"
+#include "engine/step/compile_law.h"
 
 namespace lsdcd {
 
 namespace {
 
-// A stream of its own on the GPU that this process shares with others of its node.
-class Stream {
- public:
-  explicit Stream(int rank)
-  {
-    int n_devices = 0;
-    cuda_check(cudaGetDeviceCount(&n_devices), "counting GPUs");
-    device_ = rank % n_devices;
-    cuda_check(cudaSetDevice(device_), "choosing a GPU");
-    cuda_check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "creating a stream");
-  }
-  ~Stream()
-  {
-    cudaSetDevice(device_);
-    cudaStreamSynchronize(stream_);
-    cudaStreamDestroy(stream_);
-  }
-  Stream(const Stream &) = delete;
-  Stream &operator=(const Stream &) = delete;
-
-  cudaStream_t get() const { return stream_; }
-
- private:
-  int device_ = 0;
-  cudaStream_t stream_ = nullptr;
-};
-
-CudaBackend on(cudaStream_t stream)
-{
-  CudaBackend backend;
-  backend.stream = stream;
-  return backend;
-}
-
 // The stream outlives what runs in it.
-class CudaEngine : private Stream, public HostAdapter<CudaBackend> {
+class CudaEngine : private CudaStream, public HostAdapter<CudaBackend> {
  public:
   explicit CudaEngine(const EngineSettings &settings) :
-      Stream(settings.device_rank), HostAdapter(settings, law_for<CudaBackend>(settings), on(get()))
+      CudaStream(settings.device_rank),
+      HostAdapter(settings, law_for<CudaBackend>(settings), CudaBackend(get()))
   {
   }
 };
@@ -60,9 +28,9 @@ std::unique_ptr<InPlaceEngine> make_cuda_engine_in_place(const EngineSettings &s
                                                          void *stream)
 {
   // The host code has chosen its device with a CUDA runtime of its own.
-  cuda_check(cudaSetDevice(device), "choosing the GPU of the particles");
+  use_gpu(device);
   return std::make_unique<EngineOn<CudaBackend>>(settings, law_for<CudaBackend>(settings),
-                                                 on(static_cast<cudaStream_t>(stream)));
+                                                 CudaBackend(stream));
 }
 
 }    // namespace lsdcd

@@ -283,14 +283,14 @@ class EngineOn : public InPlaceEngine {
 
   const WallTotals &sum_totals() { return results_.totals(b_); }
 
-  StepCounts read_counts() { return b_.read_one(counts_.data()); }
+  StepCounts read_counts() { return read_one(b_, counts_.data()); }
 
   [[noreturn]] void throw_for(const Spheres &spheres, const StepCounts &seen)
   {
     clear_diagnostics(seen);
     if (seen.too_large) {
       const int i = static_cast<int>(kNoSphere - seen.too_large);
-      throw_too_large(i, b_.read_one(spheres.radius + i), wall_.mesh(0).grid.view.cutoff);
+      throw_too_large(i, read_one(b_, spheres.radius + i), wall_.mesh(0).grid.view.cutoff);
     }
     if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown));
     if (seen.no_lane) throw_too_many_contacts(kMostContacts);
@@ -300,7 +300,7 @@ class EngineOn : public InPlaceEngine {
   EngineSettings settings_;
   CompiledLaw<B> law_;
   B b_;
-  typename B::Beside beside_;
+  typename B::SideStream beside_;
   bool is_beside_ = false, has_run_ = false, has_added_ = false;    // the step that was started
   NearWall<B> wall_;
   Spheres spheres_;

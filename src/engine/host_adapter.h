@@ -2,7 +2,7 @@
 // forces and torques come back, springs stay until the host asks for them.
 #pragma once
 
-#include "backend/backend_cpu.h"
+#include "engine/choose/selection_cpu.h"
 #include "engine/engine_on.h"
 
 #include <algorithm>
@@ -111,9 +111,9 @@ class HostAdapter : public WallEngine {
     engine_.start(packed(), step);
     engine_.run();
     if (n == 0) return;
-    if (!has_several()) b.receive(engine_.contacts_of_near(), n_contacts_.host, n);
-    b.receive(response_.device, response_.host, n);
-    if (traits_.heat) b.receive(heat_.device, heat_.host, 2 * n);
+    if (!has_several()) b.copy_out(engine_.contacts_of_near().data(), n_contacts_.host.data(), n);
+    b.copy_out(response_.device.data(), response_.host.data(), n);
+    if (traits_.heat) b.copy_out(heat_.device.data(), heat_.host.data(), 2 * n);
   }
   bool has_begun() const override { return true; }
 
@@ -279,8 +279,9 @@ class HostAdapter : public WallEngine {
       radius[k] = s.radius[i];
       mass[k] = s.mass[i];
     }
-    engine_.backend_now().send(motion_.host, motion_.device, n);
-    engine_.backend_now().send(size_.host, size_.device, 2 * static_cast<std::size_t>(n));
+    engine_.backend_now().copy_in(motion_.host.data(), motion_.device.data(), n);
+    engine_.backend_now().copy_in(size_.host.data(), size_.device.data(),
+                                  2 * static_cast<std::size_t>(n));
   }
 
   // Temperatures there, heat flows back.
@@ -292,7 +293,7 @@ class HostAdapter : public WallEngine {
       to[k] = s.temperature[near_host_[k]];
       to[n + k] = 0;
     }
-    engine_.backend_now().send(heat_.host, heat_.device, 2 * n);
+    engine_.backend_now().copy_in(heat_.host.data(), heat_.device.data(), 2 * n);
   }
 
   // The near spheres as the engine has them.

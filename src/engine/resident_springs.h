@@ -154,8 +154,8 @@ class ResidentSprings {
           to_extra[target * n_extra + e] = from.extra[source * n_extra + e];
       }
     });
-    store.assign(b.to_host(offset, n), b.to_host(count_, n), b.to_host(springs, total),
-                 b.to_host(extra, total * n_extra));
+    store.assign(to_host(b, offset, n), to_host(b, count_, n), to_host(b, springs, total),
+                 to_host(b, extra, total * n_extra));
   }
 
   void from_store(B &b, const SpringStore &store, std::size_t n)
@@ -173,6 +173,7 @@ class ResidentSprings {
     b.for_each(count_.size() - n, [=] LSDCD_LAMBDA(std::size_t i) { past[i] = 0; });
     b.copy_in(from.pool, pool.springs.data(), size);
     if (traits_.n_extra > 0) b.copy_in(from.extra, pool.extra.data(), size * traits_.n_extra);
+    b.wait();
     end_ = size;
   }
 

@@ -162,9 +162,9 @@ class StepResults {
       to_sphere[k] = static_cast<int>(i);
     });
     if (meshes_ && meshes_->n_joint() > 0) join_output(b, to, to_heat);
-    const std::vector<SphereOutput> all = b.to_host(out, n);
-    const std::vector<Real> heat = b.to_host(heat_out, heat_out.size());
-    const std::vector<int> index = b.to_host(sphere, n);
+    const std::vector<SphereOutput> all = to_host(b, out, n);
+    const std::vector<Real> heat = to_host(b, heat_out, heat_out.size());
+    const std::vector<int> index = to_host(b, sphere, n);
     for (std::size_t k = 0; k < n; k++) {
       if (!(all[k].contacts > 0)) continue;
       touching_.push_back(index[k]);
@@ -215,7 +215,7 @@ class StepResults {
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       for (int c = 0; c < n_contacts[k]; c++) to[at[k] + c] = from[slot[k] + c];
     });
-    records_ = b.to_host(packed, total);
+    records_ = to_host(b, packed, total);
   }
 
   void sum_totals(B &b)
@@ -253,7 +253,7 @@ class StepResults {
         add_block(t, block[k]);
       sum[at] = t;
     });
-    for (const WallTotals &t : b.to_host(sums, n_sums)) add_block(total, t);
+    for (const WallTotals &t : to_host(b, sums, n_sums)) add_block(total, t);
     return total;
   }
 

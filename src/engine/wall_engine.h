@@ -1,6 +1,7 @@
 // The one door between a host code (the fix, the tool, tests, benches) and the wall.
 #pragma once
 
+#include "backend/cuda_available.h"
 #include "base/strided_view.h"
 #include "base/vec3.h"
 #include "contact/spring_store.h"
@@ -226,10 +227,6 @@ class InPlaceEngine : public WallEngine {
 // where the law has no history.
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
                SpringStore *springs);
-
-// True if this build has the CUDA engine and a usable GPU is present; `why`
-// says what is missing otherwise.
-bool cuda_available(std::string *why);
 
 // Are there forces in float? There are for the classic styles with nothing
 // beside them, on walls that only bear.

@@ -127,23 +127,23 @@ inline FeatureRecord record_of(const WallFeaturesView &wall, FeatureCode feature
   return record;
 }
 
-// Asks a host's memory for the record of a feature, which is read soon.
-inline void ask_for(const WallFeaturesView &wall, FeatureCode feature)
+// On a host: the record of a feature, which is read soon.
+inline void prefetch(const WallFeaturesView &wall, FeatureCode feature)
 {
   const std::uint32_t i = feature_index(feature);
-  const auto ask = [](const auto *record) {
+  const auto fetch = [](const auto *record) {
     const char *at = reinterpret_cast<const char *>(record);
     __builtin_prefetch(at);
     __builtin_prefetch(at + sizeof *record - 1);
-    asm volatile("");    // else gcc takes a function that only asks for one without effect
+    asm volatile("");    // else gcc drops calls of a function that only prefetches
   };
   switch (feature_kind(feature)) {
     case FeatureKind::face:
-      return ask(wall.faces + i);
+      return fetch(wall.faces + i);
     case FeatureKind::edge:
-      return ask(wall.edges + i);
+      return fetch(wall.edges + i);
     default:
-      return ask(wall.vertices + i);
+      return fetch(wall.vertices + i);
   }
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "grid/lookup/brick_filter.h"
-#include "backend/cuda_early.h"
+#include "backend/cuda_launch.h"
 #include "backend/warp.h"
 #include "query/sphere.h"
 

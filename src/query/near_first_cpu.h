@@ -63,7 +63,7 @@ struct NearFirstCpu {
       near[n_near].cell = cell_index(layer, cell);
       __builtin_prefetch(grid.lists.cells + near[n_near++].cell);
     }
-    for (std::size_t k = 0; k < n_near; k++) ask_for_list(grid, *work.list(near[k].cell));
+    for (std::size_t k = 0; k < n_near; k++) prefetch_list(grid, *work.list(near[k].cell));
     for (std::size_t k = 0; k < n_near; k++)
       work.answer(near[k].sphere, near[k].s, *work.list(near[k].cell));
   }
@@ -73,12 +73,12 @@ struct NearFirstCpu {
   {
     return grid.lists.bricks[grid.lists.brick_of[at.slot]].layer + (at.cell >> 6);
   }
-  static void ask_for_list(const GridView &grid, const Cell &cell)
+  static void prefetch_list(const GridView &grid, const Cell &cell)
   {
     if (cell.count > 1)
       __builtin_prefetch(grid.lists.candidates + cell.first);
     else if (!grid.in_floats)
-      ask_for(grid.wall, cell.first);
+      prefetch(grid.wall, cell.first);
   }
 };
 

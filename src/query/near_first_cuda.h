@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 namespace lsdcd {
 
@@ -126,9 +127,9 @@ class NearFirst {
   void reserve(std::size_t n)
   {
     if (counts_.size() == 0) {
-      long_list_ = CudaBackend::Array<char>(kMostLong * sizeof(NearSphere<Sphere>));
-      counts_ = CudaBackend::Array<NearCounts>(2);
-      cuda_check(cudaMemset(counts_.data(), 0, 2 * sizeof(NearCounts)), "clearing memory");
+      long_list_ = CudaBackend::Array<char>(kMaxLong * sizeof(NearSphere<Sphere>));
+      CudaBackend b;
+      counts_ = from_host(b, std::vector<NearCounts>(2));
     }
     const std::size_t most = room<S>(std::min(n, kRun)) * kNearLists * sizeof(NearSphere<S>);
     if (list_.size() < most) list_ = CudaBackend::Array<char>(most);
@@ -149,17 +150,13 @@ class NearFirst {
       turn_ = 1 - turn_;
       const NearLists<S> lists = {reinterpret_cast<Near *>(list_.data()),
                                   static_cast<unsigned>(room<S>(m)), counts};
-      list_near<<<n_tiles<S>(m), kNearBlock, 0, b.stream>>>(m, mine, lists);
-      cuda_check(cudaGetLastError(), "starting a kernel");
-      start_beside(early, b.stream, blocks(kSinglesBlocks), kAnswerBlock, answer_singles<Work>,
-                   mine, lists);
-      start_beside(early, b.stream, blocks(kSeveralBlocks), kAnswerBlock, answer_several<Work>,
-                   mine, lists, next, long_list, kMostLong);
-      if constexpr (Work::kTogether) {
-        answer_long<<<limits_.processors(), kAnswerBlock, 0, b.stream>>>(mine, long_list, counts,
-                                                                         kMostLong);
-        cuda_check(cudaGetLastError(), "starting a kernel");
-      }
+      b.launch(list_near<Work>, {n_tiles<S>(m), kNearBlock}, m, mine, lists);
+      b.launch(answer_singles<Work>, {blocks(kSinglesBlocks), kAnswerBlock, 0, early}, mine, lists);
+      b.launch(answer_several<Work>, {blocks(kSeveralBlocks), kAnswerBlock, 0, early}, mine, lists,
+               next, long_list, kMaxLong);
+      if constexpr (Work::kTogether)
+        b.launch(answer_long<Work>, {limits_.processors(), kAnswerBlock}, mine, long_list, counts,
+                 kMaxLong);
     }
   }
 
@@ -167,7 +164,7 @@ class NearFirst {
   static constexpr std::size_t kRun = std::size_t(1) << 24;    // spheres of a turn of kernels
 
   // Where there are more, their lanes read them.
-  static constexpr unsigned kMostLong = 1 << 16;
+  static constexpr unsigned kMaxLong = 1 << 16;
 
   template <class S>
   static unsigned n_tiles(std::size_t n)

@@ -1,3 +1,4 @@
+#include "backend/cuda_device.h"
 #include "query/near_first_cuda.h"
 #include "query/point_query.h"
 #include "query/radius_error.h"
@@ -12,9 +13,9 @@ class DeviceGrid : public GridOn<CudaBackend> {
   {
     CudaBackend b;
     device = current_cuda_device();
-    of_face_ = b.from_host(names.of_face);
-    of_edge_ = b.from_host(names.of_edge);
-    of_vertex_ = b.from_host(names.of_vertex);
+    of_face_ = from_host(b, names.of_face);
+    of_edge_ = from_host(b, names.of_edge);
+    of_vertex_ = from_host(b, names.of_vertex);
     this->names = {of_face_.data(), of_edge_.data(), of_vertex_.data()};
   }
 
@@ -32,9 +33,7 @@ std::shared_ptr<const DeviceGrid> copy_to_cuda(const GridView &grid, const Trian
 
 int current_cuda_device()
 {
-  int device = 0;
-  cuda_check(cudaGetDevice(&device), "asking for the device");
-  return device;
+  return current_gpu();
 }
 
 int device_of(const DeviceGrid &grid)
@@ -45,48 +44,30 @@ int device_of(const DeviceGrid &grid)
 void check_on_device(const DeviceGrid &grid, const void *array, const char *what)
 {
   if (!array) return;
-  cudaPointerAttributes about = {};
-  cuda_check(cudaPointerGetAttributes(&about, array), "asking where an array is");
+  const ArrayPlace place = place_of_array(array);
   const std::string name = std::string("the array `") + what + "` ";
-  if (about.type == cudaMemoryTypeManaged) return;
-  if (about.type != cudaMemoryTypeDevice)
+  if (place.is_managed) return;
+  if (!place.is_on_gpu)
     throw InputError(name + "is in the host's memory; a stream's query takes arrays of the device");
-  if (about.device != grid.device)
-    throw InputError(name + "is on device " + std::to_string(about.device) +
+  if (place.device != grid.device)
+    throw InputError(name + "is on device " + std::to_string(place.device) +
                      ", the grid's copy on device " + std::to_string(grid.device));
 }
 
-namespace {
-
-// Makes a device current for a while.
-class OnDevice {
- public:
-  explicit OnDevice(int device)
-  {
-    cuda_check(cudaGetDevice(&before_), "asking for the device");
-    if (before_ != device) cuda_check(cudaSetDevice(device), "taking the grid's device");
-  }
-  ~OnDevice() { cudaSetDevice(before_); }
-  OnDevice(const OnDevice &) = delete;
-  OnDevice &operator=(const OnDevice &) = delete;
-
- private:
-  int before_ = 0;
-};
-
-}    // namespace
-
 class CudaStreamQuery : public StreamQuery {
  public:
-  CudaStreamQuery(std::shared_ptr<const DeviceGrid> grid, void *stream) : grid_(std::move(grid))
+  CudaStreamQuery(std::shared_ptr<const DeviceGrid> grid, void *stream) :
+      grid_(std::move(grid)), b_(stream), too_large_(1)
   {
-    b_.stream = static_cast<cudaStream_t>(stream);
-    too_large_ = CudaBackend::Array<std::uint64_t>(1);
-    // Its counts are cleared on the default stream, for which this one need not wait.
     way_.template reserve<Sphere>(1);
-    cuda_check(cudaStreamSynchronize(nullptr), "running on the device");
   }
-  ~CudaStreamQuery() override { cudaStreamSynchronize(b_.stream); }
+  ~CudaStreamQuery() override
+  {
+    try {
+      b_.wait();
+    } catch (const InputError &) {    // nobody is left to tell
+    }
+  }
 
   void answer(const PointArrays<float> &io) override { answer_in(io); }
   void answer(const PointArrays<double> &io) override { answer_in(io); }
@@ -96,9 +77,9 @@ class CudaStreamQuery : public StreamQuery {
   template <class T>
   void answer_in(const PointArrays<T> &io)
   {
-    const OnDevice current(grid_->device);
-    cuda_check(cudaMemsetAsync(too_large_.data(), 0, sizeof(std::uint64_t), b_.stream),
-               "clearing memory");
+    const OnGpu current(grid_->device);
+    std::uint64_t *too_large = too_large_.data();
+    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *too_large = 0; });
     if (io.only_distance())
       distances_in(io);
     else
@@ -215,11 +196,12 @@ class CudaStreamQuery : public StreamQuery {
   template <class T>
   void refuse_bad_radius(const PointArrays<T> &io)
   {
-    const std::uint64_t first = b_.read_one(too_large_.data());
+    const std::uint64_t first = read_one(b_, too_large_.data());
     if (first == 0) return;
-    throw_bad_radius("point", ~first,
-                     b_.read_one(io.radii.at + static_cast<std::ptrdiff_t>(~first) * io.radii.step),
-                     grid_->view.cutoff);
+    throw_bad_radius(
+        "point", ~first,
+        read_one(b_, io.radii.at + static_cast<std::ptrdiff_t>(~first) * io.radii.step),
+        grid_->view.cutoff);
   }
 
   std::shared_ptr<const DeviceGrid> grid_;
@@ -231,7 +213,7 @@ class CudaStreamQuery : public StreamQuery {
 
 std::unique_ptr<StreamQuery> make_stream_query(std::shared_ptr<const DeviceGrid> grid, void *stream)
 {
-  const OnDevice current(device_of(*grid));
+  const OnGpu current(device_of(*grid));
   return std::make_unique<CudaStreamQuery>(std::move(grid), stream);
 }
 

@@ -30,10 +30,12 @@ class QueryOn : public SphereQuery {
   void set_spheres(const Sphere *spheres, std::size_t n) override
   {
     b_.copy_in(spheres, room(n), n);
+    b_.wait();
   }
   void set_spheres(const FloatSphere *spheres, std::size_t n) override
   {
     b_.copy_in(spheres, float_room(n), n);
+    b_.wait();
   }
 
   // Memory on the device for n spheres that the caller fills there, of either kind.
@@ -61,16 +63,16 @@ class QueryOn : public SphereQuery {
     return {ms[ms.size() / 2], ms.front(), ms.back(), static_cast<int>(ms.size())};
   }
 
-  std::vector<std::uint8_t> status() override { return b_.to_host(status_, n_); }
+  std::vector<std::uint8_t> status() override { return to_host(b_, status_, n_); }
   std::vector<Real> distance() override
   {
-    if (float_distance_.size() < n_) return b_.to_host(distance_, distance_.size() >= n_ ? n_ : 0);
-    const std::vector<float> kept = b_.to_host(float_distance_, n_);
+    if (float_distance_.size() < n_) return to_host(b_, distance_, distance_.size() >= n_ ? n_ : 0);
+    const std::vector<float> kept = to_host(b_, float_distance_, n_);
     return {kept.begin(), kept.end()};
   }
   std::vector<std::uint32_t> read() override
   {
-    return b_.to_host(read_, read_.size() >= n_ ? n_ : 0);
+    return to_host(b_, read_, read_.size() >= n_ ? n_ : 0);
   }
   std::string device() const override { return b_.name(); }
 
@@ -101,6 +103,7 @@ class QueryOn : public SphereQuery {
     const std::uint64_t none = 0;
     if (too_large_.size() == 0) too_large_ = Array<std::uint64_t>(1);
     b_.copy_in(&none, too_large_.data(), 1);
+    b_.wait();
     if (in_float_)
       way_.template reserve<FloatSphere>(n_);
     else
@@ -159,10 +162,10 @@ class QueryOn : public SphereQuery {
   template <class S>
   void refuse_bad_radius(const Array<S> &spheres)
   {
-    const std::uint64_t first = b_.read_one(too_large_.data());
+    const std::uint64_t first = read_one(b_, too_large_.data());
     if (first == 0) return;
     const std::size_t i = ~first;
-    throw_bad_radius("sphere", i, b_.read_one(spheres.data() + i).r, grid_.view.cutoff);
+    throw_bad_radius("sphere", i, read_one(b_, spheres.data() + i).r, grid_.view.cutoff);
   }
 
   template <class T, class Other>

@@ -51,8 +51,9 @@ class QueryChecksOn : public QueryChecks {
 
  public:
   QueryChecksOn(const Bins &bins, const QueryCheckSettings &s) :
-      s_(s), query_(B()), corners_(b().from_host(bins.corners)), first_(b().from_host(bins.first)),
-      triangle_(b().from_host(bins.triangle)), truth_(s.n_spheres)
+      s_(s), query_(B()), corners_(from_host(b(), bins.corners)),
+      first_(from_host(b(), bins.first)), triangle_(from_host(b(), bins.triangle)),
+      truth_(s.n_spheres)
   {
     bins_ = {corners_.data(),
              static_cast<std::uint32_t>(bins.corners.size() / 3),
@@ -87,7 +88,7 @@ class QueryChecksOn : public QueryChecks {
     n = std::min(n, s_.n_spheres);
     Array<double> error(n);
     write_errors(error.data(), n);
-    const std::vector<double> host = b().to_host(error, n);
+    const std::vector<double> host = to_host(b(), error, n);
     return *std::max_element(host.begin(), host.end());
   }
 
@@ -96,7 +97,7 @@ class QueryChecksOn : public QueryChecks {
     fill(i, 1);
     Array<Sphere> one(1);
     copy_one(one.data());
-    return b().to_host(one, 1)[0];
+    return to_host(b(), one, 1)[0];
   }
 
   std::string device() const override { return query_.device(); }
@@ -176,7 +177,7 @@ class QueryChecksOn : public QueryChecks {
         f |= uncertified_bit;
       flags[i] = f;
     });
-    total.entries += b().sum(a.read, n);
+    total.entries += b().exclusive_scan(a.read, n);
     total.near += with_bit(flags, n, near_bit);
     total.touching += with_bit(flags, n, touching_bit);
     total.uncertified += with_bit(flags, n, uncertified_bit);
@@ -193,7 +194,7 @@ class QueryChecksOn : public QueryChecks {
     Array<std::uint32_t> has(n);
     std::uint32_t *to = has.data();
     b().for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = flags[i] & bit ? 1 : 0; });
-    return b().sum(to, n);
+    return b().exclusive_scan(to, n);
   }
 
  private:

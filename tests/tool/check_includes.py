@@ -34,11 +34,6 @@ LAMMPS_ROOMS = {"lammps", "kokkos"}
 GENERATED = {"grid": "lsdcd_grid_sources.h"}
 ONLY_IN = {"CLI/CLI.hpp": "src/tool/command.cpp"}
 
-# What is not yet as it should be; an entry that is no longer needed is a violation, too.
-INCLUDE_EXCEPTIONS = {
-    ("src/backend/cuda_bricks.h", "grid/lookup/brick_words.h"),    # CudaBackend::select reads bricks
-}
-
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
 SOURCE = re.compile(r"\.(h|cuh|cpp|cu)(\.in)?$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
@@ -92,7 +87,6 @@ def wrong_include(room, path, included):
 
 
 def violations(root):
-    unused = set(INCLUDE_EXCEPTIONS)
     for path in sources(root):
         with open(os.path.join(root, path), encoding="utf-8") as f:
             lines = f.read().splitlines()
@@ -106,17 +100,13 @@ def violations(root):
         for number, line in enumerate(lines, 1):
             include = INCLUDE.match(line)
             why = include and wrong_include(room, path, include[1])
-            if why and (path, include[1]) in INCLUDE_EXCEPTIONS:
-                unused = unused - {(path, include[1])}
-            elif why:
+            if why:
                 yield f"{path}:{number}: {include[1]} {why}"
             system = SYSTEM_INCLUDE.match(line)
             if system and system[1] == "mpi.h" and room not in LAMMPS_ROOMS:
                 yield f"{path}:{number}: mpi.h is for {', '.join(sorted(LAMMPS_ROOMS))} only"
             if system and ONLY_IN.get(system[1], path) != path:
                 yield f"{path}:{number}: {system[1]} is for {ONLY_IN[system[1]]} only"
-    for entry in sorted(map(str, unused)):
-        yield f"check_includes.py: the exception {entry} is not needed"
 
 
 def main():

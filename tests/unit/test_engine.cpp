@@ -36,36 +36,6 @@ void expect_same(const Outcome &a, const Outcome &b, const std::string &name)
 // and device, and waiting.
 struct CountingBackend : CpuBackend {
   static constexpr bool kOnHost = false;
-  template <class Work>
-  void step(std::size_t n, const Work &work)
-  {
-    work.begin();
-    const StepLists &lists = work.step_lists();
-    *lists.n_found_next = 0;
-    if (!work.has_single()) {
-      for (std::size_t k = 0; k < n; k++) work.several(k);
-      return;
-    }
-    const auto do_several = [&](int k, bool leaves_lists) {
-      if (work.needs_list(k)) {
-        if (leaves_lists) {
-          lists.found[(*lists.n_found)++] = k;
-          return;
-        }
-        work.make_list(Warp<1>(), true, k);
-      }
-      if (!work.several(k) || !lists.next) return;
-      lists.next[(*lists.n_next)++] = k;
-      lists.listed_in[k] = lists.step + 1;
-    };
-    const int n_last = lists.last ? *lists.n_last : 0;
-    for (int s = 0; s < n_last; s++) do_several(lists.last[s], true);
-    for (std::size_t k = 0; k < n; k++)
-      if (!(lists.listed_in && lists.listed_in[k] >= lists.step) && !work.single(k))
-        lists.found[(*lists.n_found)++] = static_cast<int>(k);
-    if (lists.last) *lists.n_last = 0;
-    for (int s = 0; s < *lists.n_found; s++) do_several(lists.found[s], false);
-  }
   static int &crossings()
   {
     static int n = 0;
@@ -78,18 +48,12 @@ struct CountingBackend : CpuBackend {
     CpuBackend::copy_in(host, to, n);
   }
   template <class T>
-  std::vector<T> to_host(const Array<T> &a, std::size_t n)
+  void copy_out(const T *from, T *host, std::size_t n)
   {
     crossings()++;
-    return CpuBackend::to_host(a, n);
+    CpuBackend::copy_out(from, host, n);
   }
   void wait() { crossings()++; }
-  template <class Test>
-  bool any(std::size_t n, Flag &flag, const Test &test)
-  {
-    crossings()++;
-    return CpuBackend::any(n, flag, test);
-  }
   template <class T, class Read>
   T largest(std::size_t n, const Read &read)
   {
@@ -102,18 +66,61 @@ struct CountingBackend : CpuBackend {
     crossings()++;
     return CpuBackend::exclusive_scan(values, n);
   }
-  // Every second time there is too little room, as on a GPU that meets more near spheres than before.
-  template <class Work>
-  void select(std::size_t n, const Work &work, SelectScratch &room, int *to, std::uint32_t *total)
-  {
-    crossings()++;
-    CpuBackend::select(n, work, room, to, total);
-    was_short = !was_short;
-    if (was_short) *total = ~std::uint32_t(0);
-  }
-  bool had_room(std::uint32_t total, SelectScratch &) { return total != ~std::uint32_t(0); }
-  bool was_short = false;
 };
+
+template <class Work>
+void run_step(CountingBackend &, std::size_t n, const Work &work)
+{
+  work.begin();
+  const StepLists &lists = work.step_lists();
+  *lists.n_found_next = 0;
+  if (!work.has_single()) {
+    for (std::size_t k = 0; k < n; k++) work.several(k);
+    return;
+  }
+  const auto do_several = [&](int k, bool leaves_lists) {
+    if (work.needs_list(k)) {
+      if (leaves_lists) {
+        lists.found[(*lists.n_found)++] = k;
+        return;
+      }
+      work.make_list(Warp<1>(), true, k);
+    }
+    if (!work.several(k) || !lists.next) return;
+    lists.next[(*lists.n_next)++] = k;
+    lists.listed_in[k] = lists.step + 1;
+  };
+  const int n_last = lists.last ? *lists.n_last : 0;
+  for (int s = 0; s < n_last; s++) do_several(lists.last[s], true);
+  for (std::size_t k = 0; k < n; k++)
+    if (!(lists.listed_in && lists.listed_in[k] >= lists.step) && !work.single(k))
+      lists.found[(*lists.n_found)++] = static_cast<int>(k);
+  if (lists.last) *lists.n_last = 0;
+  for (int s = 0; s < *lists.n_found; s++) do_several(lists.found[s], false);
+}
+
+}    // namespace
+
+// Every second time there is too little room, as on a GPU that meets more near spheres than before.
+template <>
+class lsdcd::Selection<CountingBackend> : public Selection<CpuBackend> {
+ public:
+  template <class Work>
+  void start(CountingBackend &b, std::size_t n, const Work &work, int *to, std::uint32_t *total)
+  {
+    CountingBackend::crossings()++;
+    Selection<CpuBackend>::start(b, n, work, to, total);
+    was_short_ = !was_short_;
+    if (was_short_) *total = kShort;
+  }
+  bool had_room(CountingBackend &, std::uint32_t total) { return total != kShort; }
+
+ private:
+  static constexpr std::uint32_t kShort = ~std::uint32_t(0);
+  bool was_short_ = false;
+};
+
+namespace {
 
 using CountingLaw = CompiledLaw<CountingBackend>;
 
@@ -404,8 +411,8 @@ TEST(engine, the_bricks_of_a_choice_with_a_margin_leave_out_none_that_its_cells_
     const Vec3 q = {at(random), at(random), at(random)};
     choice.past = margins(random);
     choice.fixed_margin = choice.filter.margin(choice.past * grid.inv_length / kBrickSide);
-    const bool may = choice.may_keep({0.5, 0}, q, choice.table);
-    const bool keeps = choice.find(q, choice.table) != choice.kNotFound;
+    const bool may = choice.coarse_test({0.5, 0}, q, choice.table);
+    const bool keeps = choice.locate(q, choice.table) != choice.kNotFound;
     kept += keeps;
     missed += keeps && !may;
     left_out += !may;
@@ -824,11 +831,11 @@ TEST(engine, takes_spheres_whose_kind_of_contact_changes_from_step_to_step)
 }
 
 // Threads of a GPU's second kernel.
-constexpr int kMostLanes = 1 << 17;
+constexpr int kMaxLanes = 1 << 17;
 
 TEST(engine, takes_more_spheres_with_several_contacts_than_a_kernel_has_threads)
 {
-  const int n = kMostLanes + 5000;
+  const int n = kMaxLanes + 5000;
   EngineSettings s;
   s.law = classic(NormalModel::hooke, false);
   const auto outcome = [&](const EngineMaker &make) {

@@ -1,6 +1,7 @@
 // Where spheres and meshes were at a choice, to tell when it holds no longer.
 #pragma once
 
+#include "backend/atomic.h"
 #include "engine/choose/engine_mesh.h"
 #include "engine/wall_engine.h"
 #include "grid/lookup/brick_words.h"
@@ -55,9 +56,21 @@ class KeptCentres {
       const HasMoved test = {mesh.grid.view,    mesh.grid.table, mesh.pose,
                              mesh.chosen,       spheres.x,       was,
                              margin_ * margin_, !B::kOnHost};
-      if (b.any(spheres.n, flag_, test)) return true;
+      if (holds_for_any(b, spheres.n, test)) return true;
     }
     return false;
+  }
+
+  // Public because nvcc takes no device lambda from a private function.
+  bool holds_for_any(B &b, std::size_t n, const HasMoved &test)
+  {
+    int *flag = flag_.data();    // kernels reach it where it is
+    *flag = 0;
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      if (test(i)) set_flag(flag);
+    });
+    b.wait();
+    return *flag;
   }
 
   std::size_t bytes() const { return x_.size() * sizeof(Real); }
@@ -67,7 +80,7 @@ class KeptCentres {
 
   Array x_;
   Real margin_ = 0;
-  typename B::Flag flag_;
+  typename B::template HostArray<int> flag_ = typename B::template HostArray<int>(1);
 };
 
 }    // namespace lsdcd

@@ -23,7 +23,7 @@ struct GatherWork {
   template <unsigned kSize>
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
-    spheres.ask_ahead(grid, pose, k);
+    spheres.prefetch_ahead(grid, pose, k);
     const QuerySphere s = spheres.seen_from(pose, k);
     WallList made;
     gather(warp, mine, grid, s, margin, made);
@@ -72,7 +72,7 @@ class ListStore {
     if (B::kOnHost || grid.nearest > 0) return 0;
     const std::size_t room = std::min(several_.size(), ints_.size() / WallLists::kInts);
     set_view(grid);
-    b.for_each_together(room, gather(grid, pose, spheres, margin, counts), &counts->n_near);
+    b.for_each_in_warps(room, gather(grid, pose, spheres, margin, counts), &counts->n_near);
     return room;
   }
   // Of spheres.n, unless they are among the `early` that there was room for.
@@ -82,14 +82,14 @@ class ListStore {
     const std::size_t n = spheres.n;
     if (!reserve(grid, grid.is_large, n) || n <= early) return;
     if (!B::kOnHost) several_ = Array<char>(n + n / 8);
-    b.for_each_together(n, gather(grid, pose, spheres, margin, counts));
+    b.for_each_in_warps(n, gather(grid, pose, spheres, margin, counts));
   }
   // The same for n slots of several meshes; `large`: is any of them?
   void make(B &b, const GridView &first_grid, bool large, const PlacedGrid *meshes, const int *mesh,
             const SpheresAtChoice &spheres, Real margin, StepCounts *counts)
   {
     if (reserve(first_grid, large, spheres.n))
-      b.for_each_together(spheres.n, GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
+      b.for_each_in_warps(spheres.n, GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
   }
 
   // Of each of the n of one mesh, does it seem to touch several features now? For steps on a GPU, which

@@ -1,6 +1,6 @@
-// Which spheres could be near the wall after a way of up to a margin, as Backend::select asks: what
-// is read of all of them, what only those in a brick of the grid need, and what only those that are
-// near by their cells.
+// The tests that find the spheres which could be near the wall after moving at most a margin: one of all
+// spheres, one of those in a brick of the grid, and one of those that are near by their cells. Selection runs
+// them.
 #pragma once
 
 #include "backend/atomic.h"
@@ -21,7 +21,7 @@ struct NearChoice {
   WallPose pose;
   Real margin, past;     // lengths; past: what is left of it once the lists' own is taken from it
   Real pull_off;         // of the law, at a radius of 1
-  bool by_features;      // look twice: at cells, then at the features that they list
+  bool by_features;      // test the features that cells list, too
   StepCounts *counts;    // too_large becomes the first sphere that reaches past the grid
   int *n_springs;        // of each sphere, or null: those of spheres that are far are forgotten
   std::uint32_t fixed_margin = 0;    // of the filter
@@ -31,7 +31,7 @@ struct NearChoice {
     int mask;
   };
 
-  LSDCD_FN StridedView<const Real> places() const { return spheres.x; }
+  LSDCD_FN StridedView<const Real> centres() const { return spheres.x; }
   LSDCD_FN Item read(std::size_t i) const
   {
     return {spheres.radius[i], spheres.mask ? spheres.mask[i] : 0};
@@ -54,7 +54,7 @@ struct NearChoice {
 
   // `near_table`: the table, as a backend has it.
   template <class Table>
-  LSDCD_FN bool may_keep(const Item &item, const Vec3 &x, const Table &near_table) const
+  LSDCD_FN bool coarse_test(const Item &item, const Vec3 &x, const Table &near_table) const
   {
     const BrickGuess guess = filter.guess(pose.to_mesh(x));
     // With a margin it is enough to look at one brick where no other is within the margin.
@@ -64,10 +64,10 @@ struct NearChoice {
     if (guess.inside & sure) may = near_table.at(filter.slot(grid, guess));
     return may & in_group(item);
   }
-  // The cell that it is in, kNotKnown where several may matter, or kNotFound where no candidate is near.
+  // The cell that holds x, kNotKnown where several may matter, or kNotFound where no candidate is near.
   static constexpr std::uint32_t kNotKnown = kNoCell, kNotFound = kNoCell - 1;
   template <class Table>
-  LSDCD_FN std::uint32_t find(const Vec3 &x, const Table &near_table) const
+  LSDCD_FN std::uint32_t locate(const Vec3 &x, const Table &near_table) const
   {
     const Vec3 q = pose.to_mesh(x);
     if constexpr (kPast) return near_within(grid, near_table, q, past) ? kNotKnown : kNotFound;
@@ -75,19 +75,18 @@ struct NearChoice {
     return cell != kNoCell ? cell : kNotFound;
   }
 
-  LSDCD_FN bool looks_twice() const { return by_features; }
-  // `found`: by find(), or kNotKnown.
+  LSDCD_FN bool has_refine() const { return by_features; }
+  // `cell`: by locate(), or kNotKnown.
   template <unsigned kSize>
-  LSDCD_FN bool keep_after_all(const Warp<kSize> &warp, bool mine, std::size_t i,
-                               std::uint32_t found) const
+  LSDCD_FN bool refine(const Warp<kSize> &warp, bool mine, std::size_t i, std::uint32_t cell) const
   {
     const QuerySphere s = seen_at_choice(pose, spheres.x[i], spheres.radius[i], pull_off);
-    return can_touch(warp, mine, grid, s, margin, found);
+    return can_touch(warp, mine, grid, s, margin, cell);
   }
-  // Asks a CPU's memory for what keep_after_all() of a large wall reads first.
-  LSDCD_FN void ask_ahead(const Vec3 &x) const { ask_for_search(grid, pose, x); }
+  // On a CPU: what refine() of a large wall reads first.
+  LSDCD_FN void prefetch(const Vec3 &x) const { prefetch_search(grid, pose, x); }
 
-  LSDCD_FN bool notes() const { return n_springs; }
+  LSDCD_FN bool has_notes() const { return n_springs; }
   LSDCD_FN void note(std::size_t i, bool near) const
   {
     if (!near) n_springs[i] = 0;

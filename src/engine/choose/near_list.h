@@ -3,6 +3,7 @@
 
 #include "engine/choose/engine_mesh.h"
 #include "engine/choose/near_choice.h"
+#include "engine/choose/selection.h"
 
 #include <vector>
 
@@ -28,10 +29,10 @@ class NearList {
       select<false>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
   }
   // Of the above, given what it counted. False: choose again.
-  bool had_room(B &b, const StepCounts &seen) { return b.had_room(seen.n_near, room_); }
+  bool had_room(B &b, const StepCounts &seen) { return selection_.had_room(b, seen.n_near); }
 
-  std::vector<int> to_host(B &b, std::size_t n) { return b.to_host(near_, n); }
-  std::size_t bytes() const { return near_.size() * sizeof(int) + room_.bytes(); }
+  std::vector<int> to_host(B &b, std::size_t n) { return lsdcd::to_host(b, near_, n); }
+  std::size_t bytes() const { return near_.size() * sizeof(int) + selection_.bytes(); }
 
  private:
   using Array = typename B::template Array<int>;
@@ -47,11 +48,11 @@ class NearList {
                                 past,    pull_off,        by_features,
                                 counts,  n_springs};
     choice.fixed_margin = choice.filter.margin(past * grid.inv_length / kBrickSide);
-    b.select(spheres.n, choice, room_, near_.data(), &counts->n_near);
+    selection_.start(b, spheres.n, choice, near_.data(), &counts->n_near);
   }
 
   Array near_;
-  typename B::SelectScratch room_;
+  Selection<B> selection_;
 };
 
 }    // namespace lsdcd

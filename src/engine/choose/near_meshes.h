@@ -169,8 +169,8 @@ class NearMeshes {
   std::size_t keep(B &b, const int *found, std::size_t n, int *to)
   {
     if (n == 0) return 0;
-    b.keep(n, found, flags_.data(), room_, to, count_.data());
-    return b.read_one(count_.data());
+    b.compact(n, found, flags_.data(), scratch_, to, count_.data());
+    return read_one(b, count_.data());
   }
 
   std::size_t n_spheres_ = 0, n_found_ = 0, n_slots_ = 0, n_joint_ = 0;
@@ -179,7 +179,7 @@ class NearMeshes {
   Array<int> found_;      // near spheres, mesh after mesh
   Array<int> near_, mesh_, joint_, first_;
   Array<char> flags_;
-  typename B::SelectScratch room_;
+  Array<char> scratch_;
   Array<std::uint32_t> count_ = Array<std::uint32_t>(1);
 };
 

@@ -48,11 +48,13 @@ class NearWall {
     std::size_t early = 0;
     do {
       start_choice(b, meshes_[0], spheres, margin, counts, n_springs);
-      b.ask(counts.data(), asked_);
+      b.copy_out(counts.data(), seen_.data(), 1);
+      counted_.record(b);
       // A GPU need not wait until the host knows how many there are.
       at_choice.near = near_.data();
       early = lists_.make_early(b, grid, meshes_[0].pose, at_choice, margin, counts.data());
-      seen = b.answer(asked_);
+      counted_.wait();
+      seen = *seen_.data();
     } while (!seen.too_large && !near_.had_room(b, seen));
     if (seen.too_large) return seen;
     n_ = at_choice.n = seen.n_near;
@@ -121,7 +123,7 @@ class NearWall {
     for (const EngineMesh<B> &mesh : meshes_) {
       do {
         start_choice(b, mesh, spheres, margin, counts, nullptr);
-        seen = b.read_one(counts.data());
+        seen = read_one(b, counts.data());
       } while (!seen.too_large && !near_.had_room(b, seen));
       if (seen.too_large) return seen;
       slots_.add(b, near_.data(), seen.n_near);
@@ -144,7 +146,8 @@ class NearWall {
   Array<PlacedGrid> placed_;
   bool are_alone_ = false;
   std::size_t n_ = 0;
-  typename B::template Asked<StepCounts> asked_;
+  typename B::template HostArray<StepCounts> seen_ = typename B::template HostArray<StepCounts>(1);
+  typename B::Event counted_;    // once they are in seen_
   KeptCentres<B> centres_;
 };
 

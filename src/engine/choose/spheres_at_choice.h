@@ -12,13 +12,13 @@ LSDCD_FN QuerySphere seen_at_choice(const WallPose &pose, const Vec3 &x, Real ra
 {
   return {pose.to_mesh(x), radius, cutoff_of(radius, pull_off), nullptr, 0};
 }
-// Asks a CPU's memory for what a search of a large wall reads first for a sphere at x, whose turn
-// comes soon.
-LSDCD_FN void ask_for_search([[maybe_unused]] const GridView &grid,
-                             [[maybe_unused]] const WallPose &pose, [[maybe_unused]] const Vec3 &x)
+
+// On a CPU: what a search of a large wall reads first for a sphere at x, whose turn comes soon.
+LSDCD_FN void prefetch_search([[maybe_unused]] const GridView &grid,
+                              [[maybe_unused]] const WallPose &pose, [[maybe_unused]] const Vec3 &x)
 {
 #if !defined(__CUDA_ARCH__)
-  if (grid.is_large) ask_for_candidates(grid, pose.to_mesh(x));
+  if (grid.is_large) prefetch_candidates(grid, pose.to_mesh(x));
 #endif
 }
 
@@ -27,17 +27,17 @@ struct SpheresAtChoice {
   const Real *radius;
   Real pull_off;
   const int *near;    // the sphere of each k
-  std::size_t n;      // of these; 0: what is read first for them is not asked for
+  std::size_t n;      // of these; 0: nothing is prefetched
 
   LSDCD_FN QuerySphere seen_from(const WallPose &pose, std::size_t k) const
   {
     const int i = near[k];
     return seen_at_choice(pose, x[i], radius[i], pull_off);
   }
-  LSDCD_FN void ask_ahead(const GridView &grid, const WallPose &pose, std::size_t k) const
+  LSDCD_FN void prefetch_ahead(const GridView &grid, const WallPose &pose, std::size_t k) const
   {
     constexpr std::size_t kPlaces = 4;
-    if (k + kPlaces < n) ask_for_search(grid, pose, x[near[k + kPlaces]]);
+    if (k + kPlaces < n) prefetch_search(grid, pose, x[near[k + kPlaces]]);
   }
 };
 

@@ -70,13 +70,13 @@ class CellsInBall {
 constexpr std::uint32_t kAhead = 8;
 
 // Asks a CPU's memory for the first candidates of a sphere at q, whose turn comes soon.
-inline void ask_for_candidates(const GridView &grid, const Vec3 &q)
+inline void prefetch_candidates(const GridView &grid, const Vec3 &q)
 {
   CellAddress at;
   Cell cell;
   if (!find_cell(grid, q, at, cell)) return;
   if (cell.count > 1) __builtin_prefetch(grid.lists.candidates + cell.first);
-  asm volatile("");    // as in ask_for()
+  asm volatile("");    // as in prefetch()
 }
 
 // What a search from q will read first, which a CPU's memory is asked for part by part, as each is found
@@ -96,7 +96,7 @@ class SearchAhead {
   }
 
   // Part 0, then 1, and so on.
-  void ask_for(const GridView &grid, int part)
+  void prefetch(const GridView &grid, int part)
   {
     if (!at_) return;
     if (part == 1) {
@@ -111,13 +111,13 @@ class SearchAhead {
       n_ = cell.count < kAhead ? cell.count : kAhead;
       at_ = grid.lists.candidates + cell.first;
       if (n_ == 1) {    // the cell has it inline
-        if (!grid.in_floats) lsdcd::ask_for(grid.wall, cell.first);
+        if (!grid.in_floats) lsdcd::prefetch(grid.wall, cell.first);
         at_ = nullptr;
       }
     } else if (part == 4) {
       const Candidate *candidates = static_cast<const Candidate *>(at_);
       for (std::uint32_t i = 0; !grid.in_floats && i < n_; i++)
-        lsdcd::ask_for(grid.wall, candidates[i].feature);
+        lsdcd::prefetch(grid.wall, candidates[i].feature);
       return;
     }
     __builtin_prefetch(at_);
@@ -169,7 +169,7 @@ LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView
           at = cell.first;
           end = at + cell.count;
           enough = within + away;
-          Geometry::ask_for(grid, candidates + at, cell.count < kAhead ? cell.count : kAhead);
+          Geometry::prefetch(grid, candidates + at, cell.count < kAhead ? cell.count : kAhead);
         }
       }
       if (!complete) cells.close();
@@ -183,7 +183,7 @@ LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView
     const std::uint32_t c = warp.of(at, split.owner) + split.turn,
                         c_end = warp.of(end, split.owner);
     bool near = split.helps && c < c_end;
-    if (near && c + kAhead < c_end) Geometry::ask_for(grid, candidates + c + kAhead, 1);
+    if (near && c + kAhead < c_end) Geometry::prefetch(grid, candidates + c + kAhead, 1);
     const Candidate candidate = near ? candidates[c] : Candidate();
     near = near && candidate.bound <= its_enough;
     unsigned hits = warp.vote(near && Geometry(grid, q).may_be_closest(candidate.feature,

@@ -292,10 +292,10 @@ void start_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend 
 {
   if constexpr (Law::kSurface)
     if (job.joint.meshes) {
-      backend.step(n, JointStep<Law>{bytes.as<Law>(), job});
+      run_step(backend, n, JointStep<Law>{bytes.as<Law>(), job});
       return;
     }
-  backend.step(n, LawStep<Law>{bytes.as<Law>(), job});
+  run_step(backend, n, LawStep<Law>{bytes.as<Law>(), job});
 }
 
 }    // namespace lsdcd

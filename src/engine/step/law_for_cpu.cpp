@@ -1,5 +1,5 @@
 #include "engine/step/law_for.h"
-#include "backend/backend_cpu.h"
+#include "engine/step/run_step_cpu.h"
 
 namespace lsdcd {
 

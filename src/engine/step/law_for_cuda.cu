@@ -1,5 +1,5 @@
 #include "engine/step/law_for.h"
-#include "backend/backend_cuda.h"
+#include "engine/step/run_step_cuda.h"
 
 namespace lsdcd {
 

@@ -5,7 +5,7 @@
 #include "engine/results/result_columns.h"
 #include "engine/results/step_counts.h"
 #include "engine/step/force_settings.h"
-#include "backend/step_lists.h"
+#include "engine/step/step_lists.h"
 
 #include <cstdint>
 

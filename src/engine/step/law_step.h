@@ -287,7 +287,7 @@ struct LawStep {
   {
     return Ahead(job.grid, centre_of<Law>(job, sphere_of(job, k)));
   }
-  void ask_for(Ahead &ahead, int part) const { ahead.ask_for(job.grid, part); }
+  void prefetch(Ahead &ahead, int part) const { ahead.prefetch(job.grid, part); }
   LSDCD_FN bool several(std::size_t k) const { return several_contacts(law, job, k); }
   LSDCD_FN const StepLists &step_lists() const { return job.step_lists; }
 };

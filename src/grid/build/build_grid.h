@@ -70,13 +70,13 @@ class GridBuilder {
     report.seconds = seconds_since(start);
     pairs = OctantPairs<B>();    // before the copies: this is where most memory is taken
     give_back_memory();
-    lists.brick_of = b_.to_host(built.brick_of, built.brick_of.size());
-    lists.bricks = b_.to_host(built.bricks, built.n_bricks);
-    lists.cells = b_.to_host(built.cells, built.n_cells);
+    lists.brick_of = to_host(b_, built.brick_of, built.brick_of.size());
+    lists.bricks = to_host(b_, built.bricks, built.n_bricks);
+    lists.cells = to_host(b_, built.cells, built.n_cells);
     if constexpr (B::kOnHost)
       lists.candidates = drained(built.candidates.data(), built.n_candidates);
     else
-      lists.candidates = b_.to_host(built.candidates, built.n_candidates);
+      lists.candidates = to_host(b_, built.candidates, built.n_candidates);
     return true;
   }
 
@@ -97,6 +97,7 @@ class GridBuilder {
     if constexpr (B::kOnHost) return from.data();
     Scratch<char> &copy = copies_.emplace_back(array_bytes(from));
     b_.copy_in(reinterpret_cast<const char *>(from.data()), copy.data(), copy.size());
+    b_.wait();
     return reinterpret_cast<const T *>(copy.data());
   }
 

@@ -174,7 +174,7 @@ bool fill_lists(B &b, const BuildView &view, OctantPairs<B> &pairs, std::uint32_
   report = ListReport();
   report.bricks = n_bricks;
   report.cells = n_occupied;
-  report.candidates = n_list + b.sum(single.data(), n_words);
+  report.candidates = n_list + b.exclusive_scan(single.data(), n_words);
   report.mean = n_occupied ? Real(report.candidates) / n_occupied : 0;
   const std::uint32_t *longest_of_word = longest.data();
   report.longest = b.template largest<std::uint32_t>(

@@ -1,6 +1,7 @@
 // Sorting features into octants of bricks, on any backend.
 #pragma once
 
+#include "backend/for_each_part.h"
 #include "grid/build/build_progress.h"
 #include "grid/build/rasterise.h"
 #include "grid/lookup/locate.h"
@@ -30,16 +31,16 @@ struct PartRun {
   std::uint64_t first, n;
 };
 
-// Runs of at most B::kMostParts parts, or of one feature.
+// Runs of at most kMaxParts parts, or of one feature.
 template <class B, class Offsets>
 std::vector<PartRun> part_runs(B &b, const Offsets &offset, std::size_t n, std::uint64_t n_parts)
 {
-  if (n_parts <= B::kMostParts) return {{0, n, 0, n_parts}};
-  const std::vector<std::uint64_t> at = b.to_host(offset, n + 1);
+  if (n_parts <= kMaxParts<B>) return {{0, n, 0, n_parts}};
+  const std::vector<std::uint64_t> at = to_host(b, offset, n + 1);
   std::vector<PartRun> runs;
   for (std::size_t i = 0; i < n;) {
     std::size_t end = i + 1;
-    while (end < n && at[end + 1] - at[i] <= B::kMostParts) end++;
+    while (end < n && at[end + 1] - at[i] <= kMaxParts<B>) end++;
     runs.push_back({i, end, at[i], at[end] - at[i]});
     i = end;
   }
@@ -50,14 +51,14 @@ template <class B>
 void count_octants(B &b, const BuildView &view, const std::uint64_t *offsets, const PartRun &run,
                    std::uint8_t *met, std::uint32_t *counts)
 {
-  b.for_each_part(
-      offsets, run, [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
-        const FeatureCode feature = view.features[i];
-        const std::uint32_t slot = brick_slot(view.plan, brick_box(view, feature), part);
-        const unsigned octants = octants_met(view, feature, slot);
-        met[k] = static_cast<std::uint8_t>(octants);
-        counts[k] = static_cast<std::uint32_t>(count_bits(octants));
-      });
+  for_each_part(b, offsets, run,
+                [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
+                  const FeatureCode feature = view.features[i];
+                  const std::uint32_t slot = brick_slot(view.plan, brick_box(view, feature), part);
+                  const unsigned octants = octants_met(view, feature, slot);
+                  met[k] = static_cast<std::uint8_t>(octants);
+                  counts[k] = static_cast<std::uint32_t>(count_bits(octants));
+                });
 }
 
 template <class B>
@@ -65,17 +66,17 @@ void write_octants(B &b, const BuildView &view, const std::uint64_t *offsets, co
                    const std::uint8_t *met, const std::uint32_t *counts, std::size_t base,
                    std::uint32_t *octants, std::uint32_t *features)
 {
-  b.for_each_part(
-      offsets, run, [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
-        const FeatureCode feature = view.features[i];
-        const std::uint32_t slot = brick_slot(view.plan, brick_box(view, feature), part);
-        std::size_t at = base + counts[k];
-        for (unsigned o = 0; o < 8; o++) {
-          if (!(met[k] >> o & 1)) continue;
-          octants[at] = slot * 8 + o;
-          features[at++] = feature;
-        }
-      });
+  for_each_part(b, offsets, run,
+                [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
+                  const FeatureCode feature = view.features[i];
+                  const std::uint32_t slot = brick_slot(view.plan, brick_box(view, feature), part);
+                  std::size_t at = base + counts[k];
+                  for (unsigned o = 0; o < 8; o++) {
+                    if (!(met[k] >> o & 1)) continue;
+                    octants[at] = slot * 8 + o;
+                    features[at++] = feature;
+                  }
+                });
 }
 
 // Numbers the bricks in order of their slots and finds where each octant begins.

@@ -29,14 +29,15 @@ class GridOn {
       if (!on_host.block) throw std::logic_error("a device needs the view of a flat grid block");
       block_ = Array<char>(on_host.block_bytes);
       b.copy_in(on_host.block, block_.data(), block_.size());
+      b.wait();
       view = moved_view(on_host, block_.data());
     }
     const std::vector<BrickWord> words = brick_words(on_host);
-    words_ = b.from_host(words);
+    words_ = from_host(b, words);
     table = BrickTable(words, words_.data());
     if (!with_coarse) return;
     coarse = CoarseTable(on_host);
-    coarse_words_ = b.from_host(coarse_words(on_host, coarse));
+    coarse_words_ = from_host(b, coarse_words(on_host, coarse));
     coarse.words = coarse_words_.data();
   }
   // Keeps what the other one would borrow.

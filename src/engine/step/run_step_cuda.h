@@ -1,10 +1,9 @@
-// A step over many spheres on an NVIDIA GPU: a thread for each, and beside them, at the same time,
-// warps for those that need more than one contact's registers. Such a sphere takes twenty times as
-// long as the others, so that it has to begin with them.
+// A step over many spheres on a GPU: a thread for each, and at the same time warps for those with several
+// contacts. Such a sphere takes twenty times as long as the others, so that it must not begin after them.
 #pragma once
 
-#include "backend/warp.h"
-#include "backend/step_lists.h"
+#include "backend/backend_cuda.h"
+#include "engine/step/step_lists.h"
 
 #include <cuda_runtime.h>
 
@@ -15,7 +14,7 @@ namespace lsdcd {
 constexpr unsigned kStepBlock = 128, kStepWarps = kStepBlock / kWarpSize;
 // Blocks that share what is listed: beside single() few, as each takes a place of others while it
 // waits for memory, until each of their threads has one.
-constexpr int kFewBlocks = 66, kMostBlocks = 528;
+constexpr int kFewBlocks = 66, kMaxBlocks = 528;
 
 // What several() is for: those listed, or with a null list all of [0, n). The first `blocks` of the
 // kernel do it, of which `few` take the first spheres. `leaves_lists`: is one that needs a list left
@@ -72,7 +71,8 @@ __device__ void do_several(const SeveralPart &part, const Work &work)
 // several() for a part, and single() for all of [0, n) that are not listed.
 template <class Work>
 __global__ void __launch_bounds__(kStepBlock, Work::kBlocksAtOnce)
-    cuda_step(const SeveralPart part, unsigned n, int *to_clear, const __grid_constant__ Work work)
+    step_kernel(const SeveralPart part, unsigned n, int *to_clear,
+                const __grid_constant__ Work work)
 {
   if (blockIdx.x == 0 && threadIdx.x == 0) {
     work.begin();
@@ -91,22 +91,26 @@ __global__ void __launch_bounds__(kStepBlock, Work::kBlocksAtOnce)
   }
 }
 
-// The whole step; `has_single`: is there a first kernel that finds what several() is for?
+// Of each i in [0, n): work.single(i). Where that says false, or where !work.has_single(): work.several(i).
+// Before that a warp makes the lists of those for which work.needs_list(i). Lists of work.step_lists() have room
+// for n; those to be written are empty.
 template <class Work>
-void start_step(unsigned n, bool has_single, const Work &work, cudaStream_t stream)
+void run_step(CudaBackend &b, std::size_t n_items, const Work &work)
 {
+  if (n_items == 0) return;
+  const unsigned n = static_cast<unsigned>(n_items);
   const unsigned blocks = (n + kStepBlock - 1) / kStepBlock,
-                 several_blocks = std::min<unsigned>(blocks, kMostBlocks);
+                 several_blocks = std::min<unsigned>(blocks, kMaxBlocks);
   const StepLists &lists = work.step_lists();
   SeveralPart part = {nullptr, nullptr, static_cast<int>(n), 0, blocks, false};
   int *to_clear = lists.n_found_next;
-  if (has_single) {
+  if (work.has_single()) {
     part = {lists.last, lists.n_last, 0, kFewBlocks, lists.last ? several_blocks : 0, true};
-    cuda_step<<<part.blocks + blocks, kStepBlock, 0, stream>>>(part, n, to_clear, work);
+    b.launch(step_kernel<Work>, {part.blocks + blocks, kStepBlock}, part, n, to_clear, work);
     to_clear = lists.n_last;    // the next step's `next`
-    part = {lists.found, lists.n_found, 0, kMostBlocks, several_blocks, false};
+    part = {lists.found, lists.n_found, 0, kMaxBlocks, several_blocks, false};
   }
-  cuda_step<<<part.blocks, kStepBlock, 0, stream>>>(part, 0, to_clear, work);
+  b.launch(step_kernel<Work>, {part.blocks, kStepBlock}, part, 0u, to_clear, work);
 }
 
 }    // namespace lsdcd

@@ -1,4 +1,4 @@
-#include "engine/wall_engine.h"
+#include "backend/cuda_available.h"
 
 namespace lsdcd {
 

@@ -1,17 +1,19 @@
-// The brick table's bits in a processor's own memory, for kernels that ask of every sphere.
+// The brick table in the shared memory of a GPU's block, for kernels that look up every sphere.
 #pragma once
 
 #include "grid/lookup/brick_words.h"
 
 #include <cuda_runtime.h>
 
+#include <cstddef>
+#include <cstdint>
+
 namespace lsdcd {
 
-// In memory that a block shares, 32 lanes' requests for 32 words take three cycles or four;
-// through a cache they take one each.
-class BrickTableNear {
+// There a warp's requests for 32 words take three or four cycles; through a cache each takes one.
+class SharedBrickTable {
  public:
-  // Of shared memory, a multiple of 4; 0: there are too many bricks.
+  // Bytes that it takes, a multiple of 4; 0: there are too many bricks.
   static std::size_t bytes(const BrickTable &table)
   {
     if (table.n_bricks > 1u << 16) return 0;
@@ -19,12 +21,12 @@ class BrickTableNear {
            (table.n_words + 1) / 2 * 2 * sizeof(std::uint16_t);
   }
 
-  // Copies the table to `to`; all of a block call this, and wait for each other.
-  __device__ BrickTableNear(const BrickTable &table, void *to) :
+  // Copies the table to `to`. All threads of a block call this, and wait for each other.
+  __device__ SharedBrickTable(const BrickTable &table, void *to) :
       bits_(static_cast<std::uint32_t *>(to)),
       below_(reinterpret_cast<std::uint16_t *>(bits_ + table.n_words))
   {
-    // Several are asked for before one is stored.
+    // Several are loaded before the first is stored.
     constexpr unsigned kAtOnce = 8;
     for (unsigned first = threadIdx.x; first < table.n_words; first += kAtOnce * blockDim.x) {
       BrickWord word[kAtOnce];

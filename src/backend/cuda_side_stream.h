@@ -7,17 +7,17 @@
 
 namespace lsdcd {
 
-class CudaBeside {
+class CudaSideStream {
  public:
-  CudaBeside() = default;
-  ~CudaBeside()
+  CudaSideStream() = default;
+  ~CudaSideStream()
   {
     if (!second_) return;
     cudaStreamSynchronize(second_);
     cudaStreamDestroy(second_);
   }
-  CudaBeside(const CudaBeside &) = delete;
-  CudaBeside &operator=(const CudaBeside &) = delete;
+  CudaSideStream(const CudaSideStream &) = delete;
+  CudaSideStream &operator=(const CudaSideStream &) = delete;
 
   // What the first stream has been given so far is what the next work beside it waits for.
   void ready(cudaStream_t first)

@@ -1,4 +1,4 @@
-// The second look of a choice on an NVIDIA GPU, at the items that the first one, a mark, leaves.
+// The second part of a choice on a GPU: the exact test of spheres that the test by cells leaves.
 #pragma once
 
 #include "backend/warp.h"
@@ -10,20 +10,20 @@
 
 namespace lsdcd {
 
-// Where the first look leaves items, with what it has found of them. Their order does not matter: each
-// is a bit in the end. They are in several lists, as all counting in one length would wait for each other.
-struct SecondLookList {
-  static constexpr unsigned kLists = 32, kStride = 32;    // of lengths: 128 bytes apart
+// The spheres that the test by cells leaves, with the cell of each. Their order does not matter, as each
+// becomes a bit. There are several lists, since warps that add to one length wait for each other.
+struct CandidateLists {
+  static constexpr unsigned kLists = 32, kStride = 32;    // lengths are 128 bytes apart
   struct Item {
-    unsigned index;
-    std::uint32_t found;
+    unsigned sphere;
+    std::uint32_t cell;    // as NearChoice::locate() returns it
   };
 
-  Item *items = nullptr;         // null: there is no second look
-  unsigned *length = nullptr;    // of each list, also where that is more than its room
+  Item *items = nullptr;         // null: there is no second part
+  unsigned *length = nullptr;    // of each list; may be more than its room
   unsigned room = 0;             // of a list
 
-  // A warp's items, for each lane that has one.
+  // Adds an item for each thread of a warp that has one.
   __device__ void put(bool has_one, const Item &item) const
   {
     const Warp<kWarpSize> warp;
@@ -33,13 +33,13 @@ struct SecondLookList {
         warp.take_room(length + list * kStride, warp.count(votes)) + warp.count_below(votes);
     if (has_one && at < room) items[list * room + at] = item;
   }
-  // Is there an item number k, counted over the room of all lists?
+  // Is there an item in place k? Places are counted over the room of all lists.
   __device__ bool has(unsigned k) const
   {
     return k < kLists * room && k % room < length[k / room * kStride];
   }
-  // Empties the lists. Was there too little room? All lanes of a warp ask together. *longest(), which
-  // is not emptied, becomes the length of the longest list.
+  // Empties the lists, by all threads of a warp, and sets *longest() to the length of the longest one.
+  // Returns whether a list had too little room.
   static constexpr unsigned kLengths = kLists * kStride + 1;
   __host__ __device__ unsigned *longest() const { return length + kLists * kStride; }
   __device__ bool empty() const
@@ -54,11 +54,11 @@ struct SecondLookList {
   }
 };
 
-// Sets the bits in `words` of the items that `work` keeps.
+// Sets the bits in `words` of the spheres that `work` keeps.
 template <class Work>
-struct SecondLook {
+struct Refine {
   Work work;
-  SecondLookList list;
+  CandidateLists list;
   unsigned *words;
 
   template <unsigned kSize>
@@ -67,13 +67,13 @@ struct SecondLook {
     const unsigned k = static_cast<unsigned>(number);
     const bool mine = list.has(k);
     if (!warp.vote(mine)) return;
-    const SecondLookList::Item item = mine ? list.items[k] : SecondLookList::Item();
-    const bool kept = work.keep_after_all(warp, mine, item.index, item.found);
+    const CandidateLists::Item item = mine ? list.items[k] : CandidateLists::Item();
+    const bool kept = work.refine(warp, mine, item.sphere, item.cell);
     if (!mine) return;
     if (kept)
-      atomicOr(words + item.index / 32, 1u << item.index % 32);
-    else if (work.notes())
-      work.note(item.index, false);
+      atomicOr(words + item.sphere / 32, 1u << item.sphere % 32);
+    else if (work.has_notes())
+      work.note(item.sphere, false);
   }
 };
 

@@ -1,0 +1,76 @@
+// Which GPU a process uses, and streams on it.
+#pragma once
+
+#include "backend/cuda_check.h"
+
+#include <cuda_runtime.h>
+
+namespace lsdcd {
+
+inline int current_gpu()
+{
+  int device = 0;
+  cuda_check(cudaGetDevice(&device), "asking for the device");
+  return device;
+}
+inline void use_gpu(int device)
+{
+  cuda_check(cudaSetDevice(device), "choosing a GPU");
+}
+
+// Makes a GPU current while it lives.
+class OnGpu {
+ public:
+  explicit OnGpu(int device) : before_(current_gpu())
+  {
+    if (before_ != device) use_gpu(device);
+  }
+  ~OnGpu() { cudaSetDevice(before_); }
+  OnGpu(const OnGpu &) = delete;
+  OnGpu &operator=(const OnGpu &) = delete;
+
+ private:
+  int before_;
+};
+
+// A stream of its own on the GPU that this process shares with others of its node.
+class CudaStream {
+ public:
+  // `rank`: of the process on its node.
+  explicit CudaStream(int rank)
+  {
+    int n_devices = 0;
+    cuda_check(cudaGetDeviceCount(&n_devices), "counting GPUs");
+    device_ = rank % n_devices;
+    use_gpu(device_);
+    cuda_check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "creating a stream");
+  }
+  ~CudaStream()
+  {
+    cudaSetDevice(device_);
+    cudaStreamSynchronize(stream_);
+    cudaStreamDestroy(stream_);
+  }
+  CudaStream(const CudaStream &) = delete;
+  CudaStream &operator=(const CudaStream &) = delete;
+
+  cudaStream_t get() const { return stream_; }
+
+ private:
+  int device_ = 0;
+  cudaStream_t stream_ = nullptr;
+};
+
+// Where an array lies.
+struct ArrayPlace {
+  bool is_managed, is_on_gpu;
+  int device;
+};
+inline ArrayPlace place_of_array(const void *array)
+{
+  cudaPointerAttributes about = {};
+  cuda_check(cudaPointerGetAttributes(&about, array), "asking where an array is");
+  return {about.type == cudaMemoryTypeManaged, about.type == cudaMemoryTypeDevice, about.device};
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,78 @@
+// Selecting the spheres near the wall on a CPU.
+#pragma once
+
+#include "backend/backend_cpu.h"
+#include "base/vec3.h"
+#include "engine/choose/selection.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lsdcd {
+
+template <>
+class Selection<CpuBackend> {
+ public:
+  template <class Work>
+  void start(CpuBackend &, std::size_t n, const Work &work, int *to, std::uint32_t *total)
+  {
+    // Blocks of one size whatever the number of threads, so that the order is fixed.
+    constexpr std::int64_t kBlock = 4096;
+    const std::int64_t n_blocks = (static_cast<std::int64_t>(n) + kBlock - 1) / kBlock;
+    std::vector<int> found(n_blocks, 0);
+#pragma omp parallel for schedule(dynamic) num_threads(threads()) if (n_blocks > 1)
+    for (std::int64_t b = 0; b < n_blocks; b++) {
+      const std::int64_t lo = b * kBlock;
+      const std::int64_t hi = std::min(lo + kBlock, static_cast<std::int64_t>(n));
+      int count = 0;
+      for (std::int64_t k = lo; k < hi; k++) {
+        const std::size_t i = static_cast<std::size_t>(k);
+        const Vec3 x = work.centres()[i];
+        const auto item = work.read(i);
+        work.check(i, item);
+        const bool kept =
+            work.coarse_test(item, x, work.table) && work.locate(x, work.table) != Work::kNotFound;
+        if (work.has_notes()) work.note(i, kept);
+        if (kept) to[lo + count++] = static_cast<int>(i);
+      }
+      found[b] = work.has_refine() ? refine(work, to + lo, count) : count;
+    }
+    std::uint32_t n_kept = 0;
+    for (std::int64_t b = 0; b < n_blocks; b++) {
+      std::copy(to + b * kBlock, to + b * kBlock + found[b], to + n_kept);
+      n_kept += found[b];
+    }
+    *total = n_kept;
+  }
+  bool had_room(CpuBackend &, std::uint32_t /*total*/)
+  {
+    return true;
+  }
+  std::size_t bytes() const
+  {
+    return 0;
+  }
+
+ private:
+  // Leaves of n spheres those that `work` keeps, and returns how many. Memory that the test reads first is
+  // prefetched a few spheres ahead.
+  template <class Work>
+  static int refine(const Work &work, int *spheres, int n)
+  {
+    constexpr int kAhead = 4;
+    int n_kept = 0;
+    for (int k = 0; k < n; k++) {
+      if (k + kAhead < n) work.prefetch(work.centres()[spheres[k + kAhead]]);
+      const int i = spheres[k];
+      if (work.refine(Warp<1>(), true, i, Work::kNotKnown))
+        spheres[n_kept++] = i;
+      else if (work.has_notes())
+        work.note(i, false);
+    }
+    return n_kept;
+  }
+};
+
+}    // namespace lsdcd
