@@ -1,5 +1,7 @@
 #include "api/c_border.h"
 
+#include "base/version.h"
+
 namespace {
 std::string &last_error() noexcept
 {
@@ -26,7 +28,7 @@ extern "C" {
 
 const char *lsdcd_version(void)
 {
-  return LSDCD_VERSION;
+  return lsdcd::version();
 }
 
 const char *lsdcd_error_name(int code)

@@ -24,7 +24,7 @@ extern "C" {
 #endif
 
 #define LSDCD_VERSION_MAJOR 0
-#define LSDCD_VERSION_MINOR 1
+#define LSDCD_VERSION_MINOR 9
 #define LSDCD_VERSION_PATCH 0
 
 #if defined(__GNUC__)
@@ -47,7 +47,7 @@ enum {
   LSDCD_ERROR_INTERNAL = 7  /* a defect of this library */
 };
 
-/* "0.1.0". Any. */
+/* "0.9.0". Any. */
 LSDCD_API const char *lsdcd_version(void);
 /* "cutoff" for LSDCD_ERROR_CUTOFF. Any. */
 LSDCD_API const char *lsdcd_error_name(int code);

@@ -3,6 +3,7 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "base/input_words.h"
+#include "base/version.h"
 #include "effects/effects.h"
 
 #include "comm.h"
@@ -74,6 +75,7 @@ void FixWallLsdcd::log_creation() const
   if (new_engine == lsdcd::make_engine && settings.device == lsdcd::Device::automatic &&
       !lsdcd::cuda_available(&why))
     t += " (no CUDA: " + why + ")";
+  t += std::string("\n  version     ") + lsdcd::version();
   log(t);
 }
 

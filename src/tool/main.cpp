@@ -1,9 +1,11 @@
 // lsdcd: what can be done with a mesh without a simulation.
+#include "base/version.h"
 #include "tool/commands.h"
 
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 using namespace lsdcd;
 
@@ -18,7 +20,7 @@ int main(int argc, char **argv)
 {
   Program program(
       "lsdcd: meshes of DEM walls, their grids, distances to them, bodies in them, and materials",
-      "lsdcd " LSDCD_VERSION " (" LSDCD_COMMIT ")");
+      std::string("lsdcd ") + version() + " (" LSDCD_COMMIT ")");
   program.footer("lsdcd COMMAND --help tells more, with an example.\n"
                  "Ends with 0: done; 1: a file or mesh cannot be used; 2: wrong words;\n"
                  "3: repair has written what it cannot mend in full.");

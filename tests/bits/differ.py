@@ -12,7 +12,8 @@ import pathlib
 import re
 import struct
 
-# What depends on time or place and not on what was computed, and why. Each is (name, pattern, in its place, reason);
+# What depends on time or place and not on what was computed, and why. Each is (name, pattern, in its place, reason),
+# None for a line that is left out;
 # of the output of LAMMPS, line by line. Of files that decks write only a grid cache
 # has the like (mask_file).
 MASKS = [(name, re.compile(pattern), instead, reason) for name, pattern, instead, reason in (
@@ -33,6 +34,7 @@ MASKS = [(name, re.compile(pattern), instead, reason) for name, pattern, instead
     ("version of the wall", r"^(Loaded .*lsdcd.*|.*lsdcdplugin.*|.*lsdcdkkplugin.*)$", "PLUGIN",
      "place and version of the plugin"),
     ("processes", r"\[[\w.-]+:\d+\]", "[PROCESS]", "name of the machine and number of the process"),
+    ("version", r"^  version     \S+$", None, "the release, in the log since 0.9.0"),
     ("part of a file", r"\.part-[\w-]+", ".part-N", "a name that is made from the clock"),
 )]
 # Where a run stops, MPI's words and how much of its output comes through depend on time.
@@ -48,8 +50,10 @@ def mask(text, folder=None, build=None):
             text = text.replace(str(path), name)
     lines = []
     for line in text.split("\n"):
+        if any(instead is None and pattern.search(line) for _, pattern, instead, _ in MASKS):
+            continue
         for _, pattern, instead, _ in MASKS:
-            line = pattern.sub(instead, line)
+            line = pattern.sub(instead or "", line)
         lines.append(line)
     return "\n".join(lines)
 

@@ -168,6 +168,9 @@ def main():
                     ("left out of this build by LSDCD_CUDA=OFF" in device) == left_out and
                     not (left_out and "toolkit" in device), device)
 
+    release = re.search(r"^project\(lsdcd VERSION (\S+)", (deck.HERE.parents[1] / "CMakeLists.txt").read_text(), re.M)[1]
+    checks.fact("the log has the version", lines(text, "  version     ") == ["  version     " + release])
+
     # What a run did: its steps, and how often lists were made.
     text = deck.run_well(BOX + fix() + "run 1\nrun 4 pre no\n", folder)
     checks.fact("a run has as many steps as were asked for",

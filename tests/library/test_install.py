@@ -26,7 +26,7 @@ FLOOR = "solid floor\nfacet normal 0 0 1\nouter loop\nvertex -20 -20 0\nvertex 2
 
 PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(user LANGUAGES C CXX)
-find_package(lsdcd 0.1 REQUIRED COMPONENTS {components})
+find_package(lsdcd 0.9 REQUIRED COMPONENTS {components})
 add_executable(in_c distance.c)
 target_link_libraries(in_c lsdcd::core)
 add_executable(in_cpp distance.cpp)
@@ -39,7 +39,7 @@ target_link_libraries(collide lsdcd::{last})
 
 CUDA_PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(user LANGUAGES CXX CUDA)
-find_package(lsdcd 0.1 REQUIRED COMPONENTS core cuda)
+find_package(lsdcd 0.9 REQUIRED COMPONENTS core cuda)
 add_executable(in_cuda distance.cu)
 set_target_properties(in_cuda PROPERTIES CUDA_STANDARD 17 CUDA_ARCHITECTURES OFF)
 target_link_libraries(in_cuda lsdcd::cuda)

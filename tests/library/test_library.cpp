@@ -149,6 +149,13 @@ void expect_nearest(const lsdcd::Grid &grid, const TriangleSoup &soup, double to
 
 constexpr double kInDouble = 1e-8, kInFloat = 4e-6;
 
+TEST(library, its_version_is_that_of_its_header)
+{
+  const auto text = [](int n) { return std::to_string(n); };
+  EXPECT_EQ(lsdcd_version(), text(LSDCD_VERSION_MAJOR) + "." + text(LSDCD_VERSION_MINOR) + "." +
+                                 text(LSDCD_VERSION_PATCH));
+}
+
 TEST(library, complete_lists_give_what_brute_force_gives)
 {
   const TriangleSoup soup = box_and_cylinder();

@@ -1,5 +1,6 @@
 // lmp-lsdcd: LAMMPS's own command line, with plugins.
 
+#include "base/version.h"
 #include "input/settings.h"
 #include "lammps/launcher/plugins.h"
 
@@ -40,10 +41,10 @@ static void show_help(int argc, char **argv)
   if (rank) return;
   for (int i = 1; i < argc; i++)
     if (!std::strcmp(argv[i], "-h") || !std::strcmp(argv[i], "-help")) {
-      std::printf("lmp-lsdcd: LAMMPS %d with fix wall/lsdcd and the plugin command\n\n%s\n"
+      std::printf("lmp-lsdcd %s: LAMMPS %d with fix wall/lsdcd and the plugin command\n\n%s\n"
                   "plugin load FILES | unload STYLE NAME | list | clear\n"
                   "  LAMMPS_PLUGIN_PATH lists folders of plugins to load at the start\n",
-                  LSDCD_HOST_VERSION, lsdcd::settings_help().c_str());
+                  lsdcd::version(), LSDCD_HOST_VERSION, lsdcd::settings_help().c_str());
       std::fflush(stdout);
       return;
     }

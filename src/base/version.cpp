@@ -1,0 +1,10 @@
+#include "base/version.h"
+
+namespace lsdcd {
+
+const char *version()
+{
+  return LSDCD_VERSION;
+}
+
+}    // namespace lsdcd
