@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks what a release has to agree in; RELEASING.md says when.
 
-    check_release.py                     the files: versions, CHANGELOG.md
+    check_release.py                     the files: versions, CHANGELOG.md, doc/formats.md
     check_release.py --build FOLDER      also the programs that were built there
     check_release.py --packages FOLDER   also the names of what ./run package made
     check_release.py --release           also that nothing is changed and not committed, and that the
@@ -51,6 +51,18 @@ def check_files(version):
         fact(f"{path} has version {version}", there == version, there)
 
 
+def check_formats():
+    """doc/formats.md against the sources."""
+    for row, path, pattern in (
+            (r"grid cache [^|]*\| (\d+)", "src/grid/cache/cache_format.h", r"kFormat = (\d+);"),
+            (r"`fix wall/lsdcd` \| \d+, stored as (\S+) \|", "src/lammps/fix_wall_lsdcd_loads.cpp", r"kFormat = (-\d+);"),
+            (r"VTK XML PolyData (\S+) ", "src/output/vtk_array.h", r'"PolyData\\" version=\\"([\d.]+)'),
+            (r"VTK XML Collection (\S+) ", "src/output/file_series.cpp", r'"Collection\\" version=\\"([\d.]+)'),
+            (r"symbols `(\w+)`", "src/api/lsdcd.map", r"^(\w+) {")):
+        said, there = found("doc/formats.md", row), found(path, pattern)
+        fact(f"doc/formats.md has the format of {path}", said and said == there, f"{said}, {there}")
+
+
 def check_programs(version, build):
     for words, wanted in ((("bin/lsdcd", "--version"), f"lsdcd {version} "),
                           (("bin/lmp-lsdcd", "-h"), f"lmp-lsdcd {version}:")):
@@ -98,6 +110,7 @@ def main():
     version = found("CMakeLists.txt", r"^project\(lsdcd VERSION (\S+)")
     fact("CMakeLists.txt has a version", version and re.fullmatch(r"\d+\.\d+\.\d+", version), version)
     check_files(version)
+    check_formats()
     if words.build:
         check_programs(version, words.build.resolve())
     if words.packages:
