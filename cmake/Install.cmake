@@ -17,41 +17,53 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_COMPONENTS_ALL library dev python data)
+set(CPACK_POST_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian/drop_ldconfig.cmake)
+# Each package has its own summary, the first line of its text.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
 
 string(TIMESTAMP today "%a, %d %b %Y %H:%M:%S +0000" UTC)
 lsdcd_gzip(cmake/debian/changelog)
 
-# lsdcd_package(component name section depends text...)
-macro(lsdcd_package component name section depends text)
+# lsdcd_package(component name section depends summary text)
+macro(lsdcd_package component name section depends summary text)
   string(TOUPPER ${component} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name})
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
   set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "${depends}")
-  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${text}")
+  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${summary}\n${text}")
   # Debian asks for these in every package.
   install(FILES cmake/debian/copyright ${PROJECT_BINARY_DIR}/made/changelog.gz
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component} EXCLUDE_FROM_ALL)
 endmacro()
-lsdcd_package(library liblsdcd${PROJECT_VERSION_MAJOR} libs "" "Distances from points to a triangle mesh")
+lsdcd_package(library liblsdcd${PROJECT_VERSION_MAJOR} libs ""
+  "Distances from points to a triangle mesh"
+  "Distances, closest points and sides of many points at once, and\ncollisions of rigid bodies with a wall. This is the\nlibrary that programs run with.")
 lsdcd_package(dev liblsdcd-dev libdevel "liblsdcd${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION})"
-  "Distances from points to a triangle mesh: headers, CMake package")
+  "Distances from points to a triangle mesh: headers"
+  "The headers for C and C++, the CMake package and the\npkg-config file of liblsdcd.")
 lsdcd_package(python python3-lsdcd python
   "liblsdcd${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION}), python3, python3-numpy"
-  "Distances from points to a triangle mesh, for numpy arrays")
-lsdcd_package(data lsdcd-data science "" "Materials, documents and examples of lsdcd")
+  "Distances from points to a triangle mesh: Python module"
+  "The module lsdcd calls liblsdcd with arrays of numpy.")
+lsdcd_package(data lsdcd-data science ""
+  "Materials, documents and examples of lsdcd"
+  "Material files with cited values, the manual, and input\nscripts for DEM walls from meshes.")
 # Which package others need that are linked with the library; and that the linker's cache is renewed.
 set(control ${PROJECT_BINARY_DIR}/made/debian)
 file(WRITE ${control}/shlibs
   "liblsdcd ${PROJECT_VERSION_MAJOR} liblsdcd${PROJECT_VERSION_MAJOR} (>= ${PROJECT_VERSION})\n")
 file(WRITE ${control}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${control}/shlibs ${control}/triggers)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/python/postinst
+  ${PROJECT_SOURCE_DIR}/cmake/debian/python/prerm)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
 if(TARGET lsdcd_tool)
   list(APPEND CPACK_COMPONENTS_ALL tool)
   # Python runs the plot's script.
   lsdcd_package(tool lsdcd science "lsdcd-data (= ${PROJECT_VERSION}), python3:any"
-    "Looks at meshes, grids and materials of DEM walls")
+    "Looks at meshes, grids and materials of DEM walls"
+    "Inspects, repairs, converts and generates triangle meshes, finds\ndistances and collisions, and measures what settings of a DEM wall cost.")
   set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "python3-matplotlib")
 endif()
 if(TARGET lsdcdplugin)
@@ -67,6 +79,7 @@ if(TARGET lsdcdplugin)
     endif()
   endif()
   lsdcd_package(lammps lammps-lsdcd science "lsdcd-data (= ${PROJECT_VERSION})${host}"
-    "DEM walls from an STL mesh for LAMMPS: fix wall/lsdcd")
+    "DEM walls from triangle meshes for LAMMPS"
+    "The plugin with fix wall/lsdcd, fix massflow/lsdcd and compute lsdcd/collide,\nand lmp-lsdcd, a LAMMPS that has them built in.")
 endif()
 include(CPack)

@@ -14,8 +14,20 @@ cd /packages
 { apt-get -q -o Acquire::Check-Valid-Until=false -o Acquire::Languages=none update && install g++ pkgconf; } >/tmp/apt 2>&1 ||
   { tail -5 /tmp/apt; echo "no packages from the mirror"; exit 1; }
 
-of_library=(liblsdcd0_* liblsdcd-dev_* python3-lsdcd_* lsdcd_* lsdcd-data_*)
-fact "library, module and tool install" quiet install "${of_library[@]/#/./}"
+of_library=(./liblsdcd0_* ./liblsdcd-dev_* ./python3-lsdcd_* ./lsdcd_* ./lsdcd-data_*)
+ours=("${of_library[@]}")
+if [ "$1" = same ]; then ours+=(./lammps-lsdcd_*); fi
+# What ours depend on comes first and stays: it may leave traces of its own.
+others=$(install --simulate "${ours[@]}" | sed -n 's/^Inst \([^ ]*\) .*/\1/p' | grep -v lsdcd)
+install $others >/tmp/apt 2>&1 || { tail -5 /tmp/apt; echo "no packages from the mirror"; exit 1; }
+# Every file, but for what apt and dpkg keep for themselves.
+files() {
+  find / -xdev \( -path /var/cache -o -path /var/log -o -path /var/lib/apt -o -path /var/lib/dpkg -o -path /tmp \
+    -o -path /run -o -path /use \) -prune -o -print | sort
+}
+files >/tmp/before
+
+fact "library, module and tool install" quiet install "${of_library[@]}"
 
 mkdir /use
 cd /use
@@ -29,6 +41,9 @@ gives "the tool reads a mesh" "facets" "$(lsdcd inspect /examples/die.stl 2>&1)"
 lsdcd convert /examples/die.stl -o die.off && lsdcd convert die.off -o die.stl
 gives "the tool reads a mesh by assimp" "192 facets" "$(lsdcd convert die.off -o again.obj 2>&1)"
 fact "the licence is there" test -s /usr/share/doc/lsdcd/LICENSE
+gives "the tool has a manual page" "^.TH LSDCD 1" "$(zcat /usr/share/man/man1/lsdcd.1.gz)"
+fact "the programs have the version of their packages" \
+  test "$(lsdcd --version | cut -d' ' -f2)" = "$(dpkg-query -W -f '${Version}' lsdcd)"
 
 if [ "$1" = newer ]; then
   why=$(install /packages/lammps-lsdcd_*.deb 2>&1) && why="it installs"
@@ -51,5 +66,12 @@ print "the wall is built"
 DECK
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_ess_singleton_isolated=1 OMP_NUM_THREADS=1
   gives "lmp-lsdcd runs a deck with a material" "the wall is built" "$(lmp-lsdcd -in in.deck -log none 2>&1)"
+  gives "lmp-lsdcd has a manual page" "^.TH LMP-LSDCD 1" "$(zcat /usr/share/man/man1/lmp-lsdcd.1.gz)"
 fi
+
+installed=$(dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' | sed -n 's/^ii *\(.*lsdcd.*\)/\1/p')
+fact "all are removed" quiet apt-get -q -y purge $installed
+files >/tmp/after
+fact "without a trace" diff /tmp/before /tmp/after
+fact "and the linker has forgotten the library" test -z "$(ldconfig -p | grep lsdcd)"
 exit $status

@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# The source tarball: whole, the same each time, and enough to build from.
+#   test_tarball.sh CMAKE PYTHON     of the checkout that this file is in
+set -uo pipefail
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+cmake=$1 python=$2
+status=0
+fact() { if "${@:2}"; then echo "PASS $1"; else echo "FAIL $1"; status=1; fi; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/first" "$work/second"
+
+"$top/cmake/source_tarball.sh" "$work/first" || exit
+TZ=Asia/Tokyo LC_ALL=C "$top/cmake/source_tarball.sh" "$work/second"
+tarball=$(ls "$work"/first/*.tar.gz)
+fact "two of one commit are the same bytes" cmp "$tarball" "$work/second/$(basename "$tarball")"
+
+mkdir "$work/use"
+cd "$work/use"
+tar -xzf "$tarball"
+cd -- *
+fact "its folder has its name" test "$(basename "$PWD").tar.gz" = "$(basename "$tarball")"
+fact "it has every file of the commit" diff <(find . -type f -printf '%P\n' | sort) \
+  <(git -C "$top" ls-tree -r --name-only HEAD | sort)
+fact "versions in it agree" "$python" tests/tool/check_release.py
+quiet() { "$@" >"$work/log" 2>&1 || { tail -20 "$work/log"; false; }; }
+fact "it configures" quiet "$cmake" -S . -B build -G Ninja -D LSDCD_TESTS=OFF -D LSDCD_LAMMPS=OFF -D LSDCD_CUDA=OFF
+fact "it builds the tool" quiet "$cmake" --build build --target lsdcd_tool -j 2
+commit=$(git -C "$top" rev-parse HEAD)
+fact "the tool names the commit" grep -q "(${commit:0:10})" <(build/bin/lsdcd --version)
+exit $status
