@@ -1,6 +1,7 @@
 # Documents and examples; and packages for Debian, which `./run package` makes. All else is installed
 # by the folder that it lies in.
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT data)
+install(DIRECTORY LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT data)
 install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc COMPONENT data
   FILES_MATCHING PATTERN *.md PATTERN *.rst PATTERN *.png
   PATTERN data EXCLUDE PATTERN notes EXCLUDE)

@@ -40,7 +40,10 @@ gives "the tool finds its materials" "material glass" "$(lsdcd material glass.ls
 gives "the tool reads a mesh" "facets" "$(lsdcd inspect /examples/die.stl 2>&1)"
 lsdcd convert /examples/die.stl -o die.off && lsdcd convert die.off -o die.stl
 gives "the tool reads a mesh by assimp" "192 facets" "$(lsdcd convert die.off -o again.obj 2>&1)"
-fact "the licence is there" test -s /usr/share/doc/lsdcd/LICENSE
+fact "the licences are there" test -s /usr/share/doc/lsdcd/LICENSE -a -s /usr/share/doc/lsdcd/LICENSES/BSD-3-Clause.txt
+for package in liblsdcd0 liblsdcd-dev python3-lsdcd lsdcd lsdcd-data; do
+  gives "$package tells its licences" "^License: BSD-3-clause" "$(cat /usr/share/doc/$package/copyright)"
+done
 gives "the tool has a manual page" "^.TH LSDCD 1" "$(zcat /usr/share/man/man1/lsdcd.1.gz)"
 fact "the programs have the version of their packages" \
   test "$(lsdcd --version | cut -d' ' -f2)" = "$(dpkg-query -W -f '${Version}' lsdcd)"
