@@ -5,11 +5,12 @@
     check_release.py --build FOLDER      also the programs that were built there
     check_release.py --packages FOLDER   also the names of what ./run package made
     check_release.py --release           also that nothing is changed and not committed, and that the
-                                         commits that pages name are in the history
+                                         commits that pages and their data name are in the history
 
 Prints a line per fact; ends with 1 if one fails. The version is that of CMakeLists.txt.
 """
 import argparse
+import csv
 import os
 import pathlib
 import re
@@ -17,7 +18,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGES = ("README.md", "doc/*.md", "doc/*.rst", "examples/*/*.md")
+PAGES = ("README.md", "doc/**/*.md", "doc/**/*.rst", "examples/*/*.md", "doc/data/*.csv", "doc/data/*.tsv")
 failed = 0
 
 
@@ -76,7 +77,7 @@ def check_programs(version, build):
 
 def check_packages(version, packages):
     names = sorted(path.name for path in packages.iterdir())
-    fact("there is one source tarball", f"lsdcd-{version}.tar.gz" in names, names)
+    fact("there is a source tarball", f"lsdcd-{version}.tar.gz" in names, names)
     debs = [name.split("_") for name in names if name.endswith(".deb")]
     fact(f"all packages are of {version}", debs and all(deb[1] == version for deb in debs), names)
     wanted = {"liblsdcd" + version.split(".")[0], "liblsdcd-dev", "python3-lsdcd", "lsdcd", "lsdcd-data", "lammps-lsdcd"}
@@ -88,17 +89,24 @@ def check_tree():
     fact("all is committed", code == 0 and not text, text)
 
 
+def commits_of(path):
+    text = path.read_text(encoding="utf-8")
+    if path.suffix != ".csv":
+        return re.findall(r"\b(?:at|commit) `?([0-9a-f]{7,40})\b", text)
+    delimiter = ";" if ";" in text.split("\n")[0] else ","
+    return [row["commit"] for row in csv.DictReader(text.splitlines(), delimiter=delimiter)]
+
+
 def check_pages():
     """What was measured at a commit that is not in the history cannot be measured again."""
-    pages = sorted(page for pattern in PAGES for page in ROOT.glob(pattern))
     named = {}
-    for page in pages:
-        for commit in re.findall(r"\b(?:at|commit) `?([0-9a-f]{7,40})\b", page.read_text(encoding="utf-8")):
-            named.setdefault(commit, page.relative_to(ROOT))
+    for path in sorted(path for pattern in PAGES for path in ROOT.glob(pattern)):
+        for commit in commits_of(path):
+            named.setdefault(commit, path.relative_to(ROOT))
     fact("pages name commits", named)
-    for commit, page in sorted(named.items()):
+    for commit, path in sorted(named.items()):
         code, _ = output_of("git", "merge-base", "--is-ancestor", commit, "HEAD")
-        fact(f"commit {commit} of {page} is in the history", code == 0)
+        fact(f"commit {commit} of {path} is in the history", code == 0)
 
 
 def main():
