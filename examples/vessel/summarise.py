@@ -24,6 +24,23 @@ def values(text, line):
     return {k: float(v) for k, v in zip(words[::2], words[1::2])}
 
 
+def outflow(text, dt):
+    """Mass per time through the outlet in the second half of the drain, and seconds since it was opened: from, to."""
+    lines = text.splitlines()
+    head = next(k for k, line in enumerate(lines) if line.startswith("Step "))
+    mass = lines[head].split().index("f_out[4]")
+    rows = []
+    for line in lines[head + 1:]:
+        words = line.split()
+        if not re.match(r" *\d", line) or len(words) != len(lines[head].split()):
+            break
+        rows.append((int(words[0]), float(words[mass])))
+    half = (rows[0][0] + rows[-1][0]) / 2
+    first = next(row for row in rows if row[0] >= half or row is rows[-2])
+    times = [(row[0] - rows[0][0]) * dt for row in (first, rows[-1])]
+    return (rows[-1][1] - first[1]) / (times[1] - times[0]), times
+
+
 def main():
     log = open(sys.argv[1]).read()
     rest, drain, reference = (stage(log, s) for s in ("rest", "drain", "reference"))
@@ -39,11 +56,16 @@ def main():
     steps_drain = timing(drain)[1]
     dt = float(re.search(r"^timestep\s+(\S+)", log, re.M)[1])
 
+    flow, (since, till) = outflow(drain, dt)
+    hours, minutes, last = map(int, re.search(r"^Total wall time: (\d+):(\d+):(\d+)", log, re.M).groups())
+    print("Spallation-target vessel, fix wall/lsdcd\n")
+    print(f"mass flow             {flow:.3g} kg/s through the outlet, {since:.2g} s to {till:.2g} s after it opened")
+    print(f"share of the walls    {100 * wall * steps / seconds:.1f} % of a step at rest, {seconds / steps * 1e3:.3g} ms")
+    print(f"time of the run       {3600 * hours + 60 * minutes + last} s on {ranks} processes\n")
+
     rows = [
         ("grains", f"{at_rest['grains']:.0f}"),
-        ("processes", f"{ranks}"),
-        ("time per step at rest", f"{1e3 * seconds / steps:.3f} ms"),
-        ("  of it the walls", f"{1e3 * wall:.3f} ms, {100 * wall * steps / seconds:.1f} %"),
+        ("time of the walls in a step", f"{1e3 * wall:.3f} ms"),
         ("contacts with the walls", f"{at_rest['contacts']:.0f}"),
         ("spheres not certified exact", f"{at_rest['uncertified']:.0f}"),
         ("largest overlap / radius", f"{at_rest['largest_overlap']:.4f}"),
@@ -55,7 +77,6 @@ def main():
         (f"left through the outlet in {steps_drain * dt:.2g} s", f"{at_rest['grains'] - left:.0f} grains"),
     ]
     width = max(len(name) for name, _ in rows) + 2
-    print("Spallation-target vessel, fix wall/lsdcd\n")
     for name, value in rows:
         print(f"{name:{width}}{value}")
     print("\nThe walls' share is `Modify` of LAMMPS's timing at rest less what gravity and the"

@@ -244,7 +244,6 @@ class FixWallLsdcd : public Fix {
   void check_surface(const MeshPart &) const;
   void check_timestep();
   void check_springs();
-  double contact_time(double, double) const;
   void log_creation() const;
   std::function<void(const std::string &)> build_progress(const MeshPart &) const;
   void log_build(const MeshPart &, double) const;

@@ -5,6 +5,7 @@
 #include "base/input_words.h"
 #include "contact/faces_pushed.h"
 #include "engine/results/sphere_error.h"
+#include "law/contact_time.h"
 #include "mesh/plane_cut.h"
 #include "wall/mesh_name.h"
 
@@ -22,7 +23,6 @@
 using namespace LAMMPS_NS;
 using lsdcd::number_text;
 
-static constexpr double kStepsPerContact = 10;
 static constexpr double kWorse = 1.1;    // times what was warned of: warned of again
 
 std::string FixWallLsdcd::with_fix_id(const std::string &text) const
@@ -160,29 +160,6 @@ void FixWallLsdcd::check_plane(const MeshPart &m)
                    "out along z"));
 }
 
-// Does the stiffness grow with the overlap?
-static bool is_hertzian(const lsdcd::ContactLaw &law)
-{
-  return !law.is(lsdcd::NormalModel::hooke);
-}
-
-// Duration of a binary contact: half a period of the damped spring between a
-// sphere and the wall (undamped with granular, whose damping may be anything). A hertz
-// spring is taken at an overlap of 1 % of the radius.
-double FixWallLsdcd::contact_time(double mass, double radius) const
-{
-  const lsdcd::ContactLaw &law = settings.law;
-  double k = law.k_normal, gamma = law.is_classic() ? law.eta : 0;
-  if (is_hertzian(law)) {
-    const double root = std::sqrt(0.01 * radius * radius);
-    k *= 1.5 * root;
-    gamma *= root;
-  }
-  const double omega_sq = force->ftm2v * k / mass, half = 0.5 * force->ftm2v * gamma;
-  const double damped_sq = omega_sq - half * half;
-  return M_PI / std::sqrt(damped_sq > 0 ? damped_sq : omega_sq);
-}
-
 void FixWallLsdcd::check_timestep()
 {
   if (cutoff() == 0) return;
@@ -191,14 +168,15 @@ void FixWallLsdcd::check_timestep()
   double shortest = INFINITY;
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit)
-      shortest = std::min(shortest, contact_time(atom->rmass[i], atom->radius[i]));
+      shortest = std::min(shortest, lsdcd::contact_time(settings.law, atom->rmass[i],
+                                                        atom->radius[i], force->ftm2v));
   MPI_Allreduce(MPI_IN_PLACE, &shortest, 1, MPI_DOUBLE, MPI_MIN, world);
-  const double ratio = update->dt / (shortest / kStepsPerContact);
+  const double ratio = update->dt / (shortest / lsdcd::kStepsPerContact);
   if (ratio <= worst_dt) return;
   worst_dt = kWorse * ratio;
   warn("timestep " + number_text(update->dt) +
        " is more than a tenth of the shortest contact time " + number_text(shortest) +
-       (is_hertzian(settings.law) ? " (hertz, at an overlap of 1 % of the radius)" : "") +
+       (lsdcd::is_hertzian(settings.law) ? " (hertz, at an overlap of 1 % of the radius)" : "") +
        ": contacts will not be resolved");
 }
 

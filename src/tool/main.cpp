@@ -33,6 +33,7 @@ int main(int argc, char **argv)
   add_distance_command(program);
   add_collide_command(program);
   add_material_command(program);
+  add_timestep_command(program);
   add_tradeoff_command(program);
   add_accuracy_command(program);
   add_effects_command(program);

@@ -29,6 +29,7 @@ LEFT_OUT = {
     "test_kokkos": "the form kk runs all other scripts with Kokkos",
     "test_kokkos_bench": "measures times",
     "test_section": "one long run of examples/vessel",
+    "test_tutorial": "long runs of examples/tutorial",
 }
 # For --quick.
 FEW = ("test_parity", "test_restart", "test_several_meshes", "test_two_dimensions", "test_rerun", "test_loads",

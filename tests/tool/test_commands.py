@@ -14,7 +14,7 @@ from triangles import cube
 # What is missing where a command stands alone.
 NEEDS = {"inspect": "file is required", "repair": "file is required", "convert": "file is required",
          "generate": "subcommand is required", "grid": "file is required", "distance": "mesh is required", "collide": "wall is required",
-         "material": "file is required", "tradeoff": "file is required", "accuracy": None, "effects": None}
+         "material": "file is required", "timestep": "--radius is required", "tradeoff": "file is required", "accuracy": None, "effects": None}
 # Words that make an example quick.
 QUICK = {"tradeoff": "--spheres 100 --moving 2 --repeats 1 --seconds 2 --device cpu --plot none"}
 
@@ -40,6 +40,19 @@ GOOD = [
     ("collide wall.stl body.stl --pose 3 0 0 --json", {"poses": 1, "colliding": 0, "pairs": 0}),
     ("material glass.lsdcd", ["material glass", "density", "kg/m3"]),
     ("material glass.lsdcd glass --on aluminium", ["granular hertz/material", "tangential"]),
+    # G = 2e6 and nu = 0.25: pi 0.002 sqrt(2500 / 2e6) / 0.917375.
+    ("timestep --young 5e6 --poisson 0.25 --density 2500 --radius 0.002 --speed 1",
+     ["Rayleigh time      0.0002422", "timestep           2.72e-05    set by the impact of grain on grain",
+      "kn 3.55556e+06 on grains", "Overlaps exceed 0.05"]),
+    ("timestep --young 5e6 --poisson 0.25 --density 2500 --radius 0.003 0.002 --speed 0.001",
+     ["smallest radius    0.002\n", "timestep           4.84e-05    set by the Rayleigh time"]),
+    # 16 times the speed takes 16^(-1/5) of the time: 0.0006256 -> 0.0003593.
+    ("timestep --young 5e6 --poisson 0.25 --density 2500 --radius 0.002 --speed 1 --wall-speed 15",
+     ["16         0.0003593", "set by the impact on the wall"]),
+    # A wall that does not yield has twice the E* of two grains.
+    ("timestep --young 5e6 --poisson 0.25 --density 2500 --radius 0.002 --speed 1 --wall-young 1e30",
+     ["3.55556e+06 on grains, 7.11111e+06 on the wall"]),
+    ("timestep glass.lsdcd glass --on steel --radius 0.001 --speed 1", ["set by the Rayleigh time"]),
     ("tradeoff wall.stl --radius 0.1 " + QUICK["tradeoff"], ["default", "rows in tradeoff.csv"]),
     ("accuracy table2 --spheres 1e5 --csv table2.csv", ["0.994025", "table2.csv"]),
     ("effects", ["hooke", "hertz", "B/contact"]),
@@ -69,6 +82,13 @@ BAD = [    # words, exit code, what is said
     ("material glass.lsdcd glass --with restituion 0.5", 1, ["'restituion' is not a property", "'restitution'", "[--with"]),
     ("material glass.lsdcd glass --units miles", 2, ["miles", "cgs"]),
     ("material glass.lsdcd glass --normal hooke", 2, ["hooke", "hertz/material"]),
+    ("timestep --radius 1 --speed 1", 2, ["--young", "material file"]),
+    ("timestep --radius 0 --speed 1", 2, ["--radius", "0 is not a number above 0"]),
+    ("timestep --radius 1", 2, ["--speed is required"]),
+    ("timestep --radius 1 --speed 1 --poisson 0.6", 2, ["--poisson", "0.6"]),
+    ("timestep --radius 1 --speed 1 --on steel", 2, ["--on", "material of a file"]),
+    ("timestep glass.lsdcd --radius 1 --speed 1", 2, ["name"]),
+    ("timestep glass.lsdcd glas --radius 1 --speed 1", 1, ["glas", "glass"]),
     ("tradeoff wall.stl --radius 0.1 --csv no/t.csv", 1, ["no/t.csv", NO_FILE]),
     ("tradeoff wall.stl --radius x", 2, ["--radius", "x"]),
     ("generate box --width 1e-9 --depth 1e-9 --height 1e-9 --edge 1e-14 -o made.stl", 1, ["--edge 1e-14"]),

@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+"""Run examples and put their pictures into doc/img/gallery: gallery.py [NAME ...]
+
+Each picture is that of the example's input script, without its white margin, in 64 colours.
+"""
+from pathlib import Path
+
+from PIL import Image, ImageChops
+
+import runs
+
+NAMES = ("drum", "hopper", "screw", "screen", "mixer", "piston", "insertion", "belt")
+MARGIN = 12    # pixels
+
+
+def main():
+    p = runs.options(__doc__, Path("gallery"))
+    p.add_argument("names", nargs="*", help=" ".join(NAMES))
+    a = p.parse_args()
+    a.work.mkdir(parents=True, exist_ok=True)
+    folder = runs.ROOT / "doc" / "img" / "gallery"
+    for name in a.names or NAMES:
+        example = runs.ROOT / "examples" / name
+        runs.run_deck(a, example / f"in.{name}", dir=example, picture=f"{name}.png")
+        picture = Image.open(a.work / f"{name}.png").convert("RGB")
+        left, top, right, bottom = ImageChops.difference(picture, Image.new("RGB", picture.size, "white")).getbbox()
+        picture.crop((max(0, left - MARGIN), max(0, top - MARGIN), min(picture.width, right + MARGIN),
+                      min(picture.height, bottom + MARGIN))).quantize(
+            64, dither=Image.Dither.NONE).save(folder / f"{name}.png", optimize=True)
+        print(folder / f"{name}.png")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,41 @@
+#include "law/contact_time.h"
+
+#include <cmath>
+
+namespace lsdcd {
+
+bool is_hertzian(const ContactLaw &law)
+{
+  return !law.is(NormalModel::hooke);
+}
+
+Real contact_time(const ContactLaw &law, Real mass, Real radius, Real ftm2v)
+{
+  Real k = law.k_normal, gamma = law.is_classic() ? law.eta : 0;
+  if (is_hertzian(law)) {
+    const Real root = std::sqrt(0.01 * radius * radius);
+    k *= 1.5 * root;
+    gamma *= root;
+  }
+  const Real omega_sq = ftm2v * k / mass, half = 0.5 * ftm2v * gamma;
+  const Real damped_sq = omega_sq - half * half;
+  return M_PI / std::sqrt(damped_sq > 0 ? damped_sq : omega_sq);
+}
+
+HertzImpact hertz_impact(Real modulus, Real mass, Real radius, Real speed)
+{
+  // m v^2 / 2 = (8/15) E* sqrt(R) overlap^(5/2)
+  const Real overlap =
+      std::pow(15 * mass * speed * speed / (16 * modulus * std::sqrt(radius)), 0.4);
+  // Twice the integral of 1 / sqrt(1 - x^(5/2)) from 0 to 1, a beta function: 2.9432.
+  const Real constant = 0.8 * std::sqrt(M_PI) * std::tgamma(0.4) / std::tgamma(0.9);
+  return {overlap, constant * overlap / speed};
+}
+
+Real rayleigh_time(Real radius, Real density, Real youngs_modulus, Real poissons_ratio)
+{
+  const Real shear = youngs_modulus / (2 * (1 + poissons_ratio));
+  return M_PI * radius * std::sqrt(density / shear) / (0.1631 * poissons_ratio + 0.8766);
+}
+
+}    // namespace lsdcd

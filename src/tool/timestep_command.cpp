@@ -1,0 +1,186 @@
+#include "tool/commands.h"
+
+#include "base/input_error.h"
+#include "law/contact_time.h"
+#include "material/contact_moduli.h"
+#include "material/material_file.h"
+#include "tool/number_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+namespace {
+
+constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
+constexpr double kRayleighShare = 0.2;
+constexpr double kStepsPerImpact = 20;
+constexpr double kDeep = 0.05;    // overlap per radius past which contacts change the answer
+
+struct Options {
+  std::string file, name, on;
+  std::vector<double> radius;
+  double speed = kNotGiven, wall_speed = 0;
+  double young = kNotGiven, poisson = kNotGiven, density = kNotGiven, wall_young = kNotGiven,
+         wall_poisson = kNotGiven;
+};
+
+std::string below_a_half(const std::string &word)
+{
+  double value;
+  return is_number(word, &value) && value > -1 && value <= 0.5
+             ? ""
+             : word + " is not a number above -1 and up to 0.5";
+}
+
+// An option's value, or else the file's.
+double value_of(double given, const char *option, const MaterialSection *material,
+                const char *property)
+{
+  if (!std::isnan(given)) return given;
+  if (!material) throw_usage_error(option, "give it, or a material file and a name");
+  const Stated *stated = material->find(property);
+  if (!stated)
+    throw InputError(material->place + ": '" + material->first + "' has no " + property +
+                     ": add it there, or give " + option);
+  return stated->value;
+}
+
+// Two bodies that meet.
+struct Pair {
+  const char *name, *reason;
+  double modulus, mass, radius, speed;    // E*, and effective ones
+};
+
+// Prints a row; the timestep that it allows.
+double print_impact(const Pair &pair, double radius)
+{
+  const HertzImpact impact = hertz_impact(pair.modulus, pair.mass, pair.radius, pair.speed);
+  std::printf("%-18s %-10.4g %-14.4g %-20.3g %.4g\n", pair.name, pair.speed, impact.time,
+              impact.overlap / radius, impact.time / kStepsPerImpact);
+  return impact.time / kStepsPerImpact;
+}
+
+void run(const Options &o)
+{
+  MaterialFile file;
+  const MaterialSection *grain = nullptr, *wall = nullptr;
+  if (!o.file.empty()) {
+    if (o.name.empty()) throw_usage_error("name", "which material of the file?");
+    file = read_materials(find_material_file(o.file));
+    grain = wall = &file.material(o.name);
+    if (!o.on.empty()) wall = &file.material(o.on);
+  } else if (!o.on.empty()) {
+    throw_usage_error("--on", "names a material of a file: give the file and the grains' name");
+  }
+  const Elastic grains = {value_of(o.young, "--young", grain, "youngs_modulus"),
+                          value_of(o.poisson, "--poisson", grain, "poissons_ratio")};
+  const double density = value_of(o.density, "--density", grain, "density");
+  // A wall of which nothing is said is of the grains' material, as they are given.
+  const bool same = o.on.empty();
+  const Elastic walls = {same && std::isnan(o.wall_young)
+                             ? grains.youngs_modulus
+                             : value_of(o.wall_young, "--wall-young", wall, "youngs_modulus"),
+                         same && std::isnan(o.wall_poisson)
+                             ? grains.poissons_ratio
+                             : value_of(o.wall_poisson, "--wall-poisson", wall, "poissons_ratio")};
+
+  // The smallest are the fastest to react.
+  const double least = *std::min_element(o.radius.begin(), o.radius.end());
+  const double mass = density * 4 / 3 * M_PI * least * least * least;
+  const double own = contact_moduli(grains, grains).youngs,
+               at_wall = contact_moduli(grains, walls).youngs;
+  const double rayleigh =
+      rayleigh_time(least, density, grains.youngs_modulus, grains.poissons_ratio);
+  ContactLaw law = granular_law(NormalModel::hertz);
+  law.k_normal = at_wall * 4 / 3;
+  const double warned = contact_time(law, mass, least, 1) / kStepsPerContact;
+
+  std::printf("smallest radius    %.6g\n", least);
+  std::printf("Rayleigh time      %.4g    %g of it: %.4g\n", rayleigh, kRayleighShare,
+              kRayleighShare * rayleigh);
+  std::printf(
+      "impact             speed      time           overlap per radius   1/%g of the time\n",
+      kStepsPerImpact);
+  double dt = kRayleighShare * rayleigh;
+  const char *why = "the Rayleigh time";
+  const auto takes = [&](double other, const char *reason) {
+    if (other >= dt) return;
+    dt = other;
+    why = reason;
+  };
+  const Pair pairs[] = {
+      {"grain on grain", "the impact of grain on grain", own, mass / 2, least / 2, o.speed},
+      {"grain on wall", "the impact on the wall", at_wall, mass, least, o.speed + o.wall_speed}};
+  double deepest = 0;
+  for (const Pair &pair : pairs) {
+    takes(print_impact(pair, least), pair.reason);
+    const HertzImpact impact = hertz_impact(pair.modulus, pair.mass, pair.radius, pair.speed);
+    deepest = std::max(deepest, impact.overlap / least);
+  }
+  std::printf(
+      "the fix warns      above %.4g, a tenth of a contact with the wall at an overlap of 1 %%\n",
+      warned);
+  takes(warned, "the limit of the fix");
+  std::printf("\ntimestep           %.3g    set by %s\n", dt, why);
+  std::printf("way in a step      %.3g of the radius\n", (o.speed + o.wall_speed) * dt / least);
+  std::printf("hertz/history      kn %.6g on grains, %.6g on the wall (4/3 of E*)\n", own * 4 / 3,
+              at_wall * 4 / 3);
+  if (deepest > kDeep)
+    std::printf("Overlaps exceed %g of the radius: a stiffer material is needed at this speed.\n",
+                kDeep);
+}
+
+}    // namespace
+
+void add_timestep_command(Command &program)
+{
+  const auto o = std::make_shared<Options>();
+  Command command =
+      program.command("timestep", "the timestep that material, radius and speed ask for");
+  command.footer(
+      "The timestep is the smallest of\n"
+      "  0.2 of the Rayleigh time: a wave along the surface of the smallest grain,\n"
+      "      pi R sqrt(density / G) / (0.1631 nu + 0.8766), G = E / (2 (1 + nu))\n"
+      "      (Li, Xu and Thornton 2005)\n"
+      "  1/20 of the time of an impact, 2.943 overlap / speed, with\n"
+      "      overlap = (15 m v^2 / (16 E* sqrt(R)))^(2/5) (Hertz; Johnson 1985, chapter 11)\n"
+      "  1/10 of a contact with the wall at an overlap of 1 % of the radius: above it the fix "
+      "warns.\n"
+      "Two equal grains have effective mass m/2 and radius R/2; a grain and the wall have m and "
+      "R.\n"
+      "So the same impact takes longer at the wall, and goes deeper. A wall that is stiffer than\n"
+      "the grains, or moves towards them, shortens it. Damping does not change these times much.\n"
+      "A softer material (--young) allows a longer timestep, which goes with 1 / sqrt(E). "
+      "Overlaps\n"
+      "should stay below 0.05 of the radius. Units are those of the script; a file has SI "
+      "units.\n\n"
+      "Example:\n"
+      "  lsdcd timestep glass.lsdcd glass --on steel --radius 0.0009 0.0011 --speed 2");
+  command.option("file", o->file, "material file, looked for as in an input script");
+  command.option("name", o->name, "material of the grains");
+  command.option("--on", o->on, "material of the wall in the file (default: the grains')");
+  command.option("--radius", o->radius, "of the grains; the smallest counts")
+      .required()
+      .words(1, -1)
+      .check(above_zero);
+  command.option("--speed", o->speed, "of the fastest impact").required().check(above_zero);
+  command.option("--wall-speed", o->wall_speed, "of the fastest point of a wall that moves")
+      .check(not_below_zero)
+      .shows_default();
+  command.option("--young", o->young, "Young's modulus of the grains, in place of the file's")
+      .check(above_zero);
+  command.option("--poisson", o->poisson, "their Poisson's ratio").check(below_a_half);
+  command.option("--density", o->density, "their density").check(above_zero);
+  command.option("--wall-young", o->wall_young, "of the wall").check(above_zero);
+  command.option("--wall-poisson", o->wall_poisson, "of the wall").check(below_a_half);
+  command.runs([o] { run(*o); });
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""Every command of doc/tutorial.md, in its order; with `paraview`, the script that opens its result."""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+import deck
+
+ROOT = deck.HERE.parent.parent
+TUTORIAL = ROOT / "examples" / "tutorial"
+
+
+def run(command, folder):
+    return subprocess.run(command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          stdin=subprocess.DEVNULL, env=deck.environment())
+
+
+def commands(checks):
+    folder = deck.scratch()
+    (folder / "build").mkdir()
+    (folder / "build" / "bin").symlink_to(pathlib.Path(deck.LMP).parent)
+    (folder / "examples").symlink_to(ROOT / "examples")
+    blocks = re.findall(r"^```sh\n(.*?)^```", (ROOT / "doc" / "tutorial.md").read_text(), re.M | re.S)
+    done = run(["bash", "-ec", "set -o pipefail\n" + "".join(blocks)], folder)
+    checks.fact("every command ends well", done.returncode == 0, done.stdout[-1500:] if done.returncode else "")
+    text = done.stdout
+    checks.fact("the part is not clean", "clean       no: 2 duplicate facets, 6 edges" in text)
+    checks.fact("repair mends what the page says", all(
+        line in text for line in ("welded      12 corners", "dropped     0 degenerate facets, 2 duplicates",
+                                  "turned      3 facets", "left        96 open edges in 2 boundaries")))
+    allowed = float(re.search(r"^timestep +(\S+)", text, re.M)[1])
+    used = float(re.search(r"^timestep +(\S+)", (TUTORIAL / "in.hopper").read_text(), re.M)[1])
+    checks.fact("the script takes less than the timestep that is told", 0.5 * allowed < used <= allowed, f"{allowed}")
+    weight, borne = map(float, re.search(r"weight (\S+) N, .* bear (\S+) N", text).groups())
+    # What still moves of 3000 grains that fell: their mean acceleration is below a hundredth of gravity.
+    checks.at_most("wall and plate bear the weight", abs(borne / weight - 1), 0.01)
+    # Beverloo: 0.58 bulk_density sqrt(g) (D - 1.4 d)^2.5, bulk density 0.6 x 2500, D = 24 mm, d = 4 mm. For
+    # outlets of 6 diameters his constants vary by a third from one material to another.
+    beverloo = 0.58 * 1500 * 9.81**0.5 * (0.024 - 1.4 * 0.004) ** 2.5
+    flow = float(re.search(r"^flow: (\S+)", text, re.M)[1])
+    checks.at_most("the flow is like Beverloo's law", abs(flow / beverloo - 1), 1 / 3)
+    angles = [float(x) for x in re.findall(r"^\| 0\.\d+ \| (\S+) \|", text, re.M)]
+    checks.fact("rolling friction makes heaps steeper", len(angles) == 4 and angles == sorted(angles), str(angles))
+    checks.fact("plots and fields are there", all((folder / "build" / "tutorial" / name).exists()
+                                                for name in ("repose/repose.png", "hopper_70000.vtp")))
+    checks.done(folder)
+
+
+def paraview(checks):
+    missing = [name for name in ("pvpython", "xvfb-run") if not shutil.which(name)]
+    if missing:
+        print(f"skipped: {' and '.join(missing)} missing, install paraview, python3-paraview and xvfb")
+        sys.exit(77)
+    folder = deck.scratch()
+    run([sys.executable, TUTORIAL / "make_meshes.py"], folder)
+    shutil.copy(folder / "part.stl", folder / "hopper.stl")
+    done = run([deck.LMP, "-in", TUTORIAL / "in.hopper", "-var", "fill", "10000", "-var", "drain", "2"], folder)
+    checks.fact("the hopper runs", done.returncode == 0, done.stdout[-500:] if done.returncode else "")
+    done = run(["xvfb-run", "-a", "pvpython", TUTORIAL / "view.py"], folder)
+    checks.fact("paraview draws", done.returncode == 0 and (folder / "wall_stress.png").exists(), done.stdout[-500:])
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    (paraview if "paraview" in sys.argv else commands)(deck.Checks())
