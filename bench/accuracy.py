@@ -211,6 +211,8 @@ def formula_five(rows):
 def certificates(rows):
     cells = []
     for r in rows:
+        if r["lists"] not in ("complete", "1", "2", "4", "8"):
+            continue
         cells.append([r["mesh"], r["triangles"], r["lists"], short(r["length"]), count(r["spheres"]),
                       r["near"], f"{float(r['certified']):.7f}", f"{float(r['certified_of_near']):.6f}",
                       r["missed"], r["false"], r["wrong"],
@@ -318,7 +320,8 @@ CERTIFIED = """
 
 Uniform spheres in the box of five meshes, radii uniform in (0, 1], against coarse bins and
 another distance in double (`tests/unit/test_oracle_query.cpp`). An answer is wrong from
-1e-12 of the mesh's diagonal. {device}, commit {commit}; random order, one run.
+1e-12 of the mesh's diagonal. {device}, commit {commit}; random order, one run. **No certified answer was wrong.**
+N = 3, 5, 6 and 7 are in `doc/data/certificates.csv`.
 
 {table}
 

@@ -38,7 +38,7 @@ def parts(rows_of):
         return [count(r["triangles"]), r["device"].replace("CUDA, ", ""), count(r["spheres"]),
                 number(r["median_ms"]), f["ns_per_contact"],
                 f"{float(f['ns_per_contact']) / float(facts(first)['ns_per_contact']):.2f}",
-                number(anew["median_ms"]), number(f["build_ms"]), number(f["grid_mb"]), number(f["engine_mb"])]
+                number(anew["median_ms"] if anew else ""), number(f["build_ms"]), number(f["grid_mb"]), number(f["engine_mb"])]
 
     heads = ["triangles", "device", "spheres", "step, ms", "ns per contact",
              "over the smallest mesh", "with a new choice, ms", "weld and build, ms", "grid, MB",
