@@ -186,7 +186,7 @@ Written by `./run bench hard-cases` from the runs; do not edit.
 * CPU: commit {commit}, {cpu}.
 * CUDA: {cuda}.
 * A restart in mid-slide, and one against several MPI ranks (springs included, to the last
-  bit), are decks: `tests/lammps/test_restart.py` and `tests/lammps/test_ranks.py`.
+  bit), are input scripts: `tests/lammps/test_restart.py` and `tests/lammps/test_ranks.py`.
 """
 
 

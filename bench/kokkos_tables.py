@@ -77,6 +77,32 @@ def step_table(rows):
     return table(mine, heads, cells)
 
 
+def cost_table(on_cpu, on_gpu):
+    """What the wall adds to a step, in per cent: a line for each bed, its size and LAMMPS."""
+    rows = on_gpu + on_cpu
+    beds = {}
+    for r in walls(rows):
+        if facts(r)["ranks"] == "1":
+            beds.setdefault((r["device"], r["case"], r["triangles"], r["spheres"], facts(r)["host"]), {})[r["order"]] = r
+
+    def added(r, more=""):
+        with_wall = beside(rows, r, more) if r and more else r
+        if not with_wall or not with_wall["median_ms"]:
+            return ""
+        return f"{100 * (ratio_of(with_wall, beside(rows, r, NO_WALL)) - 1):.1f}"
+
+    def cells(bed):
+        orders, r = beds[bed], next(iter(beds[bed].values()))
+        share = f"{100 * int(facts(r)['touching']) / int(r['spheres']):.2g}"
+        return [r["device"], facts(r)["host"], r["case"], count(r["triangles"]), count(r["spheres"]), share,
+                *[added(orders.get(order)) for order in ("sorted", "random")],
+                *[added(orders.get("sorted"), ", " + style) for style in ("wall/gran", "wall/gran/kk")]]
+
+    heads = ["device", "LAMMPS", "bed", "triangles", "atoms", "at the wall, %", "wall/lsdcd adds, %, sorted", "random",
+             "wall/gran, %, sorted", "wall/gran/kk, %, sorted"]
+    return table(sorted(beds, key=lambda bed: (bed[0], bed[4], bed[1], int(bed[3]))), heads, cells)
+
+
 def other(rows, row, style):
     r = beside(rows, row, ", " + style)
     if not r:
@@ -142,7 +168,8 @@ def machines(rows):
 
 def parts(on_cpu, on_gpu):
     """The generated parts of the document, with their markers."""
-    text = {"kokkos-cuda": step_table(on_gpu) + "\n\n" + machines(on_gpu),
+    text = {"cost": cost_table(on_cpu, on_gpu),
+            "kokkos-cuda": step_table(on_gpu) + "\n\n" + machines(on_gpu),
             "kokkos-cpu": step_table(on_cpu) + "\n\n" + machines(on_cpu),
             "kokkos-scaling": scaling_table(on_gpu), "kokkos-copies": copies_table(on_gpu + on_cpu)}
     return performance.between_markers(text)

@@ -295,17 +295,19 @@ def parts(rows):
 
     def cells(r):
         case = r["case"].rsplit(", ", 1)[0]
-        ours, theirs = r, find(case, "LIGGGHTS", r)
-        f, g = facts(ours), facts(theirs)
-        ratio = f"{float(theirs['median_ms']) / float(ours['median_ms']):.2f}" if theirs else ""
-        return [count(r["triangles"]), CASES[case], r["order"], count(f["touching"]), performance.ms(ours),
-                performance.ms(theirs), ratio, f["setup_s"], g.get("setup_s", ""), number(f["memory_mb"]),
-                number(g.get("memory_mb", "")), f["force_ratio"]]
+        theirs = find(case, "LIGGGHTS", r)
+        f, g = facts(r), facts(theirs)
+        random = dict(r, order="random")
+        ratios = [f"{float(b['median_ms']) / float(a['median_ms']):.1f}" if a and b else ""
+                  for a, b in ((r, theirs), (find(case, "lsdcd", random), find(case, "LIGGGHTS", random)))]
+        return [CASES[case], count(r["triangles"]), number(r["median_ms"]),
+                number(theirs["median_ms"] if theirs else ""), *ratios, f["setup_s"], g.get("setup_s", ""),
+                number(f["memory_mb"]), number(g.get("memory_mb", ""))]
 
-    heads = ["triangles", "spheres", "order", "touching", "wall/lsdcd, ms", "LIGGGHTS, ms",
-             "LIGGGHTS / wall/lsdcd", "set-up, s", "LIGGGHTS, s", "memory, MB", "LIGGGHTS, MB",
-             "sum of forces, ours / theirs"]
-    mine = [r for r in rows if r["case"].endswith(", lsdcd")]
+    heads = ["spheres", "triangles", "wall/lsdcd, ms", "LIGGGHTS, ms", "LIGGGHTS / wall/lsdcd", "the same, random order",
+             "set-up, s", "LIGGGHTS, s", "memory, MB", "LIGGGHTS, MB"]
+    mine = sorted((r for r in rows if r["case"].endswith(", lsdcd") and r["order"] == "sorted"),
+                  key=lambda r: (list(CASES).index(r["case"].rsplit(", ", 1)[0]), int(r["triangles"])))
     return performance.between_markers({"liggghts": table(mine, heads, cells) + "\n\n" + decks.machines(rows)})
 
 

@@ -18,7 +18,8 @@ from performance_plots import plot_build, plot_query
 DOCUMENT = os.path.join(ROOT, "doc", "performance.md")
 NOTES = os.path.join(ROOT, "doc", "notes", "performance.md")
 LIBRARY = os.path.join(ROOT, "doc", "library.md")
-ELSEWHERE = {"kokkos-cpu": NOTES, "kokkos-copies": NOTES, "point-costs": LIBRARY}
+ELSEWHERE = {**dict.fromkeys(["kokkos-cpu", "kokkos-cuda", "kokkos-copies", "status", "distance", "build", "step",
+                              "in_place", "cache"], NOTES), "point-costs": LIBRARY}
 DATA = os.path.join(ROOT, "doc", "data")
 DEVICES = ("cpu", "cuda")
 PROGRAMS = ("query", "build", "step", "cache")
@@ -218,9 +219,7 @@ def near_and_far_tables(cpu):
     def ns(row):
         if not row:
             return ""
-        median, least, most = (number(float(row[k]) * 1e6 / float(row["spheres"]))
-                               for k in ("median_ms", "min_ms", "max_ms"))
-        return f"{median} ({least} to {most})"
+        return number(float(row["median_ms"]) * 1e6 / float(row["spheres"]))
 
     def cells(r):
         embree = of_way(r, "Embree")

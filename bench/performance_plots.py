@@ -45,26 +45,34 @@ def curve(rows, program, case, order=""):
 
 
 def plot_query(cpu, cuda):
-    figure, axis = axes()
-    for device, rows in (("cpu", cpu), ("cuda", cuda)):
-        names = dict.fromkeys(r["device"] for r in rows if r["case"] == "distance, complete, float")
-        for k, name in enumerate(names):    # a curve a machine
-            its = [r for r in rows if r["device"] == name]
-            colour = COLOURS[device] if k == 0 else f"C{4 + k}"
-            for order, style in (("random", "o-"), ("sorted", "s--")):
-                points = [(x, float(r["median_ms"]) * 1e6 / float(r["spheres"]),
-                           float(r["floor_ms"]) * 1e6 / float(r["spheres"]))
-                          for x, r in curve(its, "query", "distance, complete, float", order)]
-                if not points:
-                    continue
-                x, y, floor = zip(*points)
-                axis.plot(x, y, style, color=colour, label=f"{label(its)}, {order}")
-                if order == "random":
-                    axis.plot(x, floor, ":" if len(x) > 1 else "_", color=colour,
-                              label=f"{label(its)}, bytes at copy speed")
-    axis.set_ylabel("time per sphere, ns")
-    axis.set_title("Distance to the wall up to 1 sphere radius, in float;\n7 % of the spheres are that near")
-    save(figure, axis, "performance_query.png")
+    """Time of a distance by the size of the mesh: a panel for each processor."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    case = "distance, complete, float"
+    machines = [[r for r in rows if r["device"] == name] for rows in (cpu, cuda)
+                for name in dict.fromkeys(r["device"] for r in rows if r["case"] == case)]
+    # One mesh is a point and no curve: such a machine has no panel.
+    machines = [its for its in machines if len(curve(its, "query", case, "random")) > 1]
+    figure, panels = plt.subplots(1, len(machines), figsize=(5.2 * len(machines), 4.8), squeeze=False)
+    for axis, its in zip(panels[0], machines):
+        for order, style, colour in (("random", "o-", "#0072B2"), ("sorted", "s--", "#D55E00")):
+            points = [(x, float(r["median_ms"]) * 1e6 / float(r["spheres"]),
+                       float(r["floor_ms"]) * 1e6 / float(r["spheres"]))
+                      for x, r in curve(its, "query", case, order)]
+            x, y, floor = zip(*points)
+            axis.plot(x, y, style, color=colour, label=f"{order} order")
+        axis.plot(x, floor, ":", color="black", label="bytes at copy speed")
+        axis.set(xscale="log", yscale="log", xlabel="number of triangles", ylabel="time per sphere, ns")
+        axis.set_title(label(its), fontsize=12)
+        axis.grid(True, which="major", alpha=0.3)
+        for item in (axis.xaxis.label, axis.yaxis.label):
+            item.set_fontsize(12)
+    figure.suptitle("Distance to the wall up to 1 radius, in float; 7 % of the spheres are that near", fontsize=12)
+    figure.legend(*panels[0][0].get_legend_handles_labels(), loc="lower center", ncol=3, fontsize=12)
+    figure.tight_layout(rect=(0, 0.08, 1, 1))
+    write_image(figure, "performance_query.png")
 
 
 def plot_build(cpu, cuda):
