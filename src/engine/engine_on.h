@@ -142,8 +142,11 @@ class EngineOn : public InPlaceEngine {
   void grow(int n) override { springs_.grow(b_, n); }
   int *first_spring() override { return springs_.first(); }
   int *n_springs() override { return springs_.count(); }
-  void springs_to(SpringStore &store, int n) override { springs_.to_store(b_, store, n); }
-  void springs_from(const SpringStore &store, int n) override { springs_.from_store(b_, store, n); }
+  void springs_to(ContactHistory &store, int n) override { springs_.to_store(b_, store, n); }
+  void springs_from(const ContactHistory &store, int n) override
+  {
+    springs_.from_store(b_, store, n);
+  }
   int largest_packed_size(int n) override { return springs_.largest_packed_size(b_, n); }
   int most_packed_size() const override { return springs_.most_packed_size(); }
   int pack(int n, const int *which, const int *from, double *buffer) override

@@ -185,13 +185,13 @@ class HostAdapter : public WallEngine {
     return diagnostics;
   }
 
-  void springs_to(SpringStore &store, int n) override
+  void springs_to(ContactHistory &store, int n) override
   {
     springs_to_waiting();
     waiting_.grow(n);
     store = waiting_;
   }
-  void springs_from(const SpringStore &store, int /*n*/) override
+  void springs_from(const ContactHistory &store, int /*n*/) override
   {
     waiting_ = store;
     are_waiting_ = true;
@@ -325,7 +325,7 @@ class HostAdapter : public WallEngine {
   {
     if (!are_waiting_) spread(was, n_spheres);
     waiting_.grow(n_spheres);
-    SpringStore near(traits_.n_extra);
+    ContactHistory near(traits_.n_extra);
     near.grow(n_near());
     for (int k = 0; k < n_near(); k++) {
       const int i = near_host_[k];
@@ -345,9 +345,9 @@ class HostAdapter : public WallEngine {
   // What the engine has, by the indices of the host.
   void spread(const std::vector<int> &near, int n_spheres)
   {
-    SpringStore packed(traits_.n_extra);
+    ContactHistory packed(traits_.n_extra);
     engine_.springs_to(packed, static_cast<int>(near.size()));
-    waiting_ = SpringStore(traits_.n_extra);
+    waiting_ = ContactHistory(traits_.n_extra);
     if (!near.empty()) waiting_.grow(near.back() + 1);
     waiting_.grow(n_spheres);
     for (std::size_t k = 0; k < near.size(); k++)
@@ -372,7 +372,7 @@ class HostAdapter : public WallEngine {
   Mirror<int> n_contacts_;    // the host's half only
   Spheres host_;              // of the step that runs
 
-  SpringStore waiting_;    // springs by the host's indices, while they are not with the engine
+  ContactHistory waiting_;    // springs by the host's indices, while they are not with the engine
   bool are_waiting_ = true;
 
   StepDiagnostics diagnostics_;    // since the host looked

@@ -14,7 +14,7 @@ std::unique_ptr<InPlaceEngine> make_cuda_engine_in_place(const EngineSettings &,
 #endif
 
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
-               SpringStore *springs)
+               ContactHistory *springs)
 {
   if (springs) engine.springs_from(*springs, spheres.n);
   engine.choose(spheres, 0);

@@ -2,7 +2,7 @@
 // writes the other.
 #pragma once
 
-#include "contact/spring_store.h"
+#include "contact/contact_history.h"
 #include "engine/step/compiled_law.h"
 
 #include <algorithm>
@@ -133,7 +133,7 @@ class ResidentSprings {
     return pool_[moved ? now_ : 1 - now_].records.data();
   }
 
-  void to_store(B &b, SpringStore &store, std::size_t n)
+  void to_store(B &b, ContactHistory &store, std::size_t n)
   {
     if (!traits_.history) return;
     grow(b, n);
@@ -158,7 +158,7 @@ class ResidentSprings {
                  to_host(b, extra, total * n_extra));
   }
 
-  void from_store(B &b, const SpringStore &store, std::size_t n)
+  void from_store(B &b, const ContactHistory &store, std::size_t n)
   {
     if (!traits_.history) return;
     grow(b, n);

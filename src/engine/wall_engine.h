@@ -4,7 +4,7 @@
 #include "backend/cuda_available.h"
 #include "base/strided_view.h"
 #include "base/vec3.h"
-#include "contact/spring_store.h"
+#include "contact/contact_history.h"
 #include "grid/triangle_grid.h"
 #include "law/contact_law.h"
 #include "law/wear.h"
@@ -181,8 +181,8 @@ class WallEngine {
   virtual StepDiagnostics read_diagnostics() = 0;
 
   // Springs of the spheres [0, n).
-  virtual void springs_to(SpringStore &store, int n) = 0;
-  virtual void springs_from(const SpringStore &store, int n) = 0;
+  virtual void springs_to(ContactHistory &store, int n) = 0;
+  virtual void springs_from(const ContactHistory &store, int n) = 0;
 
   // Near spheres of the last choice; bytes held by the engine.
   virtual int n_near() const = 0;
@@ -226,7 +226,7 @@ class InPlaceEngine : public WallEngine {
 // One step of a host that keeps the springs itself, from a choice of its own; `springs` may be null
 // where the law has no history.
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
-               SpringStore *springs);
+               ContactHistory *springs);
 
 // Are there forces in float? There are for the classic styles with nothing
 // beside them, on walls that only bear.

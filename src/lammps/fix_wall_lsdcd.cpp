@@ -67,7 +67,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
     settings.law.cohesion.numbers[0] /= force->nktv2p;    // sjkr's; a pressure
     run_clock = {update->atime + (update->ntimestep - update->atimestep) * update->dt,
                  update->ntimestep, update->ntimestep, update->dt};
-    history = std::make_unique<lsdcd::ContactHistory>(host, settings);
+    history = std::make_unique<lsdcd::HistoryExchange>(host, settings);
     totals = std::make_unique<lsdcd::StepTotals>(host, settings);
     for (std::size_t k = 0; k < settings.meshes.size(); k++) {
       MeshPart &m = parts.emplace_back(world, host, settings, static_cast<int>(k), step_now());

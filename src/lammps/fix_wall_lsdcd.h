@@ -9,7 +9,7 @@
 #include "lammps/mesh_part.h"
 #include "lammps/rerun_watch.h"
 #include "wall/choice_schedule.h"
-#include "wall/contact_history.h"
+#include "wall/history_exchange.h"
 #include "wall/overlap_monitor.h"
 #include "wall/search_report.h"
 #include "wall/step_totals.h"
@@ -82,7 +82,7 @@ class FixWallLsdcd : public Fix {
   std::deque<MeshPart> parts;      // where each stays; there is one at least
   EngineMaker *const new_engine;
   std::unique_ptr<lsdcd::WallEngine> engine;
-  std::unique_ptr<lsdcd::ContactHistory> history;
+  std::unique_ptr<lsdcd::HistoryExchange> history;
   bool records = false;
   std::unique_ptr<lsdcd::LoadRecorder> loads;
   std::unique_ptr<lsdcd::WallFiles> wall_files;
@@ -156,7 +156,7 @@ class FixWallLsdcd : public Fix {
   lsdcd::StepDiagnostics read_notes();
   void poll_diagnostics();
   void check_new_spheres();
-  lsdcd::SpringStore &springs_on_host();
+  lsdcd::ContactHistory &springs_on_host();
   lsdcd::FeatureCode without_image(int, lsdcd::FeatureCode) const;    // of a mesh
   void prepare_springs();
   void fill_contacts();

@@ -11,7 +11,7 @@
 
 using namespace LAMMPS_NS;
 
-lsdcd::SpringStore &FixWallLsdcd::springs_on_host()
+lsdcd::ContactHistory &FixWallLsdcd::springs_on_host()
 {
   return history->on_host(atom->nmax);
 }

@@ -140,7 +140,7 @@ class Motion {
   const DriftStarts &starts_;
   const GridView wall_;
   int n_;
-  SpringStore springs_;
+  ContactHistory springs_;
   Real dt_;
   std::vector<Real> x_, v_, omega_, force_, torque_, radius_, mass_;
   std::vector<int> mask_;

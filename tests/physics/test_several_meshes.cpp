@@ -362,7 +362,7 @@ struct Crossing {
       force.insert(force.end(), now.begin(), now.end());
       for (int c = 0; c < 3 * kSpheres; c++) x[c] += kStep * v[c];
     }
-    SpringStore springs;
+    ContactHistory springs;
     engine.springs_to(springs, kSpheres);
     for (int i = 0; i < kSpheres; i++) joint += springs.count(i) > 1;
   }

@@ -175,7 +175,7 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
     mass.push_back(1 + unit(random));
     temperature.push_back(300 + speed(random));
   }
-  SpringStore springs(law.n_extra());
+  ContactHistory springs(law.n_extra());
   springs.grow(n_spheres);
   Spheres s;
   s.n = n_spheres;

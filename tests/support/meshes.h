@@ -80,7 +80,7 @@ class Scene {
 
   WallMesh mesh;
   TriangleGrid grid;
-  SpringStore springs;
+  ContactHistory springs;
   std::unique_ptr<WallEngine> engine;
   Real wall_temperature = 0, sphere_temperature = 0;    // where the law has heat
 

@@ -60,8 +60,11 @@ class InPlaceForHost : public WallEngine {
   }
 
   StepDiagnostics read_diagnostics() override { return engine_->read_diagnostics(); }
-  void springs_to(SpringStore &store, int n) override { engine_->springs_to(store, n); }
-  void springs_from(const SpringStore &store, int n) override { engine_->springs_from(store, n); }
+  void springs_to(ContactHistory &store, int n) override { engine_->springs_to(store, n); }
+  void springs_from(const ContactHistory &store, int n) override
+  {
+    engine_->springs_from(store, n);
+  }
   const WallTotals &totals() const override { return engine_->totals(); }
   WallTotals mesh_totals(int mesh) const override { return engine_->mesh_totals(mesh); }
   int n_touching() const override { return engine_->n_touching(); }

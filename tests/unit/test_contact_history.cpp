@@ -1,134 +1,214 @@
-// What contacts keep: moved to an engine and back, written to restart files and read from them.
-#include "support/fake_host.h"
-#include "wall/contact_history.h"
+#include "contact/contact_history.h"
+#include "law/contact_law.h"
 
 #include <gtest/gtest.h>
 
-#include <memory>
+#include <cmath>
+#include <limits>
+#include <set>
 #include <vector>
 
 namespace lsdcd {
 namespace {
 
-constexpr FeatureCode kFace = 5, kImage = 9;
-
-// One mesh; contacts keep a shear displacement, or nothing.
-WallSettings wall(bool keeps = true)
+Spring spring(Real seed, FeatureCode feature)
 {
-  WallSettings settings;
-  settings.meshes.resize(1);
-  settings.law = classic_law(NormalModel::hooke, keeps);
-  return settings;
+  return {{seed, -seed / 3, seed * 1e-12}, {0.6, 0, 0.8}, feature, 0};
 }
 
-// History of two spheres on a process: sphere 1 has one contact with this feature.
-void give_spring(ContactHistory &history, FeatureCode feature)
+bool same(const Spring &a, const Spring &b)
 {
-  SpringStore &store = history.on_host(2);
+  return a.shear == b.shear && a.normal == b.normal && a.feature == b.feature;
+}
+
+void expect_springs(const ContactHistory &store, int i, const std::vector<Spring> &expected)
+{
+  ASSERT_EQ(store.count(i), static_cast<int>(expected.size()));
+  for (int k = 0; k < store.count(i); k++) EXPECT_TRUE(same(store.of(i)[k], expected[k]));
+}
+
+const std::vector<Spring> kTwo = {spring(0.1, 7), spring(-2, feature_code(FeatureKind::edge, 3))};
+const std::vector<Spring> kThree = {spring(1, 1), spring(2, 2), spring(3, 3)};
+
+TEST(contact_history, new_spheres_have_none)
+{
+  ContactHistory store;
+  store.grow(5);
+  for (int i = 0; i < 5; i++) EXPECT_EQ(store.count(i), 0);
+}
+
+TEST(contact_history, growing_keeps_what_is_there)
+{
+  ContactHistory store;
   store.grow(2);
-  const Spring one = {{0.25, -0.5, 0}, {0, 0, 1}, feature, 0};
-  store.set(1, &one, nullptr, 1);
+  store.set(1, kTwo.data(), nullptr, 2);
+  store.grow(1000);
+  expect_springs(store, 1, kTwo);
+  EXPECT_EQ(store.count(999), 0);
+  store.grow(3);    // never shrinks
+  expect_springs(store, 1, kTwo);
 }
 
-FeatureCode without_image(int /*mesh*/, FeatureCode feature)
+TEST(contact_history, pack_and_unpack_are_a_round_trip)
 {
-  return feature == kImage ? kFace : feature;
+  ContactHistory from, to;
+  from.grow(3);
+  to.grow(9);
+  from.set(0, kTwo.data(), nullptr, 2);
+  from.set(2, kThree.data(), nullptr, 3);
+  std::vector<double> buffer(100, -7);
+  int n = from.pack(0, buffer.data());
+  EXPECT_EQ(n, from.packed_size(0));
+  n += from.pack(1, buffer.data() + n);
+  n += from.pack(2, buffer.data() + n);
+  EXPECT_EQ(n, 3 + 5 * ContactHistory().doubles_per_spring());
+  EXPECT_EQ(buffer[n], -7);
+  int m = to.unpack(8, buffer.data());
+  m += to.unpack(4, buffer.data() + m);
+  m += to.unpack(0, buffer.data() + m);
+  EXPECT_EQ(m, n);
+  expect_springs(to, 8, kTwo);
+  expect_springs(to, 4, {});
+  expect_springs(to, 0, kThree);
 }
 
-bool is_face(const Spring &s)
+TEST(contact_history, packs_every_feature_code_exactly)
 {
-  return s.feature == kFace;
+  ContactHistory from, to;
+  from.grow(1);
+  to.grow(1);
+  for (FeatureKind kind : {FeatureKind::face, FeatureKind::edge, FeatureKind::vertex})
+    for (std::uint32_t i : {0u, 1u, 0x3ffffffeu, kFeatureIndexMask}) {
+      const Spring s = spring(1, feature_code(kind, i));
+      from.set(0, &s, nullptr, 1);
+      std::vector<double> buffer(from.packed_size(0));
+      from.pack(0, buffer.data());
+      to.unpack(0, buffer.data());
+      EXPECT_EQ(to.of(0)->feature, s.feature);
+      EXPECT_EQ(feature_kind(to.of(0)->feature), kind);
+      EXPECT_EQ(feature_index(to.of(0)->feature), i);
+    }
 }
 
-TEST(ContactHistory, comes_back_from_the_engine_as_it_went)
+TEST(contact_history, packs_the_last_bit_of_a_stretch)
 {
-  FakeHost host;
-  const WallSettings settings = wall();
-  ContactHistory history(host, settings);
-  EngineSettings of_engine;
-  of_engine.law = settings.law;
-  of_engine.device = Device::cpu;
-  const std::unique_ptr<WallEngine> engine = make_engine(of_engine);
-  history.set_engine(*engine);
-  give_spring(history, kFace);
-  history.to_engine(2);
-  EXPECT_TRUE(history.is_with_engine());
-  const SpringStore &back = history.on_host(3);
-  EXPECT_FALSE(history.is_with_engine());
-  EXPECT_EQ(back.count(0), 0);
-  ASSERT_EQ(back.count(1), 1);
-  EXPECT_EQ(back.of(1)->shear, (Vec3{0.25, -0.5, 0}));
-  EXPECT_EQ(back.count(2), 0);    // room for a third sphere
+  ContactHistory from, to;
+  from.grow(1);
+  to.grow(1);
+  const Real tiny = std::numeric_limits<Real>::denorm_min();
+  const Spring s = {{std::nextafter(1.0, 2.0), -tiny, -0.0}, {1, 0, 0}, 5, 0};
+  from.set(0, &s, nullptr, 1);
+  std::vector<double> buffer(from.packed_size(0));
+  from.pack(0, buffer.data());
+  to.unpack(0, buffer.data());
+  EXPECT_EQ(to.of(0)->shear.x, std::nextafter(1.0, 2.0));
+  EXPECT_EQ(to.of(0)->shear.y, -tiny);
+  EXPECT_TRUE(std::signbit(to.of(0)->shear.z));
 }
 
-TEST(ContactHistory, of_a_law_that_keeps_nothing_stays_where_it_is)
+TEST(contact_history, copy_gives_a_sphere_the_springs_of_another)
 {
-  FakeHost host;
-  const WallSettings settings = wall(false);
-  ContactHistory history(host, settings);
-  history.to_engine(2);    // there is no engine
-  EXPECT_FALSE(history.is_with_engine());
-  EXPECT_EQ(history.max_packed_size(), 0);
+  ContactHistory store;
+  store.grow(3);
+  store.set(0, kTwo.data(), nullptr, 2);
+  store.set(2, kThree.data(), nullptr, 3);
+  store.copy(2, 0);
+  expect_springs(store, 0, kThree);
+  store.copy(1, 2);    // a sphere without any
+  expect_springs(store, 2, {});
+  expect_springs(store, 0, kThree);
 }
 
-TEST(ContactHistory, of_an_image_is_written_as_of_what_it_is_an_image_of)
+TEST(contact_history, unpacking_into_a_sphere_leaves_its_copies_alone)
 {
-  FakeHost host;
-  const WallSettings settings = wall();
-  ContactHistory written(host, settings), read(host, settings);
-  give_spring(written, kImage);
-  std::vector<double> buffer(written.max_packed_size());
-  const int size = written.pack_restart(1, buffer.data(), without_image);
-  read.set_kind_of_file(settings.law.history_kind());
-  read.on_host(2).grow(2);
-  read.unpack_restart(1, buffer.data(), size);
-  ASSERT_EQ(read.on_host(2).count(1), 1);
-  EXPECT_EQ(read.on_host(2).of(1)->feature, kFace);
-  EXPECT_EQ(written.on_host(2).of(1)->feature, kImage);    // is as it was
+  ContactHistory store;
+  store.grow(3);
+  store.set(0, kTwo.data(), nullptr, 2);
+  store.copy(0, 1);
+  std::vector<double> buffer(100);
+  store.set(2, kThree.data(), nullptr, 3);
+  store.pack(2, buffer.data());
+  store.unpack(0, buffer.data());
+  expect_springs(store, 0, kThree);
+  expect_springs(store, 1, kTwo);
 }
 
-TEST(ContactHistory, of_another_law_is_not_taken_and_told_once)
+TEST(contact_history, clear_takes_the_springs_of_one_sphere)
 {
-  on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall();
-    ContactHistory written(host, settings), read(host, settings);
-    give_spring(written, kFace);
-    std::vector<double> buffer(written.max_packed_size());
-    const int size = written.pack_restart(1, buffer.data(), without_image);
-    read.set_kind_of_file(settings.law.history_kind() + 1);
-    read.on_host(2).grow(2);
-    read.unpack_restart(1, buffer.data(), size);
-    EXPECT_EQ(read.on_host(2).count(1), 0);
-    read.check_restored(2, is_face);
-    ASSERT_EQ(host.warnings.size(), 1u);
-    EXPECT_EQ(host.warnings[0],
-              "2 atoms lose their springs: the restart file was written with another contact law");
-  });
+  ContactHistory store;
+  store.grow(2);
+  store.set(0, kTwo.data(), nullptr, 2);
+  store.set(1, kThree.data(), nullptr, 3);
+  store.clear(0);
+  expect_springs(store, 0, {});
+  expect_springs(store, 1, kThree);
 }
 
-TEST(ContactHistory, of_features_that_are_not_there_is_dropped_and_told)
+TEST(contact_history, knows_the_largest_packed_size)
 {
-  on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall();
-    ContactHistory history(host, settings);
-    give_spring(history, host.rank() == 0 ? kFace : kImage);
-    history.check_restored(2, is_face);
-    EXPECT_TRUE(history.is_checked());
-    EXPECT_EQ(history.on_host(2).count(1), host.rank() == 0 ? 1 : 0);
-    ASSERT_EQ(host.warnings.size(), 1u);
-    EXPECT_EQ(host.warnings[0],
-              "1 atoms lose their springs: the restart file was written with another mesh");
-  });
+  ContactHistory store;
+  store.grow(4);
+  EXPECT_EQ(store.largest_packed_size(), 1);
+  store.set(0, kTwo.data(), nullptr, 2);
+  store.set(3, kThree.data(), nullptr, 3);
+  EXPECT_EQ(store.largest_packed_size(), 1 + 3 * ContactHistory().doubles_per_spring());
 }
 
-TEST(ContactHistory, follows_features_that_get_other_names)
+// ---- numbers beside the springs ------------------------------------------------------
+
+const std::vector<Real> kExtra = {1, -2, 3.5, 4, 5, -6e-300};    // two for each of three
+
+void expect_extra(const ContactHistory &store, int i, const std::vector<Real> &expected)
 {
-  FakeHost host;
-  const WallSettings settings = wall();
-  ContactHistory history(host, settings);
-  give_spring(history, kImage);
-  history.rename_features(without_image);
-  EXPECT_EQ(history.on_host(2).of(1)->feature, kFace);
+  ASSERT_EQ(store.count(i) * store.n_extra(), static_cast<int>(expected.size()));
+  for (std::size_t k = 0; k < expected.size(); k++) EXPECT_EQ(store.extra_of(i)[k], expected[k]);
+}
+
+TEST(contact_history, extra_numbers_go_wherever_their_springs_go)
+{
+  ContactHistory from(2), to(2);
+  from.grow(3);
+  to.grow(3);
+  from.set(1, kTwo.data(), kExtra.data() + 2, 2);
+  from.set(2, kThree.data(), kExtra.data(), 3);
+  from.copy(2, 0);
+  expect_extra(from, 0, kExtra);
+  expect_extra(from, 1, {kExtra.begin() + 2, kExtra.end()});
+  std::vector<double> buffer(100, -7);
+  EXPECT_EQ(from.pack(2, buffer.data()), 1 + 3 * 9);
+  EXPECT_EQ(buffer[1 + 3 * 9], -7);
+  EXPECT_EQ(to.unpack(0, buffer.data()), 1 + 3 * 9);
+  expect_springs(to, 0, kThree);
+  expect_extra(to, 0, kExtra);
+  EXPECT_EQ(from.largest_packed_size(), 1 + 3 * 9);
+}
+
+// As many numbers as each other, and of another meaning.
+TEST(history_kind, differs_where_the_numbers_are_not_the_same)
+{
+  std::vector<ContactLaw> laws(9, granular_law(NormalModel::hooke));
+  laws[0] = classic_law(NormalModel::hooke, true);
+  laws[1] = classic_law(NormalModel::hooke, false);
+  laws[1].rolling = RollingModel::epsd2;
+  laws[2].tangential = TangentialModel::mindlin_force;
+  laws[3].tangential = TangentialModel::mindlin_rescale;
+  laws[4].tangential = TangentialModel::mindlin_rescale_force;
+  laws[5].rolling = RollingModel::sds;
+  laws[6].twisting = TwistingModel::marshall;
+  laws[7].twisting = TwistingModel::sds;
+  laws[8].normal = NormalModel::jkr;
+  std::set<int> seen;
+  for (const ContactLaw &law : laws) EXPECT_TRUE(seen.insert(law.history_kind()).second);
+}
+
+TEST(history_kind, is_the_same_for_displacements_of_all_laws)
+{
+  const ContactLaw hertz = classic_law(NormalModel::hertz, true);
+  ContactLaw linear = granular_law(NormalModel::hooke), mindlin = linear;
+  linear.tangential = TangentialModel::linear_history;
+  mindlin.tangential = TangentialModel::mindlin;
+  EXPECT_EQ(hertz.history_kind(), linear.history_kind());
+  EXPECT_EQ(hertz.history_kind(), mindlin.history_kind());
 }
 
 }    // namespace

@@ -1,6 +1,6 @@
 // Engines for particles in place, in other layouts and behind an adapter against the CPU's: one
 // source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches.
-#include "contact/spring_store.h"
+#include "contact/contact_history.h"
 #include "effects/effects.h"
 #include "engine/step/compile_law.h"
 #include "engine/host_adapter.h"
@@ -274,9 +274,9 @@ class Particles {
   void set_force(const std::vector<Real> &to) { force_.put(to); }
   std::vector<Real> force() { return force_.get(3 * n_); }
   std::vector<Real> torque() { return torque_.get(3 * n_); }
-  SpringStore springs()
+  ContactHistory springs()
   {
-    SpringStore store;
+    ContactHistory store;
     engine->springs_to(store, n_);
     return store;
   }
@@ -298,9 +298,9 @@ EngineSettings with_history()
   return s;
 }
 
-bool same_springs(const SpringStore &a, int i, const SpringStore &b, int j)
+bool same_springs(const ContactHistory &a, int i, const ContactHistory &b, int j)
 {
-  const auto of = [](const SpringStore &store, int k) {
+  const auto of = [](const ContactHistory &store, int k) {
     return std::vector<Spring>(store.of(k), store.of(k) + store.count(k));
   };
   return same_bytes(of(a, i), of(b, j));
@@ -354,7 +354,7 @@ TEST(engine, a_list_that_is_kept_gives_the_same_bits)
     differs = differs || !same_bytes(kept.force(), anew.force());
   }
   EXPECT_FALSE(differs);
-  const SpringStore a = kept.springs(), b = anew.springs();
+  const ContactHistory a = kept.springs(), b = anew.springs();
   int with = 0, same = 0;
   for (int i = 0; i < n; i++) {
     with += a.count(i) > 0;
@@ -457,7 +457,7 @@ TEST(engine, springs_follow_through_pack_and_unpack)
   for (int k = 0; k < 5; k++) {
     from.step(0.01, Particles::Choice::now);
   }
-  const SpringStore before = from.springs();
+  const ContactHistory before = from.springs();
   // The last 500 fill the places of every third of the first 1500, which leave.
   std::vector<int> which, copies, back;
   for (int i = 0; i < stay; i += 3) {
@@ -474,7 +474,7 @@ TEST(engine, springs_follow_through_pack_and_unpack)
       from.engine->pack(moved, d_which.put(which), d_copies.put(copies), buffer.data());
   EXPECT_LE(size, moved * (1 + from.engine->largest_packed_size(n)));
 
-  const SpringStore left = from.springs();
+  const ContactHistory left = from.springs();
   int same = 0, carried = 0;
   for (int k = 0; k < moved; k++) same += same_springs(left, which[k], before, copies[k]);
   EXPECT_EQ(same, moved);
@@ -494,9 +494,9 @@ TEST(engine, springs_follow_through_pack_and_unpack)
   DeviceArray<double> d_both(cuda);
   d_both.put(both);
   to.step(0.01, Particles::Choice::now);
-  const SpringStore own = to.springs();
+  const ContactHistory own = to.springs();
   to.engine->unpack(2 * moved, d_back.put(places), d_both.data(), moved, size);
-  const SpringStore after = to.springs();
+  const ContactHistory after = to.springs();
   int arrived = 0;
   for (int k = 0; k < moved; k++) {
     if (back[k] < 0) continue;
@@ -566,11 +566,11 @@ TEST(engine, springs_that_are_taken_over_are_all_that_there_are)
   const int n = 2000, few = 10;
   Particles p(with_history(), n, 0.5);
   for (int k = 0; k < 5; k++) p.step(0.01, Particles::Choice::now);
-  const SpringStore before = p.springs();
-  SpringStore store;
+  const ContactHistory before = p.springs();
+  ContactHistory store;
   store.grow(few);
   p.engine->springs_from(store, few);
-  const SpringStore after = p.springs();
+  const ContactHistory after = p.springs();
   int had = 0, have = 0;
   for (int i = few; i < n; i++) {
     had += before.count(i);
@@ -958,7 +958,7 @@ TEST(engine, packs_a_sphere_into_no_more_than_any_sphere_can_have)
   all.engine->start(all.spheres, all.step);
   all.engine->collect();
   const int largest = all.engine->largest_packed_size(all.n);
-  EXPECT_EQ(largest, 1 + kAllRound * SpringStore().doubles_per_spring());
+  EXPECT_EQ(largest, 1 + kAllRound * ContactHistory().doubles_per_spring());
   EXPECT_LE(largest, all.engine->most_packed_size());
 }
 

@@ -60,7 +60,7 @@ class Pair {
   // The shear of sphere i's one contact, 0 where it has none, by the engine and by the adapter.
   Real shear(int engine, int i)
   {
-    SpringStore store;
+    ContactHistory store;
     both()[engine]->springs_to(store, kSpheres);
     return store.count(i) == 0 ? 0 : norm(store.of(i)->shear);
   }
@@ -145,7 +145,7 @@ TEST(host_adapter, springs_that_are_given_replace_those_it_has)
   p.choose();
   for (int k = 0; k < 3; k++) p.step();
   // As after a restart: 0 and 2 have changed places, 1 is new.
-  SpringStore had, given;
+  ContactHistory had, given;
   p.direct->springs_to(had, Pair::kSpheres);
   given.grow(Pair::kSpheres);
   given.set(0, had.of(2), had.extra_of(2), had.count(2));

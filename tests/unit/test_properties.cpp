@@ -530,7 +530,7 @@ TEST(property, forces_are_finite_and_those_of_the_cpu)
       law.device = device;
       const auto engine = make_engine(law);
       engine->set_grid(flat.view());
-      SpringStore springs;
+      ContactHistory springs;
       springs.grow(kPerMesh);
       force[at].assign(3 * kPerMesh, 0);
       torque[at].assign(3 * kPerMesh, 0);

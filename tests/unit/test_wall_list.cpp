@@ -292,7 +292,7 @@ class Bed {
   Vec3 force_on(int i) const { return {force[3 * i], force[3 * i + 1], force[3 * i + 2]}; }
   std::vector<Spring> springs()
   {
-    SpringStore store;
+    ContactHistory store;
     engine->springs_to(store, n());
     std::vector<Spring> all;
     for (int i = 0; i < n(); i++) all.insert(all.end(), store.of(i), store.of(i) + store.count(i));

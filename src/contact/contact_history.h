@@ -12,9 +12,9 @@ namespace lsdcd {
 // Two ints per sphere, one Spring per contact, and beside each Spring the numbers that
 // further effects of the contact law keep (`n_extra` of them; most laws have none). The
 // host may copy, pack, unpack and reset spheres.
-class SpringStore {
+class ContactHistory {
  public:
-  explicit SpringStore(int n_extra = 0) : n_extra_(n_extra) {}
+  explicit ContactHistory(int n_extra = 0) : n_extra_(n_extra) {}
 
   int n_extra() const { return n_extra_; }
   int doubles_per_spring() const

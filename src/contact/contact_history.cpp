@@ -1,17 +1,17 @@
-#include "contact/spring_store.h"
+#include "contact/contact_history.h"
 
 #include <algorithm>
 
 namespace lsdcd {
 
-void SpringStore::grow(int n_spheres)
+void ContactHistory::grow(int n_spheres)
 {
   if (n_spheres <= static_cast<int>(count_.size())) return;
   first_.resize(n_spheres, 0);
   count_.resize(n_spheres, 0);
 }
 
-void SpringStore::set(int i, const Spring *springs, const Real *extra, int n)
+void ContactHistory::set(int i, const Spring *springs, const Real *extra, int n)
 {
   first_[i] = static_cast<int>(pool_.size());
   count_[i] = n;
@@ -19,8 +19,8 @@ void SpringStore::set(int i, const Spring *springs, const Real *extra, int n)
   extra_.insert(extra_.end(), extra, extra + n * n_extra_);
 }
 
-void SpringStore::assign(std::vector<int> first, std::vector<int> count, std::vector<Spring> pool,
-                         std::vector<Real> extra)
+void ContactHistory::assign(std::vector<int> first, std::vector<int> count,
+                            std::vector<Spring> pool, std::vector<Real> extra)
 {
   first_.swap(first);
   count_.swap(count);
@@ -28,7 +28,7 @@ void SpringStore::assign(std::vector<int> first, std::vector<int> count, std::ve
   extra_.swap(extra);
 }
 
-int SpringStore::pack(int i, double *buffer) const
+int ContactHistory::pack(int i, double *buffer) const
 {
   int at = 0;
   buffer[at++] = count_[i];
@@ -42,7 +42,7 @@ int SpringStore::pack(int i, double *buffer) const
   return at;
 }
 
-int SpringStore::unpack(int i, const double *buffer)
+int ContactHistory::unpack(int i, const double *buffer)
 {
   int at = 0;
   arrived_.resize(static_cast<std::size_t>(buffer[at++]));
@@ -58,14 +58,14 @@ int SpringStore::unpack(int i, const double *buffer)
   return at;
 }
 
-int SpringStore::largest_packed_size() const
+int ContactHistory::largest_packed_size() const
 {
   int most = 0;
   for (int n : count_) most = std::max(most, n);
   return 1 + doubles_per_spring() * most;
 }
 
-std::size_t SpringStore::bytes() const
+std::size_t ContactHistory::bytes() const
 {
   return (first_.capacity() + count_.capacity()) * sizeof(int) + pool_.capacity() * sizeof(Spring) +
          extra_.capacity() * sizeof(Real);

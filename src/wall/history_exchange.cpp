@@ -1,4 +1,4 @@
-#include "wall/contact_history.h"
+#include "wall/history_exchange.h"
 
 #include "engine/step/law_job.h"
 
@@ -6,7 +6,7 @@
 
 namespace lsdcd {
 
-SpringStore &ContactHistory::on_host(int room)
+ContactHistory &HistoryExchange::on_host(int room)
 {
   if (with_engine_) {
     engine_->springs_to(springs_, n_with_engine_);
@@ -16,7 +16,7 @@ SpringStore &ContactHistory::on_host(int room)
   return springs_;
 }
 
-void ContactHistory::to_engine(int n)
+void HistoryExchange::to_engine(int n)
 {
   if (with_engine_ || !is_kept()) return;
   engine_->springs_from(springs_, n);
@@ -24,12 +24,12 @@ void ContactHistory::to_engine(int n)
   with_engine_ = true;
 }
 
-int ContactHistory::max_packed_size() const
+int HistoryExchange::max_packed_size() const
 {
   return is_kept() ? 1 + springs_.doubles_per_spring() * kMostContacts : 0;
 }
 
-int ContactHistory::pack_restart(int i, double *buffer, const FeatureName &name) const
+int HistoryExchange::pack_restart(int i, double *buffer, const FeatureName &name) const
 {
   const int size = springs_.pack(i, buffer);
   for (int k = 0; k < springs_.count(i); k++) {
@@ -41,7 +41,7 @@ int ContactHistory::pack_restart(int i, double *buffer, const FeatureName &name)
 }
 
 // Another law may have kept other numbers for each contact, and this one none.
-void ContactHistory::unpack_restart(int i, const double *buffer, int size)
+void HistoryExchange::unpack_restart(int i, const double *buffer, int size)
 {
   const int count = static_cast<int>(buffer[0]);
   if (count == 0) return;
@@ -51,7 +51,7 @@ void ContactHistory::unpack_restart(int i, const double *buffer, int size)
     springs_.unpack(i, buffer);
 }
 
-void ContactHistory::check_restored(int n, const std::function<bool(const Spring &)> &is_there)
+void HistoryExchange::check_restored(int n, const std::function<bool(const Spring &)> &is_there)
 {
   checked_ = true;
   Real lost[2] = {0, static_cast<Real>(other_law_)};
@@ -71,7 +71,7 @@ void ContactHistory::check_restored(int n, const std::function<bool(const Spring
                  " atoms lose their springs: the restart file " + file[k]);
 }
 
-void ContactHistory::rename_features(const FeatureName &name)
+void HistoryExchange::rename_features(const FeatureName &name)
 {
   if (is_kept()) springs_.rename_features(name);
 }

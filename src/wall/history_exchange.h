@@ -1,7 +1,7 @@
 // What contacts keep from step to step: with the engine in steps, on the host where spheres move.
 #pragma once
 
-#include "contact/spring_store.h"
+#include "contact/contact_history.h"
 #include "engine/wall_engine.h"
 #include "input/settings.h"
 #include "wall/host.h"
@@ -14,10 +14,10 @@ namespace lsdcd {
 
 // Spheres are counted from 0, in the order of the host. Where the law keeps nothing, nothing is moved,
 // packed or asked of the engine.
-class ContactHistory {
+class HistoryExchange {
  public:
   // Both must outlive it. The numbers that a contact keeps are those of wall.law.
-  ContactHistory(Host &host, const WallSettings &wall) :
+  HistoryExchange(Host &host, const WallSettings &wall) :
       host_(host), law_(wall.law), springs_(wall.law.n_extra())
   {
   }
@@ -28,7 +28,7 @@ class ContactHistory {
   void set_engine(WallEngine &engine) { engine_ = &engine; }
 
   // Of the spheres of this process, on the host from now on, with room for `room` spheres.
-  SpringStore &on_host(int room);
+  ContactHistory &on_host(int room);
   // The history of the n spheres of this process goes to the engine, if it is not there.
   void to_engine(int n);
   bool is_with_engine() const { return with_engine_; }
@@ -62,7 +62,7 @@ class ContactHistory {
   Host &host_;
   const ContactLaw &law_;
   WallEngine *engine_ = nullptr;
-  SpringStore springs_;
+  ContactHistory springs_;
   bool with_engine_ = false;
   int n_with_engine_ = 0;
   bool checked_ = false;
