@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Repeats the paper's study and writes its part of doc/accuracy.md.
 
 usage: accuracy.py [--build DIR] [--spheres N] [--rows-only | --write-only] [--commit NAME]

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the benchmark programs share: their words, timing, the copy that a floor is taken
 // from, the paper's cylinder in four sizes, and rows of one format.
 #pragma once

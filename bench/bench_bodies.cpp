@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The paper's section 4.6: a lion in 1.77 million triangles against the paper's cylinder, by poses,
 // and the same of the lion's own triangles, beside CGAL's AABB tree with exact predicates and FCL's
 // trees of boxes where these are installed. On one core unless OMP_NUM_THREADS says more. Pairs

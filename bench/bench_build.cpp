@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How long a grid takes to build, whole and without copies to and from a device, and what
 // brute force (the paper's function 1: every cell tries every triangle) would take.
 #include "bench.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a grid costs to build, to write to a cache file and to read from one.
 #include "bench.h"
 

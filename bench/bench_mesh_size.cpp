@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A step against the size of the mesh: the same contacts with a cylinder of 1e2 to 1e7 triangles,
 // near spheres as they were chosen, and what its grid takes of time and memory.
 #include "bench.h"

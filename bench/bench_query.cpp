@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a query of many spheres against a wall costs: the paper's question, does a sphere
 // touch, and the exact distance within the cutoff. No copies: spheres and answers stay on the
 // device. Distances through the library on one core, beside Embree and CGAL where they are

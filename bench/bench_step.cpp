@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a step of the wall costs: contacts, forces, springs; with the arrays of a CPU LAMMPS, and
 // with particles that lie where the engine computes. Near spheres and their lists of the wall are
 // kept, or made anew in each step.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // `lsdcd distance` of very many points: what it takes of time and memory, and a sample of its
 // answers against CGAL's tree in long double. Ends with 1 where they differ by more than 1e-13 of
 // the diagonal. usage: bench_stream LSDCD FOLDER csv|npy RADIUS POINTS ..., the radius as part of

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A drum: the same spheres at the wall of a closed cylinder of 2e4 triangles at rest, and turning
 // about its axis, with spheres that it carries along and with spheres that stay behind.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The paper's function 1: every cell of the whole grid tries every triangle.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A library of Kokkos's tools interface that counts what Kokkos copies between host and
 // device in each step of LAMMPS. bench/kokkos.py compiles and loads it. A step begins with
 // the first half of nve/sphere. At the end it writes, for each process to the file

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Spheres that touch the wall of a closed cylinder, and an engine whose particles live where it
 // computes: what the programs share that time or count its steps.
 #pragma once

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Decks that are timed from outside: runs of LAMMPS and LIGGGHTS, and rows of what they took."""
 import contextlib
 import os

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Measures what every effect of a wall costs and writes the tables of doc/effects.md.
 
 usage: effects.py [--build DIR] [--write-only] [--only cpu|cuda]

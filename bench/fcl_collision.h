@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Pairs of triangles that meet, by FCL's trees of boxes of both meshes. Its test of two triangles
 // rounds.
 #pragma once

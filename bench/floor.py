@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """A mesh floor against a flat plane: `./run bench floor`.
 
 9 801 spheres of diameter 1 rest on a floor in one layer; hooke/history, no contacts between

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Shows that effects which are off are not in the kernels of laws without them.
 
 usage: free_when_off.py [--build DIR]

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Makes doc/hard_cases.md from runs of the tests that know hard cases' answers.
 
 usage: hard_cases.py [--build DIR] [--rows-only] [--commit NAME]

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One law's kernel by itself, for bench/free_when_off.py, which compiles this with the
 // sources as they are and with effects cut out of them.
 #pragma once

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """What a wall costs a step of a LAMMPS with Kokkos: `./run bench kokkos`.
 
 Beds of spheres (gran/hooke/history/kk) on a flat floor of 2 triangles, in a closed box of

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Beds of spheres for kokkos.py: what a deck says of them, and their meshes."""
 import math
 import os

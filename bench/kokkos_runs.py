@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Runs of the beds of kokkos.py in a LAMMPS with Kokkos.
 
 Three decks make a measurement. The first fills a lattice and, where runs want it, gives the

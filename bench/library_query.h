@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Distances through liblsdcd, as its users ask: arrays of the host.
 #pragma once
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Our wall against LIGGGHTS's, on one core in the same run: `./run bench liggghts`.
 
 100 000 spheres of radii 0.35 to 1 in a closed cylinder (radius 50, height 100) of 2 560, 19 968 and

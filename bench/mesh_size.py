@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """A step against the size of the mesh, 1e2 to 1e7 triangles: `./run bench mesh-size`.
 
 bench_mesh_size: spheres that all touch a closed cylinder, near lists kept; beside it the grid's

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Distances of points near a mesh, and of points far from it, by the library and by its peers.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // CGAL's AABB tree. It has no radius to stop at: what is farther costs it more.
 #include "peers.h"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Embree's point query: a BVH of the triangles, and a sphere that shrinks to the nearest one.
 #include "peers.h"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Distances by other libraries, each where it is installed, beside which ours are timed.
 #pragma once
 

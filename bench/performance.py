@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Runs the benchmark programs, keeps their rows and writes the tables of doc/performance.md; those
 that show how a measurement works, not what a wall costs, are in doc/notes/performance.md, and what a
 point costs is in doc/library.md, too.

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Runs benchmarks on the CPU and, where there is one, a GPU, and writes what they tell.
 
 usage: run.py [--build DIR] [--only cpu|cuda] [--quick] [--write-only] [--rows-to DIR]

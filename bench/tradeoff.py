@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Measures what settings buy and cost, and writes the first part of doc/accuracy.md.
 
 usage: tradeoff.py [--build DIR] [--device cpu|cuda|auto] [--write-only] [--rows-to DIR]

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # LSDCD_COMMIT: what is being built, for reports; as of the last configuring. `git archive` writes the
 # commit of a source tarball here.
 set(LSDCD_COMMIT "$Format:%H$")

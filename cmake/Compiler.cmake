@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Warnings, ccache, sanitizers and the CUDA toolkit, found once for all targets.
 
 find_program(CCACHE ccache)

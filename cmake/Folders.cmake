@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Where things are installed: CMAKE_INSTALL_*DIR, below any prefix, and LSDCD_PYTHON_DIR.
 if(CMAKE_LIBRARY_ARCHITECTURE AND EXISTS /etc/debian_version)
   # Debian looks here under /usr and /usr/local, CMake and pkg-config there under any prefix.

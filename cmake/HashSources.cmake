@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Writes a header with a hash of the sources that decide what is in a grid, so that
 # a cache file made by others is not used.
 #   cmake -D ROOT=dir -D SOURCES=a,b,... -D OUT=header -P HashSources.cmake

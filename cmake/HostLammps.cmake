@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 # The LAMMPS that the plugin and the launcher are built for.
 #   LSDCD_HOST_INCLUDE   its headers (an installed include/lammps or a source tree's src)
 #   LSDCD_HOST_LIBRARY   its shared library, for the launcher only

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 # lsdcdkkplugin.so: the plugin for a LAMMPS with the KOKKOS package.
 #   LSDCD_KOKKOS_HOST   the build folder of that LAMMPS, or a folder with a host.cmake as
 #                       tests/lammps/hosts/build_host.sh leaves one

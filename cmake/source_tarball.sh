@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # source_tarball.sh FOLDER: writes lsdcd-VERSION.tar.gz of what is committed. The same commit gives the
 # same bytes. Exits 77 with a line "skipped: ..." where this is no git checkout.
 set -euo pipefail

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Draws which rooms of src and kokkos include which: doc/img/rooms.svg.
 
 usage: rooms.py [--check]     --check: compares with the file, writes nothing

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Run examples and put their pictures into doc/img/gallery: gallery.py [NAME ...]
 
 Each picture is that of the example's input script, without its white margin, in 64 colours.

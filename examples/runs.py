@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Run a deck at several settings side by side, read the numbers that it prints, plot them."""
 import argparse
 import concurrent.futures

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Triangles of simple shapes, and how they become a binary STL file."""
 import argparse
 import math

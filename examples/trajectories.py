@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Run a deck with one wall and with another, read what it dumped, compare."""
 import os
 import subprocess

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 #include "fix_wall_lsdcd_kokkos.h"
 
 #include "comm.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // fix wall/lsdcd/kk: the same wall where a Kokkos LAMMPS has its particles.
 #ifndef LMP_FIX_WALL_LSDCD_KOKKOS_H
 #define LMP_FIX_WALL_LSDCD_KOKKOS_H

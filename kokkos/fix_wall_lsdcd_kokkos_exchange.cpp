@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // Springs follow their atoms on the device where the host moves atoms there. Rows of the contacts
 // array stay on the host, as do their
 // readers, and go from and to it where messages are on the device.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // The Kokkos of the host: what differs between LAMMPS of 2021, 2025 and 2026, and which of
 // our backends shares memory with a Kokkos device.
 #pragma once

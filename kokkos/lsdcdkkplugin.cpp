@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // Registers the styles of this library, and fix wall/lsdcd/kk, with the Kokkos LAMMPS that loads this file.
 
 #include "fix_wall_lsdcd_kokkos.h"

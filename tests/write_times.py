@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Writes where the minutes of the last `./run test all` went into doc/testing.md.
 
 usage: write_times.py

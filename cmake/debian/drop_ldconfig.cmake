@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # CPack gives a package with a library scripts that call ldconfig. Debian wants its trigger alone, which
 # the package has, too. Run by CPack behind the making of packages.
 find_program(DPKG_DEB dpkg-deb)

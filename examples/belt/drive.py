@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Run in.belt at several speeds; print and plot the force that drives the belt: force.png, belt_*.png."""
 import sys
 from pathlib import Path

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write belt.stl, a troughed belt along x from 0 to LENGTH, chute.stl, skirts beside it and what catches the grains
 that it throws off, and section.stl, below the chute's outlet.
 

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """fix wall/gran zcylinder against fix wall/lsdcd on cylinders of N flat segments.
 
 A mesh is another shape than the cylinder: its places differ by the sagitta, 1/N^2,

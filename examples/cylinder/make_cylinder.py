@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write a cylinder about z of N flat segments as a binary STL, open at both ends.
 The polygon has the area of the circle, so that it lies as far inside as outside."""
 import argparse

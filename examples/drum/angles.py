@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Run in.drum at several speeds; print and plot how steep the bed is: angles.png, drum_*.png.
 
 The angle is that of the line from the axis to the grains' centre of mass, which is square to the

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write drum.stl: a drum round the y axis with lifters, open at both ends.
 
 The outline is extruded from y = 0 to LENGTH, which is the period of the deck's box.

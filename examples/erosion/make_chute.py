@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write chute.stl in millimetres: a steep slope that an arc turns to a flat one, between two sides."""
 import math
 import sys

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Run in.erosion, and draw wear and normal stress of the chute by colour: wear.png.
 
 Checks that the forces of chute.vtp add up to what the fix says the chute bears.

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """fix wall/gran zplane against fix wall/lsdcd on flat meshes of 2 and 20 000 triangles.
 
 Prints tables; writes the divergence plot. Needs build/bin/lmp-lsdcd, numpy and matplotlib.

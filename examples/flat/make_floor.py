@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write a flat floor at z = 0 as an ugly binary STL: nodes moved about in the
 plane, triangles in random order, half of them wound the other way."""
 import argparse

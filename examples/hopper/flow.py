@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Run in.hopper with several outlets; print and plot the flow beside Beverloo's: flow.png, hopper_*.png.
 
 Beverloo's flow is 0.58 rho sqrt(g) (D - 1.4 d)^2.5, so that flow^0.4 is a straight line over D. The

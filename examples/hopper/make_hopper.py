@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write hopper.stl, a round bin with a round hole in its flat floor, gate.stl, the plate that
 closes it from below, and section.stl, a larger plate to count the grains that fall through.
 

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Run in.insertion with a region that meets the pipe and with one that keeps off; print and plot how
 deep grains were in the pipe: overlaps.png, insertion_*.png."""
 import sys

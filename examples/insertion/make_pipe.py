@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write pipe.stl, a pipe along y, closed at both ends, that goes through the place where grains are
 inserted, and section.stl, below it to count them."""
 import sys

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A body that sinks into a wall: how many pairs of triangles meet at each height. collide WALL.stl BODY.stl
 #include <cstdio>
 #include <lsdcd.hpp>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The same for points in a GPU's memory, on a stream: distance WALL.stl
 #include <cstdio>
 #include <cuda_runtime.h>

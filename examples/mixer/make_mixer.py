@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write trough.stl, two half drums along y that meet below their axes, and blade.stl, a shaft with two flat blades.
 
 Both are extruded from y = 0 to LENGTH, which is the period of the deck's box. The shaft is the y

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Run in.mixer at several speeds; print and plot how mixed the colours are: mixing.png, mixer_*.png."""
 import sys
 from pathlib import Path

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write die.stl, a round cup open at the top, and piston.stl, a short cylinder that fits into it.
 
 The floor of the cup is at z = 0, and so is the face of the piston: the deck moves it up.

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Run in.piston; plot the stress on the bed against its strain: stress.png, piston.png."""
 import sys
 from pathlib import Path

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write screen.stl, a sheet with N x N square apertures of size 1, frame.stl, four walls that stand
 on it, and section.stl, a sheet below it to count what passes.
 

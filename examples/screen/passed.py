@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Run in.screen at several strengths; print and plot what share passes: passed.png, screen_*.png.
 
 The amplitude stays; the frequency grows as the root of the strength.

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write screw.stl, a shaft along y with a right-handed blade, and tube.stl, the tube round it.
 
 Both are TURNS pitches long, from y = 0, which is the period of the deck's box.

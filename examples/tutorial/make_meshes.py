@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write the meshes of the tutorial, as CAD exports them: STL files in millimetres.
 
 part.stl, a hopper, has the flaws that repair mends: two facets are there twice, three are wound against

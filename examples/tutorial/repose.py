@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Which rolling friction gives the measured angle of repose? Runs in.repose at several, and plots.
 
 The angle is that of a line through the heap's surface: the top of the highest grain in each ring between

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """The hopper's wall stress in ParaView, of the last step: paraview --script=view.py
 
 In the folder of the run. With pvpython it writes wall_stress.png and ends.

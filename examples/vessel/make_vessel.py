@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Write the spallation-target vessel as STL files in millimetres.
 
 The vessel is turned on a lathe about z: a cylinder, a converging cone and an

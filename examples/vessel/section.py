@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Draw the section that in.vessel ends with.
 
     section.py section.dump vessel.stl vessel.png                  # the last frame

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // lsdcd_body_*, lsdcd_collide
 #include "api/c_border.h"
 #include "api/call_threads.h"

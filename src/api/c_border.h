@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What every function of lsdcd.h does: no exception leaves it, its error keeps a text, and numbers in
 // texts have a point whatever the program's locale.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Whether an array is one that only a GPU can read. Asks the CUDA driver if the process has it
 // loaded: without it there are none, and nobody is made to load it.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // lsdcd.h for C++17: objects that free themselves, errors as exceptions. A header over the C
 // library, nothing more; what functions do, and which threads may call them, is told there.
 #ifndef LSDCD_HPP

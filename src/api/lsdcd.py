@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Distances from points to a triangle mesh, exact and many at once, for numpy arrays; and rigid bodies
 against a wall.
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // lsdcd_mesh_*
 #include "api/c_border.h"
 #include "api/objects.h"

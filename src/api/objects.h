@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the handles of lsdcd.h hold. Objects share what they are made from, so that a caller frees
 // them in any order.
 #pragma once

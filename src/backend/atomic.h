@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Counters that many threads share. Only sums and maxima of whole numbers: their result
 // does not depend on the order.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "backend/cuda_available.h"
 
 #include <cuda_runtime.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How kernels that are written for a GPU are started, and how one begins while the one before it runs.
 #pragma once
 

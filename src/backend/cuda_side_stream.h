@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A second stream of an NVIDIA GPU, for work beside what the first one does.
 #pragma once
 

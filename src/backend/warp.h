@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Threads of a GPU's warp that share their work, so that one with little helps one with much; on a CPU a
 // single thread.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The arrays of a view in one list: View::each_array(s, visit) calls visit() with each array of `s`, which is a
 // View with its pointers or their owner with vectors of the same names.
 #pragma once

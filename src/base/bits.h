@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Bits of a word, counted and found, on a CPU and on a GPU.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The cube root, from basic arithmetic alone: the same bits on every backend.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Input words read one after another, with errors that show the right syntax.
 #pragma once
 

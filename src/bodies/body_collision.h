@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Which triangles of a rigid body meet which of the wall, pose by pose, on the CPU or a GPU.
 #pragma once
 

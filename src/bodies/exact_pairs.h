@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Pairs that rounded signs do not decide, by exact ones. They touch or lie in one plane, are few
 // and take long, so that the host finds them whatever the backend.
 #pragma once

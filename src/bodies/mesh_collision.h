@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A body's mesh against a wall's mesh, with triangles by their numbers in the files.
 #pragma once
 

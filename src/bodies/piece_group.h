@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Pieces that lie side by side, and whether any of them can be near the wall.
 #pragma once
 

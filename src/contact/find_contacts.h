@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // From a sphere to its contacts: one for each local minimum of distance.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Every effect that a wall can have: the table behind `lsdcd effects`.
 #pragma once
 

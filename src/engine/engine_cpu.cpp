@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "engine/choose/selection_cpu.h"
 #include "engine/engine_on.h"
 #include "engine/step/compile_law.h"

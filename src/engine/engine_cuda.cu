@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "backend/cuda_device.h"
 #include "engine/choose/selection_cuda.h"
 #include "engine/host_adapter.h"

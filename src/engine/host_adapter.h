@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The engine of a backend for a host whose arrays are in other memory: near spheres travel packed,
 // forces and torques come back, springs stay until the host asks for them.
 #pragma once

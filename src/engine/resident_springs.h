@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The springs of a process's spheres where the engine computes. A step reads one pool and
 // writes the other.
 #pragma once

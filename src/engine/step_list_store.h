@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Memory for the lists that the kernels of a step on a GPU hand on.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a step leaves behind of near spheres, where the engine computes: columns of results, and what
 // is made of them when somebody asks.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The one door between a host code (the fix, the tool, tests, benches) and the wall.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A surface that exerts no force and sees who passes it.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The straight way of a centre in one step, and whether it leads through a triangle.
 #pragma once
 

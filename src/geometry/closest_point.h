@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where on a face, edge or vertex the distance to a point has a local minimum.
 #pragma once
 

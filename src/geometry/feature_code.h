@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Names of the parts of a wall: faces, edges and vertices in one 32-bit number.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Distance from a point to a primitive of the wall: a whole triangle, or a bare edge or vertex.
 #pragma once
 

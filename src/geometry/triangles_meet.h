@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Do two triangles have a point in common? Exact: by signs of orientation() alone.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Faces, edges and vertices of a wall as records that a contact query reads.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Float copies of the wall's features, each in the frame of a brick: what a query reads
 // in mixed and single precision. A feature has a copy in every brick that lists it.
 #pragma once

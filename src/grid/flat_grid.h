@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A grid as one flat block in memory of its own, aligned as views want it. Moving keeps it
 // where it is.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Ends of a mesh that face each other across a periodic face of the box and do not meet.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The limit-space grid: for every cell near the wall, a list of what a sphere with its
 // centre in that cell can touch. Complete lists hold every such feature; nearest lists
 // hold the N primitives of the wall nearest to the cell's centre.

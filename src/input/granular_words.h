@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The words of contact laws -> ContactLaw, by the rows of sub_models.h.
 #pragma once
 

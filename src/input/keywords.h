@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The keywords of fix wall/lsdcd: one row each, and what reads its values.
 #pragma once
 

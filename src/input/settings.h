@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Input words of fix wall/lsdcd -> WallSettings. One row per keyword.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // compute lsdcd/collide: rigid bodies of atoms, with a mesh, against the meshes of fix wall/lsdcd.
 #ifndef LMP_COMPUTE_COLLIDE_LSDCD_H
 #define LMP_COMPUTE_COLLIDE_LSDCD_H

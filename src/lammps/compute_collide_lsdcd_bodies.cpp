@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // The bodies of compute lsdcd/collide: which atoms they have, and where these put them.
 
 #include "lammps/compute_collide_lsdcd.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // fix massflow/lsdcd: what passes a surface that is a triangle mesh and exerts no force.
 #ifndef LMP_FIX_MASSFLOW_LSDCD_H
 #define LMP_FIX_MASSFLOW_LSDCD_H

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // Totals of fix massflow/lsdcd: over all processes, as output, and in restart files.
 
 #include "lammps/fix_massflow_lsdcd.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "base/input_error.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // fix wall/lsdcd: forces of triangle meshes on spheres, in LAMMPS's schedule.
 #ifndef LMP_FIX_WALL_LSDCD_H
 #define LMP_FIX_WALL_LSDCD_H

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // The box of the simulation: where spheres can be, what repeats, and what changes in a run.
 
 #include "lammps/fix_wall_lsdcd.h"

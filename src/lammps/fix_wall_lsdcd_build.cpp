@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // The engine, and the grids of the meshes: made when there are spheres, and again for larger ones
 // or another box.
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // What the fix refuses and warns of.
 
 #include "lammps/fix_wall_lsdcd.h"

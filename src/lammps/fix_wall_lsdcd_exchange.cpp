@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // Springs and rows of the contacts array follow their spheres between processes and through
 // sorting, springs into restart files, too.
 

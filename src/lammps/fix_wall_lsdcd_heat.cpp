@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // Heat between the wall and the atoms that touch it: LAMMPS's per-atom temperature and
 // heat flow, and the wall's temperature, which may be a variable.
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // Another motion for a mesh: between runs, and from a restart file.
 
 #include "lammps/fix_wall_lsdcd.h"

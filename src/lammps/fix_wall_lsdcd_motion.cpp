@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // A mesh that moves: its clock, where it is in each step, and what that asks of the box.
 
 #include "lammps/fix_wall_lsdcd.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // A snapshot of the command rerun: forces of one step, with no steps before it.
 
 #include "lammps/fix_wall_lsdcd.h"

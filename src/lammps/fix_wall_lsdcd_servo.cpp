@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // A servo: the load of the last step moves the mesh in this one.
 
 #include "lammps/fix_wall_lsdcd.h"

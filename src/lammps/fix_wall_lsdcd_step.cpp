@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // A step: what the engine is given, and what it leaves behind.
 
 #include "lammps/fix_wall_lsdcd.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // The wall's part of the pressure, where fix_modify virial yes asks for it.
 
 #include "lammps/fix_wall_lsdcd.h"

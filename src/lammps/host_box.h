@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // What our fixes ask of LAMMPS's box and neighbour lists.
 #ifndef LSDCD_HOST_BOX_H
 #define LSDCD_HOST_BOX_H

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // LAMMPS as the host of a wall.
 #ifndef LMP_LAMMPS_HOST_H
 #define LMP_LAMMPS_HOST_H

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // Registers the styles of this library with the LAMMPS that loads this file; nothing else.
 
 #include "lammps/plugin_styles.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // One mesh of fix wall/lsdcd: its settings and grid, where it is, and what was done to it.
 #ifndef LMP_MESH_PART_H
 #define LMP_MESH_PART_H

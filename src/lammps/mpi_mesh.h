@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // Meshes that every process has whole.
 #pragma once
 

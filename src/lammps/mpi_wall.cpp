@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 #include "lammps/mpi_wall.h"
 
 #include "base/give_back_memory.h"

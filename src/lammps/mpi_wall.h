@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // A mesh of a wall and its grid, made once per node and read by all.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // The binary interface between LAMMPS and a plugin, as LAMMPS documents it. Written
 // here because packages do not install lammpsplugin.h; layout and names are LAMMPS's.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 #include "lammps/plugin_styles.h"
 
 #include "lammps/compute_collide_lsdcd.h"

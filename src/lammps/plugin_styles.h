@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // What plugin files of this library share: the check of the host, and telling it styles.
 #pragma once
 

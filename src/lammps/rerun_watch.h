@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // Tells the command rerun from a run.
 #ifndef LMP_RERUN_WATCH_H
 #define LMP_RERUN_WATCH_H

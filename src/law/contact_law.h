@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A contact law: one sub-model of each family and its numbers. sub_models.h has the table of all.
 #pragma once
 

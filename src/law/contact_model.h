@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A contact law put together from sub-models at compile time. Every law has
 //   Number             the type that it computes in
 //   kHistory           does it keep a ContactMemory<Number, kExtra> per contact?

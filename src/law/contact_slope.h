@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How steeply the force of a contact can change, and what holds an adhesive one.
 #pragma once
 

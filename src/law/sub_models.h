@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The table of sub-models. A row is all that the program knows of one beside its formula: what a script
 // writes, what a contact keeps, which number a material has, how the log calls it.
 #pragma once

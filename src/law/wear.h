@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Wear of the wall: how fast one contact takes material away, per unit of the
 // coefficient that the law has.
 #pragma once

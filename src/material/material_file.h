@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Cited contact parameters of materials, read from text files (potentials/*.lsdcd).
 #pragma once
 

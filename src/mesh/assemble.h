@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The later half of welding: from points and facets to faces, edges and their neighbours.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Things in boxes: those that a question may be about, found by asking of boxes around many first.
 #pragma once
 

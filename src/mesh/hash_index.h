@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // An open-addressing hash table from keys that the caller keeps to their indices.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The factor that a mesh file in other units than the deck's was probably meant to have.
 #pragma once
 

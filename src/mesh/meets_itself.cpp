@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "mesh/meets_itself.h"
 
 #include "geometry/triangles_meet.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Windings that agree, and normals of closed shells that point out of what they bound.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The box of a simulation: what repeats, and where the centres of spheres can be.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A wall that acts through the periodic faces of a box, by images of its triangles.
 #pragma once
 

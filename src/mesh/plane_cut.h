@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How a mesh meets the plane z = 0, in which the particles of a two-dimensional run move.
 #pragma once
 

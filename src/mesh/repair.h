@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A mesh with what is wrong with it mended as far as that needs no invention: nothing is filled.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Faces cut in pieces where corners of their neighbours lie on their open sides (T-junctions), so
 // that edges match.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Triangles as a file gives them: no sharing, no order, nothing dropped.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The wall as a complex of faces, edges and vertices that know their neighbours.
 #pragma once
 

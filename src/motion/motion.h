@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How a mesh moves as a rigid body: terms in the words of LAMMPS's fix move, one acting on what
 // the ones before it have placed, and last a servo.
 #pragma once

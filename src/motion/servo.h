@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A servo moves a mesh along an axis, or turns it about one, so that it pushes the spheres with a
 // given force or torque.
 #pragma once

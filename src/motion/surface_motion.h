@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A wall whose surface moves while its mesh stays: conveyors, rotating rolls.
 #pragma once
 

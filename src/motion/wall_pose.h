@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where a moving mesh is, and how fast it goes: x_box = turn x_mesh + shift.
 #pragma once
 

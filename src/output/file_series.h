@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Files of one name and many steps, and the list of them that ParaView opens as one.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Numbers per triangle, as a file that ParaView and other VTK programs read.
 #pragma once
 

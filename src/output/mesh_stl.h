@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Triangles, and the mesh where it is, as STL files that read_stl() and other programs read.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Parts of a file of VTK's XML format for polygons and lines (.vtp).
 #pragma once
 

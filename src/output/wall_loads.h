@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What contacts do to a wall over time: forces on its parts, and the volume that wears off.
 #pragma once
 

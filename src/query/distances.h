@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a query takes a distance from: a primitive of the wall in nearest lists, a feature in
 // complete ones. Each returns kAnyDistance where it has nothing nearer than `within`.
 #pragma once

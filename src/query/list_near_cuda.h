@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The first kernel of a query on an NVIDIA GPU: it answers every sphere as if the wall were far,
 // and lists those near to it.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A query on the CPU in blocks of spheres: first which of a block may be near the wall, then their
 // cells, then their lists, and answers last. Each turn asks memory for what the next one reads, and
 // no sphere waits for another's.

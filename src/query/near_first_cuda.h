@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A query whose kernels have one kind of work each. The first is light: many threads, several
 // spheres in flight in each; it answers every sphere as if the wall were far, and lists those near
 // to it with all that their answers begin from. Those whose cell has one candidate, and those with

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // From one sphere to the nearest point of the wall, and how sure that is.
 #pragma once
 

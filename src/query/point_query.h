@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Distance, closest point, triangle and side of points against a wall, in the caller's own arrays.
 #pragma once
 

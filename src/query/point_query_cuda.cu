@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "backend/cuda_device.h"
 #include "query/near_first_cuda.h"
 #include "query/point_query.h"

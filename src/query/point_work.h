@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What is asked of each point of a query that wants more than a distance, in arrays of any layout:
 // one source for all backends.
 #pragma once

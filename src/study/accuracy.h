@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The paper's experiment: how often a list of N triangles gives the status of a sphere
 // that the cylinder's formula gives, and that the complete wall gives; and how fast.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The paper's wall: a cylinder about z from 0 to its height, as a formula and in triangles.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Energy that a bouncing and a rolling sphere gain or lose to a wall that should keep it.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What could have gone wrong in the paper's runs with one triangle per cell: each guess
 // as a way to answer, and the accuracy that it scores.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Distance and status of many spheres against a wall, on the CPU or a GPU.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Spheres of the paper's study: each from a counter, so that any device makes the same.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a setting answers for a sample of spheres, how wrong that is, and what it costs.
 #pragma once
 

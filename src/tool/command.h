@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The words of a command: its options, its help and what it runs. Only command.cpp includes CLI11, whose
 // headers take longer to compile than a command does.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Lines of fields, the first of which may name them: CSV, or words between blanks.
 #pragma once
 

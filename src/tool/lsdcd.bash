@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Completion of lsdcd's words in bash: commands, shapes and options as --help has them, else files.
 _lsdcd() {
   local program=$1 current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} commands=() help

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // lsdcd: what can be done with a mesh without a simulation.
 #include "base/version.h"
 #include "tool/commands.h"

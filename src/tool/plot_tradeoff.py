@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Draws the rows of `lsdcd tradeoff`: error against time and against memory.
 
 usage: plot_tradeoff.py ROWS.csv PICTURE.png

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Distances of blocks of points to a mesh, on the CPU or a CUDA device.
 #pragma once
 

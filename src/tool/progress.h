@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How far long work is, on stderr: a line that is renewed, on a terminal or where it is asked for.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Triangles of simple shapes, wound so that normals of closed ones point out. Corners that are one
 // point are equal to the last bit.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What contacts keep from step to step: with the engine in steps, on the host where spheres move.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Loads and wear of a wall's meshes, added up over the steps on all processes.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where a mesh is in each step: its motion, the clock of that, and the variables it hangs on.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What spheres did to the meshes of a wall in the last step: sums over all processes.
 #pragma once
 

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Writes the twelve damaged STL files of this folder; each has one fault.
 
 test_bad_stl.cpp has a row for each: what the message must say.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A fixed scene whose steps valgrind counts (test_instructions.py): 2000 spheres at a closed cylinder
 // of about 1000 triangles. argv: hooke or hertz/history, kept or anew.
 #include "cylinder_bed.h"

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Numbers that a build must not exceed, kept in a CSV file beside the test, by compiler."""
 import csv
 import sys

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """A step on the CPU executes no more instructions per sphere than it did: counted by valgrind, so
 that a slower step shows without timing.
 

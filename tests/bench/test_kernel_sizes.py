@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """The machine code of CUDA kernels is no larger than it was: read from the compiled files, without a
 GPU or tools of CUDA's.
 

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """The benchmark driver keeps rows by program, case, sizes and order, the pages hold what
 the rows that are kept say, and every program prints rows of the one format."""
 

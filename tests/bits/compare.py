@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Runs the same scripts with the program of a commit and with the one in build/, and compares all that they
 write byte by byte: positions, forces, springs, totals, files, the log.
 

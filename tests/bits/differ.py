@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """What two folders of output differ in: each quantity with the number of its values that differ and the
 largest absolute and relative difference. Files are compared byte by byte; only those that differ are
 looked into, as dumps (columns by name), thermo tables, other text, or binary files.

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Decks of this folder's own: every contact law with effects of a wall, on 150 spheres of several sizes.
 
 scripts() gives them. Each writes what it knows with 17 digits: a dump, totals in the thermo output, a

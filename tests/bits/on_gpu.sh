@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 # What only a machine with a GPU can show, in one command that ends within ten minutes and fetches nothing.
 #
 #   tests/bits/on_gpu.sh [REFERENCE] [--host FOLDER] [--out FOLDER] [--cmake WORDS] [--seconds 570]

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """The two programs: sources of a commit exported outside the tree and built there, and what is in a build folder."""
 
 import contextlib

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Records every run of LAMMPS that tests/lammps starts, once, so that two programs can be given the same.
 
 A recording belongs to the files of tests/lammps: commits with the same ones share it.

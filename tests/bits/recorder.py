@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Stands in for lmp-lsdcd while tests run: keeps what a run is given, then becomes lmp-lsdcd itself.
 
 record.py copies this file to a bin/lmp-lsdcd and sets LSDCD_BITS_RECORD, a folder, and LSDCD_BITS_PROGRAM.

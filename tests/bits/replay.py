@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Gives a script to a program and takes all that comes out: files, the log, what was added to the deck."""
 
 import dataclasses

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """The bit harness itself: a changed byte is found and sized, equal folders pass, a missing file is an error."""
 
 import base64

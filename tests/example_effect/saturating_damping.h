@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The worked example of doc/design.md: a sub-model in a file of its own, which no file of
 // src knows. Normal damping that saturates: gamma v0 v/(v0 + |v|), so that fast impacts
 // lose a smaller share of their speed than slow ones.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // An effect added as doc/design.md tells, composed with the library's own sub-models and
 // run by the library's own kernel.
 #include "example_effect/saturating_damping.h"

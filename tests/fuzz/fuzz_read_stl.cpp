@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Feeds the reader and the welder any bytes at all. They may refuse with
 // InputError; anything else, or a mesh that contradicts itself, is a failure.
 #include "base/input_error.h"

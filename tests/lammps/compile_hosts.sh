@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 # Compiles the fix, plugin and launcher against the headers of newer LAMMPS packages.
 # The headers come from Debian's trixie and sid through an apt configuration of their
 # own, from the mirror that this machine's apt already uses, into a cache folder.

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Runs input decks under lmp-lsdcd and reads what they dump. Standard library only."""
 
 import os

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """A small rotating drum with lifters, full of spheres of two sizes, and all that touches it by brute
 force."""
 

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Every script of bad_decks.py ends with one clear error, on one rank and on two."""
 
 import concurrent.futures

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Spheres that slide, stick, hop and cross seams on a rough floor in tilted gravity."""
 
 import math

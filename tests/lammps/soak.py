@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Many steps of a small rotating drum: memory stays what it was and energies are bounded.
 
 usage: soak.py [STEPS], 1e6 unless given (some minutes); LSDCD_LMP as for the tests

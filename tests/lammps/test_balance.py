@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """A rotating drum with load balancing on 1 to 8 ranks: the same physics, no sphere lost, and every
 contact that there is by brute force over all triangles."""
 

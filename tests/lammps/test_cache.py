@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """With `cache FILE` the next start reads the grid, and nothing else changes.
 
 Numbers are compared as printed with 17 digits: to the last bit.

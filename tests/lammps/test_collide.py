@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """compute lsdcd/collide: cubes of four atoms, driven by fix move and fix rigid, through a floor of one
 large triangle. How many of a cube's 12 triangles have corners on both sides of the floor's plane is
 counted from the atoms as they are dumped, by a linear map in place of the compute's rotation.

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """What a run leaves behind that is killed, or whose disk is full: older files whole, and a restart
 that goes on bit for bit."""
 

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """device cuda and device cpu give the same trajectory, to the last bit.
 
 Skipped (exit status 77) without the CUDA engine or a GPU.

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """granular on a mesh against fix wall/gran granular ... zplane, sub-model by sub-model.
 
 The oracle is Debian's 29Sep2021 for what that has and, with the argument `host`, LAMMPS

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """fix wall/lsdcd/kk against the plain fix, in one LAMMPS with Kokkos.
 
 Sides and other walls of LAMMPS stay on the host (suffix off), so that only our fix, the

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """The beds of bench/kokkos.py: what is timed with the wall and without begins in one state,
 in the order in memory that its name says, and Kokkos's copies are counted."""
 

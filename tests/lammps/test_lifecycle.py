@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Atoms that move in memory and between processes, arrive, grow and change their mass, and what
 the wall keeps of them, in runs and between them."""
 

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """fix massflow/lsdcd: number, mass and rate of what passes, against closed forms.
 
 Spheres fall at speed 1 in steps of 1/128 from heights that are multiples of 1/4, over the nodes

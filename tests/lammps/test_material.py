@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """`granular material ...` is the granular style with the material's numbers.
 
 The numbers are worked out here once more, from the values in the file and the formulas of

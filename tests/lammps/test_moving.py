@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Meshes that move: against fix wall/gran, against one another and against closed forms.
 
 Both codes evaluate the same formulas in another order: 1e-12 leaves room for 10^4 operations, see

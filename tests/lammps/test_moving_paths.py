@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Spheres on meshes that move, against closed forms: a period-one orbit on a floor that shakes, a straight
 path over a floor that turns, and a pitch a turn in a screw."""
 

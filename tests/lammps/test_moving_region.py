@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Meshes that move against fix wall/gran/region with a region that moves: linear, rotate, variable.
 
 A sphere bounces in a box that moves: each wall is a plane, and both codes evaluate the same formulas

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """A sphere on a floor of triangles moves as on fix wall/gran's zplane.
 
 Both codes evaluate the same formulas in another order. Rounding differences of

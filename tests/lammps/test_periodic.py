@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """A mesh acts through the periodic faces of the box, and follows the box when it changes.
 
 The oracle is the same scene somewhere else: moved by half a box it does not cross a face, in a

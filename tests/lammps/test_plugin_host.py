@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """One deck gives the same numbers under lmp-lsdcd and under a LAMMPS with PLUGIN.
 
 LSDCD_PLUGIN_HOST names that LAMMPS, of the version that the plugin is built for; without

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Torque about chosen points, and work of a wall that moves, against closed forms."""
 
 import math

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """One deck on 1, 2 and 4 ranks gives the same trajectory, springs included.
 
 Spheres that touch only the wall: forces do not depend on the order of atoms, so

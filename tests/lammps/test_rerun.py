@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """The command rerun: what follows from positions and time is as in the run that was dumped, what
 adds up from step to step is refused or told of."""
 

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """A run continued from a restart file in mid-slide equals the unbroken one.
 
 LAMMPS evaluates forces once more where a run begins, with velocities of the full

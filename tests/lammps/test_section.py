@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """What examples/vessel/section.py draws is what LAMMPS draws of the same grains and wall."""
 
 import pathlib

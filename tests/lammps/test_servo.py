@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Meshes that a servo moves: pistons, a lever; closed forms, LAMMPS's own walls, restart, ranks."""
 
 import math

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Several meshes in one fix: against LAMMPS's planes, against one mesh, and against closed forms.
 
 Both codes evaluate the same formulas in another order: 1e-12 leaves room for 10^4 operations, see

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """What a fix of several meshes shows, writes and keeps: its array, files, restart files, servos."""
 
 import math

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Every command of doc/tutorial.md, in its order; with `paraview`, the script that opens its result."""
 import pathlib
 import re

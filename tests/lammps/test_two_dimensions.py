@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """Discs in two dimensions on an outline drawn out along z move as on fix wall/gran's planes.
 
 Alone, a disc does not amplify rounding: 1e-12, as in test_parity. Many that collide do, whoever

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 """The wall's part of the pressure (fix_modify virial yes), against LAMMPS's flat wall and a closed form."""
 
 import math

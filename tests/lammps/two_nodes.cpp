@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // Preloaded, makes one machine look like two: even and odd ranks share no memory. With
 // LSDCD_FULL_NODE the second of them has no blocks of a megabyte to give.
 #include <cstdlib>

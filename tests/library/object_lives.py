@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Objects of the Python module that are copied where that is not refused, and that outlive what they are
 made from: for valgrind, which sees what is freed twice or used after."""
 import copy

@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Installs the packages in a clean Debian and uses them there.
 #   packages_on.sh SUITE PACKAGES    bookworm or trixie; the folder with *.deb
 #   LSDCD_HOSTS    where the Debian is kept, as SUITE-clean, some 300 MB; what is installed on top of

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Installs a build under a scratch prefix, moves that, and uses it as a stranger would.
 
 From the environment: LSDCD_BUILD, the build folder; LSDCD_ROOT, the sources; LSDCD_C, LSDCD_CXX and

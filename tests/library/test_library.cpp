@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The library through its headers, against brute force over the bare triangles.
 #include "lsdcd.hpp"
 #include "support/comma_locale.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Bodies through the library's headers: a cube through a floor of two triangles, in closed form.
 #include "lsdcd.hpp"
 

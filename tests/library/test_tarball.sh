@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # The source tarball: whole, and the same each time.
 #   test_tarball.sh CMAKE PYTHON     of the checkout that this file is in
 set -uo pipefail

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Arrays, layouts, threads and errors of the Python module, against a cube's closed form."""
 import copy
 import pickle

@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Run by packages_on.sh as root of a Debian of its own: use_packages.sh same|newer
 set -uo pipefail
 status=0

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rolling friction and cohesion as LIGGGHTS has them, against closed forms.
 #include "support/laws.h"
 #include "support/meshes.h"

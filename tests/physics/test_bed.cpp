@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A bed of spheres at rest in a drum that stands upright, for a million steps.
 #include "support/hard_case.h"
 #include "support/laws.h"

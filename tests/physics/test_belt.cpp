@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Walls whose surface moves: conveyors, turntables, rolls.
 #include "support/hard_case.h"
 #include "support/laws.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Bounces: trains of them, oblique ones that slip or stick, and on a thin plate.
 #include "support/hard_case.h"
 #include "support/laws.h"

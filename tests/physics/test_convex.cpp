@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Convex edges, corners and cone tips are one contact, whatever meets there and in
 // whatever order. (test_corners: a cube, and cones of equal facets.)
 #include "support/hard_case.h"

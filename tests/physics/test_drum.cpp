@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A drum of n flat segments against the polygon's own answer and the smooth cylinder's.
 #include "support/hard_case.h"
 #include "support/laws.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Fast spheres: what speed goes through a wall, and what `side` brings back. Thin plates.
 #include "support/hard_case.h"
 #include "support/laws.h"

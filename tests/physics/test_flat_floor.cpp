@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A triangulated plane is a plane: F = F(R - h), whatever lies under the sphere.
 #include "support/laws.h"
 #include "support/meshes.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The sub-models of `granular` against closed forms.
 #include "engine/step/compile_law.h"
 #include "law/submodels/normal.h"

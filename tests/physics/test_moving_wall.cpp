@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A mesh that moves as a rigid body: Galilei's and Newton's answers.
 #include "base/input_error.h"
 #include "motion/motion.h"

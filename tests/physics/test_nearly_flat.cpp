@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Folds of all angles: the force is as smooth in position and in angle as one wall's.
 // (test_corners: the closed form at each angle, and that steps shrink.)
 #include "support/hard_case.h"

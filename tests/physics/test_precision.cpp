@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Contacts in float: how far forces in mixed and single precision are from double.
 #include "contact/find_contacts.h"
 #include "support/device.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rolling: down inclines, along grooves, over seams and over the tip of a cone.
 #include "support/hard_case.h"
 #include "support/laws.h"

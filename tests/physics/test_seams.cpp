@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A sphere swept over the seams of a plane: every force, of hooke and of hertz, is the
 // plane's to the bits that its height has, however the plane is cut. (test_flat_floor:
 // at all depths.)

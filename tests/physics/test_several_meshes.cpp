@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A wall of several meshes acts as one: spheres feel each place once, whatever mesh it is of and
 // whatever frame that is in.
 #include "engine/step/compile_law.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Springs: carried over seams, edges, corners and folds, below and above the friction limit.
 #include "support/hard_case.h"
 #include "support/laws.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What spheres do to a wall: forces on its triangles and wear, against hand integration.
 #include "output/wall_loads.h"
 #include "support/laws.h"

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Adds the mesh format .tri, nine numbers a line, as doc/design.md tells: a reader, and its row in a copy.
 
 usage: mesh_format.py SRC OUT     the sources, and where the two files go

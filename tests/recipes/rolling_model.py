@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Adds `rolling plastic K MU` to copies of the files that doc/design.md names, as it tells.
 
 usage: rolling_model.py SRC OUT     the sources, and where the two changed files go

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The format that mesh_format.py adds.
 #include "base/input_error.h"
 #include "mesh/io/read_mesh.h"

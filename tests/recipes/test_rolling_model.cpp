@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The model that rolling_model.py adds: from the words of a script to the torque.
 #include "effects/effects.h"
 #include "input/settings.h"

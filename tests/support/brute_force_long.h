@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The distance to a soup by trying every triangle, in more digits than the core has
 // and by another way: barycentric coordinates from a dual basis, and segments.
 #pragma once

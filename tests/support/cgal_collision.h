@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Pairs of triangles that meet, by CGAL's AABB tree with exact predicates.
 #pragma once
 

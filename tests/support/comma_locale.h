@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A locale whose numbers have a comma, as German ones, made here: machines of tests often have none.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One crowd of spheres on one wall for a few steps, on any engine: all that it returns, so
 // that engines can be compared to the bit.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Arrays where an engine computes, for tests that stand in for a host code with its
 // particles there.
 #pragma once

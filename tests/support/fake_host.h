@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A host of several processes, each a thread, for tests of the wall without LAMMPS and MPI.
 #pragma once
 

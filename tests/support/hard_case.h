@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A hard case: its answer, ours and a derived tolerance, expected and written down.
 #pragma once
 

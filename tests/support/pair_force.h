@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A small pair force between equal spheres, so that beds can rest without LAMMPS.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Sums over pairs, and the door to the checker that runs on a GPU.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A wall's query against the oracle, on one backend: spheres, oracle and counts stay there.
 #pragma once
 

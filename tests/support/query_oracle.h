@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Nearest triangles by another way, on host and device: coarse bins of the bare soup and
 // the regions of a triangle's plane. Shares vectors with the core, nothing else.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Random meshes of all kinds, good and bad, and spheres near them: each from a number.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Real meshes of CGAL's documentation (Debian's libcgal-demo), unpacked when they are asked for.
 #pragma once
 

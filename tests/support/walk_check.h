@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One sphere on a random walk inside the margin of its list of the wall: what has to hold in every
 // step.
 #pragma once

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Checks that the backends have the verbs that src/backend/backend.h lists and no others, and that only they
 know CUDA's runtime.
 

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Checks the house of src and kokkos: who includes whom, where files lie.
 
 usage: check_includes.py [ROOT]

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Checks what a release has to agree in; RELEASING.md says when.
 
     check_release.py                     the files: versions, CHANGELOG.md, doc/formats.md

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """lsdcd collide against closed forms: a cube through a floor of squares, counted by hand, and blades that
 each cut one triangle; what files hold; and what is refused."""
 import base64

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Every command of lsdcd through its command line: its help has an example that works, its words are
 taken and others refused, and a table of good and bad uses does what it should. A new command needs a
 row in NEEDS and in GOOD."""

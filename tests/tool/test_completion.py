@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """What bash completes of lsdcd's words, with the file that is installed."""
 import pathlib
 import subprocess

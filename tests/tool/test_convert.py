@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """lsdcd convert: what it writes, read here; with the word `assimp`, what it reads, written here."""
 import pathlib
 import struct

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """lsdcd distance against every triangle, one by one, in numpy, and against the closed form of a box; the
 same answers for points in CSV, .npy and LAMMPS dumps; and memory that does not grow with the points."""
 import math

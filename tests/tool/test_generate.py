@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """lsdcd generate writes shapes that lsdcd inspect calls clean, closed where they are, with areas and
 volumes of closed forms."""
 import math

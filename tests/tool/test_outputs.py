@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """No command of lsdcd writes over a file that it reads, under whatever name, over another that it writes,
 or to a name that says another format."""
 import os

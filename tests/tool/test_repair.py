@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """lsdcd repair of broken meshes: the file is clean or what is left is named, and no point of the old
 surface is farther from the new one than it says, nor the other way round."""
 import json

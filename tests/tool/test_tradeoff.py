@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """lsdcd tradeoff writes its rows whole or not at all, with or without matplotlib, and says what is
 wrong with its arguments."""
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Triangles in numpy: distances to every one of them, one by one, and meshes to break."""
 import itertools
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Pairs of spheres and meshes checked on a GPU.
 #include "support/properties.h"
 

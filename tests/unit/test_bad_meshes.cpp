@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Meshes as they should not be, against exact rational arithmetic (CGAL over GMP):
 // no contact missed, none at a wrong distance, nothing that is not a number.
 #include "contact/find_contacts.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Every damaged file of tests/bad_stl is refused with words that help to repair it.
 #include "base/input_error.h"
 #include "mesh/triangle_soup.h"

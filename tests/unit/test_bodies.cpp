@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A body against the wall: pairs against a test of all triangles with all, of which the triangle
 // test has its own oracle (test_triangles, test_triangles_cgal).
 #include "base/input_error.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The paper's lion against its cylinder, radius 50 and height 100, against CGAL's AABB tree.
 #include "bodies/body_collision.h"
 #include "study/cylinder.h"

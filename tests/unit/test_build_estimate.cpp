@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a grid's lists will hold is known before they are made.
 #include "base/input_error.h"
 #include "engine/wall_engine.h"

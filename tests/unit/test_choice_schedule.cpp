@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // When near spheres are chosen anew: whatever moves, none comes to the wall unseen.
 #include "wall/choice_schedule.h"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Closest points on faces, edges and vertices against closed forms and quad precision.
 #include "geometry/closest_point.h"
 #include "mesh/wall_features.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The corner rule against every subset of active contacts, tried in quad precision.
 #include "contact/corner.h"
 

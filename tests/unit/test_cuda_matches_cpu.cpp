@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The CUDA engine against the CPU engine: one source, so the same bits.
 #include "effects/effects.h"
 #include "support/crowd.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The table of effects: what is kept for each.
 #include "effects/effects.h"
 #include "support/laws.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Engines for particles in place, in other layouts and behind an adapter against the CPU's: one
 // source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches.
 #include "contact/contact_history.h"

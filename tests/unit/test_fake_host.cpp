@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The host of the wall's unit tests finds processes that would wait for each other forever.
 #include "base/input_error.h"
 #include "support/fake_host.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // `material` in a deck's words becomes the numbers that could have stood there.
 #include "base/input_error.h"
 #include "input/fill_material.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Merging closest points at one point, and keeping to one side of a closed wall.
 #include "contact/find_contacts.h"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where a body is from where points of it are: against the motion that put them there.
 #include "base/input_error.h"
 #include "bodies/fit_pose.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What passes a surface: each fact has a closed form, or follows from the surface being closed.
 #include "input/massflow_settings.h"
 #include "base/input_error.h"

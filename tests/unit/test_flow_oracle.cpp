@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Passes against CGAL in rational numbers, where the vector by which all centres are moved for
 // ties is a true number: coordinates are whole numbers below 16, so that determinants are whole
 // numbers below 1e6, and 1e-9 is less than any of them.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "base/input_error.h"
 #include "contact/find_contacts.h"
 #include "grid/brick_records.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How springs are handed on from one step's contacts to the next's.
 #include "contact/history.h"
 #include "support/meshes.h"

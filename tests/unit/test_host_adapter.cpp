@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The adapter of a host whose arrays are elsewhere: springs and indices across choices of other near
 // spheres. That it gives what the CPU's engine gives is in test_engine.cpp.
 #include "engine/step/compile_law.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Material files: what is read, what is refused and how, and units.
 #include "base/input_error.h"
 #include "material/contact_moduli.h"

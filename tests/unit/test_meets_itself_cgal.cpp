@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Facets of one mesh that meet, against CGAL's self-intersections with exact predicates.
 #include "mesh/meets_itself.h"
 #include "support/meshes.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where a mesh is in each step: by its clock, by variables, after other words and restarts.
 #include "base/input_error.h"
 #include "support/fake_host.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Lists of the N nearest triangles: what they hold, and what their certificates promise.
 #include "contact/find_contacts.h"
 #include "support/brute_force_long.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Contacts against CGAL's AABB tree over the bare triangles, in long double.
 // Its own program: CGAL takes long to compile. LSDCD_QUICK=1 tries a tenth.
 #include "contact/find_contacts.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Queries of many spheres against an oracle that shares no code, on five meshes.
 //   LSDCD_SPHERES    per mesh, 1e5 unless given (1e8 takes a minute or two on a GPU)
 //   LSDCD_TRIANGLES  of the largest mesh, 1e4 unless given (up to 1e6)

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Warnings of spheres that are deep in the wall, on two processes.
 #include "support/fake_host.h"
 #include "wall/overlap_monitor.h"

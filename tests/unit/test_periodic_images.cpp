@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A mesh with the images of its triangles across periodic faces.
 
 #include "mesh/periodic_images.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The material files that come with the project.
 #include "base/input_error.h"
 #include "input/fill_material.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Random meshes x random spheres x random grids against trying every triangle.
 //   LSDCD_PAIRS  sphere-mesh pairs, and steps of walks, 1e7 unless given (1e9 takes minutes on a GPU)
 //   LSDCD_SEED   first seed, 1 unless given

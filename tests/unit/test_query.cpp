@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Queries against every triangle tried in more digits, and against themselves.
 #include "support/brute_force_long.h"
 #include "support/device.h"

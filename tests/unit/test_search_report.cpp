@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Lines of the log about the search for contacts, from two processes.
 #include "support/fake_host.h"
 #include "wall/search_report.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The loop of a servo: stable on chains of spheres up to the timestep of their contacts.
 #include "motion/motion.h"
 #include "law/contact_slope.h"

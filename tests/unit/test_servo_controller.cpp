@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A servo's velocity from the load of the last step, on two processes.
 #include "support/fake_host.h"
 #include "wall/servo_controller.h"

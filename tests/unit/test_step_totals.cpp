@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Totals of a wall's meshes over two processes, against what a spring on a floor must give.
 #include "support/fake_host.h"
 #include "support/meshes.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The parts of the paper's study, and the study on a small number of spheres.
 #include "support/device.h"
 #include "support/random_mesh.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The table of sub-models: what is said of each is said everywhere.
 #include "law/sub_models.h"
 

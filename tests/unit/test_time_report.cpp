@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The table of a run's times, from two processes whose clocks the tests turn.
 #include "support/fake_host.h"
 #include "wall/time_report.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What settings buy and cost: the front, the moving spheres, the rows.
 #include "study/tradeoff.h"
 

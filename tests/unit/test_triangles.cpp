@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Pairs of triangles of which one sees whether they meet: touching, in one plane, without an area,
 // a last digit apart, of any size. tests/unit/test_triangles_cgal.cpp has random ones.
 #include "geometry/triangles_meet.h"

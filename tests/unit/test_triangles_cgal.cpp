@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Do two triangles meet: against CGAL's exact kernel, which knows triangles, segments and points
 // apart. LSDCD_QUICK=1 tries a tenth.
 #include "geometry/triangles_meet.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How wrong the answers of a setting are, and the spheres that they are of.
 #include "study/wall_answers.h"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Files that a run writes of a wall's meshes, on two processes, of which the first has the meshes.
 #include "base/input_error.h"
 #include "mesh/triangle_soup.h"

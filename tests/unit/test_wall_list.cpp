@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Lists of the wall: what one holds, how far it holds, and what an engine does with it. Walks inside
 // the margin on random meshes are in test_properties.cpp.
 #include "engine/lists/touch.h"

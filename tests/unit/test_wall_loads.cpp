@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Loads and wear of the parts of a wall, and their file.
 #include "output/file_series.h"
 #include "output/mesh_fields.h"

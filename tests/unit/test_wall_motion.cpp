@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Poses and velocities of moving meshes against closed forms in long double.
 #include "motion/motion.h"
 #include "mesh/point_tree.h"

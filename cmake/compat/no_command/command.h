@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // The base class of input commands, for packages that ship LAMMPS's headers without it.
 #pragma once
 

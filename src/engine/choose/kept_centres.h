@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where spheres and meshes were at a choice, to tell when it holds no longer.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Memory for the lists of the wall of near spheres, where the engine computes.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The tests that find the spheres which could be near the wall after moving at most a margin: one of all
 // spheres, one of those in a brick of the grid, and one of those that are near by their cells. Selection runs
 // them.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The spheres near the meshes of a wall, where it has several: first those near one mesh only, mesh
 // after mesh, then those near several, with a slot for each (sphere, mesh).
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The meshes of a wall, the spheres that a choice finds near them, and their lists of the wall.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The second part of a choice on a GPU: the exact test of spheres that the test by cells leaves.
 #pragma once
 

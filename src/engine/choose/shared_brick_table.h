@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The brick table in the shared memory of a GPU's block, for kernels that look up every sphere.
 #pragma once
 

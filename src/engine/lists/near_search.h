@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The features of the wall that a sphere could touch after a little way, from the cells near it.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Copies of a large wall's records, side by side in the order of the lists that name them, for a step
 // on a CPU: the wall's own are far apart in memory, and each is waited for, with its page.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The half of the kernel that no law changes: what a sphere touches, and how its
 // contacts share their overlap.
 #pragma once

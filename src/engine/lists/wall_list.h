@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Lists of the wall (Verlet lists): the features that a sphere can touch while its centre stays
 // within a margin of where it was. A step tests these alone and reads no cell.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Results of a step in place as they stay behind for totals and outputs: a column per
 // number, so that neighbours are written and read together.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // An error of one sphere, which an engine knows by its place in the arrays only.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A compiled contact law behind two pointers, so that engines are compiled once and laws
 // add only the loop over spheres.
 #pragma once

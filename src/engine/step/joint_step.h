@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A step over the spheres that are near several meshes of a wall: their contacts with all of these
 // share their overlap as those with one mesh do.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Which compiled law the settings ask for. Compiled once for each backend, with the classic styles.
 #pragma once
 

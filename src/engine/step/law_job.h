@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A step's work for the kernels of a contact law over the spheres near the wall, on any backend.
 #pragma once
 

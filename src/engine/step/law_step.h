@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A step of a contact law over the spheres near the wall: one body for every backend.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a wall does beside a contact law: its surface may move, and what happens to it may
 // be recorded. Compiled into a law's kernel only where it is asked for.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A step over many spheres on a GPU: a thread for each, and at the same time warps for those with several
 // contacts. Such a sphere takes twenty times as long as the others, so that it must not begin after them.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the kernels of a step on a GPU hand on to each other and to the next step.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a step leaves behind of a near sphere apart from what its law computes: that it touches
 // nothing, what its search may have missed, that its contacts do not fit.
 #pragma once

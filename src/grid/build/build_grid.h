@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Building the grid: octants -> cells -> lists, one source for every backend.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What lists will hold, from a sample of their making: a grid that cannot fit is not built first.
 #pragma once
 

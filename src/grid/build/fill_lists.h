@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // From sorted octants to occupancy masks, cells and lists, on any backend.
 #pragma once
 

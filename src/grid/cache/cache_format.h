@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What reading and writing a cache file share: a front that every version has, the rest of the
 // header, then frames of zstd, each the image of kFrameBytes of the block.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A grid in a file, so that the next start need not build it. Nothing of a file is
 // trusted: it is used only if it is whole and was written for the same mesh and
 // settings by the same sources.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "grid/cache/load_or_build.h"
 
 #include "grid/cache/grid_cache.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // In place of grid_cache.cpp and grid_key.cpp where zstd or xxHash is missing.
 #include "base/input_error.h"
 #include "grid/cache/grid_cache.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "base/input_error.h"
 #include "base/atomic_file.h"
 #include "grid/cache/cache_format.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Which points may lie in a brick, told by as little arithmetic as can be: a GPU asks this of
 // every sphere.
 #pragma once

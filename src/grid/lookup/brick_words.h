@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A grid's brick table as bits: the paper's cube has a table of 1 MB and 66 kB of these,
 // which stay next to the processor. Most spheres of a scene need no more.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A grid's brick table once more, a bit for a cube of bricks: so small that each block of a GPU's
 // threads can have it. Most spheres of a scene need no more.
 #pragma once

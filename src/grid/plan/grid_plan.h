@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where the cells of a grid lie, and what it will weigh, before any is made.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // lmp-lsdcd: LAMMPS's own command line, with plugins.
 
 #include "base/version.h"

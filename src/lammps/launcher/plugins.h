@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // The plugin command for a LAMMPS that was built without it.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Cohesion beside a normal law: a pull that acts where the surfaces touch.
 #pragma once
 

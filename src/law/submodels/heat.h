@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Heat that a contact conducts from the wall into the sphere.
 #pragma once
 

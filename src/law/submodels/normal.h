@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Normal elasticity: the force that an overlap gives, and the size of the contact.
 // Each has
 //   contact_radius(c)   length

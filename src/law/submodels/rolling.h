@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rolling resistance: a contact torque against the turning of a sphere along the wall.
 //
 // A model is a struct with

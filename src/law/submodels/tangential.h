@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Tangential friction, with and without a spring, limited by Coulomb's law.
 #pragma once
 

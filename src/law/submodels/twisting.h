@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Twisting resistance: a contact torque against the turning of a sphere on the spot.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // OBJ, PLY and OFF, by the library assimp.
 #include "mesh/io/read_mesh.h"
 

@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 # Builds a LAMMPS to test against, from Debian's parts and outside the tree.
 #   build_host.sh [VERSION]  builds it unless it is there; the last line is its folder
 #   VERSION 20260704         (default) 4Jul2026 of Debian's sid, whose granular walls ours are

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 # To be sourced; the caller has a function `skip REASON`.
 
 # The Debian mirror that this machine's apt uses, or nothing.

@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
 # Runs `./run demo`, with few steps, on another Debian with the LAMMPS that it has.
 #   demo_on.sh SUITE    trixie or sid
 #   LSDCD_HOSTS         where the Debian is kept (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts),

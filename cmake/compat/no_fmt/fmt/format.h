@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
 // LAMMPS's headers name types of the fmt it was built with; some packages ship
 // those headers without it. Declaring the types is enough for code that passes
 // every message as std::string: no formatting function is ever called from here.
