@@ -67,11 +67,20 @@ LSDCD_FN Vec3 in_own_frame(const Spring *, int, const Vec3 &h)
   return h;
 }
 
-// Was the feature of an old spring left: is it in no contact now?
-LSDCD_FN bool is_left(const ContactsView &set, FeatureCode feature)
+// Cosine above which two contacts lie in the same direction: 1.4e-3 radians, more than rounding or one step
+// turns a normal.
+constexpr Real kSameDirection = 1 - 1e-6;
+
+// Was the contact of old spring k left, as contact i sees it? It was not if its feature is still in contact, or if
+// another contact in the same direction carries it on: there the sphere crossed a line that cuts a face or an edge in
+// two, and without that cut it would have left nothing.
+template <class Springs>
+LSDCD_FN bool is_left(const ContactsView &set, int i, const Springs &old, int k)
 {
   for (int j = 0; j < set.n; j++)
-    if (set.feature[j] == feature) return false;
+    if (set.feature[j] == old[k].feature ||
+        (j != i && dot(set.normal[j], old[k].normal) > kSameDirection))
+      return false;
   return true;
 }
 
@@ -82,7 +91,7 @@ struct Transfer {
 };
 
 // 1. The spring of the same feature.
-// 2. Else one whose feature was left this step, next to this one and nearly
+// 2. Else one whose contact was left this step, next to this one and nearly
 //    aligned: the contact moved across a seam, the spring goes with it, whole.
 // 3. Else the best aligned spring times max(0, n.n): a contact born beside
 //    others takes over as much of their force as it will carry in their stead.
@@ -102,7 +111,7 @@ LSDCD_FN Transfer transfer_of(const WallFeaturesView &wall, const ContactsView &
       best = k;
     }
     if (own && c > moved_cos && are_adjacent(wall, old[k].feature, set.feature[i]) &&
-        is_left(set, old[k].feature)) {
+        is_left(set, i, old, k)) {
       moved_cos = c;
       moved = k;
     }
@@ -129,8 +138,7 @@ LSDCD_FN bool is_held(const WallFeaturesView &wall, const ContactsView &set, int
   for (int k = 0; k < n_old; k++) {
     if (!(dot(old[k].normal, set.normal[i]) > kMoved)) continue;
     if (!is_own(old, k) || old[k].feature == set.feature[i]) return true;
-    if (are_adjacent(wall, old[k].feature, set.feature[i]) &&
-        (shares || is_left(set, old[k].feature)))
+    if (are_adjacent(wall, old[k].feature, set.feature[i]) && (shares || is_left(set, i, old, k)))
       return true;
   }
   return false;

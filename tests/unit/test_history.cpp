@@ -203,6 +203,27 @@ TEST(transfer_of, of_a_contact_born_beside_one_that_stays_is_the_cosine_of_its_s
   }
 }
 
+// A plane that is cut in two between kHere and kNext: the sphere crosses the cut while a contact begins at a vertex
+// of kHere.
+TEST(transfer_of, of_a_contact_born_while_the_old_one_crosses_a_cut_is_the_cosine_of_its_spring)
+{
+  const Cube cube;
+  const Spring old = {kShear, kUp, kHere, 0};
+  const FeatureCode v = feature_code(FeatureKind::vertex, cube.f.face_vertex[0].v[1]);
+  const Vec3 h =
+      transferred_shear(cube.view, contacts({{kNext, kUp}, {v, leaning(30)}}), 1, &old, 1);
+  EXPECT_NEAR(norm(h), std::cos(30 * M_PI / 180) * norm(kShear), 1e-16);
+}
+
+TEST(transfer_of, across_a_cut_is_the_whole_spring_where_another_contact_is_born)
+{
+  const Cube cube;
+  const Spring old = {kShear, kUp, kHere, 0};
+  const FeatureCode v = feature_code(FeatureKind::vertex, cube.f.face_vertex[0].v[1]);
+  EXPECT_EQ(transferred_shear(cube.view, contacts({{kNext, kUp}, {v, leaning(30)}}), 0, &old, 1),
+            kShear);
+}
+
 TEST(transfer_of, in_a_right_angled_corner_is_nothing)
 {
   const Cube cube;
