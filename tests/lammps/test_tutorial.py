@@ -61,7 +61,9 @@ def paraview(checks):
     shutil.copy(folder / "part.stl", folder / "hopper.stl")
     done = run([deck.LMP, "-in", TUTORIAL / "in.hopper", "-var", "fill", "10000", "-var", "drain", "2"], folder)
     checks.fact("the hopper runs", done.returncode == 0, done.stdout[-500:] if done.returncode else "")
-    done = run(["xvfb-run", "-a", "pvpython", TUTORIAL / "view.py"], folder)
+    # ParaView opens a display twice. A server that resets in between may refuse the second time.
+    display = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset"]
+    done = run([*display, "pvpython", TUTORIAL / "view.py"], folder)
     checks.fact("paraview draws", done.returncode == 0 and (folder / "wall_stress.png").exists(), done.stdout[-500:])
     checks.done(folder)
 
