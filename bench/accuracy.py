@@ -2,12 +2,12 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Repeats the paper's study and writes its part of doc/accuracy.md.
+"""Repeats the paper's study and writes its part of doc/accuracy.md and of doc/data/accuracy_tables.md.
 
 usage: accuracy.py [--build DIR] [--spheres N] [--rows-only | --write-only] [--commit NAME]
 
 Runs `lsdcd accuracy` on the CPU and, where there is a GPU, with CUDA. Rows go to
-DIR/bench/accuracy_DEVICE.csv and are kept in doc/data, so that the document has those of
+DIR/bench/accuracy_DEVICE.csv and are kept in doc/data, so that the documents have those of
 a device on a machine without it too. The table of certificates is from
 doc/data/certificates.csv, rows of test_oracle_query (LSDCD_QUERY_CSV).
 """
@@ -23,6 +23,7 @@ DOCUMENT = os.path.join(ROOT, "doc", "accuracy.md")
 PLOT = os.path.join(ROOT, "doc", "img", "accuracy_paper.png")
 QUESTION = os.path.join(ROOT, "doc", "img", "paper_question.png")
 DATA = os.path.join(ROOT, "doc", "data")
+TABLES = os.path.join(DATA, "accuracy_tables.md")
 CERTIFICATES = os.path.join(DATA, "certificates.csv")
 BEGIN, END = "<!-- paper:begin -->", "<!-- paper:end -->"
 DEVICES = ("cpu", "cuda")
@@ -226,29 +227,61 @@ def certificates(rows):
 
 
 TEXT = """{begin}
-## The paper's study, repeated
+## The paper's study in short
 
-*Written by `./run bench accuracy` from `doc/data/accuracy_*.csv` and
-`doc/data/certificates.csv`; do not edit between the markers.*
+Yong et al. (2017) ask how many triangles N a cell must list. We repeat their study. A cylinder of radius 50 and height 100 is cut into
+{triangles} triangles. {spheres} spheres lie uniformly in a cube around it, with radii uniform in (0, 1]; L is the length of a cell.
+*Accuracy* is the share of spheres whose status, touching or not, is that of the true cylinder (the paper's formula 6). *Error* is the loss
+against exact distances to all triangles (formula 7). Accuracy stays below 1 even with exact distances, as triangles are not round.
 
-The set-up of Yong et al. (2017): a cylinder of radius 50 and height 100 in triangles,
-spheres uniform in a cube round it, radii uniform in (0, 1] (the paper only gives their
-largest, 1). *Accuracy* is the share of spheres whose status, touching or not, is that of the
-true cylinder: formula (6) with function (3). *Error* is the loss against the exact distance
-to all triangles, in per cent: formula (7). *Missed* and *false* count against the triangles
-themselves, the wall that a simulation sees; *certified* is the share of answers that the
-list vouches for. {triangles} triangles, {spheres} spheres, cube {cube}, seed {seed}.
+**Answer: on their cylinder two triangles are enough, on finer meshes they are not.** At L = 0.2, of {touching} contacts:
+
+{short}
+
+Times are those of a query alone, median of {repeats} ({cpu_repeats} on the CPU), spheres in random order, in double, without copies. The
+paper does not say whether its times hold copies.
 
 {runs}
 
-Times are of the query alone (median of the repeats), status only, everything on the device,
-geometry in double; copies are in the CSV. A query searches cells with N triangles and with all of them; a step
-of the fix with all reads lists that were made before ([above](#which-setting)). CPU times are of a machine that also did other
-work: upper bounds. Spheres are in random order, or sorted along a
-Z-curve where a column says so. Times of the paper are of a Tesla K40; it does not say whether its copies are in
-them. Its *all* tries every triangle, and its time stands beside ours that does so.
+On finer cylinders, with L = 0.4, the same N misses more, and complete lists take longer. Missed contacts in per cent, and ms on the GPU:
 
-![Accuracy and time of the paper's set-up](img/accuracy_paper.png)
+{finer}
+
+What else came out; each has its [table](data/accuracy_tables.md):
+
+- **Which cylinder.** The paper does not say how many triangles it has. With 39 segments, in the cube that just holds it, our accuracy with
+  all triangles differs from the paper's best by {best}; the sampling error is {sampling:.0e}. No other choice agrees for N = 2 and 3 too.
+- **N = 1.** The paper's accuracies for N = 1, 0.9630 at L = 0.2 and 0.3, are what a program scores that never finds a contact:
+  {never}. The method itself reaches {one}. Of {faults} faults that we tried none gives all four of the paper's numbers.
+- **N = 2.** The paper loses 7.5e-5 to 2.1e-4 of all spheres with N = 2. This does not come from the method, which misses {missed}
+  of {touching} contacts.
+- **Number of spheres.** It does not change the accuracy. From 1e6 spheres on the time grows with their number: {nine} ms for 6e7
+  spheres, {nine_paper} ms in the paper.
+- **Length of a cell.** From L = 0.18 to 1 our accuracy falls by {by_length:.0e}; the paper's falls by 1e-4 up to 0.5. At L = 0.5 our grid takes
+  {build} s on the GPU and {build_cpu} s on the CPU, the paper's 9 s, since it tries every triangle for every cell.
+- **Inside a triangle.** The paper's test, its formula (5), is wrong in triangles with an obtuse angle: on a cylinder of such triangles
+  {leaked} % of the contacts are missed. Ours is exact.
+- **Certificates.** `nearest N` says of each answer whether it is certain. Against another program no certain answer was wrong, on
+  five meshes, {oracle} spheres each (`tests/unit/test_oracle_query.cpp`; {oracle_device}, commit {oracle_commit}).
+
+`./run bench accuracy` writes this from `doc/data/accuracy_*.csv` and `doc/data/certificates.csv`; do not edit between the markers.
+{end}"""
+
+LONG = """{begin}
+## The paper's study
+
+Definitions are in [accuracy](../accuracy.md#the-papers-study-in-short). *Missed* and *false* count against the triangles themselves, the
+wall that a simulation sees; *certified* is the share of answers that the list vouches for. {triangles} triangles, {spheres}
+spheres, cube {cube}, seed {seed}, unless a table says otherwise.
+
+{runs}
+
+Times are of the query alone (median of the repeats), status only, everything on the device, geometry in double; copies are in the CSV.
+CPU times are of a machine that also did other work: upper bounds. Spheres are in random order, or sorted along a Z-curve where a
+column says so. Times of the paper are of a Tesla K40; it does not say whether its copies are in them. Its *all* tries every triangle,
+and its time stands beside ours that does so.
+
+![Accuracy and time of the paper's set-up](../img/accuracy_paper.png)
 
 ### Table 2: triangles per cell
 
@@ -256,28 +289,20 @@ them. Its *all* tries every triangle, and its time stands beside ours that does 
 
 ### Which cylinder the paper had
 
-It does not say how many triangles its cylinder has, nor how far the cube that "just wraps"
-wall and particles reaches. Accuracy with exact distances to all triangles, less the paper's
-best of 0.994025:
+It does not say how many triangles its cylinder has, nor how far the cube that "just wraps" wall and particles reaches. Accuracy with
+exact distances to all triangles, less the paper's best of 0.994025:
 
 {tessellation}
 
-{tried} spheres each: draws of so many and the paper's differ by {sampling:.0e} (one sigma).
-39 segments in the cube of side 100 (exactly the cylinder's box) and 40 segments in the cubes
-that also hold the spheres' radii give the paper's best to within that. Only the first holds
-for N = 2 and 3 too (within 2e-4 at every L, table 2), and its *never* is the paper's row
-N = 1 (below). It is the one used here.
-
-The losses that the paper reports for N = 2 (7.5e-5 to 2.1e-4 of all spheres) do not come from
-the method: at L = 0.2 two triangles per cell miss {missed} of {touching} contacts here.
+{tried} spheres each: draws of so many and the paper's differ by {sampling:.0e} (one sigma). 39 segments in the cube of side 100
+(exactly the cylinder's box) and 40 segments in the cubes that also hold the spheres' radii give the paper's best to within that. Only
+the first holds for N = 2 and 3 too (within 2e-4 at every L, table 2), and its *never* is the paper's row N = 1. It is the one used here.
 
 ### One triangle per cell
 
-The paper's accuracies for N = 1 cannot be the method's: the nearest triangle alone is right
-for all but a few in 1e5. Its values at L = 0.2 and 0.3 are, within the sampling error of
-6e-5, what *no contact ever found* scores in the cube of side 100: {never} with {spheres}
-spheres. Those at L = 0.4 and 0.5 lie below that, so that in these runs false contacts outnumber true ones. Guesses that were
-tried on {tried} spheres, none of which gives all four:
+The paper's values at L = 0.2 and 0.3 are, within the sampling error of 6e-5, what *no contact ever found* scores in the cube of side
+100: {never} with {spheres} spheres. Those at L = 0.4 and 0.5 lie below that, so that in these runs false contacts outnumber true ones.
+Guesses that were tried on {tried} spheres, none of which gives all four:
 
 {one_triangle}
 
@@ -291,40 +316,34 @@ This suggests that those runs hardly found contacts; why cannot be told from the
 
 {figure10}
 
-The paper makes its grid by trying every triangle for every cell, ours does not
-([building the grid](performance.md#set-up-building-the-grid)): those seconds compare methods, not devices.
+The paper makes its grid by trying every triangle for every cell, ours does not: those seconds compare methods, not devices. The paper
+prints a smaller error for L = 0.179 (0.0015 %) than its own accuracy there gives by formula (7) (0.018 %).
 
-The paper prints a smaller error for L = 0.179 (0.0015 %) than its own accuracy there gives
-by formula (7) (0.018 %).
+### Finer cylinders
 
-### Against the mesh
-
-The paper's cylinder has too few triangles for N to matter. On finer ones, cells of 0.4, exact
-inside test; a list cut off can only lose contacts. Errors are of the overlap, thus of a Hooke
-force on the nearest point of the wall: the largest over the largest radius, median and mean
-over the overlap itself, of the spheres that touch (a missed contact counts as 1). *Entries
-read* is the mean over spheres that read any.
+Cells of 0.4, exact inside test; a list cut off can only lose contacts. Errors are of the overlap, thus of a Hooke force on the nearest
+point of the wall: the largest over the largest radius, median and mean over the overlap itself, of the spheres that touch (a missed
+contact counts as 1). *Entries read* is the mean over spheres that read any.
 
 {mesh}
 
 ### What the paper's inside test costs
 
-Formula (5) takes points over a triangle's sides for inside, and in triangles with an obtuse
-angle points inside for outside. Leaked: spheres that touch and are not seen. Errors as above.
+Formula (5) takes points over a triangle's sides for inside, and in triangles with an obtuse angle points inside for outside. Leaked:
+spheres that touch and are not seen. Errors as above.
 
 {formula5}
 
-On right and acute triangles that share their planes, as those of the cylinder, it happens to
-do no harm; any mesh with obtuse triangles leaks. It is not offered outside this study.
+On right and acute triangles that share their planes, as those of the cylinder, it happens to do no harm; any mesh with obtuse
+triangles leaks. It is not offered outside this study.
 {certificates}{end}"""
 
 CERTIFIED = """
 ### Certificates against an oracle that shares no code
 
-Uniform spheres in the box of five meshes, radii uniform in (0, 1], against coarse bins and
-another distance in double (`tests/unit/test_oracle_query.cpp`). An answer is wrong from
-1e-12 of the mesh's diagonal. {device}, commit {commit}; random order, one run. **No certified answer was wrong.**
-N = 3, 5, 6 and 7 are in `doc/data/certificates.csv`.
+Uniform spheres in the box of five meshes, radii uniform in (0, 1], against coarse bins and another distance in double
+(`tests/unit/test_oracle_query.cpp`). An answer is wrong from 1e-12 of the mesh's diagonal. {device}, commit {commit}; random
+order, one run. **No certified answer was wrong.** N = 3, 5, 6 and 7 are in `doc/data/certificates.csv`.
 
 {table}
 
@@ -337,35 +356,75 @@ def runs_of(rows_of):
         rows = rows_of[device]
         if rows:
             r = rows[0]
-            lines.append(f"* {device.upper()}: {device_name(r)}, commit {r['commit']}, "
-                         f"{r['repeats']} repeats.")
+            commits = ", ".join(dict.fromkeys(x["commit"] for x in rows))
+            lines.append(f"- {device.upper()}: {device_name(r)}, commit {commits}, {r['repeats']} repeats.")
         else:
-            lines.append(f"* {device.upper()}: not run yet.")
+            lines.append(f"- {device.upper()}: not run yet.")
     return "\n".join(lines)
 
 
-def write_document(rows_of):
+def short_table(cpu, cuda):
+    """Table 2 at L = 0.2."""
+    on_cpu, on_cuda = ([r for r in of_table(rows, "table2") if r["length"] == "0.2"] for rows in (cpu, cuda))
+    cells = []
+    for r in on_cuda or on_cpu:
+        name = r["lists"].replace("complete", "all, the default").replace("every triangle", "every triangle tried")
+        paper = r["lists"] != "complete"
+        cells.append([name, f"{float(r['accuracy']):.6f}", r["paper_accuracy"] * paper, f"{abs(float(r['error_percent'])):.4f}",
+                      f"{float(r['paper_error_percent']):.4f}" * paper, r["missed"], ms(matching(on_cuda, r)),
+                      ms(matching(on_cpu, r)), short(r["paper_query_ms"], 6) * paper])
+    return markdown(["N", "accuracy", "in the paper", "error, %", "in the paper", "missed contacts", "ms, GPU", "ms, CPU",
+                     "ms, in the paper"], cells)
+
+
+def finer_table(rows):
+    """Missed contacts and time by N, a column for each mesh."""
+    rows = of_table(rows, "mesh")
+    meshes = sorted({r["triangles"] for r in rows}, key=int)[1:]
+    cells = []
+    for lists in dict.fromkeys(r["lists"] for r in rows):
+        found = [next(r for r in rows if r["triangles"] == m and r["lists"] == lists) for m in meshes]
+        cells.append([lists.replace("complete", "all")] + [
+            cell for r in found for cell in (short(str(100 * int(r["missed"]) / int(r["touching"])), 2), ms(r))])
+    return markdown(["N"] + [cell for m in meshes for cell in (f"{int(m):,}".replace(",", " ") + " triangles, %", "ms")], cells)
+
+
+def write_documents(rows_of):
     cpu, cuda = rows_of["cpu"], rows_of["cuda"]
     rows = cuda or cpu
     main = of_table(rows, "table2")
-    two = next(r for r in main if r["lists"] == "2" and r["length"] == "0.2")
+    two, one = (next(r for r in main if r["lists"] == n and r["length"] == "0.2") for n in ("2", "1"))
     accuracy = float(main[0]["best"])
     tried = of_table(rows, "tessellation")[0]["spheres"]
+    best = next(r for r in of_table(rows, "tessellation") if r["note"].startswith("39 ") and r["cube"] == "100")
+    nine, ten = of_table(rows, "figure9")[-1], of_table(rows, "figure10")
+    half = {name: next(r for r in of_table(of, "figure10") if r["length"] == "0.5") for name, of in (("cpu", cpu), ("gpu", rows))}
+    leak = max(of_table(rows, "formula5"), key=lambda r: float(r["missed"]) / float(r["touching"]))
     oracle = read_rows(CERTIFICATES)
     certified = ""
     if oracle:
         certified = CERTIFIED.format(device=oracle[0]["device"], commit=oracle[0]["commit"],
                                      table=certificates(oracle))
-    part = TEXT.format(
+    wrong = sum(int(r["certified_" + k]) for r in oracle for k in ("missed", "false", "wrong"))
+    if wrong:
+        raise SystemExit(f"{CERTIFICATES}: {wrong} certified answers are wrong, the text says none")
+    known = dict(
         begin=BEGIN, end=END, triangles=two["triangles"], spheres=count(two["spheres"]),
-        cube=two["cube"], seed=two["seed"], runs=runs_of(rows_of), table2=table_two(cpu, cuda),
-        tessellation=tessellation(rows), one_triangle=one_triangle(rows),
+        cube=two["cube"], seed=two["seed"], runs=runs_of(rows_of),
         sampling=(accuracy * (1 - accuracy) * (1 / float(tried) + 1e-7)) ** 0.5,
-        tried=count(tried), never=f"{float(main[0]['never']):.6f}", missed=two["missed"], touching=two["touching"],
-        figure9=figure_nine(cpu, cuda),
-        figure10=figure_ten(cpu, cuda), formula5=formula_five(rows), mesh=mesh(cpu, cuda),
-        certificates=certified)
-    put_between(DOCUMENT, BEGIN, END, part)
+        tried=count(tried), never=f"{float(main[0]['never']):.6f}", missed=two["missed"], touching=two["touching"])
+    put_between(DOCUMENT, BEGIN, END, TEXT.format(
+        short=short_table(cpu, cuda), finer=finer_table(rows), repeats=main[0]["repeats"], cpu_repeats=cpu[0]["repeats"],
+        best=difference(best), one=f"{float(one['accuracy']):.6f}",
+        faults=len({r["note"] for r in of_table(rows, "one-triangle")}) - 1, nine=ms(nine), nine_paper=short(nine["paper_query_ms"], 4),
+        by_length=float(ten[0]["accuracy"]) - float(ten[-1]["accuracy"]), build=short(half["gpu"]["build_s"], 2),
+        build_cpu=short(half["cpu"]["build_s"], 2), leaked=f"{100 * float(leak['missed']) / float(leak['touching']):.0f}",
+        oracle=count(oracle[0]["spheres"]) if oracle else "?", oracle_device=oracle[0]["device"] if oracle else "?",
+        oracle_commit=oracle[0]["commit"] if oracle else "?", **known))
+    put_between(TABLES, BEGIN, END, LONG.format(
+        table2=table_two(cpu, cuda), tessellation=tessellation(rows), one_triangle=one_triangle(rows),
+        figure9=figure_nine(cpu, cuda), figure10=figure_ten(cpu, cuda), formula5=formula_five(rows), mesh=mesh(cpu, cuda),
+        certificates=certified, **known))
 
 
 # ---- plot --------------------------------------------------------------------------------
@@ -379,11 +438,12 @@ def draw(rows_of):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    figure, axes = plt.subplots(2, 2, figsize=(10, 7.5))
+    figure, axes = plt.subplots(2, 2, figsize=(11, 8.6))
     (time, by_count), (by_length, build) = axes
     paper_style = dict(color="black", marker="s", linestyle="none", fillstyle="none",
                        label="paper (Tesla K40)")
-    colours = {"cpu": "tab:blue", "cuda": "tab:green"}
+    styles = {"cpu": dict(color="#0072B2", marker="o"), "cuda": dict(color="#D55E00", marker="^")}
+    ours = dict(color="#0072B2", marker="o", label="ours")
     for device in DEVICES:
         rows = rows_of[device]
         if not rows:
@@ -392,23 +452,21 @@ def draw(rows_of):
         for order, line in (("random", "-"), ("sorted", "--")):
             nine = of_table(rows, "figure9", order)
             if nine:
-                time.plot(*numbers(nine, "spheres", "query_ms"), line, marker=".",
-                          color=colours[device], label=f"{name}, {order}")
+                time.plot(*numbers(nine, "spheres", "query_ms"), linestyle=line, label=f"{name}, {order}", **styles[device])
         ten = of_table(rows, "figure10")
-        build.plot(*numbers(ten, "length", "build_s"), marker=".", color=colours[device],
-                   label=name)
+        build.plot(*numbers(ten, "length", "build_s"), label=name, **styles[device])
     rows = rows_of["cuda"] or rows_of["cpu"]
     nine, ten = of_table(rows, "figure9"), of_table(rows, "figure10")
     time.plot(*numbers(nine, "spheres", "paper_query_ms"), **paper_style)
     time.set(xscale="log", yscale="log", xlabel="number of spheres", ylabel="query time, ms",
              title="N = 2, L = 0.2 (figure 9)")
-    by_count.plot(*numbers(nine, "spheres", "accuracy"), marker=".", color="tab:red", label="ours")
+    by_count.plot(*numbers(nine, "spheres", "accuracy"), **ours)
     by_count.plot(*numbers(nine, "spheres", "paper_accuracy"), **paper_style)
     by_count.set(xscale="log", xlabel="number of spheres", ylabel="accuracy, equation (6)", ylim=(0.985, 1.0),
                  title="N = 2, L = 0.2 (figure 9)")
-    by_length.plot(*numbers(ten, "length", "accuracy"), marker=".", color="tab:red", label="ours")
+    by_length.plot(*numbers(ten, "length", "accuracy"), **ours)
     by_length.plot(*numbers(ten, "length", "paper_accuracy"), **paper_style)
-    by_length.set(xlabel="cell length L (radii up to 1)", ylabel="accuracy, equation (6)", ylim=(0.9935, 0.9942),
+    by_length.set(xlabel="cell length L (radii up to 1)", ylabel="accuracy, equation (6)", ylim=(0.9935, 0.9943),
                   title="N = 2 (figure 10)")
     by_length.ticklabel_format(useOffset=False)
     build.plot(*numbers(ten, "length", "paper_build_s"), **paper_style)
@@ -416,10 +474,15 @@ def draw(rows_of):
               title="Preprocessing, N = 2 (figures 10 and 11)")
     for a in axes.flat:
         a.grid(True, alpha=0.3)
-        a.legend(fontsize=8)
-    commits = ", ".join(sorted({r["commit"] for d in DEVICES for r in rows_of[d][:1]}))
+        a.tick_params(labelsize=11)
+        for item in (a.title, a.xaxis.label, a.yaxis.label):
+            item.set_fontsize(13)
+    time.set_ylim(top=3e5)    # room for the legend
+    for a, at in ((time, "upper left"), (by_count, "upper right"), (by_length, "upper right"), (build, "upper right")):
+        a.legend(fontsize=11, loc=at)
+    commits = ", ".join(sorted({r["commit"] for d in DEVICES for r in rows_of[d]}))
     figure.suptitle(f"The paper's cylinder: {nine[0]['triangles']} triangles, radii up to 1; "
-                    f"commit {commits}", fontsize=10)
+                    f"commit {commits}", fontsize=13)
     figure.tight_layout()
     os.makedirs(os.path.dirname(PLOT), exist_ok=True)
     figure.savefig(PLOT + ".part", dpi=110, format="png")
@@ -431,25 +494,25 @@ def draw_question(rows, steps):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    figure, (paper, axis) = plt.subplots(1, 2, figsize=(12, 5.4))
+    figure, (paper, axis) = plt.subplots(1, 2, figsize=(11, 6))
     two = [r for r in of_table(rows, "table2") if r["length"] == "0.2"]
     for r in two:
         every = r["lists"] == "every triangle"
         name = "every triangle" if every else r["lists"]
         if name != "complete":
             paper.plot(float(r["paper_query_ms"]), float(r["paper_error_percent"]), "ks", fillstyle="none")
-            paper.annotate(name, (float(r["paper_query_ms"]), float(r["paper_error_percent"])), (-60, 8) if every else (5, 5),
-                           textcoords="offset points", fontsize=11)
+            paper.annotate(name, (float(r["paper_query_ms"]), float(r["paper_error_percent"])), (-95, 8) if every else (6, 5),
+                           textcoords="offset points", fontsize=13)
         paper.plot(float(r["query_ms"]), max(0.0, float(r["error_percent"])), "o", color="#0072B2")
         if name in ("1", "every triangle"):
-            paper.annotate(name, (float(r["query_ms"]), max(0.0, float(r["error_percent"]))), (5, 6),
-                           textcoords="offset points", fontsize=11)
+            paper.annotate(name, (float(r["query_ms"]), max(0.0, float(r["error_percent"]))), (-40, -20) if every else (5, 6),
+                           textcoords="offset points", fontsize=13)
     paper.plot([], [], "ks", fillstyle="none", label="the paper, K40")
-    paper.plot([], [], "o", color="#0072B2", label="ours, H200; N = 2, 3 and complete lie at 0")
-    paper.set_title("The paper's cylinder, cells of 0.2", fontsize=12)
+    paper.plot([], [], "o", color="#0072B2", label="ours, H200; N = 2, 3 and all lie at 0")
+    paper.set_title("The paper's cylinder, cells of 0.2", fontsize=14)
     paper.set_yscale("symlog", linthresh=1e-4)
-    paper.set_ylim(-5e-5, 30)
-    paper.set_ylabel("error, % (formula 7)", fontsize=12)
+    paper.set_ylim(-8e-5, 30)
+    paper.set_ylabel("error, % (formula 7)", fontsize=14)
     meshes = [("10000", "o-", "#0072B2"), ("100000", "s--", "#D55E00"), ("1000000", "^:", "#009E73")]
     for triangles, style, colour in meshes:
         points = [(r["lists"], float(r["query_ms"]), 100 * float(r["missed"]) / float(r["touching"]))
@@ -457,18 +520,21 @@ def draw_question(rows, steps):
         names, x, y = zip(*points)
         axis.plot(x, y, style, color=colour, label=f"{int(triangles):,} triangles".replace(",", " "))
         for name, at in zip(names, zip(x, y)):
-            axis.annotate("all" if name == "complete" else name, at, (4, 5), textcoords="offset points", fontsize=10)
+            below = name == "complete" or triangles == "10000" and name == "8"
+            axis.annotate("all" if name == "complete" else name, at, (-14 if name == "complete" else 4, -18 if below else 5),
+                          textcoords="offset points", fontsize=13)
     axis.axvline(float(steps["median_ms"]), color="black", linewidth=1,
                  label="a step with lists of the wall, 10 000 triangles")
-    axis.set_title("Finer cylinders, cells of 0.4, H200", fontsize=12)
+    axis.set_title("Finer cylinders, cells of 0.4, H200", fontsize=14)
     axis.set_yscale("symlog", linthresh=1e-3)
-    axis.set_ylim(-5e-4, 10)
-    axis.set_ylabel("missed contacts, %", fontsize=12)
+    axis.set_ylim(-8e-4, 10)
+    axis.set_ylabel("missed contacts, %", fontsize=14)
     for a in (paper, axis):
         a.set_xscale("log")
-        a.set_xlabel("time for 10 000 000 spheres, ms", fontsize=12)
+        a.set_xlabel("time for 10 000 000 spheres, ms", fontsize=14)
         a.grid(True, alpha=0.3)
-        a.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), fontsize=11)
+        a.tick_params(labelsize=12)
+        a.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), fontsize=13)
     axis.set_xticks([0.2, 0.5, 1, 2], ["0.2", "0.5", "1", "2"])
     figure.tight_layout()
     figure.savefig(QUESTION + ".part", dpi=110, format="png")
@@ -508,8 +574,9 @@ def main(arguments=None):
     draw(rows_of)
     if rows_of["cuda"]:
         draw_question(rows_of["cuda"], step_row())
-    write_document(rows_of)
+    write_documents(rows_of)
     print(DOCUMENT)
+    print(TABLES)
     print(PLOT)
     return 0
 

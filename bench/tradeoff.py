@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Measures what settings buy and cost, and writes the first part of doc/accuracy.md.
+"""Measures what settings buy and cost, and writes the first part of doc/accuracy.md
+and of doc/data/accuracy_tables.md.
 
 usage: tradeoff.py [--build DIR] [--device cpu|cuda|auto] [--write-only] [--rows-to DIR]
 
@@ -18,7 +19,9 @@ import os
 import subprocess
 import sys
 
-from accuracy import gpu_is_there, step_row
+from accuracy import TABLES, gpu_is_there, of_table, step_row
+from accuracy import kept as accuracy_rows
+from accuracy import read_rows
 from hard_cases import ROOT, put_between
 
 sys.path.insert(0, os.path.join(ROOT, "src", "tool"))
@@ -144,95 +147,86 @@ def machines(rows):
     for device in DEVICES:
         of = [r for r in rows if r["kind"] == device]
         if not of:
-            out.append(f"* {device.upper()}: not run yet.")
+            out.append(f"- {device.upper()}: not run yet.")
             continue
         r = of[0]
-        out.append(f"* {device.upper()}: {r['device']}, commit {r['commit']}, {r['spheres']} spheres "
-                   f"in {r['order']} order, the quickest of {r['repeats']}, seed {r['seed']}.")
+        out.append(f"- {r['device']}: commit {r['commit']}, {r['spheres']} spheres in {r['order']} order, the quickest of "
+                   f"{r['repeats']}, seed {r['seed']}.")
     return "\n".join(out)
 
 
 TEXT = """{begin}
 
-## Which setting?
-
-**Leave it alone.** The default misses nothing, its forces are exact, and no other is faster on a CPU by more than noise.
-`nearest N`, the paper's method, is for studies.
+**Leave the settings alone.** The default misses no contact, its forces are exact, and no other setting is faster on a CPU by
+more than noise. `nearest N`, the paper's method, is for studies: it misses contacts and takes longer.
 
 ![Missed contacts and error against the time of a query](img/paper_question.png)
 
-What N buys where both search cells: the query asks whether each sphere touches the wall, and the number at a point is N.
-With 10 000 and 100 000 triangles complete lists (*all*) take at most twice the time of N = 1. With 1 000 000 N = 1 is 7.6 times
-as fast, and misses 2.4 % of the contacts. A step does not search: it reads lists of the wall, and takes less time than the
-quickest of these queries (hertz/history, cells of 0.2, spheres in place, no choice anew). The step is of commit {step_commit}; the queries are of the one [below](#the-papers-study-repeated). The paper's points are of its Table 2.
+A number at a point is N, the triangles that a cell lists; *all* is the default, complete lists. Left is the paper's cylinder, right are
+finer ones. The time is that of a query: which of 10 000 000 spheres touch the wall? Here N and *all* do the same kind of work: both
+search cells. With 1 000 000 triangles N = 1 is {faster} times as fast, and misses {missed} % of the contacts. But a step of the simulation
+searches no cells: it reads each sphere's own list of the wall, and is faster than every query (black line). The GPU is an H200; queries of
+commit {query_commit}, step of {step_commit}; the paper's points are of its Table 2, a Tesla K40.
 
-What the other settings do to the vessel of `examples/vessel`
-({triangles} triangles, grains of {least} to {largest} m):
+## What the other settings do
+
+The vessel of `examples/vessel`, {triangles} triangles, grains with radii of {least} to {largest} m:
 
 {first}
-Times are per sphere beside the wall (in it or within reach). A *step* of `nearest N` searches cells; with *all* it
-reads lists of the wall that were made before and hold. So steps of `nearest N` and of *all* are not the same work. A
-*query*, which asks whether a sphere touches the wall, searches cells with both: what N saves in time is seen
-[there](#against-the-mesh).
-Read it so:
+- **`grid`** changes memory and the time of the set-up, never an answer.
+- **`precision mixed`** and **`single`** miss nothing. Forces are good to six digits on the mean, and to three at worst. They
+  gain nothing here; they are for GPUs whose doubles are slow, of which none was measured.
+- **`corner sum`** counts shallow folds twice: see the rolling sphere. Use it to compare with walls that do so.
+- **`nearest N`** misses contacts, more of them with a smaller N and with larger spheres. Such spheres sink in and are thrown out.
+  `f_ID[9]` counts the spheres for which a contact may be missing. Each step searches cells, so it is slower than the default.
 
-* **`grid`** never changes an answer. It is for memory and for the time of a set-up: a step reads each
-  sphere's list of the wall, and no cells.
-* **`precision mixed`, `single`:** no contact is missed, forces are good to six digits on the
-  mean and to three at the worst, energy is kept as well. They gain nothing here: a CPU takes more than
-  twice the time, and an H200 is as fast in doubles. They are for GPUs whose doubles are slow; none
-  of these was measured.
-* **`corner sum`** takes the same contacts and time, but counts shallow folds twice: see the
-  drift of a rolling sphere. It is for comparing with walls that do so.
-* **`nearest N`** misses contacts, the more the smaller N and the larger spheres are against
-  triangles and cells; a missed contact is an error of 1 for its sphere, and
-  `f_ID[9]` counts the spheres for which one may be missing. Spheres sink in and are thrown
-  out: drifts of 1 and more. It saves no time either: it searches cells in each step, since what it
-  misses depends on the cell, where `all` reads a list. It saves the memory of complete lists, and
-  repeats the paper (below).
+For your own mesh `lsdcd tradeoff wall.stl --radius R --below 1e-3` measures all this, draws the picture below and prints the words for
+the input script: the fastest setting with errors below 1e-3.
 
-`lsdcd tradeoff wall.stl --radius R --below 1e-3` makes the whole table and this picture for your own mesh, and prints the
-words for an input script: the fastest setting with missed contacts and errors of forces below 1e-3.
+![Error of forces against time, vessel](img/tradeoff_vessel.png)
 
-![Error of forces against time and memory, vessel](img/tradeoff_vessel.png)
+How it is measured:
 
-Missed contacts: contacts deeper than 1e-4 of a radius that `nearest all` in double precision
-finds, and the setting does not. Force errors are against the same, of spheres at rest: mean,
-the sum of all errors over the sum of all forces; largest, of one sphere, relative to its
-force or to that of an overlap of 1 % of its radius, whichever is larger. Drift: energy that a
-sphere bouncing ten times without friction, or rolling five radii without slip or damping, gains
-or loses relative to the energy of its motion; median of {moving} spheres on random faces and
-sides, each pulled along the normal of its face. One that leaves the wall counts with what it had
-gained or lost until then, one that goes through the wall 1. About 2e-4 of the bouncing drift is the
-integrator's. Spheres are uniform in the band within reach of the
-wall, none deeper in it than half its radius. CPU times are those of one core with its
-caches filled by other work; GPU times those of a GPU beside a CPU host, whose copies are in them.
+- *Missed*: contacts deeper than 1e-4 of a radius which only the default finds.
+- *Force error*, of spheres at rest, against the default. *Mean*: all errors over all forces. *Largest*: of one sphere, over its force, or
+  over that of an overlap of 1 % of its radius if that is more.
+- *Energy drift*: of a sphere that bounces ten times, or rolls five radii, without losses; the median of {moving} spheres. About
+  2e-4 of the bouncing drift comes from the integrator. A sphere that goes through the wall counts 1.
+- *ns a step*: for each sphere near the wall. On the CPU the caches are filled with other data first. On the GPU the copies from and to
+  the host are in it.
+
+Measured on:
 
 {runs}
 
-## A cylinder
+A cylinder with smooth sides gives the same picture: [its table](data/accuracy_tables.md#settings-on-a-cylinder). All rows are in
+`doc/data/tradeoff_*.csv`; `./run bench accuracy` makes them.
+{end}"""
 
-Radius 50, length 100, {cylinder_triangles} triangles, spheres of radius {cylinder_least} to
-{cylinder_largest}; sides are smooth, triangles as large as the spheres.
+CYLINDER = """{begin}
+## Settings on a cylinder
 
-{cylinder}
-![Error of forces against time and memory, cylinder](img/tradeoff_cylinder.png)
+Radius 50, length 100, {triangles} triangles, spheres with radii of {least} to {largest}. Triangles are as large as the spheres.
 
-{cylinder_runs}
+{table}
+![Error of forces against time, cylinder](../img/tradeoff_cylinder.png)
 
-Rows of every setting, `corner sum` and the front among them, are in `doc/data/tradeoff_*.csv`.
+{runs}
 {end}"""
 
 
-def write_document(vessel, cylinder):
+def write_documents(vessel, cylinder):
     v, c = vessel[0], cylinder[0]
-    part = TEXT.format(
-        begin=BEGIN, end=END, triangles=v["triangles"], least=v["least_radius"],
-        largest=v["largest_radius"], moving=v["moving"], first=first_screen(vessel),
-        runs=machines(vessel), cylinder_triangles=c["triangles"],
-        cylinder_least=c["least_radius"], cylinder_largest=c["largest_radius"],
-        cylinder=first_screen(cylinder), cylinder_runs=machines(cylinder), step_commit=step_row()["commit"])
-    put_between(DOCUMENT, BEGIN, END, part)
+    queries = of_table(read_rows(accuracy_rows("cuda")), "mesh")
+    one, every = (next(r for r in queries if r["triangles"] == "1000000" and r["lists"] == n) for n in ("1", "complete"))
+    put_between(DOCUMENT, BEGIN, END, TEXT.format(
+        faster=f"{float(every['query_ms']) / float(one['query_ms']):.1f}", query_commit=one["commit"],
+        missed=f"{100 * float(one['missed']) / float(one['touching']):.1f}", step_commit=step_row()["commit"],
+        begin=BEGIN, end=END, triangles=v["triangles"], least=v["least_radius"], largest=v["largest_radius"],
+        moving=v["moving"], first=first_screen(vessel), runs=machines(vessel)))
+    put_between(TABLES, BEGIN, END, CYLINDER.format(
+        begin=BEGIN, end=END, triangles=c["triangles"], least=c["least_radius"], largest=c["largest_radius"],
+        table=first_screen(cylinder), runs=machines(cylinder)))
 
 
 def main(arguments=None):
@@ -265,8 +259,9 @@ def main(arguments=None):
     for mesh in MESHES:
         plot_tradeoff.draw(rows[mesh], PLOT.format(mesh))
         print(PLOT.format(mesh))
-    write_document(rows["vessel"], rows["cylinder"])
+    write_documents(rows["vessel"], rows["cylinder"])
     print(DOCUMENT)
+    print(TABLES)
     return 0
 
 

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Draws the rows of `lsdcd tradeoff`: error against time and against memory.
+"""Draws the rows of `lsdcd tradeoff`: errors against time and memory.
 
 usage: plot_tradeoff.py ROWS.csv PICTURE.png
 
@@ -12,43 +12,55 @@ import csv
 import os
 import sys
 
-FLOOR = 1e-17    # where errors of 0 are drawn
-COLOURS = {"all": "black", "1": "#d62728", "2": "#ff7f0e", "3": "#bcbd22", "4": "#2ca02c",
-           "8": "#17becf"}
-MARKERS = {"double": "o", "mixed": "s", "single": "^"}
+ZERO = 1e-9    # where errors of 0, and of rounding in double, are drawn
+# Settings with a name: what differs from the default, marker, colour. All others are grey dots.
+NAMED = [("the default", {}, "*", "#000000"), ("precision mixed", {"precision": "mixed"}, "s", "#0072B2"),
+         ("precision single", {"precision": "single"}, "^", "#D55E00"), ("nearest 8", {"nearest": "8"}, "D", "#009E73"),
+         ("nearest 4", {"nearest": "4"}, "v", "#CC79A7"), ("nearest 1", {"nearest": "1"}, "X", "#E69F00")]
+SETTING = ("grid", "nearest", "precision", "corner")
 
 
 def shown(error):
-    return max(error, FLOOR)
+    return max(error, ZERO)
 
 
 def panel(axes, rows, key, scale, label):
-    from matplotlib.ticker import FuncFormatter, LogLocator
-    for row in rows:
-        axes.plot(row[key] * scale, shown(row["force_mean"]), MARKERS[row["precision"]],
-                  color=COLOURS.get(row["nearest"], "grey"), markersize=5,
-                  markerfacecolor="none" if row["corner"] == "sum" else None, alpha=0.75)
-    for row in rows:
-        if row["default"] == "1":
-            axes.plot(row[key] * scale, shown(row["force_mean"]), "*", color="gold", markersize=18,
-                      markeredgecolor="black", zorder=5)
+    """Errors against one column. Rows are of one device."""
+    from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
+    default = next((r for r in rows if r["default"] == "1"), None)
+    named = [{**{k: default[k] for k in SETTING}, **other} for _, other, _, _ in NAMED] if default else []
+    axes.plot([r[key] * scale for r in rows], [shown(r["force_mean"]) for r in rows], "o", color="#999999",
+              markersize=4, linestyle="none", zorder=1)
+    for (name, _, marker, colour), wanted in zip(NAMED, named):
+        row = next((r for r in rows if all(r[k] == v for k, v in wanted.items())), None)
+        if row:
+            axes.plot(row[key] * scale, shown(row["force_mean"]), marker, color=colour, label=name, linestyle="none",
+                      markersize=18 if marker == "*" else 10, markeredgecolor="white", zorder=3)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.set_ylim(ZERO / 4, 4)
+    axes.yaxis.set_major_locator(FixedLocator([ZERO, 1e-6, 1e-4, 1e-2, 1]))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda y, _: "0" if y <= ZERO else f"{y:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
     axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
-    axes.xaxis.set_minor_formatter(FuncFormatter(lambda x, _: ""))
-    axes.set_xlabel(label)
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set_xlabel(label, fontsize=13)
+    axes.tick_params(labelsize=12)
     axes.grid(alpha=0.3)
 
 
 def front(axes, rows):
+    """No setting of the device is faster than this line with as small an error."""
     steps = sorted((r["ns_per_sphere"], shown(r["force_mean"])) for r in rows if r["front"] == "1")
     if steps:
-        axes.step([s[0] for s in steps], [s[1] for s in steps], where="post", color="grey",
-                  linewidth=1, zorder=0)
+        x, y = [s[0] for s in steps], [s[1] for s in steps]
+        axes.step([x[0], *x, axes.get_xlim()[1]], [axes.get_ylim()[1], *y, y[-1]], where="post", color="black",
+                  linewidth=1, zorder=0, label="front", scalex=False, scaley=False)
 
 
 def draw(rows, picture):
+    """Error against time on the CPU and on a GPU; where one of them was measured, against time and memory."""
     try:
         import matplotlib
         matplotlib.use("Agg")
@@ -56,32 +68,23 @@ def draw(rows, picture):
     except ImportError:
         sys.exit("plot_tradeoff.py: matplotlib is missing (Debian: python3-matplotlib)")
     kinds = [k for k in ("cpu", "cuda") if any(r["kind"] == k for r in rows)]
-    figure, axes = plt.subplots(1, len(kinds) + 1, figsize=(4.6 * (len(kinds) + 1), 4.4),
-                                sharey=True, squeeze=False)
-    axes = axes[0]
+    figure, axes = plt.subplots(1, 2, figsize=(11, 5.6), sharey=True)
     for at, kind in zip(axes, kinds):
-        of_kind = [r for r in rows if r["kind"] == kind]
-        panel(at, of_kind, "ns_per_sphere", 1, "ns per sphere and step")
-        front(at, of_kind)
-        at.set_title({"cpu": "one core of the CPU", "cuda": of_kind[0]["device"]}[kind], fontsize=9)
-    panel(axes[-1], [r for r in rows if r["kind"] == kinds[0]], "bytes", 1e-6, "grid, MB")
-    axes[-1].set_title("memory", fontsize=9)
-    axes[0].set_ylabel("mean error of forces (0 at the bottom)")
-    for name, colour in COLOURS.items():
-        if any(r["nearest"] == name for r in rows):
-            axes[-1].plot([], [], "o", color=colour, label="nearest " + name)
-    for name, marker in MARKERS.items():
-        axes[-1].plot([], [], marker, color="grey", label="precision " + name)
-    axes[-1].plot([], [], "o", color="grey", markerfacecolor="none", label="corner sum")
-    axes[-1].plot([], [], "*", color="gold", markeredgecolor="black", markersize=12,
-                  label="the default")
-    axes[-1].plot([], [], "-", color="grey", label="front")
-    axes[-1].legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5))
+        its = [r for r in rows if r["kind"] == kind]
+        panel(at, its, "ns_per_sphere", 1, "time of a step per sphere near the wall, ns")
+        front(at, its)
+        at.set_title({"cpu": "one core of the CPU", "cuda": its[0]["device"].replace("CUDA, ", "")}[kind], fontsize=13)
+    if len(kinds) == 1:
+        panel(axes[1], [r for r in rows if r["kind"] == kinds[0]], "bytes", 1e-6, "memory of the grid, MB")
+        axes[1].set_title("memory", fontsize=13)
+    axes[0].set_ylabel("mean error of forces / mean force", fontsize=13)
+    axes[0].plot([], [], "o", color="#999999", markersize=4, linestyle="none", label="other settings")
     first = rows[0]
     figure.suptitle(f"{first['mesh']}, {first['triangles']} triangles, radii "
-                    f"{first['least_radius']} to {first['largest_radius']}", fontsize=10)
-    figure.tight_layout()
-    figure.savefig(picture + ".part", dpi=110, format="png")
+                    f"{first['least_radius']} to {first['largest_radius']}", fontsize=13)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=4, fontsize=12)
+    figure.tight_layout(rect=(0, 0.12, 1, 1))
+    figure.savefig(picture + ".part", dpi=100, format="png")
     os.replace(picture + ".part", picture)
 
 
