@@ -3,7 +3,10 @@
 
 // lmp-lsdcd: LAMMPS's own command line, with plugins.
 
+#include "base/input_error.h"
 #include "base/version.h"
+#include "input/collide_settings.h"
+#include "input/massflow_settings.h"
 #include "input/settings.h"
 #include "lammps/launcher/plugins.h"
 
@@ -22,6 +25,7 @@
 #include <dlfcn.h>
 #include <exception>
 #include <mpi.h>
+#include <string>
 
 using namespace LAMMPS_NS;
 
@@ -37,6 +41,19 @@ void LAMMPS::post_create()
   original(this);
 }
 
+// Of a command that is given no words: what its error names as its syntax.
+template <class Parse>
+static std::string syntax_of(Parse parse)
+{
+  try {
+    parse({});
+  } catch (const lsdcd::InputError &e) {
+    const std::string text = e.what(), before = "Syntax: ";
+    return text.substr(text.find(before) + before.size());
+  }
+  return "";
+}
+
 static void show_help(int argc, char **argv)
 {
   int rank;
@@ -44,10 +61,15 @@ static void show_help(int argc, char **argv)
   if (rank) return;
   for (int i = 1; i < argc; i++)
     if (!std::strcmp(argv[i], "-h") || !std::strcmp(argv[i], "-help")) {
-      std::printf("lmp-lsdcd %s: LAMMPS %d with fix wall/lsdcd and the plugin command\n\n%s\n"
-                  "plugin load FILES | unload STYLE NAME | list | clear\n"
-                  "  LAMMPS_PLUGIN_PATH lists folders of plugins to load at the start\n",
-                  lsdcd::version(), LSDCD_HOST_VERSION, lsdcd::settings_help().c_str());
+      std::printf(
+          "lmp-lsdcd %s: LAMMPS %d with fix wall/lsdcd, fix massflow/lsdcd, compute "
+          "lsdcd/collide and the plugin command\n\n%s\n"
+          "%s\n  counts, weighs or deletes the spheres that pass a mesh\n\n"
+          "%s\n  counts where rigid bodies with a mesh meet the wall of a fix wall/lsdcd\n\n"
+          "plugin load FILES | unload STYLE NAME | list | clear\n"
+          "  LAMMPS_PLUGIN_PATH lists folders of plugins to load at the start\n",
+          lsdcd::version(), LSDCD_HOST_VERSION, lsdcd::settings_help().c_str(),
+          syntax_of(lsdcd::parse_massflow).c_str(), syntax_of(lsdcd::parse_collide).c_str());
       std::fflush(stdout);
       return;
     }
