@@ -1,0 +1,150 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""How Sphinx makes HTML of the pages: `./run doc`. Its source folder is the top of the repository.
+
+Pages are plain Markdown and reStructuredText with relative links, which work where the repository is shown,
+too. Here a link to a page becomes one to its HTML, a link to a folder one to the folder's README, and any
+other file is copied. The links of doc/index.md, section by section, are the contents at the side.
+"""
+import os
+import pathlib
+import re
+
+from docutils import nodes
+from pygments import token
+from pygments.lexer import RegexLexer, bygroups
+from sphinx import addnodes
+from sphinx.transforms import SphinxTransform
+from sphinx.transforms.post_transforms import SphinxPostTransform
+from sphinx.util import logging
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+project = "LSDCD"
+copyright = "2026 LSDCD contributors"
+release = version = re.search(r"project\(lsdcd VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
+
+extensions = ["myst_parser"]
+root_doc = "doc/index"
+include_patterns = ["*.md", "doc/**.md", "doc/**.rst", "examples/**.md", "potentials/**.md"]
+exclude_patterns = [".*", "build*", "demo", "src", "tests", "bench", "cmake", "kokkos"]
+myst_heading_anchors = 4    # with the names that the web view gives them
+html_theme = "sphinx_rtd_theme"
+html_theme_options = {"navigation_depth": 2, "collapse_navigation": False}
+html_static_path = ["html"]
+html_css_files = ["pages.css"]
+html_show_sphinx = False
+html_copy_source = False
+
+
+class Lammps(RegexLexer):
+    """Input scripts of LAMMPS: comments, commands, variables, numbers."""
+    name = "LAMMPS"
+    aliases = ["LAMMPS", "lammps"]
+    tokens = {"root": [
+        (r"#.*", token.Comment),
+        (r"^(\s*)(\w+)", bygroups(token.Whitespace, token.Keyword)),
+        (r"\$\{\w+\}|\$\w|\b[vcfF]_\w+", token.Name.Variable),
+        (r'"[^"\n]*"', token.String),
+        (r"(?<![\w.])[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(?![\w.])", token.Number),
+        (r"\s+", token.Whitespace),
+        (r"[^\s$#\"]+|.", token.Text)]}
+
+
+def path_of(node, docname):
+    """Of a relative link: the path from the top of the repository, and the anchor."""
+    path, _, anchor = node["reftarget"].partition("#")
+    if not path:
+        return None, anchor
+    path = os.path.normpath(os.path.join(os.path.dirname(docname), path))
+    if (ROOT / path).is_dir() and (ROOT / path / "README.md").is_file():
+        path += "/README.md"
+    return path, anchor
+
+
+class FindLinks(SphinxTransform):
+    """When a page is read: relative links of reStructuredText become those that Markdown's are, and the links
+    of index pages the contents."""
+    default_priority = 500
+
+    def apply(self, **kwargs):
+        docname = self.env.docname
+        for node in list(self.document.findall(nodes.reference)):
+            uri = node.get("refuri", "")
+            if not uri or re.match(r"\w+:|#", uri):
+                continue
+            path = os.path.normpath(os.path.join(os.path.dirname(docname), uri.partition("#")[0]))
+            kind = addnodes.pending_xref
+            if (ROOT / path).is_file() and path not in map(self.env.doc2path, self.env.found_docs) \
+                    and not path.endswith((".md", ".rst")):
+                kind = addnodes.download_reference
+            node.replace_self(kind("", *node.children, refdoc=docname, reftarget=uri, reftype="myst",
+                                   refdomain=None, refexplicit=True, refwarn=True))
+        if docname in (root_doc, "examples/README"):
+            for section in list(self.document.findall(nodes.section)):
+                self.add_contents(section, docname)
+
+    def add_contents(self, section, docname):
+        parts = [node for node in section.children if not isinstance(node, nodes.section)]
+        pages = []
+        for part in parts:
+            for node in part.findall(addnodes.pending_xref):
+                path, _ = path_of(node, docname)
+                page = path and self.env.path2doc(str(ROOT / path))
+                if page in self.env.found_docs and page != docname and page not in pages:
+                    pages.append(page)
+        if pages:
+            caption = section[0].astext() if docname == root_doc else None
+            section += addnodes.toctree(
+                "", entries=[(None, page) for page in pages], includefiles=pages, parent=docname, maxdepth=1,
+                caption=caption, rawcaption=caption, glob=False, hidden=True, numbered=0, titlesonly=True,
+                includehidden=False, rawentries=[])
+
+
+class ResolveLinks(SphinxPostTransform):
+    """When all pages are read: links to pages. What is not found is left to MyST, which warns."""
+    default_priority = 5
+
+    def run(self, **kwargs):
+        docname = self.env.docname
+        for node in list(self.document.findall(addnodes.pending_xref)):
+            if node["reftype"] != "myst":
+                continue
+            path, anchor = path_of(node, docname)
+            page = self.env.path2doc(str(ROOT / path)) if path else docname
+            if page not in self.env.found_docs:
+                continue
+            uri = self.app.builder.get_relative_uri(docname, page) if path else ""
+            if anchor:
+                uri += "#" + self.place(page, anchor)
+            node.replace_self(nodes.reference("", "", *node.children, refuri=uri or "#", internal=True))
+
+    def place(self, page, anchor):
+        """The id of a heading, which may differ from its anchor."""
+        file = os.path.relpath(self.env.doc2path(page), ROOT)
+        return self.env.get_domain("std").anonlabels.get(f"{file}#{anchor}", (page, anchor))[1]
+
+
+def link_to_lammps(app, env, node, content):
+    """:doc: of a page that is none of ours: LAMMPS's manual."""
+    if node["reftype"] == "doc" and re.fullmatch(r"[A-Za-z]\w*", node["reftarget"]):
+        return nodes.reference("", "", content, refuri=f"https://docs.lammps.org/{node['reftarget']}.html")
+
+
+def first_page(app, error):
+    """index.html at the top shows the contents."""
+    if not error and app.builder.format == "html":
+        (pathlib.Path(app.outdir) / "index.html").write_text(
+            '<!doctype html><meta charset="utf-8"><title>LSDCD</title>'
+            '<meta http-equiv="refresh" content="0; url=doc/index.html"><a href="doc/index.html">LSDCD</a>\n')
+
+
+def setup(app):
+    app.add_lexer("LAMMPS", Lammps)
+    app.add_lexer("lammps", Lammps)
+    app.add_transform(FindLinks)
+    app.add_post_transform(ResolveLinks)
+    app.connect("missing-reference", link_to_lammps)
+    app.connect("build-finished", first_page)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
