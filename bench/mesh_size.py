@@ -14,13 +14,18 @@ import performance
 from effects import has_gpu, table
 from hard_cases import commit
 from performance import count, facts, number
-from performance_plots import COLOURS, label, write_image
+from performance_plots import FONT, STYLES, label, legible, write_image
 
 KEPT, ANEW = "hertz/history, kept", "hertz/history, chosen anew"
 
 
 def find(rows, like, case):
     return performance.find(rows, case=case, triangles=like["triangles"], order=like["order"])
+
+
+def short_name(row):
+    """CPU, or the name of the GPU; the whole name stands below the table."""
+    return row["device"].replace("CUDA, ", "").split(",")[0]
 
 
 def rows_of_all():
@@ -38,14 +43,14 @@ def parts(rows_of):
     def cells(r):
         f, anew = facts(r), find(rows_of["cuda" if "CUDA" in r["device"] else "cpu"], r, ANEW)
         first = performance.find([x for x in rows if x["device"] == r["device"]], case=KEPT, order=r["order"])
-        return [count(r["triangles"]), r["device"].replace("CUDA, ", ""), count(r["spheres"]),
+        return [count(r["triangles"]), short_name(r), count(r["spheres"]),
                 number(r["median_ms"]), f["ns_per_contact"],
                 f"{float(f['ns_per_contact']) / float(facts(first)['ns_per_contact']):.2f}",
                 number(anew["median_ms"] if anew else ""), number(f["build_ms"]), number(f["grid_mb"]), number(f["engine_mb"])]
 
     heads = ["triangles", "device", "spheres", "step, ms", "ns per contact",
              "over the smallest mesh", "with a new choice, ms", "weld and build, ms", "grid, MB",
-             "engine, MB (on a GPU with the grid)"]
+             "engine, MB"]
     text = table([r for r in rows if r["case"] == KEPT and r["order"] == "sorted"], heads, cells)
     return performance.between_markers({"mesh-size": text + "\n\n" + performance.machines(rows_of)})
 
@@ -56,23 +61,21 @@ def plot(rows_of):
     import matplotlib.pyplot as plt
 
     panels = [("time per contact in a step, ns", lambda r: facts(r)["ns_per_contact"], ("random", "sorted")),
-              ("set-up: weld and build, ms", lambda r: facts(r)["build_ms"], ("random",)),
+              ("set-up: weld and build, s", lambda r: float(facts(r)["build_ms"]) / 1e3, ("random",)),
               ("memory of the grid, MB", lambda r: facts(r)["grid_mb"], ("random",))]
-    figure, all_axes = plt.subplots(1, 3, figsize=(12, 4.2))
+    figure, all_axes = plt.subplots(1, 3, figsize=(13, 4.8))
     for axis, (name, value, orders) in zip(all_axes, panels):
         for device, rows in rows_of.items():
-            for order, style in (("random", "o-"), ("sorted", "s--")):
+            for order, style in (("random", "-"), ("sorted", "--")):
                 points = sorted((float(r["triangles"]), float(value(r))) for r in rows
                                 if r["case"] == KEPT and r["order"] == order)
                 if points and order in orders:
-                    axis.plot(*zip(*points), style, color=COLOURS[device],
-                              label=label(rows) + f", {order} order" * (len(orders) > 1))
+                    axis.plot(*zip(*points), linestyle=style, label=f"{label(rows)}, {order} order", **STYLES[device])
         axis.set(xscale="log", yscale="log", xlabel="number of triangles", ylabel=name)
-        axis.grid(True, which="major", alpha=0.3)
+        legible(axis)
     handles, names = all_axes[0].get_legend_handles_labels()
-    figure.suptitle("A step with near lists kept, set-up and memory against the size of the mesh")
-    figure.legend(handles, names, loc="lower center", ncol=len(names), fontsize=8)
-    figure.tight_layout(rect=(0, 0.07, 1, 1))
+    figure.legend(handles, names, loc="lower center", ncol=2, fontsize=FONT)
+    figure.tight_layout(rect=(0, 0.15, 1, 1))
     write_image(figure, "performance_mesh_size.png")
 
 

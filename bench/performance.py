@@ -22,7 +22,7 @@ DOCUMENT = os.path.join(ROOT, "doc", "performance.md")
 NOTES = os.path.join(ROOT, "doc", "notes", "performance.md")
 LIBRARY = os.path.join(ROOT, "doc", "library.md")
 ELSEWHERE = {**dict.fromkeys(["kokkos-cpu", "kokkos-cuda", "kokkos-copies", "status", "distance", "build", "step",
-                              "in_place", "cache"], NOTES), "point-costs": LIBRARY}
+                              "in_place", "cache", "near-and-far", "calls"], NOTES), "point-costs": LIBRARY}
 DATA = os.path.join(ROOT, "doc", "data")
 DEVICES = ("cpu", "cuda")
 PROGRAMS = ("query", "build", "step", "cache")

@@ -8,7 +8,9 @@ import os
 from hard_cases import ROOT
 
 IMAGES = os.path.join(ROOT, "doc", "img")
-COLOURS = {"cpu": "tab:blue", "cuda": "tab:green"}
+# By colour and by marker, so that a print in grey or a colour-blind reader tells them apart.
+STYLES = {"cpu": dict(color="#0072B2", marker="o"), "cuda": dict(color="#D55E00", marker="^")}
+FONT = 13
 
 
 def axes():
@@ -16,18 +18,26 @@ def axes():
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axis = plt.subplots(figsize=(7, 5.6))
+    figure, axis = plt.subplots(figsize=(8, 6))
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.set_xlabel("number of triangles")
-    axis.grid(True, which="major", alpha=0.3)
     return figure, axis
+
+
+def legible(axis):
+    """Read at half the size, too."""
+    axis.grid(True, which="major", alpha=0.3)
+    axis.tick_params(labelsize=FONT - 1)
+    for item in (axis.title, axis.xaxis.label, axis.yaxis.label):
+        item.set_fontsize(FONT)
 
 
 def save(figure, axis, name):
     # Below the axes: inside, it would cover a curve.
-    figure.legend(*axis.get_legend_handles_labels(), loc="lower center", ncol=2, fontsize=8)
-    figure.tight_layout(rect=(0, 0.035 * math.ceil(len(axis.get_lines()) / 2) + 0.01, 1, 1))
+    legible(axis)
+    figure.legend(*axis.get_legend_handles_labels(), loc="lower center", ncol=2, fontsize=FONT - 1)
+    figure.tight_layout(rect=(0, 0.045 * math.ceil(len(axis.get_lines()) / 2) + 0.02, 1, 1))
     write_image(figure, name)
 
 
@@ -52,6 +62,7 @@ def plot_query(cpu, cuda):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
     case = "distance, complete, float"
     machines = [[r for r in rows if r["device"] == name] for rows in (cpu, cuda)
@@ -68,25 +79,26 @@ def plot_query(cpu, cuda):
             axis.plot(x, y, style, color=colour, label=f"{order} order")
         axis.plot(x, floor, ":", color="black", label="bytes at copy speed")
         axis.set(xscale="log", yscale="log", xlabel="number of triangles", ylabel="time per sphere, ns")
-        axis.set_title(label(its), fontsize=12)
-        axis.grid(True, which="major", alpha=0.3)
-        for item in (axis.xaxis.label, axis.yaxis.label):
-            item.set_fontsize(12)
-    figure.suptitle("Distance to the wall up to 1 radius, in float; 7 % of the spheres are that near", fontsize=12)
-    figure.legend(*panels[0][0].get_legend_handles_labels(), loc="lower center", ncol=3, fontsize=12)
-    figure.tight_layout(rect=(0, 0.08, 1, 1))
+        axis.set_title(label(its))
+        axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.yaxis.set_major_formatter(FuncFormatter(lambda y, _: f"{y:g}"))
+        axis.yaxis.set_minor_formatter(NullFormatter())
+        legible(axis)
+    figure.suptitle("Distance to the wall up to 1 radius, in float; 7 % of the spheres are that near", fontsize=FONT)
+    figure.legend(*panels[0][0].get_legend_handles_labels(), loc="lower center", ncol=3, fontsize=FONT)
+    figure.tight_layout(rect=(0, 0.09, 1, 1))
     write_image(figure, "performance_query.png")
 
 
 def plot_build(cpu, cuda):
     figure, axis = axes()
     for device, rows in (("cpu", cpu), ("cuda", cuda)):
-        for case, style, name in (("given cell, without copies", "o-", "grid"),
-                                  ("given cell, brute force", "o:", "brute force")):
-            points = [(x, float(r["median_ms"])) for x, r in curve(rows, "build", case)]
+        for case, style, name in (("given cell, without copies", "-", "grid"),
+                                  ("given cell, brute force", ":", "brute force")):
+            points = [(x, float(r["median_ms"]) / 1e3) for x, r in curve(rows, "build", case)]
             if points:
-                axis.plot(*zip(*points), style, color=COLOURS[device],
-                          label=f"{name}, {label(rows)}")
-    axis.set_ylabel("build time, ms")
+                guess = ", estimated" if any("estimated" in r["facts"] for _, r in curve(rows, "build", case)) else ""
+                axis.plot(*zip(*points), linestyle=style, label=f"{name}{guess}, {label(rows).split(',')[0]}", **STYLES[device])
+    axis.set_ylabel("build time, s")
     axis.set_title("Building a grid of cells of 0.2 for spheres of radius 1")
     save(figure, axis, "performance_build.png")
