@@ -6,8 +6,7 @@
 
 usage: write_times.py
 
-Reads what that left in build/: seconds of its stages (times.txt), of each test (junit.xml) and of each
-compiled file (.ninja_log).
+Reads what that left in build/: seconds of its stages (times.txt) and of each test (junit.xml).
 """
 import collections
 import os
@@ -20,13 +19,10 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 DOCUMENT = ROOT / "doc" / "testing.md"
 BEGIN, END = "<!-- times:begin -->", "<!-- times:end -->"
 FOLDERS = {"all": "release", "sanitize": "sanitizers"}
-# The first pattern that the name of a test or of a compiled file has a match of names its row.
+# The first pattern that matches the name of a test names its row.
 TESTS = [("demo on trixie and sid", r"lammps\.demo_"), ("Debian packages", r"package|lammps\.compile_hosts"),
-         ("`/kk`", r"lammps\.kokkos_"), ("decks and examples", r"lammps\."), ("the tool", r"tool\."),
+         ("`/kk`", r"lammps\.kokkos_"), ("input scripts and examples", r"lammps\."), ("the tool", r"tool\."),
          ("the library", r"library"), ("benchmarks", r"bench\."), ("CGAL", r"cgal|bad_meshes"), ("unit and physics", r".")]
-FILES = [("contact laws, CUDA", r"laws/.*\.cu\.o"), ("all else of CUDA", r"\.cu\.o"), ("contact laws, CPU", r"laws/.*\.o"),
-         ("`src/tool`", r"^src/tool/.*\.o"), ("LAMMPS fixes and plugins", r"(lammps|kokkos|plugin).*\.o"),
-         ("`src`", r"^src/.*\.o"), ("tests", r"^tests/.*\.o"), ("benchmarks", r"^bench/.*\.o")]
 
 
 def row_of(name, rows):
@@ -47,20 +43,11 @@ def tests_of(folder):
             if case.get("status") in ("run", "fail")]
 
 
-def files_of(folder):
-    """[(seconds, name)] of the compiled files."""
-    path, last = ROOT / "build" / folder / ".ninja_log", {}
-    for line in path.read_text().splitlines()[1:] if path.exists() else []:
-        begin, end, _, name, _ = line.split("\t")
-        last[name] = (int(end) - int(begin)) / 1000
-    return [(seconds, name) for name, seconds in last.items()]
-
-
-def groups(of, rows):
-    """One row of a table for each of `rows`: its name, and in each folder how many and their seconds."""
+def groups(rows):
+    """One row of a table for each of `rows`: its name, and in each folder how many tests and their seconds."""
     sums = collections.defaultdict(lambda: [0, 0.0])
     for folder in FOLDERS:
-        for seconds, name in of(folder):
+        for seconds, name in tests_of(folder):
             key = row_of(name, rows)
             if key:
                 sums[key, folder][0] += 1
@@ -75,14 +62,12 @@ def main():
     commit = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--dirty"], stdout=subprocess.PIPE, text=True,
                             check=True).stdout.strip()
     stages = [line.rsplit(None, 2)[:2] for line in (ROOT / "build" / "times.txt").read_text().splitlines()]
-    slowest = sorted((seconds, name, FOLDERS[f]) for f in FOLDERS for seconds, name in tests_of(f))[:-16:-1]
+    slowest = sorted((seconds, name, FOLDERS[f]) for f in FOLDERS for seconds, name in tests_of(f))[:-11:-1]
     text = "\n\n".join([
         BEGIN, f"`./run test all` at {commit} on {os.cpu_count()} cores; written by `tests/write_times.py`.",
         table(["stage", "seconds"], stages),
         "Tests, and the sum of their seconds with others beside them:",
-        table(["tests", *FOLDERS.values()], groups(tests_of, TESTS)),
-        "Compiled files, and the sum of their seconds with others beside them:",
-        table(["files", *FOLDERS.values()], groups(files_of, FILES)),
+        table(["tests", *FOLDERS.values()], groups(TESTS)),
         "The slowest tests:",
         table(["test", "seconds", "build"], [(f"`{name}`", f"{seconds:.0f}", of) for seconds, name, of in slowest]), END])
     page = DOCUMENT.read_text()
