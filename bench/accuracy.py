@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Repeats the paper's study and writes its part of doc/accuracy.md and of doc/data/accuracy_tables.md.
+"""Repeats the paper's study and writes its part of doc/accuracy.md and of doc/notes/accuracy.md.
 
 usage: accuracy.py [--build DIR] [--spheres N] [--rows-only | --write-only] [--commit NAME]
 
@@ -23,7 +23,7 @@ DOCUMENT = os.path.join(ROOT, "doc", "accuracy.md")
 PLOT = os.path.join(ROOT, "doc", "img", "accuracy_paper.png")
 QUESTION = os.path.join(ROOT, "doc", "img", "paper_question.png")
 DATA = os.path.join(ROOT, "doc", "data")
-TABLES = os.path.join(DATA, "accuracy_tables.md")
+TABLES = os.path.join(ROOT, "doc", "notes", "accuracy.md")
 CERTIFICATES = os.path.join(DATA, "certificates.csv")
 BEGIN, END = "<!-- paper:begin -->", "<!-- paper:end -->"
 DEVICES = ("cpu", "cuda")
@@ -247,7 +247,7 @@ On finer cylinders, with L = 0.4, the same N misses more, and complete lists tak
 
 {finer}
 
-What else came out; each has its [table](data/accuracy_tables.md):
+What else came out; each has its [table](notes/accuracy.md):
 
 - **Which cylinder.** The paper does not say how many triangles it has. With 39 segments, in the cube that just holds it, our accuracy with
   all triangles differs from the paper's best by {best}; the sampling error is {sampling:.0e}. No other choice agrees for N = 2 and 3 too.

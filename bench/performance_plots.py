@@ -97,7 +97,8 @@ def plot_build(cpu, cuda):
                                   ("given cell, brute force", ":", "brute force")):
             points = [(x, float(r["median_ms"]) / 1e3) for x, r in curve(rows, "build", case)]
             if points:
-                guess = ", estimated" if any("estimated" in r["facts"] for _, r in curve(rows, "build", case)) else ""
+                guessed = ["estimated" in r["facts"] for _, r in curve(rows, "build", case)]
+                guess = ", estimated" if all(guessed) else ", partly estimated" if any(guessed) else ""
                 axis.plot(*zip(*points), linestyle=style, label=f"{name}{guess}, {label(rows).split(',')[0]}", **STYLES[device])
     axis.set_ylabel("build time, s")
     axis.set_title("Building a grid of cells of 0.2 for spheres of radius 1")

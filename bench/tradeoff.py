@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """Measures what settings buy and cost, and writes the first part of doc/accuracy.md
-and of doc/data/accuracy_tables.md.
+and of doc/notes/accuracy.md.
 
 usage: tradeoff.py [--build DIR] [--device cpu|cuda|auto] [--write-only] [--rows-to DIR]
 
@@ -199,7 +199,7 @@ Measured on:
 
 {runs}
 
-A cylinder with smooth sides gives the same picture: [its table](data/accuracy_tables.md#settings-on-a-cylinder). All rows are in
+A cylinder with smooth sides gives the same picture: [its table](notes/accuracy.md#settings-on-a-cylinder). All rows are in
 `doc/data/tradeoff_*.csv`; `./run bench accuracy` makes them.
 {end}"""
 
