@@ -81,25 +81,30 @@ class FindLinks(SphinxTransform):
                 kind = addnodes.download_reference
             node.replace_self(kind("", *node.children, refdoc=docname, reftarget=uri, reftype="myst",
                                    refdomain=None, refexplicit=True, refwarn=True))
+        if docname.startswith("doc/data/"):    # tables that a page links to
+            self.env.metadata[docname]["orphan"] = ""
         if docname in (root_doc, "examples/README"):
             for section in list(self.document.findall(nodes.section)):
                 self.add_contents(section, docname)
 
     def add_contents(self, section, docname):
         parts = [node for node in section.children if not isinstance(node, nodes.section)]
-        pages = []
+        pages = {}    # and the words of their links
         for part in parts:
             for node in part.findall(addnodes.pending_xref):
                 path, _ = path_of(node, docname)
                 page = path and self.env.path2doc(str(ROOT / path))
-                if page in self.env.found_docs and page != docname and page not in pages:
-                    pages.append(page)
+                if page in self.env.found_docs and page != docname and \
+                        (docname == root_doc or page.startswith("examples/")):
+                    text = node.astext()
+                    pages.setdefault(page, text if "/" in text else text[:1].upper() + text[1:])
         if pages:
-            caption = section[0].astext() if docname == root_doc else None
-            section += addnodes.toctree(
-                "", entries=[(None, page) for page in pages], includefiles=pages, parent=docname, maxdepth=1,
-                caption=caption, rawcaption=caption, glob=False, hidden=True, numbered=0, titlesonly=True,
-                includehidden=False, rawentries=[])
+            is_top = docname != root_doc or isinstance(section.parent, nodes.document)
+            caption = None if is_top else section[0].astext()
+            section.insert(len(parts), addnodes.toctree(
+                "", entries=[(text, page) for page, text in pages.items()], includefiles=list(pages), parent=docname,
+                maxdepth=1, caption=caption, rawcaption=caption, glob=False, hidden=True, numbered=0, titlesonly=True,
+                includehidden=False, rawentries=[]))
 
 
 class ResolveLinks(SphinxPostTransform):
@@ -108,6 +113,7 @@ class ResolveLinks(SphinxPostTransform):
 
     def run(self, **kwargs):
         docname = self.env.docname
+        self.mend_tables()
         for node in list(self.document.findall(addnodes.pending_xref)):
             if node["reftype"] != "myst":
                 continue
@@ -119,6 +125,15 @@ class ResolveLinks(SphinxPostTransform):
             if anchor:
                 uri += "#" + self.place(page, anchor)
             node.replace_self(nodes.reference("", "", *node.children, refuri=uri or "#", internal=True))
+
+    def mend_tables(self):
+        """A head without words goes, and no line ends inside a number such as 20 000."""
+        for head in list(self.document.findall(nodes.thead)):
+            if not head.astext().strip():
+                head.parent.remove(head)
+        for entry in self.document.findall(nodes.entry):
+            for text in list(entry.findall(nodes.Text)):
+                text.parent.replace(text, nodes.Text(re.sub(r"(?<=\d) (?=\d{3}\b)", "\u00a0", text.astext())))
 
     def place(self, page, anchor):
         """The id of a heading, which may differ from its anchor."""
