@@ -127,10 +127,10 @@ def main():
         print("| law | counted | with the effects' source | without it |")
         print("| --- | --- | --- | --- |")
         for law, name in enumerate(LAWS):
-            counts = {"instructions run on the CPU (callgrind)":
+            counts = {"CPU":
                       [instructions_run(s, args.build, law, folder) for s in (whole, without)]}
             if os.path.exists(NVCC):
-                counts["instructions of the kernel on sm_90 (SASS)"] = [
+                counts["GPU"] = [
                     instructions_of_gpu(s, law, folder) for s in (whole, without)]
             for what, (a, b) in counts.items():
                 print(f"| {name} | {what} | {a} | {b} |", flush=True)
