@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""Every C, C++ and Python code block of the pages compiles; tests/tool/pages.py says what a block is.
+
+Statements become the body of a function. Definitions stand as they are: what a comment before them opens is closed.
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests" / "tool"))
+from pages import all_pages    # noqa: E402
+
+COMPILERS = {"c": [os.environ.get("LSDCD_C", "cc"), "-std=c99"], "cpp": [os.environ.get("LSDCD_CXX", "c++"), "-std=c++17"]}
+
+
+def source_of(block):
+    lines = block.before + block.text.split("\n")
+    includes = [line for line in lines if line.startswith("#include")]
+    rest = "\n".join(line for line in lines if not line.startswith("#include"))
+    if re.search(r"^(template|struct|class|int main|LSDCD_FN)", block.text, re.M):
+        rest += "\n}" * (rest.count("{") - rest.count("}"))
+    else:
+        rest = "void page()\n{\n" + rest + "\n}"
+    if block.page.path.startswith("doc/library"):
+        includes.append("#include <lsdcd.h>" if block.language == "c" else "#include <lsdcd.hpp>")
+    return "\n".join(includes) + "\n" + rest + "\n"
+
+
+def problem_of(block, folder):
+    if block.language == "python":
+        try:
+            compile("\n".join(block.before) + "\n" + block.text, str(block), "exec")
+        except SyntaxError as error:
+            return str(error)
+        return ""
+    path = pathlib.Path(folder) / ("block." + block.language)
+    path.write_text(source_of(block))
+    done = subprocess.run([*COMPILERS[block.language], "-fsyntax-only", "-Wall", "-Wno-unused", "-I", ROOT / "src", "-I",
+                           ROOT / "src" / "api", path], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return done.stdout[-1500:] if done.returncode or done.stdout else ""
+
+
+def main():
+    failed = count = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for page in all_pages().values():
+            for block in page.blocks:
+                if block.form or block.language not in ("python", *COMPILERS):
+                    continue
+                count += 1
+                problem = problem_of(block, folder)
+                print(f"{'FAIL' if problem else 'PASS'} {block}: {block.language} compiles{': ' + problem if problem else ''}")
+                failed += bool(problem)
+    print(f"{count} blocks")
+    sys.exit(1 if failed or not count else 0)
+
+
+if __name__ == "__main__":
+    main()
