@@ -72,14 +72,15 @@ LSDCD_FN Vec3 in_own_frame(const Spring *, int, const Vec3 &h)
 constexpr Real kSameDirection = 1 - 1e-6;
 
 // Was the contact of old spring k left, as contact i sees it? It was not if its feature is still in contact, or if
-// another contact in the same direction carries it on: there the sphere crossed a line that cuts a face or an edge in
-// two, and without that cut it would have left nothing.
+// another contact carries it on: one in its direction, where contact i is not. There the sphere crossed a line that
+// cuts a face or an edge in two, and without that cut it would have left nothing.
 template <class Springs>
 LSDCD_FN bool is_left(const ContactsView &set, int i, const Springs &old, int k)
 {
+  const bool carries = dot(set.normal[i], old[k].normal) > kSameDirection;
   for (int j = 0; j < set.n; j++)
     if (set.feature[j] == old[k].feature ||
-        (j != i && dot(set.normal[j], old[k].normal) > kSameDirection))
+        (!carries && dot(set.normal[j], old[k].normal) > kSameDirection))
       return false;
   return true;
 }

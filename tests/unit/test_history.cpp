@@ -224,6 +224,16 @@ TEST(transfer_of, across_a_cut_is_the_whole_spring_where_another_contact_is_born
             kShear);
 }
 
+// Two sheets in one place: the sphere crosses the same line of both, and neither may take the hold from the other.
+TEST(is_held, goes_on_across_a_cut_where_two_contacts_lie_in_its_direction)
+{
+  const Cube cube;
+  const Spring old = {kShear, kUp, kHere, 0};
+  const FeatureCode v = feature_code(FeatureKind::vertex, cube.f.face_vertex[0].v[1]);
+  const ContactSet<8> set = contacts({{kNext, kUp}, {v, kUp}});
+  for (int i = 0; i < 2; i++) EXPECT_TRUE(is_held(cube.view, set.view(), i, false, &old, 1)) << i;
+}
+
 TEST(transfer_of, in_a_right_angled_corner_is_nothing)
 {
   const Cube cube;
