@@ -35,7 +35,8 @@ static LAMMPS *with_atoms_on_host(LAMMPS *lmp, const char *id)
 
 template <class DeviceType>
 FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char **arg) :
-    FixWallLsdcd(with_atoms_on_host(lmp, arg[0]), narg, arg, lsdcd::make_engine_on<DeviceType>)
+    FixWallLsdcd(with_atoms_on_host(lmp, arg[0]), narg, arg,
+                 lsdcd::WallPlace{lsdcd::make_engine_on<DeviceType>, true})
 {
   kokkosable = 1;
   atomKK = kokkos_atoms(atom);
@@ -58,12 +59,13 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
 {
 #if LSDCD_DEVICE_EXCHANGE
-  if (history->is_with_engine()) {
+  const lsdcd::HistoryExchange &history = wall->history();
+  if (history.is_with_engine()) {
     // One more for the offset of an atom's numbers in the message. A process on its own packs
     // hardly any atom, those that leave a fixed box, and need not look at all of them.
     int largest =
-        1 + (comm->nprocs > 1 ? in_place().largest_packed_size(history->spheres_of_engine())
-                              : in_place().most_packed_size());
+        1 + (comm->nprocs > 1 ? wall->in_place().largest_packed_size(history.spheres_of_engine())
+                              : wall->in_place().most_packed_size());
     MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
     ask_for_room(largest);
     return;
@@ -75,8 +77,7 @@ void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
 template <class DeviceType>
 lsdcd::Spheres FixWallLsdcdKokkos<DeviceType>::spheres()
 {
-  lsdcd::Spheres s;
-  s.n = atom->nlocal;
+  lsdcd::Spheres s = spheres_in_atom();    // temperatures stay there
   s.x = lsdcd::rows_of(atomKK->k_x.template view<DeviceType>());
   s.v = lsdcd::rows_of(atomKK->k_v.template view<DeviceType>());
   s.omega = lsdcd::rows_of(atomKK->k_omega.template view<DeviceType>());
@@ -86,7 +87,6 @@ lsdcd::Spheres FixWallLsdcdKokkos<DeviceType>::spheres()
   s.mass =
       rigid ? d_mass_seen.data() : lsdcd::numbers_of(atomKK->k_rmass.template view<DeviceType>());
   s.mask = igroup ? atomKK->k_mask.template view<DeviceType>().data() : nullptr;
-  s.group_bit = groupbit;
   return s;
 }
 
@@ -118,52 +118,32 @@ bool FixWallLsdcdKokkos<DeviceType>::others_only_add() const
 }
 
 template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::start()
+void FixWallLsdcdKokkos<DeviceType>::begin_step(const lsdcd::StepInput &input)
 {
-  if (cutoff() == 0) return;
   atomKK->sync(execution_space,
                X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK);
-  if (history->is_kept()) in_place().grow(atom->nmax);
-  in_place().ready();
-  running = true;
-  begun = false;
+  wall->begin(spheres(), input);
 }
 
 // The GPU is at the forces between atoms, and finds the wall's beside them.
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int /*eflag*/, int /*vflag*/)
 {
-  if (!running) return;
+  if (!wall->is_running()) return;
   if (adds_early) atomKK->sync(execution_space, F_MASK | TORQUE_MASK);
-  in_place().begin_beside();
-  try {
-    give_step();
-  } catch (...) {    // of LAMMPS, where a library goes on after an error
-    in_place().end_beside(false);
-    throw;
-  }
-  in_place().end_beside(adds_early);
+  run_wall([&] { wall->launch(spheres(), true, adds_early); });
   if (adds_early) atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
 }
 
 template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::give_step()
+void FixWallLsdcdKokkos<DeviceType>::finish_step()
 {
-  FixWallLsdcd::give_step();
-  begun = true;
-}
-
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::collect()
-{
-  if (running) {
+  const bool runs = wall->is_running();
+  if (runs)
     atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
                                       MASK_MASK | F_MASK | TORQUE_MASK);
-    if (!begun) give_step();
-  }
-  const bool ran = running;
-  FixWallLsdcd::collect();
-  if (ran) atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
+  FixWallLsdcd::finish_step();
+  if (runs) atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
 }
 
 template <class DeviceType>
@@ -177,21 +157,12 @@ void FixWallLsdcdKokkos<DeviceType>::fill_masses()
   Kokkos::deep_copy(Kokkos::subview(d_mass_seen, std::make_pair(std::size_t(0), n)), host);
 }
 
-template <class DeviceType>
-double FixWallLsdcdKokkos<DeviceType>::largest_radius()
-{
-  atomKK->sync(execution_space, RADIUS_MASK | MASK_MASK);
-  lsdcd::Spheres s = spheres();
-  // Atoms may enter a dynamic group between two looks.
-  if (group->dynamic[igroup]) s.mask = nullptr;
-  return in_place().largest_radius(s);
-}
-
-// Of one atom: to bring all tags to the host takes a third of a millisecond for a million.
+// Of one atom, unless all are on the host: to bring them there takes a third of a millisecond for a million.
 template <class DeviceType>
 tagint FixWallLsdcdKokkos<DeviceType>::tag_of(int i)
 {
   if (!atom->tag_enable) return 0;
+  if (!atomKK->k_tag.need_sync_host()) return atom->tag[i];
   atomKK->sync(execution_space, TAG_MASK);
   tagint tag = 0;
   Kokkos::deep_copy(tag, Kokkos::subview(atomKK->k_tag.template view<DeviceType>(), i));

@@ -34,29 +34,22 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
 #endif
 
  protected:
-  void start() override;
-  void collect() override;
+  void begin_step(const lsdcd::StepInput &) override;
+  void finish_step() override;
   void fill_masses() override;
-  double largest_radius() override;
   void need_on_host() override;
   lsdcd::Spheres spheres() override;
   void make_exchange_room() override;
   tagint tag_of(int) override;
 
  private:
-  lsdcd::InPlaceEngine &in_place()
-  {
-    return static_cast<lsdcd::InPlaceEngine &>(*engine);
-  }
-  void give_step();
   bool others_only_add() const;
-  void springs_to_device();
+  void history_to_device();
   static bool sends_from_host(ExecutionSpace);
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);
 
   Kokkos::View<double *, DeviceType> d_mass_seen;
-  bool begun = false;         // has the engine been given the step?
   bool adds_early = false;    // are forces added right behind those between atoms?
 };
 

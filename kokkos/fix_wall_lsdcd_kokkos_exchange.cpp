@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Springs follow their atoms on the device where the host moves atoms there. Rows of the contacts
+// Histories of contacts follow their atoms on the device where the host moves atoms there. Rows of the contacts
 // array stay on the host, as do their
 // readers, and go from and to it where messages are on the device.
 
@@ -13,16 +13,16 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::grow_arrays(int nmax)
 {
   FixWallLsdcd::grow_arrays(nmax);
-  if (history->is_with_engine()) in_place().grow(nmax);
+  if (wall->history().is_with_engine()) wall->in_place().grow(nmax);
 }
 
 #if LSDCD_DEVICE_EXCHANGE
 
 template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::springs_to_device()
+void FixWallLsdcdKokkos<DeviceType>::history_to_device()
 {
-  in_place().grow(atom->nmax);
-  history->to_engine(atom->nlocal);
+  wall->in_place().grow(atom->nmax);
+  wall->history().to_engine(atom->nlocal);
 }
 
 // Atoms on a GPU whose messages leave from the host.
@@ -82,7 +82,7 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_rows(int n, const int *to, const dou
     if (place[k] >= 0) std::copy_n(row.data() + std::size_t(k) * size, size, array_atom[place[k]]);
 }
 
-// A message has the rows first, then the springs.
+// A message has the rows first, then the histories.
 template <class DeviceType>
 int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
                                                          lsdcd::ExchangeBuffer &buffer,
@@ -97,9 +97,9 @@ int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
   const int *comes = from.template view<DeviceType>().data();
   double *at = buffer.template view<DeviceType>().data();
   int size = pack_rows(n, leaves, comes, at);
-  if (history->is_kept()) {
-    springs_to_device();
-    size += in_place().pack(n, leaves, comes, at + size);
+  if (has_history()) {
+    history_to_device();
+    size += wall->in_place().pack(n, leaves, comes, at + size);
   }
   if (sends_from_host(space)) {
     buffer.template modify<DeviceType>();
@@ -123,16 +123,17 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffe
   const int n_second = n - n_first, rows = n_first * row_size();
   unpack_rows(n_first, places, at);
   if (n_second > 0) unpack_rows(n_second, places + n_first, at + second);
-  if (!history->is_kept()) return;
-  springs_to_device();
-  in_place().unpack(n, places, at + rows, n_first, second + n_second * row_size() - rows);
-  history->set_spheres_of_engine(std::max(history->spheres_of_engine(), atom->nlocal));
+  if (!has_history()) return;
+  history_to_device();
+  wall->in_place().unpack(n, places, at + rows, n_first, second + n_second * row_size() - rows);
+  lsdcd::HistoryExchange &history = wall->history();
+  history.set_spheres_of_engine(std::max(history.spheres_of_engine(), atom->nlocal));
 }
 
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter)
 {
-  if (settings.contacts) {
+  if (settings().contacts) {
     const auto order = sorter.get_permute_vector();
     const int n = atom->nlocal, size = row_size();
     const auto from = to_host<LMPDeviceType>(order.data(), n);
@@ -140,11 +141,11 @@ void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, Bi
     for (int i = 0; i < n; i++)
       std::copy_n(rows.data() + std::size_t(from[i]) * size, size, array_atom[i]);
   }
-  if (!history->is_kept()) return;
-  springs_to_device();
+  if (!has_history()) return;
+  history_to_device();
   using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  sorter.sort(LMPDeviceType(), Ints(in_place().first_spring(), atom->nlocal));
-  sorter.sort(LMPDeviceType(), Ints(in_place().n_springs(), atom->nlocal));
+  sorter.sort(LMPDeviceType(), Ints(wall->in_place().first_spring(), atom->nlocal));
+  sorter.sort(LMPDeviceType(), Ints(wall->in_place().n_springs(), atom->nlocal));
 }
 
 #endif

@@ -74,6 +74,8 @@ struct WallSettings {
   Vec3 cut_normal = {0, 0, 0};
   Real cut_offset = 0;
 
+  // Numbers of a sphere in the contacts array; 0 without it.
+  int contact_columns() const { return contacts ? 8 + law.has_heat() : 0; }
   bool wears() const { return wear.model != WearModel::none; }
   bool has_loads(const MeshSettings &mesh) const { return wears() || mesh.fields.every > 0; }
   bool has_loads() const

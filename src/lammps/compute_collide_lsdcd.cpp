@@ -114,10 +114,10 @@ void ComputeCollideLsdcd::make_collisions(const lsdcd::WallMesh &body)
   how.nearest = settings.nearest;
   how.memory = settings.memory;
   how.device = settings.device;
-  for (const MeshPart &part : wall().meshes()) {
-    const lsdcd::WallMesh mesh = lsdcd::copy_together(world, part.wall.mesh());
+  for (const lsdcd::MeshPart &part : wall().meshes()) {
+    const lsdcd::WallMesh mesh = lsdcd::copy_together(world, part.grid.mesh());
     Against one;
-    one.fingerprint = part.wall.mesh_fingerprint();
+    one.fingerprint = part.grid.mesh_fingerprint();
     one.bounds = part.bounds(0);
     lsdcd::run_collectively(world, has_any(), [&] {
       one.collision = std::make_unique<lsdcd::MeshCollision>(mesh, body, how);
@@ -131,7 +131,7 @@ void ComputeCollideLsdcd::check_wall(const FixWallLsdcd &fix) const
 {
   bool same = fix.meshes().size() == meshes.size();
   for (std::size_t m = 0; same && m < meshes.size(); m++)
-    same = fix.meshes()[m].wall.mesh_fingerprint() == meshes[m].fingerprint;
+    same = fix.meshes()[m].grid.mesh_fingerprint() == meshes[m].fingerprint;
   if (!same)
     fatal("fix " + settings.wall +
           " has other meshes than when the compute was defined: define the compute again");
@@ -271,7 +271,7 @@ void ComputeCollideLsdcd::log(const lsdcd::WallMesh &mesh) const
     char line[160];
     std::snprintf(
         line, sizeof line, "\n  against %zu triangles of fix %s: %zu pieces, cells of %g, %.3g MB",
-        wall().meshes()[m].wall.report().facets, settings.wall.c_str(), one.collision->n_pieces(),
+        wall().meshes()[m].grid.report().facets, settings.wall.c_str(), one.collision->n_pieces(),
         one.collision->grid().length, 1e-6 * static_cast<double>(one.collision->grid().bytes));
     if (!settings.brief) text += line;
   }

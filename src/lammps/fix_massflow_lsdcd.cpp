@@ -6,6 +6,7 @@
 #include "base/input_words.h"
 #include "lammps/host_box.h"
 #include "lammps/mpi_mesh.h"
+#include "mesh/outside_box.h"
 
 #include "atom.h"
 #if __has_include("atom_masks.h")
@@ -42,8 +43,8 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
           std::to_string(mesh.report.misoriented_edges) +
           " edges of the mesh join facets that are wound in opposite ways: forward is not the same "
           "side everywhere; turn the facets over");
-    const std::string outside =
-        lsdcd::outside_box({mesh.report.lo, mesh.report.hi}, *domain, neighbor->skin);
+    const std::string outside = lsdcd::outside_box({mesh.report.lo, mesh.report.hi},
+                                                   lsdcd::host_box(*domain), neighbor->skin);
     if (!outside.empty()) throw lsdcd::InputError(outside);
     check_length(mesh);
   } catch (const lsdcd::InputError &e) {

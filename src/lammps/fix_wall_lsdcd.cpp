@@ -4,7 +4,9 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "base/input_error.h"
-#include "lammps/mpi_material.h"
+#include "lammps/host_box.h"
+#include "lammps/other_fixes.h"
+#include "wall/shared_material.h"
 
 #include "atom.h"
 #if __has_include("atom_masks.h")
@@ -12,6 +14,7 @@
 #endif
 #include "comm.h"
 #include "domain.h"
+#include "error.h"
 #include "force.h"
 #include "group.h"
 #include "memory.h"
@@ -36,10 +39,11 @@ class Respa {
 };
 }    // namespace LAMMPS_NS
 
-static constexpr int kContactColumns = 8;
+// The first stable LAMMPS with fix heat/flow and what it integrates.
+#define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
 
-FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker) :
-    Fix(lmp, narg, arg), new_engine(maker)
+FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallPlace &place) :
+    Fix(lmp, narg, arg)
 {
 #if __has_include("atom_masks.h")
   // All that a host with its atoms on a GPU has to bring for this fix, and take back.
@@ -47,57 +51,41 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
                   F_MASK | TORQUE_MASK;
   datamask_modify = F_MASK | TORQUE_MASK;
 #endif
+  check_atoms();
 
-  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-    fatal("atoms need a radius, omega and torque: use atom_style sphere");
-
-  try {
+  run_wall([&] {
     const lsdcd::FilledTokens filled = lsdcd::fill_material(
-        world, std::vector<std::string>(arg + 3, arg + narg), update->unit_style);
-    material = filled.report;
-    for (int i = 3; i + 1 < narg && !material.empty() && material_file.empty(); i++)
+        host, std::vector<std::string>(arg + 3, arg + narg), update->unit_style);
+    for (int i = 3; i + 1 < narg && !filled.report.empty() && material_file.empty(); i++)
       if (std::strcmp(arg[i], "material") == 0) material_file = arg[i + 1];
-    settings = lsdcd::parse_settings(filled.tokens);
+    const lsdcd::WallSettings settings = lsdcd::parse_settings(filled.tokens);
     if (settings.draw_type > atom->ntypes)
       throw lsdcd::InputError("in 'draw', there is no atom type " +
                               std::to_string(settings.draw_type));
-    // A pressure in some unit systems is not a force per area in the same units.
-    if (settings.law.is_classic() && settings.law.is(lsdcd::NormalModel::hertz)) {
-      settings.law.k_normal /= force->nktv2p;
-      settings.law.k_tangent /= force->nktv2p;
-    }
-    settings.wear.per_work *= force->nktv2p;
-    settings.law.cohesion.numbers[0] /= force->nktv2p;    // sjkr's; a pressure
-    run_clock = {update->atime + (update->ntimestep - update->atimestep) * update->dt,
-                 update->ntimestep, update->ntimestep, update->dt};
-    history = std::make_unique<lsdcd::HistoryExchange>(host, settings);
-    totals = std::make_unique<lsdcd::StepTotals>(host, settings);
-    for (std::size_t k = 0; k < settings.meshes.size(); k++) {
-      MeshPart &m = parts.emplace_back(world, host, settings, static_cast<int>(k), step_now());
-      check_side(m);
-      check_plane(m);
-      check_motion(m);
-    }
+#if !HOST_HAS_HEAT
+    if (settings.law.has_heat())
+      throw lsdcd::InputError(
+          "the sub-model heat needs a LAMMPS with fix heat/flow, of 2 Aug 2023 or later");
+#endif
+    const double now = update->atime + (update->ntimestep - update->atimestep) * update->dt;
+    wall = std::make_unique<lsdcd::Wall>(
+        host, settings, lsdcd::WallUnits{force->nktv2p, force->ftm2v}, place, filled.report,
+        lsdcd::StepClock{now, update->ntimestep, update->ntimestep, update->dt});
+  });
 
-    make_engine();
-  } catch (const lsdcd::InputError &e) {
-    fatal(e.what());
-  }
-
-  records = settings.has_loads();
-  loads = std::make_unique<lsdcd::LoadRecorder>(host, settings);
-  wall_files = std::make_unique<lsdcd::WallFiles>(host, settings, force->nktv2p);
+  const bool contacts = settings().contacts;
   restart_global = 1;
-  if (wall_files->every() > 0) nevery = wall_files->every();
-  create_attribute = history->is_kept() || settings.contacts;
-  restart_peratom = history->is_kept();
-  maxexchange_dynamic = history->is_kept() || settings.contacts;
+  if (wall->files_every() > 0) nevery = wall->files_every();
+  create_attribute = has_history() || contacts;
+  restart_peratom = has_history();
+  maxexchange_dynamic = has_history() || contacts;
   dynamic_group_allow = 1;
 
   scalar_flag = vector_flag = 1;
-  array_flag = several();    // F_ID[1] of an atom-style variable is its column in 29Sep2021
+  array_flag =
+      meshes().size() > 1;    // F_ID[1] of an atom-style variable is its column in 29Sep2021
   size_vector = size_array_cols = kVector;
-  size_array_rows = static_cast<int>(parts.size());
+  size_array_rows = static_cast<int>(meshes().size());
   global_freq = 1;
   extscalar = 1;
   extvector = -1;
@@ -108,33 +96,18 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, EngineMaker *maker
   show_servo();
   energy_global_flag = 1;
   virial_global_flag = 1;
-
-  if (settings.contacts) {
+  if (contacts) {
     peratom_flag = 1;
-    size_peratom_cols = kContactColumns + settings.law.has_heat();
+    size_peratom_cols = settings().contact_columns();
     peratom_freq = 1;
   }
-  // Without spheres there is no telling how far outside is too far.
-  double radius = FixWallLsdcd::largest_radius();
-  MPI_Allreduce(MPI_IN_PLACE, &radius, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (settings.rmax > 0) radius = settings.rmax;
-  log_creation();
-  for (const MeshPart &m : parts) {
-    check_scale(m);
-    check_periodic(m);
-    if (radius > 0) check_box(m, lsdcd::cutoff_of(settings.law, radius));
-    check_surface(m);
-  }
-  if (several() && settings.corner == lsdcd::Corner::sum)
-    warn("with corner sum a sphere over a seam where two meshes meet is pushed by both: use corner "
-         "blend, or one mesh of all triangles");
 
   // Last: Atom would call a fix that was refused after this.
-  if (history->is_kept() || settings.contacts) {
+  if (has_history() || contacts) {
     FixWallLsdcd::grow_arrays(atom->nmax);
     for (int i = 0; i < atom->nlocal; i++) FixWallLsdcd::set_arrays(i);
     atom->add_callback(Atom::GROW);
-    if (history->is_kept()) atom->add_callback(Atom::RESTART);
+    if (has_history()) atom->add_callback(Atom::RESTART);
     callbacks = true;
     ask_for_most_room();
   }
@@ -144,18 +117,66 @@ FixWallLsdcd::~FixWallLsdcd()
 {
   if (callbacks) {
     atom->delete_callback(id, Atom::GROW);
-    if (history->is_kept()) atom->delete_callback(id, Atom::RESTART);
+    if (has_history()) atom->delete_callback(id, Atom::RESTART);
   }
   memory->destroy(array_atom);
   delete[] extlist;
   extlist = nullptr;
 }
 
+// ---- messages ----------------------------------------------------------------------------
+
+std::string FixWallLsdcd::with_fix_id(const std::string &text) const
+{
+  return "Fix " + std::string(id) + " wall/lsdcd: " + text;
+}
+
+void FixWallLsdcd::fatal(const std::string &problem) const
+{
+  error->all(FLERR, with_fix_id(problem));
+}
+
+void FixWallLsdcd::fatal_here(const std::string &problem) const
+{
+  error->one(FLERR, with_fix_id(problem));
+}
+
+void FixWallLsdcd::warn(const std::string &problem) const
+{
+  if (comm->me == 0) error->warning(FLERR, with_fix_id(problem));
+}
+
+// ---- what the host has -------------------------------------------------------------------
+
+void FixWallLsdcd::check_atoms() const
+{
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+    fatal("atoms need a radius, omega and torque: use atom_style sphere");
+}
+
+void FixWallLsdcd::check_heat() const
+{
+#if HOST_HAS_HEAT
+  if (settings().law.has_heat() && (!atom->temperature_flag || !atom->heatflow_flag))
+    fatal("the sub-model heat needs a temperature and a heat flow per atom: fix ID all "
+          "property/atom temperature heatflow ghost yes, and fix heat/flow to change them");
+#endif
+}
+
+std::vector<lsdcd::DeckFile> FixWallLsdcd::files() const
+{
+  std::vector<lsdcd::DeckFile> all = lsdcd::files_of(settings());
+  if (!material_file.empty()) all.push_back({"material", material_file});
+  return all;
+}
+
+// ---- schedule ----------------------------------------------------------------------------
+
 int FixWallLsdcd::setmask()
 {
   // Where a fix asks for the end of steps, Kokkos's integrators no longer join two halves to one kernel.
   return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN | PRE_EXCHANGE |
-         (wall_files->every() > 0 ? END_OF_STEP : 0);
+         (wall->files_every() > 0 ? END_OF_STEP : 0);
 }
 
 void FixWallLsdcd::init()
@@ -168,18 +189,17 @@ void FixWallLsdcd::init()
     if (std::strncmp(modify->fix[i]->style, "adapt", 5) == 0) adapts = true;
   }
   if (!rigid) std::vector<double>().swap(mass_seen);
-  for (const MeshPart &m : parts)
-    if (cutoff() > 0) check_box(m, cutoff());
-  if (settings.law.has_heat()) check_heat();
-  make_engine_with_virial();
-  check_variables();
-  try {
-    wall_files->begin_run(update->ntimestep);
-  } catch (const lsdcd::InputError &e) {
-    fatal(e.what());
-  }
-  check_files_apart();
-  check_doubled();
+  check_heat();
+  run_wall([&] {
+    wall->begin_run(update->ntimestep, thermo_virial);
+    check_files_apart(*this, *modify, host, update->ntimestep);
+  });
+  if (doubled_warned) return;
+  need_on_host();
+  const std::string doubled = doubled_mesh(*this, *modify, *atom, world);
+  if (doubled.empty()) return;
+  doubled_warned = true;
+  warn(doubled);
 }
 
 // Respa calls this once per level before setup(): the only way to its number of
@@ -192,28 +212,26 @@ void FixWallLsdcd::setup_pre_force_respa(int /*vflag*/, int ilevel)
 void FixWallLsdcd::setup(int vflag)
 {
   v_init(vflag);
-  schedule.expire();
   set_up_at = update->ntimestep;
   rerun = watch.sees_snapshot(*update);
-  if (rerun) begin_snapshot();
-  prepare_springs();
-  if (!history->is_checked()) check_springs();
   if (callbacks) ask_for_most_room();
-
   Respa *respa = reinterpret_cast<Respa *>(update->integrate);
   const int outer = nlevels_respa - 1;
   if (nlevels_respa) respa->copy_flevel_f(outer);
-  begin_step(true);
-  collect();
-  check_new_spheres();
+  begin(true);
+  finish_step();
   if (nlevels_respa) respa->copy_f_flevel(outer);
-  if (!rerun) times.begin_run();    // as the loop time, which has the snapshots of a rerun
 }
 
+// Where the wall does not act, as in a minimization, outputs of the last step would be added to its
+// energy and pressure.
 void FixWallLsdcd::min_setup(int /*vflag*/)
 {
   if (callbacks) ask_for_most_room();
-  clear_outputs();
+  std::fill(virial, virial + 6, 0.0);
+  wall->clear_totals();
+  for (int i = 0; settings().contacts && i < atom->nlocal; i++)
+    std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
   if (wall_in_minimize_warned) return;
   wall_in_minimize_warned = true;
   warn("no effect in a minimization, as fix wall/gran has none");
@@ -221,18 +239,8 @@ void FixWallLsdcd::min_setup(int /*vflag*/)
 
 void FixWallLsdcd::pre_exchange()
 {
-  poll_diagnostics();
-  check_wrapping();
-  if (history->is_kept()) make_exchange_room();
-}
-
-// An atom that arrives may leave again in the next direction: room for the
-// largest of all processes.
-void FixWallLsdcd::make_exchange_room()
-{
-  int largest = springs_on_host().largest_packed_size();
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
-  ask_for_room(1 + largest);    // and its offset, which messages of Kokkos tell
+  run_wall([&] { wall->before_exchange(update->ntimestep, spheres_go_far()); });
+  if (has_history()) make_exchange_room();
 }
 
 // Radii may have been set before a run that has no setup.
@@ -243,19 +251,14 @@ void FixWallLsdcd::pre_force(int vflag)
   if (neighbor->ago == 0 && callbacks) ask_for_most_room();
   const bool anew = neighbor->ago == 0 ||
                     (update->ntimestep == update->firststep + 1 && set_up_at != update->firststep);
-  if (anew || adapts) {
-    schedule.expire();
-    prepare_springs();
-  }
-  if (!adapts) begin_step(anew);
+  if (!adapts) begin(anew);
 }
 
 // Fix adapt may come after this fix in pre_force.
 void FixWallLsdcd::post_force(int /*vflag*/)
 {
-  if (adapts) begin_step(true);
-  collect();
-  check_new_spheres();
+  if (adapts) begin(true);
+  finish_step();
 }
 
 void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
@@ -265,50 +268,353 @@ void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
   post_force(vflag);
 }
 
-// `look`: may there be new spheres, or other radii?
-void FixWallLsdcd::begin_step(bool look)
-{
-  run_clock.advance(step_now());
-  move_wall();
-  if (look)
-    update_cutoff();
-  else if (domain->box_change)
-    follow_box();
-  check_moving_box();
-  check_gone();
-  for (const MeshPart &m : parts)
-    if (engine_moves) engine->place_wall(m.motion.pose(), m.index);
-  if (rigid) fill_masses();
-  if (update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != checked_atoms))) {
-    check_timestep();
-    look_at_servo_spheres();
-    may_be_new = true;
-  }
-  start();
-}
-
 void FixWallLsdcd::end_of_step()
 {
-  times.begin();
-  std::vector<lsdcd::PlacedMesh> meshes;
-  for (const MeshPart &m : parts) meshes.push_back({m.wall.mesh(), m.motion.pose()});
-  wall_files->write_due(update->ntimestep, static_cast<double>(run_clock.now()), meshes,
-                        rerun ? nullptr : loads.get());
-  times.end(lsdcd::TimeReport::files);
+  run_wall([&] { wall->write_due_files(); });
 }
 
 void FixWallLsdcd::post_run()
 {
-  poll_diagnostics();
-  double worst = overlaps.worst();
-  host.max(&worst, 1);
-  overlaps.check_sunk(worst);
-  check_wrapping();
-  log_rebuilds();
-  search.end_run(settings.brief,
-                 sphere_drift().kind == lsdcd::SphereDrift::bounded
-                     ? ""
-                     : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)");
-  if (settings.nearest > 0) search.log_uncertified(settings.nearest, settings.brief);
-  times.end_run(settings.brief, timer->get_wall(Timer::TOTAL));
+  const std::string advice =
+      sphere_drift().kind == lsdcd::SphereDrift::bounded
+          ? ""
+          : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
+  run_wall([&] {
+    wall->end_run(update->ntimestep, spheres_go_far(), advice, timer->get_wall(Timer::TOTAL));
+  });
+}
+
+// ---- a step ------------------------------------------------------------------------------
+
+lsdcd::Step FixWallLsdcd::step_now() const
+{
+  return {update->ntimestep, update->dt,
+          rerun               ? lsdcd::Step::snapshot
+          : update->setupflag ? lsdcd::Step::setup
+                              : lsdcd::Step::step};
+}
+
+// Half the skin is for atoms, and as much again for a wall that moves.
+lsdcd::SphereDrift FixWallLsdcd::sphere_drift() const
+{
+  lsdcd::SphereDrift drift;
+  if (group->dynamic[igroup]) return drift;
+  drift.distance = 0.5 * neighbor->skin;
+  drift.has_begun = neighbor->ago > 0;
+  if (lsdcd::atoms_stay_close(*neighbor))
+    drift.kind = lsdcd::SphereDrift::bounded;
+  else if (neighbor->skin > 0)
+    drift.kind = lsdcd::SphereDrift::watched;
+  return drift;
+}
+
+bool FixWallLsdcd::spheres_go_far() const
+{
+  return !update->setupflag && !lsdcd::atoms_stay_close(*neighbor);
+}
+
+lsdcd::StepInput FixWallLsdcd::step_input(bool look)
+{
+  lsdcd::StepInput input;
+  input.step = step_now();
+  input.look = look;
+  input.new_spheres =
+      update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != counted_atoms));
+  input.box_changes = domain->box_change;
+  input.drift = sphere_drift();
+  input.virial = vflag_global;
+  return input;
+}
+
+// `look`: may there be new spheres, or other radii?
+void FixWallLsdcd::begin(bool look)
+{
+  if (rigid) fill_masses();
+  const lsdcd::StepInput input = step_input(look);
+  run_wall([&] { begin_step(input); });
+  if (input.new_spheres && wall->cutoff() > 0) counted_atoms = atom->natoms;
+}
+
+void FixWallLsdcd::begin_step(const lsdcd::StepInput &input)
+{
+  const lsdcd::Spheres s = spheres();
+  wall->begin(s, input);
+  wall->launch(s);
+}
+
+void FixWallLsdcd::finish_step()
+{
+  run_wall([&] { wall->finish(spheres()); });
+  if (vflag_global) wall->add_virial(virial);
+  if (settings().contacts) fill_contacts();
+}
+
+lsdcd::Spheres FixWallLsdcd::spheres_in_atom()
+{
+  lsdcd::Spheres s;
+  s.n = atom->nlocal;
+  if (s.n) {
+    s.x = atom->x[0];
+    s.v = atom->v[0];
+    s.omega = atom->omega[0];
+    s.force = atom->f[0];
+    s.torque = atom->torque[0];
+  }
+  s.radius = atom->radius;
+  s.mass = rigid ? mass_seen.data() : atom->rmass;
+  s.mask = igroup ? atom->mask : nullptr;
+  s.group_bit = groupbit;
+#if HOST_HAS_HEAT
+  s.temperature = atom->temperature;
+  s.heat_flow = atom->heatflow;
+#endif
+  return s;
+}
+
+lsdcd::Spheres FixWallLsdcd::spheres()
+{
+  return spheres_in_atom();
+}
+
+tagint FixWallLsdcd::tag_of(int i)
+{
+  return atom->tag_enable ? atom->tag[i] : 0;
+}
+
+// What damping sees of an atom in a rigid body is the mass of the body.
+void FixWallLsdcd::fill_masses()
+{
+  need_on_host();
+  const int nlocal = atom->nlocal;
+  mass_seen.assign(atom->rmass, atom->rmass + nlocal);
+  for (int k = 0; k < modify->nfix; k++) {
+    Fix *fix = modify->fix[k];
+    if (!fix->rigid_flag) continue;
+    int dim;
+    const int *body = (const int *) fix->extract("body", dim);
+    const double *mass = (const double *) fix->extract("masstotal", dim);
+    if (!body || !mass) continue;
+    for (int i = 0; i < nlocal; i++)
+      if (body[i] >= 0 && mass[body[i]] > 0.0) mass_seen[i] = mass[body[i]];
+  }
+}
+
+// ---- history and rows follow their atoms --------------------------------------------------
+
+void FixWallLsdcd::grow_arrays(int nmax)
+{
+  wall->history().grow(nmax);
+  if (settings().contacts)
+    memory->grow(array_atom, nmax, size_peratom_cols, "fix_wall_lsdcd:array_atom");
+}
+
+// A fix may read the contacts array before this one writes it anew, and a dump after atoms
+// were deleted or displaced.
+void FixWallLsdcd::copy_arrays(int i, int j, int /*delflag*/)
+{
+  if (has_history()) history_on_host().copy(i, j);
+  if (settings().contacts) std::copy_n(array_atom[i], size_peratom_cols, array_atom[j]);
+}
+
+void FixWallLsdcd::set_arrays(int i)
+{
+  if (has_history()) history_on_host().clear(i);
+  if (settings().contacts) std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
+}
+
+int FixWallLsdcd::pack_exchange(int i, double *buf)
+{
+  const int n = has_history() ? history_on_host().pack(i, buf) : 0;
+  if (settings().contacts) std::copy_n(array_atom[i], size_peratom_cols, buf + n);
+  return n + row_size();
+}
+
+int FixWallLsdcd::unpack_exchange(int i, double *buf)
+{
+  const int n = has_history() ? history_on_host().unpack(i, buf) : 0;
+  if (settings().contacts) std::copy_n(buf + n, size_peratom_cols, array_atom[i]);
+  return n + row_size();
+}
+
+// An atom that arrives may leave again in the next direction: room for the
+// largest of all processes.
+void FixWallLsdcd::make_exchange_room()
+{
+  int largest = history_on_host().largest_packed_size();
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
+  ask_for_room(1 + largest);    // and its offset, which messages of Kokkos tell
+}
+
+// `history_takes`: numbers that the history of one atom takes at most. LAMMPS's Irregular has room
+// for what the fix with the largest maxexchange packs and not for all of them, so each
+// wall asks for the room of all.
+void FixWallLsdcd::ask_for_room(int history_takes)
+{
+  room = history_takes + row_size();
+  int all = room;
+  std::vector<FixWallLsdcd *> walls = {this};
+  for (int k = 0; k < modify->nfix; k++) {
+    Fix *fix = modify->fix[k];
+    if (!fix || fix == this) continue;    // LAMMPS replaces one by this
+    FixWallLsdcd *other = dynamic_cast<FixWallLsdcd *>(fix);
+    if (other) walls.push_back(other);
+    all += other ? other->room : fix->maxexchange;
+  }
+  for (FixWallLsdcd *one : walls) one->maxexchange = all;
+}
+
+// For atoms that LAMMPS moves to other processes whenever it likes: outside of runs, and in
+// the pre_exchange() of a fix before this one. No sphere has more contacts than this.
+void FixWallLsdcd::ask_for_most_room()
+{
+  ask_for_room(has_history() ? 1 + wall->history().max_packed_size() : 0);
+}
+
+// ---- restart files -----------------------------------------------------------------------
+
+// In restart files the first number is the size, by which other fixes skip it.
+int FixWallLsdcd::size_restart(int i)
+{
+  return 1 + history_on_host().packed_size(i);
+}
+
+// Of all processes: LAMMPS writes what the first one says, and makes rows that wide. Collective.
+int FixWallLsdcd::maxsize_restart()
+{
+  int largest = 1 + history_on_host().largest_packed_size();
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
+  return largest;
+}
+
+int FixWallLsdcd::pack_restart(int i, double *buf)
+{
+  buf[0] = 1 + wall->pack_restart(i, buf + 1);
+  return static_cast<int>(buf[0]);
+}
+
+void FixWallLsdcd::unpack_restart(int i, int nth)
+{
+  const double *extra = atom->extra[i];
+  for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
+  history_on_host();
+  wall->history().unpack_restart(i, extra + 1, static_cast<int>(extra[0]) - 1);
+}
+
+void FixWallLsdcd::write_restart(FILE *file)
+{
+  const std::vector<double> data = wall->state();
+  if (comm->me != 0) return;
+  const int bytes = static_cast<int>(data.size() * sizeof(double));
+  fwrite(&bytes, sizeof bytes, 1, file);
+  fwrite(data.data(), sizeof(double), data.size(), file);
+}
+
+// LAMMPS hands the same bytes to every process.
+void FixWallLsdcd::restart(char *buffer)
+{
+  run_wall([&] { wall->restore(reinterpret_cast<const double *>(buffer), step_now()); });
+}
+
+// ---- outputs -----------------------------------------------------------------------------
+
+double FixWallLsdcd::compute_scalar()
+{
+  return wall->totals().of_all().energy;
+}
+
+// In the columns of the vector.
+static double column(const lsdcd::MeshTotals &t, int i)
+{
+  const double after_torque[] = {t.contacts, t.overlap, t.uncertified};
+  return i < 3 ? t.force[i] : i < 6 ? t.torque[i - 3] : after_torque[i - 6];
+}
+
+// Of one mesh. Collective.
+double FixWallLsdcd::mesh_output(int mesh, int i)
+{
+  if (i == kWorn) return wall->worn(mesh);
+  const lsdcd::MeshTotals &t = wall->totals().mesh(mesh);
+  if (i < kTotals) return column(t, i);
+  if (i == kPower) return t.power;
+  return meshes()[mesh].servo().present ? servo_output(mesh, i - kVector) : 0;
+}
+
+// Position, velocity, push.
+double FixWallLsdcd::servo_output(int mesh, int i)
+{
+  const lsdcd::Servo &s = meshes()[mesh].servo();
+  return i == 0 ? s.position : i == 1 ? s.velocity : wall->servo_push(mesh);
+}
+
+double FixWallLsdcd::compute_array(int mesh, int i)
+{
+  return mesh_output(mesh, i);
+}
+
+// Of all meshes; and of the one servo, if there is one.
+double FixWallLsdcd::compute_vector(int i)
+{
+  if (i >= kVector) return only_servo() < 0 ? 0 : mesh_output(only_servo(), i);
+  if (i == kWorn) {
+    double worn = 0;
+    for (const lsdcd::MeshPart &m : meshes()) worn += wall->worn(m.index);
+    return worn;
+  }
+  const lsdcd::MeshTotals all = wall->totals().of_all();
+  return i == kPower ? all.power : column(all, i);
+}
+
+// The mesh with a servo; -1 where several have one, or none.
+int FixWallLsdcd::only_servo() const
+{
+  int only = -1;
+  for (const lsdcd::MeshPart &m : meshes()) {
+    if (m.servo().present && only >= 0) return -1;
+    if (m.servo().present) only = m.index;
+  }
+  return only;
+}
+
+// What has a servo has its outputs, after those of the rest.
+void FixWallLsdcd::show_servo()
+{
+  for (const lsdcd::MeshPart &m : meshes())
+    if (m.servo().present) size_vector = size_array_cols = kVector + kServo;
+  extlist[kVector] = extlist[kVector + 1] = 0;    // position and speed are no sums
+}
+
+void FixWallLsdcd::fill_contacts()
+{
+  for (int i = 0; i < atom->nlocal; i++)
+    std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
+  wall->for_contact_rows(
+      [this](int i, const double *row) { std::copy_n(row, size_peratom_cols, array_atom[i]); });
+}
+
+double FixWallLsdcd::memory_usage()
+{
+  double bytes = wall->bytes() + mass_seen.capacity() * sizeof(double);
+  if (settings().contacts) bytes += (double) atom->nmax * size_peratom_cols * sizeof(double);
+  return bytes;
+}
+
+// Processes merge their pictures, so the first one draws.
+int FixWallLsdcd::image(int *&kinds, double **&rows)
+{
+  const bool first = !picture.is_drawn();
+  const int n = comm->me == 0 ? picture.draw(*wall, kinds, rows) : 0;
+  // LAMMPS does not say which diameter the script gives.
+  if (comm->me == 0 && first && !settings().brief && settings().draw != lsdcd::Draw::faces)
+    host.log("dump image draws the mesh as " + std::to_string(n) +
+             " lines; where nothing is seen of it, their diameter is 0: write fix " +
+             std::string(id) + " type DIAMETER 0");
+  return n;
+}
+
+int FixWallLsdcd::modify_param(int narg, char **arg)
+{
+  int taken = 0;
+  run_wall([&] { taken = wall->change(std::vector<std::string>(arg, arg + narg), step_now()); });
+  show_servo();
+  return taken;
 }

@@ -7,8 +7,6 @@
 
 #include "mesh/periodic_box.h"
 
-#include <string>
-
 namespace LAMMPS_NS {
 class Domain;
 class Neighbor;
@@ -18,12 +16,6 @@ namespace lsdcd {
 
 // The simulation box, without a margin.
 PeriodicBox host_box(const LAMMPS_NS::Domain &domain);
-
-std::string extents_text(const Box &box);    // "x from 0 to 1, y from 0 to 2, z from 0 to 1"
-
-// Empty where something of the mesh is nearer than `near` to the box or, where faces are periodic,
-// to one of its images; shrink-wrapped faces go wherever atoms go. Else what is wrong.
-std::string outside_box(const Box &mesh, const LAMMPS_NS::Domain &domain, Real near);
 
 // Does LAMMPS reneighbour before any atom has gone farther than half the skin? A step in which one
 // has is a reneighbouring.

@@ -3,13 +3,19 @@
 
 #include "lammps/lammps_host.h"
 
+#include "base/input_error.h"
 #include "base/input_words.h"
 #include "lammps/fix_wall_lsdcd.h"
+#include "lammps/host_box.h"
+#include "lammps/mpi_shared.h"
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
+#include "group.h"
 #include "input.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "update.h"
 #include "variable.h"
 
@@ -66,9 +72,10 @@ int LammpsHost::find_variable(const std::string &name) const
 {
   Variable &all = *fix.input->variable;
   const int variable = all.find(name.c_str());
-  if (variable < 0) fix.fatal("there is no variable '" + name + "', which the wall reads");
+  if (variable < 0)
+    throw lsdcd::InputError("there is no variable '" + name + "', which the wall reads");
   if (!all.equalstyle(variable))
-    fix.fatal("variable '" + name + "', which the wall reads, is not of style equal");
+    throw lsdcd::InputError("variable '" + name + "', which the wall reads, is not of style equal");
   return variable;
 }
 
@@ -82,13 +89,41 @@ std::vector<double> LammpsHost::variables(const std::vector<std::string> &names)
   for (const std::string &name : names) {
     values.push_back(fix.input->variable->compute_equal(find_variable(name)));
     if (!std::isfinite(values.back()))
-      fix.fatal("variable '" + name + "', which the wall reads, is " +
-                lsdcd::number_text(values.back()) + " in step " +
-                std::to_string(fix.update->ntimestep) +
-                ": it must be a finite number in every step");
+      throw lsdcd::InputError("variable '" + name + "', which the wall reads, is " +
+                              lsdcd::number_text(values.back()) + " in step " +
+                              std::to_string(fix.update->ntimestep) +
+                              ": it must be a finite number in every step");
   }
   fix.modify->addstep_compute(fix.update->ntimestep + 1);
   return values;
+}
+
+void LammpsHost::check_variables(const std::vector<std::string> &names)
+{
+  for (const std::string &name : names) find_variable(name);
+}
+
+std::unique_ptr<lsdcd::NodeMemory> LammpsHost::node_memory()
+{
+  return std::make_unique<lsdcd::MpiShared>(fix.world);
+}
+
+lsdcd::PeriodicBox LammpsHost::box() const
+{
+  lsdcd::PeriodicBox box = lsdcd::host_box(*fix.domain);
+  box.margin = fix.neighbor->skin;
+  return box;
+}
+
+lsdcd::SphereGroup LammpsHost::group() const
+{
+  return {fix.group->names[fix.igroup], fix.group->dynamic[fix.igroup] != 0};
+}
+
+lsdcd::Spheres LammpsHost::spheres_on_cpu()
+{
+  fix.need_on_host();
+  return fix.spheres_in_atom();
 }
 
 int LammpsHost::rank() const
@@ -105,7 +140,8 @@ std::int64_t LammpsHost::highest_tag()
 {
   fix.need_on_host();
   tagint highest = 0;
-  for (int i = 0; i < fix.atom->nlocal; i++) highest = std::max(highest, fix.tag_on_host(i));
+  const Atom &atom = *fix.atom;
+  for (int i = 0; atom.tag_enable && i < atom.nlocal; i++) highest = std::max(highest, atom.tag[i]);
   return highest;
 }
 
@@ -121,7 +157,7 @@ double LammpsHost::radius_of_tag(std::int64_t tag)
 
 void LammpsHost::log(const std::string &text)
 {
-  fix.log(fix.with_fix_id(text));
+  if (rank() == 0) utils::logmesg(fix.lmp, fix.with_fix_id(text) + "\n");
 }
 
 void LammpsHost::warn(const std::string &text)

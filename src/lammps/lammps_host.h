@@ -20,16 +20,21 @@ class LammpsHost : public lsdcd::Host {
   std::vector<double> gather(const std::vector<double> &) override;
   void fail_together(const std::string &) override;
   std::vector<double> variables(const std::vector<std::string> &) override;
+  void check_variables(const std::vector<std::string> &) override;
+  std::unique_ptr<lsdcd::NodeMemory> node_memory() override;
   int rank() const override;
+  lsdcd::PeriodicBox box() const override;
+  lsdcd::SphereGroup group() const override;
+  lsdcd::Spheres spheres_on_cpu() override;
   std::int64_t tag(int) override;
   std::int64_t highest_tag() override;
   double radius_of_tag(std::int64_t) override;
   void log(const std::string &) override;
   void warn(const std::string &) override;
 
-  int find_variable(const std::string &) const;    // refuses one that is missing
-
  private:
+  int find_variable(const std::string &) const;
+
   FixWallLsdcd &fix;
 };
 

@@ -102,6 +102,11 @@ void MpiShared::publish()
   MPI_Win_sync(window_);
 }
 
+void MpiShared::broadcast_to_writers(void *data, std::size_t bytes)
+{
+  broadcast_bytes(data, bytes, 0, writers_);
+}
+
 void throw_together(MPI_Comm comm, const std::string &error)
 {
   int rank, size;

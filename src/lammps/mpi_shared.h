@@ -7,6 +7,7 @@
 #include "base/error_text.h"
 #include "base/large_memory.h"
 #include "backend/owned_array.h"
+#include "wall/host.h"
 
 #include <cstddef>
 #include <mpi.h>
@@ -15,32 +16,28 @@
 namespace lsdcd {
 
 // All calls are collective over the communicator given at construction.
-class MpiShared {
+class MpiShared : public NodeMemory {
  public:
   explicit MpiShared(MPI_Comm world);
-  ~MpiShared();
+  ~MpiShared() override;
   MpiShared(const MpiShared &) = delete;
   MpiShared &operator=(const MpiShared &) = delete;
 
-  MPI_Comm world() const { return world_; }
-  MPI_Comm node() const { return node_; }
-  MPI_Comm writers() const { return writers_; }    // null where writes() is false
-  bool writes() const { return node_rank_ == 0; }
-  int node_rank() const { return node_rank_; }
-  int node_size() const { return node_size_; }
-
-  // Gives up the last block and makes one of `bytes` (the writer's number counts),
-  // 64-byte aligned. Only the writer may write, before publish().
-  char *allocate(std::size_t bytes);
-  void publish();
-  const char *block() const { return block_; }
-  bool is_shared() const { return window_ != MPI_WIN_NULL; }
-  std::size_t bytes() const { return bytes_; }
+  char *allocate(std::size_t bytes) override;
+  void publish() override;
+  void broadcast_to_writers(void *data, std::size_t bytes) override;
+  bool writes() const override { return node_rank_ == 0; }
+  int node_rank() const override { return node_rank_; }
+  int node_size() const override { return node_size_; }
+  bool is_shared() const override { return window_ != MPI_WIN_NULL; }
+  const char *block() const override { return block_; }
+  std::size_t bytes() const override { return bytes_; }
 
  private:
   void release();
 
-  MPI_Comm world_, node_, writers_;
+  MPI_Comm world_, node_;
+  MPI_Comm writers_;    // null where writes() is false
   int node_rank_, node_size_;
   MPI_Win window_ = MPI_WIN_NULL;
   OwnedArray<char, LargeMemory> own_;    // where sharing is not possible, or not needed

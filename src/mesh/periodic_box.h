@@ -53,8 +53,10 @@ struct PeriodicBox {
   Vec3 corner = {0, 0, 0};                             // length
   Vec3 edge[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};    // length; from the corner, right-handed
   bool periodic[3] = {false, false, false};            // along each edge
-  bool follows[3] = {false, false, false};             // faces follow the spheres (shrink-wrapped)
-  Real margin = 0;    // length; how far past a face a sphere may go before it is wrapped
+  // Faces that follow the spheres (shrink-wrapped): along each edge the lower and the upper one.
+  bool face_follows[3][2] = {{false, false}, {false, false}, {false, false}};
+  Real margin = 0;      // length; how far past a face a sphere may go before it is wrapped
+  int dimension = 3;    // 2: spheres stay in the plane z = 0
 
   // A point in units of the edges: 0 to 1 inside the box.
   Vec3 fraction(const Vec3 &x) const;
@@ -65,6 +67,8 @@ struct PeriodicBox {
   // faces.
   Box bounds(const Vec3 &past) const;
   bool any_periodic() const { return periodic[0] || periodic[1] || periodic[2]; }
+  bool follows(int k) const { return face_follows[k][0] || face_follows[k][1]; }
+  bool any_follows() const { return follows(0) || follows(1) || follows(2); }
 };
 
 }    // namespace lsdcd

@@ -5,15 +5,22 @@
 
 #include "engine/step/law_job.h"
 
+#include <algorithm>
 #include <string>
 
 namespace lsdcd {
 
-ContactHistory &HistoryExchange::on_host(int room)
+void HistoryExchange::grow(int room)
+{
+  room_ = room;
+  if (is_kept() && !with_engine_) springs_.grow(room);
+}
+
+ContactHistory &HistoryExchange::on_host()
 {
   if (with_engine_) {
     engine_->springs_to(springs_, n_with_engine_);
-    springs_.grow(room);
+    springs_.grow(std::max(room_, n_with_engine_));
     with_engine_ = false;
   }
   return springs_;

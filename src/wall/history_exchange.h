@@ -30,8 +30,11 @@ class HistoryExchange {
   // The engine of the steps from now on. What another had must be on the host.
   void set_engine(WallEngine &engine) { engine_ = &engine; }
 
-  // Of the spheres of this process, on the host from now on, with room for `room` spheres.
-  ContactHistory &on_host(int room);
+  // Room for `room` spheres from now on, wherever the history is.
+  void grow(int room);
+  int room() const { return room_; }
+  // Of the spheres of this process, on the host from now on.
+  ContactHistory &on_host();
   // The history of the n spheres of this process goes to the engine, if it is not there.
   void to_engine(int n);
   bool is_with_engine() const { return with_engine_; }
@@ -66,6 +69,7 @@ class HistoryExchange {
   const ContactLaw &law_;
   WallEngine *engine_ = nullptr;
   ContactHistory springs_;
+  int room_ = 0;
   bool with_engine_ = false;
   int n_with_engine_ = 0;
   bool checked_ = false;

@@ -5,14 +5,52 @@
 #pragma once
 
 #include "base/error_text.h"
-#include "base/real.h"
+#include "engine/wall_engine.h"
+#include "mesh/periodic_box.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace lsdcd {
+
+// Memory that one process of each node fills, and that all processes of the node read.
+class NodeMemory {
+ public:
+  virtual ~NodeMemory() = default;
+
+  // Collective over all processes.
+
+  // Gives up the last block and makes one of `bytes` (the writer's number counts), 64-byte aligned.
+  // Only the writer may write to it, before publish(). Throws InputError on all processes.
+  virtual char *allocate(std::size_t bytes) = 0;
+  virtual void publish() = 0;
+
+  // On processes that write: `bytes` bytes of the first process replace those of the others.
+  virtual void broadcast_to_writers(void *data, std::size_t bytes) = 0;
+
+  virtual bool
+  writes() const = 0;    // is this the process of its node that does? The first process is
+  virtual int node_rank() const = 0;     // from 0, which writes
+  virtual int node_size() const = 0;     // processes of this node
+  virtual bool is_shared() const = 0;    // false: each process has a copy of the block
+  virtual const char *block() const = 0;
+  virtual std::size_t bytes() const = 0;    // of the block
+};
+
+// The spheres that a wall acts on, as messages name them.
+struct SphereGroup {
+  std::string name;
+  bool changes = false;    // spheres may join and leave it between steps
+};
+
+inline bool is_in_group(const Spheres &s, int i)
+{
+  return !s.mask || (s.mask[i] & s.group_bit);
+}
 
 // There is one object per process. All processes call the collective functions, in the same order.
 class Host {
@@ -36,12 +74,19 @@ class Host {
   virtual void fail_together(const std::string &error) = 0;
 
   // Values of the program's variables with these names in this step, in this order: finite, and the
-  // same on all processes. The program ends the run where there is no such variable or number.
+  // same on all processes. Throws InputError where there is no such variable or number.
   virtual std::vector<Real> variables(const std::vector<std::string> &names) = 0;
+  // Throws InputError where a variable with one of these names is missing.
+  virtual void check_variables(const std::vector<std::string> &names) = 0;
+  virtual std::unique_ptr<NodeMemory> node_memory() = 0;
 
   // Of this process alone. Spheres are counted from 0, in the order of the last step.
 
-  virtual int rank() const = 0;                        // from 0, which is the first process
+  virtual int rank() const = 0;             // from 0, which is the first process
+  virtual PeriodicBox box() const = 0;      // the same on all processes
+  virtual SphereGroup group() const = 0;    // likewise
+  // The spheres of this process as they are now: places, radii, masses and group, in memory of the CPU.
+  virtual Spheres spheres_on_cpu() = 0;
   virtual std::int64_t tag(int sphere) = 0;            // the ID of a sphere; 0: spheres have none
   virtual std::int64_t highest_tag() = 0;              // of its spheres; 0: none, or no IDs
   virtual Real radius_of_tag(std::int64_t tag) = 0;    // length; 0: this process has no such sphere
@@ -55,5 +100,19 @@ void run_collectively(Host &host, bool here, Work &&work)
 {
   host.fail_together(here ? error_of(work) : "");
 }
+
+// A text of the first process replaces those of the others. Collective.
+inline void broadcast_text(Host &host, std::string &text)
+{
+  std::uint64_t size = text.size();
+  host.broadcast(&size, sizeof size, 0);
+  text.resize(size);
+  host.broadcast(&text[0], size, 0);
+}
+
+// An error of this process alone; the others may go on until the program ends them.
+struct ProcessError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 }    // namespace lsdcd

@@ -22,9 +22,12 @@ void on_processes(int n, const std::function<void(FakeHost &)> &work);
 class FakeHost : public Host {
  public:
   // What a test gives, and finds.
-  std::vector<std::int64_t> tags;              // of the spheres of this process
-  std::vector<Real> radii;                     // of them
-  std::map<std::string, Real> values;          // of variables
+  std::vector<std::int64_t> tags;        // of the spheres of this process
+  std::vector<Real> radii;               // of them
+  std::map<std::string, Real> values;    // of variables
+  Spheres spheres;                       // of this process
+  PeriodicBox simulation;                // its box
+  SphereGroup wall_group = {"all", false};
   std::vector<std::string> lines, warnings;    // of this process, whatever its rank
 
   void sum(Real *numbers, int n) override;
@@ -34,7 +37,13 @@ class FakeHost : public Host {
   std::vector<Real> gather(const std::vector<Real> &mine) override;
   void fail_together(const std::string &error) override;
   std::vector<Real> variables(const std::vector<std::string> &names) override;
+  void check_variables(const std::vector<std::string> &names) override;
+  // Each process is a node of its own.
+  std::unique_ptr<NodeMemory> node_memory() override;
   int rank() const override { return rank_; }
+  PeriodicBox box() const override { return simulation; }
+  SphereGroup group() const override { return wall_group; }
+  Spheres spheres_on_cpu() override { return spheres; }
   std::int64_t tag(int sphere) override { return tags.at(sphere); }
   std::int64_t highest_tag() override;
   Real radius_of_tag(std::int64_t tag) override;

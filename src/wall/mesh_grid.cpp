@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
-// SPDX-License-Identifier: GPL-2.0-only
+// SPDX-License-Identifier: BSD-3-Clause
 
-#include "lammps/mpi_wall.h"
+#include "wall/mesh_grid.h"
 
 #include "base/give_back_memory.h"
 #include "base/input_words.h"
@@ -20,102 +20,99 @@ namespace lsdcd {
 
 namespace {
 
-// Memory of each node. Rank 0 has the cache file, which other nodes may not see.
+// Memory of each node. The first process has the cache file, which other nodes may not see.
 class NodePlace : public GridPlace {
  public:
-  NodePlace(MpiShared &shared, int rank) : shared_(shared), rank_(rank) {}
+  NodePlace(Host &host, NodeMemory &memory) : host_(host), memory_(memory) {}
 
-  bool is_first() const override { return rank_ == 0; }
-  bool builds() const override { return shared_.writes(); }
+  bool is_first() const override { return host_.rank() == 0; }
+  bool builds() const override { return memory_.writes(); }
   void run(bool here, const std::function<void()> &work) override
   {
-    run_collectively(shared_.world(), here, work);
+    run_collectively(host_, here, work);
   }
   std::uint64_t of_first(std::uint64_t number) override
   {
-    MPI_Bcast(&number, 1, MPI_UINT64_T, 0, shared_.world());
+    host_.broadcast(&number, sizeof number, 0);
     return number;
   }
-  char *allocate(std::size_t bytes) override { return block_ = shared_.allocate(bytes); }
+  char *allocate(std::size_t bytes) override { return block_ = memory_.allocate(bytes); }
   void publish(bool from_file) override
   {
-    if (from_file && shared_.writes())
-      broadcast_bytes(block_, shared_.bytes(), 0, shared_.writers());
-    shared_.publish();
+    if (from_file && memory_.writes()) memory_.broadcast_to_writers(block_, memory_.bytes());
+    memory_.publish();
   }
 
  private:
-  MpiShared &shared_;
-  int rank_;
+  Host &host_;
+  NodeMemory &memory_;
   char *block_ = nullptr;
 };
 
 }    // namespace
 
-SharedWall::SharedWall(MPI_Comm world, const WallSettings &settings, const MeshSettings &of_mesh) :
-    settings_(settings), of_mesh_(of_mesh), shared_(world)
+MeshGrid::MeshGrid(Host &host, const WallSettings &settings, const MeshSettings &of_mesh) :
+    host_(host), settings_(settings), of_mesh_(of_mesh), memory_(host.node_memory())
 {
   read();
 }
 
-// The file is read by rank 0 alone: it may not be there on other nodes.
-void SharedWall::read()
+// The file is read by the first process alone: it may not be there on other nodes.
+void MeshGrid::read()
 {
-  int rank;
-  MPI_Comm_rank(shared_.world(), &rank);
+  const bool first = host_.rank() == 0, writes = memory_->writes();
   TriangleSoup soup;
   soup.source = of_mesh_.file;
-  run_collectively(shared_.world(), rank == 0, [&] {
+  run_collectively(host_, first, [&] {
     soup = read_mesh(of_mesh_.file).soup;
     of_mesh_.placement.apply(soup);
   });
 
-  // One writer per node; rank 0 is the first of them. No message goes to a node without room.
+  // No message goes to a node without room.
   std::uint64_t corners = soup.corners.size();
-  MPI_Bcast(&corners, 1, MPI_UINT64_T, 0, shared_.world());
-  run_collectively(shared_.world(), shared_.writes(), [&] { soup.corners.resize(corners); });
-  if (shared_.writes())
-    broadcast_bytes(soup.corners.data(), corners * sizeof(Vec3), 0, shared_.writers());
-  run_collectively(shared_.world(), shared_.writes(), [&] {
+  host_.broadcast(&corners, sizeof corners, 0);
+  run_collectively(host_, writes, [&] { soup.corners.resize(corners); });
+  if (writes) memory_->broadcast_to_writers(soup.corners.data(), corners * sizeof(Vec3));
+  run_collectively(host_, writes, [&] {
     mesh_ = std::make_unique<WallMesh>(weld(soup, of_mesh_.weld));
     check_has_area(*mesh_);
     report_ = mesh_->report;
-    if (rank == 0) mesh_fingerprint_ = fingerprint(*mesh_);
+    if (first) mesh_fingerprint_ = fingerprint(*mesh_);
     soup = TriangleSoup();
     give_back_memory();
   });
   static_assert(std::is_trivially_copyable<MeshReport>::value, "sent as bytes");
-  MPI_Bcast(&report_, sizeof report_, MPI_BYTE, 0, shared_.world());
-  MPI_Bcast(&mesh_fingerprint_, 1, MPI_UINT64_T, 0, shared_.world());
-  if (rank == 0) mesh_text_ = describe(report_, of_mesh_.file);
+  host_.broadcast(&report_, sizeof report_, 0);
+  host_.broadcast(&mesh_fingerprint_, sizeof mesh_fingerprint_, 0);
+  if (first) mesh_text_ = describe(report_, of_mesh_.file);
 }
 
 // Where centres of spheres can be, with room for a box that grows, so that not every step of a
 // face makes a grid. The walls far outside of a box that follows its spheres wait to be met: only
 // a mesh much larger than the box is cut off there.
-Box SharedWall::within(Real cutoff, const PeriodicBox &box) const
+Box MeshGrid::within(Real cutoff, const PeriodicBox &box) const
 {
   constexpr Real kRoom = 0.05, kMuchLarger = 4;
   Vec3 past;
   for (int k = 0; k < 3; k++)
     past[k] =
-        box.margin + (box.follows[k] ? std::max(box.width(k), 20 * cutoff) : kRoom * box.width(k));
+        box.margin + (box.follows(k) ? std::max(box.width(k), 20 * cutoff) : kRoom * box.width(k));
   Box room = box.bounds(past);
   for (int k = 0; k < 3; k++) {
     const Real size = room.hi[k] - room.lo[k];
-    if (!box.follows[k] || report_.hi[k] - report_.lo[k] > kMuchLarger * size) continue;
+    if (!box.follows(k) || report_.hi[k] - report_.lo[k] > kMuchLarger * size) continue;
     room.lo[k] = kNoLimit.lo[k];
     room.hi[k] = kNoLimit.hi[k];
   }
   return room;
 }
 
-WallMesh SharedWall::whole(Real cutoff, const PeriodicBox &box) const
+WallMesh MeshGrid::whole(Real cutoff, const PeriodicBox &box) const
 {
   return with_images(*mesh_, box, cutoff + box.margin + kBoxTolerance * cutoff);
 }
 
-bool SharedWall::fits(const PeriodicBox &box) const
+bool MeshGrid::fits(const PeriodicBox &box) const
 {
   const Real tolerance = kBoxTolerance * cutoff_;
   const Vec3 margin = {box.margin, box.margin, box.margin};
@@ -152,12 +149,12 @@ bool SharedWall::fits(const PeriodicBox &box) const
   return true;
 }
 
-bool SharedWall::uses_gpu() const
+bool MeshGrid::uses_gpu() const
 {
   return settings_.device != Device::cpu && cuda_available(nullptr);
 }
 
-GridSettings SharedWall::grid_settings(Real cutoff, const PeriodicBox &box) const
+GridSettings MeshGrid::grid_settings(Real cutoff, const PeriodicBox &box) const
 {
   GridSettings want;
   want.length = settings_.grid_length;
@@ -174,10 +171,8 @@ GridSettings SharedWall::grid_settings(Real cutoff, const PeriodicBox &box) cons
   return want;
 }
 
-void SharedWall::build(Real cutoff, const PeriodicBox &box)
+void MeshGrid::build(Real cutoff, const PeriodicBox &box)
 {
-  int rank;
-  MPI_Comm_rank(shared_.world(), &rank);
   const GridSettings want = grid_settings(cutoff, box);
   // A box that changes in many steps would leave a file in each.
   const bool for_box = cutoff == cutoff_;
@@ -190,10 +185,10 @@ void SharedWall::build(Real cutoff, const PeriodicBox &box)
   within_ = want.within;
 
   WallMesh with_images;    // the mesh itself is not copied for a box without them
-  run_collectively(shared_.world(), shared_.writes() && box.any_periodic(),
+  run_collectively(host_, memory_->writes() && box.any_periodic(),
                    [&] { with_images = whole(cutoff, box); });
   const WallMesh &mesh = mesh_ && !box.any_periodic() ? *mesh_ : with_images;
-  NodePlace place(shared_, rank);
+  NodePlace place(host_, *memory_);
   const LoadedGrid loaded = load_or_build_grid(cache_file, mesh, want, uses_gpu(), place);
   cache_text_ = loaded.cache_text;
   cache_warning_ = loaded.cache_warning;
@@ -204,20 +199,20 @@ void SharedWall::build(Real cutoff, const PeriodicBox &box)
                      of_mesh_.file +
                      "' cut, overlap or touch each other, see lsdcd inspect: make one shell of "
                      "them (a boolean union), or use side both");
-  run_collectively(shared_.world(), rank == 0, [&] { note_images(mesh); });
-  broadcast_text(grid_text_, 0, shared_.world());
-  broadcast_text(ends_warning_, 0, shared_.world());
-  MPI_Bcast(&cells_, 1, MPI_UINT64_T, 0, shared_.world());
+  run_collectively(host_, host_.rank() == 0, [&] { note_images(mesh); });
+  broadcast_text(host_, grid_text_);
+  broadcast_text(host_, ends_warning_);
+  host_.broadcast(&cells_, sizeof cells_, 0);
 }
 
 // What images are there, and where they do not fit the mesh.
-void SharedWall::note_images(const WallMesh &whole)
+void MeshGrid::note_images(const WallMesh &whole)
 {
   const PeriodicImages &images = whole.images;
   if (!images.any()) return;
   grid_text_ += "\n  periodic images of " + std::to_string(images.face_of.size()) +
                 " triangles act through the faces of the box";
-  // A gap that is wide beside the box is an opening; not so where the deck says that the mesh
+  // A gap that is wide beside the box is an opening; not so where the script says that the mesh
   // continues itself.
   Real least = HUGE_VAL;
   for (int k = 0; k < 3; k++)
@@ -232,7 +227,7 @@ void SharedWall::note_images(const WallMesh &whole)
                   ", or let its ends overlap";
 }
 
-bool SharedWall::has(FeatureCode feature) const
+bool MeshGrid::has(FeatureCode feature) const
 {
   const std::size_t index = feature_index(feature);
   switch (feature_kind(feature)) {
@@ -246,13 +241,13 @@ bool SharedWall::has(FeatureCode feature) const
   return false;
 }
 
-std::size_t SharedWall::bytes() const
+std::size_t MeshGrid::bytes() const
 {
   std::size_t mesh = 0;
   if (mesh_)
     mesh = mesh_->vertices.size() * sizeof(Vec3) + mesh_->faces.size() * 7 * sizeof(int) +
            mesh_->edges.size() * 5 * sizeof(int);
-  return mesh + (shared_.writes() || !shared_.is_shared() ? shared_.bytes() : 0);
+  return mesh + (memory_->writes() || !memory_->is_shared() ? memory_->bytes() : 0);
 }
 
 }    // namespace lsdcd

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
-// SPDX-License-Identifier: GPL-2.0-only
+// SPDX-License-Identifier: BSD-3-Clause
 
 // A mesh of a wall and its grid, made once per node and read by all.
 #pragma once
 
 #include "input/settings.h"
 #include "grid/triangle_grid.h"
-#include "lammps/mpi_shared.h"
 #include "mesh/periodic_images.h"
 #include "mesh/wall_mesh.h"
+#include "wall/host.h"
 
 #include <cstdint>
 #include <functional>
@@ -18,11 +18,11 @@
 
 namespace lsdcd {
 
-// Making and building are collective over `world` and throw the same InputError
-// on every process.
-class SharedWall {
+// Making and building are collective and throw the same InputError on every process.
+class MeshGrid {
  public:
-  SharedWall(MPI_Comm world, const WallSettings &settings, const MeshSettings &of_mesh);
+  // The mesh is read, placed and welded. The host must outlive it.
+  MeshGrid(Host &host, const WallSettings &settings, const MeshSettings &of_mesh);
 
   // Makes the grid for particles up to radius `cutoff` with centres in `box`, with the periodic
   // images of the mesh that act there, or reads it from its cache file. The grid of the n-th
@@ -39,7 +39,7 @@ class SharedWall {
   bool out_of_reach() const { return cells_ == 0; }
 
   const MeshReport &report() const { return report_; }
-  std::uint64_t mesh_fingerprint() const { return mesh_fingerprint_; }    // as placed by the deck
+  std::uint64_t mesh_fingerprint() const { return mesh_fingerprint_; }    // as the script places it
   const std::string &mesh_text() const { return mesh_text_; }    // of the process that read it
   const std::string &grid_text() const { return grid_text_; }    // on every process
   // What the last build had to do with its cache file, and what was wrong with it;
@@ -49,9 +49,9 @@ class SharedWall {
   // Ends of the mesh that do not meet across a periodic face, after the last build; on every
   // process.
   const std::string &ends_warning() const { return ends_warning_; }
-  GridView view() const { return flat_view(shared_.block()); }
+  GridView view() const { return flat_view(memory_->block()); }
   Real cutoff() const { return cutoff_; }    // 0 before the first build
-  const MpiShared &shared() const { return shared_; }
+  const NodeMemory &memory() const { return *memory_; }
 
   // False where a spring names a feature that this mesh does not have.
   bool has(FeatureCode feature) const;
@@ -71,10 +71,11 @@ class SharedWall {
   WallMesh whole(Real cutoff, const PeriodicBox &box) const;
   void note_images(const WallMesh &whole);
 
+  Host &host_;
   WallSettings settings_;
   MeshSettings of_mesh_;
-  MpiShared shared_;
-  std::unique_ptr<WallMesh> mesh_;    // where shared_.writes()
+  std::unique_ptr<NodeMemory> memory_;
+  std::unique_ptr<WallMesh> mesh_;    // where memory_->writes()
   MeshReport report_;
   std::uint64_t mesh_fingerprint_ = 0;
   std::string mesh_text_, grid_text_;

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+#include "lammps/other_fixes.h"
+
+#include "base/input_error.h"
+#include "lammps/fix_massflow_lsdcd.h"
+#include "lammps/fix_wall_lsdcd.h"
+
+#include "atom.h"
+#include "modify.h"
+
+#include <vector>
+
+using namespace LAMMPS_NS;
+using lsdcd::DeckFile;
+
+namespace {
+
+// A cache leaves alone what is no cache.
+void check_apart(const DeckFile &file, const DeckFile &other, const std::string &of, bigint step)
+{
+  if (!file.written || (file.what == "cache" && !other.written) ||
+      !lsdcd::are_one_file(file, other, step))
+    return;
+  throw lsdcd::InputError("in '" + file.what + "', '" + file.name + "' is " +
+                          (file.name == other.name ? "" : "'" + other.name + "', ") + "the " +
+                          other.what + " file that " + of + (other.written ? " writes" : " reads") +
+                          ": name another file");
+}
+
+std::vector<DeckFile> files_of_fix(const Fix *fix)
+{
+  if (const auto *wall = dynamic_cast<const FixWallLsdcd *>(fix)) return wall->files();
+  if (const auto *flow = dynamic_cast<const FixMassflowLsdcd *>(fix))
+    return {{"mesh", flow->mesh_file()}};
+  return {};
+}
+
+// Now, or as they may come in a group that has none yet. Collective.
+bool share_atoms(const Fix &a, const Fix &b, const Atom &atom, MPI_Comm world)
+{
+  if (a.igroup == b.igroup || a.igroup == 0 || b.igroup == 0) return true;
+  int shares = 0;
+  for (int i = 0; i < atom.nlocal; i++)
+    shares |= (atom.mask[i] & a.groupbit) && (atom.mask[i] & b.groupbit);
+  MPI_Allreduce(MPI_IN_PLACE, &shares, 1, MPI_INT, MPI_MAX, world);
+  return shares != 0;
+}
+
+}    // namespace
+
+// The first process looks, as it writes them.
+void LAMMPS_NS::check_files_apart(const FixWallLsdcd &wall, const Modify &modify, lsdcd::Host &host,
+                                  bigint step)
+{
+  lsdcd::run_collectively(host, host.rank() == 0, [&] {
+    const std::vector<DeckFile> mine = wall.files();
+    for (std::size_t i = 0; i < mine.size(); i++)
+      for (std::size_t k = 0; k < mine.size(); k++)
+        if (i != k) check_apart(mine[i], mine[k], "this fix", step);
+    for (int i = 0; i < modify.nfix; i++) {
+      const Fix *const fix = modify.fix[i];
+      if (fix == &wall) continue;
+      for (const DeckFile &file : mine)
+        for (const DeckFile &other : files_of_fix(fix))
+          check_apart(file, other, "fix " + std::string(fix->id), step);
+    }
+  });
+}
+
+std::string LAMMPS_NS::doubled_mesh(const FixWallLsdcd &wall, const Modify &modify,
+                                    const Atom &atom, MPI_Comm world)
+{
+  for (int i = 0; i < modify.nfix && modify.fix[i] != &wall; i++) {
+    const auto *other = dynamic_cast<const FixWallLsdcd *>(modify.fix[i]);
+    if (!other) continue;
+    for (const lsdcd::MeshPart &m : wall.meshes()) {
+      bool same = false;
+      for (const lsdcd::MeshPart &of_other : other->meshes())
+        same |= lsdcd::are_one_mesh(m.settings, of_other.settings);
+      if (same && share_atoms(wall, *other, atom, world))
+        return "mesh '" + m.settings.file + "' is at the same place in fix " + other->id +
+               ", whose group shares atoms with this one's: they feel every contact twice; leave "
+               "one out, or move it";
+    }
+  }
+  return "";
+}

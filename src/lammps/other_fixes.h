@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// What a wall must not share with another fix of the script.
+#ifndef LMP_OTHER_FIXES_H
+#define LMP_OTHER_FIXES_H
+
+#include "lmptype.h"
+
+#include <mpi.h>
+#include <string>
+
+namespace lsdcd {
+class Host;
+}
+
+namespace LAMMPS_NS {
+
+// A file that is written must be no other that a fix reads or writes: it would be lost without a word.
+// Throws InputError on all processes. Collective.
+void check_files_apart(const class FixWallLsdcd &, const class Modify &, lsdcd::Host &,
+                       bigint step);
+
+// What is said where an earlier fix has a mesh of this one, at the same place and for some of its atoms;
+// empty: none has. The fix that comes later tells. Collective.
+std::string doubled_mesh(const class FixWallLsdcd &, const class Modify &, const class Atom &,
+                         MPI_Comm);
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+#include "lammps/wall_picture.h"
+
+#include "wall/wall.h"
+
+using namespace LAMMPS_NS;
+
+int WallPicture::draw(const lsdcd::Wall &wall, int *&kinds, double **&rows)
+{
+#if LSDCD_HOST_VERSION >= 20251001
+  constexpr int kLine = 2, kTriangle = 3;    // Graphics::LINE, Graphics::TRI
+#else
+  constexpr int kLine = 1, kTriangle = 2;
+#endif
+  constexpr int kRow = 10;
+  const lsdcd::WallSettings &settings = wall.settings();
+  const bool faces = settings.draw == lsdcd::Draw::faces, first = !is_drawn();
+  if (first || wall.any_moves()) {
+    const int corners = faces ? 3 : 2;
+    data.clear();
+    row.clear();
+    for (const lsdcd::MeshPart &m : wall.meshes()) {
+      if (first) objects.push_back(lsdcd::draw_mesh(*m.grid.mesh(), settings.draw));
+      for (lsdcd::ImageObject one : objects[m.index]) {
+        lsdcd::Vec3 centre = {0, 0, 0};
+        for (lsdcd::Vec3 &c : one.corner) c = m.motion.pose().to_box(c);
+        for (int k = 0; k < corners; k++) centre += (1.0 / corners) * one.corner[k];
+        if (settings.cut && dot(settings.cut_normal, centre) > settings.cut_offset) continue;
+        data.push_back(settings.draw_type);
+        for (const lsdcd::Vec3 &c : one.corner) data.insert(data.end(), {c.x, c.y, c.z});
+      }
+    }
+    kind.assign(data.size() / kRow, faces ? kTriangle : kLine);
+    for (std::size_t i = 0; i < data.size(); i += kRow) row.push_back(data.data() + i);
+  }
+  kinds = kind.data();
+  rows = row.data();
+  return static_cast<int>(kind.size());
+}

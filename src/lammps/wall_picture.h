@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// The meshes of a wall as lines or triangles for LAMMPS's dump image.
+#ifndef LMP_WALL_PICTURE_H
+#define LMP_WALL_PICTURE_H
+
+#include "output/mesh_image.h"
+
+#include <vector>
+
+namespace lsdcd {
+class Wall;
+}
+
+namespace LAMMPS_NS {
+
+class WallPicture {
+ public:
+  bool is_drawn() const { return !objects.empty(); }
+  // Of a process that has the meshes. Each object is its kind and a row {atom type, corners}; both arrays
+  // belong to this object. Returns how many there are.
+  int draw(const lsdcd::Wall &, int *&kinds, double **&rows);
+
+ private:
+  std::vector<std::vector<lsdcd::ImageObject>> objects;    // of each mesh, in its own frame
+  std::vector<int> kind;
+  std::vector<double> data;
+  std::vector<double *> row;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/box_checks.h"
+
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "mesh/likely_scale.h"
+#include "mesh/outside_box.h"
+#include "wall/mesh_name.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+std::string BoxChecks::named(const MeshPart &m, const std::string &text) const
+{
+  return with_mesh_name(settings_, m.index, text);
+}
+
+std::string BoxChecks::likely_scale_text(const MeshPart &m, const PeriodicBox &box) const
+{
+  // A box that follows its spheres tells nothing.
+  if (box.any_follows()) return "";
+  const Box bounds = box.bounds({0, 0, 0});
+  Vec3 mesh = m.grid.report().hi - m.grid.report().lo, room = bounds.hi - bounds.lo;
+  if (box.dimension == 2) {    // an outline may be of any thickness
+    mesh.z = mesh.x;
+    room.z = room.x;
+  }
+  const Real factor = likely_scale(mesh, room);
+  return factor < 1 ? "; the file is probably in other units: add scale " + number_text(factor)
+                    : "";
+}
+
+void BoxChecks::check_scale(const MeshPart &m, const PeriodicBox &box) const
+{
+  const std::string likely = likely_scale_text(m, box);
+  if (likely.empty()) return;
+  host_.warn(named(m, "the mesh is far larger than the box: it spans " + extents_text(m.bounds(0)) +
+                          ", the box " + extents_text(box.bounds({0, 0, 0})) + likely));
+}
+
+// Where its motion allows no images check_moving() refuses it.
+void BoxChecks::check_periodic(const MeshPart &m, const PeriodicBox &box) const
+{
+  if (settings_.periodic || host_.rank() != 0) return;    // the first process has the mesh
+  const Real tolerance = m.grid.report().weld_tolerance;
+  std::string axes;
+  for (int k = 0; k < 3; k++) {
+    if (!box.periodic[k] || (m.moves() && !m.keeps_edge(box, k))) continue;
+    Real past = 0;
+    for (const Vec3 &x : m.grid.mesh()->vertices) {
+      const Real at = box.fraction(x)[k];
+      past = std::max({past, -at * box.width(k), (at - 1) * box.width(k)});
+    }
+    if (past > tolerance)
+      axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[k]) + " by " + number_text(past);
+  }
+  if (axes.empty()) return;
+  host_.warn(named(m, "the mesh reaches past the periodic boundary in " + axes +
+                          ": what lies there acts inside the box as well, by its periodic images. "
+                          "Add the keyword periodic if that is meant, or make the boundary fixed"));
+}
+
+void BoxChecks::check_small(const MeshPart &m, const PeriodicBox &box, Real radius) const
+{
+  Vec3 size = m.grid.report().hi - m.grid.report().lo;
+  if (box.dimension == 2) size.z = 0;    // an outline may be of any thickness
+  if (norm(size) >= radius) return;
+  const std::string placed = m.settings.placement_tokens;
+  host_.warn(named(m, "the mesh is " + number_text(norm(size)) +
+                          " across, and spheres have radius " + number_text(radius) + ": " +
+                          (placed.find("scale") == std::string::npos
+                               ? "the file is probably in other units: add a scale"
+                               : "the file is probably in the deck's units, and the scale in '" +
+                                     placed + "' is not needed")));
+}
+
+void BoxChecks::check_outside(const MeshPart &m, const PeriodicBox &box, Real cutoff) const
+{
+  if (m.moves()) return;    // it may come in later
+  const std::string wrong = outside_box(m.bounds(0), box, cutoff + box.margin);
+  if (!wrong.empty()) throw InputError(named(m, wrong));
+}
+
+void BoxChecks::check_within_cutoff(const MeshPart &m, const PeriodicBox &box)
+{
+  if (!m.grid.out_of_reach()) return;
+  const std::string what =
+      named(m, "no particle in the box can touch the mesh: it spans " + extents_text(m.bounds(0)) +
+                   ", the box " + extents_text(box.bounds({0, 0, 0})) + likely_scale_text(m, box));
+  if (!box.any_follows()) throw InputError(what + "; check scale and move");
+  bool &warned = seen_[m.index].out_of_reach_warned;
+  if (!warned) host_.warn(what);
+  warned = true;
+}
+
+void BoxChecks::check_ends(const MeshPart &m, bool box_changed)
+{
+  const std::string &wrong = m.grid.ends_warning();
+  bool &warned = seen_[m.index].ends_warned;
+  if (wrong.empty() || warned) return;
+  if (settings_.periodic && box_changed)
+    throw InputError(named(m, "the box has changed, and " + wrong));
+  warned = true;
+  host_.warn(named(m, wrong));
+}
+
+// A mesh may begin outside of the box and come in. One that was in it and has left acts on nothing.
+void BoxChecks::check_gone(const PeriodicBox &box, Real cutoff, std::int64_t step)
+{
+  for (const MeshPart &m : meshes_) {
+    Seen &seen = seen_[m.index];
+    if (!m.moves() || seen.gone_warned) continue;
+    const Box now = placed_bounds(m.motion.pose(), m.bounds(0));
+    const bool in_box = outside_box(now, box, cutoff).empty();
+    seen.was_in_box |= in_box;
+    if (in_box || !seen.was_in_box) continue;
+    seen.gone_warned = true;
+    host_.warn(named(m, "the mesh has moved out of the box, where it acts on no atom: in step " +
+                            std::to_string(step) + " it spans " + extents_text(now) + ", the box " +
+                            extents_text(box.bounds({0, 0, 0})) +
+                            "; check the motion and its units. Shown once"));
+  }
+}
+
+void BoxChecks::check_pose(const MeshPart &m, const WallPose &at, const PeriodicBox &box,
+                           Real cutoff, const std::string &when) const
+{
+  if (!box.any_periodic()) return;
+  for (int k = 0; k < 3; k++) {
+    if (!box.periodic[k] || m.keeps_edge(box, k)) continue;
+    const Real depth = (cutoff + box.margin) / box.width(k);
+    const auto is_clear = [depth](Real f) { return f > depth && f < 1 - depth; };    // a NaN is not
+    bool clear = true;
+    for_corners(m.bounds(0),
+                [&](const Vec3 &corner) { clear &= is_clear(box.fraction(at.to_box(corner))[k]); });
+    if (clear) continue;
+    Real lo, hi;
+    m.find_range(box, k, at, lo, hi);
+    if (is_clear(lo) && is_clear(hi)) continue;
+    const std::string axis(1, "xyz"[k]);
+    throw InputError(
+        named(m, "the moving mesh " + std::string(when.empty() ? "will reach" : "reaches") +
+                     " the periodic face in " + axis + when + ": it goes from " + number_text(lo) +
+                     " to " + number_text(hi) + " of the box and must stay " + number_text(depth) +
+                     " away from 0 and 1. A mesh acts through a periodic face only where it moves "
+                     "across " +
+                     axis + " and turns about nothing but " + axis +
+                     ": make the boundary fixed, or the box larger"));
+  }
+}
+
+void BoxChecks::check_moving(const PeriodicBox &box, Real cutoff, const Step &now) const
+{
+  constexpr int kSamples = 256;
+  for (const MeshPart &m : meshes_) {
+    const WallMotion &motion = m.settings.motion;
+    if (!motion.any()) continue;
+    check_pose(m, m.motion.pose(), box, cutoff, " at step " + std::to_string(now.number));
+    if (now.kind == Step::step || m.motion.has_variables()) continue;
+    for (int i = 1; i < kSamples; i++)
+      check_pose(m, m.motion.pose_in(motion.longest_period() * i / kSamples), box, cutoff, "");
+  }
+}
+
+}    // namespace lsdcd

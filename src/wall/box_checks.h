@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Errors and warnings where a wall's meshes do not fit the box of the simulation.
+#pragma once
+
+#include "wall/mesh_part.h"
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+namespace lsdcd {
+
+// `box` is that of the simulation in this step, `cutoff` (length) the largest distance of a contact.
+// Errors are InputError, the same on all processes. Warnings of a mesh are shown once.
+class BoxChecks {
+ public:
+  // All must outlive it.
+  BoxChecks(Host &host, const WallSettings &settings, const std::deque<MeshPart> &meshes) :
+      host_(host), settings_(settings), meshes_(meshes), seen_(settings.meshes.size())
+  {
+  }
+
+  // Before the first grid is built.
+
+  // Warns of a mesh that is far larger than the box: its file is probably in other units.
+  void check_scale(const MeshPart &m, const PeriodicBox &box) const;
+  // Warns where periodic images act inside the box, which the mesh may not have been drawn for.
+  void check_periodic(const MeshPart &m, const PeriodicBox &box) const;
+  // Warns of a mesh that is smaller than the largest sphere.
+  void check_small(const MeshPart &m, const PeriodicBox &box, Real radius) const;
+  // Throws where a mesh at rest is outside of the box.
+  void check_outside(const MeshPart &m, const PeriodicBox &box, Real cutoff) const;
+
+  // After a grid was built.
+
+  // Throws where no sphere in the box can touch the mesh; warns of it where the box follows spheres.
+  void check_within_cutoff(const MeshPart &m, const PeriodicBox &box);
+  // Ends of a mesh that do not meet across a periodic face are warned of. They are an error where they
+  // did meet before the box changed.
+  void check_ends(const MeshPart &m, bool box_changed);
+
+  // In each step.
+
+  // Throws where a mesh comes to a periodic face and its images would not move as it does. In the step
+  // that sets a run up it looks ahead over the longest period. Collective.
+  void check_moving(const PeriodicBox &box, Real cutoff, const Step &now) const;
+  // Warns of a mesh that has moved out of the box.
+  void check_gone(const PeriodicBox &box, Real cutoff, std::int64_t step);
+
+ private:
+  std::string named(const MeshPart &m, const std::string &text) const;
+  std::string likely_scale_text(const MeshPart &m, const PeriodicBox &box) const;
+  void check_pose(const MeshPart &m, const WallPose &at, const PeriodicBox &box, Real cutoff,
+                  const std::string &when) const;
+
+  // Of a mesh.
+  struct Seen {
+    bool out_of_reach_warned = false, ends_warned = false;
+    bool was_in_box = false, gone_warned = false;
+  };
+
+  Host &host_;
+  const WallSettings &settings_;
+  const std::deque<MeshPart> &meshes_;
+  std::vector<Seen> seen_;
+};
+
+}    // namespace lsdcd

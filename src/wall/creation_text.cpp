@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/creation_text.h"
+
+#include "base/input_words.h"
+#include "base/version.h"
+#include "effects/effects.h"
+
+namespace lsdcd {
+
+namespace {
+
+std::string in_a_line(const WallSettings &settings, const std::deque<MeshPart> &meshes,
+                      const std::string &device)
+{
+  std::string t;
+  for (const MeshPart &m : meshes)
+    t += "mesh " + m.settings.file + " of " + std::to_string(m.grid.report().facets) + " facets, ";
+  return t + settings.law_name + ", " + device;
+}
+
+// In the columns of the mesh report.
+std::string mesh_lines(const MeshPart &m)
+{
+  std::string t = m.grid.mesh_text();
+  const struct {
+    const char *label;
+    std::string text;
+  } lines[] = {{"placement   ", m.settings.placement_tokens},
+               {"motion      ", m.motion.text(m.bounds(0))},
+               {"servo       ", m.settings.servo_tokens}};
+  for (const auto &line : lines)
+    if (!line.text.empty()) t += "\n  " + (line.label + line.text);
+  return t;
+}
+
+std::string contact_line(const WallSettings &settings)
+{
+  const ContactLaw &l = settings.law;
+  std::string t = "\n  contact     " + settings.law_name;
+  if (l.is_classic())
+    t += ", kn " + number_text(l.k_normal) + ", kt " + number_text(l.k_tangent) + ", gamman " +
+         number_text(l.eta) + ", gammat " + number_text(l.gamma_tangent) + ", xmu " +
+         number_text(l.mu) + (l.limit_damping ? ", limit_damping" : "");
+  return t;
+}
+
+std::string effect_lines(const WallSettings &settings, const EngineSettings &engine)
+{
+  std::string effects, kept;
+  for (const Effect &e : effects_of(engine)) {
+    effects += (effects.empty() ? "" : ", ") + e.name;
+    if (e.bytes_per_contact > 0)
+      kept += ", " + std::to_string(e.bytes_per_contact) + " for " + e.name;
+  }
+  std::string t = "\n  effects     " + effects + "\n  per atom    ";
+  if (settings.law.has_history())
+    t += "8 bytes, and per contact " + std::to_string(sizeof(Spring)) +
+         " for its spring and place" + kept + ", which move and restart with the atom";
+  else
+    t += "nothing stored, exchanged or restarted";
+  if (settings.contacts)
+    t += "; " + std::to_string(settings.contact_columns() * sizeof(Real)) + " bytes for contacts";
+  return t;
+}
+
+std::string search_lines(const WallSettings &settings)
+{
+  const char *const precisions[] = {"double", "mixed", "single"};
+  const char *const sides[] = {"both", "in", "out"};
+  return "\n  search      " +
+         (settings.nearest > 0 ? "nearest " + std::to_string(settings.nearest)
+                               : std::string("all that can touch")) +
+         ", precision " + precisions[static_cast<int>(settings.precision)] + "\n  corners     " +
+         (settings.corner == Corner::blend ? "blend" : "sum") + ", side " +
+         sides[static_cast<int>(settings.side)];
+}
+
+}    // namespace
+
+std::string creation_text(const WallSettings &settings, const std::deque<MeshPart> &meshes,
+                          const EngineSettings &engine, const std::string &material,
+                          const std::string &device)
+{
+  if (settings.brief) return in_a_line(settings, meshes, device);
+  std::string t;
+  for (const MeshPart &m : meshes) t += (t.empty() ? "" : "\n") + mesh_lines(m);
+  if (!material.empty()) t += "\n" + material;
+  return t + contact_line(settings) + effect_lines(settings, engine) + search_lines(settings) +
+         "\n  device      " + device + "\n  version     " + version();
+}
+
+}    // namespace lsdcd

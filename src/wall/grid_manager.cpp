@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/grid_manager.h"
+
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "law/contact_slope.h"
+#include "wall/mesh_name.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace lsdcd {
+
+PeriodicBox GridManager::box() const
+{
+  PeriodicBox box = host_.box();
+  box.margin = std::max(box.margin, farthest_out_);
+  return box;
+}
+
+FeatureCode GridManager::without_image(int mesh, FeatureCode feature) const
+{
+  const MeshGrid &grid = meshes_[mesh].grid;
+  return cutoff() > 0 && grid.has_images() ? own_feature(grid.view().wall, feature) : feature;
+}
+
+void GridManager::set_engine(WallEngine &engine)
+{
+  engine_ = &engine;
+  for (const MeshPart &m : meshes_)
+    if (cutoff() > 0)
+      run_collectively(host_, true, [&] { engine_->set_grid(m.grid.view(), m.index); });
+}
+
+bool GridManager::fit_spheres(Real radius, std::int64_t step)
+{
+  constexpr Real kHeadroom = 1.1;    // once radii are known to grow
+  const Real old = cutoff();
+  if (cutoff_of(settings_.law, radius) <= old) return fit_box(step);
+  check_rmax(radius);
+  if (old == 0)
+    for (const MeshPart &m : meshes_) checks_.check_small(m, box(), radius);
+  const Real largest =
+      settings_.rmax > 0 ? settings_.rmax : (old > 0 ? kHeadroom * radius : radius);
+  rebuild(cutoff_of(settings_.law, largest), step);
+  return true;
+}
+
+void GridManager::check_rmax(Real radius) const
+{
+  if (settings_.rmax == 0 || radius <= settings_.rmax) return;
+  const Spheres s = host_.spheres_on_cpu();
+  const bool all = host_.group().changes;
+  Real first = -INFINITY;    // the negative of a tag: the lowest of all processes is named
+  for (int i = 0; i < s.n; i++)
+    if (s.radius[i] == radius && (all || is_in_group(s, i)))
+      first = std::max(first, -static_cast<Real>(host_.tag(i)));
+  host_.max(&first, 1);
+  throw InputError("atom " + std::to_string(static_cast<std::int64_t>(-first)) + " has radius " +
+                   number_text(radius) + ", more than rmax " + number_text(settings_.rmax) +
+                   ": raise rmax or use rmax auto");
+}
+
+// A wall acts through periodic faces by images of its triangles, and its grid is there where
+// spheres can be: both are those of a box.
+bool GridManager::fit_box(std::int64_t step)
+{
+  if (cutoff() == 0) return false;
+  if (std::all_of(meshes_.begin(), meshes_.end(), [this](const MeshPart &m) { return fits(m); }))
+    return false;
+  rebuild(cutoff(), step);
+  return true;
+}
+
+// The grids that are too small, or for another box.
+void GridManager::rebuild(Real wanted, std::int64_t step)
+{
+  times_.begin();
+  const Real old = cutoff();
+  std::vector<MeshPart *> anew;
+  for (MeshPart &m : meshes_)
+    if (wanted != old || !fits(m)) anew.push_back(&m);
+  if (old > 0) {
+    history_.on_host();
+    // Images get other numbers: a spring on one goes to what that is an image of.
+    for (const MeshPart *m : anew)
+      history_.rename_features(
+          [&](int mesh, FeatureCode f) { return mesh == m->index ? without_image(mesh, f) : f; });
+  }
+  for (const MeshPart *m : anew) checks_.check_outside(*m, box(), wanted);
+  for (MeshPart *m : anew) {
+    m->grid.progress = progress(*m);
+    m->grid.build(wanted, m->box_seen(box()));
+    run_collectively(host_, true, [&] { engine_->set_grid(m->grid.view(), m->index); });
+  }
+  times_.end(TimeReport::grids);
+  if (wanted == old) box_rebuilds_++;
+  for (const MeshPart *m : anew) {
+    checks_.check_within_cutoff(*m, box());
+    log_build(*m, old, step);
+    checks_.check_ends(*m, wanted == old);
+    if (old == 0 && m == anew.front()) warn_of_rounding(*m, wanted);
+  }
+}
+
+// Of overlaps rounded to floats, where a law holds spheres to the wall.
+void GridManager::warn_of_rounding(const MeshPart &m, Real radius) const
+{
+  if (settings_.precision == Precision::double_) return;
+  const Real part_of_pull_off =
+      pull_off_slope(settings_.law, radius) * 1e-6 * (radius + 14 * m.grid.view().length);
+  if (part_of_pull_off > 0.1)
+    host_.warn("with precision mixed overlaps are rounded so that forces may be wrong by " +
+               number_text(part_of_pull_off) +
+               " of the pull-off force: use precision double, or softer particles");
+}
+
+// A line where a grid takes long, each ten seconds; the host shows those of the first process.
+std::function<void(const std::string &)> GridManager::progress(const MeshPart &m) const
+{
+  constexpr Real kSeconds = 10;
+  return [this, name = with_mesh_name(settings_, m.index, ""),
+          last = TimeReport::steady_clock()](const std::string &text) mutable {
+    if (TimeReport::steady_clock() - last < kSeconds) return;
+    last = TimeReport::steady_clock();
+    host_.log(name + text);
+  };
+}
+
+void GridManager::log_build(const MeshPart &m, Real old_cutoff, std::int64_t step) const
+{
+  const MeshGrid &grid = m.grid;
+  if (!grid.cache_warning().empty())
+    host_.warn(with_mesh_name(settings_, m.index, grid.cache_warning()));
+  if (settings_.brief) return;
+  const bool again = old_cutoff > 0;
+  std::string t = with_mesh_name(settings_, m.index, "");
+  if (!again)
+    t += "grid for radius " + number_text(grid.cutoff()) + "\n" + grid.grid_text();
+  else if (grid.cutoff() > old_cutoff)
+    t += "larger particles, grid rebuilt for radius " + number_text(grid.cutoff());
+  else
+    t += "the box has changed, grid rebuilt at step " + std::to_string(step) +
+         " (more of these in this run are counted at its end)";
+  if (!again && grid.memory().node_size() > 1)
+    t += grid.memory().is_shared() ? "\n  one copy per node" : "\n  one copy per process";
+  if (!grid.cache_text().empty()) t += "\n  " + grid.cache_text();
+  const bool one_of_many = again && grid.cutoff() == old_cutoff && box_rebuilds_ > 1;
+  if (!one_of_many) host_.log(t);
+}
+
+void GridManager::check_wrapping()
+{
+  const PeriodicBox now = box();
+  if (cutoff() == 0 || !now.any_periodic()) return;
+  const Spheres s = host_.spheres_on_cpu();
+  Real out = 0;
+  for (int i = 0; i < s.n; i++) {
+    if (!is_in_group(s, i)) continue;
+    const Vec3 at = now.fraction(s.x[i]);
+    for (int k = 0; k < 3; k++)
+      if (now.periodic[k]) out = std::max({out, -at[k] * now.width(k), (at[k] - 1) * now.width(k)});
+  }
+  host_.max(&out, 1);
+  if (out <= now.margin) return;
+  farthest_out_ = std::min({1.5 * out, now.width(0), now.width(1), now.width(2)});
+  const bool all_fit =
+      std::all_of(meshes_.begin(), meshes_.end(), [this](const MeshPart &m) { return fits(m); });
+  if (out_warned_ || all_fit) return;    // nothing of the wall is there
+  out_warned_ = true;
+  host_.warn(
+      "a particle was " + number_text(out) +
+      " past a periodic face before it was wrapped, more than the skin " + number_text(now.margin) +
+      ": contacts there may have been missed; use neigh_modify delay 0 every 1 check yes. The grid "
+      "now reaches further; shown once");
+}
+
+void GridManager::end_run()
+{
+  if (box_rebuilds_ > 1 && !settings_.brief)
+    host_.log("the grid was rebuilt " + std::to_string(box_rebuilds_) +
+              " times in this run, as the box changed");
+  box_rebuilds_ = 0;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// When the grids of a wall's meshes are built: for the first spheres, for larger ones, for another box.
+#pragma once
+
+#include "wall/box_checks.h"
+#include "wall/history_exchange.h"
+#include "wall/time_report.h"
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <string>
+
+namespace lsdcd {
+
+// Errors are InputError, the same on all processes. All functions but those that are const are collective.
+class GridManager {
+ public:
+  // All must outlive it.
+  GridManager(Host &host, const WallSettings &settings, std::deque<MeshPart> &meshes,
+              BoxChecks &checks, HistoryExchange &history, TimeReport &times) :
+      host_(host),
+      settings_(settings), meshes_(meshes), checks_(checks), history_(history), times_(times)
+  {
+  }
+
+  Real cutoff() const
+  {
+    return meshes_.front().grid.cutoff();
+  }    // length; 0: there were no spheres yet
+  // That of the simulation. Its margin is as wide as spheres were seen to go past a periodic face.
+  PeriodicBox box() const;
+
+  // The engine of the steps from now on; it gets the grids that there are.
+  void set_engine(WallEngine &engine);
+
+  // For spheres of up to this radius (length, > 0) in today's box. Returns whether grids were built.
+  bool fit_spheres(Real radius, std::int64_t step);
+  // For today's box. Does nothing before there are spheres.
+  bool fit_box(std::int64_t step);
+
+  // Looks how far spheres are past periodic faces, before they are wrapped. Where they went farther than
+  // the grid was made for, contacts may have been missed: warns, and the grid reaches that far from then on.
+  void check_wrapping();
+
+  // Logs how many grids were built for other boxes in this run, and counts anew.
+  void end_run();
+
+  // A feature that is no image: that of which `feature` is an image, or itself.
+  FeatureCode without_image(int mesh, FeatureCode feature) const;
+
+ private:
+  void rebuild(Real cutoff, std::int64_t step);
+  void check_rmax(Real radius) const;
+  bool fits(const MeshPart &m) const { return m.grid.fits(m.box_seen(box())); }
+  void warn_of_rounding(const MeshPart &m, Real radius) const;
+  std::function<void(const std::string &)> progress(const MeshPart &m) const;
+  void log_build(const MeshPart &m, Real old_cutoff, std::int64_t step) const;
+
+  Host &host_;
+  const WallSettings &settings_;
+  std::deque<MeshPart> &meshes_;
+  BoxChecks &checks_;
+  HistoryExchange &history_;
+  TimeReport &times_;
+  WallEngine *engine_ = nullptr;
+  Real farthest_out_ = 0;    // length; past a periodic face that spheres were seen to go, and more
+  bool out_warned_ = false;
+  std::int64_t box_rebuilds_ = 0;    // in this run
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/mesh_checks.h"
+
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "contact/faces_pushed.h"
+#include "mesh/plane_cut.h"
+#include "wall/mesh_name.h"
+
+namespace lsdcd {
+
+void check_side(const WallSettings &settings, const MeshPart &m)
+{
+  const MeshReport &r = m.grid.report();
+  if (settings.side == Side::both || r.oriented) return;
+  if (r.meeting_pairs > 0)
+    throw InputError("side in and side out need shells that are apart; those of '" +
+                     m.settings.file + "' cut or touch each other at " +
+                     std::to_string(r.meeting_pairs) +
+                     " pairs of facets: make one shell of them (a boolean union), or use "
+                     "side both");
+  throw InputError("side in and side out need a closed, oriented mesh; '" + m.settings.file +
+                   "' has " + std::to_string(r.open_edges) + " open, " +
+                   std::to_string(r.nonmanifold_edges) + " non-manifold and " +
+                   std::to_string(r.misoriented_edges) + " misoriented edges, and " +
+                   std::to_string(r.inverted_facets) +
+                   " facets of closed shells that are wound against the others: repair the "
+                   "mesh (lsdcd repair) or use side both");
+}
+
+void check_plane(Host &host, const WallSettings &settings, const MeshPart &m)
+{
+  if (host.box().dimension == 3) return;
+  const MeshReport &r = m.grid.report();
+  if (!(r.lo.z < 0 && r.hi.z > 0))
+    throw InputError(with_mesh_name(
+        settings, m.index,
+        "in two dimensions particles move in the plane z = 0, which the mesh does not "
+        "cut: it spans z from " +
+            number_text(r.lo.z) + " to " + number_text(r.hi.z) + "; draw the outline out along z" +
+            (r.lo.z < r.hi.z ? ", and put its middle at z = 0 (move 0 0 " +
+                                   number_text(-(r.lo.z + r.hi.z) / 2) + ")"
+                             : "")));
+  Real cut[2] = {0, 0};
+  if (m.grid.mesh()) {
+    const PlaneCut mine = plane_cut(*m.grid.mesh());
+    cut[0] = static_cast<Real>(mine.leaning);
+    cut[1] = mine.lean;
+  }
+  host.max(cut, 2);
+  if (cut[0] > 0)
+    host.warn(with_mesh_name(
+        settings, m.index,
+        number_text(cut[0]) + " faces lean where the mesh cuts the plane z = 0, by up to " +
+            number_text(cut[1]) +
+            " degrees: fix enforce2d throws away what they push along z; draw the outline "
+            "out along z"));
+}
+
+void check_motion(const Host &host, const WallSettings &settings, const MeshPart &m)
+{
+  const WallMotion &motion = m.settings.motion;
+  if (!motion.any() || motion.keeps({0, 0, 1}) || host.box().dimension == 3) return;
+  std::string words = m.settings.motion_tokens;
+  if (m.servo().present) words += (words.empty() ? "servo " : " servo ") + m.settings.servo_tokens;
+  throw InputError(with_mesh_name(
+      settings, m.index,
+      "in two dimensions a mesh must move in the plane z = 0 and turn about z, not by '" + words +
+          "'"));
+}
+
+void check_surface(Host &host, const WallSettings &settings, const MeshPart &m)
+{
+  if (host.rank() != 0) return;    // the first process has the mesh
+  const PushReport push = faces_pushed(*m.grid.mesh(), m.settings.surface);
+  if (push.faces == 0) return;
+  host.warn(with_mesh_name(
+      settings, m.index,
+      "surface_vel and surface_angvel push " + std::to_string(push.faces) + " of " +
+          std::to_string(m.grid.report().facets) + " faces along their normals, by up to " +
+          number_text(push.component) + " (" + number_text(100 * push.share) +
+          " % of the speed there). That part is left out: the mesh itself stays where it "
+          "is, and lifters, blades and screws convey nothing. Where the mesh itself moves, "
+          "use the keyword motion"));
+}
+
+}    // namespace lsdcd

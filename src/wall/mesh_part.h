@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// One mesh of a wall: its settings and grid, and where it is.
+#pragma once
+
+#include "mesh/point_tree.h"
+#include "wall/mesh_grid.h"
+#include "wall/mesh_motion.h"
+#include "wall/servo_controller.h"
+
+#include <memory>
+
+namespace lsdcd {
+
+struct MeshPart {
+  // Of the mesh with this number of the wall, from 0. Reads the file. Host and settings must outlive
+  // it. Throws InputError on all processes. Collective.
+  MeshPart(Host &host, WallSettings &wall, int index, const Step &now) :
+      index(index), settings(wall.meshes[index]), grid(host, wall, settings),
+      motion(host, wall, index, now), servo_controller(host, wall, index, bounds(0)), host_(host)
+  {
+  }
+
+  const int index;
+  MeshSettings &settings;    // in those of the wall; its motion may change later
+  MeshGrid grid;
+  MeshMotion motion;
+  ServoController servo_controller;
+
+  bool springs_are_foreign = false;    // those of a restart file are of another mesh
+
+  const Servo &servo() const { return settings.motion.servo(); }
+  bool moves() const { return settings.motion.any(); }    // or was moved
+
+  Box bounds(Real past) const;    // in its own frame, and `past` (length) beyond
+  // From where to where its vertices go along edge k of the box at a pose, as parts of the box.
+  // Collective.
+  void find_range(const PeriodicBox &box, int k, const WallPose &at, Real &lo, Real &hi) const;
+  // Does it look the same from each of its images across the faces that edge k joins?
+  bool keeps_edge(const PeriodicBox &box, int k) const;
+  PeriodicBox box_seen(const PeriodicBox &box) const;    // from its own frame
+
+ private:
+  Host &host_;
+  mutable std::unique_ptr<PointTree> vertices_;    // of a process that has the mesh; once asked for
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/timestep_check.h"
+
+#include "base/input_words.h"
+#include "law/contact_time.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+void TimestepCheck::check(Real dt)
+{
+  constexpr Real kWorse = 1.1;
+  const Spheres s = host_.spheres_on_cpu();
+  Real shortest = INFINITY;
+  for (int i = 0; i < s.n; i++)
+    if (is_in_group(s, i))
+      shortest = std::min(shortest, contact_time(settings_.law, s.mass[i], s.radius[i], ftm2v_));
+  shortest = -shortest;
+  host_.max(&shortest, 1);
+  shortest = -shortest;
+  const Real ratio = dt / (shortest / kStepsPerContact);
+  if (ratio <= worst_) return;
+  worst_ = kWorse * ratio;
+  host_.warn("timestep " + number_text(dt) + " is more than a tenth of the shortest contact time " +
+             number_text(shortest) +
+             (is_hertzian(settings_.law) ? " (hertz, at an overlap of 1 % of the radius)" : "") +
+             ": contacts will not be resolved");
+}
+
+}    // namespace lsdcd

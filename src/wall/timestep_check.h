@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Warns of a timestep that does not resolve contacts.
+#pragma once
+
+#include "input/settings.h"
+#include "wall/host.h"
+
+namespace lsdcd {
+
+class TimestepCheck {
+ public:
+  // Both must outlive it. `ftm2v`: force times time over mass, in the host's unit of velocity.
+  TimestepCheck(Host &host, const WallSettings &settings, Real ftm2v) :
+      host_(host), settings_(settings), ftm2v_(ftm2v)
+  {
+  }
+
+  // Warns where `dt` (time) is more than a tenth of the shortest contact time of the spheres, and again
+  // where it is a tenth worse than what was warned of. Collective.
+  void check(Real dt);
+
+ private:
+  Host &host_;
+  const WallSettings &settings_;
+  Real ftm2v_;
+  Real worst_ = 1;    // the largest timestep warned of, over what it should be
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,648 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/wall.h"
+
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "engine/results/sphere_error.h"
+#include "wall/creation_text.h"
+#include "wall/mesh_checks.h"
+#include "wall/mesh_name.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lsdcd {
+
+namespace {
+
+// Pressures become forces per area.
+WallSettings in_units(WallSettings settings, const WallUnits &units)
+{
+  if (settings.law.is_classic() && settings.law.is(NormalModel::hertz)) {
+    settings.law.k_normal /= units.pressure;
+    settings.law.k_tangent /= units.pressure;
+  }
+  settings.wear.per_work *= units.pressure;
+  settings.law.cohesion.numbers[0] /= units.pressure;    // sjkr's
+  return settings;
+}
+
+// How a restart file keeps the state: format, kind of the history, time of the run and number of meshes;
+// and of each mesh: how many numbers of its motion, these; then kHeader numbers (time of the average,
+// facets, edges and vertices of the mesh, number of rows of loads, fingerprint of the mesh), these rows.
+constexpr int kHeader = 6;
+constexpr Real kFormat = -6;
+
+// What fits a double, exactly.
+Real number_of(std::uint64_t fingerprint)
+{
+  return static_cast<Real>(fingerprint >> 11);
+}
+
+}    // namespace
+
+Wall::Wall(Host &host, WallSettings settings, const WallUnits &units, WallPlace place,
+           const std::string &material, const StepClock &clock) :
+    host_(host),
+    settings_(in_units(std::move(settings), units)), place_(std::move(place)), clock_(clock),
+    history_(host, settings_), totals_(host, settings_), loads_(host, settings_),
+    files_(host, settings_, units.pressure), overlaps_(host), search_(host), times_(host),
+    timestep_(host, settings_, units.velocity), box_checks_(host, settings_, meshes_),
+    grids_(host, settings_, meshes_, box_checks_, history_, times_)
+{
+  for (std::size_t k = 0; k < settings_.meshes.size(); k++) {
+    const MeshPart &m = meshes_.emplace_back(host_, settings_, static_cast<int>(k),
+                                             Step{clock.last_step, clock.dt});
+    check_side(settings_, m);
+    check_plane(host_, settings_, m);
+    check_motion(host_, settings_, m);
+  }
+  make_engine();
+  log_creation(material, place_);
+
+  // Without spheres there is no telling how far outside is too far.
+  const Spheres s = host_.spheres_on_cpu();
+  const bool all = host_.group().changes;
+  Real radius = 0;
+  for (int i = 0; i < s.n; i++)
+    if (all || is_in_group(s, i)) radius = std::max(radius, s.radius[i]);
+  host_.max(&radius, 1);
+  if (settings_.rmax > 0) radius = settings_.rmax;
+  for (const MeshPart &m : meshes_) {
+    box_checks_.check_scale(m, grids_.box());
+    box_checks_.check_periodic(m, grids_.box());
+    if (radius > 0) box_checks_.check_outside(m, grids_.box(), cutoff_of(settings_.law, radius));
+    check_surface(host_, settings_, m);
+  }
+  if (meshes_.size() > 1 && settings_.corner == Corner::sum)
+    host_.warn(
+        "with corner sum a sphere over a seam where two meshes meet is pushed by both: use corner "
+        "blend, or one mesh of all triangles");
+}
+
+std::string Wall::named(const MeshPart &m, const std::string &text) const
+{
+  return with_mesh_name(settings_, m.index, text);
+}
+
+bool Wall::any_moves() const
+{
+  return std::any_of(meshes_.begin(), meshes_.end(), [](const MeshPart &m) { return m.moves(); });
+}
+
+InPlaceEngine &Wall::in_place()
+{
+  return static_cast<InPlaceEngine &>(*engine_);
+}
+
+std::size_t Wall::bytes() const
+{
+  std::size_t bytes = engine_->bytes() + loads_.bytes() + history_.bytes();
+  for (const MeshPart &m : meshes_) bytes += m.grid.bytes();
+  return bytes;
+}
+
+// ---- the engine --------------------------------------------------------------------------
+
+EngineSettings Wall::engine_settings() const
+{
+  EngineSettings want;
+  want.law = settings_.law;
+  want.corner = settings_.corner;
+  want.side = settings_.side;
+  want.precision = settings_.precision;
+  want.meshes = static_cast<int>(meshes_.size());
+  want.moves = meshes_.size() > 1;
+  for (const MeshPart &m : meshes_) {
+    want.moves |= m.motion.moves_or_varies();
+    if (!want.surface.moves()) want.surface = m.settings.surface;
+  }
+  want.records = settings_.has_loads() || virial_;
+  want.wear = settings_.wear.model;
+  want.device = settings_.device;
+  want.device_rank = meshes_.front().grid.memory().node_rank();
+  return want;
+}
+
+void Wall::make_engine()
+{
+  const EngineSettings want = engine_settings();
+  engine_moves_ = want.moves;
+  engine_records_ = want.records;
+  run_collectively(host_, true, [&] { engine_ = place_.make_engine(want); });
+  history_.set_engine(*engine_);
+  grids_.set_engine(*engine_);
+}
+
+// For other settings, with the history that there is.
+void Wall::make_engine_anew()
+{
+  if (cutoff() > 0) poll_diagnostics(input_.step.number);
+  history_.on_host();
+  make_engine();
+  schedule_.expire();
+}
+
+void Wall::log_creation(const std::string &material, const WallPlace &place) const
+{
+  if (host_.rank() != 0) return;
+  std::string device = engine_->backend(), why;
+  if (!settings_.brief && !place.in_place && settings_.device == Device::automatic &&
+      !cuda_available(&why))
+    device += " (no CUDA: " + why + ")";
+  host_.log(creation_text(settings_, meshes_, engine_settings(), material, device));
+}
+
+// An error of a sphere gets the name that the host has for it.
+template <class Work>
+void Wall::on_this_process(Work &&work)
+{
+  try {
+    work();
+  } catch (const SphereError &e) {
+    throw ProcessError("atom " + std::to_string(host_.tag(e.sphere)) + " " + e.problem);
+  } catch (const std::exception &e) {
+    throw ProcessError(e.what());
+  }
+}
+
+// ---- a step ------------------------------------------------------------------------------
+
+void Wall::begin_run(std::int64_t step, bool virial)
+{
+  for (const MeshPart &m : meshes_)
+    if (cutoff() > 0) box_checks_.check_outside(m, grids_.box(), cutoff());
+  virial_ = virial;
+  if (virial && !engine_records_) make_engine_anew();
+  std::vector<std::string> names;
+  for (const MeshPart &m : meshes_) {
+    for (const std::string &name : m.motion.variables()) names.push_back(name);
+    if (!m.settings.temperature_variable.empty()) names.push_back(m.settings.temperature_variable);
+  }
+  host_.check_variables(names);
+  files_.begin_run(step);
+}
+
+void Wall::begin(const Spheres &spheres, const StepInput &input)
+{
+  input_ = input;
+  const Step &step = input.step;
+  if (step.kind == Step::snapshot) begin_snapshot(spheres.n, step);
+  if (input.look) {
+    schedule_.expire();
+    check_history(spheres.n);
+  }
+  clock_.advance(step);
+  move(step);
+  if (input.look)
+    look_at_spheres(spheres, step.number);
+  else if (input.box_changes && grids_.fit_box(step.number))
+    schedule_.expire();
+  box_checks_.check_moving(grids_.box(), cutoff(), step);
+  box_checks_.check_gone(grids_.box(), cutoff(), step.number);
+  for (const MeshPart &m : meshes_)
+    if (engine_moves_) engine_->place_wall(m.motion.pose(), m.index);
+  if (input.new_spheres) {
+    if (cutoff() > 0) timestep_.check(step.dt);
+    look_at_servo_spheres();
+  }
+  running_ = cutoff() > 0;
+  launched_ = false;
+  if (!running_ || !place_.in_place) return;
+  if (history_.is_kept()) in_place().grow(history_.room());
+  in_place().ready();
+}
+
+// What follows from the time alone is right in a snapshot; what is added up from step to step is
+// not known there.
+void Wall::begin_snapshot(int n, const Step &step)
+{
+  for (const MeshPart &m : meshes_) m.motion.check_snapshot(step);
+  for (int i = 0; history_.is_kept() && i < n; i++) history_.on_host().clear(i);
+  if (snapshot_told_) return;
+  snapshot_told_ = true;
+  if (history_.is_kept())
+    host_.warn(
+        "a rerun does not know the springs of contacts, which no dump has: friction, rolling, "
+        "twisting and adhesion past touch begin at 0 in each snapshot");
+  if (settings_.has_loads())
+    host_.warn("a rerun has no steps over which loads and wear add up: no wear is counted and no "
+               "mesh_fields are written");
+}
+
+// That of a restart file names features of the mesh it was written with, and holds what the law that
+// it was written with keeps.
+void Wall::check_history(int n)
+{
+  if (history_.is_checked()) return;
+  history_.on_host();
+  history_.check_restored(n, [this](const Spring &s) {
+    return s.mesh < meshes_.size() && !meshes_[s.mesh].springs_are_foreign &&
+           meshes_[s.mesh].grid.has(s.feature);
+  });
+}
+
+// Poses last: what servos ask for and variables may read is of where meshes were.
+void Wall::move(const Step &step)
+{
+  for (MeshPart &m : meshes_) {
+    if (!m.motion.moves_or_varies()) continue;
+    const Real passed = m.motion.advance(step);
+    if (step.kind != Step::step || passed == 0 || !m.servo_controller.acts()) continue;
+    if (servo_radius_ == 0) look_at_servo_spheres();
+    m.servo_controller.advance(servo_load(m.index), m.motion.pose_without_servo(), passed,
+                               step.number);
+  }
+  for (MeshPart &m : meshes_)
+    if (m.motion.moves_or_varies()) m.motion.place();
+}
+
+void Wall::look_at_spheres(const Spheres &spheres, std::int64_t step)
+{
+  Spheres s = spheres;
+  if (host_.group().changes) s.mask = nullptr;    // others may join between two looks
+  Real most[2] = {engine_->largest_radius(s), overlaps_.worst()};
+  host_.max(most, 2);
+  overlaps_.check_sunk(most[1]);
+  if (most[0] == 0)
+    check_points();
+  else if (grids_.fit_spheres(most[0], step))
+    schedule_.expire();
+}
+
+// A group of points feels no wall.
+void Wall::check_points()
+{
+  if (points_warned_) return;
+  const Spheres s = host_.spheres_on_cpu();
+  Real count = 0;
+  for (int i = 0; i < s.n; i++) count += is_in_group(s, i);
+  host_.sum(&count, 1);
+  if (count == 0) return;
+  points_warned_ = true;
+  host_.warn("all " + std::to_string(static_cast<std::int64_t>(count)) + " atoms of group " +
+             host_.group().name + " have radius 0: the wall acts on none; set diameter");
+}
+
+// The largest radius and mass that a contact can have.
+void Wall::look_at_servo_spheres()
+{
+  if (std::none_of(meshes_.begin(), meshes_.end(),
+                   [](const MeshPart &m) { return m.servo().present; }))
+    return;
+  const Spheres s = host_.spheres_on_cpu();
+  const bool all = host_.group().changes;
+  Real most[2] = {0, 0};
+  for (int i = 0; i < s.n; i++) {
+    if (!all && !is_in_group(s, i)) continue;
+    most[0] = std::max(most[0], s.radius[i]);
+    most[1] = std::max(most[1], s.mass[i]);
+  }
+  host_.max(most, 2);
+  servo_radius_ = most[0];
+  servo_mass_ = most[1];
+}
+
+ServoLoad Wall::servo_load(int mesh)
+{
+  const MeshTotals &t = totals().mesh(mesh);
+  return {t.force, t.torque_at_origin, t.contacts, t.overlap, servo_radius_, servo_mass_};
+}
+
+StepSettings Wall::step_settings()
+{
+  StepSettings step;
+  step.dt = input_.step.dt;
+  step.update_history = input_.step.kind == Step::step;
+  step.per_sphere = settings_.contacts;
+  step.records = settings_.has_loads() || input_.virial;
+  const bool several = meshes_.size() > 1;
+  if (several || settings_.meshes.front().surface_varies()) {
+    surfaces_.clear();
+    for (const MeshPart &m : meshes_) surfaces_.push_back(m.motion.surface());
+    step.surface = surfaces_.data();
+  }
+  if (!settings_.law.has_heat()) return step;
+  std::vector<std::string> names;
+  for (const MeshSettings &m : settings_.meshes)
+    if (!m.temperature_variable.empty()) names.push_back(m.temperature_variable);
+  const std::vector<Real> values = host_.variables(names);
+  auto next = values.begin();
+  temperatures_.clear();
+  for (const MeshSettings &m : settings_.meshes)
+    temperatures_.push_back(m.temperature_variable.empty() ? m.temperature : *next++);
+  step.wall_temperature = temperatures_.front();
+  if (several) step.mesh_temperature = temperatures_.data();
+  return step;
+}
+
+void Wall::choose_if_due(const Spheres &spheres)
+{
+  history_.to_engine(spheres.n);
+  std::vector<MovingMesh> moving;
+  for (const MeshPart &m : meshes_)
+    if (m.moves()) moving.push_back({m.motion.pose(), m.bounds(cutoff())});
+  const Choice choice =
+      schedule_.next(input_.drift, moving, [&] { return engine_->has_moved(spheres); });
+  if (!choice.is_due) return;
+  engine_->choose(spheres, choice.margin, choice.watch);
+  schedule_.note_choice(moving);
+  search_.count_choice();
+}
+
+void Wall::start(const Spheres &spheres)
+{
+  const StepSettings step = step_settings();
+  on_this_process([&] {
+    times_.begin();
+    choose_if_due(spheres);
+    times_.end(TimeReport::choice);
+    engine_->start(spheres, step);
+    if (engine_->has_begun()) times_.end(TimeReport::forces);
+  });
+}
+
+void Wall::launch(const Spheres &spheres, bool beside, bool adds_early)
+{
+  if (!running_ || launched_) return;
+  if (beside) in_place().begin_beside();
+  try {
+    start(spheres);
+  } catch (...) {    // a program may go on after an error
+    if (beside) in_place().end_beside(false);
+    throw;
+  }
+  if (beside) in_place().end_beside(adds_early);
+  launched_ = true;
+}
+
+void Wall::finish(const Spheres &spheres)
+{
+  const Step &step = input_.step;
+  launch(spheres);
+  if (running_) {
+    const bool waits = engine_->has_begun();
+    times_.begin();
+    on_this_process([&] { engine_->collect(); });
+    times_.end(waits ? TimeReport::waiting : TimeReport::forces);
+    running_ = false;
+    history_.set_spheres_of_engine(spheres.n);
+    search_.count_step(step.kind != Step::step);
+  }
+  totals_.expire();
+  if (settings_.has_loads() && step.kind == Step::step) {    // what sets a run up has no duration
+    const bool any = cutoff() > 0;
+    for (const MeshPart &m : meshes_)
+      loads_.add(m.index, any ? engine_->records() : nullptr, any ? engine_->n_records() : 0,
+                 step.dt, any ? m.grid.view().wall : WallFeaturesView());
+  }
+  if (input_.new_spheres) check_new_spheres();
+  if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
+}
+
+// What steps have noted since the last look, for the log.
+StepDiagnostics Wall::read_diagnostics()
+{
+  StepDiagnostics seen;
+  if (cutoff() == 0) return seen;
+  on_this_process([&] { seen = engine_->read_diagnostics(); });
+  search_.add(seen);
+  return seen;
+}
+
+void Wall::poll_diagnostics(std::int64_t step)
+{
+  overlaps_.note(read_diagnostics(), step);
+}
+
+void Wall::check_new_spheres()
+{
+  const std::int64_t step = input_.step.number;
+  overlaps_.check_new(read_diagnostics(), step, continued_ || step > 0);
+}
+
+void Wall::before_exchange(std::int64_t step, bool far)
+{
+  poll_diagnostics(step);
+  if (far) grids_.check_wrapping();
+}
+
+void Wall::end_run(std::int64_t step, bool far, const std::string &advice, Real loop)
+{
+  poll_diagnostics(step);
+  Real worst = overlaps_.worst();
+  host_.max(&worst, 1);
+  overlaps_.check_sunk(worst);
+  if (far) grids_.check_wrapping();
+  grids_.end_run();
+  search_.end_run(settings_.brief, advice);
+  if (settings_.nearest > 0) search_.log_uncertified(settings_.nearest, settings_.brief);
+  times_.end_run(settings_.brief, loop);
+}
+
+// ---- outputs -----------------------------------------------------------------------------
+
+const StepTotals &Wall::totals()
+{
+  std::vector<WallPose> poses;
+  for (const MeshPart &m : meshes_) poses.push_back(m.motion.pose());
+  totals_.reduce(cutoff() > 0 ? engine_.get() : nullptr, poses);
+  return totals_;
+}
+
+Real Wall::servo_push(int mesh)
+{
+  return meshes_[mesh].servo_controller.push(servo_load(mesh));
+}
+
+// As LAMMPS's flat walls have it: the arm goes from the wall's closest point to the sphere's centre.
+void Wall::add_virial(Real *virial) const
+{
+  if (cutoff() == 0) return;
+  const ContactRecord *record = engine_->records();
+  for (int k = 0; k < engine_->n_records(); k++) {
+    const WallPose &pose = meshes_[record[k].mesh].motion.pose();
+    const Vec3 r = pose.turn_to_box(record[k].arm), f = -pose.turn_to_box(record[k].force);
+    const Real part[6] = {r.x * f.x, r.y * f.y, r.z * f.z, r.x * f.y, r.x * f.z, r.y * f.z};
+    for (int c = 0; c < 6; c++) virial[c] += part[c];
+  }
+}
+
+void Wall::for_contact_rows(const std::function<void(int, const Real *)> &row) const
+{
+  if (cutoff() == 0) return;
+  const int *touching = engine_->touching();
+  const SphereOutput *out = engine_->sphere_output();
+  const Real *heat = engine_->sphere_heat();
+  for (int k = 0; k < engine_->n_touching(); k++) {
+    const SphereOutput &o = out[k];
+    const Real numbers[9] = {o.contacts, o.force.x, o.force.y, o.force.z,         o.point.x,
+                             o.point.y,  o.point.z, o.radius,  heat ? heat[k] : 0};
+    row(touching[k], numbers);
+  }
+}
+
+void Wall::write_due_files()
+{
+  times_.begin();
+  std::vector<PlacedMesh> meshes;
+  for (const MeshPart &m : meshes_) meshes.push_back({m.grid.mesh(), m.motion.pose()});
+  const bool has_loads = input_.step.kind != Step::snapshot;
+  files_.write_due(input_.step.number, static_cast<double>(clock_.now()), meshes,
+                   has_loads ? &loads_ : nullptr);
+  times_.end(TimeReport::files);
+}
+
+// ---- another motion ----------------------------------------------------------------------
+
+// [mesh K], where K counts from 1. `taken`: how many words that are.
+MeshPart &Wall::mesh_of_words(const std::vector<std::string> &words, std::size_t &taken)
+{
+  const std::string n = std::to_string(meshes_.size());
+  taken = 0;
+  if (words[0] != "mesh") {
+    if (meshes_.size() == 1) return meshes_.front();
+    throw InputError("fix_modify " + words[0] + ": which of the " + n +
+                     " meshes? Write fix_modify ID mesh K " + words[0] + " ..., with K from 1");
+  }
+  Real k = 0;
+  if (words.size() < 2 || !is_number(words[1], &k) || k != std::floor(k) || k < 1 ||
+      k > static_cast<Real>(meshes_.size()))
+    throw InputError("fix_modify mesh K motion|servo ...: K is the number of a mesh, from 1 to " +
+                     n + (words.size() > 1 ? ", not '" + words[1] + "'" : ""));
+  taken = 2;
+  if (words.size() < 3 || (words[2] != "motion" && words[2] != "servo"))
+    throw InputError("fix_modify mesh " + words[1] + ": motion ... or servo ... must follow" +
+                     (words.size() < 3 ? "" : ", not '" + words[2] + "'"));
+  return meshes_[static_cast<std::size_t>(k) - 1];
+}
+
+int Wall::change(const std::vector<std::string> &words, const Step &now)
+{
+  if (words[0] != "mesh" && words[0] != "motion" && words[0] != "servo") return 0;
+  std::size_t taken;
+  MeshPart &m = mesh_of_words(words, taken);
+  const std::vector<std::string> rest(words.begin() + static_cast<std::ptrdiff_t>(taken),
+                                      words.end());
+  std::string told;
+  if (rest[0] == "motion") {
+    const ModifiedMotion read = read_modified_motion(rest);
+    m.motion.change(read, now);
+    motion_has_changed(m);
+    told = "motion " + (read.terms.empty() ? "none" : m.motion.text(m.bounds(0)));
+    taken += read.taken;
+  } else {
+    const ModifiedServo read = read_modified_servo(rest);
+    m.motion.change(read);
+    m.servo_controller.begin_anew();
+    servo_radius_ = 0;    // a run without setup looks then
+    motion_has_changed(m);
+    told = "servo " + read.text;
+    taken += read.taken;
+  }
+  if (!settings_.brief) host_.log(named(m, told));
+  return static_cast<int>(taken);
+}
+
+// Laws for a wall at rest do not know where it is.
+void Wall::motion_has_changed(const MeshPart &m)
+{
+  schedule_.expire();
+  check_motion(host_, settings_, m);
+  if (any_moves() && !engine_moves_) make_engine_anew();
+}
+
+// ---- restart files -----------------------------------------------------------------------
+
+// The images of another run may have other numbers.
+int Wall::pack_restart(int sphere, Real *buffer)
+{
+  history_.on_host();
+  return history_.pack_restart(sphere, buffer, [this](int mesh, FeatureCode feature) {
+    return grids_.without_image(mesh, feature);
+  });
+}
+
+std::vector<Real> Wall::state() const
+{
+  std::vector<Real> data = {kFormat, static_cast<Real>(settings_.law.history_kind()),
+                            static_cast<Real>(clock_.now()), static_cast<Real>(meshes_.size())};
+  for (const MeshPart &m : meshes_) {
+    const WallLoads all = loads_.gathered(m.index);
+    const MeshReport &r = m.grid.report();
+    const std::vector<Real> rows = all.packed(), motion = m.motion.state();
+    data.push_back(static_cast<Real>(motion.size()));
+    data.insert(data.end(), motion.begin(), motion.end());
+    data.insert(data.end(), {all.time(), static_cast<Real>(r.facets), static_cast<Real>(r.edges),
+                             static_cast<Real>(r.vertices),
+                             static_cast<Real>(rows.size() / WallLoads::kPackedLoad),
+                             number_of(m.grid.mesh_fingerprint())});
+    data.insert(data.end(), rows.begin(), rows.end());
+  }
+  return data;
+}
+
+void Wall::restore(const Real *state, const Step &now)
+{
+  continued_ = true;
+  files_.continue_lists();
+  const auto take = [&state](Real count) {
+    const std::vector<Real> numbers(state, state + static_cast<std::size_t>(count));
+    state += numbers.size();
+    return numbers;
+  };
+  if (take(1)[0] != kFormat)
+    throw InputError(
+        "the restart file was written by another version of this fix, whose data it cannot read: "
+        "go on with that version, or give the fix another ID to begin without springs, motion, "
+        "loads and wear");
+  history_.set_kind_of_file(take(1)[0]);
+  clock_.base = take(1)[0];
+  const std::size_t here = meshes_.size(), there = static_cast<std::size_t>(take(1)[0]);
+  for (std::size_t k = 0; k < std::min(there, here); k++) {
+    const std::vector<Real> motion = take(take(1)[0]), header = take(kHeader),
+                            rows = take(header[4] * WallLoads::kPackedLoad);
+    restore_mesh(meshes_[k], motion, header, rows, here > 1 || there > 1, now);
+  }
+  if (there == here) return;
+  const auto meshes = [](std::size_t n) {
+    return std::to_string(n) + (n == 1 ? " mesh" : " meshes");
+  };
+  host_.warn("the restart file was written with " + meshes(there) + " and this fix has " +
+             std::to_string(here) + ": " +
+             (there > here ? "springs, motion, loads and wear of those after mesh " +
+                                 std::to_string(here) + " are not carried over"
+                           : "those after mesh " + std::to_string(there) +
+                                 " begin anew, without springs, motion, loads and wear"));
+}
+
+// `one_of_many`: springs tell which mesh they are of by its number alone.
+void Wall::restore_mesh(MeshPart &m, const std::vector<Real> &motion,
+                        const std::vector<Real> &header, const std::vector<Real> &rows,
+                        bool one_of_many, const Step &now)
+{
+  const MeshReport &r = m.grid.report();
+  const bool other = header[1] != static_cast<Real>(r.facets) ||
+                     header[2] != static_cast<Real>(r.edges) ||
+                     header[3] != static_cast<Real>(r.vertices) ||
+                     header[5] != number_of(m.grid.mesh_fingerprint());
+  m.springs_are_foreign = other;
+  if (other && one_of_many) {
+    host_.warn(named(m, "springs, motion, loads and wear begin anew: the restart file was written "
+                        "with another mesh in this place"));
+    return;
+  }
+  m.motion.restore(motion, now);
+  motion_has_changed(m);
+  if (!settings_.has_loads(m.settings)) return;
+  if (other) {
+    host_.warn("loads and wear begin at zero: the restart file was written with another mesh");
+    return;
+  }
+  loads_.restore(m.index, header[0], rows);
+}
+
+}    // namespace lsdcd

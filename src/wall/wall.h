@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A wall of meshes that any program can step: it finds the contacts of spheres, and gives each sphere
+// its force and torque.
+#pragma once
+
+#include "wall/choice_schedule.h"
+#include "wall/grid_manager.h"
+#include "wall/load_recorder.h"
+#include "wall/overlap_monitor.h"
+#include "wall/search_report.h"
+#include "wall/step_totals.h"
+#include "wall/timestep_check.h"
+#include "wall/wall_files.h"
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// Where a wall computes.
+struct WallPlace {
+  // Makes its engine. Throws InputError where there is none for these settings.
+  std::function<std::unique_ptr<WallEngine>(const EngineSettings &)> make_engine =
+      lsdcd::make_engine;
+  bool in_place = false;    // it makes an InPlaceEngine: spheres are in the memory of its backend
+};
+
+// The host's units.
+struct WallUnits {
+  Real pressure = 1;    // a force per area of 1, in the unit of pressure (LAMMPS: nktv2p)
+  Real velocity =
+      1;    // a force times time over mass of 1, in the unit of velocity (LAMMPS: ftm2v)
+};
+
+// What a step tells the wall.
+struct StepInput {
+  Step step;
+  bool look = false;           // spheres may be others, or have other radii, since the last step
+  bool new_spheres = false;    // spheres may have come: the timestep and their overlaps are checked
+  bool box_changes = false;    // the box may have changed since the last step
+  SphereDrift drift;
+  bool virial = false;    // add_virial() will be called
+};
+
+// In each step: begin(), launch(), finish(). Places, velocities and radii must not change between begin()
+// and finish(); forces and torques may.
+//
+// Spheres are counted from 0, meshes too. All processes call the functions together, but for those that
+// say so. Errors that all processes have alike are InputError, those of one process ProcessError.
+class Wall {
+ public:
+  // Reads the meshes, makes the engine, and logs what there is. `settings`: stiffnesses still in the
+  // host's unit of pressure. `material`: what a material file filled in, for the log. `clock`: the time
+  // of the host. The host must outlive the wall.
+  Wall(Host &host, WallSettings settings, const WallUnits &units, WallPlace place,
+       const std::string &material, const StepClock &clock);
+
+  // Not together:
+  const WallSettings &settings() const { return settings_; }
+  const std::deque<MeshPart> &meshes() const { return meshes_; }
+  bool any_moves() const;                            // or was moved
+  Real cutoff() const { return grids_.cutoff(); }    // length; 0: there were no spheres yet
+  HistoryExchange &history() { return history_; }
+  InPlaceEngine &in_place();    // where the place is one
+  std::size_t bytes() const;    // of this process
+
+  // Before each run. `virial`: add_virial() may be called in it.
+  void begin_run(std::int64_t step, bool virial);
+
+  // The clock goes on, meshes move, grids are built where they have to be. In place: what steps read of
+  // spheres is there once the host's stream has done what it has been given.
+  void begin(const Spheres &spheres, const StepInput &input);
+  // Chooses the spheres near the wall where that is due, and starts the step where the engine can work
+  // beside the host. `beside`: beside what the host's stream is at; `adds_early`: forces are added right
+  // after that, not in finish(). Not together.
+  void launch(const Spheres &spheres, bool beside = false, bool adds_early = false);
+  // Is there a step that was begun and not finished? Not together.
+  bool is_running() const { return running_; }
+  // Adds forces and torques. Launches the step where it was not launched.
+  void finish(const Spheres &spheres);
+
+  // The wall acts on nothing until the next step: its totals are 0. Not together.
+  void clear_totals() { totals_.clear(); }
+  // Before spheres change processes. `far`: the host does not know how far spheres go between two looks.
+  void before_exchange(std::int64_t step, bool far);
+  // `advice` follows the number of choices in the log; `loop`: seconds of the run, 0 where not known.
+  void end_run(std::int64_t step, bool far, const std::string &advice, Real loop);
+
+  // Of the last step.
+  const StepTotals &totals();
+  Real worn(int mesh) const { return settings_.wears() ? loads_.worn(mesh) : 0; }    // volume
+  Real
+  servo_push(int mesh);    // force or torque of the mesh on the spheres, along the servo's axis
+  // Adds arm times force, over contacts of this process: xx, yy, zz, xy, xz, yz. Energy. Not together.
+  void add_virial(Real *virial) const;
+  // Calls row(sphere, numbers) for each sphere of this process with a contact, with the
+  // settings().contact_columns() numbers of the contacts array. Not together.
+  void for_contact_rows(const std::function<void(int, const Real *)> &row) const;
+
+  // Files that are due in this step.
+  void write_due_files();
+  int files_every() const { return files_.every(); }    // steps; 0: there are none. Not together.
+
+  // [mesh K] motion|servo ...: another motion for a mesh. Returns how many words it took; 0: the first is
+  // another one.
+  int change(const std::vector<std::string> &words, const Step &now);
+
+  // For a restart file: the history of a sphere, with the names of features that any run has. Returns the
+  // numbers written. Not together.
+  int pack_restart(int sphere, Real *buffer);
+  // What the wall keeps that. On the first process.
+  std::vector<Real> state() const;
+  // Of a file that this or another wall wrote. `state`: the same on all processes.
+  void restore(const Real *state, const Step &now);
+
+ private:
+  EngineSettings engine_settings() const;
+  void make_engine();
+  void make_engine_anew();
+  void log_creation(const std::string &material, const WallPlace &place) const;
+  std::string named(const MeshPart &m, const std::string &text) const;
+  template <class Work>
+  void on_this_process(Work &&work);
+
+  void begin_snapshot(int n, const Step &step);
+  void check_history(int n);
+  void move(const Step &step);
+  void look_at_spheres(const Spheres &spheres, std::int64_t step);
+  void check_points();
+  void look_at_servo_spheres();
+  ServoLoad servo_load(int mesh);
+
+  StepSettings step_settings();
+  void choose_if_due(const Spheres &spheres);
+  void start(const Spheres &spheres);
+  StepDiagnostics read_diagnostics();
+  void poll_diagnostics(std::int64_t step);
+  void check_new_spheres();
+
+  MeshPart &mesh_of_words(const std::vector<std::string> &words, std::size_t &taken);
+  void motion_has_changed(const MeshPart &m);
+  void restore_mesh(MeshPart &m, const std::vector<Real> &motion, const std::vector<Real> &header,
+                    const std::vector<Real> &rows, bool one_of_many, const Step &now);
+
+  Host &host_;
+  WallSettings settings_;    // motions change later
+  WallPlace place_;
+  StepClock
+      clock_;    // of the spheres; that of the host begins anew in some runs from a restart file
+  std::deque<MeshPart> meshes_;    // where each stays; there is one at least
+  std::unique_ptr<WallEngine> engine_;
+  bool engine_moves_ = false, engine_records_ = false;    // what its laws are compiled for
+  bool virial_ = false;                                   // may be asked for in this run
+
+  HistoryExchange history_;
+  StepTotals totals_;
+  LoadRecorder loads_;
+  WallFiles files_;
+  OverlapMonitor overlaps_;
+  SearchReport search_;
+  TimeReport times_;
+  TimestepCheck timestep_;
+  BoxChecks box_checks_;
+  GridManager grids_;
+  ChoiceSchedule schedule_;
+
+  StepInput input_;    // of the last begin()
+  bool running_ = false, launched_ = false;
+  bool continued_ = false;    // from a restart file
+  bool points_warned_ = false, snapshot_told_ = false;
+  Real servo_radius_ = 0, servo_mass_ = 0;    // the largest, for gains of servos
+  // Of each mesh, for the engine in this step.
+  std::vector<SurfaceMotion> surfaces_;
+  std::vector<Real> temperatures_;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,436 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A wall stepped by a program that is not LAMMPS: forces, grids, motion, restarts and totals of its
+// processes, against closed forms.
+#include "base/input_error.h"
+#include "support/fake_host.h"
+#include "wall/wall.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kN = 1000, kT = 300, kDt = 1e-3, kRadius = 0.5;
+
+// A file with a square floor at z = 0, 20 across, gone when the object is.
+struct Floor {
+  std::string name;
+
+  Floor() :
+      name(testing::TempDir() + "floor_of_test_wall_" +
+           testing::UnitTest::GetInstance()->current_test_info()->name() + ".stl")
+  {
+    std::ofstream file(name);
+    file << "solid floor\n";
+    for (const char *corners : {"-10 -10 0|10 -10 0|10 10 0", "-10 -10 0|10 10 0|-10 10 0"}) {
+      file << "facet normal 0 0 1\nouter loop\nvertex ";
+      for (const char *c = corners; *c; c++)
+        if (*c == '|')
+          file << "\nvertex ";
+        else
+          file << *c;
+      file << "\nendloop\nendfacet\n";
+    }
+    file << "endsolid floor\n";
+  }
+  ~Floor() { std::remove(name.c_str()); }
+
+  // A Hooke wall with friction of this mesh, and more words.
+  WallSettings wall(const std::vector<std::string> &more = {}) const
+  {
+    std::vector<std::string> words = {"hooke/history", "1000", "300",    "0",  "0", "0.5", "0",
+                                      "mesh",          name,   "device", "cpu"};
+    words.insert(words.end(), more.begin(), more.end());
+    return parse_settings(words);
+  }
+};
+
+// Spheres of a process, where the host has them.
+struct Grains {
+  std::vector<Vec3> x, v, omega, force, torque;
+  std::vector<Real> radius, mass;
+
+  void add(const Vec3 &at, Real r = kRadius)
+  {
+    x.push_back(at);
+    for (std::vector<Vec3> *rest : {&v, &omega, &force, &torque}) rest->push_back({0, 0, 0});
+    radius.push_back(r);
+    mass.push_back(1);
+  }
+  Spheres spheres()
+  {
+    Spheres s;
+    s.n = static_cast<int>(x.size());
+    if (s.n == 0) return s;
+    s.x = &x[0].x;
+    s.v = &v[0].x;
+    s.omega = &omega[0].x;
+    s.force = &force[0].x;
+    s.torque = &torque[0].x;
+    s.radius = radius.data();
+    s.mass = mass.data();
+    return s;
+  }
+};
+
+// A wall with its host and grains, stepped as LAMMPS would.
+struct Scene {
+  FakeHost &host;
+  Grains grains;
+  std::unique_ptr<Wall> wall;
+  std::int64_t now = 0;
+
+  Scene(FakeHost &host, const WallSettings &settings) : host(host)
+  {
+    host.simulation.corner = {-50, -50, -50};
+    for (int k = 0; k < 3; k++) host.simulation.edge[k] = {0, 0, 0};
+    for (int k = 0; k < 3; k++) host.simulation.edge[k][k] = 100;
+    host.simulation.margin = 0.1;
+    wall =
+        std::make_unique<Wall>(host, settings, WallUnits(), WallPlace(), "", StepClock{0, 0, 0, kDt});
+  }
+
+  void step(Step::Kind kind, bool look)
+  {
+    for (std::size_t i = 0; i < grains.x.size(); i++)
+      grains.force[i] = grains.torque[i] = {0, 0, 0};
+    wall->history().grow(static_cast<int>(grains.x.size()));
+    host.spheres = grains.spheres();
+    StepInput input;
+    input.step = {now, kDt, kind};
+    input.look = look;
+    input.new_spheres = look;
+    input.box_changes = true;
+    input.drift.kind = SphereDrift::watched;
+    input.drift.distance = 0.05;
+    wall->begin(grains.spheres(), input);
+    wall->launch(grains.spheres());
+    wall->finish(grains.spheres());
+  }
+  void set_up()
+  {
+    wall->begin_run(now, false);
+    step(Step::setup, true);
+  }
+  void run(int n)
+  {
+    for (int i = 0; i < n; i++) {
+      now++;
+      step(Step::step, false);
+    }
+  }
+};
+
+// Sums of a few products of doubles of order one: some hundred roundings.
+constexpr Real kRounding = 1e-13;
+
+TEST(Wall, pushes_a_sphere_by_its_overlap)
+{
+  const Floor floor;
+  FakeHost host;
+  host.tags = {1};
+  Scene scene(host, floor.wall());
+  scene.grains.add({0.3, 0.2, 0.49});
+  scene.set_up();
+  EXPECT_NEAR(scene.grains.force[0].z, kN * 0.01, kN * kRounding);
+  EXPECT_EQ(scene.grains.force[0].x, 0);
+}
+
+TEST(Wall, keeps_the_spring_of_a_contact_that_slides)
+{
+  const Floor floor;
+  FakeHost host;
+  host.tags = {1};
+  Scene scene(host, floor.wall());
+  scene.grains.add({0.3, 0.2, 0.49});
+  scene.grains.v[0] = {0.1, 0, 0};
+  scene.set_up();
+  scene.run(10);    // the grain is held where it is: 10 steps of the same slip
+  EXPECT_NEAR(scene.grains.force[0].x, -kT * 10 * 0.1 * kDt, kT * kRounding);
+}
+
+TEST(Wall, has_no_grid_before_there_are_spheres)
+{
+  const Floor floor;
+  FakeHost host;
+  Scene scene(host, floor.wall());
+  scene.set_up();
+  EXPECT_EQ(scene.wall->cutoff(), 0);
+  scene.grains.add({0, 0, 0.49});
+  host.tags = {1};
+  scene.now++;
+  scene.step(Step::step, true);
+  EXPECT_EQ(scene.wall->cutoff(), kRadius);
+  EXPECT_NEAR(scene.grains.force[0].z, kN * 0.01, kN * kRounding);
+}
+
+TEST(Wall, builds_its_grid_anew_with_room_for_spheres_that_grow)
+{
+  const Floor floor;
+  FakeHost host;
+  host.tags = {1};
+  Scene scene(host, floor.wall());
+  scene.grains.add({0, 0, 0.49});
+  scene.set_up();
+  scene.grains.radius[0] = 0.6;
+  scene.now++;
+  scene.step(Step::step, true);
+  EXPECT_EQ(scene.wall->cutoff(), 1.1 * 0.6);    // a tenth more: they may go on growing
+  EXPECT_NEAR(scene.grains.force[0].z, kN * 0.11, kN * kRounding);
+}
+
+TEST(Wall, names_the_lowest_tag_of_spheres_larger_than_rmax)
+{
+  const Floor floor;
+  on_processes(2, [&](FakeHost &host) {
+    Scene scene(host, floor.wall({"rmax", "0.5"}));
+    scene.grains.add({0, 0, 2}, 0.75);
+    host.tags = {host.rank() == 0 ? 7 : 5};
+    try {
+      scene.set_up();
+      ADD_FAILURE() << "no error";
+    } catch (const InputError &e) {
+      EXPECT_STREQ(e.what(),
+                   "atom 5 has radius 0.75, more than rmax 0.5: raise rmax or use rmax auto");
+    }
+  });
+}
+
+TEST(Wall, adds_up_the_forces_of_all_processes)
+{
+  const Floor floor;
+  on_processes(2, [&](FakeHost &host) {
+    Scene scene(host, floor.wall());
+    scene.grains.add({host.rank() == 0 ? 3.0 : -3.0, 0, host.rank() == 0 ? 0.49 : 0.48});
+    host.tags = {1 + host.rank()};
+    scene.set_up();
+    const MeshTotals &all = scene.wall->totals().mesh(0);
+    EXPECT_NEAR(all.force.z, -kN * 0.03, kN * kRounding);
+    EXPECT_EQ(all.contacts, 2);
+    EXPECT_NEAR(all.torque_at_origin.y, -3 * kN * 0.01 * -1 - 3 * kN * 0.02, 10 * kN * kRounding);
+  });
+}
+
+TEST(Wall, has_the_virial_of_its_contacts)
+{
+  const Floor floor;
+  FakeHost host;
+  host.tags = {1};
+  Scene scene(host, floor.wall());
+  scene.grains.add({0, 0, 0.49});
+  scene.wall->begin_run(0, true);
+  StepInput input;
+  input.step = {0, kDt, Step::setup};
+  input.look = input.virial = true;
+  scene.wall->history().grow(1);
+  host.spheres = scene.grains.spheres();
+  scene.wall->begin(scene.grains.spheres(), input);
+  scene.wall->finish(scene.grains.spheres());
+  Real virial[6] = {0, 0, 0, 0, 0, 0};
+  scene.wall->add_virial(virial);
+  EXPECT_NEAR(virial[2], 0.49 * kN * 0.01, kN * kRounding);    // arm times force, along z
+  EXPECT_EQ(virial[0], 0);
+}
+
+TEST(Wall, moves_its_mesh_by_words_given_later)
+{
+  const Floor floor;
+  FakeHost host;
+  host.tags = {1};
+  Scene scene(host, floor.wall());
+  scene.grains.add({0, 0, 0.49});
+  scene.set_up();
+  EXPECT_EQ(scene.wall->change({"motion", "linear", "0", "0", "1"}, {0, kDt}), 5);
+  scene.run(10);
+  // The floor has risen by 10 dt; the position is rounded where it is about 1.
+  EXPECT_NEAR(scene.grains.force[0].z, kN * (0.01 + 10 * kDt), kN * 1e-13);
+}
+
+TEST(Wall, takes_no_words_but_its_own)
+{
+  const Floor floor;
+  FakeHost host;
+  Scene scene(host, floor.wall());
+  EXPECT_EQ(scene.wall->change({"energy", "yes"}, {0, kDt}), 0);
+}
+
+TEST(Wall, refuses_words_for_a_mesh_that_it_has_not)
+{
+  const Floor floor;
+  FakeHost host;
+  Scene scene(host, floor.wall());
+  try {
+    scene.wall->change({"mesh", "2", "motion", "none"}, {0, kDt});
+    ADD_FAILURE() << "no error";
+  } catch (const InputError &e) {
+    EXPECT_STREQ(
+        e.what(),
+        "fix_modify mesh K motion|servo ...: K is the number of a mesh, from 1 to 1, not '2'");
+  }
+}
+
+TEST(Wall, goes_on_from_its_state_and_the_histories_of_its_spheres)
+{
+  const Floor floor;
+  FakeHost host;
+  host.tags = {1};
+  Scene first(host, floor.wall());
+  first.grains.add({0.3, 0.2, 0.49});
+  first.grains.v[0] = {0.1, 0, 0};
+  first.set_up();
+  first.run(10);
+  const std::vector<Real> state = first.wall->state();
+  std::vector<Real> packed(first.wall->history().max_packed_size());
+  const int size = first.wall->pack_restart(0, packed.data());
+
+  FakeHost other_host;
+  other_host.tags = {1};
+  Scene second(other_host, floor.wall());
+  second.grains = first.grains;
+  second.wall->history().grow(1);
+  second.wall->restore(state.data(), {10, kDt});
+  second.wall->history().unpack_restart(0, packed.data(), size);
+  second.now = 10;
+  second.set_up();
+  first.run(1);
+  second.run(1);
+  EXPECT_EQ(second.grains.force[0], first.grains.force[0]);
+  EXPECT_TRUE(other_host.warnings.empty());
+}
+
+TEST(Wall, drops_histories_where_the_mesh_is_another)
+{
+  const Floor floor;
+  FakeHost host;
+  host.tags = {1};
+  Scene first(host, floor.wall());
+  first.grains.add({0.3, 0.2, 0.49});
+  first.grains.v[0] = {0.1, 0, 0};
+  first.set_up();
+  first.run(10);
+  const std::vector<Real> state = first.wall->state();
+  std::vector<Real> packed(first.wall->history().max_packed_size());
+  const int size = first.wall->pack_restart(0, packed.data());
+
+  FakeHost other_host;
+  other_host.tags = {1};
+  Scene second(other_host, floor.wall({"scale", "2"}));
+  second.grains = first.grains;
+  second.wall->history().grow(1);
+  second.wall->restore(state.data(), {10, kDt});
+  second.wall->history().unpack_restart(0, packed.data(), size);
+  second.now = 10;
+  second.set_up();
+  EXPECT_EQ(second.grains.force[0].x, 0);
+  ASSERT_EQ(other_host.warnings.size(), 1u);
+  EXPECT_EQ(other_host.warnings[0],
+            "1 atoms lose their springs: the restart file was written with another mesh");
+}
+
+TEST(Wall, reaches_through_a_periodic_face_that_comes_nearer)
+{
+  const Floor floor;
+  FakeHost host;
+  host.tags = {1};
+  Scene scene(host, floor.wall({"rotate", "0", "1", "0", "90", "move", "-49.6", "0", "0"}));
+  // An upright wall at x = -49.6; the box ends at x = 50, where its image is at x = 50.4.
+  host.simulation.periodic[0] = true;
+  scene.grains.add({49.92, 0, 0});
+  scene.set_up();
+  EXPECT_NEAR(scene.grains.force[0].x, -kN * 0.02,
+              kN * 1e-12);              // places of 50 are rounded to 7e-15
+  host.simulation.edge[0].x = 99.98;    // the image comes nearer by 0.02
+  scene.run(1);
+  EXPECT_NEAR(scene.grains.force[0].x, -kN * 0.04, kN * 1e-12);
+}
+
+TEST(Wall, warns_once_where_spheres_went_past_a_periodic_face_farther_than_its_grid)
+{
+  const Floor floor;
+  FakeHost host;
+  host.tags = {1};
+  Scene scene(host, floor.wall({"rotate", "0", "1", "0", "90", "move", "-49.6", "0", "0"}));
+  host.simulation.periodic[0] = true;
+  scene.grains.add({49, 0, 0});
+  scene.set_up();
+  scene.grains.x[0].x = 50.5;    // by 0.5, where the margin is 0.1
+  host.spheres = scene.grains.spheres();
+  scene.wall->before_exchange(0, true);
+  ASSERT_EQ(host.warnings.size(), 1u);
+  EXPECT_EQ(host.warnings[0].rfind("a particle was 0.5 past a periodic face", 0), 0u)
+      << host.warnings[0];
+  scene.wall->before_exchange(0, true);
+  EXPECT_EQ(host.warnings.size(), 1u);
+}
+
+TEST(Wall, of_one_process_that_fails_names_its_sphere)
+{
+  const Floor floor;
+  FakeHost host;
+  host.tags = {42};
+  Scene scene(host, floor.wall());
+  scene.grains.add({0, 0, 0.49});
+  scene.set_up();
+  scene.grains.radius[0] = 0.51;    // without a word to the wall
+  scene.run(1);
+  try {
+    scene.wall->before_exchange(1, false);
+    ADD_FAILURE() << "no error";
+  } catch (const ProcessError &e) {
+    EXPECT_EQ(std::string(e.what()).rfind("atom 42 ", 0), 0u) << e.what();
+  }
+}
+
+TEST(Wall, does_not_move_springs_in_a_snapshot)
+{
+  const Floor floor;
+  FakeHost host;
+  host.tags = {1};
+  Scene scene(host, floor.wall());
+  scene.grains.add({0.3, 0.2, 0.49});
+  scene.grains.v[0] = {0.1, 0, 0};
+  scene.set_up();
+  scene.run(10);
+  scene.step(Step::snapshot, true);
+  EXPECT_EQ(scene.grains.force[0].x, 0);
+  ASSERT_EQ(host.warnings.size(), 1u);
+  EXPECT_EQ(host.warnings[0].rfind("a rerun does not know the springs", 0), 0u);
+}
+
+TEST(Wall, has_a_mesh_from_the_first_process_on_all)
+{
+  const Floor floor;
+  on_processes(2, [&](FakeHost &host) {
+    Scene scene(host, floor.wall());
+    EXPECT_EQ(scene.wall->meshes().front().grid.report().facets, 2u);
+    ASSERT_NE(scene.wall->meshes().front().grid.mesh(), nullptr);
+    EXPECT_EQ(scene.wall->meshes().front().grid.mesh()->vertices.size(), 4u);
+  });
+}
+
+TEST(Wall, that_cannot_be_read_fails_on_all_processes)
+{
+  Floor floor;
+  WallSettings settings = floor.wall();
+  settings.meshes[0].file += ".missing";
+  int failed[2] = {0, 0};
+  on_processes(2, [&](FakeHost &host) {
+    try {
+      Scene scene(host, settings);
+    } catch (const InputError &) {
+      failed[host.rank()] = 1;
+    }
+  });
+  EXPECT_EQ(failed[0] + failed[1], 2);
+}
+
+}    // namespace
+}    // namespace lsdcd
