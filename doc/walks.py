@@ -67,9 +67,10 @@ WALKS = {
             + SEARCH_BEFORE.format(select="CpuBackend::select CpuBackend::look_again")
             + STEP_BEFORE.format(step="CpuBackend::step CpuBackend::step_run CpuBackend::step_several"),
         "now": """
-            FixWallLsdcd::pre_force FixWallLsdcd::begin_step FixWallLsdcd::start FixWallLsdcd::give_step
-            FixWallLsdcd::spheres FixWallLsdcd::step_settings FixWallLsdcd::choose_if_due ChoiceSchedule::next
-            > FixWallLsdcd::post_force FixWallLsdcd::collect """
+            FixWallLsdcd::pre_force FixWallLsdcd::begin FixWallLsdcd::begin_step FixWallLsdcd::spheres
+            FixWallLsdcd::spheres_in_atom Wall::begin Wall::launch wall.cpp:start Wall::step_settings
+            Wall::choose_if_due ChoiceSchedule::next
+            > FixWallLsdcd::post_force FixWallLsdcd::finish_step Wall::finish """
             + SEARCH_NOW.format(select="selection_cpu.h:start selection_cpu.h:refine")
             + STEP_NOW.format(step="run_step_cpu.h:run_step CpuStep::run CpuStep::step_run CpuStep::step_left"),
     },
@@ -88,21 +89,22 @@ WALKS = {
         "now": """
             lsdcdkkplugin.cpp:lammpsplugin_init host_matches kokkos_matches add_plain_styles add_style create_fix
             FixWallLsdcdKokkos::FixWallLsdcdKokkos FixWallLsdcd::FixWallLsdcd > make_engine_on
-            engine_cuda.cu:make_cuda_engine_in_place > FixWallLsdcd::pre_force FixWallLsdcd::begin_step
-            FixWallLsdcdKokkos::start > FixWallLsdcdKokkos::pre_reverse EngineOn::ready EngineOn::begin_beside
-            CudaSideStream::ready CudaSideStream::begin FixWallLsdcd::give_step
-            FixWallLsdcdKokkos::spheres host_kokkos.h:rows_of FixWallLsdcd::step_settings FixWallLsdcd::choose_if_due
-            ChoiceSchedule::next > FixWallLsdcd::post_force FixWallLsdcdKokkos::collect FixWallLsdcd::collect """
+            engine_cuda.cu:make_cuda_engine_in_place > FixWallLsdcd::pre_force FixWallLsdcd::begin
+            FixWallLsdcdKokkos::begin_step FixWallLsdcdKokkos::spheres host_kokkos.h:rows_of Wall::begin
+            EngineOn::ready CudaSideStream::ready > FixWallLsdcdKokkos::pre_reverse Wall::launch
+            EngineOn::begin_beside CudaSideStream::begin wall.cpp:start Wall::step_settings Wall::choose_if_due
+            ChoiceSchedule::next > FixWallLsdcd::post_force FixWallLsdcdKokkos::finish_step
+            FixWallLsdcd::finish_step Wall::finish """
             + SEARCH_NOW.format(select="selection_cuda.h:start selection_cuda.h:mark mark_near > refine_cuda.h:operator()")
             + STEP_NOW.format(step="run_step_cuda.h:run_step step_kernel do_several"),
     },
     "from a triangle of a file to its record": {
         "before": RECORD_BEFORE,
         "now": """
-            > MeshPart::MeshPart > SharedWall::SharedWall SharedWall::read read_mesh.cpp:read_mesh read_stl_mesh
+            > MeshPart::MeshPart > MeshGrid::MeshGrid MeshGrid::read read_mesh.cpp:read_mesh read_stl_mesh
             read_stl read_stl_bytes read_binary read_stl_text Placement::apply weld weld_points sort_facets
-            build_edges number_flat_edges_last measure_mesh > FixWallLsdcd::rebuild SharedWall::build
-            SharedWall::whole with_images load_or_build_grid > build_cpu.cpp:build_grid build_grid_on
+            build_edges number_flat_edges_last measure_mesh > GridManager::rebuild MeshGrid::build
+            MeshGrid::whole with_images load_or_build_grid > build_cpu.cpp:build_grid build_grid_on
             wall_features.cpp:make_features make_face make_edge face_record WallFeatures::view > move_flat""",
     },
     "from the words rolling cdt to the torque": {
