@@ -66,7 +66,7 @@ def path_of(node, docname):
 class FindLinks(SphinxTransform):
     """When a page is read: relative links of reStructuredText become those that Markdown's are, and the links
     of index pages the contents."""
-    default_priority = 500
+    default_priority = 700    # where the targets of reStructuredText are known
 
     def apply(self, **kwargs):
         docname = self.env.docname
@@ -141,12 +141,6 @@ class ResolveLinks(SphinxPostTransform):
         return self.env.get_domain("std").anonlabels.get(f"{file}#{anchor}", (page, anchor))[1]
 
 
-def link_to_lammps(app, env, node, content):
-    """:doc: of a page that is none of ours: LAMMPS's manual."""
-    if node["reftype"] == "doc" and re.fullmatch(r"[A-Za-z]\w*", node["reftarget"]):
-        return nodes.reference("", "", content, refuri=f"https://docs.lammps.org/{node['reftarget']}.html")
-
-
 def first_page(app, error):
     """index.html at the top shows the contents."""
     if not error and app.builder.format == "html":
@@ -160,6 +154,5 @@ def setup(app):
     app.add_lexer("lammps", Lammps)
     app.add_transform(FindLinks)
     app.add_post_transform(ResolveLinks)
-    app.connect("missing-reference", link_to_lammps)
     app.connect("build-finished", first_page)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

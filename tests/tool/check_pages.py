@@ -19,6 +19,7 @@ from pages import ROOT, all_pages, target_of
 # What tests/lammps/test_pages.py, tests/tool/test_page_commands.py and tests/library/test_page_code.py take. A text is
 # no code: a table, a drawing, what a program prints.
 LANGUAGES = {"lammps", "sh", "bash", "c", "cpp", "python", "text"}
+MOST_WORDS = 30000
 IMAGES = (".png", ".gif", ".svg", ".webp", ".jpg")
 
 failed = 0
@@ -49,7 +50,7 @@ def check_links(pages):
     index = pages["doc/index.md"]
     named = {target_of(index, target)[0] for _, target in index.links if target_of(index, target)}
     fact("doc/index.md has every page of doc/",
-         [path for path in pages if path.startswith("doc/") and path != "doc/index.md" and path not in named])
+         [path for path in pages if path.startswith("doc/") and not path.startswith("doc/data/") and path != "doc/index.md" and path not in named])
 
 
 def check_images(pages):
@@ -87,6 +88,14 @@ def check_messages(pages):
     fact("twenty messages and more are explained", [] if len(rows) >= 20 else [len(rows)])
     fact("every message is in the sources", [row for row in rows for part in row.split("...") if part.strip()
                                              and not any(form in text for form in (part.strip(), part.strip(" ;:")))])
+
+
+def check_words(pages):
+    """As `wc -w` counts them, tables and all."""
+    words = {path: len(page.text.split()) for path, page in pages.items() if re.fullmatch(r"README\.md|doc/[^/]*", path)}
+    fact("README has at most 900 words", [] if words["README.md"] <= 900 else [words["README.md"]])
+    fact(f"README and doc/ have at most {MOST_WORDS} words", [] if sum(words.values()) <= MOST_WORDS else
+         [f"{sum(words.values())}: " + ", ".join(f"{path} {n}" for path, n in sorted(words.items(), key=lambda w: -w[1])[:5])])
 
 
 class Anchors(html.parser.HTMLParser):
@@ -127,7 +136,7 @@ def main():
         pages = all_pages()
         check_links(pages)
         check_images(pages)
-        # check_languages(pages)
+        check_languages(pages)
         check_messages(pages)
     sys.exit(1 if failed else 0)
 

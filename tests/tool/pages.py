@@ -102,7 +102,7 @@ class Page:
             image = re.match(r" *\.\. (?:image|figure):: (\S+)", line)
             if image:
                 self.images.append((at + 1, image[1]))
-            target = re.match(r"\.\. _([\w-]+):", line)
+            target = re.match(r"\.\. _([\w-]+):$", line)
             if target:
                 self.anchors.add(target[1])
             block = re.match(r"( *)\.\. (code-block|parsed-literal)::(.*)", line)
@@ -112,12 +112,8 @@ class Page:
                 before = []
         self.find_links(lines, r"()`[^`<]*<([^`>]+)>`__?")
         for number, line in enumerate(lines, 1):
-            for target in re.findall(r":doc:`(?:[^`<]*<)?([^`<>]+)>?`", line):
-                if (ROOT / "doc" / (target + ".rst")).exists() or (ROOT / "doc" / (target + ".md")).exists():
-                    continue
-                if not re.fullmatch(r"[A-Za-z]\w*", target):    # else a page of LAMMPS
-                    self.links.append((number, target))
-        for number, line in enumerate(lines, 1):
+            for role in re.findall(r":(?:doc|ref):`[^`]*`", line):    # no link where the repository is shown
+                self.links.append((number, role))
             for target in re.findall(r"^\.\. _[^:]+: (\S+)$", line):
                 self.links.append((number, target))
 

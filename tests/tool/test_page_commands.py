@@ -21,7 +21,7 @@ from triangles import cube
 
 # Programs of the system, which are not ours to check.
 OTHERS = {"apt", "c++", "cd", "clang-format", "cp", "ctest", "echo", "export", "git", "grep", "mkdir", "nvidia-smi", "paraview",
-          "pkg-config", "source", "sudo", "tail", "[", "reuse", "tar", "unzip", "nproc"}
+          "pkg-config", "printf", "source", "sudo", "tail", "[", "reuse", "tar", "unzip", "nproc"}
 LAMMPS_OPTIONS = {"-in", "-i", "-var", "-v", "-k", "-kokkos", "-sf", "-suffix", "-pk", "-log", "-h", "-nocite", "-screen"}
 BUILD_FILES = "\n".join(path.read_text() for path in [
     ROOT / "CMakeLists.txt", ROOT / "CMakePresets.json", *ROOT.glob("cmake/*.cmake"),
@@ -187,7 +187,9 @@ def main():
                 if ours:
                     prepare(pathlib.Path(folder))
                 for words in ours:
-                    done = run(folder, *words, *QUICK.get(words[0], "").split())
+                    quick = QUICK.get(words[0], "").split()
+                    pairs = [pair for pair in zip(quick[::2], quick[1::2]) if pair[0] not in words]
+                    done = run(folder, *words, *(word for pair in pairs for word in pair))
                     # repair ends with 3 where something is left, which is no error.
                     fact(f"{block}: lsdcd {' '.join(words)[:60]}", done.returncode in (0, 3), done.stderr[-300:])
         # Words that are gone, and messages that begin with lsdcd.
