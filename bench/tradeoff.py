@@ -5,13 +5,13 @@
 """Measures what settings buy and cost, and writes the first part of doc/accuracy.md
 and of doc/notes/accuracy.md.
 
-usage: tradeoff.py [--build DIR] [--device cpu|cuda|auto] [--write-only] [--rows-to DIR]
+usage: tradeoff.py [--build DIR] [--device cpu|cuda|auto] [--write-only] [--rows-to DIR] [--commit NAME]
 
 Runs `lsdcd tradeoff` on the vessel of examples/vessel and on a cylinder of 1e4 triangles.
 Rows are kept in doc/data, those of the GPU in files of their own; the document and the
 plots are made from what is kept there. --rows-to DIR leaves the rows in DIR and writes
 nothing else: for a GPU elsewhere, as
-  tradeoff.py --device cuda --rows-to DIR        (then copy DIR/*.csv to doc/data)
+  tradeoff.py --device cuda --rows-to DIR --commit NAME    (then copy DIR/*.csv to doc/data)
 """
 import argparse
 import csv
@@ -53,12 +53,19 @@ def kept(mesh, device, folder=DATA):
     return os.path.join(folder, f"tradeoff_{mesh}_{device}.csv")
 
 
-def run(mesh, device, build, folder, seconds):
+def run(mesh, device, build, folder, seconds, commit):
     print(f"running lsdcd tradeoff on the {mesh}, {device} ...", flush=True)
     done = subprocess.run([os.path.join(build, "bin", "lsdcd"), "tradeoff", mesh_file(mesh, build),
                            *MESHES[mesh], "--device", device, "--seconds", str(seconds),
                            "--csv", kept(mesh, device, folder), "--plot", "none"],
                           stdout=subprocess.DEVNULL)
+    if done.returncode == 0 and commit:
+        with open(kept(mesh, device, folder), newline="") as f:
+            rows = list(csv.DictReader(f))
+        with open(kept(mesh, device, folder), "w", newline="") as f:
+            writer = csv.DictWriter(f, rows[0].keys(), lineterminator="\n")
+            writer.writeheader()
+            writer.writerows({**row, "commit": commit} for row in rows)
     return done.returncode == 0
 
 
@@ -240,6 +247,7 @@ def main(arguments=None):
     parser.add_argument("--write-only", action="store_true",
                         help="run nothing; write from the rows in doc/data")
     parser.add_argument("--rows-to", metavar="DIR", help="leave the rows there, write nothing else")
+    parser.add_argument("--commit", metavar="NAME", help="what was built, where git does not know")
     args = parser.parse_args(arguments)
     if not args.write_only:
         devices = [args.device]
@@ -248,7 +256,7 @@ def main(arguments=None):
         os.makedirs(args.rows_to or DATA, exist_ok=True)
         for device in devices:
             for mesh in MESHES:
-                if not run(mesh, device, args.build, args.rows_to or DATA, args.seconds):
+                if not run(mesh, device, args.build, args.rows_to or DATA, args.seconds, args.commit):
                     return 1
         if args.rows_to:
             return 0

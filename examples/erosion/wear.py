@@ -38,7 +38,7 @@ def draw(fields, path):
     shown = corners[:, :, 1].mean(axis=1) > corners[:, :, 1].min() + 1e-6    # without the near side
     x, y, z = np.moveaxis(corners[shown], 2, 0)
     flat = np.stack([x + 0.5 * y, z + 0.5 * y], axis=2)
-    figure, panels = plt.subplots(1, 2, figsize=(9, 4.2), layout="constrained", sharey=True)
+    figure, panels = plt.subplots(1, 2, figsize=(9, 4.8), layout="constrained", sharey=True)
     for axes, name, factor, title in ((panels[0], "worn_depth", 1e9, "worn depth, nm"),
                                       (panels[1], "normal_stress", 1, "normal stress, Pa")):
         value = factor * fields[name][shown]
@@ -46,9 +46,12 @@ def draw(fields, path):
         drawn.set_clim(0, np.quantile(value, 0.99))
         axes.autoscale_view()
         axes.set_aspect("equal")
-        axes.set_xlabel("along the chute, mm")
-        figure.colorbar(drawn, ax=axes, extend="max", shrink=0.8).set_label(title, fontsize=12)
-    panels[0].set_ylabel("height, mm")
+        axes.set_xlabel("along the chute, mm", fontsize=14)
+        axes.tick_params(labelsize=13)
+        bar = figure.colorbar(drawn, ax=axes, extend="max", shrink=0.8)
+        bar.set_label(title, fontsize=14)
+        bar.ax.tick_params(labelsize=13)
+    panels[0].set_ylabel("height, mm", fontsize=14)
     figure.savefig(path, dpi=100)
     print(path)
 
