@@ -14,17 +14,20 @@ from PIL import Image, ImageChops
 import runs
 
 NAMES = ("drum", "hopper", "screw", "screen", "mixer", "piston", "insertion", "belt")
+TUTORIALS = ("meshGran", "movingMeshGran", "servoWall", "conveyor")    # of from-liggghts
 MARGIN = 12    # pixels
 
 
 def main():
     p = runs.options(__doc__, Path("gallery"))
-    p.add_argument("names", nargs="*", help=" ".join(NAMES))
+    p.add_argument("names", nargs="*", help=" ".join(NAMES + TUTORIALS))
     a = p.parse_args()
     a.work.mkdir(parents=True, exist_ok=True)
     folder = runs.ROOT / "doc" / "img" / "gallery"
-    for name in a.names or NAMES:
-        example = runs.ROOT / "examples" / name
+    for name in a.names or NAMES + TUTORIALS:
+        example = runs.ROOT / "examples" / ("from-liggghts" if name in TUTORIALS else name)
+        if name in TUTORIALS:
+            runs.make_meshes(example / "make_meshes.py", a.work)
         runs.run_deck(a, example / f"in.{name}", dir=example, picture=f"{name}.png")
         picture = Image.open(a.work / f"{name}.png").convert("RGB").reduce(2)
         left, top, right, bottom = ImageChops.difference(picture, Image.new("RGB", picture.size, "white")).getbbox()
