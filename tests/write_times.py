@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Writes where the minutes of the last `./run test all` went into doc/testing.md.
+"""Writes where the minutes of the last `./run test all` went into doc/notes/times.md.
 
 usage: write_times.py
 
@@ -16,7 +16,7 @@ import subprocess
 import xml.etree.ElementTree as xml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-DOCUMENT = ROOT / "doc" / "testing.md"
+DOCUMENT = ROOT / "doc" / "notes" / "times.md"
 BEGIN, END = "<!-- times:begin -->", "<!-- times:end -->"
 FOLDERS = {"all": "release", "sanitize": "sanitizers"}
 # The first pattern that matches the name of a test names its row.
