@@ -94,8 +94,8 @@ struct Scene {
     for (int k = 0; k < 3; k++) host.simulation.edge[k] = {0, 0, 0};
     for (int k = 0; k < 3; k++) host.simulation.edge[k][k] = 100;
     host.simulation.margin = 0.1;
-    wall =
-        std::make_unique<Wall>(host, settings, WallUnits(), WallPlace(), "", StepClock{0, 0, 0, kDt});
+    wall = std::make_unique<Wall>(host, settings, WallUnits(), WallPlace(), "",
+                                  StepClock{0, 0, 0, kDt});
   }
 
   void step(Step::Kind kind, bool look)
@@ -193,7 +193,8 @@ TEST(Wall, names_the_lowest_tag_of_spheres_larger_than_rmax)
   on_processes(2, [&](FakeHost &host) {
     Scene scene(host, floor.wall({"rmax", "0.5"}));
     scene.grains.add({0, 0, 2}, 0.75);
-    host.tags = {host.rank() == 0 ? 7 : 5};
+    scene.grains.add({0, 0, 4}, 0.75);
+    host.tags = {host.rank() == 0 ? 7 : 5, 9};
     try {
       scene.set_up();
       ADD_FAILURE() << "no error";
@@ -367,6 +368,8 @@ TEST(Wall, warns_once_where_spheres_went_past_a_periodic_face_farther_than_its_g
   ASSERT_EQ(host.warnings.size(), 1u);
   EXPECT_EQ(host.warnings[0].rfind("a particle was 0.5 past a periodic face", 0), 0u)
       << host.warnings[0];
+  scene.grains.x[0].x = 51.5;    // farther than the grid reaches now
+  host.spheres = scene.grains.spheres();
   scene.wall->before_exchange(0, true);
   EXPECT_EQ(host.warnings.size(), 1u);
 }
