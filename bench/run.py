@@ -60,8 +60,8 @@ def main():
     parser.add_argument("--quick", action="store_true",
                         help="small sizes, to see that all runs; rows go to DIR/bench")
     parser.add_argument("--write-only", action="store_true",
-                        help="make tables and plots from the rows that are kept; without names "
-                             "all of doc/performance.md")
+                        help="make tables and plots from the rows that are kept, and measure nothing; "
+                             "without names all of doc/performance.md")
     parser.add_argument("--rows-to", metavar="DIR", help="leave the rows there, write nothing else")
     parser.add_argument("--commit", metavar="NAME", help="what was built, where git does not know")
     args, rest = parser.parse_known_args()
@@ -87,7 +87,7 @@ def main():
             return status
     for name in names:
         for write in DOCUMENTS.get(name, []):
-            status = write(["--build", args.build])
+            status = write(["--build", args.build, *["--write-only"] * args.write_only])
             if status != 0:
                 return status
     return 0
