@@ -4,22 +4,26 @@
 
 """Makes doc/hard_cases.md from runs of the tests that know hard cases' answers.
 
-usage: hard_cases.py [--build DIR] [--rows-only] [--commit NAME]
+usage: hard_cases.py [--build DIR] [--rows-only | --write-only] [--commit NAME]
 
 Runs every device test that includes tests/support/hard_case.h, on the CPU and, where
-there is a GPU, with CUDA. CUDA rows are kept in doc/data/hard_cases_cuda.tsv, with
-commit and device, so that the table has them on a machine without a GPU too.
+there is a GPU, with CUDA. Rows are kept in doc/data/hard_cases_DEVICE.tsv, with commit and
+device, so that the page has those of a device on a machine without it too.
 """
 import argparse
 import glob
+import math
 import os
 import re
 import subprocess
 import sys
 import tempfile
 
+import hard_cases_pictures
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-TABLE = os.path.join(ROOT, "doc", "hard_cases.md")
+PAGE_FILE = os.path.join(ROOT, "doc", "hard_cases.md")
+CPU_ROWS = os.path.join(ROOT, "doc", "data", "hard_cases_cpu.tsv")
 CUDA_ROWS = os.path.join(ROOT, "doc", "data", "hard_cases_cuda.tsv")
 COLUMNS = ["theme", "id", "what", "backend", "precision", "relation", "answer", "ours",
            "tolerance", "derivation", "holds"]
@@ -123,74 +127,238 @@ def run(build, backend):
         return read_rows(path)[0], failed
 
 
-def natural(text):
-    return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", text)]
+# ---- the page ----------------------------------------------------------------------------
+
+def used(row):
+    """The share of its tolerance that a number takes; more than 1 fails."""
+    ours, answer, tolerance = (float(row[k]) for k in ("ours", "answer", "tolerance"))
+    if row["relation"] == "<=":
+        return ours / answer
+    if row["relation"] == ">=":
+        return answer / ours
+    off = abs(ours - answer)
+    return off / tolerance if tolerance else (0 if off == 0 else math.inf)
 
 
-def number(text):
-    return f"{float(text):.7g}"
-
-
-def ours(row):
+def deviation(row):
     if row is None:
         return "not run"
-    text = number(row["ours"])
-    if row["relation"] == "=" and float(row["answer"]) != 0:
-        off = float(row["ours"]) - float(row["answer"])
-        text += " (exact)" if off == 0 else f" ({off:+.1e})"
-    return text if row["holds"] == "holds" else f"**{text} FAILS**"
+    off = float(row["ours"])
+    off = f"{abs(off - float(row['answer'])) if row['relation'] == '=' else off:.2g}"
+    return off if row["holds"] == "holds" else f"**{off} FAILS**"
 
 
-def cell(text):
-    return text.replace("|", "\\|")
+def tolerance(row):
+    if row["relation"] == ">=":
+        return f"at least {float(row['answer']):.2g}"
+    return f"{float(row['tolerance' if row['relation'] == '=' else 'answer']):.2g}"
+
+
+def group_of(row):
+    """The line of the table that holds a number; what no pattern knows has one of its own."""
+    for name, pattern in GROUPS.get(row["theme"], ()):
+        if re.search(pattern, row["what"]) or re.search(pattern, row["relation"]):
+            return name
+    return row["what"].rsplit(": ", 1)[-1]
 
 
 def table(rows):
-    """Markdown: a heading, a table and its derivations for each theme."""
-    backends = sorted({(r["backend"], r["precision"]) for r in rows},
-                      key=lambda b: (b[0] != "cpu", b))
-    themes = {}
+    """A line for each kind of number: the one that is nearest to its tolerance."""
+    lines = ["| case | number | of them | CPU | CUDA | allowed |", "|" + " --- |" * 6]
+    groups = {}
     for r in rows:
-        case = themes.setdefault(r["theme"], {}).setdefault((r["id"], r["what"]), {})
-        case.setdefault((r["backend"], r["precision"]), r)
-    text = []
-    for theme, cases in themes.items():
-        text += [f"## {theme}", ""]
-        heads = ["", "case", "answer"] + [f"{b.upper()}, {p}" for b, p in backends]
-        heads += ["tolerance", "why"]
-        text += ["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads)]
-        whys = {}
-        for (ident, what), case in sorted(cases.items(), key=lambda c: natural(c[0][0])):
-            any_row = next(iter(case.values()))
-            exact = any_row["relation"] == "="
-            why = whys.setdefault(any_row["derivation"], chr(ord("a") + len(whys) % 26) +
-                                  (str(len(whys) // 26) if len(whys) >= 26 else ""))
-            answer = number(any_row["answer"]) if exact else (
-                "at most" if any_row["relation"] == "<=" else "at least")
-            tolerance = f"{float(any_row['tolerance']):.1e}" if exact else number(any_row["answer"])
-            if exact and float(any_row["tolerance"]) == 0:
-                tolerance = "none"
-            cells = [ident, what, answer] + [ours(case.get(b)) for b in backends]
-            text.append("| " + " | ".join(cell(c) for c in cells + [tolerance, why]) + " |")
-        text += [""] + [f"{name}. {cell(why)}.  " for why, name in whys.items()] + [""]
+        at = groups.setdefault((r["theme"], group_of(r)), {})
+        at.setdefault((r["id"], r["what"]), {}).setdefault(r["backend"], r)
+    order = list(CASES)
+    for (theme, name), cases in sorted(groups.items(), key=lambda g: order.index(g[0][0]) if g[0][0] in CASES else len(order)):
+        worst = max(cases.values(), key=lambda case: max(used(r) for r in case.values()))
+        cells = [CASES[theme][0] if theme in CASES else theme, name, str(len(cases)), deviation(worst.get("cpu")), deviation(worst.get("cuda")),
+                 tolerance(next(iter(worst.values())))]
+        lines.append("| " + " | ".join(c.replace("|", "\\|") for c in cells) + " |")
+    return "\n".join(lines)
+
+
+def values(rows):
+    """The numbers that stand in the text, of the CPU."""
+    def ours(theme, what, digits=2):
+        found = [r for r in rows if r["backend"] == "cpu" and r["theme"] == theme and what in r["what"]]
+        return f"{float(found[0]['ours']):.{digits}g}" if found else "?"
+
+    billiard = [r for r in rows if r["backend"] == "cpu" and r["what"].startswith("billiard")]
+    return {"rolled": ours("Drum", "1024 segments, k = 1000 (sunk 2.0e-02 R at rest): against the smooth"),
+            "smooth": "{:.2g}".format(next((float(r["answer"]) for r in rows if "1024 segments, k = 1000 (sunk 2.0e-02 R at rest): "
+                                            "against the smooth" in r["what"]), math.nan)),
+            "summed": ours("Drum", "corner sum"), "growth": ours("Time step", "corner sum"),
+            "grows": ours("Time step", "1.01 of it", 3),
+            "billiard": f"{max((float(r['ours']) for r in billiard), default=math.nan):.1g}",
+            "lost": ours("Fast and thin", "the same with side both", 3),
+            "steps": "{:.2g}".format(next((float(m.group(1)) for r in rows for m in
+                                           [re.match(r"(\S+) steps inside", r["what"])] if m), math.nan))}
+
+
+def sections(rows):
+    text, known = [], values(rows)
+    themes = dict.fromkeys([*CASES, *(r["theme"] for r in rows)])
+    for theme in themes:
+        if theme not in CASES:
+            text.append(f"## {theme}\n\nSee the table.\n")
+            continue
+        title, picture, wrong, here, test = CASES[theme]
+        text.append(f"## {title}\n\n![{title}: wrong and right](img/hard_cases/{picture}.png)\n\n"
+                    f"- **Wrong:** {wrong}\n- **Here:** {here.format(**known)}\n- **Test:** {test}\n")
     return "\n".join(text)
 
 
-INTRO = """# Hard cases
+# Theme: title, picture, what goes wrong elsewhere, what happens here, the test.
+CASES = {
+    "Seams of a plane": (
+        "Seams of a plane", "seams",
+        "A wall that adds up the forces of its triangles pushes twice on a seam. Its answer depends on how it was cut.",
+        "A plane of 2 to 199 712 triangles has the force of one plane, in any order and winding, with T-junctions and\n"
+        "  duplicates. A gap or a step of 1e-7 that was not welded changes the force by as much as it must.",
+        "[test_seams](../tests/physics/test_seams.cpp); beside LIGGGHTS the example\n"
+        "  [retriangulated](../examples/retriangulated)."),
+    "Convex edges, corners and tips": (
+        "Convex edges, corners and tips", "convex",
+        "A corner where n triangles meet counts up to n times.",
+        "It is one contact, whether 3 or 2000 triangles meet, in any order. A sphere that drops beside an edge or a corner\n"
+        "  leaves in the mirrored direction.",
+        "[test_convex](../tests/physics/test_convex.cpp)."),
+    "Nearly flat": (
+        "Shallow folds", "folds",
+        "If the forces of both walls are added, a shallow fold is twice as stiff as one wall. If one of them is left out\n"
+        "  instead, the force jumps at some angle.",
+        "At folds of 1e-6 degrees and more the force changes as smoothly as that of one wall, with the position and with the\n"
+        "  angle. In right-angled and sharper corners the forces add up.",
+        "[test_nearly_flat](../tests/physics/test_nearly_flat.cpp)."),
+    "Drum": (
+        "A drum of flat segments", "drum",
+        "A drum of flat segments is rough: a sphere hops at each fold and loses energy.",
+        "It loses what an exact polygon takes, and no more. In 4 s of rolling a drum of 1024 segments takes {rolled} of its\n"
+        "  energy, a smooth drum {smooth}. With `corner sum` it loses {summed} more than in the smooth drum.",
+        "[test_drum](../tests/physics/test_drum.cpp)."),
+    "History": (
+        "Springs across seams", "springs",
+        "The tangential spring is lost at a seam, so that a sphere creeps down a slope on which it should lie.",
+        "The spring is carried over seams, edges and corners without a jump. In a corner each wall has its own. A run that is\n"
+        "  broken off in mid-slide and taken up again has the same bits.",
+        "[test_slide](../tests/physics/test_slide.cpp); restart files:\n"
+        "  [test_restart](../tests/lammps/test_restart.py); several processes: [test_ranks](../tests/lammps/test_ranks.py)."),
+    "Rolling": (
+        "Rolling", "rolling",
+        "A sphere lifts off at seams or drifts to the side.",
+        "It does neither. Its accelerations down a slope and along a groove are those of the closed forms, and so is the time\n"
+        "  when slip becomes rolling. Over a cone's tip it has one contact and loses nothing.",
+        "[test_roll](../tests/physics/test_roll.cpp)."),
+    "Bouncing": (
+        "Bouncing", "bouncing",
+        "A seam damps twice, so that the restitution depends on where a sphere hits.",
+        "It is the same on faces, edges, vertices, a cube's corner, a thin plate and a cone's tip. Oblique hits slip or stick as the\n"
+        "  closed forms say.",
+        "[test_bounce](../tests/physics/test_bounce.cpp)."),
+    "Belt": (
+        "A moving belt", "belt",
+        "A seam drags twice, so that a moving surface carries grains at a wrong speed.",
+        "A free sphere ends at 2/7 of the belt's speed and rolls; one that cannot turn ends at the belt's speed. Times and\n"
+        "  distances are those of the closed forms.",
+        "[test_belt](../tests/physics/test_belt.cpp)."),
+    "Energy": (
+        "Energy", "energy",
+        "A force that jumps at folds and corners adds energy: a bed never comes to rest.",
+        "A sphere in a box of triangles keeps its energy to {billiard} in 1e6 steps. 30 spheres in an upright\n"
+        "  drum come to rest and stay, and the mesh bears their weight and its moment.",
+        "[test_energy](../tests/physics/test_energy.cpp), [test_bed](../tests/physics/test_bed.cpp)."),
+    "Time step": (
+        "Time step", "timestep",
+        "Where two walls are added, the wall is stiffer, and a time step that is stable on a plane is not stable there.",
+        "The limit is 2 / sqrt(k/m) on faces, vertices and folds. Just above it a swing grows {grows} times a step, as it\n"
+        "  must. With `corner sum` it grows {growth} times a step just below it.",
+        "[test_energy](../tests/physics/test_energy.cpp)."),
+    "Fast and thin": (
+        "Fast spheres, thin walls", "fast",
+        "The centre of a fast sphere crosses the wall, and the wall pushes it out on the other side.",
+        "With `side both` this happens here too, from a speed of R sqrt(k/m) on; with `side in` or `side out` from twice that\n"
+        "  speed. A sphere that moves 2 R in one step can jump over a wall. Of 500 fast spheres in a box `side in` loses none,\n"
+        "  `side both` {lost}.",
+        "[test_fast](../tests/physics/test_fast.cpp)."),
+    "Bad meshes, against exact arithmetic": (
+        "Bad meshes", "bad_meshes",
+        "Contacts are missed, or a force is not a number, at slivers, at triangles without an area or of 1e-6 to 1e6 radii, on\n"
+        "  Moebius strips, where walls cut each other.",
+        "No contact is missed. Distances are those of exact arithmetic but for round-off. Normals have length 1, even if a centre\n"
+        "  lies on the wall.",
+        "[test_bad_meshes](../tests/unit/test_bad_meshes.cpp)."),
+    "Random meshes and spheres": (
+        "Random meshes and spheres", "random",
+        "A case that nobody thought of.",
+        "Random meshes, spheres and grids are compared with trying every triangle: no contact is missed, and none is counted twice.\n"
+        "  The same holds for lists of the wall, over {steps} random steps.",
+        "[test_properties](../tests/unit/test_properties.cpp)."),
+}
 
-Where wall contacts go wrong, what the right answer is, and what comes out here. Every
-row is a test: it fails where a number leaves its tolerance. Answers are closed forms or
-references of their own in higher precision; each tolerance says what it is made of.
-Numbers after an answer in brackets are ours less the answer.
+# Theme: what its lines in the table are called, and which numbers they hold.
+GROUPS = {
+    "Seams of a plane": [("normal force, one plane", r"^(?!.*(1e-7|4e-7)).*F/F0 - 1"), ("force along it", r"^(?!.*(1e-7|4e-7)).*Ft"),
+                         ("normal force, gaps and steps of 1e-7", r"F/F0 - 1"), ("force along it, the same", r"Ft")],
+    "Convex edges, corners and tips": [("contacts", "contacts"), ("direction after a drop / speed", "mirrored"), ("force / F", "F/F0")],
+    "Nearly flat": [("change of force / that of one wall", r"\|dF\|"), ("sum of two or three walls", r"F/")],
+    "Drum": [("force / that of the polygon", "F_polygon"), ("roughness", "rms"), ("energy, sliding, 1/s", "sliding"),
+             ("energy lost by rolling, beyond the polygon", "polygon's own"), ("beyond a smooth drum", "smooth cylinder's"),
+             ("the same with `corner sum`", "corner sum")],
+    "History": [("same bits after a break", "difference"), ("jump of the spring", "jump"),
+                ("friction, round a drum of segments", "drum"), ("friction below its limit", "kt|two springs"),
+                ("friction at its limit", "mu F_n")],
+    "Rolling": [("lift and drift / R", "lift|drift aside"), ("contacts on a tip", "contacts"), ("energy over a tip", "energy"),
+                ("slip to roll", "^slip"), ("acceleration", "acceleration")],
+    "Bouncing": [("heights in a train", "height"), ("way to the side / R", "way"), ("slip", "^gross"), ("restitution, stick", "^(restit|stick)")],
+    "Belt": [("speed", "speed over"), ("time, way", "time|way")],
+    "Energy": [("energy, 1e6 steps", "billiard"), ("bed: energy, weight, moment", "drum")],
+    "Time step": [("`corner sum`: growth", "corner sum"), ("swing below the limit", "excursion"), ("growth above it", "growth")],
+    "Fast and thin": [("speed or step that passes", "goes through|unseen"), ("spheres lost, `side both`", ">="), ("spheres lost, `side in`", "lost"),
+                      ("plate of 1e-3 R", "plate")],
+    "Bad meshes, against exact arithmetic": [("missed", "missed"), ("contacts", "most"), ("distance / its tolerance, past tips", "tips"),
+                                             ("distance, force / R", r"exact\||F - k d"), ("length of normals", r"\|n\|")],
+    "Random meshes and spheres": [("distance / its tolerance", "/ tolerance"), ("missed, doubled, wrong", "=")],
+}
 
-Written by `./run bench hard-cases` from the runs; do not edit.
 
-* {count} cases; {verdict}.
-* CPU: commit {commit}, {cpu}.
-* CUDA: {cuda}.
-* A restart in mid-slide, and one against several MPI ranks (springs included, to the last
-  bit), are input scripts: `tests/lammps/test_restart.py` and `tests/lammps/test_ranks.py`.
+PAGE = """<!-- SPDX-FileCopyrightText: 2026 LSDCD contributors -->
+<!-- SPDX-License-Identifier: BSD-3-Clause -->
+
+# Hard cases
+
+Walls of triangles go wrong at seams, folds and corners, and with bad meshes. **Here are {themes} such cases. Each is tested, with
+{count} numbers in all, and {verdict}.** The answers are closed forms, or references of their own in higher precision. *Wrong* is
+what a wall does that treats each triangle alone. [The table](#all-numbers) has the deviations.
+
+{sections}
+## All numbers
+
+A line stands for several numbers of the same kind (*of them*) and shows the one that is nearest to its limit (*allowed*): its distance
+from the answer, or the number itself if it should be small. All numbers, with the answer, the limit and its reason, are in `doc/data/hard_cases_cpu.tsv` and `doc/data/hard_cases_cuda.tsv`.
+
+{table}
+
+`./run bench hard-cases` runs the tests and writes this page. CPU: {cpu}. CUDA: {cuda}.
 """
+
+
+def write_page(rows, cpu_note, cuda_note):
+    """Writes the page; how many numbers there are, and how many fail."""
+    known = {(r["theme"], r["id"], r["what"]) for r in rows if r["backend"] == "cpu"}
+    rows = [r for r in rows if (r["theme"], r["id"], r["what"]) in known]
+    bad = sum(r["holds"] != "holds" for r in rows)
+    themes = dict.fromkeys(r["theme"] for r in rows)
+    write_whole(PAGE_FILE, PAGE.format(
+        themes=len(themes), count=len(known), verdict="all hold" if not bad else f"{bad} fail", sections=sections(rows),
+        table=table(rows), cpu=cpu_note, cuda=cuda_note))
+    print(f"{PAGE_FILE}: {len(known)} numbers, {bad} fail")
+    return bad
+
+
+def keep(rows, path, note):
+    lines = ["\t".join(r[c] for c in COLUMNS) for r in rows]
+    write_whole(path, "\n".join(["# " + note, "# " + "\t".join(COLUMNS)] + lines) + "\n")
 
 
 def main(arguments=None):
@@ -200,33 +368,29 @@ def main(arguments=None):
                         help="where bin/ is")
     parser.add_argument("--rows-only", action="store_true",
                         help="only run CUDA and write its rows (on a machine lent for that)")
+    parser.add_argument("--write-only", action="store_true", help="run nothing; write from the rows in doc/data")
     parser.add_argument("--commit", default=commit(), metavar="NAME",
                         help="what was built, where git does not know")
     args = parser.parse_args(arguments)
 
-    cuda, failed = run(args.build, "cuda")
-    if cuda is not None:
-        lines = ["\t".join(r[c] for c in COLUMNS) for r in cuda]
-        notes = [f"# commit {args.commit}, {gpu()}", "# " + "\t".join(COLUMNS)]
-        write_whole(CUDA_ROWS, "\n".join(notes + lines) + "\n")
-    if args.rows_only:
-        if cuda is None:
-            print("no CUDA device", file=sys.stderr)
-            return 1
-        return 1 if failed else 0
-
-    rows, more = run(args.build, "cpu")
-    failed += more
-    kept, notes = read_rows(CUDA_ROWS)
-    known = {(r["theme"], r["id"], r["what"]) for r in rows}
-    rows += [r for r in kept if (r["theme"], r["id"], r["what"]) in known]
-    bad = sum(r["holds"] != "holds" for r in rows)
-    where = (("".join(notes[:1]) or "unknown commit") if kept else "not run yet") + (
-        "" if cuda is not None or not kept else ", kept in `doc/data/hard_cases_cuda.tsv`")
-    intro = INTRO.format(count=len(known), commit=args.commit, cpu=cpu(), cuda=where,
-                         verdict="all hold" if not bad else f"**{bad} numbers fail**")
-    write_whole(TABLE, intro + "\n" + table(rows))
-    print(f"{TABLE}: {len(known)} cases, {bad} numbers fail")
+    failed = []
+    if not args.write_only:
+        cuda, failed = run(args.build, "cuda")
+        if cuda is not None:
+            keep(cuda, CUDA_ROWS, f"commit {args.commit}, {gpu()}")
+        if args.rows_only:
+            if cuda is None:
+                print("no CUDA device", file=sys.stderr)
+                return 1
+            return 1 if failed else 0
+        rows, more = run(args.build, "cpu")
+        failed += more
+        keep(rows, CPU_ROWS, f"commit {args.commit}, {cpu()}")
+    on_cpu, cpu_notes = read_rows(CPU_ROWS)
+    on_cuda, cuda_notes = read_rows(CUDA_ROWS)
+    bad = write_page(on_cpu + on_cuda, "".join(cpu_notes[:1]), "".join(cuda_notes[:1]) or "not run yet")
+    for sketch in hard_cases_pictures.SKETCHES:
+        hard_cases_pictures.draw(sketch)
     for name in failed:
         print(f"failed: {name}", file=sys.stderr)
     return 1 if failed or bad else 0

@@ -16,8 +16,9 @@
 
 namespace lsdcd {
 
-// `theme` and `id` place the row in doc/hard_cases.md: a heading, and the order
-// under it (text, as "11" or "6a"). `what` names the case and what is measured.
+// A row of doc/data/hard_cases_DEVICE.tsv. `theme` is its section in doc/hard_cases.md, whose text
+// bench/hard_cases.py has; `id` tells cases apart (text, as "11" or "6a"). `what` names the case and what is
+// measured.
 struct HardCase {
   std::string theme, id, what;
 };
