@@ -160,6 +160,17 @@ def commands_of(text):
             yield words
 
 
+def quick(words):
+    """The command with options that make it quick, in place of the page's."""
+    options = QUICK.get(words[0], "").split()
+    for name, value in zip(options[::2], options[1::2]):
+        if name in words:
+            words[words.index(name) + 1] = value
+        else:
+            words += [name, value]
+    return words
+
+
 def prepare(folder):
     write_ascii_stl(folder / "wall.stl", cube(1))
     write_ascii_stl(folder / "body.stl", cube(1, size=0.5))
@@ -187,9 +198,7 @@ def main():
                 if ours:
                     prepare(pathlib.Path(folder))
                 for words in ours:
-                    quick = QUICK.get(words[0], "").split()
-                    pairs = [pair for pair in zip(quick[::2], quick[1::2]) if pair[0] not in words]
-                    done = run(folder, *words, *(word for pair in pairs for word in pair))
+                    done = run(folder, *quick(words))
                     # repair ends with 3 where something is left, which is no error.
                     fact(f"{block}: lsdcd {' '.join(words)[:60]}", done.returncode in (0, 3), done.stderr[-300:])
         # Words that are gone, and messages that begin with lsdcd.
