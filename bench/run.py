@@ -14,7 +14,8 @@ accuracy.py), effects doc/effects.md (effects.py), hard-cases doc/hard_cases.md
 Kokkos (kokkos.py), liggghts our wall against LIGGGHTS's (liggghts.py), floor a mesh against a flat
 plane (floor.py), mesh-size the same contacts with 1e2 to 1e7 triangles (mesh_size.py). run.py
 NAME --words lists the words of the first three. Two print their rows and write no document: turning times
-spheres that a turning wall carries along or leaves behind, cells steps by the length of cells.
+spheres that a turning wall carries along or leaves behind, cells steps by the length of cells. region times a mesh against fix
+wall/gran/region (region.py) and prints its table.
 
 Rows of the four are kept in doc/data/performance_DEVICE.csv (performance.py). Further words
 go to them, as --spheres 1e6; bench_query --help lists them. query --part near-and-far times
@@ -35,6 +36,7 @@ import kokkos
 import liggghts
 import mesh_size
 import performance
+import region
 import tradeoff
 
 DOCUMENTS = {"accuracy": [tradeoff.main, accuracy.main], "effects": [effects.main],
@@ -43,6 +45,8 @@ COMPARISONS = {"kokkos": kokkos.main, "liggghts": liggghts.main, "floor": floor.
                "mesh-size": mesh_size.main}
 
 PRINTED = ["turning", "cells"]
+# Its rows are kept, and printed for doc/from-region.md.
+PEERS = {"region": region.main}
 
 
 def print_rows(name, args, rest):
@@ -69,7 +73,7 @@ def main():
     while rest and not rest[0].startswith("-"):
         names.append(rest.pop(0))
     names = names or [*performance.PROGRAMS, *(COMPARISONS if args.write_only else ())]
-    known = [*performance.PROGRAMS, *DOCUMENTS, *COMPARISONS, *PRINTED]
+    known = [*performance.PROGRAMS, *DOCUMENTS, *COMPARISONS, *PRINTED, *PEERS]
     for name in names:
         if name not in known:
             print(f"no benchmark '{name}'; there are: {', '.join(known)}", file=sys.stderr)
@@ -81,6 +85,8 @@ def main():
             return status
     for name in names:
         status = COMPARISONS[name](args, rest) if name in COMPARISONS else 0
+        if name in PEERS:
+            status = PEERS[name](args, rest)
         if name in PRINTED:
             status = print_rows(name, args, rest)
         if status != 0:

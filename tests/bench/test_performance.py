@@ -112,7 +112,7 @@ def test_near_and_far(rows):
 def test_comparisons():
     names = ["mesh-size"]
     if os.path.exists(os.path.join(BUILD, "bin", "lmp-lsdcd")):
-        names += ["floor"] + ["liggghts"] * bool(shutil.which("liggghts"))
+        names += ["floor", "region"] + ["liggghts"] * bool(shutil.which("liggghts"))
     with tempfile.TemporaryDirectory() as folder:
         for name in names:
             done = subprocess.run([sys.executable, str(ROOT / "bench" / "run.py"), "--build", BUILD,
