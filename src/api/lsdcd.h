@@ -1,11 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 LSDCD contributors */
 /* SPDX-License-Identifier: BSD-3-Clause */
 
-/* Distances from points to a triangle mesh, exact and many at once, on the CPU or an NVIDIA GPU; and
- * which triangles of a rigid body meet which of a wall.
+/* Distances from points to a triangle mesh, exact and many at once, on the CPU or an NVIDIA GPU; which
+ * triangles of a rigid body meet which of a wall; and a wall that pushes spheres, step by step.
  *
  *   mesh -> grid, for distances up to a cutoff -> queries of points in arrays of the caller
  *   two meshes -> body -> its collisions with the wall, pose by pose
+ *   words of fix wall/lsdcd -> wall -> forces and torques on the caller's spheres, step by step
  *
  * A function returns LSDCD_OK, 0, or the code of an error, whose text lsdcd_last_error() has. It
  * then has changed nothing but, where a query failed, the arrays of its answers, which hold
@@ -246,6 +247,90 @@ typedef struct lsdcd_collision {
 LSDCD_API int lsdcd_collide(lsdcd_body *body, lsdcd_collision *collision);
 /* Null is fine. Own. */
 LSDCD_API void lsdcd_body_free(lsdcd_body *body);
+
+/* ---- walls ---------------------------------------------------------------------------------- */
+
+/* The wall of fix wall/lsdcd, for any program that moves spheres: every contact law, meshes that move,
+ * servos, wear, files. Units are any that are consistent. Spheres are counted from 0, meshes too. */
+typedef struct lsdcd_wall lsdcd_wall;
+
+/* What a wall has to say: a line for the log, or with `warning` 1 what is probably not meant. */
+typedef void lsdcd_message(void *data, int warning, const char *text);
+
+typedef struct lsdcd_wall_options {
+  size_t size;         /* of this struct */
+  double lo[3], hi[3]; /* where centres of spheres can be; all 0: wherever they go */
+  int periodic[3];     /* 1: the box repeats along x, y, z. Spheres are put back by the caller */
+  double margin;       /* length > 0 with `periodic`: how far past a face a sphere may go */
+  double time;         /* of the first step, for files */
+  const char *units;   /* of material files: LAMMPS's "si", "cgs", ...; null: "si" */
+  lsdcd_message *show; /* called in calls of this wall only; null: nothing is shown */
+  void *data;          /* handed to `show` */
+  int threads;         /* on the CPU; 0: OMP_NUM_THREADS, or one */
+} lsdcd_wall_options;
+/* `words`: n words that follow "wall/lsdcd" in a script: a contact style with its numbers, `mesh FILE`,
+ * keywords. Variables, v_name, are not there. `options` may be null: all defaults. Any. */
+LSDCD_API int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options *options,
+                              lsdcd_wall **wall);
+
+/* Spheres in arrays of doubles of the host. Number k of sphere i of a vector is at [i * row + k]. */
+typedef struct lsdcd_spheres {
+  size_t size; /* of this struct */
+  size_t n;
+  ptrdiff_t row;       /* of all arrays of vectors; 0: 3 */
+  const double *x;     /* length */
+  const double *v;     /* length/time */
+  const double *omega; /* 1/time */
+  const double *radius;
+  const double *mass;
+  double *force;             /* added to */
+  double *torque;            /* added to, about the centre */
+  const double *temperature; /* for a law with heat; else null */
+  double *heat;              /* power into the sphere, added to; likewise */
+} lsdcd_spheres;
+
+typedef struct lsdcd_wall_step {
+  size_t size; /* of this struct */
+  double dt;   /* time since the last step; > 0 */
+  int setup; /* 1: no time has passed, and springs do not move: the forces with which a run begins */
+  int changed; /* 1: spheres came at the end, or radii grew since the last step. The first step and those
+                    with `setup` look at that anyway */
+  double reach; /* length; near spheres are chosen anew when one has gone farther; 0: a tenth of the
+                    largest radius */
+} lsdcd_wall_step;
+/* Adds the wall's forces and torques of this step. Velocities are those that the caller's integrator has
+ * when it asks for forces; with velocity Verlet they are those of the half step, as in LAMMPS. An error
+ * of a sphere names it by its order of coming, from 1. A wall whose step failed can only be freed. Own. */
+LSDCD_API int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
+                                      const lsdcd_wall_step *step);
+/* Before the next step: sphere i of n is the one that was from[i], or with -1 a new one. What its
+ * contacts keep follows it. Own. */
+LSDCD_API int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n);
+
+typedef struct lsdcd_wall_totals {
+  size_t size;                /* of this struct; set by the caller */
+  double force[3], torque[3]; /* on the mesh; the torque about the point of `torque_about` */
+  double contacts;
+  double overlap;     /* the largest overlap / radius */
+  double uncertified; /* spheres whose answer was not certified exact; see `nearest` */
+  double power;       /* of the mesh on the spheres, by its motion */
+  double energy;      /* elastic */
+  double worn;        /* volume worn off so far */
+  double servo[3];    /* position, velocity, push; 0 without a servo */
+} lsdcd_wall_totals;
+/* Of a mesh in the last step; -1: of all, without servos. Own. */
+LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals);
+/* Where a mesh is: x in the box is R x + t, 12 numbers, rows of R, each with its t behind it. Own. */
+LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
+/* The words of fix_modify: [mesh K] motion ..., [mesh K] servo ..., K from 1. Own. */
+LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n);
+/* All that the wall and the contacts of its spheres keep, to go on from: *count doubles. Those that fit
+ * in `room` are written; with `room` 0 the array may be null. Own. */
+LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count);
+/* Into a wall of the same words, before its first step, whose spheres then have the same order. Own. */
+LSDCD_API int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count);
+/* Null is fine. Own. */
+LSDCD_API void lsdcd_wall_free(lsdcd_wall *wall);
 
 #if defined(__cplusplus)
 }

@@ -274,6 +274,63 @@ class Body {
   std::size_t room_ = 1024;    // pairs
 };
 
+using WallTotals = lsdcd_wall_totals;
+
+// Words of fix wall/lsdcd; spheres in arrays of the caller, step by step.
+class Wall {
+ public:
+  explicit Wall(const std::vector<std::string> &words, const lsdcd_wall_options *options = nullptr)
+  {
+    lsdcd_wall *made = nullptr;
+    const std::vector<const char *> all = pointers(words);
+    c::check(lsdcd_wall_make(all.data(), all.size(), options, &made));
+    handle_.reset(made);
+  }
+
+  void step(const lsdcd_spheres &spheres, const lsdcd_wall_step &step)
+  {
+    c::check(lsdcd_wall_step_spheres(get(), &spheres, &step));
+  }
+  void renumber(const std::vector<std::ptrdiff_t> &from)
+  {
+    c::check(lsdcd_wall_renumber(get(), from.data(), from.size()));
+  }
+  WallTotals totals(int mesh = -1)
+  {
+    WallTotals t = {};
+    t.size = sizeof t;
+    c::check(lsdcd_wall_get_totals(get(), mesh, &t));
+    return t;
+  }
+  void change(const std::vector<std::string> &words)
+  {
+    const std::vector<const char *> all = pointers(words);
+    c::check(lsdcd_wall_change(get(), all.data(), all.size()));
+  }
+  std::vector<double> save()
+  {
+    std::size_t count = 0;
+    c::check(lsdcd_wall_save(get(), nullptr, 0, &count));
+    std::vector<double> numbers(count);
+    c::check(lsdcd_wall_save(get(), numbers.data(), count, &count));
+    return numbers;
+  }
+  void restore(const std::vector<double> &numbers)
+  {
+    c::check(lsdcd_wall_restore(get(), numbers.data(), numbers.size()));
+  }
+  lsdcd_wall *get() { return handle_.get(); }
+
+ private:
+  static std::vector<const char *> pointers(const std::vector<std::string> &words)
+  {
+    std::vector<const char *> all;
+    for (const std::string &word : words) all.push_back(word.c_str());
+    return all;
+  }
+  std::unique_ptr<lsdcd_wall, c::Free<lsdcd_wall_free>> handle_;
+};
+
 }    // namespace lsdcd
 
 #endif

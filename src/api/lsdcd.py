@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Distances from points to a triangle mesh, exact and many at once, for numpy arrays; and rigid bodies
-against a wall.
+"""Distances from points to a triangle mesh, exact and many at once, for numpy arrays; rigid bodies
+against a wall; and a wall that pushes spheres, step by step.
 
     import lsdcd
     grid = lsdcd.Mesh("wall.stl").grid(cutoff=0.01)
@@ -12,6 +12,9 @@ against a wall.
     body = lsdcd.Body(lsdcd.Mesh("wall.stl"), lsdcd.Mesh("body.stl"))
     found = body.collide(position=(0, 0, 1), quaternion=(1, 0, 0, 0))
     found.collides, found.wall, found.body                    # triangles, pair by pair
+
+    wall = lsdcd.Wall("hooke/history 1e5 3e4 50 0 0.5 1 mesh drum.stl motion rotate 0 0 0 0 1 0 2")
+    wall.step(x, v, omega, radius, mass, force, torque, dt=1e-5)    # adds to force and torque, (n, 3)
 
 A query lets other Python threads run, and any number of threads may ask one grid at once. What is
 told about lsdcd.h holds here; its errors are lsdcd.Error with a `code`. LSDCD_LIBRARY may name the
@@ -63,6 +66,18 @@ _Collision = _struct(
     ("quaternion", _at), ("room", _size), ("wall_triangle", _at), ("body_triangle", _at),
     ("segment", _at), ("pairs", _size), ("uncertain", _size))
 
+_Show = ctypes.CFUNCTYPE(None, _at, _int, ctypes.c_char_p)
+_WallOptions = _struct(
+    "_WallOptions", ("lo", _real * 3), ("hi", _real * 3), ("periodic", _int * 3), ("margin", _real),
+    ("time", _real), ("units", ctypes.c_char_p), ("show", _Show), ("data", _at), ("threads", _int))
+_Spheres = _struct(
+    "_Spheres", ("n", _size), ("row", _step), ("x", _at), ("v", _at), ("omega", _at), ("radius", _at),
+    ("mass", _at), ("force", _at), ("torque", _at), ("temperature", _at), ("heat", _at))
+_WallStep = _struct("_WallStep", ("dt", _real), ("setup", _int), ("changed", _int), ("reach", _real))
+_WallTotals = _struct(
+    "_WallTotals", ("force", _real * 3), ("torque", _real * 3), ("contacts", _real), ("overlap", _real),
+    ("uncertified", _real), ("power", _real), ("energy", _real), ("worn", _real), ("servo", _real * 3))
+
 
 class Error(ValueError):
     """What the library refuses, and what to do; `code`: one of ERRORS."""
@@ -83,7 +98,7 @@ def _load():
     for text in ("version", "last_error", "mesh_report", "grid_report"):
         getattr(lib, "lsdcd_" + text).restype = ctypes.c_char_p
     lib.lsdcd_mesh_report.argtypes = lib.lsdcd_grid_report.argtypes = [_at]
-    for kind in ("mesh", "grid", "body"):
+    for kind in ("mesh", "grid", "body", "wall"):
         free = getattr(lib, f"lsdcd_{kind}_free")
         free.argtypes, free.restype = [_at], None
     lib.lsdcd_mesh_read.argtypes = [ctypes.c_char_p, _real, _at]
@@ -92,6 +107,14 @@ def _load():
         getattr(lib, "lsdcd_" + call).argtypes = [_at, _at]
     lib.lsdcd_grid_build.argtypes = [_at, _at, _at]
     lib.lsdcd_body_make.argtypes = [_at, _at, _at, _at]
+    lib.lsdcd_wall_make.argtypes = [_at, _size, _at, _at]
+    lib.lsdcd_wall_step_spheres.argtypes = [_at, _at, _at]
+    for call in ("renumber", "change"):
+        getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _at, _size]
+    for call in ("get_totals", "get_pose"):
+        getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _int, _at]
+    lib.lsdcd_wall_save.argtypes = [_at, _at, _size, _at]
+    lib.lsdcd_wall_restore.argtypes = [_at, _at, _size]
     return lib
 
 
@@ -279,6 +302,104 @@ class Body(_Owner):
         if segments:
             answer.segments = found[:ask.pairs]
         return answer
+
+
+class Wall(_Owner):
+    """The wall of fix wall/lsdcd. `words`: what follows its style in a script, a text or a list. `lo`, `hi`: the
+    box of the spheres' centres, None: wherever they go; `periodic`: along x, y, z, with `margin`, how far past a
+    face a sphere may go before the caller puts it back. `show(text, warning)` gets each line of the log. One
+    thread at a time."""
+    _free = _lib.lsdcd_wall_free
+
+    def __init__(self, words, lo=None, hi=None, periodic=(False, False, False), margin=0.0, time=0.0, units="si",
+                 show=None, threads=0):
+        super().__init__()
+        self._told = None    # what `show` raised, which C cannot pass on
+
+        def tell(_, warning, text):
+            try:
+                show(text.decode(), bool(warning))
+            except BaseException as e:
+                self._told = e
+
+        self._show = _Show(tell) if show else _Show()    # it must live as long as the wall
+        options = _sized(_WallOptions, periodic=(_int * 3)(*map(bool, periodic)), margin=margin, time=time,
+                         units=units.encode(), show=self._show, threads=threads)
+        for name, corner in (("lo", lo), ("hi", hi)):
+            if corner is not None:
+                setattr(options, name, (_real * 3)(*_numbers(corner, (3,), name)))
+        self._do(_lib.lsdcd_wall_make, *_words(words), ctypes.byref(options), ctypes.byref(self._handle))
+
+    def _do(self, call, *arguments):
+        code = call(*arguments)
+        told, self._told = self._told, None
+        if told is not None:
+            raise told
+        _check(code)
+
+    def step(self, x, v, omega, radius, mass, force, torque, dt, setup=False, changed=False, reach=0.0,
+             temperature=None, heat=None):
+        """Adds to `force` and `torque`, (n, 3), and with a law of heat to `heat`, (n,), what the wall does in a
+        step of `dt`. All arrays are contiguous float64. `setup`: the forces with which a run begins; `changed`:
+        radii grew since the last step. New spheres are at the end."""
+        n = len(radius)
+        arrays = {"x": (x, (n, 3)), "v": (v, (n, 3)), "omega": (omega, (n, 3)), "radius": (radius, (n,)),
+                  "mass": (mass, (n,)), "force": (force, (n, 3)), "torque": (torque, (n, 3)),
+                  "temperature": (temperature, (n,)), "heat": (heat, (n,))}
+        spheres = _sized(_Spheres, n=n)
+        for name, (array, shape) in arrays.items():
+            if array is None and name in ("temperature", "heat"):
+                continue
+            if not isinstance(array, np.ndarray) or array.dtype != np.float64 or array.shape != shape \
+                    or not array.flags.c_contiguous:
+                raise TypeError(f"{name} is not a contiguous float64 array of shape {shape}")
+            if name in ("force", "torque", "heat") and not array.flags.writeable:
+                raise TypeError(f"{name} cannot be written to")
+            setattr(spheres, name, array.ctypes.data)
+        step = _sized(_WallStep, dt=dt, setup=bool(setup), changed=bool(changed), reach=reach)
+        self._do(_lib.lsdcd_wall_step_spheres, self._handle, ctypes.byref(spheres), ctypes.byref(step))
+
+    def renumber(self, source):
+        """Before the next step: sphere i is the one that was source[i], or with -1 a new one."""
+        source = np.ascontiguousarray(source, dtype=np.intp)
+        self._do(_lib.lsdcd_wall_renumber, self._handle, source.ctypes.data, source.size)
+
+    def totals(self, mesh=None):
+        """Of a mesh, from 0, or of all: force and torque on it, contacts, overlap, uncertified, power, energy,
+        worn, servo (position, velocity, push)."""
+        totals = _sized(_WallTotals)
+        self._do(_lib.lsdcd_wall_get_totals, self._handle, -1 if mesh is None else mesh, ctypes.byref(totals))
+        values = {name: getattr(totals, name) for name, _ in _WallTotals._fields_[1:]}
+        return SimpleNamespace(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
+
+    def pose(self, mesh=0):
+        """(3, 4): x in the box is R x + t, each row of R with its t behind it."""
+        matrix = np.empty((3, 4))
+        self._do(_lib.lsdcd_wall_get_pose, self._handle, mesh, matrix.ctypes.data)
+        return matrix
+
+    def change(self, words):
+        """[mesh K] motion ... or [mesh K] servo ..., as fix_modify takes them, with K from 1."""
+        self._do(_lib.lsdcd_wall_change, self._handle, *_words(words))
+
+    def save(self):
+        """What the wall and the contacts of its spheres keep, an array for restore()."""
+        count = _size()
+        self._do(_lib.lsdcd_wall_save, self._handle, None, 0, ctypes.byref(count))
+        numbers = np.empty(count.value)
+        self._do(_lib.lsdcd_wall_save, self._handle, numbers.ctypes.data, count, ctypes.byref(count))
+        return numbers
+
+    def restore(self, numbers):
+        """Before the first step of a wall of the same words."""
+        numbers = np.ascontiguousarray(numbers, dtype=np.float64)
+        self._do(_lib.lsdcd_wall_restore, self._handle, numbers.ctypes.data, numbers.size)
+
+
+def _words(words):
+    """As an array of C strings, and how many."""
+    words = words.split() if isinstance(words, str) else list(words)
+    return (ctypes.c_char_p * len(words))(*map(os.fsencode, words)), len(words)
 
 
 def _vertex_numbers(faces, n):

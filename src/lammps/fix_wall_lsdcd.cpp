@@ -509,10 +509,11 @@ void FixWallLsdcd::write_restart(FILE *file)
   fwrite(data.data(), sizeof(double), data.size(), file);
 }
 
-// LAMMPS hands the same bytes to every process.
+// LAMMPS hands the same bytes to every process, and does not say how many.
 void FixWallLsdcd::restart(char *buffer)
 {
-  run_wall([&] { wall->restore(reinterpret_cast<const double *>(buffer), step_now()); });
+  constexpr std::size_t kAll = std::size_t(1) << 40;
+  run_wall([&] { wall->restore(reinterpret_cast<const double *>(buffer), kAll, step_now()); });
 }
 
 // ---- outputs -----------------------------------------------------------------------------

@@ -585,11 +585,14 @@ std::vector<Real> Wall::state() const
   return data;
 }
 
-void Wall::restore(const Real *state, const Step &now)
+void Wall::restore(const Real *state, std::size_t n, const Step &now)
 {
   continued_ = true;
   files_.continue_lists();
-  const auto take = [&state](Real count) {
+  const Real *const end = state + n;
+  const auto take = [&state, end](Real count) {
+    if (!(count >= 0) || count > static_cast<Real>(end - state))
+      throw InputError("the state of the wall ends early, or is none");
     const std::vector<Real> numbers(state, state + static_cast<std::size_t>(count));
     state += numbers.size();
     return numbers;

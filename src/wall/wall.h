@@ -116,8 +116,8 @@ class Wall {
   int pack_restart(int sphere, Real *buffer);
   // What the wall keeps that. On the first process.
   std::vector<Real> state() const;
-  // Of a file that this or another wall wrote. `state`: the same on all processes.
-  void restore(const Real *state, const Step &now);
+  // Of a file that this or another wall wrote: at most n numbers, the same on all processes.
+  void restore(const Real *state, std::size_t n, const Step &now);
 
  private:
   EngineSettings engine_settings() const;

@@ -297,7 +297,7 @@ TEST(Wall, goes_on_from_its_state_and_the_histories_of_its_spheres)
   Scene second(other_host, floor.wall());
   second.grains = first.grains;
   second.wall->history().grow(1);
-  second.wall->restore(state.data(), {10, kDt});
+  second.wall->restore(state.data(), state.size(), {10, kDt});
   second.wall->history().unpack_restart(0, packed.data(), size);
   second.now = 10;
   second.set_up();
@@ -326,7 +326,7 @@ TEST(Wall, drops_histories_where_the_mesh_is_another)
   Scene second(other_host, floor.wall({"scale", "2"}));
   second.grains = first.grains;
   second.wall->history().grow(1);
-  second.wall->restore(state.data(), {10, kDt});
+  second.wall->restore(state.data(), state.size(), {10, kDt});
   second.wall->history().unpack_restart(0, packed.data(), size);
   second.now = 10;
   second.set_up();

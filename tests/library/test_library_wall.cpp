@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A wall through the library's headers: forces in closed form, springs that follow their spheres, wrong use.
+#include "lsdcd.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr double kN = 1000, kT = 300, kDt = 1e-3;
+// Products and sums of a few numbers of order one.
+constexpr double kRounding = 1e-13;
+
+// A floor of two triangles at z = 0, from -10 to 10.
+class wall : public testing::Test {
+ protected:
+  const std::string file_ = testing::TempDir() + "floor_of_test_library_wall_" +
+                            testing::UnitTest::GetInstance()->current_test_info()->name() + ".stl";
+
+  void SetUp() override
+  {
+    std::ofstream(file_)
+        << "solid f\nfacet normal 0 0 1\nouter loop\nvertex -10 -10 0\nvertex 10 -10 0\n"
+           "vertex 10 10 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
+           "vertex -10 -10 0\nvertex 10 10 0\nvertex -10 10 0\nendloop\nendfacet\n"
+           "endsolid f\n";
+  }
+  void TearDown() override { std::remove(file_.c_str()); }
+
+  std::vector<std::string> words(const std::vector<std::string> &more = {}) const
+  {
+    std::vector<std::string> all = {"hooke/history", "1000", "300",    "0",  "0", "0.5", "0",
+                                    "mesh",          file_,  "device", "cpu"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+};
+
+struct Grains {
+  std::vector<double> x, v, omega, radius, mass, force, torque;
+
+  void add(double px, double py, double pz, double vx = 0)
+  {
+    for (const double n : {px, py, pz}) x.push_back(n);
+    for (const double n : {vx, 0., 0.}) v.push_back(n);
+    radius.push_back(0.5);
+    mass.push_back(1);
+    omega.resize(x.size());
+    force.resize(x.size());
+    torque.resize(x.size());
+  }
+  void step(lsdcd::Wall &wall, int n = 1, bool setup = false)
+  {
+    for (int i = 0; i < n; i++) {
+      force.assign(x.size(), 0);
+      torque.assign(x.size(), 0);
+      lsdcd_spheres s = {};
+      s.size = sizeof s;
+      s.n = radius.size();
+      s.x = x.data();
+      s.v = v.data();
+      s.omega = omega.data();
+      s.radius = radius.data();
+      s.mass = mass.data();
+      s.force = force.data();
+      s.torque = torque.data();
+      lsdcd_wall_step step = {};
+      step.size = sizeof step;
+      step.dt = kDt;
+      step.setup = setup;
+      wall.step(s, step);
+    }
+  }
+};
+
+int code_of(const std::function<void()> &work)
+{
+  try {
+    work();
+    return LSDCD_OK;
+  } catch (const lsdcd::Error &e) {
+    return e.code();
+  }
+}
+
+TEST_F(wall, adds_the_force_of_an_overlap)
+{
+  lsdcd::Wall wall(words());
+  Grains grains;
+  grains.add(0.3, 0.2, 0.49);
+  grains.step(wall);
+  EXPECT_NEAR(grains.force[2], kN * 0.01, kN * kRounding);
+}
+
+TEST_F(wall, moves_springs_in_steps_only)
+{
+  lsdcd::Wall wall(words());
+  Grains grains;
+  grains.add(0.3, 0.2, 0.49, 0.1);
+  grains.step(wall, 1, true);
+  EXPECT_EQ(grains.force[0], 0);
+  grains.step(wall, 10);
+  EXPECT_NEAR(grains.force[0], -kT * 10 * 0.1 * kDt, kT * kRounding);
+}
+
+TEST_F(wall, lets_springs_follow_spheres_that_change_their_numbers)
+{
+  lsdcd::Wall wall(words());
+  Grains grains;
+  grains.add(1, 0, 0.49, 0.1);
+  grains.add(-1, 0, 0.49, 0.3);
+  grains.step(wall, 10);
+  Grains other;
+  other.add(5, 5, 0.49, 0);    // a new one
+  other.add(-1, 0, 0.49, 0.3);
+  wall.renumber({-1, 1});
+  other.step(wall);
+  EXPECT_EQ(other.force[0], 0);
+  EXPECT_NEAR(other.force[3], -kT * 11 * 0.3 * kDt, kT * kRounding);
+}
+
+TEST_F(wall, goes_on_from_what_was_saved)
+{
+  lsdcd::Wall first(words({"motion", "linear", "0.01", "0", "0"})),
+      second(words({"motion", "linear", "0.01", "0", "0"}));
+  Grains grains;
+  grains.add(0.3, 0.2, 0.49, 0.1);
+  grains.step(first, 10);
+  Grains same = grains;
+  second.restore(first.save());
+  grains.step(first, 3);
+  same.step(second, 3);
+  EXPECT_EQ(same.force, grains.force);
+}
+
+TEST_F(wall, has_totals_of_a_mesh_that_moves)
+{
+  lsdcd::Wall wall(words({"motion", "linear", "0", "0", "2"}));
+  Grains grains;
+  grains.add(3, 0, 0.49);
+  grains.step(wall);
+  const lsdcd::WallTotals totals = wall.totals(0);
+  const double force = kN * (0.01 + 2 * kDt);
+  EXPECT_NEAR(totals.force[2], -force, kN * kRounding);
+  EXPECT_NEAR(totals.torque[1], 3 * force, 3 * kN * kRounding);    // about the origin
+  EXPECT_NEAR(totals.power, 2 * force, 2 * kN * kRounding);        // on the sphere
+  EXPECT_EQ(totals.contacts, 1);
+  double pose[12];
+  ASSERT_EQ(lsdcd_wall_get_pose(wall.get(), 0, pose), LSDCD_OK);
+  EXPECT_EQ(pose[11], 2 * kDt);
+}
+
+TEST_F(wall, changes_its_motion)
+{
+  lsdcd::Wall wall(words());
+  Grains grains;
+  grains.add(0, 0, 0.49);
+  grains.step(wall);
+  wall.change({"motion", "linear", "0", "0", "1"});
+  grains.step(wall, 5);
+  EXPECT_NEAR(grains.force[2], kN * (0.01 + 5 * kDt), kN * kRounding);
+}
+
+TEST_F(wall, shows_its_log_and_warnings)
+{
+  std::vector<std::string> shown[2];
+  lsdcd_wall_options options = {};
+  options.size = sizeof options;
+  options.data = shown;
+  options.show = [](void *data, int warning, const char *text) {
+    static_cast<std::vector<std::string> *>(data)[warning].push_back(text);
+  };
+  lsdcd::Wall wall(words(), &options);
+  ASSERT_EQ(shown[0].size(), 1u);
+  EXPECT_NE(shown[0][0].find("hooke/history"), std::string::npos);
+  Grains grains;
+  grains.add(0, 0, 0.3);    // deep in the wall
+  grains.step(wall, 1, true);
+  EXPECT_EQ(shown[1].size(), 1u);
+}
+
+TEST_F(wall, acts_through_a_periodic_face)
+{
+  lsdcd_wall_options options = {};
+  options.size = sizeof options;
+  for (int k = 0; k < 3; k++) {
+    options.lo[k] = -20;
+    options.hi[k] = 20;
+  }
+  options.periodic[2] = 1;
+  options.margin = 0.1;
+  lsdcd::Wall wall(words({"move", "0", "0", "-19.6"}), &options);
+  Grains grains;
+  grains.add(0, 0, 19.92);    // the image of the floor is at z = 20.4
+  grains.step(wall);
+  EXPECT_NEAR(grains.force[2], -kN * 0.02, kN * 1e-13);
+}
+
+TEST_F(wall, refuses_words_that_make_none)
+{
+  EXPECT_EQ(code_of([&] { lsdcd::Wall wall({"hooke/history", "1000"}); }), LSDCD_ERROR_INPUT);
+  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(std::vector<std::string>{}); }), LSDCD_ERROR_ARGUMENT);
+}
+
+TEST_F(wall, refuses_variables)
+{
+  try {
+    lsdcd::Wall wall(words({"motion", "variable", "v_x", "NULL", "NULL", "NULL", "NULL", "NULL"}));
+    ADD_FAILURE() << "no error";
+  } catch (const lsdcd::Error &e) {
+    EXPECT_EQ(std::string(e.what()).rfind("v_x: there are no variables here", 0), 0u) << e.what();
+  }
+}
+
+TEST_F(wall, refuses_fewer_spheres_without_a_word)
+{
+  lsdcd::Wall wall(words());
+  Grains grains;
+  grains.add(0, 0, 0.49);
+  grains.add(1, 0, 0.49);
+  grains.step(wall);
+  Grains fewer;
+  fewer.add(0, 0, 0.49);
+  EXPECT_EQ(code_of([&] { fewer.step(wall); }), LSDCD_ERROR_ARGUMENT);
+}
+
+TEST_F(wall, refuses_numbers_that_are_no_spheres)
+{
+  lsdcd::Wall wall(words());
+  Grains grains;
+  grains.add(0, 0, 0.49);
+  grains.add(1, 0, 0.49);
+  grains.step(wall);
+  EXPECT_EQ(code_of([&] { wall.renumber({0, 0}); }), LSDCD_ERROR_ARGUMENT);
+  EXPECT_EQ(code_of([&] { wall.renumber({2}); }), LSDCD_ERROR_ARGUMENT);
+}
+
+TEST_F(wall, refuses_numbers_that_it_did_not_save)
+{
+  lsdcd::Wall wall(words()), other(words());
+  Grains grains;
+  grains.add(0, 0, 0.49, 0.1);
+  grains.step(wall);
+  std::vector<double> saved = wall.save();
+  saved.pop_back();
+  EXPECT_EQ(code_of([&] { other.restore(saved); }), LSDCD_ERROR_ARGUMENT);
+  saved = wall.save();
+  saved.push_back(0);
+  EXPECT_EQ(code_of([&] { other.restore(saved); }), LSDCD_ERROR_ARGUMENT);
+  EXPECT_EQ(code_of([&] { other.restore({3, 1, 2, 3}); }), LSDCD_ERROR_ARGUMENT);
+  EXPECT_EQ(code_of([&] { other.restore({4, -6, 1e6, 0, 1e9, 0}); }), LSDCD_ERROR_INPUT);
+}
+
+TEST_F(wall, names_a_sphere_that_outgrew_its_grid)
+{
+  lsdcd::Wall wall(words());
+  Grains grains;
+  grains.add(5, 5, 0.49);
+  grains.add(0, 0, 0.49);
+  grains.step(wall);
+  grains.radius[1] = 0.51;    // without `changed`
+  try {
+    grains.step(wall);
+    ADD_FAILURE() << "no error";
+  } catch (const lsdcd::Error &e) {
+    EXPECT_EQ(e.code(), LSDCD_ERROR_INPUT);
+    EXPECT_EQ(std::string(e.what()).rfind("atom 2 ", 0), 0u) << e.what();
+  }
+}
+
+}    // namespace
