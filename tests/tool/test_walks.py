@@ -65,7 +65,7 @@ def main():
         run = subprocess.run([sys.executable, os.path.join(DOC, "walks.py"), *when], capture_output=True, text=True)
         check(f"the names of the walks are there {when}", (run.returncode, run.stderr), (0, ""))
 
-    text = "// SPDX-License-Identifier: x\n\nint a;\n// b\n"
+    text = "// SPDX-" + "License-Identifier: x\n\nint a;\n// b\n"
     check("lines without those of a licence and without empty ones", lines.count([("src/mesh/io/a.h", text)]),
           {"src/mesh": 2})
     check("a room stands under its new name", lines.count([("src/deck/a.h", text), ("src/input/b.h", "x\n")]),
