@@ -86,10 +86,10 @@ def tables(cpu, cuda):
     def cells(r):
         g = cuda.get(r["name"])
         return [r["name"], f"`{r['words']}`", ns(r, "min_ns"), over(r), ns(g, "min_ns"), over(g),
-                r["over"], r["bytes_per_atom"], r["bytes_per_contact"], r["engine_bytes"]]
+                r["over"], r["bytes_per_atom"], r["bytes_per_contact"]]
 
     heads = ["effect", "turned on by", "CPU, ns", "more than without", "GPU, ns",
-             "more than without", "without is", "B/atom", "B/contact", "engine, B"]
+             "more than without", "without is", "B/atom", "B/contact"]
     return "\n\n".join([facts, "Each alone:", table(alone, heads, cells), "In common combinations:",
                         table(several, heads, cells)])
 

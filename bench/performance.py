@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """Runs the benchmark programs, keeps their rows and writes the tables of doc/performance.md; those
-that show how a measurement works, not what a wall costs, are in doc/notes/performance.md, and what a
-point costs is in doc/library.md, too.
+that show how a measurement works, not what a wall costs, are in doc/notes/performance.md.
 
 Programs print rows of one format (bench.h). They are kept in doc/data/performance_DEVICE.csv,
 so that the document has those of a device on a machine without it too; a row replaces the one
@@ -20,9 +19,8 @@ from performance_plots import plot_build, plot_query
 
 DOCUMENT = os.path.join(ROOT, "doc", "performance.md")
 NOTES = os.path.join(ROOT, "doc", "notes", "performance.md")
-LIBRARY = os.path.join(ROOT, "doc", "library.md")
-ELSEWHERE = {**dict.fromkeys(["kokkos-cpu", "kokkos-cuda", "kokkos-copies", "status", "distance", "build", "step",
-                              "in_place", "cache", "near-and-far", "calls"], NOTES), "point-costs": LIBRARY}
+ELSEWHERE = dict.fromkeys(["kokkos-cpu", "kokkos-cuda", "kokkos-copies", "status", "distance", "build", "step", "in_place",
+                           "cache", "near-and-far", "calls", "mesh-size", "point-costs"], NOTES)
 DATA = os.path.join(ROOT, "doc", "data")
 DEVICES = ("cpu", "cuda")
 PROGRAMS = ("query", "build", "step", "cache")
