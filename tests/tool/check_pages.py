@@ -84,7 +84,7 @@ def check_messages(pages):
                 text += path.read_text(encoding="utf-8")
     # Literals that a compiler joins.
     text = re.sub(r'"\s*\n\s*"', "", text)
-    rows = re.findall(r"^\| `([^`]+)` \|", pages["doc/troubleshooting.md"].text, re.M)
+    rows = re.findall(r"^- `([^`]+)`:", pages["doc/troubleshooting.md"].text, re.M)
     fact("twenty messages and more are explained", [] if len(rows) >= 20 else [len(rows)])
     fact("every message is in the sources", [row for row in rows for part in row.split("...") if part.strip()
                                              and not any(form in text for form in (part.strip(), part.strip(" ;:")))])
