@@ -299,19 +299,22 @@ def parts(rows):
     def cells(r):
         case = r["case"].rsplit(", ", 1)[0]
         theirs = find(case, "LIGGGHTS", r)
-        f, g = facts(r), facts(theirs)
         random = dict(r, order="random")
         ratios = [f"{float(b['median_ms']) / float(a['median_ms']):.1f}" if a and b else ""
                   for a, b in ((r, theirs), (find(case, "lsdcd", random), find(case, "LIGGGHTS", random)))]
         return [CASES[case], count(r["triangles"]), number(r["median_ms"]),
-                number(theirs["median_ms"] if theirs else ""), *ratios, f["setup_s"], g.get("setup_s", ""),
-                number(f["memory_mb"]), number(g.get("memory_mb", ""))]
+                number(theirs["median_ms"] if theirs else ""), *ratios]
 
-    heads = ["spheres", "triangles", "wall/lsdcd, ms", "LIGGGHTS, ms", "LIGGGHTS / wall/lsdcd", "the same, random order",
-             "set-up, s", "LIGGGHTS, s", "memory, MB", "LIGGGHTS, MB"]
+    def set_up(r):
+        f, g = facts(r), facts(find(r["case"].rsplit(", ", 1)[0], "LIGGGHTS", r))
+        return (f"{count(r['triangles'])} triangles: {number(f['setup_s'])} s, LIGGGHTS {number(g.get('setup_s', ''))} s; "
+                f"{number(f['memory_mb'])} MB, LIGGGHTS {number(g.get('memory_mb', ''))} MB")
+
+    heads = ["spheres", "triangles", "wall/lsdcd, ms", "LIGGGHTS, ms", "LIGGGHTS / wall/lsdcd", "the same, random order"]
     mine = sorted((r for r in rows if r["case"].endswith(", lsdcd") and r["order"] == "sorted"),
                   key=lambda r: (list(CASES).index(r["case"].rsplit(", ", 1)[0]), int(r["triangles"])))
-    return performance.between_markers({"liggghts": table(mine, heads, cells) + "\n\n" + decks.machines(rows)})
+    lines = [f"* Set-up and memory: {'. '.join(set_up(r) for r in mine if r['case'] == mine[0]['case'])}."]
+    return performance.between_markers({"liggghts": "\n".join([table(mine, heads, cells), "", *lines, decks.machines(rows)])})
 
 
 def main(args, words):
