@@ -65,7 +65,8 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallP
 #if !HOST_HAS_HEAT
     if (settings.law.has_heat())
       throw lsdcd::InputError(
-          "the sub-model heat needs a LAMMPS with fix heat/flow, of 2 Aug 2023 or later");
+          "the sub-model heat needs a LAMMPS with fix heat/flow, of 2 Aug 2023 or later: that of "
+          "Debian trixie or sid, or one built from source");
 #endif
     const double now = update->atime + (update->ntimestep - update->atimestep) * update->dt;
     wall = std::make_unique<lsdcd::Wall>(
