@@ -4,7 +4,7 @@
 
 """Checks README, the pages of doc/ and those of the examples, from their texts alone.
 
-    check_pages.py                  links, anchors, images, languages of code blocks, messages, number of words
+    check_pages.py                  links, anchors, images, languages of code blocks, number of words, messages
     check_pages.py --html FOLDER    links and anchors of the HTML that `./run doc` makes
 """
 import html.parser
@@ -137,6 +137,7 @@ def main():
         check_links(pages)
         check_images(pages)
         check_languages(pages)
+        check_words(pages)
         check_messages(pages)
     sys.exit(1 if failed else 0)
 
