@@ -12,6 +12,7 @@ usage: check_includes.py [ROOT]
 * The study is for STUDY_ROOMS, bench/ and tests: what it measures is no part of a plugin or the library.
 * Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name, and of MPI.
 * A header of ONLY_IN, which is slow to compile, is included by its one file.
+* No file includes itself by way of others.
 * src itself has no source file: each lies in a room, and each room has a floor.
 
 Prints one line per violation, and exits with 1 if there is one.
@@ -89,7 +90,33 @@ def wrong_include(room, path, included):
     return f"lies in a room {'beside' if FLOOR[other] == FLOOR[room] else 'above'} {room}"
 
 
+def circles(root):
+    """The includes of src and kokkos that lead back to the file they began in, a list of files each."""
+    files = {path: path.split("/", 1)[1] if path.startswith("src/") else path for path in sources(root)}
+    path_of = {name: path for path, name in files.items()}
+    state = {}    # of a file: True while its includes are followed, then False
+
+    def follow(path, way):
+        if state.get(path):
+            yield way[way.index(path):] + [path]
+        if path in state:
+            return
+        state[path] = True
+        with open(os.path.join(root, path), encoding="utf-8") as f:
+            for include in filter(None, map(INCLUDE.match, f)):
+                # kokkos/ has no room in the names of its own headers.
+                for name in (include[1], f"{os.path.dirname(path)}/{include[1]}"):
+                    if name in path_of:
+                        yield from follow(path_of[name], way + [path])
+        state[path] = False
+
+    for path in files:
+        yield from follow(path, [])
+
+
 def violations(root):
+    for circle in circles(root):
+        yield f"{circle[0]}: includes itself: {' -> '.join(circle[1:])}"
     for path in sources(root):
         with open(os.path.join(root, path), encoding="utf-8") as f:
             lines = f.read().splitlines()
