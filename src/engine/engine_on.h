@@ -26,13 +26,13 @@ class EngineOn : public InPlaceEngine {
  public:
   EngineOn(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
       settings_(settings), law_(law), b_(std::move(backend)), wall_(settings), springs_(law.traits),
-      counts_(1), lanes_(kLanes)
+      counts_(1), overflow_(kOverflowScratches)
   {
     if (settings.precision == Precision::single_ && !has_single(settings))
       throw InputError("precision single has neither granular, rolling, cohesion, a moving surface "
                        "or mesh, several meshes, wear nor mesh_fields: use mixed or double");
     clear_diagnostics(StepCounts());
-    unlock_lanes();
+    unlock_scratches();
   }
 
   std::string backend() const override { return b_.name(); }
@@ -137,7 +137,7 @@ class EngineOn : public InPlaceEngine {
   StepDiagnostics read_diagnostics() override
   {
     const StepCounts seen = read_counts();
-    if (seen.too_large || seen.no_lane || seen.no_slots || seen.grown) throw_for(spheres_, seen);
+    if (seen.too_large || seen.no_scratch || seen.no_slots || seen.grown) throw_for(spheres_, seen);
     clear_diagnostics(seen);
     return diagnostics_of(seen);
   }
@@ -164,7 +164,8 @@ class EngineOn : public InPlaceEngine {
   std::size_t bytes() const override
   {
     return wall_.bytes() + springs_.bytes() + results_.bytes() + next_results_.bytes() +
-           lanes_.size() * sizeof(Lane) + step_lists_.bytes() + works_.size() * sizeof(MeshWork);
+           overflow_.size() * sizeof(OverflowScratch) + step_lists_.bytes() +
+           works_.size() * sizeof(MeshWork);
   }
 
   B &backend_now() { return b_; }
@@ -179,10 +180,10 @@ class EngineOn : public InPlaceEngine {
       springs_.forget_others(b_, wall_.slots().n_spheres(), wall_.slots().meshes_of());
   }
 
-  void unlock_lanes()
+  void unlock_scratches()
   {
-    Lane *lanes = lanes_.data();
-    b_.for_each(kLanes, [=] LSDCD_LAMBDA(std::size_t i) { lanes[i].locked = 0; });
+    OverflowScratch *overflow = overflow_.data();
+    b_.for_each(kOverflowScratches, [=] LSDCD_LAMBDA(std::size_t i) { overflow[i].locked = 0; });
   }
 
   void clear_counts(int pool)
@@ -243,7 +244,7 @@ class EngineOn : public InPlaceEngine {
     job.springs = springs_.view();
     job.counts = counts_.data();
     job.pool = springs_.next(results.slot());
-    job.lanes = lanes_.data();
+    job.overflow = overflow_.data();
     // The last step cleared the counts of this one, if it wrote to the other pool.
     if (job.pool.which == pool_written_) clear_counts(job.pool.which);
     pool_written_ = job.pool.which;
@@ -299,7 +300,7 @@ class EngineOn : public InPlaceEngine {
       throw_too_large(i, read_one(b_, spheres.radius + i), wall_.mesh(0).grid.view.cutoff);
     }
     if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown));
-    if (seen.no_lane) throw_too_many_contacts(kMostContacts);
+    if (seen.no_scratch) throw_too_many_contacts(kMostContacts);
     throw_no_slots();
   }
 
@@ -319,7 +320,7 @@ class EngineOn : public InPlaceEngine {
 
   Array<StepCounts> counts_;
   int pool_written_ = -1;
-  Array<Lane> lanes_;
+  Array<OverflowScratch> overflow_;
 };
 
 }    // namespace lsdcd

@@ -18,9 +18,9 @@ struct StepCounts {
   std::uint32_t n_near;
   int shared_used[2];              // slots, of each pool in the last step that wrote it
   int n_found[2], n_several[2];    // of StepLists, in turn
-  // Spheres left out, a time for each step, as they have more contacts than a lane or as all shared
+  // Spheres left out, a time for each step, as they have more contacts than a scratch memory or as all shared
   // slots were taken: an error.
-  int no_lane, no_slots, unused;    // unused: so that there is no byte that nothing writes
+  int no_scratch, no_slots, unused;    // unused: so that there is no byte that nothing writes
   // kNoSphere less the index of the first sphere beyond the grid's cutoff, or 0: an error.
   std::uint64_t too_large;
   std::uint64_t grown;          // likewise of the first sphere that feels more than at the choice

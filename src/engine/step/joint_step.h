@@ -145,10 +145,11 @@ LSDCD_NOINLINE void touch_meshes(const LawJob &job, const JointSphere &s, Touch<
   touch_meshes<kBeyondContact>(job, s, of_mesh, rule, all, end);
 }
 template <bool kBeyondContact>
-LSDCD_NOINLINE void touch_meshes(const LawJob &job, const JointSphere &s, Lane &lane, int *end)
+LSDCD_NOINLINE void touch_meshes(const LawJob &job, const JointSphere &s, OverflowScratch &scratch,
+                                 int *end)
 {
-  lane.touch.set.clear();
-  touch_meshes<kBeyondContact>(job, s, lane.of_mesh, lane.rule, lane.touch, end);
+  scratch.touch.set.clear();
+  touch_meshes<kBeyondContact>(job, s, scratch.of_mesh, scratch.rule, scratch.touch, end);
 }
 
 // Applies the law to its contacts, in the frame of the mesh of each.
@@ -233,17 +234,17 @@ LSDCD_FN void joint_contacts(const Law &law, const LawJob &job, std::size_t g)
   }
   // As in several_contacts().
   for (bool done = false; !done;) {
-    Lane *lane = job.lanes + g % kLanes;
-    if (!try_lock(&lane->locked)) continue;
-    touch_meshes<Law::kBeyondContact>(job, s, *lane, end);
-    if (!lane->touch.set.overflow) {
-      keep_uncertain(job, s.begin, may_miss(s.cutoff, lane->touch.exact_within), s.radius);
-      apply_joint_law(law, job, s, lane->touch, end);
+    OverflowScratch *scratch = job.overflow + g % kOverflowScratches;
+    if (!try_lock(&scratch->locked)) continue;
+    touch_meshes<Law::kBeyondContact>(job, s, *scratch, end);
+    if (!scratch->touch.set.overflow) {
+      keep_uncertain(job, s.begin, may_miss(s.cutoff, scratch->touch.exact_within), s.radius);
+      apply_joint_law(law, job, s, scratch->touch, end);
     } else {
       for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
-      does_not_fit(job, s.begin, s.i, job.counts->no_lane);
+      does_not_fit(job, s.begin, s.i, job.counts->no_scratch);
     }
-    unlock(&lane->locked);
+    unlock(&scratch->locked);
     done = true;
   }
 }

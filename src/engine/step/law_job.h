@@ -15,7 +15,7 @@
 namespace lsdcd {
 
 // Contacts that a kernel has room for on its stack: enough for nearly every sphere. One with more
-// takes a lane, which has room for kMostContacts.
+// takes a scratch memory, which has room for kMostContacts.
 constexpr int kContacts = 8;
 constexpr int kMostContacts = 512;
 
@@ -33,12 +33,12 @@ struct ContactPool {
 
 // Memory for the contacts of one sphere that has many: too much for a stack. Whoever holds the lock
 // has it.
-struct Lane {
+struct OverflowScratch {
   int locked;
   Touch<kMostContacts> touch, of_mesh;    // of_mesh: of one after the other, where several are near
   CornerRule<kMostContacts> rule;
 };
-constexpr int kLanes = 8;    // 1 MB each
+constexpr int kOverflowScratches = 8;    // 1 MB each
 
 // Spheres that are near several meshes. Sphere g has slots first[g] to first[g + 1], one for each of
 // these meshes in ascending order; all that is of a k is of such a slot.
@@ -66,7 +66,7 @@ struct LawJob {
   Real *heat = nullptr;               // of each k, where the law has heat
   Real *uncertain = nullptr;    // overlap / radius that k's search may miss; null: nothing can be
   ContactPool pool = {};
-  Lane *lanes = nullptr;
+  OverflowScratch *overflow = nullptr;
   StepLists step_lists = {};
 };
 

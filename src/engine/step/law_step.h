@@ -232,29 +232,29 @@ LSDCD_NOINLINE bool several_contacts(const Law &law, const LawJob &job, std::siz
   ContactsView set = some.set.view();
   const Real *weight = some.weight;
   Real exact_within = some.exact_within;
-  // A lane is taken, used and given back in one turn: on a GPU threads that wait for it must not
+  // A scratch memory is taken, used and given back in one turn: on a GPU threads that wait for it must not
   // hold up the one that has it.
   for (bool done = false; !done;) {
-    Lane *lane = nullptr;
+    OverflowScratch *scratch = nullptr;
     bool fits = true;
     if (some.set.overflow) {
-      lane = job.lanes + k % kLanes;
-      if (!try_lock(&lane->locked)) continue;
-      lane->touch.set.clear();
-      touch_in<Law::kBeyondContact>(lane->rule, job.grid, job.settings.search, s, list,
-                                    lane->touch);
-      set = lane->touch.set.view();
-      weight = lane->touch.weight;
-      exact_within = lane->touch.exact_within;
-      fits = !lane->touch.set.overflow;
+      scratch = job.overflow + k % kOverflowScratches;
+      if (!try_lock(&scratch->locked)) continue;
+      scratch->touch.set.clear();
+      touch_in<Law::kBeyondContact>(scratch->rule, job.grid, job.settings.search, s, list,
+                                    scratch->touch);
+      set = scratch->touch.set.view();
+      weight = scratch->touch.weight;
+      exact_within = scratch->touch.exact_within;
+      fits = !scratch->touch.set.overflow;
     }
     if (fits) {
       keep_uncertain(job, k, may_miss(s.cutoff, exact_within), radius);
       apply_law(law, job, k, i, x, radius, set, weight);
     } else {
-      does_not_fit(job, k, i, job.counts->no_lane);
+      does_not_fit(job, k, i, job.counts->no_scratch);
     }
-    if (lane) unlock(&lane->locked);
+    if (scratch) unlock(&scratch->locked);
     done = true;
   }
   return some.set.n > 1;
