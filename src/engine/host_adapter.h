@@ -5,6 +5,7 @@
 // forces and torques come back, springs stay until the host asks for them.
 #pragma once
 
+#include "backend/backend_cpu.h"
 #include "engine/choose/selection_cpu.h"
 #include "engine/engine_on.h"
 
@@ -123,22 +124,10 @@ class HostAdapter : public WallEngine {
   void collect() override
   {
     engine_.backend_now().wait();
-    const int n = static_cast<int>(near_host_.size());
-    const int *near = near_host_.data(), *n_contacts = n_contacts_.host.data();
-    const Response *response = response_.host.data();
-    const Spheres host = host_;
-    const bool all = has_several();    // contacts are not counted by spheres
-#pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
-    for (int k = 0; k < n; k++) {
-      if (!all && n_contacts[k] == 0) continue;
-      const int i = near[k];
-      host.force.add(i, response[k].force);
-      host.torque.add(i, response[k].torque);
-      if (traits_.heat) host.heat_flow[i] += heat_.host.data()[n + k];
-    }
+    add_responses();
     engine_.fetch();
     touching_.assign(engine_.touching(), engine_.touching() + engine_.n_touching());
-    for (int &i : touching_) i = near[i];
+    for (int &i : touching_) i = near_host_[i];
     totals_known_ = false;
   }
 
@@ -155,30 +144,12 @@ class HostAdapter : public WallEngine {
     if (!has_several()) return totals();
     return engine_.mesh_totals(mesh);
   }
-  int n_touching() const override
-  {
-    return static_cast<int>(touching_.size());
-  }
-  const int *touching() const override
-  {
-    return touching_.data();
-  }
-  const SphereOutput *sphere_output() const override
-  {
-    return engine_.sphere_output();
-  }
-  const Real *sphere_heat() const override
-  {
-    return engine_.sphere_heat();
-  }
-  int n_records() const override
-  {
-    return engine_.n_records();
-  }
-  const ContactRecord *records() const override
-  {
-    return engine_.records();
-  }
+  int n_touching() const override { return static_cast<int>(touching_.size()); }
+  const int *touching() const override { return touching_.data(); }
+  const SphereOutput *sphere_output() const override { return engine_.sphere_output(); }
+  const Real *sphere_heat() const override { return engine_.sphere_heat(); }
+  int n_records() const override { return engine_.n_records(); }
+  const ContactRecord *records() const override { return engine_.records(); }
 
   StepDiagnostics read_diagnostics() override
   {
@@ -200,10 +171,7 @@ class HostAdapter : public WallEngine {
     are_waiting_ = true;
   }
 
-  int n_near() const override
-  {
-    return static_cast<int>(near_host_.size());
-  }
+  int n_near() const override { return static_cast<int>(near_host_.size()); }
   std::size_t bytes() const override
   {
     return engine_.bytes() + motion_.bytes() + size_.bytes() + response_.bytes() +
@@ -212,10 +180,7 @@ class HostAdapter : public WallEngine {
   }
 
  private:
-  bool has_several() const
-  {
-    return meshes_.size() > 1;
-  }
+  bool has_several() const { return meshes_.size() > 1; }
 
   // Of any mesh, ascending.
   std::vector<int> near_by_cells(const Spheres &spheres, Real margin)
@@ -259,32 +224,6 @@ class HostAdapter : public WallEngine {
     diagnostics_.lists += seen.lists;
     diagnostics_.listed += seen.listed;
     diagnostics_.by_cells += seen.by_cells;
-  }
-
-  // Rows of near spheres are far apart in the host's memory: they are asked for ahead of their turn.
-  void pack(const Spheres &s)
-  {
-    constexpr int kAhead = 16;
-    const int n = static_cast<int>(near_host_.size());
-    const int *near = near_host_.data();
-    Motion *to = motion_.host.data();
-    Real *radius = size_.host.data(), *mass = radius + n;
-#pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
-    for (int k = 0; k < n; k++) {
-      if (k + kAhead < n) {
-        const int next = near[k + kAhead];
-        __builtin_prefetch(s.x.of(next));
-        __builtin_prefetch(s.v.of(next));
-        __builtin_prefetch(s.omega.of(next));
-      }
-      const int i = near[k];
-      to[k] = {s.x[i], s.v[i], s.omega[i]};
-      radius[k] = s.radius[i];
-      mass[k] = s.mass[i];
-    }
-    engine_.backend_now().copy_in(motion_.host.data(), motion_.device.data(), n);
-    engine_.backend_now().copy_in(size_.host.data(), size_.device.data(),
-                                  2 * static_cast<std::size_t>(n));
   }
 
   // Temperatures there, heat flows back.
@@ -356,6 +295,50 @@ class HostAdapter : public WallEngine {
     for (std::size_t k = 0; k < near.size(); k++)
       if (packed.count(k) > 0)
         waiting_.set(near[k], packed.of(k), packed.extra_of(k), packed.count(k));
+  }
+
+  // What the engine has found, to the host.
+  void add_responses()
+  {
+    const int n = static_cast<int>(near_host_.size());
+    const int *near = near_host_.data(), *n_contacts = n_contacts_.host.data();
+    const Response *response = response_.host.data();
+    const Spheres host = host_;
+    const bool all = has_several();    // contacts are not counted by spheres
+#pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
+    for (int k = 0; k < n; k++) {
+      if (!all && n_contacts[k] == 0) continue;
+      const int i = near[k];
+      host.force.add(i, response[k].force);
+      host.torque.add(i, response[k].torque);
+      if (traits_.heat) host.heat_flow[i] += heat_.host.data()[n + k];
+    }
+  }
+
+  // Rows of near spheres are far apart in the host's memory: they are asked for ahead of their turn.
+  void pack(const Spheres &s)
+  {
+    constexpr int kAhead = 16;
+    const int n = static_cast<int>(near_host_.size());
+    const int *near = near_host_.data();
+    Motion *to = motion_.host.data();
+    Real *radius = size_.host.data(), *mass = radius + n;
+#pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
+    for (int k = 0; k < n; k++) {
+      if (k + kAhead < n) {
+        const int next = near[k + kAhead];
+        __builtin_prefetch(s.x.of(next));
+        __builtin_prefetch(s.v.of(next));
+        __builtin_prefetch(s.omega.of(next));
+      }
+      const int i = near[k];
+      to[k] = {s.x[i], s.v[i], s.omega[i]};
+      radius[k] = s.radius[i];
+      mass[k] = s.mass[i];
+    }
+    engine_.backend_now().copy_in(motion_.host.data(), motion_.device.data(), n);
+    engine_.backend_now().copy_in(size_.host.data(), size_.device.data(),
+                                  2 * static_cast<std::size_t>(n));
   }
 
   EngineSettings settings_;
