@@ -95,8 +95,8 @@ WALKS = {
             EngineOn::begin_beside CudaSideStream::begin wall.cpp:start Wall::step_settings Wall::choose_if_due
             ChoiceSchedule::next > FixWallLsdcd::post_force FixWallLsdcdKokkos::finish_step
             FixWallLsdcd::finish_step Wall::finish """
-            + SEARCH_NOW.format(select="selection_cuda.h:start selection_cuda.h:mark mark_near > refine_cuda.h:operator()")
-            + STEP_NOW.format(step="run_step_cuda.h:run_step step_kernel do_several"),
+            + SEARCH_NOW.format(select="selection_gpu.h:start selection_gpu.h:mark > mark_near_gpu.h:operator() > refine_gpu.h:operator()")
+            + STEP_NOW.format(step="run_step_gpu.h:run_step > run_step_gpu.h:operator() do_several"),
     },
     "from a triangle of a file to its record": {
         "before": RECORD_BEFORE,

@@ -5,7 +5,7 @@
 // does not depend on the order.
 #pragma once
 
-#include "base/real.h"
+#include "backend/bits.h"
 
 #include <cstdint>
 #include <cstring>
@@ -13,9 +13,10 @@
 namespace lsdcd {
 
 // Adds n; returns what was there before.
-LSDCD_FN int fetch_add(int *at, int n)
+template <class T>
+LSDCD_FN T fetch_add(T *at, T n)
 {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
   return atomicAdd(at, n);
 #else
   return __atomic_fetch_add(at, n, __ATOMIC_RELAXED);
@@ -25,7 +26,7 @@ LSDCD_FN int fetch_add(int *at, int n)
 // The same of 1, where many threads add to one number at once.
 LSDCD_FN std::uint64_t fetch_add_one(std::uint64_t *at)
 {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
   // One addition for all lanes that are here: thousands to one number would wait for each other.
   const unsigned lanes = __activemask(), lane = threadIdx.x % 32;
   const unsigned first = __ffs(lanes) - 1;
@@ -39,13 +40,13 @@ LSDCD_FN std::uint64_t fetch_add_one(std::uint64_t *at)
 
 LSDCD_FN void add_to(std::uint64_t *at, std::uint32_t n)
 {
-#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
+#if LSDCD_ON_GPU() && __CUDA_ARCH__ >= 800
   // As above.
   const unsigned lanes = __activemask();
   const unsigned sum = __reduce_add_sync(lanes, static_cast<unsigned>(n));
   if (threadIdx.x % 32 == __ffs(lanes) - 1)
     atomicAdd(reinterpret_cast<unsigned long long *>(at), static_cast<unsigned long long>(sum));
-#elif defined(__CUDA_ARCH__)
+#elif LSDCD_ON_GPU()
   atomicAdd(reinterpret_cast<unsigned long long *>(at), static_cast<unsigned long long>(n));
 #else
   __atomic_fetch_add(at, n, __ATOMIC_RELAXED);
@@ -56,10 +57,19 @@ LSDCD_FN void count_one(std::uint64_t *at)
   add_to(at, 1);
 }
 
+LSDCD_FN void set_bits(unsigned *at, unsigned bits)
+{
+#if LSDCD_ON_GPU()
+  atomicOr(at, bits);
+#else
+  __atomic_fetch_or(at, bits, __ATOMIC_RELAXED);
+#endif
+}
+
 // Sets a flag that any thread may set.
 LSDCD_FN void set_flag(int *flag)
 {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
   *static_cast<volatile int *>(flag) = 1;
 #else
   __atomic_store_n(flag, 1, __ATOMIC_RELAXED);
@@ -69,7 +79,7 @@ LSDCD_FN void set_flag(int *flag)
 // A lock is 0 while it is free. Threads of a GPU's warp wait for each other one by one.
 LSDCD_FN bool try_lock(int *lock)
 {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
   if (atomicCAS(lock, 0, 1) != 0) return false;
   __threadfence();
   return true;
@@ -79,7 +89,7 @@ LSDCD_FN bool try_lock(int *lock)
 }
 LSDCD_FN void unlock(int *lock)
 {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
   __threadfence();
   atomicExch(lock, 0);
 #else
@@ -89,7 +99,7 @@ LSDCD_FN void unlock(int *lock)
 
 LSDCD_FN void raise_to(std::uint64_t *at, std::uint64_t value)
 {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
   static_assert(sizeof(unsigned long long) == sizeof(std::uint64_t), "64 bits");
   if (*static_cast<volatile std::uint64_t *>(at) < value)
     atomicMax(reinterpret_cast<unsigned long long *>(at), static_cast<unsigned long long>(value));

@@ -18,71 +18,16 @@
 //   milliseconds                 that f() takes
 //   name                         for logs
 //
-// kOnHost says whether its memory is the host's. A GPU's has launch() beside these, for kernels that are written
-// for it. tests/tool/check_backends.py holds each backend to this list.
+// kOnHost says whether its memory is the host's. A GPU's has for_each_block() beside these, for what is written for
+// blocks of threads (block.h), and Limits, which says how many of them it holds. tests/tool/check_backends.py holds
+// each backend to this list.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace lsdcd {
-
-namespace backend_detail {
-
-struct Read {
-  int operator()(std::size_t) const;
-};
-struct Each {
-  void operator()(std::size_t) const;
-};
-struct EachInWarps {
-  template <class Warp>
-  void operator()(const Warp &, bool, std::size_t) const;
-};
-struct Work {
-  void operator()() const;
-};
-
-template <class B, class = void>
-struct HasVerbs : std::false_type {
-};
-template <class B>
-struct HasVerbs<
-    B, std::void_t<
-           typename B::template Array<int>, typename B::template Scratch<int>,
-           typename B::template HostArray<int>,
-           decltype(std::declval<B &>().copy_in((const int *) nullptr, (int *) nullptr, 1)),
-           decltype(std::declval<B &>().copy_out((const int *) nullptr, (int *) nullptr, 1)),
-           decltype(std::declval<B &>().wait()), decltype(std::declval<B &>().for_each(1, Each())),
-           decltype(std::declval<B &>().for_each(1, Each(), 64u)),
-           decltype(std::declval<B &>().for_each_in_warps(1, EachInWarps(),
-                                                          (const std::uint32_t *) nullptr)),
-           decltype(int(std::declval<B &>().template largest<int>(1, Read()))),
-           decltype(int(std::declval<B &>().exclusive_scan((int *) nullptr, 1))),
-           decltype(std::declval<B &>().sort_pairs(
-               std::declval<typename B::template Scratch<std::uint32_t> &>(),
-               std::declval<typename B::template Scratch<std::uint32_t> &>(), std::uint32_t(0))),
-           decltype(std::declval<B &>().compact(1, (const int *) nullptr, (const char *) nullptr,
-                                                std::declval<typename B::template Array<char> &>(),
-                                                (int *) nullptr, (std::uint32_t *) nullptr)),
-           decltype(std::declval<typename B::Event &>().record(std::declval<B &>())),
-           decltype(std::declval<typename B::Event &>().wait()),
-           decltype(std::declval<typename B::SideStream &>().ready(std::declval<B &>())),
-           decltype(std::declval<typename B::SideStream &>().begin(std::declval<B &>())),
-           decltype(std::declval<typename B::SideStream &>().end(std::declval<B &>())),
-           decltype(double(std::declval<B &>().milliseconds(Work()))),
-           decltype(std::string(std::declval<const B &>().name())),
-           std::enable_if_t<B::kOnHost || !B::kOnHost>>> : std::true_type {
-};
-
-}    // namespace backend_detail
-
-template <class B>
-constexpr bool is_backend = backend_detail::HasVerbs<B>::value;
 
 // Copies of whole arrays, which wait.
 

@@ -138,6 +138,4 @@ struct CpuBackend {
   }
 };
 
-static_assert(is_backend<CpuBackend>, "see backend.h");
-
 }    // namespace lsdcd

@@ -5,8 +5,9 @@
 #pragma once
 
 #include "backend/backend.h"
+#include "backend/block.h"
 #include "backend/cuda_check.h"
-#include "backend/cuda_launch.h"
+#include "backend/cuda_limits.h"
 #include "backend/cuda_side_stream.h"
 #include "backend/owned_array.h"
 #include "backend/warp.h"
@@ -46,6 +47,14 @@ __global__ void __launch_bounds__(kInWarpsBlock, kInWarpsBlocks)
   const std::size_t n = n_at ? *n_at : most,
                     i = std::size_t(blockIdx.x) * kInWarpsBlock + threadIdx.x;
   if (n <= most && i / kWarpSize * kWarpSize < n) f(Warp<kWarpSize>(), i < n, i < n ? i : 0);
+}
+
+// Whole blocks; see block.h.
+template <class F>
+__global__ void __launch_bounds__(F::kThreads, F::kBlocksAtOnce)
+    cuda_for_each_block(const __grid_constant__ F f)
+{
+  f(Block());
 }
 
 struct CudaBackend {
@@ -152,19 +161,30 @@ struct CudaBackend {
     CudaSideStream streams_;
   };
 
-  // A kernel that is written for a GPU.
-  template <class... Parameters, class... Arguments>
-  void launch(void (*kernel)(Parameters...), const LaunchShape &shape,
-              const Arguments &...arguments)
+  using Limits = CudaLimits;
+  // f(block) by each thread of each block, as block.h says.
+  template <class F>
+  void for_each_block(const LaunchShape &shape, const F &f)
   {
-    lsdcd::launch(stream, kernel, shape, arguments...);
+    const auto kernel = cuda_for_each_block<F>;
+    if (shape.shared > 0)
+      cuda_check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                      static_cast<int>(shape.shared)),
+                 "asking for shared memory");
+    LaunchShape can = shape;
+    if (shape.begins_early) {
+      static const bool early = can_begin_early(kernel);
+      can.begins_early = early;
+    }
+    launch(kernel, can, f);
   }
 
   template <class F>
   void for_each(std::size_t n, const F &f, unsigned block = 256)
   {
     if (n == 0) return;
-    launch(cuda_for_each<F>, {static_cast<unsigned>((n + block - 1) / block), block}, n, f);
+    launch(cuda_for_each<F>, LaunchShape{static_cast<unsigned>((n + block - 1) / block), block}, n,
+           f);
   }
 
   // A thread that is there only to help has an i that is not `mine`. With `n_at`: for *n_at in place of n, or
@@ -174,7 +194,8 @@ struct CudaBackend {
   {
     if (n == 0) return;
     const std::size_t blocks = (n + kInWarpsBlock - 1) / kInWarpsBlock;
-    launch(cuda_for_each_in_warps<F>, {static_cast<unsigned>(blocks), kInWarpsBlock}, n, n_at, f);
+    launch(cuda_for_each_in_warps<F>, LaunchShape{static_cast<unsigned>(blocks), kInWarpsBlock}, n,
+           n_at, f);
   }
 
   // Of the kernels that f() starts.
@@ -266,6 +287,30 @@ struct CudaBackend {
   }
 
  private:
+  template <class... Parameters, class... Arguments>
+  void launch(void (*kernel)(Parameters...), const LaunchShape &shape,
+              const Arguments &...arguments)
+  {
+    cudaLaunchAttribute early = {};
+    early.id = cudaLaunchAttributeProgrammaticStreamSerialization;
+    early.val.programmaticStreamSerializationAllowed = 1;
+    cudaLaunchConfig_t config = {};
+    config.gridDim = dim3(shape.blocks);
+    config.blockDim = dim3(shape.threads);
+    config.dynamicSmemBytes = shape.shared;
+    config.stream = stream;
+    config.attrs = &early;
+    config.numAttrs = shape.begins_early ? 1 : 0;
+    cuda_check(cudaLaunchKernelEx(&config, kernel, arguments...), "starting a kernel");
+  }
+  // Was the code of this kernel that runs here compiled for a GPU that can?
+  template <class Kernel>
+  static bool can_begin_early(Kernel *kernel)
+  {
+    cudaFuncAttributes attributes;
+    return cudaFuncGetAttributes(&attributes, kernel) == cudaSuccess && attributes.ptxVersion >= 90;
+  }
+
   // CUB asks twice: for the size of its scratch memory, then to run.
   template <class Call>
   void with_scratch(Call call)
@@ -291,7 +336,5 @@ struct CudaBackend {
     if (stream) wait();
   }
 };
-
-static_assert(is_backend<CudaBackend>, "see backend.h");
 
 }    // namespace lsdcd

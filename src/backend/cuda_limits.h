@@ -38,18 +38,6 @@ class CudaLimits {
         std::clamp<std::size_t>(has_table ? beside : room / of_warp, 1, most_warps));
     return {warps, warps * of_warp + (has_table ? table : 0), has_table};
   }
-  // Before a kernel is started with so much.
-  template <class... Parameters>
-  void allow(void (*kernel)(Parameters...), std::size_t shared)
-  {
-    const void *at = reinterpret_cast<const void *>(kernel);
-    if (at == allowed_ && shared <= allowed_shared_) return;
-    cuda_check(cudaFuncSetAttribute(at, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                                    static_cast<int>(shared)),
-               "asking for shared memory");
-    allowed_ = at;
-    allowed_shared_ = shared;
-  }
 
  private:
   void ask()
@@ -64,9 +52,8 @@ class CudaLimits {
     most_shared_ = static_cast<std::size_t>(shared);
     processors_ = static_cast<unsigned>(processors);
   }
-  std::size_t most_shared_ = 0, allowed_shared_ = 0;
+  std::size_t most_shared_ = 0;
   unsigned processors_ = 0;
-  const void *allowed_ = nullptr;    // the last kernel, and what it may have
 };
 
 }    // namespace lsdcd

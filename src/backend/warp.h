@@ -5,7 +5,7 @@
 // single thread.
 #pragma once
 
-#include "base/bits.h"
+#include "backend/bits.h"
 #include "base/vec3.h"
 
 namespace lsdcd {
@@ -21,22 +21,29 @@ struct Warp {
 
   LSDCD_FN static unsigned rank()
   {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
     if constexpr (kSize > 1) return threadIdx.x % kSize;
 #endif
     return 0;
   }
+  // Until all threads are here, and see what each has written.
+  LSDCD_FN static void wait()
+  {
+#if LSDCD_ON_GPU()
+    if constexpr (kSize > 1) __syncwarp();
+#endif
+  }
   // A bit for each thread that says yes.
   LSDCD_FN static unsigned vote(bool yes)
   {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
     if constexpr (kSize > 1) return __ballot_sync(kAll, yes);
 #endif
     return yes;
   }
   LSDCD_FN static bool any(bool yes)
   {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
     if constexpr (kSize > 1) return __any_sync(kAll, yes);
 #endif
     return yes;
@@ -45,7 +52,7 @@ struct Warp {
   template <class T>
   LSDCD_FN static T of(T value, [[maybe_unused]] unsigned rank)
   {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
     if constexpr (kSize > 1) return __shfl_sync(kAll, value, rank);
 #endif
     return value;
@@ -58,7 +65,7 @@ struct Warp {
   template <class T>
   LSDCD_FN static T from_below(T value, [[maybe_unused]] unsigned step)
   {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
     if constexpr (kSize > 1) return __shfl_up_sync(kAll, value, step);
 #endif
     return value;
@@ -66,7 +73,7 @@ struct Warp {
   // The largest value that any thread has.
   LSDCD_FN static unsigned largest(unsigned value)
   {
-#if defined(__CUDA_ARCH__)
+#if LSDCD_ON_GPU()
     for (unsigned apart = 1; apart < kSize; apart *= 2)
       value = max(value, __shfl_xor_sync(kAll, value, apart));
 #endif

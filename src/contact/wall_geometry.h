@@ -38,7 +38,7 @@ class WallGeometry {
                                 [[maybe_unused]] const Candidate *candidates,
                                 [[maybe_unused]] std::uint32_t n)
   {
-#if !defined(__CUDA_ARCH__)
+#if !LSDCD_ON_GPU()
     for (std::uint32_t i = 0; grid.is_large && i < n; i++)
       lsdcd::prefetch(grid.wall, candidates[i].feature);
 #endif

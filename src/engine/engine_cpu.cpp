@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "backend/backend_cpu.h"
 #include "engine/choose/selection_cpu.h"
 #include "engine/engine_on.h"
 #include "engine/step/compile_law.h"

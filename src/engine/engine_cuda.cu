@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "backend/backend_cuda.h"
 #include "backend/cuda_device.h"
-#include "engine/choose/selection_cuda.h"
+#include "engine/choose/selection_gpu.h"
 #include "engine/host_adapter.h"
 #include "engine/step/compile_law.h"
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "backend/backend_cuda.h"
 #include "backend/cuda_device.h"
-#include "query/near_first_cuda.h"
+#include "query/near_first_gpu.h"
 #include "query/point_query.h"
 #include "query/radius_error.h"
 
@@ -209,7 +210,7 @@ class CudaStreamQuery : public StreamQuery {
 
   std::shared_ptr<const DeviceGrid> grid_;
   CudaBackend b_;
-  NearFirst way_;
+  NearFirst<CudaBackend> way_;
   CudaBackend::Array<std::uint64_t> too_large_;
   CudaBackend::Array<char> spheres_, status_, distance_;
 };

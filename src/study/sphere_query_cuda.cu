@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "query/near_first_cuda.h"
+#include "backend/backend_cuda.h"
+#include "query/near_first_gpu.h"
 #include "study/sphere_query_on.h"
 
 namespace lsdcd {
 
 std::unique_ptr<SphereQuery> make_cuda_query()
 {
-  return std::make_unique<QueryOn<CudaBackend, NearFirst>>(CudaBackend());
+  return std::make_unique<QueryOn<CudaBackend, NearFirst<CudaBackend>>>(CudaBackend());
 }
 
 }    // namespace lsdcd

@@ -40,9 +40,9 @@ def code_sections(data):
 
 
 def case_of(demangled):
-    """cuda_list FindOne, of void lsdcd::cuda_list<2, lsdcd::FindOne<...> >(...)."""
+    """ListNear GridWork, of void lsdcd::cuda_for_each_block<lsdcd::ListNear<lsdcd::GridWork<...> > >(...)."""
     words = [w for w in re.findall(r"lsdcd::(?:\(anonymous namespace\)::)?(\w+)", demangled)
-             if w not in ("CudaBackend", "lsdcd")]
+             if w not in ("CudaBackend", "cuda_for_each_block", "lsdcd")]
     member = re.search(r">::(\w+)\(", demangled)
     return " ".join(dict.fromkeys(words[:2] + ([member.group(1)] if member else [])))
 

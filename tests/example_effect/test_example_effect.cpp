@@ -8,6 +8,7 @@
 #include "engine/choose/selection_cpu.h"
 #include "engine/engine_on.h"
 #include "engine/step/compile_law.h"
+#include "backend/backend_cpu.h"
 #include "engine/step/run_step_cpu.h"
 #include "support/laws.h"
 #include "support/meshes.h"

@@ -3,7 +3,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """Checks that the backends have the verbs that src/backend/backend.h lists and no others, and that only they
-know CUDA's runtime.
+know CUDA.
+
+* Outside of src/backend no file has a word of CUDA's language, runtime or libraries, but for the markers of
+  functions in MARKERS.
+* There headers of CUDA's backend are included by sources for nvcc (.cu) only, and what a GPU's blocks have
+  (block.h) by files *_gpu.h only.
 
 usage: check_backends.py [ROOT]
 
@@ -15,11 +20,18 @@ import sys
 
 import check_includes
 
-MORE = {"backend_cpu.h": set(), "backend_cuda.h": {"launch"}}    # beside the list
-# Calls of the runtime, and the syntax that starts a kernel.
-RUNTIME = re.compile(r"<<<|\bcuda[A-Z]\w*\s*\(")
+MORE = {"backend_cpu.h": set(), "backend_cuda.h": {"for_each_block", "Limits"}}    # beside the list
+MARKERS = "src/base/real.h"
 # The tool is a program of its own, which uses the library as any other does.
-MAY_CALL = {"src/tool/point_answers.cpp"}
+MAY_CALL = {MARKERS, "src/tool/point_answers.cpp"}
+CUDA = re.compile("|".join([
+    r"<<<|\bcuda[A-Z]\w*\s*\(|\bcudaStream_t\b|\b(?:cub|thrust)::|<(?:cuda|cub/|thrust/)[\w/.]+>",    # runtime
+    r"__CUDA\w*|__(?:global|device|host|shared|constant|grid_constant|launch_bounds)__",    # language
+    r"\b(?:(?:thread|block)Idx|(?:block|grid)Dim|uint4|atomic(?:Add|Or|Max|CAS|Exch))\b",
+    r"\b__(?:sync|ballot|any_sync|shfl|pipeline|popc|ffs|ldcs|activemask|dadd|double_as)\w*"]))    # intrinsics
+# Headers of src/backend, and who includes them: sources for a backend, and code for a GPU's blocks.
+OF_CUDA = re.compile(r'#include "backend/(?:backend_cuda|cuda_(?!available)\w+)\.h"')
+OF_GPU = re.compile(r'#include "backend/block\.h"')
 
 
 def listed(text):
@@ -50,9 +62,13 @@ def violations(root):
             continue
         with open(os.path.join(root, path), encoding="utf-8") as f:
             for number, line in enumerate(f, 1):
-                call = RUNTIME.search(re.sub(r'//.*|"[^"]*"', "", line))
-                if call:
-                    yield f"{path}:{number}: {call[0]} is for src/backend only"
+                word = CUDA.search(re.sub(r'//.*|/\*.*|"[^"]*"', "", line))
+                if word:
+                    yield f"{path}:{number}: {word[0]} is for src/backend only"
+                if OF_CUDA.match(line) and not path.endswith(".cu"):
+                    yield f"{path}:{number}: a header of CUDA's is for a source that nvcc compiles"
+                if OF_GPU.match(line) and not path.endswith("_gpu.h"):
+                    yield f"{path}:{number}: blocks of a GPU are for a file *_gpu.h"
 
 
 def main():

@@ -4,6 +4,7 @@
 // Choosing the spheres that could be near a mesh: the broad phase.
 #pragma once
 
+#include "backend/backend.h"
 #include "engine/choose/engine_mesh.h"
 #include "engine/choose/near_choice.h"
 #include "engine/choose/selection.h"

@@ -6,7 +6,7 @@
 
 namespace lsdcd {
 
-// selection_cpu.h and selection_cuda.h specialise it. Each has, with a `work` like NearChoice:
+// selection_cpu.h and selection_gpu.h specialise it. Each has, with a `work` like NearChoice:
 //   start(b, n, work, to, total)    puts those of [0, n) that `work` keeps, ascending, into `to`, which has
 //                                   room for n. *total, where kernels run, becomes how many. Does not wait.
 //   had_room(b, total)              false: there was too little memory, now there is enough; start again
@@ -14,7 +14,7 @@ namespace lsdcd {
 // Of each sphere the work is asked check(), with what read() has read of it, and coarse_test(). Of those that
 // pass it is asked locate(), and where has_refine() then refine(), with the cell that locate() returned. Where
 // has_notes(), note() is told of each. The memory must not be freed before what was started has ended.
-template <class B>
+template <class B, bool kOnHost = B::kOnHost>
 class Selection;
 
 }    // namespace lsdcd

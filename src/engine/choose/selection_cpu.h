@@ -4,7 +4,8 @@
 // Selecting the spheres near the wall on a CPU.
 #pragma once
 
-#include "backend/backend_cpu.h"
+#include "backend/threads.h"
+#include "backend/warp.h"
 #include "base/vec3.h"
 #include "engine/choose/selection.h"
 
@@ -15,11 +16,14 @@
 
 namespace lsdcd {
 
-template <>
-class Selection<CpuBackend> {
+template <class B>
+class Selection<B, true> {
  public:
+  bool had_room(B &, std::uint32_t /*total*/) { return true; }
+  std::size_t bytes() const { return 0; }
+
   template <class Work>
-  void start(CpuBackend &, std::size_t n, const Work &work, int *to, std::uint32_t *total)
+  void start(B &, std::size_t n, const Work &work, int *to, std::uint32_t *total)
   {
     // Blocks of one size whatever the number of threads, so that the order is fixed.
     constexpr std::int64_t kBlock = 4096;
@@ -48,14 +52,6 @@ class Selection<CpuBackend> {
       n_kept += found[b];
     }
     *total = n_kept;
-  }
-  bool had_room(CpuBackend &, std::uint32_t /*total*/)
-  {
-    return true;
-  }
-  std::size_t bytes() const
-  {
-    return 0;
   }
 
  private:

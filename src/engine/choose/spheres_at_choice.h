@@ -20,7 +20,7 @@ LSDCD_FN QuerySphere seen_at_choice(const WallPose &pose, const Vec3 &x, Real ra
 LSDCD_FN void prefetch_search([[maybe_unused]] const GridView &grid,
                               [[maybe_unused]] const WallPose &pose, [[maybe_unused]] const Vec3 &x)
 {
-#if !defined(__CUDA_ARCH__)
+#if !LSDCD_ON_GPU()
   if (grid.is_large) prefetch_candidates(grid, pose.to_mesh(x));
 #endif
 }

@@ -5,8 +5,9 @@
 // on a CPU: the wall's own are far apart in memory, and each is waited for, with its page.
 #pragma once
 
-#include "geometry/wall_records.h"
 #include "backend/atomic.h"
+#include "backend/bits.h"
+#include "geometry/wall_records.h"
 
 namespace lsdcd {
 
@@ -32,7 +33,7 @@ struct RecordCopies {
   // The copy of record i of list k; null: there is none.
   LSDCD_FN const FeatureRecord *of([[maybe_unused]] std::size_t k, [[maybe_unused]] int i) const
   {
-#if !defined(__CUDA_ARCH__)
+#if !LSDCD_ON_GPU()
     if (records && i < places[k].n) return records + places[k].first + i;
 #endif
     return nullptr;
@@ -43,7 +44,7 @@ struct RecordCopies {
   LSDCD_FN void put([[maybe_unused]] std::size_t k, [[maybe_unused]] const WallFeaturesView &wall,
                     [[maybe_unused]] const FeatureCode *code, [[maybe_unused]] int n) const
   {
-#if !defined(__CUDA_ARCH__)
+#if !LSDCD_ON_GPU()
     if (!records) return;
     Place &place = places[k];
     place.n = 0;

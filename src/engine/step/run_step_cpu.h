@@ -4,7 +4,8 @@
 // A step over many spheres on a CPU.
 #pragma once
 
-#include "backend/backend_cpu.h"
+#include "backend/threads.h"
+#include "backend/warp.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -102,8 +103,8 @@ class CpuStep {
   }
 };
 
-template <class Work>
-void run_step(CpuBackend &, std::size_t n, const Work &work)
+template <class B, class Work>
+void run_step(B &, std::size_t n, const Work &work)
 {
   CpuStep::run(n, work);
 }

@@ -3,7 +3,7 @@
 
 #include "grid/build/estimate_lists.h"
 
-#include "base/bits.h"
+#include "backend/bits.h"
 #include "grid/build/rasterise.h"
 #include "backend/threads.h"
 

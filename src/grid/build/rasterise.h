@@ -4,6 +4,7 @@
 // Which octants of bricks a feature meets.
 #pragma once
 
+#include "backend/bits.h"
 #include "geometry/primitive_distance.h"
 #include "grid/build/meets.h"
 #include "grid/plan/grid_plan.h"
@@ -216,7 +217,7 @@ LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::u
   switch (feature_kind(feature)) {
     case FeatureKind::face: {
       const FaceRecord face = b.wall.faces[i];
-#if !defined(__CUDA_ARCH__)
+#if !LSDCD_ON_GPU()
       return face_cells(b.plan, octant_key, face);
 #else
       return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {

@@ -29,7 +29,7 @@ LSDCD_FN std::uint32_t brick_number(const BrickWord &word, std::size_t slot)
   return word.below + static_cast<std::uint32_t>(count_bits(before));
 }
 
-// Of grid.lists, for a view on the host.
+// Of a view on the host.
 inline std::vector<BrickWord> brick_words(const GridView &grid)
 {
   const std::size_t n = std::size_t(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2];
@@ -62,30 +62,6 @@ struct BrickTable {
   LSDCD_FN bool at(std::uint32_t slot) const { return has_brick(words[slot / 32], slot); }
   LSDCD_FN BrickWord word(std::uint32_t slot) const { return words[slot / 32]; }
 };
-
-// The largest whole number at or below x, where it is at least 0 and has 32 bits; elsewhere, and
-// where x is not a number, `fits` is false. No branch but one that nearly all points take: one on
-// how x rounds would be guessed wrong every second time. On a GPU, from 2^52 on doubles are whole
-// numbers: their low word is the number, at 2^52 more than x, in one step where comparing and
-// converting take many.
-struct WholeNumber {
-  bool fits;
-  std::uint32_t value;
-  Real real;    // the same
-};
-LSDCD_FN WholeNumber whole_below(Real x)
-{
-#if defined(__CUDA_ARCH__)
-  constexpr Real kFromHereWhole = 4503599627370496.;
-  const Real sum = __dadd_rd(x, kFromHereWhole);
-  const std::uint64_t bits = __double_as_longlong(sum);
-  return {bits >> 32 == 0x43300000u, static_cast<std::uint32_t>(bits), sum - kFromHereWhole};
-#else
-  const bool fits = x >= 0 && x < Real(4294967296.);
-  const std::int64_t whole = fits ? static_cast<std::int64_t>(x) : 0;
-  return {fits, static_cast<std::uint32_t>(whole), static_cast<Real>(whole)};
-#endif
-}
 
 constexpr std::uint32_t kNoBrick = 0xffffffffu;
 
@@ -121,12 +97,6 @@ LSDCD_FN CellAddress address_inside(const GridView &grid, const Vec3 &q)
           grid.length * Vec3{at.x - i.real - half, at.y - j.real - half, at.z - k.real - half}};
 }
 
-// The number of the brick, or kNoBrick.
-LSDCD_FN std::uint32_t brick_in(const BrickWord &word, const BrickSlot &at)
-{
-  return has_brick(word, at.slot) ? brick_number(word, at.slot) : kNoBrick;
-}
-
 constexpr std::uint32_t kNoCell = 0xffffffffu;
 
 // Index in lists.cells of the cell that holds q; kNoCell where it has no candidates, as find_cell()
@@ -136,9 +106,9 @@ LSDCD_FN std::uint32_t occupied_cell(const GridView &grid, const Table &table, c
 {
   const BrickSlot at = brick_place_of(grid, q);
   const BrickWord word = at.slot != kNoBrick ? table.word(at.slot) : BrickWord{0, 0};
-  const std::uint32_t brick = brick_in(word, at);
   BrickLayer layer = {0, 0, 0};
-  if (brick != kNoBrick) layer = grid.lists.bricks[brick].layer[at.cell >> 6];
+  if (has_brick(word, at.slot))
+    layer = grid.lists.bricks[brick_number(word, at.slot)].layer[at.cell >> 6];
   return has_candidates(layer, at.cell) ? cell_index(layer, at.cell) : kNoCell;
 }
 

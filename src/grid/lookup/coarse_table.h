@@ -46,7 +46,7 @@ struct CoarseTable {
   }
 };
 
-// The bits of a table for a view on the host, of its grid.lists.
+// The bits of a table for a view on the host.
 inline std::vector<std::uint32_t> coarse_words(const GridView &grid, const CoarseTable &table)
 {
   std::vector<std::uint32_t> words(CoarseTable::kWords, 0);

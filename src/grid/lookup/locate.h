@@ -4,7 +4,7 @@
 // From a point to its cell: arithmetic, one table, one bit.
 #pragma once
 
-#include "base/bits.h"
+#include "backend/bits.h"
 #include "grid/triangle_grid.h"
 
 namespace lsdcd {

@@ -40,7 +40,7 @@ LSDCD_FN Real excess_margin(const GridView &grid, Real margin)
 
 // Is there any candidate in a cell that a point may reach from q on a way of length up to
 // `margin`? With margin 0 of that which holds q. False where q is not finite. `table`: as
-// BrickTable, of grid.lists.
+// BrickTable.
 template <class Table>
 LSDCD_FN bool near_within(const GridView &grid, const Table &table, const Vec3 &q, Real margin)
 {

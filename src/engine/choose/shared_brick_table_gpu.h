@@ -4,9 +4,8 @@
 // The brick table in the shared memory of a GPU's block, for kernels that look up every sphere.
 #pragma once
 
+#include "backend/block.h"
 #include "grid/lookup/brick_words.h"
-
-#include <cuda_runtime.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -25,35 +24,36 @@ class SharedBrickTable {
   }
 
   // Copies the table to `to`. All threads of a block call this, and wait for each other.
-  __device__ SharedBrickTable(const BrickTable &table, void *to) :
+  LSDCD_GPU_FN SharedBrickTable(const BrickTable &table, void *to) :
       bits_(static_cast<std::uint32_t *>(to)),
       below_(reinterpret_cast<std::uint16_t *>(bits_ + table.n_words))
   {
     // Several are loaded before the first is stored.
     constexpr unsigned kAtOnce = 8;
-    for (unsigned first = threadIdx.x; first < table.n_words; first += kAtOnce * blockDim.x) {
+    for (unsigned first = Block::thread(); first < table.n_words;
+         first += kAtOnce * Block::n_threads()) {
       BrickWord word[kAtOnce];
 #pragma unroll
       for (unsigned k = 0; k < kAtOnce; k++) {
-        const unsigned w = first + k * blockDim.x;
+        const unsigned w = first + k * Block::n_threads();
         word[k] = table.words[w < table.n_words ? w : first];
       }
 #pragma unroll
       for (unsigned k = 0; k < kAtOnce; k++) {
-        const unsigned w = first + k * blockDim.x;
+        const unsigned w = first + k * Block::n_threads();
         if (w >= table.n_words) continue;
         bits_[w] = word[k].bits;
         below_[w] = static_cast<std::uint16_t>(word[k].below);
       }
     }
-    __syncthreads();
+    Block::wait();
   }
 
-  __device__ bool at(std::uint32_t slot) const
+  LSDCD_GPU_FN bool at(std::uint32_t slot) const
   {
     return bits_[slot / 32] >> slot % 32 & 1u;
   }
-  __device__ BrickWord word(std::uint32_t slot) const
+  LSDCD_GPU_FN BrickWord word(std::uint32_t slot) const
   {
     return {bits_[slot / 32], below_[slot / 32]};
   }

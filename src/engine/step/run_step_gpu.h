@@ -5,10 +5,8 @@
 // contacts. Such a sphere takes twenty times as long as the others, so that it must not begin after them.
 #pragma once
 
-#include "backend/backend_cuda.h"
+#include "backend/block.h"
 #include "engine/step/step_lists.h"
-
-#include <cuda_runtime.h>
 
 #include <algorithm>
 
@@ -29,10 +27,10 @@ struct SeveralPart {
   bool leaves_lists;
 };
 
-// Puts k into a list of which `n` is the length, for each lane that has one to put.
-__device__ inline void put_listed(bool has_one, int k, int *list, int *n)
+// Puts k into a list of which `n` is the length, for each thread that has one to put.
+LSDCD_GPU_FN void put_listed(bool has_one, int k, int *list, int *n)
 {
-  const Warp<kWarpSize> warp;
+  const GpuWarp warp;
   const unsigned votes = warp.vote(has_one);
   if (votes == 0) return;
   const int at = warp.take_room(n, warp.count(votes));
@@ -40,14 +38,14 @@ __device__ inline void put_listed(bool has_one, int k, int *list, int *n)
 }
 
 template <class Work>
-__device__ void do_several(const SeveralPart &part, const Work &work)
+LSDCD_GPU_FN void do_several(const SeveralPart &part, const Work &work)
 {
   const StepLists &lists = work.step_lists();
   const int end = part.list ? *part.n_listed : part.n;
   const int enough = max(part.few, (end + int(kStepBlock) - 1) / int(kStepBlock));
-  const Warp<kWarpSize> warp;
+  const GpuWarp warp;
   const int warps = min(int(part.blocks), enough) * int(kStepWarps), step = kWarpSize * warps;
-  const int number = blockIdx.x * kStepWarps + threadIdx.x / kWarpSize, rank = warp.rank();
+  const int number = Block::number() * kStepWarps + Block::warp(), rank = warp.rank();
   if (number >= warps) return;
   // What is listed is few, and each sphere takes a way of its own through the code: first one a warp.
   const int first = part.list ? rank * warps + number : kWarpSize * number + rank;
@@ -61,10 +59,10 @@ __device__ void do_several(const SeveralPart &part, const Work &work)
     } else {
       // Lists are long to make: the whole warp helps.
       if (warp.any(is_due)) work.make_list(warp, is_due, k);
-      __syncwarp();
+      warp.wait();
     }
     const bool again = has_one && work.several(k);
-    __syncwarp();
+    warp.wait();
     if (!part.list || !lists.next) continue;
     put_listed(again, k, lists.next, lists.n_next);
     if (again) lists.listed_in[k] = lists.step + 1;
@@ -73,32 +71,39 @@ __device__ void do_several(const SeveralPart &part, const Work &work)
 
 // several() for a part, and single() for all of [0, n) that are not listed.
 template <class Work>
-__global__ void __launch_bounds__(kStepBlock, Work::kBlocksAtOnce)
-    step_kernel(const SeveralPart part, unsigned n, int *to_clear,
-                const __grid_constant__ Work work)
-{
-  if (blockIdx.x == 0 && threadIdx.x == 0) {
-    work.begin();
-    if (to_clear) *to_clear = 0;
+struct StepPart {
+  static constexpr unsigned kThreads = kStepBlock, kBlocksAtOnce = Work::kBlocksAtOnce;
+
+  SeveralPart part;
+  unsigned n;
+  int *to_clear;
+  Work work;
+
+  LSDCD_GPU_FN void operator()(const Block &block) const
+  {
+    if (block.number() == 0 && block.thread() == 0) {
+      work.begin();
+      if (to_clear) *to_clear = 0;
+    }
+    if (block.number() < part.blocks) {
+      do_several(part, work);
+      return;
+    }
+    if constexpr (Work::kSingle) {
+      const StepLists &lists = work.step_lists();
+      const unsigned k = (block.number() - part.blocks) * kStepBlock + block.thread();
+      // Of one that several() is at now it may be the next step already.
+      const bool mine = k < n && !(lists.listed_in && lists.listed_in[k] >= lists.step);
+      put_listed(mine && !work.single(k), static_cast<int>(k), lists.found, lists.n_found);
+    }
   }
-  if (blockIdx.x < part.blocks) {
-    do_several(part, work);
-    return;
-  }
-  if constexpr (Work::kSingle) {
-    const StepLists &lists = work.step_lists();
-    const unsigned k = (blockIdx.x - part.blocks) * kStepBlock + threadIdx.x;
-    // Of one that several() is at now it may be the next step already.
-    const bool mine = k < n && !(lists.listed_in && lists.listed_in[k] >= lists.step);
-    put_listed(mine && !work.single(k), static_cast<int>(k), lists.found, lists.n_found);
-  }
-}
+};
 
 // Of each i in [0, n): work.single(i). Where that says false, or where !work.has_single(): work.several(i).
 // Before that a warp makes the lists of those for which work.needs_list(i). Lists of work.step_lists() have room
 // for n; those to be written are empty.
-template <class Work>
-void run_step(CudaBackend &b, std::size_t n_items, const Work &work)
+template <class B, class Work>
+void run_step(B &b, std::size_t n_items, const Work &work)
 {
   if (n_items == 0) return;
   const unsigned n = static_cast<unsigned>(n_items);
@@ -109,11 +114,11 @@ void run_step(CudaBackend &b, std::size_t n_items, const Work &work)
   int *to_clear = lists.n_found_next;
   if (work.has_single()) {
     part = {lists.last, lists.n_last, 0, kFewBlocks, lists.last ? several_blocks : 0, true};
-    b.launch(step_kernel<Work>, {part.blocks + blocks, kStepBlock}, part, n, to_clear, work);
+    b.for_each_block({part.blocks + blocks, kStepBlock}, StepPart<Work>{part, n, to_clear, work});
     to_clear = lists.n_last;    // the next step's `next`
     part = {lists.found, lists.n_found, 0, kMaxBlocks, several_blocks, false};
   }
-  b.launch(step_kernel<Work>, {part.blocks, kStepBlock}, part, 0u, to_clear, work);
+  b.for_each_block({part.blocks, kStepBlock}, StepPart<Work>{part, 0, to_clear, work});
 }
 
 }    // namespace lsdcd

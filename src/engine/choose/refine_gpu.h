@@ -4,9 +4,8 @@
 // The second part of a choice on a GPU: the exact test of spheres that the test by cells leaves.
 #pragma once
 
-#include "backend/warp.h"
-
-#include <cuda_runtime.h>
+#include "backend/atomic.h"
+#include "backend/block.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,28 +26,28 @@ struct CandidateLists {
   unsigned room = 0;             // of a list
 
   // Adds an item for each thread of a warp that has one.
-  __device__ void put(bool has_one, const Item &item) const
+  LSDCD_GPU_FN void put(bool has_one, const Item &item) const
   {
-    const Warp<kWarpSize> warp;
-    const unsigned votes = warp.vote(has_one), list = blockIdx.x % kLists;
+    const GpuWarp warp;
+    const unsigned votes = warp.vote(has_one), list = Block::number() % kLists;
     if (votes == 0) return;
     const unsigned at =
         warp.take_room(length + list * kStride, warp.count(votes)) + warp.count_below(votes);
     if (has_one && at < room) items[list * room + at] = item;
   }
   // Is there an item in place k? Places are counted over the room of all lists.
-  __device__ bool has(unsigned k) const
+  LSDCD_GPU_FN bool has(unsigned k) const
   {
     return k < kLists * room && k % room < length[k / room * kStride];
   }
   // Empties the lists, by all threads of a warp, and sets *longest() to the length of the longest one.
   // Returns whether a list had too little room.
   static constexpr unsigned kLengths = kLists * kStride + 1;
-  __host__ __device__ unsigned *longest() const { return length + kLists * kStride; }
-  __device__ bool empty() const
+  LSDCD_FN unsigned *longest() const { return length + kLists * kStride; }
+  LSDCD_GPU_FN bool empty() const
   {
     static_assert(kLists == kWarpSize, "one for each thread");
-    const Warp<kWarpSize> warp;
+    const GpuWarp warp;
     unsigned &mine = length[warp.rank() * kStride];
     const unsigned most = warp.largest(mine);
     mine = 0;
@@ -65,7 +64,7 @@ struct Refine {
   unsigned *words;
 
   template <unsigned kSize>
-  __device__ void operator()(const Warp<kSize> &warp, bool, std::size_t number) const
+  LSDCD_GPU_FN void operator()(const Warp<kSize> &warp, bool, std::size_t number) const
   {
     const unsigned k = static_cast<unsigned>(number);
     const bool mine = list.has(k);
@@ -74,7 +73,7 @@ struct Refine {
     const bool kept = work.refine(warp, mine, item.sphere, item.cell);
     if (!mine) return;
     if (kept)
-      atomicOr(words + item.sphere / 32, 1u << item.sphere % 32);
+      set_bits(words + item.sphere / 32, 1u << item.sphere % 32);
     else if (work.has_notes())
       work.note(item.sphere, false);
   }

@@ -4,10 +4,9 @@
 // Selecting the spheres near the wall on a GPU.
 #pragma once
 
-#include "backend/backend_cuda.h"
-#include "backend/cuda_limits.h"
-#include "engine/choose/gather_marked_cuda.h"
-#include "engine/choose/mark_near_cuda.h"
+#include "backend/backend.h"
+#include "engine/choose/gather_marked_gpu.h"
+#include "engine/choose/mark_near_gpu.h"
 #include "engine/choose/selection.h"
 
 #include <algorithm>
@@ -17,14 +16,14 @@
 
 namespace lsdcd {
 
-template <>
-class Selection<CudaBackend> {
+template <class B>
+class Selection<B, false> {
   template <class T>
-  using Array = CudaBackend::Array<T>;
+  using Array = typename B::template Array<T>;
 
  public:
   template <class Work>
-  void start(CudaBackend &b, std::size_t n, const Work &work, int *to, std::uint32_t *total)
+  void start(B &b, std::size_t n, const Work &work, int *to, std::uint32_t *total)
   {
     const unsigned n_tiles = static_cast<unsigned>((n + kMarkTile - 1) / kMarkTile),
                    n_words = n_tiles * kMarkWords, processors = limits_.processors();
@@ -45,11 +44,12 @@ class Selection<CudaBackend> {
                           Refine<Work>{work, list, words});
     const unsigned each =
         std::max((n_words + processors - 1) / processors, kGatherBlock);    // words of a block
-    b.launch(gather_marked, {n_words / each + 1, kGatherBlock}, words, n_words, each,
-             GatherCounts{counts_.data(), ++turn_}, list, to, total);
+    b.for_each_block(
+        {n_words / each + 1, kGatherBlock},
+        GatherMarked{words, n_words, each, {counts_.data(), ++turn_}, list, to, total});
   }
 
-  bool had_room(CudaBackend &b, std::uint32_t total)
+  bool had_room(B &b, std::uint32_t total)
   {
     if (total != kNoRoom) return true;
     const unsigned longest = read_one(b, lists().longest());
@@ -66,17 +66,18 @@ class Selection<CudaBackend> {
   static constexpr unsigned kFirstRoom = 128;    // of a list
 
   template <class Work>
-  void mark(CudaBackend &b, unsigned n, const Work &work, unsigned *words,
-            const CandidateLists &list)
+  void mark(B &b, unsigned n, const Work &work, unsigned *words, const CandidateLists &list)
   {
-    const CudaLimits::Shape shape = limits_.shape(kMarkWarps, kMarkBlocks, sizeof(MarkTile),
-                                                  SharedBrickTable::bytes(work.table));
+    const auto shape = limits_.shape(kMarkWarps, kMarkBlocks, sizeof(MarkTile),
+                                     SharedBrickTable::bytes(work.table));
     const unsigned of_block = kMarkTile * shape.warps;
-    const auto kernel = shape.has_table ? mark_near<true, Work> : mark_near<false, Work>;
-    limits_.allow(kernel, shape.shared);
     const unsigned blocks =
         std::min((n + of_block - 1) / of_block, limits_.processors() * kMarkBlocks);
-    b.launch(kernel, {blocks, kWarpSize * shape.warps, shape.shared}, n, work, words, list);
+    const LaunchShape launch = {blocks, kWarpSize * shape.warps, shape.shared};
+    if (shape.has_table)
+      b.for_each_block(launch, MarkNear<true, Work>{n, work, words, list});
+    else
+      b.for_each_block(launch, MarkNear<false, Work>{n, work, words, list});
   }
 
   CandidateLists lists()
@@ -90,7 +91,7 @@ class Selection<CudaBackend> {
     items_ = Array<CandidateLists::Item>(CandidateLists::kLists * each);
   }
   template <class T>
-  static Array<T> zeros(CudaBackend &b, std::size_t n)
+  static Array<T> zeros(B &b, std::size_t n)
   {
     return from_host(b, std::vector<T>(n, 0));
   }
@@ -100,7 +101,7 @@ class Selection<CudaBackend> {
   Array<unsigned> length_;
   Array<unsigned long long> counts_;
   unsigned turn_ = 0;
-  CudaLimits limits_;
+  typename B::Limits limits_;
 };
 
 }    // namespace lsdcd

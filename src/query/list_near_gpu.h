@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The first kernel of a query on a GPU: it answers every sphere as if the wall were far,
+// and lists those near to it.
+#pragma once
+
+#include "backend/atomic.h"
+#include "backend/block.h"
+#include "grid/lookup/brick_filter.h"
+#include "query/sphere.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lsdcd {
+
+// A sphere near the wall and the list of its cell, so that who answers waits for neither.
+template <class S>
+struct alignas(16) NearSphere {
+  S s;
+  Cell cell;
+  std::uint32_t sphere, pad;
+};
+
+// Of the first kernel: threads of a block, blocks at once on a processor (32 registers a thread),
+// and bytes of spheres in flight for each thread.
+constexpr unsigned kNearBlock = 256, kNearBlocks = 8, kNearBytes = 64;
+template <class S>
+constexpr unsigned kNearEach = kNearBytes / sizeof(S);
+template <class S>
+constexpr unsigned kNearTile = kNearBlock *kNearEach<S>;
+
+// Spheres are in as many lists as a warp has threads: a list has every so many-th block's, and they
+// count in as many slots. A list grows from its front by those whose cell has one candidate, and
+// from its back by those with several.
+constexpr unsigned kNearLists = kWarpSize;
+struct NearCounts {
+  struct alignas(128) OfList {
+    unsigned long long n;    // one candidate: low word; several: high word
+  } list[kNearLists];
+  unsigned with_long;    // of those with several, how many have lists that are long
+};
+template <class S>
+struct NearLists {
+  NearSphere<S> *first;
+  unsigned room;    // of a list
+  NearCounts *counts;
+
+  LSDCD_GPU_FN NearSphere<S> *list(unsigned l) const { return first + std::size_t(l) * room; }
+};
+
+// Answers n of the work's spheres as if all were far, and lists those that are not.
+template <class Work>
+struct ListNear {
+  static constexpr unsigned kThreads = kNearBlock, kBlocksAtOnce = kNearBlocks;
+  using S = typename Work::Item;
+
+  unsigned n;
+  Work work;
+  NearLists<S> lists;
+
+  LSDCD_GPU_FN void operator()(const Block &block) const
+  {
+    constexpr unsigned kEach = kNearEach<S>;
+    const GpuWarp warp;
+    block.let_next_begin();
+    LSDCD_SHARED Chunk room[kNearTile<S> * sizeof(S) / sizeof(Chunk)];
+    LSDCD_SHARED std::uint16_t maybe_at[kNearTile<S>];
+    LSDCD_SHARED std::uint32_t coarse[CoarseTable::kWords];
+    LSDCD_SHARED unsigned n_maybe;
+    S *const sphere = reinterpret_cast<S *>(room);
+
+    const unsigned tile = block.number() * kNearTile<S>, n_tile = min(n - tile, kNearTile<S>);
+#pragma unroll
+    for (unsigned k = 0; k < kEach; k++) {
+      const unsigned i = block.thread() + k * kNearBlock;
+      const Chunk *from = reinterpret_cast<const Chunk *>(work.spheres + tile + min(i, n_tile - 1));
+#pragma unroll
+      for (unsigned chunk = 0; chunk < sizeof(S) / sizeof(Chunk); chunk++)
+        begin_copy(reinterpret_cast<Chunk *>(sphere + i) + chunk, from + chunk);
+    }
+    commit_copies();
+    for (unsigned w = block.thread(); w < CoarseTable::kWords; w += kNearBlock)
+      coarse[w] = work.coarse.words[w];
+    if (block.thread() == 0) n_maybe = 0;
+    block.wait();
+    wait_for_copies();    // this thread's own
+
+    // Words of the table, and in five bits for each which bit of it; all bits where it is not known
+    // which to ask for.
+    static_assert(5 * kEach <= 32, "in one number");
+    std::uint32_t bit = 0, word[kEach];
+#pragma unroll
+    for (unsigned k = 0; k < kEach; k++) {
+      const BrickGuess guess = work.guess(sphere[block.thread() + k * kNearBlock]);
+      word[k] = guess.unsure ? ~0u : 0;
+      if (guess.inside & !guess.unsure &&
+          CoarseTable::at(coarse, work.filter.slot(work.coarse, guess))) {
+        const std::uint32_t slot = work.filter.slot(work.grid, guess);
+        bit |= slot % 32 << 5 * k;
+        word[k] = work.table.words[slot / 32].bits;
+      }
+    }
+    unsigned votes[kEach], all = 0;
+#pragma unroll
+    for (unsigned k = 0; k < kEach; k++) {
+      const bool there = block.thread() + k * kNearBlock < n_tile;
+      votes[k] = warp.vote(there && (word[k] >> (bit >> 5 * k) % 32 & 1u));
+      all += warp.count(votes[k]);
+    }
+    unsigned to = warp.take_room(&n_maybe, all);
+#pragma unroll
+    for (unsigned k = 0; k < kEach; k++) {
+      if (votes[k] >> warp.rank() & 1u) {
+        const unsigned at = to + warp.count_below(votes[k]);
+        maybe_at[at] = static_cast<std::uint16_t>(block.thread() + k * kNearBlock);
+      }
+      to += warp.count(votes[k]);
+    }
+    for (unsigned four = 4 * block.thread(); four < n_tile; four += 4 * kNearBlock)
+      if (four + 4 <= n_tile)
+        work.four_far(tile + four);
+      else
+        for (unsigned i = four; i < n_tile; i++) work.far(tile + i);
+    block.wait();
+
+    // Few may be in a brick, and those in full warps, nearly always in one turn.
+    const unsigned mine = block.number() % kNearLists, n_turns = n_maybe;
+    for (unsigned first = block.warp() * kWarpSize; first < n_turns; first += kNearBlock) {
+      const unsigned m = first + warp.rank();
+      NearSphere<S> near;
+      near.pad = 0;
+      std::uint32_t cell = kNoCell;
+      if (m < n_turns) {
+        near.sphere = tile + maybe_at[m];
+        near.s = sphere[maybe_at[m]];
+        work.check(near.sphere, near.s);
+        cell = work.cell(near.s);
+        if (cell != kNoCell) near.cell = *work.list(cell);
+      }
+      const bool is_near = cell != kNoCell, is_one = is_near && near.cell.count == 1;
+      const unsigned one = warp.vote(is_one), several = warp.vote(is_near && !is_one);
+      unsigned long long at = 0;
+      if (warp.rank() == 0 && (one | several) != 0)
+        at =
+            fetch_add(&lists.counts->list[mine].n,
+                      static_cast<unsigned long long>(warp.count(several)) << 32 | warp.count(one));
+      at = warp.of(at, 0);
+      const unsigned to =
+          is_one ? static_cast<unsigned>(at) + warp.count_below(one)
+                 : lists.room - 1 - static_cast<unsigned>(at >> 32) - warp.count_below(several);
+      if (is_near) lists.list(mine)[to] = near;
+    }
+  }
+};
+
+}    // namespace lsdcd
