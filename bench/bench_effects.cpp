@@ -41,35 +41,20 @@ struct Bed {
       return std::int64_t(p.y + kHalf) * 1000 + std::int64_t(p.x + kHalf);
     };
     std::sort(at.begin(), at.end(), [&](const Vec3 &a, const Vec3 &b) { return bin(a) < bin(b); });
-    for (const Vec3 &p : at)
+    for (const Vec3 &p : at) {
+      Vec3 v, omega;
       for (int k = 0; k < 3; k++) {
-        x.push_back(p[k]);
-        v.push_back(speed(random));
-        omega.push_back(speed(random));
+        v[k] = speed(random);
+        omega[k] = speed(random);
       }
-    radius.assign(n, kRadius);
-    mass.assign(n, 1);
-    temperature.assign(n, 300);
-    heat.assign(n, 0);
-    force.assign(3 * n, 0);
-    torque.assign(3 * n, 0);
+      arrays.add(p, kRadius, 1, v, omega);
+    }
+    arrays.temperature.assign(n, 300);
+    arrays.heat_flow.assign(n, 0);
   }
-  Spheres spheres()
-  {
-    Spheres s;
-    s.n = static_cast<int>(radius.size());
-    s.x = x.data();
-    s.v = v.data();
-    s.omega = omega.data();
-    s.radius = radius.data();
-    s.mass = mass.data();
-    s.force = force.data();
-    s.torque = torque.data();
-    s.temperature = temperature.data();
-    s.heat_flow = heat.data();
-    return s;
-  }
-  std::vector<Real> x, v, omega, radius, mass, force, torque, temperature, heat;
+  Spheres spheres() { return arrays.spheres(); }
+
+  SphereArrays arrays;
 };
 
 // On the CPU the time of all threads, which others that use the machine do not add to.

@@ -10,7 +10,7 @@
 #include "grid/flat_grid.h"
 #include "mesh/wall_mesh.h"
 #include "study/spheres.h"
-#include "support/device_memory.h"
+#include "support/sphere_arrays.h"
 
 #include <random>
 
@@ -23,25 +23,20 @@ constexpr Real kCutoff = 1;
 constexpr SphereBox kRoom = {{-51, -51, -1}, {51, 51, 101}, kCutoff, 5},
                     kCube = {{-50, -50, 0}, {50, 50, 100}, kCutoff, 1};
 
-struct Bodies {
-  std::vector<Real> x, v, omega, radius, mass;
-};
-
-Bodies make_bodies(const SphereBox &box, int n, Order order)
+SphereArrays make_bodies(const SphereBox &box, int n, Order order)
 {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<Real> speed(-1, 1);
-  Bodies b;
+  SphereArrays bodies;
   for (const Sphere &s : make_spheres(box, n, order)) {
-    b.x.insert(b.x.end(), {s.x, s.y, s.z});
+    Vec3 v, omega;
     for (int k = 0; k < 3; k++) {
-      b.v.push_back(speed(random));
-      b.omega.push_back(speed(random));
+      v[k] = speed(random);
+      omega[k] = speed(random);
     }
-    b.radius.push_back(s.r);
-    b.mass.push_back(1);
+    bodies.add({s.x, s.y, s.z}, s.r, 1, v, omega);
   }
-  return b;
+  return bodies;
 }
 
 struct Style {
@@ -112,47 +107,25 @@ void measure_kept_and_anew(WallEngine &engine, const Spheres &s, const Style &st
 }
 
 // The arrays of a host, whose memory is the CPU's.
-void measure_host(const Bodies &b, const GridView &grid, const Style &style, Device device,
+void measure_host(SphereArrays &bodies, const GridView &grid, const Style &style, Device device,
                   int repeats, BenchRows &rows, const BenchRow &row)
 {
-  const int n = static_cast<int>(b.radius.size());
   const auto engine = make_engine(engine_settings(style, device));
   engine->set_grid(grid);
-  std::vector<Real> force(b.x.size(), 0), torque(b.x.size(), 0);
-  Spheres s;
-  s.n = n;
-  s.x = b.x.data();
-  s.v = b.v.data();
-  s.omega = b.omega.data();
-  s.radius = b.radius.data();
-  s.mass = b.mass.data();
-  s.force = force.data();
-  s.torque = torque.data();
-  measure_kept_and_anew(*engine, s, style, grid, true, repeats, "", rows, row);
+  measure_kept_and_anew(*engine, bodies.spheres(), style, grid, true, repeats, "", rows, row);
 }
 
 // Particles where the engine computes.
-void measure_in_place(const Bodies &b, const GridView &grid, const Style &style, Device device,
-                      int repeats, BenchRows &rows, const BenchRow &row)
+void measure_in_place(const SphereArrays &bodies, const GridView &grid, const Style &style,
+                      Device device, int repeats, BenchRows &rows, const BenchRow &row)
 {
-  const int n = static_cast<int>(b.radius.size());
   const bool cuda = device == Device::cuda;
   const EngineSettings e = engine_settings(style, device);
   const auto engine = cuda ? make_cuda_engine_in_place(e, 0, nullptr) : make_cpu_engine(e);
   engine->set_grid(grid);
-  DeviceArray<Real> x(cuda), v(cuda), omega(cuda), radius(cuda), mass(cuda), force(cuda),
-      torque(cuda);
-  const std::vector<Real> zero(b.x.size(), 0);
-  Spheres s;
-  s.n = n;
-  s.x = x.put(b.x);
-  s.v = v.put(b.v);
-  s.omega = omega.put(b.omega);
-  s.radius = radius.put(b.radius);
-  s.mass = mass.put(b.mass);
-  s.force = force.put(zero);
-  s.torque = torque.put(zero);
-  measure_kept_and_anew(*engine, s, style, grid, !cuda, repeats, ", in place", rows, row);
+  SphereArraysOn there(cuda);
+  measure_kept_and_anew(*engine, there.put(bodies), style, grid, !cuda, repeats, ", in place", rows,
+                        row);
 }
 
 FlatGrid grid_of(const WallMesh &mesh, Real length, Device device)
@@ -176,7 +149,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
   for (Device device : o.devices) {
     rows.begin(device);
     for (Order order : {Order::random, Order::sorted}) {
-      const Bodies bodies = make_bodies(kRoom, n, order),
+      SphereArrays bodies = make_bodies(kRoom, n, order),
                    in_place = make_bodies(kCube, n_in_place, order);
       for (const TriangleSoup &soup : cylinders(o, 1e5)) {
         const WallMesh mesh = weld(soup, -1);

@@ -5,6 +5,7 @@
 #include "support/hard_case.h"
 #include "support/laws.h"
 #include "support/meshes.h"
+#include "support/random.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +15,6 @@ namespace lsdcd {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kGravity = 10;
-
-Vec3 unit(const Vec3 &a)
-{
-  return (1 / norm(a)) * a;
-}
 
 // ---- a train under gravity ------------------------------------------------------------------
 

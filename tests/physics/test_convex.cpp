@@ -6,6 +6,7 @@
 #include "support/hard_case.h"
 #include "support/laws.h"
 #include "support/meshes.h"
+#include "support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -18,16 +19,6 @@ namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2;
 constexpr const char *kTheme = "Convex edges, corners and tips";
-using Random = std::mt19937_64;
-
-Real uniform(Random &random, Real lo, Real hi)
-{
-  return std::uniform_real_distribution<Real>(lo, hi)(random);
-}
-Vec3 unit(const Vec3 &a)
-{
-  return (1 / norm(a)) * a;
-}
 
 // A fan of n facets around a tip at the origin. Its edges fall by `height` over a
 // radius of 2; uneven ones by up to twice that, at angles unevenly spread: a star

@@ -4,6 +4,7 @@
 // Edges, corners, grooves, seams and drums against their closed forms.
 #include "support/laws.h"
 #include "support/meshes.h"
+#include "support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -16,21 +17,10 @@ namespace lsdcd {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5;
-using Random = std::mt19937_64;
-
-Real uniform(Random &random, Real lo, Real hi)
-{
-  return std::uniform_real_distribution<Real>(lo, hi)(random);
-}
 
 Real radians(Real degrees)
 {
   return degrees * M_PI / 180;
-}
-
-Vec3 unit(const Vec3 &a)
-{
-  return (1 / norm(a)) * a;
 }
 
 // The wall's force on one sphere that is put here and there.

@@ -4,6 +4,7 @@
 // A triangulated plane is a plane: F = F(R - h), whatever lies under the sphere.
 #include "support/laws.h"
 #include "support/meshes.h"
+#include "support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -15,12 +16,6 @@ namespace lsdcd {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kHalf = 4;
-using Random = std::mt19937_64;
-
-Real uniform(Random &random, Real lo, Real hi)
-{
-  return std::uniform_real_distribution<Real>(lo, hi)(random);
-}
 
 enum class Law { hooke, hertz };
 

@@ -344,10 +344,11 @@ TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
   const int n = 800;
   std::mt19937_64 random(7);
   std::uniform_real_distribution<Real> place(-0.2, 1.2);
-  std::vector<Real> x(3 * n), v(3 * n, 0), radius(n, kRadius), mass(n, kMass), f[2], t[2];
+  SphereArrays of[] = {{n, kRadius}, {n, kRadius}};
+  for (SphereArrays &a : of) a.mass.assign(n, kMass);
   for (int i = 0; i < 3 * n; i++) {
     const Real lo = mesh.report.lo[i % 3], hi = mesh.report.hi[i % 3];
-    x[i] = lo + place(random) * (hi - lo);
+    of[0].x[i] = of[1].x[i] = lo + place(random) * (hi - lo);
   }
   const WallMotion motion = rotating({0.5, 0.5, 0.5}, {1, 2, -1}, 1);
   const Box bounds = {mesh.report.lo - kRadius * Vec3{1, 1, 1},
@@ -355,17 +356,8 @@ TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
   const Real margin = 0.3;
   int steps = 0, near = 0;
   const auto spheres = [&](int which) {
-    f[which].assign(3 * n, 0);
-    t[which].assign(3 * n, 0);
-    Spheres s;
-    s.n = n;
-    s.x = x.data();
-    s.v = s.omega = v.data();
-    s.radius = radius.data();
-    s.mass = mass.data();
-    s.force = f[which].data();
-    s.torque = t[which].data();
-    return s;
+    of[which].clear_forces();
+    return of[which].spheres();
   };
   const WallPose first = motion.pose_at(0.2);
   kept->place_wall(first);
@@ -388,7 +380,7 @@ TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
     fresh->start(b, step);
     fresh->collect();
     if (moved) break;
-    EXPECT_EQ(f[0], f[1]) << "at " << time;
+    EXPECT_EQ(of[0].force, of[1].force) << "at " << time;
     near += fresh->n_near();
     steps++;
   }

@@ -6,6 +6,7 @@
 #include "support/hard_case.h"
 #include "support/laws.h"
 #include "support/meshes.h"
+#include "support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -19,23 +20,10 @@ namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5;
 constexpr const char *kTheme = "Nearly flat";
-using Random = std::mt19937_64;
 
-Real uniform(Random &random, Real lo, Real hi)
-{
-  return std::uniform_real_distribution<Real>(lo, hi)(random);
-}
-Real log_uniform(Random &random, Real lo, Real hi)
-{
-  return std::exp(uniform(random, std::log(lo), std::log(hi)));
-}
 Real radians(Real degrees)
 {
   return degrees * M_PI / 180;
-}
-Vec3 unit(const Vec3 &a)
-{
-  return (1 / norm(a)) * a;
 }
 std::string text(Real value)
 {

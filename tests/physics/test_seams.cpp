@@ -7,6 +7,7 @@
 #include "support/hard_case.h"
 #include "support/laws.h"
 #include "support/meshes.h"
+#include "support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -20,12 +21,6 @@ namespace {
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kHalf = 4;
 constexpr Real kOverlap = 1e-3 * kRadius, kHeight = kRadius - kOverlap;
 constexpr int kPositions = 100000;
-using Random = std::mt19937_64;
-
-Real uniform(Random &random, Real lo, Real hi)
-{
-  return std::uniform_real_distribution<Real>(lo, hi)(random);
-}
 
 EngineSettings engine_of(bool hertz)
 {

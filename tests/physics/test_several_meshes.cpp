@@ -338,32 +338,23 @@ struct Crossing {
     constexpr int kSpheres = 400, kSteps = 200, kChoice = 20;
     std::mt19937_64 random(9);
     std::uniform_real_distribution<Real> place(-4.5, 4.5), speed(-30, 30);
-    std::vector<Real> x, v, omega, radius(kSpheres, kRadius), mass(kSpheres, kMass),
-        torque(3 * kSpheres);
+    SphereArrays spheres(kSpheres, kRadius);
+    spheres.mass.assign(kSpheres, kMass);
     for (int c = 0; c < 3 * kSpheres; c++) {
-      x.push_back(place(random));
-      v.push_back(speed(random));
-      omega.push_back(speed(random));
+      spheres.x[c] = place(random);
+      spheres.v[c] = speed(random);
+      spheres.omega[c] = speed(random);
     }
-    Spheres spheres;
-    spheres.n = kSpheres;
-    spheres.x = x.data();
-    spheres.v = v.data();
-    spheres.omega = omega.data();
-    spheres.radius = radius.data();
-    spheres.mass = mass.data();
     StepSettings step;
     step.dt = kStep;
     for (int t = 0; t < kSteps; t++) {
-      if (t % kChoice == 0) engine.choose(spheres, kChoice * kStep * 60);
-      std::vector<Real> now(3 * kSpheres, 0);
-      spheres.force = now.data();
-      spheres.torque = torque.data();
-      engine.start(spheres, step);
+      spheres.clear_forces();
+      if (t % kChoice == 0) engine.choose(spheres.spheres(), kChoice * kStep * 60);
+      engine.start(spheres.spheres(), step);
       engine.collect();
       on_mesh += engine.mesh_totals(1).force;
-      force.insert(force.end(), now.begin(), now.end());
-      for (int c = 0; c < 3 * kSpheres; c++) x[c] += kStep * v[c];
+      force.insert(force.end(), spheres.force.begin(), spheres.force.end());
+      spheres.move(kStep);
     }
     ContactHistory springs;
     engine.springs_to(springs, kSpheres);

@@ -164,53 +164,42 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
 
   std::mt19937_64 random(11);
   std::uniform_real_distribution<Real> unit(0, 1), speed(-3, 3);
-  std::vector<Real> x, v, omega, radius, mass, force(3 * n_spheres), torque(3 * n_spheres);
-  std::vector<Real> temperature, heat(n_spheres);
+  SphereArrays a;
+  a.heat_flow.resize(n_spheres);
   const Vec3 lo = built.report.lo - c.cutoff * Vec3{1, 1, 1};
   const Vec3 extent = built.report.hi + c.cutoff * Vec3{1, 1, 1} - lo;
   for (int i = 0; i < n_spheres; i++) {
+    Vec3 x, v, omega;
     for (int k = 0; k < 3; k++) {
-      x.push_back(lo[k] + extent[k] * unit(random));
-      v.push_back(speed(random));
-      omega.push_back(speed(random));
+      x[k] = lo[k] + extent[k] * unit(random);
+      v[k] = speed(random);
+      omega[k] = speed(random);
     }
-    radius.push_back(c.cutoff * (0.2 + 0.8 * unit(random)));
-    mass.push_back(1 + unit(random));
-    temperature.push_back(300 + speed(random));
+    const Real radius = c.cutoff * (0.2 + 0.8 * unit(random)), mass = 1 + unit(random);
+    a.add(x, radius, mass, v, omega);
+    a.temperature.push_back(300 + speed(random));
   }
   ContactHistory springs(law.n_extra());
   springs.grow(n_spheres);
-  Spheres s;
-  s.n = n_spheres;
-  s.x = x.data();
-  s.v = v.data();
-  s.omega = omega.data();
-  s.radius = radius.data();
-  s.mass = mass.data();
-  s.force = force.data();
-  s.torque = torque.data();
-  s.temperature = temperature.data();
-  s.heat_flow = heat.data();
   StepSettings step;
   step.wall_temperature = 310;
   step.dt = 1e-2;
   step.per_sphere = true;
   for (int k = 0; k < 5; k++) {
-    std::fill(force.begin(), force.end(), 0);
-    std::fill(torque.begin(), torque.end(), 0);
-    step_once(*engine, s, step, &springs);
-    for (int i = 0; i < 3 * n_spheres; i++) x[i] += step.dt * v[i];
-    if (c.periodic && k == 2) wrap(c, x);    // springs go over to what is touched there
+    a.clear_forces();
+    step_once(*engine, a.spheres(), step, &springs);
+    a.move(step.dt);
+    if (c.periodic && k == 2) wrap(c, a.x);    // springs go over to what is touched there
   }
   Outcome out;
   for (int i = 0; i < n_spheres; i++) {
-    out.force.push_back({force[3 * i], force[3 * i + 1], force[3 * i + 2]});
-    out.torque.push_back({torque[3 * i], torque[3 * i + 1], torque[3 * i + 2]});
+    out.force.push_back(vector_at(a.force, i));
+    out.torque.push_back(vector_at(a.torque, i));
     out.springs.insert(out.springs.end(), springs.of(i), springs.of(i) + springs.count(i));
     out.extra.insert(out.extra.end(), springs.extra_of(i),
                      springs.extra_of(i) + springs.count(i) * law.n_extra());
   }
-  out.heat = heat;
+  out.heat = a.heat_flow;
   out.totals = engine->totals();
   out.outputs.assign(engine->sphere_output(), engine->sphere_output() + engine->n_touching());
   out.records.assign(engine->records(), engine->records() + engine->n_records());

@@ -184,53 +184,35 @@ void Scene::use(std::unique_ptr<WallEngine> other)
 
 int Scene::add_sphere(const Vec3 &x, Real radius, Real mass, const Vec3 &v, const Vec3 &omega)
 {
-  const int i = n();
-  for (std::vector<Real> *a : {&x_, &v_, &omega_, &f_, &torque_}) a->resize(3 * (i + 1), 0);
-  put(x_, i, x);
-  put(v_, i, v);
-  put(omega_, i, omega);
-  radius_.push_back(radius);
-  mass_.push_back(mass);
+  const int i = spheres_.add(x, radius, mass, v, omega);
   springs.grow(i + 1);
   return i;
 }
 
 void Scene::compute(Real dt, bool update, bool per_sphere)
 {
-  std::fill(f_.begin(), f_.end(), 0);
-  std::fill(torque_.begin(), torque_.end(), 0);
-  heat_.assign(n(), 0);
-  temperature_.assign(n(), sphere_temperature);
-  Spheres s;
-  s.n = n();
-  s.x = x_.data();
-  s.v = v_.data();
-  s.omega = omega_.data();
-  s.radius = radius_.data();
-  s.mass = mass_.data();
-  s.force = f_.data();
-  s.torque = torque_.data();
-  s.temperature = temperature_.data();
-  s.heat_flow = heat_.data();
+  spheres_.clear_forces();
+  spheres_.heat_flow.assign(n(), 0);
+  spheres_.temperature.assign(n(), sphere_temperature);
   StepSettings step;
   step.wall_temperature = wall_temperature;
   step.dt = dt;
   step.update_history = update;
   step.per_sphere = per_sphere;
-  step_once(*engine, s, step, &springs);
+  step_once(*engine, spheres_.spheres(), step, &springs);
 }
 
 void Scene::step(Real dt, const Vec3 &gravity)
 {
   const auto kick = [&] {
     for (int i = 0; i < n(); i++) {
-      put(v_, i, v(i) + (0.5 * dt) * ((1 / mass_[i]) * force(i) + gravity));
-      const Real inertia = 0.4 * mass_[i] * radius_[i] * radius_[i];
-      put(omega_, i, omega(i) + (0.5 * dt / inertia) * torque(i));
+      set_v(i, v(i) + (0.5 * dt) * ((1 / mass(i)) * force(i) + gravity));
+      const Real inertia = 0.4 * mass(i) * radius(i) * radius(i);
+      set_omega(i, omega(i) + (0.5 * dt / inertia) * torque(i));
     }
   };
   kick();
-  for (int i = 0; i < n(); i++) put(x_, i, x(i) + dt * v(i));
+  spheres_.move(dt);
   compute(dt);
   if (more_forces) more_forces(*this, dt);
   kick();

@@ -8,6 +8,7 @@
 #include "grid/flat_grid.h"
 #include "mesh/triangle_soup.h"
 #include "mesh/wall_mesh.h"
+#include "support/sphere_arrays.h"
 
 #include <functional>
 #include <memory>
@@ -64,22 +65,22 @@ class Scene {
   std::function<void(Scene &, Real dt)> more_forces;
   void add_force(int i, const Vec3 &force, const Vec3 &torque)
   {
-    put(f_, i, this->force(i) + force);
-    put(torque_, i, this->torque(i) + torque);
+    put_vector(spheres_.force, i, this->force(i) + force);
+    put_vector(spheres_.torque, i, this->torque(i) + torque);
   }
 
-  Vec3 force(int i) const { return vec(f_, i); }
-  Vec3 torque(int i) const { return vec(torque_, i); }
-  Real heat(int i) const { return heat_[i]; }    // power, where the law has heat
-  Vec3 x(int i) const { return vec(x_, i); }
-  Vec3 v(int i) const { return vec(v_, i); }
-  Vec3 omega(int i) const { return vec(omega_, i); }
-  void set_x(int i, const Vec3 &value) { put(x_, i, value); }
-  void set_v(int i, const Vec3 &value) { put(v_, i, value); }
-  void set_omega(int i, const Vec3 &value) { put(omega_, i, value); }
-  Real mass(int i) const { return mass_[i]; }
-  Real radius(int i) const { return radius_[i]; }
-  int n() const { return static_cast<int>(radius_.size()); }
+  Vec3 force(int i) const { return vector_at(spheres_.force, i); }
+  Vec3 torque(int i) const { return vector_at(spheres_.torque, i); }
+  Real heat(int i) const { return spheres_.heat_flow[i]; }    // power, where the law has heat
+  Vec3 x(int i) const { return vector_at(spheres_.x, i); }
+  Vec3 v(int i) const { return vector_at(spheres_.v, i); }
+  Vec3 omega(int i) const { return vector_at(spheres_.omega, i); }
+  void set_x(int i, const Vec3 &value) { put_vector(spheres_.x, i, value); }
+  void set_v(int i, const Vec3 &value) { put_vector(spheres_.v, i, value); }
+  void set_omega(int i, const Vec3 &value) { put_vector(spheres_.omega, i, value); }
+  Real mass(int i) const { return spheres_.mass[i]; }
+  Real radius(int i) const { return spheres_.radius[i]; }
+  int n() const { return spheres_.n(); }
 
   WallMesh mesh;
   TriangleGrid grid;
@@ -88,16 +89,8 @@ class Scene {
   Real wall_temperature = 0, sphere_temperature = 0;    // where the law has heat
 
  private:
-  static Vec3 vec(const std::vector<Real> &a, int i)
-  {
-    return {a[3 * i], a[3 * i + 1], a[3 * i + 2]};
-  }
-  static void put(std::vector<Real> &a, int i, const Vec3 &value)
-  {
-    for (int k = 0; k < 3; k++) a[3 * i + k] = value[k];
-  }
   FlatGrid flat_;
-  std::vector<Real> x_, v_, omega_, f_, torque_, radius_, mass_, heat_, temperature_;
+  SphereArrays spheres_;
 };
 
 }    // namespace lsdcd

@@ -7,6 +7,7 @@
 #include "support/hard_case.h"
 #include "support/laws.h"
 #include "support/meshes.h"
+#include "support/random.h"
 
 #include <CGAL/Gmpq.h>
 #include <CGAL/Simple_cartesian.h>
@@ -25,24 +26,9 @@ namespace {
 
 constexpr const char *kTheme = "Bad meshes, against exact arithmetic";
 constexpr int kPlaces = 512;
-using Random = std::mt19937_64;
 using Exact = CGAL::Gmpq;
 using Kernel = CGAL::Simple_cartesian<Exact>;
 
-Real uniform(Random &random, Real lo, Real hi)
-{
-  return std::uniform_real_distribution<Real>(lo, hi)(random);
-}
-Real log_uniform(Random &random, Real lo, Real hi)
-{
-  return std::exp(uniform(random, std::log(lo), std::log(hi)));
-}
-Vec3 random_unit(Random &random)
-{
-  std::normal_distribution<Real> normal;
-  const Vec3 a = {normal(random), normal(random), normal(random)};
-  return (1 / norm(a)) * a;
-}
 Kernel::Point_3 point(const Vec3 &p)
 {
   return {Exact(p.x), Exact(p.y), Exact(p.z)};

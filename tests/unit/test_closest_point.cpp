@@ -5,6 +5,7 @@
 #include "geometry/closest_point.h"
 #include "mesh/wall_features.h"
 #include "support/meshes.h"
+#include "support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -17,13 +18,6 @@
 
 namespace lsdcd {
 namespace {
-
-using Random = std::mt19937_64;
-
-Real uniform(Random &random, Real lo, Real hi)
-{
-  return std::uniform_real_distribution<Real>(lo, hi)(random);
-}
 
 // The records of a soup, with the view that a query takes.
 struct Wall {
@@ -251,13 +245,6 @@ Real quad_distance(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &q)
     least = std::fmin(least, length(x - plus(p[k], at, e)));
   }
   return least;
-}
-
-Vec3 random_unit(Random &random)
-{
-  std::normal_distribution<Real> normal;
-  const Vec3 a = {normal(random), normal(random), normal(random)};
-  return (1 / norm(a)) * a;
 }
 
 // A triangle of length 1 and height 1 / aspect, its apex anywhere along it.

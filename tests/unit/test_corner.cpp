@@ -3,6 +3,7 @@
 
 // The corner rule against every subset of active contacts, tried in quad precision.
 #include "contact/corner.h"
+#include "support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -16,24 +17,7 @@ namespace lsdcd {
 namespace {
 
 using Quad = __float128;
-using Random = std::mt19937_64;
 constexpr Real kRadius = 1;
-
-Real uniform(Random &random, Real lo, Real hi)
-{
-  return std::uniform_real_distribution<Real>(lo, hi)(random);
-}
-
-Vec3 unit(const Vec3 &a)
-{
-  return (1 / norm(a)) * a;
-}
-
-Vec3 random_unit(Random &random)
-{
-  std::normal_distribution<Real> normal;
-  return unit({normal(random), normal(random), normal(random)});
-}
 
 struct Contacts {
   std::vector<Vec3> normal;

@@ -11,7 +11,7 @@
 #include "backend/backend_cpu.h"
 #include "support/crowd.h"
 #include "support/device.h"
-#include "support/device_memory.h"
+#include "support/sphere_arrays.h"
 #include "support/test_engine.h"
 
 #include <cstdlib>
@@ -226,8 +226,7 @@ TEST(engine, drops_no_contact_of_crowded_spheres)
 class Particles {
  public:
   Particles(const EngineSettings &settings, int n, Real cutoff, bool cuda = test_on_cuda()) :
-      x_(cuda), v_(cuda), omega_(cuda), radius_(cuda), mass_(cuda), force_(cuda), torque_(cuda),
-      n_(n)
+      host(n, 0), there_(cuda)
   {
     engine = cuda ? make_cuda_engine_in_place(settings, 0, nullptr) : make_cpu_engine(settings);
     const WallMesh mesh = weld(floor_mesh(60, 10, 7), -1);    // of more than a CPU keeps near
@@ -240,9 +239,10 @@ class Particles {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<Real> at(-9, 9), up(0, 4 * cutoff), speed(-1, 1), unit(0.3, 1);
     for (int i = 0; i < n; i++) {
-      for (Real value : {at(random), at(random), up(random)}) host_x.push_back(value);
-      for (int k = 0; k < 3; k++) host_v.push_back(speed(random));
-      host_radius.push_back(cutoff * unit(random));
+      const Real x = at(random), y = at(random), z = up(random);
+      put_vector(host.x, i, {x, y, z});
+      for (int k = 0; k < 3; k++) host.v[3 * i + k] = speed(random);
+      host.radius[i] = cutoff * unit(random);
     }
   }
 
@@ -251,7 +251,7 @@ class Particles {
   enum class Choice { older, now };
   void step(Real dt, Choice choice = Choice::older)
   {
-    for (std::size_t i = 0; i < host_x.size(); i++) host_x[i] += dt * host_v[i];
+    host.move(dt);
     if (choice == Choice::now) engine->choose(spheres(), 0);
     StepSettings step;
     step.dt = dt;
@@ -259,39 +259,25 @@ class Particles {
     engine->collect();
   }
 
-  Spheres spheres()
-  {
-    const std::vector<Real> none(3 * n_, 0), one(n_, 1);
-    Spheres s;
-    s.n = n_;
-    s.x = x_.put(host_x);
-    s.v = v_.put(host_v);
-    s.omega = omega_.put(none);
-    s.radius = radius_.put(host_radius);
-    s.mass = mass_.put(one);
-    s.force = force_.put(none);
-    s.torque = torque_.put(none);
-    return s;
-  }
+  Spheres spheres() { return there_.put(host); }
 
-  void set_force(const std::vector<Real> &to) { force_.put(to); }
-  std::vector<Real> force() { return force_.get(3 * n_); }
-  std::vector<Real> torque() { return torque_.get(3 * n_); }
+  void set_force(const std::vector<Real> &to) { there_.put_force(to); }
+  std::vector<Real> force() { return there_.force(host.n()); }
+  std::vector<Real> torque() { return there_.torque(host.n()); }
   ContactHistory springs()
   {
     ContactHistory store;
-    engine->springs_to(store, n_);
+    engine->springs_to(store, host.n());
     return store;
   }
 
   std::unique_ptr<InPlaceEngine> engine;
   TriangleGrid grid;
   FlatGrid flat;
-  std::vector<Real> host_x, host_v, host_radius;
+  SphereArrays host;
 
  private:
-  DeviceArray<Real> x_, v_, omega_, radius_, mass_, force_, torque_;
-  int n_;
+  SphereArraysOn there_;
 };
 
 EngineSettings with_history()
@@ -439,7 +425,7 @@ TEST(engine, a_choice_holds_until_a_sphere_that_has_gone_far_is_at_the_wall)
     const bool comes_down = k % 5 == 4;
     for (int jump = 0; jump < 20; jump++) {
       const int i = 3 * any(random) + 2;
-      kept.host_x[i] = anew.host_x[i] = comes_down && jump == 0 ? 0.2 : far(random);
+      kept.host.x[i] = anew.host.x[i] = comes_down && jump == 0 ? 0.2 : far(random);
     }
     const bool moved = kept.engine->has_moved(kept.spheres());
     EXPECT_EQ(moved, comes_down);
@@ -586,15 +572,15 @@ TEST(engine, springs_that_are_taken_over_are_all_that_there_are)
 TEST(engine, a_sphere_that_was_far_has_no_spring_of_before)
 {
   Particles p(with_history(), 1, 0.5);
-  p.host_x = {0.3, 0.1, 0.45};
-  p.host_v = {1, 0, 0};
-  p.host_radius = {0.5};
+  p.host.x = {0.3, 0.1, 0.45};
+  p.host.v = {1, 0, 0};
+  p.host.radius = {0.5};
   for (int k = 0; k < 3; k++) p.step(0.01, Particles::Choice::now);
   const Real three = p.springs().of(0)->shear.x;
-  p.host_x[2] += 10;
+  p.host.x[2] += 10;
   p.step(0.01, Particles::Choice::now);
   EXPECT_EQ(p.springs().count(0), 0);
-  p.host_x[2] -= 10;
+  p.host.x[2] -= 10;
   p.step(0.01, Particles::Choice::now);
   ASSERT_EQ(p.springs().count(0), 1);
   EXPECT_NEAR(p.springs().of(0)->shear.x, three / 3, 1e-15);
@@ -603,8 +589,8 @@ TEST(engine, a_sphere_that_was_far_has_no_spring_of_before)
 TEST(engine, a_sphere_larger_than_the_reach_is_an_error)
 {
   Particles p(with_history(), 100, 0.5);
-  p.host_radius[7] = 0.6;
-  p.host_radius[70] = 0.7;
+  p.host.radius[7] = 0.6;
+  p.host.radius[70] = 0.7;
   try {
     p.engine->choose(p.spheres(), 0);
     FAIL();
@@ -628,9 +614,9 @@ TEST(engine, a_sphere_that_is_pulled_from_past_the_reach_is_named)
       (middle + pull_off * std::cbrt(middle) <= cutoff ? fits : too_large) = middle;
     }
     ASSERT_GT(fits, 0.1) << effect.name;
-    for (Real &radius : p.host_radius) radius = fits * (1 - 1e-9);
+    for (Real &radius : p.host.radius) radius = fits * (1 - 1e-9);
     EXPECT_NO_THROW(p.engine->choose(p.spheres(), 0)) << effect.name;
-    p.host_radius[7] = too_large * (1 + 1e-9);
+    p.host.radius[7] = too_large * (1 + 1e-9);
     try {
       p.engine->choose(p.spheres(), 0);
       FAIL() << effect.name;
@@ -644,11 +630,11 @@ TEST(engine, a_sphere_that_is_pulled_from_past_the_reach_is_named)
 TEST(engine, a_sphere_that_grows_past_the_reach_is_an_error_at_the_next_look)
 {
   Particles p(with_history(), 100, 0.5);
-  for (int i = 0; i < 100; i++) p.host_x[3 * i + 2] = 0.1;
+  for (int i = 0; i < 100; i++) p.host.x[3 * i + 2] = 0.1;
   p.engine->choose(p.spheres(), 0);
   p.step(0);
   EXPECT_NO_THROW(p.engine->read_diagnostics());
-  p.host_radius[7] = 0.6;
+  p.host.radius[7] = 0.6;
   p.step(0);
   EXPECT_THROW(p.engine->read_diagnostics(), std::exception);
 }
@@ -656,12 +642,12 @@ TEST(engine, a_sphere_that_grows_past_the_reach_is_an_error_at_the_next_look)
 TEST(engine, notes_the_deepest_overlap_of_all_steps_since_the_last_look)
 {
   Particles p(with_history(), 3, 0.5);
-  p.host_x = {0.3, 0.1, 0.45, 4, 4, 0.3, -4, 3, 3};
-  p.host_v.assign(9, 0);
-  p.host_radius = {0.5, 0.4, 0.5};
+  p.host.x = {0.3, 0.1, 0.45, 4, 4, 0.3, -4, 3, 3};
+  p.host.v.assign(9, 0);
+  p.host.radius = {0.5, 0.4, 0.5};
   p.engine->choose(p.spheres(), 0.5);
   p.step(1);    // 10 % and 25 %
-  p.host_x[5] = 0.39;
+  p.host.x[5] = 0.39;
   p.step(1);
   const StepDiagnostics diagnostics = p.engine->read_diagnostics();
   EXPECT_NEAR(diagnostics.deepest, 0.25, 1e-7);    // it is kept in single precision
@@ -688,8 +674,8 @@ struct OverWall : Particles {
       Particles(settings, n, radius), wall(grid_of(soup, radius))
   {
     engine->set_grid(wall.view());
-    host_v.assign(3 * n, 0);
-    host_radius.assign(n, radius);
+    host.v.assign(3 * n, 0);
+    host.radius.assign(n, radius);
   }
   static TriangleGrid grid_of(const TriangleSoup &soup, Real radius)
   {
@@ -705,11 +691,11 @@ TEST(engine, has_room_for_springs_of_spheres_that_all_come_into_a_corner)
 {
   const int n = 200000;
   OverWall p(with_history(), n, box_mesh({0, 0, 0}, {10, 10, 10}), 0.5);
-  p.host_x.assign(3 * n, 0.51);
+  p.host.x.assign(3 * n, 0.51);
   p.engine->choose(p.spheres(), 0.1);
   p.step(0);
   EXPECT_EQ(p.engine->totals().contacts, 0);
-  p.host_x.assign(3 * n, 0.49);
+  p.host.x.assign(3 * n, 0.49);
   p.step(0);
   EXPECT_NO_THROW(p.engine->read_diagnostics());
   EXPECT_EQ(p.engine->totals().contacts, 3 * n);
@@ -721,12 +707,12 @@ TEST(engine, a_sphere_with_more_contacts_than_there_is_room_for_is_an_error_and_
   EngineSettings s = with_history();
   s.corner = Corner::sum;
   OverWall p(s, 1, faces_all_round(800), 1.01);
-  p.host_x = {0.1, 0, 0};
+  p.host.x = {0.1, 0, 0};
   p.engine->choose(p.spheres(), 0.2);
   p.step(0);
   EXPECT_GT(p.springs().count(0), 100);
   EXPECT_NO_THROW(p.engine->read_diagnostics());
-  p.host_x = {0, 0, 0};
+  p.host.x = {0, 0, 0};
   p.step(0);
   EXPECT_EQ(p.springs().count(0), 0);
   try {
@@ -861,22 +847,14 @@ TEST(engine, takes_more_spheres_with_several_contacts_than_a_kernel_has_threads)
 struct AllTouching {
   static constexpr int n = 100;
 
-  AllTouching() :
-      grid(grid_of_faces()), place(test_on_cuda()), zero(test_on_cuda()), force(test_on_cuda()),
-      torque(test_on_cuda()), radius(test_on_cuda()), mass(test_on_cuda())
+  AllTouching() : grid(grid_of_faces()), host(n, 1.05), there(test_on_cuda())
   {
     EngineSettings s;
     s.law = classic(NormalModel::hertz, true);
     s.corner = Corner::sum;
     engine = test_on_cuda() ? make_cuda_engine_in_place(s, 0, nullptr) : make_cpu_engine(s);
-    for (int i = 0; i < n; i++) x.push_back(place_in({0, 0, n}, i));
-    const std::vector<Real> none(3 * n, 0);
-    spheres.n = n;
-    spheres.v = spheres.omega = zero.put(none);
-    spheres.radius = radius.put(std::vector<Real>(n, 1.05));
-    spheres.mass = mass.put(std::vector<Real>(n, 1));
-    spheres.force = force.put(none);
-    spheres.torque = torque.put(none);
+    for (int i = 0; i < n; i++) put_vector(host.x, i, place_in({0, 0, n}, i));
+    spheres = there.put(host);
     step.dt = 1e-3;
     engine->set_grid(grid.view());
     engine->grow(n);
@@ -885,7 +863,7 @@ struct AllTouching {
 
   void choose()
   {
-    spheres.x = place.put(&x[0].x, 3 * n);
+    there.put_x(host.x);
     engine->choose(spheres, 0);
   }
 
@@ -898,8 +876,8 @@ struct AllTouching {
 
   FlatGrid grid;
   std::unique_ptr<InPlaceEngine> engine;
-  std::vector<Vec3> x;
-  DeviceArray<Real> place, zero, force, torque, radius, mass;
+  SphereArrays host;
+  SphereArraysOn there;
   Spheres spheres;
   StepSettings step;
 };
@@ -927,15 +905,15 @@ void keep_the_totals_of_the_last_step(bool beside)
     if (begins) all.engine->ready();
     begins ? all.engine->begin_beside() : all.engine->end_beside(false);
   };
-  const std::vector<Vec3> x = all.x;
-  for (int i = 0; i < all.n; i += 2) all.x[i].x += 100;
+  const std::vector<Real> x = all.host.x;
+  for (int i = 0; i < all.n; i += 2) all.host.x[3 * i] += 100;
   begin(true);
   all.choose();
   all.engine->start(all.spheres, all.step);
   begin(false);
   all.engine->collect();
   // More spheres than there was memory for before, and other columns.
-  all.x = x;
+  all.host.x = x;
   begin(true);
   all.choose();
   all.step.per_sphere = true;

@@ -3,6 +3,7 @@
 
 // Merging closest points at one point, and keeping to one side of a closed wall.
 #include "contact/find_contacts.h"
+#include "support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -13,15 +14,6 @@
 
 namespace lsdcd {
 namespace {
-
-using Random = std::mt19937_64;
-
-Vec3 random_unit(Random &random)
-{
-  std::normal_distribution<Real> normal;
-  const Vec3 a = {normal(random), normal(random), normal(random)};
-  return (1 / norm(a)) * a;
-}
 
 // ---- add_once --------------------------------------------------------------------------
 

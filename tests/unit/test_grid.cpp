@@ -11,6 +11,7 @@
 #include "support/brute_force.h"
 #include "support/device.h"
 #include "support/meshes.h"
+#include "support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -31,17 +32,6 @@ namespace lsdcd {
 namespace {
 
 constexpr int kPlaces = 256;
-using Random = std::mt19937_64;
-
-Real uniform(Random &random, Real lo, Real hi)
-{
-  return std::uniform_real_distribution<Real>(lo, hi)(random);
-}
-
-Vec3 uniform(Random &random, const Vec3 &lo, const Vec3 &hi)
-{
-  return {uniform(random, lo.x, hi.x), uniform(random, lo.y, hi.y), uniform(random, lo.z, hi.z)};
-}
 
 // Triangles between random points: edges with one, two and more faces, faces
 // that cross, all angles.

@@ -4,6 +4,7 @@
 // How springs are handed on from one step's contacts to the next's.
 #include "contact/history.h"
 #include "support/meshes.h"
+#include "support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -12,15 +13,6 @@
 
 namespace lsdcd {
 namespace {
-
-using Random = std::mt19937_64;
-
-Vec3 random_unit(Random &random)
-{
-  std::normal_distribution<Real> normal;
-  const Vec3 a = {normal(random), normal(random), normal(random)};
-  return (1 / norm(a)) * a;
-}
 
 Vec3 tangent_to(const Vec3 &n, Random &random)
 {

@@ -26,6 +26,8 @@ class Pair {
     adapter = std::make_unique<HostAdapter<CpuBackend>>(settings_, law_for<CpuBackend>(settings_),
                                                         CpuBackend());
     direct = on_cpu(settings_);
+    spheres_.v.assign(3 * kSpheres, 0.1);
+    spheres_.omega = spheres_.v;
     set_grid();
   }
   void set_grid()
@@ -36,9 +38,8 @@ class Pair {
   void place(int touching, int deepest)
   {
     for (int i = 0; i < kSpheres; i++) {
-      x_[3 * i] = 0.3 * i;
-      x_[3 * i + 1] = 0.1;
-      x_[3 * i + 2] = touching >> i & 1 ? (i == deepest ? 0.4 : 0.45) : 4;
+      const Real z = touching >> i & 1 ? (i == deepest ? 0.4 : 0.45) : 4;
+      put_vector(spheres_.x, i, {0.3 * i, 0.1, z});
     }
   }
   void choose(Real margin = 0, bool watch = false)
@@ -55,10 +56,7 @@ class Pair {
       both()[k]->collect();
     }
   }
-  void move(int i, const Vec3 &by)
-  {
-    for (int d = 0; d < 3; d++) x_[3 * i + d] += by[d];
-  }
+  void move(int i, const Vec3 &by) { put_vector(spheres_.x, i, vector_at(spheres_.x, i) + by); }
   bool same_forces() const { return same_bytes(force_[0], force_[1]); }
   // The shear of sphere i's one contact, 0 where it has none, by the engine and by the adapter.
   Real shear(int engine, int i)
@@ -81,13 +79,7 @@ class Pair {
   Spheres spheres(std::vector<Real> &force)
   {
     force.resize(6 * kSpheres);
-    Spheres s;
-    s.n = kSpheres;
-    s.x = x_.data();
-    s.v = v_.data();
-    s.omega = v_.data();
-    s.radius = radius_.data();
-    s.mass = mass_.data();
+    Spheres s = spheres_.spheres();
     s.force = force.data();
     s.torque = force.data() + 3 * kSpheres;
     return s;
@@ -95,9 +87,8 @@ class Pair {
 
   EngineSettings settings_;
   FlatGrid flat_;
-  std::vector<Real> x_ = std::vector<Real>(3 * kSpheres), v_ = std::vector<Real>(3 * kSpheres, 0.1),
-                    radius_ = std::vector<Real>(kSpheres, 0.5),
-                    mass_ = std::vector<Real>(kSpheres, 1), force_[2];
+  SphereArrays spheres_ = SphereArrays(kSpheres, 0.5);
+  std::vector<Real> force_[2];    // and torques
 };
 
 TEST(host_adapter, springs_survive_a_choice_with_other_near_spheres)

@@ -6,6 +6,7 @@
 #include "contact/find_contacts.h"
 #include "grid/triangle_grid.h"
 #include "support/meshes.h"
+#include "support/random.h"
 #include "support/real_mesh.h"
 
 #include <CGAL/AABB_traits.h>
@@ -29,16 +30,10 @@ namespace {
 
 constexpr int kPlaces = 512;
 using Wide = long double;
-using Random = std::mt19937_64;
 using Kernel = CGAL::Simple_cartesian<Wide>;
 using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-
-Real uniform(Random &random, Real lo, Real hi)
-{
-  return std::uniform_real_distribution<Real>(lo, hi)(random);
-}
 
 long n_points(long full)
 {

@@ -517,14 +517,11 @@ TEST(property, forces_are_finite_and_those_of_the_cpu)
     const PairMesh<long double> mesh = wall.pairs(triangles, seed);
     const FlatGrid flat(wall.grid);
     Numbers r(seed + 7);
-    std::vector<Real> x, v, omega, radius, mass(kPerMesh, 1);
+    SphereArrays all;
     for (int k = 0; k < kPerMesh; k++) {
       const Sphere s = sphere_of(mesh, k);
       const Vec3 u = r.direction(), w = r.direction();
-      x.insert(x.end(), {s.x.x, s.x.y, s.x.z});
-      v.insert(v.end(), {u.x, u.y, u.z});
-      omega.insert(omega.end(), {w.x, w.y, w.z});
-      radius.push_back(s.radius);
+      all.add(s.x, s.radius, 1, u, w);
     }
     EngineSettings law = hertz_history(1e3, 1e2, 1, 0.5, 0.4);
     law.corner = r.below(4) ? Corner::blend : Corner::sum;
@@ -535,22 +532,14 @@ TEST(property, forces_are_finite_and_those_of_the_cpu)
       engine->set_grid(flat.view());
       ContactHistory springs;
       springs.grow(kPerMesh);
-      force[at].assign(3 * kPerMesh, 0);
-      torque[at].assign(3 * kPerMesh, 0);
-      Spheres s;
-      s.n = kPerMesh;
-      s.x = x.data();
-      s.v = v.data();
-      s.omega = omega.data();
-      s.radius = radius.data();
-      s.mass = mass.data();
-      s.force = force[at].data();
-      s.torque = torque[at].data();
+      all.clear_forces();
       StepSettings step;
       step.dt = 1e-4;
       for (int k = 0; k < 2; k++) {    // the second step finds the springs of the first
-        step_once(*engine, s, step, &springs);
+        step_once(*engine, all.spheres(), step, &springs);
       }
+      force[at] = all.force;
+      torque[at] = all.torque;
       return engine->totals().contacts;
     };
     const long contacts = static_cast<long>(run(test_device(), 0));

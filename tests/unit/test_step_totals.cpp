@@ -52,16 +52,9 @@ class Floors {
   // A sphere whose overlap is this, over the point (x, 1, 0).
   void step(Real x, Real overlap)
   {
-    const Real at[] = {x, 1, kRadius - overlap}, rest[] = {0, 0, 0}, radius = kRadius, mass = 1;
-    Real force[3] = {}, torque[3] = {};
-    Spheres s;
-    s.n = 1;
-    s.x = at;
-    s.v = s.omega = rest;
-    s.radius = &radius;
-    s.mass = &mass;
-    s.force = force;
-    s.torque = torque;
+    SphereArrays one;
+    one.add({x, 1, kRadius - overlap}, kRadius);
+    const Spheres s = one.spheres();
     StepSettings step;
     step.dt = 1e-3;
     engine->choose(s, 0);
