@@ -39,11 +39,12 @@ void move_and_release(T *from, std::size_t n, const Copy &copy)
     copy(from + i, end);
 #if defined(__linux__)
     // Whole pages of this machine alone: the last bytes of the part may share one with what is not copied.
-    static const std::uintptr_t page = sysconf(_SC_PAGESIZE);
-    const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(from + i) + page - 1) / page,
-                         last = reinterpret_cast<std::uintptr_t>(end) / page;
-    if (first < last)
-      madvise(reinterpret_cast<void *>(first * page), (last - first) * page, MADV_DONTNEED);
+    static const std::size_t kPage = sysconf(_SC_PAGESIZE);
+    char *const begin = reinterpret_cast<char *>(from + i);
+    const std::size_t bytes = reinterpret_cast<char *>(end) - begin,
+                      before = (kPage - reinterpret_cast<std::uintptr_t>(begin) % kPage) % kPage;
+    if (bytes >= before + kPage)
+      madvise(begin + before, (bytes - before) / kPage * kPage, MADV_DONTNEED);
 #endif
   }
 }

@@ -59,16 +59,16 @@ LSDCD_FN FixedExpansion<16> minor(const FixedExpansion<2> &a, const FixedExpansi
 
 inline LSDCD_NOINLINE int exact(Vec3 a, Vec3 b, Vec3 c, Vec3 d)
 {
-  const int by = kTop - exponent_of(fmax(fmax(largest_of(a), largest_of(b)),
-                                         fmax(largest_of(c), largest_of(d))));
-  a = scaled(a, by), b = scaled(b, by), c = scaled(c, by), d = scaled(d, by);
-  const FixedExpansion<2> ax(a.x, d.x), ay(a.y, d.y), bx(b.x, d.x), by_(b.y, d.y), cx(c.x, d.x),
+  const int shift = kTop - exponent_of(fmax(fmax(largest_of(a), largest_of(b)),
+                                            fmax(largest_of(c), largest_of(d))));
+  a = scaled(a, shift), b = scaled(b, shift), c = scaled(c, shift), d = scaled(d, shift);
+  const FixedExpansion<2> ax(a.x, d.x), ay(a.y, d.y), bx(b.x, d.x), by(b.y, d.y), cx(c.x, d.x),
       cy(c.y, d.y);
   const FixedExpansion<2> az(a.z, d.z), bz(b.z, d.z), cz(c.z, d.z);
-  return minor(bx, cy, cx, by_)
+  return minor(bx, cy, cx, by)
       .times(az)
       .plus(minor(cx, ay, ax, cy).times(bz))
-      .plus(minor(ax, by_, bx, ay).times(cz))
+      .plus(minor(ax, by, bx, ay).times(cz))
       .sign();
 }
 

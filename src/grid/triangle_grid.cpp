@@ -49,7 +49,8 @@ Vec3 brick_centre(const TriangleGrid &grid, std::size_t slot)
 {
   const std::size_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
   const Real side = kBrickSide * grid.length, half = Real(0.5);
-  return grid.origin + side * Vec3{slot % nx + half, slot / nx % ny + half, slot / nx / ny + half};
+  const std::size_t x = slot % nx, y = slot / nx % ny, z = slot / nx / ny;
+  return grid.origin + side * Vec3{x + half, y + half, z + half};
 }
 
 GridView TriangleGrid::view() const

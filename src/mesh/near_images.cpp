@@ -109,7 +109,7 @@ class NearImages {
   // Each has three vertices and edges of its own at most, and these two ends.
   void check_number(Real more) const
   {
-    if (static_cast<Real>(n_parts_ + all_.size()) + more > std::numeric_limits<int>::max() / 6)
+    if (6 * (static_cast<Real>(n_parts_ + all_.size()) + more) > std::numeric_limits<int>::max())
       refuse("has more periodic images in the box than vertex numbers can count");
   }
   [[noreturn]] void refuse(const std::string &what) const

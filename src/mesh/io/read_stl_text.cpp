@@ -145,7 +145,7 @@ class Reader {
 
   Real read_coordinate(int corner, int axis)
   {
-    const std::string_view here(at_, 0);
+    const std::string_view here(at_, 0);    // NOLINT(bugprone-string-constructor): a place, no text
     const auto word = next_word();
     const auto name = [&] {
       return std::string("coordinate ") + "xyz"[axis] + " of vertex " + std::to_string(corner);
