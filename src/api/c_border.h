@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What every function of lsdcd.h does: no exception leaves it, its error keeps a text, and numbers in
-// texts have a point whatever the program's locale.
+// What every function of lsdcd.h does: no exception leaves it, the text of its error is kept, and numbers
+// in texts have a point in every locale.
 #pragma once
 
 #include "api/lsdcd.h"
@@ -73,7 +73,7 @@ inline void need(const void *pointer, const char *name)
   if (!pointer) throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("`") + name + "` is null");
 }
 
-// Of a call, 0: the default. More than this end a process; the tool has the same limit.
+// Threads of a call; 0: the default. With more, a process may end; the tool has the same limit.
 inline void check_threads(int n)
 {
   constexpr int kMost = 4096;
@@ -82,7 +82,7 @@ inline void check_threads(int n)
                    "`threads` is " + std::to_string(n) + "; it is 0 to " + std::to_string(kMost));
 }
 
-// A caller's struct, of this version or an earlier one; `least`: bytes of the first version.
+// Copies a caller's struct of this or an earlier version. `least`: bytes of the first version.
 template <class T>
 T checked(const T *given, const char *name, std::size_t least = sizeof(T))
 {

@@ -8,14 +8,14 @@
 
 namespace lsdcd {
 
-// While it lives, work that this thread starts has n threads; 0: as many as OMP_NUM_THREADS says, or
-// one. The caller's own number comes back with its end.
+// While it lives, work of this thread uses n threads; 0: as many as OMP_NUM_THREADS says, or one. Its
+// destructor restores the caller's number.
 class CallThreads {
 #if defined(_OPENMP)
  public:
   explicit CallThreads(int n)
   {
-    // From here on threads() goes by OpenMP's number, which each thread has for itself.
+    // Now threads() returns OpenMP's number, which each thread has for itself.
     static const int usual = [] {
       const int before = threads();
       threads_asked_for() = true;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Whether an array is one that only a GPU can read. Asks the CUDA driver if the process has it
-// loaded: without it there are none, and nobody is made to load it.
+// Can only a GPU read an array? Asks the CUDA driver if the process has loaded it. Without it no such
+// array exists, and it is not loaded for that.
 #pragma once
 
 #include <dlfcn.h>
@@ -13,8 +13,8 @@
 
 namespace lsdcd {
 
-// What a call knows of the driver. dlopen() takes microseconds, so it is asked only after the
-// process has loaded something since the last time: the driver may come with a later library.
+// Looks for the driver. dlopen() takes microseconds, so it is called only if the process has loaded a
+// library since the last time, which may have brought the driver.
 class DeviceMemory {
  public:
   bool only_there(const void *array) const
@@ -23,7 +23,7 @@ class DeviceMemory {
     constexpr unsigned kDevice = 2;
     const auto at = static_cast<unsigned long long>(reinterpret_cast<std::uintptr_t>(array));
     unsigned type = 0, managed = 0;
-    // A pointer that the driver does not know is the host's.
+    // A pointer that the driver does not know belongs to the host.
     if (!ask_ || ask_(&type, kMemoryType, at) != 0 || type != kDevice) return false;
     return ask_(&managed, kIsManaged, at) != 0 || managed == 0;
   }
@@ -48,7 +48,7 @@ class DeviceMemory {
     asked_at = loads;
     return found;
   }
-  // How many objects the process has loaded so far, those that are gone among them.
+  // How many objects the process has loaded so far, including those unloaded since.
   static unsigned long long n_loads()
   {
     unsigned long long loads = 0;

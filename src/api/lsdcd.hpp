@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// lsdcd.h for C++17: objects that free themselves, errors as exceptions. A header over the C
-// library, nothing more; what functions do, and which threads may call them, is told there.
+// lsdcd.h for C++17: objects that free themselves, errors as exceptions. It is only a header over the C
+// library. lsdcd.h says what functions do and which threads may call them.
 #ifndef LSDCD_HPP
 #define LSDCD_HPP
 
@@ -94,7 +94,7 @@ struct GridOptions : lsdcd_grid_options {
   }
 };
 
-// What is asked of n points; T: float or double. Set the arrays of answers that are wanted.
+// A query of n points; T: float or double. Set the arrays of the answers that you want.
 template <class T>
 struct Query : lsdcd_query {
   Query(const T *first, std::size_t count) : lsdcd_query()

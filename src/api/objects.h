@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the handles of lsdcd.h hold. Objects share what they are made from, so that a caller frees
+// What the handles of lsdcd.h hold. Objects share what they are made from, so that a caller may free
 // them in any order.
 #pragma once
 
@@ -21,7 +21,7 @@ struct ApiMesh {
   WallMesh mesh;
   std::string report;
 
-  // Is there an inside?
+  // Has the mesh an inside?
   bool has_sides() const { return mesh.report.closed && mesh.report.oriented; }
 };
 

@@ -24,7 +24,7 @@ struct lsdcd_stream {
 
 namespace {
 
-// A query of this grid that makes sense.
+// Checks a query of this grid and fills in defaults.
 lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given)
 {
   lsdcd_query q = checked(given, "lsdcd_query");
@@ -66,7 +66,7 @@ PointArrays<T> arrays_of(const lsdcd_query &q)
   io.n = q.n;
   io.points = vectors(static_cast<const T *>(q.points), q.points_row, q.points_column);
   io.radii = {static_cast<const T *>(q.radii), q.radii_step == 0 ? 1 : q.radii_step};
-  // The largest of this type that is not above it, so that all paths ask for the same.
+  // The largest number of this type that is not above it, so that float and double give the same answers.
   io.radius = static_cast<T>(q.radius);
   if (io.radius > q.radius) io.radius = std::nextafter(static_cast<T>(q.radius), T(0));
   io.distance = {static_cast<T *>(q.distance), q.distance_step == 0 ? 1 : q.distance_step};

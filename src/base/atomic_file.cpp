@@ -30,16 +30,16 @@ std::string directory_of(const std::string &path)
 
 AtomicFile::AtomicFile(const std::string &path) : path_(path)
 {
-  // To replace a device or a pipe would take it from the system, /dev/null even.
+  // Replacing a device or a pipe, even /dev/null, would remove it from the system.
   struct stat there;
   if (stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode))
     throw InputError("'" + path + "': is not a regular file; give the name of a file, new or old");
-  // Behind a link it is the file that is replaced, not the link.
+  // If it is a link, the file that it leads to is replaced.
   std::error_code not_there;
   const auto target = std::filesystem::canonical(path, not_there);
   if (!not_there) path_ = target.string();
 
-  // The process and the clock make the name; the flags make sure of it.
+  // The process and the clock make the name unique; the flags guarantee it.
   for (int i = 0; i < kNameTries && file_ < 0; i++) {
     char tail[64];
     const auto now = std::chrono::system_clock::now().time_since_epoch().count();
@@ -78,7 +78,7 @@ void AtomicFile::commit()
   if (rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot put the file in place");
   close(file_);
   file_ = -1;
-  // The new name too should outlive a crash; where it does not, the old file is there.
+  // The new name should survive a crash, too; else the old file is there.
   const int directory = open(directory_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (directory < 0) return;
   fsync(directory);

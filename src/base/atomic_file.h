@@ -10,10 +10,10 @@
 
 namespace lsdcd {
 
-// Written under a temporary name in the same directory, then put in place of what
-// was there. Several at once, of any number of processes, leave the file of the
-// last to finish. What is there and no regular file, as /dev/stdout, is refused. All but the
-// destructor throw InputError that names the file and what the system said.
+// It is written under a temporary name in the same directory and then renamed. If several
+// processes write it at once, the last one wins. A name that is no regular file, such as
+// /dev/stdout, is refused. All but the destructor throw InputError with the file and
+// the system's message.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string &path);
@@ -22,7 +22,7 @@ class AtomicFile {
   AtomicFile &operator=(const AtomicFile &) = delete;
 
   void write_at(std::uint64_t offset, const void *data, std::size_t bytes);
-  void commit();    // on the disk first, then under its name
+  void commit();    // writes it to the disk, then renames it
 
  private:
   [[noreturn]] void fail(const char *what) const;
@@ -31,7 +31,7 @@ class AtomicFile {
   int file_ = -1;
 };
 
-// Does the name of a file, not all of it, end so?
+// Does the name of a file end so? False if it is only the ending.
 inline bool ends_in(const std::string &path, const std::string &ending)
 {
   return path.size() > ending.size() &&

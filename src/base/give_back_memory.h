@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Memory that was freed, given back to the operating system.
+// Gives freed memory back to the operating system.
 #pragma once
 
 #include <algorithm>
@@ -28,8 +28,8 @@ inline void give_back_memory()
 #endif
 }
 
-// Calls copy(begin, end) for one part of n elements after another, and gives their pages back on the way:
-// an array and its copy are never in memory whole. What lay at `from`, memory of malloc's, is gone.
+// Calls copy(begin, end) for one part of n elements after another, and gives their pages back at once, so
+// that an array and its copy are never in memory both. The contents of `from` (by malloc) are lost.
 template <class T, class Copy>
 void move_and_release(T *from, std::size_t n, const Copy &copy)
 {

@@ -18,16 +18,16 @@ std::string number_text(Real value);    // "0.001", six digits
 
 constexpr Real kAboveZero = 1e-300;    // the lower end of a range without 0
 
-// "from 0 to 1", "above 0": of a range without its end, that end is a little inside.
+// "from 0 to 1", or "above 0" for kAboveZero.
 std::string range_text(Real low, Real high);
 
 // The name that takes the fewest inserted, deleted, changed or swapped letters.
 std::string nearest(const std::string &word, const std::vector<std::string> &names);
-// Not if more than two letters differ, or all of them.
+// Is it near enough to be suggested? At most two letters differ, and not all.
 bool is_near(const std::string &word, const std::string &name);
-// "the nearest is 'x'" where that is near; else "those are x, y".
+// "the nearest is 'x'" if that is near; else "those are x, y".
 std::string nearest_or_all(const std::string &word, const std::vector<std::string> &names);
-// May the word be meant to be the name? Not if more than a third of its letters differ.
+// May the word be a misspelt name? At most a third of its letters differ.
 bool is_like(const std::string &word, const std::string &name);
 
 class Tokens {
@@ -48,7 +48,7 @@ class Tokens {
 
   // A number in [low, high]; `what` is its name in messages.
   Real number(const char *what, Real low = -kHuge, Real high = kHuge);
-  // The same, or `otherwise` where the word is `instead`.
+  // The same, or `otherwise` if the word is `instead`.
   Real number_or(const char *instead, Real otherwise, const char *what, Real low,
                  Real high = kHuge);
   // The index of the word among `choices`.

@@ -14,9 +14,9 @@
 
 namespace lsdcd {
 
-// Aligned to 64 bytes. From 4 MB on it lies on pages of 2 MB, where Linux has some: a processor
-// knows the addresses of few pages at once, and most random reads among pages of 4 kB wait for an
-// address first.
+// Aligned to 64 bytes. From 4 MB on it uses pages of 2 MB if Linux has some. A processor keeps the
+// addresses of few pages, so that most random reads in pages of 4 kB first wait for an
+// address.
 struct LargeMemory {
   static constexpr std::size_t kPage = std::size_t(1) << 21;
 

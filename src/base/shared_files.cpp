@@ -11,7 +11,7 @@ namespace lsdcd {
 
 namespace {
 
-// Folder of the plugin or program that this code is in; empty if it cannot be told.
+// The folder of the plugin or program with this code; empty: not known.
 fs::path own_folder()
 {
   Dl_info info;

@@ -8,9 +8,9 @@
 
 namespace lsdcd {
 
-// The folder share/lsdcd of the build or installation that this code is in: the nearest above the
-// folder of the program or plugin. Where there is none, that beside this folder; empty if even that
-// cannot be told.
+// The folder share/lsdcd of this build or installation: the nearest one above the folder of the
+// program or plugin. If there is none, the name that it would have beside this folder; empty: not
+// known.
 std::filesystem::path shared_folder();
 
 }    // namespace lsdcd

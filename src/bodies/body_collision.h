@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which triangles of a rigid body meet which of the wall, pose by pose, on the CPU or a GPU.
+// Which triangles of a rigid body meet triangles of the wall, pose by pose, on the CPU or a GPU.
 #pragma once
 
 #include "bodies/meeting_segment.h"
@@ -16,8 +16,8 @@
 
 namespace lsdcd {
 
-// Where a body is: a point x of it is at rotation x + shift in the wall's frame. Corners of a
-// body in a pose are what corner_at() rounds them to; for these, answers are exact.
+// Where a body is: its point x is at rotation x + shift in the wall's frame. corner_at() rounds the
+// corners of a body in a pose. For these rounded corners, answers are exact.
 struct BodyPose {
   Vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};    // of the rotation matrix
   Vec3 shift = {0, 0, 0};                             // length
@@ -28,8 +28,8 @@ struct BodyPose {
   }
 };
 
-// A triangle of the body by its number, and a primitive of the wall: a face, or where welding
-// left an edge or a vertex without one, that.
+// A triangle of the body by its number, and a primitive of the wall: a face, or an edge or vertex that
+// welding left without a face.
 struct BodyPair {
   std::uint32_t triangle;
   FeatureCode wall;
@@ -43,9 +43,9 @@ struct BodyPair {
 
 struct Collision {
   std::vector<BodyPair> pairs;             // ascending, each once
-  std::vector<MeetingSegment> segments;    // of each pair, in the wall's frame, where asked for
-  // Pieces of the body in cells whose lists were cut short: there `nearest N` may have missed
-  // pairs. 0: the answer is exact.
+  std::vector<MeetingSegment> segments;    // of each pair, in the wall's frame, if asked for
+  // Pieces of the body in cells with shortened lists, where `nearest N` may have missed pairs. 0: the
+  // answer is exact.
   std::uint64_t uncertain = 0;
 
   bool any() const { return !pairs.empty(); }
@@ -56,17 +56,17 @@ class BodyCollision {
  public:
   virtual ~BodyCollision() = default;
 
-  // A grid whose lists hold whole triangles: of kEveryTriangle, which is exact, or of the N
-  // nearest, the paper's method. Throws InputError where they do not.
+  // The lists of this grid must hold whole triangles: with kEveryTriangle answers are exact, with the N
+  // nearest they are those of the paper's method. Else throws InputError.
   virtual void set_wall(const TriangleGrid &grid) = 0;
-  // Cuts the triangles into pieces; after set_wall(). Throws InputError, too, where these are too
-  // many for the grid's cells.
+  // Cuts the triangles into pieces; call it after set_wall(). Throws InputError, also if there are too
+  // many pieces for the grid's cells.
   virtual void set_body(const TriangleSoup &body) = 0;
   virtual std::size_t n_pieces() const = 0;
-  // Another with the same wall, of which there is one copy, and no body yet; on the same device.
+  // A new one without a body that shares this one's copy of the wall, on the same device.
   virtual std::unique_ptr<BodyCollision> with_same_wall() const = 0;
 
-  // Throws InputError where the pose is no rigid motion, or so far off that the cells have too few
+  // Throws InputError if the pose is no rigid motion, or so far away that coordinates have too few
   // digits.
   virtual Collision collide(const BodyPose &pose, bool with_segments = false) = 0;
 
@@ -74,12 +74,12 @@ class BodyCollision {
   virtual std::string device() const = 0;
 };
 
-// Device::automatic takes a GPU where there is one. Throws InputError where the device is not
-// there.
+// Device::automatic takes a GPU if there is one. Throws InputError if the device does not
+// exist.
 std::unique_ptr<BodyCollision> make_body_collision(Device device);
 
-// Settings of a wall's grid for bodies: cells of `length`, or where that is 0 as long as the median
-// edge of the body, and longer until the memory holds them.
+// Settings of a wall's grid for bodies. `length` 0: cells are as long as the median edge of the body, or
+// longer until the memory budget holds.
 GridSettings collision_grid(const TriangleSoup &body, Real length = 0,
                             int nearest = kEveryTriangle);
 

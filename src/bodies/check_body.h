@@ -25,7 +25,7 @@ constexpr std::uint64_t kMostPieces = std::uint64_t(1) << 28;
                    " pieces, more than 2^28: give longer cells");
 }
 
-// Before anything is counted one by one: no piece has a larger area than one with equal sides.
+// A quick bound before pieces are counted: none has a larger area than one with equal sides.
 inline void check_body(const TriangleSoup &body, Real longest)
 {
   constexpr Real kLargestLength = 1e100;

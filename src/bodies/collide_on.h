@@ -56,7 +56,7 @@ class BodyCollisionOn : public BodyCollision {
     if (grid_.length <= 0) throw InputError("a body needs a wall first: call set_wall()");
     const Real longest = longest_edge();
     check_body(body, longest);
-    pieces_ = Array<Piece>();    // no body, should this one fail
+    pieces_ = Array<Piece>();    // no body if this throws
     n_triangles_ = body.n_triangles();
     body_ = body.corners;
     corners_ = from_host(b_, body.corners);
@@ -142,8 +142,8 @@ class BodyCollisionOn : public BodyCollision {
     b_.wait();
   }
 
-  // The pairs that meet, in any order and some more than once, into met_, and their number into
-  // tally_. Room that was too short grows and all is done again.
+  // Puts the pairs that meet into met_, in any order and some more than once, and their number into
+  // tally_. If the room is too small, it grows and all is done again.
   void find(const BodyPose &pose)
   {
     for (;;) {
@@ -160,7 +160,7 @@ class BodyCollisionOn : public BodyCollision {
     }
   }
 
-  // Which primitives of the wall pieces are near, into near_ as far as it goes.
+  // Puts the primitives of the wall near each piece into near_, as many as fit.
   void find_near(const BodyPose &pose)
   {
     const GridView grid = grid_;
@@ -200,8 +200,8 @@ class BodyCollisionOn : public BodyCollision {
       });
   }
 
-  // The test of each by rounded signs: those that meet into met_, those where these do not decide
-  // into unsure_.
+  // Tests each by rounded signs: those that meet go into met_, those for which rounded signs do not
+  // decide into unsure_.
   void test_near(const BodyPose &pose)
   {
     const WallFeaturesView wall = grid_.wall;
@@ -224,7 +224,7 @@ class BodyCollisionOn : public BodyCollision {
         64);
   }
 
-  // The first n of met_, ascending, into pairs_, and their segments.
+  // Puts the first n of met_ into pairs_, ascending, with their segments.
   void order(const BodyPose &pose, std::size_t n, bool with_segments)
   {
     if (n == 0) return;
@@ -260,7 +260,7 @@ class BodyCollisionOn : public BodyCollision {
   {
     for (Array<BodyPair> *pairs : {&near_, &met_, &unsure_}) grow(*pairs, n);
   }
-  // To n and a quarter; what is in it is lost.
+  // Grows to n and a quarter more; the contents are lost.
   template <class A>
   static void grow(A &array, std::size_t n)
   {
@@ -276,7 +276,7 @@ class BodyCollisionOn : public BodyCollision {
 
   // 2 / 3 of the longest edge (subdivide.h), and what piece_of() adds to it.
   static constexpr Real kMostRadius = (2. / 3) * (1 + 2e-6);
-  // Of pieces: a cell, or as the cutoff reaches with a bit to spare for rounding.
+  // The longest edge of pieces: a cell, or what the cutoff allows, a little less for rounding.
   Real longest_edge() const
   {
     return std::min(grid_.length, grid_.cutoff / (kMostRadius * (1 + Real(1e-4))));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Pairs that rounded signs do not decide, by exact ones. They touch or lie in one plane, are few
-// and take long, so that the host finds them whatever the backend.
+// Decides pairs by exact signs if rounded signs do not. They touch or lie in one plane, are few and
+// take long, so that the host does it for every backend.
 #pragma once
 
 #include "bodies/near_piece.h"
@@ -13,7 +13,7 @@
 
 namespace lsdcd {
 
-// Adds to `out` those of n pairs that meet; sorts these. `corners`: of the body.
+// Adds those of n pairs that meet to `out`, sorted. `corners`: of the body.
 inline void add_exact_pairs(const WallFeaturesView &wall, const Vec3 *corners, const BodyPose &pose,
                             BodyPair *pairs, std::size_t n, bool with_segments, Collision &out)
 {

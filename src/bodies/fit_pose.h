@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where a rigid body is, from where points of it are.
+// The pose of a rigid body, from the places of some of its points.
 #pragma once
 
 #include "bodies/body_collision.h"
@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-// Points that tell where a body is: where they are when it is where its mesh has it.
+// The places of these points when the body is where its mesh file has it.
 class PosePoints {
  public:
   // At least three, not all on one line; else throws InputError with what is wrong.
@@ -20,13 +20,13 @@ class PosePoints {
   std::size_t size() const { return from_centre_.size(); }
   Real radius() const { return radius_; }    // root mean square distance from the centre
 
-  // Sums over points of where they are now, which may come from several processes. `origin`: near
-  // them, so that little is lost by rounding; the same for all.
+  // Sums over the present places of points, which several processes may have. `origin`: a place near
+  // them, for less rounding; the same on all processes.
   static constexpr int kSums = 14;
   void add(std::size_t point, const Vec3 &x, const Vec3 &origin, double *sums) const;
 
-  // The rigid motion from the points to where they are now that leaves the least mean square
-  // distance (Horn 1987), and the root of that.
+  // The rigid motion of the points to their present places with the least mean square distance (Horn
+  // 1987), and the square root of that.
   BodyPose fit(const double *sums, const Vec3 &origin, Real &off) const;
 
  private:

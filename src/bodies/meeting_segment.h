@@ -8,8 +8,8 @@
 
 namespace lsdcd {
 
-// The segment that two triangles have in common, rounded; `flat`: they lie in one plane, or one has
-// no area, and what they share is no such segment.
+// The common segment of two triangles, rounded. `flat`: they lie in one plane, or one has no area, and
+// there is no such segment.
 struct MeetingSegment {
   Vec3 from, to;
   bool flat;
@@ -17,8 +17,8 @@ struct MeetingSegment {
 
 namespace meeting_segment_detail {
 
-// Where the plane with this normal through x cuts a triangle: the two sides at its corner that is
-// alone. The signs of `sides` are exact and the distances rounded, so that where they differ the
+// Where the plane with this normal through x cuts a triangle: on the two sides at the corner that is
+// alone. The signs of `sides` are exact, distances are rounded. If they contradict each other, the
 // point stays on its side.
 template <class Sides>
 LSDCD_FN void cut(const Triangle &t, const Sides &sides, const Vec3 &normal, const Vec3 &x,
@@ -44,7 +44,7 @@ LSDCD_FN Vec3 unit_normal(const Triangle &t)
 
 }    // namespace meeting_segment_detail
 
-// Of two triangles that meet; `Sign`: where rounded signs have decided that, these do.
+// For two triangles that meet. `Sign`: rounded signs are enough if they have decided that.
 template <class Sign = triangles_meet_detail::ExactSign>
 LSDCD_FN MeetingSegment meeting_segment(const Triangle &a, const Triangle &b)
 {
@@ -67,7 +67,7 @@ LSDCD_FN MeetingSegment meeting_segment(const Triangle &a, const Triangle &b)
   ascend(y);
   const Vec3 from = dot(along, y[0] - x[0]) > 0 ? y[0] : x[0],
              to = dot(along, y[1] - x[1]) < 0 ? y[1] : x[1];
-  // Where they only touch, rounding may leave the end before the start.
+  // If they only touch, rounding may put the end before the start.
   if (dot(along, to - from) < 0) return {to, to, false};
   return {from, to, false};
 }

@@ -22,14 +22,14 @@ struct MeshCollisionSettings {
   Device device = Device::cpu;
 };
 
-// What a pair has where welding left no face of a triangle of the wall: it has no area.
+// In place of a triangle of the wall without area, of which welding left no face.
 constexpr std::uint32_t kNoFace = 0xffffffff;
 
 class MeshCollision {
  public:
-  // Faces of the body are its triangles: those without area are left out. Throws InputError.
+  // The body's triangles without area are left out. Throws InputError.
   MeshCollision(const WallMesh &wall, const WallMesh &body, const MeshCollisionSettings &settings);
-  // Another body against the same wall, whose grid both share; on the same device.
+  // Another body against the same wall, with a common grid, on the same device.
   MeshCollision(const MeshCollision &same_wall, const WallMesh &body);
 
   Collision collide(const BodyPose &pose, bool with_segments = false)

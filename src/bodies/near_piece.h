@@ -51,8 +51,8 @@ LSDCD_FN Triangle body_triangle(const Vec3 *corners, std::uint32_t triangle, con
   return {{pose.corner_at(c[0]), pose.corner_at(c[1]), pose.corner_at(c[2])}};
 }
 
-// Calls visit(primitive) for those of the wall that reach into a ball, of the list of its centre's
-// cell; returns whether that list was cut short.
+// Calls visit(primitive) for the primitives of the wall that overlap a ball, from the list of its
+// centre's cell. Returns whether that list is shortened.
 template <class Visit>
 LSDCD_FN bool for_each_near(const GridView &grid, const Vec3 &centre, Real radius,
                             const Visit &visit)
@@ -75,9 +75,9 @@ LSDCD_FN bool for_each_near(const GridView &grid, const Vec3 &centre, Real radiu
   return cell.count > most;
 }
 
-// Does the piece before, of the same triangle, have this primitive, too? It does where that is
-// within its ball, as its list holds all such. Few pairs of large triangles are left: one for each
-// run of pieces.
+// Does the previous piece of the same triangle have this primitive, too? It does if the primitive
+// overlaps its ball. Then this piece leaves it out, so that large triangles give one pair for each run
+// of pieces.
 LSDCD_FN bool is_of_piece_before(const GridView &grid, const Piece *pieces, std::size_t i,
                                  const BodyPose &pose, Real unit, FeatureCode primitive)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Pieces that lie side by side, and whether any of them can be near the wall.
+// Groups of neighbouring pieces, and a test whether any of them can be near the wall.
 #pragma once
 
 #include "bodies/subdivide.h"
@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-// The ball that holds the centres of kPiecesOfGroup pieces, which are mostly of one triangle.
+// A ball around the centres of kPiecesOfGroup pieces, mostly of one triangle.
 struct PieceGroup {
   Vec3 centre;    // in the body's frame
   Real radius;
@@ -29,7 +29,7 @@ LSDCD_FN PieceGroup group_of(const Piece *pieces, std::size_t begin, std::size_t
   return {Real(0.5) * (lo + hi), Real(0.5) * norm(hi - lo) * (1 + Real(1e-6))};
 }
 
-// Is any brick that a ball's box overlaps in the grid? True without a look where these are many.
+// Is any brick that overlaps a ball's box in the grid? True without a test if these are many.
 LSDCD_FN bool any_brick_near(const GridView &grid, const Vec3 &centre, Real radius)
 {
   constexpr Real kManyBricks = 4;    // along an axis

@@ -21,7 +21,7 @@ void check_finite(const Real *numbers, int n, const char *what)
                        std::to_string(k + 1) + " is " + number_text(numbers[k]));
 }
 
-// Newton's steps to the nearest rotation. Each squares the error; one of doubles is left as it is.
+// Newton's steps to the nearest rotation. Each squares the error; a rotation stays as it is.
 void make_rotation(BodyPose &pose)
 {
   constexpr Real kOfDoubles = 1e-14;

@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// By triangle, and by primitive of the wall within each.
+// Sorts by triangle, then by primitive of the wall.
 template <class B>
 void sort_pairs(B &backend, BodyPair *pairs, std::size_t n, std::uint32_t largest_triangle,
                 std::uint32_t largest_wall)
@@ -18,7 +18,7 @@ void sort_pairs(B &backend, BodyPair *pairs, std::size_t n, std::uint32_t larges
   if constexpr (B::kOnHost) {
     std::sort(pairs, pairs + n);
   } else {
-    // One sort is kept stable by the next.
+    // The second sort is stable, so that it keeps the order of the first.
     using Numbers = typename B::template Scratch<std::uint32_t>;
     Numbers triangles(n), walls(n);
     std::uint32_t *triangle = triangles.data(), *wall = walls.data();

@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// A piece as the search sees it: the ball that holds it.
+// The ball around a piece, which the search uses.
 struct Piece {
   Vec3 centre;               // the piece's centroid, in the body's frame
   float radius;              // no corner is farther, in units of the longest edge allowed
@@ -34,8 +34,8 @@ LSDCD_FN Real longest_edge_sq(const Triangle &t, int &longest)
   return most;
 }
 
-// Calls visit(piece) for the pieces of a triangle, none with an edge above `longest`. False, and
-// not all of them, where bisections do not lead there: the numbers have too few digits.
+// Calls visit(piece) for the pieces of a triangle, none with an edge above `longest`. False: bisection
+// does not end because numbers have too few digits, and some pieces are missing.
 template <class Visit>
 LSDCD_FN bool for_each_piece(const Triangle &whole, Real longest, const Visit &visit)
 {
@@ -65,7 +65,7 @@ LSDCD_FN Piece piece_of(const Triangle &t, std::uint32_t triangle, Real longest)
   piece.centre = (Real(1) / 3) * (t[0] + t[1] + t[2]);
   Real radius_sq = 0;
   for (int k = 0; k < 3; k++) radius_sq = fmax(radius_sq, norm_sq(t[k] - piece.centre));
-  // One part in 1e6 for rounding to float and for what a pose's rotation may stretch; never 0.
+  // One part in 1e6 more for rounding to float and for the stretch of a pose's rotation; never 0.
   constexpr Real kLeast = 1e-30;
   piece.radius = static_cast<float>(fmax(kLeast, sqrt(radius_sq) / longest * (1 + Real(1e-6))));
   piece.triangle = triangle;

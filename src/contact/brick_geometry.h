@@ -9,7 +9,7 @@
 
 namespace lsdcd {
 
-// The tests of closest_point.h once more, on records that need no large coordinates:
+// The tests of closest_point.h on records whose coordinates are small:
 // p is the sphere's centre in the frame of its brick.
 class BrickGeometry {
  public:
@@ -18,14 +18,14 @@ class BrickGeometry {
       tolerance_(static_cast<float>(tolerance(grid)))
   {
   }
-  // For a point inside of the grid.
+  // Only for points inside the grid.
   LSDCD_FN BrickGeometry(const GridView &grid, const Vec3 &q) :
       BrickGeometry(grid, q, address_inside(grid, q))
   {
   }
 
-  // What rounding moves a height over a plane by: 16 units of the largest coordinate in
-  // a brick's frame, the cutoff and half its diagonal (7 cells) from its centre, both ways.
+  // A bound of the rounding error of a height over a plane: 16 units in the last place of the largest
+  // coordinate in a brick's frame, which is the cutoff plus half the brick's diagonal (7 cells).
   LSDCD_FN static Real tolerance(const GridView &grid)
   {
     constexpr Real kFloatRoundoff = 5.9604644775390625e-8;
@@ -52,7 +52,7 @@ class BrickGeometry {
     return closest_point_with(code, within, 0);
   }
   LSDCD_FN static void prefetch(const GridView &, const Candidate *, std::uint32_t) {}
-  // Could there be a closest point with so much more of tolerance (length)?
+  // Could there be a closest point if the tolerance were larger by `more` (length)?
   LSDCD_FN bool may_be_closest(FeatureCode code, Real within, Real more) const
   {
     return closest_point_with(code, within, more).found;
@@ -104,7 +104,7 @@ class BrickGeometry {
     return a < tolerance || b < tolerance || c < tolerance ? FaceRegion::rim : FaceRegion::inside;
   }
 
-  // Forces and springs want a normal that is unit in double.
+  // Forces and springs need a normal of length 1 in double.
   LSDCD_FN static ClosestPoint closest_along(const Vec3f &normal, float distance)
   {
     const Vec3 n = vec_cast<Real>(normal);
@@ -116,7 +116,7 @@ class BrickGeometry {
     const BrickFace f = grid_.records.faces[i];
     const float h = height(f.plane);
     const FaceRegion over = over_sides(f, tolerance);
-    // Both before a branch, so that a GPU asks for all of the record at once.
+    // Both are read before a branch, so that a GPU loads the whole record at once.
     if (!(fabs(h) <= within) | (over == FaceRegion::outside)) return kNoClosestPoint;
     if (over == FaceRegion::rim) {
       Vec3 corner[3];

@@ -12,9 +12,9 @@
 namespace lsdcd {
 
 // Springs of sphere i are pool[first[i]] .. pool[first[i] + count[i] - 1].
-// Two ints per sphere, one Spring per contact, and beside each Spring the numbers that
-// further effects of the contact law keep (`n_extra` of them; most laws have none). The
-// host may copy, pack, unpack and reset spheres.
+// It holds two ints per sphere, one Spring per contact, and for each Spring the `n_extra` numbers
+// that further effects of the contact law keep (most laws have none). The host may copy, pack,
+// unpack and reset spheres.
 class ContactHistory {
  public:
   explicit ContactHistory(int n_extra = 0) : n_extra_(n_extra) {}
@@ -41,7 +41,7 @@ class ContactHistory {
   }
   void set(int i, const Spring *springs, const Real *extra, int n);
 
-  // Gives features other names: rename(mesh, feature).
+  // Replaces each feature by rename(mesh, feature).
   template <class Rename>
   void rename_features(const Rename &rename)
   {
@@ -52,7 +52,7 @@ class ContactHistory {
       }
   }
 
-  // Takes over the springs of n spheres from elsewhere, places and all.
+  // Takes over the springs of n spheres from elsewhere, with first[] and count[] as they are there.
   void assign(std::vector<int> first, std::vector<int> count, std::vector<Spring> pool,
               std::vector<Real> extra);
 

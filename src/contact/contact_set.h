@@ -17,7 +17,7 @@ struct ContactsView {
   const Real *distance;
 };
 
-// Places of a set. A single one needs no index, so that it can live in registers.
+// The places of a set. A set of one needs no index, so that it can stay in registers.
 template <class T, int kPlaces>
 struct Places {
   T at[kPlaces];
@@ -35,9 +35,9 @@ struct Places<T, 1> {
   LSDCD_FN const T *data() const { return &only; }
 };
 
-// A fixed number of places, so that it can live in registers and local memory.
-// `overflow` is set when more contacts were found than there are places; the
-// caller then repeats the sphere with a larger set and drops nothing.
+// It has a fixed number of places, so that it can stay in registers and local memory.
+// `overflow` is set when there are more contacts than places. The caller then
+// repeats the search with a larger set, so that no contact is dropped.
 template <int kPlaces>
 struct ContactSet {
   int n = 0;
@@ -59,13 +59,13 @@ struct ContactSet {
     normal[n] = n_unit;
     distance[n++] = d;
   }
-  // Not by a set that is empty: of 512 places that would be 18 kB of a GPU thread's stack.
+  // Assigning an empty set would take 18 kB of a GPU thread's stack where there are 512 places.
   LSDCD_FN void clear()
   {
     n = 0;
     overflow = false;
   }
-  // By the features' numbers. Sets are small, and from lists nearly in order.
+  // Sorts by the features' numbers. Sets are small, and those from lists are nearly sorted.
   LSDCD_FN void sort()
   {
     for (int i = 1; i < n; i++) {

@@ -21,11 +21,11 @@ LSDCD_FN Real one_minus_cos(const Vec3 &a, const Vec3 &b)
 // between is continuous. Solved exactly by an active set: a contact enters while
 // the gradient d_i - (Gl)_i is positive, and leaves when its l would be negative.
 //
-// A closest point that lies in the tangent plane of another contact has a gradient of
-// (s - h) (R - s - h) / s, s and h being the two distances: it bears nothing. Close
-// to the other closest point that is less than the rounding of s - h, so closest points of edges on
-// faces' planes, and of vertices on theirs, to `tolerance` (length), are left out
-// first. Else rims of T-junctions would turn the force by the root of a rounding.
+// A closest point that lies in the tangent plane of another contact bears nothing: its gradient is
+// (s - h) (R - s - h) / s, where s and h are the two distances. Where the two closest points are close,
+// rounding hides the sign of s - h. So edges that lie in the plane of a face, and vertices in that of an
+// edge or face, to `tolerance` (length), are left out first. Else the rim of a T-junction would turn the
+// force by the square root of a rounding error.
 template <int kPlaces>
 class CornerRule {
  public:
@@ -74,7 +74,7 @@ class CornerRule {
   {
     const Real d0 = radius - set.distance[a], d1 = radius - set.distance[b];
     const Real u = one_minus_cos(set.normal[a], set.normal[b]), g = 1 - u;
-    // Gradients with the other contact alone active, free of cancellation.
+    // The gradients when only the other contact is active, computed without cancellation.
     const Real g0 = (d0 - d1) + u * d1, g1 = (d1 - d0) + u * d0;
     if (g1 <= 0 && g0 <= 0) {    // parallel and equally deep, to the last bits
       weight[a] = weight[b] = Real(0.5);
@@ -99,8 +99,8 @@ class CornerRule {
       l_[used_[k]] = 0;
       refused_[used_[k]] = false;
     }
-    // Each round enters one contact; the objective falls strictly, so that no
-    // active set comes back. The bound only guards against round-off.
+    // Each round adds one contact. The objective falls strictly, so that no active set
+    // occurs twice. The bound is a guard against round-off.
     for (int round = 0; round < 4 * n + 8; round++) {
       int enter = -1;
       Real steepest = 0;
@@ -117,7 +117,7 @@ class CornerRule {
       if (enter < 0) break;
       bool is_in = push(set, enter);
       while (!is_in && make_room(set, enter)) is_in = push(set, enter);
-      if (!is_in) {    // round-off only: nothing that it could take the place of
+      if (!is_in) {    // only by round-off: it replaces no other contact
         refused_[enter] = true;
         continue;
       }
@@ -169,13 +169,13 @@ class CornerRule {
     return true;
   }
 
-  // Contact i is a combination of the active ones, to rounding: its share can grow
-  // while theirs keep the sum, which lowers the energy, until one of them is used
-  // up and leaves. False if none shrinks. push() of i must just have failed.
+  // The normal of contact i is a combination of the active ones, to rounding. Its share grows while
+  // theirs change so that the sum stays, which lowers the energy, until one of them is 0
+  // and leaves. False if none shrinks. Call this right after push(i) has failed.
   LSDCD_FN bool make_room(const ContactSet<kPlaces> &set, int i)
   {
     const int m = n_active_;
-    for (int k = m - 1; k >= 0; k--) {    // the combination, from push()'s new row
+    for (int k = m - 1; k >= 0; k--) {    // coefficients, from the row of push()
       target_[k] = at(m, k);
       for (int p = k + 1; p < m; p++) target_[k] -= at(p, k) * target_[p];
       target_[k] /= at(k, k);
@@ -200,7 +200,7 @@ class CornerRule {
     return true;
   }
 
-  // Takes the k-th active contact out and factors the others afresh.
+  // Removes the k-th active contact and factors the others again.
   LSDCD_NOINLINE void leave(const ContactSet<kPlaces> &set, int leaving)
   {
     const int m = n_active_;
@@ -213,8 +213,8 @@ class CornerRule {
       if (!push(set, kept_[k])) l_[kept_[k]] = 0;
   }
 
-  // Moves l to the solution on the active set, or as far towards it as l >= 0
-  // allows and drops the contact that stopped it. True when it arrived.
+  // Moves l towards the solution on the active set. If l >= 0 stops it on the way, it drops the
+  // contact whose l became 0 and returns false. True: l is the solution.
   LSDCD_FN bool step(const ContactSet<kPlaces> &set, Real radius)
   {
     const int m = n_active_;
@@ -250,8 +250,8 @@ class CornerRule {
     return n_active_ == 0;
   }
 
-  // Below this share of a unit, a pivot or a slope is round-off. Leaving a slope
-  // of it unused shifts the force by sqrt(2 kTiny) of the overlap at most.
+  // A pivot or a slope below this is round-off. Ignoring such a slope changes the force by at most
+  // sqrt(2 kTiny) of the overlap.
   static constexpr Real kTiny = 5e-15;
 
   int n_ = 0;    // contacts that take part

@@ -12,11 +12,11 @@ namespace lsdcd {
 
 namespace {
 
-// Of the fastest speed: a component this small is the rounding of words such as 0.87 0 0.5.
+// Share of the largest speed: a smaller component comes from rounded input such as 0.87 0 0.5.
 constexpr Real kRoundedWords = 0.01;
-// Of the mesh's diagonal: coordinates of STL files, in float or six digits.
+// Share of the mesh's diagonal: the rounding of coordinates in STL files, float or six digits.
 constexpr Real kRoundedCorners = 1e-6;
-// Of the speed: sine of half the angle of a flat face of which six go around.
+// Share of the speed: the sine of half the angle of a facet of a roll with six of them.
 constexpr Real kCoarsestRoll = 0.5;
 
 Vec3 velocity_at(const SurfaceMotion &m, const Vec3 &p)
@@ -28,9 +28,9 @@ struct Push {
   Real component = 0, speed = 0;    // at the centre; 0 where nothing is pushed
 };
 
-// A flat face stands for a part of a smooth surface that moves along itself if somewhere on it
-// the velocity is in its plane, as along the middle of a roll's facet. A sliver's plane may lean
-// further, by what the path bends away from its chord over the sliver's height.
+// A flat face can be part of a smooth surface that moves along itself if the velocity lies in its
+// plane at some point of it, as along the middle of a roll's facet. For a sliver more is allowed: what
+// the path bends away from its chord over the sliver's height.
 Push push_on(const Vec3 corner[3], const SurfaceMotion &motion, Real fastest, Real rounding)
 {
   const FacePlane plane = face_plane(corner[0], corner[1], corner[2]);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where a surface that is said to move would have to take the mesh along.
+// Where the velocity of a surface would push the mesh, which stays where it is.
 #pragma once
 
 #include "motion/surface_motion.h"
@@ -12,13 +12,13 @@
 namespace lsdcd {
 
 struct PushReport {
-  std::size_t faces = 0;    // that the motion pushes along their normals
+  std::size_t faces = 0;    // faces that the motion pushes along their normals
   Real component = 0;       // the largest along a normal, at a face's centre; velocity
   Real share = 0;           // of the speed there
 };
 
-// A belt, a turntable or a roll has none, however coarse its triangles are (six around a roll
-// will do); lifters, blades, screws and tilted belts have.
+// A belt, a turntable or a roll has no such face, however coarse its triangles are (six around a roll
+// are enough). Lifters, blades, screws and tilted belts have some.
 PushReport faces_pushed(const WallMesh &mesh, const SurfaceMotion &motion);
 
 }    // namespace lsdcd

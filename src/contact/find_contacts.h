@@ -10,13 +10,13 @@
 
 namespace lsdcd {
 
-// Two tests closed by the tolerance can both answer at a seam; then their closest
-// points lie this many tolerances apart at most (each is off by one, twice).
+// The tolerance lets two features answer at a seam. Their closest points are then at most this
+// many tolerances apart, as each is off by at most two.
 constexpr Real kSamePoint = 4;
 
-// Adds a contact unless the set already has one at the same point of the wall: then
-// the nearer answer stays, or the lower feature, whatever the order. A closest point between
-// two others makes one of all three.
+// Adds a contact unless the set already has one at the same point of the wall. Then the
+// nearer one stays, or the lower feature, whatever the order. A closest point between two
+// others merges all three.
 template <int kPlaces>
 LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const ClosestPoint &closest,
                        Real tolerance)
@@ -47,8 +47,8 @@ LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const Clos
   if (at < 0) set.add(feature, closest.normal, closest.distance);
 }
 
-// Adds what a feature holds. The geometry tells where the closest point is and what its codes
-// stand for: WallGeometry in double, BrickGeometry in float. `copy`: of its record, or null.
+// Adds the contact of a feature, if it has one. The geometry knows where the closest point is and what
+// codes stand for: WallGeometry in double, BrickGeometry in float. `copy`: a copy of its record, or null.
 template <class Geometry, int kPlaces>
 LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radius,
                           ContactSet<kPlaces> &set, const FeatureRecord *copy = nullptr)
@@ -68,7 +68,7 @@ LSDCD_NOINLINE void add_feature_noinline(const Geometry &geometry, FeatureCode c
   add_feature(geometry, code, radius, set, copy);
 }
 
-// A face and what it stands for. Above the face's inside nothing else of it is near.
+// The contacts of a face and its edges and vertices. Over the inside of a face only the face is near.
 template <class Geometry, int kPlaces>
 LSDCD_NOINLINE void add_primitive(const Geometry &geometry, FeatureCode primitive, Real radius,
                                   ContactSet<kPlaces> &set)
@@ -96,8 +96,8 @@ LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
     add_feature_noinline(geometry, cell.first, radius, set);
     return;
   }
-  // A list ascends in distance from the cell's centre: past this bound no
-  // feature can be within the radius.
+  // The list is sorted by distance from the cell's centre: no feature past this bound can be
+  // within the radius.
   const Real enough = radius + norm(at.from_centre);
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
     const Candidate candidate = grid.lists.candidates[i];
@@ -107,7 +107,7 @@ LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
   }
 }
 
-// Returns the radius up to which the set is certain to be complete.
+// Returns the radius up to which the set is known to be complete.
 template <class Geometry, int kPlaces>
 LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
                               ContactSet<kPlaces> &set)
@@ -124,7 +124,7 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
   for (std::uint32_t k = 0; k < cell.count; k++) {
     const Candidate candidate = grid.lists.candidates[cell.first + k];
     if (candidate.bound > radius + off_centre) break;
-    // The tolerance is for the rounding of distances.
+    // The tolerance covers the rounding of distances.
     if (k == static_cast<std::uint32_t>(grid.nearest))
       return candidate.bound - off_centre - grid.tolerance;
     add_primitive(geometry, candidate.feature, radius, set);
@@ -133,9 +133,9 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
   return kAnyDistance;
 }
 
-// Local minima of the distance from q to the wall that are below `radius` (length, at
-// most grid.cutoff): every one of them with complete lists, those on the primitives listed
-// with nearest ones. Returns the radius up to which none can be missing.
+// Finds the local minima of the distance from q to the wall that are below `radius` (length, at
+// most grid.cutoff). With complete lists it finds all, with nearest lists those on the listed
+// primitives. Returns the radius up to which none can be missing.
 // The geometry must be the one that the grid was made for.
 template <class Geometry, int kPlaces>
 LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
@@ -169,10 +169,10 @@ LSDCD_FN Vec3 outward(const WallFeaturesView &wall, FeatureCode feature)
   }
 }
 
-// Keeps the spheres on one side of a closed wall: sign +1 outside, -1 inside.
-// The closest point says on which side the centre is. On the right side,
-// contacts with the wall's far face are dropped. On the wrong side, the nearest
-// contact is turned round, with the overlap radius + distance, and pushes back.
+// Keeps spheres on one side of a closed wall: sign +1 outside, -1 inside. The closest
+// point tells on which side the centre is. If that is the right side, contacts with the
+// wall's far face are dropped. Else the nearest contact is reversed: with the overlap
+// radius + distance it pushes the sphere back.
 template <int kPlaces>
 LSDCD_FN void keep_side(const WallFeaturesView &wall, Real sign, ContactSet<kPlaces> &set)
 {

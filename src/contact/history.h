@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Handing springs on from the contacts of one step to those of the next.
+// How the contacts of a step take over the springs of the last step.
 #pragma once
 
 #include "contact/contact_set.h"
@@ -10,8 +10,8 @@
 
 namespace lsdcd {
 
-// Turns a tangent vector with the rotation that takes unit `from` to unit `to`
-// the shortest way (not opposite). Length is kept. On a face normals are equal from step to step.
+// Rotates a tangent vector by the smallest rotation that takes the unit vector `from` to `to` (not its
+// opposite). The length stays. On a face the normals of two steps are equal.
 LSDCD_FN Vec3 transport(const Vec3 &h, const Vec3 &from, const Vec3 &to)
 {
   if (from == to) return h;
@@ -37,8 +37,8 @@ LSDCD_FN int feature_vertices(const WallFeaturesView &wall, FeatureCode feature,
   }
 }
 
-// Do two features share a vertex? A feature and its periodic image share all: a sphere that is
-// wrapped into the box leaves the one for the other.
+// Do two features share a vertex? A feature and its periodic image share all of theirs: a sphere that
+// is wrapped into the box leaves one for the other.
 LSDCD_FN bool are_adjacent(const WallFeaturesView &wall, FeatureCode a, FeatureCode b)
 {
   std::int32_t va[3], vb[3];
@@ -56,7 +56,7 @@ LSDCD_FN bool are_adjacent(const WallFeaturesView &wall, FeatureCode a, FeatureC
 // Cosine above which a contact that changed features is still the same contact.
 constexpr Real kMoved = 0.7;
 
-// The springs of the last step as a mesh sees them. Those of a wall of one mesh are all its own.
+// The springs of the last step as one mesh sees them. If the wall has one mesh, all are of this mesh.
 LSDCD_FN bool is_own(const Spring *, int)
 {
   return true;
@@ -85,7 +85,7 @@ LSDCD_FN bool is_left(const ContactsView &set, int i, const Springs &old, int k)
   return true;
 }
 
-// From which spring of the last step a contact begins, and how much of it it takes.
+// Which spring of the last step a contact begins with, and what part of it.
 struct Transfer {
   int from;     // index of the old spring; -1: a new one
   Real part;    // 0 to 1
@@ -121,17 +121,17 @@ LSDCD_FN Transfer transfer_of(const WallFeaturesView &wall, const ContactsView &
   return {best, best_cos};
 }
 
-// A vector of the old spring `in.from`, as the contact with unit `normal` takes it over.
+// A vector of the old spring `in.from` after the contact with this unit normal has taken it over.
 template <class Springs>
 LSDCD_FN Vec3 handed_on(const Vec3 &h, const Transfer &in, const Springs &old, const Vec3 &normal)
 {
   return in.part * transport(h, old[in.from].normal, normal);
 }
 
-// Does contact i, which the sphere does not touch, hold it, by an adhesion that only touching begins?
-// It does where it held before, or where a contact next to it and nearly aligned did, or one of
-// another mesh: what holds goes along over seams. `shares`: contacts share their overlap, so that
-// the next contact may begin beside the last one; else it begins where that one was left.
+// Does contact i hold the sphere by adhesion although they do not touch? Adhesion begins by touching.
+// It goes on if this contact held in the last step, or a nearly aligned one next to it or on another
+// mesh: adhesion crosses seams. `shares`: contacts share their overlap, so that the next contact may
+// begin beside the last one; else it begins where the last one was left.
 template <class Springs>
 LSDCD_FN bool is_held(const WallFeaturesView &wall, const ContactsView &set, int i, bool shares,
                       const Springs &old, int n_old)

@@ -16,7 +16,7 @@ struct Spring {
   Vec3 shear;     // length; lies in the contact's tangent plane, in the frame of the mesh
   Vec3 normal;    // unit, wall -> centre, when the spring was last moved
   FeatureCode feature;
-  std::uint32_t mesh;    // of the wall's: whose feature and frame
+  std::uint32_t mesh;    // of the wall: the mesh of the feature and of the frame
 };
 
 // Mesh and feature as one double, for exchange and restart files: 53 bits are exact.

@@ -9,8 +9,8 @@
 
 namespace lsdcd {
 
-// Where a point lies over a face: farther from its plane than asked, past a side, within
-// the tolerance of a side, or inside.
+// Where a point lies over a face: too far from its plane, past a side, within the tolerance
+// of a side, or inside.
 enum class FaceRegion { far, outside, rim, inside };
 
 class WallGeometry {
@@ -21,7 +21,7 @@ class WallGeometry {
   {
   }
 
-  // Closest points closer than kSamePoint times this are one (length).
+  // Closest points that are closer than kSamePoint times this (length) count as one.
   LSDCD_FN static Real tolerance(const GridView &grid) { return grid.tolerance; }
   LSDCD_FN Real tolerance() const { return grid_.tolerance; }
 
@@ -33,7 +33,7 @@ class WallGeometry {
   {
     return closest_point_on(grid_.wall, code, q_, grid_.tolerance, within, copy);
   }
-  // On a CPU: the records of n candidates of a large wall, which are read soon.
+  // On a CPU: prefetches the records of n candidates of a large wall.
   LSDCD_FN static void prefetch([[maybe_unused]] const GridView &grid,
                                 [[maybe_unused]] const Candidate *candidates,
                                 [[maybe_unused]] std::uint32_t n)
@@ -43,7 +43,7 @@ class WallGeometry {
       lsdcd::prefetch(grid.wall, candidates[i].feature);
 #endif
   }
-  // Could there be a closest point with so much more of tolerance (length)?
+  // Could there be a closest point if the tolerance were larger by `more` (length)?
   LSDCD_FN bool may_be_closest(FeatureCode code, Real within, Real more) const
   {
     return lsdcd::may_be_closest(grid_.wall, code, q_, grid_.tolerance + more, within);

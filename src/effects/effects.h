@@ -22,15 +22,15 @@ struct EffectCase {
 // Parameters are nominal: what a contact keeps and costs does not depend on them.
 std::vector<EffectCase> effect_cases();
 
-// What a wall has on, for its log: what each keeps per contact beside the Spring that any
-// law with history keeps.
+// The effects of a wall, for its log, with what each keeps per contact beside the Spring of a
+// law with history.
 struct Effect {
   std::string name;
   int bytes_per_contact;
 };
 std::vector<Effect> effects_of(const EngineSettings &settings);
 
-// What is kept from step to step, exchanged and restarted.
+// Bytes that are kept from step to step, exchanged and written to restart files.
 int bytes_per_atom(const EngineSettings &settings);
 int bytes_per_contact(const EngineSettings &settings);    // beside the atom's own
 

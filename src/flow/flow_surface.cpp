@@ -33,8 +33,8 @@ Real distance(const Box &box, const Vec3 &q)
   return std::sqrt(sum);
 }
 
-// Never more than the distance but for rounding: where the triangle is too thin to tell its plane,
-// all of it is near its sides.
+// It never exceeds the distance by more than rounding. A triangle too thin for a plane is near its own
+// sides everywhere.
 Real distance(const Corners &t, const Vec3 &q)
 {
   constexpr Real kThin = 1e-6;
@@ -86,7 +86,7 @@ template <class F>
 void FlowSurface::for_images(const Box &near, const PeriodicBox &box, F &&f) const
 {
   if (!box.any_periodic()) return f(Vec3{0, 0, 0});
-  constexpr Real kRoom = 1e-9;    // for rounding: one image more does no harm
+  constexpr Real kRoom = 1e-9;    // for rounding; one more image does no harm
   const Box place = in_fractions(near, box), own = in_fractions(tree_.bounds(), box);
   Vec3 first = {0, 0, 0}, last = {0, 0, 0};
   for (int k = 0; k < 3; k++) {
@@ -139,7 +139,7 @@ Real FlowSurface::clearance(const Vec3 &x, const PeriodicBox &box, Real most) co
   return within - kRoom * largest;
 }
 
-// A clearance is about images that are moved by no more cells than the surface is away, and two.
+// For a clearance, images are moved by at most two cells more than the distance of the surface.
 Real FlowSurface::images_move(const PeriodicBox &before, const PeriodicBox &now) const
 {
   const Box own = in_fractions(tree_.bounds(), now);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A surface that exerts no force and sees who passes it.
+// A surface that exerts no force and counts what passes it.
 #pragma once
 
 #include "flow/path.h"
@@ -31,14 +31,14 @@ class FlowSurface {
   // Whole numbers of box edges that bring `from` next to `to`.
   static Vec3 cells_between(const Vec3 &from, const Vec3 &to, const PeriodicBox &box);
 
-  // Triangles that the straight way from one place to the other leads through.
+  // Triangles that the straight path from one place to the other passes.
   Passes passes(const Place &from, const Vec3 &to, const PeriodicBox &box) const;
 
-  // The surface is no nearer than this, which is not above `most`, nor above half the smallest
+  // A lower bound of the distance to the surface. It is at most `most` and at most half the smallest
   // periodic width.
   Real clearance(const Vec3 &x, const PeriodicBox &box, Real most = 1e150) const;
 
-  // How far images have moved where the box has changed, and the clearances with them, at most.
+  // How far images have moved at most because the box has changed; clearances change by that.
   Real images_move(const PeriodicBox &before, const PeriodicBox &now) const;
 
   std::size_t bytes() const

@@ -48,7 +48,7 @@ int sign_of_dot(const ExactVec &a, const ExactVec &b)
   return (a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2]).sign();
 }
 
-// Of the product with (e, e^2, e^3): the first component that is not 0 decides.
+// The sign of the product with (e, e^2, e^3): the first component that is not 0 decides.
 int sign_along_shift(const ExactVec &a)
 {
   for (const Expansion &x : a.x)
@@ -122,7 +122,7 @@ int Path::turn(const Vec3 &a, const Vec3 &b) const
   return std::fabs(volume) > off ? (volume > 0 ? 1 : -1) : exact_turn(a, b);
 }
 
-// 0 only where the edge is parallel to the path, and so are the triangles that it belongs to.
+// 0 only if the edge is parallel to the path, and so are its triangles.
 int Path::exact_turn(const Vec3 &a, const Vec3 &b) const
 {
   const ExactVec from = exact(end_[0], box_), d = exact(end_[1], box_) - from;

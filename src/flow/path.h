@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The straight way of a centre in one step, and whether it leads through a triangle.
+// The straight path of a centre in one step, and whether it passes through a triangle.
 #pragma once
 
 #include "base/vec3.h"
@@ -15,11 +15,11 @@ struct Place {
   Vec3 cells = {0, 0, 0};
 };
 
-// What is asked of a path is answered as if all centres were moved by the same vector (e, e^2,
-// e^3) with e smaller than any number (simulation of simplicity, Edelsbrunner 1990), by signs
-// that are computed exactly where rounding could change them. So no centre is on a triangle, no
-// path meets an edge or a vertex, and paths that join end to end, and triangles that do, leave no
-// gap and count nothing twice.
+// Answers are as if all centres were moved by the same vector (e, e^2, e^3) with e smaller than any
+// number (simulation of simplicity, Edelsbrunner 1990). Signs that rounding could change are computed
+// exactly. So no centre is on a triangle and no path meets an edge or a vertex. Paths that join end to
+// end leave no gap and count nothing twice, nor do
+// adjacent triangles.
 class Path {
  public:
   Path(const Place &from, const Place &to, const PeriodicBox &box);
@@ -27,7 +27,7 @@ class Path {
   // Through the triangle: 1 along its normal, -1 against it, else 0.
   int crosses(const Vec3 &a, const Vec3 &b, const Vec3 &c) const;
 
-  // Its ends lie in this box, with room for rounding.
+  // A box around its ends, with room for rounding.
   Box bounds() const;
 
  private:

@@ -22,15 +22,15 @@ struct ClosestPoint {
 // exact regions: face prism, edge wedge, vertex cone. Closest points farther than `within`
 // (length) are not found.
 constexpr Real kAnyDistance = 1e300;
-// Below this (length) squares leave the range of Real: the centre is on the wall.
+// Below this length squares leave the range of Real: the centre counts as on the wall.
 constexpr Real kNoDistance = 1e-140;
 constexpr ClosestPoint kNoClosestPoint = {false, 0, {0, 0, 0}};
 
-// Tests of a record are joined by &, not by &&: a GPU's thread then reads the whole record first,
+// Tests of a record are joined by &, not by &&, so that a GPU's thread first reads the whole record
 // and waits for memory once.
 
-// `at_rim` is set where the closest point may lie past a side, by the tolerance at most, or by the
-// rounding that the tolerance covers.
+// `at_rim` is set if the closest point may lie past a side, by at most the tolerance or the rounding
+// that it covers.
 LSDCD_FN ClosestPoint closest_on_face(const FaceRecord &face, const Vec3 &q, Real tolerance,
                                       Real within, bool &at_rim)
 {
@@ -59,8 +59,8 @@ LSDCD_FN bool before_corners(const Vec3 *corner, const Vec3 &q, Real tolerance)
   return true;
 }
 
-// Is the point at d from an edge's anchor past that edge, seen from its first two faces? From the
-// others?
+// Is the point at d from an edge's anchor past that edge, for its first two faces? For the other
+// faces?
 LSDCD_FN bool inside_first_two(const EdgeRecord &edge, const Vec3 &d, Real tolerance)
 {
   return ((edge.n_faces < 1) | (dot(edge.inward[0], d) <= tolerance)) &
@@ -86,7 +86,7 @@ LSDCD_FN ClosestPoint closest_on_edge(const EdgeRecord &edge, const Vec3 *edge_i
   const Real distance = norm(radial);
   if (!(distance <= within)) return kNoClosestPoint;
   if (distance > kNoDistance) return {true, distance, (1 / distance) * radial};
-  // On the edge itself: away from its faces, or across a flat pair of them.
+  // q is on the edge: the normal points away from its faces, or is that of a flat pair.
   Vec3 away = {0, 0, 0};
   if (edge.n_faces > 0) away -= edge.inward[0];
   if (edge.n_faces > 1) away -= edge.inward[1];
@@ -112,7 +112,7 @@ LSDCD_FN ClosestPoint closest_on_vertex(const VertexRecord &vertex, const Vec3 *
   if (!(distance <= within) || !inside_cone(vertex, direction, d, tolerance))
     return kNoClosestPoint;
   if (distance > kNoDistance) return {true, distance, (1 / distance) * d};
-  // On the vertex itself: away from its edges, or across a flat fan of them.
+  // q is on the vertex: the normal points away from its edges, or is perpendicular to one if they are flat.
   Vec3 away = {0, 0, 0};
   for (std::uint32_t k = 0; k < vertex.count; k++) away -= direction[vertex.first + k];
   const Real length = norm(away);
@@ -122,7 +122,7 @@ LSDCD_FN ClosestPoint closest_on_vertex(const VertexRecord &vertex, const Vec3 *
 
 // Is q within `tolerance` of the region in which a feature is a local minimum of distance, and the
 // feature within `within`? True wherever closest_on_face(), closest_on_edge() or closest_on_vertex()
-// finds one with these, and past sharp corners of faces; no root and no division.
+// finds one, and past sharp corners of faces. It takes no root and no division.
 LSDCD_FN bool may_be_closest(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &q,
                              Real tolerance, Real within)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers without rounding, for signs that rounding must not decide.
+// Numbers without rounding, for signs that must be exact.
 #pragma once
 
 #include "base/real.h"
@@ -11,8 +11,8 @@
 
 namespace lsdcd {
 
-// Adds a to n terms of a sum that do not overlap, the largest last (Shewchuk 1997, grow-expansion);
-// there is room for one more. Returns how many are left: none is 0.
+// Adds a to n terms of a sum that do not overlap, the largest last (Shewchuk 1997, grow-expansion).
+// There must be room for one more. Returns how many terms there are then, without those that are 0.
 LSDCD_FN int grow_expansion(Real *terms, int n, Real a)
 {
   int kept = 0;
@@ -68,7 +68,7 @@ class Expansion {
   std::vector<Real> terms_;
 };
 
-// The same with room for so many terms, for any backend.
+// The same with room for a fixed number of terms, for any backend.
 template <int kRoom>
 class FixedExpansion {
  public:

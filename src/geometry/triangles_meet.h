@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Do two triangles have a point in common? Exact: by signs of orientation() alone.
+// Do two triangles have a common point? It is exact, as it uses only signs of orientation().
 #pragma once
 
 #include "geometry/orientation.h"
 
 namespace lsdcd {
 
-// Closed: its sides and corners are part of it. It may be a segment or a point.
+// Its sides and corners are part of it. It may be a segment or a point.
 struct Triangle {
   Vec3 corner[3];
 
@@ -17,7 +17,7 @@ struct Triangle {
 
 namespace triangles_meet_detail {
 
-// Signs of four points: exact, or 0 where rounded numbers do not decide.
+// Signs of four points: exact, or 0 if rounded numbers do not decide.
 struct ExactSign {
   LSDCD_FN static int of(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d)
   {
@@ -31,7 +31,7 @@ struct RoundedSign {
   }
 };
 
-// On which side of the plane of one triangle the corners of another are.
+// The sides of a triangle's plane on which the corners of another are.
 template <class Sign>
 struct SidesBy {
   int of[3];
@@ -42,7 +42,7 @@ struct SidesBy {
   }
   LSDCD_FN bool all_on(int side) const { return of[0] == side && of[1] == side && of[2] == side; }
   LSDCD_FN bool apart() const { return all_on(1) || all_on(-1); }
-  // A corner that the plane parts from the two others; not where all are on one side or in it.
+  // The corner that the plane separates from the two others, unless all are on one side or in it.
   LSDCD_FN int alone() const
   {
     for (int k = 0; k < 2; k++)
@@ -88,8 +88,8 @@ LSDCD_FN bool boxes_overlap(const Vec3 *a, int n_a, const Vec3 *b, int n_b)
   return true;
 }
 
-// An axis along which the plane of points in one plane is not seen from its side; -1: they are
-// all on one line.
+// An axis that is not parallel to the plane of these points; -1: they are all on one
+// line.
 LSDCD_FN int axis_of_plane(const Vec3 *x, int n)
 {
   for (int i = 0; i < n; i++)
@@ -100,8 +100,8 @@ LSDCD_FN int axis_of_plane(const Vec3 *x, int n)
   return -1;
 }
 
-// Two segments of one plane, seen along an axis: none is past the other, none on one side of the
-// other's line. A segment may be a point.
+// Do two segments of one plane, projected along an axis, meet? Neither is past the other, and neither
+// on one side of the other's line. A segment may be a point.
 LSDCD_FN bool segments_meet(int axis, const Vec3 *s, const Vec3 *t)
 {
   return boxes_overlap(s, 2, t, 2) &&
@@ -110,7 +110,7 @@ LSDCD_FN bool segments_meet(int axis, const Vec3 *s, const Vec3 *t)
          orientation_along(axis, t[0], t[1], s[0]) * orientation_along(axis, t[0], t[1], s[1]) <= 0;
 }
 
-// Is a point of its plane in a triangle, seen along an axis? Not in one that is a segment.
+// Is a point of its plane in a triangle, projected along an axis? Never in one that is a segment.
 LSDCD_FN bool covers(int axis, const Triangle &t, const Vec3 &x)
 {
   if (orientation_along(axis, t[0], t[1], t[2]) == 0) return false;
@@ -173,7 +173,7 @@ LSDCD_FN bool in_one_plane(const Triangle &a, const Triangle &b)
   return true;
 }
 
-// Where the corners of one are all in the plane of the other, which may be none.
+// The corners of one are all in the plane of the other, which may be a segment or a point.
 inline LSDCD_NOINLINE bool meet_flat(const Triangle &a, const Triangle &b)
 {
   const bool flat_a = is_flat(a), flat_b = is_flat(b);
@@ -197,7 +197,7 @@ LSDCD_FN bool triangles_meet(const Triangle &a, const Triangle &b)
   return crossing(a, b, of_a, of_b) <= 0;
 }
 
-// The same by rounded signs alone: 1 yes, -1 no, 0 where they do not decide.
+// The same by rounded signs alone: 1 yes, -1 no, 0 if they do not decide.
 LSDCD_FN int triangles_meet_rounded(const Triangle &a, const Triangle &b)
 {
   using namespace triangles_meet_detail;

@@ -46,13 +46,13 @@ struct EdgeVertices {
   std::int32_t v[2];
 };
 
-// The edges and vertices of a face that can hold a contact of their own, kNoFeature in
-// place of the others.
+// The edges and vertices of a face that can hold a contact of their own, and kNoFeature in
+// the places of the others.
 struct FaceParts {
   FeatureCode part[6];
 };
 
-// As PeriodicImages of the mesh; null and 0 where there are none.
+// As PeriodicImages of the mesh; null and 0 if there are none.
 struct PeriodicImagesView {
   const std::int32_t *same_vertex, *face_of, *edge_of, *vertex_of;
   std::uint32_t n_faces, n_edges, n_vertices;
@@ -92,7 +92,7 @@ struct WallFeaturesView {
   }
 };
 
-// The part of the mesh itself that a feature is, or is an image of.
+// The feature of the mesh that this feature is, or is an image of.
 LSDCD_FN FeatureCode own_feature(const WallFeaturesView &wall, FeatureCode feature)
 {
   const PeriodicImagesView &images = wall.images;
@@ -130,7 +130,7 @@ inline FeatureRecord record_of(const WallFeaturesView &wall, FeatureCode feature
   return record;
 }
 
-// On a host: the record of a feature, which is read soon.
+// On a host: prefetches the record of a feature.
 inline void prefetch(const WallFeaturesView &wall, FeatureCode feature)
 {
   const std::uint32_t i = feature_index(feature);

@@ -45,8 +45,8 @@ BrickEdge edge_at(const EdgeRecord &e, const Vec3 &origin)
   return out;
 }
 
-// Which features the brick at hand has named: the cells of a brick name the same ones
-// over and over.
+// Which features this brick has listed so far: the cells of a brick list the same ones
+// many times.
 class Named {
  public:
   explicit Named(const WallFeatures &wall) :
@@ -65,12 +65,12 @@ class Named {
   }
 
  private:
-  std::vector<std::uint32_t> by_[3];    // the last brick that did, of each kind of feature
+  std::vector<std::uint32_t> by_[3];    // the last brick that listed it, by kind of feature
   std::uint32_t brick_ = 0;
 };
 
-// Codes that the lists of a brick name, ascending, each once; with nearest lists also
-// the parts of its faces.
+// The codes in the lists of a brick, ascending, each once. With nearest lists also the
+// parts of its faces.
 void codes_of(const TriangleGrid &grid, const Brick &brick, std::size_t n_cells, Named &named,
               std::vector<FeatureCode> &codes)
 {

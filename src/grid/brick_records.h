@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Float copies of the wall's features, each in the frame of a brick: what a query reads
-// in mixed and single precision. A feature has a copy in every brick that lists it.
+// Copies of the wall's features in float, each in the frame of a brick. Searches in mixed
+// and single precision read them. A feature has a copy in every brick that lists it.
 #pragma once
 
 #include "base/vec3.h"
@@ -15,10 +15,10 @@ namespace lsdcd {
 
 using Vec3f = Vec3Of<float>;
 
-// Origin of all coordinates: the centre of the brick. Planes and lines are anchored next
-// to it, so that coordinates stay as small as a brick however large face and mesh are.
+// The origin is the centre of the brick. Planes and lines are anchored next to it, so that
+// coordinates are no larger than a brick even if faces and mesh are.
 
-// Aligned, so that a GPU reads a record in parts of 16 bytes.
+// Aligned so that a GPU loads a record in parts of 16 bytes.
 
 // Height over a plane: normal . p + offset. Length.
 struct alignas(16) BrickPlane {
@@ -41,7 +41,7 @@ struct BrickVertex {
   std::uint32_t first, count;    // as in VertexRecord
 };
 
-// Codes in lists are of records then: the kind, and the index in its array.
+// With these, codes in lists mean records: the kind, and the index in its array.
 struct BrickRecordsView {
   const BrickFace *faces;
   const BrickEdge *edges;
@@ -77,7 +77,7 @@ struct BrickRecords {
 
 struct TriangleGrid;
 
-// Throws InputError where records of a kind are more than codes can number.
+// Throws InputError if there are more records of a kind than codes can number.
 void check_record_number(std::uint64_t n);
 
 // Makes the records and rewrites the codes of all lists.

@@ -15,7 +15,7 @@ namespace lsdcd {
 
 namespace {
 
-// Tests of an edge against a triangle; of more edges a part is looked at.
+// At most so many tests of an edge against a triangle; with more edges a part is tested.
 constexpr double kMostTests = 2e8;
 
 // An open edge that looks along an edge of the box.
@@ -42,7 +42,7 @@ std::vector<End> ends_of(const WallMesh &mesh, const WallFeaturesView &wall, con
   return ends;
 }
 
-// Along which axes the connected parts of the mesh meet images, by any of their vertices.
+// Along which axes a connected part of the mesh meets an image, at any of its vertices.
 class Meetings {
  public:
   Meetings(const WallMesh &mesh, const PeriodicBox &box) :

@@ -14,13 +14,13 @@ namespace lsdcd {
 struct LooseEnds {
   std::size_t edges = 0;    // of the mesh
   Real widest = 0;          // length; of the gaps
-  int axis = 0;             // the edge of the box along which the widest is
+  int axis = 0;             // the edge of the box along which the widest gap is
 };
 
-// Open edges that look across a periodic face, with nothing of an image at them but with some of
-// one within `widest` (length) behind a gap. Parts of the mesh that meet an image of themselves
-// somewhere along that axis are left out: what is open there was cut out of them. `mesh` has its
-// images, `wall` its records.
+// Finds open edges that face an image across a periodic face, with a gap of at most `widest` (length)
+// in between. A part of the mesh that meets an image of itself somewhere along that axis is left
+// out: its open edges there are holes. `mesh` is the mesh with its images, `wall` has its
+// records.
 LooseEnds loose_ends(const WallMesh &mesh, const WallFeaturesView &wall, const PeriodicBox &box,
                      Real widest);
 

@@ -30,7 +30,7 @@ struct FlatHeader {
   std::uint64_t offset[kArrays];
 };
 
-// A cache of one core of a processor holds so many bytes and the spheres of a step beside them.
+// So many bytes of records fit the cache of one core beside the spheres of a step.
 constexpr std::size_t kNearMemory = std::size_t(1) << 20;
 
 std::string amount(double bytes)

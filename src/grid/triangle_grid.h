@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The limit-space grid: for every cell near the wall, a list of what a sphere with its
-// centre in that cell can touch. Complete lists hold every such feature; nearest lists
-// hold the N primitives of the wall nearest to the cell's centre.
+// The limit-space grid. Every cell near the wall has a list of what a sphere with its centre
+// in that cell can touch. A complete list has every such feature, a nearest list the N
+// primitives of the wall that are nearest to the cell's centre.
 #pragma once
 
 #include "base/vec3.h"
@@ -36,9 +36,9 @@ struct Cell {
   std::uint32_t count;
 };
 
-// 64 cells of a brick, x fastest, then y: those that have candidates, as bits, and where the
-// first of these is in CellListsView::cells. One part of 16 bytes: of a brick, a sphere asks
-// for one layer.
+// 64 cells of a brick, x fastest, then y: a bit for each that has candidates, and where the
+// first of these is in CellListsView::cells. It has 16 bytes, which are loaded at once: a sphere
+// reads one layer of a brick.
 struct alignas(16) BrickLayer {
   std::uint64_t mask;
   std::uint32_t first_cell;
@@ -80,7 +80,7 @@ struct GridView {
   // more within the cutoff, the next one as a bound of all that was left out.
   std::int32_t nearest;
   std::int32_t in_floats;    // codes in lists are of brick records
-  std::int32_t is_large;     // are the wall's records more than stay near a processor?
+  std::int32_t is_large;     // do the wall's records exceed a processor's cache?
   CellListsView lists;
   BrickRecordsView records;
   const char *block;    // the flat block all of this lies in, or null
@@ -104,21 +104,21 @@ struct GridSettings {
   bool sides = false;               // keep what `side in|out` needs
   int nearest = 0;           // 0: complete lists; N, at most kMostNearest: the N nearest primitives
   bool in_floats = false;    // brick records, for queries in float
-  bool for_gpu = false;      // spheres are on a GPU: a length that is chosen is shorter
-  bool may_coarsen = false;    // a length that is given may grow too, until the budget holds
+  bool for_gpu = false;      // spheres are on a GPU: the chosen length is shorter
+  bool may_coarsen = false;    // a given length may grow, too, until the budget holds
   // Where centres of spheres can be. The grid is cut off there.
   Box within = kNoLimit;
   std::string length_name = "grid";    // of `length`, for messages: what the caller calls it
-  // Told how far a build is, between its parts and on a CPU within them, by the thread that asked.
+  // Called with how far a build is, between its parts and on a CPU within them, by the calling thread.
   std::function<void(const std::string &)> progress;
 };
 constexpr int kMostNearest = 32;
-// Instead of N: lists of every primitive within the cutoff, for bodies against the wall.
+// In place of N: every primitive within the cutoff, for collisions of bodies with the wall.
 constexpr int kEveryTriangle = 0x7ffffffe;
 constexpr std::size_t kListBudget = 1ull << 30;    // bytes, beside the records of the wall
 
-// What a build may take that is limited: chosen cells are made larger until it is kept, a given
-// length is refused. In units of a distance test, 10 to 20 ns of one core; and bytes beside the
+// A limit of what a build takes. A chosen length grows until it is kept, a given one is refused.
+// Work is in units of a distance test, 10 to 20 ns of one core; bytes are those beside the
 // records of the wall.
 struct BuildLimit {
   double work, bytes;
@@ -134,13 +134,13 @@ struct ListReport {
   std::size_t longest = 0;
   Real mean = 0;
   std::size_t distance_tests = 0;    // feature against cell, at most; after bricking
-  double seconds = 0;                // of the build alone, copies to and from a device left out
+  double seconds = 0;                // of the build alone, without copies to and from a device
 };
 
 struct GridReport {
   Real length = 0, cutoff = 0;
   bool length_chosen = false;
-  Real too_fine = 0;    // the length that was chosen first, where that took too much; else 0
+  Real too_fine = 0;    // the length chosen first, if that took too much; else 0
   int nearest = 0;
   ListReport lists;
   std::size_t records = 0, record_bytes = 0;
@@ -156,8 +156,8 @@ struct CellLists {
   std::vector<Candidate> candidates;
 };
 
-// Owns a grid and the wall records that it points to, on the host. Bitwise the
-// same whichever device built it.
+// Owns a grid and the wall records that it points to, on the host. Every device builds
+// the same bits.
 struct TriangleGrid {
   WallFeatures wall;
   Vec3 origin = {0, 0, 0};
@@ -183,12 +183,12 @@ std::string describe(const GridReport &report);
 // a node can share one: pack into memory of flat_bytes(), view it anywhere.
 // The block must be 64-byte aligned. A CUDA engine takes views of flat blocks only.
 std::size_t flat_bytes(const TriangleGrid &grid);
-// What is in it of any grid of this wall, with room for the rounding of the rest.
+// The part that any grid of this wall has, with room for the padding of the rest.
 std::size_t flat_wall_bytes(const TriangleGrid &grid);
 // Of all of a grid, by the settings.
 std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid);
 void flatten(const TriangleGrid &grid, char *block);
-// The same, and frees each array of the grid once it is there.
+// The same, but frees each array of the grid when it is copied.
 void move_flat(TriangleGrid &grid, char *block);
 GridView flat_view(const char *block);
 

@@ -13,9 +13,9 @@ namespace lsdcd {
 
 struct CollideSettings {
   std::string wall;     // ID of a fix wall/lsdcd
-  MeshSettings mesh;    // of the body: file, placement and weld, as a mesh of a wall has them
+  MeshSettings mesh;    // of the body: file, placement and weld
   std::string
-      atoms_file;    // where its atoms are as its mesh is; empty: those of the first body now
+      atoms_file;    // file with its atoms in the mesh's frame; empty: as the first body has them
   bool molecules = false;    // a body per molecule, not one of all atoms
   Real grid_length = 0;      // length; 0: the median edge of the body
   int nearest = 0;           // triangles a cell; 0: all

@@ -32,7 +32,7 @@ std::string with_plain_folder(const std::string &path)
   return failed ? path : (folder / whole.filename()).string();
 }
 
-// Is `name` that of a series' file of a step to come?
+// Is `name` the file of a series in a later step?
 bool will_be(const std::string &series, int every, const std::string &name, long long now)
 {
   const std::size_t star = series.find('*');

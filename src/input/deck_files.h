@@ -13,16 +13,16 @@ namespace lsdcd {
 
 struct DeckFile {
   std::string what;    // "mesh", or another keyword that names it
-  std::string name;    // with '*' for the step, where each such step has one
-  int every = 0;       // steps, where it is written again and again
+  std::string name;    // with '*' for the step if each step has a file
+  int every = 0;       // steps between two times that it is written
   bool written = false;
 };
 
-// Of the meshes of a wall; no more than their names.
+// The files of a wall's meshes, by name; none is opened.
 std::vector<DeckFile> files_of(const WallSettings &settings);
 
-// Would writing one of these, in a step after `now`, replace the other? However their folders are
-// spelled: a file takes the place of a link, not of what that leads to.
+// Would writing one of these in a step after `now` replace the other? Different spellings of a folder
+// are the same. A link is replaced, not the file that it leads to.
 bool are_one_file(const DeckFile &a, const DeckFile &b, long long now);
 
 }    // namespace lsdcd

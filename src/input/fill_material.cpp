@@ -16,16 +16,16 @@ namespace lsdcd {
 
 namespace {
 
-// The fewest digits that read back as the same number.
+// With the fewest digits that read back as the same number.
 std::string exact_text(Real value)
 {
   char buffer[40];
   return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
 }
 
-// What tsuji takes in a pair style of LAMMPS for the restitution e. The fit is for the mass of one
-// of two equal spheres; LAMMPS has it with the effective mass, half of that. It falls with its
-// number and ends, at 0, at a restitution of 0.11.
+// The number that tsuji in a pair style of LAMMPS needs for the restitution e. The fit is for the mass
+// of one of two equal spheres; LAMMPS uses the effective mass, half of that. The damping falls as the
+// number grows: the number 0 gives the least restitution, 0.11.
 Real tsuji_number(Real e)
 {
   const Real wanted = std::sqrt(Real(2)) * restitution_damping(NormalModel::hertz, e);
@@ -49,7 +49,7 @@ class Filler {
 
   FilledTokens fill()
   {
-    // A second name without `on` is the likely slip.
+    // A second name without `on` is a likely mistake.
     for (const MaterialSection &m : file_.materials)
       if (c_.sub_models.empty() && !c_.rest.empty() && c_.rest[0] == m.first)
         fail("write '" + std::string(words_.on) + " " + m.first + "' for the wall's material");
@@ -78,14 +78,14 @@ class Filler {
  private:
   std::string both() const { return c_.particle + " on " + c_.wall; }
 
-  // What the deck has for the material in place of the file's; null: nothing.
+  // The value that the script gives in place of the material file's; null: none.
   const Real *given(const MaterialSection &m, const char *key) const
   {
     if (const Real *number = c_.override_of(key, m.first)) return number;
     return same_ || !m.find(key) ? c_.override_of(key) : nullptr;
   }
 
-  // An SI value; one that came from the deck goes back as it was written.
+  // A value in SI; one from the script is written back as it was.
   std::string in_deck(const char *key, Real si, const Real *number = nullptr) const
   {
     return exact_text(number ? *number : in_units(si, *find_property(key), units_));
@@ -157,7 +157,7 @@ class Filler {
                 " (the same E* and G*)");
   }
 
-  // Damping of the classic styles is per mass, which no material has.
+  // The damping of classic styles is divided by the mass, which no material has.
   [[noreturn]] void refuse_style() const
   {
     std::string numbers;
@@ -173,7 +173,7 @@ class Filler {
                      numbers + " Use 'granular material', whose damping takes a restitution");
   }
 
-  // A damping model that takes a restitution goes with no adhesive normal model.
+  // No damping model with a restitution goes with an adhesive normal model.
   std::string default_damping()
   {
     if (c_.normal == "hertz/material") return "coeff_restitution";
@@ -201,7 +201,7 @@ class Filler {
     return of_pair("restitution");
   }
 
-  // Between unlike bodies the geometric mean, as for dispersion forces (Israelachvili,
+  // For different materials it is the geometric mean, as for dispersion forces (Israelachvili,
   // Intermolecular and Surface Forces).
   std::string surface_energy()
   {
@@ -213,7 +213,7 @@ class Filler {
     return text;
   }
 
-  // Two half-spaces, one after the other, through one spot: the harmonic mean.
+  // Two half-spaces in series with a common contact spot: the harmonic mean.
   std::string conductivity()
   {
     const char *key = "thermal_conductivity";

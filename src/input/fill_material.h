@@ -19,18 +19,18 @@ struct FilledTokens {
 // `tokens` begin with FSTYLE. Where they are
 //   granular [hertz/material | jkr | dmt] material FILE PARTICLE [on WALL]
 //     [with [MATERIAL] KEY VALUE ...]
-// numbers take the place of `material ...`, and NULLs that sub-models after it have for
-// friction, rolling friction and conductivity are filled in; other words come back as they
-// are. `units`: the deck's system of units, by LAMMPS's name. The modulus and Poisson's
-// ratio of two materials are those of one that, on both sides as LAMMPS's walls take it,
-// gives their effective Young's and shear moduli. Throws InputError, in `words` of where the
-// tokens come from.
+// numbers replace `material ...`, and NULLs of later sub-models for friction, rolling
+// friction and conductivity are filled in. Other words come back as they are. `units`: the
+// script's system of units, by LAMMPS's name. LAMMPS's walls take one material for both
+// sides, so that for two materials the modulus and Poisson's ratio are those of one with
+// the same effective Young's and shear moduli. Throws InputError, with `words` for the
+// place of the tokens.
 FilledTokens fill_material(const std::vector<std::string> &tokens, const std::string &units,
                            const MaterialWords &words = kDeckWords);
 
-// The same material's contact with itself in the words of LAMMPS's `pair_style granular` as
-// 29Sep2021 has them, which later ones take too: `granular` left out, tsuji with the number that
-// gives the restitution for coeff_restitution, and no damping as a velocity's of 0.
+// The contact of the material with itself, in the words of LAMMPS 29Sep2021's `pair_style granular`,
+// which later versions take, too: without `granular`, with tsuji and its number in place of
+// coeff_restitution, and with a velocity damping of 0 in place of none.
 std::vector<std::string> words_of_29sep2021(std::vector<std::string> filled);
 
 }    // namespace lsdcd

@@ -53,7 +53,7 @@ void read_sub_model(Tokens &w, LawDraft &d, Family family)
   w.fail("'" + w.peek() + "' is not a sub-model");
 }
 
-// What the second number of the normal sub-model means is known only in the end.
+// What the second number of the normal sub-model means depends on the damping model, read later.
 void resolve_damping(Tokens &w, LawDraft &d)
 {
   ContactLaw &g = d.law;

@@ -12,10 +12,10 @@
 
 namespace lsdcd {
 
-// The numbers of one sub-model, whose name has been read.
+// Reads the numbers of one sub-model after its name.
 void read_numbers(Tokens &w, const SubModel &row, LawDraft &draft);
 
-// `w` is past the word granular; reads up to the first word that is none of its own.
+// Reads after the word granular, up to the first word that belongs to no sub-model.
 // `text` becomes what was read, for the log.
 ContactLaw read_granular(Tokens &w, std::string &text);
 

@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-// Either of the wall, or of the mesh before it.
+// A keyword is of the wall or of the mesh before it: one of these two reads its values.
 struct Keyword {
   const char *name;
   const char *values;
@@ -29,10 +29,10 @@ struct Keyword {
 const std::vector<Keyword> &keywords();
 std::string syntax_of(const Keyword &row);
 
-// Reads the values of a word that means the same for any mesh: mesh, scale, rotate, move, weld. False:
+// Reads the values of a word that all commands with a mesh share: mesh, scale, rotate, move, weld. False:
 // it is none of these.
 bool read_mesh_word(const std::string &word, Tokens &w, MeshSettings &mesh);
-// Of a keyword of a command that may be given once only; `seen` has those before it.
+// Is this keyword given a second time although that is not allowed? `seen` has those before it.
 bool is_twice(const std::string &word, std::vector<std::string> &seen);
 
 }    // namespace lsdcd

@@ -12,7 +12,7 @@
 namespace lsdcd {
 
 struct MassflowSettings {
-  MeshSettings surface;    // file, placement and weld, as a mesh of a wall has them
+  MeshSettings surface;    // file, placement and weld
   bool brief = false;      // one line in the log
   bool once = false;       // a sphere counts the first time only
   bool deletes = false;    // what has passed forward

@@ -35,7 +35,7 @@ bool is_family(const std::string &word)
   return std::find(all.begin(), all.end(), word) != all.end();
 }
 
-// Does what comes behind the material begin with the word?
+// Does the word begin what may follow the material?
 bool is_behind(const std::string &word)
 {
   const std::vector<Keyword> &all = keywords();
@@ -43,7 +43,7 @@ bool is_behind(const std::string &word)
          std::any_of(all.begin(), all.end(), [&](const Keyword &k) { return word == k.name; });
 }
 
-// KEY VALUE, or MATERIAL KEY VALUE; as long as they follow.
+// Reads KEY VALUE or MATERIAL KEY VALUE as long as they follow.
 void read_overrides(Tokens &w, MaterialCommand &c, const std::string &with)
 {
   const auto is_key = [&] { return !w.done() && (w.peek() == "eta" || find_property(w.peek())); };
@@ -65,7 +65,7 @@ void read_overrides(Tokens &w, MaterialCommand &c, const std::string &with)
                                  p ? p->most : Tokens::kHuge);
     c.overrides.push_back({of, key, number});
   }
-  // A keyword may be misspelt, too: that is left to those who know them.
+  // It may be a misspelt keyword: the reader of keywords tells that.
   if (w.done() || is_behind(w.peek())) return;
   for (const Property &p : properties())
     if (is_near(w.peek(), p.name)) w.fail(not_a_property(w.peek()));

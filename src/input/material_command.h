@@ -19,8 +19,8 @@ struct MaterialWords {
 };
 extern const MaterialWords kDeckWords;
 
-// A number of the deck, in its units. `of`: the material; empty: of the pair, or of whichever
-// material's the file does not know.
+// A number of the script, in its units. `of`: the material; empty: of the pair, or of the material for
+// which the file lacks it.
 struct Override {
   std::string of, key;
   Real value;
@@ -46,7 +46,7 @@ bool has_material(const std::vector<std::string> &tokens);
 MaterialCommand read_material_command(const std::vector<std::string> &tokens,
                                       const MaterialWords &words = kDeckWords);
 
-// The same error from those who look at what was read.
+// The same error for checks of what was read.
 [[noreturn]] void fail_material(const std::string &problem, const MaterialWords &words);
 
 }    // namespace lsdcd

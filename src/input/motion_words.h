@@ -14,7 +14,7 @@ namespace lsdcd {
 
 extern const char *const kMotionSyntax;    // what may follow the word motion
 
-// What follows a keyword of the fix. They throw InputError.
+// These read what follows a keyword of the fix. They throw InputError.
 void read_motion(Tokens &w, MeshSettings &s);
 void read_wiggle(Tokens &w, MeshSettings &s);    // those of fix wall/gran: cosine,
 void read_shear(Tokens &w, MeshSettings &s);     // and a velocity of a wall that stays where it is

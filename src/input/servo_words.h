@@ -14,7 +14,7 @@ namespace lsdcd {
 
 extern const char *const kServoSyntax;    // what may follow the word servo
 
-// What follows the keyword. Throws InputError.
+// Reads what follows the keyword. Throws InputError.
 void read_servo(Tokens &w, MeshSettings &s);
 
 // `fix_modify ID servo ...`, or `servo none`. `taken`: how many words that is.

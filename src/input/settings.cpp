@@ -48,7 +48,7 @@ void read_law(Tokens &w, WallSettings &s)
   w.fail("'" + s.law_name + "' is not a contact style");
 }
 
-// Tokens of fix wall/gran and of LIGGGHTS, and retired ones, and what does their work here.
+// Words of fix wall/gran and LIGGGHTS, and retired ones, each with the words to use here.
 std::string answer_to(const std::string &word, bool granular)
 {
   const char *const kMoves =
@@ -131,8 +131,8 @@ std::string answer_to(const std::string &word, bool granular)
   throw InputError(wrong + "; those are " + all);
 }
 
-// A keyword of a mesh is of the last one before it. Of a wall with one mesh it may stand before
-// that, too.
+// A keyword of a mesh belongs to the last mesh before it. If there is one mesh, it may also stand before
+// that.
 void read_keywords(Tokens &w, WallSettings &settings, bool granular)
 {
   std::vector<std::string> seen, seen_of_mesh, names;
@@ -178,7 +178,7 @@ std::string name_of_mesh(const WallSettings &s, std::size_t k)
   return "mesh " + std::to_string(k + 1) + " '" + s.meshes[k].file + "'";
 }
 
-// What mesh k has that is that of an earlier one, and would be lost or felt twice.
+// Refuses what mesh k has in common with an earlier one and would be lost or felt twice.
 void check_apart(Tokens &w, const WallSettings &s, std::size_t k)
 {
   const MeshSettings &mesh = s.meshes[k];

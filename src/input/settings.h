@@ -15,7 +15,7 @@
 
 namespace lsdcd {
 
-// A file written again and again; with '*' in its name, one for each such step.
+// A file that is written every so many steps; with '*' in its name, one for each of them.
 struct FileEvery {
   std::string name;
   int every = 0;    // steps; 0: no file
@@ -29,7 +29,7 @@ struct MeshSettings {
   Real weld = -1;                  // length; < 0: kDefaultWeld of the diagonal
   bool has_temperature = false;
   Real temperature = 0;                // where the law has heat
-  std::string temperature_variable;    // its name, where it is a variable
+  std::string temperature_variable;    // name of a variable; empty: none
   SurfaceMotion surface;
   std::string surface_variable[6];    // in place of its velocity and angular velocity; empty: none
   WallMotion motion;

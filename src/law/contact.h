@@ -30,8 +30,8 @@ struct ContactForce {
   T energy;                // elastic energy held
 };
 
-// What a contact keeps from step to step: a tangential spring and, where the law has
-// any, further numbers: first vectors of the tangent plane, then scalars.
+// What a contact keeps from step to step: a tangential spring and, with some laws, further
+// numbers: first vectors in the tangent plane, then scalars.
 template <class T, int kExtra>
 struct ContactMemory {
   static constexpr int kSize = kExtra;

@@ -30,7 +30,7 @@ struct Chosen {
   }
 };
 
-// As numbers, after NULLs and units are resolved. The default is the style `hooke`.
+// The numbers of a law, after NULLs and units are resolved. The default is the style `hooke`.
 struct ContactLaw {
   NormalModel normal = NormalModel::hooke;
   Real k_normal = 0;          // force/length (hooke), force/length^2 (others)
@@ -54,23 +54,23 @@ struct ContactLaw {
   bool limit_damping = false;
 
   bool is(NormalModel model) const { return normal == model; }
-  // One of LAMMPS's styles before `granular`, whose formulas are their own?
+  // Is it one of LAMMPS's styles before `granular`? These have formulas of their own.
   bool is_classic() const { return damping == DampingModel::classic; }
   bool has_heat() const { return heat.is_on(); }
   // Does the tangential spring shrink as the contact unloads?
   bool rescales() const { return tangential >= TangentialModel::mindlin_rescale; }
-  // Has it something of LIGGGHTS beside a classic style?
+  // Has it a sub-model of LIGGGHTS beside a classic style?
   bool is_extended() const { return is_classic() && (rolling.is_on() || cohesion.is_on()); }
 
-  // Is anything kept from step to step? Adhesion past touch is: it holds what touched.
+  // Does a contact keep anything? With adhesion beyond contact it does: only what touched is held.
   bool has_history() const;
   // Numbers kept beside a contact's shear displacement.
   int n_extra() const;
-  // What is kept, as a number for restart files: equal where the kept numbers mean the same.
+  // A number for restart files. It is equal for laws whose kept numbers mean the same.
   int history_kind() const;
 
-  // The distance past touch at which adhesion lets go of a sphere of radius 1;
-  // it goes with the cube root of the radius. 0: nothing acts past touch.
+  // The distance beyond contact at which adhesion lets go of a sphere of radius 1. It grows with
+  // the cube root of the radius. 0: nothing acts beyond contact.
   Real pull_off() const;
 };
 
@@ -79,10 +79,10 @@ ContactLaw classic_law(NormalModel normal, bool history);
 // `granular` with its default damping and linear_nohistory, without numbers.
 ContactLaw granular_law(NormalModel normal);
 
-// Damping per root of mass times secant stiffness that returns the restitution e.
-// tsuji: a fit for Hertz contacts, right to 1.1e-3 (Tsuji, Tanaka and Ishida 1992), whose
-// mass is that of one of two equal spheres, twice the effective one: hence its root 2.
-// The other is exact: for hooke, and (Brilliantov et al. 1996) for Hertz contacts.
+// The damping, per square root of mass times secant stiffness, that gives the restitution e.
+// tsuji: a fit for Hertz contacts, right to 1.1e-3 (Tsuji, Tanaka and Ishida 1992). Their mass
+// is that of one of two equal spheres, twice the effective mass: hence the root of 2.
+// The other is exact for hooke and for Hertz contacts (Brilliantov et al. 1996).
 Real tsuji_damping(Real e);
 Real restitution_damping(NormalModel normal, Real e);
 

@@ -4,16 +4,16 @@
 // A contact law put together from sub-models at compile time. Every law has
 //   Number             the type that it computes in
 //   kHistory           does it keep a ContactMemory<Number, kExtra> per contact?
-//   kVectors, kScalars what of that is beside the shear displacement: vectors, then scalars
-//   kBeyondContact, pull_off  does it act past touch, and up to what distance at radius 1?
+//   kVectors, kScalars how many vectors and scalars that has beside the shear displacement
+//   kBeyondContact, pull_off  does it act beyond contact, and up to what distance at radius 1?
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
 //   evaluate(contact, memory)
-// and where it has what they ask for
+// and, with kVectors or kScalars, and with kHeat
 //   keeps(k)           is the k-th of these vectors and scalars kept from step to step?
 //   has_heat()         is there a heat flow?
-// The classic laws, and those of `granular` that most scenes have, have what they need and no more: no
-// instruction and no memory for an effect that is off. What few scenes ask for is in one law, with a
-// branch for each effect: it keeps and exchanges what is on.
+// The classic laws, and the most frequent ones of `granular`, have no instruction and no memory for an
+// effect that is off. Effects that few scenes use are together in one law, with a branch for each. It
+// keeps and exchanges only what is on.
 #pragma once
 
 #include "law/submodels/cohesion.h"
@@ -68,14 +68,14 @@ using HookeHistoryLaw = ContactModel<T, HookeNormal, MassVelocityDamping, Linear
 template <class T>
 using HertzHistoryLaw = ContactModel<T, HertzNormal, MassVelocityDamping, LinearHistory>;
 
-// Of laws with kContactTorque or kHeat.
+// What laws with kContactTorque or kHeat return.
 template <class T>
 struct FullForce : ContactForce<T> {
-  Vec3Of<T> contact_torque;    // torque on the sphere that no force at the contact gives
+  Vec3Of<T> contact_torque;    // torque on the sphere beside that of the tangential force
   T heat;                      // power into the sphere
 };
 
-// A classic style with effects of LIGGGHTS beside it. kHistory_: does it keep anything?
+// A classic style with sub-models of LIGGGHTS. kHistory_: does a contact keep anything?
 template <class Base, bool kHistory_>
 struct AddedModel {
   using Number = typename Base::Number;
@@ -111,7 +111,7 @@ struct AddedModel {
 };
 
 // The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026. kFull: with those that few scenes
-// ask for (`mindlin_rescale`, rolling, twisting, heat), each of which may be off.
+// use (`mindlin_rescale`, rolling, twisting, heat), each of which may be off.
 template <class T, class Normal, bool kHistory_, bool kFull>
 struct GranularModel {
   using Number = T;
@@ -187,7 +187,7 @@ struct GranularModel {
   }
 };
 
-// Numbers that a law keeps of a contact beside its shear displacement.
+// How many numbers a law keeps of a contact beside its shear displacement.
 template <class Law>
 LSDCD_FN int n_extra(const Law &law)
 {

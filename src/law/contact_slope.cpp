@@ -13,7 +13,7 @@ namespace lsdcd {
 
 namespace {
 
-constexpr Real kHertzSlope = 1.5;    // tangent over secant stiffness
+constexpr Real kHertzSlope = 1.5;    // tangent stiffness / secant stiffness
 
 // Tangential stiffness (force/length) where the contact radius is a.
 Real tangential_stiffness(const ContactLaw &law, Real a)

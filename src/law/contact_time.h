@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How long contacts and surface waves last: what a timestep has to resolve.
+// How long contacts and surface waves last, which a timestep has to resolve.
 #pragma once
 
 #include "law/contact_law.h"
 
 namespace lsdcd {
 
-// Steps that a contact has to last for a force that is followed well enough; the fix warns of fewer.
+// The fix warns if a contact lasts fewer steps: they do not resolve its force.
 constexpr Real kStepsPerContact = 10;
 
 // Does the stiffness grow with the overlap?

@@ -20,16 +20,16 @@ struct Parameter {
   const char *unit;    // "1": none
   Real least = 0, most = 1.7976931348623157e308;
   bool may_be_null = false;          // NULL: derived from the numbers before it
-  const char *property = nullptr;    // of a material file, where it is one
+  const char *property = nullptr;    // its name in a material file, if it is there
   bool is_flag = false;              // 0 or 1
 };
 
 // What a contact keeps from step to step.
 struct Kept {
-  // Null: nothing. Equal words are the same numbers to a restart file.
+  // Null: nothing. Equal words mean the same numbers in a restart file.
   const char *what = nullptr;
-  int beside_shear = 0;            // how many numbers beside the shear displacement
-  const char *effect = nullptr;    // how the log calls what they are for, where it is not the row's
+  int beside_shear = 0;            // numbers beside the shear displacement
+  const char *effect = nullptr;    // the log's name of what they are for; null: the row's
 };
 
 // A law while a script is read.
@@ -54,7 +54,7 @@ struct SubModel {
   // the family.
   void (*set)(const Real *given, LawDraft &draft);
   Kept kept;
-  const char *effect;    // as the log calls it; empty: it has none
+  const char *effect;    // name in the log; empty: none
   const char *help;      // one line, with the source of the formula
 };
 
@@ -67,7 +67,7 @@ std::string names_text(Family family, GoesWith with);
 // The words of a family in scripts: "tangential"; empty for style and normal.
 const char *family_word(Family family);
 
-// The rows of a law, in the order of families; of two rows with one formula, the first.
+// The rows of a law, in the order of families. Of two rows with the same formula it has the first.
 std::vector<const SubModel *> rows_of(const ContactLaw &law);
 
 // "k gamma mu", and "sds k gamma mu"

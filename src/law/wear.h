@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Wear of the wall: how fast one contact takes material away, per unit of the
-// coefficient that the law has.
+// Wear of the wall: how fast one contact removes material, per unit of the law's
+// coefficient.
 #pragma once
 
 #include "law/contact.h"
@@ -16,7 +16,7 @@ struct Wear {
   Real per_work = 0;    // volume per work: K/H (archard), K (finnie); 1/pressure
 };
 
-// Power that wears, to be multiplied by Wear::per_work. `force` is the contact's normal
+// The wearing power, to be multiplied by Wear::per_work. `force` is the contact's normal
 // force (0 where it pulls), `slip` the speed of the sphere's surface along the wall's,
 // v_normal > 0 and v_along the velocity of its centre away from the wall and along it.
 //

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What two touching materials are together, for walls that are given one.
+// The moduli of two touching materials, for walls that take one material.
 #pragma once
 
 #include "base/real.h"
@@ -19,8 +19,8 @@ struct ContactModuli {
 };
 ContactModuli contact_moduli(const Elastic &a, const Elastic &b);
 
-// The material that gives, touching itself, the moduli of a touching b. LAMMPS takes a
-// wall's E and nu for both sides.
+// The material whose contact with itself has the moduli of a contact of a and b. LAMMPS
+// takes a wall's E and nu for both sides.
 Elastic as_one(const Elastic &a, const Elastic &b);
 
 }    // namespace lsdcd

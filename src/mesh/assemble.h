@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The later half of welding: from points and facets to faces, edges and their neighbours.
+// The second half of welding: from points and facets to faces, edges and their neighbours.
 #pragma once
 
 #include "mesh/wall_mesh.h"

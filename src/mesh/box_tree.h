@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Things in boxes: those that a question may be about, found by asking of boxes around many first.
+// A tree of boxes around things. A search tests the box around many things before each of them.
 #pragma once
 
 #include "mesh/periodic_box.h"
@@ -29,15 +29,15 @@ class BoxTree {
   {
     if (!things_.empty()) visit(root(), may_hold, found);
   }
-  // The least of `most` and of_thing(i) of all things. of_box(box) is no more than of_thing(i) of any
-  // thing in the box. Of two halves the one with less comes first.
+  // The smallest of `most` and of_thing(i) over all things. of_box(box) is a lower bound of of_thing(i)
+  // for the things in the box. The half with the smaller bound is searched first.
   template <class OfBox, class OfThing>
   Real least(Real most, OfBox &&of_box, OfThing &&of_thing) const
   {
     if (!things_.empty() && of_box(bounds()) < most) lower(root(), most, of_box, of_thing);
     return most;
   }
-  // Calls found(i, j) once for every two things whose boxes overlap.
+  // Calls found(i, j) once for every pair of things whose boxes overlap.
   template <class Found>
   void visit_pairs(Found &&found) const
   {
@@ -73,7 +73,7 @@ class BoxTree {
   };
   Node root() const { return {1, 0, things_.size()}; }
 
-  // Halves of a range along the longest side of what is in it; node n has 2 n and 2 n + 1.
+  // Splits a range in two along the longest side of its box. Node n has the halves 2 n and 2 n + 1.
   void build(std::size_t node, std::size_t first, std::size_t last)
   {
     Box all = things_[number_[first]];

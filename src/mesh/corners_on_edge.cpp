@@ -11,7 +11,7 @@ namespace lsdcd {
 
 namespace {
 
-// As lengths may be 1e100, whose squares are no sums of Real any more.
+// Lengths may be 1e100: sums of their squares would leave the range of Real.
 Real length(const Vec3 &a)
 {
   return std::hypot(a.x, a.y, a.z);
@@ -22,7 +22,7 @@ Real largest(const Vec3 &a)
   return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
 }
 
-// May a segment be nearer than `margin` to the box? By its intervals between pairs of planes.
+// May a segment be nearer than `margin` to the box? It compares intervals between pairs of planes.
 bool passes(const Vec3 &a, const Vec3 &b, const Box &box, Real margin)
 {
   Real from = 0, to = 1;
@@ -67,7 +67,7 @@ std::vector<CornersOnEdge::On> CornersOnEdge::on(int a, int b, Real tolerance) c
   const Vec3 &from = corners_[a], &to = corners_[b], edge = to - from;
   const Real whole = length(edge);
   if (whole == 0) return {};
-  // The limits of face_plane(), and a little more for rounding here.
+  // The limits of face_plane(), a little wider for rounding here.
   const Real limit =
       std::max({tolerance, 8 * kRoundoff * std::max(largest(from), largest(to)), 1e-14 * whole}) *
       (1 + 1e-6);

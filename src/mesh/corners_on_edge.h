@@ -17,12 +17,12 @@ class CornersOnEdge {
     Real along, off;    // lengths, along the edge from its first end and from it
   };
 
-  // Of the corners that `used` marks.
+  // For the corners that `used` marks.
   CornersOnEdge(const std::vector<Vec3> &corners, const std::vector<char> &used);
 
-  // Those no farther than `tolerance` from the edge a b and nearer to both ends than these to each
-  // other, from a to b. The tolerance is no less than that by which a facet with such a corner
-  // is degenerate (face_plane()).
+  // The corners within `tolerance` of the edge a b, and nearer to both ends than these are to each
+  // other, in order from a to b. The tolerance is at least that of face_plane(), so that a facet with
+  // such a corner is degenerate.
   std::vector<On> on(int a, int b, Real tolerance) const;
 
   // Distance from a point to the nearest of them; infinite where there are none.

@@ -37,7 +37,7 @@ FacePlane face_plane(const Vec3 &a, const Vec3 &b, const Vec3 &c)
   const WideVec3 edge[3] = {difference(b, a), difference(c, b), difference(a, c)};
   const Wide lengths[3] = {length(edge[0]), length(edge[1]), length(edge[2])};
   const int longest = static_cast<int>(std::max_element(lengths, lengths + 3) - lengths);
-  // From the two shorter edges: their product loses the fewest digits.
+  // The cross product of the two shorter edges loses the fewest digits.
   const WideVec3 &u = edge[(longest + 1) % 3], &v = edge[(longest + 2) % 3];
   const WideVec3 n = {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
   const Wide twice_area = length(n);

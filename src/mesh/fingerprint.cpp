@@ -9,7 +9,7 @@ namespace lsdcd {
 
 namespace {
 
-// Each step is one-to-one in what is there and in the word: a change of one word is always seen.
+// Each step is one-to-one in the old hash and in the word, so that a change of one word is always seen.
 class Mixer {
  public:
   void add(std::uint64_t word)
@@ -29,7 +29,7 @@ class Mixer {
 
 }    // namespace
 
-// In every build, unlike the key of the grid cache: a restart file goes from one to another.
+// Every build has this, unlike the key of the grid cache: restart files go from one build to another.
 std::uint64_t fingerprint(const WallMesh &mesh)
 {
   Mixer mixer;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Whether a mesh is the same as another one was, in 64 bits.
+// A number of 64 bits that tells whether a mesh is the same as an earlier one.
 #pragma once
 
 #include "mesh/wall_mesh.h"
@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// Of what is numbered, where it is and in which order, bit for bit: vertices, edges and faces.
+// Of vertices, edges and faces, in their order, bit for bit.
 std::uint64_t fingerprint(const WallMesh &mesh);
 
 }    // namespace lsdcd

@@ -8,9 +8,9 @@
 
 namespace lsdcd {
 
-// `mesh` and `box` are extents (length). 1 unless the mesh is many times larger than the box along
-// every axis in which it has an extent; else the factor between two common units of length that
-// makes them alike.
+// `mesh` and `box` are extents (length). The result is 1 unless the mesh is many times larger than the
+// box along every axis in which it has an extent. Then it is the factor between two common units of
+// length that makes the extents similar.
 Real likely_scale(const Vec3 &mesh, const Vec3 &box);
 
 }    // namespace lsdcd

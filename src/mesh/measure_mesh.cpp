@@ -46,7 +46,7 @@ void measure_faces(WallMesh &mesh, const std::vector<FacePlane> &plane)
 {
   if (mesh.faces.empty()) return;
   MeshReport &report = mesh.report;
-  // About the middle of the box: far from the origin the terms would be large and cancel.
+  // Relative to the middle of the box: far from the origin the terms would be large and cancel.
   const Vec3 middle = 0.5 * report.lo + 0.5 * report.hi;
   long double area = 0, volume = 0;
   report.smallest_height = plane[0].height;

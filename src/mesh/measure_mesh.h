@@ -19,10 +19,10 @@ void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane);
 // Does the face run along the edge from its lower to its higher vertex?
 bool runs_along(const WallMesh &mesh, int face, int edge);
 
-// Takes it into the report that these facets of the mesh meet: with any it is not oriented.
+// Notes in the report that these facets meet. A mesh with such facets is not oriented.
 void note_meetings(WallMesh &mesh, const SelfMeetings &meetings);
 
-// Throws InputError where no facet has an area: what is left, edges and points, is no wall.
+// Throws InputError if no facet has an area: edges and points alone are no wall.
 void check_has_area(const WallMesh &mesh);
 
 }    // namespace lsdcd

@@ -24,8 +24,8 @@ using namespace triangles_meet_detail;
 // 3.4e-15.
 constexpr Real kRounding = 1e-14;
 
-// Does a plane through their common corner, which comes first, part the rest of them? Of most
-// neighbours, at once; false: not known.
+// Does a plane through their common corner, which comes first, separate the other corners? It is
+// quick and answers for most neighbours. False: not known.
 bool are_parted(const Triangle &a, const Triangle &b)
 {
   const auto towards = [&](const Vec3 &x) { return (1 / norm(x - a[0])) * (x - a[0]); };
@@ -49,7 +49,7 @@ bool meet_beyond(int shared, const Triangle &a, const Triangle &b)
 {
   if (shared == 0) return triangles_meet(a, b);
   if (shared == 1 ? are_parted(a, b) : are_unfolded(a, b)) return false;
-  // From a common corner whatever else they share goes on to the side across, of one of them.
+  // What else they share reaches from the common corner to the opposite side of one of them.
   if (shared == 1) return segment_meets(a, b[1], b[2]) || segment_meets(b, a[1], a[2]);
   // On both sides of a common edge, unless one is folded upon the other.
   if (orientation(a[0], a[1], a[2], b[2]) != 0) return false;
@@ -57,7 +57,7 @@ bool meet_beyond(int shared, const Triangle &a, const Triangle &b)
   return orientation_along(axis, a[0], a[1], a[2]) == orientation_along(axis, a[0], a[1], b[2]);
 }
 
-// How many corners two faces share, the corners turned so that these come first.
+// How many corners two faces share. Turns the corners so that these come first.
 int line_up(const WallMesh &mesh, int f, int g, Triangle &a, Triangle &b)
 {
   auto v = mesh.faces[f], w = mesh.faces[g];

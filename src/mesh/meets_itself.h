@@ -14,15 +14,15 @@ namespace lsdcd {
 
 struct SelfMeetings {
   std::size_t pairs = 0;                  // of faces
-  std::array<int, 2> first = {-1, -1};    // the first of them, by their numbers
+  std::array<int, 2> first = {-1, -1};    // the pair with the lowest numbers
 };
 
-// Pairs of faces with more in common than the corners and edges that they share: they cut, overlap
-// or touch each other. Exact, for the corners as they are; periodic images are left out.
+// Finds pairs of faces that have more in common than shared corners and edges: they cut, overlap or
+// touch each other. It is exact for the corners as they are. Periodic images are left out.
 SelfMeetings meets_itself(const WallMesh &mesh);
 
-// The same between faces of different shells, of each the numbers of its faces. Those whose boxes
-// are apart cost nothing.
+// The same between faces of different shells; each has the numbers of its faces. Shells with boxes
+// that do not overlap cost nothing.
 SelfMeetings shells_meet(const WallMesh &mesh, const std::vector<std::vector<int>> &shells);
 
 }    // namespace lsdcd

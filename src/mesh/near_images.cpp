@@ -37,7 +37,7 @@ void include(Vec3 &least, Vec3 &most, const Vec3 &x)
   }
 }
 
-// Looks at each part by itself: a mesh may be far from the box, and many boxes long.
+// Tests each part by itself: a mesh may be far from the box, and many boxes long.
 class NearImages {
  public:
   NearImages(const WallMesh &mesh, const std::vector<FacetPart> &parts, const PeriodicBox &box,
@@ -90,14 +90,14 @@ class NearImages {
     first = static_cast<int>(std::ceil(slabs_.lo[k] - hi));
     last = static_cast<int>(std::floor(slabs_.hi[k] - lo));
     if (first > last || hi - lo <= 1 || !moves_in_plane(part, k)) return;
-    // A floor of many boxes: its images lie on top of it and of each other, so that a few do.
+    // The images of a floor of many boxes lie on top of each other, so that a few are enough.
     const int few = static_cast<int>(std::ceil(past_[k]));
     const int least = std::clamp(-few, first, last), most = std::clamp(few, first, last);
     first = least;
     last = most;
   }
 
-  // Does a periodic edge lead along the face, but for rounding in floats?
+  // Is a periodic edge parallel to the face, up to rounding in float?
   bool moves_in_plane(const FacetPart &part, int k) const
   {
     if (part.face == kNoPart) return false;
@@ -106,7 +106,7 @@ class NearImages {
     return std::fabs(dot(plane.normal, box_.edge[k])) <= 1e-6 * norm(box_.edge[k]);
   }
 
-  // Each has three vertices and edges of its own at most, and these two ends.
+  // Each part has at most three vertices and edges of its own, and each edge two ends.
   void check_number(Real more) const
   {
     if (6 * (static_cast<Real>(n_parts_ + all_.size()) + more) > std::numeric_limits<int>::max())

@@ -17,13 +17,13 @@ constexpr int kNoPart = -1;
 
 // A facet of the mesh, or what is left of one: an edge without a face, a point without an edge.
 struct FacetPart {
-  std::array<int, 3> vertex;    // of the mesh; the last is repeated where there are fewer
-  int face, edge;               // of the mesh; kNoPart where it is none
+  std::array<int, 3> vertex;    // of the mesh; with fewer the last is repeated
+  int face, edge;               // of the mesh; kNoPart: none
 };
 
 std::vector<FacetPart> parts_of(const WallMesh &mesh);
 
-// A part moved by a sum of periodic edges.
+// A part, moved by a sum of periodic edges.
 struct PartImage {
   std::array<int, 3> by;
   int part;
@@ -36,8 +36,8 @@ struct PartImage {
   }
 };
 
-// Those that come within `depth` (length) of the box, ascending. Throws InputError where there are
-// more than vertex numbers can count.
+// The images within `depth` (length) of the box, ascending. Throws InputError if there are more than
+// vertex numbers can count.
 std::vector<PartImage> near_images(const WallMesh &mesh, const std::vector<FacetPart> &parts,
                                    const PeriodicBox &box, Real depth);
 

@@ -82,8 +82,8 @@ void measure(const WallMesh &mesh, const std::vector<char> &turned, Part &part)
   }
 }
 
-// How often a closed part goes round a point, by the solid angles of its faces (van Oosterom and
-// Strackee 1983); half a turn where the point is on it.
+// How many times a closed part winds around a point, by the solid angles of its faces (van Oosterom
+// and Strackee 1983); a half if the point is on it.
 Real turns_round(const WallMesh &mesh, const Part &part, const std::vector<char> &turned,
                  const Vec3 &x)
 {
@@ -104,12 +104,12 @@ Real turns_round(const WallMesh &mesh, const Part &part, const std::vector<char>
   return sum / (2 * M_PI);
 }
 
-// Is one shell inside the other? By its first point that is not on the other.
+// Is one shell inside the other? Its first point that is not on the other decides.
 bool is_inside(const WallMesh &mesh, const Part &inner, const Part &outer,
                const std::vector<char> &turned)
 {
   if (!holds(outer.box, inner.box)) return false;
-  constexpr std::size_t kTries = 16;    // shells that touch so much bound nothing between them
+  constexpr std::size_t kTries = 16;    // shells that touch so much enclose nothing between them
   Real turns = 0;
   for (std::size_t i = 0; i < std::min(kTries, inner.faces.size()); i++) {
     const auto &v = mesh.faces[inner.faces[i]];
@@ -129,13 +129,13 @@ std::vector<Part> parts_of(const WallMesh &mesh, std::vector<char> &turned)
   return parts;
 }
 
-// A volume that is nothing but rounding has no side.
+// A volume that is only rounding has no inside.
 bool has_volume(const Part &part)
 {
   return part.is_shell() && std::fabs(part.volume) > 1e-12 * part.area;
 }
 
-// Of each part, whether it bounds a cavity: an odd number of others is round it.
+// Does each part bound a cavity? It does if an odd number of others encloses it.
 std::vector<char> find_cavities(const WallMesh &mesh, const std::vector<Part> &parts,
                                 const std::vector<char> &turned)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Windings that agree, and normals of closed shells that point out of what they bound.
+// Makes windings agree, and the normals of closed shells point out of the solid that they bound.
 #pragma once
 
 #include "mesh/meets_itself.h"
@@ -13,20 +13,20 @@
 namespace lsdcd {
 
 struct OrientedFaces {
-  std::vector<char> turned;     // for each face: it has to be wound the other way
+  std::vector<char> turned;     // for each face: its winding has to be reversed
   std::size_t faces = 0;        // of these
-  std::size_t shells = 0;       // that are closed and can be oriented
-  std::size_t cavities = 0;     // of these, with normals in: an odd number of others are round them
-  std::size_t one_sided = 0;    // parts that no turning can orient, as a Moebius strip
+  std::size_t shells = 0;       // parts that are closed and can be oriented
+  std::size_t cavities = 0;     // of these, cavities: an odd number of others encloses them
+  std::size_t one_sided = 0;    // parts that cannot be oriented, as a Moebius strip
 };
 
-// Parts of the mesh hang together by edges of two faces. A closed one points out, or where it
-// bounds a cavity of others, into that; of another the side is kept that more of its area has.
+// A part is connected by edges with two faces. The normals of a closed part point out or, if it bounds a
+// cavity of others, into the cavity. An open part keeps the side that most of its area has.
 OrientedFaces orient_faces(const WallMesh &mesh);
 
-// Why the closed shells of a mesh have no inside in common.
+// Why the closed shells of a mesh do not bound a common inside.
 struct ShellFaults {
-  // Faces of shells that point in where the others, which are more, point out, or the other way
+  // Faces of shells that point in while most others point out, or the other way
   // round.
   std::size_t inverted_faces = 0;
   SelfMeetings meetings;    // of faces of different shells

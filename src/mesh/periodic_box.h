@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The box of a simulation: what repeats, and where the centres of spheres can be.
+// The box of a simulation: its periodic axes, and where the centres of spheres can be.
 #pragma once
 
 #include "base/vec3.h"
@@ -39,7 +39,7 @@ inline Box box_around(const Vec3 &a, const Vec3 &b, const Vec3 &c)
   return box;
 }
 
-// Have they a point in common?
+// Do two boxes have a common point?
 inline bool overlap(const Box &a, const Box &b)
 {
   for (int k = 0; k < 3; k++)

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kNone = -1;
 
-// All that images are made of, before welding: points of the mesh and then those of images.
+// The input of welding: the points of the mesh and then those of images.
 struct Copies {
   std::vector<Vec3> points;
   std::vector<int> vertex_of;    // of the mesh, of each point
@@ -76,8 +76,8 @@ Copies copies_of(const WallMesh &mesh, const PeriodicBox &box, Real depth)
   return out;
 }
 
-// Gives the edges of `mesh` that `whole` has too their numbers there; others come behind. The
-// edges of `whole` ascend in their vertices. Returns the new number of each.
+// Returns new numbers for the edges of `whole`: those that `mesh` has, too, get their number there,
+// the others follow. The edges of `whole` ascend in their vertices.
 std::vector<int> keep_edge_numbers(const WallMesh &mesh, WallMesh &whole)
 {
   std::vector<int> number(whole.edges.size(), -1);
@@ -134,7 +134,7 @@ WallMesh with_images(const WallMesh &mesh, const PeriodicBox &box, Real depth)
   for (std::size_t v = 0; v < whole.vertices.size(); v++)
     images.same_vertex.push_back(same.of(static_cast<int>(v)));
 
-  // An image's edge, by its vertices.
+  // The edge of an image with these vertices.
   images.edge_of.assign(whole.edges.size() - images.n_edges, 0);
   const auto name_edge = [&](int a, int b, int edge) {
     const std::array<int, 2> ends = {std::min(a, b), std::max(a, b)};

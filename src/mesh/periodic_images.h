@@ -9,10 +9,10 @@
 
 namespace lsdcd {
 
-// The mesh with the images of its triangles that come within `depth` (length) of the box, moved by
-// sums of periodic edges and welded to it. What the mesh has keeps its number; images come
-// behind (WallMesh::images). An image equal to a triangle of the mesh is dropped. The report
-// stays that of the mesh, but for its bounds. Without such triangles it is the mesh itself.
+// The mesh with the images of its triangles within `depth` (length) of the box. Images are moved by
+// sums of periodic edges and welded to the mesh. The parts of the mesh keep their numbers, and images
+// follow (WallMesh::images). An image that equals a triangle of the mesh is dropped. The report is that
+// of the mesh, except for its bounds. Without such triangles the result is the mesh.
 WallMesh with_images(const WallMesh &mesh, const PeriodicBox &box, Real depth);
 
 }    // namespace lsdcd

@@ -43,7 +43,7 @@ void sine_cosine(Real degrees, Real &sine, Real &cosine)
   cosine = std::cos(radians);
 }
 
-// In long double: the product of three factors of 1e-150 is a number there.
+// In long double the product of three factors of 1e-150 does not underflow.
 bool is_mirror(const Vec3 *row)
 {
   using Wide = long double;

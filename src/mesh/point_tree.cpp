@@ -28,7 +28,7 @@ Vec3 PointTree::farthest_along(const Vec3 &direction) const
     at = dot(direction, corner);
     return at > most;
   };
-  const auto take = [&](int) {    // the box of this point was asked just before
+  const auto take = [&](int) {    // the box of this point was tested just before
     farthest = corner;
     most = at;
   };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which of many points goes farthest along a direction, without a look at each of them.
+// Finds the point that is farthest along a direction, without a test of each point.
 #pragma once
 
 #include "mesh/box_tree.h"
@@ -14,12 +14,12 @@ class PointTree {
  public:
   explicit PointTree(const std::vector<Vec3> &points);    // one at least
 
-  // One of those whose dot(direction, point) is largest.
+  // A point with the largest dot(direction, point).
   Vec3 farthest_along(const Vec3 &direction) const;
 
  private:
   BoxTree tree_;
-  std::vector<Vec3> some_;    // asked first, so that most boxes are passed over
+  std::vector<Vec3> some_;    // tested first, so that most boxes are skipped
 };
 
 }    // namespace lsdcd

@@ -41,10 +41,10 @@ bool has_face_with(const WallMesh &mesh, int a, int b)
   return false;
 }
 
-// How far what is dropped with degenerate facets is from the mesh that is left. Such a facet is
-// no farther from its longest side than it is high, and that side may be followed by edges of
-// others. Where a piece of it is not, a point of it is half as long as the piece from an end, or
-// nearer, and that as far as it is from the next corner.
+// How far the dropped degenerate facets are from the mesh that is left. A point of such a facet is no
+// farther from its longest side than the facet is high, and other edges may follow that side. If none
+// follows a piece of it, a point of the piece is within half its length of an end of the piece, and
+// that end is as far from the mesh as from the nearest corner.
 void measure_dropped(const WallMesh &mesh, const std::vector<int> &old_corners, Real tolerance,
                      RepairReport &report)
 {

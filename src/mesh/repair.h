@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A mesh with what is wrong with it mended as far as that needs no invention: nothing is filled.
+// Repairs a mesh without inventing anything: no hole is filled.
 #pragma once
 
 #include "mesh/wall_mesh.h"
@@ -20,24 +20,24 @@ constexpr char kOpenEdges[] = "open edges";
 struct Unmended {
   std::string what;          // kOpenEdges and so on
   std::size_t count = 0;     // at least 1
-  Vec3 place = {0, 0, 0};    // of the first of them, length
+  Vec3 place = {0, 0, 0};    // place of the first one, length
 };
 
 struct RepairReport {
-  std::size_t welded_corners = 0;       // that went to another's place
+  std::size_t welded_corners = 0;       // corners that were moved to another's place
   std::size_t degenerate_facets = 0;    // dropped
-  std::size_t lost_facets = 0;          // of these, lines that no edge of what is left follows
+  std::size_t lost_facets = 0;          // of these, lines that no remaining edge follows
   std::size_t duplicate_facets = 0;     // dropped
   std::size_t split_facets = 0;         // cut at corners of neighbours,
   std::size_t junctions = 0;            // of which there were so many
   std::size_t turned_facets = 0;
   std::size_t shells = 0;        // closed parts of the result
-  std::size_t cavities = 0;      // of these, with normals into what others are round
-  std::size_t boundaries = 0;    // parts that the open edges of the result hang together in
+  std::size_t cavities = 0;      // of these, cavities: their normals point into them
+  std::size_t boundaries = 0;    // connected parts of the open edges of the result
   Real tolerance = 0;            // length, of welding and of junctions
 
-  // Lengths. No point of the old surface is farther from the new one, or the other way round, than
-  // moved().
+  // Lengths. No point of the old surface is farther from the new one than moved(), and the other way
+  // round.
   Real welding_moved = 0;
   Real splitting_moved = 0;
   Real dropping_moved = 0;    // by what was dropped
@@ -52,10 +52,10 @@ struct RepairedMesh {
   RepairReport report;
 };
 
-// Welds corners within the tolerance (as weld() takes it), drops degenerate and duplicate facets,
-// cuts facets where corners of neighbours lie on their open edges, and winds facets as their
-// neighbours, closed parts with normals out. Throws InputError as weld() does, and where no facet
-// is left. `progress` is told what comes next.
+// Welds corners within the tolerance (see weld()), drops degenerate and duplicate facets, cuts
+// facets if corners of neighbours lie on their open edges, and makes windings agree, with the normals
+// of closed parts out. Throws InputError as weld() does, and if no facet is left. Calls `progress`
+// with the name of each step before it begins.
 RepairedMesh repair(const TriangleSoup &soup, Real tolerance,
                     const std::function<void(const std::string &)> &progress = {});
 

@@ -60,7 +60,7 @@ class Cutter {
     return !plane.degenerate && dot(plane.normal, normal_) > 0;
   }
 
-  // In two at a corner on one of its sides, the middle one of them first.
+  // Cuts it in two at a corner on one of its sides, the middle corner first.
   void divide(const Piece &p)
   {
     for (int k = 0; k < 3; k++) {
@@ -107,7 +107,7 @@ SplitFaces split_faces(const WallMesh &mesh, Real tolerance, CutBefore &before)
     for (int k = 0; k < 3; k++)
       if (is_open(mesh, mesh.face_edges[f][k]))
         whole.on[k] = corners.on(whole.corner[k], whole.corner[(k + 1) % 3], tolerance);
-    // Its own third corner, where the face is thin, is none of a neighbour.
+    // If the face is thin, its own third corner may be on its side; that is no neighbour's.
     for (int k = 0; k < 3; k++)
       whole.on[k].erase(
           std::remove_if(whole.on[k].begin(), whole.on[k].end(),

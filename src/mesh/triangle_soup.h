@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Triangles as a file gives them: no sharing, no order, nothing dropped.
+// Triangles as they are in a file: no shared corners, nothing dropped.
 #pragma once
 
 #include "base/vec3.h"

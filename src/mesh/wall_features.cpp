@@ -43,7 +43,7 @@ T root(T a)
 template <class T>
 Wide<T> unit(const Wide<T> &a)
 {
-  // Scaled first: squares of lengths near 1e-200 or 1e200 leave the range.
+  // Scaled first, as squares of lengths near 1e-200 or 1e200 leave the range.
   T m = a.x < 0 ? -a.x : a.x;
   for (T c : {a.y, a.z}) {
     if (c < 0) c = -c;
@@ -99,8 +99,8 @@ EdgeRecord make_edge(const Vec3 &a, const Vec3 &b)
   return e;
 }
 
-// Two faces in one plane leave the edge between them no region of its own wider
-// than this angle; the grid's tolerance is four times wider.
+// If two faces lie in one plane, the region of the edge between them is no wider than this
+// angle. The grid's tolerance is four times wider.
 constexpr Real kFlat = 1e-13;
 
 bool is_flat(const EdgeRecord &e)
@@ -119,8 +119,8 @@ bool is_straight(const Vec3 *direction, int n)
   return false;
 }
 
-// The one direction of all vertices that hold no contact of their own: no point is on the right
-// side of it. Most vertices of a smooth mesh are such, and directions are most of a vertex.
+// Vertices that hold no contact share this direction: no point is on the right side of it. Most
+// vertices of a smooth mesh are such, and directions are most of the memory of a vertex.
 constexpr Real kNoNumber = std::numeric_limits<Real>::quiet_NaN();
 constexpr Vec3 kNoDirection = {kNoNumber, kNoNumber, kNoNumber};
 

@@ -25,8 +25,8 @@ struct WallFeatures {
   std::vector<FaceParts> face_parts;
   PeriodicImages images;
   std::vector<FeatureCode> contact_features;    // what a grid has to sort into cells
-  // The wall in primitives: every face stands for its edges and vertices as well; edges
-  // and vertices without a face stand for themselves.
+  // The primitives of the wall: the faces, each for its edges and vertices, too, and the
+  // edges and vertices without a face.
   std::vector<FeatureCode> primitives;
 
   WallFeaturesView view() const;

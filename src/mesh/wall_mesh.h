@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The wall as a complex of faces, edges and vertices that know their neighbours.
+// The wall as faces, edges and vertices that know their neighbours.
 #pragma once
 
 #include "base/vec3.h"
@@ -14,7 +14,7 @@
 
 namespace lsdcd {
 
-// What welding found and did; printed by the fix and by `lsdcd inspect`.
+// What welding found and did. The fix and `lsdcd inspect` print it.
 struct MeshReport {
   std::size_t facets = 0;               // triangles in the file
   std::size_t corners = 0;              // 3 * facets
@@ -25,7 +25,7 @@ struct MeshReport {
   std::size_t open_edges = 0;           // one face
   std::size_t nonmanifold_edges = 0;    // more than two faces
   std::size_t misoriented_edges = 0;    // two faces that run along it the same way
-  std::size_t inverted_facets = 0;      // of closed shells that point in where others point out
+  std::size_t inverted_facets = 0;      // of closed shells that point in while others point out
   // Pairs of facets that cut, overlap or touch each other: of different closed shells, or, after
   // note_meetings(), of any.
   std::size_t meeting_pairs = 0;
@@ -41,12 +41,12 @@ struct MeshReport {
   std::size_t feature_edges = 0;    // folds above 30 degrees
 };
 
-// What of a mesh are periodic images (mesh/periodic_images.h): all that is numbered from n_faces,
-// n_edges and n_vertices on. Empty where there are none.
+// Which parts of a mesh are periodic images (mesh/periodic_images.h): those with numbers from
+// n_faces, n_edges and n_vertices on. Empty if there are none.
 struct PeriodicImages {
   std::size_t n_faces = 0, n_edges = 0, n_vertices = 0;    // of the mesh itself
   std::vector<int> face_of, edge_of, vertex_of;            // what each is an image of
-  // Of every vertex of the whole, one vertex that stands for it and all its images.
+  // For every vertex, one vertex that stands for it and all its images.
   std::vector<int> same_vertex;
 
   bool any() const { return !same_vertex.empty(); }

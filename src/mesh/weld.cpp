@@ -26,7 +26,7 @@ using Pair = std::array<int, 2>;
 // Squares of lengths outside 1e-100 .. 1e100 would leave the range of Real.
 constexpr Real kLargestLength = 1e100;
 
-// The diagonal of the bounding box, once every coordinate has been checked.
+// The diagonal of the bounding box, after every coordinate has been checked.
 Real checked_diagonal(const TriangleSoup &soup)
 {
   if (soup.corners.empty())
@@ -69,7 +69,7 @@ Triple sorted(Triple t)
   return t;
 }
 
-// Sorts facets into faces and what is left of degenerate ones: their edges.
+// Sorts facets into faces and degenerate ones, of which the edges stay.
 void sort_facets(const std::vector<int> &corner_point, WallMesh &mesh,
                  std::vector<FacePlane> &plane, std::vector<Pair> &bare_edges)
 {
@@ -106,8 +106,8 @@ void accumulate(std::vector<int> &first)
   for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
 }
 
-// Every side of a face, and every bare edge, goes into the bucket of its lower
-// vertex; sorted by the higher one, equal sides are neighbours and make an edge.
+// Every side of a face and every bare edge goes into the bucket of its lower vertex. Sorted by
+// the higher vertex, equal sides are neighbours and make an edge.
 void build_edges(WallMesh &mesh, const std::vector<Pair> &bare_edges)
 {
   constexpr std::uint32_t kNoSide = 0xffffffff;
@@ -154,10 +154,10 @@ void build_edges(WallMesh &mesh, const std::vector<Pair> &bare_edges)
   mesh.edge_first.push_back(static_cast<int>(mesh.edge_face.size()));
 }
 
-// More than rounding leaves between the normals of two faces in one plane.
+// A larger angle between the normals of two faces in one plane does not come from rounding.
 constexpr Real kFlatFold = 1e-12;    // radian
 
-// Do its two faces lie in one plane, by normals that may be rounded?
+// Do its two faces lie in one plane, up to the rounding of normals?
 bool seems_flat(const WallMesh &mesh, const std::vector<FacePlane> &plane, int e)
 {
   if (mesh.edge_first[e + 1] - mesh.edge_first[e] != 2) return false;
@@ -166,7 +166,7 @@ bool seems_flat(const WallMesh &mesh, const std::vector<FacePlane> &plane, int e
   return norm(runs_along(mesh, f, e) == runs_along(mesh, g, e) ? a + b : a - b) <= kFlatFold;
 }
 
-// Flat edges hold no contact; with the last numbers, they need no records (mesh/wall_features.h).
+// Flat edges hold no contact. They get the last numbers, so that they need no records (wall_features.h).
 void number_flat_edges_last(WallMesh &mesh, const std::vector<FacePlane> &plane)
 {
   const int n = static_cast<int>(mesh.edges.size());
@@ -220,7 +220,7 @@ WallMesh weld(const TriangleSoup &soup, Real tolerance)
   number_flat_edges_last(mesh, plane);
   build_vertex_edges(mesh);
   measure_mesh(mesh, plane);
-  // They grew by doubling, and stay as long as the wall.
+  // They grew by doubling, and live as long as the wall.
   mesh.vertices.shrink_to_fit();
   mesh.faces.shrink_to_fit();
   mesh.face_facet.shrink_to_fit();

@@ -45,7 +45,7 @@ bool operator==(const Cell &a, const Cell &b)
   return a.i == b.i && a.j == b.j && a.k == b.k;
 }
 
-// Points, none within `tolerance` of another, in the cells of a hashed grid.
+// Points that are more than `tolerance` apart, in the cells of a hashed grid.
 class PointGrid {
  public:
   PointGrid(const std::vector<Vec3> &points, Real tolerance) : points_(points)
@@ -55,8 +55,8 @@ class PointGrid {
     const Real extent = std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z});
     // A little more than the tolerance, for the rounding of cell coordinates.
     cutoff_ = 1.001 * tolerance;
-    // Several tolerances wide, so that a search seldom leaves its cell; and wide
-    // enough for cell numbers to be exact integers.
+    // Several tolerances wide, so that a search seldom leaves its cell, and wide enough
+    // that cell numbers are exact integers.
     cell_ = std::max(8 * tolerance, std::ldexp(extent, -50));
     tolerance_ = tolerance;
     next_.assign(points.size(), HashIndex::kNone);
@@ -75,7 +75,7 @@ class PointGrid {
     first_[head] = point;
   }
 
-  // The nearest point within the tolerance, the lowest of equals; kNone without one.
+  // The nearest point within the tolerance, of equals the lowest; kNone if there is none.
   int nearest(const Vec3 &x) const
   {
     const Vec3 cutoff = {cutoff_, cutoff_, cutoff_};
@@ -129,7 +129,7 @@ WeldedPoints weld_points(const std::vector<Vec3> &corners, Real tolerance)
   WeldedPoints exact = weld_equal(corners);
   if (tolerance == 0 || corners.empty()) return exact;
 
-  // Exact copies are gone: what is left is a sixth of the corners of a usual mesh.
+  // Exact copies are merged already, which leaves a sixth of the corners of a usual mesh.
   const std::vector<Vec3> &points = exact.points;
   PointGrid grid(points, tolerance);
   std::vector<int> moved;
@@ -141,7 +141,7 @@ WeldedPoints weld_points(const std::vector<Vec3> &corners, Real tolerance)
   }
   if (moved.empty()) return exact;
 
-  // Only now are all points known, so that the nearest does not depend on order.
+  // All points are known now, so that the nearest does not depend on the order.
   std::vector<int> target(points.size(), HashIndex::kNone);
   for (const int p : moved) target[p] = grid.nearest(points[p]);
   WeldedPoints out;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr Real kTwoPi = 6.28318530717958647692;
 
-// Of the angle 2 pi t/period, exact at whole quarters. A timestep is a double: its products are
-// uncertain by 2^-53 of themselves, and what that alone parts from a quarter is one.
+// Sine and cosine of 2 pi t/period, exact at whole quarters. A timestep is a double, so that its
+// products have a relative error of 2^-53: a time within that of a quarter counts as the quarter.
 void sine_cosine(Time t, Real period, Real &sine, Real &cosine)
 {
   const Time turns = std::fmod(t, Time(period)) / period;    // fmod is exact
@@ -46,7 +46,7 @@ Rotation rotation(const Vec3 &k, Real s, Real c)
   return r;
 }
 
-// What is placed turns about an axis with sine s and cosine c, and goes on at the speed `omega`.
+// Turns the pose about an axis by an angle with sine s and cosine c and angular velocity `omega`.
 void turn(WallPose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, Real omega)
 {
   const Rotation turned = rotation(axis, s, c);
@@ -66,7 +66,7 @@ void turn(WallPose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, R
   pose.angular = w + angular;
 }
 
-// A term's displacement and its derivative.
+// The displacement of a term and its derivative.
 void shift_of(const MotionTerm &m, Time t, Vec3 &shift, Vec3 &velocity)
 {
   Real s, c;
@@ -153,7 +153,7 @@ Real WallMotion::longest_period() const
 
 bool WallMotion::keeps(const Vec3 &direction) const
 {
-  // Parallel and perpendicular to rounding: axes are unit vectors.
+  // Axes are unit vectors: parallel and perpendicular hold to this rounding.
   constexpr Real kRounding = 1e-12;
   const auto crosses = [&](const Vec3 &v) {
     return std::fabs(dot(v, direction)) > kRounding * norm(v);
@@ -172,7 +172,7 @@ bool WallMotion::keeps(const Vec3 &direction) const
   return true;
 }
 
-// What a rigid motion does to a point is affine in it, so its size is largest at a corner.
+// A rigid motion moves a point by an affine function of it, whose size is largest at a corner.
 Real farthest_between(const WallPose &a, const WallPose &b, const Box &box)
 {
   Real most = 0;

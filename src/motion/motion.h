@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How a mesh moves as a rigid body: terms in the words of LAMMPS's fix move, one acting on what
-// the ones before it have placed, and last a servo.
+// How a mesh moves as a rigid body: terms with the words of LAMMPS's fix move, each acting on the
+// result of those before it, and last a servo.
 #pragma once
 
 #include "mesh/periodic_box.h"
@@ -38,7 +38,7 @@ Vec3 unit_vector(const Vec3 &a);
 
 class WallMotion {
  public:
-  // What the terms act on. Length, and at rest.
+  // The pose that the terms act on; its velocities are left out.
   void begin_from(const WallPose &pose);
   const WallPose &start() const { return start_; }
 
@@ -47,7 +47,7 @@ class WallMotion {
   std::vector<MotionTerm> &terms() { return terms_; }
   const std::vector<MotionTerm> &terms() const { return terms_; }
 
-  // Acts on what all terms have placed.
+  // It acts on the result of all terms.
   Servo &servo() { return servo_; }
   const Servo &servo() const { return servo_; }
 
@@ -55,10 +55,10 @@ class WallMotion {
   // false: the mesh is as its file has it
   bool any() const { return moves() || servo_.present || start_.placed; }
 
-  // What the terms give at time t since they began. Computed from t and nothing else (and from the values of
-  // variables), so that it is as exact after 1e9 steps as after one. After a whole number of
-  // periods a term gives the bits that it began with; a time that rounding parts from such a
-  // number, and no more, counts as one.
+  // The pose at time t since the terms began. It depends only on t and the values of variables, so that it
+  // is as exact after 1e9 steps as after one. After a whole number of periods a term gives the bits that
+  // it began with. A time that differs from such a number only by rounding counts as
+  // that number.
   WallPose terms_at(Time t) const;
   // The same with the servo where it is now.
   WallPose pose_at(Time t) const;
@@ -74,11 +74,11 @@ class WallMotion {
   Servo servo_;
 };
 
-// The largest distance between where two poses put a point of this box, in the mesh's frame.
+// The largest distance between the places of a point of this box (in the mesh's frame) in two poses.
 Real farthest_between(const WallPose &a, const WallPose &b, const Box &box);
-// The largest speed of a point of it.
+// The largest speed of a point of this box.
 Real fastest_in(const WallPose &pose, const Box &box);
-// The box around it where the pose puts it.
+// The bounds of this box where the pose puts it.
 Box placed_bounds(const WallPose &pose, const Box &box);
 
 }    // namespace lsdcd

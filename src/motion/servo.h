@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-// Force, length and velocity; where it turns: torque, angle (radians) and angular velocity.
+// Numbers are a force, a length and a velocity or, if it turns, a torque, an angle and its velocity.
 struct Servo {
   bool present = false;
   bool holds = false;    // no longer moves, and keeps its position
@@ -35,21 +35,21 @@ struct Servo {
            point == other.point;
   }
 
-  // From what spheres exert on the mesh, the torque about the origin.
+  // The push, from the force and the torque about the origin that spheres exert on the mesh.
   Real push(const Vec3 &force, const Vec3 &torque) const
   {
     return 0 - dot(axis, turns ? torque - cross(point, force) : force);    // none: 0, not -0
   }
 
-  // Over dt, after a step in which it pushed so. A push grows as the servo moves on, so that one
-  // below the target moves it on. Has it been stopped by a limit?
+  // Moves it for a time dt, after a step with this push. A push below the target moves it forward,
+  // which makes the push grow. Returns whether a limit has stopped it.
   bool advance(Real push, Real gain, Real dt);
 };
 
-// The velocity per push at which the loop of a servo and its contacts comes to rest. Over a step the
-// push changes by -stiffness dt v and, as contacts damp, by -damping v: with v(n+1) = gain (target -
-// push(n)) the loop is stable for gain (stiffness dt + 2 damping) < 2. This is a quarter of that,
-// which leaves room for the motion of the spheres themselves (tests/unit/test_servo.cpp).
+// A gain (velocity per push) with which the loop of a servo and its contacts is stable. In a step the
+// push changes by -stiffness dt v and, by damping, by -damping v. With v(n+1) = gain (target - push(n))
+// the loop is stable for gain (stiffness dt + 2 damping) < 2. This is a quarter of that limit, which
+// leaves room for the motion of the spheres (tests/unit/test_servo.cpp).
 Real servo_gain(Real stiffness, Real damping, Real dt);
 
 }    // namespace lsdcd

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The time of a wall, which the host's steps count.
+// The time of a wall, counted by the host's steps.
 #pragma once
 
 #include "base/real.h"
@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// A product of 1e9 steps and a timestep is exact to 2^-64 of itself here.
+// In this type the product of 1e9 steps and a timestep has a relative error of 2^-64.
 using Time = long double;
 
 // A step of the host.
@@ -18,15 +18,15 @@ struct Step {
   enum Kind {
     setup,      // begins a run: no time has passed since the last step
     step,       // follows the last step
-    snapshot    // no steps led to it: only its number tells its time
+    snapshot    // read from a file: only its number tells its time
   };
   std::int64_t number = 0;
   Real dt = 0;    // time
   Kind kind = step;
 };
 
-// Time goes on by one dt in each step, whatever number the host gives the step: base at base_step, and
-// dt for each step since.
+// Time advances by one dt in each step, whatever number the host gives the step: it is base at
+// base_step, and dt more for each step since.
 struct StepClock {
   Time base = 0;
   std::int64_t base_step = 0, last_step = 0;

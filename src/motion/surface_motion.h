@@ -15,8 +15,8 @@ struct SurfaceMotion {
 
   bool moves() const { return norm_sq(velocity) > 0 || norm_sq(angular) > 0; }
 
-  // Velocity of the surface that is at point p, a time `back` ago, in the plane with unit normal n.
-  // What would push along n is left out: the wall stays where it is.
+  // Velocity of the surface at point p, a time `back` ago, in the plane with the unit normal n. The
+  // part along n is left out: the wall stays where it is.
   LSDCD_FN Vec3 along(const Vec3 &p, const Vec3 &n, Real back) const
   {
     const Vec3 turning = cross(angular, p - centre);
@@ -25,7 +25,7 @@ struct SurfaceMotion {
   }
 };
 
-// A vector across the unit normal n, turned about it by the angle of a step: its tangent as a series.
+// Turns a vector perpendicular to the unit normal n about n by a small angle, whose tangent is a series.
 LSDCD_FN Vec3 turn_about(const Vec3 &n, Real angle, const Vec3 &h)
 {
   if (angle == 0) return h;

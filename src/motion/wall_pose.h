@@ -14,7 +14,7 @@ struct WallPose {
   // In the frame of the box: of the mesh's origin, and right-handed.
   Vec3 velocity = {0, 0, 0};    // length/time
   Vec3 angular = {0, 0, 0};     // 1/time
-  // Their derivatives, so far as the mesh turns: what a wiggle or a servo does to its speed is left out.
+  // The derivatives of these due to turning. Accelerations of a wiggle or a servo are left out.
   Vec3 acceleration = {0, 0, 0};    // length/time^2
   Vec3 spin_up = {0, 0, 0};         // 1/time^2
   bool placed = false;              // false: the mesh is where its file puts it, and stays there
@@ -32,7 +32,7 @@ struct WallPose {
   LSDCD_FN Vec3 to_box(const Vec3 &x) const { return placed ? turn_to_box(x) + shift : x; }
   LSDCD_FN Vec3 to_mesh(const Vec3 &x) const { return placed ? turn_to_mesh(x - shift) : x; }
 
-  // It, at rest there.
+  // The same pose at rest.
   WallPose still() const
   {
     WallPose pose = *this;
@@ -40,7 +40,7 @@ struct WallPose {
     return pose;
   }
 
-  // Velocity of a point of the mesh that is at x in the mesh's frame, in that frame.
+  // Velocity of the point x of the mesh. Both are in the mesh's frame.
   LSDCD_FN Vec3 velocity_in_mesh(const Vec3 &x) const
   {
     return turn_to_mesh(velocity) + cross(turn_to_mesh(angular), x);

@@ -31,7 +31,7 @@ void append_numbers(std::string &bytes, const Vec3 &a)
   for (const Real x : {a.x, a.y, a.z}) append_number(bytes, static_cast<Number>(x));
 }
 
-// A line of a word and three numbers, each in as few digits as tell it from all others.
+// A line with a word and three numbers, each with the fewest digits that read back the same.
 inline void append_line(std::string &bytes, const char *first, const Vec3 &a)
 {
   bytes += first;

@@ -46,7 +46,7 @@ FileSeries::FileSeries(const std::string &path) : files_(path.substr(path.rfind(
   path_ = list.substr(0, list.rfind('.')) + ".pvd";
 }
 
-// Its own lines, and no other: it reads what it wrote.
+// It reads only the lines that it writes itself.
 void FileSeries::read()
 {
   std::ifstream in(path_);

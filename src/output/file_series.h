@@ -9,11 +9,11 @@
 
 namespace lsdcd {
 
-// FILE with the step in place of its first '*'.
+// The name with the step in place of its first '*'.
 std::string file_of_step(const std::string &path, long long step);
 
-// VTK's collection (.pvd): the files of a series with their times, in a file beside them that is
-// named as they are, with "series" for the step.
+// VTK's collection (.pvd): a file with the names and times of the files of a series. It lies beside them
+// and has their name, with "series" for the step.
 class FileSeries {
  public:
   // `path` has a '*', and not in a folder's name.
@@ -21,11 +21,11 @@ class FileSeries {
 
   const std::string &path() const { return path_; }    // of the list
 
-  // Goes on with what an earlier run listed; nothing where there is no such list.
+  // Continues the list of an earlier run, if there is one.
   void read();
 
-  // Puts the file of this step last, and forgets those that it leaves behind: the same file, and
-  // what a run listed that was at a later time.
+  // Adds the file of this step at the end. Removes the same file and files of later times, which an
+  // earlier run may have listed.
   void add(long long step, double time);
 
   void write() const;    // whole or not at all; throws InputError that names the list
@@ -33,7 +33,7 @@ class FileSeries {
  private:
   struct Entry {
     double time;
-    std::string file;    // without its folder, as XML has it
+    std::string file;    // without its folder, escaped for XML
   };
 
   std::string files_, path_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers per triangle, as a file that ParaView and other VTK programs read.
+// Numbers per triangle, in a file for ParaView and other VTK programs.
 #pragma once
 
 #include "motion/wall_pose.h"

@@ -26,7 +26,7 @@ bool is_feature(const WallMesh &mesh, std::size_t edge)
   const int first = mesh.edge_first[edge];
   const int n_faces = mesh.edge_first[edge + 1] - first;
   if (n_faces != 2) return true;
-  // Either winding: the sign of one normal must not turn a flat pair into a fold.
+  // For either winding: the sign of one normal must not make a flat pair a fold.
   const Real cosine =
       dot(unit_normal(mesh, mesh.edge_face[first]), unit_normal(mesh, mesh.edge_face[first + 1]));
   return std::fabs(cosine) < kFoldCosine;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A mesh as few strokes that show its shape and leave the grains visible.
+// A mesh drawn with few lines that show its shape and leave the grains visible.
 #pragma once
 
 #include "mesh/wall_mesh.h"

@@ -12,14 +12,14 @@ namespace lsdcd {
 
 namespace {
 
-// Of the corners as they are in the file, so that reading and writing it changes nothing.
+// From the rounded corners of the file, so that reading and writing it changes nothing.
 Vec3 normal_of(const Vec3 *corner)
 {
   const Vec3 n = cross(corner[1] - corner[0], corner[2] - corner[0]);
   return norm_sq(n) > 0 ? (1 / norm(n)) * n : n;
 }
 
-// volatile: g++ 12 with -O3 makes double -> float -> double of two neighbours at once no change.
+// volatile: g++ 12 with -O3 drops the rounding double -> float -> double of two neighbours.
 Real rounded(Real x)
 {
   const volatile float value = static_cast<float>(x);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Triangles, and the mesh where it is, as STL files that read_stl() and other programs read.
+// Triangles, or a mesh where it is, as STL files that read_stl() and other programs read.
 #pragma once
 
 #include "mesh/wall_mesh.h"
@@ -12,15 +12,15 @@
 
 namespace lsdcd {
 
-// The bytes of a file, in the soup's order and winding; binary where all corners are floats, else text
-// that tells each to the last bit.
+// The bytes of a file, in the order and winding of the soup: binary if all corners are floats, else text
+// with every bit.
 std::string stl_bytes(const TriangleSoup &soup);
 
 // Binary; corners rounded to float, in the winding of the mesh. The file appears whole or not at all;
 // throws InputError that names it.
 void write_mesh_stl(const std::string &path, const WallMesh &mesh, const WallPose &pose = {});
 
-// A corner as a binary file has it: of floats.
+// A corner rounded to float, as in a binary file.
 Vec3 rounded_as_in_stl(const Vec3 &corner);
 
 bool are_floats(const std::vector<Vec3> &points);

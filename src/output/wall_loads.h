@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What contacts do to a wall over time: forces on its parts, and the volume that wears off.
+// What contacts do to a wall over time: forces on its parts, and the volume worn off.
 #pragma once
 
 #include "engine/wall_engine.h"
@@ -15,8 +15,8 @@
 
 namespace lsdcd {
 
-// Of one face, edge or vertex. Integrals over the time of an average, but for `worn`,
-// which is of all time.
+// The load of one face, edge or vertex. Integrals over the time of an average, except
+// `worn`, which is since the beginning.
 struct Load {
   Real normal = 0;           // force time; of the normal forces, < 0 where they pull
   Real shear = 0;            // force time; of the sizes of the forces along the wall
@@ -27,10 +27,10 @@ struct Load {
 
 class WallLoads {
  public:
-  // Adds a step of duration dt; per_work as in Wear. The order of the records is the order
-  // of summing: the same records give the same bits. What happens to a periodic image happens
-  // to the part of the mesh that it is an image of; `wall` may be empty where there are none.
-  // Records of other meshes are left out.
+  // Adds a step of duration dt; per_work is that of Wear. Records are summed in their order, so
+  // that the same records give the same bits. Records on a periodic image count for the part of
+  // the mesh that it is an image of; `wall` may be empty without images. Records of other
+  // meshes are left out.
   void add(const ContactRecord *records, int n, Real dt, Real per_work,
            const WallFeaturesView &wall = {}, std::uint32_t mesh = 0);
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a query takes a distance from: a primitive of the wall in nearest lists, a feature in
-// complete ones. Each returns kAnyDistance where it has nothing nearer than `within`.
+// Distances to the entries of a list: to a primitive of the wall in nearest lists, to a feature in
+// complete ones. Each returns kAnyDistance if there is nothing nearer than `within`.
 #pragma once
 
 #include "contact/brick_geometry.h"
@@ -36,8 +36,8 @@ class WallDistances {
   const Vec3 &q_;
 };
 
-// Copies in float in the frame of a brick. A primitive is where the wall has a local minimum
-// of distance on it: past a side that it shares, the answer is its neighbour's to give.
+// Copies in float in the frame of a brick. A primitive answers if the wall has a local minimum of
+// distance on it. Past a shared side the neighbour answers.
 class BrickDistances {
  public:
   LSDCD_FN BrickDistances(const GridView &grid, const Vec3 &q, const CellAddress &at) :

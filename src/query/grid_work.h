@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a query asks of each sphere, and where its answers go.
+// What a query computes for each sphere, and where its answers go.
 #pragma once
 
 #include "grid/lookup/brick_filter.h"
@@ -12,8 +12,8 @@
 
 namespace lsdcd {
 
-// Arrays of one query; which of them are null says what is kept. Distances that were found
-// in float are kept in float. They are infinite where no wall is within the radius.
+// Arrays of one query. Those that are null are not wanted. Distances found in float are kept in
+// float. They are infinite if no wall is within the radius.
 struct AnswerArrays {
   std::uint8_t *status;
   Real *distance;
@@ -30,7 +30,7 @@ struct AnswerArrays {
     if (float_distance) float_distance[i] = a.found() ? static_cast<float>(a.distance) : kFloatFar;
     if (read) read[i] = a.read;
   }
-  // The same of four neighbours from i on, a multiple of 4, where no wall is near.
+  // The same for four neighbours from i on, a multiple of 4, that are far from the wall.
   LSDCD_FN void keep_four_far(std::size_t i) const
   {
     const std::uint8_t s = kCertified;
@@ -40,7 +40,7 @@ struct AnswerArrays {
     if (float_distance) four_at(float_distance, i) = {{f, f, f, f}};
     if (read) four_at(read, i) = {{0, 0, 0, 0}};
   }
-  // Of the spheres from the n-th on, a multiple of 4.
+  // For the spheres from the n-th on, a multiple of 4.
   AnswerArrays after(std::size_t n) const
   {
     return {status + n, distance ? distance + n : nullptr,
@@ -52,7 +52,7 @@ struct AnswerArrays {
   }
 
  private:
-  // Aligned so that a GPU stores them in one part, or two of 16 bytes.
+  // Aligned so that a GPU stores them at once, or in two parts of 16 bytes.
   template <class T>
   struct alignas(sizeof(T) < 4 ? 4 : 16) Four {
     T v[4];
@@ -64,9 +64,9 @@ struct AnswerArrays {
   }
 };
 
-// The first sphere with a radius that the grid's lists were not built for, or that is none: below 0,
-// or not a number.
-// Radii are compared in the spheres' digits: in float, the cutoff is one of them, rounded.
+// The first sphere with a radius above the grid's cutoff, below 0, or not a number.
+// Radii are compared in the type of the spheres: for float the cutoff is rounded
+// to float.
 template <class S>
 struct TooLarge {
   decltype(S::r) cutoff;
@@ -79,9 +79,9 @@ struct TooLarge {
   }
 };
 
-// What a query asks of each sphere, for the loops that run it: an answer at once; or first
-// whether it may be in a brick, then its cell, and then an answer from that cell's list, where
-// there are these, and one far from the wall elsewhere. kComplete: grid.nearest is 0.
+// The work for each sphere, for the loops that run a query: an answer at once; or in turn whether it
+// may be in a brick, its cell, and an answer from the list of that cell. Without a cell the answer is
+// that of a sphere far from the wall. kComplete: grid.nearest is 0.
 template <class Distances, class S, bool kComplete>
 struct GridWork {
   using Item = S;
@@ -96,7 +96,7 @@ struct GridWork {
   TooLarge<S> too_large;
   std::size_t from;    // spheres before these
 
-  // The same of the spheres from the n-th on, a multiple of 4.
+  // The same for the spheres from the n-th on, a multiple of 4.
   GridWork after(std::size_t n) const
   {
     return {grid, table, spheres + n, out.after(n), filter, coarse, too_large, from + n};
@@ -110,7 +110,7 @@ struct GridWork {
     out.keep(i, nearest_distance<kComplete, Distances>(grid, s.centre(), s.r));
   }
 
-  // Of a sphere that is too large nothing is sure: who looks closer checks it.
+  // A sphere that is too large passes this test, so that the next test checks it.
   LSDCD_FN BrickGuess guess(const S &s) const
   {
     BrickGuess at = filter.guess({s.x, s.y, s.z});
@@ -129,7 +129,7 @@ struct GridWork {
     out.keep(i, nearest_from<kComplete, Distances>(grid, q, s.r, address_inside(grid, q), cell));
   }
 
-  // Lists that are too long for one thread, as at a vertex of very many facets.
+  // Is a list too long for one thread, as at a vertex of very many facets?
   static constexpr bool kTogether = kComplete && Distances::kBounded;
   static constexpr std::uint32_t kLongForOne = 32;
   LSDCD_FN bool is_long(const Cell &cell) const { return kTogether && cell.count > kLongForOne; }

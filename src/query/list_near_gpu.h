@@ -15,7 +15,7 @@
 
 namespace lsdcd {
 
-// A sphere near the wall and the list of its cell, so that who answers waits for neither.
+// A sphere near the wall with the list of its cell, so that the kernel that answers waits for neither.
 template <class S>
 struct alignas(16) NearSphere {
   S s;
@@ -23,8 +23,8 @@ struct alignas(16) NearSphere {
   std::uint32_t sphere, pad;
 };
 
-// Of the first kernel: threads of a block, blocks at once on a processor (32 registers a thread),
-// and bytes of spheres in flight for each thread.
+// For the first kernel: threads in a block, blocks at once on a processor (32 registers a thread),
+// and bytes of spheres that each thread loads at once.
 constexpr unsigned kNearBlock = 256, kNearBlocks = 8, kNearBytes = 64;
 template <class S>
 constexpr unsigned kNearEach = kNearBytes / sizeof(S);
@@ -39,7 +39,7 @@ struct NearCounts {
   struct alignas(128) OfList {
     unsigned long long n;    // one candidate: low word; several: high word
   } list[kNearLists];
-  unsigned with_long;    // of those with several, how many have lists that are long
+  unsigned with_long;    // of those with several, how many have long lists
 };
 template <class S>
 struct NearLists {
@@ -50,7 +50,7 @@ struct NearLists {
   LSDCD_GPU_FN NearSphere<S> *list(unsigned l) const { return first + std::size_t(l) * room; }
 };
 
-// Answers n of the work's spheres as if all were far, and lists those that are not.
+// Answers n spheres as if all were far, and lists those that are not.
 template <class Work>
 struct ListNear {
   static constexpr unsigned kThreads = kNearBlock, kBlocksAtOnce = kNearBlocks;
@@ -125,7 +125,7 @@ struct ListNear {
         for (unsigned i = four; i < n_tile; i++) work.far(tile + i);
     block.wait();
 
-    // Few may be in a brick, and those in full warps, nearly always in one turn.
+    // Few may be in a brick. They are tested in full warps, nearly always in one turn.
     const unsigned mine = block.number() % kNearLists, n_turns = n_maybe;
     for (unsigned first = block.warp() * kWarpSize; first < n_turns; first += kNearBlock) {
       const unsigned m = first + warp.rank();

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A query on the CPU in blocks of spheres: first which of a block may be near the wall, then their
-// cells, then their lists, and answers last. Each turn asks memory for what the next one reads, and
-// no sphere waits for another's.
+// A query on the CPU in blocks of spheres: first it finds those that may be near the wall, then their
+// cells, then their lists, and last the answers. Each loop prefetches what the next one reads, so that
+// no sphere waits for the memory of another.
 #pragma once
 
 #include "grid/lookup/brick_words.h"
@@ -46,7 +46,7 @@ struct NearFirstCpu {
     const GridView &grid = work.grid;
     Near<S> near[kBlock];
     std::size_t n = 0;
-    // Written whether it is near or not: a branch would be guessed wrong.
+    // Written whether it is near or not: a branch would often be mispredicted.
     for (std::size_t i = from; i < to; i++) {
       const S s = work.sphere(i);
       work.check(i, s);

@@ -18,8 +18,8 @@
 
 namespace lsdcd {
 
-// Of a processor's blocks that answer: 64 registers a thread where there is one candidate, 80
-// where there are several.
+// Blocks at once on a processor: 64 registers a thread for one candidate, 80 for
+// several.
 constexpr unsigned kAnswerBlock = 256, kSinglesBlocks = 4, kSeveralBlocks = 3;
 
 // What a block takes of the lists, a sphere for each thread and of one list at a time: in the
@@ -29,7 +29,7 @@ class NearTurns {
  public:
   LSDCD_GPU_FN explicit NearTurns(unsigned n) : n_(n), longest_(GpuWarp::largest(n)) {}
 
-  // Calls answer(list, k) for this thread's.
+  // Calls answer(list, k) for the spheres of this thread.
   template <class Answer>
   LSDCD_GPU_FN void take(Answer answer) const
   {
@@ -41,7 +41,7 @@ class NearTurns {
     }
   }
 
-  // Lists are not of one length: an odd number of blocks takes of all, each in another order.
+  // Lists differ in length. With an odd number of blocks each takes from all, in another order.
   static unsigned blocks(unsigned most) { return (most - 1) | 1; }
 
  private:
@@ -69,9 +69,9 @@ struct AnswerSingles {
   }
 };
 
-// Answers those with several but for long lists, which it lists in turn as far as `most_long` go,
-// and clears the counts that the next run begins with. It can run beside the one before it, which
-// has waited for the lists.
+// Answers those with several candidates. Those with long lists it lists again, at most `most_long`. It
+// also clears the counts of the next run. It can run beside the kernel before it, which has waited for
+// the lists.
 template <class Work>
 struct AnswerSeveral {
   static constexpr unsigned kThreads = kAnswerBlock, kBlocksAtOnce = kSeveralBlocks;
@@ -101,7 +101,7 @@ struct AnswerSeveral {
           }
           work.answer(near.sphere, near.s, near.cell);
         });
-    // What comes after this kernel comes after that one, too.
+    // What waits for this kernel thus waits for that one, too.
     block.wait_for_last();
   }
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From one sphere to the nearest point of the wall, and how sure that is.
+// The distance from one sphere to the wall, and whether it is certified.
 #pragma once
 
 #include "query/distances.h"
@@ -12,9 +12,9 @@ namespace lsdcd {
 
 struct Answer {
   Real distance;         // from the centre to the wall; kAnyDistance: not within the radius
-  bool certified;        // nothing that the list left out can be nearer, or touch
+  bool certified;        // nothing that the list leaves out can be nearer, or touch
   std::uint32_t read;    // entries of lists
-  // What is nearest, as lists name it, and whether these were of primitives; not by
+  // The code in the list of what is nearest, and whether that is a primitive; not set by
   // nearest_together().
   FeatureCode feature = kNoFeature;
   bool primitive = false;
@@ -30,27 +30,27 @@ LSDCD_FN std::uint8_t status_of(const Answer &a)
   return (a.found() ? kTouching : 0) | (a.certified ? kCertified : 0);
 }
 
-// Where the wall is nowhere near.
+// The answer far from the wall.
 LSDCD_FN Answer far_answer()
 {
   return {kAnyDistance, true, 0};
 }
 
-// Of features at the same distance whichever comes first in a list is found.
+// Of features at the same distance the first in the list is found.
 struct FirstOfEqual {
   static constexpr bool kOrders = false;
 };
 
-// Entries of a cell's list, the nearest first, as long as they can change the answer.
-// `limit`: entries that are tried; one more is only a bound. Where Before orders features at the same
-// distance, before(a, b) says by codes of the list whether a is found, not b.
+// Tries the entries of a cell's list, the nearest first, as long as they can change the answer.
+// `limit`: how many are tried; one more is only a bound. Before decides between features at the same
+// distance: before(a, b) says by their codes whether a is found, not b.
 template <bool kPrimitives, class Distances, class Before>
 LSDCD_FN Answer nearest_in_cell(const GridView &grid, const Vec3 &q, Real radius,
                                 std::uint32_t limit, const CellAddress &at, const Cell &cell,
                                 const Before &before)
 {
   const Distances distances(grid, q, at);
-  // Nothing farther than the nearest so far is of interest.
+  // Nothing farther than the nearest so far is needed.
   Real nearest = radius;
   FeatureCode found = kNoFeature;
   const auto attempt = [&](FeatureCode code) {
@@ -69,14 +69,14 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const Vec3 &q, Real radius
   // A single candidate is in the cell itself, and there is no list to stop in.
   const bool single = cell.count == 1;
   const Real off_centre = single ? 0 : norm(at.from_centre);
-  // The next entry is asked for before this one is tried, which takes reading of its own.
+  // The next entry is loaded before this one is tried, which waits for other memory.
   Candidate next = {cell.first, 0};
   if (!single) next = grid.lists.candidates[cell.first];
   for (std::uint32_t k = 0; k < cell.count; k++) {
     const Candidate candidate = next;
     if (!single) {
       if (k + 1 < cell.count) next = grid.lists.candidates[cell.first + k + 1];
-      // A distance that need not be right ends nothing.
+      // A distance that may be wrong does not end the search.
       const bool past = candidate.bound > (Distances::kBounded ? nearest : radius) + off_centre;
       if (k == limit || (past && Distances::kBounded)) return answer(past, k + 1);
     }
@@ -91,11 +91,11 @@ LSDCD_FN Real nearer(Real first, Real second)
   return second < first ? second : first;
 }
 
-// The same from a complete list by many threads at once: each tries an entry, and all of
-// them call this together with the same arguments and get the same answer. An entry's distance
-// is asked for with what was nearest before the lanes' turn; what one thread would have found
-// nearest before that entry comes from the lanes below, so that the list ends where it would
-// end for one thread.
+// The same from a complete list by the lanes of a warp: they call it together with the same arguments
+// and get the same answer. Each lane tries one entry, and its search radius is the nearest distance
+// before this turn. The nearest distance that one thread would have had before an entry comes from the
+// lanes below, so that the search ends at the same entry as with
+// one thread.
 template <class Distances, class Threads>
 LSDCD_FN Answer nearest_together(const GridView &grid, const Vec3 &q, Real radius,
                                  const CellAddress &at, const Cell &cell, const Threads &warp)

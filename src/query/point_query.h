@@ -12,8 +12,8 @@
 
 namespace lsdcd {
 
-// The triangles of the mesh that features of its wall have, by their numbers in the file; the
-// lowest where several do.
+// The triangle of the mesh for each feature of the wall, by its number in the file; of several the
+// lowest.
 struct TriangleTable {
   std::vector<std::uint32_t> of_face, of_edge, of_vertex;
 
@@ -36,9 +36,9 @@ struct HostGrid {
   }
 };
 
-// On the host, with threads() threads; no memory is kept, so that any number of threads may ask at
-// once. Throws InputError where a radius of `radii` is more than the grid's cutoff: answers are
-// then undefined.
+// On the host, with threads() threads. It keeps no memory, so that any number of threads may call it at
+// once. Throws InputError if a radius in `radii` exceeds the grid's cutoff; the answers are then
+// undefined.
 void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<float> &io);
 void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<double> &io);
 
@@ -48,8 +48,8 @@ std::shared_ptr<const DeviceGrid> copy_to_cuda(const GridView &grid, const Trian
 int device_of(const DeviceGrid &grid);
 int current_cuda_device();
 
-// On a stream (cudaStream_t) of that device, for arrays that the device reaches. What runs there is
-// not waited for, unless `radii` have to be checked. One thread at a time.
+// A query on a stream (cudaStream_t) of that device, for arrays that the device can read. It does not wait
+// for the stream, unless `radii` have to be checked. Only one thread may use it at a time.
 class StreamQuery {
  public:
   virtual ~StreamQuery() = default;

@@ -98,7 +98,7 @@ class CudaStreamQuery : public StreamQuery {
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { work.answer(i, work.sphere(i)); });
   }
 
-  // By the kernels that are made for it, of spheres that lie as these read them.
+  // Distances alone have kernels of their own, for spheres in the layout that these read.
   template <class T>
   void distances_in(const PointArrays<T> &io)
   {
@@ -128,7 +128,7 @@ class CudaStreamQuery : public StreamQuery {
         Work{g.view, g.table, spheres, out, typename Work::Filter(g.view), g.coarse, check, 0});
   }
 
-  // The points with their radii; the caller's own where they lie so: x y z radius x y z radius.
+  // The points with their radii as x y z radius x y z radius; the caller's array if it has this layout.
   template <class T>
   const SphereOf<T> *packed(const PointArrays<T> &io)
   {
@@ -187,7 +187,7 @@ class CudaStreamQuery : public StreamQuery {
   {
     return reinterpret_cast<std::uintptr_t>(at) % bytes == 0;
   }
-  // Memory that grows; what may still read it is waited for.
+  // Memory that grows. Waits for kernels that may still read the old one.
   void *room(CudaBackend::Array<char> &array, std::size_t bytes)
   {
     if (array.size() < bytes) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is asked of each point of a query that wants more than a distance, in arrays of any layout:
-// one source for all backends.
+// The work for each point of a query that asks for more than a distance, with arrays of any layout: one
+// source for all backends.
 #pragma once
 
 #include "contact/find_contacts.h"
@@ -13,8 +13,8 @@
 
 namespace lsdcd {
 
-// Points and answers of a query, borrowed, in memory of the backend that answers. What is null is
-// not wanted. T: float or double.
+// Points and answers of a query, borrowed, in memory of the backend that answers. Arrays that are null
+// are not wanted. T: float or double.
 template <class T>
 struct PointArrays {
   std::size_t n = 0;
@@ -30,7 +30,7 @@ struct PointArrays {
   bool only_distance() const { return !closest.at && !normal.at && !triangle && !feature && !side; }
 };
 
-// The mesh's triangle that a feature of the wall is, or that has it; kNoTriangle where none does.
+// The mesh's triangle that a feature of the wall is, or that has the feature; kNoTriangle: none.
 constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 struct TriangleNames {
   const std::uint32_t *of_face, *of_edge, *of_vertex;
@@ -49,8 +49,8 @@ struct TriangleNames {
   }
 };
 
-// The feature of the wall that an answer found, and where its point lies from q; in double
-// whatever found it.
+// The feature of the wall that an answer found, and its closest point to q; in double even if it was
+// found in float.
 struct Nearest {
   FeatureCode feature;
   Vec3 point, normal;    // the second unit, point -> q; a fixed choice where q is on the wall
@@ -61,7 +61,7 @@ LSDCD_FN Nearest at_closest(FeatureCode feature, const Vec3 &q, const ClosestPoi
   return {feature, q - closest.distance * closest.normal, closest.normal};
 }
 
-// The wall's code of a feature that lists name.
+// The wall's code for a code in a list.
 template <bool kFloats>
 LSDCD_FN FeatureCode feature_of_wall(const GridView &grid, FeatureCode listed)
 {
@@ -73,8 +73,8 @@ LSDCD_FN FeatureCode feature_of_wall(const GridView &grid, FeatureCode listed)
   return feature_code(kind, of[feature_index(listed)]);
 }
 
-// Of features at the same distance the one with the lowest triangle is found, and of that one's the lowest
-// code: lists of other cells have them in another order.
+// Of features at the same distance the one with the lowest triangle is found, then the lowest code,
+// because the lists of two cells have them in different orders.
 template <bool kFloats>
 struct LowestTriangle {
   static constexpr bool kOrders = true;
@@ -107,7 +107,7 @@ LSDCD_FN Nearest nearest_of(const GridView &grid, const Answer &a, const Vec3 &q
     }
   }
   if (closest.found) return at_closest(feature, q, closest);
-  // It is no minimum of distance: a neighbour that no list has is nearer; or a float rounded.
+  // It is no local minimum of distance: a neighbour outside the list is nearer, or float has rounded.
   Vec3 point;
   switch (feature_kind(feature)) {
     case FeatureKind::face:
@@ -128,8 +128,8 @@ LSDCD_FN Nearest nearest_of(const GridView &grid, const Answer &a, const Vec3 &q
   return {feature, point, any_perpendicular({0, 0, 0})};
 }
 
-// Of a closed wall: 1 outside and on the wall, -1 inside, 0 where that is not known. What is left of
-// a facet without area is nowhere between out and in: it has no outward direction.
+// For a closed wall: 1 outside and on the wall, -1 inside, 0 if that is not known. The remains of a facet
+// without area have no outward direction.
 LSDCD_FN std::int8_t side_of(const GridView &grid, const Answer &a, const Vec3 &q,
                              const Nearest &nearest)
 {
@@ -140,7 +140,7 @@ LSDCD_FN std::int8_t side_of(const GridView &grid, const Answer &a, const Vec3 &
   return grid.outside * dot(out, nearest.normal) < 0 ? -1 : 1;
 }
 
-// As GridWork, for the loops that run either. `table`: for loops that ask for cells.
+// With the functions of GridWork, so that the same loops run it. `table`: for loops that use cells.
 template <class Distances, class T, bool kComplete, bool kFloats>
 struct PointWork {
   using Item = SphereOf<T>;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A radius that the grid's lists were not built for, or that is none.
+// The error for a radius above the grid's cutoff, below 0, or not a number.
 #pragma once
 
 #include "base/input_error.h"

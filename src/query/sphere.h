@@ -8,7 +8,7 @@
 
 namespace lsdcd {
 
-// Centre and radius; lengths. Aligned, so that a GPU reads one in one part or two.
+// Centre and radius; lengths. Aligned so that a GPU reads it at once or in two parts.
 template <class T>
 struct alignas(16) SphereOf {
   T x, y, z, r;

@@ -21,7 +21,7 @@ struct StudySettings {
   InsideTest inside = InsideTest::exact;
   Order order = Order::random;
   std::uint64_t seed = 1;
-  int repeats = 5;    // of a timed query; one where every face is tried
+  int repeats = 5;    // repeats of a timed query; 1 if every face is tried
   std::size_t memory_budget = std::size_t(16) << 30;    // of the grid, bytes
 };
 
@@ -61,9 +61,9 @@ struct StudyRow {
 
 class AccuracyStudy {
  public:
-  // The cylinder of `shape`, spheres in the cube of side `cube` round its middle.
+  // The cylinder of `shape`, with spheres in a cube of side `cube` around its middle.
   AccuracyStudy(const CylinderMesh &shape, Real cube, Real largest, const StudySettings &settings);
-  // Any wall, spheres in its box and their largest radius round it.
+  // Any wall, with spheres in its box widened by their largest radius.
   AccuracyStudy(const TriangleSoup &soup, Real largest, const StudySettings &settings);
 
   void set_spheres(std::size_t n);

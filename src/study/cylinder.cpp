@@ -39,7 +39,7 @@ TriangleSoup make_cylinder(const CylinderMesh &shape)
     return Vec3{shape.radius * std::cos(a), shape.radius * std::sin(a), shape.height * k / rows};
   };
   for (int i = 0; i < n; i++) {
-    // Up both sides of a strip: the right one ahead by a row and the slant.
+    // Goes up both sides of a strip; the right one is ahead by a row and the slant.
     int left = 0, right = 0;
     while (left < rows || right < rows) {
       if (right < rows && right - left <= shape.slant) {

@@ -19,7 +19,7 @@ constexpr Real kOff = 2;          // radii past the start: off the wall
 constexpr Real kThrough = 0.5;    // of a radius from centre to wall; motions here stay above 0.9
 constexpr int kLook = 20;         // steps
 
-// Spheres of mass 1 under pulls of their own. Lengths in the mesh's units, time such that
+// Spheres of mass 1, each with its own pull. Lengths are in the mesh's units, times such that
 // the pull is 1.
 class Motion {
  public:
@@ -83,9 +83,9 @@ class Motion {
     return dot(starts_.normal[i], x - starts_.point[i]) - starts_.radius;
   }
 
-  // Past the start by the pull. In free flight the wall keeps nothing.
+  // The pull has taken it past its start. In free flight the wall stores no energy.
   bool is_off(int i) const { return fallen(i, at(x_, i)) < -kOff * starts_.radius; }
-  // The centre is as near to the wall as no contact lets it be. Not a number is through, too.
+  // The centre is nearer to the wall than any contact allows. NaN counts as through, too.
   bool is_through(int i) const
   {
     const Vec3 x = at(x_, i);
@@ -95,7 +95,7 @@ class Motion {
     return set.n > 0;
   }
 
-  // Of motion, pull and springs; forces stay as they are.
+  // The energy of motion, pull and springs; forces stay as they are.
   Real energy(int i)
   {
     const std::vector<Real> force = force_, torque = torque_;

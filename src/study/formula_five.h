@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The paper's distance from a point to a triangle, kept for its study.
+// The paper's distance from a point to a triangle, for the study of its accuracy.
 #pragma once
 
 #include "query/nearest_distance.h"
@@ -23,7 +23,7 @@ LSDCD_FN bool formula_five_inside(const Vec3 &a, const Vec3 &b, const Vec3 &c, c
          dot(q - b, c - b) >= 0 && dot(q - c, a - c) >= 0 && dot(q - c, b - c) >= 0;
 }
 
-// The plane's distance where formula (5) says inside, elsewhere the nearest side's.
+// The distance to the plane if formula (5) says inside, else to the nearest side.
 LSDCD_FN Real formula_five_distance(const WallFeaturesView &wall, FeatureCode primitive,
                                     const Vec3 &q)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cell lengths that are worth a try.
+// The cell lengths that a trade-off tries.
 #pragma once
 
 #include "grid/triangle_grid.h"

@@ -10,8 +10,8 @@
 
 namespace lsdcd {
 
-// A way of running a query: reserve() takes the memory it needs for n spheres S, run()
-// answers them. Here none is needed.
+// One way to run a query: reserve() allocates memory for n spheres S, run() answers them.
+// This one needs no memory.
 struct OnePass {
   template <class S>
   void reserve(std::size_t)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What could have gone wrong in the paper's runs with one triangle per cell: each guess
-// as a way to answer, and the accuracy that it scores.
+// Possible errors in the paper's runs with one triangle per cell: each as a way to answer,
+// with its accuracy.
 #pragma once
 
 #include "study/accuracy.h"

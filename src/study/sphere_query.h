@@ -21,11 +21,11 @@ struct QuerySettings {
   InsideTest inside = InsideTest::exact;
   // Tries every face for every sphere, whatever the grid holds: the paper's N = all.
   bool every_face = false;
-  // What is kept besides the status; less is faster.
+  // What is kept beside the status; less is faster.
   bool distance = true, read = false;
 };
 
-// Milliseconds of the query alone, on data that is there: no copies.
+// Milliseconds of the query alone, without copies.
 struct QueryTiming {
   double median_ms = 0, min_ms = 0, max_ms = 0;
   int repeats = 0;
@@ -49,8 +49,8 @@ class SphereQuery {
   // The same, once to warm up and then `repeats` times.
   virtual QueryTiming time(const QuerySettings &settings, int repeats) = 0;
 
-  // Answers of the last run, copied to the host: kTouching and kCertified; distances to
-  // the wall where within the radius, elsewhere infinite; entries of lists read.
+  // Answers of the last run, copied to the host: kTouching and kCertified; distances to the
+  // wall, infinite beyond the radius; how many entries of lists were read.
   virtual std::vector<std::uint8_t> status() = 0;
   virtual std::vector<Real> distance() = 0;
   virtual std::vector<std::uint32_t> read() = 0;

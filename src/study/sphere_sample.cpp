@@ -32,8 +32,8 @@ void add_band_spheres(const TriangleGrid &grid, int n, const std::vector<Real> &
   for (std::size_t i = 0; i < lists.brick_of.size(); i++)
     if (lists.brick_of[i] >= 0) place[lists.brick_of[i]] = i;
 
-  // A brick at random, a cell at random: uniform over the occupied cells, as the others
-  // are thrown again.
+  // A random cell of a random brick. It is uniform over the occupied cells, as others are drawn
+  // again.
   const GridView view = grid.view();
   constexpr std::int64_t kTries = 1000;
   const int wanted = sample.n() + n;

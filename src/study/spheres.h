@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Spheres of the paper's study: each from a counter, so that any device makes the same.
+// Spheres of the paper's study. Each comes from a counter, so that every device makes the same.
 #pragma once
 
 #include "query/sphere.h"
@@ -37,7 +37,7 @@ struct SphereBox {
   }
 };
 
-// Where a point of the box is on a Z-curve of 1024 steps per side.
+// The place of a point of the box on a Z-curve with 1024 steps per side.
 std::uint32_t place_on_curve(const SphereBox &box, const Vec3 &at);
 
 enum class Order { random, sorted };

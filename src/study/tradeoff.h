@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What each setting of a wall buys and costs, for one mesh.
+// Accuracy and cost of each setting of a wall, for one mesh.
 #pragma once
 
 #include "mesh/wall_mesh.h"
@@ -17,10 +17,10 @@ namespace lsdcd {
 struct TradeoffSettings {
   std::vector<Real> radii;    // each as likely; the grid's cutoff is the largest
   std::size_t memory_budget = std::size_t(1) << 30;    // bytes of a grid
-  int spheres = 20000;     // asked for errors and timed, more of them on a GPU
+  int spheres = 20000;     // spheres for errors and times, more of them on a GPU
   int moving = 32;         // bouncing, and rolling
   int repeats = 5;         // of a timed step
-  double seconds = 120;    // after these no more settings are tried
+  double seconds = 120;    // seconds after which no more settings are tried
   bool cpu = true, cuda = false;
   std::uint64_t seed = 1;
 };
@@ -40,7 +40,7 @@ struct TradeoffRow {
   AnswerError error;    // against complete lists in double with the same corner rule
   Real bounce_drift, roll_drift;
   double ns_per_sphere;    // of a step: it searches cells with nearest N, and reads lists with all
-  double status_ns;        // of asking whether a sphere touches: it searches cells with either
+  double status_ns;        // of a status query, which searches cells with both kinds of lists
   std::size_t bytes;       // of the grid
   int checked, spheres;    // for errors, and timed
   bool is_default = false;

@@ -16,7 +16,7 @@ namespace lsdcd {
 
 namespace {
 
-// The sample as an engine takes it: at rest, of mass one.
+// The sample as spheres at rest with mass 1.
 struct AtRest {
   std::vector<Real> x, still, radius, mass, force, torque, zero, heat;
   Spheres spheres;
@@ -65,7 +65,7 @@ void fill_caches()
   for (std::size_t i = 0; i < other.size(); i += 8) other[i]++;
 }
 
-// Of this thread, or where it waits for a GPU of the clock on the wall.
+// Time of this thread's processor, or wall-clock time if it waits for a GPU.
 double seconds_now(bool waits)
 {
   timespec t;

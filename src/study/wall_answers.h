@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a setting answers for a sample of spheres, how wrong that is, and what it costs.
+// The answers of a setting for a sample of spheres, their errors, and their cost.
 #pragma once
 
 #include "engine/wall_engine.h"
@@ -21,14 +21,14 @@ struct WallAnswers {
   std::vector<std::size_t> first;    // places of sphere i: first[i] .. first[i + 1]
   std::vector<Place> places;
   std::vector<Vec3> force;
-  long uncertified = 0;    // spheres whose lists may lack a contact
+  long uncertified = 0;    // spheres with lists that may lack a contact
 };
 
-// On the CPU, whose numbers are those of every device. Of `engine` the stiffness, corner rule and
-// precision count.
+// Computed on the CPU; every device has the same numbers. Only stiffness, corner rule and precision of
+// `engine` matter.
 WallAnswers answer(const GridView &grid, const EngineSettings &engine, const SphereSample &sample);
 
-// A contact this shallow is there or not by rounding: it is not counted. Of a radius.
+// Rounding decides whether there is a contact so shallow: it is not counted. Share of a radius.
 constexpr Real kGrazing = 1e-4;
 // Forces of a sphere are compared to the larger of its own and that of one contact
 // with this overlap: a grazing contact's force is all rounding. Of a radius.

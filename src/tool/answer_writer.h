@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is found of points, into a file of any size, block by block.
+// Writes the answers for points to a file of any size, block by block.
 #pragma once
 
 #include "tool/point_reader.h"
@@ -37,7 +37,7 @@ class AnswerWriter {
   virtual void commit() = 0;    // until then the file is not there
 };
 
-// By its name's ending: .csv or .npy; throws InputError for another.
+// The ending of its name says the format: .csv or .npy. Throws InputError for another.
 std::unique_ptr<AnswerWriter> open_answers(const std::string &path, bool with_ids, bool with_sides);
 
 }    // namespace lsdcd

@@ -14,8 +14,8 @@ namespace lsdcd {
 
 namespace {
 
-// Is the first word a command, and the next one, where that has commands of its own? CLI11 would
-// only say that one is missing.
+// Is the first word a command, and the next one, too, if that has subcommands? CLI11 would only say that
+// one is missing.
 bool are_commands(const CLI::App &app, char **word)
 {
   if (!*word || **word == '-') return true;
@@ -29,8 +29,8 @@ bool are_commands(const CLI::App &app, char **word)
   return false;
 }
 
-// Names the first option that there is not, and the nearest. False: all are there. CLI11 would ask
-// first for what is missing, and does not say what may have been meant.
+// Names the first unknown option, and the nearest known one. False: all are known. CLI11 would first
+// ask for missing options, and suggests nothing.
 bool is_option_unknown(const CLI::App &app, const std::string &name)
 {
   for (const CLI::App *command : app.get_subcommands())

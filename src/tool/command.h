@@ -18,7 +18,7 @@ class Option;
 
 namespace lsdcd {
 
-// Ends the program with 2, as wrong words do: the option, and what is wrong with it.
+// Ends the program with 2, as wrong words do: names the option, and what is wrong with it.
 [[noreturn]] void throw_usage_error(const std::string &option, const std::string &what);
 
 // What is wrong with a word; nothing: it is right.
@@ -51,8 +51,8 @@ class Command {
  public:
   explicit Command(CLI::App *app) : app_(app) {}
 
-  // `name`: "file" by its place, "-o,--output" by its name. `value` holds the default, has to live as
-  // long as the command, and is a string, a number, or a vector of these.
+  // `name`: "file" is given by its place, "-o,--output" by its name. `value` holds the default. It must
+  // outlive the command, and is a string, a number, or a vector of these.
   template <class T>
   Option option(const std::string &name, T &value, const std::string &help);
   void flag(const std::string &name, bool &value, const std::string &help);
@@ -72,8 +72,8 @@ class Program : public Command {
   Program(const std::string &help, const std::string &version);
   ~Program();
 
-  // Runs the command that the words name, or prints the help or the version that they ask for. Whether the
-  // words are right; if not, it has said what is wrong. Throws what a command throws.
+  // Runs the command that the words name, or prints the help or the version. Returns whether the words are
+  // right; if not, it has printed what is wrong. Throws what a command throws.
   bool run(int argc, char **argv);
 
  private:

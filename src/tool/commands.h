@@ -9,7 +9,7 @@
 namespace lsdcd {
 
 void add_inspect_command(Command &program);
-// `exit_code`: set where the mesh is written and something is left that cannot be mended.
+// `exit_code`: set if the mesh is written but something cannot be repaired.
 void add_repair_command(Command &program, int &exit_code);
 void add_convert_command(Command &program);
 void add_generate_command(Command &program);

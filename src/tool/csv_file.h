@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lines of numbers in a file that is there whole or not at all.
+// Lines of numbers in a file that appears whole or not at all.
 #pragma once
 
 #include "base/atomic_file.h"
@@ -16,7 +16,7 @@ class CsvFile {
   explicit CsvFile(const std::string &path) : file_(path) {}
 
   void add(const char *text) { text_ += text; }
-  // In the digits that give it back.
+  // With the digits that read back the same number.
   template <class T>
   void add(T value, char after)
   {

@@ -63,7 +63,7 @@ std::string progress_text(const Totals &t, double share, double seconds)
   return text;
 }
 
-// With several threads one block is read and one written while one is answered.
+// With several threads a block is read and another one written while a third is answered.
 Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
 {
   const auto start = std::chrono::steady_clock::now();
@@ -143,7 +143,7 @@ void distance(const Options &o)
 #endif
   check_outputs({{"--output", o.output}}, {o.mesh, o.points});
   const auto reader = open_points(o.points);
-  open_answers(o.output, false, false);    // can it be written? Better told before the work
+  open_answers(o.output, false, false);    // throws before the work if it cannot be written
   const WallMesh mesh = load_wall(o.mesh, o.scale, o.weld);
   GridSettings settings;
   settings.cutoff = o.radius;

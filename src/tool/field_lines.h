@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lines of fields, the first of which may name them: CSV, or words between blanks.
+// Lines of fields: CSV, or words between blanks. The first line may name the fields.
 #pragma once
 
 #include "tool/input_file.h"
@@ -15,7 +15,7 @@
 
 namespace lsdcd {
 
-// All of the word; whatever the locale.
+// The whole word must be a number, with a point in every locale.
 template <class T>
 bool read_number(std::string_view word, T &value)
 {
@@ -24,7 +24,7 @@ bool read_number(std::string_view word, T &value)
   return error == std::errc() && end == word.data() + word.size();
 }
 
-// The number in a column of the line that was read last.
+// The number in a column of the last line read.
 template <class T>
 T number(const InputFile &file, const std::vector<std::string_view> &words, std::size_t column)
 {
@@ -48,10 +48,10 @@ class FieldLines {
 
   const InputFile &file() const { return file_; }
   const std::vector<std::string_view> &fields() const { return fields_; }
-  // Is this the first line, and no field of it a number?
+  // Is this the first line, without a number in it?
   bool are_names() const { return are_names_; }
 
-  // The next line that is neither empty nor from #; false: there is none.
+  // The next line that is neither empty nor a comment (#); false: there is none.
   bool next()
   {
     for (std::string_view line; file_.line(line);) {

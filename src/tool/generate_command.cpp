@@ -28,10 +28,10 @@ struct Output {
   bool json = false;
 };
 
-// At most what the rounding of an STL file's floats still tells apart.
+// With more, corners would be equal in the floats of an STL file.
 constexpr int kMostSegments = 100000;
 
-// Of a circle: as asked for, or 64, or as many as keep its edges as short as asked for.
+// Segments of a circle: the given number, or 64, or as many as the given length of edges needs.
 int segments_of(const Output &o, double radius)
 {
   if (o.segments > 0) return o.segments;
@@ -47,7 +47,7 @@ void write(const Output &o, const Triangles &coarse)
   for (const auto &t : o.edge > 0 ? refined(coarse, o.edge) : coarse)
     for (const Vec3 &corner : t) soup.corners.push_back(rounded_as_in_stl(corner));
   const WallMesh mesh = weld(soup, -1);
-  // So fine, or so long and thin, that corners fall together where the file is read.
+  // The shape is so fine, or so long and thin, that welding would merge its corners.
   if (!problems_of(mesh.report).empty())
     throw InputError(
         o.file + " is not written, it would not be clean:" + verdict_line(mesh.report).substr(13) +

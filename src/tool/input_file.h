@@ -40,7 +40,7 @@ class InputFile {
   double share_read() const { return size_ > 0 ? double(taken()) / size_ : 0; }
   long line_number() const { return line_; }
 
-  // What comes first, without taking it; fewer bytes where the file has no more.
+  // The next bytes, without taking them; fewer if the file has no more.
   std::string_view ahead(std::size_t n) const
   {
     return {buffer_.data() + at_, std::min(n, end_ - at_)};
@@ -95,7 +95,7 @@ class InputFile {
     void operator()(std::FILE *file) const { std::fclose(file); }
   };
 
-  // More of the file behind what is not yet taken; false: there is no more.
+  // Reads more of the file after what is not yet taken; false: there is no more.
   bool fill()
   {
     std::memmove(buffer_.data(), buffer_.data() + at_, end_ - at_);
@@ -139,8 +139,8 @@ inline void split_words(std::string_view text, std::vector<std::string_view> &wo
   }
 }
 
-// In a line with commas or semicolons each of them ends a field, also one with nothing in it; in
-// another fields are the words.
+// In a line with commas or semicolons each of them ends a field, even an empty one. Else the fields are
+// the words.
 inline void split_fields(std::string_view text, std::vector<std::string_view> &fields)
 {
   constexpr const char *kEnds = ",;";

@@ -14,7 +14,7 @@
 
 namespace lsdcd {
 
-// `scale` holds no factor, one, or three. Throws InputError, or what the wrong words of a command do.
+// `scale` holds no factor, one, or three. Throws InputError, or what wrong words of a command throw.
 inline void apply_scale(TriangleSoup &soup, const std::vector<double> &scale,
                         const char *option = "--scale")
 {
@@ -34,7 +34,7 @@ inline WallMesh load_mesh(const std::string &file, const std::vector<double> &sc
   return weld(soup, tolerance);
 }
 
-// That has to be one: edges and points without a face are none.
+// Throws if it has no face: edges and points alone are no wall.
 inline WallMesh load_wall(const std::string &file, const std::vector<double> &scale,
                           double tolerance)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a mesh is, for machines, and whether anything is wrong with it.
+// The facts of a mesh as JSON, and what is wrong with it.
 #pragma once
 
 #include "mesh/wall_mesh.h"
@@ -16,7 +16,7 @@ namespace lsdcd {
 nlohmann::json as_json(const Vec3 &v);
 nlohmann::json as_json(const MeshReport &report);
 
-// What is wrong with a mesh; nothing: it is clean. That it is open is none: many walls are.
+// What is wrong with a mesh; empty: it is clean. An open mesh may be clean: many walls are open.
 std::vector<std::string> problems_of(const MeshReport &report);
 
 // A line below describe(): "  clean       yes", or no and why not.

@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-// Checks of words. CLI11's own would print the largest number there is.
+// Checks of words. Those of CLI11 would print the largest double in their messages.
 inline std::string above_zero(const std::string &word)
 {
   double value;

@@ -17,16 +17,16 @@ namespace lsdcd {
 struct OutputFile {
   const char *option;
   std::string path;           // empty: not asked for
-  const char *ending = "";    // that the name needs; empty: what writes it looks itself
+  const char *ending = "";    // that the name needs; empty: the writer checks it
 };
 
-// Throws InputError where one would replace a file that the command reads, or another of them, or
-// has not its ending.
+// Throws InputError if one would replace a file that the command reads, or another output, or has
+// the wrong ending.
 inline void check_outputs(const std::vector<OutputFile> &outputs,
                           const std::vector<std::string> &inputs = {})
 {
   namespace fs = std::filesystem;
-  std::error_code failed;    // of a file that is not there: it is no other's
+  std::error_code failed;    // of a file that does not exist yet
   for (std::size_t i = 0; i < outputs.size(); i++) {
     const OutputFile &o = outputs[i];
     if (o.path.empty()) continue;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Pairs of triangles that meet, into a file, pose by pose.
+// Writes pairs of triangles that meet to a file, pose by pose.
 #pragma once
 
 #include "bodies/mesh_collision.h"
@@ -19,7 +19,7 @@ class PairWriter {
   virtual void commit() = 0;    // until then the file is not there
 };
 
-// Pose and triangles; .csv by its name's ending. Throws InputError for another.
+// Pose and triangles in a file that ends in .csv. Throws InputError for another ending.
 std::unique_ptr<PairWriter> open_pairs(const std::string &path);
 
 // And where each pair cuts: .csv, or .vtp, lines with pose and triangles as their data, which are

@@ -22,7 +22,7 @@ class PointAnswers {
   GridReport report;
 };
 
-// With a grid up to the cutoff of the settings. device: auto, cpu or cuda; throws InputError.
+// The grid has the cutoff of the settings. device: auto, cpu or cuda. Throws InputError.
 std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, GridSettings settings,
                                                  const std::string &device);
 

@@ -87,7 +87,7 @@ class DumpReader : public PointReader {
     split_words(line, words_);
   }
 
-  // All up to the first atom; false: the file ends.
+  // Reads up to the first atom; false: the file ends.
   bool snapshot()
   {
     std::string_view line;

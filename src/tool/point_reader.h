@@ -27,8 +27,8 @@ struct PointBlock {
 class PointReader {
  public:
   virtual ~PointReader() = default;
-  // Up to `most` points in place of what the block holds; none: the end. Throws InputError naming
-  // the file, the line or point, the value and the remedy.
+  // Reads up to `most` points into the block; none: the end. Throws InputError with the file, the line
+  // or point, the value and the remedy.
   virtual void read(PointBlock &block, std::size_t most) = 0;
   virtual double share_read() const = 0;    // 0 to 1
   bool has_ids() const { return has_ids_; }
@@ -37,8 +37,8 @@ class PointReader {
   bool has_ids_ = false;
 };
 
-// By what is in it: a .npy array (n, 3) of floats, doubles or integers, a text dump of LAMMPS, or
-// lines with numbers between commas, semicolons or blanks.
+// The contents say the format: a .npy array (n, 3) of floats, doubles or integers, a text dump of LAMMPS,
+// or lines with numbers between commas, semicolons or blanks.
 std::unique_ptr<PointReader> open_points(const std::string &path);
 
 }    // namespace lsdcd

@@ -14,8 +14,8 @@
 
 namespace lsdcd {
 
-// Of 3 numbers, x y z; 7, with a quaternion w x y z behind them; or 12, three rows of a rotation
-// matrix, each with its number of the shift. Throws InputError.
+// From 3 numbers, x y z; 7, with a quaternion w x y z after them; or 12, three rows of a rotation matrix,
+// each with a component of the shift. Throws InputError.
 BodyPose pose_of_numbers(const std::vector<double> &numbers);
 
 // A pose a line. A first line without a number is left out.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far long work is, on stderr: a line that is renewed, on a terminal or where it is asked for.
+// Shows the progress of long work in a line on stderr, on a terminal or if asked for.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ class Progress {
   explicit Progress(bool asked) : terminal_(isatty(STDERR_FILENO) == 1), on_(asked || terminal_) {}
   ~Progress() { clear(); }
 
-  // No more often than can be read.
+  // Shown no more often than one can read it.
   void show(const std::string &text)
   {
     const auto now = std::chrono::steady_clock::now();

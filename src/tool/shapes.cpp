@@ -19,7 +19,7 @@ Triangles fan(const Line &corners)
   return out;
 }
 
-// The line that has come less far, by its share, goes on.
+// Advances along the line that is behind, by its share of the way.
 Triangles between(const Line &left, const Line &right)
 {
   Triangles out;
@@ -116,13 +116,13 @@ Real length_of(const Vec3 &a, const Vec3 &b)
   return norm(b - a);
 }
 
-// From either end the same to the last bit.
+// The same bits from either end.
 Vec3 middle(const Vec3 &a, const Vec3 &b)
 {
   return 0.5 * (a + b);
 }
 
-// With the edges in two that are too long; the triangle's own winding.
+// Splits the edges that are too long and keeps the winding.
 void split(const std::array<Vec3, 3> &t, Real edge, Triangles &out)
 {
   bool cut[3];
@@ -132,7 +132,7 @@ void split(const std::array<Vec3, 3> &t, Real edge, Triangles &out)
     out.push_back(t);
     return;
   }
-  // Turned so that edge 0 is cut, and of two cut edges the other is edge 1.
+  // Rotated so that edge 0 is cut, and edge 1 if two are.
   int first = 0;
   while (!cut[first] || (n == 2 && !cut[(first + 1) % 3])) first++;
   const Vec3 &a = t[first], &b = t[(first + 1) % 3], &c = t[(first + 2) % 3];
@@ -163,7 +163,7 @@ constexpr std::size_t kMostTriangles = 20000000;
 // A new edge is shorter than sqrt(3)/2 of the longest edge before, so that this ends.
 Triangles refined(Triangles coarse, Real edge)
 {
-  // No triangle with edges so short has more than this area: what would be too many is refused at once.
+  // No triangle with edges so short has a larger area, so that too many are refused before the work.
   const Real largest = std::sqrt(Real(3)) / 4 * edge * edge;
   Real area = 0;
   for (const auto &[a, b, c] : coarse) area += norm(cross(b - a, c - a)) / 2;

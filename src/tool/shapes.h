@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Triangles of simple shapes, wound so that normals of closed ones point out. Corners that are one
-// point are equal to the last bit.
+// Triangles of simple shapes. The normals of closed shapes point out. Equal corners have equal
+// bits.
 #pragma once
 
 #include "base/vec3.h"
@@ -20,18 +20,18 @@ struct RadiusHeight {
 };
 using Profile = std::vector<RadiusHeight>;
 
-// Over a polygon of corners in their order round it, seen from outside; convex.
+// A convex polygon; its corners are in counter-clockwise order, seen from outside.
 Triangles fan(const Line &corners);
 
 // Between two lines, from the first corners of both to the last; they may have different numbers of
 // corners. Along `left`, then over to `right`, is counter-clockwise seen from behind.
 Triangles between(const Line &left, const Line &right);
 
-// What a profile of (r, z) sweeps about the z axis in `segments` steps. Upwards, it faces outwards.
+// The surface of a profile (r, z) that turns about the z axis in `segments` steps. An upward profile faces out.
 Triangles turned(const Profile &profile, int segments);
 
-// The arc of radius `round` that replaces corner `at` between its neighbours, of which no more than
-// a half of the edges is used up; throws InputError where that is too little.
+// The arc of radius `round` that replaces corner `at` between its neighbours. It uses at most half of each
+// edge; throws InputError if that is not enough.
 Profile rounded_corner(const RadiusHeight &before, const RadiusHeight &at,
                        const RadiusHeight &after, Real round, int steps);
 

@@ -24,7 +24,7 @@ namespace {
 constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRayleighShare = 0.2;
 constexpr double kStepsPerImpact = 20;
-constexpr double kDeep = 0.05;    // overlap per radius past which contacts change the answer
+constexpr double kDeep = 0.05;    // overlap / radius; larger overlaps change the results
 
 struct Options {
   std::string file, name, on;
@@ -42,7 +42,7 @@ std::string below_a_half(const std::string &word)
              : word + " is not a number above -1 and up to 0.5";
 }
 
-// An option's value, or else the file's.
+// The value of an option, or that of the file.
 double value_of(double given, const char *option, const MaterialSection *material,
                 const char *property)
 {
@@ -61,7 +61,7 @@ struct Pair {
   double modulus, mass, radius, speed;    // E*, and effective ones
 };
 
-// Prints a row; the timestep that it allows.
+// Prints a row and returns the timestep that it allows.
 double print_impact(const Pair &pair, double radius)
 {
   const HertzImpact impact = hertz_impact(pair.modulus, pair.mass, pair.radius, pair.speed);
@@ -85,7 +85,7 @@ void run(const Options &o)
   const Elastic grains = {value_of(o.young, "--young", grain, "youngs_modulus"),
                           value_of(o.poisson, "--poisson", grain, "poissons_ratio")};
   const double density = value_of(o.density, "--density", grain, "density");
-  // A wall of which nothing is said is of the grains' material, as they are given.
+  // Without other words the wall has the material of the grains.
   const bool same = o.on.empty();
   const Elastic walls = {same && std::isnan(o.wall_young)
                              ? grains.youngs_modulus
@@ -94,7 +94,7 @@ void run(const Options &o)
                              ? grains.poissons_ratio
                              : value_of(o.wall_poisson, "--wall-poisson", wall, "poissons_ratio")};
 
-  // The smallest are the fastest to react.
+  // The smallest grains need the smallest timestep.
   const double least = *std::min_element(o.radius.begin(), o.radius.end());
   const double mass = density * 4 / 3 * M_PI * least * least * least;
   const double own = contact_moduli(grains, grains).youngs,

@@ -74,7 +74,7 @@ std::string device_name(const TradeoffRow &row)
   return row.device;
 }
 
-// CSV: quotes round every text that comes from elsewhere.
+// CSV: quotes around every text from outside.
 std::string quoted(const std::string &text)
 {
   std::string out = "\"";
@@ -152,7 +152,7 @@ void draw(const std::string &csv, const std::string &plot)
                      std::string(python) + " " + script + " " + csv + " " + plot);
 }
 
-// The words to put into a deck. Returns what is wrong; empty: nothing.
+// Prints the words for an input script. Returns what is wrong; empty: nothing.
 std::string print_words(const Tradeoff &result, double below, bool on_cuda)
 {
   const TradeoffRow *row = fastest_below(result.rows, below, on_cuda);
@@ -197,7 +197,7 @@ void tradeoff(Options &o)
   file.write_at(0, text.data(), text.size());
   file.commit();
   std::printf("rows in %s\n", o.csv.c_str());
-  // Rows and plot are there whether or not a device has a setting that is good enough.
+  // Rows and plot are written even if no device has a setting that is good enough.
   std::string none;
   for (const bool gpu_ones : {false, true})
     if (o.below > 0 && (gpu_ones ? o.settings.cuda : o.settings.cpu)) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Every local minimum of distance by trying all features: no grid, no lists.
+// Finds every local minimum of distance by trying all features, without grid and lists.
 #pragma once
 
 #include "geometry/closest_point.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One crowd of spheres on one wall for a few steps, on any engine: all that it returns, so
-// that engines can be compared to the bit.
+// A crowd of spheres on a wall for a few steps of any engine, with all results, so that
+// engines can be compared to the bit.
 #pragma once
 
 #include "mesh/periodic_images.h"
@@ -38,7 +38,7 @@ bool same_bytes(const std::vector<T> &a, const std::vector<T> &b)
 }
 
 ContactLaw classic(NormalModel normal, bool history);
-// `granular` with every further effect at once.
+// `granular` with all further effects at once.
 ContactLaw everything(NormalModel normal);
 
 // Spheres all over the box of a wall, some in motion, for a few steps on one backend.

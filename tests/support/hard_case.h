@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A hard case: its answer, ours and a derived tolerance, expected and written down.
+// A hard case: the right answer, ours and a derived tolerance. It is checked and written down.
 #pragma once
 
 #include "support/device.h"

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <gtest/gtest.h>
 
-// Exit code 77 tells CTest that the whole program was skipped, and why is printed.
+// Exit code 77 tells CTest that the whole program was skipped; the reason is printed.
 int main(int argc, char **argv)
 {
   testing::InitGoogleTest(&argc, argv);

@@ -46,13 +46,13 @@ TriangleSoup faces_all_round(int n);
 
 void append(TriangleSoup &soup, const TriangleSoup &more);
 
-// A wall and an engine on it, ready for steps on one or more spheres.
+// A wall with an engine, ready for steps with one or more spheres.
 class Scene {
  public:
   Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Real grid_length = 0,
         Real weld_tolerance = -1, int nearest = 0);
 
-  void use(std::unique_ptr<WallEngine> other);    // in place of the test's engine
+  void use(std::unique_ptr<WallEngine> other);    // replaces the test's engine
 
   int add_sphere(const Vec3 &x, Real radius, Real mass, const Vec3 &v = {0, 0, 0},
                  const Vec3 &omega = {0, 0, 0});

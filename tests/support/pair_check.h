@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One sphere against one random mesh: what has to hold for every pair.
+// Facts that must hold for every pair of a sphere and a random mesh.
 #pragma once
 
 #include "contact/corner.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums over pairs, and the door to the checker that runs on a GPU.
+// Sums over pairs, and the interface of the checker that runs on a GPU.
 #pragma once
 
 #include "support/walk_check.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A wall's query against the oracle, on one backend: spheres, oracle and counts stay there.
+// Compares a wall's query with the oracle on one backend, where spheres, oracle and counts stay.
 #pragma once
 
 #include "support/query_oracle.h"
@@ -28,7 +28,7 @@ class QueryChecks {
  public:
   virtual ~QueryChecks() = default;
 
-  // Asks a grid about all spheres.
+  // Queries a grid for all spheres.
   virtual QueryCounts check(const TriangleGrid &grid) = 0;
   // Largest difference between the oracle and every triangle tried, for the first n
   // spheres, where either is within the cutoff.

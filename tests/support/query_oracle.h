@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Nearest triangles by another way, on host and device: coarse bins of the bare soup and
-// the regions of a triangle's plane. Shares vectors with the core, nothing else.
+// Nearest triangles by another method, on host and device: coarse bins of the soup and the
+// regions of a triangle's plane. It shares only vectors with the core.
 #pragma once
 
 #include "base/vec3.h"

@@ -10,9 +10,9 @@ namespace lsdcd {
 
 namespace {
 
-// Brings a host's spheres to where an engine has its particles, and forces back. Vectors lie there
-// as x x x y y y z z z in one step and as x y z x y z in the next; in two of four steps choice and step
-// are beside the host's work, and in one of these forces are added at once.
+// Copies a host's spheres to the memory of an engine, and forces back. Vectors are x x x y y y z z z in
+// one step and x y z x y z in the next. In two of four steps choice and step run beside the host's
+// work, and in one of these forces are added at once.
 class InPlaceForHost : public WallEngine {
  public:
   InPlaceForHost(std::unique_ptr<InPlaceEngine> engine, bool cuda) :
@@ -91,7 +91,7 @@ class InPlaceForHost : public WallEngine {
     work();
     if (beside) engine_->end_beside(turn_ % 2 == 1);
   }
-  // What a choice reads.
+  // The arrays that a choice reads.
   Spheres places(const Spheres &host)
   {
     const std::size_t n = host.n;

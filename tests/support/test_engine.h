@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The engine that a run of a test program is for.
+// The engine that a test program tests.
 #pragma once
 
 #include "engine/wall_engine.h"
@@ -14,8 +14,8 @@ namespace lsdcd {
 // the GPU's memory, where this brings those of the test.
 std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings);
 
-// What tests compare: the engine of the CPU, and one for particles that lie, in other layouts,
-// where the run's device computes.
+// Engines to compare with: that of the CPU, and one for particles in the memory of the tested device, with
+// other layouts.
 std::unique_ptr<WallEngine> on_cpu(EngineSettings settings);
 std::unique_ptr<WallEngine> in_place(EngineSettings settings);
 

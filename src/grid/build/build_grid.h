@@ -25,7 +25,7 @@ class GridBuilder {
   using Scratch = typename B::template Scratch<T>;
 
  public:
-  // The wall and what is told of progress have to outlive the builder.
+  // The wall and the listener for progress have to outlive the builder.
   GridBuilder(B backend, const WallFeatures &wall,
               const std::function<void(const std::string &)> &progress) :
       b_(std::move(backend)),
@@ -61,7 +61,7 @@ class GridBuilder {
     give_back_memory();    // what sorting took
     needed_ = double(brick_bytes(plan, pairs.n_bricks));
     if (needed_ > double(budget)) return false;
-    // Of nearest primitives the first that is left out stays, as a bound.
+    // Of nearest primitives one more is kept, as a bound of what is left out.
     const std::uint32_t most = nearest > 0 ? nearest + 1 : 0xffffffffu;
     BuiltLists<B> built;
     const bool fits = fill_lists(b_, view_, pairs, most, budget, progress_, built, report);
@@ -84,7 +84,7 @@ class GridBuilder {
   }
 
   std::string name() const { return b_.name(); }
-  // Bytes that the last build takes, while it goes on too; at least these where it did not fit.
+  // The bytes that the last build needs, also while it runs. If it did not fit: a lower bound.
   double needed() const { return needed_; }
 
   static double seconds_since(std::chrono::steady_clock::time_point start)
@@ -93,7 +93,7 @@ class GridBuilder {
   }
 
  private:
-  // Where the backend can read an array that lives as long as the builder: on a device, a copy.
+  // Puts an array where the backend can read it: on a device, a copy that lives as long as the builder.
   template <class T>
   const T *put(const std::vector<T> &from)
   {
@@ -113,8 +113,8 @@ class GridBuilder {
   double needed_ = 0;
 };
 
-// The lists, and the copies in float: whether they fit the budget. `needed` are
-// bytes that they take, or where they do not fit at least take.
+// Builds the lists and the copies in float, and returns whether they fit the budget. `needed`:
+// the bytes that they take, or a lower bound if they do not fit.
 template <class B>
 bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings &settings,
                double budget, TriangleGrid &grid, double &needed)
@@ -139,15 +139,15 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
   return needed <= budget;
 }
 
-// How often a plan has to become coarser, at least, until what is `over` times too much can fit: a
-// grid has no more than length^-3 of anything.
+// How many coarser plans can be skipped if this one is `over` times too large: no part of a grid
+// grows faster than length^-3.
 inline int least_steps(double over)
 {
   if (!std::isfinite(over)) return 1;
   return std::max(1, static_cast<int>(std::log(over) / (3 * std::log(kCoarser))));
 }
 
-// Plans, builds, and where the length was left to us tries coarser ones until budget and limit hold.
+// Plans and builds. If the length is chosen here, it tries coarser ones until budget and limit hold.
 template <class B>
 TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &settings)
 {
@@ -169,7 +169,7 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
     return fill_grid(builder, plan, settings, budget_here, grid, needed);
   };
   const double of_wall = double(flat_wall_bytes(grid));
-  // Of a plan that was found too large, by `needed` bytes at least; exactly where that is quick.
+  // A plan was too large, by at least `needed` bytes; found exactly if that is quick.
   const auto refuse = [&](const BuildEstimate &e, double needed) {
     if (may_coarsen && e.enough_bytes == 0)
       fits(kNoBudget, needed);
@@ -188,7 +188,7 @@ TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &
     if (at_end && is_over_limit && of_wall + least <= budget) throw_over_limit(settings, too_much);
     if (at_end) refuse(e, needed);
     if (plan.length == first_length) {
-      // Better told now than after all coarser ones.
+      // An error now is better than after all coarser plans.
       const GridPlan tried = plan;
       while (!is_coarsest(plan, mesh)) plan = coarser(plan, mesh, settings);
       const BuildEstimate last = estimate_build(grid.wall, plan, settings);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far a long build is, for who asked to be told.
+// How far a long build is, for a listener.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ class BuildProgress {
   // Of cells of this length from now on.
   void of(double length) { length_ = length; }
 
-  // Calls part(from, n) for [0, n), at once or, on the host where someone listens, in a hundred
-  // parts and more of them.
+  // Calls part(from, n) for [0, n): at once, or on the host with a listener in a hundred parts
+  // or more.
   template <class Part>
   void in_parts(bool on_host, const char *what, std::size_t n, const Part &part) const
   {

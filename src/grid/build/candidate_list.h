@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cell's list of candidates in the making.
+// A cell's list of candidates while it is made.
 #pragma once
 
 #include "grid/triangle_grid.h"
@@ -30,8 +30,8 @@ LSDCD_FN void insert_sorted(Candidate *list, std::uint32_t n, const Candidate &c
   list[n] = candidate;
 }
 
-// Keeps the first `room` of what is offered, one after another; list[0 .. n) is what
-// was kept before.
+// Keeps the `room` smallest of all that are offered, one after another. list[0 .. n) has
+// those kept so far.
 LSDCD_FN void insert_nearest(Candidate *list, std::uint32_t n, std::uint32_t room,
                              const Candidate &candidate)
 {
@@ -67,8 +67,8 @@ LSDCD_FN void heap_sort(Candidate *list, std::uint32_t n)
   }
 }
 
-// Longer lists, as at a vertex of very many facets, take a heap: insertion would take
-// the square of their length.
+// Longer lists, as at a vertex of very many facets, use a heap: the time of insertion grows
+// with the square of the length.
 constexpr std::uint32_t kLongList = 64;
 
 }    // namespace lsdcd

@@ -14,10 +14,10 @@ namespace lsdcd {
 
 namespace {
 
-// A part is one brick of a feature's box. Sampled are this many, or this share of all, so that the
-// estimate takes no time beside the build.
+// A part is one brick of a feature's box. This many parts are sampled, or this share of all, so that
+// the estimate is much quicker than the build.
 constexpr std::uint64_t kMostSamples = 1 << 14, kFewestSamples = 256, kOneOf = 64;
-constexpr double kPartWork = 8;    // to look at a part takes as long as so many distance tests
+constexpr double kPartWork = 8;    // the time to look at a part, in distance tests
 
 struct Sum {
   double n = 0, total = 0, squares = 0;
@@ -55,7 +55,7 @@ ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool
   const std::uint64_t n_samples = std::min(kMostSamples, n_parts / kOneOf);
   if (n_samples < kFewestSamples) return {};
 
-  // One part of each run of parts, nowhere in step with the mesh: the golden ratio's multiples.
+  // One part of each run of parts, by multiples of the golden ratio, which no mesh repeats.
   const double run = double(n_parts) / double(n_samples);
   const auto sample_at = [&](std::uint64_t s) {
     const double within = double(s) * 0.6180339887498949;
@@ -94,7 +94,7 @@ BuildEstimate estimate_build(const WallFeatures &wall, const GridPlan &plan,
   const bool cut_short = settings.nearest > 0 && settings.nearest != kEveryTriangle;
   if (!cut_short && lists.least_entries > kMostNumbers)
     out.least_bytes = out.enough_bytes = HUGE_VAL;
-  // An entry is a candidate, or where it is single the cell of it.
+  // An entry is a candidate, or a cell that holds a single one.
   static_assert(sizeof(Candidate) == sizeof(Cell), "counted as one");
   if (!cut_short) out.least_bytes += lists.least_entries * sizeof(Candidate);
   out.enough_bytes += 1.25 * lists.entries * sizeof(Candidate);

@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-// The lists of one kind where they were built.
+// The lists of one kind, in the memory of the backend.
 template <class B>
 struct BuiltLists {
   template <class T>
@@ -63,7 +63,7 @@ void count_cells(B &b, const OctantPairs<B> &pairs, const std::uint64_t *met, st
   });
 }
 
-// Words are 64 cells, a layer of a brick: their masks, and what they add up to.
+// A word is 64 cells, a layer of a brick: sums the bits of the masks.
 template <class B>
 void sum_words(B &b, std::size_t n_words, const std::uint32_t *counts, Brick *bricks,
                std::uint32_t *offsets, std::uint64_t *lists, std::uint64_t *cells,
@@ -71,7 +71,7 @@ void sum_words(B &b, std::size_t n_words, const std::uint32_t *counts, Brick *br
 {
   b.for_each(n_words, [=] LSDCD_LAMBDA(std::size_t w) {
     std::uint64_t mask = 0;
-    std::uint64_t list = 0;    // may be more than the numbers of candidates that there are
+    std::uint64_t list = 0;    // may exceed 32 bits
     std::uint32_t single = 0, longest = 0;
     for (int c = 0; c < 64; c++) {
       const std::uint32_t n = counts[w * 64 + c];
@@ -107,7 +107,7 @@ void finish_bricks(B &b, const OctantPairs<B> &pairs, const std::uint64_t *cells
   });
 }
 
-// Of n cells from a first one on.
+// The lists of n cells from a first one on.
 template <class B>
 void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const std::uint64_t *met,
                  const std::uint32_t *counts, const std::uint32_t *offsets,
@@ -146,8 +146,8 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
   });
 }
 
-// Lists of at most `most` candidates a cell. False, with no more than counts in `out`, if they
-// would not fit `budget` bytes, or cannot be numbered.
+// Makes lists of at most `most` candidates a cell. False if they would not fit `budget` bytes or
+// cannot be numbered; `out` then has the counts only.
 template <class B>
 bool fill_lists(B &b, const BuildView &view, OctantPairs<B> &pairs, std::uint32_t most,
                 std::size_t budget, const BuildProgress &progress, BuiltLists<B> &out,

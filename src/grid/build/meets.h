@@ -8,19 +8,19 @@
 
 namespace lsdcd {
 
-// The regions in which a feature is a local minimum of distance (face prism, edge
-// wedge, vertex cone) are meets of half-spaces. Moving a point by `around` moves
-// it by at most `around` across any of them, so each test is relaxed by that much
-// and no true contact is lost. Where two half-spaces meet at a sharp angle, the
-// relaxed pair reaches far past the relaxed region; every weighted sum of the two
-// holds as well, and the half-space of their sum cuts that spike off.
+// The region in which a feature is a local minimum of distance (face prism, edge wedge,
+// vertex cone) is an intersection of half-spaces. A point that moves by `around` goes no
+// farther across any of them, so each test is relaxed by that much and no contact is
+// lost. If two half-spaces meet at a sharp angle, the relaxed pair reaches far past the
+// relaxed region. Every weighted sum of the two conditions holds as well, and the
+// half-space of their sum cuts that spike off.
 //
-// All return whether a point within `around` of c can lie in the region and within
-// `cutoff` of the feature, and if so set `distance` to c's distance from the
-// feature's plane, line or point. Lengths.
+// Each function returns whether a point within `around` of c can lie in the region and
+// within `cutoff` of the feature. If so, `distance` becomes the distance of c from the
+// feature's plane, line or point. All are lengths.
 
-// The square that a sum of two half-spaces, with normal length sqrt(length_sq), may have at most if it
-// is above 0. A short sum is left alone: rounding would decide its direction.
+// The largest square of a sum of two conditions that is above 0; the normal of their half-space has
+// length sqrt(length_sq). If that is short, rounding decides its direction, and it is not tested.
 LSDCD_FN Real square_of_past(Real length_sq, Real around)
 {
   constexpr Real kShort = 1e-12, kAny = 1.7976931348623157e308;

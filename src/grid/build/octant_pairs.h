@@ -15,8 +15,8 @@
 
 namespace lsdcd {
 
-// Every octant that a feature meets, with that feature: octant by octant, in ascending
-// order of features in each.
+// Pairs of an octant and a feature that meets it, sorted by octant, and by feature within
+// an octant.
 template <class B>
 struct OctantPairs {
   template <class T>
@@ -100,7 +100,7 @@ void number_bricks(B &b, OctantPairs<B> &out)
   out.first = typename Pairs::template Scratch<std::uint32_t>(out.n_bricks * 8 + 1);
   std::uint32_t *slots = out.slot.data(), *first = out.first.data();
   const std::size_t n_octants = out.n_bricks * 8;
-  // Each pair opens the octants from after its forerunner's up to its own.
+  // Each pair writes the beginning of the octants after that of the pair before, up to its own.
   b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
     const bool new_brick = i == 0 || sorted[i] >> 3 != sorted[i - 1] >> 3;
     const std::size_t brick = new_brick ? runs[i] : runs[i] - 1;
@@ -117,7 +117,7 @@ void number_bricks(B &b, OctantPairs<B> &out)
   });
 }
 
-// False where there would be more pairs than can be numbered.
+// False if there are more pairs than can be numbered.
 template <class B>
 bool sort_into_octants(B &b, const BuildView &view, std::size_t n_features,
                        const BuildProgress &progress, OctantPairs<B> &out)
@@ -135,7 +135,7 @@ bool sort_into_octants(B &b, const BuildView &view, std::size_t n_features,
   typename Pairs::template Scratch<std::uint32_t> count(most);
   typename Pairs::template Scratch<std::uint8_t> met(most);    // octants of each part
 
-  // With one run the counts stay; with more they are made a second time.
+  // With one run the counts are kept; with several they are made again.
   std::uint64_t n = 0;
   for (const PartRun &run : runs) {
     progress.tell("counting bricks", double(run.first) / double(n_parts + 1));

@@ -13,7 +13,7 @@
 
 namespace lsdcd {
 
-// What the kernels of the build share.
+// The input of all kernels of the build.
 struct BuildView {
   WallFeaturesView wall;
   const FeatureCode *features;    // all that can hold a contact, or all primitives
@@ -74,7 +74,7 @@ LSDCD_FN int cell_of_octant(int octant, int i)
   return (z * kBrickSide + y) * kBrickSide + x;
 }
 
-// The bricks that a feature's box and the cutoff around it overlap.
+// The bricks that overlap a feature's box widened by the cutoff.
 struct BrickBox {
   std::int32_t first[3], n[3];
 
@@ -129,8 +129,8 @@ LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, std::uint
   return met;
 }
 
-// The cells of an octant of which meets(centre, half diagonal) says so, a bit each in the order of
-// cell_of_octant. Blocks of 2 x 2 x 2 cells are asked about first: most are far from the feature.
+// The cells of an octant for which meets(centre, half diagonal) is true, a bit each in the order of
+// cell_of_octant. Blocks of 2 x 2 x 2 cells are tested first: most are far from the feature.
 template <class Meets>
 LSDCD_FN std::uint64_t cells_where(const GridPlan &plan, std::uint32_t octant_key,
                                    const Meets &meets)
@@ -152,7 +152,7 @@ LSDCD_FN std::uint64_t cells_where(const GridPlan &plan, std::uint32_t octant_ke
   return met;
 }
 
-// Below 0 where x is: the bits of x.
+// The bits of x: below 0 if x is.
 inline std::int64_t sign_of(Real x)
 {
   std::int64_t bits;
@@ -160,14 +160,14 @@ inline std::int64_t sign_of(Real x)
   return bits;
 }
 
-// The cells of an octant that a face meets: face_meets() of all 64, to the bit, where cells of a column
-// share what x and y add to each half-space and a processor tests several side by side.
+// The cells of an octant that a face meets. It has the bits of 64 calls of face_meets(), but the cells
+// of a column share what x and y add to each half-space, and a processor tests several at once.
 inline std::uint64_t face_cells(const GridPlan &plan, std::uint32_t octant_key,
                                 const FaceRecord &face)
 {
   constexpr int kColumns = kOctantSide * kOctantSide;
   const CellCentres centres(plan, octant_key >> 3);
-  Vec3 d[kOctantSide];    // of the cells on the diagonal: all that the others are made of
+  Vec3 d[kOctantSide];    // of the cells on the diagonal, from which the others follow
   for (int i = 0; i < kOctantSide; i++) {
     const int on_diagonal = i * (1 + kOctantSide + kColumns);
     d[i] = centres.at(cell_of_octant(octant_key & 7, on_diagonal)) - face.anchor;
@@ -186,7 +186,7 @@ inline std::uint64_t face_cells(const GridPlan &plan, std::uint32_t octant_key,
   for (int z = 0; z < kOctantSide; z++) {
     const Real up[4] = {normal[0].z * d[z].z, normal[1].z * d[z].z, normal[2].z * d[z].z,
                         normal[3].z * d[z].z};
-    // Below 0 where a test fails: signs, unlike branches, let compilers pack several cells.
+    // Below 0 if a test fails. With signs in place of branches compilers vectorise over cells.
     std::int64_t fails[kColumns];
     for (int c = 0; c < kColumns; c++) {
       const Real s[3] = {-(of_column[0][c] + up[0]), -(of_column[1][c] + up[1]) - face.height,

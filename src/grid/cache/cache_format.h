@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What reading and writing a cache file share: a front that every version has, the rest of the
-// header, then frames of zstd, each the image of kFrameBytes of the block.
+// The layout of a cache file: a front that every version has, the rest of the header, then frames
+// of zstd, each with kFrameBytes of the block.
 #pragma once
 
 #include "grid/cache/grid_cache.h"
@@ -88,7 +88,7 @@ class Unpacker {
   bool good_ = true;
 };
 
-// The bindings name every member: one that is added does not compile until it is
+// The bindings name every member, so that a new member does not compile until it is
 // listed here too.
 template <class Report, class Visit>
 void each_field(Report &r, Visit &visit)

@@ -18,7 +18,7 @@ namespace lsdcd {
 
 namespace {
 
-// All of it, or false with errno set; a file that ends early leaves errno 0.
+// Reads all of it. False: errno says why, and 0 means that the file ends too early.
 bool read_at(int file, std::uint64_t offset, void *to, std::size_t bytes)
 {
   char *at = static_cast<char *>(to);
@@ -34,7 +34,7 @@ bool read_at(int file, std::uint64_t offset, void *to, std::size_t bytes)
   return true;
 }
 
-// Damage may have reached the magic itself: most of it counts.
+// The magic itself may be damaged: most of its bytes must match.
 bool looks_like_ours(const char *start, std::size_t bytes)
 {
   std::size_t same = 0;
@@ -67,7 +67,7 @@ void CachedGrid::refuse(CacheState state, const std::string &problem)
 
 void CachedGrid::open_and_check(const std::string &path, const GridKey &wanted)
 {
-  // A pipe must not make us wait for someone to write to it.
+  // Opening a pipe must not wait for a writer.
   file_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   struct stat about;
   if (file_ < 0 && errno == ENOENT) return;    // missing

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A grid in a file, so that the next start need not build it. Nothing of a file is
-// trusted: it is used only if it is whole and was written for the same mesh and
-// settings by the same sources.
+// A grid in a file, so that the next start does not build it again. A file is used only
+// if it is whole and was written for the same mesh and settings by the same sources.
+// Nothing in it is trusted before.
 #pragma once
 
 #include "grid/triangle_grid.h"
@@ -23,7 +23,7 @@ inline bool operator==(const Hash &a, const Hash &b)
   return a.low == b.low && a.high == b.high;
 }
 
-// What a flat block depends on.
+// Everything that a flat block depends on.
 struct GridKey {
   Hash version;    // of the sources that make it, and how this machine lays it out
   Hash mesh;       // placed and welded, bit for bit
@@ -36,7 +36,7 @@ bool cache_available(std::string *why);
 
 GridKey grid_key(const WallMesh &mesh, const GridSettings &settings);
 
-// What is under a cache file's name.
+// What the file with a cache's name is.
 enum class CacheState {
   usable,
   missing,
@@ -61,8 +61,8 @@ class CachedGrid {
   std::size_t block_bytes() const { return block_bytes_; }
   std::size_t file_bytes() const { return file_bytes_; }
 
-  // Fills a block of block_bytes(), as flatten() made it. False, with state() and
-  // problem() set, where the file turns out to be damaged; the block is then junk.
+  // Fills a block of block_bytes(), as flatten() made it. False if the file is damaged: state()
+  // and problem() say how, and the block has no meaning.
   bool read(char *block);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A grid from its cache file, or built and kept there for the next start.
+// A grid from its cache file, or a new one that is kept there for the next start.
 #pragma once
 
 #include "grid/triangle_grid.h"
@@ -13,8 +13,8 @@
 
 namespace lsdcd {
 
-// The memory that a grid goes to: of one process, or of several that call load_or_build_grid()
-// together. The first of them has the cache file, and builds.
+// Where a grid goes: memory of one process, or of several that call load_or_build_grid()
+// together. The first of them reads and writes the cache file, and builds.
 class GridPlace {
  public:
   virtual ~GridPlace() = default;
@@ -29,7 +29,7 @@ class GridPlace {
   {
     if (here) work();
   }
-  // The number of the first process.
+  // Returns the number that the first process has.
   virtual std::uint64_t of_first(std::uint64_t number) { return number; }
   // Memory for a flat block, 64-byte aligned. `bytes` counts where the process builds.
   virtual char *allocate(std::size_t bytes) = 0;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which points may lie in a brick, told by as little arithmetic as can be: a GPU asks this of
-// every sphere.
+// Which points may lie in a brick, with as little arithmetic as possible: a GPU tests every
+// sphere.
 #pragma once
 
 #include "grid/lookup/brick_words.h"
@@ -14,14 +14,14 @@
 
 namespace lsdcd {
 
-// Where a point falls, as far as that is sure.
+// The brick of a point, if that is sure.
 struct BrickGuess {
   bool unsure;              // the rest may be wrong
   bool inside;              // of the grid
   std::uint32_t i, j, k;    // its brick, in fixed point, set where inside
 };
 
-// Numbers that count bricks in fixed point. kBits: of a mantissa, those that are used.
+// Numbers that count bricks in fixed point. kBits: how many bits of a mantissa are used.
 template <class T>
 struct FixedPoint;
 
@@ -117,8 +117,8 @@ struct BrickFilter {
       end[k] = static_cast<std::uint32_t>(grid.n_bricks[k]) << shift;
     }
     bias = static_cast<T>(least);
-    // None are left where the grid has too many bricks, lies too far off, or has a scale that is
-    // no T.
+    // There are none if the grid has too many bricks, is too far from the origin, or has a scale
+    // that is no T.
     sure = (1u << shift) - (1u << doubt_bits);
     doubt = 1u << doubt_bits;
   }
@@ -132,7 +132,7 @@ struct BrickFilter {
                inside = i < end[0] && j < end[1] && k < end[2];
     return {unsure, inside, i, j, k};
   }
-  // A margin, in bricks, for is_clear(). 0: it is more than a brick's half.
+  // A margin, in bricks, for is_clear(). 0: it is more than half a brick.
   std::uint32_t margin(Real bricks) const
   {
     const Real fixed = std::ceil(std::ldexp(bricks, static_cast<int>(shift))) + 2. * doubt;
@@ -148,7 +148,7 @@ struct BrickFilter {
            (at.k & mask) - margin <= room;
   }
 
-  // The brick's slot in the table, of one that is inside.
+  // The slot in the table of a brick that is inside.
   LSDCD_FN std::uint32_t slot(const GridView &grid, const BrickGuess &at) const
   {
     const std::uint32_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A grid where a backend computes, with what searches there read beside it.
+// A grid in the memory of a backend, with the tables that searches there read.
 #pragma once
 
 #include "grid/flat_grid.h"
@@ -43,7 +43,7 @@ class GridOn {
     coarse_words_ = from_host(b, coarse_words(on_host, coarse));
     coarse.words = coarse_words_.data();
   }
-  // Keeps what the other one would borrow.
+  // The same, but it owns what the other one borrows.
   GridOn(B b, FlatGrid &&flat, bool with_coarse = false) :
       GridOn(std::move(b), flat.view(), with_coarse)
   {

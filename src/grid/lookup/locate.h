@@ -9,14 +9,14 @@
 
 namespace lsdcd {
 
-// Where a point falls in the grid. `cell` is the cell's number in its brick.
+// The place of a point in the grid. `cell` is the number of the cell in its brick.
 struct CellAddress {
   const Brick *brick;    // null: no wall within the cutoff
   std::int32_t cell;
   Vec3 from_centre;    // q - cell centre
 };
 
-// `cell` counts those of the brick, of which the layer is.
+// `cell`: its number in the brick that has the layer.
 LSDCD_FN bool has_candidates(const BrickLayer &layer, int cell)
 {
   return (layer.mask >> (cell & 63)) & 1u;
@@ -37,8 +37,8 @@ LSDCD_FN std::uint32_t cell_index(const Brick &brick, int cell)
   return cell_index(brick.layer[cell >> 6], cell);
 }
 
-// Where a point falls before any table is read: in which cell of the whole grid, and where
-// in units of cells.
+// The place of a point before any table is read: its cell of the whole grid, and its
+// coordinates in cells.
 struct CellSlot {
   bool inside;    // false: outside the grid, or not a number; the rest is not set
   std::int32_t i, j, k;
@@ -51,7 +51,7 @@ LSDCD_FN CellSlot cell_slot_of(const GridView &grid, const Vec3 &q)
   p.at.x = (q.x - grid.origin.x) * grid.inv_length;
   p.at.y = (q.y - grid.origin.y) * grid.inv_length;
   p.at.z = (q.z - grid.origin.z) * grid.inv_length;
-  // Written so that a NaN falls outside.
+  // Written so that NaN is outside.
   p.inside = p.at.x >= 0 && p.at.y >= 0 && p.at.z >= 0 && p.at.x < grid.n_bricks[0] * kBrickSide &&
              p.at.y < grid.n_bricks[1] * kBrickSide && p.at.z < grid.n_bricks[2] * kBrickSide;
   if (!p.inside) return p;

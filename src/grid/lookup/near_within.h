@@ -38,9 +38,9 @@ LSDCD_FN Real excess_margin(const GridView &grid, Real margin)
   return margin > grid.margin ? margin - grid.margin : Real(0);
 }
 
-// Is there any candidate in a cell that a point may reach from q on a way of length up to
-// `margin`? With margin 0 of that which holds q. False where q is not finite. `table`: as
-// BrickTable.
+// Has any cell that a point at q may be in after moving at most `margin` (length) a candidate?
+// With margin 0 that is the cell of q. False if q is not finite. `table`: with the functions
+// of BrickTable.
 template <class Table>
 LSDCD_FN bool near_within(const GridView &grid, const Table &table, const Vec3 &q, Real margin)
 {

@@ -20,7 +20,7 @@ constexpr std::int32_t kMostBricks = 1 << 27;
 // While it is built, every cell of a brick has two counters.
 constexpr std::size_t kBrickBytes = sizeof(Brick) + kBrickCells * 2 * sizeof(std::uint32_t);
 
-// What of a triangle lies in a box (Sutherland and Hodgman 1974): its area.
+// The area of a triangle within a box (Sutherland and Hodgman 1974).
 Real area_within(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Box &box)
 {
   std::vector<Vec3> polygon = {a, b, c}, left;
@@ -57,7 +57,7 @@ Real least_volume(const WallMesh &mesh, Real cutoff, const Box &within)
   return std::max(4 * cutoff * cutoff * cutoff, 2 * cutoff * largest);
 }
 
-// Of the mesh and the cutoff around it, where spheres can be; never empty.
+// The box of the mesh widened by the cutoff, cut to where spheres can be; never empty.
 Box covered(const WallMesh &mesh, const Box &within, Real pad, Real rim)
 {
   Box box;
@@ -82,7 +82,7 @@ GridPlan plan_with_length(const WallMesh &mesh, const GridSettings &settings, Re
   // angle, times the cutoff) and the rounding of dot products over a whole face.
   plan.tolerance = 4e-13 * cutoff + 16 * kRoundoff * (diagonal + cutoff);
   plan.margin = cell_margin(cutoff);
-  // Half a cell, or a little more than the margin, for rounding.
+  // Half a cell, or a little more than the margin; covers rounding.
   const Real pad =
       cutoff + plan.tolerance + std::max(Real(0.5) * length, plan.margin + Real(0.01) * length);
   const Box box = covered(mesh, settings.within, pad, length);
@@ -98,7 +98,7 @@ GridPlan plan_with_length(const WallMesh &mesh, const GridSettings &settings, Re
 
 double GridPlan::least_bytes() const
 {
-  // Counted in floating point: a hopeless length overflows the integer product.
+  // In floating point, as a much too small length overflows the integer product.
   const double entries = double(n_bricks[0]) * n_bricks[1] * n_bricks[2];
   // A plan cut off at the most bricks does not reach the wall's far end, and octant keys have
   // 32 bits.
@@ -159,7 +159,7 @@ bool is_coarsest(const GridPlan &plan, const WallMesh &mesh)
 
 GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings)
 {
-  // By way of the cutoff, with which a CPU begins: what fits is then no coarser on a GPU.
+  // Passes the cutoff, with which a CPU begins, so that a grid on a GPU is never coarser.
   const Real next = plan.length * kCoarser;
   const bool past = plan.length < plan.cutoff && next > plan.cutoff;
   return plan_with_length(mesh, settings, past ? plan.cutoff : next, plan.least_volume);
@@ -167,7 +167,7 @@ GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings 
 
 void throw_over_budget(const GridSettings &settings, double needed, double budget)
 {
-  // To four digits; up, so that what is given is enough.
+  // Rounded up to four digits, so that the number in the message is enough.
   const auto rounded_up = [](double x) {
     const double digit = std::pow(10, std::floor(std::log10(x)) - 3);
     return std::ceil(x / digit) * digit;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the cells of a grid lie, and what it will weigh, before any is made.
+// Where the cells of a grid will be and how much memory it will take.
 #pragma once
 
 #include "base/vec3.h"
@@ -12,8 +12,8 @@
 
 namespace lsdcd {
 
-// Margin of complete lists. What a sphere can touch on its way until its list of the wall is made
-// anew is then nearly always in one cell.
+// Margin of complete lists. With it, one cell nearly always has all that a sphere can touch until
+// its list of the wall is made anew.
 constexpr Real cell_margin(Real cutoff)
 {
   return Real(0.05) * cutoff;
@@ -21,18 +21,18 @@ constexpr Real cell_margin(Real cutoff)
 
 struct GridPlan {
   Vec3 origin;
-  Real length, half_diagonal;    // of a cell; the second with room for rounding
+  Real length, half_diagonal;    // half a cell's diagonal; the second with room for rounding
   Real cutoff, tolerance;
-  Real margin;          // how far past its cell a list holds
-  Real least_volume;    // of the space within the cutoff of the wall: no less than this
+  Real margin;          // a list is valid so far past its cell
+  Real least_volume;    // lower bound of the volume within the cutoff of the wall
   std::int32_t n_bricks[3];
 
   std::size_t table_size() const { return std::size_t(n_bricks[0]) * n_bricks[1] * n_bricks[2]; }
-  // Of the table, or of the bricks that the least volume needs; infinite where bricks cannot be
-  // numbered.
+  // Lower bound of the bytes: of the table, or of the bricks that the least volume needs. Infinite if
+  // bricks cannot be numbered.
   double least_bytes() const;
 
-  // By how much the tests of complete lists are.
+  // By how much the tests of complete lists are widened.
   LSDCD_FN Real widened() const { return tolerance + margin; }
 
   LSDCD_FN Vec3 brick_centre(std::int32_t x, std::int32_t y, std::int32_t z) const
@@ -64,11 +64,11 @@ struct CellCentres {
   }
 };
 
-// The cell edge where none is given, of complete lists or of the nearest primitives, for spheres on a
-// CPU or on a GPU.
+// The default length of a cell, for complete lists or nearest primitives, and for spheres on a CPU or
+// a GPU.
 Real default_length(const WallMesh &mesh, Real cutoff, int nearest, bool for_gpu);
 
-// From the settings, or where they leave the length open from the mesh and the cutoff.
+// From the settings; if these have no length, it follows from the mesh and the cutoff.
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
 
 constexpr Real kCoarser = 1.25;
@@ -82,10 +82,10 @@ std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cel
                        std::size_t candidates);
 std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks);
 
-// `needed`: bytes that the grid of the length that was asked for takes at least; or, of a length
-// to be chosen, those of the coarsest grid.
+// `needed`: the bytes that a grid of the given length takes at least, or, if the length is chosen, those
+// of the coarsest grid.
 [[noreturn]] void throw_over_budget(const GridSettings &settings, double needed, double budget);
-// Of a given length, whose build takes so many times what BuildLimit allows.
+// A given length whose build takes so many times what BuildLimit allows.
 [[noreturn]] void throw_over_limit(const GridSettings &settings, double times);
 
 }    // namespace lsdcd

@@ -21,7 +21,7 @@ struct SjkrCohesion {
   {
     return T(3.14159265358979323846) * k * c.overlap * (2 * c.radius - c.overlap);
   }
-  // Of the surfaces that have come together; < 0.
+  // The energy of the surfaces in contact; < 0.
   LSDCD_FN T energy(const Contact<T> &c) const
   {
     return T(-3.14159265358979323846) * k * c.overlap * c.overlap * (c.radius - c.overlap / 3);

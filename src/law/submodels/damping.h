@@ -8,8 +8,8 @@
 
 namespace lsdcd {
 
-// What eta is: nothing; mass/time; 1/time; 1/(time length); a number, per root of mass times secant
-// stiffness; and that of classic styles, 1/time (hooke) or 1/(time length) (hertz).
+// Units of eta: none; mass/time; 1/time; 1/(time length); a number, times the root of mass times secant
+// stiffness; in classic styles 1/time (hooke) or 1/(time length) (hertz).
 enum class DampingModel { none, velocity, mass_velocity, viscoelastic, stiffness, classic };
 
 // The classic styles: coefficient = scale m gamma.
@@ -24,7 +24,7 @@ struct MassVelocityDamping {
   }
 };
 
-// Those of `granular`; which one is the same for all contacts of a wall.
+// The models of `granular`. All contacts of a wall have the same one.
 template <class T>
 struct GranularDamping {
   DampingModel model;

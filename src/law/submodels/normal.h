@@ -6,7 +6,7 @@
 //   contact_radius(c)   length
 //   force(c, a)         elastic force, > 0 where it pushes
 //   energy(c, a)        what is held
-// with a the contact radius, which a law computes only where something needs it.
+// where a is the contact radius, which a law computes only if something needs it.
 #pragma once
 
 #include "base/cube_root.h"
@@ -16,8 +16,8 @@ namespace lsdcd {
 
 enum class NormalModel { hooke, hertz, dmt, jkr };
 
-// How far from its centre a sphere feels the wall; `pull_off` is that of radius 1 and
-// greater than 0 only for adhesion that acts past touch.
+// How far from its centre a sphere feels the wall. `pull_off` is for a radius of 1, and
+// greater than 0 only for adhesion that acts beyond contact.
 LSDCD_FN Real cutoff_of(Real radius, Real pull_off)
 {
   return pull_off > 0 ? radius + pull_off * cube_root(radius) : radius;
@@ -51,13 +51,13 @@ struct HertzNormal {
 };
 
 // ---- the sub-models of `granular` --------------------------------------------------------
-// Each also has limit(c, f, normal): the force that friction is proportional to, where the elastic
-// force is f and the one with damping `normal`. What pulls holds the surfaces together also where the
-// forces cancel.
+// Each also has limit(c, f, normal), the force that friction is proportional to. f is the elastic force,
+// `normal` the force with damping. Adhesion presses the surfaces together even where the forces
+// cancel.
 
-// `hooke`, `hertz` and `dmt`: one kernel for the three, as the choice is the same for all contacts of a
-// wall. DMT (Derjaguin, Muller and Toporov 1975) is Hertz less a constant pull 4 pi gamma R while the
-// spheres touch.
+// `hooke`, `hertz` and `dmt` share one kernel: the choice is the same for all contacts of a wall. DMT
+// (Derjaguin, Muller and Toporov 1975) is Hertz minus a constant pull 4 pi gamma R while the spheres
+// touch.
 template <class T>
 struct TouchingNormal {
   static constexpr bool kBeyondContact = false;    // does it act past touch?
@@ -114,7 +114,7 @@ struct JkrNormal {
     const T unit = s * s / c.radius;
     if (!(unit > 0)) return sqrt(c.overlap > 0 ? c.overlap * c.radius : T(0));
     const T q = c.overlap / unit;
-    // Two bounds from above, of which one is near for small and one for large q.
+    // Two upper bounds: one is close for small q, the other for large q.
     T y = 1;
     if (q > 0) {
       const T small = 1 + q / 3, large = 1 + sqrt(sqrt(q));
@@ -134,7 +134,7 @@ struct JkrNormal {
   {
     return fabs(f + T(6 * 3.14159265358979323846) * surface_energy * c.radius);
   }
-  // Of the bodies and of the surface that the contact has done away with.
+  // The elastic energy minus that of the surfaces in contact.
   LSDCD_FN T energy(const Contact<T> &c, T a) const
   {
     const T cubed = a * a * a, per_radius = 1 / c.radius;

@@ -8,8 +8,8 @@
 //   kKeepsVector                     does a contact keep a vector of the tangent plane for it?
 //   contact_torque(n, in, m, at)     torque on the sphere
 //   energy(n, in, m, at)             what is held
-// n are its numbers in the order of its row (sub_models.cpp), m the contact's memory, at the place of its
-// vector in it. It is one of GranularRolling or of ClassicRolling below.
+// where n are its numbers in the order of its row (sub_models.cpp), m is the contact's memory, and `at` the
+// place of its vector there. GranularRolling or ClassicRolling, below, lists it.
 #pragma once
 
 #include "law/contact.h"
@@ -28,9 +28,9 @@ struct RollingInput {
   T k_tangent;    // tangential stiffness, force/length
 };
 
-// `sds` k gamma mu: spring, dashpot and slider (Luding 2008; Wang et al. 2015 for the velocity). The
-// force that they give acts at the lever arm R on both sides of the contact, so that it
-// turns the sphere and does not push it. The vector is the spring's displacement.
+// `sds` k gamma mu: spring, dashpot and slider (Luding 2008; Wang et al. 2015 for the velocity). Their
+// force acts at the lever arm R on both sides of the contact, so that it turns the sphere
+// and does not push it. The vector is the spring's displacement.
 template <class T>
 struct SdsRolling {
   static constexpr RollingModel kModel = RollingModel::sds;
@@ -64,9 +64,9 @@ struct SdsRolling {
   }
 };
 
-// ---- of LIGGGHTS -------------------------------------------------------------------------
+// ---- LIGGGHTS ----------------------------------------------------------------------------
 
-// The part of the sphere's turning that rolls.
+// The rolling part of the sphere's angular velocity.
 template <class T>
 LSDCD_FN Vec3Of<T> rolling_part(const Vec3Of<T> &omega, const Vec3Of<T> &normal)
 {
@@ -130,7 +130,7 @@ struct Epsd2Rolling {
 
 // ---- the family --------------------------------------------------------------------------
 
-// Those of Models that one kernel has; which one acts is the same for all contacts of a wall.
+// The models of one kernel. All contacts of a wall have the same one.
 template <class T, template <class> class... Models>
 struct Rolling {
   static constexpr bool kAllKeep = (Models<T>::kKeepsVector && ...);
@@ -142,7 +142,7 @@ struct Rolling {
   {
     return ((model == Models<T>::kModel && Models<T>::kKeepsVector) || ...);
   }
-  // Writes the contact torque, adds to the energy. Where the model is not on, nothing.
+  // Adds to the contact torque and to the energy; nothing if no model is on.
   template <class Memory>
   LSDCD_FN void act(const RollingInput<T> &in, Memory &m, int at, Vec3Of<T> &torque,
                     T &energy) const

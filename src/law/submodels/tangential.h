@@ -19,7 +19,7 @@ enum class TangentialModel {
   mindlin_rescale_force
 };
 
-// Friction that grows with the slip up to `limit`; `viscous`: force time/length.
+// Friction that grows with the slip velocity up to `limit`. `viscous`: force time/length.
 template <class T>
 LSDCD_FN Vec3Of<T> viscous_friction(const Vec3Of<T> &v_tangent, T viscous, T limit)
 {
@@ -76,10 +76,10 @@ struct LinearHistory {
 // ---- the sub-models of `granular` --------------------------------------------------------
 // a: the contact's radius. `damping`: the normal damping's coefficient (mass/time).
 
-// `linear_nohistory` without a spring, else `linear_history`, and where `by_radius` `mindlin`: the
-// stiffness goes with the contact radius. `shear` is the displacement, or the spring's
-// force where `of_force`. With `rescale` it shrinks with the contact as that unloads (Thornton et al.
-// 2013), which takes the radius of the step before.
+// `linear_nohistory` without a spring, else `linear_history`, or with `by_radius` `mindlin`, whose
+// stiffness is proportional to the contact radius. `shear` is the displacement or, with `of_force`, the
+// spring's force. With `rescale` it shrinks as the contact unloads (Thornton et al.
+// 2013), for which the radius of the last step is kept.
 template <class T>
 struct GranularFriction {
   T k, xgammat, mu;    // k: 0 where there is no spring
@@ -90,7 +90,7 @@ struct GranularFriction {
   {
     return viscous_friction(c.v_tangent, xgammat * damping, limit);
   }
-  // The contact has the radius a, and in the step before had that of the scalar `at`.
+  // a: contact radius. The scalar `at` is that of the last step.
   template <class Memory>
   LSDCD_FN void rescale_spring(T a, Memory &m, int at) const
   {

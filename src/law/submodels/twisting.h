@@ -10,7 +10,7 @@ namespace lsdcd {
 
 enum class TwistingModel { none, marshall, sds };
 
-// What resists a twist at one contact.
+// The coefficients of one contact.
 template <class T>
 struct TwistCoefficients {
   T k, gamma, limit;    // torque/angle, torque time/angle, torque

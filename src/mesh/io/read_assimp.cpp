@@ -40,8 +40,8 @@ void add(const aiMesh &mesh, ReadMesh &read)
   }
 }
 
-// Some errors, as an index without a vertex, assimp only logs, and reads on: "Error, T0: text".
-// That a material is missing is no error of a mesh.
+// assimp only logs some errors, such as an index without a vertex, and reads on: "Error, T0: text".
+// A missing material is no error of a mesh.
 void keep_error(const char *message, char *kept)
 {
   const std::string text = message;
@@ -52,10 +52,10 @@ void keep_error(const char *message, char *kept)
 
 }    // namespace
 
-// In C, whose calls other versions of the library have, too.
+// The C interface is the same in other versions of the library.
 ReadMesh read_assimp(const std::string &path)
 {
-  // assimp has one log for all threads, and hands every message to all streams.
+  // assimp has one log for all threads and sends every message to all streams.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   std::string error;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 84;     // 80 of text, 4 of facet count
 constexpr std::size_t kFacetBytes = 50;      // normal, 3 corners, 2 bytes of attributes
-constexpr std::size_t kBeginning = 65536;    // read first, and looked at before the rest
+constexpr std::size_t kBeginning = 65536;    // read and checked before the rest
 
 // STL is little-endian and unaligned whatever the machine is.
 std::uint32_t read_u32(const char *bytes)
@@ -44,7 +44,7 @@ std::uint64_t promised_facets(const char *bytes)
   return read_u32(bytes + kHeaderBytes - 4);
 }
 
-// A byte that no text holds, near the beginning.
+// Is there a byte near the beginning that no text has?
 bool has_control_byte(const char *bytes, std::size_t size)
 {
   return std::any_of(bytes, bytes + std::min<std::size_t>(size, 1024), [](char c) {
@@ -52,8 +52,8 @@ bool has_control_byte(const char *bytes, std::size_t size)
   });
 }
 
-// A header may say anything, "solid" too, so the size decides first. What fits
-// neither kind is damaged; it is read as what it most resembles, for the message.
+// A header may say anything, even "solid", so the size decides first. A file that fits
+// neither kind is damaged. It is read as the more similar kind, for the message.
 bool is_binary(const char *bytes, std::size_t size)
 {
   if (size >= kHeaderBytes && size - kHeaderBytes == kFacetBytes * promised_facets(bytes))
@@ -101,7 +101,7 @@ void read_binary(const char *bytes, TriangleSoup &soup)
   }
 }
 
-// What `size` bytes that begin with these cannot be, told before the rest of them is read.
+// Throws if `size` bytes with this beginning can be no STL, before the rest is read.
 void check_beginning(const char *bytes, std::size_t n, std::size_t size, const std::string &source)
 {
   if (size - kHeaderBytes == kFacetBytes * promised_facets(bytes)) return;
@@ -115,7 +115,7 @@ void check_beginning(const char *bytes, std::size_t n, std::size_t size, const s
 }
 
 struct Bytes {
-  std::unique_ptr<char[]> data;    // not a vector: nothing to clear
+  std::unique_ptr<char[]> data;    // not a vector, which would be cleared first
   std::size_t size = 0;
 };
 
@@ -145,7 +145,7 @@ Bytes read_whole(const std::string &path)
       const char *begin = bytes.data.get();
       const bool is_text =
           begins_as_stl_text(begin, capacity) || !has_control_byte(begin, capacity);
-      // Of a pipe of a binary STL what that promises, and one byte, which is one too many.
+      // From a pipe: what the binary header promises, and one byte more to see that there is none.
       if (size == 0 && !is_text)
         most = std::max(capacity, kHeaderBytes + kFacetBytes * promised_facets(begin) + 1);
       else if (size == 0 || size > capacity)

@@ -94,7 +94,7 @@ class Reader {
     bool in_stl = false;
     for (auto word = next_word(); !word.empty(); word = next_word()) {
       const bool solid = same_word(word, "solid");
-      // Text that follows an endsolid is nobody's; STL words there are lost facets.
+      // Text after an endsolid is ignored, but STL words there are lost facets.
       if (!solid && (!in_stl || is_stl_word(word))) fail_word(word, "'solid'");
       skip_line();
       if (solid) read_solid();
@@ -118,7 +118,7 @@ class Reader {
 
   void read_facet()
   {
-    // The normal is not used: exporters leave it out, zero or NaN. The corners tell.
+    // The normal is not used: some exporters write 0 or NaN or leave it out. The corners give it.
     auto word = next_word();
     for (int skipped = 0; !same_word(word, "outer"); ++skipped) {
       if (skipped == 4 || word.empty() || is_stl_word(word)) fail_word(word, "'outer loop'");
@@ -191,7 +191,7 @@ class Reader {
     fail(word, found + " where " + expected + " is expected", remedy);
   }
 
-  // Lines are counted only here, so that reading need not.
+  // Lines are counted only for a message, so that reading is quick.
   [[noreturn]] void fail(std::string_view word, const std::string &what,
                          const std::string &remedy) const
   {
