@@ -14,8 +14,8 @@ using namespace lsdcd;
 
 namespace {
 
-constexpr double kMostMeasured = 1e9;    // tests of a CPU's brute force, per thread
-constexpr double kMostOnCuda = 2e13;     // under a minute
+constexpr double kMaxMeasured = 1e9;    // tests of a CPU's brute force, per thread
+constexpr double kMaxOnCuda = 2e13;     // under a minute
 
 double brute_ms(const TriangleGrid &grid, Device device, std::size_t n, std::size_t stride)
 {
@@ -33,7 +33,7 @@ void brute_row(const BenchOptions &o, BenchRows &rows, BenchRow row, const Trian
                Device device)
 {
   const double cells = double(all_cells(grid)), tests = cells * grid.wall.faces.size();
-  double limit = device == Device::cuda ? kMostOnCuda : kMostMeasured * threads();
+  double limit = device == Device::cuda ? kMaxOnCuda : kMaxMeasured * threads();
   if (o.quick) limit /= 100;
   if (o.brute_limit > 0) limit = o.brute_limit;
   // One cell at least, however low the limit.

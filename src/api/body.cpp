@@ -42,9 +42,9 @@ MeshCollisionSettings settings_of(const lsdcd_body_options &o)
 {
   if (!(o.cell >= 0) || !std::isfinite(o.cell))
     refuse("cell is " + number_text(o.cell) + "; give a length, or 0 to have it chosen");
-  if (o.nearest < 0 || o.nearest > kMostNearest)
+  if (o.nearest < 0 || o.nearest > kMaxNearest)
     refuse("nearest is " + std::to_string(o.nearest) + "; it is 0, for all, or up to " +
-           std::to_string(kMostNearest));
+           std::to_string(kMaxNearest));
   if (!(o.memory >= 0) || !(o.memory < 1e18))
     refuse("memory is " + number_text(o.memory) + "; give bytes, or 0 for the default");
   if (o.device != LSDCD_CPU && o.device != LSDCD_CUDA)

@@ -76,10 +76,10 @@ inline void need(const void *pointer, const char *name)
 // Threads of a call; 0: the default. With more, a process may end; the tool has the same limit.
 inline void check_threads(int n)
 {
-  constexpr int kMost = 4096;
-  if (n < 0 || n > kMost)
+  constexpr int kMax = 4096;
+  if (n < 0 || n > kMax)
     throw ApiError(LSDCD_ERROR_ARGUMENT,
-                   "`threads` is " + std::to_string(n) + "; it is 0 to " + std::to_string(kMost));
+                   "`threads` is " + std::to_string(n) + "; it is 0 to " + std::to_string(kMax));
 }
 
 // Copies a caller's struct of this or an earlier version. `least`: bytes of the first version.

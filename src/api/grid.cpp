@@ -26,9 +26,9 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
     refuse("cutoff is " + number_text(o.cutoff) + "; give the largest distance that matters");
   if (!(o.cell >= 0) || !std::isfinite(o.cell))
     refuse("cell is " + number_text(o.cell) + "; give a length, or 0 to have it chosen");
-  if (o.nearest < 0 || o.nearest > kMostNearest)
+  if (o.nearest < 0 || o.nearest > kMaxNearest)
     refuse("nearest is " + std::to_string(o.nearest) + "; it is 0, for all, or up to " +
-           std::to_string(kMostNearest));
+           std::to_string(kMaxNearest));
   if (o.precision != LSDCD_DOUBLE && o.precision != LSDCD_FLOAT)
     refuse("precision is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
   if (!(o.memory >= 0) || !(o.memory < 1e18))

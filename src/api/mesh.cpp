@@ -27,10 +27,10 @@ lsdcd_mesh *welded(const TriangleSoup &soup, double weld_tolerance)
 TriangleSoup soup_of(const double *corners, std::size_t n)
 {
   if (n == 0) throw ApiError(LSDCD_ERROR_ARGUMENT, "`n_triangles` is 0: a mesh has triangles");
-  constexpr std::size_t kMost = std::numeric_limits<int>::max() / 3;
-  if (n > kMost)
+  constexpr std::size_t kMax = std::numeric_limits<int>::max() / 3;
+  if (n > kMax)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`n_triangles` is " + std::to_string(n) +
-                                             "; a mesh has at most " + std::to_string(kMost));
+                                             "; a mesh has at most " + std::to_string(kMax));
   TriangleSoup soup;
   soup.source = "from corners";
   soup.corners.reserve(3 * n);

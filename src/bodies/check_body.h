@@ -15,7 +15,7 @@
 
 namespace lsdcd {
 
-constexpr std::uint64_t kMostPieces = std::uint64_t(1) << 28;
+constexpr std::uint64_t kMaxPieces = std::uint64_t(1) << 28;
 
 [[noreturn]] inline void throw_too_many_pieces(const std::string &source, Real n)
 {
@@ -44,7 +44,7 @@ inline void check_body(const TriangleSoup &body, Real longest)
     n += std::max(Real(1), norm(cross(u, v)) / (2 * kLargestArea));
     n = std::max(n, std::max(norm(u), norm(v)));
   }
-  if (!(n <= Real(kMostPieces))) throw_too_many_pieces(body.source, n);
+  if (!(n <= Real(kMaxPieces))) throw_too_many_pieces(body.source, n);
 }
 // Are rows unit vectors at right angles?
 inline bool is_orthogonal(const BodyPose &pose, Real tolerance)

@@ -121,7 +121,7 @@ class BodyCollisionOn : public BodyCollision {
       throw InputError(source + ", triangle " + std::to_string(t) +
                        " cannot be cut down to cells of " + number_text(longest) +
                        ": use longer ones");
-    if (n > kMostPieces) throw_too_many_pieces(source, Real(n));
+    if (n > kMaxPieces) throw_too_many_pieces(source, Real(n));
     pieces_ = Array<Piece>(n);
     Piece *pieces = pieces_.data();
     b_.for_each(n_triangles, [=] LSDCD_LAMBDA(std::size_t t) {
@@ -153,7 +153,7 @@ class BodyCollisionOn : public BodyCollision {
       b_.wait();
       const std::uint64_t n = tally_.data()[kNear];
       if (n <= near_.size()) return;
-      if (n > kMostPairs)
+      if (n > kMaxPairs)
         throw InputError("the body is near the wall in " + std::to_string(n) +
                          " pairs, more than fit: use shorter cells");
       grow_pairs(n);
@@ -270,16 +270,16 @@ class BodyCollisionOn : public BodyCollision {
   }
 
  private:
-  static constexpr std::uint64_t kMostPairs = std::uint64_t(1) << 28;    // near ones, of a pose
+  static constexpr std::uint64_t kMaxPairs = std::uint64_t(1) << 28;    // near ones, of a pose
   static constexpr std::size_t kFirstRoom = 1 << 16;
   enum { kNear, kMet, kUnsure, kCutShort, kCounts };    // of a pose: pairs, and last pieces
 
   // 2 / 3 of the longest edge (subdivide.h), and what piece_of() adds to it.
-  static constexpr Real kMostRadius = (2. / 3) * (1 + 2e-6);
+  static constexpr Real kMaxRadius = (2. / 3) * (1 + 2e-6);
   // The longest edge of pieces: a cell, or what the cutoff allows, a little less for rounding.
   Real longest_edge() const
   {
-    return std::min(grid_.length, grid_.cutoff / (kMostRadius * (1 + Real(1e-4))));
+    return std::min(grid_.length, grid_.cutoff / (kMaxRadius * (1 + Real(1e-4))));
   }
   Real slack(const BodyPose &pose) const
   {
@@ -290,7 +290,7 @@ class BodyCollisionOn : public BodyCollision {
   {
     if (pieces_.size() == 0) throw InputError("there is no body: call set_body()");
     check_rotation(pose);
-    if (!(kMostRadius * unit_ + slack(pose) + grid_.tolerance <= grid_.cutoff))
+    if (!(kMaxRadius * unit_ + slack(pose) + grid_.tolerance <= grid_.cutoff))
       throw InputError("the body is so far from the origin, or so large, that cells of " +
                        number_text(grid_.length) +
                        " have too few digits there: move wall and body nearer to the origin");

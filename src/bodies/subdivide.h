@@ -19,7 +19,7 @@ struct Piece {
 
 // Longest-edge bisection halves lengths within a few levels, so that this is enough for edges of
 // 2^24 cells.
-constexpr int kMostBisections = 64;
+constexpr int kMaxBisections = 64;
 
 LSDCD_FN Real longest_edge_sq(const Triangle &t, int &longest)
 {
@@ -39,7 +39,7 @@ LSDCD_FN Real longest_edge_sq(const Triangle &t, int &longest)
 template <class Visit>
 LSDCD_FN bool for_each_piece(const Triangle &whole, Real longest, const Visit &visit)
 {
-  Triangle waiting[kMostBisections];
+  Triangle waiting[kMaxBisections];
   int n = 0;
   waiting[n++] = whole;
   while (n > 0) {
@@ -49,7 +49,7 @@ LSDCD_FN bool for_each_piece(const Triangle &whole, Real longest, const Visit &v
       visit(t);
       continue;
     }
-    if (n + 2 > kMostBisections) return false;
+    if (n + 2 > kMaxBisections) return false;
     const Vec3 a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3], middle = Real(0.5) * (a + b);
     waiting[n++] = {{middle, b, c}};
     waiting[n++] = {{a, middle, c}};

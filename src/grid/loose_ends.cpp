@@ -16,7 +16,7 @@ namespace lsdcd {
 namespace {
 
 // At most so many tests of an edge against a triangle; with more edges a part is tested.
-constexpr double kMostTests = 2e8;
+constexpr double kMaxTests = 2e8;
 
 // An open edge that looks along an edge of the box.
 struct End {
@@ -79,7 +79,7 @@ LooseEnds loose_ends(const WallMesh &mesh, const WallFeaturesView &wall, const P
   const std::vector<End> ends = ends_of(mesh, wall, box);
   const std::size_t first = mesh.images.n_faces, n_images = mesh.faces.size() - first;
   const std::size_t stride =
-      static_cast<std::size_t>(std::ceil(double(ends.size()) * double(n_images) / kMostTests));
+      static_cast<std::size_t>(std::ceil(double(ends.size()) * double(n_images) / kMaxTests));
   // Ends that overlap an image meet it, too.
   const Real diagonal = norm(mesh.report.hi - mesh.report.lo);
   const Real met = std::max(mesh.report.weld_tolerance, Real(1e-9) * diagonal);

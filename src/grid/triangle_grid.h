@@ -102,7 +102,7 @@ struct GridSettings {
   std::size_t memory_budget = 0;    // bytes, of all of it; 0: kListBudget for lists
   bool limited = false;             // keep the build within BuildLimit where no budget is given
   bool sides = false;               // keep what `side in|out` needs
-  int nearest = 0;           // 0: complete lists; N, at most kMostNearest: the N nearest primitives
+  int nearest = 0;           // 0: complete lists; N, at most kMaxNearest: the N nearest primitives
   bool in_floats = false;    // brick records, for queries in float
   bool for_gpu = false;      // spheres are on a GPU: the chosen length is shorter
   bool may_coarsen = false;    // a given length may grow, too, until the budget holds
@@ -112,7 +112,7 @@ struct GridSettings {
   // Called with how far a build is, between its parts and on a CPU within them, by the calling thread.
   std::function<void(const std::string &)> progress;
 };
-constexpr int kMostNearest = 32;
+constexpr int kMaxNearest = 32;
 // In place of N: every primitive within the cutoff, for collisions of bodies with the wall.
 constexpr int kEveryTriangle = 0x7ffffffe;
 constexpr std::size_t kListBudget = 1ull << 30;    // bytes, beside the records of the wall

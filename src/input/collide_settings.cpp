@@ -19,7 +19,7 @@ const char *const kSyntax =
 
 void read_nearest(Tokens &w, CollideSettings &s)
 {
-  const Real n = w.number_or("all", 0, "N", 1, kMostNearest);
+  const Real n = w.number_or("all", 0, "N", 1, kMaxNearest);
   s.nearest = static_cast<int>(n);
   if (s.nearest != n) w.fail("N must be a whole number");
 }

@@ -79,7 +79,7 @@ void read_memory(Tokens &w, WallSettings &s)
 
 void read_nearest(Tokens &w, WallSettings &s)
 {
-  const Real n = w.number_or("all", 0, "N", 1, kMostNearest);
+  const Real n = w.number_or("all", 0, "N", 1, kMaxNearest);
   s.nearest = static_cast<int>(n);
   if (s.nearest != n) w.fail("N must be a whole number");
 }

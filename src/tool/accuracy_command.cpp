@@ -24,7 +24,7 @@ Device device_of(const std::string &name)
   return Device::automatic;
 }
 
-constexpr int kMostRows = 1000000;    // more than any memory has triangles for
+constexpr int kMaxRows = 1000000;    // more than any memory has triangles for
 
 // Spheres are counted in 32 bits.
 std::string sphere_count(const std::string &word)
@@ -92,13 +92,13 @@ void add_accuracy_command(Command &program)
       .check(above_zero)
       .shows_default();
   c.option("--segments", o.shape.segments, "flat sides of the cylinder")
-      .range(3, kMostRows)
+      .range(3, kMaxRows)
       .shows_default();
   c.option("--along", o.shape.along, "rows of triangles along its axis")
-      .range(1, kMostRows)
+      .range(1, kMaxRows)
       .shows_default();
   c.option("--slant", o.shape.slant, "more rows that diagonals climb: obtuse triangles")
-      .range(0, kMostRows)
+      .range(0, kMaxRows)
       .shows_default();
   c.flag("--rim-caps", o.rim_caps, "cut the ends from a corner of the rim: obtuse too");
   c.option("--cube", o.cube, "side of the cube that spheres are in")

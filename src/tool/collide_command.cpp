@@ -195,7 +195,7 @@ void add_options(Command &command, Options &o)
   command.option("--grid", o.cell, "cell length (default: the median edge of the body)")
       .check(above_zero);
   command.option("--nearest", o.nearest, "triangles a cell, which may miss pairs (default: all)")
-      .range(1, kMostNearest);
+      .range(1, kMaxNearest);
   command.option("--memory", o.memory, "of the grid, in MB (default: 1024 beside the mesh)")
       .check(above_zero);
   command.option("--device", o.device, "that answers")

@@ -29,14 +29,14 @@ struct Output {
 };
 
 // With more, corners would be equal in the floats of an STL file.
-constexpr int kMostSegments = 100000;
+constexpr int kMaxSegments = 100000;
 
 // Segments of a circle: the given number, or 64, or as many as the given length of edges needs.
 int segments_of(const Output &o, double radius)
 {
   if (o.segments > 0) return o.segments;
   const double needed = o.edge > 0 ? std::ceil(2 * M_PI * radius / o.edge) : 0;
-  return static_cast<int>(std::clamp<double>(needed, 64, kMostSegments));
+  return static_cast<int>(std::clamp<double>(needed, 64, kMaxSegments));
 }
 
 void write(const Output &o, const Triangles &coarse)
@@ -104,7 +104,7 @@ class Shapes {
     command_
         .option("--segments", o_->segments,
                 "sides of the polygon that a circle is (default: 64, more where --edge asks)")
-        .range(3, kMostSegments);
+        .range(3, kMaxSegments);
   }
   std::shared_ptr<Output> output() const { return o_; }
 

@@ -234,9 +234,9 @@ class NpyReader : public PointReader {
     std::size_t length = 0;
     for (std::size_t i = 0; i < length_bytes; i++)
       length |= std::size_t(static_cast<unsigned char>(start[8 + i])) << (8 * i);
-    constexpr std::size_t kMost = 1 << 16;
-    std::string head(std::min(length, kMost), ' ');
-    if (length > kMost || file.bytes(head.data(), length) < length)
+    constexpr std::size_t kMax = 1 << 16;
+    std::string head(std::min(length, kMax), ' ');
+    if (length > kMax || file.bytes(head.data(), length) < length)
       file.fail("its .npy header is not whole");
     const auto is_space = [](char c) { return c == ' ' || c == '\n'; };
     head.erase(std::remove_if(head.begin(), head.end(), is_space), head.end());

@@ -152,7 +152,7 @@ void split(const std::array<Vec3, 3> &t, Real edge, Triangles &out)
 
 }    // namespace
 
-constexpr std::size_t kMostTriangles = 20000000;
+constexpr std::size_t kMaxTriangles = 20000000;
 
 [[noreturn]] void refuse_edge(Real edge)
 {
@@ -167,12 +167,12 @@ Triangles refined(Triangles coarse, Real edge)
   const Real largest = std::sqrt(Real(3)) / 4 * edge * edge;
   Real area = 0;
   for (const auto &[a, b, c] : coarse) area += norm(cross(b - a, c - a)) / 2;
-  if (area > largest * kMostTriangles) refuse_edge(edge);
+  if (area > largest * kMaxTriangles) refuse_edge(edge);
   for (std::size_t before = 0; before != coarse.size();) {
     before = coarse.size();
     Triangles finer;
     for (const auto &t : coarse) split(t, edge, finer);
-    if (finer.size() > kMostTriangles) refuse_edge(edge);
+    if (finer.size() > kMaxTriangles) refuse_edge(edge);
     coarse = std::move(finer);
   }
   return coarse;

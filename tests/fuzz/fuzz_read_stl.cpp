@@ -13,7 +13,7 @@
 
 namespace {
 
-constexpr std::size_t kMostFacets = 500;
+constexpr std::size_t kMaxFacets = 500;
 
 void require(bool holds)
 {
@@ -49,7 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
 {
   try {
     const auto soup = lsdcd::read_stl_bytes(reinterpret_cast<const char *>(data), size, "fuzz");
-    if (soup.n_triangles() > kMostFacets) return 0;
+    if (soup.n_triangles() > kMaxFacets) return 0;
     for (const lsdcd::Real tolerance : {-1.0, 0.0, 0.25}) {
       try {
         const auto mesh = lsdcd::weld(soup, tolerance);

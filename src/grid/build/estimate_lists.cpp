@@ -16,7 +16,7 @@ namespace {
 
 // A part is one brick of a feature's box. This many parts are sampled, or this share of all, so that
 // the estimate is much quicker than the build.
-constexpr std::uint64_t kMostSamples = 1 << 14, kFewestSamples = 256, kOneOf = 64;
+constexpr std::uint64_t kMaxSamples = 1 << 14, kMinSamples = 256, kOneOf = 64;
 constexpr double kPartWork = 8;    // the time to look at a part, in distance tests
 
 struct Sum {
@@ -52,8 +52,8 @@ ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool
   std::uint64_t n_parts = 0;
 #pragma omp parallel for schedule(static) num_threads(threads()) reduction(+ : n_parts) if (n > 4096)
   for (std::int64_t i = 0; i < n; i++) n_parts += brick_box(view, features[i]).count();
-  const std::uint64_t n_samples = std::min(kMostSamples, n_parts / kOneOf);
-  if (n_samples < kFewestSamples) return {};
+  const std::uint64_t n_samples = std::min(kMaxSamples, n_parts / kOneOf);
+  if (n_samples < kMinSamples) return {};
 
   // One part of each run of parts, by multiples of the golden ratio, which no mesh repeats.
   const double run = double(n_parts) / double(n_samples);
@@ -88,11 +88,11 @@ BuildEstimate estimate_build(const WallFeatures &wall, const GridPlan &plan,
   BuildEstimate out;
   if (!std::isfinite(plan.least_bytes())) return out;
   const ListEstimate lists = estimate_lists(wall, plan, settings.nearest > 0);
-  constexpr double kMostNumbers = 0xffffffff;
-  if (lists.least_pairs > kMostNumbers) out.least_bytes = out.enough_bytes = HUGE_VAL;
+  constexpr double kMaxNumbers = 0xffffffff;
+  if (lists.least_pairs > kMaxNumbers) out.least_bytes = out.enough_bytes = HUGE_VAL;
   out.work = lists.work;
   const bool cut_short = settings.nearest > 0 && settings.nearest != kEveryTriangle;
-  if (!cut_short && lists.least_entries > kMostNumbers)
+  if (!cut_short && lists.least_entries > kMaxNumbers)
     out.least_bytes = out.enough_bytes = HUGE_VAL;
   // An entry is a candidate, or a cell that holds a single one.
   static_assert(sizeof(Candidate) == sizeof(Cell), "counted as one");

@@ -15,7 +15,7 @@ namespace lsdcd {
 namespace {
 
 // Bricks along an axis for which cell numbers still fit an int.
-constexpr std::int32_t kMostBricks = 1 << 27;
+constexpr std::int32_t kMaxBricks = 1 << 27;
 
 // While it is built, every cell of a brick has two counters.
 constexpr std::size_t kBrickBytes = sizeof(Brick) + kBrickCells * 2 * sizeof(std::uint32_t);
@@ -89,7 +89,7 @@ GridPlan plan_with_length(const WallMesh &mesh, const GridSettings &settings, Re
   plan.origin = box.lo;
   for (int k = 0; k < 3; k++) {
     const Real n = std::ceil((box.hi[k] - box.lo[k]) / (kBrickSide * length));
-    plan.n_bricks[k] = static_cast<std::int32_t>(std::clamp(n, Real(1), Real(kMostBricks)));
+    plan.n_bricks[k] = static_cast<std::int32_t>(std::clamp(n, Real(1), Real(kMaxBricks)));
   }
   return plan;
 }
@@ -103,7 +103,7 @@ double GridPlan::least_bytes() const
   // A plan cut off at the most bricks does not reach the wall's far end, and octant keys have
   // 32 bits.
   for (std::int32_t n : n_bricks)
-    if (n >= kMostBricks || entries >= 5e8) return HUGE_VAL;
+    if (n >= kMaxBricks || entries >= 5e8) return HUGE_VAL;
   const double side = kBrickSide * length;
   return std::max(least_volume / (side * side * side) * kBrickBytes,
                   entries * sizeof(std::int32_t));
