@@ -94,7 +94,7 @@ std::string Tokens::between(std::size_t first) const
   return text;
 }
 
-void Tokens::expect(const std::string &name, const std::string &syntax)
+void Tokens::set_context(const std::string &name, const std::string &syntax)
 {
   name_ = name;
   syntax_ = syntax;

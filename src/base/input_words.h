@@ -44,7 +44,7 @@ class Tokens {
   std::string between(std::size_t first) const;
 
   // What is being read, for the errors of what follows.
-  void expect(const std::string &name, const std::string &syntax);
+  void set_context(const std::string &name, const std::string &syntax);
 
   // A number in [low, high]; `what` is its name in messages.
   Real number(const char *what, Real low = -kHuge, Real high = kHuge);

@@ -28,27 +28,27 @@ void read_nearest(Tokens &w, CollideSettings &s)
 bool read_word(const std::string &word, Tokens &w, CollideSettings &s)
 {
   if (word == "bodies") {
-    w.expect("bodies", "bodies one | molecule");
+    w.set_context("bodies", "bodies one | molecule");
     s.molecules = w.choice({"one", "molecule"}) == 1;
   } else if (word == "atoms") {
-    w.expect("atoms", "atoms FILE");
+    w.set_context("atoms", "atoms FILE");
     if (w.done()) w.fail("the file name is missing");
     s.atoms_file = w.take();
   } else if (word == "grid") {
-    w.expect("grid", "grid L | auto");
+    w.set_context("grid", "grid L | auto");
     s.grid_length = w.number_or("auto", 0, "L", kAboveZero);
   } else if (word == "nearest") {
-    w.expect("nearest", "nearest N | all");
+    w.set_context("nearest", "nearest N | all");
     read_nearest(w, s);
   } else if (word == "memory") {
-    w.expect("memory", "memory MB");
+    w.set_context("memory", "memory MB");
     s.memory = static_cast<std::size_t>(w.number("the budget", 1, 1e9) * 1024 * 1024);
   } else if (word == "device") {
-    w.expect("device", "device cpu | cuda | auto");
+    w.set_context("device", "device cpu | cuda | auto");
     const Device devices[] = {Device::cpu, Device::cuda, Device::automatic};
     s.device = devices[w.choice({"cpu", "cuda", "auto"})];
   } else if (word == "log") {
-    w.expect("log", "log full | brief");
+    w.set_context("log", "log full | brief");
     s.brief = w.choice({"full", "brief"}) == 1;
   } else {
     return false;
@@ -62,19 +62,19 @@ CollideSettings parse_collide(const std::vector<std::string> &tokens)
 {
   CollideSettings settings;
   Tokens w(tokens);
-  w.expect("compute lsdcd/collide", kSyntax);
+  w.set_context("compute lsdcd/collide", kSyntax);
   if (w.done()) w.fail("FIX_ID is missing");
   settings.wall = w.take();
   std::vector<std::string> seen;
   while (!w.done()) {
     const std::string word = w.take();
     const bool twice = is_twice(word, seen);
-    w.expect("compute lsdcd/collide", kSyntax);
+    w.set_context("compute lsdcd/collide", kSyntax);
     if (twice) w.fail("the keyword '" + word + "' is given twice");
     if (!read_mesh_word(word, w, settings.mesh) && !read_word(word, w, settings))
       w.fail("'" + word + "' is not a keyword");
   }
-  w.expect("compute lsdcd/collide", kSyntax);
+  w.set_context("compute lsdcd/collide", kSyntax);
   if (settings.mesh.file.empty()) w.fail("mesh FILE is missing");
   return settings;
 }

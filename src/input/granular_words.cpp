@@ -39,12 +39,12 @@ void choose(Chosen<Model> &chosen, const SubModel &row, const std::vector<Real> 
 
 void read_sub_model(Tokens &w, LawDraft &d, Family family)
 {
-  w.expect(with_gap("granular", family_word(family)), choices_of(family));
+  w.set_context(with_gap("granular", family_word(family)), choices_of(family));
   if (w.done()) w.fail("the name of the sub-model is missing");
   for (const SubModel *row : sub_models(family, GoesWith::granular)) {
     if (w.peek() != row->name) continue;
     w.take();
-    w.expect(with_gap("granular", with_gap(family_word(family), row->name)), words_of(*row));
+    w.set_context(with_gap("granular", with_gap(family_word(family), row->name)), words_of(*row));
     if (family == Family::normal) d.normal_name = row->name;
     if (family == Family::damping) d.damping_name = row->name;
     read_numbers(w, *row, d);
@@ -59,8 +59,8 @@ void resolve_damping(Tokens &w, LawDraft &d)
   ContactLaw &g = d.law;
   g.eta = d.second;
   if (g.damping != DampingModel::stiffness) return;
-  w.expect(std::string("granular damping ") + d.damping_name,
-           "granular hooke|hertz kn e, or hertz/material E e nu, with 0 < e <= 1");
+  w.set_context(std::string("granular damping ") + d.damping_name,
+                "granular hooke|hertz kn e, or hertz/material E e nu, with 0 < e <= 1");
   if (g.normal == NormalModel::dmt || g.normal == NormalModel::jkr)
     w.fail("the damping does not go with the adhesive sub-model '" + std::string(d.normal_name) +
            "'");
@@ -143,7 +143,7 @@ ContactLaw read_granular(Tokens &w, std::string &text)
     const auto at = std::find(words.begin(), words.end(), w.peek());
     if (at == words.end()) break;
     const bool limit = w.take() == "limit_damping";
-    w.expect("granular " + *at, limit ? *at : choices_of(kFamilies[at - words.begin()]));
+    w.set_context("granular " + *at, limit ? *at : choices_of(kFamilies[at - words.begin()]));
     if (has(*at)) w.fail("it is given twice");
     seen.push_back(*at);
     if (limit)
@@ -154,11 +154,11 @@ ContactLaw read_granular(Tokens &w, std::string &text)
   text = "granular " + w.between(first);
 
   if (!has(tangential)) {
-    w.expect("granular", choices_of(Family::tangential));
+    w.set_context("granular", choices_of(Family::tangential));
     w.fail("the tangential sub-model is missing");
   }
   if (d.law.limit_damping && (d.law.is(NormalModel::dmt) || d.law.is(NormalModel::jkr))) {
-    w.expect("granular limit_damping", granular_syntax());
+    w.set_context("granular limit_damping", granular_syntax());
     w.fail("an adhesive sub-model, '" + std::string(d.normal_name) + "', has to pull");
   }
   resolve_damping(w, d);

@@ -327,7 +327,7 @@ bool read_mesh_word(const std::string &word, Tokens &w, MeshSettings &mesh)
     if (word == shared)
       for (const Keyword &row : keywords())
         if (word == row.name) {
-          w.expect(row.name, syntax_of(row));
+          w.set_context(row.name, syntax_of(row));
           row.read_of_mesh(w, mesh);
           return true;
         }

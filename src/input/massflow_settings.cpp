@@ -32,26 +32,26 @@ MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
   while (!w.done()) {
     const std::string word = w.take();
     const bool twice = is_twice(word, seen);
-    w.expect("fix massflow/lsdcd", kSyntax);
+    w.set_context("fix massflow/lsdcd", kSyntax);
     if (twice) w.fail("the keyword '" + word + "' is given twice");
     if (read_mesh_word(word, w, settings.surface)) continue;
     if (word == "count") {
-      w.expect("count", "count each | once");
+      w.set_context("count", "count each | once");
       settings.once = w.choice({"each", "once"}) == 1;
     } else if (word == "log") {
-      w.expect("log", "log full | brief");
+      w.set_context("log", "log full | brief");
       settings.brief = w.choice({"full", "brief"}) == 1;
     } else if (word == "delete") {
-      w.expect("delete", "delete no | yes");
+      w.set_context("delete", "delete no | yes");
       settings.deletes = w.choice({"no", "yes"}) == 1;
     } else if (word == "every") {
-      w.expect("every", "every N");
+      w.set_context("every", "every N");
       read_every(w, settings);
     } else {
       w.fail("'" + word + "' is not a keyword");
     }
   }
-  w.expect("fix massflow/lsdcd", kSyntax);
+  w.set_context("fix massflow/lsdcd", kSyntax);
   if (settings.surface.file.empty()) w.fail("mesh FILE is missing");
   return settings;
 }

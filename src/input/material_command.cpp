@@ -109,7 +109,7 @@ MaterialCommand read_material_command(const std::vector<std::string> &tokens,
                                       const MaterialWords &words)
 {
   Tokens w(tokens);
-  w.expect("material", words.syntax);
+  w.set_context("material", words.syntax);
   MaterialCommand c;
   c.style = w.take();
   if (c.style == "granular") {

@@ -156,7 +156,7 @@ ModifiedMotion read_modified_motion(const std::vector<std::string> &tokens)
 {
   ModifiedMotion read;
   Tokens w(tokens);
-  w.expect("motion", std::string("fix_modify ID motion ") + kMotionSyntax + " | none");
+  w.set_context("motion", std::string("fix_modify ID motion ") + kMotionSyntax + " | none");
   while (!w.done() && w.peek() == "motion") {
     w.take();
     const std::size_t first = w.at();

@@ -96,7 +96,7 @@ ModifiedServo read_modified_servo(const std::vector<std::string> &tokens)
 {
   ModifiedServo read;
   Tokens w(tokens);
-  w.expect("servo", std::string("fix_modify ID servo ") + kServoSyntax + " | none");
+  w.set_context("servo", std::string("fix_modify ID servo ") + kServoSyntax + " | none");
   w.take();
   const std::size_t first = w.at();
   if (!w.done() && w.peek() == "none")

@@ -24,7 +24,7 @@ std::string law_syntax()
 
 void read_law(Tokens &w, WallSettings &s)
 {
-  w.expect("fix wall/lsdcd", law_syntax());
+  w.set_context("fix wall/lsdcd", law_syntax());
   if (w.done()) w.fail("the contact style is missing");
   s.law_name = w.peek();
   if (s.law_name == "granular") {
@@ -35,7 +35,7 @@ void read_law(Tokens &w, WallSettings &s)
   for (const SubModel *row : sub_models(Family::style, GoesWith::classic)) {
     if (s.law_name != row->name) continue;
     w.take();
-    w.expect(row->name, law_syntax());
+    w.set_context(row->name, law_syntax());
     LawDraft draft;
     read_numbers(w, *row, draft);
     s.law = draft.law;
@@ -144,7 +144,7 @@ void read_keywords(Tokens &w, WallSettings &settings, bool granular)
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end()) refuse_keyword(word, names, granular);
     const Keyword &row = keywords()[found - names.begin()];
-    w.expect(row.name, syntax_of(row));
+    w.set_context(row.name, syntax_of(row));
     const bool next = word == "mesh" && !settings.meshes.back().file.empty();
     if (next && !early.empty())
       w.fail("there are several, and '" + early +
@@ -166,7 +166,7 @@ void read_keywords(Tokens &w, WallSettings &settings, bool granular)
     if (word == "surface_vel" || word == "shear")
       if (std::count(given.begin(), given.end(), "shear") &&
           std::count(given.begin(), given.end(), "surface_vel")) {
-        w.expect("shear", "shear x|y|z v");
+        w.set_context("shear", "shear x|y|z v");
         w.fail("there is a surface_vel, too, which says the same: give one of them");
       }
   }
@@ -186,7 +186,7 @@ void check_apart(Tokens &w, const WallSettings &s, std::size_t k)
     const MeshSettings &other = s.meshes[i];
     const std::string both = name_of_mesh(s, i) + " and " + name_of_mesh(s, k);
     if (are_one_mesh(mesh, other)) {
-      w.expect("mesh", "mesh FILE");
+      w.set_context("mesh", "mesh FILE");
       w.fail(
           both +
           " are the same file at the same place, and every contact would be felt twice: leave one "
@@ -200,7 +200,7 @@ void check_apart(Tokens &w, const WallSettings &s, std::size_t k)
                  {"cache", mesh.cache_file, other.cache_file}};
     for (const auto &file : files)
       if (!file.name.empty() && file.name == file.of_other) {
-        w.expect(file.keyword, std::string(file.keyword) + " FILE");
+        w.set_context(file.keyword, std::string(file.keyword) + " FILE");
         w.fail(both + " have the same file '" + file.name +
                "', and one would replace that of the other: give each a name of its own");
       }
@@ -218,7 +218,8 @@ void check_meshes(Tokens &w, const WallSettings &s)
   for (std::size_t k = 0; k < s.meshes.size(); k++) {
     const bool has = s.meshes[k].has_temperature;
     const std::string of = several ? " of " + name_of_mesh(s, k) : "";
-    w.expect("temperature", "granular ... heat radius|area ... mesh FILE temperature T|v_NAME");
+    w.set_context("temperature",
+                  "granular ... heat radius|area ... mesh FILE temperature T|v_NAME");
     if (s.law.has_heat() && !has)
       w.fail((several ? "the temperature" + of : "the wall's temperature") +
              " is missing, which the sub-model heat needs");
@@ -243,7 +244,7 @@ WallSettings parse_settings(const std::vector<std::string> &tokens)
   read_law(w, settings);
   const bool granular = !settings.law.is_classic();
   read_keywords(w, settings, granular);
-  w.expect("fix wall/lsdcd", granular ? granular_syntax() : law_syntax());
+  w.set_context("fix wall/lsdcd", granular ? granular_syntax() : law_syntax());
   if (settings.meshes[0].file.empty()) w.fail("mesh FILE is missing");
   check_meshes(w, settings);
   return settings;

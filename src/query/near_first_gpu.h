@@ -69,7 +69,7 @@ struct AnswerSingles {
   }
 };
 
-// Answers those with several candidates. Those with long lists it lists again, at most `most_long`. It
+// Answers those with several candidates. Those with long lists it lists again, at most `max_long`. It
 // also clears the counts of the next run. It can run beside the kernel before it, which has waited for
 // the lists.
 template <class Work>
@@ -80,7 +80,7 @@ struct AnswerSeveral {
   NearLists<typename Work::Item> lists;
   NearCounts *next_counts;
   NearSphere<typename Work::Item> *long_list;
-  unsigned most_long;
+  unsigned max_long;
 
   LSDCD_GPU_FN void operator()(const Block &block) const
   {
@@ -94,7 +94,7 @@ struct AnswerSeveral {
               read_once(lists.list(list)[lists.room - 1 - k]);
           if (work.is_long(near.cell)) {
             const unsigned at = fetch_add(&lists.counts->with_long, 1u);
-            if (at < most_long) {
+            if (at < max_long) {
               long_list[at] = near;
               return;
             }
@@ -114,11 +114,11 @@ struct AnswerLong {
   Work work;
   const NearSphere<typename Work::Item> *long_list;
   const NearCounts *counts;
-  unsigned most_long;
+  unsigned max_long;
 
   LSDCD_GPU_FN void operator()(const Block &block) const
   {
-    const unsigned n = min(counts->with_long, most_long);
+    const unsigned n = min(counts->with_long, max_long);
     for (unsigned k = block.number() * (kAnswerBlock / kWarpSize) + block.warp(); k < n;
          k += block.n_blocks() * (kAnswerBlock / kWarpSize)) {
       const NearSphere<typename Work::Item> one = long_list[k];
