@@ -5,7 +5,7 @@
 
 9 801 spheres of diameter 1 rest on a floor in one layer; hooke/history, no contacts between
 spheres, one core. The whole step with the floor of 2, 200 and 20 000 triangles over the whole step
-of the same deck with LAMMPS's own `wall/gran ... zplane`. *Large triangle added*: one more
+of the same script with LAMMPS's own `wall/gran ... zplane`. *Large triangle added*: one more
 triangle, as large as the box, above the spheres and out of their reach. Rows are kept in
 doc/data/floor_cpu.csv.
 """
@@ -15,7 +15,7 @@ import random
 import statistics
 import sys
 
-import decks
+import lammps_runs
 import performance
 from effects import table
 from hard_cases import ROOT, commit
@@ -31,7 +31,7 @@ CELLS = {2: 1, 200: 10, 20000: 100}    # of the floor along x and y
 PLANE, LARGE = "wall/gran zplane", ", large triangle added"
 LAW = f"hooke/history {STIFFNESS} NULL 100 NULL 0.5 1"
 
-DECK = """\
+SCRIPT = """\
 units           lj
 atom_style      sphere
 atom_modify     map array sort {sort}
@@ -54,7 +54,7 @@ run             {warm}
 
 
 def write_spheres(path):
-    """Each has sunk in by its weight, so that all are at rest; in the order of a shuffled deck."""
+    """Each has sunk in by its weight, so that all are at rest; in the order of a shuffled script."""
     z = 0.5 - GRAVITY / STIFFNESS
     places = [(SPACING * (i - SIDE // 2), SPACING * (j - SIDE // 2)) for i in range(SIDE)
               for j in range(SIDE)]
@@ -89,20 +89,20 @@ def measure(options, executable, folder, named):
         times = {name: [] for name in walls}
         for _ in range(options.repeats):    # in turn, so that other load meets all
             for name, (_, wall) in walls.items():
-                deck = DECK.format(sort=sort, dt=DT, gravity=GRAVITY, wall=wall, warm=options.steps // 2)
-                run = decks.Run(executable, deck + f"run {options.steps}\n" * options.chunks, folder)
+                script = SCRIPT.format(sort=sort, dt=DT, gravity=GRAVITY, wall=wall, warm=options.steps // 2)
+                run = lammps_runs.Run(executable, script + f"run {options.steps}\n" * options.chunks, folder)
                 times[name] += run.step_ms()[1:]
         plane = statistics.median(times[PLANE])
         for name, (triangles, _) in walls.items():
-            rows.append(decks.row("floor", name, named, triangles, SIDE * SIDE, order, times[name],
-                                  steps=options.steps,
-                                  over_plane=f"{statistics.median(times[name]) / plane:.4g}"))
+            rows.append(lammps_runs.row("floor", name, named, triangles, SIDE * SIDE, order, times[name],
+                                        steps=options.steps,
+                                        over_plane=f"{statistics.median(times[name]) / plane:.4g}"))
     return rows
 
 
 def kept_parts():
     """The generated part of the document, with its markers."""
-    return parts(decks.read_rows("floor"))
+    return parts(lammps_runs.read_rows("floor"))
 
 
 def parts(rows):
@@ -117,7 +117,7 @@ def parts(rows):
 
     heads = ["triangles", "flat plane, ms", "mesh, ms", "mesh / plane", "large triangle added / plane"]
     mine = [r for r in rows if r["case"].startswith("floor") and not r["case"].endswith(LARGE) and r["order"] == "sorted"]
-    return performance.between_markers({"floor": table(mine, heads, cells) + "\n\n" + decks.machines(rows)})
+    return performance.between_markers({"floor": table(mine, heads, cells) + "\n\n" + lammps_runs.machines(rows)})
 
 
 def main(args, words):
@@ -128,15 +128,15 @@ def main(args, words):
     p.add_argument("--chunks", type=int, default=3, metavar="N", help="of these in a run (default 3)")
     p.add_argument("--repeats", type=int, default=3, metavar="N", help="of each run (default 3)")
     p.add_argument("--words", action="help", help="show this")
-    p.add_argument("--keep", metavar="DIR", help="leave decks and meshes there")
+    p.add_argument("--keep", metavar="DIR", help="leave scripts and meshes there")
     options = p.parse_args(words)
     if args.quick:
         options.steps, options.repeats = 50, 1
     if not args.write_only:
-        folder = decks.rows_folder(args)
-        with decks.work_folder(options.keep) as work:
+        folder = lammps_runs.rows_folder(args)
+        with lammps_runs.work_folder(options.keep) as work:
             executable = os.path.abspath(os.path.join(args.build, "bin", "lmp-lsdcd"))
-            decks.keep("floor", measure(options, executable, work, args.commit or commit()), folder)
+            lammps_runs.keep("floor", measure(options, executable, work, args.commit or commit()), folder)
         if folder != performance.DATA:
             return 0
     performance.write_parts(kept_parts())

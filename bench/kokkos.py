@@ -62,9 +62,9 @@ def time_steps(host, bed, folder, order, options, settled, rows):
     seen = {True: [], False: []}
     for _ in range(options.rounds):
         for wall in seen:
-            deck = runs.timed_deck(host, bed, order, bed.wall() if wall else "", options.steps,
-                                   options.chunks)
-            seen[wall].append(runs.read_times(host.run_well(deck, folder, bed.ranks)))
+            script = runs.timed_script(host, bed, order, bed.wall() if wall else "", options.steps,
+                                       options.chunks)
+            seen[wall].append(runs.read_times(host.run_well(script, folder, bed.ranks)))
     times = {wall: [t for s in each for t in s["ms"]] for wall, each in seen.items()}
     ratio = statistics.median(times[True]) / statistics.median(times[False])
     for wall, each in seen.items():
@@ -84,8 +84,8 @@ def time_lammps_walls(host, bed, folder, order, options, rows):
         if style == "wall/gran/kk" and not host.flat_kk:
             rows.add(", " + style, order, steps=steps, result="not_there")
             continue
-        deck = runs.timed_deck(host, bed, order, bed.wall(style), steps, options.chunks, warm=5)
-        output, well = host.run(deck, folder, bed.ranks)
+        script = runs.timed_script(host, bed, order, bed.wall(style), steps, options.chunks, warm=5)
+        output, well = host.run(script, folder, bed.ranks)
         if well:
             rows.add(", " + style, order, runs.read_times(output)["ms"], steps=steps)
         else:
@@ -102,10 +102,10 @@ def count_copies(host, bed, folder, order, options, rows):
         subprocess.run([os.environ.get("CXX", "c++"), "-std=c++17", "-O2", "-shared", "-fPIC", "-o",
                         library, source], check=True)
     for wall in (True, False):
-        deck = runs.timed_deck(host, bed, order, bed.wall() if wall else "", options.steps, 1)
+        script = runs.timed_script(host, bed, order, bed.wall() if wall else "", options.steps, 1)
         env = {"KOKKOS_TOOLS_LIBS": str(library), "KOKKOS_PROFILE_LIBRARY": str(library),
                "LSDCD_COPIES": str(folder / "copies")}
-        host.run_well(deck, folder, bed.ranks, env=env)
+        host.run_well(script, folder, bed.ranks, env=env)
         steps, seen = [], 0
         for path in folder.glob("copies.*"):
             counts = [tuple(map(int, line.split())) for line in path.read_text().splitlines()]
@@ -132,7 +132,7 @@ def say_profiler(host, bed, folder, options):
     """Copies that do not go through Kokkos, our engine's among them."""
     for name, wall in (("wall", bed.wall()), ("no_wall", "")):
         (folder / f"in.{name}").write_text(
-            runs.timed_deck(host, bed, options.orders[0], wall, options.steps, 1))
+            runs.timed_script(host, bed, options.orders[0], wall, options.steps, 1))
         print(f"every copy by CUDA, {name} (with --keep DIR and nsys in PATH): cd {folder} && nsys "
               f"profile -t cuda -o {name} {shlex.join(host.command(f'in.{name}', bed.ranks))} && "
               f"nsys stats -r cuda_gpu_mem_time_sum,cuda_gpu_mem_size_sum {name}.nsys-rep")
@@ -210,7 +210,7 @@ def read_options(words):
     p.add_argument("--copies", action="store_true",
                    help="count what Kokkos copies between host and device in a step")
     p.add_argument("--words", action="help", help="show this")
-    p.add_argument("--keep", metavar="DIR", help="leave decks and meshes there")
+    p.add_argument("--keep", metavar="DIR", help="leave scripts and meshes there")
     options = p.parse_args(words)
     options.ranks = [int(word) for word in options.ranks.replace(",", " ").split()]
     if bool(options.lmp) != bool(options.plugin):

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Beds of spheres for kokkos.py: what a deck says of them, and their meshes."""
+"""Beds of spheres for kokkos.py: what a script says of them, and their meshes."""
 import math
 import os
 import sys
@@ -67,7 +67,7 @@ class Bed:
     def closed_box(self, _):
         """A simple cubic lattice pushes against all six walls: the outer spheres overlap them by as much
         as their neighbours. It does not move, so neighbour lists are built every 50 steps; "checked" is
-        the same as most decks have it, where LAMMPS looks in each step whether they need to be."""
+        the same as most scripts have it, where LAMMPS looks in each step whether they need to be."""
         (px, py), each = self.split, self.atoms / self.ranks
         along = max(1, round(each**(1 / 3)))
         sites = [px * along, py * along, math.ceil(self.atoms / (px * py * along**2))]

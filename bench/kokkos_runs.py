@@ -3,7 +3,7 @@
 
 """Runs of the beds of kokkos.py in a LAMMPS with Kokkos.
 
-Three decks make a measurement. The first fills a lattice and, where runs want it, gives the
+Three scripts make a measurement. The first fills a lattice and, where runs want it, gives the
 atoms a random order in memory, without Kokkos: they are put to random places, sorted there by
 LAMMPS, and put back. The second lets them settle on our wall and sets them in motion along it. The
 third begins from what the second has written, with a wall or without, and is timed.
@@ -123,15 +123,15 @@ class Host:
         self.compiler = re.search(r"Compiler:\s*(.*?)( with OpenMP|$)", text, re.M).group(1)
         self.flat_kk = "wall/gran/kk" in text
 
-    def command(self, deck, ranks=1, kokkos=True):
-        words = [self.lmp, "-in", deck, "-log", "none", "-nocite"]
+    def command(self, script, ranks=1, kokkos=True):
+        words = [self.lmp, "-in", script, "-log", "none", "-nocite"]
         words += shlex.split(self.flags.format(ranks=ranks)) if kokkos else []
         return (shlex.split(self.mpi.format(ranks=ranks)) if ranks > 1 else []) + words
 
     def run(self, text, folder, ranks=1, kokkos=True, env=None):
         """Output and whether it went well."""
-        (folder / "in.deck").write_text(text)
-        done = subprocess.run(self.command("in.deck", ranks, kokkos), cwd=folder, text=True,
+        (folder / "in.script").write_text(text)
+        done = subprocess.run(self.command("in.script", ranks, kokkos), cwd=folder, text=True,
                               env={**environment(), **(env or {})}, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT)
         return done.stdout, done.returncode == 0
@@ -157,7 +157,7 @@ def still(steps):
     return f"velocity all set 0 0 0\nrun {steps}\n" * 4
 
 
-def deck_from(host, bed, file, wall, sort="0 0"):
+def script_from(host, bed, file, wall, sort="0 0"):
     return FROM_FILE.format(plugin=host.plugin, processors=bed.processors(), sort=sort, file=file,
                             law=LAW, skin=SKIN, gravity=bed.gravity,
                             neighbours=bed.neighbours, wall=wall)
@@ -177,7 +177,7 @@ def prepare(host, bed, folder, settle, shuffled=True):
     if made != bed.atoms:
         raise SystemExit(f"{bed.name}: the lattice has {made} sites for {bed.atoms} atoms")
     output = host.run_well(
-        deck_from(host, bed, "lattice.restart", bed.wall()) +
+        script_from(host, bed, "lattice.restart", bed.wall()) +
         SETTLED.format(gravity=bed.gravity, settle=settle, settle_dt=SETTLE_DT,
                        half=settle // 2, still=still(settle // 8), dt=DT,
                        motion=bed.motion, out="bed.restart"), folder, bed.ranks)
@@ -186,9 +186,9 @@ def prepare(host, bed, folder, settle, shuffled=True):
     return float(carried), int(touching)
 
 
-def timed_deck(host, bed, order, wall, steps, chunks, warm=WARM):
+def timed_script(host, bed, order, wall, steps, chunks, warm=WARM):
     sort = {"random": "0 0", "sorted": "1000 0.0"}[order]
-    return (deck_from(host, bed, "bed.restart", wall, sort) + TIMED.format(dt=DT, warm=warm) +
+    return (script_from(host, bed, "bed.restart", wall, sort) + TIMED.format(dt=DT, warm=warm) +
             f"run {steps}\n" * chunks)
 
 

@@ -20,7 +20,7 @@ import shutil
 import statistics
 import sys
 
-import decks
+import lammps_runs
 import performance
 from effects import table
 from hard_cases import ROOT, commit
@@ -140,7 +140,7 @@ def write_spheres(folder, case, order, n, n_round):
         text + "\nVelocities\n\n" + "".join(f"{k} {v}\n" for k, v in enumerate(speeds, 1)))
 
 
-# ---- decks -------------------------------------------------------------------------------
+# ---- scripts -------------------------------------------------------------------------------
 
 OURS = f"""\
 units           si
@@ -187,7 +187,7 @@ PROGRAMS = {"lsdcd": (OURS, OUR_WALL, "unfix wall\n"),
 QUIET = "thermo 100000000\n"
 
 
-def timed_deck(program, case, steps, chunks):
+def timed_script(program, case, steps, chunks):
     """Runs with the wall, then as many without."""
     start, wall, no_wall = PROGRAMS[program]
     if case == "turning":
@@ -206,12 +206,12 @@ def turning(program):
             "unfix turn\n" + no_wall)
 
 
-def start_deck(program, with_wall):
+def start_script(program, with_wall):
     start, wall, _ = PROGRAMS[program]
     return start + wall * with_wall + QUIET + "run 0\n"
 
 
-def force_deck(program):
+def force_script(program):
     """Forces of spheres without velocity: elastic normal forces alone."""
     start, wall, _ = PROGRAMS[program]
     return (start.replace("spheres.data", "still.data") + wall + QUIET +
@@ -230,7 +230,7 @@ def same_work(executables, folder):
     """Sum of the forces over LIGGGHTS's, and the share of spheres whose force differs by over 1 %."""
     found = {}
     for program, executable in executables.items():
-        decks.Run(executable, force_deck(program), folder)
+        lammps_runs.Run(executable, force_script(program), folder)
         found[program] = forces(folder / "force.dump")
     ours, theirs = found["lsdcd"], found["LIGGGHTS"]
     off = sum(abs(f - theirs[k]) > 0.01 * max(f, theirs[k]) for k, f in ours.items())
@@ -241,7 +241,7 @@ def same_work(executables, folder):
 def start_costs(executable, program, folder, repeats):
     """Set-up seconds and peak memory, MB, that the wall adds to a run of 0 steps: medians over pairs of
     runs with it and without, one after the other, as the first runs of a machine at rest are slow."""
-    pairs = [[decks.Run(executable, start_deck(program, w), folder) for w in (True, False)]
+    pairs = [[lammps_runs.Run(executable, start_script(program, w), folder) for w in (True, False)]
              for _ in range(repeats)]
 
     def added(what):
@@ -269,18 +269,18 @@ def compare(options, executables, folder, named):
                 builds = {p: 0 for p in executables}
                 for _ in range(options.repeats):    # in turn, so that other load meets both
                     for program, executable in executables.items():
-                        run = decks.Run(executable, timed_deck(program, case, steps, options.chunks), folder)
+                        run = lammps_runs.Run(executable, timed_script(program, case, steps, options.chunks), folder)
                         ms = run.step_ms()
                         half = len(ms) // 2
                         builds[program] += sum(run.builds()[1:half])
                         plain[program] += ms[half + 1:]
                         parts[program] += [a - b for a, b in zip(ms[1:half], ms[half + 1:])]
                 for program in executables:
-                    rows.append(decks.row("liggghts", f"{case}, {program}", named, triangles,
-                                          options.spheres, order, parts[program], steps=steps,
-                                          builds=builds[program],
-                                          no_wall_ms=f"{statistics.median(plain[program]):.4g}",
-                                          **start[program], **check))
+                    rows.append(lammps_runs.row("liggghts", f"{case}, {program}", named, triangles,
+                                                options.spheres, order, parts[program], steps=steps,
+                                                builds=builds[program],
+                                                no_wall_ms=f"{statistics.median(plain[program]):.4g}",
+                                                **start[program], **check))
     return rows
 
 
@@ -288,7 +288,7 @@ def compare(options, executables, folder, named):
 
 def kept_parts():
     """The generated part of the document, with its markers."""
-    return parts(decks.read_rows("liggghts"))
+    return parts(lammps_runs.read_rows("liggghts"))
 
 
 def parts(rows):
@@ -314,7 +314,7 @@ def parts(rows):
     mine = sorted((r for r in rows if r["case"].endswith(", lsdcd") and r["order"] == "sorted"),
                   key=lambda r: (list(CASES).index(r["case"].rsplit(", ", 1)[0]), int(r["triangles"])))
     lines = [f"* Set-up and memory: {'. '.join(set_up(r) for r in mine if r['case'] == mine[0]['case'])}."]
-    return performance.between_markers({"liggghts": "\n".join([table(mine, heads, cells), "", *lines, decks.machines(rows)])})
+    return performance.between_markers({"liggghts": "\n".join([table(mine, heads, cells), "", *lines, lammps_runs.machines(rows)])})
 
 
 def main(args, words):
@@ -330,7 +330,7 @@ def main(args, words):
     p.add_argument("--chunks", type=int, default=3, metavar="N", help="of these in a run (default 3)")
     p.add_argument("--repeats", type=int, default=3, metavar="N", help="of each run (default 3)")
     p.add_argument("--words", action="help", help="show this")
-    p.add_argument("--keep", metavar="DIR", help="leave decks and meshes there")
+    p.add_argument("--keep", metavar="DIR", help="leave scripts and meshes there")
     options = p.parse_args(words)
     if args.quick:
         options.triangles, options.spheres, options.repeats = [2560], 5000, 1
@@ -340,9 +340,9 @@ def main(args, words):
             raise SystemExit("there is no liggghts (Debian package liggghts)")
         executables = {"lsdcd": os.path.abspath(os.path.join(args.build, "bin", "lmp-lsdcd")),
                        "LIGGGHTS": theirs}
-        folder = decks.rows_folder(args)
-        with decks.work_folder(options.keep) as work:
-            decks.keep("liggghts", compare(options, executables, work, args.commit or commit()), folder)
+        folder = lammps_runs.rows_folder(args)
+        with lammps_runs.work_folder(options.keep) as work:
+            lammps_runs.keep("liggghts", compare(options, executables, work, args.commit or commit()), folder)
         if folder != performance.DATA:
             return 0
     performance.write_parts(kept_parts())

@@ -9,7 +9,7 @@ build time and memory. Words that run.py does not know go to that program. Rows 
 import os
 import subprocess
 
-import decks
+import lammps_runs
 import performance
 from effects import has_gpu, table
 from hard_cases import commit
@@ -29,7 +29,7 @@ def short_name(row):
 
 
 def rows_of_all():
-    return {device: decks.read_rows("mesh-size", device=device) for device in performance.DEVICES}
+    return {device: lammps_runs.read_rows("mesh-size", device=device) for device in performance.DEVICES}
 
 
 def kept_parts():
@@ -82,7 +82,7 @@ def plot(rows_of):
 def main(args, words):
     """`./run bench mesh-size`; words go to bench_mesh_size (--help)."""
     if not args.write_only:
-        folder = decks.rows_folder(args)
+        folder = lammps_runs.rows_folder(args)
         devices = [args.only] if args.only else ["cpu"] + ["cuda"] * has_gpu()
         for device in devices:
             command = [os.path.join(args.build, "bin", "bench_mesh_size"), "--device", device, "--commit",
@@ -93,7 +93,7 @@ def main(args, words):
             print(done.stdout, flush=True)
             if done.returncode != 0:
                 return done.returncode
-            decks.keep("mesh-size", performance.parse(done.stdout), folder, device)
+            lammps_runs.keep("mesh-size", performance.parse(done.stdout), folder, device)
         if folder != performance.DATA:
             return 0
     performance.write_parts(kept_parts())

@@ -16,7 +16,7 @@ import os
 import re
 import statistics
 
-import decks
+import lammps_runs
 import floor
 import liggghts
 import performance
@@ -52,11 +52,11 @@ def cpu_ms(output):
 def start(case):
     if case == "cylinder":
         return CYLINDER
-    text = floor.DECK.format(sort="0 0", dt=floor.DT, gravity=floor.GRAVITY, wall="WALL", warm=0)
+    text = floor.SCRIPT.format(sort="0 0", dt=floor.DT, gravity=floor.GRAVITY, wall="WALL", warm=0)
     return text[:text.index("fix             wall")]
 
 
-def deck(case, wall, steps, chunks):
+def script(case, wall, steps, chunks):
     runs = f"thermo 100000000\nrun {max(5, steps // 2)}\n" + f"run {steps}\n" * chunks
     if wall == REGION:
         fix = f"region shape {SHAPES[case]} units box\nfix wall all wall/gran/region {LAW} region shape\n"
@@ -81,13 +81,13 @@ def measure(options, executable, folder, named):
         times = {w: [] for w in (NONE, REGION, MESH)}
         for _ in range(options.repeats):    # in turn, so that other load meets all
             for wall, mine in times.items():
-                mine += cpu_ms(decks.Run(executable, deck(case, wall, options.steps, options.chunks), folder).output)[1:]
+                mine += cpu_ms(lammps_runs.Run(executable, script(case, wall, options.steps, options.chunks), folder).output)[1:]
         plain = statistics.median(times[NONE])
         for wall in (REGION, MESH):
             parts = [t - plain for t in times[wall]]
-            rows.append(decks.row("region", f"{case}, {wall}", named, triangles if wall == MESH else 0, spheres, "random",
-                                  parts, steps=options.steps, whole_ms=f"{statistics.median(times[wall]):.4g}",
-                                  no_wall_ms=f"{plain:.4g}"))
+            rows.append(lammps_runs.row("region", f"{case}, {wall}", named, triangles if wall == MESH else 0, spheres, "random",
+                                        parts, steps=options.steps, whole_ms=f"{statistics.median(times[wall]):.4g}",
+                                        no_wall_ms=f"{plain:.4g}"))
     return rows
 
 
@@ -136,7 +136,7 @@ def forces(executable, folder):
     floor.write_stl(folder / "side.stl", side, "side")
 
     def one(at, law, wall):
-        run = decks.Run(executable, ONE.format(at=at, wall=wall.replace("LAW", law)), folder)
+        run = lammps_runs.Run(executable, ONE.format(at=at, wall=wall.replace("LAW", law)), folder)
         return float(re.search(r"^FORCE (\S+)", run.output, re.M)[1])
 
     flat = "region r block -4 4 -4 4 0 4\nfix w all wall/gran/region LAW region r"
@@ -161,7 +161,7 @@ def told(rows):
                 f"{float(r['median_ms']) / float(mesh['median_ms']):.2f}", facts(r)["whole_ms"], facts(mesh)["whole_ms"]]
 
     heads = ["wall", "wall/gran/region, ms", "mesh, ms", "region / mesh", "whole step, region, ms", "mesh, ms"]
-    return table([r for r in rows if r["case"].endswith(REGION)], heads, cells) + "\n\n" + decks.machines(rows)
+    return table([r for r in rows if r["case"].endswith(REGION)], heads, cells) + "\n\n" + lammps_runs.machines(rows)
 
 
 def main(args, words):
@@ -175,12 +175,12 @@ def main(args, words):
     options = p.parse_args(words)
     if args.quick:
         options.steps, options.repeats = 20, 1
-    folder = decks.rows_folder(args)
+    folder = lammps_runs.rows_folder(args)
     if not args.write_only:
-        with decks.work_folder(options.keep) as work:
+        with lammps_runs.work_folder(options.keep) as work:
             executable = os.path.abspath(os.path.join(args.build, "bin", "lmp-lsdcd"))
-            decks.keep("region", measure(options, executable, work, args.commit or commit()), folder)
-    print(told(decks.read_rows("region", folder)))
-    with decks.work_folder(options.keep) as work:
+            lammps_runs.keep("region", measure(options, executable, work, args.commit or commit()), folder)
+    print(told(lammps_runs.read_rows("region", folder)))
+    with lammps_runs.work_folder(options.keep) as work:
         print("\n" + forces(os.path.abspath(os.path.join(args.build, "bin", "lmp-lsdcd")), work))
     return 0

@@ -28,7 +28,7 @@ def main():
         example = runs.ROOT / "examples" / ("from-liggghts" if name in TUTORIALS else name)
         if name in TUTORIALS:
             runs.make_meshes(example / "make_meshes.py", a.work)
-        runs.run_deck(a, example / f"in.{name}", dir=example, picture=f"{name}.png")
+        runs.run_script(a, example / f"in.{name}", dir=example, picture=f"{name}.png")
         picture = Image.open(a.work / f"{name}.png").convert("RGB").reduce(2)
         left, top, right, bottom = ImageChops.difference(picture, Image.new("RGB", picture.size, "white")).getbbox()
         picture.crop((max(0, left - MARGIN), max(0, top - MARGIN), min(picture.width, right + MARGIN),

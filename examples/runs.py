@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Run a deck at several settings side by side, read the numbers that it prints, plot them."""
+"""Run a script at several settings side by side, read the numbers that it prints, plot them."""
 import argparse
 import concurrent.futures
 import contextlib
@@ -39,15 +39,15 @@ def make_meshes(script, work, *more):
     subprocess.run([sys.executable, script, "--out", work, *map(str, more)], check=True)
 
 
-def run_deck(a, deck, **variables):
+def run_script(a, script, **variables):
     """Numbers by name, of the line `NAME key value key value ...` that in.NAME prints at its end."""
-    command = [Path(a.lmp).resolve(), "-in", deck, "-log", "none"]
+    command = [Path(a.lmp).resolve(), "-in", script, "-log", "none"]
     for name, value in variables.items():
         command += ["-var", name, str(value)]
     with environment() as env:
         done = subprocess.run(command, cwd=a.work, env=env, text=True, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
-    name = deck.name.split(".", 1)[1]
+    name = script.name.split(".", 1)[1]
     lines = re.findall(rf"^{name} (\S+ \S+(?: \S+ \S+)*)$", done.stdout, re.M)
     if done.returncode or not lines:
         raise SystemExit(done.stdout[-2000:])
@@ -55,10 +55,10 @@ def run_deck(a, deck, **variables):
     return dict(zip(words[::2], map(float, words[1::2])))
 
 
-def run_decks(a, deck, cases):
+def run_scripts(a, script, cases):
     """The same for each of `cases`, dicts of LAMMPS variables; as many at once as there are cores."""
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        return list(pool.map(lambda variables: run_deck(a, deck, **variables), cases))
+        return list(pool.map(lambda variables: run_script(a, script, **variables), cases))
 
 
 def print_table(titles, rows):

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Run a deck with one wall and with another, read what it dumped, compare."""
+"""Run a script with one wall and with another, read what it dumped, compare."""
 import os
 import subprocess
 from pathlib import Path
@@ -10,7 +10,7 @@ import numpy as np
 
 from runs import ROOT, environment
 
-DIAMETER = 0.003    # of the spheres in the decks that are compared
+DIAMETER = 0.003    # of the spheres in the scripts that are compared
 LAWS = {
     "hooke": "hooke 2000 NULL 1700 NULL 0.3 1",
     "hooke/history": "hooke/history 2000 NULL 1700 NULL 0.3 1",
@@ -19,16 +19,16 @@ LAWS = {
 
 
 def mesh(path, words=""):
-    """Deck variables that put the mesh in the built-in wall's place."""
+    """Script variables that put the mesh in the built-in wall's place."""
     return {"wall": "wall/lsdcd", "at": f"mesh {path} {words}"}
 
 
-def run_deck(deck, folder, ranks=1, **variables):
-    """Run `deck` in `folder` with LAMMPS variables; the log goes to log.lammps there."""
+def run_script(script, folder, ranks=1, **variables):
+    """Run `script` in `folder` with LAMMPS variables; the log goes to log.lammps there."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     lmp = os.environ.get("LSDCD_LMP", str(ROOT / "build/bin/lmp-lsdcd"))
-    command = [lmp, "-in", str(Path(deck).resolve()), "-screen", "none"]
+    command = [lmp, "-in", str(Path(script).resolve()), "-screen", "none"]
     for name, value in variables.items():
         command += ["-var", name, str(value)]
     if ranks > 1:

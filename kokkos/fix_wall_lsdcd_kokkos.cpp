@@ -105,7 +105,7 @@ void FixWallLsdcdKokkos<DeviceType>::init()
   adds_early = others_only_add();
 }
 
-// Do fixes before this one in the deck only add forces, so that their order does not matter?
+// Do fixes before this one in the script only add forces, so that their order does not matter?
 template <class DeviceType>
 bool FixWallLsdcdKokkos<DeviceType>::others_only_add() const
 {

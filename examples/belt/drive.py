@@ -16,8 +16,8 @@ def main():
     p.add_argument("--speeds", type=float, nargs="+", default=[1, 1.5, 2, 2.5, 3])
     a = p.parse_args()
     runs.make_meshes(HERE / "make_belt.py", a.work)
-    rows = runs.run_decks(a, HERE / "in.belt",
-                          [{"speed": u, "picture": f"belt_{u:g}.png"} for u in a.speeds])
+    rows = runs.run_scripts(a, HERE / "in.belt",
+                            [{"speed": u, "picture": f"belt_{u:g}.png"} for u in a.speeds])
     runs.print_table(["speed", "flow onto the belt", "out of the chute", "force on the belt", "of flow x speed"],
                      [[f"{r['speed']:g}", f"{r['in']:.2f}", f"{r['out']:.2f}", f"{r['force']:.1f}",
                        f"{r['of_flow_times_speed']:.3f}"] for r in rows])

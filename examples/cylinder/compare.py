@@ -19,7 +19,7 @@ sys.path.insert(0, str(HERE.parent))
 from make_cylinder import cylinder                                                # noqa: E402
 from stl import write_stl                                                         # noqa: E402
 from trajectories import (DIAMETER, LAWS, ROOT, largest_difference, mesh,         # noqa: E402
-                          read_dump, read_thermo, run_deck)
+                          read_dump, read_thermo, run_script)
 
 RADIUS = 0.02
 EXACT = {"wall": "wall/gran", "at": "zcylinder 0.02"}
@@ -37,11 +37,11 @@ def single(work, walls):
           f"{'energy left':>13s}{'cylinder':>10s}")
     for name, law in LAWS.items():
         tag = name.replace("/", "-")
-        run_deck(HERE / "in.single", work / f"single-{tag}-exact", law=law, **EXACT)
+        run_script(HERE / "in.single", work / f"single-{tag}-exact", law=law, **EXACT)
         _, exact = read_dump(work / f"single-{tag}-exact/dump.txt")
         for n, path in walls.items():
             folder = work / f"single-{tag}-{n}"
-            run_deck(HERE / "in.single", folder, law=law, **mesh(path))
+            run_script(HERE / "in.single", folder, law=law, **mesh(path))
             _, ours = read_dump(folder / "dump.txt")
             d_force, d_place = largest_difference(exact, ours)
             sagitta = RADIUS * (1 - np.cos(np.pi / n)) / DIAMETER
@@ -54,7 +54,7 @@ def bed(work, walls):
     print(f"{'wall':20s}{'mean height / diameter':>30s}{'kinetic energy per grain, J':>34s}")
     for name, wall in {"cylinder": EXACT, **{f"{n} segments": mesh(p) for n, p in walls.items()}}.items():
         folder = work / ("bed-" + name.replace(" ", "-"))
-        run_deck(HERE / "in.bed", folder, **wall)
+        run_script(HERE / "in.bed", folder, **wall)
         rows = read_thermo(folder / "log.lammps")
         last = slice(3 * len(rows["Step"]) // 4, None)
         height, ke = rows["c_height"][last] / DIAMETER, rows["KinEng"][last]

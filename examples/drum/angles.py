@@ -21,8 +21,8 @@ def main():
     p.add_argument("--speeds", type=float, nargs="+", default=[0.05, 0.1, 0.15, 0.2, 0.25])
     a = p.parse_args()
     runs.make_meshes(HERE / "make_drum.py", a.work)
-    rows = runs.run_decks(a, HERE / "in.drum",
-                          [{"speed": w, "picture": f"drum_{w:g}.png"} for w in a.speeds])
+    rows = runs.run_scripts(a, HERE / "in.drum",
+                            [{"speed": w, "picture": f"drum_{w:g}.png"} for w in a.speeds])
     runs.print_table(["speed", "Froude number", "angle, degrees", "torque on the drum", "of gravity"],
                      [[f"{r['speed']:g}", f"{10 * r['speed']**2:.3g}", f"{r['angle']:.1f}",
                        f"{r['torque']:.0f}", f"{r['weight_times_lean']:.0f}"] for r in rows])

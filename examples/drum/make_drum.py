@@ -4,7 +4,7 @@
 
 """Write drum.stl: a drum round the y axis with lifters, open at both ends.
 
-The outline is extruded from y = 0 to LENGTH, which is the period of the deck's box.
+The outline is extruded from y = 0 to LENGTH, which is the period of the script's box.
 """
 import math
 import sys

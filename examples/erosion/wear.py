@@ -59,7 +59,7 @@ def draw(fields, path):
 def main():
     a = runs.options(__doc__, HERE).parse_args()
     runs.make_meshes(HERE / "make_chute.py", a.work)
-    told = runs.run_deck(a, HERE / "in.erosion")
+    told = runs.run_script(a, HERE / "in.erosion")
     fields = read_vtp(a.work / "chute.vtp")
     push = fields["force"].reshape(-1, 3)[:, 2].sum()
     print(f"the chute bears {told['push']:g} N along z, the sum over its triangles is {push:g} N")

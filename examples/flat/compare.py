@@ -17,7 +17,7 @@ sys.path.insert(0, str(HERE.parent))
 from make_floor import floor                                                      # noqa: E402
 from stl import write_stl                                                         # noqa: E402
 from trajectories import (DIAMETER, LAWS, ROOT, distance, largest_difference,     # noqa: E402
-                          mesh, read_dump, read_thermo, run_deck)
+                          mesh, read_dump, read_thermo, run_script)
 
 PLANE = {"wall": "wall/gran", "at": "zplane 0 NULL"}
 
@@ -27,11 +27,11 @@ def single(work, floors):
     print(f"{'law':16s}{'triangles':>10s}  {'largest |dF|/max|F|':>20s}  {'largest |dx|/diameter':>21s}")
     for name, law in LAWS.items():
         tag = name.replace("/", "-")
-        run_deck(HERE / "in.single", work / f"single-{tag}-plane", law=law, **PLANE)
+        run_script(HERE / "in.single", work / f"single-{tag}-plane", law=law, **PLANE)
         _, plane = read_dump(work / f"single-{tag}-plane/dump.txt")
         for n, path in floors.items():
             folder = work / f"single-{tag}-{n}"
-            run_deck(HERE / "in.single", folder, law=law, **mesh(path))
+            run_script(HERE / "in.single", folder, law=law, **mesh(path))
             _, ours = read_dump(folder / "dump.txt")
             d_force, d_place = largest_difference(plane, ours)
             print(f"{name:16s}{n:10d}  {d_force:20.2e}  {d_place:21.2e}")
@@ -43,7 +43,7 @@ def bed(work, path, n, plot):
     data, thermo = {}, {}
     for name, (ranks, wall) in runs.items():
         folder = work / ("bed-" + name.replace(", ", "-").replace(" ", "-"))
-        run_deck(HERE / "in.bed", folder, ranks=ranks, **wall)
+        run_script(HERE / "in.bed", folder, ranks=ranks, **wall)
         steps, data[name] = read_dump(folder / "dump.txt")
         thermo[name] = read_thermo(folder / "log.lammps")
 

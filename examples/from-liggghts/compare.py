@@ -17,7 +17,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from runs import environment, make_meshes, options, print_table, run_deck    # noqa: E402
+from runs import environment, make_meshes, options, print_table, run_script    # noqa: E402
 
 STARTS = {"meshGran": 6, "movingMeshGran": 6, "servoWall": 1, "conveyor": 6}
 HERE_NAME, THERE_NAME = "fix wall/lsdcd", "LIGGGHTS"
@@ -40,7 +40,7 @@ def figures(a, program, name, start):
         words = lines[-1].split()[1:]
         return dict(zip(words[::2], map(float, words[1::2])))
     one = type("Options", (), {"lmp": a.lmp, "work": work})
-    return run_deck(one, HERE / f"in.{name}", png=0)
+    return run_script(one, HERE / f"in.{name}", png=0)
 
 
 def heights():

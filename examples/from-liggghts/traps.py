@@ -56,10 +56,10 @@ class Programs:
         self.a = a
 
     def run(self, program, text):
-        deck = self.a.work / "in.trap"
-        deck.write_text(text)
+        script = self.a.work / "in.trap"
+        script.write_text(text)
         with environment() as env:
-            done = subprocess.run([program, "-in", deck.name, "-log", "none"], cwd=self.a.work, env=env, text=True,
+            done = subprocess.run([program, "-in", script.name, "-log", "none"], cwd=self.a.work, env=env, text=True,
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
         found = re.findall(r"^TRAP (.+)$", done.stdout, re.M)
         if done.returncode or not found:

@@ -24,7 +24,7 @@ def main():
         folder = a.work / f"outlet_{outlet:g}"
         runs.make_meshes(HERE / "make_hopper.py", folder, "--outlet", outlet)
         cases.append({"outlet": outlet, "dir": folder, "picture": f"hopper_{outlet:g}.png"})
-    rows = runs.run_decks(a, HERE / "in.hopper", cases)
+    rows = runs.run_scripts(a, HERE / "in.hopper", cases)
     runs.print_table(["outlet", "flow", "Beverloo", "ratio"],
                      [[f"{r['outlet']:g}", f"{r['flow']:.1f}", f"{r['beverloo']:.1f}",
                        f"{r['ratio']:.2f}"] for r in rows])

@@ -16,9 +16,9 @@ def main():
     a = runs.options(__doc__, HERE).parse_args()
     runs.make_meshes(HERE / "make_pipe.py", a.work)
     cases = {0: "across the pipe", 1: "keeps off"}
-    rows = runs.run_decks(a, HERE / "in.insertion",
-                          [{"keep_off": k, "out": f"overlaps_{k}.txt",
-                            "picture": f"insertion_{k}.png"} for k in cases])
+    rows = runs.run_scripts(a, HERE / "in.insertion",
+                            [{"keep_off": k, "out": f"overlaps_{k}.txt",
+                              "picture": f"insertion_{k}.png"} for k in cases])
     runs.print_table(["region of insertion", "largest overlap / radius", "fastest grain",
                       "in the pipe at the end", "out of the box"],
                      [[cases[r["keep_off"]], f"{r['overlap']:.3f}", f"{r['fastest']:.1f}",

@@ -4,8 +4,8 @@
 
 """Write trough.stl, two half drums along y that meet below their axes, and blade.stl, a shaft with two flat blades.
 
-Both are extruded from y = 0 to LENGTH, which is the period of the deck's box. The shaft is the y
-axis: the deck moves it to the axes of the half drums, at x = +-AXES.
+Both are extruded from y = 0 to LENGTH, which is the period of the script's box. The shaft is the y
+axis: the script moves it to the axes of the half drums, at x = +-AXES.
 """
 import math
 import sys

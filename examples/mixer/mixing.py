@@ -16,9 +16,9 @@ def main():
     p.add_argument("--speeds", type=float, nargs="+", default=[0.1, 0.2, 0.3, 0.4])
     a = p.parse_args()
     runs.make_meshes(HERE / "make_mixer.py", a.work)
-    rows = runs.run_decks(a, HERE / "in.mixer", [{"speed": w, "out": f"mixing_{w:g}.txt",
-                                                  "picture": f"mixer_{w:g}.png", "turns": 5}
-                                                 for w in a.speeds])
+    rows = runs.run_scripts(a, HERE / "in.mixer", [{"speed": w, "out": f"mixing_{w:g}.txt",
+                                                    "picture": f"mixer_{w:g}.png", "turns": 5}
+                                                   for w in a.speeds])
     curves = [[[float(x) for x in line.split()] for line in (a.work / f"mixing_{w:g}.txt").open()
                if line[0] != "#"] for w in a.speeds]
     turns = range(1, 6)

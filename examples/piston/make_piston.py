@@ -4,7 +4,7 @@
 
 """Write die.stl, a round cup open at the top, and piston.stl, a short cylinder that fits into it.
 
-The floor of the cup is at z = 0, and so is the face of the piston: the deck moves it up.
+The floor of the cup is at z = 0, and so is the face of the piston: the script moves it up.
 """
 import sys
 from pathlib import Path

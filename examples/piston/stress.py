@@ -14,7 +14,7 @@ import runs    # noqa: E402
 def main():
     a = runs.options(__doc__, HERE).parse_args()
     runs.make_meshes(HERE / "make_piston.py", a.work)
-    runs.run_decks(a, HERE / "in.piston", [{}])
+    runs.run_scripts(a, HERE / "in.piston", [{}])
     rows = [[float(x) for x in row.split()] for row in (a.work / "stress.txt").read_text().split("\n")
             if row and row[0] != "#"]
     with runs.plot(a.work / "stress.png", "strain (%)", "stress under the piston") as axes:

@@ -5,7 +5,7 @@
 """Write screen.stl, a sheet with N x N square apertures of size 1, frame.stl, four walls that stand
 on it, and section.stl, a sheet below it to count what passes.
 
-The screen is at z = 0; the deck's box is as wide as the frame and a margin.
+The screen is at z = 0; the script's box is as wide as the frame and a margin.
 """
 import sys
 from pathlib import Path

@@ -21,8 +21,8 @@ def main():
     p.add_argument("--strengths", type=float, nargs="+", default=[0, 1, 2, 3, 4, 6, 8])
     a = p.parse_args()
     runs.make_meshes(HERE / "make_screen.py", a.work)
-    rows = runs.run_decks(a, HERE / "in.screen",
-                          [{"strength": g, "picture": f"screen_{g:g}.png"} for g in a.strengths])
+    rows = runs.run_scripts(a, HERE / "in.screen",
+                            [{"strength": g, "picture": f"screen_{g:g}.png"} for g in a.strengths])
     runs.print_table(["acceleration over gravity", *(f"size {s}" for s in SIZES)],
                      [[f"{r['strength']:g}", *(f"{100 * r['passed_' + s]:.0f} %" for s in SIZES)]
                       for r in rows])

@@ -4,7 +4,7 @@
 
 """Write screw.stl, a shaft along y with a right-handed blade, and tube.stl, the tube round it.
 
-Both are TURNS pitches long, from y = 0, which is the period of the deck's box.
+Both are TURNS pitches long, from y = 0, which is the period of the script's box.
 """
 import math
 import sys

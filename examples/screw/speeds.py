@@ -16,8 +16,8 @@ def main():
     p.add_argument("--speeds", type=float, nargs="+", default=[0.1, 0.2, 0.4, 0.6, 0.8, 1.0])
     a = p.parse_args()
     runs.make_meshes(HERE / "make_screw.py", a.work)
-    rows = runs.run_decks(a, HERE / "in.screw",
-                          [{"speed": w, "picture": f"screw_{w:g}.png"} for w in a.speeds])
+    rows = runs.run_scripts(a, HERE / "in.screw",
+                            [{"speed": w, "picture": f"screw_{w:g}.png"} for w in a.speeds])
     runs.print_table(["speed", "Froude number", "mass flow", "of a pitch a turn", "torque on the screw"],
                      [[f"{r['speed']:g}", f"{6 * r['speed']**2:.3g}", f"{r['flow']:.2f}",
                        f"{r['of_a_pitch']:.3f}", f"{r['torque']:.0f}"] for r in rows])

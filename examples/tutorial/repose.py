@@ -36,7 +36,7 @@ def main():
     p.add_argument("--measured", type=float, default=15, help="degrees")
     a = p.parse_args()
     runs.make_meshes(HERE / "make_meshes.py", a.work)
-    runs.run_decks(a, HERE / "in.repose", [{"rolling": r} for r in ROLLING])
+    runs.run_scripts(a, HERE / "in.repose", [{"rolling": r} for r in ROLLING])
     angles = [angle_of(a.work / f"heap_{r}.dump") for r in ROLLING]
     runs.print_table(("rolling friction", "angle of repose, degrees"),
                      [(f"{r}", f"{angle:.1f}") for r, angle in zip(ROLLING, angles)])

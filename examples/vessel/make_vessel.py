@@ -7,7 +7,7 @@
 The vessel is turned on a lathe about z: a cylinder, a converging cone and an
 outlet tube with rounded knuckles between them, and a beam pipe with a round end
 hanging in it (vessel.stl), open at the top and at the bottom. outlet.stl is the
-plate that closes the tube until the deck takes it away. Walls have no thickness.
+plate that closes the tube until the script takes it away. Walls have no thickness.
 """
 import math
 import sys

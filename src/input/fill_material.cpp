@@ -86,13 +86,13 @@ class Filler {
   }
 
   // A value in SI; one from the script is written back as it was.
-  std::string in_deck(const char *key, Real si, const Real *number = nullptr) const
+  std::string in_script(const char *key, Real si, const Real *number = nullptr) const
   {
     return exact_text(number ? *number : in_units(si, *find_property(key), units_));
   }
-  std::string in_deck(const MaterialSection &m, const char *key, Real si) const
+  std::string in_script(const MaterialSection &m, const char *key, Real si) const
   {
-    return in_deck(key, si, given(m, key));
+    return in_script(key, si, given(m, key));
   }
 
   void tell(const std::string &line) { report_ += (report_.empty() ? "  " : "\n  ") + line; }
@@ -102,7 +102,7 @@ class Filler {
             const Stated *stated)
   {
     const std::string line = of + ": " + key + " " + number;
-    if (!stated) return tell_more(line + ", as the deck says");
+    if (!stated) return tell_more(line + ", as the input script says");
     const std::string unit = stated->property->unit;
     const std::string si = unit == "1" ? "" : number_text(stated->value) + " " + unit + ", ";
     tell_more(line + " (" + si + stated->place.substr(stated->place.rfind('/') + 1) +
@@ -120,7 +120,7 @@ class Filler {
                        ": add it there, or write " + with_ + (same_ ? "" : m.first + " ") + key +
                        " VALUE'");
     const Real si = number ? *number / in_units(1, p, units_) : s->value;
-    tell(m.first, key, in_deck(m, key, si), s);
+    tell(m.first, key, in_script(m, key, si), s);
     return si;
   }
 
@@ -149,8 +149,8 @@ class Filler {
     const Elastic a = elastic(particle_), b = same_ ? a : elastic(wall_);
     contact_ = contact_moduli(a, b);
     const Elastic one = same_ ? a : as_one(a, b);
-    modulus_ = same_ ? in_deck(particle_, "youngs_modulus", one.youngs_modulus)
-                     : in_deck("youngs_modulus", one.youngs_modulus);
+    modulus_ = same_ ? in_script(particle_, "youngs_modulus", one.youngs_modulus)
+                     : in_script("youngs_modulus", one.youngs_modulus);
     ratio_ = exact_text(one.poissons_ratio);
     if (!same_)
       tell_more("as one material: youngs_modulus " + modulus_ + ", poissons_ratio " + ratio_ +
@@ -207,8 +207,8 @@ class Filler {
   {
     const char *key = "surface_energy";
     const Real a = of_one(particle_, key);
-    if (same_) return in_deck(particle_, key, a);
-    const std::string text = in_deck(key, std::sqrt(a * of_one(wall_, key)));
+    if (same_) return in_script(particle_, key, a);
+    const std::string text = in_script(key, std::sqrt(a * of_one(wall_, key)));
     tell_more("surface_energy " + text + ", geometric mean");
     return text;
   }
@@ -218,9 +218,9 @@ class Filler {
   {
     const char *key = "thermal_conductivity";
     const Real a = of_one(particle_, key);
-    if (same_) return in_deck(particle_, key, a);
+    if (same_) return in_script(particle_, key, a);
     const Real b = of_one(wall_, key);
-    const std::string text = in_deck(key, 2 * a * b / (a + b));
+    const std::string text = in_script(key, 2 * a * b / (a + b));
     tell_more("thermal_conductivity " + text + ", harmonic mean");
     return text;
   }
@@ -252,7 +252,7 @@ class Filler {
   const MaterialSection *pair_;
   bool same_;
   ContactModuli contact_;          // SI
-  std::string modulus_, ratio_;    // of the deck
+  std::string modulus_, ratio_;    // of the script
 };
 
 }    // namespace

@@ -26,7 +26,7 @@ struct FilledTokens {
 // the same effective Young's and shear moduli. Throws InputError, with `words` for the
 // place of the tokens.
 FilledTokens fill_material(const std::vector<std::string> &tokens, const std::string &units,
-                           const MaterialWords &words = kDeckWords);
+                           const MaterialWords &words = kScriptWords);
 
 // The contact of the material with itself, in the words of LAMMPS 29Sep2021's `pair_style granular`,
 // which later versions take, too: without `granular`, with tsuji and its number in place of

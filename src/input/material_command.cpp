@@ -19,7 +19,7 @@ const char *const kMaterialSyntax =
     "...] "
     "[sub-models, NULL for a number of the file] mesh FILE [keywords]";
 
-const MaterialWords kDeckWords = {"on", "with", kMaterialSyntax};
+const MaterialWords kScriptWords = {"on", "with", kMaterialSyntax};
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The words of `material` in a deck, taken apart.
+// The words of `material` in a script, taken apart.
 #pragma once
 
 #include "base/real.h"
@@ -13,11 +13,11 @@ namespace lsdcd {
 
 extern const char *const kMaterialSyntax;
 
-// How messages call what can be written: in a deck, or as options of a program.
+// How messages call what can be written: in a script, or as options of a program.
 struct MaterialWords {
   const char *on, *with, *syntax;
 };
-extern const MaterialWords kDeckWords;
+extern const MaterialWords kScriptWords;
 
 // A number of the script, in its units. `of`: the material; empty: of the pair, or of the material for
 // which the file lacks it.
@@ -44,7 +44,7 @@ bool has_material(const std::vector<std::string> &tokens);
 
 // Throws InputError that shows the syntax.
 MaterialCommand read_material_command(const std::vector<std::string> &tokens,
-                                      const MaterialWords &words = kDeckWords);
+                                      const MaterialWords &words = kScriptWords);
 
 // The same error for checks of what was read.
 [[noreturn]] void fail_material(const std::string &problem, const MaterialWords &words);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Words of a deck that say how a mesh moves.
+// Words of a script that say how a mesh moves.
 #pragma once
 
 #include "base/input_words.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Words of a deck about a servo.
+// Words of a script about a servo.
 #pragma once
 
 #include "base/input_words.h"

@@ -164,9 +164,9 @@ void FixWallLsdcd::check_heat() const
 #endif
 }
 
-std::vector<lsdcd::DeckFile> FixWallLsdcd::files() const
+std::vector<lsdcd::ScriptFile> FixWallLsdcd::files() const
 {
-  std::vector<lsdcd::DeckFile> all = lsdcd::files_of(settings());
+  std::vector<lsdcd::ScriptFile> all = lsdcd::files_of(settings());
   if (!material_file.empty()) all.push_back({"material", material_file});
   return all;
 }

@@ -7,7 +7,7 @@
 
 #include "fix.h"
 
-#include "input/deck_files.h"
+#include "input/script_files.h"
 #include "lammps/lammps_host.h"
 #include "lammps/rerun_watch.h"
 #include "lammps/wall_picture.h"
@@ -65,7 +65,7 @@ class FixWallLsdcd : public Fix {
   int modify_param(int, char **) override;
 
   const std::deque<lsdcd::MeshPart> &meshes() const { return wall->meshes(); }
-  std::vector<lsdcd::DeckFile> files() const;    // that it reads and writes
+  std::vector<lsdcd::ScriptFile> files() const;    // that it reads and writes
 
  protected:
   friend class LammpsHost;

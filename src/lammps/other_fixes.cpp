@@ -13,12 +13,13 @@
 #include <vector>
 
 using namespace LAMMPS_NS;
-using lsdcd::DeckFile;
+using lsdcd::ScriptFile;
 
 namespace {
 
 // A cache leaves alone what is no cache.
-void check_apart(const DeckFile &file, const DeckFile &other, const std::string &of, bigint step)
+void check_apart(const ScriptFile &file, const ScriptFile &other, const std::string &of,
+                 bigint step)
 {
   if (!file.written || (file.what == "cache" && !other.written) ||
       !lsdcd::are_one_file(file, other, step))
@@ -29,7 +30,7 @@ void check_apart(const DeckFile &file, const DeckFile &other, const std::string 
                           ": name another file");
 }
 
-std::vector<DeckFile> files_of_fix(const Fix *fix)
+std::vector<ScriptFile> files_of_fix(const Fix *fix)
 {
   if (const auto *wall = dynamic_cast<const FixWallLsdcd *>(fix)) return wall->files();
   if (const auto *flow = dynamic_cast<const FixMassflowLsdcd *>(fix))
@@ -55,15 +56,15 @@ void LAMMPS_NS::check_files_apart(const FixWallLsdcd &wall, const Modify &modify
                                   bigint step)
 {
   lsdcd::run_collectively(host, host.rank() == 0, [&] {
-    const std::vector<DeckFile> mine = wall.files();
+    const std::vector<ScriptFile> mine = wall.files();
     for (std::size_t i = 0; i < mine.size(); i++)
       for (std::size_t k = 0; k < mine.size(); k++)
         if (i != k) check_apart(mine[i], mine[k], "this fix", step);
     for (int i = 0; i < modify.nfix; i++) {
       const Fix *const fix = modify.fix[i];
       if (fix == &wall) continue;
-      for (const DeckFile &file : mine)
-        for (const DeckFile &other : files_of_fix(fix))
+      for (const ScriptFile &file : mine)
+        for (const ScriptFile &other : files_of_fix(fix))
           check_apart(file, other, "fix " + std::string(fix->id), step);
     }
   });

@@ -38,7 +38,7 @@ Real in_units(Real si, const Property &property, const std::string &units)
   const std::string why = units == "lj"
                               ? "they are reduced units, with no length or mass to convert to"
                               : "material values are for grains, in si, cgs, micro or nano";
-  throw InputError("in 'material', the deck is in units " + units + ": " + why +
+  throw InputError("in 'material', the input script is in units " + units + ": " + why +
                    ". Write the contact style's numbers instead, or use 'units si', 'cgs', "
                    "'micro' or 'nano'");
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The factor that a mesh file in other units than the deck's was probably meant to have.
+// The factor that a mesh file in other units than the script's was probably meant to have.
 #pragma once
 
 #include "base/vec3.h"

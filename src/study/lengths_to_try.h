@@ -12,7 +12,7 @@
 namespace lsdcd {
 
 // Half, once, twice and four times the default of nearest lists, and the default of these settings:
-// ascending, to four digits so that a deck can say them. None is above the cutoff, or takes more
+// ascending, to four digits so that a script can say them. None is above the cutoff, or takes more
 // than the memory budget at least; where all do, the first coarser one.
 std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &settings);
 

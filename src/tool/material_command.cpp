@@ -72,15 +72,16 @@ void add_material_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
   Command command = program.command(
-      "material", "what a material file says; with a name, the words that a deck would get");
+      "material",
+      "what a material file says; with a name, the words that an input script would get");
   command.footer("Example:\n  lsdcd material glass.lsdcd glass --on aluminium");
-  command.option("file", o->file, "material file, looked for as in a deck").required();
+  command.option("file", o->file, "material file, looked for as in an input script").required();
   command.option("name", o->name, "material of the grains");
   command.option("--on", o->wall, "material of the wall (default: the same)");
   command.option("--normal", o->normal, "of the contact")
       .one_of({"hertz/material", "jkr", "dmt"})
       .shows_default();
-  command.option("--units", o->units, "of the deck")
+  command.option("--units", o->units, "of the input script")
       .one_of({"si", "cgs", "micro", "nano"})
       .shows_default();
   command.option("--with", o->with,

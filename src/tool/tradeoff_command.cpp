@@ -228,7 +228,8 @@ void add_tradeoff_command(Command &program)
       .check(above_zero);
   command
       .option("--below", o->below,
-              "print the words for a deck: the fastest setting with missed contacts / contacts "
+              "print the words for an input script: the fastest setting with missed contacts / "
+              "contacts "
               "and all errors of forces below this")
       .check(above_zero);
   add_scale_option(command, o->scale);

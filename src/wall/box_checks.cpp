@@ -69,12 +69,13 @@ void BoxChecks::check_small(const MeshPart &m, const PeriodicBox &box, Real radi
   if (box.dimension == 2) size.z = 0;    // an outline may be of any thickness
   if (norm(size) >= radius) return;
   const std::string placed = m.settings.placement_tokens;
-  host_.warn(named(m, "the mesh is " + number_text(norm(size)) +
-                          " across, and spheres have radius " + number_text(radius) + ": " +
-                          (placed.find("scale") == std::string::npos
-                               ? "the file is probably in other units: add a scale"
-                               : "the file is probably in the deck's units, and the scale in '" +
-                                     placed + "' is not needed")));
+  host_.warn(
+      named(m, "the mesh is " + number_text(norm(size)) + " across, and spheres have radius " +
+                   number_text(radius) + ": " +
+                   (placed.find("scale") == std::string::npos
+                        ? "the file is probably in other units: add a scale"
+                        : "the file is probably in the input script's units, and the scale in '" +
+                              placed + "' is not needed")));
 }
 
 void BoxChecks::check_outside(const MeshPart &m, const PeriodicBox &box, Real cutoff) const

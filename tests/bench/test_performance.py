@@ -15,7 +15,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = os.environ["LSDCD_BUILD"]
 sys.path.insert(0, str(ROOT / "bench"))
-import decks  # noqa: E402
+import lammps_runs  # noqa: E402
 import floor  # noqa: E402
 import kokkos_tables  # noqa: E402
 import liggghts  # noqa: E402
@@ -119,12 +119,12 @@ def test_comparisons():
                                    "--only", "cpu", "--quick", "--rows-to", folder, "--commit", "x", name],
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
             fact(f"{name} ends well", done.returncode == 0, done.stdout[-500:] * done.returncode)
-        rows = decks.read_rows("mesh-size", folder)
+        rows = lammps_runs.read_rows("mesh-size", folder)
         contacts = [int(performance.facts(r)["contacts"]) for r in rows]
         fact("mesh-size has the same contacts with every mesh, to a thousandth",
              rows and max(contacts) <= 1.001 * min(contacts), f"{min(contacts)} to {max(contacts)}")
         if "liggghts" in names:
-            ratios = [float(performance.facts(r)["force_ratio"]) for r in decks.read_rows("liggghts", folder)]
+            ratios = [float(performance.facts(r)["force_ratio"]) for r in lammps_runs.read_rows("liggghts", folder)]
             # Both laws are the same; folds of 5.6 degrees, where a sphere is at two sides, differ.
             fact("liggghts: both codes sum the same forces, to a hundredth",
                  all(abs(r - 1) < 0.01 for r in ratios), str(sorted(set(ratios))))

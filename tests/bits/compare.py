@@ -52,7 +52,7 @@ import record
 import replay
 from programs import CACHE, HERE, ROOT, say
 
-BATCH = 40    # decks of the catalogue in one process
+BATCH = 40    # scripts of the catalogue in one process
 FORMS = ("plain", "host", "kk")
 KOKKOS_FLAGS = "-k on -sf kk"
 
@@ -75,12 +75,12 @@ def catalogue(folder, only, every):
 
 
 def single(batch, name):
-    """One deck of a batch, by itself."""
+    """One script of a batch, by itself."""
     return dataclasses.replace(batch, name=name, parts={name: batch.parts[name]})
 
 
 def from_record(name, one, store):
-    return replay.Script(name, text=one["deck"], words=one["words"], ranks=one["ranks"],
+    return replay.Script(name, text=one["script"], words=one["words"], ranks=one["ranks"],
                          files={file: store / sha for file, sha in one["files"].items()},
                          environment=one["environment"])
 
@@ -93,7 +93,7 @@ class Job:
     def __init__(self, script, form, ranks):
         self.script, self.form, self.ranks = script, form, ranks
         self.seconds = 0.0
-        self.found = []    # (deck, Difference)
+        self.found = []    # (script, Difference)
         self.error = None
 
     def title(self):
@@ -108,7 +108,7 @@ class Comparison:
         self.answers, self.scratch, self.keep = answers, scratch, keep
         self.harness = replay.source_of_harness()
         self.lock, self.count = threading.Lock(), 0
-        self.without_kokkos = set()    # decks of the catalogue that stop there with the reference
+        self.without_kokkos = set()    # scripts of the catalogue that stop there with the reference
         self.stops = {}    # (script, form): whether it stops on one process
 
     def run(self, job, program, script=None):
@@ -118,7 +118,7 @@ class Comparison:
         return replay.run(script or job.script, job.ranks, job.form, program, self.host, place)
 
     def of_reference(self, job):
-        """(status, sums, files or None); a deck that only stops for what was added goes as it is."""
+        """(status, sums, files or None); a script that only stops for what was added goes as it is."""
         script = job.script
         for _ in range(2):
             key = replay.key_of(script, job.ranks, job.form, self.reference, self.host, self.harness)
@@ -129,7 +129,7 @@ class Comparison:
                 answer = self.answers.put(key, status, files, seconds)
             if not answer["status"] or script.bare or script.parts:
                 break
-            # Where the deck stops all the same, what was added has nothing to do with it.
+            # Where the script stops all the same, what was added has nothing to do with it.
             script = dataclasses.replace(script, bare=True)
         job.script = script
         return answer, files
@@ -161,7 +161,7 @@ class Comparison:
         self.list_differences(job, files, ours, unsteady)
 
     def one_by_one(self, job, whose):
-        """A deck of a batch stopped, which keeps the others from running."""
+        """A script of a batch stopped, which keeps the others from running."""
         if len(job.script.parts) == 1:
             words = self.run(job, self.reference)[1]["stdout"].decode().split("\n")
             job.error = f"stops with {whose}: " + next((line for line in words if line.startswith("ERROR")), words[0])
@@ -174,14 +174,14 @@ class Comparison:
                 job.error = (job.error or "") + f"\n    {name} {one.error}"
 
     def list_differences(self, job, files, ours, unsteady):
-        by_deck = {}
+        by_script = {}
         for name in sorted(files.keys() | ours.keys()):
             whole = replay.part_of(name, job.script.parts) if job.script.parts else job.script.name
             short = name[len(whole):].lstrip("._") if job.script.parts and name.startswith(whole) else name
             for of, where in ((files, 0), (ours, 1)):
                 if name in of:
-                    by_deck.setdefault(whole, ({}, {}))[where][short] = of[name]
-        for whole, (a, b) in by_deck.items():
+                    by_script.setdefault(whole, ({}, {}))[where][short] = of[name]
+        for whole, (a, b) in by_script.items():
             found = differ.compare(a, b)
             if unsteady:
                 found = [one._replace(note="(the reference differs from run to run) " + one.note) for one in found]
@@ -193,7 +193,7 @@ class Comparison:
                     path = folder / where / name
                     path.parent.mkdir(parents=True, exist_ok=True)
                     path.write_bytes(data)
-            (folder / "in.deck").write_text(replay.text_for(job.script, job.form, []))
+            (folder / "in.script").write_text(replay.text_for(job.script, job.form, []))
 
 
 # ---- what may differ ---------------------------------------------------------------------
@@ -213,9 +213,9 @@ def read_accepted(path):
     return rows
 
 
-def is_accepted(deck, one, rows):
-    for script, quantity, bound, _ in rows:
-        if fnmatch.fnmatchcase(deck, script) and fnmatch.fnmatchcase(one.quantity, quantity):
+def is_accepted(script, one, rows):
+    for pattern, quantity, bound, _ in rows:
+        if fnmatch.fnmatchcase(script, pattern) and fnmatch.fnmatchcase(one.quantity, quantity):
             kind, _, value = bound.partition(" ")
             if bound == "any" or (one.relative if kind == "relative" else one.absolute) <= float(value):
                 return True
@@ -229,10 +229,10 @@ def size(x):
 
 
 def write_table(rows, out):
-    """rows: (deck, form, ranks, Difference)."""
+    """rows: (script, form, ranks, Difference)."""
     out.write("script\tform\tprocesses\tquantity\tvalues\tlargest absolute\tlargest relative\tnote\n")
-    for deck_name, form, ranks, one in rows:
-        out.write(f"{deck_name}\t{form}\t{ranks}\t{one.quantity}\t{one.values}\t{size(one.absolute)}\t"
+    for script_name, form, ranks, one in rows:
+        out.write(f"{script_name}\t{form}\t{ranks}\t{one.quantity}\t{one.values}\t{size(one.absolute)}\t"
                   f"{size(one.relative)}\t{one.note}\n")
 
 
@@ -244,25 +244,25 @@ def apart(values, absolute, relative):
 def list_rows(rows, most=40):
     """All where they are few; else each quantity over all scripts, then scripts."""
     if len(rows) <= most:
-        for deck_name, form, ranks, one in rows:
-            say(f"  {deck_name}, {form} on {ranks}: {one.quantity}: {apart(*one[1:4])}{one.note and ', ' + one.note}")
+        for script_name, form, ranks, one in rows:
+            say(f"  {script_name}, {form} on {ranks}: {one.quantity}: {apart(*one[1:4])}{one.note and ', ' + one.note}")
         return
-    by_quantity, by_deck = {}, {}
-    for deck_name, form, ranks, one in rows:
+    by_quantity, by_script = {}, {}
+    for script_name, form, ranks, one in rows:
         known = by_quantity.setdefault(one.quantity, [set(), 0, 0.0, 0.0])
-        known[0].add((deck_name, form, ranks))
+        known[0].add((script_name, form, ranks))
         known[1] += one.values
         known[2:] = max(known[2], one.absolute), max(known[3], one.relative)
-        by_deck.setdefault((deck_name, form, ranks), []).append(one)
-    for quantity, (decks, *of) in sorted(by_quantity.items(), key=lambda q: -len(q[1][0]))[:most]:
-        say(f"  {quantity}: in {len(decks)} runs, {apart(*of)}")
+        by_script.setdefault((script_name, form, ranks), []).append(one)
+    for quantity, (scripts, *of) in sorted(by_quantity.items(), key=lambda q: -len(q[1][0]))[:most]:
+        say(f"  {quantity}: in {len(scripts)} runs, {apart(*of)}")
     say("of which")
-    for (deck_name, form, ranks), ones in list(by_deck.items())[:most]:
+    for (script_name, form, ranks), ones in list(by_script.items())[:most]:
         worst = max(ones, key=lambda one: one.relative)
-        say(f"  {deck_name}, {form} on {ranks}: {len(ones)} quantities; {worst.quantity}: {apart(*worst[1:4])}"
+        say(f"  {script_name}, {form} on {ranks}: {len(ones)} quantities; {worst.quantity}: {apart(*worst[1:4])}"
             f"{worst.note and ', ' + worst.note}")
-    if len(by_quantity) > most or len(by_deck) > most:
-        say(f"  ... of {len(by_quantity)} quantities and {len(by_deck)} runs; --table FILE has all")
+    if len(by_quantity) > most or len(by_script) > most:
+        say(f"  ... of {len(by_quantity)} quantities and {len(by_script)} runs; --table FILE has all")
 
 
 # ---- words -------------------------------------------------------------------------------
@@ -287,7 +287,7 @@ def read_words(words):
     p.add_argument("--cmake", default="", metavar="WORDS", help="further words of cmake for the commit's build")
     p.add_argument("--accepted", default=str(HERE / "accepted.txt"), metavar="FILE", help="what may differ")
     p.add_argument("--table", metavar="FILE", help="write all differences there, with tabs")
-    p.add_argument("--keep", metavar="FOLDER", help="leave the decks and files that differ there")
+    p.add_argument("--keep", metavar="FOLDER", help="leave the scripts and files that differ there")
     p.add_argument("--as-built", action="store_true", help="take the program as it is; else it is built again")
     p.add_argument("--list", action="store_true", help="names of the scripts, and no more")
     o = p.parse_args(words)
@@ -384,8 +384,8 @@ def main(words=None):
                 print("\n".join(script.parts or [script.name]))
             return 0
         jobs = jobs_of(scripts, forms, o.ranks, o.thorough)
-        decks = sum(len(s.parts) or 1 for s in scripts)
-        say(f"{decks} scripts, {len(jobs)} runs on {', '.join(map(str, o.ranks))} processes, {o.jobs} at once: "
+        n_scripts = sum(len(s.parts) or 1 for s in scripts)
+        say(f"{n_scripts} scripts, {len(jobs)} runs on {', '.join(map(str, o.ranks))} processes, {o.jobs} at once: "
             f"{reference.name} and {ours.folder}")
         comparison = Comparison(reference, ours, host, replay.Answers(kept), scratch, o.keep)
         failed, rows = compare_all(comparison, jobs, o.jobs)
@@ -436,7 +436,7 @@ def compare_all(comparison, jobs, at_once):
                 done += 1
                 if job.error:
                     failed.append(job)
-                rows += [(deck_name, job.form, job.ranks, found) for deck_name, found in job.found]
+                rows += [(script_name, job.form, job.ranks, found) for script_name, found in job.found]
                 if time.time() - told > 20:
                     told = time.time()
                     say(f"  {done} runs in {told - began:.0f} s, {len(rows)} quantities differ, {len(failed)} failed")

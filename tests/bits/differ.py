@@ -17,7 +17,7 @@ import struct
 
 # What depends on time or place and not on what was computed, and why. Each is (name, pattern, in its place, reason),
 # None for a line that is left out;
-# of the output of LAMMPS, line by line. Of files that decks write only a grid cache
+# of the output of LAMMPS, line by line. Of files that scripts write only a grid cache
 # has the like (mask_file).
 MASKS = [(name, re.compile(pattern), instead, reason) for name, pattern, instead, reason in (
     ("loop time", r"^Loop time of \S+ on", "Loop time of TIME on", "a duration"),

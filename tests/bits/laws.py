@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Decks of this folder's own: every contact law with effects of a wall, on 150 spheres of several sizes.
+"""Scripts of this folder's own: every contact law with effects of a wall, on 150 spheres of several sizes.
 
 scripts() gives them. Each writes what it knows with 17 digits: a dump, totals in the thermo output, a
 restart file with the springs. Many go in one LAMMPS process, with `clear` between them.
@@ -306,7 +306,7 @@ def write_data(path, scene):
 
 
 def write_files(folder):
-    """All that the decks read."""
+    """All that the scripts read."""
     write_stl(folder / "sheet.stl", sheet())
     write_stl(folder / "full.stl", sheet(full=True))
     for name, (lo, hi, z) in {"plate": (-3, 3.2, 0.1), "level": (-5, 5, 0.5)}.items():
@@ -325,7 +325,7 @@ def write_files(folder):
         write_data(folder / f"{scene}.data", scene)
 
 
-# ---- decks -------------------------------------------------------------------------------
+# ---- scripts -------------------------------------------------------------------------------
 
 SETTINGS = """\
 units           lj
@@ -353,7 +353,7 @@ DUMP = ("write_dump all custom {name} id x y z vx vy vz omegax omegay omegaz fx 
 
 
 def script(name, law, added, one):
-    """The text of a deck. Files that it writes are named NAME.*, NAME_*."""
+    """The text of a script. Files that it writes are named NAME.*, NAME_*."""
     scene = one["scene"]
     mesh = {"sheet": "full.stl" if one["boundary"][0] == "p" else "sheet.stl", "tilted": "full.stl",
             "paddle": "full.stl mesh paddle.stl motion rotate 0 0 0 0 0 1 8"}.get(scene, f"{scene}.stl")

@@ -41,7 +41,7 @@ FEW = ("test_parity", "test_restart", "test_several_meshes", "test_two_dimension
 
 def scripts_of(tests):
     return [path.stem for path in sorted(tests.glob("*.py"))
-            if (path.stem.startswith("test_") or path.stem == "run_bad_decks") and path.stem not in LEFT_OUT]
+            if (path.stem.startswith("test_") or path.stem == "run_bad_scripts") and path.stem not in LEFT_OUT]
 
 
 def stamp(tests):

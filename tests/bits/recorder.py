@@ -27,7 +27,7 @@ def words_of(text):
 
 
 def keep(folder, arguments):
-    """A run's deck, words, number of processes and the files of its folder that the deck names."""
+    """A run's script, words, number of processes and the files of its folder that the script names."""
     here = pathlib.Path.cwd()
     at = arguments.index("-in")
     path = pathlib.Path(arguments[at + 1])
@@ -81,7 +81,7 @@ def keep(folder, arguments):
             part = store / f".{os.getpid()}"
             part.write_bytes(data)
             part.rename(kept)
-    record = {"deck": text, "words": rest, "ranks": int(os.environ.get("OMPI_COMM_WORLD_SIZE", 1)),
+    record = {"script": text, "words": rest, "ranks": int(os.environ.get("OMPI_COMM_WORLD_SIZE", 1)),
               "files": {name: digest(data) for name, data in files.items()},
               "environment": variables}
     (folder / f"{like}.json").write_text(json.dumps(record, indent=1))

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Gives a script to a program and takes all that comes out: files, the log, what was added to the deck."""
+"""Gives a script to a program and takes all that comes out: files, the log, what was added to the script."""
 
 import dataclasses
 import hashlib
@@ -18,10 +18,10 @@ import differ
 from programs import HERE, ROOT
 
 sys.path.insert(0, str(ROOT / "tests" / "lammps"))
-import deck    # noqa: E402
+import lmp    # noqa: E402
 
 LIMIT = 180    # seconds of a run
-VERSION = "1"    # of what is added to decks: answers that are kept are of one
+VERSION = "1"    # of what is added to scripts: answers that are kept are of one
 
 
 @dataclasses.dataclass
@@ -33,25 +33,25 @@ class Script:
     environment: dict = dataclasses.field(default_factory=dict)
     ranks: int = 0         # that it was recorded on; 0: any
     new: bool = False      # needs LAMMPS 4Jul2026
-    parts: dict = dataclasses.field(default_factory=dict)    # decks of the catalogue for one process
+    parts: dict = dataclasses.field(default_factory=dict)    # scripts of the catalogue for one process
     bare: bool = False     # as it is, nothing added
 
     def __post_init__(self):
         self.text = "".join(self.parts.values()) or self.text
 
 
-# ---- what is added to a deck -------------------------------------------------------------
+# ---- what is added to a script -------------------------------------------------------------
 
 ATOMS = "id type x y z vx vy vz fx fy fz omegax omegay omegaz tqx tqy tqz"
 
 
 def joined(text):
-    """Lines of a deck, those that go on with & as one."""
+    """Lines of a script, those that go on with & as one."""
     return re.sub(r"&[ \t]*\n", " ", text).split("\n")
 
 
 def added(text, variables):
-    """The deck with all digits of its thermo output and, after each run, a dump of all atoms and the
+    """The script with all digits of its thermo output and, after each run, a dump of all atoms and the
     wall's numbers; at its end a restart file."""
     lines, walls, out, number = joined(text), {}, [], 0
     runs = [k for k, line in enumerate(lines) if re.match(r"\s*(run|rerun)\s", line)]
@@ -79,7 +79,7 @@ def added(text, variables):
             if meshes > 1:
                 rows = [f"f_{name}[{m}][{n}]" for m in range(1, meshes + 1) for n in range(1, 12)]
                 out.append(f'print "bits {name} meshes ' + " ".join(f"$({v}:%.17g)" for v in rows) + '"')
-        # The last thing that a deck does with the box, as it would be rebuilt.
+        # The last thing that a script does with the box, as it would be rebuilt.
         if k == runs[-1] and not any(re.match(r"\s*(clear|jump|next|write_restart|read_)", later) for later in lines[k:]):
             out.append("write_restart bits.restart")
     return "\n".join(out)
@@ -92,20 +92,20 @@ def variables_of(words):
 # ---- a run -------------------------------------------------------------------------------
 
 def environment(more):
-    env = {k: v for k, v in deck.environment().items() if not (k.startswith("LSDCD_") or k == "LAMMPS_POTENTIALS")}
+    env = {k: v for k, v in lmp.environment().items() if not (k.startswith("LSDCD_") or k == "LAMMPS_POTENTIALS")}
     env.update(OMPI_MCA_mpi_yield_when_idle="1")
     env.update(more)
     return env
 
 
 def text_for(script, form, flags):
-    """The deck as a program of this form is given it."""
+    """The script as a program of this form is given it."""
     text = script.text
     if not script.bare and not script.parts:
         text = added(text, variables_of(script.words))
     if form != "plain":
-        deck.KOKKOS_PLUGIN = "../plugin.so"
-        text = deck.for_host(text, flags if form == "kk" else ())
+        lmp.KOKKOS_PLUGIN = "../plugin.so"
+        text = lmp.for_host(text, flags if form == "kk" else ())
     if form == "kk":    # A column in an atom-style variable, and words that it refuses.
         text = re.sub(r"(variable\s+\S+\s+atom\s.*)\bF_", r"\1f_", text)
     return text
@@ -121,14 +121,14 @@ def run(script, ranks, form, program, host, place):
         shutil.copyfile(path, folder / name)
     flags = host.flags if host and form == "kk" else []
     text = text_for(script, form, flags).replace("@FOLDER@", str(folder))
-    (folder / "in.deck").write_text(text)
+    (folder / "in.script").write_text(text)
     if form != "plain":
         (place / "plugin.so").symlink_to(program.plugin)
     words = [word.replace("@FOLDER@", str(folder)) for word in script.words]
     more = {name: value.replace("@FOLDER@", str(folder)) for name, value in script.environment.items()}
     if "-log" not in words:
         words += ["-log", "none", "-nocite"]
-    command = [str(program.lmp if form == "plain" else host.lmp), "-in", "in.deck", *words, *flags]
+    command = [str(program.lmp if form == "plain" else host.lmp), "-in", "in.script", *words, *flags]
     if ranks > 1:
         command = ["mpirun", "-np", str(ranks), "--oversubscribe", *command]
     start = time.time()
@@ -142,8 +142,8 @@ def run(script, ranks, form, program, host, place):
     seconds = time.time() - start
     text = differ.mask(out.read_bytes().decode(errors="replace"), folder, program.folder)
     files = differ.read_folder(folder)
-    for name in ("in.deck", *script.files):
-        if name == "in.deck" or files.get(name) == differ.mask_file(pathlib.Path(script.files[name]).read_bytes()):
+    for name in ("in.script", *script.files):
+        if name == "in.script" or files.get(name) == differ.mask_file(pathlib.Path(script.files[name]).read_bytes()):
             files.pop(name, None)
     if status:
         # How far others came when one stopped depends on time.
@@ -171,7 +171,7 @@ def cut(text):
 
 
 def part_of(file, parts):
-    """The deck of a batch that wrote a file: the longest name that it begins with."""
+    """The script of a batch that wrote a file: the longest name that it begins with."""
     return max((p for p in parts if file.startswith(p) and file[len(p):len(p) + 1] in (".", "_")), key=len,
                default=next(iter(parts)))
 

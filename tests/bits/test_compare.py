@@ -18,7 +18,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "lammps")]
 
 import compare    # noqa: E402
-import deck    # noqa: E402
+import lmp    # noqa: E402
 import differ    # noqa: E402
 import laws    # noqa: E402
 import recorder    # noqa: E402
@@ -116,7 +116,7 @@ def masks(checks):
     checks.fact("each mask has a name and a reason", all(name and reason for name, _, _, reason in differ.MASKS))
 
 
-def decks(checks, folder):
+def scripts(checks, folder):
     text = "fix w all wall/lsdcd hooke 1 &\n NULL 1 NULL 0 1 mesh a.stl contacts\nrun 5\nunfix w\nrun 5\n"
     more = replay.added(text, {})
     checks.fact("each run is followed by a dump", more.count("write_dump all custom bits.") == 2)
@@ -142,14 +142,14 @@ def decks(checks, folder):
     (folder / "old.dump").write_text("not an input")
     record = folder / "records" / "test_x"
     for number in (5, 6):
-        (folder / "in.deck").write_text(text.replace("run 5", f"run {number}"))
-        recorder.keep(record, ["-in", "in.deck", "-log", "none"])
+        (folder / "in.script").write_text(text.replace("run 5", f"run {number}"))
+        recorder.keep(record, ["-in", "in.script", "-log", "none"])
     kept = list(record.glob("*.json"))
     checks.fact("a run is recorded once whatever its numbers are", len(kept) == 1)
     checks.fact("with the files that it names", '"a.stl"' in kept[0].read_text() and "old.dump" not in kept[0].read_text())
 
 
-# Stands for LAMMPS: writes what the decks of a batch ask for.
+# Stands for LAMMPS: writes what the scripts of a batch ask for.
 PROGRAM = """\
 #!{python}
 import re, sys
@@ -196,12 +196,12 @@ def whole(checks, folder):
 
 
 def main():
-    checks = deck.Checks()
+    checks = lmp.Checks()
     with tempfile.TemporaryDirectory(prefix="bits-test-") as folder:
         folder = pathlib.Path(folder).resolve()
         contents(checks)
         masks(checks)
-        decks(checks, folder)
+        scripts(checks, folder)
         whole(checks, folder)
         os.chdir("/")
     checks.done()

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Plates, six of them as a box, and decks with spheres among them."""
+"""Plates, six of them as a box, and scripts with spheres among them."""
 
-import deck
+import lmp
 
 SIDE = 3.0
 LAWS = {"hooke": "hooke 1e5 NULL 20 NULL 0.5 1",
@@ -89,8 +89,8 @@ def build(walls, name, steps, atoms=GAS, kick=FAST, dt=1e-4, every=1, more="", b
 
 
 def go(folder, walls, name, steps, ranks=1, **words):
-    text = deck.run_well(build(walls, name, steps, **words), folder, ranks)
-    return deck.read_dump(folder / name), text
+    text = lmp.run_well(build(walls, name, steps, **words), folder, ranks)
+    return lmp.read_dump(folder / name), text
 
 
 def thermo(columns, every=1):

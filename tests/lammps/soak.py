@@ -12,7 +12,7 @@ import subprocess
 import sys
 import time
 
-import deck
+import lmp
 import drum
 
 ROOM = 1.0    # MB: pages that malloc keeps
@@ -32,8 +32,8 @@ def watch(folder, steps):
     """What LAMMPS says, and (seconds, MB) as it runs."""
     (folder / "in.soak").write_text(drum.BEGIN + f"thermo {max(steps // 1000, 1)}\nrun {steps}\n")
     with open(folder / "out", "w") as out:
-        run = subprocess.Popen([deck.LMP, "-in", "in.soak", "-log", "none", "-nocite"], cwd=folder,
-                               env=deck.environment(), stdout=out, stderr=out)
+        run = subprocess.Popen([lmp.LMP, "-in", "in.soak", "-log", "none", "-nocite"], cwd=folder,
+                               env=lmp.environment(), stdout=out, stderr=out)
     seen, began = [], time.time()
     while run.poll() is None:
         now = resident(run.pid)
@@ -48,11 +48,11 @@ def watch(folder, steps):
 
 def main():
     steps = int(float(sys.argv[1])) if len(sys.argv) > 1 else 1000000
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     drum.write_stl(folder / "drum.stl")
     n = drum.write_data(folder / "drum.data")
     text, seen = watch(folder, steps)
-    rows = deck.read_thermo(text)
+    rows = lmp.read_thermo(text)
     checks.fact(f"{steps} steps: no sphere is lost", {row[1] for row in rows} == {n}, str(n))
     # The first half has the start, whatever share of a short run that is.
     end = seen[-1][0]

@@ -9,7 +9,7 @@ import os
 
 import numpy
 
-import deck
+import lmp
 import drum
 
 QUICK = bool(os.environ.get("LSDCD_QUICK"))
@@ -54,19 +54,19 @@ def brute_force(checks, at, rows):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     drum.write_stl(folder / "drum.stl")
     n = drum.write_data(folder / "drum.data")
     alone = None
     for ranks in RANKS:
         at = f"{ranks} rank{'s' * (ranks > 1)}"
         balance = f"fix even all balance {EVERY // 2} 1.0 shift xz 10 1.02\nthermo {EVERY // 2}\n"
-        text = deck.run_well(drum.BEGIN + balance + ROWS + f'run {STEPS}\nprint "imbalance $(f_even)"\n',
-                             folder, ranks)
-        totals = numpy.array(deck.read_thermo(text))
+        text = lmp.run_well(drum.BEGIN + balance + ROWS + f'run {STEPS}\nprint "imbalance $(f_even)"\n',
+                            folder, ranks)
+        totals = numpy.array(lmp.read_thermo(text))
         checks.fact(f"{at}: no sphere is lost", set(totals[:, 1]) == {n} and n > 300, str(n))
         checks.at_most(f"{at}: most on a rank over the mean", float(text.split("\nimbalance ")[1].split()[0]), 2)
-        brute_force(checks, at, deck.read_dump(folder / "rows"))
+        brute_force(checks, at, lmp.read_dump(folder / "rows"))
         if alone is None:
             alone = totals
             continue

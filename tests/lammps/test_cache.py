@@ -12,7 +12,7 @@ import re
 import subprocess
 import sys
 
-import deck
+import lmp
 import scene
 
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
@@ -31,23 +31,23 @@ def text_of(words, run=RUN):
 class Run:
     def __init__(self, output):
         self.output = output
-        self.rows = deck.read_thermo(output)
+        self.rows = lmp.read_thermo(output)
         self.warnings = [line for line in output.split("\n") if "WARNING: Fix " in line and "cache" in line]
         self.read = output.count("not built now, read from cache")
         self.written = output.count("written to cache")
 
 
 def go(folder, words, ranks=1, run=RUN, env=None):
-    return Run(deck.run_well(text_of(words, run), folder, ranks, env=env))
+    return Run(lmp.run_well(text_of(words, run), folder, ranks, env=env))
 
 
 def box_changes(checks, folder):
     """The grid is rebuilt for the box in many steps, then for larger spheres."""
-    text = deck.SMALL_BOX.replace("f f f", "p p f", 1).format(atoms="create_atoms 1 single 0 0 0.6 units box") + \
+    text = lmp.SMALL_BOX.replace("f f f", "p p f", 1).format(atoms="create_atoms 1 single 0 0 0.6 units box") + \
         "fix squeeze all deform 1 x erate -0.05\nthermo 50\n" + \
         f"fix wall all wall/lsdcd {LAW} mesh floor.stl cache box periodic\ntimestep 0.001\n" + \
         "run 20\nset group all diameter 1.1\nrun 20\n"
-    output = deck.run_well(text, folder)
+    output = lmp.run_well(text, folder)
     times = [int(n) for n in re.findall(r"the grid was rebuilt (\d+) times", output)]
     files = sorted(p.name for p in folder.glob("box*"))
     checks.fact("a box that changes: grids are rebuilt often", len(times) == 2 and min(times) > 5, str(times))
@@ -56,9 +56,9 @@ def box_changes(checks, folder):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     scene.write_floor(folder / "floor.stl")
-    deck.run_well(scene.CREATE + "write_data start.data\n", folder)
+    lmp.run_well(scene.CREATE + "write_data start.data\n", folder)
     cache = folder / "cache"
 
     def same(name, run, plain, read=0, written=0, warnings=0):
@@ -136,8 +136,8 @@ def main():
     plain = go(folder, "")
     (folder / "in.once").write_text(text_of("cache cache"))
     for turn in range(3):
-        runs = [subprocess.Popen([deck.LMP, "-in", "in.once", "-log", "none", "-nocite"], cwd=folder,
-                                 env=deck.environment(), stdout=subprocess.PIPE, text=True)
+        runs = [subprocess.Popen([lmp.LMP, "-in", "in.once", "-log", "none", "-nocite"], cwd=folder,
+                                 env=lmp.environment(), stdout=subprocess.PIPE, text=True)
                 for _ in range(3)]
         done = [Run(run.communicate(timeout=300)[0]) for run in runs]
         checks.fact(f"at once, turn {turn}: same numbers", all(run.rows == plain.rows for run in done))
@@ -148,9 +148,9 @@ def main():
 
 
 if __name__ == "__main__":
-    probe = deck.scratch()
+    probe = lmp.scratch()
     scene.write_floor(probe / "floor.stl", cells=1)
-    refused = deck.run(scene.CREATE + f"fix w all wall/lsdcd {LAW} mesh floor.stl cache c\n", probe).stdout
+    refused = lmp.run(scene.CREATE + f"fix w all wall/lsdcd {LAW} mesh floor.stl cache c\n", probe).stdout
     if "this build has no grid cache" in refused:
         print("skipped: the build has no grid cache")
         sys.exit(77)

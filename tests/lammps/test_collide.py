@@ -12,7 +12,7 @@ fix move turns each body about an axis of its own
 import math
 import sys
 
-import deck
+import lmp
 import numpy as np
 
 HALF = 0.5    # of a cube
@@ -110,8 +110,8 @@ def pairs_of(atoms, normal, through):
 
 def compare(checks, name, folder, text, plane, ranks, cubes):
     """Each row of the last run against the dump; plane(time): normal and a point."""
-    rows = {int(r[STEP]): r for r in deck.read_thermo(deck.run_well(text, folder, ranks))}
-    steps, wrong, seen = deck.read_dump(folder / "atoms"), [], set()
+    rows = {int(r[STEP]): r for r in lmp.read_thermo(lmp.run_well(text, folder, ranks))}
+    steps, wrong, seen = lmp.read_dump(folder / "atoms"), [], set()
     for step, atoms in steps.items():
         normal, through = plane(0.01 * step)
         each = [pairs_of([atoms[2 + 4 * k + i] for i in range(4)], normal, through) for k in range(cubes)]
@@ -191,7 +191,7 @@ compute         c cubes lsdcd/collide wall mesh cube.stl move -5.7 0 0
 thermo_style    custom step c_c c_c[1]
 run             0
 """
-        rows = deck.read_thermo(deck.run_well(text, folder, ranks))
+        rows = lmp.read_thermo(lmp.run_well(text, folder, ranks))
         checks.fact(f"an image across a face, {boundary}, {ranks} ranks", rows[-1][1:] == expected, str(rows))
     write_stl(folder / "floor.stl", FLOOR)
 
@@ -209,7 +209,7 @@ run             0
 displace_atoms  cubes move 0 0 2.3
 run             0
 """
-    done = deck.run_well(text, folder)
+    done = lmp.run_well(text, folder)
     rows = [line.split() for line in done.split("\n") if line.split()[:1] == ["0"] and len(line.split()) == 3]
     # 4 upright sides of 2 triangles in each of two floors, then in one, then in none.
     checks.fact("several meshes, and runs", [r[1:] for r in rows] == [["1", "16"], ["1", "8"], ["0", "0"]], str(rows))
@@ -228,12 +228,12 @@ def check_other_wall(checks, folder):
     again = "unfix wall\n" + WALL.replace("floor", "{}") + "\n"
 
     def pairs(text):
-        return deck.read_thermo(deck.run_well(first + text + "run 0\n", folder))[-1][1]
+        return lmp.read_thermo(lmp.run_well(first + text + "run 0\n", folder))[-1][1]
 
-    done = deck.run(first + again.format("other") + "run 0\n", folder, 2)
+    done = lmp.run(first + again.format("other") + "run 0\n", folder, 2)
     checks.fact("a wall with another mesh of the same size is refused", done.returncode != 0 and
                 "fix wall has other meshes than when the compute was defined" in done.stdout,
-                str(deck.read_thermo(done.stdout)))
+                str(lmp.read_thermo(done.stdout)))
     checks.fact("the compute defined again sees that mesh",
                 pairs(again.format("other") + "thermo_style one\nuncompute c\n" + compute +
                       "thermo_style custom step c_c[1]\n") == 0)
@@ -251,8 +251,8 @@ compute         c cubes lsdcd/collide wall mesh cube.stl bodies molecule grid 0.
 """ + THERMO.format(more="c_c[1][2] c_c[2][2] c_c[3][2]")
     first = begin("p p f") + after + "run 100\nwrite_restart half.restart\nundump atoms\n"
     told = "is taken to be where the body of molecule 1 is now, in step 0"
-    checks.fact("bodies whose atoms are in a file: now does not matter", told not in deck.run_well(first, folder))
-    here = deck.run_well(first.replace(" atoms atoms.txt", ""), folder)
+    checks.fact("bodies whose atoms are in a file: now does not matter", told not in lmp.run_well(first, folder))
+    here = lmp.run_well(first.replace(" atoms atoms.txt", ""), folder)
     checks.fact("without it the log says what is taken to be now", here.count(told) == 1)
     rows = compare(checks, "bodies whose atoms are in a file", folder, first,
                    lambda t: (np.array([0, 0, 1.0]), np.zeros(3)), 1, 3)
@@ -265,20 +265,20 @@ compute         c cubes lsdcd/collide wall mesh cube.stl bodies molecule grid 0.
 thermo_style    custom step c_c c_c[1] c_c[2] c_c[3] c_c[1][2] c_c[2][2] c_c[3][2]
 run             0
 """
-    last = deck.read_thermo(deck.run_well(again, folder, 2))
+    last = lmp.read_thermo(lmp.run_well(again, folder, 2))
     checks.fact("and where a restart file has them", last == [rows[100]] and rows[100][PAIRS] > 0, str((last, rows[100])))
 
 
 def main():
     host = "host" in sys.argv[1:]
-    if host and not deck.TEST_HOST:
+    if host and not lmp.TEST_HOST:
         print("SKIPPED: no LAMMPS of hosts/build_host.sh (LSDCD_TEST_HOST)")
         sys.exit(77)
     if host:
         global SETTINGS
-        SETTINGS = f"plugin load {deck.TEST_HOST_PLUGIN}\n" + SETTINGS
-        deck.LMP = deck.TEST_HOST
-    checks, folder = deck.Checks(), deck.scratch()
+        SETTINGS = f"plugin load {lmp.TEST_HOST_PLUGIN}\n" + SETTINGS
+        lmp.LMP = lmp.TEST_HOST
+    checks, folder = lmp.Checks(), lmp.scratch()
     write_stl(folder / "floor.stl", FLOOR)
     for ranks in (1, 3):
         check_moved(checks, folder, ranks)

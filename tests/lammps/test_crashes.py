@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 
-import deck
+import lmp
 import scene
 from test_files import arrays, listed, stl_points, warned
 
@@ -45,11 +45,11 @@ def descendants(pid):
 def killed(folder, ranks, wait):
     """Runs until both restart files are there and `wait` seconds more, then kills all at once."""
     (folder / "in.killed").write_text(text(scene.CREATE, f"run {ENDLESS}\n"))
-    command = [deck.LMP, "-in", "in.killed", "-log", "none", "-nocite"]
+    command = [lmp.LMP, "-in", "in.killed", "-log", "none", "-nocite"]
     if ranks > 1:
         command = ["mpirun", "-np", str(ranks), "--oversubscribe", *command]
     with open(folder / "killed.out", "w") as out:
-        run = subprocess.Popen(command, cwd=folder, env=deck.environment(), stdout=out, stderr=out)
+        run = subprocess.Popen(command, cwd=folder, env=lmp.environment(), stdout=out, stderr=out)
     end = time.time() + 120
     while not all((folder / n).exists() for n in NAMES) and run.poll() is None and time.time() < end:
         time.sleep(0.01)
@@ -82,10 +82,10 @@ def go_on(folder, mesh="fine.stl"):
     so that the newest may be cut off: the other is why there are two."""
     for name in sorted(NAMES, key=lambda n: -(folder / n).stat().st_mtime):
         shutil.copy(folder / name, folder / "last.restart")    # the run writes others over it
-        done = deck.run(text(scene.SETTINGS + "read_restart last.restart\n", f"run {GOES_ON}\n",
-                             scene.dump("continued", 10), mesh=mesh), folder)
+        done = lmp.run(text(scene.SETTINGS + "read_restart last.restart\n", f"run {GOES_ON}\n",
+                            scene.dump("continued", 10), mesh=mesh), folder)
         if done.returncode == 0:
-            return int(deck.read_thermo(done.stdout)[0][0])
+            return int(lmp.read_thermo(done.stdout)[0][0])
     sys.exit("neither restart file can be read:\n" + done.stdout[-4000:])
 
 
@@ -103,10 +103,10 @@ def kills(checks, folder):
         names = [f for _, f in listed(folder / "k_series.pvd")]
         checks.fact(f"{at}: the list goes on from step {step}, each file once",
                     names == [f"k_{s}.vtp" for s in range(20, step + GOES_ON + 1, 20)], str(names[-3:]))
-        deck.run_well(text(scene.CREATE, f"run {step}\n{scene.dump('unbroken', 10)}run {GOES_ON}\n"),
-                      folder, ranks)
-        checks.at_most(f"{at}: continued as unbroken", deck.largest_difference(
-            deck.read_dump(folder / "unbroken"), deck.read_dump(folder / "continued")), 0)
+        lmp.run_well(text(scene.CREATE, f"run {step}\n{scene.dump('unbroken', 10)}run {GOES_ON}\n"),
+                     folder, ranks)
+        checks.at_most(f"{at}: continued as unbroken", lmp.largest_difference(
+            lmp.read_dump(folder / "unbroken"), lmp.read_dump(folder / "continued")), 0)
 
 
 def killed_in_a_write(checks, folder):
@@ -115,8 +115,8 @@ def killed_in_a_write(checks, folder):
         files = "mesh_fields same.vtp every 20 mesh_stl same.stl every 20"
         (folder / "in.limited").write_text(
             scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl " + files) + "run 100\n")
-        command = f"ulimit -c 0; ulimit -f {limit}; exec '{deck.LMP}' -in in.limited -log none -nocite"
-        return subprocess.run(["sh", "-c", command], cwd=folder, env=deck.environment(),
+        command = f"ulimit -c 0; ulimit -f {limit}; exec '{lmp.LMP}' -in in.limited -log none -nocite"
+        return subprocess.run(["sh", "-c", command], cwd=folder, env=lmp.environment(),
                               stdout=subprocess.DEVNULL).returncode
 
     checks.fact("without a limit it runs", run("unlimited") == 0)
@@ -143,7 +143,7 @@ def small_disk(folder, kilobytes):
     path.write_text(f"""#!/bin/sh
 [ -n "$LSDCD_INSIDE" ] || LSDCD_INSIDE=1 exec unshare --mount "$0" "$@"
 mount -t tmpfs -o size={kilobytes}k none full
-'{deck.LMP}' "$@"
+'{lmp.LMP}' "$@"
 status=$?
 cp -r full kept
 exit $status
@@ -155,13 +155,13 @@ exit $status
 def full_disk(checks, folder):
     # Five .vtp of 140 kB, restart files of 16 kB, an STL of 68 kB, which needs as much once more
     # while it is replaced.
-    program, lmp = small_disk(folder, 800), deck.LMP
+    program, usual = small_disk(folder, 800), lmp.LMP
     if not program:
         print("SKIP a full disk: only root can mount one")
         return
-    deck.LMP = program
-    done = deck.run(text(scene.CREATE, "run 300\n", to="full/", mesh="floor.stl"), folder)
-    deck.LMP = lmp
+    lmp.LMP = program
+    done = lmp.run(text(scene.CREATE, "run 300\n", to="full/", mesh="floor.stl"), folder)
+    lmp.LMP = usual
     told = warned(done.stdout)
     words = ("full/now.stl", "No space left", "no mesh_stl of this step", "Make room")
     checks.fact("a full disk: one warning with file, reason, loss and remedy",
@@ -178,7 +178,7 @@ def full_disk(checks, folder):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     scene.write_floor(folder / "floor.stl")
     scene.write_floor(folder / "fine.stl", cells=80)    # a run that writes files most of its time
     kills(checks, folder)

@@ -9,7 +9,7 @@ Skipped (exit status 77) without the CUDA engine or a GPU.
 
 import sys
 
-import deck
+import lmp
 import scene
 
 LAWS = {"hooke": "hooke 1e4 NULL 120 NULL 0.4 1",
@@ -18,24 +18,24 @@ LAWS = {"hooke": "hooke 1e4 NULL 120 NULL 0.4 1",
 
 
 def go(law, device, folder, ranks=1):
-    done = deck.run(scene.CREATE + scene.forces(law, f"mesh floor.stl device {device}") +
-                    scene.dump("moves", 100) + "run 2000\n", folder, ranks)
+    done = lmp.run(scene.CREATE + scene.forces(law, f"mesh floor.stl device {device}") +
+                   scene.dump("moves", 100) + "run 2000\n", folder, ranks)
     if "device cuda: " in done.stdout:
         print("SKIPPED:", next(line for line in done.stdout.split("\n") if "device cuda: " in line))
         sys.exit(77)
     if done.returncode:
         sys.exit(done.stdout[-4000:])
-    return deck.read_dump(folder / "moves")
+    return lmp.read_dump(folder / "moves")
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     scene.write_floor(folder / "floor.stl")
     for name, law in LAWS.items():
         for ranks in (1, 2):
             cuda, cpu = (go(law, device, folder, ranks) for device in ("cuda", "cpu"))
             checks.at_most(f"{name} on {ranks} rank{'s' if ranks > 1 else ''}: same trajectory",
-                           deck.largest_difference(cuda, cpu), 0)
+                           lmp.largest_difference(cuda, cpu), 0)
     checks.done(folder)
 
 

@@ -6,12 +6,12 @@
 import math
 import re
 
-import deck
+import lmp
 
 RADIUS, DENSITY, FALL, BELT, DT = 0.002, 2500.0, 1.0, 4.5, 1e-6
 YOUNG, E, NU, MU = 5e6, 0.5, 0.25, 0.5
 
-BELT_DECK = f"""\
+BELT_SCRIPT = f"""\
 units           si
 atom_style      sphere
 atom_modify     map array
@@ -29,7 +29,7 @@ neighbor        0.001 bin
 timestep        {DT}
 fix             move all nve/sphere
 fix             w all wall/lsdcd granular hertz/material {YOUNG} {E} {NU} damping coeff_restitution &
-                tangential ${{tangential}} mesh {deck.HERE}/decks/floor.stl scale 0.1 surface_vel {BELT} 0 0
+                tangential ${{tangential}} mesh {lmp.HERE}/scripts/floor.stl scale 0.1 surface_vel {BELT} 0 0
 variable        vx equal vx[1]
 variable        z equal z[1]
 thermo_style    custom step v_z
@@ -77,12 +77,12 @@ def gained(keeps_force, xgammat):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
-    page = (deck.HERE.parent.parent / "doc" / "fix_wall_lsdcd.rst").read_text()
+    checks, folder = lmp.Checks(), lmp.scratch()
+    page = (lmp.HERE.parent.parent / "doc" / "fix_wall_lsdcd.rst").read_text()
     said = re.findall(r"\b(0\.\d\d)\s+m/s", page)
     checks.fact("the page has three figures", len(said) == 3, str(said))
     for tangential, in_page in zip((f"mindlin NULL 1 {MU}", f"mindlin/force NULL 1 {MU}", f"mindlin NULL 0 {MU}"), said):
-        shown = deck.run_well(BELT_DECK, folder, tangential=tangential)
+        shown = lmp.run_well(BELT_SCRIPT, folder, tangential=tangential)
         found = float(re.search(r"^gained (\S+)", shown, re.M)[1])
         model, _, xgammat, _ = tangential.split()
         wanted = gained("force" in model, float(xgammat))

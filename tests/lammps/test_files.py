@@ -10,7 +10,7 @@ import math
 import struct
 import xml.etree.ElementTree as ElementTree
 
-import deck
+import lmp
 import scene
 
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
@@ -57,7 +57,7 @@ def apart(a, b):
 
 def go(folder, words, run, begin=scene.CREATE, ranks=1):
     law = SOFT if "motion" in words else LAW
-    return deck.run_well(begin + scene.forces(law, mesh="mesh floor.stl " + words) + run, folder, ranks)
+    return lmp.run_well(begin + scene.forces(law, mesh="mesh floor.stl " + words) + run, folder, ranks)
 
 
 def series(checks, folder):
@@ -84,7 +84,7 @@ def forces(checks, folder):
     """Of triangles, against the totals, which the engine sums over spheres."""
     scene.write_floor(folder / "coarse.stl", cells=6)
     words = f"mesh coarse.stl move 0 0 0.3 motion rotate 0 0 0 1 2 2 20 mesh_fields v_*.vtp every 1"
-    rows = deck.read_thermo(deck.run_well(
+    rows = lmp.read_thermo(lmp.run_well(
         scene.CREATE + scene.forces(LAW, mesh=words) + "thermo_style custom step f_wall[1] f_wall[2] f_wall[3]\n"
         "thermo_modify norm no format float %.17g\nthermo 1\nrun 120\n", folder))
     worst, size = 0, max(abs(v) for row in rows for v in row[1:])
@@ -135,7 +135,7 @@ def write_ply(path, points):
 def ply(checks, folder):
     go(folder, "mesh_stl p.stl every 50", "run 50\n")
     write_ply(folder / "p.ply", stl_points(folder / "p.stl"))
-    done = deck.run(scene.CREATE + scene.forces(LAW, mesh="mesh p.ply mesh_stl q.stl every 50") + "run 50\n", folder)
+    done = lmp.run(scene.CREATE + scene.forces(LAW, mesh="mesh p.ply mesh_stl q.stl every 50") + "run 50\n", folder)
     if "built without assimp" in done.stdout:
         checks.fact("a PLY without assimp: an error", done.returncode != 0)
     else:
@@ -153,11 +153,11 @@ def stl(checks, folder):
     as_floats = list(struct.unpack(f"<{len(corners)}f", struct.pack(f"<{len(corners)}f", *corners)))
     checks.fact("an STL of the mesh where it is", stl_points(folder / "s_120.stl") == as_floats)
     go(folder, "mesh_stl t.stl every 50", "run 50\n")
-    deck.run_well(scene.CREATE + scene.forces(LAW, mesh="mesh t.stl mesh_stl u.stl every 50") + "run 50\n", folder)
+    lmp.run_well(scene.CREATE + scene.forces(LAW, mesh="mesh t.stl mesh_stl u.stl every 50") + "run 50\n", folder)
     checks.fact("read again and written again it is the same file",
                 (folder / "t.stl").read_bytes() == (folder / "u.stl").read_bytes())
-    done = deck.run(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_stl no/such.stl every 5") +
-                    "run 10\n", folder)
+    done = lmp.run(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_stl no/such.stl every 5") +
+                   "run 10\n", folder)
     checks.fact("mesh_stl into a missing folder stops before the run", done.returncode != 0 and
                 "in 'mesh_stl', 'no/such.stl'" in done.stdout and "Step" not in done.stdout)
     text = on_full_disk(folder, 64, "mesh_stl t.stl every 50", "run 100\n")
@@ -170,21 +170,21 @@ def stl(checks, folder):
 def under_limit(folder, blocks):
     """LAMMPS where no file may grow past so many blocks of 512 bytes, as on a full disk."""
     path = folder / "limited.sh"
-    program = deck.KOKKOS_HOST if deck.ON_KOKKOS else deck.LMP
+    program = lmp.KOKKOS_HOST if lmp.ON_KOKKOS else lmp.LMP
     path.write_text(f"#!/bin/sh\ntrap '' XFSZ\nulimit -f {blocks}\nexec '{program}' \"$@\"\n")
     path.chmod(0o755)
     return str(path)
 
 
 def on_full_disk(folder, blocks, *args):
-    name = "KOKKOS_HOST" if deck.ON_KOKKOS else "LMP"
-    program = getattr(deck, name)
+    name = "KOKKOS_HOST" if lmp.ON_KOKKOS else "LMP"
+    program = getattr(lmp, name)
     limited = under_limit(folder, blocks)
-    setattr(deck, name, limited)
+    setattr(lmp, name, limited)
     try:
         return go(folder, *args)
     finally:
-        setattr(deck, name, program)
+        setattr(lmp, name, program)
 
 
 def warned(text):
@@ -218,7 +218,7 @@ def not_written(checks, folder):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     scene.write_floor(folder / "floor.stl")
     for part in (series, forces, continued, stl, ply, not_written):
         part(checks, folder)

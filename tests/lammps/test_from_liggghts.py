@@ -7,9 +7,9 @@ import re
 import subprocess
 import sys
 
-import deck
+import lmp
 
-EXAMPLE = deck.HERE.parent.parent / "examples" / "from-liggghts"
+EXAMPLE = lmp.HERE.parent.parent / "examples" / "from-liggghts"
 MATERIAL = """\
 fix m1 all property/global youngsModulus peratomtype 1e7
 fix m2 all property/global poissonsRatio peratomtype 0.3
@@ -130,15 +130,15 @@ def run(checks, folder):
     for name in ("meshGran", "movingMeshGran", "servoWall", "conveyor"):
         done, out = convert(folder, (EXAMPLE / f"in.{name}.liggghts").read_text())
         checks.fact(f"{name}: nothing is left", out is not None and "\n# LEFT" not in out, done.stderr)
-        port = figures(deck.run_well(EXAMPLE / f"in.{name}", folder, png=0), name)
-        converted = figures(deck.run_well(folder / "in.here", folder), name)
+        port = figures(lmp.run_well(EXAMPLE / f"in.{name}", folder, png=0), name)
+        converted = figures(lmp.run_well(folder / "in.here", folder), name)
         checks.fact(f"{name}: the converted script gives the port's figures", len(port) == 1 and converted == port,
                     f"{port} {converted}")
 
 
 if __name__ == "__main__":
-    facts = deck.Checks()
-    place = deck.scratch()
+    facts = lmp.Checks()
+    place = lmp.scratch()
     if sys.argv[1:] == ["run"]:
         run(facts, place)
     else:

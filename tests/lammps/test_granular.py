@@ -16,7 +16,7 @@ import math
 import random as random_numbers
 import sys
 
-import deck
+import lmp
 
 # What they have in common: E, nu, gamma, and friction that both sticks and slips.
 MATERIAL = "1e5 {eta} 0.3"
@@ -151,8 +151,8 @@ run             {steps}
 
 
 def run(folder, *words, **more):
-    deck.run_well(script(*words, **more), folder)
-    return deck.read_dump(folder / "out")
+    lmp.run_well(script(*words, **more), folder)
+    return lmp.read_dump(folder / "out")
 
 
 def compare(checks, folder, name, ours, hosts, load="", **settings):
@@ -161,7 +161,7 @@ def compare(checks, folder, name, ours, hosts, load="", **settings):
         mesh = run(folder, scene, f"wall/lsdcd granular {ours}", steps, every, load, **settings)
         touching = sum(row[12] != 0 for rows in plane.values() for row in rows.values())    # torque
         checks.fact(f"{name}, {title}: they touch", touching > 100, str(touching))
-        checks.at_most(f"{name}, {title}", deck.largest_difference(plane, mesh), 1e-12)
+        checks.at_most(f"{name}, {title}", lmp.largest_difference(plane, mesh), 1e-12)
 
 
 HEAT = """\
@@ -193,9 +193,9 @@ def heat_of_a_compute(checks, folder, load):
     often, seldom = (run(folder, ONE, wall, 500, 100, load, more=HEAT + there, columns="c_warmth",
                          thermo=thermo) for thermo in (1, 500))
     checks.at_most("heat, a variable with a compute: seldom thermo output as often",
-                   deck.largest_difference(often, seldom), 0)
+                   lmp.largest_difference(often, seldom), 0)
     nowhere = "variable there equal exp(1000*(step>4))-1\n"    # from step 5 on
-    done = deck.run(script(ONE, wall, 9, 1, load, more=HEAT + nowhere, columns="c_warmth"), folder)
+    done = lmp.run(script(ONE, wall, 9, 1, load, more=HEAT + nowhere, columns="c_warmth"), folder)
     checks.fact("heat, a variable that is no number stops the run", done.returncode != 0 and
                 "variable 'there', which the wall reads, is inf in step 5" in done.stdout, done.stdout[-300:])
 
@@ -207,7 +207,7 @@ def steady_heat(checks, folder, load):
     floor, lid = "mesh floor.stl temperature 400", "mesh floor.stl move 0 0 0.98 temperature 300"
 
     def end(walls, columns):
-        deck.run_well(f"""\
+        lmp.run_well(f"""\
 {load}
 {SETTINGS}
 create_atoms    1 single 0.3 0.2 0.49 units box
@@ -221,7 +221,7 @@ dump            out all custom 20000 out id c_warmth {columns}
 dump_modify     out format float %.17g
 run             20000
 """, folder)
-        return deck.read_dump(folder / "out")[20000][1]
+        return lmp.read_dump(folder / "out")[20000][1]
 
     temperature, warmed, cooled = end(f"fix floor all wall/lsdcd {law} {floor} contacts\n"
                                       f"fix lid all wall/lsdcd {law} {lid} contacts", "f_floor[9] f_lid[9]")
@@ -257,7 +257,7 @@ def host_defects(checks, folder, load):
     plane = run(folder, ONE, f"wall/gran granular {law} zplane 0.0 NULL", 1500, 10, load)
     mesh = run(folder, ONE, f"wall/lsdcd granular {law} mesh floor.stl", 1500, 10, load)
     checks.fact("marshall on mindlin: LAMMPS forgets the contact radius",
-                deck.largest_difference(plane, mesh) > 1e-6)
+                lmp.largest_difference(plane, mesh) > 1e-6)
 
 
 def older_host(checks, folder):
@@ -278,16 +278,16 @@ def older_host(checks, folder):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     (folder / "floor.stl").write_bytes(floor())
     if sys.argv[1:] != ["host"]:
         older_host(checks, folder)
         checks.done(folder)
-    if not deck.TEST_HOST:
+    if not lmp.TEST_HOST:
         print("SKIPPED: no LAMMPS 4Jul2026 (tests/lammps/hosts/build_host.sh)")
         sys.exit(77)
-    load = f"plugin load {deck.TEST_HOST_PLUGIN}"
-    deck.LMP = deck.TEST_HOST
+    load = f"plugin load {lmp.TEST_HOST_PLUGIN}"
+    lmp.LMP = lmp.TEST_HOST
     for name, (ours, hosts) in laws().items():
         compare(checks, folder, name, f"{ours} mesh floor.stl", f"{hosts} zplane 0.0 NULL", load)
     heat(checks, folder, load)

@@ -13,7 +13,7 @@ import re
 import subprocess
 import sys
 
-import deck
+import lmp
 import scene
 
 HISTORY = "hooke/history 1e4 NULL 120 NULL 0.4 1"
@@ -38,8 +38,8 @@ run             400
 
 
 def go(folder, flags, text, ranks=1, name="moves"):
-    output = deck.run_well(text, folder, ranks, host=True, flags=flags)
-    return deck.read_dump(folder / name), output
+    output = lmp.run_well(text, folder, ranks, host=True, flags=flags)
+    return lmp.read_dump(folder / name), output
 
 
 def plain_among_kokkos(text):
@@ -49,18 +49,18 @@ def plain_among_kokkos(text):
 
 
 def single_contacts(checks, folder):
-    (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
-    path = deck.HERE / "decks" / "in.one_sphere"
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+    path = lmp.HERE / "scripts" / "in.one_sphere"
     for name, law in LAWS.items():
         dumps = []
-        for flags in (PLAIN, deck.KOKKOS):
-            deck.run_well(path, folder, host=True, flags=flags, unit="lj", kick=1, dt=1e-4,
-                          steps=1000, style="verlet", wall=f"wall/lsdcd {law} mesh floor.stl",
-                          out="one")
-            dumps.append(deck.read_dump(folder / "one"))
+        for flags in (PLAIN, lmp.KOKKOS):
+            lmp.run_well(path, folder, host=True, flags=flags, unit="lj", kick=1, dt=1e-4,
+                         steps=1000, style="verlet", wall=f"wall/lsdcd {law} mesh floor.stl",
+                         out="one")
+            dumps.append(lmp.read_dump(folder / "one"))
         touched = sum(abs(row[1][11]) > 0 for row in dumps[0].values())
         checks.fact(f"{name}: the sphere touches the floor", touched > 20, f"{touched} steps")
-        checks.at_most(f"{name}: every step as the plain fix", deck.largest_difference(*dumps), 1e-12)
+        checks.at_most(f"{name}: every step as the plain fix", lmp.largest_difference(*dumps), 1e-12)
 
 
 def forms(checks, folder):
@@ -70,12 +70,12 @@ def forms(checks, folder):
     checks.fact("spheres touch the floor", touching > 20, str(touching))
     by_name = body.replace("pair_style", "suffix off\npair_style")
     for style in ("kk", "kk/device", "kk/host"):
-        named, _ = go(folder, deck.KOKKOS, by_name.replace("wall/lsdcd", f"wall/lsdcd/{style}"))
-        checks.at_most(f"wall/lsdcd/{style}, by name", deck.largest_difference(plain, named), 1e-9)
-    host, _ = go(folder, deck.KOKKOS, by_name)
-    checks.at_most("the plain fix beside Kokkos", deck.largest_difference(plain, host), 1e-9)
-    between, _ = go(folder, deck.KOKKOS, plain_among_kokkos(body))
-    checks.at_most("the plain fix among fixes of Kokkos", deck.largest_difference(plain, between), 1e-9)
+        named, _ = go(folder, lmp.KOKKOS, by_name.replace("wall/lsdcd", f"wall/lsdcd/{style}"))
+        checks.at_most(f"wall/lsdcd/{style}, by name", lmp.largest_difference(plain, named), 1e-9)
+    host, _ = go(folder, lmp.KOKKOS, by_name)
+    checks.at_most("the plain fix beside Kokkos", lmp.largest_difference(plain, host), 1e-9)
+    between, _ = go(folder, lmp.KOKKOS, plain_among_kokkos(body))
+    checks.at_most("the plain fix among fixes of Kokkos", lmp.largest_difference(plain, between), 1e-9)
 
 
 def lists(checks, folder):
@@ -83,9 +83,9 @@ def lists(checks, folder):
     rare = body.replace("neigh_modify    delay 0 every 1", "neigh_modify    delay 0 every 2")
     for name, text in (("every step checked", body), ("every other step checked", rare)):
         plain, plain_output = go(folder, PLAIN, text)
-        kokkos, output = go(folder, deck.KOKKOS, text)
-        checks.at_most(f"{name}: as the plain fix", deck.largest_difference(plain, kokkos), 1e-9)
-        if deck.DEVICE_MOVES:
+        kokkos, output = go(folder, lmp.KOKKOS, text)
+        checks.at_most(f"{name}: as the plain fix", lmp.largest_difference(plain, kokkos), 1e-9)
+        if lmp.DEVICE_MOVES:
             checks.fact(f"{name}: atoms move on the device", "switching to legacy" not in output)
         for form, said in (("plain", plain_output), ("kk", output)):
             found = re.search(r": (\d+) steps and the setup: atoms near the wall chosen (\d+) times?(.*), "
@@ -101,14 +101,14 @@ def lists(checks, folder):
 
 
 def forces_set_before(checks, folder):
-    """By a fix before the wall in the deck: the wall's forces are not among those that it replaces."""
+    """By a fix before the wall in the script: the wall's forces are not among those that it replaces."""
     body = scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 100) + "run 600\n"
     body = re.sub(r"(?=^fix +wall )", "fix pushes all setforce 0.0 0.0 -4.0\n", body, flags=re.M)
     plain, _ = go(folder, PLAIN, body)
-    kokkos, _ = go(folder, deck.KOKKOS, body)
+    kokkos, _ = go(folder, lmp.KOKKOS, body)
     pushed = sum(row[9] > 0 for row in plain[600].values())
     checks.fact("spheres are pushed onto the floor", pushed > 20, str(pushed))
-    checks.at_most("forces set before the wall: as the plain fix", deck.largest_difference(plain, kokkos),
+    checks.at_most("forces set before the wall: as the plain fix", lmp.largest_difference(plain, kokkos),
                    1e-9)
 
 
@@ -116,11 +116,11 @@ def atoms_that_come_and_go(checks, folder):
     body = (scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 50) + "run 600\n" + TAKEN_OUT)
     for ranks in (1, 2):
         plain, _ = go(folder, PLAIN, body, ranks)
-        kokkos, _ = go(folder, deck.KOKKOS, body, ranks)
+        kokkos, _ = go(folder, lmp.KOKKOS, body, ranks)
         counts = {len(rows) for rows in plain.values()}
         checks.fact(f"{ranks} ranks: atoms leave and come", len(counts) > 2, str(counts))
         checks.at_most(f"{ranks} ranks: deleted and created atoms: as the plain fix",
-                       deck.largest_difference(plain, kokkos), 1e-9)
+                       lmp.largest_difference(plain, kokkos), 1e-9)
 
 
 def a_bed(checks, folder):
@@ -129,18 +129,18 @@ def a_bed(checks, folder):
     start = re.sub(r"region +fill .*", "region fill block -5 5 -5 5 1.0 7.5 units box", start)
     start = start.replace("diameter 1.0", "diameter 0.8").replace("diameter 0.7", "diameter 0.56")
     # The order of create_atoms and the sums of velocity depend on the ranks.
-    output = deck.run_well(start + "write_data start.data\n", folder, host=True, flags=PLAIN)
+    output = lmp.run_well(start + "write_data start.data\n", folder, host=True, flags=PLAIN)
     count = int(re.search(r"Created (\d+) atoms", output).group(1))
     body = (scene.SETTINGS + "read_data start.data\n" + scene.forces(HISTORY, pair=True) +
             scene.dump("moves", 50) + "run 600\n")
     checks.fact("a bed of a thousand", count >= 1000, str(count))
     # Kokkos's integrator rounds in its own way: it moves the spheres of all three.
-    one, _ = go(folder, deck.KOKKOS, plain_among_kokkos(body))
-    two, _ = go(folder, deck.KOKKOS, plain_among_kokkos(body), 2)
-    kokkos, _ = go(folder, deck.KOKKOS, body)
+    one, _ = go(folder, lmp.KOKKOS, plain_among_kokkos(body))
+    two, _ = go(folder, lmp.KOKKOS, plain_among_kokkos(body), 2)
+    kokkos, _ = go(folder, lmp.KOKKOS, body)
     apart = {}
     for name, other in (("ranks", two), ("kokkos", kokkos)):
-        apart[name] = max(deck.largest_difference({s: one[s]}, {s: other[s]}) for s in one)
+        apart[name] = max(lmp.largest_difference({s: one[s]}, {s: other[s]}) for s in one)
     checks.at_most("a bed parts from the plain fix's no faster than on 2 ranks",
                    apart["kokkos"], 10 * max(apart["ranks"], 1e-12))
 
@@ -149,14 +149,14 @@ def refusals(checks, folder):
     short = scene.CREATE + scene.forces(HISTORY) + "run 1\n"
     for name, flags, text, words in (
             ("without -k on", (), short.replace("wall/lsdcd", "wall/lsdcd/kk"), "start it with -k on"),
-            ("keyword device", deck.KOKKOS, short.replace("contacts", "device cpu"),
+            ("keyword device", lmp.KOKKOS, short.replace("contacts", "device cpu"),
              "the keyword device has no meaning")):
-        done = deck.run(text, folder, host=True, flags=flags)
+        done = lmp.run(text, folder, host=True, flags=flags)
         checks.fact(f"{name}: an error that says so", done.returncode and words in done.stdout,
                     "" if words in done.stdout else done.stdout[-400:])
 
     # A host that says its Kokkos is another: one whose library can be stood before.
-    linked = subprocess.run(["ldd", deck.KOKKOS_HOST], stdout=subprocess.PIPE, text=True).stdout
+    linked = subprocess.run(["ldd", lmp.KOKKOS_HOST], stdout=subprocess.PIPE, text=True).stdout
     if "liblammps" not in linked:
         print("SKIPPED: hosts that say their Kokkos is another (this one has no liblammps.so)")
         return
@@ -169,25 +169,25 @@ def refusals(checks, folder):
         source.write_text('#include <cstring>\nextern "C" int lammps_config_accelerator(const char *, '
                           f'const char *c, const char *) {{ return std::strchr("{answers}", *c) != '
                           'nullptr; }\n')
-        subprocess.run([deck.CXX, "-shared", "-fPIC", "-o", other, source], check=True)
-        done = deck.run(short, folder, host=True, env={"LD_PRELOAD": str(other)})
+        subprocess.run([lmp.CXX, "-shared", "-fPIC", "-o", other, source], check=True)
+        done = lmp.run(short, folder, host=True, env={"LD_PRELOAD": str(other)})
         checks.fact(f"another {name} of Kokkos: not loaded, and says why",
                     done.returncode and words in done.stdout,
                     "" if words in done.stdout else done.stdout[:400])
 
 
 def main():
-    if not deck.KOKKOS_HOST:
+    if not lmp.KOKKOS_HOST:
         print("SKIPPED: no LAMMPS with Kokkos (tests/lammps/hosts/build_host.sh)")
         sys.exit(77)
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     single_contacts(checks, folder)
     scene.write_floor(folder / "floor.stl")
     lists(checks, folder)
     forces_set_before(checks, folder)
     atoms_that_come_and_go(checks, folder)
     # These do not depend on how atoms move, and mix in fixes that move them over the host.
-    if not deck.DEVICE_MOVES:
+    if not lmp.DEVICE_MOVES:
         forms(checks, folder)
         a_bed(checks, folder)
         refusals(checks, folder)

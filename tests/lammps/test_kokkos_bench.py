@@ -12,9 +12,9 @@ import random
 import statistics
 import sys
 
-import deck
+import lmp
 
-sys.path.insert(0, str(deck.HERE.parent.parent / "bench"))
+sys.path.insert(0, str(lmp.HERE.parent.parent / "bench"))
 import kokkos    # noqa: E402
 import kokkos_runs as runs    # noqa: E402
 from kokkos_beds import Bed    # noqa: E402
@@ -44,7 +44,7 @@ def states(checks, host, folder, name):
     rows = {}
     for order in ("random", "sorted"):
         for wall in (bed.wall(), ""):
-            text = runs.timed_deck(host, bed, order, wall, 10, 1)
+            text = runs.timed_script(host, bed, order, wall, 10, 1)
             at = text.index("thermo_style")
             host.run_well(text[:at] + DUMP.format(file="start.dump") + text[at:], folder)
             rows[order, bool(wall)] = memory(folder / "start.dump")
@@ -105,11 +105,11 @@ def rows_of_all(checks, host, folder):
 
 
 def main():
-    if not deck.KOKKOS_HOST:
+    if not lmp.KOKKOS_HOST:
         print("SKIPPED: no LAMMPS with Kokkos (tests/lammps/hosts/build_host.sh)")
         sys.exit(77)
-    checks, folder = deck.Checks(), pathlib.Path(deck.scratch())
-    host = runs.Host(deck.KOKKOS_HOST, deck.KOKKOS_PLUGIN, "-k on -sf kk", "mpirun -np {ranks}")
+    checks, folder = lmp.Checks(), pathlib.Path(lmp.scratch())
+    host = runs.Host(lmp.KOKKOS_HOST, lmp.KOKKOS_PLUGIN, "-k on -sf kk", "mpirun -np {ranks}")
     for name in kokkos.CASES:
         states(checks, host, folder, name)
     rows_of_all(checks, host, folder)

@@ -8,17 +8,17 @@ import os
 import pathlib
 import subprocess
 
-import deck
+import lmp
 import scene
 
 SMALL = scene.CREATE + scene.forces("hooke 1e4 NULL 5 NULL 0.4 1") + "run 10\n"
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     scene.write_floor(folder / "floor.stl", cells=4)
 
-    shown = subprocess.run([deck.LMP, "-h"], env=deck.environment(), text=True,
+    shown = subprocess.run([lmp.LMP, "-h"], env=lmp.environment(), text=True,
                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     checks.fact("-h succeeds and shows the fix", shown.returncode == 0 and
                 "wall/lsdcd" in shown.stdout and "corner blend | sum" in shown.stdout)
@@ -26,30 +26,30 @@ def main():
         checks.fact(f"-h shows {syntax}", "\n" + syntax in shown.stdout)
     checks.fact("-h shows LAMMPS's own options", "-partition" in shown.stdout)
 
-    text = deck.run_well("plugin list\n" + SMALL + "clear\nplugin list\n" + SMALL, folder)
+    text = lmp.run_well("plugin list\n" + SMALL + "clear\nplugin list\n" + SMALL, folder)
     checks.fact("the style is there again after clear",
                 text.count("fix style plugin wall/lsdcd") == 2)
 
-    text = deck.run_well("plugin load nofile\nplugin load lsdcdplugin.so\n", folder)
+    text = lmp.run_well("plugin load nofile\nplugin load lsdcdplugin.so\n", folder)
     checks.fact("a file that is not there is named", "Open of file nofile failed" in text)
     checks.fact("a second load is told", "Ignoring load of fix style wall/lsdcd" in text)
 
-    done = deck.run("plugin unload fix wall/lsdcd\nplugin list\n" + SMALL, folder)
+    done = lmp.run("plugin unload fix wall/lsdcd\nplugin list\n" + SMALL, folder)
     checks.fact("an unloaded style is gone",
                 done.returncode != 0 and "wall/lsdcd" in done.stdout.split("ERROR")[-1])
-    text = deck.run_well(SMALL + "plugin unload fix wall/lsdcd\nrun 1\n", folder)
+    text = lmp.run_well(SMALL + "plugin unload fix wall/lsdcd\nrun 1\n", folder)
     checks.fact("unload deletes the fix in use", "Unloading fix style wall/lsdcd" in text)
-    text = deck.run_well("plugin clear\nplugin load lsdcdplugin.so\n" + SMALL, folder)
+    text = lmp.run_well("plugin clear\nplugin load lsdcdplugin.so\n" + SMALL, folder)
     checks.fact("clear, then load by name", "Loading plugin: fix wall/lsdcd" in text)
-    done = deck.run("plugin frobnicate\n\n", folder)
+    done = lmp.run("plugin frobnicate\n\n", folder)
     checks.fact("a wrong word shows the syntax",
                 done.returncode != 0 and "unload STYLE NAME" in done.stdout)
 
     (folder / "more").mkdir()
     (folder / "more" / "otherplugin.so").symlink_to(
-        pathlib.Path(deck.LMP).resolve().parent.parent / "lib" / "lsdcdplugin.so")
-    text = deck.run_well("plugin list\n\n", folder,
-                         env={"LAMMPS_PLUGIN_PATH": f"nowhere:{folder}/more"})
+        pathlib.Path(lmp.LMP).resolve().parent.parent / "lib" / "lsdcdplugin.so")
+    text = lmp.run_well("plugin list\n\n", folder,
+                        env={"LAMMPS_PLUGIN_PATH": f"nowhere:{folder}/more"})
     checks.fact("LAMMPS_PLUGIN_PATH is searched", f"Loaded 1 plugins from {folder}/more" in text)
 
     # A host that says it is another version: its lammps_version() comes first.
@@ -57,7 +57,7 @@ def main():
     subprocess.run([os.environ.get("LSDCD_CXX", "c++"), "-shared", "-fPIC", "-x", "c", "other.c", "-o",
                     "other.so"], cwd=folder, check=True)
     for ranks in (1, 2):
-        done = deck.run(SMALL, folder, ranks, env={"LD_PRELOAD": str(folder / "other.so")})
+        done = lmp.run(SMALL, folder, ranks, env={"LD_PRELOAD": str(folder / "other.so")})
         text = done.stdout
         checks.fact(f"another version is refused once on {ranks} rank{'s' if ranks > 1 else ''}",
                     text.count("lsdcd plugin not loaded: it was built for LAMMPS version") == 1 and

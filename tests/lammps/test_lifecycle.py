@@ -12,7 +12,7 @@ import re
 import subprocess
 import sys
 
-import deck
+import lmp
 import scene
 
 HEAD = """\
@@ -46,11 +46,11 @@ def head(vary=""):
 
 
 def rows_of(folder, name):
-    return next(iter(deck.read_dump(folder / name).values()))
+    return next(iter(lmp.read_dump(folder / name).values()))
 
 
 def write_floor(folder):
-    (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
 
 
 def write_plates(path, n, centre, distance):
@@ -84,14 +84,14 @@ set group all diameter 1.0 density 2.0
 group one id 1
 """ + FORCES + f"fix wall all wall/lsdcd {HOOKE} mesh floor.stl contacts\nrun 0\n"
     body += ROWS.format("before")
-    deck.run_well(body + "delete_atoms group one compress no\n" + ROWS.format("after"), folder)
+    lmp.run_well(body + "delete_atoms group one compress no\n" + ROWS.format("after"), folder)
     before, after = rows_of(folder, "before"), rows_of(folder, "after")
     # Overlaps of 0.05 and 0.02: 500 and 200.
     checks.fact("contacts rows: what they are of", math.isclose(before[1][3], 500, rel_tol=1e-12))
     del before[1]
     checks.fact("contacts rows follow atoms when one is deleted", after == before,
                 f"atom 2 has {after[2][3]:g}, atom 3 has {after[3][3]:g}")
-    deck.run_well(body + "displace_atoms all move 3 0 0\n" + ROWS.format("after"), folder, 2)
+    lmp.run_well(body + "displace_atoms all move 3 0 0\n" + ROWS.format("after"), folder, 2)
     before, after = rows_of(folder, "before"), rows_of(folder, "after")
     checks.fact("contacts rows follow atoms to another process", after == before,
                 f"atom 1 has {after[1][3]:g}, atom 3 has {after[3][3]:g}")
@@ -100,7 +100,7 @@ group one id 1
 def rows_are_read(checks, folder):
     """Another fix reads the array before the wall writes it: the rows of the last step."""
     start = scene.SETTINGS.replace("sort 40 1.5", "sort {} 1.5")
-    deck.run_well(scene.CREATE + "write_data start.data\n", folder)
+    lmp.run_well(scene.CREATE + "write_data start.data\n", folder)
     moves = {}
     for name, every, ranks in (("unsorted", 0, 1), ("sorted", 1, 1), ("spread", 0, 4)):
         body = (start.format(every) + "read_data start.data\n" +
@@ -108,12 +108,12 @@ def rows_are_read(checks, folder):
         # The push comes before the wall in the order of fixes.
         body = body.replace("fix             wall ", "fix             push all addforce v_px 0 0\n"
                                                      "fix             wall ")
-        body = body.replace("pair_style", f"variable        px atom 0.1*{deck.COLUMN}_wall[2]\npair_style", 1)
-        deck.run_well(body + scene.dump("moves", 100) + "run 1500\n", folder, ranks)
-        moves[name] = deck.read_dump(folder / "moves")
+        body = body.replace("pair_style", f"variable        px atom 0.1*{lmp.COLUMN}_wall[2]\npair_style", 1)
+        lmp.run_well(body + scene.dump("moves", 100) + "run 1500\n", folder, ranks)
+        moves[name] = lmp.read_dump(folder / "moves")
     for name in ("sorted", "spread"):
         checks.at_most(f"a fix that reads contacts rows before the wall: {name} as unsorted",
-                       deck.largest_difference(moves["unsorted"], moves[name]), 0)
+                       lmp.largest_difference(moves["unsorted"], moves[name]), 0)
 
 
 def crowded_migrates(checks, folder):
@@ -132,14 +132,14 @@ velocity all set 30 20 10
 """ + FORCES + "fix move all nve/sphere\n" + walls + "timestep 1e-5\nthermo_style custom step " + \
             " ".join(f"f_wall{k} f_wall{k}[7]" for k in range(n_walls)) + \
             "\nthermo_modify format float %.17g norm no\n" + runs + "\n"
-        stays = deck.read_thermo(deck.run_well(body + "run 0\n", folder))[-1]
+        stays = lmp.read_thermo(lmp.run_well(body + "run 0\n", folder))[-1]
         name = f"{n_walls} of {law.split()[0]}, {runs.split()[-1]}"
         checks.fact(f"{name}: 500 springs", stays[2] == 500, str(stays[2]))
         try:
             there_and_back = "displace_atoms all move 3 0 0\ndisplace_atoms all move -3 0 0\n"
-            done = deck.run(body + 3 * there_and_back + "run 0\n", folder, 2, timeout=60,
-                            env=CHECKED_HEAP)
-            moved = [] if done.returncode else deck.read_thermo(done.stdout)[-1]
+            done = lmp.run(body + 3 * there_and_back + "run 0\n", folder, 2, timeout=60,
+                           env=CHECKED_HEAP)
+            moved = [] if done.returncode else lmp.read_thermo(done.stdout)[-1]
         except subprocess.TimeoutExpired:    # Open MPI waits for the heap that glibc found broken
             moved = []
         # The energy of springs, too; displacing rounds.
@@ -151,22 +151,22 @@ def read_without_atoms(checks, folder):
     """A restart file read where most processes get no atom."""
     create = scene.CREATE.replace("block -5 5 -5 5", "block -5 5 -5 -2")
     more = "run 200\nwrite_restart few.restart\n"
-    deck.run_well(create + scene.forces(HISTORY, BUMPS) + more + scene.dump("two", 50) +
-                  "run 200\n", folder)
-    two = deck.read_dump(folder / "two")
+    lmp.run_well(create + scene.forces(HISTORY, BUMPS) + more + scene.dump("two", 50) +
+                 "run 200\n", folder)
+    two = lmp.read_dump(folder / "two")
     for ranks in (2, 4):
-        done = deck.run(scene.SETTINGS + "processors 1 * 1\nread_restart few.restart\n" +
-                        scene.forces(HISTORY, BUMPS) + scene.dump("continued", 50) + "run 200\n",
-                        folder, ranks)
+        done = lmp.run(scene.SETTINGS + "processors 1 * 1\nread_restart few.restart\n" +
+                       scene.forces(HISTORY, BUMPS) + scene.dump("continued", 50) + "run 200\n",
+                       folder, ranks)
         name = f"springs read on {ranks} ranks, of which some have no atoms"
         if done.returncode:
             checks.fact(name, False, done.stdout[-300:])
         else:
-            continued = deck.read_dump(folder / "continued")
-            checks.at_most(name, deck.largest_difference(two, continued), 0)
+            continued = lmp.read_dump(folder / "continued")
+            checks.at_most(name, lmp.largest_difference(two, continued), 0)
     springs = sum(row[9] > 0 for row in two[200].values())
-    text = deck.run_well(scene.SETTINGS + "read_restart few.restart\n" + scene.forces(HOOKE, BUMPS) +
-                         "run 0\n", folder, 2)
+    text = lmp.run_well(scene.SETTINGS + "read_restart few.restart\n" + scene.forces(HOOKE, BUMPS) +
+                        "run 0\n", folder, 2)
     found = re.search(r"(\d+) atoms lose their springs: the restart file was written with another "
                       "contact law", text)
     checks.fact("a law without springs: says how many atoms lose theirs",
@@ -182,18 +182,18 @@ velocity all set 1.0 -0.7 -1.3
 
 
 def as_wall_gran(checks, folder, name, body, law=HISTORY):
-    """The deck with WALL in place of the wall, whose dump is 'moves', beside LAMMPS's plane."""
+    """The script with WALL in place of the wall, whose dump is 'moves', beside LAMMPS's plane."""
     dumps = []
     for wall in (f"wall/gran {law} zplane 0 NULL", f"wall/lsdcd {law} mesh floor.stl"):
-        done = deck.run(body.replace("WALL", wall), folder)
+        done = lmp.run(body.replace("WALL", wall), folder)
         if done.returncode:
             checks.fact(name, False, re.search(r"ERROR.*|$", done.stdout).group(0))
             return ""
-        dumps.append(deck.read_dump(folder / "moves"))
+        dumps.append(lmp.read_dump(folder / "moves"))
     touched = sum(abs(row[k][11]) > 0 for row in dumps[0].values() for k in row)
     checks.fact(f"{name}: touches the floor", touched > 20, f"{touched} times")
     # Rounding of 1e-16 per operation over up to 10^4 of them, as in test_parity.
-    checks.at_most(name, deck.largest_difference(*dumps), 1e-12)
+    checks.at_most(name, lmp.largest_difference(*dumps), 1e-12)
     return done.stdout
 
 
@@ -209,11 +209,11 @@ def radii_grow(checks, folder):
     grow = "variable d equal 1.0+0.5*step/1500\nfix grow all adapt 10 atom diameter v_d mass yes\n"
     wall = "fix wall all WALL\n"
     begin = ONE.format(1.0) + FORCES + "fix move all nve/sphere\n"
-    if deck.DEVICE_MOVES:    # which fix wall/gran does not allow
+    if lmp.DEVICE_MOVES:    # which fix wall/gran does not allow
         return
     as_wall_gran(checks, folder, "set diameter and run pre no: as with wall/gran", head() +
                  begin + wall + DUMP + "run 300\nset group all diameter 1.4\nrun 300 pre no\n")
-    if deck.ON_KOKKOS:
+    if lmp.ON_KOKKOS:
         return    # Kokkos's atom_style sphere has no radii that vary
     for name, fixes in (("before", grow + wall), ("after", wall + grow)):
         text = as_wall_gran(checks, folder,
@@ -253,32 +253,32 @@ def inserted_atoms_are_checked(checks, folder):
     def put(z, x=0):
         return f"create_atoms 1 single {x} 0 {z} units box\nset group all diameter 1.0 density 2.0\n"
 
-    text = deck.run_well(body + put(2) + "run 5\n" + put(0.3, 1.5) + "run 5\n" + put(0.35, -1.5) + "run 5\n" +
-                         put(0.2, 2.5) + "run 5\n", folder)
+    text = lmp.run_well(body + put(2) + "run 5\n" + put(0.3, 1.5) + "run 5\n" + put(0.35, -1.5) + "run 5\n" +
+                        put(0.2, 2.5) + "run 5\n", folder)
     checks.fact("spheres put into the wall are told, again where deeper",
                 said.findall(text) == [("2", "40", "5"), ("4", "60", "15")], str(said.findall(text)))
-    text = deck.run_well(body + put(0.3) + "run 0\nwrite_restart in.restart\n", folder)
+    text = lmp.run_well(body + put(0.3) + "run 0\nwrite_restart in.restart\n", folder)
     checks.fact("and where a run begins", said.findall(text) == [("1", "40", "0")], str(said.findall(text)))
     again = body[body.index(FORCES):] + "reset_timestep 0\nrun 0\n"
     for law in (HOOKE, HISTORY):
-        deck.run_well(body.replace(HOOKE, law) + put(0.3) + "run 1\nwrite_restart in.restart\n", folder)
-        text = deck.run_well(scene.SETTINGS + "read_restart in.restart\n" + again.replace(HOOKE, law), folder)
+        lmp.run_well(body.replace(HOOKE, law) + put(0.3) + "run 1\nwrite_restart in.restart\n", folder)
+        text = lmp.run_well(scene.SETTINGS + "read_restart in.restart\n" + again.replace(HOOKE, law), folder)
         checks.fact("a run that goes on from a restart file at step 0 is not a new one", not said.findall(text) and
                     "atom 1 sank into the wall" in text, str(said.findall(text)))
-    text = deck.run_well(body + put(0.48) + "fix g all gravity 8.0 vector 0 0 -1\n" + put(3, 1) +
-                         "velocity all set 0 0 -9\nrun 600\n", folder)
+    text = lmp.run_well(body + put(0.48) + "fix g all gravity 8.0 vector 0 0 -1\n" + put(3, 1) +
+                        "velocity all set 0 0 -9\nrun 600\n", folder)
     checks.fact("one that falls in is not", "sank into the wall" in text and not said.findall(text))
     checks.fact("and its radius is told", re.search(r"sank into the wall by \S+ % of its radius 0.5 by step", text))
     # Both are in the wall, and only the deeper one is told; then one more falls in.
     both = body + put(0.3) + put(0.32, 1.5) + "timestep 0.001\n"
-    text = deck.run_well(both + "run 100\n", folder)
+    text = lmp.run_well(both + "run 100\n", folder)
     checks.fact("spheres that were put into the wall have not sunk", len(said.findall(text)) == 1 and
                 "sank" not in text)
-    text = deck.run_well(both + "run 100\nvelocity all set 0 0 -40\nrun 80\n", folder)
+    text = lmp.run_well(both + "run 100\nvelocity all set 0 0 -40\nrun 80\n", folder)
     checks.fact("once they were out they may", "sank into the wall" in text)
-    if deck.ON_KOKKOS:    # which has no fix deposit
+    if lmp.ON_KOKKOS:    # which has no fix deposit
         return
-    text = deck.run_well(body + """\
+    text = lmp.run_well(body + """\
 region low block -2 2 -2 2 0.3 0.3000001 units box
 fix in all deposit 3 1 20 4711 region low near 1.2
 timestep 0.0005
@@ -297,8 +297,8 @@ def timestep_is_checked(checks, folder):
     def times(text):
         return [float(word.rstrip(":")) for word in said.findall(text)]
 
-    if not deck.ON_KOKKOS:    # which has no fix pour
-        found = times(deck.run_well(body + "fix g all gravity 8.0 vector 0 0 -1\n" + """\
+    if not lmp.ON_KOKKOS:    # which has no fix pour
+        found = times(lmp.run_well(body + "fix g all gravity 8.0 vector 0 0 -1\n" + """\
 region slab block -3 3 -3 3 1 4 units box
 fix pour all pour 12 1 4711 region slab diam one 1.0 dens 2.0 2.0 vol 0.25 100
 timestep 0.004
@@ -316,7 +316,7 @@ set type 2 diameter 0.5 density 2.0
 run 5
 run 5
 """
-    found = times(deck.run_well(body + more, folder))
+    found = times(lmp.run_well(body + more, folder))
     checks.fact("timestep: warned of once for a smaller sphere that comes later",
                 len(found) == 1 and math.isclose(found[0], 0.0114, rel_tol=0.01), str(found))
 
@@ -326,8 +326,8 @@ def full_node(checks, folder, two_nodes):
     body = (head() + ONE.format(1.0) + FORCES +
             f"fix wall all wall/lsdcd {HOOKE} mesh floor.stl grid 0.05\nrun 0\n")
     try:
-        done = deck.run(body, folder, 2, timeout=30,
-                        env={"LD_PRELOAD": two_nodes, "LSDCD_FULL_NODE": "1"})
+        done = lmp.run(body, folder, 2, timeout=30,
+                       env={"LD_PRELOAD": two_nodes, "LSDCD_FULL_NODE": "1"})
         text = re.search(r"ERROR.*|$", done.stdout).group(0)
         ended = done.returncode != 0
     except subprocess.TimeoutExpired:
@@ -361,9 +361,9 @@ fix move all nve/sphere
 fix wall all wall/lsdcd {HISTORY} mesh floor.stl move 100 0 0
 run 1
 """
-    library = pathlib.Path(deck.TEST_HOST).parent / "liblammps.so.0"
-    done = subprocess.run([sys.executable, "-c", REFUSED, library, deck.TEST_HOST_PLUGIN],
-                          cwd=folder, input=body, text=True, env=deck.environment(),
+    library = pathlib.Path(lmp.TEST_HOST).parent / "liblammps.so.0"
+    done = subprocess.run([sys.executable, "-c", REFUSED, library, lmp.TEST_HOST_PLUGIN],
+                          cwd=folder, input=body, text=True, env=lmp.environment(),
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60)
     said = done.stdout
     checks.fact("a refused wall: LAMMPS says so", "the mesh is outside the box" in said, said[-200:])
@@ -372,7 +372,7 @@ run 1
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     write_floor(folder)
     scene.write_floor(folder / "bumps.stl")
     rows_follow(checks, folder)
@@ -380,7 +380,7 @@ def main():
     crowded_migrates(checks, folder)
     read_without_atoms(checks, folder)
     radii_grow(checks, folder)
-    if not deck.ON_KOKKOS:    # the hosts have no RIGID
+    if not lmp.ON_KOKKOS:    # the hosts have no RIGID
         masses_change(checks, folder)
     timestep_is_checked(checks, folder)
     inserted_atoms_are_checked(checks, folder)
@@ -389,7 +389,7 @@ def main():
         full_node(checks, folder, two_nodes)
     else:
         print("SKIPPED: two nodes (LSDCD_TWO_NODES)")
-    if deck.TEST_HOST and not deck.ON_KOKKOS:
+    if lmp.TEST_HOST and not lmp.ON_KOKKOS:
         refused(checks, folder)
     else:
         print("SKIPPED: a wall that is refused (LSDCD_TEST_HOST)")

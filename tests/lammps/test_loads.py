@@ -8,7 +8,7 @@ import base64
 import re
 import struct
 
-import deck
+import lmp
 import scene
 
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
@@ -46,7 +46,7 @@ def apart(a, b, name):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     scene.write_floor(folder / "floor.stl")
     with_loads = "mesh floor.stl wear archard 0.001 50 mesh_fields {} every 100"
 
@@ -57,8 +57,8 @@ def main():
         thermo = ("thermo_style custom step f_wall[3] f_wall[7] f_wall[10] "
                   "f_wall[1] f_wall[2]\n"
                   "thermo_modify norm no format float %.17g\nthermo 1\n")
-        text = deck.run_well(begin + forces(name, thermo) + f"run {steps}\n" + last, folder, ranks)
-        return deck.read_thermo(text)
+        text = lmp.run_well(begin + forces(name, thermo) + f"run {steps}\n" + last, folder, ranks)
+        return lmp.read_thermo(text)
 
     rows = go("one_*.vtp")
     fields = {s: read_vtp(folder / f"one_{s}.vtp") for s in range(100, FIRST + SECOND + 1, 100)}
@@ -101,16 +101,16 @@ def main():
                                0 if ranks == 1 else 1e-9)
 
     scene.write_floor(folder / "floor.stl", cells=4)
-    text = deck.run_well(scene.SETTINGS + "read_restart half.restart\n" + forces("c_*.vtp") +
-                         "run 10\n", folder)
+    text = lmp.run_well(scene.SETTINGS + "read_restart half.restart\n" + forces("c_*.vtp") +
+                        "run 10\n", folder)
     checks.fact("another mesh: loads begin at zero, with a warning", "begin at zero" in text)
     scene.write_floor(folder / "floor.stl", side=6.49)
-    text = deck.run_well(scene.SETTINGS + "read_restart half.restart\n" + forces("c_*.vtp") +
-                         "run 10\n", folder)
+    text = lmp.run_well(scene.SETTINGS + "read_restart half.restart\n" + forces("c_*.vtp") +
+                        "run 10\n", folder)
     checks.fact("also of one with as many triangles", "begin at zero" in text)
 
-    done = deck.run(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields no/such.vtp every 5")
-                    + "run 10\n", folder)
+    done = lmp.run(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields no/such.vtp every 5")
+                   + "run 10\n", folder)
     checks.fact("a file that cannot be written is an error that names it",
                 done.returncode != 0 and "no/such.vtp" in done.stdout)
     checks.done(folder)

@@ -9,7 +9,7 @@ and edges of a plate: all positions are exact in binary. On the surface counts a
 sphere from height z passes in step 128 z + 1.
 """
 
-import deck
+import lmp
 
 STEPS_PER_LENGTH = 128
 MASS = {1: 2.0, 2: 3.0}    # by type
@@ -81,7 +81,7 @@ FIRST_TYPE, SECOND_TYPE = 10, 13
 
 def table(text, folder, ranks=1):
     """{step: row} of the last run."""
-    return {int(row[STEP]): row for row in deck.read_thermo(deck.run_well(text, folder, ranks))}
+    return {int(row[STEP]): row for row in lmp.read_thermo(lmp.run_well(text, folder, ranks))}
 
 
 def over_plate(some, half=2):
@@ -152,7 +152,7 @@ def check_restart(checks, folder):
     """Cut in the middle of a window and between two layers; sums of small whole numbers are exact."""
     words = "every 32 count once"
     one = table(begin() + forces(words) + "run 160\n", folder)
-    deck.run_well(begin() + forces(words) + "run 44\nwrite_restart mid.restart\n", folder, 2)
+    lmp.run_well(begin() + forces(words) + "run 44\nwrite_restart mid.restart\n", folder, 2)
     for ranks in (1, 2, 4):
         rest = table(SETTINGS + "read_restart mid.restart\n" + forces(words) + "run 116\n", folder, ranks)
         wrong = [step for step, row in rest.items() if row != one[step]]
@@ -168,7 +168,7 @@ def check_restart(checks, folder):
 
 def check_window(checks, folder):
     """The rate after a restart with a shorter window, and with a timestep that changes."""
-    deck.run_well(begin() + forces("every 64") + "run 40\nwrite_restart mid.restart\n", folder)
+    lmp.run_well(begin() + forces("every 64") + "run 40\nwrite_restart mid.restart\n", folder)
     rows = table(SETTINGS + "read_restart mid.restart\n" + forces("every 8") + "run 8\n", folder)
     first = mass_of(passed(over_plate(spheres()), 40))
     # The window that was begun ends in the first step, the others each 8 steps after.
@@ -207,7 +207,7 @@ def check_delete(checks, folder):
 
     # Written when spheres have passed that are not deleted yet.
     slow = "delay 0 every 24 check no"
-    deck.run_well(begin() + forces("delete yes", slow) + "run 38\nwrite_restart mid.restart\n", folder, 2)
+    lmp.run_well(begin() + forces("delete yes", slow) + "run 38\nwrite_restart mid.restart\n", folder, 2)
     rows = table(SETTINGS + "read_restart mid.restart\n" + forces("delete yes", slow) + "run 30\n", folder, 2)
     gone = [s for s in over if s[3] == 0.25]
     checks.fact("what was to be deleted is after a restart",
@@ -256,12 +256,12 @@ run             600
     dumps = {}
     for ranks in (1, 2):
         for words in ("", "delete yes"):
-            rows = deck.read_thermo(deck.run_well(text(words), folder, ranks))
-            dumps[ranks, words] = deck.read_dump(folder / "grains")
+            rows = lmp.read_thermo(lmp.run_well(text(words), folder, ranks))
+            dumps[ranks, words] = lmp.read_dump(folder / "grains")
         checks.fact(f"grains were deleted beside grains with springs, {ranks} ranks",
                     rows[-1][2] == 32, str(rows[-1]))
         checks.at_most(f"and these go on to the last bit, {ranks} ranks",
-                       deck.largest_difference(dumps[ranks, ""], dumps[ranks, "delete yes"]), 0)
+                       lmp.largest_difference(dumps[ranks, ""], dumps[ranks, "delete yes"]), 0)
     turning = max(abs(w) for row in dumps[1, ""][600].values() for w in row[6:])
     checks.fact("springs were at work", turning > 0.05, str(turning))
 
@@ -285,8 +285,8 @@ dump            d all custom 1 heights id z
 dump_modify     d format float %.17g
 run             4000
 """
-    rows = deck.read_thermo(deck.run_well(text, folder))
-    heights = [row[1][0] for row in deck.read_dump(folder / "heights").values()]
+    rows = lmp.read_thermo(lmp.run_well(text, folder))
+    heights = [row[1][0] for row in lmp.read_dump(folder / "heights").values()]
     down = [a >= 0 > b for a, b in zip(heights, heights[1:])]
     up = [a < 0 <= b for a, b in zip(heights, heights[1:])]
     wrong = [row for row in rows
@@ -311,7 +311,7 @@ thermo_style    custom step atoms f_m[1] f_m[7]
 run             1300
 """
     for ranks in (1, 4):
-        rows = deck.read_thermo(deck.run_well(text, folder, ranks))
+        rows = lmp.read_thermo(lmp.run_well(text, folder, ranks))
         inserted = [min(100, (int(row[0]) - 1) // 10 + 1) if row[0] else 0 for row in rows]
         checks.fact(f"inserted = there + deleted, and all pass once, {ranks} ranks",
                     all(row[1] + row[3] in (n, n - 1, n + 1) for row, n in zip(rows, inserted)) and
@@ -325,7 +325,7 @@ def check_kick(checks, folder):
 variable        f equal -1e6*(step==30)
 fix             kick all addforce 0 0 v_f
 """
-    done = deck.run(begin() + forces() + kick + "run 60\n", folder)
+    done = lmp.run(begin() + forces() + kick + "run 60\n", folder)
     checks.fact("a far sphere that moves by more than the skin in a step stops the run",
                 done.returncode != 0 and "moved by more than the skin 0.3 in one step" in done.stdout,
                 done.stdout[-300:])
@@ -347,22 +347,22 @@ def check_deform(checks, folder):
 
 
 def check_warnings(checks, folder):
-    """Each where it belongs, and none in a deck without reason."""
+    """Each where it belongs, and none in a script without reason."""
     few = [(1, 0, 0, 1), (1, 0.5, 0, 1)]
     write_data(folder / "spheres.data", few)
-    plain = deck.run_well(begin() + forces("delete yes") + "run 0\n", folder)
+    plain = lmp.run_well(begin() + forces("delete yes") + "run 0\n", folder)
     one, other = (folder / "plate.stl").read_text().split("endfacet", 1)
     lines = one.split("\n")
     lines[3], lines[4] = lines[4], lines[3]
     (folder / "turned.stl").write_text("\n".join(lines) + "endfacet" + other)
-    turned = deck.run_well(begin() + forces().replace("plate.stl", "turned.stl") + "run 0\n", folder)
-    long = deck.run_well(begin("p p f") + forces("scale 2 1 1") + "run 0\n", folder)
+    turned = lmp.run_well(begin() + forces().replace("plate.stl", "turned.stl") + "run 0\n", folder)
+    long = lmp.run_well(begin("p p f") + forces("scale 2 1 1") + "run 0\n", folder)
     checks.fact("no warning without reason", "massflow/lsdcd: delete" not in plain and
                 "wound in opposite ways" not in plain and "longer than" not in plain)
-    if not deck.ON_KOKKOS:    # the hosts with Kokkos have no package RIGID
+    if not lmp.ON_KOKKOS:    # the hosts with Kokkos have no package RIGID
         rigid = forces("delete yes").replace("all nve", "all rigid single")
         checks.fact("rigid bodies and delete", "delete yes does not tell fix move" in
-                    deck.run_well(begin() + rigid + "run 0\n", folder))
+                    lmp.run_well(begin() + rigid + "run 0\n", folder))
     checks.fact("a facet wound the other way", "edges of the mesh join facets that are wound" in turned)
     checks.fact("a mesh longer than the box",
                 "longer than the periodic box in x, by 2:" in long and "box in y" not in long)
@@ -370,7 +370,7 @@ def check_warnings(checks, folder):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     write_plate(folder / "plate.stl", 2, 8)
     write_data(folder / "spheres.data", spheres())
     for ranks in (1, 2, 4):

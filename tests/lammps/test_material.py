@@ -5,14 +5,14 @@
 """`granular material ...` is the granular style with the material's numbers.
 
 The numbers are worked out here once more, from the values in the file and the formulas of
-contact mechanics; decks with the words that the log shows must then give the same bits.
+contact mechanics; scripts with the words that the log shows must then give the same bits.
 """
 
 import pathlib
 import re
 import subprocess
 
-import deck
+import lmp
 
 FILE = """\
 units si
@@ -76,8 +76,8 @@ run             20000
 
 def run(folder, wall, units="si", ranks=1, env=None):
     """The motion, and the words of the style that the log shows."""
-    text = deck.run_well(scene(wall, units), folder, ranks=ranks, env=env)
-    return deck.read_dump(folder / "out"), re.search(r"^  contact     (granular .*)", text, re.M)[1], text
+    text = lmp.run_well(scene(wall, units), folder, ranks=ranks, env=env)
+    return lmp.read_dump(folder / "out"), re.search(r"^  contact     (granular .*)", text, re.M)[1], text
 
 
 def contact_numbers(e1, nu1, e2, nu2):
@@ -131,7 +131,7 @@ def systems_of_units(checks, folder):
         moves = run(folder, wall.replace("floor", "scaled"), units)[0]
         si = {step: {1: [x / m for x in rows[1][:3]] + [v * s / m for v in rows[1][3:6]] +
                         [w * s for w in rows[1][6:]]} for step, rows in moves.items()}
-        checks.at_most(f"units {units}: the motion of units si", deck.largest_difference(reference, si), 1e-10)
+        checks.at_most(f"units {units}: the motion of units si", lmp.largest_difference(reference, si), 1e-10)
 
 
 def places(checks, folder):
@@ -181,17 +181,17 @@ def grains(checks, folder):
     """The words that the tool prints for grains on one another, in the LAMMPS that is there: they
     part with the file's restitution. Its number is rounded to 1e-6; steps are a 1000th of a
     contact, and force jumps at its ends."""
-    tool = pathlib.Path(deck.LMP).parent / "lsdcd"
+    tool = pathlib.Path(lmp.LMP).parent / "lsdcd"
     text = subprocess.run([tool, "material", "grains.lsdcd", "glass"], cwd=folder, text=True, check=True,
                           stdout=subprocess.PIPE).stdout
     words = re.search(r"pair_coeff \* \* (.*)", text)[1]
-    deck.run_well(TWO_GRAINS.format(words=words), folder)
-    before, after = (deck.read_dump(folder / "out")[step][1][0] for step in (0, 10000))
+    lmp.run_well(TWO_GRAINS.format(words=words), folder)
+    before, after = (lmp.read_dump(folder / "out")[step][1][0] for step in (0, 10000))
     checks.at_most("grains on one another: restitution of pair_style granular", abs(-after / before - 0.9), 1e-3)
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     (folder / "grains.lsdcd").write_text(FILE)
     (folder / "floor.stl").write_text(floor(0.015))
     same_bits(checks, folder)

@@ -7,7 +7,7 @@
 import math
 import re
 
-import deck
+import lmp
 
 BOX = """\
 units           lj
@@ -69,8 +69,8 @@ def lines(text, *words):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
-    (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+    checks, folder = lmp.Checks(), lmp.scratch()
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
     write_stl(folder / "drum.stl", drum(0))
     write_stl(folder / "lifters.stl", drum(4))
     o, x, y, z = (0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)
@@ -79,7 +79,7 @@ def main():
 
     # Surfaces that push along their normals.
     for ranks in (1, 2):
-        text = deck.run_well(BOX + fix(turning, mesh="lifters.stl") + "run 1\n", folder, ranks)
+        text = lmp.run_well(BOX + fix(turning, mesh="lifters.stl") + "run 1\n", folder, ranks)
         told = lines(text, "WARNING: Fix w wall/lsdcd:", "push 8 of 80 faces")
         checks.fact(f"lifters are told once on {ranks} ranks", len(told) == 1)
         told = told or [""]
@@ -88,23 +88,23 @@ def main():
         checks.fact("with the largest speed", f"up to {speed:g} (100 %" in told[0], told[0][:200])
         checks.fact("and what to do", "stays where it is" in told[0] and
                     "use the keyword motion" in told[0])
-    text = deck.run_well(BOX + fix(turning, mesh="drum.stl") + "run 1\n", folder)
+    text = lmp.run_well(BOX + fix(turning, mesh="drum.stl") + "run 1\n", folder)
     checks.fact("a drum without lifters is not warned of", "faces along" not in text)
-    text = deck.run_well(BOX + fix("surface_vel 1 0 0") + "run 1\n", folder)
+    text = lmp.run_well(BOX + fix("surface_vel 1 0 0") + "run 1\n", folder)
     checks.fact("nor a belt", "faces along" not in text)
 
     # Whose warning, and of which atom.
     deep = "set group all z 0.3\n"
-    text = deck.run_well(BOX + deep + fix(name="base") + "run 1\nminimize 0 0 1 1\n", folder)
+    text = lmp.run_well(BOX + deep + fix(name="base") + "run 1\nminimize 0 0 1 1\n", folder)
     checks.fact("a warning names the fix and the atom",
                 lines(text, "WARNING: Fix base wall/lsdcd: atom 2 comes to be"))
     checks.fact("that of a minimization too", lines(text, "Fix base wall/lsdcd: no effect"))
-    done = deck.run(BOX + fix(name="base", more="sclae 2") + "run 1\n", folder)
+    done = lmp.run(BOX + fix(name="base", more="sclae 2") + "run 1\n", folder)
     checks.fact("an error names the fix", "Fix base wall/lsdcd: 'sclae'" in done.stdout)
     grow = ("variable d equal 1.0+0.4*(step>2)\nfix grow all adapt 1 atom diameter v_d\n"
             "neigh_modify delay 1000 check no\n")
-    done = deck.run(BOX.replace("sphere\n", "sphere 1\n", 1) + grow + fix("rmax 0.6") + "run 10\n",
-                    folder)
+    done = lmp.run(BOX.replace("sphere\n", "sphere 1\n", 1) + grow + fix("rmax 0.6") + "run 10\n",
+                   folder)
     message = done.stdout[done.stdout.find("ERROR"):][:300]
     checks.fact("an engine's error names the atom's ID",
                 done.returncode != 0 and "Fix w wall/lsdcd: " in message and "atom 2 " in message,
@@ -115,55 +115,55 @@ def main():
     every = (BOX + "unfix move\nset group all x 0.45 y 0.44 z 0.43\n" +
              fix("nearest 1 grid 0.1", mesh="corner.stl") + "run {} every 2 NULL\n")
     for steps, times in ((2, 1), (10, 1), (100, 2)):
-        told = lines(deck.run_well(every.format(steps), folder), "not certified exact")
+        told = lines(lmp.run_well(every.format(steps), folder), "not certified exact")
         checks.fact(f"nearest is told {times} times in {steps} steps, two a part",
                     len(told) == times, "\n".join(told))
 
-    # Other units than the deck's. The floor is 4 wide and flat, its spheres have radius 0.5.
-    text = deck.run_well(BOX + fix("scale 1000") + "run 0\n", folder)
+    # Other units than the script's. The floor is 4 wide and flat, its spheres have radius 0.5.
+    text = lmp.run_well(BOX + fix("scale 1000") + "run 0\n", folder)
     checks.fact("a flat floor in millimetres is told, and its scale",
                 lines(text, "WARNING: Fix w", "far larger than the box", "add scale 0.001"))
-    text = deck.run_well(BOX + fix("scale 0.001") + "run 0\nrun 0\n", folder)
+    text = lmp.run_well(BOX + fix("scale 0.001") + "run 0\nrun 0\n", folder)
     checks.fact("a mesh smaller than a sphere is told once, with its scale",
                 len(lines(text, "WARNING: Fix w", "spheres have radius 0.5", "'scale 0.001' is not needed")) == 1)
-    text = deck.run_well(BOX + fix() + "run 0\n", folder)
-    checks.fact("a floor of the deck's units is not", not lines(text, "probably in"))
+    text = lmp.run_well(BOX + fix() + "run 0\n", folder)
+    checks.fact("a floor of the script's units is not", not lines(text, "probably in"))
 
     # Walls that act on nothing.
-    text = deck.run_well(BOX + "unfix move\nset group all diameter 0\n" + fix() + "run 0\nrun 0\n", folder)
+    text = lmp.run_well(BOX + "unfix move\nset group all diameter 0\n" + fix() + "run 0\nrun 0\n", folder)
     checks.fact("a group of points is told once",
                 len(lines(text, "WARNING: Fix w", "all 1 atoms of group all have radius 0", "set diameter")) == 1)
-    text = deck.run_well(BOX + fix("motion linear 0 0 -450") + "run 4\nrun 4\n", folder)
+    text = lmp.run_well(BOX + fix("motion linear 0 0 -450") + "run 4\nrun 4\n", folder)
     checks.fact("a mesh that leaves the box is told once, with the step",
                 len(lines(text, "WARNING: Fix w", "has moved out of the box", "in step 4")) == 1)
-    text = deck.run_well(BOX + fix("move 0 0 9 motion linear 0 0 -450") + "run 8\n", folder)
+    text = lmp.run_well(BOX + fix("move 0 0 9 motion linear 0 0 -450") + "run 8\n", folder)
     checks.fact("one that has yet to come in is not", not lines(text, "has moved out of"))
 
     # The same wall in two fixes.
     twice = "WARNING: Fix lid", "'floor.stl' is at the same place in fix w", "twice"
     both = BOX + "group one id 2\ngroup none empty\n" + fix()
-    text = deck.run_well(both + fix(name="lid") + "run 0\nrun 0\n", folder, 2)
+    text = lmp.run_well(both + fix(name="lid") + "run 0\nrun 0\n", folder, 2)
     checks.fact("the same mesh in two fixes is told once", len(lines(text, *twice)) == 1)
-    text = deck.run_well(both + fix(name="lid", more="move 0 0 1e-3") + "run 0\n", folder)
+    text = lmp.run_well(both + fix(name="lid", more="move 0 0 1e-3") + "run 0\n", folder)
     checks.fact("at another place it is not", not lines(text, *twice))
-    text = deck.run_well(both + fix(name="lid").replace(" all ", " one ") + "run 0\n", folder)
+    text = lmp.run_well(both + fix(name="lid").replace(" all ", " one ") + "run 0\n", folder)
     checks.fact("in groups that share an atom it is", len(lines(text, *twice)) == 1)
-    text = deck.run_well(both.replace(" all wall", " none wall") + fix(name="lid").replace(" all ", " one ") +
-                         "run 0\n", folder)
+    text = lmp.run_well(both.replace(" all wall", " none wall") + fix(name="lid").replace(" all ", " one ") +
+                        "run 0\n", folder)
     checks.fact("in groups that share none it is not", not lines(text, *twice))
 
     # Costs are those of another machine: doc/effects.md has them, with its name.
-    text = deck.run_well(BOX + fix() + "run 0\n", folder)
+    text = lmp.run_well(BOX + fix() + "run 0\n", folder)
     checks.fact("the log lists effects without times",
                 lines(text, "  effects     normal spring, normal damping") and not lines(text, " ns"))
 
     # Words that say the default.
-    text = deck.run_well(BOX + fix("grid auto rmax auto memory 1024 cache none nearest all precision double corner blend "
-                                   "side both device auto log full draw edges 1") + "run 0\n", folder)
+    text = lmp.run_well(BOX + fix("grid auto rmax auto memory 1024 cache none nearest all precision double corner blend "
+                                  "side both device auto log full draw edges 1") + "run 0\n", folder)
     checks.fact("words that say the default are taken without a word", not lines(text, "WARNING"), text[-300:])
 
     # Why there is no CUDA, as the build was configured.
-    cache = deck.LIB.parent / "CMakeCache.txt"
+    cache = lmp.LIB.parent / "CMakeCache.txt"
     left_out = "LSDCD_CUDA:BOOL=OFF" in cache.read_text() if cache.exists() else None
     if left_out is not None:
         device = lines(text, "  device      ")[0]
@@ -171,11 +171,11 @@ def main():
                     ("left out of this build by LSDCD_CUDA=OFF" in device) == left_out and
                     not (left_out and "toolkit" in device), device)
 
-    release = re.search(r"^project\(lsdcd VERSION (\S+)", (deck.HERE.parents[1] / "CMakeLists.txt").read_text(), re.M)[1]
+    release = re.search(r"^project\(lsdcd VERSION (\S+)", (lmp.HERE.parents[1] / "CMakeLists.txt").read_text(), re.M)[1]
     checks.fact("the log has the version", lines(text, "  version     ") == ["  version     " + release])
 
     # What a run did: its steps, and how often lists were made.
-    text = deck.run_well(BOX + fix() + "run 1\nrun 4 pre no\n", folder)
+    text = lmp.run_well(BOX + fix() + "run 1\nrun 4 pre no\n", folder)
     checks.fact("a run has as many steps as were asked for",
                 lines(text, "Fix w wall/lsdcd: 1 step and the setup: atoms near the wall chosen 1 time, "
                       "wall neighbor lists made 1 time, 1.00 mesh features each"))
@@ -186,7 +186,7 @@ def main():
     timed = BOX.replace("sphere\n", "sphere 1\n", 1) + grow + fix("mesh_stl timed_*.stl every 2 {}") + "run {}\n"
 
     def table(more, steps):
-        text = deck.run_well(timed.format(more, steps), folder)
+        text = lmp.run_well(timed.format(more, steps), folder)
         title = lines(text, "timing breakdown of the wall")
         return title, [line.split("|") for line in text.split("\n") if re.match(r"  \w+ +\| [\d.]", line)]
 
@@ -205,29 +205,29 @@ def main():
         checks.fact(f"{what} has no such times", table(more, steps) == ([], []))
 
     # A quiet log.
-    text = deck.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)
+    text = lmp.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)
     checks.fact("log brief is one line", len(lines(text, "wall/lsdcd:")) == 1 and
                 "candidates" not in text, "\n".join(lines(text, "lsdcd")))
 
     # Files of fields: before the run, and nothing is left by the look.
-    done = deck.run(BOX + fix("mesh_fields no/such.vtp every 1000") + "print ran\nrun 1\n", folder)
+    done = lmp.run(BOX + fix("mesh_fields no/such.vtp every 1000") + "print ran\nrun 1\n", folder)
     checks.fact("mesh_fields into a missing folder stops before the run",
                 done.returncode != 0 and "no/such.vtp" in done.stdout and
                 "make the folder" in done.stdout and "Step" not in done.stdout,
                 done.stdout[-300:])
     (folder / "out").mkdir()
-    deck.run_well(BOX + fix("mesh_fields out/f_*.vtp every 1000") + "run 1\n", folder)
+    lmp.run_well(BOX + fix("mesh_fields out/f_*.vtp every 1000") + "run 1\n", folder)
     checks.fact("the look at the folder leaves nothing", not list((folder / "out").iterdir()))
 
     # Lines of diameter 0.
-    text = deck.run_well(BOX + fix() + "dump p all image 1 p.*.ppm type type fix w type 0 0 "
-                         "size 64 64\nrun 2\n", folder)
+    text = lmp.run_well(BOX + fix() + "dump p all image 1 p.*.ppm type type fix w type 0 0 "
+                        "size 64 64\nrun 2\n", folder)
     checks.fact("the log tells once why lines may not be seen",
                 len(lines(text, "dump image draws", "diameter is 0")) == 1)
     # Steel, then something soft.
     for modulus, wrong in ((1e11, True), (1e4, False)):
         law = f"granular jkr {modulus:g} 0 0.25 0.05 damping none tangential linear_nohistory 0 0"
-        text = deck.run_well(BOX + fix("precision mixed", law=law) + "run 0\n", folder)
+        text = lmp.run_well(BOX + fix("precision mixed", law=law) + "run 0\n", folder)
         checks.fact(f"precision mixed with jkr, modulus {modulus:g}: {'told' if wrong else 'not told'}",
                     len(lines(text, "WARNING: Fix w wall/lsdcd: with precision mixed")) == wrong)
     checks.done(folder)

@@ -12,7 +12,7 @@ import math
 import re
 import sys
 
-import deck
+import lmp
 import scene
 from test_loads import read_vtp
 
@@ -27,9 +27,9 @@ OF_WALL_GRAN = {"wiggle_z": "wiggle z 0.004 0.02", "wiggle_x": "wiggle x 0.05 0.
 
 
 def one_sphere(folder, name, wall, kick=1, steps=1000, dt=1e-4, style="verlet", unit="lj"):
-    text = deck.run_well(deck.HERE / "decks" / "in.one_sphere", folder, wall=wall, out=name, unit=unit,
-                         kick=kick, dt=dt, steps=steps, style=style)
-    return deck.read_dump(folder / name), text
+    text = lmp.run_well(lmp.HERE / "scripts" / "in.one_sphere", folder, wall=wall, out=name, unit=unit,
+                        kick=kick, dt=dt, steps=steps, style=style)
+    return lmp.read_dump(folder / name), text
 
 
 def lsdcd(law, more, mesh="floor.stl"):
@@ -78,12 +78,12 @@ def compare_with_wall_gran(checks, folder):
             for mesh in ("floor.stl", "plane.stl"):
                 ours = one_sphere(folder, "b", lsdcd(law, words, mesh))[0]
                 checks.at_most(f"{law_name}, {name}, {mesh}: as fix wall/gran, {touching(theirs)} steps "
-                               "in touch", deck.largest_difference(theirs, ours), 1e-12)
+                               "in touch", lmp.largest_difference(theirs, ours), 1e-12)
             checks.fact(f"{law_name}, {name}: touches", touching(theirs) > 20)
         theirs = one_sphere(folder, "a", f"wall/gran {law} zplane 0.0 NULL shear x 2.0")[0]
         ours = one_sphere(folder, "b", lsdcd(law, "motion linear 2 0 0"))[0]
         checks.at_most(f"{law_name}: motion linear along a plane is its shear",
-                       deck.largest_difference(theirs, ours), 1e-12)
+                       lmp.largest_difference(theirs, ours), 1e-12)
 
 
 def compare_words(checks, folder):
@@ -93,7 +93,7 @@ def compare_words(checks, folder):
     def same(name, a, b, limit, law=law):
         one, two = one_sphere(folder, "a", lsdcd(law, a))[0], one_sphere(folder, "b", lsdcd(law, b))[0]
         checks.fact(f"{name}: touches", touching(one) > 20)
-        checks.at_most(name, deck.largest_difference(one, two), limit)
+        checks.at_most(name, lmp.largest_difference(one, two), limit)
 
     period = 2 * math.pi / 3
     same("a turntable that turns is a surface that turns",
@@ -102,35 +102,35 @@ def compare_words(checks, folder):
          "motion rotate 0.1 0.2 -7 0 1 1 0.8 motion linear 1 2 0.1", 1e-12)
     wave = "variable z equal 0.004*(1-cos(2*PI*elapsed*dt/0.02))\n"
     speed = "variable v equal 0.004*2*PI/0.02*sin(2*PI*elapsed*dt/0.02)\n"
-    text = (deck.HERE / "decks" / "in.one_sphere").read_text()
+    text = (lmp.HERE / "scripts" / "in.one_sphere").read_text()
 
     def with_variables(words, law):
         out = text.replace("fix             wall", wave + speed + "fix             wall")
-        log = deck.run_well(out, folder, wall=lsdcd(law, words), out="v", unit="lj", kick=1, dt=1e-4,
-                            steps=1000, style="verlet")
-        return deck.read_dump(folder / "v"), log
+        log = lmp.run_well(out, folder, wall=lsdcd(law, words), out="v", unit="lj", kick=1, dt=1e-4,
+                           steps=1000, style="verlet")
+        return lmp.read_dump(folder / "v"), log
 
     plain = one_sphere(folder, "a", lsdcd(law, "wiggle z 0.004 0.02"))[0]
     varied, log = with_variables("motion variable NULL NULL v_z NULL NULL v_v", law)
-    checks.at_most("variables of place and speed are a wiggle", deck.largest_difference(plain, varied),
+    checks.at_most("variables of place and speed are a wiggle", lmp.largest_difference(plain, varied),
                    1e-12)
     checks.fact("and nothing is said of differences", "differences" not in log)
     # Without damping and friction the speed does not matter.
     plain = one_sphere(folder, "a", lsdcd(SMOOTH, "wiggle z 0.004 0.02"))[0]
     varied, log = with_variables("motion variable NULL NULL v_z NULL NULL NULL", SMOOTH)
-    checks.at_most("a variable of the place alone", deck.largest_difference(plain, varied), 1e-12)
+    checks.at_most("a variable of the place alone", lmp.largest_difference(plain, varied), 1e-12)
     checks.fact("the log says that its speed is a difference",
                 "velocities are differences over a step" in log)
     # The speed of half a step before: off by a dt/2 = 0.02, 2 % of the speed of 1.3.
     plain = one_sphere(folder, "a", lsdcd(law, "wiggle z 0.004 0.02"))[0]
     varied = with_variables("motion variable NULL NULL v_z NULL NULL NULL", law)[0]
-    apart = deck.largest_difference(plain, varied)
+    apart = lmp.largest_difference(plain, varied)
     checks.fact("with damping it is near", 1e-9 < apart < 0.05, f"{apart:.3g}")
     out = text.replace("fix             wall", "variable u equal 2.0\nfix             wall")
-    deck.run_well(out, folder, wall=lsdcd(law, "shear y v_u"), out="v", unit="lj", kick=1, dt=1e-4,
-                  steps=1000, style="verlet")
+    lmp.run_well(out, folder, wall=lsdcd(law, "shear y v_u"), out="v", unit="lj", kick=1, dt=1e-4,
+                 steps=1000, style="verlet")
     plain = one_sphere(folder, "a", lsdcd(law, "shear y 2.0"))[0]
-    checks.at_most("shear by a variable", deck.largest_difference(plain, deck.read_dump(folder / "v")), 0)
+    checks.at_most("shear by a variable", lmp.largest_difference(plain, lmp.read_dump(folder / "v")), 0)
 
 
 GALILEI = """\
@@ -170,8 +170,8 @@ def compare_frames(checks, folder):
         for neigh in ("delay 0 every 1 check yes", "delay 10 every 10 check no"):
             dumps = []
             for v in ((0, 0, 0), (1.2, -0.4, 1.5), (0, 0, 3)):
-                deck.run_well(GALILEI.format(v=v, law=law, out="g", neigh=neigh), folder)
-                dump = deck.read_dump(folder / "g")
+                lmp.run_well(GALILEI.format(v=v, law=law, out="g", neigh=neigh), folder)
+                dump = lmp.read_dump(folder / "g")
                 for step, rows in dump.items():
                     for row in rows.values():
                         for d in range(3):
@@ -185,7 +185,7 @@ def compare_frames(checks, folder):
                 # force of k = 1e4 by 1e-11 of its size of 1; it grows as rounding does in 150 steps
                 # of contacts, and by 10 in each of two bounces.
                 checks.at_most(f"{law_name}, {neigh}: frame {k} as at rest",
-                               deck.largest_difference(dumps[0], dumps[k]), 1e-10)
+                               lmp.largest_difference(dumps[0], dumps[k]), 1e-10)
 
 
 RESTING = """\
@@ -215,7 +215,7 @@ def wall_comes(checks, folder):
     for neigh in ("delay 0 every 1 check yes", "delay 10 every 10 check no"):
         for skin in (0.3, 0.02):
             text = RESTING.format(skin=skin, neigh=neigh, law=SMOOTH, v=3.0, steps=6000)
-            log = deck.run_well(text, folder)
+            log = lmp.run_well(text, folder)
             left = float(log.split("\nafter ")[1].split()[0])
             # Half a swing of pi sqrt(m/k) in 300 steps: Verlet is wrong by (1/100)^2/24, and the
             # steps that begin and end it by as much.
@@ -236,7 +236,7 @@ timestep        0.0001
 create_atoms    1 single 0.3 0.2 2.0 units box
 set             group all diameter 2.0 density 0.25
 velocity        all set 0 0 -5""")
-    left = float(deck.run_well(text, folder).split("\nafter ")[1].split()[0])
+    left = float(lmp.run_well(text, folder).split("\nafter ")[1].split()[0])
     # Of the elastic bounce, at 4 to the floor's 1; Verlet as above.
     checks.at_most("a wall that has left the place where it was pushes", abs(left - 3), 1e-4)
 
@@ -252,28 +252,28 @@ def ranks_and_restart(checks, folder):
         return scene.forces(law, mesh=f"mesh floor.stl {moves}", more=more)
 
     # The order of create_atoms and the sums of velocity depend on the ranks.
-    deck.run_well(scene.CREATE + "write_data start.data\n", folder)
+    lmp.run_well(scene.CREATE + "write_data start.data\n", folder)
     start = scene.SETTINGS + "read_data start.data\n"
 
     def go(name, ranks=1, between="", begin=start, **more):
-        text = deck.run_well(begin + forces(**more) + f"run {first}\n{between}" +
-                             scene.dump(name, 50) + f"run {second}\n", folder, ranks)
-        return deck.read_dump(folder / name), text
+        text = lmp.run_well(begin + forces(**more) + f"run {first}\n{between}" +
+                            scene.dump(name, 50) + f"run {second}\n", folder, ranks)
+        return lmp.read_dump(folder / name), text
 
     def proceed(name, ranks=1, moves=MOVES, between="", law=LAW):
-        text = deck.run_well(scene.SETTINGS + "read_restart two.restart\n" +
-                             forces(moves=moves, law=law) + between + scene.dump(name, 50) +
-                             f"run {second}\n", folder, ranks)
-        return deck.read_dump(folder / name), text
+        text = lmp.run_well(scene.SETTINGS + "read_restart two.restart\n" +
+                            forces(moves=moves, law=law) + between + scene.dump(name, 50) +
+                            f"run {second}\n", folder, ranks)
+        return lmp.read_dump(folder / name), text
 
     two = go("two", between="write_restart two.restart\n")[0]
     near = sum(row[9] > 0 for rows in two.values() for row in rows.values())
     checks.fact("spheres touch the moving floor", near > 30, str(near))
     for ranks in (2, 4):
-        checks.at_most(f"{ranks} ranks as one", deck.largest_difference(two, go("r", ranks)[0]), 0)
+        checks.at_most(f"{ranks} ranks as one", lmp.largest_difference(two, go("r", ranks)[0]), 0)
     for ranks in (1, 2, 4):
         continued, text = proceed("c", ranks)
-        checks.at_most(f"continued in mid-motion on {ranks}", deck.largest_difference(two, continued), 0)
+        checks.at_most(f"continued in mid-motion on {ranks}", lmp.largest_difference(two, continued), 0)
         checks.fact("without a warning", "was written with the motion" not in text)
     text = proceed("c", moves="motion linear 0 0 0.01")[1]
     checks.fact("another motion is told",
@@ -285,7 +285,7 @@ def ranks_and_restart(checks, folder):
     # The number of a step does not matter.
     reset = go("reset", between="reset_timestep 10000\n")[0]
     renamed = {step - 10000 + first: rows for step, rows in reset.items()}
-    checks.at_most("reset_timestep moves nothing", deck.largest_difference(two, renamed), 0)
+    checks.at_most("reset_timestep moves nothing", lmp.largest_difference(two, renamed), 0)
 
 
 def searches(checks, folder):
@@ -294,8 +294,8 @@ def searches(checks, folder):
     def go(name, more="", run="run 600\n", neigh="delay 0 every 1 check yes"):
         text = scene.CREATE + scene.forces(LAW, mesh=f"mesh floor.stl {MOVES} {more}")
         text = text.replace("delay 0 every 1 check yes", neigh)
-        deck.run_well(text + scene.dump(name, 50) + run, folder)
-        return deck.read_dump(folder / name)
+        lmp.run_well(text + scene.dump(name, 50) + run, folder)
+        return lmp.read_dump(folder / name)
 
     plain = go("plain")
     near = sum(row[9] > 0 for rows in plain.values() for row in rows.values())
@@ -303,15 +303,15 @@ def searches(checks, folder):
     for name, words in (("a grid for larger spheres", {"more": "rmax 0.7 grid 0.3"}),
                         ("choices by the engine", {"neigh": "delay 10 every 10 check no"}),
                         ("two runs without setup", {"run": "run 300 post no\nrun 300 pre no\n"})):
-        checks.at_most(f"{name}: as plain", deck.largest_difference(plain, go("other", **words)), 0)
+        checks.at_most(f"{name}: as plain", lmp.largest_difference(plain, go("other", **words)), 0)
     # fix wall/gran under respa, with time of the outer step.
-    if not deck.ON_KOKKOS:
-        (folder / "flat.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+    if not lmp.ON_KOKKOS:
+        (folder / "flat.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
         law, words = LAWS["hooke_history"], OF_WALL_GRAN["wiggle_z"]
         respa = {"style": "respa 2 2 pair 2", "dt": 2e-4, "steps": 600}
         theirs = one_sphere(folder, "a", f"wall/gran {law} zplane 0.0 NULL {words}", **respa)[0]
         ours = one_sphere(folder, "b", lsdcd(law, words, "flat.stl"), **respa)[0]
-        checks.at_most("respa: as fix wall/gran", deck.largest_difference(theirs, ours), 1e-12)
+        checks.at_most("respa: as fix wall/gran", lmp.largest_difference(theirs, ours), 1e-12)
 
 
 def places(folder, name):
@@ -322,9 +322,9 @@ def stopped(checks, folder):
     """Where the mesh is, by its file of fields, through fix_modify and timesteps."""
     text = scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields f_*.vtp every 100 " +
                                        "motion rotate 0 0 0 0 0 1 0.4")
-    log = deck.run_well(text + "run 100\nfix_modify wall motion none\nrun 100\n"
-                        "fix_modify wall motion linear 0 0 1 motion rotate 0 0 0 0 0 1 0.8 energy yes\n"
-                        "run 100\ntimestep 0.002\nrun 100\nreset_timestep 10000\nrun 100\n", folder)
+    log = lmp.run_well(text + "run 100\nfix_modify wall motion none\nrun 100\n"
+                       "fix_modify wall motion linear 0 0 1 motion rotate 0 0 0 0 0 1 0.8 energy yes\n"
+                       "run 100\ntimestep 0.002\nrun 100\nreset_timestep 10000\nrun 100\n", folder)
     p = [places(folder, f"f_{k}.vtp") for k in (100, 200, 300, 400, 10100)]
 
     def moved(points, turn, rise):
@@ -348,26 +348,26 @@ def stopped(checks, folder):
     # 100 steps of 0.001 and 300 of them: whole turns are the bits of the file.
     # So soft that spheres do not notice.
     soft = "hooke 1e-9 NULL 0 NULL 0 0"
-    deck.run_well(scene.CREATE + scene.forces(soft, mesh="mesh floor.stl mesh_fields g_*.vtp every 100 "
-                                              "motion rotate 0.3 0.1 0.7 1 2 3 0.1") + "run 300\n", folder)
-    deck.run_well(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields h_*.vtp every 100") +
-                  "run 100\n", folder)
+    lmp.run_well(scene.CREATE + scene.forces(soft, mesh="mesh floor.stl mesh_fields g_*.vtp every 100 "
+                                             "motion rotate 0.3 0.1 0.7 1 2 3 0.1") + "run 300\n", folder)
+    lmp.run_well(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields h_*.vtp every 100") +
+                 "run 100\n", folder)
     for step in (100, 300):
         checks.at_most(f"whole turns at step {step} are none, to the bit",
                        apart(places(folder, f"g_{step}.vtp"), places(folder, "h_100.vtp")), 0)
     # Half an eighth of a turn: a wiggle by 0.4 stands at 0.4 sin 45. It stays there through restart files.
     words = "mesh floor.stl mesh_fields s_*.vtp every 100 motion wiggle 0.4 0 0 0.8"
-    deck.run_well(scene.CREATE + scene.forces(soft, mesh=words) + "run 100\nfix_modify wall motion none\n"
-                  "run 100\nwrite_restart s.restart\n", folder)
+    lmp.run_well(scene.CREATE + scene.forces(soft, mesh=words) + "run 100\nfix_modify wall motion none\n"
+                 "run 100\nwrite_restart s.restart\n", folder)
     again = scene.SETTINGS + "read_restart s.restart\n"
     for end in (300, 400):
-        log = deck.run_well(again + scene.forces(soft, mesh=words) + "run 100\nwrite_restart s.restart\n", folder)
+        log = lmp.run_well(again + scene.forces(soft, mesh=words) + "run 100\nwrite_restart s.restart\n", folder)
         off = [x - y for x, y in zip(places(folder, f"s_{end}.vtp")[::3], places(folder, "h_100.vtp")[::3])]
         checks.at_most(f"a motion that was stopped stays so at step {end}",
                        max(abs(x - 0.4 * math.sqrt(0.5)) for x in off), 1e-14)
         checks.fact("and a warning tells of it", "the motion 'wiggle 0.4 0 0 0.8' was stopped when" in log)
-    log = deck.run_well(again + scene.forces(soft, mesh=words.replace("wiggle 0.4 0 0 0.8", "linear 0 0 1")) +
-                        "run 100\n", folder)
+    log = lmp.run_well(again + scene.forces(soft, mesh=words.replace("wiggle 0.4 0 0 0.8", "linear 0 0 1")) +
+                       "run 100\n", folder)
     checks.at_most("another motion begins there", apart(places(folder, "s_500.vtp"),
                                                         moved(places(folder, "s_400.vtp"), 0, 0.1)), 1e-14)
     checks.fact("and a warning names both", "with the motion 'wiggle 0.4 0 0 0.8' and this fix has 'linear 0 0 1'" in log)
@@ -375,9 +375,9 @@ def stopped(checks, folder):
     pictures = []
     for name, words in (("moved", "motion rotate 0 0 0 0 0 1 0.4"), ("placed", "rotate 0 0 1 90"),
                         ("unmoved", "")):
-        deck.run_well(scene.CREATE + scene.forces(soft, mesh=f"mesh corner.stl {words}") + "run 100\n"
-                      f"write_dump all image {name}.ppm type type fix wall type 0.2 0 size 200 200 "
-                      "view 20 30\n", folder)
+        lmp.run_well(scene.CREATE + scene.forces(soft, mesh=f"mesh corner.stl {words}") + "run 100\n"
+                     f"write_dump all image {name}.ppm type type fix wall type 0.2 0 size 200 200 "
+                     "view 20 30\n", folder)
         pictures.append((folder / f"{name}.ppm").read_bytes())
     checks.fact("dump image draws the mesh where it is", pictures[0] == pictures[1])
     checks.fact("which is elsewhere", pictures[0] != pictures[2])
@@ -385,9 +385,9 @@ def stopped(checks, folder):
     still = scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl") + "run 500\n"
     dumps = []
     for name, words in (("still", ""), ("begun", "fix_modify wall motion linear 1e-300 0 0\n")):
-        deck.run_well(still + words + scene.dump(name, 50) + "run 200\n", folder)
-        dumps.append(deck.read_dump(folder / name))
-    checks.at_most("motion may be given later, and springs stay", deck.largest_difference(*dumps), 1e-12)
+        lmp.run_well(still + words + scene.dump(name, 50) + "run 200\n", folder)
+        dumps.append(lmp.read_dump(folder / name))
+    checks.at_most("motion may be given later, and springs stay", lmp.largest_difference(*dumps), 1e-12)
 
 
 DRUM = """\
@@ -422,13 +422,13 @@ def periodic_drum(checks, folder):
     write_drum(folder / "long.stl", -8, 12)
     dumps = []
     for name, bc, lo, hi in (("short", "p", 0, 4), ("long", "f", -8, 12)):
-        deck.run_well(DRUM.format(bc=bc, lo=lo, hi=hi, law=LAW, mesh=name + ".stl", out=name, steps=1500,
-                                  motion="motion rotate 0 0 0 0 0 1 2"), folder)
-        dumps.append(deck.read_dump(folder / name))
+        lmp.run_well(DRUM.format(bc=bc, lo=lo, hi=hi, law=LAW, mesh=name + ".stl", out=name, steps=1500,
+                                 motion="motion rotate 0 0 0 0 0 1 2"), folder)
+        dumps.append(lmp.read_dump(folder / name))
     checks.fact("spheres are in touch with the drum", touching(dumps[0]) > 50)
     checks.fact("and are carried up", max(row[1] for row in dumps[0][1500].values()) > -1.2)
     # Spheres wrap once: places are rounded at 4 more; 1500 steps over edges grow that by 1e4.
-    checks.at_most("a periodic drum as a long one", deck.largest_difference(*dumps), 1e-9)
+    checks.at_most("a periodic drum as a long one", lmp.largest_difference(*dumps), 1e-9)
 
 
 def between_faces(checks, folder):
@@ -441,21 +441,21 @@ def between_faces(checks, folder):
             lo=0, hi=4, law=LAW, mesh=mesh, out=bc[0], steps=steps, motion=motion) + end
 
     for bc in ("p p", "f f"):
-        deck.run_well(drum(2.6, bc), folder)
-    dumps = [deck.read_dump(folder / name) for name in "pf"]
+        lmp.run_well(drum(2.6, bc), folder)
+    dumps = [lmp.read_dump(folder / name) for name in "pf"]
     checks.fact("a drum between periodic faces: spheres touch it", touching(dumps[0]) > 50)
-    checks.at_most("they move as without these", deck.largest_difference(*dumps), 0)
-    deck.run_well(drum(2.6, steps=30, end="fix_modify wall motion none\nrun 1\n"), folder, 2)
-    done = deck.run(drum(2.54), folder, 2)
+    checks.at_most("they move as without these", lmp.largest_difference(*dumps), 0)
+    lmp.run_well(drum(2.6, steps=30, end="fix_modify wall motion none\nrun 1\n"), folder, 2)
+    done = lmp.run(drum(2.54), folder, 2)
     checks.fact("too near to them it is refused", done.returncode != 0 and
                 "reaches the periodic face in x at step 0" in done.stdout, done.stdout[-300:])
     # A prism of three sides, its corners 1.73 up and down and 2 once it has turned.
-    done = deck.run(drum(2.54, "f p", "corner.stl"), folder)
+    done = lmp.run(drum(2.54, "f p", "corner.stl"), folder)
     checks.fact("one that will be is told of before", done.returncode != 0 and
                 "will reach the periodic face in y" in done.stdout, done.stdout[-300:])
     # Finite variables that add up to more than a number can be, then turned: 0 times that.
     big = "motion variable NULL v_big NULL NULL NULL NULL "
-    done = deck.run("variable big equal 1e308\n" + drum(2.6, motion=2 * big + "motion rotate 0 0 0 0 0 1 2"), folder)
+    done = lmp.run("variable big equal 1e308\n" + drum(2.6, motion=2 * big + "motion rotate 0 0 0 0 0 1 2"), folder)
     checks.fact("what is nowhere is not between the faces", done.returncode != 0 and
                 "reaches the periodic face in x" in done.stdout, done.stdout[-300:])
 
@@ -472,29 +472,29 @@ def refused(checks, folder):
              ("two centres", "f", "motion rotate 0 0 0 0 0 1 2 1 1 1", "one centre P"),
              ("an unknown word", "f", "motion slide 1 0 0", "'slide' is not one of its values")]
     for name, bc, words, says in cases:
-        done = deck.run(DRUM.format(bc=bc, lo=0, hi=4, law=LAW, mesh="short.stl", out="x", steps=1,
-                                    motion=words), folder)
+        done = lmp.run(DRUM.format(bc=bc, lo=0, hi=4, law=LAW, mesh="short.stl", out="x", steps=1,
+                                   motion=words), folder)
         checks.fact(f"{name} is refused", done.returncode != 0 and says in done.stdout,
                     "" if says in done.stdout else done.stdout[-400:])
     # What a motion does not allow is not advised.
     for words, advised in (("", True), ("motion rotate 0 0 0 0 0 1 2", True), ("motion linear 0 0 1", False)):
-        done = deck.run(DRUM.format(bc="p", lo=0, hi=4, law=LAW, mesh="short.stl move 0 0 0.5", out="x", steps=0,
-                                    motion=words), folder)
+        done = lmp.run(DRUM.format(bc="p", lo=0, hi=4, law=LAW, mesh="short.stl move 0 0 0.5", out="x", steps=0,
+                                   motion=words), folder)
         checks.fact(f"past a periodic face, {words or 'at rest'}: periodic is {'' if advised else 'not '}advised",
                     ("Add the keyword periodic" in done.stdout) == advised == (done.returncode == 0))
     # In the middle of the box, moving to its face: when it is there; turning: before.
     # Without gravity, or the spheres fall out of the box.
     plate = DRUM.replace("mesh {mesh} {motion}", "mesh plate.stl move 0 0 2 {motion}")
     plate = plate.replace("gravity 8.0", "gravity 0.0")
-    done = deck.run(plate.format(bc="p", lo=0, hi=4, law=LAW, out="x", steps=3000,
-                                 motion="motion linear 0 0 0.5"), folder)
+    done = lmp.run(plate.format(bc="p", lo=0, hi=4, law=LAW, out="x", steps=3000,
+                                motion="motion linear 0 0 0.5"), folder)
     # Of the 2 to the face 0.5 and the skin 0.3 are kept free: 1.2 at 0.5.
     checks.fact("a mesh that moves to a periodic face stops there",
                 done.returncode != 0 and "reaches the periodic face in z at step 24" in done.stdout,
                 done.stdout[-300:])
-    done = deck.run(plate.format(bc="p", lo=1, hi=3, law=LAW, out="x", steps=1,
-                                 motion="motion rotate 0 0 2 1 0 0 10").replace("3.8 units", "2.8 units")
-                    .replace("0.2 units", "1.8 units"), folder)
+    done = lmp.run(plate.format(bc="p", lo=1, hi=3, law=LAW, out="x", steps=1,
+                                motion="motion rotate 0 0 2 1 0 0 10").replace("3.8 units", "2.8 units")
+                   .replace("0.2 units", "1.8 units"), folder)
     checks.fact("one that will is told of before",
                 done.returncode != 0 and "will reach the periodic face in z:" in done.stdout,
                 done.stdout[-300:])
@@ -502,11 +502,11 @@ def refused(checks, folder):
     for words, says in (("motion linear 1 0", "the value of Vz is missing"),
                         ("motion none motion linear 1 0 0", "none stops all motion"),
                         ("motion variable v_d NULL NULL NULL NULL NULL", "there is no variable 'd'")):
-        done = deck.run(text + f"fix_modify wall {words}\nrun 1\n", folder)
+        done = lmp.run(text + f"fix_modify wall {words}\nrun 1\n", folder)
         checks.fact(f"fix_modify {words} is refused", done.returncode != 0 and says in done.stdout,
                     "" if says in done.stdout else done.stdout[-400:])
-    done = deck.run("variable d atom x\n" + text.replace("short.stl", "short.stl motion variable v_d "
-                                                         "NULL NULL NULL NULL NULL"), folder)
+    done = lmp.run("variable d atom x\n" + text.replace("short.stl", "short.stl motion variable v_d "
+                                                        "NULL NULL NULL NULL NULL"), folder)
     checks.fact("a variable of another style is refused",
                 "'d', which the wall reads, is not of style equal" in done.stdout)
 
@@ -522,8 +522,8 @@ def no_numbers(checks, folder):
     for words, value, ranks in cases:
         text = DRUM.replace("fix             wall", f"variable d equal {bad[value]}\nvariable z equal 0\n"
                             "fix             wall")
-        done = deck.run(text.format(bc="f", lo=0, hi=4, law=LAW, mesh="short.stl", out="x", steps=9,
-                                    motion=words), folder, ranks)
+        done = lmp.run(text.format(bc="f", lo=0, hi=4, law=LAW, mesh="short.stl", out="x", steps=9,
+                                   motion=words), folder, ranks)
         errors = [line for line in done.stdout.split("\n") if line.startswith("ERROR")]
         # The sign of a nan that inf - inf gives differs between processors.
         said = re.search(rf"Fix wall wall/lsdcd: variable 'd', which the wall reads, is -?{value} in step 5:",
@@ -539,19 +539,19 @@ PARTS = {"wall_gran": compare_with_wall_gran, "words": compare_words, "frames": 
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
-    (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+    checks, folder = lmp.Checks(), lmp.scratch()
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
     write_plane(folder / "plane.stl")
     scene.write_floor(folder / "bumps.stl", side=9, cells=36)
     write_drum(folder / "short.stl", 0, 4)
     write_drum(folder / "corner.stl", 0, 2, n=3)
     for name in sys.argv[1:] or PARTS:
-        if name == "wall_gran" and deck.ON_KOKKOS:
+        if name == "wall_gran" and lmp.ON_KOKKOS:
             continue    # its form for Kokkos is another code
         if name in ("ranks", "stopped", "searches"):
             scene.write_floor(folder / "floor.stl")
         if name in ("wall_gran", "words", "comes", "leaves"):
-            (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+            (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
         PARTS[name](checks, folder)
     checks.done(folder)
 

@@ -7,7 +7,7 @@ path over a floor that turns, and a pitch a turn in a screw."""
 
 import math
 
-import deck
+import lmp
 
 SCENE = """\
 units           lj
@@ -78,7 +78,7 @@ run             {steps - begin}
 fix             phase all ave/time 1 {steps} {steps} v_touch v_when file phases.txt
 run             {bounces * steps}
 """)
-    deck.run_well(text, folder)
+    lmp.run_well(text, folder)
     rows = [[float(x) for x in line.split()] for line in (folder / "phases.txt").open() if line[0] != "#"]
     checks.fact(f"a shaking floor: {bounces} periods", len(rows) == bounces, str(len(rows)))
     lasts = [row[1] * period for row in rows]
@@ -117,8 +117,8 @@ run             30000
     lines = [[(-9 + 18 * i / cells, -9 + 18 * j / cells, 0) for j in range(cells + 1)]
              for i in range(cells + 1)]
     write_stl(folder / "table.stl", [t for a, b in zip(lines, lines[1:]) for t in sheet(a, b)])
-    deck.run_well(text, folder)
-    path = deck.read_dump(folder / "path")
+    lmp.run_well(text, folder)
+    path = lmp.read_dump(folder / "path")
     off = [[abs(p - q) for p, q in zip(along(row[1][:3]), (-3.1 + 2 * step * 1e-4, 0.7 - 0.3 * step * 1e-4, level))]
            for step, row in path.items()]
     # Places of size 9 are rounded to 2e-15, and with them normals, on triangles of size 0.3, to 1e-14: of
@@ -155,8 +155,8 @@ dump_modify     d format float %.17g
 variable        all equal {turns + 1}*${{turn}}
 run             ${{all}}
 """)
-    deck.run_well(text, folder)
-    path = deck.read_dump(folder / "path")
+    lmp.run_well(text, folder)
+    path = lmp.read_dump(folder / "path")
     y = [rows[1][1] for step, rows in sorted(path.items())][1:]
     # Its bounces on the blade end in the first turn, and swings with e^(-gamma t/2) in a hundredth of one.
     # Places of size 10 are rounded to 2e-15; the damping carries on what 1e4 steps make of that.
@@ -165,8 +165,8 @@ run             ${{all}}
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
-    (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+    checks, folder = lmp.Checks(), lmp.scratch()
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
     orbit_on_a_shaking_floor(checks, folder)
     straight_over_a_turning_floor(checks, folder)
     pitch_a_turn(checks, folder)

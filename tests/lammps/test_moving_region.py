@@ -18,7 +18,7 @@ Where LAMMPS is wrong the test says so: see host_defects().
 import math
 import sys
 
-import deck
+import lmp
 
 SIDE = 1.5    # half of the box
 PERIOD = 3.0
@@ -80,8 +80,8 @@ class Box:
         self.folder, self.load = folder, load
 
     def run(self, wall, variables, scene):
-        deck.run_well(SCENE.format(load=self.load, variables=variables, wall=wall, **scene), self.folder)
-        return deck.read_dump(self.folder / "out")
+        lmp.run_well(SCENE.format(load=self.load, variables=variables, wall=wall, **scene), self.folder)
+        return lmp.read_dump(self.folder / "out")
 
     def ours(self, law, words, variables="", scene=THROWN):
         return self.run(f"fix wall all wall/lsdcd {law} mesh box.stl {words} log brief", variables, scene)
@@ -112,7 +112,7 @@ def compare(checks, box):
             touching = sum(any(row[9:12]) for rows in theirs.values() for row in rows.values())
             checks.fact(f"{name}, {title}: touches", touching > 50, str(touching))
             checks.at_most(f"{name}, {title}: as fix wall/gran/region",
-                           deck.largest_difference(theirs, ours), 1e-10)
+                           lmp.largest_difference(theirs, ours), 1e-10)
 
 
 def apart(box, law, title_words, scene):
@@ -144,10 +144,10 @@ def host_defects(checks, box):
     # The velocity is taken with the axis as it is given, and not its direction.
     law = LAWS["hooke"]
     one, long = (box.theirs(law, f"rotate v_turn {POINT} {axis}", TURN) for axis in (UNIT, "2 -2 1"))
-    checks.fact("LAMMPS turns faster about a longer axis", deck.largest_difference(one, long) > 0.01)
+    checks.fact("LAMMPS turns faster about a longer axis", lmp.largest_difference(one, long) > 0.01)
     one, long = (box.ours(law, f"motion rotate {POINT} {axis} {PERIOD}") for axis in (UNIT, "2 -2 1"))
     # Directions that are rounded differ by 1e-16.
-    checks.at_most("here only its direction counts", deck.largest_difference(one, long), 1e-10)
+    checks.at_most("here only its direction counts", lmp.largest_difference(one, long), 1e-10)
 
     # A sphere that does not spin is carried by a turntable. Its spring, stretched by m w^2 r/k_t away
     # from the axis, has to turn with it. Where it keeps its direction in the box, the sphere has to slip by w
@@ -171,14 +171,14 @@ def host_defects(checks, box):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     write_box(folder / "box.stl")
     load = ""
     if sys.argv[1:] == ["host"]:
-        if not deck.TEST_HOST:
+        if not lmp.TEST_HOST:
             print("SKIPPED: no LAMMPS 4Jul2026 (tests/lammps/hosts/build_host.sh)")
             sys.exit(77)
-        load, deck.LMP = f"plugin load {deck.TEST_HOST_PLUGIN}", deck.TEST_HOST
+        load, lmp.LMP = f"plugin load {lmp.TEST_HOST_PLUGIN}", lmp.TEST_HOST
     box = Box(folder, load)
     compare(checks, box)
     compare_turning(checks, box)

@@ -6,7 +6,7 @@
 
 import math
 
-import deck
+import lmp
 import scene
 
 HEAD = """\
@@ -43,10 +43,10 @@ create_atoms    2 single -1.0 0.25 0.45 units box
 def go(folder, atoms=TWO, law="hooke 1e4 NULL 0 NULL 0 0", group="all", more="contacts", steps=0,
        extra="", columns=CONTACTS, ranks=1,
        mesh="floor.stl"):
-    text = deck.run_well(HEAD + atoms + TAIL.format(law=law, group=group, more=more, steps=steps,
-                                                    extra=extra, columns=columns,
-                                                    mesh=mesh), folder, ranks)
-    return deck.read_thermo(text), deck.read_dump(folder / "contacts"), text
+    text = lmp.run_well(HEAD + atoms + TAIL.format(law=law, group=group, more=more, steps=steps,
+                                                   extra=extra, columns=columns,
+                                                   mesh=mesh), folder, ranks)
+    return lmp.read_thermo(text), lmp.read_dump(folder / "contacts"), text
 
 
 def write_cube(path, inward=False):
@@ -71,16 +71,16 @@ def close(a, b):
 def in_commands(checks, folder):
     """How the manual says that commands read the array: overlaps 0.01 and 0.05, kn 1e4."""
     _, _, text = go(folder, extra=f"""\
-variable        push atom {deck.COLUMN}_wall[4]
+variable        push atom {lmp.COLUMN}_wall[4]
 compute         sum all reduce sum v_push
 compute         same all reduce sum f_wall[4]
 fix             h all ave/histo 1 1 1 0 1000 2 v_push mode vector
 thermo_style    custom step c_sum c_same f_h[1] f_h[2] f_h[3] f_h[4]
 thermo_modify   format float %.17g norm no""", steps=1)
-    row = deck.read_thermo(text)[0]
-    checks.fact(f"an atom-style variable reads a column as {deck.COLUMN}_ID[4]", close(row[1], 600), str(row[1]))
+    row = lmp.read_thermo(text)[0]
+    checks.fact(f"an atom-style variable reads a column as {lmp.COLUMN}_ID[4]", close(row[1], 600), str(row[1]))
     checks.fact("compute reduce reads a column as f_ID[4]", close(row[2], 600), str(row[2]))
-    last = deck.read_thermo(text)[-1]    # both, none outside, least, most; after a step of 1e-4
+    last = lmp.read_thermo(text)[-1]    # both, none outside, least, most; after a step of 1e-4
     checks.fact("fix ave/histo reads the variable", last[3:5] == [2, 0] and
                 abs(last[5] - 100) < 0.1 and abs(last[6] - 500) < 0.1, str(last[3:]))
 
@@ -97,8 +97,8 @@ min_style       cg
 minimize        0 0 2 2
 write_dump      all custom minimized id {CONTACTS} modify sort id
 """)
-    rows_in = next(iter(deck.read_dump(folder / "minimized").values()))
-    there = deck.read_thermo(text.split("Minimization stats")[0])
+    rows_in = next(iter(lmp.read_dump(folder / "minimized").values()))
+    there = lmp.read_thermo(text.split("Minimization stats")[0])
     checks.fact("before and after a minimization there are energy, virial and vector",
                 all(row[1] > 0 and row[2] > 0 and row[8] < 0 for row in rows), str(rows[0]))
     checks.fact("in a minimization they are 0", len(there) > 0 and not any(any(row[1:]) for row in there),
@@ -108,8 +108,8 @@ write_dump      all custom minimized id {CONTACTS} modify sort id
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
-    (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+    checks, folder = lmp.Checks(), lmp.scratch()
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
 
     for ranks in (1, 2):
         # Overlaps 0.01 and 0.05: forces 100 and 500, energies 0.5 and 12.5.

@@ -13,9 +13,9 @@ import shlex
 import subprocess
 import sys
 
-import deck
+import lmp
 
-sys.path.insert(0, str(deck.HERE.parent / "tool"))
+sys.path.insert(0, str(lmp.HERE.parent / "tool"))
 from pages import ROOT, all_pages    # noqa: E402
 
 # Two molecules of four atoms, each the other moved by 1 along x; no two molecules touch.
@@ -49,7 +49,7 @@ NO_HEAT = "the sub-model heat needs a LAMMPS with fix heat/flow"
 
 def run(script, folder):
     """Once more without the lines with heat, where these cannot run."""
-    done = deck.run(script, folder, env={"LSDCD_POTENTIALS": str(ROOT / "potentials")})
+    done = lmp.run(script, folder, env={"LSDCD_POTENTIALS": str(ROOT / "potentials")})
     if NO_HEAT in done.stdout:
         return run(re.sub(r"^fix (\S+) .* heat (radius|area) .*$", r"fix \1 all viscous 0", script, flags=re.M), folder)
     return done
@@ -57,7 +57,7 @@ def run(script, folder):
 
 def keywords():
     """First words of the keywords of fix wall/lsdcd, from its help."""
-    shown = subprocess.run([deck.LMP, "-h"], env=deck.environment(), text=True, stdout=subprocess.PIPE).stdout
+    shown = subprocess.run([lmp.LMP, "-h"], env=lmp.environment(), text=True, stdout=subprocess.PIPE).stdout
     return set(re.findall(r"^  ([a-z_]+) ", shown.split("keywords\n")[1].split("\n\n")[0], re.M))
 
 
@@ -116,13 +116,13 @@ def script_of(block, folder, known):
 def whole_script(page, block, folder):
     """Meshes are made by the commands that the page names in its text."""
     for command in re.findall(r"`(\S*lsdcd generate [^`]*)`", page.text):
-        tool = deck.pathlib.Path(deck.LMP).parent / "lsdcd"
+        tool = lmp.pathlib.Path(lmp.LMP).parent / "lsdcd"
         subprocess.run([tool, *shlex.split(command)[1:]], cwd=folder, check=True, stdout=subprocess.DEVNULL)
     return re.sub(r"^run +\d+", "run 0", block.text, flags=re.M)
 
 
 def main():
-    checks, folder, known = deck.Checks(), deck.scratch(), keywords()
+    checks, folder, known = lmp.Checks(), lmp.scratch(), keywords()
     (folder / "grain_atoms.txt").write_text("".join("%g %g %g\n" % place for place in PLACES))
     count = 0
     for page in all_pages().values():

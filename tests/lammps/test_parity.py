@@ -9,7 +9,7 @@ Both codes evaluate the same formulas in another order. Rounding differences of
 10^4 operations. fix wall/gran checks the style hooke/history of 29Sep2021.
 """
 
-import deck
+import lmp
 
 CASES = {
     "hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
@@ -33,17 +33,17 @@ def compare(checks, folder, name, law, scene="in.one_sphere", **settings):
     dumps = []
     for wall in (f"wall/gran {law} zplane 0.0 NULL", f"wall/lsdcd {law} mesh floor.stl"):
         dumps.append(folder / f"{name}.{len(dumps)}")
-        deck.run_well(deck.HERE / "decks" / scene, folder, wall=wall,
-                      out=dumps[-1].name, **settings)
-    a, b = (deck.read_dump(d) for d in dumps)
+        lmp.run_well(lmp.HERE / "scripts" / scene, folder, wall=wall,
+                     out=dumps[-1].name, **settings)
+    a, b = (lmp.read_dump(d) for d in dumps)
     touched = sum(abs(row[1][11]) > 0 for row in a.values())
     checks.fact(f"{name}: the sphere touches the floor", touched > 20, f"{touched} steps")
-    checks.at_most(f"{name}: trajectory as with wall/gran", deck.largest_difference(a, b), 1e-12)
+    checks.at_most(f"{name}: trajectory as with wall/gran", lmp.largest_difference(a, b), 1e-12)
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
-    (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+    checks, folder = lmp.Checks(), lmp.scratch()
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
     for name, law in CASES.items():
         compare(checks, folder, name, law, unit="lj", kick=1, dt=1e-4, steps=1000, style="verlet")
     for name, law in REAL.items():

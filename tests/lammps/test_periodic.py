@@ -11,7 +11,7 @@ contact multiplies a difference by at most its stiffness over its overlap, so th
 leaves room for 1e5 roundings.
 """
 
-import deck
+import lmp
 
 
 def quad(a, b, c, d):
@@ -77,8 +77,8 @@ run             {steps}
 
 
 def go(folder, *args, ranks=1, **kwargs):
-    text = deck.run_well(scene(*args, **kwargs), folder, ranks=ranks)
-    return deck.read_dump(folder / kwargs.get("out", "moves")), text
+    text = lmp.run_well(scene(*args, **kwargs), folder, ranks=ranks)
+    return lmp.read_dump(folder / kwargs.get("out", "moves")), text
 
 
 def apart(a, b, size):
@@ -126,10 +126,10 @@ def over_the_seam(checks, folder):
 def larger_spheres(checks, folder):
     """A larger sphere comes to a floor that reaches past the faces by its radius and no more."""
     write_stl(folder / "floor.stl", floor(-0.5, 10.5, -0.5, 10.5))
-    done = deck.run(scene(f"wall/lsdcd {ROUGH} mesh floor.stl periodic", (3, 3, 0.45), (0, 0, 0), radius=0.45,
-                          boundary="p p f", gravity=9.81, steps=100,
-                          more="run 10\ncreate_atoms 1 single 9.9 7 0.5 units box\nset atom 2 diameter 1 density 2"),
-                    folder)
+    done = lmp.run(scene(f"wall/lsdcd {ROUGH} mesh floor.stl periodic", (3, 3, 0.45), (0, 0, 0), radius=0.45,
+                         boundary="p p f", gravity=9.81, steps=100,
+                         more="run 10\ncreate_atoms 1 single 9.9 7 0.5 units box\nset atom 2 diameter 1 density 2"),
+                   folder)
     checks.fact("the grid is built anew for a larger sphere, whatever reaches past the faces",
                 done.returncode == 0 and "larger particles, grid rebuilt for radius 0.55" in done.stdout)
 
@@ -206,8 +206,8 @@ def box_changes(checks, folder):
     checks.fact("the log tells of it", "the box has changed, grid rebuilt at step" in text)
     # The box outgrows its floor.
     write_stl(folder / "floor.stl", floor(0, 10, 0, 10, 2))
-    done = deck.run(scene("wall/lsdcd hooke 2e4 NULL 20 NULL 0 0 mesh floor.stl periodic", (5, 5, 0.5), (0, 0, 0),
-                          gravity=9.81, more="fix grow all deform 1 x final -1 11 remap none"), folder)
+    done = lmp.run(scene("wall/lsdcd hooke 2e4 NULL 20 NULL 0 0 mesh floor.stl periodic", (5, 5, 0.5), (0, 0, 0),
+                         gravity=9.81, more="fix grow all deform 1 x final -1 11 remap none"), folder)
     checks.fact("a box that outgrows its periodic floor stops the run", done.returncode != 0
                 and "ends of the mesh do not meet across the periodic boundary in x" in done.stdout)
     # change_box between runs, the wall in the way of the new face.
@@ -241,8 +241,8 @@ def scales(checks, folder):
     """A mesh in millimetres in a box in metres."""
     hundred = floor(-50, 50, -50, 50, z=-50) + floor(-50, 50, -50, 50, z=50)
     write_stl(folder / "vessel.stl", hundred)
-    done = deck.run(scene(f"{ELASTIC} vessel.stl", (0, 0, 0), (0, 0, 0), box="-.06 .06 -.06 .06 -.06 .06", radius=0.001,
-                          boundary="f f f", steps=1), folder)
+    done = lmp.run(scene(f"{ELASTIC} vessel.stl", (0, 0, 0), (0, 0, 0), box="-.06 .06 -.06 .06 -.06 .06", radius=0.001,
+                         boundary="f f f", steps=1), folder)
     checks.fact("a forgotten scale is named", "far larger than the box" in done.stdout
                 and "add scale 0.001" in done.stdout)
     checks.fact("what no particle can touch stops the run",
@@ -250,7 +250,7 @@ def scales(checks, folder):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     for part in (near_a_face, over_the_seam, larger_spheres, hills, tilted, belts, box_changes, large_meshes, scales):
         part(checks, folder)
     checks.done(folder)

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""One deck gives the same numbers under lmp-lsdcd and under a LAMMPS with PLUGIN.
+"""One script gives the same numbers under lmp-lsdcd and under a LAMMPS with PLUGIN.
 
 LSDCD_PLUGIN_HOST names that LAMMPS, of the version that the plugin is built for; without
 it the one that hosts/build_host.sh built is taken, with a plugin of its own. Without
@@ -12,13 +12,13 @@ either there is nothing to run (exit status 77).
 import os
 import sys
 
-import deck
+import lmp
 import scene
 
 HOST = os.environ.get("LSDCD_PLUGIN_HOST", "")
-PLUGIN = deck.LIB / "lsdcdplugin.so"
+PLUGIN = lmp.LIB / "lsdcdplugin.so"
 if not HOST:
-    HOST, PLUGIN = deck.TEST_HOST, deck.TEST_HOST_PLUGIN
+    HOST, PLUGIN = lmp.TEST_HOST, lmp.TEST_HOST_PLUGIN
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 
 
@@ -26,26 +26,26 @@ def main():
     if not HOST:
         print("SKIPPED: no LAMMPS with PLUGIN (LSDCD_PLUGIN_HOST, tests/lammps/hosts/build_host.sh)")
         sys.exit(77)
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     scene.write_floor(folder / "floor.stl")
-    own, moves = deck.LMP, []
+    own, moves = lmp.LMP, []
     body = scene.CREATE + scene.forces(LAW) + scene.dump("moves", 100) + "run 1000\n"
     for program, load in ((own, ""), (HOST, f"plugin load {PLUGIN}\n")):
-        deck.LMP = program
-        deck.run_well(load + body, folder)
-        moves.append(deck.read_dump(folder / "moves"))
+        lmp.LMP = program
+        lmp.run_well(load + body, folder)
+        moves.append(lmp.read_dump(folder / "moves"))
     # Another compiler or flags may round the integrator otherwise.
-    checks.at_most("same trajectory", deck.largest_difference(*moves), 1e-9)
+    checks.at_most("same trajectory", lmp.largest_difference(*moves), 1e-9)
 
-    deck.LMP = HOST
-    text = deck.run_well(f"plugin load {PLUGIN}\nplugin list\n" + body +
-                         f"clear\nplugin load {PLUGIN}\n" + body +
-                         "undump moves\nplugin unload fix wall/lsdcd\n"
-                         "plugin unload fix massflow/lsdcd\nplugin unload compute lsdcd/collide\nplugin list\nrun 10\n", folder)
+    lmp.LMP = HOST
+    text = lmp.run_well(f"plugin load {PLUGIN}\nplugin list\n" + body +
+                        f"clear\nplugin load {PLUGIN}\n" + body +
+                        "undump moves\nplugin unload fix wall/lsdcd\n"
+                        "plugin unload fix massflow/lsdcd\nplugin unload compute lsdcd/collide\nplugin list\nrun 10\n", folder)
     # Newer hosts keep their plugins through clear.
     came = text.count("Loading plugin: fix wall/lsdcd") + text.count("Restoring plugin: fix wall/lsdcd")
     checks.fact("load, clear, load, unload", came == 2 and "loaded plugins: 0" in text)
-    checks.fact("on 2 ranks", "Loop time" in deck.run_well(f"plugin load {PLUGIN}\n" + body, folder, 2))
+    checks.fact("on 2 ranks", "Loop time" in lmp.run_well(f"plugin load {PLUGIN}\n" + body, folder, 2))
     checks.done(folder)
 
 

@@ -6,10 +6,10 @@
 
 import math
 
-import deck
+import lmp
 from test_moving import write_drum, write_plane
 
-DECK = deck.SMALL_BOX + """\
+SCRIPT = lmp.SMALL_BOX + """\
 fix             wall all wall/lsdcd {wall} contacts
 timestep        {dt}
 {more}
@@ -27,8 +27,8 @@ PULL = "fix pull all gravity 8.0 vector 0 -1 0"
 
 
 def go(folder, wall, dt, steps, atoms=TWO, more=PULL, ranks=1):
-    text = deck.run_well(DECK.format(wall=wall, dt=dt, steps=steps, atoms=atoms, more=more), folder, ranks)
-    return deck.read_thermo(text), deck.read_dump(folder / "spheres")
+    text = lmp.run_well(SCRIPT.format(wall=wall, dt=dt, steps=steps, atoms=atoms, more=more), folder, ranks)
+    return lmp.read_thermo(text), lmp.read_dump(folder / "spheres")
 
 
 def cross(a, b):
@@ -102,7 +102,7 @@ def drum(checks, folder):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     piston(checks, folder)
     drum(checks, folder)
     checks.done(folder)

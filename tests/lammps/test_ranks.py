@@ -2,14 +2,14 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""One deck on 1, 2 and 4 ranks gives the same trajectory, springs included.
+"""One script on 1, 2 and 4 ranks gives the same trajectory, springs included.
 
 Spheres that touch only the wall: forces do not depend on the order of atoms, so
 the numbers are equal to the last bit, through migration and sorting. Fix balance
 takes positions to box coordinates and back, which rounds them.
 """
 
-import deck
+import lmp
 import scene
 
 LAWS = {"hooke": "hooke 1e4 NULL 120 NULL 0.4 1",
@@ -22,16 +22,16 @@ BALANCE = "fix even all balance 100 1.02 shift xy 10 1.02\n"
 
 
 def go(law, folder, ranks, more="", steps=2000):
-    text = deck.run_well(scene.SETTINGS + "read_data start.data\n" + scene.forces(law, more=more) + TOTALS +
-                         scene.dump("moves", 100) + f"run {steps}\n", folder, ranks)
-    return deck.read_dump(folder / "moves"), deck.read_thermo(text), text
+    text = lmp.run_well(scene.SETTINGS + "read_data start.data\n" + scene.forces(law, more=more) + TOTALS +
+                        scene.dump("moves", 100) + f"run {steps}\n", folder, ranks)
+    return lmp.read_dump(folder / "moves"), lmp.read_thermo(text), text
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     scene.write_floor(folder / "floor.stl")
     # The order of create_atoms and the sums of velocity depend on the ranks.
-    deck.run_well(scene.CREATE + "write_data start.data\n", folder)
+    lmp.run_well(scene.CREATE + "write_data start.data\n", folder)
     for name, law in LAWS.items():
         one, sums, _ = go(law, folder, 1)
         checks.fact(f"{name}: spheres touch", max(row[8] for row in sums) > 20)
@@ -39,7 +39,7 @@ def main():
             many, many_sums, text = go(law, folder, ranks, more)
             where = f"{name}: {ranks} ranks{' balanced' if more else ''}"
             # Roundings of 1e-16 grow where spheres hop from bump to bump: 1e6 in 2000 steps.
-            checks.at_most(f"{where}: same trajectory", deck.largest_difference(one, many),
+            checks.at_most(f"{where}: same trajectory", lmp.largest_difference(one, many),
                            1e-9 if more else 0)
             # Totals are added in another order.
             size = [max(abs(row[k]) for row in sums) or 1 for k in range(len(sums[0]))]

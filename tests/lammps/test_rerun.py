@@ -5,12 +5,12 @@
 """The command rerun: what follows from positions and time is as in the run that was dumped, what
 adds up from step to step is refused or told of."""
 
-import deck
+import lmp
 
 SMOOTH = "hooke 1e3 NULL 0 0 0 0"    # forces follow from positions alone
 HISTORY = "hooke/history 1e4 NULL 20 NULL 0.4 1"
 MOVES = "motion wiggle 0 0 0.005 0.13 motion rotate 0 0 0 0 0 1 0.7 motion linear 0.1 0 0"
-HEAD = deck.SMALL_BOX.format(atoms="create_atoms 1 single 0.3 0.2 0.48 units box\n"
+HEAD = lmp.SMALL_BOX.format(atoms="create_atoms 1 single 0.3 0.2 0.48 units box\n"
                                    "create_atoms 1 single -1 0.5 0.495 units box") + """\
 neighbor        0.3 bin
 neigh_modify    delay 0 every 1 check yes
@@ -34,7 +34,7 @@ def dumped(words, law=SMOOTH):
 
 
 def rows_of(output):
-    return {row[0]: row[1:] for row in deck.read_thermo(output)}
+    return {row[0]: row[1:] for row in lmp.read_thermo(output)}
 
 
 def apart(a, b):
@@ -47,39 +47,39 @@ def apart(a, b):
 
 def same(checks, folder):
     for name, words in (("at rest", ""), ("that moves", MOVES)):
-        one = deck.run_well(dumped(words), folder)
+        one = lmp.run_well(dumped(words), folder)
         run = rows_of(one)
         checks.fact(f"a mesh {name}: touches", sum(row[7] > 0 for row in run.values()) > 3)
-        for title, steps, number in (("a fresh deck", "", 11), ("one snapshot", "first 120 last 120", 1),
+        for title, steps, number in (("a fresh script", "", 11), ("one snapshot", "first 120 last 120", 1),
                                      ("from the middle", "first 100", 6)):
-            rows = rows_of(deck.run_well(text(words) + RERUN.format(steps), folder))
+            rows = rows_of(lmp.run_well(text(words) + RERUN.format(steps), folder))
             checks.fact(f"a mesh {name}, {title}: {number} snapshots", len(rows) == number, str(len(rows)))
             checks.at_most(f"a mesh {name}, {title}: as in the run", apart(run, rows), 1e-12)
         # The steps of the rerun are those of the run before it.
-        rows = rows_of(deck.run_well(dumped(words) + RERUN.format("first 0 last 200"), folder))
-        checks.at_most(f"a mesh {name}, rerun by the deck that ran: as in the run", apart(run, rows), 1e-12)
+        rows = rows_of(lmp.run_well(dumped(words) + RERUN.format("first 0 last 200"), folder))
+        checks.at_most(f"a mesh {name}, rerun by the script that ran: as in the run", apart(run, rows), 1e-12)
 
 
 def springs(checks, folder):
     short = dumped("", HISTORY).replace("run 200", "run 20")    # they touch in its last step
-    deck.run_well(short, folder)
-    fresh = deck.run_well(text("", HISTORY) + RERUN.format(""), folder)
+    lmp.run_well(short, folder)
+    fresh = lmp.run_well(text("", HISTORY) + RERUN.format(""), folder)
     still = "set group all omega 0 0 0\n"    # which no dump brings back
-    after = deck.run_well(short + still + RERUN.format(""), folder)
+    after = lmp.run_well(short + still + RERUN.format(""), folder)
     checks.fact("springs: told once", fresh.count("a rerun does not know the springs") == 1)
     checks.at_most("springs: those of a run before it are not those of snapshots",
                    apart(rows_of(fresh), rows_of(after)), 1e-12)
     checks.fact("springs: not told of where there are none", "does not know the springs" not in
-                deck.run_well(text("") + RERUN.format(""), folder))
+                lmp.run_well(text("") + RERUN.format(""), folder))
 
 
 def files(checks, folder):
     words = MOVES + " mesh_fields f_*.vtp every 20 mesh_stl s_*.stl every 20"
-    deck.run_well(dumped(words), folder)
+    lmp.run_well(dumped(words), folder)
     before = {p.name: p.read_bytes() for p in folder.glob("[fs]_*")}
     for path in folder.glob("s_*.stl"):
         path.unlink()
-    output = deck.run_well(text(words) + RERUN.format("first 20"), folder)
+    output = lmp.run_well(text(words) + RERUN.format("first 20"), folder)
     after = {p.name: p.read_bytes() for p in folder.glob("[fs]_*")}
     vtp, stl = ({k: v for k, v in before.items() if k.startswith(c)} for c in "fs")
     checks.fact("mesh_fields of the run stay as they were", len(vtp) == 11 and
@@ -87,14 +87,14 @@ def files(checks, folder):
     checks.fact("mesh_fields: told once", output.count("no mesh_fields are written") == 1)
     checks.fact("mesh_stl: the mesh where it was", len(stl) == 10 and
                 all(after.get(k) == v for k, v in stl.items()))
-    deck.run_well(text(words) + RERUN.format("first 20") + "run 20 pre no\n", folder)
+    lmp.run_well(text(words) + RERUN.format("first 20") + "run 20 pre no\n", folder)
     checks.fact("mesh_fields of a run after a rerun are written", (folder / "f_220.vtp").exists())
 
 
 def refused(checks, folder):
-    deck.run_well(dumped(""), folder)
+    lmp.run_well(dumped(""), folder)
     lines = "variable dz equal -0.01*step*dt\n"
-    for name, deck_text, told in (
+    for name, script_text, told in (
             ("a servo", text("servo force z -10 vmax 0.1"), "in a rerun a servo is not where it was"),
             ("velocities that are differences", lines + text("motion variable NULL NULL v_dz NULL NULL NULL"),
              "in a rerun there is no step over which the velocity"),
@@ -102,7 +102,7 @@ def refused(checks, folder):
              "the snapshot of step 0 is before step 40"),
             ("massflow", text("") + "fix m all massflow/lsdcd mesh floor.stl\n",
              "massflow/lsdcd: a rerun has no steps")):
-        done = deck.run(deck_text + RERUN.format(""), folder)
+        done = lmp.run(script_text + RERUN.format(""), folder)
         checks.fact(f"{name}: refused", done.returncode != 0 and told in done.stdout, done.stdout[-200:])
 
 
@@ -110,7 +110,7 @@ def no_rerun(checks, folder):
     """Commands that initialise fixes between runs and within them."""
     servo = text("servo force z -10 vmax 0.1 mesh_fields f_*.vtp every 20") + \
         "fix m all massflow/lsdcd mesh floor.stl\n"
-    output = deck.run_well(servo + """\
+    output = lmp.run_well(servo + """\
 run 0
 velocity all set 0 0 0
 run 0
@@ -131,8 +131,8 @@ PARTS = [same, springs, files, refused, no_rerun]
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
-    (folder / "floor.stl").write_bytes((deck.HERE / "decks" / "floor.stl").read_bytes())
+    checks, folder = lmp.Checks(), lmp.scratch()
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
     for part in PARTS:
         part(checks, folder)
     checks.done(folder)

@@ -12,7 +12,7 @@ without damping (equal but for rounding of the repeated evaluation).
 
 import struct
 
-import deck
+import lmp
 import scene
 
 LAWS = {"hooke_history": "hooke/history 1e4 NULL 120 NULL 0.4 1",
@@ -37,15 +37,15 @@ velocity        all set 0.5 0.3 0
 
 
 def write(law, folder, ranks=1, name="two", create=scene.CREATE, **more):
-    deck.run_well(create + scene.forces(law, **more) + f"run {FIRST}\nwrite_restart {name}.restart\n" +
-                  scene.dump(name, 50) + f"run {SECOND}\n", folder, ranks)
-    return deck.read_dump(folder / name)
+    lmp.run_well(create + scene.forces(law, **more) + f"run {FIRST}\nwrite_restart {name}.restart\n" +
+                 scene.dump(name, 50) + f"run {SECOND}\n", folder, ranks)
+    return lmp.read_dump(folder / name)
 
 
 def proceed(law, folder, ranks=1, restart="two.restart", name="continued", **more):
-    text = deck.run_well(scene.SETTINGS + f"read_restart {restart}\n" + scene.forces(law, **more) +
-                         scene.dump(name, 50) + f"run {SECOND}\n", folder, ranks)
-    return deck.read_dump(folder / name), text
+    text = lmp.run_well(scene.SETTINGS + f"read_restart {restart}\n" + scene.forces(law, **more) +
+                        scene.dump(name, 50) + f"run {SECOND}\n", folder, ranks)
+    return lmp.read_dump(folder / name), text
 
 
 def rows(checks, folder):
@@ -57,7 +57,7 @@ def rows(checks, folder):
     for ranks in (1, 2):
         continued = proceed(law, folder, ranks, "few.restart")[0]
         checks.at_most(f"rows: written so on 2 ranks, read on {ranks}",
-                       deck.largest_difference(two, continued), 0)
+                       lmp.largest_difference(two, continued), 0)
 
 
 def kinds(checks, folder):
@@ -80,7 +80,7 @@ def another_format(checks, folder):
     data = (folder / "other.restart").read_bytes()
     at = data.index(struct.pack("<d", -6), data.index(b"wall/lsdcd"))
     (folder / "other.restart").write_bytes(data[:at] + struct.pack("<d", -5) + data[at + 8:])
-    done = deck.run(scene.SETTINGS + "read_restart other.restart\n" + scene.forces(LAWS["hooke"]) + "run 0\n", folder)
+    done = lmp.run(scene.SETTINGS + "read_restart other.restart\n" + scene.forces(LAWS["hooke"]) + "run 0\n", folder)
     checks.fact("another version is refused", done.returncode != 0 and "written by another version of this fix" in
                 done.stdout and "give the fix another ID" in done.stdout, done.stdout[-300:])
 
@@ -97,14 +97,14 @@ def meshes(checks, folder):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     scene.write_floor(folder / "floor.stl")
     for name, law in LAWS.items():
         two = write(law, folder)
         touching = sum(row[9] > 0 for row in two[FIRST].values())
         checks.fact(f"{name}: spheres touch where it breaks", touching > 20, str(touching))
         continued, text = proceed(law, folder)
-        checks.at_most(f"{name}: continued as in one input", deck.largest_difference(two, continued),
+        checks.at_most(f"{name}: continued as in one input", lmp.largest_difference(two, continued),
                        0)
         # LAMMPS says so when it hands restart data to a fix.
         checks.fact(f"{name}: springs in the file only where there are any",
@@ -113,10 +113,10 @@ def main():
     two = write(law, folder)
     for ranks in (2, 4):
         checks.at_most(f"written on 1 rank, read on {ranks}",
-                       deck.largest_difference(two, proceed(law, folder, ranks)[0]), 0)
+                       lmp.largest_difference(two, proceed(law, folder, ranks)[0]), 0)
     spread = write(law, folder, 4, "spread")
     checks.at_most("written on 4 ranks, read on 1",
-                   deck.largest_difference(spread, proceed(law, folder, 1, "spread.restart")[0]), 0)
+                   lmp.largest_difference(spread, proceed(law, folder, 1, "spread.restart")[0]), 0)
 
     text = proceed(LAWS["hooke"], folder)[1]
     checks.fact("springs in the file do not disturb a style without them", "ERROR" not in text)
@@ -139,16 +139,16 @@ def main():
     # Settled with damping, then without it: in one piece, and in two through a file.
     write(law, folder)
     begin = scene.SETTINGS + "read_restart two.restart\n" + scene.forces(UNDAMPED, sides=UNDAMPED_SIDES)
-    deck.run_well(begin + scene.dump("one", 50) + f"run {FIRST + SECOND}\n", folder)
+    lmp.run_well(begin + scene.dump("one", 50) + f"run {FIRST + SECOND}\n", folder)
     # With the same dump: LAMMPS 4Jul2026 with Kokkos rounds a step without output otherwise.
-    deck.run_well(begin + scene.dump("first", 50) + f"run {FIRST}\nwrite_restart later.restart\n",
-                  folder)
+    lmp.run_well(begin + scene.dump("first", 50) + f"run {FIRST}\nwrite_restart later.restart\n",
+                 folder)
     continued = proceed(UNDAMPED, folder, restart="later.restart", sides=UNDAMPED_SIDES)[0]
-    one = {s: rows for s, rows in deck.read_dump(folder / "one").items() if s >= 2 * FIRST}
+    one = {s: rows for s, rows in lmp.read_dump(folder / "one").items() if s >= 2 * FIRST}
     touching = sum(row[9] > 0 for row in one[2 * FIRST].values())
     checks.fact("undamped: spheres touch where it breaks", touching > 20, str(touching))
     # 800 steps of contacts that part neighbouring paths: a factor of 1e4 on 1e-16 at most.
-    checks.at_most("undamped: continued as unbroken", deck.largest_difference(one, continued), 1e-11)
+    checks.at_most("undamped: continued as unbroken", lmp.largest_difference(one, continued), 1e-11)
     checks.done(folder)
 
 

@@ -10,9 +10,9 @@ import sys
 
 from PIL import Image
 
-import deck
+import lmp
 
-VESSEL = deck.HERE.parent.parent / "examples" / "vessel"
+VESSEL = lmp.HERE.parent.parent / "examples" / "vessel"
 
 
 # The same picture by LAMMPS: the view, and the colours of section.py.
@@ -38,12 +38,12 @@ def hue(r, g, b):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     # The vessel a fifth full, once for LAMMPS and once for the script.
     text = (VESSEL / "in.vessel").read_text()
     small = {"dir": VESSEL, "fill": 1500, "quiet": 1, "measure": 1, "drain": 100, "frame": 50}
     drawn = "mesh ${dir}/vessel.stl scale 0.001"
-    deck.run_well(text.replace(drawn, drawn + " draw faces 1 cut 0 -1 0 0") + IMAGE, folder, **small)
+    lmp.run_well(text.replace(drawn, drawn + " draw faces 1 cut 0 -1 0 0") + IMAGE, folder, **small)
     done = subprocess.run([sys.executable, VESSEL / "section.py", "section.dump", VESSEL / "vessel.stl",
                            "vessel.png", "--movie", "vessel.gif"], cwd=folder)
     checks.fact("section.py draws", done.returncode == 0)

@@ -8,7 +8,7 @@ import math
 import re
 import sys
 
-import deck
+import lmp
 
 # dt is a tenth of the contact's time where it is not given: pi sqrt(m/k) for a sphere of mass pi/3
 # and k = 1e4 is 0.0321, with damping a little more.
@@ -68,7 +68,7 @@ def go(folder, servo, law=HOOKE, create=ONE, floor=FLOOR, pair="zero 1.2", dt=DT
     text = (BEGIN.format(create=create, pair=pair) + floor.format(law=law) + before +
             wall(law, servo, at).replace("plate.stl", mesh)
             + after + OUTPUTS.format(dt=dt, more=more) + f"run {steps}\n" + end)
-    log = deck.run_well(text, folder, ranks)
+    log = lmp.run_well(text, folder, ranks)
     return rows_of(folder / "out.txt"), log
 
 
@@ -242,14 +242,14 @@ def bed(law, servo, top=6.2):
 def confined_bed(checks, folder):
     """Smooth sides carry nothing: the floor bears the piston and the weight."""
     text = bed(HISTORY, "servo force z -200 vmax 2.0")
-    deck.run_well(text + OUTPUTS.format(dt=0.002, more="$(mass(all):%.17g)") + "run 20000\n"
-                  "write_dump all custom at.txt id z radius modify format float %.17g sort id\n", folder)
+    lmp.run_well(text + OUTPUTS.format(dt=0.002, more="$(mass(all):%.17g)") + "run 20000\n"
+                 "write_dump all custom at.txt id z radius modify format float %.17g sort id\n", folder)
     rows = rows_of(folder / "out.txt")
     off = [abs(row[PUSH] / -200 - 1) for row in rows[-1000:]]
     checks.at_most("bed: load held", max(off), 1e-3)
     checks.fact("bed: several contacts", rows[-1][COUNT] > 3, str(rows[-1][COUNT]))
     carried = 0.0
-    for row in deck.read_dump(folder / "at.txt")[20000].values():
+    for row in lmp.read_dump(folder / "at.txt")[20000].values():
         carried += 1e4 * max(0.0, row[1] - row[0])
     weight = 8.0 * rows[-1][MORE]
     # Both loads are held to 1e-3; the bed moves no more.
@@ -271,26 +271,26 @@ def restart(checks, folder):
     for motion in ("", "motion wiggle 0.02 0 0 0.9 "):
         for ranks in (1, 2):
             moved = text.replace(servo, motion + servo)
-            deck.run_well(moved + names + "timestep 0.002\nrun 1500\nwrite_restart r.restart\n" +
-                          dump.format("a") + "run 1500\n", folder, ranks)
+            lmp.run_well(moved + names + "timestep 0.002\nrun 1500\nwrite_restart r.restart\n" +
+                         dump.format("a") + "run 1500\n", folder, ranks)
             rest = head(text) + "read_restart r.restart\n" + moved[moved.index("pair_style"):]
-            deck.run_well(rest + names + "timestep 0.002\n" + dump.format("b") + "run 1500\n", folder, ranks)
-            a, b = deck.read_dump(folder / "a"), deck.read_dump(folder / "b")
+            lmp.run_well(rest + names + "timestep 0.002\n" + dump.format("b") + "run 1500\n", folder, ranks)
+            a, b = lmp.read_dump(folder / "a"), lmp.read_dump(folder / "b")
             travelled = abs(a[3000][1][6] - a[1500][1][6])
             checks.fact(f"{motion}{ranks} ranks: the piston moves", travelled > 0.01, f"{travelled:.3g}")
-            checks.at_most(f"{motion}{ranks} ranks: continued to the bit", deck.largest_difference(a, b), 0)
+            checks.at_most(f"{motion}{ranks} ranks: continued to the bit", lmp.largest_difference(a, b), 0)
 
-    def go_on(words, more="run 0\n", start=deck.run_well):
+    def go_on(words, more="run 0\n", start=lmp.run_well):
         rest = head(text) + "read_restart r.restart\n" + text[text.index("pair_style"):].replace(servo, words)
         return start(rest + "thermo_style custom step f_wall[12]\nthermo_modify format float %.17g\n" +
                      more, folder)
 
-    deck.run_well(text + "timestep 0.002\nrun 1500\nvariable p equal f_wall[12]\nprint 'place $(v_p:%.17g)'\n"
-                  "write_restart r.restart\n", folder)
+    lmp.run_well(text + "timestep 0.002\nrun 1500\nvariable p equal f_wall[12]\nprint 'place $(v_p:%.17g)'\n"
+                 "write_restart r.restart\n", folder)
     log = go_on("servo force z -10 vmax 0.1")
     checks.fact("another target goes on from there", "another line" not in log and
-                deck.read_thermo(log)[-1][1] < -0.1, str(deck.read_thermo(log)))
-    done = go_on("servo force z -10 vmax 0.1 limits -0.01 0", start=deck.run)
+                lmp.read_thermo(log)[-1][1] < -0.1, str(lmp.read_thermo(log)))
+    done = go_on("servo force z -10 vmax 0.1 limits -0.01 0", start=lmp.run)
     checks.fact("narrower limits are refused", done.returncode != 0 and
                 "outside of the limits -0.01 0" in done.stdout.replace("\n", " "), done.stdout[-300:])
     # Where it was stopped it is still, until it is told to go on; also one that a motion then took along.
@@ -300,17 +300,17 @@ def restart(checks, folder):
         return [float(x) for x in re.findall(r"^at (\S+)$", log, re.M)]
 
     for more in ("", "fix_modify wall motion none\n"):
-        first = told(deck.run_well(text + "timestep 0.002\nrun 1500\nfix_modify wall servo none\n" + more +
-                                   "run 100\n" + at + "write_restart r.restart\n", folder))
+        first = told(lmp.run_well(text + "timestep 0.002\nrun 1500\nfix_modify wall servo none\n" + more +
+                                  "run 100\n" + at + "write_restart r.restart\n", folder))
         log = go_on(servo, f"run 200\n{at}fix_modify wall {servo}\nrun 200\n{at}")
         then = told(log)
         checks.fact("a servo that was stopped stays so", len(then) == 2 and first == then[:1], f"{first}, {then}")
         checks.fact("and a warning tells of it", "the servo was stopped when" in log)
         checks.fact("until fix_modify lets it go on", then[-1] < then[0], str(then))
-    deck.run_well(text + "timestep 0.002\nrun 1500\nwrite_restart r.restart\n", folder)
+    lmp.run_well(text + "timestep 0.002\nrun 1500\nwrite_restart r.restart\n", folder)
     log = go_on("servo force x 10 vmax 0.1")
     checks.fact("another line is told of, and begins at 0", "with a servo along another line" in log and
-                deck.read_thermo(log)[-1][1] == 0)
+                lmp.read_thermo(log)[-1][1] == 0)
 
 
 def ranks(checks, folder):
@@ -343,14 +343,14 @@ def modified(checks, folder):
     text = (BEGIN.format(create=ONE, pair="zero 1.2") + FLOOR.format(law=HISTORY) + wall(HISTORY, "") +
             f"timestep {DT}\nrun 10\nfix_modify wall servo force z -50 vmax 0.5\n" +
             OUTPUTS.format(dt=DT, more="") + "run 2000\n")
-    deck.run_well(text, folder)
+    lmp.run_well(text, folder)
     settles(checks, "given later", rows_of(folder / "out.txt"), -50)
     # Beside a motion along the axis, which it takes back, and wear, whose output comes first.
     text = (BEGIN.format(create=ONE, pair="zero 1.2") + FLOOR.format(law=HOOKE) +
             wall(HOOKE, "motion linear 0.2 0 -0.1 servo force z -50 vmax 0.5 wear archard 1e-9 1") +
             f"timestep {DT}\nrun 1500\n" +
             "print 'ends $(f_wall[10]:%.6g) $(f_wall[12]:%.6g) $(f_wall[13]:%.6g) $(f_wall[14]:%.6g)'\n")
-    words = [line for line in deck.run_well(text, folder).split("\n") if line.startswith("ends ")][0].split()
+    words = [line for line in lmp.run_well(text, folder).split("\n") if line.startswith("ends ")][0].split()
     worn, place, speed, push = (float(w) for w in words[1:])
     checks.fact("beside a motion: wear comes first", 0 < worn < 1e-6, words[1])
     checks.at_most("it takes the motion's speed back", abs(speed / 0.1 - 1), 1e-3)
@@ -380,11 +380,11 @@ def refused(checks, folder):
               "fix_modify wall servo force x 1 vmax 1\n", "stop that first (motion none)")]
     for name, words, says in cases:
         if words is None:
-            done = deck.run(text.replace("boundary        f f f", "boundary f f p")
-                            .replace("fix floor all wall/gran", "#") +
-                            wall(HOOKE, "servo force z -50 vmax 0.5", at=-0.9) + run, folder)
+            done = lmp.run(text.replace("boundary        f f f", "boundary f f p")
+                           .replace("fix floor all wall/gran", "#") +
+                           wall(HOOKE, "servo force z -50 vmax 0.5", at=-0.9) + run, folder)
         else:
-            done = deck.run(text + words, folder)
+            done = lmp.run(text + words, folder)
         found = done.returncode != 0 and says in done.stdout.replace("\n", " ")
         checks.fact(f"{name} is refused", found, "" if found else done.stdout[-500:])
 
@@ -394,7 +394,7 @@ PARTS = {"one": one_sphere, "many": many, "work": work, "lever": lever, "ramp": 
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     write_plate(folder / "plate.stl", 6.0)
     write_plate(folder / "lever.stl", 1.5)
     for name in sys.argv[1:] or PARTS:

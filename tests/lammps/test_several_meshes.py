@@ -10,7 +10,7 @@ test_parity.py.
 
 import math
 
-import deck
+import lmp
 from plates import LAWS, SIDE, SMOOTH, go, planes, six, write_box, write_plate
 
 
@@ -25,18 +25,18 @@ def compare_with_planes(checks, folder):
     for name, law in LAWS.items():
         theirs = go(folder, planes(law), "a", 3000, every=10)[0]
         ours = go(folder, six(law), "b", 3000, every=10)[0]
-        checks.at_most(f"{name}: six plates are six planes", deck.largest_difference(theirs, ours),
+        checks.at_most(f"{name}: six plates are six planes", lmp.largest_difference(theirs, ours),
                        1e-12)
         rubs = "wiggle z 0.02 0.1"
         theirs = go(folder, planes(law, rubs), "a", 3000, every=10)[0]
         ours = go(folder, six(law, {"zlo": rubs}), "b", 3000, every=10)[0]
-        checks.at_most(f"{name}: one of them wiggles", deck.largest_difference(theirs, ours), 1e-12)
+        checks.at_most(f"{name}: one of them wiggles", lmp.largest_difference(theirs, ours), 1e-12)
     edges, corners = among_sides(ours)
     checks.fact("spheres are in edges and corners of the box", edges > 20 and corners > 0,
                 f"{edges}, {corners} times")
     theirs = go(folder, planes(LAWS["hooke_history"], "shear x 2.0"), "a", 3000, every=10)[0]
     ours = go(folder, six(LAWS["hooke_history"], {"zlo": "shear x 2.0"}), "b", 3000, every=10)[0]
-    checks.at_most("one of them is a belt", deck.largest_difference(theirs, ours), 1e-12)
+    checks.at_most("one of them is a belt", lmp.largest_difference(theirs, ours), 1e-12)
 
 
 # Two plates of a floor whose rims coincide along x = 0.
@@ -60,10 +60,10 @@ def check_seam(checks, folder):
         two = go(folder, f"fix wall all wall/lsdcd {law} {HALVES}", "b", 3000, **ROLL)[0]
         last = max(one)
         checks.fact(f"seam, {name}: it rolls over", one[0][1][0] < -0.5 and one[last][1][0] > 0.5)
-        checks.at_most(f"seam, {name}: two plates are one", deck.largest_difference(one, two), 1e-11)
+        checks.at_most(f"seam, {name}: two plates are one", lmp.largest_difference(one, two), 1e-11)
         moved = go(folder, f"fix wall all wall/lsdcd {law} {HALVES} motion linear 0 0 0", "b", 3000,
                    **ROLL)[0]
-        checks.at_most(f"seam, {name}: one of them could move", deck.largest_difference(one, moved),
+        checks.at_most(f"seam, {name}: one of them could move", lmp.largest_difference(one, moved),
                        1e-11)
     at = {"atoms": "create_atoms 1 single 0 0.11 0.499 units box", "kick": "", "dt": 1e-9}
     force = {}
@@ -96,14 +96,14 @@ def check_gate(checks, folder):
     one = go(folder, f"fix wall all wall/lsdcd {SMOOTH} mesh whole.stl", "a", 2000, **still)[0]
     two = go(folder, walls.format(SMOOTH), "b", 2000, **still)[0]
     checks.at_most("gate: a smooth sphere beside its rim feels nothing",
-                   deck.largest_difference(one, two), 1e-11)
+                   lmp.largest_difference(one, two), 1e-11)
     # Over the gate it is carried along: a plane of wall/gran with the same speed.
     for name, law in LAWS.items():
         on = dict(still, atoms="create_atoms 1 single 1.0 0.11 0.499 units box")
         theirs = go(folder, f"fix wall all wall/gran {law} zplane 0 NULL shear x 3.0", "a", 2000, **on)[0]
         ours = go(folder, walls.format(law), "b", 2000, **on)[0]
         checks.at_most(f"gate, {name}: what lies on it is carried along",
-                       deck.largest_difference(theirs, ours), 1e-12)
+                       lmp.largest_difference(theirs, ours), 1e-12)
     # Sliding all the while, a = mu g and R domega/dt = 5/2 mu g at a constant load. The sphere is put
     # down where its weight is its overlap, and stays there, as nothing damps or excites it.
     mass = 2.0 * math.pi / 6
@@ -137,12 +137,12 @@ def check_periodic(checks, folder):
     checks.fact("periodic: spheres cross before it",
                 any(abs(before[s][1][0] - before[s - 1][1][0]) > 1 for s in before if s - 1 in before))
     theirs = {s: theirs[s] for s in before}
-    checks.at_most("periodic: and roll on the floor until then", deck.largest_difference(theirs, before),
+    checks.at_most("periodic: and roll on the floor until then", lmp.largest_difference(theirs, before),
                    1e-12)
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     write_box(folder)
     write_halves(folder)
     compare_with_planes(checks, folder)

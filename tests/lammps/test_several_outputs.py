@@ -8,7 +8,7 @@ import math
 import re
 import struct
 
-import deck
+import lmp
 from plates import DUMP, FACES, FORCES, LAWS, SETTINGS, SIDE, build, go, six, thermo, write_box, write_plate
 from test_loads import read_vtp
 
@@ -44,7 +44,7 @@ def check_outputs(checks, folder):
     vector = " ".join(f"f_wall[{c}]" for c in range(1, n + 1))
     text = go(folder, six(law, moves, "wear archard 1e-3 1e6 contacts"), "a", 3000, every=500,
               more=thermo(f"f_wall {vector} {columns(6, n)}", 10))[1]
-    rows = deck.read_thermo(text)
+    rows = lmp.read_thermo(text)
     checks.fact("outputs: there are some", len(rows) > 90, str(len(rows)))
     for row in rows:
         whole, part = row[2:2 + n], [row[2 + n * (k + 1):2 + n * (k + 2)] for k in range(6)]
@@ -93,7 +93,7 @@ def check_rows(checks, folder):
                1200, every=1200, more=thermo(f"f_a f_b {vectors}", 10))[1]
     joined = go(folder, f"fix wall all wall/lsdcd {law} {wear} {one} {two}", "a", 1200, every=1200,
                 more=thermo(f"f_wall f_wall[7] {columns(2, n)}", 10))[1]
-    apart, joined = ([row[1:] for row in deck.read_thermo(text)] for text in (apart, joined))
+    apart, joined = ([row[1:] for row in lmp.read_thermo(text)] for text in (apart, joined))
     apart = [[row[0] + row[1], row[8] + row[8 + n], *row[2:]] for row in apart]
     worst = {}
     for c in range(2 + 2 * n):
@@ -109,7 +109,7 @@ def check_rows(checks, folder):
 def check_cache(checks, folder):
     """Each mesh keeps its grid in a file of its own."""
     walls = six(LAWS["hooke"], {"xlo": "cache xlo.grid", "zhi": "cache zhi.grid"})
-    done = deck.run(build(walls, "a", 10), folder)
+    done = lmp.run(build(walls, "a", 10), folder)
     if "'cache'" in done.stdout:
         print("SKIP cache:", re.search("ERROR.*'cache'.*", done.stdout).group())
         return
@@ -123,7 +123,7 @@ def check_column(checks, folder):
     """How an atom-style variable gets at a column of the contacts array beside the other array."""
     more = ("fix push all ave/atom 1 1 1 f_wall[4]\nvariable p atom f_push\ncompute p all reduce sum v_p\n" +
             thermo("c_p f_wall[3]", 10))
-    rows = deck.read_thermo(go(folder, six(LAWS["hooke"], common="contacts"), "a", 2000, every=500, more=more)[1])
+    rows = lmp.read_thermo(go(folder, six(LAWS["hooke"], common="contacts"), "a", 2000, every=500, more=more)[1])
     pushed = [row for row in rows if row[2]]
     checks.fact("contacts: some push", len(pushed) > 10)
     checks.at_most("contacts: fix ave/atom has their column",
@@ -134,24 +134,24 @@ def check_servo(checks, folder):
     text = go(folder, six(LAWS["hooke_history"], PRESS), "a", 400,
               more=thermo("f_wall[12] f_wall[13] f_wall[14] " + " ".join(
                   f"f_wall[{k}][{c}]" for k in (1, 6) for c in (12, 13, 14)) + " f_wall[6][3]", 10))[1]
-    rows = deck.read_thermo(text)
+    rows = lmp.read_thermo(text)
     checks.fact("servo: its columns are those of the mesh that has it",
                 all(row[1:4] == row[7:10] and row[4:7] == [0, 0, 0] for row in rows) and
                 any(row[1] for row in rows))
     checks.fact("servo: its push is the force on its mesh", all(row[9] == -row[10] or row[9] == row[10] == 0
                                                                 for row in rows))
     both = dict(PRESS, yhi="servo force y -40 vmax 2")
-    rows = deck.read_thermo(go(folder, six(LAWS["hooke_history"], both), "a", 50,
-                               more=thermo("f_wall[12] f_wall[4][12] f_wall[6][12]"))[1])
+    rows = lmp.read_thermo(go(folder, six(LAWS["hooke_history"], both), "a", 50,
+                              more=thermo("f_wall[12] f_wall[4][12] f_wall[6][12]"))[1])
     checks.fact("servo: of two the vector has none, and the array both",
                 all(row[1] == 0 for row in rows) and rows[-1][2] < 0 and rows[-1][3] < 0)
 
 
 def proceed(folder, walls, restart, name, steps, ranks=1):
-    text = deck.run_well(SETTINGS.format(boundary="f f f") + f"read_restart {restart}\n" +
-                         FORCES.format(walls=walls, dt=1e-4, more="") +
-                         DUMP.format(every=20, name=name) + f"run {steps}\n", folder, ranks)
-    return deck.read_dump(folder / name), text
+    text = lmp.run_well(SETTINGS.format(boundary="f f f") + f"read_restart {restart}\n" +
+                        FORCES.format(walls=walls, dt=1e-4, more="") +
+                        DUMP.format(every=20, name=name) + f"run {steps}\n", folder, ranks)
+    return lmp.read_dump(folder / name), text
 
 
 def check_restart(checks, folder):
@@ -159,11 +159,11 @@ def check_restart(checks, folder):
     walls = six(law, PRESS, "wear archard 1e-3 1e6")
     for ranks in (1, 2):
         begin = build(walls, "a", 600, every=20).replace("dump  ", "#dump  ").replace("dump_modify", "#")
-        deck.run_well(begin + "write_restart half.restart\n" + DUMP.format(every=20, name="two") +
-                      "run 600\n", folder, ranks)
-        two = deck.read_dump(folder / "two")
+        lmp.run_well(begin + "write_restart half.restart\n" + DUMP.format(every=20, name="two") +
+                     "run 600\n", folder, ranks)
+        two = lmp.read_dump(folder / "two")
         again, text = proceed(folder, walls, "half.restart", "continued", 600, ranks)
-        checks.at_most(f"restart on {ranks}: the same bits", deck.largest_difference(two, again), 0)
+        checks.at_most(f"restart on {ranks}: the same bits", lmp.largest_difference(two, again), 0)
         checks.fact(f"restart on {ranks}: nothing is warned of", not re.search("WARNING: Fix wall.*restart", text),
                     "".join(re.findall("WARNING: Fix wall.*restart.*", text)))
     fewer = walls.replace(f"mesh zhi.stl {PRESS['zhi']}", "")
@@ -189,8 +189,8 @@ def check_ranks(checks, folder):
     for ranks, run in ((2, runs[1]), (4, runs[2])):
         # Without a pair style nothing but the servo tells one sphere of another: sums over
         # processes part by rounding, which contacts of 600 steps multiply by 1e3 at most.
-        checks.at_most(f"{ranks} processes", deck.largest_difference(runs[0][0], run[0]), 1e-10)
-        one, many = deck.read_thermo(runs[0][1])[-1], deck.read_thermo(run[1])[-1]
+        checks.at_most(f"{ranks} processes", lmp.largest_difference(runs[0][0], run[0]), 1e-10)
+        one, many = lmp.read_thermo(runs[0][1])[-1], lmp.read_thermo(run[1])[-1]
         size = max(abs(v) for v in one)
         checks.at_most(f"{ranks} processes: array", max(abs(u - v) for u, v in zip(one, many)) / size,
                        1e-9)
@@ -201,25 +201,25 @@ def check_modify(checks, folder):
     walls = six(LAWS["hooke"], {"zlo": "motion linear 0 0 1.0"})
     text = build(walls, "a", 100, every=100)
     text += "fix_modify wall mesh 5 motion none mesh 6 motion linear 0 0 -1.0\n"
-    done = deck.run_well(text + "run 100\n", folder)
+    done = lmp.run_well(text + "run 100\n", folder)
     checks.fact("fix_modify mesh 5: is named in the log",
                 "mesh 5 'zlo.stl': motion none" in done and "mesh 6 'zhi.stl': motion linear" in done)
     one = build(f"fix wall all wall/lsdcd {LAWS['hooke']} mesh zlo.stl", "a", 1)
     checks.fact("fix_modify mesh 1 of one mesh",
-                "motion linear" in deck.run_well(one + "fix_modify wall mesh 1 motion linear 0 0 1\nrun 1\n",
-                                                 folder))
+                "motion linear" in lmp.run_well(one + "fix_modify wall mesh 1 motion linear 0 0 1\nrun 1\n",
+                                                folder))
 
 
 def check_pictures(checks, folder):
     text = build(six(LAWS["hooke"], {"zlo": "wiggle z 0.1 0.05"}), "a", 20, every=20)
-    done = deck.run_well(text + "dump i all image 10 a.*.ppm type type fix wall type 0.05 0\nrun 20\n",
-                         folder)
+    done = lmp.run_well(text + "dump i all image 10 a.*.ppm type type fix wall type 0.05 0\nrun 20\n",
+                        folder)
     # A plate of two triangles has four open edges.
     checks.fact("dump image draws all meshes", "draws the mesh as 24 lines" in done)
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     write_box(folder)
     check_outputs(checks, folder)
     check_rows(checks, folder)

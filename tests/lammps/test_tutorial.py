@@ -9,21 +9,21 @@ import shutil
 import subprocess
 import sys
 
-import deck
+import lmp
 
-ROOT = deck.HERE.parent.parent
+ROOT = lmp.HERE.parent.parent
 TUTORIAL = ROOT / "examples" / "tutorial"
 
 
 def run(command, folder):
     return subprocess.run(command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          stdin=subprocess.DEVNULL, env=deck.environment())
+                          stdin=subprocess.DEVNULL, env=lmp.environment())
 
 
 def commands(checks):
-    folder = deck.scratch()
+    folder = lmp.scratch()
     (folder / "build").mkdir()
-    (folder / "build" / "bin").symlink_to(pathlib.Path(deck.LMP).parent)
+    (folder / "build" / "bin").symlink_to(pathlib.Path(lmp.LMP).parent)
     (folder / "examples").symlink_to(ROOT / "examples")
     blocks = re.findall(r"^```sh\n(.*?)^```", (ROOT / "doc" / "tutorial.md").read_text(), re.M | re.S)
     done = run(["bash", "-ec", "set -o pipefail\n" + "".join(blocks)], folder)
@@ -56,10 +56,10 @@ def paraview(checks):
     if missing:
         print(f"skipped: {' and '.join(missing)} missing, install paraview, python3-paraview and xvfb")
         sys.exit(77)
-    folder = deck.scratch()
+    folder = lmp.scratch()
     run([sys.executable, TUTORIAL / "make_meshes.py"], folder)
     shutil.copy(folder / "part.stl", folder / "hopper.stl")
-    done = run([deck.LMP, "-in", TUTORIAL / "in.hopper", "-var", "fill", "10000", "-var", "drain", "2"], folder)
+    done = run([lmp.LMP, "-in", TUTORIAL / "in.hopper", "-var", "fill", "10000", "-var", "drain", "2"], folder)
     checks.fact("the hopper runs", done.returncode == 0, done.stdout[-500:] if done.returncode else "")
     # ParaView opens a display twice. A server that resets in between may refuse the second time.
     display = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset"]
@@ -69,4 +69,4 @@ def paraview(checks):
 
 
 if __name__ == "__main__":
-    (paraview if "paraview" in sys.argv else commands)(deck.Checks())
+    (paraview if "paraview" in sys.argv else commands)(lmp.Checks())

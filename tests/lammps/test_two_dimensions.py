@@ -12,7 +12,7 @@ changed. Both begin at 1e-16 of a number and grow alike; 10 times is left for wh
 import math
 import re
 
-import deck
+import lmp
 
 # In contact laws of 29Sep2021 and later alike.
 LAWS = {
@@ -94,10 +94,10 @@ fix             ins all pour 60 1 4711 vol 0.5 500 diam range 0.8 1.0 dens 2.0 2
 
 
 def move(folder, out, particles, walls, law, load="", boundary="f f", steps=1000, dt=1e-3, every=1):
-    text = deck.run_well(HEAD.format(load=load, boundary=boundary) + particles +
-                         TAIL.format(law=law, walls=walls, dt=dt, every=every, out=out, steps=steps),
-                         folder)
-    return deck.read_dump(folder / out), text
+    text = lmp.run_well(HEAD.format(load=load, boundary=boundary) + particles +
+                        TAIL.format(law=law, walls=walls, dt=dt, every=every, out=out, steps=steps),
+                        folder)
+    return lmp.read_dump(folder / out), text
 
 
 def alone(checks, folder, name, particles, hosts, mesh, law, load, **more):
@@ -105,7 +105,7 @@ def alone(checks, folder, name, particles, hosts, mesh, law, load, **more):
     ours, text = move(folder, "ours", particles, f"fix w all wall/lsdcd {law} {mesh}", law, load, **more)
     touched = sum(any(row[7] != 0 for row in rows.values()) for rows in ours.values())
     checks.fact(f"{name}: discs touch the wall", touched > 20, f"{touched} steps")
-    checks.at_most(f"{name}: trajectory as with wall/gran", deck.largest_difference(theirs, ours), 1e-12)
+    checks.at_most(f"{name}: trajectory as with wall/gran", lmp.largest_difference(theirs, ours), 1e-12)
     checks.fact(f"{name}: no word of faces that lean", "lean" not in text)
 
 
@@ -133,9 +133,9 @@ def words(checks, folder, load):
     """What cannot be meant in two dimensions is said."""
     def text_of(points, mesh, half=0.6):
         write_outline(folder / "said.stl", points, half=half)
-        return deck.run(HEAD.format(load=load, boundary="f f") + ONE +
-                        TAIL.format(law=LAWS["hooke"], dt=1e-3, every=1, out="d", steps=0,
-                                    walls=f"fix w all wall/lsdcd {LAWS['hooke']} mesh said.stl {mesh}"), folder).stdout
+        return lmp.run(HEAD.format(load=load, boundary="f f") + ONE +
+                       TAIL.format(law=LAWS["hooke"], dt=1e-3, every=1, out="d", steps=0,
+                                   walls=f"fix w all wall/lsdcd {LAWS['hooke']} mesh said.stl {mesh}"), folder).stdout
     floor = [(-1.0, 0.0), (21.0, 0.0)]
     text = text_of(floor, "move 0 0 0.7")
     refused = re.search(r"which the mesh does not cut: .*move 0 0 \S*\)", text)
@@ -150,14 +150,14 @@ def words(checks, folder, load):
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     write_outline(folder / "corner.stl", [(0, 22), (0, 0), (22, 0)], parts=7)
     write_outline(folder / "floor.stl", [(-1.5, 0), (21.5, 0)], parts=46)
     write_outline(folder / "vessel.stl", [(0, 22), (0, 0), (20, 0), (20, 22)], parts=20)
-    hosts = {"": deck.LMP}
-    if deck.TEST_HOST:
-        hosts[f"plugin load {deck.TEST_HOST_PLUGIN}"] = deck.TEST_HOST
-    for load, deck.LMP in hosts.items():
+    hosts = {"": lmp.LMP}
+    if lmp.TEST_HOST:
+        hosts[f"plugin load {lmp.TEST_HOST_PLUGIN}"] = lmp.TEST_HOST
+    for load, lmp.LMP in hosts.items():
         of = ", 4Jul2026" if load else ""
         for name, law in LAWS.items():
             gran = f"fix {{}} all wall/gran {law} {{}}"

@@ -6,10 +6,10 @@
 
 import math
 
-import deck
+import lmp
 from test_moving import write_plane
 
-DECK = deck.SMALL_BOX + """\
+SCRIPT = lmp.SMALL_BOX + """\
 {walls}
 compute         p all pressure NULL fix
 timestep        1e-3
@@ -33,8 +33,8 @@ FRICTION = "hooke/history 1e4 NULL 5 NULL 0.5 1"
 
 
 def go(folder, walls, atoms=BED, steps=20, ranks=1):
-    text = deck.run_well(DECK.format(walls=walls, atoms=atoms, steps=steps), folder, ranks)
-    return deck.read_thermo(text), deck.read_dump(folder / "spheres")
+    text = lmp.run_well(SCRIPT.format(walls=walls, atoms=atoms, steps=steps), folder, ranks)
+    return lmp.read_thermo(text), lmp.read_dump(folder / "spheres")
 
 
 def largest(a, b):
@@ -56,7 +56,7 @@ def on_a_floor(checks, folder):
 def against_flat_wall(checks, folder):
     """A spring of kn is LAMMPS's harmonic wall with kn / 2: the same trajectory, so that pressures of
     size 1 differ by roundings."""
-    if deck.ON_KOKKOS:
+    if lmp.ON_KOKKOS:
         print("SKIPPED: fix wall/harmonic, which the LAMMPS with Kokkos is built without")
         return
     flat, _ = go(folder, FLAT)
@@ -90,14 +90,14 @@ def is_asked_for(checks, folder):
     thermo, _ = go(folder, quiet, steps=3)
     checks.at_most("no part of it where it is not asked for", max(abs(v) for row in thermo for v in row[1:]), 0)
     asked = "fix_modify wall virial yes\n"
-    late = DECK.format(walls=quiet, atoms=BED, steps=10) + asked + "run 10\n"
-    early = DECK.format(walls=quiet + "\n" + asked, atoms=BED, steps=10) + "run 10\n"
-    rows = [deck.read_thermo(deck.run_well(text, folder)) for text in (late, early)]
+    late = SCRIPT.format(walls=quiet, atoms=BED, steps=10) + asked + "run 10\n"
+    early = SCRIPT.format(walls=quiet + "\n" + asked, atoms=BED, steps=10) + "run 10\n"
+    rows = [lmp.read_thermo(lmp.run_well(text, folder)) for text in (late, early)]
     checks.at_most("asked for between runs, the same bits", largest(*rows), 0)
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
+    checks, folder = lmp.Checks(), lmp.scratch()
     write_plane(folder / "plane.stl", 2)
     on_a_floor(checks, folder)
     against_flat_wall(checks, folder)

@@ -174,7 +174,7 @@ def check_tool(prefix, work):
     if not os.path.exists(launcher):
         print("skipped: lmp-lsdcd is not built")
         return
-    with open(os.path.join(work, "in.deck"), "w", encoding="ascii") as f:
+    with open(os.path.join(work, "in.script"), "w", encoding="ascii") as f:
         f.write("""units si
 atom_style sphere
 region box block -3 3 -3 3 -3 3
@@ -188,7 +188,7 @@ fix w all wall/lsdcd granular material glass.lsdcd glass on aluminium mesh cube.
 run 0
 print "wall built"
 """)
-    gives("lmp-lsdcd finds its plugin, and that the materials", "wall built", launcher, "-in", "in.deck", "-log", "none",
+    gives("lmp-lsdcd finds its plugin, and that the materials", "wall built", launcher, "-in", "in.script", "-log", "none",
           folder=work, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
           OMPI_MCA_ess_singleton_isolated="1", OMP_NUM_THREADS="1")
 

@@ -56,7 +56,7 @@ if [ "$1" = newer ]; then
   gives "a plugin for another LAMMPS is refused" "Depends: liblammps0" "$why"
 else
   fact "the plugin installs" quiet install /packages/lammps-lsdcd_*.deb
-  cat >in.deck <<'DECK'
+  cat >in.script <<'SCRIPT'
 units si
 atom_style sphere
 region box block -3 3 -3 3 -3 3
@@ -69,9 +69,9 @@ comm_modify vel yes
 fix w all wall/lsdcd granular material glass.lsdcd glass mesh /examples/die.stl
 run 0
 print "the wall is built"
-DECK
+SCRIPT
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_ess_singleton_isolated=1 OMP_NUM_THREADS=1
-  gives "lmp-lsdcd runs a deck with a material" "the wall is built" "$(lmp-lsdcd -in in.deck -log none 2>&1)"
+  gives "lmp-lsdcd runs a script with a material" "the wall is built" "$(lmp-lsdcd -in in.script -log none 2>&1)"
   gives "lmp-lsdcd has a manual page" "^.TH LMP-LSDCD 1" "$(zcat /usr/share/man/man1/lmp-lsdcd.1.gz)"
 fi
 

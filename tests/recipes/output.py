@@ -78,7 +78,7 @@ FILE_OF_A_RUN = {
          '     "the mesh where it is, in the format OFF, every N steps; * is the step", nullptr,\n'
          '     [](Tokens &w, MeshSettings &s) { s.off = read_file_every(w, ".off"); }},\n'
          '    {"mesh_stl", "FILE every N",')],
-    "input/deck_files.cpp": [
+    "input/script_files.cpp": [
         ("    if (m.stl.every > 0) ",
          '    if (m.off.every > 0) files.push_back({"mesh_off", m.off.name, m.off.every, true});\n'
          "    if (m.stl.every > 0) ")],

@@ -3,7 +3,7 @@
 
 // The outputs that output.py adds.
 #include "base/input_error.h"
-#include "input/deck_files.h"
+#include "input/script_files.h"
 #include "output/mesh_fields.h"
 #include "support/fake_host.h"
 #include "support/meshes.h"

@@ -87,7 +87,7 @@ def check_lammps(page, words):
         name = words[words.index("-in") + 1]
         folders = [(ROOT / page.path).parent, ROOT, *(ROOT / "examples").iterdir()]
         in_page = any(block.language == "lammps" and block.text.startswith("units") for block in page.blocks)
-        if not in_page and not any((folder / name).is_file() for folder in folders) and not name.isupper() and name != "in.deck":
+        if not in_page and not any((folder / name).is_file() for folder in folders) and not name.isupper() and name != "in.script":
             return f"{name}: there is no such script"
     return ""
 

@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 TOOL = os.environ["LSDCD_TOOL"]
-FLOOR = pathlib.Path(__file__).resolve().parent.parent / "lammps" / "decks" / "floor.stl"
+FLOOR = pathlib.Path(__file__).resolve().parent.parent / "lammps" / "scripts" / "floor.stl"
 FAST = ["--spheres", "300", "--moving", "2", "--repeats", "1", "--device", "cpu"]
 
 failed = 0

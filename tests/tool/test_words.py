@@ -14,7 +14,7 @@ import tempfile
 
 TOOL = os.environ["LSDCD_TOOL"]
 MAN_PAGE = pathlib.Path(__file__).resolve().parents[2] / "src" / "tool" / "lsdcd.1"
-FLOOR = str(pathlib.Path(__file__).resolve().parent.parent / "lammps" / "decks" / "floor.stl")
+FLOOR = str(pathlib.Path(__file__).resolve().parent.parent / "lammps" / "scripts" / "floor.stl")
 
 failed = 0
 

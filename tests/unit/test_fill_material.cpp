@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// `material` in a deck's words becomes the numbers that could have stood there.
+// `material` in a script's words becomes the numbers that could have stood there.
 #include "base/input_error.h"
 #include "input/fill_material.h"
 #include "support/temp_dir.h"
@@ -98,7 +98,7 @@ TEST_F(fill_material_words, may_name_the_normal_model)
             filled("granular material FILE glass mesh a.stl"));
 }
 
-TEST_F(fill_material_words, are_in_the_units_of_the_deck)
+TEST_F(fill_material_words, are_in_the_units_of_the_script)
 {
   const std::vector<std::string> tokens = fill("granular jkr material FILE glass mesh a", "cgs");
   EXPECT_EQ(std::stod(tokens[2]), 69e10);
@@ -138,7 +138,7 @@ TEST_F(fill_material_words, of_adhesive_models_have_no_damping_by_default)
   EXPECT_TRUE(says(report, {"no damping"}));
 }
 
-TEST_F(fill_material_words, keep_the_damping_of_the_deck)
+TEST_F(fill_material_words, keep_the_damping_of_the_script)
 {
   EXPECT_EQ(filled("granular material FILE glass damping tsuji mesh a.stl"),
             "granular hertz/material 6.9e+10 0.97 0.23 tangential mindlin NULL 1 0.092 "
@@ -156,7 +156,7 @@ TEST_F(fill_material_words, with_a_damping_of_another_kind_need_its_number)
   EXPECT_TRUE(says(error_of("granular material FILE glass with eta 3 mesh a"), {"name it"}));
 }
 
-TEST_F(fill_material_words, keep_the_tangential_model_of_the_deck)
+TEST_F(fill_material_words, keep_the_tangential_model_of_the_script)
 {
   EXPECT_EQ(filled("granular material FILE glass tangential linear_history 1e5 0.5 0.3 mesh a"),
             "granular hertz/material 6.9e+10 0.97 0.23 damping coeff_restitution "
@@ -188,14 +188,14 @@ TEST_F(fill_material_words, leave_the_words_of_the_fix_alone)
                    {"mesh rolling cache sds"}));
 }
 
-TEST_F(fill_material_words, with_overrides_take_the_numbers_of_the_deck_as_they_are)
+TEST_F(fill_material_words, with_overrides_take_the_numbers_of_the_script_as_they_are)
 {
   EXPECT_EQ(filled("granular material FILE glass with youngs_modulus 5e7 restitution 0.5 "
                    "sliding_friction 0.1 mesh a",
                    "cgs"),
             "granular hertz/material 5e+07 0.5 0.23 damping coeff_restitution "
             "tangential mindlin NULL 1 0.1 mesh a");
-  EXPECT_TRUE(says(report, {"youngs_modulus 5e+07, as the deck says"}));
+  EXPECT_TRUE(says(report, {"youngs_modulus 5e+07, as the input script says"}));
 }
 
 TEST_F(fill_material_words, with_overrides_that_cannot_be_meant_are_refused)
@@ -271,7 +271,8 @@ TEST_F(fill_material_words, with_overrides_may_name_whose_number_they_replace)
   const std::vector<std::string> tokens =
       fill("granular jkr material FILE glass on steel with steel surface_energy 0.32 mesh a");
   EXPECT_NEAR(std::stod(tokens[5]), 0.08, 1e-17);    // sqrt(0.02 0.32)
-  EXPECT_TRUE(says(report, {"steel: surface_energy 0.32, as the deck says", "glass: surface_energy "
+  EXPECT_TRUE(
+      says(report, {"steel: surface_energy 0.32, as the input script says", "glass: surface_energy "
                                                                             "0.02 (0.02 J/m2"}));
 }
 

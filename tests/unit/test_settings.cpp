@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "base/input_error.h"
-#include "input/deck_files.h"
+#include "input/script_files.h"
 #include "input/granular_words.h"
 #include "input/motion_words.h"
 #include "input/settings.h"
@@ -471,16 +471,16 @@ TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
   EXPECT_TRUE(names(error_with("mesh_fields a_*_*.vtp every 5"), "only one is the step"));
 }
 
-TEST(deck_files, are_one_however_the_folder_is_spelled)
+TEST(script_files, are_one_however_the_folder_is_spelled)
 {
   EXPECT_TRUE(are_one_file({"mesh", "a.stl"}, {"mesh_stl", "./no/../a.stl", 5, true}, 0));
   EXPECT_FALSE(are_one_file({"mesh", "a.stl"}, {"mesh_stl", "no/a.stl", 5, true}, 0));
 }
 
 // A run that goes on from step 100 with the mesh of that step does not write it again.
-TEST(deck_files, a_series_is_a_file_that_it_will_write)
+TEST(script_files, a_series_is_a_file_that_it_will_write)
 {
-  const DeckFile series = {"mesh_stl", "a_*.stl", 50, true};
+  const ScriptFile series = {"mesh_stl", "a_*.stl", 50, true};
   EXPECT_TRUE(are_one_file(series, {"mesh", "a_100.stl"}, 0));
   EXPECT_TRUE(are_one_file({"mesh", "a_100.stl"}, series, 99));
   EXPECT_FALSE(are_one_file(series, {"mesh", "a_100.stl"}, 100));

@@ -53,7 +53,7 @@ case $version in
   *) die "no such version: $version (20260704 or 20210929)" ;;
 esac
 
-# -O1 compiles in two thirds of the time of -O2, and the decks are small. No contraction:
+# -O1 compiles in two thirds of the time of -O2, and the scripts are small. No contraction:
 # our own build has none, and the two are compared to the last bits.
 flags="-O1 -ffp-contract=off"
 options=(-D BUILD_SHARED_LIBS=on -D BUILD_MPI=on -D BUILD_OMP=off
@@ -153,7 +153,7 @@ fetch "$source" "$sha256" || skip "$why"
 tar -xf "$work/${source##*/}" -C "$work" ${top:+--strip-components=1} "$top"{cmake,src,lib,LICENSE} ||
   die "cannot unpack $source"
 rm "$work/${source##*/}"
-# Styles of molecules, thermostats and the like take half of the time, and no deck needs them.
+# Styles of molecules, thermostats and the like take half of the time, and no script needs them.
 find "$work/src/KOKKOS" -name 'pair_*_kokkos.*' ! -name 'pair_gran_*' ! -name 'pair_hybrid*' -delete
 rm -f "$work"/src/KOKKOS/{angle,bond,dihedral,improper}_* \
   "$work"/src/{.,KOKKOS}/fix_{langevin,nph,npt,nvt,press,temp,spring,restrain,indent,recenter}[._]* \

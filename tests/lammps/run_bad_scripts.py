@@ -2,12 +2,12 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Every script of bad_decks.py ends with one clear error, on one rank and on two."""
+"""Every script of bad_scripts.py ends with one clear error, on one rank and on two."""
 
 import concurrent.futures
 
-import bad_decks
-import deck
+import bad_scripts
+import lmp
 
 CRASHES = ("Segmentation", "signal", "Backtrace", "backtrace", "terminate called", "Aborted")
 
@@ -21,7 +21,7 @@ def check(checks, case, ranks, done):
     message = errors[0] if errors else done.stdout[-500:]
     checks.fact(f"{name}: stops", done.returncode != 0)
     checks.fact(f"{name}: one error", len(errors) == 1, message)
-    for words in bad_decks.CASES[case][1]:
+    for words in bad_scripts.CASES[case][1]:
         checks.fact(f"{name}: says '{words}'", words in message)
     for crash in CRASHES:
         if crash in done.stdout:
@@ -52,8 +52,8 @@ def knot():
 
 
 def main():
-    checks, folder = deck.Checks(), deck.scratch()
-    floor = (deck.HERE / "decks" / "floor.stl").read_bytes()
+    checks, folder = lmp.Checks(), lmp.scratch()
+    floor = (lmp.HERE / "scripts" / "floor.stl").read_bytes()
     for name in ("floor.stl", "lid.stl"):
         (folder / name).write_bytes(floor)
     (folder / "bad.lsdcd").write_text("units si\nmaterial glass\n  youngs_modulus soft Pa\n")
@@ -65,13 +65,13 @@ def main():
     (folder / "knot.stl").write_text(knot())
     (folder / "line.stl").write_text("solid s\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                                      "vertex 2 0 0\nendloop\nendfacet\nendsolid s\n")
-    for case, (script, _) in bad_decks.CASES.items():
+    for case, (script, _) in bad_scripts.CASES.items():
         (folder / f"in.{case}").write_text(script)
-    decks = [(case, ranks) for case in sorted(bad_decks.CASES) for ranks in (1, 2)]
+    scripts = [(case, ranks) for case in sorted(bad_scripts.CASES) for ranks in (1, 2)]
     with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as some:
-        runs = [some.submit(deck.run, folder / f"in.{case}", folder, ranks=ranks, timeout=120)
-                for case, ranks in decks]
-        for (case, ranks), run in zip(decks, runs):
+        runs = [some.submit(lmp.run, folder / f"in.{case}", folder, ranks=ranks, timeout=120)
+                for case, ranks in scripts]
+        for (case, ranks), run in zip(scripts, runs):
             check(checks, case, ranks, run.result())
     checks.done(folder)
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "input/deck_files.h"
+#include "input/script_files.h"
 
 #include <cstddef>
 #include <cstdlib>
@@ -9,9 +9,9 @@
 
 namespace lsdcd {
 
-std::vector<DeckFile> files_of(const WallSettings &settings)
+std::vector<ScriptFile> files_of(const WallSettings &settings)
 {
-  std::vector<DeckFile> files;
+  std::vector<ScriptFile> files;
   for (const MeshSettings &m : settings.meshes) {
     files.push_back({"mesh", m.file});
     if (m.fields.every > 0) files.push_back({"mesh_fields", m.fields.name, m.fields.every, true});
@@ -48,7 +48,7 @@ bool will_be(const std::string &series, int every, const std::string &name, long
 
 }    // namespace
 
-bool are_one_file(const DeckFile &a, const DeckFile &b, long long now)
+bool are_one_file(const ScriptFile &a, const ScriptFile &b, long long now)
 {
   const std::string one = with_plain_folder(a.name), other = with_plain_folder(b.name);
   return one == other || will_be(one, a.every, other, now) || will_be(other, b.every, one, now);

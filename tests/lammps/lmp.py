@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Runs input decks under lmp-lsdcd and reads what they dump. Standard library only."""
+"""Runs input scripts under lmp-lsdcd and reads what they dump. Standard library only."""
 
 import os
 import pathlib
@@ -20,7 +20,7 @@ LIB = pathlib.Path(LMP).resolve().parent.parent / "lib"
 TEST_HOST = os.environ.get("LSDCD_TEST_HOST", "") and os.environ["LSDCD_TEST_HOST"] + "/lmp"
 TEST_HOST_PLUGIN = LIB / "lsdcdplugin-20260704.so"
 
-# A LAMMPS with Kokkos and the plugin for it. Where LSDCD_KOKKOS is set, decks run there as
+# A LAMMPS with Kokkos and the plugin for it. Where LSDCD_KOKKOS is set, scripts run there as
 # they are, with -sf kk.
 KOKKOS_HOST = os.environ.get("LSDCD_KOKKOS_HOST", "") and os.environ["LSDCD_KOKKOS_HOST"] + "/lmp"
 KOKKOS_PLUGIN = os.environ.get("LSDCD_KOKKOS_PLUGIN", "")
@@ -52,7 +52,7 @@ def environment():
     env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_hwloc_base_binding_policy="none",
                OMPI_MCA_btl_vader_single_copy_mechanism="none")
-    # A process alone needs no daemon, which would take longer than most decks.
+    # A process alone needs no daemon, which would take longer than most scripts.
     env.update(OMPI_MCA_ess_singleton_isolated="1")
     # All processes are on one machine: looking for networks takes 0.2 s of each start.
     env.update(OMPI_MCA_pml="ob1")
@@ -65,7 +65,7 @@ def environment():
 
 
 def for_host(text, flags):
-    """A deck with the plugin loaded. With a suffix, flat walls of LAMMPS stay without it: not
+    """A script with the plugin loaded. With a suffix, flat walls of LAMMPS stay without it: not
     every style of fix wall/gran has a form for Kokkos."""
     if DEVICE_MOVES:    # which fix wall/gran on the host would not allow
         text = re.sub(r"(fix +\S+ +\S+ +)wall/gran .* ([xyz])plane +(\S+) +(\S+)",
@@ -88,16 +88,16 @@ if DEVICE_MOVES:
     KOKKOS += ("-pk", "kokkos", "comm", "device", "sort", "device")
 
 
-def run(deck, folder, ranks=1, timeout=300, env=None, host=ON_KOKKOS, flags=KOKKOS, **variables):
-    """Runs a deck (a path, or text) in `folder`; returns the finished process. With `host`
+def run(script, folder, ranks=1, timeout=300, env=None, host=ON_KOKKOS, flags=KOKKOS, **variables):
+    """Runs a script (a path, or text) in `folder`; returns the finished process. With `host`
     under the LAMMPS with Kokkos, given `flags`."""
-    deck, folder = str(deck), pathlib.Path(folder)
+    script, folder = str(script), pathlib.Path(folder)
     if host:
-        deck = for_host(deck if "\n" in deck else pathlib.Path(deck).read_text(), flags)
-    if "\n" in deck:
-        (folder / "in.deck").write_text(deck)
-        deck = str(folder / "in.deck")
-    command = [KOKKOS_HOST if host else LMP, "-in", deck, "-log", "none", "-nocite"]
+        script = for_host(script if "\n" in script else pathlib.Path(script).read_text(), flags)
+    if "\n" in script:
+        (folder / "in.script").write_text(script)
+        script = str(folder / "in.script")
+    command = [KOKKOS_HOST if host else LMP, "-in", script, "-log", "none", "-nocite"]
     command += flags if host else ()
     for name, value in variables.items():
         command += ["-var", name, str(value)]
@@ -108,10 +108,10 @@ def run(deck, folder, ranks=1, timeout=300, env=None, host=ON_KOKKOS, flags=KOKK
 
 
 def run_well(*args, **kwargs):
-    """The same; the deck must succeed."""
+    """The same; the script must succeed."""
     done = run(*args, **kwargs)
     if done.returncode:
-        sys.exit(f"deck failed with {done.returncode}:\n{done.stdout[-4000:]}")
+        sys.exit(f"script failed with {done.returncode}:\n{done.stdout[-4000:]}")
     return done.stdout
 
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Input scripts that must end with an error, for run_bad_decks.py.
+"""Input scripts that must end with an error, for run_bad_scripts.py.
 
 Each table has one script and a row per case: its name, the words that replace {} in the script, and the
 parts that the message must have.
@@ -213,7 +213,7 @@ TABLES = [
         ("granular_unknown_sub_model", "granular hertz 1e5 3 tangential mindling 1 1 1 mesh floor.stl",
          "'mindling' is not a sub-model", "Syntax: tangential linear_nohistory"),
         ("material_units", "granular material glass.lsdcd glass mesh floor.stl",
-         "the deck is in units lj", "'units si'"),
+         "the input script is in units lj", "'units si'"),
         ("meshes_keyword_first", "hooke 1e4 NULL 5 NULL 0.5 1 move 0 0 1 mesh floor.stl mesh floor.stl move 0 0 2",
          "Fix wall wall/lsdcd", "'mesh'", "'move' comes before the first", "stand after its mesh FILE"),
         ("meshes_no_temperature",

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Decks that are timed from outside: runs of LAMMPS and LIGGGHTS, and rows of what they took."""
+"""Scripts that are timed from outside: runs of LAMMPS and LIGGGHTS, and rows of what they took."""
 import contextlib
 import os
 import pathlib
@@ -30,12 +30,12 @@ class Run:
     """One process on one core: its output, wall-clock seconds and peak resident memory, MB."""
 
     def __init__(self, program, text, folder):
-        deck, log, peak = folder / "in.deck", folder / "out.txt", folder / "peak.txt"
-        deck.write_text(text)
+        script, log, peak = folder / "in.script", folder / "out.txt", folder / "peak.txt"
+        script.write_text(text)
         env = {**os.environ, "OMP_NUM_THREADS": "1"}
         began = time.monotonic()
         with open(log, "w") as out:
-            done = subprocess.run([sys.executable, "-c", PEAK, peak.name, program, "-in", deck.name, "-log", "none"],
+            done = subprocess.run([sys.executable, "-c", PEAK, peak.name, program, "-in", script.name, "-log", "none"],
                                   cwd=folder, env=env, stdout=out, stderr=subprocess.STDOUT)
         self.seconds = time.monotonic() - began
         self.output = log.read_text(errors="replace")
@@ -44,7 +44,7 @@ class Run:
         self.peak_mb = int(peak.read_text()) * 1024 / 1e6
 
     def step_ms(self):
-        """ms per step of each run of the deck that has steps, by the program's own clock."""
+        """ms per step of each run of the script that has steps, by the program's own clock."""
         loops = re.findall(r"^Loop time of (\S+) on .* for (\d+) steps", self.output, re.M)
         return [1e3 * float(t) / int(n) for t, n in loops if int(n) > 0]
 
