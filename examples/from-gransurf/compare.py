@@ -45,10 +45,10 @@ fix             move ball nve/sphere
 
 
 def run(program, text, folder):
-    deck = folder / "in.compare"
-    deck.write_text(text)
+    script = folder / "in.compare"
+    script.write_text(text)
     with environment() as env:
-        done = subprocess.run([Path(program).resolve(), "-in", deck.name, "-log", "none"], cwd=folder, env=env, text=True,
+        done = subprocess.run([Path(program).resolve(), "-in", script.name, "-log", "none"], cwd=folder, env=env, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
     if done.returncode < 0:
         return None    # a crash

@@ -300,7 +300,7 @@ class EngineOn : public InPlaceEngine {
       throw_too_large(i, read_one(b_, spheres.radius + i), wall_.mesh(0).grid.view.cutoff);
     }
     if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown));
-    if (seen.no_scratch) throw_too_many_contacts(kMostContacts);
+    if (seen.no_scratch) throw_too_many_contacts(kMaxContacts);
     throw_no_slots();
   }
 

@@ -187,7 +187,7 @@ class ResidentSprings {
                                   n, [=] LSDCD_LAMBDA(std::size_t i) -> int { return count[i]; });
   }
 
-  int most_packed_size() const { return 1 + per_spring() * kMostContacts; }
+  int most_packed_size() const { return 1 + per_spring() * kMaxContacts; }
 
   int pack(B &b, int n, const int *which, const int *from, double *buffer)
   {

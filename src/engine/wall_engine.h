@@ -32,7 +32,7 @@ enum class Device { automatic, cpu, cuda };
 enum class Precision { double_, mixed, single_ };
 
 // Meshes that move apart, of one wall.
-constexpr int kMostMeshes = 32;
+constexpr int kMaxMeshes = 32;
 
 struct EngineSettings {
   ContactLaw law;

@@ -210,9 +210,9 @@ void check_apart(Tokens &w, const WallSettings &s, std::size_t k)
 void check_meshes(Tokens &w, const WallSettings &s)
 {
   const bool several = s.meshes.size() > 1;
-  if (s.meshes.size() > kMostMeshes)
+  if (s.meshes.size() > kMaxMeshes)
     w.fail("there are " + std::to_string(s.meshes.size()) + " meshes, and at most " +
-           std::to_string(kMostMeshes) +
+           std::to_string(kMaxMeshes) +
            " can be in one fix: put those that never come near one another into one STL file, or "
            "into another fix");
   for (std::size_t k = 0; k < s.meshes.size(); k++) {

@@ -48,11 +48,11 @@ std::vector<ComputeCollideLsdcd::Member> ComputeCollideLsdcd::gather_members() c
   const double n_mine = static_cast<double>(mine.size());
   double n_all = 0;
   MPI_Allreduce(&n_mine, &n_all, 1, MPI_DOUBLE, MPI_SUM, world);
-  constexpr double kMost = 2e9 / sizeof(Member);
+  constexpr double kMax = 2e9 / sizeof(Member);
   if (n_all == 0) throw InputError("the group has no atoms: create them before the compute");
-  if (n_all > kMost)
+  if (n_all > kMax)
     throw InputError("the group has " + std::to_string(n_all) + " atoms, more than " +
-                     std::to_string(kMost) + ": use several groups");
+                     std::to_string(kMax) + ": use several groups");
   int bytes = static_cast<int>(mine.size() * sizeof(Member));
   std::vector<int> sizes(comm->nprocs), begins(comm->nprocs, 0);
   MPI_Allgather(&bytes, 1, MPI_INT, sizes.data(), 1, MPI_INT, world);

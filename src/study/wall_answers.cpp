@@ -83,7 +83,7 @@ WallAnswers answer(const GridView &grid, const EngineSettings &engine, const Sph
   for (int i = 0; i < sample.n(); i++) {
     bool certain = true;
     if (!find_places<64>(grid, search, sample.x[i], sample.radius[i], out.places, certain))
-      find_places<kMostContacts>(grid, search, sample.x[i], sample.radius[i], out.places, certain);
+      find_places<kMaxContacts>(grid, search, sample.x[i], sample.radius[i], out.places, certain);
     out.uncertified += !certain;
     out.first.push_back(out.places.size());
   }

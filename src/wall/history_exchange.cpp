@@ -36,7 +36,7 @@ void HistoryExchange::to_engine(int n)
 
 int HistoryExchange::max_packed_size() const
 {
-  return is_kept() ? 1 + springs_.doubles_per_spring() * kMostContacts : 0;
+  return is_kept() ? 1 + springs_.doubles_per_spring() * kMaxContacts : 0;
 }
 
 int HistoryExchange::pack_restart(int i, double *buffer, const FeatureName &name) const

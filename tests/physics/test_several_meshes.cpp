@@ -112,7 +112,7 @@ void expect_as_one(bool turned, Precision precision, Real tolerance)
     law.settings.precision = precision;
     const Real cutoff = cutoff_of(law.settings.law, kRadius);
     Scene one(soup, cutoff, law.settings);
-    Wall wall(dealt(soup, kMostMeshes), cutoff, law.settings, turned);
+    Wall wall(dealt(soup, kMaxMeshes), cutoff, law.settings, turned);
     Scene &several = *wall.scene;
     add_crowd(one, one.mesh.report, 500);
     add_crowd(several, one.mesh.report, 500);
@@ -160,8 +160,8 @@ void expect_plane(bool turned, Real bound)
 {
   constexpr Real kHalf = 4, kHeight = kRadius * (1 - 1e-3), rim = 0.9 * kHalf;
   const TriangleSoup floor = floor_mesh(4, kHalf, 1);
-  ASSERT_EQ(floor.n_triangles(), static_cast<std::size_t>(kMostMeshes));
-  Wall wall(dealt(floor, kMostMeshes), kRadius, hooke(kStiffness), turned);
+  ASSERT_EQ(floor.n_triangles(), static_cast<std::size_t>(kMaxMeshes));
+  Wall wall(dealt(floor, kMaxMeshes), kRadius, hooke(kStiffness), turned);
   Scene &scene = *wall.scene;
   std::mt19937_64 random(1);
   std::uniform_real_distribution<Real> share(0, 1), far(-17, -6);

@@ -137,7 +137,7 @@ LSDCD_FN long not_in(const ContactSet<kPlaces> &a, const ContactSet<kPlaces> &b)
 }
 
 // No more answer than a list has room for.
-using WalkSet = ContactSet<WallList::kMost + 1>;
+using WalkSet = ContactSet<WallList::kMax + 1>;
 
 // Against every feature of the wall, in double. Lists of the wall's records: the same contacts to
 // the bit. Those of brick records: those that are contacts whatever float rounds must be there, and

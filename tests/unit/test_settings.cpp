@@ -332,7 +332,7 @@ TEST(settings, of_several_meshes_errors_name_the_one)
   EXPECT_TRUE(names(error_with("mesh_fields f.vtp every 2 mesh b.stl mesh_fields f.vtp every 3"),
                     "have the same file 'f.vtp'"));
   std::string many = law;
-  for (int k = 0; k < kMostMeshes; k++) many += " mesh a" + std::to_string(k) + ".stl";
+  for (int k = 0; k < kMaxMeshes; k++) many += " mesh a" + std::to_string(k) + ".stl";
   EXPECT_EQ(parse(many).meshes.size(), 32u);
   EXPECT_TRUE(names(error_of(many + " mesh b.stl"), "at most 32"));
 }

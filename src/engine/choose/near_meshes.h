@@ -14,7 +14,7 @@ namespace lsdcd {
 
 // A set of meshes, a bit for each.
 using MeshSet = std::uint32_t;
-static_assert(kMostMeshes <= 8 * sizeof(MeshSet), "a bit for each");
+static_assert(kMaxMeshes <= 8 * sizeof(MeshSet), "a bit for each");
 
 LSDCD_FN bool has_mesh(MeshSet set, int mesh)
 {
@@ -160,7 +160,7 @@ class NearMeshes {
       first[g] = at;
       if (g == n) return;
       int k = at;
-      for (int m = 0; m < kMostMeshes; m++)
+      for (int m = 0; m < kMaxMeshes; m++)
         if (has_mesh(set[joint[g]], m)) {
           near[k] = joint[g];
           mesh[k++] = m;

@@ -11,22 +11,22 @@
 
 namespace lsdcd {
 
-// The list of one sphere. There is no room for more than kMost features: where more are close the
+// The list of one sphere. There is no room for more than kMax features: where more are close the
 // margin shrinks, and where that does not help the sphere has no list and its cell is searched
 // instead.
 struct WallList {
-  static constexpr int kMost = 7;
+  static constexpr int kMax = 7;
 
   Vec3 x;         // the centre when the list was made
   Real margin;    // length; negative: there is no list
   Real cutoff;    // how far from its centre a sphere felt the wall then
   std::int32_t n;
-  FeatureCode code[kMost];    // ascending; of the wall, or with `in_floats` of brick records
+  FeatureCode code[kMax];    // ascending; of the wall, or with `in_floats` of brick records
 };
 
 // The lists of many, a column per number, so that neighbours read neighbouring words.
 struct WallLists {
-  static constexpr std::size_t kReals = 4, kInts = 1 + WallList::kMost;    // of a list
+  static constexpr std::size_t kReals = 4, kInts = 1 + WallList::kMax;    // of a list
 
   Real *x = nullptr;            // columns x, y, z
   float *lengths = nullptr;     // columns margin, cutoff; in units, as walls may be 1e-60 in size
@@ -88,7 +88,7 @@ struct ListedFeatures {
 constexpr Real kSkinFraction = 0.05;
 // What the margin is divided by where a list is too long, and how often.
 constexpr Real kShrink = 4;
-constexpr int kMostShrinks = 3;
+constexpr int kMaxShrinks = 3;
 
 // The largest margin, at most `margin`, that the lists of cells allow at q. A ball within it meets
 // few cells; codes of brick records are only valid in one brick, so the ball must stay there.
@@ -113,7 +113,7 @@ LSDCD_FN bool insert_code(WallList &list, FeatureCode code)
   int at = list.n;
   while (at > 0 && list.code[at - 1] > code) at--;
   if (at > 0 && list.code[at - 1] == code) return true;
-  if (list.n == WallList::kMost) return false;
+  if (list.n == WallList::kMax) return false;
   for (int i = list.n; i > at; i--) list.code[i] = list.code[i - 1];
   list.code[at] = code;
   list.n++;
@@ -149,7 +149,7 @@ LSDCD_FN void gather_for(const Warp<kSize> &warp, bool mine, const GridView &gri
   Real m = margin_at(grid, q, margin);
   bool missing = mine && m >= 0;
   const bool has_room = missing;
-  for (int i = 0; i <= kMostShrinks && warp.vote(missing); i++, m /= kShrink)
+  for (int i = 0; i <= kMaxShrinks && warp.vote(missing); i++, m /= kShrink)
     if (gather_within<Geometry>(warp, missing, grid, q, cutoff, m, list)) missing = false;
   if (mine && (missing || !has_room)) begin_list(list, q, cutoff, -1);
 }

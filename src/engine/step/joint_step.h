@@ -222,7 +222,7 @@ LSDCD_FN void joint_contacts(const Law &law, const LawJob &job, std::size_t g)
 {
   const JointSphere s = joint_sphere(job, g, pull_off_of(law));
   note_cutoff(job, s.i, s.cutoff);
-  int end[kMostMeshes];
+  int end[kMaxMeshes];
   Touch<kContacts> some;
   touch_meshes<Law::kBeyondContact>(job, s, some, end);
   if (job.uncertain)

@@ -15,9 +15,9 @@
 namespace lsdcd {
 
 // Contacts that a kernel has room for on its stack: enough for nearly every sphere. One with more
-// takes a scratch memory, which has room for kMostContacts.
+// takes a scratch memory, which has room for kMaxContacts.
 constexpr int kContacts = 8;
-constexpr int kMostContacts = 512;
+constexpr int kMaxContacts = 512;
 
 // What spheres leave in memory that they share in a step. Where one has a single contact its shear
 // history and its record have the slot of its own number; with more it takes slots from `shared` on.
@@ -35,8 +35,8 @@ struct ContactPool {
 // has it.
 struct OverflowScratch {
   int locked;
-  Touch<kMostContacts> touch, of_mesh;    // of_mesh: of one after the other, where several are near
-  CornerRule<kMostContacts> rule;
+  Touch<kMaxContacts> touch, of_mesh;    // of_mesh: of one after the other, where several are near
+  CornerRule<kMaxContacts> rule;
 };
 constexpr int kOverflowScratches = 8;    // 1 MB each
 
