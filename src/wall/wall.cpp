@@ -574,11 +574,11 @@ std::vector<Real> Wall::state() const
     const WallLoads all = loads_.gathered(m.index);
     const MeshReport &r = m.grid.report();
     const std::vector<Real> rows = all.packed(), motion = m.motion.state();
+    const std::size_t n_rows = rows.size() / WallLoads::kPackedLoad;
     data.push_back(static_cast<Real>(motion.size()));
     data.insert(data.end(), motion.begin(), motion.end());
     data.insert(data.end(), {all.time(), static_cast<Real>(r.facets), static_cast<Real>(r.edges),
-                             static_cast<Real>(r.vertices),
-                             static_cast<Real>(rows.size() / WallLoads::kPackedLoad),
+                             static_cast<Real>(r.vertices), static_cast<Real>(n_rows),
                              number_of(m.grid.mesh_fingerprint())});
     data.insert(data.end(), rows.begin(), rows.end());
   }
