@@ -274,8 +274,6 @@ class Body {
   std::size_t room_ = 1024;    // pairs
 };
 
-using WallTotals = lsdcd_wall_totals;
-
 // Words of fix wall/lsdcd; spheres in arrays of the caller, step by step.
 class Wall {
  public:
@@ -295,9 +293,9 @@ class Wall {
   {
     c::check(lsdcd_wall_renumber(get(), from.data(), from.size()));
   }
-  WallTotals totals(int mesh = -1)
+  lsdcd_wall_totals totals(int mesh = -1)
   {
-    WallTotals t = {};
+    lsdcd_wall_totals t = {};
     t.size = sizeof t;
     c::check(lsdcd_wall_get_totals(get(), mesh, &t));
     return t;

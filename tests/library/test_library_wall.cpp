@@ -146,7 +146,7 @@ TEST_F(wall, has_totals_of_a_mesh_that_moves)
   Grains grains;
   grains.add(3, 0, 0.49);
   grains.step(wall);
-  const lsdcd::WallTotals totals = wall.totals(0);
+  const lsdcd_wall_totals totals = wall.totals(0);
   const double force = kN * (0.01 + 2 * kDt);
   EXPECT_NEAR(totals.force[2], -force, kN * kRounding);
   EXPECT_NEAR(totals.torque[1], 3 * force, 3 * kN * kRounding);    // about the origin
