@@ -34,8 +34,7 @@ struct WallPlace {
 // The host's units.
 struct WallUnits {
   Real pressure = 1;    // a force per area of 1, in the unit of pressure (LAMMPS: nktv2p)
-  Real velocity =
-      1;    // a force times time over mass of 1, in the unit of velocity (LAMMPS: ftm2v)
+  Real velocity = 1;    // a force times time over a mass, in the unit of velocity (LAMMPS: ftm2v)
 };
 
 // What a step tells the wall.
@@ -95,8 +94,8 @@ class Wall {
   // Of the last step.
   const StepTotals &totals();
   Real worn(int mesh) const { return settings_.wears() ? loads_.worn(mesh) : 0; }    // volume
-  Real
-  servo_push(int mesh);    // force or torque of the mesh on the spheres, along the servo's axis
+  // Force or torque of the mesh on the spheres, along the servo's axis.
+  Real servo_push(int mesh);
   // Adds arm times force, over contacts of this process: xx, yy, zz, xy, xz, yz. Energy. Not together.
   void add_virial(Real *virial) const;
   // Calls row(sphere, numbers) for each sphere of this process with a contact, with the
@@ -114,7 +113,8 @@ class Wall {
   // For a restart file: the history of a sphere, with the names of features that any run has. Returns the
   // numbers written. Not together.
   int pack_restart(int sphere, Real *buffer);
-  // What the wall keeps that. On the first process.
+  // For a restart file: what the wall keeps beside the histories of spheres. Only the first process has
+  // the loads of all.
   std::vector<Real> state() const;
   // Of a file that this or another wall wrote: at most n numbers, the same on all processes.
   void restore(const Real *state, std::size_t n, const Step &now);
@@ -151,8 +151,8 @@ class Wall {
   Host &host_;
   WallSettings settings_;    // motions change later
   WallPlace place_;
-  StepClock
-      clock_;    // of the spheres; that of the host begins anew in some runs from a restart file
+  // Of the spheres; that of the host begins anew in some runs from a restart file.
+  StepClock clock_;
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
   std::unique_ptr<WallEngine> engine_;
   bool engine_moves_ = false, engine_records_ = false;    // what its laws are compiled for
