@@ -49,8 +49,7 @@ def test_rows():
 
 
 def test_document():
-    text = "".join(pathlib.Path(page).read_text()
-                   for page in (performance.DOCUMENT, performance.NOTES, performance.LIBRARY))
+    text = "".join(pathlib.Path(page).read_text() for page in (performance.DOCUMENT, performance.NOTES))
     found = {}
     for tables in (performance, kokkos_tables):
         found.update(tables.parts(tables.read_rows("cpu"), tables.read_rows("cuda")))
