@@ -396,6 +396,7 @@ class Script:
         self.lines = read_lines(path)
         self.variables = dict(options.var or [])
         self.properties, self.meshes, self.gone, self.sizes, self.grain_types = {}, {}, {}, [], set()
+        self.templates, self.distributions = {}, {}    # of constant spheres; words of distributions
         self.wall, self.wall_line, self.moves, self.dumps, self.regions, self.box = None, None, {}, [], {}, {}
         self.out, self.left, self.ran, self.pair, self.plain = [], [], 0, None, set()
         self.mirrored = {}
@@ -459,8 +460,13 @@ class Script:
                     self.gone[w[1]] = left
             elif w[3] == "particletemplate/sphere":
                 self.grain_types.add(int(w[w.index("atom_type") + 1]) if "atom_type" in w else 1)
+                if all(k in w and w[w.index(k) + 1] == "constant" for k in ("radius", "density")):
+                    self.templates[w[1]] = (w[w.index("atom_type") + 1] if "atom_type" in w else "1",
+                                            *(self.number(w[w.index(k) + 2], line) for k in ("radius", "density")))
                 if "radius" in w and "density" in w:
                     self.sizes.append(tuple(self.number(w[w.index(k) + 2], line) for k in ("radius", "density")))
+            elif w[3] in ("particledistribution/discrete", "particledistribution/discrete/massbased"):
+                self.distributions[w[1]] = w[6:]
             elif w[3] == "wall/gran" and "meshes" in w:
                 if self.wall:
                     raise CannotConvert(f"{self.at(line)}: a second fix wall/gran with meshes")
@@ -667,7 +673,7 @@ class Script:
             self.plain.add(name)
             self.note(line, "fix check/timestep/gran has no counterpart; lsdcd timestep names a timestep")
         elif style.startswith("insert/"):
-            raise Left(style, "fix pour, fix deposit, create_atoms or read_data, a radius off the mesh")
+            raise Left(style, self.pour(line) or "fix pour, fix deposit, create_atoms or read_data, a radius off the mesh")
         elif style.startswith(("particletemplate", "particledistribution")):
             raise Left(style, "radii and densities go to fix pour (diam poly), or to set after create_atoms")
         elif style in SAME_FIXES:
@@ -677,6 +683,30 @@ class Script:
                 self.put(self.renamed(line, line.text))
         else:
             raise Left(f"fix {style}", "LAMMPS has no fix of that name with these words")
+
+    def pour(self, line):
+        """What to do in place of an insertion: a command, where its grains are known."""
+        w = line.words
+        options = {k: w[w.index(k) + 1] for k in ("distributiontemplate", "seed", "region") if k in w}
+        count = next((w[w.index(k) + 1] for k in ("particles_in_region", "nparticles") if k in w), None)
+        parts = self.distributions.get(options.get("distributiontemplate"), [])
+        found = [(self.templates.get(k), self.number(f, line)) for k, f in zip(parts[::2], parts[1::2])]
+        if len(options) < 3 or not count or not found or not all(t for t, _ in found):
+            return None
+        if len({(t[0], t[2]) for t, _ in found}) > 1:    # one type and one density are all that fix pour takes
+            return None
+        grain_type, _, density = found[0][0]
+        sizes = f"one {2 * found[0][0][1]:.10g}"
+        if len(found) > 1:    # mass fractions there, number fractions here
+            numbers = [f / t[1] ** 3 for t, f in found]
+            shares = [round(n / sum(numbers), 6) for n in numbers]
+            shares[-1] = 1 - sum(shares[:-1])
+            sizes = f"poly {len(found)} " + " ".join(f"{2 * t[1]:.10g} {n:.6f}" for (t, _), n in zip(found, shares))
+        x, y, z = w[w.index("vel") + 2:w.index("vel") + 5] if "vel" in w and w[w.index("vel") + 1] == "constant" else "000"
+        return (f"fix {w[1]} {w[2]} pour {count} {grain_type} {options['seed']} region {options['region']} diam {sizes} "
+                f"dens {density:.10g} {density:.10g} vel {x} {x} {y} {y} {z}   which pours from the top of the region, as "
+                "they fall; it needs fix gravity, and a region over a diameter high and a radius off the mesh. At once: "
+                f"create_atoms {grain_type} random, where LAMMPS has its word overlap")
 
     def law_of(self, line, model, wall_type):
         """Words of the wall for each grain type."""
