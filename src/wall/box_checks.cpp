@@ -153,13 +153,52 @@ void BoxChecks::check_pose(const MeshPart &m, const WallPose &at, const Periodic
   }
 }
 
-void BoxChecks::check_moving(const PeriodicBox &box, Real cutoff, const Step &now) const
+// One that begins past a face is meant to be there, and so may be one that only slides, as a gate.
+void BoxChecks::check_turning_out(const MeshPart &m, const PeriodicBox &box)
+{
+  constexpr int kSamples =
+      64;    // the farthest point is missed by a thousandth of the mesh's radius
+  constexpr Real kTolerance = 1e-3;    // of the box: a drum that fits it turns within it
+  const Real period = m.settings.motion.longest_period();
+  bool &warned = seen_[m.index].turning_out_warned;
+  if (warned || period <= 0 || m.motion.has_variables()) return;
+  for (int k = 0; k < 3; k++) {
+    if (box.periodic[k] || box.follows(k) || (k == 2 && box.dimension == 2)) continue;
+    bool clear = true;
+    Real lo, hi, least = 0, most = 1;
+    for (int i = 0; i < kSamples; i++) {
+      const WallPose at = m.motion.pose_in(period * i / kSamples);
+      if (i > 0)
+        for_corners(m.bounds(0), [&](const Vec3 &corner) {
+          const Real f = box.fraction(at.to_box(corner))[k];
+          clear &= f >= -kTolerance && f <= 1 + kTolerance;
+        });
+      if (i > 0 && clear) continue;
+      m.find_range(box, k, at, lo, hi);
+      if (i == 0 && (lo < -kTolerance || hi > 1 + kTolerance)) break;
+      least = std::min(least, lo);
+      most = std::max(most, hi);
+    }
+    if (least >= -kTolerance && most <= 1 + kTolerance) continue;
+    warned = true;
+    const std::string axis(1, "xyz"[k]);
+    host_.warn(named(m, "the mesh will turn out of the box: in " + axis + " it will reach from " +
+                            number_text(least) + " to " + number_text(most) +
+                            " of the box. Atoms that it takes along are lost there: make the box "
+                            "larger in " +
+                            axis + ", or its boundary shrink-wrapped. Shown once"));
+    return;
+  }
+}
+
+void BoxChecks::check_moving(const PeriodicBox &box, Real cutoff, const Step &now)
 {
   constexpr int kSamples = 256;
   for (const MeshPart &m : meshes_) {
     const WallMotion &motion = m.settings.motion;
     if (!motion.any()) continue;
     check_pose(m, m.motion.pose(), box, cutoff, " at step " + std::to_string(now.number));
+    if (now.kind != Step::step) check_turning_out(m, box);
     if (now.kind == Step::step || m.motion.has_variables()) continue;
     for (int i = 1; i < kSamples; i++)
       check_pose(m, m.motion.pose_in(motion.longest_period() * i / kSamples), box, cutoff, "");

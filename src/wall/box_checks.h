@@ -44,8 +44,9 @@ class BoxChecks {
   // In each step.
 
   // Throws where a mesh comes to a periodic face and its images would not move as it does. In the step
-  // that sets a run up it looks ahead over the longest period. Collective.
-  void check_moving(const PeriodicBox &box, Real cutoff, const Step &now) const;
+  // that sets a run up it looks ahead over the longest period, and warns of a mesh that will turn out of
+  // the box through a fixed face. Collective.
+  void check_moving(const PeriodicBox &box, Real cutoff, const Step &now);
   // Warns of a mesh that has moved out of the box.
   void check_gone(const PeriodicBox &box, Real cutoff, std::int64_t step);
 
@@ -54,11 +55,12 @@ class BoxChecks {
   std::string likely_scale_text(const MeshPart &m, const PeriodicBox &box) const;
   void check_pose(const MeshPart &m, const WallPose &at, const PeriodicBox &box, Real cutoff,
                   const std::string &when) const;
+  void check_turning_out(const MeshPart &m, const PeriodicBox &box);
 
   // Of a mesh.
   struct Seen {
     bool out_of_reach_warned = false, ends_warned = false;
-    bool was_in_box = false, gone_warned = false;
+    bool was_in_box = false, gone_warned = false, turning_out_warned = false;
   };
 
   Host &host_;

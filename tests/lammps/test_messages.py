@@ -139,6 +139,14 @@ def main():
     text = lmp.run_well(BOX + fix("move 0 0 9 motion linear 0 0 -450") + "run 8\n", folder)
     checks.fact("one that has yet to come in is not", not lines(text, "has moved out of"))
 
+    # The floor is 10 across in a box from -1 to 5 in z: turned about y, it reaches from -5 to 5.
+    turned = "motion rotate 0 0 0 {} 1"
+    told = "WARNING: Fix w", "will turn out of the box", "in z"
+    text = lmp.run_well(BOX + fix(turned.format("0 1 0")) + "run 0\nrun 0\n", folder)
+    checks.fact("a mesh that will turn out of the box is told once", len(lines(text, *told)) == 1)
+    text = lmp.run_well(BOX + fix(turned.format("0 0 1")) + "run 0\n", folder)
+    checks.fact("one that turns within it is not", not lines(text, "will turn out of"))
+
     # The same wall in two fixes.
     twice = "WARNING: Fix lid", "'floor.stl' is at the same place in fix w", "twice"
     both = BOX + "group one id 2\ngroup none empty\n" + fix()
