@@ -17,6 +17,7 @@
 #include <vector>
 
 namespace lsdcd {
+inline namespace cpp_api {    // the library has a Wall, too, which these names must not meet
 
 class Error : public std::runtime_error {
  public:
@@ -329,6 +330,7 @@ class Wall {
   std::unique_ptr<lsdcd_wall, c::Free<lsdcd_wall_free>> handle_;
 };
 
+}    // namespace cpp_api
 }    // namespace lsdcd
 
 #endif

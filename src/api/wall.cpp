@@ -6,10 +6,9 @@
 
 #include "api/c_border.h"
 #include "api/call_threads.h"
-#include "backend/owned_array.h"
 #include "base/input_words.h"
-#include "base/large_memory.h"
 #include "input/settings.h"
+#include "wall/own_memory.h"
 #include "wall/shared_material.h"
 
 #include <algorithm>
@@ -21,27 +20,6 @@
 using namespace lsdcd;
 
 namespace {
-
-// Memory of the only process.
-class OwnMemory : public NodeMemory {
- public:
-  char *allocate(std::size_t bytes) override
-  {
-    memory_ = OwnedArray<char, LargeMemory>(bytes);
-    return memory_.data();
-  }
-  void publish() override {}
-  void broadcast_to_writers(void *, std::size_t) override {}
-  bool writes() const override { return true; }
-  int node_rank() const override { return 0; }
-  int node_size() const override { return 1; }
-  bool is_shared() const override { return false; }
-  const char *block() const override { return memory_.data(); }
-  std::size_t bytes() const override { return memory_.size(); }
-
- private:
-  OwnedArray<char, LargeMemory> memory_;
-};
 
 // The program that calls the library: one process.
 class Caller : public Host {
@@ -89,7 +67,7 @@ class Caller : public Host {
           "v_" + names.front() +
           ": there are no variables here; give numbers, and change them between steps");
   }
-  std::unique_ptr<NodeMemory> node_memory() override { return std::make_unique<OwnMemory>(); }
+  std::unique_ptr<NodeMemory> node_memory() override { return std::make_unique<OwnMemory>(*this); }
   int rank() const override { return 0; }
   PeriodicBox box() const override { return box_; }
   SphereGroup group() const override { return {"all", false}; }

@@ -3,9 +3,8 @@
 
 #include "support/fake_host.h"
 
-#include "backend/owned_array.h"
 #include "base/input_error.h"
-#include "base/large_memory.h"
+#include "wall/own_memory.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -146,35 +145,6 @@ void FakeHost::check_variables(const std::vector<std::string> &names)
   for (const std::string &name : names)
     if (!values.count(name)) throw InputError("there is no variable '" + name + "'");
 }
-
-namespace {
-
-class OwnMemory : public NodeMemory {
- public:
-  explicit OwnMemory(FakeHost &host) : host_(host) {}
-  char *allocate(std::size_t bytes) override
-  {
-    memory_ = OwnedArray<char, LargeMemory>(bytes);
-    return memory_.data();
-  }
-  void publish() override {}
-  void broadcast_to_writers(void *data, std::size_t bytes) override
-  {
-    host_.broadcast(data, bytes, 0);
-  }
-  bool writes() const override { return true; }
-  int node_rank() const override { return 0; }
-  int node_size() const override { return 1; }
-  bool is_shared() const override { return false; }
-  const char *block() const override { return memory_.data(); }
-  std::size_t bytes() const override { return memory_.size(); }
-
- private:
-  FakeHost &host_;
-  OwnedArray<char, LargeMemory> memory_;
-};
-
-}    // namespace
 
 std::unique_ptr<NodeMemory> FakeHost::node_memory()
 {
