@@ -63,6 +63,9 @@ struct WallMesh {
   std::vector<int> edge_first,
       edge_face;    // faces of edge e: edge_face[edge_first[e] .. edge_first[e+1])
   std::vector<int> vertex_first, vertex_edge;    // edges of vertex v, likewise
+  // Facets with three vertices that are no face: of faces that are there already, in either winding, and
+  // those without area. Winding numbers need them (winding_number.h).
+  std::vector<std::array<int, 3>> dropped;
   MeshReport report;
   std::string source;
   PeriodicImages images;

@@ -84,6 +84,8 @@ void sort_facets(const std::vector<int> &corner_point, WallMesh &mesh,
       ++mesh.report.degenerate_facets;
       for (int k = 0; k < 3; ++k)
         if (face[k] != face[(k + 1) % 3]) bare_edges.push_back({face[k], face[(k + 1) % 3]});
+      if (face[0] != face[1] && face[1] != face[2] && face[2] != face[0])
+        mesh.dropped.push_back(face);
       continue;
     }
     const Triple key = sorted(face);
@@ -92,6 +94,7 @@ void sort_facets(const std::vector<int> &corner_point, WallMesh &mesh,
     const auto is_same = [&](int f) { return sorted(mesh.faces[f]) == key; };
     if (seen.find_or_insert(hash, fresh, is_same) != fresh) {
       ++mesh.report.duplicate_facets;
+      mesh.dropped.push_back(face);
       continue;
     }
     mesh.faces.push_back(face);

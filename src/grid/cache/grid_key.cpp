@@ -77,9 +77,10 @@ Hash settings_hash(const GridSettings &s)
 Hash mesh_hash(const WallMesh &mesh)
 {
   const auto &[vertices, faces, face_edges, face_facet, edges, edge_first, edge_face, vertex_first,
-               vertex_edge, report, source, images] = mesh;
+               vertex_edge, dropped, report, source, images] = mesh;
   // Of the report, what planning and building read.
   (void) source;
+  (void) dropped;
   return Hasher().of(vertices, faces, face_edges, face_facet, edges, edge_first, edge_face,
                      vertex_first, vertex_edge, report.lo, report.hi, report.median_edge,
                      report.volume, images.n_faces, images.n_edges, images.n_vertices,

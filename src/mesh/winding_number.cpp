@@ -1,0 +1,422 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mesh/winding_number.h"
+
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "geometry/orientation.h"
+#include "geometry/triangles_meet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lsdcd {
+
+namespace {
+
+using Corners = std::array<int, 3>;
+
+// Corners in ascending order; `turned` becomes 1 or -1, as that keeps the winding or not.
+Corners ascending(Corners c, int &turned)
+{
+  turned = 1;
+  for (const int k : {0, 1, 0})
+    if (c[k] > c[k + 1]) {
+      std::swap(c[k], c[k + 1]);
+      turned = -turned;
+    }
+  return c;
+}
+
+// The facets that count, as they are wound.
+std::vector<Corners> counted_facets(const WallMesh &mesh)
+{
+  std::vector<Corners> counted = mesh.faces;
+  if (mesh.dropped.empty()) return counted;
+  struct Wound {
+    Corners corners;
+    int turned;
+  };
+  std::vector<Wound> all;
+  for (const auto *some : {&mesh.faces, &mesh.dropped})
+    for (const Corners &c : *some) {
+      Wound w = {c, 0};
+      w.corners = ascending(c, w.turned);
+      all.push_back(w);
+    }
+  std::sort(all.begin(), all.end(),
+            [](const Wound &a, const Wound &b) { return a.corners < b.corners; });
+  counted.clear();
+  for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
+    int sum = 0;
+    for (end = i; end < all.size() && all[end].corners == all[i].corners; end++)
+      sum += all[end].turned;
+    Corners c = all[i].corners;
+    if (sum < 0) std::swap(c[1], c[2]);
+    if (sum != 0) counted.push_back(c);
+  }
+  return counted;
+}
+
+struct LooseEdges {
+  std::size_t open = 0, against = 0;    // of one facet; of several that do not cancel
+  std::array<int, 2> first = {-1, -1};
+};
+
+LooseEdges loose_edges(const std::vector<Corners> &facets)
+{
+  struct Run {
+    std::array<int, 2> edge;
+    int way;
+  };
+  std::vector<Run> runs;
+  runs.reserve(3 * facets.size());
+  for (const Corners &c : facets)
+    for (int k = 0; k < 3; k++) {
+      const int a = c[k], b = c[(k + 1) % 3];
+      runs.push_back({{std::min(a, b), std::max(a, b)}, a < b ? 1 : -1});
+    }
+  std::sort(runs.begin(), runs.end(), [](const Run &a, const Run &b) { return a.edge < b.edge; });
+  LooseEdges loose;
+  for (std::size_t i = 0, end = 0; i < runs.size(); i = end) {
+    int sum = 0;
+    for (end = i; end < runs.size() && runs[end].edge == runs[i].edge; end++) sum += runs[end].way;
+    if (sum == 0) continue;
+    if (loose.first[0] < 0) loose.first = runs[i].edge;
+    ++(end - i == 1 ? loose.open : loose.against);
+  }
+  return loose;
+}
+
+bool is_known_closed(const WallMesh &mesh)
+{
+  return mesh.dropped.empty() && mesh.report.closed && mesh.report.misoriented_edges == 0;
+}
+
+std::string text(const Vec3 &a)
+{
+  return number_text(a.x) + " " + number_text(a.y) + " " + number_text(a.z);
+}
+
+// Facets that a ray has crossed: one in several cells counts once.
+class Crossed {
+ public:
+  bool is_new(std::uint32_t facet)
+  {
+    for (int k = 0; k < n_; k++)
+      if (some_[k] == facet) return false;
+    if (std::find(more_.begin(), more_.end(), facet) != more_.end()) return false;
+    if (n_ < kRoom)
+      some_[n_++] = facet;
+    else
+      more_.push_back(facet);
+    return true;
+  }
+
+ private:
+  static constexpr int kRoom = 16;
+  std::uint32_t some_[kRoom];
+  int n_ = 0;
+  std::vector<std::uint32_t> more_;
+};
+
+int sign_of(Real a)
+{
+  return (a > 0) - (a < 0);
+}
+
+// The side of the line from a to b on which the projection of q along an axis is, where it is on the
+// line and is moved by e along u and e^2 along v. 0: the line is a point.
+int side_when_moved(int u, int v, const Vec3 &a, const Vec3 &b)
+{
+  const int along_u = sign_of(a[v] - b[v]);
+  return along_u != 0 ? along_u : sign_of(b[u] - a[u]);
+}
+
+// Is a point of the plane of a facet, which the axis is parallel to, on it?
+bool is_on(int axis, const Triangle &t, const Vec3 &q)
+{
+  if (!triangles_meet_detail::boxes_overlap(t.corner, 3, &q, 1)) return false;
+  for (int k = 1; k < 3; k++) {
+    const int other = (axis + k) % 3;
+    if (orientation_along(other, t[0], t[1], t[2]) != 0)
+      return triangles_meet_detail::covers(other, t, q);
+  }
+  // A segment; its box holds q.
+  for (int other = 0; other < 3; other++)
+    for (int k = 0; k < 3; k++)
+      if (orientation_along(other, t[k], t[(k + 1) % 3], q) != 0) return false;
+  return true;
+}
+
+constexpr Real kCellsPerFacet = 4;
+constexpr int kMaxCellsAlong = 2048;
+// Pieces of facets are listed in cells that are wider by this part of a cell, far above rounding: a
+// cell is at least 1/2048 of the box, in whose units coordinates round by 1e-16.
+constexpr Real kWider = 1e-6;
+
+}    // namespace
+
+bool has_inside(const WallMesh &mesh)
+{
+  if (is_known_closed(mesh)) return true;
+  if (mesh.faces.empty()) return false;
+  const LooseEdges loose = loose_edges(counted_facets(mesh));
+  return loose.open + loose.against == 0;
+}
+
+std::string why_no_inside(const WallMesh &mesh)
+{
+  if (is_known_closed(mesh)) return "";
+  const LooseEdges loose = loose_edges(counted_facets(mesh));
+  if (loose.open + loose.against == 0) return mesh.faces.empty() ? "it has no facets" : "";
+  return std::to_string(loose.open) + " edges are open, and along " +
+         std::to_string(loose.against) +
+         " more facets are wound against each other; the first goes from " +
+         text(mesh.vertices[loose.first[0]]) + " to " + text(mesh.vertices[loose.first[1]]) +
+         ": close the mesh, or try lsdcd repair";
+}
+
+WindingNumber::WindingNumber(const WallMesh &mesh)
+{
+  const std::string why = why_no_inside(mesh);
+  if (!why.empty()) throw InputError(mesh.source + " has no inside: " + why);
+  const std::vector<Corners> counted = counted_facets(mesh);
+  facets_.reserve(counted.size());
+  for (const Corners &c : counted)
+    facets_.push_back({{mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]}});
+  if (facets_.empty()) {    // each facet has one against it
+    box_ = {{1, 1, 1}, {-1, -1, -1}};
+    return;
+  }
+  box_ = {facets_[0].corner[0], facets_[0].corner[0]};
+  for (const Facet &f : facets_)
+    for (const Vec3 &x : f.corner) extend(box_, x);
+  choose_cells();
+  list_facets();
+  choose_directions();
+  number_empty_cells();
+}
+
+// Cubes as far as the box allows.
+void WindingNumber::choose_cells()
+{
+  const Vec3 size = box_.hi - box_.lo;
+  const Real wanted = std::min(kCellsPerFacet * static_cast<Real>(facets_.size()), Real(1 << 28));
+  Real cell = std::max({size.x, size.y, size.z});
+  const auto along = [&](int k) {
+    return std::min(std::ceil(size[k] / cell), Real(kMaxCellsAlong));
+  };
+  const auto cells = [&] {
+    return std::max(along(0), Real(1)) * std::max(along(1), Real(1)) * std::max(along(2), Real(1));
+  };
+  for (int i = 0; i < 200 && cells() < wanted; i++) cell /= 1.1;
+  for (int k = 0; k < 3; k++) {
+    n_[k] = std::max(static_cast<int>(along(k)), 1);
+    length_[k] = size[k] / n_[k];
+    per_length_[k] = length_[k] > 0 ? 1 / length_[k] : 0;
+  }
+  stride_ = {std::ptrdiff_t(n_[1]) * n_[2], n_[2], 1};
+}
+
+// A facet is cut in pieces, whose boxes are at most two cells wide.
+void WindingNumber::list_facets()
+{
+  struct Entry {
+    std::uint32_t cell, facet;
+  };
+  std::vector<Entry> entries;
+  std::vector<std::uint32_t> last(stride_[0] * n_[0], kEmpty);    // that a cell lists
+  std::vector<Facet> pieces;
+  for (std::uint32_t f = 0; f < facets_.size(); f++) {
+    pieces.push_back(facets_[f]);
+    while (!pieces.empty()) {
+      const Facet piece = pieces.back();
+      pieces.pop_back();
+      const Box box = box_around(piece.corner[0], piece.corner[1], piece.corner[2]);
+      Index lo, hi;
+      bool is_small = true;
+      for (int k = 0; k < 3; k++) {
+        const Real wider = kWider * length_[k];
+        lo[k] = cell_along(k, std::max(box.lo[k] - wider, box_.lo[k]));
+        hi[k] = cell_along(k, std::min(box.hi[k] + wider, box_.hi[k]));
+        is_small = is_small && hi[k] - lo[k] < 2;
+      }
+      if (!is_small) {
+        const auto edge = [&](int k) {
+          const Vec3 d = piece.corner[(k + 1) % 3] - piece.corner[k];
+          Real most = 0;
+          for (int a = 0; a < 3; a++) most = std::max(most, std::fabs(d[a]) * per_length_[a]);
+          return most;
+        };
+        int k = edge(0) >= edge(1) ? 0 : 1;
+        if (edge(2) > edge(k)) k = 2;
+        const Vec3 middle = 0.5 * piece.corner[k] + 0.5 * piece.corner[(k + 1) % 3];
+        Facet half = piece;
+        half.corner[k] = middle;
+        pieces.push_back(half);
+        half = piece;
+        half.corner[(k + 1) % 3] = middle;
+        pieces.push_back(half);
+        continue;
+      }
+      for (int i = lo[0]; i <= hi[0]; i++)
+        for (int j = lo[1]; j <= hi[1]; j++)
+          for (int k = lo[2]; k <= hi[2]; k++) {
+            const auto cell = static_cast<std::uint32_t>(cell_number({i, j, k}));
+            if (last[cell] != f) entries.push_back({cell, f});
+            last[cell] = f;
+          }
+    }
+  }
+  cells_.assign(last.size(), {kEmpty, 0});
+  for (const Entry &e : entries) cells_[e.cell].number++;
+  std::uint32_t first = 0;
+  for (Cell &c : cells_)
+    if (c.number > 0) {
+      c.first = first;
+      first += c.number;
+      c.number = 0;
+    }
+  listed_.resize(entries.size());
+  for (const Entry &e : entries) {
+    Cell &c = cells_[e.cell];
+    listed_[c.first + c.number++] = e.facet;
+  }
+}
+
+// From each cell with facets, the way to an empty cell, or out of the box, that looks at the fewest.
+void WindingNumber::choose_directions()
+{
+  direction_.assign(cells_.size(), 0);
+  std::vector<std::uint32_t> least(cells_.size(), std::numeric_limits<std::uint32_t>::max());
+  for (int axis = 0; axis < 3; axis++) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (int i = 0; i < n_[u]; i++)
+      for (int j = 0; j < n_[v]; j++)
+        for (const int down : {0, 1}) {
+          std::size_t cell = i * stride_[u] + j * stride_[v];
+          if (!down) cell += (n_[axis] - 1) * stride_[axis];
+          std::uint32_t on_way = 0;
+          for (int k = 0; k < n_[axis]; k++, cell += down ? stride_[axis] : -stride_[axis]) {
+            on_way = cells_[cell].first == kEmpty ? 0 : on_way + cells_[cell].number;
+            if (on_way == 0 || on_way >= least[cell]) continue;
+            least[cell] = on_way;
+            direction_[cell] = static_cast<std::uint8_t>(2 * axis + down);
+          }
+        }
+  }
+}
+
+// In the order of cells, so that those below have their numbers.
+void WindingNumber::number_empty_cells()
+{
+  constexpr int kDownZ = 5;
+  std::size_t cell = 0;
+  for (int i = 0; i < n_[0]; i++)
+    for (int j = 0; j < n_[1]; j++)
+      for (int k = 0; k < n_[2]; k++, cell++) {
+        if (cells_[cell].first != kEmpty) continue;
+        const auto is_empty = [&](int axis) {
+          return cells_[cell - stride_[axis]].first == kEmpty;
+        };
+        if (i == 0 || j == 0 || k == 0)
+          cells_[cell].number = 0;    // its outer face is outside
+        else if (is_empty(2))
+          cells_[cell].number = cells_[cell - stride_[2]].number;
+        else if (is_empty(1))
+          cells_[cell].number = cells_[cell - stride_[1]].number;
+        else if (is_empty(0))
+          cells_[cell].number = cells_[cell - stride_[0]].number;
+        else
+          cells_[cell].number =
+              walk({box_.lo.x + (i + 0.5) * length_.x, box_.lo.y + (j + 0.5) * length_.y,
+                    box_.lo.z + (k + 0.5) * length_.z},
+                   {i, j, k - 1}, kDownZ)
+                  .number;
+      }
+}
+
+// What a facet adds to the number of a ray's origin. A facet whose projection along the ray has no
+// area is never crossed.
+int WindingNumber::crossing(const Facet &facet, const Ray &ray, bool &on_surface)
+{
+  const int axis = ray.axis, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+  const Vec3 &a = facet.corner[0], &b = facet.corner[1], &c = facet.corner[2], &q = ray.from;
+  for (const int d : {u, v}) {
+    if (a[d] < q[d] && b[d] < q[d] && c[d] < q[d]) return 0;
+    if (a[d] > q[d] && b[d] > q[d] && c[d] > q[d]) return 0;
+  }
+  const int on[3] = {orientation_along(axis, a, b, q), orientation_along(axis, b, c, q),
+                     orientation_along(axis, c, a, q)};
+  const bool left = on[0] > 0 || on[1] > 0 || on[2] > 0,
+             right = on[0] < 0 || on[1] < 0 || on[2] < 0;
+  if (left && right) return 0;
+  const int behind = orientation(a, b, c, q);    // its normal points away from q
+  if (!left && !right) {                         // the projection is a segment, and q on its line
+    on_surface = on_surface || (behind == 0 && is_on(axis, {{a, b, c}}, q));
+    return 0;
+  }
+  if (behind == 0) {
+    on_surface = true;
+    return 0;
+  }
+  const int side = left ? 1 : -1;
+  if ((on[0] == 0 && side_when_moved(u, v, a, b) != side) ||
+      (on[1] == 0 && side_when_moved(u, v, b, c) != side) ||
+      (on[2] == 0 && side_when_moved(u, v, c, a) != side))
+    return 0;
+  if (ray.ends) return orientation(a, b, c, ray.end) == -behind ? behind : 0;
+  // Along y, u and v are z and x in the wrong order.
+  const int normal = axis == 1 ? -side : side;
+  return behind * normal == (ray.up ? 1 : -1) ? behind : 0;
+}
+
+WindingNumber::Answer WindingNumber::walk(const Vec3 &q, const Index &at, int direction) const
+{
+  Ray ray = {q, q, direction / 2, direction % 2 == 0, false};
+  const std::ptrdiff_t step = ray.up ? stride_[ray.axis] : -stride_[ray.axis];
+  const std::size_t first = cell_number(at);
+  std::size_t end = first;
+  int i = at[ray.axis];
+  Answer answer = {false, 0};
+  for (; i >= 0 && i < n_[ray.axis]; i += ray.up ? 1 : -1, end += step)
+    if (cells_[end].first == kEmpty) {
+      ray.ends = true;
+      ray.end[ray.axis] = box_.lo[ray.axis] + (i + 0.5) * length_[ray.axis];
+      answer.number = cells_[end].number;
+      break;
+    }
+  Crossed crossed;
+  for (std::size_t cell = first; cell != end; cell += step) {
+    const Cell &c = cells_[cell];
+    for (std::uint32_t k = c.first; k < c.first + c.number; k++) {
+      const int sum = crossing(facets_[listed_[k]], ray, answer.on_surface);
+      if (answer.on_surface) return answer;
+      if (sum != 0 && crossed.is_new(listed_[k])) answer.number += sum;
+    }
+  }
+  return answer;
+}
+
+WindingNumber::Answer WindingNumber::at(const Vec3 &q) const
+{
+  Index at;
+  for (int k = 0; k < 3; k++) {
+    if (!(q[k] >= box_.lo[k] && q[k] <= box_.hi[k])) return {false, 0};    // also not a number
+    at[k] = cell_along(k, q[k]);
+  }
+  const std::size_t cell = cell_number(at);
+  if (cells_[cell].first == kEmpty) return {false, cells_[cell].number};
+  return walk(q, at, direction_[cell]);
+}
+
+std::size_t WindingNumber::bytes() const
+{
+  return facets_.capacity() * sizeof(Facet) + cells_.capacity() * sizeof(Cell) +
+         direction_.capacity() + listed_.capacity() * sizeof(std::uint32_t);
+}
+
+}    // namespace lsdcd
