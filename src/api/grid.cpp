@@ -74,12 +74,12 @@ int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, 
     need(mesh, "mesh");
     const lsdcd_grid_options o = checked(options, "lsdcd_grid_options");
     const ApiMesh &from = *mesh->in;
-    const GridSettings settings = settings_of(o, from.has_sides());
+    const GridSettings settings = settings_of(o, from.normals_agree());
     std::string why;
     if (o.device == LSDCD_CUDA && !cuda_available(&why))
       throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why + "; build with LSDCD_CPU");
     const CallThreads threads(o.threads);
-    auto made = std::make_shared<ApiGrid>(from.mesh);
+    auto made = std::make_shared<ApiGrid>(mesh->in);
     OwnPlace place(made->flat);
     const LoadedGrid loaded = load_or_build_grid(o.cache ? o.cache : "", from.mesh, settings,
                                                  o.device == LSDCD_CUDA, place);
@@ -88,9 +88,11 @@ int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, 
     for (const std::string &line : {loaded.cache_warning, loaded.cache_text})
       if (!line.empty()) made->report += "\n  " + line;
     made->grid = HostGrid(made->flat.view());
-    made->has_sides = settings.sides && made->grid.view.outside != 0;
-    if (settings.sides && !made->has_sides)
-      made->report += "\n  no sides: triangles of the mesh cut, overlap or touch each other";
+    made->sides_by_normals = settings.sides && made->grid.view.outside != 0;
+    made->has_sides = made->sides_by_normals || has_inside(from.mesh);
+    if (made->has_sides && !made->sides_by_normals)
+      made->report +=
+          "\n  sides on the host alone: triangles of the mesh cut, overlap or touch each other";
     *grid = new lsdcd_grid{std::move(made)};
   });
 }

@@ -44,8 +44,8 @@ enum {
   LSDCD_ERROR_ARGUMENT = 1, /* a null pointer, a number or a struct that makes no sense */
   LSDCD_ERROR_INPUT = 2,    /* a file, mesh or setting that cannot be used */
   LSDCD_ERROR_CUTOFF = 3,   /* a radius beyond the grid's cutoff */
-  LSDCD_ERROR_SIDE = 4,     /* the side of a mesh that has none: open, not oriented, or it
-                               cuts itself */
+  LSDCD_ERROR_SIDE = 4,     /* the side of a mesh that has none: open or not oriented, or, on a
+                               device, it cuts itself */
   LSDCD_ERROR_DEVICE = 5,   /* no CUDA, or an array where it cannot be reached */
   LSDCD_ERROR_MEMORY = 6,   /* none left */
   LSDCD_ERROR_INTERNAL = 7  /* a defect of this library */
@@ -118,8 +118,7 @@ typedef struct lsdcd_grid_facts {
   double cutoff, cell;
   size_t bytes;
   int nearest;
-  int has_sides;  /* is the mesh closed and oriented, with no triangles that cut, overlap or touch
-                     each other? */
+  int has_sides;  /* do as many triangles run one way along each edge as the other? */
   int from_cache; /* was it read, not built? */
 } lsdcd_grid_facts;
 /* Any. */
@@ -145,7 +144,7 @@ enum { LSDCD_FOUND = 1, LSDCD_CERTIFIED = 2 };
  * numbers are of one type. Number k of point i is at [i * row + k * column], those of one number at
  * [i * step]; 0: packed. All others have one number a point.
  * Nothing at `radius` or farther is found: there the distance is infinite, the closest point the
- * point itself, the normal and the side 0, triangle and feature LSDCD_NONE. A point that is no
+ * point itself, the normal 0, triangle and feature LSDCD_NONE. A point that is no
  * number is far from everything. */
 typedef struct lsdcd_query {
   size_t size; /* of this struct */
@@ -167,8 +166,10 @@ typedef struct lsdcd_query {
                          the lowest; LSDCD_NONE also for the edge or corner of a triangle without
                          area */
   uint32_t *feature;
-  int8_t *side; /* 1 outside, and on the mesh; -1 inside; 0 where not found or not certified, and
-                   where an edge or corner of triangles without area is nearest */
+  int8_t *
+      side; /* 1 outside, and on the mesh; -1 inside; at any distance, but 0 where a coordinate is no
+                   number. On a device 0 also where not found or not certified, and where an edge or
+                   corner of triangles without area is nearest */
   uint8_t *status;
 } lsdcd_query;
 

@@ -8,7 +8,7 @@
 #include "api/lsdcd.h"
 #include "grid/flat_grid.h"
 #include "mesh/wall_mesh.h"
-#include "query/point_query.h"
+#include "query/point_sides.h"
 
 #include <memory>
 #include <mutex>
@@ -21,22 +21,26 @@ struct ApiMesh {
   WallMesh mesh;
   std::string report;
 
-  // Has the mesh an inside?
-  bool has_sides() const { return mesh.report.closed && mesh.report.oriented; }
+  PointSides sides{mesh};
+
+  // May the normals of nearest features tell sides?
+  bool normals_agree() const { return mesh.report.closed && mesh.report.oriented; }
 };
 
 struct ApiGrid {
   FlatGrid flat;
   HostGrid grid;
   TriangleTable names;
+  std::shared_ptr<const ApiMesh> mesh;
   bool has_sides = false, from_cache = false;
+  bool sides_by_normals = false;    // also on a device
   std::string report;
 
   // Copies on CUDA devices, while any stream uses them.
   mutable std::mutex copying;
   mutable std::vector<std::pair<int, std::weak_ptr<const DeviceGrid>>> copies;
 
-  explicit ApiGrid(const WallMesh &mesh) : names(mesh) {}
+  explicit ApiGrid(std::shared_ptr<const ApiMesh> of) : names(of->mesh), mesh(std::move(of)) {}
 };
 
 }    // namespace lsdcd

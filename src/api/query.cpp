@@ -24,8 +24,20 @@ struct lsdcd_stream {
 
 namespace {
 
+void check_sides(const ApiGrid &grid, bool on_host)
+{
+  if (!grid.has_sides)
+    throw ApiError(LSDCD_ERROR_SIDE,
+                   "the mesh is not closed and oriented, so that it has no side: " +
+                       why_no_inside(grid.mesh->mesh));
+  if (!on_host && !grid.sides_by_normals)
+    throw ApiError(LSDCD_ERROR_SIDE,
+                   "triangles of the mesh cut, overlap or touch each other, and only the "
+                   "host tells its sides: use lsdcd_query_host()");
+}
+
 // Checks a query of this grid and fills in defaults.
-lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given)
+lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on_host)
 {
   lsdcd_query q = checked(given, "lsdcd_query");
   if (q.type != LSDCD_DOUBLE && q.type != LSDCD_FLOAT)
@@ -37,9 +49,7 @@ lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given)
   if (q.n > 0 && !q.distance && !q.closest && !q.normal && !q.triangle && !q.feature && !q.side &&
       !q.status)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "nothing is asked for: all arrays of answers are null");
-  if (q.side && !grid.has_sides)
-    throw ApiError(LSDCD_ERROR_SIDE, "the mesh is not closed and oriented, or cuts itself, so that "
-                                     "it has no side; `lsdcd inspect` tells why");
+  if (q.side) check_sides(grid, on_host);
   if (q.radii && q.radius != 0)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`radii` and `radius` are both given");
   if (!q.radii && q.radius == 0) q.radius = grid.grid.view.cutoff;
@@ -100,7 +110,7 @@ int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
   return guard([&] {
     need(grid, "grid");
     const ApiGrid &g = *grid->in;
-    const lsdcd_query q = checked_query(g, query);
+    const lsdcd_query q = checked_query(g, query, true);
     if (q.n == 0) return;
     const DeviceMemory device;
     each_given(q, [&](const void *array, const char *name) {
@@ -110,9 +120,9 @@ int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
     });
     const CallThreads threads(q.threads);
     if (q.type == LSDCD_FLOAT)
-      answer_points(g.grid, g.names, arrays_of<float>(q));
+      answer_with_sides(g.grid, g.names, g.mesh->sides, g.sides_by_normals, arrays_of<float>(q));
     else
-      answer_points(g.grid, g.names, arrays_of<double>(q));
+      answer_with_sides(g.grid, g.names, g.mesh->sides, g.sides_by_normals, arrays_of<double>(q));
   });
 }
 
@@ -157,7 +167,7 @@ int lsdcd_query_stream(lsdcd_stream *stream, const lsdcd_query *query)
 {
   return guard([&] {
     need(stream, "stream");
-    const lsdcd_query q = checked_query(*stream->grid, query);
+    const lsdcd_query q = checked_query(*stream->grid, query, false);
     if (q.n == 0) return;
     each_given(q, [&](const void *array, const char *name) {
       try {

@@ -30,19 +30,20 @@ Corners ascending(Corners c, int &turned)
   return c;
 }
 
-// The facets that count, as they are wound.
-std::vector<Corners> counted_facets(const WallMesh &mesh)
+// Facets that became no face have one with the same corners, or no area.
+std::vector<Corners> counted_facets(const WallMesh &mesh, bool with_no_area)
 {
   std::vector<Corners> counted = mesh.faces;
   if (mesh.dropped.empty()) return counted;
   struct Wound {
     Corners corners;
     int turned;
+    bool is_face;
   };
   std::vector<Wound> all;
   for (const auto *some : {&mesh.faces, &mesh.dropped})
     for (const Corners &c : *some) {
-      Wound w = {c, 0};
+      Wound w = {c, 0, some == &mesh.faces};
       w.corners = ascending(c, w.turned);
       all.push_back(w);
     }
@@ -51,11 +52,14 @@ std::vector<Corners> counted_facets(const WallMesh &mesh)
   counted.clear();
   for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
     int sum = 0;
-    for (end = i; end < all.size() && all[end].corners == all[i].corners; end++)
+    bool has_face = false;
+    for (end = i; end < all.size() && all[end].corners == all[i].corners; end++) {
       sum += all[end].turned;
+      has_face = has_face || all[end].is_face;
+    }
     Corners c = all[i].corners;
     if (sum < 0) std::swap(c[1], c[2]);
-    if (sum != 0) counted.push_back(c);
+    if (sum != 0 && (has_face || with_no_area)) counted.push_back(c);
   }
   return counted;
 }
@@ -89,6 +93,24 @@ LooseEdges loose_edges(const std::vector<Corners> &facets)
   }
   return loose;
 }
+
+// The facets that count, as they are wound. Those without area do where they close the surface.
+struct Closed {
+  std::vector<Corners> facets;
+  LooseEdges loose;
+
+  bool is() const { return loose.open + loose.against == 0; }
+  explicit Closed(const WallMesh &mesh) :
+      facets(counted_facets(mesh, false)), loose(loose_edges(facets))
+  {
+    if (is() || mesh.report.degenerate_facets == 0) return;
+    std::vector<Corners> more = counted_facets(mesh, true);
+    const LooseEdges fewer = loose_edges(more);
+    if (fewer.open + fewer.against > 0) return;
+    facets = std::move(more);
+    loose = fewer;
+  }
+};
 
 bool is_known_closed(const WallMesh &mesh)
 {
@@ -162,16 +184,16 @@ constexpr Real kWider = 1e-6;
 bool has_inside(const WallMesh &mesh)
 {
   if (is_known_closed(mesh)) return true;
-  if (mesh.faces.empty()) return false;
-  const LooseEdges loose = loose_edges(counted_facets(mesh));
-  return loose.open + loose.against == 0;
+  if (mesh.faces.empty() || (mesh.dropped.empty() && mesh.report.open_edges > 0)) return false;
+  return Closed(mesh).is();
 }
 
 std::string why_no_inside(const WallMesh &mesh)
 {
   if (is_known_closed(mesh)) return "";
-  const LooseEdges loose = loose_edges(counted_facets(mesh));
-  if (loose.open + loose.against == 0) return mesh.faces.empty() ? "it has no facets" : "";
+  if (mesh.faces.empty()) return "it has no facets with an area";
+  const LooseEdges loose = Closed(mesh).loose;
+  if (loose.open + loose.against == 0) return "";
   return std::to_string(loose.open) + " edges are open, and along " +
          std::to_string(loose.against) +
          " more facets are wound against each other; the first goes from " +
@@ -183,7 +205,7 @@ WindingNumber::WindingNumber(const WallMesh &mesh)
 {
   const std::string why = why_no_inside(mesh);
   if (!why.empty()) throw InputError(mesh.source + " has no inside: " + why);
-  const std::vector<Corners> counted = counted_facets(mesh);
+  const std::vector<Corners> counted = is_known_closed(mesh) ? mesh.faces : Closed(mesh).facets;
   facets_.reserve(counted.size());
   for (const Corners &c : counted)
     facets_.push_back({{mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]}});

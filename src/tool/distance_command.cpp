@@ -128,7 +128,7 @@ void print(const Options &o, const Totals &t, const PointAnswers &answers)
   if (answers.has_sides)
     std::printf("  inside      %zu\n", t.inside);
   else
-    std::printf("  sides       none: the mesh is not closed and oriented, or cuts itself: see "
+    std::printf("  sides       none: the mesh is not closed and oriented: see "
                 "lsdcd inspect\n");
   std::printf(
       "  time        %.3g s, of which queries %.3g s; %.3g points per second; grid %.3g s\n",
@@ -195,8 +195,9 @@ void add_distance_command(Command &program)
       "the\n"
       "file, from 0), feature (face, edge, vertex, none; in .npy 0, 1, 2, -1) and its index in "
       "the\n"
-      "welded mesh, and, where the mesh is closed, side (1 outside, -1 inside, 0 not found,\n"
-      "or nearest to a facet without area).\n"
+      "welded mesh, and, where the mesh is closed, side (1 outside and on the mesh, -1 inside, at "
+      "any\n"
+      "distance).\n"
       "Example:\n  lsdcd distance wall.stl points.csv --radius 0.01 -o distances.csv");
   command.runs([o] { distance(*o); });
 }

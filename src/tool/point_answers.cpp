@@ -6,7 +6,9 @@
 #include "base/input_error.h"
 #include "engine/wall_engine.h"
 #include "grid/flat_grid.h"
-#include "query/point_query.h"
+#include "query/point_sides.h"
+
+#include <algorithm>
 
 #if defined(LSDCD_HAVE_CUDA)
 #include <cuda_runtime_api.h>
@@ -25,7 +27,7 @@ StridedView<T> packed(T *at)
 class CpuAnswers : public PointAnswers {
  public:
   CpuAnswers(const WallMesh &mesh, const TriangleGrid &grid) :
-      flat_(grid), grid_(flat_.view()), names_(mesh)
+      flat_(grid), grid_(flat_.view()), names_(mesh), sides_(mesh)
   {
   }
   void answer(const PointBlock &points, AnswerBlock &a) override
@@ -40,13 +42,14 @@ class CpuAnswers : public PointAnswers {
     io.triangle = a.triangle.data();
     io.feature = a.feature.data();
     if (has_sides) io.side = a.side.data();
-    answer_points(grid_, names_, io);
+    answer_with_sides(grid_, names_, sides_, sides_by_normals, io);
   }
 
  private:
   FlatGrid flat_;
   HostGrid grid_;
   TriangleTable names_;
+  PointSides sides_;
 };
 
 #if defined(LSDCD_HAVE_CUDA)
@@ -95,7 +98,7 @@ class DeviceArray {
 
 class CudaAnswers : public PointAnswers {
  public:
-  CudaAnswers(const WallMesh &mesh, const TriangleGrid &grid)
+  CudaAnswers(const WallMesh &mesh, const TriangleGrid &grid) : sides_(mesh)
   {
     const FlatGrid flat(grid);
     radius_ = flat.view().cutoff;
@@ -115,17 +118,22 @@ class CudaAnswers : public PointAnswers {
     io.closest = packed(closest_.of(3 * n));
     io.triangle = triangle_.of(n);
     io.feature = feature_.of(n);
-    if (has_sides) io.side = side_.of(n);
+    if (sides_by_normals) io.side = side_.of(n);
     query_->answer(io);
     check(cudaStreamSynchronize(nullptr), "answering");
     distance_.give(a.distance);
     closest_.give(a.closest);
     triangle_.give(a.triangle);
     feature_.give(a.feature);
-    if (has_sides) side_.give(a.side);
+    if (sides_by_normals)
+      side_.give(a.side);
+    else
+      std::fill(a.side.begin(), a.side.end(), std::int8_t(0));
+    if (has_sides) fill_sides(sides_, n, points.xyz.data(), a.side.data());
   }
 
  private:
+  PointSides sides_;
   Real radius_ = 0;
   std::unique_ptr<StreamQuery> query_;
   DeviceArray<double> points_, distance_, closest_;
@@ -155,7 +163,8 @@ std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, GridSetti
     made = std::make_unique<CudaAnswers>(mesh, grid);
   else
     made = std::make_unique<CpuAnswers>(mesh, grid);
-  made->has_sides = settings.sides && grid.outside != 0;
+  made->sides_by_normals = settings.sides && grid.outside != 0;
+  made->has_sides = made->sides_by_normals || has_inside(mesh);
   made->report = grid.report;
   return made;
 }

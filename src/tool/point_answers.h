@@ -18,7 +18,7 @@ class PointAnswers {
   virtual ~PointAnswers() = default;
   virtual void answer(const PointBlock &points, AnswerBlock &answers) = 0;
 
-  bool has_sides = false;
+  bool has_sides = false, sides_by_normals = false;
   GridReport report;
 };
 

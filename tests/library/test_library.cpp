@@ -243,24 +243,23 @@ TEST(library, the_side_is_that_of_the_box)
       std::size_t inside = 0, wrong = 0;
       for (std::size_t i = 0; i < a.side.size(); i++) {
         const Vec3 q = point(points, i);
-        const bool in = std::max({std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)}) < 1,
-                   sure = a.status[i] == (LSDCD_FOUND | LSDCD_CERTIFIED);
+        const bool in = std::max({std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)}) < 1;
         inside += a.side[i] < 0;
-        wrong += a.side[i] != (!sure ? 0 : in ? -1 : 1);
+        wrong += a.side[i] != (in ? -1 : 1);
       }
       EXPECT_EQ(wrong, 0u) << "nearest " << nearest << " precision " << precision;
       EXPECT_GT(inside, 100u);
     }
 }
 
-TEST(library, the_side_at_a_triangle_without_area_is_not_known)
+TEST(library, the_side_at_a_triangle_without_area_is_that_of_the_others)
 {
   TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
   soup.corners.insert(soup.corners.end(), {{0, 0, -0.1}, {0, 0, 0.1}, {0, 0, 0}});
   const All<double> a(grid_of(soup), {0.1, 0, 0, 0, 0, 0.2, 0.9, 0, 0}, true);
   EXPECT_EQ(a.status[0], LSDCD_FOUND | LSDCD_CERTIFIED);
-  EXPECT_EQ(a.side[0], 0);     // its edge is nearest
-  EXPECT_EQ(a.side[1], 0);     // its corner
+  EXPECT_EQ(a.side[0], -1);    // its edge is nearest
+  EXPECT_EQ(a.side[1], -1);    // its corner
   EXPECT_EQ(a.side[2], -1);    // the box
 }
 
@@ -276,7 +275,7 @@ TEST(library, normals_that_point_in_do_not_change_the_side)
 }
 
 // At (0.95, 1.5, 1.5), inside of the first, a face of the second is nearest, which says outside.
-TEST(library, closed_shells_that_cut_each_other_have_no_sides)
+TEST(library, closed_shells_that_cut_each_other_have_the_sides_of_their_union)
 {
   TriangleSoup soup = lsdcd::box_mesh({0, 0, 0}, {2, 2, 2});
   lsdcd::append(soup, lsdcd::box_mesh({1, 1, 1}, {3, 3, 3}));
@@ -286,16 +285,35 @@ TEST(library, closed_shells_that_cut_each_other_have_no_sides)
   EXPECT_FALSE(mesh.facts().oriented);
   EXPECT_NE(mesh.report().find("cuts or touches itself"), std::string::npos) << mesh.report();
   const lsdcd::Grid grid(mesh, kCutoff);
-  EXPECT_FALSE(grid.facts().has_sides);
-  const double at[3] = {0.95, 1.5, 1.5};
-  std::int8_t side = 7;
-  lsdcd::Query<double> q{at, 1};
-  q.side = &side;
-  EXPECT_EQ(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_SIDE);
-  EXPECT_EQ(side, 7);
+  EXPECT_TRUE(grid.facts().has_sides);
+  const std::vector<double> at = {0.95, 1.5, 1.5, 1.5, 1.5, 1.5, 2.5, 2.5,
+                                  2.5,  2.5, 1,   0.5, 2,   2.5, 1.5};
+  const All<double> a(grid, at, true);
+  EXPECT_EQ(a.side, (std::vector<std::int8_t>{-1, -1, -1, 1, -1}));
 }
 
-TEST(library, a_shell_that_cuts_itself_has_no_sides_from_a_cache_too)
+TEST(library, sides_are_known_where_nothing_is_found)
+{
+  const lsdcd::Grid grid(lsdcd::Mesh(numbers(lsdcd::box_mesh({0, 0, 0}, {9, 9, 9}))), 0.1);
+  const double no = std::nan("");
+  const All<double> a(grid, {4, 4, 4, 4, 4, 12, 1e30, 4, 4, no, 4, 4}, true);
+  EXPECT_EQ(a.side, (std::vector<std::int8_t>{-1, 1, 1, 0}));
+  EXPECT_EQ(a.status[0] & LSDCD_FOUND, 0);
+}
+
+TEST(library, boxes_that_share_an_edge_or_a_face_have_sides)
+{
+  for (const Vec3 &by : {Vec3{1, 1, 0}, Vec3{1, 0, 0}, Vec3{1, 0.25, 0.25}}) {
+    TriangleSoup soup = lsdcd::box_mesh({0, 0, 0}, {1, 1, 1});
+    lsdcd::append(soup, lsdcd::box_mesh(by, by + Vec3{1, 1, 1}));
+    const lsdcd::Grid grid(lsdcd::Mesh(numbers(soup)), kCutoff);
+    const All<double> a(grid, {0.9, 0.5, 0.5, by.x + 0.1, by.y + 0.5, by.z + 0.5, 0.5, 0.5, 1.1},
+                        true);
+    EXPECT_EQ(a.side, (std::vector<std::int8_t>{-1, -1, 1}));
+  }
+}
+
+TEST(library, a_shell_that_cuts_itself_has_sides_from_a_cache_too)
 {
   TriangleSoup soup = lsdcd::box_mesh({0, 0, 0}, {1, 1, 1});
   for (Vec3 &p : soup.corners)
@@ -308,8 +326,12 @@ TEST(library, a_shell_that_cuts_itself_has_no_sides_from_a_cache_too)
     if (std::string(LSDCD_TEST_CACHE) != "no") options.cache = file.c_str();
     const lsdcd::Grid grid(mesh, options);
     EXPECT_EQ(bool(grid.facts().from_cache), again && options.cache);
-    EXPECT_FALSE(grid.facts().has_sides);
-    EXPECT_NE(grid.report().find("no sides"), std::string::npos) << grid.report();
+    EXPECT_TRUE(grid.facts().has_sides);
+    EXPECT_NE(grid.report().find("sides on the host alone"), std::string::npos) << grid.report();
+    // In the box, where its corner was, in the part that came out, and beside that.
+    const All<double> a(grid, {0.9, 0.9, 0.9, 0.05, 0.05, 0.05, 1.1, 0.45, 0.25, 1.5, 0.9, 0.9},
+                        true);
+    EXPECT_EQ(a.side, (std::vector<std::int8_t>{-1, 1, -1, 1}));
   }
 }
 

@@ -163,7 +163,9 @@ void expect_on_lattice(const TriangleSoup &soup, int lo, int hi, const Number &n
         const Vec3 q = {i / 4., j / 4., k / 4.};
         const WindingNumber::Answer a = winding.at(q), wanted = number(q);
         ASSERT_EQ(a.on_surface, wanted.on_surface) << q.x << " " << q.y << " " << q.z;
-        if (!a.on_surface) ASSERT_EQ(a.number, wanted.number) << q.x << " " << q.y << " " << q.z;
+        if (!a.on_surface) {
+          ASSERT_EQ(a.number, wanted.number) << q.x << " " << q.y << " " << q.z;
+        }
       }
 }
 

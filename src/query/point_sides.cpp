@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "query/point_sides.h"
+
+#include "backend/backend_cpu.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+// Where a side is 0; it stays 0 where a coordinate is no number.
+template <class T>
+void fill(const PointSides &sides, std::size_t n, const StridedView<T> &points, std::int8_t *side)
+{
+  if (std::find(side, side + n, 0) == side + n) return;
+  const WindingNumber &winding = sides.winding();
+  CpuBackend().for_each(n, [&](std::size_t i) {
+    const T *at = points.of(i);
+    const Vec3 q = {at[0], at[points.column], at[2 * points.column]};
+    if (side[i] == 0 && !std::isnan(q.x + q.y + q.z))
+      side[i] = static_cast<std::int8_t>(winding.side(q));
+  });
+}
+
+template <class T>
+void answer(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
+            bool by_normals, const PointArrays<T> &io)
+{
+  PointArrays<T> without = io;
+  if (!by_normals) without.side = nullptr;
+  answer_points(grid, names, without);
+  if (!io.side) return;
+  if (!by_normals) std::fill_n(io.side, io.n, std::int8_t(0));
+  fill(sides, io.n, io.points, io.side);
+}
+
+}    // namespace
+
+void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
+                       bool by_normals, const PointArrays<float> &io)
+{
+  answer(grid, names, sides, by_normals, io);
+}
+void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
+                       bool by_normals, const PointArrays<double> &io)
+{
+  answer(grid, names, sides, by_normals, io);
+}
+
+void fill_sides(const PointSides &sides, std::size_t n, const double *at, std::int8_t *side)
+{
+  fill(sides, n, StridedView<const double>{at, 3, 1}, side);
+}
+
+}    // namespace lsdcd

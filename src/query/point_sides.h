@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Sides of points, by the nearest feature's normal or by winding numbers.
+#pragma once
+
+#include "mesh/winding_number.h"
+#include "query/point_query.h"
+
+#include <memory>
+#include <mutex>
+
+namespace lsdcd {
+
+// The winding numbers of a mesh, borrowed, made when a point needs them. Any number of threads may ask.
+class PointSides {
+ public:
+  explicit PointSides(const WallMesh &mesh) : mesh_(mesh) {}
+
+  const WindingNumber &winding() const
+  {
+    std::call_once(made_, [&] { winding_ = std::make_unique<WindingNumber>(mesh_); });
+    return *winding_;
+  }
+
+ private:
+  const WallMesh &mesh_;
+  mutable std::once_flag made_;
+  mutable std::unique_ptr<WindingNumber> winding_;
+};
+
+// answer_points(), and the sides of all points. `by_normals`: the grid has sides, which nearest features
+// tell where one is found. All other sides are of winding numbers, at any distance. The mesh must have an
+// inside where sides are asked for.
+void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
+                       bool by_normals, const PointArrays<float> &io);
+void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
+                       bool by_normals, const PointArrays<double> &io);
+
+// Of points whose `side` is 0; at[0, n) are packed coordinates.
+void fill_sides(const PointSides &sides, std::size_t n, const double *at, std::int8_t *side);
+
+}    // namespace lsdcd
