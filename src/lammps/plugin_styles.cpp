@@ -6,6 +6,7 @@
 #include "lammps/compute_collide_lsdcd.h"
 #include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/fix_wall_lsdcd.h"
+#include "lammps/region_mesh_lsdcd.h"
 
 #include "lammps.h"
 
@@ -62,6 +63,9 @@ void add_plain_styles(void *lmp, void *handle, void *regfunc)
   add_style("compute", lmp, handle, regfunc, "lsdcd/collide",
             "compute lsdcd/collide: rigid bodies against the walls of fix wall/lsdcd",
             create_style<Compute, ComputeCollideLsdcd>);
+  add_style("region", lmp, handle, regfunc, "mesh/lsdcd",
+            "region mesh/lsdcd: the inside of a closed mesh",
+            create_style<Region, RegionMeshLsdcd>);
 }
 
 }    // namespace lsdcd

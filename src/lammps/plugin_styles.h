@@ -15,7 +15,7 @@ namespace lsdcd {
 // why it does not match. Touches no object of LAMMPS.
 bool host_matches(void *lmp);
 
-// Of a kind, "fix" or "compute".
+// Of a kind, "fix", "compute" or "region".
 void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const char *name,
                const char *info, lammpsplugin_factory2 *create);
 

@@ -308,6 +308,22 @@ TABLES = [
         ("collide_twice", "wall mesh floor.stl grid 1 grid 2", "the keyword 'grid' is given twice"),
         ("collide_unknown_keyword", "wall mesh floor.stl bodie one", "'bodie' is not a keyword", "bodies one"),
     ]),
+    # region mesh/lsdcd
+    (WALL + "region          r mesh/lsdcd {}\n" + RUN, [
+        ("region_gap", "two.stl gap -1", "Region r mesh/lsdcd", "'gap'", "D = -1 is out of range"),
+        ("region_mesh_twice", "two.stl mesh two.stl", "Region r mesh/lsdcd", "'mesh' is not a keyword"),
+        ("region_missing_file", "nowhere.stl", "Region r mesh/lsdcd", "nowhere.stl"),
+        ("region_move_twice", "two.stl move v_x NULL NULL move v_x NULL NULL",
+         "Region r mesh/lsdcd", "'move' by a variable is given twice"),
+        ("region_no_words", "", "Region r mesh/lsdcd", "FILE is missing", "Syntax: region ID mesh/lsdcd FILE"),
+        ("region_open", "floor.stl", "Region r mesh/lsdcd", "floor.stl has no inside", "edges are open",
+         "the first goes from", "lsdcd repair"),
+        ("region_open_face", "two.stl open 1", "Region r mesh/lsdcd", "'open' is not a keyword"),
+        ("region_rotate_short", "two.stl rotate v_turn 0 0 0", "Region r mesh/lsdcd", "'rotate' has too few values"),
+        ("region_side", "two.stl side both", "Region r mesh/lsdcd", "'side'", "'both'"),
+        ("region_wall", "two.stl scale 40 move -8 -8 -8\nfix w all wall/region r harmonic 1 1 0.5",
+         "Region r mesh/lsdcd", "the region is no wall", "use fix wall/lsdcd"),
+    ]),
     (body(FOUR_ATOMS) + "{}\n" + RUN, [
         ("collide_no_atoms", "group           none empty\n"
          "compute         c none lsdcd/collide wall mesh floor.stl",

@@ -79,10 +79,10 @@ def with_meshes(line, folder):
     """The line with meshes that are there: one file for each scale."""
     def replace(match):
         scale = re.match(r"(?:(?!\bmesh\b).)*?\bscale (\S+)", line[match.end():])
-        name = f"{match[1]}_{scale[1] if scale else 1}.stl"
+        name = f"{match[2]}_{scale[1] if scale else 1}.stl"
         cube(folder / name, 1.2 / float(scale[1] if scale else 1))
-        return "mesh " + name
-    return re.sub(r"\bmesh ([\w-]+)\.(?:stl|obj|ply|off)\b", replace, line)
+        return f"mesh{match[1]} {name}"
+    return re.sub(r"\bmesh(/lsdcd|) ([\w-]+)\.(?:stl|obj|ply|off)\b", replace, line)
 
 
 def script_of(block, folder, known):

@@ -8,6 +8,7 @@
 
 #include "comm.h"
 #include "command.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "compute.h"
@@ -15,6 +16,7 @@
 #include "input.h"
 #include "lammps.h"
 #include "modify.h"
+#include "region.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -70,6 +72,8 @@ void register_style(lammpsplugin_t *plugin, void *host)
     (*lmp->modify->fix_map)[name] = (Modify::FixCreator) plugin->creator.v2;
   else if (style == "compute")
     (*lmp->modify->compute_map)[name] = (Modify::ComputeCreator) plugin->creator.v2;
+  else if (style == "region")
+    (*lmp->domain->region_map)[name] = (Domain::RegionCreator) plugin->creator.v2;
   else if (style == "pair")
     (*lmp->force->pair_map)[name] = (Force::PairCreator) plugin->creator.v1;
   else if (style == "command")
@@ -80,6 +84,16 @@ void register_style(lammpsplugin_t *plugin, void *host)
   }
   if (!quiet) say(lmp, std::string("Loading plugin: ") + plugin->info + " by " + plugin->author);
   loaded.push_back(*plugin);
+}
+
+void delete_regions(Domain &domain, const std::string &style)
+{
+#if LSDCD_HOST_VERSION < 20220601
+  for (int i = domain.nregion - 1; i >= 0; i--)
+    if (style == domain.regions[i]->style) domain.delete_region(i);
+#else
+  for (Region *region : domain.get_region_by_style(style)) domain.delete_region(region);
+#endif
 }
 
 // Deletes what uses the style, then the style. The file stays open: other styles
@@ -103,6 +117,9 @@ void unload(LAMMPS *lmp, const std::string &style, const std::string &name)
       if (name == modify->compute[i]->style)
         modify->delete_compute(std::string(modify->compute[i]->id));
     modify->compute_map->erase(name);
+  } else if (style == "region") {
+    delete_regions(*lmp->domain, name);
+    lmp->domain->region_map->erase(name);
   } else if (style == "pair") {
     const char *current = lmp->force->pair_style;
     if (current && (name == current || std::strncmp(current, "hybrid", 6) == 0))

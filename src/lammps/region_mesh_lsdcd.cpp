@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+#include "lammps/region_mesh_lsdcd.h"
+
+#include "base/input_error.h"
+#include "lammps/mpi_mesh.h"
+#include "lammps/mpi_shared.h"
+
+#include "comm.h"
+#include "error.h"
+
+#include <cstdio>
+#include <vector>
+
+using namespace LAMMPS_NS;
+using lsdcd::Vec3;
+
+RegionMeshLsdcd::RegionMeshLsdcd(LAMMPS *lmp, int narg, char **arg) : Region(lmp, narg, arg)
+{
+  cmax = tmax = 0;
+  contact = nullptr;
+  try {
+    settings = lsdcd::parse_region(std::vector<std::string>(arg + 2, arg + narg));
+    read_host_words();
+    const lsdcd::WallMesh mesh = lsdcd::read_together(world, settings.mesh);
+    lsdcd::run_collectively(world, true, [&] {
+      winding = std::make_unique<lsdcd::WindingNumber>(mesh);
+      if (settings.gap > 0) clearance = std::make_unique<lsdcd::SurfaceClearance>(mesh);
+    });
+    set_bounds(mesh.report);
+    log(mesh);
+  } catch (const lsdcd::InputError &e) {
+    error->all(FLERR, with_region_id(e.what()));
+  }
+}
+
+// The mesh is in lengths of the box, as that of the fix, unless the script says lattice.
+void RegionMeshLsdcd::read_host_words()
+{
+  std::vector<char *> words;
+  for (std::string &word : settings.host_words) words.push_back(&word[0]);
+  options(static_cast<int>(words.size()), words.data());
+  if (!scaleflag) return;
+  settings.mesh.placement.scale({xscale, yscale, zscale});
+  settings.gap *= xscale;
+}
+
+// Where the region moves they are not known before.
+void RegionMeshLsdcd::set_bounds(const lsdcd::MeshReport &mesh)
+{
+  bboxflag = interior && !dynamic;
+  extent_xlo = mesh.lo.x;
+  extent_ylo = mesh.lo.y;
+  extent_zlo = mesh.lo.z;
+  extent_xhi = mesh.hi.x;
+  extent_yhi = mesh.hi.y;
+  extent_zhi = mesh.hi.z;
+}
+
+// As LAMMPS asks it: of the mesh's inside with its surface, for either side. With a gap the points near
+// the surface are on neither side.
+int RegionMeshLsdcd::inside(double x, double y, double z)
+{
+  const Vec3 q = {x, y, z};
+  const lsdcd::WindingNumber::Answer at = winding->at(q);
+  const bool is_in = at.on_surface || at.number != 0;
+  if (!clearance || (is_in != (interior == 1))) return is_in;
+  return clearance->is_clear(q, settings.gap) ? is_in : !interior;
+}
+
+int RegionMeshLsdcd::surface_interior(double *, double)
+{
+  refuse_surface();
+}
+
+int RegionMeshLsdcd::surface_exterior(double *, double)
+{
+  refuse_surface();
+}
+
+void RegionMeshLsdcd::refuse_surface() const
+{
+  error->one(FLERR,
+             with_region_id("the region is no wall: use fix wall/lsdcd with its mesh in place of "
+                            "fix wall/region or fix wall/gran/region"));
+}
+
+void RegionMeshLsdcd::log(const lsdcd::WallMesh &mesh) const
+{
+  if (comm->me != 0) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "%zu triangles, %.3g MB on each process", mesh.faces.size(),
+                1e-6 *
+                    static_cast<double>(winding->bytes() + (clearance ? clearance->bytes() : 0)));
+  utils::logmesg(lmp, with_region_id(text) + "\n");
+}
+
+std::string RegionMeshLsdcd::with_region_id(const std::string &text) const
+{
+  return "Region " + std::string(id) + " mesh/lsdcd: " + text;
+}

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// region mesh/lsdcd: the inside of a closed mesh as a region of LAMMPS.
+#ifndef LMP_REGION_MESH_LSDCD_H
+#define LMP_REGION_MESH_LSDCD_H
+
+#include "region.h"
+
+#include "input/region_settings.h"
+#include "mesh/surface_clearance.h"
+#include "mesh/winding_number.h"
+
+#include <memory>
+#include <string>
+
+namespace LAMMPS_NS {
+
+// Every process has the whole mesh.
+class RegionMeshLsdcd : public Region {
+ public:
+  RegionMeshLsdcd(class LAMMPS *, int, char **);
+
+  int inside(double, double, double) override;
+  int surface_interior(double *, double) override;
+  int surface_exterior(double *, double) override;
+
+ private:
+  void read_host_words();
+  void set_bounds(const lsdcd::MeshReport &);
+  void log(const lsdcd::WallMesh &) const;
+  std::string with_region_id(const std::string &) const;
+  [[noreturn]] void refuse_surface() const;
+
+  lsdcd::RegionSettings settings;
+  std::unique_ptr<lsdcd::WindingNumber> winding;
+  std::unique_ptr<lsdcd::SurfaceClearance> clearance;    // where there is a gap
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
