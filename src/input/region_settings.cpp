@@ -36,7 +36,7 @@ void keep_choice(const std::string &word, const std::vector<std::string> &choice
                  RegionSettings &s)
 {
   w.set_context(word, word + " " + choices[0] + " | " + choices[1]);
-  const std::string chosen = choices[w.choice(choices)];
+  const std::string &chosen = choices[w.choice(choices)];
   s.host_words.push_back(word);
   s.host_words.push_back(chosen);
 }
