@@ -96,6 +96,10 @@ struct GridView {
   }
 };
 
+// What reads the lists: a step, which keeps what it finds for many steps, or queries of points, which
+// read a list for each.
+enum class GridPurpose { step, points };
+
 struct GridSettings {
   Real length = 0;                  // 0: chosen from the mesh, the cutoff and the budget
   Real cutoff = 0;                  // > 0
@@ -104,7 +108,8 @@ struct GridSettings {
   bool sides = false;               // keep what `side in|out` needs
   int nearest = 0;           // 0: complete lists; N, at most kMaxNearest: the N nearest primitives
   bool in_floats = false;    // brick records, for queries in float
-  bool for_gpu = false;      // spheres are on a GPU: the chosen length is shorter
+  GridPurpose purpose = GridPurpose::step;
+  bool for_gpu = false;        // spheres are on a GPU: the chosen length is shorter
   bool may_coarsen = false;    // a given length may grow, too, until the budget holds
   // Where centres of spheres can be. The grid is cut off there.
   Box within = kNoLimit;

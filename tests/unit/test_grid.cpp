@@ -219,6 +219,20 @@ TEST(grid, for_a_gpu_a_given_cell_stays)
   EXPECT_NEAR(chosen_for_gpu(2, 0.25, 0, 0.2), 0.8, 1e-15);
 }
 
+// Points read a list each: two edges, from a tenth of the cutoff to all of it.
+TEST(grid, for_points_a_cell_goes_with_the_edges)
+{
+  const auto chosen = [](int n, Real cutoff) {
+    GridSettings settings;
+    settings.cutoff = cutoff;
+    settings.purpose = GridPurpose::points;
+    return plan_grid(weld(floor_mesh(n, 1), -1), settings).length / cutoff;
+  };
+  EXPECT_EQ(chosen(2, 0.25), 1);
+  EXPECT_NEAR(chosen(100, 0.1), 2 * 0.02 / 0.1, 1e-12);
+  EXPECT_EQ(chosen(100, 0.5), 0.1);
+}
+
 TEST(grid, coarser_cells_for_a_gpu_come_to_those_of_a_cpu)
 {
   const WallMesh mesh = weld(floor_mesh(100, 1), -1);

@@ -121,8 +121,13 @@ std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks)
   return plan.table_size() * sizeof(std::int32_t) + bricks * kBrickBytes;
 }
 
-Real default_length(const WallMesh &mesh, Real cutoff, int nearest, bool for_gpu)
+Real default_length(const WallMesh &mesh, Real cutoff, int nearest, bool for_gpu,
+                    GridPurpose purpose)
 {
+  // Each point reads a list. Two edges keep it at a few features; below a tenth of the cutoff memory grows
+  // and little is gained.
+  if (nearest == 0 && purpose == GridPurpose::points)
+    return std::clamp(2 * mesh.report.median_edge, Real(0.1) * cutoff, cutoff);
   // Complete lists are read when a sphere's list of the wall is gathered, not in every step. With
   // cells of the radius that takes no longer than with smaller ones, and the lists take less
   // memory than the mesh's records. Larger cells name too many spheres that touch nothing.
@@ -143,11 +148,11 @@ GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
                      "; it must be the largest particle radius, above 0");
   // A billionth of the mesh: smaller cells cannot be numbered, and the smallest numbers do not grow.
   const Real least = Real(0x1p-30) * norm(mesh.report.hi - mesh.report.lo);
-  const Real length =
-      settings.length > 0
-          ? settings.length
-          : std::max(default_length(mesh, settings.cutoff, settings.nearest, settings.for_gpu),
-                     least);
+  const Real length = settings.length > 0
+                          ? settings.length
+                          : std::max(default_length(mesh, settings.cutoff, settings.nearest,
+                                                    settings.for_gpu, settings.purpose),
+                                     least);
   return plan_with_length(mesh, settings, length,
                           least_volume(mesh, settings.cutoff, settings.within));
 }

@@ -64,9 +64,10 @@ struct CellCentres {
   }
 };
 
-// The default length of a cell, for complete lists or nearest primitives, and for spheres on a CPU or
-// a GPU.
-Real default_length(const WallMesh &mesh, Real cutoff, int nearest, bool for_gpu);
+// The default length of a cell, for complete lists or nearest primitives, for steps or points, and for
+// spheres on a CPU or a GPU.
+Real default_length(const WallMesh &mesh, Real cutoff, int nearest, bool for_gpu,
+                    GridPurpose purpose = GridPurpose::step);
 
 // From the settings; if these have no length, it follows from the mesh and the cutoff.
 GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
