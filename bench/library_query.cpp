@@ -25,7 +25,7 @@ LibraryQuery::LibraryQuery(const TriangleSoup &mesh, Real cutoff, bool in_floats
   options.size = sizeof options;
   options.cutoff = cutoff;
   options.precision = in_floats ? LSDCD_FLOAT : LSDCD_DOUBLE;
-  options.memory = 16e9;
+  if (in_floats) options.memory = 16e9;
   lsdcd_grid *grid = nullptr;
   const int code = lsdcd_grid_build(read, &options, &grid);
   lsdcd_mesh_free(read);

@@ -105,7 +105,7 @@ WALKS = {
             read_stl read_stl_bytes read_binary read_stl_text Placement::apply weld weld_points sort_facets
             build_edges number_flat_edges_last measure_mesh > GridManager::rebuild MeshGrid::build
             MeshGrid::whole with_images load_or_build_grid > build_cpu.cpp:build_grid build_grid_on
-            wall_features.cpp:make_features make_face make_edge face_record WallFeatures::view > move_flat""",
+            wall_features.cpp:make_features make_face_record make_edge face_record WallFeatures::view > move_flat""",
     },
     "from the words rolling cdt to the torque": {
         "before": """
@@ -122,10 +122,10 @@ WALKS = {
             BrickTable::at PointWork::far PointWork::answer nearest_from nearest_in_cell WallDistances::feature
             closest_point_on PointWork::keep""",
         "now": """
-            lsdcd_query_host guard checked_query arrays_of answer_points answer_on_cpu with_point_work
-            NearFirstCpu::run CpuBackend::for_each NearFirstCpu::answer_block PointWork::sphere brick_place_of
-            BrickTable::at PointWork::far PointWork::answer nearest_from nearest_in_cell WallDistances::feature
-            closest_point_on PointWork::keep""",
+            lsdcd_query_host guard checked_query arrays_of answer_on_host point_sides.cpp:answer_with_sides
+            point_sides.cpp:answer tree_query.cpp:answer_points TreeQuery::run
+            TreeQuery::answer_in_order TreeQuery::is_far TreeQuery::point NearBoxes::may_be_near TreeQuery::answer
+            TriangleTree::nearest TriangleTree::search_near_plain TriangleTree::search_near TriangleTree::attempt TriangleTree::exact TriangleTree::segment TreeQuery::keep""",
     },
 }
 

@@ -9,7 +9,10 @@
 #include "engine/wall_engine.h"
 #include "grid/cache/load_or_build.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 
 using namespace lsdcd;
 
@@ -20,10 +23,18 @@ void refuse(const std::string &text)
   throw ApiError(LSDCD_ERROR_ARGUMENT, "`lsdcd_grid_options`: " + text);
 }
 
+// Does a choice ask for cells, not for a tree?
+bool names_cells(const lsdcd_grid_options &o)
+{
+  return o.cell > 0 || o.nearest > 0 || o.precision != LSDCD_DOUBLE || o.memory > 0 || o.cache ||
+         o.device != LSDCD_CPU;
+}
+
 GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
 {
-  if (!(o.cutoff > 0) || !std::isfinite(o.cutoff))
-    refuse("cutoff is " + number_text(o.cutoff) + "; give the largest distance that matters");
+  if (!(o.cutoff >= 0) || !std::isfinite(o.cutoff))
+    refuse("cutoff is " + number_text(o.cutoff) +
+           "; give the largest distance that matters, or 0 for any");
   if (!(o.cell >= 0) || !std::isfinite(o.cell))
     refuse("cell is " + number_text(o.cell) + "; give a length, or 0 to have it chosen");
   if (o.nearest < 0 || o.nearest > kMaxNearest)
@@ -36,6 +47,10 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   check_threads(o.threads);
   if (o.device != LSDCD_CPU && o.device != LSDCD_CUDA)
     refuse("device is neither LSDCD_CPU nor LSDCD_CUDA");
+  if (o.cutoff == 0 && names_cells(o))
+    refuse("cell, nearest, precision, memory, cache and device are of the cells of a grid, which "
+           "need a "
+           "cutoff: give the largest distance that matters, or leave them 0");
   GridSettings s;
   s.length = o.cell;
   s.length_name = "`cell`";
@@ -45,6 +60,7 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   s.sides = with_sides;
   s.nearest = o.nearest;
   s.in_floats = o.precision == LSDCD_FLOAT;
+  s.purpose = GridPurpose::points;
   return s;
 }
 
@@ -63,7 +79,85 @@ class OwnPlace : public GridPlace {
   FlatGrid &grid_;
 };
 
+std::unique_ptr<ApiCells> make_cells(const std::string &cache, const ApiMesh &from,
+                                     const GridSettings &settings, bool on_cuda)
+{
+  auto made = std::make_unique<ApiCells>();
+  OwnPlace place(made->flat);
+  const LoadedGrid loaded = load_or_build_grid(cache, from.mesh, settings, on_cuda, place);
+  made->from_cache = loaded.from_cache;
+  made->report = describe(loaded.report);
+  for (const std::string &line : {loaded.cache_warning, loaded.cache_text})
+    if (!line.empty()) made->report += "\n  " + line;
+  made->grid = HostGrid(made->flat.view());
+  made->sides_by_normals = settings.sides && made->grid.view.outside != 0;
+  if (!made->sides_by_normals && has_inside(from.mesh))
+    made->report +=
+        "\n  sides on the host alone: triangles of the mesh cut, overlap or touch each other";
+  return made;
+}
+
+std::string text_of(const TriangleTree &tree, Real cutoff, double seconds)
+{
+  char text[128];
+  std::snprintf(text, sizeof text, "%s: %zu triangles, %.1f MB, built in %.3f s",
+                cutoff > 0 ? (", cutoff " + number_text(cutoff)).c_str() : "", tree.n_primitives(),
+                static_cast<double>(tree.bytes()) / 1e6, seconds);
+  return std::string("  tree") + text;
+}
+
 }    // namespace
+
+namespace lsdcd {
+
+ApiGrid::ApiGrid(std::shared_ptr<const ApiMesh> from, const lsdcd_grid_options &o) :
+    mesh(std::move(from)), names(mesh->mesh), has_sides(has_inside(mesh->mesh)), cutoff_(o.cutoff),
+    settings_(settings_of(o, mesh->normals_agree())), cache_(o.cache ? o.cache : ""),
+    on_cuda_(o.device == LSDCD_CUDA)
+{
+  std::string why;
+  if (on_cuda_ && !cuda_available(&why))
+    throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why + "; build with LSDCD_CPU");
+  if (names_cells(o)) {
+    report = cells().report;
+    return;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const TriangleTree &made = tree();
+  near();
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+  report = text_of(made, cutoff_, passed.count());
+}
+
+Real ApiGrid::cutoff() const
+{
+  return is_limited() ? cutoff_ : HUGE_VAL;
+}
+
+const TriangleTree &ApiGrid::tree() const
+{
+  return tree_.get([&] { return std::make_unique<TriangleTree>(mesh->mesh, names); });
+}
+
+const NearBoxes *ApiGrid::near() const
+{
+  if (!is_limited()) return nullptr;
+  return &near_.get([&] { return std::make_unique<NearBoxes>(tree(), mesh->mesh, cutoff_); });
+}
+
+const ApiCells &ApiGrid::cells(bool on_cuda) const
+{
+  return cells_.get([&] { return make_cells(cache_, *mesh, settings_, on_cuda || on_cuda_); });
+}
+
+std::size_t ApiGrid::bytes() const
+{
+  const TriangleTree *tree = tree_.made();
+  const ApiCells *cells = cells_.made();
+  return (tree ? tree->bytes() : 0) + (cells ? cells->flat.bytes() : 0);
+}
+
+}    // namespace lsdcd
 
 extern "C" {
 
@@ -73,27 +167,8 @@ int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, 
     need(grid, "grid");
     need(mesh, "mesh");
     const lsdcd_grid_options o = checked(options, "lsdcd_grid_options");
-    const ApiMesh &from = *mesh->in;
-    const GridSettings settings = settings_of(o, from.normals_agree());
-    std::string why;
-    if (o.device == LSDCD_CUDA && !cuda_available(&why))
-      throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why + "; build with LSDCD_CPU");
-    const CallThreads threads(o.threads);
-    auto made = std::make_shared<ApiGrid>(mesh->in);
-    OwnPlace place(made->flat);
-    const LoadedGrid loaded = load_or_build_grid(o.cache ? o.cache : "", from.mesh, settings,
-                                                 o.device == LSDCD_CUDA, place);
-    made->from_cache = loaded.from_cache;
-    made->report = describe(loaded.report);
-    for (const std::string &line : {loaded.cache_warning, loaded.cache_text})
-      if (!line.empty()) made->report += "\n  " + line;
-    made->grid = HostGrid(made->flat.view());
-    made->sides_by_normals = settings.sides && made->grid.view.outside != 0;
-    made->has_sides = made->sides_by_normals || has_inside(from.mesh);
-    if (made->has_sides && !made->sides_by_normals)
-      made->report +=
-          "\n  sides on the host alone: triangles of the mesh cut, overlap or touch each other";
-    *grid = new lsdcd_grid{std::move(made)};
+    const CallThreads threads(std::max(o.threads, 0));
+    *grid = new lsdcd_grid{std::make_shared<const ApiGrid>(mesh->in, o)};
   });
 }
 
@@ -103,12 +178,13 @@ int lsdcd_grid_get_facts(const lsdcd_grid *grid, lsdcd_grid_facts *facts)
     need(grid, "grid");
     lsdcd_grid_facts f = checked(facts, "lsdcd_grid_facts");
     const ApiGrid &g = *grid->in;
-    f.cutoff = g.grid.view.cutoff;
-    f.cell = g.grid.view.length;
-    f.bytes = g.flat.bytes();
-    f.nearest = g.grid.view.nearest;
     f.has_sides = g.has_sides;
-    f.from_cache = g.from_cache;
+    const ApiCells *cells = g.cells_made();
+    f.cutoff = g.cutoff();
+    f.cell = cells ? cells->grid.view.length : 0;
+    f.bytes = g.bytes();
+    f.nearest = g.nearest();
+    f.from_cache = cells && cells->from_cache;
     copy_out(f, facts);
   });
 }

@@ -4,7 +4,7 @@
 /* Distances from points to a triangle mesh, exact and many at once, on the CPU or an NVIDIA GPU; which
  * triangles of a rigid body meet which of a wall; and a wall that pushes spheres, step by step.
  *
- *   mesh -> grid, for distances up to a cutoff -> queries of points in arrays of the caller
+ *   mesh -> grid, for distances at any range or up to a cutoff -> queries of points in arrays of the caller
  *   two meshes -> body -> its collisions with the wall, pose by pose
  *   words of fix wall/lsdcd -> wall -> forces and torques on the caller's spheres, step by step
  *
@@ -94,28 +94,33 @@ LSDCD_API void lsdcd_mesh_free(lsdcd_mesh *mesh);
 
 typedef struct lsdcd_grid lsdcd_grid;
 
+/* On the CPU a tree answers points in double at any range, exactly, and the same whatever the cutoff. Cells
+ * with lists serve GPUs, LSDCD_FLOAT and `nearest`, up to a cutoff. lsdcd_grid_build() makes them where an
+ * option from `cell` to `cache`, or `device`, is set; else the first stream does. */
+
 /* Distances of a grid with precision LSDCD_FLOAT are off by at most 3e-6 (cutoff + 14 cell). */
 enum { LSDCD_DOUBLE = 0, LSDCD_FLOAT = 1 };
 enum { LSDCD_CPU = 0, LSDCD_CUDA = 1 };
 
 typedef struct lsdcd_grid_options {
   size_t size;       /* of this struct */
-  double cutoff;     /* the largest distance that will be asked for; > 0 */
+  double cutoff;     /* the largest distance that will be asked for; 0: any, on the CPU */
   double cell;       /* edge of a cell: time against memory; 0: chosen */
   int nearest;       /* 0: complete lists, always exact; N: the N triangles nearest to a cell */
   int precision;     /* of the search: LSDCD_DOUBLE, or LSDCD_FLOAT, quicker on a GPU */
   double memory;     /* most bytes; 0: 1 GiB beside the mesh's own records */
-  const char *cache; /* file that keeps the grid; one that does not fit is replaced; null: none */
+  const char *cache; /* file that keeps the cells; one that does not fit is replaced; null: none */
   int threads;       /* that build it; 0: OMP_NUM_THREADS, or one */
-  int device;        /* that builds it: LSDCD_CPU or LSDCD_CUDA; the grid is the same */
+  int device;        /* that builds cells: LSDCD_CPU or LSDCD_CUDA; they are the same */
 } lsdcd_grid_options;
 /* Any. */
 LSDCD_API int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options,
                                lsdcd_grid **grid);
 
 typedef struct lsdcd_grid_facts {
-  size_t size; /* of this struct; set by the caller */
-  double cutoff, cell;
+  size_t size;   /* of this struct; set by the caller */
+  double cutoff; /* infinite: any */
+  double cell;   /* 0: there are no cells yet */
   size_t bytes;
   int nearest;
   int has_sides;  /* do as many triangles run one way along each edge as the other? */
@@ -155,7 +160,7 @@ typedef struct lsdcd_query {
   ptrdiff_t points_row, points_column;
   const void *radii; /* of each point, >= 0, at 0 nothing is found; null: `radius` is that of all */
   ptrdiff_t radii_step;
-  double radius; /* >= 0; 0: the cutoff */
+  double radius; /* >= 0; 0: the cutoff, or any distance without one */
   void *distance;
   ptrdiff_t distance_step;
   void *closest;
@@ -177,7 +182,7 @@ typedef struct lsdcd_query {
 LSDCD_API int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query);
 
 /* A grid on the CUDA device that is current, and a stream (cudaStream_t) of that device, null: the
- * default one. The stream must outlive it. Streams of one grid share its copy on a device. Any. */
+ * default one. The grid must have a cutoff. The stream must outlive it. Streams of one grid share its copy on a device. Any. */
 typedef struct lsdcd_stream lsdcd_stream;
 LSDCD_API int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **stream);
 /* Answers in arrays of that device, or managed ones, in the order of the stream and without waiting

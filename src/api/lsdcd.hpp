@@ -86,9 +86,9 @@ class Mesh {
   std::unique_ptr<lsdcd_mesh, c::Free<lsdcd_mesh_free>> handle_;
 };
 
-// All that is 0 has its default.
+// All that is 0 has its default. Without a cutoff distances at any range are found.
 struct GridOptions : lsdcd_grid_options {
-  explicit GridOptions(double largest) : lsdcd_grid_options()
+  explicit GridOptions(double largest = 0) : lsdcd_grid_options()
   {
     size = sizeof(lsdcd_grid_options);
     cutoff = largest;
@@ -115,7 +115,7 @@ class Grid {
     c::check(lsdcd_grid_build(mesh.get(), &options, &made));
     handle_.reset(made);
   }
-  Grid(const Mesh &mesh, double cutoff) : Grid(mesh, GridOptions(cutoff)) {}
+  explicit Grid(const Mesh &mesh, double cutoff = 0) : Grid(mesh, GridOptions(cutoff)) {}
 
   GridFacts facts() const
   {
@@ -128,7 +128,7 @@ class Grid {
 
   void query(const lsdcd_query &q) const { c::check(lsdcd_query_host(get(), &q)); }
 
-  // Of points x y z x y z; infinite beyond the radius, 0: the cutoff.
+  // Of points x y z x y z; infinite beyond the radius, 0: the cutoff, or none.
   template <class T>
   std::vector<T> distances(const std::vector<T> &points, double radius = 0) const
   {

@@ -187,10 +187,10 @@ class Mesh(_Owner):
     def report(self):
         return _lib.lsdcd_mesh_report(self._handle).decode()
 
-    def grid(self, cutoff, cell=0.0, nearest=0, precision="double", memory=0.0, cache=None,
+    def grid(self, cutoff=None, cell=0.0, nearest=0, precision="double", memory=0.0, cache=None,
              threads=0, device="cpu"):
-        """A Grid for distances up to `cutoff`; the words are those of lsdcd_grid_options."""
-        options = _sized(_GridOptions, cutoff=cutoff, cell=cell, nearest=nearest,
+        """A Grid for distances up to `cutoff`, None: any; the words are those of lsdcd_grid_options."""
+        options = _sized(_GridOptions, cutoff=0.0 if cutoff is None else cutoff, cell=cell, nearest=nearest,
                          precision=_chosen("precision", precision, ("double", "float")), memory=memory,
                          cache=os.fsencode(cache) if cache else None, threads=threads,
                          device=_chosen("device", device, DEVICES))
@@ -215,7 +215,7 @@ class Grid(_Owner):
 
     def query(self, points, want="distance", radius=None, threads=0):
         """Answers for points, (n, 3), as arrays named by `want`: distance, closest, normal,
-        triangle, feature, side, status. `radius`: one above 0, or (n,); by default the cutoff. Of one
+        triangle, feature, side, status. `radius`: one above 0, or (n,); by default the cutoff, or any distance without one. Of one
         point, (3,), the arrays have no first dimension."""
         points = np.asarray(points)
         if points.dtype not in (np.float32, np.float64):

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "api/lsdcd.h"
+#include "api/made_once.h"
 #include "grid/flat_grid.h"
 #include "mesh/wall_mesh.h"
 #include "query/point_sides.h"
@@ -27,20 +28,49 @@ struct ApiMesh {
   bool normals_agree() const { return mesh.report.closed && mesh.report.oriented; }
 };
 
-struct ApiGrid {
+// Cells with lists, for a GPU, for floats and for `nearest`.
+struct ApiCells {
   FlatGrid flat;
   HostGrid grid;
-  TriangleTable names;
-  std::shared_ptr<const ApiMesh> mesh;
-  bool has_sides = false, from_cache = false;
+  bool from_cache = false;
   bool sides_by_normals = false;    // also on a device
+  std::string report;
+};
+
+// A tree for points on the CPU, cells for the rest; each is made by the first that needs it.
+class ApiGrid {
+ public:
+  ApiGrid(std::shared_ptr<const ApiMesh> mesh, const lsdcd_grid_options &options);
+
+  bool is_limited() const { return cutoff_ > 0; }
+  // HUGE_VAL where there is none.
+  Real cutoff() const;
+  int nearest() const { return settings_.nearest; }
+  bool uses_tree() const { return settings_.nearest == 0 && !settings_.in_floats; }
+
+  const TriangleTree &tree() const;
+  const NearBoxes *near() const;    // of the tree; null without a cutoff
+  const ApiCells &cells(bool on_cuda = false) const;
+  const ApiCells *cells_made() const { return cells_.made(); }
+  std::size_t bytes() const;    // of what is made
+
+  std::shared_ptr<const ApiMesh> mesh;
+  const TriangleTable names;
+  const bool has_sides;
   std::string report;
 
   // Copies on CUDA devices, while any stream uses them.
   mutable std::mutex copying;
   mutable std::vector<std::pair<int, std::weak_ptr<const DeviceGrid>>> copies;
 
-  explicit ApiGrid(std::shared_ptr<const ApiMesh> of) : names(of->mesh), mesh(std::move(of)) {}
+ private:
+  Real cutoff_;
+  GridSettings settings_;
+  std::string cache_;
+  bool on_cuda_;
+  MadeOnce<TriangleTree> tree_;
+  MadeOnce<NearBoxes> near_;
+  MadeOnce<ApiCells> cells_;
 };
 
 }    // namespace lsdcd

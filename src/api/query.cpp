@@ -30,7 +30,7 @@ void check_sides(const ApiGrid &grid, bool on_host)
     throw ApiError(LSDCD_ERROR_SIDE,
                    "the mesh is not closed and oriented, so that it has no side: " +
                        why_no_inside(grid.mesh->mesh));
-  if (!on_host && !grid.sides_by_normals)
+  if (!on_host && !grid.cells().sides_by_normals)
     throw ApiError(LSDCD_ERROR_SIDE,
                    "triangles of the mesh cut, overlap or touch each other, and only the "
                    "host tells its sides: use lsdcd_query_host()");
@@ -52,15 +52,25 @@ lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on
   if (q.side) check_sides(grid, on_host);
   if (q.radii && q.radius != 0)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`radii` and `radius` are both given");
-  if (!q.radii && q.radius == 0) q.radius = grid.grid.view.cutoff;
+  if (!q.radii && q.radius == 0) q.radius = grid.is_limited() ? grid.cutoff() : kAnyDistance;
   if (!(q.radius >= 0))
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`radius` is " + number_text(q.radius));
-  if (q.radius > grid.grid.view.cutoff)
-    throw ApiError(LSDCD_ERROR_CUTOFF, "`radius` is " + number_text(q.radius) +
-                                           ", more than the grid's cutoff " +
-                                           number_text(grid.grid.view.cutoff) +
-                                           ": build the grid with a larger cutoff");
+  if (q.radius > grid.cutoff())
+    throw ApiError(LSDCD_ERROR_CUTOFF,
+                   "`radius` is " + number_text(q.radius) + ", more than the grid's cutoff " +
+                       number_text(grid.cutoff()) + ": build the grid with a larger cutoff");
   return q;
+}
+
+template <class T>
+void answer_on_host(const ApiGrid &grid, const PointArrays<T> &io)
+{
+  if (grid.uses_tree()) {
+    answer_with_sides(grid.tree(), grid.near(), grid.names, grid.mesh->sides, grid.cutoff(), io);
+    return;
+  }
+  const ApiCells &cells = grid.cells();
+  answer_with_sides(cells.grid, grid.names, grid.mesh->sides, cells.sides_by_normals, io);
 }
 
 template <class T>
@@ -120,9 +130,9 @@ int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
     });
     const CallThreads threads(q.threads);
     if (q.type == LSDCD_FLOAT)
-      answer_with_sides(g.grid, g.names, g.mesh->sides, g.sides_by_normals, arrays_of<float>(q));
+      answer_on_host(g, arrays_of<float>(q));
     else
-      answer_with_sides(g.grid, g.names, g.mesh->sides, g.sides_by_normals, arrays_of<double>(q));
+      answer_on_host(g, arrays_of<double>(q));
   });
 }
 
@@ -146,15 +156,21 @@ int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **
     need(grid, "grid");
     std::string why;
     if (!cuda_available(&why)) throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why);
+    if (!grid->in->is_limited())
+      throw ApiError(
+          LSDCD_ERROR_CUTOFF,
+          "a GPU answers up to a cutoff, and this grid has none: build one with a cutoff, "
+          "or use lsdcd_query_host()");
     auto made = std::make_unique<lsdcd_stream>();
     made->grid = grid->in;
+    const ApiCells &cells = made->grid->cells(true);
     {
       const std::lock_guard<std::mutex> alone(grid->in->copying);
       const int device = current_cuda_device();
       for (const auto &[on, copy] : grid->in->copies)
         if (on == device && !made->copy) made->copy = copy.lock();
       if (!made->copy) {
-        made->copy = copy_to_cuda(grid->in->grid.view, grid->in->names);
+        made->copy = copy_to_cuda(cells.grid.view, grid->in->names);
         grid->in->copies.emplace_back(device, made->copy);
       }
     }

@@ -79,16 +79,6 @@ FaceRecord face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c)
 // Thinner than this, long double's spare bits no longer cover the loss.
 constexpr Real kSliver = 1e-3;
 
-FaceRecord make_face(const Vec3 &a, const Vec3 &b, const Vec3 &c)
-{
-  const FaceRecord f = face_record<long double>(a, b, c);
-  const Real longest =
-      std::sqrt(std::fmax(norm_sq(b - a), std::fmax(norm_sq(c - b), norm_sq(a - c))));
-  const Real shortest_height = f.height * norm(c - b) / longest;
-  if (shortest_height < kSliver * longest) return face_record<__float128>(a, b, c);
-  return f;
-}
-
 EdgeRecord make_edge(const Vec3 &a, const Vec3 &b)
 {
   const Wide<long double> d = difference<long double>(b, a);
@@ -161,6 +151,16 @@ void add_primitives(const WallMesh &mesh, WallFeatures &out)
 
 }    // namespace
 
+FaceRecord make_face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c)
+{
+  const FaceRecord f = face_record<long double>(a, b, c);
+  const Real longest =
+      std::sqrt(std::fmax(norm_sq(b - a), std::fmax(norm_sq(c - b), norm_sq(a - c))));
+  const Real shortest_height = f.height * norm(c - b) / longest;
+  if (shortest_height < kSliver * longest) return face_record<__float128>(a, b, c);
+  return f;
+}
+
 WallFeaturesView WallFeatures::view() const
 {
   WallFeaturesView v = {};
@@ -184,7 +184,8 @@ WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_prim
   out.faces.reserve(n_faces);
   out.face_vertex.reserve(n_faces);
   for (const auto &f : mesh.faces) {
-    out.faces.push_back(make_face(mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]));
+    out.faces.push_back(
+        make_face_record(mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]));
     out.face_vertex.push_back({{f[0], f[1], f[2]}});
     out.contact_features.push_back(
         feature_code(FeatureKind::face, static_cast<std::uint32_t>(out.faces.size() - 1)));

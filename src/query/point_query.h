@@ -12,15 +12,6 @@
 
 namespace lsdcd {
 
-// The triangle of the mesh for each feature of the wall, by its number in the file; of several the
-// lowest.
-struct TriangleTable {
-  std::vector<std::uint32_t> of_face, of_edge, of_vertex;
-
-  explicit TriangleTable(const WallMesh &mesh);
-  TriangleNames view() const { return {of_face.data(), of_edge.data(), of_vertex.data()}; }
-};
-
 // A grid on the host, borrowed, with its brick table as bits.
 struct HostGrid {
   GridView view = {};

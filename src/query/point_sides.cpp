@@ -38,7 +38,30 @@ void answer(const HostGrid &grid, const TriangleTable &names, const PointSides &
   fill(sides, io.n, io.points, io.side);
 }
 
+template <class T>
+void answer(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
+            const PointSides &sides, Real cutoff, const PointArrays<T> &io)
+{
+  PointArrays<T> without = io;
+  without.side = nullptr;
+  answer_points(tree, near, names, cutoff, without);
+  if (!io.side) return;
+  std::fill_n(io.side, io.n, std::int8_t(0));
+  fill(sides, io.n, io.points, io.side);
+}
+
 }    // namespace
+
+void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
+                       const PointSides &sides, Real cutoff, const PointArrays<float> &io)
+{
+  answer(tree, near, names, sides, cutoff, io);
+}
+void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
+                       const PointSides &sides, Real cutoff, const PointArrays<double> &io)
+{
+  answer(tree, near, names, sides, cutoff, io);
+}
 
 void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
                        bool by_normals, const PointArrays<float> &io)

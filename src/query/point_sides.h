@@ -6,6 +6,7 @@
 
 #include "mesh/winding_number.h"
 #include "query/point_query.h"
+#include "query/tree_query.h"
 
 #include <memory>
 #include <mutex>
@@ -36,6 +37,12 @@ void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const P
                        bool by_normals, const PointArrays<float> &io);
 void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
                        bool by_normals, const PointArrays<double> &io);
+
+// The same by a tree. All sides are of winding numbers.
+void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
+                       const PointSides &sides, Real cutoff, const PointArrays<float> &io);
+void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
+                       const PointSides &sides, Real cutoff, const PointArrays<double> &io);
 
 // Of points whose `side` is 0; at[0, n) are packed coordinates.
 void fill_sides(const PointSides &sides, std::size_t n, const double *at, std::int8_t *side);

@@ -7,6 +7,7 @@
 
 #include "contact/find_contacts.h"
 #include "query/grid_work.h"
+#include "query/triangle_table.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,25 +29,6 @@ struct PointArrays {
   std::uint8_t *status = nullptr;
 
   bool only_distance() const { return !closest.at && !normal.at && !triangle && !feature && !side; }
-};
-
-// The mesh's triangle that a feature of the wall is, or that has the feature; kNoTriangle: none.
-constexpr std::uint32_t kNoTriangle = 0xffffffffu;
-struct TriangleNames {
-  const std::uint32_t *of_face, *of_edge, *of_vertex;
-
-  LSDCD_FN std::uint32_t of(FeatureCode feature) const
-  {
-    const std::uint32_t i = feature_index(feature);
-    switch (feature_kind(feature)) {
-      case FeatureKind::face:
-        return of_face[i];
-      case FeatureKind::edge:
-        return of_edge[i];
-      default:
-        return of_vertex[i];
-    }
-  }
 };
 
 // The feature of the wall that an answer found, and its closest point to q; in double even if it was

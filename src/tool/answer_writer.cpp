@@ -141,9 +141,10 @@ class NpyWriter : public AnswerWriter {
 
 std::unique_ptr<AnswerWriter> open_answers(const std::string &path, bool with_ids, bool with_sides)
 {
-  if (ends_in(path, ".csv")) return std::make_unique<CsvWriter>(path, with_ids, with_sides);
+  if (path == "-" || ends_in(path, ".csv"))
+    return std::make_unique<CsvWriter>(path, with_ids, with_sides);
   if (ends_in(path, ".npy")) return std::make_unique<NpyWriter>(path, with_ids, with_sides);
-  throw InputError("--output '" + path + "' ends neither in .csv nor in .npy");
+  throw InputError("--output '" + path + "' ends neither in .csv nor in .npy, and is not -");
 }
 
 }    // namespace lsdcd

@@ -37,7 +37,7 @@ class AnswerWriter {
   virtual void commit() = 0;    // until then the file is not there
 };
 
-// The ending of its name says the format: .csv or .npy. Throws InputError for another.
+// The ending of its name says the format: .csv or .npy; - is CSV in the standard output. Throws InputError for another.
 std::unique_ptr<AnswerWriter> open_answers(const std::string &path, bool with_ids, bool with_sides);
 
 }    // namespace lsdcd

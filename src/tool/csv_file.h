@@ -1,19 +1,27 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lines of numbers in a file that appears whole or not at all.
+// Lines of numbers in a file that appears whole or not at all, or, named -, in the standard output.
 #pragma once
 
 #include "base/atomic_file.h"
+#include "base/input_error.h"
 
+#include <cerrno>
 #include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <optional>
 #include <string>
 
 namespace lsdcd {
 
 class CsvFile {
  public:
-  explicit CsvFile(const std::string &path) : file_(path) {}
+  explicit CsvFile(const std::string &path)
+  {
+    if (path != "-") file_.emplace(path);
+  }
 
   void add(const char *text) { text_ += text; }
   // With the digits that read back the same number.
@@ -27,18 +35,24 @@ class CsvFile {
   }
   void flush()
   {
-    file_.write_at(at_, text_.data(), text_.size());
+    if (file_)
+      file_->write_at(at_, text_.data(), text_.size());
+    else if (std::fwrite(text_.data(), 1, text_.size(), stdout) < text_.size())
+      throw InputError(std::string("the standard output: ") + std::strerror(errno));
     at_ += text_.size();
     text_.clear();
   }
   void commit()
   {
     flush();
-    file_.commit();
+    if (file_)
+      file_->commit();
+    else if (std::fflush(stdout) != 0)
+      throw InputError(std::string("the standard output: ") + std::strerror(errno));
   }
 
  private:
-  AtomicFile file_;
+  std::optional<AtomicFile> file_;
   std::string text_;
   std::uint64_t at_ = 0;
 };

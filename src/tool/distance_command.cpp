@@ -26,7 +26,8 @@ namespace {
 struct Options {
   std::string mesh, points, output, device = "auto";
   std::vector<double> scale;
-  double weld = -1, radius = 0, cell = 0, memory = 0;
+  double weld = -1, cell = 0, memory = 0;
+  double radius = 0;    // 0: any distance
   std::size_t block = 1 << 18;
   int threads = 0;
   bool json = false, progress = false;
@@ -104,11 +105,12 @@ Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
 
 void print(const Options &o, const Totals &t, const PointAnswers &answers)
 {
+  // What is told does not go between the answers.
+  std::FILE *const to = o.output == "-" ? stderr : stdout;
   const double rate = t.seconds > 0 ? static_cast<double>(t.points) / t.seconds : 0;
   if (o.json) {
     nlohmann::json j = {{"points", t.points},
                         {"found", t.found},
-                        {"radius", o.radius},
                         {"sides", answers.has_sides},
                         {"seconds", t.seconds},
                         {"query_seconds", t.query_seconds},
@@ -117,21 +119,26 @@ void print(const Options &o, const Totals &t, const PointAnswers &answers)
                         {"grid_seconds", answers.report.seconds},
                         {"device", answers.report.device},
                         {"output", o.output}};
+    if (o.radius > 0)
+      j["radius"] = o.radius;
+    else
+      j["radius"] = nullptr;
     if (answers.has_sides) j["inside"] = t.inside;
     if (t.found > 0) j.update({{"nearest", t.nearest}, {"farthest", t.farthest}});
-    std::printf("%s\n", j.dump(2).c_str());
+    std::fprintf(to, "%s\n", j.dump(2).c_str());
     return;
   }
-  std::printf("%s: %zu points\n  found       %zu nearer than %g\n", o.output.c_str(), t.points,
-              t.found, o.radius);
-  if (t.found > 0) std::printf("  distances   %g to %g\n", t.nearest, t.farthest);
+  std::fprintf(to, "%s: %zu points\n  found       %zu", o.output.c_str(), t.points, t.found);
+  if (o.radius > 0) std::fprintf(to, " nearer than %g", o.radius);
+  std::fprintf(to, "\n");
+  if (t.found > 0) std::fprintf(to, "  distances   %g to %g\n", t.nearest, t.farthest);
   if (answers.has_sides)
-    std::printf("  inside      %zu\n", t.inside);
+    std::fprintf(to, "  inside      %zu\n", t.inside);
   else
-    std::printf("  sides       none: the mesh is not closed and oriented: see "
-                "lsdcd inspect\n");
-  std::printf(
-      "  time        %.3g s, of which queries %.3g s; %.3g points per second; grid %.3g s\n",
+    std::fprintf(to, "  sides       none: the mesh is not closed and oriented: see "
+                     "lsdcd inspect\n");
+  std::fprintf(
+      to, "  time        %.3g s, of which queries %.3g s; %.3g points per second; grid %.3g s\n",
       t.seconds, t.query_seconds, rate, answers.report.seconds);
 }
 
@@ -141,7 +148,7 @@ void distance(const Options &o)
   threads_asked_for() = true;    // a program of one user, not one of many processes
   if (o.threads > 0) omp_set_num_threads(o.threads);
 #endif
-  check_outputs({{"--output", o.output}}, {o.mesh, o.points});
+  if (o.output != "-") check_outputs({{"--output", o.output}}, {o.mesh, o.points});
   const auto reader = open_points(o.points);
   open_answers(o.output, false, false);    // throws before the work if it cannot be written
   const WallMesh mesh = load_wall(o.mesh, o.scale, o.weld);
@@ -167,16 +174,20 @@ void add_distance_command(Command &program)
   command.option("mesh", o->mesh, "mesh: .stl, .obj, .ply or .off").required();
   command
       .option("points", o->points,
-              "lines of numbers (x y z first, or named), .npy (n, 3), or LAMMPS text dump")
+              "lines of numbers (x y z first, or named), .npy (n, 3), or LAMMPS text dump; -: "
+              "standard input")
       .required();
-  command.option("-o,--output", o->output, "file to write, .csv or .npy").required();
-  command.option("--radius,--cutoff", o->radius, "nothing as far as this is found")
-      .required()
+  command.option("-o,--output", o->output, "file to write, .csv or .npy; -: CSV to standard output")
+      .required();
+  command
+      .option("--radius,--cutoff", o->radius,
+              "nothing as far as this is found (default: any distance)")
       .check(above_zero);
   add_scale_option(command, o->scale);
   add_weld_option(command, o->weld);
-  command.option("--grid", o->cell, "cell length (default: chosen)").check(above_zero);
-  command.option("--memory", o->memory, "of the grid, in MB (default: 1024 beside the mesh)")
+  command.option("--grid", o->cell, "cell length, on a GPU (default: chosen)").check(above_zero);
+  command
+      .option("--memory", o->memory, "of the grid, in MB, on a GPU (default: 1024 beside the mesh)")
       .check(above_zero);
   command.option("--device", o->device, "that answers")
       .one_of({"auto", "cpu", "cuda"})

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A file read from its beginning to its end, in bytes or in lines.
+// A file read from its beginning to its end, in bytes or in lines; named -, the standard input.
 #pragma once
 
 #include "base/input_error.h"
@@ -18,11 +18,15 @@ namespace lsdcd {
 
 class InputFile {
  public:
-  explicit InputFile(const std::string &path) : path_(path), file_(std::fopen(path.c_str(), "rb"))
+  explicit InputFile(const std::string &path) :
+      path_(path == "-" ? "the standard input" : path),
+      file_(path == "-" ? stdin : std::fopen(path.c_str(), "rb"))
   {
     if (!file_) fail(std::strerror(errno));
-    if (std::fseek(file_.get(), 0, SEEK_END) == 0) size_ = std::ftell(file_.get());
-    std::rewind(file_.get());
+    if (path != "-") {
+      if (std::fseek(file_.get(), 0, SEEK_END) == 0) size_ = std::ftell(file_.get());
+      std::rewind(file_.get());
+    }
     buffer_.resize(std::size_t(1) << 20);
     fill();
     if (ahead(3) == "\xEF\xBB\xBF") at_ = 3;    // a byte order mark is no text

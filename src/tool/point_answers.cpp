@@ -7,8 +7,11 @@
 #include "engine/wall_engine.h"
 #include "grid/flat_grid.h"
 #include "query/point_sides.h"
+#include "backend/backend_cpu.h"
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
 
 #if defined(LSDCD_HAVE_CUDA)
 #include <cuda_runtime_api.h>
@@ -26,29 +29,33 @@ StridedView<T> packed(T *at)
 
 class CpuAnswers : public PointAnswers {
  public:
-  CpuAnswers(const WallMesh &mesh, const TriangleGrid &grid) :
-      flat_(grid), grid_(flat_.view()), names_(mesh), sides_(mesh)
+  CpuAnswers(const WallMesh &mesh, Real cutoff) :
+      cutoff_(cutoff), names_(mesh), tree_(mesh, names_), sides_(mesh)
   {
+    if (cutoff > 0) near_.emplace(tree_, mesh, cutoff);
+    report.bytes = tree_.bytes() + (near_ ? near_->bytes() : 0);
+    report.device = CpuBackend().name();
   }
   void answer(const PointBlock &points, AnswerBlock &a) override
   {
     a.resize(points.size(), has_sides);
     PointArrays<double> io;
     io.n = points.size();
-    io.radius = grid_.view.cutoff;
+    io.radius = cutoff_ > 0 ? cutoff_ : kAnyDistance;
     io.points = packed(points.xyz.data());
     io.distance = {a.distance.data(), 1};
     io.closest = packed(a.closest.data());
     io.triangle = a.triangle.data();
     io.feature = a.feature.data();
     if (has_sides) io.side = a.side.data();
-    answer_with_sides(grid_, names_, sides_, sides_by_normals, io);
+    answer_with_sides(tree_, near_ ? &*near_ : nullptr, names_, sides_, io.radius, io);
   }
 
  private:
-  FlatGrid flat_;
-  HostGrid grid_;
+  Real cutoff_;
   TriangleTable names_;
+  TriangleTree tree_;
+  std::optional<NearBoxes> near_;
   PointSides sides_;
 };
 
@@ -143,8 +150,6 @@ class CudaAnswers : public PointAnswers {
 
 #else
 
-using CudaAnswers = CpuAnswers;    // never made: there is no CUDA
-
 #endif
 
 }    // namespace
@@ -153,20 +158,33 @@ std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, GridSetti
                                                  const std::string &device)
 {
   std::string why;
-  const bool on_cuda = device != "cpu" && cuda_available(&why);
+  const bool on_cuda =
+      (device == "cuda" || (device == "auto" && settings.cutoff > 0)) && cuda_available(&why);
   if (device == "cuda" && !on_cuda)
     throw InputError("--device cuda: " + why + "; use --device cpu");
+  if (on_cuda && !(settings.cutoff > 0))
+    throw InputError(
+        "--device cuda finds distances up to a radius: give --radius, or use --device cpu");
+  const auto start = std::chrono::steady_clock::now();
+  if (!on_cuda) {
+    auto made = std::make_unique<CpuAnswers>(mesh, settings.cutoff);
+    made->has_sides = has_inside(mesh);
+    made->report.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return made;
+  }
+#if defined(LSDCD_HAVE_CUDA)
   settings.sides = mesh.report.closed && mesh.report.oriented;
-  const TriangleGrid grid = build_grid(mesh, settings, on_cuda);
-  std::unique_ptr<PointAnswers> made;
-  if (on_cuda)
-    made = std::make_unique<CudaAnswers>(mesh, grid);
-  else
-    made = std::make_unique<CpuAnswers>(mesh, grid);
+  settings.purpose = GridPurpose::points;
+  const TriangleGrid grid = build_grid(mesh, settings, true);
+  auto made = std::make_unique<CudaAnswers>(mesh, grid);
   made->sides_by_normals = settings.sides && grid.outside != 0;
   made->has_sides = made->sides_by_normals || has_inside(mesh);
   made->report = grid.report;
   return made;
+#else
+  return nullptr;    // there is no CUDA
+#endif
 }
 
 }    // namespace lsdcd

@@ -22,7 +22,7 @@ class PointAnswers {
   GridReport report;
 };
 
-// The grid has the cutoff of the settings. device: auto, cpu or cuda. Throws InputError.
+// By a tree on a CPU, by a grid of these settings on a GPU. Their cutoff is 0 for any distance. device: auto, cpu or cuda. Throws InputError.
 std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, GridSettings settings,
                                                  const std::string &device);
 

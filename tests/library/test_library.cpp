@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -430,7 +431,9 @@ TEST_F(Ties, give_the_lowest_triangle_whatever_the_cutoff)
     while (distance_to(soup, lowest[i], point(points, i)) > least + 1e-9) lowest[i]++;
   }
   for (const int nearest : {0, 4})
-    for (const double cutoff : {0.3, 0.55, 1.1, 1.7, 4.}) {
+    for (const double cutoff : {0., 0.3, 0.55, 1.1, 1.7, 4., 4e3}) {
+      if (nearest > 0 && (cutoff == 0 || cutoff > 4))
+        continue;    // cells have a cutoff of some sizes
       lsdcd::GridOptions options(cutoff);
       options.nearest = nearest;
       const All<double> a(lsdcd::Grid(mesh, options), points);
@@ -443,13 +446,105 @@ TEST_F(Ties, give_the_lowest_triangle_whatever_the_cutoff)
 
 TEST_F(Ties, give_the_same_closest_point_whatever_the_cutoff)
 {
-  const All<double> far(lsdcd::Grid(mesh, 4), points), near(lsdcd::Grid(mesh, 1.1), points);
-  std::size_t wrong = 0;
-  for (std::size_t i = 0; i < near.status.size(); i++)
-    if (near.status[i] & LSDCD_FOUND)
-      wrong +=
-          near.feature[i] != far.feature[i] || !(point(near.closest, i) == point(far.closest, i));
+  const All<double> far(lsdcd::Grid(mesh), points);
+  const double diagonal = 2 * std::sqrt(3.);
+  for (const double cutoff : {1e-3 * diagonal, 1.1, diagonal, 1e3 * diagonal}) {
+    const All<double> near(lsdcd::Grid(mesh, cutoff), points, true);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < near.status.size(); i++) {
+      wrong += (near.status[i] & LSDCD_FOUND) != (far.distance[i] < cutoff);
+      if (near.status[i] & LSDCD_FOUND)
+        wrong += near.feature[i] != far.feature[i] || near.distance[i] != far.distance[i] ||
+                 !(point(near.closest, i) == point(far.closest, i)) ||
+                 !(point(near.normal, i) == point(far.normal, i));
+    }
+    EXPECT_EQ(wrong, 0u) << cutoff;
+  }
+}
+
+// What users of other libraries report as wrong: a sound tetrahedron, and points in the planes of its faces.
+// On halves of whole numbers its inside is known without rounding.
+TEST(library, a_tetrahedron_is_right_in_the_planes_of_its_faces)
+{
+  const Vec3 corner[4] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
+  TriangleSoup soup;
+  for (const auto &f : {std::array<int, 3>{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
+    for (const int k : f) soup.corners.push_back(corner[k]);
+  std::vector<double> points;
+  for (int x = -8; x <= 16; x++)
+    for (int y = -8; y <= 16; y++)
+      for (int z = -8; z <= 16; z++) points.insert(points.end(), {x / 2., y / 2., z / 2.});
+  const All<double> a(lsdcd::Grid(lsdcd::Mesh(numbers(soup))), points, true);
+  std::size_t wrong_sides = 0, wrong = 0;
+  for (std::size_t i = 0; i < a.side.size(); i++) {
+    const Vec3 q = point(points, i);
+    const bool inside = q.x > 0 && q.y > 0 && q.z > 0 && q.x + q.y + q.z < 4;
+    wrong_sides += a.side[i] != (inside ? -1 : 1);
+    wrong +=
+        !(std::fabs(a.distance[i] - brute(soup, q)) <= 1e-14);    // some units of lengths up to 14
+  }
+  EXPECT_EQ(wrong_sides, 0u);
   EXPECT_EQ(wrong, 0u);
+}
+
+// Another report: triangles that are nearly lines are left out, so that distances are too large.
+TEST(library, a_triangle_that_is_nearly_a_line_counts)
+{
+  for (const double height : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    TriangleSoup soup;
+    soup.corners = {{0, 0, 0}, {1, 0, 0}, {0.5, height, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}};
+    const std::vector<double> points = {0.5, height / 2, 1, 0.25, 0, 2, 2, 0, 0, 0.5, -1, 0};
+    const All<double> a(lsdcd::Grid(lsdcd::Mesh(numbers(soup), 0)), points);
+    const double wanted[] = {1, 2, 1, 1};
+    for (int i = 0; i < 4; i++) {
+      EXPECT_NEAR(a.distance[i], wanted[i], 1e-15) << height;
+      EXPECT_EQ(a.triangle[i], 0u) << height;
+    }
+  }
+}
+
+TEST(library, without_a_cutoff_everything_is_found)
+{
+  const TriangleSoup soup = box_and_cylinder();
+  const lsdcd::Grid grid{lsdcd::Mesh(numbers(soup))};
+  EXPECT_EQ(grid.facts().cutoff, HUGE_VAL);
+  EXPECT_EQ(grid.facts().cell, 0);
+  for (const double half : {1.5, 1e2, 1e5}) {
+    const std::vector<double> points = random_points<double>(2000, half);
+    const std::vector<double> found = grid.distances(points), within = grid.distances(points, half);
+    for (std::size_t i = 0; i < found.size(); i++) {
+      const double truth = brute(soup, point(points, i));
+      // Some units of the distance, here and in the brute force.
+      ASSERT_NEAR(found[i], truth, 1e-14 * (1 + truth)) << half;
+      ASSERT_EQ(within[i], found[i] < half ? found[i] : HUGE_VAL);
+    }
+  }
+}
+
+TEST(library, options_of_cells_need_a_cutoff)
+{
+  const lsdcd::Mesh mesh(numbers(box_and_cylinder()));
+  for (int k = 0; k < 5; k++) {
+    lsdcd::GridOptions o;
+    if (k == 0) o.cell = 0.1;
+    if (k == 1) o.nearest = 2;
+    if (k == 2) o.precision = LSDCD_FLOAT;
+    if (k == 3) o.memory = 1e9;
+    if (k == 4) o.cache = "grid.cache";
+    lsdcd_grid *g = nullptr;
+    EXPECT_EQ(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_ARGUMENT);
+    EXPECT_NE(std::strstr(lsdcd_last_error(), "need a cutoff"), nullptr) << lsdcd_last_error();
+  }
+}
+
+TEST(library, a_gpu_needs_a_cutoff)
+{
+  if (!lsdcd_has_cuda()) GTEST_SKIP() << lsdcd_last_error();
+  const lsdcd::Grid grid{lsdcd::Mesh(numbers(box_and_cylinder()))};
+  lsdcd_stream *s = nullptr;
+  EXPECT_EQ(lsdcd_stream_open(grid.get(), nullptr, &s), LSDCD_ERROR_CUTOFF);
+  EXPECT_NE(std::strstr(lsdcd_last_error(), "build one with a cutoff"), nullptr)
+      << lsdcd_last_error();
 }
 
 TEST(library, a_point_that_is_no_number_is_far)
@@ -756,7 +851,7 @@ TEST_F(Wrong, options_that_make_no_grid)
     lsdcd_grid *g = nullptr;
     expect(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_ARGUMENT, says);
   };
-  expect_bad([](auto &o) { o.cutoff = 0; }, "cutoff");
+  expect_bad([](auto &o) { o.cutoff = -1; }, "cutoff");
   expect_bad([](auto &o) { o.cutoff = HUGE_VAL; }, "cutoff");
   expect_bad([](auto &o) { o.cell = -1; }, "cell");
   expect_bad([](auto &o) { o.nearest = 33; }, "nearest");

@@ -200,10 +200,25 @@ def main():
     fact("without, and with no terminal, nothing is",
          run(folder, "distance", "box.stl", "points.npy", "--radius", 1, "-o", "out.npy").stderr == "")
 
+    told(folder, "distance", "box.stl", "points.npy", "-o", "any.npy", "--device", "cpu")
+    anywhere = np.load(folder / "any.npy")
+    fact("without --radius all are found, with the same bits",
+         np.abs(anywhere["distance"] - np.abs(signed)).max() <= DISTANCE and
+         all(np.array_equal(anywhere[name][near], out[name][near]) for name in out.dtype.names))
+    piped = subprocess.run([TOOL, "distance", "box.stl", "-", "--radius", str(RADIUS), "-o", "-"], cwd=folder,
+                           input=(folder / "points.csv").read_bytes(), capture_output=True)
+    told(folder, "distance", "box.stl", "points.csv", "--radius", RADIUS, "-o", "file.csv")
+    fact("- is the standard input and output, with nothing else between the answers",
+         piped.returncode == 0 and piped.stdout == (folder / "file.csv").read_bytes() and
+         b"points per second" in piped.stderr, piped.stderr.decode())
+    piped = subprocess.run([TOOL, "distance", "box.stl", "-", "-o", "-"], cwd=folder, input=b"1,two,3\n",
+                           capture_output=True, text=False)
+    fact("an error in the standard input names it", piped.returncode == 1 and
+         b"the standard input: line 1" in piped.stderr, piped.stderr.decode())
+
     for path in folder.glob("*out*"):
         path.unlink()
     words = ["distance", "box.stl", "points.csv", "-o", "new.csv"]
-    refused(folder, words, "--radius is required", code=2)
     refused(folder, [*words, "--radius", 0], "--radius", "0 is not a number above 0", code=2)
     refused(folder, [*words[:-1], "new.txt", "--radius", 1], "new.txt", ".csv", ".npy")
     refused(folder, [*words[:-1], "no/new.csv", "--radius", 1], "no/new.csv")

@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "query/tree_query.h"
+
+#include "backend/backend_cpu.h"
+#include "query/radius_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lsdcd {
+
+// ---- far points ---------------------------------------------------------------------------------
+
+NearBoxes::NearBoxes(const TriangleTree &tree, const WallMesh &mesh, Real cutoff)
+{
+  // As many boxes as are made in a part of the time of the tree.
+  n_ = 32;
+  while (n_ < 128 && std::size_t(n_) * n_ * 16 < tree.n_primitives()) n_ *= 2;
+  const Vec3 lo = mesh.report.lo, size = mesh.report.hi - lo;
+  // A little more than the cutoff, for rounding.
+  const Real pad = cutoff + Real(1e-6) * (cutoff + norm(size));
+  lo_ = lo - Vec3{pad, pad, pad};
+  length_ = (std::fmax(size.x, std::fmax(size.y, size.z)) + 2 * pad) / n_;
+  per_length_ = 1 / length_;
+  bits_.resize(std::size_t(n_) * n_ * n_ / 64);
+  mark(tree, pad, {0, 0, 0}, n_);
+}
+
+// Boxes of a larger box, of `size` along each axis, in eight parts of which those that are far are left out.
+void NearBoxes::mark(const TriangleTree &tree, Real cutoff, const std::array<int, 3> &at, int size)
+{
+  const Real half = Real(0.5) * size * length_;
+  const Vec3 centre =
+      lo_ + Vec3{at[0] * length_ + half, at[1] * length_ + half, at[2] * length_ + half};
+  const Real within = cutoff + std::sqrt(Real(3)) * half;
+  if (!tree.nearest(centre, within, TriangleTree::kNoPrimitive).found()) return;
+  if (size == 1) {
+    const std::size_t i = (std::size_t(at[2]) * n_ + at[1]) * n_ + at[0];
+    bits_[i / 64] |= std::uint64_t(1) << i % 64;
+    return;
+  }
+  for (int part = 0; part < 8; part++)
+    mark(tree, cutoff,
+         {at[0] + (part & 1) * size / 2, at[1] + (part >> 1 & 1) * size / 2,
+          at[2] + (part >> 2) * size / 2},
+         size / 2);
+}
+
+// ---- points -------------------------------------------------------------------------------------
+
+namespace {
+
+// Points that are put in order at once. Fewer than kFewPoints are answered as they come, and so are
+// those of a mesh that stays in a processor's cache.
+constexpr std::size_t kChunk = std::size_t(1) << 20, kFewPoints = 64;
+constexpr std::size_t kInCache = std::size_t(1) << 20;    // bytes
+constexpr std::size_t kAhead = 8;                         // points whose memory is on its way
+constexpr int kCurveBits = 7;                             // an axis
+
+// Every third bit is one of `i`'s, less than 2^7.
+std::uint32_t spread(std::uint32_t i)
+{
+  i = (i | i << 8) & 0x0000f00f;
+  i = (i | i << 4) & 0x000c30c3;
+  return (i | i << 2) & 0x00249249;
+}
+
+// Numbers of points in the order of their places, less than 2^21. By digits, so that all counts of a digit
+// stay in a processor's cache.
+class CurveOrder {
+ public:
+  explicit CurveOrder(std::size_t most) : place_(most), number_(most), from_(most) {}
+  void add(std::uint32_t number, std::uint32_t place)
+  {
+    from_.data()[n_++] = number;
+    place_.data()[number] = place;
+  }
+  std::size_t size() const { return n_; }
+  const std::uint32_t *sort()
+  {
+    sort_by(0, from_.data(), number_.data());
+    sort_by(kDigitBits, number_.data(), from_.data());
+    return from_.data();
+  }
+
+ private:
+  static constexpr int kDigitBits = 11;
+
+  void sort_by(int shift, const std::uint32_t *from, std::uint32_t *to) const
+  {
+    std::uint32_t start[1 << kDigitBits] = {};
+    const auto digit = [&](std::uint32_t i) {
+      return place_.data()[i] >> shift & ((1u << kDigitBits) - 1);
+    };
+    for (std::size_t k = 0; k < n_; k++) start[digit(from[k])]++;
+    std::uint32_t before = 0;
+    for (std::uint32_t &s : start) before += std::exchange(s, before);
+    for (std::size_t k = 0; k < n_; k++) to[start[digit(from[k])]++] = from[k];
+  }
+
+  std::size_t n_ = 0;
+  CpuBackend::Array<std::uint32_t> place_, number_, from_;
+};
+
+template <class T>
+class TreeQuery {
+ public:
+  TreeQuery(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
+            Real cutoff, const PointArrays<T> &io) :
+      tree_(tree),
+      names_(names.view()), near_(near), check_{static_cast<T>(cutoff), &too_large_}, io_(io),
+      only_distance_(io.only_distance())
+  {
+  }
+
+  void run()
+  {
+    const std::size_t n = io_.n;
+    if (n <= kFewPoints) {
+      answer_in_turn(0, n, true);
+    } else {
+      const std::size_t n_threads = static_cast<std::size_t>(threads());
+      const std::size_t share = n_threads > 1 ? n / (4 * n_threads) + 1 : n;
+      const std::size_t chunk = std::min(kChunk, std::max<std::size_t>(share, kFewPoints));
+      const std::int64_t n_chunks = static_cast<std::int64_t>((n + chunk - 1) / chunk);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads()) if (n_chunks > 1)
+      for (std::int64_t c = 0; c < n_chunks; c++)
+        answer_in_order(static_cast<std::size_t>(c) * chunk,
+                        std::min(n, (static_cast<std::size_t>(c) + 1) * chunk));
+    }
+    if (too_large_ != 0)
+      throw_bad_radius("point", ~too_large_, io_.radii[~too_large_], check_.cutoff);
+  }
+
+ private:
+  Vec3 point(std::size_t i) const
+  {
+    const T *at = io_.points.of(i);
+    return {static_cast<Real>(at[0]), static_cast<Real>(at[io_.points.column]),
+            static_cast<Real>(at[2 * io_.points.column])};
+  }
+
+  std::uint32_t place_on_curve(std::size_t i) const
+  {
+    const Vec3 at = tree_.place_in_box(point(i));
+    std::uint32_t place = 0;
+    for (int a = 0; a < 3; a++)
+      place |= spread(static_cast<std::uint32_t>(at[a] * ((1 << kCurveBits) - 1))) << a;
+    return place;
+  }
+  // Do most points follow one that is near? Some are looked at.
+  bool are_in_order(std::size_t from, std::size_t to) const
+  {
+    constexpr int kSteepBits = 12;    // so many bits of a curve are a box of an eighth
+    std::size_t looks = 0, jumps = 0;
+    const std::size_t step = std::max<std::size_t>(1, (to - from) / 512);
+    for (std::size_t i = from; i + 1 < to; i += step, looks++)
+      jumps += (place_on_curve(i) ^ place_on_curve(i + 1)) >> kSteepBits != 0;
+    return jumps <= looks / 8;
+  }
+
+  void prefetch(std::size_t i) const
+  {
+    __builtin_prefetch(io_.points.of(i));
+    if (io_.distance.at) __builtin_prefetch(&io_.distance[i], 1);
+    asm volatile("");    // else gcc drops calls of a function that only prefetches
+  }
+
+  // Along a curve through the mesh's box, so that neighbours read the same triangles, and the answer of one
+  // bounds that of the next.
+  void answer_in_order(std::size_t from, std::size_t to)
+  {
+    if (are_in_order(from, to)) return answer_in_turn(from, to, true);
+    if (tree_.bytes() <= kInCache) return answer_in_turn(from, to, false);
+    CurveOrder order(to - from);
+    for (std::size_t i = from; i < to; i++)
+      if (!is_far(i)) order.add(static_cast<std::uint32_t>(i - from), place_on_curve(i));
+    const std::uint32_t *number = order.sort();
+    std::uint32_t hint = TriangleTree::kNoPrimitive;
+    for (std::size_t k = 0; k < order.size(); k++) {
+      if (k + kAhead < order.size()) prefetch(from + number[k + kAhead]);
+      answer(from + number[k], hint);
+    }
+  }
+
+  void answer_in_turn(std::size_t from, std::size_t to, bool in_order)
+  {
+    std::uint32_t hint = TriangleTree::kNoPrimitive;
+    for (std::size_t i = from; i < to; i++) {
+      if (is_far(i)) continue;
+      answer(i, hint);
+      if (!in_order) hint = TriangleTree::kNoPrimitive;
+    }
+  }
+
+  Real radius(std::size_t i) const
+  {
+    return io_.radii.at ? static_cast<Real>(io_.radii[i]) : io_.radius;
+  }
+  // Is nothing near? Then that is its answer.
+  bool is_far(std::size_t i) const
+  {
+    if (io_.radii.at) check_.note(i, SphereOf<T>{0, 0, 0, io_.radii[i]});
+    if (!near_) return false;
+    const Vec3 q = point(i);
+    if (near_->may_be_near(q)) return false;
+    keep(i, q, {kAnyDistance, kNoFeature, TriangleTree::kNoPrimitive});
+    return true;
+  }
+  void answer(std::size_t i, std::uint32_t &hint) const
+  {
+    const Vec3 q = point(i);
+    const TreeAnswer a = tree_.nearest(q, radius(i), hint);
+    hint = a.primitive;
+    keep(i, q, a);
+  }
+  void keep(std::size_t i, const Vec3 &q, const TreeAnswer &a) const
+  {
+    if (io_.status) io_.status[i] = (a.found() ? kTouching : 0) | kCertified;
+    if (io_.distance.at) io_.distance[i] = static_cast<T>(a.found() ? a.distance : HUGE_VAL);
+    if (!only_distance_) keep_nearest(i, q, a);
+  }
+
+  void keep_nearest(std::size_t i, const Vec3 &q, const TreeAnswer &a) const
+  {
+    Vec3 point = q, normal = {0, 0, 0};
+    if (a.found() && (io_.closest.at || io_.normal.at)) tree_.closest(a, q, point, normal);
+    if (io_.closest.at) io_.closest.put(i, point);
+    if (io_.normal.at) io_.normal.put(i, normal);
+    if (io_.feature) io_.feature[i] = a.feature;
+    if (io_.triangle) io_.triangle[i] = a.found() ? names_.of(a.feature) : kNoTriangle;
+  }
+
+  const TriangleTree &tree_;
+  const TriangleNames names_;
+  const NearBoxes *near_;
+  std::uint64_t too_large_ = 0;
+  const TooLarge<SphereOf<T>> check_;
+  const PointArrays<T> &io_;
+  const bool only_distance_;
+};
+
+}    // namespace
+
+void answer_points(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
+                   Real cutoff, const PointArrays<float> &io)
+{
+  TreeQuery<float>(tree, near, names, cutoff, io).run();
+}
+void answer_points(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
+                   Real cutoff, const PointArrays<double> &io)
+{
+  TreeQuery<double>(tree, near, names, cutoff, io).run();
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Points against a mesh by its tree, at any distance, in the caller's own arrays. On the CPU.
+#pragma once
+
+#include "query/point_work.h"
+#include "query/triangle_tree.h"
+
+#include <array>
+#include <vector>
+
+namespace lsdcd {
+
+// A bit for each of some boxes: may anything be within a cutoff of a point in there? It answers points that
+// are far from the mesh at once.
+class NearBoxes {
+ public:
+  NearBoxes(const TriangleTree &tree, const WallMesh &mesh, Real cutoff);
+
+  bool may_be_near(const Vec3 &q) const
+  {
+    const Vec3 at = per_length_ * (q - lo_);
+    // Also where a coordinate is no number.
+    if (!((at.x >= 0) & (at.y >= 0) & (at.z >= 0) & (at.x < n_) & (at.y < n_) & (at.z < n_)))
+      return false;
+    const std::size_t i =
+        (static_cast<std::size_t>(at.z) * n_ + static_cast<std::size_t>(at.y)) * n_ +
+        static_cast<std::size_t>(at.x);
+    return bits_[i / 64] >> i % 64 & 1u;
+  }
+  std::size_t bytes() const { return bits_.size() * sizeof bits_[0]; }
+
+ private:
+  void mark(const TriangleTree &tree, Real cutoff, const std::array<int, 3> &at, int size);
+
+  Vec3 lo_;
+  Real length_, per_length_;    // of a box
+  int n_;                       // along each axis, a power of two
+  std::vector<std::uint64_t> bits_;
+};
+
+// With threads() threads. It keeps no memory, so that any number of threads may call it at once. Nothing as
+// far as a point's radius is found; `cutoff` is the largest radius, of `near`, too, which may be null. All but
+// the side, which must not be asked for. Throws InputError if a radius in `radii` exceeds the cutoff; the
+// answers are then undefined.
+void answer_points(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
+                   Real cutoff, const PointArrays<float> &io);
+void answer_points(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
+                   Real cutoff, const PointArrays<double> &io);
+
+}    // namespace lsdcd

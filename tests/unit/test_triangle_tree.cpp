@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Points at any distance against every triangle tried in more digits.
+#include "support/brute_force_long.h"
+#include "support/meshes.h"
+#include "support/random_mesh.h"
+
+#include "base/input_error.h"
+#include "query/tree_query.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+namespace lsdcd {
+namespace {
+
+constexpr std::uint32_t kNoHint = TriangleTree::kNoPrimitive;
+
+struct Case {
+  TriangleSoup soup;
+  WallMesh mesh;
+  TriangleTable names;
+  TriangleTree tree;
+  Real diagonal;
+  std::vector<LongTriangle<LongReal>> triangles;
+
+  explicit Case(TriangleSoup given) :
+      soup(std::move(given)), mesh(weld(soup, 0)), names(mesh), tree(mesh, names),
+      diagonal(norm(mesh.report.hi - mesh.report.lo)), triangles(long_triangles<LongReal>(soup))
+  {
+  }
+  Real truth(const Vec3 &q) const
+  {
+    return long_distance(triangles.data(), int(triangles.size()), q);
+  }
+  // A distance is a sum of three products of numbers that are each off by 2 units, at most |q - anchor|,
+  // which is less than the distance and the diagonal. A point is taken for one inside or past a side where
+  // it is no farther from that than the same error. 32 units are more than both. A facet that is lower than
+  // 8 units of its coordinates, or 1e-14 of its length, is its edges.
+  Real tolerance(Real distance) const
+  {
+    Real size = 0;
+    for (const Vec3 &x : mesh.vertices)
+      size = std::fmax(size, std::fmax(std::fabs(x.x), std::fmax(std::fabs(x.y), std::fabs(x.z))));
+    return 32 * kRoundoff * (distance + diagonal) +
+           std::fmax(8 * kRoundoff * size, 1e-14 * diagonal);
+  }
+  // Near the mesh, on it, and up to 1e4 diagonals from it.
+  std::vector<Vec3> points(int n, std::uint64_t seed) const
+  {
+    Numbers r(seed);
+    std::vector<Vec3> out;
+    for (int i = 0; i < n; i++)
+      out.push_back(random_centre(r, soup.corners.data(), int(soup.n_triangles()), mesh.report.lo,
+                                  mesh.report.hi, diagonal * r.log_in(1e-4, 1e4)));
+    return out;
+  }
+};
+
+const std::vector<std::unique_ptr<Case>> &all_cases()
+{
+  static const auto made = [] {
+    std::vector<std::unique_ptr<Case>> out;
+    out.push_back(std::make_unique<Case>(cylinder_mesh(24, 6, 1, 2)));
+    out.push_back(std::make_unique<Case>(box_mesh({0, 0, 0}, {1, 2, 3})));
+    out.push_back(std::make_unique<Case>(cone_mesh(200, 1, 0.5)));
+    for (int i = 0; i < (std::getenv("LSDCD_QUICK") ? 40 : 200); i++) {
+      try {
+        out.push_back(std::make_unique<Case>(random_mesh(100 + i).soup));
+      } catch (const InputError &) {
+        continue;    // nothing but points closer than the tolerance
+      }
+    }
+    return out;
+  }();
+  return made;
+}
+
+bool same(const TreeAnswer &a, const TreeAnswer &b)
+{
+  return a.distance == b.distance && a.feature == b.feature;
+}
+
+TEST(triangle_tree, gives_the_distance_of_every_triangle_tried)
+{
+  for (const bool wide : {true, false}) {
+    const bool usual = TriangleTree::wide();
+    if (!wide) TriangleTree::wide() = false;
+    for (const auto &c : all_cases())
+      for (const Vec3 &q : c->points(200, 7)) {
+        const Real truth = c->truth(q), found = c->tree.nearest(q, kAnyDistance, kNoHint).distance;
+        ASSERT_NEAR(found, truth, c->tolerance(truth)) << c->soup.source;
+      }
+    TriangleTree::wide() = usual;
+  }
+}
+
+TEST(triangle_tree, answers_do_not_depend_on_the_radius)
+{
+  for (const auto &c : all_cases())
+    for (const Vec3 &q : c->points(100, 8)) {
+      const TreeAnswer any = c->tree.nearest(q, kAnyDistance, kNoHint);
+      ASSERT_TRUE(any.found());
+      for (const Real radius : {1e-3 * c->diagonal, c->diagonal, 1e3 * c->diagonal, any.distance,
+                                std::nextafter(any.distance, HUGE_VAL)}) {
+        const TreeAnswer a = c->tree.nearest(q, radius, kNoHint);
+        ASSERT_EQ(a.found(), any.distance < radius) << c->soup.source;
+        ASSERT_TRUE(!a.found() || same(a, any)) << c->soup.source;
+      }
+    }
+}
+
+TEST(triangle_tree, answers_do_not_depend_on_the_hint)
+{
+  Numbers r(9);
+  for (const auto &c : all_cases())
+    for (const Vec3 &q : c->points(50, 9)) {
+      const TreeAnswer any = c->tree.nearest(q, kAnyDistance, kNoHint);
+      for (int k = 0; k < 4; k++) {
+        const std::uint32_t hint = r.below(int(c->tree.n_primitives()));
+        ASSERT_TRUE(same(c->tree.nearest(q, kAnyDistance, hint), any)) << c->soup.source;
+      }
+    }
+}
+
+TEST(triangle_tree, closest_points_lie_where_they_say)
+{
+  for (const auto &c : all_cases())
+    for (const Vec3 &q : c->points(50, 10)) {
+      const TreeAnswer a = c->tree.nearest(q, kAnyDistance, kNoHint);
+      Vec3 point, normal;
+      c->tree.closest(a, q, point, normal);
+      // As above, and the rounding of the point itself.
+      const Real size = norm(c->mesh.report.lo) + norm(c->mesh.report.hi);
+      const Real off = c->tolerance(a.distance) + 8 * kRoundoff * size;
+      ASSERT_NEAR(norm(normal), 1, 8 * kRoundoff) << c->soup.source;
+      ASSERT_NEAR(norm(q - point), a.distance, off) << c->soup.source;
+      ASSERT_LE(c->truth(point), off) << c->soup.source;
+    }
+}
+
+// More than stays in a cache, so that the points are put in order.
+TEST(triangle_tree, many_points_get_what_each_alone_gets)
+{
+  const Case c(cylinder_mesh(100, 49, 50, 100));
+  const std::vector<Vec3> points = c.points(20000, 11);
+  std::vector<double> distance(points.size()), closest(3 * points.size());
+  std::vector<std::uint32_t> feature(points.size());
+  for (const Real cutoff : {1., 0.}) {
+    PointArrays<double> io;
+    io.n = points.size();
+    io.points = {&points[0].x, 3, 1};
+    io.radius = cutoff > 0 ? cutoff : kAnyDistance;
+    io.distance = {distance.data(), 1};
+    io.closest = {closest.data(), 3, 1};
+    io.feature = feature.data();
+    std::unique_ptr<NearBoxes> near;
+    if (cutoff > 0) near = std::make_unique<NearBoxes>(c.tree, c.mesh, cutoff);
+    answer_points(c.tree, near.get(), c.names, io.radius, io);
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < points.size(); i++) {
+      const TreeAnswer alone = c.tree.nearest(points[i], io.radius, kNoHint);
+      ASSERT_EQ(feature[i], alone.feature);
+      ASSERT_EQ(distance[i], alone.found() ? alone.distance : HUGE_VAL);
+      found += alone.found();
+    }
+    EXPECT_GT(found, points.size() / 10);
+  }
+}
+
+}    // namespace
+}    // namespace lsdcd
