@@ -13,7 +13,7 @@ from PIL import Image, ImageChops
 
 import runs
 
-NAMES = ("drum", "hopper", "screw", "screen", "mixer", "piston", "insertion", "belt")
+NAMES = ("drum", "hopper", "screw", "screen", "mixer", "piston", "insertion", "belt", "clumps")
 TUTORIALS = ("meshGran", "movingMeshGran", "servoWall", "conveyor")    # of from-liggghts
 MARGIN = 12    # pixels
 

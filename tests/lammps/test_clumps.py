@@ -1,0 +1,226 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""Clumps, bodies of overlapping spheres that fix rigid/small moves, at a mesh: against LAMMPS's plane, balances of
+momentum and closed forms.
+
+usage: test_clumps.py [PART ...]: these functions only
+"""
+
+import math
+import sys
+
+import lmp
+
+R, DENSITY, G = 0.5, 2.0, 10.0
+MASS = DENSITY * 4 / 3 * math.pi * R**3    # of a sphere
+SIDE = 8.0
+LAW = "hooke/history 1e5 NULL 150 NULL 0.5 1"
+HALVES = "mesh left.stl mesh right.stl"
+
+# Places of the spheres of a clump about the centre of mass.
+CLUMPS = {"pair": [(0.35, 0, 0), (-0.35, 0, 0)],
+          "axle": [(0, 0.35, 0), (0, -0.35, 0)],
+          "three": [(0.4 * math.cos(a), 0.4 * math.sin(a), 0) for a in (0, 2 * math.pi / 3, 4 * math.pi / 3)],
+          "four": [(0.2 * x, 0.2 * y, 0.2 * z) for x, y, z in ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))]}
+
+SETTINGS = """\
+units           lj
+atom_style      sphere
+atom_modify     map array sort 40 1.5
+boundary        f f f
+newton          off
+comm_modify     vel yes cutoff 3.0
+"""
+# Bodies come after the forces on their spheres: else the first half step of a run lacks these.
+FORCES = """\
+pair_style      zero 1.2
+pair_coeff      * *
+neighbor        0.3 bin
+neigh_modify    delay 0 every 1 check yes exclude molecule/intra all
+fix             pull all gravity {gravity}
+fix             wall all {wall}
+fix             bodies all rigid/small molecule
+timestep        {dt}
+variable        p equal mass(all)*vcm(all,{along})
+thermo_style    custom step v_p {force} {more}
+thermo_modify   norm no format float %.17g
+thermo          {thermo}
+"""
+DUMP = """\
+dump            {name} all custom {every} {name} id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz
+dump_modify     {name} format float %.17g sort id
+"""
+DOWN = f"{G} vector 0 0 -1"
+
+
+def write_parts(folder):
+    for name, places in CLUMPS.items():
+        rows = {"Coords": [" ".join(map(repr, map(float, p))) for p in places], "Types": ["1"] * len(places),
+                "Diameters": [str(2 * R)] * len(places)}
+        (folder / f"{name}.mol").write_text(f"{name}\n\n{len(places)} atoms\n" + "".join(
+            f"\n{title}\n\n" + "".join(f"{i} {row}\n" for i, row in enumerate(lines, 1))
+            for title, lines in rows.items()))
+    write_floor(folder / "left.stl", -SIDE, 0)
+    write_floor(folder / "right.stl", 0, SIDE)
+    write_floor(folder / "whole.stl", -SIDE, SIDE)
+
+
+def write_floor(path, lo, hi, cells=7):
+    """Across z = 0, of 2 cells^2 triangles."""
+    def point(i, j):
+        return f"vertex {lo + (hi - lo) * i / cells!r} {SIDE * (2 * j / cells - 1)!r} 0\n"
+
+    with open(path, "w") as stl:
+        stl.write("solid floor\n")
+        for i in range(cells):
+            for j in range(cells):
+                a, b, c, d = point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)
+                for t in (a + b + c, a + c + d):
+                    stl.write("facet normal 0 0 1\nouter loop\n" + t + "endloop\nendfacet\n")
+        stl.write("endsolid floor\n")
+
+
+def create(clumps, kick):
+    """`clumps`: (name, place, how it is turned)."""
+    return (SETTINGS + f"region box block {-SIDE} {SIDE} {-SIDE} {SIDE} -1 6\ncreate_box 1 box\n" +
+            "fix number all property/atom mol ghost yes\n" +
+            "".join(f"molecule {name} {name}.mol\n" for name in CLUMPS) +
+            "".join(f"create_atoms 0 single {x!r} {y!r} {z!r} mol {name} 4711 rotate {turn} units box\n"
+                    for name, (x, y, z), turn in clumps) + f"set group all density {DENSITY}\n{kick}\n")
+
+
+def forces(wall, gravity=DOWN, dt=1e-4, along="z", force="f_wall[3]", more="", thermo=1000):
+    return FORCES.format(wall=wall, gravity=gravity, dt=dt, along=along, force=force, more=more, thermo=thermo)
+
+
+def ours(meshes=HALVES, law=LAW, more=""):
+    return f"wall/lsdcd {law} {meshes} {more}"
+
+
+FEW = [(("pair", "three", "four")[(i + j) % 3], (2.1 * i - 2.9, 2.3 * j - 3.3, 0.95), f"{40 * i + 25 * j} 1 0.{i} 0.{j}")
+       for i in range(4) for j in range(4)]
+# Each sphere its own velocity, of which the body takes what it can have.
+THROWN = "velocity all create 1.0 4711 loop geom\nvelocity all set NULL NULL -2.0 sum yes"
+
+
+def go(folder, name, clumps, kick, steps, wall, ranks=1, every=50, **words):
+    text = lmp.run_well(create(clumps, kick) + forces(wall, **words) + DUMP.format(name=name, every=every) +
+                        f"run {steps}\n", folder, ranks)
+    return lmp.read_dump(folder / name), lmp.read_thermo(text)
+
+
+def among_others(checks, folder):
+    """Two meshes of 196 triangles are LAMMPS's plane, which takes the mass of the body, too."""
+    steps = 4000
+    theirs = go(folder, "plane", FEW, THROWN, steps, f"wall/gran {LAW} zplane 0 NULL", force="")[0]
+    one, rows = go(folder, "one", FEW, THROWN, steps, ours(), thermo=1)
+    touching = [step for step, atoms in one.items() if sum(row[2] < R for row in atoms.values()) > 8]
+    checks.fact("clumps lie on the floor", len(touching) > 10 and steps in touching, str(len(touching)))
+    # Heights of 0.5 are rounded to 1e-16, overlaps are 1e-4: forces are off by 1e-12 of theirs, and tumbling parts
+    # neighbouring paths by a factor of 1e2 at most.
+    checks.at_most("clumps on two meshes: as on LAMMPS's plane", lmp.largest_difference(theirs, one), 1e-10)
+    two = go(folder, "two", FEW, THROWN, steps, ours(), ranks=2)[0]
+    checks.at_most("2 processes: as 1", lmp.largest_difference(one, two), 1e-10)
+    whole = go(folder, "whole", FEW, THROWN, steps, ours("mesh whole.stl"))[0]
+    checks.at_most("one mesh: as two", lmp.largest_difference(one, whole), 1e-10)
+    # Velocity Verlet: each force acts for a step, the first and the last one for half of it. 4000 sums of numbers
+    # of the size of the weight, each rounded to 1e-16 of it.
+    mass = MASS * len(one[0])
+    impulse = 1e-4 * math.fsum(row[2] for row in rows[1:-1]) + 0.5e-4 * (rows[0][2] + rows[-1][2])
+    time = steps * 1e-4
+    checks.at_most("the floor bears the weight, but for what the clumps gain in momentum",
+                   abs(-impulse - mass * G * time + rows[0][1] - rows[-1][1]) / (mass * G * time), 1e-12)
+
+
+def restart(checks, folder):
+    """In two pieces through a file, and without one. The bodies are found anew in both, from atoms in another order."""
+    first, second = 2500, 1500
+    begin = create(FEW, THROWN) + forces(ours())
+    # The dump begins in the second piece, with the step that both repeat.
+    lmp.run_well(begin + f"run {first}\nwrite_restart clumps.restart\n" + DUMP.format(name="two", every=50) +
+                 f"run {second}\n", folder)
+    two = lmp.read_dump(folder / "two")
+    checks.fact("restart: spheres touch where it breaks", sum(row[2] < R for row in two[first].values()) > 8)
+    for ranks in (1, 2):
+        lmp.run_well(SETTINGS + "read_restart clumps.restart\nfix number all property/atom mol ghost yes\n" +
+                     forces(ours()) + DUMP.format(name="again", every=50) + f"run {second}\n", folder, ranks)
+        checks.at_most(f"restart on {ranks}: as without",
+                       lmp.largest_difference(two, lmp.read_dump(folder / "again")), 1e-10)
+
+
+def rebound(checks, folder):
+    """A pair that falls flat has two springs and two dashpots of its own mass M: M z'' = -2 k z - 2 M gamma z', and
+    rebounds with exp(-gamma pi/omega), omega^2 = 2 k/M - gamma^2. The dashpots see the velocity half a step late, and
+    the contact begins and ends within a step: each changes the exponent by gamma dt or less."""
+    gamma, k, dt = 10.0, 1e4, 1e-5
+    path = go(folder, "path", [("pair", (0.2, 0.1, R + 0.001), "0 0 0 1")], "velocity all set 0 0 -1", 3600,
+              ours(law=f"hooke {k} 0 {gamma} 0 0 0"), gravity="0 vector 0 0 -1", dt=dt, every=3600)[0]
+    expected = math.exp(-gamma * math.pi / math.sqrt(2 * k / (2 * MASS) - gamma**2))
+    checks.at_most("a pair that falls flat: damped by the mass of the body",
+                   abs(path[3600][1][5] / expected - 1), 3 * gamma * dt)
+
+
+def slide(checks, folder):
+    """All spheres of a flat clump slide, with mu times what the floor pushes: the change of v along x is mu times that
+    of v + g t along z, to rounding, on a floor at rest and on one that is drawn away."""
+    mu, steps = 0.1, 3000
+    at = [("three", (-1.0, 0.1, R - 3 * MASS * G / 3e5), "0 0 0 1")]
+    law = f"hooke 1e5 0 40 1e4 {mu} 1"
+    for name, kick, motion, sign in (("slides", "velocity all set 5 0 0", "", -1),
+                                     ("is drawn along", "", "motion linear 5 0 0", 1)):
+        meshes = " ".join(f"{mesh} {motion}" for mesh in ("mesh left.stl", "mesh right.stl"))
+        path = go(folder, "path", at, kick, steps, ours(meshes, law))[0]
+        v0, v = ([sum(row[k] for row in path[step].values()) / 3 for k in (3, 4, 5)] for step in (0, steps))
+        gained = mu * (G * steps * 1e-4 + v[2] - v0[2])
+        checks.at_most(f"a clump that {name}: mu times the push", abs((v[0] - v0[0]) * sign / gained - 1), 1e-11)
+        checks.fact(f"a clump that {name}: over the seam", path[0][1][0] < 0 < path[steps][1][0] or sign > 0)
+
+
+def roll(checks, folder):
+    """Two spheres on an axle roll down a slope as one does, with 5/7 g sin. Torques act at R: v + 2/5 R omega is that
+    of gravity to rounding. The slip is what the springs still swing: less than their stretch F/(M w^2) times w, with
+    F = 2/7 M g sin and w^2 = 2 k_t (1 + 5/2)/M."""
+    sine, steps = 0.5, 6000
+    law = "hooke/history 1e5 1e5 40 40 0.9 1"
+    at = [("axle", (-0.5, 0.1, R - 2 * MASS * G * math.sqrt(1 - sine**2) / 2e5), "0 0 0 1")]
+    path = go(folder, "path", at, "", steps, ours(law=law),
+              gravity=f"{G} vector {sine} 0 {-math.sqrt(1 - sine**2)!r}")[0]
+    v, omega = path[steps][1][3], path[steps][1][7]
+    along = G * sine * steps * 1e-4
+    checks.fact("an axle rolls over the seam", path[0][1][0] < -0.4 and path[steps][1][0] > 0.1, str(path[steps][1][0]))
+    checks.at_most("an axle that rolls: gravity turns and drives it", abs((v + 0.4 * R * omega) / along - 1), 1e-11)
+    stiff = math.sqrt(2 * 1e5 * 3.5 / (2 * MASS))
+    slip = 2 / 7 * G * sine / stiff
+    checks.at_most("an axle that rolls: does not slip", abs(v - R * omega), slip)
+    checks.at_most("an axle that rolls: 5/7 g sin", abs(v - 5 / 7 * along), 2 / 7 * slip)
+
+
+def lifted(checks, folder):
+    """What moves with a mesh sees one at rest (Galilei), here up and along x, whose places are rounded otherwise."""
+    steps = 2500
+    rest = go(folder, "rest", FEW, THROWN, steps, ours("mesh whole.stl"))[0]
+    kick = THROWN + "\nvelocity all set 1.5 NULL 0.75 sum yes"
+    moved = go(folder, "moved", FEW, kick, steps, ours("mesh whole.stl motion linear 1.5 0 0.75"))[0]
+    for step, atoms in moved.items():
+        for row in atoms.values():
+            for k, v in ((0, 1.5), (2, 0.75)):
+                row[k] -= v * step * 1e-4
+                row[k + 3] -= v
+    # Places of 4 are rounded to 4e-16, overlaps are 1e-4: forces are off by 4e-12, as above.
+    checks.at_most("a mesh that moves: as at rest", lmp.largest_difference(rest, moved), 1e-10)
+
+
+def main():
+    checks, folder = lmp.Checks(), lmp.scratch()
+    write_parts(folder)
+    parts = (among_others, restart, rebound, slide, roll, lifted)
+    for part in parts:
+        if part.__name__ in (sys.argv[1:] or [p.__name__ for p in parts]):
+            part(checks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
