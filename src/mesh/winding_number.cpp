@@ -173,7 +173,7 @@ bool is_on(int axis, const Triangle &t, const Vec3 &q)
   return true;
 }
 
-constexpr Real kCellsPerFacet = 4;
+constexpr Real kCellsPerFacet = 2;
 constexpr int kMaxCellsAlong = 2048;
 // Pieces of facets are listed in cells that are wider by this part of a cell, far above rounding: a
 // cell is at least 1/2048 of the box, in whose units coordinates round by 1e-16.

@@ -6,6 +6,8 @@
 
 A box of triangles has the block's faces without rounding, and LAMMPS moves both alike: the same atoms are
 inside, also those on its faces. A cylinder of N flat sides is between two cylinders of LAMMPS.
+
+usage: test_region.py [host]: under the LAMMPS of hosts/build_host.sh
 """
 
 import math
@@ -179,12 +181,23 @@ def check_gap(checks, folder):
     checks.fact("without it some do", last[2] > 0, str(last))
 
 
+def on_host():
+    if not lmp.TEST_HOST:
+        print("SKIPPED: no LAMMPS of hosts/build_host.sh (LSDCD_TEST_HOST)")
+        sys.exit(77)
+    global CLOUD, FILL
+    load = f"plugin load {lmp.TEST_HOST_PLUGIN}\n"
+    CLOUD, FILL = load + CLOUD, load + FILL
+    lmp.LMP = lmp.TEST_HOST
+
+
 def main():
+    if "host" in sys.argv[1:]:
+        on_host()
     checks, folder = lmp.Checks(), lmp.scratch()
     write_meshes(folder)
     for check in (check_block, check_cylinder, check_commands, check_gap):
-        if len(sys.argv) < 2 or check.__name__ in sys.argv[1:]:
-            check(checks, folder)
+        check(checks, folder)
     checks.done(folder)
 
 
