@@ -26,7 +26,7 @@ RegionMeshLsdcd::RegionMeshLsdcd(LAMMPS *lmp, int narg, char **arg) : Region(lmp
     const lsdcd::WallMesh mesh = lsdcd::read_together(world, settings.mesh);
     lsdcd::run_collectively(world, true, [&] {
       winding = std::make_unique<lsdcd::WindingNumber>(mesh);
-      if (settings.gap > 0) clearance = std::make_unique<lsdcd::SurfaceClearance>(mesh);
+      if (settings.gap > 0) distances = std::make_unique<Distances>(mesh);
     });
     set_bounds(mesh.report);
     log(mesh);
@@ -65,8 +65,10 @@ int RegionMeshLsdcd::inside(double x, double y, double z)
   const Vec3 q = {x, y, z};
   const lsdcd::WindingNumber::Answer at = winding->at(q);
   const bool is_in = at.on_surface || at.number != 0;
-  if (!clearance || (is_in != (interior == 1))) return is_in;
-  return clearance->is_clear(q, settings.gap) ? is_in : !interior;
+  if (!distances || is_in != (interior == 1)) return is_in;
+  const bool is_near =
+      distances->tree.nearest(q, settings.gap, lsdcd::TriangleTree::kNoPrimitive).found();
+  return is_near ? !interior : is_in;
 }
 
 int RegionMeshLsdcd::surface_interior(double *, double)
@@ -90,9 +92,9 @@ void RegionMeshLsdcd::log(const lsdcd::WallMesh &mesh) const
 {
   if (comm->me != 0) return;
   char text[160];
-  std::snprintf(text, sizeof text, "%zu triangles, %.3g MB on each process", mesh.faces.size(),
-                1e-6 *
-                    static_cast<double>(winding->bytes() + (clearance ? clearance->bytes() : 0)));
+  std::snprintf(
+      text, sizeof text, "%zu triangles, %.3g MB on each process", mesh.faces.size(),
+      1e-6 * static_cast<double>(winding->bytes() + (distances ? distances->tree.bytes() : 0)));
   utils::logmesg(lmp, with_region_id(text) + "\n");
 }
 

@@ -8,8 +8,8 @@
 #include "region.h"
 
 #include "input/region_settings.h"
-#include "mesh/surface_clearance.h"
 #include "mesh/winding_number.h"
+#include "query/triangle_tree.h"
 
 #include <memory>
 #include <string>
@@ -32,9 +32,18 @@ class RegionMeshLsdcd : public Region {
   std::string with_region_id(const std::string &) const;
   [[noreturn]] void refuse_surface() const;
 
+  // From the surface.
+  struct Distances {
+    lsdcd::WallMesh mesh;
+    lsdcd::TriangleTable names;
+    lsdcd::TriangleTree tree;
+
+    explicit Distances(const lsdcd::WallMesh &from) : mesh(from), names(mesh), tree(mesh, names) {}
+  };
+
   lsdcd::RegionSettings settings;
   std::unique_ptr<lsdcd::WindingNumber> winding;
-  std::unique_ptr<lsdcd::SurfaceClearance> clearance;    // where there is a gap
+  std::unique_ptr<Distances> distances;    // where there is a gap
 };
 
 }    // namespace LAMMPS_NS
