@@ -175,9 +175,11 @@ bool is_on(int axis, const Triangle &t, const Vec3 &q)
 
 constexpr Real kCellsPerFacet = 2;
 constexpr int kMaxCellsAlong = 2048;
-// Pieces of facets are listed in cells that are wider by this part of a cell, far above rounding: a
-// cell is at least 1/2048 of the box, in whose units coordinates round by 1e-16.
-constexpr Real kWider = 1e-6;
+// Pieces of facets are listed in cells that are wider by this part of a cell and this part of the largest
+// coordinate. Cutting a facet rounds by half a unit of the last place each time, less than 20 times.
+// Cells are wide beside that.
+constexpr Real kWider = 1e-6, kWiderByRounding = 64 * kRoundoff,
+               kThinnestCell = 8 * kWiderByRounding;
 
 }    // namespace
 
@@ -222,6 +224,14 @@ WindingNumber::WindingNumber(const WallMesh &mesh)
   number_empty_cells();
 }
 
+Real WindingNumber::largest_coordinate() const
+{
+  Real largest = 0;
+  for (int k = 0; k < 3; k++)
+    largest = std::max({largest, std::fabs(box_.lo[k]), std::fabs(box_.hi[k])});
+  return largest;
+}
+
 // Cubes as far as the box allows.
 void WindingNumber::choose_cells()
 {
@@ -229,7 +239,9 @@ void WindingNumber::choose_cells()
   const Real wanted = std::min(kCellsPerFacet * static_cast<Real>(facets_.size()), Real(1 << 28));
   Real cell = std::max({size.x, size.y, size.z});
   const auto along = [&](int k) {
-    return std::min(std::ceil(size[k] / cell), Real(kMaxCellsAlong));
+    const Real most =
+        std::min(size[k] / (kThinnestCell * largest_coordinate()), Real(kMaxCellsAlong));
+    return std::min(std::ceil(size[k] / cell), std::floor(most));
   };
   const auto cells = [&] {
     return std::max(along(0), Real(1)) * std::max(along(1), Real(1)) * std::max(along(2), Real(1));
@@ -238,7 +250,7 @@ void WindingNumber::choose_cells()
   for (int k = 0; k < 3; k++) {
     n_[k] = std::max(static_cast<int>(along(k)), 1);
     length_[k] = size[k] / n_[k];
-    per_length_[k] = length_[k] > 0 ? 1 / length_[k] : 0;
+    per_length_[k] = n_[k] > 1 ? 1 / length_[k] : 0;
   }
   stride_ = {std::ptrdiff_t(n_[1]) * n_[2], n_[2], 1};
 }
@@ -252,6 +264,7 @@ void WindingNumber::list_facets()
   std::vector<Entry> entries;
   std::vector<std::uint32_t> last(stride_[0] * n_[0], kEmpty);    // that a cell lists
   std::vector<Facet> pieces;
+  const Real largest = largest_coordinate();
   for (std::uint32_t f = 0; f < facets_.size(); f++) {
     pieces.push_back(facets_[f]);
     while (!pieces.empty()) {
@@ -261,7 +274,7 @@ void WindingNumber::list_facets()
       Index lo, hi;
       bool is_small = true;
       for (int k = 0; k < 3; k++) {
-        const Real wider = kWider * length_[k];
+        const Real wider = kWider * length_[k] + kWiderByRounding * largest;
         lo[k] = cell_along(k, std::max(box.lo[k] - wider, box_.lo[k]));
         hi[k] = cell_along(k, std::min(box.hi[k] + wider, box_.hi[k]));
         is_small = is_small && hi[k] - lo[k] < 2;

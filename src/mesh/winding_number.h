@@ -72,6 +72,7 @@ class WindingNumber {
   };
   static constexpr std::uint32_t kEmpty = 0xffffffffu;
 
+  Real largest_coordinate() const;
   void choose_cells();
   void list_facets();
   void choose_directions();

@@ -87,12 +87,15 @@ TriangleSoup crumpled(std::mt19937_64 &dice, int n, int lattice)
 
 // Points whose sum of solid angles is within 1e-6 of a whole number are compared. Long double rounds it by 1e-18
 // for each facet, so that those are off the surface, and the whole number is theirs.
-void expect_solid_angles(const TriangleSoup &soup, std::mt19937_64 &dice, int n, Real lo, Real hi)
+void expect_solid_angles(const TriangleSoup &soup, std::mt19937_64 &dice, int n, const Vec3 &lo,
+                         const Vec3 &hi)
 {
   const WindingNumber winding(weld(soup, 0));
   int compared = 0;
   for (int i = 0; i < n; i++) {
-    const Vec3 q = random_point(dice, lo, hi);
+    const Vec3 share = random_point(dice, 0, 1);
+    Vec3 q;
+    for (int k = 0; k < 3; k++) q[k] = lo[k] + share[k] * (hi[k] - lo[k]);
     const long double sum = by_solid_angles(soup, q);
     const int number = static_cast<int>(std::lround(sum));
     if (std::fabs(sum - number) > 1e-6) continue;
@@ -108,7 +111,7 @@ TEST(winding_number, is_the_sum_of_solid_angles_where_shells_cut_themselves)
 {
   std::mt19937_64 dice(1);
   for (const int n : {3, 5, 9, 20})
-    expect_solid_angles(crumpled(dice, n, 0), dice, 1000, -0.2, 1.2);
+    expect_solid_angles(crumpled(dice, n, 0), dice, 1000, {-0.2, -0.2, -0.2}, {1.2, 1.2, 1.2});
 }
 
 TEST(winding_number, is_the_sum_of_solid_angles_where_shells_cut_and_contain_each_other)
@@ -118,7 +121,19 @@ TEST(winding_number, is_the_sum_of_solid_angles_where_shells_cut_and_contain_eac
   append(soup, moved(cylinder_mesh(31, 7, 0.4, 0.7), {0.3, 0.1, 0.2}));
   append(soup, box_mesh({-0.2, -0.2, 0.1}, {0.2, 0.2, 0.9}));
   append(soup, inverted(box_mesh({0.1, -0.1, 0.2}, {0.6, 0.3, 0.4})));
-  expect_solid_angles(soup, dice, 1000, -0.6, 1.1);
+  expect_solid_angles(soup, dice, 1000, {-0.6, -0.6, -0.6}, {1.1, 1.1, 1.1});
+}
+
+// Far from the origin a place in a cell rounds, and so does the middle of an edge.
+TEST(winding_number, is_the_sum_of_solid_angles_far_from_the_origin)
+{
+  std::mt19937_64 dice(5);
+  for (const Real far : {1e6, 1e10, 1e12}) {
+    TriangleSoup soup = cylinder_mesh(24, 8, 0.5, 1);
+    append(soup, box_mesh({-0.2, -0.2, 0.1}, {0.6, 0.2, 0.9}));
+    expect_solid_angles(moved(soup, {far, 0, -far}), dice, 500, {far - 0.6, -0.6, -far - 0.1},
+                        {far + 0.7, 0.6, -far + 1.1});
+  }
 }
 
 // Rays go through edges and vertices, along edges and in the planes of facets.
