@@ -6,6 +6,7 @@
 #include "library_query.h"
 #include "backend/threads.h"
 #include "peers.h"
+#include "geometry/closest_point.h"
 #include "study/spheres.h"
 
 #include <cmath>
@@ -131,6 +132,18 @@ Way peer_way(const Peer &peer, const TriangleSoup &mesh)
           time,      [=] { return *distance; }};
 }
 
+// Points inside of the sphere and outside, up to two radii from its middle along each axis.
+std::vector<Sphere> any_points(std::size_t n)
+{
+  const SphereBox box = {{-2, -2, -2}, {2, 2, 2}, 1, kSeed};
+  std::vector<Sphere> points(n);
+  for (std::uint64_t i = 0; i < n; i++) {
+    points[i] = box.sphere(i);
+    points[i].r = kAnyDistance;
+  }
+  return points;
+}
+
 // Points of the box that a way does not find.
 std::vector<Sphere> far_points(const Way &way, const SphereBox &box, std::size_t n)
 {
@@ -216,6 +229,17 @@ void measure_near_and_far(const BenchOptions &o, BenchRows &rows)
         row.order = order;
         compare(ways, points, o.repeats > 0 ? o.repeats : 3, row, near ? "near" : "far", rows);
       }
+    }
+    // At any distance: without a cutoff, and cells in float have one.
+    ways.erase(ways.begin(), ways.begin() + 2);
+    ways.insert(ways.begin(), library_way(mesh, 0, false));
+    std::vector<Sphere> points = any_points(std::max<std::size_t>(n / 20, 1000));
+    BenchRow row;
+    row.triangles = mesh.n_triangles();
+    for (const char *order : {"random", "sorted"}) {
+      if (order[0] == 's') sort(points, {{-2, -2, -2}, {2, 2, 2}, 1, kSeed});
+      row.order = order;
+      compare(ways, points, o.repeats > 0 ? o.repeats : 3, row, "any", rows);
     }
   }
 }

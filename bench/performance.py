@@ -203,7 +203,7 @@ def distance_table(cpu, cuda):
 
 
 def near_and_far(cpu):
-    return of(cpu, "query", lambda case: case.startswith(("near, ", "far, ")))
+    return of(cpu, "query", lambda case: case.startswith(("near, ", "far, ", "any, ")))
 
 
 def near_and_far_tables(cpu):

@@ -26,17 +26,18 @@ NearBoxes::NearBoxes(const TriangleTree &tree, const WallMesh &mesh, Real cutoff
   length_ = (std::fmax(size.x, std::fmax(size.y, size.z)) + 2 * pad) / n_;
   per_length_ = 1 / length_;
   bits_.resize(std::size_t(n_) * n_ * n_ / 64);
-  mark(tree, pad, {0, 0, 0}, n_);
+  mark(tree, pad, {0, 0, 0}, n_, TriangleTree::kNoPrimitive);
 }
 
 // Boxes of a larger box, of `size` along each axis, in eight parts of which those that are far are left out.
-void NearBoxes::mark(const TriangleTree &tree, Real cutoff, const std::array<int, 3> &at, int size)
+void NearBoxes::mark(const TriangleTree &tree, Real cutoff, const std::array<int, 3> &at, int size,
+                     std::uint32_t hint)
 {
   const Real half = Real(0.5) * size * length_;
   const Vec3 centre =
       lo_ + Vec3{at[0] * length_ + half, at[1] * length_ + half, at[2] * length_ + half};
   const Real within = cutoff + std::sqrt(Real(3)) * half;
-  if (!tree.nearest(centre, within, TriangleTree::kNoPrimitive).found()) return;
+  if (!tree.is_within(centre, within, hint)) return;
   if (size == 1) {
     const std::size_t i = (std::size_t(at[2]) * n_ + at[1]) * n_ + at[0];
     bits_[i / 64] |= std::uint64_t(1) << i % 64;
@@ -46,7 +47,7 @@ void NearBoxes::mark(const TriangleTree &tree, Real cutoff, const std::array<int
     mark(tree, cutoff,
          {at[0] + (part & 1) * size / 2, at[1] + (part >> 1 & 1) * size / 2,
           at[2] + (part >> 2) * size / 2},
-         size / 2);
+         size / 2, hint);
 }
 
 // ---- points -------------------------------------------------------------------------------------

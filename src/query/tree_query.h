@@ -32,7 +32,8 @@ class NearBoxes {
   std::size_t bytes() const { return bits_.size() * sizeof bits_[0]; }
 
  private:
-  void mark(const TriangleTree &tree, Real cutoff, const std::array<int, 3> &at, int size);
+  void mark(const TriangleTree &tree, Real cutoff, const std::array<int, 3> &at, int size,
+            std::uint32_t hint);
 
   Vec3 lo_;
   Real length_, per_length_;    // of a box

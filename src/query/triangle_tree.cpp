@@ -532,6 +532,15 @@ TreeAnswer TriangleTree::nearest(const Vec3 &q, Real radius, std::uint32_t hint)
   return best;
 }
 
+bool TriangleTree::is_within(const Vec3 &q, Real radius, std::uint32_t &hint) const
+{
+  FeatureCode feature = kNoFeature;
+  if (hint != kNoPrimitive && exact(hint, q, feature) < radius) return true;
+  const TreeAnswer a = nearest(q, radius, kNoPrimitive);
+  if (a.found()) hint = a.primitive;
+  return a.found();
+}
+
 // ---- closest points -----------------------------------------------------------------------------
 
 void TriangleTree::closest(const TreeAnswer &answer, const Vec3 &q, Vec3 &point, Vec3 &normal) const

@@ -41,6 +41,9 @@ class TriangleTree {
   // that may be near q, or kNoPrimitive; it changes the time alone.
   TreeAnswer nearest(const Vec3 &q, Real radius, std::uint32_t hint) const;
 
+  // Is anything nearer to q than `radius`? The hint becomes what was found.
+  bool is_within(const Vec3 &q, Real radius, std::uint32_t &hint) const;
+
   // The point of a feature that nearest() found, and the unit vector from there to q; a fixed choice where
   // q is on the mesh.
   void closest(const TreeAnswer &answer, const Vec3 &q, Vec3 &point, Vec3 &normal) const;
