@@ -97,6 +97,7 @@ TriangleTree::TriangleTree(const WallMesh &mesh, const TriangleTable &names) :
   const std::size_t n = mesh.faces.size() + bare_edges_.size() + bare_vertices_.size();
   const std::size_t n_leaves = (n + kWide - 1) / kWide;
   leaves_ = OwnedArray<Leaf, LargeMemory>(n_leaves);
+  sides_ = OwnedArray<Sides, LargeMemory>(n_leaves);
   exact_ = OwnedArray<Exact, LargeMemory>(n);
   std::vector<Item> items(n);
   for (std::size_t i = 0; i < n; i++) {
@@ -243,6 +244,15 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
     offset[k] = static_cast<float>(at);
     size = std::max(size, std::fabs(at));
   };
+  Sides &sides = sides_.data()[slot / kWide];
+  sides = Sides();
+  for (int k = 0; k < n; k++)
+    for (int c = 0; c < 3; c++) {
+      const Vec3 from = corner[k][c] - origin;
+      for (int a = 0; a < 3; a++) sides.corner[c][a][k] = static_cast<float>(from[a]);
+      const Real square = norm_sq(corner[k][(c + 1) % 3] - corner[k][c]);
+      sides.over_square[c][k] = square > Real(1e-30) ? static_cast<float>(1 / square) : 0;
+    }
   for (int k = 0; k < n; k++) {
     const Exact &e = exact_.data()[slot + k];
     const Vec3 anchor = corner[k][0] - origin;
@@ -268,7 +278,7 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
 
 std::size_t TriangleTree::bytes() const
 {
-  return nodes_.capacity() * sizeof(Node) + leaves_.size() * sizeof(Leaf) +
+  return nodes_.capacity() * sizeof(Node) + leaves_.size() * (sizeof(Leaf) + sizeof(Sides)) +
          exact_.size() * sizeof(Exact);
 }
 
@@ -411,13 +421,14 @@ Real TriangleTree::exact(std::uint32_t primitive, const Vec3 &q, FeatureCode &fe
                   dz = static_cast<float>(at.z - leaf.origin[2]);
       const Eight height = eight(leaf.normal[0]) * dx + eight(leaf.normal[1]) * dy +
                            eight(leaf.normal[2]) * dz + eight(leaf.offset);
-      Eight past = {};
+      Eight past = {-kHuge, -kHuge, -kHuge, -kHuge, -kHuge, -kHuge, -kHuge, -kHuge};
       for (int s = 0; s < 3; s++) {
         const Eight outside = -(eight(leaf.side[s][0]) * dx + eight(leaf.side[s][1]) * dy +
                                 eight(leaf.side[s][2]) * dz + eight(leaf.side_offset[s]));
         past = outside > past ? outside : past;
       }
-      const Eight distance_sq = height * height + past * past;
+      const Eight none = {}, beside = past > none ? past : none;
+      Eight distance_sq = height * height + beside * beside;
       const float plane_rounding =
           kPlaneRounding * (std::fabs(dx) + std::fabs(dy) + std::fabs(dz) + leaf.size);
       const auto limit = [&] {
@@ -426,6 +437,26 @@ Real TriangleTree::exact(std::uint32_t primitive, const Vec3 &q, FeatureCode &fe
       };
       unsigned near = lanes(distance_sq <= limit());
       if (slot + kWide > n_exact) near &= (1u << (n_exact - slot)) - 1;
+      if ((near & (near - 1)) != 0) {
+        // Several: past a corner that was too little. Beside a triangle its sides are nearest.
+        const Sides &sides = sides_.data()[number];
+        Eight least = {kHuge, kHuge, kHuge, kHuge, kHuge, kHuge, kHuge, kHuge};
+        least *= least;
+        for (int s = 0; s < 3; s++) {
+          const auto &from = sides.corner[s], &to = sides.corner[s == 2 ? 0 : s + 1];
+          Eight px = dx - eight(from[0]), py = dy - eight(from[1]), pz = dz - eight(from[2]);
+          const Eight ex = eight(to[0]) - eight(from[0]), ey = eight(to[1]) - eight(from[1]),
+                      ez = eight(to[2]) - eight(from[2]);
+          Eight t = (px * ex + py * ey + pz * ez) * eight(sides.over_square[s]);
+          t = t > none ? t : none;
+          t = t < 1.0f ? t : none + 1.0f;
+          px -= t * ex, py -= t * ey, pz -= t * ez;
+          const Eight square = px * px + py * py + pz * pz;
+          least = square < least ? square : least;
+        }
+        distance_sq = past > plane_rounding ? least : distance_sq;
+        near &= lanes(distance_sq <= limit());
+      }
       if (near != 0) {
         alignas(32) float of_lane[kWide];
         *reinterpret_cast<Eight *>(of_lane) = distance_sq;

@@ -71,6 +71,11 @@ class TriangleTree {
     float side[3][3][kWide], side_offset[3][kWide];
     float origin[3], size;    // offsets are from there, and at most so large
   };
+  // The sides as segments from one corner to the next, from the origin of the leaf: exact where several
+  // triangles remain. `over_square`: 1 over the length squared, 0 where that is next to nothing.
+  struct alignas(64) Sides {
+    float corner[3][3][kWide], over_square[3][kWide];
+  };
   // What a distance in double reads.
   struct Exact {
     FaceRecord face;    // not set for an edge or a vertex of no face
@@ -110,6 +115,7 @@ class TriangleTree {
   std::vector<std::uint32_t> bare_edges_, bare_vertices_;
   std::vector<Node> nodes_;
   OwnedArray<Leaf, LargeMemory> leaves_;
+  OwnedArray<Sides, LargeMemory> sides_;    // of the leaves
   OwnedArray<Exact, LargeMemory> exact_;    // in the order of the leaves
   std::uint32_t root_ = 0;
   Bounds all_;
