@@ -154,7 +154,7 @@ class CudaAnswers : public PointAnswers {
 
 }    // namespace
 
-std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, GridSettings settings,
+std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, const GridSettings &settings,
                                                  const std::string &device)
 {
   std::string why;
@@ -174,11 +174,12 @@ std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, GridSetti
     return made;
   }
 #if defined(LSDCD_HAVE_CUDA)
-  settings.sides = mesh.report.closed && mesh.report.oriented;
-  settings.purpose = GridPurpose::points;
-  const TriangleGrid grid = build_grid(mesh, settings, true);
+  GridSettings of_grid = settings;
+  of_grid.sides = mesh.report.closed && mesh.report.oriented;
+  of_grid.purpose = GridPurpose::points;
+  const TriangleGrid grid = build_grid(mesh, of_grid, true);
   auto made = std::make_unique<CudaAnswers>(mesh, grid);
-  made->sides_by_normals = settings.sides && grid.outside != 0;
+  made->sides_by_normals = of_grid.sides && grid.outside != 0;
   made->has_sides = made->sides_by_normals || has_inside(mesh);
   made->report = grid.report;
   return made;

@@ -23,7 +23,7 @@ class PointAnswers {
 };
 
 // By a tree on a CPU, by a grid of these settings on a GPU. Their cutoff is 0 for any distance. device: auto, cpu or cuda. Throws InputError.
-std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, GridSettings settings,
+std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, const GridSettings &settings,
                                                  const std::string &device);
 
 }    // namespace lsdcd
