@@ -227,9 +227,13 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
         hi[a] = std::max(hi[a], x[a]);
       }
     }
-    if (feature_kind(e.code) == FeatureKind::face)
-      e.face = make_face_record(mesh_.vertices[e.vertex[0]], mesh_.vertices[e.vertex[1]],
-                                mesh_.vertices[e.vertex[2]]);
+    if (feature_kind(e.code) == FeatureKind::face) {
+      const FaceRecord f = make_face_record(
+          mesh_.vertices[e.vertex[0]], mesh_.vertices[e.vertex[1]], mesh_.vertices[e.vertex[2]]);
+      e.normal = f.normal;
+      std::copy(f.inward, f.inward + 3, e.inward);
+      e.height = f.height;
+    }
   }
   for (int a = 0; a < 3; a++) {
     bounds.lo[a] = below(lo[a]);
@@ -257,11 +261,10 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
     const Exact &e = exact_.data()[slot + k];
     const Vec3 anchor = corner[k][0] - origin;
     if (feature_kind(e.code) == FeatureKind::face) {
-      const FaceRecord &f = e.face;
-      put(leaf.normal, leaf.offset, k, f.normal, -dot(f.normal, anchor));
+      put(leaf.normal, leaf.offset, k, e.normal, -dot(e.normal, anchor));
       for (int s = 0; s < 3; s++)
-        put(leaf.side[s], leaf.side_offset[s], k, f.inward[s],
-            (s == 1 ? inv_scale_ * f.height : 0) - dot(f.inward[s], anchor));
+        put(leaf.side[s], leaf.side_offset[s], k, e.inward[s],
+            (s == 1 ? inv_scale_ * e.height : 0) - dot(e.inward[s], anchor));
     } else if (feature_kind(e.code) == FeatureKind::edge) {
       // Between two planes at its ends, and on one along it.
       const Vec3 along = corner[k][1] - corner[k][0];
@@ -318,12 +321,11 @@ Real TriangleTree::exact(std::uint32_t primitive, const Vec3 &q, FeatureCode &fe
 {
   const Exact &e = exact_.data()[primitive];
   if (feature_kind(e.code) == FeatureKind::face) {
-    const FaceRecord &f = e.face;
-    const Vec3 d = q - f.anchor;
-    const Real side[3] = {dot(f.inward[0], d), dot(f.inward[1], d) + f.height, dot(f.inward[2], d)};
+    const Vec3 d = q - mesh_.vertices[e.vertex[0]];
+    const Real side[3] = {dot(e.inward[0], d), dot(e.inward[1], d) + e.height, dot(e.inward[2], d)};
     if ((side[0] >= 0) & (side[1] >= 0) & (side[2] >= 0)) {
       feature = e.code;
-      return std::fabs(dot(f.normal, d));
+      return std::fabs(dot(e.normal, d));
     }
     Real least = kAnyDistance;
     for (int k = 0; k < 3; k++) {
@@ -578,8 +580,8 @@ void TriangleTree::closest(const TreeAnswer &answer, const Vec3 &q, Vec3 &point,
 {
   const std::uint32_t i = feature_index(answer.feature);
   if (feature_kind(answer.feature) == FeatureKind::face) {
-    const FaceRecord &f = exact_.data()[answer.primitive].face;
-    normal = dot(f.normal, q - f.anchor) < 0 ? -f.normal : f.normal;
+    const Exact &e = exact_.data()[answer.primitive];
+    normal = dot(e.normal, q - mesh_.vertices[e.vertex[0]]) < 0 ? -e.normal : e.normal;
     point = q - answer.distance * normal;
     return;
   }

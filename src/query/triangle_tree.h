@@ -78,7 +78,9 @@ class TriangleTree {
   };
   // What a distance in double reads.
   struct Exact {
-    FaceRecord face;    // not set for an edge or a vertex of no face
+    // As in a FaceRecord; not set for an edge or a vertex of no face.
+    Vec3 normal, inward[3];
+    Real height;
     FeatureCode code;
     std::uint32_t vertex[3], edge[3];
   };

@@ -68,6 +68,14 @@ assert (grid.query(np.broadcast_to([0.9, 0, 0], (5, 3))).distance == grid.query(
 assert grid.query(np.array([[0, 0, 1], [0, 1, 0]])).distance.tolist() == [0, 0]    # whole numbers
 assert grid.query(np.empty((0, 3))).distance.shape == (0,)
 
+# Without a cutoff, at any distance, with the same bits within it.
+anywhere = mesh.grid()
+assert anywhere.facts.cutoff == np.inf
+far = anywhere.query(1000 * points, "distance side")
+wanted = truth(1000 * points)
+assert np.allclose(far.distance, wanted[0], rtol=1e-14, atol=1e-14) and (far.side == wanted[1]).all()
+assert (anywhere.query(points).distance[np.isfinite(base)] == base[np.isfinite(base)]).all()
+
 assert np.isinf(grid.query([[1.2, 0, 0]], radius=0.19).distance[0])
 assert np.isfinite(grid.query([[1.2, 0, 0]] * 2, radius=[0.19, 0.21]).distance).tolist() == [False, True]
 assert (lsdcd.Mesh(vertices[faces]).grid(cutoff=CUTOFF).query(points).distance == base).all()
