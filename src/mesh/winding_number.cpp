@@ -175,6 +175,8 @@ bool is_on(int axis, const Triangle &t, const Vec3 &q)
 
 constexpr Real kCellsPerFacet = 2;
 constexpr int kMaxCellsAlong = 2048;
+// On a ray's way: from here on a tree is quicker, and so many are worth its memory.
+constexpr std::uint32_t kMany = 256, kWorthATree = 1024;
 // Pieces of facets are listed in cells that are wider by this part of a cell and this part of the largest
 // coordinate. Cutting a facet rounds by half a unit of the last place each time, less than 20 times.
 // Cells are wide beside that.
@@ -220,7 +222,7 @@ WindingNumber::WindingNumber(const WallMesh &mesh)
     for (const Vec3 &x : f.corner) extend(box_, x);
   choose_cells();
   list_facets();
-  choose_directions();
+  if (choose_directions() > kWorthATree) build_tree();
   number_empty_cells();
 }
 
@@ -322,8 +324,9 @@ void WindingNumber::list_facets()
   }
 }
 
-// From each cell with facets, the way to an empty cell, or out of the box, that looks at the fewest.
-void WindingNumber::choose_directions()
+// From each cell with facets, the way to an empty cell, or out of the box, that looks at the fewest. Returns
+// the most that one looks at.
+std::uint32_t WindingNumber::choose_directions()
 {
   direction_.assign(cells_.size(), 0);
   std::vector<std::uint32_t> least(cells_.size(), std::numeric_limits<std::uint32_t>::max());
@@ -343,6 +346,18 @@ void WindingNumber::choose_directions()
           }
         }
   }
+  std::uint32_t most = 0;
+  for (std::size_t cell = 0; cell < cells_.size(); cell++)
+    if (cells_[cell].first != kEmpty) most = std::max(most, least[cell]);
+  return most;
+}
+
+void WindingNumber::build_tree()
+{
+  std::vector<Box> boxes;
+  boxes.reserve(facets_.size());
+  for (const Facet &f : facets_) boxes.push_back(box_around(f.corner[0], f.corner[1], f.corner[2]));
+  tree_ = std::make_unique<const BoxTree>(boxes);
 }
 
 // In the order of cells, so that those below have their numbers.
@@ -417,13 +432,26 @@ WindingNumber::Answer WindingNumber::walk(const Vec3 &q, const Index &at, int di
   std::size_t end = first;
   int i = at[ray.axis];
   Answer answer = {false, 0};
+  std::uint32_t on_way = 0;
   for (; i >= 0 && i < n_[ray.axis]; i += ray.up ? 1 : -1, end += step)
     if (cells_[end].first == kEmpty) {
       ray.ends = true;
       ray.end[ray.axis] = box_.lo[ray.axis] + (i + 0.5) * length_[ray.axis];
       answer.number = cells_[end].number;
       break;
+    } else {
+      on_way += cells_[end].number;
     }
+  if (tree_ && on_way > kMany) {
+    Box way = {q, q};
+    if (ray.ends)
+      extend(way, ray.end);
+    else
+      (ray.up ? way.hi : way.lo)[ray.axis] = (ray.up ? box_.hi : box_.lo)[ray.axis];
+    tree_->visit([&](const Box &box) { return overlap(box, way); },
+                 [&](int f) { answer.number += crossing(facets_[f], ray, answer.on_surface); });
+    return answer;
+  }
   Crossed crossed;
   for (std::size_t cell = first; cell != end; cell += step) {
     const Cell &c = cells_[cell];
@@ -451,7 +479,8 @@ WindingNumber::Answer WindingNumber::at(const Vec3 &q) const
 std::size_t WindingNumber::bytes() const
 {
   return facets_.capacity() * sizeof(Facet) + cells_.capacity() * sizeof(Cell) +
-         direction_.capacity() + listed_.capacity() * sizeof(std::uint32_t);
+         direction_.capacity() + listed_.capacity() * sizeof(std::uint32_t) +
+         (tree_ ? tree_->bytes() : 0);
 }
 
 }    // namespace lsdcd

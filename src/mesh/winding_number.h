@@ -4,12 +4,14 @@
 // How many times a closed surface winds around a point, without rounding and at any distance.
 #pragma once
 
+#include "mesh/box_tree.h"
 #include "mesh/periodic_box.h"
 #include "mesh/wall_mesh.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,10 +28,10 @@ std::string why_no_inside(const WallMesh &mesh);
 // It keeps what it needs of the mesh, and any number of threads may ask it at once.
 //
 // A point's number is that of another point plus the facets that their connection crosses. Cells
-// without facets know theirs. From another cell a ray goes along an axis to such a cell. Signs of
-// orientation() decide what it crosses. Where it meets an edge, the point is taken to be moved by e
-// along one other axis and by e^2 along the next, with e below any number (Edelsbrunner and Muecke
-// 1990).
+// without facets know theirs. From another cell a ray goes along an axis to such a cell; where that
+// passes many facets, a tree finds those near it. Signs of orientation() decide what it crosses. Where
+// it meets an edge, the point is taken to be moved by e along one other axis and by e^2 along the next,
+// with e below any number (Edelsbrunner and Muecke 1990).
 class WindingNumber {
  public:
   // Throws InputError, with why_no_inside(), where a mesh has no inside.
@@ -75,7 +77,8 @@ class WindingNumber {
   Real largest_coordinate() const;
   void choose_cells();
   void list_facets();
-  void choose_directions();
+  std::uint32_t choose_directions();
+  void build_tree();
   void number_empty_cells();
   Answer walk(const Vec3 &q, const Index &at, int direction) const;
   static int crossing(const Facet &facet, const Ray &ray, bool &on_surface);
@@ -98,6 +101,7 @@ class WindingNumber {
   std::vector<Cell> cells_;
   std::vector<std::uint8_t> direction_;    // of the ray from a cell with facets: 2 axis + (1: down)
   std::vector<std::uint32_t> listed_;
+  std::unique_ptr<const BoxTree> tree_;    // of facets, where some cells have many
 };
 
 }    // namespace lsdcd

@@ -124,6 +124,17 @@ TEST(winding_number, is_the_sum_of_solid_angles_where_shells_cut_and_contain_eac
   expect_solid_angles(soup, dice, 1000, {-0.6, -0.6, -0.6}, {1.1, 1.1, 1.1});
 }
 
+// A fine part fills one cell of a large box, so that a tree finds its facets.
+TEST(winding_number, is_the_sum_of_solid_angles_at_a_part_that_is_far_finer_than_the_box)
+{
+  std::mt19937_64 dice(6);
+  TriangleSoup soup = cylinder_mesh(40, 30, 0.5, 1);
+  for (Vec3 &x : soup.corners) x = 1e-3 * x;
+  append(soup, box_mesh({-1, -2, -3}, {2, 2, 2}));
+  expect_solid_angles(soup, dice, 500, {-6e-4, -6e-4, -1e-4}, {6e-4, 6e-4, 1.1e-3});
+  expect_solid_angles(soup, dice, 100, {-2, -2, -4}, {3, 3, 3});
+}
+
 // Far from the origin a place in a cell rounds, and so does the middle of an edge.
 TEST(winding_number, is_the_sum_of_solid_angles_far_from_the_origin)
 {
