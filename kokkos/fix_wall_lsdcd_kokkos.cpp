@@ -29,7 +29,7 @@ static LAMMPS *with_atoms_on_host(LAMMPS *lmp, const char *id)
     lmp->error->all(FLERR, "Fix " + std::string(id) +
                                " wall/lsdcd/kk: LAMMPS runs without Kokkos: "
                                "start it with -k on, or use wall/lsdcd");
-  kokkos_atoms(lmp->atom)->sync(Host, RADIUS_MASK | MASK_MASK);
+  kokkos_atoms(lmp->atom)->sync(Host, RADIUS_MASK | MASK_MASK | TYPE_MASK);
   return lmp;
 }
 
@@ -52,7 +52,7 @@ FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char *
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::need_on_host()
 {
-  atomKK->sync(Host, X_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TAG_MASK);
+  atomKK->sync(Host, X_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TAG_MASK | TYPE_MASK);
 }
 
 template <class DeviceType>
@@ -87,6 +87,7 @@ lsdcd::Spheres FixWallLsdcdKokkos<DeviceType>::spheres()
   s.mass =
       rigid ? d_mass_seen.data() : lsdcd::numbers_of(atomKK->k_rmass.template view<DeviceType>());
   s.mask = igroup ? atomKK->k_mask.template view<DeviceType>().data() : nullptr;
+  s.type = atomKK->k_type.template view<DeviceType>().data();
   return s;
 }
 
@@ -121,7 +122,7 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::begin_step(const lsdcd::StepInput &input)
 {
   atomKK->sync(execution_space,
-               X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK);
+               X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TYPE_MASK);
   wall->begin(spheres(), input);
 }
 
@@ -141,7 +142,7 @@ void FixWallLsdcdKokkos<DeviceType>::finish_step()
   const bool runs = wall->is_running();
   if (runs)
     atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
-                                      MASK_MASK | F_MASK | TORQUE_MASK);
+                                      MASK_MASK | TYPE_MASK | F_MASK | TORQUE_MASK);
   FixWallLsdcd::finish_step();
   if (runs) atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
 }

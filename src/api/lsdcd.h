@@ -293,6 +293,7 @@ typedef struct lsdcd_spheres {
   double *torque;            /* added to, about the centre */
   const double *temperature; /* for a law with heat; else null */
   double *heat;              /* power into the sphere, added to; likewise */
+  const int *type;           /* from 1, for laws by type; else null */
 } lsdcd_spheres;
 
 typedef struct lsdcd_wall_step {

@@ -72,7 +72,7 @@ _WallOptions = _struct(
     ("time", _real), ("units", ctypes.c_char_p), ("show", _Show), ("data", _at), ("threads", _int))
 _Spheres = _struct(
     "_Spheres", ("n", _size), ("row", _step), ("x", _at), ("v", _at), ("omega", _at), ("radius", _at),
-    ("mass", _at), ("force", _at), ("torque", _at), ("temperature", _at), ("heat", _at))
+    ("mass", _at), ("force", _at), ("torque", _at), ("temperature", _at), ("heat", _at), ("type", _at))
 _WallStep = _struct("_WallStep", ("dt", _real), ("setup", _int), ("changed", _int), ("reach", _real))
 _WallTotals = _struct(
     "_WallTotals", ("force", _real * 3), ("torque", _real * 3), ("contacts", _real), ("overlap", _real),
@@ -338,21 +338,22 @@ class Wall(_Owner):
         _check(code)
 
     def step(self, x, v, omega, radius, mass, force, torque, dt, setup=False, changed=False, reach=0.0,
-             temperature=None, heat=None):
+             temperature=None, heat=None, type=None):
         """Adds to `force` and `torque`, (n, 3), and with a law of heat to `heat`, (n,), what the wall does in a
         step of `dt`. All arrays are contiguous float64. `setup`: the forces with which a run begins; `changed`:
-        radii grew since the last step. New spheres are at the end."""
+        radii grew since the last step. New spheres are at the end. `type`: int32, for laws by type."""
         n = len(radius)
         arrays = {"x": (x, (n, 3)), "v": (v, (n, 3)), "omega": (omega, (n, 3)), "radius": (radius, (n,)),
                   "mass": (mass, (n,)), "force": (force, (n, 3)), "torque": (torque, (n, 3)),
-                  "temperature": (temperature, (n,)), "heat": (heat, (n,))}
+                  "temperature": (temperature, (n,)), "heat": (heat, (n,)), "type": (type, (n,))}
         spheres = _sized(_Spheres, n=n)
         for name, (array, shape) in arrays.items():
-            if array is None and name in ("temperature", "heat"):
+            if array is None and name in ("temperature", "heat", "type"):
                 continue
-            if not isinstance(array, np.ndarray) or array.dtype != np.float64 or array.shape != shape \
+            kind = np.int32 if name == "type" else np.float64
+            if not isinstance(array, np.ndarray) or array.dtype != kind or array.shape != shape \
                     or not array.flags.c_contiguous:
-                raise TypeError(f"{name} is not a contiguous float64 array of shape {shape}")
+                raise TypeError(f"{name} is not a contiguous {kind.__name__} array of shape {shape}")
             if name in ("force", "torque", "heat") and not array.flags.writeable:
                 raise TypeError(f"{name} cannot be written to")
             setattr(spheres, name, array.ctypes.data)

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -133,7 +134,7 @@ struct lsdcd_wall {
 
 namespace {
 
-Spheres spheres_of(const lsdcd_spheres &s, bool heat)
+Spheres spheres_of(const lsdcd_spheres &s, const WallSettings &wall)
 {
   Spheres out;
   out.n = static_cast<int>(s.n);
@@ -144,9 +145,16 @@ Spheres spheres_of(const lsdcd_spheres &s, bool heat)
   } needed[] = {{s.x, "x"},       {s.v, "v"},         {s.omega, "omega"},  {s.radius, "radius"},
                 {s.mass, "mass"}, {s.force, "force"}, {s.torque, "torque"}};
   for (const auto &one : needed) need(one.pointer, one.name);
-  if (heat) {
+  if (wall.law.has_heat()) {
     need(s.temperature, "temperature");
     need(s.heat, "heat");
+  }
+  if (wall.laws.kinds > 1) {
+    need(s.type, "type");
+    for (std::size_t i = 0; i < s.n; i++)
+      if (s.type[i] < 1)
+        throw ApiError(LSDCD_ERROR_ARGUMENT, "type[" + std::to_string(i) + "] is " +
+                                                 std::to_string(s.type[i]) + ", below 1");
   }
   const std::ptrdiff_t row = s.row ? s.row : 3;
   out.x = {s.x, row, 1};
@@ -158,6 +166,7 @@ Spheres spheres_of(const lsdcd_spheres &s, bool heat)
   out.mass = s.mass;
   out.temperature = s.temperature;
   out.heat_flow = s.heat;
+  out.type = s.type;
   return out;
 }
 
@@ -232,13 +241,13 @@ int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
 {
   return guard([&] {
     need(wall, "wall");
-    const lsdcd_spheres given = checked(spheres, "lsdcd_spheres");
+    const lsdcd_spheres given = checked(spheres, "lsdcd_spheres", offsetof(lsdcd_spheres, type));
     const lsdcd_wall_step what = checked(step, "lsdcd_wall_step");
     if (!(what.dt > 0) || !std::isfinite(what.dt))
       throw ApiError(LSDCD_ERROR_ARGUMENT, "dt is " + number_text(what.dt) + ", not above 0");
     if (!(what.reach >= 0))
       throw ApiError(LSDCD_ERROR_ARGUMENT, "reach is " + number_text(what.reach) + ", below 0");
-    const Spheres s = spheres_of(given, wall->in->settings().law.has_heat());
+    const Spheres s = spheres_of(given, wall->in->settings());
     const bool came = given.n > wall->caller.tags.size();
     count_spheres(*wall, given.n);
     if (!wall->kept.empty()) unpack_kept(*wall);

@@ -12,6 +12,7 @@
 #include "engine/step_list_store.h"
 #include "engine/step_results.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,7 @@ class EngineOn : public InPlaceEngine {
                        "or mesh, several meshes, wear nor mesh_fields: use mixed or double");
     clear_diagnostics(StepCounts());
     unlock_scratches();
+    if (wall_.has_several()) put_laws();
   }
 
   std::string backend() const override { return b_.name(); }
@@ -165,7 +167,7 @@ class EngineOn : public InPlaceEngine {
   {
     return wall_.bytes() + springs_.bytes() + results_.bytes() + next_results_.bytes() +
            overflow_.size() * sizeof(OverflowScratch) + step_lists_.bytes() +
-           works_.size() * sizeof(MeshWork);
+           works_.size() * sizeof(MeshWork) + laws_.size() * sizeof(LawEntry);
   }
 
   B &backend_now() { return b_; }
@@ -190,6 +192,19 @@ class EngineOn : public InPlaceEngine {
   {
     StepCounts *counts = counts_.data();
     b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { counts->shared_used[pool] = 0; });
+  }
+
+  // For spheres near several meshes.
+  void put_laws()
+  {
+    const std::vector<ContactLaw> &laws = settings_.laws.laws;
+    laws_ = Array<LawEntry>(std::max<std::size_t>(laws.size(), 1));
+    LawEntry *to = laws_.data();
+    for (std::size_t k = 0; k < laws_.size(); k++, to++) {
+      const LawEntry entry = laws.empty() ? LawEntry{law_.law, settings_.law.pull_off()}
+                                          : LawEntry{law_.table[k], laws[k].pull_off()};
+      b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = entry; });
+    }
   }
 
   // What the next step needs of all meshes, without waiting.
@@ -251,7 +266,7 @@ class EngineOn : public InPlaceEngine {
     if (several)
       start_slots(job);
     else
-      start_law(job, n);
+      start_law(job, n, law_of(0, 0));
     if (step_.update_history) springs_.swap();
   }
 
@@ -263,29 +278,37 @@ class EngineOn : public InPlaceEngine {
     step_lists_.clear(b_, wall_.n(), !wall_.has_several(), wall_.seem_several(), counts_.data());
   }
 
-  void start_law(LawJob &job, std::size_t n)
+  void start_law(LawJob &job, std::size_t n, const LawBytes &law)
   {
     job.step_lists = step_lists_.next(counts_.data());
-    law_.start(law_.law, job, n, b_);
+    law_.start(law, job, n, b_);
   }
 
-  // Those near one mesh only, mesh after mesh, then those near several.
+  const LawBytes &law_of(int mesh, int kind) const
+  {
+    return law_.table.empty() ? law_.law : law_.table[mesh * wall_.n_kinds() + kind];
+  }
+
+  // Those near one mesh only, mesh after mesh and kind after kind, then those near several.
   void start_slots(const LawJob &job)
   {
     const NearMeshes<B> &slots = wall_.slots();
-    for (int m = 0; m < wall_.n_meshes(); m++) {
-      const std::size_t begin = slots.begin(m), n = slots.begin(m + 1) - begin;
-      if (n == 0) continue;
-      LawJob of_mesh = from_slot(job, begin);
-      const MeshWork work = mesh_work(m);
-      of_mesh.grid = work.grid;
-      of_mesh.settings = work.settings;
-      start_law(of_mesh, n);
-    }
+    for (int m = 0; m < wall_.n_meshes(); m++)
+      for (int kind = 0; kind < wall_.n_kinds(); kind++) {
+        const std::size_t begin = slots.begin(m, kind), n = slots.begin(m, kind + 1) - begin;
+        if (n == 0) continue;
+        LawJob of_mesh = from_slot(job, begin);
+        const MeshWork work = mesh_work(m);
+        of_mesh.grid = work.grid;
+        of_mesh.settings = work.settings;
+        start_law(of_mesh, n, law_of(m, kind));
+      }
     if (slots.n_joint() == 0) return;
     LawJob joint = job;
     joint.joint = {put_works(), slots.first(), slots.mesh()};
-    start_law(joint, slots.n_joint());
+    joint.joint.laws = {laws_.data(), law_.table.empty() ? 0 : wall_.n_kinds(),
+                        wall_.kinds_of(b_, spheres_)};
+    start_law(joint, slots.n_joint(), law_.law);
   }
 
   const WallTotals &sum_totals() { return results_.totals(b_); }
@@ -317,6 +340,7 @@ class EngineOn : public InPlaceEngine {
   StepResults<B> results_, next_results_;    // of the last step, and of one begun beside
   StepListStore<B> step_lists_;
   Array<MeshWork> works_;    // of several meshes
+  Array<LawEntry> laws_;     // likewise
 
   Array<StepCounts> counts_;
   int pool_written_ = -1;

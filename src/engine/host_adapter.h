@@ -87,6 +87,7 @@ class HostAdapter : public WallEngine {
     response_.reserve(n);
     n_contacts_.reserve(n);
     if (traits_.heat) heat_.reserve(2 * n);
+    if (settings_.laws.kinds > 1) send_types(spheres);
     pack(spheres);
     const std::vector<int> which = engine_.choose_among(packed(), margin);
     for (std::size_t k = 0; k < which.size(); k++) near_host_[k] = near_host_[which[k]];
@@ -175,12 +176,12 @@ class HostAdapter : public WallEngine {
   std::size_t bytes() const override
   {
     return engine_.bytes() + motion_.bytes() + size_.bytes() + response_.bytes() +
-           n_contacts_.bytes() + heat_.bytes() + near_.bytes() + waiting_.bytes() +
+           n_contacts_.bytes() + heat_.bytes() + type_.bytes() + near_.bytes() + waiting_.bytes() +
            (near_host_.capacity() + touching_.capacity()) * sizeof(int) + centres_.bytes();
   }
 
  private:
-  bool has_several() const { return meshes_.size() > 1; }
+  bool has_several() const { return lsdcd::has_several(settings_); }
 
   // Of any mesh, ascending.
   std::vector<int> near_by_cells(const Spheres &spheres, Real margin)
@@ -188,7 +189,8 @@ class HostAdapter : public WallEngine {
     std::vector<int> near;
     for (const EngineMesh<CpuBackend> &mesh : meshes_) {
       StepCounts seen = {};
-      near_.choose(cpu_, mesh, spheres, margin, settings_.law.pull_off(), false, &seen, nullptr);
+      near_.choose(cpu_, mesh, spheres, margin, largest_pull_off(settings_.law, settings_.laws),
+                   false, &seen, nullptr);
       if (seen.too_large) {
         const int i = static_cast<int>(kNoSphere - seen.too_large);
         throw_too_large(i, spheres.radius[i], mesh.grid.view.cutoff);
@@ -238,6 +240,15 @@ class HostAdapter : public WallEngine {
     engine_.backend_now().copy_in(heat_.host.data(), heat_.device.data(), 2 * n);
   }
 
+  void send_types(const Spheres &s)
+  {
+    const std::size_t n = near_host_.size();
+    type_.reserve(n);
+    int *to = type_.host.data();
+    for (std::size_t k = 0; k < n; k++) to[k] = s.type[near_host_[k]];
+    engine_.backend_now().copy_in(type_.host.data(), type_.device.data(), n);
+  }
+
   // The near spheres as the engine has them.
   Spheres packed()
   {
@@ -255,6 +266,7 @@ class HostAdapter : public WallEngine {
     s.mass = size_.device.data() + n;
     s.force = {&response->force.x, 6, 1};
     s.torque = {&response->torque.x, 6, 1};
+    if (settings_.laws.kinds > 1) s.type = type_.device.data();
     if (traits_.heat) {
       s.temperature = heat_.device.data();
       s.heat_flow = heat_.device.data() + n;
@@ -354,6 +366,7 @@ class HostAdapter : public WallEngine {
   Mirror<Motion> motion_;
   Mirror<Real> size_;    // radii, then masses
   Mirror<Real> heat_;    // temperatures, then heat flows
+  Mirror<int> type_;     // since the choice
   Mirror<Response> response_;
   Mirror<int> n_contacts_;    // the host's half only
   Spheres host_;              // of the step that runs

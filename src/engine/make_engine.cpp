@@ -30,7 +30,7 @@ void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &s
 bool has_single(const EngineSettings &settings)
 {
   return settings.law.is_classic() && !settings.law.is_extended() && !settings.surface.moves() &&
-         !settings.moves && settings.meshes == 1 && !settings.records;
+         !settings.moves && !has_several(settings) && !settings.records;
 }
 
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings)

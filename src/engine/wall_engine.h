@@ -10,6 +10,7 @@
 #include "contact/contact_history.h"
 #include "grid/triangle_grid.h"
 #include "law/contact_law.h"
+#include "law/law_table.h"
 #include "law/wear.h"
 #include "mesh/wall_mesh.h"
 #include "motion/surface_motion.h"
@@ -36,6 +37,7 @@ constexpr int kMaxMeshes = 32;
 
 struct EngineSettings {
   ContactLaw law;
+  LawTable laws;    // in place of `law`, with the same sub-models, where there are several
   Corner corner = Corner::blend;
   Side side = Side::both;
   Precision precision = Precision::double_;
@@ -48,6 +50,12 @@ struct EngineSettings {
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
 };
 
+// Several meshes, or several kinds of spheres: near spheres are sorted by these.
+inline bool has_several(const EngineSettings &s)
+{
+  return s.meshes > 1 || s.laws.kinds > 1;
+}
+
 // Sphere data of a host code, borrowed for one step; n is the number of owned spheres.
 struct Spheres {
   int n = 0;
@@ -58,6 +66,7 @@ struct Spheres {
   const Real *mass = nullptr;       // mass that damping sees (a rigid member's body mass)
   const int *mask = nullptr;        // group bits, or null: all spheres
   int group_bit = 0;
+  const int *type = nullptr;            // atom type, from 1; read where laws differ by it
   StridedView<Real> force;              // added to
   StridedView<Real> torque;             // added to
   const Real *temperature = nullptr;    // where the law has heat

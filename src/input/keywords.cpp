@@ -4,7 +4,7 @@
 #include "input/keywords.h"
 
 #include "base/atomic_file.h"
-#include "input/granular_words.h"
+#include "input/law_words.h"
 #include "input/motion_words.h"
 #include "input/servo_words.h"
 
@@ -107,28 +107,14 @@ struct BesideClassic {
   }
 };
 
-void read_beside_classic(Tokens &w, WallSettings &s, Family family, const char *instead)
-{
-  if (!s.law.is_classic())
-    w.fail(std::string("it goes with the classic styles; granular has ") + instead);
-  const std::vector<const SubModel *> rows = sub_models(family, GoesWith::classic);
-  std::vector<std::string> names;
-  for (const SubModel *row : rows) names.push_back(row->name);
-  LawDraft draft;
-  draft.law = s.law;
-  read_numbers(w, *rows[w.choice(names)], draft);
-  s.law = draft.law;
-}
-
 void read_rolling(Tokens &w, WallSettings &s)
 {
-  read_beside_classic(w, s, Family::rolling, "'rolling sds' before mesh");
+  read_beside_classic(w, s.law, Family::rolling);
 }
 
 void read_cohesion(Tokens &w, WallSettings &s)
 {
-  read_beside_classic(w, s, Family::cohesion, "the normal sub-models dmt and jkr");
-  if (s.law.cohesion.numbers[0] == 0) s.law.cohesion = CohesionModel::none;    // costs nothing
+  read_beside_classic(w, s.law, Family::cohesion);
 }
 
 const BesideClassic kRolling(Family::rolling), kCohesion(Family::cohesion);
@@ -260,6 +246,9 @@ const Keyword kKeywords[] = {
      "it turns along itself about an axis through c (the origin), as a roll's; each w a number or "
      "v_NAME",
      nullptr, read_surface_angvel},
+    {"law", "[types I] STYLE numbers", "", "the wall's sub-models", "the wall's numbers",
+     "numbers of contacts with this mesh, or of atom types I (2, 1*3, 2*) with it", nullptr,
+     read_law_of_mesh},
     {"rolling", kRolling.syntax.c_str(), "", ">= 0", "none", kRolling.help.c_str(), read_rolling},
     {"cohesion", kCohesion.syntax.c_str(), "energy/volume", ">= 0", "none", kCohesion.help.c_str(),
      read_cohesion},
@@ -311,7 +300,7 @@ const std::vector<Keyword> &keywords()
 
 bool Keyword::repeats() const
 {
-  for (const char *const word : {"scale", "rotate", "move", "motion"})
+  for (const char *const word : {"scale", "rotate", "move", "motion", "law"})
     if (word == std::string(name)) return true;
   return false;
 }

@@ -6,6 +6,7 @@
 #include "base/input_words.h"
 #include "input/granular_words.h"
 #include "input/keywords.h"
+#include "input/law_words.h"
 #include "input/material_command.h"
 
 #include <algorithm>
@@ -13,40 +14,6 @@
 namespace lsdcd {
 
 namespace {
-
-// "hooke|hooke/history|... kn kt|NULL ... [limit_damping] mesh FILE [keywords], or granular ..."
-std::string law_syntax()
-{
-  return names_text(Family::style, GoesWith::classic) + " " +
-         parameters_text(*sub_models(Family::style, GoesWith::classic)[0]) +
-         " [limit_damping] mesh FILE [keywords], or granular NORMAL ... mesh FILE [keywords]";
-}
-
-void read_law(Tokens &w, WallSettings &s)
-{
-  w.set_context("fix wall/lsdcd", law_syntax());
-  if (w.done()) w.fail("the contact style is missing");
-  s.law_name = w.peek();
-  if (s.law_name == "granular") {
-    w.take();
-    s.law = read_granular(w, s.law_name);
-    return;
-  }
-  for (const SubModel *row : sub_models(Family::style, GoesWith::classic)) {
-    if (s.law_name != row->name) continue;
-    w.take();
-    w.set_context(row->name, law_syntax());
-    LawDraft draft;
-    read_numbers(w, *row, draft);
-    s.law = draft.law;
-    if (!w.done() && w.peek() == "limit_damping") {
-      s.law.limit_damping = true;
-      w.take();
-    }
-    return;
-  }
-  w.fail("'" + s.law_name + "' is not a contact style");
-}
 
 // Words of fix wall/gran and LIGGGHTS, and retired ones, each with the words to use here.
 std::string answer_to(const std::string &word, bool granular)
@@ -63,8 +30,9 @@ std::string answer_to(const std::string &word, bool granular)
   const char *const kWeld = "the word for joining corners is weld tol";
   const char *const kLoads = "see mesh_fields FILE every N, and force and torque in f_ID[1] to "
                              "f_ID[6]";
-  const char *const kNumbers =
-      "the contact's numbers stand before mesh, or come from granular material FILE NAME";
+  const char *const kNumbers = "the contact's numbers stand before mesh, or come from granular "
+                               "material FILE NAME; those of a "
+                               "mesh, or of atom types, after it: law [types I] STYLE numbers";
   const struct {
     const char *word;
     const char *answer;
@@ -93,6 +61,8 @@ std::string answer_to(const std::string &word, bool granular)
       {"stress", kLoads},
       {"reference_point", "the words are torque_about x y z"},
       {"type", kNumbers},
+      {"types", kNumbers},
+      {"material", "it goes with granular material FILE PARTICLE, after mesh FILE"},
       {"model", kNumbers},
       {"file", "the word is mesh FILE"},
       {"rolling_friction", "the words are rolling cdt MU and rolling epsd2 MU"},
@@ -241,11 +211,13 @@ WallSettings parse_settings(const std::vector<std::string> &tokens)
 {
   WallSettings settings;
   Tokens w(tokens);
-  read_law(w, settings);
+  w.set_context("fix wall/lsdcd", law_syntax());
+  settings.law = read_law(w, settings.law_name, law_syntax());
   const bool granular = !settings.law.is_classic();
   read_keywords(w, settings, granular);
   w.set_context("fix wall/lsdcd", granular ? granular_syntax() : law_syntax());
   if (settings.meshes[0].file.empty()) w.fail("mesh FILE is missing");
+  finish_laws(w, settings);
   check_meshes(w, settings);
   return settings;
 }

@@ -21,6 +21,16 @@ struct FileEvery {
   int every = 0;    // steps; 0: no file
 };
 
+constexpr int kAnyType = 2147483647;
+
+// The law of a mesh in place of the wall's, or that of some atom types with it.
+struct LawOfMesh {
+  std::string types;                           // as written: "2", "1*3"; empty: all
+  int first_type = 1, last_type = kAnyType;    // the range
+  ContactLaw law;
+  std::string name;    // as WallSettings::law_name
+};
+
 // One mesh of a wall: what may differ from mesh to mesh.
 struct MeshSettings {
   std::string file;
@@ -40,6 +50,7 @@ struct MeshSettings {
   FileEvery stl;                    // of the mesh where it is
   FileEvery fields;                 // of numbers per triangle
   std::string cache_file;           // empty: none
+  std::vector<LawOfMesh> laws;
 
   bool surface_varies() const
   {
@@ -56,6 +67,7 @@ struct WallSettings {
   std::vector<MeshSettings> meshes;
   ContactLaw law;          // NULLs resolved; hertz stiffnesses still in pressure units
   std::string law_name;    // its style; with `granular`, all its words
+  LawTable laws;           // of all meshes; empty: they all have `law`
   Real grid_length = 0;    // length; 0: auto
   Real rmax = 0;           // length; 0: auto
   int nearest = 0;         // primitives of wall per cell; 0: all
@@ -73,6 +85,14 @@ struct WallSettings {
   bool cut = false;     // dump image leaves out centres with dot(normal, x) > offset
   Vec3 cut_normal = {0, 0, 0};
   Real cut_offset = 0;
+
+  // `kind`: see LawTable.
+  const ContactLaw &law_of(int mesh, int kind) const
+  {
+    return laws.is_empty() ? law : laws.laws[mesh * laws.kinds + kind];
+  }
+  // How far from its centre a sphere can feel a mesh.
+  Real cutoff(Real radius) const { return cutoff_of(radius, largest_pull_off(law, laws)); }
 
   // Numbers of a sphere in the contacts array; 0 without it.
   int contact_columns() const { return contacts ? 8 + law.has_heat() : 0; }

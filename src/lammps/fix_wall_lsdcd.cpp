@@ -48,7 +48,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallP
 #if __has_include("atom_masks.h")
   // All that a host with its atoms on a GPU has to bring for this fix, and take back.
   datamask_read = X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TAG_MASK |
-                  F_MASK | TORQUE_MASK;
+                  TYPE_MASK | F_MASK | TORQUE_MASK;
   datamask_modify = F_MASK | TORQUE_MASK;
 #endif
   check_atoms();
@@ -62,6 +62,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallP
     if (settings.draw_type > atom->ntypes)
       throw lsdcd::InputError("in 'draw', there is no atom type " +
                               std::to_string(settings.draw_type));
+    check_types(settings);
 #if !HOST_HAS_HEAT
     if (settings.law.has_heat())
       throw lsdcd::InputError(
@@ -153,6 +154,17 @@ void FixWallLsdcd::check_atoms() const
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     fatal("atoms need a radius, omega and torque: use atom_style sphere");
+}
+
+void FixWallLsdcd::check_types(const lsdcd::WallSettings &settings) const
+{
+  for (const lsdcd::MeshSettings &mesh : settings.meshes)
+    for (const lsdcd::LawOfMesh &of : mesh.laws) {
+      const int last = of.last_type == lsdcd::kAnyType ? of.first_type : of.last_type;
+      if (last > atom->ntypes)
+        throw lsdcd::InputError("in 'law', there is no atom type " + std::to_string(last) +
+                                ": there are " + std::to_string(atom->ntypes));
+    }
 }
 
 void FixWallLsdcd::check_heat() const
@@ -364,6 +376,7 @@ lsdcd::Spheres FixWallLsdcd::spheres_in_atom()
   s.radius = atom->radius;
   s.mass = rigid ? mass_seen.data() : atom->rmass;
   s.mask = igroup ? atom->mask : nullptr;
+  s.type = atom->type;
   s.group_bit = groupbit;
 #if HOST_HAS_HEAT
   s.temperature = atom->temperature;

@@ -122,6 +122,7 @@ class FixWallLsdcd : public Fix {
 
   void check_atoms() const;
   void check_heat() const;
+  void check_types(const lsdcd::WallSettings &) const;
 
   // Runs the wall's work, and ends LAMMPS with what it throws.
   template <class Work>

@@ -6,6 +6,7 @@
 #include "base/input_words.h"
 #include "base/version.h"
 #include "effects/effects.h"
+#include "law/sub_models.h"
 
 namespace lsdcd {
 
@@ -35,14 +36,31 @@ std::string mesh_lines(const MeshPart &m)
   return t;
 }
 
-std::string contact_line(const WallSettings &settings)
+std::string law_text(const ContactLaw &l, const std::string &name)
 {
-  const ContactLaw &l = settings.law;
-  std::string t = "\n  contact     " + settings.law_name;
+  std::string t = name;
   if (l.is_classic())
     t += ", kn " + number_text(l.k_normal) + ", kt " + number_text(l.k_tangent) + ", gamman " +
          number_text(l.eta) + ", gammat " + number_text(l.gamma_tangent) + ", xmu " +
          number_text(l.mu) + (l.limit_damping ? ", limit_damping" : "");
+  if (l.is_classic())
+    for (const SubModel *row : rows_of(l)) {
+      const bool rolling = row->family == Family::rolling;
+      if (!rolling && row->family != Family::cohesion) continue;
+      t += ", " + std::string(family_word(row->family)) + " " + row->name + " " +
+           number_text(rolling ? l.rolling.numbers[0] : l.cohesion.numbers[0]);
+    }
+  return t;
+}
+
+// The wall's, then those of meshes and of atom types with them.
+std::string contact_lines(const WallSettings &settings)
+{
+  std::string t = "\n  contact     " + law_text(settings.law, settings.law_name);
+  for (std::size_t m = 0; m < settings.meshes.size(); m++)
+    for (const LawOfMesh &of : settings.meshes[m].laws)
+      t += "\n    mesh " + std::to_string(m + 1) + (of.types.empty() ? "" : ", types " + of.types) +
+           ": " + law_text(of.law, of.name);
   return t;
 }
 
@@ -87,7 +105,7 @@ std::string creation_text(const WallSettings &settings, const std::deque<MeshPar
   std::string t;
   for (const MeshPart &m : meshes) t += (t.empty() ? "" : "\n") + mesh_lines(m);
   if (!material.empty()) t += "\n" + material;
-  return t + contact_line(settings) + effect_lines(settings, engine) + search_lines(settings) +
+  return t + contact_lines(settings) + effect_lines(settings, engine) + search_lines(settings) +
          "\n  device      " + device + "\n  version     " + version();
 }
 

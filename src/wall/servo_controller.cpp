@@ -27,7 +27,12 @@ Real ServoController::stable_gain(const ServoLoad &load, const WallPose &placed,
   }
   const Real overlap = load.overlap * load.radius + s.max_speed * arm * dt,
              contacts = std::max<Real>(1, load.contacts);
-  const ContactSlope one = contact_slope(wall_.law, overlap, load.radius, load.mass);
+  ContactSlope one;    // the steepest
+  for (int kind = 0; kind < wall_.laws.kinds; kind++) {
+    const ContactSlope of =
+        contact_slope(wall_.law_of(mesh_, kind), overlap, load.radius, load.mass);
+    one = {std::max(one.stiffness, of.stiffness), std::max(one.damping, of.damping)};
+  }
   return servo_gain(contacts * arm * arm * one.stiffness, contacts * arm * arm * one.damping, dt);
 }
 

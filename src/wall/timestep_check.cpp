@@ -11,14 +11,28 @@
 
 namespace lsdcd {
 
+// Of sphere i with any mesh.
+Real TimestepCheck::shortest_of(const Spheres &s, int i) const
+{
+  const LawTable &laws = settings_.laws;
+  const int *kind_of_type = laws.kind_of_type.data();
+  const SphereKinds kinds = {laws.kinds > 1 ? s.type : nullptr, kind_of_type,
+                             static_cast<int>(laws.kind_of_type.size()) - 1};
+  const int kind = kinds[i], n = static_cast<int>(settings_.meshes.size());
+  Real shortest = INFINITY;
+  for (int mesh = 0; mesh < (laws.is_empty() ? 1 : n); mesh++)
+    shortest = std::min(shortest,
+                        contact_time(settings_.law_of(mesh, kind), s.mass[i], s.radius[i], ftm2v_));
+  return shortest;
+}
+
 void TimestepCheck::check(Real dt)
 {
   constexpr Real kWorse = 1.1;
   const Spheres s = host_.spheres_on_cpu();
   Real shortest = INFINITY;
   for (int i = 0; i < s.n; i++)
-    if (is_in_group(s, i))
-      shortest = std::min(shortest, contact_time(settings_.law, s.mass[i], s.radius[i], ftm2v_));
+    if (is_in_group(s, i)) shortest = std::min(shortest, shortest_of(s, i));
   shortest = -shortest;
   host_.max(&shortest, 1);
   shortest = -shortest;

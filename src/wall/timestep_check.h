@@ -22,6 +22,8 @@ class TimestepCheck {
   void check(Real dt);
 
  private:
+  Real shortest_of(const Spheres &s, int i) const;
+
   Host &host_;
   const WallSettings &settings_;
   Real ftm2v_;

@@ -21,12 +21,18 @@ namespace {
 // Pressures become forces per area.
 WallSettings in_units(WallSettings settings, const WallUnits &units)
 {
-  if (settings.law.is_classic() && settings.law.is(NormalModel::hertz)) {
-    settings.law.k_normal /= units.pressure;
-    settings.law.k_tangent /= units.pressure;
-  }
+  const auto convert = [&](ContactLaw &law) {
+    if (law.is_classic() && law.is(NormalModel::hertz)) {
+      law.k_normal /= units.pressure;
+      law.k_tangent /= units.pressure;
+    }
+    law.cohesion.numbers[0] /= units.pressure;    // sjkr's
+  };
+  convert(settings.law);
+  for (ContactLaw &law : settings.laws.laws) convert(law);
+  for (MeshSettings &mesh : settings.meshes)
+    for (LawOfMesh &of : mesh.laws) convert(of.law);
   settings.wear.per_work *= units.pressure;
-  settings.law.cohesion.numbers[0] /= units.pressure;    // sjkr's
   return settings;
 }
 
@@ -74,7 +80,7 @@ Wall::Wall(Host &host, WallSettings settings, const WallUnits &units, WallPlace 
   for (const MeshPart &m : meshes_) {
     box_checks_.check_scale(m, grids_.box());
     box_checks_.check_periodic(m, grids_.box());
-    if (radius > 0) box_checks_.check_outside(m, grids_.box(), cutoff_of(settings_.law, radius));
+    if (radius > 0) box_checks_.check_outside(m, grids_.box(), settings_.cutoff(radius));
     check_surface(host_, settings_, m);
   }
   if (meshes_.size() > 1 && settings_.corner == Corner::sum)
@@ -111,6 +117,7 @@ EngineSettings Wall::engine_settings() const
 {
   EngineSettings want;
   want.law = settings_.law;
+  want.laws = settings_.laws;
   want.corner = settings_.corner;
   want.side = settings_.side;
   want.precision = settings_.precision;

@@ -90,6 +90,11 @@ TABLES = [
     (WALL + HOOKE + "mesh {}\n" + RUN, [
         ("grid_over_budget", "floor.stl grid 0.01 memory 1",
          "grid 0.01 takes", "at least", "memory budget is 1 MB", "leave grid out"),
+        ("law_of_no_type", "floor.stl law types 1*3 hooke 1e4 NULL 5 NULL 0.5 1",
+         "Fix wall wall/lsdcd", "in 'law', there is no atom type 3: there are 1"),
+        ("law_of_other_sub_models", "floor.stl law hooke/history 1e4 NULL 5 NULL 0.5 1",
+         "Fix wall wall/lsdcd", "mesh 'floor.stl' has the sub-models hooke/history, and the wall has hooke:",
+         "only the numbers may differ"),
         ("mesh_fields_of_two_fixes", "floor.stl mesh_fields a.vtp every 5\n"
          "fix             lid all wall/lsdcd hooke 1e4 NULL 5 NULL 0.5 1 mesh floor.stl move 0 0 3 "
          "mesh_fields a.vtp every 5",

@@ -23,7 +23,7 @@ comm_modify     vel yes
 """
 CREATE = SETTINGS + """\
 region          box block {box}
-create_box      1 box
+create_box      {types} box
 {atoms}
 set             group all diameter 1.0 density 2.0
 {kick}
@@ -82,8 +82,9 @@ def planes(law, more=""):
                               f"fix zhi all wall/gran {law} zplane NULL {SIDE}"])
 
 
-def build(walls, name, steps, atoms=GAS, kick=FAST, dt=1e-4, every=1, more="", box=OPEN, boundary="f f f"):
-    return (CREATE.format(atoms=atoms, kick=kick, box=box, boundary=boundary) +
+def build(walls, name, steps, atoms=GAS, kick=FAST, dt=1e-4, every=1, more="", box=OPEN, boundary="f f f",
+          types=1):
+    return (CREATE.format(atoms=atoms, kick=kick, box=box, boundary=boundary, types=types) +
             FORCES.format(walls=walls, dt=dt, more=more) + DUMP.format(every=every, name=name) +
             f"run {steps}\n")
 

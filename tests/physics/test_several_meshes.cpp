@@ -345,12 +345,19 @@ struct Crossing {
       spheres.v[c] = speed(random);
       spheres.omega[c] = speed(random);
     }
+    std::vector<int> type(kSpheres);
+    for (int i = 0; i < kSpheres; i++) type[i] = 1 + i % 3;
+    const auto now = [&] {
+      Spheres s = spheres.spheres();
+      s.type = type.data();
+      return s;
+    };
     StepSettings step;
     step.dt = kStep;
     for (int t = 0; t < kSteps; t++) {
       spheres.clear_forces();
-      if (t % kChoice == 0) engine.choose(spheres.spheres(), kChoice * kStep * 60);
-      engine.start(spheres.spheres(), step);
+      if (t % kChoice == 0) engine.choose(now(), kChoice * kStep * 60);
+      engine.start(now(), step);
       engine.collect();
       on_mesh += engine.mesh_totals(1).force;
       force.insert(force.end(), spheres.force.begin(), spheres.force.end());
@@ -391,6 +398,52 @@ TEST(several_meshes, act_the_same_through_the_adapter_of_a_host)
   EXPECT_EQ(got.joint, expected.joint);
   EXPECT_GT(norm(expected.on_mesh), 0);
   EXPECT_EQ(got.on_mesh, expected.on_mesh);
+}
+
+// Types 1 and 3 are of kind 0, type 2 is of kind 1; each of 7 meshes has laws of its own.
+EngineSettings with_laws(bool differ)
+{
+  EngineSettings s = hooke_history(kStiffness, 3e4, 50, 20, 0.4);
+  s.meshes = 7;
+  s.laws.kinds = 2;
+  s.laws.kind_of_type = {0, 0, 1, 0};
+  for (int k = 0; k < 14; k++) {
+    s.laws.laws.push_back(s.law);
+    if (differ) s.laws.laws.back().k_normal *= 1 + 0.1 * k;
+  }
+  return s;
+}
+
+TEST(several_meshes, with_laws_through_the_adapter_of_a_host_act_the_same)
+{
+  const EngineSettings s = with_laws(true);
+  const Wall wall(dealt(random_soup(600, 5), 7), kRadius, s, true);
+  HostAdapter<CpuBackend> adapter(s, law_for<CpuBackend>(s), CpuBackend());
+  const auto direct = on_cpu(s);
+  wall.put_into(adapter);
+  wall.put_into(*direct);
+  const Crossing expected(*direct), got(adapter);
+  EXPECT_TRUE(same_bytes(got.force, expected.force));
+  EXPECT_GT(expected.joint, 20);
+}
+
+TEST(several_meshes, with_equal_laws_act_as_with_one)
+{
+  EngineSettings s = with_laws(false), one = s;
+  one.laws = LawTable();
+  const Wall wall(dealt(random_soup(600, 5), 7), kRadius, s, true);
+  const auto first = on_cpu(one), second = on_cpu(s), third = on_cpu(with_laws(true));
+  for (WallEngine *engine : {first.get(), second.get(), third.get()}) wall.put_into(*engine);
+  const Crossing expected(*first), got(*second), other(*third);
+  EXPECT_TRUE(same_bytes(got.force, expected.force));
+  EXPECT_FALSE(same_bytes(other.force, expected.force));
+}
+
+TEST(several_meshes, with_laws_of_other_sub_models_are_refused)
+{
+  EngineSettings s = with_laws(false);
+  s.laws.laws[3] = ContactLaw();
+  EXPECT_THROW(on_cpu(s), std::logic_error);
 }
 
 }    // namespace

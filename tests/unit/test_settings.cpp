@@ -337,6 +337,58 @@ TEST(settings, of_several_meshes_errors_name_the_one)
   EXPECT_TRUE(names(error_of(many + " mesh b.stl"), "at most 32"));
 }
 
+TEST(settings, laws_are_of_a_mesh_and_of_types_with_it)
+{
+  const WallSettings s =
+      with("law types 2* hooke 3e5 NULL 50 NULL 0.5 1 law hooke 2e5 NULL 50 NULL 0.5 1 "
+           "mesh b.stl law types 3 hooke 4e5 NULL 50 NULL 0.5 1 limit_damping corner sum");
+  ASSERT_EQ(s.laws.kinds, 3);
+  EXPECT_EQ(s.laws.kind_of_type, (std::vector<int>{0, 0, 1, 2, 1}));    // 0 is no type
+  const Real stiffness[2][3] = {{2e5, 3e5, 3e5}, {1e5, 1e5, 4e5}};
+  for (int mesh = 0; mesh < 2; mesh++)
+    for (int kind = 0; kind < 3; kind++)
+      EXPECT_EQ(s.law_of(mesh, kind).k_normal, stiffness[mesh][kind]);
+  EXPECT_TRUE(s.law_of(1, 2).limit_damping);
+  EXPECT_EQ(s.corner, Corner::sum);
+  EXPECT_TRUE(with("").laws.is_empty());
+}
+
+TEST(settings, of_laws_of_the_same_types_the_last_counts)
+{
+  const WallSettings s = with("law types 1*3 hooke 2e5 NULL 50 NULL 0.5 1 "
+                              "law types *2 hooke 3e5 NULL 50 NULL 0.5 1");
+  const int kinds[] = {s.laws.kind_of_type.at(1), s.laws.kind_of_type.at(3),
+                       s.laws.kind_of_type.at(4)};
+  const Real stiffness[] = {3e5, 2e5, 1e5};
+  for (int k = 0; k < 3; k++) EXPECT_EQ(s.law_of(0, kinds[k]).k_normal, stiffness[k]);
+}
+
+TEST(settings, laws_take_rolling_and_cohesion_of_the_wall)
+{
+  const WallSettings s = with("law hooke 2e5 NULL 50 NULL 0.5 1 cohesion sjkr 5 mesh b.stl rolling "
+                              "cdt 0.1 cohesion sjkr 0");
+  EXPECT_EQ(s.law_of(0, 0).rolling.numbers[0], 0.1);
+  EXPECT_EQ(s.law_of(0, 0).cohesion.numbers[0], 5);
+  EXPECT_EQ(s.law_of(1, 0).cohesion.numbers[0], 0);
+  EXPECT_TRUE(s.law_of(1, 0).cohesion.is_on());
+  EXPECT_FALSE(with("cohesion sjkr 0").law.cohesion.is_on());
+}
+
+TEST(settings, laws_of_other_sub_models_are_refused)
+{
+  const std::string law = "law hooke 2e5 NULL 50 NULL 0.5 1 ";
+  EXPECT_TRUE(
+      names(error_with("law hooke/history 1 NULL 1 NULL 1 1"),
+            "sub-models hooke/history, and the wall has hooke: only the numbers may differ"));
+  EXPECT_TRUE(
+      names(error_with(law + "rolling cdt 0.1"), "hooke, rolling cdt, and the wall has hooke"));
+  EXPECT_TRUE(names(error_with(law + law), "one for all atom types already"));
+  for (const char *types : {"0", "3*2", "a", "1.5", "2-3"})
+    EXPECT_TRUE(names(error_with("law types " + std::string(types) + " hooke 1 NULL 1 NULL 1 1"),
+                      "no range of atom types"));
+  EXPECT_TRUE(names(error_with("material steel"), "granular material FILE"));
+}
+
 TEST(settings, help_lists_every_keyword)
 {
   for (const char *name :

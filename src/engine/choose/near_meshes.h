@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The spheres near the meshes of a wall, where it has several: first those near one mesh only, mesh
-// after mesh, then those near several, with a slot for each (sphere, mesh).
+// The spheres near the meshes of a wall, where it has several, or several kinds of spheres: first those near
+// one mesh only, mesh after mesh and kind after kind, then those near several, with a slot for each
+// (sphere, mesh).
 #pragma once
 
 #include "engine/wall_engine.h"
@@ -57,9 +58,10 @@ class NearMeshes {
     end_.push_back(n_found_);
   }
 
-  // Ends it: makes the slots.
-  void finish(B &b)
+  // Ends it: makes the slots. `kind`: of each sphere, in [0, kinds).
+  void finish(B &b, const SphereKinds &kind, int kinds)
   {
+    kinds_ = kinds;
     const std::size_t most = n_found_;
     if (near_.size() < most) {
       const std::size_t room = most + most / 8;
@@ -75,8 +77,11 @@ class NearMeshes {
       const std::size_t from = m == 0 ? 0 : end_[m - 1], n = end_[m] - from;
       const int *found = found_.data() + from;
       const std::size_t at = begin_.back();
-      flag_alone(b, found, n);
-      begin_.push_back(at + keep(b, found, n, near_.data() + at));
+      for (int k = 0; k < kinds; k++) {
+        const std::size_t to = begin_.back();
+        flag_alone(b, found, n, kind, k);
+        begin_.push_back(to + keep(b, found, n, near_.data() + to));
+      }
       fill(b, at, begin_.back() - at, static_cast<int>(m));
       flag_joint(b, found, n, static_cast<int>(m));
       n_joint_ += keep(b, found, n, joint_.data() + n_joint_);
@@ -85,9 +90,9 @@ class NearMeshes {
     if (n_joint_ > 0) make_joint_slots(b);
   }
 
-  // Slots [begin(m), begin(m + 1)) are of spheres near mesh m alone, those from begin(number of
-  // meshes) on of joint spheres.
-  std::size_t begin(int mesh) const { return begin_[mesh]; }
+  // Slots [begin(m), begin(m + 1)) are of spheres near mesh m alone, from begin(m, k) on those of kind k;
+  // those from begin(number of meshes) on are of joint spheres.
+  std::size_t begin(int mesh, int kind = 0) const { return begin_[mesh * kinds_ + kind]; }
   int n_meshes() const { return static_cast<int>(end_.size()); }
   std::size_t n_slots() const { return n_slots_; }
   const int *near() const { return near_.data(); }    // sphere of each slot
@@ -117,11 +122,13 @@ class NearMeshes {
     found_ = std::move(wider);
   }
 
-  void flag_alone(B &b, const int *found, std::size_t n)
+  void flag_alone(B &b, const int *found, std::size_t n, const SphereKinds &kind, int of_kind)
   {
     char *flags = flags_.data();
     const MeshSet *set = set_.data();
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { flags[k] = is_alone(set[found[k]]); });
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      flags[k] = is_alone(set[found[k]]) && kind[found[k]] == of_kind;
+    });
   }
   // A joint sphere counts with the first of its meshes.
   void flag_joint(B &b, const int *found, std::size_t n, int mesh)
@@ -176,6 +183,7 @@ class NearMeshes {
     return read_one(b, count_.data());
   }
 
+  int kinds_ = 1;
   std::size_t n_spheres_ = 0, n_found_ = 0, n_slots_ = 0, n_joint_ = 0;
   std::vector<std::size_t> end_, begin_ = {0};
   Array<MeshSet> set_;    // the meshes that each sphere is near

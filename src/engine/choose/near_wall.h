@@ -10,6 +10,7 @@
 #include "engine/choose/near_meshes.h"
 
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
 namespace lsdcd {
@@ -22,7 +23,8 @@ class NearWall {
 
  public:
   explicit NearWall(const EngineSettings &settings) :
-      pull_off_(settings.law.pull_off()), meshes_(settings.meshes)
+      pull_off_(largest_pull_off(settings.law, settings.laws)),
+      has_several_(lsdcd::has_several(settings)), laws_(settings.laws), meshes_(settings.meshes)
   {
   }
 
@@ -33,7 +35,7 @@ class NearWall {
   }
   void place(const WallPose &pose, int mesh) { meshes_.at(mesh).pose = pose; }
 
-  bool has_several() const { return meshes_.size() > 1; }
+  bool has_several() const { return has_several_; }    // meshes, or kinds of spheres
   int n_meshes() const { return static_cast<int>(meshes_.size()); }
   const EngineMesh<B> &mesh(int m) const { return meshes_[m]; }
 
@@ -83,7 +85,29 @@ class NearWall {
   const WallLists &lists() const { return lists_.view(); }
   const NearMeshes<B> &slots() const { return slots_; }
 
-  // Public because nvcc takes no device lambda from a private function. Does not wait.
+  // Which law each of these spheres has.
+  SphereKinds kinds_of(B &b, const Spheres &spheres)
+  {
+    if (laws_.kinds == 1) return {};
+    if (!spheres.type && spheres.n > 0)
+      throw std::logic_error("laws by atom type need the types of spheres");
+    return {spheres.type, put_kinds(b), static_cast<int>(laws_.kind_of_type.size()) - 1};
+  }
+  int n_kinds() const { return laws_.kinds; }
+
+  // Public because nvcc takes no device lambda from a private function. These do not wait.
+  const int *put_kinds(B &b)
+  {
+    const std::size_t n = laws_.kind_of_type.size();
+    if (kind_of_type_.size() == n) return kind_of_type_.data();
+    kind_of_type_ = Array<int>(n);
+    int *to = kind_of_type_.data();
+    for (const int kind : laws_.kind_of_type) {
+      b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = kind; });
+      to++;
+    }
+    return kind_of_type_.data();
+  }
   const PlacedGrid *put_grids(B &b)
   {
     if (placed_.size() < meshes_.size()) placed_ = Array<PlacedGrid>(meshes_.size());
@@ -105,7 +129,7 @@ class NearWall {
   std::size_t bytes() const
   {
     std::size_t bytes = near_.bytes() + slots_.bytes() + lists_.bytes() + centres_.bytes() +
-                        placed_.size() * sizeof(PlacedGrid);
+                        placed_.size() * sizeof(PlacedGrid) + kind_of_type_.size() * sizeof(int);
     for (const EngineMesh<B> &mesh : meshes_) bytes += mesh.grid.bytes();
     return bytes;
   }
@@ -131,7 +155,7 @@ class NearWall {
       if (seen.too_large) return seen;
       slots_.add(b, near_.data(), seen.n_near);
     }
-    slots_.finish(b);
+    slots_.finish(b, kinds_of(b, spheres), n_kinds());
     n_ = slots_.n_slots();
     const PlacedGrid *grids = put_grids(b);
     bool large = false;
@@ -142,6 +166,9 @@ class NearWall {
   }
 
   Real pull_off_;
+  bool has_several_;
+  LawTable laws_;
+  Array<int> kind_of_type_;
   std::vector<EngineMesh<B>> meshes_;
   NearList<B> near_;
   NearMeshes<B> slots_;

@@ -5,13 +5,12 @@
 // add only the loop over spheres.
 #pragma once
 
+#include "engine/step/law_bytes.h"
 #include "engine/step/law_job.h"
 #include "engine/step/on_wall.h"
 
 #include <cstddef>
-#include <cstring>
-#include <new>
-#include <type_traits>
+#include <vector>
 
 namespace lsdcd {
 
@@ -29,38 +28,19 @@ LawTraits traits_of(const Law &law)
   return {Law::kHistory, heat, Law::kRecords, n_extra(law)};
 }
 
-// The parameters of any law, as bytes.
-class LawBytes {
- public:
-  template <class Law>
-  explicit LawBytes(const Law &law)
-  {
-    static_assert(std::is_trivially_copyable<Law>::value && sizeof(Law) <= sizeof bytes_,
-                  "laws are plain numbers");
-    ::new (bytes_) Law(law);
-  }
-  template <class Law>
-  const Law &as() const
-  {
-    return *std::launder(reinterpret_cast<const Law *>(bytes_));
-  }
-
- private:
-  alignas(std::max_align_t) unsigned char bytes_[256];
-};
-
 // A law compiled for one backend; start() does the step of n near spheres, see start_law().
 template <class Backend>
 struct CompiledLaw {
   LawTraits traits;
   LawBytes law;
   void (*start)(const LawBytes &, const LawJob &, std::size_t n, Backend &);
+  std::vector<LawBytes> table = {};    // of LawTable::laws, in the same compiled form
 };
 
 // The wall's effects that the settings ask for.
 inline WallEffects wall_effects(const EngineSettings &s)
 {
-  return {s.surface.moves() || s.moves || s.meshes > 1, s.records};
+  return {s.surface.moves() || s.moves || has_several(s), s.records};
 }
 
 }    // namespace lsdcd

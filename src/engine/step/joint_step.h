@@ -39,11 +39,29 @@ LSDCD_FN Spring SpringsSeen::operator[](int k) const
 struct JointSphere {
   int begin, end;
   std::size_t i;
+  int kind;    // of the wall's laws
   Vec3 x;
-  Real radius, cutoff;
+  Real radius, cutoff;    // cutoff: the largest
 };
 
-LSDCD_FN JointSphere joint_sphere(const LawJob &job, std::size_t g, Real pull_off)
+template <class Law>
+LSDCD_FN const Law &law_with(const LawJob &job, const JointSphere &s, int mesh)
+{
+  return job.joint.laws.of(mesh, s.kind).law.in_kernel<Law>();
+}
+
+// From how far it feels a mesh.
+template <bool kBeyondContact>
+LSDCD_FN Real cutoff_with(const LawJob &job, const JointSphere &s, int mesh)
+{
+  if constexpr (kBeyondContact)
+    return cutoff_of(s.radius, job.joint.laws.of(mesh, s.kind).pull_off);
+  else
+    return s.radius;
+}
+
+template <bool kBeyondContact>
+LSDCD_FN JointSphere joint_sphere(const LawJob &job, std::size_t g)
 {
   JointSphere s;
   s.begin = job.joint.first[g];
@@ -51,18 +69,23 @@ LSDCD_FN JointSphere joint_sphere(const LawJob &job, std::size_t g, Real pull_of
   s.i = sphere_of(job, s.begin);
   s.x = job.x[s.i];
   s.radius = job.radius[s.i];
-  s.cutoff = pull_off > 0 ? cutoff_of(s.radius, pull_off) : s.radius;
+  s.kind = job.joint.laws.kind[s.i];
+  s.cutoff = s.radius;
+  if constexpr (kBeyondContact)
+    for (int k = s.begin; k < s.end; k++)
+      s.cutoff = fmax(s.cutoff, cutoff_with<true>(job, s, job.joint.mesh[k]));
   return s;
 }
 
 // It, as the mesh of slot k sees it.
+template <bool kBeyondContact>
 LSDCD_FN QuerySphereWith<SpringsSeen> seen_from(const LawJob &job, const JointSphere &s, int k)
 {
   const int mesh = job.joint.mesh[k];
   const SpringsView &springs = job.springs;
   QuerySphereWith<SpringsSeen> seen = {job.joint.meshes[mesh].settings.pose.to_mesh(s.x),
                                        s.radius,
-                                       s.cutoff,
+                                       cutoff_with<kBeyondContact>(job, s, mesh),
                                        {springs.pool, job.joint.meshes, std::uint32_t(mesh)},
                                        0};
   if (springs.count.at) seen.n_springs = springs.count[s.i];
@@ -119,7 +142,7 @@ LSDCD_FN void touch_meshes(const LawJob &job, const JointSphere &s, Touch<kCapac
   all.exact_within = kAnyDistance;
   for (int k = s.begin; k < s.end; k++) {
     const MeshWork &mesh = job.joint.meshes[job.joint.mesh[k]];
-    const QuerySphereWith<SpringsSeen> seen = seen_from(job, s, k);
+    const QuerySphereWith<SpringsSeen> seen = seen_from<kBeyondContact>(job, s, k);
     const ListedFeatures list = {job.lists, static_cast<std::size_t>(k)};
     const bool holds = job.lists.n && job.lists.holds(k, seen.x, s.cutoff);
     if (job.lists.n && !holds) count_one(&job.counts->by_cells);
@@ -154,8 +177,8 @@ LSDCD_NOINLINE void touch_meshes(const LawJob &job, const JointSphere &s, Overfl
 
 // Applies the law to its contacts, in the frame of the mesh of each.
 template <class Law, int kCapacity>
-LSDCD_FN void apply_joint_law(const Law &law, const LawJob &job, const JointSphere &s,
-                              Touch<kCapacity> &all, const int *end)
+LSDCD_FN void apply_joint_law(const LawJob &job, const JointSphere &s, Touch<kCapacity> &all,
+                              const int *end)
 {
   for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
   if (all.set.n == 0) {
@@ -165,7 +188,9 @@ LSDCD_FN void apply_joint_law(const Law &law, const LawJob &job, const JointSphe
   int first = 0, n_done = 0;
   SphereSink sink = {};
   const int n_acting = count_acting(all.set.view(), all.weight);
-  if (!take_slots(law, job, s.begin, n_acting, first, sink)) {
+  // What is kept of a contact is the same with all laws of a wall.
+  if (!take_slots(law_with<Law>(job, s, job.joint.mesh[s.begin]), job, s.begin, n_acting, first,
+                  sink)) {
     does_not_fit(job, s.begin, s.i, job.counts->no_slots);
     return;
   }
@@ -173,12 +198,13 @@ LSDCD_FN void apply_joint_law(const Law &law, const LawJob &job, const JointSphe
     const int to = end[k - s.begin], n = to - from;
     if (n == 0) continue;
     const MeshWork &mesh = job.joint.meshes[job.joint.mesh[k]];
+    const Law &law = law_with<Law>(job, s, job.joint.mesh[k]);
     const WallPose &pose = mesh.settings.pose;
     for (int c = from; c < to; c++) all.set.normal[c] = pose.turn_to_mesh(all.set.normal[c]);
     const ContactsView set = {n, all.set.feature.data() + from, all.set.normal.data() + from,
                               all.set.distance.data() + from};
 
-    const QuerySphereWith<SpringsSeen> seen = seen_from(job, s, k);
+    const QuerySphereWith<SpringsSeen> seen = seen_from<Law::kBeyondContact>(job, s, k);
     SphereStateWith<SpringsSeen> state = {};
     state.x = seen.x;
     state.radius = s.radius;
@@ -218,9 +244,9 @@ LSDCD_FN void apply_joint_law(const Law &law, const LawJob &job, const JointSphe
 }
 
 template <class Law>
-LSDCD_FN void joint_contacts(const Law &law, const LawJob &job, std::size_t g)
+LSDCD_FN void joint_contacts(const LawJob &job, std::size_t g)
 {
-  const JointSphere s = joint_sphere(job, g, pull_off_of(law));
+  const JointSphere s = joint_sphere<Law::kBeyondContact>(job, g);
   note_cutoff(job, s.i, s.cutoff);
   int end[kMaxMeshes];
   Touch<kContacts> some;
@@ -229,7 +255,7 @@ LSDCD_FN void joint_contacts(const Law &law, const LawJob &job, std::size_t g)
     for (int k = s.begin + 1; k < s.end; k++) job.uncertain[k] = 0;
   if (!some.set.overflow) {
     keep_uncertain(job, s.begin, may_miss(s.cutoff, some.exact_within), s.radius);
-    apply_joint_law(law, job, s, some, end);
+    apply_joint_law<Law>(job, s, some, end);
     return;
   }
   // As in several_contacts().
@@ -239,7 +265,7 @@ LSDCD_FN void joint_contacts(const Law &law, const LawJob &job, std::size_t g)
     touch_meshes<Law::kBeyondContact>(job, s, *scratch, end);
     if (!scratch->touch.set.overflow) {
       keep_uncertain(job, s.begin, may_miss(s.cutoff, scratch->touch.exact_within), s.radius);
-      apply_joint_law(law, job, s, scratch->touch, end);
+      apply_joint_law<Law>(job, s, scratch->touch, end);
     } else {
       for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
       does_not_fit(job, s.begin, s.i, job.counts->no_scratch);
@@ -252,7 +278,6 @@ LSDCD_FN void joint_contacts(const Law &law, const LawJob &job, std::size_t g)
 // The work of it for Backend::step(), of sphere g.
 template <class Law>
 struct JointStep {
-  Law law;
   LawJob job;
 
   static constexpr bool kSingle = false;
@@ -263,18 +288,18 @@ struct JointStep {
   LSDCD_FN bool needs_list(std::size_t g) const
   {
     if (!job.lists.n) return false;
-    const JointSphere s = joint_sphere(job, g, pull_off_of(law));
+    const JointSphere s = joint_sphere<Law::kBeyondContact>(job, g);
     for (int k = s.begin; k < s.end; k++)
-      if (!job.lists.holds(k, seen_from(job, s, k).x, s.cutoff)) return true;
+      if (!job.lists.holds(k, seen(s, k), s.cutoff)) return true;
     return false;
   }
   template <unsigned kSize>
   LSDCD_FN void make_list(const Warp<kSize> &warp, bool mine, std::size_t g) const
   {
-    const JointSphere s = joint_sphere(job, g, pull_off_of(law));
+    const JointSphere s = joint_sphere<Law::kBeyondContact>(job, g);
     for (int k = s.begin; warp.vote(mine && k < s.end); k++) {
       const bool in = mine && k < s.end;
-      const Vec3 x = in ? seen_from(job, s, k).x : Vec3{0, 0, 0};
+      const Vec3 x = in ? seen(s, k) : Vec3{0, 0, 0};
       const bool due = in && !job.lists.holds(k, x, s.cutoff);
       for_each_distinct(warp, due, due ? job.joint.mesh[k] : 0, [&](bool of_mesh, int m) {
         put_list(job, warp, of_mesh, job.joint.meshes[m].grid, {x, s.radius, s.cutoff, nullptr, 0},
@@ -284,8 +309,13 @@ struct JointStep {
   }
   LSDCD_FN bool several(std::size_t g) const
   {
-    joint_contacts(law, job, g);
+    joint_contacts<Law>(job, g);
     return true;
+  }
+  // Where the mesh of slot k sees it.
+  LSDCD_FN Vec3 seen(const JointSphere &s, int k) const
+  {
+    return seen_from<Law::kBeyondContact>(job, s, k).x;
   }
   LSDCD_FN const StepLists &step_lists() const { return job.step_lists; }
 };
@@ -296,7 +326,7 @@ void start_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend 
 {
   if constexpr (Law::kSurface)
     if (job.joint.meshes) {
-      run_step(backend, n, JointStep<Law>{bytes.as<Law>(), job});
+      run_step(backend, n, JointStep<Law>{job});
       return;
     }
   run_step(backend, n, LawStep<Law>{bytes.as<Law>(), job});

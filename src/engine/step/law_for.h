@@ -9,7 +9,7 @@
 namespace lsdcd {
 
 template <class B>
-CompiledLaw<B> law_for(const EngineSettings &settings)
+CompiledLaw<B> one_law_for(const EngineSettings &settings)
 {
   const ContactLaw &law = settings.law;
   if (!law.is_classic()) return granular_law<B>(settings);
@@ -19,6 +19,21 @@ CompiledLaw<B> law_for(const EngineSettings &settings)
   if (settings.precision == Precision::single_)
     return with_classic_law<float>(law, MakeLaw<B, WallKernels::plain>{});
   return with_classic_law<Real>(law, MakeLaw<B, WallKernels::plain>{});
+}
+
+template <class B>
+CompiledLaw<B> law_for(const EngineSettings &settings)
+{
+  CompiledLaw<B> made = one_law_for<B>(settings);
+  EngineSettings one = settings;
+  for (const ContactLaw &law : settings.laws.laws) {
+    one.law = law;
+    const CompiledLaw<B> other = one_law_for<B>(one);
+    if (other.start != made.start)
+      throw std::logic_error("laws of a wall must have the same sub-models");
+    made.table.push_back(other.law);
+  }
+  return made;
 }
 
 }    // namespace lsdcd

@@ -8,6 +8,7 @@
 #include "engine/results/result_columns.h"
 #include "engine/results/step_counts.h"
 #include "engine/step/force_settings.h"
+#include "engine/step/law_bytes.h"
 #include "engine/step/step_lists.h"
 
 #include <cstdint>
@@ -46,6 +47,7 @@ struct JointSpheres {
   const MeshWork *meshes = nullptr;    // null: there are none in this job
   const int *first = nullptr;
   const int *mesh = nullptr;    // of each slot
+  LawsView laws = {};
 };
 
 struct LawJob {

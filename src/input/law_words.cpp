@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "input/law_words.h"
+
+#include "input/granular_words.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+const char *const kLawOfMeshSyntax =
+    "law [types I] STYLE numbers, of the wall's sub-models, with I as 2, 1*3, 2* or *";
+
+namespace {
+
+// "hooke/history, rolling cdt"
+std::string sub_models_text(const ContactLaw &law)
+{
+  std::string text;
+  for (const SubModel *row : rows_of(law)) {
+    const std::string family = family_word(row->family);
+    text += (text.empty() ? "" : ", ") + (family.empty() ? "" : family + " ") + row->name;
+  }
+  return text;
+}
+
+bool is_whole(const std::string &word, int *value)
+{
+  Real number = 0;
+  if (!is_number(word, &number) || number < 1 || number > kAnyType - 1 ||
+      number != std::floor(number))
+    return false;
+  *value = static_cast<int>(number);
+  return true;
+}
+
+// As LAMMPS's: 2, 1*3, 2*, *3, *
+void read_types(Tokens &w, LawOfMesh &of)
+{
+  if (w.done()) w.fail("the atom types are missing after 'types'");
+  const std::string word = w.take();
+  const std::size_t star = word.find('*');
+  bool good;
+  if (star == std::string::npos) {
+    good = is_whole(word, &of.first_type);
+    of.last_type = of.first_type;
+  } else {
+    const std::string from = word.substr(0, star), to = word.substr(star + 1);
+    good = (from.empty() || is_whole(from, &of.first_type)) &&
+           (to.empty() || is_whole(to, &of.last_type)) && of.first_type <= of.last_type;
+  }
+  if (!good) w.fail("'" + word + "' is no range of atom types");
+  of.types = word;
+}
+
+void inherit(const ContactLaw &from, ContactLaw &law)
+{
+  if (!law.is_classic()) return;
+  if (!law.rolling.is_on()) law.rolling = from.rolling;
+  if (!law.cohesion.is_on()) law.cohesion = from.cohesion;
+}
+
+// Cohesion of 0 everywhere costs nothing.
+void leave_out_cohesion(WallSettings &s)
+{
+  bool any = false;
+  const auto look = [&](const ContactLaw &law) { any |= law.cohesion.numbers[0] != 0; };
+  look(s.law);
+  for (const MeshSettings &mesh : s.meshes)
+    for (const LawOfMesh &of : mesh.laws) look(of.law);
+  if (any) return;
+  s.law.cohesion = CohesionModel::none;
+  for (MeshSettings &mesh : s.meshes)
+    for (LawOfMesh &of : mesh.laws) of.law.cohesion = CohesionModel::none;
+}
+
+// The last one of the types is that of a type; else the mesh's own, else the wall's.
+const ContactLaw &law_of_type(const WallSettings &s, const MeshSettings &mesh, int type)
+{
+  const ContactLaw *found = &s.law;
+  bool by_type = false;
+  for (const LawOfMesh &of : mesh.laws) {
+    const bool all = of.types.empty();
+    if (all ? by_type : type < of.first_type || type > of.last_type) continue;
+    found = &of.law;
+    by_type = !all;
+  }
+  return *found;
+}
+
+LawTable table_of_laws(const WallSettings &s)
+{
+  LawTable table;
+  bool any = false, by_type = false;
+  int last = 0;    // types beyond have the same laws
+  for (const MeshSettings &mesh : s.meshes)
+    for (const LawOfMesh &of : mesh.laws) {
+      any = true;
+      if (of.types.empty()) continue;
+      by_type = true;
+      last = std::max(last, of.last_type == kAnyType ? of.first_type - 1 : of.last_type);
+    }
+  if (!any) return table;
+  std::vector<std::vector<const ContactLaw *>> kinds;    // of each, the law of each mesh
+  for (int type = 1; type <= last + 1; type++) {
+    std::vector<const ContactLaw *> laws;
+    for (const MeshSettings &mesh : s.meshes) laws.push_back(&law_of_type(s, mesh, type));
+    const auto at = std::find(kinds.begin(), kinds.end(), laws);
+    const int kind = static_cast<int>(at - kinds.begin());
+    if (at == kinds.end()) kinds.push_back(laws);
+    if (type == 1) table.kind_of_type.push_back(kind);    // there is no type 0
+    table.kind_of_type.push_back(kind);
+  }
+  if (!by_type) table.kind_of_type.clear();
+  table.kinds = static_cast<int>(kinds.size());
+  for (std::size_t m = 0; m < s.meshes.size(); m++)
+    for (const auto &laws : kinds) table.laws.push_back(*laws[m]);
+  return table;
+}
+
+}    // namespace
+
+std::string law_syntax()
+{
+  return names_text(Family::style, GoesWith::classic) + " " +
+         parameters_text(*sub_models(Family::style, GoesWith::classic)[0]) +
+         " [limit_damping] mesh FILE [keywords], or granular NORMAL ... mesh FILE [keywords]";
+}
+
+ContactLaw read_law(Tokens &w, std::string &name, const std::string &syntax)
+{
+  if (w.done()) w.fail("the contact style is missing");
+  name = w.peek();
+  if (name == "granular") {
+    w.take();
+    return read_granular(w, name);
+  }
+  for (const SubModel *row : sub_models(Family::style, GoesWith::classic)) {
+    if (name != row->name) continue;
+    w.take();
+    w.set_context(row->name, syntax);
+    LawDraft draft;
+    read_numbers(w, *row, draft);
+    if (!w.done() && w.peek() == "limit_damping") {
+      draft.law.limit_damping = true;
+      w.take();
+    }
+    return draft.law;
+  }
+  w.fail("'" + name + "' is not a contact style");
+}
+
+void read_beside_classic(Tokens &w, ContactLaw &law, Family family)
+{
+  if (!law.is_classic())
+    w.fail(std::string("it goes with the classic styles; granular has ") +
+           (family == Family::rolling ? "'rolling sds' before mesh"
+                                      : "the normal sub-models dmt and jkr"));
+  const std::vector<const SubModel *> rows = sub_models(family, GoesWith::classic);
+  std::vector<std::string> names;
+  for (const SubModel *row : rows) names.push_back(row->name);
+  LawDraft draft;
+  draft.law = law;
+  read_numbers(w, *rows[w.choice(names)], draft);
+  law = draft.law;
+}
+
+void read_law_of_mesh(Tokens &w, MeshSettings &mesh)
+{
+  LawOfMesh of;
+  if (!w.done() && w.peek() == "types") {
+    w.take();
+    read_types(w, of);
+  } else if (std::any_of(mesh.laws.begin(), mesh.laws.end(),
+                         [](const LawOfMesh &other) { return other.types.empty(); })) {
+    w.fail("the mesh has one for all atom types already");
+  }
+  of.law = read_law(w, of.name, kLawOfMeshSyntax);
+  while (of.law.is_classic() && !w.done()) {
+    const bool rolls = w.peek() == family_word(Family::rolling);
+    if (!rolls && w.peek() != family_word(Family::cohesion)) break;
+    const bool twice = rolls ? of.law.rolling.is_on() : of.law.cohesion.is_on();
+    w.set_context("law ... " + w.take(), kLawOfMeshSyntax);
+    if (twice) w.fail("it is given twice");
+    read_beside_classic(w, of.law, rolls ? Family::rolling : Family::cohesion);
+  }
+  mesh.laws.push_back(of);
+}
+
+void finish_laws(Tokens &w, WallSettings &s)
+{
+  w.set_context("law", kLawOfMeshSyntax);
+  for (MeshSettings &mesh : s.meshes)
+    for (LawOfMesh &of : mesh.laws) inherit(s.law, of.law);
+  leave_out_cohesion(s);
+  for (const MeshSettings &mesh : s.meshes)
+    for (const LawOfMesh &of : mesh.laws)
+      if (rows_of(of.law) != rows_of(s.law))
+        w.fail("mesh '" + mesh.file + "' has the sub-models " + sub_models_text(of.law) +
+               ", and the wall has " + sub_models_text(s.law) +
+               ": only the numbers may differ; put the mesh into another fix, or give the wall the "
+               "same sub-models");
+  s.laws = table_of_laws(s);
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The words of contact laws: of the wall, of one of its meshes, and of atom types with a mesh.
+#pragma once
+
+#include "base/input_words.h"
+#include "input/settings.h"
+#include "law/sub_models.h"
+
+#include <string>
+
+namespace lsdcd {
+
+// "hooke|hooke/history|... kn kt|NULL ... [limit_damping] mesh FILE [keywords], or granular ..."
+std::string law_syntax();
+// The style and its numbers. `name`: the style; with `granular`, all its words.
+ContactLaw read_law(Tokens &w, std::string &name, const std::string &syntax);
+// A sub-model of LIGGGHTS beside a classic style: "cdt MU". `instead`: what granular has.
+void read_beside_classic(Tokens &w, ContactLaw &law, Family family);
+
+// [types I] STYLE NUMBERS, after `law`.
+extern const char *const kLawOfMeshSyntax;
+void read_law_of_mesh(Tokens &w, MeshSettings &mesh);
+
+// Once all is read: what a mesh's law leaves out is the wall's; refuses other sub-models; makes the table.
+void finish_laws(Tokens &w, WallSettings &settings);
+
+}    // namespace lsdcd
