@@ -47,6 +47,7 @@ class Filler {
   {
   }
 
+  // In place of `material ...`.
   FilledTokens fill()
   {
     // A second name without `on` is a likely mistake.
@@ -70,8 +71,6 @@ class Filler {
       out.insert(out.end(), {"tangential", "mindlin", "NULL", "1", of_pair("sliding_friction")});
     const std::vector<std::string> sub_models = fill_nulls();
     out.insert(out.end(), sub_models.begin(), sub_models.end());
-
-    out.insert(out.end(), c_.rest.begin(), c_.rest.end());
     return {out, report_};
   }
 
@@ -255,6 +254,62 @@ class Filler {
   std::string modulus_, ratio_;    // of the script
 };
 
+// The words of the wall, and of each mesh a law for what spheres of each type have with it.
+class WallFiller {
+ public:
+  WallFiller(const MaterialCommand &command, const std::string &units, const MaterialWords &words) :
+      c_(command), units_(units), words_(words)
+  {
+  }
+
+  FilledTokens fill()
+  {
+    out_ = law(c_);
+    std::size_t at = 0;
+    for (const MeshMaterial &mesh : c_.meshes) {
+      out_.insert(out_.end(), c_.rest.begin() + at, c_.rest.begin() + mesh.at);
+      at = mesh.at;
+      add_laws(mesh);
+    }
+    out_.insert(out_.end(), c_.rest.begin() + at, c_.rest.end());
+    return {out_, report_};
+  }
+
+ private:
+  std::vector<std::string> law(const MaterialCommand &pair)
+  {
+    const FilledTokens filled = Filler(pair, units_, words_).fill();
+    if (report_.find(filled.report) == std::string::npos)
+      report_ += (report_.empty() ? "" : "\n") + filled.report;
+    return filled.tokens;
+  }
+
+  void add_laws(const MeshMaterial &mesh)
+  {
+    MaterialCommand pair = c_;
+    if (!mesh.name.empty()) pair.wall = mesh.name;
+    pair.overrides.insert(pair.overrides.begin(), mesh.overrides.begin(), mesh.overrides.end());
+    if (!mesh.name.empty()) add({"law"}, pair);
+    for (const TypesMaterial &of : c_.types) {
+      pair.particle = of.name;
+      add({"law", "types", of.types}, pair);
+    }
+  }
+
+  void add(const std::vector<std::string> &begin, const MaterialCommand &pair)
+  {
+    const std::vector<std::string> words = law(pair);
+    out_.insert(out_.end(), begin.begin(), begin.end());
+    out_.insert(out_.end(), words.begin(), words.end());
+  }
+
+  const MaterialCommand &c_;
+  const std::string &units_;
+  const MaterialWords &words_;
+  std::vector<std::string> out_;
+  std::string report_;
+};
+
 }    // namespace
 
 FilledTokens fill_material(const std::vector<std::string> &tokens, const std::string &units,
@@ -262,7 +317,7 @@ FilledTokens fill_material(const std::vector<std::string> &tokens, const std::st
 {
   if (!has_material(tokens)) return {tokens, ""};
   const MaterialCommand command = read_material_command(tokens, words);
-  return Filler(command, units, words).fill();
+  return WallFiller(command, units, words).fill();
 }
 
 std::vector<std::string> words_of_29sep2021(std::vector<std::string> filled)

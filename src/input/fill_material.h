@@ -17,10 +17,10 @@ struct FilledTokens {
 };
 
 // `tokens` begin with FSTYLE. Where they are
-//   granular [hertz/material | jkr | dmt] material FILE PARTICLE [on WALL]
-//     [with [MATERIAL] KEY VALUE ...]
+//   granular [hertz/material | jkr | dmt] material FILE PARTICLE [types I PARTICLE ...] [on WALL]
+//     [with [MATERIAL] KEY VALUE ...] ... mesh FILE [material WALL [with ...]] ...
 // numbers replace `material ...`, and NULLs of later sub-models for friction, rolling
-// friction and conductivity are filled in. Other words come back as they are. `units`: the
+// friction and conductivity are filled in. `types`, and `material` of a mesh, become `law`. Other words come back as they are. `units`: the
 // script's system of units, by LAMMPS's name. LAMMPS's walls take one material for both
 // sides, so that for two materials the modulus and Poisson's ratio are those of one with
 // the same effective Young's and shear moduli. Throws InputError, with `words` for the

@@ -14,18 +14,19 @@
 
 namespace lsdcd {
 
-const char *const kMaterialSyntax =
-    "granular [hertz/material|jkr|dmt] material FILE PARTICLE [on WALL] [with [MATERIAL] KEY VALUE "
-    "...] "
-    "[sub-models, NULL for a number of the file] mesh FILE [keywords]";
+const char *const kMaterialSyntax = "granular [hertz/material|jkr|dmt] material FILE PARTICLE "
+                                    "[types I PARTICLE ...] [on WALL] [with "
+                                    "[MATERIAL] KEY VALUE ...] [sub-models, NULL for a number of "
+                                    "the file] mesh FILE [material WALL "
+                                    "[with ...]] [keywords]";
 
 const MaterialWords kScriptWords = {"on", "with", kMaterialSyntax};
 
 namespace {
 
-std::string take(Tokens &w, const char *what)
+std::string take(Tokens &w, const std::string &what)
 {
-  if (w.done()) w.fail(std::string(what) + " is missing");
+  if (w.done()) w.fail(what + " is missing");
   return w.take();
 }
 
@@ -43,11 +44,17 @@ bool is_behind(const std::string &word)
          std::any_of(all.begin(), all.end(), [&](const Keyword &k) { return word == k.name; });
 }
 
+bool is_any(const std::string &word, const std::vector<std::string> &names)
+{
+  return std::find(names.begin(), names.end(), word) != names.end();
+}
+
 // Reads KEY VALUE or MATERIAL KEY VALUE as long as they follow.
-void read_overrides(Tokens &w, MaterialCommand &c, const std::string &with)
+void read_overrides(Tokens &w, const std::vector<std::string> &names, const std::string &with,
+                    std::vector<Override> &overrides)
 {
   const auto is_key = [&] { return !w.done() && (w.peek() == "eta" || find_property(w.peek())); };
-  const auto is_name = [&] { return !w.done() && (w.peek() == c.particle || w.peek() == c.wall); };
+  const auto is_name = [&] { return !w.done() && is_any(w.peek(), names); };
   if (w.done() || is_behind(w.peek()))
     w.fail("'" + with + "' needs a property and its value, such as restitution 0.9");
   if (!is_key() && !is_name()) w.fail(not_a_property(w.peek()));
@@ -59,11 +66,12 @@ void read_overrides(Tokens &w, MaterialCommand &c, const std::string &with)
     const Property *p = find_property(key);
     if (!of.empty() && (!p || p->of_pair))
       w.fail("'" + key + "' is not of " + of + " alone: leave the name out");
-    if (c.override_of(key, of)) w.fail("'" + key + "' is given twice");
+    for (const Override &o : overrides)
+      if (o.key == key && o.of == of) w.fail("'" + key + "' is given twice");
     if (key == "density") w.fail("density is the atoms' own: no contact style takes it");
     const Real number = w.number(key.c_str(), p ? std::nextafter(p->above, Tokens::kHuge) : 0,
                                  p ? p->most : Tokens::kHuge);
-    c.overrides.push_back({of, key, number});
+    overrides.push_back({of, key, number});
   }
   // It may be a misspelt keyword: the reader of keywords tells that.
   if (w.done() || is_behind(w.peek())) return;
@@ -84,6 +92,58 @@ void read_sub_models(Tokens &w, MaterialCommand &c)
     c.sub_models.push_back(w.take());
     while (!w.done() && (w.peek() == "NULL" || w.number_follows()))
       c.sub_models.push_back(w.take());
+  }
+}
+
+// Reads types I NAME I NAME ...
+void read_types(Tokens &w, MaterialCommand &c)
+{
+  if (w.done() || w.peek() != "types") return;
+  w.take();
+  const auto is_range = [&] {
+    return !w.done() && w.peek().find_first_not_of("0123456789*") == std::string::npos;
+  };
+  if (!is_range()) w.fail("after 'types' come atom types and their material, such as 2 coal");
+  while (is_range()) {
+    const std::string types = w.take();
+    c.types.push_back({types, take(w, "the material of atom types " + types)});
+  }
+}
+
+// All that the words call a material, and a few others.
+std::vector<std::string> names_in(const std::vector<std::string> &tokens, const MaterialCommand &c)
+{
+  std::vector<std::string> names = {c.particle, c.wall};
+  for (const TypesMaterial &of : c.types) names.push_back(of.name);
+  for (std::size_t i = 0; i + 1 < tokens.size(); i++)
+    if (tokens[i] == "material") names.push_back(tokens[i + 1]);
+  return names;
+}
+
+// Reads `mesh` and what follows.
+void read_meshes(Tokens &w, MaterialCommand &c, const std::vector<std::string> &names,
+                 const MaterialWords &words)
+{
+  const std::vector<std::string> before_file = {"cache", "mesh_fields", "mesh_stl", "torque_about"};
+  std::string last;
+  while (!w.done()) {
+    const std::string word = w.take();
+    const bool is_value = is_any(last, before_file);
+    last = word;
+    if (!is_value && word == "material") {
+      if (c.meshes.empty()) w.fail("'material' of a mesh comes after its mesh FILE");
+      MeshMaterial &mesh = c.meshes.back();
+      if (!mesh.name.empty()) w.fail("a mesh has two materials");
+      mesh.name = take(w, "the material of the mesh");
+      if (w.done() || w.peek() != "with") continue;
+      w.take();
+      read_overrides(w, names, words.with, mesh.overrides);
+      continue;
+    }
+    c.rest.push_back(word);
+    if (is_value || word != "mesh" || w.done()) continue;
+    c.rest.push_back(w.take());
+    c.meshes.push_back({c.rest.size(), "", {}});
   }
 }
 
@@ -121,18 +181,26 @@ MaterialCommand read_material_command(const std::vector<std::string> &tokens,
   w.take();
   c.file = take(w, "the file name");
   c.particle = c.wall = take(w, "the material's name");
-  if (!w.done() && w.peek() == "on") {
+  read_types(w, c);
+  const bool has_wall = !w.done() && w.peek() == "on";
+  if (has_wall) {
     w.take();
     if (w.done() || w.peek() == "mesh" || w.peek() == "with")
       w.fail(std::string("the wall's material is missing after '") + words.on + "'");
     c.wall = w.take();
   }
+  const std::vector<std::string> names = names_in(tokens, c);
   if (!w.done() && w.peek() == "with") {
     w.take();
-    read_overrides(w, c, words.with);
+    read_overrides(w, names, words.with, c.overrides);
   }
   read_sub_models(w, c);
-  while (!w.done()) c.rest.push_back(w.take());
+  read_meshes(w, c, names, words);
+  // The wall's own is then that of no contact, and the file need not have it.
+  if (!has_wall && !c.meshes.empty() &&
+      std::none_of(c.meshes.begin(), c.meshes.end(),
+                   [](const MeshMaterial &m) { return m.name.empty(); }))
+    c.wall = c.meshes.front().name;
   return c;
 }
 

@@ -26,15 +26,29 @@ struct Override {
   Real value;
 };
 
+// What particles of some atom types are made of.
+struct TypesMaterial {
+  std::string types, name;    // types: as law takes them
+};
+
+// What a mesh is made of.
+struct MeshMaterial {
+  std::size_t at;      // in MaterialCommand::rest, behind its file's name
+  std::string name;    // empty: the wall's
+  std::vector<Override> overrides;
+};
+
 struct MaterialCommand {
   std::string style;     // FSTYLE
   std::string normal;    // normal model of granular; empty with another style
   std::string file, particle, wall;
+  std::vector<TypesMaterial> types;
+  std::vector<MeshMaterial> meshes;
   std::vector<Override> overrides;        // `with`
   std::vector<std::string> sub_models;    // of granular, as they stand
   std::string damping;                    // model among those; empty: none
   bool has_tangential = false;
-  std::vector<std::string> rest;    // `mesh` and what follows
+  std::vector<std::string> rest;    // `mesh` and what follows, without materials
 
   // Null: none.
   const Real *override_of(const std::string &key, const std::string &of = "") const;

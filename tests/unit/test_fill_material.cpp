@@ -92,6 +92,48 @@ TEST_F(fill_material_words, are_a_whole_granular_style)
             "tangential mindlin NULL 1 0.092 mesh a.stl scale 2");
 }
 
+// The words that the script would have for each pair alone.
+TEST_F(fill_material_words, of_meshes_and_types_become_laws)
+{
+  const auto law = [&](const std::string &pair) {
+    const std::string all = filled("granular material FILE " + pair + " mesh a.stl");
+    return all.substr(0, all.find(" mesh"));
+  };
+  const std::string steel = law("glass on steel"), glass = law("glass"),
+                    more = " with sliding_friction 0.7";
+  EXPECT_EQ(
+      filled(
+          "granular material FILE glass mesh a.stl scale 2 material steel mesh b.stl corner sum"),
+      glass + " mesh a.stl law " + steel + " scale 2 mesh b.stl corner sum");
+  EXPECT_EQ(filled("granular material FILE glass types 2* steel mesh a.stl material glass" + more +
+                   " torque_about mesh mesh b.stl"),
+            glass + " mesh a.stl law " + law("glass" + more) + " law types 2* " +
+                law("steel on glass" + more) + " torque_about mesh mesh b.stl law types 2* " +
+                law("steel on glass"));
+}
+
+// Steel on steel is not in the file.
+TEST_F(fill_material_words, ask_for_pairs_that_meet)
+{
+  EXPECT_EQ(filled("granular material FILE steel mesh a.stl material glass").find("granular"), 0u);
+  EXPECT_TRUE(says(error_of("granular material FILE steel mesh a.stl material glass mesh b.stl"),
+                   {"has no restitution of steel on steel"}));
+  EXPECT_TRUE(says(error_of("granular material FILE glass types 2 steel mesh a.stl material steel"),
+                   {"has no restitution of steel on steel"}));
+}
+
+TEST_F(fill_material_words, of_meshes_stand_behind_their_files)
+{
+  EXPECT_TRUE(says(error_of("granular material FILE glass material steel mesh a.stl"),
+                   {"after its mesh FILE"}));
+  EXPECT_TRUE(
+      says(error_of("granular material FILE glass mesh a.stl material steel material glass"),
+           {"two materials"}));
+  EXPECT_TRUE(says(error_of("granular material FILE glass types steel mesh a.stl"), {"2 coal"}));
+  EXPECT_TRUE(says(filled("granular material FILE glass mesh material cache material"),
+                   {"mesh material cache material"}));
+}
+
 TEST_F(fill_material_words, may_name_the_normal_model)
 {
   EXPECT_EQ(filled("granular hertz/material material FILE glass mesh a.stl"),
