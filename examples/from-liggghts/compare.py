@@ -19,13 +19,14 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from runs import environment, make_meshes, options, print_table, run_script    # noqa: E402
 
-STARTS = {"meshGran": 6, "movingMeshGran": 6, "servoWall": 1, "conveyor": 6}
+STARTS = {"meshGran": 6, "movingMeshGran": 6, "servoWall": 1, "conveyor": 6, "transfer": 6}
 HERE_NAME, THERE_NAME = "fix wall/lsdcd", "LIGGGHTS"
 # Two-sided 1e-4 points of Student's distribution for 5 degrees of freedom.
 STUDENT = 11.18
 # The figures, and the sizes below which a difference does not count: one grain, or a tenth of its diameter.
 FIGURES = {"meshGran": {"x": 0.002, "z": 0.002}, "movingMeshGran": {"taken": 1, "z": 0.006},
-           "conveyor": {"half": 0.0354, "passed": 0.0354, "x": 0.0025}}
+           "conveyor": {"half": 0.0354, "passed": 0.0354, "x": 0.0025},
+           "transfer": {"half": 0.0354, "passed": 0.0354, "x": 0.0025}}
 
 
 def figures(a, program, name, start):
@@ -58,7 +59,7 @@ def heights():
 
 def checks(name, program, run):
     """(what, value, its bound) of one run: a balance or a closed form."""
-    if name in ("meshGran", "conveyor"):
+    if name in ("meshGran", "conveyor", "transfer"):
         # Over N = 2000 steps the momentum changes by the forces' trapezoid sum; the load is the mean of the steps after the
         # first. The two differ by (first force - last force) / (2 N), and forces stay below ten times the weight.
         yield "load + weight + rate of momentum, N", run["load"] + run["weight"] + run["residue"], run["weight"] * 10 / 4000

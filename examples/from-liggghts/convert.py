@@ -729,33 +729,17 @@ class Script:
             elif i not in self.meshes:
                 raise CannotConvert(f"{self.at(line)}: there is no mesh {i}")
         meshes = [self.meshes[i] for i in ids if i in self.meshes]
-        # Meshes of one material share the corners between them in one fix.
-        by_law = {}
-        for mesh in meshes:
-            laws = self.law_of(line, model, mesh.type)
-            if len(set(laws.values())) == 1:
-                laws = {None: laws[self.grains()[0]]}
-            by_law.setdefault(tuple(laws.items()), []).append(mesh)
-        if len(by_law) > 1:
-            self.note(line, "meshes of several materials are in fixes of their own: where they meet a grain is pushed by both")
-        for part, (laws, mine) in enumerate(by_law.items()):
-            servos = any(m.servo for m in mine)
-            if len(laws) > 1 and servos:
-                raise Left("a servo that touches grains of several materials",
-                           "one fix feels one group: give all grains one law with the wall")
-            for kind, law in laws:
-                fix = w[1] + (f"_{part + 1}" if part else "") + (f"_type{kind}" if kind and kind != laws[0][0] else "")
-                group = w[2]
-                if kind is not None:
-                    self.put(f"group           type{kind} type {kind}")
-                    group = f"type{kind}"
-                    self.note(line, f"loads on meshes of {fix} are those of grains of type {kind}")
-                words = [f"fix             {fix} {group} wall/lsdcd {law}" + self.wear(line, mine, kind)]
-                for index, mesh in enumerate(mine, 1):
-                    if kind is None or kind == laws[0][0]:
-                        mesh.wall, mesh.index, mesh.several = fix, index, len(mine) > 1
-                    words.append(self.mesh_words(mesh))
-                self.put(" &\n                ".join(words))
+        # One fix, so that a grain where meshes meet is pushed once; each mesh has its law.
+        laws = [self.law_of(line, model, mesh.type) for mesh in meshes]
+        first = laws[0][self.grains()[0]]
+        words = [f"fix             {w[1]} {w[2]} wall/lsdcd {first}" + self.wear(line, meshes)]
+        for index, (mesh, by_type) in enumerate(zip(meshes, laws), 1):
+            mesh.wall, mesh.index, mesh.several = w[1], index, len(meshes) > 1
+            words.append(self.mesh_words(mesh))
+            own = by_type[self.grains()[0]]
+            words += [f"law {own}"] * (own != first)
+            words += [f"law types {kind} {law}" for kind, law in by_type.items() if law != own]
+        self.put(" &\n                ".join(words))
 
     def stored(self, line, model):
         """Words of fix wall/gran that are no model's."""
@@ -766,11 +750,14 @@ class Script:
         if rest:
             raise Left(f"the word {rest[0]} of wall/gran", "see fix_wall_lsdcd.rst")
 
-    def wear(self, line, meshes, kind):
+    def wear(self, line, meshes):
         worn = [m for m in meshes if m.wear]
         if not worn:
             return ""
-        k = self.property(line, "k_finnie", worn[0].type, kind or self.grains()[0])
+        of_pairs = {self.property(line, "k_finnie", m.type, kind) for m in worn for kind in self.grains()}
+        if len(of_pairs) > 1:
+            raise Left("wear of several materials", "a fix has one number: give the meshes fixes of their own")
+        k = of_pairs.pop()
         self.note(line, f"LIGGGHTS wears by twice its k_finnie, {short(k)}, and by the whole force, not the normal one" +
                   ("" if len(worn) == len(meshes) else "; all meshes of a fix wear"))
         return f" wear finnie {short(2 * k)}"

@@ -5,7 +5,7 @@
 """Write the meshes and the grains of the four tutorials, as text that LIGGGHTS and LAMMPS both read.
 
 meshGran: cascade.stl, two chutes above a cup. movingMeshGran: bucket.stl. servoWall: can.stl, plate.stl.
-conveyor: belt.stl, bin.stl, gate.stl. Each has its grains in NAME.data. SI units, but for bucket.stl in mm.
+conveyor and transfer: belt.stl, bin.stl, gate.stl. Each has its grains in NAME.data. SI units, but for bucket.stl in mm.
 """
 import math
 import random
@@ -30,9 +30,9 @@ def write_text(path, triangles):
     print(f"{path}: {len(triangles)} facets")
 
 
-def write_grains(path, grains, box):
-    """`grains` are (diameter, x, y, z)."""
-    text = f"grains\n\n{len(grains)} atoms\n1 atom types\n\n"
+def write_grains(path, grains, box, types=1):
+    """`grains` are (diameter, x, y, z), all of type 1."""
+    text = f"grains\n\n{len(grains)} atoms\n{types} atom types\n\n"
     text += "".join(f"{lo} {hi} {a}lo {a}hi\n" for a, (lo, hi) in zip("xyz", box)) + "\nAtoms\n\n"
     text += "".join(f"{k} 1 {d:.17g} {DENSITY} {x:.17g} {y:.17g} {z:.17g}\n"
                     for k, (d, x, y, z) in enumerate(grains, 1))
@@ -113,8 +113,9 @@ def main():
     write_text(out / "belt.stl", belt())
     write_text(out / "bin.stl", bin_())
     write_text(out / "gate.stl", quad((-0.51, -0.2, -0.1), (-0.51, -0.2, 0.5), (-0.51, 0.2, 0.5), (-0.51, 0.2, -0.1)))
-    write_grains(out / "conveyor.data", jittered(dice, (8, 4, 3), (0.05, -0.06, 0.04), 0.04, [0.02, 0.03]),
-                 ((-1.4, 0.6), (-0.25, 0.25), (-0.6, 0.5)))
+    for name, types in ("conveyor", 1), ("transfer", 3):
+        write_grains(out / f"{name}.data", jittered(dice, (8, 4, 3), (0.05, -0.06, 0.04), 0.04, [0.02, 0.03]),
+                     ((-1.4, 0.6), (-0.25, 0.25), (-0.6, 0.5)), types)
 
 
 if __name__ == "__main__":

@@ -134,6 +134,27 @@ fix m4 all property/global coefficientFriction peratomtypepair 2 0.4 0.3 0.3 0.2
     checks.fact("restitution and friction of the pair", (restitution, mu) == (0.6, 0.3))
 
 
+def several_materials(checks, folder):
+    """Grains of types 1 and 2, meshes of types 1 and 3: one fix, and a law for each pair that differs."""
+    numbers = "fix m{} all property/global {} {} {}\n"
+    pairs = {(1, 1): 0.1, (1, 2): 0.2, (1, 3): 0.3, (2, 2): 0.4, (2, 3): 0.3, (3, 3): 0.6}
+    mu = " ".join(str(pairs[min(i, j), max(i, j)]) for i in (1, 2, 3) for j in (1, 2, 3))
+    text = "".join(numbers.format(k, *words) for k, words in enumerate((
+        ("youngsModulus", "peratomtype", "1e7 1e7 1e7"), ("poissonsRatio", "peratomtype", "0.3 0.3 0.3"),
+        ("coefficientRestitution", "peratomtypepair", "3" + " 0.5" * 9), ("coefficientFriction", "peratomtypepair", "3 " + mu))))
+    text += "".join(f"create_atoms {kind} single 0 0 0\n" for kind in (1, 2))
+    text += MESH.format("") + MESH.replace("cad", "lid").replace("type 1", "type 3").replace("a.stl", "b.stl").format("")
+    text += WALL.replace("n_meshes 1 meshes cad", "n_meshes 2 meshes cad lid")
+    done, out = convert(folder, text)
+    wall = [line.split() for line in re.search(r"^fix +w (?:.*&\n)*.*", out, re.M)[0].split("&\n")]
+    # The last number of each law is the friction.
+    checks.fact("several materials: one fix with a law for each pair",
+                [(words[0], words[-1]) for words in wall] == [("fix", "0.1"), ("mesh", "a.stl"), ("law", "0.2"),
+                                                              ("mesh", "b.stl"), ("law", "0.3")] and
+                wall[2][:4] == ["law", "types", "2", "granular"] and wall[4][1] == "granular" and
+                len(re.findall("^fix .*wall/lsdcd", out, re.M)) == 1 and "\n# LEFT" not in out, f"{wall}")
+
+
 def figures(text, name):
     return re.findall(rf"^{name} [a-z]+ .*", text, re.M)
 
@@ -141,7 +162,7 @@ def figures(text, name):
 def run(checks, folder):
     """The numbers of the laws have the same ten digits, so both runs have the same bits."""
     subprocess.run([sys.executable, EXAMPLE / "make_meshes.py", "--out", folder], check=True, stdout=subprocess.DEVNULL)
-    for name in ("meshGran", "movingMeshGran", "servoWall", "conveyor"):
+    for name in ("meshGran", "movingMeshGran", "servoWall", "conveyor", "transfer"):
         done, out = convert(folder, (EXAMPLE / f"in.{name}.liggghts").read_text())
         checks.fact(f"{name}: nothing is left", out is not None and "\n# LEFT" not in out, done.stderr)
         port = figures(lmp.run_well(EXAMPLE / f"in.{name}", folder, png=0), name)
@@ -158,4 +179,5 @@ if __name__ == "__main__":
     else:
         words(facts, place)
         two_materials(facts, place)
+        several_materials(facts, place)
     facts.done(place)
