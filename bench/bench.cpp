@@ -3,9 +3,9 @@
 
 #include "bench.h"
 
-#include "base/atomic_file.h"
 #include "backend/backend_cpu.h"
 #include "backend/threads.h"
+#include "base/atomic_file.h"
 #include "on_cuda.h"
 #include "support/meshes.h"
 

@@ -3,10 +3,10 @@
 
 #include "near_and_far.h"
 
-#include "library_query.h"
 #include "backend/threads.h"
-#include "peers.h"
 #include "geometry/closest_point.h"
+#include "library_query.h"
+#include "peers.h"
 #include "study/spheres.h"
 
 #include <cmath>

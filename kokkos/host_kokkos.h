@@ -10,10 +10,10 @@
 #include "kokkos_base.h"
 #include "kokkos_type.h"
 
+#include "backend/threads.h"
 #include "base/input_error.h"
 #include "base/strided_view.h"
 #include "engine/wall_engine.h"
-#include "backend/threads.h"
 
 #include <memory>
 #include <type_traits>

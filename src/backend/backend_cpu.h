@@ -6,10 +6,10 @@
 
 #include "backend/atomic.h"
 #include "backend/backend.h"
+#include "backend/owned_array.h"
+#include "backend/threads.h"
 #include "backend/warp.h"
 #include "base/strided_view.h"
-#include "backend/threads.h"
-#include "backend/owned_array.h"
 
 #include <algorithm>
 #include <chrono>

@@ -3,8 +3,8 @@
 
 #include "bodies/collide_on.h"
 
-#include "base/input_error.h"
 #include "backend/backend_cpu.h"
+#include "base/input_error.h"
 
 #include <algorithm>
 #include <cmath>

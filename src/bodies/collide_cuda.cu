@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "bodies/collide_on.h"
 #include "backend/backend_cuda.h"
+#include "bodies/collide_on.h"
 
 namespace lsdcd {
 

@@ -4,6 +4,7 @@
 // The body against the wall on one backend: one source for all.
 #pragma once
 
+#include "backend/atomic.h"
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "bodies/check_body.h"
@@ -13,7 +14,6 @@
 #include "bodies/sort_pairs.h"
 #include "bodies/subdivide.h"
 #include "grid/lookup/grid_on.h"
-#include "backend/atomic.h"
 
 #include <algorithm>
 #include <cmath>

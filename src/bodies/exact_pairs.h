@@ -5,8 +5,8 @@
 // take long, so that the host does it for every backend.
 #pragma once
 
-#include "bodies/near_piece.h"
 #include "backend/backend_cpu.h"
+#include "bodies/near_piece.h"
 
 #include <algorithm>
 #include <vector>

@@ -4,8 +4,8 @@
 // Where the velocity of a surface would push the mesh, which stays where it is.
 #pragma once
 
-#include "motion/surface_motion.h"
 #include "mesh/wall_mesh.h"
+#include "motion/surface_motion.h"
 
 #include <cstddef>
 

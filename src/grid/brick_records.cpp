@@ -3,9 +3,9 @@
 
 #include "grid/brick_records.h"
 
+#include "backend/threads.h"
 #include "base/input_error.h"
 #include "grid/triangle_grid.h"
-#include "backend/threads.h"
 
 #include <algorithm>
 #include <array>

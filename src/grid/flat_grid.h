@@ -5,9 +5,9 @@
 // where it is.
 #pragma once
 
+#include "backend/owned_array.h"
 #include "base/large_memory.h"
 #include "grid/triangle_grid.h"
-#include "backend/owned_array.h"
 
 namespace lsdcd {
 

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "engine/wall_engine.h"
-#include "motion/motion.h"
 #include "mesh/placement.h"
+#include "motion/motion.h"
 #include "output/mesh_image.h"
 
 #include <cstddef>

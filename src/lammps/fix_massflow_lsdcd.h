@@ -7,8 +7,8 @@
 
 #include "fix.h"
 
-#include "input/massflow_settings.h"
 #include "flow/flow_surface.h"
+#include "input/massflow_settings.h"
 #include "lammps/rerun_watch.h"
 
 #include <memory>

@@ -4,9 +4,9 @@
 // One block of memory per node, written by one process and read by all of them.
 #pragma once
 
+#include "backend/owned_array.h"
 #include "base/error_text.h"
 #include "base/large_memory.h"
-#include "backend/owned_array.h"
 #include "wall/host.h"
 
 #include <cstddef>

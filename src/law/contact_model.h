@@ -16,8 +16,8 @@
 // keeps and exchanges only what is on.
 #pragma once
 
-#include "law/submodels/cohesion.h"
 #include "law/contact.h"
+#include "law/submodels/cohesion.h"
 #include "law/submodels/damping.h"
 #include "law/submodels/heat.h"
 #include "law/submodels/normal.h"

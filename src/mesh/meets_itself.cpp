@@ -3,9 +3,9 @@
 
 #include "mesh/meets_itself.h"
 
+#include "backend/threads.h"
 #include "geometry/triangles_meet.h"
 #include "mesh/box_tree.h"
-#include "backend/threads.h"
 
 #include <algorithm>
 #include <cstdint>

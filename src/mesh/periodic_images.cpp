@@ -4,8 +4,8 @@
 #include "mesh/periodic_images.h"
 
 #include "mesh/assemble.h"
-#include "mesh/union_find.h"
 #include "mesh/near_images.h"
+#include "mesh/union_find.h"
 #include "mesh/weld_points.h"
 
 #include <algorithm>

@@ -5,12 +5,12 @@
 
 #include "base/input_error.h"
 #include "mesh/assemble.h"
-#include "mesh/union_find.h"
 #include "mesh/corners_on_edge.h"
 #include "mesh/face_plane.h"
 #include "mesh/measure_mesh.h"
 #include "mesh/orient_faces.h"
 #include "mesh/split_faces.h"
+#include "mesh/union_find.h"
 #include "mesh/weld_points.h"
 
 #include <algorithm>

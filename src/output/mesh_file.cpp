@@ -3,8 +3,8 @@
 
 #include "output/mesh_file.h"
 
-#include "base/input_error.h"
 #include "base/atomic_file.h"
+#include "base/input_error.h"
 #include "mesh/io/read_mesh.h"
 #include "mesh/weld_points.h"
 #include "output/file_bytes.h"

@@ -4,9 +4,9 @@
 // What a query computes for each sphere, and where its answers go.
 #pragma once
 
-#include "grid/lookup/brick_filter.h"
 #include "backend/atomic.h"
 #include "backend/warp.h"
+#include "grid/lookup/brick_filter.h"
 #include "query/nearest_distance.h"
 #include "query/sphere.h"
 

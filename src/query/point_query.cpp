@@ -3,8 +3,8 @@
 
 #include "query/point_query.h"
 
-#include "mesh/wall_mesh.h"
 #include "backend/backend_cpu.h"
+#include "mesh/wall_mesh.h"
 #include "query/near_first_cpu.h"
 #include "query/radius_error.h"
 

@@ -3,8 +3,8 @@
 
 #include "study/accuracy.h"
 
-#include "base/input_error.h"
 #include "backend/backend_cpu.h"
+#include "base/input_error.h"
 
 #include <algorithm>
 #include <cmath>

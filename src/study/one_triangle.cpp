@@ -3,10 +3,10 @@
 
 #include "study/one_triangle.h"
 
+#include "backend/backend_cpu.h"
 #include "geometry/closest_point.h"
 #include "geometry/primitive_distance.h"
 #include "grid/lookup/locate.h"
-#include "backend/backend_cpu.h"
 
 #include <functional>
 

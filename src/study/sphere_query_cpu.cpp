@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "base/input_error.h"
 #include "backend/backend_cpu.h"
+#include "base/input_error.h"
 #include "query/near_first_cpu.h"
 #include "study/sphere_query_on.h"
 

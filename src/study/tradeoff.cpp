@@ -3,9 +3,9 @@
 
 #include "study/tradeoff.h"
 
+#include "backend/threads.h"
 #include "grid/flat_grid.h"
 #include "grid/plan/grid_plan.h"
-#include "backend/threads.h"
 #include "study/drift.h"
 #include "study/lengths_to_try.h"
 #include "study/sphere_query.h"

@@ -3,8 +3,8 @@
 
 #include "tool/commands.h"
 
-#include "base/input_error.h"
 #include "base/atomic_file.h"
+#include "base/input_error.h"
 #include "tool/accuracy_tables.h"
 #include "tool/number_options.h"
 #include "tool/output_file.h"

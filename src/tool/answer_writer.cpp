@@ -3,8 +3,8 @@
 
 #include "tool/answer_writer.h"
 
-#include "base/input_error.h"
 #include "base/atomic_file.h"
+#include "base/input_error.h"
 #include "contact/wall_geometry.h"
 #include "tool/csv_file.h"
 

@@ -3,8 +3,8 @@
 
 #include "tool/commands.h"
 
-#include "base/input_error.h"
 #include "backend/threads.h"
+#include "base/input_error.h"
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
 #include "tool/number_options.h"

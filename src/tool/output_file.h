@@ -4,8 +4,8 @@
 // Names of the files that a command writes, checked before its work.
 #pragma once
 
-#include "base/input_error.h"
 #include "base/atomic_file.h"
+#include "base/input_error.h"
 
 #include <cstddef>
 #include <filesystem>

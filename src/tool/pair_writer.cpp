@@ -3,8 +3,8 @@
 
 #include "tool/pair_writer.h"
 
-#include "base/input_error.h"
 #include "base/atomic_file.h"
+#include "base/input_error.h"
 #include "output/vtk_array.h"
 #include "tool/csv_file.h"
 

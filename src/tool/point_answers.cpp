@@ -3,11 +3,11 @@
 
 #include "tool/point_answers.h"
 
+#include "backend/backend_cpu.h"
 #include "base/input_error.h"
 #include "engine/wall_engine.h"
 #include "grid/flat_grid.h"
 #include "query/point_sides.h"
-#include "backend/backend_cpu.h"
 
 #include <algorithm>
 #include <chrono>

@@ -4,8 +4,8 @@
 // Distances of blocks of points to a mesh, on the CPU or a CUDA device.
 #pragma once
 
-#include "mesh/wall_mesh.h"
 #include "grid/triangle_grid.h"
+#include "mesh/wall_mesh.h"
 #include "tool/answer_writer.h"
 
 #include <memory>

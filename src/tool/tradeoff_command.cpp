@@ -3,13 +3,13 @@
 
 #include "tool/commands.h"
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
 #include "base/shared_files.h"
-#include "base/atomic_file.h"
+#include "study/tradeoff.h"
 #include "tool/load_mesh.h"
 #include "tool/number_options.h"
 #include "tool/output_file.h"
-#include "study/tradeoff.h"
 
 #include <cmath>
 #include <cstdio>

@@ -4,8 +4,8 @@
 // A mesh of a wall and its grid, made once per node and read by all.
 #pragma once
 
-#include "input/settings.h"
 #include "grid/triangle_grid.h"
+#include "input/settings.h"
 #include "mesh/periodic_images.h"
 #include "mesh/wall_mesh.h"
 #include "wall/host.h"

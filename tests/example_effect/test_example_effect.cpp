@@ -5,10 +5,10 @@
 // run by the library's own kernel.
 #include "example_effect/saturating_damping.h"
 
+#include "backend/backend_cpu.h"
 #include "engine/choose/selection_cpu.h"
 #include "engine/engine_on.h"
 #include "engine/step/compile_law.h"
-#include "backend/backend_cpu.h"
 #include "engine/step/run_step_cpu.h"
 #include "support/laws.h"
 #include "support/meshes.h"

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The sub-models of `granular` against closed forms.
+#include "backend/backend_cpu.h"
 #include "engine/step/compile_law.h"
 #include "law/submodels/normal.h"
-#include "backend/backend_cpu.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 

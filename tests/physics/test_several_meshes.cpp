@@ -3,8 +3,8 @@
 
 // A wall of several meshes acts as one: spheres feel each place once, whatever mesh it is of and
 // whatever frame that is in.
-#include "engine/step/compile_law.h"
 #include "engine/host_adapter.h"
+#include "engine/step/compile_law.h"
 #include "motion/motion.h"
 #include "support/crowd.h"
 #include "support/meshes.h"

@@ -3,16 +3,16 @@
 
 // Engines for particles in place, in other layouts and behind an adapter against the CPU's: one
 // source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches.
+#include "support/test_engine.h"
+#include "backend/backend_cpu.h"
 #include "contact/contact_history.h"
 #include "effects/effects.h"
-#include "engine/step/compile_law.h"
 #include "engine/host_adapter.h"
+#include "engine/step/compile_law.h"
 #include "grid/lookup/near_within.h"
-#include "backend/backend_cpu.h"
 #include "support/crowd.h"
 #include "support/device.h"
 #include "support/sphere_arrays.h"
-#include "support/test_engine.h"
 
 #include <cstdlib>
 #include <cstring>

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What passes a surface: each fact has a closed form, or follows from the surface being closed.
-#include "input/massflow_settings.h"
 #include "base/input_error.h"
-#include "geometry/expansion.h"
 #include "flow/flow_surface.h"
+#include "geometry/expansion.h"
+#include "input/massflow_settings.h"
 #include "support/meshes.h"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "backend/backend_cpu.h"
+#include "backend/threads.h"
 #include "base/input_error.h"
 #include "contact/find_contacts.h"
 #include "grid/brick_records.h"
 #include "grid/build/fill_lists.h"
 #include "grid/flat_grid.h"
-#include "backend/backend_cpu.h"
-#include "backend/threads.h"
 #include "support/brute_force.h"
 #include "support/device.h"
 #include "support/meshes.h"

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "backend/threads.h"
 #include "base/input_error.h"
 #include "grid/cache/grid_cache.h"
 #include "grid/flat_grid.h"
-#include "backend/threads.h"
 #include "support/meshes.h"
 #include "support/temp_dir.h"
 

@@ -3,8 +3,8 @@
 
 // The adapter of a host whose arrays are elsewhere: springs and indices across choices of other near
 // spheres. That it gives what the CPU's engine gives is in test_engine.cpp.
-#include "engine/step/compile_law.h"
 #include "engine/host_adapter.h"
+#include "engine/step/compile_law.h"
 #include "support/crowd.h"
 #include "support/test_engine.h"
 

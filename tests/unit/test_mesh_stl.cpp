@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The mesh as an STL file.
-#include "base/input_error.h"
 #include "base/atomic_file.h"
+#include "base/input_error.h"
 #include "motion/motion.h"
 #include "output/mesh_stl.h"
 #include "support/meshes.h"

@@ -7,9 +7,9 @@
 #include "support/meshes.h"
 #include "support/random_mesh.h"
 
+#include "backend/backend_cpu.h"
 #include "base/input_error.h"
 #include "contact/brick_geometry.h"
-#include "backend/backend_cpu.h"
 #include "study/sphere_query_on.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The loop of a servo: stable on chains of spheres up to the timestep of their contacts.
-#include "motion/motion.h"
 #include "law/contact_slope.h"
+#include "motion/motion.h"
 
 #include <gtest/gtest.h>
 

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "base/input_error.h"
-#include "input/script_files.h"
-#include "input/granular_words.h"
-#include "input/motion_words.h"
-#include "input/settings.h"
 #include "effects/effects.h"
 #include "grid/cache/grid_cache.h"
+#include "input/granular_words.h"
+#include "input/motion_words.h"
+#include "input/script_files.h"
+#include "input/settings.h"
 
 #include <gtest/gtest.h>
 

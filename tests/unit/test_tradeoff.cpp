@@ -4,9 +4,9 @@
 // What settings buy and cost: the front, the moving spheres, the rows.
 #include "study/tradeoff.h"
 
+#include "study/drift.h"
 #include "support/device.h"
 #include "support/meshes.h"
-#include "study/drift.h"
 
 #include <gtest/gtest.h>
 

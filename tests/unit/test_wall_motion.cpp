@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Poses and velocities of moving meshes against closed forms in long double.
-#include "motion/motion.h"
 #include "mesh/point_tree.h"
+#include "motion/motion.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 // Sides of points at real meshes and at unions of them that overlap, against CGAL's exact ones.
 // LSDCD_POINTS sets how many points each mesh has; LSDCD_TIMES=1 prints what they take.
 #include "mesh/winding_number.h"
+#include "support/meshes.h"
 #include "support/random.h"
 #include "support/real_mesh.h"
-#include "support/meshes.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Side_of_triangle_mesh.h>

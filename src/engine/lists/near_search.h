@@ -4,9 +4,9 @@
 // The features of the wall that a sphere could touch after a little way, from the cells near it.
 #pragma once
 
+#include "backend/warp.h"
 #include "geometry/wall_records.h"
 #include "grid/lookup/near_within.h"
-#include "backend/warp.h"
 
 namespace lsdcd {
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "grid/build/build_grid.h"
 #include "backend/backend_cpu.h"
+#include "grid/build/build_grid.h"
 
 namespace lsdcd {
 

@@ -4,8 +4,8 @@
 #include "grid/build/estimate_lists.h"
 
 #include "backend/bits.h"
-#include "grid/build/rasterise.h"
 #include "backend/threads.h"
+#include "grid/build/rasterise.h"
 
 #include <algorithm>
 #include <cmath>

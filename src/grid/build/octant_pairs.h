@@ -4,8 +4,8 @@
 // Sorting features into octants of bricks, on any backend.
 #pragma once
 
-#include "grid/build/for_each_part.h"
 #include "grid/build/build_progress.h"
+#include "grid/build/for_each_part.h"
 #include "grid/build/rasterise.h"
 #include "grid/lookup/locate.h"
 

@@ -3,8 +3,8 @@
 
 #include "grid/cache/grid_cache.h"
 
-#include "grid/cache/cache_format.h"
 #include "backend/threads.h"
+#include "grid/cache/cache_format.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "base/input_error.h"
-#include "base/atomic_file.h"
-#include "grid/cache/cache_format.h"
 #include "backend/threads.h"
+#include "base/atomic_file.h"
+#include "base/input_error.h"
+#include "grid/cache/cache_format.h"
 
 #include <cstring>
 #include <zstd.h>

@@ -8,10 +8,10 @@
 
 #include "comm.h"
 #include "command.h"
+#include "compute.h"
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
-#include "compute.h"
 #include "force.h"
 #include "input.h"
 #include "lammps.h"
