@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-# Runs `./run demo`, with few steps, on another Debian with the LAMMPS that it has.
+# Runs `./run demo`, with few steps and little optimisation, on another Debian with the LAMMPS that it has.
 #   demo_on.sh SUITE    trixie or sid
 #   LSDCD_HOSTS         where the Debian is kept (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts),
 #                       as SUITE-root; some 1.5 GB with all that the demo installs
