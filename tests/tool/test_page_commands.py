@@ -127,6 +127,9 @@ def check(page, words):
         return check_lammps(page, words[1:])
     if name in ("python3", "python"):
         return "" if len(words) == 1 or words[1] == "-c" else check_script(page, words[1], words[2:])
+    if name == "yade":    # its own options come before the script
+        at = next(k for k, word in enumerate(words) if word.endswith(".py"))
+        return check_script(page, words[at], words[at + 1:])
     if name == "cmake":
         return check_cmake(words[1:])
     if name in OTHERS or re.match(r"build/bin/(test|bench)_", program) or program.startswith("$") or program in ("./distance",):
