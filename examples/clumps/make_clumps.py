@@ -23,8 +23,10 @@ def clumps(apart):
 def write_molecule(path, places):
     """A LAMMPS molecule file."""
     with open(path, "w", encoding="ascii") as out:
-        out.write("# SPDX-FileCopyrightText: 2026 LSDCD contributors\n# SPDX-License-Identifier: BSD-3-Clause\n\n"
-                  f"{len(places)} atoms\n")
+        # REUSE-IgnoreStart
+        out.write("# SPDX-FileCopyrightText: 2026 LSDCD contributors\n# SPDX-License-Identifier: BSD-3-Clause\n\n")
+        # REUSE-IgnoreEnd
+        out.write(f"{len(places)} atoms\n")
         for title, rows in (("Coords", ["%.12g %.12g %.12g" % p for p in places]), ("Types", ["1"] * len(places)),
                             ("Diameters", ["1"] * len(places))):
             out.write(f"\n{title}\n\n" + "".join(f"{i} {row}\n" for i, row in enumerate(rows, 1)))
