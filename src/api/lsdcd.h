@@ -171,10 +171,9 @@ typedef struct lsdcd_query {
                          the lowest; LSDCD_NONE also for the edge or corner of a triangle without
                          area */
   uint32_t *feature;
-  int8_t *
-      side; /* 1 outside, and on the mesh; -1 inside; at any distance, but 0 where a coordinate is no
-                   number. On a device 0 also where not found or not certified, and where an edge or
-                   corner of triangles without area is nearest */
+  int8_t *side; /* 1 outside, and on the mesh; -1 inside; at any distance, but 0 where a coordinate
+                   is no number. On a device 0 also where not found or not certified, and where an
+                   edge or corner of triangles without area is nearest */
   uint8_t *status;
 } lsdcd_query;
 
@@ -182,7 +181,8 @@ typedef struct lsdcd_query {
 LSDCD_API int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query);
 
 /* A grid on the CUDA device that is current, and a stream (cudaStream_t) of that device, null: the
- * default one. The grid must have a cutoff. The stream must outlive it. Streams of one grid share its copy on a device. Any. */
+ * default one. The grid must have a cutoff. The stream must outlive it. Streams of one grid share its
+ * copy on a device. Any. */
 typedef struct lsdcd_stream lsdcd_stream;
 LSDCD_API int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **stream);
 /* Answers in arrays of that device, or managed ones, in the order of the stream and without waiting

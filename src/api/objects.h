@@ -6,7 +6,7 @@
 #pragma once
 
 #include "api/lsdcd.h"
-#include "api/made_once.h"
+#include "base/made_once.h"
 #include "grid/flat_grid.h"
 #include "mesh/wall_mesh.h"
 #include "query/point_sides.h"

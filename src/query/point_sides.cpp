@@ -26,28 +26,32 @@ void fill(const PointSides &sides, std::size_t n, const StridedView<T> &points, 
   });
 }
 
-template <class T>
-void answer(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
-            bool by_normals, const PointArrays<T> &io)
+// find() gives all answers but sides, and these, too, where normals tell them.
+template <class T, class Find>
+void answer(const PointSides &sides, bool by_normals, const PointArrays<T> &io, const Find &find)
 {
-  PointArrays<T> without = io;
-  if (!by_normals) without.side = nullptr;
-  answer_points(grid, names, without);
+  PointArrays<T> asked = io;
+  if (!by_normals) asked.side = nullptr;
+  find(asked);
   if (!io.side) return;
   if (!by_normals) std::fill_n(io.side, io.n, std::int8_t(0));
   fill(sides, io.n, io.points, io.side);
 }
 
 template <class T>
+void answer(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
+            bool by_normals, const PointArrays<T> &io)
+{
+  answer(sides, by_normals, io,
+         [&](const PointArrays<T> &asked) { answer_points(grid, names, asked); });
+}
+
+template <class T>
 void answer(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
             const PointSides &sides, Real cutoff, const PointArrays<T> &io)
 {
-  PointArrays<T> without = io;
-  without.side = nullptr;
-  answer_points(tree, near, names, cutoff, without);
-  if (!io.side) return;
-  std::fill_n(io.side, io.n, std::int8_t(0));
-  fill(sides, io.n, io.points, io.side);
+  answer(sides, false, io,
+         [&](const PointArrays<T> &asked) { answer_points(tree, near, names, cutoff, asked); });
 }
 
 }    // namespace

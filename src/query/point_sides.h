@@ -4,12 +4,12 @@
 // Sides of points, by the nearest feature's normal or by winding numbers.
 #pragma once
 
+#include "base/made_once.h"
 #include "mesh/winding_number.h"
 #include "query/point_query.h"
 #include "query/tree_query.h"
 
 #include <memory>
-#include <mutex>
 
 namespace lsdcd {
 
@@ -20,14 +20,12 @@ class PointSides {
 
   const WindingNumber &winding() const
   {
-    std::call_once(made_, [&] { winding_ = std::make_unique<WindingNumber>(mesh_); });
-    return *winding_;
+    return winding_.get([&] { return std::make_unique<WindingNumber>(mesh_); });
   }
 
  private:
   const WallMesh &mesh_;
-  mutable std::once_flag made_;
-  mutable std::unique_ptr<WindingNumber> winding_;
+  MadeOnce<WindingNumber> winding_;
 };
 
 // answer_points(), and the sides of all points. `by_normals`: the grid has sides, which nearest features
