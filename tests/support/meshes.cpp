@@ -155,6 +155,18 @@ TriangleSoup turned(TriangleSoup soup, Real angle)
   return soup;
 }
 
+TriangleSoup crumpled_torus(const std::vector<Vec3> &x, int n)
+{
+  TriangleSoup soup;
+  const auto at = [&](int i, int j) { return x[i % n * n + j % n]; };
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++)
+      for (const Vec3 &p :
+           {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)})
+        soup.corners.push_back(p);
+  return soup;
+}
+
 void append(TriangleSoup &soup, const TriangleSoup &more)
 {
   soup.corners.insert(soup.corners.end(), more.corners.begin(), more.corners.end());

@@ -44,6 +44,9 @@ TriangleSoup cone_mesh(int n, Real radius, Real height);
 // n small faces all round the origin, each with its middle at distance 1: n contacts.
 TriangleSoup faces_all_round(int n);
 
+// A torus of n x n quads cut in two, whose n^2 vertices are anywhere: it meets itself in every way.
+TriangleSoup crumpled_torus(const std::vector<Vec3> &x, int n);
+
 void append(TriangleSoup &soup, const TriangleSoup &more);
 
 // A wall with an engine, ready for steps with one or more spheres.

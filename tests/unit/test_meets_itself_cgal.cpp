@@ -21,19 +21,6 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-// A torus of quads cut in two, whose vertices are anywhere: it meets itself in every way.
-TriangleSoup crumpled(const std::vector<Vec3> &x, int n)
-{
-  TriangleSoup soup;
-  const auto at = [&](int i, int j) { return x[i % n * n + j % n]; };
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++)
-      for (const Vec3 &p :
-           {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)})
-        soup.corners.push_back(p);
-  return soup;
-}
-
 std::size_t pairs_of_cgal(const WallMesh &mesh)
 {
   Mesh m;
@@ -63,7 +50,7 @@ TEST(meets_itself, has_the_pairs_of_CGAL_where_vertices_are_on_a_lattice_and_whe
     for (int i = 0; i < n * n; i++)
       x.push_back(k % 3 == 2 ? lattice[i] + Vec3{anywhere(dice), anywhere(dice), anywhere(dice)}
                              : lattice[i]);
-    const WallMesh mesh = weld(crumpled(x, n), 0);
+    const WallMesh mesh = weld(crumpled_torus(x, n), 0);
     const SelfMeetings found = meets_itself(mesh);
     EXPECT_EQ(found.pairs, pairs_of_cgal(mesh)) << k;
     pairs += found.pairs;

@@ -67,7 +67,7 @@ Vec3 random_point(std::mt19937_64 &dice, Real lo, Real hi)
   return {x, y, z};
 }
 
-// A torus of quads cut in two, whose vertices are anywhere: shells cut themselves everywhere.
+// Shells that cut themselves everywhere; `lattice` > 0: with vertices at whole numbers below it.
 TriangleSoup crumpled(std::mt19937_64 &dice, int n, int lattice)
 {
   std::vector<Vec3> x(n * n);
@@ -75,14 +75,7 @@ TriangleSoup crumpled(std::mt19937_64 &dice, int n, int lattice)
     p = random_point(dice, 0, 1);
     for (int k = 0; lattice > 0 && k < 3; k++) p[k] = std::floor(p[k] * lattice);
   }
-  TriangleSoup soup;
-  const auto at = [&](int i, int j) { return x[i % n * n + j % n]; };
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++)
-      for (const Vec3 &p :
-           {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)})
-        soup.corners.push_back(p);
-  return soup;
+  return crumpled_torus(x, n);
 }
 
 // Points whose sum of solid angles is within 1e-6 of a whole number are compared. Long double rounds it by 1e-18
