@@ -153,7 +153,7 @@ def check_cuda(prefix, work):
 
 
 def check_python(prefix, work):
-    path = find(prefix, "lsdcd.py")
+    path = os.path.dirname(find(prefix, "py.typed"))
     gives("the example in Python gives the distances", WANTED, PYTHON,
           os.path.join(ROOT, "examples", "library", "distance.py"), "cube.stl", folder=work, PYTHONPATH=path)
     gives("and the pairs", WANTED_PAIRS, PYTHON,

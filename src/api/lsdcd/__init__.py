@@ -89,9 +89,9 @@ class Error(ValueError):
 
 def _load():
     name = os.environ.get("LSDCD_LIBRARY")
-    if not name:    # beside this file, in a lib/ above it, or where the system looks
+    if not name:    # beside this file, in a lib/ above the package, or where the system looks
         here = os.path.dirname(os.path.abspath(__file__))
-        near = [found for up in ("", "../..", "../../*")
+        near = [found for up in ("", "../../..", "../../../*")
                 for found in sorted(glob.glob(os.path.join(here, up, "liblsdcd.so.0")))]
         name = near[0] if near else "liblsdcd.so.0"
     lib = ctypes.CDLL(name)
