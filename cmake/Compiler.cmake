@@ -15,9 +15,11 @@ add_library(lsdcd_options INTERFACE)
 target_compile_options(lsdcd_options INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -ffp-contract=off>)
 
+# A null pointer ends the program under the address sanitizer, too: asking before each access would take a
+# third of the compiler's time.
 if(LSDCD_SANITIZE)
-  target_compile_options(lsdcd_options INTERFACE
-    $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer>)
+  target_compile_options(lsdcd_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=address,undefined
+    -fno-sanitize=null -fno-sanitize-recover=all -fno-omit-frame-pointer>)
   target_link_options(lsdcd_options INTERFACE -fsanitize=address,undefined)
 endif()
 

@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: GPL-2.0-only
 
 # Compiles the fix, plugin and launcher against the headers of newer LAMMPS packages.
-# The headers come from Debian's trixie and sid through an apt configuration of their
-# own, from the mirror that this machine's apt already uses, into a cache folder.
+#   compile_hosts.sh [SUITE ...]    default: trixie and sid
+# The headers come from Debian through an apt configuration of their own, from the
+# mirror that this machine's apt already uses, into a cache folder.
 # Prints PASS, FAIL or SKIPPED for each host; exits 1 on FAIL, 77 if all were skipped.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -53,7 +54,8 @@ compile() {
 }
 
 failed=0 tried=0
-for suite in trixie sid; do
+[ $# -gt 0 ] || set -- trixie sid
+for suite in "$@"; do
   if ! why=$(get_headers $suite); then
     echo "SKIPPED headers of $suite: $why"
     continue
