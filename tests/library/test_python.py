@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""The Python package beside its answers (use_module.py has these): arrays of other libraries, types.
+
+PYTHONPATH and LSDCD_LIBRARY name the package and its library. No GPU is needed: addresses of devices are read, not
+followed (test_python_gpu.py follows them).
+"""
+import gc
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+
+from lsdcd import _arrays
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+failed = 0
+
+
+def fact(name, true, detail=""):
+    global failed
+    failed += not true
+    print(f"{'PASS' if true else 'FAIL'} {name}{'' if true else f': {detail}'}", flush=True)
+
+
+def refused(name, says, call, kind=TypeError):
+    try:
+        call()
+    except kind as error:
+        fact(name, says in str(error), error)
+        return
+    fact(name, False, "not refused")
+
+
+class OnlyDlpack:
+    """An array of a library that numpy does not know, of the host, or said to be of another device."""
+
+    def __init__(self, values, device=None):
+        self.values, self.device_type = values, device
+
+    def __dlpack__(self, **words):
+        self.words = words
+        return self.values.__dlpack__()
+
+    def __dlpack_device__(self):
+        return self.device_type or self.values.__dlpack_device__()
+
+
+class OnCuda:
+    """An array at an address of device 3 that is not there."""
+
+    def __init__(self, shape, typestr="<f4", strides=None, read_only=False, **more):
+        self.device = type("Device", (), {"id": 3})()
+        self.__cuda_array_interface__ = {"shape": shape, "typestr": typestr, "data": (0x7f0000000000, read_only),
+                                         "strides": strides, "version": 3, **more}
+
+
+class OfHost(_arrays._Offered):
+    """What DeviceArray hands on, over memory of numpy."""
+
+    def __init__(self, values):
+        self.values, self.address, self.shape, self.dtype = values, values.ctypes.data, values.shape, values.dtype
+
+    def __dlpack_device__(self):
+        return 1, 0
+
+
+def check_reading():
+    layouts = np.arange(48.0).reshape(2, 8, 3)
+    for name, values, steps in (("packed", layouts, (3, 1)), ("every second", layouts[:, ::2], (6, 1)),
+                                ("backwards", layouts[0, ::-1], (-3, 1)), ("columns apart", layouts[0].T.copy().T, (1, 8)),
+                                ("transposed", layouts.transpose(1, 0, 2), None), ("one point", layouts[1, 1], (3, 1)),
+                                ("repeated", np.broadcast_to(layouts[0, 0], (5, 3)), None)):
+        read = _arrays.read(OnlyDlpack(values) if values.flags.writeable else values, "points")
+        fact(f"DLPack: {name} is read in place", read.address == values.ctypes.data and read.shape == values.shape
+             and (read.host() == values).all() and read.host().ctypes.data == values.ctypes.data)
+        fact(f"steps: {name}", read.steps(1) == steps, read.steps(1))
+    read = _arrays.read(OnlyDlpack(layouts), "points")
+    read.host()[0, 0, 0] = 7
+    fact("what is written there is the owner's", layouts[0, 0, 0] == 7)
+
+    offered = OfHost(np.arange(12, dtype=np.float32).reshape(3, 4))
+    taken = np.from_dlpack(offered)
+    fact("numpy takes what we offer", (taken == offered.values).all() and taken.ctypes.data == offered.address)
+    fact("it is kept as long as it is used", len(_arrays._handed_on) == 1)
+    del taken
+    capsule = offered.__dlpack__()    # nobody takes it
+    read = _arrays.read(offered, "points")
+    del capsule, read
+    gc.collect()
+    fact("and not longer", not _arrays._handed_on)
+
+    read = _arrays.read(OnCuda((5, 3), stream=7), "points")
+    fact("CUDA's interface is read", (read.device, read.shape, read.strides, read.dtype, read.stream, read.writable)
+         == (3, (5, 3), (12, 4), np.float32, 7, True))
+    fact("its stream is the array's, unless one is given",
+         (_arrays.stream_of(read)[0], _arrays.stream_of(read, 9)[0]) == (7, 9))
+    fact("read-only is seen", not _arrays.read(OnCuda((5, 3), read_only=True), "out").writable)
+    fact("strides are seen", _arrays.read(OnCuda((2, 3), strides=(16, 4)), "points").steps(1) == (4, 1))
+    fact("a stream may be an object", _arrays.stream_handle(type("Stream", (), {"ptr": 5})()) == 5
+         and _arrays.stream_handle(type("Stream", (), {"__cuda_stream__": lambda self: (0, 6)})()) == 6)
+    refused("a mask is refused", "fill it in", lambda: _arrays.read(OnCuda((5, 3), mask=1), "points"))
+    refused("stream 0 is refused", "stream 0", lambda: _arrays.read(OnCuda((5, 3), stream=0), "points"))
+    refused("another device is refused", "type 10", lambda: _arrays.read(OnlyDlpack(layouts, (10, 0)), "points"))
+    refused("what is no stream is refused", "stream is a str", lambda: _arrays.stream_handle("fast"))
+    lent = OnlyDlpack(layouts, (2, 1))
+    read = _arrays.read(lent, "points", stream=9)
+    fact("DLPack is told the stream", lent.words == {"stream": 9} and (read.device, read.stream) == (1, 9), lent.words)
+    _arrays.read(lent, "points")
+    fact("and that the default one is 1", lent.words == {"stream": 1}, lent.words)
+
+
+def check_types():
+    mypy = shutil.which("mypy")
+    if not mypy:
+        print("skipped: no mypy")
+        return
+    done = subprocess.run([mypy, "--strict", "--cache-dir", os.devnull, "lsdcd/_arrays.py"],
+                          cwd=ROOT / "src" / "api", text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    fact("the types of the package hold, mypy --strict", done.returncode == 0, done.stdout)
+
+
+if __name__ == "__main__":
+    check_reading()
+    check_types()
+    sys.exit(1 if failed else 0)
