@@ -8,6 +8,7 @@ PYTHONPATH and LSDCD_LIBRARY name the package and its library. No GPU is needed:
 followed (test_python_gpu.py follows them).
 """
 import gc
+import importlib.util
 import os
 import pathlib
 import shutil
@@ -16,6 +17,7 @@ import sys
 
 import numpy as np
 
+import lsdcd
 from lsdcd import _arrays
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -115,6 +117,45 @@ def check_reading():
     fact("and that the default one is 1", lent.words == {"stream": 1}, lent.words)
 
 
+def check_queries():
+    """Arrays of others, asked of a floor at z = 0."""
+    grid = lsdcd.Mesh([[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]]).grid(cutoff=2)
+    z = np.arange(6, dtype=np.float32).reshape(2, 3) / 4
+    points = np.stack([0 * z, 0 * z, z], axis=-1)
+    answer = grid.query(OnlyDlpack(points), "distance triangle")
+    fact("points come by DLPack", (answer.distance == z).all() and answer.distance.dtype == np.float32)
+    distance = np.zeros((2, 3), np.float32)
+    answer = grid.query(points, out={"distance": OnlyDlpack(distance)})
+    fact("answers go where DLPack says", (distance == z).all() and isinstance(answer.distance, OnlyDlpack))
+    fact("radii come by DLPack", (np.isfinite(grid.query(points, radius=OnlyDlpack(z + 0.25)).distance)).all())
+
+    there = OnCuda((5, 3), stream=7)
+    refused("points and answers are in one place", "distance is on the host, points are on CUDA device 3",
+            lambda: grid.query(there, out={"distance": distance}))
+    refused("points and radii, too", "radius is on CUDA device 3, points are on the host",
+            lambda: grid.query(points, radius=OnCuda((2, 3))))
+    refused("an answer on a device can be read-only", "cannot be written to",
+            lambda: grid.query(there, out={"distance": OnCuda((5,), read_only=True)}))
+    refused("points on a device are not copied", "strides (48, 1), not one step",
+            lambda: grid.query(OnCuda((5, 3), strides=(48, 1))))
+    refused("nor converted", "of type int32: convert", lambda: grid.query(OnCuda((5, 3), "<i4")))
+    refused("shapes on a device are named", "(5, 4), not (..., 3)", lambda: grid.query(OnCuda((5, 4))))
+    if not os.path.exists("/dev/nvidiactl"):
+        refused("without a driver that is said", "no CUDA driver", lambda: grid.query(there))
+
+    torch = importlib.util.find_spec("torch") and importlib.import_module("torch")
+    if not torch:
+        print("skipped: PyTorch (no torch)")
+        return
+    given = torch.from_numpy(points)
+    answer = grid.query(given, "distance closest triangle status")
+    fact("PyTorch's points have PyTorch's answers", all(isinstance(a, torch.Tensor) for a in vars(answer).values())
+         and answer.triangle.dtype == torch.int32 and (answer.distance.numpy() == z).all())
+    out = torch.zeros(2, 3)
+    grid.query(given, out={"distance": out})
+    fact("PyTorch's tensors are written", (out.numpy() == z).all())
+
+
 def check_types():
     mypy = shutil.which("mypy")
     if not mypy:
@@ -127,5 +168,6 @@ def check_types():
 
 if __name__ == "__main__":
     check_reading()
+    check_queries()
     check_types()
     sys.exit(1 if failed else 0)

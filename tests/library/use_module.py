@@ -97,6 +97,45 @@ many = grid.query([[1.2, 0, 0]], want, radius=0.3)
 assert all((getattr(single, word) == getattr(many, word)[0]).all() for word in want.split())
 refused(TypeError, "(3,)", lambda: grid.query([1.2, 0]))
 
+# Shapes, (..., 3), and types.
+block = points[:6].reshape(2, 1, 3, 3)
+shaped = grid.query(block, want)
+flat = grid.query(points[:6], want)
+assert (shaped.distance.shape, shaped.closest.shape, shaped.side.shape) == ((2, 1, 3), (2, 1, 3, 3), (2, 1, 3))
+assert all((getattr(shaped, word).reshape(getattr(flat, word).shape) == getattr(flat, word)).all() for word in want.split())
+assert (grid.query(block.transpose(2, 1, 0, 3)).distance == shaped.distance.transpose(2, 1, 0)).all()
+assert (grid.query(block[:, 0, ::2]).distance == shaped.distance[:, 0, ::2]).all()
+assert np.isfinite(grid.query([[[1.2, 0, 0]] * 2], radius=[[0.19, 0.21]]).distance).tolist() == [[False, True]]
+assert grid.query(np.empty((4, 0, 3)), want).closest.shape == (4, 0, 3)
+for other in (np.float16, np.longdouble, np.int32, object):
+    numbers = np.round(points[:50]).astype(other)
+    assert (grid.query(numbers).distance == grid.query(numbers.astype(float)).distance).all()
+unaligned = np.frombuffer(b"." + points[:9].tobytes(), np.float64, offset=1).reshape(9, 3)
+assert (grid.query(unaligned).distance == base[:9]).all()
+refused(TypeError, "shape (3, 8), not (..., 3), as (n, 3) or (3,): coordinates come last, so give points.T",
+        lambda: grid.query(vertices.T))
+refused(TypeError, "shape (24,), not (..., 3), as (n, 3) or (3,): give points.reshape(-1, 3)", lambda: grid.query(vertices.ravel()))
+refused(TypeError, "complex128, not real numbers", lambda: grid.query(points.astype(complex)))
+refused(TypeError, "points are on the host", lambda: grid.query(points, stream=1))
+
+# Arrays of the caller for answers: of any layout, and only where they fit.
+rows = np.zeros((20000, 8))    # x y z distance, closest, -
+rows[:, :3] = points
+mine = {"distance": rows[:, 3], "closest": rows[:, 4:7], "triangle": np.zeros(20000, np.int32)}
+written = grid.query(rows[:, :3], out=mine)
+whole = grid.query(points, list(mine))
+assert all(getattr(written, word) is mine[word] for word in mine) and sorted(vars(written)) == sorted(mine)
+assert (rows[:, 3] == whole.distance).all() and (rows[:, 4:7] == whole.closest).all()
+assert (mine["triangle"].view(np.uint32) == whole.triangle).all() and (rows[:, 7] == 0).all()
+assert grid.query(points, "side distance", out={"distance": rows[:, 3]}).side.shape == (20000,)
+again = grid.query(points[::-1], out=whole)
+assert again.closest is whole.closest and (whole.closest[::-1] == rows[:, 4:7]).all()
+for out, says in (({"distance": np.zeros(9)}, "shape (9,), not (20000,)"), ({"distance": np.zeros(20000, "f4")}, "float32, not float64"),
+                  ({"distance": np.broadcast_to(0.0, 20000)}, "cannot be written to"), ({"side": np.zeros(20000, "i1")}, "not asked for"),
+                  ({"distance": points[:, 0]}, "shares memory"), ({"distance": [0.0]}, "a list, not an array")):
+    refused(TypeError, says, lambda: grid.query(points, "distance", out=out))
+refused(TypeError, "make it contiguous", lambda: grid.query(points, out={"triangle": np.zeros((20000, 2), "u4")[:, 0]}))
+
 # Words and faces that there are not.
 refused(ValueError, "device is 'gpu'; it is 'cpu' or 'cuda'", lambda: mesh.grid(cutoff=1, device="gpu"))
 refused(ValueError, "device is 'gpu'", lambda: lsdcd.Body(mesh, mesh, device="gpu"))

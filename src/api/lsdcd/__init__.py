@@ -20,12 +20,19 @@ A query lets other Python threads run, and any number of threads may ask one gri
 told about lsdcd.h holds here; its errors are lsdcd.Error with a `code`. LSDCD_LIBRARY may name the
 shared library.
 """
+from __future__ import annotations
+
 import ctypes
 import glob
+import math
 import os
+import threading
 from types import SimpleNamespace
+from typing import Any, Iterable, Mapping
 
 import numpy as np
+
+from . import _arrays
 
 _size, _step, _int, _real, _at = (ctypes.c_size_t, ctypes.c_ssize_t, ctypes.c_int, ctypes.c_double,
                                   ctypes.c_void_p)
@@ -33,6 +40,10 @@ ERRORS = ("ok", "argument", "input", "cutoff", "side", "device", "memory", "inte
 DEVICES = ("cpu", "cuda")
 FOUND, CERTIFIED = 1, 2
 NONE = 0xffffffff
+# What a query answers: how many dimensions beyond the points', and the type, None: that of the points.
+ANSWERS: dict[str, tuple[int, Any]] = {
+    "distance": (0, None), "closest": (1, None), "normal": (1, None), "triangle": (0, np.uint32), "feature": (0, np.uint32),
+    "side": (0, np.int8), "status": (0, np.uint8)}
 
 
 def _struct(name, *fields):
@@ -98,14 +109,15 @@ def _load():
     for text in ("version", "last_error", "mesh_report", "grid_report"):
         getattr(lib, "lsdcd_" + text).restype = ctypes.c_char_p
     lib.lsdcd_mesh_report.argtypes = lib.lsdcd_grid_report.argtypes = [_at]
-    for kind in ("mesh", "grid", "body", "wall"):
+    for kind in ("mesh", "grid", "stream", "body", "wall"):
         free = getattr(lib, f"lsdcd_{kind}_free")
         free.argtypes, free.restype = [_at], None
     lib.lsdcd_mesh_read.argtypes = [ctypes.c_char_p, _real, _at]
     lib.lsdcd_mesh_from_corners.argtypes = [_at, _size, _real, _at]
     for call in ("mesh_get_facts", "grid_get_facts", "query_host", "body_get_facts", "collide"):
         getattr(lib, "lsdcd_" + call).argtypes = [_at, _at]
-    lib.lsdcd_grid_build.argtypes = [_at, _at, _at]
+    lib.lsdcd_query_stream.argtypes = [_at, _at]
+    lib.lsdcd_grid_build.argtypes = lib.lsdcd_stream_open.argtypes = [_at, _at, _at]
     lib.lsdcd_body_make.argtypes = [_at, _at, _at, _at]
     lib.lsdcd_wall_make.argtypes = [_at, _size, _at, _at]
     lib.lsdcd_wall_step_spheres.argtypes = [_at, _at, _at]
@@ -197,12 +209,25 @@ class Mesh(_Owner):
         return Grid(self, options)
 
 
+class Answer(SimpleNamespace):
+    """What a query was asked for. Shapes are those of the points, (..., 3), with and without the last dimension. Where
+    nothing is found distance is inf, closest the point, normal 0, triangle and feature NONE (-1 in int32)."""
+    distance: Any    # (...), the points' type; in the unit of the mesh
+    closest: Any     # (..., 3), the points' type
+    normal: Any      # (..., 3), the points' type: length 1, from the mesh to the point
+    triangle: Any    # (...), uint32, int32 in PyTorch: from 0 as given
+    feature: Any     # (...), uint32, int32 in PyTorch: kind << 30 | number, kind 0 face, 1 edge, 2 vertex
+    side: Any        # (...), int8: 1 outside and on the mesh, -1 inside, 0 not known
+    status: Any      # (...), uint8: bits FOUND and CERTIFIED
+
+
 class Grid(_Owner):
     """Made by Mesh.grid()."""
     _free = _lib.lsdcd_grid_free
 
     def __init__(self, mesh, options):
         super().__init__()
+        self._streams = threading.local()
         _check(_lib.lsdcd_grid_build(mesh._handle, ctypes.byref(options), ctypes.byref(self._handle)))
 
     @property
@@ -213,47 +238,175 @@ class Grid(_Owner):
     def report(self):
         return _lib.lsdcd_grid_report(self._handle).decode()
 
-    def query(self, points, want="distance", radius=None, threads=0):
-        """Answers for points, (n, 3), as arrays named by `want`: distance, closest, normal,
-        triangle, feature, side, status. `radius`: one above 0, or (n,); by default the cutoff, or any distance without one. Of one
-        point, (3,), the arrays have no first dimension."""
-        points = np.asarray(points)
-        if points.dtype not in (np.float32, np.float64):
-            points = points.astype(np.float64)
-        if points.ndim not in (1, 2) or points.shape[-1] != 3:
-            raise TypeError(f"points have the shape {points.shape}, not (n, 3) or (3,)")
-        shape, real = points.shape[:-1], points.dtype
-        points = points.reshape(-1, 3)
-        n = len(points)
-        # The library takes steps of whole numbers, and 0 for packed.
-        if any(s == 0 or s % real.itemsize for s in points.strides) or not real.isnative:
-            points = np.ascontiguousarray(points, dtype=real.newbyteorder("="))
-        query = _sized(_Query, n=n, type=int(real == np.float32), threads=threads,
-                       points=points.ctypes.data, points_row=points.strides[0] // real.itemsize,
-                       points_column=points.strides[1] // real.itemsize)
-        if radius is not None and np.ndim(radius) == 0:
-            if not float(radius) > 0:
-                raise TypeError(f"radius is {radius}, not above 0")
-            query.radius = float(radius)
-        elif radius is not None:
-            radius = np.ascontiguousarray(radius, dtype=real)
-            if radius.shape != shape:
-                raise TypeError(f"radius has the shape {radius.shape}, not {shape}")
-            if not (radius > 0).all():
-                raise TypeError(f"radius is {radius[~(radius > 0)][0]} at a point, not above 0")
-            query.radii = radius.ctypes.data
-        kinds = {"distance": (shape, real), "closest": ((*shape, 3), real), "normal": ((*shape, 3), real),
-                 "triangle": (shape, np.uint32), "feature": (shape, np.uint32), "side": (shape, np.int8),
-                 "status": (shape, np.uint8)}
-        words = want.split() if isinstance(want, str) else list(want)
-        unknown = sorted(set(words) - set(kinds))
+    def query(self, points: Any, want: str | Iterable[str] | None = None, radius: Any = None, threads: int = 0, *,
+              out: Mapping[str, Any] | Answer | None = None, stream: Any = None) -> Answer:
+        """Answers for points of shape (..., 3), in the unit of the mesh, as an Answer with what `want` names: distance
+        (the default), closest, normal, triangle, feature, side, status.
+
+        points: float32, or float64, which all else becomes; of any layout, on the host. Those of PyTorch, CuPy, JAX and
+        others that have `__dlpack__` or `__cuda_array_interface__` are read in place, and PyTorch's and CuPy's answered
+        by arrays of theirs. On a CUDA device they are float32 or float64, with one step from point to point, and the
+        grid has a cutoff.
+        radius: > 0, one of all, or (...) in the points' type: nothing at it or farther is found. By default the cutoff,
+        or any distance.
+        threads: on the host; 0: OMP_NUM_THREADS, or one.
+        out: arrays of the caller for some of the answers, by name, or an Answer of before; of the points' device, and
+        of the type and shape that Answer says. Without `want` these are asked for.
+        stream: of the device, on which points are ready and answers will be: one of PyTorch or CuPy, or a cudaStream_t
+        as a number. By default that of the array's interface, or the current one of PyTorch or CuPy. The call returns
+        when its work is in the stream, but waits for it where another library owns the points. The grid keeps what
+        it needs for the stream, which must live as long; a number does not keep it alive.
+
+        Raises TypeError for what has the wrong shape, type or place, Error for a radius beyond the cutoff, and for sides
+        where there are none."""
+        asked = _arrays.read(points, "points", _arrays.stream_handle(stream))
+        if asked.shape[-1:] != (3,):
+            raise TypeError(f"points have the shape {asked.shape}, not (..., 3), as (n, 3) or (3,){_remedy(asked.shape)}")
+        if asked.on_host and stream is not None:
+            raise TypeError("stream is given, but points are on the host")
+        shape, kept = asked.shape[:-1], [asked]    # kept: what the library reads and writes
+        if asked.on_host:
+            kept.append(_arrays.of_numpy(_as_floats(asked.host(), "points")))
+        given = kept[-1]
+        real, steps = given.dtype, given.steps(1)
+        if real not in (np.float32, np.float64) or not real.isnative:
+            raise TypeError(f"points on a device are of type {real}: convert them to float32 or float64")
+        if steps is None and given.on_host:
+            kept.append(_arrays.of_numpy(given.host().copy()))
+            given, steps = kept[-1], kept[-1].steps(1)
+        if steps is None:
+            raise TypeError(f"points on a device have the strides {given.strides}, not one step from point to point: "
+                            "make them contiguous")
+        query = _sized(_Query, n=math.prod(shape), type=int(real == np.float32), threads=threads,
+                       points=given.address, points_row=steps[0], points_column=steps[1])
+        if radius is not None:
+            _set_radius(query, radius, given, shape, kept)
+        handle, owner = (0, None) if given.on_host else _arrays.stream_of(asked, stream)
+        outs: Mapping[str, Any] = {} if out is None else vars(out) if isinstance(out, SimpleNamespace) else out
+        words = want.split() if isinstance(want, str) else list(outs) or ["distance"] if want is None else list(want)
+        unknown = sorted(set(words) - set(ANSWERS))
         if unknown:
-            raise TypeError(f"{', '.join(unknown)}: a query answers {', '.join(kinds)}")
-        answer = SimpleNamespace(**{word: np.empty(*kinds[word]) for word in words})
+            raise TypeError(f"{', '.join(unknown)}: a query answers {', '.join(ANSWERS)}")
+        left = sorted(set(outs) - set(words))
+        if left:
+            raise TypeError(f"out has {', '.join(left)}, which is not asked for")
+        answer = Answer()
         for word in words:
-            setattr(query, word, getattr(answer, word).ctypes.data)
-        _check(_lib.lsdcd_query_host(self._handle, ctypes.byref(query)))
+            inner, dtype = ANSWERS[word]
+            dtype = real if dtype is None else np.dtype(dtype)
+            wanted = (*shape, 3) if inner else shape
+            if word in outs:
+                made, place = outs[word], _out(outs[word], word, wanted, dtype, given, kept)
+            else:
+                made, place = _arrays.empty_like(asked, wanted, dtype, owner if stream is None else stream)
+            kept.append(place)
+            setattr(answer, word, made)
+            setattr(query, word, place.address)
+            steps = place.steps(inner)
+            if dtype == real and steps is not None:
+                for name, step in zip(("row", "column") if inner else ("step",), steps):
+                    setattr(query, f"{word}_{name}", step)
+        if given.on_host:
+            _check(_lib.lsdcd_query_host(self._handle, ctypes.byref(query)))
+            return answer
+        if query.n > 0:
+            self._query_on(given.device, handle, owner, query, any(map(_arrays.must_wait, kept)))
         return answer
+
+    def _query_on(self, device: int, handle: int, owner: Any, query: Any, wait: bool) -> None:
+        """On a stream of a device; `owner` keeps the stream alive."""
+        driver = _arrays.driver()
+        with driver.on(device):
+            streams = self._streams.__dict__    # of this thread
+            known = streams.pop((device, handle), None) or (_Stream(self, handle), owner)
+            streams[device, handle] = known    # the last one used is the last one
+            if len(streams) > _MOST_STREAMS:
+                del streams[next(iter(streams))]
+            _check(_lib.lsdcd_query_stream(known[0]._handle, ctypes.byref(query)))
+            if wait:
+                driver.wait(handle)
+
+
+class _Stream(_Owner):
+    """A Grid on a stream of the device that is current."""
+    _free = _lib.lsdcd_stream_free
+
+    def __init__(self, grid: Grid, handle: int) -> None:
+        super().__init__()
+        _check(_lib.lsdcd_stream_open(grid._handle, handle, ctypes.byref(self._handle)))
+
+
+_MOST_STREAMS = 8    # that a grid keeps for a thread: each has memory of its device
+
+
+def _remedy(shape: tuple[int, ...]) -> str:
+    """How an array of another shape becomes points."""
+    if shape[:1] == (3,) and len(shape) > 1:
+        return ": coordinates come last, so give points.T" if len(shape) == 2 else ": coordinates come last, move that axis"
+    if len(shape) == 1 and shape[0] % 3 == 0:
+        return ": give points.reshape(-1, 3)"
+    return ""
+
+
+def _as_floats(values: np.ndarray[Any, Any], name: str) -> np.ndarray[Any, Any]:
+    """float32 or float64, as what can be converted to it."""
+    if values.dtype in (np.float32, np.float64):
+        return values
+    if values.dtype.kind not in "fiuO":
+        raise TypeError(f"{name} are of type {values.dtype}, not real numbers")
+    return values.astype(np.float64)
+
+
+def _set_radius(query: Any, radius: Any, points: _arrays.Array, shape: tuple[int, ...], kept: list[_arrays.Array]) -> None:
+    radii = _arrays.read(radius, "radius")
+    if radii.shape == ():
+        query.radius = float(radii.host() if radii.on_host else radius)
+        if not query.radius > 0:
+            raise TypeError(f"radius is {radius}, not above 0")
+        return
+    if radii.shape != shape:
+        raise TypeError(f"radius has the shape {radii.shape}, not {shape}, that of points without the last dimension")
+    _same_place(radii, points, "radius")
+    if radii.on_host:
+        values = np.ascontiguousarray(radii.host(), dtype=points.dtype)
+        if not (values > 0).all():
+            raise TypeError(f"radius is {values[~(values > 0)][0]} at a point, not above 0")
+        radii = _arrays.of_numpy(values)
+    steps = radii.steps(0)
+    if radii.dtype != points.dtype or steps is None:
+        raise TypeError(f"radius is of type {radii.dtype} with strides {radii.strides}; on a device it has the type of "
+                        f"points, {points.dtype}, and one step from point to point")
+    kept.append(radii)
+    query.radii, query.radii_step = radii.address, steps[0]
+
+
+def _same_place(array: _arrays.Array, points: _arrays.Array, name: str) -> None:
+    place = [f"on CUDA device {a.device}" if a.device is not None else "on the host" for a in (array, points)]
+    if place[0] != place[1]:
+        raise TypeError(f"{name} is {place[0]}, points are {place[1]}: move one of them")
+
+
+def _out(values: Any, word: str, shape: tuple[int, ...], dtype: np.dtype[Any], points: _arrays.Array,
+         kept: list[_arrays.Array]) -> _arrays.Array:
+    """Where the caller wants an answer; refused if the library cannot write it there."""
+    name = f"out: {word}"
+    if not isinstance(values, np.ndarray) and not hasattr(values, "__dlpack__") \
+            and getattr(values, "__cuda_array_interface__", None) is None:
+        raise TypeError(f"{name} is a {type(values).__name__}, not an array")
+    place = _arrays.read(values, name)
+    _same_place(place, points, name)
+    if place.dtype != dtype and not (place.dtype == np.int32 and dtype == np.uint32):
+        raise TypeError(f"{name} is of type {place.dtype}, not {dtype}: make it with dtype={dtype}")
+    if place.shape != shape:
+        raise TypeError(f"{name} has the shape {place.shape}, not {shape}: make it of that shape")
+    if not place.writable:
+        raise TypeError(f"{name} cannot be written to: give a copy")
+    steps = place.steps(int(shape != points.shape[:-1]))
+    if steps is None or dtype != points.dtype and steps[0] != 1 and math.prod(shape) > 1:
+        raise TypeError(f"{name} has the strides {place.strides}: make it contiguous")
+    if place.on_host and any(a.on_host and np.shares_memory(a.host(), place.host()) for a in kept):
+        raise TypeError(f"{name} shares memory with points, radius or another answer: give an array of its own")
+    return place
 
 
 class Body(_Owner):

@@ -13,6 +13,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import functools
+import math
 import sys
 from typing import Any, Iterator
 
@@ -91,7 +92,7 @@ class Array:
         for (_, step), (n, next_step) in zip(long, long[1:]):
             if step != n * next_step:
                 return None
-        first = long[-1][1] if long else size * max(1, int(np.prod(self.shape[outer:])))
+        first = long[-1][1] if long else size * math.prod(self.shape[outer:])
         found = (first, *self.strides[outer:])
         if self.address % size or any(step == 0 or step % size for step in found):
             return None
@@ -103,7 +104,7 @@ def read(values: Any, name: str, stream: int | None = None) -> Array:
     cudaStream_t, is where a device's array will be used: an array that comes by DLPack is ready there.
     Raises TypeError for what cannot be read in place."""
     if isinstance(values, np.ndarray):
-        return _of_numpy(values, values)
+        return of_numpy(values)
     interface = getattr(values, "__cuda_array_interface__", None)
     can_dlpack = hasattr(values, "__dlpack__") and hasattr(values, "__dlpack_device__")
     # An interface of version 2 does not say on which stream the values are made. PyTorch has its current stream.
@@ -111,12 +112,12 @@ def read(values: Any, name: str, stream: int | None = None) -> Array:
         return _of_interface(values, interface, name)
     if can_dlpack:
         return _of_dlpack(values, name, stream)
-    return _of_numpy(values, np.asarray(values))
+    return of_numpy(np.asarray(values))
 
 
-def _of_numpy(source: Any, values: np.ndarray[Any, Any]) -> Array:
+def of_numpy(values: np.ndarray[Any, Any]) -> Array:
     return Array(values, values.ctypes.data, values.shape, values.strides, values.dtype,
-                 writable=bool(values.flags.writeable), keeper=source)
+                 writable=bool(values.flags.writeable))
 
 
 def _of_interface(values: Any, interface: dict[str, Any], name: str) -> Array:
@@ -205,7 +206,7 @@ def empty_like(array: Array, shape: tuple[int, ...], dtype: Any, stream: Any = N
         return made, Array(made, made.data_ptr(), shape, None, dtype, array.device)
     if array.on_host:
         made = np.empty(shape, dtype)
-        return made, _of_numpy(made, made)
+        return made, of_numpy(made)
     if _is_cupy(array.source):
         cupy = sys.modules["cupy"]
         known = stream is None or isinstance(stream, int)
@@ -349,7 +350,7 @@ class DeviceArray(_Offered):
         self.address = 0
         self.shape, self.dtype, self.device_number = shape, dtype, device
         with driver().on(device):
-            self.address = driver().allocate(int(np.prod(shape)) * dtype.itemsize)
+            self.address = driver().allocate(math.prod(shape) * dtype.itemsize)
 
     def __del__(self) -> None:
         if self.address:
