@@ -7,6 +7,7 @@
 PYTHONPATH and LSDCD_LIBRARY name the package and its library. No GPU is needed: addresses of devices are read, not
 followed (test_python_gpu.py follows them).
 """
+import contextlib
 import gc
 import importlib.util
 import os
@@ -156,6 +157,72 @@ def check_queries():
     fact("PyTorch's tensors are written", (out.numpy() == z).all())
 
 
+class FakeDriver:
+    """CUDA's driver where the memory of devices is the host's."""
+
+    def __init__(self):
+        self.memory, self.current, self.waited = {}, [], []
+
+    def on(self, device):
+        self.current.append(device)
+        return contextlib.ExitStack()
+
+    def wait(self, stream):
+        self.waited.append(stream)
+
+    def allocate(self, size):
+        block = np.zeros(size, np.uint8)
+        self.memory[block.ctypes.data] = block
+        return block.ctypes.data
+
+    def free(self, address):
+        del self.memory[address]
+
+
+def check_device_path():
+    """The way of a query to a device, whose functions answer here on the host."""
+    lib, driver, opened, asked = lsdcd._lib, FakeDriver(), [], []
+    real = lib.lsdcd_stream_open, lib.lsdcd_query_stream, _arrays.driver
+    grid = lsdcd.Mesh([[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]]).grid(cutoff=2)
+
+    def answer(stream, query):
+        asked.append(query)
+        return lib.lsdcd_query_host(grid._handle, query)
+
+    lib.lsdcd_stream_open = lambda grid, handle, made: opened.append(handle) or 0
+    lib.lsdcd_query_stream, _arrays.driver = answer, lambda: driver
+    try:
+        rows = np.array([[0, 0, 0.5, 1], [0, 1, 1.5, 1]], np.float32)
+        there = OnCuda((2, 3), strides=(16, 4), stream=7)
+        there.__cuda_array_interface__["data"] = (rows.ctypes.data, True)
+        answer = grid.query(there, "distance closest triangle")
+        fact("answers of no library's points are a device's arrays", isinstance(answer.distance, _arrays.DeviceArray)
+             and answer.closest.__dlpack_device__() == (2, 3) and answer.closest.__cuda_array_interface__["shape"] == (2, 3))
+        numbers = _arrays.Array(None, answer.distance.address, (2,), None, np.dtype("f4")).host()
+        fact("they are there", numbers.tolist() == [0.5, 1.5], numbers)
+        fact("the stream is the array's, on its device, and is waited for", (opened, set(driver.current), driver.waited)
+             == ([7], {3}, [7]), (opened, driver.current, driver.waited))
+        radii = OnCuda((2,), strides=(16,))
+        radii.__cuda_array_interface__["data"] = (rows.ctypes.data + 12, True)
+        out = OnCuda((2,))
+        found = np.zeros(2, np.float32)
+        out.__cuda_array_interface__["data"] = (found.ctypes.data, False)
+        fact("answers go to the caller's", grid.query(there, radius=radii, out={"distance": out}).distance is out
+             and found.tolist() == [0.5, np.inf])
+        for stream in range(20, 40):
+            grid.query(there, stream=stream)
+        fact("a grid keeps eight streams", len(opened) == 21 and len(grid._streams.__dict__) == 8, opened)
+        grid.query(there, stream=39)
+        fact("and opens none twice", len(opened) == 21)
+        calls = len(asked)
+        fact("no points ask nothing", grid.query(OnCuda((0, 3))).distance.shape == (0,) and len(asked) == calls)
+        del answer, grid, out
+        gc.collect()
+        fact("arrays of a device are freed", not driver.memory)
+    finally:
+        lib.lsdcd_stream_open, lib.lsdcd_query_stream, _arrays.driver = real
+
+
 def check_types():
     mypy = shutil.which("mypy")
     if not mypy:
@@ -169,5 +236,6 @@ def check_types():
 if __name__ == "__main__":
     check_reading()
     check_queries()
+    check_device_path()
     check_types()
     sys.exit(1 if failed else 0)

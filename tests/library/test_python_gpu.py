@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""Queries of the Python package with arrays of PyTorch, CuPy and JAX on a GPU, against heights over a floor.
+
+    PYTHONPATH=src/api LSDCD_LIBRARY=build/lib/liblsdcd.so.0 python3 tests/library/test_python_gpu.py
+
+Needs a library built with CUDA, a GPU, and one of the three; what is missing is skipped by its name, and with all
+missing the exit code is 77. Heights are multiples of 1/1024, so that distances in float32 and float64 are off by no
+more than 3e-6 of the cutoff.
+"""
+import importlib
+import sys
+
+import numpy as np
+
+import lsdcd
+from lsdcd import _arrays
+
+CUTOFF, N = 2.0, 200000
+WANT = "distance closest normal triangle status"
+failed = 0
+
+
+def fact(name, true, detail=""):
+    global failed
+    failed += not true
+    print(f"{'PASS' if true else 'FAIL'} {name}{'' if true else f': {detail}'}", flush=True)
+
+
+def refused(name, says, call):
+    try:
+        call()
+    except (TypeError, lsdcd.Error) as error:
+        fact(name, says in str(error), error)
+        return
+    fact(name, False, "not refused")
+
+
+class Torch:
+    """What the test needs of a library."""
+    name = "PyTorch"
+
+    def __init__(self):
+        self.lib = importlib.import_module("torch")
+        if not self.lib.cuda.is_available():
+            raise ImportError("torch sees no GPU")
+        self.kind, self.own = self.lib.Tensor, True
+
+    def give(self, values):
+        return self.lib.from_numpy(values).cuda()
+
+    def take(self, values):
+        return values.cpu().numpy()
+
+    def empty(self, shape, dtype):
+        return self.lib.empty(shape, dtype=getattr(self.lib, {"uint32": "int32"}.get(dtype, dtype)), device="cuda")
+
+    def stream(self):
+        return self.lib.cuda.Stream()
+
+    def on(self, stream):
+        return self.lib.cuda.stream(stream)
+
+    def wait(self):
+        self.lib.cuda.synchronize()
+
+
+class Cupy:
+    name = "CuPy"
+
+    def __init__(self):
+        self.lib = importlib.import_module("cupy")
+        if self.lib.cuda.runtime.getDeviceCount() < 1:
+            raise ImportError("cupy sees no GPU")
+        self.kind, self.own = self.lib.ndarray, True
+
+    def give(self, values):
+        return self.lib.asarray(values)
+
+    def take(self, values):
+        return self.lib.asnumpy(values)
+
+    def empty(self, shape, dtype):
+        return self.lib.empty(shape, dtype)
+
+    def stream(self):
+        return self.lib.cuda.Stream(non_blocking=True)
+
+    def on(self, stream):
+        return stream
+
+    def wait(self):
+        self.lib.cuda.Device().synchronize()
+
+
+class Jax:
+    name = "JAX"
+
+    def __init__(self):
+        self.lib = importlib.import_module("jax")
+        if self.lib.default_backend() != "gpu":
+            raise ImportError("jax sees no GPU")
+        self.lib.config.update("jax_enable_x64", True)
+        self.kind, self.own = _arrays.DeviceArray, False
+
+    def give(self, values):
+        return self.lib.device_put(values)
+
+    def take(self, values):
+        return np.asarray(self.lib.dlpack.from_dlpack(values))
+
+
+def heights(dtype):
+    """Points above and below the floor, up to 1.5 of the cutoff, and how far they are."""
+    random = np.random.default_rng(3)
+    z = random.integers(-3072, 3073, N) / 1024
+    xy = random.integers(-1024, 1025, (N, 2)) / 1024
+    return np.column_stack([xy, z]).astype(dtype), np.where(abs(z) < CUTOFF, abs(z), np.inf)
+
+
+def same(found, wanted):
+    near = np.isfinite(wanted)
+    return found.shape == wanted.shape and (np.isinf(found) == ~near).all() \
+        and np.allclose(found[near], wanted[near], rtol=0, atol=3e-6 * CUTOFF)
+
+
+def check(library, grid):
+    say = lambda text: f"{library.name}: {text}"    # noqa: E731
+    for dtype in ("float32", "float64"):
+        points, distance = heights(dtype)
+        answer = grid.query(library.give(points), WANT)
+        fact(say(f"answers are its own, {dtype}"), all(isinstance(a, library.kind) for a in vars(answer).values()))
+        fact(say(f"distances, {dtype}"), same(library.take(answer.distance), distance))
+        host = grid.query(points, WANT)
+        near = np.isfinite(distance)
+        fact(say(f"closest points and triangles are the host's, {dtype}"),
+             np.allclose(library.take(answer.closest), host.closest, rtol=0, atol=1e-5)
+             and (library.take(answer.triangle)[near].astype(np.uint32) == host.triangle[near]).all()
+             and (library.take(answer.status) == host.status).all())
+        shaped = grid.query(library.give(points.reshape(-1, 2, 4, 3)), "distance closest")
+        fact(say(f"shapes, {dtype}"), library.take(shaped.distance).shape == (N // 8, 2, 4)
+             and same(library.take(shaped.distance).ravel(), distance) and tuple(shaped.closest.shape) == (N // 8, 2, 4, 3))
+    none = grid.query(library.give(np.zeros((0, 3))), "distance closest")
+    fact(say("no points"), tuple(none.distance.shape) == (0,) and tuple(none.closest.shape) == (0, 3))
+    refused(say("whole numbers are refused"), "convert", lambda: grid.query(library.give(points.astype(np.int32))))
+    refused(say("a grid without a cutoff is refused"), "cutoff",
+            lambda: lsdcd.Mesh([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]).grid().query(library.give(points)))
+    refused(say("an answer on the host is refused"), "on the host", lambda: grid.query(library.give(points), out={"distance": distance}))
+    if library.own:
+        check_in_place(library, grid, say, *heights("float32"))
+
+
+def check_in_place(library, grid, say, points, distance):
+    rows = library.give(np.column_stack([points, np.full(N, 0.5, np.float32)]).astype(np.float32))
+    found = library.take(grid.query(rows[:, :3], radius=rows[:, 3]).distance)
+    fact(say("rows of x y z radius, in place"), same(found, np.where(distance < 0.5, distance, np.inf)))
+    out = {"distance": library.empty((N,), "float32"), "triangle": library.empty((N,), "uint32")}
+    answer = grid.query(rows[:, :3], out=out)
+    fact(say("arrays of the caller for answers"), answer.distance is out["distance"] and same(library.take(out["distance"]), distance))
+
+    # Points are made, asked and taken on one stream: much work before them, so that an answer out of order is seen.
+    for given in (False, True):
+        stream = library.stream()
+        with library.on(stream):
+            work = library.give(np.ones((2000, 2000), np.float32))
+            moved = library.give(np.zeros_like(points))
+            library.wait()
+            for _ in range(30):
+                work = (work @ work) * 0
+            moved += rows[:, :3] + work[0, 0]
+            answer = None if given else grid.query(moved).distance + 0
+        if given:
+            answer = grid.query(moved, stream=stream).distance
+        library.wait()
+        fact(say(f"the stream, {'given' if given else 'current'}, keeps the order"), same(library.take(answer), distance))
+    streams = [library.stream() for _ in range(12)]
+    answers = [grid.query(rows[:, :3], stream=stream).distance for stream in streams]
+    library.wait()
+    fact(say("more streams than are kept"), all(same(library.take(a), distance) for a in answers))
+    handle = _arrays.stream_handle(streams[0])
+    answer = grid.query(rows[:, :3], stream=handle).distance
+    library.wait()
+    fact(say("a stream by its number"), same(library.take(answer), distance))
+
+
+def main():
+    if not lsdcd._lib.lsdcd_has_cuda():
+        print("skipped: Python with a GPU:", lsdcd._lib.lsdcd_last_error().decode())
+        return 77
+    grid = lsdcd.Mesh([[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]]).grid(cutoff=CUTOFF)
+    ran = 0
+    for kind in (Torch, Cupy, Jax):
+        try:
+            library = kind()
+        except ImportError as error:
+            print(f"skipped: {kind.name}: {error}")
+            continue
+        ran += 1
+        check(library, grid)
+    return 1 if failed else 0 if ran else 77
+
+
+if __name__ == "__main__":
+    sys.exit(main())
