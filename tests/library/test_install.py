@@ -162,6 +162,31 @@ def check_python(prefix, work):
           os.path.join(ROOT, "tests", "library", "use_module.py"), folder=work, PYTHONPATH=path)
 
 
+def check_wheel(work):
+    """pip's wheel of the build, in a virtual environment that has numpy only."""
+    code, text = run(PYTHON, "-c", "import pip, venv", folder=work)
+    if code != 0:
+        print("skipped: the wheel (no python3-pip or python3-venv)")
+        return
+    venv = os.path.join(work, "venv")
+    python = os.path.join(venv, "bin", "python")
+    run(PYTHON, "-m", "venv", "--system-site-packages", "--without-pip", venv, folder=work)
+    code, text = run(python, "-m", "pip", "install", "--no-index", ROOT, folder=work, LSDCD_BUILD=BUILD,
+                     PIP_DISABLE_PIP_VERSION_CHECK="1")
+    fact("pip makes a wheel and installs it, without a network", code == 0, text)
+    examples = os.path.join(ROOT, "examples", "library")
+    alone = {"PYTHONPATH": "", "LSDCD_LIBRARY": ""}
+    gives("its module is the environment's, its library beside it", "True True", python, "-c",
+          "import lsdcd, sys; print(*(name.startswith(sys.prefix) for name in (lsdcd.__file__, lsdcd._lib._name)))",
+          folder=work, **alone)
+    gives("the example in Python gives the distances there", WANTED, python, os.path.join(examples, "distance.py"), "cube.stl",
+          folder=work, **alone)
+    gives("and the pairs", WANTED_PAIRS, python, os.path.join(examples, "collide.py"), "floor.stl", "cube.stl", folder=work, **alone)
+    run(python, "-m", "pip", "uninstall", "--yes", "lsdcd", folder=work)
+    left = [name for folder, _, names in os.walk(venv) for name in names if "lsdcd" in folder + name]
+    fact("pip takes it away again, whole", not left, left)
+
+
 def check_tool(prefix, work):
     tool = os.path.join(prefix, "bin", "lsdcd")
     if not os.path.exists(tool):
@@ -210,6 +235,7 @@ def main():
         check_builds(prefix, work, libraries)
         check_cuda(prefix, work)
         check_python(prefix, work)
+        check_wheel(work)
         check_tool(prefix, work)
         for name in ("LICENSE", "CITATION.cff", "library.md", "distance.cpp"):
             find(prefix, name)
