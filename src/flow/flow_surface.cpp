@@ -53,13 +53,6 @@ Real distance(const Corners &t, const Vec3 &q)
 
 }    // namespace
 
-Box in_fractions(const Box &box, const PeriodicBox &periodic)
-{
-  Box out = {periodic.fraction(box.lo), periodic.fraction(box.lo)};
-  for_corners(box, [&](const Vec3 &x) { extend(out, periodic.fraction(x)); });
-  return out;
-}
-
 FlowSurface::FlowSurface(const WallMesh &mesh) :
     vertices_(mesh.vertices), faces_(mesh.faces), tree_(boxes_of(mesh))
 {

@@ -20,9 +20,6 @@ struct Passes {
   int net() const { return forward - backward; }
 };
 
-// The bounds of a box in units of the edges of the periodic one.
-Box in_fractions(const Box &box, const PeriodicBox &periodic);
-
 // In a periodic box all images of the surface are there.
 class FlowSurface {
  public:

@@ -5,7 +5,7 @@
 
 #include "lammps/fix_massflow_lsdcd.h"
 
-#include "lammps/atom_vec_copy.h"
+#include "lammps/host_atom_vec.h"
 
 #include "atom.h"
 

@@ -4,6 +4,7 @@
 #include "lammps/other_fixes.h"
 
 #include "base/input_error.h"
+#include "lammps/fix_insert_lsdcd.h"
 #include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/fix_wall_lsdcd.h"
 
@@ -35,6 +36,8 @@ std::vector<ScriptFile> files_of_fix(const Fix *fix)
   if (const auto *wall = dynamic_cast<const FixWallLsdcd *>(fix)) return wall->files();
   if (const auto *flow = dynamic_cast<const FixMassflowLsdcd *>(fix))
     return {{"mesh", flow->mesh_file()}};
+  if (const auto *inlet = dynamic_cast<const FixInsertLsdcd *>(fix))
+    if (!inlet->mesh_file().empty()) return {{"mesh", inlet->mesh_file()}};
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include "lammps/plugin_styles.h"
 
 #include "lammps/compute_collide_lsdcd.h"
+#include "lammps/fix_insert_lsdcd.h"
 #include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/region_mesh_lsdcd.h"
@@ -60,6 +61,9 @@ void add_plain_styles(void *lmp, void *handle, void *regfunc)
   add_style("fix", lmp, handle, regfunc, "massflow/lsdcd",
             "fix massflow/lsdcd: what passes a surface from an STL mesh",
             create_fix<FixMassflowLsdcd>);
+  add_style("fix", lmp, handle, regfunc, "insert/lsdcd",
+            "fix insert/lsdcd: grains through a flat mesh or into a region",
+            create_fix<FixInsertLsdcd>);
   add_style("compute", lmp, handle, regfunc, "lsdcd/collide",
             "compute lsdcd/collide: rigid bodies against the walls of fix wall/lsdcd",
             create_style<Compute, ComputeCollideLsdcd>);

@@ -42,4 +42,11 @@ Box PeriodicBox::bounds(const Vec3 &past) const
   return box;
 }
 
+Box in_fractions(const Box &box, const PeriodicBox &periodic)
+{
+  Box out = {periodic.fraction(box.lo), periodic.fraction(box.lo)};
+  for_corners(box, [&](const Vec3 &x) { extend(out, periodic.fraction(x)); });
+  return out;
+}
+
 }    // namespace lsdcd

@@ -71,4 +71,7 @@ struct PeriodicBox {
   bool any_follows() const { return follows(0) || follows(1) || follows(2); }
 };
 
+// The bounds of a box in units of the edges of the periodic one.
+Box in_fractions(const Box &box, const PeriodicBox &periodic);
+
 }    // namespace lsdcd

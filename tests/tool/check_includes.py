@@ -22,7 +22,7 @@ import re
 import sys
 
 FLOORS = [["base"], ["backend"], ["geometry"], ["mesh"], ["motion"], ["grid"], ["contact"], ["law"], ["engine"],
-          ["bodies", "query", "study", "effects", "output", "material", "flow"],
+          ["bodies", "query", "study", "effects", "output", "material", "flow", "insert"],
           ["input"], ["wall"], ["lammps", "tool", "api"], ["kokkos"]]
 BESIDE = {("study", "query")}
 # Of each room with folders. "." stands for the files that lie in none, but for those that are named.

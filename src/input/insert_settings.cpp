@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "input/insert_settings.h"
+
+#include "base/input_words.h"
+#include "input/keywords.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+const char *const kSyntax =
+    "fix ID group insert/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x y "
+    "z] [weld tol] [depth D] | region ID, with diam one D | range LO HI | poly N D1 F1 ... | mass "
+    "N D1 F1 ..., dens RHO | LO HI, [massrate R | numberrate R] [mass M | number N] [type T] [vel "
+    "X Y Z | normal V] [jitter V] [wall all | none | ID] [attempts N] [every N] [seed N]";
+
+std::int64_t whole(Tokens &w, const char *what, Real low, Real high)
+{
+  const Real n = w.number(what, low, high);
+  if (n != std::floor(n)) w.fail(std::string(what) + " must be a whole number");
+  return static_cast<std::int64_t>(n);
+}
+
+constexpr Real kMostInt = 2147483647, kMostExact = 9007199254740992;
+
+void read_sizes(Tokens &w, GrainRecipe &grains)
+{
+  w.set_context("diam",
+                "diam one D | range LO HI | poly N D1 F1 D2 F2 ... | mass N D1 F1 D2 F2 ...");
+  const int kind = w.choice({"one", "range", "poly", "mass"});
+  if (kind == 0) {
+    grains.smallest = grains.largest = w.number("D", kAboveZero);
+    grains.sizes = {{grains.largest, 1}};
+    return;
+  }
+  if (kind == 1) {
+    grains.smallest = w.number("LO", kAboveZero);
+    grains.largest = w.number("HI", grains.smallest);
+    return;
+  }
+  const std::int64_t n = whole(w, "N", 1, 1e6);
+  Real sum = 0;
+  std::vector<GrainRecipe::Size> sizes;
+  for (std::int64_t i = 0; i < n; i++) {
+    const Real d = w.number("D", kAboveZero), share = w.number("F", kAboveZero, 1);
+    sizes.push_back({d, share});
+    sum += share;
+    grains.largest = std::max(grains.largest, d);
+    grains.smallest = i == 0 ? d : std::min(grains.smallest, d);
+  }
+  if (std::fabs(sum - 1) > 1e-3)
+    w.fail("the fractions add up to " + number_text(sum) + ", not to 1");
+  for (GrainRecipe::Size &size : sizes) size.share /= sum;
+  if (kind == 2)
+    grains.sizes = sizes;
+  else
+    grains.set_mass_shares(sizes);
+}
+
+void read_velocity(Tokens &w, InsertSettings &s)
+{
+  w.set_context("vel", "vel X Y Z | vel normal V");
+  s.along_normal = !w.done() && w.peek() == "normal";
+  if (s.along_normal) {
+    w.take();
+    s.speed = w.number("V", 0);
+    return;
+  }
+  s.velocity.x = w.number("X");
+  s.velocity.y = w.number("Y");
+  s.velocity.z = w.number("Z");
+}
+
+void read_wall(Tokens &w, InsertSettings &s)
+{
+  w.set_context("wall", "wall all | none | ID");
+  if (w.done()) w.fail("the ID of a fix wall/lsdcd is missing");
+  const std::string word = w.take();
+  s.all_walls = word == "all";
+  if (word != "all" && word != "none") s.walls.push_back(word);
+}
+
+void read_rate(Tokens &w, const std::string &word, FeedSettings &feed)
+{
+  w.set_context(word, word + " R");
+  if (feed.kind != FeedSettings::at_once)
+    w.fail("there is another rate: give massrate or numberrate");
+  feed.kind = word == "massrate" ? FeedSettings::by_mass : FeedSettings::by_number;
+  feed.rate = w.number("R", kAboveZero);
+}
+
+bool read_word(const std::string &word, Tokens &w, InsertSettings &s)
+{
+  if (word == "region") {
+    w.set_context("region", "region ID");
+    if (w.done()) w.fail("the ID of a region is missing");
+    s.region = w.take();
+  } else if (word == "diam") {
+    read_sizes(w, s.plan.grains);
+  } else if (word == "dens") {
+    w.set_context("dens", "dens RHO | LO HI");
+    GrainRecipe &grains = s.plan.grains;
+    grains.density_lo = grains.density_hi = w.number("RHO", kAboveZero);
+    if (w.number_follows()) grains.density_hi = w.number("HI", grains.density_lo);
+  } else if (word == "massrate" || word == "numberrate") {
+    read_rate(w, word, s.plan.feed);
+  } else if (word == "mass") {
+    w.set_context("mass", "mass M");
+    s.plan.feed.mass = w.number("M", kAboveZero);
+  } else if (word == "number") {
+    w.set_context("number", "number N");
+    s.plan.feed.number = whole(w, "N", 1, kMostExact);
+  } else if (word == "type") {
+    w.set_context("type", "type T");
+    s.type = static_cast<int>(whole(w, "T", 1, kMostInt));
+  } else if (word == "vel") {
+    read_velocity(w, s);
+  } else if (word == "jitter") {
+    w.set_context("jitter", "jitter V");
+    s.plan.grains.jitter = w.number("V", 0);
+  } else if (word == "depth") {
+    w.set_context("depth", "depth D");
+    s.depth = w.number("D", 0);
+  } else if (word == "wall") {
+    read_wall(w, s);
+  } else if (word == "attempts") {
+    w.set_context("attempts", "attempts N");
+    s.plan.attempts = static_cast<int>(whole(w, "N", 1, kMostInt));
+  } else if (word == "every") {
+    w.set_context("every", "every N");
+    s.plan.feed.every = static_cast<int>(whole(w, "N", 1, kMostInt));
+  } else if (word == "seed") {
+    w.set_context("seed", "seed N");
+    s.plan.seed = whole(w, "N", 1, kMostExact);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void check(Tokens &w, const InsertSettings &s)
+{
+  w.set_context("fix insert/lsdcd", kSyntax);
+  const FeedSettings &feed = s.plan.feed;
+  if (s.face.file.empty() == s.region.empty())
+    w.fail(s.region.empty() ? "mesh FILE or region ID is missing"
+                            : "give mesh FILE or region ID, not both");
+  if (s.plan.grains.largest <= 0) w.fail("diam is missing");
+  if (s.plan.grains.density_hi <= 0) w.fail("dens is missing");
+  if (feed.kind == FeedSettings::at_once && feed.mass <= 0 && feed.number == 0)
+    w.fail("the amount is missing: give massrate, numberrate, mass or number");
+  if (feed.mass > 0 && feed.number > 0) w.fail("mass and number are two amounts: give one");
+  if (s.face.file.empty() && s.along_normal)
+    w.fail("vel normal is for a mesh: give vel X Y Z with a region");
+  if (s.face.file.empty() && s.depth > 0) w.fail("depth is for a mesh");
+}
+
+}    // namespace
+
+InsertSettings parse_insert(const std::vector<std::string> &tokens)
+{
+  InsertSettings settings;
+  Tokens w(tokens);
+  std::vector<std::string> seen;
+  while (!w.done()) {
+    const std::string word = w.take();
+    w.set_context("fix insert/lsdcd", kSyntax);
+    if (word != "wall" && is_twice(word, seen)) w.fail("the keyword '" + word + "' is given twice");
+    if (!read_mesh_word(word, w, settings.face) && !read_word(word, w, settings))
+      w.fail("'" + word + "' is not a keyword");
+  }
+  check(w, settings);
+  return settings;
+}
+
+}    // namespace lsdcd

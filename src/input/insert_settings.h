@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Input words of fix insert/lsdcd -> InsertSettings.
+#pragma once
+
+#include "input/settings.h"
+#include "insert/insertion.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+struct InsertSettings {
+  MeshSettings face;     // without a file: a region
+  std::string region;    // its ID
+  InsertionPlan plan;
+  int type = 1;                 // of atoms
+  bool along_normal = false;    // of the face, with `speed`
+  Real speed = 0;
+  Vec3 velocity = {0, 0, 0};
+  Real depth = 0;           // length; how far in front of the face grains are put
+  bool all_walls = true;    // grains keep off these fixes, or off those named
+  std::vector<std::string> walls;
+};
+
+// Throws InputError that names the word, what was expected and the syntax.
+InsertSettings parse_insert(const std::vector<std::string> &tokens);
+
+}    // namespace lsdcd

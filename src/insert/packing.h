@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Spheres where grains are put, and whether another one overlaps any of them.
+#pragma once
+
+#include "mesh/periodic_box.h"
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace lsdcd {
+
+struct PackedSphere {
+  Vec3 at;
+  Real radius;
+};
+
+// The images of a sphere that may touch a grain, up to `largest` in radius, whose centre is in `zone`. Without a
+// periodic box that is the sphere itself, if anything.
+std::vector<PackedSphere> images_near(const PackedSphere &sphere, const Box &zone, Real largest,
+                                      const PeriodicBox &box);
+
+// Grains come one by one, each up to `largest` in radius, and count with their images.
+class Packing {
+ public:
+  // `there`: images_near() of the spheres that are there already.
+  Packing(const std::vector<PackedSphere> &there, const Box &zone, Real largest,
+          const PeriodicBox &box);
+
+  // Exactly touching is no overlap.
+  bool overlaps(const PackedSphere &grain) const;
+  void add(const PackedSphere &grain);
+
+ private:
+  static constexpr int kNone = -1;
+  std::uint64_t cell(const Vec3 &x, int i, int j, int k) const;
+  void list(const PackedSphere &sphere);
+
+  Box zone_;
+  Real largest_, cell_;
+  PeriodicBox box_;
+  std::vector<PackedSphere> spheres_;
+  std::vector<int> next_;                           // in the same cell; kNone: the last
+  std::unordered_map<std::uint64_t, int> first_;    // of a cell
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,489 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+#include "lammps/fix_insert_lsdcd.h"
+
+#include "base/input_words.h"
+#include "lammps/fix_wall_lsdcd.h"
+#include "lammps/host_atom_vec.h"
+#include "lammps/host_box.h"
+#include "lammps/mpi_mesh.h"
+#include "lammps/mpi_shared.h"
+#include "mesh/outside_box.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "region.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using lsdcd::Insertion;
+using lsdcd::number_text;
+using lsdcd::PackedSphere;
+using lsdcd::Vec3;
+
+namespace LAMMPS_NS {
+
+// Asked by the first process alone.
+class LammpsSite : public lsdcd::InsertionSite {
+ public:
+  explicit LammpsSite(const FixInsertLsdcd &fix) :
+      fix_(fix), zone_(fix.zone()), box_(lsdcd::host_box(*fix.domain))
+  {
+  }
+
+  bool draw(lsdcd::RandomStream &random, double radius, Vec3 &at) override
+  {
+    for (int k = 0; k < kTries; k++) {
+      if (fix_.face) {
+        if (!fix_.face->draw(random, radius, at)) return false;
+      } else {
+        for (int d = 0; d < 3; d++) at[d] = random.uniform(zone_.lo[d], zone_.hi[d]);
+        if (!fix_.region->match(at.x, at.y, at.z)) continue;
+      }
+      if (is_in_box(at)) return true;
+    }
+    return false;
+  }
+
+  bool is_clear_of_walls(const PackedSphere &grain) override
+  {
+    return fix_.walls->is_clear(grain, box_);
+  }
+
+ private:
+  static constexpr int kTries = 10000;
+
+  bool is_in_box(const Vec3 &at) const
+  {
+    const Vec3 part = box_.fraction(at);
+    for (int k = 0; k < 3; k++)
+      if (!box_.periodic[k] &&
+          ((part[k] < 0 && !box_.face_follows[k][0]) || (part[k] >= 1 && !box_.face_follows[k][1])))
+        return false;
+    return true;
+  }
+
+  const FixInsertLsdcd &fix_;
+  const lsdcd::Box zone_;
+  const lsdcd::PeriodicBox box_;
+};
+
+}    // namespace LAMMPS_NS
+
+FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+  if (!atom->radius_flag || !atom->rmass_flag)
+    fatal("atoms need a radius and a mass each: use atom_style sphere");
+  if (domain->dimension == 2)
+    fatal("the simulation has two dimensions: there is no insertion there");
+  try {
+    settings = lsdcd::parse_insert(std::vector<std::string>(arg + 3, arg + narg));
+    if (settings.type > atom->ntypes)
+      throw lsdcd::InputError("in 'type', there is no atom type " + std::to_string(settings.type) +
+                              ": there are " + std::to_string(atom->ntypes));
+    insertion = std::make_unique<Insertion>(settings.plan, update->ntimestep, update->dt);
+    walls = std::make_unique<lsdcd::WallClearance>();
+    if (settings.region.empty())
+      read_face();
+    else
+      find_region();
+  } catch (const lsdcd::InputError &e) {
+    fatal(e.what());
+  }
+  const double mean = settings.plan.grains.mean_mass();
+  const lsdcd::FeedSettings &feed = settings.plan.feed;
+  if (feed.kind != lsdcd::FeedSettings::at_once)
+    log("a grain in " +
+        number_text((feed.kind == lsdcd::FeedSettings::by_mass ? mean : 1) / feed.rate) +
+        " time units, of a mass of " + number_text(mean) + " in the mean");
+
+  force_reneighbor = 1;
+  time_depend = 1;
+  restart_global = 1;
+  vector_flag = 1;
+  size_vector = 7;
+  extvector = 0;
+  global_freq = 1;
+  dynamic_group_allow = 1;
+  follow_schedule();
+}
+
+FixInsertLsdcd::~FixInsertLsdcd()
+{
+  if (!radii_id.empty() && modify->find_fix(radii_id) >= 0) modify->delete_fix(radii_id);
+}
+
+// Not in the constructor, where LAMMPS has no place for another fix.
+void FixInsertLsdcd::post_constructor()
+{
+  const std::string name = "insert/lsdcd/radii";
+  radii_id = std::string(id) + "_RADII";
+  (*modify->fix_map)[name] = [](LAMMPS *lmp, int narg, char **arg) -> Fix * {
+    return new FixInsertRadii(lmp, narg, arg);
+  };
+  modify->add_fix(radii_id + " all " + name);
+  modify->fix_map->erase(name);
+}
+
+void FixInsertLsdcd::read_face()
+{
+  const lsdcd::WallMesh mesh = lsdcd::read_together(world, settings.face);
+  face = std::make_unique<lsdcd::InletFace>(mesh, settings.depth);
+  const std::string outside =
+      lsdcd::outside_box({mesh.report.lo, mesh.report.hi}, lsdcd::host_box(*domain), 0);
+  if (!outside.empty()) throw lsdcd::InputError(outside);
+  const double radius = insertion->source().largest_radius();
+  if (!face->has_room(radius))
+    throw lsdcd::InputError(
+        settings.face.file + ": the face has no place that is " + number_text(radius) +
+        ", the largest radius, from its edges: make it wider, or its scale larger");
+  velocity = settings.along_normal ? settings.speed * face->normal() : settings.velocity;
+  const Vec3 n = face->normal();
+  log(std::to_string(mesh.faces.size()) + " triangles, area " + number_text(face->area()) +
+      ", normal " + number_text(n.x) + " " + number_text(n.y) + " " + number_text(n.z));
+}
+
+void FixInsertLsdcd::find_region()
+{
+#if LSDCD_HOST_VERSION < 20220601
+  const int i = domain->find_region(settings.region);
+  region = i < 0 ? nullptr : domain->regions[i];
+#else
+  region = domain->get_region_by_id(settings.region);
+#endif
+  const std::string name = "region " + settings.region;
+  if (!region) throw lsdcd::InputError("there is no " + name + ": define it before this fix");
+  if (!region->bboxflag)
+    throw lsdcd::InputError(name + " has no bounds, as it is side out, moves or reaches to INF: "
+                                   "give one with bounds on all sides");
+  velocity = settings.velocity;
+}
+
+lsdcd::Box FixInsertLsdcd::zone() const
+{
+  if (face) return face->zone();
+  return {{region->extent_xlo, region->extent_ylo, region->extent_zlo},
+          {region->extent_xhi, region->extent_yhi, region->extent_zhi}};
+}
+
+int FixInsertLsdcd::setmask()
+{
+  return PRE_EXCHANGE | POST_RUN;
+}
+
+void FixInsertLsdcd::init()
+{
+  std::vector<const FixWallLsdcd *> found;
+  std::vector<std::string> missing = settings.walls;
+  for (int i = 0; i < modify->nfix; i++) {
+    const auto *wall = dynamic_cast<const FixWallLsdcd *>(modify->fix[i]);
+    const auto named = std::find(missing.begin(), missing.end(), modify->fix[i]->id);
+    const bool is_named = named != missing.end();
+    if (is_named && !wall)
+      fatal("in 'wall', fix " + *named + " is of style " + modify->fix[i]->style +
+            ": give the ID of a fix wall/lsdcd");
+    if (is_named) missing.erase(named);
+    // Grains are in the group all and in that of this fix.
+    if (wall && (is_named || (settings.all_walls && (wall->groupbit & (1 | groupbit)))))
+      found.push_back(wall);
+    // The first one answers for all.
+    if (LSDCD_HOST_VERSION < 20220601 && std::strcmp(modify->fix[i]->style, "pour") == 0 &&
+        !dynamic_cast<FixInsertRadii *>(modify->fix[i])) {
+      bool before = true;
+      for (int k = 0; k < i; k++)
+        before = before && !dynamic_cast<FixInsertRadii *>(modify->fix[k]);
+      if (before)
+        fatal("this LAMMPS makes neighbour lists for the radii of the first fix that pours only, "
+              "which is " +
+              std::string(modify->fix[i]->id) + ": define it after this fix");
+    }
+  }
+  if (!missing.empty())
+    fatal("in 'wall', there is no fix '" + missing[0] + "': give the ID of a fix wall/lsdcd");
+  try {
+    if (!settings.region.empty()) find_region();
+    lsdcd::run_collectively(world, true, [&] { walls->follow(found, comm->me == 0); });
+  } catch (const lsdcd::InputError &e) {
+    fatal(e.what());
+  }
+}
+
+void FixInsertLsdcd::setup(int /*vflag*/)
+{
+  insertion->begin_run(update->ntimestep, update->dt);
+  follow_schedule();
+  refused_seen = insertion->refused();
+  told = false;
+}
+
+void FixInsertLsdcd::reset_dt()
+{
+  insertion->begin_run(update->ntimestep, update->dt);
+  follow_schedule();
+}
+
+void FixInsertLsdcd::follow_schedule()
+{
+  const std::int64_t next = insertion->next_step();
+  next_reneighbor = next == lsdcd::FeedSchedule::kNever ? 0 : next;
+}
+
+double FixInsertLsdcd::largest_radius(int type) const
+{
+  return type == settings.type ? insertion->source().largest_radius() : 0;
+}
+
+// On the first process: of all processes, x, y, z and radius.
+std::vector<double> FixInsertLsdcd::gather_spheres(const lsdcd::Box &zone) const
+{
+  const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
+  const double largest = insertion->owed().front().radius;
+  std::vector<double> mine, all;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *x = atom->x[i];
+    for (const PackedSphere &s :
+         lsdcd::images_near({{x[0], x[1], x[2]}, atom->radius[i]}, zone, largest, box))
+      mine.insert(mine.end(), {s.at.x, s.at.y, s.at.z, s.radius});
+  }
+  const int n = static_cast<int>(mine.size());
+  std::vector<int> counts(comm->nprocs), first(comm->nprocs);
+  MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
+  for (int p = 1; p < comm->nprocs; p++) first[p] = first[p - 1] + counts[p - 1];
+  if (comm->me == 0) all.resize(first.back() + counts.back());
+  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), first.data(), MPI_DOUBLE, 0,
+              world);
+  return all;
+}
+
+// The first process chooses, as it has the walls, and tells all.
+std::vector<Insertion::Placed> FixInsertLsdcd::choose(lsdcd::Refused &refused)
+{
+  if (region) region->prematch();
+  const lsdcd::Box around = zone();
+  const std::vector<double> near = gather_spheres(around);
+  std::vector<double> message;
+  lsdcd::run_collectively(world, comm->me == 0, [&] {
+    std::vector<PackedSphere> there;
+    for (std::size_t i = 0; i < near.size(); i += 4)
+      there.push_back({{near[i], near[i + 1], near[i + 2]}, near[i + 3]});
+    lsdcd::Packing packing(there, around, insertion->owed().front().radius,
+                           lsdcd::host_box(*domain));
+    walls->place(update->dt);
+    LammpsSite site(*this);
+    for (const Insertion::Placed &p : insertion->place(update->ntimestep, site, packing, refused))
+      message.insert(message.end(), {double(p.index), p.at.x, p.at.y, p.at.z});
+    for (const std::int64_t count : {refused.no_place, refused.grains, refused.walls})
+      message.push_back(static_cast<double>(count));
+  });
+  std::uint64_t n = message.size();
+  MPI_Bcast(&n, 1, MPI_UINT64_T, 0, world);
+  message.resize(n);
+  lsdcd::broadcast_bytes(message.data(), n * sizeof(double), 0, world);
+  std::vector<Insertion::Placed> placed;
+  for (std::size_t i = 0; i + 4 < n; i += 4)
+    placed.push_back(
+        {static_cast<std::size_t>(message[i]), {message[i + 1], message[i + 2], message[i + 3]}});
+  refused.no_place = static_cast<std::int64_t>(message[n - 3]);
+  refused.grains = static_cast<std::int64_t>(message[n - 2]);
+  refused.walls = static_cast<std::int64_t>(message[n - 1]);
+  return placed;
+}
+
+void FixInsertLsdcd::pre_exchange()
+{
+  if (update->ntimestep != next_reneighbor) return;
+  insertion->draw_due(update->ntimestep);
+  lsdcd::Refused refused;
+  std::vector<Insertion::Placed> placed;
+  if (!insertion->owed().empty()) {
+    placed = choose(refused);
+    create(placed);
+  }
+  insertion->accept(update->ntimestep, placed, refused);
+  follow_schedule();
+  if (!insertion->owed().empty() && !told) {
+    told = true;
+    tell_refused("in step " + std::to_string(update->ntimestep), refused);
+  }
+}
+
+// Does this process own the place, a copy of which it may change? One process says so.
+bool FixInsertLsdcd::owns(double *x) const
+{
+  double lamda[3], *at = x;
+  const double *lo = domain->boxlo, *hi = domain->boxhi, *sublo = domain->sublo,
+               *subhi = domain->subhi;
+  if (domain->triclinic) {
+    domain->x2lamda(x, lamda);
+    at = lamda;
+    lo = domain->boxlo_lamda;
+    hi = domain->boxhi_lamda;
+    sublo = domain->sublo_lamda;
+    subhi = domain->subhi_lamda;
+  }
+  for (int k = 0; k < 3; k++) {
+    // Past a face that will follow, it is of the process at that face.
+    const double inside = std::min(std::max(at[k], lo[k]), std::nextafter(hi[k], lo[k]));
+    if (inside < sublo[k] || inside >= subhi[k]) return false;
+  }
+  return true;
+}
+
+// IDs are given in the order in which grains are placed, so that they do not depend on the number of processes.
+void FixInsertLsdcd::create(const std::vector<Insertion::Placed> &placed)
+{
+  if (placed.empty()) return;
+  const bigint n = static_cast<bigint>(placed.size());
+  tagint most = 0;
+  for (int i = 0; atom->tag_enable && i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (atom->tag_enable && most > MAXTAGINT - n)
+    fatal("atom IDs end: too many grains for this LAMMPS");
+  atom->nghost = 0;    // new atoms come where ghosts were
+  bigint made = 0;
+  for (std::size_t k = 0; k < placed.size(); k++) {
+    const lsdcd::Grain &grain = insertion->owed()[placed[k].index];
+    double x[3] = {placed[k].at.x, placed[k].at.y, placed[k].at.z};
+    imageint image = ((imageint) IMGMAX << IMG2BITS) | ((imageint) IMGMAX << IMGBITS) | IMGMAX;
+    domain->remap(x, image);
+    if (!owns(x)) continue;
+    atom->avec->create_atom(settings.type, x);
+    const int m = atom->nlocal - 1;
+    const Vec3 v = velocity + insertion->source().velocity_jitter(grain.number);
+    for (int d = 0; d < 3; d++) atom->v[m][d] = v[d];
+    atom->mask[m] = 1 | groupbit;
+    atom->image[m] = image;
+    atom->radius[m] = grain.radius;
+    atom->rmass[m] = grain.mass();
+    if (atom->tag_enable) atom->tag[m] = most + 1 + static_cast<tagint>(k);
+    modify->create_attribute(m);
+    made++;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &made, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (made != n)
+    fatal("of " + std::to_string(n) + " grains " + std::to_string(made) +
+          " belong to a process: this is an error in the program");
+  atom->natoms += n;
+  if (atom->natoms >= MAXBIGINT) fatal("too many atoms");
+  if (atom->map_style == Atom::MAP_NONE) return;
+  atom->map_init();
+  atom->map_set();
+}
+
+void FixInsertLsdcd::tell_refused(const std::string &when, const lsdcd::Refused &refused)
+{
+  std::string why;
+  const auto add = [&](std::int64_t n, const std::string &what) {
+    if (n > 0) why += (why.empty() ? "" : ", ") + std::to_string(n) + " " + what;
+  };
+  add(refused.grains, "met grains");
+  add(refused.walls, "met a wall");
+  add(refused.no_place, face ? "found no point of the face off its edges and in the box"
+                             : "found no point of the region in the box");
+  warn(when + " " + std::to_string(insertion->owed().size()) + " grains, of mass " +
+       number_text(insertion->owed_mass()) + ", are due without a place: of " +
+       std::to_string(refused.all()) + " places refused " + why +
+       "; they are tried again. A wider or deeper place, a higher velocity, a smaller rate or more "
+       "attempts help");
+}
+
+void FixInsertLsdcd::post_run()
+{
+  log(std::to_string(insertion->inserted()) + " grains, of mass " +
+      number_text(insertion->inserted_mass()) + ", are in");
+  if (insertion->owed().empty()) return;
+  const lsdcd::Refused &all = insertion->refused();
+  tell_refused("at the end", {all.no_place - refused_seen.no_place,
+                              all.grains - refused_seen.grains, all.walls - refused_seen.walls});
+}
+
+double FixInsertLsdcd::compute_vector(int i)
+{
+  const lsdcd::Refused &refused = insertion->refused();
+  const double values[] = {double(insertion->inserted()),    insertion->inserted_mass(),
+                           double(insertion->owed().size()), insertion->owed_mass(),
+                           double(refused.grains),           double(refused.walls),
+                           double(refused.no_place)};
+  return values[i];
+}
+
+void FixInsertLsdcd::write_restart(FILE *file)
+{
+  if (comm->me != 0) return;
+  const std::vector<double> data = insertion->state();
+  const int bytes = static_cast<int>((data.size() + 1) * sizeof(double));
+  const double size = static_cast<double>(data.size());
+  fwrite(&bytes, sizeof bytes, 1, file);
+  fwrite(&size, sizeof size, 1, file);
+  fwrite(data.data(), sizeof(double), data.size(), file);
+}
+
+void FixInsertLsdcd::restart(char *buffer)
+{
+  double size;
+  std::memcpy(&size, buffer, sizeof size);
+  std::vector<double> data(size >= 0 && size < 1e9 ? static_cast<std::size_t>(size) : 0);
+  std::memcpy(data.data(), buffer + sizeof size, data.size() * sizeof(double));
+  if (!insertion->restore(data, update->ntimestep))
+    warn("what the restart file has of this fix is of another version: totals begin at zero");
+  follow_schedule();
+}
+
+double FixInsertLsdcd::memory_usage()
+{
+  return static_cast<double>(walls->bytes());
+}
+
+void FixInsertLsdcd::log(const std::string &text) const
+{
+  if (comm->me == 0) utils::logmesg(lmp, with_fix_id(text) + "\n");
+}
+
+std::string FixInsertLsdcd::with_fix_id(const std::string &text) const
+{
+  return "Fix " + std::string(id) + " insert/lsdcd: " + text;
+}
+
+void FixInsertLsdcd::warn(const std::string &problem) const
+{
+  if (comm->me == 0) error->warning(FLERR, with_fix_id(problem));
+}
+
+void FixInsertLsdcd::fatal(const std::string &problem) const
+{
+  error->all(FLERR, with_fix_id(problem));
+}
+
+FixInsertRadii::FixInsertRadii(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+  delete[] style;
+  style = new char[5];
+  std::strcpy(style, "pour");
+}
+
+void *FixInsertRadii::extract(const char *what, int &type)
+{
+  if (std::strcmp(what, "radius") != 0) return nullptr;
+  radius = 0;
+  for (int i = 0; i < modify->nfix; i++)
+    if (const auto *fix = dynamic_cast<const FixInsertLsdcd *>(modify->fix[i]))
+      radius = std::max(radius, fix->largest_radius(type));
+    else if (!dynamic_cast<const FixInsertRadii *>(modify->fix[i]) &&
+             std::strcmp(modify->fix[i]->style, "pour") == 0) {
+      int of = type;
+      const auto *poured = static_cast<const double *>(modify->fix[i]->extract("radius", of));
+      if (poured) radius = std::max(radius, *poured);
+    }
+  type = 0;
+  return &radius;
+}

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// fix insert/lsdcd: grains through a flat mesh or into a region. It translates; lsdcd::Insertion says which
+// grains come, and where.
+#ifndef LMP_FIX_INSERT_LSDCD_H
+#define LMP_FIX_INSERT_LSDCD_H
+
+#include "fix.h"
+
+#include "input/insert_settings.h"
+#include "insert/inlet_face.h"
+#include "lammps/wall_clearance.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixInsertLsdcd : public Fix {
+ public:
+  FixInsertLsdcd(class LAMMPS *, int, char **);
+  ~FixInsertLsdcd() override;
+
+  void post_constructor() override;
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void pre_exchange() override;
+  void reset_dt() override;
+  void post_run() override;
+
+  double compute_vector(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  double memory_usage() override;
+
+  const std::string &mesh_file() const { return settings.face.file; }    // empty: a region
+  double largest_radius(int type) const;    // of grains to come; 0: none of this type
+
+ private:
+  friend class LammpsSite;
+
+  lsdcd::InsertSettings settings;
+  std::unique_ptr<lsdcd::InletFace> face;    // without it: a region
+  class Region *region = nullptr;
+  lsdcd::Vec3 velocity = {0, 0, 0};
+  std::unique_ptr<lsdcd::Insertion> insertion;
+  std::unique_ptr<lsdcd::WallClearance> walls;
+  std::string radii_id;           // of the fix that tells radii to pair styles
+  lsdcd::Refused refused_seen;    // before this run
+  bool told = false;              // in this run, that grains have no place
+
+  void read_face();
+  void find_region();
+  lsdcd::Box zone() const;
+  std::vector<double> gather_spheres(const lsdcd::Box &) const;
+  std::vector<lsdcd::Insertion::Placed> choose(lsdcd::Refused &);
+  void create(const std::vector<lsdcd::Insertion::Placed> &);
+  bool owns(double *) const;
+  void follow_schedule();
+  void tell_refused(const std::string &, const lsdcd::Refused &);
+
+  void log(const std::string &) const;
+  std::string with_fix_id(const std::string &) const;
+  void warn(const std::string &) const;
+  [[noreturn]] void fatal(const std::string &) const;
+};
+
+// Pair styles of LAMMPS ask fixes of the style `pour` for the largest radius of a type that will come, and make
+// cutoffs of it. This fix answers for all fixes insert/lsdcd.
+class FixInsertRadii : public Fix {
+ public:
+  FixInsertRadii(class LAMMPS *, int, char **);
+  int setmask() override { return 0; }
+  void *extract(const char *, int &) override;
+
+ private:
+  double radius = 0;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
