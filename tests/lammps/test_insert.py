@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""fix insert/lsdcd: how much comes, where, and that it depends on neither restarts nor the number of processes.
+
+All grains of a case have one velocity, so that none that was put clear of the others is in their way later: the
+last dump shows every overlap that there ever was.
+"""
+
+import math
+
+import lmp
+
+RATE, DENSITY, SPEED = 0.05, 2.0, 1.0
+SIZES = {0.1: 0.5, 0.16: 0.3, 0.2: 0.2}    # shares of mass
+START = "units lj\natom_style sphere\natom_modify map array\nnewton off\ncomm_modify vel yes\n"
+END = """\
+pair_style      zero 0.1
+pair_coeff      * *
+neighbor        0.05 bin
+neigh_modify    every 1 delay 0 check yes
+fix             move all nve/sphere
+"""
+DUMP = "dump d all custom {} grains id radius mass x y z vx vy vz\ndump_modify d sort id format float %.17g\n"
+
+
+def write_stl(path, quads):
+    with open(path, "w") as stl:
+        stl.write("solid s\n")
+        for a, b, c, d in quads:
+            for t in ((a, b, c), (a, c, d)):
+                stl.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.9g %.9g %.9g\n" % p for p in t)
+                          + "endloop\nendfacet\n")
+        stl.write("endsolid s\n")
+
+
+def square(half, z, down=False):
+    corners = [(-half, -half, z), (half, -half, z), (half, half, z), (-half, half, z)]
+    return tuple(corners[::-1] if down else corners)
+
+
+def mass(diameter):
+    return math.pi / 6 * diameter ** 3 * DENSITY
+
+
+def last(dump):
+    return dump[max(dump)]
+
+
+def overlaps(grains, edges=None):
+    """Pairs of grains nearer than their radii; with periodic edges, also with images."""
+    found, rows = [], list(grains.values())
+    steps = range(-1, 2) if edges else (0,)
+    shifts = [[sum(n * e[k] for n, e in zip((i, j, m), edges or ((0,) * 3,) * 3)) for k in range(3)]
+              for i in steps for j in steps for m in steps]
+    for i, a in enumerate(rows):
+        for b in rows[:i]:
+            for s in shifts:
+                if math.dist(a[2:5], [x + y for x, y in zip(b[2:5], s)]) < (a[0] + b[0]) * (1 - 1e-12):
+                    found.append((a, b))
+    return found
+
+
+SIZE_WORDS = f"diam mass {len(SIZES)} " + " ".join(f"{d} {share}" for d, share in SIZES.items()) + f" dens {DENSITY}"
+FACE = START + """\
+boundary        f f f
+region          box block -1 1 -1 1 -9 3 units box
+create_box      2 box
+""" + END + "timestep 0.008\n"
+INLET = f"fix in all insert/lsdcd mesh inlet.stl move 0.1 -0.1 0 massrate {RATE} {SIZE_WORDS} type 2 vel normal {SPEED} seed 11\n"
+
+
+def check_face(checks, folder):
+    """10 time units through a square of side 1 with normal -z, at z = 2."""
+    write_stl(folder / "inlet.stl", [square(0.5, 2, down=True)])
+    thermo = "thermo 1\nthermo_style custom step time atoms f_in[1] f_in[2] f_in[3]\nthermo_modify format float %.17g norm no\n"
+    text = FACE + INLET + thermo + DUMP.format(1250) + "run 1250\n"
+    out = lmp.run_well(text, folder)
+    rows = lmp.read_thermo(out)
+    # A grain comes when the rate has reached it, and is of the largest size at most.
+    behind = [RATE * row[1] - row[4] for row in rows]
+    checks.fact("what is in is the rate times the time to within a grain, in every step",
+                len(rows) == 1251 and rows[-1][5] == 0 and -1e-9 < min(behind) and max(behind) < mass(0.2),
+                f"{min(behind)} {max(behind)} {rows[-1]}")
+    there = lmp.read_dump(folder / "grains")
+    grains = last(there)
+    checks.fact("the fix's sums are those of the grains",
+                len(grains) == rows[-1][3] and abs(sum(g[1] for g in grains.values()) - rows[-1][4]) < 1e-9)
+    # Of n grains, a size has a number about n p with the variance n p (1 - p); 4.5 deviations: 1 in 1e5.
+    number = {d: share / mass(d) for d, share in SIZES.items()}
+    total, n = sum(number.values()), len(grains)
+    off = max(abs(sum(abs(2 * g[0] - d) < 1e-12 for g in grains.values()) - n * p / total) /
+              math.sqrt(n * p / total * (1 - p / total)) for d, p in number.items())
+    checks.fact("sizes have their shares of the mass", off < 4.5 and n > 200, f"{off} of {n}")
+    checks.fact("no grain overlaps another", not overlaps(grains), str(overlaps(grains)[:1]))
+    # In x and y a radius off the edges of the face; the velocity is along its normal.
+    wrong = [g for g in grains.values() if max(abs(g[2] - 0.1), abs(g[3] + 0.1)) > 0.5 - g[0] + 1e-7 or g[5:] != [0, 0, -SPEED]]
+    checks.fact("grains come through the face, along its normal", not wrong, str(wrong[:1]))
+    checks.fact("neighbour lists are for the largest grain to come", "ghost atom cutoff = 0.15" in out or
+                "ghost atom cutoff = 0.25" in out)
+    for ranks in (2, 4):
+        lmp.run_well(text, folder, ranks)
+        checks.fact(f"the same grains, with the same IDs, on {ranks} ranks", lmp.read_dump(folder / "grains") == there)
+    lmp.run_well(FACE + INLET + "run 586\nwrite_restart half.restart\n", folder)
+    lmp.run_well(START + "read_restart half.restart\n" + END + "timestep 0.008\n" + INLET + DUMP.format(1250) + "run 664\n",
+                 folder, 2)
+    checks.fact("after a restart in the middle the same grains, to the last bit",
+                last(lmp.read_dump(folder / "grains")) == grains)
+    lmp.run_well(FACE + INLET + DUMP.format(1250) + "run 250\nrun 336\nrun 664\n", folder)
+    checks.fact("in three runs the same", last(lmp.read_dump(folder / "grains")) == grains)
+    rows = lmp.read_thermo(lmp.run_well(FACE + INLET + thermo + "fix dt all dt/reset 50 0.001 0.01 0.004 units box\nrun 500\n",
+                                        folder))
+    behind = [RATE * row[1] - row[4] for row in rows]
+    checks.fact("with a timestep that changes in the run it follows the time, too", 1.5 < rows[-1][1] < 3 and
+                -1e-9 < min(behind) and max(behind) < mass(0.2), f"{min(behind)} {max(behind)} {rows[-1]}")
+
+
+def check_radii(checks, folder):
+    """LAMMPS makes neighbour lists for grains that come into an empty box."""
+    text = FACE.replace("zero 0.1", "gran/hooke 100 NULL 1 NULL 0 0") + INLET + "run 1\n"
+    out = lmp.run_well(text, folder)
+    checks.fact("a granular pair style knows the largest radius before the first grain is there",
+                "ghost atom cutoff = 0.25" in out)
+
+
+TILTED = START + """\
+boundary        p p p
+region          box prism 0 2 0 1.5 0 1.2 0.7 0.3 -0.4 units box
+create_box      1 box
+""" + END + "timestep 0.001\n"
+EDGES = ((2, 0, 0), (0.7, 1.5, 0), (0.3, -0.4, 1.2))
+
+
+def check_periodic(checks, folder):
+    """A region in a tilted periodic box, filled at once and dense enough that faces matter."""
+    text = TILTED + "region fill prism 0 2 0 1.5 0 1.2 0.7 0.3 -0.4 units box\n" + \
+        "fix in all insert/lsdcd region fill number 150 diam range 0.2 0.3 dens 1 3 attempts 2000\n" + \
+        DUMP.format(1) + "run 1\n"
+    lmp.run_well(text, folder)
+    there = lmp.read_dump(folder / "grains")
+    grains = last(there)
+    checks.fact("a tilted periodic box: no overlap across faces", len(grains) == 150 and not overlaps(grains, EDGES),
+                f"{len(grains)} {overlaps(grains, EDGES)[:1]}")
+    dense = [g[1] / (4 / 3 * math.pi * g[0] ** 3) for g in grains.values()]
+    checks.fact("sizes and densities are in their ranges",
+                all(0.1 <= g[0] <= 0.15 for g in grains.values()) and 1 <= min(dense) < 1.2 and 2.8 < max(dense) <= 3)
+    lmp.run_well(text, folder, 4)
+    checks.fact("and the same on 4 ranks", lmp.read_dump(folder / "grains") == there)
+
+
+VESSEL = START + """\
+boundary        f f f
+region          box block -2 2 -2 2 -2 2 units box
+create_box      1 box
+""" + END + "timestep 0.01\nregion fill block -1.2 1.2 -1.2 1.2 -1.2 1.2 units box\n"
+WALL = "hooke/history 100 NULL 1 NULL 0.5 1 "
+
+
+def check_wall(checks, folder):
+    """A cube of side 2 in a larger region: grains are inside or outside of it, and touch it from neither side."""
+    faces = [square(1, 1), square(1, -1, down=True)]
+    faces += [tuple((z, x, y) for x, y, z in f) for f in faces] + [tuple((y, z, x) for x, y, z in f) for f in faces]
+    write_stl(folder / "cube.stl", faces)
+    thermo = "thermo 1\nthermo_style custom step f_in[1] f_in[6] f_wall[7] f_wall[8]\nthermo_modify norm no\n"
+    fill = "fix in all insert/lsdcd region fill numberrate 1000 diam range 0.1 0.2 dens 1 number 300 "
+    # The wall moves as its grains do: what it touches, it was put into.
+    for name, motion, velocity in (("at rest", "", ""), ("that moves", "motion linear 0.5 0 0", "vel 0.5 0 0")):
+        rows = lmp.read_thermo(lmp.run_well(VESSEL + f"fix wall all wall/lsdcd {WALL} mesh cube.stl {motion}\n" + fill +
+                                            velocity + "\n" + thermo + DUMP.format(40) + "run 40\n", folder))
+        gap = []
+        for g in last(lmp.read_dump(folder / "grains")).values():
+            x = [abs(g[2] - (0.2 if motion else 0)), abs(g[3]), abs(g[4])]
+            out = math.sqrt(sum(max(c - 1, 0) ** 2 for c in x))    # distance from the cube's surface
+            gap.append((out if out > 0 else 1 - max(x)) - g[0])
+        checks.fact(f"clear of a wall {name}", rows[-1][1] == 300 and rows[-1][2] > 10 and min(gap) > -1e-9 and
+                    all(row[3] == 0 and row[4] == 0 for row in rows) and min(gap) < 0.02, f"{min(gap)} {rows[-1]}")
+    rows = lmp.read_thermo(lmp.run_well(VESSEL + f"fix wall all wall/lsdcd {WALL} mesh cube.stl\n" + fill + "wall none\n" +
+                                        thermo + "run 2\n", folder))
+    checks.fact("wall none leaves it out of sight", rows[-1][3] > 0, str(rows[-1]))
+
+
+def check_debt(checks, folder):
+    """A region with room for few grains: what finds no place stays due, and comes when there is room."""
+    fill = "fix in all insert/lsdcd region fill number 40 diam one 0.9 dens 1 {}\n"
+    row = 'print "row $(f_in[1]) $(f_in[2]) $(f_in[3]) $(f_in[4])"\n'
+    more = f"run 100\n{row}group gone region half\ndelete_atoms group gone compress no\nrun 200\n{row}"
+    text = VESSEL + "region half block INF INF INF INF INF 0 units box\n"
+    out = lmp.run_well(text + fill.format("vel 0.02 0.01 0") + more, folder)
+    rows = [[float(w) for w in line.split()[1:]] for line in out.split("\n") if line.startswith("row ")]
+    one = math.pi / 6 * 0.9 ** 3
+    checks.fact("inserted and owed are what is due", len(rows) == 2 and rows[0][2] > 5 and all(
+        row[0] + row[2] == 40 and abs(row[1] + row[3] - 40 * one) < 1e-3 for row in rows), str(rows))
+    checks.fact("what was owed comes when there is room", rows[1][0] > rows[0][0], str(rows))
+    checks.fact("the log says why", "are due without a place: of " in out and " met grains" in out and
+                "at the end " in out)
+    lmp.run_well(text + fill.format("attempts 3") + DUMP.format(100) + "run 100\n", folder)
+    whole = last(lmp.read_dump(folder / "grains"))
+    lmp.run_well(text + fill.format("attempts 3") + "run 33\nwrite_restart owed.restart\n", folder)
+    lmp.run_well(START + "read_restart owed.restart\n" + END + VESSEL.split(END)[1] + fill.format("attempts 3") +
+                 DUMP.format(100) + "run 67\n", folder, 2)
+    checks.fact("a restart with owed grains gives the same", last(lmp.read_dump(folder / "grains")) == whole and
+                len(whole) < 40, str(len(whole)))
+
+
+def main():
+    checks, folder = lmp.Checks(), lmp.scratch()
+    for check in (check_face, check_radii, check_periodic, check_wall, check_debt):
+        check(checks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()

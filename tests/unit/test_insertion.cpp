@@ -1,0 +1,307 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Which grains are due when, how large they are, and where they fit: closed forms and brute force.
+#include "base/input_error.h"
+#include "input/insert_settings.h"
+#include "insert/inlet_face.h"
+#include "insert/insertion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace lsdcd {
+namespace {
+
+InsertionPlan plan_of(FeedSettings::Kind kind, Real rate)
+{
+  InsertionPlan plan;
+  plan.feed.kind = kind;
+  plan.feed.rate = rate;
+  plan.grains.sizes = {{1, 1}};
+  plan.grains.smallest = plan.grains.largest = 1;
+  plan.grains.density_lo = plan.grains.density_hi = 6 / Grain::kPi;    // a mass of 1
+  return plan;
+}
+
+// Anywhere in a cube, without walls.
+struct Cube : InsertionSite {
+  Real side = 100;
+  bool draw(RandomStream &random, Real, Vec3 &at) override
+  {
+    for (int k = 0; k < 3; k++) at[k] = random.uniform(0, side);
+    return true;
+  }
+  bool is_clear_of_walls(const PackedSphere &) override { return true; }
+  Box zone() const { return {{0, 0, 0}, {side, side, side}}; }
+};
+
+std::size_t insert(Insertion &insertion, std::int64_t step, Cube &site,
+                   std::vector<PackedSphere> &there)
+{
+  insertion.draw_due(step);
+  Packing packing(there, site.zone(), insertion.source().largest_radius(), PeriodicBox());
+  Refused refused;
+  const std::vector<Insertion::Placed> placed = insertion.place(step, site, packing, refused);
+  for (const Insertion::Placed &p : placed)
+    there.push_back({p.at, insertion.owed()[p.index].radius});
+  insertion.accept(step, placed, refused);
+  return placed.size();
+}
+
+TEST(insertion, a_grain_comes_in_the_first_step_in_which_the_rate_has_reached_it)
+{
+  // Grain k has been reached at (k + 1) / 0.3 time units, that is (k + 1) / 0.03 steps.
+  for (const auto kind : {FeedSettings::by_mass, FeedSettings::by_number}) {
+    Insertion insertion(plan_of(kind, 0.3), 7, 0.1);
+    Cube site;
+    std::vector<PackedSphere> there;
+    for (int k = 0; k < 200; k++) {
+      const auto due = static_cast<std::int64_t>(std::ceil((k + 1) / 0.03L - 1e-6L));
+      EXPECT_EQ(insertion.next_step(), 7 + due) << k;
+      EXPECT_EQ(insert(insertion, insertion.next_step(), site, there), 1U);
+    }
+  }
+}
+
+TEST(insertion, another_timestep_counts_from_where_it_begins)
+{
+  Insertion insertion(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
+  EXPECT_EQ(insertion.next_step(), 10);
+  insertion.begin_run(4, 0.3);    // 0.4 is there, 0.6 are two steps
+  EXPECT_EQ(insertion.next_step(), 6);
+}
+
+TEST(insertion, every_n_steps_brings_all_that_is_due_by_then)
+{
+  InsertionPlan plan = plan_of(FeedSettings::by_number, 1);
+  plan.feed.every = 25;
+  Insertion insertion(plan, 0, 0.1);
+  Cube site;
+  std::vector<PackedSphere> there;
+  EXPECT_EQ(insertion.next_step(), 25);
+  EXPECT_EQ(insert(insertion, 25, site, there), 2U);
+  EXPECT_EQ(insertion.next_step(), 50);
+  EXPECT_EQ(insert(insertion, 50, site, there), 3U);
+}
+
+TEST(insertion, it_ends_with_the_number_or_mass_asked_for)
+{
+  for (const bool by_mass : {false, true}) {
+    InsertionPlan plan = plan_of(FeedSettings::by_number, 10);
+    if (by_mass)
+      plan.feed.mass = 10.999;    // the 11th would be past it
+    else
+      plan.feed.number = 10;
+    Insertion insertion(plan, 0, 1);
+    Cube site;
+    std::vector<PackedSphere> there;
+    EXPECT_EQ(insert(insertion, 1, site, there), 10U);
+    EXPECT_EQ(insertion.next_step(), FeedSchedule::kNever);
+    EXPECT_NEAR(insertion.inserted_mass(), 10, 1e-12);
+  }
+}
+
+TEST(insertion, shares_of_mass_are_shares_of_number_over_the_cube)
+{
+  GrainRecipe recipe;
+  recipe.set_mass_shares({{1, 0.5}, {2, 0.5}});
+  EXPECT_NEAR(recipe.sizes[0].share, 8.0 / 9, 1e-15);
+  EXPECT_NEAR(recipe.sizes[1].share, 1.0 / 9, 1e-15);
+  recipe.density_lo = recipe.density_hi = 6 / Grain::kPi;
+  EXPECT_NEAR(recipe.mean_mass(), 8.0 / 9 + 8.0 / 9, 1e-14);
+}
+
+TEST(insertion, a_range_is_uniform_by_number)
+{
+  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
+  plan.grains.sizes.clear();
+  plan.grains.smallest = 1;
+  plan.grains.largest = 3;
+  const GrainSource source(plan.grains, 5);
+  constexpr int kN = 40000;
+  Real sum = 0, mass = 0;
+  for (int i = 0; i < kN; i++) {
+    sum += 2 * source.grain(i).radius;
+    mass += source.grain(i).mass();
+  }
+  // The deviation of a uniform number is its width over sqrt(12); five of the mean's.
+  EXPECT_NEAR(sum / kN, 2, 5 * 2 / std::sqrt(12.0 * kN));
+  // d^3 has a variance of (3^7 - 1) / 14 - 10^2 = 56.1.
+  EXPECT_NEAR(plan.grains.mean_mass(), 10, 1e-12);
+  EXPECT_NEAR(mass / kN, 10, 5 * std::sqrt(56.2 / kN));
+}
+
+TEST(insertion, what_finds_no_place_is_owed_and_tried_again)
+{
+  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
+  plan.feed.number = 5;
+  Insertion insertion(plan, 0, 1);
+  Cube site;
+  site.side = 0.5;    // room for one
+  std::vector<PackedSphere> there;
+  EXPECT_EQ(insertion.next_step(), 1);
+  EXPECT_EQ(insert(insertion, 1, site, there), 1U);
+  EXPECT_EQ(insertion.owed().size(), 4U);
+  EXPECT_NEAR(insertion.owed_mass(), 4, 1e-12);
+  EXPECT_EQ(insertion.refused().grains,
+            plan.attempts);    // of one grain; the others are no smaller
+  EXPECT_EQ(insertion.next_step(), 1 + Insertion::kRetry);
+  site.side = 100;
+  EXPECT_EQ(insert(insertion, 21, site, there), 4U);
+  EXPECT_EQ(insertion.inserted(), 5);
+}
+
+TEST(insertion, goes_on_from_its_state_as_if_it_had_not_ended)
+{
+  InsertionPlan plan = plan_of(FeedSettings::by_mass, 3);
+  plan.grains.sizes.clear();
+  plan.grains.smallest = 0.7;
+  Cube site;
+  site.side = 6;
+  std::vector<PackedSphere> whole, parts;
+  const auto run = [&](Insertion &insertion, std::int64_t to, std::vector<PackedSphere> &there) {
+    while (insertion.next_step() <= to) insert(insertion, insertion.next_step(), site, there);
+  };
+  Insertion one(plan, 0, 0.1);
+  run(one, 2000, whole);
+  EXPECT_GT(one.owed().size(), 10U);
+  Insertion first(plan, 0, 0.1);
+  run(first, 777, parts);
+  Insertion second(plan, 777, 0.1);
+  EXPECT_TRUE(second.restore(first.state(), 777));
+  run(second, 2000, parts);
+  ASSERT_EQ(parts.size(), whole.size());
+  for (std::size_t i = 0; i < whole.size(); i++) {
+    EXPECT_TRUE(parts[i].at == whole[i].at);
+    EXPECT_EQ(parts[i].radius, whole[i].radius);
+  }
+  EXPECT_EQ(second.state(), one.state());
+}
+
+TEST(insertion, another_rate_after_a_restart_counts_from_there)
+{
+  Insertion first(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
+  Insertion second(plan_of(FeedSettings::by_mass, 2), 4, 0.1);
+  EXPECT_TRUE(second.restore(first.state(), 4));
+  EXPECT_EQ(second.next_step(), 7);    // 0.4 is there, 0.6 are three steps
+  EXPECT_FALSE(second.restore({1, 2, 3}, 4));
+}
+
+TEST(packing, knows_what_brute_force_over_images_finds)
+{
+  PeriodicBox box;
+  box.edge[0] = {3, 0, 0};
+  box.edge[1] = {0.8, 2.5, 0};
+  box.edge[2] = {0.4, -0.6, 4};
+  box.periodic[0] = box.periodic[2] = true;
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<Real> part(0, 1);
+  const auto anywhere = [&] {
+    return part(random) * box.edge[0] + part(random) * box.edge[1] + part(random) * box.edge[2];
+  };
+  const Box zone = {{-0.5, 0.2, -1}, {3.5, 2, 3}};    // past some faces
+  constexpr Real kLargest = 0.2;
+  std::vector<PackedSphere> all, there;
+  for (int i = 0; i < 60; i++) all.push_back({anywhere(), 0.05 + 0.3 * part(random)});
+  for (const PackedSphere &s : all)
+    for (const PackedSphere &image : images_near(s, zone, kLargest, box)) there.push_back(image);
+  Packing packing(there, zone, kLargest, box);
+  int in = 0;
+  for (int i = 0; i < 20000; i++) {
+    PackedSphere grain = {{0, 0, 0}, kLargest * part(random)};
+    for (int k = 0; k < 3; k++) grain.at[k] = zone.lo[k] + part(random) * (zone.hi[k] - zone.lo[k]);
+    bool meets = false;
+    for (const PackedSphere &s : all)
+      for (int a = -2; a <= 2; a++)
+        for (int c = -2; c <= 2; c++)
+          meets = meets || norm(s.at + Real(a) * box.edge[0] + Real(c) * box.edge[2] - grain.at) <
+                               s.radius + grain.radius;
+    ASSERT_EQ(packing.overlaps(grain), meets) << i;
+    if (meets || i % 10) continue;
+    packing.add(grain);
+    all.push_back(grain);
+    in++;
+  }
+  EXPECT_GT(in, 50);
+}
+
+TriangleSoup rectangle(Real x, Real y)
+{
+  const Vec3 a = {0, 0, 0}, b = {x, 0, 0}, c = {x, y, 0}, d = {0, y, 0};
+  TriangleSoup soup;
+  soup.source = "face.stl";
+  soup.corners = {a, b, c, a, c, d};
+  return soup;
+}
+
+TEST(inlet, places_are_uniform_a_radius_off_the_edges_and_within_the_depth)
+{
+  const InletFace face(weld(rectangle(3, 2), 0), 0.5);
+  EXPECT_NEAR(face.area(), 6, 1e-14);
+  EXPECT_TRUE(face.normal() == (Vec3{0, 0, 1}));
+  RandomStream random({1, 2});
+  constexpr int kN = 20000;
+  Vec3 sum = {0, 0, 0}, at, lo = {9, 9, 9}, hi = {-9, -9, -9};
+  int quarter = 0;
+  for (int i = 0; i < kN; i++) {
+    ASSERT_TRUE(face.draw(random, 0.4, at));
+    sum += at;
+    for (int k = 0; k < 3; k++) {
+      lo[k] = std::min(lo[k], at[k]);
+      hi[k] = std::max(hi[k], at[k]);
+    }
+    quarter += at.x < 1.5 && at.y < 1;
+  }
+  const Vec3 from = {0.4, 0.4, 0}, to = {2.6, 1.6, 0.5};
+  for (int k = 0; k < 3; k++) {
+    const Real width = to[k] - from[k];
+    EXPECT_GE(lo[k], from[k] - 1e-12);
+    EXPECT_LE(hi[k], to[k] + 1e-12);
+    EXPECT_NEAR(sum[k] / kN, (from[k] + to[k]) / 2, 5 * width / std::sqrt(12.0 * kN));
+  }
+  EXPECT_NEAR(quarter / Real(kN), 0.25, 5 * std::sqrt(0.1875 / kN));
+  EXPECT_TRUE(face.has_room(0.9));
+  EXPECT_FALSE(face.has_room(1.01));
+}
+
+std::string error_of(const TriangleSoup &soup)
+{
+  try {
+    InletFace(weld(soup, 0), 0);
+  } catch (const InputError &e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(inlet, a_face_that_is_not_flat_or_wound_both_ways_is_refused_by_facet)
+{
+  TriangleSoup bent = rectangle(3, 2);
+  bent.corners[5].z = 0.3;
+  EXPECT_NE(error_of(bent).find("face.stl: facet 1 has a corner"), std::string::npos)
+      << error_of(bent);
+  TriangleSoup mixed = rectangle(3, 2);
+  mixed.corners[2].y = 1;    // of another area, so that one side is the larger
+  std::swap(mixed.corners[1], mixed.corners[2]);
+  EXPECT_NE(error_of(mixed).find("face.stl: facet 1 is wound against"), std::string::npos)
+      << error_of(mixed);
+}
+
+TEST(insert_settings, fractions_that_do_not_add_up_are_refused_with_their_sum)
+{
+  try {
+    parse_insert({"mesh", "a.stl", "massrate", "1", "dens", "1", "diam", "mass", "2", "1", "0.5",
+                  "2", "0.4"});
+    FAIL();
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("add up to 0.9, not to 1"), std::string::npos) << e.what();
+  }
+}
+
+}    // namespace
+}    // namespace lsdcd
