@@ -41,7 +41,7 @@ def main():
     text = lmp.run_well(f"plugin load {PLUGIN}\nplugin list\n" + body +
                         f"clear\nplugin load {PLUGIN}\n" + body +
                         "undump moves\nplugin unload fix wall/lsdcd\n"
-                        "plugin unload fix massflow/lsdcd\nplugin unload compute lsdcd/collide\n"
+                        "plugin unload fix massflow/lsdcd\nplugin unload fix insert/lsdcd\nplugin unload compute lsdcd/collide\n"
                         "plugin unload region mesh/lsdcd\nplugin list\nrun 10\n", folder)
     # Newer hosts keep their plugins through clear.
     came = text.count("Loading plugin: fix wall/lsdcd") + text.count("Restoring plugin: fix wall/lsdcd")
