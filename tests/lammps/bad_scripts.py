@@ -276,6 +276,35 @@ TABLES = [
          "delete yes leaves bonds without their atoms", "an atom style without bonds"),
     ]),
 
+    # fix insert/lsdcd
+    (FLOW + "region          moved sphere 0 0 0 1 side out units box\nfix             in all insert/lsdcd {}\n" + RUN, [
+        ("insert_amount", "mesh floor.stl diam one 0.2 dens 1", "Fix in insert/lsdcd", "the amount is missing",
+         "massrate, numberrate, mass or number"),
+        ("insert_closed_face", "mesh two.stl diam one 0.2 dens 1 number 5", "Fix in insert/lsdcd", "two.stl: the triangles have no common side"),
+        ("insert_fractions", "mesh floor.stl diam mass 2 0.1 0.5 0.2 0.4 dens 1 number 5", "Fix in insert/lsdcd", "'diam'",
+         "the fractions add up to 0.9, not to 1"),
+        ("insert_narrow_face", "mesh floor.stl diam one 50 dens 1 number 5",
+         "Fix in insert/lsdcd", "floor.stl: the face has no place that is 25, the largest radius, from its edges"),
+        ("insert_no_law", "mesh floor.stl dens 1 number 5", "Fix in insert/lsdcd", "diam is missing"),
+        ("insert_no_place", "diam one 0.2 dens 1 number 5", "Fix in insert/lsdcd", "mesh FILE or region ID is missing"),
+        ("insert_no_region", "region nowhere diam one 0.2 dens 1 number 5",
+         "Fix in insert/lsdcd", "there is no region nowhere: define it before this fix"),
+        ("insert_no_type", "region box diam one 0.2 dens 1 number 5 type 3", "in 'type', there is no atom type 3: there are 1"),
+        ("insert_normal_of_region", "region box diam one 0.2 dens 1 number 5 vel normal 1", "vel normal is for a mesh"),
+        ("insert_outside", "mesh floor.stl move 0 0 100 diam one 0.2 dens 1 number 5", "Fix in insert/lsdcd", "outside the box"),
+        ("insert_region_of_no_bounds", "region moved diam one 0.2 dens 1 number 5",
+         "Fix in insert/lsdcd", "region moved has no bounds", "give one with bounds on all sides"),
+        ("insert_two_rates", "region box diam one 0.2 dens 1 massrate 1 numberrate 1", "'numberrate'", "there is another rate"),
+        ("insert_unknown_keyword", "region box daim one 0.2", "Fix in insert/lsdcd", "'daim' is not a keyword", "diam one D"),
+        ("insert_wall_of_other_style", "region box diam one 0.2 dens 1 number 5 wall in",
+         "in 'wall', fix in is of style insert/lsdcd: give the ID of a fix wall/lsdcd"),
+        ("insert_wall_that_is_not", "region box diam one 0.2 dens 1 number 5 wall w",
+         "in 'wall', there is no fix 'w': give the ID of a fix wall/lsdcd"),
+    ]),
+    (changed(NO_RADIUS, ("fix             move all nve\n", "")) + "fix             in all insert/lsdcd {}\n" + RUN, [
+        ("insert_no_radius", "region box diam one 0.2 dens 1 number 5", "atoms need a radius and a mass each: use atom_style sphere"),
+    ]),
+
     # compute lsdcd/collide
     (body(FOUR_ATOMS) + "compute         c all lsdcd/collide {}\n" + RUN, [
         ("collide_atoms_differ", "wall mesh floor.stl atoms unit.txt", "is no rigid copy of the atoms of file"),

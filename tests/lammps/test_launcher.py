@@ -22,7 +22,8 @@ def main():
                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     checks.fact("-h succeeds and shows the fix", shown.returncode == 0 and
                 "wall/lsdcd" in shown.stdout and "corner blend | sum" in shown.stdout)
-    for syntax in ("fix ID group massflow/lsdcd mesh FILE ", "compute ID group lsdcd/collide FIX_ID mesh FILE "):
+    for syntax in ("fix ID group massflow/lsdcd mesh FILE ", "fix ID group insert/lsdcd mesh FILE ",
+                   "compute ID group lsdcd/collide FIX_ID mesh FILE "):
         checks.fact(f"-h shows {syntax}", "\n" + syntax in shown.stdout)
     checks.fact("-h shows LAMMPS's own options", "-partition" in shown.stdout)
 

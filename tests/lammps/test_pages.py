@@ -61,9 +61,11 @@ def keywords():
     return set(re.findall(r"^  ([a-z_]+) ", shown.split("keywords\n")[1].split("\n\n")[0], re.M))
 
 
-def cube(path, half):
+def cube(path, half, flat=False):
     corners = [(x, y, z) for x in (-half, half) for y in (-half, half) for z in (-half, half)]
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    if flat:
+        faces = faces[:1]
     with open(path, "w") as f:
         f.write("solid cube\n")
         for a, b, c, d in faces:
@@ -80,7 +82,7 @@ def with_meshes(line, folder):
     def replace(match):
         scale = re.match(r"(?:(?!\bmesh\b).)*?\bscale (\S+)", line[match.end():])
         name = f"{match[2]}_{scale[1] if scale else 1}.stl"
-        cube(folder / name, 1.2 / float(scale[1] if scale else 1))
+        cube(folder / name, 1.2 / float(scale[1] if scale else 1), flat="insert/lsdcd mesh" in line)
         return f"mesh{match[1]} {name}"
     return re.sub(r"\bmesh(/lsdcd|) ([\w-]+)\.(?:stl|obj|ply|off)\b", replace, line)
 
