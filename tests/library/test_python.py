@@ -15,6 +15,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import tempfile
 
 import numpy as np
 
@@ -228,9 +229,25 @@ def check_types():
     if not mypy:
         print("skipped: no mypy")
         return
-    done = subprocess.run([mypy, "--strict", "--cache-dir", os.devnull, "lsdcd/_arrays.py"],
-                          cwd=ROOT / "src" / "api", text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    fact("the types of the package hold, mypy --strict", done.returncode == 0, done.stdout)
+    def check(*words):
+        done = subprocess.run([mypy, "--strict", "--cache-dir", folder, *words], cwd=ROOT / "src" / "api", text=True,
+                              env={**os.environ, "MYPYPATH": str(ROOT / "src" / "api")}, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT)
+        return done.returncode, done.stdout
+
+    with tempfile.TemporaryDirectory() as folder:
+        code, text = check("-p", "lsdcd")
+        fact("the types of the package hold, mypy --strict", code == 0, text)
+        code, text = check("-c", """import lsdcd
+grid = lsdcd.Mesh("wall.stl").grid(cutoff=0.01)
+grid.query([0, 0, 0], radius=0.1).distance
+grid.facts.cutoff + 1
+grid.query([0, 0, 0], threads="two")
+grid.facts.cut_off
+lsdcd.Body(grid, grid)
+""")
+        lines = [int(line.split(":")[1]) for line in text.splitlines() if ": error:" in line]
+        fact("a user's types are checked: wrong ones found, right ones not", sorted(set(lines)) == [5, 6, 7], text)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Distances from points to a triangle mesh, exact and many at once, for numpy arrays; rigid bodies
-against a wall; and a wall that pushes spheres, step by step.
+"""Distances from points to a triangle mesh, exact and many at once, for arrays of numpy, PyTorch, CuPy and JAX;
+rigid bodies against a wall; and a wall that pushes spheres, step by step.
 
     import lsdcd
     grid = lsdcd.Mesh("wall.stl").grid(cutoff=0.01)
-    answer = grid.query(points, "distance triangle side")    # points: (n, 3), float32 or float64
+    answer = grid.query(points, "distance triangle side")    # points: (..., 3), float32 or float64
     answer.distance, answer.triangle, answer.side
 
     body = lsdcd.Body(lsdcd.Mesh("wall.stl"), lsdcd.Mesh("body.stl"))
@@ -16,9 +16,9 @@ against a wall; and a wall that pushes spheres, step by step.
     wall = lsdcd.Wall("hooke/history 1e5 3e4 50 0 0.5 1 mesh drum.stl motion rotate 0 0 0 0 1 0 2")
     wall.step(x, v, omega, radius, mass, force, torque, dt=1e-5)    # adds to force and torque, (n, 3)
 
-A query lets other Python threads run, and any number of threads may ask one grid at once. What is
-told about lsdcd.h holds here; its errors are lsdcd.Error with a `code`. LSDCD_LIBRARY may name the
-shared library.
+Lengths are in the unit of the mesh; a wall's units are any that are consistent. A query lets other Python threads run,
+and any number of threads may ask one grid at once. What is told about lsdcd.h holds here; its errors are lsdcd.Error
+with a `code`. LSDCD_LIBRARY may name the shared library. How answers are found: doc/theory.md of the sources.
 """
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ import glob
 import math
 import os
 import threading
-from types import SimpleNamespace
-from typing import Any, Iterable, Mapping
+from typing import Any, Callable, Iterable, Mapping, Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays
 
@@ -46,7 +46,7 @@ ANSWERS: dict[str, tuple[int, Any]] = {
     "side": (0, np.int8), "status": (0, np.uint8)}
 
 
-def _struct(name, *fields):
+def _struct(name: str, *fields: tuple[str, Any]) -> Any:
     return type(name, (ctypes.Structure,), {"_fields_": [("size", _size), *fields]})
 
 
@@ -93,12 +93,12 @@ _WallTotals = _struct(
 class Error(ValueError):
     """What the library refuses, and what to do; `code`: one of ERRORS."""
 
-    def __init__(self, code):
+    def __init__(self, code: int) -> None:
         super().__init__(_lib.lsdcd_last_error().decode())
         self.code = ERRORS[code]
 
 
-def _load():
+def _load() -> Any:
     name = os.environ.get("LSDCD_LIBRARY")
     if not name:    # beside this file, in a lib/ above the package, or where the system looks
         here = os.path.dirname(os.path.abspath(__file__))
@@ -131,26 +131,26 @@ def _load():
 
 
 _lib = _load()
-__version__ = _lib.lsdcd_version().decode()
+__version__: str = _lib.lsdcd_version().decode()
 
 
-def _check(code):
+def _check(code: int) -> None:
     if code != 0:
         raise Error(code)
 
 
-def _sized(struct, **values):
+def _sized(struct: Any, **values: Any) -> Any:
     return struct(size=ctypes.sizeof(struct), **values)
 
 
-def _facts(struct, call, handle):
+def _facts(struct: Any, call: Any, handle: Any) -> dict[str, Any]:
     facts = _sized(struct)
     _check(call(handle, ctypes.byref(facts)))
     values = {name: getattr(facts, name) for name, _ in struct._fields_[1:]}
-    return SimpleNamespace(**{k: tuple(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
+    return {k: tuple(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()}
 
 
-def _chosen(name, word, words):
+def _chosen(name: str, word: str, words: Sequence[str]) -> int:
     """The index of a word among those that there are."""
     if word not in words:
         raise ValueError(f"{name} is {word!r}; it is {' or '.join(map(repr, words))}")
@@ -160,24 +160,58 @@ def _chosen(name, word, words):
 class _Owner:
     """Owns `_handle`, memory of the library, which `_free` frees: once, so that it has one owner."""
 
-    def __init__(self):
+    _free: Any
+
+    def __init__(self) -> None:
         self._handle = _at()
 
-    def __del__(self):
+    def __del__(self) -> None:
         if getattr(self, "_handle", None):
             self._free(self._handle)
 
-    def __reduce_ex__(self, protocol):    # what copy, deepcopy and pickle ask for
+    def __reduce_ex__(self, protocol: Any) -> Any:    # what copy, deepcopy and pickle ask for
         raise TypeError(f"a {type(self).__name__} holds memory of the library and is neither copied nor pickled; "
                         "share it, or make another one")
 
 
+class _Record:
+    """Named values. types.SimpleNamespace would let a type checker pass any name."""
+
+    def __init__(self, **values: Any) -> None:
+        self.__dict__.update(values)
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in vars(self).items())})"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Record) and vars(self) == vars(other)
+
+
+class MeshFacts(_Record):
+    """What lsdcd_mesh_facts says of a mesh."""
+    triangles: int    # as given
+    faces: int        # after welding, as are edges and vertices; faces without area are none
+    edges: int
+    vertices: int
+    open_edges: int    # of one face
+    closed: int
+    oriented: int      # closed, windings agree, no shells meet
+    area: float        # length^2
+    volume: float      # length^3, < 0 where normals point in
+    lo: tuple[float, float, float]
+    hi: tuple[float, float, float]
+    meeting_pairs: int    # of triangles of different closed shells
+
+
 class Mesh(_Owner):
     """From a file (STL; built with assimp also OBJ, PLY and OFF); from triangles, (n, 3, 3); or from vertices,
-    (m, 3), and faces, (n, 3)."""
+    (m, 3), and faces, (n, 3), whole numbers from 0. Corners closer than `weld`, a length, become one; < 0: 1e-6 of
+    the diagonal. Raises TypeError for another shape, ValueError for a vertex that there is not, Error for a file
+    that cannot be read. Any number of threads may share it."""
     _free = _lib.lsdcd_mesh_free
 
-    def __init__(self, source, faces=None, weld=-1.0):
+    def __init__(self, source: str | bytes | os.PathLike[str] | ArrayLike, faces: ArrayLike | None = None,
+                 weld: float = -1.0) -> None:
         super().__init__()
         if isinstance(source, (str, bytes, os.PathLike)):
             _check(_lib.lsdcd_mesh_read(os.fsencode(source), weld, ctypes.byref(self._handle)))
@@ -192,16 +226,20 @@ class Mesh(_Owner):
                                             ctypes.byref(self._handle)))
 
     @property
-    def facts(self):
-        return _facts(_MeshFacts, _lib.lsdcd_mesh_get_facts, self._handle)
+    def facts(self) -> MeshFacts:
+        return MeshFacts(**_facts(_MeshFacts, _lib.lsdcd_mesh_get_facts, self._handle))
 
     @property
-    def report(self):
-        return _lib.lsdcd_mesh_report(self._handle).decode()
+    def report(self) -> str:
+        """What `lsdcd inspect` says."""
+        return str(_lib.lsdcd_mesh_report(self._handle).decode())
 
-    def grid(self, cutoff=None, cell=0.0, nearest=0, precision="double", memory=0.0, cache=None,
-             threads=0, device="cpu"):
-        """A Grid for distances up to `cutoff`, None: any; the words are those of lsdcd_grid_options."""
+    def grid(self, cutoff: float | None = None, cell: float = 0.0, nearest: int = 0, precision: str = "double",
+             memory: float = 0.0, cache: str | os.PathLike[str] | None = None, threads: int = 0, device: str = "cpu") -> Grid:
+        """A Grid for distances up to `cutoff`, a length, None: any. The words are those of lsdcd_grid_options: `cell`,
+        the edge of a cell, 0: chosen; `nearest` 0: complete lists; `precision` "double" or "float"; `memory`, bytes, 0:
+        chosen; `cache`, a file that keeps the cells; `device` "cpu" or "cuda", which builds them. Raises Error for
+        settings that cannot be kept."""
         options = _sized(_GridOptions, cutoff=0.0 if cutoff is None else cutoff, cell=cell, nearest=nearest,
                          precision=_chosen("precision", precision, ("double", "float")), memory=memory,
                          cache=os.fsencode(cache) if cache else None, threads=threads,
@@ -209,7 +247,7 @@ class Mesh(_Owner):
         return Grid(self, options)
 
 
-class Answer(SimpleNamespace):
+class Answer(_Record):
     """What a query was asked for. Shapes are those of the points, (..., 3), with and without the last dimension. Where
     nothing is found distance is inf, closest the point, normal 0, triangle and feature NONE (-1 in int32)."""
     distance: Any    # (...), the points' type; in the unit of the mesh
@@ -221,22 +259,33 @@ class Answer(SimpleNamespace):
     status: Any      # (...), uint8: bits FOUND and CERTIFIED
 
 
+class GridFacts(_Record):
+    """What lsdcd_grid_facts says of a grid."""
+    cutoff: float    # length, inf: any
+    cell: float      # length, 0: there are no cells yet
+    bytes: int
+    nearest: int
+    has_sides: int
+    from_cache: int
+
+
 class Grid(_Owner):
-    """Made by Mesh.grid()."""
+    """Made by Mesh.grid(). Any number of threads may ask it at once."""
     _free = _lib.lsdcd_grid_free
 
-    def __init__(self, mesh, options):
+    def __init__(self, mesh: Mesh, options: Any) -> None:
         super().__init__()
         self._streams = threading.local()
         _check(_lib.lsdcd_grid_build(mesh._handle, ctypes.byref(options), ctypes.byref(self._handle)))
 
     @property
-    def facts(self):
-        return _facts(_GridFacts, _lib.lsdcd_grid_get_facts, self._handle)
+    def facts(self) -> GridFacts:
+        return GridFacts(**_facts(_GridFacts, _lib.lsdcd_grid_get_facts, self._handle))
 
     @property
-    def report(self):
-        return _lib.lsdcd_grid_report(self._handle).decode()
+    def report(self) -> str:
+        """Its cells, its memory, and what became of the cache."""
+        return str(_lib.lsdcd_grid_report(self._handle).decode())
 
     def query(self, points: Any, want: str | Iterable[str] | None = None, radius: Any = None, threads: int = 0, *,
               out: Mapping[str, Any] | Answer | None = None, stream: Any = None) -> Answer:
@@ -282,7 +331,7 @@ class Grid(_Owner):
         if radius is not None:
             _set_radius(query, radius, given, shape, kept)
         handle, owner = (0, None) if given.on_host else _arrays.stream_of(asked, stream)
-        outs: Mapping[str, Any] = {} if out is None else vars(out) if isinstance(out, SimpleNamespace) else out
+        outs: Mapping[str, Any] = {} if out is None else vars(out) if isinstance(out, Answer) else out
         words = want.split() if isinstance(want, str) else list(outs) or ["distance"] if want is None else list(want)
         unknown = sorted(set(words) - set(ANSWERS))
         if unknown:
@@ -310,14 +359,14 @@ class Grid(_Owner):
             _check(_lib.lsdcd_query_host(self._handle, ctypes.byref(query)))
             return answer
         if query.n > 0:
-            self._query_on(given.device, handle, owner, query, any(map(_arrays.must_wait, kept)))
+            self._query_on(given.device or 0, handle, owner, query, any(map(_arrays.must_wait, kept)))
         return answer
 
     def _query_on(self, device: int, handle: int, owner: Any, query: Any, wait: bool) -> None:
         """On a stream of a device; `owner` keeps the stream alive."""
         driver = _arrays.driver()
         with driver.on(device):
-            streams = self._streams.__dict__    # of this thread
+            streams: dict[Any, Any] = self._streams.__dict__    # of this thread
             known = streams.pop((device, handle), None) or (_Stream(self, handle), owner)
             streams[device, handle] = known    # the last one used is the last one
             if len(streams) > _MOST_STREAMS:
@@ -348,7 +397,7 @@ def _remedy(shape: tuple[int, ...]) -> str:
     return ""
 
 
-def _as_floats(values: np.ndarray[Any, Any], name: str) -> np.ndarray[Any, Any]:
+def _as_floats(values: NDArray[Any], name: str) -> NDArray[Any]:
     """float32 or float64, as what can be converted to it."""
     if values.dtype in (np.float32, np.float64):
         return values
@@ -409,12 +458,33 @@ def _out(values: Any, word: str, shape: tuple[int, ...], dtype: np.dtype[Any], p
     return place
 
 
+class BodyFacts(_Record):
+    """What lsdcd_body_facts says of a body."""
+    triangles: int    # with an area
+    pieces: int       # that they are cut into
+    cell: float       # length
+    grid_bytes: int
+    nearest: int
+    device: int       # of DEVICES
+
+
+class Collision(_Record):
+    """What a body meets in a pose. Pairs ascend by the body's triangle."""
+    collides: bool
+    wall: NDArray[np.uint32]    # (n,) triangle of the wall of each pair, from 0 as given; NONE: one without area
+    body: NDArray[np.uint32]    # (n,) and of the body
+    segments: NDArray[np.float64]    # (n, 2, 3) where asked for, lengths; nan where a pair lies in one plane
+    uncertain: int    # with `nearest`: pieces where pairs may be missing; 0: exact
+
+
 class Body(_Owner):
     """A rigid body's Mesh against a wall's Mesh, or against the wall of another Body, which both then
-    share; the words are those of lsdcd_body_options. One thread at a time."""
+    share; the words are those of lsdcd_body_options: `cell`, a length, 0: chosen; `memory`, bytes. One thread at a
+    time. Raises Error for settings that cannot be kept."""
     _free = _lib.lsdcd_body_free
 
-    def __init__(self, wall, mesh, cell=0.0, nearest=0, memory=0.0, threads=0, device="cpu"):
+    def __init__(self, wall: Mesh | Body, mesh: Mesh, cell: float = 0.0, nearest: int = 0, memory: float = 0.0,
+                 threads: int = 0, device: str = "cpu") -> None:
         super().__init__()
         self._room = 1024
         options = _sized(_BodyOptions, cell=cell, nearest=nearest, memory=memory, threads=threads,
@@ -425,20 +495,20 @@ class Body(_Owner):
                                     ctypes.byref(options), ctypes.byref(self._handle)))
 
     @property
-    def facts(self):
-        return _facts(_BodyFacts, _lib.lsdcd_body_get_facts, self._handle)
+    def facts(self) -> BodyFacts:
+        return BodyFacts(**_facts(_BodyFacts, _lib.lsdcd_body_get_facts, self._handle))
 
-    def collide(self, position=None, quaternion=None, matrix=None, segments=False, threads=0):
-        """Of a pose, `position` (x, y, z), `quaternion` (w, x, y, z) or both, or `matrix`, (3, 4) or
-        (4, 4): collides; wall and body, the triangles of each pair; where asked for segments,
-        (n, 2, 3), from one point to another, nan where a pair lies in one plane; uncertain."""
-        pose = {"position": _numbers(position, (3,), "position"),
-                "quaternion": _numbers(quaternion, (4,), "quaternion"),
-                "matrix": _numbers(matrix, (4, 4) if np.shape(matrix) == (4, 4) else (3, 4), "matrix")}
-        if pose["matrix"] is not None and len(pose["matrix"]) == 4:
-            if pose["matrix"][3].tolist() != [0, 0, 0, 1]:
-                raise TypeError("the last row of matrix is not 0, 0, 0, 1")
-        ask = _sized(_Collision, threads=threads, **{k: v.ctypes.data for k, v in pose.items() if v is not None})
+    def collide(self, position: ArrayLike | None = None, quaternion: ArrayLike | None = None, matrix: ArrayLike | None = None,
+                segments: bool = False, threads: int = 0) -> Collision:
+        """What meets in a pose: `position` (3,), lengths; `quaternion` (4,), w x y z, of length 1; or both; or `matrix`,
+        (3, 4) or (4, 4). Raises TypeError for another shape, Error for no rigid motion."""
+        rows = 4 if matrix is not None and np.shape(matrix) == (4, 4) else 3
+        given = {"position": _numbers(position, (3,), "position"), "quaternion": _numbers(quaternion, (4,), "quaternion"),
+                 "matrix": _numbers(matrix, (rows, 4), "matrix")}
+        pose = {name: values for name, values in given.items() if values is not None}
+        if len(pose.get("matrix", ())) == 4 and pose["matrix"][3].tolist() != [0, 0, 0, 1]:
+            raise TypeError("the last row of matrix is not 0, 0, 0, 1")
+        ask = _sized(_Collision, threads=threads, **{k: v.ctypes.data for k, v in pose.items()})
         while True:
             ask.room = self._room
             wall, body = np.empty(ask.room, np.uint32), np.empty(ask.room, np.uint32)
@@ -450,11 +520,24 @@ class Body(_Owner):
             if ask.pairs <= ask.room:
                 break
             self._room = ask.pairs
-        answer = SimpleNamespace(collides=bool(ask.collides), wall=wall[:ask.pairs], body=body[:ask.pairs],
-                                 uncertain=ask.uncertain)
+        answer = Collision(collides=bool(ask.collides), wall=wall[:ask.pairs], body=body[:ask.pairs],
+                           uncertain=ask.uncertain)
         if segments:
             answer.segments = found[:ask.pairs]
         return answer
+
+
+class WallTotals(_Record):
+    """Sums of a wall's last step, in its units: what lsdcd_wall_totals says."""
+    force: NDArray[np.float64]     # (3,) on the mesh
+    torque: NDArray[np.float64]    # (3,) on the mesh, about the point of `torque_about`
+    contacts: float
+    overlap: float        # the largest, of the radius
+    uncertified: float    # spheres whose answer is not certified; see `nearest`
+    power: float          # of the mesh on the spheres, by its motion
+    energy: float         # elastic
+    worn: float           # volume so far
+    servo: NDArray[np.float64]    # (3,) position, velocity, push; 0 without a servo
 
 
 class Wall(_Owner):
@@ -464,34 +547,39 @@ class Wall(_Owner):
     thread at a time."""
     _free = _lib.lsdcd_wall_free
 
-    def __init__(self, words, lo=None, hi=None, periodic=(False, False, False), margin=0.0, time=0.0, units="si",
-                 show=None, threads=0):
+    def __init__(self, words: str | Iterable[str], lo: ArrayLike | None = None, hi: ArrayLike | None = None,
+                 periodic: Sequence[bool] = (False, False, False), margin: float = 0.0, time: float = 0.0, units: str = "si",
+                 show: Callable[[str, bool], object] | None = None, threads: int = 0) -> None:
         super().__init__()
-        self._told = None    # what `show` raised, which C cannot pass on
+        self._told: BaseException | None = None    # what `show` raised, which C cannot pass on
 
-        def tell(_, warning, text):
+        def tell(_: Any, warning: int, text: bytes) -> None:
             try:
-                show(text.decode(), bool(warning))
+                if show:
+                    show(text.decode(), bool(warning))
             except BaseException as e:
                 self._told = e
 
-        self._show = _Show(tell) if show else _Show()    # it must live as long as the wall
+        self._show: Any = _Show(tell) if show else _Show(0)    # it must live as long as the wall
         options = _sized(_WallOptions, periodic=(_int * 3)(*map(bool, periodic)), margin=margin, time=time,
                          units=units.encode(), show=self._show, threads=threads)
         for name, corner in (("lo", lo), ("hi", hi)):
-            if corner is not None:
-                setattr(options, name, (_real * 3)(*_numbers(corner, (3,), name)))
+            place = _numbers(corner, (3,), name)
+            if place is not None:
+                setattr(options, name, (_real * 3)(*place))
         self._do(_lib.lsdcd_wall_make, *_words(words), ctypes.byref(options), ctypes.byref(self._handle))
 
-    def _do(self, call, *arguments):
+    def _do(self, call: Any, *arguments: Any) -> None:
         code = call(*arguments)
         told, self._told = self._told, None
         if told is not None:
             raise told
         _check(code)
 
-    def step(self, x, v, omega, radius, mass, force, torque, dt, setup=False, changed=False, reach=0.0,
-             temperature=None, heat=None, type=None):
+    def step(self, x: NDArray[np.float64], v: NDArray[np.float64], omega: NDArray[np.float64], radius: NDArray[np.float64],
+             mass: NDArray[np.float64], force: NDArray[np.float64], torque: NDArray[np.float64], dt: float, setup: bool = False,
+             changed: bool = False, reach: float = 0.0, temperature: NDArray[np.float64] | None = None,
+             heat: NDArray[np.float64] | None = None, type: NDArray[np.int32] | None = None) -> None:
         """Adds to `force` and `torque`, (n, 3), and with a law of heat to `heat`, (n,), what the wall does in a
         step of `dt`. All arrays are contiguous float64. `setup`: the forces with which a run begins; `changed`:
         radii grew since the last step. New spheres are at the end. `type`: int32, for laws by type."""
@@ -513,30 +601,29 @@ class Wall(_Owner):
         step = _sized(_WallStep, dt=dt, setup=bool(setup), changed=bool(changed), reach=reach)
         self._do(_lib.lsdcd_wall_step_spheres, self._handle, ctypes.byref(spheres), ctypes.byref(step))
 
-    def renumber(self, source):
+    def renumber(self, source: ArrayLike) -> None:
         """Before the next step: sphere i is the one that was source[i], or with -1 a new one."""
-        source = np.ascontiguousarray(source, dtype=np.intp)
-        self._do(_lib.lsdcd_wall_renumber, self._handle, source.ctypes.data, source.size)
+        numbers = np.ascontiguousarray(source, dtype=np.intp)
+        self._do(_lib.lsdcd_wall_renumber, self._handle, numbers.ctypes.data, numbers.size)
 
-    def totals(self, mesh=None):
-        """Of a mesh, from 0, or of all: force and torque on it, contacts, overlap, uncertified, power, energy,
-        worn, servo (position, velocity, push)."""
+    def totals(self, mesh: int | None = None) -> WallTotals:
+        """Of a mesh, from 0, or of all."""
         totals = _sized(_WallTotals)
         self._do(_lib.lsdcd_wall_get_totals, self._handle, -1 if mesh is None else mesh, ctypes.byref(totals))
         values = {name: getattr(totals, name) for name, _ in _WallTotals._fields_[1:]}
-        return SimpleNamespace(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
+        return WallTotals(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
 
-    def pose(self, mesh=0):
+    def pose(self, mesh: int = 0) -> NDArray[np.float64]:
         """(3, 4): x in the box is R x + t, each row of R with its t behind it."""
         matrix = np.empty((3, 4))
         self._do(_lib.lsdcd_wall_get_pose, self._handle, mesh, matrix.ctypes.data)
         return matrix
 
-    def change(self, words):
+    def change(self, words: str | Iterable[str]) -> None:
         """[mesh K] motion ... or [mesh K] servo ..., as fix_modify takes them, with K from 1."""
         self._do(_lib.lsdcd_wall_change, self._handle, *_words(words))
 
-    def save(self):
+    def save(self) -> NDArray[np.float64]:
         """What the wall and the contacts of its spheres keep, an array for restore()."""
         count = _size()
         self._do(_lib.lsdcd_wall_save, self._handle, None, 0, ctypes.byref(count))
@@ -544,33 +631,33 @@ class Wall(_Owner):
         self._do(_lib.lsdcd_wall_save, self._handle, numbers.ctypes.data, count, ctypes.byref(count))
         return numbers
 
-    def restore(self, numbers):
+    def restore(self, numbers: ArrayLike) -> None:
         """Before the first step of a wall of the same words."""
-        numbers = np.ascontiguousarray(numbers, dtype=np.float64)
-        self._do(_lib.lsdcd_wall_restore, self._handle, numbers.ctypes.data, numbers.size)
+        saved = np.ascontiguousarray(numbers, dtype=np.float64)
+        self._do(_lib.lsdcd_wall_restore, self._handle, saved.ctypes.data, saved.size)
 
 
-def _words(words):
+def _words(words: str | Iterable[str]) -> tuple[Any, int]:
     """As an array of C strings, and how many."""
-    words = words.split() if isinstance(words, str) else list(words)
-    return (ctypes.c_char_p * len(words))(*map(os.fsencode, words)), len(words)
+    each = words.split() if isinstance(words, str) else list(words)
+    return (ctypes.c_char_p * len(each))(*map(os.fsencode, each)), len(each)
 
 
-def _vertex_numbers(faces, n):
+def _vertex_numbers(faces: ArrayLike, n: int) -> NDArray[Any]:
     """Faces as an array of numbers of n vertices."""
-    faces = np.asarray(faces)
-    if faces.size and faces.dtype.kind not in "iu":
-        raise TypeError(f"faces are of type {faces.dtype}, not whole numbers")
-    wrong = faces[(faces < 0) | (faces >= n)]
+    numbers = np.asarray(faces)
+    if numbers.size and numbers.dtype.kind not in "iu":
+        raise TypeError(f"faces are of type {numbers.dtype}, not whole numbers")
+    wrong = numbers[(numbers < 0) | (numbers >= n)]
     if len(wrong):
         raise ValueError(f"a face has the vertex {wrong[0]}; there are {n}, numbered from 0")
-    return faces
+    return numbers
 
 
-def _numbers(values, shape, name):
+def _numbers(values: ArrayLike | None, shape: tuple[int, ...], name: str) -> NDArray[np.float64] | None:
     if values is None:
         return None
-    values = np.ascontiguousarray(values, dtype=np.float64)
-    if values.shape != shape:
-        raise TypeError(f"{name} has the shape {values.shape}, not {shape}")
-    return values
+    numbers = np.ascontiguousarray(values, dtype=np.float64)
+    if numbers.shape != shape:
+        raise TypeError(f"{name} has the shape {numbers.shape}, not {shape}")
+    return numbers
