@@ -33,9 +33,9 @@ int current_gpu(int device)
   return -1;
 }
 
-void refuse(const std::string &text)
+[[noreturn]] void refuse(const std::string &text)
 {
-  throw ApiError(LSDCD_ERROR_ARGUMENT, "`lsdcd_body_options`: " + text);
+  refuse_option("lsdcd_body_options", text);
 }
 
 MeshCollisionSettings settings_of(const lsdcd_body_options &o)

@@ -73,6 +73,12 @@ inline void need(const void *pointer, const char *name)
   if (!pointer) throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("`") + name + "` is null");
 }
 
+// What a struct of options has makes no sense.
+[[noreturn]] inline void refuse_option(const std::string &options, const std::string &text)
+{
+  throw ApiError(LSDCD_ERROR_ARGUMENT, "`" + options + "`: " + text);
+}
+
 // Threads of a call; 0: the default. With more, a process may end; the tool has the same limit.
 inline void check_threads(int n)
 {

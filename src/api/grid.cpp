@@ -18,9 +18,9 @@ using namespace lsdcd;
 
 namespace {
 
-void refuse(const std::string &text)
+[[noreturn]] void refuse(const std::string &text)
 {
-  throw ApiError(LSDCD_ERROR_ARGUMENT, "`lsdcd_grid_options`: " + text);
+  refuse_option("lsdcd_grid_options", text);
 }
 
 // Does a choice ask for cells, not for a tree?
@@ -152,9 +152,8 @@ const ApiCells &ApiGrid::cells(bool on_cuda) const
 
 std::size_t ApiGrid::bytes() const
 {
-  const TriangleTree *tree = tree_.made();
   const ApiCells *cells = cells_.made();
-  return (tree ? tree->bytes() : 0) + (cells ? cells->flat.bytes() : 0);
+  return bytes_of(tree_.made(), near_.made()) + (cells ? cells->flat.bytes() : 0);
 }
 
 }    // namespace lsdcd

@@ -41,6 +41,12 @@ class NearBoxes {
   std::vector<std::uint64_t> bits_;
 };
 
+// Of both together; each may be null.
+inline std::size_t bytes_of(const TriangleTree *tree, const NearBoxes *near)
+{
+  return (tree ? tree->bytes() : 0) + (near ? near->bytes() : 0);
+}
+
 // With threads() threads. It keeps no memory, so that any number of threads may call it at once. Nothing as
 // far as a point's radius is found; `cutoff` is the largest radius, of `near`, too, which may be null. All but
 // the side, which must not be asked for. Throws InputError if a radius in `radii` exceeds the cutoff; the

@@ -33,7 +33,7 @@ class CpuAnswers : public PointAnswers {
       cutoff_(cutoff), names_(mesh), tree_(mesh, names_), sides_(mesh)
   {
     if (cutoff > 0) near_.emplace(tree_, mesh, cutoff);
-    report.bytes = tree_.bytes() + (near_ ? near_->bytes() : 0);
+    report.bytes = bytes_of(&tree_, near_ ? &*near_ : nullptr);
     report.device = CpuBackend().name();
   }
   void answer(const PointBlock &points, AnswerBlock &a) override
