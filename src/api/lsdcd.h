@@ -69,6 +69,12 @@ LSDCD_API int lsdcd_mesh_read(const char *file, double weld, lsdcd_mesh **mesh);
 /* The same from corners: nine numbers a triangle, copied. Any. */
 LSDCD_API int lsdcd_mesh_from_corners(const double *corners, size_t n_triangles, double weld,
                                       lsdcd_mesh **mesh);
+/* The same from vertices, three numbers each, of `type` LSDCD_DOUBLE or LSDCD_FLOAT, and faces, three
+ * vertices each, numbered from 0; copied. A vertex of no face is left out. LSDCD_ERROR_INPUT names a face
+ * whose vertex is not there or not finite. Any. */
+LSDCD_API int lsdcd_mesh_from_faces(const void *vertices, int type, size_t n_vertices,
+                                    const uint32_t *faces, size_t n_faces, double weld,
+                                    lsdcd_mesh **mesh);
 
 typedef struct lsdcd_mesh_facts {
   size_t size;                   /* of this struct; set by the caller */
@@ -85,6 +91,23 @@ typedef struct lsdcd_mesh_facts {
 } lsdcd_mesh_facts;
 /* Any. */
 LSDCD_API int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts);
+
+/* The welded mesh, copied into arrays of the caller; those that are null are not asked for. How many faces,
+ * edges and vertices there are, lsdcd_mesh_facts has. Their numbers, from 0, are those of features in
+ * answers. A face is a triangle with an area; edges and vertices of those without one may have no face. */
+typedef struct lsdcd_mesh_arrays {
+  size_t size;          /* of this struct */
+  double *vertices;     /* 3 numbers each, length */
+  uint32_t *faces;      /* 3 vertices each, in the order given */
+  uint32_t *face_edges; /* 3 edges each; edge k is from vertex k to vertex k + 1, the last one to 0 */
+  uint32_t *triangle;   /* of each face its number as given, from 0 */
+  uint32_t *edges;      /* 2 vertices each, the lower number first */
+  uint32_t *edge_first; /* edges + 1 numbers: faces of edge e are edge_faces[edge_first[e]] up to before
+                           edge_faces[edge_first[e + 1]] */
+  uint32_t *edge_faces; /* 3 * faces numbers */
+} lsdcd_mesh_arrays;
+/* Any. */
+LSDCD_API int lsdcd_mesh_get_arrays(const lsdcd_mesh *mesh, const lsdcd_mesh_arrays *arrays);
 /* What `lsdcd inspect` says, until the mesh is freed. Any. */
 LSDCD_API const char *lsdcd_mesh_report(const lsdcd_mesh *mesh);
 /* Null is fine. Own. */
@@ -140,7 +163,7 @@ LSDCD_API void lsdcd_grid_free(lsdcd_grid *grid);
  * `nearest` N. */
 enum { LSDCD_FOUND = 1, LSDCD_CERTIFIED = 2 };
 
-/* A feature is 0 (face), 1 (edge) or 2 (vertex) and a number of the welded mesh. */
+/* A feature is 0 (face), 1 (edge) or 2 (vertex) and a number of the welded mesh, lsdcd_mesh_arrays. */
 #define LSDCD_FEATURE_KIND(feature) ((feature) >> 30)
 #define LSDCD_FEATURE_INDEX(feature) ((feature) &0x3fffffffu)
 #define LSDCD_NONE 0xffffffffu

@@ -53,6 +53,13 @@ constexpr int type_of()
 using MeshFacts = lsdcd_mesh_facts;
 using GridFacts = lsdcd_grid_facts;
 
+// The welded mesh, whose numbers features have; see lsdcd_mesh_arrays.
+struct MeshArrays {
+  std::vector<double> vertices;                                // 3 numbers each
+  std::vector<std::uint32_t> faces, face_edges, triangle;      // 3, 3 and 1 of each face
+  std::vector<std::uint32_t> edges, edge_first, edge_faces;    // 2 vertices of each edge; its faces
+};
+
 class Mesh {
  public:
   explicit Mesh(const std::string &file, double weld = -1)
@@ -72,6 +79,38 @@ class Mesh {
     handle_.reset(made);
   }
 
+  // Vertices x y z x y z of float or double; faces, three numbers of vertices from 0 each.
+  template <class T>
+  Mesh(const std::vector<T> &vertices, const std::vector<std::uint32_t> &faces, double weld = -1)
+  {
+    lsdcd_mesh *made = nullptr;
+    if (vertices.size() % 3 != 0 || faces.size() % 3 != 0)
+      throw Error(LSDCD_ERROR_ARGUMENT,
+                  "lsdcd::Mesh: there are " + std::to_string(vertices.size()) +
+                      " numbers of vertices and " + std::to_string(faces.size()) +
+                      " of faces, which is not three each");
+    c::check(lsdcd_mesh_from_faces(vertices.data(), c::type_of<T>(), vertices.size() / 3,
+                                   faces.data(), faces.size() / 3, weld, &made));
+    handle_.reset(made);
+  }
+
+  MeshArrays arrays() const
+  {
+    const MeshFacts f = facts();
+    MeshArrays a;
+    a.vertices.resize(3 * f.vertices);
+    a.faces.resize(3 * f.faces);
+    a.face_edges.resize(3 * f.faces);
+    a.triangle.resize(f.faces);
+    a.edges.resize(2 * f.edges);
+    a.edge_first.resize(f.edges + 1);
+    a.edge_faces.resize(3 * f.faces);
+    const lsdcd_mesh_arrays to = {sizeof to,           a.vertices.data(),  a.faces.data(),
+                                  a.face_edges.data(), a.triangle.data(),  a.edges.data(),
+                                  a.edge_first.data(), a.edge_faces.data()};
+    c::check(lsdcd_mesh_get_arrays(get(), &to));
+    return a;
+  }
   MeshFacts facts() const
   {
     MeshFacts f = {};

@@ -4,8 +4,10 @@
 // lsdcd_mesh_*
 #include "api/c_border.h"
 #include "api/objects.h"
+#include "base/input_words.h"
 #include "mesh/io/read_mesh.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,13 +26,18 @@ lsdcd_mesh *welded(const TriangleSoup &soup, double weld_tolerance)
   return new lsdcd_mesh{std::move(mesh)};
 }
 
-TriangleSoup soup_of(const double *corners, std::size_t n)
+void check_number(std::size_t n, const std::string &name)
 {
-  if (n == 0) throw ApiError(LSDCD_ERROR_ARGUMENT, "`n_triangles` is 0: a mesh has triangles");
+  if (n == 0) throw ApiError(LSDCD_ERROR_ARGUMENT, "`" + name + "` is 0: a mesh has triangles");
   constexpr std::size_t kMax = std::numeric_limits<int>::max() / 3;
   if (n > kMax)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`n_triangles` is " + std::to_string(n) +
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`" + name + "` is " + std::to_string(n) +
                                              "; a mesh has at most " + std::to_string(kMax));
+}
+
+TriangleSoup soup_of(const double *corners, std::size_t n)
+{
+  check_number(n, "n_triangles");
   TriangleSoup soup;
   soup.source = "from corners";
   soup.corners.reserve(3 * n);
@@ -41,6 +48,45 @@ TriangleSoup soup_of(const double *corners, std::size_t n)
     soup.corners.push_back(p);
   }
   return soup;
+}
+
+template <class T>
+TriangleSoup soup_of(const T *vertices, std::size_t n_vertices, const std::uint32_t *faces,
+                     std::size_t n)
+{
+  check_number(n, "n_faces");
+  TriangleSoup soup;
+  soup.source = "from faces";
+  soup.corners.reserve(3 * n);
+  for (std::size_t k = 0; k < 3 * n; k++) {
+    const std::size_t v = faces[k];
+    const auto refuse = [&](const std::string &text) {
+      throw InputError("face " + std::to_string(k / 3) + " (from 0) has the vertex " +
+                       std::to_string(v) + text);
+    };
+    if (v >= n_vertices) refuse("; there are " + std::to_string(n_vertices) + ", numbered from 0");
+    for (int a = 0; a < 3; a++)
+      if (!std::isfinite(vertices[3 * v + a]))
+        refuse(std::string(", whose ") + "xyz"[a] + " is " + number_text(vertices[3 * v + a]) +
+               "; coordinates are finite");
+    soup.corners.push_back({vertices[3 * v], vertices[3 * v + 1], vertices[3 * v + 2]});
+  }
+  return soup;
+}
+
+// Copies rows of an array of the mesh, if it is asked for.
+template <class T, std::size_t kColumns>
+void copy_rows(const std::vector<std::array<T, kColumns>> &rows, std::uint32_t *to)
+{
+  if (!to) return;
+  for (const auto &row : rows)
+    for (const T x : row) *to++ = static_cast<std::uint32_t>(x);
+}
+template <class T>
+void copy_numbers(const std::vector<T> &numbers, std::uint32_t *to)
+{
+  if (!to) return;
+  for (const T x : numbers) *to++ = static_cast<std::uint32_t>(x);
 }
 
 }    // namespace
@@ -63,6 +109,40 @@ int lsdcd_mesh_from_corners(const double *corners, size_t n_triangles, double we
     need(mesh, "mesh");
     need(corners, "corners");
     *mesh = welded(soup_of(corners, n_triangles), weld);
+  });
+}
+
+int lsdcd_mesh_from_faces(const void *vertices, int type, size_t n_vertices, const uint32_t *faces,
+                          size_t n_faces, double weld, lsdcd_mesh **mesh)
+{
+  return guard([&] {
+    need(mesh, "mesh");
+    need(vertices, "vertices");
+    need(faces, "faces");
+    if (type != LSDCD_DOUBLE && type != LSDCD_FLOAT)
+      throw ApiError(LSDCD_ERROR_ARGUMENT, "`type` is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
+    *mesh = welded(type == LSDCD_FLOAT
+                       ? soup_of(static_cast<const float *>(vertices), n_vertices, faces, n_faces)
+                       : soup_of(static_cast<const double *>(vertices), n_vertices, faces, n_faces),
+                   weld);
+  });
+}
+
+int lsdcd_mesh_get_arrays(const lsdcd_mesh *mesh, const lsdcd_mesh_arrays *arrays)
+{
+  return guard([&] {
+    need(mesh, "mesh");
+    const lsdcd_mesh_arrays to = checked(arrays, "lsdcd_mesh_arrays");
+    const WallMesh &m = mesh->in->mesh;
+    if (double *at = to.vertices)
+      for (const Vec3 &v : m.vertices)
+        for (int a = 0; a < 3; a++) *at++ = v[a];
+    copy_rows(m.faces, to.faces);
+    copy_rows(m.face_edges, to.face_edges);
+    copy_numbers(m.face_facet, to.triangle);
+    copy_rows(m.edges, to.edges);
+    copy_numbers(m.edge_first, to.edge_first);
+    copy_numbers(m.edge_face, to.edge_faces);
   });
 }
 

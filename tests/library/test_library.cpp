@@ -554,6 +554,92 @@ TEST(library, a_point_that_is_no_number_is_far)
   for (int i = 0; i < 3; i++) EXPECT_EQ(a.distance[i], HUGE_VAL);
 }
 
+// A cube of side 2 about 0; vertex v has the coordinate 1 along axis a where bit a of v is set.
+const std::vector<std::uint32_t> kCubeFaces = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6,
+                                               0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7,
+                                               0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+template <class T>
+std::vector<T> cube_vertices()
+{
+  std::vector<T> at;
+  for (int v = 0; v < 8; v++)
+    for (int a = 0; a < 3; a++) at.push_back(v >> a & 1 ? 1 : -1);
+  return at;
+}
+
+TEST(library, a_mesh_of_vertices_and_faces_is_that_of_its_corners)
+{
+  std::vector<double> corners;
+  for (const std::uint32_t v : kCubeFaces)
+    for (int a = 0; a < 3; a++) corners.push_back(cube_vertices<double>()[3 * v + a]);
+  const lsdcd::MeshArrays a = lsdcd::Mesh(corners).arrays();
+  const lsdcd::MeshArrays b[] = {lsdcd::Mesh(cube_vertices<double>(), kCubeFaces).arrays(),
+                                 lsdcd::Mesh(cube_vertices<float>(), kCubeFaces).arrays()};
+  for (const lsdcd::MeshArrays &m : b) {
+    EXPECT_EQ(m.vertices, a.vertices);
+    EXPECT_EQ(m.faces, a.faces);
+    EXPECT_EQ(m.edges, a.edges);
+  }
+}
+
+TEST(library, faces_of_the_welded_mesh_have_the_corners_of_their_triangles)
+{
+  TriangleSoup soup = box_and_cylinder();
+  soup.corners.insert(soup.corners.begin(), 3, {0, 0, 0.75});    // no area, so no face
+  const lsdcd::Mesh mesh(numbers(soup));
+  const lsdcd::MeshArrays m = mesh.arrays();
+  ASSERT_EQ(m.triangle.size() + 1, soup.n_triangles());
+  for (std::size_t f = 0; f < m.triangle.size(); f++)
+    for (int k = 0; k < 3; k++) {
+      const Vec3 corner = soup.corners[3 * m.triangle[f] + k];
+      EXPECT_EQ(norm(point(m.vertices, m.faces[3 * f + k]) - corner), 0) << f;
+    }
+}
+
+TEST(library, edges_of_the_welded_mesh_join_corners_of_their_faces)
+{
+  const lsdcd::MeshArrays m = lsdcd::Mesh(numbers(box_and_cylinder())).arrays();
+  ASSERT_EQ(m.edge_first.front(), 0u);
+  ASSERT_EQ(m.edge_first.back(), m.edge_faces.size());
+  std::vector<int> met(m.faces.size());
+  for (std::size_t e = 0; e + 1 < m.edge_first.size(); e++)
+    for (std::uint32_t i = m.edge_first[e]; i < m.edge_first[e + 1]; i++)
+      for (int k = 0; k < 3; k++) {
+        const std::uint32_t *face = &m.faces[3 * m.edge_faces[i]];
+        if (m.face_edges[3 * m.edge_faces[i] + k] != e) continue;
+        met[3 * m.edge_faces[i] + k]++;
+        const auto [low, high] = std::minmax(face[k], face[(k + 1) % 3]);
+        EXPECT_EQ(m.edges[2 * e], low) << e;
+        EXPECT_EQ(m.edges[2 * e + 1], high) << e;
+      }
+  EXPECT_EQ(met, std::vector<int>(met.size(), 1));
+}
+
+TEST(library, features_of_answers_are_those_of_the_welded_mesh)
+{
+  const lsdcd::Mesh mesh(numbers(box_and_cylinder()));
+  const lsdcd::MeshArrays m = mesh.arrays();
+  const std::vector<double> points = random_points<double>(4000);
+  const All<double> a(lsdcd::Grid(mesh), points);
+  std::array<int, 3> seen = {};
+  for (std::size_t i = 0; i < a.feature.size(); i++) {
+    const std::uint32_t kind = LSDCD_FEATURE_KIND(a.feature[i]),
+                        f = LSDCD_FEATURE_INDEX(a.feature[i]);
+    const Vec3 c = point(a.closest, i);
+    seen[kind]++;
+    // In coordinates of at most 1.5 the closest point is rounded by less than 1e-14.
+    if (kind == 2) {
+      EXPECT_LT(norm(point(m.vertices, f) - c), 1e-14) << i;
+    } else if (kind == 1) {
+      const Vec3 p = point(m.vertices, m.edges[2 * f]), q = point(m.vertices, m.edges[2 * f + 1]);
+      EXPECT_LT(norm(p - c) + norm(q - c) - norm(p - q), 1e-14) << i;
+    } else {
+      EXPECT_EQ(m.triangle[f], a.triangle[i]) << i;
+    }
+  }
+  for (const int n : seen) EXPECT_GT(n, 50);
+}
+
 TEST(library, a_grid_outlives_its_mesh)
 {
   auto mesh = std::make_unique<lsdcd::Mesh>(numbers(box_and_cylinder()));
@@ -841,6 +927,26 @@ TEST_F(Wrong, corners_that_are_not_finite)
   expect(lsdcd_mesh_from_corners(corners.data(), 6, -1, &m), LSDCD_ERROR_INPUT, "triangle 4");
   expect(lsdcd_mesh_from_corners(corners.data(), 0, -1, &m), LSDCD_ERROR_ARGUMENT, "is 0");
   expect(lsdcd_mesh_from_corners(corners.data(), 2, NAN, &m), LSDCD_ERROR_ARGUMENT, "`weld`");
+}
+
+TEST_F(Wrong, faces_whose_vertices_are_not_there_or_not_finite)
+{
+  std::vector<float> at = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, NAN, 0};
+  const std::uint32_t past[] = {0, 1, 2, 0, 2, 4}, not_finite[] = {0, 1, 2, 0, 2, 3};
+  lsdcd_mesh *m = nullptr;
+  const auto made_of = [&](const std::uint32_t *faces, std::size_t n, int type = LSDCD_FLOAT) {
+    return lsdcd_mesh_from_faces(at.data(), type, 4, faces, n, -1, &m);
+  };
+  expect(made_of(past, 2), LSDCD_ERROR_INPUT, "face 1 (from 0) has the vertex 4; there are 4");
+  expect(made_of(not_finite, 2), LSDCD_ERROR_INPUT,
+         "face 1 (from 0) has the vertex 3, whose y is nan");
+  expect(made_of(past, 0), LSDCD_ERROR_ARGUMENT, "`n_faces` is 0");
+  expect(made_of(past, 1, 2), LSDCD_ERROR_ARGUMENT, "`type`");
+  expect(made_of(nullptr, 1), LSDCD_ERROR_ARGUMENT, "`faces` is null");
+  EXPECT_EQ(m, nullptr);
+  // The vertex that is no number belongs to no face.
+  EXPECT_EQ(made_of(past, 1), LSDCD_OK);
+  lsdcd_mesh_free(m);
 }
 
 TEST_F(Wrong, options_that_make_no_grid)

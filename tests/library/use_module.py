@@ -21,6 +21,12 @@ mesh = lsdcd.Mesh(vertices, faces)
 grid = mesh.grid(cutoff=CUTOFF)
 
 
+# The welded mesh is the cube that was given: 12 triangles, 18 edges of two, 8 corners.
+welded = mesh.arrays()
+assert welded.faces.shape == (12, 3) and welded.edges.shape == (18, 2) and welded.edge_first[-1] == 36
+assert (welded.vertices[welded.faces] == vertices[faces[welded.triangle]]).all()
+assert (np.sort(welded.vertices, axis=None) == np.sort(vertices, axis=None)).all()
+
 def truth(points):
     """Distance from the cube's surface, and its side."""
     p = np.abs(np.asarray(points, dtype=float))

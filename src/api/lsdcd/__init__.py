@@ -54,6 +54,9 @@ _MeshFacts = _struct(
     "_MeshFacts", ("triangles", _size), ("faces", _size), ("edges", _size), ("vertices", _size),
     ("open_edges", _size), ("closed", _int), ("oriented", _int),
     ("area", _real), ("volume", _real), ("lo", _real * 3), ("hi", _real * 3), ("meeting_pairs", _size))
+_MeshArrays = _struct(
+    "_MeshArrays", ("vertices", _at), ("faces", _at), ("face_edges", _at), ("triangle", _at), ("edges", _at),
+    ("edge_first", _at), ("edge_faces", _at))
 _GridOptions = _struct(
     "_GridOptions", ("cutoff", _real), ("cell", _real), ("nearest", _int), ("precision", _int),
     ("memory", _real), ("cache", ctypes.c_char_p), ("threads", _int), ("device", _int))
@@ -114,7 +117,7 @@ def _load() -> Any:
         free.argtypes, free.restype = [_at], None
     lib.lsdcd_mesh_read.argtypes = [ctypes.c_char_p, _real, _at]
     lib.lsdcd_mesh_from_corners.argtypes = [_at, _size, _real, _at]
-    for call in ("mesh_get_facts", "grid_get_facts", "query_host", "body_get_facts", "collide"):
+    for call in ("mesh_get_facts", "mesh_get_arrays", "grid_get_facts", "query_host", "body_get_facts", "collide"):
         getattr(lib, "lsdcd_" + call).argtypes = [_at, _at]
     lib.lsdcd_query_stream.argtypes = [_at, _at]
     lib.lsdcd_grid_build.argtypes = lib.lsdcd_stream_open.argtypes = [_at, _at, _at]
@@ -228,6 +231,20 @@ class Mesh(_Owner):
     @property
     def facts(self) -> MeshFacts:
         return MeshFacts(**_facts(_MeshFacts, _lib.lsdcd_mesh_get_facts, self._handle))
+
+    def arrays(self) -> SimpleNamespace:
+        """The welded mesh, whose numbers features have: vertices, (V, 3), float64; faces, (F, 3), their vertices in
+        the order given, face_edges, (F, 3), edge k from vertex k to the next, and triangle, (F,), the number as given;
+        edges, (E, 2), the lower vertex first; faces of edge e: edge_faces[edge_first[e]:edge_first[e + 1]]. All but
+        vertices are uint32. Faces have an area; edges and vertices of other triangles stay."""
+        facts = self.facts
+        v, f, e = facts.vertices, facts.faces, facts.edges
+        shapes = {"faces": (f, 3), "face_edges": (f, 3), "triangle": (f,), "edges": (e, 2), "edge_first": (e + 1,),
+                  "edge_faces": (3 * f,)}
+        made = SimpleNamespace(vertices=np.empty((v, 3)), **{k: np.empty(s, np.uint32) for k, s in shapes.items()})
+        arrays = _sized(_MeshArrays, **{name: array.ctypes.data for name, array in vars(made).items()})
+        _check(_lib.lsdcd_mesh_get_arrays(self._handle, ctypes.byref(arrays)))
+        return made
 
     @property
     def report(self) -> str:
