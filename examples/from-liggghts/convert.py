@@ -673,9 +673,12 @@ class Script:
             self.plain.add(name)
             self.note(line, "fix check/timestep/gran has no counterpart; lsdcd timestep names a timestep")
         elif style.startswith("insert/"):
-            raise Left(style, self.pour(line) or "fix pour, fix deposit, create_atoms or read_data, a radius off the mesh")
+            self.insert(line)
+        elif name in self.templates or all(k in self.templates for k in self.distributions.get(name, [""])[::2]):
+            self.plain.add(name)
+            self.put(f"# {name}: see the fixes that insert grains")
         elif style.startswith(("particletemplate", "particledistribution")):
-            raise Left(style, "radii and densities go to fix pour (diam poly), or to set after create_atoms")
+            raise Left(style, "radii and densities go to fix insert/lsdcd (diam, dens), or to set after create_atoms")
         elif style in SAME_FIXES:
             if style == "ave/time" and "f_" in line.text:
                 self.pass_on(line)
@@ -684,29 +687,58 @@ class Script:
         else:
             raise Left(f"fix {style}", "LAMMPS has no fix of that name with these words")
 
-    def pour(self, line):
-        """What to do in place of an insertion: a command, where its grains are known."""
-        w = line.words
-        options = {k: w[w.index(k) + 1] for k in ("distributiontemplate", "seed", "region") if k in w}
-        count = next((w[w.index(k) + 1] for k in ("particles_in_region", "nparticles") if k in w), None)
-        parts = self.distributions.get(options.get("distributiontemplate"), [])
+    def inserted_grains(self, name, line):
+        """Words of fix insert/lsdcd for a distribution."""
+        parts = self.distributions.get(name, [])
         found = [(self.templates.get(k), self.number(f, line)) for k, f in zip(parts[::2], parts[1::2])]
-        if len(options) < 3 or not count or not found or not all(t for t, _ in found):
-            return None
-        if len({(t[0], t[2]) for t, _ in found}) > 1:    # one type and one density are all that fix pour takes
-            return None
+        if not found or not all(t for t, _ in found):
+            raise Left("insertion of grains that are no spheres of constant radius and density",
+                       "fix insert/lsdcd, with diam one, range, poly or mass")
+        if len({(t[0], t[2]) for t, _ in found}) > 1:
+            raise Left("insertion of several types or densities", "a fix insert/lsdcd for each, with its share of the rate")
         grain_type, _, density = found[0][0]
-        sizes = f"one {2 * found[0][0][1]:.10g}"
-        if len(found) > 1:    # mass fractions there, number fractions here
-            numbers = [f / t[1] ** 3 for t, f in found]
-            shares = [round(n / sum(numbers), 6) for n in numbers]
-            shares[-1] = 1 - sum(shares[:-1])
-            sizes = f"poly {len(found)} " + " ".join(f"{2 * t[1]:.10g} {n:.6f}" for (t, _), n in zip(found, shares))
-        x, y, z = w[w.index("vel") + 2:w.index("vel") + 5] if "vel" in w and w[w.index("vel") + 1] == "constant" else "000"
-        return (f"fix {w[1]} {w[2]} pour {count} {grain_type} {options['seed']} region {options['region']} diam {sizes} "
-                f"dens {density:.10g} {density:.10g} vel {x} {x} {y} {y} {z}   which pours from the top of the region, as "
-                "they fall; it needs fix gravity, and a region over a diameter high and a radius off the mesh. At once: "
-                f"create_atoms {grain_type} random, where LAMMPS has its word overlap")
+        total = sum(f for _, f in found)
+        sizes = f"mass {len(found)} " + " ".join(f"{2 * t[1]:.10g} {f / total:.10g}" for t, f in found)
+        if len(found) == 1:
+            sizes = f"one {2 * found[0][0][1]:.10g}"
+        return f"type {grain_type} diam {sizes} dens {density:.10g}"
+
+    def insert(self, line):
+        w = line.words
+        form = w[3].split("/", 1)[1]
+        options = {k: w[w.index(k) + 1] for k in (
+            "distributiontemplate", "seed", "region", "insertion_face", "nparticles", "mass", "massrate", "particlerate",
+            "particles_in_region", "mass_in_region", "insert_every") if k in w}
+        if form == "stream":
+            mesh = self.meshes.get(options.get("insertion_face"))
+            if mesh is None:
+                raise Left("insert/stream through a face that is not converted", "fix insert/lsdcd mesh FILE")
+            place = f"mesh {mesh.file}{mesh.placement()}"
+        elif form in ("pack", "rate/region") and "region" in options:
+            place = f"region {options['region']}"
+        else:
+            raise Left(w[3], "fix insert/lsdcd mesh FILE or region ID")
+        if form == "pack" and options.get("insert_every", "once") != "once":
+            raise Left("insert/pack that fills up again and again", "fix insert/lsdcd with massrate or numberrate")
+        amounts = [f"{ours} {options[theirs]}" for theirs, ours in (
+            ("massrate", "massrate"), ("particlerate", "numberrate"), ("nparticles", "number"), ("mass", "mass"),
+            ("particles_in_region", "number"), ("mass_in_region", "mass")) if options.get(theirs, "INF") != "INF"]
+        if not amounts:
+            raise Left(f"{w[3]} without its number or mass", "fix insert/lsdcd with number, mass, numberrate or massrate")
+        velocity = ""
+        if "vel" in w:
+            k = w.index("vel")
+            spread = w[k + 5:k + 8] if w[k + 1] == "uniform" else []
+            if w[k + 1] not in ("constant", "uniform") or len(set(spread)) > 1:
+                raise Left(f"velocities of {w[k + 1]}", "vel and jitter of fix insert/lsdcd")
+            velocity = " vel " + " ".join(w[k + 2:k + 5]) + "".join(f" jitter {v}" for v in spread[:1])
+        self.put(f"fix             {w[1]} {w[2]} insert/lsdcd {place} {self.inserted_grains(options.get('distributiontemplate'), line)} "
+                 f"{' '.join(amounts)}{velocity}" + (f" seed {options['seed']}" if "seed" in options else ""))
+        self.plain.add(w[1])
+        if form == "stream":
+            self.note(line, "grains are put on the face itself; depth D puts them up to D in front of it, along its normal")
+        if "omega" in w:
+            self.note(line, "grains come without a spin")
 
     def law_of(self, line, model, wall_type):
         """Words of the wall for each grain type."""

@@ -56,17 +56,31 @@ LEFT = {
     "a mesh that is generated": ("fix cad all mesh/surface generate cube 0.1 63 type 1\n", "a mesh by generate"),
     "superquadrics": ("atom_style superquadric\n", "atom_style superquadric"),
 }
-# Insertions whose grains are known, and the command that is named. Half of the mass in spheres half as large: 8 of 9.
+# Insertions.
 GRAINS = "".join(f"fix p{k} all particletemplate/sphere {k} atom_type 1 density constant 2500 radius constant {r}\n"
                  for k, r in ((1, 0.002), (2, 0.004)))
-POURED = {
-    "one size": (GRAINS + "fix d all particledistribution/discrete 3 1 p1 1\nfix i all insert/pack seed 7 "
-                 "distributiontemplate d vel constant 0 0 -2 particles_in_region 90 region r\n",
-                 "fix i all pour 90 1 7 region r diam one 0.004 dens 2500 2500 vel 0 0 0 0 -2 "),
-    "two sizes by mass": (GRAINS + "fix d all particledistribution/discrete/massbased 3 2 p1 0.5 p2 0.5\nfix i all "
-                          "insert/rate/region seed 7 distributiontemplate d nparticles 90 region r\n",
-                          "diam poly 2 0.004 0.888889 0.008 0.111111 dens 2500 2500 vel 0 0 0 0 0 "),
-}
+ONE = GRAINS + "fix d all particledistribution/discrete 3 1 p1 1\n"
+WRITTEN.update({
+    "a pack of one size": (ONE + "fix i all insert/pack seed 7 distributiontemplate d vel constant 0 0 -2 "
+                           "particles_in_region 90 region r\n",
+                           "fix             i all insert/lsdcd region r type 1 diam one 0.004 dens 2500 number 90 vel 0 0 -2 seed 7\n"),
+    "a rate of two sizes by mass": (
+        GRAINS + "fix d all particledistribution/discrete/massbased 3 2 p1 0.5 p2 0.5\nfix i all insert/rate/region seed 7 "
+        "distributiontemplate d nparticles 90 massrate 0.1 insert_every 1000 region r\n",
+        "insert/lsdcd region r type 1 diam mass 2 0.004 0.5 0.008 0.5 dens 2500 massrate 0.1 number 90 seed 7\n"),
+    "a stream through a face": (
+        ONE + MESH.format("scale 2") + "fix i all insert/stream seed 7 distributiontemplate d nparticles INF particlerate 20 "
+        "overlapcheck yes vel uniform 0 0 -2 0.1 0.1 0.1 insertion_face cad extrude_length 0.1\n",
+        "insert/lsdcd mesh a.stl scale 2 type 1 diam one 0.004 dens 2500 numberrate 20 vel 0 0 -2 jitter 0.1 seed 7\n"),
+})
+LEFT.update({
+    "a pack without a number": (ONE + "fix i all insert/pack seed 1 distributiontemplate d region r volumefraction_region 0.3\n",
+                                "insert/pack without its number or mass"),
+    "a pack that is filled up": (ONE + "fix i all insert/pack seed 1 distributiontemplate d region r insert_every 9 "
+                                 "particles_in_region 9\n", "insert/pack that fills up again and again"),
+    "grains that are not known": ("fix i all insert/pack seed 1 distributiontemplate d region r particles_in_region 9\n",
+                                  "insertion of grains that are no spheres"),
+})
 REFUSED = {
     "a mesh that is missing": (MATERIAL + WALL.replace("meshes cad", "meshes b") + MESH.format(""), "there is no mesh b"),
     "a number that is not known": (MATERIAL.replace("1e7", "${young}") + MESH.format("") + WALL, "'${young}' is no number"),
@@ -95,9 +109,6 @@ def words(checks, folder):
         form = rf"^# LEFT in\.there:{line}: {re.escape(reason)}.*; do: \S.*\n# {re.escape(text.splitlines()[-1])}$"
         checks.fact(f"left: {what}", done.returncode == 0 and re.search(form, out, re.M) and
                     f"in.there:{line}" in done.stderr, done.stderr)
-    for what, (text, expected) in POURED.items():
-        done, out = convert(folder, MATERIAL + text)
-        checks.fact(f"left with its fix pour: {what}", done.returncode == 0 and expected in out, out)
     for what, (text, reason) in REFUSED.items():
         done, out = convert(folder, text)
         checks.fact(f"refused, and nothing written: {what}", done.returncode == 1 and out is None and reason in done.stderr and
