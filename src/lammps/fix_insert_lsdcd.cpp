@@ -223,6 +223,7 @@ void FixInsertLsdcd::setup(int /*vflag*/)
   insertion->begin_run(update->ntimestep, update->dt);
   follow_schedule();
   refused_seen = insertion->refused();
+  inserted_before = insertion->inserted();
   told = false;
 }
 
@@ -390,17 +391,18 @@ void FixInsertLsdcd::tell_refused(const std::string &when, const lsdcd::Refused 
   add(refused.walls, "met a wall");
   add(refused.no_place, face ? "found no point of the face off its edges and in the box"
                              : "found no point of the region in the box");
-  warn(when + " " + std::to_string(insertion->owed().size()) + " grains, of mass " +
-       number_text(insertion->owed_mass()) + ", are due without a place: of " +
-       std::to_string(refused.all()) + " places refused " + why +
+  if (!why.empty()) why = "; of " + std::to_string(refused.all()) + " places refused " + why;
+  warn(when + " grains are due without a place: " + std::to_string(insertion->owed().size()) +
+       ", of mass " + number_text(insertion->owed_mass()) + why +
        "; they are tried again. A wider or deeper place, a higher velocity, a smaller rate or more "
        "attempts help");
 }
 
 void FixInsertLsdcd::post_run()
 {
-  log(std::to_string(insertion->inserted()) + " grains, of mass " +
-      number_text(insertion->inserted_mass()) + ", are in");
+  if (insertion->inserted() != inserted_before)
+    log(std::to_string(insertion->inserted()) + " grains, of mass " +
+        number_text(insertion->inserted_mass()) + ", are in");
   if (insertion->owed().empty()) return;
   const lsdcd::Refused &all = insertion->refused();
   tell_refused("at the end", {all.no_place - refused_seen.no_place,

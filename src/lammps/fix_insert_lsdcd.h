@@ -50,7 +50,8 @@ class FixInsertLsdcd : public Fix {
   std::unique_ptr<lsdcd::WallClearance> walls;
   std::string radii_id;           // of the fix that tells radii to pair styles
   lsdcd::Refused refused_seen;    // before this run
-  bool told = false;              // in this run, that grains have no place
+  std::int64_t inserted_before = 0;
+  bool told = false;    // in this run, that grains have no place
 
   void read_face();
   void find_region();
