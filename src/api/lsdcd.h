@@ -203,6 +203,38 @@ typedef struct lsdcd_query {
 /* Answers in arrays of the host. Any. */
 LSDCD_API int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query);
 
+/* Spheres, and arrays for their contacts: each place of the mesh whose distance to a centre is a local
+ * minimum below the radius, however many there are. Triangles that form one plane give one contact.
+ * Contacts of sphere i are first[i] up to before first[i + 1], ascending in features. Arrays of contacts
+ * hold `room` of them, packed; those that are null are not asked for. Steps of points and radii are as in
+ * lsdcd_query. A sphere whose centre is no number has none. */
+typedef struct lsdcd_contacts {
+  size_t size; /* of this struct */
+  size_t n;
+  int type;           /* LSDCD_DOUBLE or LSDCD_FLOAT: of all arrays of numbers here */
+  int threads;        /* 0: OMP_NUM_THREADS, or one */
+  const void *points; /* centres */
+  ptrdiff_t points_row, points_column;
+  const void *radii; /* of each sphere, >= 0 and at most the cutoff; null: `radius` is that of all */
+  ptrdiff_t radii_step;
+  double radius; /* >= 0; 0: the cutoff */
+  size_t *first; /* n + 1 numbers, the last one how many contacts there are */
+  size_t room;
+  void *point;    /* 3 numbers each, on the mesh */
+  void *distance; /* >= 0, from there to the centre */
+  void *overlap;  /* radius - distance, > 0 */
+  void *normal;   /* 3 numbers each, unit, from the mesh to the centre */
+  void *weight;   /* 0 to 1: the share of the contact, by the rule with which the wall adds up forces at
+                     corners: as one where the mesh is smooth, all where faces are square to each other */
+  uint32_t *triangle, *feature; /* as in lsdcd_query */
+  size_t contacts;              /* answer: all there are, so the room that all take; with less room only
+                                   `first` is written */
+} lsdcd_contacts;
+/* In arrays of the host. The grid has a cutoff, precision LSDCD_DOUBLE, and no `nearest`; its first call
+ * makes cells. LSDCD_ERROR_CUTOFF: a radius beyond the cutoff, or no cutoff; LSDCD_ERROR_INPUT: a sphere
+ * with more than 512 contacts. Any. */
+LSDCD_API int lsdcd_contacts_host(const lsdcd_grid *grid, lsdcd_contacts *contacts);
+
 /* A grid on the CUDA device that is current, and a stream (cudaStream_t) of that device, null: the
  * default one. The grid must have a cutoff. The stream must outlive it. Streams of one grid share its
  * copy on a device. Any. */

@@ -146,6 +146,24 @@ struct Query : lsdcd_query {
   }
 };
 
+// Of sphere i: first[i] up to before first[i + 1]; see lsdcd_contacts.
+template <class T>
+struct Contacts {
+  std::vector<std::size_t> first;
+  std::vector<T> point, normal;    // 3 numbers each
+  std::vector<T> distance, overlap, weight;
+  std::vector<std::uint32_t> triangle, feature;
+
+  void resize(std::size_t n)
+  {
+    point.resize(3 * n);
+    normal.resize(3 * n);
+    for (std::vector<T> *numbers : {&distance, &overlap, &weight}) numbers->resize(n);
+    triangle.resize(n);
+    feature.resize(n);
+  }
+};
+
 class Grid {
  public:
   Grid(const Mesh &mesh, const lsdcd_grid_options &options)
@@ -179,6 +197,45 @@ class Grid {
     q.radius = radius;
     q.distance = out.data();
     query(q);
+    return out;
+  }
+
+  // All contacts of spheres with centres x y z x y z; radii: of each, or one of all.
+  template <class T>
+  Contacts<T> contacts(const std::vector<T> &centres, const std::vector<T> &radii,
+                       int threads = 0) const
+  {
+    const std::size_t n = centres.size() / 3;
+    if (centres.size() % 3 != 0 || (radii.size() != n && radii.size() != 1))
+      throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::Grid: there are " + std::to_string(centres.size()) +
+                                            " numbers of centres and " +
+                                            std::to_string(radii.size()) +
+                                            " radii, which is not three and one a sphere");
+    Contacts<T> out;
+    out.first.resize(n + 1);
+    lsdcd_contacts c = {};
+    c.size = sizeof c;
+    c.n = n;
+    c.type = c::type_of<T>();
+    c.threads = threads;
+    c.points = centres.data();
+    c.first = out.first.data();
+    const std::vector<T> same(radii.size() == n ? 0 : n, radii.empty() ? T(0) : radii[0]);
+    c.radii = radii.size() == n ? radii.data() : same.data();
+    c.contacts = n;    // mostly enough
+    do {
+      c.room = c.contacts;
+      out.resize(c.room);
+      c.point = out.point.data();
+      c.normal = out.normal.data();
+      c.distance = out.distance.data();
+      c.overlap = out.overlap.data();
+      c.weight = out.weight.data();
+      c.triangle = out.triangle.data();
+      c.feature = out.feature.data();
+      c::check(lsdcd_contacts_host(get(), &c));
+    } while (c.contacts > c.room);
+    out.resize(c.contacts);
     return out;
   }
   const lsdcd_grid *get() const { return handle_.get(); }

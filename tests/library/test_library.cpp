@@ -3,6 +3,7 @@
 
 // The library through its headers, against brute force over the bare triangles.
 #include "lsdcd.hpp"
+#include "support/brute_force_long.h"
 #include "support/comma_locale.h"
 #include "support/meshes.h"
 #include "support/query_oracle.h"
@@ -787,6 +788,211 @@ class Wrong : public ::testing::Test {
     EXPECT_EQ(distance[0], -1);
   }
 };
+
+// ---- contacts ----------------------------------------------------------------------------
+
+// Places where the distance to q is a local minimum below r, by closest points of all triangles in long
+// double. The distance falls from a point p of the mesh on along a triangle that has p, if that triangle
+// has a nearer point; triangles are convex, so that no other way is to be tried. False where that is
+// decided by less than 1e-7, or two minima are as close to each other.
+bool brute_minima(const std::vector<lsdcd::LongTriangle<long double>> &triangles, const Vec3 &q,
+                  double r, std::vector<Vec3> &out)
+{
+  constexpr long double kSame = 1e-12L, kSure = 1e-7L;
+  const auto foot = [&](const lsdcd::LongTriangle<long double> &t, const Vec3 &x) {
+    const auto f = lsdcd::foot_of(t, lsdcd::from_to<long double>(t.corner[0], x));
+    return Vec3{double(t.corner[0].x + f.x), double(t.corner[0].y + f.y),
+                double(t.corner[0].z + f.z)};
+  };
+  out.clear();
+  for (const auto &t : triangles) {
+    const Vec3 p = foot(t, q);
+    const long double d = norm(q - p);
+    if (std::abs(d - static_cast<long double>(r)) < kSure) return false;
+    if (d > static_cast<long double>(r)) continue;
+    bool is_least = true;
+    for (const auto &other : triangles) {
+      const long double apart = norm(foot(other, p) - p);
+      if (apart > kSure) continue;
+      if (apart > kSame) return false;
+      const long double lower = d - static_cast<long double>(norm(q - foot(other, q)));
+      if (lower > kSame && lower < kSure) return false;
+      is_least = is_least && lower <= kSame;
+    }
+    if (!is_least) continue;
+    bool is_known = false;
+    for (const Vec3 &known : out) {
+      const long double apart = norm(known - p);
+      if (apart > kSame && apart < kSure) return false;
+      is_known = is_known || apart <= kSame;
+    }
+    if (!is_known) out.push_back(p);
+  }
+  return true;
+}
+
+template <class T>
+std::vector<T> some_radii(std::size_t n)
+{
+  std::mt19937 r(5);
+  std::uniform_real_distribution<double> of(0.02, kCutoff - 0.01);
+  std::vector<T> radii(n);
+  for (T &x : radii) x = static_cast<T>(of(r));
+  return radii;
+}
+
+// `tolerance`: the rounding of answers in T, of coordinates up to 1.5, and the mesh's, 1e-9 of 1.
+template <class T>
+void expect_all_minima(double tolerance)
+{
+  const TriangleSoup soup = box_and_cylinder();
+  const auto triangles = lsdcd::long_triangles<long double>(soup);
+  const lsdcd::Grid grid = grid_of(soup);
+  const std::vector<T> points = random_points<T>(1500), radii = some_radii<T>(1500);
+  const lsdcd::Contacts<T> a = grid.contacts(points, radii);
+  int with_several = 0, unsure = 0;
+  for (std::size_t i = 0; i < radii.size(); i++) {
+    const Vec3 q = point(points, i);
+    std::vector<Vec3> minima;
+    if (!brute_minima(triangles, q, static_cast<double>(radii[i]), minima)) {
+      unsure++;
+      continue;
+    }
+    ASSERT_EQ(a.first[i + 1] - a.first[i], minima.size()) << i;
+    with_several += minima.size() > 1;
+    for (std::size_t k = a.first[i]; k < a.first[i + 1]; k++) {
+      const Vec3 p = point(a.point, k), n = point(a.normal, k);
+      double nearest = HUGE_VAL;
+      for (const Vec3 &m : minima) nearest = std::min(nearest, norm(m - p));
+      EXPECT_LT(nearest, tolerance) << i;
+      const double d = static_cast<double>(a.distance[k]);
+      EXPECT_NEAR(d, norm(q - p), tolerance) << i;
+      EXPECT_NEAR(static_cast<double>(a.overlap[k]), static_cast<double>(radii[i]) - d, tolerance)
+          << i;
+      EXPECT_LT(norm(d * n - (q - p)), tolerance) << i;
+      EXPECT_LT(distance_to(soup, a.triangle[k], p), tolerance) << i;
+    }
+  }
+  EXPECT_GT(with_several, 50);
+  EXPECT_LT(unsure, 15);
+}
+
+TEST(contacts, are_all_local_minima_of_distance)
+{
+  expect_all_minima<double>(2e-9);
+}
+
+TEST(contacts, of_floats_are_all_local_minima_of_distance)
+{
+  expect_all_minima<float>(1e-6);
+}
+
+// The rule: l = weight overlap has the least 1/2 l'Gl - d'l of all l >= 0, G_ij = max(0, n_i . n_j), d the
+// overlaps. That is so where no l can fall or rise to a lower value: the gradient d - Gl is at most 0, and
+// 0 where l > 0. Rounding: some 1e-15 of overlaps below 1; the mesh's tolerance, 1e-9 of it.
+TEST(contacts, have_weights_that_share_the_overlap_best)
+{
+  const lsdcd::Grid grid = grid_of(box_and_cylinder());
+  const std::vector<double> points = random_points<double>(4000), radii = {kCutoff};
+  const lsdcd::Contacts<double> a = grid.contacts(points, radii);
+  int shared = 0;
+  for (std::size_t s = 0; s + 1 < a.first.size(); s++)
+    for (std::size_t i = a.first[s]; i < a.first[s + 1]; i++) {
+      double gradient = a.overlap[i];
+      for (std::size_t k = a.first[s]; k < a.first[s + 1]; k++)
+        gradient -=
+            std::max(0.0, dot(point(a.normal, i), point(a.normal, k))) * a.weight[k] * a.overlap[k];
+      EXPECT_LT(gradient, 1e-8) << s;
+      EXPECT_LT(std::abs(gradient) * a.weight[i], 1e-8) << s;
+      EXPECT_GE(a.weight[i], 0) << s;
+      EXPECT_LE(a.weight[i], 1) << s;
+      shared += a.weight[i] < 1;
+    }
+  EXPECT_GT(shared, 50);
+}
+
+TEST(contacts, in_a_cubes_corner_are_its_three_faces_with_all_their_weight)
+{
+  const lsdcd::Grid grid(lsdcd::Mesh(cube_vertices<double>(), kCubeFaces), kCutoff);
+  // In the corner; over a vertex, an edge and a face from outside; far; no number.
+  const std::vector<double> points = {0.7, 0.8, 0.9, 1.1, 1.1, 1.1, 1.1, 1.1, 0.3,
+                                      1.1, 0.5, 0.3, 5,   5,   5,   NAN, 1,   1};
+  const lsdcd::Contacts<double> a = grid.contacts(points, std::vector<double>{kCutoff});
+  EXPECT_EQ(a.first, (std::vector<std::size_t>{0, 3, 4, 5, 6, 6, 6}));
+  std::vector<double> distance(a.distance.begin(), a.distance.begin() + 3);
+  std::sort(distance.begin(), distance.end());
+  for (int k = 0; k < 3; k++) EXPECT_NEAR(distance[k], 0.1 * (k + 1), 1e-15);
+  for (const double w : a.weight) EXPECT_EQ(w, 1);
+  const std::uint32_t kinds[] = {0, 0, 0, 2, 1, 0};
+  for (int k = 0; k < 6; k++) EXPECT_EQ(LSDCD_FEATURE_KIND(a.feature[k]), kinds[k]) << k;
+}
+
+TEST(contacts, of_more_than_few_places_are_all_there)
+{
+  // A sphere above 100 pillars' tips.
+  std::vector<double> at;
+  std::vector<std::uint32_t> faces;
+  for (int i = 0; i < 10; i++)
+    for (int k = 0; k < 10; k++)
+      for (int v = 0; v < 3; v++) {
+        const double angle = 2 * M_PI / 3 * v, wide = v < 2 ? 0.002 : 0;
+        at.insert(at.end(), {0.02 * i + wide * std::cos(angle), 0.02 * k + wide * std::sin(angle),
+                             v < 2 ? -1.0 : 0.0});
+        faces.push_back(static_cast<std::uint32_t>(faces.size()));
+      }
+  const lsdcd::Grid grid(lsdcd::Mesh(at, faces), 0.3);
+  const lsdcd::Contacts<double> a =
+      grid.contacts(std::vector<double>{0.09, 0.09, 0.1}, std::vector<double>{0.3});
+  EXPECT_EQ(a.first[1], 100u);
+}
+
+TEST(contacts, are_the_same_with_threads_and_in_one_call_or_many)
+{
+  const lsdcd::Grid grid = grid_of(box_and_cylinder());
+  const std::vector<double> points = random_points<double>(3000), radii = some_radii<double>(3000);
+  const lsdcd::Contacts<double> a = grid.contacts(points, radii, 1),
+                                b = grid.contacts(points, radii, 4);
+  EXPECT_EQ(a.first, b.first);
+  EXPECT_EQ(a.feature, b.feature);
+  EXPECT_EQ(a.weight, b.weight);
+  for (std::size_t i = 0; i < 100; i++) {
+    const lsdcd::Contacts<double> one = grid.contacts(
+        std::vector<double>(&points[3 * i], &points[3 * i] + 3), std::vector<double>{radii[i]});
+    EXPECT_EQ(one.point, std::vector<double>(a.point.begin() + 3 * std::ptrdiff_t(a.first[i]),
+                                             a.point.begin() + 3 * std::ptrdiff_t(a.first[i + 1])));
+  }
+}
+
+TEST_F(Wrong, contacts_of_what_has_none)
+{
+  const double points[] = {0, 0, 0, 0, 0, 0}, radii[] = {0.1, 7};
+  std::size_t first[3];
+  lsdcd_contacts c = {};
+  c.size = sizeof c;
+  c.n = 2;
+  c.points = points;
+  c.first = first;
+  const auto refused = [&](const lsdcd::Grid &by, int code, const char *says) {
+    expect(lsdcd_contacts_host(by.get(), &c), code, says);
+  };
+  const TriangleSoup soup = box_and_cylinder();
+  refused(lsdcd::Grid(lsdcd::Mesh(numbers(soup))), LSDCD_ERROR_CUTOFF, "has none");
+  refused(grid_of(soup, 4), LSDCD_ERROR_ARGUMENT, "`nearest`");
+  refused(grid_of(soup, 0, LSDCD_FLOAT), LSDCD_ERROR_ARGUMENT, "`precision`");
+  const lsdcd::Grid good = grid_of(soup);
+  c.radius = 7;
+  refused(good, LSDCD_ERROR_CUTOFF, "`radius` is 7");
+  c.radius = -1;
+  refused(good, LSDCD_ERROR_ARGUMENT, "`radius` is -1");
+  c.radius = 0;
+  c.radii = radii;
+  refused(good, LSDCD_ERROR_CUTOFF, "sphere 1 has radius 7");
+  c.type = 2;
+  refused(good, LSDCD_ERROR_ARGUMENT, "`type`");
+  c.type = LSDCD_DOUBLE;
+  c.first = nullptr;
+  refused(good, LSDCD_ERROR_ARGUMENT, "`first` is null");
+}
 
 TEST_F(Wrong, null_pointers)
 {

@@ -27,6 +27,15 @@ assert welded.faces.shape == (12, 3) and welded.edges.shape == (18, 2) and welde
 assert (welded.vertices[welded.faces] == vertices[faces[welded.triangle]]).all()
 assert (np.sort(welded.vertices, axis=None) == np.sort(vertices, axis=None)).all()
 
+# All contacts: three faces in a corner, none, and a vertex from outside.
+for real, close in ((np.float64, 1e-15), (np.float32, 1e-7)):
+    met = grid.contacts(np.array([[0.7, 0.8, 0.9], [0, 0, 0], [1.1, 1.1, 1.1]], dtype=real), 0.4)
+    assert met.first.tolist() == [0, 3, 3, 4] and met.point.dtype == real and (met.weight == 1).all()
+    assert np.allclose(np.sort(met.distance[:3]), [0.1, 0.2, 0.3], rtol=0, atol=close)
+    assert np.allclose(met.overlap, real(0.4) - met.distance, rtol=0, atol=close)
+    assert np.allclose(np.sort(met.normal[:3].sum(0)), [-1, -1, -1], rtol=0, atol=close)
+    assert (met.feature >> 30).tolist() == [0, 0, 0, 2] and (met.point[3] == 1).all()
+
 def truth(points):
     """Distance from the cube's surface, and its side."""
     p = np.abs(np.asarray(points, dtype=float))

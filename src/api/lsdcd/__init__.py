@@ -69,6 +69,11 @@ _Query = _struct(
     ("radius", _real), ("distance", _at), ("distance_step", _step), ("closest", _at),
     ("closest_row", _step), ("closest_column", _step), ("normal", _at), ("normal_row", _step),
     ("normal_column", _step), ("triangle", _at), ("feature", _at), ("side", _at), ("status", _at))
+_Contacts = _struct(
+    "_Contacts", ("n", _size), ("type", _int), ("threads", _int), ("points", _at), ("points_row", _step),
+    ("points_column", _step), ("radii", _at), ("radii_step", _step), ("radius", _real), ("first", _at), ("room", _size),
+    ("point", _at), ("distance", _at), ("overlap", _at), ("normal", _at), ("weight", _at), ("triangle", _at),
+    ("feature", _at), ("contacts", _size))
 _BodyOptions = _struct(
     "_BodyOptions", ("cell", _real), ("nearest", _int), ("memory", _real), ("threads", _int),
     ("device", _int), ("same_wall", _at))
@@ -117,7 +122,7 @@ def _load() -> Any:
         free.argtypes, free.restype = [_at], None
     lib.lsdcd_mesh_read.argtypes = [ctypes.c_char_p, _real, _at]
     lib.lsdcd_mesh_from_corners.argtypes = [_at, _size, _real, _at]
-    for call in ("mesh_get_facts", "mesh_get_arrays", "grid_get_facts", "query_host", "body_get_facts", "collide"):
+    for call in ("mesh_get_facts", "mesh_get_arrays", "grid_get_facts", "query_host", "contacts_host", "body_get_facts", "collide"):
         getattr(lib, "lsdcd_" + call).argtypes = [_at, _at]
     lib.lsdcd_query_stream.argtypes = [_at, _at]
     lib.lsdcd_grid_build.argtypes = lib.lsdcd_stream_open.argtypes = [_at, _at, _at]
@@ -206,6 +211,17 @@ class MeshFacts(_Record):
     meeting_pairs: int    # of triangles of different closed shells
 
 
+class MeshArrays(_Record):
+    """The welded mesh: F faces, which have an area, E edges and V vertices, also those of other triangles."""
+    vertices: NDArray[np.float64]    # (V, 3), length
+    faces: NDArray[np.uint32]        # (F, 3), vertices in the order given
+    face_edges: NDArray[np.uint32]   # (F, 3), edge k from vertex k to the next
+    triangle: NDArray[np.uint32]     # (F,), the number as given, from 0
+    edges: NDArray[np.uint32]        # (E, 2), the lower vertex first
+    edge_first: NDArray[np.uint32]   # (E + 1,)
+    edge_faces: NDArray[np.uint32]   # (3 F,), faces of edge e: edge_faces[edge_first[e]:edge_first[e + 1]]
+
+
 class Mesh(_Owner):
     """From a file (STL; built with assimp also OBJ, PLY and OFF); from triangles, (n, 3, 3); or from vertices,
     (m, 3), and faces, (n, 3), whole numbers from 0. Corners closer than `weld`, a length, become one; < 0: 1e-6 of
@@ -232,16 +248,13 @@ class Mesh(_Owner):
     def facts(self) -> MeshFacts:
         return MeshFacts(**_facts(_MeshFacts, _lib.lsdcd_mesh_get_facts, self._handle))
 
-    def arrays(self) -> SimpleNamespace:
-        """The welded mesh, whose numbers features have: vertices, (V, 3), float64; faces, (F, 3), their vertices in
-        the order given, face_edges, (F, 3), edge k from vertex k to the next, and triangle, (F,), the number as given;
-        edges, (E, 2), the lower vertex first; faces of edge e: edge_faces[edge_first[e]:edge_first[e + 1]]. All but
-        vertices are uint32. Faces have an area; edges and vertices of other triangles stay."""
+    def arrays(self) -> MeshArrays:
+        """The welded mesh, whose numbers, from 0, features have."""
         facts = self.facts
         v, f, e = facts.vertices, facts.faces, facts.edges
         shapes = {"faces": (f, 3), "face_edges": (f, 3), "triangle": (f,), "edges": (e, 2), "edge_first": (e + 1,),
                   "edge_faces": (3 * f,)}
-        made = SimpleNamespace(vertices=np.empty((v, 3)), **{k: np.empty(s, np.uint32) for k, s in shapes.items()})
+        made = MeshArrays(vertices=np.empty((v, 3)), **{k: np.empty(s, np.uint32) for k, s in shapes.items()})
         arrays = _sized(_MeshArrays, **{name: array.ctypes.data for name, array in vars(made).items()})
         _check(_lib.lsdcd_mesh_get_arrays(self._handle, ctypes.byref(arrays)))
         return made
@@ -262,6 +275,19 @@ class Mesh(_Owner):
                          cache=os.fsencode(cache) if cache else None, threads=threads,
                          device=_chosen("device", device, DEVICES))
         return Grid(self, options)
+
+
+class Contacts(_Record):
+    """All contacts of n spheres, m in all; those of sphere i are first[i]:first[i + 1], ascending in features. Numbers
+    are of the points' type."""
+    first: NDArray[np.uintp]       # (n + 1,)
+    point: NDArray[Any]            # (m, 3), on the mesh
+    normal: NDArray[Any]           # (m, 3), length 1, from the mesh to the centre
+    distance: NDArray[Any]         # (m,), >= 0
+    overlap: NDArray[Any]          # (m,), radius - distance > 0
+    weight: NDArray[Any]           # (m,), the share of each by the corner rule, 0 to 1
+    triangle: NDArray[np.uint32]   # (m,), as those of an Answer
+    feature: NDArray[np.uint32]    # (m,)
 
 
 class Answer(_Record):
@@ -378,6 +404,38 @@ class Grid(_Owner):
         if query.n > 0:
             self._query_on(given.device or 0, handle, owner, query, any(map(_arrays.must_wait, kept)))
         return answer
+
+    def contacts(self, points: ArrayLike, radius: ArrayLike, threads: int = 0) -> Contacts:
+        """All contacts of spheres: each place of the mesh whose distance to a centre is a local minimum below the
+        radius. The grid has a cutoff.
+
+        points: centres, (n, 3), in the unit of the mesh, and radius, one or (n,), on the host; as float32 if points are,
+        else as float64.
+
+        Raises TypeError for wrong shapes, Error for a radius below 0 or beyond the cutoff, a grid without a cutoff, with
+        `nearest` or in float, and more than 512 contacts of a sphere."""
+        points = np.asarray(points)
+        real = np.float32 if points.dtype == np.float32 else np.float64
+        points = np.ascontiguousarray(points, dtype=real)
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise TypeError(f"points have the shape {points.shape}, not (n, 3)")
+        n = len(points)
+        if np.shape(radius) not in ((), (n,)):
+            raise TypeError(f"radius has the shape {np.shape(radius)}, not () or {(n,)}")
+        radii = np.ascontiguousarray(np.broadcast_to(np.asarray(radius, dtype=real), n))
+        first = np.empty(n + 1, np.uintp)
+        ask = _sized(_Contacts, n=n, type=int(real == np.float32), threads=threads, points=points.ctypes.data,
+                     radii=radii.ctypes.data, first=first.ctypes.data, contacts=n)
+        while True:
+            m = ask.room = ask.contacts
+            made = {"point": np.empty((m, 3), real), "normal": np.empty((m, 3), real)}
+            made |= {name: np.empty(m, real) for name in ("distance", "overlap", "weight")}
+            made |= {name: np.empty(m, np.uint32) for name in ("triangle", "feature")}
+            for name, array in made.items():
+                setattr(ask, name, array.ctypes.data)
+            _check(_lib.lsdcd_contacts_host(self._handle, ctypes.byref(ask)))
+            if ask.contacts <= m:
+                return Contacts(first=first, **{k: v[:ask.contacts] for k, v in made.items()})
 
     def _query_on(self, device: int, handle: int, owner: Any, query: Any, wait: bool) -> None:
         """On a stream of a device; `owner` keeps the stream alive."""

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// lsdcd_contacts_host
+#include "api/c_border.h"
+#include "api/call_threads.h"
+#include "api/device_memory.h"
+#include "api/objects.h"
+#include "base/input_words.h"
+#include "query/contact_query.h"
+
+#include <limits>
+
+using namespace lsdcd;
+
+namespace {
+
+lsdcd_contacts checked_contacts(const ApiGrid &grid, const lsdcd_contacts *given)
+{
+  lsdcd_contacts c = checked(given, "lsdcd_contacts");
+  if (c.type != LSDCD_DOUBLE && c.type != LSDCD_FLOAT)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`type` is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
+  check_threads(c.threads);
+  if (c.n > static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max()) / 64)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`n` is " + std::to_string(c.n));
+  need(c.first, "first");
+  if (c.n > 0) need(c.points, "points");
+  if (!grid.is_limited())
+    throw ApiError(LSDCD_ERROR_CUTOFF,
+                   "contacts are found up to a cutoff, and this grid has none: build one with a "
+                   "cutoff of the largest radius");
+  if (!grid.uses_tree())
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "contacts need complete lists in double: build a grid without `nearest`, with "
+                   "`precision` LSDCD_DOUBLE");
+  if (c.radii && c.radius != 0)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`radii` and `radius` are both given");
+  if (!c.radii && c.radius == 0) c.radius = grid.cutoff();
+  if (!(c.radius >= 0))
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`radius` is " + number_text(c.radius));
+  if (c.radius > grid.cutoff())
+    throw ApiError(LSDCD_ERROR_CUTOFF,
+                   "`radius` is " + number_text(c.radius) + ", more than the grid's cutoff " +
+                       number_text(grid.cutoff()) + ": build the grid with a larger cutoff");
+  const DeviceMemory device;
+  const std::pair<const void *, const char *> arrays[] = {
+      {c.points, "points"},     {c.radii, "radii"},     {c.first, "first"},   {c.point, "point"},
+      {c.distance, "distance"}, {c.overlap, "overlap"}, {c.normal, "normal"}, {c.weight, "weight"},
+      {c.triangle, "triangle"}, {c.feature, "feature"}};
+  for (const auto &[array, name] : arrays)
+    if (array && device.only_there(array))
+      throw ApiError(LSDCD_ERROR_DEVICE, std::string("the array `") + name +
+                                             "` is in a GPU's memory: contacts are found on the "
+                                             "host alone");
+  return c;
+}
+
+template <class T>
+void write(const TriangleTable &names, const std::vector<SphereContact> &found,
+           const lsdcd_contacts &to)
+{
+  const TriangleNames triangles = names.view();
+  const auto put = [](void *array, std::size_t i, Real x) {
+    if (array) static_cast<T *>(array)[i] = static_cast<T>(x);
+  };
+  const auto put_vector = [&](void *array, std::size_t i, const Vec3 &x) {
+    for (int a = 0; a < 3; a++) put(array, 3 * i + static_cast<std::size_t>(a), x[a]);
+  };
+  for (std::size_t i = 0; i < found.size(); i++) {
+    const SphereContact &f = found[i];
+    put_vector(to.point, i, f.point);
+    put_vector(to.normal, i, f.normal);
+    put(to.distance, i, f.distance);
+    put(to.overlap, i, f.overlap);
+    put(to.weight, i, f.weight);
+    if (to.triangle) to.triangle[i] = triangles.of(f.feature);
+    if (to.feature) to.feature[i] = f.feature;
+  }
+}
+
+template <class T>
+std::size_t find(const ApiGrid &grid, const lsdcd_contacts &c)
+{
+  SphereView<T> spheres;
+  spheres.n = c.n;
+  spheres.centres = {static_cast<const T *>(c.points), c.points_row == 0 ? 3 : c.points_row,
+                     c.points_column == 0 ? 1 : c.points_column};
+  spheres.radii = {static_cast<const T *>(c.radii), c.radii_step == 0 ? 1 : c.radii_step};
+  spheres.radius = c.radius;
+  const SphereContacts made = find_all_contacts(grid.cells().grid.view, spheres);
+  std::copy(made.first.begin(), made.first.end(), c.first);
+  if (made.found.size() <= c.room) write<T>(grid.names, made.found, c);
+  return made.found.size();
+}
+
+}    // namespace
+
+extern "C" {
+
+int lsdcd_contacts_host(const lsdcd_grid *grid, lsdcd_contacts *contacts)
+{
+  return guard([&] {
+    need(grid, "grid");
+    const ApiGrid &g = *grid->in;
+    const lsdcd_contacts c = checked_contacts(g, contacts);
+    const CallThreads threads(c.threads);
+    contacts->contacts = c.type == LSDCD_FLOAT ? find<float>(g, c) : find<double>(g, c);
+  });
+}
+
+}    // extern "C"

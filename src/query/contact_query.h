@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// All contacts of spheres with a wall, with the weights of the corner rule. On the CPU.
+#pragma once
+
+#include "base/strided_view.h"
+#include "grid/triangle_grid.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace lsdcd {
+
+// Spheres in arrays of the caller. T: float or double.
+template <class T>
+struct SphereView {
+  std::size_t n = 0;
+  StridedView<const T> centres;
+  Column<const T> radii;    // null: `radius` is that of all
+  Real radius = 0;
+};
+
+struct SphereContact {
+  FeatureCode feature;
+  Vec3 point, normal;        // on the wall; unit, from there to the centre
+  Real distance, overlap;    // overlap = radius - distance > 0
+  Real weight;               // share of the force, 0 to 1
+};
+
+// Those of sphere i are found[first[i]] up to before found[first[i + 1]], in the order of their features.
+struct SphereContacts {
+  std::vector<std::size_t> first;
+  std::vector<SphereContact> found;
+};
+
+// With threads() threads. The lists must be complete. Throws InputError if a radius in `radii` exceeds
+// the cutoff, or where a sphere has more contacts than the corner rule takes.
+SphereContacts find_all_contacts(const GridView &grid, const SphereView<float> &spheres);
+SphereContacts find_all_contacts(const GridView &grid, const SphereView<double> &spheres);
+
+}    // namespace lsdcd
