@@ -6,9 +6,12 @@
 
 All grains of a case have one velocity, so that none that was put clear of the others is in their way later: the
 last dump shows every overlap that there ever was.
+
+usage: test_insert.py [host]: under the LAMMPS of hosts/build_host.sh
 """
 
 import math
+import sys
 
 import lmp
 
@@ -203,7 +206,18 @@ def check_debt(checks, folder):
                 len(whole) < 40, str(len(whole)))
 
 
+def on_host():
+    if not lmp.TEST_HOST:
+        print("SKIPPED: no LAMMPS of hosts/build_host.sh (LSDCD_TEST_HOST)")
+        sys.exit(77)
+    run = lmp.run
+    lmp.LMP = lmp.TEST_HOST
+    lmp.run = lambda script, *args, **words: run(f"plugin load {lmp.TEST_HOST_PLUGIN}\n" + script, *args, **words)
+
+
 def main():
+    if "host" in sys.argv[1:]:
+        on_host()
     checks, folder = lmp.Checks(), lmp.scratch()
     for check in (check_face, check_radii, check_periodic, check_wall, check_debt):
         check(checks, folder)
