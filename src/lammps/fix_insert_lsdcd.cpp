@@ -63,13 +63,15 @@ class LammpsSite : public lsdcd::InsertionSite {
  private:
   static constexpr int kTries = 10000;
 
+  // A mesh may reach past a periodic face; LAMMPS's regions end there.
   bool is_in_box(const Vec3 &at) const
   {
     const Vec3 part = box_.fraction(at);
-    for (int k = 0; k < 3; k++)
-      if (!box_.periodic[k] &&
-          ((part[k] < 0 && !box_.face_follows[k][0]) || (part[k] >= 1 && !box_.face_follows[k][1])))
+    for (int k = 0; k < 3; k++) {
+      if (box_.periodic[k] && fix_.face) continue;
+      if ((part[k] < 0 && !box_.face_follows[k][0]) || (part[k] >= 1 && !box_.face_follows[k][1]))
         return false;
+    }
     return true;
   }
 
@@ -163,17 +165,24 @@ void FixInsertLsdcd::find_region()
 #endif
   const std::string name = "region " + settings.region;
   if (!region) throw lsdcd::InputError("there is no " + name + ": define it before this fix");
-  if (!region->bboxflag)
-    throw lsdcd::InputError(name + " has no bounds, as it is side out, moves or reaches to INF: "
-                                   "give one with bounds on all sides");
+  if (!region->bboxflag || region->varshape || region->dynamic_check())
+    throw lsdcd::InputError(name +
+                            " has no bounds or changes: give one that stays and has side in");
   velocity = settings.velocity;
 }
 
 lsdcd::Box FixInsertLsdcd::zone() const
 {
   if (face) return face->zone();
-  return {{region->extent_xlo, region->extent_ylo, region->extent_zlo},
-          {region->extent_xhi, region->extent_yhi, region->extent_zhi}};
+  lsdcd::Box zone = {{region->extent_xlo, region->extent_ylo, region->extent_zlo},
+                     {region->extent_xhi, region->extent_yhi, region->extent_zhi}};
+  // INF, which is 1e20, reaches to the box.
+  const lsdcd::Box box = lsdcd::host_box(*domain).bounds({0, 0, 0});
+  for (int k = 0; k < 3; k++) {
+    if (zone.lo[k] < -1e19) zone.lo[k] = box.lo[k];
+    if (zone.hi[k] > 1e19) zone.hi[k] = box.hi[k];
+  }
+  return zone;
 }
 
 int FixInsertLsdcd::setmask()

@@ -277,7 +277,9 @@ TABLES = [
     ]),
 
     # fix insert/lsdcd
-    (FLOW + "region          moved sphere 0 0 0 1 side out units box\nfix             in all insert/lsdcd {}\n" + RUN, [
+    (FLOW + "region          moved sphere 0 0 0 1 side out units box\n" +
+     "variable        u equal 0.1\nregion          moves sphere 0 0 0 1 units box move v_u NULL NULL\n" +
+     "fix             in all insert/lsdcd {}\n" + RUN, [
         ("insert_amount", "mesh floor.stl diam one 0.2 dens 1", "Fix in insert/lsdcd", "the amount is missing",
          "massrate, numberrate, mass or number"),
         ("insert_closed_face", "mesh two.stl diam one 0.2 dens 1 number 5", "Fix in insert/lsdcd", "two.stl: the triangles have no common side"),
@@ -293,7 +295,9 @@ TABLES = [
         ("insert_normal_of_region", "region box diam one 0.2 dens 1 number 5 vel normal 1", "vel normal is for a mesh"),
         ("insert_outside", "mesh floor.stl move 0 0 100 diam one 0.2 dens 1 number 5", "Fix in insert/lsdcd", "outside the box"),
         ("insert_region_of_no_bounds", "region moved diam one 0.2 dens 1 number 5",
-         "Fix in insert/lsdcd", "region moved has no bounds", "give one with bounds on all sides"),
+         "Fix in insert/lsdcd", "region moved has no bounds or changes: give one that stays and has side in"),
+        ("insert_region_that_moves", "region moves diam one 0.2 dens 1 number 5",
+         "Fix in insert/lsdcd", "region moves has no bounds or changes"),
         ("insert_two_rates", "region box diam one 0.2 dens 1 massrate 1 numberrate 1", "'numberrate'", "there is another rate"),
         ("insert_unknown_keyword", "region box daim one 0.2", "Fix in insert/lsdcd", "'daim' is not a keyword", "diam one D"),
         ("insert_wall_of_other_style", "region box diam one 0.2 dens 1 number 5 wall in",

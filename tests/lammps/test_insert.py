@@ -137,7 +137,7 @@ EDGES = ((2, 0, 0), (0.7, 1.5, 0), (0.3, -0.4, 1.2))
 
 def check_periodic(checks, folder):
     """A region in a tilted periodic box, filled at once and dense enough that faces matter."""
-    text = TILTED + "region fill prism 0 2 0 1.5 0 1.2 0.7 0.3 -0.4 units box\n" + \
+    text = TILTED + "region fill block INF INF INF INF INF INF units box\n" + \
         "fix in all insert/lsdcd region fill number 150 diam range 0.2 0.3 dens 1 3 attempts 2000\n" + \
         DUMP.format(1) + "run 1\n"
     lmp.run_well(text, folder)
