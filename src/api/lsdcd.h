@@ -96,13 +96,15 @@ LSDCD_API int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *fac
  * edges and vertices there are, lsdcd_mesh_facts has. Their numbers, from 0, are those of features in
  * answers. A face is a triangle with an area; edges and vertices of those without one may have no face. */
 typedef struct lsdcd_mesh_arrays {
-  size_t size;          /* of this struct */
-  double *vertices;     /* 3 numbers each, length */
-  uint32_t *faces;      /* 3 vertices each, in the order given */
-  uint32_t *face_edges; /* 3 edges each; edge k is from vertex k to vertex k + 1, the last one to 0 */
-  uint32_t *triangle;   /* of each face its number as given, from 0 */
-  uint32_t *edges;      /* 2 vertices each, the lower number first */
-  uint32_t *edge_first; /* edges + 1 numbers: faces of edge e are edge_faces[edge_first[e]] up to before
+  size_t size;      /* of this struct */
+  double *vertices; /* 3 numbers each, length */
+  uint32_t *faces;  /* 3 vertices each, in the order given */
+  uint32_t
+      *face_edges;    /* 3 edges each; edge k is from vertex k to vertex k + 1, the last one to 0 */
+  uint32_t *triangle; /* of each face its number as given, from 0 */
+  uint32_t *edges;    /* 2 vertices each, the lower number first */
+  uint32_t
+      *edge_first; /* edges + 1 numbers: faces of edge e are edge_faces[edge_first[e]] up to before
                            edge_faces[edge_first[e + 1]] */
   uint32_t *edge_faces; /* 3 * faces numbers */
 } lsdcd_mesh_arrays;
@@ -215,7 +217,8 @@ typedef struct lsdcd_contacts {
   int threads;        /* 0: OMP_NUM_THREADS, or one */
   const void *points; /* centres */
   ptrdiff_t points_row, points_column;
-  const void *radii; /* of each sphere, >= 0 and at most the cutoff; null: `radius` is that of all */
+  const void
+      *radii; /* of each sphere, >= 0 and at most the cutoff; null: `radius` is that of all */
   ptrdiff_t radii_step;
   double radius; /* >= 0; 0: the cutoff */
   size_t *first; /* n + 1 numbers, the last one how many contacts there are */
@@ -224,10 +227,11 @@ typedef struct lsdcd_contacts {
   void *distance; /* >= 0, from there to the centre */
   void *overlap;  /* radius - distance, > 0 */
   void *normal;   /* 3 numbers each, unit, from the mesh to the centre */
-  void *weight;   /* 0 to 1: the share of the contact, by the rule with which the wall adds up forces at
+  void *
+      weight; /* 0 to 1: the share of the contact, by the rule with which the wall adds up forces at
                      corners: as one where the mesh is smooth, all where faces are square to each other */
   uint32_t *triangle, *feature; /* as in lsdcd_query */
-  size_t contacts;              /* answer: all there are, so the room that all take; with less room only
+  size_t contacts; /* answer: all there are, so the room that all take; with less room only
                                    `first` is written */
 } lsdcd_contacts;
 /* In arrays of the host. The grid has a cutoff, precision LSDCD_DOUBLE, and no `nearest`; its first call

@@ -8,6 +8,7 @@
 
 #include "lsdcd.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -134,15 +135,55 @@ struct GridOptions : lsdcd_grid_options {
   }
 };
 
-// A query of n points; T: float or double. Set the arrays of the answers that you want.
+// A query of n points; T: float or double, of all arrays of numbers. Set the arrays of the answers that you
+// want. Members are those of lsdcd_query, which it becomes.
 template <class T>
-struct Query : lsdcd_query {
-  Query(const T *first, std::size_t count) : lsdcd_query()
+struct Query {
+  Query(const T *first, std::size_t count) : n(count), points(first) {}
+
+  std::size_t n;
+  int threads = 0;
+  const T *points;
+  std::ptrdiff_t points_row = 0, points_column = 0;
+  const T *radii = nullptr;
+  std::ptrdiff_t radii_step = 0;
+  double radius = 0;
+  T *distance = nullptr;
+  std::ptrdiff_t distance_step = 0;
+  T *closest = nullptr;
+  std::ptrdiff_t closest_row = 0, closest_column = 0;
+  T *normal = nullptr;
+  std::ptrdiff_t normal_row = 0, normal_column = 0;
+  std::uint32_t *triangle = nullptr, *feature = nullptr;
+  std::int8_t *side = nullptr;
+  std::uint8_t *status = nullptr;
+
+  operator lsdcd_query() const
   {
-    size = sizeof(lsdcd_query);
-    n = count;
-    type = c::type_of<T>();
-    points = first;
+    lsdcd_query q = {};
+    q.size = sizeof q;
+    q.n = n;
+    q.type = c::type_of<T>();
+    q.threads = threads;
+    q.points = points;
+    q.points_row = points_row;
+    q.points_column = points_column;
+    q.radii = radii;
+    q.radii_step = radii_step;
+    q.radius = radius;
+    q.distance = distance;
+    q.distance_step = distance_step;
+    q.closest = closest;
+    q.closest_row = closest_row;
+    q.closest_column = closest_column;
+    q.normal = normal;
+    q.normal_row = normal_row;
+    q.normal_column = normal_column;
+    q.triangle = triangle;
+    q.feature = feature;
+    q.side = side;
+    q.status = status;
+    return q;
   }
 };
 

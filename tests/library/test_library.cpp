@@ -382,6 +382,23 @@ TEST(library, arrays_of_any_layout_have_the_same_answers)
   }
 }
 
+// A query of doubles takes no array of floats, nor the other way round.
+template <class T, class U, class = void>
+struct TakesArrays : std::false_type {
+};
+template <class T, class U>
+struct TakesArrays<
+    T, U,
+    std::void_t<decltype(std::declval<lsdcd::Query<T> &>().distance = static_cast<U *>(nullptr))>> :
+    std::true_type {
+};
+TEST(library, a_query_in_cpp_takes_arrays_of_its_type_only)
+{
+  EXPECT_TRUE((TakesArrays<double, double>::value && TakesArrays<float, float>::value));
+  EXPECT_FALSE((TakesArrays<double, float>::value || TakesArrays<float, double>::value));
+  EXPECT_FALSE((TakesArrays<double, void>::value || TakesArrays<float, void>::value));
+}
+
 TEST(library, radii_bound_what_is_found)
 {
   const lsdcd::Grid grid = grid_of(lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}));
@@ -758,7 +775,7 @@ TEST(library, a_driver_that_is_loaded_after_the_first_query_is_noticed)
     grid.distances(points);
     if (!dlopen(LSDCD_FAKE_CUDA, RTLD_NOW)) std::_Exit(-1);
     double distance;
-    lsdcd::Query<double> q(points.data(), 1);
+    lsdcd_query q = lsdcd::Query<double>(points.data(), 1);
     q.distance = &distance;
     std::_Exit(lsdcd_query_host(grid.get(), &q));
   };
@@ -773,7 +790,7 @@ class Wrong : public ::testing::Test {
   const lsdcd::Grid grid{mesh, kCutoff};
   const double at[6] = {0, 0, 0, 1.1, 0, 0};
   double distance[2] = {-1, -1};
-  lsdcd::Query<double> q{at, 2};
+  lsdcd_query q = lsdcd::Query<double>(at, 2);
   void SetUp() override { q.distance = distance; }
 
   // The code that it gives, and a text with `says`.
