@@ -206,6 +206,15 @@ def check_debt(checks, folder):
                 len(whole) < 40, str(len(whole)))
 
 
+def check_ends(checks, folder):
+    """The fix comes and goes with the one that tells its radius."""
+    again = INLET.replace("fix in ", "fix two ").replace("seed 11", "seed 12")
+    out = lmp.run_well(FACE + INLET + again + "run 100\ninfo fixes\nunfix in\nrun 10\n" + INLET + "run 100\ninfo fixes\n"
+                       "plugin unload fix insert/lsdcd\ninfo fixes\nrun 10\n", folder)
+    counts = [part.split("Loop time")[0].count("= pour") for part in out.split("Fix information:")[1:]]
+    checks.fact("it leaves nothing behind", counts == [2, 2, 0], str(counts))
+
+
 def on_host():
     if not lmp.TEST_HOST:
         print("SKIPPED: no LAMMPS of hosts/build_host.sh (LSDCD_TEST_HOST)")
@@ -219,7 +228,7 @@ def main():
     if "host" in sys.argv[1:]:
         on_host()
     checks, folder = lmp.Checks(), lmp.scratch()
-    for check in (check_face, check_radii, check_periodic, check_wall, check_debt):
+    for check in (check_face, check_radii, check_periodic, check_wall, check_debt, check_ends):
         check(checks, folder)
     checks.done(folder)
 
