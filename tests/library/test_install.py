@@ -40,6 +40,13 @@ set_target_properties(collide PROPERTIES CXX_STANDARD 17)
 target_link_libraries(collide lsdcd::{last})
 """
 
+STATIC_PROJECT = """cmake_minimum_required(VERSION 3.22)
+project(user LANGUAGES C)
+find_package(lsdcd 0.9 REQUIRED COMPONENTS static)
+add_executable(in_c {example})
+target_link_libraries(in_c lsdcd::static)
+"""
+
 CUDA_PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(user LANGUAGES CXX CUDA)
 find_package(lsdcd 0.9 REQUIRED COMPONENTS core cuda)
@@ -127,6 +134,32 @@ def check_builds(prefix, work, libraries):
         gives("and collide the pairs", WANTED_PAIRS, os.path.join(build, "collide"), "floor.stl", "cube.stl", folder=work)
     code, text = run(os.path.join(work, "c"), "nowhere.stl", folder=work, **there)
     fact("an error has its text", code != 0 and "nowhere.stl" in text, text)
+
+
+def check_static(prefix, work, libraries):
+    """The example in C with the library in it: without the shared one it runs."""
+    if CUDA:
+        print("skipped: the static library (a build with CUDA has none)")
+        return
+    example = os.path.join(ROOT, "examples", "library", "distance.c")
+    command = "{} -std=c99 {} -o in_static $(pkg-config --cflags lsdcd) {}/liblsdcd.a $(pkg-config --static --libs lsdcd | sed 's/-llsdcd//')"
+    code, text = run("sh", "-c", command.format(os.environ["LSDCD_C"], example, libraries), folder=work,
+                     PKG_CONFIG_PATH=os.path.join(libraries, "pkgconfig"))
+    fact("the example in C links to the static library by pkg-config --static", code == 0, text)
+    gives("and gives the distances", WANTED, "./in_static", "cube.stl", folder=work)
+    folder = os.path.join(work, "static")
+    os.mkdir(folder)
+    with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as f:
+        f.write(STATIC_PROJECT.format(example=example))
+    code, text = run(os.environ["LSDCD_CMAKE"], "-S", ".", "-B", "build", "-D", "CMAKE_PREFIX_PATH=" + prefix,
+                     "-D", "CMAKE_C_COMPILER=" + os.environ["LSDCD_C"], folder=folder)
+    if code == 0:
+        code, text = run(os.environ["LSDCD_CMAKE"], "--build", "build", folder=folder)
+    fact("and by find_package, the component static", code == 0, text)
+    program = os.path.join(folder, "build", "in_c")
+    gives("and gives the distances, too", WANTED, program, os.path.join(work, "cube.stl"), folder=work)
+    _, text = run("readelf", "-d", program, folder=work)
+    fact("and it does not need the shared one", "liblsdcd" not in text, text)
 
 
 def check_cuda(prefix, work):
@@ -233,6 +266,7 @@ def main():
         libraries = find(prefix, "liblsdcd.so.0")
         check_symbols(prefix, os.path.join(libraries, "liblsdcd.so.0"))
         check_builds(prefix, work, libraries)
+        check_static(prefix, work, libraries)
         check_cuda(prefix, work)
         check_python(prefix, work)
         check_wheel(work)
