@@ -217,7 +217,7 @@ def check_device_path():
         fact("and opens none twice", len(opened) == 21)
         calls = len(asked)
         fact("no points ask nothing", grid.query(OnCuda((0, 3))).distance.shape == (0,) and len(asked) == calls)
-        del answer, grid, out
+        del answer, out
         gc.collect()
         fact("arrays of a device are freed", not driver.memory)
     finally:
