@@ -120,8 +120,9 @@ LSDCD_API void lsdcd_mesh_free(lsdcd_mesh *mesh);
 typedef struct lsdcd_grid lsdcd_grid;
 
 /* On the CPU a tree answers points in double at any range, exactly, and the same whatever the cutoff. Cells
- * with lists serve GPUs, LSDCD_FLOAT and `nearest`, up to a cutoff. lsdcd_grid_build() makes them where an
- * option from `cell` to `cache`, or `device`, is set; else the first stream does. */
+ * with lists serve GPUs, LSDCD_FLOAT, `nearest` and contacts, up to a cutoff. lsdcd_grid_build() makes them
+ * where an option from `cell` to `cache`, or `device`, is set; else the first stream or call for contacts
+ * does. */
 
 /* Distances of a grid with precision LSDCD_FLOAT are off by at most 3e-6 (cutoff + 14 cell). */
 enum { LSDCD_DOUBLE = 0, LSDCD_FLOAT = 1 };

@@ -28,7 +28,7 @@ struct ApiMesh {
   bool normals_agree() const { return mesh.report.closed && mesh.report.oriented; }
 };
 
-// Cells with lists, for a GPU, for floats and for `nearest`.
+// Cells with lists, for a GPU, for floats, for `nearest` and for contacts.
 struct ApiCells {
   FlatGrid flat;
   HostGrid grid;
