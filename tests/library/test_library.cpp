@@ -329,7 +329,8 @@ TEST(library, a_shell_that_cuts_itself_has_sides_from_a_cache_too)
     const lsdcd::Grid grid(mesh, options);
     EXPECT_EQ(bool(grid.facts().from_cache), again && options.cache);
     EXPECT_TRUE(grid.facts().has_sides);
-    EXPECT_NE(grid.report().find("sides on the host alone"), std::string::npos) << grid.report();
+    if (options.cache)    // else no cells are made
+      EXPECT_NE(grid.report().find("sides on the host alone"), std::string::npos) << grid.report();
     // In the box, where its corner was, in the part that came out, and beside that.
     const All<double> a(grid, {0.9, 0.9, 0.9, 0.05, 0.05, 0.05, 1.1, 0.45, 0.25, 1.5, 0.9, 0.9},
                         true);
