@@ -20,7 +20,7 @@ from tool_test import TOOL, end, fact, run, write_ascii_stl
 from triangles import cube
 
 # Programs of the system, which are not ours to check.
-OTHERS = {"apt", "c++", "cd", "clang-format", "cp", "ctest", "echo", "export", "git", "grep", "mkdir", "nvidia-smi", "paraview",
+OTHERS = {"apt", "c++", "cd", "clang-format", "cp", "ctest", "echo", "export", "git", "grep", "mkdir", "nvidia-smi", "paraview", "pip",
           "pkg-config", "printf", "source", "sudo", "tail", "[", "reuse", "tar", "unzip", "nproc"}
 LAMMPS_OPTIONS = {"-in", "-i", "-var", "-v", "-k", "-kokkos", "-sf", "-suffix", "-pk", "-log", "-h", "-nocite", "-screen"}
 BUILD_FILES = "\n".join(path.read_text() for path in [
