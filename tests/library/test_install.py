@@ -216,7 +216,8 @@ def check_wheel(work):
           folder=work, **alone)
     gives("and the pairs", WANTED_PAIRS, python, os.path.join(examples, "collide.py"), "floor.stl", "cube.stl", folder=work, **alone)
     run(python, "-m", "pip", "uninstall", "--yes", "lsdcd", folder=work)
-    left = [name for folder, _, names in os.walk(venv) for name in names if "lsdcd" in folder + name]
+    left = [name for folder, _, names in os.walk(venv) for name in names
+            if "lsdcd" in os.path.relpath(os.path.join(folder, name), venv)]
     fact("pip takes it away again, whole", not left, left)
 
 
