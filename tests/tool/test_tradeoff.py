@@ -16,7 +16,7 @@ import tempfile
 
 TOOL = os.environ["LSDCD_TOOL"]
 FLOOR = pathlib.Path(__file__).resolve().parent.parent / "lammps" / "scripts" / "floor.stl"
-FAST = ["--spheres", "300", "--moving", "2", "--repeats", "1", "--device", "cpu"]
+FAST = ["--spheres", "300", "--moving", "2", "--repeats", "9", "--device", "cpu"]
 
 failed = 0
 
