@@ -73,6 +73,12 @@ inline void need(const void *pointer, const char *name)
   if (!pointer) throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("`") + name + "` is null");
 }
 
+inline void check_type(int type)
+{
+  if (type != LSDCD_DOUBLE && type != LSDCD_FLOAT)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`type` is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
+}
+
 // What a struct of options has makes no sense.
 [[noreturn]] inline void refuse_option(const std::string &options, const std::string &text)
 {

@@ -5,11 +5,10 @@
 #include "api/c_border.h"
 #include "api/call_threads.h"
 #include "api/device_memory.h"
-#include "api/objects.h"
-#include "base/input_words.h"
+#include "api/points_given.h"
 #include "query/contact_query.h"
 
-#include <limits>
+#include <algorithm>
 
 using namespace lsdcd;
 
@@ -18,13 +17,8 @@ namespace {
 lsdcd_contacts checked_contacts(const ApiGrid &grid, const lsdcd_contacts *given)
 {
   lsdcd_contacts c = checked(given, "lsdcd_contacts");
-  if (c.type != LSDCD_DOUBLE && c.type != LSDCD_FLOAT)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`type` is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
-  check_threads(c.threads);
-  if (c.n > static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max()) / 64)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`n` is " + std::to_string(c.n));
+  check_points(c);
   need(c.first, "first");
-  if (c.n > 0) need(c.points, "points");
   if (!grid.is_limited())
     throw ApiError(LSDCD_ERROR_CUTOFF,
                    "contacts are found up to a cutoff, and this grid has none: build one with a "
@@ -33,15 +27,7 @@ lsdcd_contacts checked_contacts(const ApiGrid &grid, const lsdcd_contacts *given
     throw ApiError(LSDCD_ERROR_ARGUMENT,
                    "contacts need complete lists in double: build a grid without `nearest`, with "
                    "`precision` LSDCD_DOUBLE");
-  if (c.radii && c.radius != 0)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`radii` and `radius` are both given");
-  if (!c.radii && c.radius == 0) c.radius = grid.cutoff();
-  if (!(c.radius >= 0))
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`radius` is " + number_text(c.radius));
-  if (c.radius > grid.cutoff())
-    throw ApiError(LSDCD_ERROR_CUTOFF,
-                   "`radius` is " + number_text(c.radius) + ", more than the grid's cutoff " +
-                       number_text(grid.cutoff()) + ": build the grid with a larger cutoff");
+  settle_radius(grid, c);
   const DeviceMemory device;
   const std::pair<const void *, const char *> arrays[] = {
       {c.points, "points"},     {c.radii, "radii"},     {c.first, "first"},   {c.point, "point"},
@@ -83,9 +69,8 @@ std::size_t find(const ApiGrid &grid, const lsdcd_contacts &c)
 {
   SphereView<T> spheres;
   spheres.n = c.n;
-  spheres.centres = {static_cast<const T *>(c.points), c.points_row == 0 ? 3 : c.points_row,
-                     c.points_column == 0 ? 1 : c.points_column};
-  spheres.radii = {static_cast<const T *>(c.radii), c.radii_step == 0 ? 1 : c.radii_step};
+  spheres.centres = vectors(static_cast<const T *>(c.points), c.points_row, c.points_column);
+  spheres.radii = numbers(static_cast<const T *>(c.radii), c.radii_step);
   spheres.radius = c.radius;
   const SphereContacts made = find_all_contacts(grid.cells().grid.view, spheres);
   std::copy(made.first.begin(), made.first.end(), c.first);

@@ -99,13 +99,12 @@ typedef struct lsdcd_mesh_arrays {
   size_t size;      /* of this struct */
   double *vertices; /* 3 numbers each, length */
   uint32_t *faces;  /* 3 vertices each, in the order given */
-  uint32_t
-      *face_edges;    /* 3 edges each; edge k is from vertex k to vertex k + 1, the last one to 0 */
+  /* 3 edges each; edge k is from vertex k to vertex k + 1, the last one to 0 */
+  uint32_t *face_edges;
   uint32_t *triangle; /* of each face its number as given, from 0 */
   uint32_t *edges;    /* 2 vertices each, the lower number first */
-  uint32_t
-      *edge_first; /* edges + 1 numbers: faces of edge e are edge_faces[edge_first[e]] up to before
-                           edge_faces[edge_first[e + 1]] */
+  /* Of edge e: edge_faces[edge_first[e]] up to before edge_faces[edge_first[e + 1]]. */
+  uint32_t *edge_first; /* edges + 1 numbers */
   uint32_t *edge_faces; /* 3 * faces numbers */
 } lsdcd_mesh_arrays;
 /* Any. */
@@ -218,8 +217,8 @@ typedef struct lsdcd_contacts {
   int threads;        /* 0: OMP_NUM_THREADS, or one */
   const void *points; /* centres */
   ptrdiff_t points_row, points_column;
-  const void
-      *radii; /* of each sphere, >= 0 and at most the cutoff; null: `radius` is that of all */
+  /* Of each sphere, >= 0 and at most the cutoff; null: `radius` is that of all. */
+  const void *radii;
   ptrdiff_t radii_step;
   double radius; /* >= 0; 0: the cutoff */
   size_t *first; /* n + 1 numbers, the last one how many contacts there are */
@@ -228,12 +227,12 @@ typedef struct lsdcd_contacts {
   void *distance; /* >= 0, from there to the centre */
   void *overlap;  /* radius - distance, > 0 */
   void *normal;   /* 3 numbers each, unit, from the mesh to the centre */
-  void *
-      weight; /* 0 to 1: the share of the contact, by the rule with which the wall adds up forces at
-                     corners: as one where the mesh is smooth, all where faces are square to each other */
+  /* 0 to 1: the share of the contact, by the rule with which the wall adds up forces at corners: as one where
+   * the mesh is smooth, all where faces are square to each other. */
+  void *weight;
   uint32_t *triangle, *feature; /* as in lsdcd_query */
-  size_t contacts; /* answer: all there are, so the room that all take; with less room only
-                                   `first` is written */
+  /* Answer: all there are, so the room that all take; with less room only `first` is written. */
+  size_t contacts;
 } lsdcd_contacts;
 /* In arrays of the host. The grid has a cutoff, precision LSDCD_DOUBLE, and no `nearest`; its first call
  * makes cells. LSDCD_ERROR_CUTOFF: a radius beyond the cutoff, or no cutoff; LSDCD_ERROR_INPUT: a sphere

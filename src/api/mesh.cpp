@@ -119,8 +119,7 @@ int lsdcd_mesh_from_faces(const void *vertices, int type, size_t n_vertices, con
     need(mesh, "mesh");
     need(vertices, "vertices");
     need(faces, "faces");
-    if (type != LSDCD_DOUBLE && type != LSDCD_FLOAT)
-      throw ApiError(LSDCD_ERROR_ARGUMENT, "`type` is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
+    check_type(type);
     *mesh = welded(type == LSDCD_FLOAT
                        ? soup_of(static_cast<const float *>(vertices), n_vertices, faces, n_faces)
                        : soup_of(static_cast<const double *>(vertices), n_vertices, faces, n_faces),

@@ -5,12 +5,10 @@
 #include "api/c_border.h"
 #include "api/call_threads.h"
 #include "api/device_memory.h"
-#include "api/objects.h"
-#include "base/input_words.h"
+#include "api/points_given.h"
 #include "engine/wall_engine.h"
 
 #include <cmath>
-#include <limits>
 
 using namespace lsdcd;
 
@@ -40,25 +38,12 @@ void check_sides(const ApiGrid &grid, bool on_host)
 lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on_host)
 {
   lsdcd_query q = checked(given, "lsdcd_query");
-  if (q.type != LSDCD_DOUBLE && q.type != LSDCD_FLOAT)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`type` is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
-  check_threads(q.threads);
-  if (q.n > static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max()) / 64)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`n` is " + std::to_string(q.n));
-  if (q.n > 0) need(q.points, "points");
+  check_points(q);
   if (q.n > 0 && !q.distance && !q.closest && !q.normal && !q.triangle && !q.feature && !q.side &&
       !q.status)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "nothing is asked for: all arrays of answers are null");
   if (q.side) check_sides(grid, on_host);
-  if (q.radii && q.radius != 0)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`radii` and `radius` are both given");
-  if (!q.radii && q.radius == 0) q.radius = grid.is_limited() ? grid.cutoff() : kAnyDistance;
-  if (!(q.radius >= 0))
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`radius` is " + number_text(q.radius));
-  if (q.radius > grid.cutoff())
-    throw ApiError(LSDCD_ERROR_CUTOFF,
-                   "`radius` is " + number_text(q.radius) + ", more than the grid's cutoff " +
-                       number_text(grid.cutoff()) + ": build the grid with a larger cutoff");
+  settle_radius(grid, q);
   return q;
 }
 
@@ -74,22 +59,16 @@ void answer_on_host(const ApiGrid &grid, const PointArrays<T> &io)
 }
 
 template <class T>
-StridedView<T> vectors(T *at, std::ptrdiff_t row, std::ptrdiff_t column)
-{
-  return {at, row == 0 ? 3 : row, column == 0 ? 1 : column};
-}
-
-template <class T>
 PointArrays<T> arrays_of(const lsdcd_query &q)
 {
   PointArrays<T> io;
   io.n = q.n;
   io.points = vectors(static_cast<const T *>(q.points), q.points_row, q.points_column);
-  io.radii = {static_cast<const T *>(q.radii), q.radii_step == 0 ? 1 : q.radii_step};
+  io.radii = numbers(static_cast<const T *>(q.radii), q.radii_step);
   // The largest number of this type that is not above it, so that float and double give the same answers.
   io.radius = static_cast<T>(q.radius);
   if (io.radius > q.radius) io.radius = std::nextafter(static_cast<T>(q.radius), T(0));
-  io.distance = {static_cast<T *>(q.distance), q.distance_step == 0 ? 1 : q.distance_step};
+  io.distance = numbers(static_cast<T *>(q.distance), q.distance_step);
   io.closest = vectors(static_cast<T *>(q.closest), q.closest_row, q.closest_column);
   io.normal = vectors(static_cast<T *>(q.normal), q.normal_row, q.normal_column);
   io.triangle = q.triangle;

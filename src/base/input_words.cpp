@@ -119,6 +119,13 @@ Real Tokens::number(const char *what, Real low, Real high)
   return value;
 }
 
+std::int64_t Tokens::whole(const char *what, Real low, Real high)
+{
+  const Real n = number(what, low, high);
+  if (n != std::floor(n)) fail(std::string(what) + " must be a whole number");
+  return static_cast<std::int64_t>(n);
+}
+
 Real Tokens::number_or(const char *instead, Real otherwise, const char *what, Real low, Real high)
 {
   if (done() || peek() != instead) return number(what, low, high);

@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "base/real.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,9 @@ class Tokens {
 
   // A number in [low, high]; `what` is its name in messages.
   Real number(const char *what, Real low = -kHuge, Real high = kHuge);
-  // The same, or `otherwise` if the word is `instead`.
+  // The same, without a fraction.
+  std::int64_t whole(const char *what, Real low, Real high);
+  // As number(), or `otherwise` if the word is `instead`.
   Real number_or(const char *instead, Real otherwise, const char *what, Real low,
                  Real high = kHuge);
   // The index of the word among `choices`.

@@ -19,13 +19,6 @@ const char *const kSyntax =
     "N D1 F1 ..., dens RHO | LO HI, [massrate R | numberrate R] [mass M | number N] [type T] [vel "
     "X Y Z | normal V] [jitter V] [wall all | none | ID] [attempts N] [every N] [seed N]";
 
-std::int64_t whole(Tokens &w, const char *what, Real low, Real high)
-{
-  const Real n = w.number(what, low, high);
-  if (n != std::floor(n)) w.fail(std::string(what) + " must be a whole number");
-  return static_cast<std::int64_t>(n);
-}
-
 constexpr Real kMostInt = 2147483647, kMostExact = 9007199254740992;
 
 void read_sizes(Tokens &w, GrainRecipe &grains)
@@ -43,7 +36,7 @@ void read_sizes(Tokens &w, GrainRecipe &grains)
     grains.largest = w.number("HI", grains.smallest);
     return;
   }
-  const std::int64_t n = whole(w, "N", 1, 1e6);
+  const std::int64_t n = w.whole("N", 1, 1e6);
   Real sum = 0;
   std::vector<GrainRecipe::Size> sizes;
   for (std::int64_t i = 0; i < n; i++) {
@@ -114,10 +107,10 @@ bool read_word(const std::string &word, Tokens &w, InsertSettings &s)
     s.plan.feed.mass = w.number("M", kAboveZero);
   } else if (word == "number") {
     w.set_context("number", "number N");
-    s.plan.feed.number = whole(w, "N", 1, kMostExact);
+    s.plan.feed.number = w.whole("N", 1, kMostExact);
   } else if (word == "type") {
     w.set_context("type", "type T");
-    s.type = static_cast<int>(whole(w, "T", 1, kMostInt));
+    s.type = static_cast<int>(w.whole("T", 1, kMostInt));
   } else if (word == "vel") {
     read_velocity(w, s);
   } else if (word == "jitter") {
@@ -130,13 +123,13 @@ bool read_word(const std::string &word, Tokens &w, InsertSettings &s)
     read_wall(w, s);
   } else if (word == "attempts") {
     w.set_context("attempts", "attempts N");
-    s.plan.attempts = static_cast<int>(whole(w, "N", 1, kMostInt));
+    s.plan.attempts = static_cast<int>(w.whole("N", 1, kMostInt));
   } else if (word == "every") {
     w.set_context("every", "every N");
-    s.plan.feed.every = static_cast<int>(whole(w, "N", 1, kMostInt));
+    s.plan.feed.every = static_cast<int>(w.whole("N", 1, kMostInt));
   } else if (word == "seed") {
     w.set_context("seed", "seed N");
-    s.plan.seed = whole(w, "N", 1, kMostExact);
+    s.plan.seed = w.whole("N", 1, kMostExact);
   } else {
     return false;
   }

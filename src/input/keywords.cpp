@@ -140,9 +140,7 @@ FileEvery read_file_every(Tokens &w, const std::string &end)
   if (star != std::string::npos && name.find('*', star + 1) != std::string::npos)
     w.fail("'" + name + "' has more than one *; only one is the step: leave the others out");
   if (w.done() || w.take() != "every") w.fail("'every N' is missing");
-  const Real n = w.number("N", 1, 2147483647);
-  file.every = static_cast<int>(n);
-  if (file.every != n) w.fail("N must be a whole number");
+  file.every = static_cast<int>(w.whole("N", 1, 2147483647));
   return file;
 }
 
@@ -171,9 +169,7 @@ void read_draw(Tokens &w, WallSettings &s)
 {
   s.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
   if (!w.number_follows()) return;
-  const Real type = w.number("the atom type", 1, 1e6);
-  s.draw_type = static_cast<int>(type);
-  if (s.draw_type != type) w.fail("the atom type must be a whole number");
+  s.draw_type = static_cast<int>(w.whole("the atom type", 1, 1e6));
 }
 
 void read_cut(Tokens &w, WallSettings &s)

@@ -15,13 +15,6 @@ const char *const kSyntax =
     "y "
     "z] [weld tol] [count each | once] [delete no | yes] [every N] [log full | brief]";
 
-void read_every(Tokens &w, MassflowSettings &s)
-{
-  const Real n = w.number("N", 1, 2147483647);
-  s.every = static_cast<int>(n);
-  if (s.every != n) w.fail("N must be a whole number");
-}
-
 }    // namespace
 
 MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
@@ -46,7 +39,7 @@ MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
       settings.deletes = w.choice({"no", "yes"}) == 1;
     } else if (word == "every") {
       w.set_context("every", "every N");
-      read_every(w, settings);
+      settings.every = static_cast<int>(w.whole("N", 1, 2147483647));
     } else {
       w.fail("'" + word + "' is not a keyword");
     }

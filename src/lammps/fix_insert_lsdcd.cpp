@@ -258,21 +258,14 @@ std::vector<double> FixInsertLsdcd::gather_spheres(const lsdcd::Box &zone) const
 {
   const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
   const double largest = insertion->owed().front().radius;
-  std::vector<double> mine, all;
+  std::vector<double> mine;
   for (int i = 0; i < atom->nlocal; i++) {
     const double *x = atom->x[i];
     for (const PackedSphere &s :
          lsdcd::images_near({{x[0], x[1], x[2]}, atom->radius[i]}, zone, largest, box))
       mine.insert(mine.end(), {s.at.x, s.at.y, s.at.z, s.radius});
   }
-  const int n = static_cast<int>(mine.size());
-  std::vector<int> counts(comm->nprocs), first(comm->nprocs);
-  MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
-  for (int p = 1; p < comm->nprocs; p++) first[p] = first[p - 1] + counts[p - 1];
-  if (comm->me == 0) all.resize(first.back() + counts.back());
-  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), first.data(), MPI_DOUBLE, 0,
-              world);
-  return all;
+  return lsdcd::gather_numbers(mine, world);
 }
 
 // The first process chooses, as it has the walls, and tells all.

@@ -52,15 +52,7 @@ void LammpsHost::broadcast(void *data, std::size_t bytes, int from)
 
 std::vector<double> LammpsHost::gather(const std::vector<double> &mine)
 {
-  const int nprocs = fix.comm->nprocs;
-  int n = static_cast<int>(mine.size());
-  std::vector<int> count(nprocs), first(nprocs, 0);
-  MPI_Gather(&n, 1, MPI_INT, count.data(), 1, MPI_INT, 0, fix.world);
-  for (int p = 1; p < nprocs; p++) first[p] = first[p - 1] + count[p - 1];
-  std::vector<double> all(rank() == 0 ? first.back() + count.back() : 0);
-  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), count.data(), first.data(), MPI_DOUBLE, 0,
-              fix.world);
-  return all;
+  return lsdcd::gather_numbers(mine, fix.world);
 }
 
 void LammpsHost::fail_together(const std::string &error)

@@ -120,6 +120,21 @@ void throw_together(MPI_Comm comm, const std::string &error)
   throw InputError(text);
 }
 
+std::vector<double> gather_numbers(const std::vector<double> &mine, MPI_Comm comm)
+{
+  int rank, size;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  const int n = static_cast<int>(mine.size());
+  std::vector<int> count(size), first(size);
+  MPI_Gather(&n, 1, MPI_INT, count.data(), 1, MPI_INT, 0, comm);
+  for (int p = 1; p < size; p++) first[p] = first[p - 1] + count[p - 1];
+  std::vector<double> all(rank == 0 ? first.back() + count.back() : 0);
+  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), count.data(), first.data(), MPI_DOUBLE, 0,
+              comm);
+  return all;
+}
+
 void broadcast_bytes(void *data, std::size_t bytes, int root, MPI_Comm comm)
 {
   constexpr std::size_t kChunk = std::size_t(1) << 30;

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <mpi.h>
 #include <string>
+#include <vector>
 
 namespace lsdcd {
 
@@ -55,6 +56,9 @@ void run_collectively(MPI_Comm comm, bool here, Work &&work)
 {
   throw_together(comm, here ? error_of(work) : "");
 }
+
+// All processes' numbers, in their order, on the first process of `comm`; nothing on others.
+std::vector<double> gather_numbers(const std::vector<double> &mine, MPI_Comm comm);
 
 // A broadcast of more bytes than an int can count.
 void broadcast_bytes(void *data, std::size_t bytes, int root, MPI_Comm comm);

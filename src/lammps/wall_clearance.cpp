@@ -37,17 +37,13 @@ void WallClearance::place(Real dt)
   std::size_t n = 0;
   for (const LAMMPS_NS::FixWallLsdcd *wall : walls_)
     for (const MeshPart &part : wall->meshes())
-      if (n < surfaces_.size()) surfaces_[n++].pose = part.motion.pose_in(dt);
+      if (n < surfaces_.size()) surfaces_[n++].place(part.motion.pose_in(dt));
 }
 
 bool WallClearance::is_clear(Surface &surface, const PackedSphere &sphere, const PeriodicBox &box)
 {
   // Images of the wall about the sphere are those of the sphere about the wall.
-  const MeshReport &report = surface.mesh.report;
-  Box bounds = {surface.pose.to_box(report.lo), surface.pose.to_box(report.lo)};
-  for_corners({report.lo, report.hi},
-              [&](const Vec3 &corner) { extend(bounds, surface.pose.to_box(corner)); });
-  for (const PackedSphere &image : images_near(sphere, bounds, 0, box))
+  for (const PackedSphere &image : images_near(sphere, surface.bounds, 0, box))
     if (surface.tree.is_within(surface.pose.to_mesh(image.at), image.radius, surface.hint))
       return false;
   return true;

@@ -7,7 +7,7 @@
 
 #include "insert/packing.h"
 #include "mesh/periodic_box.h"
-#include "motion/wall_pose.h"
+#include "motion/motion.h"
 #include "query/triangle_tree.h"
 
 #include <cstddef>
@@ -43,6 +43,7 @@ class WallClearance {
     TriangleTable names;
     TriangleTree tree;
     WallPose pose;
+    Box bounds;    // in that pose
     std::uint32_t hint = TriangleTree::kNoPrimitive;
 
     Surface(const std::string &fix, std::size_t index, std::uint64_t fingerprint,
@@ -50,6 +51,12 @@ class WallClearance {
         fix(fix),
         index(index), fingerprint(fingerprint), mesh(from), names(mesh), tree(mesh, names)
     {
+    }
+
+    void place(const WallPose &at)
+    {
+      pose = at;
+      bounds = placed_bounds(at, {mesh.report.lo, mesh.report.hi});
     }
   };
   bool has_all(bool has_meshes) const;

@@ -85,9 +85,7 @@ class ContactQuery {
     for (std::size_t i = c * kChunk; i < std::min(spheres_.n, (c + 1) * kChunk); i++) {
       const std::size_t before = found.size();
       const Real radius = radius_of(i);
-      const Vec3 q = {static_cast<Real>(spheres_.centres.of(i)[0]),
-                      static_cast<Real>(spheres_.centres.of(i)[spheres_.centres.column]),
-                      static_cast<Real>(spheres_.centres.of(i)[2 * spheres_.centres.column])};
+      const Vec3 q = spheres_.centres[i];
       if (!few.find(grid_, q, radius, found)) {
         if (!many) many = std::make_unique<SphereSearch<kMost>>();
         if (!many->find(grid_, q, radius, found))

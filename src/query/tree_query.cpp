@@ -139,9 +139,7 @@ class TreeQuery {
  private:
   Vec3 point(std::size_t i) const
   {
-    const T *at = io_.points.of(i);
-    return {static_cast<Real>(at[0]), static_cast<Real>(at[io_.points.column]),
-            static_cast<Real>(at[2 * io_.points.column])};
+    return io_.points[i];
   }
 
   std::uint32_t place_on_curve(std::size_t i) const

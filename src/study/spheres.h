@@ -4,6 +4,7 @@
 // Spheres of the paper's study. Each comes from a counter, so that every device makes the same.
 #pragma once
 
+#include "base/split_mix.h"
 #include "query/sphere.h"
 
 #include <cstddef>
@@ -12,14 +13,10 @@
 
 namespace lsdcd {
 
-// The counter-th number of a SplitMix64 sequence (Steele, Lea and Flood 2014), in (0, 1]:
-// a multiple of 2^-53. Integers and one exact product: the same bits everywhere.
+// The counter-th number of a SplitMix64 sequence, in (0, 1]: a multiple of 2^-53. Integers and one exact product: the same bits everywhere.
 LSDCD_FN Real uniform(std::uint64_t seed, std::uint64_t counter)
 {
-  std::uint64_t z = seed + (counter + 1) * 0x9e3779b97f4a7c15ull;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  z ^= z >> 31;
+  const std::uint64_t z = split_mix(seed + (counter + 1) * kSplitMixStep);
   return static_cast<Real>((z >> 11) + 1) * Real(0x1p-53);
 }
 
