@@ -162,8 +162,8 @@ LSDCD_API void lsdcd_grid_free(lsdcd_grid *grid);
 
 /* Bits of a point's status. Only a certified answer is sure: what is FOUND is the nearest of the
  * whole mesh, and where nothing is, nothing is within the radius. All are certified but with
- * `nearest` N. */
-enum { LSDCD_FOUND = 1, LSDCD_CERTIFIED = 2 };
+ * `nearest` N. SIDE_ESTIMATED: the side is not certified, whatever CERTIFIED says of the rest. */
+enum { LSDCD_FOUND = 1, LSDCD_CERTIFIED = 2, LSDCD_SIDE_ESTIMATED = 4 };
 
 /* A feature is 0 (face), 1 (edge) or 2 (vertex) and a number of the welded mesh, lsdcd_mesh_arrays. */
 #define LSDCD_FEATURE_KIND(feature) ((feature) >> 30)
@@ -200,6 +200,16 @@ typedef struct lsdcd_query {
                    is no number. On a device 0 also where not found or not certified, and where an
                    edge or corner of triangles without area is nearest */
   uint8_t *status;
+  /* On the host, of any mesh: how often it winds round the point, the solid angle under which it is seen over
+   * 4 pi, counted > 0 where normals point away. A whole number where grids have sides; else off by rounding,
+   * at most 2e-12 for each open edge, and near edges of the mesh by 1e-15 times their length over how far
+   * they are. On the mesh the mean of both sides; no number where a coordinate is none. Takes the time of
+   * the open edges, at most of all triangles. */
+  void *winding;
+  ptrdiff_t winding_step;
+  int estimate_sides; /* on the host; 1: where the grid has no sides, `side` is -1 where the whole number
+                         nearest to `winding` is not 0, else 1, and `status` has LSDCD_SIDE_ESTIMATED.
+                         0: asking for these is an error */
 } lsdcd_query;
 
 /* Answers in arrays of the host. Any. */

@@ -157,6 +157,9 @@ struct Query {
   std::uint32_t *triangle = nullptr, *feature = nullptr;
   std::int8_t *side = nullptr;
   std::uint8_t *status = nullptr;
+  T *winding = nullptr;
+  std::ptrdiff_t winding_step = 0;
+  bool estimate_sides = false;
 
   operator lsdcd_query() const
   {
@@ -183,6 +186,9 @@ struct Query {
     q.feature = feature;
     q.side = side;
     q.status = status;
+    q.winding = winding;
+    q.winding_step = winding_step;
+    q.estimate_sides = estimate_sides;
     return q;
   }
 };

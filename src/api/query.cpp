@@ -9,6 +9,7 @@
 #include "engine/wall_engine.h"
 
 #include <cmath>
+#include <cstddef>
 
 using namespace lsdcd;
 
@@ -27,7 +28,8 @@ void check_sides(const ApiGrid &grid, bool on_host)
   if (!grid.has_sides)
     throw ApiError(LSDCD_ERROR_SIDE,
                    "the mesh is not closed and oriented, so that it has no side: " +
-                       why_no_inside(grid.mesh->mesh));
+                       why_no_inside(grid.mesh->mesh) +
+                       "; `estimate_sides` gives those that are probable, on the host");
   if (!on_host && !grid.cells().sides_by_normals)
     throw ApiError(LSDCD_ERROR_SIDE,
                    "triangles of the mesh cut, overlap or touch each other, and only the "
@@ -37,12 +39,15 @@ void check_sides(const ApiGrid &grid, bool on_host)
 // Checks a query of this grid and fills in defaults.
 lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on_host)
 {
-  lsdcd_query q = checked(given, "lsdcd_query");
+  lsdcd_query q = checked(given, "lsdcd_query", offsetof(lsdcd_query, winding));
   check_points(q);
   if (q.n > 0 && !q.distance && !q.closest && !q.normal && !q.triangle && !q.feature && !q.side &&
-      !q.status)
+      !q.status && !q.winding)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "nothing is asked for: all arrays of answers are null");
-  if (q.side) check_sides(grid, on_host);
+  if (q.winding && !on_host)
+    throw ApiError(LSDCD_ERROR_SIDE, "only the host tells winding numbers: use lsdcd_query_host()");
+  q.estimate_sides = q.side && q.estimate_sides && on_host && !grid.has_sides;
+  if (q.side && !q.estimate_sides) check_sides(grid, on_host);
   settle_radius(grid, q);
   return q;
 }
@@ -78,6 +83,18 @@ PointArrays<T> arrays_of(const lsdcd_query &q)
   return io;
 }
 
+template <class T>
+void answer_on_host(const ApiGrid &grid, const lsdcd_query &q)
+{
+  PointArrays<T> io = arrays_of<T>(q);
+  if (q.estimate_sides) io.side = nullptr;
+  if (io.distance.at || io.status || io.side || !io.only_distance()) answer_on_host(grid, io);
+  if (q.winding || q.estimate_sides)
+    estimate_sides(grid.mesh->sides, io.n, io.points,
+                   numbers(static_cast<T *>(q.winding), q.winding_step),
+                   q.estimate_sides ? q.side : nullptr, q.status);
+}
+
 // check(array, name) of each array that is given.
 template <class Check>
 void each_given(const lsdcd_query &q, const Check &check)
@@ -85,7 +102,8 @@ void each_given(const lsdcd_query &q, const Check &check)
   const std::pair<const void *, const char *> arrays[] = {
       {q.points, "points"},   {q.radii, "radii"},   {q.distance, "distance"},
       {q.closest, "closest"}, {q.normal, "normal"}, {q.triangle, "triangle"},
-      {q.feature, "feature"}, {q.side, "side"},     {q.status, "status"}};
+      {q.feature, "feature"}, {q.side, "side"},     {q.status, "status"},
+      {q.winding, "winding"}};
   for (const auto &[array, name] : arrays)
     if (array) check(array, name);
 }
@@ -109,9 +127,9 @@ int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
     });
     const CallThreads threads(q.threads);
     if (q.type == LSDCD_FLOAT)
-      answer_on_host(g, arrays_of<float>(q));
+      answer_on_host<float>(g, q);
     else
-      answer_on_host(g, arrays_of<double>(q));
+      answer_on_host<double>(g, q);
   });
 }
 

@@ -211,4 +211,11 @@ LSDCD_FN int triangles_meet_rounded(const Triangle &a, const Triangle &b)
   return -crossing(a, b, of_a, of_b);
 }
 
+// Is a point on a triangle?
+LSDCD_FN bool lies_on(const Triangle &t, const Vec3 &x)
+{
+  return orientation(t[0], t[1], t[2], x) == 0 &&
+         triangles_meet_detail::meet_in_plane(t, {{x, x, x}});
+}
+
 }    // namespace lsdcd

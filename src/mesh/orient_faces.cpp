@@ -3,6 +3,7 @@
 
 #include "mesh/orient_faces.h"
 
+#include "geometry/solid_angle.h"
 #include "mesh/box_tree.h"
 #include "mesh/face_plane.h"
 #include "mesh/measure_mesh.h"
@@ -82,24 +83,15 @@ void measure(const WallMesh &mesh, const std::vector<char> &turned, Part &part)
   }
 }
 
-// How many times a closed part winds around a point, by the solid angles of its faces (van Oosterom
-// and Strackee 1983); a half if the point is on it.
+// How many times a closed part winds around a point; a half if the point is on it.
 Real turns_round(const WallMesh &mesh, const Part &part, const std::vector<char> &turned,
                  const Vec3 &x)
 {
-  const Real unit = 1 / diagonal(part.box);
   Real sum = 0;
   for (const int f : part.faces) {
-    Vec3 d[3];
-    Real r[3];
-    for (int k = 0; k < 3; k++) {
-      d[k] = unit * (mesh.vertices[mesh.faces[f][k]] - x);
-      r[k] = norm(d[k]);
-    }
-    const Real det = dot(d[0], cross(d[1], d[2]));
-    const Real below = r[0] * r[1] * r[2] + dot(d[0], d[1]) * r[2] + dot(d[1], d[2]) * r[0] +
-                       dot(d[2], d[0]) * r[1];
-    sum += (turned[f] ? -1 : 1) * std::atan2(det, below);
+    const auto &v = mesh.faces[f];
+    const Triangle facet = {{mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]}};
+    sum += (turned[f] ? -1 : 1) * half_solid_angle(facet, x).value();
   }
   return sum / (2 * M_PI);
 }

@@ -6,120 +6,27 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "geometry/orientation.h"
-#include "geometry/triangles_meet.h"
+#include "mesh/counted_facets.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lsdcd {
 
 namespace {
 
-using Corners = std::array<int, 3>;
-
-// Corners in ascending order; `turned` becomes 1 or -1, as that keeps the winding or not.
-Corners ascending(Corners c, int &turned)
-{
-  turned = 1;
-  for (const int k : {0, 1, 0})
-    if (c[k] > c[k + 1]) {
-      std::swap(c[k], c[k + 1]);
-      turned = -turned;
-    }
-  return c;
-}
-
-// Facets that became no face have one with the same corners, or no area.
-std::vector<Corners> counted_facets(const WallMesh &mesh, bool with_no_area)
-{
-  std::vector<Corners> counted = mesh.faces;
-  if (mesh.dropped.empty()) return counted;
-  struct Wound {
-    Corners corners;
-    int turned;
-    bool is_face;
-  };
-  std::vector<Wound> all;
-  for (const auto *some : {&mesh.faces, &mesh.dropped})
-    for (const Corners &c : *some) {
-      Wound w = {c, 0, some == &mesh.faces};
-      w.corners = ascending(c, w.turned);
-      all.push_back(w);
-    }
-  std::sort(all.begin(), all.end(),
-            [](const Wound &a, const Wound &b) { return a.corners < b.corners; });
-  counted.clear();
-  for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
-    int sum = 0;
-    bool has_face = false;
-    for (end = i; end < all.size() && all[end].corners == all[i].corners; end++) {
-      sum += all[end].turned;
-      has_face = has_face || all[end].is_face;
-    }
-    Corners c = all[i].corners;
-    if (sum < 0) std::swap(c[1], c[2]);
-    if (sum != 0 && (has_face || with_no_area)) counted.push_back(c);
-  }
-  return counted;
-}
-
-struct LooseEdges {
-  std::size_t open = 0, against = 0;    // of one facet; of several that do not cancel
-  std::array<int, 2> first = {-1, -1};
-};
-
-LooseEdges loose_edges(const std::vector<Corners> &facets)
-{
-  struct Run {
-    std::array<int, 2> edge;
-    int way;
-  };
-  std::vector<Run> runs;
-  runs.reserve(3 * facets.size());
-  for (const Corners &c : facets)
-    for (int k = 0; k < 3; k++) {
-      const int a = c[k], b = c[(k + 1) % 3];
-      runs.push_back({{std::min(a, b), std::max(a, b)}, a < b ? 1 : -1});
-    }
-  std::sort(runs.begin(), runs.end(), [](const Run &a, const Run &b) { return a.edge < b.edge; });
-  LooseEdges loose;
-  for (std::size_t i = 0, end = 0; i < runs.size(); i = end) {
-    int sum = 0;
-    for (end = i; end < runs.size() && runs[end].edge == runs[i].edge; end++) sum += runs[end].way;
-    if (sum == 0) continue;
-    if (loose.first[0] < 0) loose.first = runs[i].edge;
-    ++(end - i == 1 ? loose.open : loose.against);
-  }
-  return loose;
-}
-
-// The facets that count, as they are wound. Those without area do where they close the surface.
-struct Closed {
-  std::vector<Corners> facets;
-  LooseEdges loose;
-
-  bool is() const { return loose.open + loose.against == 0; }
-  explicit Closed(const WallMesh &mesh) :
-      facets(counted_facets(mesh, false)), loose(loose_edges(facets))
-  {
-    if (is() || mesh.report.degenerate_facets == 0) return;
-    std::vector<Corners> more = counted_facets(mesh, true);
-    const LooseEdges fewer = loose_edges(more);
-    if (fewer.open + fewer.against > 0) return;
-    facets = std::move(more);
-    loose = fewer;
-  }
-};
-
-bool is_known_closed(const WallMesh &mesh)
-{
-  return mesh.dropped.empty() && mesh.report.closed && mesh.report.misoriented_edges == 0;
-}
-
 std::string text(const Vec3 &a)
 {
   return number_text(a.x) + " " + number_text(a.y) + " " + number_text(a.z);
+}
+
+std::vector<Triangle> closed_facets(const WallMesh &mesh)
+{
+  const std::string why = why_no_inside(mesh);
+  if (!why.empty()) throw InputError(mesh.source + " has no inside: " + why);
+  return triangles_of(mesh, CountedFacets(mesh).facets);
 }
 
 // Facets that a ray has crossed: one in several cells counts once.
@@ -157,22 +64,6 @@ int side_when_moved(int u, int v, const Vec3 &a, const Vec3 &b)
   return along_u != 0 ? along_u : sign_of(b[u] - a[u]);
 }
 
-// Is a point of the plane of a facet, which the axis is parallel to, on it?
-bool is_on(int axis, const Triangle &t, const Vec3 &q)
-{
-  if (!triangles_meet_detail::boxes_overlap(t.corner, 3, &q, 1)) return false;
-  for (int k = 1; k < 3; k++) {
-    const int other = (axis + k) % 3;
-    if (orientation_along(other, t[0], t[1], t[2]) != 0)
-      return triangles_meet_detail::covers(other, t, q);
-  }
-  // A segment; its box holds q.
-  for (int other = 0; other < 3; other++)
-    for (int k = 0; k < 3; k++)
-      if (orientation_along(other, t[k], t[(k + 1) % 3], q) != 0) return false;
-  return true;
-}
-
 constexpr Real kCellsPerFacet = 2;
 constexpr int kMaxCellsAlong = 2048;
 // On a ray's way: from here on a tree is quicker, and so many are worth its memory.
@@ -189,36 +80,36 @@ bool has_inside(const WallMesh &mesh)
 {
   if (is_known_closed(mesh)) return true;
   if (mesh.faces.empty() || (mesh.dropped.empty() && mesh.report.open_edges > 0)) return false;
-  return Closed(mesh).is();
+  return CountedFacets(mesh).loose.empty();
 }
 
 std::string why_no_inside(const WallMesh &mesh)
 {
   if (is_known_closed(mesh)) return "";
   if (mesh.faces.empty()) return "it has no facets with an area";
-  const LooseEdges loose = Closed(mesh).loose;
-  if (loose.open + loose.against == 0) return "";
-  return std::to_string(loose.open) + " edges are open, and along " +
-         std::to_string(loose.against) +
+  const CountedFacets counted(mesh);
+  if (counted.loose.empty()) return "";
+  const std::size_t open = std::count_if(counted.loose.begin(), counted.loose.end(),
+                                         [](const LooseEdge &e) { return e.facets == 1; });
+  const LooseEdge &first = counted.loose[0];
+  return std::to_string(open) + " edges are open, and along " +
+         std::to_string(counted.loose.size() - open) +
          " more facets are wound against each other; the first goes from " +
-         text(mesh.vertices[loose.first[0]]) + " to " + text(mesh.vertices[loose.first[1]]) +
+         text(mesh.vertices[std::min(first.from, first.to)]) + " to " +
+         text(mesh.vertices[std::max(first.from, first.to)]) +
          ": close the mesh, or try lsdcd repair";
 }
 
-WindingNumber::WindingNumber(const WallMesh &mesh)
+WindingNumber::WindingNumber(const WallMesh &mesh) : WindingNumber(closed_facets(mesh)) {}
+
+WindingNumber::WindingNumber(std::vector<Triangle> closed) : facets_(std::move(closed))
 {
-  const std::string why = why_no_inside(mesh);
-  if (!why.empty()) throw InputError(mesh.source + " has no inside: " + why);
-  const std::vector<Corners> counted = is_known_closed(mesh) ? mesh.faces : Closed(mesh).facets;
-  facets_.reserve(counted.size());
-  for (const Corners &c : counted)
-    facets_.push_back({{mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]}});
   if (facets_.empty()) {    // each facet has one against it
     box_ = {{1, 1, 1}, {-1, -1, -1}};
     return;
   }
   box_ = {facets_[0].corner[0], facets_[0].corner[0]};
-  for (const Facet &f : facets_)
+  for (const Triangle &f : facets_)
     for (const Vec3 &x : f.corner) extend(box_, x);
   choose_cells();
   list_facets();
@@ -265,12 +156,12 @@ void WindingNumber::list_facets()
   };
   std::vector<Entry> entries;
   std::vector<std::uint32_t> last(stride_[0] * n_[0], kEmpty);    // that a cell lists
-  std::vector<Facet> pieces;
+  std::vector<Triangle> pieces;
   const Real largest = largest_coordinate();
   for (std::uint32_t f = 0; f < facets_.size(); f++) {
     pieces.push_back(facets_[f]);
     while (!pieces.empty()) {
-      const Facet piece = pieces.back();
+      const Triangle piece = pieces.back();
       pieces.pop_back();
       const Box box = box_around(piece.corner[0], piece.corner[1], piece.corner[2]);
       Index lo, hi;
@@ -291,7 +182,7 @@ void WindingNumber::list_facets()
         int k = edge(0) >= edge(1) ? 0 : 1;
         if (edge(2) > edge(k)) k = 2;
         const Vec3 middle = 0.5 * piece.corner[k] + 0.5 * piece.corner[(k + 1) % 3];
-        Facet half = piece;
+        Triangle half = piece;
         half.corner[k] = middle;
         pieces.push_back(half);
         half = piece;
@@ -356,7 +247,8 @@ void WindingNumber::build_tree()
 {
   std::vector<Box> boxes;
   boxes.reserve(facets_.size());
-  for (const Facet &f : facets_) boxes.push_back(box_around(f.corner[0], f.corner[1], f.corner[2]));
+  for (const Triangle &f : facets_)
+    boxes.push_back(box_around(f.corner[0], f.corner[1], f.corner[2]));
   tree_ = std::make_unique<const BoxTree>(boxes);
 }
 
@@ -391,7 +283,7 @@ void WindingNumber::number_empty_cells()
 
 // What a facet adds to the number of a ray's origin. A facet whose projection along the ray has no
 // area is never crossed.
-int WindingNumber::crossing(const Facet &facet, const Ray &ray, bool &on_surface)
+int WindingNumber::crossing(const Triangle &facet, const Ray &ray, bool &on_surface)
 {
   const int axis = ray.axis, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
   const Vec3 &a = facet.corner[0], &b = facet.corner[1], &c = facet.corner[2], &q = ray.from;
@@ -406,7 +298,7 @@ int WindingNumber::crossing(const Facet &facet, const Ray &ray, bool &on_surface
   if (left && right) return 0;
   const int behind = orientation(a, b, c, q);    // its normal points away from q
   if (!left && !right) {                         // the projection is a segment, and q on its line
-    on_surface = on_surface || (behind == 0 && is_on(axis, {{a, b, c}}, q));
+    on_surface = on_surface || lies_on(facet, q);
     return 0;
   }
   if (behind == 0) {
@@ -478,7 +370,7 @@ WindingNumber::Answer WindingNumber::at(const Vec3 &q) const
 
 std::size_t WindingNumber::bytes() const
 {
-  return facets_.capacity() * sizeof(Facet) + cells_.capacity() * sizeof(Cell) +
+  return facets_.capacity() * sizeof(Triangle) + cells_.capacity() * sizeof(Cell) +
          direction_.capacity() + listed_.capacity() * sizeof(std::uint32_t) +
          (tree_ ? tree_->bytes() : 0);
 }

@@ -4,6 +4,7 @@
 // How many times a closed surface winds around a point, without rounding and at any distance.
 #pragma once
 
+#include "geometry/triangles_meet.h"
 #include "mesh/box_tree.h"
 #include "mesh/periodic_box.h"
 #include "mesh/wall_mesh.h"
@@ -36,6 +37,8 @@ class WindingNumber {
  public:
   // Throws InputError, with why_no_inside(), where a mesh has no inside.
   explicit WindingNumber(const WallMesh &mesh);
+  // The facets of a closed surface: along every edge as many run one way as the other.
+  explicit WindingNumber(std::vector<Triangle> closed);
 
   // 1 inside a shell whose normals point out, -1 inside one whose normals point in; the sum for
   // several. On the surface only `on_surface` is set.
@@ -53,13 +56,11 @@ class WindingNumber {
     return a.on_surface || a.number == 0 ? 1 : -1;
   }
 
+  const std::vector<Triangle> &facets() const { return facets_; }
   std::size_t bytes() const;
 
  private:
   using Index = std::array<int, 3>;
-  struct Facet {
-    Vec3 corner[3];
-  };
   // Without facets, `first` is kEmpty and `number` that of all its points. With facets, these are
   // `listed_` from `first` on.
   struct Cell {
@@ -81,7 +82,7 @@ class WindingNumber {
   void build_tree();
   void number_empty_cells();
   Answer walk(const Vec3 &q, const Index &at, int direction) const;
-  static int crossing(const Facet &facet, const Ray &ray, bool &on_surface);
+  static int crossing(const Triangle &facet, const Ray &ray, bool &on_surface);
 
   int cell_along(int axis, Real x) const
   {
@@ -93,7 +94,7 @@ class WindingNumber {
     return (static_cast<std::size_t>(at[0]) * n_[1] + at[1]) * n_[2] + at[2];
   }
 
-  std::vector<Facet> facets_;
+  std::vector<Triangle> facets_;
   Box box_;
   Index n_ = {1, 1, 1};    // cells along each axis
   Vec3 length_ = {0, 0, 0}, per_length_ = {0, 0, 0};

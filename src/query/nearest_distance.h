@@ -23,7 +23,7 @@ struct Answer {
 };
 
 // Bits of an answer's status.
-constexpr std::uint8_t kTouching = 1, kCertified = 2;
+constexpr std::uint8_t kTouching = 1, kCertified = 2, kSideEstimated = 4;
 
 LSDCD_FN std::uint8_t status_of(const Answer &a)
 {

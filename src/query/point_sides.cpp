@@ -7,10 +7,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lsdcd {
 
 namespace {
+
+template <class T>
+Vec3 point(const StridedView<T> &points, std::size_t i)
+{
+  const T *at = points.of(i);
+  return {at[0], at[points.column], at[2 * points.column]};
+}
+
+template <class T>
+void estimate(const PointSides &sides, std::size_t n, const StridedView<const T> &points,
+              const Column<T> &number, std::int8_t *side, std::uint8_t *status)
+{
+  const GeneralizedWinding &winding = sides.generalized();
+  CpuBackend().for_each(n, [&](std::size_t i) {
+    const Vec3 q = point(points, i);
+    const bool is_none = std::isnan(q.x + q.y + q.z);
+    const GeneralizedWinding::Answer a = winding.at(q);
+    if (number.at)
+      number[i] = is_none ? std::numeric_limits<T>::quiet_NaN() : static_cast<T>(a.number);
+    if (!side) return;
+    side[i] = static_cast<std::int8_t>(is_none ? 0 : GeneralizedWinding::side(a));
+    if (status) status[i] |= kSideEstimated;
+  });
+}
 
 // Where a side is 0; it stays 0 where a coordinate is no number.
 template <class T>
@@ -19,8 +44,7 @@ void fill(const PointSides &sides, std::size_t n, const StridedView<T> &points, 
   if (std::find(side, side + n, 0) == side + n) return;
   const WindingNumber &winding = sides.winding();
   CpuBackend().for_each(n, [&](std::size_t i) {
-    const T *at = points.of(i);
-    const Vec3 q = {at[0], at[points.column], at[2 * points.column]};
+    const Vec3 q = point(points, i);
     if (side[i] == 0 && !std::isnan(q.x + q.y + q.z))
       side[i] = static_cast<std::int8_t>(winding.side(q));
   });
@@ -76,6 +100,17 @@ void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const P
                        bool by_normals, const PointArrays<double> &io)
 {
   answer(grid, names, sides, by_normals, io);
+}
+
+void estimate_sides(const PointSides &sides, std::size_t n, const StridedView<const float> &points,
+                    const Column<float> &number, std::int8_t *side, std::uint8_t *status)
+{
+  estimate(sides, n, points, number, side, status);
+}
+void estimate_sides(const PointSides &sides, std::size_t n, const StridedView<const double> &points,
+                    const Column<double> &number, std::int8_t *side, std::uint8_t *status)
+{
+  estimate(sides, n, points, number, side, status);
 }
 
 void fill_sides(const PointSides &sides, std::size_t n, const double *at, std::int8_t *side)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/made_once.h"
+#include "mesh/generalized_winding.h"
 #include "mesh/winding_number.h"
 #include "query/point_query.h"
 #include "query/tree_query.h"
@@ -22,10 +23,15 @@ class PointSides {
   {
     return winding_.get([&] { return std::make_unique<WindingNumber>(mesh_); });
   }
+  const GeneralizedWinding &generalized() const
+  {
+    return generalized_.get([&] { return std::make_unique<GeneralizedWinding>(mesh_); });
+  }
 
  private:
   const WallMesh &mesh_;
   MadeOnce<WindingNumber> winding_;
+  MadeOnce<GeneralizedWinding> generalized_;
 };
 
 // answer_points(), and the sides of all points. `by_normals`: the grid has sides, which nearest features
@@ -41,6 +47,14 @@ void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const Tr
                        const PointSides &sides, Real cutoff, const PointArrays<float> &io);
 void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
                        const PointSides &sides, Real cutoff, const PointArrays<double> &io);
+
+// Generalised winding numbers of any mesh, and the sides that are probable by them, which are not certified:
+// `status` gets kSideEstimated. What is null is not asked for. Where a coordinate is no number, neither is the
+// winding number, and the side is 0.
+void estimate_sides(const PointSides &sides, std::size_t n, const StridedView<const float> &points,
+                    const Column<float> &number, std::int8_t *side, std::uint8_t *status);
+void estimate_sides(const PointSides &sides, std::size_t n, const StridedView<const double> &points,
+                    const Column<double> &number, std::int8_t *side, std::uint8_t *status);
 
 // Of points whose `side` is 0; at[0, n) are packed coordinates.
 void fill_sides(const PointSides &sides, std::size_t n, const double *at, std::int8_t *side);

@@ -24,12 +24,14 @@ int kind_of(std::uint32_t feature)
 
 class CsvWriter : public AnswerWriter {
  public:
-  CsvWriter(const std::string &path, bool with_ids, bool with_sides) :
-      file_(path), with_ids_(with_ids), with_sides_(with_sides)
+  CsvWriter(const std::string &path, bool with_ids, SideKind sides) :
+      file_(path), with_ids_(with_ids), sides_(sides)
   {
     if (with_ids) file_.add("timestep,id,");
     file_.add("distance,closest_x,closest_y,closest_z,triangle,feature,index");
-    file_.add(with_sides ? ",side\n" : "\n");
+    file_.add(sides == SideKind::none    ? "\n"
+              : sides == SideKind::exact ? ",side\n"
+                                         : ",estimated_side,winding\n");
   }
   void write(const PointBlock &points, const AnswerBlock &a) override
   {
@@ -44,8 +46,10 @@ class CsvWriter : public AnswerWriter {
       add_index(a.triangle[i], a.triangle[i] != kNoFeature, ',');
       file_.add(kKinds[kind]);
       file_.add(",");
-      add_index(feature_index(a.feature[i]), kind < 3, with_sides_ ? ',' : '\n');
-      if (with_sides_) file_.add(static_cast<int>(a.side[i]), '\n');
+      add_index(feature_index(a.feature[i]), kind < 3, sides_ == SideKind::none ? '\n' : ',');
+      const bool estimated = sides_ == SideKind::estimated;
+      if (sides_ != SideKind::none) file_.add(static_cast<int>(a.side[i]), estimated ? ',' : '\n');
+      if (estimated) file_.add(a.winding[i], '\n');
     }
     file_.flush();
   }
@@ -59,14 +63,15 @@ class CsvWriter : public AnswerWriter {
   }
 
   CsvFile file_;
-  bool with_ids_, with_sides_;
+  bool with_ids_;
+  SideKind sides_;
 };
 
 // A record array; its header is written last, when the number of points is known.
 class NpyWriter : public AnswerWriter {
  public:
-  NpyWriter(const std::string &path, bool with_ids, bool with_sides) :
-      file_(path), with_ids_(with_ids), with_sides_(with_sides)
+  NpyWriter(const std::string &path, bool with_ids, SideKind sides) :
+      file_(path), with_ids_(with_ids), sides_(sides)
   {
   }
   void write(const PointBlock &points, const AnswerBlock &a) override
@@ -83,7 +88,8 @@ class NpyWriter : public AnswerWriter {
       add(index(a.triangle[i], a.triangle[i] != kNoFeature));
       add(index(feature_index(a.feature[i]), kind < 3));
       add(static_cast<std::int8_t>(kind < 3 ? kind : -1));
-      if (with_sides_) add(a.side[i]);
+      if (sides_ != SideKind::none) add(a.side[i]);
+      if (sides_ == SideKind::estimated) add(a.winding[i]);
     }
     file_.write_at(at_, bytes_.data(), bytes_.size());
     at_ += bytes_.size();
@@ -95,7 +101,8 @@ class NpyWriter : public AnswerWriter {
     if (with_ids_) head += "('timestep', '<i8'), ('id', '<i8'), ";
     head += "('distance', '<f8'), ('closest', '<f8', (3,)), ('triangle', '<i4'), ('index', '<i4'), "
             "('feature', '|i1')";
-    if (with_sides_) head += ", ('side', '|i1')";
+    if (sides_ == SideKind::exact) head += ", ('side', '|i1')";
+    if (sides_ == SideKind::estimated) head += ", ('estimated_side', '|i1'), ('winding', '<f8')";
     head += "], 'fortran_order': False, 'shape': (" + std::to_string(n_) + ",)}";
     constexpr std::size_t kStart = 10;
     head.resize(kHeader - kStart - 1, ' ');
@@ -134,16 +141,17 @@ class NpyWriter : public AnswerWriter {
   std::vector<char> bytes_;
   std::uint64_t at_ = kHeader;
   std::size_t n_ = 0;
-  bool with_ids_, with_sides_;
+  bool with_ids_;
+  SideKind sides_;
 };
 
 }    // namespace
 
-std::unique_ptr<AnswerWriter> open_answers(const std::string &path, bool with_ids, bool with_sides)
+std::unique_ptr<AnswerWriter> open_answers(const std::string &path, bool with_ids, SideKind sides)
 {
   if (path == "-" || ends_in(path, ".csv"))
-    return std::make_unique<CsvWriter>(path, with_ids, with_sides);
-  if (ends_in(path, ".npy")) return std::make_unique<NpyWriter>(path, with_ids, with_sides);
+    return std::make_unique<CsvWriter>(path, with_ids, sides);
+  if (ends_in(path, ".npy")) return std::make_unique<NpyWriter>(path, with_ids, sides);
   throw InputError("--output '" + path + "' ends neither in .csv nor in .npy, and is not -");
 }
 

@@ -14,19 +14,23 @@
 
 namespace lsdcd {
 
+enum class SideKind { none, exact, estimated };
+
 // As in query/point_work.h.
 struct AnswerBlock {
   std::vector<double> distance, closest;
   std::vector<std::uint32_t> triangle, feature;
   std::vector<std::int8_t> side;    // empty: the mesh has none
+  std::vector<double> winding;      // empty: sides are exact; else they are by these, probable
 
-  void resize(std::size_t n, bool with_sides)
+  void resize(std::size_t n, SideKind sides)
   {
+    winding.resize(sides == SideKind::estimated ? n : 0);
     distance.resize(n);
     closest.resize(3 * n);
     triangle.resize(n);
     feature.resize(n);
-    side.resize(with_sides ? n : 0);
+    side.resize(sides == SideKind::none ? 0 : n);
   }
 };
 
@@ -38,6 +42,6 @@ class AnswerWriter {
 };
 
 // The ending of its name says the format: .csv or .npy; - is CSV in the standard output. Throws InputError for another.
-std::unique_ptr<AnswerWriter> open_answers(const std::string &path, bool with_ids, bool with_sides);
+std::unique_ptr<AnswerWriter> open_answers(const std::string &path, bool with_ids, SideKind sides);
 
 }    // namespace lsdcd

@@ -30,7 +30,7 @@ struct Options {
   double radius = 0;    // 0: any distance
   std::size_t block = 1 << 18;
   int threads = 0;
-  bool json = false, progress = false;
+  bool estimate_sides = false, json = false, progress = false;
 };
 
 struct Totals {
@@ -68,7 +68,7 @@ std::string progress_text(const Totals &t, double share, double seconds)
 Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
 {
   const auto start = std::chrono::steady_clock::now();
-  const auto writer = open_answers(o.output, reader.has_ids(), answers.has_sides);
+  const auto writer = open_answers(o.output, reader.has_ids(), answers.sides);
   Progress progress(o.progress);
   const auto how = threads() > 1 ? std::launch::async : std::launch::deferred;
   PointBlock blocks[3];
@@ -111,7 +111,7 @@ void print(const Options &o, const Totals &t, const PointAnswers &answers)
   if (o.json) {
     nlohmann::json j = {{"points", t.points},
                         {"found", t.found},
-                        {"sides", answers.has_sides},
+                        {"sides", answers.sides == SideKind::exact},
                         {"seconds", t.seconds},
                         {"query_seconds", t.query_seconds},
                         {"points_per_second", rate},
@@ -123,7 +123,8 @@ void print(const Options &o, const Totals &t, const PointAnswers &answers)
       j["radius"] = o.radius;
     else
       j["radius"] = nullptr;
-    if (answers.has_sides) j["inside"] = t.inside;
+    if (answers.sides == SideKind::exact) j["inside"] = t.inside;
+    if (answers.sides == SideKind::estimated) j["estimated_inside"] = t.inside;
     if (t.found > 0) j.update({{"nearest", t.nearest}, {"farthest", t.farthest}});
     std::fprintf(to, "%s\n", j.dump(2).c_str());
     return;
@@ -132,11 +133,17 @@ void print(const Options &o, const Totals &t, const PointAnswers &answers)
   if (o.radius > 0) std::fprintf(to, " nearer than %g", o.radius);
   std::fprintf(to, "\n");
   if (t.found > 0) std::fprintf(to, "  distances   %g to %g\n", t.nearest, t.farthest);
-  if (answers.has_sides)
+  if (answers.sides == SideKind::exact)
     std::fprintf(to, "  inside      %zu\n", t.inside);
+  else if (answers.sides == SideKind::estimated)
+    std::fprintf(
+        to,
+        "  inside      %zu, estimated, not certified: the mesh is not closed and oriented: see "
+        "lsdcd inspect\n",
+        t.inside);
   else
     std::fprintf(to, "  sides       none: the mesh is not closed and oriented: see "
-                     "lsdcd inspect\n");
+                     "lsdcd inspect, or --estimate-sides\n");
   std::fprintf(
       to, "  time        %.3g s, of which queries %.3g s; %.3g points per second; grid %.3g s\n",
       t.seconds, t.query_seconds, rate, answers.report.seconds);
@@ -150,7 +157,8 @@ void distance(const Options &o)
 #endif
   if (o.output != "-") check_outputs({{"--output", o.output}}, {o.mesh, o.points});
   const auto reader = open_points(o.points);
-  open_answers(o.output, false, false);    // throws before the work if it cannot be written
+  open_answers(o.output, false,
+               SideKind::none);    // throws before the work if it cannot be written
   const WallMesh mesh = load_wall(o.mesh, o.scale, o.weld);
   GridSettings settings;
   settings.cutoff = o.radius;
@@ -159,7 +167,7 @@ void distance(const Options &o)
   settings.limited = true;
   Progress progress(o.progress);
   settings.progress = [&](const std::string &text) { progress.show(text); };
-  const auto answers = make_point_answers(mesh, settings, o.device);
+  const auto answers = make_point_answers(mesh, settings, o.device, o.estimate_sides);
   progress.clear();
   print(o, stream(o, *reader, *answers), *answers);
 }
@@ -197,6 +205,8 @@ void add_distance_command(Command &program)
   command.option("--block", o->block, "points in memory at once")
       .range(std::size_t(1), std::size_t(1) << 26)
       .shows_default();
+  command.flag("--estimate-sides", o->estimate_sides,
+               "of a mesh that is not closed, by winding numbers, not certified");
   command.flag("--progress", o->progress, "tell how far it is, even where no terminal is");
   command.flag("--json", o->json, "print JSON");
   command.footer(
@@ -208,7 +218,9 @@ void add_distance_command(Command &program)
       "the\n"
       "welded mesh, and, where the mesh is closed, side (1 outside and on the mesh, -1 inside, at "
       "any\n"
-      "distance).\n"
+      "distance), else with --estimate-sides estimated_side and winding, how often the mesh winds "
+      "round\n"
+      "the point: probably inside where the nearest whole number is not 0.\n"
       "Example:\n  lsdcd distance wall.stl points.csv --radius 0.01 -o distances.csv");
   command.runs([o] { distance(*o); });
 }

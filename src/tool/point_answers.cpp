@@ -27,6 +27,17 @@ StridedView<T> packed(T *at)
   return {at, 3, 1};
 }
 
+void estimate(const PointSides &sides, const PointBlock &points, AnswerBlock &a)
+{
+  estimate_sides(sides, points.size(), packed<const double>(points.xyz.data()),
+                 {a.winding.data(), 1}, a.side.data(), nullptr);
+}
+
+SideKind sides_of(const WallMesh &mesh, bool estimate)
+{
+  return has_inside(mesh) ? SideKind::exact : estimate ? SideKind::estimated : SideKind::none;
+}
+
 class CpuAnswers : public PointAnswers {
  public:
   CpuAnswers(const WallMesh &mesh, Real cutoff) :
@@ -38,7 +49,7 @@ class CpuAnswers : public PointAnswers {
   }
   void answer(const PointBlock &points, AnswerBlock &a) override
   {
-    a.resize(points.size(), has_sides);
+    a.resize(points.size(), sides);
     PointArrays<double> io;
     io.n = points.size();
     io.radius = cutoff_ > 0 ? cutoff_ : kAnyDistance;
@@ -47,8 +58,9 @@ class CpuAnswers : public PointAnswers {
     io.closest = packed(a.closest.data());
     io.triangle = a.triangle.data();
     io.feature = a.feature.data();
-    if (has_sides) io.side = a.side.data();
+    if (sides == SideKind::exact) io.side = a.side.data();
     answer_with_sides(tree_, near_ ? &*near_ : nullptr, names_, sides_, io.radius, io);
+    if (sides == SideKind::estimated) estimate(sides_, points, a);
   }
 
  private:
@@ -114,7 +126,7 @@ class CudaAnswers : public PointAnswers {
   void answer(const PointBlock &points, AnswerBlock &a) override
   {
     const std::size_t n = points.size();
-    a.resize(n, has_sides);
+    a.resize(n, sides);
     if (n == 0) return;
     points_.take(points.xyz);
     PointArrays<double> io;
@@ -136,7 +148,8 @@ class CudaAnswers : public PointAnswers {
       side_.give(a.side);
     else
       std::fill(a.side.begin(), a.side.end(), std::int8_t(0));
-    if (has_sides) fill_sides(sides_, n, points.xyz.data(), a.side.data());
+    if (sides == SideKind::exact) fill_sides(sides_, n, points.xyz.data(), a.side.data());
+    if (sides == SideKind::estimated) estimate(sides_, points, a);
   }
 
  private:
@@ -155,7 +168,7 @@ class CudaAnswers : public PointAnswers {
 }    // namespace
 
 std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, const GridSettings &settings,
-                                                 const std::string &device)
+                                                 const std::string &device, bool estimate)
 {
   std::string why;
   const bool on_cuda =
@@ -168,7 +181,7 @@ std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, const Gri
   const auto start = std::chrono::steady_clock::now();
   if (!on_cuda) {
     auto made = std::make_unique<CpuAnswers>(mesh, settings.cutoff);
-    made->has_sides = has_inside(mesh);
+    made->sides = sides_of(mesh, estimate);
     made->report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return made;
@@ -180,7 +193,7 @@ std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, const Gri
   const TriangleGrid grid = build_grid(mesh, of_grid, true);
   auto made = std::make_unique<CudaAnswers>(mesh, grid);
   made->sides_by_normals = of_grid.sides && grid.outside != 0;
-  made->has_sides = made->sides_by_normals || has_inside(mesh);
+  made->sides = made->sides_by_normals ? SideKind::exact : sides_of(mesh, estimate);
   made->report = grid.report;
   return made;
 #else

@@ -18,12 +18,14 @@ class PointAnswers {
   virtual ~PointAnswers() = default;
   virtual void answer(const PointBlock &points, AnswerBlock &answers) = 0;
 
-  bool has_sides = false, sides_by_normals = false;
+  SideKind sides = SideKind::none;
+  bool sides_by_normals = false;
   GridReport report;
 };
 
-// By a tree on a CPU, by a grid of these settings on a GPU. Their cutoff is 0 for any distance. device: auto, cpu or cuda. Throws InputError.
+// By a tree on a CPU, by a grid of these settings on a GPU. Their cutoff is 0 for any distance. device: auto, cpu or cuda.
+// `estimate`: of a mesh without sides those that are probable. Throws InputError.
 std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, const GridSettings &settings,
-                                                 const std::string &device);
+                                                 const std::string &device, bool estimate);
 
 }    // namespace lsdcd

@@ -338,6 +338,81 @@ TEST(library, a_shell_that_cuts_itself_has_sides_from_a_cache_too)
   }
 }
 
+// A cube without its face at x = 1, seen from its middle, is five sixths of all.
+template <class T>
+void expect_estimated(int precision)
+{
+  TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}), open;
+  for (std::size_t t = 0; t < soup.corners.size(); t += 3) {
+    const Vec3 *c = &soup.corners[t];
+    if (c[0].x + c[1].x + c[2].x < 3) open.corners.insert(open.corners.end(), c, c + 3);
+  }
+  const lsdcd::Grid grid = grid_of(open, 0, precision);
+  EXPECT_FALSE(grid.facts().has_sides);
+  const std::vector<T> points = {0, 0, 0, T(0.9), 0, 0, 2, 0, 0, -1, 0, 0, T(std::nan("")), 0, 0};
+  std::vector<T> winding(10);
+  std::vector<std::int8_t> side(5);
+  std::vector<std::uint8_t> status(5);
+  lsdcd::Query<T> q(points.data(), 5);
+  q.winding = winding.data();
+  q.winding_step = 2;
+  q.side = side.data();
+  q.status = status.data();
+  q.estimate_sides = true;
+  grid.query(q);
+  const double rounding = sizeof(T) == sizeof(float) ? 1e-7 : 1e-15;
+  EXPECT_NEAR(winding[0], 5. / 6, rounding);
+  // The face that is missing is seen from 0.1 away, on its axis.
+  const double hole = std::atan(1 / (0.1 * std::sqrt(2.01))) / std::acos(-1);
+  EXPECT_NEAR(winding[2], 1 - hole, 3 * rounding);    // that of 0.9 counts three times
+  EXPECT_TRUE(std::isnan(winding[8]));
+  EXPECT_EQ(side, (std::vector<std::int8_t>{-1, -1, 1, 1, 0}));
+  for (const std::uint8_t s : status) EXPECT_TRUE(s & LSDCD_SIDE_ESTIMATED);
+}
+
+TEST(library, sides_of_an_open_mesh_are_estimated_where_that_is_asked_for)
+{
+  for (const int precision : {LSDCD_DOUBLE, LSDCD_FLOAT}) {
+    expect_estimated<double>(precision);
+    expect_estimated<float>(precision);
+  }
+}
+
+TEST(library, sides_of_a_closed_mesh_are_never_estimated)
+{
+  const lsdcd::Grid grid = grid_of(lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}));
+  const double points[] = {0, 0, 0, 1, 0, 0, 1.5, 0, 0};
+  double winding[3];
+  std::int8_t side[3];
+  std::uint8_t status[3];
+  lsdcd::Query<double> q(points, 3);
+  q.winding = winding;
+  q.side = side;
+  q.status = status;
+  q.estimate_sides = true;
+  grid.query(q);
+  const double wanted[] = {1, 0.5, 0};
+  for (int i = 0; i < 3; i++) {
+    EXPECT_NEAR(winding[i], wanted[i], 1e-15);
+    EXPECT_EQ(side[i], i == 0 ? -1 : 1);
+    EXPECT_FALSE(status[i] & LSDCD_SIDE_ESTIMATED);
+  }
+}
+
+// A query as the first version of the header had it.
+TEST(library, a_shorter_query_of_an_older_program_is_answered)
+{
+  const lsdcd::Grid grid(lsdcd::Mesh(numbers(lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}))));
+  const double point[] = {0, 0, 0};
+  double distance = 0;
+  lsdcd_query q = lsdcd::Query<double>(point, 1);
+  q.size = offsetof(lsdcd_query, winding);
+  q.distance = &distance;
+  q.winding = &distance;    // beyond its end
+  ASSERT_EQ(lsdcd_query_host(grid.get(), &q), LSDCD_OK);
+  EXPECT_EQ(distance, 1);
+}
+
 TEST(library, a_cavity_has_the_side_of_what_is_round_it)
 {
   TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}),

@@ -97,6 +97,9 @@ assert (lsdcd.Mesh(vertices[faces]).grid(cutoff=CUTOFF).query(points).distance =
 
 assert refused(lsdcd.Error, "cutoff", lambda: grid.query(points, radius=1)).code == "cutoff"
 assert refused(lsdcd.Error, "nowhere", lambda: lsdcd.Mesh("/nowhere.stl")).code == "input"
+open_grid = lsdcd.Mesh(vertices, [f for f in faces if not (vertices[f][:, 0] == vertices[:, 0].max()).all()]).grid()
+middle = open_grid.query([[0, 0, 0], [5, 0, 0]], "winding side status", estimate_sides=True)
+assert abs(middle.winding[0] - 5 / 6) < 1e-15 and middle.side.tolist() == [-1, 1] and (middle.status & lsdcd.SIDE_ESTIMATED).all()
 assert refused(lsdcd.Error, "closed", lambda: lsdcd.Mesh(vertices, faces[1:]).grid(cutoff=1).query(points, "side")).code == "side"
 refused(TypeError, "(n, 3)", lambda: grid.query(points[:, :2]))
 refused(TypeError, "height", lambda: grid.query(points, "height"))

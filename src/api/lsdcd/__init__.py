@@ -38,12 +38,12 @@ _size, _step, _int, _real, _at = (ctypes.c_size_t, ctypes.c_ssize_t, ctypes.c_in
                                   ctypes.c_void_p)
 ERRORS = ("ok", "argument", "input", "cutoff", "side", "device", "memory", "internal")
 DEVICES = ("cpu", "cuda")
-FOUND, CERTIFIED = 1, 2
+FOUND, CERTIFIED, SIDE_ESTIMATED = 1, 2, 4
 NONE = 0xffffffff
 # What a query answers: how many dimensions beyond the points', and the type, None: that of the points.
 ANSWERS: dict[str, tuple[int, Any]] = {
     "distance": (0, None), "closest": (1, None), "normal": (1, None), "triangle": (0, np.uint32), "feature": (0, np.uint32),
-    "side": (0, np.int8), "status": (0, np.uint8)}
+    "side": (0, np.int8), "status": (0, np.uint8), "winding": (0, None)}
 
 
 def _struct(name: str, *fields: tuple[str, Any]) -> Any:
@@ -68,7 +68,8 @@ _Query = _struct(
     ("points_row", _step), ("points_column", _step), ("radii", _at), ("radii_step", _step),
     ("radius", _real), ("distance", _at), ("distance_step", _step), ("closest", _at),
     ("closest_row", _step), ("closest_column", _step), ("normal", _at), ("normal_row", _step),
-    ("normal_column", _step), ("triangle", _at), ("feature", _at), ("side", _at), ("status", _at))
+    ("normal_column", _step), ("triangle", _at), ("feature", _at), ("side", _at), ("status", _at),
+    ("winding", _at), ("winding_step", _step), ("estimate_sides", _int))
 _Contacts = _struct(
     "_Contacts", ("n", _size), ("type", _int), ("threads", _int), ("points", _at), ("points_row", _step),
     ("points_column", _step), ("radii", _at), ("radii_step", _step), ("radius", _real), ("first", _at), ("room", _size),
@@ -299,7 +300,8 @@ class Answer(_Record):
     triangle: Any    # (...), uint32, int32 in PyTorch: from 0 as given
     feature: Any     # (...), uint32, int32 in PyTorch: kind << 30 | number, kind 0 face, 1 edge, 2 vertex
     side: Any        # (...), int8: 1 outside and on the mesh, -1 inside, 0 not known
-    status: Any      # (...), uint8: bits FOUND and CERTIFIED
+    status: Any      # (...), uint8: bits FOUND, CERTIFIED and SIDE_ESTIMATED
+    winding: Any     # (...), the points' type: how often the mesh winds round the point, a whole number if it has sides
 
 
 class GridFacts(_Record):
@@ -331,9 +333,9 @@ class Grid(_Owner):
         return str(_lib.lsdcd_grid_report(self._handle).decode())
 
     def query(self, points: Any, want: str | Iterable[str] | None = None, radius: Any = None, threads: int = 0, *,
-              out: Mapping[str, Any] | Answer | None = None, stream: Any = None) -> Answer:
+              out: Mapping[str, Any] | Answer | None = None, stream: Any = None, estimate_sides: bool = False) -> Answer:
         """Answers for points of shape (..., 3), in the unit of the mesh, as an Answer with what `want` names: distance
-        (the default), closest, normal, triangle, feature, side, status.
+        (the default), closest, normal, triangle, feature, side, status, winding.
 
         points: float32, or float64, which all else becomes; of any layout, on the host. Those of PyTorch, CuPy, JAX and
         others that have `__dlpack__` or `__cuda_array_interface__` are read in place, and PyTorch's and CuPy's answered
@@ -348,6 +350,9 @@ class Grid(_Owner):
         as a number. By default that of the array's interface, or the current one of PyTorch or CuPy. The call returns
         when its work is in the stream, but waits for it where another library owns the points. The grid keeps what
         it needs for the stream, which must live as long; a number does not keep it alive.
+        estimate_sides: where the mesh has no sides, because it is open or facets are wound against each other, `side`
+        is -1 where the whole number nearest to `winding` is not 0, else 1. These are not certified: status has
+        SIDE_ESTIMATED. On the host, as winding is.
 
         Raises TypeError for what has the wrong shape, type or place, Error for a radius beyond the cutoff, and for sides
         where there are none."""
@@ -370,7 +375,7 @@ class Grid(_Owner):
             raise TypeError(f"points on a device have the strides {given.strides}, not one step from point to point: "
                             "make them contiguous")
         query = _sized(_Query, n=math.prod(shape), type=int(real == np.float32), threads=threads,
-                       points=given.address, points_row=steps[0], points_column=steps[1])
+                       estimate_sides=estimate_sides, points=given.address, points_row=steps[0], points_column=steps[1])
         if radius is not None:
             _set_radius(query, radius, given, shape, kept)
         handle, owner = (0, None) if given.on_host else _arrays.stream_of(asked, stream)

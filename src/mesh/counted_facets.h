@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The facets of a mesh that winding numbers count, and the edges where they leave the surface open.
+#pragma once
+
+#include "geometry/triangles_meet.h"
+#include "mesh/wall_mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace lsdcd {
+
+// From vertex `from` to vertex `to` so many more facets run than back: >= 1.
+struct LooseEdge {
+  int from, to, times;
+  int facets;    // that have it
+};
+
+// Of two facets with the same corners and opposite windings neither counts; of several that are wound
+// alike, one. Those without area do where they close the surface.
+struct CountedFacets {
+  std::vector<std::array<int, 3>> facets;    // vertices, as they are wound
+  std::vector<LooseEdge> loose;              // none: the surface is closed
+
+  explicit CountedFacets(const WallMesh &mesh);
+};
+
+// Are all faces counted, and is no edge loose? Quick; false: not known.
+bool is_known_closed(const WallMesh &mesh);
+
+std::vector<Triangle> triangles_of(const WallMesh &mesh,
+                                   const std::vector<std::array<int, 3>> &facets);
+
+}    // namespace lsdcd
