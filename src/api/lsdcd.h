@@ -332,19 +332,38 @@ typedef struct lsdcd_wall lsdcd_wall;
 /* What a wall has to say: a line for the log, or with `warning` 1 what is probably not meant. */
 typedef void lsdcd_message(void *data, int warning, const char *text);
 
-typedef struct lsdcd_wall_options {
+/* For a program of several processes, as with MPI. Each has a wall of the same words, for spheres of its own,
+ * and all call the functions of the wall together, in the same order, but for those that say "alone". All
+ * processes then fail together, too, but for out of memory and errors of CUDA: end all of them there.
+ * A callback is called by all processes in the calls of their walls; it changes the array in place and
+ * returns 0, or what the call then fails with, as MPI_Allreduce and MPI_Bcast do. */
+typedef struct lsdcd_host {
   size_t size;         /* of this struct */
-  double lo[3], hi[3]; /* where centres of spheres can be; all 0: wherever they go */
-  int periodic[3];     /* 1: the box repeats along x, y, z. Spheres are put back by the caller */
-  double margin;       /* length > 0 with `periodic`: how far past a face a sphere may go */
-  double time;         /* of the first step, for files */
-  const char *units;   /* of material files: LAMMPS's "si", "cgs", ...; null: "si" */
-  lsdcd_message *show; /* called in calls of this wall only; null: nothing is shown */
-  void *data;          /* handed to `show` */
-  int threads;         /* on the CPU; 0: OMP_NUM_THREADS, or one */
+  int rank, processes; /* this process, from 0, of how many */
+  int node_rank; /* of this process among those of its computer, from 0: they share out the GPUs */
+  void *data;    /* handed to the callbacks */
+  /* Each of the n numbers becomes the sum, or the largest, of all processes. */
+  int (*sum)(void *data, double *numbers, int n);
+  int (*max)(void *data, double *numbers, int n);
+  /* The bytes of process `from` replace those of the others. */
+  int (*broadcast)(void *data, void *bytes, size_t n, int from);
+} lsdcd_host;
+
+typedef struct lsdcd_wall_options {
+  size_t size;            /* of this struct */
+  double lo[3], hi[3];    /* where centres of spheres can be; all 0: wherever they go */
+  int periodic[3];        /* 1: the box repeats along x, y, z. Spheres are put back by the caller */
+  double margin;          /* length > 0 with `periodic`: how far past a face a sphere may go */
+  double time;            /* of the first step, for files */
+  const char *units;      /* of material files: LAMMPS's "si", "cgs", ...; null: "si" */
+  lsdcd_message *show;    /* called in calls of this wall only; null: nothing is shown */
+  void *data;             /* handed to `show` */
+  int threads;            /* on the CPU; 0: OMP_NUM_THREADS, or one */
+  const lsdcd_host *host; /* copied; null: one process */
 } lsdcd_wall_options;
 /* `words`: n words that follow "wall/lsdcd" in a script: a contact style with its numbers, `mesh FILE`,
- * keywords. Variables, v_name, are not there. `options` may be null: all defaults. Any. */
+ * keywords. Variables, v_name, are not there. `options` may be null: all defaults. Files are read and written,
+ * and the log is shown, by the first process. Any. */
 LSDCD_API int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options *options,
                               lsdcd_wall **wall);
 
@@ -372,16 +391,30 @@ typedef struct lsdcd_wall_step {
   int changed; /* 1: spheres came at the end, or radii grew since the last step. The first step and those
                     with `setup` look at that anyway */
   double reach; /* length; near spheres are chosen anew when one has gone farther; 0: a tenth of the
-                    largest radius */
+                    largest radius of the last step that looked */
 } lsdcd_wall_step;
 /* Adds the wall's forces and torques of this step. Velocities are those that the caller's integrator has
- * when it asks for forces; with velocity Verlet they are those of the half step, as in LAMMPS. An error
- * of a sphere names it by its order of coming, from 1. A wall whose step failed can only be freed. Own. */
+ * when it asks for forces; with velocity Verlet they are those of the half step, as in LAMMPS. `dt` and `setup`
+ * are the same on all processes; `changed` and `reach` of one hold for all.
+ *
+ * An error of a sphere names it by its order of coming, from 1; processes take turns, p of P has p + 1,
+ * p + 1 + P and so on of those that come in the same step. With a `host` a step does not wait for the other
+ * processes to tell of their spheres: their errors come with the next call that is not "alone", and the arrays
+ * of a step stay where they are until then. A wall whose step failed can only be freed. Own. */
 LSDCD_API int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
                                       const lsdcd_wall_step *step);
 /* Before the next step: sphere i of n is the one that was from[i], or with -1 a new one. What its
- * contacts keep follows it. Own. */
+ * contacts keep follows it. Alone. Own. */
 LSDCD_API int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n);
+
+/* A sphere goes to another process: before lsdcd_wall_renumber() lsdcd_wall_pack() writes what the contacts
+ * of the n spheres which[i] keep, and their names, *count doubles. Those that fit in `room` are written; with
+ * `room` 0 the array may be null. There lsdcd_wall_unpack() reads them, after lsdcd_wall_renumber() has made room:
+ * sphere to[i] has them from then on. Numbers that no wall of these words packed are refused. Alone. Own. */
+LSDCD_API int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *numbers,
+                              size_t room, size_t *count);
+LSDCD_API int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n,
+                                const double *numbers, size_t count);
 
 typedef struct lsdcd_wall_totals {
   size_t size;                /* of this struct; set by the caller */
@@ -394,18 +427,20 @@ typedef struct lsdcd_wall_totals {
   double worn;        /* volume worn off so far */
   double servo[3];    /* position, velocity, push; 0 without a servo */
 } lsdcd_wall_totals;
-/* Of a mesh in the last step; -1: of all, without servos. Own. */
+/* Of a mesh in the last step, over all processes; -1: of all, without servos. Own. */
 LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals);
-/* Where a mesh is: x in the box is R x + t, 12 numbers, rows of R, each with its t behind it. Own. */
+/* Where a mesh is: x in the box is R x + t, 12 numbers, rows of R, each with its t behind it. Alone.
+ * Own. */
 LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
 /* The words of fix_modify: [mesh K] motion ..., [mesh K] servo ..., K from 1. Own. */
 LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n);
-/* All that the wall and the contacts of its spheres keep, to go on from: *count doubles. Those that fit
- * in `room` are written; with `room` 0 the array may be null. Own. */
+/* All that the wall and the contacts of its spheres keep, to go on from: *count doubles, of this process. Those
+ * that fit in `room` are written; with `room` 0 the array may be null. Own. */
 LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count);
-/* Into a wall of the same words, before its first step, whose spheres then have the same order. Own. */
+/* Into a wall of the same words, before its first step, whose spheres then have the same order; process by
+ * process. Own. */
 LSDCD_API int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count);
-/* Null is fine. Own. */
+/* Null is fine. Alone. Own. */
 LSDCD_API void lsdcd_wall_free(lsdcd_wall *wall);
 
 #if defined(__cplusplus)

@@ -437,6 +437,17 @@ class Wall {
   {
     c::check(lsdcd_wall_renumber(get(), from.data(), from.size()));
   }
+  // What the contacts of these spheres keep, for unpack() by another process.
+  std::vector<double> pack(const std::vector<std::ptrdiff_t> &which)
+  {
+    return numbers([&](double *to, std::size_t room, std::size_t *count) {
+      return lsdcd_wall_pack(get(), which.data(), which.size(), to, room, count);
+    });
+  }
+  void unpack(const std::vector<std::ptrdiff_t> &to, const std::vector<double> &numbers)
+  {
+    c::check(lsdcd_wall_unpack(get(), to.data(), to.size(), numbers.data(), numbers.size()));
+  }
   lsdcd_wall_totals totals(int mesh = -1)
   {
     lsdcd_wall_totals t = {};
@@ -451,11 +462,9 @@ class Wall {
   }
   std::vector<double> save()
   {
-    std::size_t count = 0;
-    c::check(lsdcd_wall_save(get(), nullptr, 0, &count));
-    std::vector<double> numbers(count);
-    c::check(lsdcd_wall_save(get(), numbers.data(), count, &count));
-    return numbers;
+    return numbers([&](double *to, std::size_t room, std::size_t *count) {
+      return lsdcd_wall_save(get(), to, room, count);
+    });
   }
   void restore(const std::vector<double> &numbers)
   {
@@ -464,6 +473,16 @@ class Wall {
   lsdcd_wall *get() { return handle_.get(); }
 
  private:
+  // What a function writes where there is room: once for how many, once for the numbers.
+  template <class Write>
+  static std::vector<double> numbers(const Write &write)
+  {
+    std::size_t count = 0;
+    c::check(write(nullptr, 0, &count));
+    std::vector<double> all(count);
+    c::check(write(all.data(), count, &count));
+    return all;
+  }
   static std::vector<const char *> pointers(const std::vector<std::string> &words)
   {
     std::vector<const char *> all;

@@ -6,9 +6,10 @@
 
 #include "api/c_border.h"
 #include "api/call_threads.h"
+#include "api/wall_caller.h"
 #include "base/input_words.h"
+#include "engine/step/law_job.h"
 #include "input/settings.h"
-#include "wall/own_memory.h"
 #include "wall/shared_material.h"
 
 #include <algorithm>
@@ -21,84 +22,6 @@
 using namespace lsdcd;
 
 namespace {
-
-// The program that calls the library: one process.
-class Caller : public Host {
- public:
-  explicit Caller(const lsdcd_wall_options &o) : show_(o.show), data_(o.data)
-  {
-    bool any = false;
-    for (int k = 0; k < 3; k++) any |= o.lo[k] != 0 || o.hi[k] != 0 || o.periodic[k] != 0;
-    for (int k = 0; k < 3 && any; k++) {
-      if (!(o.lo[k] < o.hi[k]) || !std::isfinite(o.hi[k] - o.lo[k]))
-        throw ApiError(LSDCD_ERROR_ARGUMENT,
-                       "`lsdcd_wall_options`: lo must be below hi along each axis; leave both 0 "
-                       "where spheres go anywhere");
-      box_.corner[k] = o.lo[k];
-      box_.edge[k] = {0, 0, 0};
-      box_.edge[k][k] = o.hi[k] - o.lo[k];
-      box_.periodic[k] = o.periodic[k] != 0;
-    }
-    for (int k = 0; k < 3 && !any; k++) box_.face_follows[k][0] = box_.face_follows[k][1] = true;
-    if (!(o.margin >= 0) || (box_.any_periodic() && o.margin == 0))
-      throw ApiError(LSDCD_ERROR_ARGUMENT,
-                     "`lsdcd_wall_options`: margin is " + number_text(o.margin) +
-                         "; with a periodic box say how far past a face a sphere may go");
-    box_.margin = o.margin;
-  }
-
-  void sum(Real *, int) override {}
-  void max(Real *, int) override {}
-  int max_rank(Real &) override { return 0; }
-  void broadcast(void *, std::size_t, int) override {}
-  std::vector<Real> gather(const std::vector<Real> &mine) override { return mine; }
-  void fail_together(const std::string &error) override
-  {
-    if (!error.empty()) throw InputError(error);
-  }
-  std::vector<Real> variables(const std::vector<std::string> &names) override
-  {
-    check_variables(names);
-    return {};
-  }
-  void check_variables(const std::vector<std::string> &names) override
-  {
-    if (!names.empty())
-      throw InputError(
-          "v_" + names.front() +
-          ": there are no variables here; give numbers, and change them between steps");
-  }
-  std::unique_ptr<NodeMemory> node_memory() override { return std::make_unique<OwnMemory>(*this); }
-  int rank() const override { return 0; }
-  PeriodicBox box() const override { return box_; }
-  SphereGroup group() const override { return {"all", false}; }
-  Spheres spheres_on_cpu() override { return spheres; }
-  std::int64_t tag(int sphere) override { return tags[sphere]; }
-  std::int64_t highest_tag() override { return last_tag_; }
-  Real radius_of_tag(std::int64_t tag) override
-  {
-    const auto at = std::find(tags.begin(), tags.end(), tag);
-    return at == tags.end() ? 0 : spheres.radius[at - tags.begin()];
-  }
-  void log(const std::string &text) override { show(0, text); }
-  void warn(const std::string &text) override { show(1, text); }
-
-  std::int64_t next_tag() { return ++last_tag_; }
-
-  Spheres spheres;                   // of the step that is under way
-  std::vector<std::int64_t> tags;    // by order of coming
-
- private:
-  void show(int warning, const std::string &text)
-  {
-    if (show_) show_(data_, warning, text.c_str());
-  }
-
-  PeriodicBox box_;
-  lsdcd_message *show_;
-  void *data_;
-  std::int64_t last_tag_ = 0;
-};
 
 std::vector<std::string> words_of(const char *const *words, std::size_t n)
 {
@@ -121,12 +44,14 @@ void need_words(const std::vector<std::string> &words, const char *what)
 }    // namespace
 
 struct lsdcd_wall {
-  Caller caller;
+  WallCaller caller;
   int threads;
   std::int64_t number = 0;    // of the last step
   Real dt = 0;
-  bool begun = false;
-  std::vector<Real> kept;    // restored histories, until the first step
+  bool begun = false;         // since spheres were numbered anew, too
+  Real largest_radius = 0;    // of this process, in the last step that looked
+  Failure late;               // of this process, which all are told in the next call
+  std::vector<Real> kept;     // restored histories, until the first step
   std::unique_ptr<Wall> in;
 
   explicit lsdcd_wall(const lsdcd_wall_options &o) : caller(o), threads(o.threads) {}
@@ -149,14 +74,11 @@ Spheres spheres_of(const lsdcd_spheres &s, const WallSettings &wall)
     need(s.temperature, "temperature");
     need(s.heat, "heat");
   }
-  if (wall.laws.kinds > 1) {
-    need(s.type, "type");
-    for (std::size_t i = 0; i < s.n; i++)
-      if (s.type[i] < 1)
-        throw ApiError(LSDCD_ERROR_ARGUMENT, "type[" + std::to_string(i) + "] is " +
-                                                 std::to_string(s.type[i]) + ", below 1");
-  }
+  if (wall.laws.kinds > 1) need(s.type, "type");
   const std::ptrdiff_t row = s.row ? s.row : 3;
+  if (row < 3 && s.n > 1)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "row is " + std::to_string(row) +
+                                             ": vectors of 3 numbers need 3 or more, 0 is 3");
   out.x = {s.x, row, 1};
   out.v = {s.v, row, 1};
   out.omega = {s.omega, row, 1};
@@ -170,19 +92,27 @@ Spheres spheres_of(const lsdcd_spheres &s, const WallSettings &wall)
   return out;
 }
 
-// New spheres have numbers of their own; none leave but by lsdcd_wall_renumber().
-void count_spheres(lsdcd_wall &wall, std::size_t n)
+void check_types(const Spheres &s, const WallSettings &wall)
 {
-  std::vector<std::int64_t> &tags = wall.caller.tags;
+  for (int i = 0; wall.laws.kinds > 1 && i < s.n; i++)
+    if (s.type[i] < 1)
+      throw ApiError(LSDCD_ERROR_ARGUMENT, "type[" + std::to_string(i) + "] is " +
+                                               std::to_string(s.type[i]) + ", below 1");
+}
+
+// Spheres do not leave but by lsdcd_wall_renumber().
+void check_count(const lsdcd_wall &wall, std::size_t n)
+{
+  const std::size_t before = wall.caller.tags.size();
   if (n > 0x7fffffffu)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "n is " + std::to_string(n) + ", more than an int counts");
-  if (n < tags.size())
+  if (n < before)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "there are " + std::to_string(n) +
-                                             " spheres and there were " +
-                                             std::to_string(tags.size()) +
+                                             " spheres and there were " + std::to_string(before) +
                                              ": say by lsdcd_wall_renumber() which are left");
-  while (tags.size() < n) tags.push_back(wall.caller.next_tag());
-  wall.in->history().grow(static_cast<int>(n));
+  if (!wall.kept.empty() && wall.kept[0] != static_cast<Real>(n))
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "what was restored has " + number_text(wall.kept[0]) +
+                                             " spheres, and this step has " + std::to_string(n));
 }
 
 // Restored numbers: of the wall, then a size and that many for each sphere.
@@ -190,18 +120,167 @@ void unpack_kept(lsdcd_wall &wall)
 {
   HistoryExchange &history = wall.in->history();
   history.on_host();
-  const std::size_t n = static_cast<std::size_t>(wall.kept[0]);
-  if (n != wall.caller.tags.size())
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "what was restored has " + std::to_string(n) +
-                                             " spheres, and this step has " +
-                                             std::to_string(wall.caller.tags.size()));
+  const int n = static_cast<int>(wall.kept[0]);
   const Real *at = wall.kept.data() + 1;
-  for (std::size_t i = 0; i < n; i++) {
+  for (int i = 0; i < n; i++) {
     const int size = static_cast<int>(*at++);
-    history.unpack_restart(static_cast<int>(i), at, size);
+    history.unpack_restart(i, at, size);
     at += size;
   }
   wall.kept.clear();
+}
+
+// What this process wants of a step.
+struct StepWanted {
+  Spheres spheres;
+  lsdcd_wall_step step = {};
+  bool look = false;
+};
+
+StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsdcd_wall_step *step)
+{
+  StepWanted want;
+  const lsdcd_spheres given = checked(spheres, "lsdcd_spheres", offsetof(lsdcd_spheres, type));
+  want.step = checked(step, "lsdcd_wall_step");
+  if (!(want.step.dt > 0) || !std::isfinite(want.step.dt))
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "dt is " + number_text(want.step.dt) + ", not above 0");
+  if (!(want.step.reach >= 0))
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "reach is " + number_text(want.step.reach) + ", below 0");
+  check_count(wall, given.n);
+  want.spheres = spheres_of(given, wall.in->settings());
+  const bool came = given.n > wall.caller.tags.size();
+  want.look = !wall.begun || came || want.step.setup || want.step.changed;
+  if (!want.look) return want;
+  check_types(want.spheres, wall.in->settings());
+  wall.largest_radius = 0;
+  for (int i = 0; i < want.spheres.n; i++)
+    wall.largest_radius = std::max(wall.largest_radius, want.spheres.radius[i]);
+  return want;
+}
+
+// The same on all processes.
+StepWanted agreed(lsdcd_wall &wall, const Failure &failure, StepWanted want)
+{
+  lsdcd_wall_step &step = want.step;
+  const Real reach = step.reach > 0 ? step.reach : 0.1 * wall.largest_radius;
+  std::vector<Real> most = {step.dt,
+                            -step.dt,
+                            step.setup ? 1. : 0.,
+                            step.setup ? 0. : 1.,
+                            want.look ? 1. : 0.,
+                            reach,
+                            static_cast<Real>(wall.caller.highest_tag())};
+  wall.caller.agree(failure, most);
+  if (most[0] != -most[1] || most[2] == most[3])
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "dt goes from " + number_text(-most[1]) + " to " +
+                                             number_text(most[0]) + " over the processes" +
+                                             (most[2] == most[3] ? ", and some set up" : "") +
+                                             ": dt and setup are the same on all");
+  want.look = most[4] > 0;
+  step.reach = most[5];
+  std::vector<std::int64_t> &tags = wall.caller.tags;
+  tags.resize(want.spheres.n);
+  if (want.look) wall.caller.name_new_spheres(static_cast<std::int64_t>(most[6]));
+  return want;
+}
+
+// What the last step has noted of spheres, where it was not told at once.
+void note_late(lsdcd_wall &wall)
+{
+  if (wall.caller.is_alone() || wall.late.code != LSDCD_OK) return;
+  wall.late = failure_of([&] { wall.in->poll_diagnostics(wall.number); });
+}
+
+// Throws it on all processes. Collective.
+void tell_late(lsdcd_wall &wall)
+{
+  if (wall.caller.is_alone()) return;
+  note_late(wall);
+  std::vector<Real> none;
+  wall.caller.agree(wall.late, none);
+}
+
+void take_step(lsdcd_wall &wall, const StepWanted &want)
+{
+  const Spheres &s = want.spheres;
+  wall.in->history().grow(s.n);
+  if (!wall.kept.empty()) unpack_kept(wall);
+  wall.caller.spheres = s;
+  wall.dt = want.step.dt;
+  if (!want.step.setup) wall.number++;
+  StepInput input;
+  input.step = {wall.number, want.step.dt, want.step.setup ? Step::setup : Step::step};
+  input.look = input.new_spheres = want.look;
+  input.box_changes = wall.caller.box().any_follows();
+  input.drift.kind = SphereDrift::watched;
+  input.drift.distance = want.step.reach;
+  wall.begun = true;
+  const bool alone = wall.caller.is_alone();
+  try {
+    wall.in->begin(s, input);
+    wall.in->finish(s);
+    if (alone) wall.in->poll_diagnostics(wall.number);
+  } catch (const ProcessError &e) {
+    if (alone) throw InputError(e.what());
+    wall.late = {LSDCD_ERROR_INPUT, e.what()};
+  }
+  // Each step: what was left out must not be known many steps later only.
+  if (wall.caller.box().any_periodic()) wall.in->check_wrapping();
+  if (!want.step.setup && wall.in->files_every() > 0) wall.in->write_due_files();
+}
+
+void check_order_is_free(const lsdcd_wall &wall)
+{
+  if (!wall.kept.empty())
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "spheres keep their order until the step after a restore");
+}
+
+void check_spheres(const lsdcd_wall &wall, const std::ptrdiff_t *spheres, std::size_t n,
+                   const char *name)
+{
+  const std::ptrdiff_t there = static_cast<std::ptrdiff_t>(wall.caller.tags.size());
+  for (std::size_t i = 0; i < n; i++)
+    if (spheres[i] < 0 || spheres[i] >= there)
+      throw ApiError(LSDCD_ERROR_ARGUMENT, std::string(name) + "[" + std::to_string(i) + "] is " +
+                                               std::to_string(spheres[i]) + "; there are " +
+                                               std::to_string(there) + " spheres, from 0");
+}
+
+// With which packed numbers begin: what contacts keep, and on how many meshes.
+Real packed_kind(const lsdcd_wall &wall)
+{
+  return static_cast<Real>(wall.in->settings().law.history_kind()) +
+         0x1p32 * static_cast<Real>(wall.in->meshes().size());
+}
+
+// Where the numbers of each sphere begin: its tag, then what ContactHistory packs.
+std::vector<const double *> packed_spheres(const lsdcd_wall &wall, std::size_t n,
+                                           const double *numbers, std::size_t count)
+{
+  const HistoryExchange &history = wall.in->history();
+  const std::size_t per_contact = history.is_kept() ? history.numbers_per_contact() : 0;
+  const double meshes = static_cast<double>(wall.in->meshes().size());
+  std::vector<const double *> spheres;
+  bool good = count > 0 && numbers[0] == packed_kind(wall);
+  std::size_t at = 1;
+  for (std::size_t i = 0; i < n && good; i++) {
+    good = count - at >= 2 && numbers[at] >= 0 && numbers[at] < 0x1p53;
+    if (!good) break;
+    const double contacts = numbers[at + 1];
+    good = contacts >= 0 && contacts <= (per_contact ? kMaxContacts : 0) &&
+           contacts == std::floor(contacts) &&
+           static_cast<std::size_t>(contacts) * per_contact <= count - at - 2;
+    if (!good) break;
+    spheres.push_back(numbers + at);
+    at += 2;
+    for (int k = 0; k < static_cast<int>(contacts); k++, at += per_contact)
+      good &= numbers[at] >= 0 && numbers[at] < 0x1p32 * meshes;
+  }
+  if (!good || at != count)
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "these are not the numbers that lsdcd_wall_pack() wrote for " +
+                       std::to_string(n) + " spheres of such a wall");
+  return spheres;
 }
 
 void check_mesh(const lsdcd_wall &wall, int mesh, int least)
@@ -222,7 +301,7 @@ int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options
   return guard([&] {
     need(wall, "wall");
     lsdcd_wall_options o = {};
-    if (options) o = checked(options, "lsdcd_wall_options");
+    if (options) o = checked(options, "lsdcd_wall_options", offsetof(lsdcd_wall_options, host));
     check_threads(o.threads);
     const CallThreads threads(o.threads);
     std::vector<std::string> all = words_of(words, n);
@@ -241,41 +320,13 @@ int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
 {
   return guard([&] {
     need(wall, "wall");
-    const lsdcd_spheres given = checked(spheres, "lsdcd_spheres", offsetof(lsdcd_spheres, type));
-    const lsdcd_wall_step what = checked(step, "lsdcd_wall_step");
-    if (!(what.dt > 0) || !std::isfinite(what.dt))
-      throw ApiError(LSDCD_ERROR_ARGUMENT, "dt is " + number_text(what.dt) + ", not above 0");
-    if (!(what.reach >= 0))
-      throw ApiError(LSDCD_ERROR_ARGUMENT, "reach is " + number_text(what.reach) + ", below 0");
-    const Spheres s = spheres_of(given, wall->in->settings());
-    const bool came = given.n > wall->caller.tags.size();
-    count_spheres(*wall, given.n);
-    if (!wall->kept.empty()) unpack_kept(*wall);
-    wall->caller.spheres = s;
-    wall->dt = what.dt;
     const CallThreads threads(wall->threads);
-
-    StepInput input;
-    const bool first = !wall->begun;
-    if (!what.setup) wall->number++;
-    input.step = {wall->number, what.dt, what.setup ? Step::setup : Step::step};
-    input.look = input.new_spheres = first || came || what.setup || what.changed;
-    input.box_changes = wall->caller.box().any_follows();
-    input.drift.kind = SphereDrift::watched;
-    input.drift.distance = what.reach;
-    if (what.reach == 0)
-      for (int i = 0; i < s.n; i++)
-        input.drift.distance = std::max(input.drift.distance, 0.1 * s.radius[i]);
-    wall->begun = true;
-    try {
-      wall->in->begin(s, input);
-      wall->in->finish(s);
-      // Each step: what was left out must not be known many steps later only.
-      wall->in->before_exchange(wall->number, wall->caller.box().any_periodic());
-      if (!what.setup && wall->in->files_every() > 0) wall->in->write_due_files();
-    } catch (const ProcessError &e) {
-      throw InputError(e.what());
-    }
+    note_late(*wall);
+    StepWanted want;
+    Failure failure = wall->late;
+    if (failure.code == LSDCD_OK)
+      failure = failure_of([&] { want = step_wanted(*wall, spheres, step); });
+    take_step(*wall, agreed(*wall, failure, want));
   });
 }
 
@@ -284,6 +335,7 @@ int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n)
   return guard([&] {
     need(wall, "wall");
     if (n > 0) need(from, "from");
+    note_late(*wall);    // of spheres by the numbers that they have
     const std::vector<std::int64_t> old = wall->caller.tags;
     std::vector<char> taken(old.size(), 0);
     for (std::size_t i = 0; i < n; i++) {
@@ -293,9 +345,7 @@ int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n)
                        "from[" + std::to_string(i) + "] is " + std::to_string(from[i]) +
                            ": each is a sphere of the last step, from 0 and once, or -1");
     }
-    if (!wall->kept.empty())
-      throw ApiError(LSDCD_ERROR_ARGUMENT,
-                     "spheres keep their order until the step after a restore");
+    check_order_is_free(*wall);
     HistoryExchange &history = wall->in->history();
     std::vector<std::vector<Real>> packed(n);
     if (history.is_kept()) {
@@ -313,9 +363,52 @@ int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n)
       }
     }
     wall->caller.tags.clear();
-    for (std::size_t i = 0; i < n; i++)
-      wall->caller.tags.push_back(from[i] < 0 ? wall->caller.next_tag() : old[from[i]]);
+    for (std::size_t i = 0; i < n; i++) wall->caller.tags.push_back(from[i] < 0 ? 0 : old[from[i]]);
     wall->begun = false;    // the next step looks at all
+  });
+}
+
+int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *numbers,
+                    size_t room, size_t *count)
+{
+  return guard([&] {
+    need(wall, "wall");
+    need(count, "count");
+    if (n > 0) need(which, "which");
+    if (room > 0) need(numbers, "numbers");
+    check_order_is_free(*wall);
+    check_spheres(*wall, which, n, "which");
+    const bool keeps = wall->in->history().is_kept();
+    const ContactHistory &history = wall->in->history().on_host();
+    std::vector<Real> all = {packed_kind(*wall)}, packed(1);
+    for (std::size_t i = 0; i < n; i++) {
+      const int k = static_cast<int>(which[i]);
+      packed.assign(keeps ? history.packed_size(k) : 1, 0);
+      if (keeps) history.pack(k, packed.data());
+      all.push_back(static_cast<Real>(wall->caller.tags[k]));
+      all.insert(all.end(), packed.begin(), packed.end());
+    }
+    *count = all.size();
+    std::copy_n(all.begin(), std::min(room, all.size()), numbers);
+  });
+}
+
+int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n, const double *numbers,
+                      size_t count)
+{
+  return guard([&] {
+    need(wall, "wall");
+    need(numbers, "numbers");
+    if (n > 0) need(to, "to");
+    check_order_is_free(*wall);
+    check_spheres(*wall, to, n, "to");
+    const std::vector<const double *> spheres = packed_spheres(*wall, n, numbers, count);
+    const bool keeps = wall->in->history().is_kept();
+    ContactHistory &history = wall->in->history().on_host();
+    for (std::size_t i = 0; i < n; i++) {
+      wall->caller.tags[to[i]] = static_cast<std::int64_t>(spheres[i][0]);
+      if (keeps) history.unpack(static_cast<int>(to[i]), spheres[i] + 1);
+    }
   });
 }
 
@@ -325,6 +418,7 @@ int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals)
     need(wall, "wall");
     lsdcd_wall_totals out = checked(totals, "lsdcd_wall_totals");
     check_mesh(*wall, mesh, -1);
+    tell_late(*wall);
     const StepTotals &all = wall->in->totals();
     const MeshTotals t = mesh < 0 ? all.of_all() : all.mesh(mesh);
     for (int k = 0; k < 3; k++) {
@@ -382,6 +476,7 @@ int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *coun
     need(wall, "wall");
     need(count, "count");
     if (room > 0) need(numbers, "numbers");
+    tell_late(*wall);
     std::vector<Real> all = wall->in->state();
     all.insert(all.begin(), static_cast<Real>(all.size()));
     const std::size_t n = wall->in->history().is_kept() ? wall->caller.tags.size() : 0;

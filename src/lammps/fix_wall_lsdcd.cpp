@@ -252,7 +252,10 @@ void FixWallLsdcd::min_setup(int /*vflag*/)
 
 void FixWallLsdcd::pre_exchange()
 {
-  run_wall([&] { wall->before_exchange(update->ntimestep, spheres_go_far()); });
+  run_wall([&] {
+    wall->poll_diagnostics(update->ntimestep);
+    if (spheres_go_far()) wall->check_wrapping();
+  });
   if (has_history()) make_exchange_room();
 }
 

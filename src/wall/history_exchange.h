@@ -42,6 +42,7 @@ class HistoryExchange {
   void set_spheres_of_engine(int n) { n_with_engine_ = n; }
   int spheres_of_engine() const { return n_with_engine_; }
 
+  int numbers_per_contact() const { return springs_.doubles_per_spring(); }
   // Numbers that one sphere has in a message or a file, at most.
   int max_packed_size() const;
 

@@ -101,13 +101,13 @@ void run_collectively(Host &host, bool here, Work &&work)
   host.fail_together(here ? error_of(work) : "");
 }
 
-// A text of the first process replaces those of the others. Collective.
-inline void broadcast_text(Host &host, std::string &text)
+// A text of the process `from` replaces those of the others. Collective.
+inline void broadcast_text(Host &host, std::string &text, int from = 0)
 {
   std::uint64_t size = text.size();
-  host.broadcast(&size, sizeof size, 0);
+  host.broadcast(&size, sizeof size, from);
   text.resize(size);
-  host.broadcast(&text[0], size, 0);
+  host.broadcast(&text[0], size, from);
 }
 
 // An error of this process alone; the others may go on until the program ends them.

@@ -13,8 +13,8 @@ namespace lsdcd {
 // Each process has a copy of its own.
 class OwnMemory : public NodeMemory {
  public:
-  // The host must outlive it.
-  explicit OwnMemory(Host &host) : host_(host) {}
+  // The host must outlive it. `node_rank`: which of the GPUs of its node this process takes.
+  explicit OwnMemory(Host &host, int node_rank = 0) : host_(host), node_rank_(node_rank) {}
   char *allocate(std::size_t bytes) override
   {
     memory_ = OwnedArray<char, LargeMemory>(bytes);
@@ -26,7 +26,7 @@ class OwnMemory : public NodeMemory {
     host_.broadcast(data, bytes, 0);
   }
   bool writes() const override { return true; }
-  int node_rank() const override { return 0; }
+  int node_rank() const override { return node_rank_; }
   int node_size() const override { return 1; }
   bool is_shared() const override { return false; }
   const char *block() const override { return memory_.data(); }
@@ -34,6 +34,7 @@ class OwnMemory : public NodeMemory {
 
  private:
   Host &host_;
+  int node_rank_;
   OwnedArray<char, LargeMemory> memory_;
 };
 

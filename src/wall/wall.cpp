@@ -425,16 +425,14 @@ void Wall::poll_diagnostics(std::int64_t step)
   overlaps_.note(read_diagnostics(), step);
 }
 
+// An error of this process alone must not keep the others waiting.
 void Wall::check_new_spheres()
 {
   const std::int64_t step = input_.step.number;
-  overlaps_.check_new(read_diagnostics(), step, continued_ || step > 0);
-}
-
-void Wall::before_exchange(std::int64_t step, bool far)
-{
-  poll_diagnostics(step);
-  if (far) grids_.check_wrapping();
+  StepDiagnostics seen;
+  const std::string error = error_of([&] { seen = read_diagnostics(); });
+  overlaps_.check_new(seen, step, continued_ || step > 0);
+  if (!error.empty()) throw ProcessError(error);
 }
 
 void Wall::end_run(std::int64_t step, bool far, const std::string &advice, Real loop)

@@ -86,8 +86,11 @@ class Wall {
 
   // The wall acts on nothing until the next step: its totals are 0. Not together.
   void clear_totals() { totals_.clear(); }
-  // Before spheres change processes. `far`: the host does not know how far spheres go between two looks.
-  void before_exchange(std::int64_t step, bool far);
+  // Before spheres change processes: what steps have noted since the last time. Throws where one had to
+  // leave out a sphere, which is read where it was then. Not together.
+  void poll_diagnostics(std::int64_t step);
+  // Warns where spheres went too far past a periodic face, for hosts that do not know how far they go.
+  void check_wrapping() { grids_.check_wrapping(); }
   // `advice` follows the number of choices in the log; `loop`: seconds of the run, 0 where not known.
   void end_run(std::int64_t step, bool far, const std::string &advice, Real loop);
 
@@ -140,7 +143,6 @@ class Wall {
   void choose_if_due(const Spheres &spheres);
   void start(const Spheres &spheres);
   StepDiagnostics read_diagnostics();
-  void poll_diagnostics(std::int64_t step);
   void check_new_spheres();
 
   MeshPart &mesh_of_words(const std::vector<std::string> &words, std::size_t &taken);

@@ -2,93 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A wall through the library's headers: forces in closed form, springs that follow their spheres, wrong use.
-#include "lsdcd.hpp"
+#include "floor_and_grains.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-#include <fstream>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace {
 
-constexpr double kN = 1000, kT = 300, kDt = 1e-3;
-// Products and sums of a few numbers of order one.
-constexpr double kRounding = 1e-13;
-
-// A floor of two triangles at z = 0, from -10 to 10.
-class wall : public testing::Test {
- protected:
-  const std::string file_ = testing::TempDir() + "floor_of_test_library_wall_" +
-                            testing::UnitTest::GetInstance()->current_test_info()->name() + ".stl";
-
-  void SetUp() override
-  {
-    std::ofstream(file_)
-        << "solid f\nfacet normal 0 0 1\nouter loop\nvertex -10 -10 0\nvertex 10 -10 0\n"
-           "vertex 10 10 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
-           "vertex -10 -10 0\nvertex 10 10 0\nvertex -10 10 0\nendloop\nendfacet\n"
-           "endsolid f\n";
-  }
-  void TearDown() override { std::remove(file_.c_str()); }
-
-  std::vector<std::string> words(const std::vector<std::string> &more = {}) const
-  {
-    std::vector<std::string> all = {"hooke/history", "1000", "300",    "0",  "0", "0.5", "0",
-                                    "mesh",          file_,  "device", "cpu"};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-  }
-};
-
-struct Grains {
-  std::vector<double> x, v, omega, radius, mass, force, torque;
-
-  void add(double px, double py, double pz, double vx = 0)
-  {
-    for (const double n : {px, py, pz}) x.push_back(n);
-    for (const double n : {vx, 0., 0.}) v.push_back(n);
-    radius.push_back(0.5);
-    mass.push_back(1);
-    omega.resize(x.size());
-    force.resize(x.size());
-    torque.resize(x.size());
-  }
-  void step(lsdcd::Wall &wall, int n = 1, bool setup = false)
-  {
-    for (int i = 0; i < n; i++) {
-      force.assign(x.size(), 0);
-      torque.assign(x.size(), 0);
-      lsdcd_spheres s = {};
-      s.size = sizeof s;
-      s.n = radius.size();
-      s.x = x.data();
-      s.v = v.data();
-      s.omega = omega.data();
-      s.radius = radius.data();
-      s.mass = mass.data();
-      s.force = force.data();
-      s.torque = torque.data();
-      lsdcd_wall_step step = {};
-      step.size = sizeof step;
-      step.dt = kDt;
-      step.setup = setup;
-      wall.step(s, step);
-    }
-  }
-};
-
-int code_of(const std::function<void()> &work)
-{
-  try {
-    work();
-    return LSDCD_OK;
-  } catch (const lsdcd::Error &e) {
-    return e.code();
-  }
-}
+class wall : public FloorTest {};
 
 TEST_F(wall, adds_the_force_of_an_overlap)
 {
@@ -256,6 +177,21 @@ TEST_F(wall, refuses_numbers_that_it_did_not_save)
   EXPECT_EQ(code_of([&] { other.restore(saved); }), LSDCD_ERROR_ARGUMENT);
   EXPECT_EQ(code_of([&] { other.restore({3, 1, 2, 3}); }), LSDCD_ERROR_ARGUMENT);
   EXPECT_EQ(code_of([&] { other.restore({4, -6, 1e6, 0, 1e9, 0}); }), LSDCD_ERROR_INPUT);
+}
+
+TEST_F(wall, refuses_rows_that_overlap)
+{
+  lsdcd::Wall wall(words());
+  Grains grains;
+  grains.add(0, 0, 0.49);
+  grains.add(1, 0, 0.49);
+  lsdcd_spheres s = grains.spheres();
+  s.row = 2;
+  lsdcd_wall_step step = {};
+  step.size = sizeof step;
+  step.dt = kDt;
+  EXPECT_EQ(text_of([&] { wall.step(s, step); }),
+            "row is 2: vectors of 3 numbers need 3 or more, 0 is 3");
 }
 
 TEST_F(wall, names_a_sphere_that_outgrew_its_grid)

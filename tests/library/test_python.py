@@ -16,6 +16,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 
 import numpy as np
 
@@ -224,6 +225,81 @@ def check_device_path():
         lib.lsdcd_stream_open, lib.lsdcd_query_stream, _arrays.driver = real
 
 
+class Processes:
+    """Two processes, threads here: what lsdcd.Host asks of one."""
+    size = 2
+
+    def __init__(self, rank, meeting, brought):
+        self.rank, self.meeting, self.brought = rank, meeting, brought
+
+    def meet(self, values):
+        self.brought[self.rank] = values.copy()
+        self.meeting.wait(10)
+        all_of = [values.copy() for values in self.brought]
+        self.meeting.wait(10)    # nobody brings the next before all have read
+        return all_of
+
+    def sum(self, numbers):
+        numbers[:] = sum(self.meet(numbers))
+
+    def max(self, numbers):
+        numbers[:] = np.maximum(*self.meet(numbers))
+
+    def broadcast(self, data, source):
+        data[:] = self.meet(data)[source]
+
+
+def check_processes():
+    """A sphere that slides on a floor at z = 0 goes to another process; the wall of each is in a thread."""
+    words = "hooke/history 1000 300 0 0 0.5 0 mesh {} device cpu"
+    dt, speed, packed, told = 1e-3, 0.1, [], [None, None]
+    meeting, brought = threading.Barrier(2), [None, None]
+
+    def work(rank, floor):
+        wall = lsdcd.Wall(words.format(floor), host=Processes(rank, meeting, brought))
+
+        def step(n):
+            x, v = np.tile([0.0, 1, 0.49], (n, 1)), np.tile([speed, 0, 0], (n, 1))
+            force, torque = np.zeros((n, 3)), np.zeros((n, 3))
+            wall.step(x, v, np.zeros((n, 3)), np.full(n, 0.5), np.ones(n), force, torque, dt)
+            return force
+
+        for _ in range(10):
+            step(1 - rank)
+        if rank == 0:
+            packed.append(wall.pack([0]))
+            wall.renumber([])
+        meeting.wait(10)
+        if rank == 1:
+            wall.renumber([-1])
+            wall.unpack([0], packed[0])
+        force = step(rank)
+        told[rank] = force, wall.totals()
+
+    with tempfile.TemporaryDirectory() as folder:
+        floor = os.path.join(folder, "floor.stl")
+        pathlib.Path(floor).write_text("solid f\nfacet normal 0 0 1\nouter loop\nvertex -9 -9 0\nvertex 9 -9 0\n"
+                                       "vertex 0 9 0\nendloop\nendfacet\nendsolid f\n", encoding="ascii")
+        threads = [threading.Thread(target=work, args=(rank, floor)) for rank in (0, 1)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        # Sums of a few numbers of order one: some roundings.
+        fact("both processes end", None not in told, told)
+        fact("what a contact keeps goes to another process",
+             abs(told[1][0][0, 0] + 300 * 11 * speed * dt) < 1e-12, told)
+        fact("totals are those of all processes",
+             all(abs(t.force[2] + 10) < 1e-11 and t.contacts == 1 for _, t in told), told)
+
+        class Breaks(Processes):
+            def max(self, numbers):
+                raise KeyError("no network")
+
+        refused("what a host raises is raised", "no network",
+                lambda: lsdcd.Wall(words.format(floor), host=Breaks(0, None, None)), KeyError)
+
+
 def check_types():
     mypy = shutil.which("mypy")
     if not mypy:
@@ -254,5 +330,6 @@ if __name__ == "__main__":
     check_reading()
     check_queries()
     check_device_path()
+    check_processes()
     check_types()
     sys.exit(1 if failed else 0)

@@ -364,13 +364,13 @@ TEST(Wall, warns_once_where_spheres_went_past_a_periodic_face_farther_than_its_g
   scene.set_up();
   scene.grains.x[0].x = 50.5;    // by 0.5, where the margin is 0.1
   host.spheres = scene.grains.spheres();
-  scene.wall->before_exchange(0, true);
+  scene.wall->check_wrapping();
   ASSERT_EQ(host.warnings.size(), 1u);
   EXPECT_EQ(host.warnings[0].rfind("a particle was 0.5 past a periodic face", 0), 0u)
       << host.warnings[0];
   scene.grains.x[0].x = 51.5;    // farther than the grid reaches now
   host.spheres = scene.grains.spheres();
-  scene.wall->before_exchange(0, true);
+  scene.wall->check_wrapping();
   EXPECT_EQ(host.warnings.size(), 1u);
 }
 
@@ -385,7 +385,7 @@ TEST(Wall, of_one_process_that_fails_names_its_sphere)
   scene.grains.radius[0] = 0.51;    // without a word to the wall
   scene.run(1);
   try {
-    scene.wall->before_exchange(1, false);
+    scene.wall->poll_diagnostics(1);
     ADD_FAILURE() << "no error";
   } catch (const ProcessError &e) {
     EXPECT_EQ(std::string(e.what()).rfind("atom 42 ", 0), 0u) << e.what();

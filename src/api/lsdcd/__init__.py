@@ -27,7 +27,7 @@ import glob
 import math
 import os
 import threading
-from typing import Any, Callable, Iterable, Mapping, Sequence
+from typing import Any, Callable, Iterable, Mapping, Protocol, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -87,9 +87,14 @@ _Collision = _struct(
     ("segment", _at), ("pairs", _size), ("uncertain", _size))
 
 _Show = ctypes.CFUNCTYPE(None, _at, _int, ctypes.c_char_p)
+_Reduce = ctypes.CFUNCTYPE(_int, _at, ctypes.POINTER(_real), _int)
+_Broadcast = ctypes.CFUNCTYPE(_int, _at, ctypes.POINTER(ctypes.c_uint8), _size, _int)
+_Host = _struct("_Host", ("rank", _int), ("processes", _int), ("node_rank", _int), ("data", _at), ("sum", _Reduce),
+                ("max", _Reduce), ("broadcast", _Broadcast))
 _WallOptions = _struct(
     "_WallOptions", ("lo", _real * 3), ("hi", _real * 3), ("periodic", _int * 3), ("margin", _real),
-    ("time", _real), ("units", ctypes.c_char_p), ("show", _Show), ("data", _at), ("threads", _int))
+    ("time", _real), ("units", ctypes.c_char_p), ("show", _Show), ("data", _at), ("threads", _int),
+    ("host", _at))
 _Spheres = _struct(
     "_Spheres", ("n", _size), ("row", _step), ("x", _at), ("v", _at), ("omega", _at), ("radius", _at),
     ("mass", _at), ("force", _at), ("torque", _at), ("temperature", _at), ("heat", _at), ("type", _at))
@@ -136,6 +141,8 @@ def _load() -> Any:
         getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _int, _at]
     lib.lsdcd_wall_save.argtypes = [_at, _at, _size, _at]
     lib.lsdcd_wall_restore.argtypes = [_at, _at, _size]
+    lib.lsdcd_wall_pack.argtypes = [_at, _at, _size, _at, _size, _at]
+    lib.lsdcd_wall_unpack.argtypes = [_at, _at, _size, _at, _size]
     return lib
 
 
@@ -620,29 +627,62 @@ class WallTotals(_Record):
     servo: NDArray[np.float64]    # (3,) position, velocity, push; 0 without a servo
 
 
+class Host(Protocol):
+    """What a wall asks of a program of several processes, as lsdcd_host. Each function is called on all processes
+    and changes the array in place. With mpi4py:
+
+        class Mpi:
+            rank, size = comm.rank, comm.size
+            def sum(self, numbers): comm.Allreduce(MPI.IN_PLACE, numbers)
+            def max(self, numbers): comm.Allreduce(MPI.IN_PLACE, numbers, MPI.MAX)
+            def broadcast(self, data, source): comm.Bcast(data, source)
+
+    A `node_rank`, from 0 on each computer, shares out its GPUs."""
+    rank: int    # of this process, from 0
+    size: int    # how many there are
+
+    def sum(self, numbers: NDArray[np.float64]) -> None: ...
+    def max(self, numbers: NDArray[np.float64]) -> None: ...
+    def broadcast(self, data: NDArray[np.uint8], source: int) -> None: ...
+
+
 class Wall(_Owner):
     """The wall of fix wall/lsdcd. `words`: what follows its style in a script, a text or a list. `lo`, `hi`: the
     box of the spheres' centres, None: wherever they go; `periodic`: along x, y, z, with `margin`, how far past a
     face a sphere may go before the caller puts it back. `show(text, warning)` gets each line of the log. One
-    thread at a time."""
+    thread at a time.
+
+    With a `host` there are several processes: each makes a Wall of the same words, for spheres of its own, and
+    all call its methods together, but for renumber(), pack(), unpack() and pose(). The errors of one are raised
+    on all."""
     _free = _lib.lsdcd_wall_free
 
     def __init__(self, words: str | Iterable[str], lo: ArrayLike | None = None, hi: ArrayLike | None = None,
                  periodic: Sequence[bool] = (False, False, False), margin: float = 0.0, time: float = 0.0, units: str = "si",
-                 show: Callable[[str, bool], object] | None = None, threads: int = 0) -> None:
+                 show: Callable[[str, bool], object] | None = None, threads: int = 0, host: Host | None = None) -> None:
         super().__init__()
-        self._told: BaseException | None = None    # what `show` raised, which C cannot pass on
+        self._told: BaseException | None = None    # what a callback raised, which C cannot pass on
+        self._arrays: Any = None    # of the last step, whose errors the library may still have to tell
 
-        def tell(_: Any, warning: int, text: bytes) -> None:
-            try:
-                if show:
-                    show(text.decode(), bool(warning))
-            except BaseException as e:
-                self._told = e
+        def called(function: Callable[..., object]) -> Callable[..., int]:
+            def call(_: Any, *arguments: Any) -> int:
+                try:
+                    function(*arguments)
+                    return 0
+                except BaseException as e:
+                    self._told = self._told or e
+                    return 1
+            return call
 
-        self._show: Any = _Show(tell) if show else _Show(0)    # it must live as long as the wall
+        def tell(warning: int, text: bytes) -> None:
+            if show:
+                show(text.decode(), bool(warning))
+
+        self._show: Any = _Show(called(tell)) if show else _Show(0)    # it must live as long as the wall
+        self._host = _host_struct(host, called) if host else None
         options = _sized(_WallOptions, periodic=(_int * 3)(*map(bool, periodic)), margin=margin, time=time,
-                         units=units.encode(), show=self._show, threads=threads)
+                         units=units.encode(), show=self._show, threads=threads,
+                         host=ctypes.addressof(self._host) if self._host else None)
         for name, corner in (("lo", lo), ("hi", hi)):
             place = _numbers(corner, (3,), name)
             if place is not None:
@@ -679,12 +719,26 @@ class Wall(_Owner):
                 raise TypeError(f"{name} cannot be written to")
             setattr(spheres, name, array.ctypes.data)
         step = _sized(_WallStep, dt=dt, setup=bool(setup), changed=bool(changed), reach=reach)
+        before, self._arrays = self._arrays, arrays
         self._do(_lib.lsdcd_wall_step_spheres, self._handle, ctypes.byref(spheres), ctypes.byref(step))
+        del before    # errors of the last step were told in this one
 
     def renumber(self, source: ArrayLike) -> None:
         """Before the next step: sphere i is the one that was source[i], or with -1 a new one."""
         numbers = np.ascontiguousarray(source, dtype=np.intp)
         self._do(_lib.lsdcd_wall_renumber, self._handle, numbers.ctypes.data, numbers.size)
+
+    def pack(self, which: ArrayLike) -> NDArray[np.float64]:
+        """What the contacts of these spheres keep, numbers from 0, and their names: for unpack() by another
+        process, before renumber()."""
+        spheres = np.ascontiguousarray(which, dtype=np.intp)
+        return self._numbers(_lib.lsdcd_wall_pack, spheres.ctypes.data, spheres.size)
+
+    def unpack(self, to: ArrayLike, numbers: ArrayLike) -> None:
+        """Spheres to[k] get what another process packed, after renumber(). Raises Error for other numbers."""
+        spheres, packed = np.ascontiguousarray(to, dtype=np.intp), np.ascontiguousarray(numbers, dtype=np.float64)
+        self._do(_lib.lsdcd_wall_unpack, self._handle, spheres.ctypes.data, spheres.size, packed.ctypes.data,
+                 packed.size)
 
     def totals(self, mesh: int | None = None) -> WallTotals:
         """Of a mesh, from 0, or of all."""
@@ -705,16 +759,29 @@ class Wall(_Owner):
 
     def save(self) -> NDArray[np.float64]:
         """What the wall and the contacts of its spheres keep, an array for restore()."""
+        return self._numbers(_lib.lsdcd_wall_save)
+
+    def _numbers(self, call: Any, *arguments: Any) -> NDArray[np.float64]:
+        """What a function of the library writes where there is room."""
         count = _size()
-        self._do(_lib.lsdcd_wall_save, self._handle, None, 0, ctypes.byref(count))
+        self._do(call, self._handle, *arguments, None, 0, ctypes.byref(count))
         numbers = np.empty(count.value)
-        self._do(_lib.lsdcd_wall_save, self._handle, numbers.ctypes.data, count, ctypes.byref(count))
+        self._do(call, self._handle, *arguments, numbers.ctypes.data, count, ctypes.byref(count))
         return numbers
 
     def restore(self, numbers: ArrayLike) -> None:
         """Before the first step of a wall of the same words."""
         saved = np.ascontiguousarray(numbers, dtype=np.float64)
         self._do(_lib.lsdcd_wall_restore, self._handle, saved.ctypes.data, saved.size)
+
+
+def _host_struct(host: Host, called: Callable[[Callable[..., object]], Callable[..., int]]) -> Any:
+    """A host's functions as callbacks, which live as long as what this returns."""
+    as_array = np.ctypeslib.as_array
+    return _sized(_Host, rank=host.rank, processes=host.size, node_rank=getattr(host, "node_rank", 0),
+                  sum=_Reduce(called(lambda numbers, n: host.sum(as_array(numbers, (n,))))),
+                  max=_Reduce(called(lambda numbers, n: host.max(as_array(numbers, (n,))))),
+                  broadcast=_Broadcast(called(lambda data, n, source: host.broadcast(as_array(data, (n,)), source))))
 
 
 def _words(words: str | Iterable[str]) -> tuple[Any, int]:

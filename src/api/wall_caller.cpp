@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/wall_caller.h"
+
+#include "base/input_words.h"
+#include "wall/own_memory.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+// A callback that fails has left the processes apart: nothing can be agreed on any more.
+void check_call(int code, const char *callback)
+{
+  if (code != 0)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("`lsdcd_host`: ") + callback + "() returned " +
+                                             std::to_string(code) + ", not 0: end all processes");
+}
+
+PeriodicBox box_of(const lsdcd_wall_options &o)
+{
+  PeriodicBox box;
+  bool any = false;
+  for (int k = 0; k < 3; k++) any |= o.lo[k] != 0 || o.hi[k] != 0 || o.periodic[k] != 0;
+  for (int k = 0; k < 3 && any; k++) {
+    if (!(o.lo[k] < o.hi[k]) || !std::isfinite(o.hi[k] - o.lo[k]))
+      refuse_option("lsdcd_wall_options",
+                    "lo must be below hi along each axis; leave both 0 where spheres go anywhere");
+    box.corner[k] = o.lo[k];
+    box.edge[k] = {0, 0, 0};
+    box.edge[k][k] = o.hi[k] - o.lo[k];
+    box.periodic[k] = o.periodic[k] != 0;
+  }
+  for (int k = 0; k < 3 && !any; k++) box.face_follows[k][0] = box.face_follows[k][1] = true;
+  if (!(o.margin >= 0) || (box.any_periodic() && o.margin == 0))
+    refuse_option("lsdcd_wall_options",
+                  "margin is " + number_text(o.margin) +
+                      "; with a periodic box say how far past a face a sphere may go");
+  box.margin = o.margin;
+  return box;
+}
+
+lsdcd_host host_of(const lsdcd_wall_options &o)
+{
+  lsdcd_host host = {};
+  host.processes = 1;
+  if (!o.host) return host;
+  host = checked(o.host, "lsdcd_host");
+  if (host.processes < 1 || host.rank < 0 || host.rank >= host.processes || host.node_rank < 0)
+    refuse_option("lsdcd_host", "rank is " + std::to_string(host.rank) + " of " +
+                                    std::to_string(host.processes) + " processes, node_rank " +
+                                    std::to_string(host.node_rank) + "; ranks count from 0");
+  const struct {
+    bool is_there;
+    const char *name;
+  } needed[] = {{host.sum != nullptr, "sum"},
+                {host.max != nullptr, "max"},
+                {host.broadcast != nullptr, "broadcast"}};
+  for (const auto &one : needed)
+    if (!one.is_there)
+      refuse_option("lsdcd_host", std::string("`") + one.name +
+                                      "` is null: give all three, or no host for one process");
+  return host;
+}
+
+}    // namespace
+
+WallCaller::WallCaller(const lsdcd_wall_options &options) :
+    box_(box_of(options)), show_(options.show), data_(options.data), host_(host_of(options))
+{
+}
+
+void WallCaller::show(int warning, const std::string &text)
+{
+  if (show_ && host_.rank == 0) show_(data_, warning, text.c_str());
+}
+
+void WallCaller::sum(Real *numbers, int n)
+{
+  if (!is_alone()) check_call(host_.sum(host_.data, numbers, n), "sum");
+}
+
+void WallCaller::max(Real *numbers, int n)
+{
+  if (!is_alone()) check_call(host_.max(host_.data, numbers, n), "max");
+}
+
+void WallCaller::broadcast(void *data, std::size_t bytes, int from)
+{
+  if (!is_alone() && bytes > 0)
+    check_call(host_.broadcast(host_.data, data, bytes, from), "broadcast");
+}
+
+int WallCaller::max_rank(Real &number)
+{
+  const Real mine = number;
+  max(&number, 1);
+  Real first = mine == number ? host_.processes - host_.rank : 0;
+  max(&first, 1);
+  return host_.processes - static_cast<int>(first);
+}
+
+// Sizes first, then the numbers of one process after the other.
+std::vector<Real> WallCaller::gather(const std::vector<Real> &mine)
+{
+  if (is_alone()) return mine;
+  std::vector<Real> sizes(host_.processes, 0), all, of_one;
+  sizes[host_.rank] = static_cast<Real>(mine.size());
+  sum(sizes.data(), host_.processes);
+  for (int from = 0; from < host_.processes; from++) {
+    of_one = mine;
+    of_one.resize(static_cast<std::size_t>(sizes[from]));
+    broadcast(of_one.data(), of_one.size() * sizeof(Real), from);
+    if (host_.rank == 0) all.insert(all.end(), of_one.begin(), of_one.end());
+  }
+  return all;
+}
+
+void WallCaller::agree(const Failure &mine, std::vector<Real> &numbers)
+{
+  numbers.push_back(mine.code == LSDCD_OK ? 0 : host_.processes - host_.rank);
+  max(numbers.data(), static_cast<int>(numbers.size()));
+  const int from = host_.processes - static_cast<int>(numbers.back());
+  numbers.pop_back();
+  if (from == host_.processes) return;
+  Failure first = mine;
+  broadcast(&first.code, sizeof first.code, from);
+  broadcast_text(*this, first.text, from);
+  throw ApiError(first.code, first.text);
+}
+
+void WallCaller::fail_together(const std::string &error)
+{
+  std::vector<Real> none;
+  agree({error.empty() ? LSDCD_OK : LSDCD_ERROR_INPUT, error}, none);
+}
+
+std::vector<Real> WallCaller::variables(const std::vector<std::string> &names)
+{
+  check_variables(names);
+  return {};
+}
+
+void WallCaller::check_variables(const std::vector<std::string> &names)
+{
+  if (!names.empty())
+    throw InputError("v_" + names.front() +
+                     ": there are no variables here; give numbers, and change them between steps");
+}
+
+std::unique_ptr<NodeMemory> WallCaller::node_memory()
+{
+  return std::make_unique<OwnMemory>(*this, host_.node_rank);
+}
+
+Real WallCaller::radius_of_tag(std::int64_t tag)
+{
+  const auto at = std::find(tags.begin(), tags.end(), tag);
+  return at == tags.end() ? 0 : spheres.radius[at - tags.begin()];
+}
+
+// Above those of all processes, and another one on each.
+void WallCaller::name_new_spheres(std::int64_t highest)
+{
+  std::int64_t next = highest + 1 + host_.rank;
+  highest_tag_ = highest;
+  for (std::int64_t &tag : tags) {
+    if (tag == 0) {
+      tag = next;
+      next += host_.processes;
+    }
+    highest_tag_ = std::max(highest_tag_, tag);
+  }
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the tests of the library's wall share: a floor, and grains in arrays of the caller.
+#pragma once
+
+#include "lsdcd.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+constexpr double kN = 1000, kT = 300, kDt = 1e-3;
+// Products and sums of a few numbers of order one.
+constexpr double kRounding = 1e-13;
+
+// A floor of two triangles at z = 0, from -10 to 10, which meet on the line x = y.
+class FloorTest : public testing::Test {
+ protected:
+  const testing::TestInfo *const info_ = testing::UnitTest::GetInstance()->current_test_info();
+  const std::string file_ =
+      testing::TempDir() + "floor_of_" + info_->test_suite_name() + "_" + info_->name() + ".stl";
+
+  void SetUp() override
+  {
+    std::ofstream(file_)
+        << "solid f\nfacet normal 0 0 1\nouter loop\nvertex -10 -10 0\nvertex 10 -10 0\n"
+           "vertex 10 10 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
+           "vertex -10 -10 0\nvertex 10 10 0\nvertex -10 10 0\nendloop\nendfacet\n"
+           "endsolid f\n";
+  }
+  void TearDown() override { std::remove(file_.c_str()); }
+
+  std::vector<std::string> words(const std::vector<std::string> &more = {}) const
+  {
+    std::vector<std::string> all = {"hooke/history", "1000", "300",    "0",  "0", "0.5", "0",
+                                    "mesh",          file_,  "device", "cpu"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+};
+
+struct Grains {
+  std::vector<double> x, v, omega, radius, mass, force, torque;
+
+  void add(double px, double py, double pz, double vx = 0)
+  {
+    for (const double n : {px, py, pz}) x.push_back(n);
+    for (const double n : {vx, 0., 0.}) v.push_back(n);
+    radius.push_back(0.5);
+    mass.push_back(1);
+    omega.resize(x.size());
+    force.resize(x.size());
+    torque.resize(x.size());
+  }
+  lsdcd_spheres spheres()
+  {
+    lsdcd_spheres s = {};
+    s.size = sizeof s;
+    s.n = radius.size();
+    s.x = x.data();
+    s.v = v.data();
+    s.omega = omega.data();
+    s.radius = radius.data();
+    s.mass = mass.data();
+    s.force = force.data();
+    s.torque = torque.data();
+    return s;
+  }
+  void step(lsdcd::Wall &wall, int n = 1, bool setup = false)
+  {
+    for (int i = 0; i < n; i++) {
+      force.assign(x.size(), 0);
+      torque.assign(x.size(), 0);
+      lsdcd_wall_step step = {};
+      step.size = sizeof step;
+      step.dt = kDt;
+      step.setup = setup;
+      wall.step(spheres(), step);
+    }
+  }
+};
+
+inline int code_of(const std::function<void()> &work)
+{
+  try {
+    work();
+    return LSDCD_OK;
+  } catch (const lsdcd::Error &e) {
+    return e.code();
+  }
+}
+
+inline std::string text_of(const std::function<void()> &work)
+{
+  try {
+    work();
+    return "";
+  } catch (const lsdcd::Error &e) {
+    return e.what();
+  }
+}
