@@ -3,6 +3,7 @@
 
 // lsdcd_body_*, lsdcd_collide
 #include "api/c_border.h"
+#include "api/call_progress.h"
 #include "api/call_threads.h"
 #include "api/device_memory.h"
 #include "api/objects.h"
@@ -12,6 +13,7 @@
 #include "engine/wall_engine.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 using namespace lsdcd;
@@ -141,7 +143,7 @@ int lsdcd_body_make(const lsdcd_mesh *wall, const lsdcd_mesh *mesh,
     need(mesh, "mesh");
     lsdcd_body_options o = {};
     o.size = sizeof o;
-    if (options) o = checked(options, "lsdcd_body_options");
+    if (options) o = checked(options, "lsdcd_body_options", offsetof(lsdcd_body_options, progress));
     check_threads(o.threads);
     const CallThreads threads(o.threads);
     if (o.same_wall) {
@@ -149,7 +151,9 @@ int lsdcd_body_make(const lsdcd_mesh *wall, const lsdcd_mesh *mesh,
       return;
     }
     need(wall, "wall");
-    const MeshCollisionSettings settings = settings_of(o);
+    CallProgress progress(o.progress, o.data);
+    MeshCollisionSettings settings = settings_of(o);
+    settings.progress = progress.listener();
     *body = new lsdcd_body{MeshCollision(wall->in->mesh, mesh->in->mesh, settings), o.nearest,
                            o.device, current_gpu(o.device)};
   });

@@ -53,6 +53,8 @@ const char *lsdcd_error_name(int code)
       return "memory";
     case LSDCD_ERROR_INTERNAL:
       return "internal";
+    case LSDCD_ERROR_CANCELLED:
+      return "cancelled";
   }
   return "unknown";
 }

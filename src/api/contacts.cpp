@@ -3,12 +3,14 @@
 
 // lsdcd_contacts_host
 #include "api/c_border.h"
+#include "api/call_progress.h"
 #include "api/call_threads.h"
 #include "api/device_memory.h"
 #include "api/points_given.h"
 #include "query/contact_query.h"
 
 #include <algorithm>
+#include <cstddef>
 
 using namespace lsdcd;
 
@@ -16,7 +18,7 @@ namespace {
 
 lsdcd_contacts checked_contacts(const ApiGrid &grid, const lsdcd_contacts *given)
 {
-  lsdcd_contacts c = checked(given, "lsdcd_contacts");
+  lsdcd_contacts c = checked(given, "lsdcd_contacts", offsetof(lsdcd_contacts, progress));
   check_points(c);
   need(c.first, "first");
   if (!grid.is_limited())
@@ -67,15 +69,26 @@ void write(const TriangleTable &names, const std::vector<SphereContact> &found,
 template <class T>
 std::size_t find(const ApiGrid &grid, const lsdcd_contacts &c)
 {
+  CallProgress progress(c.progress, c.data);
+  const GridView &view = grid.cells(false, progress.listener()).grid.view;
   SphereView<T> spheres;
-  spheres.n = c.n;
   spheres.centres = vectors(static_cast<const T *>(c.points), c.points_row, c.points_column);
   spheres.radii = numbers(static_cast<const T *>(c.radii), c.radii_step);
   spheres.radius = c.radius;
-  const SphereContacts made = find_all_contacts(grid.cells().grid.view, spheres);
-  std::copy(made.first.begin(), made.first.end(), c.first);
-  if (made.found.size() <= c.room) write<T>(grid.names, made.found, c);
-  return made.found.size();
+  std::vector<SphereContact> found;
+  c.first[0] = 0;
+  progress.in_parts("spheres", c.n, [&](std::size_t from, std::size_t n) {
+    spheres.from = from;
+    spheres.n = n;
+    SphereContacts made = find_all_contacts(view, spheres);
+    for (std::size_t i = 1; i <= n; i++) c.first[from + i] = found.size() + made.first[i];
+    if (from == 0)
+      found = std::move(made.found);
+    else
+      found.insert(found.end(), made.found.begin(), made.found.end());
+  });
+  if (found.size() <= c.room) write<T>(grid.names, found, c);
+  return found.size();
 }
 
 }    // namespace

@@ -3,6 +3,7 @@
 
 // lsdcd_grid_*
 #include "api/c_border.h"
+#include "api/call_progress.h"
 #include "api/call_threads.h"
 #include "api/objects.h"
 #include "base/input_words.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 
 using namespace lsdcd;
@@ -110,8 +112,10 @@ std::string text_of(const TriangleTree &tree, Real cutoff, double seconds)
 
 namespace lsdcd {
 
-ApiGrid::ApiGrid(std::shared_ptr<const ApiMesh> from, const lsdcd_grid_options &o) :
-    mesh(std::move(from)), names(mesh->mesh), has_sides(has_inside(mesh->mesh)), cutoff_(o.cutoff),
+ApiGrid::ApiGrid(std::shared_ptr<const ApiMesh> from, const lsdcd_grid_options &o,
+                 const ProgressListener &progress) :
+    mesh(std::move(from)),
+    names(mesh->mesh), has_sides(has_inside(mesh->mesh)), cutoff_(o.cutoff),
     settings_(settings_of(o, mesh->normals_agree())), cache_(o.cache ? o.cache : ""),
     on_cuda_(o.device == LSDCD_CUDA)
 {
@@ -119,12 +123,12 @@ ApiGrid::ApiGrid(std::shared_ptr<const ApiMesh> from, const lsdcd_grid_options &
   if (on_cuda_ && !cuda_available(&why))
     throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why + "; build with LSDCD_CPU");
   if (names_cells(o)) {
-    report = cells().report;
+    report = cells(false, progress).report;
     return;
   }
   const auto start = std::chrono::steady_clock::now();
-  const TriangleTree &made = tree();
-  near();
+  const TriangleTree &made = tree(progress);
+  near(progress);
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
   report = text_of(made, cutoff_, passed.count());
 }
@@ -134,20 +138,25 @@ Real ApiGrid::cutoff() const
   return is_limited() ? cutoff_ : HUGE_VAL;
 }
 
-const TriangleTree &ApiGrid::tree() const
+const TriangleTree &ApiGrid::tree(const ProgressListener &progress) const
 {
-  return tree_.get([&] { return std::make_unique<TriangleTree>(mesh->mesh, names); });
+  return tree_.get([&] { return std::make_unique<TriangleTree>(mesh->mesh, names, progress); });
 }
 
-const NearBoxes *ApiGrid::near() const
+const NearBoxes *ApiGrid::near(const ProgressListener &progress) const
 {
   if (!is_limited()) return nullptr;
-  return &near_.get([&] { return std::make_unique<NearBoxes>(tree(), mesh->mesh, cutoff_); });
+  return &near_.get(
+      [&] { return std::make_unique<NearBoxes>(tree(), mesh->mesh, cutoff_, progress); });
 }
 
-const ApiCells &ApiGrid::cells(bool on_cuda) const
+const ApiCells &ApiGrid::cells(bool on_cuda, const ProgressListener &progress) const
 {
-  return cells_.get([&] { return make_cells(cache_, *mesh, settings_, on_cuda || on_cuda_); });
+  return cells_.get([&] {
+    GridSettings settings = settings_;
+    settings.progress = progress;
+    return make_cells(cache_, *mesh, settings, on_cuda || on_cuda_);
+  });
 }
 
 std::size_t ApiGrid::bytes() const
@@ -165,9 +174,11 @@ int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, 
   return guard([&] {
     need(grid, "grid");
     need(mesh, "mesh");
-    const lsdcd_grid_options o = checked(options, "lsdcd_grid_options");
+    const lsdcd_grid_options o =
+        checked(options, "lsdcd_grid_options", offsetof(lsdcd_grid_options, progress));
     const CallThreads threads(std::max(o.threads, 0));
-    *grid = new lsdcd_grid{std::make_shared<const ApiGrid>(mesh->in, o)};
+    CallProgress progress(o.progress, o.data);
+    *grid = new lsdcd_grid{std::make_shared<const ApiGrid>(mesh->in, o, progress.listener())};
   });
 }
 

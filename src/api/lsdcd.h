@@ -48,7 +48,8 @@ enum {
                                device, it cuts itself */
   LSDCD_ERROR_DEVICE = 5,   /* no CUDA, or an array where it cannot be reached */
   LSDCD_ERROR_MEMORY = 6,   /* none left */
-  LSDCD_ERROR_INTERNAL = 7  /* a defect of this library */
+  LSDCD_ERROR_INTERNAL = 7, /* a defect of this library */
+  LSDCD_ERROR_CANCELLED = 8 /* `progress` asked for it */
 };
 
 /* "0.9.0". Any. */
@@ -57,6 +58,12 @@ LSDCD_API const char *lsdcd_version(void);
 LSDCD_API const char *lsdcd_error_name(int code);
 /* What the last call of this thread that failed has to say, and what to do; until its next call. Any. */
 LSDCD_API const char *lsdcd_last_error(void);
+
+/* Hears of a long call: what it does now, a text that lives as long as this call, and how much of that is done, from
+ * 0 to 1. If it returns not 0, the call ends with LSDCD_ERROR_CANCELLED. It is called by the thread of the call, some
+ * ten times a second, and may call any function but with objects of that call. `data` is the one beside it in a
+ * struct. */
+typedef int lsdcd_progress(void *data, const char *what, double done);
 
 /* ---- meshes --------------------------------------------------------------------------------- */
 
@@ -137,6 +144,8 @@ typedef struct lsdcd_grid_options {
   const char *cache; /* file that keeps the cells; one that does not fit is replaced; null: none */
   int threads;       /* that build it; 0: OMP_NUM_THREADS, or one */
   int device;        /* that builds cells: LSDCD_CPU or LSDCD_CUDA; they are the same */
+  lsdcd_progress *progress; /* of this call; null: none */
+  void *data;
 } lsdcd_grid_options;
 /* Any. */
 LSDCD_API int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options,
@@ -210,6 +219,8 @@ typedef struct lsdcd_query {
   int estimate_sides; /* on the host; 1: where the grid has no sides, `side` is -1 where the whole number
                          nearest to `winding` is not 0, else 1, and `status` has LSDCD_SIDE_ESTIMATED.
                          0: asking for these is an error */
+  lsdcd_progress *progress; /* on the host; with it points are answered in parts; null: none */
+  void *data;
 } lsdcd_query;
 
 /* Answers in arrays of the host. Any. */
@@ -243,6 +254,8 @@ typedef struct lsdcd_contacts {
   uint32_t *triangle, *feature; /* as in lsdcd_query */
   /* Answer: all there are, so the room that all take; with less room only `first` is written. */
   size_t contacts;
+  lsdcd_progress *progress; /* null: none */
+  void *data;
 } lsdcd_contacts;
 /* In arrays of the host. The grid has a cutoff, precision LSDCD_DOUBLE, and no `nearest`; its first call
  * makes cells. LSDCD_ERROR_CUTOFF: a radius beyond the cutoff, or no cutoff; LSDCD_ERROR_INPUT: a sphere
@@ -282,6 +295,8 @@ typedef struct lsdcd_body_options {
   int device; /* LSDCD_CPU or LSDCD_CUDA, the device that is current: for all that the body does */
   const lsdcd_body *same_wall; /* a body whose wall this one shares, with its grid and device: then
                                   `wall`, and `cell` to `device`, are not given; null: none */
+  lsdcd_progress *progress;    /* of lsdcd_body_make(), on the grid; null: none */
+  void *data;
 } lsdcd_body_options;
 /* `options` may be null: all defaults. Any. */
 LSDCD_API int lsdcd_body_make(const lsdcd_mesh *wall, const lsdcd_mesh *mesh,

@@ -10,6 +10,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -30,10 +32,37 @@ class Error : public std::runtime_error {
   int code_;
 };
 
+// What a long call does now, and how much of that is done, from 0 to 1; see lsdcd_progress. True cancels the call,
+// which throws LSDCD_ERROR_CANCELLED; what this throws, the call throws.
+using Progress = std::function<bool(const char *what, double done)>;
+
 namespace c {
 inline void check(int code)
 {
   if (code != LSDCD_OK) throw Error(code);
+}
+// call(options) with a listener in its options, whose copy they are.
+template <class Options, class Call>
+void check_with(const Progress &progress, Options options, const Call &call)
+{
+  if (!progress) return check(call(options));
+  struct Told {
+    const Progress &progress;
+    std::exception_ptr thrown;    // which must not pass through C
+  } told = {progress, nullptr};
+  options.data = &told;
+  options.progress = [](void *data, const char *what, double done) {
+    Told &to = *static_cast<Told *>(data);
+    try {
+      return to.progress(what, done) ? 1 : 0;
+    } catch (...) {
+      to.thrown = std::current_exception();
+      return 1;
+    }
+  };
+  const int code = call(options);
+  if (told.thrown) std::rethrow_exception(told.thrown);
+  check(code);
 }
 template <auto kFree>
 struct Free {
@@ -213,10 +242,12 @@ struct Contacts {
 
 class Grid {
  public:
-  Grid(const Mesh &mesh, const lsdcd_grid_options &options)
+  Grid(const Mesh &mesh, const lsdcd_grid_options &options, const Progress &progress = {})
   {
     lsdcd_grid *made = nullptr;
-    c::check(lsdcd_grid_build(mesh.get(), &options, &made));
+    c::check_with(progress, options, [&](const lsdcd_grid_options &o) {
+      return lsdcd_grid_build(mesh.get(), &o, &made);
+    });
     handle_.reset(made);
   }
   explicit Grid(const Mesh &mesh, double cutoff = 0) : Grid(mesh, GridOptions(cutoff)) {}
@@ -230,7 +261,11 @@ class Grid {
   }
   std::string report() const { return lsdcd_grid_report(get()); }
 
-  void query(const lsdcd_query &q) const { c::check(lsdcd_query_host(get(), &q)); }
+  void query(const lsdcd_query &q, const Progress &progress = {}) const
+  {
+    c::check_with(progress, q,
+                  [&](const lsdcd_query &asked) { return lsdcd_query_host(get(), &asked); });
+  }
 
   // Of points x y z x y z; infinite beyond the radius, 0: the cutoff, or none.
   template <class T>
@@ -249,8 +284,8 @@ class Grid {
 
   // All contacts of spheres with centres x y z x y z; radii: of each, or one of all.
   template <class T>
-  Contacts<T> contacts(const std::vector<T> &centres, const std::vector<T> &radii,
-                       int threads = 0) const
+  Contacts<T> contacts(const std::vector<T> &centres, const std::vector<T> &radii, int threads = 0,
+                       const Progress &progress = {}) const
   {
     const std::size_t n = centres.size() / 3;
     if (centres.size() % 3 != 0 || (radii.size() != n && radii.size() != 1))
@@ -280,7 +315,11 @@ class Grid {
       c.weight = out.weight.data();
       c.triangle = out.triangle.data();
       c.feature = out.feature.data();
-      c::check(lsdcd_contacts_host(get(), &c));
+      c::check_with(progress, c, [&](lsdcd_contacts &asked) {
+        const int code = lsdcd_contacts_host(get(), &asked);
+        c.contacts = asked.contacts;
+        return code;
+      });
     } while (c.contacts > c.room);
     out.resize(c.contacts);
     return out;
@@ -329,16 +368,17 @@ struct Matrix {
 // A rigid body against a wall, for a sequence of poses.
 class Body {
  public:
-  Body(const Mesh &wall, const Mesh &mesh, const lsdcd_body_options &options = BodyOptions())
+  Body(const Mesh &wall, const Mesh &mesh, const lsdcd_body_options &options = BodyOptions(),
+       const Progress &progress = {})
   {
-    make(wall.get(), mesh, options);
+    make(wall.get(), mesh, options, progress);
   }
   // Against the wall of another body, which both then share.
   Body(const Body &same_wall, const Mesh &mesh)
   {
     BodyOptions options;
     options.same_wall = same_wall.get();
-    make(nullptr, mesh, options);
+    make(nullptr, mesh, options, {});
   }
 
   BodyFacts facts() const
@@ -368,10 +408,13 @@ class Body {
   lsdcd_body *get() { return handle_.get(); }
 
  private:
-  void make(const lsdcd_mesh *wall, const Mesh &mesh, const lsdcd_body_options &options)
+  void make(const lsdcd_mesh *wall, const Mesh &mesh, const lsdcd_body_options &options,
+            const Progress &progress)
   {
     lsdcd_body *made = nullptr;
-    c::check(lsdcd_body_make(wall, mesh.get(), &options, &made));
+    c::check_with(progress, options, [&](const lsdcd_body_options &o) {
+      return lsdcd_body_make(wall, mesh.get(), &o, &made);
+    });
     handle_.reset(made);
   }
   bool any_of(lsdcd_collision c)

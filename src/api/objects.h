@@ -40,7 +40,8 @@ struct ApiCells {
 // A tree for points on the CPU, cells for the rest; each is made by the first that needs it.
 class ApiGrid {
  public:
-  ApiGrid(std::shared_ptr<const ApiMesh> mesh, const lsdcd_grid_options &options);
+  ApiGrid(std::shared_ptr<const ApiMesh> mesh, const lsdcd_grid_options &options,
+          const ProgressListener &progress);
 
   bool is_limited() const { return cutoff_ > 0; }
   // HUGE_VAL where there is none.
@@ -48,9 +49,10 @@ class ApiGrid {
   int nearest() const { return settings_.nearest; }
   bool uses_tree() const { return settings_.nearest == 0 && !settings_.in_floats; }
 
-  const TriangleTree &tree() const;
-  const NearBoxes *near() const;    // of the tree; null without a cutoff
-  const ApiCells &cells(bool on_cuda = false) const;
+  const TriangleTree &tree(const ProgressListener &progress = {}) const;
+  // Of the tree; null without a cutoff.
+  const NearBoxes *near(const ProgressListener &progress = {}) const;
+  const ApiCells &cells(bool on_cuda = false, const ProgressListener &progress = {}) const;
   const ApiCells *cells_made() const { return cells_.made(); }
   std::size_t bytes() const;    // of what is made
 

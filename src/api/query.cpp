@@ -3,10 +3,12 @@
 
 // lsdcd_query_*, lsdcd_stream_*
 #include "api/c_border.h"
+#include "api/call_progress.h"
 #include "api/call_threads.h"
 #include "api/device_memory.h"
 #include "api/points_given.h"
 #include "engine/wall_engine.h"
+#include "query/radius_error.h"
 
 #include <cmath>
 #include <cstddef>
@@ -83,6 +85,40 @@ PointArrays<T> arrays_of(const lsdcd_query &q)
   return io;
 }
 
+// The query of n points from one on.
+template <class T>
+lsdcd_query part_of(lsdcd_query q, std::size_t from, std::size_t n)
+{
+  const auto skip = [from](auto *&array, auto *typed, std::ptrdiff_t each) {
+    if (array)
+      array = static_cast<decltype(typed)>(array) + static_cast<std::ptrdiff_t>(from) * each;
+  };
+  const T *given = nullptr;
+  T *wanted = nullptr;
+  q.n = n;
+  skip(q.points, given, q.points_row == 0 ? 3 : q.points_row);
+  skip(q.radii, given, q.radii_step == 0 ? 1 : q.radii_step);
+  skip(q.distance, wanted, q.distance_step == 0 ? 1 : q.distance_step);
+  skip(q.closest, wanted, q.closest_row == 0 ? 3 : q.closest_row);
+  skip(q.normal, wanted, q.normal_row == 0 ? 3 : q.normal_row);
+  skip(q.winding, wanted, q.winding_step == 0 ? 1 : q.winding_step);
+  skip(q.triangle, q.triangle, 1);
+  skip(q.feature, q.feature, 1);
+  skip(q.side, q.side, 1);
+  skip(q.status, q.status, 1);
+  return q;
+}
+
+// Of all points before any is answered, so that an error of a part has the number of its point.
+template <class T>
+void check_radii(const ApiGrid &grid, const lsdcd_query &q)
+{
+  const Column<const T> radii = numbers(static_cast<const T *>(q.radii), q.radii_step);
+  const T most = static_cast<T>(grid.cutoff());
+  for (std::size_t i = 0; i < q.n; i++)
+    if (!(radii[i] >= 0 && radii[i] <= most)) throw_bad_radius("point", i, radii[i], most);
+}
+
 template <class T>
 void answer_on_host(const ApiGrid &grid, const lsdcd_query &q)
 {
@@ -93,6 +129,15 @@ void answer_on_host(const ApiGrid &grid, const lsdcd_query &q)
     estimate_sides(grid.mesh->sides, io.n, io.points,
                    numbers(static_cast<T *>(q.winding), q.winding_step),
                    q.estimate_sides ? q.side : nullptr, q.status);
+}
+
+template <class T>
+void answer_in_parts(const ApiGrid &grid, const lsdcd_query &q)
+{
+  if (q.progress && q.radii) check_radii<T>(grid, q);
+  CallProgress(q.progress, q.data).in_parts("points", q.n, [&](std::size_t from, std::size_t n) {
+    answer_on_host<T>(grid, part_of<T>(q, from, n));
+  });
 }
 
 // check(array, name) of each array that is given.
@@ -127,9 +172,9 @@ int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
     });
     const CallThreads threads(q.threads);
     if (q.type == LSDCD_FLOAT)
-      answer_on_host<float>(g, q);
+      answer_in_parts<float>(g, q);
     else
-      answer_on_host<double>(g, q);
+      answer_in_parts<double>(g, q);
   });
 }
 

@@ -32,6 +32,7 @@ MeshCollision::MeshCollision(const WallMesh &wall, const WallMesh &body,
   of_grid.memory_budget = settings.memory;
   of_grid.limited = true;
   of_grid.length_name = settings.cell_name;
+  of_grid.progress = settings.progress;
   const TriangleGrid grid = build_grid(wall, of_grid, collision_->on_cuda());
   grid_ = grid.report;
   collision_->set_wall(grid);

@@ -20,6 +20,7 @@ struct MeshCollisionSettings {
   int nearest = 0;                   // 0: exact; N: the paper's lists
   std::size_t memory = 0;            // bytes of the wall's grid; 0: the default
   Device device = Device::cpu;
+  ProgressListener progress;    // of the grid
 };
 
 // In place of a triangle of the wall without area, of which welding left no face.

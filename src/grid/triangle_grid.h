@@ -6,6 +6,7 @@
 // primitives of the wall that are nearest to the cell's centre.
 #pragma once
 
+#include "base/progress.h"
 #include "base/vec3.h"
 #include "grid/brick_records.h"
 #include "mesh/periodic_box.h"
@@ -13,7 +14,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -114,8 +114,8 @@ struct GridSettings {
   // Where centres of spheres can be. The grid is cut off there.
   Box within = kNoLimit;
   std::string length_name = "grid";    // of `length`, for messages: what the caller calls it
-  // Called with how far a build is, between its parts and on a CPU within them, by the calling thread.
-  std::function<void(const std::string &)> progress;
+  // Called between the parts of a build and on a CPU within them.
+  ProgressListener progress;
 };
 constexpr int kMaxNearest = 32;
 // In place of N: every primitive within the cutoff, for collisions of bodies with the wall.

@@ -84,12 +84,13 @@ class ContactQuery {
     std::vector<SphereContact> &found = chunks_[c];
     for (std::size_t i = c * kChunk; i < std::min(spheres_.n, (c + 1) * kChunk); i++) {
       const std::size_t before = found.size();
-      const Real radius = radius_of(i);
-      const Vec3 q = spheres_.centres[i];
+      const std::size_t sphere = spheres_.from + i;
+      const Real radius = radius_of(sphere);
+      const Vec3 q = spheres_.centres[sphere];
       if (!few.find(grid_, q, radius, found)) {
         if (!many) many = std::make_unique<SphereSearch<kMost>>();
         if (!many->find(grid_, q, radius, found))
-          throw InputError("sphere " + std::to_string(i) + " touches the wall in more than " +
+          throw InputError("sphere " + std::to_string(sphere) + " touches the wall in more than " +
                            std::to_string(kMost) +
                            " separate places: take a smaller radius, or a coarser mesh");
       }

@@ -15,7 +15,7 @@ namespace lsdcd {
 // Spheres in arrays of the caller. T: float or double.
 template <class T>
 struct SphereView {
-  std::size_t n = 0;
+  std::size_t from = 0, n = 0;    // the first one in the arrays, and how many
   StridedView<const T> centres;
   Column<const T> radii;    // null: `radius` is that of all
   Real radius = 0;
@@ -28,7 +28,7 @@ struct SphereContact {
   Real weight;               // share of the force, 0 to 1
 };
 
-// Those of sphere i are found[first[i]] up to before found[first[i + 1]], in the order of their features.
+// Those of sphere `from` + i are found[first[i]] up to before found[first[i + 1]], in the order of their features.
 struct SphereContacts {
   std::vector<std::size_t> first;
   std::vector<SphereContact> found;

@@ -14,7 +14,8 @@ namespace lsdcd {
 
 // ---- far points ---------------------------------------------------------------------------------
 
-NearBoxes::NearBoxes(const TriangleTree &tree, const WallMesh &mesh, Real cutoff)
+NearBoxes::NearBoxes(const TriangleTree &tree, const WallMesh &mesh, Real cutoff,
+                     const ProgressListener &progress)
 {
   // As many boxes as are made in a part of the time of the tree.
   n_ = 32;
@@ -26,12 +27,12 @@ NearBoxes::NearBoxes(const TriangleTree &tree, const WallMesh &mesh, Real cutoff
   length_ = (std::fmax(size.x, std::fmax(size.y, size.z)) + 2 * pad) / n_;
   per_length_ = 1 / length_;
   bits_.resize(std::size_t(n_) * n_ * n_ / 64);
-  mark(tree, pad, {0, 0, 0}, n_, TriangleTree::kNoPrimitive);
+  mark(tree, pad, {0, 0, 0}, n_, TriangleTree::kNoPrimitive, progress);
 }
 
 // Boxes of a larger box, of `size` along each axis, in eight parts of which those that are far are left out.
 void NearBoxes::mark(const TriangleTree &tree, Real cutoff, const std::array<int, 3> &at, int size,
-                     std::uint32_t hint)
+                     std::uint32_t hint, const ProgressListener &progress)
 {
   const Real half = Real(0.5) * size * length_;
   const Vec3 centre =
@@ -43,11 +44,13 @@ void NearBoxes::mark(const TriangleTree &tree, Real cutoff, const std::array<int
     bits_[i / 64] |= std::uint64_t(1) << i % 64;
     return;
   }
-  for (int part = 0; part < 8; part++)
+  for (int part = 0; part < 8; part++) {
+    if (progress && size == n_) progress("boxes near the mesh", part / 8.);
     mark(tree, cutoff,
          {at[0] + (part & 1) * size / 2, at[1] + (part >> 1 & 1) * size / 2,
           at[2] + (part >> 2) * size / 2},
-         size / 2, hint);
+         size / 2, hint, progress);
+  }
 }
 
 // ---- points -------------------------------------------------------------------------------------

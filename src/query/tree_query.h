@@ -16,7 +16,8 @@ namespace lsdcd {
 // are far from the mesh at once.
 class NearBoxes {
  public:
-  NearBoxes(const TriangleTree &tree, const WallMesh &mesh, Real cutoff);
+  NearBoxes(const TriangleTree &tree, const WallMesh &mesh, Real cutoff,
+            const ProgressListener &progress = {});
 
   bool may_be_near(const Vec3 &q) const
   {
@@ -33,7 +34,7 @@ class NearBoxes {
 
  private:
   void mark(const TriangleTree &tree, Real cutoff, const std::array<int, 3> &at, int size,
-            std::uint32_t hint);
+            std::uint32_t hint, const ProgressListener &progress);
 
   Vec3 lo_;
   Real length_, per_length_;    // of a box

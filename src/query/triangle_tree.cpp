@@ -68,8 +68,10 @@ constexpr int kStack = 128;    // 7 a level, and 12 levels hold more than can be
 
 }    // namespace
 
-TriangleTree::TriangleTree(const WallMesh &mesh, const TriangleTable &names) :
-    mesh_(mesh), names_(names)
+TriangleTree::TriangleTree(const WallMesh &mesh, const TriangleTable &names,
+                           const ProgressListener &progress) :
+    mesh_(mesh),
+    names_(names)
 {
   std::vector<char> has_face(mesh.vertices.size(), 0);
   for (const auto &face : mesh.faces)
@@ -119,7 +121,7 @@ TriangleTree::TriangleTree(const WallMesh &mesh, const TriangleTable &names) :
         static_cast<std::uint32_t>(i)};
   }
   nodes_.reserve(n_leaves / 7 + 1);
-  root_ = build(items.data(), items.data() + n, 0, all_);
+  root_ = build(items.data(), items.data() + n, 0, all_, progress);
 }
 
 FeatureCode TriangleTree::primitive_code(std::uint32_t number) const
@@ -133,9 +135,13 @@ FeatureCode TriangleTree::primitive_code(std::uint32_t number) const
 
 // Splits where the middle item along the longest side is, so that leaves and nodes are full but for the
 // last ones. Returns the child that a node above has.
-std::uint32_t TriangleTree::build(Item *first, Item *last, std::uint32_t slot, Bounds &bounds)
+std::uint32_t TriangleTree::build(Item *first, Item *last, std::uint32_t slot, Bounds &bounds,
+                                  const ProgressListener &progress)
 {
+  constexpr std::size_t kToTell = 4096;    // items, some milliseconds
   const std::size_t n = last - first;
+  if (progress && n >= kToTell)
+    progress("tree", static_cast<double>(slot) / static_cast<double>(exact_.size()));
   if (n <= kWide) {
     make_leaf(first, last, slot, bounds);
     return slot / kWide | kLeafBit;
@@ -181,7 +187,7 @@ std::uint32_t TriangleTree::build(Item *first, Item *last, std::uint32_t slot, B
     std::uint32_t child = kLeafBit;
     if (k < n_parts)
       child = build(part[k].first, part[k].last,
-                    slot + static_cast<std::uint32_t>(part[k].first - first), of_part);
+                    slot + static_cast<std::uint32_t>(part[k].first - first), of_part, progress);
     Node &node = nodes_[number];
     for (int a = 0; a < 3; a++) {
       node.lo[a][k] = k < n_parts ? of_part.lo[a] : std::numeric_limits<float>::max();

@@ -8,6 +8,7 @@
 
 #include "backend/owned_array.h"
 #include "base/large_memory.h"
+#include "base/progress.h"
 #include "geometry/wall_records.h"
 #include "mesh/wall_mesh.h"
 #include "query/triangle_table.h"
@@ -32,8 +33,9 @@ class TriangleTree {
  public:
   static constexpr std::uint32_t kNoPrimitive = 0xffffffffu;
 
-  // Borrows both.
-  TriangleTree(const WallMesh &mesh, const TriangleTable &names);
+  // Borrows mesh and names.
+  TriangleTree(const WallMesh &mesh, const TriangleTable &names,
+               const ProgressListener &progress = {});
   TriangleTree(const TriangleTree &) = delete;
   TriangleTree &operator=(const TriangleTree &) = delete;
 
@@ -94,7 +96,8 @@ class TriangleTree {
 
   static constexpr std::uint32_t kLeafBit = 0x80000000u;
 
-  std::uint32_t build(Item *first, Item *last, std::uint32_t slot, Bounds &bounds);
+  std::uint32_t build(Item *first, Item *last, std::uint32_t slot, Bounds &bounds,
+                      const ProgressListener &progress);
   void make_leaf(const Item *first, const Item *last, std::uint32_t slot, Bounds &bounds);
   Vec3 scaled(const Vec3 &x) const { return inv_scale_ * (x - origin_); }
   FeatureCode primitive_code(std::uint32_t number) const;

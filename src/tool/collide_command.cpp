@@ -51,7 +51,7 @@ double since(std::chrono::steady_clock::time_point then)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
 
-std::string progress_text(const Totals &t, double share)
+std::string text_of(const Totals &t, double share)
 {
   char text[96];
   std::snprintf(text, sizeof text, "%zu poses, %.0f%%, %.3g a second", t.pairs.size(), 100 * share,
@@ -88,7 +88,7 @@ Totals run(const Options &o, MeshCollision &collision, PairWriter *pairs, PairWr
     if (pairs) pairs->write(totals.pairs.size(), collision, found);
     if (segments) segments->write(totals.pairs.size(), collision, found);
     totals.add(found);
-    progress.show(progress_text(totals, share));
+    progress.show(text_of(totals, share));
   });
   if (totals.pairs.empty()) throw InputError(o.poses + ": there is no pose in it");
   return totals;

@@ -56,7 +56,7 @@ double since(std::chrono::steady_clock::time_point then)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
 
-std::string progress_text(const Totals &t, double share, double seconds)
+std::string text_of(const Totals &t, double share, double seconds)
 {
   char text[96];
   std::snprintf(text, sizeof text, "%zu points, %.0f%%, %.2f million/s", t.points, 100 * share,
@@ -94,7 +94,7 @@ Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
     if (writing.valid()) writing.get();
     writing = std::async(how, [&writer, &b = points, &a = found] { writer->write(b, a); });
     totals.add(found);
-    progress.show(progress_text(totals, share, since(start)));
+    progress.show(text_of(totals, share, since(start)));
   }
   if (writing.valid()) writing.get();
   if (totals.points == 0) throw InputError(o.points + ": there is no point in it");
@@ -166,7 +166,9 @@ void distance(const Options &o)
   settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
   settings.limited = true;
   Progress progress(o.progress);
-  settings.progress = [&](const std::string &text) { progress.show(text); };
+  settings.progress = [&](const std::string &what, double share) {
+    progress.show(progress_text(what, share));
+  };
   const auto answers = make_point_answers(mesh, settings, o.device, o.estimate_sides);
   progress.clear();
   print(o, stream(o, *reader, *answers), *answers);

@@ -60,7 +60,9 @@ void grid(const Options &o)
   settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
   settings.limited = !(o.length > 0);    // as fix wall/lsdcd
   Progress progress(o.progress);
-  settings.progress = [&](const std::string &text) { progress.show(text); };
+  settings.progress = [&](const std::string &what, double share) {
+    progress.show(progress_text(what, share));
+  };
   const TriangleGrid g = build_grid(mesh, settings);
   progress.clear();
   if (o.json)

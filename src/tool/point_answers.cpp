@@ -40,10 +40,10 @@ SideKind sides_of(const WallMesh &mesh, bool estimate)
 
 class CpuAnswers : public PointAnswers {
  public:
-  CpuAnswers(const WallMesh &mesh, Real cutoff) :
-      cutoff_(cutoff), names_(mesh), tree_(mesh, names_), sides_(mesh)
+  CpuAnswers(const WallMesh &mesh, Real cutoff, const ProgressListener &progress) :
+      cutoff_(cutoff), names_(mesh), tree_(mesh, names_, progress), sides_(mesh)
   {
-    if (cutoff > 0) near_.emplace(tree_, mesh, cutoff);
+    if (cutoff > 0) near_.emplace(tree_, mesh, cutoff, progress);
     report.bytes = bytes_of(&tree_, near_ ? &*near_ : nullptr);
     report.device = CpuBackend().name();
   }
@@ -180,7 +180,7 @@ std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, const Gri
         "--device cuda finds distances up to a radius: give --radius, or use --device cpu");
   const auto start = std::chrono::steady_clock::now();
   if (!on_cuda) {
-    auto made = std::make_unique<CpuAnswers>(mesh, settings.cutoff);
+    auto made = std::make_unique<CpuAnswers>(mesh, settings.cutoff, settings.progress);
     made->sides = sides_of(mesh, estimate);
     made->report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

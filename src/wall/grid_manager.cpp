@@ -121,14 +121,14 @@ void GridManager::warn_of_rounding(const MeshPart &m, Real radius) const
 }
 
 // A line where a grid takes long, each ten seconds; the host shows those of the first process.
-std::function<void(const std::string &)> GridManager::progress(const MeshPart &m) const
+ProgressListener GridManager::progress(const MeshPart &m) const
 {
   constexpr Real kSeconds = 10;
   return [this, name = with_mesh_name(settings_, m.index, ""),
-          last = TimeReport::steady_clock()](const std::string &text) mutable {
+          last = TimeReport::steady_clock()](const std::string &what, double share) mutable {
     if (TimeReport::steady_clock() - last < kSeconds) return;
     last = TimeReport::steady_clock();
-    host_.log(name + text);
+    host_.log(name + progress_text(what, share));
   };
 }
 

@@ -56,7 +56,7 @@ class GridManager {
   void check_rmax(Real radius) const;
   bool fits(const MeshPart &m) const { return m.grid.fits(m.box_seen(box())); }
   void warn_of_rounding(const MeshPart &m, Real radius) const;
-  std::function<void(const std::string &)> progress(const MeshPart &m) const;
+  ProgressListener progress(const MeshPart &m) const;
   void log_build(const MeshPart &m, Real old_cutoff, std::int64_t step) const;
 
   Host &host_;

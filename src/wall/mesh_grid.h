@@ -61,7 +61,7 @@ class MeshGrid {
   std::size_t bytes() const;    // held by this process
 
   // Told how far a build is, on processes that build.
-  std::function<void(const std::string &)> progress;
+  ProgressListener progress;
 
  private:
   void read();

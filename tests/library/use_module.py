@@ -3,7 +3,9 @@
 
 """Arrays, layouts, threads and errors of the Python module, against a cube's closed form."""
 import copy
+import os
 import pickle
+import signal
 import sys
 import threading
 
@@ -179,6 +181,21 @@ for t in threads:
 for t in threads:
     t.join()
 assert not wrong
+
+# A listener hears of a call, and ends it.
+told = []
+heard = mesh.grid(0.5, progress=lambda what, done: told.append((what, done)))
+assert told and all(isinstance(what, str) and 0 <= done <= 1 for what, done in told)
+for call in (lambda listen: mesh.grid(0.1, cell=0.1, progress=listen), lambda listen: heard.query(points, progress=listen),
+             lambda listen: grid.contacts(points, 0.1, progress=listen), lambda listen: lsdcd.Body(mesh, mesh, progress=listen)):
+    assert refused(lsdcd.Error, "cancelled", lambda: call(lambda what, done: True)).code == "cancelled"
+    refused(ZeroDivisionError, "division", lambda: call(lambda what, done: 1 / 0))
+    try:
+        call(lambda what, done: os.kill(os.getpid(), signal.SIGINT))    # as Ctrl-C
+        raise AssertionError("not interrupted")
+    except KeyboardInterrupt:
+        pass
+assert (heard.query(points, progress=lambda what, done: None).distance == heard.query(points).distance).all()
 
 # A body: the cube half through a floor of one large triangle, then above it. Its four upright sides
 # meet the floor, two triangles each, in segments as long as the cube's perimeter, 8.

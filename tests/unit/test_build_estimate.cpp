@@ -97,7 +97,7 @@ TEST(BuildEstimate, a_given_cell_that_cannot_fit_is_refused_before_anything_is_b
   GridSettings settings;
   settings.cutoff = settings.length = 0.5;
   settings.memory_budget = std::size_t(20) << 20;
-  settings.progress = [&](const std::string &text) { told.push_back(text); };
+  settings.progress = [&](const std::string &what, double) { told.push_back(what); };
   try {
     build_grid(slivers(2000), settings);
     FAIL() << "it was built";
@@ -115,7 +115,7 @@ TEST(BuildEstimate, a_chosen_cell_is_not_built_where_it_cannot_fit)
   GridSettings settings;
   settings.cutoff = 0.5;
   settings.memory_budget = std::size_t(60) << 20;
-  settings.progress = [&](const std::string &text) { told.push_back(text); };
+  settings.progress = [&](const std::string &what, double) { told.push_back(what); };
   const TriangleGrid grid = build_grid(slivers(2000), settings);
   EXPECT_GT(grid.length, 0.7);    // not the first
   ASSERT_FALSE(told.empty());
@@ -169,7 +169,7 @@ TEST(BuildEstimate, progress_names_each_part_of_a_build)
   std::vector<std::string> told;
   GridSettings settings;
   settings.cutoff = 1;
-  settings.progress = [&](const std::string &text) { told.push_back(text); };
+  settings.progress = [&](const std::string &what, double) { told.push_back(what); };
   build_grid(weld(cylinder_mesh(100, 20, 50, 100), -1), settings);
   for (const char *part : {"sorting into bricks", "finding cells", "writing lists"}) {
     bool found = false;

@@ -36,7 +36,7 @@ from . import _arrays
 
 _size, _step, _int, _real, _at = (ctypes.c_size_t, ctypes.c_ssize_t, ctypes.c_int, ctypes.c_double,
                                   ctypes.c_void_p)
-ERRORS = ("ok", "argument", "input", "cutoff", "side", "device", "memory", "internal")
+ERRORS = ("ok", "argument", "input", "cutoff", "side", "device", "memory", "internal", "cancelled")
 DEVICES = ("cpu", "cuda")
 FOUND, CERTIFIED, SIDE_ESTIMATED = 1, 2, 4
 NONE = 0xffffffff
@@ -44,6 +44,12 @@ NONE = 0xffffffff
 ANSWERS: dict[str, tuple[int, Any]] = {
     "distance": (0, None), "closest": (1, None), "normal": (1, None), "triangle": (0, np.uint32), "feature": (0, np.uint32),
     "side": (0, np.int8), "status": (0, np.uint8), "winding": (0, None)}
+
+
+# A listener of a long call: what is done now, and how much of that, from 0 to 1. What it raises ends the call and is
+# raised by it, as KeyboardInterrupt is; a true result ends it with an Error, "cancelled".
+Progress = Callable[[str, float], object]
+_Progress = ctypes.CFUNCTYPE(_int, _at, ctypes.c_char_p, _real)
 
 
 def _struct(name: str, *fields: tuple[str, Any]) -> Any:
@@ -59,7 +65,8 @@ _MeshArrays = _struct(
     ("edge_first", _at), ("edge_faces", _at))
 _GridOptions = _struct(
     "_GridOptions", ("cutoff", _real), ("cell", _real), ("nearest", _int), ("precision", _int),
-    ("memory", _real), ("cache", ctypes.c_char_p), ("threads", _int), ("device", _int))
+    ("memory", _real), ("cache", ctypes.c_char_p), ("threads", _int), ("device", _int), ("progress", _Progress),
+    ("data", _at))
 _GridFacts = _struct(
     "_GridFacts", ("cutoff", _real), ("cell", _real), ("bytes", _size), ("nearest", _int),
     ("has_sides", _int), ("from_cache", _int))
@@ -69,15 +76,15 @@ _Query = _struct(
     ("radius", _real), ("distance", _at), ("distance_step", _step), ("closest", _at),
     ("closest_row", _step), ("closest_column", _step), ("normal", _at), ("normal_row", _step),
     ("normal_column", _step), ("triangle", _at), ("feature", _at), ("side", _at), ("status", _at),
-    ("winding", _at), ("winding_step", _step), ("estimate_sides", _int))
+    ("winding", _at), ("winding_step", _step), ("estimate_sides", _int), ("progress", _Progress), ("data", _at))
 _Contacts = _struct(
     "_Contacts", ("n", _size), ("type", _int), ("threads", _int), ("points", _at), ("points_row", _step),
     ("points_column", _step), ("radii", _at), ("radii_step", _step), ("radius", _real), ("first", _at), ("room", _size),
     ("point", _at), ("distance", _at), ("overlap", _at), ("normal", _at), ("weight", _at), ("triangle", _at),
-    ("feature", _at), ("contacts", _size))
+    ("feature", _at), ("contacts", _size), ("progress", _Progress), ("data", _at))
 _BodyOptions = _struct(
     "_BodyOptions", ("cell", _real), ("nearest", _int), ("memory", _real), ("threads", _int),
-    ("device", _int), ("same_wall", _at))
+    ("device", _int), ("same_wall", _at), ("progress", _Progress), ("data", _at))
 _BodyFacts = _struct(
     "_BodyFacts", ("triangles", _size), ("pieces", _size), ("cell", _real), ("grid_bytes", _size),
     ("nearest", _int), ("device", _int))
@@ -153,6 +160,27 @@ __version__: str = _lib.lsdcd_version().decode()
 def _check(code: int) -> None:
     if code != 0:
         raise Error(code)
+
+
+def _listened(call: Callable[[], Any], options: Any, listener: Progress | None) -> None:
+    """Makes a call with these options that tells the listener how far it is."""
+    if listener is None:
+        return _check(call())
+    progress: Progress = listener
+    raised: list[BaseException] = []
+
+    def tell(_: Any, what: bytes, done: float) -> int:
+        try:
+            return int(bool(progress(what.decode(), done)))
+        except BaseException as error:    # KeyboardInterrupt, too: none may pass through C
+            raised.append(error)
+            return 1
+
+    options.progress = _Progress(tell)
+    code = call()
+    if raised:
+        raise raised[0]
+    _check(code)
 
 
 def _sized(struct: Any, **values: Any) -> Any:
@@ -273,16 +301,18 @@ class Mesh(_Owner):
         return str(_lib.lsdcd_mesh_report(self._handle).decode())
 
     def grid(self, cutoff: float | None = None, cell: float = 0.0, nearest: int = 0, precision: str = "double",
-             memory: float = 0.0, cache: str | os.PathLike[str] | None = None, threads: int = 0, device: str = "cpu") -> Grid:
+             memory: float = 0.0, cache: str | os.PathLike[str] | None = None, threads: int = 0, device: str = "cpu",
+             progress: Progress | None = None) -> Grid:
         """A Grid for distances up to `cutoff`, a length, None: any. The words are those of lsdcd_grid_options: `cell`,
         the edge of a cell, 0: chosen; `nearest` 0: complete lists; `precision` "double" or "float"; `memory`, bytes, 0:
-        chosen; `cache`, a file that keeps the cells; `device` "cpu" or "cuda", which builds them. Raises Error for
-        settings that cannot be kept."""
+        chosen; `cache`, a file that keeps the cells; `device` "cpu" or "cuda", which builds them. `progress` is called
+        some ten times a second with what is done and the share of it. Raises Error for settings that cannot be kept, and
+        what `progress` raises."""
         options = _sized(_GridOptions, cutoff=0.0 if cutoff is None else cutoff, cell=cell, nearest=nearest,
                          precision=_chosen("precision", precision, ("double", "float")), memory=memory,
                          cache=os.fsencode(cache) if cache else None, threads=threads,
                          device=_chosen("device", device, DEVICES))
-        return Grid(self, options)
+        return Grid(self, options, progress)
 
 
 class Contacts(_Record):
@@ -325,10 +355,11 @@ class Grid(_Owner):
     """Made by Mesh.grid(). Any number of threads may ask it at once."""
     _free = _lib.lsdcd_grid_free
 
-    def __init__(self, mesh: Mesh, options: Any) -> None:
+    def __init__(self, mesh: Mesh, options: Any, progress: Progress | None = None) -> None:
         super().__init__()
         self._streams = threading.local()
-        _check(_lib.lsdcd_grid_build(mesh._handle, ctypes.byref(options), ctypes.byref(self._handle)))
+        _listened(lambda: _lib.lsdcd_grid_build(mesh._handle, ctypes.byref(options), ctypes.byref(self._handle)), options,
+                  progress)
 
     @property
     def facts(self) -> GridFacts:
@@ -340,7 +371,8 @@ class Grid(_Owner):
         return str(_lib.lsdcd_grid_report(self._handle).decode())
 
     def query(self, points: Any, want: str | Iterable[str] | None = None, radius: Any = None, threads: int = 0, *,
-              out: Mapping[str, Any] | Answer | None = None, stream: Any = None, estimate_sides: bool = False) -> Answer:
+              out: Mapping[str, Any] | Answer | None = None, stream: Any = None, estimate_sides: bool = False,
+              progress: Progress | None = None) -> Answer:
         """Answers for points of shape (..., 3), in the unit of the mesh, as an Answer with what `want` names: distance
         (the default), closest, normal, triangle, feature, side, status, winding.
 
@@ -360,6 +392,7 @@ class Grid(_Owner):
         estimate_sides: where the mesh has no sides, because it is open or facets are wound against each other, `side`
         is -1 where the whole number nearest to `winding` is not 0, else 1. These are not certified: status has
         SIDE_ESTIMATED. On the host, as winding is.
+        progress: as of Mesh.grid(), on the host; answers of a call that it ended are of no use.
 
         Raises TypeError for what has the wrong shape, type or place, Error for a radius beyond the cutoff, and for sides
         where there are none."""
@@ -411,18 +444,18 @@ class Grid(_Owner):
                 for name, step in zip(("row", "column") if inner else ("step",), steps):
                     setattr(query, f"{word}_{name}", step)
         if given.on_host:
-            _check(_lib.lsdcd_query_host(self._handle, ctypes.byref(query)))
+            _listened(lambda: _lib.lsdcd_query_host(self._handle, ctypes.byref(query)), query, progress)
             return answer
         if query.n > 0:
             self._query_on(given.device or 0, handle, owner, query, any(map(_arrays.must_wait, kept)))
         return answer
 
-    def contacts(self, points: ArrayLike, radius: ArrayLike, threads: int = 0) -> Contacts:
+    def contacts(self, points: ArrayLike, radius: ArrayLike, threads: int = 0, progress: Progress | None = None) -> Contacts:
         """All contacts of spheres: each place of the mesh whose distance to a centre is a local minimum below the
         radius. The grid has a cutoff.
 
         points: centres, (n, 3), in the unit of the mesh, and radius, one or (n,), on the host; as float32 if points are,
-        else as float64.
+        else as float64. progress: as of Mesh.grid().
 
         Raises TypeError for wrong shapes, Error for a radius below 0 or beyond the cutoff, a grid without a cutoff, with
         `nearest` or in float, and more than 512 contacts of a sphere."""
@@ -445,7 +478,7 @@ class Grid(_Owner):
             made |= {name: np.empty(m, np.uint32) for name in ("triangle", "feature")}
             for name, array in made.items():
                 setattr(ask, name, array.ctypes.data)
-            _check(_lib.lsdcd_contacts_host(self._handle, ctypes.byref(ask)))
+            _listened(lambda: _lib.lsdcd_contacts_host(self._handle, ctypes.byref(ask)), ask, progress)
             if ask.contacts <= m:
                 return Contacts(first=first, **{k: v[:ask.contacts] for k, v in made.items()})
 
@@ -567,19 +600,19 @@ class Collision(_Record):
 class Body(_Owner):
     """A rigid body's Mesh against a wall's Mesh, or against the wall of another Body, which both then
     share; the words are those of lsdcd_body_options: `cell`, a length, 0: chosen; `memory`, bytes. One thread at a
-    time. Raises Error for settings that cannot be kept."""
+    time. `progress`: as of Mesh.grid(). Raises Error for settings that cannot be kept."""
     _free = _lib.lsdcd_body_free
 
     def __init__(self, wall: Mesh | Body, mesh: Mesh, cell: float = 0.0, nearest: int = 0, memory: float = 0.0,
-                 threads: int = 0, device: str = "cpu") -> None:
+                 threads: int = 0, device: str = "cpu", progress: Progress | None = None) -> None:
         super().__init__()
         self._room = 1024
         options = _sized(_BodyOptions, cell=cell, nearest=nearest, memory=memory, threads=threads,
                          device=_chosen("device", device, DEVICES))
         if isinstance(wall, Body):
             options.same_wall = wall._handle
-        _check(_lib.lsdcd_body_make(None if isinstance(wall, Body) else wall._handle, mesh._handle,
-                                    ctypes.byref(options), ctypes.byref(self._handle)))
+        _listened(lambda: _lib.lsdcd_body_make(None if isinstance(wall, Body) else wall._handle, mesh._handle,
+                                               ctypes.byref(options), ctypes.byref(self._handle)), options, progress)
 
     @property
     def facts(self) -> BodyFacts:

@@ -26,10 +26,8 @@ class GridBuilder {
 
  public:
   // The wall and the listener for progress have to outlive the builder.
-  GridBuilder(B backend, const WallFeatures &wall,
-              const std::function<void(const std::string &)> &progress) :
-      b_(std::move(backend)),
-      progress_(progress)
+  GridBuilder(B backend, const WallFeatures &wall, const ProgressListener &progress) :
+      b_(std::move(backend)), progress_(progress)
   {
     view_.wall.faces = put(wall.faces);
     view_.wall.edges = put(wall.edges);

@@ -4,17 +4,17 @@
 // How far a long build is, for a listener.
 #pragma once
 
+#include "base/progress.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
-#include <functional>
-#include <string>
 
 namespace lsdcd {
 
 class BuildProgress {
  public:
-  explicit BuildProgress(const std::function<void(const std::string &)> &tell) : tell_(tell) {}
+  explicit BuildProgress(const ProgressListener &tell) : tell_(tell) {}
 
   // Of cells of this length from now on.
   void of(double length) { length_ = length; }
@@ -35,12 +35,12 @@ class BuildProgress {
   {
     if (!tell_) return;
     char text[96];
-    std::snprintf(text, sizeof text, "grid %.6g: %s, %.0f%%", length_, what, 100 * share);
-    tell_(text);
+    std::snprintf(text, sizeof text, "grid %.6g: %s", length_, what);
+    tell_(text, share);
   }
 
  private:
-  const std::function<void(const std::string &)> &tell_;
+  const ProgressListener &tell_;
   double length_ = 0;
 };
 

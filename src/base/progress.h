@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How long work tells how far it is, and is ended by who listens.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace lsdcd {
+
+// What is done now, and how much of that, from 0 to 1. It is called by the thread that asked for the work, and
+// what it throws ends the work. Empty: nobody listens.
+using ProgressListener = std::function<void(const std::string &what, double share)>;
+
+inline std::string progress_text(const std::string &what, double share)
+{
+  return what + ", " + std::to_string(static_cast<int>(100 * share + 0.5)) + "%";
+}
+
+}    // namespace lsdcd

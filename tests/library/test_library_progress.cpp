@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Long calls of the library tell how far they are, and end where that is asked for.
+#include "lsdcd.hpp"
+#include "support/meshes.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace {
+
+std::vector<double> numbers(const lsdcd::TriangleSoup &soup)
+{
+  std::vector<double> corners;
+  for (const lsdcd::Vec3 &p : soup.corners) corners.insert(corners.end(), {p.x, p.y, p.z});
+  return corners;
+}
+// 24 000 triangles, so that a tree tells more than once.
+lsdcd::Mesh cylinder()
+{
+  return lsdcd::Mesh(numbers(lsdcd::cylinder_mesh(120, 99, 1, 2)));
+}
+lsdcd::Mesh box()
+{
+  return lsdcd::Mesh(numbers(lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1})));
+}
+
+template <class T>
+std::vector<T> random_points(std::size_t n)
+{
+  std::mt19937_64 dice(1);
+  std::uniform_real_distribution<T> at(T(-1.5), T(1.5));
+  std::vector<T> points(3 * n);
+  for (T &x : points) x = at(dice);
+  return points;
+}
+
+// What calls tell when nobody ends them, of shares from 0 to 1.
+class Told {
+ public:
+  lsdcd::Progress listener()
+  {
+    return [this](const char *what, double done) {
+      EXPECT_TRUE(done >= 0 && done <= 1) << what << " " << done;
+      EXPECT_EQ(std::this_thread::get_id(), thread_);
+      what_.insert(what);
+      return false;
+    };
+  }
+  const std::set<std::string> &what() const { return what_; }
+
+ private:
+  std::thread::id thread_ = std::this_thread::get_id();
+  std::set<std::string> what_;
+};
+
+// call(listener) is cancelled at each thing that it tells.
+template <class Call>
+void expect_cancelled(const Call &call, std::size_t fewest)
+{
+  Told told;
+  call(told.listener());
+  EXPECT_GE(told.what().size(), fewest);
+  for (const std::string &at : told.what()) {
+    try {
+      call([&](const char *what, double) { return what == at; });
+      ADD_FAILURE() << "not cancelled at " << at;
+    } catch (const lsdcd::Error &e) {
+      EXPECT_EQ(e.code(), LSDCD_ERROR_CANCELLED);
+      EXPECT_NE(std::string(e.what()).find("cancelled the call, at: " + at), std::string::npos)
+          << e.what();
+    }
+    // What it throws comes out.
+    EXPECT_THROW(call([&](const char *what, double) -> bool {
+                   if (what == at) throw std::out_of_range("mine");
+                   return false;
+                 }),
+                 std::out_of_range);
+  }
+}
+
+TEST(progress, a_tree_is_cancelled)
+{
+  const lsdcd::Mesh mesh = cylinder();
+  expect_cancelled([&](const lsdcd::Progress &p) { lsdcd::Grid(mesh, lsdcd::GridOptions(), p); },
+                   1);
+  expect_cancelled([&](const lsdcd::Progress &p) { lsdcd::Grid(mesh, lsdcd::GridOptions(0.1), p); },
+                   2);
+}
+
+TEST(progress, cells_are_cancelled)
+{
+  const lsdcd::Mesh mesh = cylinder();
+  lsdcd::GridOptions options(0.1);
+  options.precision = LSDCD_FLOAT;
+  options.threads = 3;
+  expect_cancelled([&](const lsdcd::Progress &p) { lsdcd::Grid(mesh, options, p); }, 4);
+}
+
+TEST(progress, cells_that_were_cancelled_leave_no_file)
+{
+  const lsdcd::Mesh mesh = cylinder();
+  lsdcd::TempDir folder;
+  const std::string file = folder.path("grid.cache");
+  lsdcd::GridOptions options(0.1);
+  options.cell = 0.1;
+  if (std::string(LSDCD_TEST_CACHE) == "no") GTEST_SKIP() << "a build without caches";
+  options.cache = file.c_str();
+  EXPECT_THROW(lsdcd::Grid(mesh, options, [](const char *, double) { return true; }), lsdcd::Error);
+  EXPECT_TRUE(std::filesystem::is_empty(std::filesystem::path(file).parent_path()));
+  EXPECT_FALSE(lsdcd::Grid(mesh, options).facts().from_cache);
+}
+
+TEST(progress, a_body_is_cancelled)
+{
+  const lsdcd::Mesh wall = cylinder(), mesh = box();
+  expect_cancelled(
+      [&](const lsdcd::Progress &p) { lsdcd::Body(wall, mesh, lsdcd::BodyOptions(), p); }, 3);
+}
+
+// Of a cells' grid the first call makes the cells.
+TEST(progress, contacts_are_cancelled_and_then_made)
+{
+  const lsdcd::Mesh mesh = cylinder();
+  const std::vector<double> points = random_points<double>(6000);
+  const std::vector<double> radius = {0.1};
+  const lsdcd::Grid grid(mesh, 0.1);
+  EXPECT_THROW(grid.contacts(points, radius, 1, [](const char *, double) { return true; }),
+               lsdcd::Error);
+  Told told;
+  const lsdcd::Contacts<double> a = grid.contacts(points, radius, 1, told.listener()),
+                                b = grid.contacts(points, radius);
+  EXPECT_GE(told.what().size(), 4u);    // parts of cells, and spheres
+  EXPECT_GT(a.feature.size(), 100u);
+  EXPECT_EQ(a.first, b.first);
+  EXPECT_EQ(a.feature, b.feature);
+  EXPECT_EQ(a.point, b.point);
+}
+
+// In parts, of arrays with steps.
+template <class T>
+void expect_same(const lsdcd::Grid &grid, bool with_radii)
+{
+  const std::size_t n = 20000;
+  const std::vector<T> points = random_points<T>(n), radii(n, T(0.25));
+  struct Answers {
+    std::vector<T> distance, closest, normal, winding;
+    std::vector<std::uint32_t> triangle, feature;
+    std::vector<std::int8_t> side;
+    std::vector<std::uint8_t> status;
+    bool operator==(const Answers &b) const
+    {
+      return distance == b.distance && closest == b.closest && normal == b.normal &&
+             winding == b.winding && triangle == b.triangle && feature == b.feature &&
+             side == b.side && status == b.status;
+    }
+  };
+  const auto answers = [&](const lsdcd::Progress &progress) {
+    Answers a;
+    for (auto *two : {&a.distance, &a.winding}) two->resize(2 * n);
+    for (auto *three : {&a.closest, &a.normal}) three->resize(3 * n);
+    a.triangle.resize(n), a.feature.resize(n), a.side.resize(n), a.status.resize(n);
+    lsdcd::Query<T> q(points.data(), n);
+    if (with_radii) q.radii = radii.data();
+    q.distance = a.distance.data(), q.distance_step = 2;
+    q.winding = a.winding.data(), q.winding_step = 2;
+    q.closest = a.closest.data(), q.normal = a.normal.data();
+    q.triangle = a.triangle.data(), q.feature = a.feature.data();
+    q.side = a.side.data(), q.status = a.status.data();
+    q.threads = 2;
+    grid.query(q, progress);
+    return a;
+  };
+  Told told;
+  EXPECT_TRUE(answers(told.listener()) == answers({}));
+  EXPECT_EQ(told.what(), std::set<std::string>{"points"});
+}
+
+TEST(progress, answers_are_the_same_with_a_listener)
+{
+  const lsdcd::Mesh mesh = box();
+  lsdcd::GridOptions cells(0.3);
+  cells.cell = 0.1;
+  cells.precision = LSDCD_FLOAT;
+  for (const lsdcd::Grid &grid :
+       {lsdcd::Grid(mesh), lsdcd::Grid(mesh, 0.3), lsdcd::Grid(mesh, cells)})
+    for (const bool with_radii : {false, true}) {
+      expect_same<double>(grid, with_radii);
+      expect_same<float>(grid, with_radii);
+    }
+}
+
+// A listener that takes a tenth of a second is called again at the next part.
+TEST(progress, a_query_is_cancelled_between_its_parts)
+{
+  const lsdcd::Grid grid(box());
+  const std::size_t n = 20000;
+  const std::vector<double> points = random_points<double>(n);
+  std::vector<double> distance(n, -1);
+  lsdcd::Query<double> q(points.data(), n);
+  q.distance = distance.data();
+  try {
+    grid.query(q, [](const char *, double done) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(101));
+      return done > 0;
+    });
+    FAIL();
+  } catch (const lsdcd::Error &e) {
+    EXPECT_EQ(e.code(), LSDCD_ERROR_CANCELLED);
+  }
+  EXPECT_GE(distance[0], 0);
+  EXPECT_EQ(distance[n - 1], -1);
+}
+
+TEST(progress, an_error_of_a_later_part_has_the_number_of_its_point)
+{
+  const lsdcd::Grid grid(box(), 0.3);
+  const std::size_t n = 20000;
+  const std::vector<double> points = random_points<double>(n);
+  std::vector<double> radii(n, 0.1), distance(n);
+  radii[17000] = 0.4;
+  lsdcd::Query<double> q(points.data(), n);
+  q.distance = distance.data();
+  q.radii = radii.data();
+  const lsdcd::Progress never = [](const char *, double) { return false; };
+  const auto expect = [&](const char *of, const auto &call) {
+    try {
+      call();
+      FAIL();
+    } catch (const lsdcd::Error &e) {
+      EXPECT_EQ(std::string(e.what()).find(std::string(of) + " 17000 has radius 0.4"), 0u)
+          << e.what();
+    }
+  };
+  expect("point", [&] { grid.query(q, never); });
+  expect("sphere", [&] { grid.contacts(points, radii, 1, never); });
+}
+
+// Structs as an older header has them.
+TEST(progress, options_of_an_older_program_have_no_listener)
+{
+  const lsdcd::Mesh mesh = box();
+  const auto never = [](void *, const char *, double) {
+    ADD_FAILURE();
+    return 1;
+  };
+  lsdcd_grid_options options = lsdcd::GridOptions();
+  options.size = offsetof(lsdcd_grid_options, progress);
+  options.progress = never;    // beyond its end
+  const lsdcd::Grid grid(mesh, options);
+  lsdcd_body_options of_body = lsdcd::BodyOptions();
+  of_body.size = offsetof(lsdcd_body_options, progress);
+  of_body.progress = never;
+  const lsdcd::Body body(mesh, mesh, of_body);
+}
+
+}    // namespace
