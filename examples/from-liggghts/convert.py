@@ -371,7 +371,7 @@ class Model:
         else:
             _, _, _, share, mu = self.hertz(c)
             e, nu = c.one_material()
-            tangential = "mindlin NULL" if self.tangential == "history" else "linear_nohistory"
+            tangential = "mindlin_slip NULL" if self.tangential == "history" else "linear_nohistory"
             law = (f"granular hertz/material {short(e)} {short(c.get('coefficientRestitution', c.i, c.j))} {short(nu)} "
                    f"damping coeff_restitution tangential {tangential} {short(share)} {short(mu)}")
             extras = self.extras(c, False)

@@ -94,9 +94,13 @@ std::vector<EffectCase> effect_cases()
   };
   add("linear_history", "tangential linear_history", "hertz",
       tangential(TangentialModel::linear_history));
+  add("linear_history_slip", "tangential linear_history_slip", "hertz",
+      tangential(TangentialModel::linear_history_slip));
   add("mindlin", "tangential mindlin", "hertz", tangential(TangentialModel::mindlin));
   add("mindlin/force", "tangential mindlin/force", "hertz",
       tangential(TangentialModel::mindlin_force));
+  add("mindlin_slip", "tangential mindlin_slip", "hertz",
+      tangential(TangentialModel::mindlin_slip));
   add("mindlin_rescale", "tangential mindlin_rescale", "mindlin",
       tangential(TangentialModel::mindlin_rescale));
   add("mindlin_rescale/force", "tangential mindlin_rescale/force", "mindlin/force",

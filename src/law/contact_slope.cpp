@@ -22,6 +22,7 @@ Real tangential_stiffness(const ContactLaw &law, Real a)
     case TangentialModel::linear_nohistory:
       return 0;
     case TangentialModel::linear_history:
+    case TangentialModel::linear_history_slip:
       return law.k_tangent;
     default:
       return law.k_tangent * a;

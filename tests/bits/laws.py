@@ -28,8 +28,10 @@ OF_RESTITUTION = ("tsuji", "coeff_restitution")    # which dmt and jkr do not ta
 TANGENTIALS = {
     "linear_nohistory": "linear_nohistory 0.7 0.4",
     "linear_history": "linear_history 3e3 0.6 0.4",
+    "linear_history_slip": "linear_history_slip 3e3 0.6 0.4",
     "mindlin": "mindlin {kt} 0.6 0.4",
     "mindlin_force": "mindlin/force {kt} 0.6 0.4",
+    "mindlin_slip": "mindlin_slip {kt} 0.6 0.4",
     "mindlin_rescale": "mindlin_rescale {kt} 0.6 0.4",
     "mindlin_rescale_force": "mindlin_rescale/force {kt} 0.6 0.4",
 }

@@ -134,7 +134,7 @@ fix m4 all property/global coefficientFriction peratomtypepair 2 0.4 0.3 0.3 0.2
 """ + MESH.format("").replace("type 1", "type 2") + WALL
     _, out = convert(folder, both)
     e, restitution, nu, share, mu = map(float, re.search(
-        r"hertz/material (\S+) (\S+) (\S+) damping coeff_restitution tangential mindlin NULL (\S+) (\S+)", out).groups())
+        r"hertz/material (\S+) (\S+) (\S+) damping coeff_restitution tangential mindlin_slip NULL (\S+) (\S+)", out).groups())
     # 1/E* and 1/G* are sums over the two materials.
     star = 1 / ((1 - 0.3**2) / 1e7 + (1 - 0.2**2) / 2e8)
     shear = 1 / (2 * 1.7 * 1.3 / 1e7 + 2 * 1.8 * 1.2 / 2e8)

@@ -207,11 +207,13 @@ TEST(history_kind, differs_where_the_numbers_are_not_the_same)
 TEST(history_kind, is_the_same_for_displacements_of_all_laws)
 {
   const ContactLaw hertz = classic_law(NormalModel::hertz, true);
-  ContactLaw linear = granular_law(NormalModel::hooke), mindlin = linear;
-  linear.tangential = TangentialModel::linear_history;
-  mindlin.tangential = TangentialModel::mindlin;
-  EXPECT_EQ(hertz.history_kind(), linear.history_kind());
-  EXPECT_EQ(hertz.history_kind(), mindlin.history_kind());
+  for (TangentialModel model :
+       {TangentialModel::linear_history, TangentialModel::linear_history_slip,
+        TangentialModel::mindlin, TangentialModel::mindlin_slip}) {
+    ContactLaw law = granular_law(NormalModel::hooke);
+    law.tangential = model;
+    EXPECT_EQ(hertz.history_kind(), law.history_kind());
+  }
 }
 
 }    // namespace

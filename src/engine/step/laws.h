@@ -64,12 +64,15 @@ GranularModel<Real, Normal, kHistory, kFull> granular_model(const ContactLaw &p,
              mindlin = t >= TangentialModel::mindlin;
   const bool of_force =
       t == TangentialModel::mindlin_force || t == TangentialModel::mindlin_rescale_force;
+  const bool slip = t == TangentialModel::linear_history_slip || t == TangentialModel::mindlin_slip;
   const bool uses_contact_radius = p.damping == DampingModel::viscoelastic || mindlin ||
                                    p.twisting.model == TwistingModel::marshall || p.has_heat();
   const Real *const twisting = p.twisting.numbers;
+  const GranularFriction<Real> friction = {
+      spring ? p.k_tangent : 0, p.xgammat, p.mu, spring, mindlin, of_force, p.rescales(), slip};
   return {normal,
           {p.damping, p.eta},
-          {spring ? p.k_tangent : 0, p.xgammat, p.mu, spring, mindlin, of_force, p.rescales()},
+          friction,
           family_of<GranularRolling<Real>>(p.rolling),
           {p.twisting.model, twisting[0], twisting[1], twisting[2]},
           {p.heat.model, p.heat.numbers[0]},

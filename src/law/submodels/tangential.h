@@ -13,8 +13,10 @@ enum class TangentialModel {
   linear_history_classic,
   linear_nohistory,
   linear_history,
+  linear_history_slip,
   mindlin,
   mindlin_force,
+  mindlin_slip,
   mindlin_rescale,
   mindlin_rescale_force
 };
@@ -79,11 +81,11 @@ struct LinearHistory {
 // `linear_nohistory` without a spring, else `linear_history`, or with `by_radius` `mindlin`, whose
 // stiffness is proportional to the contact radius. `shear` is the displacement or, with `of_force`, the
 // spring's force. With `rescale` it shrinks as the contact unloads (Thornton et al.
-// 2013), for which the radius of the last step is kept.
+// 2013), for which the radius of the last step is kept. With `slip` it is cut alone.
 template <class T>
 struct GranularFriction {
   T k, xgammat, mu;    // k: 0 where there is no spring
-  bool spring, by_radius, of_force, rescale;
+  bool spring, by_radius, of_force, rescale, slip;
 
   LSDCD_FN T stiffness(T a) const { return by_radius ? k * a : k; }
   LSDCD_FN Vec3Of<T> slip_force(const Contact<T> &c, T damping, T limit) const
@@ -104,6 +106,7 @@ struct GranularFriction {
     if (c.update) m.shear += (of_force ? -stiff * c.dt : c.dt) * c.v_tangent;
 
     const Vec3Of<T> viscous = (-xgammat * damping) * c.v_tangent;
+    if (slip) return cut_apart(stiff, viscous, limit, m);
     const Vec3Of<T> f = (of_force ? m.shear : -stiff * m.shear) + viscous;
     const T size = norm(f);
     if (!(size > limit)) return f;
@@ -114,6 +117,17 @@ struct GranularFriction {
     else if (stiff > 0)
       m.shear = (-1 / stiff) * (cut - viscous);
     return cut;
+  }
+  // The limit cuts the spring first, then the sum. LAMMPS's form leaves the spring that gives the limit
+  // together with the dashpot: in fast slip it is longer than the limit allows, or pulls along the slip.
+  template <class Memory>
+  LSDCD_FN Vec3Of<T> cut_apart(T stiff, const Vec3Of<T> &viscous, T limit, Memory &m) const
+  {
+    const T pull = stiff * norm(m.shear);
+    if (pull > limit) m.shear = (limit / pull) * m.shear;
+    const Vec3Of<T> f = -stiff * m.shear + viscous;
+    const T size = norm(f);
+    return size > limit ? (limit / size) * f : f;
   }
   template <class Memory>
   LSDCD_FN T energy(T a, const Memory &m) const
