@@ -85,8 +85,9 @@ def run(command, **kwargs):
 
 def instructions_run(sources, build, law, folder):
     program = os.path.join(folder, "probe")
-    libraries = [os.path.join(build, "tests", "liblsdcd_test_support.a"),
-                 os.path.join(build, "src", "liblsdcd_core.a")]
+    libraries = [os.path.join(build, *name) for name in (("tests", "liblsdcd_test_support.a"),
+                                                         ("src", "study", "liblsdcd_study.a"),
+                                                         ("src", "liblsdcd_core.a"))]
     runtime = os.path.join(os.path.dirname(NVCC), "..", "lib64", "libcudart_static.a")
     if os.path.exists(runtime):    # of a build with CUDA
         libraries += [runtime, "-ldl", "-lpthread", "-lrt"]
