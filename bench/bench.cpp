@@ -7,6 +7,7 @@
 #include "backend/threads.h"
 #include "base/atomic_file.h"
 #include "on_cuda.h"
+#include "query/point_query.h"
 #include "support/meshes.h"
 
 #include <chrono>
@@ -143,7 +144,7 @@ BenchOptions read_options(int argc, char **argv, const char *about)
   }
   if (!device.empty() && device != "cpu" && device != "cuda") stop("no such device: " + device);
   if (!o.part.empty() && o.part != "status" && o.part != "distance" && o.part != "near-and-far" &&
-      o.part != "calls")
+      o.part != "tree" && o.part != "calls")
     stop("no such part: " + o.part);
   std::string why;
   const bool cuda = cuda_available(&why);
@@ -205,7 +206,7 @@ void BenchRows::begin(Device device)
 {
   device_ = CpuBackend().name() + cpu_model();
 #if defined(LSDCD_HAVE_CUDA)
-  if (device == Device::cuda) device_ = cuda_name();
+  if (device == Device::cuda) device_ = current_cuda_name();
 #endif
   of_one_thread = device == Device::cpu && threads() == 1;
   copy_gb_s_ = copy_gb_s(device);

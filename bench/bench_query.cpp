@@ -191,6 +191,9 @@ void measure(const BenchOptions &options, BenchRows &rows)
     if (wanted("status")) measure_status(options, queries);
     if (wanted("distance")) measure_distance(options, queries);
     if (wanted("near-and-far") && device == Device::cpu) measure_near_and_far(options, rows);
+#if defined(LSDCD_HAVE_CUDA)
+    if (wanted("tree") && device == Device::cuda) measure_tree_on_gpu(options, rows);
+#endif
     if (wanted("calls") && device == Device::cpu) measure_calls(options, rows);
   }
 }

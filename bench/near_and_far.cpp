@@ -6,6 +6,8 @@
 #include "backend/threads.h"
 #include "geometry/closest_point.h"
 #include "library_query.h"
+#include "mesh/wall_mesh.h"
+#include "on_cuda.h"
 #include "peers.h"
 #include "study/spheres.h"
 
@@ -200,6 +202,13 @@ void compare(const std::vector<Way> &ways, const std::vector<Sphere> &points, in
   }
 }
 
+constexpr int kMeshes[] = {16, 50, 158, 500};
+
+Real near_radius()
+{
+  return 0.005 * std::sqrt(12.);    // 0.5 % of the diagonal
+}
+
 }    // namespace
 
 void measure_near_and_far(const BenchOptions &o, BenchRows &rows)
@@ -208,10 +217,10 @@ void measure_near_and_far(const BenchOptions &o, BenchRows &rows)
   rows.begin(Device::cpu);
   const std::size_t n = static_cast<std::size_t>(o.spheres > 0 ? o.spheres : o.quick ? 1e4 : 1e6);
   const double most = o.most_triangles > 0 ? o.most_triangles : o.quick ? 1e4 : 1e6;
-  for (const int m : {16, 50, 158, 500}) {
+  for (const int m : kMeshes) {
     if (4. * m * (m - 1) > most) continue;
     const TriangleSoup mesh = sphere_mesh(m);
-    const Real radius = 0.005 * std::sqrt(12.);    // 0.5 % of the diagonal
+    const Real radius = near_radius();
     const SphereBox box = {{-1 - radius, -1 - radius, -1 - radius},
                            {1 + radius, 1 + radius, 1 + radius},
                            radius,
@@ -243,5 +252,40 @@ void measure_near_and_far(const BenchOptions &o, BenchRows &rows)
     }
   }
 }
+
+#if defined(LSDCD_HAVE_CUDA)
+void measure_tree_on_gpu(const BenchOptions &o, BenchRows &rows)
+{
+  const std::size_t n = static_cast<std::size_t>(o.spheres > 0 ? o.spheres : o.quick ? 1e5 : 1e7);
+  for (const int m : kMeshes) {
+    const TriangleSoup soup = sphere_mesh(m);
+    const WallMesh mesh = weld(soup, -1);
+    const TriangleTable names(mesh);
+    const TriangleTree tree(mesh, names);
+    for (const bool near : {true, false}) {
+      std::vector<Sphere> points = near ? near_points(soup, near_radius(), n) : any_points(n);
+      BenchRow row;
+      row.triangles = soup.n_triangles();
+      row.spheres = n;
+      for (const char *order : {"random", "sorted"}) {
+        if (order[0] == 's') sort(points, {{-2, -2, -2}, {2, 2, 2}, 1, kSeed});
+        row.order = order;
+        row.what = near ? "near, tree" : "any, tree";
+        std::vector<double> distance;
+        row.timing = timing_of(cuda_tree_ms(tree, points, o.repeats > 0 ? o.repeats : 5, distance));
+        std::size_t differ = 0;
+        const std::size_t step = std::max<std::size_t>(1, n / 10000);
+        for (std::size_t i = 0; i < n; i += step) {
+          const TreeAnswer a = tree.nearest(points[i].centre(), points[i].r, kNoPrimitive);
+          differ += distance[i] != (a.found() ? a.distance : HUGE_VAL);
+        }
+        row.facts = format("ns_per_point=%.4g differ_from_cpu=%zu tree_mb=%.1f",
+                           row.timing.median_ms * 1e6 / double(n), differ, tree.bytes() / 1e6);
+        rows.add(row);
+      }
+    }
+  }
+}
+#endif
 
 }    // namespace lsdcd

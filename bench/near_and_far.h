@@ -11,4 +11,7 @@ namespace lsdcd {
 // On one core: a row a way, mesh, place and order.
 void measure_near_and_far(const BenchOptions &options, BenchRows &rows);
 
+// The same points, 1e7 of each kind, by the tree on a GPU.
+void measure_tree_on_gpu(const BenchOptions &o, BenchRows &rows);
+
 }    // namespace lsdcd

@@ -4,15 +4,11 @@
 #include "on_cuda.h"
 
 #include "backend/backend_cuda.h"
+#include "query/point_query.h"
 
 #include <algorithm>
 
 namespace lsdcd {
-
-std::string cuda_name()
-{
-  return CudaBackend().name();
-}
 
 double cuda_copy_gb_s()
 {
@@ -28,6 +24,25 @@ double cuda_copy_gb_s()
           "copying on the device");
     }));
   return 2 * double(kBytes) / least / 1e6;
+}
+
+std::vector<double> cuda_tree_ms(const TriangleTree &tree, const std::vector<Sphere> &points,
+                                 int repeats, std::vector<double> &distance)
+{
+  CudaBackend b;
+  const auto on_gpu = from_host(b, points);
+  CudaBackend::Array<double> out(points.size());
+  PointArrays<double> io;
+  io.n = points.size();
+  io.points = {&on_gpu.data()->x, 4, 1};
+  io.radius = points[0].r;
+  io.distance = {out.data(), 1};
+  const auto query = copy_to_cuda(tree)->query_on(nullptr);
+  query->answer(io);    // warms up
+  std::vector<double> ms;
+  for (int k = 0; k < repeats; k++) ms.push_back(b.milliseconds([&] { query->answer(io); }));
+  distance = to_host(b, out, points.size());
+  return ms;
 }
 
 double cuda_brute_force_ms(const TriangleGrid &grid, std::size_t n, std::size_t stride)

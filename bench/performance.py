@@ -20,7 +20,7 @@ from performance_plots import plot_build, plot_query
 DOCUMENT = os.path.join(ROOT, "doc", "performance.md")
 NOTES = os.path.join(ROOT, "doc", "notes", "performance.md")
 ELSEWHERE = dict.fromkeys(["kokkos-cpu", "kokkos-cuda", "kokkos-copies", "status", "distance", "build", "step", "in_place",
-                           "cache", "near-and-far", "calls", "mesh-size", "point-costs"], NOTES)
+                           "cache", "near-and-far", "tree", "calls", "mesh-size", "point-costs"], NOTES)
 DATA = os.path.join(ROOT, "doc", "data")
 DEVICES = ("cpu", "cuda")
 PROGRAMS = ("query", "build", "step", "cache")
@@ -261,6 +261,16 @@ def point_costs(cpu):
     return table(dict.fromkeys(r["triangles"] for r in rows), ["triangles", *heads], cells)
 
 
+def tree_table(cuda):
+    """Distances by the tree on a GPU."""
+    def cells(r):
+        return [r["case"].split(",")[0], count(r["triangles"]), count(r["spheres"]), r["order"], ms(r),
+                number(facts(r)["ns_per_point"])]
+
+    rows = of(cuda, "query", lambda case: case.endswith(", tree"))
+    return table(rows, ["points", "triangles", "how many", "order", "ms", "ns a point"], cells) + "\n\n" + machines({"cuda": rows})
+
+
 def calls_table(cpu):
     """What calls of the library cost by how many points they have."""
     rows = of(cpu, "query", lambda case: case.startswith("call"))
@@ -338,7 +348,7 @@ def cache_table(cpu):
 def parts(cpu, cuda):
     """The generated parts of the document, with their markers."""
     text = {"status": status_table(cpu, cuda), "distance": distance_table(cpu, cuda),
-            "near-and-far": near_and_far_tables(cpu), "point-costs": point_costs(cpu), "calls": calls_table(cpu),
+            "near-and-far": near_and_far_tables(cpu), "tree": tree_table(cuda), "point-costs": point_costs(cpu), "calls": calls_table(cpu),
             "build": build_table(cpu, cuda),
              "step": step_table(cpu, cuda, False),
              "in_place": step_table(cpu, cuda, True), "cache": cache_table(cpu)}

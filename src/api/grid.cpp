@@ -9,6 +9,7 @@
 #include "base/input_words.h"
 #include "engine/wall_engine.h"
 #include "grid/cache/load_or_build.h"
+#include "mesh/meets_itself.h"
 
 #include <algorithm>
 #include <chrono>
@@ -156,6 +157,14 @@ const ApiCells &ApiGrid::cells(bool on_cuda, const ProgressListener &progress) c
     GridSettings settings = settings_;
     settings.progress = progress;
     return make_cells(cache_, *mesh, settings, on_cuda || on_cuda_);
+  });
+}
+
+bool ApiGrid::sides_by_normals() const
+{
+  if (is_limited()) return cells().sides_by_normals;
+  return mesh->normals_agree() && !meets_itself_.get([&] {
+    return std::make_unique<bool>(lsdcd::meets_itself(mesh->mesh).pairs > 0);
   });
 }
 

@@ -125,10 +125,10 @@ LSDCD_API void lsdcd_mesh_free(lsdcd_mesh *mesh);
 
 typedef struct lsdcd_grid lsdcd_grid;
 
-/* On the CPU a tree answers points in double at any range, exactly, and the same whatever the cutoff. Cells
- * with lists serve GPUs, LSDCD_FLOAT, `nearest` and contacts, up to a cutoff. lsdcd_grid_build() makes them
- * where an option from `cell` to `cache`, or `device`, is set; else the first stream or call for contacts
- * does. */
+/* A tree answers points at any range, exactly, and the same whatever the cutoff: on the CPU in double, and on GPUs
+ * where there is no cutoff. Cells with lists serve GPUs up to a cutoff, where they are quicker, LSDCD_FLOAT,
+ * `nearest` and contacts. lsdcd_grid_build() makes them where an option from `cell` to `cache`, or `device`, is
+ * set; else the first stream or call for contacts does. */
 
 /* Distances of a grid with precision LSDCD_FLOAT are off by at most 3e-6 (cutoff + 14 cell). */
 enum { LSDCD_DOUBLE = 0, LSDCD_FLOAT = 1 };
@@ -136,7 +136,7 @@ enum { LSDCD_CPU = 0, LSDCD_CUDA = 1 };
 
 typedef struct lsdcd_grid_options {
   size_t size;       /* of this struct */
-  double cutoff;     /* the largest distance that will be asked for; 0: any, on the CPU */
+  double cutoff;     /* the largest distance that will be asked for; 0: any */
   double cell;       /* edge of a cell: time against memory; 0: chosen */
   int nearest;       /* 0: complete lists, always exact; N: the N triangles nearest to a cell */
   int precision;     /* of the search: LSDCD_DOUBLE, or LSDCD_FLOAT, quicker on a GPU */
@@ -263,7 +263,7 @@ typedef struct lsdcd_contacts {
 LSDCD_API int lsdcd_contacts_host(const lsdcd_grid *grid, lsdcd_contacts *contacts);
 
 /* A grid on the CUDA device that is current, and a stream (cudaStream_t) of that device, null: the
- * default one. The grid must have a cutoff. The stream must outlive it. Streams of one grid share its
+ * default one. Without a cutoff the grid's tree answers, with the numbers of lsdcd_query_host(). The stream must outlive it. Streams of one grid share its
  * copy on a device. Any. */
 typedef struct lsdcd_stream lsdcd_stream;
 LSDCD_API int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **stream);

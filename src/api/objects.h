@@ -54,6 +54,8 @@ class ApiGrid {
   const NearBoxes *near(const ProgressListener &progress = {}) const;
   const ApiCells &cells(bool on_cuda = false, const ProgressListener &progress = {}) const;
   const ApiCells *cells_made() const { return cells_.made(); }
+  // May a device tell sides?
+  bool sides_by_normals() const;
   std::size_t bytes() const;    // of what is made
 
   std::shared_ptr<const ApiMesh> mesh;
@@ -63,7 +65,7 @@ class ApiGrid {
 
   // Copies on CUDA devices, while any stream uses them.
   mutable std::mutex copying;
-  mutable std::vector<std::pair<int, std::weak_ptr<const DeviceGrid>>> copies;
+  mutable std::vector<std::pair<int, std::weak_ptr<const DeviceCopy>>> copies;
 
  private:
   Real cutoff_;
@@ -73,6 +75,7 @@ class ApiGrid {
   MadeOnce<TriangleTree> tree_;
   MadeOnce<NearBoxes> near_;
   MadeOnce<ApiCells> cells_;
+  MadeOnce<bool> meets_itself_;
 };
 
 }    // namespace lsdcd

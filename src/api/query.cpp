@@ -18,7 +18,7 @@ using namespace lsdcd;
 struct lsdcd_stream {
   std::shared_ptr<const ApiGrid> grid;
 #if defined(LSDCD_HAVE_CUDA)
-  std::shared_ptr<const DeviceGrid> copy;
+  std::shared_ptr<const DeviceCopy> copy;
   std::unique_ptr<StreamQuery> query;
 #endif
 };
@@ -32,7 +32,7 @@ void check_sides(const ApiGrid &grid, bool on_host)
                    "the mesh is not closed and oriented, so that it has no side: " +
                        why_no_inside(grid.mesh->mesh) +
                        "; `estimate_sides` gives those that are probable, on the host");
-  if (!on_host && !grid.cells().sides_by_normals)
+  if (!on_host && !grid.sides_by_normals())
     throw ApiError(LSDCD_ERROR_SIDE,
                    "triangles of the mesh cut, overlap or touch each other, and only the "
                    "host tells its sides: use lsdcd_query_host()");
@@ -58,7 +58,7 @@ template <class T>
 void answer_on_host(const ApiGrid &grid, const PointArrays<T> &io)
 {
   if (grid.uses_tree()) {
-    answer_with_sides(grid.tree(), grid.near(), grid.names, grid.mesh->sides, grid.cutoff(), io);
+    answer_with_sides(grid.tree(), grid.near(), grid.mesh->sides, grid.cutoff(), io);
     return;
   }
   const ApiCells &cells = grid.cells();
@@ -191,6 +191,29 @@ int lsdcd_has_cuda(void)
 
 #if defined(LSDCD_HAVE_CUDA)
 
+namespace {
+
+// For all streams of a device.
+std::shared_ptr<const DeviceCopy> copy_on_cuda(const ApiGrid &grid)
+{
+  // Before the lock, as it takes long where it is the first call.
+  if (grid.is_limited())
+    grid.cells(true);
+  else
+    grid.tree();
+  const std::lock_guard<std::mutex> alone(grid.copying);
+  const int device = current_cuda_device();
+  for (const auto &[on, known] : grid.copies)
+    if (on == device)
+      if (auto copy = known.lock()) return copy;
+  auto copy = grid.is_limited() ? copy_to_cuda(grid.cells().grid.view, grid.names)
+                                : copy_to_cuda(grid.tree());
+  grid.copies.emplace_back(device, copy);
+  return copy;
+}
+
+}    // namespace
+
 int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **stream)
 {
   return guard([&] {
@@ -198,25 +221,10 @@ int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **
     need(grid, "grid");
     std::string why;
     if (!cuda_available(&why)) throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why);
-    if (!grid->in->is_limited())
-      throw ApiError(
-          LSDCD_ERROR_CUTOFF,
-          "a GPU answers up to a cutoff, and this grid has none: build one with a cutoff, "
-          "or use lsdcd_query_host()");
     auto made = std::make_unique<lsdcd_stream>();
     made->grid = grid->in;
-    const ApiCells &cells = made->grid->cells(true);
-    {
-      const std::lock_guard<std::mutex> alone(grid->in->copying);
-      const int device = current_cuda_device();
-      for (const auto &[on, copy] : grid->in->copies)
-        if (on == device && !made->copy) made->copy = copy.lock();
-      if (!made->copy) {
-        made->copy = copy_to_cuda(cells.grid.view, grid->in->names);
-        grid->in->copies.emplace_back(device, made->copy);
-      }
-    }
-    made->query = make_stream_query(made->copy, cuda_stream);
+    made->copy = copy_on_cuda(*made->grid);
+    made->query = made->copy->query_on(cuda_stream);
     *stream = made.release();
   });
 }
@@ -229,7 +237,7 @@ int lsdcd_query_stream(lsdcd_stream *stream, const lsdcd_query *query)
     if (q.n == 0) return;
     each_given(q, [&](const void *array, const char *name) {
       try {
-        check_on_device(*stream->copy, array, name);
+        check_on_device(stream->copy->device, array, name);
       } catch (const InputError &e) {
         throw ApiError(LSDCD_ERROR_DEVICE, e.what());
       }

@@ -19,7 +19,7 @@
 //   name                         for logs
 //
 // kOnHost says whether its memory is the host's. A GPU's has for_each_block() beside these, for what is written for
-// blocks of threads (block.h), and Limits, which says how many of them it holds. tests/tool/check_backends.py holds
+// blocks of threads (block.h), sort_in(), which does not wait, and Limits, which says how many of them it holds. tests/tool/check_backends.py holds
 // each backend to this list.
 #pragma once
 

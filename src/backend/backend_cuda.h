@@ -257,6 +257,37 @@ struct CudaBackend {
     return last + read_one(*this, values + n - 1);
   }
 
+  // Pairs of a key and a value, before a sort and after it, in memory that is kept.
+  struct PairMemory {
+    Array<std::uint32_t> keys[2], values[2];
+    Array<char> scratch;
+
+    void reserve(std::size_t n)
+    {
+      if (keys[0].size() >= n) return;
+      for (int k = 0; k < 2; k++) {
+        keys[k] = Array<std::uint32_t>(n);
+        values[k] = Array<std::uint32_t>(n);
+      }
+    }
+  };
+  // Sorts the first n pairs by the lowest `bits` of their keys and returns the values in order. Does not wait.
+  template <class = void>
+  const std::uint32_t *sort_in(std::size_t n, int bits, PairMemory &memory)
+  {
+    cub::DoubleBuffer<std::uint32_t> keys(memory.keys[0].data(), memory.keys[1].data()),
+        values(memory.values[0].data(), memory.values[1].data());
+    std::size_t bytes = 0;
+    const auto sort = [&](void *at) {
+      cuda_check(cub::DeviceRadixSort::SortPairs(at, bytes, keys, values, n, 0, bits, stream),
+                 "sorting");
+    };
+    sort(nullptr);
+    if (memory.scratch.size() < bytes) memory.scratch = Array<char>(bytes);
+    sort(memory.scratch.data());
+    return values.Current();
+  }
+
   // Over the bits of the largest key. A template, so that only who sorts compiles it.
   template <class = void>
   void sort_pairs(Scratch<std::uint32_t> &keys, Scratch<std::uint32_t> &values,

@@ -12,12 +12,13 @@ namespace lsdcd {
 
 constexpr unsigned kWarpSize = 32;
 
-// kSize: 1, or kWarpSize for all threads of a warp. All of them must call its functions together.
+// kSize: 1, kWarpSize for all threads of a warp, or a power of two for so many neighbours, beside which others
+// may do something else. All kSize threads must call its functions together.
 template <unsigned kSize_>
 struct Warp {
   static constexpr unsigned kSize = kSize_;
-  static_assert(kSize == 1 || kSize == kWarpSize, "a thread or a warp");
-  static constexpr unsigned kAll = kSize == kWarpSize ? ~0u : 1u;
+  static_assert(kSize > 0 && kWarpSize % kSize == 0, "whole parts of a warp");
+  static constexpr unsigned kAll = kSize == kWarpSize ? ~0u : (1u << kSize % kWarpSize) - 1;
 
   LSDCD_FN static unsigned rank()
   {
@@ -30,21 +31,21 @@ struct Warp {
   LSDCD_FN static void wait()
   {
 #if LSDCD_ON_GPU()
-    if constexpr (kSize > 1) __syncwarp();
+    if constexpr (kSize > 1) __syncwarp(members());
 #endif
   }
   // A bit for each thread that says yes.
   LSDCD_FN static unsigned vote(bool yes)
   {
 #if LSDCD_ON_GPU()
-    if constexpr (kSize > 1) return __ballot_sync(kAll, yes);
+    if constexpr (kSize > 1) return __ballot_sync(members(), yes) >> shift() & kAll;
 #endif
     return yes;
   }
   LSDCD_FN static bool any(bool yes)
   {
 #if LSDCD_ON_GPU()
-    if constexpr (kSize > 1) return __any_sync(kAll, yes);
+    if constexpr (kSize > 1) return __any_sync(members(), yes);
 #endif
     return yes;
   }
@@ -53,7 +54,7 @@ struct Warp {
   LSDCD_FN static T of(T value, [[maybe_unused]] unsigned rank)
   {
 #if LSDCD_ON_GPU()
-    if constexpr (kSize > 1) return __shfl_sync(kAll, value, rank);
+    if constexpr (kSize > 1) return __shfl_sync(members(), value, rank, kSize);
 #endif
     return value;
   }
@@ -66,7 +67,7 @@ struct Warp {
   LSDCD_FN static T from_below(T value, [[maybe_unused]] unsigned step)
   {
 #if LSDCD_ON_GPU()
-    if constexpr (kSize > 1) return __shfl_up_sync(kAll, value, step);
+    if constexpr (kSize > 1) return __shfl_up_sync(members(), value, step, kSize);
 #endif
     return value;
   }
@@ -75,8 +76,23 @@ struct Warp {
   {
 #if LSDCD_ON_GPU()
     for (unsigned apart = 1; apart < kSize; apart *= 2)
-      value = max(value, __shfl_xor_sync(kAll, value, apart));
+      value = max(value, __shfl_xor_sync(members(), value, apart));
 #endif
+    return value;
+  }
+  // The value of the thread whose rank differs in the bit `apart`; its own where there is none.
+  template <class T>
+  LSDCD_FN static T of_other(T value, [[maybe_unused]] unsigned apart)
+  {
+#if LSDCD_ON_GPU()
+    if constexpr (kSize > 1) return __shfl_xor_sync(members(), value, apart);
+#endif
+    return value;
+  }
+  template <class T>
+  LSDCD_FN static T least(T value)
+  {
+    for (unsigned apart = 1; apart < kSize; apart *= 2) value = fmin(value, of_other(value, apart));
     return value;
   }
 
@@ -116,6 +132,17 @@ struct Warp {
     T at = 0;
     if (rank() == 0 && n > 0) at = atomicAdd(end, static_cast<T>(n));
     return of(at, 0);
+  }
+
+ private:
+  // In the hardware's warp: the rank of the first thread, and a bit for each.
+  __device__ static unsigned shift()
+  {
+    return kSize == kWarpSize ? 0 : threadIdx.x % kWarpSize / kSize * kSize;
+  }
+  __device__ static unsigned members()
+  {
+    return kAll << shift();
   }
 #endif
 };

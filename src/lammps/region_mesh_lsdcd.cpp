@@ -66,8 +66,7 @@ int RegionMeshLsdcd::inside(double x, double y, double z)
   const lsdcd::WindingNumber::Answer at = winding->at(q);
   const bool is_in = at.on_surface || at.number != 0;
   if (!distances || is_in != (interior == 1)) return is_in;
-  const bool is_near =
-      distances->tree.nearest(q, settings.gap, lsdcd::TriangleTree::kNoPrimitive).found();
+  const bool is_near = distances->tree.nearest(q, settings.gap, lsdcd::kNoPrimitive).found();
   return is_near ? !interior : is_in;
 }
 

@@ -44,7 +44,7 @@ class WallClearance {
     TriangleTree tree;
     WallPose pose;
     Box bounds;    // in that pose
-    std::uint32_t hint = TriangleTree::kNoPrimitive;
+    std::uint32_t hint = kNoPrimitive;
 
     Surface(const std::string &fix, std::size_t index, std::uint64_t fingerprint,
             const WallMesh &from) :

@@ -8,9 +8,12 @@
 #include "query/point_work.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace lsdcd {
+
+class TriangleTree;
 
 // A grid on the host, borrowed, with its brick table as bits.
 struct HostGrid {
@@ -33,24 +36,32 @@ struct HostGrid {
 void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<float> &io);
 void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<double> &io);
 
-// A copy of a grid, a flat block, on the CUDA device that is current.
-class DeviceGrid;
-std::shared_ptr<const DeviceGrid> copy_to_cuda(const GridView &grid, const TriangleTable &names);
-int device_of(const DeviceGrid &grid);
-int current_cuda_device();
-
-// A query on a stream (cudaStream_t) of that device, for arrays that the device can read. It does not wait
-// for the stream, unless `radii` have to be checked. Only one thread may use it at a time.
+// A query on a stream (cudaStream_t), for arrays that its device can read. It does not wait for the stream,
+// unless `radii` have to be checked. Only one thread may use it at a time.
 class StreamQuery {
  public:
   virtual ~StreamQuery() = default;
   virtual void answer(const PointArrays<float> &io) = 0;
   virtual void answer(const PointArrays<double> &io) = 0;
 };
-std::unique_ptr<StreamQuery> make_stream_query(std::shared_ptr<const DeviceGrid> grid,
-                                               void *stream);
+
+int current_cuda_device();
+std::string current_cuda_name();
+
+// What queries read, on the CUDA device that was current when it was made.
+class DeviceCopy : public std::enable_shared_from_this<DeviceCopy> {
+ public:
+  virtual ~DeviceCopy() = default;
+  // A query on a stream of that device, null: the default one. It keeps the copy.
+  virtual std::unique_ptr<StreamQuery> query_on(void *stream) const = 0;
+
+  const int device = current_cuda_device();
+};
+// Cells with lists, which answer up to their cutoff, or a tree, which answers at any range.
+std::shared_ptr<const DeviceCopy> copy_to_cuda(const GridView &grid, const TriangleTable &names);
+std::shared_ptr<const DeviceCopy> copy_to_cuda(const TriangleTree &tree);
 
 // Throws InputError naming `what` unless the array is in memory that this device can reach.
-void check_on_device(const DeviceGrid &grid, const void *array, const char *what);
+void check_on_device(int device, const void *array, const char *what);
 
 }    // namespace lsdcd

@@ -5,32 +5,32 @@
 #include "backend/cuda_device.h"
 #include "query/near_first_gpu.h"
 #include "query/point_query.h"
-#include "query/radius_error.h"
+#include "query/radius_check.h"
 
 #include "grid/lookup/grid_on.h"
 
 namespace lsdcd {
 
-class DeviceGrid : public GridOn<CudaBackend> {
+class DeviceGrid : public DeviceCopy, public GridOn<CudaBackend> {
  public:
   DeviceGrid(const GridView &grid, const TriangleTable &names) : GridOn(CudaBackend(), grid, true)
   {
     CudaBackend b;
-    device = current_cuda_device();
     of_face_ = from_host(b, names.of_face);
     of_edge_ = from_host(b, names.of_edge);
     of_vertex_ = from_host(b, names.of_vertex);
     this->names = {of_face_.data(), of_edge_.data(), of_vertex_.data()};
   }
 
-  int device = 0;
+  std::unique_ptr<StreamQuery> query_on(void *stream) const override;
+
   TriangleNames names;
 
  private:
   CudaBackend::Array<std::uint32_t> of_face_, of_edge_, of_vertex_;
 };
 
-std::shared_ptr<const DeviceGrid> copy_to_cuda(const GridView &grid, const TriangleTable &names)
+std::shared_ptr<const DeviceCopy> copy_to_cuda(const GridView &grid, const TriangleTable &names)
 {
   return std::make_shared<const DeviceGrid>(grid, names);
 }
@@ -40,12 +40,12 @@ int current_cuda_device()
   return current_gpu();
 }
 
-int device_of(const DeviceGrid &grid)
+std::string current_cuda_name()
 {
-  return grid.device;
+  return CudaBackend().name();
 }
 
-void check_on_device(const DeviceGrid &grid, const void *array, const char *what)
+void check_on_device(int device, const void *array, const char *what)
 {
   if (!array) return;
   const ArrayPlace place = place_of_array(array);
@@ -53,15 +53,15 @@ void check_on_device(const DeviceGrid &grid, const void *array, const char *what
   if (place.is_managed) return;
   if (!place.is_on_gpu)
     throw InputError(name + "is in the host's memory; a stream's query takes arrays of the device");
-  if (place.device != grid.device)
+  if (place.device != device)
     throw InputError(name + "is on device " + std::to_string(place.device) +
-                     ", the grid's copy on device " + std::to_string(grid.device));
+                     ", the grid's copy on device " + std::to_string(device));
 }
 
 class CudaStreamQuery : public StreamQuery {
  public:
   CudaStreamQuery(std::shared_ptr<const DeviceGrid> grid, void *stream) :
-      grid_(std::move(grid)), b_(stream), too_large_(1)
+      grid_(std::move(grid)), b_(stream), radii_(grid_->view.cutoff)
   {
     way_.template reserve<Sphere>(1);
   }
@@ -82,14 +82,13 @@ class CudaStreamQuery : public StreamQuery {
   void answer_in(const PointArrays<T> &io)
   {
     const OnGpu current(grid_->device);
-    std::uint64_t *too_large = too_large_.data();
-    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *too_large = 0; });
+    const auto check = radii_.template begin<SphereOf<T>>(b_);
     if (io.only_distance())
-      distances_in(io);
+      distances_in(io, check);
     else
-      with_point_work(grid_->view, grid_->table, io, grid_->names, too_large_.data(),
+      with_point_work(grid_->view, grid_->table, io, grid_->names, check.first,
                       [&](const auto &work) { start(work, io.n); });
-    if (io.radii.at) refuse_bad_radius(io);
+    radii_.end(b_, io);
   }
 
   template <class Work>
@@ -100,29 +99,28 @@ class CudaStreamQuery : public StreamQuery {
 
   // Distances alone have kernels of their own, for spheres in the layout that these read.
   template <class T>
-  void distances_in(const PointArrays<T> &io)
+  void distances_in(const PointArrays<T> &io, const TooLarge<SphereOf<T>> &check)
   {
     const SphereOf<T> *spheres = packed(io);
     way_.template reserve<SphereOf<T>>(io.n);
     const AnswerArrays out = answers(io);
     const GridView &grid = grid_->view;
     if (grid.in_floats && grid.nearest == 0)
-      run<BrickDistances, true>(spheres, io.n, out);
+      run<BrickDistances, true>(spheres, io.n, out, check);
     else if (grid.in_floats)
-      run<BrickDistances, false>(spheres, io.n, out);
+      run<BrickDistances, false>(spheres, io.n, out, check);
     else if (grid.nearest == 0)
-      run<WallDistances, true>(spheres, io.n, out);
+      run<WallDistances, true>(spheres, io.n, out, check);
     else
-      run<WallDistances, false>(spheres, io.n, out);
+      run<WallDistances, false>(spheres, io.n, out, check);
     hand_back(io, out);
   }
 
   template <class Distances, bool kComplete, class S>
-  void run(const S *spheres, std::size_t n, const AnswerArrays &out)
+  void run(const S *spheres, std::size_t n, const AnswerArrays &out, const TooLarge<S> &check)
   {
     using Work = GridWork<Distances, S, kComplete>;
     const DeviceGrid &g = *grid_;
-    const TooLarge<S> check = {static_cast<decltype(S::r)>(g.view.cutoff), too_large_.data()};
     way_.run(
         b_, n,
         Work{g.view, g.table, spheres, out, typename Work::Filter(g.view), g.coarse, check, 0});
@@ -197,28 +195,18 @@ class CudaStreamQuery : public StreamQuery {
     }
     return array.data();
   }
-  template <class T>
-  void refuse_bad_radius(const PointArrays<T> &io)
-  {
-    const std::uint64_t first = read_one(b_, too_large_.data());
-    if (first == 0) return;
-    throw_bad_radius(
-        "point", ~first,
-        read_one(b_, io.radii.at + static_cast<std::ptrdiff_t>(~first) * io.radii.step),
-        grid_->view.cutoff);
-  }
-
   std::shared_ptr<const DeviceGrid> grid_;
   CudaBackend b_;
   NearFirst<CudaBackend> way_;
-  CudaBackend::Array<std::uint64_t> too_large_;
+  RadiusCheck<CudaBackend> radii_;
   CudaBackend::Array<char> spheres_, status_, distance_;
 };
 
-std::unique_ptr<StreamQuery> make_stream_query(std::shared_ptr<const DeviceGrid> grid, void *stream)
+std::unique_ptr<StreamQuery> DeviceGrid::query_on(void *stream) const
 {
-  const OnGpu current(device_of(*grid));
-  return std::make_unique<CudaStreamQuery>(std::move(grid), stream);
+  const OnGpu current(device);
+  return std::make_unique<CudaStreamQuery>(
+      std::static_pointer_cast<const DeviceGrid>(shared_from_this()), stream);
 }
 
 }    // namespace lsdcd

@@ -71,24 +71,24 @@ void answer(const HostGrid &grid, const TriangleTable &names, const PointSides &
 }
 
 template <class T>
-void answer(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
-            const PointSides &sides, Real cutoff, const PointArrays<T> &io)
+void answer(const TriangleTree &tree, const NearBoxes *near, const PointSides &sides, Real cutoff,
+            const PointArrays<T> &io)
 {
   answer(sides, false, io,
-         [&](const PointArrays<T> &asked) { answer_points(tree, near, names, cutoff, asked); });
+         [&](const PointArrays<T> &asked) { answer_points(tree, near, cutoff, asked); });
 }
 
 }    // namespace
 
-void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
-                       const PointSides &sides, Real cutoff, const PointArrays<float> &io)
+void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const PointSides &sides,
+                       Real cutoff, const PointArrays<float> &io)
 {
-  answer(tree, near, names, sides, cutoff, io);
+  answer(tree, near, sides, cutoff, io);
 }
-void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
-                       const PointSides &sides, Real cutoff, const PointArrays<double> &io)
+void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const PointSides &sides,
+                       Real cutoff, const PointArrays<double> &io)
 {
-  answer(tree, near, names, sides, cutoff, io);
+  answer(tree, near, sides, cutoff, io);
 }
 
 void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,

@@ -43,10 +43,10 @@ void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const P
                        bool by_normals, const PointArrays<double> &io);
 
 // The same by a tree. All sides are of winding numbers.
-void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
-                       const PointSides &sides, Real cutoff, const PointArrays<float> &io);
-void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
-                       const PointSides &sides, Real cutoff, const PointArrays<double> &io);
+void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const PointSides &sides,
+                       Real cutoff, const PointArrays<float> &io);
+void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const PointSides &sides,
+                       Real cutoff, const PointArrays<double> &io);
 
 // Generalised winding numbers of any mesh, and the sides that are probable by them, which are not certified:
 // `status` gets kSideEstimated. What is null is not asked for. Where a coordinate is no number, neither is the

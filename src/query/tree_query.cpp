@@ -4,7 +4,9 @@
 #include "query/tree_query.h"
 
 #include "backend/backend_cpu.h"
+#include "base/curve.h"
 #include "query/radius_error.h"
+#include "query/tree_answers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +29,7 @@ NearBoxes::NearBoxes(const TriangleTree &tree, const WallMesh &mesh, Real cutoff
   length_ = (std::fmax(size.x, std::fmax(size.y, size.z)) + 2 * pad) / n_;
   per_length_ = 1 / length_;
   bits_.resize(std::size_t(n_) * n_ * n_ / 64);
-  mark(tree, pad, {0, 0, 0}, n_, TriangleTree::kNoPrimitive, progress);
+  mark(tree, pad, {0, 0, 0}, n_, kNoPrimitive, progress);
 }
 
 // Boxes of a larger box, of `size` along each axis, in eight parts of which those that are far are left out.
@@ -63,14 +65,6 @@ constexpr std::size_t kChunk = std::size_t(1) << 20, kFewPoints = 64;
 constexpr std::size_t kInCache = std::size_t(1) << 20;    // bytes
 constexpr std::size_t kAhead = 8;                         // points whose memory is on its way
 constexpr int kCurveBits = 7;                             // an axis
-
-// Every third bit is one of `i`'s, less than 2^7.
-std::uint32_t spread(std::uint32_t i)
-{
-  i = (i | i << 8) & 0x0000f00f;
-  i = (i | i << 4) & 0x000c30c3;
-  return (i | i << 2) & 0x00249249;
-}
 
 // Numbers of points in the order of their places, less than 2^21. By digits, so that all counts of a digit
 // stay in a processor's cache.
@@ -112,11 +106,11 @@ class CurveOrder {
 template <class T>
 class TreeQuery {
  public:
-  TreeQuery(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
-            Real cutoff, const PointArrays<T> &io) :
+  TreeQuery(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
+            const PointArrays<T> &io) :
       tree_(tree),
-      names_(names.view()), near_(near), check_{static_cast<T>(cutoff), &too_large_}, io_(io),
-      only_distance_(io.only_distance())
+      near_(near),
+      io_(io), answers_{tree.view(), io, {static_cast<T>(cutoff), &too_large_}, io.only_distance()}
   {
   }
 
@@ -136,7 +130,7 @@ class TreeQuery {
                         std::min(n, (static_cast<std::size_t>(c) + 1) * chunk));
     }
     if (too_large_ != 0)
-      throw_bad_radius("point", ~too_large_, io_.radii[~too_large_], check_.cutoff);
+      throw_bad_radius("point", ~too_large_, io_.radii[~too_large_], answers_.too_large.cutoff);
   }
 
  private:
@@ -145,13 +139,9 @@ class TreeQuery {
     return io_.points[i];
   }
 
-  std::uint32_t place_on_curve(std::size_t i) const
+  std::uint32_t place(std::size_t i) const
   {
-    const Vec3 at = tree_.place_in_box(point(i));
-    std::uint32_t place = 0;
-    for (int a = 0; a < 3; a++)
-      place |= spread(static_cast<std::uint32_t>(at[a] * ((1 << kCurveBits) - 1))) << a;
-    return place;
+    return place_on_curve(tree_.view().share_of_box(point(i)), kCurveBits);
   }
   // Do most points follow one that is near? Some are looked at.
   bool are_in_order(std::size_t from, std::size_t to) const
@@ -160,7 +150,7 @@ class TreeQuery {
     std::size_t looks = 0, jumps = 0;
     const std::size_t step = std::max<std::size_t>(1, (to - from) / 512);
     for (std::size_t i = from; i + 1 < to; i += step, looks++)
-      jumps += (place_on_curve(i) ^ place_on_curve(i + 1)) >> kSteepBits != 0;
+      jumps += (place(i) ^ place(i + 1)) >> kSteepBits != 0;
     return jumps <= looks / 8;
   }
 
@@ -179,9 +169,9 @@ class TreeQuery {
     if (tree_.bytes() <= kInCache) return answer_in_turn(from, to, false);
     CurveOrder order(to - from);
     for (std::size_t i = from; i < to; i++)
-      if (!is_far(i)) order.add(static_cast<std::uint32_t>(i - from), place_on_curve(i));
+      if (!is_far(i)) order.add(static_cast<std::uint32_t>(i - from), place(i));
     const std::uint32_t *number = order.sort();
-    std::uint32_t hint = TriangleTree::kNoPrimitive;
+    std::uint32_t hint = kNoPrimitive;
     for (std::size_t k = 0; k < order.size(); k++) {
       if (k + kAhead < order.size()) prefetch(from + number[k + kAhead]);
       answer(from + number[k], hint);
@@ -190,72 +180,50 @@ class TreeQuery {
 
   void answer_in_turn(std::size_t from, std::size_t to, bool in_order)
   {
-    std::uint32_t hint = TriangleTree::kNoPrimitive;
+    std::uint32_t hint = kNoPrimitive;
     for (std::size_t i = from; i < to; i++) {
       if (is_far(i)) continue;
       answer(i, hint);
-      if (!in_order) hint = TriangleTree::kNoPrimitive;
+      if (!in_order) hint = kNoPrimitive;
     }
   }
 
-  Real radius(std::size_t i) const
-  {
-    return io_.radii.at ? static_cast<Real>(io_.radii[i]) : io_.radius;
-  }
   // Is nothing near? Then that is its answer.
   bool is_far(std::size_t i) const
   {
-    if (io_.radii.at) check_.note(i, SphereOf<T>{0, 0, 0, io_.radii[i]});
+    answers_.check(i);
     if (!near_) return false;
     const Vec3 q = point(i);
     if (near_->may_be_near(q)) return false;
-    keep(i, q, {kAnyDistance, kNoFeature, TriangleTree::kNoPrimitive});
+    answers_.keep(i, q, {kAnyDistance, kNoFeature, kNoPrimitive});
     return true;
   }
   void answer(std::size_t i, std::uint32_t &hint) const
   {
     const Vec3 q = point(i);
-    const TreeAnswer a = tree_.nearest(q, radius(i), hint);
+    const TreeAnswer a = tree_.nearest(q, answers_.radius(i), hint);
     hint = a.primitive;
-    keep(i, q, a);
-  }
-  void keep(std::size_t i, const Vec3 &q, const TreeAnswer &a) const
-  {
-    if (io_.status) io_.status[i] = (a.found() ? kTouching : 0) | kCertified;
-    if (io_.distance.at) io_.distance[i] = static_cast<T>(a.found() ? a.distance : HUGE_VAL);
-    if (!only_distance_) keep_nearest(i, q, a);
-  }
-
-  void keep_nearest(std::size_t i, const Vec3 &q, const TreeAnswer &a) const
-  {
-    Vec3 point = q, normal = {0, 0, 0};
-    if (a.found() && (io_.closest.at || io_.normal.at)) tree_.closest(a, q, point, normal);
-    if (io_.closest.at) io_.closest.put(i, point);
-    if (io_.normal.at) io_.normal.put(i, normal);
-    if (io_.feature) io_.feature[i] = a.feature;
-    if (io_.triangle) io_.triangle[i] = a.found() ? names_.of(a.feature) : kNoTriangle;
+    answers_.keep(i, q, a);
   }
 
   const TriangleTree &tree_;
-  const TriangleNames names_;
   const NearBoxes *near_;
   std::uint64_t too_large_ = 0;
-  const TooLarge<SphereOf<T>> check_;
   const PointArrays<T> &io_;
-  const bool only_distance_;
+  const TreeAnswers<T> answers_;
 };
 
 }    // namespace
 
-void answer_points(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
-                   Real cutoff, const PointArrays<float> &io)
+void answer_points(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
+                   const PointArrays<float> &io)
 {
-  TreeQuery<float>(tree, near, names, cutoff, io).run();
+  TreeQuery<float>(tree, near, cutoff, io).run();
 }
-void answer_points(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
-                   Real cutoff, const PointArrays<double> &io)
+void answer_points(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
+                   const PointArrays<double> &io)
 {
-  TreeQuery<double>(tree, near, names, cutoff, io).run();
+  TreeQuery<double>(tree, near, cutoff, io).run();
 }
 
 }    // namespace lsdcd

@@ -52,9 +52,9 @@ inline std::size_t bytes_of(const TriangleTree *tree, const NearBoxes *near)
 // far as a point's radius is found; `cutoff` is the largest radius, of `near`, too, which may be null. All but
 // the side, which must not be asked for. Throws InputError if a radius in `radii` exceeds the cutoff; the
 // answers are then undefined.
-void answer_points(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
-                   Real cutoff, const PointArrays<float> &io);
-void answer_points(const TriangleTree &tree, const NearBoxes *near, const TriangleTable &names,
-                   Real cutoff, const PointArrays<double> &io);
+void answer_points(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
+                   const PointArrays<float> &io);
+void answer_points(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
+                   const PointArrays<double> &io);
 
 }    // namespace lsdcd

@@ -6,6 +6,7 @@
 #include "backend/threads.h"
 #include "geometry/closest_point.h"
 #include "mesh/wall_features.h"
+#include "query/tree_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +21,11 @@ namespace lsdcd {
 
 namespace {
 
-// Bounds in float are off by rounding: those of boxes by sqrt(3) half units of the point's largest
-// coordinate, those of planes by six half units of their largest term, twice. Distances are widened by more.
-constexpr float kBoxRounding = 2e-7f, kPlaneRounding = 1.2e-6f, kWiden = 1 + 2e-6f;
-// Float holds the square of this.
-constexpr float kHuge = 1e18f;
-// Farther than this, in units of the mesh's size, the rounding of float would leave too many triangles.
-constexpr Real kFarInUnits = 16;
+template <class Numbers>
+const int *flat(const std::vector<Numbers> &of)
+{
+  return of.empty() ? nullptr : of[0].data();
+}
 
 float below(Real x)
 {
@@ -60,18 +59,11 @@ const Eight &eight(const float *at)
 #endif
 }
 
-struct ToSearch {
-  float distance_sq;
-  std::uint32_t child;
-};
-constexpr int kStack = 128;    // 7 a level, and 12 levels hold more than can be numbered
-
 }    // namespace
 
 TriangleTree::TriangleTree(const WallMesh &mesh, const TriangleTable &names,
                            const ProgressListener &progress) :
-    mesh_(mesh),
-    names_(names)
+    mesh_(mesh)
 {
   std::vector<char> has_face(mesh.vertices.size(), 0);
   for (const auto &face : mesh.faces)
@@ -85,22 +77,21 @@ TriangleTree::TriangleTree(const WallMesh &mesh, const TriangleTable &names,
     if (!has_face[v]) bare_vertices_.push_back(static_cast<std::uint32_t>(v));
 
   const Vec3 lo = mesh.report.lo, hi = mesh.report.hi;
-  origin_ = Real(0.5) * lo + Real(0.5) * hi;
+  view_.origin = Real(0.5) * lo + Real(0.5) * hi;
   Real half = 0;
   for (int k = 0; k < 3; k++)
-    half = std::max(half, std::max(hi[k] - origin_[k], origin_[k] - lo[k]));
+    half = std::max(half, std::max(hi[k] - view_.origin[k], view_.origin[k] - lo[k]));
   int exponent = 0;
   std::frexp(half > 0 ? half : 1, &exponent);
-  scale_ = std::ldexp(Real(1), exponent);
-  inv_scale_ = std::ldexp(Real(1), -exponent);
-  lo_ = lo;
-  for (int k = 0; k < 3; k++) inv_size_[k] = hi[k] > lo[k] ? 1 / (hi[k] - lo[k]) : 0;
+  view_.inv_scale = std::ldexp(Real(1), -exponent);
+  view_.lo = lo;
+  for (int k = 0; k < 3; k++) view_.inv_size[k] = hi[k] > lo[k] ? 1 / (hi[k] - lo[k]) : 0;
 
   const std::size_t n = mesh.faces.size() + bare_edges_.size() + bare_vertices_.size();
-  const std::size_t n_leaves = (n + kWide - 1) / kWide;
-  leaves_ = OwnedArray<Leaf, LargeMemory>(n_leaves);
-  sides_ = OwnedArray<Sides, LargeMemory>(n_leaves);
-  exact_ = OwnedArray<Exact, LargeMemory>(n);
+  const std::size_t n_leaves = (n + kTreeWidth - 1) / kTreeWidth;
+  leaves_ = OwnedArray<TreeLeaf, LargeMemory>(n_leaves);
+  sides_ = OwnedArray<TreeSides, LargeMemory>(n_leaves);
+  primitives_ = OwnedArray<TreePrimitive, LargeMemory>(n);
   std::vector<Item> items(n);
   for (std::size_t i = 0; i < n; i++) {
     const FeatureCode code = primitive_code(static_cast<std::uint32_t>(i));
@@ -108,20 +99,37 @@ TriangleTree::TriangleTree(const WallMesh &mesh, const TriangleTable &names,
     Vec3 centre;
     if (feature_kind(code) == FeatureKind::face) {
       const auto &f = mesh.faces[at];
-      centre = (1. / 3) * (scaled(mesh.vertices[f[0]]) + scaled(mesh.vertices[f[1]]) +
-                           scaled(mesh.vertices[f[2]]));
+      centre = (1. / 3) * (view_.scaled(mesh.vertices[f[0]]) + view_.scaled(mesh.vertices[f[1]]) +
+                           view_.scaled(mesh.vertices[f[2]]));
     } else if (feature_kind(code) == FeatureKind::edge) {
-      centre = Real(0.5) * (scaled(mesh.vertices[mesh.edges[at][0]]) +
-                            scaled(mesh.vertices[mesh.edges[at][1]]));
+      centre = Real(0.5) * (view_.scaled(mesh.vertices[mesh.edges[at][0]]) +
+                            view_.scaled(mesh.vertices[mesh.edges[at][1]]));
     } else {
-      centre = scaled(mesh.vertices[at]);
+      centre = view_.scaled(mesh.vertices[at]);
     }
     items[i] = {
         {static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z)},
         static_cast<std::uint32_t>(i)};
   }
   nodes_.reserve(n_leaves / 7 + 1);
-  root_ = build(items.data(), items.data() + n, 0, all_, progress);
+  face_primitive_.resize(mesh.faces.size());
+  Bounds all;
+  view_.root = build(items.data(), items.data() + n, 0, all, progress);
+  view_.nodes = nodes_.data();
+  view_.leaves = leaves_.data();
+  view_.sides = sides_.data();
+  view_.primitives = primitives_.data();
+  view_.n_primitives = static_cast<std::uint32_t>(n);
+  view_.vertices = mesh.vertices.data();
+  view_.edges = flat(mesh.edges);
+  view_.edge_first = mesh.edge_first.data();
+  view_.edge_face = mesh.edge_face.data();
+  view_.faces = flat(mesh.faces);
+  view_.vertex_first = mesh.vertex_first.data();
+  view_.vertex_edge = mesh.vertex_edge.data();
+  view_.face_primitive = face_primitive_.data();
+  view_.names = names.view();
+  view_.outside = mesh.report.volume < 0 ? -1 : 1;
 }
 
 FeatureCode TriangleTree::primitive_code(std::uint32_t number) const
@@ -141,17 +149,17 @@ std::uint32_t TriangleTree::build(Item *first, Item *last, std::uint32_t slot, B
   constexpr std::size_t kToTell = 4096;    // items, some milliseconds
   const std::size_t n = last - first;
   if (progress && n >= kToTell)
-    progress("tree", static_cast<double>(slot) / static_cast<double>(exact_.size()));
-  if (n <= kWide) {
+    progress("tree", static_cast<double>(slot) / static_cast<double>(primitives_.size()));
+  if (n <= kTreeWidth) {
     make_leaf(first, last, slot, bounds);
-    return slot / kWide | kLeafBit;
+    return slot / kTreeWidth | kTreeLeaf;
   }
-  std::size_t of_child = kWide;
-  while (of_child * kWide < n) of_child *= kWide;
+  std::size_t of_child = kTreeWidth;
+  while (of_child * kTreeWidth < n) of_child *= kTreeWidth;
 
   struct Part {
     Item *first, *last;
-  } part[kWide] = {{first, last}};
+  } part[kTreeWidth] = {{first, last}};
   int n_parts = 1;
   // The largest part is split until all are children.
   for (;;) {
@@ -182,16 +190,16 @@ std::uint32_t TriangleTree::build(Item *first, Item *last, std::uint32_t slot, B
   }
   const std::size_t number = nodes_.size();
   nodes_.emplace_back();
-  for (int k = 0; k < kWide; k++) {
-    Bounds of_part = {{kHuge, kHuge, kHuge}, {-kHuge, -kHuge, -kHuge}};
-    std::uint32_t child = kLeafBit;
+  for (int k = 0; k < kTreeWidth; k++) {
+    Bounds of_part = {{kTreeHuge, kTreeHuge, kTreeHuge}, {-kTreeHuge, -kTreeHuge, -kTreeHuge}};
+    std::uint32_t child = kTreeLeaf;
     if (k < n_parts)
       child = build(part[k].first, part[k].last,
                     slot + static_cast<std::uint32_t>(part[k].first - first), of_part, progress);
-    Node &node = nodes_[number];
+    TreeNode &node = nodes_[number];
     for (int a = 0; a < 3; a++) {
-      node.lo[a][k] = k < n_parts ? of_part.lo[a] : std::numeric_limits<float>::max();
-      node.hi[a][k] = k < n_parts ? of_part.hi[a] : std::numeric_limits<float>::max();
+      node.lo[a][k] = k < n_parts ? of_part.lo[a] : kNoBox;
+      node.hi[a][k] = k < n_parts ? of_part.hi[a] : kNoBox;
       bounds.lo[a] = k == 0 ? of_part.lo[a] : std::min(bounds.lo[a], of_part.lo[a]);
       bounds.hi[a] = k == 0 ? of_part.hi[a] : std::max(bounds.hi[a], of_part.hi[a]);
     }
@@ -203,14 +211,14 @@ std::uint32_t TriangleTree::build(Item *first, Item *last, std::uint32_t slot, B
 void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t slot,
                              Bounds &bounds)
 {
-  Leaf &leaf = leaves_.data()[slot / kWide];
-  leaf = Leaf();
+  TreeLeaf &leaf = leaves_.data()[slot / kTreeWidth];
+  leaf = TreeLeaf();
   const int n = static_cast<int>(last - first);
-  Vec3 corner[kWide][3];
+  Vec3 corner[kTreeWidth][3];
   Vec3 lo = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi = -lo;
   for (int k = 0; k < n; k++) {
-    Exact &e = exact_.data()[slot + k];
-    e = Exact();
+    TreePrimitive &e = primitives_.data()[slot + k];
+    e = TreePrimitive();
     e.code = primitive_code(first[k].number);
     const std::uint32_t at = feature_index(e.code);
     for (int c = 0; c < 3; c++) {
@@ -226,7 +234,7 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
         default:
           e.vertex[c] = at;
       }
-      const Vec3 x = scaled(mesh_.vertices[e.vertex[c]]);
+      const Vec3 x = view_.scaled(mesh_.vertices[e.vertex[c]]);
       corner[k][c] = x;
       for (int a = 0; a < 3; a++) {
         lo[a] = std::min(lo[a], x[a]);
@@ -234,6 +242,7 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
       }
     }
     if (feature_kind(e.code) == FeatureKind::face) {
+      face_primitive_[at] = slot + k;
       const FaceRecord f = make_face_record(
           mesh_.vertices[e.vertex[0]], mesh_.vertices[e.vertex[1]], mesh_.vertices[e.vertex[2]]);
       e.normal = f.normal;
@@ -248,14 +257,14 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
   }
   const Vec3 origin = {leaf.origin[0], leaf.origin[1], leaf.origin[2]};
   Real size = 0;
-  const auto put = [&](float(&normal)[3][kWide], float(&offset)[kWide], int k, const Vec3 &n,
-                       Real at) {
+  const auto put = [&](float(&normal)[3][kTreeWidth], float(&offset)[kTreeWidth], int k,
+                       const Vec3 &n, Real at) {
     for (int a = 0; a < 3; a++) normal[a][k] = static_cast<float>(n[a]);
     offset[k] = static_cast<float>(at);
     size = std::max(size, std::fabs(at));
   };
-  Sides &sides = sides_.data()[slot / kWide];
-  sides = Sides();
+  TreeSides &sides = sides_.data()[slot / kTreeWidth];
+  sides = TreeSides();
   for (int k = 0; k < n; k++)
     for (int c = 0; c < 3; c++) {
       const Vec3 from = corner[k][c] - origin;
@@ -264,13 +273,13 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
       sides.over_square[c][k] = square > Real(1e-30) ? static_cast<float>(1 / square) : 0;
     }
   for (int k = 0; k < n; k++) {
-    const Exact &e = exact_.data()[slot + k];
+    const TreePrimitive &e = primitives_.data()[slot + k];
     const Vec3 anchor = corner[k][0] - origin;
     if (feature_kind(e.code) == FeatureKind::face) {
       put(leaf.normal, leaf.offset, k, e.normal, -dot(e.normal, anchor));
       for (int s = 0; s < 3; s++)
         put(leaf.side[s], leaf.side_offset[s], k, e.inward[s],
-            (s == 1 ? inv_scale_ * e.height : 0) - dot(e.inward[s], anchor));
+            (s == 1 ? view_.inv_scale * e.height : 0) - dot(e.inward[s], anchor));
     } else if (feature_kind(e.code) == FeatureKind::edge) {
       // Between two planes at its ends, and on one along it.
       const Vec3 along = corner[k][1] - corner[k][0];
@@ -287,82 +296,10 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
 
 std::size_t TriangleTree::bytes() const
 {
-  return nodes_.capacity() * sizeof(Node) + leaves_.size() * (sizeof(Leaf) + sizeof(Sides)) +
-         exact_.size() * sizeof(Exact);
-}
-
-Vec3 TriangleTree::place_in_box(const Vec3 &q) const
-{
-  Vec3 at;
-  for (int k = 0; k < 3; k++)
-    at[k] = std::min(std::max(Real(0), (q[k] - lo_[k]) * inv_size_[k]), Real(1));
-  return at;
-}
-
-// ---- distances in double ------------------------------------------------------------------------
-
-// An edge has one direction, a < b, so that all its triangles get the same bits.
-Real TriangleTree::segment(std::uint32_t a, std::uint32_t b, std::uint32_t edge, const Vec3 &q,
-                           FeatureCode &feature) const
-{
-  if (b < a) std::swap(a, b);
-  const Vec3 &from = mesh_.vertices[a], &to = mesh_.vertices[b];
-  const Vec3 along = to - from, d = q - from;
-  const Real length_sq = norm_sq(along), t = dot(along, d);
-  if (!(t > 0) || !(length_sq > 0)) {
-    feature = feature_code(FeatureKind::vertex, a);
-    return norm(d);
-  }
-  if (t >= length_sq) {
-    feature = feature_code(FeatureKind::vertex, b);
-    return norm(q - to);
-  }
-  feature = feature_code(FeatureKind::edge, edge);
-  return norm(d - (t / length_sq) * along);
-}
-
-// The nearest point of a triangle is on its plane where that is inside all sides, else on a side that the
-// point is past.
-Real TriangleTree::exact(std::uint32_t primitive, const Vec3 &q, FeatureCode &feature) const
-{
-  const Exact &e = exact_.data()[primitive];
-  if (feature_kind(e.code) == FeatureKind::face) {
-    const Vec3 d = q - mesh_.vertices[e.vertex[0]];
-    const Real side[3] = {dot(e.inward[0], d), dot(e.inward[1], d) + e.height, dot(e.inward[2], d)};
-    if ((side[0] >= 0) & (side[1] >= 0) & (side[2] >= 0)) {
-      feature = e.code;
-      return std::fabs(dot(e.normal, d));
-    }
-    Real least = kAnyDistance;
-    for (int k = 0; k < 3; k++) {
-      if (side[k] >= 0) continue;
-      FeatureCode here = kNoFeature;
-      const Real distance = segment(e.vertex[k], e.vertex[(k + 1) % 3], e.edge[k], q, here);
-      if (!(distance < least) && !(distance == least && here < feature)) continue;
-      least = distance;
-      feature = here;
-    }
-    return least;
-  }
-  if (feature_kind(e.code) == FeatureKind::edge)
-    return segment(e.vertex[0], e.vertex[1], e.edge[0], q, feature);
-  feature = e.code;
-  return norm(q - mesh_.vertices[e.vertex[0]]);
-}
-
-[[gnu::always_inline]] inline void TriangleTree::attempt(std::uint32_t primitive, const Vec3 &q,
-                                                         TreeAnswer &best) const
-{
-  FeatureCode feature = kNoFeature;
-  const Real distance = exact(primitive, q, feature);
-  if (!(distance <= best.distance)) return;
-  if (distance == best.distance) {
-    if (!best.found() || feature == best.feature) return;
-    const TriangleNames names = names_.view();
-    const std::uint32_t here = names.of(feature), there = names.of(best.feature);
-    if (here > there || (here == there && feature > best.feature)) return;
-  }
-  best = {distance, feature, primitive};
+  return nodes_.capacity() * sizeof(TreeNode) +
+         leaves_.size() * (sizeof(TreeLeaf) + sizeof(TreeSides)) +
+         view_.n_primitives * sizeof(TreePrimitive) +
+         face_primitive_.size() * sizeof face_primitive_[0];
 }
 
 // ---- search -------------------------------------------------------------------------------------
@@ -377,20 +314,20 @@ Real TriangleTree::exact(std::uint32_t primitive, const Vec3 &q, FeatureCode &fe
       kBoxRounding * std::fmax(std::fabs(x), std::fmax(std::fabs(y), std::fabs(z)));
   float most = 0, most_sq = 0;
   const auto bound = [&] {
-    most = static_cast<float>(std::fmin(best.distance * inv_scale_, Real(kHuge))) * kWiden;
+    most = static_cast<float>(std::fmin(best.distance * view_.inv_scale, Real(kTreeHuge))) * kWiden;
     most_sq = (most + rounding) * (most + rounding) * kWiden;
   };
   bound();
-  ToSearch stack[kStack];
+  TreeWaiting stack[kTreeStack];
   int n = 0;
-  std::uint32_t child = root_;
-  const Node *const nodes = nodes_.data();
-  const Leaf *const leaves = leaves_.data();
-  const std::uint32_t n_exact = static_cast<std::uint32_t>(exact_.size());
+  std::uint32_t child = view_.root;
+  const TreeNode *const nodes = nodes_.data();
+  const TreeLeaf *const leaves = leaves_.data();
+  const std::uint32_t n_primitives = view_.n_primitives;
   for (;;) {
     bool is_far = false;
-    while (!(child & kLeafBit)) {
-      const Node &node = nodes[child];
+    while (!(child & kTreeLeaf)) {
+      const TreeNode &node = nodes[child];
       const Eight none = {};
       Eight to_lo = eight(node.lo[0]) - x, to_hi = x - eight(node.hi[0]);
       Eight out = to_lo > to_hi ? to_lo : to_hi;
@@ -409,27 +346,28 @@ Real TriangleTree::exact(std::uint32_t primitive, const Vec3 &q, FeatureCode &fe
         is_far = true;
         break;
       }
-      alignas(32) float of_child[kWide];
+      alignas(32) float of_child[kTreeWidth];
       *reinterpret_cast<Eight *>(of_child) = distance_sq;
       int k = __builtin_ctz(near);
-      ToSearch first = {of_child[k], node.child[k]};
+      TreeWaiting first = {of_child[k], node.child[k]};
       for (near &= near - 1; near != 0; near &= near - 1) {
         k = __builtin_ctz(near);
-        ToSearch next = {of_child[k], node.child[k]};
-        if (next.distance_sq < first.distance_sq) std::swap(first, next);
+        TreeWaiting next = {of_child[k], node.child[k]};
+        if (next.far < first.far) std::swap(first, next);
         stack[n++] = next;
       }
       child = first.child;
     }
     if (!is_far) {
-      const std::uint32_t number = child & ~kLeafBit, slot = number * kWide;
-      const Leaf &leaf = leaves[number];
+      const std::uint32_t number = child & ~kTreeLeaf, slot = number * kTreeWidth;
+      const TreeLeaf &leaf = leaves[number];
       const float dx = static_cast<float>(at.x - leaf.origin[0]),
                   dy = static_cast<float>(at.y - leaf.origin[1]),
                   dz = static_cast<float>(at.z - leaf.origin[2]);
       const Eight height = eight(leaf.normal[0]) * dx + eight(leaf.normal[1]) * dy +
                            eight(leaf.normal[2]) * dz + eight(leaf.offset);
-      Eight past = {-kHuge, -kHuge, -kHuge, -kHuge, -kHuge, -kHuge, -kHuge, -kHuge};
+      Eight past = {-kTreeHuge, -kTreeHuge, -kTreeHuge, -kTreeHuge,
+                    -kTreeHuge, -kTreeHuge, -kTreeHuge, -kTreeHuge};
       for (int s = 0; s < 3; s++) {
         const Eight outside = -(eight(leaf.side[s][0]) * dx + eight(leaf.side[s][1]) * dy +
                                 eight(leaf.side[s][2]) * dz + eight(leaf.side_offset[s]));
@@ -444,11 +382,12 @@ Real TriangleTree::exact(std::uint32_t primitive, const Vec3 &q, FeatureCode &fe
         return l * l * kWiden;
       };
       unsigned near = lanes(distance_sq <= limit());
-      if (slot + kWide > n_exact) near &= (1u << (n_exact - slot)) - 1;
+      if (slot + kTreeWidth > n_primitives) near &= (1u << (n_primitives - slot)) - 1;
       if ((near & (near - 1)) != 0) {
         // Several: past a corner that was too little. Beside a triangle its sides are nearest.
-        const Sides &sides = sides_.data()[number];
-        Eight least = {kHuge, kHuge, kHuge, kHuge, kHuge, kHuge, kHuge, kHuge};
+        const TreeSides &sides = sides_.data()[number];
+        Eight least = {kTreeHuge, kTreeHuge, kTreeHuge, kTreeHuge,
+                       kTreeHuge, kTreeHuge, kTreeHuge, kTreeHuge};
         least *= least;
         for (int s = 0; s < 3; s++) {
           const auto &from = sides.corner[s], &to = sides.corner[s == 2 ? 0 : s + 1];
@@ -466,7 +405,7 @@ Real TriangleTree::exact(std::uint32_t primitive, const Vec3 &q, FeatureCode &fe
         near &= lanes(distance_sq <= limit());
       }
       if (near != 0) {
-        alignas(32) float of_lane[kWide];
+        alignas(32) float of_lane[kTreeWidth];
         *reinterpret_cast<Eight *>(of_lane) = distance_sq;
         while (near != 0) {
           int least = __builtin_ctz(near);
@@ -477,7 +416,7 @@ Real TriangleTree::exact(std::uint32_t primitive, const Vec3 &q, FeatureCode &fe
           if (of_lane[least] > limit()) break;
           near &= ~(1u << least);
           if (slot + least == best.primitive) continue;
-          attempt(slot + least, q, best);
+          view_.attempt(slot + least, q, best);
           bound();
         }
       }
@@ -485,7 +424,7 @@ Real TriangleTree::exact(std::uint32_t primitive, const Vec3 &q, FeatureCode &fe
     do {
       if (n == 0) return;
       n--;
-    } while (stack[n].distance_sq > most_sq);
+    } while (stack[n].far > most_sq);
     child = stack[n].child;
   }
 }
@@ -502,43 +441,10 @@ void TriangleTree::search_near_plain(const Vec3 &q, const Vec3 &at, TreeAnswer &
 }
 #endif
 
-// The same with boxes in double and without planes.
-void TriangleTree::search_far(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const
+void TriangleTree::search_far(const Vec3 &q, TreeAnswer &best) const
 {
-  struct FarChild {
-    Real distance;
-    std::uint32_t child;
-  } stack[kStack];
-  int n = 0;
-  const Real largest = std::fmax(std::fabs(at.x), std::fmax(std::fabs(at.y), std::fabs(at.z)));
-  const auto most = [&] { return best.distance * inv_scale_ + 64 * kRoundoff * largest; };
-  FarChild here = {0, root_};
-  const std::uint32_t n_exact = static_cast<std::uint32_t>(exact_.size());
-  for (;;) {
-    if (here.child & kLeafBit) {
-      const std::uint32_t slot = (here.child & ~kLeafBit) * kWide;
-      for (std::uint32_t p = slot; p < std::min(slot + kWide, n_exact); p++) attempt(p, q, best);
-    } else {
-      const Node &node = nodes_[here.child];
-      const int base = n;
-      for (int k = 0; k < kWide; k++) {
-        if (node.lo[0][k] == std::numeric_limits<float>::max()) continue;
-        Vec3 out;
-        for (int a = 0; a < 3; a++)
-          out[a] = std::fmax(0, std::fmax(node.lo[a][k] - at[a], at[a] - node.hi[a][k]));
-        const FarChild next = {norm(out), node.child[k]};
-        if (!(next.distance <= most())) continue;
-        int to = n++;
-        for (; to > base && stack[to - 1].distance < next.distance; to--) stack[to] = stack[to - 1];
-        stack[to] = next;
-      }
-    }
-    do {
-      if (n == 0) return;
-      n--;
-    } while (!(stack[n].distance <= most()));
-    here = stack[n];
-  }
+  TreeWaiting stack[kTreeStack];
+  search_tree<TreeBoundsDouble>(view_, Warp<1>(), q, stack, best);
 }
 
 bool &TriangleTree::wide()
@@ -554,12 +460,12 @@ bool &TriangleTree::wide()
 TreeAnswer TriangleTree::nearest(const Vec3 &q, Real radius, std::uint32_t hint) const
 {
   TreeAnswer best = {radius, kNoFeature, kNoPrimitive};
-  const Vec3 at = scaled(q);
+  const Vec3 at = view_.scaled(q);
   const Real largest = std::fmax(std::fabs(at.x), std::fmax(std::fabs(at.y), std::fabs(at.z)));
   // No numbers are far from everything.
   if (at.x - at.x == 0 && at.y - at.y == 0 && at.z - at.z == 0) {
-    if (hint != kNoPrimitive) attempt(hint, q, best);
-    if (!(largest <= kFarInUnits)) search_far(q, at, best);
+    if (hint != kNoPrimitive) view_.attempt(hint, q, best);
+    if (!(largest <= kFarInUnits)) search_far(q, best);
 #if defined(__x86_64__)
     else if (wide())
       search_near_avx2(q, at, best);
@@ -574,72 +480,10 @@ TreeAnswer TriangleTree::nearest(const Vec3 &q, Real radius, std::uint32_t hint)
 bool TriangleTree::is_within(const Vec3 &q, Real radius, std::uint32_t &hint) const
 {
   FeatureCode feature = kNoFeature;
-  if (hint != kNoPrimitive && exact(hint, q, feature) < radius) return true;
+  if (hint != kNoPrimitive && view_.exact(hint, q, feature) < radius) return true;
   const TreeAnswer a = nearest(q, radius, kNoPrimitive);
   if (a.found()) hint = a.primitive;
   return a.found();
-}
-
-// ---- closest points -----------------------------------------------------------------------------
-
-void TriangleTree::closest(const TreeAnswer &answer, const Vec3 &q, Vec3 &point, Vec3 &normal) const
-{
-  const std::uint32_t i = feature_index(answer.feature);
-  if (feature_kind(answer.feature) == FeatureKind::face) {
-    const Exact &e = exact_.data()[answer.primitive];
-    normal = dot(e.normal, q - mesh_.vertices[e.vertex[0]]) < 0 ? -e.normal : e.normal;
-    point = q - answer.distance * normal;
-    return;
-  }
-  const bool is_edge = feature_kind(answer.feature) == FeatureKind::edge;
-  Vec3 along = {0, 0, 0};
-  if (is_edge) {
-    const Vec3 &from = mesh_.vertices[mesh_.edges[i][0]];
-    along = mesh_.vertices[mesh_.edges[i][1]] - from;
-    point = from + (dot(along, q - from) / norm_sq(along)) * along;
-  } else {
-    point = mesh_.vertices[i];
-  }
-  const Vec3 apart = q - point;
-  const Real distance = norm(apart);
-  if (distance > kNoDistance) {
-    normal = (1 / distance) * apart;
-    return;
-  }
-  // q is there: the normal points away from the faces of the edge, or from the edges of the vertex.
-  Vec3 away = {0, 0, 0};
-  const auto leave = [&](const Vec3 &to) {
-    const Real length = norm(to);
-    if (length > 0) away -= (1 / length) * to;
-  };
-  if (is_edge) {
-    for (int k = mesh_.edge_first[i]; k < mesh_.edge_first[i + 1]; k++)
-      for (const int v : mesh_.faces[mesh_.edge_face[k]])
-        if (v != mesh_.edges[i][0] && v != mesh_.edges[i][1]) {
-          const Vec3 to = mesh_.vertices[v] - point;
-          leave(to - (dot(to, along) / norm_sq(along)) * along);
-        }
-  } else {
-    for (int k = mesh_.vertex_first[i]; k < mesh_.vertex_first[i + 1]; k++) {
-      const auto &ends = mesh_.edges[mesh_.vertex_edge[k]];
-      along = mesh_.vertices[ends[ends[0] == static_cast<int>(i)]] - point;
-      leave(along);
-    }
-  }
-  const Real length = norm(away);
-  if (length > Real(1e-6)) {
-    normal = (1 / length) * away;
-    return;
-  }
-  // Its faces are flat there: the normal is that of one of them.
-  normal = any_perpendicular(along);
-  if (!is_edge && mesh_.vertex_first[i] == mesh_.vertex_first[i + 1]) return;
-  const int edge = is_edge ? static_cast<int>(i) : mesh_.vertex_edge[mesh_.vertex_first[i]];
-  if (mesh_.edge_first[edge] < mesh_.edge_first[edge + 1]) {
-    const auto &f = mesh_.faces[mesh_.edge_face[mesh_.edge_first[edge]]];
-    normal =
-        make_face_record(mesh_.vertices[f[0]], mesh_.vertices[f[1]], mesh_.vertices[f[2]]).normal;
-  }
 }
 
 }    // namespace lsdcd

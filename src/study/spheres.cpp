@@ -4,6 +4,7 @@
 #include "study/spheres.h"
 
 #include "backend/backend_cpu.h"
+#include "base/curve.h"
 
 namespace lsdcd {
 
@@ -11,27 +12,13 @@ namespace {
 
 constexpr int kCurveBits = 10;
 
-// Spreads the lowest ten bits to every third place.
-std::uint32_t spread(std::uint32_t x)
-{
-  x = (x | x << 16) & 0x030000ff;
-  x = (x | x << 8) & 0x0300f00f;
-  x = (x | x << 4) & 0x030c30c3;
-  return (x | x << 2) & 0x09249249;
-}
-
 }    // namespace
 
 std::uint32_t place_on_curve(const SphereBox &box, const Vec3 &at)
 {
-  std::uint32_t key = 0;
-  for (int k = 0; k < 3; k++) {
-    const Real share = (at[k] - box.lo[k]) / (box.hi[k] - box.lo[k]);
-    const int most = (1 << kCurveBits) - 1;
-    const int step = static_cast<int>(share * (most + 1));
-    key |= spread(static_cast<std::uint32_t>(step < most ? step : most)) << k;
-  }
-  return key;
+  Vec3 share;
+  for (int k = 0; k < 3; k++) share[k] = (at[k] - box.lo[k]) / (box.hi[k] - box.lo[k]);
+  return place_on_curve(share, kCurveBits);
 }
 
 std::vector<Sphere> make_spheres(const SphereBox &box, std::size_t n, Order order)

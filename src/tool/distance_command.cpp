@@ -26,7 +26,7 @@ namespace {
 struct Options {
   std::string mesh, points, output, device = "auto";
   std::vector<double> scale;
-  double weld = -1, cell = 0, memory = 0;
+  double weld = -1;
   double radius = 0;    // 0: any distance
   std::size_t block = 1 << 18;
   int threads = 0;
@@ -160,16 +160,10 @@ void distance(const Options &o)
   open_answers(o.output, false,
                SideKind::none);    // throws before the work if it cannot be written
   const WallMesh mesh = load_wall(o.mesh, o.scale, o.weld);
-  GridSettings settings;
-  settings.cutoff = o.radius;
-  settings.length = o.cell;
-  settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
-  settings.limited = true;
   Progress progress(o.progress);
-  settings.progress = [&](const std::string &what, double share) {
-    progress.show(progress_text(what, share));
-  };
-  const auto answers = make_point_answers(mesh, settings, o.device, o.estimate_sides);
+  const auto answers = make_point_answers(
+      mesh, o.radius, o.device, o.estimate_sides,
+      [&](const std::string &what, double share) { progress.show(progress_text(what, share)); });
   progress.clear();
   print(o, stream(o, *reader, *answers), *answers);
 }
@@ -195,10 +189,6 @@ void add_distance_command(Command &program)
       .check(above_zero);
   add_scale_option(command, o->scale);
   add_weld_option(command, o->weld);
-  command.option("--grid", o->cell, "cell length, on a GPU (default: chosen)").check(above_zero);
-  command
-      .option("--memory", o->memory, "of the grid, in MB, on a GPU (default: 1024 beside the mesh)")
-      .check(above_zero);
   command.option("--device", o->device, "that answers")
       .one_of({"auto", "cpu", "cuda"})
       .shows_default();

@@ -6,7 +6,7 @@
 #include "backend/backend_cpu.h"
 #include "base/input_error.h"
 #include "engine/wall_engine.h"
-#include "grid/flat_grid.h"
+#include "mesh/meets_itself.h"
 #include "query/point_sides.h"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ class CpuAnswers : public PointAnswers {
     io.triangle = a.triangle.data();
     io.feature = a.feature.data();
     if (sides == SideKind::exact) io.side = a.side.data();
-    answer_with_sides(tree_, near_ ? &*near_ : nullptr, names_, sides_, io.radius, io);
+    answer_with_sides(tree_, near_ ? &*near_ : nullptr, sides_, io.radius, io);
     if (sides == SideKind::estimated) estimate(sides_, points, a);
   }
 
@@ -117,11 +117,15 @@ class DeviceArray {
 
 class CudaAnswers : public PointAnswers {
  public:
-  CudaAnswers(const WallMesh &mesh, const TriangleGrid &grid) : sides_(mesh)
+  CudaAnswers(const WallMesh &mesh, Real cutoff, const ProgressListener &progress) :
+      cutoff_(cutoff), sides_(mesh),
+      sides_by_normals_(mesh.report.closed && mesh.report.oriented && meets_itself(mesh).pairs == 0)
   {
-    const FlatGrid flat(grid);
-    radius_ = flat.view().cutoff;
-    query_ = make_stream_query(copy_to_cuda(flat.view(), TriangleTable(mesh)), nullptr);
+    const TriangleTable names(mesh);
+    const TriangleTree tree(mesh, names, progress);
+    query_ = copy_to_cuda(tree)->query_on(nullptr);
+    report.bytes = tree.bytes();
+    report.device = current_cuda_name();
   }
   void answer(const PointBlock &points, AnswerBlock &a) override
   {
@@ -131,20 +135,20 @@ class CudaAnswers : public PointAnswers {
     points_.take(points.xyz);
     PointArrays<double> io;
     io.n = n;
-    io.radius = radius_;
+    io.radius = cutoff_ > 0 ? cutoff_ : kAnyDistance;
     io.points = packed<const double>(points_.of(3 * n));
     io.distance = {distance_.of(n), 1};
     io.closest = packed(closest_.of(3 * n));
     io.triangle = triangle_.of(n);
     io.feature = feature_.of(n);
-    if (sides_by_normals) io.side = side_.of(n);
+    if (sides_by_normals_) io.side = side_.of(n);
     query_->answer(io);
     check(cudaStreamSynchronize(nullptr), "answering");
     distance_.give(a.distance);
     closest_.give(a.closest);
     triangle_.give(a.triangle);
     feature_.give(a.feature);
-    if (sides_by_normals)
+    if (sides_by_normals_)
       side_.give(a.side);
     else
       std::fill(a.side.begin(), a.side.end(), std::int8_t(0));
@@ -153,52 +157,37 @@ class CudaAnswers : public PointAnswers {
   }
 
  private:
+  Real cutoff_;
   PointSides sides_;
-  Real radius_ = 0;
+  bool sides_by_normals_;
   std::unique_ptr<StreamQuery> query_;
   DeviceArray<double> points_, distance_, closest_;
   DeviceArray<std::uint32_t> triangle_, feature_;
   DeviceArray<std::int8_t> side_;
 };
 
-#else
-
 #endif
 
 }    // namespace
 
-std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, const GridSettings &settings,
-                                                 const std::string &device, bool estimate)
+std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, Real cutoff,
+                                                 const std::string &device, bool estimate,
+                                                 const ProgressListener &progress)
 {
   std::string why;
-  const bool on_cuda =
-      (device == "cuda" || (device == "auto" && settings.cutoff > 0)) && cuda_available(&why);
+  const bool on_cuda = device != "cpu" && cuda_available(&why);
   if (device == "cuda" && !on_cuda)
     throw InputError("--device cuda: " + why + "; use --device cpu");
-  if (on_cuda && !(settings.cutoff > 0))
-    throw InputError(
-        "--device cuda finds distances up to a radius: give --radius, or use --device cpu");
   const auto start = std::chrono::steady_clock::now();
-  if (!on_cuda) {
-    auto made = std::make_unique<CpuAnswers>(mesh, settings.cutoff, settings.progress);
-    made->sides = sides_of(mesh, estimate);
-    made->report.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return made;
-  }
+  std::unique_ptr<PointAnswers> made;
 #if defined(LSDCD_HAVE_CUDA)
-  GridSettings of_grid = settings;
-  of_grid.sides = mesh.report.closed && mesh.report.oriented;
-  of_grid.purpose = GridPurpose::points;
-  const TriangleGrid grid = build_grid(mesh, of_grid, true);
-  auto made = std::make_unique<CudaAnswers>(mesh, grid);
-  made->sides_by_normals = of_grid.sides && grid.outside != 0;
-  made->sides = made->sides_by_normals ? SideKind::exact : sides_of(mesh, estimate);
-  made->report = grid.report;
-  return made;
-#else
-  return nullptr;    // there is no CUDA
+  if (on_cuda) made = std::make_unique<CudaAnswers>(mesh, cutoff, progress);
 #endif
+  if (!made) made = std::make_unique<CpuAnswers>(mesh, cutoff, progress);
+  made->sides = sides_of(mesh, estimate);
+  made->report.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return made;
 }
 
 }    // namespace lsdcd

@@ -4,7 +4,7 @@
 // Distances of blocks of points to a mesh, on the CPU or a CUDA device.
 #pragma once
 
-#include "grid/triangle_grid.h"
+#include "base/progress.h"
 #include "mesh/wall_mesh.h"
 #include "tool/answer_writer.h"
 
@@ -19,13 +19,18 @@ class PointAnswers {
   virtual void answer(const PointBlock &points, AnswerBlock &answers) = 0;
 
   SideKind sides = SideKind::none;
-  bool sides_by_normals = false;
-  GridReport report;
+  // What was set up.
+  struct Report {
+    std::size_t bytes = 0;
+    double seconds = 0;
+    std::string device;
+  } report;
 };
 
-// By a tree on a CPU, by a grid of these settings on a GPU. Their cutoff is 0 for any distance. device: auto, cpu or cuda.
-// `estimate`: of a mesh without sides those that are probable. Throws InputError.
-std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, const GridSettings &settings,
-                                                 const std::string &device, bool estimate);
+// By a tree, the same answers on each device: auto (a GPU where there is one), cpu or cuda. `cutoff`: nothing as far as
+// this is found; 0: any distance. `estimate`: of a mesh without sides those that are probable. Throws InputError.
+std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, Real cutoff,
+                                                 const std::string &device, bool estimate,
+                                                 const ProgressListener &progress);
 
 }    // namespace lsdcd

@@ -329,8 +329,9 @@ TEST(library, a_shell_that_cuts_itself_has_sides_from_a_cache_too)
     const lsdcd::Grid grid(mesh, options);
     EXPECT_EQ(bool(grid.facts().from_cache), again && options.cache);
     EXPECT_TRUE(grid.facts().has_sides);
-    if (options.cache)    // else no cells are made
+    if (options.cache) {    // else no cells are made
       EXPECT_NE(grid.report().find("sides on the host alone"), std::string::npos) << grid.report();
+    }
     // In the box, where its corner was, in the part that came out, and beside that.
     const All<double> a(grid, {0.9, 0.9, 0.9, 0.05, 0.05, 0.05, 1.1, 0.45, 0.25, 1.5, 0.9, 0.9},
                         true);
@@ -629,16 +630,6 @@ TEST(library, options_of_cells_need_a_cutoff)
     EXPECT_EQ(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_ARGUMENT);
     EXPECT_NE(std::strstr(lsdcd_last_error(), "need a cutoff"), nullptr) << lsdcd_last_error();
   }
-}
-
-TEST(library, a_gpu_needs_a_cutoff)
-{
-  if (!lsdcd_has_cuda()) GTEST_SKIP() << lsdcd_last_error();
-  const lsdcd::Grid grid{lsdcd::Mesh(numbers(box_and_cylinder()))};
-  lsdcd_stream *s = nullptr;
-  EXPECT_EQ(lsdcd_stream_open(grid.get(), nullptr, &s), LSDCD_ERROR_CUTOFF);
-  EXPECT_NE(std::strstr(lsdcd_last_error(), "build one with a cutoff"), nullptr)
-      << lsdcd_last_error();
 }
 
 TEST(library, a_point_that_is_no_number_is_far)

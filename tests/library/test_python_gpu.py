@@ -19,6 +19,7 @@ import lsdcd
 from lsdcd import _arrays
 
 CUTOFF, N = 2.0, 200000
+TETRAHEDRON = np.array([[0, 0, 0], [90, 0, 0], [0, 90, 0], [0, 0, 90]])[[[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]]
 WANT = "distance closest normal triangle status"
 failed = 0
 
@@ -145,8 +146,13 @@ def check(library, grid):
     none = grid.query(library.give(np.zeros((0, 3))), "distance closest")
     fact(say("no points"), tuple(none.distance.shape) == (0,) and tuple(none.closest.shape) == (0, 3))
     refused(say("whole numbers are refused"), "convert", lambda: grid.query(library.give(points.astype(np.int32))))
-    refused(say("a grid without a cutoff is refused"), "cutoff",
-            lambda: lsdcd.Mesh([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]).grid().query(library.give(points)))
+    # Without a cutoff a tree answers: one source for both, so the same numbers.
+    tree = lsdcd.Mesh(TETRAHEDRON).grid()
+    far = points * 100
+    answer, host = tree.query(library.give(far), WANT + " side"), tree.query(far, WANT + " side")
+    fact(say("at any distance as on the host"),
+         all((library.take(getattr(answer, name)) == getattr(host, name)).all() for name in ("distance", "closest", "side"))
+         and (library.take(answer.triangle).astype(np.uint32) == host.triangle).all())
     refused(say("an answer on the host is refused"), "on the host", lambda: grid.query(library.give(points), out={"distance": distance}))
     if library.own:
         check_in_place(library, grid, say, *heights("float32"))

@@ -7,7 +7,10 @@
 #include "support/random_mesh.h"
 
 #include "base/input_error.h"
+#include "mesh/meets_itself.h"
+#include "mesh/winding_number.h"
 #include "query/tree_query.h"
+#include "query/tree_search.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +21,7 @@
 namespace lsdcd {
 namespace {
 
-constexpr std::uint32_t kNoHint = TriangleTree::kNoPrimitive;
+constexpr std::uint32_t kNoHint = kNoPrimitive;
 
 struct Case {
   TriangleSoup soup;
@@ -143,6 +146,47 @@ TEST(triangle_tree, closest_points_lie_where_they_say)
     }
 }
 
+// A GPU's threads share this search; here one thread is all of them.
+TEST(triangle_tree, the_search_for_gpus_finds_the_same)
+{
+  for (const auto &c : all_cases())
+    for (const Vec3 &q : c->points(200, 13)) {
+      const Vec3 at = c->tree.view().scaled(q);
+      if (std::fmax(std::fabs(at.x), std::fmax(std::fabs(at.y), std::fabs(at.z))) > kFarInUnits)
+        continue;
+      for (const Real radius : {kAnyDistance, 0.1 * c->diagonal}) {
+        TreeWaiting stack[kTreeStack];
+        TreeAnswer a = {radius, kNoFeature, kNoPrimitive};
+        search_tree<TreeBoundsFloat>(c->tree.view(), Warp<1>(), q, stack, a);
+        if (!a.found()) a.distance = kAnyDistance;
+        ASSERT_TRUE(same(a, c->tree.nearest(q, radius, kNoHint))) << c->soup.source;
+      }
+    }
+}
+
+// Winding numbers are exact. A point is left out where rounding cannot tell it from one on the mesh.
+TEST(triangle_tree, normals_tell_the_sides_that_winding_numbers_tell)
+{
+  std::size_t inside = 0;
+  for (const auto &c : all_cases()) {
+    if (!c->mesh.report.closed || !c->mesh.report.oriented || meets_itself(c->mesh).pairs > 0)
+      continue;
+    const WindingNumber winding(c->mesh);
+    for (const Vec3 &q : c->points(500, 14)) {
+      const TreeAnswer a = c->tree.nearest(q, kAnyDistance, kNoHint);
+      if (a.distance < c->tolerance(0)) continue;
+      Vec3 point, normal;
+      c->tree.closest(a, q, point, normal);
+      const int side = c->tree.view().side(a, q, point, normal);
+      // Of facets without area, which have no side.
+      const bool has_face = c->names.view().of(a.feature) != kNoTriangle;
+      ASSERT_EQ(side, has_face ? winding.side(q) : 0) << c->soup.source;
+      inside += side < 0;
+    }
+  }
+  EXPECT_GT(inside, 100u);
+}
+
 // More than stays in a cache, so that the points are put in order.
 TEST(triangle_tree, many_points_get_what_each_alone_gets)
 {
@@ -160,7 +204,7 @@ TEST(triangle_tree, many_points_get_what_each_alone_gets)
     io.feature = feature.data();
     std::unique_ptr<NearBoxes> near;
     if (cutoff > 0) near = std::make_unique<NearBoxes>(c.tree, c.mesh, cutoff);
-    answer_points(c.tree, near.get(), c.names, io.radius, io);
+    answer_points(c.tree, near.get(), io.radius, io);
     std::size_t found = 0;
     for (std::size_t i = 0; i < points.size(); i++) {
       const TreeAnswer alone = c.tree.nearest(points[i], io.radius, kNoHint);

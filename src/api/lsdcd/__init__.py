@@ -378,8 +378,7 @@ class Grid(_Owner):
 
         points: float32, or float64, which all else becomes; of any layout, on the host. Those of PyTorch, CuPy, JAX and
         others that have `__dlpack__` or `__cuda_array_interface__` are read in place, and PyTorch's and CuPy's answered
-        by arrays of theirs. On a CUDA device they are float32 or float64, with one step from point to point, and the
-        grid has a cutoff.
+        by arrays of theirs. On a CUDA device they are float32 or float64, with one step from point to point.
         radius: > 0, one of all, or (...) in the points' type: nothing at it or farther is found. By default the cutoff,
         or any distance.
         threads: on the host; 0: OMP_NUM_THREADS, or one.

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a tree's query reads of each point, and what it writes of the answer, on the CPU and on a GPU.
+#pragma once
+
+#include "query/point_work.h"
+#include "query/tree_view.h"
+
+namespace lsdcd {
+
+template <class T>
+struct TreeAnswers {
+  TreeView tree;
+  PointArrays<T> io;
+  TooLarge<SphereOf<T>> too_large;
+  bool only_distance;
+
+  LSDCD_FN Real radius(std::size_t i) const
+  {
+    return io.radii.at ? static_cast<Real>(io.radii[i]) : io.radius;
+  }
+  LSDCD_FN void check(std::size_t i) const
+  {
+    if (io.radii.at) too_large.note(i, SphereOf<T>{0, 0, 0, io.radii[i]});
+  }
+  LSDCD_FN void keep(std::size_t i, const Vec3 &q, const TreeAnswer &a) const
+  {
+    if (io.status) io.status[i] = (a.found() ? kTouching : 0) | kCertified;
+    if (io.distance.at) io.distance[i] = static_cast<T>(a.found() ? a.distance : HUGE_VAL);
+    if (!only_distance) keep_nearest(i, q, a);
+  }
+
+ private:
+  LSDCD_FN void keep_nearest(std::size_t i, const Vec3 &q, const TreeAnswer &a) const
+  {
+    Vec3 point = q, normal = {0, 0, 0};
+    if (a.found() && (io.closest.at || io.normal.at || io.side)) tree.closest(a, q, point, normal);
+    if (io.closest.at) io.closest.put(i, point);
+    if (io.normal.at) io.normal.put(i, normal);
+    if (io.feature) io.feature[i] = a.feature;
+    if (io.triangle) io.triangle[i] = a.found() ? tree.names.of(a.feature) : kNoTriangle;
+    if (io.side) io.side[i] = a.found() ? tree.side(a, q, point, normal) : 0;
+  }
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The search of a tree for the nearest triangle by a thread, or by threads that share it: each takes some of
+// the eight boxes of a node, of the eight triangles of a leaf.
+#pragma once
+
+#include "backend/bits.h"
+#include "backend/warp.h"
+#include "query/tree_view.h"
+
+namespace lsdcd {
+
+// A node or leaf that waits, and a number that is lower where it is nearer, rounded down.
+struct TreeWaiting {
+  float far;
+  std::uint32_t child;
+};
+
+// How far boxes and triangles are at least, in float. Boxes are compared by the square of the distance.
+class TreeBoundsFloat {
+ public:
+  using Type = float;
+
+  LSDCD_FN explicit TreeBoundsFloat(const Vec3 &at) :
+      at_(at), near_(vec_cast<float>(at)),
+      rounding_(kBoxRounding * fmax(fabs(near_.x), fmax(fabs(near_.y), fabs(near_.z))))
+  {
+  }
+  // The distance of what has been found.
+  LSDCD_FN void set_most(Real most)
+  {
+    most_ = static_cast<float>(fmin(most, Real(kTreeHuge))) * kWiden;
+    most_sq_ = (most_ + rounding_) * (most_ + rounding_) * kWiden;
+  }
+  LSDCD_FN float box(const TreeNode &node, unsigned k) const
+  {
+    float sum = 0;
+    for (int a = 0; a < 3; a++) {
+      const float out = fmax(0.0f, fmax(node.lo[a][k] - near_[a], near_[a] - node.hi[a][k]));
+      sum += out * out;
+    }
+    return sum;
+  }
+  LSDCD_FN bool is_near(float far) const { return far <= most_sq_; }
+  LSDCD_FN static float rounded_down(float far) { return far; }
+
+  // Of a leaf's triangles a bit for each that may be nearest.
+  template <unsigned kSize>
+  LSDCD_FN unsigned near_in(const TreeLeaf &leaf, const TreeSides &sides,
+                            const Warp<kSize> &warp) const
+  {
+    const Vec3Of<float> d =
+        vec_cast<float>(at_ - Vec3{leaf.origin[0], leaf.origin[1], leaf.origin[2]});
+    const float rounding = kPlaneRounding * (fabs(d.x) + fabs(d.y) + fabs(d.z) + leaf.size),
+                limit = (most_ + rounding) * (most_ + rounding) * kWiden;
+    unsigned near = 0, beside = 0;
+    for (unsigned k = warp.rank(), at = 0; k < kTreeWidth; k += kSize, at += kSize) {
+      float past = 0;
+      for (int s = 0; s < 3; s++)
+        past = fmax(past, -(leaf.side[s][0][k] * d.x + leaf.side[s][1][k] * d.y +
+                            leaf.side[s][2][k] * d.z + leaf.side_offset[s][k]));
+      const float height = leaf.normal[0][k] * d.x + leaf.normal[1][k] * d.y +
+                           leaf.normal[2][k] * d.z + leaf.offset[k];
+      near |= warp.vote(height * height + past * past <= limit) << at;
+      beside |= warp.vote(past > rounding) << at;
+    }
+    // Several: past a corner that was too little. Beside a triangle its sides are nearest.
+    beside &= near;
+    if ((near & (near - 1)) == 0 || beside == 0) return near;
+    for (unsigned k = warp.rank(), at = 0; k < kTreeWidth; k += kSize, at += kSize) {
+      float least = kTreeHuge * kTreeHuge;
+      for (int s = 0; s < 3; s++) {
+        const auto &from = sides.corner[s], &to = sides.corner[s == 2 ? 0 : s + 1];
+        const Vec3Of<float> a = {from[0][k], from[1][k], from[2][k]},
+                            along = Vec3Of<float>{to[0][k], to[1][k], to[2][k]} - a, p = d - a;
+        const float t = fmin(1.0f, fmax(0.0f, dot(p, along) * sides.over_square[s][k]));
+        least = fmin(least, norm_sq(p - t * along));
+      }
+      near &= ~(beside & warp.vote(!(least <= limit)) << at);
+    }
+    return near;
+  }
+
+ private:
+  Vec3 at_;
+  Vec3Of<float> near_;
+  float rounding_, most_ = 0, most_sq_ = 0;
+};
+
+// The same in double and without planes, for points so far away that float would leave too many. Boxes are
+// compared by the distance.
+class TreeBoundsDouble {
+ public:
+  using Type = Real;
+
+  LSDCD_FN explicit TreeBoundsDouble(const Vec3 &at) :
+      at_(at), rounding_(64 * kRoundoff * fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z))))
+  {
+  }
+  LSDCD_FN void set_most(Real most) { most_ = most + rounding_; }
+  LSDCD_FN Real box(const TreeNode &node, unsigned k) const
+  {
+    Vec3 out;
+    for (int a = 0; a < 3; a++)
+      out[a] = fmax(Real(0), fmax(node.lo[a][k] - at_[a], at_[a] - node.hi[a][k]));
+    return node.lo[0][k] == kNoBox ? HUGE_VAL : norm(out);
+  }
+  LSDCD_FN bool is_near(Real far) const { return far <= most_; }
+  LSDCD_FN static float rounded_down(Real far)
+  {
+    return static_cast<float>(fmin(far, Real(kNoBox))) * (1 - 2.4e-7f);
+  }
+  template <unsigned kSize>
+  LSDCD_FN unsigned near_in(const TreeLeaf &, const TreeSides &, const Warp<kSize> &) const
+  {
+    return (1u << kTreeWidth) - 1;
+  }
+
+ private:
+  Vec3 at_;
+  Real rounding_, most_ = 0;
+};
+
+// What is nearer to q than `best`, or equally near and before it. All threads of `warp` have the same q, `best`
+// and `stack`, which has kTreeStack places.
+template <class Bounds, unsigned kSize>
+LSDCD_FN void search_tree(const TreeView &tree, const Warp<kSize> &warp, const Vec3 &q,
+                          TreeWaiting *stack, TreeAnswer &best)
+{
+  using T = typename Bounds::Type;
+  constexpr unsigned kEach = kTreeWidth / kSize;
+  static_assert(kEach * kSize == kTreeWidth, "as many for each thread");
+  const unsigned rank = warp.rank();
+  Bounds bounds(tree.scaled(q));
+  bounds.set_most(best.distance * tree.inv_scale);
+  unsigned n = 0;
+  std::uint32_t child = tree.root;
+  for (;;) {
+    if (child & kTreeLeaf) {
+      const std::uint32_t leaf = child & ~kTreeLeaf, slot = leaf * kTreeWidth;
+      unsigned near = bounds.near_in(tree.leaves[leaf], tree.sides[leaf], warp);
+      if (slot + kTreeWidth > tree.n_primitives) near &= (1u << (tree.n_primitives - slot)) - 1;
+      if (near != 0) {
+        for (unsigned k = rank; k < kTreeWidth; k += kSize)
+          if (near >> k & 1u && slot + k != best.primitive) tree.attempt(slot + k, q, best);
+        for (unsigned apart = 1; apart < kSize; apart *= 2) {
+          const TreeAnswer other = {warp.of_other(best.distance, apart),
+                                    warp.of_other(best.feature, apart),
+                                    warp.of_other(best.primitive, apart)};
+          if (tree.is_before(other, best)) best = other;
+        }
+        bounds.set_most(best.distance * tree.inv_scale);
+      }
+    } else {
+      const TreeNode &node = tree.nodes[child];
+      T far[kEach], least = HUGE_VAL;
+      unsigned near = 0;
+      for (unsigned j = 0; j < kEach; j++) {
+        far[j] = bounds.box(node, j * kSize + rank);
+        near |= warp.vote(bounds.is_near(far[j])) << j * kSize;
+        least = fmin(least, far[j]);
+      }
+      if (near != 0) {
+        // The nearest is searched first.
+        least = warp.least(least);
+        unsigned first = 0;
+        for (unsigned j = 0; j < kEach; j++) first |= warp.vote(far[j] == least) << j * kSize;
+        first = lowest_bit(first);
+        const unsigned others = near & ~(1u << first);
+        for (unsigned j = 0; j < kEach; j++) {
+          const unsigned k = j * kSize + rank;
+          if (others >> k & 1u)
+            stack[n + static_cast<unsigned>(count_bits(others & ((1u << k) - 1)))] = {
+                Bounds::rounded_down(far[j]), node.child[k]};
+        }
+        n += static_cast<unsigned>(count_bits(others));
+        child = node.child[first];
+        continue;
+      }
+    }
+    warp.wait();    // for what others have put on the stack
+    do {
+      if (n == 0) return;
+      n--;
+    } while (!bounds.is_near(stack[n].far));
+    child = stack[n].child;
+    warp.wait();    // until all have read it
+  }
+}
+
+}    // namespace lsdcd

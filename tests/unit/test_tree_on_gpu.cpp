@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A tree's query on a GPU against the same on the CPU: one source, so the same bits.
+#include "support/device_memory.h"
+#include "support/meshes.h"
+#include "support/random_mesh.h"
+
+#include "base/input_error.h"
+#include "mesh/meets_itself.h"
+#include "query/point_sides.h"
+#include "query/tree_query.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+namespace lsdcd {
+namespace {
+
+struct Case {
+  WallMesh mesh;
+  TriangleTable names;
+  TriangleTree tree;
+  TriangleSoup soup;
+  Real diagonal;
+
+  explicit Case(const TriangleSoup &given) :
+      mesh(weld(given, 0)), names(mesh), tree(mesh, names), soup(given),
+      diagonal(norm(mesh.report.hi - mesh.report.lo))
+  {
+  }
+  Real size() const
+  {
+    Real size = 0;
+    for (const Vec3 &x : mesh.vertices)
+      size = std::fmax(size, std::fmax(std::fabs(x.x), std::fmax(std::fabs(x.y), std::fabs(x.z))));
+    return size;
+  }
+  // Near the mesh, on it, and up to 1e4 diagonals from it; the last ones are no numbers.
+  template <class T>
+  std::vector<T> points(std::size_t n) const
+  {
+    Numbers r(7);
+    std::vector<T> out;
+    for (std::size_t i = 0; i < n; i++) {
+      const Vec3 q = random_centre(r, soup.corners.data(), int(soup.n_triangles()), mesh.report.lo,
+                                   mesh.report.hi, diagonal * r.log_in(1e-4, 1e4));
+      for (int k = 0; k < 3; k++) out.push_back(static_cast<T>(q[k]));
+    }
+    for (const Vec3 &v : mesh.vertices)
+      for (int k = 0; k < 3; k++) out.push_back(static_cast<T>(v[k]));
+    for (const double bad : {std::nan(""), HUGE_VAL}) out.insert(out.end(), {T(bad), 0, 0});
+    return out;
+  }
+};
+
+// The first is larger than a block's threads take; random ones have facets without area, doubled ones, and
+// many that meet.
+const std::vector<std::unique_ptr<Case>> &all_cases()
+{
+  static const auto made = [] {
+    std::vector<std::unique_ptr<Case>> out;
+    out.push_back(std::make_unique<Case>(cylinder_mesh(100, 49, 50, 100)));
+    out.push_back(std::make_unique<Case>(box_mesh({0, 0, 0}, {1, 2, 3})));
+    for (int i = 0; i < 100; i++) {
+      try {
+        out.push_back(std::make_unique<Case>(random_mesh(100 + i).soup));
+      } catch (const InputError &) {
+        continue;    // nothing but points closer than the tolerance
+      }
+    }
+    return out;
+  }();
+  return made;
+}
+
+// Arrays of all answers, on the host or on a GPU.
+template <class T>
+struct Answers {
+  DeviceArray<T> points, radii, distance, closest, normal;
+  DeviceArray<std::uint32_t> triangle, feature;
+  DeviceArray<std::int8_t> side;
+  DeviceArray<std::uint8_t> status;
+  PointArrays<T> io;
+
+  Answers(bool cuda, const std::vector<T> &at) :
+      points(cuda), radii(cuda), distance(cuda), closest(cuda), normal(cuda), triangle(cuda),
+      feature(cuda), side(cuda), status(cuda)
+  {
+    io.n = at.size() / 3;
+    io.points = {points.put(at), 3, 1};
+    io.radius = kAnyDistance;
+    io.distance = {distance.resize(io.n), 1};
+    io.closest = {closest.resize(3 * io.n), 3, 1};
+    io.normal = {normal.resize(3 * io.n), 3, 1};
+    io.triangle = triangle.resize(io.n);
+    io.feature = feature.resize(io.n);
+    io.status = status.resize(io.n);
+  }
+};
+
+template <class T>
+void expect_same_bits(const std::vector<T> &a, const std::vector<T> &b, const Case &c)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); i++)
+    ASSERT_TRUE(a[i] == b[i] || (a[i] != a[i] && b[i] != b[i]))
+        << c.soup.source << ", " << i << ": " << a[i] << ", on the CPU " << b[i];
+}
+
+template <class T>
+void expect_the_same_answers(Real radius, bool each)
+{
+  for (const auto &c : all_cases()) {
+    const std::vector<T> at = c->points<T>(500);
+    Answers<T> gpu(true, at), cpu(false, at);
+    const std::size_t n = cpu.io.n;
+    std::vector<T> radii;
+    for (std::size_t i = 0; i < n; i++)
+      radii.push_back(static_cast<T>(radius * c->diagonal * (i % 7) / 3));
+    for (Answers<T> *a : {&gpu, &cpu}) {
+      if (radius > 0) a->io.radius = static_cast<T>(radius * c->diagonal);
+      if (each) a->io.radii = {a->radii.put(radii), 1};
+    }
+    copy_to_cuda(c->tree)->query_on(nullptr)->answer(gpu.io);
+    answer_points(c->tree, nullptr, HUGE_VAL, cpu.io);
+    expect_same_bits(gpu.distance.get(n), cpu.distance.get(n), *c);
+    expect_same_bits(gpu.feature.get(n), cpu.feature.get(n), *c);
+    expect_same_bits(gpu.triangle.get(n), cpu.triangle.get(n), *c);
+    expect_same_bits(gpu.status.get(n), cpu.status.get(n), *c);
+    expect_same_bits(gpu.closest.get(3 * n), cpu.closest.get(3 * n), *c);
+    expect_same_bits(gpu.normal.get(3 * n), cpu.normal.get(3 * n), *c);
+  }
+}
+
+TEST(tree_on_gpu, gives_the_bits_of_the_cpu_at_any_distance)
+{
+  expect_the_same_answers<double>(0, false);
+}
+TEST(tree_on_gpu, gives_the_bits_of_the_cpu_within_a_radius)
+{
+  expect_the_same_answers<double>(0.1, false);
+}
+TEST(tree_on_gpu, gives_the_bits_of_the_cpu_within_radii)
+{
+  expect_the_same_answers<double>(0.1, true);
+}
+TEST(tree_on_gpu, gives_the_bits_of_the_cpu_in_float)
+{
+  expect_the_same_answers<float>(0, false);
+}
+
+// More than one turn of 2^20, each put in order.
+TEST(tree_on_gpu, very_many_points_get_what_each_alone_gets)
+{
+  const Case &c = *all_cases()[0];
+  const std::vector<float> at = c.points<float>((1 << 20) + 100);
+  Answers<float> gpu(true, at), cpu(false, at);
+  const std::size_t n = cpu.io.n;
+  for (Answers<float> *a : {&gpu, &cpu}) a->io.radius = static_cast<float>(1e-3 * c.diagonal);
+  copy_to_cuda(c.tree)->query_on(nullptr)->answer(gpu.io);
+  answer_points(c.tree, nullptr, HUGE_VAL, cpu.io);
+  expect_same_bits(gpu.distance.get(n), cpu.distance.get(n), c);
+  expect_same_bits(gpu.feature.get(n), cpu.feature.get(n), c);
+}
+
+// Winding numbers are exact. A point is left out where rounding cannot tell it from one on the mesh: as near as
+// a sum of three products is off, of numbers that are each off by 2 units, where the largest coordinate is far
+// larger than the mesh, too.
+TEST(tree_on_gpu, normals_tell_the_sides_that_winding_numbers_tell)
+{
+  std::size_t inside = 0;
+  for (const auto &c : all_cases()) {
+    if (!c->mesh.report.closed || !c->mesh.report.oriented) continue;
+    if (meets_itself(c->mesh).pairs > 0) continue;
+    const std::vector<double> at = c->points<double>(2000);
+    Answers<double> gpu(true, at);
+    const std::size_t n = gpu.io.n;
+    gpu.io.side = gpu.side.resize(n);
+    copy_to_cuda(c->tree)->query_on(nullptr)->answer(gpu.io);
+    const std::vector<std::int8_t> side = gpu.side.get(n);
+    const std::vector<double> distance = gpu.distance.get(n);
+    const std::vector<std::uint32_t> triangle = gpu.triangle.get(n);
+    const WindingNumber winding(c->mesh);
+    for (std::size_t i = 0; i + 2 < n; i++) {
+      if (distance[i] < 32 * kRoundoff * (c->diagonal + c->size())) continue;
+      if (triangle[i] == kNoTriangle) {    // of facets without area, which have no side
+        ASSERT_EQ(side[i], 0);
+        continue;
+      }
+      ASSERT_EQ(side[i], winding.side({at[3 * i], at[3 * i + 1], at[3 * i + 2]}));
+      inside += side[i] < 0;
+    }
+    EXPECT_EQ(side[n - 2], 0);
+  }
+  EXPECT_GT(inside, 100u);
+}
+
+TEST(tree_on_gpu, refuses_a_negative_radius_by_its_point)
+{
+  const Case &c = *all_cases()[1];
+  Answers<double> gpu(true, {0, 0, 5, 0, 0, 6, 0, 0, 7});
+  gpu.io.radii = {gpu.radii.put({1., 1., -2.}), 1};
+  const auto query = copy_to_cuda(c.tree)->query_on(nullptr);
+  try {
+    query->answer(gpu.io);
+    FAIL();
+  } catch (const InputError &e) {
+    EXPECT_STREQ(e.what(), "point 2 has radius -2: give 0 or more");
+  }
+}
+
+}    // namespace
+}    // namespace lsdcd
