@@ -375,6 +375,11 @@ typedef struct lsdcd_wall_options {
   void *data;             /* handed to `show` */
   int threads;            /* on the CPU; 0: OMP_NUM_THREADS, or one */
   const lsdcd_host *host; /* copied; null: one process */
+  /* Where the arrays of spheres are, and so the wall computes: LSDCD_CPU, in the host's memory, or LSDCD_CUDA, on the
+   * device that is current, in the order of `stream`, as lsdcd_stream_open() takes one. The stream must outlive the
+   * wall. */
+  void *stream;
+  int device;
 } lsdcd_wall_options;
 /* `words`: n words that follow "wall/lsdcd" in a script: a contact style with its numbers, `mesh FILE`,
  * keywords. Variables, v_name, are not there. `options` may be null: all defaults. Files are read and written,
@@ -382,11 +387,12 @@ typedef struct lsdcd_wall_options {
 LSDCD_API int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options *options,
                               lsdcd_wall **wall);
 
-/* Spheres in arrays of doubles of the host. Number k of sphere i of a vector is at [i * row + k]. */
+/* Spheres in arrays of doubles, on the device of the wall all of them. Number k of sphere i of a vector is at
+ * [i * row + k]. */
 typedef struct lsdcd_spheres {
   size_t size; /* of this struct */
   size_t n;
-  ptrdiff_t row;       /* of all arrays of vectors; 0: 3 */
+  ptrdiff_t row;       /* of all arrays of vectors, 3 at least; 0: 3 */
   const double *x;     /* length */
   const double *v;     /* length/time */
   const double *omega; /* 1/time */
@@ -413,9 +419,12 @@ typedef struct lsdcd_wall_step {
  * are the same on all processes; `changed` and `reach` of one hold for all.
  *
  * An error of a sphere names it by its order of coming, from 1; processes take turns, p of P has p + 1,
- * p + 1 + P and so on of those that come in the same step. With a `host` a step does not wait for the other
- * processes to tell of their spheres: their errors come with the next call that is not "alone", and the arrays
- * of a step stay where they are until then. A wall whose step failed can only be freed. Own. */
+ * p + 1 + P and so on of those that come in the same step. A wall whose step failed can only be freed.
+ *
+ * With a `host`, and on a device, a step does not wait to know of each sphere: their errors come with the next
+ * call that is not "alone", and the arrays of a step stay until then. On a device forces are there once the
+ * stream has done what it was given. Of the arrays only steps that look, see `changed`, copy some to the host, and
+ * only these check types. Own. */
 LSDCD_API int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
                                       const lsdcd_wall_step *step);
 /* Before the next step: sphere i of n is the one that was from[i], or with -1 a new one. What its

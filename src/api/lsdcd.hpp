@@ -461,7 +461,12 @@ class Body {
   std::size_t room_ = 1024;    // pairs
 };
 
-// Words of fix wall/lsdcd; spheres in arrays of the caller, step by step.
+// All that is 0 has its default.
+struct WallOptions : lsdcd_wall_options {
+  WallOptions() : lsdcd_wall_options() { size = sizeof(lsdcd_wall_options); }
+};
+
+// Words of fix wall/lsdcd; spheres in arrays of the caller, of the host or a GPU (lsdcd_wall_options), step by step.
 class Wall {
  public:
   explicit Wall(const std::vector<std::string> &words, const lsdcd_wall_options *options = nullptr)

@@ -6,7 +6,9 @@
 
 #include "api/c_border.h"
 #include "api/call_threads.h"
+#include "api/device_memory.h"
 #include "api/wall_caller.h"
+#include "backend/cuda_available.h"
 #include "base/input_words.h"
 #include "engine/step/law_job.h"
 #include "input/settings.h"
@@ -45,6 +47,7 @@ void need_words(const std::vector<std::string> &words, const char *what)
 
 struct lsdcd_wall {
   WallCaller caller;
+  std::unique_ptr<GpuArrays> gpu;    // that has the arrays of spheres; null: the host has
   int threads;
   std::int64_t number = 0;    // of the last step
   Real dt = 0;
@@ -55,9 +58,51 @@ struct lsdcd_wall {
   std::unique_ptr<Wall> in;
 
   explicit lsdcd_wall(const lsdcd_wall_options &o) : caller(o), threads(o.threads) {}
+
+  // A step does not wait for other processes, nor for a GPU, to know of errors.
+  bool tells_late() const { return gpu || !caller.is_alone(); }
 };
 
 namespace {
+
+// What every function of a wall does: its GPU is current.
+template <class Body>
+int guard_wall(lsdcd_wall *wall, const Body &body) noexcept
+{
+  return guard([&] {
+    need(wall, "wall");
+    if (wall->gpu)
+      wall->gpu->run(body);
+    else
+      body();
+  });
+}
+
+// Before anything is read or written there.
+void check_places(const lsdcd_spheres &s, const GpuArrays *gpu)
+{
+  const struct {
+    const void *pointer;
+    const char *name;
+  } given[] = {{s.x, "x"},           {s.v, "v"},       {s.omega, "omega"},
+               {s.radius, "radius"}, {s.mass, "mass"}, {s.force, "force"},
+               {s.torque, "torque"}, {s.type, "type"}, {s.temperature, "temperature"},
+               {s.heat, "heat"}};
+  const DeviceMemory device;
+  for (const auto &one : given) {
+    if (!one.pointer) continue;
+    if (!gpu && device.only_there(one.pointer))
+      throw ApiError(LSDCD_ERROR_DEVICE,
+                     std::string("the array `") + one.name +
+                         "` is in a GPU's memory: make the wall with device LSDCD_CUDA");
+    try {
+      if (gpu) gpu->check(one.pointer, one.name, "the wall");
+    } catch (const InputError &e) {
+      throw ApiError(LSDCD_ERROR_DEVICE,
+                     std::string(e.what()) + ": make the wall where the arrays of spheres are");
+    }
+  }
+}
 
 Spheres spheres_of(const lsdcd_spheres &s, const WallSettings &wall)
 {
@@ -148,13 +193,15 @@ StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsd
     throw ApiError(LSDCD_ERROR_ARGUMENT, "reach is " + number_text(want.step.reach) + ", below 0");
   check_count(wall, given.n);
   want.spheres = spheres_of(given, wall.in->settings());
+  if (given.n > 0) check_places(given, wall.gpu.get());
+  wall.caller.set_spheres(want.spheres);
   const bool came = given.n > wall.caller.tags.size();
   want.look = !wall.begun || came || want.step.setup || want.step.changed;
   if (!want.look) return want;
-  check_types(want.spheres, wall.in->settings());
+  const Spheres s = wall.caller.spheres_on_cpu();
+  check_types(s, wall.in->settings());
   wall.largest_radius = 0;
-  for (int i = 0; i < want.spheres.n; i++)
-    wall.largest_radius = std::max(wall.largest_radius, want.spheres.radius[i]);
+  for (int i = 0; i < s.n; i++) wall.largest_radius = std::max(wall.largest_radius, s.radius[i]);
   return want;
 }
 
@@ -187,14 +234,14 @@ StepWanted agreed(lsdcd_wall &wall, const Failure &failure, StepWanted want)
 // What the last step has noted of spheres, where it was not told at once.
 void note_late(lsdcd_wall &wall)
 {
-  if (wall.caller.is_alone() || wall.late.code != LSDCD_OK) return;
+  if (!wall.tells_late() || wall.late.code != LSDCD_OK) return;
   wall.late = failure_of([&] { wall.in->poll_diagnostics(wall.number); });
 }
 
 // Throws it on all processes. Collective.
 void tell_late(lsdcd_wall &wall)
 {
-  if (wall.caller.is_alone()) return;
+  if (!wall.tells_late()) return;
   note_late(wall);
   std::vector<Real> none;
   wall.caller.agree(wall.late, none);
@@ -205,7 +252,6 @@ void take_step(lsdcd_wall &wall, const StepWanted &want)
   const Spheres &s = want.spheres;
   wall.in->history().grow(s.n);
   if (!wall.kept.empty()) unpack_kept(wall);
-  wall.caller.spheres = s;
   wall.dt = want.step.dt;
   if (!want.step.setup) wall.number++;
   StepInput input;
@@ -215,17 +261,16 @@ void take_step(lsdcd_wall &wall, const StepWanted &want)
   input.drift.kind = SphereDrift::watched;
   input.drift.distance = want.step.reach;
   wall.begun = true;
-  const bool alone = wall.caller.is_alone();
+  wall.in->begin(s, input);
+  // Each step, as what is left out: it must not be known many steps later only.
+  if (wall.caller.box().any_periodic()) wall.in->check_wrapping();
   try {
-    wall.in->begin(s, input);
     wall.in->finish(s);
-    if (alone) wall.in->poll_diagnostics(wall.number);
+    if (!wall.tells_late()) wall.in->poll_diagnostics(wall.number);
   } catch (const ProcessError &e) {
-    if (alone) throw InputError(e.what());
+    if (wall.caller.is_alone()) throw InputError(e.what());
     wall.late = {LSDCD_ERROR_INPUT, e.what()};
   }
-  // Each step: what was left out must not be known many steps later only.
-  if (wall.caller.box().any_periodic()) wall.in->check_wrapping();
   if (!want.step.setup && wall.in->files_every() > 0) wall.in->write_due_files();
 }
 
@@ -283,6 +328,32 @@ std::vector<const double *> packed_spheres(const lsdcd_wall &wall, std::size_t n
   return spheres;
 }
 
+// Where the arrays of spheres are.
+WallPlace place_of(const lsdcd_wall_options &o, const GpuArrays *gpu)
+{
+  if (!gpu) return {};
+  const auto make = [stream = o.stream, device = gpu->device()](const EngineSettings &settings) {
+    if (settings.device != Device::automatic)
+      throw InputError("the keyword device is for arrays of the host: leave it out, as the wall "
+                       "computes where the arrays of its spheres are");
+    return make_cuda_engine_in_place(settings, device, stream);
+  };
+  return {make, true};
+}
+
+std::unique_ptr<GpuArrays> gpu_of(const lsdcd_wall_options &o)
+{
+  if (o.device != LSDCD_CPU && o.device != LSDCD_CUDA)
+    refuse_option("lsdcd_wall_options", "device is neither LSDCD_CPU nor LSDCD_CUDA");
+  if (o.device == LSDCD_CPU && o.stream)
+    refuse_option("lsdcd_wall_options", "stream is given, but device is LSDCD_CPU");
+  if (o.device == LSDCD_CPU) return nullptr;
+  std::string why;
+  if (!cuda_available(&why))
+    throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why + "; use LSDCD_CPU, with arrays of the host");
+  return make_gpu_arrays(o.stream);
+}
+
 void check_mesh(const lsdcd_wall &wall, int mesh, int least)
 {
   const int n = static_cast<int>(wall.in->meshes().size());
@@ -307,9 +378,13 @@ int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options
     std::vector<std::string> all = words_of(words, n);
     need_words(all, "a contact style, its numbers and `mesh FILE` make a wall");
     auto made = std::make_unique<lsdcd_wall>(o);
+    made->gpu = gpu_of(o);
+    made->caller.gpu = made->gpu.get();
     const FilledTokens filled = fill_material(made->caller, all, o.units ? o.units : "si");
     made->in = std::make_unique<Wall>(made->caller, parse_settings(filled.tokens), WallUnits(),
-                                      WallPlace(), filled.report, StepClock{o.time, 0, 0, 0});
+                                      place_of(o, made->gpu.get()), filled.report,
+                                      StepClock{o.time, 0, 0, 0});
+    made->caller.wall = made->in.get();
     made->in->begin_run(0, false);
     *wall = made.release();
   });
@@ -318,8 +393,7 @@ int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options
 int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
                             const lsdcd_wall_step *step)
 {
-  return guard([&] {
-    need(wall, "wall");
+  return guard_wall(wall, [&] {
     const CallThreads threads(wall->threads);
     note_late(*wall);
     StepWanted want;
@@ -332,8 +406,7 @@ int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
 
 int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n)
 {
-  return guard([&] {
-    need(wall, "wall");
+  return guard_wall(wall, [&] {
     if (n > 0) need(from, "from");
     note_late(*wall);    // of spheres by the numbers that they have
     const std::vector<std::int64_t> old = wall->caller.tags;
@@ -371,8 +444,7 @@ int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n)
 int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *numbers,
                     size_t room, size_t *count)
 {
-  return guard([&] {
-    need(wall, "wall");
+  return guard_wall(wall, [&] {
     need(count, "count");
     if (n > 0) need(which, "which");
     if (room > 0) need(numbers, "numbers");
@@ -396,8 +468,7 @@ int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *
 int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n, const double *numbers,
                       size_t count)
 {
-  return guard([&] {
-    need(wall, "wall");
+  return guard_wall(wall, [&] {
     need(numbers, "numbers");
     if (n > 0) need(to, "to");
     check_order_is_free(*wall);
@@ -414,8 +485,7 @@ int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n, const dou
 
 int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals)
 {
-  return guard([&] {
-    need(wall, "wall");
+  return guard_wall(wall, [&] {
     lsdcd_wall_totals out = checked(totals, "lsdcd_wall_totals");
     check_mesh(*wall, mesh, -1);
     tell_late(*wall);
@@ -446,8 +516,7 @@ int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals)
 
 int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix)
 {
-  return guard([&] {
-    need(wall, "wall");
+  return guard_wall(wall, [&] {
     need(matrix, "matrix");
     check_mesh(*wall, mesh, 0);
     const WallPose &pose = wall->in->meshes()[mesh].motion.pose();
@@ -458,8 +527,7 @@ int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix)
 
 int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n)
 {
-  return guard([&] {
-    need(wall, "wall");
+  return guard_wall(wall, [&] {
     const std::vector<std::string> all = words_of(words, n);
     need_words(all, "[mesh K] motion ... or [mesh K] servo ...");
     const int taken = wall->in->change(all, {wall->number, wall->dt});
@@ -472,8 +540,7 @@ int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n)
 
 int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count)
 {
-  return guard([&] {
-    need(wall, "wall");
+  return guard_wall(wall, [&] {
     need(count, "count");
     if (room > 0) need(numbers, "numbers");
     tell_late(*wall);
@@ -494,8 +561,7 @@ int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *coun
 
 int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count)
 {
-  return guard([&] {
-    need(wall, "wall");
+  return guard_wall(wall, [&] {
     need(numbers, "numbers");
     if (wall->begun)
       throw ApiError(LSDCD_ERROR_ARGUMENT, "a wall is restored before its first step");
@@ -526,6 +592,11 @@ int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count)
 
 void lsdcd_wall_free(lsdcd_wall *wall)
 {
+  if (wall && wall->gpu)
+    guard_wall(wall, [&] {
+      wall->gpu->wait();
+      wall->in.reset();
+    });
   delete wall;
 }
 }

@@ -157,10 +157,47 @@ std::unique_ptr<NodeMemory> WallCaller::node_memory()
   return std::make_unique<OwnMemory>(*this, host_.node_rank);
 }
 
+void WallCaller::set_spheres(const Spheres &spheres)
+{
+  spheres_ = spheres;
+  are_copied_ = false;
+}
+
+Spheres WallCaller::spheres_on_cpu()
+{
+  if (!gpu || spheres_.n == 0) return spheres_;
+  const auto copy = [this](auto &to, const auto *from, std::size_t n) {
+    to.resize(n);
+    gpu->copy_out(from, to.data(), n * sizeof to[0]);
+  };
+  const std::size_t n = spheres_.n;
+  const std::ptrdiff_t row = spheres_.x.row;
+  if (!are_copied_) {
+    copy(x_, spheres_.x.at, row * (n - 1) + 3);
+    copy(radius_, spheres_.radius, n);
+    copy(mass_, spheres_.mass, n);
+    if (spheres_.type) copy(type_, spheres_.type, n);
+    are_copied_ = true;
+  }
+  Spheres s;
+  s.n = spheres_.n;
+  s.x = {x_.data(), row, 1};
+  s.radius = radius_.data();
+  s.mass = mass_.data();
+  s.type = spheres_.type ? type_.data() : nullptr;
+  return s;
+}
+
+Real WallCaller::farthest_past(const PeriodicBox &box)
+{
+  return gpu ? wall->in_place().farthest_past(spheres_, periodic_faces(box))
+             : Host::farthest_past(box);
+}
+
 Real WallCaller::radius_of_tag(std::int64_t tag)
 {
   const auto at = std::find(tags.begin(), tags.end(), tag);
-  return at == tags.end() ? 0 : spheres.radius[at - tags.begin()];
+  return at == tags.end() ? 0 : spheres_on_cpu().radius[at - tags.begin()];
 }
 
 // Above those of all processes, and another one on each.

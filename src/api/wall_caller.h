@@ -5,7 +5,8 @@
 #pragma once
 
 #include "api/c_border.h"
-#include "wall/host.h"
+#include "backend/gpu_arrays.h"
+#include "wall/wall.h"
 
 #include <cstdint>
 #include <memory>
@@ -58,7 +59,8 @@ class WallCaller : public Host {
   int rank() const override { return host_.rank; }
   PeriodicBox box() const override { return box_; }
   SphereGroup group() const override { return {"all", false}; }
-  Spheres spheres_on_cpu() override { return spheres; }
+  Spheres spheres_on_cpu() override;
+  Real farthest_past(const PeriodicBox &box) override;
   std::int64_t tag(int sphere) override { return tags[sphere]; }
   std::int64_t highest_tag() override { return highest_tag_; }
   Real radius_of_tag(std::int64_t tag) override;
@@ -68,8 +70,12 @@ class WallCaller : public Host {
   // Numbers for spheres without one, 0, in the order of the array. `highest`: of all processes so far.
   void name_new_spheres(std::int64_t highest);
 
-  Spheres spheres;                   // of the step that is under way
+  // Of the step that is under way.
+  void set_spheres(const Spheres &spheres);
   std::vector<std::int64_t> tags;    // of its spheres; 0: it has none yet
+
+  const GpuArrays *gpu = nullptr;    // that has the arrays of spheres; null: the host has
+  Wall *wall = nullptr;              // of this host
 
  private:
   void show(int warning, const std::string &text);
@@ -79,6 +85,11 @@ class WallCaller : public Host {
   void *data_;
   lsdcd_host host_ = {};
   std::int64_t highest_tag_ = 0;
+  Spheres spheres_;
+  // Of spheres on a GPU, where somebody has asked for them in this step.
+  bool are_copied_ = false;
+  std::vector<Real> x_, radius_, mass_;
+  std::vector<int> type_;
 };
 
 }    // namespace lsdcd

@@ -76,4 +76,19 @@ inline ArrayPlace place_of_array(const void *array)
   return {about.type == cudaMemoryTypeManaged, about.type == cudaMemoryTypeDevice, about.device};
 }
 
+// Throws InputError where an array is neither in the memory of `device` nor managed. For the text: what takes the
+// array, and what of it is on the device.
+inline void check_array(const void *array, const std::string &name, int device,
+                        const std::string &taker, const std::string &on_device)
+{
+  const ArrayPlace place = place_of_array(array);
+  if (place.is_managed) return;
+  if (!place.is_on_gpu)
+    throw InputError("the array `" + name + "` is in the host's memory; " + taker +
+                     " takes arrays of the device");
+  if (place.device != device)
+    throw InputError("the array `" + name + "` is on device " + std::to_string(place.device) +
+                     ", " + on_device + " on device " + std::to_string(device));
+}
+
 }    // namespace lsdcd

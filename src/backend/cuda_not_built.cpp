@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "backend/cuda_available.h"
+#include "backend/gpu_arrays.h"
+#include "base/input_error.h"
 
 namespace lsdcd {
 
@@ -13,6 +15,13 @@ bool cuda_available(std::string *why)
   if (why) *why = "built without the CUDA toolkit";
 #endif
   return false;
+}
+
+std::unique_ptr<GpuArrays> make_gpu_arrays(void *)
+{
+  std::string why;
+  cuda_available(&why);
+  throw InputError("CUDA: " + why);
 }
 
 }    // namespace lsdcd

@@ -55,6 +55,12 @@ class EngineOn : public InPlaceEngine {
     });
   }
 
+  Real farthest_past(const Spheres &spheres, const PeriodicFaces &faces) override
+  {
+    return b_.template largest<Real>(
+        spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real { return faces.past(spheres.x[i]); });
+  }
+
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
     results_.detach_from_near_list(b_);

@@ -12,6 +12,7 @@
 #include "law/contact_law.h"
 #include "law/law_table.h"
 #include "law/wear.h"
+#include "mesh/periodic_box.h"
 #include "mesh/wall_mesh.h"
 #include "motion/surface_motion.h"
 #include "motion/wall_pose.h"
@@ -216,6 +217,9 @@ class InPlaceEngine : public WallEngine {
   virtual void ready() = 0;
   virtual void begin_beside() = 0;
   virtual void end_beside(bool adds_now) = 0;
+
+  // How far a sphere is past a periodic face, at most; length. Waits.
+  virtual Real farthest_past(const Spheres &spheres, const PeriodicFaces &faces) = 0;
 
   // Per sphere there are a first spring and a count, which follow it through sorting; `n` spheres
   // are the process's own.

@@ -27,6 +27,18 @@ Real PeriodicBox::width(int k) const
   return 1 / norm(gradient(*this, k));
 }
 
+PeriodicFaces periodic_faces(const PeriodicBox &box)
+{
+  PeriodicFaces faces;
+  faces.corner = box.corner;
+  for (int k = 0; k < 3; k++) {
+    faces.gradient[k] = gradient(box, k);
+    faces.width[k] = box.width(k);
+    faces.periodic[k] = box.periodic[k];
+  }
+  return faces;
+}
+
 Box PeriodicBox::bounds(const Vec3 &past) const
 {
   Box box = {corner, corner};

@@ -71,6 +71,29 @@ struct PeriodicBox {
   bool any_follows() const { return follows(0) || follows(1) || follows(2); }
 };
 
+// How far places are past periodic faces, also on a device.
+struct PeriodicFaces {
+  Vec3 corner;
+  Vec3 gradient[3];    // of the fractions
+  Real width[3];       // length
+  bool periodic[3];
+
+  // Length; 0 inside.
+  LSDCD_FN Real past(const Vec3 &x) const
+  {
+    const Vec3 d = x - corner;
+    Real out = 0;
+    for (int k = 0; k < 3; k++) {
+      if (!periodic[k]) continue;
+      const Real at = dot(gradient[k], d), below = -at * width[k], above = (at - 1) * width[k];
+      if (below > out) out = below;
+      if (above > out) out = above;
+    }
+    return out;
+  }
+};
+PeriodicFaces periodic_faces(const PeriodicBox &box);
+
 // The bounds of a box in units of the edges of the periodic one.
 Box in_fractions(const Box &box, const PeriodicBox &periodic);
 

@@ -47,15 +47,7 @@ std::string current_cuda_name()
 
 void check_on_device(int device, const void *array, const char *what)
 {
-  if (!array) return;
-  const ArrayPlace place = place_of_array(array);
-  const std::string name = std::string("the array `") + what + "` ";
-  if (place.is_managed) return;
-  if (!place.is_on_gpu)
-    throw InputError(name + "is in the host's memory; a stream's query takes arrays of the device");
-  if (place.device != device)
-    throw InputError(name + "is on device " + std::to_string(place.device) +
-                     ", the grid's copy on device " + std::to_string(device));
+  if (array) check_array(array, what, device, "a stream's query", "the grid's copy");
 }
 
 class CudaStreamQuery : public StreamQuery {

@@ -158,14 +158,7 @@ void GridManager::check_wrapping()
 {
   const PeriodicBox now = box();
   if (cutoff() == 0 || !now.any_periodic()) return;
-  const Spheres s = host_.spheres_on_cpu();
-  Real out = 0;
-  for (int i = 0; i < s.n; i++) {
-    if (!is_in_group(s, i)) continue;
-    const Vec3 at = now.fraction(s.x[i]);
-    for (int k = 0; k < 3; k++)
-      if (now.periodic[k]) out = std::max({out, -at[k] * now.width(k), (at[k] - 1) * now.width(k)});
-  }
+  Real out = host_.farthest_past(now);
   host_.max(&out, 1);
   if (out <= now.margin) return;
   farthest_out_ = std::min({1.5 * out, now.width(0), now.width(1), now.width(2)});

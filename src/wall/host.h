@@ -8,6 +8,7 @@
 #include "engine/wall_engine.h"
 #include "mesh/periodic_box.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -87,6 +88,16 @@ class Host {
   virtual SphereGroup group() const = 0;    // likewise
   // The spheres of this process as they are now: places, radii, masses and group, in memory of the CPU.
   virtual Spheres spheres_on_cpu() = 0;
+  // How far one of them is past a periodic face of the box, at most; length.
+  virtual Real farthest_past(const PeriodicBox &box)
+  {
+    const Spheres s = spheres_on_cpu();
+    const PeriodicFaces faces = periodic_faces(box);
+    Real past = 0;
+    for (int i = 0; i < s.n; i++)
+      if (is_in_group(s, i)) past = std::max(past, faces.past(s.x[i]));
+    return past;
+  }
   virtual std::int64_t tag(int sphere) = 0;            // the ID of a sphere; 0: spheres have none
   virtual std::int64_t highest_tag() = 0;              // of its spheres; 0: none, or no IDs
   virtual Real radius_of_tag(std::int64_t tag) = 0;    // length; 0: this process has no such sphere

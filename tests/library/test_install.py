@@ -50,9 +50,11 @@ target_link_libraries(in_c lsdcd::static)
 CUDA_PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(user LANGUAGES CXX CUDA)
 find_package(lsdcd 0.9 REQUIRED COMPONENTS core cuda)
-add_executable(in_cuda distance.cu)
-set_target_properties(in_cuda PROPERTIES CUDA_STANDARD 17 CUDA_ARCHITECTURES OFF)
-target_link_libraries(in_cuda lsdcd::cuda)
+foreach(example distance fall)
+  add_executable(${example} ${example}.cu)
+  set_target_properties(${example} PROPERTIES CUDA_STANDARD 17 CUDA_ARCHITECTURES OFF)
+  target_link_libraries(${example} lsdcd::cuda)
+endforeach()
 """
 
 
@@ -164,11 +166,12 @@ def check_static(prefix, work, libraries):
 
 def check_cuda(prefix, work):
     if not CUDA:
-        print("skipped: the example in CUDA (this build has none)")
+        print("skipped: the examples in CUDA (this build has none)")
         return
     folder = os.path.join(work, "cuda")
     os.mkdir(folder)
-    os.symlink(os.path.join(ROOT, "examples", "library", "distance.cu"), os.path.join(folder, "distance.cu"))
+    for name in ("distance.cu", "fall.cu"):
+        os.symlink(os.path.join(ROOT, "examples", "library", name), os.path.join(folder, name))
     with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as f:
         f.write(CUDA_PROJECT)
     code, text = run(os.environ["LSDCD_CMAKE"], "-S", ".", "-B", "build", "-D", "CMAKE_PREFIX_PATH=" + prefix,
@@ -176,13 +179,13 @@ def check_cuda(prefix, work):
                      "-D", "CMAKE_CUDA_HOST_COMPILER=" + os.environ["LSDCD_CXX"], folder=folder)
     if code == 0:
         code, text = run(os.environ["LSDCD_CMAKE"], "--build", "build", folder=folder)
-    fact("the example in CUDA builds by find_package", code == 0, text)
-    program = os.path.join(folder, "build", "in_cuda")
-    cube = os.path.join(work, "cube.stl")
+    fact("the examples in CUDA build by find_package", code == 0, text)
+    programs, cube = os.path.join(folder, "build"), os.path.join(work, "cube.stl")
     if os.path.exists("/dev/nvidia0"):
-        gives("and in_cuda gives the distances", WANTED, program, cube, folder=work)
+        gives("and distance gives the distances", WANTED, os.path.join(programs, "distance"), cube, folder=work)
+        gives("and fall keeps its grains", "inside after 3000 steps", os.path.join(programs, "fall"), cube, "3000", folder=work)
     else:
-        print("skipped: running the example in CUDA (no GPU)")
+        print("skipped: running the examples in CUDA (no GPU)")
 
 
 def check_python(prefix, work):

@@ -16,7 +16,7 @@ namespace {
 // A process of FakeHost as a program with MPI is one. It throws where calls of processes differ.
 struct Process {
   lsdcd_host callbacks = {};
-  lsdcd_wall_options options = {};
+  lsdcd::WallOptions options;
 
   template <class Call>
   static int code_of_call(const Call &call)
@@ -45,7 +45,6 @@ struct Process {
     callbacks.broadcast = [](void *h, void *bytes, size_t n, int from) {
       return code_of_call([&] { static_cast<lsdcd::FakeHost *>(h)->broadcast(bytes, n, from); });
     };
-    options.size = sizeof options;
     options.host = &callbacks;
   }
 };

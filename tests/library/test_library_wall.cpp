@@ -4,6 +4,8 @@
 // A wall through the library's headers: forces in closed form, springs that follow their spheres, wrong use.
 #include "floor_and_grains.h"
 
+#include <cstdlib>
+#include <dlfcn.h>
 #include <string>
 #include <vector>
 
@@ -92,8 +94,7 @@ TEST_F(wall, changes_its_motion)
 TEST_F(wall, shows_its_log_and_warnings)
 {
   std::vector<std::string> shown[2];
-  lsdcd_wall_options options = {};
-  options.size = sizeof options;
+  lsdcd::WallOptions options;
   options.data = shown;
   options.show = [](void *data, int warning, const char *text) {
     static_cast<std::vector<std::string> *>(data)[warning].push_back(text);
@@ -109,8 +110,7 @@ TEST_F(wall, shows_its_log_and_warnings)
 
 TEST_F(wall, acts_through_a_periodic_face)
 {
-  lsdcd_wall_options options = {};
-  options.size = sizeof options;
+  lsdcd::WallOptions options;
   for (int k = 0; k < 3; k++) {
     options.lo[k] = -20;
     options.hi[k] = 20;
@@ -177,6 +177,39 @@ TEST_F(wall, refuses_numbers_that_it_did_not_save)
   EXPECT_EQ(code_of([&] { other.restore(saved); }), LSDCD_ERROR_ARGUMENT);
   EXPECT_EQ(code_of([&] { other.restore({3, 1, 2, 3}); }), LSDCD_ERROR_ARGUMENT);
   EXPECT_EQ(code_of([&] { other.restore({4, -6, 1e6, 0, 1e9, 0}); }), LSDCD_ERROR_INPUT);
+}
+
+TEST_F(wall, needs_a_GPU_for_arrays_on_one)
+{
+  if (lsdcd_has_cuda()) GTEST_SKIP() << "there is one";
+  lsdcd::WallOptions options;
+  options.device = LSDCD_CUDA;
+  const std::string told = text_of([&] { lsdcd::Wall wall(words(), &options); }),
+                    remedy = "; use LSDCD_CPU, with arrays of the host";
+  EXPECT_EQ(told.rfind("CUDA: ", 0), 0u) << told;
+  EXPECT_EQ(told.substr(told.size() - remedy.size()), remedy);
+  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(words(), &options); }), LSDCD_ERROR_DEVICE);
+}
+
+TEST_F(wall, takes_no_stream_without_a_device)
+{
+  lsdcd::WallOptions options;
+  options.stream = &options;
+  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(words(), &options); }), LSDCD_ERROR_ARGUMENT);
+}
+
+// In a process of its own: a driver stays.
+TEST_F(wall, refuses_arrays_that_only_a_GPU_can_read)
+{
+  if (dlopen("libcuda.so.1", RTLD_NOLOAD | RTLD_LAZY)) GTEST_SKIP() << "a driver is loaded";
+  const auto step_with_a_driver = [&] {
+    lsdcd::Wall wall(words());
+    Grains grains;
+    grains.add(0, 0, 0.49);
+    if (!dlopen(LSDCD_FAKE_CUDA, RTLD_NOW)) std::_Exit(-1);
+    std::_Exit(code_of([&] { grains.step(wall); }) + 100 * (grains.force[2] != 0));
+  };
+  EXPECT_EXIT(step_with_a_driver(), testing::ExitedWithCode(LSDCD_ERROR_DEVICE), "");
 }
 
 TEST_F(wall, refuses_rows_that_overlap)

@@ -225,6 +225,12 @@ def check_device_path():
         lib.lsdcd_stream_open, lib.lsdcd_query_stream, _arrays.driver = real
 
 
+def write_floor(name):
+    """A triangle at z = 0."""
+    pathlib.Path(name).write_text("solid f\nfacet normal 0 0 1\nouter loop\nvertex -9 -9 0\nvertex 9 -9 0\nvertex 0 9 0\n"
+                                  "endloop\nendfacet\nendsolid f\n", encoding="ascii")
+
+
 class Processes:
     """Two processes, threads here: what lsdcd.Host asks of one."""
     size = 2
@@ -278,8 +284,7 @@ def check_processes():
 
     with tempfile.TemporaryDirectory() as folder:
         floor = os.path.join(folder, "floor.stl")
-        pathlib.Path(floor).write_text("solid f\nfacet normal 0 0 1\nouter loop\nvertex -9 -9 0\nvertex 9 -9 0\n"
-                                       "vertex 0 9 0\nendloop\nendfacet\nendsolid f\n", encoding="ascii")
+        write_floor(floor)
         threads = [threading.Thread(target=work, args=(rank, floor)) for rank in (0, 1)]
         for thread in threads:
             thread.start()
@@ -298,6 +303,32 @@ def check_processes():
 
         refused("what a host raises is raised", "no network",
                 lambda: lsdcd.Wall(words.format(floor), host=Breaks(0, None, None)), KeyError)
+
+
+def check_wall_arrays():
+    """Arrays of spheres of other libraries, and what a wall refuses of them."""
+    with tempfile.TemporaryDirectory() as folder:
+        floor = os.path.join(folder, "floor.stl")
+        write_floor(floor)
+        words = f"hooke 1000 0 0 0 0 0 mesh {floor}"
+        wall = lsdcd.Wall(words + " device cpu")
+        given = {name: np.zeros((1, 3)) for name in ("x", "v", "omega", "force", "torque")}
+        given |= {"radius": np.full(1, 0.5), "mass": np.ones(1), "dt": 1e-3}
+        given["x"][0, 2] = 0.49
+        wall.step(**{k: OnlyDlpack(v) if k != "dt" else v for k, v in given.items()})
+        fact("a wall's arrays come by DLPack", abs(given["force"][0, 2] - 10) < 1e-11, given["force"])
+        refused("an array on a device is refused", "on CUDA device 3, and the wall was made for arrays on the host",
+                lambda: wall.step(**{**given, "x": OnCuda((1, 3), "<f8")}))
+        for name, wrong in (("force", [[0, 0, 0]]), ("x", np.zeros((2, 3))), ("x", np.zeros((1, 3), np.float32)),
+                            ("x", np.zeros((1, 6))[:, ::2]), ("mass", np.ones((1, 1))), ("radius", 0.5)):
+            refused(f"{name} as {type(wrong).__name__} {np.shape(wrong)} is refused", "not a contiguous float64 array of shape",
+                    lambda name=name, wrong=wrong: wall.step(**{**given, name: wrong}))
+        fixed = np.zeros((1, 3))
+        fixed.flags.writeable = False
+        refused("a force that cannot be written is refused", "cannot be written", lambda: wall.step(**{**given, "force": fixed}))
+        if not lsdcd._lib.lsdcd_has_cuda():
+            refused("a wall on a device needs one", "use LSDCD_CPU", lambda: lsdcd.Wall(words, device="cuda"), lsdcd.Error)
+        refused("a stream needs a device", "stream is given", lambda: lsdcd.Wall(words, stream=7), lsdcd.Error)
 
 
 def check_types():
@@ -331,5 +362,6 @@ if __name__ == "__main__":
     check_queries()
     check_device_path()
     check_processes()
+    check_wall_arrays()
     check_types()
     sys.exit(1 if failed else 0)

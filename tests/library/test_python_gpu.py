@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Queries of the Python package with arrays of PyTorch, CuPy and JAX on a GPU, against heights over a floor.
+"""Queries of the Python package with arrays of PyTorch, CuPy and JAX on a GPU, against heights over a floor; walls with
+arrays of PyTorch and CuPy against arrays of numpy.
 
     PYTHONPATH=src/api LSDCD_LIBRARY=build/lib/liblsdcd.so.0 python3 tests/library/test_python_gpu.py
 
@@ -11,7 +12,9 @@ missing the exit code is 77. Heights are multiples of 1/1024, so that distances 
 more than 3e-6 of the cutoff.
 """
 import importlib
+import os
 import sys
+import tempfile
 
 import numpy as np
 
@@ -191,6 +194,52 @@ def check_in_place(library, grid, say, points, distance):
     fact(say("a stream by its number"), same(library.take(answer), distance))
 
 
+def grains(n):
+    """Places, speeds, turns, radii and masses of spheres that touch a floor at z = 0, or not."""
+    random = np.random.default_rng(7)
+    x = random.uniform(-1, 1, (n, 3))
+    x[:, 2] = random.uniform(0.4, 0.6, n)
+    return {"x": x, "v": random.uniform(-1, 1, (n, 3)), "omega": random.uniform(-1, 1, (n, 3)),
+            "radius": np.full(n, 0.5), "mass": random.uniform(1, 2, n), "force": np.zeros((n, 3)), "torque": np.zeros((n, 3))}
+
+
+def check_wall(library, floor):
+    """A wall's arrays on a GPU against arrays of numpy: the same bits, as test_library_wall_gpu has them."""
+    say = lambda text: f"{library.name}: {text}"    # noqa: E731
+    words, dt = f"hooke/history 1000 300 5 2 0.5 1 mesh {floor}", 1e-3
+    host, given = lsdcd.Wall(words + " device cpu"), grains(1000)
+    wall, there = lsdcd.Wall(words, device="cuda"), {k: library.give(v) for k, v in given.items()}
+    for _ in range(5):
+        host.step(**given, dt=dt)
+        wall.step(**there, dt=dt)
+    library.wait()
+    for name in ("force", "torque"):
+        fact(say(f"a wall's {name}"), (library.take(there[name]) == given[name]).all() and (given[name] != 0).any())
+    fact(say("a wall's totals"), wall.totals().contacts == host.totals().contacts > 0)
+    refused(say("arrays of numpy are refused by a wall on a device"), "x is on the host",
+            lambda: wall.step(**{**there, "x": given["x"]}, dt=dt))
+    refused(say("arrays on a device are refused by a wall on the host"), "make it with device=\"cuda\"",
+            lambda: host.step(**{**given, "x": there["x"]}, dt=dt))
+    refused(say("float32 is refused"), "not a contiguous float64",
+            lambda: wall.step(**{**there, "mass": library.give(np.ones(1000, np.float32))}, dt=dt))
+
+    # The stream of the wall sets the force to 0 after much other work; then the wall adds to it.
+    stream = library.stream()
+    with library.on(stream):
+        wall, again = lsdcd.Wall(words, device="cuda", stream=stream), {k: library.give(v) for k, v in grains(1000).items()}
+        work = library.give(np.ones((2000, 2000), np.float32))
+        again["force"] += 1
+        library.wait()
+        for _ in range(30):
+            work = (work @ work) * 0
+        again["force"] -= 1 + work[0, 0]
+        wall.step(**again, dt=dt)
+        found = library.take(again["force"])
+    first = grains(1000)
+    lsdcd.Wall(words + " device cpu").step(**first, dt=dt)
+    fact(say("a wall keeps the order of its stream"), (found == first["force"]).all())
+
+
 def main():
     if not lsdcd._lib.lsdcd_has_cuda():
         print("skipped: Python with a GPU:", lsdcd._lib.lsdcd_last_error().decode())
@@ -205,6 +254,13 @@ def main():
             continue
         ran += 1
         check(library, grid)
+        if library.own:
+            with tempfile.TemporaryDirectory() as folder:
+                floor = os.path.join(folder, "floor.stl")
+                with open(floor, "w", encoding="ascii") as f:
+                    f.write("solid f\nfacet normal 0 0 1\nouter loop\nvertex -9 -9 0\nvertex 9 -9 0\nvertex 0 9 0\nendloop\n"
+                            "endfacet\nendsolid f\n")
+                check_wall(library, floor)
     return 1 if failed else 0 if ran else 77
 
 

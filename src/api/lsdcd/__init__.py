@@ -101,7 +101,7 @@ _Host = _struct("_Host", ("rank", _int), ("processes", _int), ("node_rank", _int
 _WallOptions = _struct(
     "_WallOptions", ("lo", _real * 3), ("hi", _real * 3), ("periodic", _int * 3), ("margin", _real),
     ("time", _real), ("units", ctypes.c_char_p), ("show", _Show), ("data", _at), ("threads", _int),
-    ("host", _at))
+    ("host", _at), ("stream", _at), ("device", _int))
 _Spheres = _struct(
     "_Spheres", ("n", _size), ("row", _step), ("x", _at), ("v", _at), ("omega", _at), ("radius", _at),
     ("mass", _at), ("force", _at), ("torque", _at), ("temperature", _at), ("heat", _at), ("type", _at))
@@ -549,17 +549,25 @@ def _set_radius(query: Any, radius: Any, points: _arrays.Array, shape: tuple[int
 
 
 def _same_place(array: _arrays.Array, points: _arrays.Array, name: str) -> None:
-    place = [f"on CUDA device {a.device}" if a.device is not None else "on the host" for a in (array, points)]
-    if place[0] != place[1]:
-        raise TypeError(f"{name} is {place[0]}, points are {place[1]}: move one of them")
+    if array.device != points.device:
+        raise TypeError(f"{name} is {_place(array)}, points are {_place(points)}: move one of them")
+
+
+def _place(array: _arrays.Array) -> str:
+    return "on the host" if array.on_host else f"on CUDA device {array.device}"
+
+
+def _is_array(values: Any) -> bool:
+    """Is it memory that can be read and written in place?"""
+    return isinstance(values, np.ndarray) or hasattr(values, "__dlpack__") \
+        or getattr(values, "__cuda_array_interface__", None) is not None
 
 
 def _out(values: Any, word: str, shape: tuple[int, ...], dtype: np.dtype[Any], points: _arrays.Array,
          kept: list[_arrays.Array]) -> _arrays.Array:
     """Where the caller wants an answer; refused if the library cannot write it there."""
     name = f"out: {word}"
-    if not isinstance(values, np.ndarray) and not hasattr(values, "__dlpack__") \
-            and getattr(values, "__cuda_array_interface__", None) is None:
+    if not _is_array(values):
         raise TypeError(f"{name} is a {type(values).__name__}, not an array")
     place = _arrays.read(values, name)
     _same_place(place, points, name)
@@ -684,6 +692,10 @@ class Wall(_Owner):
     face a sphere may go before the caller puts it back. `show(text, warning)` gets each line of the log. One
     thread at a time.
 
+    device: "cpu", for spheres in arrays of the host, or "cuda", for arrays on the CUDA device that is current when the
+    wall is made, in the order of `stream`: one of PyTorch or CuPy, or a cudaStream_t as a number; None: the default
+    one.
+
     With a `host` there are several processes: each makes a Wall of the same words, for spheres of its own, and
     all call its methods together, but for renumber(), pack(), unpack() and pose(). The errors of one are raised
     on all."""
@@ -691,8 +703,11 @@ class Wall(_Owner):
 
     def __init__(self, words: str | Iterable[str], lo: ArrayLike | None = None, hi: ArrayLike | None = None,
                  periodic: Sequence[bool] = (False, False, False), margin: float = 0.0, time: float = 0.0, units: str = "si",
-                 show: Callable[[str, bool], object] | None = None, threads: int = 0, host: Host | None = None) -> None:
+                 show: Callable[[str, bool], object] | None = None, threads: int = 0, host: Host | None = None,
+                 device: str = "cpu", stream: Any = None) -> None:
         super().__init__()
+        self._on_device = bool(_chosen("device", device, DEVICES))
+        self._stream = stream    # which must live as long as the wall
         self._told: BaseException | None = None    # what a callback raised, which C cannot pass on
         self._arrays: Any = None    # of the last step, whose errors the library may still have to tell
 
@@ -714,7 +729,8 @@ class Wall(_Owner):
         self._host = _host_struct(host, called) if host else None
         options = _sized(_WallOptions, periodic=(_int * 3)(*map(bool, periodic)), margin=margin, time=time,
                          units=units.encode(), show=self._show, threads=threads,
-                         host=ctypes.addressof(self._host) if self._host else None)
+                         host=ctypes.addressof(self._host) if self._host else None,
+                         stream=_arrays.stream_handle(stream), device=int(self._on_device))
         for name, corner in (("lo", lo), ("hi", hi)):
             place = _numbers(corner, (3,), name)
             if place is not None:
@@ -728,32 +744,47 @@ class Wall(_Owner):
             raise told
         _check(code)
 
-    def step(self, x: NDArray[np.float64], v: NDArray[np.float64], omega: NDArray[np.float64], radius: NDArray[np.float64],
-             mass: NDArray[np.float64], force: NDArray[np.float64], torque: NDArray[np.float64], dt: float, setup: bool = False,
-             changed: bool = False, reach: float = 0.0, temperature: NDArray[np.float64] | None = None,
-             heat: NDArray[np.float64] | None = None, type: NDArray[np.int32] | None = None) -> None:
+    def step(self, x: Any, v: Any, omega: Any, radius: Any, mass: Any, force: Any, torque: Any, dt: float,
+             setup: bool = False, changed: bool = False, reach: float = 0.0, temperature: Any = None, heat: Any = None,
+             type: Any = None) -> None:
         """Adds to `force` and `torque`, (n, 3), and with a law of heat to `heat`, (n,), what the wall does in a
-        step of `dt`. All arrays are contiguous float64. `setup`: the forces with which a run begins; `changed`:
-        radii grew since the last step. New spheres are at the end. `type`: int32, for laws by type."""
-        n = len(radius)
-        arrays = {"x": (x, (n, 3)), "v": (v, (n, 3)), "omega": (omega, (n, 3)), "radius": (radius, (n,)),
-                  "mass": (mass, (n,)), "force": (force, (n, 3)), "torque": (torque, (n, 3)),
-                  "temperature": (temperature, (n,)), "heat": (heat, (n,)), "type": (type, (n,))}
-        spheres = _sized(_Spheres, n=n)
-        for name, (array, shape) in arrays.items():
-            if array is None and name in ("temperature", "heat", "type"):
-                continue
-            kind = np.int32 if name == "type" else np.float64
-            if not isinstance(array, np.ndarray) or array.dtype != kind or array.shape != shape \
-                    or not array.flags.c_contiguous:
-                raise TypeError(f"{name} is not a contiguous {kind.__name__} array of shape {shape}")
-            if name in ("force", "torque", "heat") and not array.flags.writeable:
-                raise TypeError(f"{name} cannot be written to")
-            setattr(spheres, name, array.ctypes.data)
+        step of `dt`. All arrays are contiguous float64, of numpy or with `__dlpack__` or `__cuda_array_interface__`,
+        where the wall was made for. `setup`: the forces with which a run begins; `changed`: radii grew since the last
+        step. New spheres are at the end. `type`: int32, for laws by type.
+
+        On a device arrays are read, and forces are added, in the order of the wall's stream. There, and with a `host`,
+        an error of a sphere is raised by the next call; until then the wall keeps the arrays.
+
+        Raises TypeError for arrays of another type, shape or place, Error for what lsdcd_wall_step_spheres()
+        refuses."""
+        n = _arrays.read(radius, "radius", _arrays.stream_handle(self._stream)).shape[:1]
+        vectors = {"x": x, "v": v, "omega": omega, "force": force, "torque": torque}
+        numbers = {"radius": radius, "mass": mass, "temperature": temperature, "heat": heat, "type": type}
+        given = {name: (array, (*n, 3)) for name, array in vectors.items()}
+        given |= {name: (array, n) for name, array in numbers.items()}
+        optional = ("temperature", "heat", "type")
+        arrays = {name: self._array(array, name, shape) for name, (array, shape) in given.items()
+                  if array is not None or name not in optional}
+        spheres = _sized(_Spheres, n=math.prod(n), **{name: array.address for name, array in arrays.items()})
         step = _sized(_WallStep, dt=dt, setup=bool(setup), changed=bool(changed), reach=reach)
         before, self._arrays = self._arrays, arrays
         self._do(_lib.lsdcd_wall_step_spheres, self._handle, ctypes.byref(spheres), ctypes.byref(step))
         del before    # errors of the last step were told in this one
+
+    def _array(self, values: Any, name: str, shape: tuple[int, ...]) -> _arrays.Array:
+        """An array of spheres, in place."""
+        array = _arrays.read(values, name, _arrays.stream_handle(self._stream)) if _is_array(values) else None
+        kind = np.dtype(np.int32 if name == "type" else np.float64)
+        packed = (3, 1)[2 - len(shape):]
+        if array is None or array.dtype != kind or array.shape != shape or array.steps(len(shape) - 1) != packed:
+            raise TypeError(f"{name} is not a contiguous {kind.name} array of shape {shape}")
+        if array.on_host == self._on_device:
+            where, other = ("a CUDA device", "cpu") if self._on_device else ("the host", "cuda")
+            raise TypeError(f"{name} is {_place(array)}, and the wall was made for arrays on {where}: make it with "
+                            f"device=\"{other}\"")
+        if name in ("force", "torque", "heat") and not array.writable:
+            raise TypeError(f"{name} cannot be written to")
+        return array
 
     def renumber(self, source: ArrayLike) -> None:
         """Before the next step: sphere i is the one that was source[i], or with -1 a new one."""

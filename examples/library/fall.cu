@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A DEM on a GPU: grains fill a closed mesh and fall to its floor: fall CLOSED.stl [STEPS]
+//
+// Grains, their forces and the wall stay on the GPU, in the order of one stream. Grains push each other by a damped
+// spring along their normal; the wall has LAMMPS's Hookean law with friction. Lengths are in the unit of the mesh,
+// masses in that of a grain, and gravity is 1.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cuda_runtime.h>
+#include <lsdcd.hpp>
+#include <string>
+#include <vector>
+
+void check(cudaError_t status)
+{
+  if (status != cudaSuccess) throw std::runtime_error(cudaGetErrorString(status));
+}
+
+template <class T>
+struct OnGpu {
+  T *at = nullptr;
+  explicit OnGpu(const std::vector<T> &values)
+  {
+    check(cudaMalloc(&at, values.size() * sizeof(T)));
+    check(cudaMemcpy(at, values.data(), values.size() * sizeof(T), cudaMemcpyHostToDevice));
+  }
+  ~OnGpu() { cudaFree(at); }
+  OnGpu(const OnGpu &) = delete;
+  OnGpu &operator=(const OnGpu &) = delete;
+};
+
+// Grains of one size, x y z x y z; cells as wide as a grain, each with a list of its grains.
+struct Scene {
+  int n, cells[3];
+  double radius, mass, stiffness, damping, dt, lo[3];
+  double *x, *v, *omega, *force, *torque;
+  int *head, *next;    // the first grain of a cell, the next one of a grain; -1: none
+
+  __device__ int cell(int i, int k) const
+  {
+    const int c = static_cast<int>((x[3 * i + k] - lo[k]) / (2 * radius));
+    return min(max(c, 0), cells[k] - 1);
+  }
+};
+
+__global__ void kick_and_drift(Scene s, bool drifts)
+{
+  const int k = blockIdx.x * blockDim.x + threadIdx.x;
+  if (k >= 3 * s.n) return;
+  s.v[k] += 0.5 * s.dt * s.force[k] / s.mass;
+  s.omega[k] += 0.5 * s.dt * s.torque[k] / (0.4 * s.mass * s.radius * s.radius);
+  if (drifts) s.x[k] += s.dt * s.v[k];
+}
+
+__global__ void list(Scene s)
+{
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i >= s.n) return;
+  const int c = (s.cell(i, 2) * s.cells[1] + s.cell(i, 1)) * s.cells[0] + s.cell(i, 0);
+  s.next[i] = atomicExch(s.head + c, i);
+}
+
+__global__ void push_each_other(Scene s)
+{
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i >= s.n) return;
+  double f[3] = {0, 0, -s.mass};    // gravity
+  for (int near = 0; near < 27; near++) {
+    const int at[3] = {s.cell(i, 0) + near % 3 - 1, s.cell(i, 1) + near / 3 % 3 - 1,
+                       s.cell(i, 2) + near / 9 - 1};
+    bool inside = true;
+    for (int k = 0; k < 3; k++) inside &= at[k] >= 0 && at[k] < s.cells[k];
+    if (!inside) continue;
+    for (int j = s.head[(at[2] * s.cells[1] + at[1]) * s.cells[0] + at[0]]; j >= 0; j = s.next[j]) {
+      double d[3], square = 0, approach = 0;
+      for (int k = 0; k < 3; k++) {
+        d[k] = s.x[3 * i + k] - s.x[3 * j + k];
+        square += d[k] * d[k];
+        approach -= d[k] * (s.v[3 * i + k] - s.v[3 * j + k]);
+      }
+      if (i == j || square >= 4 * s.radius * s.radius) continue;
+      const double distance = sqrt(square);
+      const double push = s.stiffness * (2 * s.radius - distance) + s.damping * approach / distance;
+      for (int k = 0; k < 3; k++) f[k] += fmax(push, 0.) * d[k] / distance;
+    }
+  }
+  for (int k = 0; k < 3; k++) {
+    s.force[3 * i + k] = f[k];
+    s.torque[3 * i + k] = 0;
+  }
+}
+
+// Places of a lattice that are inside the mesh, clear of it by `gap`.
+std::vector<double> inside(const lsdcd::Grid &grid, const std::vector<double> &places, double gap)
+{
+  const std::size_t n = places.size() / 3;
+  std::vector<double> distance(n), found;
+  std::vector<int8_t> side(n);
+  lsdcd::Query<double> query(places.data(), n);
+  query.distance = distance.data();
+  query.side = side.data();
+  grid.query(query);
+  for (std::size_t i = 0; i < n; i++)
+    if (side[i] < 0 && distance[i] > gap)
+      found.insert(found.end(), &places[3 * i], &places[3 * i] + 3);
+  return found;
+}
+
+int main(int argc, char **argv)
+try {
+  const std::string file = argc > 1 ? argv[1] : "closed.stl";
+  const int steps = argc > 2 ? std::atoi(argv[2]) : 30000;
+  const lsdcd::Mesh mesh(file);
+  const lsdcd::Grid grid(mesh);
+  const lsdcd::MeshFacts facts = mesh.facts();
+  const double diagonal =
+      std::hypot(facts.hi[0] - facts.lo[0], facts.hi[1] - facts.lo[1], facts.hi[2] - facts.lo[2]);
+
+  Scene s = {};
+  s.radius = 0.01 * diagonal;
+  s.mass = 1;
+  s.stiffness = 2e4 * s.mass / s.radius;    // a hundred layers press a grain by 1/200 of its radius
+  const double frequency = std::sqrt(s.stiffness / s.mass);
+  s.damping = 0.4 * s.mass * frequency;
+  s.dt = 0.1 / frequency;
+  std::vector<double> lattice;
+  for (double z = facts.lo[2]; z < facts.hi[2]; z += 2.1 * s.radius)
+    for (double y = facts.lo[1]; y < facts.hi[1]; y += 2.1 * s.radius)
+      for (double x = facts.lo[0]; x < facts.hi[0]; x += 2.1 * s.radius)
+        // Rows aside from each other, so that none stands on another.
+        lattice.insert(lattice.end(), {x + 0.03 * s.radius * std::sin(7 * z / s.radius), y, z});
+  std::vector<double> x = inside(grid, lattice, s.radius);
+  s.n = static_cast<int>(x.size() / 3);
+  if (s.n == 0) throw std::runtime_error(file + ": no grain has room in it");
+
+  int n_cells = 1;
+  for (int k = 0; k < 3; k++) {
+    s.lo[k] = facts.lo[k];
+    s.cells[k] = 1 + static_cast<int>((facts.hi[k] - facts.lo[k]) / (2 * s.radius));
+    n_cells *= s.cells[k];
+  }
+  const std::vector<double> zeros(3 * s.n, 0.);
+  const OnGpu<double> places(x), v(zeros), omega(zeros), force(zeros), torque(zeros);
+  const OnGpu<double> radius{std::vector<double>(s.n, s.radius)},
+      mass{std::vector<double>(s.n, s.mass)};
+  const OnGpu<int> head{std::vector<int>(n_cells)}, next{std::vector<int>(s.n)};
+  s.x = places.at, s.v = v.at, s.omega = omega.at, s.force = force.at, s.torque = torque.at;
+  s.head = head.at, s.next = next.at;
+
+  cudaStream_t stream;
+  check(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking));
+  lsdcd::WallOptions options;
+  options.device = LSDCD_CUDA;
+  options.stream = stream;
+  const auto number = [](double value) { return std::to_string(value); };
+  lsdcd::Wall wall({"hooke/history", number(s.stiffness), number(2 / 7. * s.stiffness),
+                    number(0.4 * frequency), "NULL", "0.5", "1", "mesh", file},
+                   &options);
+  lsdcd_spheres spheres = {};
+  spheres.size = sizeof spheres;
+  spheres.n = s.n;
+  spheres.x = s.x, spheres.v = s.v, spheres.omega = s.omega, spheres.force = s.force,
+  spheres.torque = s.torque;
+  spheres.radius = radius.at, spheres.mass = mass.at;
+  lsdcd_wall_step step = {};
+  step.size = sizeof step;
+  step.dt = s.dt;
+
+  constexpr int kThreads = 128;
+  const int blocks = (s.n + kThreads - 1) / kThreads,
+            blocks_of_3 = (3 * s.n + kThreads - 1) / kThreads;
+  for (int k = 0; k <= steps; k++) {
+    if (k > 0) kick_and_drift<<<blocks_of_3, kThreads, 0, stream>>>(s, true);
+    check(cudaMemsetAsync(s.head, -1, n_cells * sizeof(int), stream));
+    list<<<blocks, kThreads, 0, stream>>>(s);
+    push_each_other<<<blocks, kThreads, 0, stream>>>(s);
+    step.setup = k == 0;    // the forces with which it begins
+    wall.step(spheres, step);
+    if (k > 0) kick_and_drift<<<blocks_of_3, kThreads, 0, stream>>>(s, false);
+  }
+  const lsdcd_wall_totals totals = wall.totals();
+  check(cudaMemcpyAsync(x.data(), s.x, x.size() * sizeof(double), cudaMemcpyDeviceToHost, stream));
+  check(cudaStreamSynchronize(stream));
+  const std::size_t within = inside(grid, x, 0).size() / 3;
+  std::printf("%d grains, %zu inside after %d steps; the wall bears %.3f of their weight\n", s.n,
+              within, steps, -totals.force[2] / (s.n * s.mass));
+  return within == static_cast<std::size_t>(s.n) ? 0 : 1;
+} catch (const std::exception &e) {
+  std::fprintf(stderr, "%s\n", e.what());
+  return 1;
+}

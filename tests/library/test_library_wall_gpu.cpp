@@ -1,0 +1,374 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A wall with arrays of spheres on a GPU against the same wall with arrays of the host.
+#include "floor_and_grains.h"
+#include "support/device_memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <cuda_runtime_api.h>
+#include <iterator>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+class wall_gpu : public FloorTest {
+ protected:
+  // Waves of 2 x 16 x 16 triangles from -2 to 2: edges and vertices that stand out and in.
+  const std::string waves_ = file_ + ".waves.stl";
+
+  void SetUp() override
+  {
+    FloorTest::SetUp();
+    std::ofstream file(waves_);
+    file << "solid w\n";
+    const auto corner = [&](int i, int j) {
+      file << "vertex " << -2 + 0.25 * i << " " << -2 + 0.25 * j << " "
+           << 0.2 * ((i * 7 + j * 11) % 5) << "\n";
+    };
+    const auto facet = [&](int i, int j, int di, int dj, int ei, int ej) {
+      file << "facet normal 0 0 0\nouter loop\n";
+      corner(i, j);
+      corner(i + di, j + dj);
+      corner(i + ei, j + ej);
+      file << "endloop\nendfacet\n";
+    };
+    for (int i = 0; i < 16; i++)
+      for (int j = 0; j < 16; j++) {
+        facet(i, j, 1, 0, 1, 1);
+        facet(i, j, 1, 1, 0, 1);
+      }
+    file << "endsolid w\n";
+  }
+  void TearDown() override
+  {
+    std::remove(waves_.c_str());
+    FloorTest::TearDown();
+  }
+  static std::vector<std::string> split(const std::string &text)
+  {
+    std::istringstream words(text);
+    return {std::istream_iterator<std::string>(words), {}};
+  }
+};
+
+// Spheres with all that a wall may ask for, whose numbers are on the host or on a GPU in a step.
+struct Rain {
+  std::vector<double> x, v, omega, radius, mass, force, torque, temperature, heat;
+  std::vector<int> type;
+
+  explicit Rain(int n)
+  {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int i = 0; i < n; i++) {
+      for (const double most : {1.8, 1.8}) x.push_back(most * (2 * unit(random) - 1));
+      x.push_back(0.4 + 0.8 * unit(random));
+      for (int k = 0; k < 3; k++) v.push_back(unit(random) - 0.5);
+      for (int k = 0; k < 3; k++) omega.push_back(4 * unit(random) - 2);
+      radius.push_back(0.1 + 0.1 * unit(random));
+      mass.push_back(unit(random) + 0.5);
+      temperature.push_back(300 + unit(random));
+      type.push_back(1 + i % 2);
+    }
+    clear();
+  }
+  void clear()
+  {
+    force.assign(x.size(), 0);
+    torque.assign(x.size(), 0);
+    heat.assign(radius.size(), 0);
+  }
+  void move()
+  {
+    for (std::size_t i = 0; i < x.size(); i++) {
+      v[i] += kDt * (force[i] / mass[i / 3] - (i % 3 == 2 ? 9.81 : 0));
+      omega[i] += kDt * torque[i] / (0.4 * mass[i / 3] * radius[i / 3] * radius[i / 3]);
+      x[i] += kDt * v[i];
+    }
+  }
+};
+
+lsdcd_wall_step step_of(bool setup = false, bool changed = false)
+{
+  lsdcd_wall_step step = {};
+  step.size = sizeof step;
+  step.dt = kDt;
+  step.setup = setup;
+  step.changed = changed;
+  return step;
+}
+
+lsdcd::WallOptions on_device(void *stream = nullptr)
+{
+  lsdcd::WallOptions o;
+  o.device = LSDCD_CUDA;
+  o.stream = stream;
+  return o;
+}
+
+// Where a step has the numbers of spheres.
+struct Copies {
+  using Numbers = lsdcd::DeviceArray<double>;
+  bool cuda;
+  Numbers x{cuda}, v{cuda}, omega{cuda}, radius{cuda}, mass{cuda}, force{cuda}, torque{cuda},
+      temperature{cuda}, heat{cuda};
+  lsdcd::DeviceArray<int> type{cuda};
+
+  explicit Copies(bool cuda) : cuda(cuda) {}
+  lsdcd_spheres of(const Rain &r)
+  {
+    lsdcd_spheres s = {};
+    s.size = sizeof s;
+    s.n = r.radius.size();
+    s.x = x.put(r.x);
+    s.v = v.put(r.v);
+    s.omega = omega.put(r.omega);
+    s.radius = radius.put(r.radius);
+    s.mass = mass.put(r.mass);
+    s.force = force.put(r.force);
+    s.torque = torque.put(r.torque);
+    s.temperature = temperature.put(r.temperature);
+    s.heat = heat.put(r.heat);
+    s.type = type.put(r.type);
+    return s;
+  }
+  void step(lsdcd::Wall &wall, Rain &r, const lsdcd_wall_step &step)
+  {
+    r.clear();
+    wall.step(of(r), step);
+    r.force = force.get(r.x.size());
+    r.torque = torque.get(r.x.size());
+    r.heat = heat.get(r.radius.size());
+  }
+};
+
+bool same_bytes(const std::vector<double> &a, const std::vector<double> &b)
+{
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+TEST_F(wall_gpu, gives_arrays_on_a_device_the_forces_of_arrays_of_the_host)
+{
+  // Same source, no contraction, IEEE division and root on both: no tolerance for forces. Totals are sums of at
+  // most n contacts in another order: n roundings of the sum of sizes.
+  const std::string hertz = "hertz/history 1e5 5e4 100 50 0.5 1 mesh " + waves_,
+                    moving = " mesh " + file_ + " motion linear 0 0 0.2";
+  const std::vector<std::string> walls = {
+      hertz,
+      hertz + moving,
+      hertz + " law types 2 hertz/history 2e5 1e5 100 50 0.3 1" + moving,
+      hertz + " wear archard 1e-3 1e6",
+      "granular hertz 1e5 3 tangential linear_history 5e4 1 0.5 rolling sds 2e3 5 0.1 heat area 1 "
+      "mesh " +
+          waves_ + " temperature 350",
+  };
+  constexpr int kSpheres = 300, kSteps = 60;
+  for (const std::string &text : walls) {
+    std::vector<std::string> on_host = split(text);
+    on_host.insert(on_host.end(), {"device", "cpu"});
+    const lsdcd::WallOptions options = on_device();
+    lsdcd::Wall host(on_host), device(split(text), &options);
+    Rain there(kSpheres), here(kSpheres);
+    Copies on_gpu(true), on_cpu(false);
+    double contacts = 0;
+    for (int k = 0; k <= kSteps; k++) {
+      on_cpu.step(host, here, step_of(k == 0));
+      on_gpu.step(device, there, step_of(k == 0));
+      ASSERT_TRUE(same_bytes(there.force, here.force)) << text << ", step " << k;
+      ASSERT_TRUE(same_bytes(there.torque, here.torque)) << text << ", step " << k;
+      ASSERT_TRUE(same_bytes(there.heat, here.heat)) << text << ", step " << k;
+      here.move();
+      there.move();
+      const lsdcd_wall_totals a = device.totals(), b = host.totals();
+      double size = 0;
+      for (const double f : here.force) size += std::abs(f);
+      EXPECT_EQ(a.contacts, b.contacts);
+      for (int c = 0; c < 3; c++) EXPECT_NEAR(a.force[c], b.force[c], kSpheres * 1e-15 * size);
+      contacts += b.contacts;
+    }
+    EXPECT_NEAR(device.totals().worn, host.totals().worn, 1e-12 * host.totals().worn);
+    EXPECT_GT(contacts, kSteps) << text;
+  }
+}
+
+TEST_F(wall_gpu, lets_springs_follow_spheres_that_change_their_numbers)
+{
+  const std::vector<std::string> words = split("hertz/history 1e5 5e4 100 50 0.5 1 mesh " + waves_);
+  const lsdcd::WallOptions options = on_device();
+  lsdcd::Wall straight(words, &options), turned(words, &options), restored(words, &options);
+  Rain a(100), b(100);
+  Copies copies(true), others(true);
+  for (int k = 0; k < 30; k++) {
+    copies.step(straight, a, step_of());
+    others.step(turned, b, step_of());
+    a.move();
+    b.move();
+  }
+  std::vector<std::ptrdiff_t> order(100);
+  Rain c = b;
+  for (int i = 0; i < 100; i++) {
+    order[i] = 99 - i;
+    for (int k = 0; k < 3; k++) {
+      c.x[3 * i + k] = b.x[3 * order[i] + k];
+      c.v[3 * i + k] = b.v[3 * order[i] + k];
+      c.omega[3 * i + k] = b.omega[3 * order[i] + k];
+    }
+    c.radius[i] = b.radius[order[i]];
+    c.mass[i] = b.mass[order[i]];
+  }
+  restored.restore(straight.save());
+  const std::vector<double> packed = turned.pack(order);
+  turned.renumber(std::vector<std::ptrdiff_t>(100, -1));
+  std::vector<std::ptrdiff_t> same(100);
+  for (int i = 0; i < 100; i++) same[i] = i;
+  turned.unpack(same, packed);
+  Rain d = a;
+  copies.step(straight, a, step_of());
+  others.step(turned, c, step_of());
+  Copies again(true);
+  again.step(restored, d, step_of());
+  EXPECT_TRUE(same_bytes(d.force, a.force));
+  double most = 0;
+  for (int i = 0; i < 100; i++)
+    for (int k = 0; k < 3; k++) {
+      ASSERT_EQ(c.force[3 * i + k], a.force[3 * order[i] + k]) << i;
+      most = std::max(most, std::abs(a.force[3 * i + k]));
+    }
+  EXPECT_GT(most, 0);
+}
+
+TEST_F(wall_gpu, acts_through_a_periodic_face_and_warns_past_it)
+{
+  std::vector<std::string> shown;
+  lsdcd::WallOptions options = on_device();
+  for (int k = 0; k < 3; k++) options.hi[k] = -(options.lo[k] = -20);
+  options.periodic[2] = 1;
+  options.margin = 0.1;
+  options.data = &shown;
+  options.show = [](void *data, int warning, const char *text) {
+    if (warning) static_cast<std::vector<std::string> *>(data)->push_back(text);
+  };
+  std::vector<std::string> floor = words({"move", "0", "0", "-19.6"});
+  floor.erase(std::find(floor.begin(), floor.end(), "device"),
+              std::find(floor.begin(), floor.end(), "move"));
+  lsdcd::Wall wall(floor, &options);
+  Rain one(1);
+  one.radius = {0.5};
+  one.v = one.omega = {0, 0, 0};
+  one.x = {0, 0, 19.92};    // the image of the floor is at z = 20.4
+  Copies copies(true);
+  copies.step(wall, one, step_of());
+  EXPECT_NEAR(one.force[2], -kN * 0.02, kN * 1e-13);
+  EXPECT_TRUE(shown.empty());
+  one.x[2] = 20.3;
+  copies.step(wall, one, step_of());
+  ASSERT_EQ(shown.size(), 1u);
+  EXPECT_EQ(shown[0].rfind("a particle was 0.3 past a periodic face", 0), 0u) << shown[0];
+}
+
+TEST_F(wall_gpu, tells_of_a_sphere_in_the_next_call)
+{
+  const lsdcd::WallOptions options = on_device();
+  lsdcd::Wall wall(split("hertz/history 1e5 5e4 100 50 0.5 1 mesh " + file_), &options);
+  Rain rain(2);
+  rain.x = {0, 0, 0.05, 1, 0, 0.05};
+  Copies copies(true);
+  copies.step(wall, rain, step_of());
+  rain.radius[1] *= 2;    // without `changed`
+  copies.step(wall, rain, step_of());
+  const std::string told = text_of([&] { wall.totals(); });
+  EXPECT_EQ(told.rfind("atom 2 ", 0), 0u) << told;
+  EXPECT_EQ(text_of([&] { copies.step(wall, rain, step_of()); }), told);
+}
+
+TEST_F(wall_gpu, takes_radii_that_have_grown)
+{
+  const lsdcd::WallOptions options = on_device();
+  lsdcd::Wall wall(split("hooke 1000 0 0 0 0 0 mesh " + file_), &options);
+  Rain rain(1);
+  rain.x = {0, 0, 0.3};
+  rain.radius = {0.2};
+  Copies copies(true);
+  copies.step(wall, rain, step_of());
+  EXPECT_EQ(rain.force[2], 0);
+  rain.radius = {0.5};
+  copies.step(wall, rain, step_of(false, true));
+  EXPECT_NEAR(rain.force[2], 1000 * 0.2, 1000 * kRounding);
+}
+
+TEST_F(wall_gpu, checks_types_in_steps_that_look)
+{
+  const lsdcd::WallOptions options = on_device();
+  const std::string law = "hooke 1000 0 0 0 0 0";
+  lsdcd::Wall wall(split(law + " mesh " + file_ + " law types 2 " + law), &options);
+  Rain rain(2);
+  Copies copies(true);
+  copies.step(wall, rain, step_of());
+  rain.type[1] = -1;
+  EXPECT_EQ(text_of([&] { copies.step(wall, rain, step_of(false, true)); }),
+            "type[1] is -1, below 1");
+}
+
+TEST_F(wall_gpu, refuses_an_array_that_is_elsewhere_before_it_writes)
+{
+  const std::vector<std::string> here = split("hooke 1000 0 0 0 0 0 mesh " + file_ + " device cpu"),
+                                 there = split("hooke 1000 0 0 0 0 0 mesh " + file_);
+  const lsdcd::WallOptions options = on_device();
+  lsdcd::Wall host(here), device(there, &options);
+  Rain rain(1);
+  rain.x = {0, 0, 0.05};
+  Copies on_gpu(true);
+  lsdcd_spheres s = on_gpu.of(rain);
+  s.torque = rain.torque.data();
+  EXPECT_EQ(text_of([&] { device.step(s, step_of()); }),
+            "the array `torque` is in the host's memory; the wall takes arrays of the device: make "
+            "the wall "
+            "where the arrays of spheres are");
+  EXPECT_EQ(on_gpu.force.get(3), std::vector<double>(3, 0));
+  s.torque = on_gpu.torque.data();
+  EXPECT_EQ(text_of([&] { host.step(s, step_of()); }),
+            "the array `x` is in a GPU's memory: make the wall with device LSDCD_CUDA");
+  device.step(s, step_of());
+  EXPECT_GT(on_gpu.force.get(3)[2], 0);
+  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(here, &options); }),
+            LSDCD_ERROR_INPUT);    // `device cpu`
+}
+
+TEST_F(wall_gpu, keeps_the_order_of_its_stream)
+{
+  cudaStream_t stream;
+  ASSERT_EQ(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), cudaSuccess);
+  {
+    const lsdcd::WallOptions options = on_device(stream);
+    lsdcd::Wall wall(split("hooke 1000 0 0 0 0 0 mesh " + file_), &options);
+    Rain rain(1);
+    rain.radius = {0.2};
+    rain.x = {0, 0, 0.15};
+    Copies copies(true);
+    const lsdcd_spheres s = copies.of(rain);
+    wall.step(s, step_of());
+    // The stream clears the force, after much other work, and lifts the sphere.
+    lsdcd::DeviceArray<char> work(true);
+    constexpr std::size_t kMuch = std::size_t(1) << 28;
+    work.resize(kMuch);
+    for (int k = 0; k < 20; k++) cudaMemsetAsync(work.data(), k, kMuch, stream);
+    const double higher[3] = {0, 0, 0.19};
+    cudaMemsetAsync(s.force, 0, 3 * sizeof(double), stream);
+    cudaMemcpyAsync(const_cast<double *>(s.x), higher, sizeof higher, cudaMemcpyHostToDevice,
+                    stream);
+    wall.step(s, step_of());
+    double force[3];
+    cudaMemcpyAsync(force, s.force, sizeof force, cudaMemcpyDeviceToHost, stream);
+    cudaStreamSynchronize(stream);
+    EXPECT_NEAR(force[2], 1000 * 0.01, 1000 * kRounding);
+  }
+  cudaStreamDestroy(stream);
+}
+
+}    // namespace
