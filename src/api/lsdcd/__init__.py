@@ -486,21 +486,22 @@ class Grid(_Owner):
         driver = _arrays.driver()
         with driver.on(device):
             streams: dict[Any, Any] = self._streams.__dict__    # of this thread
-            known = streams.pop((device, handle), None) or (_Stream(self, handle), owner)
+            known = streams.pop((device, handle), None) or _Stream(self, handle, owner)
             streams[device, handle] = known    # the last one used is the last one
             if len(streams) > _MOST_STREAMS:
                 del streams[next(iter(streams))]
-            _check(_lib.lsdcd_query_stream(known[0]._handle, ctypes.byref(query)))
+            _check(_lib.lsdcd_query_stream(known._handle, ctypes.byref(query)))
             if wait:
                 driver.wait(handle)
 
 
 class _Stream(_Owner):
-    """A Grid on a stream of the device that is current."""
+    """A Grid on a stream of the device that is current. It keeps `owner`, whose stream ends after it."""
     _free = _lib.lsdcd_stream_free
 
-    def __init__(self, grid: Grid, handle: int) -> None:
+    def __init__(self, grid: Grid, handle: int, owner: Any) -> None:
         super().__init__()
+        self._stream_owner = owner
         _check(_lib.lsdcd_stream_open(grid._handle, handle, ctypes.byref(self._handle)))
 
 
