@@ -263,15 +263,15 @@ typedef struct lsdcd_contacts {
 LSDCD_API int lsdcd_contacts_host(const lsdcd_grid *grid, lsdcd_contacts *contacts);
 
 /* A grid on the CUDA device that is current, and a stream (cudaStream_t) of that device, null: the
- * default one. Without a cutoff the grid's tree answers, with the numbers of lsdcd_query_host(). The stream must outlive it. Streams of one grid share its
- * copy on a device. Any. */
+ * default one. Without a cutoff the grid's tree answers, with the numbers of lsdcd_query_host(). Queries
+ * need the stream. Streams of one grid share its copy on a device. Any. */
 typedef struct lsdcd_stream lsdcd_stream;
 LSDCD_API int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **stream);
 /* Answers in arrays of that device, or managed ones, in the order of the stream and without waiting
  * for it, but for `radii`, which are checked. Distance and status alone are quickest, most of all
  * where points and radii lie as x y z r x y z r, aligned to 16 bytes. Own. */
 LSDCD_API int lsdcd_query_stream(lsdcd_stream *stream, const lsdcd_query *query);
-/* Waits for the stream. Null is fine. Own. */
+/* Waits for the device; the CUDA stream may be gone. Null is fine. Own. */
 LSDCD_API void lsdcd_stream_free(lsdcd_stream *stream);
 /* 1 where there is a CUDA device that this library can use; else 0, and lsdcd_last_error() says
  * why. Any. */

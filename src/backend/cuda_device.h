@@ -36,6 +36,17 @@ class OnGpu {
   int before_;
 };
 
+// Until all that was started on a GPU has ended, also on streams that are destroyed by now. For destructors: an
+// error is left to who asks next.
+inline void wait_for_gpu(int device) noexcept
+{
+  int before = 0;
+  if (cudaGetDevice(&before) != cudaSuccess) return;
+  cudaSetDevice(device);
+  cudaDeviceSynchronize();
+  cudaSetDevice(before);
+}
+
 // A stream of its own on the GPU that this process shares with others of its node.
 class CudaStream {
  public:

@@ -57,13 +57,7 @@ class CudaStreamQuery : public StreamQuery {
   {
     way_.template reserve<Sphere>(1);
   }
-  ~CudaStreamQuery() override
-  {
-    try {
-      b_.wait();
-    } catch (const InputError &) {    // nobody is left to tell
-    }
-  }
+  ~CudaStreamQuery() override { wait_for_gpu(grid_->device); }
 
   void answer(const PointArrays<float> &io) override { answer_in(io); }
   void answer(const PointArrays<double> &io) override { answer_in(io); }

@@ -100,13 +100,7 @@ class CudaTreeQuery : public StreamQuery {
       tree_(std::move(tree)), b_(stream), radii_(HUGE_VAL)
   {
   }
-  ~CudaTreeQuery() override
-  {
-    try {
-      b_.wait();
-    } catch (const InputError &) {    // nobody is left to tell
-    }
-  }
+  ~CudaTreeQuery() override { wait_for_gpu(tree_->device); }
 
   void answer(const PointArrays<float> &io) override { answer_in(io); }
   void answer(const PointArrays<double> &io) override { answer_in(io); }
