@@ -42,12 +42,15 @@ TEST(sub_models, have_names_and_numbers_of_their_own)
 TEST(sub_models, say_what_they_keep)
 {
   for (const SubModel &row : sub_models()) {
-    if (row.kept.beside_shear > 0) EXPECT_TRUE(row.kept.what) << name_of(row);
+    if (row.kept.beside_shear > 0) {
+      EXPECT_TRUE(row.kept.what) << name_of(row);
+    }
     const bool shear = row.family == Family::style || row.family == Family::tangential;
     for (const SubModel &other : sub_models())
       if (&row != &other && row.kept.what && other.kept.what &&
-          row.kept.what == std::string(other.kept.what))
+          row.kept.what == std::string(other.kept.what)) {
         EXPECT_TRUE(shear && row.kept.beside_shear == other.kept.beside_shear) << name_of(row);
+      }
   }
 }
 
