@@ -17,13 +17,6 @@ const char *const kSyntax =
     "all] [memory MB] "
     "[device cpu | cuda | auto] [log full | brief]";
 
-void read_nearest(Tokens &w, CollideSettings &s)
-{
-  const Real n = w.number_or("all", 0, "N", 1, kMaxNearest);
-  s.nearest = static_cast<int>(n);
-  if (s.nearest != n) w.fail("N must be a whole number");
-}
-
 // False where the word is no keyword.
 bool read_word(const std::string &word, Tokens &w, CollideSettings &s)
 {
@@ -39,10 +32,10 @@ bool read_word(const std::string &word, Tokens &w, CollideSettings &s)
     s.grid_length = w.number_or("auto", 0, "L", kAboveZero);
   } else if (word == "nearest") {
     w.set_context("nearest", "nearest N | all");
-    read_nearest(w, s);
+    s.nearest = read_nearest(w);
   } else if (word == "memory") {
     w.set_context("memory", "memory MB");
-    s.memory = static_cast<std::size_t>(w.number("the budget", 1, 1e9) * 1024 * 1024);
+    s.memory = read_memory(w);
   } else if (word == "device") {
     w.set_context("device", "device cpu | cuda | auto");
     const Device devices[] = {Device::cpu, Device::cuda, Device::automatic};

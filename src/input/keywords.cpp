@@ -11,6 +11,7 @@
 #include "grid/cache/grid_cache.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lsdcd {
 
@@ -70,18 +71,6 @@ void read_move(Tokens &w, MeshSettings &s)
   s.placement.move(shift);
   note_placement(s, "move " + number_text(shift.x) + " " + number_text(shift.y) + " " +
                         number_text(shift.z));
-}
-
-void read_memory(Tokens &w, WallSettings &s)
-{
-  s.memory_budget = static_cast<std::size_t>(w.number("the budget", 1, 1e9) * 1024 * 1024);
-}
-
-void read_nearest(Tokens &w, WallSettings &s)
-{
-  const Real n = w.number_or("all", 0, "N", 1, kMaxNearest);
-  s.nearest = static_cast<int>(n);
-  if (s.nearest != n) w.fail("N must be a whole number");
 }
 
 void read_cache(Tokens &w, MeshSettings &s)
@@ -199,10 +188,11 @@ const Keyword kKeywords[] = {
      "largest particle radius that the grid is built for",
      [](Tokens &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
     {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records",
-     "budget for the grid of each mesh", read_memory},
+     "budget for the grid of each mesh",
+     [](Tokens &w, WallSettings &s) { s.memory_budget = read_memory(w); }},
     {"nearest", "all | N", "", "1 to 32", "all",
      "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre",
-     read_nearest},
+     [](Tokens &w, WallSettings &s) { s.nearest = read_nearest(w); }},
     {"precision", "double | mixed | single", "", "", "double",
      "mixed: contacts in float, forces in double; single: both in float",
      [](Tokens &w, WallSettings &s) {
@@ -304,6 +294,18 @@ bool Keyword::repeats() const
 std::string syntax_of(const Keyword &row)
 {
   return std::string(row.name) + (*row.values ? " " : "") + row.values;
+}
+
+int read_nearest(Tokens &w)
+{
+  const Real n = w.number_or("all", 0, "N", 1, kMaxNearest);
+  if (std::floor(n) != n) w.fail("N must be a whole number");
+  return static_cast<int>(n);
+}
+
+std::size_t read_memory(Tokens &w)
+{
+  return static_cast<std::size_t>(w.number("the budget", 1, 1e9) * 1024 * 1024);
 }
 
 bool read_mesh_word(const std::string &word, Tokens &w, MeshSettings &mesh)

@@ -13,7 +13,6 @@
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
-#include "error.h"
 #include "memory.h"
 #include "modify.h"
 #include "update.h"
@@ -51,7 +50,7 @@ BodyPose in_frame_of(const lsdcd::WallPose &wall, const BodyPose &pose)
 }    // namespace
 
 ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg)
+    Compute(lmp, narg, arg), OwnMessages(lmp, "Compute", id, "lsdcd/collide")
 {
   try {
     settings = lsdcd::parse_collide(std::vector<std::string>(arg + 3, arg + narg));
@@ -63,7 +62,7 @@ ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
     for (const Vec3 &x : mesh.vertices) reach = std::max(reach, norm(x - middle));
     find_bodies();
     make_collisions(mesh);
-    log(mesh);
+    log_mesh(mesh);
   } catch (const lsdcd::InputError &e) {
     fatal(e.what());
   }
@@ -260,7 +259,7 @@ double ComputeCollideLsdcd::memory_usage()
   return bytes;
 }
 
-void ComputeCollideLsdcd::log(const lsdcd::WallMesh &mesh) const
+void ComputeCollideLsdcd::log_mesh(const lsdcd::WallMesh &mesh) const
 {
   if (comm->me != 0) return;
   std::string text = std::to_string(bodies.size()) + (bodies.size() == 1 ? " body" : " bodies") +
@@ -281,15 +280,5 @@ void ComputeCollideLsdcd::log(const lsdcd::WallMesh &mesh) const
               std::to_string(update->ntimestep) + "; the keyword atoms tells it in any step";
     text += "\n" + describe(mesh.report, settings.mesh.file);
   }
-  utils::logmesg(lmp, with_fix_id(text) + "\n");
-}
-
-std::string ComputeCollideLsdcd::with_fix_id(const std::string &text) const
-{
-  return "Compute " + std::string(id) + " lsdcd/collide: " + text;
-}
-
-void ComputeCollideLsdcd::fatal(const std::string &problem) const
-{
-  error->all(FLERR, with_fix_id(problem));
+  log(text);
 }

@@ -10,6 +10,7 @@
 #include "bodies/fit_pose.h"
 #include "bodies/mesh_collision.h"
 #include "input/collide_settings.h"
+#include "lammps/own_messages.h"
 #include "mesh/periodic_box.h"
 
 #include <cstdint>
@@ -24,7 +25,7 @@ struct WallPose;
 
 namespace LAMMPS_NS {
 
-class ComputeCollideLsdcd : public Compute {
+class ComputeCollideLsdcd : public Compute, private OwnMessages {
  public:
   ComputeCollideLsdcd(class LAMMPS *, int, char **);
   ~ComputeCollideLsdcd() override;
@@ -83,9 +84,7 @@ class ComputeCollideLsdcd : public Compute {
                   const lsdcd::PeriodicBox &, const Visit &) const;
   bool is_mine(int) const;
   bool has_any() const;
-  void log(const lsdcd::WallMesh &) const;
-  std::string with_fix_id(const std::string &) const;
-  [[noreturn]] void fatal(const std::string &) const;
+  void log_mesh(const lsdcd::WallMesh &) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -14,7 +14,6 @@
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
-#include "error.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "region.h"
@@ -82,7 +81,8 @@ class LammpsSite : public lsdcd::InsertionSite {
 
 }    // namespace LAMMPS_NS
 
-FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "insert/lsdcd")
 {
   if (!atom->radius_flag || !atom->rmass_flag)
     fatal("atoms need a radius and a mass each: use atom_style sphere");
@@ -446,26 +446,6 @@ void FixInsertLsdcd::restart(char *buffer)
 double FixInsertLsdcd::memory_usage()
 {
   return static_cast<double>(walls->bytes());
-}
-
-void FixInsertLsdcd::log(const std::string &text) const
-{
-  if (comm->me == 0) utils::logmesg(lmp, with_fix_id(text) + "\n");
-}
-
-std::string FixInsertLsdcd::with_fix_id(const std::string &text) const
-{
-  return "Fix " + std::string(id) + " insert/lsdcd: " + text;
-}
-
-void FixInsertLsdcd::warn(const std::string &problem) const
-{
-  if (comm->me == 0) error->warning(FLERR, with_fix_id(problem));
-}
-
-void FixInsertLsdcd::fatal(const std::string &problem) const
-{
-  error->all(FLERR, with_fix_id(problem));
 }
 
 FixInsertRadii::FixInsertRadii(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)

@@ -10,6 +10,7 @@
 
 #include "input/insert_settings.h"
 #include "insert/inlet_face.h"
+#include "lammps/own_messages.h"
 #include "lammps/wall_clearance.h"
 
 #include <memory>
@@ -18,7 +19,7 @@
 
 namespace LAMMPS_NS {
 
-class FixInsertLsdcd : public Fix {
+class FixInsertLsdcd : public Fix, private OwnMessages {
  public:
   FixInsertLsdcd(class LAMMPS *, int, char **);
   ~FixInsertLsdcd() override;
@@ -62,11 +63,6 @@ class FixInsertLsdcd : public Fix {
   bool owns(double *) const;
   void follow_schedule();
   void tell_refused(const std::string &, const lsdcd::Refused &);
-
-  void log(const std::string &) const;
-  std::string with_fix_id(const std::string &) const;
-  void warn(const std::string &) const;
-  [[noreturn]] void fatal(const std::string &) const;
 };
 
 // Pair styles of LAMMPS ask fixes of the style `pour` for the largest radius of a type that will come, and make

@@ -12,9 +12,7 @@
 #if __has_include("atom_masks.h")
 #include "atom_masks.h"
 #endif
-#include "comm.h"
 #include "domain.h"
-#include "error.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
@@ -27,17 +25,15 @@ using namespace FixConst;
 using lsdcd::number_text;
 using lsdcd::Vec3;
 
-FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "massflow/lsdcd")
 {
   try {
     settings = lsdcd::parse_massflow(std::vector<std::string>(arg + 3, arg + narg));
     const lsdcd::WallMesh mesh = read_mesh();
     surface = std::make_unique<lsdcd::FlowSurface>(mesh);
-    if (comm->me == 0)
-      utils::logmesg(lmp,
-                     with_fix_id(settings.brief ? std::to_string(mesh.faces.size()) + " triangles"
-                                                : describe(mesh.report, settings.surface.file)) +
-                         "\n");
+    log(settings.brief ? std::to_string(mesh.faces.size()) + " triangles"
+                       : describe(mesh.report, settings.surface.file));
     if (mesh.report.misoriented_edges > 0)
       warn(
           std::to_string(mesh.report.misoriented_edges) +
@@ -204,12 +200,11 @@ void FixMassflowLsdcd::look(int i)
   }
   if (moved >= t.clear) {
     if (!was_near && !all_were_seen)
-      error->one(FLERR,
-                 with_fix_id("atom " + std::to_string(atom->tag_enable ? atom->tag[i] : 0) +
-                             " moved by more than the skin " + number_text(neighbor->skin) +
-                             " in one step, and whether it passed is not known: make the timestep "
-                             "smaller or the skin larger (neighbor), or have all atoms looked at "
-                             "in every step with neigh_modify check no"));
+      fatal_here("atom " + std::to_string(atom->tag_enable ? atom->tag[i] : 0) +
+                 " moved by more than the skin " + number_text(neighbor->skin) +
+                 " in one step, and whether it passed is not known: make the timestep "
+                 "smaller or the skin larger (neighbor), or have all atoms looked at "
+                 "in every step with neigh_modify check no");
     count(i, surface->passes(from, x, box));
     t.clear = 0;
   } else {
@@ -241,19 +236,4 @@ void FixMassflowLsdcd::count(int i, lsdcd::Passes passes)
   row[kForwardMass] += passes.forward * mass_of(i);
   row[kBackward] += passes.backward;
   row[kBackwardMass] += passes.backward * mass_of(i);
-}
-
-std::string FixMassflowLsdcd::with_fix_id(const std::string &text) const
-{
-  return "Fix " + std::string(id) + " massflow/lsdcd: " + text;
-}
-
-void FixMassflowLsdcd::warn(const std::string &problem) const
-{
-  if (comm->me == 0) error->warning(FLERR, with_fix_id(problem));
-}
-
-void FixMassflowLsdcd::fatal(const std::string &problem) const
-{
-  error->all(FLERR, with_fix_id(problem));
 }

@@ -9,6 +9,7 @@
 
 #include "flow/flow_surface.h"
 #include "input/massflow_settings.h"
+#include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
 
 #include <memory>
@@ -17,7 +18,7 @@
 
 namespace LAMMPS_NS {
 
-class FixMassflowLsdcd : public Fix {
+class FixMassflowLsdcd : public Fix, private OwnMessages {
  public:
   FixMassflowLsdcd(class LAMMPS *, int, char **);
   ~FixMassflowLsdcd() override;
@@ -92,10 +93,6 @@ class FixMassflowLsdcd : public Fix {
   void end_window();
   double mass_of(int) const;
   double simulated_time() const;
-
-  std::string with_fix_id(const std::string &) const;
-  void warn(const std::string &) const;
-  [[noreturn]] void fatal(const std::string &) const;
 };
 
 }    // namespace LAMMPS_NS

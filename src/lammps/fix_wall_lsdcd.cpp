@@ -14,7 +14,6 @@
 #endif
 #include "comm.h"
 #include "domain.h"
-#include "error.h"
 #include "force.h"
 #include "group.h"
 #include "memory.h"
@@ -43,7 +42,7 @@ class Respa {
 #define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
 
 FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallPlace &place) :
-    Fix(lmp, narg, arg)
+    Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "wall/lsdcd")
 {
 #if __has_include("atom_masks.h")
   // All that a host with its atoms on a GPU has to bring for this fix, and take back.
@@ -124,28 +123,6 @@ FixWallLsdcd::~FixWallLsdcd()
   memory->destroy(array_atom);
   delete[] extlist;
   extlist = nullptr;
-}
-
-// ---- messages ----------------------------------------------------------------------------
-
-std::string FixWallLsdcd::with_fix_id(const std::string &text) const
-{
-  return "Fix " + std::string(id) + " wall/lsdcd: " + text;
-}
-
-void FixWallLsdcd::fatal(const std::string &problem) const
-{
-  error->all(FLERR, with_fix_id(problem));
-}
-
-void FixWallLsdcd::fatal_here(const std::string &problem) const
-{
-  error->one(FLERR, with_fix_id(problem));
-}
-
-void FixWallLsdcd::warn(const std::string &problem) const
-{
-  if (comm->me == 0) error->warning(FLERR, with_fix_id(problem));
 }
 
 // ---- what the host has -------------------------------------------------------------------

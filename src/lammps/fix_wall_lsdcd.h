@@ -9,6 +9,7 @@
 
 #include "input/script_files.h"
 #include "lammps/lammps_host.h"
+#include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
 #include "lammps/wall_picture.h"
 #include "wall/wall.h"
@@ -20,7 +21,7 @@
 
 namespace LAMMPS_NS {
 
-class FixWallLsdcd : public Fix {
+class FixWallLsdcd : public Fix, protected OwnMessages {
  public:
   FixWallLsdcd(class LAMMPS *, int, char **, const lsdcd::WallPlace & = lsdcd::WallPlace());
   ~FixWallLsdcd() override;
@@ -127,10 +128,6 @@ class FixWallLsdcd : public Fix {
   // Runs the wall's work, and ends LAMMPS with what it throws.
   template <class Work>
   void run_wall(Work &&work) const;
-  std::string with_fix_id(const std::string &) const;
-  void warn(const std::string &) const;    // by the first process
-  [[noreturn]] void fatal(const std::string &) const;
-  [[noreturn]] void fatal_here(const std::string &) const;    // on this process alone
 };
 
 template <class Work>

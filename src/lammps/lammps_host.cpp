@@ -149,7 +149,7 @@ double LammpsHost::radius_of_tag(std::int64_t tag)
 
 void LammpsHost::log(const std::string &text)
 {
-  if (rank() == 0) utils::logmesg(fix.lmp, fix.with_fix_id(text) + "\n");
+  fix.log(text);
 }
 
 void LammpsHost::warn(const std::string &text)

@@ -8,7 +8,6 @@
 #include "lammps/mpi_shared.h"
 
 #include "comm.h"
-#include "error.h"
 
 #include <cstdio>
 #include <vector>
@@ -16,7 +15,8 @@
 using namespace LAMMPS_NS;
 using lsdcd::Vec3;
 
-RegionMeshLsdcd::RegionMeshLsdcd(LAMMPS *lmp, int narg, char **arg) : Region(lmp, narg, arg)
+RegionMeshLsdcd::RegionMeshLsdcd(LAMMPS *lmp, int narg, char **arg) :
+    Region(lmp, narg, arg), OwnMessages(lmp, "Region", id, "mesh/lsdcd")
 {
   cmax = tmax = 0;
   contact = nullptr;
@@ -29,9 +29,9 @@ RegionMeshLsdcd::RegionMeshLsdcd(LAMMPS *lmp, int narg, char **arg) : Region(lmp
       if (settings.gap > 0) distances = std::make_unique<Distances>(mesh);
     });
     set_bounds(mesh.report);
-    log(mesh);
+    log_mesh(mesh);
   } catch (const lsdcd::InputError &e) {
-    error->all(FLERR, with_region_id(e.what()));
+    fatal(e.what());
   }
 }
 
@@ -82,22 +82,16 @@ int RegionMeshLsdcd::surface_exterior(double *, double)
 
 void RegionMeshLsdcd::refuse_surface() const
 {
-  error->one(FLERR,
-             with_region_id("the region is no wall: use fix wall/lsdcd with its mesh in place of "
-                            "fix wall/region or fix wall/gran/region"));
+  fatal_here("the region is no wall: use fix wall/lsdcd with its mesh in place of "
+             "fix wall/region or fix wall/gran/region");
 }
 
-void RegionMeshLsdcd::log(const lsdcd::WallMesh &mesh) const
+void RegionMeshLsdcd::log_mesh(const lsdcd::WallMesh &mesh) const
 {
   if (comm->me != 0) return;
   char text[160];
   std::snprintf(
       text, sizeof text, "%zu triangles, %.3g MB on each process", mesh.faces.size(),
       1e-6 * static_cast<double>(winding->bytes() + (distances ? distances->tree.bytes() : 0)));
-  utils::logmesg(lmp, with_region_id(text) + "\n");
-}
-
-std::string RegionMeshLsdcd::with_region_id(const std::string &text) const
-{
-  return "Region " + std::string(id) + " mesh/lsdcd: " + text;
+  log(text);
 }

@@ -8,6 +8,7 @@
 #include "region.h"
 
 #include "input/region_settings.h"
+#include "lammps/own_messages.h"
 #include "mesh/winding_number.h"
 #include "query/triangle_tree.h"
 
@@ -17,7 +18,7 @@
 namespace LAMMPS_NS {
 
 // Every process has the whole mesh.
-class RegionMeshLsdcd : public Region {
+class RegionMeshLsdcd : public Region, private OwnMessages {
  public:
   RegionMeshLsdcd(class LAMMPS *, int, char **);
 
@@ -28,8 +29,7 @@ class RegionMeshLsdcd : public Region {
  private:
   void read_host_words();
   void set_bounds(const lsdcd::MeshReport &);
-  void log(const lsdcd::WallMesh &) const;
-  std::string with_region_id(const std::string &) const;
+  void log_mesh(const lsdcd::WallMesh &) const;
   [[noreturn]] void refuse_surface() const;
 
   // From the surface.

@@ -163,6 +163,13 @@ refused(ValueError, "precision is 'half'", lambda: mesh.grid(cutoff=1, precision
 refused(ValueError, "vertex -1; there are 8", lambda: lsdcd.Mesh(vertices, [[0, 1, -1]]))
 refused(ValueError, "vertex 8; there are 8", lambda: lsdcd.Mesh(vertices, [[0, 1, 8]]))
 refused(TypeError, "whole numbers", lambda: lsdcd.Mesh(vertices, [[0.0, 1, 2]]))
+refused(TypeError, "faces have the shape (2, 4), not (n, 3)", lambda: lsdcd.Mesh(vertices, [[0, 1, 2, 3]] * 2))
+refused(TypeError, "vertices have the shape (12, 2), not (m, 3)", lambda: lsdcd.Mesh(vertices.reshape(12, 2), faces))
+refused(lsdcd.Error, "face 0 (from 0) has the vertex 1, whose y is nan",
+        lambda: lsdcd.Mesh([[0, 0, 0], [1, np.nan, 0], [0, 1, 0]], [[0, 1, 2]]))
+# Vertices in floats are those numbers.
+short = np.array([[0.1, 0, 0], [1, 0.2, 0], [0, 1, 0.3]], np.float32)
+assert (lsdcd.Mesh(short, [[0, 1, 2]]).arrays().vertices == short.astype(float)).all()
 
 # A grid keeps what it needs.
 alone = lsdcd.Mesh(vertices, faces).grid(cutoff=CUTOFF)

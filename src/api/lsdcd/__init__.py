@@ -135,6 +135,7 @@ def _load() -> Any:
         free.argtypes, free.restype = [_at], None
     lib.lsdcd_mesh_read.argtypes = [ctypes.c_char_p, _real, _at]
     lib.lsdcd_mesh_from_corners.argtypes = [_at, _size, _real, _at]
+    lib.lsdcd_mesh_from_faces.argtypes = [_at, _int, _size, _at, _size, _real, _at]
     for call in ("mesh_get_facts", "mesh_get_arrays", "grid_get_facts", "query_host", "contacts_host", "body_get_facts", "collide"):
         getattr(lib, "lsdcd_" + call).argtypes = [_at, _at]
     lib.lsdcd_query_stream.argtypes = [_at, _at]
@@ -271,10 +272,15 @@ class Mesh(_Owner):
         if isinstance(source, (str, bytes, os.PathLike)):
             _check(_lib.lsdcd_mesh_read(os.fsencode(source), weld, ctypes.byref(self._handle)))
             return
-        corners = np.asarray(source, dtype=np.float64)
         if faces is not None:
-            corners = corners[_vertex_numbers(faces, len(corners))]
-        corners = np.ascontiguousarray(corners)
+            vertices = np.ascontiguousarray(_as_floats(np.asarray(source), "vertices"))
+            if vertices.ndim != 2 or vertices.shape[1] != 3:
+                raise TypeError(f"vertices have the shape {vertices.shape}, not (m, 3)")
+            numbers = _vertex_numbers(faces, len(vertices))
+            _check(_lib.lsdcd_mesh_from_faces(vertices.ctypes.data, int(vertices.dtype == np.float32), len(vertices),
+                                              numbers.ctypes.data, len(numbers), weld, ctypes.byref(self._handle)))
+            return
+        corners = np.ascontiguousarray(source, dtype=np.float64)
         if corners.ndim != 3 or corners.shape[1:] != (3, 3):
             raise TypeError(f"triangles have the shape {corners.shape}, not (n, 3, 3)")
         _check(_lib.lsdcd_mesh_from_corners(corners.ctypes.data, len(corners), weld,
@@ -854,15 +860,17 @@ def _words(words: str | Iterable[str]) -> tuple[Any, int]:
     return (ctypes.c_char_p * len(each))(*map(os.fsencode, each)), len(each)
 
 
-def _vertex_numbers(faces: ArrayLike, n: int) -> NDArray[Any]:
-    """Faces as an array of numbers of n vertices."""
+def _vertex_numbers(faces: ArrayLike, n: int) -> NDArray[np.uint32]:
+    """Faces, (m, 3), as numbers of n vertices."""
     numbers = np.asarray(faces)
     if numbers.size and numbers.dtype.kind not in "iu":
         raise TypeError(f"faces are of type {numbers.dtype}, not whole numbers")
+    if numbers.ndim != 2 or numbers.shape[1] != 3:
+        raise TypeError(f"faces have the shape {numbers.shape}, not (n, 3)")
     wrong = numbers[(numbers < 0) | (numbers >= n)]
     if len(wrong):
         raise ValueError(f"a face has the vertex {wrong[0]}; there are {n}, numbered from 0")
-    return numbers
+    return np.ascontiguousarray(numbers, dtype=np.uint32)
 
 
 def _numbers(values: ArrayLike | None, shape: tuple[int, ...], name: str) -> NDArray[np.float64] | None:

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+#include "lammps/own_messages.h"
+
+#include "comm.h"
+#include "error.h"
+#include "lammps.h"
+#include "utils.h"
+
+using namespace LAMMPS_NS;
+
+void OwnMessages::log(const std::string &text) const
+{
+  if (lammps->comm->me == 0) utils::logmesg(lammps, begin + text + "\n");
+}
+
+void OwnMessages::warn(const std::string &problem) const
+{
+  if (lammps->comm->me == 0) lammps->error->warning(FLERR, begin + problem);
+}
+
+void OwnMessages::fatal(const std::string &problem) const
+{
+  lammps->error->all(FLERR, begin + problem);
+}
+
+void OwnMessages::fatal_here(const std::string &problem) const
+{
+  lammps->error->one(FLERR, begin + problem);
+}
