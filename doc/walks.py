@@ -122,10 +122,11 @@ WALKS = {
             BrickTable::at PointWork::far PointWork::answer nearest_from nearest_in_cell WallDistances::feature
             closest_point_on PointWork::keep""",
         "now": """
-            lsdcd_query_host guard checked_query arrays_of answer_on_host point_sides.cpp:answer_with_sides
+            lsdcd_query_host guard checked_query answer_in_parts answer_on_host arrays_of point_sides.cpp:answer_with_sides
             point_sides.cpp:answer tree_query.cpp:answer_points TreeQuery::run
             TreeQuery::answer_in_order TreeQuery::is_far TreeQuery::point NearBoxes::may_be_near TreeQuery::answer
-            TriangleTree::nearest TriangleTree::search_near_plain TriangleTree::search_near TriangleTree::attempt TriangleTree::exact TriangleTree::segment TreeQuery::keep""",
+            TriangleTree::nearest TriangleTree::search_near_plain TriangleTree::search_near TreeView::attempt
+            TreeView::exact TreeView::segment TreeAnswers::keep""",
     },
 }
 

@@ -4,6 +4,7 @@
 // How long work tells how far it is, and is ended by who listens.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -15,7 +16,7 @@ using ProgressListener = std::function<void(const std::string &what, double shar
 
 inline std::string progress_text(const std::string &what, double share)
 {
-  return what + ", " + std::to_string(static_cast<int>(100 * share + 0.5)) + "%";
+  return what + ", " + std::to_string(std::lround(100 * share)) + "%";
 }
 
 }    // namespace lsdcd
