@@ -79,15 +79,13 @@ struct SearchPoints {
     const std::size_t i = from + (order ? order[turn] : turn);
     const Warp<kTogether> warp;
     const TreeView &tree = answers.tree;
-    const Vec3 q = answers.io.points[i], at = tree.scaled(q);
+    const Vec3 q = answers.io.points[i];
     TreeAnswer best = {answers.radius(i), kNoFeature, kNoPrimitive};
-    // No numbers are far from everything.
-    if (at.x - at.x == 0 && at.y - at.y == 0 && at.z - at.z == 0) {
-      if (fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z))) <= kFarInUnits)
-        search_tree<TreeBoundsFloat>(tree, warp, q, stacks[mine], best);
-      else
-        search_tree<TreeBoundsDouble>(tree, warp, q, stacks[mine], best);
-    }
+    const TreeSearch search = tree.search_for(tree.scaled(q));
+    if (search == TreeSearch::in_float)
+      search_tree<TreeBoundsFloat>(tree, warp, q, stacks[mine], best);
+    else if (search == TreeSearch::in_double)
+      search_tree<TreeBoundsDouble>(tree, warp, q, stacks[mine], best);
     if (warp.rank() != 0) return;
     answers.check(i);
     answers.keep(i, q, best);

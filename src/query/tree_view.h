@@ -67,6 +67,10 @@ struct TreeAnswer {
   LSDCD_FN bool found() const { return feature != kNoFeature; }
 };
 
+// How a point is searched for: with bounds in float, with bounds in double because it is far away, or not at all,
+// as what are no numbers are far from everything.
+enum class TreeSearch { in_float, in_double, none };
+
 struct TreeView {
   const TreeNode *nodes;
   const TreeLeaf *leaves;
@@ -85,6 +89,13 @@ struct TreeView {
   Real outside;    // sign of the side to which normals point
 
   LSDCD_FN Vec3 scaled(const Vec3 &x) const { return inv_scale * (x - origin); }
+  // `at`: scaled.
+  LSDCD_FN static TreeSearch search_for(const Vec3 &at)
+  {
+    if (!(at.x - at.x == 0 && at.y - at.y == 0 && at.z - at.z == 0)) return TreeSearch::none;
+    const Real largest = fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z)));
+    return largest <= kFarInUnits ? TreeSearch::in_float : TreeSearch::in_double;
+  }
   // From 0 to 1 along each axis within the mesh's box.
   LSDCD_FN Vec3 share_of_box(const Vec3 &q) const
   {

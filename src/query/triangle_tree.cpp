@@ -461,11 +461,10 @@ TreeAnswer TriangleTree::nearest(const Vec3 &q, Real radius, std::uint32_t hint)
 {
   TreeAnswer best = {radius, kNoFeature, kNoPrimitive};
   const Vec3 at = view_.scaled(q);
-  const Real largest = std::fmax(std::fabs(at.x), std::fmax(std::fabs(at.y), std::fabs(at.z)));
-  // No numbers are far from everything.
-  if (at.x - at.x == 0 && at.y - at.y == 0 && at.z - at.z == 0) {
+  const TreeSearch search = view_.search_for(at);
+  if (search != TreeSearch::none) {
     if (hint != kNoPrimitive) view_.attempt(hint, q, best);
-    if (!(largest <= kFarInUnits)) search_far(q, best);
+    if (search == TreeSearch::in_double) search_far(q, best);
 #if defined(__x86_64__)
     else if (wide())
       search_near_avx2(q, at, best);

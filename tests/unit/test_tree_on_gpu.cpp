@@ -3,10 +3,8 @@
 
 // A tree's query on a GPU against the same on the CPU: one source, so the same bits.
 #include "support/device_memory.h"
-#include "support/meshes.h"
-#include "support/random_mesh.h"
+#include "support/tree_case.h"
 
-#include "base/input_error.h"
 #include "mesh/meets_itself.h"
 #include "query/point_sides.h"
 #include "query/tree_query.h"
@@ -19,60 +17,23 @@
 namespace lsdcd {
 namespace {
 
-struct Case {
-  WallMesh mesh;
-  TriangleTable names;
-  TriangleTree tree;
-  TriangleSoup soup;
-  Real diagonal;
-
-  explicit Case(const TriangleSoup &given) :
-      mesh(weld(given, 0)), names(mesh), tree(mesh, names), soup(given),
-      diagonal(norm(mesh.report.hi - mesh.report.lo))
-  {
-  }
-  Real size() const
-  {
-    Real size = 0;
-    for (const Vec3 &x : mesh.vertices)
-      size = std::fmax(size, std::fmax(std::fabs(x.x), std::fmax(std::fabs(x.y), std::fabs(x.z))));
-    return size;
-  }
-  // Near the mesh, on it, and up to 1e4 diagonals from it; the last ones are no numbers.
-  template <class T>
-  std::vector<T> points(std::size_t n) const
-  {
-    Numbers r(7);
-    std::vector<T> out;
-    for (std::size_t i = 0; i < n; i++) {
-      const Vec3 q = random_centre(r, soup.corners.data(), int(soup.n_triangles()), mesh.report.lo,
-                                   mesh.report.hi, diagonal * r.log_in(1e-4, 1e4));
-      for (int k = 0; k < 3; k++) out.push_back(static_cast<T>(q[k]));
-    }
-    for (const Vec3 &v : mesh.vertices)
-      for (int k = 0; k < 3; k++) out.push_back(static_cast<T>(v[k]));
-    for (const double bad : {std::nan(""), HUGE_VAL}) out.insert(out.end(), {T(bad), 0, 0});
-    return out;
-  }
-};
-
-// The first is larger than a block's threads take; random ones have facets without area, doubled ones, and
-// many that meet.
-const std::vector<std::unique_ptr<Case>> &all_cases()
+// Some more are no numbers.
+template <class T>
+std::vector<T> coordinates(const TreeCase &c, std::size_t n)
 {
-  static const auto made = [] {
-    std::vector<std::unique_ptr<Case>> out;
-    out.push_back(std::make_unique<Case>(cylinder_mesh(100, 49, 50, 100)));
-    out.push_back(std::make_unique<Case>(box_mesh({0, 0, 0}, {1, 2, 3})));
-    for (int i = 0; i < 100; i++) {
-      try {
-        out.push_back(std::make_unique<Case>(random_mesh(100 + i).soup));
-      } catch (const InputError &) {
-        continue;    // nothing but points closer than the tolerance
-      }
-    }
-    return out;
-  }();
+  std::vector<T> out;
+  for (const std::vector<Vec3> &points : {c.points(n, 7), c.mesh.vertices})
+    for (const Vec3 &q : points)
+      for (int k = 0; k < 3; k++) out.push_back(static_cast<T>(q[k]));
+  for (const double bad : {std::nan(""), HUGE_VAL}) out.insert(out.end(), {T(bad), 0, 0});
+  return out;
+}
+
+// The first is larger than a block's threads take.
+const std::vector<std::unique_ptr<TreeCase>> &all_cases()
+{
+  static const auto made =
+      cases_of<TreeCase>({cylinder_mesh(100, 49, 50, 100), box_mesh({0, 0, 0}, {1, 2, 3})}, 100);
   return made;
 }
 
@@ -102,7 +63,7 @@ struct Answers {
 };
 
 template <class T>
-void expect_same_bits(const std::vector<T> &a, const std::vector<T> &b, const Case &c)
+void expect_same_bits(const std::vector<T> &a, const std::vector<T> &b, const TreeCase &c)
 {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); i++)
@@ -114,7 +75,7 @@ template <class T>
 void expect_the_same_answers(Real radius, bool each)
 {
   for (const auto &c : all_cases()) {
-    const std::vector<T> at = c->points<T>(500);
+    const std::vector<T> at = coordinates<T>(*c, 500);
     Answers<T> gpu(true, at), cpu(false, at);
     const std::size_t n = cpu.io.n;
     std::vector<T> radii;
@@ -155,8 +116,8 @@ TEST(tree_on_gpu, gives_the_bits_of_the_cpu_in_float)
 // More than one turn of 2^20, each put in order.
 TEST(tree_on_gpu, very_many_points_get_what_each_alone_gets)
 {
-  const Case &c = *all_cases()[0];
-  const std::vector<float> at = c.points<float>((1 << 20) + 100);
+  const TreeCase &c = *all_cases()[0];
+  const std::vector<float> at = coordinates<float>(c, (1 << 20) + 100);
   Answers<float> gpu(true, at), cpu(false, at);
   const std::size_t n = cpu.io.n;
   for (Answers<float> *a : {&gpu, &cpu}) a->io.radius = static_cast<float>(1e-3 * c.diagonal);
@@ -175,7 +136,7 @@ TEST(tree_on_gpu, normals_tell_the_sides_that_winding_numbers_tell)
   for (const auto &c : all_cases()) {
     if (!c->mesh.report.closed || !c->mesh.report.oriented) continue;
     if (meets_itself(c->mesh).pairs > 0) continue;
-    const std::vector<double> at = c->points<double>(2000);
+    const std::vector<double> at = coordinates<double>(*c, 2000);
     Answers<double> gpu(true, at);
     const std::size_t n = gpu.io.n;
     gpu.io.side = gpu.side.resize(n);
@@ -185,7 +146,7 @@ TEST(tree_on_gpu, normals_tell_the_sides_that_winding_numbers_tell)
     const std::vector<std::uint32_t> triangle = gpu.triangle.get(n);
     const WindingNumber winding(c->mesh);
     for (std::size_t i = 0; i + 2 < n; i++) {
-      if (distance[i] < 32 * kRoundoff * (c->diagonal + c->size())) continue;
+      if (distance[i] < 32 * kRoundoff * (c->diagonal + c->size)) continue;
       if (triangle[i] == kNoTriangle) {    // of facets without area, which have no side
         ASSERT_EQ(side[i], 0);
         continue;
@@ -200,7 +161,7 @@ TEST(tree_on_gpu, normals_tell_the_sides_that_winding_numbers_tell)
 
 TEST(tree_on_gpu, refuses_a_negative_radius_by_its_point)
 {
-  const Case &c = *all_cases()[1];
+  const TreeCase &c = *all_cases()[1];
   Answers<double> gpu(true, {0, 0, 5, 0, 0, 6, 0, 0, 7});
   gpu.io.radii = {gpu.radii.put({1., 1., -2.}), 1};
   const auto query = copy_to_cuda(c.tree)->query_on(nullptr);

@@ -3,10 +3,8 @@
 
 // Points at any distance against every triangle tried in more digits.
 #include "support/brute_force_long.h"
-#include "support/meshes.h"
-#include "support/random_mesh.h"
+#include "support/tree_case.h"
 
-#include "base/input_error.h"
 #include "mesh/meets_itself.h"
 #include "mesh/winding_number.h"
 #include "query/tree_query.h"
@@ -23,17 +21,11 @@ namespace {
 
 constexpr std::uint32_t kNoHint = kNoPrimitive;
 
-struct Case {
-  TriangleSoup soup;
-  WallMesh mesh;
-  TriangleTable names;
-  TriangleTree tree;
-  Real diagonal;
+struct Case : TreeCase {
   std::vector<LongTriangle<LongReal>> triangles;
 
   explicit Case(TriangleSoup given) :
-      soup(std::move(given)), mesh(weld(soup, 0)), names(mesh), tree(mesh, names),
-      diagonal(norm(mesh.report.hi - mesh.report.lo)), triangles(long_triangles<LongReal>(soup))
+      TreeCase(std::move(given)), triangles(long_triangles<LongReal>(soup))
   {
   }
   Real truth(const Vec3 &q) const
@@ -46,40 +38,16 @@ struct Case {
   // 8 units of its coordinates, or 1e-14 of its length, is its edges.
   Real tolerance(Real distance) const
   {
-    Real size = 0;
-    for (const Vec3 &x : mesh.vertices)
-      size = std::fmax(size, std::fmax(std::fabs(x.x), std::fmax(std::fabs(x.y), std::fabs(x.z))));
     return 32 * kRoundoff * (distance + diagonal) +
            std::fmax(8 * kRoundoff * size, 1e-14 * diagonal);
-  }
-  // Near the mesh, on it, and up to 1e4 diagonals from it.
-  std::vector<Vec3> points(int n, std::uint64_t seed) const
-  {
-    Numbers r(seed);
-    std::vector<Vec3> out;
-    for (int i = 0; i < n; i++)
-      out.push_back(random_centre(r, soup.corners.data(), int(soup.n_triangles()), mesh.report.lo,
-                                  mesh.report.hi, diagonal * r.log_in(1e-4, 1e4)));
-    return out;
   }
 };
 
 const std::vector<std::unique_ptr<Case>> &all_cases()
 {
-  static const auto made = [] {
-    std::vector<std::unique_ptr<Case>> out;
-    out.push_back(std::make_unique<Case>(cylinder_mesh(24, 6, 1, 2)));
-    out.push_back(std::make_unique<Case>(box_mesh({0, 0, 0}, {1, 2, 3})));
-    out.push_back(std::make_unique<Case>(cone_mesh(200, 1, 0.5)));
-    for (int i = 0; i < (std::getenv("LSDCD_QUICK") ? 40 : 200); i++) {
-      try {
-        out.push_back(std::make_unique<Case>(random_mesh(100 + i).soup));
-      } catch (const InputError &) {
-        continue;    // nothing but points closer than the tolerance
-      }
-    }
-    return out;
-  }();
+  static const auto made = cases_of<Case>(
+      {cylinder_mesh(24, 6, 1, 2), box_mesh({0, 0, 0}, {1, 2, 3}), cone_mesh(200, 1, 0.5)},
+      std::getenv("LSDCD_QUICK") ? 40 : 200);
   return made;
 }
 
@@ -151,9 +119,8 @@ TEST(triangle_tree, the_search_for_gpus_finds_the_same)
 {
   for (const auto &c : all_cases())
     for (const Vec3 &q : c->points(200, 13)) {
-      const Vec3 at = c->tree.view().scaled(q);
-      if (std::fmax(std::fabs(at.x), std::fmax(std::fabs(at.y), std::fabs(at.z))) > kFarInUnits)
-        continue;
+      const TreeView &view = c->tree.view();
+      if (view.search_for(view.scaled(q)) == TreeSearch::in_double) continue;
       for (const Real radius : {kAnyDistance, 0.1 * c->diagonal}) {
         TreeWaiting stack[kTreeStack];
         TreeAnswer a = {radius, kNoFeature, kNoPrimitive};
