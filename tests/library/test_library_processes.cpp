@@ -3,6 +3,7 @@
 
 // A wall of two processes, threads here, through the library's headers: against one process.
 #include "floor_and_grains.h"
+#include "process.h"
 #include "support/fake_host.h"
 
 #include <cmath>
@@ -12,42 +13,6 @@
 #include <vector>
 
 namespace {
-
-// A process of FakeHost as a program with MPI is one. It throws where calls of processes differ.
-struct Process {
-  lsdcd_host callbacks = {};
-  lsdcd::WallOptions options;
-
-  template <class Call>
-  static int code_of_call(const Call &call)
-  {
-    try {
-      call();
-      return 0;
-    } catch (const std::exception &) {
-      return 1;
-    }
-  }
-
-  Process(const Process &) = delete;    // options point into it
-  explicit Process(lsdcd::FakeHost &host)
-  {
-    callbacks.size = sizeof callbacks;
-    callbacks.rank = host.rank();
-    callbacks.processes = 2;
-    callbacks.data = &host;
-    callbacks.sum = [](void *h, double *numbers, int n) {
-      return code_of_call([&] { static_cast<lsdcd::FakeHost *>(h)->sum(numbers, n); });
-    };
-    callbacks.max = [](void *h, double *numbers, int n) {
-      return code_of_call([&] { static_cast<lsdcd::FakeHost *>(h)->max(numbers, n); });
-    };
-    callbacks.broadcast = [](void *h, void *bytes, size_t n, int from) {
-      return code_of_call([&] { static_cast<lsdcd::FakeHost *>(h)->broadcast(bytes, n, from); });
-    };
-    options.host = &callbacks;
-  }
-};
 
 class processes : public FloorTest {};
 

@@ -3,7 +3,9 @@
 
 // A wall with arrays of spheres on a GPU against the same wall with arrays of the host.
 #include "floor_and_grains.h"
+#include "process.h"
 #include "support/device_memory.h"
+#include "support/fake_host.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,9 +64,9 @@ struct Rain {
   std::vector<double> x, v, omega, radius, mass, force, torque, temperature, heat;
   std::vector<int> type;
 
-  explicit Rain(int n)
+  explicit Rain(int n, int seed = 5)
   {
-    std::mt19937_64 random(5);
+    std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
     for (int i = 0; i < n; i++) {
       for (const double most : {1.8, 1.8}) x.push_back(most * (2 * unit(random) - 1));
@@ -195,6 +197,36 @@ TEST_F(wall_gpu, gives_arrays_on_a_device_the_forces_of_arrays_of_the_host)
     EXPECT_NEAR(device.totals().worn, host.totals().worn, 1e-12 * host.totals().worn);
     EXPECT_GT(contacts, kSteps) << text;
   }
+}
+
+TEST_F(wall_gpu, gives_each_of_two_processes_the_forces_of_arrays_of_the_host)
+{
+  // Both threads use the GPU at once. No tolerance, as above: no sum is over the processes but that of contacts.
+  const std::string text = "hertz/history 1e5 5e4 100 50 0.5 1 mesh " + waves_ + " mesh " + file_ +
+                           " motion linear 0 0 0.2";
+  constexpr int kSpheres = 200, kSteps = 60;
+  lsdcd::on_processes(2, [&](lsdcd::FakeHost &fake) {
+    Process on_host(fake), on_gpu(fake);
+    on_gpu.options.device = LSDCD_CUDA;
+    lsdcd::Wall host(split(text + " device cpu"), &on_host.options),
+        device(split(text), &on_gpu.options);
+    // Other numbers of other spheres.
+    const int rank = fake.rank();
+    Rain there(kSpheres + 50 * rank, rank), here(kSpheres + 50 * rank, rank);
+    Copies on_cuda(true), on_cpu(false);
+    int apart = 0, touching = 0;
+    for (int k = 0; k <= kSteps; k++) {
+      on_cpu.step(host, here, step_of(k == 0));
+      on_cuda.step(device, there, step_of(k == 0));
+      apart += !same_bytes(there.force, here.force) || !same_bytes(there.torque, here.torque);
+      for (std::size_t i = 2; i < here.force.size(); i += 3) touching += here.force[i] != 0;
+      apart += device.totals().contacts != host.totals().contacts;
+      here.move();
+      there.move();
+    }
+    EXPECT_EQ(apart, 0) << "process " << rank;
+    EXPECT_GT(touching, kSteps) << "process " << rank;
+  });
 }
 
 TEST_F(wall_gpu, lets_springs_follow_spheres_that_change_their_numbers)
