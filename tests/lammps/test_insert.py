@@ -7,7 +7,7 @@
 All grains of a case have one velocity, so that none that was put clear of the others is in their way later: the
 last dump shows every overlap that there ever was.
 
-usage: test_insert.py [host]: under the LAMMPS of hosts/build_host.sh
+usage: test_insert.py [host] [PART ...]: under the LAMMPS of hosts/build_host.sh; these functions only
 """
 
 import math
@@ -158,18 +158,23 @@ region          box block -2 2 -2 2 -2 2 units box
 create_box      1 box
 """ + END + "timestep 0.01\nregion fill block -1.2 1.2 -1.2 1.2 -1.2 1.2 units box\n"
 WALL = "hooke/history 100 NULL 1 NULL 0.5 1 "
+FILL = "fix in all insert/lsdcd region fill numberrate 1000 diam range 0.1 0.2 dens 1 number 300 "
 
 
-def check_wall(checks, folder):
-    """A cube of side 2 in a larger region: grains are inside or outside of it, and touch it from neither side."""
+def write_cube(folder):
+    """Of side 2."""
     faces = [square(1, 1), square(1, -1, down=True)]
     faces += [tuple((z, x, y) for x, y, z in f) for f in faces] + [tuple((y, z, x) for x, y, z in f) for f in faces]
     write_stl(folder / "cube.stl", faces)
+
+
+def check_wall(checks, folder):
+    """A cube in a larger region: grains are inside or outside of it, and touch it from neither side."""
+    write_cube(folder)
     thermo = "thermo 1\nthermo_style custom step f_in[1] f_in[6] f_wall[7] f_wall[8]\nthermo_modify norm no\n"
-    fill = "fix in all insert/lsdcd region fill numberrate 1000 diam range 0.1 0.2 dens 1 number 300 "
     # The wall moves as its grains do: what it touches, it was put into.
     for name, motion, velocity in (("at rest", "", ""), ("that moves", "motion linear 0.5 0 0", "vel 0.5 0 0")):
-        rows = lmp.read_thermo(lmp.run_well(VESSEL + f"fix wall all wall/lsdcd {WALL} mesh cube.stl {motion}\n" + fill +
+        rows = lmp.read_thermo(lmp.run_well(VESSEL + f"fix wall all wall/lsdcd {WALL} mesh cube.stl {motion}\n" + FILL +
                                             velocity + "\n" + thermo + DUMP.format(40) + "run 40\n", folder))
         gap = []
         for g in last(lmp.read_dump(folder / "grains")).values():
@@ -178,9 +183,40 @@ def check_wall(checks, folder):
             gap.append((out if out > 0 else 1 - max(x)) - g[0])
         checks.fact(f"clear of a wall {name}", rows[-1][1] == 300 and rows[-1][2] > 10 and min(gap) > -1e-9 and
                     all(row[3] == 0 and row[4] == 0 for row in rows) and min(gap) < 0.02, f"{min(gap)} {rows[-1]}")
-    rows = lmp.read_thermo(lmp.run_well(VESSEL + f"fix wall all wall/lsdcd {WALL} mesh cube.stl\n" + fill + "wall none\n" +
+    rows = lmp.read_thermo(lmp.run_well(VESSEL + f"fix wall all wall/lsdcd {WALL} mesh cube.stl\n" + FILL + "wall none\n" +
                                         thermo + "run 2\n", folder))
     checks.fact("wall none leaves it out of sight", rows[-1][3] > 0, str(rows[-1]))
+
+
+def check_kokkos(checks, folder):
+    """Beside wall/lsdcd/kk and without Kokkos in the same LAMMPS. Grains keep clear of a cube that moves, and are put
+    across a plane at z = 0.3, which must push them at once."""
+    write_cube(folder)
+    write_stl(folder / "plane.stl", [square(2, 0.3)])
+    soft = WALL.replace("100", "1")    # nothing is thrown out
+    text = VESSEL + f"fix shown all wall/lsdcd {soft} mesh cube.stl motion linear 0.5 0 0\n" + \
+        f"fix hidden all wall/lsdcd {soft} mesh plane.stl contacts\n" + FILL + "wall shown\n" + \
+        DUMP.replace("vz\n", "vz f_hidden[7]\n").format(1) + "run 40\n"
+
+    def grains_of(script, *args, **words):
+        lmp.run_well(script, folder, *args, **words)
+        steps = lmp.read_dump(folder / "grains")
+        del steps[0]    # without grains
+        return steps
+
+    plain = grains_of(text, flags=())
+    for ranks in (1, 2):
+        kokkos = grains_of(text.replace("wall/lsdcd", "wall/lsdcd/kk"), ranks)
+        # Kokkos's integrator may round in its own way: 1e-16 a step.
+        checks.at_most(f"the same grains on {ranks} ranks with Kokkos", lmp.largest_difference(plain, kokkos), 1e-13)
+    seen, fresh, wrong = set(), 0, []
+    for step, grains in kokkos.items():
+        for i, g in grains.items():
+            touches = abs(g[4] - 0.3) < g[0]
+            fresh += touches and i not in seen
+            wrong += [(step, i)] * (touches != (g[8] > 0))
+        seen.update(grains)
+    checks.fact("a grain is felt by a wall in the step in which it comes", fresh > 10 and not wrong, f"{fresh} {wrong[:3]}")
 
 
 def check_debt(checks, folder):
@@ -228,8 +264,11 @@ def main():
     if "host" in sys.argv[1:]:
         on_host()
     checks, folder = lmp.Checks(), lmp.scratch()
-    for check in (check_face, check_radii, check_periodic, check_wall, check_debt, check_ends):
-        check(checks, folder)
+    parts = (check_face, check_radii, check_periodic, check_wall, check_debt, check_ends) + lmp.ON_KOKKOS * (check_kokkos,)
+    names = [word for word in sys.argv[1:] if word != "host"]
+    for part in parts:
+        if part.__name__ in (names or [p.__name__ for p in parts]):
+            part(checks, folder)
     checks.done(folder)
 
 

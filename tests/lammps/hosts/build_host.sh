@@ -9,7 +9,7 @@
 #   VERSION 20210929         29Sep2021 of bookworm on bookworm's Kokkos 3.4
 #   LSDCD_HOSTS              where (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts)
 #   LSDCD_HOST_JOBS          compilers at once (default: one per core)
-# Both have the packages GRANULAR, KOKKOS (Serial, double) and PLUGIN. The folder then holds
+# Both have the packages GRANULAR, KOKKOS (Serial, double) and PLUGIN, and fix rigid/small. The folder then holds
 #   lmp, liblammps.so.0      the program; both resolve their libraries from the folder itself
 #   src/                     headers of LAMMPS, those of its package KOKKOS in src/KOKKOS
 #   kokkos/                  include/ and lib/ of Kokkos, where Debian has none to install
@@ -57,7 +57,7 @@ esac
 # our own build has none, and the two are compared to the last bits.
 flags="-O1 -ffp-contract=off"
 options=(-D BUILD_SHARED_LIBS=on -D BUILD_MPI=on -D BUILD_OMP=off
-         -D PKG_GRANULAR=on -D PKG_PLUGIN=on -D PKG_GRAPHICS=on
+         -D PKG_GRANULAR=on -D PKG_PLUGIN=on -D PKG_GRAPHICS=on -D PKG_RIGID=on
          -D WITH_JPEG=off -D WITH_PNG=off -D WITH_FFMPEG=off -D WITH_GZIP=off -D WITH_CURL=off
          -D CMAKE_BUILD_TYPE=None)
 # As LAMMPS asks of the Kokkos that it builds itself.
@@ -163,6 +163,7 @@ rm -f "$work"/src/KOKKOS/{angle,bond,dihedral,improper}_* \
   "$work"/src/{.,KOKKOS}/compute_temp_{com,deform,partial,profile,ramp}[._]* \
   "$work"/src/compute_{angle,bond,dihedral,improper,inertia,dipole,torque,omega,angmom,vcm,displace}[._]* \
   "$work"/src/compute_{cluster,aggregate,heat_flux}[._]* "$work"/src/KOKKOS/atom_vec_charge_*
+find "$work/src/RIGID" -type f ! -name 'fix_rigid_small.*' ! -name rigid_const.h -delete
 
 # The package files of Kokkos: Debian's names a folder that is not there, and LAMMPS asks for
 # a later version than the pool has. What is compiled against either decides.
