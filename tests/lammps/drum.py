@@ -36,15 +36,6 @@ def triangles():
     return numpy.array(found)
 
 
-def write_stl(path):
-    with open(path, "w") as stl:
-        stl.write("solid drum\n")
-        for t in triangles():
-            corners = "".join("vertex {:.17g} {:.17g} {:.17g}\n".format(*c) for c in t)
-            stl.write(f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
-        stl.write("endsolid drum\n")
-
-
 def write_data(path, spacing=0.72):
     """Spheres on a lattice, the same whatever the number of ranks; returns how many."""
     chance, rows = random.Random(7), []

@@ -4,6 +4,7 @@
 """Plates, six of them as a box, and scripts with spheres among them."""
 
 import lmp
+import stl
 
 SIDE = 3.0
 LAWS = {"hooke": "hooke 1e5 NULL 20 NULL 0.5 1",
@@ -58,16 +59,9 @@ def write_plate(path, axis, at, lo=(-SIDE, -SIDE), hi=(SIDE, SIDE), cells=1):
     def point(i, j):
         uv = [lo[k] + (hi[k] - lo[k]) * n / cells for k, n in ((0, i), (1, j))]
         uv.insert(axis, at)
-        return "vertex %.17g %.17g %.17g\n" % tuple(uv)
+        return uv
 
-    with open(path, "w") as stl:
-        stl.write("solid plate\n")
-        for i in range(cells):
-            for j in range(cells):
-                a, b, c, d = point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)
-                for t in (a + b + c, a + c + d):
-                    stl.write("facet normal 0 0 1\nouter loop\n" + t + "endloop\nendfacet\n")
-        stl.write("endsolid plate\n")
+    stl.write(path, stl.sheet(cells, point))
 
 
 def six(law, more={}, common=""):

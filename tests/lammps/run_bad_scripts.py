@@ -8,6 +8,7 @@ import concurrent.futures
 
 import bad_scripts
 import lmp
+import stl
 
 CRASHES = ("Segmentation", "signal", "Backtrace", "backtrace", "terminate called", "Aborted")
 
@@ -30,25 +31,19 @@ def check(checks, case, ranks, done):
 
 def tetrahedra(*shells):
     """Each from x on, by its winding."""
-    text = "solid two\n"
+    triangles = []
     for x, turn in shells:
         p = [(x, 0, 0), (x + 1, 0, 0), (x, 1, 0), (x, 0, 1)]
-        for face in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)):
-            text += "facet normal 0 0 0\nouter loop\n"
-            text += "".join("vertex %g %g %g\n" % p[k] for k in face[::turn]) + "endloop\nendfacet\n"
-    return text + "endsolid two\n"
+        triangles += [[p[k] for k in face[::turn]] for face in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))]
+    return triangles
 
 
 def knot():
     """A box whose first corner goes through the face across."""
     p = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
     p[0] = (2, 0.5, 0.25)
-    text = "solid knot\n"
-    for a, b, c, d in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
-        for face in ((a, b, c), (a, c, d)):
-            text += "facet normal 0 0 0\nouter loop\n"
-            text += "".join("vertex %g %g %g\n" % p[k] for k in face) + "endloop\nendfacet\n"
-    return text + "endsolid knot\n"
+    faces = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+    return [t for face in faces for t in stl.quad(*(p[k] for k in face))]
 
 
 def main():
@@ -60,11 +55,10 @@ def main():
     (folder / "points.txt").write_text("0 0 0\n1 0 0\n0 1 0\n")
     (folder / "unit.txt").write_text("0 0 0\n1 0 0\n0 1 0\n\n0 0 1\n")
     (folder / "truncated.stl").write_bytes(floor[:len(floor) // 2])
-    (folder / "two.stl").write_text(tetrahedra((0, 1), (2, -1)))
-    (folder / "cut.stl").write_text(tetrahedra((0, 1), (0.5, 1)))
-    (folder / "knot.stl").write_text(knot())
-    (folder / "line.stl").write_text("solid s\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
-                                     "vertex 2 0 0\nendloop\nendfacet\nendsolid s\n")
+    stl.write(folder / "two.stl", tetrahedra((0, 1), (2, -1)))
+    stl.write(folder / "cut.stl", tetrahedra((0, 1), (0.5, 1)))
+    stl.write(folder / "knot.stl", knot())
+    stl.write(folder / "line.stl", [((0, 0, 0), (1, 0, 0), (2, 0, 0))])
     for case, (script, _) in bad_scripts.CASES.items():
         (folder / f"in.{case}").write_text(script)
     scripts = [(case, ranks) for case in sorted(bad_scripts.CASES) for ranks in (1, 2)]

@@ -5,6 +5,8 @@
 
 import math
 
+import stl
+
 BOX = "block -6 6 -6 6 -1.5 8"
 
 
@@ -15,17 +17,9 @@ def write_floor(path, side=6.5, cells=26):
 
     def point(i, j):
         x, y = -side + i * step, -side + j * step
-        return f"vertex {x:.17g} {y:.17g} {0.15 * math.sin(x) * math.cos(y):.17g}\n"
+        return x, y, 0.15 * math.sin(x) * math.cos(y)
 
-    with open(path, "w") as stl:
-        stl.write("solid floor\n")
-        for i in range(cells):
-            for j in range(cells):
-                a, b, c, d = point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)
-                for corners in (a + b + c, a + c + d):
-                    stl.write("facet normal 0 0 1\nouter loop\n" + corners +
-                              "endloop\nendfacet\n")
-        stl.write("endsolid floor\n")
+    stl.write(path, stl.sheet(cells, point))
 
 
 # Everything that a contact can keep from step to step: spring, radius, rolling, twist,

@@ -14,6 +14,7 @@ import time
 
 import lmp
 import drum
+import stl
 
 ROOM = 1.0    # MB: pages that malloc keeps
 PARTS = 20    # of the run, each with its highest kinetic energy
@@ -49,7 +50,7 @@ def watch(folder, steps):
 def main():
     steps = int(float(sys.argv[1])) if len(sys.argv) > 1 else 1000000
     checks, folder = lmp.Checks(), lmp.scratch()
-    drum.write_stl(folder / "drum.stl")
+    stl.write(folder / "drum.stl", drum.triangles())
     n = drum.write_data(folder / "drum.data")
     text, seen = watch(folder, steps)
     rows = lmp.read_thermo(text)

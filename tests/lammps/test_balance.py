@@ -11,6 +11,7 @@ import numpy
 
 import lmp
 import drum
+import stl
 
 QUICK = bool(os.environ.get("LSDCD_QUICK"))
 RANKS = (1, 4) if QUICK else (1, 2, 4, 8)
@@ -55,7 +56,7 @@ def brute_force(checks, at, rows):
 
 def main():
     checks, folder = lmp.Checks(), lmp.scratch()
-    drum.write_stl(folder / "drum.stl")
+    stl.write(folder / "drum.stl", drum.triangles())
     n = drum.write_data(folder / "drum.data")
     alone = None
     for ranks in RANKS:

@@ -12,6 +12,7 @@ import math
 import sys
 
 import lmp
+import stl
 
 R, DENSITY, G = 0.5, 2.0, 10.0
 MASS = DENSITY * 4 / 3 * math.pi * R**3    # of a sphere
@@ -69,17 +70,7 @@ def write_parts(folder):
 
 def write_floor(path, lo, hi, cells=7):
     """Across z = 0, of 2 cells^2 triangles."""
-    def point(i, j):
-        return f"vertex {lo + (hi - lo) * i / cells!r} {SIDE * (2 * j / cells - 1)!r} 0\n"
-
-    with open(path, "w") as stl:
-        stl.write("solid floor\n")
-        for i in range(cells):
-            for j in range(cells):
-                a, b, c, d = point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)
-                for t in (a + b + c, a + c + d):
-                    stl.write("facet normal 0 0 1\nouter loop\n" + t + "endloop\nendfacet\n")
-        stl.write("endsolid floor\n")
+    stl.write(path, stl.sheet(cells, lambda i, j: (lo + (hi - lo) * i / cells, SIDE * (2 * j / cells - 1), 0)))
 
 
 def create(clumps, kick):

@@ -14,6 +14,7 @@ import sys
 
 import lmp
 import numpy as np
+import stl
 
 HALF = 0.5    # of a cube
 CORNERS = 0.3 * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])    # its atoms
@@ -58,19 +59,8 @@ def cube():
                 p = [0, 0, 0]
                 p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = side, u * HALF, v * HALF
                 corners.append(p)
-            a, b, c, d = corners
-            triangles += [(a, b, c), (a, c, d)]
+            triangles += stl.quad(*corners)
     return np.array(triangles, dtype=float)
-
-
-def write_stl(path, triangles):
-    with open(path, "w") as stl:
-        stl.write("solid s\n")
-        for t in triangles:
-            stl.write("facet normal 0 0 0\nouter loop\n" +
-                      "".join("vertex {!r} {!r} {!r}\n".format(*map(float, p)) for p in t) +
-                      "endloop\nendfacet\n")
-        stl.write("endsolid s\n")
 
 
 def turn(axis, angle):
@@ -135,7 +125,7 @@ def check_moved(checks, folder, ranks):
     """One body that fix move swings about an axis; its mesh is where the atoms are at first."""
     tilt = turn([1, 2, 3], 0.7)
     write_data(folder / "cubes.data", [([0.3, -0.2, 1.9], tilt, [0, 0, 0], [0, 0, 0])])
-    write_stl(folder / "tilted.stl", cube() @ tilt.T + [0.3, -0.2, 1.9])
+    stl.write(folder / "tilted.stl", cube() @ tilt.T + [0.3, -0.2, 1.9])
     text = begin() + WALL + """
 fix             go cubes move rotate 0.3 2.3 1.9 1 0.2 0 5.3
 compute         c cubes lsdcd/collide wall mesh tilted.stl
@@ -157,7 +147,7 @@ def three_cubes():
 
 def check_three(checks, folder, ranks, drive):
     write_data(folder / "cubes.data", three_cubes())
-    write_stl(folder / "cube.stl", cube())
+    stl.write(folder / "cube.stl", cube())
     text = begin("p p f") + WALL + f"""
 {drive}
 compute         c cubes lsdcd/collide wall mesh cube.stl move -3 0.1 1.5 bodies molecule grid 0.4 log brief
@@ -170,7 +160,7 @@ compute         c cubes lsdcd/collide wall mesh cube.stl move -3 0.1 1.5 bodies 
 def check_moving_wall(checks, folder, ranks, drive):
     """The floor turns about y, then sinks as well."""
     write_data(folder / "cubes.data", three_cubes())
-    write_stl(folder / "cube.stl", cube())
+    stl.write(folder / "cube.stl", cube())
     text = begin() + WALL + f""" motion rotate 0 0 0 0 1 0 8 motion linear 0 0 -0.2
 {drive}
 compute         c cubes lsdcd/collide wall mesh cube.stl move -3 0.1 1.5 bodies molecule grid 0.4
@@ -183,8 +173,8 @@ def check_image(checks, folder, ranks):
     """A plate near the upper face in x meets the image of a body at the lower one; where that face is
     not periodic it meets nothing."""
     write_data(folder / "cubes.data", [([-5.7, 0, 0], np.eye(3), [0, 0, 0], [0, 0, 0])])
-    write_stl(folder / "cube.stl", cube())
-    write_stl(folder / "floor.stl", [[(5.9, -3, -3), (5.9, 3, -3), (5.9, 0, 4)]])
+    stl.write(folder / "cube.stl", cube())
+    stl.write(folder / "floor.stl", [[(5.9, -3, -3), (5.9, 3, -3), (5.9, 0, 4)]])
     for boundary, expected in (("p f f", [1, 8]), ("f f f", [0, 0])):
         text = begin(boundary) + WALL + """
 compute         c cubes lsdcd/collide wall mesh cube.stl move -5.7 0 0
@@ -193,13 +183,13 @@ run             0
 """
         rows = lmp.read_thermo(lmp.run_well(text, folder, ranks))
         checks.fact(f"an image across a face, {boundary}, {ranks} ranks", rows[-1][1:] == expected, str(rows))
-    write_stl(folder / "floor.stl", FLOOR)
+    stl.write(folder / "floor.stl", FLOOR)
 
 
 def check_several(checks, folder):
     """Pairs of all meshes of a wall; between runs atoms may be put elsewhere."""
     write_data(folder / "cubes.data", [([0, 0, 0.2], np.eye(3), [0, 0, 0], [0, 0, 0])])
-    write_stl(folder / "cube.stl", cube())
+    stl.write(folder / "cube.stl", cube())
     text = begin() + WALL + """ mesh floor.stl move 0 0 0.4 mesh floor.stl move 0 0 2
 compute         c cubes lsdcd/collide wall mesh cube.stl move 0 0 0.2 grid 0.3
 thermo_style    custom step c_c c_c[1]
@@ -220,9 +210,9 @@ def check_other_wall(checks, folder):
     bounds. The cube stands in the first one, 4 upright sides of 2 triangles, and clear of the other."""
     a, b, c, d = (-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)
     write_data(folder / "cubes.data", [([-1.5, -1.5, 0.2], np.eye(3), [0, 0, 0], [0, 0, 0])])
-    write_stl(folder / "cube.stl", cube())
-    write_stl(folder / "half.stl", [(a, b, d)])
-    write_stl(folder / "other.stl", [(c, d, b)])
+    stl.write(folder / "cube.stl", cube())
+    stl.write(folder / "half.stl", [(a, b, d)])
+    stl.write(folder / "other.stl", [(c, d, b)])
     compute = "compute c cubes lsdcd/collide wall mesh cube.stl move -1.5 -1.5 0.2\n"
     first = begin() + WALL.replace("floor", "half") + "\n" + compute + "thermo_style custom step c_c[1]\nrun 0\n"
     again = "unfix wall\n" + WALL.replace("floor", "{}") + "\n"
@@ -243,7 +233,7 @@ def check_other_wall(checks, folder):
 def check_restart(checks, folder):
     """With the places of its atoms in a file a body is found wherever it is: after a restart, too."""
     write_data(folder / "cubes.data", three_cubes())
-    write_stl(folder / "cube.stl", cube())
+    stl.write(folder / "cube.stl", cube())
     (folder / "atoms.txt").write_text("# where cube.stl is\n" + "".join("{!r} {!r} {!r}\n".format(*map(float, p)) for p in CORNERS))
     after = WALL + """
 """ + BY_MOVE.replace("group one", "group two").replace(" one", " two") + """
@@ -279,7 +269,7 @@ def main():
         SETTINGS = f"plugin load {lmp.TEST_HOST_PLUGIN}\n" + SETTINGS
         lmp.LMP = lmp.TEST_HOST
     checks, folder = lmp.Checks(), lmp.scratch()
-    write_stl(folder / "floor.stl", FLOOR)
+    stl.write(folder / "floor.stl", FLOOR)
     for ranks in (1, 3):
         check_moved(checks, folder, ranks)
         for drive in [BY_MOVE] if host else [BY_MOVE, RIGID, RIGID_SMALL]:

@@ -17,6 +17,7 @@ import random as random_numbers
 import sys
 
 import lmp
+import stl
 
 # What they have in common: E, nu, gamma, and friction that both sticks and slips.
 MATERIAL = "1e5 {eta} 0.3"
@@ -279,7 +280,7 @@ def older_host(checks, folder):
 
 def main():
     checks, folder = lmp.Checks(), lmp.scratch()
-    (folder / "floor.stl").write_bytes(floor())
+    stl.write(folder / "floor.stl", stl.sheet(40, lambda i, j: (i - 20, j - 20, 0)))
     if sys.argv[1:] != ["host"]:
         older_host(checks, folder)
         checks.done(folder)
@@ -295,19 +296,6 @@ def main():
     steady_heat(checks, folder, load)
     host_defects(checks, folder, load)
     checks.done(folder)
-
-
-def floor(side=20.0, cells=40):
-    """A floor at z = 0 in 2 cells^2 triangles, as ASCII STL."""
-    step, lines = 2 * side / cells, ["solid floor"]
-    for i in range(cells):
-        for j in range(cells):
-            a, b = (-side + i * step, -side + j * step), (-side + (i + 1) * step, -side + (j + 1) * step)
-            for corners in ((a, (b[0], a[1]), b), (a, b, (a[0], b[1]))):
-                lines += ["facet normal 0 0 1", "outer loop"]
-                lines += [f"vertex {x:.17g} {y:.17g} 0" for x, y in corners]
-                lines += ["endloop", "endfacet"]
-    return "\n".join(lines + ["endsolid floor", ""]).encode()
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ import math
 import sys
 
 import lmp
+import stl
 
 RATE, DENSITY, SPEED = 0.05, 2.0, 1.0
 SIZES = {0.1: 0.5, 0.16: 0.3, 0.2: 0.2}    # shares of mass
@@ -26,16 +27,6 @@ neigh_modify    every 1 delay 0 check yes
 fix             move all nve/sphere
 """
 DUMP = "dump d all custom {} grains id radius mass x y z vx vy vz\ndump_modify d sort id format float %.17g\n"
-
-
-def write_stl(path, quads):
-    with open(path, "w") as stl:
-        stl.write("solid s\n")
-        for a, b, c, d in quads:
-            for t in ((a, b, c), (a, c, d)):
-                stl.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.9g %.9g %.9g\n" % p for p in t)
-                          + "endloop\nendfacet\n")
-        stl.write("endsolid s\n")
 
 
 def square(half, z, down=False):
@@ -76,7 +67,7 @@ INLET = f"fix in all insert/lsdcd mesh inlet.stl move 0.1 -0.1 0 massrate {RATE}
 
 def check_face(checks, folder):
     """10 time units through a square of side 1 with normal -z, at z = 2."""
-    write_stl(folder / "inlet.stl", [square(0.5, 2, down=True)])
+    stl.write(folder / "inlet.stl", stl.quad(*square(0.5, 2, down=True)))
     thermo = "thermo 1\nthermo_style custom step time atoms f_in[1] f_in[2] f_in[3]\nthermo_modify format float %.17g norm no\n"
     text = FACE + INLET + thermo + DUMP.format(1250) + "run 1250\n"
     out = lmp.run_well(text, folder)
@@ -165,7 +156,7 @@ def write_cube(folder):
     """Of side 2."""
     faces = [square(1, 1), square(1, -1, down=True)]
     faces += [tuple((z, x, y) for x, y, z in f) for f in faces] + [tuple((y, z, x) for x, y, z in f) for f in faces]
-    write_stl(folder / "cube.stl", faces)
+    stl.write(folder / "cube.stl", [t for face in faces for t in stl.quad(*face)])
 
 
 def check_wall(checks, folder):
@@ -192,7 +183,7 @@ def check_kokkos(checks, folder):
     """Beside wall/lsdcd/kk and without Kokkos in the same LAMMPS. Grains keep clear of a cube that moves, and are put
     across a plane at z = 0.3, which must push them at once."""
     write_cube(folder)
-    write_stl(folder / "plane.stl", [square(2, 0.3)])
+    stl.write(folder / "plane.stl", stl.quad(*square(2, 0.3)))
     soft = WALL.replace("100", "1")    # nothing is thrown out
     text = VESSEL + f"fix shown all wall/lsdcd {soft} mesh cube.stl motion linear 0.5 0 0\n" + \
         f"fix hidden all wall/lsdcd {soft} mesh plane.stl contacts\n" + FILL + "wall shown\n" + \
@@ -216,7 +207,8 @@ def check_kokkos(checks, folder):
             fresh += touches and i not in seen
             wrong += [(step, i)] * (touches != (g[8] > 0))
         seen.update(grains)
-    checks.fact("a grain is felt by a wall in the step in which it comes", fresh > 10 and not wrong, f"{fresh} {wrong[:3]}")
+    checks.fact("a grain is felt by a wall in the step in which it comes", fresh > 10 and not wrong,
+                f"{fresh} {wrong[:3]}")
 
 
 def check_debt(checks, folder):
@@ -264,7 +256,8 @@ def main():
     if "host" in sys.argv[1:]:
         on_host()
     checks, folder = lmp.Checks(), lmp.scratch()
-    parts = (check_face, check_radii, check_periodic, check_wall, check_debt, check_ends) + lmp.ON_KOKKOS * (check_kokkos,)
+    parts = (check_face, check_radii, check_periodic, check_wall, check_debt, check_ends)
+    parts += lmp.ON_KOKKOS * (check_kokkos,)
     names = [word for word in sys.argv[1:] if word != "host"]
     for part in parts:
         if part.__name__ in (names or [p.__name__ for p in parts]):

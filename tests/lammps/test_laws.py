@@ -9,6 +9,7 @@ closed forms. Tolerances are those of test_several_meshes.py, where not said oth
 import math
 
 import lmp
+import stl
 from plates import FACES, LAWS, SIDE, go, planes, six, write_box, write_plate
 
 # Other numbers of the same styles.
@@ -119,11 +120,8 @@ def at_the_seam(checks, folder):
 def write_half_fold(path, side):
     """A plate from the line x = 0, z = 0 up, at 5 degrees."""
     slope = math.tan(math.radians(5))
-    corners = [(0.0, -SIDE, 0.0), (side * SIDE, -SIDE, SIDE * slope), (side * SIDE, SIDE, SIDE * slope), (0.0, SIDE, 0.0)]
-    text = ["vertex %.17g %.17g %.17g\n" % corner for corner in corners]
-    path.write_text("solid half\n" + "".join(
-        "facet normal 0 0 1\nouter loop\n" + text[0] + text[k] + text[k + 1] + "endloop\nendfacet\n"
-        for k in (1, 2)) + "endsolid half\n")
+    up = side * SIDE, SIDE * slope
+    stl.write(path, stl.quad((0, -SIDE, 0), (up[0], -SIDE, up[1]), (up[0], SIDE, up[1]), (0, SIDE, 0)))
 
 
 def in_a_fold(checks, folder):

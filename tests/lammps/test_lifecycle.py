@@ -14,6 +14,7 @@ import sys
 
 import lmp
 import scene
+import stl
 
 HEAD = """\
 units           lj
@@ -56,22 +57,19 @@ def write_floor(folder):
 def write_plates(path, n, centre, distance):
     """n small triangles around a point, each a place of its own where a sphere there touches."""
     golden = math.pi * (3 - math.sqrt(5))
-    with open(path, "w") as stl:
-        stl.write("solid plates\n")
-        for i in range(n):
-            z = 1 - (2 * i + 1) / n
-            s = math.sqrt(1 - z * z)
-            out = (s * math.cos(golden * i), s * math.sin(golden * i), z)
-            flat = math.hypot(out[0], out[1])
-            u = (-out[1] / flat, out[0] / flat, 0)
-            v = (-z * u[1], z * u[0], out[0] * u[1] - out[1] * u[0])
-            stl.write("facet normal 0 0 0\nouter loop\n")
-            for k in range(3):
-                a, b = 0.002 * math.cos(2.1 * k), 0.002 * math.sin(2.1 * k)
-                p = [c + distance * o + a * x + b * y for c, o, x, y in zip(centre, out, u, v)]
-                stl.write("vertex %.17g %.17g %.17g\n" % tuple(p))
-            stl.write("endloop\nendfacet\n")
-        stl.write("endsolid plates\n")
+    triangles = []
+    for i in range(n):
+        z = 1 - (2 * i + 1) / n
+        s = math.sqrt(1 - z * z)
+        out = (s * math.cos(golden * i), s * math.sin(golden * i), z)
+        flat = math.hypot(out[0], out[1])
+        u = (-out[1] / flat, out[0] / flat, 0)
+        v = (-z * u[1], z * u[0], out[0] * u[1] - out[1] * u[0])
+        triangles.append([])
+        for k in range(3):
+            a, b = 0.002 * math.cos(2.1 * k), 0.002 * math.sin(2.1 * k)
+            triangles[i].append([c + distance * o + a * x + b * y for c, o, x, y in zip(centre, out, u, v)])
+    stl.write(path, triangles)
 
 
 def rows_follow(checks, folder):

@@ -10,6 +10,7 @@ sphere from height z passes in step 128 z + 1.
 """
 
 import lmp
+import stl
 
 STEPS_PER_LENGTH = 128
 MASS = {1: 2.0, 2: 3.0}    # by type
@@ -19,15 +20,7 @@ HEIGHTS = (0.25, 0.5, 1.0)
 def write_plate(path, half, cells):
     """A plate at z = 0 with its normal along z; `cells` squares to a side."""
     step = 2 * half / cells
-    with open(path, "w") as stl:
-        stl.write("solid plate\n")
-        for i in range(cells):
-            for j in range(cells):
-                a, b, c, d = (f"vertex {-half + (i + u) * step:.17g} {-half + (j + v) * step:.17g} 0\n"
-                              for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)))
-                for corners in (a + b + c, a + c + d):
-                    stl.write(f"facet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\n")
-        stl.write("endsolid plate\n")
+    stl.write(path, stl.sheet(cells, lambda i, j: (-half + i * step, -half + j * step, 0)))
 
 
 def spheres(n=10):

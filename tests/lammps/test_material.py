@@ -13,6 +13,7 @@ import re
 import subprocess
 
 import lmp
+import stl
 
 FILE = """\
 units si
@@ -37,12 +38,9 @@ pair steel glass
 UNITS = {"si": (1, 1, 1), "cgs": (100, 1e3, 1), "micro": (1e6, 1e15, 1e6), "nano": (1e9, 1e21, 1e9)}
 
 
-def floor(size):
-    """Two triangles at z = 0."""
-    a, b = f"vertex -{size} -{size} 0\n", f"vertex {size} -{size} 0\n"
-    c, d = f"vertex {size} {size} 0\n", f"vertex -{size} {size} 0\n"
-    faces = [f"facet normal 0 0 1\nouter loop\n{face}endloop\nendfacet\n" for face in (a + b + c, a + c + d)]
-    return "solid floor\n" + "".join(faces) + "endsolid floor\n"
+def write_floor(path, size):
+    """At z = 0."""
+    stl.write(path, stl.quad((-size, -size, 0), (size, -size, 0), (size, size, 0), (-size, size, 0)))
 
 
 def scene(wall, units="si"):
@@ -138,7 +136,7 @@ def systems_of_units(checks, folder):
     wall = "granular jkr material grains.lsdcd glass mesh floor.stl"
     reference = run(folder, wall)[0]
     for units, (m, _, s) in UNITS.items():
-        (folder / "scaled.stl").write_text(floor(0.015 * m))
+        write_floor(folder / "scaled.stl", 0.015 * m)
         moves = run(folder, wall.replace("floor", "scaled"), units)[0]
         si = {step: {1: [x / m for x in rows[1][:3]] + [v * s / m for v in rows[1][3:6]] +
                         [w * s for w in rows[1][6:]]} for step, rows in moves.items()}
@@ -204,7 +202,7 @@ def grains(checks, folder):
 def main():
     checks, folder = lmp.Checks(), lmp.scratch()
     (folder / "grains.lsdcd").write_text(FILE)
-    (folder / "floor.stl").write_text(floor(0.015))
+    write_floor(folder / "floor.stl", 0.015)
     same_bits(checks, folder)
     by_mesh_and_type(checks, folder)
     two_materials(checks, folder)

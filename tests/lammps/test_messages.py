@@ -8,6 +8,7 @@ import math
 import re
 
 import lmp
+import stl
 
 BOX = """\
 units           lj
@@ -35,19 +36,6 @@ def fix(more="", name="w", mesh="floor.stl", law="hooke 1e4 NULL 5 NULL 0.5 1"):
     return f"fix {name} all wall/lsdcd {law} mesh {mesh} {more}\n"
 
 
-def write_stl(path, triangles):
-    with open(path, "w") as stl:
-        stl.write("solid wall\n")
-        for corners in triangles:
-            lines = "".join("vertex {:.9g} {:.9g} {:.9g}\n".format(*c) for c in corners)
-            stl.write(f"facet normal 0 0 0\nouter loop\n{lines}endloop\nendfacet\n")
-        stl.write("endsolid wall\n")
-
-
-def quad(a, b, c, d):
-    return [(a, b, c), (a, c, d)]
-
-
 def drum(lifters, sides=36, radius=2.0, height=1.0):
     def at(k, r, z):
         return (r * math.cos(k), r * math.sin(k), z)
@@ -55,12 +43,12 @@ def drum(lifters, sides=36, radius=2.0, height=1.0):
     turn = 2 * math.pi / sides
     triangles = []
     for k in range(sides):
-        triangles += quad(at(k * turn, radius, 0), at((k + 1) * turn, radius, 0),
-                          at((k + 1) * turn, radius, height), at(k * turn, radius, height))
+        triangles += stl.quad(at(k * turn, radius, 0), at((k + 1) * turn, radius, 0),
+                              at((k + 1) * turn, radius, height), at(k * turn, radius, height))
     for k in range(lifters):
         angle = 2 * math.pi * k / lifters
-        triangles += quad(at(angle, radius, 0), at(angle, radius, height),
-                          at(angle, 0.8 * radius, height), at(angle, 0.8 * radius, 0))
+        triangles += stl.quad(at(angle, radius, 0), at(angle, radius, height),
+                              at(angle, 0.8 * radius, height), at(angle, 0.8 * radius, 0))
     return triangles
 
 
@@ -71,10 +59,10 @@ def lines(text, *words):
 def main():
     checks, folder = lmp.Checks(), lmp.scratch()
     (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-    write_stl(folder / "drum.stl", drum(0))
-    write_stl(folder / "lifters.stl", drum(4))
+    stl.write(folder / "drum.stl", drum(0))
+    stl.write(folder / "lifters.stl", drum(4))
     o, x, y, z = (0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)
-    write_stl(folder / "corner.stl", [(o, x, y), (o, y, z), (o, z, x)])
+    stl.write(folder / "corner.stl", [(o, x, y), (o, y, z), (o, z, x)])
     turning = "surface_angvel 0 0 3"
 
     # Surfaces that push along their normals.

@@ -14,6 +14,7 @@ import sys
 
 import lmp
 import scene
+import stl
 from test_loads import read_vtp
 
 LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
@@ -43,32 +44,15 @@ def touching(dump):
 def write_plane(path, cells=100, side=5):
     """2 cells^2 triangles at z = 0."""
     h = 2 * side / cells
-    with open(path, "w") as stl:
-        stl.write("solid plane\n")
-        for i in range(cells):
-            for j in range(cells):
-                a, b, c, d = ((-side + (i + u) * h, -side + (j + v) * h)
-                              for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)))
-                for t in ((a, b, c), (a, c, d)):
-                    stl.write("facet normal 0 0 1\nouter loop\n" +
-                              "".join(f"vertex {x:.17g} {y:.17g} 0\n" for x, y in t) +
-                              "endloop\nendfacet\n")
-        stl.write("endsolid plane\n")
+    stl.write(path, stl.sheet(cells, lambda i, j: (-side + i * h, -side + j * h, 0)))
 
 
 def write_drum(path, lo, hi, n=24, radius=2.0):
     """A prism round z without lids."""
     ring = [(radius * math.cos(2 * math.pi * k / n), radius * math.sin(2 * math.pi * k / n))
             for k in range(n)]
-    with open(path, "w") as stl:
-        stl.write("solid drum\n")
-        for k in range(n):
-            a, b = ring[k], ring[(k + 1) % n]
-            for t in (((*a, lo), (*b, lo), (*b, hi)), ((*a, lo), (*b, hi), (*a, hi))):
-                stl.write("facet normal 0 0 1\nouter loop\n" +
-                          "".join("vertex %.17g %.17g %.17g\n" % v for v in t) +
-                          "endloop\nendfacet\n")
-        stl.write("endsolid drum\n")
+    stl.write(path, [t for a, b in zip(ring, ring[1:] + ring[:1])
+                     for t in stl.quad((*a, lo), (*b, lo), (*b, hi), (*a, hi))])
 
 
 def compare_with_wall_gran(checks, folder):

@@ -8,6 +8,7 @@ path over a floor that turns, and a pitch a turn in a screw."""
 import math
 
 import lmp
+import stl
 
 SCENE = """\
 units           lj
@@ -32,18 +33,9 @@ timestep        {dt!r}
 MASS, G, RADIUS = 2 * math.pi / 6, 10, 0.5
 
 
-def write_stl(path, triangles):
-    with open(path, "w") as stl:
-        stl.write("solid mesh\n")
-        for t in triangles:
-            stl.write("facet normal 0 0 1\nouter loop\n" +
-                      "".join("vertex %.17g %.17g %.17g\n" % v for v in t) + "endloop\nendfacet\n")
-        stl.write("endsolid mesh\n")
-
-
 def sheet(one, other):
     """Between two lines of as many points."""
-    return [t for a, b, c, d in zip(one, one[1:], other[1:], other) for t in ((a, b, c), (a, c, d))]
+    return [t for corners in zip(one, one[1:], other[1:], other) for t in stl.quad(*corners)]
 
 
 def orbit_on_a_shaking_floor(checks, folder):
@@ -116,7 +108,7 @@ run             30000
     cells = 60
     lines = [[(-9 + 18 * i / cells, -9 + 18 * j / cells, 0) for j in range(cells + 1)]
              for i in range(cells + 1)]
-    write_stl(folder / "table.stl", [t for a, b in zip(lines, lines[1:]) for t in sheet(a, b)])
+    stl.write(folder / "table.stl", [t for a, b in zip(lines, lines[1:]) for t in sheet(a, b)])
     lmp.run_well(text, folder)
     path = lmp.read_dump(folder / "path")
     off = [[abs(p - q) for p, q in zip(along(row[1][:3]), (-3.1 + 2 * step * 1e-4, 0.7 - 0.3 * step * 1e-4, level))]
@@ -139,10 +131,10 @@ def pitch_a_turn(checks, folder):
         return [(r * math.sin(math.pi * k / 20), pitch * k / 40, r * math.cos(math.pi * k / 20))
                 for k in range(-120, 241)]
 
-    write_stl(folder / "blade.stl", sheet(helix(0.5), helix(4.0)))
+    stl.write(folder / "blade.stl", sheet(helix(0.5), helix(4.0)))
     # A groove along y below the axis, its sides square to each other.
     groove = [[(x, y, -4 + abs(x)) for x in (-3, 0, 3)] for y in (-12, 20)]
-    write_stl(folder / "groove.stl", sheet(*groove))
+    stl.write(folder / "groove.stl", sheet(*groove))
     law = "hooke 1e5 NULL 400 0 0 0"
     text = SCENE.format(
         box="-9 9 -9 20 -9 9", at=f"0 {0.75 * pitch!r} {-4 + RADIUS * math.sqrt(2)!r}", v="0 0 0", down="0 -0.5 -1",

@@ -19,6 +19,7 @@ import math
 import sys
 
 import lmp
+import stl
 
 SIDE = 1.5    # half of the box
 PERIOD = 3.0
@@ -64,15 +65,8 @@ BOUNCE, HALF = dict(THROWN, steps=5000), dict(THROWN, steps=10000, every=20, dt=
 
 def write_box(path):
     corners = [(x, y, z) for x in (-SIDE, SIDE) for y in (-SIDE, SIDE) for z in (-SIDE, SIDE)]
-    with open(path, "w") as stl:
-        stl.write("solid box\n")
-        for a, b, c, d in ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4),
-                           (1, 5, 7, 3)):
-            for t in ((a, b, c), (a, c, d)):
-                stl.write("facet normal 0 0 1\nouter loop\n" +
-                          "".join("vertex %.17g %.17g %.17g\n" % corners[k] for k in t) +
-                          "endloop\nendfacet\n")
-        stl.write("endsolid box\n")
+    faces = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    stl.write(path, [t for face in faces for t in stl.quad(*(corners[k] for k in face))])
 
 
 class Box:

@@ -8,6 +8,7 @@ import math
 
 import lmp
 import scene
+import stl
 
 HEAD = """\
 units           lj
@@ -53,15 +54,8 @@ def write_cube(path, inward=False):
     """The cube from -2 to 2 in x and y and 0 to 4 in z, wound outwards or inwards."""
     corners = [(x, y, z) for x in (-2, 2) for y in (-2, 2) for z in (0, 4)]
     quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-    with open(path, "w") as stl:
-        stl.write("solid cube\n")
-        for a, b, c, d in quads:
-            for face in ((a, b, c), (a, c, d)):
-                face = face[::-1] if inward else face
-                stl.write("facet normal 0 0 0\nouter loop\n" +
-                          "".join("vertex %g %g %g\n" % corners[k] for k in face) +
-                          "endloop\nendfacet\n")
-        stl.write("endsolid cube\n")
+    triangles = [t for quad in quads for t in stl.quad(*(corners[k] for k in quad))]
+    stl.write(path, [t[::-1] if inward else t for t in triangles])
 
 
 def close(a, b):

@@ -14,6 +14,7 @@ import subprocess
 import sys
 
 import lmp
+import stl
 
 sys.path.insert(0, str(lmp.HERE.parent / "tool"))
 from pages import ROOT, all_pages    # noqa: E402
@@ -66,15 +67,7 @@ def cube(path, half, flat=False):
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     if flat:
         faces = faces[:1]
-    with open(path, "w") as f:
-        f.write("solid cube\n")
-        for a, b, c, d in faces:
-            for triangle in ((a, b, c), (a, c, d)):
-                f.write("facet normal 0 0 0\nouter loop\n")
-                for k in triangle:
-                    f.write("vertex %g %g %g\n" % corners[k])
-                f.write("endloop\nendfacet\n")
-        f.write("endsolid cube\n")
+    stl.write(path, [t for face in faces for t in stl.quad(*(corners[k] for k in face))])
 
 
 def with_meshes(line, folder):

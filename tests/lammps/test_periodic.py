@@ -12,35 +12,15 @@ leaves room for 1e5 roundings.
 """
 
 import lmp
+import stl
 
 
-def quad(a, b, c, d):
-    return [(a, b, c), (a, c, d)]
-
-
-WALL = quad((0, -20, -20), (0, 20, -20), (0, 20, 20), (0, -20, 20))    # x = 0, across the box
-
-
-def write_stl(path, triangles):
-    with open(path, "w") as stl:
-        stl.write("solid made\n")
-        for t in triangles:
-            stl.write("facet normal 0 0 0\nouter loop\n")
-            for p in t:
-                stl.write("vertex %.17g %.17g %.17g\n" % p)
-            stl.write("endloop\nendfacet\n")
-        stl.write("endsolid made\n")
+WALL = stl.quad((0, -20, -20), (0, 20, -20), (0, 20, 20), (0, -20, 20))    # x = 0, across the box
 
 
 def floor(x0, x1, y0, y1, cells=1, z=0.0):
     """Of 2 cells^2 triangles."""
-    out = []
-    for i in range(cells):
-        for j in range(cells):
-            xs = [x0 + (x1 - x0) * k / cells for k in (i, i + 1)]
-            ys = [y0 + (y1 - y0) * k / cells for k in (j, j + 1)]
-            out += quad((xs[0], ys[0], z), (xs[1], ys[0], z), (xs[1], ys[1], z), (xs[0], ys[1], z))
-    return out
+    return stl.sheet(cells, lambda i, j: (x0 + (x1 - x0) * i / cells, y0 + (y1 - y0) * j / cells, z))
 
 
 def scene(wall, x, v, box="0 10 0 10 -1 10", boundary="p f f", skin=0.3, steps=2000, dt=1e-3, radius=0.5,
@@ -95,7 +75,7 @@ ROUGH = "hooke/history 2e3 NULL 20 NULL 0.4 1"
 
 def near_a_face(checks, folder):
     """The wall is a radius and a bit inside one face; the sphere meets it through the other."""
-    write_stl(folder / "wall.stl", WALL)
+    stl.write(folder / "wall.stl", WALL)
     for skin in (0.1, 0.3):
         here, _ = go(folder, f"{ELASTIC} wall.stl move 9.4995 0 0", (0.29, 5, 5), (-3, 0, 0), skin=skin, steps=600)
         there, _ = go(folder, f"{ELASTIC} wall.stl move 4.4995 0 0", (5.29, 5, 5), (-3, 0, 0), skin=skin, steps=600)
@@ -113,7 +93,7 @@ def over_the_seam(checks, folder):
     for name, ends, cells in (("ends at the faces", (0, 10), 1), ("ends at the faces, 200 triangles", (0, 10), 10),
                               ("reaches past both", (-0.05, 10.05), 1), ("reaches far past", (-7, 16), 3),
                               ("1000 boxes long", (-5000, 5010), 1)):
-        write_stl(folder / "floor.stl", floor(*ends, *ends, cells))
+        stl.write(folder / "floor.stl", floor(*ends, *ends, cells))
         for law in (ROUGH, "hertz/history 2e5 NULL 50 NULL 0.4 1"):
             kwargs = dict(x=(9.2, 9.3, 0.05), v=(3, 2.1, 0), boundary="p p f", radius=0.05, skin=1, gravity=9.81,
                           steps=4000, dt=2e-4, omega=(3, -5, 7), every=50)
@@ -125,7 +105,7 @@ def over_the_seam(checks, folder):
 
 def larger_spheres(checks, folder):
     """A larger sphere comes to a floor that reaches past the faces by its radius and no more."""
-    write_stl(folder / "floor.stl", floor(-0.5, 10.5, -0.5, 10.5))
+    stl.write(folder / "floor.stl", floor(-0.5, 10.5, -0.5, 10.5))
     done = lmp.run(scene(f"wall/lsdcd {ROUGH} mesh floor.stl periodic", (3, 3, 0.45), (0, 0, 0), radius=0.45,
                          boundary="p p f", gravity=9.81, steps=100,
                          more="run 10\ncreate_atoms 1 single 9.9 7 0.5 units box\nset atom 2 diameter 1 density 2"),
@@ -146,10 +126,10 @@ def hills(checks, folder):
         for i in range(n):
             a, b = xs[i], xs[i + 1]
             za, zb = z[round(2 * a) % 20], z[round(2 * b) % 20]
-            out += quad((a, -1, za), (b, -1, zb), (b, 11, zb), (a, 11, za))
+            out += stl.quad((a, -1, za), (b, -1, zb), (b, 11, zb), (a, 11, za))
         return out
-    write_stl(folder / "one.stl", wavy(0, 10))
-    write_stl(folder / "three.stl", wavy(-10, 20))
+    stl.write(folder / "one.stl", wavy(0, 10))
+    stl.write(folder / "three.stl", wavy(-10, 20))
     kwargs = dict(x=(8.2, 5.1, 0.9), v=(6, 0.5, 0), gravity=9.81, steps=6000, dt=2e-4, omega=(1, 2, 0), radius=0.3,
                   every=50, skin=0.6)
     for law in (ROUGH, "hooke/history 2e3 NULL 20 NULL 5.0 1"):
@@ -161,7 +141,7 @@ def hills(checks, folder):
 
 def tilted(checks, folder):
     """The wall of a tilted box, met across the face that leans."""
-    write_stl(folder / "wall.stl", quad((0, 0, -1), (0, 10, -1), (0, 10, 10), (0, 0, 10)))
+    stl.write(folder / "wall.stl", stl.quad((0, 0, -1), (0, 10, -1), (0, 10, 10), (0, 0, 10)))
     for y in (0.6, 4.0, 8.7):
         here, text = go(folder, f"{ELASTIC} wall.stl move 12 0 0", (8, y, 5), (3, 0, 0), steps=3000,
                         box="0 10 0 10 -1 10 4.9 0 0", prism=True, boundary="p p f")
@@ -175,26 +155,26 @@ def tilted(checks, folder):
 def belts(checks, folder):
     """Ends that meet, that do not, and a screen whose holes lie across the face."""
     run = dict(x=(5, 5, 3), v=(0, 0, 0), steps=0, radius=0.02)
-    write_stl(folder / "belt.stl", floor(0.005, 9.995, 4, 6, 4))
+    stl.write(folder / "belt.stl", floor(0.005, 9.995, 4, 6, 4))
     _, text = go(folder, f"{ELASTIC} belt.stl", **run)
     checks.fact("ends 1 cm apart are named", "ends of the mesh do not meet across the periodic boundary in x: 8 "
                 "open edges face a gap of up to 0.01" in text)
-    write_stl(folder / "belt.stl", floor(0, 10, 4, 6, 4))
+    stl.write(folder / "belt.stl", floor(0, 10, 4, 6, 4))
     _, text = go(folder, f"{ELASTIC} belt.stl", **run)
     checks.fact("ends that meet are not", "do not meet" not in text)
-    write_stl(folder / "belt.stl", floor(-0.3, 10.1, 4, 6, 4))
+    stl.write(folder / "belt.stl", floor(-0.3, 10.1, 4, 6, 4))
     _, text = go(folder, f"{ELASTIC} belt.stl periodic", **run)
     checks.fact("ends that overlap are not", "do not meet" not in text)
     screen = [t for i in range(20) for j in range(20)
               if (i % 4, j % 4) != (0, 0) for t in floor(i / 2 - 0.25, i / 2 + 0.25, j / 2, j / 2 + 0.5)]
-    write_stl(folder / "screen.stl", screen)
+    stl.write(folder / "screen.stl", screen)
     _, text = go(folder, f"{ELASTIC} screen.stl periodic", **run)
     checks.fact("a screen with holes across the face has no loose ends", "do not meet" not in text)
 
 
 def box_changes(checks, folder):
     """The walls of a box that changes in a run."""
-    write_stl(folder / "wall.stl", WALL)
+    stl.write(folder / "wall.stl", WALL)
     # The face comes in past the wall at 9 to x = 8: what is met is its image at 1.
     here, text = go(folder, f"{ELASTIC} wall.stl move 9 0 0", (5.5, 5, 5), (1, 0, 0), steps=8000, every=1,
                     more="fix shrink all deform 1 x final 0 8 remap none\nrun 1000\nunfix shrink")
@@ -205,7 +185,7 @@ def box_changes(checks, folder):
     checks.at_most("a wall past a shrunk box acts by its image", abs(turn - (9 - 0.5 + give)), 1e-4)
     checks.fact("the log tells of it", "the box has changed, grid rebuilt at step" in text)
     # The box outgrows its floor.
-    write_stl(folder / "floor.stl", floor(0, 10, 0, 10, 2))
+    stl.write(folder / "floor.stl", floor(0, 10, 0, 10, 2))
     done = lmp.run(scene("wall/lsdcd hooke 2e4 NULL 20 NULL 0 0 mesh floor.stl periodic", (5, 5, 0.5), (0, 0, 0),
                          gravity=9.81, more="fix grow all deform 1 x final -1 11 remap none"), folder)
     checks.fact("a box that outgrows its periodic floor stops the run", done.returncode != 0
@@ -220,7 +200,7 @@ def box_changes(checks, folder):
 def large_meshes(checks, folder):
     """The grid is there where spheres can be, and no further."""
     for wide in (1e3, 1e6):
-        write_stl(folder / "floor.stl", floor(-wide, wide, -wide, wide))
+        stl.write(folder / "floor.stl", floor(-wide, wide, -wide, wide))
         kwargs = dict(x=(5, 5, 0.6), v=(1, 0.3, 0), gravity=9.81, omega=(3, -5, 7), boundary="f f f")
         mesh, text = go(folder, f"wall/lsdcd {ROUGH} mesh floor.stl", **kwargs)
         flat, _ = go(folder, f"wall/gran {ROUGH} zplane 0.0 NULL", **kwargs)
@@ -229,9 +209,9 @@ def large_meshes(checks, folder):
         size = float(line.split()[0]) * {"kB,": 1e-3, "MB,": 1}[line.split()[1]]
         checks.at_most(f"floor {2 * wide:g} wide: MB", size, 2)
     # Spheres fly past what a shrink-wrapped box was at first.
-    write_stl(folder / "wall.stl", WALL)
-    far = [tuple(tuple(1e3 * c for c in p) for p in t) for t in quad((0, -1, -1), (0, 1, -1), (0, 1, 1), (0, -1, 1))]
-    write_stl(folder / "far.stl", far + [tuple((p[0] + 400, p[1], p[2]) for p in t) for t in far])
+    stl.write(folder / "wall.stl", WALL)
+    far = [tuple(tuple(1e3 * c for c in p) for p in t) for t in stl.quad((0, -1, -1), (0, 1, -1), (0, 1, 1), (0, -1, 1))]
+    stl.write(folder / "far.stl", far + [tuple((p[0] + 400, p[1], p[2]) for p in t) for t in far])
     here, text = go(folder, f"{ELASTIC} far.stl move -200 0 0", (5, 5, 5), (30, 0, 0), boundary="m m m", steps=8000)
     checks.fact("a far wall is met", max(r[1][0] for r in here.values()) < 200 and here[8000][1][3] < 0)
     checks.fact("the grid follows a shrink-wrapped box", "the box has changed" in text)
@@ -240,7 +220,7 @@ def large_meshes(checks, folder):
 def scales(checks, folder):
     """A mesh in millimetres in a box in metres."""
     hundred = floor(-50, 50, -50, 50, z=-50) + floor(-50, 50, -50, 50, z=50)
-    write_stl(folder / "vessel.stl", hundred)
+    stl.write(folder / "vessel.stl", hundred)
     done = lmp.run(scene(f"{ELASTIC} vessel.stl", (0, 0, 0), (0, 0, 0), box="-.06 .06 -.06 .06 -.06 .06", radius=0.001,
                          boundary="f f f", steps=1), folder)
     checks.fact("a forgotten scale is named", "far larger than the box" in done.stdout

@@ -14,6 +14,7 @@ import math
 import sys
 
 import lmp
+import stl
 
 LO, HI = (-1.25, -0.75, -1.0), (1.0, 1.5, 0.5)    # of the block
 RADIUS, HALF, SIDES = 1.1, 1.3, 90                # of the cylinder about z
@@ -33,15 +34,6 @@ timestep        0.1
 """
 
 
-def write_stl(path, triangles):
-    with open(path, "w") as stl:
-        stl.write("solid s\n")
-        for t in triangles:
-            stl.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.17g %.17g %.17g\n" % p for p in t)
-                      + "endloop\nendfacet\n")
-        stl.write("endsolid s\n")
-
-
 def prism(outline, lo, hi):
     """Closed, of a convex outline in x and y that turns left, normals out."""
     n, made = len(outline), []
@@ -56,12 +48,12 @@ def prism(outline, lo, hi):
 
 def write_meshes(folder):
     (x, y, z), (X, Y, Z) = LO, HI
-    write_stl(folder / "box.stl", prism([(x, y), (X, y), (X, Y), (x, Y)], z, Z))
+    stl.write(folder / "box.stl", prism([(x, y), (X, y), (X, Y), (x, Y)], z, Z))
     turn = [2 * math.pi * i / SIDES for i in range(SIDES)]
-    write_stl(folder / "cylinder.stl", prism([(RADIUS * math.cos(a), RADIUS * math.sin(a)) for a in turn], -HALF, HALF))
-    write_stl(folder / "open.stl", prism([(x, y), (X, y), (X, Y), (x, Y)], z, Z)[:-1])
+    stl.write(folder / "cylinder.stl", prism([(RADIUS * math.cos(a), RADIUS * math.sin(a)) for a in turn], -HALF, HALF))
+    stl.write(folder / "open.stl", prism([(x, y), (X, y), (X, Y), (x, Y)], z, Z)[:-1])
     # The block as two that overlap.
-    write_stl(folder / "two.stl", prism([(x, y), (0.25, y), (0.25, Y), (x, Y)], z, Z) +
+    stl.write(folder / "two.stl", prism([(x, y), (0.25, y), (0.25, Y), (x, Y)], z, Z) +
               prism([(-0.5, y), (X, y), (X, Y), (-0.5, Y)], z, Z))
 
 

@@ -9,6 +9,7 @@ import re
 import sys
 
 import lmp
+import stl
 
 # dt is a tenth of the contact's time where it is not given: pi sqrt(m/k) for a sphere of mass pi/3
 # and k = 1e4 is 0.0321, with damping a little more.
@@ -49,13 +50,7 @@ FLOOR = "fix floor all wall/gran {law} zplane 0 NULL\n"
 
 
 def write_plate(path, side):
-    a, b, c, d = ((x, y, 0.0) for x, y in ((-side, -side), (side, -side), (side, side), (-side, side)))
-    with open(path, "w") as stl:
-        stl.write("solid plate\n")
-        for t in ((a, b, c), (a, c, d)):
-            stl.write("facet normal 0 0 1\nouter loop\n" +
-                      "".join("vertex %.17g %.17g %.17g\n" % v for v in t) + "endloop\nendfacet\n")
-        stl.write("endsolid plate\n")
+    stl.write(path, stl.quad((-side, -side, 0), (side, -side, 0), (side, side, 0), (-side, side, 0)))
 
 
 def wall(law, words, at=1.05, more=""):

@@ -13,6 +13,7 @@ import math
 import re
 
 import lmp
+import stl
 
 # In contact laws of 29Sep2021 and later alike.
 LAWS = {
@@ -27,18 +28,13 @@ def write_outline(path, points, closed=False, half=0.6, parts=1):
     ends = list(zip(points, points[1:] + (points[:1] if closed else [])))
     if not closed:
         ends = ends[:len(points) - 1]
-    with open(path, "w") as stl:
-        stl.write("solid outline\n")
-        for (ax, ay), (bx, by) in ends:
-            for k in range(parts):
-                s, t = k / parts, (k + 1) / parts
-                a, b = (ax + s * (bx - ax), ay + s * (by - ay)), (ax + t * (bx - ax), ay + t * (by - ay))
-                for corners in ((a + (-half,), b + (-half,), b + (half,)),
-                                (a + (-half,), b + (half,), a + (half,))):
-                    stl.write("facet normal 0 0 0\nouter loop\n" +
-                              "".join("vertex %.17g %.17g %.17g\n" % c for c in corners) +
-                              "endloop\nendfacet\n")
-        stl.write("endsolid outline\n")
+    triangles = []
+    for (ax, ay), (bx, by) in ends:
+        for k in range(parts):
+            s, t = k / parts, (k + 1) / parts
+            a, b = (ax + s * (bx - ax), ay + s * (by - ay)), (ax + t * (bx - ax), ay + t * (by - ay))
+            triangles += stl.quad((*a, -half), (*b, -half), (*b, half), (*a, half))
+    stl.write(path, triangles)
 
 
 HEAD = """\
