@@ -32,6 +32,7 @@ DATA = os.path.join(ROOT, "doc", "data")
 PLOT = os.path.join(ROOT, "doc", "img", "tradeoff_{}.png")
 BEGIN, END = "<!-- tradeoff:begin -->", "<!-- tradeoff:end -->"
 DEVICES = ("cpu", "cuda")
+REPEATS = {"cpu": "5", "cuda": "50"}    # a GPU's steps are short, and copies vary
 MESHES = {
     "vessel": ["--scale", "0.001", "--radius", "0.00135", "0.0014", "0.00145", "0.0015", "0.00155"],
     "cylinder": ["--radius", "0.2", "0.4", "0.6", "0.8", "1"],
@@ -56,7 +57,7 @@ def kept(mesh, device, folder=DATA):
 def run(mesh, device, build, folder, seconds, commit):
     print(f"running lsdcd tradeoff on the {mesh}, {device} ...", flush=True)
     done = subprocess.run([os.path.join(build, "bin", "lsdcd"), "tradeoff", mesh_file(mesh, build),
-                           *MESHES[mesh], "--device", device, "--seconds", str(seconds),
+                           *MESHES[mesh], "--device", device, "--seconds", str(seconds), "--repeats", REPEATS[device],
                            "--csv", kept(mesh, device, folder), "--plot", "none"],
                           stdout=subprocess.DEVNULL)
     if done.returncode == 0 and commit:
@@ -96,56 +97,55 @@ def find(rows, kind, **wanted):
     return None
 
 
-def has_queries(rows):
-    """Rows of earlier days have no times of queries."""
-    return any(row["status_ns"] for row in rows)
+def rows_like(rows, lengths, **wanted):
+    """What each device measured with these settings; `lengths`: of its cells."""
+    return [find(rows, device, grid=lengths.get(device), **wanted) for device in DEVICES]
 
 
-def line(rows, name, **wanted):
+def line(rows, name, lengths, **wanted):
     """A row of a table, or nothing where the setting was not measured on the CPU."""
-    row, gpu = find(rows, "cpu", **wanted), find(rows, "cuda", **wanted)
-    if row is None:
+    cpu, gpu = rows_like(rows, lengths, **wanted)
+    if cpu is None:
         return ""
 
     def ns(row, column):
         return f"{row[column]:.3g}" if row and row[column] else "-"
 
-    cells = [name, percent(row["missed"]), error(row["force_mean"]), error(row["force_largest"]),
-             error(row["bounce_drift"]), error(row["roll_drift"]), f"{row['ns_per_sphere']:.0f}", ns(gpu, "ns_per_sphere")]
-    if has_queries(rows):
-        cells += [ns(row, "status_ns"), ns(gpu, "status_ns")]
-    return "| " + " | ".join(cells + [f"{row['bytes'] / 1e6:.3g}"]) + " |\n"
+    cells = [name, percent(cpu["missed"]), error(cpu["force_mean"]), error(cpu["force_largest"]),
+             error(cpu["bounce_drift"]), error(cpu["roll_drift"]), f"{cpu['ns_per_sphere']:.0f}", ns(gpu, "ns_per_sphere"),
+             ns(cpu, "status_ns"), ns(gpu, "status_ns"), f"{cpu['bytes'] / 1e6:.3g}"]
+    return "| " + " | ".join(cells) + " |\n"
 
 
-def head(rows):
-    cells = ["setting", "missed contacts", "force error, mean", "largest", "energy drift: bouncing", "rolling",
-             "ns a step, CPU core", "GPU"] + ["ns a query, CPU core", "GPU"] * has_queries(rows) + ["MB"]
-    return "| " + " | ".join(cells) + " |\n|" + " --- |" * len(cells) + "\n"
+HEAD = ["setting", "missed contacts", "force error, mean", "largest", "energy drift: bouncing", "rolling",
+        "ns a step, CPU core", "GPU", "ns a query, CPU core", "GPU", "MB"]
 
 
-def lengths(rows):
-    return sorted({row["grid"] for row in rows}, key=float)
-
-
-def standard(rows):
-    return next(row for row in rows if row["default"] == "1")
+def lengths_by_share(rows):
+    """By the share of the default: the length of cells of each device. A GPU's default is shorter."""
+    shares = {}
+    for device in DEVICES:
+        of = [r for r in rows if r["kind"] == device]
+        default = next((float(r["grid"]) for r in of if r["default"] == "1"), None)
+        for row in of:
+            shares.setdefault(f"{float(row['grid']) / default:.2g}", {})[device] = row["grid"]
+    return shares
 
 
 def first_screen(rows):
-    default = standard(rows)["grid"]
-    base = dict(grid=default, corner="blend", precision="double")
-    out = head(rows) + line(rows, "**nothing** (the default)", **base, nearest="all")
-    for length in lengths(rows):
-        if length != default:
-            times = float(length) / float(default)
-            out += line(rows, f"`grid` {times:.2g} times the default", **{**base, "grid": length},
-                        nearest="all")
+    shares = lengths_by_share(rows)
+    default = shares.pop("1")
+    base = dict(corner="blend", precision="double", nearest="all")
+    out = "| " + " | ".join(HEAD) + " |\n|" + " --- |" * len(HEAD) + "\n"
+    out += line(rows, "**nothing** (the default)", default, **base)
+    for share, lengths in sorted(shares.items()):
+        if set(lengths) == set(DEVICES):
+            out += line(rows, f"`grid` {share} times the default", lengths, **base)
     for precision in ("mixed", "single"):
-        out += line(rows, f"`precision {precision}`", **{**base, "precision": precision},
-                    nearest="all")
-    out += line(rows, "`corner sum`", **{**base, "corner": "sum"}, nearest="all")
-    for n in ("8", "4", "3", "2", "1"):
-        out += line(rows, f"`nearest {n}`", **base, nearest=n)
+        out += line(rows, f"`precision {precision}`", default, **{**base, "precision": precision})
+    out += line(rows, "`corner sum`", default, **{**base, "corner": "sum"})
+    for n in ("8", "3", "2", "1"):
+        out += line(rows, f"`nearest {n}`", default, **{**base, "nearest": n})
     return out
 
 
@@ -170,8 +170,7 @@ more than noise. `nearest N`, the paper's method, is for studies: it misses cont
 ![Missed contacts and error against the time of a query](img/paper_question.png)
 
 A number at a point is N, the triangles that a cell lists; *all* is the default, complete lists. Left is the paper's cylinder, right are
-finer ones. The time is that of a query: which of 10 000 000 spheres touch the wall? Here N and *all* do the same kind of work: both
-search cells. With 1 000 000 triangles N = 1 is {faster} times as fast, and misses {missed} % of the contacts. But a step of the simulation
+finer ones. The time is that of a query: which of 10 000 000 spheres touch the wall? Both search cells. With 1 000 000 triangles N = 1 is {faster} times as fast, and misses {missed} % of the contacts. But a step of the simulation
 searches no cells: it reads each sphere's own list of the wall, and is faster than every query (black line). The GPU is an H200; queries of
 commit {query_commit}, step of {step_commit}; the paper's points are of its Table 2, a Tesla K40.
 
@@ -199,8 +198,8 @@ How it is measured:
   over that of an overlap of 1 % of its radius if that is more.
 - *Energy drift*: of a sphere that bounces ten times, or rolls five radii, without losses; the median of {moving} spheres. About
   2e-4 of the bouncing drift comes from the integrator. A sphere that goes through the wall counts 1.
-- *ns a step*: for each sphere near the wall. On the CPU the caches are filled with other data first. On the GPU the copies from and to
-  the host are in it.
+- *ns*: for each sphere near the wall; *query*: does it touch? Before a CPU's step its caches hold other data. A GPU's step copies
+  from and to the host. `grid` differs by device, *MB* is the CPU's.
 
 Measured on:
 

@@ -93,7 +93,7 @@ def read(path):
         rows = list(csv.DictReader(f))
     for row in rows:
         for key in ("ns_per_sphere", "status_ns", "bytes", "force_mean"):
-            row[key] = float(row.get(key, 0))    # rows of earlier days have no status_ns
+            row[key] = float(row[key])
     return rows
 
 
