@@ -786,12 +786,17 @@ class Script:
         worn = [m for m in meshes if m.wear]
         if not worn:
             return ""
-        of_pairs = {self.property(line, "k_finnie", m.type, kind) for m in worn for kind in self.grains()}
-        if len(of_pairs) > 1:
-            raise Left("wear of several materials", "a fix has one number: give the meshes fixes of their own")
-        k = of_pairs.pop()
-        self.note(line, f"LIGGGHTS wears by twice its k_finnie, {short(k)}, and by the whole force, not the normal one" +
-                  ("" if len(worn) == len(meshes) else "; all meshes of a fix wear"))
+        own = {}
+        for m in worn:
+            of_grains = {self.property(line, "k_finnie", m.type, kind) for kind in self.grains()}
+            if len(of_grains) > 1:
+                raise Left("wear that differs by the type of the grains", "a mesh has one number")
+            own[m] = of_grains.pop()
+        k = max(own.values())
+        for m in meshes:
+            if own.get(m, 0) != k:
+                m.words.append(f"wear_factor {short(own.get(m, 0) / k)}")
+        self.note(line, f"LIGGGHTS wears by twice its k_finnie, {short(k)}, and by the whole force, not the normal one")
         return f" wear finnie {short(2 * k)}"
 
     def mesh_words(self, mesh):

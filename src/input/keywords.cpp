@@ -240,6 +240,9 @@ const Keyword kKeywords[] = {
      read_cohesion},
     {"wear", "archard K H | finnie K", "K H: none, pressure; K: 1/pressure", ">= 0, H > 0", "none",
      "volume that wears off the triangles: K F s/H, or by angle and energy of impacts", read_wear},
+    {"wear_factor", "F", "", ">= 0", "1",
+     "this mesh wears F times as fast as wear says; 0: it does not", nullptr,
+     [](Tokens &w, MeshSettings &s) { s.wear_factor = w.number("F", 0); }},
     {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",
      "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step, and "
      "a .pvd file lists them all",

@@ -195,6 +195,9 @@ void check_meshes(Tokens &w, const WallSettings &s)
              " is missing, which the sub-model heat needs");
     if (has && !s.law.has_heat())
       w.fail("a temperature" + of + " is given, but no sub-model heat uses it");
+    w.set_context("wear_factor", "wear MODEL numbers mesh FILE wear_factor F");
+    if (s.meshes[k].wear_factor != 1 && !s.wears())
+      w.fail("a wear_factor" + of + " is given, but nothing wears without the keyword wear");
     check_apart(w, s, k);
   }
 }

@@ -51,6 +51,7 @@ struct MeshSettings {
   FileEvery fields;                 // of numbers per triangle
   std::string cache_file;           // empty: none
   std::vector<LawOfMesh> laws;
+  Real wear_factor = 1;    // how many times what Wear says comes off
 
   bool surface_varies() const
   {

@@ -13,8 +13,9 @@ LoadRecorder::LoadRecorder(Host &host, const WallSettings &settings) :
 void LoadRecorder::add(int mesh, const ContactRecord *records, int n, Real dt,
                        const WallFeaturesView &features)
 {
-  if (settings_.has_loads(settings_.meshes[mesh]))
-    loads_[mesh].add(records, n, dt, settings_.wear.per_work, features, mesh);
+  const MeshSettings &of = settings_.meshes[mesh];
+  if (settings_.has_loads(of))
+    loads_[mesh].add(records, n, dt, of.wear_factor * settings_.wear.per_work, features, mesh);
 }
 
 Real LoadRecorder::worn(int mesh) const

@@ -38,6 +38,18 @@ WRITTEN = {
     "loads get their new names": (MESH.format("") + WALL + "thermo_style custom step f_cad[3]\n", "step f_w[3]"),
     "wear is doubled": ("fix k all property/global k_finnie peratomtypepair 1 1e-9\n" + MESH.format("wear finnie") + WALL,
                         "wear finnie 2e-09"),
+    "a mesh that does not wear says so": (
+        "fix k all property/global k_finnie peratomtypepair 1 1e-9\n" + MESH.format("wear finnie") +
+        MESH.replace("cad", "lid").replace("a.stl", "b.stl").format("") +
+        WALL.replace("n_meshes 1 meshes cad", "n_meshes 2 meshes cad lid"), "mesh b.stl wear_factor 0\n"),
+    "of two materials that wear each has its number": (
+        "fix n1 all property/global youngsModulus peratomtype 1e7 1e7\nfix n2 all property/global poissonsRatio peratomtype 0.3 0.3\n"
+        "fix n3 all property/global coefficientRestitution peratomtypepair 2 0.5 0.5 0.5 0.5\n"
+        "fix n4 all property/global coefficientFriction peratomtypepair 2 0.4 0.4 0.4 0.4\n"
+        "fix k all property/global k_finnie peratomtypepair 2 4e-9 1e-9 1e-9 0\n" + MESH.format("wear finnie") +
+        MESH.replace("cad", "lid").replace("type 1", "type 2").replace("a.stl", "b.stl").format("wear finnie") +
+        WALL.replace("n_meshes 1 meshes cad", "n_meshes 2 meshes cad lid") + "create_atoms 1 single 0 0 0\n",
+        "wear finnie 8e-09 &\n                mesh a.stl &\n                mesh b.stl wear_factor 0.25\n"),
     "meshes are written by the wall": (MESH.format("") + WALL + "dump d all mesh/stl 300 post/dump*.stl\n",
                                        "mesh_stl post/dump_cad_*.stl every 300"),
     "a plane has the side of the box": (

@@ -87,11 +87,12 @@ def check_rows(checks, folder):
     """No sphere touches two plates that face each other: two fixes of one mesh each are the same."""
     law, n = LAWS["hertz_history"], 11
     one, two = "mesh xlo.stl", "mesh xhi.stl wiggle x 0.02 0.1 torque_about 3 0 0"
-    wear = "wear archard 1e-3 1e6"
+    # The second mesh's factor, and its own hardness in a fix of its own.
+    wear, harder, factor = "wear archard 1e-3 1e6", "wear archard 1e-3 4e6", "wear_factor 0.25"
     vectors = " ".join(f"f_{name}[{c}]" for name in "ab" for c in range(1, n + 1))
-    apart = go(folder, f"fix a all wall/lsdcd {law} {one} {wear}\nfix b all wall/lsdcd {law} {two} {wear}", "a",
+    apart = go(folder, f"fix a all wall/lsdcd {law} {one} {wear}\nfix b all wall/lsdcd {law} {two} {harder}", "a",
                1200, every=1200, more=thermo(f"f_a f_b {vectors}", 10))[1]
-    joined = go(folder, f"fix wall all wall/lsdcd {law} {wear} {one} {two}", "a", 1200, every=1200,
+    joined = go(folder, f"fix wall all wall/lsdcd {law} {wear} {one} {two} {factor}", "a", 1200, every=1200,
                 more=thermo(f"f_wall f_wall[7] {columns(2, n)}", 10))[1]
     apart, joined = ([row[1:] for row in lmp.read_thermo(text)] for text in (apart, joined))
     apart = [[row[0] + row[1], row[8] + row[8 + n], *row[2:]] for row in apart]

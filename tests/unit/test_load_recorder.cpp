@@ -76,6 +76,19 @@ TEST(LoadRecorder, tells_the_time_of_an_average_on_all_processes)
   });
 }
 
+TEST(LoadRecorder, wears_a_mesh_by_its_factor)
+{
+  on_processes(2, [](FakeHost &host) {
+    WallSettings settings = wall();
+    settings.meshes[1].wear_factor = 0.25;
+    LoadRecorder loads(host, settings);
+    add_step(loads, host.rank());
+    // Two processes, half a volume per work, power times time.
+    EXPECT_EQ(loads.worn(0), 2 * 0.5 * 10 * 2);
+    EXPECT_EQ(loads.worn(1), 2 * 0.5 * 0.25 * 100 * 2);
+  });
+}
+
 TEST(LoadRecorder, begins_an_average_of_one_mesh_and_keeps_its_wear)
 {
   on_processes(2, [](FakeHost &host) {

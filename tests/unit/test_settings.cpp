@@ -508,6 +508,16 @@ TEST(settings, wear_is_volume_per_work)
   EXPECT_TRUE(names(error_with("wear finnie nan"), "K"));
 }
 
+TEST(settings, a_mesh_wears_by_a_factor_of_its_own)
+{
+  const WallSettings s = with("wear_factor 0.25 mesh b.stl wear_factor 0 mesh c.stl wear finnie 1");
+  EXPECT_EQ(s.meshes[0].wear_factor, 0.25);
+  EXPECT_EQ(s.meshes[1].wear_factor, 0);
+  EXPECT_EQ(s.meshes[2].wear_factor, 1);
+  EXPECT_TRUE(names(error_with("wear_factor -1 wear finnie 1"), "F = -1"));
+  EXPECT_TRUE(names(error_with("wear_factor 2"), "without the keyword wear"));
+}
+
 TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
 {
   const WallSettings s = with("mesh_fields wall_*.vtp every 500");
