@@ -20,7 +20,8 @@ from performance_plots import plot_build, plot_query
 DOCUMENT = os.path.join(ROOT, "doc", "performance.md")
 NOTES = os.path.join(ROOT, "doc", "notes", "performance.md")
 ELSEWHERE = dict.fromkeys(["kokkos-cpu", "kokkos-cuda", "kokkos-copies", "status", "distance", "build", "step", "in_place",
-                           "cache", "near-and-far", "tree", "calls", "mesh-size", "point-costs"], NOTES)
+                           "cache", "near-and-far", "tree", "calls", "mesh-size"], NOTES)
+ELSEWHERE["point-costs"] = os.path.join(ROOT, "doc", "library.md")
 DATA = os.path.join(ROOT, "doc", "data")
 DEVICES = ("cpu", "cuda")
 PROGRAMS = ("query", "build", "step", "cache")
@@ -245,20 +246,19 @@ def near_and_far_tables(cpu):
 
 
 def point_costs(cpu):
-    """Of these distances the library's and Embree's, in microseconds."""
-    rows = near_and_far(cpu)
-    columns = [(place, order) for place in ("near", "far") for order in ("sorted", "random")]
+    """Distances of points in random order by the library, Embree and CGAL, in microseconds."""
+    rows = [r for r in near_and_far(cpu) if r["order"] == "random"]
+    columns = [(way, place) for way in ("library, double", "Embree") for place in ("near", "far", "any")] + [("CGAL", "any")]
 
-    def us(triangles, way, place, order):
-        row = next((x for x in rows if x["case"].startswith(f"{place}, {way}") and x["triangles"] == triangles and
-                    x["order"] == order), None)
-        return number(float(facts(row)["ns_per_point"]) / 1e3, 2) if row else ""
+    def us(triangles, way, place):
+        row = next((r for r in rows if r["case"].startswith(f"{place}, {way}") and r["triangles"] == triangles), None)
+        if not row:
+            return ""
+        cost = float(facts(row)["ns_per_point"]) / 1e3
+        return number(cost, 3 if cost >= 100 else 2)
 
-    def cells(triangles):
-        return [count(triangles), *[us(triangles, way, *c) for way in ("library, double", "Embree") for c in columns]]
-
-    heads = [f"{way}{place}, {order}" for way in ("", "Embree: ") for place, order in columns]
-    return table(dict.fromkeys(r["triangles"] for r in rows), ["triangles", *heads], cells)
+    heads = ["triangles", *[place if way.startswith("library") else f"{way}: {place}" for way, place in columns]]
+    return table(dict.fromkeys(r["triangles"] for r in rows), heads, lambda t: [count(t), *[us(t, *c) for c in columns]])
 
 
 def tree_table(cuda):
