@@ -25,12 +25,14 @@ std::string in_a_line(const WallSettings &settings, const std::deque<MeshPart> &
 std::string mesh_lines(const MeshPart &m)
 {
   std::string t = m.grid.mesh_text();
+  const Real wear = m.settings.wear_factor;
   const struct {
     const char *label;
     std::string text;
   } lines[] = {{"placement   ", m.settings.placement_tokens},
                {"motion      ", m.motion.text(m.bounds(0))},
-               {"servo       ", m.settings.servo_tokens}};
+               {"servo       ", m.settings.servo_tokens},
+               {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"}};
   for (const auto &line : lines)
     if (!line.text.empty()) t += "\n  " + (line.label + line.text);
   return t;

@@ -94,6 +94,7 @@ def check_rows(checks, folder):
                1200, every=1200, more=thermo(f"f_a f_b {vectors}", 10))[1]
     joined = go(folder, f"fix wall all wall/lsdcd {law} {wear} {one} {two} {factor}", "a", 1200, every=1200,
                 more=thermo(f"f_wall f_wall[7] {columns(2, n)}", 10))[1]
+    checks.fact("log: a mesh's own wear", joined.count("\n  wear        0.25 times as fast\n") == 1)
     apart, joined = ([row[1:] for row in lmp.read_thermo(text)] for text in (apart, joined))
     apart = [[row[0] + row[1], row[8] + row[8 + n], *row[2:]] for row in apart]
     worst = {}
