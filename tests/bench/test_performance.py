@@ -49,7 +49,8 @@ def test_rows():
 
 
 def test_document():
-    text = "".join(pathlib.Path(page).read_text() for page in (performance.DOCUMENT, performance.NOTES))
+    pages = {performance.DOCUMENT, *performance.ELSEWHERE.values()}
+    text = "".join(pathlib.Path(page).read_text() for page in pages)
     found = {}
     for tables in (performance, kokkos_tables):
         found.update(tables.parts(tables.read_rows("cpu"), tables.read_rows("cuda")))
