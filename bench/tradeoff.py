@@ -170,7 +170,7 @@ more than noise. `nearest N`, the paper's method, is for studies: it misses cont
 ![Missed contacts and error against the time of a query](img/paper_question.png)
 
 A number at a point is N, the triangles that a cell lists; *all* is the default, complete lists. Left is the paper's cylinder, right are
-finer ones. The time is that of a query: which of 10 000 000 spheres touch the wall? Both search cells. With 1 000 000 triangles N = 1 is {faster} times as fast, and misses {missed} % of the contacts. But a step of the simulation
+finer ones. The time is that of a query: which of 10 000 000 spheres touch the wall? N and *all* search cells. With 1 000 000 triangles N = 1 is {faster} times as fast, and misses {missed} % of the contacts. But a step of the simulation
 searches no cells: it reads each sphere's own list of the wall, and is faster than every query (black line). The GPU is an H200; queries of
 commit {query_commit}, step of {step_commit}; the paper's points are of its Table 2, a Tesla K40.
 
