@@ -97,14 +97,9 @@ def find(rows, kind, **wanted):
     return None
 
 
-def rows_like(rows, lengths, **wanted):
-    """What each device measured with these settings; `lengths`: of its cells."""
-    return [find(rows, device, grid=lengths.get(device), **wanted) for device in DEVICES]
-
-
 def line(rows, name, lengths, **wanted):
-    """A row of a table, or nothing where the setting was not measured on the CPU."""
-    cpu, gpu = rows_like(rows, lengths, **wanted)
+    """A row of a table, or nothing where the setting was not measured on the CPU; `lengths`: of each device's cells."""
+    cpu, gpu = (find(rows, device, grid=lengths.get(device), **wanted) for device in DEVICES)
     if cpu is None:
         return ""
 
@@ -198,7 +193,7 @@ How it is measured:
   over that of an overlap of 1 % of its radius if that is more.
 - *Energy drift*: of a sphere that bounces ten times, or rolls five radii, without losses; the median of {moving} spheres. About
   2e-4 of the bouncing drift comes from the integrator. A sphere that goes through the wall counts 1.
-- *ns*: for each sphere near the wall; *query*: does it touch? Before a CPU's step its caches hold other data. A GPU's step copies
+- *ns*: for each sphere near the wall; *query*: does it touch? A CPU's caches hold other data before a step. A GPU's step copies
   from and to the host. `grid` differs by device, *MB* is the CPU's.
 
 Measured on:

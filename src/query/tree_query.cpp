@@ -59,10 +59,10 @@ void NearBoxes::mark(const TriangleTree &tree, Real cutoff, const std::array<int
 
 namespace {
 
-// Points that are put in order at once: some for each triangle, but few enough to stay in a processor's cache
-// where these do. Fewer than kFewPoints are answered as they come, and so are those of a mesh that stays there.
+// Points that are put in order at once: a few for each triangle, so that those of a small mesh stay in a
+// processor's cache. Fewer than kFewPoints are answered as they come, and so are those of a mesh that stays there.
 constexpr std::size_t kChunk = std::size_t(1) << 20, kLeastChunk = std::size_t(1) << 15,
-                      kOfTriangle = 4, kFewPoints = 64;
+                      kPointsOfTriangle = 4, kFewPoints = 64;
 constexpr std::size_t kInCache = std::size_t(1) << 20;    // bytes
 constexpr std::size_t kAhead = 8;                         // points whose memory is on its way
 constexpr int kCurveBits = 7;                             // an axis
@@ -123,7 +123,7 @@ class TreeQuery {
     } else {
       const std::size_t n_threads = static_cast<std::size_t>(threads());
       const std::size_t share = n_threads > 1 ? n / (4 * n_threads) + 1 : n;
-      const std::size_t enough = std::max(kLeastChunk, kOfTriangle * tree_.n_primitives()),
+      const std::size_t enough = std::max(kLeastChunk, kPointsOfTriangle * tree_.n_primitives()),
                         chunk = std::max(kFewPoints, std::min({kChunk, enough, share}));
       const std::int64_t n_chunks = static_cast<std::int64_t>((n + chunk - 1) / chunk);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads()) if (n_chunks > 1)
