@@ -28,7 +28,7 @@ extern "C" {
 #endif
 
 #define LSDCD_VERSION_MAJOR 0
-#define LSDCD_VERSION_MINOR 9
+#define LSDCD_VERSION_MINOR 10
 #define LSDCD_VERSION_PATCH 0
 
 #if defined(__GNUC__)
@@ -52,7 +52,7 @@ enum {
   LSDCD_ERROR_CANCELLED = 8 /* `progress` asked for it */
 };
 
-/* "0.9.0". Any. */
+/* "0.10.0". Any. */
 LSDCD_API const char *lsdcd_version(void);
 /* "cutoff" for LSDCD_ERROR_CUTOFF. Any. */
 LSDCD_API const char *lsdcd_error_name(int code);

@@ -6,7 +6,7 @@
 
 namespace lsdcd {
 
-// "0.9.0".
+// "0.10.0".
 const char *version();
 
 }    // namespace lsdcd
