@@ -453,8 +453,8 @@ typedef struct lsdcd_wall_totals {
 } lsdcd_wall_totals;
 /* Of a mesh in the last step, over all processes; -1: of all, without servos. Own. */
 LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals);
-/* Where a mesh is: x in the box is R x + t, 12 numbers, rows of R, each with its t behind it. Alone.
- * Own. */
+/* Where a mesh is after the last step: what was at x when the wall was made is at R x + t. 12 numbers, rows of R, each
+ * with its t, a length, behind it. LSDCD_ERROR_ARGUMENT: no such mesh. Alone. Own. */
 LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
 /* The words of fix_modify: [mesh K] motion ..., [mesh K] servo ..., K from 1. Own. */
 LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n);

@@ -8,6 +8,7 @@
 
 #include "lsdcd.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -502,6 +503,15 @@ class Wall {
     t.size = sizeof t;
     c::check(lsdcd_wall_get_totals(get(), mesh, &t));
     return t;
+  }
+  // Where mesh number `mesh` is, from 0, after the last step: what was at x when the wall was made is at R x + t. Three
+  // rows of four numbers, each row of R with its t, a length, behind it, as Matrix has them. Throws
+  // LSDCD_ERROR_ARGUMENT for a mesh that there is not.
+  std::array<double, 12> pose(int mesh = 0)
+  {
+    std::array<double, 12> matrix = {};
+    c::check(lsdcd_wall_get_pose(get(), mesh, matrix.data()));
+    return matrix;
   }
   void change(const std::vector<std::string> &words)
   {

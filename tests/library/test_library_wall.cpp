@@ -4,6 +4,8 @@
 // A wall through the library's headers: forces in closed form, springs that follow their spheres, wrong use.
 #include "floor_and_grains.h"
 
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <string>
@@ -75,9 +77,23 @@ TEST_F(wall, has_totals_of_a_mesh_that_moves)
   EXPECT_NEAR(totals.torque[1], 3 * force, 3 * kN * kRounding);    // about the origin
   EXPECT_NEAR(totals.power, 2 * force, 2 * kN * kRounding);        // on the sphere
   EXPECT_EQ(totals.contacts, 1);
-  double pose[12];
-  ASSERT_EQ(lsdcd_wall_get_pose(wall.get(), 0, pose), LSDCD_OK);
-  EXPECT_EQ(pose[11], 2 * kDt);
+  EXPECT_EQ(wall.pose()[11], 2 * kDt);
+}
+
+// A turn about an axis along y through (1, 0, 0), once in 2.
+TEST_F(wall, has_the_pose_of_a_mesh_that_turns)
+{
+  lsdcd::Wall wall(words({"motion", "rotate", "1", "0", "0", "0", "1", "0", "2"}));
+  Grains grains;
+  grains.add(0, 0, 5);
+  grains.step(wall, 100);
+  const double angle = std::acos(-1.) * 100 * kDt, c = std::cos(angle), s = std::sin(angle);
+  const std::array<double, 12> wanted = {c, 0, s, 1 - c, 0, 1, 0, 0, -s, 0, c, s};
+  const std::array<double, 12> pose = wall.pose();
+  // Time is a sum of 100 steps, each rounded.
+  for (int k = 0; k < 12; k++) EXPECT_NEAR(pose[k], wanted[k], 100 * kRounding) << k;
+  EXPECT_EQ(code_of([&] { wall.pose(1); }), LSDCD_ERROR_ARGUMENT);
+  EXPECT_EQ(code_of([&] { wall.pose(-1); }), LSDCD_ERROR_ARGUMENT);
 }
 
 TEST_F(wall, changes_its_motion)

@@ -110,7 +110,8 @@ def check_reading():
     fact("a stream may be an object", _arrays.stream_handle(type("Stream", (), {"ptr": 5})()) == 5
          and _arrays.stream_handle(type("Stream", (), {"__cuda_stream__": lambda self: (0, 6)})()) == 6)
     refused("a mask is refused", "fill it in", lambda: _arrays.read(OnCuda((5, 3), mask=1), "points"))
-    refused("stream 0 is refused", "stream 0", lambda: _arrays.read(OnCuda((5, 3), stream=0), "points"))
+    refused("stream 0 is refused", "stream 0", lambda: _arrays.read(OnCuda((5, 3), stream=0), "points"),
+            ValueError)
     refused("another device is refused", "type 10", lambda: _arrays.read(OnlyDlpack(layouts, (10, 0)), "points"))
     refused("what is no stream is refused", "stream is a str", lambda: _arrays.stream_handle("fast"))
     lent = OnlyDlpack(layouts, (2, 1))
@@ -138,11 +139,11 @@ def check_queries():
     refused("points and radii, too", "radius is on CUDA device 3, points are on the host",
             lambda: grid.query(points, radius=OnCuda((2, 3))))
     refused("an answer on a device can be read-only", "cannot be written to",
-            lambda: grid.query(there, out={"distance": OnCuda((5,), read_only=True)}))
+            lambda: grid.query(there, out={"distance": OnCuda((5,), read_only=True)}), ValueError)
     refused("points on a device are not copied", "strides (48, 1), not one step",
-            lambda: grid.query(OnCuda((5, 3), strides=(48, 1))))
+            lambda: grid.query(OnCuda((5, 3), strides=(48, 1))), ValueError)
     refused("nor converted", "of type int32: convert", lambda: grid.query(OnCuda((5, 3), "<i4")))
-    refused("shapes on a device are named", "(5, 4), not (..., 3)", lambda: grid.query(OnCuda((5, 4))))
+    refused("shapes on a device are named", "(5, 4), not (..., 3)", lambda: grid.query(OnCuda((5, 4))), ValueError)
     if not os.path.exists("/dev/nvidiactl"):
         refused("without a driver that is said", "no CUDA driver", lambda: grid.query(there))
 
@@ -319,13 +320,16 @@ def check_wall_arrays():
         fact("a wall's arrays come by DLPack", abs(given["force"][0, 2] - 10) < 1e-11, given["force"])
         refused("an array on a device is refused", "on CUDA device 3, and the wall was made for arrays on the host",
                 lambda: wall.step(**{**given, "x": OnCuda((1, 3), "<f8")}))
-        for name, wrong in (("force", [[0, 0, 0]]), ("x", np.zeros((2, 3))), ("x", np.zeros((1, 3), np.float32)),
-                            ("x", np.zeros((1, 6))[:, ::2]), ("mass", np.ones((1, 1))), ("radius", 0.5)):
+        for name, wrong, kind in (("force", [[0, 0, 0]], TypeError), ("x", np.zeros((2, 3)), ValueError),
+                                  ("x", np.zeros((1, 3), np.float32), TypeError), ("x", np.zeros((1, 6))[:, ::2], ValueError),
+                                  ("mass", np.ones((1, 1)), ValueError), ("radius", 0.5, ValueError)):
             refused(f"{name} as {type(wrong).__name__} {np.shape(wrong)} is refused", "not a contiguous float64 array of shape",
-                    lambda name=name, wrong=wrong: wall.step(**{**given, name: wrong}))
+                    lambda name=name, wrong=wrong: wall.step(**{**given, name: wrong}), kind)
         fixed = np.zeros((1, 3))
         fixed.flags.writeable = False
-        refused("a force that cannot be written is refused", "cannot be written", lambda: wall.step(**{**given, "force": fixed}))
+        refused("a force that cannot be written is refused", "cannot be written", lambda: wall.step(**{**given, "force": fixed}),
+                ValueError)
+        refused("a box repeats along three axes", "periodic has 2 values", lambda: lsdcd.Wall(words, periodic=(True, False)), ValueError)
         if not lsdcd._lib.lsdcd_has_cuda():
             refused("a wall on a device needs one", "use LSDCD_CPU", lambda: lsdcd.Wall(words, device="cuda"), lsdcd.Error)
         refused("a stream needs a device", "stream is given", lambda: lsdcd.Wall(words, stream=7), lsdcd.Error)

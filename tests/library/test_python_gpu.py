@@ -36,7 +36,7 @@ def fact(name, true, detail=""):
 def refused(name, says, call):
     try:
         call()
-    except (TypeError, lsdcd.Error) as error:
+    except (TypeError, ValueError) as error:
         fact(name, says in str(error), error)
         return
     fact(name, False, "not refused")

@@ -103,19 +103,19 @@ open_grid = lsdcd.Mesh(vertices, [f for f in faces if not (vertices[f][:, 0] == 
 middle = open_grid.query([[0, 0, 0], [5, 0, 0]], "winding side status", estimate_sides=True)
 assert abs(middle.winding[0] - 5 / 6) < 1e-15 and middle.side.tolist() == [-1, 1] and (middle.status & lsdcd.SIDE_ESTIMATED).all()
 assert refused(lsdcd.Error, "closed", lambda: lsdcd.Mesh(vertices, faces[1:]).grid(cutoff=1).query(points, "side")).code == "side"
-refused(TypeError, "(n, 3)", lambda: grid.query(points[:, :2]))
-refused(TypeError, "height", lambda: grid.query(points, "height"))
-refused(TypeError, "radius", lambda: grid.query(points, radius=0))
-refused(TypeError, "shape", lambda: grid.query(points, radius=[0.1]))
+refused(ValueError, "(n, 3)", lambda: grid.query(points[:, :2]))
+refused(ValueError, "height", lambda: grid.query(points, "height"))
+refused(ValueError, "radius", lambda: grid.query(points, radius=0))
+refused(ValueError, "shape", lambda: grid.query(points, radius=[0.1]))
 for bad in (0, -0.1, float("nan")):
-    refused(TypeError, f"radius is {bad}", lambda: grid.query(points[:2], radius=[0.1, bad]))
+    refused(ValueError, f"radius is {bad}", lambda: grid.query(points[:2], radius=[0.1, bad]))
 
 # One point, as one of many.
 single = grid.query([1.2, 0, 0], want, radius=0.3)
 assert (single.distance.shape, single.closest.shape, single.triangle.shape) == ((), (3,), ()), single
 many = grid.query([[1.2, 0, 0]], want, radius=0.3)
 assert all((getattr(single, word) == getattr(many, word)[0]).all() for word in want.split())
-refused(TypeError, "(3,)", lambda: grid.query([1.2, 0]))
+refused(ValueError, "(3,)", lambda: grid.query([1.2, 0]))
 
 # Shapes, (..., 3), and types.
 block = points[:6].reshape(2, 1, 3, 3)
@@ -132,11 +132,11 @@ for other in (np.float16, np.longdouble, np.int32, object):
     assert (grid.query(numbers).distance == grid.query(numbers.astype(float)).distance).all()
 unaligned = np.frombuffer(b"." + points[:9].tobytes(), np.float64, offset=1).reshape(9, 3)
 assert (grid.query(unaligned).distance == base[:9]).all()
-refused(TypeError, "shape (3, 8), not (..., 3), as (n, 3) or (3,): coordinates come last, so give points.T",
+refused(ValueError, "shape (3, 8), not (..., 3), as (n, 3) or (3,): coordinates come last, so give points.T",
         lambda: grid.query(vertices.T))
-refused(TypeError, "shape (24,), not (..., 3), as (n, 3) or (3,): give points.reshape(-1, 3)", lambda: grid.query(vertices.ravel()))
+refused(ValueError, "shape (24,), not (..., 3), as (n, 3) or (3,): give points.reshape(-1, 3)", lambda: grid.query(vertices.ravel()))
 refused(TypeError, "complex128, not real numbers", lambda: grid.query(points.astype(complex)))
-refused(TypeError, "points are on the host", lambda: grid.query(points, stream=1))
+refused(ValueError, "points are on the host", lambda: grid.query(points, stream=1))
 
 # Arrays of the caller for answers: of any layout, and only where they fit.
 rows = np.zeros((20000, 8))    # x y z distance, closest, -
@@ -150,11 +150,14 @@ assert (mine["triangle"].view(np.uint32) == whole.triangle).all() and (rows[:, 7
 assert grid.query(points, "side distance", out={"distance": rows[:, 3]}).side.shape == (20000,)
 again = grid.query(points[::-1], out=whole)
 assert again.closest is whole.closest and (whole.closest[::-1] == rows[:, 4:7]).all()
-for out, says in (({"distance": np.zeros(9)}, "shape (9,), not (20000,)"), ({"distance": np.zeros(20000, "f4")}, "float32, not float64"),
-                  ({"distance": np.broadcast_to(0.0, 20000)}, "cannot be written to"), ({"side": np.zeros(20000, "i1")}, "not asked for"),
-                  ({"distance": points[:, 0]}, "shares memory"), ({"distance": [0.0]}, "a list, not an array")):
-    refused(TypeError, says, lambda: grid.query(points, "distance", out=out))
-refused(TypeError, "make it contiguous", lambda: grid.query(points, out={"triangle": np.zeros((20000, 2), "u4")[:, 0]}))
+for out, says, kind in (({"distance": np.zeros(9)}, "shape (9,), not (20000,)", ValueError),
+                        ({"distance": np.zeros(20000, "f4")}, "float32, not float64", TypeError),
+                        ({"distance": np.broadcast_to(0.0, 20000)}, "cannot be written to", ValueError),
+                        ({"side": np.zeros(20000, "i1")}, "not asked for", ValueError),
+                        ({"distance": points[:, 0]}, "shares memory", ValueError),
+                        ({"distance": [0.0]}, "a list, not an array", TypeError)):
+    refused(kind, says, lambda: grid.query(points, "distance", out=out))
+refused(ValueError, "make it contiguous", lambda: grid.query(points, out={"triangle": np.zeros((20000, 2), "u4")[:, 0]}))
 
 # Words and faces that there are not.
 refused(ValueError, "device is 'gpu'; it is 'cpu' or 'cuda'", lambda: mesh.grid(cutoff=1, device="gpu"))
@@ -163,8 +166,8 @@ refused(ValueError, "precision is 'half'", lambda: mesh.grid(cutoff=1, precision
 refused(ValueError, "vertex -1; there are 8", lambda: lsdcd.Mesh(vertices, [[0, 1, -1]]))
 refused(ValueError, "vertex 8; there are 8", lambda: lsdcd.Mesh(vertices, [[0, 1, 8]]))
 refused(TypeError, "whole numbers", lambda: lsdcd.Mesh(vertices, [[0.0, 1, 2]]))
-refused(TypeError, "faces have the shape (2, 4), not (n, 3)", lambda: lsdcd.Mesh(vertices, [[0, 1, 2, 3]] * 2))
-refused(TypeError, "vertices have the shape (12, 2), not (m, 3)", lambda: lsdcd.Mesh(vertices.reshape(12, 2), faces))
+refused(ValueError, "faces have the shape (2, 4), not (n, 3)", lambda: lsdcd.Mesh(vertices, [[0, 1, 2, 3]] * 2))
+refused(ValueError, "vertices have the shape (12, 2), not (m, 3)", lambda: lsdcd.Mesh(vertices.reshape(12, 2), faces))
 refused(lsdcd.Error, "face 0 (from 0) has the vertex 1, whose y is nan",
         lambda: lsdcd.Mesh([[0, 0, 0], [1, np.nan, 0], [0, 1, 0]], [[0, 1, 2]]))
 # Vertices in floats are those numbers.
@@ -225,8 +228,8 @@ assert lsdcd.Body(body, lsdcd.Mesh(blades)).collide((0, 0, 0)).body.tolist() == 
 assert refused(lsdcd.Error, "pose", lambda: body.collide()).code == "argument"
 assert refused(lsdcd.Error, "no rotation", lambda: body.collide(matrix=2 * turned[:3])).code == "input"
 assert refused(lsdcd.Error, "same_wall", lambda: lsdcd.Body(body, mesh, cell=1)).code == "argument"
-refused(TypeError, "position has the shape", lambda: body.collide((0, 0)))
-refused(TypeError, "last row", lambda: body.collide(matrix=np.ones((4, 4))))
+refused(ValueError, "position has the shape", lambda: body.collide((0, 0)))
+refused(ValueError, "last row", lambda: body.collide(matrix=np.ones((4, 4))))
 c, s = np.cos(np.float32(0.7)), np.sin(np.float32(0.7))
 rounded = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0.25]], dtype=np.float32)
 assert body.collide(matrix=rounded).body.tolist() == upright

@@ -262,8 +262,8 @@ class MeshArrays(_Record):
 class Mesh(_Owner):
     """From a file (STL; built with assimp also OBJ, PLY and OFF); from triangles, (n, 3, 3); or from vertices,
     (m, 3), and faces, (n, 3), whole numbers from 0. Corners closer than `weld`, a length, become one; < 0: 1e-6 of
-    the diagonal. Raises TypeError for another shape, ValueError for a vertex that there is not, Error for a file
-    that cannot be read. Any number of threads may share it."""
+    the diagonal. Raises ValueError for another shape and a vertex that there is not, TypeError for faces that are not
+    whole numbers, Error, a ValueError, too, for a file that cannot be read. Any number of threads may share it."""
     _free = _lib.lsdcd_mesh_free
 
     def __init__(self, source: str | bytes | os.PathLike[str] | ArrayLike, faces: ArrayLike | None = None,
@@ -275,14 +275,14 @@ class Mesh(_Owner):
         if faces is not None:
             vertices = np.ascontiguousarray(_as_floats(np.asarray(source), "vertices"))
             if vertices.ndim != 2 or vertices.shape[1] != 3:
-                raise TypeError(f"vertices have the shape {vertices.shape}, not (m, 3)")
+                raise ValueError(f"vertices have the shape {vertices.shape}, not (m, 3)")
             numbers = _vertex_numbers(faces, len(vertices))
             _check(_lib.lsdcd_mesh_from_faces(vertices.ctypes.data, int(vertices.dtype == np.float32), len(vertices),
                                               numbers.ctypes.data, len(numbers), weld, ctypes.byref(self._handle)))
             return
         corners = np.ascontiguousarray(source, dtype=np.float64)
         if corners.ndim != 3 or corners.shape[1:] != (3, 3):
-            raise TypeError(f"triangles have the shape {corners.shape}, not (n, 3, 3)")
+            raise ValueError(f"triangles have the shape {corners.shape}, not (n, 3, 3)")
         _check(_lib.lsdcd_mesh_from_corners(corners.ctypes.data, len(corners), weld,
                                             ctypes.byref(self._handle)))
 
@@ -399,13 +399,13 @@ class Grid(_Owner):
         SIDE_ESTIMATED. On the host, as winding is.
         progress: as of Mesh.grid(), on the host; answers of a call that it ended are of no use.
 
-        Raises TypeError for what has the wrong shape, type or place, Error for a radius beyond the cutoff, and for sides
-        where there are none."""
+        Raises ValueError for values, words, shapes and strides that are wrong, TypeError for a wrong type or place, Error, a
+        ValueError, too, for a radius beyond the cutoff, and for sides where there are none."""
         asked = _arrays.read(points, "points", _arrays.stream_handle(stream))
         if asked.shape[-1:] != (3,):
-            raise TypeError(f"points have the shape {asked.shape}, not (..., 3), as (n, 3) or (3,){_remedy(asked.shape)}")
+            raise ValueError(f"points have the shape {asked.shape}, not (..., 3), as (n, 3) or (3,){_remedy(asked.shape)}")
         if asked.on_host and stream is not None:
-            raise TypeError("stream is given, but points are on the host")
+            raise ValueError("stream is given, but points are on the host")
         shape, kept = asked.shape[:-1], [asked]    # kept: what the library reads and writes
         if asked.on_host:
             kept.append(_arrays.of_numpy(_as_floats(asked.host(), "points")))
@@ -417,8 +417,8 @@ class Grid(_Owner):
             kept.append(_arrays.of_numpy(given.host().copy()))
             given, steps = kept[-1], kept[-1].steps(1)
         if steps is None:
-            raise TypeError(f"points on a device have the strides {given.strides}, not one step from point to point: "
-                            "make them contiguous")
+            raise ValueError(f"points on a device have the strides {given.strides}, not one step from point to point: "
+                             "make them contiguous")
         query = _sized(_Query, n=math.prod(shape), type=int(real == np.float32), threads=threads,
                        estimate_sides=estimate_sides, points=given.address, points_row=steps[0], points_column=steps[1])
         if radius is not None:
@@ -428,10 +428,10 @@ class Grid(_Owner):
         words = want.split() if isinstance(want, str) else list(outs) or ["distance"] if want is None else list(want)
         unknown = sorted(set(words) - set(ANSWERS))
         if unknown:
-            raise TypeError(f"{', '.join(unknown)}: a query answers {', '.join(ANSWERS)}")
+            raise ValueError(f"{', '.join(unknown)}: a query answers {', '.join(ANSWERS)}")
         left = sorted(set(outs) - set(words))
         if left:
-            raise TypeError(f"out has {', '.join(left)}, which is not asked for")
+            raise ValueError(f"out has {', '.join(left)}, which is not asked for")
         answer = Answer()
         for word in words:
             inner, dtype = ANSWERS[word]
@@ -462,16 +462,16 @@ class Grid(_Owner):
         points: centres, (n, 3), in the unit of the mesh, and radius, one or (n,), on the host; as float32 if points are,
         else as float64. progress: as of Mesh.grid().
 
-        Raises TypeError for wrong shapes, Error for a radius below 0 or beyond the cutoff, a grid without a cutoff, with
+        Raises ValueError for wrong shapes, Error for a radius below 0 or beyond the cutoff, a grid without a cutoff, with
         `nearest` or in float, and more than 512 contacts of a sphere."""
         points = np.asarray(points)
         real = np.float32 if points.dtype == np.float32 else np.float64
         points = np.ascontiguousarray(points, dtype=real)
         if points.ndim != 2 or points.shape[1] != 3:
-            raise TypeError(f"points have the shape {points.shape}, not (n, 3)")
+            raise ValueError(f"points have the shape {points.shape}, not (n, 3)")
         n = len(points)
         if np.shape(radius) not in ((), (n,)):
-            raise TypeError(f"radius has the shape {np.shape(radius)}, not () or {(n,)}")
+            raise ValueError(f"radius has the shape {np.shape(radius)}, not () or {(n,)}")
         radii = np.ascontiguousarray(np.broadcast_to(np.asarray(radius, dtype=real), n))
         first = np.empty(n + 1, np.uintp)
         ask = _sized(_Contacts, n=n, type=int(real == np.float32), threads=threads, points=points.ctypes.data,
@@ -537,20 +537,22 @@ def _set_radius(query: Any, radius: Any, points: _arrays.Array, shape: tuple[int
     if radii.shape == ():
         query.radius = float(radii.host() if radii.on_host else radius)
         if not query.radius > 0:
-            raise TypeError(f"radius is {radius}, not above 0")
+            raise ValueError(f"radius is {radius}, not above 0")
         return
     if radii.shape != shape:
-        raise TypeError(f"radius has the shape {radii.shape}, not {shape}, that of points without the last dimension")
+        raise ValueError(f"radius has the shape {radii.shape}, not {shape}, that of points without the last dimension")
     _same_place(radii, points, "radius")
     if radii.on_host:
         values = np.ascontiguousarray(radii.host(), dtype=points.dtype)
         if not (values > 0).all():
-            raise TypeError(f"radius is {values[~(values > 0)][0]} at a point, not above 0")
+            raise ValueError(f"radius is {values[~(values > 0)][0]} at a point, not above 0")
         radii = _arrays.of_numpy(values)
     steps = radii.steps(0)
-    if radii.dtype != points.dtype or steps is None:
-        raise TypeError(f"radius is of type {radii.dtype} with strides {radii.strides}; on a device it has the type of "
-                        f"points, {points.dtype}, and one step from point to point")
+    if radii.dtype != points.dtype:
+        raise TypeError(f"radius on a device is of type {radii.dtype}, points of type {points.dtype}: give them one type")
+    if steps is None:
+        raise ValueError(f"radius on a device has the strides {radii.strides}, not one step from point to point: make it "
+                         "contiguous")
     kept.append(radii)
     query.radii, query.radii_step = radii.address, steps[0]
 
@@ -581,14 +583,14 @@ def _out(values: Any, word: str, shape: tuple[int, ...], dtype: np.dtype[Any], p
     if place.dtype != dtype and not (place.dtype == np.int32 and dtype == np.uint32):
         raise TypeError(f"{name} is of type {place.dtype}, not {dtype}: make it with dtype={dtype}")
     if place.shape != shape:
-        raise TypeError(f"{name} has the shape {place.shape}, not {shape}: make it of that shape")
+        raise ValueError(f"{name} has the shape {place.shape}, not {shape}: make it of that shape")
     if not place.writable:
-        raise TypeError(f"{name} cannot be written to: give a copy")
+        raise ValueError(f"{name} cannot be written to: give a copy")
     steps = place.steps(int(shape != points.shape[:-1]))
     if steps is None or dtype != points.dtype and steps[0] != 1 and math.prod(shape) > 1:
-        raise TypeError(f"{name} has the strides {place.strides}: make it contiguous")
+        raise ValueError(f"{name} has the strides {place.strides}: make it contiguous")
     if place.on_host and any(a.on_host and np.shares_memory(a.host(), place.host()) for a in kept):
-        raise TypeError(f"{name} shares memory with points, radius or another answer: give an array of its own")
+        raise ValueError(f"{name} shares memory with points, radius or another answer: give an array of its own")
     return place
 
 
@@ -635,13 +637,13 @@ class Body(_Owner):
     def collide(self, position: ArrayLike | None = None, quaternion: ArrayLike | None = None, matrix: ArrayLike | None = None,
                 segments: bool = False, threads: int = 0) -> Collision:
         """What meets in a pose: `position` (3,), lengths; `quaternion` (4,), w x y z, of length 1; or both; or `matrix`,
-        (3, 4) or (4, 4). Raises TypeError for another shape, Error for no rigid motion."""
+        (3, 4) or (4, 4). Raises ValueError for another shape, Error for no rigid motion."""
         rows = 4 if matrix is not None and np.shape(matrix) == (4, 4) else 3
         given = {"position": _numbers(position, (3,), "position"), "quaternion": _numbers(quaternion, (4,), "quaternion"),
                  "matrix": _numbers(matrix, (rows, 4), "matrix")}
         pose = {name: values for name, values in given.items() if values is not None}
         if len(pose.get("matrix", ())) == 4 and pose["matrix"][3].tolist() != [0, 0, 0, 1]:
-            raise TypeError("the last row of matrix is not 0, 0, 0, 1")
+            raise ValueError("the last row of matrix is not 0, 0, 0, 1")
         ask = _sized(_Collision, threads=threads, **{k: v.ctypes.data for k, v in pose.items()})
         while True:
             ask.room = self._room
@@ -732,6 +734,8 @@ class Wall(_Owner):
             if show:
                 show(text.decode(), bool(warning))
 
+        if len(periodic) != 3:
+            raise ValueError(f"periodic has {len(periodic)} values, not one for each of x, y and z")
         self._show: Any = _Show(called(tell)) if show else _Show(0)    # it must live as long as the wall
         self._host = _host_struct(host, called) if host else None
         options = _sized(_WallOptions, periodic=(_int * 3)(*map(bool, periodic)), margin=margin, time=time,
@@ -762,8 +766,8 @@ class Wall(_Owner):
         On a device arrays are read, and forces are added, in the order of the wall's stream. There, and with a `host`,
         an error of a sphere is raised by the next call; until then the wall keeps the arrays.
 
-        Raises TypeError for arrays of another type, shape or place, Error for what lsdcd_wall_step_spheres()
-        refuses."""
+        Raises TypeError for arrays of another type or place, ValueError for another shape, layout or what cannot be written,
+        Error for what lsdcd_wall_step_spheres() refuses."""
         n = _arrays.read(radius, "radius", _arrays.stream_handle(self._stream)).shape[:1]
         vectors = {"x": x, "v": v, "omega": omega, "force": force, "torque": torque}
         numbers = {"radius": radius, "mass": mass, "temperature": temperature, "heat": heat, "type": type}
@@ -783,14 +787,15 @@ class Wall(_Owner):
         array = _arrays.read(values, name, _arrays.stream_handle(self._stream)) if _is_array(values) else None
         kind = np.dtype(np.int32 if name == "type" else np.float64)
         packed = (3, 1)[2 - len(shape):]
-        if array is None or array.dtype != kind or array.shape != shape or array.steps(len(shape) - 1) != packed:
-            raise TypeError(f"{name} is not a contiguous {kind.name} array of shape {shape}")
+        wrong_type = array is None or array.dtype != kind
+        if array is None or wrong_type or array.shape != shape or array.steps(len(shape) - 1) != packed:
+            raise (TypeError if wrong_type else ValueError)(f"{name} is not a contiguous {kind.name} array of shape {shape}")
         if array.on_host == self._on_device:
             where, other = ("a CUDA device", "cpu") if self._on_device else ("the host", "cuda")
             raise TypeError(f"{name} is {_place(array)}, and the wall was made for arrays on {where}: make it with "
                             f"device=\"{other}\"")
         if name in ("force", "torque", "heat") and not array.writable:
-            raise TypeError(f"{name} cannot be written to")
+            raise ValueError(f"{name} cannot be written to")
         return array
 
     def renumber(self, source: ArrayLike) -> None:
@@ -818,7 +823,8 @@ class Wall(_Owner):
         return WallTotals(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
 
     def pose(self, mesh: int = 0) -> NDArray[np.float64]:
-        """(3, 4): x in the box is R x + t, each row of R with its t behind it."""
+        """Where mesh number `mesh`, from 0, is after the last step, (3, 4): what was at x when the wall was made is at
+        R x + t, each row of R with its t, a length, behind it. Raises Error for a mesh that there is not."""
         matrix = np.empty((3, 4))
         self._do(_lib.lsdcd_wall_get_pose, self._handle, mesh, matrix.ctypes.data)
         return matrix
@@ -866,7 +872,7 @@ def _vertex_numbers(faces: ArrayLike, n: int) -> NDArray[np.uint32]:
     if numbers.size and numbers.dtype.kind not in "iu":
         raise TypeError(f"faces are of type {numbers.dtype}, not whole numbers")
     if numbers.ndim != 2 or numbers.shape[1] != 3:
-        raise TypeError(f"faces have the shape {numbers.shape}, not (n, 3)")
+        raise ValueError(f"faces have the shape {numbers.shape}, not (n, 3)")
     wrong = numbers[(numbers < 0) | (numbers >= n)]
     if len(wrong):
         raise ValueError(f"a face has the vertex {wrong[0]}; there are {n}, numbered from 0")
@@ -878,5 +884,5 @@ def _numbers(values: ArrayLike | None, shape: tuple[int, ...], name: str) -> NDA
         return None
     numbers = np.ascontiguousarray(values, dtype=np.float64)
     if numbers.shape != shape:
-        raise TypeError(f"{name} has the shape {numbers.shape}, not {shape}")
+        raise ValueError(f"{name} has the shape {numbers.shape}, not {shape}")
     return numbers

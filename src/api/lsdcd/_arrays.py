@@ -102,7 +102,7 @@ class Array:
 def read(values: Any, name: str, stream: int | None = None) -> Array:
     """What the caller gives as `name`, in place; lists and numbers become an array of numpy. `stream`, a
     cudaStream_t, is where a device's array will be used: an array that comes by DLPack is ready there.
-    Raises TypeError for what cannot be read in place."""
+    Raises TypeError for a type or place that cannot be read, and for a mask, ValueError for stream 0."""
     if isinstance(values, np.ndarray):
         return of_numpy(values)
     interface = getattr(values, "__cuda_array_interface__", None)
@@ -125,7 +125,7 @@ def _of_interface(values: Any, interface: dict[str, Any], name: str) -> Array:
         raise TypeError(f"{name} has a mask, which is not read: fill it in, and give an array without one")
     stream = interface.get("stream")
     if stream == 0:
-        raise TypeError(f"{name}: stream 0 in __cuda_array_interface__ may be any; it is 1 (legacy), 2 (of the thread) or a stream")
+        raise ValueError(f"{name}: stream 0 in __cuda_array_interface__ may be any; it is 1 (legacy), 2 (of the thread) or a stream")
     address, read_only = interface["data"]
     strides = interface.get("strides")
     return Array(values, address or 0, tuple(interface["shape"]), None if strides is None else tuple(strides),
