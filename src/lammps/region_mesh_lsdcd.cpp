@@ -4,10 +4,13 @@
 #include "lammps/region_mesh_lsdcd.h"
 
 #include "base/input_error.h"
+#include "lammps/host_box.h"
 #include "lammps/mpi_mesh.h"
 #include "lammps/mpi_shared.h"
+#include "mesh/likely_scale.h"
 
 #include "comm.h"
+#include "domain.h"
 
 #include <cstdio>
 #include <vector>
@@ -28,6 +31,7 @@ RegionMeshLsdcd::RegionMeshLsdcd(LAMMPS *lmp, int narg, char **arg) :
       winding = std::make_unique<lsdcd::WindingNumber>(mesh);
       if (settings.gap > 0) distances = std::make_unique<Distances>(mesh);
     });
+    mesh_bounds = {mesh.report.lo, mesh.report.hi};
     set_bounds(mesh.report);
     log_mesh(mesh);
   } catch (const lsdcd::InputError &e) {
@@ -56,6 +60,17 @@ void RegionMeshLsdcd::set_bounds(const lsdcd::MeshReport &mesh)
   extent_xhi = mesh.hi.x;
   extent_yhi = mesh.hi.y;
   extent_zhi = mesh.hi.z;
+}
+
+// LAMMPS calls it before each use of the region; by then there is a box.
+void RegionMeshLsdcd::init()
+{
+  Region::init();
+  if (scale_warned || !domain->box_exist) return;
+  const std::string wrong =
+      lsdcd::too_large_text(mesh_bounds.hi - mesh_bounds.lo, mesh_bounds, lsdcd::host_box(*domain));
+  scale_warned = !wrong.empty();
+  if (scale_warned) warn(wrong);
 }
 
 // As LAMMPS asks it: of the mesh's inside with its surface, for either side. With a gap the points near

@@ -22,6 +22,7 @@ class RegionMeshLsdcd : public Region, private OwnMessages {
  public:
   RegionMeshLsdcd(class LAMMPS *, int, char **);
 
+  void init() override;
   int inside(double, double, double) override;
   int surface_interior(double *, double) override;
   int surface_exterior(double *, double) override;
@@ -42,6 +43,8 @@ class RegionMeshLsdcd : public Region, private OwnMessages {
   };
 
   lsdcd::RegionSettings settings;
+  lsdcd::Box mesh_bounds;    // as placed, before the region moves
+  bool scale_warned = false;
   std::unique_ptr<lsdcd::WindingNumber> winding;
   std::unique_ptr<Distances> distances;    // where there is a gap
 };

@@ -3,6 +3,9 @@
 
 #include "mesh/likely_scale.h"
 
+#include "base/input_words.h"
+#include "mesh/outside_box.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,6 +29,28 @@ Real likely_scale(const Vec3 &mesh, const Vec3 &box)
   for (Real factor : {1e-6, 1e-3, 1e-2, 0.0254, 0.3048})
     if (std::fabs(std::log(ratio * factor)) < std::fabs(std::log(ratio * best))) best = factor;
   return best;
+}
+
+std::string likely_scale_text(const Vec3 &mesh, const PeriodicBox &box)
+{
+  if (box.any_follows()) return "";
+  const Box bounds = box.bounds({0, 0, 0});
+  Vec3 extents = mesh, room = bounds.hi - bounds.lo;
+  if (box.dimension == 2) {    // an outline may be of any thickness
+    extents.z = extents.x;
+    room.z = room.x;
+  }
+  const Real factor = likely_scale(extents, room);
+  return factor < 1 ? "; the file is probably in other units: add scale " + number_text(factor)
+                    : "";
+}
+
+std::string too_large_text(const Vec3 &mesh, const Box &spans, const PeriodicBox &box)
+{
+  const std::string likely = likely_scale_text(mesh, box);
+  if (likely.empty()) return "";
+  return "the mesh is far larger than the box: it spans " + extents_text(spans) + ", the box " +
+         extents_text(box.bounds({0, 0, 0})) + likely;
 }
 
 }    // namespace lsdcd

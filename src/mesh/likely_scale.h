@@ -4,7 +4,9 @@
 // The factor that a mesh file in other units than the script's was probably meant to have.
 #pragma once
 
-#include "base/vec3.h"
+#include "mesh/periodic_box.h"
+
+#include <string>
 
 namespace lsdcd {
 
@@ -12,5 +14,13 @@ namespace lsdcd {
 // box along every axis in which it has an extent. Then it is the factor between two common units of
 // length that makes the extents similar.
 Real likely_scale(const Vec3 &mesh, const Vec3 &box);
+
+// The end of a message, "; the file is probably in other units: add scale 0.001". Empty where the scale
+// is likely right, and where a box that follows its spheres tells nothing of it. `mesh`: extents.
+std::string likely_scale_text(const Vec3 &mesh, const PeriodicBox &box);
+
+// A message about a mesh that is far larger than the box and probably in other units; empty for others.
+// `spans`: where the mesh is in the box.
+std::string too_large_text(const Vec3 &mesh, const Box &spans, const PeriodicBox &box);
 
 }    // namespace lsdcd

@@ -10,35 +10,37 @@
 #include "wall/mesh_name.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lsdcd {
+
+namespace {
+
+Vec3 extents(const MeshPart &m)
+{
+  return m.grid.report().hi - m.grid.report().lo;
+}
+
+// Atoms have it from when they are created until a diameter is set.
+constexpr Real kRadiusUnset = 0.5;
+
+std::string diameter_text(Real radius)
+{
+  return std::string("write 'set group all diameter D'") +
+         (radius == kRadiusUnset ? ": atoms have radius 0.5 until a diameter is set" : "");
+}
+
+}    // namespace
 
 std::string BoxChecks::named(const MeshPart &m, const std::string &text) const
 {
   return with_mesh_name(settings_, m.index, text);
 }
 
-std::string BoxChecks::likely_scale_text(const MeshPart &m, const PeriodicBox &box) const
-{
-  // A box that follows its spheres tells nothing.
-  if (box.any_follows()) return "";
-  const Box bounds = box.bounds({0, 0, 0});
-  Vec3 mesh = m.grid.report().hi - m.grid.report().lo, room = bounds.hi - bounds.lo;
-  if (box.dimension == 2) {    // an outline may be of any thickness
-    mesh.z = mesh.x;
-    room.z = room.x;
-  }
-  const Real factor = likely_scale(mesh, room);
-  return factor < 1 ? "; the file is probably in other units: add scale " + number_text(factor)
-                    : "";
-}
-
 void BoxChecks::check_scale(const MeshPart &m, const PeriodicBox &box) const
 {
-  const std::string likely = likely_scale_text(m, box);
-  if (likely.empty()) return;
-  host_.warn(named(m, "the mesh is far larger than the box: it spans " + extents_text(m.bounds(0)) +
-                          ", the box " + extents_text(box.bounds({0, 0, 0})) + likely));
+  const std::string wrong = too_large_text(extents(m), m.bounds(0), box);
+  if (!wrong.empty()) host_.warn(named(m, wrong));
 }
 
 // Where its motion allows no images check_moving() refuses it.
@@ -63,19 +65,33 @@ void BoxChecks::check_periodic(const MeshPart &m, const PeriodicBox &box) const
                           "Add the keyword periodic if that is meant, or make the boundary fixed"));
 }
 
+void BoxChecks::check_radius(const PeriodicBox &box, Real radius) const
+{
+  const Box bounds = box.bounds({0, 0, 0});
+  Real widest = 0;
+  for (int k = 0; k < box.dimension; k++)
+    widest = std::max(widest, box.follows(k) ? INFINITY : bounds.hi[k] - bounds.lo[k]);
+  if (2 * radius > widest)
+    host_.warn("spheres have radius " + number_text(radius) + ", and the box spans " +
+               extents_text(bounds) + ": no such sphere fits in it; " + diameter_text(radius));
+  else
+    for (const MeshPart &m : meshes_) check_small(m, box, radius);
+}
+
 void BoxChecks::check_small(const MeshPart &m, const PeriodicBox &box, Real radius) const
 {
-  Vec3 size = m.grid.report().hi - m.grid.report().lo;
+  Vec3 size = extents(m);
   if (box.dimension == 2) size.z = 0;    // an outline may be of any thickness
   if (norm(size) >= radius) return;
   const std::string placed = m.settings.placement_tokens;
-  host_.warn(
-      named(m, "the mesh is " + number_text(norm(size)) + " across, and spheres have radius " +
-                   number_text(radius) + ": " +
-                   (placed.find("scale") == std::string::npos
-                        ? "the file is probably in other units: add a scale"
-                        : "the file is probably in the input script's units, and the scale in '" +
-                              placed + "' is not needed")));
+  const std::string units =
+      placed.find("scale") == std::string::npos
+          ? "the file is probably in other units: add a scale"
+          : "the file is probably in the input script's units, and the scale in '" + placed +
+                "' is not needed";
+  host_.warn(named(m, "the mesh is " + number_text(norm(size)) +
+                          " across, and spheres have radius " + number_text(radius) + ": " + units +
+                          (radius == kRadiusUnset ? "; or " + diameter_text(radius) : "")));
 }
 
 void BoxChecks::check_outside(const MeshPart &m, const PeriodicBox &box, Real cutoff) const
@@ -90,7 +106,8 @@ void BoxChecks::check_within_cutoff(const MeshPart &m, const PeriodicBox &box)
   if (!m.grid.out_of_reach()) return;
   const std::string what =
       named(m, "no particle in the box can touch the mesh: it spans " + extents_text(m.bounds(0)) +
-                   ", the box " + extents_text(box.bounds({0, 0, 0})) + likely_scale_text(m, box));
+                   ", the box " + extents_text(box.bounds({0, 0, 0})) +
+                   likely_scale_text(extents(m), box));
   if (!box.any_follows()) throw InputError(what + "; check scale and move");
   bool &warned = seen_[m.index].out_of_reach_warned;
   if (!warned) host_.warn(what);

@@ -28,8 +28,9 @@ class BoxChecks {
   void check_scale(const MeshPart &m, const PeriodicBox &box) const;
   // Warns where periodic images act inside the box, which the mesh may not have been drawn for.
   void check_periodic(const MeshPart &m, const PeriodicBox &box) const;
-  // Warns of a mesh that is smaller than the largest sphere.
-  void check_small(const MeshPart &m, const PeriodicBox &box, Real radius) const;
+  // Warns where the largest sphere, of this radius, is wider than the box; else of each mesh that is
+  // smaller than the sphere.
+  void check_radius(const PeriodicBox &box, Real radius) const;
   // Throws where a mesh at rest is outside of the box.
   void check_outside(const MeshPart &m, const PeriodicBox &box, Real cutoff) const;
 
@@ -52,7 +53,7 @@ class BoxChecks {
 
  private:
   std::string named(const MeshPart &m, const std::string &text) const;
-  std::string likely_scale_text(const MeshPart &m, const PeriodicBox &box) const;
+  void check_small(const MeshPart &m, const PeriodicBox &box, Real radius) const;
   void check_pose(const MeshPart &m, const WallPose &at, const PeriodicBox &box, Real cutoff,
                   const std::string &when) const;
   void check_turning_out(const MeshPart &m, const PeriodicBox &box);

@@ -41,8 +41,7 @@ bool GridManager::fit_spheres(Real radius, std::int64_t step)
   const Real old = cutoff();
   if (settings_.cutoff(radius) <= old) return fit_box(step);
   check_rmax(radius);
-  if (old == 0)
-    for (const MeshPart &m : meshes_) checks_.check_small(m, box(), radius);
+  if (old == 0) checks_.check_radius(box(), radius);
   const Real largest =
       settings_.rmax > 0 ? settings_.rmax : (old > 0 ? kHeadroom * radius : radius);
   rebuild(settings_.cutoff(largest), step);

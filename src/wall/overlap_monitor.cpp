@@ -15,6 +15,16 @@ const char *const kWrongSide =
     "its centre is past the wall: is the side that side in or out names that of the spheres, "
     "or should it be both?";
 
+std::string sunk_remedy(Real overlap, Real timestep_ratio)
+{
+  if (timestep_ratio > 1)
+    return "the timestep is " + number_text(timestep_ratio) +
+           " times the longest that resolves a contact: shorten it first. A stiffer contact needs "
+           "a "
+           "shorter one still";
+  return overlap > 1 ? kWrongSide : "stiffen the contact (kn) or lower speeds";
+}
+
 }    // namespace
 
 void OverlapMonitor::note(const StepDiagnostics &seen, std::int64_t step)
@@ -40,7 +50,7 @@ std::string OverlapMonitor::overlap_text(Real overlap, std::int64_t tag)
          (radius > 0 ? " " + number_text(radius) : "");
 }
 
-void OverlapMonitor::check_sunk(Real worst)
+void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio)
 {
   if (sunk_warned_ || worst <= kLarge) return;
   sunk_warned_ = true;
@@ -50,8 +60,8 @@ void OverlapMonitor::check_sunk(Real worst)
   host_.broadcast(which, sizeof which, rank);
   const std::string overlap = overlap_text(most, which[0]);
   host_.warn("atom " + std::to_string(which[0]) + " sank into the wall by " + overlap +
-             " by step " + std::to_string(which[1]) + ": " +
-             (most > 1 ? kWrongSide : "stiffen the contact (kn) or lower speeds") + "; shown once");
+             " by step " + std::to_string(which[1]) + ": " + sunk_remedy(most, timestep_ratio) +
+             "; shown once");
 }
 
 // What inserts spheres numbers them on from the highest tag that there is.

@@ -23,8 +23,9 @@ class OverlapMonitor {
   Real worst() const { return worst_; }
 
   // Warns of the deepest sphere that sank, once. `worst`: the largest worst() of all processes.
-  // Collective.
-  void check_sunk(Real worst);
+  // `timestep_ratio`: the timestep over the longest that resolves a contact; above 1 it is blamed first,
+  // since a stiffer contact would ask for a shorter one still. Collective.
+  void check_sunk(Real worst, Real timestep_ratio);
 
   // Warns of the deepest new sphere: one with a higher tag than all spheres had at the last call.
   // Warns again of an overlap that is more than a tenth larger. `seen`: of the step in which spheres

@@ -28,7 +28,6 @@ Real TimestepCheck::shortest_of(const Spheres &s, int i) const
 
 void TimestepCheck::check(Real dt)
 {
-  constexpr Real kWorse = 1.1;
   const Spheres s = host_.spheres_on_cpu();
   Real shortest = INFINITY;
   for (int i = 0; i < s.n; i++)

@@ -21,13 +21,17 @@ class TimestepCheck {
   // where it is a tenth worse than what was warned of. Collective.
   void check(Real dt);
 
+  // The largest timestep warned of, over the longest that resolves a contact; 1: none.
+  Real worst_ratio() const { return worst_ > 1 ? worst_ / kWorse : 1; }
+
  private:
   Real shortest_of(const Spheres &s, int i) const;
 
   Host &host_;
   const WallSettings &settings_;
   Real ftm2v_;
-  Real worst_ = 1;    // the largest timestep warned of, over what it should be
+  static constexpr Real kWorse = 1.1;    // times a timestep that was warned of: warned of again
+  Real worst_ = 1;                       // what is warned of next, over what it should be
 };
 
 }    // namespace lsdcd

@@ -273,7 +273,7 @@ void Wall::look_at_spheres(const Spheres &spheres, std::int64_t step)
   if (host_.group().changes) s.mask = nullptr;    // others may join between two looks
   Real most[2] = {engine_->largest_radius(s), overlaps_.worst()};
   host_.max(most, 2);
-  overlaps_.check_sunk(most[1]);
+  overlaps_.check_sunk(most[1], timestep_.worst_ratio());
   if (most[0] == 0)
     check_points();
   else if (grids_.fit_spheres(most[0], step))
@@ -440,7 +440,7 @@ void Wall::end_run(std::int64_t step, bool far, const std::string &advice, Real 
   poll_diagnostics(step);
   Real worst = overlaps_.worst();
   host_.max(&worst, 1);
-  overlaps_.check_sunk(worst);
+  overlaps_.check_sunk(worst, timestep_.worst_ratio());
   if (far) grids_.check_wrapping();
   grids_.end_run();
   search_.end_run(settings_.brief, advice);

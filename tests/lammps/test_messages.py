@@ -59,6 +59,8 @@ def lines(text, *words):
 def main():
     checks, folder = lmp.Checks(), lmp.scratch()
     (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+    stl.write(folder / "in_mm.stl", [((-50, -50, 0), (50, -50, 0), (50, 50, 0)), ((-50, -50, 0), (50, 50, 0), (-50, 50, 0)),
+                                     ((-50, -50, 0), (50, -50, 0), (0, -50, 80))])
     stl.write(folder / "drum.stl", drum(0))
     stl.write(folder / "lifters.stl", drum(4))
     o, x, y, z = (0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)
@@ -116,6 +118,25 @@ def main():
                 len(lines(text, "WARNING: Fix w", "spheres have radius 0.5", "'scale 0.001' is not needed")) == 1)
     text = lmp.run_well(BOX + fix() + "run 0\n", folder)
     checks.fact("a floor of the script's units is not", not lines(text, "probably in"))
+
+    # Atoms without a diameter have radius 0.5: the box and the mesh are small beside them.
+    small = BOX.replace("block -3 3 -3 3 -1 5", "block -.06 .06 -.06 .06 -.02 .1").replace("2 2 4", "0 0 .02")
+    small = small.replace("0.3 0.2 0.48", "0 0 .05").replace("set             group all diameter 1.0 density 2.0\n", "")
+    for what, more in (("a mesh of the right scale", "scale 0.001"), ("a mesh in millimetres", "")):
+        text = lmp.run_well(small + fix(more, mesh="in_mm.stl") + "run 0\nrun 0\n", folder)
+        told = lines(text, "WARNING: Fix w", "radius 0.5", "box spans", "no such sphere fits", "set group all diameter",
+                     "until a diameter is set")
+        checks.fact(f"a diameter that was forgotten is named once, beside {what}", len(told) == 1, text[-600:])
+        checks.fact(f"the scale is not blamed for it, beside {what}", not lines(text, "is not needed"))
+    small = small.replace("pair_style", "set group all diameter 0.12\npair_style")
+    text = lmp.run_well(small + fix("scale 0.001", mesh="in_mm.stl") + "run 0\n", folder)
+    checks.fact("spheres that fit the box are not told", not lines(text, "no such sphere fits"))
+
+    # A contact with k = 1e4 and a mass of pi/3 lasts pi sqrt(m/k) = 0.032. The sphere sinks by 0.2 in its first step.
+    fast = BOX + "set group all z 0.6\nvelocity all set 0 0 -3\ntimestep 0.1\n" + fix() + "thermo_modify lost ignore\nrun 3\n"
+    text = lmp.run_well(fast, folder)
+    checks.fact("a sphere that sank in a step too long is told to shorten it",
+                lines(text, "sank into the wall", "shorten it first") and not lines(text, "stiffen the contact"), text[-900:])
 
     # Walls that act on nothing.
     text = lmp.run_well(BOX + "unfix move\nset group all diameter 0\n" + fix() + "run 0\nrun 0\n", folder)

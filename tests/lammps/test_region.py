@@ -173,6 +173,16 @@ def check_gap(checks, folder):
     checks.fact("without it some do", last[2] > 0, str(last))
 
 
+def check_scale(checks, folder):
+    told = "WARNING: Region part mesh/lsdcd: the mesh is far larger than the box: it spans", "add scale 0.001"
+    region = "region part mesh/lsdcd box.stl {}\ngroup part region part\nrun 0\nrun 0\n"
+    text = lmp.run_well(CLOUD + region.format("scale 1000"), folder, 2)
+    found = [line for line in text.split("\n") if all(words in line for words in told)]
+    checks.fact("a mesh in other units is told once, with its scale", len(found) == 1, text[-600:])
+    text = lmp.run_well(CLOUD + region.format(""), folder)
+    checks.fact("a mesh of the script's units is not", "WARNING: Region" not in text)
+
+
 def on_host():
     if not lmp.TEST_HOST:
         print("SKIPPED: no LAMMPS of hosts/build_host.sh (LSDCD_TEST_HOST)")
@@ -188,7 +198,7 @@ def main():
         on_host()
     checks, folder = lmp.Checks(), lmp.scratch()
     write_meshes(folder)
-    for check in (check_block, check_cylinder, check_commands, check_gap):
+    for check in (check_block, check_cylinder, check_commands, check_gap, check_scale):
         check(checks, folder)
     checks.done(folder)
 

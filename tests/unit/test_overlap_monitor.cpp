@@ -25,23 +25,23 @@ void give_spheres(FakeHost &host)
   host.radii.assign(host.tags.begin(), host.tags.end());
 }
 
-void check_sunk(FakeHost &host, OverlapMonitor &monitor)
+void check_sunk(FakeHost &host, OverlapMonitor &monitor, Real timestep_ratio = 1)
 {
   Real worst = monitor.worst();
   host.max(&worst, 1);
-  monitor.check_sunk(worst);
+  monitor.check_sunk(worst, timestep_ratio);
 }
 
 // What the first process warns of where the spheres 1 to 4 overlap so, in step 7.
-std::vector<std::string> warned_of_sunk(const std::vector<Real> &overlaps)
+std::vector<std::string> warned_of_sunk(const std::vector<Real> &overlaps, Real timestep_ratio = 1)
 {
   std::vector<std::string> warnings;
   on_processes(2, [&](FakeHost &host) {
     give_spheres(host);
     OverlapMonitor monitor(host);
     for (int i : {0, 1}) monitor.note(deepest(overlaps[2 * host.rank() + i], i), 7);
-    check_sunk(host, monitor);
-    check_sunk(host, monitor);
+    check_sunk(host, monitor, timestep_ratio);
+    check_sunk(host, monitor, timestep_ratio);
     if (host.rank() == 0) warnings = host.warnings;
   });
   return warnings;
@@ -80,6 +80,17 @@ TEST(OverlapMonitor, tells_once_of_the_sphere_that_sank_deepest_on_all_processes
   EXPECT_EQ(told[0],
             "atom 3 sank into the wall by 25 % of its radius 3 by step 7: stiffen the contact (kn) "
             "or lower speeds; shown once");
+}
+
+TEST(OverlapMonitor, blames_a_timestep_that_is_too_long_before_the_stiffness)
+{
+  const std::vector<std::string> told = warned_of_sunk({0.2, 0.15, 0.25, 0.12}, 12.5);
+  ASSERT_EQ(told.size(), 1);
+  EXPECT_EQ(
+      told[0],
+      "atom 3 sank into the wall by 25 % of its radius 3 by step 7: the timestep is 12.5 times "
+      "the longest that resolves a contact: shorten it first. A stiffer contact needs a shorter "
+      "one still; shown once");
 }
 
 TEST(OverlapMonitor, is_silent_up_to_a_tenth_of_the_radius)
