@@ -365,8 +365,10 @@ typedef struct lsdcd_host {
 } lsdcd_host;
 
 typedef struct lsdcd_wall_options {
-  size_t size;            /* of this struct */
-  double lo[3], hi[3];    /* where centres of spheres can be; all 0: wherever they go */
+  size_t size; /* of this struct */
+  /* Where centres of spheres can be; all 0: wherever they go. One that is outside is warned of, as
+   * the wall may not reach there: give both corners, not one. */
+  double lo[3], hi[3];
   int periodic[3];        /* 1: the box repeats along x, y, z. Spheres are put back by the caller */
   double margin;          /* length > 0 with `periodic`: how far past a face a sphere may go */
   double time;            /* of the first step, for files */
@@ -388,16 +390,16 @@ LSDCD_API int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wa
                               lsdcd_wall **wall);
 
 /* Spheres in arrays of doubles, on the device of the wall all of them. Number k of sphere i of a vector is at
- * [i * row + k]. */
+ * [i * row + k]. Others than said are refused, LSDCD_ERROR_ARGUMENT, with the first one's i. */
 typedef struct lsdcd_spheres {
   size_t size; /* of this struct */
   size_t n;
-  ptrdiff_t row;       /* of all arrays of vectors, 3 at least; 0: 3 */
-  const double *x;     /* length */
-  const double *v;     /* length/time */
-  const double *omega; /* 1/time */
-  const double *radius;
-  const double *mass;
+  ptrdiff_t row;             /* of all arrays of vectors, 3 at least; 0: 3 */
+  const double *x;           /* length, finite */
+  const double *v;           /* length/time */
+  const double *omega;       /* 1/time */
+  const double *radius;      /* >= 0, finite */
+  const double *mass;        /* > 0, finite */
   double *force;             /* added to */
   double *torque;            /* added to, about the centre */
   const double *temperature; /* for a law with heat; else null */
@@ -424,7 +426,7 @@ typedef struct lsdcd_wall_step {
  * With a `host`, and on a device, a step does not wait to know of each sphere: their errors come with the next
  * call that is not "alone", and the arrays of a step stay until then. On a device forces are there once the
  * stream has done what it was given. Of the arrays only steps that look, see `changed`, copy some to the host, and
- * only these check types. Own. */
+ * only these check types and, on a device, places, radii and masses. Own. */
 LSDCD_API int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
                                       const lsdcd_wall_step *step);
 /* Before the next step: sphere i of n is the one that was from[i], or with -1 a new one. What its

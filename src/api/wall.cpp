@@ -12,6 +12,7 @@
 #include "base/input_words.h"
 #include "engine/step/law_job.h"
 #include "input/settings.h"
+#include "mesh/outside_box.h"
 #include "wall/shared_material.h"
 
 #include <algorithm>
@@ -55,6 +56,7 @@ struct lsdcd_wall {
   Real largest_radius = 0;    // of this process, in the last step that looked
   Failure late;               // of this process, which all are told in the next call
   std::vector<Real> kept;     // restored histories, until the first step
+  bool outside_told = false;
   std::unique_ptr<Wall> in;
 
   explicit lsdcd_wall(const lsdcd_wall_options &o) : caller(o), threads(o.threads) {}
@@ -145,6 +147,58 @@ void check_types(const Spheres &s, const WallSettings &wall)
                                                std::to_string(s.type[i]) + ", below 1");
 }
 
+[[noreturn]] void refuse_sphere(const char *name, int i, const std::string &what)
+{
+  throw ApiError(LSDCD_ERROR_ARGUMENT,
+                 std::string(name) + "[" + std::to_string(i) + "] is " + what);
+}
+
+// Nothing would touch a place that is no number, nor a radius below 0.
+void check_values(const Spheres &s)
+{
+  const auto is_place = [](const Vec3 &x) { return norm_sq(x - x) == 0; };
+  const auto is_size = [](Real r) { return r >= 0 && std::isfinite(r); };
+  const auto is_mass = [](Real m) { return m > 0 && std::isfinite(m); };
+  bool good = true;
+  for (int i = 0; i < s.n; i++)
+    good &= is_place(s.x[i]) & is_size(s.radius[i]) & is_mass(s.mass[i]);
+  for (int i = 0; i < s.n && !good; i++) {
+    const Vec3 x = s.x[i];
+    if (!is_place(x))
+      refuse_sphere("x", i,
+                    number_text(x.x) + " " + number_text(x.y) + " " + number_text(x.z) +
+                        ", which is no place: a shorter dt, or softer contacts, may help");
+    if (!is_size(s.radius[i]))
+      refuse_sphere("radius", i, number_text(s.radius[i]) + "; it is 0 or more, and finite");
+    if (!is_mass(s.mass[i]))
+      refuse_sphere("mass", i, number_text(s.mass[i]) + "; it is above 0, and finite");
+  }
+}
+
+// How many centres are outside of a box that neither repeats nor follows them, and the first.
+struct Outside {
+  std::size_t n = 0;
+  int first = 0;
+};
+
+Outside outside(const PeriodicBox &box, const Spheres &s)
+{
+  Outside found;
+  Box room = kNoLimit;
+  for (int k = 0; k < 3; k++) {
+    if (box.periodic[k] || box.follows(k)) continue;
+    room.lo[k] = box.corner[k];
+    room.hi[k] = box.corner[k] + box.edge[k][k];
+  }
+  for (int i = s.n - 1; i >= 0; i--) {
+    const Vec3 x = s.x[i];
+    if (overlap(Box{x, x}, room)) continue;
+    found.n++;
+    found.first = i;
+  }
+  return found;
+}
+
 // Spheres do not leave but by lsdcd_wall_renumber().
 void check_count(const lsdcd_wall &wall, std::size_t n)
 {
@@ -180,6 +234,7 @@ struct StepWanted {
   Spheres spheres;
   lsdcd_wall_step step = {};
   bool look = false;
+  Outside outside;
 };
 
 StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsdcd_wall_step *step)
@@ -197,12 +252,39 @@ StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsd
   wall.caller.set_spheres(want.spheres);
   const bool came = given.n > wall.caller.tags.size();
   want.look = !wall.begun || came || want.step.setup || want.step.changed;
-  if (!want.look) return want;
+  if (!want.look && wall.gpu) return want;
   const Spheres s = wall.caller.spheres_on_cpu();
+  check_values(s);
+  if (!wall.outside_told) want.outside = outside(wall.caller.box(), s);
+  if (!want.look) return want;
   check_types(s, wall.in->settings());
   wall.largest_radius = 0;
   for (int i = 0; i < s.n; i++) wall.largest_radius = std::max(wall.largest_radius, s.radius[i]);
   return want;
+}
+
+// Once. Collective.
+void warn_of_outside(lsdcd_wall &wall, const StepWanted &want)
+{
+  wall.outside_told = true;
+  WallCaller &host = wall.caller;
+  Real n = static_cast<Real>(want.outside.n), some = n > 0;
+  host.sum(&n, 1);
+  const int from = host.max_rank(some);
+  std::string text;
+  if (host.rank() == from) {
+    const int i = want.outside.first;
+    const Vec3 x = host.spheres_on_cpu().x[i];
+    text = "x[" + std::to_string(i) + "]" +
+           (host.is_alone() ? "" : " of process " + std::to_string(from)) + ", is at " +
+           number_text(x.x) + " " + number_text(x.y) + " " + number_text(x.z);
+  }
+  broadcast_text(host, text, from);
+  const Box box = host.box().bounds({0, 0, 0});
+  host.warn(number_text(n) + (n == 1 ? " sphere is" : " spheres are") +
+            " outside of the box, where the wall may not reach: the first, " + text +
+            "; the box has " + extents_text(box) +
+            ". Give lo and hi that hold all centres, or neither. Shown once");
 }
 
 // The same on all processes.
@@ -216,7 +298,8 @@ StepWanted agreed(lsdcd_wall &wall, const Failure &failure, StepWanted want)
                             step.setup ? 0. : 1.,
                             want.look ? 1. : 0.,
                             reach,
-                            static_cast<Real>(wall.caller.highest_tag())};
+                            static_cast<Real>(wall.caller.highest_tag()),
+                            want.outside.n > 0 ? 1. : 0.};
   wall.caller.agree(failure, most);
   if (most[0] != -most[1] || most[2] == most[3])
     throw ApiError(LSDCD_ERROR_ARGUMENT, "dt goes from " + number_text(-most[1]) + " to " +
@@ -228,6 +311,7 @@ StepWanted agreed(lsdcd_wall &wall, const Failure &failure, StepWanted want)
   std::vector<std::int64_t> &tags = wall.caller.tags;
   tags.resize(want.spheres.n);
   if (want.look) wall.caller.name_new_spheres(static_cast<std::int64_t>(most[6]));
+  if (most[7] > 0) warn_of_outside(wall, want);
   return want;
 }
 

@@ -40,6 +40,9 @@ PeriodicBox box_of(const lsdcd_wall_options &o)
     refuse_option("lsdcd_wall_options",
                   "margin is " + number_text(o.margin) +
                       "; with a periodic box say how far past a face a sphere may go");
+  if (!std::isfinite(o.margin) || !std::isfinite(o.time))
+    refuse_option("lsdcd_wall_options", "margin is " + number_text(o.margin) + ", time " +
+                                            number_text(o.time) + "; both are finite");
   box.margin = o.margin;
   return box;
 }

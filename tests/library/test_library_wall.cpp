@@ -228,6 +228,60 @@ TEST_F(wall, refuses_arrays_that_only_a_GPU_can_read)
   EXPECT_EXIT(step_with_a_driver(), testing::ExitedWithCode(LSDCD_ERROR_DEVICE), "");
 }
 
+TEST_F(wall, refuses_spheres_without_a_place_a_size_or_a_mass)
+{
+  const double nan = std::nan(""), inf = HUGE_VAL;
+  const auto told = [&](const std::function<void(Grains &)> &spoil) {
+    lsdcd::Wall wall(words());
+    Grains grains;
+    for (int i = 0; i < 3; i++) grains.add(i, 0, 0.49);
+    grains.step(wall);
+    spoil(grains);    // in a step that looks at nothing else
+    return text_of([&] { grains.step(wall); });
+  };
+  for (const double x : {nan, inf, -inf})
+    EXPECT_EQ(told([&](Grains &g) { g.x[5] = x; }).rfind("x[1] is 1 0 ", 0), 0u) << x;
+  for (const double r : {nan, inf, -0.1})
+    EXPECT_EQ(told([&](Grains &g) { g.radius[2] = r; }).rfind("radius[2] is ", 0), 0u) << r;
+  for (const double m : {nan, inf, -1., 0.})
+    EXPECT_EQ(told([&](Grains &g) { g.mass[0] = m; }).rfind("mass[0] is ", 0), 0u) << m;
+  EXPECT_EQ(told([](Grains &g) { g.radius[2] = 0; }), "");
+}
+
+// Along z the box repeats, and nothing is outside.
+TEST_F(wall, warns_once_of_spheres_outside_of_its_box)
+{
+  std::vector<std::string> warnings;
+  lsdcd::WallOptions options;
+  options.data = &warnings;
+  options.show = [](void *data, int warning, const char *text) {
+    if (warning) static_cast<std::vector<std::string> *>(data)->push_back(text);
+  };
+  for (int k = 0; k < 3; k++) {
+    options.lo[k] = -5;
+    options.hi[k] = 5;
+  }
+  options.periodic[2] = 1;
+  options.margin = 0.1;
+  lsdcd::Wall wall(words(), &options);
+  Grains grains;
+  grains.add(5, 5, 0.49);
+  grains.add(-5, 0, 0.49);
+  grains.add(0, 0, 5.05);
+  grains.step(wall, 2);
+  EXPECT_EQ(warnings.size(), 0u);
+  grains.x[4] = 5.5;
+  grains.x[0] = 6;
+  grains.step(wall, 2);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].rfind("2 spheres are outside of the box, where the wall may not reach: the "
+                              "first, x[0], is at 6 5 "
+                              "0.49",
+                              0),
+            0u)
+      << warnings[0];
+}
+
 TEST_F(wall, refuses_rows_that_overlap)
 {
   lsdcd::Wall wall(words());

@@ -335,6 +335,80 @@ def check_wall_arrays():
         refused("a stream needs a device", "stream is given", lambda: lsdcd.Wall(words, stream=7), lsdcd.Error)
 
 
+def check_given_values():
+    """What is no number, no whole number or no text of C is refused, and never read as another one."""
+    triangle = np.array([[[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]])
+    vertices, faces, points = triangle[0], np.array([[0, 1, 2]]), np.array([[0, 0, 0.5]])
+    mesh = lsdcd.Mesh(triangle)
+    grid, near = mesh.grid(), mesh.grid(cutoff=2)
+    body = lsdcd.Body(mesh, mesh)
+    takers = {"points": grid.query, "centres": lambda given: near.contacts(given, 1.0), "triangles": lsdcd.Mesh,
+              "vertices": lambda given: lsdcd.Mesh(given, faces), "faces": lambda given: lsdcd.Mesh(vertices, given),
+              "radius": lambda given: grid.query(points, radius=given), "radii": lambda given: near.contacts(points, given),
+              "position": lambda given: body.collide(position=given)}
+    right = {"points": points, "centres": points, "triangles": triangle, "vertices": vertices, "faces": faces,
+             "radius": np.array([1.0]), "radii": np.array([1.0]), "position": np.zeros(3)}
+    for name, take in takers.items():
+        take(right[name])
+        take(np.ma.array(right[name], mask=False))
+        for kind in (complex, bool, str):
+            refused(f"{name} of {kind.__name__} are refused", "numbers", lambda: take(right[name].astype(kind)))
+        refused(f"{name} with a mask are refused", "has masked values: fill them in",
+                lambda: take(np.ma.array(right[name], mask=True)))
+    refused("objects that are texts are refused", "object, not real", lambda: grid.query(points.astype(str).astype(object)))
+    fact("objects that are numbers are taken", grid.query(points.astype(object)).distance.tolist() == [0.5])
+
+    with tempfile.TemporaryDirectory() as folder:
+        floor = os.path.join(folder, "floor.stl")
+        write_floor(floor)
+        words = f"hooke 1000 0 0 0 0 0 mesh {floor}"
+        for name, take in (("query", lambda n: grid.query(points, threads=n)), ("grid", lambda n: mesh.grid(threads=n)),
+                           ("contacts", lambda n: near.contacts(points, 1.0, threads=n)),
+                           ("body", lambda n: lsdcd.Body(mesh, mesh, threads=n)),
+                           ("collide", lambda n: body.collide((0, 0, 1), threads=n)),
+                           ("wall", lambda n: lsdcd.Wall(words, threads=n))):
+            refused(f"{name}: 2**40 threads are refused", f"threads is {2**40}", lambda: take(2**40), ValueError)
+            refused(f"{name}: half a thread is refused", "not a whole number", lambda: take(1.5))
+            take(np.int64(1))
+        refused("a mesh's number is not cut off", "mesh is", lambda: lsdcd.Wall(words).totals(2**32), ValueError)
+        for name, take in (("a file", lambda: lsdcd.Mesh(floor + "\0x")), ("a cache", lambda: mesh.grid(cutoff=1, cache="a\0b")),
+                           ("words", lambda: lsdcd.Wall(words + "\0x")), ("units", lambda: lsdcd.Wall(words, units="si\0"))):
+            refused(f"a NUL in {name} is refused", "has a NUL", take, ValueError)
+
+        spaced = os.path.join(folder, "a 'floor'.stl")
+        write_floor(spaced)
+        fact("a quoted path in words may have blanks", lsdcd.Wall(f'hooke 1e3 0 0 0 0 0 mesh "{spaced}" device cpu').totals())
+        refused("a quote has an end", "does not end", lambda: lsdcd.Wall("hooke 1e3 0 0 0 0 0 mesh 'floor.stl"), ValueError)
+
+        wall = lsdcd.Wall(words + " device cpu")
+        given = {name: np.zeros((2, 3)) for name in ("v", "omega", "force", "torque")}
+        given |= {"x": np.full((2, 3), 0.4), "radius": np.full(2, 0.5), "mass": np.ones(2), "dt": 1e-3}
+        wall.step(**given)
+        for source in ([0.2, 1], [True, False], ["0", "1"], np.ma.array([0, 1], mask=[0, 1])):
+            refused(f"renumber {source} is refused", "", lambda: wall.renumber(source))
+            refused(f"pack {source} is refused", "", lambda: wall.pack(source))
+        refused("renumber takes one row", "has the shape (1, 2)", lambda: wall.renumber([[0, 1]]), ValueError)
+        wall.renumber([1, 0])
+        wall.step(**given)
+        wall.renumber([])
+        fact("answers are the same value by value", grid.query([[0, 0, 1.0], [0, 0, 2]], "closest distance")
+             == grid.query([[0, 0, 1.0], [0, 0, 2]], "distance closest"))
+        fact("and not where one differs", grid.query([[0, 0, 1.0], [0, 0, 2]]) != grid.query([[0, 0, 1.0], [0, 0, 3]]))
+        fact("totals too", wall.totals() == wall.totals())
+
+
+def check_box():
+    """The box of a wall's spheres, by its two corners."""
+    with tempfile.TemporaryDirectory() as folder:
+        floor = os.path.join(folder, "floor.stl")
+        write_floor(floor)
+        words = f"hooke 1000 0 0 0 0 0 mesh {floor} device cpu"
+        refused("lo needs hi", "give both, or neither", lambda: lsdcd.Wall(words, lo=(-5, -5, -5)), ValueError)
+        refused("hi needs lo", "give both, or neither", lambda: lsdcd.Wall(words, hi=(5, 5, 5)), ValueError)
+        refused("a box has a size", "lo is below hi", lambda: lsdcd.Wall(words, lo=(0, 0, 0), hi=(0, 0, 0)), ValueError)
+        refused("a time is finite", "time nan", lambda: lsdcd.Wall(words, time=np.nan), lsdcd.Error)
+
+
 def check_types():
     mypy = shutil.which("mypy")
     if not mypy:
@@ -367,5 +441,7 @@ if __name__ == "__main__":
     check_device_path()
     check_processes()
     check_wall_arrays()
+    check_given_values()
+    check_box()
     check_types()
     sys.exit(1 if failed else 0)

@@ -25,7 +25,9 @@ from __future__ import annotations
 import ctypes
 import glob
 import math
+import operator
 import os
+import re
 import threading
 from typing import Any, Callable, Iterable, Mapping, Protocol, Sequence
 
@@ -185,7 +187,41 @@ def _listened(call: Callable[[], Any], options: Any, listener: Progress | None) 
 
 
 def _sized(struct: Any, **values: Any) -> Any:
-    return struct(size=ctypes.sizeof(struct), **values)
+    """A struct with these values. ctypes would cut off what does not fit a field."""
+    fits = {_int: _c_int, _real: _c_double, ctypes.c_char_p: _c_text}
+    kinds = dict(struct._fields_)
+    made = struct(size=ctypes.sizeof(struct))
+    for name, value in values.items():
+        setattr(made, name, fits[kinds[name]](value, name) if kinds[name] in fits else value)
+    return made
+
+
+def _c_int(value: Any, name: str) -> int:
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} is {value!r}, not a whole number") from None
+    if not -2**31 <= number < 2**31:
+        raise ValueError(f"{name} is {number}, and goes from {-2**31} to {2**31 - 1} at most")
+    return number
+
+
+def _c_double(value: Any, name: str) -> float:
+    if isinstance(value, (str, bytes)) or np.iscomplexobj(value):
+        raise TypeError(f"{name} is {value!r}, not a real number")
+    try:
+        return float(value)
+    except TypeError:
+        raise TypeError(f"{name} is {value!r}, not a real number") from None
+
+
+def _c_text(text: str | bytes | os.PathLike[str] | None, name: str) -> bytes | None:
+    if text is None:
+        return None
+    encoded = os.fsencode(text)
+    if b"\0" in encoded:    # C would read what is before it
+        raise ValueError(f"{name} has a NUL in it: {encoded!r}")
+    return encoded
 
 
 def _facts(struct: Any, call: Any, handle: Any) -> dict[str, Any]:
@@ -229,7 +265,20 @@ class _Record:
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in vars(self).items())})"
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Record) and vars(self) == vars(other)
+        """Are all values the same, those of arrays one by one? What is no number is the same as another such."""
+        if not isinstance(other, _Record):
+            return NotImplemented
+        mine, others = vars(self), vars(other)
+        return mine.keys() == others.keys() and all(_are_same(mine[name], others[name]) for name in mine)
+
+
+def _are_same(a: Any, b: Any) -> bool:
+    if not (hasattr(a, "shape") and hasattr(b, "shape")) or a is b:
+        return a is b or bool(a == b)
+    if tuple(a.shape) != tuple(b.shape):
+        return False
+    equal = a == b
+    return equal if isinstance(equal, bool) else bool((equal | ((a != a) & (b != b))).all())
 
 
 class MeshFacts(_Record):
@@ -269,18 +318,19 @@ class Mesh(_Owner):
     def __init__(self, source: str | bytes | os.PathLike[str] | ArrayLike, faces: ArrayLike | None = None,
                  weld: float = -1.0) -> None:
         super().__init__()
+        weld = _c_double(weld, "weld")
         if isinstance(source, (str, bytes, os.PathLike)):
-            _check(_lib.lsdcd_mesh_read(os.fsencode(source), weld, ctypes.byref(self._handle)))
+            _check(_lib.lsdcd_mesh_read(_c_text(source, "the file's name"), weld, ctypes.byref(self._handle)))
             return
         if faces is not None:
-            vertices = np.ascontiguousarray(_as_floats(np.asarray(source), "vertices"))
+            vertices = np.ascontiguousarray(_as_floats(source, "vertices"))
             if vertices.ndim != 2 or vertices.shape[1] != 3:
                 raise ValueError(f"vertices have the shape {vertices.shape}, not (m, 3)")
             numbers = _vertex_numbers(faces, len(vertices))
             _check(_lib.lsdcd_mesh_from_faces(vertices.ctypes.data, int(vertices.dtype == np.float32), len(vertices),
                                               numbers.ctypes.data, len(numbers), weld, ctypes.byref(self._handle)))
             return
-        corners = np.ascontiguousarray(source, dtype=np.float64)
+        corners = np.ascontiguousarray(_as_floats(source, "triangles"), dtype=np.float64)
         if corners.ndim != 3 or corners.shape[1:] != (3, 3):
             raise ValueError(f"triangles have the shape {corners.shape}, not (n, 3, 3)")
         _check(_lib.lsdcd_mesh_from_corners(corners.ctypes.data, len(corners), weld,
@@ -316,7 +366,7 @@ class Mesh(_Owner):
         what `progress` raises."""
         options = _sized(_GridOptions, cutoff=0.0 if cutoff is None else cutoff, cell=cell, nearest=nearest,
                          precision=_chosen("precision", precision, ("double", "float")), memory=memory,
-                         cache=os.fsencode(cache) if cache else None, threads=threads,
+                         cache=cache or None, threads=threads,
                          device=_chosen("device", device, DEVICES))
         return Grid(self, options, progress)
 
@@ -464,15 +514,14 @@ class Grid(_Owner):
 
         Raises ValueError for wrong shapes, Error for a radius below 0 or beyond the cutoff, a grid without a cutoff, with
         `nearest` or in float, and more than 512 contacts of a sphere."""
-        points = np.asarray(points)
-        real = np.float32 if points.dtype == np.float32 else np.float64
-        points = np.ascontiguousarray(points, dtype=real)
+        points = np.ascontiguousarray(_as_floats(points, "points"))
+        real = points.dtype.type
         if points.ndim != 2 or points.shape[1] != 3:
             raise ValueError(f"points have the shape {points.shape}, not (n, 3)")
         n = len(points)
         if np.shape(radius) not in ((), (n,)):
             raise ValueError(f"radius has the shape {np.shape(radius)}, not () or {(n,)}")
-        radii = np.ascontiguousarray(np.broadcast_to(np.asarray(radius, dtype=real), n))
+        radii = np.ascontiguousarray(np.broadcast_to(_as_floats(radius, "radius").astype(real), n))
         first = np.empty(n + 1, np.uintp)
         ask = _sized(_Contacts, n=n, type=int(real == np.float32), threads=threads, points=points.ctypes.data,
                      radii=radii.ctypes.data, first=first.ctypes.data, contacts=n)
@@ -523,19 +572,38 @@ def _remedy(shape: tuple[int, ...]) -> str:
     return ""
 
 
-def _as_floats(values: NDArray[Any], name: str) -> NDArray[Any]:
+def _as_floats(given: ArrayLike, name: str) -> NDArray[Any]:
     """float32 or float64, as what can be converted to it."""
+    values = _arrays.plain(given, name)
     if values.dtype in (np.float32, np.float64):
         return values
-    if values.dtype.kind not in "fiuO":
-        raise TypeError(f"{name} are of type {values.dtype}, not real numbers")
+    # An object may be a fraction. Of a text float() would make a number.
+    if values.size and values.dtype.kind not in "fiuO" or \
+            values.dtype.kind == "O" and any(isinstance(value, (str, bytes, bool)) for value in values.flat):
+        raise TypeError(f"{name}: {values.dtype}, not real numbers")
     return values.astype(np.float64)
+
+
+def _whole_numbers(given: ArrayLike, name: str) -> NDArray[Any]:
+    """Integers of any size; an empty list has none that are not."""
+    values = _arrays.plain(given, name)
+    if values.size and values.dtype.kind not in "iu":
+        raise TypeError(f"{name}: {values.dtype}, not whole numbers")
+    return values
+
+
+def _in_a_row(values: NDArray[Any], name: str, kind: Any) -> NDArray[Any]:
+    if values.ndim != 1:
+        raise ValueError(f"{name} has the shape {values.shape}, not (n,)")
+    if kind is np.intp and values.size and values.max() > np.iinfo(np.intp).max:
+        raise ValueError(f"{name} has {values.max()}, which is no sphere")
+    return np.ascontiguousarray(values, dtype=kind)
 
 
 def _set_radius(query: Any, radius: Any, points: _arrays.Array, shape: tuple[int, ...], kept: list[_arrays.Array]) -> None:
     radii = _arrays.read(radius, "radius")
     if radii.shape == ():
-        query.radius = float(radii.host() if radii.on_host else radius)
+        query.radius = float(_as_floats(radii.host(), "radius") if radii.on_host else radius)
         if not query.radius > 0:
             raise ValueError(f"radius is {radius}, not above 0")
         return
@@ -543,7 +611,7 @@ def _set_radius(query: Any, radius: Any, points: _arrays.Array, shape: tuple[int
         raise ValueError(f"radius has the shape {radii.shape}, not {shape}, that of points without the last dimension")
     _same_place(radii, points, "radius")
     if radii.on_host:
-        values = np.ascontiguousarray(radii.host(), dtype=points.dtype)
+        values = np.ascontiguousarray(_as_floats(radii.host(), "radius"), dtype=points.dtype)
         if not (values > 0).all():
             raise ValueError(f"radius is {values[~(values > 0)][0]} at a point, not above 0")
         radii = _arrays.of_numpy(values)
@@ -734,16 +802,20 @@ class Wall(_Owner):
             if show:
                 show(text.decode(), bool(warning))
 
+        if (lo is None) != (hi is None):    # C reads 0 for what is not given
+            raise ValueError("lo and hi are the two corners of the box: give both, or neither where spheres go anywhere")
+        least, most = _numbers(lo, (3,), "lo"), _numbers(hi, (3,), "hi")
+        if least is not None and most is not None and not (least < most).all():
+            raise ValueError(f"lo is {least}, hi is {most}: lo is below hi along each axis")
         if len(periodic) != 3:
             raise ValueError(f"periodic has {len(periodic)} values, not one for each of x, y and z")
         self._show: Any = _Show(called(tell)) if show else _Show(0)    # it must live as long as the wall
         self._host = _host_struct(host, called) if host else None
         options = _sized(_WallOptions, periodic=(_int * 3)(*map(bool, periodic)), margin=margin, time=time,
-                         units=units.encode(), show=self._show, threads=threads,
+                         units=units, show=self._show, threads=threads,
                          host=ctypes.addressof(self._host) if self._host else None,
                          stream=_arrays.stream_handle(stream), device=int(self._on_device))
-        for name, corner in (("lo", lo), ("hi", hi)):
-            place = _numbers(corner, (3,), name)
+        for name, place in (("lo", least), ("hi", most)):
             if place is not None:
                 setattr(options, name, (_real * 3)(*place))
         self._do(_lib.lsdcd_wall_make, *_words(words), ctypes.byref(options), ctypes.byref(self._handle))
@@ -800,25 +872,26 @@ class Wall(_Owner):
 
     def renumber(self, source: ArrayLike) -> None:
         """Before the next step: sphere i is the one that was source[i], or with -1 a new one."""
-        numbers = np.ascontiguousarray(source, dtype=np.intp)
+        numbers = _in_a_row(_whole_numbers(source, "source"), "source", np.intp)
         self._do(_lib.lsdcd_wall_renumber, self._handle, numbers.ctypes.data, numbers.size)
 
     def pack(self, which: ArrayLike) -> NDArray[np.float64]:
         """What the contacts of these spheres keep, numbers from 0, and their names: for unpack() by another
         process, before renumber()."""
-        spheres = np.ascontiguousarray(which, dtype=np.intp)
+        spheres = _in_a_row(_whole_numbers(which, "which"), "which", np.intp)
         return self._numbers(_lib.lsdcd_wall_pack, spheres.ctypes.data, spheres.size)
 
     def unpack(self, to: ArrayLike, numbers: ArrayLike) -> None:
         """Spheres to[k] get what another process packed, after renumber(). Raises Error for other numbers."""
-        spheres, packed = np.ascontiguousarray(to, dtype=np.intp), np.ascontiguousarray(numbers, dtype=np.float64)
+        spheres = _in_a_row(_whole_numbers(to, "to"), "to", np.intp)
+        packed = _in_a_row(_as_floats(numbers, "numbers"), "numbers", np.float64)
         self._do(_lib.lsdcd_wall_unpack, self._handle, spheres.ctypes.data, spheres.size, packed.ctypes.data,
                  packed.size)
 
     def totals(self, mesh: int | None = None) -> WallTotals:
         """Of a mesh, from 0, or of all."""
         totals = _sized(_WallTotals)
-        self._do(_lib.lsdcd_wall_get_totals, self._handle, -1 if mesh is None else mesh, ctypes.byref(totals))
+        self._do(_lib.lsdcd_wall_get_totals, self._handle, -1 if mesh is None else _c_int(mesh, "mesh"), ctypes.byref(totals))
         values = {name: getattr(totals, name) for name, _ in _WallTotals._fields_[1:]}
         return WallTotals(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
 
@@ -826,7 +899,7 @@ class Wall(_Owner):
         """Where mesh number `mesh`, from 0, is after the last step, (3, 4): what was at x when the wall was made is at
         R x + t, each row of R with its t, a length, behind it. Raises Error for a mesh that there is not."""
         matrix = np.empty((3, 4))
-        self._do(_lib.lsdcd_wall_get_pose, self._handle, mesh, matrix.ctypes.data)
+        self._do(_lib.lsdcd_wall_get_pose, self._handle, _c_int(mesh, "mesh"), matrix.ctypes.data)
         return matrix
 
     def change(self, words: str | Iterable[str]) -> None:
@@ -847,7 +920,7 @@ class Wall(_Owner):
 
     def restore(self, numbers: ArrayLike) -> None:
         """Before the first step of a wall of the same words."""
-        saved = np.ascontiguousarray(numbers, dtype=np.float64)
+        saved = _in_a_row(_as_floats(numbers, "numbers"), "numbers", np.float64)
         self._do(_lib.lsdcd_wall_restore, self._handle, saved.ctypes.data, saved.size)
 
 
@@ -862,15 +935,22 @@ def _host_struct(host: Host, called: Callable[[Callable[..., object]], Callable[
 
 def _words(words: str | Iterable[str]) -> tuple[Any, int]:
     """As an array of C strings, and how many."""
-    each = words.split() if isinstance(words, str) else list(words)
-    return (ctypes.c_char_p * len(each))(*map(os.fsencode, each)), len(each)
+    each = _split(words) if isinstance(words, str) else list(words)
+    return (ctypes.c_char_p * len(each))(*(_c_text(word, "a word") for word in each)), len(each)
+
+
+def _split(text: str) -> list[str]:
+    """At blanks, as a script's line: a word that begins with a quote goes on to the next such quote."""
+    found = re.findall(r"""(["'])(.*?)\1(?=\s|$)|(\S+)""", text, re.DOTALL)
+    for _, _, bare in found:
+        if bare[:1] in ("'", '"'):
+            raise ValueError(f"in words, the quote that begins {bare} does not end")
+    return [bare or quoted for _, quoted, bare in found]
 
 
 def _vertex_numbers(faces: ArrayLike, n: int) -> NDArray[np.uint32]:
     """Faces, (m, 3), as numbers of n vertices."""
-    numbers = np.asarray(faces)
-    if numbers.size and numbers.dtype.kind not in "iu":
-        raise TypeError(f"faces are of type {numbers.dtype}, not whole numbers")
+    numbers = _whole_numbers(faces, "faces")
     if numbers.ndim != 2 or numbers.shape[1] != 3:
         raise ValueError(f"faces have the shape {numbers.shape}, not (n, 3)")
     wrong = numbers[(numbers < 0) | (numbers >= n)]
@@ -882,7 +962,7 @@ def _vertex_numbers(faces: ArrayLike, n: int) -> NDArray[np.uint32]:
 def _numbers(values: ArrayLike | None, shape: tuple[int, ...], name: str) -> NDArray[np.float64] | None:
     if values is None:
         return None
-    numbers = np.ascontiguousarray(values, dtype=np.float64)
+    numbers = np.ascontiguousarray(_as_floats(values, name), dtype=np.float64)
     if numbers.shape != shape:
         raise ValueError(f"{name} has the shape {numbers.shape}, not {shape}")
     return numbers

@@ -104,7 +104,7 @@ def read(values: Any, name: str, stream: int | None = None) -> Array:
     cudaStream_t, is where a device's array will be used: an array that comes by DLPack is ready there.
     Raises TypeError for a type or place that cannot be read, and for a mask, ValueError for stream 0."""
     if isinstance(values, np.ndarray):
-        return of_numpy(values)
+        return of_numpy(plain(values, name))
     interface = getattr(values, "__cuda_array_interface__", None)
     can_dlpack = hasattr(values, "__dlpack__") and hasattr(values, "__dlpack_device__")
     # An interface of version 2 does not say on which stream the values are made. PyTorch has its current stream.
@@ -112,7 +112,14 @@ def read(values: Any, name: str, stream: int | None = None) -> Array:
         return _of_interface(values, interface, name)
     if can_dlpack:
         return _of_dlpack(values, name, stream)
-    return of_numpy(np.asarray(values))
+    return of_numpy(plain(values, name))
+
+
+def plain(values: Any, name: str) -> np.ndarray[Any, Any]:
+    """As numpy has it. Raises TypeError where a mask hides values: the library does not see masks."""
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
+        raise TypeError(f"{name} has masked values: fill them in, {name}.filled(...), or leave their rows out")
+    return np.asarray(values)
 
 
 def of_numpy(values: np.ndarray[Any, Any]) -> Array:
