@@ -95,6 +95,7 @@ typedef struct lsdcd_mesh_facts {
   double lo[3], hi[3];
   size_t meeting_pairs; /* of triangles of different closed shells, which cut, overlap or
                                     touch each other there */
+  size_t given_vertices; /* those of lsdcd_mesh_from_faces(), else three corners a triangle */
 } lsdcd_mesh_facts;
 /* Any. */
 LSDCD_API int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts);
@@ -113,6 +114,12 @@ typedef struct lsdcd_mesh_arrays {
   /* Of edge e: edge_faces[edge_first[e]] up to before edge_faces[edge_first[e + 1]]. */
   uint32_t *edge_first; /* edges + 1 numbers */
   uint32_t *edge_faces; /* 3 * faces numbers */
+  /* `given_vertices` numbers: of each vertex as given the one here that it was welded to, at most `weld` away. From a
+   * file or corners these are the corners, three a triangle, in their order. LSDCD_NONE: a vertex of no triangle. */
+  uint32_t *welded_vertex;
+  /* `triangles` numbers: of each triangle as given its face. One that has the corners of another, in either winding, has
+   * that one's face, whose `triangle` is the first of them. LSDCD_NONE: one without area, which is no face. */
+  uint32_t *welded_face;
 } lsdcd_mesh_arrays;
 /* Any. */
 LSDCD_API int lsdcd_mesh_get_arrays(const lsdcd_mesh *mesh, const lsdcd_mesh_arrays *arrays);

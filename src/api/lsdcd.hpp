@@ -89,6 +89,7 @@ struct MeshArrays {
   std::vector<double> vertices;                                // 3 numbers each
   std::vector<std::uint32_t> faces, face_edges, triangle;      // 3, 3 and 1 of each face
   std::vector<std::uint32_t> edges, edge_first, edge_faces;    // 2 vertices of each edge; its faces
+  std::vector<std::uint32_t> welded_vertex, welded_face;    // of each vertex and triangle as given
 };
 
 class Mesh {
@@ -136,9 +137,12 @@ class Mesh {
     a.edges.resize(2 * f.edges);
     a.edge_first.resize(f.edges + 1);
     a.edge_faces.resize(3 * f.faces);
-    const lsdcd_mesh_arrays to = {sizeof to,           a.vertices.data(),  a.faces.data(),
-                                  a.face_edges.data(), a.triangle.data(),  a.edges.data(),
-                                  a.edge_first.data(), a.edge_faces.data()};
+    a.welded_vertex.resize(f.given_vertices);
+    a.welded_face.resize(f.triangles);
+    const lsdcd_mesh_arrays to = {sizeof to,           a.vertices.data(),   a.faces.data(),
+                                  a.face_edges.data(), a.triangle.data(),   a.edges.data(),
+                                  a.edge_first.data(), a.edge_faces.data(), a.welded_vertex.data(),
+                                  a.welded_face.data()};
     c::check(lsdcd_mesh_get_arrays(get(), &to));
     return a;
   }

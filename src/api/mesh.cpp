@@ -6,22 +6,35 @@
 #include "api/objects.h"
 #include "base/input_words.h"
 #include "mesh/io/read_mesh.h"
+#include "mesh/weld_map.h"
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 using namespace lsdcd;
 
 namespace {
 
-lsdcd_mesh *welded(const TriangleSoup &soup, double weld_tolerance)
+// Corner k of the soup is vertex faces[k] of `n_vertices` as given; null: each corner is a vertex.
+lsdcd_mesh *welded(const TriangleSoup &soup, double weld_tolerance,
+                   const std::uint32_t *faces = nullptr, std::size_t n_vertices = 0)
 {
   if (std::isnan(weld_tolerance) || weld_tolerance > std::numeric_limits<double>::max())
     throw ApiError(LSDCD_ERROR_ARGUMENT,
                    "`weld` is not finite: give a length, or -1 for the default");
   auto mesh = std::make_shared<ApiMesh>();
-  mesh->mesh = weld(soup, weld_tolerance);
+  std::vector<int> corner_vertex;
+  mesh->mesh = weld(soup, weld_tolerance, corner_vertex);
+  mesh->welded_face = faces_of_facets(mesh->mesh, corner_vertex);
+  if (faces) {
+    mesh->welded_vertex.assign(n_vertices, -1);
+    for (std::size_t k = 0; k < corner_vertex.size(); k++)
+      mesh->welded_vertex[faces[k]] = corner_vertex[k];
+  } else {
+    mesh->welded_vertex = std::move(corner_vertex);
+  }
   mesh->report = describe(mesh->mesh.report, soup.source);
   return new lsdcd_mesh{std::move(mesh)};
 }
@@ -123,7 +136,7 @@ int lsdcd_mesh_from_faces(const void *vertices, int type, size_t n_vertices, con
     *mesh = welded(type == LSDCD_FLOAT
                        ? soup_of(static_cast<const float *>(vertices), n_vertices, faces, n_faces)
                        : soup_of(static_cast<const double *>(vertices), n_vertices, faces, n_faces),
-                   weld);
+                   weld, faces, n_vertices);
   });
 }
 
@@ -131,7 +144,8 @@ int lsdcd_mesh_get_arrays(const lsdcd_mesh *mesh, const lsdcd_mesh_arrays *array
 {
   return guard([&] {
     need(mesh, "mesh");
-    const lsdcd_mesh_arrays to = checked(arrays, "lsdcd_mesh_arrays");
+    const lsdcd_mesh_arrays to =
+        checked(arrays, "lsdcd_mesh_arrays", offsetof(lsdcd_mesh_arrays, welded_vertex));
     const WallMesh &m = mesh->in->mesh;
     if (double *at = to.vertices)
       for (const Vec3 &v : m.vertices)
@@ -142,6 +156,8 @@ int lsdcd_mesh_get_arrays(const lsdcd_mesh *mesh, const lsdcd_mesh_arrays *array
     copy_rows(m.edges, to.edges);
     copy_numbers(m.edge_first, to.edge_first);
     copy_numbers(m.edge_face, to.edge_faces);
+    copy_numbers(mesh->in->welded_vertex, to.welded_vertex);
+    copy_numbers(mesh->in->welded_face, to.welded_face);
   });
 }
 
@@ -149,12 +165,14 @@ int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts)
 {
   return guard([&] {
     need(mesh, "mesh");
-    lsdcd_mesh_facts f = checked(facts, "lsdcd_mesh_facts");
+    lsdcd_mesh_facts f =
+        checked(facts, "lsdcd_mesh_facts", offsetof(lsdcd_mesh_facts, given_vertices));
     const WallMesh &m = mesh->in->mesh;
     f.triangles = m.report.facets;
     f.faces = m.faces.size();
     f.edges = m.edges.size();
     f.vertices = m.vertices.size();
+    f.given_vertices = mesh->in->welded_vertex.size();
     f.open_edges = m.report.open_edges;
     f.meeting_pairs = m.report.meeting_pairs;
     f.closed = m.report.closed;

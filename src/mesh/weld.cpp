@@ -9,6 +9,7 @@
 #include "mesh/face_plane.h"
 #include "mesh/hash_index.h"
 #include "mesh/measure_mesh.h"
+#include "mesh/weld_map.h"
 #include "mesh/weld_points.h"
 
 #include <algorithm>
@@ -207,6 +208,12 @@ void check_edge_number(std::size_t n, const std::string &source)
 
 WallMesh weld(const TriangleSoup &soup, Real tolerance)
 {
+  std::vector<int> corner_vertex;
+  return weld(soup, tolerance, corner_vertex);
+}
+
+WallMesh weld(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner_vertex)
+{
   const Real diagonal = checked_diagonal(soup);
   WallMesh mesh;
   mesh.source = soup.source;
@@ -218,7 +225,8 @@ WallMesh weld(const TriangleSoup &soup, Real tolerance)
   mesh.vertices = std::move(welded.points);
   std::vector<FacePlane> plane;
   std::vector<Pair> bare_edges;
-  sort_facets(welded.corner_point, mesh, plane, bare_edges);
+  corner_vertex = std::move(welded.corner_point);
+  sort_facets(corner_vertex, mesh, plane, bare_edges);
   build_edges(mesh, bare_edges);
   number_flat_edges_last(mesh, plane);
   build_vertex_edges(mesh);

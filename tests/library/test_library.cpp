@@ -681,6 +681,87 @@ TEST(library, faces_of_the_welded_mesh_have_the_corners_of_their_triangles)
     }
 }
 
+// Each corner of the cube is there three times, a little apart, for a face each; the last vertex has no face.
+TEST(library, given_vertices_have_the_welded_one_that_they_became)
+{
+  const double weld = 1e-3;
+  std::vector<double> vertices;
+  std::mt19937 r(3);
+  std::uniform_real_distribution<double> off(-weld / 4, weld / 4);    // so less than `weld` apart
+  for (int copy = 0; copy < 3; copy++)
+    for (const double x : cube_vertices<double>()) vertices.push_back(x + off(r));
+  vertices.insert(vertices.end(), {0, 0, 0});
+  std::vector<std::uint32_t> faces = kCubeFaces;
+  for (std::size_t k = 0; k < faces.size(); k++) faces[k] += 8 * ((k / 3) % 3);
+  std::vector<char> has_face(25, 0);
+  for (const std::uint32_t v : faces) has_face[v] = 1;
+  const lsdcd::Mesh mesh(vertices, faces, weld);
+  const lsdcd::MeshArrays m = mesh.arrays();
+  ASSERT_EQ(mesh.facts().given_vertices, 25u);
+  ASSERT_EQ(mesh.facts().vertices, 8u);
+  ASSERT_EQ(m.welded_vertex.size(), 25u);
+  for (std::size_t v = 0; v < 25; v++) {
+    if (!has_face[v]) {
+      EXPECT_EQ(m.welded_vertex[v], LSDCD_NONE) << v;
+      continue;
+    }
+    ASSERT_LT(m.welded_vertex[v], 8u) << v;
+    EXPECT_LE(norm(point(m.vertices, m.welded_vertex[v]) - point(vertices, v)), weld) << v;
+  }
+  for (std::size_t k = 0; k < faces.size(); k++)
+    EXPECT_EQ(m.welded_vertex[faces[k]], m.faces[3 * m.welded_face[k / 3] + k % 3]) << k;
+}
+
+TEST(library, given_corners_have_the_welded_vertex_that_they_became)
+{
+  const TriangleSoup soup = box_and_cylinder();
+  const lsdcd::Mesh mesh(numbers(soup));
+  const lsdcd::MeshArrays m = mesh.arrays();
+  ASSERT_EQ(mesh.facts().given_vertices, soup.corners.size());
+  for (std::size_t k = 0; k < soup.corners.size(); k++)
+    EXPECT_EQ(norm(point(m.vertices, m.welded_vertex[k]) - soup.corners[k]), 0) << k;
+}
+
+TEST(library, given_triangles_have_their_face_or_that_of_their_double_or_none)
+{
+  const std::vector<double> vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 2, 0, 0};
+  const std::vector<std::uint32_t> faces = {
+      0, 1, 4,    // a line
+      0, 1, 2,    // face 0
+      1, 1, 3,    // a line
+      0, 2, 3,    // face 1
+      2, 0, 1,    // face 0 again
+      3, 2, 0,    // face 1, wound the other way
+      3, 3, 3,    // a point
+      0, 1, 3,    // face 2
+  };
+  const std::uint32_t none = LSDCD_NONE;
+  const lsdcd::MeshArrays m = lsdcd::Mesh(vertices, faces).arrays();
+  EXPECT_EQ(m.welded_face, (std::vector<std::uint32_t>{none, 0, none, 1, 0, 1, none, 2}));
+  EXPECT_EQ(m.triangle, (std::vector<std::uint32_t>{1, 3, 7}));
+}
+
+// Facts and arrays as the header of 0.9.0 had them: nothing beyond their ends is written.
+TEST(library, shorter_facts_and_arrays_of_an_older_program_are_filled)
+{
+  const lsdcd::Mesh mesh(cube_vertices<double>(), kCubeFaces);
+  lsdcd_mesh_facts facts = {};
+  facts.size = offsetof(lsdcd_mesh_facts, given_vertices);
+  facts.given_vertices = 77;
+  ASSERT_EQ(lsdcd_mesh_get_facts(mesh.get(), &facts), LSDCD_OK);
+  EXPECT_EQ(facts.vertices, 8u);
+  EXPECT_EQ(facts.given_vertices, 77u);
+  std::vector<std::uint32_t> faces(36);
+  std::uint32_t beyond = 77;
+  lsdcd_mesh_arrays arrays = {};
+  arrays.size = offsetof(lsdcd_mesh_arrays, welded_vertex);
+  arrays.faces = faces.data();
+  arrays.welded_vertex = arrays.welded_face = &beyond;
+  ASSERT_EQ(lsdcd_mesh_get_arrays(mesh.get(), &arrays), LSDCD_OK);
+  EXPECT_EQ(faces, mesh.arrays().faces);
+  EXPECT_EQ(beyond, 77u);
+}
+
 TEST(library, edges_of_the_welded_mesh_join_corners_of_their_faces)
 {
   const lsdcd::MeshArrays m = lsdcd::Mesh(numbers(box_and_cylinder())).arrays();

@@ -28,6 +28,11 @@ welded = mesh.arrays()
 assert welded.faces.shape == (12, 3) and welded.edges.shape == (18, 2) and welded.edge_first[-1] == 36
 assert (welded.vertices[welded.faces] == vertices[faces[welded.triangle]]).all()
 assert (np.sort(welded.vertices, axis=None) == np.sort(vertices, axis=None)).all()
+# And back: each vertex and face as given has its number there; a vertex of no face and a face without area have none.
+assert (welded.vertices[welded.welded_vertex] == vertices).all() and (welded.triangle[welded.welded_face] == np.arange(12)).all()
+more = lsdcd.Mesh(np.vstack([vertices, [[9, 9, 9]]]), np.vstack([faces, faces[:1, ::-1], [[0, 0, 1]]]))
+assert more.facts.given_vertices == 9 and more.arrays().welded_vertex[8] == lsdcd.NONE
+assert more.arrays().welded_face.tolist() == [*range(12), 0, lsdcd.NONE]
 
 # All contacts: three faces in a corner, none, and a vertex from outside.
 for real, close in ((np.float64, 1e-15), (np.float32, 1e-7)):

@@ -61,10 +61,11 @@ def _struct(name: str, *fields: tuple[str, Any]) -> Any:
 _MeshFacts = _struct(
     "_MeshFacts", ("triangles", _size), ("faces", _size), ("edges", _size), ("vertices", _size),
     ("open_edges", _size), ("closed", _int), ("oriented", _int),
-    ("area", _real), ("volume", _real), ("lo", _real * 3), ("hi", _real * 3), ("meeting_pairs", _size))
+    ("area", _real), ("volume", _real), ("lo", _real * 3), ("hi", _real * 3), ("meeting_pairs", _size),
+    ("given_vertices", _size))
 _MeshArrays = _struct(
     "_MeshArrays", ("vertices", _at), ("faces", _at), ("face_edges", _at), ("triangle", _at), ("edges", _at),
-    ("edge_first", _at), ("edge_faces", _at))
+    ("edge_first", _at), ("edge_faces", _at), ("welded_vertex", _at), ("welded_face", _at))
 _GridOptions = _struct(
     "_GridOptions", ("cutoff", _real), ("cell", _real), ("nearest", _int), ("precision", _int),
     ("memory", _real), ("cache", ctypes.c_char_p), ("threads", _int), ("device", _int), ("progress", _Progress),
@@ -295,6 +296,7 @@ class MeshFacts(_Record):
     lo: tuple[float, float, float]
     hi: tuple[float, float, float]
     meeting_pairs: int    # of triangles of different closed shells
+    given_vertices: int    # those given with faces, else three corners a triangle
 
 
 class MeshArrays(_Record):
@@ -306,6 +308,12 @@ class MeshArrays(_Record):
     edges: NDArray[np.uint32]        # (E, 2), the lower vertex first
     edge_first: NDArray[np.uint32]   # (E + 1,)
     edge_faces: NDArray[np.uint32]   # (3 F,), faces of edge e: edge_faces[edge_first[e]:edge_first[e + 1]]
+    # (given_vertices,), of each vertex as given the one here that it was welded to; those of a file or of triangles are
+    # their corners, in their order. NONE: a vertex of no face.
+    welded_vertex: NDArray[np.uint32]
+    # (triangles,), of each triangle as given its face; one that has the corners of another, in either winding, has that
+    # one's face. NONE: one without area, which is no face.
+    welded_face: NDArray[np.uint32]
 
 
 class Mesh(_Owner):
@@ -345,7 +353,7 @@ class Mesh(_Owner):
         facts = self.facts
         v, f, e = facts.vertices, facts.faces, facts.edges
         shapes = {"faces": (f, 3), "face_edges": (f, 3), "triangle": (f,), "edges": (e, 2), "edge_first": (e + 1,),
-                  "edge_faces": (3 * f,)}
+                  "edge_faces": (3 * f,), "welded_vertex": (facts.given_vertices,), "welded_face": (facts.triangles,)}
         made = MeshArrays(vertices=np.empty((v, 3)), **{k: np.empty(s, np.uint32) for k, s in shapes.items()})
         arrays = _sized(_MeshArrays, **{name: array.ctypes.data for name, array in vars(made).items()})
         _check(_lib.lsdcd_mesh_get_arrays(self._handle, ctypes.byref(arrays)))

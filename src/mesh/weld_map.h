@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the corners and facets of a file became in the welded mesh.
+#pragma once
+
+#include "mesh/wall_mesh.h"
+
+#include <vector>
+
+namespace lsdcd {
+
+// As weld(soup, tolerance). `corner_vertex` becomes the vertex of each corner of the file; corners with the same
+// coordinates have the same one.
+WallMesh weld(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner_vertex);
+
+constexpr int kNoFace = -1;
+
+// Of each facet of the file its face; of a duplicate, in either winding, the face that it equals; kNoFace for a facet
+// without area.
+std::vector<int> faces_of_facets(const WallMesh &mesh, const std::vector<int> &corner_vertex);
+
+}    // namespace lsdcd
