@@ -433,7 +433,7 @@ typedef struct lsdcd_wall_step {
  * With a `host`, and on a device, a step does not wait to know of each sphere: their errors come with the next
  * call that is not "alone", and the arrays of a step stay until then. On a device forces are there once the
  * stream has done what it was given. Of the arrays only steps that look, see `changed`, copy some to the host, and
- * only these check types and, on a device, places, radii and masses. Own. */
+ * only these check types, radii, masses and, on a device, places. Own. */
 LSDCD_API int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
                                       const lsdcd_wall_step *step);
 /* Before the next step: sphere i of n is the one that was from[i], or with -1 a new one. What its

@@ -153,26 +153,41 @@ void check_types(const Spheres &s, const WallSettings &wall)
                  std::string(name) + "[" + std::to_string(i) + "] is " + what);
 }
 
-// Nothing would touch a place that is no number, nor a radius below 0.
-void check_values(const Spheres &s)
+// Nothing touches a radius below 0, and a mass of 0 has no damping.
+void check_sizes(const Spheres &s)
 {
-  const auto is_place = [](const Vec3 &x) { return norm_sq(x - x) == 0; };
-  const auto is_size = [](Real r) { return r >= 0 && std::isfinite(r); };
-  const auto is_mass = [](Real m) { return m > 0 && std::isfinite(m); };
-  bool good = true;
-  for (int i = 0; i < s.n; i++)
-    good &= is_place(s.x[i]) & is_size(s.radius[i]) & is_mass(s.mass[i]);
-  for (int i = 0; i < s.n && !good; i++) {
-    const Vec3 x = s.x[i];
-    if (!is_place(x))
-      refuse_sphere("x", i,
-                    number_text(x.x) + " " + number_text(x.y) + " " + number_text(x.z) +
-                        ", which is no place: a shorter dt, or softer contacts, may help");
-    if (!is_size(s.radius[i]))
+  for (int i = 0; i < s.n; i++) {
+    if (!(s.radius[i] >= 0) || !std::isfinite(s.radius[i]))
       refuse_sphere("radius", i, number_text(s.radius[i]) + "; it is 0 or more, and finite");
-    if (!is_mass(s.mass[i]))
+    if (!(s.mass[i] > 0) || !std::isfinite(s.mass[i]))
       refuse_sphere("mass", i, number_text(s.mass[i]) + "; it is above 0, and finite");
   }
+}
+
+std::string place_text(const Vec3 &x)
+{
+  return number_text(x.x) + " " + number_text(x.y) + " " + number_text(x.z);
+}
+
+// Nothing touches a place that is no number. In each step, so with a few operations for each sphere.
+Box checked_extents(const Spheres &s)
+{
+  Box around = {kNoLimit.hi, kNoLimit.lo};
+  Vec3 zero = {0, 0, 0};    // unless one is no number
+  for (int i = 0; i < s.n; i++) {
+    const Vec3 x = s.x[i];
+    zero += 0 * x;
+    around.lo = {std::min(around.lo.x, x.x), std::min(around.lo.y, x.y),
+                 std::min(around.lo.z, x.z)};
+    around.hi = {std::max(around.hi.x, x.x), std::max(around.hi.y, x.y),
+                 std::max(around.hi.z, x.z)};
+  }
+  for (int i = 0; i < s.n && !(norm_sq(zero) == 0); i++)
+    if (!(norm_sq(0 * s.x[i]) == 0))
+      refuse_sphere("x", i,
+                    place_text(s.x[i]) +
+                        ", which is no place: a shorter dt, or softer contacts, may help");
+  return around;
 }
 
 // How many centres are outside of a box that neither repeats nor follows them, and the first.
@@ -181,16 +196,18 @@ struct Outside {
   int first = 0;
 };
 
-Outside outside(const PeriodicBox &box, const Spheres &s)
+Outside outside(const PeriodicBox &box, const Spheres &s, const Box &extents)
 {
   Outside found;
   Box room = kNoLimit;
+  bool all_in = true;
   for (int k = 0; k < 3; k++) {
     if (box.periodic[k] || box.follows(k)) continue;
     room.lo[k] = box.corner[k];
     room.hi[k] = box.corner[k] + box.edge[k][k];
+    all_in = all_in && extents.lo[k] >= room.lo[k] && extents.hi[k] <= room.hi[k];
   }
-  for (int i = s.n - 1; i >= 0; i--) {
+  for (int i = all_in ? -1 : s.n - 1; i >= 0; i--) {
     const Vec3 x = s.x[i];
     if (overlap(Box{x, x}, room)) continue;
     found.n++;
@@ -254,9 +271,10 @@ StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsd
   want.look = !wall.begun || came || want.step.setup || want.step.changed;
   if (!want.look && wall.gpu) return want;
   const Spheres s = wall.caller.spheres_on_cpu();
-  check_values(s);
-  if (!wall.outside_told) want.outside = outside(wall.caller.box(), s);
+  const Box extents = checked_extents(s);
+  if (!wall.outside_told) want.outside = outside(wall.caller.box(), s, extents);
   if (!want.look) return want;
+  check_sizes(s);
   check_types(s, wall.in->settings());
   wall.largest_radius = 0;
   for (int i = 0; i < s.n; i++) wall.largest_radius = std::max(wall.largest_radius, s.radius[i]);
@@ -274,10 +292,9 @@ void warn_of_outside(lsdcd_wall &wall, const StepWanted &want)
   std::string text;
   if (host.rank() == from) {
     const int i = want.outside.first;
-    const Vec3 x = host.spheres_on_cpu().x[i];
     text = "x[" + std::to_string(i) + "]" +
            (host.is_alone() ? "" : " of process " + std::to_string(from)) + ", is at " +
-           number_text(x.x) + " " + number_text(x.y) + " " + number_text(x.z);
+           place_text(host.spheres_on_cpu().x[i]);
   }
   broadcast_text(host, text, from);
   const Box box = host.box().bounds({0, 0, 0});

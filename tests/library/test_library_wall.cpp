@@ -235,8 +235,7 @@ TEST_F(wall, refuses_spheres_without_a_place_a_size_or_a_mass)
     lsdcd::Wall wall(words());
     Grains grains;
     for (int i = 0; i < 3; i++) grains.add(i, 0, 0.49);
-    grains.step(wall);
-    spoil(grains);    // in a step that looks at nothing else
+    spoil(grains);
     return text_of([&] { grains.step(wall); });
   };
   for (const double x : {nan, inf, -inf})
@@ -246,6 +245,17 @@ TEST_F(wall, refuses_spheres_without_a_place_a_size_or_a_mass)
   for (const double m : {nan, inf, -1., 0.})
     EXPECT_EQ(told([&](Grains &g) { g.mass[0] = m; }).rfind("mass[0] is ", 0), 0u) << m;
   EXPECT_EQ(told([](Grains &g) { g.radius[2] = 0; }), "");
+}
+
+TEST_F(wall, refuses_a_place_that_is_no_number_in_each_step)
+{
+  lsdcd::Wall wall(words());
+  Grains grains;
+  for (int i = 0; i < 3; i++) grains.add(i, 0, 0.49);
+  grains.step(wall, 2);
+  grains.x[3] = std::nan("");
+  EXPECT_EQ(text_of([&] { grains.step(wall); }).rfind("x[1] is nan 0 0.49, which is no place", 0),
+            0u);
 }
 
 // Along z the box repeats, and nothing is outside.
