@@ -3,25 +3,19 @@
 
 #include "base/input_error.h"
 #include "mesh/io/read_stl_text.h"
+#include "mesh/io/whole_file.h"
 #include "mesh/triangle_soup.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
-#include <limits>
-#include <memory>
 
 namespace lsdcd {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 84;     // 80 of text, 4 of facet count
-constexpr std::size_t kFacetBytes = 50;      // normal, 3 corners, 2 bytes of attributes
-constexpr std::size_t kBeginning = 65536;    // read and checked before the rest
+constexpr std::size_t kHeaderBytes = 84;    // 80 of text, 4 of facet count
+constexpr std::size_t kFacetBytes = 50;     // normal, 3 corners, 2 bytes of attributes
 
 // STL is little-endian and unaligned whatever the machine is.
 std::uint32_t read_u32(const char *bytes)
@@ -114,55 +108,24 @@ void check_beginning(const char *bytes, std::size_t n, std::size_t size, const s
   }
 }
 
-struct Bytes {
-  std::unique_ptr<char[]> data;    // not a vector, which would be cleared first
-  std::size_t size = 0;
-};
-
-Bytes read_whole(const std::string &path)
+// How much of a longer file is read.
+std::size_t check_long_file(const char *bytes, std::size_t n, std::size_t size,
+                            const std::string &source)
 {
-  const auto fail = [&](const char *why) {
-    return InputError(path + ": cannot read the mesh: " + why +
-                      "; give the path of an STL file that this user can read");
-  };
-  std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rb"),
-                                                        std::fclose);
-  if (!file) throw fail(std::strerror(errno));
-  struct stat info;
-  if (fstat(fileno(file.get()), &info) != 0) throw fail(std::strerror(errno));
-  if (S_ISDIR(info.st_mode)) throw fail("it is a directory");
-  if (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode)) throw fail("it is a device");
-
-  // The size is a hint: a pipe has none, and a file may grow while it is read.
-  std::size_t capacity = kBeginning, most = std::numeric_limits<std::size_t>::max();
-  const std::size_t size = static_cast<std::size_t>(std::max<off_t>(info.st_size, 0));
-  Bytes bytes{std::unique_ptr<char[]>(new char[capacity])};
-  for (;;) {
-    bytes.size += std::fread(bytes.data.get() + bytes.size, 1, capacity - bytes.size, file.get());
-    if (std::ferror(file.get())) throw fail(std::strerror(errno));
-    if (bytes.size < capacity || bytes.size == most) return bytes;
-    if (capacity == kBeginning) {
-      const char *begin = bytes.data.get();
-      const bool is_text =
-          begins_as_stl_text(begin, capacity) || !has_control_byte(begin, capacity);
-      // From a pipe: what the binary header promises, and one byte more to see that there is none.
-      if (size == 0 && !is_text)
-        most = std::max(capacity, kHeaderBytes + kFacetBytes * promised_facets(begin) + 1);
-      else if (size == 0 || size > capacity)
-        check_beginning(begin, capacity, std::max(size, capacity), path);
-    }
-    capacity = std::min(std::max(2 * capacity, size + 1), most);
-    std::unique_ptr<char[]> larger(new char[capacity]);
-    std::memcpy(larger.get(), bytes.data.get(), bytes.size);
-    bytes.data = std::move(larger);
-  }
+  // From a pipe: what the binary header promises, and one byte more to see that there is none.
+  if (size == 0 && has_control_byte(bytes, n) && !begins_as_stl_text(bytes, n))
+    return kHeaderBytes + kFacetBytes * promised_facets(bytes) + 1;
+  if (size == 0 || size > n) check_beginning(bytes, n, std::max(size, n), source);
+  return kAllBytes;
 }
 
 }    // namespace
 
 TriangleSoup read_stl(const std::string &path)
 {
-  const Bytes bytes = read_whole(path);
+  const FileBytes bytes = read_whole_file(path, [&](const char *beginning, auto n, auto size) {
+    return check_long_file(beginning, n, size, path);
+  });
   return read_stl_bytes(bytes.data.get(), bytes.size, path);
 }
 

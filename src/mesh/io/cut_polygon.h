@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// From a polygon of a file to triangles; private to the mesh room.
+#pragma once
+
+#include "base/vec3.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// Appends the triangles, three corners each, of a polygon with three or more corners, in its winding.
+// Together they are the polygon: it may be concave, have collinear or repeated corners, and holes that
+// bridges join to its rim (keyholes). Every corner is one of a triangle, so that a neighbour that has it too
+// still fits. Of n corners there are n - 2 triangles, less those that would have two equal corners; those
+// of collinear corners have no area.
+//
+// A polygon that is not flat is cut as it looks along an axis, the one along which its area is largest. A
+// quadrilateral is cut from its first corner to its third, or across if only that is inside.
+//
+// Returns an empty text; or, and then no triangle is appended, why the polygon cannot be cut and where:
+// "it crosses itself near (1, 2, 0)". For n corners it takes time in proportion to n log n, and to
+// n^2 for the worst: 1e5 corners take a second, a minute.
+std::string cut_polygon(const std::vector<Vec3> &corners, std::vector<Vec3> &triangles);
+
+}    // namespace lsdcd

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mesh/io/text_words.h"
+
+#include "base/input_error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+namespace lsdcd {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+bool is_line_end(char c)
+{
+  return c == '\n' || c == '\r';
+}
+
+bool is_space(char c)
+{
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+bool is_digit(char c)
+{
+  return c >= '0' && c <= '9';
+}
+
+// Without a plus sign, which from_chars() does not take.
+std::string_view without_plus(std::string_view word)
+{
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  return word;
+}
+
+// from_chars reports 1e-400 and 1e400 alike. The first is zero, the second is infinite: the power of
+// ten of the first digit that is not 0 tells.
+bool is_underflow(std::string_view number)
+{
+  const auto e = std::min(number.find_first_of("eE"), number.size());
+  const auto digits = number.substr(0, e), exponent = number.substr(std::min(e + 1, number.size()));
+  const auto first = digits.find_first_of("123456789"), point = std::min(digits.find('.'), e);
+  if (first == digits.npos) return true;
+  long long power = 0;
+  const char *sign = exponent.data();
+  const auto *begin = sign + (!exponent.empty() && *sign == '+');
+  const auto read = std::from_chars(begin, exponent.data() + exponent.size(), power);
+  if (read.ec == std::errc::result_out_of_range) return *begin == '-';
+  power = std::clamp<long long>(power, -1000000000000, 1000000000000);    // as far as files go
+  return power + static_cast<long long>(point) < static_cast<long long>(first);
+}
+
+const char *remedy_for(std::string_view word)
+{
+  const auto letter = word.find_first_of("dD");
+  if (letter != word.npos && letter > 0 && (is_digit(word[letter - 1]) || word[letter - 1] == '.'))
+    return "D is an exponent of Fortran: write E for it";
+  if (word.find(',') != word.npos) return "write a decimal point, and spaces between numbers";
+  return "correct the line or export the mesh again";
+}
+
+}    // namespace
+
+bool same_word(std::string_view word, std::string_view keyword)
+{
+  if (word.size() != keyword.size()) return false;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const char c = word[i];
+    if ((c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) != keyword[i]) return false;
+  }
+  return true;
+}
+
+std::string quoted(std::string_view word)
+{
+  constexpr std::size_t kLongest = 40;
+  std::string text = "'";
+  for (const char c : word.substr(0, kLongest))
+    text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  return text + (word.size() > kLongest ? "...'" : "'");
+}
+
+ReadNumber read_number(std::string_view word)
+{
+  const auto digits = without_plus(word);
+  ReadNumber number;
+  const auto end = digits.data() + digits.size();
+  const auto parsed = std::from_chars(digits.data(), end, number.value);
+  if (parsed.ec == std::errc::invalid_argument || parsed.ptr != end)
+    return {0, "not a number", remedy_for(word)};
+  if (parsed.ec == std::errc::result_out_of_range)
+    number.value = is_underflow(digits) ? 0 : HUGE_VAL;
+  if (!std::isfinite(number.value)) return {0, "not a finite number", remedy_for(word)};
+  return number;
+}
+
+bool read_integer(std::string_view word, std::int64_t &value)
+{
+  const auto digits = without_plus(word);
+  const auto end = digits.data() + digits.size();
+  const auto parsed = std::from_chars(digits.data(), end, value);
+  return parsed.ec == std::errc() && parsed.ptr == end;
+}
+
+TextWords::TextWords(const char *bytes, std::size_t size, std::string source, TextStyle style) :
+    begin_(bytes), at_(bytes), end_(bytes + size), source_(std::move(source)), style_(style)
+{
+  if (std::string_view(bytes, size).substr(0, 3) == kByteOrderMark) at_ += 3;
+}
+
+void TextWords::refuse_utf16() const
+{
+  const auto mark = std::string_view(begin_, end_ - begin_).substr(0, 2);
+  if (mark == "\xFF\xFE" || mark == "\xFE\xFF")
+    fail(here(), "the text is in UTF-16", "save it as UTF-8 or ASCII");
+}
+
+void TextWords::pass_line_end()
+{
+  at_ += at_ + 1 != end_ && at_[0] == '\r' && at_[1] == '\n' ? 2 : 1;
+}
+
+bool TextWords::at_continuation() const
+{
+  return style_.continued && end_ - at_ > 1 && *at_ == '\\' && is_line_end(at_[1]);
+}
+
+bool TextWords::pass_continuation()
+{
+  if (!at_continuation()) return false;
+  ++at_;
+  pass_line_end();
+  return true;
+}
+
+std::string_view TextWords::word_in_line()
+{
+  for (;;) {
+    while (at_ != end_ && is_space(*at_) && !is_line_end(*at_)) ++at_;
+    if (!pass_continuation()) break;
+  }
+  // A comment goes to the end of its line, whatever it ends with: it may be a path of Windows.
+  if (at_ != end_ && style_.comment && *at_ == style_.comment)
+    while (at_ != end_ && !is_line_end(*at_)) ++at_;
+  const char *first = at_;
+  while (at_ != end_ && !is_space(*at_) && !at_continuation() &&
+         !(style_.comment && *at_ == style_.comment))
+    ++at_;
+  return {first, static_cast<std::size_t>(at_ - first)};
+}
+
+std::string_view TextWords::next_word()
+{
+  for (;;) {
+    const auto word = word_in_line();
+    if (!word.empty() || !next_line()) return word;
+  }
+}
+
+void TextWords::skip_line()
+{
+  do {
+    while (at_ != end_ && !is_line_end(*at_) && !at_continuation()) ++at_;
+  } while (pass_continuation());
+}
+
+bool TextWords::next_line()
+{
+  skip_line();
+  if (at_ == end_) return false;
+  pass_line_end();
+  return true;
+}
+
+void TextWords::fail(std::string_view word, const std::string &what, const std::string &remedy,
+                     const std::string &place) const
+{
+  std::size_t line = 1;
+  for (const char *c = begin_; c != word.data(); ++c)
+    if (*c == '\n' || (*c == '\r' && (c + 1 == end_ || c[1] != '\n'))) ++line;
+  throw InputError(source_ + ", line " + std::to_string(line) +
+                   (place.empty() ? "" : " (" + place + ")") + ": " + what + "; " + remedy);
+}
+
+}    // namespace lsdcd

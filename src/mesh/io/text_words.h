@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The words and numbers of a mesh file that is text; private to the mesh room.
+#pragma once
+
+#include "base/real.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace lsdcd {
+
+// In any case of letters; `keyword` is in lower case.
+bool same_word(std::string_view word, std::string_view keyword);
+
+// A word as it may appear in a message: in quotes, short, without control characters.
+std::string quoted(std::string_view word);
+
+// A word as a number: digits with a decimal point, an exponent after e or E, a sign. A number nearer to
+// 0 than any Real is 0. Anything else has a problem and a remedy, for a message.
+struct ReadNumber {
+  Real value = 0;
+  const char *problem = nullptr;    // nullptr: none
+  const char *remedy = nullptr;
+};
+ReadNumber read_number(std::string_view word);
+
+// Digits with a sign or without, and no more. False: it is something else, or beyond 64 bits.
+bool read_integer(std::string_view word, std::int64_t &value);
+
+struct TextStyle {
+  char comment = 0;          // begins a comment, which ends with its line; 0: there are none
+  bool continued = false;    // a line that ends with a backslash goes on in the next
+};
+
+// Reads words one after another. A line ends with LF, CR LF or CR. A byte order mark of UTF-8 is skipped.
+// The bytes have to outlive the reader.
+class TextWords {
+ public:
+  // `source` is the name in messages.
+  TextWords(const char *bytes, std::size_t size, std::string source, TextStyle style = {});
+
+  // The next word in this line or after it; empty: the file ends.
+  std::string_view next_word();
+  // The next word in this line; empty: the line ends.
+  std::string_view word_in_line();
+  // Leaves what is left of this line, and of those that continue it.
+  void skip_line();
+  // Goes to the next line. False: there is none.
+  bool next_line();
+
+  bool done() const { return at_ == end_; }
+  std::string_view here() const { return {at_, 0}; }    // the place of the next byte
+  const char *end() const { return end_; }
+
+  // The number that the word is. For an error name() says which one it is;
+  template <class Name>
+  Real number(std::string_view word, Name &&name) const
+  {
+    const ReadNumber number = read_number(word);
+    if (number.problem)
+      fail(word, name() + " is " + quoted(word) + ", " + number.problem, number.remedy);
+    return number.value;
+  }
+
+  // Throws InputError if the bytes begin as UTF-16 does.
+  void refuse_utf16() const;
+
+  // Throws InputError: "source, line 7 (place): what; remedy". `word` is one of this file, or has its
+  // place. Lines are counted here only, so that reading is quick.
+  [[noreturn]] void fail(std::string_view word, const std::string &what, const std::string &remedy,
+                         const std::string &place = "") const;
+
+ private:
+  bool at_continuation() const;
+  bool pass_continuation();    // false: there is none here
+  void pass_line_end();
+
+  const char *begin_, *at_, *end_;
+  std::string source_;
+  TextStyle style_;
+};
+
+}    // namespace lsdcd
