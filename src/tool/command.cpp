@@ -3,12 +3,15 @@
 
 #include "tool/command.h"
 
+#include "base/input_error.h"
 #include "base/input_words.h"
 
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 
 namespace lsdcd {
 
@@ -50,6 +53,15 @@ bool is_option_unknown(const CLI::App &app, const std::string &name)
     return true;
   }
   return false;
+}
+
+// A full disk is seen when the last of the output is written, or has been by an earlier write.
+void check_standard_output()
+{
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+  throw InputError(std::string("the standard output: ") +
+                   (errno ? std::strerror(errno) : "not all could be written; is its disk full?"));
 }
 
 }    // namespace
@@ -169,8 +181,9 @@ bool Program::run(int argc, char **argv)
     app_->parse(argc, argv);
   } catch (const CLI::ParseError &e) {
     if (e.get_exit_code() != 0 && is_option_unknown(*app_, "lsdcd")) return false;
-    return app_->exit(e) == 0;
+    if (app_->exit(e) != 0) return false;
   }
+  check_standard_output();
   return true;
 }
 

@@ -45,10 +45,7 @@ class CsvFile {
   void commit()
   {
     flush();
-    if (file_)
-      file_->commit();
-    else if (std::fflush(stdout) != 0)
-      throw InputError(std::string("the standard output: ") + std::strerror(errno));
+    if (file_) file_->commit();
   }
 
  private:

@@ -9,9 +9,10 @@ import json
 import pathlib
 import re
 import shlex
+import subprocess
 import tempfile
 
-from tool_test import end, fact, refused, run, write_ascii_stl
+from tool_test import TOOL, end, fact, refused, run, write_ascii_stl
 from triangles import cube
 
 # What is missing where a command stands alone.
@@ -147,6 +148,17 @@ def scene():
     return folder
 
 
+def check_full_output(folder, commands):
+    """Of each command one use that prints a text, one that prints JSON, and its help, on a full disk: 1 s."""
+    uses = {(words.split()[0], "--json" in words): words for words, _ in reversed(GOOD)}
+    uses = [words.replace("--seconds 2", "--seconds 0.01") for words in uses.values()]
+    with open("/dev/full", "wb") as full:
+        for words in [*uses, *(f"{command} --help" for command in commands), "generate box --help", "--help", "--version"]:
+            done = subprocess.run([TOOL, *words.split()], cwd=folder, stdout=full, stderr=subprocess.PIPE, text=True)
+            fact(f"a full output fails: {words}", done.returncode == 1 and
+                 "lsdcd: the standard output: " in done.stderr, (done.returncode, done.stderr[-200:]))
+
+
 def main():
     folder = scene()
     said = run(folder, "--help").stdout
@@ -180,6 +192,7 @@ def main():
         fact(words, done.returncode == 0 and holds, done.stderr + done.stdout[:0 if holds else 2000])
     for words, code, wanted in BAD:
         refused(folder, words.split(), *wanted, code=code)
+    check_full_output(folder, commands)
     end()
 
 
