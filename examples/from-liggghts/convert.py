@@ -10,7 +10,8 @@ What is converted: materials (property/global) and models become the numbers of 
 mesh/surface, wall/gran, move/mesh, massflow/mesh and dump mesh/* become words of fix wall/lsdcd and fix
 massflow/lsdcd; what both programs know stays as it is, but for names such as atom_style granular.
 
-What is not converted stays as a comment below a line
+A line is converted with the defaults of LIGGGHTS 3.8, or it is left: "commands left: 0" means the same physics.
+What is left stays as a comment below a line
   # LEFT in.chute:34: why; do: what to do
 and the same list is printed. A line with NOTE is converted, and says what to look at. The script is written
 whole or, after an error, not at all. It reads the script once from top to bottom: numbers of materials may be variables
@@ -37,7 +38,7 @@ enforce2d external freeze gravity lineforce momentum move nve nve/limit nve/nofo
 setforce spring spring/self store/state viscous""".split())
 SAME_COMPUTES = set("""centro/atom cluster/atom cna/atom com coord/atom displace/atom erotate/sphere erotate/sphere/atom
 group/group gyration ke ke/atom msd pe pe/atom pressure property/atom property/local rdf reduce stress/atom
-temp""".split())
+temp contact/atom""".split())
 MESH_DUMPS = {"mesh/stl", "stl", "mesh/vtk", "mesh/vtm", "mesh/gran/VTK"}
 SAME_DUMPS = {"atom", "xyz", "image", "local", "custom", "movie"}
 SAME_COMMANDS = set("""atom_modify boundary change_box clear compute_modify create_atoms create_box delete_atoms
@@ -45,6 +46,13 @@ dielectric dimension displace_atoms dump_modify echo fix_modify group if jump la
 neighbor newton next print processors read_data read_dump region replicate reset_timestep restart run set shell
 thermo thermo_modify thermo_style timestep uncompute undump unfix units variable velocity write_data write_dump
 write_restart quit info""".split())
+MESH_FIELDS = set("""aedges area acorners distaa id interpolate nneigh nneighs overlap owner stress stresscomponents temp vel
+wear""".split())    # words of dump mesh/vtk that are no IDs of meshes
+COLUMNS = set("""angmomx angmomy angmomz diameter element fx fy fz id ix iy iz mass mol mu mux muy muz omegax omegay omegaz proc q
+radius tqx tqy tqz type vx vy vz x xs xsu xu y ys ysu yu z zs zsu zu""".split())    # of dump custom in both
+GONE_THERMO = {"cu", "erotate", "numbond", "dragtotal"}
+SET_WORDS = {**dict.fromkeys("charge density diameter mass mol type vx vy vz x y z".split(), 1), "image": 3, "omega": 3,
+             "type/fraction": 3}
 GONE_MESH_WORDS = {"heal": 1, "curvature": 1, "curvature_tolerant": 1, "verbose": 1, "precision": 1,
                    "min_feature_length": 1, "element_exclusion_list": 2, "stress": 1}
 FORCE, TORQUE = (1, 2, 3), (4, 5, 6)
@@ -62,6 +70,21 @@ class Left(Exception):
         self.why, self.do = why, do
 
 
+def options(words, known):
+    """{word: its values} from the words of a command. `known` has the number of values of each word, or one number for
+    each first value. A word that is not known ends the command: no word is ever looked for where an ID may stand."""
+    values, words = {}, list(words)
+    while words:
+        key = words.pop(0)
+        n = known.get(key)
+        if isinstance(n, dict):
+            n = n.get(words[0])
+        if n is None:
+            raise Left(f"the word {key}", "see which word of LAMMPS or of this fix does that")
+        values[key] = [words.pop(0) for _ in range(n)]
+    return values
+
+
 class Line:
     def __init__(self, number, text):
         self.number, self.text = number, text
@@ -76,7 +99,8 @@ def words_of(text):
 
 def read_lines(path):
     lines, begun, first = [], "", 1
-    for number, text in enumerate(path.read_text().splitlines(), 1):
+    # Bytes that are no UTF-8, as in comments in Latin-1, are kept as they are.
+    for number, text in enumerate(path.read_text(encoding="utf-8", errors="surrogateescape").split("\n"), 1):
         first = first if begun else number
         begun += text
         # A line goes on where it ends with &, also before a comment.
@@ -85,6 +109,8 @@ def read_lines(path):
             continue
         lines.append(Line(first, begun))
         begun = ""
+    if lines and not lines[-1].text and not begun:
+        lines.pop()    # the end of the last line
     return lines + ([Line(first, begun)] if begun else [])
 
 
@@ -131,14 +157,14 @@ class Mesh:
 
     def __init__(self, script, line):
         w = line.words
-        self.id, self.group, self.style, self.line = w[1], w[2], w[3], line
+        self.id, self.group, self.style, self.line = w[1], w[2], script.style(w), line
         self.file, self.type, self.place, self.words, self.wear = None, 1, [], [], False
         self.servo, self.moves, self.com, self.axis, self.target = None, [], (0.0, 0.0, 0.0), None, None
-        self.outputs, self.wall, self.index, self.several = [], None, None, False
+        self.wall, self.wall_line, self.index, self.several, self.reference = None, None, None, False, None
         self.parse(script, w[4:])
 
     def parse(self, script, w):
-        number, values = script.number, {}
+        number, values, surface, spin = script.number, {}, None, None
         while w:
             key = w.pop(0)
 
@@ -157,19 +183,21 @@ class Mesh:
             elif key in ("scale", "move"):
                 self.place.append((key, take(1 if key == "scale" else 3)))
             elif key == "rotate":
-                _, x, y, z, _, angle = take(6)
+                axis, x, y, z, by, angle = take(6)
+                if (axis, by) != ("axis", "angle"):
+                    raise ValueError(key)
                 self.place.append((key, [x, y, z, angle]))
             elif key == "surface_vel":
-                self.words.append("surface_vel " + " ".join(take(3)))
+                surface = take(3)
             elif key == "surface_ang_vel":
-                _, ox, oy, oz, _, ax, ay, az, _, omega = take(10)
-                axis = unit([number(v, self.line) for v in (ax, ay, az)])
-                spin = [number(omega, self.line) * a for a in axis]
-                self.words.append("surface_angvel " + " ".join(map(short, spin)) + f" {ox} {oy} {oz}")
+                spin = take(10)
             elif key == "reference_point":
-                self.words.append("torque_about " + " ".join(take(3)))
+                self.reference = take(3)
             elif key == "wear":
-                self.wear = take(1)[0] == "finnie"
+                value = take(1)[0]
+                if value not in ("finnie", "off"):
+                    raise Left(f"wear {value}", "wear finnie or archard")
+                self.wear = value == "finnie"
             elif key in ("com", "axis"):
                 values[key] = take(3)
             elif key in ("ctrlPV", "target_val", "vel_max", "kp", "ki", "kd", "mode", "ratio"):
@@ -182,10 +210,63 @@ class Mesh:
                 raise Left(f"the word {key} of a mesh", "fix_wall_lsdcd.rst")
         if self.file is None or not self.file.lower().endswith((".stl", ".obj", ".ply", ".off")):
             raise Left(f"the file {self.file}", "write it as STL")
-        if self.style.endswith("/servo"):
+        if self.style.endswith("/stress/servo"):
             self.add_servo(script, values)
+            self.reference = self.reference or list(self.com)
         elif self.style not in ("mesh/surface", "mesh/surface/planar", "mesh/surface/stress"):
             raise Left(f"the module of {self.style}", "mesh/surface/stress; others are not there")
+        if surface:
+            self.add_surface_vel(script, surface)
+        if spin:
+            self.add_surface_ang_vel(script, spin)
+
+    def faces(self, script):
+        """Of the placed mesh: corners and normal; None where the file is not there."""
+        if not (script.folder / self.file).exists():
+            return None
+        found = [(t, cross(minus(t[1], t[0]), minus(t[2], t[0]))) for t in self.triangles(script)]
+        return [(t, unit(n)) for t, n in found if any(n)]
+
+    # LIGGGHTS lays the velocity into each triangle and then gives it its full size again; here it keeps what lies in
+    # the triangle. Both are the same where no triangle is inclined to it. One that it meets head-on has none.
+
+    def add_surface_vel(self, script, words):
+        kept, faces = " ".join(words), self.faces(script)
+        try:
+            v = [script.number(x, self.line) for x in words]
+        except CannotConvert:
+            raise Left("surface_vel of a variable", "the keyword surface_vel takes v_NAME too: give it the velocity along "
+                       "the triangles, in the size that LIGGGHTS keeps") from None
+        size = math.sqrt(dot(v, v))
+        if faces is None:
+            script.unchecked.add(self.id)
+        elif size and any(1e-3 * size < abs(dot(v, n)) < (1 - 1e-6) * size for _, n in faces):
+            ways = [None if abs(dot(v, n)) > (1 - 1e-6) * size else unit(minus(v, [dot(v, n) * x for x in n])) for _, n in faces]
+            if None in ways or any(math.dist(way, ways[0]) > 1e-3 for way in ways):
+                raise Left("surface_vel on triangles of several slopes, each of which has its full size in LIGGGHTS",
+                           "cut the mesh into parts of one slope, each with its surface_vel along it")
+            kept = " ".join(short(round(size * x, 9) + 0.0) for x in ways[0])
+        self.words.append(f"surface_vel {kept}")
+
+    def add_surface_ang_vel(self, script, words):
+        origin, ox, oy, oz, along, ax, ay, az, omega_word, omega = words
+        if (origin, along, omega_word) != ("origin", "axis", "omega"):
+            raise ValueError("surface_ang_vel")
+        axis = unit([script.number(v, self.line) for v in (ax, ay, az)])
+        faces = self.faces(script)
+        if faces is None:
+            script.unchecked.add(self.id)
+        else:
+            o = [script.number(v, self.line) for v in (ox, oy, oz)]
+            for t, n in faces:
+                for p in t:
+                    v = cross(axis, minus(p, o))
+                    # 0.2: the sides of a roll of 16 facets, where the two differ by 2 %.
+                    if 0.2 * math.sqrt(dot(v, v)) < abs(dot(v, n)) < (1 - 1e-6) * math.sqrt(dot(v, v)):
+                        raise Left("surface_ang_vel on triangles that are inclined to it, which LIGGGHTS lays into each in its "
+                                   "full size", "motion rotate, if the part turns; or a mesh of revolution")
+        spin = [script.number(omega, self.line) * a for a in axis]
+        self.words.append("surface_angvel " + " ".join(map(short, spin)) + f" {ox} {oy} {oz}")
 
     def add_servo(self, script, v):
         missing = [k for k in ("com", "ctrlPV", "axis", "target_val", "vel_max") if k not in v]
@@ -226,7 +307,10 @@ class Mesh:
                     p = turned(p, unit(v[:3]), v[3])
             return p
 
-        return [tuple(placed(p) for p in t) for t in read_stl(path)]
+        triangles = [tuple(placed(p) for p in t) for t in read_stl(path)]
+        if not triangles:
+            raise Left(f"{self.file}, in which no triangle was found", "write it as STL")
+        return triangles
 
     def output(self, k):
         """What stands for element k of this fix in LAMMPS."""
@@ -293,40 +377,54 @@ class Contact:
 
 
 class Model:
-    """The words after model, in pair_style gran and fix wall/gran."""
-    NAMES = ("model", "tangential", "cohesion", "rolling_friction", "surface")
+    """The words after model, in pair_style gran and fix wall/gran. Their order is fixed, and a model without its word is
+    off, as in contact_models.cpp of LIGGGHTS 3.8."""
+    ORDER = {"model": "normal", "tangential": "tangential", "cohesion": "cohesion", "rolling_friction": "rolling",
+             "surface": "surface"}
+    # Settings that are off without their word, but for tangential_damping. Those that are not handled may be off.
+    HANDLED = ("tangential_damping", "limitForce", "ktToKnUser", "absolute_damping")
+    OTHERS = ("viscous", "computeElasticPotential", "computeDissipatedEnergy", "disableNormalWhenBonded",
+              "disableTangentialWhenBonded", "heating_normal_hooke", "heating_normal_hertz", "heating_tangential_history",
+              "heating_tracking", "tangential_reduce", "torsionTorque", "torsion")
 
     def __init__(self, words):
-        self.normal, self.tangential, self.cohesion, self.rolling, self.off = "hertz", "history", None, None, set()
-        self.limit, self.rest, self.reduced = False, [], False
-        words = list(words)
-        while words:
-            w = words.pop(0)
-            if w in self.NAMES and words:
-                value = words.pop(0)
-                name = {"model": "normal", "rolling_friction": "rolling"}.get(w, w)
+        self.normal = self.tangential = self.cohesion = self.rolling = None
+        self.surface, self.on, self.rest = "default", {"tangential_damping"}, list(words)
+        for word, name in self.ORDER.items():
+            if self.rest[:1] == [word]:
+                value = self.rest[1]
                 setattr(self, name, None if value == "off" else value)
-            elif w in ("tangential_damping", "limitForce", "ktToKnUser", "absolute_damping") and words:
-                if (words.pop(0) == "on") != (w == "tangential_damping"):
-                    self.off.add(w)
-            else:
-                self.rest = [w, *words]
-                break
-        self.limit = "limitForce" in self.off
-        self.damped = "tangential_damping" not in self.off
+                del self.rest[:2]
 
-    def key(self):
-        return (self.normal, self.tangential, self.cohesion, self.rolling, self.limit, self.damped)
+    def settings(self, words, of):
+        """The words at the end."""
+        while words:
+            w, value = words.pop(0), words.pop(0) if words else None
+            if w not in self.HANDLED + self.OTHERS or value not in ("on", "off") or (value == "on" and w in self.OTHERS):
+                raise Left(f"the word {w} of {of}", "see fix_wall_lsdcd.rst and the manual of LAMMPS")
+            (self.on.add if value == "on" else self.on.discard)(w)
+
+    @property
+    def limit(self):
+        return "limitForce" in self.on
+
+    @property
+    def damped(self):
+        return "tangential_damping" in self.on
 
     def check(self):
-        if getattr(self, "surface", "default") != "default":
+        if self.surface != "default":
             raise Left(f"surface {self.surface}", "spheres only")
         if self.normal not in ("hooke", "hertz", "hooke/stiffness", "hertz/stiffness"):
-            raise Left(f"model {self.normal}", "hooke or hertz; others are not there")
-        if self.tangential not in ("history", "no_history"):
+            raise Left(f"model {self.normal or 'off'}", "hooke or hertz; others are not there")
+        if self.tangential not in ("history", "no_history", None):
             raise Left(f"tangential {self.tangential}", "history or no_history")
-        if "absolute_damping" in self.off:
+        if "absolute_damping" in self.on:
             raise Left("absolute_damping", "write the damping over the mass of a grain as gamman")
+
+    def friction(self, c):
+        """Without a tangential model there is none."""
+        return c.friction() if self.tangential else 0.0
 
     def extras(self, c, classic):
         """Rolling and cohesion of the wall, which go with classic styles."""
@@ -344,23 +442,24 @@ class Model:
 
     def classic(self, c, r, m):
         """Words of a classic style for a contact whose effective radius and mass are r and m."""
-        mu = short(c.friction())
+        mu = short(self.friction(c))
         if self.normal == "hooke":
             k, g = c.hooke(r, m)
-            kt, gt = (k * 2 / 7 if "ktToKnUser" in self.off else k), g
+            kt, gt = (k * 2 / 7 if "ktToKnUser" in self.on else k), g
         else:
             k, kt, g, gt = (c.get(n, c.i, c.j) for n in ("kn", "kt", "gamman", "gammat"))
         style = {"hooke": "hooke", "hertz": "hertz"}[self.normal.split("/")[0]]
         if self.tangential == "history" or style == "hertz":
             style += "/history"
-        if style == "hertz/history" and self.tangential != "history":
-            raise Left("hertz/stiffness without history", "granular hertz with tangential linear_nohistory")
-        return style, f"{short(k)} {short(kt)} {short(g)} {short(gt)} {mu} {int(self.damped)}"
+        if style == "hertz/history" and self.tangential == "no_history":
+            raise Left("hertz/stiffness with tangential no_history", "granular hertz with tangential linear_nohistory")
+        return style, f"{short(k)} {short(kt)} {short(g)} {short(gt)} {mu} {int(self.damped and bool(self.tangential))}"
 
     def hertz(self, c):
         """Stiffnesses, damping, its share across the normal, friction."""
         y, g = c.elastic()
-        return 4 / 3 * y, 8 * g, math.sqrt(5) * c.beta(), math.sqrt(4 * g / y) * self.damped, c.friction()
+        share = math.sqrt(4 * g / y) if self.damped and self.tangential else 0.0
+        return 4 / 3 * y, 8 * g, math.sqrt(5) * c.beta(), share, self.friction(c)
 
     def wall(self, c, r, m):
         self.check()
@@ -388,6 +487,46 @@ class Model:
                 " limit_damping" * self.limit)
 
 
+class Wall:
+    """The words of a fix wall/gran: the model, then words of the wall, then settings of the model."""
+
+    def __init__(self, script, line):
+        self.line, self.model, self.ids, self.stored = line, Model(line.words[4:]), [], False
+        self.shape, self.place, self.type, self.shear = None, [], None, []
+        w, n, mesh = self.model.rest, 0, False
+        while w:
+            if w[0] == "mesh":
+                mesh = w.pop(0)
+            elif w[0] == "n_meshes":
+                n = int(script.number(w[1], line))
+                del w[:2]
+            elif w[0] == "meshes" and mesh:
+                self.ids = w[1:1 + n]
+                if len(self.ids) < max(1, n):
+                    raise ValueError("meshes")
+                del w[:1 + n]
+            elif w[0] == "primitive":
+                if w[1] != "type":
+                    raise ValueError("primitive without type")
+                self.type, self.shape = int(script.number(w[2], line)), w[3]
+                del w[:4]
+                n_values = 1 if self.shape.endswith("plane") else 3
+                self.place = [w.pop(0) for _ in range(n_values)]
+            elif w[0] == "shear":
+                self.shear = w[:3]
+                del w[:3]
+            elif w[0] in ("store_force", "store_force_contact", "store_force_contact_every", "store_force_contact_stress"):
+                self.stored = self.stored or w[1] != "no"
+                del w[:2]
+            else:
+                break
+        self.model.settings(w, "wall/gran")
+        if mesh and not self.ids:
+            raise ValueError("mesh without meshes")
+        if not mesh and not self.shape:
+            raise Left("a form of wall/gran that is older than 3.0", "wall/gran of LAMMPS has these words")
+
+
 # ---- the script --------------------------------------------------------------------------
 
 class Script:
@@ -397,9 +536,11 @@ class Script:
         self.variables = dict(options.var or [])
         self.properties, self.meshes, self.gone, self.sizes, self.grain_types = {}, {}, {}, [], set()
         self.templates, self.distributions = {}, {}    # of constant spheres; words of distributions
-        self.wall, self.wall_line, self.moves, self.dumps, self.regions, self.box = None, None, {}, [], {}, {}
+        self.walls, self.mesh_of, self.unchecked, self.used = {}, {}, set(), set()    # by line; IDs
+        self.moves, self.dumps, self.regions, self.box, self.faces = {}, [], {}, {}, ["f"] * 6
         self.out, self.left, self.ran, self.pair, self.plain = [], [], 0, None, set()
-        self.mirrored = {}
+        self.mirrored, self.texts, self.dumped, self.lattice = {}, set(), {}, False
+        self.noted, self.step, self.sources = False, 0, []    # the step here, None where it is not known; what has made grains
         for line in self.lines:
             try:
                 self.collect(line)
@@ -407,6 +548,7 @@ class Script:
                 raise CannotConvert(f"{self.at(line)}: words are missing or wrong: {line.text.strip()}") from None
         if options.radius and options.density:
             self.sizes = [(options.radius, options.density)]
+        self.meshes, self.gone = {}, {}
 
     def at(self, line):
         return f"{self.path.name}:{line.number}"
@@ -428,7 +570,11 @@ class Script:
     def property(self, line, name, *types):
         if name not in self.properties:
             raise CannotConvert(f"{self.at(line)}: needs fix property/global {name}, which the script does not have")
-        where, w = self.properties[name]
+        before = [d for d in self.properties[name] if d[0].number < line.number][-1:]
+        later = [d for d in self.properties[name] if d[0].number > line.number]
+        where, w = (before + later)[0]
+        if any(d[1] != w for d in later):
+            raise Left(f"{name}, which changes in the script", "write the law of each stage yourself")
         kind, values = w[0], w[1:]
         if kind == "scalar":
             return self.number(values[0], where)
@@ -445,54 +591,93 @@ class Script:
         w = line.words
         if not w:
             return
-        if w[0] == "variable" and len(w) > 3 and w[2] in ("equal", "index", "string") and w[1] not in self.variables:
+        if w[0] == "variable" and len(w) > 3 and w[2] in ("equal", "index", "string") and w[1] not in dict(self.options.var or []):
             try:
-                self.variables[w[1]] = repr(self.number(w[3], line))
+                value = repr(self.number(w[3], line))
             except CannotConvert:
-                pass
+                value = None
+            if w[2] == "index" and w[1] in self.variables:
+                pass    # the first one stays
+            elif value is None or self.variables.get(w[1], value) != value:
+                self.variables[w[1]] = f"${{{w[1]}}}"    # several values: no number
+            else:
+                self.variables[w[1]] = value
         elif w[0] == "fix" and len(w) > 3:
-            if w[3] == "property/global":
-                self.properties[w[4]] = (line, w[5:])
-            elif w[3].startswith("mesh/surface"):
+            style = self.style(w)
+            if style == "property/global":
+                self.properties.setdefault(w[4], []).append((line, w[5:]))
+            elif style.startswith("mesh/surface"):
                 try:
-                    self.meshes[w[1]] = Mesh(self, line)
+                    mesh = Mesh(self, line)
                 except Left as left:
-                    self.gone[w[1]] = left
-            elif w[3] == "particletemplate/sphere":
-                self.grain_types.add(int(w[w.index("atom_type") + 1]) if "atom_type" in w else 1)
-                if all(k in w and w[w.index(k) + 1] == "constant" for k in ("radius", "density")):
-                    self.templates[w[1]] = (w[w.index("atom_type") + 1] if "atom_type" in w else "1",
-                                            *(self.number(w[w.index(k) + 2], line) for k in ("radius", "density")))
-                if "radius" in w and "density" in w:
-                    self.sizes.append(tuple(self.number(w[w.index(k) + 2], line) for k in ("radius", "density")))
-            elif w[3] in ("particledistribution/discrete", "particledistribution/discrete/massbased"):
-                self.distributions[w[1]] = w[6:]
-            elif w[3] == "wall/gran" and "meshes" in w:
-                if self.wall:
-                    raise CannotConvert(f"{self.at(line)}: a second fix wall/gran with meshes")
-                self.wall, self.wall_line = w[1], line
+                    mesh = left
+                self.mesh_of[line] = self.meshes[w[1]] = mesh
+            elif style == "particletemplate/sphere":
+                self.template(line)
+            elif style.startswith("particledistribution/discrete"):
+                law = {"particledistribution/discrete/numberbased": "poly"}.get(style, "mass")
+                self.distributions[w[1]] = (law, w[6:])
+            elif style == "wall/gran":
+                try:
+                    self.walls[line] = wall = Wall(self, line)
+                except Left as left:
+                    self.walls[line] = left
+                    return
+                for mesh in (self.meshes.get(i) for i in wall.ids):
+                    if isinstance(mesh, Mesh) and mesh.wall_line is None:
+                        mesh.wall_line = line
+            elif style == "move/mesh":
+                self.used.add(w[5])
         elif w[0] == "dump" and len(w) > 5 and w[3] in MESH_DUMPS:
             self.dumps.append(line)
+            self.dumped[line] = set()
         elif w[0] == "read_data":
             self.read_data(line)
         elif w[0] == "create_atoms":
             self.grain_types.add(int(self.number(w[1], line)))
-        elif w[0] == "set" and "diameter" in w and "density" in w:
-            self.sizes.append((self.number(w[w.index("diameter") + 1], line) / 2,
-                               self.number(w[w.index("density") + 1], line)))
-        elif w[0] == "region" and len(w) > 8 and w[2] == "block":
-            self.regions[w[1]] = w[3:9]
+        elif w[0] == "set" and "diameter" in w[3:] and "density" in w[3:]:
+            self.sizes.append((self.number(w[w.index("diameter", 3) + 1], line) / 2,
+                               self.number(w[w.index("density", 3) + 1], line)))
+        elif w[0] == "lattice":
+            self.lattice = True
+        elif w[0] == "boundary":
+            self.faces = [side[k] for side in (x * 2 for x in w[1:4]) for k in (0, 1)]
+        elif w[0] == "region":
+            self.regions[w[1]] = line
         elif w[0] == "create_box":
-            block = self.regions.get(w[2])
-            if block:
-                self.box = {a: tuple(self.number(x, line) for x in block[2 * k:2 * k + 2]) for k, a in enumerate("xyz")}
+            block = self.regions[w[2]].words if w[2] in self.regions else []
+            if block[2:3] == ["block"]:
+                self.box = {a: tuple(self.number(x, line) for x in block[3 + 2 * k:5 + 2 * k]) for k, a in enumerate("xyz")}
+
+    @staticmethod
+    def style(w):
+        """Of a fix. A style of OpenMP is the same one."""
+        return w[3][:-4] if w[3].endswith("/omp") else w[3]
+
+    def template(self, line):
+        """Of fix particletemplate/sphere: type, radius, density of a constant sphere, else None."""
+        w = line.words
+        try:
+            v = options(w[5:], {"atom_type": 1, "volume_limit": 1, "relative": 1,
+                                "radius": {"constant": 2, "uniform": 3, "gaussian": 3},
+                                "density": {"constant": 2, "uniform": 3, "gaussian": 3}})
+        except Left:
+            v = {}
+        kind = v.get("atom_type", ["1"])[0]
+        self.grain_types.add(int(self.number(kind, line)))
+        if "relative" in v or not all(v.get(k, [""])[0] == "constant" for k in ("radius", "density")):
+            self.sizes.append(None)
+            return
+        radius, density = (self.number(v[k][1], line) for k in ("radius", "density"))
+        self.templates[w[1]] = (kind, radius, density)
+        self.sizes.append((radius, density))
 
     def read_data(self, line):
         name = re.sub(r"\$\{(\w+)\}", lambda m: self.variables.get(m[1], m[0]), line.words[1])
         path = self.folder / name
         if not path.exists():
             return
-        text = path.read_text()
+        text = path.read_text(encoding="utf-8", errors="surrogateescape")
         for lo, hi, a in re.findall(r"^\s*(\S+)\s+(\S+)\s+([xyz])lo [xyz]hi", text, re.M):
             self.box[a] = (float(lo), float(hi))
         part = re.search(r"^Atoms.*?\n\s*\n(.*?)(?:\n\s*\n|\Z)", text, re.M | re.S)
@@ -503,15 +688,14 @@ class Script:
                 self.sizes.append((float(w[2]) / 2, float(w[3])))
 
     def size(self, line):
-        """Radius and mass of a grain; the mean mass where there are several."""
+        """Radius and mass of a grain."""
         if not self.sizes:
-            raise CannotConvert(f"{self.at(line)}: model hooke needs the size of a grain: give --radius and --density")
-        masses = [4 / 3 * math.pi * r ** 3 * d for r, d in self.sizes]
-        m = sum(masses) / len(masses)
+            raise Left("model hooke needs the size of a grain, which this script does not tell", "give --radius and --density")
+        masses = [4 / 3 * math.pi * s[0] ** 3 * s[1] if s else 0 for s in self.sizes]
         if max(masses) > 1.001 * min(masses):
-            self.note(line, "k and gamma of hooke hang on the mass of each grain in LIGGGHTS; here they are those of the "
-                      "mean mass")
-        return sum(r for r, _ in self.sizes) / len(self.sizes), m
+            raise Left("model hooke has a stiffness for each mass, and the grains differ",
+                       "model hertz; or --radius and --density, the grain whose stiffness all shall have")
+        return self.sizes[0][0], masses[0]
 
     def grains(self):
         return sorted(self.grain_types) or [1]
@@ -545,16 +729,18 @@ class Script:
                 self.leave(line, left.why, left.do)
                 if line.words[0] in ("fix", "dump", "compute"):
                     self.gone[line.words[1]] = left
-        return "\n".join(self.out) + "\n"
+        return "\n".join(text if isinstance(text, str) else self.mesh_dump(text) for text in self.out) + "\n"
 
     def command(self, line):
         w = line.words
         if w[0] == "atom_style":
-            if w[1] not in ("granular", "sphere"):
-                raise Left(f"atom_style {w[1]}", "spheres only")
+            if w[1] not in ("granular", "sphere", "granular/omp", "sphere/omp") or len(w) > 2:
+                raise Left(f"atom_style {' '.join(w[1:])}", "spheres only")
             self.put("atom_style      sphere")
         elif w[0] == "communicate":
             self.put("comm_modify     mode " + " ".join(w[1:]))
+        elif w[0] in ("hard_particles", "soft_particles", "modify_timing", "partitioner_style", "package"):
+            self.put(f"# {line.text.strip()}")    # checks of stiffnesses, timings, threads: no physics
         elif w[0] == "pair_style":
             self.pair_style(line)
         elif w[0] == "pair_coeff":
@@ -567,36 +753,85 @@ class Script:
             self.fix(line)
         elif w[0] == "dump":
             self.dump(line)
-        elif w[0] == "compute" and w[3] not in SAME_COMPUTES:
+        elif w[0] == "compute" and (w[3] not in SAME_COMPUTES or (w[3] == "contact/atom" and len(w) > 4)):
             raise Left(f"compute {w[3]}", "LAMMPS has no compute of that name with these words")
-        elif w[0] in ("unfix", "undump", "uncompute", "fix_modify") and w[1] in self.gone:
+        elif w[0] in ("unfix", "undump", "uncompute", "fix_modify", "compute_modify", "dump_modify") and w[1] in self.gone:
             self.put(f"# {' '.join(w)}")
+        elif w[0] == "dump_modify" and w[1] in self.texts:
+            kept = options(w[2:], {"binary": 1, "every": 1, "sort": 1, "append": 1, "flush": 1, "first": 1, "pad": 1,
+                                   "element": 0, "region": 1, "thresh": 3, "unwrap": 1, "compressor": 1})
+            kept = [f"{k} {' '.join(v)}" for k, v in kept.items() if k not in ("binary", "compressor")]
+            self.put(f"dump_modify     {w[1]} {' '.join(kept)}" if kept else f"# {' '.join(w)}")
         elif w[0] == "unfix" and w[1] in self.moves:
             self.stop(line)
         elif w[0] == "unfix" and w[1] in self.meshes:
-            self.put(f"# unfix {w[1]}: it is part of the fix {self.meshes[w[1]].wall}")
+            mesh = self.meshes[w[1]]
+            self.put(f"# unfix {w[1]}: " + (f"it is part of the fix {mesh.wall}" if mesh.wall else "no fix of its own"))
         elif w[0] == "unfix" and w[1] in self.plain:
             self.put(f"# unfix {w[1]}")
         elif w[0] == "fix_modify":
             self.fix_modify(line)
+        elif w[0] == "region" and w[2] not in ("block", "cylinder", "sphere", "cone", "prism", "plane", "union", "intersect"):
+            raise Left(f"region {w[2]}", "LAMMPS has no region of that name; region mesh/lsdcd is the inside of a closed mesh")
+        elif w[0] == "read_restart":
+            self.step = None
+            self.sources.append((None, self.ran))
+            raise Left("a restart file, which LIGGGHTS writes in another format", "write_data there and read_data here; a file "
+                       "that a converted script has written is read by this very line")
         elif w[0] not in SAME_COMMANDS | {"compute"}:
             raise Left(f"the command {w[0]}", "see the manual of LAMMPS, or convert the file that it names by itself")
         else:
-            if w[0] == "run":
-                self.ran += 1
+            self.count_steps(line)
             self.pass_on(line)
 
+    def count_steps(self, line):
+        """What the commands that both programs know change for those that follow."""
+        w = line.words
+        if w[0] == "run":
+            self.ran += 1
+            try:
+                self.step = None if self.step is None or len(w) > 2 else self.step + int(self.number(w[1], line))
+            except CannotConvert:
+                self.step = None
+        elif w[0] == "reset_timestep":
+            try:
+                self.step = int(self.number(w[1], line))
+            except CannotConvert:
+                self.step = None
+        elif w[0] in ("jump", "if", "label", "next", "minimize", "read_dump"):
+            self.step = None
+        if w[0] in ("read_data", "read_dump", "replicate"):
+            self.sources.append((None, self.ran))
+        elif w[0] == "create_atoms":
+            bounds = [(self.known(x),) * 2 for x in w[3:6]] if w[2] == "single" else \
+                self.bounds(w[3]) if w[2] == "region" else None
+            self.sources.append((bounds, self.ran))
+
     def pass_on(self, line):
-        text = line.text
+        w, text = line.words, line.text
+        if self.lattice and "units" not in w and (
+                w[0] in ("region", "create_atoms", "displace_atoms", "change_box", "velocity") or w[3:4] == ["move"]):
+            text += " units box"    # LIGGGHTS's default; that of LAMMPS is units lattice
+        if w[0] == "compute" and w[3] == "stress/atom" and w[4:5] != ["NULL"]:
+            text = " ".join([*w[:4], "NULL", *w[4:]])
         if line.words[0] == "thermo_style":
-            for name in [i for i in re.findall(r"[fc]_(\w+)", text) if i in self.gone or i in self.plain]:
+            for name in dict.fromkeys(i for i in re.findall(r"[fc]_(\w+)", text) if i in self.gone or i in self.plain):
                 text = re.sub(rf"\s[fc]_{name}(\[\d+\])*(?=\s|$)", "", text)
                 self.note(line, f"without {name}, which is not here")
+            for name in (x for x in w[2:] if x in GONE_THERMO):
+                text = re.sub(rf"\s{name}(?=\s|$)", "", text)
+                self.note(line, f"without {name}, which LAMMPS does not know")
+        elif w[0] == "set":
+            options(w[3:], SET_WORDS)
         self.put(self.renamed(line, text))
 
     def renamed(self, line, text):
         """Outputs of mesh fixes and massflow by their new names."""
         direct = line.words[0] in ("thermo_style", "print")
+
+        def helper(name, k, value):
+            self.put(f"variable        {name}_{k} equal {value}")
+            return f"v_{name}_{k}"
 
         def new(m):
             name, k = m[1], int(m[2])
@@ -606,7 +841,9 @@ class Script:
                 flow = self.mirrored[name].get(k)
                 if flow is None:
                     raise Left(f"element {k} of f_{name}", "fix_massflow_lsdcd.rst lists what there is")
-                return flow
+                if k == 3:
+                    self.note(line, f"{flow} is the mean rate over the last 1000 steps, or N by every N of fix {name}")
+                return flow if line.words[0] == "variable" or flow.startswith("f_") else helper(name, k, flow)
             if name not in self.meshes:
                 return m[0]
             mesh = self.meshes[name]
@@ -615,20 +852,18 @@ class Script:
                 raise Left(f"element {k} of f_{name}", "fix_wall_lsdcd.rst lists what there is")
             if line.words[0] == "variable" or re.fullmatch(r"f_\w+(\[\d+\])" + "{1,2}" * direct, value):
                 return value
-            helper = f"{name}_{k}"
-            self.put(f"variable        {helper} equal {value}")
-            return f"v_{helper}"
+            return helper(name, k, value)
 
         return re.sub(r"f_(\w+)\[(\d+)\]", new, text)
 
     def pair_style(self, line):
         w = line.words
-        if w[1] != "gran":
+        if w[1] not in ("gran", "gran/omp"):
             raise Left(f"pair_style {' '.join(w[1:])}", "pair_style gran or granular of LAMMPS")
         model, kinds = Model(w[2:]), self.grains()
-        if model.rest:
-            raise Left(f"the word {model.rest[0]} of pair_style", "see the manual of LAMMPS")
+        model.settings(model.rest, "pair_style")
         model.check()
+        self.note_friction(line, model)
         if model.rolling or model.cohesion:
             raise Left("rolling_friction and cohesion between grains",
                        "pair_style granular with rolling sds, and jkr or dmt; this comes before pair_coeff")
@@ -648,23 +883,31 @@ class Script:
         self.put(f"pair_style      gran/{style} {numbers}" + " limit_damping" * model.limit)
         self.pair = ["pair_coeff      * *"]
 
+    def note_friction(self, line, model):
+        if not model.tangential and "tangential" not in line.words and not self.noted:
+            self.noted = True
+            self.note(line, "without the word tangential LIGGGHTS 3.8 has no friction; LIGGGHTS-PFM has no_history, so write that")
+
     def fix(self, line):
         w = line.words
-        name, style = w[1], w[3]
+        name, style = w[1], self.style(w)
         if style == "property/global":
             self.plain.add(name)
             self.put(f"# {line.text.strip()}")
         elif style.startswith("mesh/surface"):
-            if name in self.gone:
-                raise self.gone[name]
+            self.meshes.pop(name, None)
+            self.gone.pop(name, None)
+            if isinstance(self.mesh_of[line], Left):
+                raise self.mesh_of[line]
+            self.meshes[name] = self.mesh_of[line]
             self.put(f"# mesh {name}: see the fixes that use it")
+            if name in self.unchecked:
+                self.note(line, f"{self.meshes[name].file} is not there: on triangles inclined to the surface's velocity LIGGGHTS "
+                          "keeps its full size")
         elif style == "wall/gran":
-            if "meshes" in w:
-                self.mesh_wall(line)
-            elif "primitive" in w:
-                self.primitive(line)
-            else:
-                raise Left("a form of wall/gran that is older than 3.0", "wall/gran of LAMMPS has these words")
+            if isinstance(self.walls[line], Left):
+                raise self.walls[line]
+            (self.mesh_wall if self.walls[line].ids else self.primitive)(line, self.walls[line])
         elif style == "move/mesh":
             self.move(line)
         elif style == "massflow/mesh":
@@ -674,22 +917,104 @@ class Script:
             self.note(line, "fix check/timestep/gran has no counterpart; lsdcd timestep names a timestep")
         elif style.startswith("insert/"):
             self.insert(line)
-        elif name in self.templates or all(k in self.templates for k in self.distributions.get(name, [""])[::2]):
+        elif name in self.templates or (name in self.distributions and
+                                        all(k in self.templates for k in self.distributions[name][1][::2])):
             self.plain.add(name)
             self.put(f"# {name}: see the fixes that insert grains")
         elif style.startswith(("particletemplate", "particledistribution")):
             raise Left(style, "radii and densities go to fix insert/lsdcd (diam, dens), or to set after create_atoms")
         elif style in SAME_FIXES:
+            if style == "nve/limit" and w[4] in ("radius_ratio", "absolute"):
+                raise Left(f"nve/limit {w[4]}", "nve/limit of LAMMPS has the largest distance alone")
+            text = line.text if style == w[3] else re.sub(rf"(\s{style})/omp\b", r"\1", line.text)
             if style == "ave/time" and "f_" in line.text:
                 self.pass_on(line)
             else:
-                self.put(self.renamed(line, line.text))
+                self.pass_on(Line(line.number, text))
         else:
             raise Left(f"fix {style}", "LAMMPS has no fix of that name with these words")
 
+    # -- insertion
+
+    def known(self, word):
+        """A number, or None."""
+        try:
+            return self.number(word, self.lines[0])
+        except CannotConvert:
+            return {"INF": math.inf, "-INF": -math.inf}.get(word)
+
+    def region(self, name):
+        """Shape and numbers of a region that stands still and whose inside it is, or None."""
+        if name not in self.regions:
+            return None
+        w = self.regions[name].words
+        n = {"block": 6, "cylinder": 6, "sphere": 4}.get(w[2])
+        if n is None:
+            return None
+        axis = w[3:4] if w[2] == "cylinder" else []
+        values = [self.known(x) for x in w[3 + len(axis):3 + n]]
+        for k in {"block": range(0, 6, 2), "cylinder": [3]}.get(w[2], []):
+            values[k] = -math.inf if w[3 + len(axis) + k] == "INF" else values[k]
+        try:
+            rest = options(w[3 + n:], {"units": 1, "side": 1, "seed": 1, "volume_limit": 1})
+        except Left:
+            return None
+        if None in values or rest.get("side", ["in"]) != ["in"] or (rest.get("units", ["box"]) != ["box"] and self.lattice):
+            return None
+        return w[2], axis, values
+
+    def bounds(self, name):
+        """Lowest and highest x, y, z, or None."""
+        found = self.region(name)
+        if found is None:
+            return None
+        shape, axis, v = found
+        if shape == "block":
+            return list(zip(v[::2], v[1::2]))
+        if shape == "sphere":
+            return [(c - v[3], c + v[3]) for c in v[:3]]
+        across = iter(v[:2])
+        return [tuple(v[3:5]) if a == axis[0] else (lambda c: (c - v[2], c + v[2]))(next(across)) for a in "xyz"]
+
+    def whole_region(self, line, name, radius, all_in, in_box):
+        """The region of the centres. LIGGGHTS keeps each sphere in the region with all_in, and in the box by default."""
+        found, bounds = self.region(name), self.bounds(name)
+        if found is None:
+            if all_in:
+                raise Left(f"all_in yes with region {name}, which is no block, cylinder or sphere of known numbers",
+                           f"a region that is smaller by the radius, {short(radius)}: here a region holds centres")
+            return name
+        shape, axis, v = found
+        by = radius if all_in else 0.0
+        v = {"block": lambda: [x + (by, -by)[k % 2] for k, x in enumerate(v)],
+             "cylinder": lambda: v[:2] + [v[2] - by, v[3] + by, v[4] - by],
+             "sphere": lambda: v[:3] + [v[3] - by]}[shape]()
+        box = [(lo + radius * (self.faces[2 * k] != "p"), hi - radius * (self.faces[2 * k + 1] != "p"))
+               for k, (lo, hi) in enumerate((self.box if in_box else {}).get(a, (-math.inf, math.inf)) for a in "xyz")]
+        outside = any(a + by < lo or b - by > hi for (a, b), (lo, hi) in zip(bounds, box))
+        if outside and shape == "block":
+            v = [max(x, box[k // 2][0]) if k % 2 == 0 else min(x, box[k // 2][1]) for k, x in enumerate(v)]
+        sizes = [b - a for a, b in zip(v[::2], v[1::2])] if shape == "block" else \
+            [v[2], v[4] - v[3]] if shape == "cylinder" else [v[3]]
+        if min(sizes) < 0:
+            raise Left(f"region {name} is smaller than a sphere of radius {short(radius)}", "a larger region")
+        if not all_in and not outside:
+            return name
+
+        def put_region(of, shape, words):
+            self.put(f"region          {of} {shape} {' '.join(words)}" + " units box" * self.lattice)
+
+        whole = f"{line.words[1]}_whole"
+        put_region(whole, shape, axis + ["INF" if math.isinf(x) else short(x) for x in v])
+        if outside and shape != "block":
+            put_region(f"{whole}_box", "block", ["INF" if math.isinf(x) else short(x) for pair in box for x in pair])
+            self.put(f"region          {whole}_in intersect 2 {whole} {whole}_box")
+            whole += "_in"
+        return whole
+
     def inserted_grains(self, name, line):
-        """Words of fix insert/lsdcd for a distribution."""
-        parts = self.distributions.get(name, [])
+        """Words of fix insert/lsdcd for a distribution, and its radii."""
+        law, parts = self.distributions.get(name, ("", []))
         found = [(self.templates.get(k), self.number(f, line)) for k, f in zip(parts[::2], parts[1::2])]
         if not found or not all(t for t, _ in found):
             raise Left("insertion of grains that are no spheres of constant radius and density",
@@ -698,69 +1023,102 @@ class Script:
             raise Left("insertion of several types or densities", "a fix insert/lsdcd for each, with its share of the rate")
         grain_type, _, density = found[0][0]
         total = sum(f for _, f in found)
-        sizes = f"mass {len(found)} " + " ".join(f"{2 * t[1]:.10g} {f / total:.10g}" for t, f in found)
+        sizes = f"{law} {len(found)} " + " ".join(f"{2 * t[1]:.10g} {f / total:.10g}" for t, f in found)
         if len(found) == 1:
             sizes = f"one {2 * found[0][0][1]:.10g}"
-        return f"type {grain_type} diam {sizes} dens {density:.10g}"
+        return f"type {grain_type} diam {sizes} dens {density:.10g}", [t[1] for t, _ in found]
+
+    # The number of values of each word.
+    INSERT = {"seed": 1, "distributiontemplate": 1, "maxattempt": 1, "insert_every": 1, "every": 1, "insert_every_time": 1,
+              "start": 1, "overlapcheck": 1, "all_in": 1, "random_distribute": 1, "verbose": 1, "compress_tags": 1, "omega": 4,
+              "vel": {"constant": 4, "uniform": 7, "gaussian": 7}, "orientation": {"random": 1, "template": 1, "constant": 5},
+              "ntry_mc": 1}
+    RATE = {"nparticles": 1, "mass": 1, "massrate": 1, "particlerate": 1}
+    REGION = {"region": 1, "warn_region": 1, "check_dist_from_subdomain_border": 1}
+    INSERT_OF = {"pack": {**REGION, "particles_in_region": 1, "mass_in_region": 1, "volumefraction_region": 1},
+                 "rate/region": {**RATE, **REGION},
+                 "stream": {**RATE, "insertion_face": 1, "extrude_length": 1, "duration": 1, "duration_time": 1, "parallel": 1}}
 
     def insert(self, line):
         w = line.words
-        form = w[3].split("/", 1)[1]
-        options = {k: w[w.index(k) + 1] for k in (
-            "distributiontemplate", "seed", "region", "insertion_face", "nparticles", "mass", "massrate", "particlerate",
-            "particles_in_region", "mass_in_region", "insert_every") if k in w}
+        form = self.style(w).split("/", 1)[1]
+        if form not in self.INSERT_OF:
+            raise Left(w[3], "fix insert/lsdcd mesh FILE or region ID")
+        v = options(w[4:], {**self.INSERT, **self.INSERT_OF[form]})
+        v = {k: x[0] if len(x) == 1 else x for k, x in v.items()}
+        if form == "pack" and v.get("insert_every", v.get("every", v.get("insert_every_time", "once"))) != "once":
+            raise Left("insert/pack that fills up again and again", "fix insert/lsdcd with massrate or numberrate")
+        amounts = [f"{ours} {v[theirs]}" for theirs, ours in (
+            ("massrate", "massrate"), ("particlerate", "numberrate"), ("nparticles", "number"), ("mass", "mass"),
+            ("particles_in_region", "number"), ("mass_in_region", "mass")) if v.get(theirs, "INF") != "INF"]
+        if not amounts or "volumefraction_region" in v:
+            raise Left(f"{w[3]} without its number or mass", "fix insert/lsdcd with number, mass, numberrate or massrate")
+        grains, radii = self.inserted_grains(v.get("distributiontemplate"), line)
+        if v.get("overlapcheck", "yes") != "yes":
+            raise Left("overlapcheck no", "fix insert/lsdcd puts no grain into another: a lower number")
+        if any(self.known(x) != 0 for x in v.get("omega", ["constant"])[1:]):
+            raise Left("insertion with a spin", "set ... omega of the new grains, as grains come without a spin here")
+        velocity = ""
+        if "vel" in v:
+            spread = v["vel"][4:]
+            if v["vel"][0] not in ("constant", "uniform") or len(set(spread)) > 1:
+                raise Left(f"velocities of {v['vel'][0]}", "vel and jitter of fix insert/lsdcd")
+            velocity = " vel " + " ".join(v["vel"][1:4]) + "".join(f" jitter {x}" for x in spread[:1])
+        whole, bounds = v.get("all_in", "no") == "yes", None
         if form == "stream":
-            mesh = self.meshes.get(options.get("insertion_face"))
+            mesh = self.meshes.get(v.get("insertion_face"))
             if mesh is None:
                 raise Left("insert/stream through a face that is not converted", "fix insert/lsdcd mesh FILE")
             place = f"mesh {mesh.file}{mesh.placement()}"
-        elif form in ("pack", "rate/region") and "region" in options:
-            place = f"region {options['region']}"
+        elif "region" not in v:
+            raise Left(w[3], "fix insert/lsdcd region ID")
         else:
-            raise Left(w[3], "fix insert/lsdcd mesh FILE or region ID")
-        if form == "pack" and options.get("insert_every", "once") != "once":
-            raise Left("insert/pack that fills up again and again", "fix insert/lsdcd with massrate or numberrate")
-        amounts = [f"{ours} {options[theirs]}" for theirs, ours in (
-            ("massrate", "massrate"), ("particlerate", "numberrate"), ("nparticles", "number"), ("mass", "mass"),
-            ("particles_in_region", "number"), ("mass_in_region", "mass")) if options.get(theirs, "INF") != "INF"]
-        if not amounts:
-            raise Left(f"{w[3]} without its number or mass", "fix insert/lsdcd with number, mass, numberrate or massrate")
-        velocity = ""
-        if "vel" in w:
-            k = w.index("vel")
-            spread = w[k + 5:k + 8] if w[k + 1] == "uniform" else []
-            if w[k + 1] not in ("constant", "uniform") or len(set(spread)) > 1:
-                raise Left(f"velocities of {w[k + 1]}", "vel and jitter of fix insert/lsdcd")
-            velocity = " vel " + " ".join(w[k + 2:k + 5]) + "".join(f" jitter {v}" for v in spread[:1])
-        self.put(f"fix             {w[1]} {w[2]} insert/lsdcd {place} {self.inserted_grains(options.get('distributiontemplate'), line)} "
-                 f"{' '.join(amounts)}{velocity}" + (f" seed {options['seed']}" if "seed" in options else ""))
-        self.plain.add(w[1])
+            bounds = self.bounds(v["region"])
+            in_box = v.get("check_dist_from_subdomain_border", "yes") == "yes"
+            place = f"region {self.whole_region(line, v['region'], max(radii), whole, in_box)}"
+            if form == "pack":
+                self.only_grains(bounds)
+        text = (f"fix             {w[1]} {w[2]} insert/lsdcd {place} {grains} {' '.join(amounts)}{velocity}" +
+                (f" seed {v['seed']}" if "seed" in v else ""))
+        if "start" in v and (self.step is None or self.known(v["start"]) != self.step + 1):
+            raise Left(f"start {v['start']}", f"end a run one step before that, and put after it: {text}")
+        self.sources.append((bounds, self.ran))
+        if not any("thermo_temp" in other.words for other in self.lines):
+            self.put("compute_modify  thermo_temp dynamic/dof yes")    # else ke is 0 while grains come
+        self.put(text)
+        if form != "stream" and whole and max(radii) > min(radii):
+            self.note(line, "all grains stay the largest radius off the region's edge; in LIGGGHTS each its own")
         if form == "stream":
-            self.note(line, "grains are put on the face itself; depth D puts them up to D in front of it, along its normal")
-        if "omega" in w:
-            self.note(line, "grains come without a spin")
+            self.note(line, "grains are put on the face itself, whole within its edges; depth D puts them up to D in front of "
+                      "it, along its normal")
+
+    def only_grains(self, bounds):
+        """A pack of LIGGGHTS fills up to its number: grains that are in the region already count."""
+        for other, ran in self.sources:
+            known = other and bounds and None not in sum(other, ())
+            apart = known and any(a[1] < b[0] or b[1] < a[0] for a, b in zip(other, bounds))
+            if not apart or ran != self.ran:
+                raise Left("insert/pack into a region that may have grains, which count in LIGGGHTS",
+                           "fix insert/lsdcd with the number less these: variable n equal N-count(all,REGION), number ${n}")
 
     def law_of(self, line, model, wall_type):
         """Words of the wall for each grain type."""
         r, m = self.size(line) if model.normal == "hooke" else (1.0, 1.0)
         return {i: model.wall(Contact(self, line, wall_type, i), r, m) for i in self.grains()}
 
-    def mesh_wall(self, line):
-        w = line.words
-        k = w.index("meshes")
-        n = int(self.number(w[w.index("n_meshes") + 1], line))
-        ids = w[k + 1:k + 1 + n]
-        if len(ids) < max(1, n):
-            raise ValueError("meshes")
-        model = Model(w[4:w.index("mesh")] + w[k + 1 + n:])
-        self.stored(line, model)
-        for i in ids:
-            if i in self.gone:
-                self.leave(line, f"the mesh {i}, which is not converted", "add it as mesh FILE")
-                self.out.pop()
-            elif i not in self.meshes:
+    def mesh_wall(self, line, wall):
+        w, model = line.words, wall.model
+        meshes = [self.meshes[i] for i in wall.ids if i in self.meshes]
+        for i in wall.ids:
+            if i not in self.meshes and i not in self.gone:
                 raise CannotConvert(f"{self.at(line)}: there is no mesh {i}")
-        meshes = [self.meshes[i] for i in ids if i in self.meshes]
+        if any(mesh.wall and mesh.moves for mesh in meshes):
+            raise Left("a second wall of a mesh that moves", "the place where the mesh is then: in a new fix it begins anew")
+        if not meshes:
+            raise Left(f"the mesh {wall.ids[0]}, which is not converted", "the wall with mesh FILE; see the mesh for why")
+        model.check()
+        self.note_friction(line, model)
+        self.note_stored(line, wall)
         # One fix, so that a grain where meshes meet is pushed once; each mesh has its law.
         laws = [self.law_of(line, model, mesh.type) for mesh in meshes]
         first = laws[0][self.grains()[0]]
@@ -771,16 +1129,16 @@ class Script:
             own = by_type[self.grains()[0]]
             words += [f"law {own}"] * (own != first)
             words += [f"law types {kind} {law}" for kind, law in by_type.items() if law != own]
+        for i in (i for i in wall.ids if i not in self.meshes):
+            self.leave(line, f"the mesh {i}, which is not converted", "add it as mesh FILE")
+            self.out.pop()
         self.put(" &\n                ".join(words))
 
-    def stored(self, line, model):
-        """Words of fix wall/gran that are no model's."""
-        rest = model.rest
-        while rest[:1] and rest[0].startswith("store_force"):
+    def note_stored(self, line, wall):
+        if wall.shear and wall.ids:
+            raise Left("shear of a mesh", "surface_vel")
+        if wall.stored:
             self.note(line, "store_force: the keyword contacts has the forces")
-            rest = rest[2:]
-        if rest:
-            raise Left(f"the word {rest[0]} of wall/gran", "see fix_wall_lsdcd.rst")
 
     def wear(self, line, meshes):
         worn = [m for m in meshes if m.wear]
@@ -802,6 +1160,11 @@ class Script:
     def mesh_words(self, mesh):
         moves = "".join(f" motion {m}" for m in reversed(mesh.moves))
         words = f"mesh {mesh.file}{mesh.placement()}{moves}" + "".join(f" {x}" for x in mesh.words)
+        moving = mesh.id in self.used or mesh.servo
+        torque = any(re.search(rf"f_{mesh.id}\[[456]\]", line.text) for line in self.lines)
+        if mesh.reference or (moving and torque):
+            # The point of the torque moves with the mesh in LIGGGHTS.
+            words += " torque_about " + "mesh " * bool(moving) + " ".join(mesh.reference or "000")
         if mesh.servo:
             words += f" {mesh.servo}"
         for line in self.dumps:
@@ -811,26 +1174,36 @@ class Script:
     def dump_words(self, line, mesh):
         """Of dump ID group style N file [...] for one mesh."""
         w = line.words
-        rest = w[6:]
-        named = [i for i in rest if i in self.meshes]
+        named = self.dumped_meshes(line)
         if named and mesh.id not in named:
             return ""
+        self.dumped[line].add(mesh.id)
         path = w[5].replace("*", f"_{mesh.id}_*") if "*" in w[5] else str(Path(w[5]).with_suffix("")) + f"_{mesh.id}"
         keyword, end = ("mesh_stl", ".stl") if w[3] in ("mesh/stl", "stl") else ("mesh_fields", ".vtp")
         return f" {keyword} {re.sub('[.](stl|vtk|vtp|vtm)$', '', path)}{end} every {w[4]}"
 
-    def primitive(self, line):
+    @staticmethod
+    def dumped_meshes(line):
+        """The IDs that a dump of meshes names; none: all meshes."""
         w = line.words
-        k = w.index("primitive")
-        rest = w[k + 1:]
-        if rest[:1] != ["type"]:
-            raise CannotConvert(f"{self.at(line)}: primitive without type")
-        kind, shape, rest = int(self.number(rest[1], line)), rest[2], rest[3:]
-        place, rest = (rest[:1], rest[1:]) if shape.endswith("plane") else (rest[:3], rest[3:])
-        shear, rest = (rest[:3], rest[3:]) if rest[:1] == ["shear"] else ([], rest)
-        model, grains = Model(w[4:k] + rest), self.grains()
-        self.stored(line, model)
+        return [x for k, x in enumerate(w[6:], 6) if x not in ("local", "owned", "ghost", "region") and w[k - 1] != "region" and
+                (w[3] in ("mesh/stl", "stl") or x not in MESH_FIELDS)]
+
+    def mesh_dump(self, line):
+        """What stands for a dump of meshes, when all walls are known."""
+        w, names, written = line.words, self.dumped_meshes(line), self.dumped[line]
+        missing = [i for i in names if i not in written]
+        if missing or not written:
+            why = f"the dump of {', '.join(missing) or 'meshes'} that no converted wall has"
+            self.left.append(f"{self.at(line)}: {why}; do: mesh_stl or mesh_fields of the wall with that mesh")
+            return f"# LEFT {self.left[-1]}\n" + "\n".join("# " + t for t in line.text.splitlines())
+        return f"# dump {w[1]}: see {'mesh_stl' if 'stl' in w[3] else 'mesh_fields'} of the wall"
+
+    def primitive(self, line, wall):
+        w, model, grains = line.words, wall.model, self.grains()
+        kind, shape, place, shear = wall.type, wall.shape, wall.place, wall.shear
         model.check()
+        self.note_stored(line, wall)
         if model.normal == "hertz":
             laws = {"granular " + model.granular(Contact(self, line, kind, i)) for i in grains}
             model.extras(Contact(self, line, kind, grains[0]), False)
@@ -838,6 +1211,7 @@ class Script:
             laws = set(self.law_of(line, model, kind).values())
             if model.rolling or model.cohesion:
                 raise Left("rolling friction or cohesion of a plane", "a mesh of the plane: lsdcd generate plane")
+        self.note_friction(line, model)
         if len(laws) > 1:
             raise Left("a plane that touches grains of several materials", "a fix for the group of each type")
         if shape in ("xplane", "yplane", "zplane"):
@@ -846,7 +1220,11 @@ class Script:
                 raise Left("a plane where the box is not known here", "say which side: lo NULL, or NULL hi")
             where = f"{shape} " + (f"{place[0]} NULL" if at <= sum(span) / 2 else f"NULL {place[0]}")
         elif shape == "zcylinder" and all(self.number(x, line) == 0 for x in place[1:]):
+            if shear:
+                raise Left("shear of a cylinder", "a mesh with surface_angvel or surface_vel: lsdcd generate cylinder")
             where = f"zcylinder {place[0]}"
+            self.note(line, "LAMMPS counts the curvature: model hertz is stiffer by a quarter of the radius of a grain over that "
+                      "of the cylinder; from 11Feb2026 on it has no zcylinder. A mesh by lsdcd generate cylinder has neither")
         else:
             raise Left(f"{shape} about another axis than z through the origin",
                        "a mesh: lsdcd generate cylinder, placed by rotate and move")
@@ -854,12 +1232,14 @@ class Script:
 
     def motion(self, line, w):
         style, rest = w[6], w[7:]
-        if style == "linear":
-            return "linear " + " ".join(rest[:3])
-        if style == "wiggle":
+        if style == "linear" and len(rest) == 3:
+            return "linear " + " ".join(rest)
+        if style == "wiggle" and len(rest) == 6 and rest[::4] == ["amplitude", "period"]:
             return f"wiggle {' '.join(rest[1:4])} {rest[5]}"
-        if style == "rotate":
+        if style == "rotate" and len(rest) == 10 and rest[::4] == ["origin", "axis", "period"]:
             return f"rotate {' '.join(rest[1:4])} {' '.join(rest[5:8])} {rest[9]}"
+        if style in ("linear", "wiggle", "rotate"):
+            raise ValueError(style)
         if style == "viblin":
             raise Left("move/mesh viblin", "motion variable: a displacement C (cos(omega t + phase) - cos(phase)) along "
                        "the axis for each term, and its derivative")
@@ -883,11 +1263,11 @@ class Script:
         self.moves[w[1]] = [mesh, words, self.ran]
         mesh.moves.append(words)
         if mesh.wall is None:
-            if self.wall is None:
+            if mesh.wall_line is None:
                 raise Left(f"the mesh {w[5]} is no wall", "fix massflow/lsdcd has no motion")
-            if self.wall_line.number < line.number:
+            if mesh.wall_line.number < line.number:
                 raise Left(f"the mesh {w[5]} is in no wall", "add it to the wall")
-            self.note(line, f"a motion of fix {self.wall}")
+            self.note(line, f"a motion of fix {mesh.wall_line.words[1]}")
             if self.ran:
                 self.note(line, "it begins where that fix is defined")
             return
@@ -909,14 +1289,17 @@ class Script:
     def fix_modify(self, line):
         w = line.words
         mesh = self.meshes.get(w[1])
-        if mesh is None or not mesh.servo:
+        if mesh is None:
             self.put(line.text)
             return
+        if not mesh.servo or mesh.wall is None:
+            raise Left(f"fix_modify {w[2]}", "fix_modify of the wall with that mesh: motion or servo")
         which = f" mesh {mesh.index}" if mesh.several else ""
-        if w[2:4] == ["servo/integrate", "stop"]:
+        word = w[2].removeprefix("servo/")
+        if [word, *w[3:]] == ["integrate", "stop"]:
             self.put(f"fix_modify      {mesh.wall}{which} servo none")
-        elif w[2] in ("servo/integrate", "servo/target_val"):
-            target = w[3] if w[2] == "servo/target_val" else mesh.target
+        elif [word, *w[3:]] == ["integrate", "start"] or (word == "target_val" and len(w) == 4):
+            target = w[3] if word == "target_val" else mesh.target
             mesh.servo = mesh.servo.replace(f" {mesh.target} vmax", f" {target} vmax")
             mesh.target = target
             self.put(f"fix_modify      {mesh.wall}{which} {mesh.servo}")
@@ -925,44 +1308,62 @@ class Script:
 
     def massflow(self, line):
         w = line.words
-        mesh = self.meshes.get(w[w.index("mesh") + 1])
+        v = options(w[4:], {"mesh": 1, "vec_side": 3, "count": 1, "delete_atoms": 1, "file": 1, "append": 1, "writeTime": 0,
+                            "screen": 1, "point_at_outlet": 3, "inside_out": 0, "sum_property": 1})
+        mesh = self.meshes.get(v["mesh"][0])
         if mesh is None:
             raise Left("massflow/mesh through a mesh that is not converted", "fix massflow/lsdcd mesh FILE")
-        if "vec_side" not in w:
+        if "point_at_outlet" in v or "vec_side" not in v:
             raise Left("massflow/mesh without vec_side", "fix massflow/lsdcd counts along the normals of the triangles")
-        k = w.index("vec_side")
-        side = [self.number(x, line) for x in w[k + 1:k + 4]]
-        forward = all(dot(cross(minus(b, a), minus(c, a)), side) > 0 for a, b, c in mesh.triangles(self))
-        delete = "delete_atoms" in w and w[w.index("delete_atoms") + 1] == "yes"
+        side = [self.number(x, line) for x in v["vec_side"]]
+        ways = {dot(cross(minus(b, a), minus(c, a)), side) > 0 for a, b, c in mesh.triangles(self)}
+        if len(ways) > 1:
+            raise Left(f"{mesh.file} has triangles wound along vec_side and others against it",
+                       f"lsdcd repair {mesh.file} -o FILE winds them alike; then fix massflow/lsdcd, which counts along the winding")
+        forward, delete = ways.pop(), v.get("delete_atoms") == ["yes"]
         if delete and not forward:
             raise Left("delete_atoms where the mesh is wound against vec_side",
                        "turn its triangles over: only what passes forward is deleted")
-        count = "once" if "once" in w else "each"
+        count = v.get("count", ["multiple"])[0]
+        if count not in ("once", "multiple"):
+            raise ValueError("count")
+        count = {"once": "once", "multiple": "each"}[count]
         self.put(f"fix             {w[1]} {w[2]} massflow/lsdcd mesh {mesh.file}{mesh.placement()} count {count}" +
                  " delete yes" * delete)
         if not forward:
             self.note(line, f"the mesh is wound against vec_side: f_{w[1]}[4] is the mass and f_{w[1]}[3] the number")
-        if "file" in w or "append" in w:
-            self.note(line, "no file with each grain that has passed")
+        if count == "once":
+            self.note(line, "a grain that passes backward first is not counted when it comes again; in LIGGGHTS it is")
+        if "file" in v or "append" in v or v.get("screen") == ["yes"]:
+            self.note(line, "no file or line with each grain that has passed")
         number, mass = (1, 2) if forward else (3, 4)
-        self.mirrored[w[1]] = {1: f"f_{w[1]}[{mass}]", 2: f"f_{w[1]}[{number}]", 5: f"f_{w[1]}[8]", 6: f"f_{w[1]}[7]"}
-        if forward:
-            self.mirrored[w[1]][3] = f"f_{w[1]}[6]"
+        rate = f"f_{w[1]}[6]" if forward else f"(-f_{w[1]}[6])"
+        self.mirrored[w[1]] = {1: f"f_{w[1]}[{mass}]", 2: f"f_{w[1]}[{number}]", 3: rate, 5: f"f_{w[1]}[8]", 6: f"f_{w[1]}[7]"}
 
     def dump(self, line):
         w = line.words
         if line in self.dumps:
             self.gone[w[1]] = Left("a file of the wall", "nothing")
-            self.put(f"# dump {w[1]}: see {'mesh_stl' if 'stl' in w[3] else 'mesh_fields'} of the wall")
+            self.put(line)
         elif w[3] in ("custom/vtk", "atom/vtk"):
-            columns = w[6:] if w[3] == "custom/vtk" else ["id", "type", "x", "y", "z", "radius"]
+            self.texts.add(w[1])
+            columns = self.columns(line, w[6:]) if w[3] == "custom/vtk" else ["id", "type", "x", "y", "z", "radius"]
             self.put(self.renamed(line, f"dump            {w[1]} {w[2]} custom {w[4]} "
                                   f"{re.sub('[.]vt[kp]$', '.txt', w[5])} {' '.join(columns)}"))
             self.note(line, "text in place of VTK; dump vtk has the same words where LAMMPS has the package VTK")
+        elif w[3] == "custom":
+            self.put(self.renamed(line, " ".join(w[:6] + self.columns(line, w[6:]))))
         elif w[3] in SAME_DUMPS:
             self.put(self.renamed(line, line.text))
         else:
             raise Left(f"dump {w[3]}", "dump custom, or mesh_fields of the wall")
+
+
+    def columns(self, line, words):
+        kept = [x for x in words if x in COLUMNS or x[:2] in ("f_", "c_", "v_") or "$" in x]
+        for name in (x for x in words if x not in kept):
+            self.note(line, f"without {name}, which LAMMPS does not know")
+        return kept
 
 
 def arithmetic(text):
@@ -998,12 +1399,12 @@ def main():
     except (CannotConvert, OSError) as error:
         sys.exit(f"convert.py: {error}\nNothing was written.")
     if a.out:
-        with tempfile.NamedTemporaryFile("w", dir=a.out.parent, delete=False) as whole:
-            whole.write(text)
+        with tempfile.NamedTemporaryFile(dir=a.out.parent, delete=False) as whole:
+            whole.write(text.encode("utf-8", "surrogateescape"))
         os.chmod(whole.name, 0o644)
         os.replace(whole.name, a.out)
     else:
-        print(text, end="")
+        sys.stdout.buffer.write(text.encode("utf-8", "surrogateescape"))
     for left in script.left:
         print(f"left: {left}", file=sys.stderr)
     print(f"commands left: {len(script.left)}" + (f", see LEFT in {a.out}" if a.out and script.left else ""), file=sys.stderr)

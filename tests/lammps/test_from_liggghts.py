@@ -2,10 +2,17 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""examples/from-liggghts/convert.py: what it writes and leaves; with `run`, that what it writes gives a port's figures."""
+"""examples/from-liggghts/convert.py: what it writes and leaves, and that what it writes has the physics of LIGGGHTS, by closed
+forms; with `run`, that it gives a port's figures; with `liggghts`, that LIGGGHTS has these closed forms too."""
+import contextlib
+import importlib.util
+import io
+import math
 import re
+import shutil
 import subprocess
 import sys
+import types
 
 import lmp
 
@@ -55,6 +62,39 @@ WRITTEN = {
     "a plane has the side of the box": (
         "region b block 0 1 0 1 0 1\ncreate_box 1 b\n"
         "fix p all wall/gran model hertz tangential history primitive type 1 zplane 1\n", "zplane NULL 1"),
+    "no word tangential is no friction: hertz": (
+        MESH.format("") + WALL.replace(" tangential history", ""), "tangential linear_nohistory 0 0 &\n"),
+    "no word tangential is no friction: hooke": (
+        "fix m5 all property/global characteristicVelocity scalar 2\nset group all diameter 0.02 density 2500\n" + MESH.format("") +
+        WALL.replace("hertz tangential history", "hooke"), " 0 0 &\n"),
+    "no word tangential is no friction: a plane": (
+        "region b block 0 1 0 1 0 1\ncreate_box 1 b\nfix p all wall/gran model hertz primitive type 1 zplane 0\n",
+        "tangential linear_nohistory 0 0 damping"),
+    "no word tangential is no friction: grains": (
+        "pair_style gran model hertz\npair_coeff * *\n", "tangential linear_nohistory 0 0 damping"),
+    "tangential off needs no coefficientFriction and keeps its settings": (
+        MESH.format("") + WALL.replace("history", "off").replace("\n", " tangential_damping on limitForce on\n"),
+        "tangential linear_nohistory 0 0 limit_damping"),
+    "two walls with meshes are two fixes": (
+        MESH.format("") + MESH.replace("cad", "lid").replace("a.stl", "b.stl").format("") + WALL +
+        WALL.replace("fix w", "fix v").replace("meshes cad", "meshes lid"), "mesh b.stl"),
+    "a style of OpenMP is the same one": (
+        MESH.format("").replace("stress", "stress/omp") + WALL.replace("wall/gran", "wall/gran/omp") +
+        "fix g all gravity/omp 9.81 vector 0 0 -1\n", "fix g all gravity 9.81 vector 0 0 -1"),
+    "the torque is about a point that moves": (
+        MESH.format("reference_point 1 2 3") + "fix t all move/mesh mesh cad linear 1 0 0\n" + WALL +
+        "thermo_style custom step f_cad[5]\n", "motion linear 1 0 0 torque_about mesh 1 2 3\n"),
+    "the torque of a moving mesh is about what was the origin": (
+        MESH.format("") + "fix t all move/mesh mesh cad linear 1 0 0\n" + WALL + "thermo_style custom step f_cad[5]\n",
+        "motion linear 1 0 0 torque_about mesh 0 0 0\n"),
+    "regions are in units of the box": ("lattice sc 0.1\nregion r block 0 1 0 1 0 1\n", "region r block 0 1 0 1 0 1 units box"),
+    "stress/atom has its word": ("compute s all stress/atom\n", "compute s all stress/atom NULL"),
+    "a dump loses what LAMMPS does not know": (
+        "dump d all custom 9 d.txt id density x\n", "custom 9 d.txt id x\n"),
+    "what was made text is not binary": (
+        "dump d all custom/vtk 9 d*.vtk id x\ndump_modify d binary yes sort id\n", "dump_modify     d sort id\n"),
+    "what was made text and only binary has no dump_modify": (
+        "dump d all custom/vtk 9 d*.vtk id x\ndump_modify d binary yes\n", "\n# dump_modify d binary yes\n"),
     "a formula is read": (MESH.format("") + "variable v equal 2*3\nvariable q equal ${v}+1\nfix t all property/global "
                           "characteristicVelocity scalar ${q}\n", "characteristicVelocity scalar ${q}"),
 }
@@ -66,6 +106,17 @@ LEFT = {
     "rotate, then linear": (MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 1\n"
                             "fix u all move/mesh mesh cad linear 1 0 0\n", "a linear motion after a rotation"),
     "a mesh that is generated": ("fix cad all mesh/surface generate cube 0.1 63 type 1\n", "a mesh by generate"),
+    "a model that is off": (MESH.format("") + WALL.replace("model hertz tangential history ", ""), "model off"),
+    "a word of the model in another place": (
+        MESH.format("") + WALL.replace("hertz tangential history", "hertz cohesion sjkr tangential history"),
+        "the word tangential of wall/gran"),
+    "a setting that is not known": (MESH.format("") + WALL.replace("\n", " torsionTorque on\n"), "the word torsionTorque"),
+    "a dump of a mesh that is in no wall": (MESH.format("") + "dump d all mesh/stl 300 dump*.stl cad\n", "the dump of cad"),
+    "hooke of grains that differ": (
+        "fix m5 all property/global characteristicVelocity scalar 2\nset group a diameter 0.02 density 2500\n"
+        "set group b diameter 0.03 density 2500\npair_style gran model hooke\n", "model hooke has a stiffness for each mass"),
+    "words of set that LAMMPS does not have": ("set group all property/atom Temp 300\n", "the word property/atom"),
+    "a restart file": ("read_restart a.restart\n", "a restart file"),
     "superquadrics": ("atom_style superquadric\n", "atom_style superquadric"),
 }
 # Insertions.
@@ -85,7 +136,43 @@ WRITTEN.update({
         "overlapcheck yes vel uniform 0 0 -2 0.1 0.1 0.1 insertion_face cad extrude_length 0.1\n",
         "insert/lsdcd mesh a.stl scale 2 type 1 diam one 0.004 dens 2500 numberrate 20 vel 0 0 -2 jitter 0.1 seed 7\n"),
 })
+WRITTEN.update({
+    "a distribution by number": (
+        GRAINS + "fix d all particledistribution/discrete/numberbased 3 2 p1 0.25 p2 0.75\nfix i all insert/rate/region seed 7 "
+        "distributiontemplate d nparticles 90 massrate 0.1 insert_every 1000 region r\n", "diam poly 2 0.004 0.25 0.008 0.75 dens"),
+    "ke counts grains that come": (
+        ONE + "fix i all insert/pack seed 7 distributiontemplate d particles_in_region 90 region r\n",
+        "compute_modify  thermo_temp dynamic/dof yes\n"),
+    "start in the next step is the default": (
+        ONE + "run 90\nfix i all insert/pack seed 7 distributiontemplate d start 91 particles_in_region 90 region r\n", "number 90 seed 7\n"),
+    "all_in: a cylinder becomes smaller": (
+        ONE + "region r cylinder x 1 2 0.1 0 1\nfix i all insert/pack seed 7 distributiontemplate d all_in yes particles_in_region 9 "
+        "region r\n", "region          i_whole cylinder x 1 2 0.098 0.002 0.998\n"),
+    "all_in: a sphere becomes smaller, by the largest radius": (
+        GRAINS + "fix d all particledistribution/discrete 3 2 p1 0.5 p2 0.5\nregion r sphere 1 2 3 0.1\n"
+        "fix i all insert/pack seed 7 distributiontemplate d all_in yes particles_in_region 9 region r\n",
+        "region          i_whole sphere 1 2 3 0.096\n"),
+    "the outlets of f_ins stay": (
+        ONE + "fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\nthermo_style custom step f_i[1]\n",
+        "thermo_style custom step f_i[1]\n"),
+    "two packs apart from each other": (
+        ONE + "region r block 0 1 0 1 0 1\nregion s block 2 3 0 1 0 1\n" +
+        "".join(f"fix i{r} all insert/pack seed 7 distributiontemplate d particles_in_region 9 region {r}\n" for r in "rs"),
+        "fix             is all insert/lsdcd region s "),
+})
+PACK = ONE + "region r block 0 1 0 1 0 1\n{}fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 {} region r\n"
 LEFT.update({
+    "a start that is later": (PACK.format("", "start 8000"), "start 8000"),
+    "a start after steps that are not known": (PACK.format("run ${n}\n", "start 91"), "start 91"),
+    "grains that may overlap": (PACK.format("", "overlapcheck no"), "overlapcheck no"),
+    "grains that spin": (PACK.format("", "omega constant 0 0 5"), "insertion with a spin"),
+    "a word of an insertion that is not known": (PACK.format("", "set_property T 300"), "the word set_property"),
+    "all_in of a region that cannot be made smaller": (
+        PACK.format("", "all_in yes").replace("block 0 1 0 1 0 1", "cone z 0 0 1 2 0 1"), "all_in yes with region r"),
+    "a pack where grains are already": (PACK.format("create_atoms 1 single 0.5 0.5 0.5\n", ""), "insert/pack into a region that may"),
+    "a pack after another and a run": (
+        PACK.format("region s block 2 3 0 1 0 1\nfix j all insert/pack seed 7 distributiontemplate d particles_in_region 9 region s\n"
+                    "run 9\n", ""), "insert/pack into a region that may"),
     "a pack without a number": (ONE + "fix i all insert/pack seed 1 distributiontemplate d region r volumefraction_region 0.3\n",
                                 "insert/pack without its number or mass"),
     "a pack that is filled up": (ONE + "fix i all insert/pack seed 1 distributiontemplate d region r insert_every 9 "
@@ -102,13 +189,33 @@ REFUSED = {
 }
 
 
-def convert(folder, text, name="in.there"):
-    """The finished process, and what was written, or None."""
-    (folder / name).write_text(text)
+def loaded():
+    spec = importlib.util.spec_from_file_location("convert", EXAMPLE / "convert.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+PROGRAM = loaded()
+
+
+def convert(folder, text, name="in.there", more=()):
+    """The program's main, without a process of its own: its status and errors, and what was written, or None."""
+    (folder / name).write_bytes(text if isinstance(text, bytes) else text.encode())
     out = folder / "in.here"
     out.unlink(missing_ok=True)
-    done = subprocess.run([sys.executable, EXAMPLE / "convert.py", folder / name, "-o", out], text=True, capture_output=True)
-    return done, out.read_text() if out.exists() else None
+    status, errors, kept = 0, io.StringIO(), sys.argv
+    sys.argv = ["convert.py", str(folder / name), "-o", str(out), *more]
+    try:
+        with contextlib.redirect_stderr(errors):
+            PROGRAM.main()
+    except SystemExit as end:
+        status = 1
+        errors.write(f"{end}\n")
+    finally:
+        sys.argv = kept
+    done = types.SimpleNamespace(returncode=status, stderr=errors.getvalue())
+    return done, out.read_text(errors="surrogateescape") if out.exists() else None
 
 
 def words(checks, folder):
@@ -178,6 +285,171 @@ def several_materials(checks, folder):
                 len(re.findall("^fix .*wall/lsdcd", out, re.M)) == 1 and "\n# LEFT" not in out, f"{wall}")
 
 
+def ids(checks, folder):
+    """A name is no keyword: what is written does not hang on it."""
+    write_stl(folder / "flat.stl", FLAT)
+    text = (ONE + "fix cad all mesh/surface/stress file flat.stl type 1\nfix out all mesh/surface file flat.stl type 1\n" +
+            "fix w all wall/gran model hertz tangential no_history mesh n_meshes 1 meshes cad\n"
+            "fix t all move/mesh mesh cad linear 1 0 0\nfix flow all massflow/mesh mesh out count multiple vec_side 0 0 1\n"
+            "fix i all insert/stream seed 7 distributiontemplate d nparticles 9 particlerate 20 vel constant 0 0 -2 insertion_face out "
+            "extrude_length 0.1\nthermo_style custom step f_cad[3] f_flow[1]\n")
+    _, plain = convert(folder, MATERIAL + text)
+    for old in ("w", "cad", "out", "flow", "t", "i"):
+        for new in ("mesh", "meshes", "n_meshes", "model", "tangential", "primitive", "once", "file", "vel", "start", "vec_side"):
+            named = re.sub(rf"(fix |mesh |meshes |insertion_face |f_){old}\b", rf"\g<1>{new}", text)
+            done, out = convert(folder, MATERIAL + named)
+            back = re.sub(rf"(?<=\W){new}(?= all | count |\[|: )|(?<=f_){new}(?=\[)|(?<=fix_modify      ){new}\b", old, out or "")
+            same = [line for line in back.split("\n") if line[:1] != "#"] == [line for line in plain.split("\n") if line[:1] != "#"]
+            if not same or "\n# LEFT" in out:
+                checks.fact(f"the ID {new} in place of {old}", False, done.stderr + back)
+    checks.fact("no ID is taken for a keyword", "wall/lsdcd granular" in plain and "\n# LEFT" not in plain)
+
+
+def winding(checks, folder):
+    """Of a mesh that counts: along vec_side, against it, both."""
+    text = "fix out all mesh/surface file {}.stl type 1\nfix flow all massflow/mesh mesh out vec_side 0 0 {}\nvariable n equal f_flow[{}]\n"
+    write_stl(folder / "flat.stl", FLAT)
+    write_stl(folder / "mixed.stl", [FLAT[0], FLAT[1][::-1]])
+    for side, number, rate in ((1, 1, "f_flow[6]"), (-1, 3, "(-f_flow[6])")):
+        checks.fact(f"vec_side {side}", f"n equal f_flow[{number}]" in convert(folder, text.format("flat", side, 2))[1])
+        checks.fact(f"the rate, vec_side {side}", f"n equal {rate}" in convert(folder, text.format("flat", side, 3))[1])
+    _, out = convert(folder, text.format("mixed", 1, 2))
+    checks.fact("a mesh that is wound both ways is left", "# LEFT in.there:2: mixed.stl has triangles wound along vec_side and others" in out)
+
+
+def surfaces(checks, folder):
+    """The velocity of a surface on a slope has its full size in LIGGGHTS."""
+    up = [[(x, y, x) for x, y, _ in t] for t in FLAT]
+    for name, triangles, expected in (("level", FLAT, "surface_vel 2 0 0"), ("slope", up, "surface_vel 1.414213562 0 1.414213562"),
+                                      ("roof", FLAT + up, None)):
+        write_stl(folder / "a.stl", triangles)
+        _, out = convert(folder, MATERIAL + MESH.format("surface_vel 2 0 0") + WALL)
+        checks.fact(f"surface_vel on a {name}", (expected or "# LEFT in.there:5: surface_vel on triangles of several slopes") in out)
+    write_stl(folder / "a.stl", up)
+    _, out = convert(folder, MATERIAL + MESH.format("surface_ang_vel origin 0 0 0 axis 0 0 1 omega 5") + WALL)
+    checks.fact("surface_ang_vel on a slope is left", "# LEFT in.there:5: surface_ang_vel on triangles that are inclined" in out)
+    (folder / "a.stl").unlink()
+
+
+def whole_scripts(checks, folder):
+    """What is left does not stop the rest; bytes stay."""
+    done, out = convert(folder, MATERIAL + MESH.format("").replace("a.stl", "a.vtk") + WALL + "timestep 1e-5\n")
+    checks.fact("a wall whose only mesh is left is left, and the rest is there", done.returncode == 0 and out.count("\n# LEFT") == 2 and
+                "LEFT in.there:6: the mesh cad, which is not converted" in out and "\ntimestep 1e-5\n" in out, done.stderr)
+    latin = b"# caf\xe9\nprint \"\xe9\"\n# caf\xc3\xa9\x85\n"
+    done, _ = convert(folder, latin)
+    checks.fact("bytes that are no UTF-8 stay", (folder / "in.here").read_bytes().endswith(latin), done.stderr)
+    shown = subprocess.run([sys.executable, EXAMPLE / "convert.py", folder / "in.there"], capture_output=True)
+    checks.fact("... on standard output too", shown.stdout.endswith(latin), f"{shown.stderr}")
+    changed = "fix m4 all property/global coefficientFriction peratomtypepair 1 0.6\n"
+    _, out = convert(folder, MATERIAL + MESH.format("") + WALL + "run 1\n" + changed + "run 1\n")
+    checks.fact("a property that changes is no number", "LEFT in.there:6: coefficientFriction, which changes in the script" in out)
+    _, out = convert(folder, MATERIAL + changed + MESH.format("") + WALL)
+    checks.fact("the last value before the wall counts", " 0.6 &\n" in out)
+    done, out = convert(folder, MATERIAL.replace("1e7", "${young}") + "variable young equal 1e7\n" + MESH.format("") + WALL +
+                        "variable young equal 2e7\n")
+    checks.fact("a variable with two values is no number", out is None and "'${young}' is no number" in done.stderr, done.stderr)
+    hooke = ("fix m5 all property/global characteristicVelocity scalar 2\nset group a diameter 0.02 density 2500\n"
+             "set group b diameter 0.03 density 2500\npair_style gran model hooke\n")
+    _, out = convert(folder, MATERIAL + hooke, more=("--radius", "0.01", "--density", "2500"))
+    checks.fact("hooke of grains that differ, with the size that is given", "pair_style      gran/hooke " in out and "# LEFT" not in out)
+
+
+# ---- physics: scripts of LIGGGHTS, and what both programs have to print ----------------------------------------------
+
+A, B = -0.08, 0.28    # within the box, as LIGGGHTS loses triangles outside
+FLAT = [[(A, A, 0), (B, A, 0), (B, B, 0)], [(A, A, 0), (B, B, 0), (A, B, 0)]]
+BOX = """\
+atom_style granular
+atom_modify map array
+boundary f f f
+newton off
+communicate single vel yes
+units si
+region reg block -0.1 0.3 -0.1 0.3 -0.1 0.3 units box
+create_box 1 reg
+neighbor 0.004 bin
+neigh_modify delay 0
+fix m1 all property/global youngsModulus peratomtype 5e6
+fix m2 all property/global poissonsRatio peratomtype 0.3
+fix m3 all property/global coefficientRestitution peratomtypepair 1 0.3
+fix m4 all property/global coefficientFriction peratomtypepair 1 0.4
+fix m5 all property/global characteristicVelocity scalar 2
+pair_style gran model MODEL
+pair_coeff * *
+timestep 1e-5
+fix i all nve/sphere
+"""
+SLIDE = """\
+create_atoms 1 single 0 0 0.0099 units box
+set group all diameter 0.02 density 2500
+velocity all set SPEED 0 0 units box
+fix g all gravity 9.81 vector 0 0 -1
+fix cad all mesh/surface/stress file FILE type 1 WORDS
+fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad
+variable vx equal vx[1]
+"""
+POUR = """\
+fix cad all mesh/surface file flat.stl type 1 move 0 0 -0.09
+fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad
+fix p1 all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.004
+fix d1 all particledistribution/discrete 15485867 1 p1 1.0
+"""
+EDGES = "".join(f"variable {a}{end} equal bound(all,{a}{end})\n" for a in "xyz" for end in ("min", "max"))
+ALL_EDGES = " ".join(f"${{{a}{end}}}" for a in "xyz" for end in ("min", "max"))
+HERTZ = "hertz tangential history"
+IN_0_1 = [(0.004, 0.096)] * 6
+# name: model, script after BOX, what is printed as "NAME numbers", bounds of each number.
+PHYSICS = {
+    # Nothing acts along the floor.
+    **{f"slide_{model}": (model, SLIDE.replace("SPEED", "0.5").replace("FILE", "flat.stl").replace("WORDS", "") + "run 2000\n", "${vx}",
+                          [(0.5, 0.5)]) for model in ("hooke", "hertz")},
+    # Sliding, then rolling: 2/7 of the belt's speed, which is 0.2 on the slope. The lever is shorter by the overlap, at
+    # most 1 % of the radius, which changes 2/7 by less than 2 %.
+    "belt": (HERTZ, SLIDE.replace("SPEED", "0").replace("FILE", "slope.stl").replace("vector 0 0 -1", "vector 1 0 -1").replace(
+        "0 0 0.0099", "-0.0070004 0 0.0070004").replace("WORDS", "surface_vel 0.2 0 0") +
+        "variable v equal sqrt(vx[1]^2+vz[1]^2)\nrun 4000\n", "${v}", [(0.98 * 0.4 / 7, 1.02 * 0.4 / 7)]),
+    # No friction: the grain stays where it is, and after 2000 steps the point of the torque is 0.002 m from it.
+    "torque": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") +
+               "fix t all move/mesh mesh cad linear 0.1 0 0\nvariable arm equal f_cad[5]/f_cad[3]\n"
+               "thermo_style custom step f_cad[3] f_cad[5]\nrun 2000\n", "${arm}", [(0.002 - 1e-6, 0.002 + 1e-6)]),
+    # 50000 a second for 400 steps.
+    "unfix": (HERTZ, POUR + EDGES + "variable n equal atoms\nregion box1 block 0 0.2 0 0.2 0 0.2 units box\nfix ins all insert/rate/region "
+              "seed 32452843 distributiontemplate d1 nparticles 100000 particlerate 50000 insert_every 100 region box1\nrun 400\n"
+              "unfix ins\nrun 400\n", "${n}", [(199, 201)]),
+    # Whole grains in the region, and in the box.
+    "all_in": (HERTZ, POUR + EDGES + "region box1 block 0 0.1 0 0.1 0 0.1 units box\nfix ins all insert/pack seed 32452843 "
+               "distributiontemplate d1 insert_every once all_in yes particles_in_region 300 region box1\nrun 1\n", ALL_EDGES, IN_0_1),
+    "in_box": (HERTZ, POUR.replace("-0.09", "0") + EDGES + "region box1 block -0.1 0.3 -0.1 0.3 0 0.3 units box\nfix ins all insert/pack seed "
+               "32452843 distributiontemplate d1 insert_every once particles_in_region 3000 region box1\nrun 1\n", ALL_EDGES,
+               [(-0.096, 0.296)] * 4 + [(0, 0.296)] * 2),
+}
+
+
+def write_stl(path, triangles):
+    path.write_text("solid a\n" + "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex %r %r %r\n" % p for p in t) +
+                                          "endloop\nendfacet\n" for t in triangles) + "endsolid a\n")
+
+
+def physics(checks, folder, there=False):
+    write_stl(folder / "flat.stl", FLAT)
+    write_stl(folder / "slope.stl", [[(x, y, x) for x, y, _ in t] for t in FLAT])
+    for name, (model, text, shown, bounds) in PHYSICS.items():
+        script = (BOX + text).replace("MODEL", model) + f'print "{name} is {shown}"\n'
+        if there:
+            (folder / "in.there").write_text(script)
+            output = subprocess.run(["liggghts", "-in", "in.there"], cwd=folder, text=True, errors="replace", stdout=subprocess.PIPE,
+                                    stderr=subprocess.STDOUT, timeout=300).stdout
+        else:
+            done, out = convert(folder, script)
+            checks.fact(f"{name}: nothing is left", done.returncode == 0 and "\n# LEFT" not in out, done.stderr)
+            output = lmp.run(folder / "in.here", folder).stdout
+        found = [float(x) for x in (re.findall(rf"^{name} is (.*)", output, re.M) or [""])[-1].split()]
+        # Ten digits are written and printed.
+        checks.fact(name, len(found) == len(bounds) and all(a - 1e-9 <= x <= b + 1e-9 for x, (a, b) in zip(found, bounds)),
+                    f"{found} in {bounds}" + ("" if found else output[-2000:]))
+
+
 def figures(text, name):
     return re.findall(rf"^{name} [a-z]+ .*", text, re.M)
 
@@ -199,8 +471,15 @@ if __name__ == "__main__":
     place = lmp.scratch()
     if sys.argv[1:] == ["run"]:
         run(facts, place)
+    elif sys.argv[1:] == ["liggghts"]:
+        if not shutil.which("liggghts"):
+            print("SKIPPED: LIGGGHTS is not installed (Debian's package is liggghts)")
+            sys.exit(77)
+        physics(facts, place, there=True)
     else:
         words(facts, place)
         two_materials(facts, place)
         several_materials(facts, place)
+        for part in (ids, winding, surfaces, whole_scripts, physics):
+            part(facts, place)
     facts.done(place)
