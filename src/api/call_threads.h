@@ -6,7 +6,20 @@
 
 #include "backend/threads.h"
 
+#include <pthread.h>
+
 namespace lsdcd {
+
+#if defined(_OPENMP)
+// OpenMP keeps a thread's helpers from one call to the next. A child of fork() has none of them, and libgomp would
+// wait for them for ever. So they end before a fork, and both processes start new ones when they need some.
+inline void end_threads_before_forks()
+{
+  static const int registered =
+      pthread_atfork([] { omp_pause_resource_all(omp_pause_hard); }, nullptr, nullptr);
+  (void) registered;
+}
+#endif
 
 // While it lives, work of this thread uses n threads; 0: as many as OMP_NUM_THREADS says, or one. Its
 // destructor restores the caller's number.
@@ -15,6 +28,7 @@ class CallThreads {
  public:
   explicit CallThreads(int n)
   {
+    end_threads_before_forks();
     // Now threads() returns OpenMP's number, which each thread has for itself.
     static const int usual = [] {
       const int before = threads();

@@ -15,7 +15,9 @@
  *
  * Threads: each function says "any" where any number of threads may call it at once, with the same
  * objects; "own" where no other thread may use the object that it takes at the same time.
- * What a grid, stream or body is made from may be freed before it.
+ * What a grid, stream or body is made from may be freed before it. A child of fork() may use what its parent has
+ * made, with any number of threads, but for what is on a CUDA device: CUDA does not work in a child whose parent has
+ * used it.
  */
 #ifndef LSDCD_H
 #define LSDCD_H

@@ -10,6 +10,7 @@ followed (test_python_gpu.py follows them).
 import contextlib
 import gc
 import importlib.util
+import multiprocessing
 import os
 import pathlib
 import shutil
@@ -409,6 +410,28 @@ def check_box():
         refused("a time is finite", "time nan", lambda: lsdcd.Wall(words, time=np.nan), lsdcd.Error)
 
 
+def check_fork():
+    """multiprocessing forks by default: its processes ask with threads, as this one has before. 0.3 s."""
+    grid = lsdcd.Mesh(np.eye(3), [[0, 1, 2]]).grid()
+    points = np.random.default_rng(1).uniform(-1, 2, (20000, 3))
+
+    def ask(queue=None):
+        answer = grid.query(points, threads=2).distance
+        return queue.put(answer) if queue else answer
+
+    wanted = ask()
+    context = multiprocessing.get_context("fork")
+    queue = context.Queue()
+    child = context.Process(target=ask, args=(queue,))
+    child.start()
+    try:
+        fact("a forked process gets the answers of its parent", np.array_equal(queue.get(timeout=30), wanted))
+    except Exception as error:    # queue.Empty: it hangs
+        fact("a forked process gets the answers of its parent", False, repr(error))
+    child.kill()
+    child.join()
+
+
 def check_types():
     mypy = shutil.which("mypy")
     if not mypy:
@@ -443,5 +466,6 @@ if __name__ == "__main__":
     check_wall_arrays()
     check_given_values()
     check_box()
+    check_fork()
     check_types()
     sys.exit(1 if failed else 0)
