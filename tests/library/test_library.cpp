@@ -1194,6 +1194,23 @@ TEST_F(Wrong, no_points_are_no_error)
   EXPECT_EQ(lsdcd_query_host(grid.get(), &q), LSDCD_OK);
 }
 
+// An element before the vertices, a promise without faces, a header without an end.
+TEST_F(Wrong, a_damaged_ply_is_an_error_with_its_line)
+{
+  const lsdcd::TempDir dir;
+  const std::string header = "ply\nformat ascii 1.0\nelement camera 1\nproperty float focus\n"
+                             "element vertex 3\nproperty float x\nproperty float y\n"
+                             "property float z\nelement face 2\n"
+                             "property list uchar int vertex_indices\n";
+  const std::string data = "5\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  lsdcd_mesh *m = nullptr;
+  expect(lsdcd_mesh_read(dir.write("a.ply", header + "end_header\n" + data).c_str(), -1, &m),
+         LSDCD_ERROR_INPUT, "a.ply, line 17 (face 2): the file ends");
+  expect(lsdcd_mesh_read(dir.write("b.ply", header + data).c_str(), -1, &m), LSDCD_ERROR_INPUT,
+         "b.ply, line 11: '5' found where 'element', 'property' or 'end_header' is expected");
+  EXPECT_EQ(m, nullptr);
+}
+
 TEST_F(Wrong, an_empty_batch_is_no_error_in_cpp)
 {
   EXPECT_TRUE(grid.distances(std::vector<double>()).empty());

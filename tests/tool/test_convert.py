@@ -70,6 +70,14 @@ def written():
              data.startswith(b"solid") == (name == "doubles"))
         got = read_stl_text(data) if name == "doubles" else np.array(read_stl(FOLDER / "out.STL"))
         fact(f"{name} in STL are the same bits", np.array_equal(got, wanted))
+    # The data of this plane in PLY begin with a line's end, 0A.
+    told(FOLDER, "generate", "plane", "--width", 0.04, "--depth", 0.04, "-o", "plane.stl")
+    told(FOLDER, "convert", "plane.stl", "-o", "plane.ply")
+    for name in ("plane", "floats", "doubles"):
+        told(FOLDER, "convert", f"{name}.stl", "-o", "there.stl")
+        told(FOLDER, "convert", f"{name}.ply", "-o", "back.stl")
+        fact(f"{name} there and back by PLY are the same bits",
+             (FOLDER / "there.stl").read_bytes() == (FOLDER / "back.stl").read_bytes())
     told(FOLDER, "convert", "doubles.stl", "-o", "out.stl", "--float")
     fact("--float rounds them", np.array_equal(np.array(read_stl(FOLDER / "out.stl")), FLOATS))
 

@@ -12,6 +12,7 @@ namespace lsdcd {
 // The readers beside read_stl(), each in the file of its name. They throw InputError that names the
 // file, the place in it, the value and the remedy.
 ReadMesh read_assimp(const std::string &path);
+ReadMesh read_ply(const std::string &path);
 
 namespace {
 
@@ -28,7 +29,7 @@ struct Format {
 const Format kFormats[] = {
     {".stl", read_stl_mesh},
     {".obj", read_assimp},
-    {".ply", read_assimp},
+    {".ply", read_ply},
     {".off", read_assimp},
 };
 

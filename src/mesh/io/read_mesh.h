@@ -17,9 +17,15 @@ struct ReadMesh {
 };
 
 // By the name's ending, as the table in read_mesh.cpp says; a file with another name is read as STL.
-// OBJ, PLY and OFF are read by assimp, if it was there when this was built. It cuts polygons into
+// OBJ and OFF are read by assimp, if it was there when this was built. It cuts polygons into
 // triangles and rounds coordinates to float. Throws InputError that names the file.
 ReadMesh read_mesh(const std::string &path);
+
+// PLY from a buffer already in memory; `source` is used in messages. Polygons are cut into triangles,
+// triangle strips too; other elements are passed over, and edges counted as left out. Counts of the header
+// have to hold. In text each element has a line of its own. Throws InputError naming the file, the line or
+// byte, the element, the value and the remedy.
+ReadMesh read_ply_bytes(const char *bytes, std::size_t size, const std::string &source);
 
 bool has_assimp();
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Feeds the reader and the welder any bytes at all. They may refuse with
+// Feeds a reader, LSDCD_FUZZ_READ, and the welder any bytes at all. They may refuse with
 // InputError; anything else, or a mesh that contradicts itself, is a failure.
 #include "base/input_error.h"
+#include "mesh/io/read_mesh.h"
 #include "mesh/wall_mesh.h"
 
 #include <algorithm>
@@ -18,6 +19,16 @@ constexpr std::size_t kMaxFacets = 500;
 void require(bool holds)
 {
   if (!holds) std::abort();
+}
+
+const lsdcd::TriangleSoup &soup_of(const lsdcd::TriangleSoup &soup)
+{
+  return soup;
+}
+
+const lsdcd::TriangleSoup &soup_of(const lsdcd::ReadMesh &read)
+{
+  return read.soup;
 }
 
 void check_mesh(const lsdcd::WallMesh &mesh)
@@ -48,7 +59,9 @@ void check_mesh(const lsdcd::WallMesh &mesh)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
 {
   try {
-    const auto soup = lsdcd::read_stl_bytes(reinterpret_cast<const char *>(data), size, "fuzz");
+    const auto read = lsdcd::LSDCD_FUZZ_READ(reinterpret_cast<const char *>(data), size, "fuzz");
+    const lsdcd::TriangleSoup &soup = soup_of(read);
+    require(!soup.corners.empty());
     if (soup.n_triangles() > kMaxFacets) return 0;
     for (const lsdcd::Real tolerance : {-1.0, 0.0, 0.25}) {
       try {
