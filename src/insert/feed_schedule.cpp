@@ -4,6 +4,7 @@
 #include "insert/feed_schedule.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lsdcd {
 
@@ -18,13 +19,13 @@ bool reaches(Real amount, Real needed, Real one)
 
 }    // namespace
 
-bool FeedSchedule::is_over(const Drawn &before, Real mass) const
+bool FeedSchedule::is_over(const GrainTotals &before, Real mass) const
 {
   return (settings_.number > 0 && before.number >= settings_.number) ||
          (settings_.mass > 0 && !reaches(settings_.mass, before.mass + mass, mass));
 }
 
-bool FeedSchedule::is_due(std::int64_t step, const Drawn &before, Real mass) const
+bool FeedSchedule::is_due(std::int64_t step, const GrainTotals &before, Real mass) const
 {
   if (is_over(before, mass)) return false;
   if (settings_.kind == FeedSettings::by_mass)
@@ -40,7 +41,7 @@ std::int64_t FeedSchedule::first_open(std::int64_t now) const
   return first_step_ + (since / every + 1) * every;
 }
 
-std::int64_t FeedSchedule::first_due(std::int64_t now, const Drawn &before, Real mass) const
+std::int64_t FeedSchedule::first_due(std::int64_t now, const GrainTotals &before, Real mass) const
 {
   if (is_over(before, mass)) return kNever;
   std::int64_t step = first_open(now);
@@ -50,47 +51,52 @@ std::int64_t FeedSchedule::first_due(std::int64_t now, const Drawn &before, Real
                           : static_cast<Real>(before.number) + 1;
   const Real steps = (needed - base_) / (settings_.rate * dt_);
   if (!(steps < 1e15)) return kNever;
-  // Up to rounding; two steps before, and then one by one.
+  // Rounding may be off by a step: begin two steps before, and go on one by one.
   const std::int64_t about = base_step_ + static_cast<std::int64_t>(steps) - 2;
   if (about > step) step = first_open(about - 1);
   while (!is_due(step, before, mass)) step += settings_.every;
   return step;
 }
 
-bool FeedSchedule::set_timestep(std::int64_t step, Real dt)
+GrainTotals FeedSchedule::due_beyond(std::int64_t step, const GrainTotals &drawn, Real mean) const
 {
-  if (dt == dt_) return false;
-  base_ = amount(step);
-  base_step_ = step;
+  constexpr Real kMost = 1e15;
+  const auto before = static_cast<Real>(drawn.number);
+  Real number = settings_.number > 0 ? static_cast<Real>(settings_.number) - before : kMost;
+  if (settings_.mass > 0) number = std::min(number, (settings_.mass - drawn.mass) / mean);
+  if (settings_.kind == FeedSettings::by_number) number = std::min(number, amount(step) - before);
+  if (settings_.kind == FeedSettings::by_mass)
+    number = std::min(number, (amount(step) - drawn.mass) / mean);
+  const Real whole = std::floor(std::min(std::max(number + kRoom, Real(0)), kMost));
+  return {static_cast<std::int64_t>(whole), whole * mean};
+}
+
+void FeedSchedule::set_timestep(std::int64_t step, Real dt)
+{
+  if (dt == dt_) return;
+  continue_from(amount(step), step);
   dt_ = dt;
-  return true;
 }
 
-std::vector<Real> FeedSchedule::state() const
+std::vector<Real> FeedSchedule::state(std::int64_t step) const
 {
-  return {
-      static_cast<Real>(settings_.kind), settings_.rate, base_, static_cast<Real>(base_step_), dt_,
-      static_cast<Real>(first_step_)};
+  return {base_, static_cast<Real>(step - base_step_), dt_, static_cast<Real>(step - first_step_)};
 }
 
-bool FeedSchedule::restore(const Real *state, std::int64_t step, const Drawn &drawn)
+void FeedSchedule::restore(const Real *state, std::int64_t step)
 {
-  const FeedSettings now = settings_;
   const Real dt = dt_;
-  settings_.kind = static_cast<FeedSettings::Kind>(state[0]);
-  settings_.rate = state[1];
-  base_ = state[2];
-  base_step_ = static_cast<std::int64_t>(state[3]);
-  dt_ = state[4];
-  first_step_ = static_cast<std::int64_t>(state[5]);
-  const bool is_new_step = set_timestep(step, dt);
-  if (now.kind == settings_.kind && now.rate == settings_.rate) return is_new_step;
-  base_ = now.kind == settings_.kind          ? amount(step)
-          : now.kind == FeedSettings::by_mass ? drawn.mass
-                                              : static_cast<Real>(drawn.number);
+  base_ = state[0];
+  base_step_ = step - static_cast<std::int64_t>(state[1]);
+  dt_ = state[2];
+  first_step_ = step - static_cast<std::int64_t>(state[3]);
+  set_timestep(step, dt);
+}
+
+void FeedSchedule::continue_from(Real amount, std::int64_t step)
+{
+  base_ = amount;
   base_step_ = step;
-  settings_ = now;
-  return true;
 }
 
 }    // namespace lsdcd

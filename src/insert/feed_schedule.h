@@ -20,8 +20,7 @@ struct FeedSettings {
   int every = 1;              // steps between insertions, at least
 };
 
-// What was drawn before a grain.
-struct Drawn {
+struct GrainTotals {
   std::int64_t number = 0;
   Real mass = 0;
 };
@@ -43,19 +42,23 @@ class FeedSchedule {
   {
     return base_ + static_cast<Real>(step - base_step_) * dt_ * settings_.rate;
   }
-  bool is_over(const Drawn &before, Real mass) const;    // no more such grain will be due
-  bool is_due(std::int64_t step, const Drawn &before, Real mass) const;
+  // `before`: what was drawn before the grain, `mass`: its own.
+  bool is_over(const GrainTotals &before, Real mass) const;    // no more such grain will be due
+  bool is_due(std::int64_t step, const GrainTotals &before, Real mass) const;
   // The first step after `now` for insertion, and the first in which the grain is due.
   std::int64_t first_open(std::int64_t now) const;
-  std::int64_t first_due(std::int64_t now, const Drawn &before, Real mass) const;
+  std::int64_t first_due(std::int64_t now, const GrainTotals &before, Real mass) const;
+  // How many grains of this mean mass are due beyond those drawn.
+  GrainTotals due_beyond(std::int64_t step, const GrainTotals &drawn, Real mean) const;
 
-  // From this step on. Is it another one?
-  bool set_timestep(std::int64_t step, Real dt);
+  void set_timestep(std::int64_t step, Real dt);    // from this step on
 
-  // Numbers for a restart file. With another rate or timestep the amount goes on from where it was: is it so?
-  std::vector<Real> state() const;
-  static constexpr std::size_t kState = 6;
-  bool restore(const Real *state, std::int64_t step, const Drawn &drawn);
+  // Numbers for a restart file. They tell steps before `step`, so that they hold where steps are counted anew.
+  std::vector<Real> state(std::int64_t step) const;
+  static constexpr std::size_t kState = 4;
+  void restore(const Real *state, std::int64_t step);
+  // In place of what the state says: this amount is there.
+  void continue_from(Real amount, std::int64_t step);
 
  private:
   FeedSettings settings_;

@@ -47,6 +47,15 @@ Real GrainSource::diameter(Real at) const
   return recipe_.sizes.back().diameter;    // shares add up to a little less than 1
 }
 
+std::vector<Real> GrainSource::numbers() const
+{
+  std::vector<Real> all = {static_cast<Real>(seed_), recipe_.smallest, recipe_.largest,
+                           recipe_.density_lo, recipe_.density_hi};
+  for (const GrainRecipe::Size &size : recipe_.sizes)
+    all.insert(all.end(), {size.diameter, size.share});
+  return all;
+}
+
 Grain GrainSource::grain(std::int64_t number) const
 {
   RandomStream random({seed_, kSize, number});

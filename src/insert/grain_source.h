@@ -41,6 +41,9 @@ class GrainSource {
   const GrainRecipe &recipe() const { return recipe_; }
   Real largest_radius() const { return recipe_.largest / 2; }
 
+  // All that a grain depends on beside its number.
+  std::vector<Real> numbers() const;
+
   // The same for the same number and seed, whoever asks.
   Grain grain(std::int64_t number) const;
   Vec3 velocity_jitter(std::int64_t number) const;

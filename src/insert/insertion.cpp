@@ -3,8 +3,12 @@
 
 #include "insert/insertion.h"
 
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "base/named_numbers.h"
+
 #include <algorithm>
-#include <cmath>
+#include <cstring>
 
 namespace lsdcd {
 
@@ -12,12 +16,34 @@ namespace {
 
 constexpr std::int64_t kPlaces = 3;    // part of a key, as in grain_source.cpp
 constexpr Real kSmaller = 0.9;    // a grain below that part of a radius may fit where that did not
-constexpr Real kFormat = 19790401;    // of the state
-constexpr std::size_t kHeader = 8;    // numbers of the state before those of the schedule
+constexpr Real kFormat = -2;      // of the state
+// The state of 0.9.0: how many numbers follow, at least, and the first of them.
+constexpr Real kNumbersOfFirst = 14, kFirstFormat = 19790401;
 
 bool comes_before(const Grain &a, const Grain &b)
 {
   return a.radius != b.radius ? a.radius > b.radius : a.number < b.number;
+}
+
+void check_format(const char *state)
+{
+  // One of 0.9.0 has a count, kFirstFormat, number and mass drawn, mass inserted.
+  Real begin[5];
+  std::memcpy(begin, state, sizeof begin[0]);
+  if (begin[0] == kFormat) return;
+  const std::string remedy =
+      "go on with that version, or give the fix another ID, and the insertion begins anew";
+  if (begin[0] >= kNumbersOfFirst) std::memcpy(begin, state, sizeof begin);
+  if (begin[0] >= kNumbersOfFirst && begin[1] == kFirstFormat) {
+    const Real owed = (begin[0] - kNumbersOfFirst) / 3;
+    throw InputError(
+        "the restart file was written by 0.9.0, whose state this version cannot read: " +
+        number_text(begin[2] - owed) + " grains of mass " + number_text(begin[4]) + " were in; " +
+        remedy + " with the amount that you give it");
+  }
+  throw InputError("the restart file was written by another version of this fix, whose data it "
+                   "cannot read: " +
+                   remedy);
 }
 
 }    // namespace
@@ -35,26 +61,32 @@ Insertion::Insertion(const InsertionPlan &plan, std::int64_t step, Real dt) :
   find_next_step(step);
 }
 
+// The next grain is due later only where all that is due was drawn.
 void Insertion::find_next_step(std::int64_t now)
 {
-  next_step_ = owed_.empty() ? schedule_.first_due(now, drawn_, source_.grain(drawn_.number).mass())
-                             : schedule_.first_open(now + kRetry - 1);
+  next_step_ = has_drawn_all() ? schedule_.first_due(now, drawn_, next_grain().mass())
+                               : FeedSchedule::kNever;
+  if (owed_.empty()) return;
+  const std::int64_t retry = schedule_.first_open(std::max(now, retry_step_ - 1));
+  next_step_ = next_step_ == FeedSchedule::kNever ? retry : std::min(next_step_, retry);
 }
 
 void Insertion::begin_run(std::int64_t step, Real dt)
 {
-  const bool was_changed = schedule_.set_timestep(step, dt);
-  if ((next_step_ != FeedSchedule::kNever && next_step_ <= step) || (was_changed && owed_.empty()))
-    find_next_step(step);
+  schedule_.set_timestep(step, dt);
+  find_next_step(step);
 }
 
 void Insertion::draw_due(std::int64_t step)
 {
   const std::size_t before = owed_.size();
-  while (true) {
-    const Grain grain = source_.grain(drawn_.number);
+  was_late_ = before > 0;
+  first_new_ = next_number_;
+  while (owed_.size() < kMostDrawn) {
+    const Grain grain = next_grain();
     if (!schedule_.is_due(step, drawn_, grain.mass())) break;
     owed_.push_back(grain);
+    next_number_++;
     drawn_.number++;
     drawn_.mass += grain.mass();
   }
@@ -62,14 +94,17 @@ void Insertion::draw_due(std::int64_t step)
   std::inplace_merge(owed_.begin(), owed_.begin() + before, owed_.end(), comes_before);
 }
 
+bool Insertion::has_more(std::int64_t step) const
+{
+  return owed_.empty() && schedule_.is_due(step, drawn_, next_grain().mass());
+}
+
 std::vector<Insertion::Placed> Insertion::place(std::int64_t step, InsertionSite &site,
                                                 Packing &packing, Refused &refused) const
 {
   std::vector<Placed> placed;
-  Real too_large = HUGE_VAL;
-  for (std::size_t i = 0; i < owed_.size(); i++) {
+  for (std::size_t i = 0; i < owed_.size();) {
     const Grain &grain = owed_[i];
-    if (grain.radius > kSmaller * too_large) continue;
     RandomStream random({plan_.seed, kPlaces, grain.number, step});
     bool found = false;
     for (int k = 0; k < plan_.attempts && !found; k++) {
@@ -86,7 +121,12 @@ std::vector<Insertion::Placed> Insertion::place(std::int64_t step, InsertionSite
         placed.push_back({i, sphere.at});
       }
     }
-    if (!found) too_large = grain.radius;
+    i++;
+    if (found) continue;
+    const Real fits = kSmaller * grain.radius;
+    i = std::partition_point(owed_.begin() + i, owed_.end(),
+                             [fits](const Grain &other) { return other.radius > fits; }) -
+        owed_.begin();
   }
   return placed;
 }
@@ -94,58 +134,109 @@ std::vector<Insertion::Placed> Insertion::place(std::int64_t step, InsertionSite
 void Insertion::accept(std::int64_t step, const std::vector<Placed> &placed, const Refused &refused)
 {
   std::vector<bool> has_place(owed_.size(), false);
+  bool late_came = false;
   for (const Placed &one : placed) {
+    const Grain &grain = owed_[one.index];
     has_place[one.index] = true;
-    inserted_mass_ += owed_[one.index].mass();
+    inserted_mass_ += grain.mass();
+    late_came = late_came || grain.number < first_new_;
   }
-  std::vector<Grain> rest;
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < owed_.size(); i++)
-    if (!has_place[i]) rest.push_back(owed_[i]);
-  owed_.swap(rest);
+    if (!has_place[i]) owed_[kept++] = owed_[i];
+  owed_.resize(kept);
   refused_.add(refused);
+  wait_ = was_late_ && !late_came ? std::min<std::int64_t>(2 * wait_, kLongestWait) : 1;
+  retry_step_ = step + wait_;
+  not_drawn_ = schedule_.is_due(step, drawn_, next_grain().mass())
+                   ? schedule_.due_beyond(step, drawn_, source_.recipe().mean_mass())
+                   : GrainTotals();
   find_next_step(step);
 }
 
-Real Insertion::owed_mass() const
+GrainTotals Insertion::late() const
 {
-  Real sum = 0;
-  for (const Grain &grain : owed_) sum += grain.mass();
-  return sum;
+  GrainTotals all = not_drawn_;
+  all.number += static_cast<std::int64_t>(owed_.size());
+  for (const Grain &grain : owed_) all.mass += grain.mass();
+  return all;
 }
 
-std::vector<Real> Insertion::state() const
+bool Insertion::is_past_total() const
 {
-  std::vector<Real> state = {kFormat,
-                             static_cast<Real>(drawn_.number),
-                             drawn_.mass,
-                             inserted_mass_,
-                             static_cast<Real>(refused_.no_place),
-                             static_cast<Real>(refused_.grains),
-                             static_cast<Real>(refused_.walls),
-                             static_cast<Real>(next_step_)};
-  const std::vector<Real> schedule = schedule_.state();
-  state.insert(state.end(), schedule.begin(), schedule.end());
-  for (const Grain &grain : owed_)
-    for (const Real x : {static_cast<Real>(grain.number), grain.radius, grain.density})
-      state.push_back(x);
-  return state;
+  const FeedSettings &feed = plan_.feed;
+  return (feed.number > 0 && inserted() > feed.number) ||
+         (feed.mass > 0 && inserted_mass_ > feed.mass * (1 + 1e-9));
 }
 
-bool Insertion::restore(const std::vector<Real> &state, std::int64_t step)
+// A plan that has ended has given what was drawn.
+Real Insertion::amount_given(std::int64_t step) const
 {
-  const std::size_t fixed = kHeader + FeedSchedule::kState;
-  if (state.size() < fixed || state[0] != kFormat) return false;
-  drawn_ = {static_cast<std::int64_t>(state[1]), state[2]};
-  inserted_mass_ = state[3];
-  refused_ = {static_cast<std::int64_t>(state[4]), static_cast<std::int64_t>(state[5]),
-              static_cast<std::int64_t>(state[6])};
-  next_step_ = static_cast<std::int64_t>(state[7]);
-  const bool was_changed = schedule_.restore(&state[kHeader], step, drawn_);
+  if (!schedule_.is_over(drawn_, next_grain().mass())) return schedule_.amount(step);
+  return plan_.feed.kind == FeedSettings::by_mass ? drawn_.mass : static_cast<Real>(drawn_.number);
+}
+
+std::vector<Real> Insertion::numbers_of_plan() const
+{
+  const FeedSettings &feed = plan_.feed;
+  std::vector<Real> all = {static_cast<Real>(feed.kind), feed.rate, feed.mass,
+                           static_cast<Real>(feed.number)};
+  const std::vector<Real> grains = source_.numbers();
+  all.insert(all.end(), grains.begin(), grains.end());
+  return all;
+}
+
+std::string Insertion::state(std::int64_t step) const
+{
+  const auto real = [](std::int64_t number) { return static_cast<Real>(number); };
+  NamedNumbers all;
+  all.set("plan", numbers_of_plan());
+  all.set("given", {amount_given(step)});
+  all.set("inserted", {real(inserted()), inserted_mass_});
+  all.set("drawn", {real(drawn_.number), drawn_.mass, real(next_number_)});
+  all.set("refused", {real(refused_.no_place), real(refused_.grains), real(refused_.walls)});
+  all.set("schedule", schedule_.state(step));
+  all.set("retry", {real(wait_), real(retry_step_ - step)});
+  all.set("not drawn", {real(not_drawn_.number), not_drawn_.mass});
+  std::vector<Real> owed;
+  for (const Grain &grain : owed_) owed.push_back(real(grain.number));
+  all.set("owed", owed);
+  return std::string(reinterpret_cast<const char *>(&kFormat), sizeof kFormat) + all.bytes();
+}
+
+bool Insertion::restore(const char *state, std::int64_t step)
+{
+  check_format(state);
+  const NamedNumbers all = NamedNumbers::from(state + sizeof kFormat);
+  const auto whole = [&all](const char *name, std::size_t k) {
+    return static_cast<std::int64_t>(all.at(name, k + 1)[k]);
+  };
+  const std::vector<Real> &plan = all.at("plan", 1);
+  schedule_.restore(all.at("schedule", FeedSchedule::kState).data(), step);
+  refused_ = {whole("refused", 0), whole("refused", 1), whole("refused", 2)};
+  inserted_mass_ = all.at("inserted", 2)[1];
+  next_number_ = whole("drawn", 2);
   owed_.clear();
-  for (std::size_t i = fixed; i + 2 < state.size(); i += 3)
-    owed_.push_back({static_cast<std::int64_t>(state[i]), state[i + 1], state[i + 2]});
-  if (was_changed) find_next_step(step);
-  return true;
+  const bool is_same = plan == numbers_of_plan();
+  if (is_same) {
+    drawn_ = {whole("drawn", 0), all.at("drawn")[1]};
+    not_drawn_ = {whole("not drawn", 0), all.at("not drawn", 2)[1]};
+    wait_ = whole("retry", 0);
+    retry_step_ = step + whole("retry", 1);
+    for (const Real number : all.at("owed"))
+      owed_.push_back(source_.grain(static_cast<std::int64_t>(number)));
+  } else {
+    // Grains without a place are drawn anew.
+    drawn_ = {whole("inserted", 0), inserted_mass_};
+    not_drawn_ = {};
+    const FeedSettings::Kind kind = plan_.feed.kind;
+    schedule_.continue_from(plan[0] == static_cast<Real>(kind) ? all.at("given", 1)[0]
+                            : kind == FeedSettings::by_mass    ? drawn_.mass
+                                                               : static_cast<Real>(drawn_.number),
+                            step);
+  }
+  find_next_step(step);
+  return is_same;
 }
 
 }    // namespace lsdcd

@@ -10,6 +10,7 @@
 #include "insert/random_stream.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace lsdcd {
@@ -38,14 +39,18 @@ struct Refused {
 };
 
 // All processes keep the same state. In a step each calls draw_due(); one calls place(), and all are told
-// the result by accept().
+// the result by accept(); and again while has_more() says so.
 class Insertion {
  public:
   struct Placed {
     std::size_t index;    // of owed()
     Vec3 at;
   };
-  static constexpr int kRetry = 20;    // steps, after one that left a grain without a place
+  // Grains without a place are tried again 1, 2, 4 ... steps later, at most so many, for as long as none of them
+  // finds one; and in each step in which another grain is due.
+  static constexpr int kLongestWait = 20;
+  // No more grains are drawn before these have places, so that a huge amount needs no huge memory.
+  static constexpr std::size_t kMostDrawn = 1000000;
 
   Insertion(const InsertionPlan &plan, std::int64_t step, Real dt);
 
@@ -54,6 +59,8 @@ class Insertion {
   std::int64_t next_step() const { return next_step_; }
 
   void draw_due(std::int64_t step);
+  // Is more due in this step, after all that was drawn has found a place?
+  bool has_more(std::int64_t step) const;
   // The largest first. A grain that finds no place leaves the others of about its size to the next try.
   std::vector<Placed> place(std::int64_t step, InsertionSite &site, Packing &packing,
                             Refused &refused) const;
@@ -65,23 +72,38 @@ class Insertion {
   // Since the fix was defined.
   std::int64_t inserted() const { return drawn_.number - static_cast<std::int64_t>(owed_.size()); }
   Real inserted_mass() const { return inserted_mass_; }
-  const std::vector<Grain> &owed() const { return owed_; }    // due, without a place
-  Real owed_mass() const;
+  // Drawn, without a place.
+  const std::vector<Grain> &owed() const { return owed_; }
+  // Due, without a place. Those not yet drawn count with the mean mass.
+  GrainTotals late() const;
   const Refused &refused() const { return refused_; }
+  // Is more in than the total that is asked for?
+  bool is_past_total() const;
 
-  // Numbers for a restart file.
-  std::vector<Real> state() const;
-  // False: the state is of something else, and nothing was done.
-  bool restore(const std::vector<Real> &state, std::int64_t step);
+  // For a restart file, at this step.
+  std::string state(std::int64_t step) const;
+  // Goes on in this step, whatever the number of the step was before. False: the amounts or the grains of the
+  // plan are others. What is in then stays, and the amount that the former plan has given; what was without a
+  // place is drawn anew. Throws InputError where the state is of another version.
+  bool restore(const char *state, std::int64_t step);
 
  private:
   void find_next_step(std::int64_t now);
+  bool has_drawn_all() const { return owed_.size() < kMostDrawn; }
+  Grain next_grain() const { return source_.grain(next_number_); }
+  Real amount_given(std::int64_t step) const;
+  std::vector<Real> numbers_of_plan() const;
 
   InsertionPlan plan_;
   GrainSource source_;
   FeedSchedule schedule_;
-  Drawn drawn_;
-  std::vector<Grain> owed_;    // the largest first
+  GrainTotals drawn_;
+  std::int64_t next_number_ = 0;              // of grains
+  std::vector<Grain> owed_;                   // the largest first
+  GrainTotals not_drawn_;                     // due beyond these
+  bool was_late_ = false;                     // before this step's grains were drawn
+  std::int64_t first_new_ = 0;                // number of the first of these
+  std::int64_t wait_ = 1, retry_step_ = 0;    // for owed grains
   Real inserted_mass_ = 0;
   Refused refused_;
   std::int64_t next_step_ = 0;

@@ -304,20 +304,25 @@ std::vector<Insertion::Placed> FixInsertLsdcd::choose(lsdcd::Refused &refused)
 
 void FixInsertLsdcd::pre_exchange()
 {
-  if (update->ntimestep != next_reneighbor) return;
-  insertion->draw_due(update->ntimestep);
+  const std::int64_t step = update->ntimestep;
+  if (step != next_reneighbor) return;
   lsdcd::Refused refused;
-  std::vector<Insertion::Placed> placed;
-  if (!insertion->owed().empty()) {
-    placed = choose(refused);
-    create(placed);
-  }
-  insertion->accept(update->ntimestep, placed, refused);
+  do {
+    insertion->draw_due(step);
+    refused = {};
+    std::vector<Insertion::Placed> placed;
+    if (!insertion->owed().empty()) {
+      placed = choose(refused);
+      create(placed);
+    }
+    insertion->accept(step, placed, refused);
+  } while (insertion->has_more(step));
   follow_schedule();
-  if (!insertion->owed().empty() && !told) {
-    told = true;
-    tell_refused("in step " + std::to_string(update->ntimestep), refused);
-  }
+  if (insertion->owed().empty() || told) return;
+  told = true;
+  warn(late_text("in step " + std::to_string(step), refused) +
+       "; they are tried again until they have places, and the end of the run tells how many have "
+       "none");
 }
 
 // Does this process own the place, a copy of which it may change? One process says so.
@@ -383,7 +388,7 @@ void FixInsertLsdcd::create(const std::vector<Insertion::Placed> &placed)
   atom->map_set();
 }
 
-void FixInsertLsdcd::tell_refused(const std::string &when, const lsdcd::Refused &refused)
+std::string FixInsertLsdcd::late_text(const std::string &when, const lsdcd::Refused &refused) const
 {
   std::string why;
   const auto add = [&](std::int64_t n, const std::string &what) {
@@ -394,58 +399,84 @@ void FixInsertLsdcd::tell_refused(const std::string &when, const lsdcd::Refused 
   add(refused.no_place, face ? "found no point of the face off its edges and in the box"
                              : "found no point of the region in the box");
   if (!why.empty()) why = "; of " + std::to_string(refused.all()) + " places refused " + why;
-  warn(when + " grains are due without a place: " + std::to_string(insertion->owed().size()) +
-       ", of mass " + number_text(insertion->owed_mass()) + why +
-       "; they are tried again. A wider or deeper place, a higher velocity, a smaller rate or more "
-       "attempts help");
+  const lsdcd::GrainTotals late = insertion->late();
+  return when + " grains are due without a place: " + std::to_string(late.number) + ", of mass " +
+         number_text(late.mass) + why;
+}
+
+// By what was in the way most often.
+std::string FixInsertLsdcd::remedy(const lsdcd::Refused &refused) const
+{
+  const std::string place = face ? "mesh" : "region";
+  if (refused.no_place > std::max(refused.grains, refused.walls))
+    return "The " + place + " has hardly a point " + (face ? "off its edges and " : "") +
+           "in the box: make it larger, or move it into the box";
+  if (refused.walls > refused.grains)
+    return "Walls are in the way: move the " + place +
+           " off them, or name those that grains keep off with wall ID";
+  const std::string attempts =
+      "more attempts than " + std::to_string(settings.plan.attempts) + " for each grain";
+  if (settings.plan.feed.kind == lsdcd::FeedSettings::at_once)
+    return "They do not fit in: a larger " + place + ", fewer or smaller grains, or " + attempts +
+           " help";
+  return "Grains are in the way, as they leave more slowly than the rate brings others: a larger " +
+         place + (face ? ", more depth" : "") +
+         ", a higher velocity or a smaller rate help, and a little " + attempts;
 }
 
 void FixInsertLsdcd::post_run()
 {
-  if (insertion->inserted() != inserted_before)
+  const std::int64_t came = insertion->inserted() - inserted_before;
+  if (came != 0)
     log(std::to_string(insertion->inserted()) + " grains, of mass " +
         number_text(insertion->inserted_mass()) + ", are in");
   if (insertion->owed().empty()) return;
   const lsdcd::Refused &all = insertion->refused();
-  tell_refused("at the end", {all.no_place - refused_seen.no_place,
-                              all.grains - refused_seen.grains, all.walls - refused_seen.walls});
+  const lsdcd::Refused in_run = {all.no_place - refused_seen.no_place,
+                                 all.grains - refused_seen.grains, all.walls - refused_seen.walls};
+  warn(late_text("at the end", in_run) + "; in this run " + std::to_string(came) +
+       (came == 1 ? " grain" : " grains") + " came. " + remedy(in_run));
 }
 
 double FixInsertLsdcd::compute_vector(int i)
 {
   const lsdcd::Refused &refused = insertion->refused();
-  const double values[] = {double(insertion->inserted()),    insertion->inserted_mass(),
-                           double(insertion->owed().size()), insertion->owed_mass(),
-                           double(refused.grains),           double(refused.walls),
-                           double(refused.no_place)};
+  const lsdcd::GrainTotals late = insertion->late();
+  const double values[] = {
+      double(insertion->inserted()), insertion->inserted_mass(), double(late.number),     late.mass,
+      double(refused.grains),        double(refused.walls),      double(refused.no_place)};
   return values[i];
 }
 
 void FixInsertLsdcd::write_restart(FILE *file)
 {
   if (comm->me != 0) return;
-  const std::vector<double> data = insertion->state();
-  const int bytes = static_cast<int>((data.size() + 1) * sizeof(double));
-  const double size = static_cast<double>(data.size());
+  const std::string data = insertion->state(update->ntimestep);
+  const int bytes = static_cast<int>(data.size());
   fwrite(&bytes, sizeof bytes, 1, file);
-  fwrite(&size, sizeof size, 1, file);
-  fwrite(data.data(), sizeof(double), data.size(), file);
+  fwrite(data.data(), 1, data.size(), file);
 }
 
 void FixInsertLsdcd::restart(char *buffer)
 {
-  double size;
-  std::memcpy(&size, buffer, sizeof size);
-  std::vector<double> data(size >= 0 && size < 1e9 ? static_cast<std::size_t>(size) : 0);
-  std::memcpy(data.data(), buffer + sizeof size, data.size() * sizeof(double));
-  if (!insertion->restore(data, update->ntimestep))
-    warn("what the restart file has of this fix is of another version: totals begin at zero");
+  bool is_same = false;
+  try {
+    is_same = insertion->restore(buffer, update->ntimestep);
+  } catch (const lsdcd::InputError &e) {
+    fatal(e.what());
+  }
+  const std::string in = std::to_string(insertion->inserted()) + " grains, of mass " +
+                         number_text(insertion->inserted_mass()) + ", are in";
+  if (insertion->is_past_total())
+    warn(in + ", which is more than the total that this fix asks for: no more come");
+  else if (!is_same)
+    log("amounts or grains are others than before the restart and count from here on; " + in);
   follow_schedule();
 }
 
 double FixInsertLsdcd::memory_usage()
 {
-  return static_cast<double>(walls->bytes());
+  return static_cast<double>(walls->bytes() + insertion->owed().size() * sizeof(lsdcd::Grain));
 }
 
 FixInsertRadii::FixInsertRadii(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)

@@ -62,7 +62,8 @@ class FixInsertLsdcd : public Fix, private OwnMessages {
   void create(const std::vector<lsdcd::Insertion::Placed> &);
   bool owns(double *) const;
   void follow_schedule();
-  void tell_refused(const std::string &, const lsdcd::Refused &);
+  std::string late_text(const std::string &, const lsdcd::Refused &) const;
+  std::string remedy(const lsdcd::Refused &) const;
 };
 
 // Pair styles of LAMMPS ask fixes of the style `pour` for the largest radius of a type that will come, and make

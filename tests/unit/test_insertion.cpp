@@ -3,6 +3,7 @@
 
 // Which grains are due when, how large they are, and where they fit: closed forms and brute force.
 #include "base/input_error.h"
+#include "base/named_numbers.h"
 #include "input/insert_settings.h"
 #include "insert/inlet_face.h"
 #include "insert/insertion.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <vector>
 
@@ -146,14 +148,88 @@ TEST(insertion, what_finds_no_place_is_owed_and_tried_again)
   std::vector<PackedSphere> there;
   EXPECT_EQ(insertion.next_step(), 1);
   EXPECT_EQ(insert(insertion, 1, site, there), 1U);
-  EXPECT_EQ(insertion.owed().size(), 4U);
-  EXPECT_NEAR(insertion.owed_mass(), 4, 1e-12);
+  EXPECT_EQ(insertion.late().number, 4);
+  EXPECT_NEAR(insertion.late().mass, 4, 1e-12);
   EXPECT_EQ(insertion.refused().grains,
             plan.attempts);    // of one grain; the others are no smaller
-  EXPECT_EQ(insertion.next_step(), 1 + Insertion::kRetry);
+  // Twice as long from try to try.
+  std::int64_t step = 1;
+  for (const int wait : {1, 2, 4, 8, 16, 20, 20}) {
+    EXPECT_EQ(insertion.next_step(), step += wait);
+    EXPECT_EQ(insert(insertion, step, site, there), 0U);
+  }
   site.side = 100;
-  EXPECT_EQ(insert(insertion, 21, site, there), 4U);
+  EXPECT_EQ(insert(insertion, step + 20, site, there), 4U);
   EXPECT_EQ(insertion.inserted(), 5);
+}
+
+TEST(insertion, a_grain_without_a_place_does_not_hold_back_those_that_are_due_later)
+{
+  InsertionPlan plan = plan_of(FeedSettings::by_number, 1);
+  Insertion insertion(plan, 0, 1);    // a grain a step
+  Cube site;
+  site.side = 0.5;
+  std::vector<PackedSphere> there = {{{0, 0, 0}, 0.5}};
+  for (int step = 1; step <= 30; step++) {
+    ASSERT_EQ(insertion.next_step(), step);
+    insert(insertion, step, site, there);
+  }
+  EXPECT_EQ(insertion.late().number, 30);
+  site.side = 100;    // now there is room: all that is late comes
+  EXPECT_EQ(insert(insertion, 31, site, there), 31U);
+  EXPECT_EQ(insertion.late().number, 0);
+}
+
+TEST(insertion, where_late_grains_find_places_the_others_are_tried_in_the_next_step)
+{
+  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
+  plan.feed.number = 9;
+  Insertion insertion(plan, 0, 1);
+  Cube site;
+  site.side = 0.5;
+  std::vector<PackedSphere> there = {{{0, 0, 0}, 0.5}};
+  for (const int step : {1, 2, 4, 8}) insert(insertion, step, site, there);
+  EXPECT_EQ(insertion.next_step(), 16);
+  there.clear();
+  EXPECT_EQ(insert(insertion, 16, site, there), 1U);
+  EXPECT_EQ(insertion.next_step(), 17);
+}
+
+TEST(insertion, a_huge_amount_takes_the_memory_of_a_million_grains)
+{
+  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
+  plan.feed.number = 1000000000;
+  Insertion insertion(plan, 0, 1);
+  Cube site;
+  site.side = 0.5;
+  std::vector<PackedSphere> there;
+  EXPECT_EQ(insert(insertion, 1, site, there), 1U);
+  EXPECT_EQ(insertion.owed().size(), Insertion::kMostDrawn - 1);
+  EXPECT_EQ(insertion.late().number, 999999999);
+  EXPECT_NEAR(insertion.late().mass, 999999999, 1);    // rounding of 1e6 sums
+  EXPECT_FALSE(insertion.has_more(1));
+  // In vain: what is not drawn is due, too, and brings no try in each step.
+  EXPECT_EQ(insertion.next_step(), 2);
+  EXPECT_EQ(insert(insertion, 2, site, there), 0U);
+  EXPECT_EQ(insertion.next_step(), 4);
+}
+
+TEST(insertion, more_than_a_million_grains_come_in_one_step_where_all_have_places)
+{
+  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
+  plan.feed.mass = 2.5 * Insertion::kMostDrawn;
+  Insertion insertion(plan, 0, 1);
+  std::int64_t n = 0;
+  do {
+    insertion.draw_due(1);
+    std::vector<Insertion::Placed> all;
+    for (std::size_t i = 0; i < insertion.owed().size(); i++) all.push_back({i, {0, 0, 0}});
+    n += static_cast<std::int64_t>(all.size());
+    insertion.accept(1, all, {});
+  } while (insertion.has_more(1));
+  EXPECT_EQ(n, 2500000);
+  EXPECT_EQ(insertion.inserted(), n);
+  EXPECT_EQ(insertion.next_step(), FeedSchedule::kNever);
 }
 
 TEST(insertion, goes_on_from_its_state_as_if_it_had_not_ended)
@@ -173,23 +249,192 @@ TEST(insertion, goes_on_from_its_state_as_if_it_had_not_ended)
   Insertion first(plan, 0, 0.1);
   run(first, 777, parts);
   Insertion second(plan, 777, 0.1);
-  EXPECT_TRUE(second.restore(first.state(), 777));
+  second.restore(first.state(777).data(), 777);
   run(second, 2000, parts);
   ASSERT_EQ(parts.size(), whole.size());
   for (std::size_t i = 0; i < whole.size(); i++) {
     EXPECT_TRUE(parts[i].at == whole[i].at);
     EXPECT_EQ(parts[i].radius, whole[i].radius);
   }
-  EXPECT_EQ(second.state(), one.state());
+  EXPECT_EQ(second.state(2000), one.state(2000));
+}
+
+// Steps in which grains come from here on, told from here.
+std::vector<std::int64_t> next_steps(Insertion &insertion, std::int64_t now, int n)
+{
+  Cube site;
+  std::vector<PackedSphere> there;
+  std::vector<std::int64_t> steps;
+  for (int k = 0; k < n; k++) {
+    const std::int64_t step = insertion.next_step();
+    steps.push_back(step - now);
+    insert(insertion, step, site, there);
+  }
+  return steps;
+}
+
+TEST(insertion, steps_that_are_counted_anew_change_nothing)
+{
+  InsertionPlan plan = plan_of(FeedSettings::by_mass, 0.37);
+  plan.feed.every = 3;
+  plan.grains.sizes.clear();
+  plan.grains.smallest = 0.5;
+  Insertion first(plan, 5, 0.1);
+  next_steps(first, 5, 20);
+  const std::int64_t now = first.next_step() - 1;
+  const std::string state = first.state(now);
+  const std::vector<std::int64_t> wanted = next_steps(first, now, 20);
+  for (const std::int64_t other : {std::int64_t(0), now, std::int64_t(1000000)}) {
+    Insertion second(plan, other, 0.1);
+    second.restore(state.data(), other);
+    EXPECT_EQ(next_steps(second, other, 20), wanted) << other;
+  }
+}
+
+// What goes on by the new plan where 20 grains of mass 1 are in since step 20, and it is step 50.
+Insertion continued(const InsertionPlan &former, const InsertionPlan &plan)
+{
+  Insertion first(former, 0, 1);
+  next_steps(first, 0, 20);
+  EXPECT_EQ(first.next_step(), FeedSchedule::kNever);
+  Insertion second(plan, 50, 1);
+  second.restore(first.state(50).data(), 50);
+  EXPECT_EQ(second.inserted(), 20);
+  return second;
+}
+
+TEST(insertion, with_a_larger_total_after_a_restart_the_rate_goes_on_from_there)
+{
+  for (const auto kind : {FeedSettings::by_mass, FeedSettings::by_number})
+    for (const bool by_mass : {false, true}) {
+      InsertionPlan former = plan_of(kind, 1), plan = former;
+      former.feed.mass = by_mass ? 20 : 0;
+      former.feed.number = by_mass ? 0 : 20;
+      plan.feed.mass = by_mass ? 23 : 0;
+      plan.feed.number = by_mass ? 0 : 23;
+      Insertion second = continued(former, plan);
+      EXPECT_EQ(next_steps(second, 50, 3), (std::vector<std::int64_t>{1, 2, 3}));
+      EXPECT_EQ(second.next_step(), FeedSchedule::kNever);
+    }
+}
+
+TEST(insertion, without_a_total_after_a_restart_the_rate_goes_on_from_there)
+{
+  InsertionPlan former = plan_of(FeedSettings::by_mass, 1);
+  former.feed.number = 20;
+  Insertion second = continued(former, plan_of(FeedSettings::by_mass, 1));
+  EXPECT_EQ(next_steps(second, 50, 3), (std::vector<std::int64_t>{1, 2, 3}));
+}
+
+TEST(insertion, smaller_grains_after_a_restart_fill_up_what_is_left_of_the_mass)
+{
+  InsertionPlan former = plan_of(FeedSettings::at_once, 0);
+  former.feed.mass = 20.9;
+  Insertion first(former, 0, 1);
+  InsertionPlan plan = former;
+  plan.grains.sizes = {{0.5, 1}};    // of mass 1/8
+  plan.grains.smallest = plan.grains.largest = 0.5;
+  Insertion second(plan, 50, 1);
+  Cube site;
+  std::vector<PackedSphere> there;
+  EXPECT_EQ(insert(first, 1, site, there), 20U);
+  second.restore(first.state(50).data(), 50);
+  EXPECT_EQ(insert(second, second.next_step(), site, there), 7U);
+  EXPECT_NEAR(second.inserted_mass(), 20.875, 1e-12);
+}
+
+TEST(insertion, grains_without_a_place_are_of_the_new_sizes_after_a_restart)
+{
+  InsertionPlan former = plan_of(FeedSettings::at_once, 0);
+  former.feed.number = 5;
+  Insertion first(former, 0, 1);
+  Cube site;
+  site.side = 0.5;
+  std::vector<PackedSphere> there;
+  EXPECT_EQ(insert(first, 1, site, there), 1U);
+  InsertionPlan plan = former;
+  plan.feed.number = 4;
+  plan.grains.sizes = {{0.25, 1}};
+  plan.grains.smallest = plan.grains.largest = 0.25;
+  Insertion second(plan, 1, 1);
+  second.restore(first.state(1).data(), 1);
+  site.side = 100;
+  EXPECT_EQ(insert(second, second.next_step(), site, there), 3U);
+  EXPECT_EQ(there.back().radius, 0.125);
+  EXPECT_EQ(second.next_step(), FeedSchedule::kNever);
+}
+
+TEST(insertion, with_a_total_below_what_is_in_nothing_comes_and_it_says_so)
+{
+  InsertionPlan former = plan_of(FeedSettings::by_number, 1), plan = former;
+  former.feed.number = 20;
+  EXPECT_FALSE(continued(former, former).is_past_total());
+  plan.feed.number = 19;
+  const Insertion second = continued(former, plan);
+  EXPECT_TRUE(second.is_past_total());
+  EXPECT_EQ(second.next_step(), FeedSchedule::kNever);
+}
+
+std::string refusal_of(const std::vector<Real> &numbers)
+{
+  Insertion insertion(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
+  try {
+    insertion.restore(reinterpret_cast<const char *>(numbers.data()), 0);
+  } catch (const InputError &e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(insertion, the_state_of_another_version_is_refused_with_a_remedy)
+{
+  // 0.9.0: how many numbers, its tag, number and mass drawn, mass inserted, 4 more, 6 of the schedule, 3 a grain owed.
+  std::vector<Real> first(21, 0);
+  const Real begin[] = {20, 19790401, 42, 84, 80};
+  std::copy(std::begin(begin), std::end(begin), first.begin());
+  EXPECT_NE(refusal_of(first).find(
+                "0.9.0, whose state this version cannot read: 40 grains of mass 80 were in"),
+            std::string::npos)
+      << refusal_of(first);
+  for (const Real other : {-3.0, 20.0, 1.0})
+    EXPECT_NE(refusal_of({other, 0, 0, 0, 0}).find("another version of this fix"),
+              std::string::npos)
+        << refusal_of({other, 0, 0, 0, 0});
+  EXPECT_NE(refusal_of(first).find("give the fix another ID"), std::string::npos);
 }
 
 TEST(insertion, another_rate_after_a_restart_counts_from_there)
 {
   Insertion first(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
   Insertion second(plan_of(FeedSettings::by_mass, 2), 4, 0.1);
-  EXPECT_TRUE(second.restore(first.state(), 4));
+  second.restore(first.state(4).data(), 4);
   EXPECT_EQ(second.next_step(), 7);    // 0.4 is there, 0.6 are three steps
-  EXPECT_FALSE(second.restore({1, 2, 3}, 4));
+}
+
+TEST(named_numbers, come_back_and_others_do_not_matter)
+{
+  NamedNumbers all;
+  all.set("a", {1, 2.5});
+  all.set("none", {});
+  all.set("of a later version", {7});
+  const std::string bytes = all.bytes();
+  const NamedNumbers back = NamedNumbers::from(bytes.data());
+  EXPECT_EQ(back.at("a", 2), (std::vector<Real>{1, 2.5}));
+  EXPECT_TRUE(back.at("none").empty());
+}
+
+TEST(named_numbers, that_are_missing_or_cut_are_refused)
+{
+  NamedNumbers all;
+  all.set("a", {1, 2.5});
+  EXPECT_THROW(all.at("b"), InputError);
+  EXPECT_THROW(all.at("a", 3), InputError);
+  const std::string whole = all.bytes();
+  for (std::uint64_t left = 1; left < whole.size() - sizeof left; left++) {
+    std::string cut = whole;
+    std::memcpy(&cut[0], &left, sizeof left);
+    EXPECT_THROW(NamedNumbers::from(cut.data()), InputError) << left;
+  }
 }
 
 TEST(packing, knows_what_brute_force_over_images_finds)
