@@ -95,7 +95,7 @@ typedef struct lsdcd_mesh_facts {
   double area, volume;           /* the volume is < 0 where normals point in; what lies in two
                                     shells counts twice */
   double lo[3], hi[3];
-  size_t meeting_pairs; /* of triangles of different closed shells, which cut, overlap or
+  size_t meeting_pairs;  /* of triangles of different closed shells, which cut, overlap or
                                     touch each other there */
   size_t given_vertices; /* those of lsdcd_mesh_from_faces(), else three corners a triangle */
 } lsdcd_mesh_facts;
@@ -230,6 +230,17 @@ typedef struct lsdcd_query {
                          0: asking for these is an error */
   lsdcd_progress *progress; /* on the host; with it points are answered in parts; null: none */
   void *data;
+  /* The distance, negative where `side` is -1: > 0 outside, < 0 inside, 0 on the mesh; infinite, with its sign, where
+   * nothing is found. Asked for under the conditions of `side`, `estimate_sides` included, with or without it. Where that
+   * would be 0, as on a device where nothing is found, no number. */
+  void *signed_distance;
+  ptrdiff_t signed_distance_step;
+  /* 3 numbers, the barycentric coordinates of the closest point in `triangle`: the point is the sum of the triangle's
+   * welded corners, in the order given, times these. Each is >= 0 and their sum 1, up to its rounding; that of a corner
+   * that the closest feature does not have is 0. The sum is off from `closest` by no more than that is off, also in thin
+   * triangles. No numbers where `triangle` is LSDCD_NONE. */
+  void *barycentric;
+  ptrdiff_t barycentric_row, barycentric_column;
 } lsdcd_query;
 
 /* Answers in arrays of the host. Any. */

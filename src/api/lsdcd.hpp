@@ -194,6 +194,10 @@ struct Query {
   T *winding = nullptr;
   std::ptrdiff_t winding_step = 0;
   bool estimate_sides = false;
+  T *signed_distance = nullptr;    // < 0 inside
+  std::ptrdiff_t signed_distance_step = 0;
+  T *barycentric = nullptr;
+  std::ptrdiff_t barycentric_row = 0, barycentric_column = 0;
 
   operator lsdcd_query() const
   {
@@ -223,6 +227,11 @@ struct Query {
     q.winding = winding;
     q.winding_step = winding_step;
     q.estimate_sides = estimate_sides;
+    q.signed_distance = signed_distance;
+    q.signed_distance_step = signed_distance_step;
+    q.barycentric = barycentric;
+    q.barycentric_row = barycentric_row;
+    q.barycentric_column = barycentric_column;
     return q;
   }
 };
@@ -276,13 +285,23 @@ class Grid {
   template <class T>
   std::vector<T> distances(const std::vector<T> &points, double radius = 0) const
   {
-    if (points.size() % 3 != 0)
-      throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::Grid: there are " + std::to_string(points.size()) +
-                                            " points' numbers, which is not three a point");
-    std::vector<T> out(points.size() / 3);
+    std::vector<T> out(number_of(points));
     Query<T> q(points.data(), out.size());
     q.radius = radius;
     q.distance = out.data();
+    query(q);
+    return out;
+  }
+  // The same, < 0 inside. The mesh has sides, or `estimate_sides` is true; see lsdcd_query.
+  template <class T>
+  std::vector<T> signed_distances(const std::vector<T> &points, double radius = 0,
+                                  bool estimate_sides = false) const
+  {
+    std::vector<T> out(number_of(points));
+    Query<T> q(points.data(), out.size());
+    q.radius = radius;
+    q.signed_distance = out.data();
+    q.estimate_sides = estimate_sides;
     query(q);
     return out;
   }
@@ -332,6 +351,15 @@ class Grid {
   const lsdcd_grid *get() const { return handle_.get(); }
 
  private:
+  template <class T>
+  static std::size_t number_of(const std::vector<T> &points)
+  {
+    if (points.size() % 3 != 0)
+      throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::Grid: there are " + std::to_string(points.size()) +
+                                            " points' numbers, which is not three a point");
+    return points.size() / 3;
+  }
+
   std::unique_ptr<lsdcd_grid, c::Free<lsdcd_grid_free>> handle_;
 };
 

@@ -7,11 +7,14 @@
 #include "api/call_threads.h"
 #include "api/device_memory.h"
 #include "api/points_given.h"
+#include "backend/backend_cpu.h"
 #include "engine/wall_engine.h"
 #include "query/radius_error.h"
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 using namespace lsdcd;
 
@@ -44,12 +47,13 @@ lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on
   lsdcd_query q = checked(given, "lsdcd_query", offsetof(lsdcd_query, winding));
   check_points(q);
   if (q.n > 0 && !q.distance && !q.closest && !q.normal && !q.triangle && !q.feature && !q.side &&
-      !q.status && !q.winding)
+      !q.status && !q.winding && !q.signed_distance && !q.barycentric)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "nothing is asked for: all arrays of answers are null");
   if (q.winding && !on_host)
     throw ApiError(LSDCD_ERROR_SIDE, "only the host tells winding numbers: use lsdcd_query_host()");
-  q.estimate_sides = q.side && q.estimate_sides && on_host && !grid.has_sides;
-  if (q.side && !q.estimate_sides) check_sides(grid, on_host);
+  const bool with_sides = q.side || q.signed_distance;
+  q.estimate_sides = with_sides && q.estimate_sides && on_host && !grid.has_sides;
+  if (with_sides && !q.estimate_sides) check_sides(grid, on_host);
   settle_radius(grid, q);
   return q;
 }
@@ -78,6 +82,9 @@ PointArrays<T> arrays_of(const lsdcd_query &q)
   io.distance = numbers(static_cast<T *>(q.distance), q.distance_step);
   io.closest = vectors(static_cast<T *>(q.closest), q.closest_row, q.closest_column);
   io.normal = vectors(static_cast<T *>(q.normal), q.normal_row, q.normal_column);
+  io.signed_distance = numbers(static_cast<T *>(q.signed_distance), q.signed_distance_step);
+  io.barycentric =
+      vectors(static_cast<T *>(q.barycentric), q.barycentric_row, q.barycentric_column);
   io.triangle = q.triangle;
   io.feature = q.feature;
   io.side = q.side;
@@ -102,6 +109,8 @@ lsdcd_query part_of(lsdcd_query q, std::size_t from, std::size_t n)
   skip(q.closest, wanted, q.closest_row == 0 ? 3 : q.closest_row);
   skip(q.normal, wanted, q.normal_row == 0 ? 3 : q.normal_row);
   skip(q.winding, wanted, q.winding_step == 0 ? 1 : q.winding_step);
+  skip(q.signed_distance, wanted, q.signed_distance_step == 0 ? 1 : q.signed_distance_step);
+  skip(q.barycentric, wanted, q.barycentric_row == 0 ? 3 : q.barycentric_row);
   skip(q.triangle, q.triangle, 1);
   skip(q.feature, q.feature, 1);
   skip(q.side, q.side, 1);
@@ -123,12 +132,21 @@ template <class T>
 void answer_on_host(const ApiGrid &grid, const lsdcd_query &q)
 {
   PointArrays<T> io = arrays_of<T>(q);
-  if (q.estimate_sides) io.side = nullptr;
+  // Sides are found after distances here, and the sign last.
+  const Column<T> with_sign = std::exchange(io.signed_distance, {});
+  if (with_sign.at && !io.distance.at) io.distance = with_sign;
+  std::vector<std::int8_t> own_sides(with_sign.at && !q.side ? q.n : 0);
+  std::int8_t *const side = own_sides.empty() ? q.side : own_sides.data();
+  io.side = q.estimate_sides ? nullptr : side;
   if (io.distance.at || io.status || io.side || !io.only_distance()) answer_on_host(grid, io);
   if (q.winding || q.estimate_sides)
     estimate_sides(grid.mesh->sides, io.n, io.points,
                    numbers(static_cast<T *>(q.winding), q.winding_step),
-                   q.estimate_sides ? q.side : nullptr, q.status);
+                   q.estimate_sides ? side : nullptr, q.status);
+  if (with_sign.at)
+    CpuBackend().for_each(q.n, [&](std::size_t i) {
+      with_sign[i] = static_cast<T>(signed_distance(io.distance[i], side[i]));
+    });
 }
 
 template <class T>
@@ -144,11 +162,18 @@ void answer_in_parts(const ApiGrid &grid, const lsdcd_query &q)
 template <class Check>
 void each_given(const lsdcd_query &q, const Check &check)
 {
-  const std::pair<const void *, const char *> arrays[] = {
-      {q.points, "points"},   {q.radii, "radii"},   {q.distance, "distance"},
-      {q.closest, "closest"}, {q.normal, "normal"}, {q.triangle, "triangle"},
-      {q.feature, "feature"}, {q.side, "side"},     {q.status, "status"},
-      {q.winding, "winding"}};
+  const std::pair<const void *, const char *> arrays[] = {{q.points, "points"},
+                                                          {q.radii, "radii"},
+                                                          {q.distance, "distance"},
+                                                          {q.closest, "closest"},
+                                                          {q.normal, "normal"},
+                                                          {q.triangle, "triangle"},
+                                                          {q.feature, "feature"},
+                                                          {q.side, "side"},
+                                                          {q.status, "status"},
+                                                          {q.winding, "winding"},
+                                                          {q.signed_distance, "signed_distance"},
+                                                          {q.barycentric, "barycentric"}};
   for (const auto &[array, name] : arrays)
     if (array) check(array, name);
 }

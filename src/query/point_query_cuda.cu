@@ -19,7 +19,10 @@ class DeviceGrid : public DeviceCopy, public GridOn<CudaBackend> {
     of_face_ = from_host(b, names.of_face);
     of_edge_ = from_host(b, names.of_edge);
     of_vertex_ = from_host(b, names.of_vertex);
-    this->names = {of_face_.data(), of_edge_.data(), of_vertex_.data()};
+    this->names = names.view();
+    this->names.of_face = of_face_.data();
+    this->names.of_edge = of_edge_.data();
+    this->names.of_vertex = of_vertex_.data();
   }
 
   std::unique_ptr<StreamQuery> query_on(void *stream) const override;

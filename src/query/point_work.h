@@ -6,6 +6,7 @@
 #pragma once
 
 #include "contact/find_contacts.h"
+#include "query/barycentric.h"
 #include "query/grid_work.h"
 #include "query/triangle_table.h"
 
@@ -23,12 +24,17 @@ struct PointArrays {
   Column<const T> radii;    // null: `radius` is that of all
   Real radius = 0;          // nothing farther is looked for
   Column<T> distance;       // infinite where there is nothing
-  StridedView<T> closest, normal;
+  Column<T> signed_distance;
+  StridedView<T> closest, normal, barycentric;
   std::uint32_t *triangle = nullptr, *feature = nullptr;
   std::int8_t *side = nullptr;
   std::uint8_t *status = nullptr;
 
-  bool only_distance() const { return !closest.at && !normal.at && !triangle && !feature && !side; }
+  bool only_distance() const
+  {
+    return !signed_distance.at && !closest.at && !normal.at && !barycentric.at && !triangle &&
+           !feature && !side;
+  }
 };
 
 // The feature of the wall that an answer found, and its closest point to q; in double even if it was
@@ -181,7 +187,22 @@ struct PointWork {
     if (io.normal.at) io.normal.put(i, nearest.normal);
     if (io.feature) io.feature[i] = nearest.feature;
     if (io.triangle) io.triangle[i] = a.found() ? names.of(nearest.feature) : kNoTriangle;
-    if (io.side) io.side[i] = side_of(grid, a, q, nearest);
+    if (io.barycentric.at)
+      io.barycentric.put(i, parts().barycentric(nearest.feature, nearest.point));
+    if (!io.side && !io.signed_distance.at) return;
+    const std::int8_t side = side_of(grid, a, q, nearest);
+    if (io.side) io.side[i] = side;
+    if (io.signed_distance.at)
+      io.signed_distance[i] = static_cast<T>(signed_distance(a.distance, side));
+  }
+  struct Position {
+    const VertexRecord *vertices;
+    LSDCD_FN Vec3 operator()(int v) const { return vertices[v].position; }
+  };
+  LSDCD_FN MeshParts<Position> parts() const
+  {
+    const WallFeaturesView &wall = grid.wall;
+    return {names, wall.face_vertex->v, wall.edge_vertex->v, {wall.vertices}};
   }
 };
 

@@ -35,12 +35,27 @@ struct TreeAnswers {
   LSDCD_FN void keep_nearest(std::size_t i, const Vec3 &q, const TreeAnswer &a) const
   {
     Vec3 point = q, normal = {0, 0, 0};
-    if (a.found() && (io.closest.at || io.normal.at || io.side)) tree.closest(a, q, point, normal);
+    const bool needs_point =
+        io.closest.at || io.normal.at || io.barycentric.at || io.side || io.signed_distance.at;
+    if (a.found() && needs_point) tree.closest(a, q, point, normal);
     if (io.closest.at) io.closest.put(i, point);
     if (io.normal.at) io.normal.put(i, normal);
     if (io.feature) io.feature[i] = a.feature;
     if (io.triangle) io.triangle[i] = a.found() ? tree.names.of(a.feature) : kNoTriangle;
-    if (io.side) io.side[i] = a.found() ? tree.side(a, q, point, normal) : 0;
+    if (io.barycentric.at) io.barycentric.put(i, parts().barycentric(a.feature, point));
+    if (!io.side && !io.signed_distance.at) return;
+    const std::int8_t side = a.found() ? tree.side(a, q, point, normal) : 0;
+    if (io.side) io.side[i] = side;
+    if (io.signed_distance.at)
+      io.signed_distance[i] = static_cast<T>(signed_distance(a.distance, side));
+  }
+  struct Position {
+    const Vec3 *vertices;
+    LSDCD_FN Vec3 operator()(int v) const { return vertices[v]; }
+  };
+  LSDCD_FN MeshParts<Position> parts() const
+  {
+    return {tree.names, tree.faces, tree.edges, {tree.vertices}};
   }
 };
 

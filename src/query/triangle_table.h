@@ -17,7 +17,8 @@ struct WallMesh;
 // The mesh's triangle that a feature of the wall is, or that has the feature; kNoTriangle: none.
 constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 struct TriangleNames {
-  const std::uint32_t *of_face, *of_edge, *of_vertex;
+  const std::uint32_t *of_face, *of_edge, *of_vertex;    // the first ascends
+  std::uint32_t n_faces;
 
   LSDCD_FN std::uint32_t of(FeatureCode feature) const
   {
@@ -31,6 +32,19 @@ struct TriangleNames {
         return of_vertex[i];
     }
   }
+  // The face of a triangle that has one.
+  LSDCD_FN std::uint32_t face_of(std::uint32_t triangle) const
+  {
+    std::uint32_t from = 0, to = n_faces;
+    while (to - from > 1) {
+      const std::uint32_t middle = from + (to - from) / 2;
+      if (of_face[middle] <= triangle)
+        from = middle;
+      else
+        to = middle;
+    }
+    return from;
+  }
 };
 
 // The triangle of the mesh for each feature of the wall, by its number in the file; of several the
@@ -39,7 +53,11 @@ struct TriangleTable {
   std::vector<std::uint32_t> of_face, of_edge, of_vertex;
 
   explicit TriangleTable(const WallMesh &mesh);
-  TriangleNames view() const { return {of_face.data(), of_edge.data(), of_vertex.data()}; }
+  TriangleNames view() const
+  {
+    return {of_face.data(), of_edge.data(), of_vertex.data(),
+            static_cast<std::uint32_t>(of_face.size())};
+  }
 };
 
 }    // namespace lsdcd

@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <random>
 #include <set>
@@ -154,26 +155,31 @@ void expect_same(const lsdcd::Grid &grid, bool with_radii)
   const std::size_t n = 20000;
   const std::vector<T> points = random_points<T>(n), radii(n, T(0.25));
   struct Answers {
-    std::vector<T> distance, closest, normal, winding;
+    std::vector<T> distance, closest, normal, winding, signed_distance, barycentric;
     std::vector<std::uint32_t> triangle, feature;
     std::vector<std::int8_t> side;
     std::vector<std::uint8_t> status;
     bool operator==(const Answers &b) const
     {
+      // What is no number equals itself, too.
+      const bool same_shares = std::memcmp(barycentric.data(), b.barycentric.data(),
+                                           barycentric.size() * sizeof(T)) == 0;
       return distance == b.distance && closest == b.closest && normal == b.normal &&
-             winding == b.winding && triangle == b.triangle && feature == b.feature &&
-             side == b.side && status == b.status;
+             winding == b.winding && signed_distance == b.signed_distance && same_shares &&
+             triangle == b.triangle && feature == b.feature && side == b.side && status == b.status;
     }
   };
   const auto answers = [&](const lsdcd::Progress &progress) {
     Answers a;
-    for (auto *two : {&a.distance, &a.winding}) two->resize(2 * n);
-    for (auto *three : {&a.closest, &a.normal}) three->resize(3 * n);
+    for (auto *two : {&a.distance, &a.winding, &a.signed_distance}) two->resize(2 * n);
+    for (auto *three : {&a.closest, &a.normal, &a.barycentric}) three->resize(3 * n);
     a.triangle.resize(n), a.feature.resize(n), a.side.resize(n), a.status.resize(n);
     lsdcd::Query<T> q(points.data(), n);
     if (with_radii) q.radii = radii.data();
     q.distance = a.distance.data(), q.distance_step = 2;
     q.winding = a.winding.data(), q.winding_step = 2;
+    q.signed_distance = a.signed_distance.data(), q.signed_distance_step = 2;
+    q.barycentric = a.barycentric.data();
     q.closest = a.closest.data(), q.normal = a.normal.data();
     q.triangle = a.triangle.data(), q.feature = a.feature.data();
     q.side = a.side.data(), q.status = a.status.data();

@@ -143,6 +143,10 @@ def check_queries():
             lambda: grid.query(there, out={"distance": OnCuda((5,), read_only=True)}), ValueError)
     refused("points on a device are not copied", "strides (48, 1), not one step",
             lambda: grid.query(OnCuda((5, 3), strides=(48, 1))), ValueError)
+    refused("contacts of points on a device are refused", "are on CUDA device 3, and contacts are found on the host alone",
+            lambda: grid.contacts(there, 1))
+    met = grid.contacts(OnlyDlpack(points), 0.5, out={"distance": OnlyDlpack(np.zeros(9, np.float32))})
+    fact("contacts come by DLPack", met.first.tolist() == [0, 1, 2, 2, 2, 2, 2] and met.overlap.dtype == np.float32)
     refused("nor converted", "of type int32: convert", lambda: grid.query(OnCuda((5, 3), "<i4")))
     refused("shapes on a device are named", "(5, 4), not (..., 3)", lambda: grid.query(OnCuda((5, 4))), ValueError)
     if not os.path.exists("/dev/nvidiactl"):
@@ -156,6 +160,11 @@ def check_queries():
     answer = grid.query(given, "distance closest triangle status")
     fact("PyTorch's points have PyTorch's answers", all(isinstance(a, torch.Tensor) for a in vars(answer).values())
          and answer.triangle.dtype == torch.int32 and (answer.distance.numpy() == z).all())
+    met, room = grid.contacts(given, 0.5), torch.zeros(9)
+    fact("PyTorch's spheres have contacts of PyTorch's", all(isinstance(a, torch.Tensor) for a in vars(met).values())
+         and (met.first.dtype, met.feature.dtype) == (torch.int64, torch.int32) and met.distance.tolist() == [0, 0.25])
+    fact("in PyTorch's tensors", grid.contacts(given, 0.5, out={"overlap": room}).overlap.tolist() == [0.5, 0.25]
+         and room[:2].tolist() == [0.5, 0.25])
     out = torch.zeros(2, 3)
     grid.query(given, out={"distance": out})
     fact("PyTorch's tensors are written", (out.numpy() == z).all())

@@ -134,15 +134,18 @@ def check(library, grid):
     say = lambda text: f"{library.name}: {text}"    # noqa: E731
     for dtype in ("float32", "float64"):
         points, distance = heights(dtype)
-        answer = grid.query(library.give(points), WANT)
+        answer = grid.query(library.give(points), WANT + " barycentric")
         fact(say(f"answers are its own, {dtype}"), all(isinstance(a, library.kind) for a in vars(answer).values()))
         fact(say(f"distances, {dtype}"), same(library.take(answer.distance), distance))
-        host = grid.query(points, WANT)
+        host = grid.query(points, WANT + " barycentric")
         near = np.isfinite(distance)
         fact(say(f"closest points and triangles are the host's, {dtype}"),
              np.allclose(library.take(answer.closest), host.closest, rtol=0, atol=1e-5)
              and (library.take(answer.triangle)[near].astype(np.uint32) == host.triangle[near]).all()
              and (library.take(answer.status) == host.status).all())
+        fact(say(f"barycentrics are the host's, {dtype}"),
+             np.allclose(library.take(answer.barycentric), host.barycentric, rtol=0, atol=1e-5, equal_nan=True)
+             and np.isnan(host.barycentric).any() and not np.isnan(host.barycentric).all())
         shaped = grid.query(library.give(points.reshape(-1, 2, 4, 3)), "distance closest")
         fact(say(f"shapes, {dtype}"), library.take(shaped.distance).shape == (N // 8, 2, 4)
              and same(library.take(shaped.distance).ravel(), distance) and tuple(shaped.closest.shape) == (N // 8, 2, 4, 3))
@@ -152,9 +155,9 @@ def check(library, grid):
     # Without a cutoff a tree answers: one source for both, so the same numbers.
     tree = lsdcd.Mesh(TETRAHEDRON).grid()
     far = points * 100
-    answer, host = tree.query(library.give(far), WANT + " side"), tree.query(far, WANT + " side")
+    answer, host = tree.query(library.give(far), WANT + " side signed_distance barycentric"), tree.query(far, WANT + " side signed_distance barycentric")
     fact(say("at any distance as on the host"),
-         all((library.take(getattr(answer, name)) == getattr(host, name)).all() for name in ("distance", "closest", "side"))
+         all((library.take(getattr(answer, name)) == getattr(host, name)).all() for name in ("distance", "closest", "side", "signed_distance", "barycentric"))
          and (library.take(answer.triangle).astype(np.uint32) == host.triangle).all())
     refused(say("an answer on the host is refused"), "on the host", lambda: grid.query(library.give(points), out={"distance": distance}))
     if library.own:

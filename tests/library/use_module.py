@@ -43,6 +43,21 @@ for real, close in ((np.float64, 1e-15), (np.float32, 1e-7)):
     assert np.allclose(np.sort(met.normal[:3].sum(0)), [-1, -1, -1], rtol=0, atol=close)
     assert (met.feature >> 30).tolist() == [0, 0, 0, 2] and (met.point[3] == 1).all()
 
+# Of points of any shape and layout, in arrays of the caller.
+centres = np.array([[[0.7, 0.8, 0.9], [0, 0, 0]], [[1.1, 1.1, 1.1], [9, 9, 9]], [[0.7, 0.8, 0.9], [0.9, 0, 0]]])
+shaped, flat = grid.contacts(centres, 0.4), grid.contacts(centres.reshape(-1, 3), 0.4)
+assert shaped == flat and shaped.first.tolist() == [0, 3, 3, 4, 4, 7, 8]
+assert grid.contacts(np.asfortranarray(centres), 0.4) == flat and grid.contacts(centres[::-1][::-1].tolist(), [[0.4] * 2] * 3) == flat
+assert grid.contacts(centres[0, 0], 0.4).first.tolist() == [0, 3] and grid.contacts(np.empty((2, 0, 3)), 0.4).first.tolist() == [0]
+mine = {"first": np.zeros(7, np.uintp), "point": np.full((10, 3), 7.0), "feature": np.zeros(10, np.int32)}
+found = grid.contacts(centres, 0.4, out=mine)
+for word, value in vars(flat).items():
+    assert (getattr(found, word).view(value.dtype) == value).all(), word
+assert found.first is mine["first"] and np.shares_memory(found.point, mine["point"]) and (mine["point"][8:] == 7).all()
+again = grid.contacts(centres[::-1], 0.4, out=shaped)    # as many contacts
+assert again == grid.contacts(centres[::-1], 0.4) and again.first is shaped.first
+
+
 def truth(points):
     """Distance from the cube's surface, and its side."""
     p = np.abs(np.asarray(points, dtype=float))
@@ -178,6 +193,37 @@ refused(lsdcd.Error, "face 0 (from 0) has the vertex 1, whose y is nan",
 # Vertices in floats are those numbers.
 short = np.array([[0.1, 0, 0], [1, 0.2, 0], [0, 1, 0.3]], np.float32)
 assert (lsdcd.Mesh(short, [[0, 1, 2]]).arrays().vertices == short.astype(float)).all()
+
+# Contacts and their arrays that do not fit.
+refused(ValueError, "there are 8 contacts, and out has room for 5", lambda: grid.contacts(centres, 0.4, out={"point": np.zeros((5, 3))}))
+for out, says, kind in (({"point": np.zeros((9, 3)), "distance": np.zeros(8)}, "{'point': 9, 'distance': 8}", ValueError),
+                        ({"first": np.zeros(6, np.uintp)}, "shape (6,), not (7,)", ValueError),
+                        ({"side": np.zeros(9)}, "out has side: contacts have first, point", ValueError),
+                        ({"point": np.zeros(9)}, "shape (9,), not (9, 3)", ValueError),
+                        ({"point": np.zeros((9, 6))[:, ::2]}, "make it contiguous", ValueError),
+                        ({"weight": np.zeros(9, np.float32)}, "float32, not float64", TypeError),
+                        ({"weight": [0.0] * 9}, "a list, not an array", TypeError)):
+    refused(kind, says, lambda: grid.contacts(centres, 0.4, out=out))
+refused(ValueError, "shape (3, 2), not (..., 3)", lambda: grid.contacts(centres[..., 0], 0.4))
+refused(ValueError, "radius has the shape (3,), not () or (3, 2)", lambda: grid.contacts(centres, [0.4] * 3))
+refused(TypeError, "complex128", lambda: grid.contacts(centres, 0.4j))
+
+# Signed distances and barycentrics: negative inside, and shares of the corners as given.
+answer = anywhere.query(points.reshape(100, 200, 3), "signed_distance barycentric closest triangle feature")
+distance, side = truth(points)
+assert np.allclose(answer.signed_distance.ravel(), distance * side, rtol=0, atol=16 * 2.3e-16)
+corners = vertices[faces[answer.triangle]]
+assert answer.barycentric.shape == (100, 200, 3) and (answer.barycentric >= 0).all()
+assert np.allclose((answer.barycentric[..., None] * corners).sum(-2), answer.closest, rtol=0, atol=16 * 2.3e-16)
+assert ((answer.barycentric == 0).sum(-1)[answer.feature >> 30 == 2] == 2).all()
+mine = {"signed_distance": np.zeros((20000, 2), np.float32)[:, 0], "barycentric": np.zeros((3, 20000), np.float32).T}
+anywhere.query(points.astype(np.float32), out=mine)
+assert np.allclose(mine["signed_distance"], distance * side, rtol=0, atol=16 * 1.2e-7)
+assert np.allclose(mine["barycentric"].sum(1), 1, rtol=0, atol=3 * 6e-8)
+far = grid.query([[0, 0, 0], [9, 9, 9], [np.nan, 0, 0]], "signed_distance barycentric")
+assert far.signed_distance[:2].tolist() == [-np.inf, np.inf] and np.isnan(far.signed_distance[2]) and np.isnan(far.barycentric).all()
+assert refused(lsdcd.Error, "estimate_sides", lambda: open_grid.query(points, "signed_distance")).code == "side"
+assert (open_grid.query([[0, 0, 0], [5, 0, 0]], "signed_distance", estimate_sides=True).signed_distance < 0).tolist() == [True, False]
 
 # A grid keeps what it needs.
 alone = lsdcd.Mesh(vertices, faces).grid(cutoff=CUTOFF)

@@ -40,15 +40,15 @@ const std::vector<std::unique_ptr<TreeCase>> &all_cases()
 // Arrays of all answers, on the host or on a GPU.
 template <class T>
 struct Answers {
-  DeviceArray<T> points, radii, distance, closest, normal;
+  DeviceArray<T> points, radii, distance, closest, normal, barycentric, signed_distance;
   DeviceArray<std::uint32_t> triangle, feature;
   DeviceArray<std::int8_t> side;
   DeviceArray<std::uint8_t> status;
   PointArrays<T> io;
 
   Answers(bool cuda, const std::vector<T> &at) :
-      points(cuda), radii(cuda), distance(cuda), closest(cuda), normal(cuda), triangle(cuda),
-      feature(cuda), side(cuda), status(cuda)
+      points(cuda), radii(cuda), distance(cuda), closest(cuda), normal(cuda), barycentric(cuda),
+      signed_distance(cuda), triangle(cuda), feature(cuda), side(cuda), status(cuda)
   {
     io.n = at.size() / 3;
     io.points = {points.put(at), 3, 1};
@@ -56,6 +56,7 @@ struct Answers {
     io.distance = {distance.resize(io.n), 1};
     io.closest = {closest.resize(3 * io.n), 3, 1};
     io.normal = {normal.resize(3 * io.n), 3, 1};
+    io.barycentric = {barycentric.resize(3 * io.n), 3, 1};
     io.triangle = triangle.resize(io.n);
     io.feature = feature.resize(io.n);
     io.status = status.resize(io.n);
@@ -93,6 +94,7 @@ void expect_the_same_answers(Real radius, bool each)
     expect_same_bits(gpu.status.get(n), cpu.status.get(n), *c);
     expect_same_bits(gpu.closest.get(3 * n), cpu.closest.get(3 * n), *c);
     expect_same_bits(gpu.normal.get(3 * n), cpu.normal.get(3 * n), *c);
+    expect_same_bits(gpu.barycentric.get(3 * n), cpu.barycentric.get(3 * n), *c);
   }
 }
 
@@ -140,18 +142,22 @@ TEST(tree_on_gpu, normals_tell_the_sides_that_winding_numbers_tell)
     Answers<double> gpu(true, at);
     const std::size_t n = gpu.io.n;
     gpu.io.side = gpu.side.resize(n);
+    gpu.io.signed_distance = {gpu.signed_distance.resize(n), 1};
     copy_to_cuda(c->tree)->query_on(nullptr)->answer(gpu.io);
     const std::vector<std::int8_t> side = gpu.side.get(n);
-    const std::vector<double> distance = gpu.distance.get(n);
+    const std::vector<double> distance = gpu.distance.get(n),
+                              with_sign = gpu.signed_distance.get(n);
     const std::vector<std::uint32_t> triangle = gpu.triangle.get(n);
     const WindingNumber winding(c->mesh);
     for (std::size_t i = 0; i + 2 < n; i++) {
       if (distance[i] < 32 * kRoundoff * (c->diagonal + c->size)) continue;
       if (triangle[i] == kNoTriangle) {    // of facets without area, which have no side
         ASSERT_EQ(side[i], 0);
+        ASSERT_TRUE(std::isnan(with_sign[i]));
         continue;
       }
       ASSERT_EQ(side[i], winding.side({at[3 * i], at[3 * i + 1], at[3 * i + 2]}));
+      ASSERT_EQ(with_sign[i], side[i] * distance[i]);
       inside += side[i] < 0;
     }
     EXPECT_EQ(side[n - 2], 0);

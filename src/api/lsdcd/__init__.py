@@ -45,7 +45,11 @@ NONE = 0xffffffff
 # What a query answers: how many dimensions beyond the points', and the type, None: that of the points.
 ANSWERS: dict[str, tuple[int, Any]] = {
     "distance": (0, None), "closest": (1, None), "normal": (1, None), "triangle": (0, np.uint32), "feature": (0, np.uint32),
-    "side": (0, np.int8), "status": (0, np.uint8), "winding": (0, None)}
+    "side": (0, np.int8), "status": (0, np.uint8), "winding": (0, None), "signed_distance": (0, None), "barycentric": (1, None)}
+# And of each contact.
+OF_CONTACTS: dict[str, tuple[int, Any]] = {
+    "point": (1, None), "normal": (1, None), "distance": (0, None), "overlap": (0, None), "weight": (0, None),
+    "triangle": (0, np.uint32), "feature": (0, np.uint32)}
 
 
 # A listener of a long call: what is done now, and how much of that, from 0 to 1. What it raises ends the call and is
@@ -79,7 +83,9 @@ _Query = _struct(
     ("radius", _real), ("distance", _at), ("distance_step", _step), ("closest", _at),
     ("closest_row", _step), ("closest_column", _step), ("normal", _at), ("normal_row", _step),
     ("normal_column", _step), ("triangle", _at), ("feature", _at), ("side", _at), ("status", _at),
-    ("winding", _at), ("winding_step", _step), ("estimate_sides", _int), ("progress", _Progress), ("data", _at))
+    ("winding", _at), ("winding_step", _step), ("estimate_sides", _int), ("progress", _Progress), ("data", _at),
+    ("signed_distance", _at), ("signed_distance_step", _step), ("barycentric", _at), ("barycentric_row", _step),
+    ("barycentric_column", _step))
 _Contacts = _struct(
     "_Contacts", ("n", _size), ("type", _int), ("threads", _int), ("points", _at), ("points_row", _step),
     ("points_column", _step), ("radii", _at), ("radii_step", _step), ("radius", _real), ("first", _at), ("room", _size),
@@ -380,16 +386,16 @@ class Mesh(_Owner):
 
 
 class Contacts(_Record):
-    """All contacts of n spheres, m in all; those of sphere i are first[i]:first[i + 1], ascending in features. Numbers
-    are of the points' type."""
-    first: NDArray[np.uintp]       # (n + 1,)
-    point: NDArray[Any]            # (m, 3), on the mesh
-    normal: NDArray[Any]           # (m, 3), length 1, from the mesh to the centre
-    distance: NDArray[Any]         # (m,), >= 0
-    overlap: NDArray[Any]          # (m,), radius - distance > 0
-    weight: NDArray[Any]           # (m,), the share of each by the corner rule, 0 to 1
-    triangle: NDArray[np.uint32]   # (m,), as those of an Answer
-    feature: NDArray[np.uint32]    # (m,)
+    """All contacts of n spheres, m in all; those of sphere i, in C order of the points' shape, are first[i]:first[i + 1],
+    ascending in features. Numbers are of the points' type."""
+    first: Any       # (n + 1,), uintp, int64 in PyTorch
+    point: Any       # (m, 3), on the mesh
+    normal: Any      # (m, 3), length 1, from the mesh to the centre
+    distance: Any    # (m,), >= 0
+    overlap: Any     # (m,), radius - distance > 0
+    weight: Any      # (m,), the share of each by the corner rule, 0 to 1
+    triangle: Any    # (m,), as those of an Answer
+    feature: Any     # (m,)
 
 
 class Answer(_Record):
@@ -403,6 +409,12 @@ class Answer(_Record):
     side: Any        # (...), int8: 1 outside and on the mesh, -1 inside, 0 not known
     status: Any      # (...), uint8: bits FOUND, CERTIFIED and SIDE_ESTIMATED
     winding: Any     # (...), the points' type: how often the mesh winds round the point, a whole number if it has sides
+    # (...), the points' type: the distance, negative where side is -1, nan where it is 0: > 0 outside, < 0 inside, 0 on the
+    # mesh; inf or -inf where nothing is found.
+    signed_distance: Any
+    # (..., 3), the points' type: shares of the triangle's welded corners, in the order given, in closest; >= 0, with the
+    # sum 1. nan where there is no triangle.
+    barycentric: Any
 
 
 class GridFacts(_Record):
@@ -438,7 +450,7 @@ class Grid(_Owner):
               out: Mapping[str, Any] | Answer | None = None, stream: Any = None, estimate_sides: bool = False,
               progress: Progress | None = None) -> Answer:
         """Answers for points of shape (..., 3), in the unit of the mesh, as an Answer with what `want` names: distance
-        (the default), closest, normal, triangle, feature, side, status, winding.
+        (the default), closest, normal, triangle, feature, side, status, winding, signed_distance, barycentric.
 
         points: float32, or float64, which all else becomes; of any layout, on the host. Those of PyTorch, CuPy, JAX and
         others that have `__dlpack__` or `__cuda_array_interface__` are read in place, and PyTorch's and CuPy's answered
@@ -453,30 +465,14 @@ class Grid(_Owner):
         when its work is in the stream, but waits for it where another library owns the points. The grid keeps what
         it needs for the stream, which must live as long; a number does not keep it alive.
         estimate_sides: where the mesh has no sides, because it is open or facets are wound against each other, `side`
-        is -1 where the whole number nearest to `winding` is not 0, else 1. These are not certified: status has
-        SIDE_ESTIMATED. On the host, as winding is.
+        is -1 where the whole number nearest to `winding` is not 0, else 1, and `signed_distance` goes by it. These are not
+        certified: status has SIDE_ESTIMATED. On the host, as winding is.
         progress: as of Mesh.grid(), on the host; answers of a call that it ended are of no use.
 
         Raises ValueError for values, words, shapes and strides that are wrong, TypeError for a wrong type or place, Error, a
         ValueError, too, for a radius beyond the cutoff, and for sides where there are none."""
-        asked = _arrays.read(points, "points", _arrays.stream_handle(stream))
-        if asked.shape[-1:] != (3,):
-            raise ValueError(f"points have the shape {asked.shape}, not (..., 3), as (n, 3) or (3,){_remedy(asked.shape)}")
-        if asked.on_host and stream is not None:
-            raise ValueError("stream is given, but points are on the host")
-        shape, kept = asked.shape[:-1], [asked]    # kept: what the library reads and writes
-        if asked.on_host:
-            kept.append(_arrays.of_numpy(_as_floats(asked.host(), "points")))
-        given = kept[-1]
-        real, steps = given.dtype, given.steps(1)
-        if real not in (np.float32, np.float64) or not real.isnative:
-            raise TypeError(f"points on a device are of type {real}: convert them to float32 or float64")
-        if steps is None and given.on_host:
-            kept.append(_arrays.of_numpy(given.host().copy()))
-            given, steps = kept[-1], kept[-1].steps(1)
-        if steps is None:
-            raise ValueError(f"points on a device have the strides {given.strides}, not one step from point to point: "
-                             "make them contiguous")
+        asked, kept, steps = _read_points(points, stream)
+        given, shape, real = kept[-1], asked.shape[:-1], kept[-1].dtype
         query = _sized(_Query, n=math.prod(shape), type=int(real == np.float32), threads=threads,
                        estimate_sides=estimate_sides, points=given.address, points_row=steps[0], points_column=steps[1])
         if radius is not None:
@@ -484,7 +480,7 @@ class Grid(_Owner):
         handle, owner = (0, None) if given.on_host else _arrays.stream_of(asked, stream)
         outs: Mapping[str, Any] = {} if out is None else vars(out) if isinstance(out, Answer) else out
         words = want.split() if isinstance(want, str) else list(outs) or ["distance"] if want is None else list(want)
-        unknown = sorted(set(words) - set(ANSWERS))
+        unknown = sorted(map(str, set(words) - set(ANSWERS)))
         if unknown:
             raise ValueError(f"{', '.join(unknown)}: a query answers {', '.join(ANSWERS)}")
         left = sorted(set(outs) - set(words))
@@ -496,15 +492,15 @@ class Grid(_Owner):
             dtype = real if dtype is None else np.dtype(dtype)
             wanted = (*shape, 3) if inner else shape
             if word in outs:
-                made, place = outs[word], _out(outs[word], word, wanted, dtype, given, kept)
+                made, place = outs[word], _out(outs[word], word, wanted, inner, dtype, given, kept)
             else:
                 made, place = _arrays.empty_like(asked, wanted, dtype, owner if stream is None else stream)
             kept.append(place)
             setattr(answer, word, made)
             setattr(query, word, place.address)
-            steps = place.steps(inner)
-            if dtype == real and steps is not None:
-                for name, step in zip(("row", "column") if inner else ("step",), steps):
+            to = place.steps(inner)
+            if dtype == real and to is not None:
+                for name, step in zip(("row", "column") if inner else ("step",), to):
                     setattr(query, f"{word}_{name}", step)
         if given.on_host:
             _listened(lambda: _lib.lsdcd_query_host(self._handle, ctypes.byref(query)), query, progress)
@@ -513,36 +509,65 @@ class Grid(_Owner):
             self._query_on(given.device or 0, handle, owner, query, any(map(_arrays.must_wait, kept)))
         return answer
 
-    def contacts(self, points: ArrayLike, radius: ArrayLike, threads: int = 0, progress: Progress | None = None) -> Contacts:
+    def contacts(self, points: Any, radius: Any, threads: int = 0, progress: Progress | None = None, *,
+                 out: Mapping[str, Any] | Contacts | None = None) -> Contacts:
         """All contacts of spheres: each place of the mesh whose distance to a centre is a local minimum below the
         radius. The grid has a cutoff.
 
-        points: centres, (n, 3), in the unit of the mesh, and radius, one or (n,), on the host; as float32 if points are,
-        else as float64. progress: as of Mesh.grid().
+        points: centres, (..., 3), in the unit of the mesh, on the host, of what query() takes there; radius: one of all, or
+        (...). Numbers are float32 if points are, else float64. progress: as of Mesh.grid().
+        out: arrays of the caller for some of what Contacts has, by name, or Contacts of before: contiguous, of the types
+        there; `first` of n + 1 numbers, all others with room for as many contacts. The Contacts returned have the parts
+        of them that are used. With too little room a ValueError says how many contacts there are.
 
-        Raises ValueError for wrong shapes, Error for a radius below 0 or beyond the cutoff, a grid without a cutoff, with
-        `nearest` or in float, and more than 512 contacts of a sphere."""
-        points = np.ascontiguousarray(_as_floats(points, "points"))
-        real = points.dtype.type
-        if points.ndim != 2 or points.shape[1] != 3:
-            raise ValueError(f"points have the shape {points.shape}, not (n, 3)")
-        n = len(points)
-        if np.shape(radius) not in ((), (n,)):
-            raise ValueError(f"radius has the shape {np.shape(radius)}, not () or {(n,)}")
-        radii = np.ascontiguousarray(np.broadcast_to(_as_floats(radius, "radius").astype(real), n))
-        first = np.empty(n + 1, np.uintp)
-        ask = _sized(_Contacts, n=n, type=int(real == np.float32), threads=threads, points=points.ctypes.data,
-                     radii=radii.ctypes.data, first=first.ctypes.data, contacts=n)
+        Raises ValueError for wrong shapes and too little room, TypeError for a wrong type or place, Error, a ValueError, too,
+        for a radius below 0 or beyond the cutoff, a grid without a cutoff, with `nearest` or in float, and more than 512
+        contacts of a sphere."""
+        asked, kept, steps = _read_points(points)
+        given, shape, real = kept[-1], asked.shape[:-1], kept[-1].dtype
+        if not asked.on_host:
+            raise TypeError(f"points are {_place(asked)}, and contacts are found on the host alone: bring them there")
+        n = math.prod(shape)
+        given_radius = _arrays.read(radius, "radius")
+        if given_radius.shape not in ((), shape):
+            raise ValueError(f"radius has the shape {given_radius.shape}, not () or {shape}")
+        _same_place(given_radius, given, "radius")
+        radii = np.ascontiguousarray(np.broadcast_to(_as_floats(given_radius.host(), "radius").astype(real), shape))
+        kept += [given_radius, _arrays.of_numpy(radii)]
+        outs: dict[str, Any] = {} if out is None else dict(vars(out) if isinstance(out, Contacts) else out)
+        unknown = sorted(map(str, set(outs) - {"first", *OF_CONTACTS}))
+        if unknown:
+            raise ValueError(f"out has {', '.join(unknown)}: contacts have first, {', '.join(OF_CONTACTS)}")
+
+        def place(name: str, length: int | None, inner: int, dtype: Any) -> tuple[Any, _arrays.Array]:
+            """An array and where it lies; `length` None: that of the caller's."""
+            dtype = real if dtype is None else np.dtype(dtype)
+            if name in outs:
+                wanted = None if length is None else (length,)
+                kept.append(_out(outs[name], name, wanted, inner, dtype, given, kept, packed=True))
+                return outs[name], kept[-1]
+            return _arrays.empty_like(asked, (length or 0, 3) if inner else (length or 0,), dtype)
+
+        first, first_place = place("first", n + 1, 0, np.uintp)
+        mine = {name: place(name, None, *OF_CONTACTS[name]) for name in OF_CONTACTS if name in outs}
+        rooms = {name: at.shape[0] for name, (_, at) in mine.items()}
+        if len(set(rooms.values())) > 1:
+            raise ValueError(f"arrays of out have room for different numbers of contacts, {rooms}: give them one length")
+        ask = _sized(_Contacts, n=n, type=int(real == np.float32), threads=threads, points=given.address,
+                     points_row=steps[0], points_column=steps[1], radii=radii.ctypes.data, first=first_place.address,
+                     contacts=next(iter(rooms.values()), n))
         while True:
             m = ask.room = ask.contacts
-            made = {"point": np.empty((m, 3), real), "normal": np.empty((m, 3), real)}
-            made |= {name: np.empty(m, real) for name in ("distance", "overlap", "weight")}
-            made |= {name: np.empty(m, np.uint32) for name in ("triangle", "feature")}
-            for name, array in made.items():
-                setattr(ask, name, array.ctypes.data)
+            made = {name: mine[name] if name in mine else place(name, m, *kind) for name, kind in OF_CONTACTS.items()}
+            for name, (_, at) in made.items():
+                setattr(ask, name, at.address)
             _listened(lambda: _lib.lsdcd_contacts_host(self._handle, ctypes.byref(ask)), ask, progress)
             if ask.contacts <= m:
-                return Contacts(first=first, **{k: v[:ask.contacts] for k, v in made.items()})
+                used = slice(ask.contacts)    # of arrays that have no slices, as numpy's
+                return Contacts(first=first, **{name: array[used] if hasattr(array, "__getitem__") else at.host()[used]
+                                                for name, (array, at) in made.items()})
+            if mine:
+                raise ValueError(f"there are {ask.contacts} contacts, and out has room for {m}: give longer arrays")
 
     def _query_on(self, device: int, handle: int, owner: Any, query: Any, wait: bool) -> None:
         """On a stream of a device; `owner` keeps the stream alive."""
@@ -569,6 +594,28 @@ class _Stream(_Owner):
 
 
 _MOST_STREAMS = 8    # that a grid keeps for a thread: each has memory of its device
+
+
+def _read_points(points: Any, stream: Any = None) -> tuple[_arrays.Array, list[_arrays.Array], tuple[int, ...]]:
+    """What was given; what the library reads, kept alive, the last one as floats of the machine; and its steps."""
+    asked = _arrays.read(points, "points", _arrays.stream_handle(stream))
+    if asked.shape[-1:] != (3,):
+        raise ValueError(f"points have the shape {asked.shape}, not (..., 3), as (n, 3) or (3,){_remedy(asked.shape)}")
+    if asked.on_host and stream is not None:
+        raise ValueError("stream is given, but points are on the host")
+    kept = [asked]
+    if asked.on_host:
+        kept.append(_arrays.of_numpy(_as_floats(asked.host(), "points")))
+    given = kept[-1]
+    if given.dtype not in (np.float32, np.float64) or not given.dtype.isnative:
+        raise TypeError(f"points on a device are of type {given.dtype}: convert them to float32 or float64")
+    if given.steps(1) is None and given.on_host:
+        kept.append(_arrays.of_numpy(given.host().copy()))
+    steps = kept[-1].steps(1)
+    if steps is None:
+        raise ValueError(f"points on a device have the strides {given.strides}, not one step from point to point: "
+                         "make them contiguous")
+    return asked, kept, steps
 
 
 def _remedy(shape: tuple[int, ...]) -> str:
@@ -648,22 +695,27 @@ def _is_array(values: Any) -> bool:
         or getattr(values, "__cuda_array_interface__", None) is not None
 
 
-def _out(values: Any, word: str, shape: tuple[int, ...], dtype: np.dtype[Any], points: _arrays.Array,
-         kept: list[_arrays.Array]) -> _arrays.Array:
-    """Where the caller wants an answer; refused if the library cannot write it there."""
+def _out(values: Any, word: str, shape: tuple[int, ...] | None, inner: int, dtype: np.dtype[Any], points: _arrays.Array,
+         kept: list[_arrays.Array], packed: bool = False) -> _arrays.Array:
+    """Where the caller wants an answer, of this shape with `inner` dimensions to a point, or of any length, None; refused
+    if the library cannot write it there. `packed`: without steps between."""
     name = f"out: {word}"
     if not _is_array(values):
         raise TypeError(f"{name} is a {type(values).__name__}, not an array")
     place = _arrays.read(values, name)
     _same_place(place, points, name)
-    if place.dtype != dtype and not (place.dtype == np.int32 and dtype == np.uint32):
+    signed = {np.dtype(np.uint32): np.int32, np.dtype(np.uintp): np.intp}.get(dtype, dtype)
+    if place.dtype not in (dtype, signed):
         raise TypeError(f"{name} is of type {place.dtype}, not {dtype}: make it with dtype={dtype}")
+    if shape is None:
+        shape = (*place.shape[:1], 3) if inner else place.shape[:1] or (1,)
     if place.shape != shape:
         raise ValueError(f"{name} has the shape {place.shape}, not {shape}: make it of that shape")
     if not place.writable:
         raise ValueError(f"{name} cannot be written to: give a copy")
-    steps = place.steps(int(shape != points.shape[:-1]))
-    if steps is None or dtype != points.dtype and steps[0] != 1 and math.prod(shape) > 1:
+    steps = place.steps(inner)
+    packed = packed or dtype != points.dtype    # those of numbers have steps
+    if steps is None or packed and steps != ((3, 1) if inner else (1,)) and math.prod(shape) > 1:
         raise ValueError(f"{name} has the strides {place.strides}: make it contiguous")
     if place.on_host and any(a.on_host and np.shares_memory(a.host(), place.host()) for a in kept):
         raise ValueError(f"{name} shares memory with points, radius or another answer: give an array of its own")

@@ -202,12 +202,12 @@ def stream_of(array: Array, stream: Any = None) -> tuple[int, Any]:
 
 def empty_like(array: Array, shape: tuple[int, ...], dtype: Any, stream: Any = None) -> tuple[Any, Array]:
     """An array for results, of the library and on the device of `array`, and where it lies: PyTorch's, CuPy's, of the
-    host numpy's for all others, of a device a DeviceArray. PyTorch has int32 for uint32. `stream`: where it will
-    be written, of a device's."""
+    host numpy's for all others, of a device a DeviceArray. PyTorch has int32 for uint32, int64 for uint64.
+    `stream`: where it will be written, of a device's."""
     dtype = np.dtype(dtype)
     if _is_torch(array.source):
         torch = sys.modules["torch"]
-        name = "int32" if dtype == np.uint32 else dtype.name
+        name = {"uint32": "int32", "uint64": "int64"}.get(dtype.name, dtype.name)
         with _torch_stream(torch, array, stream):
             made = torch.empty(shape, dtype=getattr(torch, name), device=array.source.device)
         return made, Array(made, made.data_ptr(), shape, None, dtype, array.device)
