@@ -7,7 +7,7 @@ LSDCD_BUILD   a build folder whose library is taken; without it the library is b
 CMAKE_ARGS    more words for CMake there, as -D LSDCD_CUDA=OFF
 
 The wheel has the library beside the package. It is for this machine's kind and needs the shared libraries that the
-build found (zstd, xxHash, assimp).
+build found (zstd, xxHash).
 """
 import base64
 import hashlib

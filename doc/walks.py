@@ -245,7 +245,7 @@ def commit_sources(root, commit):
 # What is added: the script that adds one, and what names one of its kind before there were scripts.
 ADDITIONS = {
     "a rolling model with history": ("rolling_model.py", r"epsd2|Epsd2|AddedRolling|\bsds\b|SdsRolling|has_rolling"),
-    "a mesh format": ("mesh_format.py", r"\bread_stl\(|MeshFormat|mesh_format|assimp"),
+    "a mesh format": ("mesh_format.py", r"\bread_stl\(|MeshFormat|mesh_format"),
 }
 
 

@@ -76,14 +76,10 @@ void add_convert_command(Command &program)
   const auto o = std::make_shared<Options>();
   Command command = program.command(
       "convert", "writes a mesh in another format or other units: STL, OBJ, PLY, OFF");
-  command.footer(
-      std::string("STL is read in all digits; OBJ, PLY and OFF by assimp, which rounds coordinates "
-                  "to float.\n") +
-      (has_assimp() ? "" : "This lsdcd was built without assimp: it reads STL only.\n") +
-      "Written are all digits: STL is binary where all corners are floats, else text; PLY is "
-      "binary,\n"
-      "of floats or else of doubles.\n"
-      "Example:\n  lsdcd convert wall.obj --units mm -o wall.stl");
+  command.footer("Coordinates keep all their digits. Polygons are cut into triangles. STL is "
+                 "binary where all\n"
+                 "corners are floats, else text; PLY is binary, of floats or else of doubles.\n"
+                 "Example:\n  lsdcd convert wall.obj --units mm -o wall.stl");
   command.option("file", o->file, "mesh, .stl, .obj, .ply or .off").required();
   command.option("-o,--output", o->output, "mesh to write, of the same formats").required();
   Option scale = add_scale_option(command, o->scale);

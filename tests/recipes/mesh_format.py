@@ -42,9 +42,9 @@ ReadMesh read_tri(const std::string &path)
 
 }    // namespace lsdcd
 """
-EDITS = [("ReadMesh read_assimp(const std::string &path);",
-          "ReadMesh read_assimp(const std::string &path);\nReadMesh read_tri(const std::string &path);"),
-         ('    {".off", read_assimp},\n', '    {".off", read_assimp},\n    {".tri", read_tri},\n')]
+EDITS = [("ReadMesh read_off(const std::string &path);",
+          "ReadMesh read_off(const std::string &path);\nReadMesh read_tri(const std::string &path);"),
+         ('    {".off", read_off},\n', '    {".off", read_off},\n    {".tri", read_tri},\n')]
 
 
 def main():

@@ -54,17 +54,17 @@ TEST(read_mesh, an_error_of_an_unknown_ending_names_those_that_are_known)
   EXPECT_TRUE(contains(error, ".stl, .obj, .ply, .off")) << error;
 }
 
-TEST(read_mesh, an_obj_is_read_by_assimp_and_lines_are_counted)
+TEST(read_mesh, points_and_lines_are_left_out_and_counted)
 {
   const TempDir dir;
-  const std::string path = dir.write("wall.obj", kObj);
-  if (has_assimp()) {
-    const ReadMesh read = read_mesh(path);
-    EXPECT_EQ(read.soup.corners, kTriangle);
-    EXPECT_EQ(read.left_out, 1u);
-  } else {
-    EXPECT_TRUE(contains(error_of(path), "built without assimp"));
-  }
+  const ReadMesh obj =
+      read_mesh(dir.write("wall.obj", kObj + std::string("l 1 2 3\np 1 2\nf 1 2\n")));
+  EXPECT_EQ(obj.soup.corners, kTriangle);
+  EXPECT_EQ(obj.left_out, 6u);
+  const ReadMesh off =
+      read_mesh(dir.write("wall.off", "OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n1 2\n3 0 1 2\n"));
+  EXPECT_EQ(off.soup.corners, kTriangle);
+  EXPECT_EQ(off.left_out, 2u);
 }
 
 }    // namespace

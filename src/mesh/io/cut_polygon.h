@@ -25,4 +25,7 @@ namespace lsdcd {
 // n^2 for the worst: 1e5 corners take a second, a minute.
 std::string cut_polygon(const std::vector<Vec3> &corners, std::vector<Vec3> &triangles);
 
+// For the message of a face that cannot be cut.
+constexpr const char *kTriangulate = "triangulate the mesh when exporting it";
+
 }    // namespace lsdcd

@@ -11,7 +11,8 @@ namespace lsdcd {
 
 // The readers beside read_stl(), each in the file of its name. They throw InputError that names the
 // file, the place in it, the value and the remedy.
-ReadMesh read_assimp(const std::string &path);
+ReadMesh read_obj(const std::string &path);
+ReadMesh read_off(const std::string &path);
 ReadMesh read_ply(const std::string &path);
 
 namespace {
@@ -28,9 +29,9 @@ struct Format {
 
 const Format kFormats[] = {
     {".stl", read_stl_mesh},
-    {".obj", read_assimp},
+    {".obj", read_obj},
     {".ply", read_ply},
-    {".off", read_assimp},
+    {".off", read_off},
 };
 
 std::string all_endings()

@@ -360,7 +360,7 @@ class PlyReader {
     if (const std::string why = cut_polygon(polygon_, read_.soup.corners); !why.empty())
       values_.fail("the face of " + std::to_string(n) +
                        " corners cannot be cut into triangles: " + why,
-                   "triangulate the mesh when exporting it");
+                   kTriangulate);
   }
 
   // Each corner makes a triangle with the two before it, every other one wound the other way round. A

@@ -93,7 +93,7 @@ class Reader {
            "complete the line or export the mesh again");
 
     const ReadNumber number = read_number(word);
-    if (number.problem && word.data() + word.size() == words_.end()) fail_word(word, name());
+    if (number.problem && words_.file_ends_with(word)) fail_word(word, name());
     if (number.problem)
       fail(word, name() + " is " + quoted(word) + ", " + number.problem, number.remedy);
     return number.value;
@@ -112,7 +112,7 @@ class Reader {
     const char *remedy = "correct the line or export the mesh again";
     if (!is_stl_)
       remedy = "this is not an STL file: export the mesh as STL";
-    else if (word.data() + word.size() == words_.end())
+    else if (words_.file_ends_with(word))
       remedy = "the file is truncated: copy or export it again";
     fail(word, found + " where " + expected + " is expected", remedy);
   }

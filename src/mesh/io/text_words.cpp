@@ -130,6 +130,12 @@ bool TextWords::at_continuation() const
   return style_.continued && end_ - at_ > 1 && *at_ == '\\' && is_line_end(at_[1]);
 }
 
+// A comment goes to the end of its line, whatever it ends with: it may be a folder of Windows.
+bool TextWords::at_comment() const
+{
+  return style_.comment && at_ != end_ && *at_ == style_.comment;
+}
+
 bool TextWords::pass_continuation()
 {
   if (!at_continuation()) return false;
@@ -144,12 +150,11 @@ std::string_view TextWords::word_in_line()
     while (at_ != end_ && is_space(*at_) && !is_line_end(*at_)) ++at_;
     if (!pass_continuation()) break;
   }
-  // A comment goes to the end of its line, whatever it ends with: it may be a path of Windows.
-  if (at_ != end_ && style_.comment && *at_ == style_.comment)
-    while (at_ != end_ && !is_line_end(*at_)) ++at_;
+  if (at_comment()) skip_line_alone();
   const char *first = at_;
+  // 1.#INF and 1.#QNAN of Microsoft's library are words, not 1 and a comment.
   while (at_ != end_ && !is_space(*at_) && !at_continuation() &&
-         !(style_.comment && *at_ == style_.comment))
+         (!at_comment() || (at_ != first && at_[-1] == '.')))
     ++at_;
   return {first, static_cast<std::size_t>(at_ - first)};
 }
@@ -164,9 +169,18 @@ std::string_view TextWords::next_word()
 
 void TextWords::skip_line()
 {
-  do {
-    while (at_ != end_ && !is_line_end(*at_) && !at_continuation()) ++at_;
-  } while (pass_continuation());
+  while (skip_line_alone()) pass_line_end();
+}
+
+bool TextWords::skip_line_alone()
+{
+  while (at_ != end_ && !is_line_end(*at_) && !at_continuation() && !at_comment()) ++at_;
+  if (at_continuation()) {
+    ++at_;
+    return true;
+  }
+  while (at_ != end_ && !is_line_end(*at_)) ++at_;
+  return false;
 }
 
 bool TextWords::next_line()

@@ -49,6 +49,10 @@ class TextWords {
   std::string_view word_in_line();
   // Leaves what is left of this line, and of those that continue it.
   void skip_line();
+  // Leaves what is left of this line alone. True: it ends with a backslash that would continue it.
+  bool skip_line_alone();
+  // True after a word of this line: it is the last thing in the file, which may have been cut there.
+  bool file_ends_with(std::string_view word) const { return word.data() + word.size() == end_; }
   // Goes to the next line. False: there is none.
   bool next_line();
 
@@ -75,6 +79,7 @@ class TextWords {
                          const std::string &place = "") const;
 
  private:
+  bool at_comment() const;
   bool at_continuation() const;
   bool pass_continuation();    // false: there is none here
   void pass_line_end();
