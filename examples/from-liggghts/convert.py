@@ -50,6 +50,7 @@ MESH_FIELDS = set("""aedges area acorners distaa id interpolate nneigh nneighs o
 wear""".split())    # words of dump mesh/vtk that are no IDs of meshes
 COLUMNS = set("""angmomx angmomy angmomz diameter element fx fy fz id ix iy iz mass mol mu mux muy muz omegax omegay omegaz proc q
 radius tqx tqy tqz type vx vy vz x xs xsu xu y ys ysu yu z zs zsu zu""".split())    # of dump custom in both
+ATOM_VECTORS = set("fx fy fz id mass mol q type vx vy vz x y z".split())    # of variables in both
 GONE_THERMO = {"cu", "erotate", "numbond", "dragtotal"}
 SET_WORDS = {**dict.fromkeys("charge density diameter mass mol type vx vy vz x y z".split(), 1), "image": 3, "omega": 3,
              "type/fraction": 3}
@@ -540,6 +541,9 @@ class Script:
         self.moves, self.dumps, self.regions, self.box, self.faces = {}, [], {}, {}, ["f"] * 6
         self.out, self.left, self.ran, self.pair, self.plain = [], [], 0, None, set()
         self.mirrored, self.texts, self.dumped, self.lattice = {}, set(), {}, False
+        self.left_variables = set()
+        self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
+            f"{line.words[0][0]}_{line.words[1]}" for line in self.lines if line.words[:1] in (["fix"], ["compute"]) and line.words[1:]}
         self.noted, self.step, self.sources = False, 0, []    # the step here, None where it is not known; what has made grains
         for line in self.lines:
             try:
@@ -729,6 +733,8 @@ class Script:
                 self.leave(line, left.why, left.do)
                 if line.words[0] in ("fix", "dump", "compute"):
                     self.gone[line.words[1]] = left
+                elif line.words[0] == "variable":
+                    self.left_variables.add(f"v_{line.words[1]}")
         return "\n".join(text if isinstance(text, str) else self.mesh_dump(text) for text in self.out) + "\n"
 
     def command(self, line):
@@ -804,26 +810,30 @@ class Script:
             self.sources.append((None, self.ran))
         elif w[0] == "create_atoms":
             bounds = [(self.known(x),) * 2 for x in w[3:6]] if w[2] == "single" else \
-                self.bounds(w[3]) if w[2] == "region" else None
+                (self.region(w[3]) or [None])[-1] if w[2] == "region" else None
             self.sources.append((bounds, self.ran))
 
     def pass_on(self, line):
         w, text = line.words, line.text
         if self.lattice and "units" not in w and (
                 w[0] in ("region", "create_atoms", "displace_atoms", "change_box", "velocity") or w[3:4] == ["move"]):
-            text += " units box"    # LIGGGHTS's default; that of LAMMPS is units lattice
+            text = re.sub(r"\s*(#.*)?$", r" units box \1", text, count=1).rstrip()    # LIGGGHTS's default; LAMMPS's is lattice
         if w[0] == "compute" and w[3] == "stress/atom" and w[4:5] != ["NULL"]:
             text = " ".join([*w[:4], "NULL", *w[4:]])
         if line.words[0] == "thermo_style":
-            for name in dict.fromkeys(i for i in re.findall(r"[fc]_(\w+)", text) if i in self.gone or i in self.plain):
-                text = re.sub(rf"\s[fc]_{name}(\[\d+\])*(?=\s|$)", "", text)
-                self.note(line, f"without {name}, which is not here")
-            for name in (x for x in w[2:] if x in GONE_THERMO):
-                text = re.sub(rf"\s{name}(?=\s|$)", "", text)
-                self.note(line, f"without {name}, which LAMMPS does not know")
+            for word in (x for x in w[2:] if x in GONE_THERMO or not self.is_here(x)):
+                text = re.sub(rf"\s{re.escape(word)}(?=\s|$)", "", text)
+                self.note(line, f"without {word}, which is not here")
         elif w[0] == "set":
             options(w[3:], SET_WORDS)
         self.put(self.renamed(line, text))
+
+    def is_here(self, word):
+        """False of an output of a fix, compute or variable that is not in the converted script."""
+        found = re.match(r"([fcv])_(\w+)", word)
+        if not found or found[1] == "v":
+            return not found or found[0] not in self.left_variables
+        return found[0] in self.names and found[2] not in self.gone.keys() | self.plain
 
     def renamed(self, line, text):
         """Outputs of mesh fixes and massflow by their new names."""
@@ -854,7 +864,16 @@ class Script:
                 return value
             return helper(name, k, value)
 
-        return re.sub(r"f_(\w+)\[(\d+)\]", new, text)
+        text = re.sub(r"\bf_(\w+)\[(\d+)\]", new, text)
+        for name in re.findall(r"\b[fcv]_\w+", text) + [f"v_{x}" for x in re.findall(r"\$\{(\w+)\}", text)]:
+            if not self.is_here(name):
+                raise Left(f"{name}, which is not here", "take another output")
+        if line.words[0] == "variable":
+            self.left_variables.discard(f"v_{line.words[1]}")
+            for name in re.findall(r"(?<![\w$}])([a-z]\w*)\[", text):
+                if name[:2] not in ("f_", "c_", "v_") and name not in ATOM_VECTORS:
+                    raise Left(f"{name}[...] in a variable", "compute property/atom has it")
+        return text
 
     def pair_style(self, line):
         w = line.words
@@ -944,70 +963,63 @@ class Script:
             return {"INF": math.inf, "-INF": -math.inf}.get(word)
 
     def region(self, name):
-        """Shape and numbers of a region that stands still and whose inside it is, or None."""
-        if name not in self.regions:
-            return None
-        w = self.regions[name].words
-        n = {"block": 6, "cylinder": 6, "sphere": 4}.get(w[2])
+        """Shape, axis of a cylinder, and lowest and highest x, y, z of a block, cylinder or sphere whose inside stands still; None of
+        other regions."""
+        w = self.regions[name].words if name in self.regions else []
+        n = {"block": 6, "cylinder": 6, "sphere": 4}.get("".join(w[2:3]))
         if n is None:
             return None
-        axis = w[3:4] if w[2] == "cylinder" else []
-        values = [self.known(x) for x in w[3 + len(axis):3 + n]]
-        for k in {"block": range(0, 6, 2), "cylinder": [3]}.get(w[2], []):
-            values[k] = -math.inf if w[3 + len(axis) + k] == "INF" else values[k]
+        axis = w[3] if w[2] == "cylinder" else ""
+        v = [self.known(x) for x in w[3 + len(axis):3 + n]]
         try:
             rest = options(w[3 + n:], {"units": 1, "side": 1, "seed": 1, "volume_limit": 1})
         except Left:
             return None
-        if None in values or rest.get("side", ["in"]) != ["in"] or (rest.get("units", ["box"]) != ["box"] and self.lattice):
+        if None in v or rest.get("side", ["in"]) != ["in"] or (rest.get("units", ["box"]) != ["box"] and self.lattice):
             return None
-        return w[2], axis, values
+        if w[2] == "block":
+            sides = list(zip(v[::2], v[1::2]))
+        else:
+            radius = v[2] if axis else v[3]
+            sides = [(c - radius, c + radius) for c in v[:2 if axis else 3]]
+        if axis:
+            sides.insert("xyz".index(axis), (v[3], v[4]))
+        # The word INF is the lower end, too.
+        return w[2], axis, [(-math.inf if lo == math.inf else lo, hi) for lo, hi in sides]
 
-    def bounds(self, name):
-        """Lowest and highest x, y, z, or None."""
-        found = self.region(name)
-        if found is None:
-            return None
-        shape, axis, v = found
-        if shape == "block":
-            return list(zip(v[::2], v[1::2]))
-        if shape == "sphere":
-            return [(c - v[3], c + v[3]) for c in v[:3]]
-        across = iter(v[:2])
-        return [tuple(v[3:5]) if a == axis[0] else (lambda c: (c - v[2], c + v[2]))(next(across)) for a in "xyz"]
+    def put_region(self, name, shape, axis, sides):
+        ends = ["INF" if math.isinf(x) else short(x) for side in sides for x in side]
+        if shape != "block":
+            k = "xyz".index(axis) if axis else 3
+            round_sides = sides[:k] + sides[k + 1:]
+            ends = ([axis] * bool(axis) + [short((lo + hi) / 2) for lo, hi in round_sides] +
+                    [short((round_sides[0][1] - round_sides[0][0]) / 2)] + (ends[2 * k:2 * k + 2] if axis else []))
+        self.put(f"region          {name} {shape} {' '.join(ends)}" + " units box" * self.lattice)
 
     def whole_region(self, line, name, radius, all_in, in_box):
         """The region of the centres. LIGGGHTS keeps each sphere in the region with all_in, and in the box by default."""
-        found, bounds = self.region(name), self.bounds(name)
+        found = self.region(name)
         if found is None:
             if all_in:
                 raise Left(f"all_in yes with region {name}, which is no block, cylinder or sphere of known numbers",
                            f"a region that is smaller by the radius, {short(radius)}: here a region holds centres")
             return name
-        shape, axis, v = found
-        by = radius if all_in else 0.0
-        v = {"block": lambda: [x + (by, -by)[k % 2] for k, x in enumerate(v)],
-             "cylinder": lambda: v[:2] + [v[2] - by, v[3] + by, v[4] - by],
-             "sphere": lambda: v[:3] + [v[3] - by]}[shape]()
-        box = [(lo + radius * (self.faces[2 * k] != "p"), hi - radius * (self.faces[2 * k + 1] != "p"))
-               for k, (lo, hi) in enumerate((self.box if in_box else {}).get(a, (-math.inf, math.inf)) for a in "xyz")]
-        outside = any(a + by < lo or b - by > hi for (a, b), (lo, hi) in zip(bounds, box))
-        if outside and shape == "block":
-            v = [max(x, box[k // 2][0]) if k % 2 == 0 else min(x, box[k // 2][1]) for k, x in enumerate(v)]
-        sizes = [b - a for a, b in zip(v[::2], v[1::2])] if shape == "block" else \
-            [v[2], v[4] - v[3]] if shape == "cylinder" else [v[3]]
-        if min(sizes) < 0:
+        shape, axis, sides = found
+        if all_in:
+            sides = [(lo + radius, hi - radius) for lo, hi in sides]
+        box = [(-math.inf, math.inf)] * 3
+        if in_box and self.box:
+            box = [(lo + radius * (self.faces[2 * k] != "p"), hi - radius * (self.faces[2 * k + 1] != "p"))
+                   for k, (lo, hi) in enumerate(self.box[a] for a in "xyz")]
+        inside = [(max(a, lo), min(b, hi)) for (a, b), (lo, hi) in zip(sides, box)]
+        if any(lo > hi for lo, hi in inside):
             raise Left(f"region {name} is smaller than a sphere of radius {short(radius)}", "a larger region")
-        if not all_in and not outside:
+        if not all_in and inside == sides:
             return name
-
-        def put_region(of, shape, words):
-            self.put(f"region          {of} {shape} {' '.join(words)}" + " units box" * self.lattice)
-
         whole = f"{line.words[1]}_whole"
-        put_region(whole, shape, axis + ["INF" if math.isinf(x) else short(x) for x in v])
-        if outside and shape != "block":
-            put_region(f"{whole}_box", "block", ["INF" if math.isinf(x) else short(x) for pair in box for x in pair])
+        self.put_region(whole, shape, axis, inside if shape == "block" else sides)
+        if inside != sides and shape != "block":
+            self.put_region(f"{whole}_box", "block", "", box)
             self.put(f"region          {whole}_in intersect 2 {whole} {whole}_box")
             whole += "_in"
         return whole
@@ -1073,7 +1085,7 @@ class Script:
         elif "region" not in v:
             raise Left(w[3], "fix insert/lsdcd region ID")
         else:
-            bounds = self.bounds(v["region"])
+            bounds = (self.region(v["region"]) or [None])[-1]
             in_box = v.get("check_dist_from_subdomain_border", "yes") == "yes"
             place = f"region {self.whole_region(line, v['region'], max(radii), whole, in_box)}"
             if form == "pack":
@@ -1360,9 +1372,9 @@ class Script:
 
 
     def columns(self, line, words):
-        kept = [x for x in words if x in COLUMNS or x[:2] in ("f_", "c_", "v_") or "$" in x]
+        kept = [x for x in words if x in COLUMNS or "$" in x or (x[:2] in ("f_", "c_", "v_") and self.is_here(x))]
         for name in (x for x in words if x not in kept):
-            self.note(line, f"without {name}, which LAMMPS does not know")
+            self.note(line, f"without {name}, which is not here")
         return kept
 
 

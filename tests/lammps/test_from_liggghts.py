@@ -87,10 +87,13 @@ WRITTEN = {
     "the torque of a moving mesh is about what was the origin": (
         MESH.format("") + "fix t all move/mesh mesh cad linear 1 0 0\n" + WALL + "thermo_style custom step f_cad[5]\n",
         "motion linear 1 0 0 torque_about mesh 0 0 0\n"),
-    "regions are in units of the box": ("lattice sc 0.1\nregion r block 0 1 0 1 0 1\n", "region r block 0 1 0 1 0 1 units box"),
+    "regions are in units of the box": ("lattice sc 0.1\nregion r block 0 1 0 1 0 1 # a box\n",
+                                             "region r block 0 1 0 1 0 1 units box # a box\n"),
     "stress/atom has its word": ("compute s all stress/atom\n", "compute s all stress/atom NULL"),
     "a dump loses what LAMMPS does not know": (
         "dump d all custom 9 d.txt id density x\n", "custom 9 d.txt id x\n"),
+    "a dump loses outputs that are not there": (
+        "dump d all custom 9 d.txt id f_force_w[1] c_thermo_temp x\n", "custom 9 d.txt id c_thermo_temp x\n"),
     "what was made text is not binary": (
         "dump d all custom/vtk 9 d*.vtk id x\ndump_modify d binary yes sort id\n", "dump_modify     d sort id\n"),
     "what was made text and only binary has no dump_modify": (
@@ -116,6 +119,8 @@ LEFT = {
         "fix m5 all property/global characteristicVelocity scalar 2\nset group a diameter 0.02 density 2500\n"
         "set group b diameter 0.03 density 2500\npair_style gran model hooke\n", "model hooke has a stiffness for each mass"),
     "words of set that LAMMPS does not have": ("set group all property/atom Temp 300\n", "the word property/atom"),
+    "a variable of what is not there": (MESH.format("") + "variable f equal c_a[1]\n", "c_a, which is not here"),
+    "atom vectors that LAMMPS does not have": ("variable f equal 2*omegax[1]\n", "omegax[...] in a variable"),
     "a restart file": ("read_restart a.restart\n", "a restart file"),
     "superquadrics": ("atom_style superquadric\n", "atom_style superquadric"),
 }
@@ -152,6 +157,11 @@ WRITTEN.update({
         GRAINS + "fix d all particledistribution/discrete 3 2 p1 0.5 p2 0.5\nregion r sphere 1 2 3 0.1\n"
         "fix i all insert/pack seed 7 distributiontemplate d all_in yes particles_in_region 9 region r\n",
         "region          i_whole sphere 1 2 3 0.096\n"),
+    "a cylinder that leaves the box is cut there": (
+        ONE + "boundary f p f\nregion b block 0 1 0 1 0 1\ncreate_box 1 b\nregion r cylinder z 0.5 0.5 0.1 0 INF\n"
+        "fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\n",
+        "region          i_whole cylinder z 0.5 0.5 0.1 0 INF\nregion          i_whole_box block 0.002 0.998 0 1 0.002 0.998\n"
+        "region          i_whole_in intersect 2 i_whole i_whole_box\n"),
     "the outlets of f_ins stay": (
         ONE + "fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\nthermo_style custom step f_i[1]\n",
         "thermo_style custom step f_i[1]\n"),
@@ -349,6 +359,9 @@ def whole_scripts(checks, folder):
     done, out = convert(folder, MATERIAL.replace("1e7", "${young}") + "variable young equal 1e7\n" + MESH.format("") + WALL +
                         "variable young equal 2e7\n")
     checks.fact("a variable with two values is no number", out is None and "'${young}' is no number" in done.stderr, done.stderr)
+    _, out = convert(folder, "variable f equal omegax[1]\nvariable g equal v_f+1\nprint \"${g}\"\nthermo_style custom step v_g\n")
+    checks.fact("what hangs on a variable that was left is left, or goes from thermo", out.count("\n# LEFT") == 3 and
+                out.endswith("thermo_style custom step\n"), out)
     hooke = ("fix m5 all property/global characteristicVelocity scalar 2\nset group a diameter 0.02 density 2500\n"
              "set group b diameter 0.03 density 2500\npair_style gran model hooke\n")
     _, out = convert(folder, MATERIAL + hooke, more=("--radius", "0.01", "--density", "2500"))
