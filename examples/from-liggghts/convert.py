@@ -433,13 +433,20 @@ class Model:
         if self.rolling in ("cdt", "epsd2") and classic:
             words += f" rolling {self.rolling} {short(c.get('coefficientRollingFriction', c.i, c.j))}"
         elif self.rolling:
-            raise Left(f"rolling_friction {self.rolling} with model {self.normal}", "rolling sds k gamma mu of granular "
-                       "(k per length: k R^2 is the spring of epsd2), or model hooke with cdt or epsd2")
+            raise self.left_rolling(c)
         if self.cohesion == "sjkr" and classic:
             words += f" cohesion sjkr {short(c.get('cohesionEnergyDensity', c.i, c.j))}"
         elif self.cohesion:
             raise Left(f"cohesion {self.cohesion} with model {self.normal}", "granular jkr or dmt, or model hooke with sjkr")
         return words
+
+    def left_rolling(self, c):
+        do = "model hooke with cdt or epsd2"
+        if self.normal == "hertz" and self.rolling in ("cdt", "epsd2"):
+            # epsd2 has the tangential spring times R^2, and both the limit mu R F.
+            do = (f"granular with rolling sds k 0 {short(c.get('coefficientRollingFriction', c.i, c.j))}, k = "
+                  f"{short(8 * c.elastic()[1])} sqrt(R overlap) at the overlap of most contacts; or " + do)
+        return Left(f"rolling_friction {self.rolling} with model {self.normal}", do)
 
     def classic(self, c, r, m):
         """Words of a classic style for a contact whose effective radius and mass are r and m."""
@@ -883,9 +890,10 @@ class Script:
         model.settings(model.rest, "pair_style")
         model.check()
         self.note_friction(line, model)
-        if model.rolling or model.cohesion:
-            raise Left("rolling_friction and cohesion between grains",
-                       "pair_style granular with rolling sds, and jkr or dmt; this comes before pair_coeff")
+        if model.rolling and not model.cohesion:
+            raise model.left_rolling(Contact(self, line, kinds[0], kinds[0]))
+        if model.cohesion:
+            raise Left("cohesion between grains", "pair_style granular with jkr or dmt; this comes before pair_coeff")
         if model.normal == "hertz":
             self.put("pair_style      granular")
             self.note(line, "damping tsuji has another number than the restitution, so that LAMMPS's pairs return the "
@@ -987,6 +995,13 @@ class Script:
         # The word INF is the lower end, too.
         return w[2], axis, [(-math.inf if lo == math.inf else lo, hi) for lo, hi in sides]
 
+    def volume(self, name):
+        """Of a region; the whole one, also with all_in."""
+        found = self.region(name)
+        if found is None:
+            raise Left(f"volumefraction_region of region {name}", "fix insert/lsdcd with mass: the fraction times density and volume")
+        return math.prod(hi - lo for lo, hi in found[2]) * {"block": 1, "cylinder": math.pi / 4, "sphere": math.pi / 6}[found[0]]
+
     def put_region(self, name, shape, axis, sides):
         ends = ["INF" if math.isinf(x) else short(x) for side in sides for x in side]
         if shape != "block":
@@ -1063,9 +1078,12 @@ class Script:
         amounts = [f"{ours} {v[theirs]}" for theirs, ours in (
             ("massrate", "massrate"), ("particlerate", "numberrate"), ("nparticles", "number"), ("mass", "mass"),
             ("particles_in_region", "number"), ("mass_in_region", "mass")) if v.get(theirs, "INF") != "INF"]
-        if not amounts or "volumefraction_region" in v:
+        if not amounts and "volumefraction_region" not in v:
             raise Left(f"{w[3]} without its number or mass", "fix insert/lsdcd with number, mass, numberrate or massrate")
         grains, radii = self.inserted_grains(v.get("distributiontemplate"), line)
+        if "volumefraction_region" in v:
+            mass = self.number(v["volumefraction_region"], line) * self.volume(v.get("region")) * float(grains.split()[-1])
+            amounts.append(f"mass {short(mass)}")
         if v.get("overlapcheck", "yes") != "yes":
             raise Left("overlapcheck no", "fix insert/lsdcd puts no grain into another: a lower number")
         if any(self.known(x) != 0 for x in v.get("omega", ["constant"])[1:]):

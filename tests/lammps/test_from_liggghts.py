@@ -162,6 +162,10 @@ WRITTEN.update({
         "fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\n",
         "region          i_whole cylinder z 0.5 0.5 0.1 0 INF\nregion          i_whole_box block 0.002 0.998 0 1 0.002 0.998\n"
         "region          i_whole_in intersect 2 i_whole i_whole_box\n"),
+    "a fraction of a volume is a mass": (
+        # 0.3 of 2500 kg/m3 in the whole cylinder.
+        ONE + "region r cylinder y 0 0 0.1 0 1\nfix i all insert/pack seed 7 distributiontemplate d all_in yes volumefraction_region 0.3 "
+        "region r\n", f"dens 2500 mass {0.3 * 2500 * math.pi * 0.1**2:.10g} seed"),
     "the outlets of f_ins stay": (
         ONE + "fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\nthermo_style custom step f_i[1]\n",
         "thermo_style custom step f_i[1]\n"),
@@ -183,8 +187,10 @@ LEFT.update({
     "a pack after another and a run": (
         PACK.format("region s block 2 3 0 1 0 1\nfix j all insert/pack seed 7 distributiontemplate d particles_in_region 9 region s\n"
                     "run 9\n", ""), "insert/pack into a region that may"),
-    "a pack without a number": (ONE + "fix i all insert/pack seed 1 distributiontemplate d region r volumefraction_region 0.3\n",
-                                "insert/pack without its number or mass"),
+    "a pack without a number": (PACK.format("", "").replace(" particles_in_region 9", ""), "insert/pack without its number or mass"),
+    "a fraction of a volume that is not known": (
+        PACK.format("", "").replace("particles_in_region 9", "volumefraction_region 0.3").replace("region r block", "region s block"),
+        "volumefraction_region of region r"),
     "a pack that is filled up": (ONE + "fix i all insert/pack seed 1 distributiontemplate d region r insert_every 9 "
                                  "particles_in_region 9\n", "insert/pack that fills up again and again"),
     "grains that are not known": ("fix i all insert/pack seed 1 distributiontemplate d region r particles_in_region 9\n",
@@ -362,6 +368,11 @@ def whole_scripts(checks, folder):
     _, out = convert(folder, "variable f equal omegax[1]\nvariable g equal v_f+1\nprint \"${g}\"\nthermo_style custom step v_g\n")
     checks.fact("what hangs on a variable that was left is left, or goes from thermo", out.count("\n# LEFT") == 3 and
                 out.endswith("thermo_style custom step\n"), out)
+    done, _ = convert(folder, MATERIAL + "fix m5 all property/global coefficientRollingFriction peratomtypepair 1 0.1\n" + MESH.format("") +
+                      WALL.replace("history", "history rolling_friction epsd2"))
+    # 8 G*, and 1/G* = 4 (2 - nu) (1 + nu) / E.
+    checks.fact("rolling friction that is left has its numbers", f"rolling sds k 0 0.1, k = {8 * 1e7 / (4 * 1.7 * 1.3):.10g} sqrt(R overlap)"
+                in done.stderr, done.stderr)
     hooke = ("fix m5 all property/global characteristicVelocity scalar 2\nset group a diameter 0.02 density 2500\n"
              "set group b diameter 0.03 density 2500\npair_style gran model hooke\n")
     _, out = convert(folder, MATERIAL + hooke, more=("--radius", "0.01", "--density", "2500"))
@@ -411,6 +422,7 @@ fix d1 all particledistribution/discrete 15485867 1 p1 1.0
 EDGES = "".join(f"variable {a}{end} equal bound(all,{a}{end})\n" for a in "xyz" for end in ("min", "max"))
 ALL_EDGES = " ".join(f"${{{a}{end}}}" for a in "xyz" for end in ("min", "max"))
 HERTZ = "hertz tangential history"
+TENTH = 0.1 * math.pi * 0.05**2 * 0.2 / (4 / 3 * math.pi * 0.004**3)
 IN_0_1 = [(0.004, 0.096)] * 6
 # name: model, script after BOX, what is printed as "NAME numbers", bounds of each number.
 PHYSICS = {
@@ -430,6 +442,10 @@ PHYSICS = {
     "unfix": (HERTZ, POUR + EDGES + "variable n equal atoms\nregion box1 block 0 0.2 0 0.2 0 0.2 units box\nfix ins all insert/rate/region "
               "seed 32452843 distributiontemplate d1 nparticles 100000 particlerate 50000 insert_every 100 region box1\nrun 400\n"
               "unfix ins\nrun 400\n", "${n}", [(199, 201)]),
+    # A tenth of the volume of the region: 585.9 grains.
+    "fraction": (HERTZ, POUR + "variable n equal atoms\nregion box1 cylinder z 0.1 0.1 0.05 0 0.2 units box\nfix ins all insert/pack seed "
+                 "32452843 distributiontemplate d1 insert_every once all_in yes volumefraction_region 0.1 region box1\nrun 1\n", "${n}",
+                 [(TENTH - 1, TENTH + 1)]),
     # Whole grains in the region, and in the box.
     "all_in": (HERTZ, POUR + EDGES + "region box1 block 0 0.1 0 0.1 0 0.1 units box\nfix ins all insert/pack seed 32452843 "
                "distributiontemplate d1 insert_every once all_in yes particles_in_region 300 region box1\nrun 1\n", ALL_EDGES, IN_0_1),
