@@ -111,6 +111,10 @@ std::vector<std::string> granular_families()
   return words;
 }
 
+const char *const kNoMaterialHere =
+    "numbers stand here, not a material: that of a mesh is 'material NAME' behind mesh FILE, and "
+    "that of atom types 'types I NAME' behind the wall's, granular material FILE PARTICLE";
+
 std::string granular_syntax()
 {
   return "granular " + choices_of(Family::normal) +
@@ -131,6 +135,10 @@ ContactLaw read_granular(Tokens &w, std::string &text)
   LawDraft d;
   d.law = granular_law(NormalModel::hooke);
   const std::size_t first = w.at();
+  if (!w.done() && w.peek() == "material") {
+    w.set_context("granular", choices_of(Family::normal));
+    w.fail(kNoMaterialHere);
+  }
   read_sub_model(w, d, Family::normal);
 
   const std::vector<std::string> words = granular_families();

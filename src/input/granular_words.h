@@ -22,6 +22,8 @@ ContactLaw read_granular(Tokens &w, std::string &text);
 // For help and for errors: "granular NORMAL tangential MODEL [...]", the words that
 // begin a family ("tangential"), and every sub-model with its parameters.
 std::string granular_syntax();
+// Where `material` stands in place of numbers.
+extern const char *const kNoMaterialHere;
 std::vector<std::string> granular_families();
 std::string granular_help();
 

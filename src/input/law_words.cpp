@@ -55,8 +55,13 @@ void read_types(Tokens &w, LawOfMesh &of)
   of.types = word;
 }
 
-void inherit(const ContactLaw &from, ContactLaw &law)
+// Of the wall, what the law leaves out. Beside `granular` only limit_damping may be left out.
+void inherit(const ContactLaw &from, LawOfMesh &of)
 {
+  ContactLaw &law = of.law;
+  const bool is_limited = from.limit_damping && !law.limit_damping;
+  law.limit_damping = law.limit_damping || is_limited;
+  if (is_limited && !law.is_classic()) of.name += " limit_damping";
   if (!law.is_classic()) return;
   if (!law.rolling.is_on()) law.rolling = from.rolling;
   if (!law.cohesion.is_on()) law.cohesion = from.cohesion;
@@ -177,6 +182,7 @@ void read_law_of_mesh(Tokens &w, MeshSettings &mesh)
                          [](const LawOfMesh &other) { return other.types.empty(); })) {
     w.fail("the mesh has one for all atom types already");
   }
+  if (!w.done() && w.peek() == "material") w.fail(kNoMaterialHere);
   of.law = read_law(w, of.name, kLawOfMeshSyntax);
   while (of.law.is_classic() && !w.done()) {
     const bool rolls = w.peek() == family_word(Family::rolling);
@@ -193,7 +199,7 @@ void finish_laws(Tokens &w, WallSettings &s)
 {
   w.set_context("law", kLawOfMeshSyntax);
   for (MeshSettings &mesh : s.meshes)
-    for (LawOfMesh &of : mesh.laws) inherit(s.law, of.law);
+    for (LawOfMesh &of : mesh.laws) inherit(s.law, of);
   leave_out_cohesion(s);
   for (const MeshSettings &mesh : s.meshes)
     for (const LawOfMesh &of : mesh.laws)

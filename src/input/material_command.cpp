@@ -30,6 +30,14 @@ std::string take(Tokens &w, const std::string &what)
   return w.take();
 }
 
+std::string take_name(Tokens &w, const std::string &what)
+{
+  for (const char *const word : {"mesh", "types", "on", "with", "material"})
+    if (!w.done() && w.peek() == word)
+      w.fail(what + " is missing: '" + word + "' stands in its place");
+  return take(w, what);
+}
+
 bool is_family(const std::string &word)
 {
   const std::vector<std::string> all = granular_families();
@@ -106,7 +114,7 @@ void read_types(Tokens &w, MaterialCommand &c)
   if (!is_range()) w.fail("after 'types' come atom types and their material, such as 2 coal");
   while (is_range()) {
     const std::string types = w.take();
-    c.types.push_back({types, take(w, "the material of atom types " + types)});
+    c.types.push_back({types, take_name(w, "the material of atom types " + types)});
   }
 }
 
@@ -125,26 +133,37 @@ void read_meshes(Tokens &w, MaterialCommand &c, const std::vector<std::string> &
                  const MaterialWords &words)
 {
   const std::vector<std::string> before_file = {"cache", "mesh_fields", "mesh_stl", "torque_about"};
-  std::string last;
+  std::string last, before_last;
   while (!w.done()) {
     const std::string word = w.take();
     const bool is_value = is_any(last, before_file);
-    last = word;
+    if (!is_value && word == "law" && !c.meshes.empty())
+      c.meshes.back().has_law |= w.done() || w.peek() != "types";
     if (!is_value && word == "material") {
       if (c.meshes.empty()) w.fail("'material' of a mesh comes after its mesh FILE");
       MeshMaterial &mesh = c.meshes.back();
+      const std::string of = "mesh '" + c.rest[mesh.at - 1] + "'";
+      for (const char *const head : {"law", "types", "granular"})
+        if (last == head || before_last == head)
+          w.fail("in 'law' of " + of + ", " + kNoMaterialHere);
       if (!mesh.name.empty()) w.fail("a mesh has two materials");
-      mesh.name = take(w, "the material of the mesh");
+      mesh.name = take_name(w, "the material of " + of);
       if (w.done() || w.peek() != "with") continue;
       w.take();
       read_overrides(w, names, words.with, mesh.overrides);
       continue;
     }
+    before_last = last;
+    last = word;
     c.rest.push_back(word);
     if (is_value || word != "mesh" || w.done()) continue;
     c.rest.push_back(w.take());
-    c.meshes.push_back({c.rest.size(), "", {}});
+    c.meshes.push_back({c.rest.size(), "", {}, false});
   }
+  for (const MeshMaterial &mesh : c.meshes)
+    if (mesh.has_law && !mesh.name.empty())
+      w.fail("mesh '" + c.rest[mesh.at - 1] + "' has 'material " + mesh.name +
+             "' and 'law', which both give it numbers: leave one out");
 }
 
 }    // namespace
@@ -180,14 +199,12 @@ MaterialCommand read_material_command(const std::vector<std::string> &tokens,
   }
   w.take();
   c.file = take(w, "the file name");
-  c.particle = c.wall = take(w, "the material's name");
+  c.particle = c.wall = take_name(w, "the material's name");
   read_types(w, c);
   const bool has_wall = !w.done() && w.peek() == "on";
   if (has_wall) {
     w.take();
-    if (w.done() || w.peek() == "mesh" || w.peek() == "with")
-      w.fail(std::string("the wall's material is missing after '") + words.on + "'");
-    c.wall = w.take();
+    c.wall = take_name(w, std::string("after '") + words.on + "' the wall's material");
   }
   const std::vector<std::string> names = names_in(tokens, c);
   if (!w.done() && w.peek() == "with") {
@@ -195,6 +212,10 @@ MaterialCommand read_material_command(const std::vector<std::string> &tokens,
     read_overrides(w, names, words.with, c.overrides);
   }
   read_sub_models(w, c);
+  for (const char *const word : {"types", "on", "with"})
+    if (!w.done() && w.peek() == word)
+      w.fail("'" + w.peek() +
+             "' comes too late: the order is PARTICLE, types, on, with, sub-models, mesh");
   read_meshes(w, c, names, words);
   // The wall's own is then that of no contact, and the file need not have it.
   if (!has_wall && !c.meshes.empty() &&

@@ -36,6 +36,7 @@ struct MeshMaterial {
   std::size_t at;      // in MaterialCommand::rest, behind its file's name
   std::string name;    // empty: the wall's
   std::vector<Override> overrides;
+  bool has_law;    // of its own, for all atom types
 };
 
 struct MaterialCommand {

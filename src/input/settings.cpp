@@ -33,6 +33,10 @@ std::string answer_to(const std::string &word, bool granular)
   const char *const kNumbers = "the contact's numbers stand before mesh, or come from granular "
                                "material FILE NAME; those of a "
                                "mesh, or of atom types, after it: law [types I] STYLE numbers";
+  const char *const kTypes =
+      "with a material the order is granular material FILE PARTICLE types I NAME on WALL with "
+      "KEY VALUE mesh FILE material WALL; numbers of atom types come after mesh FILE: law types I "
+      "STYLE numbers";
   const struct {
     const char *word;
     const char *answer;
@@ -61,7 +65,9 @@ std::string answer_to(const std::string &word, bool granular)
       {"stress", kLoads},
       {"reference_point", "the words are torque_about x y z"},
       {"type", kNumbers},
-      {"types", kNumbers},
+      {"types", kTypes},
+      {"on", kTypes},
+      {"with", kTypes},
       {"material", "it goes with granular material FILE PARTICLE, after mesh FILE"},
       {"model", kNumbers},
       {"file", "the word is mesh FILE"},

@@ -139,8 +139,9 @@ void FixWallLsdcd::check_types(const lsdcd::WallSettings &settings) const
     for (const lsdcd::LawOfMesh &of : mesh.laws) {
       const int last = of.last_type == lsdcd::kAnyType ? of.first_type : of.last_type;
       if (last > atom->ntypes)
-        throw lsdcd::InputError("in 'law', there is no atom type " + std::to_string(last) +
-                                ": there are " + std::to_string(atom->ntypes));
+        throw lsdcd::InputError("in 'types " + of.types + "', there is no atom type " +
+                                std::to_string(last) + ": there are " +
+                                std::to_string(atom->ntypes));
     }
 }
 

@@ -66,11 +66,29 @@ void RegionMeshLsdcd::set_bounds(const lsdcd::MeshReport &mesh)
 void RegionMeshLsdcd::init()
 {
   Region::init();
+  refuse_rotating_whole();
   if (scale_warned || !domain->box_exist) return;
   const std::string wrong =
       lsdcd::too_large_text(mesh_bounds.hi - mesh_bounds.lo, mesh_bounds, lsdcd::host_box(*domain));
   scale_warned = !wrong.empty();
   if (scale_warned) warn(wrong);
+}
+
+// LAMMPS also turns the points that it asks a union or an intersection for, where a part rotates, but about
+// an axis that it never sets. Since May 2026 it asks for parts that rotate alike.
+void RegionMeshLsdcd::refuse_rotating_whole() const
+{
+#if LSDCD_HOST_VERSION < 20220601
+  for (int i = 0; i < domain->nregion; i++) {
+    const Region *const whole = domain->regions[i];
+    for (int k = 0; whole->list && whole->rotateflag && k < whole->nregion; k++)
+      if (domain->regions[whole->list[k]] == this)
+        fatal("region " + std::string(whole->id) + " of style " + whole->style +
+              " has a part that rotates, and this LAMMPS would turn it about an axis that it never "
+              "sets: put the meshes into one file, whose shells are a union, or use the regions "
+              "one by one");
+  }
+#endif
 }
 
 // As LAMMPS asks it: of the mesh's inside with its surface, for either side. With a gap the points near

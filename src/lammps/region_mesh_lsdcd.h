@@ -29,6 +29,7 @@ class RegionMeshLsdcd : public Region, private OwnMessages {
 
  private:
   void read_host_words();
+  void refuse_rotating_whole() const;
   void set_bounds(const lsdcd::MeshReport &);
   void log_mesh(const lsdcd::WallMesh &) const;
   [[noreturn]] void refuse_surface() const;

@@ -343,7 +343,52 @@ TEST_F(fill_material_words, that_are_missing_are_asked_for)
   EXPECT_TRUE(says(error_of("granular material FILE"), {"material's name", "Syntax: granular"}));
   EXPECT_TRUE(says(error_of("granular material FILE glass on"), {"wall's material"}));
   EXPECT_TRUE(says(error_of("granular material FILE glass on mesh floor.stl"),
-                   {"wall's material is missing after 'on'"}));
+                   {"after 'on' the wall's material is missing", "'mesh' stands in its place"}));
+  for (const std::string before :
+       {"", "glass types 2 ", "glass on ", "glass types 2 steel 3 ", "glass mesh a.stl material "})
+    for (const std::string word : {"mesh b.stl", "types 1 glass mesh b.stl", "on steel mesh b.stl"})
+      EXPECT_TRUE(
+          says(error_of("granular material FILE " + before + word),
+               {"is missing: '" + word.substr(0, word.find(' ')) + "' stands in its place"}))
+          << before << word;
+}
+
+TEST_F(fill_material_words, in_another_order_are_told_the_right_one)
+{
+  for (const std::string words :
+       {"on steel types 2 steel", "with restitution 1 types 2 steel", "with restitution 1 on steel",
+        "damping tsuji with restitution 1"}) {
+    const std::string late = words.find("types") != words.npos      ? "types"
+                             : words.find("on steel") != words.npos ? "on"
+                                                                    : "with";
+    EXPECT_TRUE(says(error_of("granular material FILE glass " + words + " mesh a.stl"),
+                     {"'" + late + "' comes too late: the order is PARTICLE, types, on, with"}))
+        << words;
+  }
+}
+
+TEST_F(fill_material_words, of_a_law_are_refused)
+{
+  const std::string wall = "granular material FILE glass mesh a.stl ";
+  for (const char *law :
+       {"law material FILE steel", "law granular material FILE steel",
+        "law hooke material FILE steel", "law granular jkr material FILE steel",
+        "law types 2 material FILE steel", "law types 2 granular material FILE steel",
+        "law types 2 granular jkr material FILE steel"})
+    EXPECT_TRUE(says(error_of(wall + law), {"in 'law' of mesh 'a.stl', numbers stand here"}))
+        << law;
+}
+
+TEST_F(fill_material_words, and_a_law_of_one_mesh_are_refused)
+{
+  const std::string
+      law = " law granular hertz/material 1 1 0.3 tangential mindlin NULL 1 0.5",
+      types = " law types 2 granular hertz/material 1 1 0.3 tangential mindlin NULL 1 0.5";
+  const std::string wall = "granular material FILE glass mesh a.stl";
+  for (const std::string &words : {" material steel" + law, law + " material steel"})
+    EXPECT_TRUE(says(error_of(wall + words), {"'a.stl' has 'material steel' and 'law'"})) << words;
+  EXPECT_EQ(error_of(wall + " material steel mesh b.stl" + law), "");
+  EXPECT_EQ(error_of(wall + " material steel" + types), "");
 }
 
 TEST_F(fill_material_words, with_an_unknown_material_name_the_nearest)

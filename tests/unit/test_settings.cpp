@@ -363,6 +363,30 @@ TEST(settings, of_laws_of_the_same_types_the_last_counts)
   for (int k = 0; k < 3; k++) EXPECT_EQ(s.law_of(0, kinds[k]).k_normal, stiffness[k]);
 }
 
+TEST(settings, laws_take_limit_damping_of_the_wall)
+{
+  const char *const numbers[] = {"hooke 2e5 NULL 50 NULL 0.5 1 ",
+                                 "hertz/history 2e5 NULL 50 NULL 0.5 1 ",
+                                 "granular hooke 2e5 50 tangential linear_nohistory 1 0.5 "};
+  for (const std::string law : numbers)
+    for (const bool of_wall : {true, false}) {
+      const std::string limit = of_wall ? "limit_damping " : "";
+      const WallSettings s = parse(law + limit + "mesh a.stl mesh b.stl law " + law +
+                                   "mesh c.stl law " + law + "limit_damping law types 2 " + law);
+      EXPECT_EQ(s.law_of(0, 0).limit_damping, of_wall) << law;
+      EXPECT_EQ(s.law_of(1, 0).limit_damping, of_wall) << law;
+      EXPECT_TRUE(s.law_of(2, 0).limit_damping) << law;
+      EXPECT_EQ(s.law_of(2, 1).limit_damping, of_wall) << law;
+    }
+}
+
+TEST(settings, the_log_names_limit_damping_that_a_granular_law_takes_of_the_wall)
+{
+  const std::string law = "granular hooke 2e5 50 tangential linear_nohistory 1 0.5 ";
+  const WallSettings s = parse(law + "limit_damping mesh a.stl law " + law);
+  EXPECT_EQ(s.meshes[0].laws[0].name, s.law_name);
+}
+
 TEST(settings, laws_take_rolling_and_cohesion_of_the_wall)
 {
   const WallSettings s = with("law hooke 2e5 NULL 50 NULL 0.5 1 cohesion sjkr 5 mesh b.stl rolling "
