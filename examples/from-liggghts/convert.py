@@ -37,7 +37,7 @@ SAME_FIXES = set("""adapt addforce ave/atom ave/correlate ave/histo ave/time ave
 enforce2d external freeze gravity lineforce momentum move nve nve/limit nve/noforce nve/sphere planeforce print rigid
 setforce spring spring/self store/state viscous""".split())
 SAME_COMPUTES = set("""centro/atom cluster/atom cna/atom com coord/atom displace/atom erotate/sphere erotate/sphere/atom
-group/group gyration ke ke/atom msd pe pe/atom pressure property/atom property/local rdf reduce stress/atom
+group/group gyration ke ke/atom msd pe pe/atom pressure property/atom property/local rdf reduce reduce/region stress/atom
 temp contact/atom""".split())
 MESH_DUMPS = {"mesh/stl", "stl", "mesh/vtk", "mesh/vtm", "mesh/gran/VTK"}
 SAME_DUMPS = {"atom", "xyz", "image", "local", "custom", "movie"}
@@ -48,6 +48,8 @@ thermo thermo_modify thermo_style timestep uncompute undump unfix units variable
 write_restart quit info""".split())
 MESH_FIELDS = set("""aedges area acorners distaa id interpolate nneigh nneighs overlap owner stress stresscomponents temp vel
 wear""".split())    # words of dump mesh/vtk that are no IDs of meshes
+PLAIN_COMMANDS = set("""delete_atoms echo jump log next print quit reset_timestep run shell thermo timestep variable velocity
+write_data write_dump write_restart""".split())    # the same in both, where they stand in if and run
 COLUMNS = set("""angmomx angmomy angmomz diameter element fx fy fz id ix iy iz mass mol mu mux muy muz omegax omegay omegaz proc q
 radius tqx tqy tqz type vx vy vz x xs xsu xu y ys ysu yu z zs zsu zu""".split())    # of dump custom in both
 ATOM_VECTORS = set("fx fy fz id mass mol q type vx vy vz x y z".split())    # of variables in both
@@ -358,6 +360,8 @@ class Contact:
     def beta(self):
         """-ln e / sqrt(ln^2 e + pi^2)."""
         e = self.get("coefficientRestitution", self.i, self.j)
+        if not 0 < e <= 1:
+            raise Left(f"a restitution of {short(e)} between the types {self.i} and {self.j}", "one above 0, at most 1")
         return -math.log(e) / math.hypot(math.log(e), math.pi)
 
     def friction(self):
@@ -551,7 +555,7 @@ class Script:
         self.left_variables = set()
         self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
             f"{line.words[0][0]}_{line.words[1]}" for line in self.lines if line.words[:1] in (["fix"], ["compute"]) and line.words[1:]}
-        self.noted, self.step, self.sources = False, 0, []    # the step here, None where it is not known; what has made grains
+        self.noted, self.all_types, self.step, self.sources = False, False, 0, []    # the step here, None where it is not known; what has made grains
         for line in self.lines:
             try:
                 self.collect(line)
@@ -646,7 +650,11 @@ class Script:
             self.read_data(line)
         elif w[0] == "create_atoms":
             self.grain_types.add(int(self.number(w[1], line)))
-        elif w[0] == "set" and "diameter" in w[3:] and "density" in w[3:]:
+        elif w[0] == "set" and "type" in w[3:]:
+            self.grain_types.add(int(self.number(w[w.index("type", 3) + 1], line)))
+        elif w[0] == "read_restart":
+            self.all_types = True
+        if w[0] == "set" and "diameter" in w[3:] and "density" in w[3:]:
             self.sizes.append((self.number(w[w.index("diameter", 3) + 1], line) / 2,
                                self.number(w[w.index("density", 3) + 1], line)))
         elif w[0] == "lattice":
@@ -709,7 +717,11 @@ class Script:
         return self.sizes[0][0], masses[0]
 
     def grains(self):
-        return sorted(self.grain_types) or [1]
+        """Types that grains may have: those that the script makes, or all that have a modulus."""
+        if self.grain_types and not self.all_types:
+            return sorted(self.grain_types)
+        moduli = self.properties.get("youngsModulus", [(None, ["peratomtype", "?"])])[0][1]
+        return list(range(1, len(moduli)))
 
     # -- writing
 
@@ -766,6 +778,10 @@ class Script:
             self.fix(line)
         elif w[0] == "dump":
             self.dump(line)
+        elif w[0] == "jump" and w[1] not in ("SELF", self.path.name):
+            raise Left("a jump to another file", "convert that file by itself, and name it here")
+        elif w[0] in ("if", "run") and any(x.strip("\"'").split()[0] not in PLAIN_COMMANDS for x in self.nested(w)):
+            raise Left(f"commands in {w[0]} that are to be converted", "convert them as lines of their own, and put them here")
         elif w[0] == "compute" and (w[3] not in SAME_COMPUTES or (w[3] == "contact/atom" and len(w) > 4)):
             raise Left(f"compute {w[3]}", "LAMMPS has no compute of that name with these words")
         elif w[0] in ("unfix", "undump", "uncompute", "fix_modify", "compute_modify", "dump_modify") and w[1] in self.gone:
@@ -797,6 +813,13 @@ class Script:
             self.count_steps(line)
             self.pass_on(line)
 
+    @staticmethod
+    def nested(w):
+        """The commands in the words of if and run."""
+        if w[0] == "run":
+            return [x for x in w[1:] if x[0] in "\"'" and " " in x]
+        return [x for k, x in enumerate(w) if k > 2 and x not in ("then", "elif", "else") and w[k - 1] != "elif"]
+
     def count_steps(self, line):
         """What the commands that both programs know change for those that follow."""
         w = line.words
@@ -825,6 +848,10 @@ class Script:
         if self.lattice and "units" not in w and (
                 w[0] in ("region", "create_atoms", "displace_atoms", "change_box", "velocity") or w[3:4] == ["move"]):
             text = re.sub(r"\s*(#.*)?$", r" units box \1", text, count=1).rstrip()    # LIGGGHTS's default; LAMMPS's is lattice
+        if w[0] == "jump":
+            text = " ".join(["jump SELF", *w[2:]])
+        if w[0] == "compute" and w[3] == "coord/atom" and w[4] != "cutoff":
+            text = " ".join([*w[:4], "cutoff", *w[4:]])
         if w[0] == "compute" and w[3] == "stress/atom" and w[4:5] != ["NULL"]:
             text = " ".join([*w[:4], "NULL", *w[4:]])
         if line.words[0] == "thermo_style":
@@ -898,9 +925,10 @@ class Script:
             self.put("pair_style      granular")
             self.note(line, "damping tsuji has another number than the restitution, so that LAMMPS's pairs return the "
                       "restitution of LIGGGHTS; in 29Sep2021 they have no coeff_restitution")
-            self.pair = [f"pair_coeff      {i} {j} {model.granular(Contact(self, line, i, j))}"
-                         for i in kinds for j in kinds if i <= j] if len(kinds) > 1 else \
-                        [f"pair_coeff      * * {model.granular(Contact(self, line, kinds[0], kinds[0]))}"]
+            # Types of walls alone have no grains: any law does.
+            self.pair = [f"pair_coeff      {i} {j} {model.granular(Contact(self, line, a, b))}"
+                         for i, j, a, b in [("*", "*", kinds[0], kinds[0])] +
+                         [(a, b, a, b) for a in kinds for b in kinds if a <= b and b != kinds[0]]]
             return
         r, m = self.size(line) if model.normal == "hooke" else (1.0, 1.0)
         laws = {model.classic(Contact(self, line, i, j), r / 2, m / 2) for i in kinds for j in kinds}

@@ -92,6 +92,10 @@ WRITTEN = {
     "stress/atom has its word": ("compute s all stress/atom\n", "compute s all stress/atom NULL"),
     "a dump loses what LAMMPS does not know": (
         "dump d all custom 9 d.txt id density x\n", "custom 9 d.txt id x\n"),
+    "a jump to itself": ("label l\njump in.there l\n", "\njump SELF l\n"),
+    "an if whose commands are the same": ('if "${n} > 1" then "print 1" "jump SELF l" else "variable a delete"\n',
+                                          'then "print 1" "jump SELF l" else'),
+    "coord/atom has its word": ("compute c all coord/atom 0.1\n", "coord/atom cutoff 0.1"),
     "a dump loses outputs that are not there": (
         "dump d all custom 9 d.txt id f_force_w[1] c_thermo_temp x\n", "custom 9 d.txt id c_thermo_temp x\n"),
     "what was made text is not binary": (
@@ -121,6 +125,11 @@ LEFT = {
     "words of set that LAMMPS does not have": ("set group all property/atom Temp 300\n", "the word property/atom"),
     "a variable of what is not there": (MESH.format("") + "variable f equal c_a[1]\n", "c_a, which is not here"),
     "atom vectors that LAMMPS does not have": ("variable f equal 2*omegax[1]\n", "omegax[...] in a variable"),
+    "a jump to another file": ("jump in.other\n", "a jump to another file"),
+    "commands in an if": ('if "${n} > 1" then "unfix w"\n', "commands in if"),
+    "commands in a run": ('run 9 every 3 "print 1" "dump d all mesh/stl 1 a*.stl"\n', "commands in run"),
+    "a restitution of 0": ("fix m5 all property/global coefficientRestitution peratomtypepair 1 0\npair_style gran model hertz\n",
+                           "a restitution of 0 between the types 1 and 1"),
     "a restart file": ("read_restart a.restart\n", "a restart file"),
     "superquadrics": ("atom_style superquadric\n", "atom_style superquadric"),
 }
@@ -479,6 +488,19 @@ def physics(checks, folder, there=False):
                     f"{found} in {bounds}" + ("" if found else output[-2000:]))
 
 
+def grain_types(checks, folder):
+    """Each type that grains may have gets its law."""
+    two = ("fix m1 all property/global youngsModulus peratomtype 1e7 1e7\nfix m2 all property/global poissonsRatio peratomtype 0.3 0.3\n"
+           "fix m3 all property/global coefficientRestitution peratomtypepair 2 0.5 0.5 0.5 0.5\n"
+           "fix m4 all property/global coefficientFriction peratomtypepair 2 0.4 0.2 0.2 0.3\n{}pair_style gran model hertz tangential history\n"
+           "pair_coeff * *\n" + MESH.format("") + WALL)
+    for name, grains in (("by set", "create_atoms 1 single 0 0 0\nset region r type 2\n"), ("by a restart file", "read_restart a\n"),
+                         ("by what is not known", "")):
+        _, out = convert(folder, two.format(grains))
+        checks.fact(f"two types {name}", re.search(r"law types 2 granular .* 0\.2$", out, re.M) and
+                    [line.split()[1:3] for line in re.findall("^pair_coeff.*", out, re.M)] == [["*", "*"], ["1", "2"], ["2", "2"]], out)
+
+
 def figures(text, name):
     return re.findall(rf"^{name} [a-z]+ .*", text, re.M)
 
@@ -509,6 +531,6 @@ if __name__ == "__main__":
         words(facts, place)
         two_materials(facts, place)
         several_materials(facts, place)
-        for part in (ids, winding, surfaces, whole_scripts, physics):
+        for part in (ids, grain_types, winding, surfaces, whole_scripts, physics):
             part(facts, place)
     facts.done(place)
