@@ -41,7 +41,7 @@ class HeaderReader {
         read_property();
       else
         fail(quoted(words_[0]) + " found where 'element', 'property' or 'end_header' is expected",
-             kCorrect);
+             "correct the line, begin it with 'comment', or export the mesh again");
     }
     if (!format)
       fail("the header has no line 'format', which says whether the data are text or binary",
