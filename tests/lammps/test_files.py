@@ -140,6 +140,42 @@ def ply(checks, folder):
                 (folder / "p.stl").read_bytes() == (folder / "q.stl").read_bytes(), done.stdout[-300:])
 
 
+L_FLOOR = {
+    "obj": "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n",
+    "off": "OFF\n6 1 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n6 0 1 2 3 4 5\n",
+    "ply": "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+           "property list uchar int vertex_indices\nend_header\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n6 0 1 2 3 4 5\n",
+}
+ON_L = """\
+units si
+atom_style sphere
+comm_modify vel yes
+boundary f f f
+newton off
+region box block -1 3 -1 3 -1 1
+create_box 1 box
+create_atoms 1 single 0.4 0.4 0.095
+create_atoms 1 single 1.25 1.25 0.095
+create_atoms 1 single 1.7 1.7 0.095
+set group all diameter 0.2 density 2500
+fix w all wall/lsdcd hooke 1000 NULL 0 0 0 0 mesh {}
+fix m all nve/sphere
+dump d all custom 1 forces.dump id fz
+dump_modify d sort id
+run 0
+"""
+
+
+def concave(checks, folder):
+    """One face of the shape L: a grain over its notch is not pushed, one over its corner by stiffness times overlap."""
+    for ending, text in L_FLOOR.items():
+        (folder / f"l.{ending}").write_text(text)
+        lmp.run_well(ON_L.format(f"l.{ending}"), folder)
+        forces = [atom[0] for atom in lmp.read_dump(folder / "forces.dump")[0].values()]
+        checks.fact(f"a grain over the notch of an L is not pushed: {ending}",
+                    abs(forces[0] - 5) < 1e-9 and forces[1:] == [0, 0], str(forces))
+
+
 def stl(checks, folder):
     go(folder, f"{TURN} mesh_stl s_*.stl every 40 mesh_fields s_*.vtp every 60", "run 130\n")
     names = {p.name for p in folder.glob("s_*")}
@@ -217,7 +253,7 @@ def not_written(checks, folder):
 def main():
     checks, folder = lmp.Checks(), lmp.scratch()
     scene.write_floor(folder / "floor.stl")
-    for part in (series, forces, continued, stl, ply, not_written):
+    for part in (series, forces, continued, stl, ply, concave, not_written):
         part(checks, folder)
     checks.done(folder)
 

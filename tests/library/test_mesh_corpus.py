@@ -13,7 +13,7 @@ import tempfile
 import numpy as np
 
 import lsdcd
-from mesh_corpus import Error, Polygon, cases
+from mesh_corpus import BESIDE, Error, Polygon, Solid, cases
 
 
 def turned(triangles):
@@ -39,13 +39,16 @@ def is_polygon(triangles, polygon):
 def wrong(path, meaning):
     """What is wrong with what the library reads; none: nothing."""
     try:
-        arrays = lsdcd.Mesh(path, weld=0).arrays()
+        mesh = lsdcd.Mesh(path, weld=0)
     except lsdcd.Error as error:
         words = [path.name, *meaning.words] if isinstance(meaning, Error) else [None]
         return None if all(w is not None and w in str(error) for w in words) else f"refused: {error}"
+    facts, arrays = mesh.facts, mesh.arrays()
     triangles = arrays.vertices[arrays.faces]
     if isinstance(meaning, Polygon):
         right = is_polygon(triangles, meaning)
+    elif isinstance(meaning, Solid):
+        right = facts.oriented and facts.volume == meaning.volume and facts.area == meaning.area
     else:
         right = not isinstance(meaning, Error) and turned(triangles) == turned(meaning)
     return None if right else f"read as {triangles.tolist()}"
@@ -54,6 +57,8 @@ def wrong(path, meaning):
 def main():
     failed = 0
     with tempfile.TemporaryDirectory(prefix="lsdcd-") as folder:
+        for name, data in BESIDE.items():
+            pathlib.Path(folder, name).write_bytes(data)
         for name, data, meaning in cases():
             path = pathlib.Path(folder, name)
             path.write_bytes(data)
