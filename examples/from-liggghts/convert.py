@@ -6,12 +6,12 @@
 
   convert.py in.chute -o in.chute.lammps      then read every line of it that has LEFT or NOTE
 
-What is converted: materials (property/global) and models become the numbers of the pair style and of the wall;
-mesh/surface, wall/gran, move/mesh, massflow/mesh and dump mesh/* become words of fix wall/lsdcd and fix
-massflow/lsdcd; what both programs know stays as it is, but for names such as atom_style granular.
+Materials (property/global) and models become the numbers of the pair style and of the wall; mesh/surface, wall/gran,
+move/mesh, massflow/mesh, insert/* and dump mesh/* become words of fix wall/lsdcd, fix massflow/lsdcd and fix
+insert/lsdcd; what both programs know stays as it is, but for names such as atom_style granular.
 
 A line is converted with the defaults of LIGGGHTS 3.8, or it is left: "commands left: 0" means the same physics.
-What is left stays as a comment below a line
+A line that is left stays as a comment below a line
   # LEFT in.chute:34: why; do: what to do
 and the same list is printed. A line with NOTE is converted, and says what to look at. The script is written
 whole or, after an error, not at all. It reads the script once from top to bottom: numbers of materials may be variables
@@ -83,7 +83,7 @@ def options(words, known):
         if isinstance(n, dict):
             n = n.get(words[0])
         if n is None:
-            raise Left(f"the word {key}", "see which word of LAMMPS or of this fix does that")
+            raise Left(f"the word {key}", "doc/from-liggghts.md has most words; or the line without it, if it does not matter")
         values[key] = [words.pop(0) for _ in range(n)]
     return values
 
@@ -224,7 +224,7 @@ class Mesh:
             self.add_surface_ang_vel(script, spin)
 
     def faces(self, script):
-        """Of the placed mesh: corners and normal; None where the file is not there."""
+        """Corners and normal of each triangle of the placed mesh; None where the file is not there."""
         if not (script.folder / self.file).exists():
             return None
         found = [(t, cross(minus(t[1], t[0]), minus(t[2], t[0]))) for t in self.triangles(script)]
@@ -670,11 +670,11 @@ class Script:
 
     @staticmethod
     def style(w):
-        """Of a fix. A style of OpenMP is the same one."""
+        """The style of a fix. A style of OpenMP is the same one."""
         return w[3][:-4] if w[3].endswith("/omp") else w[3]
 
     def template(self, line):
-        """Of fix particletemplate/sphere: type, radius, density of a constant sphere, else None."""
+        """Reads fix particletemplate/sphere; templates has type, radius and density of each constant sphere."""
         w = line.words
         try:
             v = options(w[5:], {"atom_type": 1, "volume_limit": 1, "relative": 1,
@@ -821,7 +821,7 @@ class Script:
         return [x for k, x in enumerate(w) if k > 2 and x not in ("then", "elif", "else") and w[k - 1] != "elif"]
 
     def count_steps(self, line):
-        """What the commands that both programs know change for those that follow."""
+        """Follows the step and the grains, on which insertions hang, through the commands that both programs know."""
         w = line.words
         if w[0] == "run":
             self.ran += 1
@@ -1024,7 +1024,7 @@ class Script:
         return w[2], axis, [(-math.inf if lo == math.inf else lo, hi) for lo, hi in sides]
 
     def volume(self, name):
-        """Of a region; the whole one, also with all_in."""
+        """The volume of a region, the whole one also with all_in."""
         found = self.region(name)
         if found is None:
             raise Left(f"volumefraction_region of region {name}", "fix insert/lsdcd with mass: the fraction times density and volume")
@@ -1248,7 +1248,7 @@ class Script:
                 (w[3] in ("mesh/stl", "stl") or x not in MESH_FIELDS)]
 
     def mesh_dump(self, line):
-        """What stands for a dump of meshes, when all walls are known."""
+        """The text in place of a dump of meshes, when all walls are known."""
         w, names, written = line.words, self.dumped_meshes(line), self.dumped[line]
         missing = [i for i in names if i not in written]
         if missing or not written:

@@ -331,7 +331,7 @@ def ids(checks, folder):
 
 
 def winding(checks, folder):
-    """Of a mesh that counts: along vec_side, against it, both."""
+    """A mesh that counts is wound along vec_side, against it, or both ways."""
     text = "fix out all mesh/surface file {}.stl type 1\nfix flow all massflow/mesh mesh out vec_side 0 0 {}\nvariable n equal f_flow[{}]\n"
     write_stl(folder / "flat.stl", FLAT)
     write_stl(folder / "mixed.stl", [FLAT[0], FLAT[1][::-1]])
@@ -357,7 +357,7 @@ def surfaces(checks, folder):
 
 
 def whole_scripts(checks, folder):
-    """What is left does not stop the rest; bytes stay."""
+    """A line that is left does not stop the rest; bytes stay."""
     done, out = convert(folder, MATERIAL + MESH.format("").replace("a.stl", "a.vtk") + WALL + "timestep 1e-5\n")
     checks.fact("a wall whose only mesh is left is left, and the rest is there", done.returncode == 0 and out.count("\n# LEFT") == 2 and
                 "LEFT in.there:6: the mesh cad, which is not converted" in out and "\ntimestep 1e-5\n" in out, done.stderr)
