@@ -94,9 +94,11 @@ typedef struct lsdcd_mesh_facts {
   double area, volume;           /* the volume is < 0 where normals point in; what lies in two
                                     shells counts twice */
   double lo[3], hi[3];
-  size_t meeting_pairs;  /* of triangles of different closed shells, which cut, overlap or
+  size_t meeting_pairs; /* of triangles of different closed shells, which cut, overlap or
                                     touch each other there */
-  size_t given_vertices; /* those of lsdcd_mesh_from_faces(), else three corners a triangle */
+  size_t
+      given_vertices; /* those of lsdcd_mesh_from_faces(), or of a file of a format other than STL; else three
+                            corners a triangle */
 } lsdcd_mesh_facts;
 /* Any. */
 LSDCD_API int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts);
@@ -115,8 +117,9 @@ typedef struct lsdcd_mesh_arrays {
   /* Of edge e: edge_faces[edge_first[e]] up to before edge_faces[edge_first[e + 1]]. */
   uint32_t *edge_first; /* edges + 1 numbers */
   uint32_t *edge_faces; /* 3 * faces numbers */
-  /* `given_vertices` numbers: of each vertex as given the one here that it was welded to, at most `weld` away. From a
-   * file or corners these are the corners, three a triangle, in their order. LSDCD_NONE: a vertex of no triangle. */
+  /* `given_vertices` numbers: of each vertex as given the one here that it was welded to, at most `weld` away. Those of an
+   * STL file or of corners are the corners, three a triangle, in their order. LSDCD_NONE: a vertex of no triangle; of a
+   * file one at whose place no triangle has a corner. */
   uint32_t *welded_vertex;
   /* `triangles` numbers: of each triangle as given its face. One that has the corners of another, in either winding, has
    * that one's face, whose `triangle` is the first of them. LSDCD_NONE: one without area, which is no face. */

@@ -17,26 +17,18 @@ using namespace lsdcd;
 
 namespace {
 
-// Corner k of the soup is vertex faces[k] of `n_vertices` as given; null: each corner is a vertex.
-lsdcd_mesh *welded(const TriangleSoup &soup, double weld_tolerance,
-                   const std::uint32_t *faces = nullptr, std::size_t n_vertices = 0)
+// All of a mesh but what became of vertices as given. `corner_vertex` becomes the vertex of each corner.
+std::shared_ptr<ApiMesh> welded(const TriangleSoup &soup, double weld_tolerance,
+                                std::vector<int> &corner_vertex)
 {
   if (std::isnan(weld_tolerance) || weld_tolerance > std::numeric_limits<double>::max())
     throw ApiError(LSDCD_ERROR_ARGUMENT,
                    "`weld` is not finite: give a length, or -1 for the default");
   auto mesh = std::make_shared<ApiMesh>();
-  std::vector<int> corner_vertex;
   mesh->mesh = weld(soup, weld_tolerance, corner_vertex);
   mesh->welded_face = faces_of_facets(mesh->mesh, corner_vertex);
-  if (faces) {
-    mesh->welded_vertex.assign(n_vertices, -1);
-    for (std::size_t k = 0; k < corner_vertex.size(); k++)
-      mesh->welded_vertex[faces[k]] = corner_vertex[k];
-  } else {
-    mesh->welded_vertex = std::move(corner_vertex);
-  }
   mesh->report = describe(mesh->mesh.report, soup.source);
-  return new lsdcd_mesh{std::move(mesh)};
+  return mesh;
 }
 
 void check_number(std::size_t n, const std::string &name)
@@ -111,7 +103,13 @@ int lsdcd_mesh_read(const char *file, double weld, lsdcd_mesh **mesh)
   return guard([&] {
     need(mesh, "mesh");
     need(file, "file");
-    *mesh = welded(read_mesh(file).soup, weld);
+    const ReadMesh read = read_mesh(file);
+    std::vector<int> corner_vertex;
+    auto made = welded(read.soup, weld, corner_vertex);
+    made->welded_vertex = read.vertices.empty()
+                              ? std::move(corner_vertex)
+                              : vertices_at(read.vertices, read.soup.corners, corner_vertex);
+    *mesh = new lsdcd_mesh{std::move(made)};
   });
 }
 
@@ -121,7 +119,10 @@ int lsdcd_mesh_from_corners(const double *corners, size_t n_triangles, double we
   return guard([&] {
     need(mesh, "mesh");
     need(corners, "corners");
-    *mesh = welded(soup_of(corners, n_triangles), weld);
+    std::vector<int> corner_vertex;
+    auto made = welded(soup_of(corners, n_triangles), weld, corner_vertex);
+    made->welded_vertex = std::move(corner_vertex);
+    *mesh = new lsdcd_mesh{std::move(made)};
   });
 }
 
@@ -133,10 +134,16 @@ int lsdcd_mesh_from_faces(const void *vertices, int type, size_t n_vertices, con
     need(vertices, "vertices");
     need(faces, "faces");
     check_type(type);
-    *mesh = welded(type == LSDCD_FLOAT
-                       ? soup_of(static_cast<const float *>(vertices), n_vertices, faces, n_faces)
-                       : soup_of(static_cast<const double *>(vertices), n_vertices, faces, n_faces),
-                   weld, faces, n_vertices);
+    std::vector<int> corner_vertex;
+    auto made =
+        welded(type == LSDCD_FLOAT
+                   ? soup_of(static_cast<const float *>(vertices), n_vertices, faces, n_faces)
+                   : soup_of(static_cast<const double *>(vertices), n_vertices, faces, n_faces),
+               weld, corner_vertex);
+    made->welded_vertex.assign(n_vertices, kNoVertex);
+    for (std::size_t k = 0; k < corner_vertex.size(); k++)
+      made->welded_vertex[faces[k]] = corner_vertex[k];
+    *mesh = new lsdcd_mesh{std::move(made)};
   });
 }
 

@@ -3,6 +3,8 @@
 
 #include "mesh/weld_map.h"
 
+#include "mesh/hash_index.h"
+
 #include <algorithm>
 
 namespace lsdcd {
@@ -37,6 +39,24 @@ std::vector<int> faces_of_facets(const WallMesh &mesh, const std::vector<int> &c
     if (face_of[t] == kNoFace && !is_line) face_of[t] = face_with(mesh, corner);
   }
   return face_of;
+}
+
+std::vector<int> vertices_at(const std::vector<Vec3> &places, const std::vector<Vec3> &corners,
+                             const std::vector<int> &corner_vertex)
+{
+  // -0.0 becomes 0.0, which has other bits.
+  const auto hash = [](const Vec3 &x) { return hash_three(x.x + 0, x.y + 0, x.z + 0); };
+  HashIndex table;
+  for (std::size_t k = 0; k < corners.size(); k++)
+    table.find_or_insert(hash(corners[k]), static_cast<int>(k),
+                         [&](int i) { return corners[i] == corners[k]; });
+  std::vector<int> vertex;
+  vertex.reserve(places.size());
+  for (const Vec3 &place : places) {
+    const int k = table.find(hash(place), [&](int i) { return corners[i] == place; });
+    vertex.push_back(k == HashIndex::kNone ? kNoVertex : corner_vertex[k]);
+  }
+  return vertex;
 }
 
 }    // namespace lsdcd

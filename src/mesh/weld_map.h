@@ -14,10 +14,14 @@ namespace lsdcd {
 // coordinates have the same one.
 WallMesh weld(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner_vertex);
 
-constexpr int kNoFace = -1;
+constexpr int kNoFace = -1, kNoVertex = -1;
 
 // Of each facet of the file its face; of a duplicate, in either winding, the face that it equals; kNoFace for a facet
 // without area.
 std::vector<int> faces_of_facets(const WallMesh &mesh, const std::vector<int> &corner_vertex);
+
+// Of each of these places the vertex of the corners that are exactly there; kNoVertex where none is.
+std::vector<int> vertices_at(const std::vector<Vec3> &places, const std::vector<Vec3> &corners,
+                             const std::vector<int> &corner_vertex);
 
 }    // namespace lsdcd

@@ -722,6 +722,39 @@ TEST(library, given_corners_have_the_welded_vertex_that_they_became)
     EXPECT_EQ(norm(point(m.vertices, m.welded_vertex[k]) - soup.corners[k]), 0) << k;
 }
 
+// Six vertices: the first and the fourth are at one place, but for the sign of a zero; the fifth is of no face.
+TEST(library, vertices_of_a_file_have_the_welded_one_that_they_became)
+{
+  const std::string places[] = {"0 0 0", "1 0 0", "1 1 0", "-0 0 0", "5 5 5", "0 1 0"};
+  std::string obj, lines;
+  for (const std::string &at : places) {
+    obj += "v " + at + "\n";
+    lines += at + "\n";
+  }
+  const std::pair<const char *, std::string> files[] = {
+      {"m.obj", obj + "f 1 2 3 6\nf 4 3 6\n"},
+      {"m.off", "OFF\n6 2 0\n" + lines + "4 0 1 2 5\n3 3 2 5\n"},
+      {"m.ply",
+       "ply\nformat ascii 1.0\nelement vertex 6\nproperty double x\nproperty double y\nproperty "
+       "double z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n" +
+           lines + "4 0 1 2 5\n3 3 2 5\n"}};
+  const lsdcd::TempDir folder;
+  for (const auto &[name, text] : files) {
+    const lsdcd::Mesh mesh(folder.write(name, text));
+    const lsdcd::MeshArrays m = mesh.arrays();
+    ASSERT_EQ(mesh.facts().given_vertices, 6u) << name;
+    const std::uint32_t *v = m.welded_vertex.data();
+    EXPECT_EQ(v[4], LSDCD_NONE) << name;
+    EXPECT_EQ(v[3], v[0]) << name;
+    for (const int k : {0, 1, 2, 3, 5}) {
+      const Vec3 wanted = {k == 1 || k == 2 ? 1. : 0., k == 2 || k == 5 ? 1. : 0., 0};
+      EXPECT_EQ(point(m.vertices, v[k]), wanted) << name << " " << k;
+    }
+    // The square is two triangles, the second of which the last one repeats.
+    EXPECT_EQ(m.welded_face, (std::vector<std::uint32_t>{0, 1, 1})) << name;
+  }
+}
+
 TEST(library, given_triangles_have_their_face_or_that_of_their_double_or_none)
 {
   const std::vector<double> vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 2, 0, 0};

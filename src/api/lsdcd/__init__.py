@@ -302,7 +302,7 @@ class MeshFacts(_Record):
     lo: tuple[float, float, float]
     hi: tuple[float, float, float]
     meeting_pairs: int    # of triangles of different closed shells
-    given_vertices: int    # those given with faces, else three corners a triangle
+    given_vertices: int    # those given with faces or numbered in a file; of STL and triangles three corners each
 
 
 class MeshArrays(_Record):
@@ -314,8 +314,8 @@ class MeshArrays(_Record):
     edges: NDArray[np.uint32]        # (E, 2), the lower vertex first
     edge_first: NDArray[np.uint32]   # (E + 1,)
     edge_faces: NDArray[np.uint32]   # (3 F,), faces of edge e: edge_faces[edge_first[e]:edge_first[e + 1]]
-    # (given_vertices,), of each vertex as given the one here that it was welded to; those of a file or of triangles are
-    # their corners, in their order. NONE: a vertex of no face.
+    # (given_vertices,), of each vertex as given the one here that it was welded to; those of STL and of triangles are
+    # their corners, in their order. NONE: a vertex of no face; of a file one at whose place no face has a corner.
     welded_vertex: NDArray[np.uint32]
     # (triangles,), of each triangle as given its face; one that has the corners of another, in either winding, has that
     # one's face. NONE: one without area, which is no face.

@@ -8,12 +8,14 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace lsdcd {
 
 struct ReadMesh {
   TriangleSoup soup;
-  std::size_t left_out = 0;    // points and lines, which are no facets
+  std::size_t left_out = 0;      // points and lines, which are no facets
+  std::vector<Vec3> vertices;    // of a file that numbers them, all formats but STL, in its order
 };
 
 // By the name's ending, as the table in read_mesh.cpp says; a file with another name is read as STL.

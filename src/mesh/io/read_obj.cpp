@@ -64,6 +64,7 @@ class ObjReader {
     if (read_.soup.corners.empty())
       throw InputError(read_.soup.source +
                        ": the mesh has no facets; give a mesh with triangles or polygons");
+    read_.vertices = std::move(vertices_);
     return std::move(read_);
   }
 

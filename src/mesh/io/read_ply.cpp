@@ -227,6 +227,7 @@ class PlyReader {
       values_ = values;
       read_facets(*element);
     }
+    read_.vertices = std::move(vertices_);
     return std::move(read_);
   }
 
