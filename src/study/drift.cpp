@@ -161,12 +161,13 @@ Real median(std::vector<Real> change)
 }    // namespace
 
 DriftStarts drift_starts(const WallMesh &mesh, const GridView &grid, Real radius, int n,
-                         Random &random)
+                         Random &random, std::size_t memory_budget)
 {
   DriftStarts starts;
   starts.radius = radius;
   GridSettings settings;
   settings.cutoff = kThrough * radius;
+  settings.memory_budget = memory_budget;
   starts.wall = build_grid(mesh, settings);
   std::vector<Real> area_up_to;    // of the faces so far
   Real area = 0;

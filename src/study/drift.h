@@ -23,9 +23,10 @@ struct DriftStarts {
 };
 
 // Up to n starts at which a sphere at rest on the face touches nothing else (`grid` is
-// asked); faces are chosen by area, sides by chance.
+// asked); faces are chosen by area, sides by chance. `memory_budget`: bytes of `wall`, which is coarser where
+// that is needed; 0: as build_grid() has it.
 DriftStarts drift_starts(const WallMesh &mesh, const GridView &grid, Real radius, int n,
-                         Random &random);
+                         Random &random, std::size_t memory_budget = 0);
 
 // Units: radius R, mass 1, a pull g along -normal that stays the same for a sphere; a linear
 // spring of stiffness 1000 g / R, no damping; steps of 0.001 sqrt(R/g). Both return the

@@ -22,6 +22,12 @@ Real rounded(Real length)
 
 }    // namespace
 
+Real rounded_up(Real length)
+{
+  const Real near = rounded(length);
+  return near < length ? rounded(Real(1.001) * length) : near;
+}
+
 std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &settings)
 {
   const Real standard = plan_grid(mesh, settings).length;
@@ -43,8 +49,7 @@ std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &setti
     GridPlan plan = plan_grid(mesh, settings);
     while (plan.least_bytes() > budget && !is_coarsest(plan, mesh))
       plan = coarser(plan, mesh, settings);
-    const Real length = rounded(plan.length);
-    lengths.push_back(length < plan.length ? rounded(Real(1.001) * plan.length) : length);
+    lengths.push_back(rounded_up(plan.length));
   }
   return lengths;
 }

@@ -16,4 +16,7 @@ namespace lsdcd {
 // than the memory budget at least; where all do, the first coarser one.
 std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &settings);
 
+// The next length of four digits that is no finer.
+Real rounded_up(Real length);
+
 }    // namespace lsdcd

@@ -4,6 +4,8 @@
 #include "study/tradeoff.h"
 
 #include "backend/threads.h"
+#include "base/input_error.h"
+#include "base/input_words.h"
 #include "grid/flat_grid.h"
 #include "grid/plan/grid_plan.h"
 #include "study/drift.h"
@@ -18,7 +20,11 @@ namespace lsdcd {
 
 namespace {
 
+// Ends a build for which there is no time.
+struct TooLate {};
+
 constexpr int kGpuFactor = 16;    // times the spheres, to fill a GPU
+constexpr int kPrecisions = 3;
 
 ContactLaw law_to_time()
 {
@@ -40,9 +46,11 @@ class Measuring {
       settings_(settings), progress_(progress)
   {
     grid_settings_.cutoff = *std::max_element(settings.radii.begin(), settings.radii.end());
-    grid_settings_.memory_budget = std::size_t(1) << 40;    // rows over the budget are left out
+    grid_settings_.memory_budget = settings.memory_budget;
+    grid_settings_.progress = [this](const std::string &, double) {
+      if (is_late()) throw TooLate();
+    };
     plan_settings_ = grid_settings_;
-    plan_settings_.memory_budget = settings.memory_budget;
     plan_settings_.for_gpu = settings.cuda;
     engine_.law = law_to_time();
   }
@@ -63,14 +71,19 @@ class Measuring {
     std::sort(lengths.begin(), lengths.end(),
               [&](Real a, Real b) { return a != b && (a == first || (b != first && a > b)); });
     for (Real length : lengths) {
-      grid_settings_.length = length;
+      if (length < finest_) {
+        leave_out("grid " + number_text(length) + ": finer than " + number_text(finest_) +
+                  ", the finest that the memory holds");
+        continue;
+      }
       for (int nearest : kTriedNearest) {
-        if (is_late() && !result_.rows.empty()) {
-          late_ += 3;
+        if (is_late()) {
+          late_ += kPrecisions;
           continue;
         }
-        grid_settings_.nearest = nearest;
-        TriangleGrid grid = build_grid(mesh_, grid_settings_, settings_.cuda);
+        const std::unique_ptr<TriangleGrid> built = build(length, nearest);
+        if (!built) continue;
+        TriangleGrid &grid = *built;
         if (sample_.n() == 0) make_sample(grid);
         for (Precision precision : {Precision::double_, Precision::mixed, Precision::single_}) {
           if (precision == Precision::mixed) add_brick_records(grid);    // single reads them, too
@@ -84,10 +97,33 @@ class Measuring {
   }
 
  private:
+  // The first setting is measured however long it takes.
   bool is_late() const
   {
     const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - start_).count() > settings_.seconds;
+    return !result_.rows.empty() &&
+           std::chrono::duration<double>(now - start_).count() > settings_.seconds;
+  }
+
+  // The first grid is as coarse as memory asks for, as the fix makes it; `length` becomes that. Null: left out.
+  std::unique_ptr<TriangleGrid> build(Real &length, int nearest)
+  {
+    grid_settings_.length = length;
+    grid_settings_.nearest = nearest;
+    grid_settings_.may_coarsen = sample_.n() == 0;
+    try {
+      auto grid = std::make_unique<TriangleGrid>(build_grid(mesh_, grid_settings_, settings_.cuda));
+      if (grid->length == length) return grid;
+      length = finest_ = rounded_up(grid->length);
+      for (Real &standard : standard_) standard = std::max(standard, length);
+      grid.reset();    // before the next one takes memory
+      return build(length, nearest);
+    } catch (const TooLate &) {
+      late_ += kPrecisions;
+    } catch (const InputError &e) {
+      leave_out(words_of({length, nearest, Precision::double_}) + " and less: " + e.what());
+    }
+    return nullptr;
   }
   void leave_out(const std::string &what) { result_.left_out.push_back(what); }
 
@@ -96,7 +132,8 @@ class Measuring {
     Random random(settings_.seed);
     add_band_spheres(grid, settings_.spheres, settings_.radii, random, sample_);
     sort_by_bins(sample_, 2 * grid_settings_.cutoff);
-    starts_ = drift_starts(mesh_, grid.view(), grid_settings_.cutoff, settings_.moving, random);
+    starts_ = drift_starts(mesh_, grid.view(), grid_settings_.cutoff, settings_.moving, random,
+                           settings_.memory_budget);
     for (Corner corner : {Corner::blend, Corner::sum}) {
       engine_.corner = corner;
       engine_.precision = Precision::double_;
@@ -109,7 +146,7 @@ class Measuring {
 
   void try_choice(const TriangleGrid &grid, const GridChoice &choice)
   {
-    if (is_late() && !result_.rows.empty()) {
+    if (is_late()) {
       late_++;
       return;
     }
@@ -183,6 +220,7 @@ class Measuring {
   GridSettings grid_settings_, plan_settings_;
   EngineSettings engine_;
   Real standard_[2] = {};    // the default length on a CPU, on a GPU
+  Real finest_ = 0;          // length that fits, where the default does not
   SphereSample sample_, gpu_sample_;
   DriftStarts starts_;
   WallAnswers reference_[2];    // of corner blend, of corner sum

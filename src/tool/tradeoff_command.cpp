@@ -209,6 +209,7 @@ void tradeoff(Options &o)
     draw(o.csv, o.plot);
     std::printf("plot in %s\n", o.plot.c_str());
   }
+  if (none.empty() && result.rows.empty()) none = "no setting was measured: give more --memory";
   if (!none.empty()) throw InputError(none);
 }
 
@@ -234,7 +235,11 @@ void add_tradeoff_command(Command &program)
       .check(above_zero);
   add_scale_option(command, o->scale);
   add_weld_option(command, o->weld);
-  command.option("--memory", o->memory, "budget of a grid in MB; settings above are left out")
+  command
+      .option("--memory", o->memory,
+              "budget of a grid in MB, also while it is built; the default becomes as coarse as "
+              "that asks "
+              "for, other settings above are left out")
       .shows_default()
       .check(above_zero);
   command
@@ -244,7 +249,8 @@ void add_tradeoff_command(Command &program)
       .one_of({"auto", "cpu", "cuda"});
   command
       .option("--seconds", o->settings.seconds,
-              "after these no further settings are tried; the default comes first")
+              "after these nothing more is built or tried; the default comes first, however long "
+              "it takes")
       .shows_default()
       .check(above_zero);
   command

@@ -9,6 +9,7 @@ import csv
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -84,6 +85,19 @@ def main():
     done = run(folder, str(FLOOR), "--radius", "0.5", *FAST, "--plot", "none", "--memory", "0.001", "--below", "0.1")
     fact("where nothing keeps the bound it fails and says so", done.returncode == 1 and
          "no setting that was measured keeps errors below 0.1 on the CPU" in done.stdout, done.stdout[-300:])
+
+    # Grains small beside the mesh: cells of the default length would take 10 GB. With 64 MB for a grid the program
+    # takes 120 MB, and 1.8 GB where builds do not keep that. The default alone is measured, in 3 s.
+    tall = str(folder / "tall.stl")
+    subprocess.run([TOOL, *"generate cylinder --radius 0.5 --height 2 -o".split(), tall], stdout=subprocess.PIPE, check=True)
+    done = run(folder, tall, "--radius", "1e-4", *FAST, "--plot", "none", "--memory", "64", "--seconds", "0.1", "--csv", "tall.csv")
+    most = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+    fact("small grains keep the memory", most < 300000, f"{most} kB")
+    fact("the default is measured as coarse as the memory asks for", done.returncode == 0 and
+         [r["default"] for r in rows(folder / "tall.csv")].count("1") == 1 and
+         all(int(r["bytes"]) <= 64 << 20 for r in rows(folder / "tall.csv")), done.stdout[-300:])
+    fact("and what was left out is told", "left out: " in done.stdout and "finer than" in done.stdout
+         or "for which there was no time" in done.stdout, done.stdout[-300:])
 
     for words, expected in [([str(FLOOR)], "--radius"),
                             ([str(FLOOR), "--radius", "0.5", "--below", "0"], "--below"),
