@@ -88,6 +88,14 @@ def options(words, known):
     return values
 
 
+def is_yes(values, key, default):
+    """The value of a word that takes yes or no."""
+    value = values.get(key, [default])[0]
+    if value not in ("yes", "no"):
+        raise Left(f"{key} {value}", "yes or no in its place")
+    return value == "yes"
+
+
 class Line:
     def __init__(self, number, text):
         self.number, self.text = number, text
@@ -556,6 +564,7 @@ class Script:
         self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
             f"{line.words[0][0]}_{line.words[1]}" for line in self.lines if line.words[:1] in (["fix"], ["compute"]) and line.words[1:]}
         self.noted, self.all_types, self.step, self.sources = False, False, 0, []    # the step here, None where it is not known; what has made grains
+        self.substitute_words()
         for line in self.lines:
             try:
                 self.collect(line)
@@ -601,6 +610,19 @@ class Script:
         if k >= len(values):
             raise CannotConvert(f"{self.at(where)}: {name} has no value for the types {types}")
         return self.number(values[k], where)
+
+    def substitute_words(self):
+        """Variables that stand for words, as in model ${m}: where they have one value, it is read. Numbers stay ${x}."""
+        values = {}
+        for w in (line.words for line in self.lines):
+            if w[:1] == ["variable"] and w[2:3] in (["index"], ["string"]):
+                values.setdefault(w[1], set()).update(x.strip("\"'") for x in w[3:])
+        values.update({name: {value} for name, value in self.variables.items()})
+        words = {name: v.pop() for name, v in values.items() if len(v) == 1 and not re.match(r"[-+.\d]", min(v))}
+        for line in self.lines:
+            text = re.sub(r"\$\{(\w+)\}", lambda m: words.get(m[1], m[0]), line.text)
+            if text != line.text and line.words[:1] != ["variable"]:
+                line.words = words_of(text)
 
     def collect(self, line):
         w = line.words
@@ -1100,6 +1122,8 @@ class Script:
         if form not in self.INSERT_OF:
             raise Left(w[3], "fix insert/lsdcd mesh FILE or region ID")
         v = options(w[4:], {**self.INSERT, **self.INSERT_OF[form]})
+        apart, whole, in_box = (is_yes(v, *default) for default in (
+            ("overlapcheck", "yes"), ("all_in", "no"), ("check_dist_from_subdomain_border", "yes")))
         v = {k: x[0] if len(x) == 1 else x for k, x in v.items()}
         if form == "pack" and v.get("insert_every", v.get("every", v.get("insert_every_time", "once"))) != "once":
             raise Left("insert/pack that fills up again and again", "fix insert/lsdcd with massrate or numberrate")
@@ -1112,7 +1136,7 @@ class Script:
         if "volumefraction_region" in v:
             mass = self.number(v["volumefraction_region"], line) * self.volume(v.get("region")) * float(grains.split()[-1])
             amounts.append(f"mass {short(mass)}")
-        if v.get("overlapcheck", "yes") != "yes":
+        if not apart:
             raise Left("overlapcheck no", "fix insert/lsdcd puts no grain into another: a lower number")
         if any(self.known(x) != 0 for x in v.get("omega", ["constant"])[1:]):
             raise Left("insertion with a spin", "set ... omega of the new grains, as grains come without a spin here")
@@ -1122,7 +1146,7 @@ class Script:
             if v["vel"][0] not in ("constant", "uniform") or len(set(spread)) > 1:
                 raise Left(f"velocities of {v['vel'][0]}", "vel and jitter of fix insert/lsdcd")
             velocity = " vel " + " ".join(v["vel"][1:4]) + "".join(f" jitter {x}" for x in spread[:1])
-        whole, bounds = v.get("all_in", "no") == "yes", None
+        bounds = None
         if form == "stream":
             mesh = self.meshes.get(v.get("insertion_face"))
             if mesh is None:
@@ -1132,7 +1156,6 @@ class Script:
             raise Left(w[3], "fix insert/lsdcd region ID")
         else:
             bounds = (self.region(v["region"]) or [None])[-1]
-            in_box = v.get("check_dist_from_subdomain_border", "yes") == "yes"
             place = f"region {self.whole_region(line, v['region'], max(radii), whole, in_box)}"
             if form == "pack":
                 self.only_grains(bounds)
@@ -1371,14 +1394,15 @@ class Script:
         mesh = self.meshes.get(v["mesh"][0])
         if mesh is None:
             raise Left("massflow/mesh through a mesh that is not converted", "fix massflow/lsdcd mesh FILE")
-        if "point_at_outlet" in v or "vec_side" not in v:
-            raise Left("massflow/mesh without vec_side", "fix massflow/lsdcd counts along the normals of the triangles")
+        if "vec_side" not in v or "point_at_outlet" in v:
+            raise Left("massflow/mesh with point_at_outlet", "fix massflow/lsdcd counts along the normals of the triangles, of "
+                       "curved meshes too: wind them so that they point to the outlet")
         side = [self.number(x, line) for x in v["vec_side"]]
         ways = {dot(cross(minus(b, a), minus(c, a)), side) > 0 for a, b, c in mesh.triangles(self)}
         if len(ways) > 1:
             raise Left(f"{mesh.file} has triangles wound along vec_side and others against it",
                        f"lsdcd repair {mesh.file} -o FILE winds them alike; then fix massflow/lsdcd, which counts along the winding")
-        forward, delete = ways.pop(), v.get("delete_atoms") == ["yes"]
+        forward, delete = ways.pop(), is_yes(v, "delete_atoms", "no")
         if delete and not forward:
             raise Left("delete_atoms where the mesh is wound against vec_side",
                        "turn its triangles over: only what passes forward is deleted")
@@ -1392,7 +1416,7 @@ class Script:
             self.note(line, f"the mesh is wound against vec_side: f_{w[1]}[4] is the mass and f_{w[1]}[3] the number")
         if count == "once":
             self.note(line, "a grain that passes backward first is not counted when it comes again; in LIGGGHTS it is")
-        if "file" in v or "append" in v or v.get("screen") == ["yes"]:
+        if "file" in v or "append" in v or is_yes(v, "screen", "no"):
             self.note(line, "no file or line with each grain that has passed")
         number, mass = (1, 2) if forward else (3, 4)
         rate = f"f_{w[1]}[6]" if forward else f"(-f_{w[1]}[6])"

@@ -92,6 +92,9 @@ WRITTEN = {
     "stress/atom has its word": ("compute s all stress/atom\n", "compute s all stress/atom NULL"),
     "a dump loses what LAMMPS does not know": (
         "dump d all custom 9 d.txt id density x\n", "custom 9 d.txt id x\n"),
+    "a variable that stands for a word": (
+        "variable m index hertz\nvariable o index limitForce\nvariable s string on\n" + MESH.format("").replace("a.stl", "${f}.stl") +
+        WALL.replace("hertz", "${m}").replace("\n", " ${o} ${s}\n"), " 0.4 limit_damping &\n                mesh ${f}.stl"),
     "a jump to itself": ("label l\njump in.there l\n", "\njump SELF l\n"),
     "an if whose commands are the same": ('if "${n} > 1" then "print 1" "jump SELF l" else "variable a delete"\n',
                                           'then "print 1" "jump SELF l" else'),
@@ -188,6 +191,7 @@ LEFT.update({
     "a start that is later": (PACK.format("", "start 8000"), "start 8000"),
     "a start after steps that are not known": (PACK.format("run ${n}\n", "start 91"), "start 91"),
     "grains that may overlap": (PACK.format("", "overlapcheck no"), "overlapcheck no"),
+    "a yes or no that is not known": (PACK.format("variable a index yes no\n", "all_in ${a}"), "all_in ${a}"),
     "grains that spin": (PACK.format("", "omega constant 0 0 5"), "insertion with a spin"),
     "a word of an insertion that is not known": (PACK.format("", "set_property T 300"), "the word set_property"),
     "all_in of a region that cannot be made smaller": (
