@@ -46,8 +46,9 @@ enum {
   LSDCD_ERROR_ARGUMENT = 1, /* a null pointer, a number or a struct that makes no sense */
   LSDCD_ERROR_INPUT = 2,    /* a file, mesh or setting that cannot be used */
   LSDCD_ERROR_CUTOFF = 3,   /* a radius beyond the grid's cutoff */
-  LSDCD_ERROR_SIDE = 4,     /* the side of a mesh that has none: open or not oriented, or, on a
-                               device, it cuts itself */
+  LSDCD_ERROR_SIDE = 4,     /* the side of a mesh that has none: open, not oriented, or with
+                               triangles in both windings that enclose a space; or, on a device, it
+                               cuts itself */
   LSDCD_ERROR_DEVICE = 5,   /* no CUDA, or an array where it cannot be reached */
   LSDCD_ERROR_MEMORY = 6,   /* none left */
   LSDCD_ERROR_INTERNAL = 7, /* a defect of this library */
@@ -87,10 +88,14 @@ LSDCD_API int lsdcd_mesh_from_faces(const void *vertices, int type, size_t n_ver
 typedef struct lsdcd_mesh_facts {
   size_t size;                   /* of this struct; set by the caller */
   size_t triangles;              /* as given */
-  size_t faces, edges, vertices; /* after welding; faces without area are none */
+  size_t faces, edges, vertices; /* after welding; faces without area are none, nor are those whose
+                                    height is at most 8 * 2.2e-16 times their largest coordinate:
+                                    their edges and corners stand for them, and distances over them
+                                    are too large by up to half that height */
   size_t open_edges;             /* edges of one face */
   int closed, oriented;          /* oriented: closed, windings agree, those of closed shells with
-                                    each other, too, and no shells meet */
+                                    each other, too, no shells meet, and no triangle is there in
+                                    both windings */
   double area, volume;           /* the volume is < 0 where normals point in; what lies in two
                                     shells counts twice */
   double lo[3], hi[3];
@@ -168,7 +173,8 @@ typedef struct lsdcd_grid_facts {
   double cell;   /* 0: there are no cells yet */
   size_t bytes;
   int nearest;
-  int has_sides;  /* do as many triangles run one way along each edge as the other? */
+  int has_sides; /* do as many triangles run one way along each edge as the other? Those in both windings
+                     must not enclose a space, nor be all that there is */
   int from_cache; /* was it read, not built? */
 } lsdcd_grid_facts;
 /* Any. */

@@ -34,7 +34,7 @@ void check_sides(const ApiGrid &grid, bool on_host)
     throw ApiError(LSDCD_ERROR_SIDE,
                    "the mesh is not closed and oriented, so that it has no side: " +
                        why_no_inside(grid.mesh->mesh) +
-                       "; `estimate_sides` gives those that are probable, on the host");
+                       "; `estimate_sides` gives those of the winding number, on the host");
   if (!on_host && !grid.sides_by_normals())
     throw ApiError(LSDCD_ERROR_SIDE,
                    "triangles of the mesh cut, overlap or touch each other, and only the "

@@ -21,6 +21,11 @@ constexpr int kTries = 1000;    // for a point that keeps off the outline
 
 InletFace::InletFace(const WallMesh &mesh, Real depth) : depth_(depth)
 {
+  if (mesh.report.two_sided_faces > 0)
+    throw InputError(mesh.source + ": " + std::to_string(mesh.report.two_sided_faces) + " of " +
+                     std::to_string(mesh.faces.size()) +
+                     " facets are there in both windings, so that the side of the inlet is not "
+                     "known: keep one of each two");
   Real area = 0;
   for (const std::array<int, 3> &f : mesh.faces) {
     const std::array<Vec3, 3> t = {mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]};

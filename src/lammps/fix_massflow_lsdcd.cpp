@@ -39,6 +39,11 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
           std::to_string(mesh.report.misoriented_edges) +
           " edges of the mesh join facets that are wound in opposite ways: forward is not the same "
           "side everywhere; turn the facets over");
+    if (mesh.report.two_sided_faces > 0)
+      warn(std::to_string(mesh.report.two_sided_faces) + " of " +
+           std::to_string(mesh.faces.size()) +
+           " facets of the mesh are there in both windings: forward is along the normal of the "
+           "first; keep one of each two");
     const std::string outside = lsdcd::outside_box({mesh.report.lo, mesh.report.hi},
                                                    lsdcd::host_box(*domain), neighbor->skin);
     if (!outside.empty()) throw lsdcd::InputError(outside);

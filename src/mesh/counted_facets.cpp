@@ -24,36 +24,40 @@ Corners ascending(Corners c, int &turned)
   return c;
 }
 
-// Facets that became no face have one with the same corners, or no area.
-std::vector<Corners> counted_facets(const WallMesh &mesh, bool with_no_area)
+// Facets that became no face have one with the same corners, or no area. `sheets` becomes the faces that
+// do not count.
+std::vector<Corners> counted_facets(const WallMesh &mesh, bool with_no_area,
+                                    std::vector<int> &sheets)
 {
+  sheets.clear();
   std::vector<Corners> counted = mesh.faces;
   if (mesh.dropped.empty()) return counted;
+  constexpr int kNoFace = -1;
   struct Wound {
     Corners corners;
-    int turned;
-    bool is_face;
+    int turned, face;
   };
   std::vector<Wound> all;
-  for (const auto *some : {&mesh.faces, &mesh.dropped})
-    for (const Corners &c : *some) {
-      Wound w = {c, 0, some == &mesh.faces};
-      w.corners = ascending(c, w.turned);
-      all.push_back(w);
-    }
+  const auto add = [&](const Corners &c, int face) {
+    Wound w = {c, 0, face};
+    w.corners = ascending(c, w.turned);
+    all.push_back(w);
+  };
+  for (std::size_t f = 0; f < mesh.faces.size(); f++) add(mesh.faces[f], static_cast<int>(f));
+  for (const Corners &c : mesh.dropped) add(c, kNoFace);
   std::sort(all.begin(), all.end(),
             [](const Wound &a, const Wound &b) { return a.corners < b.corners; });
   counted.clear();
   for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
-    int sum = 0;
-    bool has_face = false;
+    int sum = 0, face = kNoFace;
     for (end = i; end < all.size() && all[end].corners == all[i].corners; end++) {
       sum += all[end].turned;
-      has_face = has_face || all[end].is_face;
+      face = std::max(face, all[end].face);
     }
     Corners c = all[i].corners;
     if (sum < 0) std::swap(c[1], c[2]);
-    if (sum != 0 && (has_face || with_no_area)) counted.push_back(c);
+    if (sum != 0 && (face != kNoFace || with_no_area)) counted.push_back(c);
+    if (sum == 0 && face != kNoFace) sheets.push_back(face);
   }
   return counted;
 }
@@ -86,12 +90,13 @@ std::vector<LooseEdge> loose_edges(const std::vector<Corners> &facets)
 
 }    // namespace
 
-CountedFacets::CountedFacets(const WallMesh &mesh) : facets(counted_facets(mesh, false))
+CountedFacets::CountedFacets(const WallMesh &mesh)
 {
+  facets = counted_facets(mesh, false, sheets);
   if (is_known_closed(mesh)) return;
   loose = loose_edges(facets);
   if (loose.empty() || mesh.report.degenerate_facets == 0) return;
-  std::vector<Corners> more = counted_facets(mesh, true);
+  std::vector<Corners> more = counted_facets(mesh, true, sheets);
   if (!loose_edges(more).empty()) return;
   facets = std::move(more);
   loose.clear();
@@ -102,13 +107,55 @@ bool is_known_closed(const WallMesh &mesh)
   return mesh.dropped.empty() && mesh.report.closed && mesh.report.misoriented_edges == 0;
 }
 
-std::vector<Triangle> triangles_of(const WallMesh &mesh,
-                                   const std::vector<std::array<int, 3>> &facets)
+// Faces with an edge that no other has are taken away until there are none. What is left encloses a space.
+bool enclose(const WallMesh &mesh, const std::vector<int> &faces)
+{
+  std::vector<char> is_left(mesh.faces.size(), 0);
+  std::vector<int> left_at(mesh.edges.size(), 0);
+  for (const int f : faces) {
+    is_left[f] = 1;
+    for (const int e : mesh.face_edges[f]) left_at[e]++;
+  }
+  std::vector<int> loose;
+  for (std::size_t e = 0; e < left_at.size(); e++)
+    if (left_at[e] == 1) loose.push_back(static_cast<int>(e));
+  std::size_t n_left = faces.size();
+  while (!loose.empty()) {
+    const int at = loose.back();
+    loose.pop_back();
+    for (int k = mesh.edge_first[at]; k < mesh.edge_first[at + 1]; k++) {
+      const int f = mesh.edge_face[k];
+      if (!is_left[f]) continue;
+      is_left[f] = 0;
+      n_left--;
+      for (const int e : mesh.face_edges[f])
+        if (--left_at[e] == 1) loose.push_back(e);
+    }
+  }
+  return n_left > 0;
+}
+
+std::vector<Triangle> whole_surface(const WallMesh &mesh, const CountedFacets &counted)
 {
   std::vector<Triangle> triangles;
-  triangles.reserve(facets.size());
-  for (const Corners &c : facets)
-    triangles.push_back({{mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]}});
+  triangles.reserve(counted.facets.size() + 2 * counted.sheets.size());
+  const auto add = [&](int a, int b, int c) {
+    triangles.push_back({{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]}});
+  };
+  for (const Corners &c : counted.facets) add(c[0], c[1], c[2]);
+  for (const int f : counted.sheets) {
+    const Corners &c = mesh.faces[f];
+    add(c[0], c[1], c[2]);
+    add(c[0], c[2], c[1]);
+  }
+  for (std::size_t e = 0; e < mesh.edges.size(); e++)
+    if (mesh.edge_first[e] == mesh.edge_first[e + 1])
+      add(mesh.edges[e][0], mesh.edges[e][1], mesh.edges[e][1]);
+  for (std::size_t v = 0; v < mesh.vertices.size(); v++)
+    if (mesh.vertex_first[v] == mesh.vertex_first[v + 1]) {
+      const int point = static_cast<int>(v);
+      add(point, point, point);
+    }
   return triangles;
 }
 

@@ -22,15 +22,20 @@ struct LooseEdge {
 // alike, one. Those without area do where they close the surface.
 struct CountedFacets {
   std::vector<std::array<int, 3>> facets;    // vertices, as they are wound
+  std::vector<int> sheets;                   // faces of which neither winding counts
   std::vector<LooseEdge> loose;              // none: the surface is closed
 
   explicit CountedFacets(const WallMesh &mesh);
 };
 
+// Do some of these faces enclose a space among themselves?
+bool enclose(const WallMesh &mesh, const std::vector<int> &faces);
+
 // Are all faces counted, and is no edge loose? Quick; false: not known.
 bool is_known_closed(const WallMesh &mesh);
 
-std::vector<Triangle> triangles_of(const WallMesh &mesh,
-                                   const std::vector<std::array<int, 3>> &facets);
+// The facets, and behind them all else of the mesh on which a point can lie, which adds nothing to a
+// winding number: sheets in both windings, and edges and vertices without faces as triangles without area.
+std::vector<Triangle> whole_surface(const WallMesh &mesh, const CountedFacets &counted);
 
 }    // namespace lsdcd

@@ -38,7 +38,7 @@ std::vector<Cap> caps_over(const WallMesh &mesh, const std::vector<LooseEdge> &l
 GeneralizedWinding::GeneralizedWinding(const WallMesh &mesh)
 {
   const CountedFacets counted(mesh);
-  std::vector<Triangle> facets = triangles_of(mesh, counted.facets);
+  std::vector<Triangle> facets = whole_surface(mesh, counted);
   n_facets_ = facets.size();
   caps_ = caps_over<Cap>(mesh, counted.loose);
   if (caps_.size() > n_facets_) {

@@ -21,9 +21,26 @@ std::string counted(std::size_t n, const char *one, const char *many)
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
+// Which facets are there in both windings; empty where none is.
+std::string two_sided(const MeshReport &report)
+{
+  if (report.two_sided_faces == 0) return "";
+  const std::size_t faces = report.facets - report.degenerate_facets - report.duplicate_facets;
+  const bool are_all = report.two_sided_faces == faces;
+  std::string text =
+      (are_all ? "each facet is" : counted(report.two_sided_faces, "facet is", "facets are")) +
+      " there in both windings";
+  if (are_all) text += ", as in a double-sided export";
+  if (report.closed && report.sheet_faces == faces) text += ", so that the mesh encloses nothing";
+  if (report.closed || are_all) text += "; lsdcd repair keeps one of each two";
+  return text;
+}
+
 std::string surface(const MeshReport &report)
 {
-  if (!report.closed) return "open";
+  const std::string both = two_sided(report);
+  if (!report.closed) return both.empty() ? "open" : "open; " + both;
+  if (!both.empty()) return "closed, but " + both;
   if (report.meeting_pairs > 0)
     return "closed, but cuts or touches itself: " +
            counted(report.meeting_pairs, "pair of facets", "pairs of facets");

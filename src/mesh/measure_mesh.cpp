@@ -81,7 +81,8 @@ void measure_adjacency(WallMesh &mesh, const std::vector<FacePlane> &plane)
   const ShellFaults faults = faults_of_shells(mesh);
   report.inverted_facets = faults.inverted_faces;
   report.meeting_pairs = faults.meetings.pairs;
-  report.oriented = report.inverted_facets == 0 && report.meeting_pairs == 0;
+  report.oriented =
+      report.inverted_facets == 0 && report.meeting_pairs == 0 && report.two_sided_faces == 0;
 }
 
 }    // namespace

@@ -21,6 +21,8 @@ struct MeshReport {
   std::size_t vertices = 0;             // after welding
   std::size_t degenerate_facets = 0;    // dropped as faces; their edges and points stay
   std::size_t duplicate_facets = 0;     // dropped, either winding
+  std::size_t two_sided_faces = 0;      // that are there in both windings
+  std::size_t sheet_faces = 0;          // of these: as often in one as in the other
   std::size_t edges = 0;
   std::size_t open_edges = 0;           // one face
   std::size_t nonmanifold_edges = 0;    // more than two faces
@@ -29,11 +31,12 @@ struct MeshReport {
   // Pairs of facets that cut, overlap or touch each other: of different closed shells, or, after
   // note_meetings(), of any.
   std::size_t meeting_pairs = 0;
-  bool closed = false;        // every edge that has faces has two of them
-  bool oriented = false;      // closed, no misoriented edge, inverted facet or meeting pair
-  Real weld_tolerance = 0;    // length
-  Real area = 0;              // length^2
-  Real volume = 0;            // length^3, signed; > 0 when normals point out
+  bool closed = false;    // every edge that has faces has two of them
+  // Closed, no misoriented edge, inverted facet, meeting pair or two-sided face.
+  bool oriented = false;
+  Real weld_tolerance = 0;                // length
+  Real area = 0;                          // length^2
+  Real volume = 0;                        // length^3, signed; > 0 when normals point out
   Vec3 lo = {0, 0, 0}, hi = {0, 0, 0};    // bounding box
   Real smallest_edge = 0, largest_edge = 0, median_edge = 0;
   Real smallest_height = 0;         // thinnest face: its area * 2 / longest edge

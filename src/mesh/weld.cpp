@@ -70,12 +70,39 @@ Triple sorted(Triple t)
   return t;
 }
 
+bool are_wound_alike(const Triple &a, const Triple &b)
+{
+  int k = 0;
+  while (b[k] != a[0]) ++k;
+  return b[(k + 1) % 3] == a[1];
+}
+
+// A facet that is a face again.
+struct Copy {
+  int face;
+  bool is_wound_alike;
+};
+
+void count_two_sided(std::vector<Copy> copies, MeshReport &report)
+{
+  std::sort(copies.begin(), copies.end(),
+            [](const Copy &a, const Copy &b) { return a.face < b.face; });
+  for (std::size_t i = 0, end = 0; i < copies.size(); i = end) {
+    int alike = 1, against = 0;
+    for (end = i; end < copies.size() && copies[end].face == copies[i].face; end++)
+      ++(copies[end].is_wound_alike ? alike : against);
+    report.two_sided_faces += against > 0;
+    report.sheet_faces += against == alike;
+  }
+}
+
 // Sorts facets into faces and degenerate ones, of which the edges stay.
 void sort_facets(const std::vector<int> &corner_point, WallMesh &mesh,
                  std::vector<FacePlane> &plane, std::vector<Pair> &bare_edges)
 {
   const std::size_t n_facets = corner_point.size() / 3;
   HashIndex seen;
+  std::vector<Copy> copies;
   for (std::size_t facet = 0; facet < n_facets; ++facet) {
     const Triple face = {corner_point[3 * facet], corner_point[3 * facet + 1],
                          corner_point[3 * facet + 2]};
@@ -93,8 +120,10 @@ void sort_facets(const std::vector<int> &corner_point, WallMesh &mesh,
     const int fresh = static_cast<int>(mesh.faces.size());
     const auto hash = hash_three<std::int64_t>(key[0], key[1], key[2]);
     const auto is_same = [&](int f) { return sorted(mesh.faces[f]) == key; };
-    if (seen.find_or_insert(hash, fresh, is_same) != fresh) {
+    const int found = seen.find_or_insert(hash, fresh, is_same);
+    if (found != fresh) {
       ++mesh.report.duplicate_facets;
+      copies.push_back({found, are_wound_alike(mesh.faces[found], face)});
       mesh.dropped.push_back(face);
       continue;
     }
@@ -102,6 +131,7 @@ void sort_facets(const std::vector<int> &corner_point, WallMesh &mesh,
     mesh.face_facet.push_back(facet);
     plane.push_back(its_plane);
   }
+  count_two_sided(std::move(copies), mesh.report);
 }
 
 // Turns counts per row, each stored one place further on, into first indices.

@@ -26,7 +26,7 @@ std::vector<Triangle> closed_facets(const WallMesh &mesh)
 {
   const std::string why = why_no_inside(mesh);
   if (!why.empty()) throw InputError(mesh.source + " has no inside: " + why);
-  return triangles_of(mesh, CountedFacets(mesh).facets);
+  return whole_surface(mesh, CountedFacets(mesh));
 }
 
 // Facets that a ray has crossed: one in several cells counts once.
@@ -78,9 +78,8 @@ constexpr Real kWider = 1e-6, kWiderByRounding = 64 * kRoundoff,
 
 bool has_inside(const WallMesh &mesh)
 {
-  if (is_known_closed(mesh)) return true;
-  if (mesh.faces.empty() || (mesh.dropped.empty() && mesh.report.open_edges > 0)) return false;
-  return CountedFacets(mesh).loose.empty();
+  if (mesh.dropped.empty() && mesh.report.open_edges > 0) return false;
+  return why_no_inside(mesh).empty();
 }
 
 std::string why_no_inside(const WallMesh &mesh)
@@ -88,11 +87,23 @@ std::string why_no_inside(const WallMesh &mesh)
   if (is_known_closed(mesh)) return "";
   if (mesh.faces.empty()) return "it has no facets with an area";
   const CountedFacets counted(mesh);
-  if (counted.loose.empty()) return "";
+  const std::string both_ways = " there in both windings, as in a double-sided export",
+                    remedy = ": lsdcd repair keeps one of each two";
+  if (counted.facets.empty())
+    return "each of its facets is" + both_ways + ", so that it encloses nothing" + remedy;
+  std::string some;
+  if (!counted.sheets.empty())
+    some = std::to_string(counted.sheets.size()) + " of " + std::to_string(mesh.faces.size()) +
+           " facets are" + both_ways;
+  if (counted.loose.empty())
+    return enclose(mesh, counted.sheets)
+               ? some + ", and what they enclose is neither inside nor outside" + remedy
+               : "";
+  if (!some.empty()) some += ", so that neither winding counts; ";
   const std::size_t open = std::count_if(counted.loose.begin(), counted.loose.end(),
                                          [](const LooseEdge &e) { return e.facets == 1; });
   const LooseEdge &first = counted.loose[0];
-  return std::to_string(open) + " edges are open, and along " +
+  return some + std::to_string(open) + " edges are open, and along " +
          std::to_string(counted.loose.size() - open) +
          " more facets are wound against each other; the first goes from " +
          text(mesh.vertices[std::min(first.from, first.to)]) + " to " +

@@ -19,11 +19,12 @@
 namespace lsdcd {
 
 // Along every edge as many facets run one way as the other. Shells may cut, touch and contain each
-// other. Of two facets with the same corners and opposite windings neither counts; of several that are
-// wound alike, one.
+// other. Of two facets with the same corners and opposite windings neither counts, as of a sheet; of several
+// that are wound alike, one. Sheets may not enclose a space, as those of a double-sided export do, and
+// there must be more than sheets.
 bool has_inside(const WallMesh &mesh);
 
-// Why it has none: edges, where the first is, and the remedy. Empty where it has.
+// Why it has none: facets or edges, where the first is, and the remedy. Empty where it has.
 std::string why_no_inside(const WallMesh &mesh);
 
 // It keeps what it needs of the mesh, and any number of threads may ask it at once.
@@ -41,7 +42,7 @@ class WindingNumber {
   explicit WindingNumber(std::vector<Triangle> closed);
 
   // 1 inside a shell whose normals point out, -1 inside one whose normals point in; the sum for
-  // several. On the surface only `on_surface` is set.
+  // several. On the surface, also of a sheet, only `on_surface` is set.
   struct Answer {
     bool on_surface;
     int number;

@@ -4,6 +4,7 @@
 #include "tool/commands.h"
 
 #include "backend/threads.h"
+#include "mesh/winding_number.h"
 #include "tool/answer_writer.h"
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
@@ -103,7 +104,7 @@ Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
   return totals;
 }
 
-void print(const Options &o, const Totals &t, const PointAnswers &answers)
+void print(const Options &o, const Totals &t, const PointAnswers &answers, const WallMesh &mesh)
 {
   // What is told does not go between the answers.
   std::FILE *const to = o.output == "-" ? stderr : stdout;
@@ -136,14 +137,11 @@ void print(const Options &o, const Totals &t, const PointAnswers &answers)
   if (answers.sides == SideKind::exact)
     std::fprintf(to, "  inside      %zu\n", t.inside);
   else if (answers.sides == SideKind::estimated)
-    std::fprintf(
-        to,
-        "  inside      %zu, estimated, not certified: the mesh is not closed and oriented: see "
-        "lsdcd inspect\n",
-        t.inside);
+    std::fprintf(to, "  inside      %zu, estimated, not certified: the mesh has no inside: %s\n",
+                 t.inside, why_no_inside(mesh).c_str());
   else
-    std::fprintf(to, "  sides       none: the mesh is not closed and oriented: see "
-                     "lsdcd inspect, or --estimate-sides\n");
+    std::fprintf(to, "  sides       none: the mesh has no inside: %s, or --estimate-sides\n",
+                 why_no_inside(mesh).c_str());
   std::fprintf(
       to, "  time        %.3g s, of which queries %.3g s; %.3g points per second; grid %.3g s\n",
       t.seconds, t.query_seconds, rate, answers.report.seconds);
@@ -165,7 +163,7 @@ void distance(const Options &o)
       mesh, o.radius, o.device, o.estimate_sides,
       [&](const std::string &what, double share) { progress.show(progress_text(what, share)); });
   progress.clear();
-  print(o, stream(o, *reader, *answers), *answers);
+  print(o, stream(o, *reader, *answers), *answers, mesh);
 }
 
 }    // namespace

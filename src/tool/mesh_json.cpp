@@ -16,6 +16,7 @@ nlohmann::json as_json(const MeshReport &r)
           {"vertices", r.vertices},
           {"degenerate_facets", r.degenerate_facets},
           {"duplicate_facets", r.duplicate_facets},
+          {"two_sided_faces", r.two_sided_faces},
           {"edges", r.edges},
           {"open_edges", r.open_edges},
           {"nonmanifold_edges", r.nonmanifold_edges},
@@ -47,6 +48,7 @@ std::vector<std::string> problems_of(const MeshReport &report)
   };
   count(report.degenerate_facets, "degenerate facet", "degenerate facets");
   count(report.duplicate_facets, "duplicate facet", "duplicate facets");
+  count(report.two_sided_faces, "facet in both windings", "facets in both windings");
   count(report.nonmanifold_edges, "edge of more than two facets", "edges of more than two facets");
   count(report.misoriented_edges, "edge along which windings disagree",
         "edges along which windings disagree");

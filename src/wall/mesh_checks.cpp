@@ -21,6 +21,11 @@ void check_side(const WallSettings &settings, const MeshPart &m)
                      std::to_string(r.meeting_pairs) +
                      " pairs of facets: make one shell of them (a boolean union), or use "
                      "side both");
+  if (r.closed && r.two_sided_faces > 0)
+    throw InputError("side in and side out need facets of one winding; " +
+                     std::to_string(r.two_sided_faces) + " of those of '" + m.settings.file +
+                     "' are there in both, as in a double-sided export: keep one of each two "
+                     "(lsdcd repair) or use side both");
   throw InputError("side in and side out need a closed, oriented mesh; '" + m.settings.file +
                    "' has " + std::to_string(r.open_edges) + " open, " +
                    std::to_string(r.nonmanifold_edges) + " non-manifold and " +

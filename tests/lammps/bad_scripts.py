@@ -173,6 +173,8 @@ TABLES = [
          "Fix wall wall/lsdcd", "'servo'", "the axis ax ay az must not be 0 0 0"),
         ("servo_zero_vmax", "floor.stl servo force z 100 vmax 0",
          "Fix wall wall/lsdcd", "'servo'", "vmax = 0 is out of range"),
+        ("side_of_double_sided_mesh", "both.stl side out", "side in and side out need facets of one winding; 4 of",
+         "'both.stl' are there in both, as in a double-sided export", "lsdcd repair", "side both"),
         ("side_of_inverted_shell", "two.stl side in",
          "closed, oriented mesh", "4 facets of closed shells that are wound against the others", "lsdcd repair"),
         ("side_of_open_mesh", "floor.stl side in", "closed, oriented mesh", "4 open"),
@@ -360,6 +362,8 @@ TABLES = [
     ]),
     # region mesh/lsdcd
     (WALL + "variable        turn equal step\nregion          r mesh/lsdcd {}\n" + RUN, [
+        ("region_double_sided", "both.stl", "Region r mesh/lsdcd", "both.stl has no inside",
+         "each of its facets is there in both windings", "lsdcd repair"),
         ("region_gap", "two.stl gap -1", "Region r mesh/lsdcd", "'gap'", "D = -1 is out of range"),
         ("region_mesh_twice", "two.stl mesh two.stl", "Region r mesh/lsdcd", "'mesh' is not a keyword"),
         ("region_missing_file", "nowhere.stl", "Region r mesh/lsdcd", "nowhere.stl"),

@@ -56,6 +56,7 @@ def main():
     (folder / "unit.txt").write_text("0 0 0\n1 0 0\n0 1 0\n\n0 0 1\n")
     (folder / "truncated.stl").write_bytes(floor[:len(floor) // 2])
     stl.write(folder / "two.stl", tetrahedra((0, 1), (2, -1)))
+    stl.write(folder / "both.stl", tetrahedra((0, 1), (0, -1)))
     stl.write(folder / "cut.stl", tetrahedra((0, 1), (0.5, 1)))
     stl.write(folder / "knot.stl", knot())
     stl.write(folder / "line.stl", [((0, 0, 0), (1, 0, 0), (2, 0, 0))])

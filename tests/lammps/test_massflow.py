@@ -349,14 +349,17 @@ def check_warnings(checks, folder):
     lines[3], lines[4] = lines[4], lines[3]
     (folder / "turned.stl").write_text("\n".join(lines) + "endfacet" + other)
     turned = lmp.run_well(begin() + forces().replace("plate.stl", "turned.stl") + "run 0\n", folder)
+    (folder / "both.stl").write_text(one + "endfacet" + "\n".join(["", *lines[1:]]) + "endfacet" + other)
+    both = lmp.run_well(begin() + forces().replace("plate.stl", "both.stl") + "run 0\n", folder)
     long = lmp.run_well(begin("p p f") + forces("scale 2 1 1") + "run 0\n", folder)
     checks.fact("no warning without reason", "massflow/lsdcd: delete" not in plain and
-                "wound in opposite ways" not in plain and "longer than" not in plain)
+                "wound in opposite ways" not in plain and "both windings" not in plain and "longer than" not in plain)
     if not lmp.ON_KOKKOS:    # the hosts with Kokkos have no package RIGID
         rigid = forces("delete yes").replace("all nve", "all rigid single")
         checks.fact("rigid bodies and delete", "delete yes does not tell fix move" in
                     lmp.run_well(begin() + rigid + "run 0\n", folder))
     checks.fact("a facet wound the other way", "edges of the mesh join facets that are wound" in turned)
+    checks.fact("a facet in both windings", "facets of the mesh are there in both windings: forward" in both, both[-300:])
     checks.fact("a mesh longer than the box",
                 "longer than the periodic box in x, by 2:" in long and "box in y" not in long)
     write_data(folder / "spheres.data", spheres())

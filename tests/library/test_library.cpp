@@ -339,6 +339,77 @@ TEST(library, a_shell_that_cuts_itself_has_sides_from_a_cache_too)
   }
 }
 
+// One answer by the tree and by all kinds of cells.
+TEST(library, a_mesh_with_each_facet_in_both_windings_has_no_sides)
+{
+  const TriangleSoup box = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
+  for (const bool out_first : {true, false}) {
+    TriangleSoup in = box;
+    for (std::size_t t = 0; t < in.corners.size(); t += 3)
+      std::swap(in.corners[t], in.corners[t + 1]);
+    TriangleSoup both = out_first ? box : in;
+    lsdcd::append(both, out_first ? in : box);
+    const lsdcd::Mesh mesh(numbers(both));
+    EXPECT_TRUE(mesh.facts().closed);
+    EXPECT_FALSE(mesh.facts().oriented);
+    EXPECT_NE(mesh.report().find("each facet is there in both windings"), std::string::npos)
+        << mesh.report();
+    std::vector<lsdcd::Grid> grids;
+    grids.emplace_back(mesh);
+    grids.emplace_back(mesh, kCutoff);
+    grids.push_back(grid_of(both, 4));
+    grids.push_back(grid_of(both, 0, LSDCD_FLOAT));
+    for (const lsdcd::Grid &grid : grids) {
+      EXPECT_FALSE(grid.facts().has_sides);
+      const std::vector<double> at = {0.9, 0, 0, 1.1, 0, 0};
+      const auto ask = [&] { All<double>(grid, at, true); };
+      try {
+        ask();
+        ADD_FAILURE() << "not refused";
+      } catch (const lsdcd::Error &e) {
+        EXPECT_EQ(e.code(), LSDCD_ERROR_SIDE);
+        EXPECT_NE(std::strstr(e.what(), "encloses nothing: lsdcd repair"), nullptr) << e.what();
+      }
+      double winding[2];
+      std::int8_t side[2];
+      lsdcd::Query<double> q(at.data(), 2);
+      q.winding = winding;
+      q.side = side;
+      q.estimate_sides = true;
+      grid.query(q);
+      for (int i = 0; i < 2; i++) {
+        EXPECT_EQ(winding[i], 0);
+        EXPECT_EQ(side[i], 1);
+      }
+    }
+  }
+}
+
+// A face that two boxes share, and edges of triangles without area.
+TEST(library, the_side_on_the_mesh_is_1_also_where_both_sides_are_inside)
+{
+  TriangleSoup soup = lsdcd::box_mesh({0, 0, 0}, {1, 1, 1});
+  TriangleSoup right = soup;
+  for (Vec3 &x : right.corners) x.x = 2 - x.x;    // the mirror image turns windings
+  for (std::size_t t = 0; t < right.corners.size(); t += 3)
+    std::swap(right.corners[t], right.corners[t + 1]);
+  lsdcd::append(soup, right);
+  soup.corners.insert(soup.corners.end(), {{0.25, 0.5, 0.5}, {0.75, 0.5, 0.5}, {0.5, 0.5, 0.5}});
+  const std::vector<double> on = {1, 0.25, 0.5, 1, 0.5, 0.5, 1, 0.75, 0.125, 0.5, 0.5, 0.5},
+                            off = {0.875, 0.25, 0.5, 1.125, 0.5, 0.5, 0.5, 0.5, 0.625};
+  std::vector<lsdcd::Grid> grids;
+  grids.emplace_back(lsdcd::Mesh(numbers(soup)));
+  grids.push_back(grid_of(soup, 4));
+  grids.push_back(grid_of(soup, 0, LSDCD_FLOAT));
+  for (const lsdcd::Grid &grid : grids) {
+    const All<double> at(grid, on, true), beside(grid, off, true);
+    // By cells in float they are within 3e-6 (cutoff + 14 cells).
+    for (const double distance : at.distance) EXPECT_LE(distance, &grid == &grids[2] ? 1e-5 : 0);
+    EXPECT_EQ(at.side, std::vector<std::int8_t>(4, 1));
+    EXPECT_EQ(beside.side, std::vector<std::int8_t>(3, -1));
+  }
+}
+
 // A cube without its face at x = 1, seen from its middle, is five sixths of all.
 template <class T>
 void expect_estimated(int precision)

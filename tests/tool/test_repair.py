@@ -145,6 +145,13 @@ def main():
     check("inside out", turned(ball), {"turned_facets": len(ball)}, {}, 0, solid)
     twice = np.concatenate([ball, ball[:5], ball[5:9, [1, 2, 0]], ball[9:11, ::-1]])
     check("duplicates, turned and reversed", twice, {"duplicate_facets": 11}, {}, 0, solid)
+    for name, one, to_turn in (("out", ball, 0), ("in", turned(ball), len(ball))):
+        check(f"each facet in both windings, first with its normal {name}", np.concatenate([one, turned(one)]),
+              {"duplicate_facets": len(ball), "turned_facets": to_turn, "shells": 1}, {}, 0, solid)
+    write_ascii_stl(FOLDER / "in.stl", np.concatenate([box, turned(box)]))
+    seen = run(FOLDER, "inspect", "in.stl").stdout
+    fact("inspect names them", "closed, but each facet is there in both windings, as in a double-sided export, so that "
+         "the mesh encloses nothing; lsdcd repair" in seen and "no: 12 duplicate facets, 12 facets in both" in seen, seen)
     flat = np.concatenate([box, [box[0, [0, 0, 1]], box[0, [0, 0, 0]],
                                  (box[0, 0], (box[0, 0] + box[0, 1]) / 2, box[0, 1])]])
     check("points and lines", flat, {"degenerate_facets": 3, "lost_facets": 0}, {}, 0, 1)

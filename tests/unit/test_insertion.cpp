@@ -535,6 +535,11 @@ TEST(inlet, a_face_that_is_not_flat_or_wound_both_ways_is_refused_by_facet)
   std::swap(mixed.corners[1], mixed.corners[2]);
   EXPECT_NE(error_of(mixed).find("face.stl: facet 1 is wound against"), std::string::npos)
       << error_of(mixed);
+  TriangleSoup both = rectangle(3, 2);
+  for (const int k : {0, 2, 1}) both.corners.push_back(Vec3(both.corners[k]));
+  EXPECT_NE(error_of(both).find("face.stl: 1 of 2 facets are there in both windings"),
+            std::string::npos)
+      << error_of(both);
 }
 
 TEST(insert_settings, fractions_that_do_not_add_up_are_refused_with_their_sum)

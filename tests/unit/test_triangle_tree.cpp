@@ -70,6 +70,23 @@ TEST(triangle_tree, gives_the_distance_of_every_triangle_tried)
   }
 }
 
+// In the middle of a flat triangle at coordinates of 1e6. Its sides are half its height away; the page of the
+// library has these numbers.
+TEST(triangle_tree, a_triangle_lower_than_8_round_offs_of_its_coordinates_is_its_sides)
+{
+  const Real far = 1e6;
+  for (const Real height : {1.7e-9, 1.8e-9}) {
+    TriangleSoup soup;
+    soup.source = "low";
+    soup.corners = {{far, 0, 0}, {far + 1, 0, 0}, {far + 0.5, height, 0}};
+    const TreeCase c(soup);
+    const bool is_low = height < 8 * kRoundoff * far;
+    EXPECT_EQ(c.mesh.faces.empty(), is_low);
+    const Real found = c.tree.nearest({far + 0.5, height / 2, 0}, kAnyDistance, kNoHint).distance;
+    EXPECT_NEAR(found, is_low ? height / 2 : 0, 1e-14);
+  }
+}
+
 TEST(triangle_tree, answers_do_not_depend_on_the_radius)
 {
   for (const auto &c : all_cases())

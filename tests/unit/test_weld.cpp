@@ -286,6 +286,7 @@ TEST(weld, duplicates_of_either_winding_are_dropped)
 {
   const auto mesh = weld({{kA, kB, kC}, {kB, kC, kA}, {kC, kB, kA}, {kA, kB, kD}});
   EXPECT_EQ(mesh.report.duplicate_facets, 2u);
+  EXPECT_EQ(mesh.report.two_sided_faces, 1u);
   EXPECT_EQ(mesh.face_facet, (std::vector<std::size_t>{0, 3}));
 }
 

@@ -242,14 +242,14 @@ TEST(winding_number, takes_the_box_in_a_box_for_a_cavity_where_it_is_wound_again
   expect_boxes({{{0, 0, 0}, {3, 3, 3}, -1}}, -1, 4);
 }
 
-// Welded they have one face in common, which is left out: there is no surface between them.
+// Welded they have one face in common, a sheet: both sides of it are inside, and it is surface.
 TEST(winding_number, counts_boxes_that_share_a_face)
 {
   TriangleSoup left = box_mesh({0, 0, 0}, {1, 1, 1}), right = left;
   for (Vec3 &x : right.corners) x.x = 2 - x.x;    // its diagonals lie as those of the other
   expect_on_lattice(joined(left, inverted(right)), -1, 3, [](const Vec3 &q) {
     const BoxOf both = {{0, 0, 0}, {2, 1, 1}};
-    return WindingNumber::Answer{both.holds(q) && !both.inside(q), both.inside(q)};
+    return WindingNumber::Answer{both.holds(q) && (!both.inside(q) || q.x == 1), both.inside(q)};
   });
 }
 
@@ -257,6 +257,51 @@ TEST(winding_number, counts_a_surface_that_a_file_has_twice_once)
 {
   const TriangleSoup box = box_mesh({0, 0, 0}, {1, 1, 1});
   EXPECT_EQ(WindingNumber(weld(joined(box, box), 0)).at({0.5, 0.5, 0.5}).number, 1);
+}
+
+// Of a file's copies of a facet, as many as one winding has more decide, whichever comes first.
+TEST(winding_number, counts_three_copies_of_a_surface_by_the_winding_of_two)
+{
+  const TriangleSoup out = box_mesh({0, 0, 0}, {1, 1, 1}), in = inverted(out);
+  for (const TriangleSoup &soup : {joined(joined(out, in), out), joined(joined(in, out), out)}) {
+    const WallMesh mesh = weld(soup, 0);
+    EXPECT_FALSE(mesh.report.oriented);
+    EXPECT_EQ(WindingNumber(mesh).at({0.5, 0.5, 0.5}).number, 1);
+  }
+}
+
+// A sheet in a box from wall to wall, as exporters write one that has no thickness.
+TEST(winding_number, does_not_change_across_a_sheet_in_both_windings_and_is_of_the_surface_on_it)
+{
+  TriangleSoup sheet = box_mesh({1, 1, 1}, {2, 2, 2});
+  sheet.corners.resize(6);
+  const Vec3 on = Real(0.5) * (sheet.corners[0] + sheet.corners[1]);
+  const WallMesh mesh =
+      weld(joined(joined(box_mesh({0, 0, 0}, {3, 3, 3}), sheet), inverted(sheet)), 0);
+  EXPECT_TRUE(has_inside(mesh));
+  const WindingNumber winding(mesh);
+  EXPECT_TRUE(winding.at(on).on_surface);
+  EXPECT_EQ(winding.side(on), 1);
+  for (const Real off : {-1e-15, 1e-15})
+    for (int k = 0; k < 3; k++) {
+      Vec3 q = on;
+      q[k] += off;
+      if (winding.at(q).on_surface) continue;    // along the sheet
+      EXPECT_EQ(winding.at(q).number, 1);
+    }
+}
+
+// A facet without area leaves an edge, another one a point: distances are 0 there.
+TEST(winding_number, is_of_the_surface_on_edges_and_points_without_faces)
+{
+  TriangleSoup soup = box_mesh({0, 0, 0}, {3, 3, 3});
+  const Vec3 a = {1, 1, 1}, b = {2, 2, 1.5}, c = {0.5, 0.5, 0.25};
+  soup.corners.insert(soup.corners.end(), {a, b, b, c, c, c, a, b, Real(0.5) * (a + b)});
+  const WindingNumber winding(weld(soup, 0));
+  for (const Vec3 &q : {a, b, c, Real(0.5) * (a + b), Real(0.25) * (Real(3) * a + b)})
+    EXPECT_TRUE(winding.at(q).on_surface) << q.x << " " << q.y << " " << q.z;
+  for (const Vec3 &q : {a - Real(0.5) * (b - a), c + Vec3{1e-15, 0, 0}, Vec3{1.5, 1.5, 1.5}})
+    EXPECT_EQ(winding.side(q), -1) << q.x << " " << q.y << " " << q.z;
 }
 
 // The top of a box is cut into a large triangle and two facets without area along an edge.
@@ -332,6 +377,52 @@ TEST(winding_number, is_refused_where_facets_are_wound_against_each_other)
   TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
   std::swap(soup.corners[0], soup.corners[1]);
   EXPECT_NE(why_no_inside(weld(soup, 0)).find("along 3 more facets"), std::string::npos);
+}
+
+// All answers are the same, whichever winding comes first.
+TEST(winding_number, is_refused_where_each_facet_is_there_in_both_windings)
+{
+  const TriangleSoup box = box_mesh({0, 0, 0}, {1, 1, 1});
+  TriangleSoup plane = box;
+  plane.corners.resize(6);
+  for (const TriangleSoup &one : {box, inverted(box), plane}) {
+    const WallMesh mesh = weld(joined(one, inverted(one)), 0);
+    EXPECT_EQ(mesh.report.two_sided_faces, one.n_triangles());
+    EXPECT_FALSE(mesh.report.oriented);
+    EXPECT_FALSE(has_inside(mesh));
+    EXPECT_EQ(why_no_inside(mesh), "each of its facets is there in both windings, as in a "
+                                   "double-sided export, so that it encloses nothing: lsdcd repair "
+                                   "keeps one of each two");
+  }
+}
+
+TEST(winding_number, is_refused_where_some_facets_are_there_in_both_windings)
+{
+  const TriangleSoup box = box_mesh({0, 0, 0}, {1, 1, 1});
+  TriangleSoup some = box;
+  some.corners.resize(6);
+  const WallMesh mesh = weld(joined(box, inverted(some)), 0);
+  EXPECT_TRUE(mesh.report.closed);
+  EXPECT_FALSE(mesh.report.oriented);
+  EXPECT_FALSE(has_inside(mesh));
+  const std::string why = why_no_inside(mesh);
+  EXPECT_EQ(why.find("2 of 12 facets are there in both windings"), 0u) << why;
+  EXPECT_NE(why.find("4 edges are open"), std::string::npos) << why;
+}
+
+// The inside of a box that is there in both windings would be outside beside another box, and the cavity of a
+// box in one would be solid.
+TEST(winding_number, is_refused_where_facets_in_both_windings_enclose_a_space)
+{
+  const TriangleSoup box = box_mesh({1, 1, 1}, {2, 2, 2}), twice = joined(box, inverted(box));
+  for (const Vec3 &hi : {Vec3{3, 3, 3}, Vec3{0.5, 0.5, 0.5}}) {
+    const WallMesh mesh = weld(joined(box_mesh({0, 0, 0}, hi), twice), 0);
+    EXPECT_FALSE(mesh.report.oriented);
+    EXPECT_FALSE(has_inside(mesh));
+    const std::string why = why_no_inside(mesh);
+    EXPECT_EQ(why.find("12 of 24 facets are there in both windings"), 0u) << why;
+    EXPECT_NE(why.find("lsdcd repair"), std::string::npos) << why;
+  }
 }
 
 }    // namespace
