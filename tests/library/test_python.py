@@ -441,6 +441,55 @@ def check_fork():
     child.join()
 
 
+# Of all types, and values beyond their ranges.
+NONSENSE = (None, "x", b"x", -1, 1.5, float("nan"), float("inf"), 2**40, -2**70, 10**400, [], [[1, 2], [3]], {}, {1}, object(), True, 1j,
+            "\0", np.array([1, 2]), np.datetime64("2020-01-01"), np.ma.array([1.0, 2, 3], mask=[0, 1, 0]), np.array("a"), [None] * 3,
+            np.array([[1, 2, 3]], object), np.full((1, 3), np.nan))
+
+
+def check_nonsense():
+    """What each argument of the package makes of it: an answer, a ValueError (Error is one) or a TypeError."""
+    corners = np.array([[[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]])
+    mesh = lsdcd.Mesh(corners)
+    grid, body, points = mesh.grid(cutoff=0.5), lsdcd.Body(mesh, mesh), np.zeros((2, 3))
+    with tempfile.TemporaryDirectory() as folder:
+        floor = os.path.join(folder, "floor.stl")
+        write_floor(floor)
+        words = f"hooke 1000 0 0 0 0 0 mesh {floor} device cpu"
+        vectors, numbers = ("x", "v", "omega", "force", "torque"), ("radius", "mass")
+        spheres = {**{k: np.zeros((1, 3)) for k in vectors}, **{k: np.ones(1) for k in numbers}, "dt": 1e-3}
+        wall = lsdcd.Wall(words)
+        calls = {"Mesh()": lsdcd.Mesh, "faces": lambda b: lsdcd.Mesh(corners[0], b), "vertices": lambda b: lsdcd.Mesh(b, [[0, 1, 2]]),
+                 "weld": lambda b: lsdcd.Mesh(corners, weld=b), "query()": grid.query, "contacts()": lambda b: grid.contacts(b, 0.1),
+                 "radius of contacts()": lambda b: grid.contacts(points, b), "Body()": lambda b: lsdcd.Body(b, mesh),
+                 "mesh of Body()": lambda b: lsdcd.Body(mesh, b), "Wall()": lsdcd.Wall,
+                 "out of query()": lambda b: grid.query(points, out={"distance": b}), "a word": lambda b: grid.query(points, [b]),
+                 "out of contacts()": lambda b: grid.contacts(points, 0.1, out={"point": b}),
+                 "to": lambda b: wall.unpack(b, [1.0]), "numbers": lambda b: wall.unpack([0], b)}
+        for name, call, some in (
+                ("grid", lambda **b: mesh.grid(**{"cutoff": 0.5, **b}),
+                 "cutoff cell nearest precision memory threads device progress"),
+                ("query", lambda **b: grid.query(points, **b), "want radius threads out stream estimate_sides progress"),
+                ("contacts", lambda **b: grid.contacts(points, 0.1, **b), "threads out progress"),
+                ("Body", lambda **b: lsdcd.Body(mesh, mesh, **b), "cell nearest memory threads device progress"),
+                ("collide", lambda **b: body.collide(**{"position": (0, 0, 0), **b}), "position quaternion matrix threads"),
+                ("Wall", lambda **b: lsdcd.Wall(words, **b), "lo hi periodic margin time units show threads device stream"),
+                ("step", lambda **b: lsdcd.Wall(words).step(**{**spheres, **b}),
+                 " ".join([*vectors, *numbers, "dt setup changed reach temperature heat type"]))):
+            calls |= {f"{word} of {name}()": lambda b, call=call, word=word: call(**{word: b}) for word in some.split()}
+        calls |= {f"{name}()": getattr(wall, name) for name in ("renumber", "pack", "totals", "pose", "change", "restore")}
+        for name, call in calls.items():
+            other = []
+            for nonsense in NONSENSE:
+                try:
+                    call(nonsense)
+                except (ValueError, TypeError):
+                    continue
+                except Exception as error:
+                    other.append(f"{nonsense!r}: {error!r}")
+            fact(f"{name}: nonsense is a ValueError or a TypeError", not other, other)
+
+
 def check_types():
     mypy = shutil.which("mypy")
     if not mypy:
@@ -476,5 +525,6 @@ if __name__ == "__main__":
     check_given_values()
     check_box()
     check_fork()
+    check_nonsense()
     check_types()
     sys.exit(1 if failed else 0)

@@ -220,6 +220,8 @@ def _c_double(value: Any, name: str) -> float:
         return float(value)
     except TypeError:
         raise TypeError(f"{name} is {value!r}, not a real number") from None
+    except OverflowError:
+        raise ValueError(f"{name} is beyond the range of float64") from None
 
 
 def _c_text(text: str | bytes | os.PathLike[str] | None, name: str) -> bytes | None:
@@ -240,7 +242,7 @@ def _facts(struct: Any, call: Any, handle: Any) -> dict[str, Any]:
 
 def _chosen(name: str, word: str, words: Sequence[str]) -> int:
     """The index of a word among those that there are."""
-    if word not in words:
+    if not isinstance(word, str) or word not in words:
         raise ValueError(f"{name} is {word!r}; it is {' or '.join(map(repr, words))}")
     return words.index(word)
 
@@ -636,7 +638,10 @@ def _as_floats(given: ArrayLike, name: str) -> NDArray[Any]:
     if values.size and values.dtype.kind not in "fiuO" or \
             values.dtype.kind == "O" and any(isinstance(value, (str, bytes, bool)) for value in values.flat):
         raise TypeError(f"{name}: {values.dtype}, not real numbers")
-    return values.astype(np.float64)
+    try:
+        return values.astype(np.float64)
+    except OverflowError:
+        raise ValueError(f"{name}: a number beyond the range of float64") from None
 
 
 def _whole_numbers(given: ArrayLike, name: str) -> NDArray[Any]:
@@ -750,6 +755,9 @@ class Body(_Owner):
     def __init__(self, wall: Mesh | Body, mesh: Mesh, cell: float = 0.0, nearest: int = 0, memory: float = 0.0,
                  threads: int = 0, device: str = "cpu", progress: Progress | None = None) -> None:
         super().__init__()
+        for name, given, kinds in (("wall", wall, (Mesh, Body)), ("mesh", mesh, (Mesh,))):
+            if not isinstance(given, kinds):
+                raise TypeError(f"{name} is a {type(given).__name__}, not a {' or '.join(kind.__name__ for kind in kinds)}")
         self._room = 1024
         options = _sized(_BodyOptions, cell=cell, nearest=nearest, memory=memory, threads=threads,
                          device=_chosen("device", device, DEVICES))
