@@ -869,7 +869,8 @@ class Script:
         w, text = line.words, line.text
         if self.lattice and "units" not in w and (
                 w[0] in ("region", "create_atoms", "displace_atoms", "change_box", "velocity") or w[3:4] == ["move"]):
-            text = re.sub(r"\s*(#.*)?$", r" units box \1", text, count=1).rstrip()    # LIGGGHTS's default; LAMMPS's is lattice
+            text = re.sub(r"\s*(#.*)?$", r" units box \1", text, count=1).rstrip()
+            self.note(line, "units box is the default of LIGGGHTS 3.8; of LIGGGHTS-PFM and LAMMPS it is units lattice")
         if w[0] == "jump":
             text = " ".join(["jump SELF", *w[2:]])
         if w[0] == "compute" and w[3] == "coord/atom" and w[4] != "cutoff":
