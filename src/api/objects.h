@@ -21,7 +21,7 @@ namespace lsdcd {
 struct ApiMesh {
   WallMesh mesh;
   std::string report;
-  // Of each vertex and triangle as given its vertex and face in the mesh; -1: none.
+  // The vertex and face of the mesh that each vertex and triangle as given became; -1: none.
   std::vector<int> welded_vertex, welded_face;
 
   PointSides sides{mesh};

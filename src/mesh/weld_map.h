@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the corners and facets of a file became in the welded mesh.
+// The way from corners and facets of a file to vertices and faces of the welded mesh.
 #pragma once
 
 #include "mesh/wall_mesh.h"
@@ -16,11 +16,11 @@ WallMesh weld(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner
 
 constexpr int kNoFace = -1, kNoVertex = -1;
 
-// Of each facet of the file its face; of a duplicate, in either winding, the face that it equals; kNoFace for a facet
-// without area.
+// The face of each facet of the file. A duplicate, in either winding, has the face that it equals, a facet without area
+// kNoFace.
 std::vector<int> faces_of_facets(const WallMesh &mesh, const std::vector<int> &corner_vertex);
 
-// Of each of these places the vertex of the corners that are exactly there; kNoVertex where none is.
+// The vertex of the corners that are exactly at each of these places; kNoVertex where none is.
 std::vector<int> vertices_at(const std::vector<Vec3> &places, const std::vector<Vec3> &corners,
                              const std::vector<int> &corner_vertex);
 

@@ -213,7 +213,7 @@ TEST(barycentric, of_a_face_is_that_of_the_foot_of_the_point)
     const double height = height_of(corner);
     faces++;
     thin += height < 1e-7;
-    // What moves the foot by so much moves a share by so much over the height.
+    // A foot that is off by so much has shares that are off by so much over the height.
     for (int k = 0; k < 3; k++)
       ASSERT_LE(std::fabs(double(wanted[k] - s.barycentric[3 * i + k])), kOfSums / height) << i;
   }

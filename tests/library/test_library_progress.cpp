@@ -161,7 +161,7 @@ void expect_same(const lsdcd::Grid &grid, bool with_radii)
     std::vector<std::uint8_t> status;
     bool operator==(const Answers &b) const
     {
-      // What is no number equals itself, too.
+      // Bits, so that no number equals no number.
       const bool same_shares = std::memcmp(barycentric.data(), b.barycentric.data(),
                                            barycentric.size() * sizeof(T)) == 0;
       return distance == b.distance && closest == b.closest && normal == b.normal &&

@@ -43,7 +43,7 @@ for real, close in ((np.float64, 1e-15), (np.float32, 1e-7)):
     assert np.allclose(np.sort(met.normal[:3].sum(0)), [-1, -1, -1], rtol=0, atol=close)
     assert (met.feature >> 30).tolist() == [0, 0, 0, 2] and (met.point[3] == 1).all()
 
-# Of points of any shape and layout, in arrays of the caller.
+# Points of any shape and layout, and arrays of the caller.
 centres = np.array([[[0.7, 0.8, 0.9], [0, 0, 0]], [[1.1, 1.1, 1.1], [9, 9, 9]], [[0.7, 0.8, 0.9], [0.9, 0, 0]]])
 shaped, flat = grid.contacts(centres, 0.4), grid.contacts(centres.reshape(-1, 3), 0.4)
 assert shaped == flat and shaped.first.tolist() == [0, 3, 3, 4, 4, 7, 8]

@@ -599,7 +599,7 @@ _MOST_STREAMS = 8    # that a grid keeps for a thread: each has memory of its de
 
 
 def _read_points(points: Any, stream: Any = None) -> tuple[_arrays.Array, list[_arrays.Array], tuple[int, ...]]:
-    """What was given; what the library reads, kept alive, the last one as floats of the machine; and its steps."""
+    """The array that was given; all that the library reads, kept alive, the last one as floats of the machine; its steps."""
     asked = _arrays.read(points, "points", _arrays.stream_handle(stream))
     if asked.shape[-1:] != (3,):
         raise ValueError(f"points have the shape {asked.shape}, not (..., 3), as (n, 3) or (3,){_remedy(asked.shape)}")
