@@ -19,6 +19,7 @@ SLOTTED = [(0, 0, 0), (0, 0, 4), (1, 0, 4), (1, 0, 1), (2, 0, 1), (2, 0, 4), (3,
            (5, 0, 4), (5, 0, 0)]
 STAIRS = [(0, 0, 0), (0, 3, 0), (0, 3, 3), (0, 2, 3), (0, 2, 2), (0, 1, 2), (0, 1, 1), (0, 0, 1)]
 HOLE = [(0, 0, 0), (9, 0, 0), (9, 9, 0), (0, 9, 0), (0, 0, 0), (3, 3, 0), (3, 6, 0), (6, 6, 0), (6, 3, 0), (3, 3, 0)]
+CUBE = [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)]
 MAP = [(412345.678, 5421987.123, 101.25), (412346.678, 5421987.123, 101.25), (412345.678, 5421988.123, 101.5)]
 
 
@@ -151,6 +152,15 @@ OBJ = {
     "solid_l": ("".join(f"v {numbers(x, y, z)}\n" for z in (0, 1) for x, y, _ in L) +
                 "f 6 5 4 3 2 1\nf 7 8 9 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n",
                 Solid(3, 14)),
+    # A cube of edge 2 whose top has a corner in the middle of each edge, as the halves of the sides beside it.
+    "cube_with_corners_on_edges": (
+        "".join(f"v {numbers(x, y, 0)}\n" for x, y in CUBE[::2]) + "".join(f"v {numbers(x, y, 2)}\n" for x, y in CUBE) +
+        "f 4 3 2 1\nf 5 6 7 8 9 10 11 12\nf 1 2 7 6 5\nf 2 3 9 8 7\nf 3 4 11 10 9\nf 4 1 5 12 11\n", Solid(8, 24)),
+    # A plate with a square hole through it: rims by keyholes, and walls.
+    "plate_with_hole": (
+        "".join(f"v {numbers(x, y, z)}\n" for z in (0, 1) for x, y, _ in HOLE[:4] + HOLE[5:9]) +
+        "f 5 8 7 6 5 1 4 3 2 1\nf 9 10 11 12 9 13 14 15 16 13\nf 1 2 10 9\nf 2 3 11 10\nf 3 4 12 11\nf 4 1 9 12\n"
+        "f 5 6 14 13\nf 6 7 15 14\nf 7 8 16 15\nf 8 5 13 16\n", Solid(72, 192)),
     "floor_l_clockwise": (obj_of(L, [6, 5, 4, 3, 2, 1]), Polygon(L[::-1], 3)),
     "floor_t": (obj_of(T), Polygon(T, 5)),
     "wall_slotted": (obj_of(SLOTTED), Polygon(SLOTTED, 14)),

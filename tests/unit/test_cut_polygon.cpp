@@ -380,6 +380,29 @@ TEST(cut_polygon, random_simple_polygons_are_exact)
   }
 }
 
+// Turned in space, so that its coordinates are rounded, a polygon is cut too, though corners on straight sides are now
+// beside them. It is within 4000 of the origin, so corners move by less than 4000 times 1e-15, and the area by that along
+// n sides below 2000.
+TEST(cut_polygon, rounded_corners_change_the_area_by_rounding_only)
+{
+  Random random(51);
+  const int polygons = is_quick() ? 500 : 5000;
+  for (int i = 0; i < polygons; i++) {
+    const Polygon p =
+        i % 3 ? random_polygon(random, 4 + i % 27, 1000) : random_polygon(random, 4 + i % 9, 8);
+    const Vec3 u = random_unit(random), v = unit(cross(u, random_unit(random)));
+    const Vec3 origin = uniform(random, Vec3{-1000, -1000, -1000}, Vec3{1000, 1000, 1000});
+    std::vector<Vec3> corners, cut;
+    for (const Point &x : p)
+      corners.push_back(origin + static_cast<Real>(x.x) * u + static_cast<Real>(x.y) * v);
+    ASSERT_EQ(cut_polygon(corners, cut), "") << "polygon " << i;
+    Real sum = 0;
+    for (std::size_t c = 0; c < cut.size(); c += 3)
+      sum += norm(cross(cut[c + 1] - cut[c], cut[c + 2] - cut[c]));
+    ASSERT_NEAR(sum, std::abs(area(p)), 4000 * 1e-15 * 2000 * p.size()) << "polygon " << i;
+  }
+}
+
 // n^2 steps of 1e5 corners would be hours if each took a microsecond. A comb whose back has two corners takes about
 // n^2 / 2 tests of boxes, as one of these is a corner of each triangle, so it is shorter. All: 6 s.
 TEST(cut_polygon, a_hundred_thousand_corners_are_cut)
