@@ -29,7 +29,7 @@ FLOOR = "solid floor\nfacet normal 0 0 1\nouter loop\nvertex -20 -20 0\nvertex 2
 
 PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(user LANGUAGES C CXX)
-find_package(lsdcd 0.9 REQUIRED COMPONENTS {components})
+find_package(lsdcd 0.10 REQUIRED COMPONENTS {components})
 add_executable(in_c distance.c)
 target_link_libraries(in_c lsdcd::core)
 add_executable(in_cpp distance.cpp)
@@ -42,14 +42,14 @@ target_link_libraries(collide lsdcd::{last})
 
 STATIC_PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(user LANGUAGES C)
-find_package(lsdcd 0.9 REQUIRED COMPONENTS static)
+find_package(lsdcd 0.10 REQUIRED COMPONENTS static)
 add_executable(in_c {example})
 target_link_libraries(in_c lsdcd::static)
 """
 
 CUDA_PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(user LANGUAGES CXX CUDA)
-find_package(lsdcd 0.9 REQUIRED COMPONENTS core cuda)
+find_package(lsdcd 0.10 REQUIRED COMPONENTS core cuda)
 foreach(example distance fall)
   add_executable(${example} ${example}.cu)
   set_target_properties(${example} PROPERTIES CUDA_STANDARD 17 CUDA_ARCHITECTURES OFF)
