@@ -101,9 +101,8 @@ typedef struct lsdcd_mesh_facts {
   double lo[3], hi[3];
   size_t meeting_pairs; /* of triangles of different closed shells, which cut, overlap or
                                     touch each other there */
-  size_t
-      given_vertices; /* those of lsdcd_mesh_from_faces(), or of a file of a format other than STL; else three
-                            corners a triangle */
+  /* Those of lsdcd_mesh_from_faces(), or of a file of a format other than STL; else three corners a triangle. */
+  size_t given_vertices;
 } lsdcd_mesh_facts;
 /* Any. */
 LSDCD_API int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts);
