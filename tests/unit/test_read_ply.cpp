@@ -12,7 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <functional>
+#include <filesystem>
 
 namespace lsdcd {
 namespace {
@@ -546,9 +546,25 @@ TEST(read_ply, a_header_that_gives_no_mesh_says_what_is_missing)
       {text("element vertex 1\nproperty real x\n", ""), "'real', not one of char, int8,"},
       {"ply\nformat ascii 2.0\n", "line 2: 'format ascii 2.0' is not 'format ascii 1.0'"},
       {"solid a\n", "line 1: 'solid' found where 'ply' is expected; this is not a PLY file"},
+      {"ply\nformat ascii 1.0\nmade by hand\n", "line 3: 'made' found"},
+      {"\xFF\xFEp", "line 1: the text is in UTF-16"},
       {"", "line 1: the file is empty"}};
   for (const auto &[bytes, words] : cases)
     EXPECT_TRUE(contains(error_of(bytes), words)) << error_of(bytes);
+}
+
+// Far larger than memory, though it takes no room on the disk.
+TEST(read_ply, a_file_of_another_kind_is_refused_by_its_beginning)
+{
+  const TempDir dir;
+  const std::string path = dir.write("other.ply", "solid a\n");
+  std::filesystem::resize_file(path, std::uintmax_t(1) << 42);
+  try {
+    read_mesh(path);
+    FAIL() << "accepted";
+  } catch (const InputError &error) {
+    EXPECT_TRUE(contains(error.what(), "other.ply, line 1: 'solid' found where 'ply' is expected"));
+  }
 }
 
 TEST(read_ply, control_characters_do_not_reach_a_message)

@@ -57,7 +57,8 @@ class TextWords {
   bool next_line();
 
   bool done() const { return at_ == end_; }
-  std::string_view here() const { return {at_, 0}; }    // the place of the next byte
+  // The place of the next byte.
+  std::string_view here() const { return {at_, 0}; }    // NOLINT(bugprone-string-constructor)
   const char *end() const { return end_; }
 
   // The number that the word is. For an error name() says which one it is;
