@@ -22,7 +22,7 @@ constexpr int kTimes = 100;
 
 ReadMesh read_stl_mesh(const char *bytes, std::size_t size, const std::string &source)
 {
-  return {read_stl_bytes(bytes, size, source), 0};
+  return {read_stl_bytes(bytes, size, source), 0, {}};
 }
 
 struct Whole {

@@ -19,7 +19,7 @@ namespace {
 
 ReadMesh read_stl_mesh(const std::string &path)
 {
-  return {read_stl(path), 0};
+  return {read_stl(path), 0, {}};
 }
 
 struct Format {
