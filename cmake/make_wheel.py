@@ -40,10 +40,25 @@ def metadata():
     return "\n".join(lines) + "\n" + (ROOT / project["readme"]).read_text(encoding="utf-8")
 
 
+def check_build(build):
+    """Ends where LSDCD_BUILD is no build folder of these sources that has the library."""
+    cache = pathlib.Path(build) / "CMakeCache.txt"
+    if not cache.is_file():
+        raise SystemExit(f"LSDCD_BUILD={build} is no build folder, as it has no CMakeCache.txt: name one, or leave LSDCD_BUILD out")
+    said = dict(re.findall(r"^(CMAKE_PROJECT_\w+):\w+=(.*)$", cache.read_text(encoding="utf-8"), re.M))
+    made_of = f"{said.get('CMAKE_PROJECT_NAME')} {said.get('CMAKE_PROJECT_VERSION')}"
+    if made_of != f"lsdcd {version_of_project()}":
+        raise SystemExit(f"LSDCD_BUILD={build} is a build of {made_of}, and these are the sources of lsdcd {version_of_project()}")
+    if not any(pathlib.Path(build).rglob("liblsdcd.so.0")):
+        raise SystemExit(f"LSDCD_BUILD={build} has no library yet: cmake --build {build} --target lsdcd_api")
+
+
 def library(folder):
     """The library, stripped, as CMake installs it below `folder`."""
     build = os.environ.get("LSDCD_BUILD")
-    if not build:
+    if build:
+        check_build(build)
+    else:
         build = ROOT / "build" / "wheel"
         ninja = ["-G", "Ninja"] if shutil.which("ninja") else []
         subprocess.run(["cmake", "-S", ROOT, "-B", build, *ninja, "-D", "LSDCD_TESTS=OFF", "-D", "LSDCD_LAMMPS=OFF",

@@ -9,6 +9,7 @@
 #include "base/input_words.h"
 #include "engine/wall_engine.h"
 #include "grid/cache/load_or_build.h"
+#include "mesh/measure_mesh.h"
 #include "mesh/meets_itself.h"
 
 #include <algorithm>
@@ -38,6 +39,9 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   if (!(o.cutoff >= 0) || !std::isfinite(o.cutoff))
     refuse("cutoff is " + number_text(o.cutoff) +
            "; give the largest distance that matters, or 0 for any");
+  if (o.cutoff > kLargestLength)
+    refuse("cutoff is " + number_text(o.cutoff) +
+           ", beyond 1e100, which no coordinate of a mesh exceeds: leave it 0 for any distance");
   if (!(o.cell >= 0) || !std::isfinite(o.cell))
     refuse("cell is " + number_text(o.cell) + "; give a length, or 0 to have it chosen");
   if (o.nearest < 0 || o.nearest > kMaxNearest)

@@ -4,10 +4,12 @@
 #include "mesh/measure_mesh.h"
 
 #include "base/input_error.h"
+#include "base/input_words.h"
 #include "mesh/orient_faces.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lsdcd {
 namespace {
@@ -117,6 +119,32 @@ void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane)
   measure_edge_lengths(mesh);
   measure_faces(mesh, plane);
   measure_adjacency(mesh, plane);
+}
+
+Real checked_diagonal(const TriangleSoup &soup)
+{
+  if (soup.corners.empty())
+    throw InputError(soup.source + ": the mesh has no facets; give a mesh with triangles");
+  if (soup.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw InputError(soup.source + ": " + std::to_string(soup.n_triangles()) +
+                     " facets are more than vertex numbers can count (715 million); use a coarser "
+                     "mesh");
+  Vec3 lo = soup.corners[0], hi = lo;
+  for (std::size_t c = 0; c < soup.corners.size(); ++c)
+    for (int i = 0; i < 3; ++i) {
+      const Real x = soup.corners[c][i];
+      if (!(std::fabs(x) <= kLargestLength))    // also false for NaN
+        throw InputError(soup.source + ", facet " + std::to_string(c / 3 + 1) + ": coordinate " +
+                         "xyz"[i] + " is " + number_text(x) +
+                         ", beyond 1e100; repair the mesh or give a smaller scale");
+      lo[i] = std::min(lo[i], x);
+      hi[i] = std::max(hi[i], x);
+    }
+  const Real diagonal = std::hypot(hi.x - lo.x, hi.y - lo.y, hi.z - lo.z);
+  if (diagonal > 0 && diagonal < 1 / kLargestLength)
+    throw InputError(soup.source + ": the mesh is only " + number_text(diagonal) +
+                     " across; give a larger scale");
+  return diagonal;
 }
 
 }    // namespace lsdcd

@@ -197,15 +197,16 @@ class TreeQuery {
     if (!near_) return false;
     const Vec3 q = point(i);
     if (near_->may_be_near(q)) return false;
-    answers_.keep(i, q, {kAnyDistance, kNoFeature, kNoPrimitive});
+    answers_.keep(i, q, {kAnyDistance, kNoFeature, kNoPrimitive}, 1);
     return true;
   }
   void answer(std::size_t i, std::uint32_t &hint) const
   {
     const Vec3 q = point(i);
-    const TreeAnswer a = tree_.nearest(q, answers_.radius(i), hint);
+    const Real times = answers_.tree.times_nearer(q);
+    const TreeAnswer a = tree_.nearest((1 / times) * q, answers_.radius(i, times), hint);
     hint = a.primitive;
-    answers_.keep(i, q, a);
+    answers_.keep(i, q, a, times);
   }
 
   const TriangleTree &tree_;

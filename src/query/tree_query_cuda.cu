@@ -80,15 +80,17 @@ struct SearchPoints {
     const Warp<kTogether> warp;
     const TreeView &tree = answers.tree;
     const Vec3 q = answers.io.points[i];
-    TreeAnswer best = {answers.radius(i), kNoFeature, kNoPrimitive};
-    const TreeSearch search = tree.search_for(tree.scaled(q));
+    const Real times = tree.times_nearer(q);
+    const Vec3 nearer = (1 / times) * q;
+    TreeAnswer best = {answers.radius(i, times), kNoFeature, kNoPrimitive};
+    const TreeSearch search = tree.search_for(tree.scaled(nearer));
     if (search == TreeSearch::in_float)
-      search_tree<TreeBoundsFloat>(tree, warp, q, stacks[mine], best);
+      search_tree<TreeBoundsFloat>(tree, warp, nearer, stacks[mine], best);
     else if (search == TreeSearch::in_double)
-      search_tree<TreeBoundsDouble>(tree, warp, q, stacks[mine], best);
+      search_tree<TreeBoundsDouble>(tree, warp, nearer, stacks[mine], best);
     if (warp.rank() != 0) return;
     answers.check(i);
-    answers.keep(i, q, best);
+    answers.keep(i, q, best, times);
   }
 };
 

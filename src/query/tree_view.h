@@ -25,6 +25,8 @@ constexpr std::uint32_t kNoPrimitive = 0xffffffffu;
 constexpr float kBoxRounding = 2e-7f, kPlaneRounding = 1.2e-6f, kWiden = 1 + 2e-6f;
 // Float holds the square of this.
 constexpr float kTreeHuge = 1e18f;
+// The square of a longer length, in the unit of the mesh or in its size, may leave the range of Real.
+constexpr Real kFarthest = 1e150;
 // Farther than this the rounding of float would leave too many triangles.
 constexpr Real kFarInUnits = 16;
 constexpr float kNoBox = 3.402823466e+38f;    // both bounds of a child that is not there
@@ -95,6 +97,14 @@ struct TreeView {
     if (!(at.x - at.x == 0 && at.y - at.y == 0 && at.z - at.z == 0)) return TreeSearch::none;
     const Real largest = fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z)));
     return largest <= kFarInUnits ? TreeSearch::in_float : TreeSearch::in_double;
+  }
+  // A point beyond kFarthest is answered so many times nearer, where the distance is so many times shorter, as the mesh
+  // is a point from there; else 1.
+  LSDCD_FN Real times_nearer(const Vec3 &q) const
+  {
+    const Real largest = fmax(fabs(q.x), fmax(fabs(q.y), fabs(q.z))),
+               most = kFarthest / fmax(inv_scale, Real(1));
+    return largest > most && largest - largest == 0 ? largest / most : 1;
   }
   // From 0 to 1 along each axis within the mesh's box.
   LSDCD_FN Vec3 share_of_box(const Vec3 &q) const

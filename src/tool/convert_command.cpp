@@ -47,6 +47,8 @@ void run(const Options &o)
   apply_scale(soup, o.scale.empty() ? std::vector<double>{kMetres.at(o.units)} : o.scale);
   if (o.floats)
     for (Vec3 &corner : soup.corners) corner = rounded_as_in_stl(corner);
+  // No command would read it again.
+  if (!soup.corners.empty()) checked_diagonal(soup);
   write_mesh_file(o.output, soup);
   Vec3 lo = soup.corners.empty() ? Vec3{0, 0, 0} : soup.corners[0], hi = lo;
   for (const Vec3 &corner : soup.corners)

@@ -703,6 +703,30 @@ TEST(library, options_of_cells_need_a_cutoff)
   }
 }
 
+// From so far the mesh is a point: the distance is that to the origin, up to a few roundings.
+TEST(library, a_point_beyond_1e154_has_its_distance)
+{
+  for (const double scale : {1e-100, 1., 1e99}) {
+    TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
+    for (Vec3 &corner : soup.corners) corner = scale * corner;
+    const lsdcd::Grid grid(lsdcd::Mesh(numbers(soup)));
+    const std::vector<double> points = {1e154, 1e154,  1e154, 1e300, 0,      0,     0, 1.7e308,
+                                        0,     -5e307, 1e307, 5e307, -1e307, 1e200, 5};
+    const std::vector<double> distance = grid.distances(points);
+    for (std::size_t i = 0; i < distance.size(); i++) {
+      const double wanted = std::hypot(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+      EXPECT_NEAR(distance[i] / wanted, 1, 1e-14) << scale << " " << i;
+    }
+    EXPECT_EQ(grid.distances(points, 1e200)[1], HUGE_VAL);
+  }
+}
+
+TEST(library, a_cutoff_beyond_the_largest_mesh_is_refused)
+{
+  const lsdcd::Mesh mesh(numbers(lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1})));
+  EXPECT_THROW(lsdcd::Grid(mesh, 1e101), lsdcd::Error);
+}
+
 TEST(library, a_point_that_is_no_number_is_far)
 {
   const std::vector<double> points = {NAN, 0, 0, HUGE_VAL, 1, 1, 1, -HUGE_VAL, 1};

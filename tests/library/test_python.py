@@ -490,6 +490,25 @@ def check_nonsense():
             fact(f"{name}: nonsense is a ValueError or a TypeError", not other, other)
 
 
+def check_wheel():
+    """What LSDCD_BUILD may name."""
+    spec = importlib.util.spec_from_file_location("make_wheel", ROOT / "cmake" / "make_wheel.py")
+    make_wheel = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(make_wheel)
+    version = make_wheel.version_of_project()
+    with tempfile.TemporaryDirectory() as folder:
+        cache = pathlib.Path(folder) / "CMakeCache.txt"
+        refused("a wheel needs a build folder", "is no build folder", lambda: make_wheel.check_build(folder), SystemExit)
+        for name, number in (("other", version), ("lsdcd", "0.1.0")):
+            cache.write_text(f"CMAKE_PROJECT_NAME:STATIC={name}\nCMAKE_PROJECT_VERSION:STATIC={number}\n", encoding="ascii")
+            refused(f"one of {name} {number} is refused", f"is a build of {name} {number}",
+                    lambda: make_wheel.check_build(folder), SystemExit)
+        cache.write_text(f"CMAKE_PROJECT_NAME:STATIC=lsdcd\nCMAKE_PROJECT_VERSION:STATIC={version}\n", encoding="ascii")
+        refused("one without a library is refused", "has no library yet", lambda: make_wheel.check_build(folder), SystemExit)
+        (pathlib.Path(folder) / "liblsdcd.so.0").touch()
+        make_wheel.check_build(folder)
+
+
 def check_types():
     mypy = shutil.which("mypy")
     if not mypy:
@@ -524,6 +543,7 @@ if __name__ == "__main__":
     check_wall_arrays()
     check_given_values()
     check_box()
+    check_wheel()
     check_fork()
     check_nonsense()
     check_types()

@@ -101,6 +101,10 @@ def written():
     refused(FOLDER, "convert floats.stl -o out2.stl --units km".split(), "--units", "km", "mm", code=2)
     refused(FOLDER, "convert floats.stl -o out2.stl --units mm --scale 2".split(), "--units", "--scale", code=2)
     refused(FOLDER, "convert floats.stl -o out2.stl --scale 0".split(), "--scale", "0", code=2)
+    # What no command would read again.
+    refused(FOLDER, "convert floats.stl -o out2.stl --scale 1e300".split(), "coordinate", "beyond 1e100", "smaller scale")
+    refused(FOLDER, "convert floats.stl -o out2.stl --scale 1e60 --float".split(), "inf, beyond 1e100", "smaller scale")
+    refused(FOLDER, "convert floats.stl -o out2.off --scale 1e-200".split(), "across", "larger scale")
 
 
 # A roof over a square of one polygon with four corners.
