@@ -298,7 +298,7 @@ class MeshFacts(_Record):
     vertices: int
     open_edges: int    # of one face
     closed: int
-    oriented: int      # closed, windings agree, no shells meet
+    oriented: int      # closed, windings agree, no shells meet, no triangle is there in both windings
     area: float        # length^2
     volume: float      # length^3, < 0 where normals point in
     lo: tuple[float, float, float]
@@ -466,9 +466,9 @@ class Grid(_Owner):
         as a number. By default that of the array's interface, or the current one of PyTorch or CuPy. The call returns
         when its work is in the stream, but waits for it where another library owns the points. The grid keeps what
         it needs for the stream, which must live as long; a number does not keep it alive.
-        estimate_sides: where the mesh has no sides, because it is open or facets are wound against each other, `side`
-        is -1 where the whole number nearest to `winding` is not 0, else 1, and `signed_distance` goes by it. These are not
-        certified: status has SIDE_ESTIMATED. On the host, as winding is.
+        estimate_sides: where the mesh has no sides, because it is open or double-sided, or facets are wound against
+        each other, `side` is -1 where the whole number nearest to `winding` is not 0, else 1, and `signed_distance` goes
+        by it. These are not certified: status has SIDE_ESTIMATED. On the host, as winding is.
         progress: as of Mesh.grid(), on the host; answers of a call that it ended are of no use.
 
         Raises ValueError for values, words, shapes and strides that are wrong, TypeError for a wrong type or place, Error, a
