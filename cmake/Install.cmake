@@ -4,13 +4,25 @@
 # Documents and examples; and packages for Debian, which `./run package` makes. All else is installed
 # by the folder that it lies in.
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE SUPPORT.md SECURITY.md CODE_OF_CONDUCT.md CONTRIBUTING.md
-  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT data)
+  RELEASING.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT data)
 install(DIRECTORY LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT data)
 install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc COMPONENT data
   FILES_MATCHING PATTERN *.md PATTERN *.rst PATTERN *.png PATTERN *.svg PATTERN *.gif PATTERN *.webp
-  PATTERN data EXCLUDE PATTERN html EXCLUDE PATTERN notes EXCLUDE PATTERN __pycache__ EXCLUDE)
+  PATTERN data EXCLUDE PATTERN html EXCLUDE PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT data
   PATTERN __pycache__ EXCLUDE PATTERN "log.*" EXCLUDE PATTERN "*.dump" EXCLUDE)
+
+# What the pages link to beside one another: the tests of the hard cases, and the materials.
+file(READ ${PROJECT_SOURCE_DIR}/doc/hard_cases.md page)
+string(REGEX MATCHALL "tests/[a-z_/]+\\.(cpp|py)" linked "${page}")
+list(REMOVE_DUPLICATES linked)
+foreach(file ${linked})
+  get_filename_component(folder ${file} DIRECTORY)
+  install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT data)
+endforeach()
+file(RELATIVE_PATH materials ${CMAKE_INSTALL_FULL_DOCDIR} ${CMAKE_INSTALL_FULL_DATADIR}/lsdcd/potentials)
+install(CODE "file(CREATE_LINK ${materials}
+  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/potentials\" SYMBOLIC)" COMPONENT data)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The LSDCD developers <lsdcd@example.org>")

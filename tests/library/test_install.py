@@ -8,6 +8,7 @@ From the environment: LSDCD_BUILD, the build folder; LSDCD_ROOT, the sources; LS
 LSDCD_CMAKE, the compilers and cmake; LSDCD_CUDA, whether the build has CUDA. Prints a line per fact.
 """
 import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -255,6 +256,17 @@ print "wall built"
           OMPI_MCA_ess_singleton_isolated="1", OMP_NUM_THREADS="1")
 
 
+def check_documents(prefix):
+    """Pages lie so that their links lead to what is installed."""
+    sys.path.insert(0, os.path.join(ROOT, "tests", "tool"))
+    import pages
+    pages.ROOT = pathlib.Path(find(prefix, "CITATION.cff"))
+    read = pages.all_pages()
+    missing = {f"{page.path}:{line}: {target}" for page in read.values() for line, target in page.links + page.images
+               if pages.target_of(page, target) and not (pages.ROOT / pages.target_of(page, target)[0]).exists()}
+    fact("links of the installed pages lead to what is installed", len(read) > 20 and not missing, (len(read), sorted(missing)))
+
+
 def main():
     with tempfile.TemporaryDirectory(prefix="lsdcd-install-") as top:
         installed, prefix, work = (os.path.join(top, name) for name in ("at_first", "prefix", "work"))
@@ -275,6 +287,7 @@ def main():
         check_python(prefix, work)
         check_wheel(work)
         check_tool(prefix, work)
+        check_documents(prefix)
         for name in ("LICENSE", "CITATION.cff", "library.md", "distance.cpp"):
             find(prefix, name)
     return 1 if failed else 0
