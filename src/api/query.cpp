@@ -153,7 +153,13 @@ template <class T>
 void answer_in_parts(const ApiGrid &grid, const lsdcd_query &q)
 {
   if (q.progress && q.radii) check_radii<T>(grid, q);
-  CallProgress(q.progress, q.data).in_parts("points", q.n, [&](std::size_t from, std::size_t n) {
+  CallProgress progress(q.progress, q.data);
+  // Before the points, as no part of these is told while they are made.
+  if (q.progress && (q.winding || q.estimate_sides))
+    grid.mesh->sides.generalized(progress.listener());
+  if (q.progress && (q.side || q.signed_distance) && !q.estimate_sides && grid.uses_tree())
+    grid.mesh->sides.winding(progress.listener());
+  progress.in_parts("points", q.n, [&](std::size_t from, std::size_t n) {
     answer_on_host<T>(grid, part_of<T>(q, from, n));
   });
 }

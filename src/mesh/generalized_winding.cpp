@@ -35,7 +35,7 @@ std::vector<Cap> caps_over(const WallMesh &mesh, const std::vector<LooseEdge> &l
 
 }    // namespace
 
-GeneralizedWinding::GeneralizedWinding(const WallMesh &mesh)
+GeneralizedWinding::GeneralizedWinding(const WallMesh &mesh, const ProgressListener &progress)
 {
   const CountedFacets counted(mesh);
   std::vector<Triangle> facets = whole_surface(mesh, counted);
@@ -47,7 +47,7 @@ GeneralizedWinding::GeneralizedWinding(const WallMesh &mesh)
     return;
   }
   for (const Cap &cap : caps_) facets.insert(facets.end(), cap.times, cap.facet);
-  closed_ = std::make_unique<const WindingNumber>(std::move(facets));
+  closed_ = std::make_unique<const WindingNumber>(std::move(facets), progress);
 }
 
 GeneralizedWinding::Answer GeneralizedWinding::at(const Vec3 &q) const

@@ -111,9 +111,13 @@ std::string why_no_inside(const WallMesh &mesh)
          ": close the mesh, or try lsdcd repair";
 }
 
-WindingNumber::WindingNumber(const WallMesh &mesh) : WindingNumber(closed_facets(mesh)) {}
+WindingNumber::WindingNumber(const WallMesh &mesh, const ProgressListener &progress) :
+    WindingNumber(closed_facets(mesh), progress)
+{
+}
 
-WindingNumber::WindingNumber(std::vector<Triangle> closed) : facets_(std::move(closed))
+WindingNumber::WindingNumber(std::vector<Triangle> closed, const ProgressListener &progress) :
+    facets_(std::move(closed))
 {
   if (facets_.empty()) {    // each facet has one against it
     box_ = {{1, 1, 1}, {-1, -1, -1}};
@@ -123,9 +127,9 @@ WindingNumber::WindingNumber(std::vector<Triangle> closed) : facets_(std::move(c
   for (const Triangle &f : facets_)
     for (const Vec3 &x : f.corner) extend(box_, x);
   choose_cells();
-  list_facets();
-  if (choose_directions() > kWorthATree) build_tree();
-  number_empty_cells();
+  list_facets(progress);
+  if (choose_directions(progress) > kWorthATree) build_tree();
+  number_empty_cells(progress);
 }
 
 Real WindingNumber::largest_coordinate() const
@@ -160,8 +164,9 @@ void WindingNumber::choose_cells()
 }
 
 // A facet is cut in pieces, whose boxes are at most two cells wide.
-void WindingNumber::list_facets()
+void WindingNumber::list_facets(const ProgressListener &progress)
 {
+  constexpr std::uint32_t kPart = 1 << 13;    // milliseconds
   struct Entry {
     std::uint32_t cell, facet;
   };
@@ -170,6 +175,7 @@ void WindingNumber::list_facets()
   std::vector<Triangle> pieces;
   const Real largest = largest_coordinate();
   for (std::uint32_t f = 0; f < facets_.size(); f++) {
+    if (progress && f % kPart == 0) progress("cells for sides", double(f) / double(facets_.size()));
     pieces.push_back(facets_[f]);
     while (!pieces.empty()) {
       const Triangle piece = pieces.back();
@@ -228,11 +234,12 @@ void WindingNumber::list_facets()
 
 // From each cell with facets, the way to an empty cell, or out of the box, that looks at the fewest. Returns
 // the most that one looks at.
-std::uint32_t WindingNumber::choose_directions()
+std::uint32_t WindingNumber::choose_directions(const ProgressListener &progress)
 {
   direction_.assign(cells_.size(), 0);
   std::vector<std::uint32_t> least(cells_.size(), std::numeric_limits<std::uint32_t>::max());
   for (int axis = 0; axis < 3; axis++) {
+    if (progress) progress("ways to empty cells", axis / 3.);
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (int i = 0; i < n_[u]; i++)
       for (int j = 0; j < n_[v]; j++)
@@ -264,11 +271,12 @@ void WindingNumber::build_tree()
 }
 
 // In the order of cells, so that those below have their numbers.
-void WindingNumber::number_empty_cells()
+void WindingNumber::number_empty_cells(const ProgressListener &progress)
 {
   constexpr int kDownZ = 5;
   std::size_t cell = 0;
-  for (int i = 0; i < n_[0]; i++)
+  for (int i = 0; i < n_[0]; i++) {
+    if (progress) progress("sides of empty cells", double(i) / n_[0]);
     for (int j = 0; j < n_[1]; j++)
       for (int k = 0; k < n_[2]; k++, cell++) {
         if (cells_[cell].first != kEmpty) continue;
@@ -290,6 +298,7 @@ void WindingNumber::number_empty_cells()
                    {i, j, k - 1}, kDownZ)
                   .number;
       }
+  }
 }
 
 // What a facet adds to the number of a ray's origin. A facet whose projection along the ray has no

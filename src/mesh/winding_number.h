@@ -4,6 +4,7 @@
 // How many times a closed surface winds around a point, without rounding and at any distance.
 #pragma once
 
+#include "base/progress.h"
 #include "geometry/triangles_meet.h"
 #include "mesh/box_tree.h"
 #include "mesh/periodic_box.h"
@@ -37,9 +38,9 @@ std::string why_no_inside(const WallMesh &mesh);
 class WindingNumber {
  public:
   // Throws InputError, with why_no_inside(), where a mesh has no inside.
-  explicit WindingNumber(const WallMesh &mesh);
+  explicit WindingNumber(const WallMesh &mesh, const ProgressListener &progress = {});
   // The facets of a closed surface: along every edge as many run one way as the other.
-  explicit WindingNumber(std::vector<Triangle> closed);
+  explicit WindingNumber(std::vector<Triangle> closed, const ProgressListener &progress = {});
 
   // 1 inside a shell whose normals point out, -1 inside one whose normals point in; the sum for
   // several. On the surface, also of a sheet, only `on_surface` is set.
@@ -78,10 +79,10 @@ class WindingNumber {
 
   Real largest_coordinate() const;
   void choose_cells();
-  void list_facets();
-  std::uint32_t choose_directions();
+  void list_facets(const ProgressListener &progress);
+  std::uint32_t choose_directions(const ProgressListener &progress);
   void build_tree();
-  void number_empty_cells();
+  void number_empty_cells(const ProgressListener &progress);
   Answer walk(const Vec3 &q, const Index &at, int direction) const;
   static int crossing(const Triangle &facet, const Ray &ray, bool &on_surface);
 

@@ -19,13 +19,13 @@ class PointSides {
  public:
   explicit PointSides(const WallMesh &mesh) : mesh_(mesh) {}
 
-  const WindingNumber &winding() const
+  const WindingNumber &winding(const ProgressListener &progress = {}) const
   {
-    return winding_.get([&] { return std::make_unique<WindingNumber>(mesh_); });
+    return winding_.get([&] { return std::make_unique<WindingNumber>(mesh_, progress); });
   }
-  const GeneralizedWinding &generalized() const
+  const GeneralizedWinding &generalized(const ProgressListener &progress = {}) const
   {
-    return generalized_.get([&] { return std::make_unique<GeneralizedWinding>(mesh_); });
+    return generalized_.get([&] { return std::make_unique<GeneralizedWinding>(mesh_, progress); });
   }
 
  private:

@@ -228,6 +228,25 @@ TEST(progress, a_query_is_cancelled_between_its_parts)
   EXPECT_EQ(distance[n - 1], -1);
 }
 
+// The first query of sides makes what tells them: three things, and the points.
+TEST(progress, first_sides_are_cancelled_and_then_made)
+{
+  const std::vector<double> points = {0, 0, 0.3, 9, 9, 9};
+  for (const bool estimated : {false, true}) {
+    std::int8_t side[2] = {0, 0};
+    double winding[2];
+    lsdcd::Query<double> q(points.data(), 2);
+    q.side = side;
+    if (estimated) q.winding = winding;
+    expect_cancelled([&](const lsdcd::Progress &p) { lsdcd::Grid(box()).query(q, p); }, 4);
+    const lsdcd::Grid grid(box());
+    EXPECT_THROW(grid.query(q, [](const char *, double) { return true; }), lsdcd::Error);
+    grid.query(q, [](const char *, double) { return false; });
+    EXPECT_EQ(side[0], -1);
+    EXPECT_EQ(side[1], 1);
+  }
+}
+
 TEST(progress, an_error_of_a_later_part_has_the_number_of_its_point)
 {
   const lsdcd::Grid grid(box(), 0.3);
