@@ -36,7 +36,7 @@ class Cutter {
       append({0, 1, 2});
       return "";
     }
-    if (!look_along_axis()) return "its corners are too far apart for their area";
+    if (!look_along_axis()) return "its corners are farther apart than any number";
     if (n_ == 4 && cut_quadrilateral()) return "";
     const int stuck = cut_ears();
     if (stuck >= 0) return crosses_near(corners_[stuck]);
@@ -150,21 +150,25 @@ class Cutter {
     left_ = n_;
     turn_of_.assign(n_, 0);
     blocks_.assign(n_, 0);
-    for (int i = 0; i < n_; i++) turn_of_[i] = turn_at(i), blocks_[i] = turn_of_[i] <= 0;
+    for (int i = 0; i < n_; i++) {
+      turn_of_[i] = turn_at(i);
+      if (turn_of_[i] <= 0) block(i);
+    }
     number_due_.assign(n_, 0);
-    waiting_.assign(n_, {});
-    // Corners on old sides of an ear are let be only where there is no other: the polygon touches itself.
-    for (const bool sides_too : {true, false}) {
+    // A corner on an old side of an ear is let be only where there is no other ear: the polygon touches itself.
+    for (bool sides_too = true; left_ >= 3;) {
+      const int before = left_;
       for (int i = 0; i < n_; i++)
         if (next_[i] >= 0) make_due(i);
-      while (left_ >= 3 && !due_.empty()) {
+      while (left_ >= 3 && !due_.empty() && (sides_too || left_ == before)) {
         const auto [corner, number] = due_.front();
         due_.pop_front();
         if (number == number_due_[corner] && next_[corner] >= 0) try_corner(corner, sides_too);
       }
-      if (left_ < 3) return -1;
+      if (left_ == before && !sides_too) return first_left();
+      sides_too = left_ < before;
     }
-    return first_left();
+    return -1;
   }
   int first_left() const
   {
@@ -172,6 +176,7 @@ class Cutter {
     return static_cast<int>(std::find_if(next_.begin(), next_.end(), is_left) - next_.begin());
   }
 
+  void block(int corner) { blocks_[corner] = any_blocks_ = true; }
   void make_due(int corner) { due_.push_back({corner, ++number_due_[corner]}); }
 
   void try_corner(int b, bool sides_too)
@@ -183,17 +188,13 @@ class Cutter {
       if (!is_same(a, c)) cut_.push_back({a, b, c});
       take_out(b);
     } else if (way > 0) {
-      const int blocker = corner_in(a, b, c, sides_too);
-      if (blocker >= 0) {
-        waiting_[blocker].push_back(b);
-        return;
-      }
+      if (has_corner_in(a, b, c, sides_too)) return;
       cut_.push_back({a, b, c});
       take_out(b);
     }
   }
 
-  // Corners that wait for this one, and its neighbours, are tried again, after all others.
+  // Its neighbours are tried again, after all others.
   void take_out(int b)
   {
     const int a = previous_[b], c = next_[b];
@@ -201,19 +202,17 @@ class Cutter {
     previous_[c] = a;
     next_[b] = previous_[b] = -1;
     left_--;
-    for (const int corner : waiting_[b])
-      if (next_[corner] >= 0) make_due(corner);
-    waiting_[b] = {};
     for (const int corner : {a, c}) {
-      if (turn_at(corner) <= 0) blocks_[corner] = 1;
+      if (turn_at(corner) <= 0) block(corner);
       make_due(corner);
     }
   }
 
-  // A corner in the triangle, but at none of its corners; -1: there is none. If a triangle holds any, it
-  // holds one whose angle is straight or larger.
-  int corner_in(int a, int b, int c, bool sides_too)
+  // Is there a corner in the triangle, but at none of its corners? If so, there is one whose angle is straight
+  // or larger.
+  bool has_corner_in(int a, int b, int c, bool sides_too)
   {
+    if (!any_blocks_) return false;
     if (!tree_ || in_tree_.size() > 2 * static_cast<std::size_t>(left_)) {
       in_tree_.clear();
       std::vector<Box> boxes;
@@ -222,8 +221,8 @@ class Cutter {
       tree_ = std::make_unique<BoxTree>(boxes);
     }
     const Box around = box_around(flat_[a], flat_[b], flat_[c]);
-    int found = -1;
-    tree_->visit([&](const Box &box) { return found < 0 && overlap(box, around); },
+    bool found = false;
+    tree_->visit([&](const Box &box) { return !found && overlap(box, around); },
                  [&](int i) {
                    const int p = in_tree_[i];
                    if (!blocks_[p] || next_[p] < 0) return;
@@ -231,7 +230,7 @@ class Cutter {
                      if (flat_[p] == flat_[corner]) return;
                    const int least = sides_too ? 0 : 1;
                    if (turn(a, b, p) >= least && turn(b, c, p) >= least && turn(c, a, p) >= 0)
-                     found = p;
+                     found = true;
                  });
     return found;
   }
@@ -297,9 +296,9 @@ class Cutter {
   std::vector<Triple> cut_;
   std::vector<int> previous_, next_;    // -1: it is no longer a corner
   int left_ = 0;
-  std::vector<int> turn_of_;                 // of the whole polygon at each corner
-  std::vector<char> blocks_;                 // was its angle ever straight or larger?
-  std::vector<std::vector<int>> waiting_;    // corners that are ears but for this one
+  std::vector<int> turn_of_;    // of the whole polygon at each corner
+  std::vector<char> blocks_;    // was its angle ever straight or larger?
+  bool any_blocks_ = false;
   std::deque<Due> due_;
   std::vector<int> number_due_;
   std::unique_ptr<BoxTree> tree_;
