@@ -155,12 +155,13 @@ class Cutter {
       if (turn_of_[i] <= 0) block(i);
     }
     number_due_.assign(n_, 0);
-    // A corner on an old side of an ear is let be only where there is no other ear: the polygon touches itself.
+    // A corner on an old side of an ear, or at an end of it, is let be only where there is no other ear: the polygon
+    // touches itself there.
     for (bool sides_too = true; left_ >= 3;) {
       const int before = left_;
       for (int i = 0; i < n_; i++)
         if (next_[i] >= 0) make_due(i);
-      while (left_ >= 3 && !due_.empty() && (sides_too || left_ == before)) {
+      while (left_ >= 3 && !due_.empty()) {
         const auto [corner, number] = due_.front();
         due_.pop_front();
         if (number == number_due_[corner] && next_[corner] >= 0) try_corner(corner, sides_too);
@@ -208,8 +209,7 @@ class Cutter {
     }
   }
 
-  // Is there a corner in the triangle, but at none of its corners? If so, there is one whose angle is straight
-  // or larger.
+  // Is there another corner in the triangle? If so, there is one whose angle is straight or larger.
   bool has_corner_in(int a, int b, int c, bool sides_too)
   {
     if (!any_blocks_) return false;
@@ -226,8 +226,7 @@ class Cutter {
                  [&](int i) {
                    const int p = in_tree_[i];
                    if (!blocks_[p] || next_[p] < 0) return;
-                   for (const int corner : {a, b, c})
-                     if (flat_[p] == flat_[corner]) return;
+                   if (p == a || p == b || p == c) return;
                    const int least = sides_too ? 0 : 1;
                    if (turn(a, b, p) >= least && turn(b, c, p) >= least && turn(c, a, p) >= 0)
                      found = true;
