@@ -5,6 +5,7 @@
 
 #include "input/fill_material.h"
 #include "material/material_file.h"
+#include "tool/mesh_json.h"
 
 #include <cstdio>
 #include <memory>
@@ -20,7 +21,22 @@ const MaterialWords kWords = {"--on", "--with",
 struct Options {
   std::string file, name, wall, normal = "hertz/material", units = "si";
   std::vector<std::string> with;
+  bool json = false;
 };
+
+nlohmann::json as_json(const std::vector<MaterialSection> &sections)
+{
+  nlohmann::json all = nlohmann::json::array();
+  for (const MaterialSection &s : sections) {
+    nlohmann::json properties = nlohmann::json::object();
+    for (const Stated &v : s.stated)
+      properties[v.property->name] = {
+          {"value", v.value}, {"unit", v.property->unit}, {"source", v.source}};
+    all.push_back(
+        {{"first", s.first}, {"second", s.second}, {"place", s.place}, {"properties", properties}});
+  }
+  return all;
+}
 
 void list(const std::vector<MaterialSection> &sections)
 {
@@ -45,6 +61,12 @@ void run(const Options &o)
 {
   if (o.name.empty()) {
     const MaterialFile file = read_materials(find_material_file(o.file));
+    if (o.json) {
+      const nlohmann::json all = {{"materials", as_json(file.materials)},
+                                  {"pairs", as_json(file.pairs)}};
+      std::printf("%s\n", all.dump(2).c_str());
+      return;
+    }
     list(file.materials);
     list(file.pairs);
     return;
@@ -54,6 +76,11 @@ void run(const Options &o)
   if (!o.with.empty()) words.push_back("with");
   words.insert(words.end(), o.with.begin(), o.with.end());
   const FilledTokens filled = fill_material(words, o.units, kWords);
+  if (o.json) {
+    const nlohmann::json all = {{"words", filled.tokens}, {"report", filled.report}};
+    std::printf("%s\n", all.dump(2).c_str());
+    return;
+  }
   std::printf("%s\n", filled.report.c_str());
   print(" ", filled.tokens);
   if (!o.wall.empty()) return;
@@ -87,6 +114,7 @@ void add_material_command(Command &program)
   command.option("--with", o->with,
                  "properties and values in place of the file's, or [material] property value "
                  "where the file has none");
+  command.flag("--json", o->json, "print JSON");
   command.runs([o] { run(*o); });
 }
 

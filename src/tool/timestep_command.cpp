@@ -7,6 +7,7 @@
 #include "law/contact_time.h"
 #include "material/contact_moduli.h"
 #include "material/material_file.h"
+#include "tool/mesh_json.h"
 #include "tool/number_options.h"
 
 #include <algorithm>
@@ -32,6 +33,7 @@ struct Options {
   double speed = kNotGiven, wall_speed = 0;
   double young = kNotGiven, poisson = kNotGiven, density = kNotGiven, wall_young = kNotGiven,
          wall_poisson = kNotGiven;
+  bool json = false;
 };
 
 std::string below_a_half(const std::string &word)
@@ -60,15 +62,6 @@ struct Pair {
   const char *name, *reason;
   double modulus, mass, radius, speed;    // E*, and effective ones
 };
-
-// Prints a row and returns the timestep that it allows.
-double print_impact(const Pair &pair, double radius)
-{
-  const HertzImpact impact = hertz_impact(pair.modulus, pair.mass, pair.radius, pair.speed);
-  std::printf("%-18s %-10.4g %-14.4g %-20.3g %.4g\n", pair.name, pair.speed, impact.time,
-              impact.overlap / radius, impact.time / kStepsPerImpact);
-  return impact.time / kStepsPerImpact;
-}
 
 void run(const Options &o)
 {
@@ -105,12 +98,6 @@ void run(const Options &o)
   law.k_normal = at_wall * 4 / 3;
   const double warned = contact_time(law, mass, least, 1) / kStepsPerContact;
 
-  std::printf("smallest radius    %.6g\n", least);
-  std::printf("Rayleigh time      %.4g    %g of it: %.4g\n", rayleigh, kRayleighShare,
-              kRayleighShare * rayleigh);
-  std::printf(
-      "impact             speed      time           overlap per radius   1/%g of the time\n",
-      kStepsPerImpact);
   double dt = kRayleighShare * rayleigh;
   const char *why = "the Rayleigh time";
   const auto takes = [&](double other, const char *reason) {
@@ -122,19 +109,52 @@ void run(const Options &o)
       {"grain on grain", "the impact of grain on grain", own, mass / 2, least / 2, o.speed},
       {"grain on wall", "the impact on the wall", at_wall, mass, least, o.speed + o.wall_speed}};
   double deepest = 0;
+  std::string rows;
+  nlohmann::json impacts;
   for (const Pair &pair : pairs) {
-    takes(print_impact(pair, least), pair.reason);
     const HertzImpact impact = hertz_impact(pair.modulus, pair.mass, pair.radius, pair.speed);
-    deepest = std::max(deepest, impact.overlap / least);
+    const double overlap = impact.overlap / least, allowed = impact.time / kStepsPerImpact;
+    takes(allowed, pair.reason);
+    deepest = std::max(deepest, overlap);
+    char row[128];
+    std::snprintf(row, sizeof row, "%-18s %-10.4g %-14.4g %-20.3g %.4g\n", pair.name, pair.speed,
+                  impact.time, overlap, allowed);
+    rows += row;
+    impacts.push_back({{"of", pair.name},
+                       {"speed", pair.speed},
+                       {"time", impact.time},
+                       {"overlap_per_radius", overlap},
+                       {"timestep", allowed}});
   }
+  takes(warned, "the limit of the fix");
+  const double way = (o.speed + o.wall_speed) * dt / least, kn_own = own * 4 / 3,
+               kn_wall = at_wall * 4 / 3;
+  if (o.json) {
+    const nlohmann::json all = {{"smallest_radius", least},
+                                {"rayleigh_time", rayleigh},
+                                {"impacts", impacts},
+                                {"fix_warns_above", warned},
+                                {"timestep", dt},
+                                {"set_by", why},
+                                {"way_per_radius", way},
+                                {"hertz_kn", {{"grains", kn_own}, {"wall", kn_wall}}},
+                                {"too_soft", deepest > kDeep}};
+    std::printf("%s\n", all.dump(2).c_str());
+    return;
+  }
+  std::printf("smallest radius    %.6g\n", least);
+  std::printf("Rayleigh time      %.4g    %g of it: %.4g\n", rayleigh, kRayleighShare,
+              kRayleighShare * rayleigh);
+  std::printf(
+      "impact             speed      time           overlap per radius   1/%g of the time\n%s",
+      kStepsPerImpact, rows.c_str());
   std::printf(
       "the fix warns      above %.4g, a tenth of a contact with the wall at an overlap of 1 %%\n",
       warned);
-  takes(warned, "the limit of the fix");
   std::printf("\ntimestep           %.3g    set by %s\n", dt, why);
-  std::printf("way in a step      %.3g of the radius\n", (o.speed + o.wall_speed) * dt / least);
-  std::printf("hertz/history      kn %.6g on grains, %.6g on the wall (4/3 of E*)\n", own * 4 / 3,
-              at_wall * 4 / 3);
+  std::printf("way in a step      %.3g of the radius\n", way);
+  std::printf("hertz/history      kn %.6g on grains, %.6g on the wall (4/3 of E*)\n", kn_own,
+              kn_wall);
   if (deepest > kDeep)
     std::printf("Overlaps exceed %g of the radius: a stiffer material is needed at this speed.\n",
                 kDeep);
@@ -183,6 +203,7 @@ void add_timestep_command(Command &program)
   command.option("--density", o->density, "their density").check(above_zero);
   command.option("--wall-young", o->wall_young, "of the wall").check(above_zero);
   command.option("--wall-poisson", o->wall_poisson, "of the wall").check(below_a_half);
+  command.flag("--json", o->json, "print JSON");
   command.runs([o] { run(*o); });
 }
 

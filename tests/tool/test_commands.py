@@ -60,6 +60,11 @@ GOOD = [
     ("tradeoff wall.stl --radius 0.1 " + QUICK["tradeoff"], ["default", "rows in tradeoff.csv"]),
     ("accuracy table2 --spheres 1e5 --csv table2.csv", ["0.994025", "table2.csv"]),
     ("effects", ["hooke", "hertz", "B/contact"]),
+    # The same numbers for programs.
+    ("timestep --young 5e6 --poisson 0.25 --density 2500 --radius 0.002 --speed 1 --json",
+     {"smallest_radius": 0.002, "set_by": "the impact of grain on grain", "too_soft": True}),
+    ("material glass.lsdcd glass --on aluminium --json", {}),
+    ("effects --json", {}),
 ]
 
 NO_FILE = "No such file or directory"
@@ -159,6 +164,18 @@ def check_full_output(folder, commands):
                  "lsdcd: the standard output: " in done.stderr, (done.returncode, done.stderr[-200:]))
 
 
+def check_json(folder, commands):
+    """Every command has --json, as doc/tool.md says, but those that write CSV."""
+    for command in sorted(set(commands) - {"tradeoff", "accuracy"}):
+        words = [command, "box"] if command == "generate" else [command]
+        fact(f"{command} has --json", "--json" in run(folder, *words, "--help").stdout)
+    materials = json.loads(run(folder, "material", "glass.lsdcd", "--json").stdout)["materials"]
+    fact("values of materials have units and sources", "glass" in [material["first"] for material in materials] and
+         all(set(said) == {"value", "unit", "source"} for material in materials for said in material["properties"].values()))
+    both = [run(folder, *"material glass.lsdcd glass --on aluminium".split(), *more).stdout for more in ([], ["--json"])]
+    fact("and the words for a script are the same", " ".join(json.loads(both[1])["words"]) in both[0], both[1])
+
+
 def main():
     folder = scene()
     said = run(folder, "--help").stdout
@@ -182,15 +199,16 @@ def main():
 
     for words, wanted in GOOD:
         done = run(folder, *words.split())
-        if isinstance(wanted, dict):
+        if "--json" in words:
             all_of = json.loads(done.stdout)
-            holds = all(same(all_of[key], value) for key, value in wanted.items())
+            holds = bool(all_of) and all(same(all_of[key], value) for key, value in wanted.items())
         else:
             holds = all(text in done.stdout for text in wanted)
         fact(words, done.returncode == 0 and holds, done.stderr + done.stdout[:0 if holds else 2000])
     for words, code, wanted in BAD:
         refused(folder, words.split(), *wanted, code=code)
     check_full_output(folder, commands)
+    check_json(folder, commands)
     end()
 
 
