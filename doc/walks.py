@@ -87,7 +87,8 @@ WALKS = {
             + SEARCH_BEFORE.format(select="CudaBackend::select start_mark cuda_mark > cuda_second_look.h:operator()")
             + STEP_BEFORE.format(step="CudaBackend::step start_step cuda_step do_several"),
         "now": """
-            lsdcdkkplugin.cpp:lammpsplugin_init host_matches kokkos_matches add_plain_styles add_style create_fix
+            plugin_guard.cpp:lammpsplugin_init host_matches ask_mpi plugin_guard.cpp:kokkos_matches
+            open_styles > lsdcdkkplugin.cpp:lsdcd_add_styles lsdcdkkplugin.cpp:kokkos_matches add_plain_styles add_style create_fix
             FixWallLsdcdKokkos::FixWallLsdcdKokkos FixWallLsdcd::FixWallLsdcd > make_engine_on
             engine_cuda.cu:make_cuda_engine_in_place > FixWallLsdcd::pre_force FixWallLsdcd::begin
             FixWallLsdcdKokkos::begin_step FixWallLsdcdKokkos::spheres host_kokkos.h:rows_of Wall::begin

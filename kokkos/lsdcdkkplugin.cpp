@@ -8,30 +8,12 @@
 #include "lammps/plugin_styles.h"
 
 #include <cstdio>
-#include <dlfcn.h>
 #include <mpi.h>
 #include <sstream>
 #include <string>
 
 using LAMMPS_NS::FixWallLsdcdKokkos;
 using lsdcd::create_fix;
-
-// Where Kokkos computes, and how vectors lie in its memory, in LAMMPS's words; older ones have
-// one layout only.
-#if defined(LMP_KOKKOS_LAYOUT_DEFAULT)
-static constexpr char kLayout[] = "default";
-#elif defined(LMP_KOKKOS_LAYOUT_LEGACY)
-static constexpr char kLayout[] = "legacy";
-#else
-static constexpr char kLayout[] = "";
-#endif
-#if defined(KOKKOS_ENABLE_CUDA)
-static constexpr char kBackend[] = "cuda";
-#elif defined(KOKKOS_ENABLE_OPENMP)
-static constexpr char kBackend[] = "openmp";
-#else
-static constexpr char kBackend[] = "serial";
-#endif
 
 static std::string version_text(int version)
 {
@@ -51,45 +33,31 @@ static int version_after(const std::string &text, const std::string &name)
   return n == 1 ? part[0] : 10000 * part[0] + 100 * part[1] + part[2];
 }
 
-// What of the host's Kokkos is not what this file was compiled for; empty if all is.
-static std::string what_differs()
+// The running Kokkos, which is the host's, says what it is; versions from 3.6 on do. plugin_guard.cpp
+// has asked for the rest.
+static bool kokkos_matches()
 {
-  using Feature = int(const char *, const char *, const char *);
-  auto *has = reinterpret_cast<Feature *>(dlsym(RTLD_DEFAULT, "lammps_config_accelerator"));
-  if (!has || !has("KOKKOS", "precision", "double"))
-    return "has no KOKKOS package in double precision";
-  if (!has("KOKKOS", "api", kBackend)) return std::string("has no Kokkos backend ") + kBackend;
-  if (*kLayout && !has("KOKKOS", "layout", kLayout))
-    return std::string("has no view layout ") + kLayout;
-  // The running Kokkos, which is the host's, says what it is; versions from 3.6 on do.
-  if (!Kokkos::is_initialized()) return "";
+  if (!Kokkos::is_initialized()) return true;
   std::ostringstream configuration;
   Kokkos::print_configuration(configuration);
   const int host = version_after(configuration.str(), "Kokkos Version:");
-  if (host && host != KOKKOS_VERSION) return "has Kokkos " + version_text(host);
-  return "";
-}
-
-static bool kokkos_matches()
-{
-  const std::string differs = what_differs();
-  if (differs.empty()) return true;
+  if (!host || host == KOKKOS_VERSION) return true;
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank == 0)
-    std::fprintf(stderr,
-                 "lsdcd Kokkos plugin not loaded: it was built for Kokkos %s with the backend %s "
-                 "in double precision, this LAMMPS %s. Rebuild it against this LAMMPS: cmake -B "
-                 "build -D LSDCD_KOKKOS_HOST=<folder>, or load lsdcdplugin.so for the fix "
-                 "without /kk\n",
-                 version_text(KOKKOS_VERSION).c_str(), kBackend, differs.c_str());
+    std::fprintf(
+        stderr,
+        "lsdcd Kokkos plugin not loaded: it was built for Kokkos %s, this LAMMPS has Kokkos "
+        "%s. Rebuild it against this LAMMPS: cmake -B build -D LSDCD_KOKKOS_HOST=<its build "
+        "folder>, or load lsdcdplugin.so for the fix without /kk\n",
+        version_text(KOKKOS_VERSION).c_str(), version_text(host).c_str());
   return false;
 }
 
-extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *lmp, void *handle,
-                                                                         void *regfunc)
+extern "C" __attribute__((visibility("default"))) void lsdcd_add_styles(void *lmp, void *handle,
+                                                                        void *regfunc)
 {
-  if (!lsdcd::host_matches(lmp) || !kokkos_matches()) return;
+  if (!kokkos_matches()) return;
   lsdcd::add_plain_styles(lmp, handle, regfunc);
   const auto add = [&](const char *name, lammpsplugin_factory2 *create) {
     lsdcd::add_style("fix", lmp, handle, regfunc, name, "the same with Kokkos", create);

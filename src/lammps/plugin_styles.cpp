@@ -11,33 +11,7 @@
 
 #include "lammps.h"
 
-#include <cstdio>
-#include <dlfcn.h>
-#include <mpi.h>
-
 namespace lsdcd {
-
-bool host_matches(void *lmp)
-{
-  // The C interface is stable.
-  using VersionFunction = int(void *);
-  auto *ask = reinterpret_cast<VersionFunction *>(dlsym(RTLD_DEFAULT, "lammps_version"));
-  const int host = ask ? ask(lmp) : 0;
-  if (host == LSDCD_HOST_VERSION) return true;
-
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) {
-    char version[32] = "an unknown version";
-    if (host) std::snprintf(version, sizeof version, "version %d", host);
-    std::fprintf(stderr,
-                 "lsdcd plugin not loaded: it was built for LAMMPS version %d, this is %s. "
-                 "Rebuild it against this LAMMPS: cmake -B build -D LSDCD_HOST_INCLUDE=<its src "
-                 "or include/lammps folder>\n",
-                 LSDCD_HOST_VERSION, version);
-  }
-  return false;
-}
 
 void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const char *name,
                const char *info, lammpsplugin_factory2 *create)

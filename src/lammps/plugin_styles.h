@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What plugin files of this library share: the check of the host, and telling it styles.
+// Tells LAMMPS the styles of a plugin. plugin_guard.cpp has asked LAMMPS before whether they fit.
 #pragma once
 
 #include "fix.h"
@@ -9,11 +9,6 @@
 #include "lammps/plugin_api.h"
 
 namespace lsdcd {
-
-// LAMMPS's classes change their layout from version to version and nothing in the loader
-// compares them: a plugin of another version would crash later. Says on the first process
-// why it does not match. Touches no object of LAMMPS.
-bool host_matches(void *lmp);
 
 // Of a kind, "fix", "compute" or "region".
 void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const char *name,

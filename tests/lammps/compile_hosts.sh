@@ -47,7 +47,7 @@ compile() {
   [ -e "$headers/safe_pointers.h" ] || shims+=(-I "$root/cmake/compat/no_safe_pointers")
   for file in "$root"/src/lammps/{*,launcher/*}.cpp; do
     # shellcheck disable=SC2046
-    $cxx -std=c++17 -Wall -Wextra -Werror -fPIC -DLAMMPS_SMALLBIG -DLSDCD_HOST_VERSION="$version" -DLSDCD_PLUGINS='"lib"' \
+    $cxx -std=c++17 -Wall -Wextra -Werror -fPIC -DLAMMPS_SMALLBIG -DLSDCD_HOST_VERSION="$version" -DLSDCD_PLUGINS='"lib"' -DLSDCD_STYLES='"styles.so"' \
       -DOMPI_SKIP_MPICXX $(mpicxx --showme:compile) -I "$root/src" "${shims[@]}" \
       -isystem "$headers" -c "$file" -o "$objects/object.o" >>"$log" 2>&1 || return 1
   done

@@ -161,7 +161,8 @@ def refusals(checks, folder):
         print("SKIPPED: hosts that say their Kokkos is another (this one has no liblammps.so)")
         return
     has_layouts = "using view layout" in done.stdout
-    for name, answers, words in (("backend", "p", "this LAMMPS has no Kokkos backend"),
+    for name, answers, words in (("precision", "", "this LAMMPS has no KOKKOS package in double precision"),
+                                 ("backend", "p", "this LAMMPS has no Kokkos backend"),
                                  ("layout", "pa", "this LAMMPS has no view layout")):
         if name == "layout" and not has_layouts:
             continue    # older LAMMPS have one only

@@ -46,6 +46,19 @@ def main():
     # Newer hosts keep their plugins through clear.
     came = text.count("Loading plugin: fix wall/lsdcd") + text.count("Restoring plugin: fix wall/lsdcd")
     checks.fact("load, clear, load, unload", came == 2 and "loaded plugins: 0" in text)
+    # The second time the file is found by a path from another folder, and is in memory already.
+    own = folder / "own"
+    own.mkdir()
+    for file in (PLUGIN, PLUGIN.with_name(PLUGIN.stem + "-styles.so")):
+        (own / file.name.replace(PLUGIN.stem, "lsdcdplugin")).symlink_to(file)
+    unload = "".join(f"plugin unload {style}/lsdcd\n" for style in
+                     ("fix wall", "fix massflow", "fix insert", "region mesh"))
+    text = lmp.run_well("plugin load own/lsdcdplugin.so\n" + unload + "plugin unload compute lsdcd/collide\n"
+                        "shell cd own\nplugin load ./lsdcdplugin.so\nshell cd ..\n" + body, folder)
+    checks.fact("loaded by another relative path after it was unloaded",
+                text.count("Loading plugin: fix wall/lsdcd") == 2)
+    text = lmp.run_well(body, folder, env={"LAMMPS_PLUGIN_PATH": str(own)})
+    checks.fact("LAMMPS_PLUGIN_PATH counts its two files as one plugin", f"Loaded 1 plugins from {own}" in text)
     checks.fact("on 2 ranks", "Loop time" in lmp.run_well(f"plugin load {PLUGIN}\n" + body, folder, 2))
     checks.done(folder)
 
