@@ -234,6 +234,13 @@ CASES = {
         "At folds of 1e-6 degrees and more the force changes as smoothly as that of one wall, with the position and with the\n"
         "  angle. In right-angled and sharper corners the forces add up.",
         "[test_nearly_flat](../tests/physics/test_nearly_flat.cpp)."),
+    "Funnels and cones": (
+        "Funnels and cones", "funnels",
+        "Where many walls bear a sphere, which of them do changes at once as it moves, and the force jumps.",
+        "In cones of 3 to 12 planes, equal or random and up to 85 degrees steep, the force of Hooke and of Hertz springs\n"
+        "  follows the position without a jump. A sphere that bounces in a funnel keeps its energy, to some 0.2 % a bounce at random where 7 planes\n"
+        "  and more bear it.",
+        "[test_funnels](../tests/physics/test_funnels.cpp)."),
     "Drum": (
         "A drum of flat segments", "drum",
         "A drum of flat segments is rough: a sphere hops at each fold and loses energy.",
@@ -305,6 +312,8 @@ GROUPS = {
                          ("normal force, gaps and steps of 1e-7", r"F/F0 - 1"), ("force along it, the same", r"Ft")],
     "Convex edges, corners and tips": [("contacts", "contacts"), ("direction after a drop / speed", "mirrored"), ("force / F", "F/F0")],
     "Nearly flat": [("change of force / that of one wall", r"\|dF\|"), ("sum of two or three walls", r"F/")],
+    "Funnels and cones": [("jump of the force / F", "of a step"), ("the same, a plane moved by 2e-12 R", "moved"),
+                          ("energy, bouncing", "bounces")],
     "Drum": [("force / that of the polygon", "F_polygon"), ("roughness", "rms"), ("energy, sliding, 1/s", "sliding"),
              ("energy lost by rolling, beyond the polygon", "polygon's own"), ("beyond a smooth drum", "smooth cylinder's"),
              ("the same with `corner sum`", "corner sum")],

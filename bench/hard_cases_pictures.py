@@ -82,6 +82,19 @@ def folds(p):
         p.text(1.25, 0.6, "stiffness 2 k")
 
 
+def funnels(p):
+    p.wall((-1.5, 0.9), (-0.45, -0.8), (0.45, -0.8), (1.5, 0.9))
+    p.wall((-0.8, 0.9), (-0.25, -0.8))
+    p.wall((0.8, 0.9), (0.25, -0.8))
+    p.sphere(0, 0.1, 0.62)
+    for side in (-1, 1):
+        if p.right or side < 0:
+            p.arrow((0.55 * side, -0.2), (0.12 * side, 0.06))
+        if p.right or side > 0:
+            p.arrow((0.3 * side, -0.42), (0.08 * side, -0.05))
+    p.text(-1.45, -0.45, "all bear" if p.right else "now these,\nthen others")
+
+
 def polygon(n, radius, centre, begin=195, end=345):
     angles = [math.radians(begin + (end - begin) * i / n) for i in range(n + 1)]
     return [(centre[0] + radius * math.cos(a), centre[1] + radius * math.sin(a)) for a in angles]
@@ -191,7 +204,7 @@ def random_meshes(p):
     p.text(0, -0.85, "each contact is found" if p.right else "one is missed")
 
 
-SKETCHES = dict(seams=seams, convex=convex, folds=folds, drum=drum, springs=springs, rolling=rolling, bouncing=bouncing,
+SKETCHES = dict(seams=seams, convex=convex, folds=folds, funnels=funnels, drum=drum, springs=springs, rolling=rolling, bouncing=bouncing,
                 belt=belt, energy=energy, timestep=timestep, fast=fast, bad_meshes=bad_meshes, random=random_meshes)
 
 

@@ -15,11 +15,19 @@ LSDCD_FN Real one_minus_cos(const Vec3 &a, const Vec3 &b)
 }
 
 // Weights w_i = l_i / d_i where l solves
-//   minimise 1/2 l'Gl - d'l  subject to l >= 0,  G_ij = max(0, n_i . n_j),
-// with overlaps d_i = radius - distance_i > 0. Right-angled or sharper corners
-// give w = 1 exactly, parallel duplicates weights that sum to 1, and everything
-// between is continuous. Solved exactly by an active set: a contact enters while
-// the gradient d_i - (Gl)_i is positive, and leaves when its l would be negative.
+//   minimise 1/2 l'Gl - d'l + s/2 sum m_i (l_i / d_i - 1 / m_i)^2  subject to l >= 0,
+// with overlaps d_i = radius - distance_i > 0 and m_i = sum_j G_ij d_j / d_i, how many times contact i is covered.
+// G_ii = 1, and G_ij, the cover of two contacts, is the cosine between their normals, or 0 where that is negative:
+// contacts at right and sharper angles have w = 1 exactly. The weights of parallel duplicates sum to 1.
+//
+// The cover is less than the cosine by up to kLess, so that contacts whose normals depend on each other have one
+// solution. Where many walls surround a sphere the problem is not convex without its last term: s is twice what makes
+// it so, and kLeast of the largest d_i^2 at least. So it is strictly convex and changes continuously with overlaps and
+// normals, and so does its solution. Where s is the least the force of Hooke springs is the gradient of an energy
+// (doc/theory.md).
+//
+// Solved exactly by an active set: a contact enters while its gradient is positive, and leaves when its l would be
+// negative.
 //
 // A closest point that lies in the tangent plane of another contact bears nothing: its gradient is
 // (s - h) (R - s - h) / s, where s and h are the two distances. Where the two closest points are close,
@@ -33,20 +41,17 @@ class CornerRule {
   {
     for (int i = 0; i < set.n; i++) weight[i] = 1;
     if (set.n < 2) return;
-    bool apart = true;
     n_ = 0;
     for (int i = 0; i < set.n; i++) {
-      if (lies_in_tangent_plane(set, radius, i, tolerance)) {
+      if (lies_in_tangent_plane(set, radius, i, tolerance))
         weight[i] = 0;
-        continue;
-      }
-      for (int k = 0; k < n_ && apart; k++) apart = dot(set.normal[i], set.normal[used_[k]]) <= 0;
-      used_[n_++] = i;
+      else
+        used_[n_++] = i;
     }
-    if (apart) return;
+    leave_out_apart(set);
     if (n_ == 2)
       solve_two(set, radius, weight, used_[0], used_[1]);
-    else
+    else if (n_ > 2)
       solve_many(set, radius, weight);
   }
 
@@ -65,15 +70,39 @@ class CornerRule {
     return false;
   }
 
+  // Contacts that share with no other one keep the weight 1.
+  LSDCD_FN void leave_out_apart(const ContactSet<kPlaces> &set)
+  {
+    int n_sharing = 0;
+    for (int k = 0; k < n_; k++) {
+      shares_[k] = false;
+      for (int p = 0; p < k; p++)
+        if (dot(set.normal[used_[k]], set.normal[used_[p]]) > 0) shares_[k] = shares_[p] = true;
+    }
+    for (int k = 0; k < n_; k++)
+      if (shares_[k]) used_[n_sharing++] = used_[k];
+    n_ = n_sharing;
+  }
+
   // A share is rounded by the largest overlap's bits, which may be more than a much
   // smaller one has.
   LSDCD_FN static Real at_most_one(Real weight) { return weight > 1 ? Real(1) : weight; }
 
+  // One minus the cover of two contacts whose normals make less than a right angle. Cover is a positive definite
+  // function of the angle, as it is a sum of powers of the cosine; for parallel normals it is 1.
+  LSDCD_FN static Real uncovered(const Vec3 &a, const Vec3 &b)
+  {
+    const Real u = one_minus_cos(a, b);
+    return u + kLess * (1 - u) * (kNarrow * u / (1 + kNarrow * u));
+  }
+
+  // Without the last term: with it the force would differ by sqrt(2 kLeast) of the overlap at most, and that
+  // only where normals are that close.
   LSDCD_FN static void solve_two(const ContactSet<kPlaces> &set, Real radius, Real *weight, int a,
                                  int b)
   {
     const Real d0 = radius - set.distance[a], d1 = radius - set.distance[b];
-    const Real u = one_minus_cos(set.normal[a], set.normal[b]), g = 1 - u;
+    const Real u = uncovered(set.normal[a], set.normal[b]), g = 1 - u;
     // The gradients when only the other contact is active, computed without cancellation.
     const Real g0 = (d0 - d1) + u * d1, g1 = (d1 - d0) + u * d0;
     if (g1 <= 0 && g0 <= 0) {    // parallel and equally deep, to the last bits
@@ -89,16 +118,14 @@ class CornerRule {
     }
   }
 
-  // The active contacts' rows of G are kept as a Cholesky factor, so that adding
-  // one costs a forward substitution; leaving is rare and factors afresh.
+  // The active contacts' rows of the matrix are kept as a Cholesky factor, so that adding
+  // one costs a forward substitution; leaving is rare and factors those behind it afresh.
   LSDCD_FN void solve_many(const ContactSet<kPlaces> &set, Real radius, Real *weight)
   {
     const int n = n_;
+    make_convex(set, radius);
     n_active_ = 0;
-    for (int k = 0; k < n; k++) {
-      l_[used_[k]] = 0;
-      refused_[used_[k]] = false;
-    }
+    for (int k = 0; k < n; k++) l_[used_[k]] = 0;
     // Each round adds one contact. The objective falls strictly, so that no active set
     // occurs twice. The bound is a guard against round-off.
     for (int round = 0; round < 4 * n + 8; round++) {
@@ -106,27 +133,63 @@ class CornerRule {
       Real steepest = 0;
       for (int k = 0; k < n; k++) {
         const int i = used_[k];
-        if (is_active(i) || refused_[i]) continue;
-        const Real slope = gradient(set, radius, i);
-        const Real d = radius - set.distance[i];
-        if (slope > kTiny * d && slope > steepest) {
+        if (is_active(i)) continue;
+        const Real slope = gradient(set, i);
+        if (slope > kTiny * pull_[i] && slope > steepest) {
           steepest = slope;
           enter = i;
         }
       }
       if (enter < 0) break;
-      bool is_in = push(set, enter);
-      while (!is_in && make_room(set, enter)) is_in = push(set, enter);
-      if (!is_in) {    // only by round-off: it replaces no other contact
-        refused_[enter] = true;
-        continue;
+      push(set, enter);
+      while (!step(set)) {
       }
-      while (!step(set, radius)) {
-      }
-      for (int k = 0; k < n; k++) refused_[used_[k]] = false;
     }
     for (int k = 0; k < n; k++)
       weight[used_[k]] = at_most_one(l_[used_[k]] / (radius - set.distance[used_[k]]));
+  }
+
+  // Chooses s. The matrix scaled to m_i = 1 has the row sums d_i^2, so that s = max d_i^2 is always enough.
+  LSDCD_FN void make_convex(const ContactSet<kPlaces> &set, Real radius)
+  {
+    Real deepest = 0;
+    for (int k = 0; k < n_; k++) {
+      const Real d = radius - set.distance[used_[k]];
+      Real covered = 0;
+      for (int p = 0; p < n_; p++)
+        covered += cover(set, used_[k], used_[p]) * (radius - set.distance[used_[p]]);
+      times_[used_[k]] = covered / d;
+      deepest = d > deepest ? d : deepest;
+    }
+    const Real most = deepest * deepest, least = kLeast * most;
+    Real low = least / 2, high = low;
+    if (!is_convex(set, radius, low)) {
+      high = most;
+      for (int round = 0; round < kHalvings; round++) {
+        const Real middle = (low + high) / 2;
+        (is_convex(set, radius, middle) ? high : low) = middle;
+      }
+    }
+    add_ridge(set, radius, 2 * high);
+  }
+
+  LSDCD_FN void add_ridge(const ContactSet<kPlaces> &set, Real radius, Real s)
+  {
+    for (int k = 0; k < n_; k++) {
+      const int i = used_[k];
+      const Real d = radius - set.distance[i];
+      stiff_[i] = 1 + s * times_[i] / (d * d);
+      pull_[i] = d + s / d;
+    }
+  }
+
+  LSDCD_FN bool is_convex(const ContactSet<kPlaces> &set, Real radius, Real s)
+  {
+    add_ridge(set, radius, s);
+    n_active_ = 0;
+    for (int k = 0; k < n_; k++)
+      if (!push(set, used_[k])) return false;
+    return true;
   }
 
   LSDCD_FN Real &at(int row, int column) { return factor_[row * (row + 1) / 2 + column]; }
@@ -138,88 +201,54 @@ class CornerRule {
     return false;
   }
 
-  LSDCD_FN static Real overlap_cos(const ContactSet<kPlaces> &set, int i, int j)
+  LSDCD_FN static Real cover(const ContactSet<kPlaces> &set, int i, int j)
   {
     if (i == j) return 1;
     if (dot(set.normal[i], set.normal[j]) <= 0) return 0;
-    return 1 - one_minus_cos(set.normal[i], set.normal[j]);
+    return 1 - uncovered(set.normal[i], set.normal[j]);
   }
 
-  LSDCD_FN Real gradient(const ContactSet<kPlaces> &set, Real radius, int i) const
+  LSDCD_FN Real gradient(const ContactSet<kPlaces> &set, int i) const
   {
-    Real slope = radius - set.distance[i];
-    for (int k = 0; k < n_active_; k++) slope -= overlap_cos(set, i, active_[k]) * l_[active_[k]];
+    Real slope = pull_[i];
+    for (int k = 0; k < n_active_; k++) slope -= cover(set, i, active_[k]) * l_[active_[k]];
     return slope;
   }
 
-  // Appends a row to the factor; false if G would become singular.
+  // Appends a row to the factor; false if the matrix is not positive definite.
   LSDCD_NOINLINE bool push(const ContactSet<kPlaces> &set, int i)
   {
     const int m = n_active_;
-    Real pivot = 1;
+    Real pivot = stiff_[i];
     for (int k = 0; k < m; k++) {
-      Real sum = overlap_cos(set, i, active_[k]);
+      Real sum = cover(set, i, active_[k]);
       for (int p = 0; p < k; p++) sum -= at(m, p) * at(k, p);
       at(m, k) = sum / at(k, k);
       pivot -= at(m, k) * at(m, k);
     }
-    if (!(pivot > kTiny)) return false;
-    at(m, m) = sqrt(pivot);
+    const Real round_off = kTiny * stiff_[i];
+    const bool positive = pivot > round_off;
+    at(m, m) = sqrt(positive ? pivot : round_off);
     active_[n_active_++] = i;
-    return true;
+    return positive;
   }
 
-  // The normal of contact i is a combination of the active ones, to rounding. Its share grows while
-  // theirs change so that the sum stays, which lowers the energy, until one of them is 0
-  // and leaves. False if none shrinks. Call this right after push(i) has failed.
-  LSDCD_FN bool make_room(const ContactSet<kPlaces> &set, int i)
-  {
-    const int m = n_active_;
-    for (int k = m - 1; k >= 0; k--) {    // coefficients, from the row of push()
-      target_[k] = at(m, k);
-      for (int p = k + 1; p < m; p++) target_[k] -= at(p, k) * target_[p];
-      target_[k] /= at(k, k);
-    }
-    int leaving = -1;
-    Real most = 0;
-    for (int k = 0; k < m; k++) {
-      if (!(target_[k] > kTiny)) continue;
-      const Real max_step = l_[active_[k]] / target_[k];
-      if (leaving < 0 || max_step < most) {
-        most = max_step;
-        leaving = k;
-      }
-    }
-    if (leaving < 0) return false;
-    l_[i] += most;
-    for (int k = 0; k < m; k++) {
-      const Real rest = l_[active_[k]] - most * target_[k];
-      l_[active_[k]] = rest > 0 ? rest : 0;
-    }
-    leave(set, leaving);
-    return true;
-  }
-
-  // Removes the k-th active contact and factors the others again.
+  // Removes the k-th active contact and factors those behind it again.
   LSDCD_NOINLINE void leave(const ContactSet<kPlaces> &set, int leaving)
   {
     const int m = n_active_;
-    int n_kept = 0;
-    for (int k = 0; k < m; k++)
-      if (k != leaving) kept_[n_kept++] = active_[k];
     l_[active_[leaving]] = 0;
-    n_active_ = 0;
-    for (int k = 0; k < n_kept; k++)
-      if (!push(set, kept_[k])) l_[kept_[k]] = 0;
+    n_active_ = leaving;
+    for (int k = leaving + 1; k < m; k++) push(set, active_[k]);
   }
 
   // Moves l towards the solution on the active set. If l >= 0 stops it on the way, it drops the
   // contact whose l became 0 and returns false. True: l is the solution.
-  LSDCD_FN bool step(const ContactSet<kPlaces> &set, Real radius)
+  LSDCD_FN bool step(const ContactSet<kPlaces> &set)
   {
     const int m = n_active_;
     for (int k = 0; k < m; k++) {
-      Real sum = radius - set.distance[active_[k]];
+      Real sum = pull_[active_[k]];
       for (int p = 0; p < k; p++) sum -= at(k, p) * target_[p];
       target_[k] = sum / at(k, k);
     }
@@ -250,15 +279,21 @@ class CornerRule {
     return n_active_ == 0;
   }
 
-  // A pivot or a slope below this is round-off. Ignoring such a slope changes the force by at most
-  // sqrt(2 kTiny) of the overlap.
+  // A pivot or a slope below this is round-off.
   static constexpr Real kTiny = 5e-15;
+  // Least s, as a part of the largest d^2. Pivots are at least half of it, far above round-off.
+  static constexpr Real kLeast = 1e-12;
+  // Cover is less than the cosine by kLess, but for angles below sqrt(2 / kNarrow).
+  static constexpr Real kLess = 1e-6, kNarrow = 100;
+  static constexpr int kHalvings = 40;
 
-  int n_ = 0;    // contacts that take part
+  int n_ = 0;    // contacts that share with others
   int used_[kPlaces];
   int n_active_ = 0;
-  int active_[kPlaces], kept_[kPlaces];
-  bool refused_[kPlaces];
+  int active_[kPlaces];
+  bool shares_[kPlaces];
+  Real times_[kPlaces], stiff_[kPlaces],
+      pull_[kPlaces];    // m; diagonal and right side of the problem
   Real l_[kPlaces], target_[kPlaces];
   Real factor_[kPlaces * (kPlaces + 1) / 2];    // lower triangle, row by row
 };

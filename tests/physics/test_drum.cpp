@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A drum of n flat segments against the polygon's own answer and the smooth cylinder's.
+#include "support/cover.h"
 #include "support/hard_case.h"
 #include "support/laws.h"
 #include "support/meshes.h"
@@ -27,7 +28,7 @@ TriangleSoup drum_mesh(int n)
 // ---- the reference: a disc at a regular polygon, in long double ---------------------------
 //
 // "The polygon's own exact answer" is that of a disc in the plane whose potential is
-// 1/2 k times the least of 1/2 l'Gl - d'l, negated and doubled, over the sides that
+// 1/2 k times the least of 1/2 l'Gl - d'l, negated and doubled, with the covers G, over the sides that
 // it overlaps and whose closest point is on them; for two sides that is a closed form.
 // Nothing of the core is used: sides come from angles, weights from Cramer's rule,
 // and the disc has one tangential spring, whatever side it is on.
@@ -67,7 +68,7 @@ std::vector<Touch> touches(int n, bool inside, Wide x, Wide z)
   }
   if (out.size() == 2) {
     Touch &a = out[0], &b = out[1];
-    const Wide g = std::fmax(Wide(0), a.nx * b.nx + a.nz * b.nz);
+    const Wide g = cover_of(a.nx * b.nx + a.nz * b.nz);
     const Wide la = (a.overlap - g * b.overlap) / (1 - g * g);
     const Wide lb = (b.overlap - g * a.overlap) / (1 - g * g);
     a.weight = lb <= 0 ? 1 : std::fmax(Wide(0), la) / a.overlap;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Rolling: down inclines, along grooves, over seams and over the tip of a cone.
+#include "support/cover.h"
 #include "support/hard_case.h"
 #include "support/laws.h"
 #include "support/meshes.h"
@@ -185,9 +186,12 @@ TEST(groove, is_rolled_along_on_both_its_walls)
     expect_answer({"Rolling", "03a", std::string(where) + ": acceleration along it"}, answer,
                   r.acceleration, 1e-9 * answer,
                   "walls lean by a rounding, 2e-16, and overlaps round by 2e-12 of themselves");
-    expect_at_most({"Rolling", "03b", std::string(where) + ": lift at seams over R"},
-                   r.lift / kRadius, 1e-12,
-                   "height follows from R and sin a, a few roundings, and the damped spring");
+    expect_at_most(
+        {"Rolling", "03b", std::string(where) + ": lift at seams over R"}, r.lift / kRadius,
+        1e-12 + 2 * kLessCovered * n / kStiffness / kRadius,
+        "height follows from R and sin a, a few roundings, and the damped spring, which swings "
+        "about a "
+        "height lower by up to 1e-6 of the overlap, as cover is less than the cosine by that");
     expect_at_most({"Rolling", "03c", std::string(where) + ": drift aside over R"},
                    r.aside / kRadius, 1e-12, "none by symmetry");
   }

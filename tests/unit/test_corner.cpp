@@ -3,6 +3,7 @@
 
 // The corner rule against every subset of active contacts, tried in quad precision.
 #include "contact/corner.h"
+#include "support/cover.h"
 #include "support/random.h"
 
 #include <gtest/gtest.h>
@@ -61,15 +62,14 @@ Quad quad_root(Quad a)
 }
 
 // Normals are unit to a rounding only, which would outweigh angles of 1e-8.
-Matrix gram(const Contacts &c)
+Matrix covers(const Contacts &c)
 {
   Matrix g(c.n(), std::vector<Quad>(c.n()));
   for (int i = 0; i < c.n(); i++)
     for (int j = 0; j < c.n(); j++) {
       const Quad size = quad_root(quad_dot(c.normal[i], c.normal[i])) *
                         quad_root(quad_dot(c.normal[j], c.normal[j]));
-      const Quad cosine = i == j ? Quad(1) : quad_dot(c.normal[i], c.normal[j]) / size;
-      g[i][j] = cosine > 0 ? cosine : Quad(0);
+      g[i][j] = i == j ? Quad(1) : cover_of(quad_dot(c.normal[i], c.normal[j]) / size);
     }
   return g;
 }
@@ -81,12 +81,70 @@ std::vector<Quad> overlaps(const Contacts &c)
   return d;
 }
 
-Quad energy(const Matrix &g, const std::vector<Quad> &d, const std::vector<Quad> &l)
+// minimise 1/2 l'A l - b'l
+struct Problem {
+  Matrix a;
+  std::vector<Quad> b;
+  Quad s;
+};
+
+// With the last term's factor s.
+Problem with_ridge(const Matrix &g, const std::vector<Quad> &d, Quad s)
+{
+  Problem p = {g, d, s};
+  for (std::size_t i = 0; i < d.size(); i++) {
+    Quad times = 0;
+    for (std::size_t j = 0; j < d.size(); j++) times += g[i][j] * d[j] / d[i];
+    p.a[i][i] += s * times / (d[i] * d[i]);
+    p.b[i] += s / d[i];
+  }
+  return p;
+}
+
+bool is_positive_definite(Matrix a)
+{
+  const int n = static_cast<int>(a.size());
+  for (int k = 0; k < n; k++) {
+    if (!(a[k][k] > 0)) return false;
+    for (int i = k + 1; i < n; i++) {
+      const Quad f = a[i][k] / a[k][k];
+      for (int j = k + 1; j < n; j++) a[i][j] -= f * a[k][j];
+    }
+  }
+  return true;
+}
+
+Problem problem(const Contacts &c)
+{
+  // Contacts that share with no other take no part: they would not change the others' s.
+  const Matrix g = covers(c);
+  const std::vector<Quad> d = overlaps(c);
+  Quad most = 0;
+  int n_sharing = 0;
+  for (int i = 0; i < c.n(); i++) {
+    bool shares = false;
+    for (int j = 0; j < c.n(); j++) shares = shares || (j != i && g[i][j] > 0);
+    n_sharing += shares;
+    if (shares && d[i] * d[i] > most) most = d[i] * d[i];
+  }
+  if (n_sharing == 2) return {g, d, 0};    // without the last term
+  Quad low = Quad(1e-12) * most / 2, high = low;
+  if (!is_positive_definite(with_ridge(g, d, low).a)) {
+    high = most;
+    for (int halving = 0; halving < 60; halving++) {
+      const Quad middle = (low + high) / 2;
+      (is_positive_definite(with_ridge(g, d, middle).a) ? high : low) = middle;
+    }
+  }
+  return with_ridge(g, d, 2 * high);
+}
+
+Quad energy(const Problem &p, const std::vector<Quad> &l)
 {
   Quad e = 0;
   for (std::size_t i = 0; i < l.size(); i++) {
-    e -= d[i] * l[i];
-    for (std::size_t j = 0; j < l.size(); j++) e += l[i] * g[i][j] * l[j] / 2;
+    e -= p.b[i] * l[i];
+    for (std::size_t j = 0; j < l.size(); j++) e += l[i] * p.a[i][j] * l[j] / 2;
   }
   return e;
 }
@@ -121,31 +179,6 @@ bool solve_subset(const Matrix &g, const std::vector<Quad> &d, unsigned subset,
   return true;
 }
 
-// Is G positive semidefinite? Then the minimum is one, and so is its force. (It
-// need not be: cutting cosines off at 0 can make it indefinite.)
-bool is_convex(Matrix g)
-{
-  const int n = static_cast<int>(g.size());
-  std::vector<bool> done(n, false);
-  for (int step = 0; step < n; step++) {
-    int k = -1;
-    for (int i = 0; i < n; i++)
-      if (!done[i] && (k < 0 || g[i][i] > g[k][k])) k = i;
-    if (g[k][k] < -1e-26) return false;
-    if (g[k][k] < 1e-26) {
-      for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++)
-          if (!done[i] && !done[j] && fabs(static_cast<double>(g[i][j])) > 1e-13) return false;
-      return true;
-    }
-    done[k] = true;
-    for (int i = 0; i < n; i++)
-      for (int j = 0; j < n; j++)
-        if (!done[i] && !done[j]) g[i][j] -= g[i][k] * g[k][j] / g[k][k];
-  }
-  return true;
-}
-
 struct Best {
   bool found = false;
   Quad energy = 0;
@@ -155,16 +188,15 @@ struct Best {
 // The least energy among all subsets that give no negative l.
 Best try_all(const Contacts &c)
 {
-  const Matrix g = gram(c);
-  const std::vector<Quad> d = overlaps(c);
+  const Problem p = problem(c);
   Best best;
   std::vector<Quad> l;
   for (unsigned subset = 1; subset < 1u << c.n(); subset++) {
-    if (!solve_subset(g, d, subset, l)) continue;
+    if (!solve_subset(p.a, p.b, subset, l)) continue;
     bool allowed = true;
     for (Quad x : l) allowed = allowed && x >= 0;
     if (!allowed) continue;
-    const Quad e = energy(g, d, l);
+    const Quad e = energy(p, l);
     if (best.found && e >= best.energy) continue;
     best.found = true;
     best.energy = e;
@@ -184,15 +216,17 @@ Real largest_overlap(const Contacts &c)
 // left: the energy is then above the least by kShare d^2 at most, and as it is
 // strictly convex in the force, the force is off by sqrt(2 kShare) d.
 constexpr Real kShare = 1e-14;
+// Least s, over the largest d^2.
+constexpr Real kLeast = 1e-12;
 
 struct Off {
-  Real slope = 0, force = 0;    // largest, over the overlap
+  Real slope = 0, force = 0;    // largest: over what is allowed; over the overlap
 };
 
 void check(const Contacts &c, Off &off)
 {
   const Solved s = solve(c);
-  const Matrix g = gram(c);
+  const Problem p = problem(c);
   const std::vector<Quad> d = overlaps(c);
   const Real size = largest_overlap(c);
   std::vector<Quad> l(c.n());
@@ -203,14 +237,18 @@ void check(const Contacts &c, Off &off)
   }
   Real slope = 0;
   for (int i = 0; i < c.n(); i++) {
-    Quad r = d[i];
-    for (int j = 0; j < c.n(); j++) r -= g[i][j] * l[j];
+    Quad r = p.b[i];
+    for (int j = 0; j < c.n(); j++) r -= p.a[i][j] * l[j];
     // A contact in use has to be at rest, except where its share is round-off.
-    const Real left = static_cast<Real>(r > 0 ? r : -r * (l[i] < d[i] ? l[i] / d[i] : Quad(1)));
-    slope = std::fmax(slope, left / size);
+    const Quad left = r > 0 ? r : -r * (l[i] < d[i] ? l[i] / d[i] : Quad(1));
+    Quad allowed = kShare * std::max(p.b[i], Quad(size));
+    // Where s is more than the least it is found to 2^-40 of the largest d^2, and taken twice. The slope
+    // has the term s / d_i (1 - m_i w_i).
+    if (p.s > 2 * kLeast * size * size)
+      allowed += std::ldexp(size * size, -39) / d[i] * (1 + (p.a[i][i] - 1) * d[i] / p.s * l[i]);
+    slope = std::fmax(slope, static_cast<Real>(left / allowed));
   }
   off.slope = std::fmax(off.slope, slope);
-  if (!is_convex(g)) return;
   const Best best = try_all(c);
   ASSERT_TRUE(best.found);
   off.force = std::fmax(off.force, norm(s.force - best.force) / size);
@@ -218,8 +256,8 @@ void check(const Contacts &c, Off &off)
 
 void expect_exact(const Off &off)
 {
-  std::printf("  slope %.2g, force %.2g of the overlap\n", off.slope, off.force);
-  EXPECT_LE(off.slope, kShare);
+  std::printf("  slope %.2g of what is allowed, force %.2g of the overlap\n", off.slope, off.force);
+  EXPECT_LE(off.slope, 1);
   EXPECT_LE(off.force, std::sqrt(2 * kShare));
 }
 
@@ -241,7 +279,7 @@ TEST(corner, random_contacts_are_solved_exactly)
   Random random(1);
   for (int n = 2; n <= 8; n++) {
     Off off;
-    for (int k = 0; k < 1000; k++) {
+    for (int k = 0; k < 200; k++) {
       Contacts c;
       for (int i = 0; i < n; i++) {
         c.normal.push_back(random_unit(random));
@@ -260,7 +298,7 @@ TEST(corner, contacts_of_a_bowl_are_solved_exactly)
   Random random(2);
   for (int n = 2; n <= 8; n++) {
     Off off;
-    for (int k = 0; k < 1000; k++) {
+    for (int k = 0; k < 200; k++) {
       const Real spread = std::pow(10., uniform(random, -1.5, -0.3));
       check(cluster(random, n, spread, spread * spread * uniform(random, 0, 2)), off);
     }
@@ -274,7 +312,7 @@ TEST(corner, nearly_parallel_contacts_are_solved_exactly)
   for (Real spread : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 3e-7, 1e-7, 1e-8, 1e-9}) {
     Off off;
     for (int n = 2; n <= 7; n++)
-      for (int k = 0; k < 200; k++)
+      for (int k = 0; k < 60; k++)
         check(cluster(random, n, spread, k % 3 == 0 ? 0 : spread * spread * uniform(random, 0, 2)),
               off);
     expect_exact(off);
@@ -285,7 +323,7 @@ TEST(corner, bundles_of_nearly_parallel_contacts_are_solved_exactly)
 {
   Random random(4);
   Off off;
-  for (int k = 0; k < 1000; k++) {
+  for (int k = 0; k < 300; k++) {
     const Real spread = std::pow(10., uniform(random, -9, -1));
     Contacts c = cluster(random, 3, spread, spread);
     const Contacts other = cluster(random, 3, spread, spread);
@@ -357,22 +395,26 @@ TEST(corner, deeper_of_parallel_contacts_takes_it_all)
   const Contacts c = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, {0.02, 0.03, 0.01}};
   const Solved s = solve(c);
   EXPECT_EQ(s.weight[0], 0);
-  EXPECT_EQ(s.weight[1], 1);
+  // It is covered 1 + 2/3 + 1/3 times, which pulls its weight to 1/2 by kLeast.
+  EXPECT_NEAR(s.weight[1], 1, 2 * kLeast);
   EXPECT_EQ(s.weight[2], 0);
 }
 
 TEST(corner, concave_edge_has_the_weights_of_the_closed_form)
 {
-  // Equal overlaps d at an angle a: l = d / (1 + cos a) each.
+  // Equal overlaps d at an angle a: l = d / (1 + cover) each.
   for (Real degrees : {1e-6, 1e-3, 1., 30., 60., 89.}) {
     const Real a = degrees * M_PI / 180;
     const Contacts c = {{{0, 0, 1}, {std::sin(a), 0, std::cos(a)}}, {0.1, 0.1}};
     const Solved s = solve(c);
     // The two slopes are differences of equal overlaps: u d, good to roundings
     // of the normals, kRoundoff, over a^2/2; what they share is not affected.
-    const Real each = 1 / (1 + std::cos(a)), rounding = 8 * kRoundoff / (a * a) + 8 * kRoundoff;
+    const Real each = 1 / (1 + cover_of(std::cos(a))),
+               rounding = 8 * kRoundoff / (a * a) + 8 * kRoundoff;
     EXPECT_NEAR(s.weight[0] + s.weight[1], 2 * each, 16 * kRoundoff);
     EXPECT_NEAR(s.weight[0], each, rounding);
+    // What versions before 0.10.0 gave.
+    EXPECT_NEAR(each, 1 / (1 + std::cos(a)), kLessCovered);
   }
 }
 
@@ -436,28 +478,93 @@ TEST(corner, sixty_four_contacts_of_a_fine_bowl_are_one)
     f += weight[i] * d * set.normal[i];
   }
   EXPECT_NEAR(f.z / d, 1, 0.02 * 0.02);
-  for (int i = 0; i < 64; i++) EXPECT_LE(d - dot(set.normal[i], f), 1e-12 * d);
+  // Cover is less than the cosine by kLess kNarrow u at most, and u = 1 - cos(0.04).
+  for (int i = 0; i < 64; i++) EXPECT_LE(d - dot(set.normal[i], f), 1e-6 * 100 * 8e-4 * d);
 }
 
-TEST(corner, sixty_four_random_contacts_reach_a_minimum)
+TEST(corner, sixty_four_random_contacts_reach_the_minimum)
 {
   Random random(9);
-  for (int k = 0; k < 200; k++) {
+  for (int k = 0; k < 2; k++) {
     Contacts c;
     for (int i = 0; i < 64; i++) {
       c.normal.push_back(random_unit(random));
       c.overlap.push_back(uniform(random, 1e-3, 0.3));
     }
     const Solved s = solve<64>(c);
-    const Matrix g = gram(c);
+    const Problem p = problem(c);
     const std::vector<Quad> d = overlaps(c);
     for (int i = 0; i < 64; i++) {
       ASSERT_GE(s.weight[i], 0);
-      Quad r = d[i];
-      for (int j = 0; j < 64; j++) r -= g[i][j] * Quad(s.weight[j]) * d[j];
-      // 64 roundings of terms up to the largest overlap.
-      ASSERT_LE(static_cast<Real>(r), 1e-13);
+      Quad r = p.b[i];
+      for (int j = 0; j < 64; j++) r -= p.a[i][j] * Quad(s.weight[j]) * d[j];
+      if (s.weight[i] > 0 && r < 0) r = -r;
+      // 64 roundings of terms up to the largest; s is halved to 2^-40 of the largest d^2, 0.09.
+      ASSERT_LE(static_cast<Real>(r), 1e-13 + 64 * 0.09 * std::pow(2., -39) / c.overlap[i]) << i;
     }
+  }
+}
+
+// ---- continuity ----------------------------------------------------------------------
+
+// `n` planes of a cone around z, all tilted by `degrees`, with overlaps as they come.
+Contacts cone(int n, Real degrees, const std::vector<Real> &overlap)
+{
+  Contacts c;
+  const Real tilt = degrees * M_PI / 180;
+  for (int i = 0; i < n; i++) {
+    const Real a = 2 * M_PI * i / n;
+    c.normal.push_back(
+        {std::sin(tilt) * std::cos(a), std::sin(tilt) * std::sin(a), std::cos(tilt)});
+    c.overlap.push_back(overlap[i]);
+  }
+  return c;
+}
+
+// Of Hertz contacts, for the stiffness 1.
+Vec3 hertz_force(const Contacts &c)
+{
+  const Solved s = solve<16>(c);
+  Vec3 f = {0, 0, 0};
+  for (int i = 0; i < c.n(); i++) f += s.weight[i] * std::pow(c.overlap[i], 1.5) * c.normal[i];
+  return f;
+}
+
+TEST(corner, plane_that_passes_through_the_point_of_three_others_changes_no_force_at_once)
+{
+  // Overlaps of four planes through one point add up to 0 with the signs + - + -. An offset of 1e-12
+  // past that point turns this sum's sign; before, the planes that bore the sphere then changed at once.
+  for (Real degrees : {27., 45.}) {
+    const std::vector<Real> at = {0.02, 0.015, 0.01, 0.015};
+    std::vector<Real> less = at, more = at;
+    less[0] -= 1e-12;
+    more[0] += 1e-12;
+    // |dl| <= |dd| / the least eigenvalue of the covers, that of + - + -.
+    const Quad sine = std::sin(degrees * M_PI / 180), sine_sq = sine * sine;
+    const Quad least = 1 - 2 * cover_of(1 - sine_sq) + cover_of(1 - 2 * sine_sq);
+    ASSERT_GT(least, 0);
+    const Real moved = 2e-12 / static_cast<Real>(least);
+    const Vec3 a = hertz_force(cone(4, degrees, less)), b = hertz_force(cone(4, degrees, more));
+    EXPECT_LE(norm(a - b), 2 * moved * std::sqrt(0.02)) << degrees;
+    EXPECT_LE(norm(a - b), 1e-4 * norm(a)) << degrees;
+  }
+}
+
+TEST(corner, contact_that_begins_changes_no_weight_of_others_at_once)
+{
+  // Random walls, one of which begins to overlap: by d times a number that the others' weights follow.
+  Random random(11);
+  for (int k = 0; k < 2000; k++) {
+    const int n = 2 + static_cast<int>(random() % 6);
+    Contacts before;
+    for (int i = 0; i < n; i++) {
+      before.normal.push_back(random_unit(random));
+      before.overlap.push_back(uniform(random, 0.01, 0.03));
+    }
+    Contacts after = before;
+    after.normal.push_back(random_unit(random));
+    after.overlap.push_back(1e-11);
+    ASSERT_LE(norm(solve(after).force - solve(before).force), 1e-8) << k;
   }
 }
 
