@@ -26,6 +26,6 @@ namespace lsdcd {
 std::string cut_polygon(const std::vector<Vec3> &corners, std::vector<Vec3> &triangles);
 
 // For the message of a face that cannot be cut.
-constexpr const char *kTriangulate = "triangulate the mesh when exporting it";
+constexpr const char *kTriangulate = "mend it, or triangulate the mesh when exporting it";
 
 }    // namespace lsdcd
