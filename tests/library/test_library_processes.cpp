@@ -106,6 +106,35 @@ TEST_F(processes, feed_a_servo_with_the_forces_of_all)
   });
 }
 
+// One that is outside of the box on the second process is told by the first.
+TEST_F(processes, are_warned_once_of_spheres_outside_of_the_box)
+{
+  std::vector<std::string> warnings;
+  lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
+    Process process(host);
+    for (int k = 0; k < 3; k++) {
+      process.options.lo[k] = -5;
+      process.options.hi[k] = 5;
+    }
+    process.options.data = &warnings;
+    process.options.show = [](void *data, int warning, const char *text) {
+      if (warning) static_cast<std::vector<std::string> *>(data)->push_back(text);
+    };
+    lsdcd::Wall wall(words(), &process.options);
+    Grains mine;
+    mine.add(1, 1, 0.49);
+    mine.add(host.rank() == 0 ? 2 : 6, 2, 0.49);
+    mine.step(wall, 3);
+  });
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].rfind("1 sphere is outside of the box, where the wall may not reach: the "
+                              "first, x[1] of process 1, is "
+                              "at 6 2 0.49",
+                              0),
+            0u)
+      << warnings[0];
+}
+
 std::string bytes_of(const std::string &name)
 {
   std::ifstream file(name, std::ios::binary);
