@@ -189,6 +189,8 @@ OFF = {
     "counts_behind_the_word": ("OFF 3 1 0\n" + OFF_V + "3 0 1 2\n", ONE),
     "counts_in_lines": ("OFF\n3\n1\n0\n" + OFF_V + "3 0 1 2\n", ONE),
     "no_word": ("3 1 0\n" + OFF_V + "3 0 1 2\n", ONE),
+    "no_word_and_four_vertices": ("4 2 5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n", SQUARE),
+    "no_word_but_colours": ("4 2 5\n0 0 0 .5 0 0 1\n1 0 0 .5 0 0 1\n1 1 0 .5 0 0 1\n0 1 0 .5 0 0 1\n3 0 1 2\n3 0 2 3\n", SQUARE),
     "no_count_of_edges": ("OFF\n3 1\n" + OFF_V + "3 0 1 2\n", ONE),
     "small_letters": ("off\n3 1 0\n" + OFF_V + "3 0 1 2\n", ONE),
     "cgal": ("OFF\n3 1 0\n\n0 0 0\n1 0 0\n0 1 0\n3  0 1 2\n", ONE),

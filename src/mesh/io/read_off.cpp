@@ -21,7 +21,7 @@ struct OffHeader {
   bool texture = false, colour = false, normal = false, weight = false, dimension = false;
   std::string_view behind;    // digits without a space behind the word, as in "OFF8 6 12"
 
-  // False: the word is no header.
+  // False: the word is no header, and the members mean nothing.
   bool read(std::string_view word)
   {
     const auto starts_with = [&](std::string_view letters) {
@@ -94,7 +94,8 @@ class OffReader {
     auto word = words_.next_word();
     const auto header_word = word;
     std::int64_t number = 0;
-    if (header_.read(word)) {
+    if (OffHeader header; header.read(word)) {
+      header_ = header;
       word = header_.behind.empty() ? words_.next_word() : header_.behind;
     } else if (!read_integer(word, number)) {    // the word may be missing
       words_.fail(word,
