@@ -177,6 +177,7 @@ OBJ = {
                             [((0, 0, 0), (4, 4, 0), (0, 1, 0)), ((0, 0, 0), (0, 1, 0), (-4, 4, 0))]),
     "corner_on_side": (obj_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 2, 0)]),
                        [((0, 0, 0), (1, 0, 0), (0, 2, 0)), ((1, 0, 0), (2, 0, 0), (0, 2, 0))]),
+    "double_sided": (V + "f 1 2 3 4\nf 4 3 2 1\n", SQUARE),
     "map": (obj_of(MAP), [tuple(MAP)]),
 }
 
@@ -242,6 +243,7 @@ OFF = {
     "wall_slotted": (off_of(SLOTTED), Polygon(SLOTTED, 14)),
     "keyhole": (off_of(HOLE), Polygon(HOLE, 72)),
     "bow_tie": (off_of([A, C, B, D]), Error("line 7", "face 1", "4 corners", "crosses itself near (", "triangles")),
+    "double_sided": ("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n4 3 2 1 0\n", SQUARE),
     "map": (off_of(MAP), [tuple(MAP)]),
 }
 

@@ -278,6 +278,65 @@ TEST(cut_polygon, a_quadrilateral_is_cut_from_its_first_corner_or_across_if_only
     expect_exact_everywhere(p);
 }
 
+// Also where it is turned over, as in a double-sided export, and begins at another corner.
+TEST(cut_polygon, a_polygon_that_is_there_again_gets_the_triangles_that_it_had)
+{
+  using Corner = std::array<Real, 3>;
+  const auto sorted = [](const Vec3 *begin, std::size_t n, bool turned) {
+    std::vector<std::array<Corner, 3>> all;
+    for (std::size_t i = 0; i < n; i += 3) {
+      std::array<Corner, 3> t;
+      for (std::size_t k = 0; k < 3; k++) t[k] = {begin[i + k].x, begin[i + k].y, begin[i + k].z};
+      if (turned) std::swap(t[1], t[2]);
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+      all.push_back(t);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const Polygon square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, bent = {{0, 0}, {3, 0}, {1, 1}, {0, 2}};
+  PolygonCutter cutter;
+  std::vector<Vec3> triangles;
+  for (const Polygon &p : {square, kL, bent})
+    for (int plane = 0; plane < 4; plane++) {
+      const std::size_t begin = triangles.size(), size = 3 * (p.size() - 2);
+      for (std::size_t first = 0; first < p.size(); first++)
+        for (const bool turned : {false, true}) {
+          std::vector<Vec3> corners;
+          for (const Point &x : p) corners.push_back(on_plane(x, plane));
+          corners[1].z += 0.25;    // not flat, so that another cut would be another surface
+          std::rotate(corners.begin(), corners.begin() + first, corners.end());
+          if (turned) std::reverse(corners.begin(), corners.end());
+          const std::size_t before = triangles.size();
+          ASSERT_EQ(cutter.cut(corners, triangles), "");
+          ASSERT_EQ(triangles.size(), before + size);
+          EXPECT_EQ(sorted(&triangles[before], size, turned),
+                    sorted(&triangles[begin], size, false))
+              << first << turned;
+        }
+    }
+}
+
+// Three corners with another between two of them make three arrows.
+TEST(cut_polygon, other_polygons_of_the_same_corners_are_cut_for_themselves)
+{
+  PolygonCutter cutter;
+  std::vector<Vec3> triangles;
+  const Vec3 a = {0, 0, 0}, b = {4, 0, 0}, c = {1, 1, 0}, d = {0, 4, 0};
+  const auto area_of_next = [&](const std::vector<Vec3> &corners) {
+    const std::size_t before = triangles.size();
+    EXPECT_EQ(cutter.cut(corners, triangles), "");
+    Real twice = 0;
+    for (std::size_t i = before; i < triangles.size(); i += 3)
+      twice += cross(triangles[i + 1] - triangles[i], triangles[i + 2] - triangles[i]).z;
+    return twice / 2;
+  };
+  EXPECT_EQ(area_of_next({a, b, c, d}), 4);
+  EXPECT_EQ(area_of_next({a, b, d, c}), 6);
+  EXPECT_EQ(area_of_next({a, c, b, d}), 6);
+  EXPECT_EQ(area_of_next({d, c, b, a}), -4);
+}
+
 TEST(cut_polygon, what_crosses_itself_is_refused_with_its_place)
 {
   const auto problem = [](const Polygon &p) {

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <deque>
 #include <memory>
 
@@ -304,11 +305,51 @@ class Cutter {
   std::vector<int> in_tree_;
 };
 
+// Is b, read from some corner on, a? `way` is 1, or -1 for b read backwards.
+bool is_same_polygon(const Vec3 *a, const Vec3 *b, std::size_t n, int way)
+{
+  for (std::size_t first = 0; first < n; first++) {
+    std::size_t k = 0;
+    while (k < n && a[k] == b[(way > 0 ? first + k : first + n - k) % n]) k++;
+    if (k == n) return true;
+  }
+  return false;
+}
+
 }    // namespace
 
 std::string cut_polygon(const std::vector<Vec3> &corners, std::vector<Vec3> &triangles)
 {
   return Cutter(corners, triangles).cut();
+}
+
+std::string PolygonCutter::cut(const std::vector<Vec3> &corners, std::vector<Vec3> &triangles)
+{
+  const std::size_t n = corners.size();
+  if (n == 3) return cut_polygon(corners, triangles);
+  std::uint64_t hash =
+      0;    // the same from any corner on, either way; 0.0 for -0.0, which has other bits
+  for (const Vec3 &x : corners) hash += hash_three(x.x + 0, x.y + 0, x.z + 0);
+  int way = 0;
+  const auto is_same = [&](int i) {
+    if (cuts_[i].n != n) return false;
+    const Vec3 *const a = corners.data(), *const b = &corners_[cuts_[i].corner];
+    way = is_same_polygon(a, b, n, 1) ? 1 : is_same_polygon(a, b, n, -1) ? -1 : 0;
+    return way != 0;
+  };
+  if (const int i = seen_.find(hash, is_same); i != HashIndex::kNone) {
+    for (std::size_t k = cuts_[i].triangle; k < cuts_[i].behind; k += 3)
+      for (const std::size_t corner : {k, way > 0 ? k + 1 : k + 2, way > 0 ? k + 2 : k + 1})
+        triangles.push_back(Vec3(triangles[corner]));
+    return "";
+  }
+  const std::size_t before = triangles.size();
+  std::string problem = cut_polygon(corners, triangles);
+  if (!problem.empty()) return problem;
+  seen_.find_or_insert(hash, static_cast<int>(cuts_.size()), [](int) { return false; });
+  cuts_.push_back({corners_.size(), n, before, triangles.size()});
+  corners_.insert(corners_.end(), corners.begin(), corners.end());
+  return "";
 }
 
 }    // namespace lsdcd

@@ -5,7 +5,9 @@
 #pragma once
 
 #include "base/vec3.h"
+#include "mesh/hash_index.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,24 @@ namespace lsdcd {
 // "it crosses itself near (1, 2, 0)". For n corners it takes time in proportion to n log n, and to
 // n^2 for the worst: 1e5 corners take a second, a minute.
 std::string cut_polygon(const std::vector<Vec3> &corners, std::vector<Vec3> &triangles);
+
+// Cuts all polygons of a file. One that is there again gets the triangles that it had, turned over where it is: the
+// facets of a double-sided export are then there in both windings, and none lies across another.
+class PolygonCutter {
+ public:
+  // As cut_polygon(). All calls append to the same triangles.
+  std::string cut(const std::vector<Vec3> &corners, std::vector<Vec3> &triangles);
+
+ private:
+  struct Cut {
+    std::size_t corner, n;           // in corners_
+    std::size_t triangle, behind;    // where its triangles begin and end
+  };
+
+  std::vector<Cut> cuts_;
+  std::vector<Vec3> corners_;
+  HashIndex seen_;
+};
 
 // For the message of a face that cannot be cut.
 constexpr const char *kTriangulate = "mend it, or triangulate the mesh when exporting it";

@@ -180,7 +180,7 @@ class ObjReader {
       read_.left_out++;
       return;
     }
-    const std::string problem = cut_polygon(polygon_, read_.soup.corners);
+    const std::string problem = cutter_.cut(polygon_, read_.soup.corners);
     if (!problem.empty())
       words_.fail(keyword, "its " + corners + " corners cannot be cut into triangles: " + problem,
                   kTriangulate, face());
@@ -221,6 +221,7 @@ class ObjReader {
   TextWords words_;
   ReadMesh read_;
   std::vector<Vec3> vertices_, polygon_;
+  PolygonCutter cutter_;
   std::size_t vertices_before_ = 0;    // the line that is read
   std::size_t faces_ = 0;
 };

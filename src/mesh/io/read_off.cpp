@@ -216,7 +216,7 @@ class OffReader {
       read_.left_out++;
       return;
     }
-    const std::string problem = cut_polygon(polygon_, read_.soup.corners);
+    const std::string problem = cutter_.cut(polygon_, read_.soup.corners);
     if (!problem.empty())
       words_.fail(first,
                   "its " + std::to_string(n) + " corners cannot be cut into triangles: " + problem,
@@ -246,6 +246,7 @@ class OffReader {
   OffHeader header_;
   std::size_t n_vertices_ = 0, n_faces_ = 0;
   std::vector<Vec3> vertices_, polygon_;
+  PolygonCutter cutter_;
   std::size_t faces_ = 0;
 };
 

@@ -358,7 +358,7 @@ class PlyReader {
     if (n <= 3) return;
     polygon_.clear();
     for (const std::size_t v : corners_) polygon_.push_back(vertices_[v]);
-    if (const std::string why = cut_polygon(polygon_, read_.soup.corners); !why.empty())
+    if (const std::string why = cutter_.cut(polygon_, read_.soup.corners); !why.empty())
       values_.fail("the face of " + std::to_string(n) +
                        " corners cannot be cut into triangles: " + why,
                    kTriangulate);
@@ -391,6 +391,7 @@ class PlyReader {
   Values values_;
   ReadMesh read_;
   std::vector<Vec3> vertices_, polygon_;
+  PolygonCutter cutter_;
   std::vector<std::size_t> corners_;    // vertices of the face or strip that is read
 };
 
