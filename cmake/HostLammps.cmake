@@ -30,12 +30,12 @@ function(lsdcd_version_number line result)
 endfunction()
 
 # An installed package has its version and integer sizes in its CMake files, a
-# source tree has its version in version.h.
+# source tree has its version in version.h. They hold against what a build folder keeps of another host.
 if(LSDCD_HOST_INCLUDE AND EXISTS ${LSDCD_HOST_INCLUDE}/version.h)
   file(STRINGS ${LSDCD_HOST_INCLUDE}/version.h version REGEX "LAMMPS_VERSION")
   lsdcd_version_number("${version}" version)
   if(version)
-    set(LSDCD_HOST_VERSION ${version} CACHE STRING "LAMMPS version as a number")
+    set(LSDCD_HOST_VERSION ${version} CACHE STRING "LAMMPS version as a number" FORCE)
   endif()
 elseif(LSDCD_HOST_INCLUDE)
   get_filename_component(prefix ${LSDCD_HOST_INCLUDE} DIRECTORY)
@@ -44,14 +44,14 @@ elseif(LSDCD_HOST_INCLUDE)
   foreach(dir ${config})
     file(STRINGS ${dir}/LAMMPSConfigVersion.cmake version REGEX "^set\\(PACKAGE_VERSION ")
     if(version MATCHES "\"([0-9]+)\"")                             # 20210929
-      set(LSDCD_HOST_VERSION ${CMAKE_MATCH_1} CACHE STRING "LAMMPS version as a number")
+      set(LSDCD_HOST_VERSION ${CMAKE_MATCH_1} CACHE STRING "LAMMPS version as a number" FORCE)
     elseif(version MATCHES "\"([0-9]+)[.]([0-9]+)[.]([0-9]+)")    # 2026.7.4.0
       math(EXPR version "${CMAKE_MATCH_1} * 10000 + ${CMAKE_MATCH_2} * 100 + ${CMAKE_MATCH_3}")
-      set(LSDCD_HOST_VERSION ${version} CACHE STRING "LAMMPS version as a number")
+      set(LSDCD_HOST_VERSION ${version} CACHE STRING "LAMMPS version as a number" FORCE)
     endif()
     file(STRINGS ${dir}/LAMMPS_Targets.cmake sizes REGEX "INTERFACE_COMPILE_DEFINITIONS")
     if(sizes MATCHES "(LAMMPS_(SMALLBIG|BIGBIG|SMALLSMALL))")
-      set(LSDCD_HOST_SIZES ${CMAKE_MATCH_1} CACHE STRING "LAMMPS integer sizes")
+      set(LSDCD_HOST_SIZES ${CMAKE_MATCH_1} CACHE STRING "LAMMPS integer sizes" FORCE)
     endif()
   endforeach()
 endif()

@@ -48,7 +48,7 @@ static bool kokkos_matches()
     std::fprintf(
         stderr,
         "lsdcd Kokkos plugin not loaded: it was built for Kokkos %s, this LAMMPS has Kokkos "
-        "%s. Rebuild it against this LAMMPS: cmake -B build -D LSDCD_KOKKOS_HOST=<its build "
+        "%s. Rebuild it against this LAMMPS: cmake -B build-host -D LSDCD_KOKKOS_HOST=<its build "
         "folder>, or load lsdcdplugin.so for the fix without /kk\n",
         version_text(KOKKOS_VERSION).c_str(), version_text(host).c_str());
   return false;

@@ -37,7 +37,7 @@ constexpr char kName[] = "lsdcd Kokkos plugin", kFolder[] = "LSDCD_KOKKOS_HOST=<
 constexpr char kName[] = "lsdcd plugin",
                kFolder[] = "LSDCD_HOST_INCLUDE=<its src or include/lammps folder>";
 #endif
-constexpr char kRebuild[] = "Rebuild it against this LAMMPS: cmake -B build -D";
+constexpr char kRebuild[] = "Rebuild it against this LAMMPS: cmake -B build-host -D";
 
 // A function of the host; null if it has none of this name.
 template <class Function>
