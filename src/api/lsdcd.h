@@ -417,7 +417,8 @@ LSDCD_API int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wa
                               lsdcd_wall **wall);
 
 /* Spheres in arrays of doubles, on the device of the wall all of them. Number k of sphere i of a vector is at
- * [i * row + k]. Others than said are refused, LSDCD_ERROR_ARGUMENT, with the first one's i. */
+ * [i * row + k]. Others than said are refused, LSDCD_ERROR_ARGUMENT, with the first one's i; and force, torque or heat
+ * that share memory with another array, though rows of several may lie between each other. */
 typedef struct lsdcd_spheres {
   size_t size; /* of this struct */
   size_t n;

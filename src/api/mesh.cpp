@@ -134,6 +134,10 @@ int lsdcd_mesh_from_faces(const void *vertices, int type, size_t n_vertices, con
     need(vertices, "vertices");
     need(faces, "faces");
     check_type(type);
+    if (n_vertices > LSDCD_NONE)
+      throw ApiError(LSDCD_ERROR_ARGUMENT, "`n_vertices` is " + std::to_string(n_vertices) +
+                                               "; faces number at most " +
+                                               std::to_string(LSDCD_NONE));
     std::vector<int> corner_vertex;
     auto made =
         welded(type == LSDCD_FLOAT

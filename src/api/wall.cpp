@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -106,6 +107,53 @@ void check_places(const lsdcd_spheres &s, const GpuArrays *gpu)
   }
 }
 
+// Numbers of spheres: `width` of them in each row.
+struct Rows {
+  const double *at;
+  const char *name;
+  std::ptrdiff_t row, width;
+};
+
+// Do n rows of each have a number in common? Rows of one array may lie between those of another.
+bool share_memory(const Rows &a, const Rows &b, std::ptrdiff_t n)
+{
+  constexpr std::ptrdiff_t kNumber = sizeof(double);
+  const auto first = reinterpret_cast<std::intptr_t>(a.at),
+             second = reinterpret_cast<std::intptr_t>(b.at);
+  if (a.row == b.row) {
+    const std::ptrdiff_t row = kNumber * a.row, apart = second - first;
+    if (apart >= n * row || -apart >= n * row) return false;
+    const std::ptrdiff_t behind = (apart % row + row) % row;
+    return behind < kNumber * a.width || row - behind < kNumber * b.width;
+  }
+  if (a.row < b.row) return share_memory(b, a, n);
+  // The numbers of b have no gaps. Which row of a is the first that ends behind where they begin?
+  const std::ptrdiff_t row = kNumber * a.row, width = kNumber * a.width;
+  const std::ptrdiff_t k = second < first + width ? 0 : (second - first - width) / row + 1;
+  return k < n && first + k * row < second + n * kNumber;
+}
+
+// What is written has memory of its own: forces that are torques, too, are neither.
+void check_apart(const lsdcd_spheres &s, std::ptrdiff_t row)
+{
+  const Rows all[] = {{s.force, "force", row, 3},
+                      {s.torque, "torque", row, 3},
+                      {s.heat, "heat", 1, 1},
+                      {s.x, "x", row, 3},
+                      {s.v, "v", row, 3},
+                      {s.omega, "omega", row, 3},
+                      {s.radius, "radius", 1, 1},
+                      {s.mass, "mass", 1, 1},
+                      {s.temperature, "temperature", 1, 1}};
+  constexpr std::size_t kWritten = 3, kAll = sizeof all / sizeof all[0];
+  for (std::size_t i = 0; i < kWritten; i++)
+    for (std::size_t j = i + 1; j < kAll; j++)
+      if (all[i].at && all[j].at && share_memory(all[i], all[j], static_cast<std::ptrdiff_t>(s.n)))
+        throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("`") + all[i].name + "` and `" +
+                                                 all[j].name +
+                                                 "` share memory: give each an array of its own");
+}
+
 Spheres spheres_of(const lsdcd_spheres &s, const WallSettings &wall)
 {
   Spheres out;
@@ -126,6 +174,7 @@ Spheres spheres_of(const lsdcd_spheres &s, const WallSettings &wall)
   if (row < 3 && s.n > 1)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "row is " + std::to_string(row) +
                                              ": vectors of 3 numbers need 3 or more, 0 is 3");
+  check_apart(s, std::max<std::ptrdiff_t>(row, 3));    // where n is 1 the row may be any
   out.x = {s.x, row, 1};
   out.v = {s.v, row, 1};
   out.omega = {s.omega, row, 1};

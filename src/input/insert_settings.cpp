@@ -145,6 +145,12 @@ void check(Tokens &w, const InsertSettings &s)
                             : "give mesh FILE or region ID, not both");
   if (s.plan.grains.largest <= 0) w.fail("diam is missing");
   if (s.plan.grains.density_hi <= 0) w.fail("dens is missing");
+  const GrainRecipe &grains = s.plan.grains;
+  const Real least = Grain{0, grains.smallest / 2, grains.density_lo}.mass();
+  const Real most = Grain{0, grains.largest / 2, grains.density_hi}.mass();
+  if (!(least > 0) || !std::isfinite(most))
+    w.fail("by diam and dens grains have masses from " + number_text(least) + " to " +
+           number_text(most) + ": give both in the units of the script");
   if (feed.kind == FeedSettings::at_once && feed.mass <= 0 && feed.number == 0)
     w.fail("the amount is missing: give massrate, numberrate, mass or number");
   if (feed.mass > 0 && feed.number > 0) w.fail("mass and number are two amounts: give one");

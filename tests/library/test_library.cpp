@@ -1462,6 +1462,8 @@ TEST_F(Wrong, faces_whose_vertices_are_not_there_or_not_finite)
   expect(made_of(past, 0), LSDCD_ERROR_ARGUMENT, "`n_faces` is 0");
   expect(made_of(past, 1, 2), LSDCD_ERROR_ARGUMENT, "`type`");
   expect(made_of(nullptr, 1), LSDCD_ERROR_ARGUMENT, "`faces` is null");
+  expect(lsdcd_mesh_from_faces(at.data(), LSDCD_FLOAT, SIZE_MAX, past, 1, -1, &m),
+         LSDCD_ERROR_ARGUMENT, "`n_vertices` is 18446744073709551615; faces number at most");
   EXPECT_EQ(m, nullptr);
   // The vertex that is no number belongs to no face.
   EXPECT_EQ(made_of(past, 1), LSDCD_OK);

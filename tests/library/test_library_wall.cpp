@@ -307,6 +307,39 @@ TEST_F(wall, refuses_rows_that_overlap)
             "row is 2: vectors of 3 numbers need 3 or more, 0 is 3");
 }
 
+TEST_F(wall, takes_vectors_that_lie_between_each_other_and_refuses_those_that_overlap)
+{
+  lsdcd::Wall wall(words());
+  constexpr int kRow = 16,
+                kSpheres = 3;    // x, v, omega, force and torque are 3 numbers each, one is free
+  std::vector<double> all(kSpheres * kRow), ones(kSpheres, 1), radii(kSpheres, 0.5);
+  for (int i = 0; i < kSpheres; i++) all[i * kRow + 2] = 0.49;
+  lsdcd_spheres s = {};
+  s.size = sizeof s;
+  s.n = kSpheres;
+  s.row = kRow;
+  s.x = all.data();
+  s.v = s.x + 3;
+  s.omega = s.x + 6;
+  s.force = all.data() + 9;
+  s.torque = all.data() + 12;
+  s.radius = radii.data();
+  s.mass = ones.data();
+  lsdcd_wall_step step = {};
+  step.size = sizeof step;
+  step.dt = kDt;
+  wall.step(s, step);
+  for (int i = 0; i < kSpheres; i++) EXPECT_GT(all[i * kRow + 11], 0) << i;
+  const auto says = [&] { return text_of([&] { wall.step(s, step); }); };
+  s.torque = all.data() + kRow + 10;    // of the next row
+  EXPECT_EQ(says(), "`force` and `torque` share memory: give each an array of its own");
+  s.torque = all.data() + 12;
+  s.mass = all.data() + 12;    // numbers side by side, of which some are torques
+  EXPECT_EQ(says(), "`torque` and `mass` share memory: give each an array of its own");
+  s.mass = ones.data();
+  EXPECT_EQ(says(), "");
+}
+
 TEST_F(wall, names_a_sphere_that_outgrew_its_grid)
 {
   lsdcd::Wall wall(words());

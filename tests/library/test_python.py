@@ -312,6 +312,8 @@ def check_processes():
             def max(self, numbers):
                 raise KeyError("no network")
 
+        for no_host in (0, [], "x", np.zeros(2), object()):
+            refused(f"{no_host!r} is no host", "without rank", lambda: lsdcd.Wall(words.format(floor), host=no_host), TypeError)
         refused("what a host raises is raised", "no network",
                 lambda: lsdcd.Wall(words.format(floor), host=Breaks(0, None, None)), KeyError)
 
@@ -339,6 +341,20 @@ def check_wall_arrays():
         fixed.flags.writeable = False
         refused("a force that cannot be written is refused", "cannot be written", lambda: wall.step(**{**given, "force": fixed}),
                 ValueError)
+        for written, other in (("force", "torque"), ("force", "x"), ("torque", "omega"), ("torque", "v")):
+            refused(f"{written} that is {other}, too, is refused", f"`{written}` and `{other}` share memory",
+                    lambda written=written, other=other: wall.step(**{**given, written: given[other]}), lsdcd.Error)
+        both = np.zeros(8)
+        many = {k: np.repeat(v, 2, axis=0) if k != "dt" else v for k, v in given.items()}
+        for name, kind in (("mass", 1), ("torque", 3)):
+            at = both[6:8] if kind == 1 else both[2:8].reshape(2, 3)
+            at[...] = 1
+            shared = lsdcd.Wall(words + " device cpu")
+            if kind == 1:
+                shared.step(**{**many, name: at, "force": both[:6].reshape(2, 3)})
+                fact("arrays side by side in one are taken", abs(both[2] - 10) < 1e-11, both)
+            refused(f"a force of which a part is {name} is refused", f"and `{name}` share memory",
+                    lambda: shared.step(**{**many, name: at, "force": both[1:7].reshape(2, 3)}), lsdcd.Error)
         refused("a box repeats along three axes", "periodic has 2 values", lambda: lsdcd.Wall(words, periodic=(True, False)), ValueError)
         if not lsdcd._lib.lsdcd_has_cuda():
             refused("a wall on a device needs one", "use LSDCD_CPU", lambda: lsdcd.Wall(words, device="cuda"), lsdcd.Error)

@@ -878,7 +878,7 @@ class Wall(_Owner):
         if len(periodic) != 3:
             raise ValueError(f"periodic has {len(periodic)} values, not one for each of x, y and z")
         self._show: Any = _Show(called(tell)) if show else _Show(0)    # it must live as long as the wall
-        self._host = _host_struct(host, called) if host else None
+        self._host = None if host is None else _host_struct(host, called)
         options = _sized(_WallOptions, periodic=(_int * 3)(*map(bool, periodic)), margin=margin, time=time,
                          units=units, show=self._show, threads=threads,
                          host=ctypes.addressof(self._host) if self._host else None,
@@ -907,7 +907,7 @@ class Wall(_Owner):
         an error of a sphere is raised by the next call; until then the wall keeps the arrays.
 
         Raises TypeError for arrays of another type or place, ValueError for another shape, layout or what cannot be written,
-        Error for what lsdcd_wall_step_spheres() refuses."""
+        Error for what lsdcd_wall_step_spheres() refuses, as where force, torque or heat shares memory with another array."""
         n = _arrays.read(radius, "radius", _arrays.stream_handle(self._stream)).shape[:1]
         vectors = {"x": x, "v": v, "omega": omega, "force": force, "torque": torque}
         numbers = {"radius": radius, "mass": mass, "temperature": temperature, "heat": heat, "type": type}
@@ -994,6 +994,9 @@ class Wall(_Owner):
 
 def _host_struct(host: Host, called: Callable[[Callable[..., object]], Callable[..., int]]) -> Any:
     """A host's functions as callbacks, which live as long as what this returns."""
+    missing = [name for name in ("rank", "size", "sum", "max", "broadcast") if not hasattr(host, name)]
+    if missing:
+        raise TypeError(f"host is a {type(host).__name__} without {', '.join(missing)}, which lsdcd.Host has")
     as_array = np.ctypeslib.as_array
     return _sized(_Host, rank=host.rank, processes=host.size, node_rank=getattr(host, "node_rank", 0),
                   sum=_Reduce(called(lambda numbers, n: host.sum(as_array(numbers, (n,))))),
