@@ -563,14 +563,16 @@ TEST(cut_polygon, rounded_corners_change_the_area_by_rounding_only)
 TEST(cut_polygon, a_hundred_thousand_corners_are_cut)
 {
   const int n = is_quick() ? 10000 : 100000;
-  Polygon comb, spiral, round, star;
-  const int n_comb = n / 5;
-  for (int i = 0; i < n_comb / 2; i++) {
+  Polygon comb, line, spiral, round, star;
+  for (int i = 0; i < n / 2; i++) {
     comb.push_back({2 * i, i % 7});
     comb.push_back({2 * i + 1, 5000 + i % 11});
   }
-  comb.push_back({n_comb, -10});
+  comb.push_back({n, -10});
   comb.push_back({-1, -10});
+  for (int i = 0; i < n; i++) line.push_back({i, 0});
+  line.push_back({n - 1, 1});
+  line.push_back({0, 1});
   const Real pi = std::acos(-1.);
   const auto at = [](Real r, Real angle) {
     return Point{std::llround(r * std::cos(angle)), std::llround(r * std::sin(angle))};
@@ -579,7 +581,7 @@ TEST(cut_polygon, a_hundred_thousand_corners_are_cut)
   for (int i = n / 2; i-- > 0;) spiral.push_back(at(1e6 + 100. * i + 5e4, i * 0.003));
   for (int i = 0; i < n; i++) round.push_back(at(1e9, 2 * pi * i / n));
   for (int i = 0; i < n; i++) star.push_back(at(i % 2 ? 1e9 : 2e8, 2 * pi * i / n));
-  for (const Polygon &p : {comb, spiral, round, star}) expect_exact(p);
+  for (const Polygon &p : {comb, line, spiral, round, star}) expect_exact(p);
 }
 
 }    // namespace

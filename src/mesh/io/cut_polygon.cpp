@@ -7,8 +7,9 @@
 // simple polygon with more than three corners has two ears, also if some of its angles are straight.
 //
 // That no corner is in the way does not prove that the polygon is simple: its edges may cross. So the result
-// is proved: each triangle turns as the polygon does, by exact signs, and no two have a common inner
-// point. Their boundaries add up to the polygon's, so they cover each point as often as it winds around it.
+// is proved: each triangle turns as the polygon does, by exact signs. Their boundaries add up to the polygon's,
+// so they cover each point as often as it winds around it. That is once where no edges meet, but where they
+// follow each other; else, as at the bridges of holes, no two triangles may have a common inner point.
 #include "mesh/io/cut_polygon.h"
 
 #include "base/input_words.h"
@@ -41,7 +42,7 @@ class Cutter {
     if (n_ == 4 && cut_quadrilateral()) return "";
     const int stuck = cut_ears();
     if (stuck >= 0) return crosses_near(corners_[stuck]);
-    const int doubled = is_convex() ? -1 : corner_of_overlap();
+    const int doubled = is_simple() ? -1 : corner_of_overlap();
     if (doubled >= 0) return crosses_near(corners_[doubled]);
     if (!has_area_of_polygon()) return "its triangles have another area than it has";
     for (const Triple &t : cut_) append(t);
@@ -149,12 +150,9 @@ class Cutter {
       next_[i] = (i + 1) % n_;
     }
     left_ = n_;
-    turn_of_.assign(n_, 0);
     blocks_.assign(n_, 0);
-    for (int i = 0; i < n_; i++) {
-      turn_of_[i] = turn_at(i);
-      if (turn_of_[i] <= 0) block(i);
-    }
+    for (int i = 0; i < n_; i++)
+      if (turn_at(i) <= 0) block(i);
     number_due_.assign(n_, 0);
     // A corner on an old side of an ear, or at an end of it, is let be only where there is no other ear: the polygon
     // touches itself there.
@@ -223,32 +221,47 @@ class Cutter {
     }
     const Box around = box_around(flat_[a], flat_[b], flat_[c]);
     bool found = false;
-    tree_->visit([&](const Box &box) { return !found && overlap(box, around); },
-                 [&](int i) {
-                   const int p = in_tree_[i];
-                   if (!blocks_[p] || next_[p] < 0) return;
-                   if (p == a || p == b || p == c) return;
-                   const int least = sides_too ? 0 : 1;
-                   if (turn(a, b, p) >= least && turn(b, c, p) >= least && turn(c, a, p) >= 0)
-                     found = true;
-                 });
+    const auto may_hold = [&](const Box &box) {
+      return !found && overlap(box, around) && !is_beyond(a, b, box) && !is_beyond(b, c, box) &&
+             !is_beyond(c, a, box);
+    };
+    tree_->visit(may_hold, [&](int i) {
+      const int p = in_tree_[i];
+      if (!blocks_[p] || next_[p] < 0) return;
+      if (p == a || p == b || p == c) return;
+      const int least = sides_too ? 0 : 1;
+      if (turn(a, b, p) >= least && turn(b, c, p) >= least && turn(c, a, p) >= 0) found = true;
+    });
     return found;
   }
 
-  // Does it turn one way only, and once around?
-  bool is_convex() const
+  // Is all of the box on the other side of the line a, b than the polygon? Its corner farthest in decides.
+  bool is_beyond(int a, int b, const Box &box) const
   {
-    if (*std::min_element(turn_of_.begin(), turn_of_.end()) < 0) return false;
-    int changes = 0, first = 0, last = 0;
+    const Vec3 &from = flat_[a], &to = flat_[b];
+    Vec3 in = from;
+    in[u()] = (from[v()] < to[v()]) == (side_ > 0) ? box.lo[u()] : box.hi[u()];
+    in[v()] = (from[u()] < to[u()]) == (side_ > 0) ? box.hi[v()] : box.lo[v()];
+    return side_ * orientation_along(axis_, from, to, in) < 0;
+  }
+
+  // Does no edge meet another, but where they follow each other? Then it winds around each point once or never.
+  bool is_simple() const
+  {
+    std::vector<Box> boxes;
+    const auto after = [&](int i) { return (i + 1) % n_; };
     for (int i = 0; i < n_; i++) {
-      const Vec3 &from = flat_[i], &to = flat_[(i + 1) % n_];
-      const int k = from[u()] != to[u()] ? u() : v();
-      const int way = from[k] < to[k] ? 1 : from[k] > to[k] ? -1 : last;
-      if (first == 0) first = way;
-      changes += last != 0 && way != last;
-      last = way;
+      const int a = i, b = after(a), c = after(b);
+      if (is_same(a, b) || (turn(a, b, c) == 0 && turns_back(a, b, c))) return false;
+      boxes.push_back(box_around(flat_[a], flat_[b], flat_[b]));
     }
-    return changes + (first != last) == 2;
+    bool found = false;
+    BoxTree(boxes).visit_pairs([&](int i, int j) {
+      const int a = i, b = after(a), c = j, d = after(c);
+      if (found || b == c || d == a) return;
+      found = turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0;
+    });
+    return !found;
   }
 
   // A corner of a triangle that has inner points in common with another; -1: there is none.
@@ -296,7 +309,6 @@ class Cutter {
   std::vector<Triple> cut_;
   std::vector<int> previous_, next_;    // -1: it is no longer a corner
   int left_ = 0;
-  std::vector<int> turn_of_;    // of the whole polygon at each corner
   std::vector<char> blocks_;    // was its angle ever straight or larger?
   bool any_blocks_ = false;
   std::deque<Due> due_;
