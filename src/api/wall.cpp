@@ -174,7 +174,7 @@ Spheres spheres_of(const lsdcd_spheres &s, const WallSettings &wall)
   if (row < 3 && s.n > 1)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "row is " + std::to_string(row) +
                                              ": vectors of 3 numbers need 3 or more, 0 is 3");
-  check_apart(s, std::max<std::ptrdiff_t>(row, 3));    // where n is 1 the row may be any
+  check_apart(s, s.n > 1 ? row : 3);
   out.x = {s.x, row, 1};
   out.v = {s.v, row, 1};
   out.omega = {s.omega, row, 1};

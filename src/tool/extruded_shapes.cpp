@@ -63,6 +63,29 @@ DrumOutline drum_outline(const DrumShape &d)
   return outline;
 }
 
+// Columns along y between points of the outline, which is cut as refined() cuts it in the ends.
+void add_wall(Triangles &to, const DrumShape &d, const DrumOutline &outline)
+{
+  Line round;
+  for (std::size_t k = 0; k < outline.gaps.size(); k++)
+    for (const auto *lines : {&outline.lifters, &outline.gaps}) {
+      if (lines->empty()) continue;
+      const Line line = cut((*lines)[k], d.edge);
+      round.insert(round.end(), line.begin(), line.end() - 1);    // the last begins the next line
+    }
+  const int n = static_cast<int>(round.size());
+  Real width = 0;
+  for (int j = 0; j < n; j++) width = std::max(width, norm(round[(j + 1) % n] - round[j]));
+  // Of wider columns refined() splits the edges across.
+  const Rows rows = rows_between(std::min(width, kAcross * d.edge), d.length, d.edge);
+  check_triangles(Real(rows.n) * n, d.edge);
+  const auto line = [&](int j) {
+    const Vec3 &a = round[j % n];
+    return column(a, {a.x, d.length, a.z}, rows, j % n % 2 != 0);
+  };
+  for (int j = 0; j < n; j++) add_strip(to, line(j + 1), line(j));
+}
+
 // The end at y = 0, in triangles of three kinds: inside the lifters' tips all round the axis; and
 // from the middle of each gap to its arc, the sides of its lifters and the line between their tips.
 Triangles drum_end(const DrumOutline &outline)
@@ -134,7 +157,7 @@ class Screw {
   // Column j of the shaft below winding k of the blade; k = turns: above all.
   Triangles shaft(int j, int k) const
   {
-    return between(shaft_line(j, j, k, false), shaft_line(j + 1, j, k, true));
+    return joined(shaft_line(j, j, k, false), shaft_line(j + 1, j, k, true));
   }
   // Its boundary at line i, upwards. Where the blade begins and ends, its foot is in between.
   Line shaft_line(int i, int j, int k, bool right) const
@@ -160,7 +183,20 @@ class Screw {
   Triangles blade(int j, int k) const
   {
     const int on = j + k * s_.segments;
-    return between(rim(on), rim(on + 1));
+    const Line left = rim(on), right = rim(on + 1);
+    if (s_.edge == 0) return between(left, right);
+    Triangles out;
+    for (std::size_t i = 0; i + 1 < left.size(); i++)
+      append(out, joined({left[i], left[i + 1]}, {right[i], right[i + 1]}));
+    return out;
+  }
+  // Between straight lines.
+  Triangles joined(const Line &left, const Line &right) const
+  {
+    if (s_.edge == 0) return between(left, right);
+    Triangles out;
+    add_strip(out, cut(left, s_.edge), cut(right, s_.edge));
+    return out;
   }
   Line rim(int on) const
   {
@@ -186,8 +222,11 @@ Triangles drum_shape(const DrumShape &drum)
 {
   const DrumOutline outline = drum_outline(drum);
   Triangles out;
-  for (const auto *lines : {&outline.gaps, &outline.lifters})
-    for (const Line &line : *lines) append(out, between(line, at_y(line, drum.length)));
+  if (drum.edge > 0)
+    add_wall(out, drum, outline);
+  else
+    for (const auto *lines : {&outline.gaps, &outline.lifters})
+      for (const Line &line : *lines) append(out, between(line, at_y(line, drum.length)));
   if (!drum.closed) return out;
   Triangles end = drum_end(outline);
   append(out, end);

@@ -35,7 +35,7 @@ constexpr int kMaxSegments = 100000;
 int segments_of(const Output &o, double radius)
 {
   if (o.segments > 0) return o.segments;
-  const double needed = o.edge > 0 ? std::ceil(2 * M_PI * radius / o.edge) : 0;
+  const double needed = o.edge > 0 ? std::ceil(2 * M_PI * radius / (kAcross * o.edge)) : 0;
   return static_cast<int>(std::clamp<double>(needed, 64, kMaxSegments));
 }
 
@@ -127,14 +127,16 @@ void add_flat(Shapes &shapes)
                              "--width 0.2 --depth 0.1 --edge 0.01 -o floor.stl");
   shapes.length("--width", s->width, "along x", true);
   shapes.length("--depth", s->depth, "along y", true);
-  plane.runs([o = shapes.output(), s] { write(*o, plane_shape(s->width, s->depth)); });
+  plane.runs([o = shapes.output(), s] { write(*o, plane_shape(s->width, s->depth, o->edge)); });
 
   Command box = shapes.add("box", "from the origin to (width, depth, height); closed",
                            "--width 0.2 --depth 0.1 --height 0.3 -o box.stl");
   shapes.length("--width", s->width, "along x", true);
   shapes.length("--depth", s->depth, "along y", true);
   shapes.length("--height", s->height, "along z", true);
-  box.runs([o = shapes.output(), s] { write(*o, box_shape({s->width, s->depth, s->height})); });
+  box.runs([o = shapes.output(), s] {
+    write(*o, box_shape({s->width, s->depth, s->height}, o->edge));
+  });
 }
 
 void turn(const Output &o, Profile profile, bool open, double radius)
@@ -143,7 +145,7 @@ void turn(const Output &o, Profile profile, bool open, double radius)
     if (profile.front().r > 0) profile.insert(profile.begin(), {0, profile.front().z});
     if (profile.back().r > 0) profile.push_back({0, profile.back().z});
   }
-  write(o, turned(profile, segments_of(o, radius)));
+  write(o, turned(profile, segments_of(o, radius), o.edge));
 }
 
 void add_round(Shapes &shapes)
@@ -237,7 +239,8 @@ void add_machines(Shapes &shapes)
                    s->height,
                    s->thickness,
                    s->flag,
-                   segments_of(*o, s->radius)};
+                   segments_of(*o, s->radius),
+                   o->edge};
     if (d.height == 0) d.height = d.radius / 10;
     if (d.width == 0) d.width = d.radius / 20;
     if (d.lifters > 0) {
@@ -265,7 +268,7 @@ void add_machines(Shapes &shapes)
     need_less("--thickness", s->thickness, "--pitch", s->pitch);
     write(*o, screw_shape({s->radius, s->shaft, s->pitch, s->thickness,
                            s->stub > 0 ? s->stub : s->pitch / 10, s->number,
-                           segments_of(*o, s->radius)}));
+                           segments_of(*o, s->radius), o->edge}));
   });
 }
 

@@ -27,8 +27,31 @@ Triangles fan(const Line &corners);
 // corners. Along `left`, then over to `right`, is counter-clockwise seen from behind.
 Triangles between(const Line &left, const Line &right);
 
+// `edge` is the longest edge that is wanted, 0: any. Shapes are made of strips with triangles that are nearly equal;
+// refined() then splits what is still too long.
+
+// Edges across a strip of this part of the limit leave room for equal triangles: sqrt(3) / 2.
+constexpr Real kAcross = 0.866;
+
+// Throws InputError for more triangles than a mesh may have.
+void check_triangles(Real n, Real edge);
+
+// How lines beside each other are cut: into n equal pieces; `shifted`: every second one into n - 1, and half a piece at
+// both ends.
+struct Rows {
+  int n;
+  bool shifted;
+};
+// As few as keep the edges of a strip of this width, below `edge`, and length.
+Rows rows_between(Real width, Real length, Real edge);
+Line column(const Vec3 &a, const Vec3 &b, const Rows &rows, bool odd);
+// As refined() cuts it.
+Line cut(const Line &line, Real edge);
+// As between(), but the next edge is the shorter one of two. Lines may meet in a point at either end.
+void add_strip(Triangles &to, const Line &left, const Line &right);
+
 // The surface of a profile (r, z) that turns about the z axis in `segments` steps. An upward profile faces out.
-Triangles turned(const Profile &profile, int segments);
+Triangles turned(const Profile &profile, int segments, Real edge);
 
 // The arc of radius `round` that replaces corner `at` between its neighbours. It uses at most half of each
 // edge; throws InputError if that is not enough.
@@ -36,8 +59,8 @@ Profile rounded_corner(const RadiusHeight &before, const RadiusHeight &at,
                        const RadiusHeight &after, Real round, int steps);
 
 // Rectangle over x and y at z = 0, facing up; box from lo to hi.
-Triangles plane_shape(Real width, Real depth);
-Triangles box_shape(const Vec3 &size);
+Triangles plane_shape(Real width, Real depth, Real edge);
+Triangles box_shape(const Vec3 &size, Real edge);
 
 struct DrumShape {
   Real radius, length;
@@ -45,6 +68,7 @@ struct DrumShape {
   Real height, width;    // of a lifter
   bool closed;           // at its ends
   int segments;
+  Real edge;
 };
 // About the y axis, from y = 0 on.
 Triangles drum_shape(const DrumShape &drum);
@@ -52,6 +76,7 @@ Triangles drum_shape(const DrumShape &drum);
 struct ScrewShape {
   Real radius, shaft, pitch, thickness, stub;    // stub: of shaft before and after the blade
   int turns, segments;
+  Real edge;
 };
 // A shaft along the y axis from y = 0 on, with a right-handed blade; one closed surface.
 Triangles screw_shape(const ScrewShape &screw);

@@ -54,6 +54,42 @@ def screw_volume_bounds(radius, shaft, pitch, turns, thickness, n):
     return volume, turns * n * skew * 2
 
 
+# Words, --edge, and how many times the equal triangles that would fill the area there may be. Circles have 64 sides, so
+# triangles are narrow beside an outlet and on a shaft.
+ECONOMY = [("plane --width 0.2 --depth 0.1", 0.01, 1.2), ("box --width 0.2 --depth 0.1 --height 0.3", 0.02, 2.1),
+           ("cylinder --radius 60 --height 120", 8, 1.5), ("cylinder --radius 1 --height 2 --segments 6", 0.1, 2.1),
+           ("cone --radius 60 --height 120", 8, 2.3), ("hopper --radius 60 --height 120 --cone 60 --outlet 12", 8, 1.5),
+           ("hopper --radius 60 --height 120 --outlet 12", 8, 1.5),
+           ("vessel --radius 50 --height 100 --cone 50 --outlet 15 --tube 30 --knuckle 12", 6, 1.8),
+           ("drum --radius 0.5 --length 0.3 --lifters 8 --segments 64", 0.05, 2),
+           ("drum --radius 0.5 --length 0.3 --lifters 8 --closed", 0.05, 2.5), ("drum --radius 0.5 --length 0.3", 0.05, 1.2),
+           ("screw --radius 0.06 --shaft 0.015 --pitch 0.1 --turns 3 --thickness 0.004", 0.01, 5.6)]
+
+
+def check_economy(folder):
+    """Edges are near the limit, not a small part of it."""
+    for words, edge, times in ECONOMY:
+        mesh = told(folder, "generate", *words.split(), "--edge", edge, "-o", "even.stl")
+        ideal = mesh["area"] / (math.sqrt(3) / 4 * edge**2)
+        fact(f"few triangles: {words} --edge {edge}", mesh["facets"] <= times * ideal and mesh["largest_edge"] <= edge * (1 + ROUNDING),
+             (mesh["facets"], ideal))
+    # The sides of the outlet's circle are the shortest edges of the hopper with a cone.
+    words, edge, _ = ECONOMY[5]
+    mesh = told(folder, "generate", *words.split(), "--edge", edge, "-o", "even.stl")
+    fact("no edge of a hopper is shorter than those of its outlet",
+         mesh["smallest_edge"] >= 2 * 12 * math.sin(math.pi / 64) * (1 - ROUNDING), mesh["smallest_edge"])
+    # Columns, rows and discs of few and odd sides, wide and narrow.
+    for words in ("cylinder --radius 1 --height 1.3", "cone --radius 1 --height 1.3", "cone --radius 1 --top 0.3 --height 1.3"):
+        for segments in (3, 5, 24, 25):
+            for edge in (0.06, 0.27, 1.2):
+                mesh = told(folder, "generate", *words.split(), "--segments", segments, "--edge", edge, "-o", "even.stl")
+                top = {"cylinder": 1, "cone": 0.3 if "--top" in words else 0}[words.split()[0]]
+                volume = circle(1, segments) * 1.3 / 3 * (1 + top + top**2)
+                fact(f"closed: {words} --segments {segments} --edge {edge}", mesh["clean"] and mesh["closed"]
+                     and mesh["largest_edge"] <= edge * (1 + ROUNDING) and close(mesh["volume"], volume),
+                     (mesh["problems"], mesh["volume"], volume))
+
+
 def main():
     folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
     end_area = drum_end(1, 5, 0.2, 0.1, 96)
@@ -126,6 +162,8 @@ def main():
     off = max(abs(math.hypot(math.hypot(p[0], p[1]) - centre[0], p[2] - centre[1]) - 0.2) for p in on_arc)
     fact("the knuckle has its radius", 0 < len(on_arc) and off < 0.2 * (1 - math.cos(math.pi / 64)) + 0.01,
          off)
+
+    check_economy(folder)
 
     done = run(folder, "generate", "box", "--width", 1, "--depth", 2, "--height", 3, "-o", "box.stl")
     fact("people get a table", done.returncode == 0 and "closed, normals point out" in done.stdout
