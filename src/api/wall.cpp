@@ -133,7 +133,7 @@ bool share_memory(const Rows &a, const Rows &b, std::ptrdiff_t n)
   return k < n && first + k * row < second + n * kNumber;
 }
 
-// What is written has memory of its own: forces that are torques, too, are neither.
+// Arrays that are written have memory of their own: forces that are torques, too, are neither.
 void check_apart(const lsdcd_spheres &s, std::ptrdiff_t row)
 {
   const Rows all[] = {{s.force, "force", row, 3},

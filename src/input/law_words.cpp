@@ -55,7 +55,7 @@ void read_types(Tokens &w, LawOfMesh &of)
   of.types = word;
 }
 
-// Of the wall, what the law leaves out. Beside `granular` only limit_damping may be left out.
+// The law takes from the wall what it leaves out itself. Beside `granular` only limit_damping may be left out.
 void inherit(const ContactLaw &from, LawOfMesh &of)
 {
   ContactLaw &law = of.law;

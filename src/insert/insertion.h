@@ -83,8 +83,8 @@ class Insertion {
   // For a restart file, at this step.
   std::string state(std::int64_t step) const;
   // Goes on in this step, whatever the number of the step was before. False: the amounts or the grains of the
-  // plan are others. What is in then stays, and the amount that the former plan has given; what was without a
-  // place is drawn anew. Throws InputError where the state is of another version.
+  // plan are others. The grains that are in then stay, and the amount that the former plan has given; those without a
+  // place are drawn anew. Throws InputError where the state is of another version.
   bool restore(const char *state, std::int64_t step);
 
  private:

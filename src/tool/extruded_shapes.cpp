@@ -76,7 +76,7 @@ void add_wall(Triangles &to, const DrumShape &d, const DrumOutline &outline)
   const int n = static_cast<int>(round.size());
   Real width = 0;
   for (int j = 0; j < n; j++) width = std::max(width, norm(round[(j + 1) % n] - round[j]));
-  // Of wider columns refined() splits the edges across.
+  // In wider columns refined() splits the edges across.
   const Rows rows = rows_between(std::min(width, kAcross * d.edge), d.length, d.edge);
   check_triangles(Real(rows.n) * n, d.edge);
   const auto line = [&](int j) {

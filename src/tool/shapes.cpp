@@ -53,7 +53,7 @@ namespace {
 // Lengths that are equal but for rounding.
 constexpr Real kSame = 1e-9;
 
-// Of a length, none longer than `piece`.
+// How many equal pieces a length has, none of which is longer than `piece`.
 int pieces_of(Real length, Real piece)
 {
   const Real n = std::ceil((1 - kSame) * length / piece);

@@ -634,7 +634,7 @@ def _as_floats(given: ArrayLike, name: str) -> NDArray[Any]:
     values = _arrays.plain(given, name)
     if values.dtype in (np.float32, np.float64):
         return values
-    # An object may be a fraction. Of a text float() would make a number.
+    # An object may be a fraction. float() would make a number of a text.
     if values.size and values.dtype.kind not in "fiuO" or \
             values.dtype.kind == "O" and any(isinstance(value, (str, bytes, bool)) for value in values.flat):
         raise TypeError(f"{name}: {values.dtype}, not real numbers")
