@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "lammps/host_box.h"
 #include "lammps/other_fixes.h"
+#include "lammps/own_wall_gran.h"
 #include "wall/shared_material.h"
 
 #include "atom.h"
@@ -72,6 +73,10 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallP
     wall = std::make_unique<lsdcd::Wall>(
         host, settings, lsdcd::WallUnits{force->nktv2p, force->ftm2v}, place, filled.report,
         lsdcd::StepClock{now, update->ntimestep, update->ntimestep, update->dt});
+    const std::string differs =
+        lsdcd::wall_gran_difference(LSDCD_HOST_VERSION, settings.law_name, settings.law);
+    if (!differs.empty() && !settings.brief)
+      log("fix wall/gran of this LAMMPS gives other forces for this law: " + differs);
   });
 
   const bool contacts = settings().contacts;

@@ -8,6 +8,8 @@
 #include "lammps.h"
 #include "utils.h"
 
+#include <cstdio>
+
 using namespace LAMMPS_NS;
 
 void OwnMessages::log(const std::string &text) const
@@ -27,5 +29,9 @@ void OwnMessages::fatal(const std::string &problem) const
 
 void OwnMessages::fatal_here(const std::string &problem) const
 {
+  // Error::one of 7Feb2024 and 29Aug2024 ends the program without writing what is buffered, and a pipe
+  // or a log file is: from here on each line is written when it ends.
+  for (FILE *file : {lammps->screen, lammps->logfile})
+    if (file) std::setvbuf(file, nullptr, _IOLBF, 0);
   lammps->error->one(FLERR, begin + problem);
 }

@@ -174,6 +174,13 @@ def main():
     checks.fact("the log lists effects without times",
                 lines(text, "  effects     normal spring, normal damping") and not lines(text, " ns"))
 
+    # Laws that LAMMPS's own fix wall/gran computes otherwise, in every version that was tried.
+    other = "fix wall/gran of this LAMMPS gives other forces for this law: "
+    text = lmp.run_well(BOX + fix(law="granular hertz 1e6 0.5 tangential mindlin 1e6 1 0.3 damping tsuji") + "run 0\n", folder)
+    checks.fact("the log names what fix wall/gran computes otherwise", lines(text, other, "damping tsuji lacks a factor of sqrt(2)"))
+    text = lmp.run_well(BOX + fix(law="hertz/history 1e6 NULL 5 NULL 0.5 1") + "run 0\n", folder)
+    checks.fact("and nothing where that agrees", not lines(text, other), text[:900])
+
     # Words that say the default.
     text = lmp.run_well(BOX + fix("grid auto rmax auto memory 1024 cache none nearest all precision double corner blend "
                                   "side both device auto log full draw edges 1") + "run 0\n", folder)
