@@ -92,7 +92,7 @@ def funnels(p):
             p.arrow((0.55 * side, -0.2), (0.12 * side, 0.06))
         if p.right or side > 0:
             p.arrow((0.3 * side, -0.42), (0.08 * side, -0.05))
-    p.text(-1.45, -0.45, "all bear" if p.right else "now these,\nthen others")
+    p.text(-1.4, -0.45, "all bear" if p.right else "these,\nthen the\nothers")
 
 
 def polygon(n, radius, centre, begin=195, end=345):
