@@ -38,6 +38,7 @@ MASKS = [(name, re.compile(pattern), instead, reason) for name, pattern, instead
      "place and version of the plugin"),
     ("processes", r"\[[\w.-]+:\d+\]", "[PROCESS]", "name of the machine and number of the process"),
     ("version", r"^  version     \S+$", None, "the release, in the log since 0.9.0"),
+    ("wall/gran", r"^Fix \S+ wall/lsdcd: fix wall/gran of this LAMMPS gives other forces", None, "in the log since 0.10.0"),
     ("part of a file", r"\.part-[\w-]+", ".part-N", "a name that is made from the clock"),
 )]
 # Where a run stops, MPI's words and how much of its output comes through depend on time.
