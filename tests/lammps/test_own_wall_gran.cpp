@@ -65,7 +65,10 @@ TEST(own_wall_gran, the_modulus_of_material_constants_differs_before_28Mar2023)
 
 TEST(own_wall_gran, tsuji_and_twisting_marshall_differ_in_the_newest_too)
 {
-  EXPECT_TRUE(says(difference(20260704, "granular hertz 1e6 0.5 tangential linear_nohistory 1 0.3 damping tsuji"), "sqrt(2)"));
+  EXPECT_TRUE(
+      says(difference(20260704,
+                      "granular hertz 1e6 0.5 tangential linear_nohistory 1 0.3 damping tsuji"),
+           "sqrt(2)"));
   EXPECT_TRUE(says(
       difference(20260704, "granular hertz 1e6 5 tangential mindlin 1e6 1 0.3 twisting marshall"),
       "twisting marshall"));
