@@ -19,9 +19,8 @@ std::string sunk_remedy(Real overlap, Real timestep_ratio)
 {
   if (timestep_ratio > 1)
     return "the timestep is " + number_text(timestep_ratio) +
-           " times the longest that resolves a contact: shorten it first. A stiffer contact needs "
-           "a "
-           "shorter one still";
+           " times the longest that resolves a contact: shorten it first. "
+           "A stiffer contact needs a shorter one still";
   return overlap > 1 ? kWrongSide : "stiffen the contact (kn) or lower speeds";
 }
 
