@@ -105,7 +105,7 @@ std::size_t count(const Pairs &pairs)
   return n;
 }
 
-Pairs ours(const Words &words, const WallMesh &wall, const Case &c, int nearest,
+Pairs ours(const Words &words, const WeldedMesh &wall, const Case &c, int nearest,
            const Pairs &expected)
 {
   GridSettings settings = collision_grid(c.body, words.cell, nearest);
@@ -159,7 +159,7 @@ Pairs theirs(const char *name, Other &other, const Words &words)
 }
 #endif
 
-bool measure(const Words &words, const WallMesh &wall, const Case &c)
+bool measure(const Words &words, const WeldedMesh &wall, const Case &c)
 {
   const Pairs found = ours(words, wall, c, kEveryTriangle, {});
   for (const int n : {1, 2, 3}) ours(words, wall, c, n, found);
@@ -218,7 +218,7 @@ int main(int argc, char **argv)
   try {
     TriangleSoup lion = read_real_mesh("lion", words.folder);
     centre(lion, 25);
-    const WallMesh wall = weld(make_cylinder(CylinderMesh()), 0);
+    const WeldedMesh wall = weld(make_cylinder(CylinderMesh()), 0);
     const Case cases[] = {{"divided", divided(lion, words.edge)}, {"as it is", lion}};
     bool right = true;
     for (const Case &c : cases) right = measure(words, wall, c) && right;

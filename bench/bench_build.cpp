@@ -51,7 +51,7 @@ void brute_row(const BenchOptions &o, BenchRows &rows, BenchRow row, const Trian
 void measure_mesh(const BenchOptions &o, BenchRows &rows, const TriangleSoup &soup, Device device)
 {
   const bool on_cuda = device == Device::cuda;
-  const WallMesh mesh = weld(soup, -1);
+  const WeldedMesh mesh = weld(soup, -1);
   int repeats = on_cuda ? 7 : 3;
   if (o.repeats > 0) repeats = o.repeats;
   std::vector<double> lengths = {0.2, 0.0};    // 0: what the fix would choose

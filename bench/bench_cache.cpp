@@ -6,14 +6,15 @@
 
 #include "base/input_error.h"
 #include "grid/cache/grid_cache.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "support/temp_dir.h"
 
 using namespace lsdcd;
 
 namespace {
 
-void measure_grid(const WallMesh &mesh, const GridSettings &settings, int repeats, BenchRows &rows)
+void measure_grid(const WeldedMesh &mesh, const GridSettings &settings, int repeats,
+                  BenchRows &rows)
 {
   const TempDir dir;
   const std::string path = dir.path("grid");
@@ -61,7 +62,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
   if (o.quick) lengths = {1};
   if (o.length > 0) lengths = {o.length};
   for (const TriangleSoup &soup : cylinders(o, 1e5)) {
-    const WallMesh mesh = weld(soup, -1);
+    const WeldedMesh mesh = weld(soup, -1);
     for (double length : lengths) {
       GridSettings settings;
       settings.length = length;

@@ -8,7 +8,7 @@
 #include "engine/wall_engine.h"
 #include "grid/flat_grid.h"
 #include "grid/plan/grid_plan.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "support/device_memory.h"
 #include "support/meshes.h"
 
@@ -136,7 +136,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
     const bool cuda = device == Device::cuda;
     const int n = static_cast<int>(o.spheres > 0 ? o.spheres : o.quick ? 1e4 : cuda ? 1e6 : 1e5);
     for (const BenchMesh &m : meshes) {
-      const WallMesh mesh = weld(m.soup, -1);
+      const WeldedMesh mesh = weld(m.soup, -1);
       Bed bed(Anywhere(mesh.report, m.radius, n), device);
       GridSettings settings;
       settings.cutoff = m.radius;

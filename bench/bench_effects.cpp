@@ -79,7 +79,7 @@ struct EffectCost {
 std::vector<EffectCost> measure_effects(const std::vector<EffectCase> &cases, Device device,
                                         int n_spheres, int repeats)
 {
-  const WallMesh mesh = weld(floor_mesh(100, kHalf), -1);
+  const WeldedMesh mesh = weld(floor_mesh(100, kHalf), -1);
   GridSettings settings;
   Real cutoff = kRadius;
   for (const EffectCase &c : cases) cutoff = std::max(cutoff, cutoff_of(c.settings.law, kRadius));

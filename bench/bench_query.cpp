@@ -10,7 +10,7 @@
 #include "near_and_far.h"
 #include "peers.h"
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "study/sphere_query.h"
 #include "study/spheres.h"
 
@@ -58,7 +58,7 @@ class Queries {
   }
 
   // nearest 0: complete lists.
-  TriangleGrid grid(const WallMesh &mesh, Real length, int nearest) const
+  TriangleGrid grid(const WeldedMesh &mesh, Real length, int nearest) const
   {
     GridSettings s;
     s.length = length;
@@ -138,7 +138,7 @@ class Queries {
 // The paper's frame: a cylinder of 160 triangles, N = 1, 2, 3 and complete lists.
 void measure_status(const BenchOptions &o, Queries &queries)
 {
-  const WallMesh mesh = weld(cylinders(o, 1e6)[0], -1);
+  const WeldedMesh mesh = weld(cylinders(o, 1e6)[0], -1);
   const Real length = o.length > 0 ? o.length : 0.2;
   std::vector<double> sizes = {1e7, 6e7};
   if (o.quick) sizes = {1e5};

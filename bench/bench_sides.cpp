@@ -12,7 +12,7 @@ using namespace lsdcd;
 
 namespace {
 
-std::vector<Vec3> points_of(const WallMesh &mesh, std::size_t n, bool near)
+std::vector<Vec3> points_of(const WeldedMesh &mesh, std::size_t n, bool near)
 {
   const Vec3 lo = mesh.report.lo, size = mesh.report.hi - lo;
   Random random(1);
@@ -36,7 +36,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
   const int repeats = o.repeats > 0 ? o.repeats : o.quick ? 1 : 5;
   rows.begin(Device::cpu);
   for (const TriangleSoup &soup : cylinders(o, 1e6)) {
-    const WallMesh mesh = weld(soup, -1);
+    const WeldedMesh mesh = weld(soup, -1);
     double start = clock_ms();
     const WindingNumber winding(mesh);
     start = clock_ms() - start;

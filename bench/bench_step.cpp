@@ -8,7 +8,7 @@
 
 #include "engine/wall_engine.h"
 #include "grid/flat_grid.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "study/spheres.h"
 #include "support/sphere_arrays.h"
 
@@ -128,7 +128,7 @@ void measure_in_place(const SphereArrays &bodies, const GridView &grid, const St
                         row);
 }
 
-FlatGrid grid_of(const WallMesh &mesh, Real length, Device device)
+FlatGrid grid_of(const WeldedMesh &mesh, Real length, Device device)
 {
   GridSettings settings;
   settings.length = length;
@@ -152,7 +152,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
       SphereArrays bodies = make_bodies(kRoom, n, order),
                    in_place = make_bodies(kCube, n_in_place, order);
       for (const TriangleSoup &soup : cylinders(o, 1e5)) {
-        const WallMesh mesh = weld(soup, -1);
+        const WeldedMesh mesh = weld(soup, -1);
         BenchRow row;
         row.triangles = mesh.faces.size();
         row.order = order == Order::sorted ? "sorted" : "random";

@@ -6,7 +6,7 @@
 // the diagonal. usage: bench_stream LSDCD FOLDER csv|npy RADIUS POINTS ..., the radius as part of
 // the diagonal; the lion of libcgal-demo is unpacked into FOLDER, and points and answers are
 // written there.
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "study/spheres.h"
 #include "support/real_mesh.h"
 

@@ -12,7 +12,7 @@
 #include "bench.h"
 #include "cylinder_bed.h"
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <cmath>
 
@@ -25,10 +25,10 @@ constexpr Real kRadius = 50, kWay = 1e-3;    // of the wall at its radius, in a 
 // Of half the skin, which is 0.1 here: after 100 steps a turning wall makes the fix choose anew.
 constexpr Real kMargin = Real(0.1) + kSteps * kWay;
 
-WallPose turned(int step, Real dt)
+Pose turned(int step, Real dt)
 {
   const Real angle = step * kWay / kRadius, c = std::cos(angle), s = std::sin(angle);
-  WallPose pose;
+  Pose pose;
   pose.row[0] = {c, -s, 0};
   pose.row[1] = {s, c, 0};
   pose.angular = {0, 0, kWay / kRadius / dt};
@@ -51,7 +51,7 @@ std::vector<Real> places(const BedSpheres &b, bool carries)
   std::vector<Real> all;
   all.reserve(kSteps * b.x.size());
   for (int k = 0; k < kSteps; k++) {
-    const WallPose pose = carries ? turned(k, kDt) : WallPose();
+    const Pose pose = carries ? turned(k, kDt) : Pose();
     for (std::size_t i = 0; i < b.x.size(); i += 3) {
       const Vec3 x = pose.to_box({b.x[i], b.x[i + 1], b.x[i + 2]});
       all.insert(all.end(), {x.x, x.y, x.z});
@@ -144,7 +144,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
   const int n = static_cast<int>(o.spheres > 0 ? o.spheres : o.quick ? 1e4 : 1e5);
   const int repeats = o.repeats > 0 ? o.repeats : o.quick ? 1 : 5;
   const EvenCylinder wall(2e4);
-  const WallMesh mesh = weld(wall.mesh(), -1);
+  const WeldedMesh mesh = weld(wall.mesh(), -1);
   GridSettings settings;
   settings.cutoff = 1;
   for (Device device : o.devices) {

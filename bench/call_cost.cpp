@@ -36,7 +36,7 @@ Timing time_call(int repeats, std::size_t calls, const F &call)
 std::vector<double> ring(std::size_t n, double least, double most)
 {
   std::mt19937 r(1);
-  std::uniform_real_distribution<double> from_axis(least, most), angle(0, 2 * M_PI), height(10, 90);
+  std::uniform_real_distribution<double> from_axis(least, most), angle(0, 2 * kPi), height(10, 90);
   std::vector<double> points;
   for (std::size_t i = 0; i < n; i++) {
     const double d = from_axis(r), a = angle(r);

@@ -5,7 +5,7 @@
 
 #include "bench.h"
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ namespace lsdcd {
 
 namespace {
 
-constexpr Real kPi = 3.14159265358979323846, kRadius = 50, kHeight = 100;
+constexpr Real kRadius = 50, kHeight = 100;
 constexpr Real kSmallest = 0.35, kLargest = 1;
 constexpr Real kMargin = 0.05;    // how far spheres may move before the next choice
 
@@ -138,7 +138,7 @@ CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, const Co
   const bool cuda = device == Device::cuda;
   const TriangleSoup soup = wall.mesh();
   const double began = clock_ms();
-  const WallMesh mesh = weld(soup, -1);
+  const WeldedMesh mesh = weld(soup, -1);
   GridSettings grid;
   grid.cutoff = kLargest;
   grid.for_gpu = cuda;

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "bodies/body_collision.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <fcl/fcl.h>
 
@@ -21,7 +21,7 @@ class FclCollision {
   using Tree = fcl::BVHModel<fcl::OBBRSS<double>>;
 
  public:
-  FclCollision(const WallMesh &wall, const TriangleSoup &body)
+  FclCollision(const WeldedMesh &wall, const TriangleSoup &body)
   {
     TriangleSoup faces;
     for (const auto &f : wall.faces)

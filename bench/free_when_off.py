@@ -30,7 +30,7 @@ WALL_FORCE = "engine/step/wall_force.h"
 BRANCHES = {WALL_FORCE: ["Law::kSurface", "Law::kRecords", "Law::kContactTorque", "Law::kHeat",
                          "Law::kExtra > 0"],
             "law/contact_model.h": ["kContactTorque", "kHeat", "kFull"]}
-MEMBERS = {WALL_FORCE: ["SurfaceMotion surface;", "bool surface_moves;", "WallPose pose;",
+MEMBERS = {WALL_FORCE: ["SurfaceMotion surface;", "bool surface_moves;", "Pose pose;",
                         "Vec3 wall_velocity, wall_angular;", "WearModel wear;", "ContactRecord *records;",
                         "Real *heat;", "Real *extra;", "const Real *extra;", "Real temperature;",
                         "Real wall_temperature;"],

@@ -3,7 +3,7 @@
 
 #include "kernel_probe.h"
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "support/meshes.h"
 
 #include <cstdio>
@@ -29,7 +29,7 @@ __attribute__((noinline)) int probed_kernel(const GridView &grid, const ProbedLa
 int main()
 {
   TriangleSoup soup = cylinder_mesh(24, 6, 3, 6);
-  const WallMesh mesh = weld(soup, -1);
+  const WeldedMesh mesh = weld(soup, -1);
   GridSettings grid_settings;
   grid_settings.cutoff = 0.5;
   const TriangleGrid grid = build_grid(mesh, grid_settings);

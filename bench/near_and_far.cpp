@@ -6,7 +6,7 @@
 #include "backend/threads.h"
 #include "geometry/closest_point.h"
 #include "library_query.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "on_cuda.h"
 #include "peers.h"
 #include "study/spheres.h"
@@ -26,7 +26,7 @@ TriangleSoup sphere_mesh(int m)
 {
   TriangleSoup soup;
   const auto at = [&](int along, int round) {
-    const double down = M_PI * along / m, angle = M_PI * (round % (2 * m)) / m;
+    const double down = kPi * along / m, angle = kPi * (round % (2 * m)) / m;
     const double across = along % m == 0 ? 0 : std::sin(down);
     return Vec3{across * std::cos(angle), across * std::sin(angle), std::cos(down)};
   };
@@ -259,7 +259,7 @@ void measure_tree_on_gpu(const BenchOptions &o, BenchRows &rows)
   const std::size_t n = static_cast<std::size_t>(o.spheres > 0 ? o.spheres : o.quick ? 1e5 : 1e7);
   for (const int m : kMeshes) {
     const TriangleSoup soup = sphere_mesh(m);
-    const WallMesh mesh = weld(soup, -1);
+    const WeldedMesh mesh = weld(soup, -1);
     const TriangleTable names(mesh);
     const TriangleTree tree(mesh, names);
     for (const bool near : {true, false}) {

@@ -42,21 +42,21 @@ STEP_BEFORE = """
     EngineOn::start EngineOn::collect EngineOn::run EngineMesh::work force_settings job_of EngineOn::start_law
     > joint_step.h:start_law {step} > LawStep::single LawStep::several single_contact several_contacts centre_of
     query_sphere_of WallLists::holds touch touch_with share search search_in find_in_list find_contacts_in add_feature
-    WallGeometry::closest_point closest_point_on closest_on_face CornerRule::solve apply_law state_at add_motion
+    MeshGeometry::closest_point closest_point_on closest_on_face CornerRule::solve apply_law state_at add_motion
     add_contacts begin_memory transfer_of handed_on GranularModel::evaluate HertzNormal::force law_step.h:give
     ResultColumns::put StridedView::add"""
 STEP_NOW = """
     EngineOn::start EngineOn::collect EngineOn::run EngineOn::mesh_work force_settings job_of EngineOn::start_law
     > joint_step.h:start_law {step} > LawStep::single LawStep::several single_contact several_contacts centre_of
     query_sphere_of WallLists::holds touch touch_with share search search_in find_in_list find_contacts_in add_feature
-    WallGeometry::closest_point closest_point_on closest_on_face CornerRule::solve apply_law state_at add_motion
+    MeshGeometry::closest_point closest_point_on closest_on_face CornerRule::solve apply_law state_at add_motion
     add_contacts begin_memory transfer_of handed_on GranularModel::evaluate TouchingNormal::force law_step.h:give
     ResultColumns::put StridedView::add"""
 RECORD_BEFORE = """
     > MeshPart::MeshPart > SharedWall::SharedWall SharedWall::read read_stl read_stl_bytes read_binary read_stl_text
     Placement::apply weld weld_points sort_facets build_edges number_flat_edges_last measure_mesh > FixWallLsdcd::rebuild SharedWall::build
     SharedWall::whole with_images SharedWall::build_block build_cpu.cpp:build_grid build_grid_on
-    wall_features.cpp:make_features make_face make_edge face_record WallFeatures::view move_flat"""
+    mesh_features.cpp:make_features make_face make_edge face_record MeshFeatures::view move_flat"""
 
 WALKS = {
     "from x of a sphere to its force": {
@@ -106,7 +106,7 @@ WALKS = {
             read_stl read_stl_bytes read_binary read_stl_text Placement::apply weld weld_points sort_facets
             build_edges number_flat_edges_last measure_mesh > GridManager::rebuild MeshGrid::build
             MeshGrid::whole with_images load_or_build_grid > build_cpu.cpp:build_grid build_grid_on
-            wall_features.cpp:make_features make_face_record make_edge face_record WallFeatures::view > move_flat""",
+            mesh_features.cpp:make_features make_face_record make_edge face_record MeshFeatures::view > move_flat""",
     },
     "from the words rolling cdt to the torque": {
         "before": """
@@ -120,7 +120,7 @@ WALKS = {
         "before": """
             lsdcd_query_host at_c_border checked_query arrays_of answer_points answer_on_cpu with_point_work
             NearFirstCpu::run CpuBackend::for_each NearFirstCpu::answer_block PointWork::sphere brick_place_of
-            BrickTable::at PointWork::far PointWork::answer nearest_from nearest_in_cell WallDistances::feature
+            BrickTable::at PointWork::far PointWork::answer nearest_from nearest_in_cell MeshDistances::feature
             closest_point_on PointWork::keep""",
         "now": """
             lsdcd_query_host guard checked_query answer_in_parts answer_on_host arrays_of point_sides.cpp:answer_with_sides

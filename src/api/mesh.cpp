@@ -157,7 +157,7 @@ int lsdcd_mesh_get_arrays(const lsdcd_mesh *mesh, const lsdcd_mesh_arrays *array
     need(mesh, "mesh");
     const lsdcd_mesh_arrays to =
         checked(arrays, "lsdcd_mesh_arrays", offsetof(lsdcd_mesh_arrays, welded_vertex));
-    const WallMesh &m = mesh->in->mesh;
+    const WeldedMesh &m = mesh->in->mesh;
     if (double *at = to.vertices)
       for (const Vec3 &v : m.vertices)
         for (int a = 0; a < 3; a++) *at++ = v[a];
@@ -178,7 +178,7 @@ int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts)
     need(mesh, "mesh");
     lsdcd_mesh_facts f =
         checked(facts, "lsdcd_mesh_facts", offsetof(lsdcd_mesh_facts, given_vertices));
-    const WallMesh &m = mesh->in->mesh;
+    const WeldedMesh &m = mesh->in->mesh;
     f.triangles = m.report.facets;
     f.faces = m.faces.size();
     f.edges = m.edges.size();

@@ -8,7 +8,7 @@
 #include "api/lsdcd.h"
 #include "base/made_once.h"
 #include "grid/flat_grid.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "query/point_sides.h"
 
 #include <memory>
@@ -19,7 +19,7 @@
 namespace lsdcd {
 
 struct ApiMesh {
-  WallMesh mesh;
+  WeldedMesh mesh;
   std::string report;
   // The vertex and face of the mesh that each vertex and triangle as given became; -1: none.
   std::vector<int> welded_vertex, welded_face;

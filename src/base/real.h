@@ -26,6 +26,8 @@ using std::fmax;
 using std::fmin;
 using std::sqrt;
 
+constexpr Real kPi = 3.14159265358979323846;
+
 // Unit round-off of Real, for tolerances that are derived from it.
 constexpr Real kRoundoff = 2.220446049250313e-16;
 

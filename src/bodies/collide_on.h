@@ -40,7 +40,7 @@ class BodyCollisionOn : public BodyCollision {
                        "periodic images: build it with collision_grid()");
     shared_ = std::make_shared<GridOn<B>>(b_, FlatGrid(grid));
     grid_ = shared_->view;
-    const auto corners = std::make_shared<WallFeatures>();
+    const auto corners = std::make_shared<MeshFeatures>();
     corners->vertices = grid.wall.vertices;
     corners->face_vertex = grid.wall.face_vertex;
     corners->edge_vertex = grid.wall.edge_vertex;
@@ -204,7 +204,7 @@ class BodyCollisionOn : public BodyCollision {
   // decide into unsure_.
   void test_near(const BodyPose &pose)
   {
-    const WallFeaturesView wall = grid_.wall;
+    const MeshFeaturesView wall = grid_.wall;
     const Vec3 *corners = corners_.data();
     std::uint64_t *counts = counts_.data();
     const BodyPair *near = near_.data();
@@ -234,7 +234,7 @@ class BodyCollisionOn : public BodyCollision {
     if (with_segments) {
       grow(found_, n);
       grow(segments_, n);
-      const WallFeaturesView wall = grid_.wall;
+      const MeshFeaturesView wall = grid_.wall;
       const Vec3 *corners = corners_.data();
       const BodyPair *met = met_.data();
       MeetingSegment *found = found_.data();
@@ -300,7 +300,7 @@ class BodyCollisionOn : public BodyCollision {
   std::shared_ptr<const GridOn<B>> shared_;
   GridView grid_ = {};
   // Wall and body on the host, for exact signs: corners of the wall's primitives, and the body's.
-  std::shared_ptr<const WallFeatures> wall_;
+  std::shared_ptr<const MeshFeatures> wall_;
   std::vector<Vec3> body_;
   Array<Vec3> corners_;
   std::size_t n_triangles_ = 0;

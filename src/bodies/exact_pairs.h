@@ -14,7 +14,7 @@
 namespace lsdcd {
 
 // Adds those of n pairs that meet to `out`, sorted. `corners`: of the body.
-inline void add_exact_pairs(const WallFeaturesView &wall, const Vec3 *corners, const BodyPose &pose,
+inline void add_exact_pairs(const MeshFeaturesView &wall, const Vec3 *corners, const BodyPose &pose,
                             BodyPair *pairs, std::size_t n, bool with_segments, Collision &out)
 {
   struct Tested {

@@ -9,7 +9,7 @@ namespace lsdcd {
 
 namespace {
 
-TriangleSoup faces_of(const WallMesh &mesh)
+TriangleSoup faces_of(const WeldedMesh &mesh)
 {
   TriangleSoup soup;
   soup.source = mesh.source;
@@ -21,7 +21,7 @@ TriangleSoup faces_of(const WallMesh &mesh)
 
 }    // namespace
 
-MeshCollision::MeshCollision(const WallMesh &wall, const WallMesh &body,
+MeshCollision::MeshCollision(const WeldedMesh &wall, const WeldedMesh &body,
                              const MeshCollisionSettings &settings) :
     collision_(make_body_collision(settings.device)),
     wall_facet_(std::make_shared<std::vector<std::uint32_t>>(wall.face_facet.begin(),
@@ -39,14 +39,14 @@ MeshCollision::MeshCollision(const WallMesh &wall, const WallMesh &body,
   set_body(body);
 }
 
-MeshCollision::MeshCollision(const MeshCollision &same_wall, const WallMesh &body) :
+MeshCollision::MeshCollision(const MeshCollision &same_wall, const WeldedMesh &body) :
     collision_(same_wall.collision_->with_same_wall()), wall_facet_(same_wall.wall_facet_),
     grid_(same_wall.grid_)
 {
   set_body(body);
 }
 
-void MeshCollision::set_body(const WallMesh &body)
+void MeshCollision::set_body(const WeldedMesh &body)
 {
   body_facet_.assign(body.face_facet.begin(), body.face_facet.end());
   collision_->set_body(faces_of(body));

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "bodies/body_collision.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <cstdint>
 #include <memory>
@@ -29,9 +29,10 @@ constexpr std::uint32_t kNoFace = 0xffffffff;
 class MeshCollision {
  public:
   // The body's triangles without area are left out. Throws InputError.
-  MeshCollision(const WallMesh &wall, const WallMesh &body, const MeshCollisionSettings &settings);
+  MeshCollision(const WeldedMesh &wall, const WeldedMesh &body,
+                const MeshCollisionSettings &settings);
   // Another body against the same wall, with a common grid, on the same device.
-  MeshCollision(const MeshCollision &same_wall, const WallMesh &body);
+  MeshCollision(const MeshCollision &same_wall, const WeldedMesh &body);
 
   Collision collide(const BodyPose &pose, bool with_segments = false)
   {
@@ -51,7 +52,7 @@ class MeshCollision {
   std::string device() const { return collision_->device(); }
 
  private:
-  void set_body(const WallMesh &body);
+  void set_body(const WeldedMesh &body);
 
   std::unique_ptr<BodyCollision> collision_;
   std::shared_ptr<const std::vector<std::uint32_t>> wall_facet_;

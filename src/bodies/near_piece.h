@@ -25,7 +25,7 @@
 namespace lsdcd {
 
 // The grid's primitive as a triangle, for exact tests.
-LSDCD_FN Triangle wall_triangle(const WallFeaturesView &wall, FeatureCode primitive)
+LSDCD_FN Triangle wall_triangle(const MeshFeaturesView &wall, FeatureCode primitive)
 {
   const std::uint32_t i = feature_index(primitive);
   const auto at = [&](std::int32_t v) { return wall.vertices[v].position; };

@@ -4,7 +4,7 @@
 // Closest points on the copies of features in the frame of a brick, in float.
 #pragma once
 
-#include "contact/wall_geometry.h"
+#include "contact/mesh_geometry.h"
 #include "grid/lookup/brick_words.h"
 
 namespace lsdcd {

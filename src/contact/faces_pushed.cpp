@@ -67,7 +67,7 @@ Push push_on(const Vec3 corner[3], const SurfaceMotion &motion, Real fastest, Re
 
 }    // namespace
 
-PushReport faces_pushed(const WallMesh &mesh, const SurfaceMotion &motion)
+PushReport faces_pushed(const WeldedMesh &mesh, const SurfaceMotion &motion)
 {
   PushReport report;
   if (!motion.moves()) return report;

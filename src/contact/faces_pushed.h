@@ -4,7 +4,7 @@
 // Where the velocity of a surface would push the mesh, which stays where it is.
 #pragma once
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "motion/surface_motion.h"
 
 #include <cstddef>
@@ -19,6 +19,6 @@ struct PushReport {
 
 // A belt, a turntable or a roll has no such face, however coarse its triangles are (six around a roll
 // are enough). Lifters, blades, screws and tilted belts have some.
-PushReport faces_pushed(const WallMesh &mesh, const SurfaceMotion &motion);
+PushReport faces_pushed(const WeldedMesh &mesh, const SurfaceMotion &motion);
 
 }    // namespace lsdcd

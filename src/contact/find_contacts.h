@@ -6,7 +6,7 @@
 
 #include "contact/brick_geometry.h"
 #include "contact/contact_set.h"
-#include "contact/wall_geometry.h"
+#include "contact/mesh_geometry.h"
 
 namespace lsdcd {
 
@@ -48,7 +48,7 @@ LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const Clos
 }
 
 // Adds the contact of a feature, if it has one. The geometry knows where the closest point is and what
-// codes stand for: WallGeometry in double, BrickGeometry in float. `copy`: a copy of its record, or null.
+// codes stand for: MeshGeometry in double, BrickGeometry in float. `copy`: a copy of its record, or null.
 template <class Geometry, int kPlaces>
 LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radius,
                           ContactSet<kPlaces> &set, const FeatureRecord *copy = nullptr)
@@ -151,12 +151,12 @@ LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
                             ContactSet<kPlaces> &set)
 {
   if (grid.in_floats) return find_contacts_in<BrickGeometry>(grid, q, radius, set);
-  return find_contacts_in<WallGeometry>(grid, q, radius, set);
+  return find_contacts_in<MeshGeometry>(grid, q, radius, set);
 }
 
 // The outward pseudonormal of a feature: its dot product with (q - closest point)
 // tells on which side of a closed wall q is (Baerentzen and Aanaes 2005).
-LSDCD_FN Vec3 outward(const WallFeaturesView &wall, FeatureCode feature)
+LSDCD_FN Vec3 outward(const MeshFeaturesView &wall, FeatureCode feature)
 {
   const std::uint32_t i = feature_index(feature);
   switch (feature_kind(feature)) {
@@ -174,7 +174,7 @@ LSDCD_FN Vec3 outward(const WallFeaturesView &wall, FeatureCode feature)
 // wall's far face are dropped. Else the nearest contact is reversed: with the overlap
 // radius + distance it pushes the sphere back.
 template <int kPlaces>
-LSDCD_FN void keep_side(const WallFeaturesView &wall, Real sign, ContactSet<kPlaces> &set)
+LSDCD_FN void keep_side(const MeshFeaturesView &wall, Real sign, ContactSet<kPlaces> &set)
 {
   int nearest = 0;
   for (int i = 1; i < set.n; i++)

@@ -21,7 +21,7 @@ LSDCD_FN Vec3 transport(const Vec3 &h, const Vec3 &from, const Vec3 &to)
 }
 
 // Number of vertices of a feature, and the vertices.
-LSDCD_FN int feature_vertices(const WallFeaturesView &wall, FeatureCode feature, std::int32_t *v)
+LSDCD_FN int feature_vertices(const MeshFeaturesView &wall, FeatureCode feature, std::int32_t *v)
 {
   const std::uint32_t i = feature_index(feature);
   switch (feature_kind(feature)) {
@@ -39,7 +39,7 @@ LSDCD_FN int feature_vertices(const WallFeaturesView &wall, FeatureCode feature,
 
 // Do two features share a vertex? A feature and its periodic image share all of theirs: a sphere that
 // is wrapped into the box leaves one for the other.
-LSDCD_FN bool are_adjacent(const WallFeaturesView &wall, FeatureCode a, FeatureCode b)
+LSDCD_FN bool are_adjacent(const MeshFeaturesView &wall, FeatureCode a, FeatureCode b)
 {
   std::int32_t va[3], vb[3];
   const int na = feature_vertices(wall, a, va), nb = feature_vertices(wall, b, vb);
@@ -98,7 +98,7 @@ struct Transfer {
 //    others takes over as much of their force as it will carry in their stead.
 // Springs of other meshes hand over by 3 alone, as their features are not this wall's.
 template <class Springs>
-LSDCD_FN Transfer transfer_of(const WallFeaturesView &wall, const ContactsView &set, int i,
+LSDCD_FN Transfer transfer_of(const MeshFeaturesView &wall, const ContactsView &set, int i,
                               const Springs &old, int n_old)
 {
   int best = -1, moved = -1;
@@ -133,7 +133,7 @@ LSDCD_FN Vec3 handed_on(const Vec3 &h, const Transfer &in, const Springs &old, c
 // mesh: adhesion crosses seams. `shares`: contacts share their overlap, so that the next contact may
 // begin beside the last one; else it begins where the last one was left.
 template <class Springs>
-LSDCD_FN bool is_held(const WallFeaturesView &wall, const ContactsView &set, int i, bool shares,
+LSDCD_FN bool is_held(const MeshFeaturesView &wall, const ContactsView &set, int i, bool shares,
                       const Springs &old, int n_old)
 {
   for (int k = 0; k < n_old; k++) {

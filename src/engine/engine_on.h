@@ -41,7 +41,7 @@ class EngineOn : public InPlaceEngine {
 
   void set_grid(const GridView &grid, int mesh = 0) override { wall_.set_grid(b_, grid, mesh); }
 
-  void place_wall(const WallPose &pose, int mesh = 0) override
+  void place_wall(const Pose &pose, int mesh = 0) override
   {
     if (pose.placed && !settings_.moves && !wall_.has_several())
       throw std::logic_error("this engine's wall cannot move");

@@ -16,7 +16,7 @@
 namespace lsdcd {
 
 // What changes from step to step, and what comes back.
-struct Motion {
+struct SphereMotion {
   Vec3 x, v, omega;
 };
 struct Response {
@@ -62,7 +62,7 @@ class HostAdapter : public WallEngine {
     near_host_.clear();
   }
 
-  void place_wall(const WallPose &pose, int mesh = 0) override
+  void place_wall(const Pose &pose, int mesh = 0) override
   {
     meshes_.at(mesh).pose = pose;
     engine_.place_wall(pose, mesh);
@@ -252,12 +252,12 @@ class HostAdapter : public WallEngine {
   // The near spheres as the engine has them.
   Spheres packed()
   {
-    constexpr std::ptrdiff_t row = sizeof(Motion) / sizeof(Real);
+    constexpr std::ptrdiff_t row = sizeof(SphereMotion) / sizeof(Real);
     const std::size_t n = near_host_.size();
     Spheres s;
     s.n = static_cast<int>(n);
     if (n == 0) return s;
-    const Motion *motion = motion_.device.data();
+    const SphereMotion *motion = motion_.device.data();
     Response *response = response_.device.data();
     s.x = {&motion->x.x, row, 1};
     s.v = {&motion->v.x, row, 1};
@@ -333,7 +333,7 @@ class HostAdapter : public WallEngine {
     constexpr int kAhead = 16;
     const int n = static_cast<int>(near_host_.size());
     const int *near = near_host_.data();
-    Motion *to = motion_.host.data();
+    SphereMotion *to = motion_.host.data();
     Real *radius = size_.host.data(), *mass = radius + n;
 #pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
     for (int k = 0; k < n; k++) {
@@ -363,7 +363,7 @@ class HostAdapter : public WallEngine {
   std::vector<int> near_host_, touching_;
   KeptCentres<CpuBackend> centres_;
 
-  Mirror<Motion> motion_;
+  Mirror<SphereMotion> motion_;
   Mirror<Real> size_;    // radii, then masses
   Mirror<Real> heat_;    // temperatures, then heat flows
   Mirror<int> type_;     // since the choice

@@ -13,9 +13,9 @@
 #include "law/law_table.h"
 #include "law/wear.h"
 #include "mesh/periodic_box.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
+#include "motion/pose.h"
 #include "motion/surface_motion.h"
-#include "motion/wall_pose.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -144,7 +144,7 @@ class WallEngine {
 
   // Where a mesh is from now on, and how fast it goes; not between start() and collect(). At
   // first it is where the grid has it. Only an engine whose settings say that it moves may be asked.
-  virtual void place_wall(const WallPose &pose, int mesh = 0) = 0;
+  virtual void place_wall(const Pose &pose, int mesh = 0) = 0;
 
   // Largest radius in the group.
   virtual Real largest_radius(const Spheres &spheres) = 0;

@@ -14,7 +14,7 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-std::vector<Box> boxes_of(const WallMesh &mesh)
+std::vector<Box> boxes_of(const WeldedMesh &mesh)
 {
   std::vector<Box> out;
   out.reserve(mesh.faces.size());
@@ -53,7 +53,7 @@ Real distance(const Corners &t, const Vec3 &q)
 
 }    // namespace
 
-FlowSurface::FlowSurface(const WallMesh &mesh) :
+FlowSurface::FlowSurface(const WeldedMesh &mesh) :
     vertices_(mesh.vertices), faces_(mesh.faces), tree_(boxes_of(mesh))
 {
 }

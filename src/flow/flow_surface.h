@@ -6,7 +6,7 @@
 
 #include "flow/path.h"
 #include "mesh/box_tree.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <array>
 #include <cstddef>
@@ -23,7 +23,7 @@ struct Passes {
 // In a periodic box all images of the surface are there.
 class FlowSurface {
  public:
-  explicit FlowSurface(const WallMesh &mesh);
+  explicit FlowSurface(const WeldedMesh &mesh);
 
   // Whole numbers of box edges that bring `from` next to `to`.
   static Vec3 cells_between(const Vec3 &from, const Vec3 &to, const PeriodicBox &box);

@@ -123,7 +123,7 @@ LSDCD_FN ClosestPoint closest_on_vertex(const VertexRecord &vertex, const Vec3 *
 // Is q within `tolerance` of the region in which a feature is a local minimum of distance, and the
 // feature within `within`? True wherever closest_on_face(), closest_on_edge() or closest_on_vertex()
 // finds one, and past sharp corners of faces. It takes no root and no division.
-LSDCD_FN bool may_be_closest(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &q,
+LSDCD_FN bool may_be_closest(const MeshFeaturesView &wall, FeatureCode feature, const Vec3 &q,
                              Real tolerance, Real within)
 {
   const std::uint32_t i = feature_index(feature);
@@ -154,7 +154,7 @@ LSDCD_FN bool may_be_closest(const WallFeaturesView &wall, FeatureCode feature, 
 }
 
 // `copy`: of the feature's record, or null.
-LSDCD_FN ClosestPoint closest_point_on(const WallFeaturesView &wall, FeatureCode feature,
+LSDCD_FN ClosestPoint closest_point_on(const MeshFeaturesView &wall, FeatureCode feature,
                                        const Vec3 &q, Real tolerance, Real within = kAnyDistance,
                                        const FeatureRecord *copy = nullptr)
 {

@@ -20,7 +20,7 @@ LSDCD_FN Real segment_distance(const Vec3 &a, const Vec3 &b, const Vec3 &q)
 
 // Exact, with no division by an area. Where q lies outside one side of the triangle, the
 // nearest point is on that side; outside two, on one of the two.
-LSDCD_FN Real triangle_distance(const WallFeaturesView &wall, std::uint32_t face, const Vec3 &q)
+LSDCD_FN Real triangle_distance(const MeshFeaturesView &wall, std::uint32_t face, const Vec3 &q)
 {
   const FaceRecord &f = wall.faces[face];
   const Vec3 d = q - f.anchor;
@@ -46,7 +46,7 @@ LSDCD_FN Vec3 nearest_on_segment(const Vec3 &a, const Vec3 &b, const Vec3 &q)
   return t >= length_sq ? b : a + (t / length_sq) * along;
 }
 
-LSDCD_FN Vec3 nearest_on_triangle(const WallFeaturesView &wall, std::uint32_t face, const Vec3 &q)
+LSDCD_FN Vec3 nearest_on_triangle(const MeshFeaturesView &wall, std::uint32_t face, const Vec3 &q)
 {
   const FaceRecord &f = wall.faces[face];
   const Vec3 d = q - f.anchor;
@@ -66,7 +66,7 @@ LSDCD_FN Vec3 nearest_on_triangle(const WallFeaturesView &wall, std::uint32_t fa
   return nearest;
 }
 
-LSDCD_FN Real primitive_distance(const WallFeaturesView &wall, FeatureCode primitive, const Vec3 &q)
+LSDCD_FN Real primitive_distance(const MeshFeaturesView &wall, FeatureCode primitive, const Vec3 &q)
 {
   const std::uint32_t i = feature_index(primitive);
   switch (feature_kind(primitive)) {

@@ -58,7 +58,7 @@ struct PeriodicImagesView {
   std::uint32_t n_faces, n_edges, n_vertices;
 };
 
-struct WallFeaturesView {
+struct MeshFeaturesView {
   const FaceRecord *faces;
   const EdgeRecord *edges;
   const VertexRecord *vertices;
@@ -71,7 +71,7 @@ struct WallFeaturesView {
   const FaceParts *face_parts;    // only read where lists hold primitives
   PeriodicImagesView images;
 
-  // Calls visit() with each array of a view or of WallFeatures.
+  // Calls visit() with each array of a view or of MeshFeatures.
   template <class Wall, class Visit>
   static constexpr void each_array(Wall &wall, const Visit &visit)
   {
@@ -93,7 +93,7 @@ struct WallFeaturesView {
 };
 
 // The feature of the mesh that this feature is, or is an image of.
-LSDCD_FN FeatureCode own_feature(const WallFeaturesView &wall, FeatureCode feature)
+LSDCD_FN FeatureCode own_feature(const MeshFeaturesView &wall, FeatureCode feature)
 {
   const PeriodicImagesView &images = wall.images;
   if (!images.same_vertex) return feature;
@@ -113,7 +113,7 @@ union FeatureRecord {
   VertexRecord vertex;
 };
 
-inline FeatureRecord record_of(const WallFeaturesView &wall, FeatureCode feature)
+inline FeatureRecord record_of(const MeshFeaturesView &wall, FeatureCode feature)
 {
   const std::uint32_t i = feature_index(feature);
   FeatureRecord record;
@@ -131,7 +131,7 @@ inline FeatureRecord record_of(const WallFeaturesView &wall, FeatureCode feature
 }
 
 // On a host: prefetches the record of a feature.
-inline void prefetch(const WallFeaturesView &wall, FeatureCode feature)
+inline void prefetch(const MeshFeaturesView &wall, FeatureCode feature)
 {
   const std::uint32_t i = feature_index(feature);
   const auto fetch = [](const auto *record) {

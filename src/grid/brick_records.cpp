@@ -49,7 +49,7 @@ BrickEdge edge_at(const EdgeRecord &e, const Vec3 &origin)
 // many times.
 class Named {
  public:
-  explicit Named(const WallFeatures &wall) :
+  explicit Named(const MeshFeatures &wall) :
       by_{std::vector<std::uint32_t>(wall.faces.size(), 0),
           std::vector<std::uint32_t>(wall.edges.size(), 0),
           std::vector<std::uint32_t>(wall.vertices.size(), 0)}

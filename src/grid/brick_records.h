@@ -48,7 +48,7 @@ struct BrickRecordsView {
   const BrickVertex *vertices;
   const std::uint32_t *face_of, *edge_of, *vertex_of;    // the feature that it copies
   const FaceParts *face_parts;                           // in records; with nearest lists
-  const Vec3f *edge_inward, *vertex_direction;           // as in WallFeaturesView
+  const Vec3f *edge_inward, *vertex_direction;           // as in MeshFeaturesView
 
   // Calls visit() with each array of a view or of BrickRecords.
   template <class Records, class Visit>

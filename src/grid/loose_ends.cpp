@@ -25,7 +25,8 @@ struct End {
   Vec3 middle, out;    // out: unit, in the plane of its face, away from it
 };
 
-std::vector<End> ends_of(const WallMesh &mesh, const WallFeaturesView &wall, const PeriodicBox &box)
+std::vector<End> ends_of(const WeldedMesh &mesh, const MeshFeaturesView &wall,
+                         const PeriodicBox &box)
 {
   constexpr Real kTowards = 0.5;    // least cosine with the normal of the periodic face
   std::vector<End> ends;
@@ -45,7 +46,7 @@ std::vector<End> ends_of(const WallMesh &mesh, const WallFeaturesView &wall, con
 // Along which axes a connected part of the mesh meets an image, at any of its vertices.
 class Meetings {
  public:
-  Meetings(const WallMesh &mesh, const PeriodicBox &box) :
+  Meetings(const WeldedMesh &mesh, const PeriodicBox &box) :
       part_(mesh.images.n_vertices), meets_(mesh.images.n_vertices, {false, false, false})
   {
     for (std::size_t e = 0; e < mesh.images.n_edges; e++)
@@ -71,7 +72,7 @@ class Meetings {
 
 }    // namespace
 
-LooseEnds loose_ends(const WallMesh &mesh, const WallFeaturesView &wall, const PeriodicBox &box,
+LooseEnds loose_ends(const WeldedMesh &mesh, const MeshFeaturesView &wall, const PeriodicBox &box,
                      Real widest)
 {
   LooseEnds loose;

@@ -4,8 +4,8 @@
 // Ends of a mesh that face each other across a periodic face of the box and do not meet.
 #pragma once
 
+#include "mesh/mesh_features.h"
 #include "mesh/periodic_box.h"
-#include "mesh/wall_features.h"
 
 #include <cstddef>
 
@@ -21,7 +21,7 @@ struct LooseEnds {
 // in between. A part of the mesh that meets an image of itself somewhere along that axis is left
 // out: its open edges there are holes. `mesh` is the mesh with its images, `wall` has its
 // records.
-LooseEnds loose_ends(const WallMesh &mesh, const WallFeaturesView &wall, const PeriodicBox &box,
+LooseEnds loose_ends(const WeldedMesh &mesh, const MeshFeaturesView &wall, const PeriodicBox &box,
                      Real widest);
 
 }    // namespace lsdcd

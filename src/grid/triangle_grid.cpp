@@ -83,7 +83,7 @@ std::size_t flat_bytes(const TriangleGrid &grid)
 std::size_t flat_wall_bytes(const TriangleGrid &grid)
 {
   std::size_t total = rounded(sizeof(FlatHeader)) + kArrays * kAlign;
-  WallFeaturesView::each_array(grid.wall, [&](const auto &a) { total += rounded(array_bytes(a)); });
+  MeshFeaturesView::each_array(grid.wall, [&](const auto &a) { total += rounded(array_bytes(a)); });
   return total;
 }
 

@@ -9,8 +9,8 @@
 #include "base/progress.h"
 #include "base/vec3.h"
 #include "grid/brick_records.h"
+#include "mesh/mesh_features.h"
 #include "mesh/periodic_box.h"
-#include "mesh/wall_features.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -68,7 +68,7 @@ struct CellListsView {
 
 // Borrowed view of a grid on the host or on a device; trivially copyable.
 struct GridView {
-  WallFeaturesView wall;
+  MeshFeaturesView wall;
   Vec3 origin;                // corner of brick (0, 0, 0); length
   Real length, inv_length;    // cell edge
   Real cutoff;                // largest radius that the lists are complete for
@@ -90,7 +90,7 @@ struct GridView {
   template <class Grid, class Visit>
   static constexpr void each_array(Grid &grid, const Visit &visit)
   {
-    WallFeaturesView::each_array(grid.wall, visit);
+    MeshFeaturesView::each_array(grid.wall, visit);
     CellListsView::each_array(grid.lists, visit);
     BrickRecordsView::each_array(grid.records, visit);
   }
@@ -164,7 +164,7 @@ struct CellLists {
 // Owns a grid and the wall records that it points to, on the host. Every device builds
 // the same bits.
 struct TriangleGrid {
-  WallFeatures wall;
+  MeshFeatures wall;
   Vec3 origin = {0, 0, 0};
   Real length = 0, cutoff = 0, tolerance = 0, margin = 0, outside = 1;
   std::int32_t n_bricks[3] = {0, 0, 0};
@@ -179,7 +179,7 @@ struct TriangleGrid {
 
 // Throws InputError when the grid would not fit the budget; the message says
 // which cell length would.
-TriangleGrid build_grid(const WallMesh &mesh, const GridSettings &settings, bool on_cuda = false);
+TriangleGrid build_grid(const WeldedMesh &mesh, const GridSettings &settings, bool on_cuda = false);
 
 // The report as lines for the log.
 std::string describe(const GridReport &report);

@@ -42,7 +42,7 @@ struct MeshSettings {
   std::string temperature_variable;    // name of a variable; empty: none
   SurfaceMotion surface;
   std::string surface_variable[6];    // in place of its velocity and angular velocity; empty: none
-  WallMotion motion;
+  RigidMotion motion;
   std::string motion_tokens;    // "rotate 0 0 0 0 0 1 2, linear 1 0 0"
   std::string servo_tokens;     // "force z 100 vmax 0.1"
   bool torque_about_mesh = false;

@@ -34,7 +34,7 @@ Real GrainRecipe::mean_mass() const
   for (const Size &size : sizes) volume += size.share * cube(size.diameter);
   if (sizes.empty())    // the mean of d^3
     volume = (smallest + largest) / 4 * (smallest * smallest + largest * largest);
-  return Grain::kPi / 6 * volume * (density_lo + density_hi) / 2;
+  return kPi / 6 * volume * (density_lo + density_hi) / 2;
 }
 
 Real GrainSource::diameter(Real at) const

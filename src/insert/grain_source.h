@@ -16,7 +16,6 @@ struct Grain {
   Real radius, density;
 
   Real mass() const { return 4.0 / 3 * kPi * radius * radius * radius * density; }
-  static constexpr Real kPi = 3.14159265358979323846;
 };
 
 struct GrainRecipe {

@@ -19,7 +19,7 @@ constexpr int kTries = 1000;    // for a point that keeps off the outline
 
 }    // namespace
 
-InletFace::InletFace(const WallMesh &mesh, Real depth) : depth_(depth)
+InletFace::InletFace(const WeldedMesh &mesh, Real depth) : depth_(depth)
 {
   if (mesh.report.two_sided_faces > 0)
     throw InputError(mesh.source + ": " + std::to_string(mesh.report.two_sided_faces) + " of " +
@@ -46,7 +46,7 @@ InletFace::InletFace(const WallMesh &mesh, Real depth) : depth_(depth)
       outline_.push_back({mesh.vertices[mesh.edges[e][0]], mesh.vertices[mesh.edges[e][1]]});
 }
 
-void InletFace::check_flat(const WallMesh &mesh) const
+void InletFace::check_flat(const WeldedMesh &mesh) const
 {
   const Real diagonal = norm(mesh.report.hi - mesh.report.lo);
   for (std::size_t i = 0; i < triangles_.size(); i++) {

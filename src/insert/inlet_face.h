@@ -6,7 +6,7 @@
 
 #include "insert/random_stream.h"
 #include "mesh/periodic_box.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <array>
 #include <vector>
@@ -17,7 +17,7 @@ class InletFace {
  public:
   // Grains are put up to `depth` (length) in front of it, along its normal. Throws InputError where the mesh is
   // not flat, or wound in both ways.
-  InletFace(const WallMesh &mesh, Real depth);
+  InletFace(const WeldedMesh &mesh, Real depth);
 
   const Vec3 &normal() const { return normal_; }    // unit
   Real area() const { return areas_.back(); }
@@ -29,7 +29,7 @@ class InletFace {
   bool has_room(Real radius) const;
 
  private:
-  void check_flat(const WallMesh &mesh) const;
+  void check_flat(const WeldedMesh &mesh) const;
   Vec3 point(RandomStream &random) const;
   bool is_inside(const Vec3 &at, Real radius) const;    // a point of the face
 

@@ -36,7 +36,7 @@ BodyPose moved(BodyPose pose, const Vec3 &by)
 }
 
 // A pose in the box, as seen from a mesh.
-BodyPose in_frame_of(const lsdcd::WallPose &wall, const BodyPose &pose)
+BodyPose in_frame_of(const lsdcd::Pose &wall, const BodyPose &pose)
 {
   BodyPose there;
   for (int d = 0; d < 3; d++) {
@@ -54,7 +54,7 @@ ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
 {
   try {
     settings = lsdcd::parse_collide(std::vector<std::string>(arg + 3, arg + narg));
-    const lsdcd::WallMesh mesh = lsdcd::read_together(world, settings.mesh);
+    const lsdcd::WeldedMesh mesh = lsdcd::read_together(world, settings.mesh);
     if (mesh.faces.empty())
       throw lsdcd::InputError(settings.mesh.file +
                               ": all triangles have no area; check the file, or make weld smaller");
@@ -106,7 +106,7 @@ bool ComputeCollideLsdcd::has_any() const
 }
 
 // Only processes that have bodies keep grids.
-void ComputeCollideLsdcd::make_collisions(const lsdcd::WallMesh &body)
+void ComputeCollideLsdcd::make_collisions(const lsdcd::WeldedMesh &body)
 {
   lsdcd::MeshCollisionSettings how;
   how.cell = settings.grid_length;
@@ -114,7 +114,7 @@ void ComputeCollideLsdcd::make_collisions(const lsdcd::WallMesh &body)
   how.memory = settings.memory;
   how.device = settings.device;
   for (const lsdcd::MeshPart &part : wall().meshes()) {
-    const lsdcd::WallMesh mesh = lsdcd::copy_together(world, part.grid.mesh());
+    const lsdcd::WeldedMesh mesh = lsdcd::copy_together(world, part.grid.mesh());
     Against one;
     one.fingerprint = part.grid.mesh_fingerprint();
     one.bounds = part.bounds(0);
@@ -173,7 +173,7 @@ void ComputeCollideLsdcd::collide(int body, const BodyPose &pose, const FixWallL
                                   const lsdcd::PeriodicBox &box)
 {
   for (std::size_t m = 0; m < meshes.size(); m++) {
-    const lsdcd::WallPose &wall = fix.meshes()[m].motion.pose();
+    const lsdcd::Pose &wall = fix.meshes()[m].motion.pose();
     std::vector<lsdcd::BodyPair> pairs;
     for_images(pose, wall, meshes[m].bounds, box, [&](const Vec3 &shift) {
       const lsdcd::Collision meets =
@@ -189,7 +189,7 @@ void ComputeCollideLsdcd::collide(int body, const BodyPose &pose, const FixWallL
 // Calls visit(shift) for images of the body, in the box's frame, whose ball reaches into the box
 // around a mesh.
 template <class Visit>
-void ComputeCollideLsdcd::for_images(const BodyPose &pose, const lsdcd::WallPose &wall,
+void ComputeCollideLsdcd::for_images(const BodyPose &pose, const lsdcd::Pose &wall,
                                      const lsdcd::Box &bounds, const lsdcd::PeriodicBox &box,
                                      const Visit &visit) const
 {
@@ -259,7 +259,7 @@ double ComputeCollideLsdcd::memory_usage()
   return bytes;
 }
 
-void ComputeCollideLsdcd::log_mesh(const lsdcd::WallMesh &mesh) const
+void ComputeCollideLsdcd::log_mesh(const lsdcd::WeldedMesh &mesh) const
 {
   if (comm->me != 0) return;
   std::string text = std::to_string(bodies.size()) + (bodies.size() == 1 ? " body" : " bodies") +

@@ -20,7 +20,7 @@
 #include <vector>
 
 namespace lsdcd {
-struct WallPose;
+struct Pose;
 }
 
 namespace LAMMPS_NS {
@@ -75,16 +75,16 @@ class ComputeCollideLsdcd : public Compute, private OwnMessages {
   std::string name_of(int) const, kind_text() const;
 
   const class FixWallLsdcd &wall() const;
-  void make_collisions(const lsdcd::WallMesh &);
+  void make_collisions(const lsdcd::WeldedMesh &);
   void check_wall(const FixWallLsdcd &) const;
   void evaluate();
   void collide(int, const lsdcd::BodyPose &, const FixWallLsdcd &, const lsdcd::PeriodicBox &);
   template <class Visit>
-  void for_images(const lsdcd::BodyPose &, const lsdcd::WallPose &, const lsdcd::Box &,
+  void for_images(const lsdcd::BodyPose &, const lsdcd::Pose &, const lsdcd::Box &,
                   const lsdcd::PeriodicBox &, const Visit &) const;
   bool is_mine(int) const;
   bool has_any() const;
-  void log_mesh(const lsdcd::WallMesh &) const;
+  void log_mesh(const lsdcd::WeldedMesh &) const;
 };
 
 }    // namespace LAMMPS_NS

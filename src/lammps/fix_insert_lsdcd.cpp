@@ -139,7 +139,7 @@ void FixInsertLsdcd::post_constructor()
 
 void FixInsertLsdcd::read_face()
 {
-  const lsdcd::WallMesh mesh = lsdcd::read_together(world, settings.face);
+  const lsdcd::WeldedMesh mesh = lsdcd::read_together(world, settings.face);
   face = std::make_unique<lsdcd::InletFace>(mesh, settings.depth);
   const std::string outside =
       lsdcd::outside_box({mesh.report.lo, mesh.report.hi}, lsdcd::host_box(*domain), 0);

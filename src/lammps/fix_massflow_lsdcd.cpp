@@ -30,7 +30,7 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
 {
   try {
     settings = lsdcd::parse_massflow(std::vector<std::string>(arg + 3, arg + narg));
-    const lsdcd::WallMesh mesh = read_mesh();
+    const lsdcd::WeldedMesh mesh = read_mesh();
     surface = std::make_unique<lsdcd::FlowSurface>(mesh);
     log(settings.brief ? std::to_string(mesh.faces.size()) + " triangles"
                        : describe(mesh.report, settings.surface.file));
@@ -92,9 +92,9 @@ FixMassflowLsdcd::~FixMassflowLsdcd()
 }
 
 // Every process keeps the whole surface.
-lsdcd::WallMesh FixMassflowLsdcd::read_mesh()
+lsdcd::WeldedMesh FixMassflowLsdcd::read_mesh()
 {
-  lsdcd::WallMesh mesh = lsdcd::read_together(world, settings.surface);
+  lsdcd::WeldedMesh mesh = lsdcd::read_together(world, settings.surface);
   if (mesh.faces.empty())
     throw lsdcd::InputError(settings.surface.file +
                             ": all triangles have no area, and nothing passes such a surface; "
@@ -102,7 +102,7 @@ lsdcd::WallMesh FixMassflowLsdcd::read_mesh()
   return mesh;
 }
 
-void FixMassflowLsdcd::check_length(const lsdcd::WallMesh &mesh) const
+void FixMassflowLsdcd::check_length(const lsdcd::WeldedMesh &mesh) const
 {
   const lsdcd::PeriodicBox now = lsdcd::host_box(*domain);
   const lsdcd::Box size = in_fractions({mesh.report.lo, mesh.report.hi}, now);

@@ -83,8 +83,8 @@ class FixMassflowLsdcd : public Fix, private OwnMessages {
   int window_steps = 0;
   double time_seen = 0;    // LAMMPS's, at the end of the last step
 
-  lsdcd::WallMesh read_mesh();
-  void check_length(const lsdcd::WallMesh &) const;
+  lsdcd::WeldedMesh read_mesh();
+  void check_length(const lsdcd::WeldedMesh &) const;
   void follow_box();
   void look(int);
   void count(int, lsdcd::Passes);

@@ -31,7 +31,7 @@ bool is_first(MPI_Comm world)
 
 }    // namespace
 
-WallMesh read_together(MPI_Comm world, const MeshSettings &settings)
+WeldedMesh read_together(MPI_Comm world, const MeshSettings &settings)
 {
   TriangleSoup soup;
   soup.source = settings.file;
@@ -40,7 +40,7 @@ WallMesh read_together(MPI_Comm world, const MeshSettings &settings)
     settings.placement.apply(soup);
   });
   send_corners(world, soup);
-  WallMesh mesh;
+  WeldedMesh mesh;
   run_collectively(world, true, [&] {
     mesh = weld(soup, settings.weld);
     check_has_area(mesh);
@@ -48,7 +48,7 @@ WallMesh read_together(MPI_Comm world, const MeshSettings &settings)
   return mesh;
 }
 
-WallMesh copy_together(MPI_Comm world, const WallMesh *mesh)
+WeldedMesh copy_together(MPI_Comm world, const WeldedMesh *mesh)
 {
   TriangleSoup soup;
   run_collectively(world, is_first(world), [&] {
@@ -67,7 +67,7 @@ WallMesh copy_together(MPI_Comm world, const WallMesh *mesh)
       }
   });
   send_corners(world, soup);
-  WallMesh copy;
+  WeldedMesh copy;
   run_collectively(world, true, [&] { copy = weld(soup, 0); });
   return copy;
 }

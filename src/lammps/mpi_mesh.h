@@ -5,7 +5,7 @@
 #pragma once
 
 #include "input/settings.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <mpi.h>
 
@@ -13,9 +13,9 @@ namespace lsdcd {
 
 // The file is read by the first process alone: it may not be there on other nodes. Collective;
 // throws InputError on all.
-WallMesh read_together(MPI_Comm world, const MeshSettings &settings);
+WeldedMesh read_together(MPI_Comm world, const MeshSettings &settings);
 
 // A copy of a mesh that the first process has; others give null. Its faces keep their numbers.
-WallMesh copy_together(MPI_Comm world, const WallMesh *mesh);
+WeldedMesh copy_together(MPI_Comm world, const WeldedMesh *mesh);
 
 }    // namespace lsdcd

@@ -26,7 +26,7 @@ RegionMeshLsdcd::RegionMeshLsdcd(LAMMPS *lmp, int narg, char **arg) :
   try {
     settings = lsdcd::parse_region(std::vector<std::string>(arg + 2, arg + narg));
     read_host_words();
-    const lsdcd::WallMesh mesh = lsdcd::read_together(world, settings.mesh);
+    const lsdcd::WeldedMesh mesh = lsdcd::read_together(world, settings.mesh);
     lsdcd::run_collectively(world, true, [&] {
       winding = std::make_unique<lsdcd::WindingNumber>(mesh);
       if (settings.gap > 0) distances = std::make_unique<Distances>(mesh);
@@ -119,7 +119,7 @@ void RegionMeshLsdcd::refuse_surface() const
              "fix wall/region or fix wall/gran/region");
 }
 
-void RegionMeshLsdcd::log_mesh(const lsdcd::WallMesh &mesh) const
+void RegionMeshLsdcd::log_mesh(const lsdcd::WeldedMesh &mesh) const
 {
   if (comm->me != 0) return;
   char text[160];

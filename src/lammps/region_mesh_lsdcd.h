@@ -31,16 +31,18 @@ class RegionMeshLsdcd : public Region, private OwnMessages {
   void read_host_words();
   void refuse_rotating_whole() const;
   void set_bounds(const lsdcd::MeshReport &);
-  void log_mesh(const lsdcd::WallMesh &) const;
+  void log_mesh(const lsdcd::WeldedMesh &) const;
   [[noreturn]] void refuse_surface() const;
 
   // From the surface.
   struct Distances {
-    lsdcd::WallMesh mesh;
+    lsdcd::WeldedMesh mesh;
     lsdcd::TriangleTable names;
     lsdcd::TriangleTree tree;
 
-    explicit Distances(const lsdcd::WallMesh &from) : mesh(from), names(mesh), tree(mesh, names) {}
+    explicit Distances(const lsdcd::WeldedMesh &from) : mesh(from), names(mesh), tree(mesh, names)
+    {
+    }
   };
 
   lsdcd::RegionSettings settings;

@@ -39,21 +39,21 @@ class WallClearance {
     std::string fix;    // its ID
     std::size_t index;
     std::uint64_t fingerprint;
-    WallMesh mesh;
+    WeldedMesh mesh;
     TriangleTable names;
     TriangleTree tree;
-    WallPose pose;
+    Pose pose;
     Box bounds;    // in that pose
     std::uint32_t hint = kNoPrimitive;
 
     Surface(const std::string &fix, std::size_t index, std::uint64_t fingerprint,
-            const WallMesh &from) :
+            const WeldedMesh &from) :
         fix(fix),
         index(index), fingerprint(fingerprint), mesh(from), names(mesh), tree(mesh, names)
     {
     }
 
-    void place(const WallPose &at)
+    void place(const Pose &at)
     {
       pose = at;
       bounds = placed_bounds(at, {mesh.report.lo, mesh.report.hi});

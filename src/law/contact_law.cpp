@@ -70,8 +70,9 @@ Real tsuji_damping(Real e)
 
 Real restitution_damping(NormalModel normal, Real e)
 {
-  const Real pi = 3.14159265358979323846, l = std::log(e);
-  return -(normal == NormalModel::hooke ? 2 : std::sqrt(Real(5))) * l / std::sqrt(pi * pi + l * l);
+  const Real l = std::log(e);
+  return -(normal == NormalModel::hooke ? 2 : std::sqrt(Real(5))) * l /
+         std::sqrt(kPi * kPi + l * l);
 }
 
 Real cutoff_of(const ContactLaw &law, Real radius)

@@ -55,7 +55,7 @@ Real pull_off_slope(const ContactLaw &law, Real radius)
 {
   const bool jkr = law.is(NormalModel::jkr);
   if (!jkr && !law.is(NormalModel::dmt)) return 0;
-  const Real pi = 3.14159265358979323846, pull = (jkr ? 3 : 4) * pi * law.surface_energy * radius,
+  const Real pull = (jkr ? 3 : 4) * kPi * law.surface_energy * radius,
              overlap = std::pow(pull / (law.k_normal * std::sqrt(radius)), 2. / 3);
   return contact_slope(law, overlap, radius, 1).stiffness / pull;
 }

@@ -22,7 +22,7 @@ Real contact_time(const ContactLaw &law, Real mass, Real radius, Real ftm2v)
   }
   const Real omega_sq = ftm2v * k / mass, half = 0.5 * ftm2v * gamma;
   const Real damped_sq = omega_sq - half * half;
-  return M_PI / std::sqrt(damped_sq > 0 ? damped_sq : omega_sq);
+  return kPi / std::sqrt(damped_sq > 0 ? damped_sq : omega_sq);
 }
 
 HertzImpact hertz_impact(Real modulus, Real mass, Real radius, Real speed)
@@ -31,14 +31,14 @@ HertzImpact hertz_impact(Real modulus, Real mass, Real radius, Real speed)
   const Real overlap =
       std::pow(15 * mass * speed * speed / (16 * modulus * std::sqrt(radius)), 0.4);
   // Twice the integral of 1 / sqrt(1 - x^(5/2)) from 0 to 1, a beta function: 2.9432.
-  const Real constant = 0.8 * std::sqrt(M_PI) * std::tgamma(0.4) / std::tgamma(0.9);
+  const Real constant = 0.8 * std::sqrt(kPi) * std::tgamma(0.4) / std::tgamma(0.9);
   return {overlap, constant * overlap / speed};
 }
 
 Real rayleigh_time(Real radius, Real density, Real youngs_modulus, Real poissons_ratio)
 {
   const Real shear = youngs_modulus / (2 * (1 + poissons_ratio));
-  return M_PI * radius * std::sqrt(density / shear) / (0.1631 * poissons_ratio + 0.8766);
+  return kPi * radius * std::sqrt(density / shear) / (0.1631 * poissons_ratio + 0.8766);
 }
 
 }    // namespace lsdcd

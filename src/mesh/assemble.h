@@ -4,7 +4,7 @@
 // The second half of welding: from points and facets to faces, edges and their neighbours.
 #pragma once
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <array>
 #include <string>
@@ -16,16 +16,16 @@ namespace lsdcd {
 // and duplicate facets are dropped as faces. `bare_edges` are edges that need no face. Edges
 // ascend in their vertices. The edges of vertices and the report are left to the caller, but for
 // the counts of what was dropped.
-WallMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
-                  std::vector<std::array<int, 2>> bare_edges);
+WeldedMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
+                    std::vector<std::array<int, 2>> bare_edges);
 
 // Throws InputError where the ends of n edges are more than an int can number.
 void check_edge_number(std::size_t n, const std::string &source);
 
 // Gives edge e the number number[e]. The edges of vertices are left to the caller.
-void number_edges(WallMesh &mesh, const std::vector<int> &number);
+void number_edges(WeldedMesh &mesh, const std::vector<int> &number);
 
 // Fills vertex_first and vertex_edge from the edges.
-void connect_vertices(WallMesh &mesh);
+void connect_vertices(WeldedMesh &mesh);
 
 }    // namespace lsdcd

@@ -26,7 +26,7 @@ Corners ascending(Corners c, int &turned)
 
 // Facets that became no face have one with the same corners, or no area. `sheets` becomes the faces that
 // do not count.
-std::vector<Corners> counted_facets(const WallMesh &mesh, bool with_no_area,
+std::vector<Corners> counted_facets(const WeldedMesh &mesh, bool with_no_area,
                                     std::vector<int> &sheets)
 {
   sheets.clear();
@@ -90,7 +90,7 @@ std::vector<LooseEdge> loose_edges(const std::vector<Corners> &facets)
 
 }    // namespace
 
-CountedFacets::CountedFacets(const WallMesh &mesh)
+CountedFacets::CountedFacets(const WeldedMesh &mesh)
 {
   facets = counted_facets(mesh, false, sheets);
   if (is_known_closed(mesh)) return;
@@ -102,13 +102,13 @@ CountedFacets::CountedFacets(const WallMesh &mesh)
   loose.clear();
 }
 
-bool is_known_closed(const WallMesh &mesh)
+bool is_known_closed(const WeldedMesh &mesh)
 {
   return mesh.dropped.empty() && mesh.report.closed && mesh.report.misoriented_edges == 0;
 }
 
 // Faces with an edge that no other has are taken away until there are none. What is left encloses a space.
-bool enclose(const WallMesh &mesh, const std::vector<int> &faces)
+bool enclose(const WeldedMesh &mesh, const std::vector<int> &faces)
 {
   std::vector<char> is_left(mesh.faces.size(), 0);
   std::vector<int> left_at(mesh.edges.size(), 0);
@@ -135,7 +135,7 @@ bool enclose(const WallMesh &mesh, const std::vector<int> &faces)
   return n_left > 0;
 }
 
-std::vector<Triangle> whole_surface(const WallMesh &mesh, const CountedFacets &counted)
+std::vector<Triangle> whole_surface(const WeldedMesh &mesh, const CountedFacets &counted)
 {
   std::vector<Triangle> triangles;
   triangles.reserve(counted.facets.size() + 2 * counted.sheets.size());

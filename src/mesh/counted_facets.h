@@ -5,7 +5,7 @@
 #pragma once
 
 #include "geometry/triangles_meet.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <array>
 #include <vector>
@@ -25,17 +25,17 @@ struct CountedFacets {
   std::vector<int> sheets;                   // faces of which neither winding counts
   std::vector<LooseEdge> loose;              // none: the surface is closed
 
-  explicit CountedFacets(const WallMesh &mesh);
+  explicit CountedFacets(const WeldedMesh &mesh);
 };
 
 // Do some of these faces enclose a space among themselves?
-bool enclose(const WallMesh &mesh, const std::vector<int> &faces);
+bool enclose(const WeldedMesh &mesh, const std::vector<int> &faces);
 
 // Are all faces counted, and is no edge loose? Quick; false: not known.
-bool is_known_closed(const WallMesh &mesh);
+bool is_known_closed(const WeldedMesh &mesh);
 
 // The facets, and behind them all else of the mesh on which a point can lie, which adds nothing to a
 // winding number: sheets in both windings, and edges and vertices without faces as triangles without area.
-std::vector<Triangle> whole_surface(const WallMesh &mesh, const CountedFacets &counted);
+std::vector<Triangle> whole_surface(const WeldedMesh &mesh, const CountedFacets &counted);
 
 }    // namespace lsdcd

@@ -30,7 +30,7 @@ class Mixer {
 }    // namespace
 
 // Every build has this, unlike the key of the grid cache: restart files go from one build to another.
-std::uint64_t fingerprint(const WallMesh &mesh)
+std::uint64_t fingerprint(const WeldedMesh &mesh)
 {
   Mixer mixer;
   mixer.add(std::uint64_t(mesh.vertices.size()));

@@ -4,13 +4,13 @@
 // A number of 64 bits that tells whether a mesh is the same as an earlier one.
 #pragma once
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <cstdint>
 
 namespace lsdcd {
 
 // Of vertices, edges and faces, in their order, bit for bit.
-std::uint64_t fingerprint(const WallMesh &mesh);
+std::uint64_t fingerprint(const WeldedMesh &mesh);
 
 }    // namespace lsdcd

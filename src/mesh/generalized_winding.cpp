@@ -19,7 +19,7 @@ constexpr Real kNearEdge = 1e-4;
 // Triangles over the loops of loose edges, wound so that all edges cancel. Loops that have a vertex in common
 // have one apex.
 template <class Cap>
-std::vector<Cap> caps_over(const WallMesh &mesh, const std::vector<LooseEdge> &loose)
+std::vector<Cap> caps_over(const WeldedMesh &mesh, const std::vector<LooseEdge> &loose)
 {
   UnionFind loops(mesh.vertices.size());
   for (const LooseEdge &e : loose) loops.join(e.from, e.to);
@@ -35,7 +35,7 @@ std::vector<Cap> caps_over(const WallMesh &mesh, const std::vector<LooseEdge> &l
 
 }    // namespace
 
-GeneralizedWinding::GeneralizedWinding(const WallMesh &mesh, const ProgressListener &progress)
+GeneralizedWinding::GeneralizedWinding(const WeldedMesh &mesh, const ProgressListener &progress)
 {
   const CountedFacets counted(mesh);
   std::vector<Triangle> facets = whole_surface(mesh, counted);
@@ -62,7 +62,7 @@ GeneralizedWinding::Answer GeneralizedWinding::at(const Vec3 &q) const
     if (half.length_sq() < kNearEdge * kNearEdge) return add_facets(q);
     capped += cap.times * half.value();
   }
-  return {false, whole.number - capped / (2 * Real(M_PI))};
+  return {false, whole.number - capped / (2 * kPi)};
 }
 
 GeneralizedWinding::Answer GeneralizedWinding::add_facets(const Vec3 &q) const
@@ -76,7 +76,7 @@ GeneralizedWinding::Answer GeneralizedWinding::add_facets(const Vec3 &q) const
     else if (half.cosine < kBeside)
       answer.on_surface = answer.on_surface || lies_on(facets[f], q);
   }
-  answer.number /= 2 * Real(M_PI);
+  answer.number /= 2 * kPi;
   return answer;
 }
 

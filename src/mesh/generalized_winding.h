@@ -6,7 +6,7 @@
 #pragma once
 
 #include "geometry/triangles_meet.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "mesh/winding_number.h"
 
 #include <cmath>
@@ -27,7 +27,7 @@ namespace lsdcd {
 // are added up, 1e-15 times the length of an edge over how far it is.
 class GeneralizedWinding {
  public:
-  explicit GeneralizedWinding(const WallMesh &mesh, const ProgressListener &progress = {});
+  explicit GeneralizedWinding(const WeldedMesh &mesh, const ProgressListener &progress = {});
 
   // A whole number where the mesh has an inside. On the surface the mean of its two sides.
   struct Answer {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include "base/input_words.h"
 

@@ -14,10 +14,10 @@
 namespace lsdcd {
 namespace {
 
-constexpr Real kDegrees = 180 / 3.14159265358979323846;
+constexpr Real kDegrees = 180 / kPi;
 constexpr Real kFeatureFold = 30;    // degrees
 
-void measure_bounds(WallMesh &mesh)
+void measure_bounds(WeldedMesh &mesh)
 {
   MeshReport &report = mesh.report;
   report.lo = report.hi = mesh.vertices[0];
@@ -28,7 +28,7 @@ void measure_bounds(WallMesh &mesh)
     }
 }
 
-void measure_edge_lengths(WallMesh &mesh)
+void measure_edge_lengths(WeldedMesh &mesh)
 {
   if (mesh.edges.empty()) return;
   MeshReport &report = mesh.report;
@@ -44,7 +44,7 @@ void measure_edge_lengths(WallMesh &mesh)
   report.median_edge = *middle;
 }
 
-void measure_faces(WallMesh &mesh, const std::vector<FacePlane> &plane)
+void measure_faces(WeldedMesh &mesh, const std::vector<FacePlane> &plane)
 {
   if (mesh.faces.empty()) return;
   MeshReport &report = mesh.report;
@@ -61,7 +61,7 @@ void measure_faces(WallMesh &mesh, const std::vector<FacePlane> &plane)
   report.volume = static_cast<Real>(volume);
 }
 
-void measure_adjacency(WallMesh &mesh, const std::vector<FacePlane> &plane)
+void measure_adjacency(WeldedMesh &mesh, const std::vector<FacePlane> &plane)
 {
   MeshReport &report = mesh.report;
   for (int e = 0; e < static_cast<int>(mesh.edges.size()); ++e) {
@@ -89,21 +89,21 @@ void measure_adjacency(WallMesh &mesh, const std::vector<FacePlane> &plane)
 
 }    // namespace
 
-bool runs_along(const WallMesh &mesh, int face, int edge)
+bool runs_along(const WeldedMesh &mesh, int face, int edge)
 {
   int k = 0;
   while (mesh.face_edges[face][k] != edge) ++k;
   return mesh.faces[face][k] == mesh.edges[edge][0];
 }
 
-void note_meetings(WallMesh &mesh, const SelfMeetings &meetings)
+void note_meetings(WeldedMesh &mesh, const SelfMeetings &meetings)
 {
   if (!mesh.report.oriented) return;
   mesh.report.meeting_pairs = meetings.pairs;
   mesh.report.oriented = mesh.report.meeting_pairs == 0;
 }
 
-void check_has_area(const WallMesh &mesh)
+void check_has_area(const WeldedMesh &mesh)
 {
   if (!mesh.faces.empty()) return;
   throw InputError(mesh.source + ": none of its " + std::to_string(mesh.report.facets) +
@@ -111,7 +111,7 @@ void check_has_area(const WallMesh &mesh)
                    "where facets are small, give a smaller weld tolerance");
 }
 
-void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane)
+void measure_mesh(WeldedMesh &mesh, const std::vector<FacePlane> &plane)
 {
   mesh.report.vertices = mesh.vertices.size();
   mesh.report.edges = mesh.edges.size();

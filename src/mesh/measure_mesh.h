@@ -6,7 +6,7 @@
 
 #include "mesh/face_plane.h"
 #include "mesh/meets_itself.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <vector>
 
@@ -14,13 +14,13 @@ namespace lsdcd {
 
 // Fills the edge counts, sizes, folds, area and volume of mesh.report; `plane`
 // holds one entry per face. What was dropped on the way is the welder's to count.
-void measure_mesh(WallMesh &mesh, const std::vector<FacePlane> &plane);
+void measure_mesh(WeldedMesh &mesh, const std::vector<FacePlane> &plane);
 
 // Does the face run along the edge from its lower to its higher vertex?
-bool runs_along(const WallMesh &mesh, int face, int edge);
+bool runs_along(const WeldedMesh &mesh, int face, int edge);
 
 // Notes in the report that these facets meet. A mesh with such facets is not oriented.
-void note_meetings(WallMesh &mesh, const SelfMeetings &meetings);
+void note_meetings(WeldedMesh &mesh, const SelfMeetings &meetings);
 
 // Squares of lengths outside 1e-100 .. 1e100 would leave the range of Real.
 constexpr Real kLargestLength = 1e100;
@@ -30,6 +30,6 @@ constexpr Real kLargestLength = 1e100;
 Real checked_diagonal(const TriangleSoup &soup);
 
 // Throws InputError if no facet has an area: edges and points alone are no wall.
-void check_has_area(const WallMesh &mesh);
+void check_has_area(const WeldedMesh &mesh);
 
 }    // namespace lsdcd

@@ -58,7 +58,7 @@ bool meet_beyond(int shared, const Triangle &a, const Triangle &b)
 }
 
 // How many corners two faces share. Turns the corners so that these come first.
-int line_up(const WallMesh &mesh, int f, int g, Triangle &a, Triangle &b)
+int line_up(const WeldedMesh &mesh, int f, int g, Triangle &a, Triangle &b)
 {
   auto v = mesh.faces[f], w = mesh.faces[g];
   int shared = 0;
@@ -78,7 +78,7 @@ int line_up(const WallMesh &mesh, int f, int g, Triangle &a, Triangle &b)
 // Pairs of faces, collected and tested many at once.
 class FacePairs {
  public:
-  explicit FacePairs(const WallMesh &mesh) : mesh_(mesh) {}
+  explicit FacePairs(const WeldedMesh &mesh) : mesh_(mesh) {}
 
   void add(int f, int g)
   {
@@ -111,18 +111,18 @@ class FacePairs {
     pairs_.clear();
   }
 
-  const WallMesh &mesh_;
+  const WeldedMesh &mesh_;
   std::vector<std::array<int, 2>> pairs_;
   SelfMeetings found_;
 };
 
-Box box_of(const WallMesh &mesh, int face)
+Box box_of(const WeldedMesh &mesh, int face)
 {
   const auto &v = mesh.faces[face];
   return box_around(mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]);
 }
 
-BoxTree tree_of(const WallMesh &mesh, const std::vector<int> &faces)
+BoxTree tree_of(const WeldedMesh &mesh, const std::vector<int> &faces)
 {
   std::vector<Box> boxes;
   boxes.reserve(faces.size());
@@ -132,7 +132,7 @@ BoxTree tree_of(const WallMesh &mesh, const std::vector<int> &faces)
 
 }    // namespace
 
-SelfMeetings meets_itself(const WallMesh &mesh)
+SelfMeetings meets_itself(const WeldedMesh &mesh)
 {
   std::vector<int> all(mesh.images.any() ? mesh.images.n_faces : mesh.faces.size());
   std::iota(all.begin(), all.end(), 0);
@@ -141,7 +141,7 @@ SelfMeetings meets_itself(const WallMesh &mesh)
   return pairs.found();
 }
 
-SelfMeetings shells_meet(const WallMesh &mesh, const std::vector<std::vector<int>> &shells)
+SelfMeetings shells_meet(const WeldedMesh &mesh, const std::vector<std::vector<int>> &shells)
 {
   std::vector<Box> boxes;
   for (const auto &shell : shells) {

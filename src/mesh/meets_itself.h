@@ -4,7 +4,7 @@
 // Where a mesh meets itself.
 #pragma once
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <array>
 #include <cstddef>
@@ -19,10 +19,10 @@ struct SelfMeetings {
 
 // Finds pairs of faces that have more in common than shared corners and edges: they cut, overlap or
 // touch each other. It is exact for the corners as they are. Periodic images are left out.
-SelfMeetings meets_itself(const WallMesh &mesh);
+SelfMeetings meets_itself(const WeldedMesh &mesh);
 
 // The same between faces of different shells; each has the numbers of its faces. Shells with boxes
 // that do not overlap cost nothing.
-SelfMeetings shells_meet(const WallMesh &mesh, const std::vector<std::vector<int>> &shells);
+SelfMeetings shells_meet(const WeldedMesh &mesh, const std::vector<std::vector<int>> &shells);
 
 }    // namespace lsdcd

@@ -40,7 +40,7 @@ void include(Vec3 &least, Vec3 &most, const Vec3 &x)
 // Tests each part by itself: a mesh may be far from the box, and many boxes long.
 class NearImages {
  public:
-  NearImages(const WallMesh &mesh, const std::vector<FacetPart> &parts, const PeriodicBox &box,
+  NearImages(const WeldedMesh &mesh, const std::vector<FacetPart> &parts, const PeriodicBox &box,
              Real depth) :
       mesh_(mesh),
       box_(box), n_parts_(parts.size())
@@ -118,7 +118,7 @@ class NearImages {
                      "; give a smaller scale, or cut off what is outside of the box");
   }
 
-  const WallMesh &mesh_;
+  const WeldedMesh &mesh_;
   const PeriodicBox &box_;
   std::size_t n_parts_;
   Real past_[3];
@@ -129,7 +129,7 @@ class NearImages {
 
 }    // namespace
 
-std::vector<FacetPart> parts_of(const WallMesh &mesh)
+std::vector<FacetPart> parts_of(const WeldedMesh &mesh)
 {
   std::vector<FacetPart> parts;
   parts.reserve(mesh.faces.size());
@@ -147,7 +147,7 @@ std::vector<FacetPart> parts_of(const WallMesh &mesh)
   return parts;
 }
 
-std::vector<PartImage> near_images(const WallMesh &mesh, const std::vector<FacetPart> &parts,
+std::vector<PartImage> near_images(const WeldedMesh &mesh, const std::vector<FacetPart> &parts,
                                    const PeriodicBox &box, Real depth)
 {
   return NearImages(mesh, parts, box, depth).take();

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "mesh/periodic_box.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <array>
 #include <tuple>
@@ -21,7 +21,7 @@ struct FacetPart {
   int face, edge;               // of the mesh; kNoPart: none
 };
 
-std::vector<FacetPart> parts_of(const WallMesh &mesh);
+std::vector<FacetPart> parts_of(const WeldedMesh &mesh);
 
 // A part, moved by a sum of periodic edges.
 struct PartImage {
@@ -38,7 +38,7 @@ struct PartImage {
 
 // The images within `depth` (length) of the box, ascending. Throws InputError if there are more than
 // vertex numbers can count.
-std::vector<PartImage> near_images(const WallMesh &mesh, const std::vector<FacetPart> &parts,
+std::vector<PartImage> near_images(const WeldedMesh &mesh, const std::vector<FacetPart> &parts,
                                    const PeriodicBox &box, Real depth);
 
 }    // namespace lsdcd

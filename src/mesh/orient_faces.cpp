@@ -38,7 +38,7 @@ bool holds(const Box &outer, const Box &inner)
 }
 
 // The part that a face belongs to, turned as that face is.
-Part gather(const WallMesh &mesh, int first, std::vector<char> &seen, std::vector<char> &turned)
+Part gather(const WeldedMesh &mesh, int first, std::vector<char> &seen, std::vector<char> &turned)
 {
   Part part;
   part.faces = {first};
@@ -65,7 +65,7 @@ Part gather(const WallMesh &mesh, int first, std::vector<char> &seen, std::vecto
   return part;
 }
 
-void measure(const WallMesh &mesh, const std::vector<char> &turned, Part &part)
+void measure(const WeldedMesh &mesh, const std::vector<char> &turned, Part &part)
 {
   const auto corner = [&](int f, int k) -> const Vec3 & { return mesh.vertices[mesh.faces[f][k]]; };
   part.box = {corner(part.faces[0], 0), corner(part.faces[0], 0)};
@@ -84,7 +84,7 @@ void measure(const WallMesh &mesh, const std::vector<char> &turned, Part &part)
 }
 
 // How many times a closed part winds around a point; a half if the point is on it.
-Real turns_round(const WallMesh &mesh, const Part &part, const std::vector<char> &turned,
+Real turns_round(const WeldedMesh &mesh, const Part &part, const std::vector<char> &turned,
                  const Vec3 &x)
 {
   Real sum = 0;
@@ -93,11 +93,11 @@ Real turns_round(const WallMesh &mesh, const Part &part, const std::vector<char>
     const Triangle facet = {{mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]}};
     sum += (turned[f] ? -1 : 1) * half_solid_angle(facet, x).value();
   }
-  return sum / (2 * M_PI);
+  return sum / (2 * kPi);
 }
 
 // Is one shell inside the other? Its first point that is not on the other decides.
-bool is_inside(const WallMesh &mesh, const Part &inner, const Part &outer,
+bool is_inside(const WeldedMesh &mesh, const Part &inner, const Part &outer,
                const std::vector<char> &turned)
 {
   if (!holds(outer.box, inner.box)) return false;
@@ -112,7 +112,7 @@ bool is_inside(const WallMesh &mesh, const Part &inner, const Part &outer,
   return turns > 0.5;
 }
 
-std::vector<Part> parts_of(const WallMesh &mesh, std::vector<char> &turned)
+std::vector<Part> parts_of(const WeldedMesh &mesh, std::vector<char> &turned)
 {
   std::vector<char> seen(mesh.faces.size(), 0);
   std::vector<Part> parts;
@@ -128,7 +128,7 @@ bool has_volume(const Part &part)
 }
 
 // Does each part bound a cavity? It does if an odd number of others encloses it.
-std::vector<char> find_cavities(const WallMesh &mesh, const std::vector<Part> &parts,
+std::vector<char> find_cavities(const WeldedMesh &mesh, const std::vector<Part> &parts,
                                 const std::vector<char> &turned)
 {
   std::vector<std::size_t> solid;
@@ -151,7 +151,7 @@ std::vector<char> find_cavities(const WallMesh &mesh, const std::vector<Part> &p
 
 }    // namespace
 
-OrientedFaces orient_faces(const WallMesh &mesh)
+OrientedFaces orient_faces(const WeldedMesh &mesh)
 {
   OrientedFaces out;
   out.turned.assign(mesh.faces.size(), 0);
@@ -174,7 +174,7 @@ OrientedFaces orient_faces(const WallMesh &mesh)
   return out;
 }
 
-ShellFaults faults_of_shells(const WallMesh &mesh)
+ShellFaults faults_of_shells(const WeldedMesh &mesh)
 {
   ShellFaults faults;
   std::vector<char> turned(mesh.faces.size(), 0);

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "mesh/meets_itself.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <cstddef>
 #include <vector>
@@ -22,7 +22,7 @@ struct OrientedFaces {
 
 // A part is connected by edges with two faces. The normals of a closed part point out or, if it bounds a
 // cavity of others, into the cavity. An open part keeps the side that most of its area has.
-OrientedFaces orient_faces(const WallMesh &mesh);
+OrientedFaces orient_faces(const WeldedMesh &mesh);
 
 // Why the closed shells of a mesh do not bound a common inside.
 struct ShellFaults {
@@ -33,6 +33,6 @@ struct ShellFaults {
 };
 
 // Of a closed mesh whose windings agree along its edges.
-ShellFaults faults_of_shells(const WallMesh &mesh);
+ShellFaults faults_of_shells(const WeldedMesh &mesh);
 
 }    // namespace lsdcd

@@ -39,7 +39,7 @@ void copy_part(const FacetPart &part, const std::array<int, 3> &points, Copies &
   }
 }
 
-Copies copies_of(const WallMesh &mesh, const PeriodicBox &box, Real depth)
+Copies copies_of(const WeldedMesh &mesh, const PeriodicBox &box, Real depth)
 {
   Copies out;
   out.points = mesh.vertices;
@@ -78,7 +78,7 @@ Copies copies_of(const WallMesh &mesh, const PeriodicBox &box, Real depth)
 
 // Returns new numbers for the edges of `whole`: those that `mesh` has, too, get their number there,
 // the others follow. The edges of `whole` ascend in their vertices.
-std::vector<int> keep_edge_numbers(const WallMesh &mesh, WallMesh &whole)
+std::vector<int> keep_edge_numbers(const WeldedMesh &mesh, WeldedMesh &whole)
 {
   std::vector<int> number(whole.edges.size(), -1);
   int next = 0;
@@ -94,7 +94,7 @@ std::vector<int> keep_edge_numbers(const WallMesh &mesh, WallMesh &whole)
 
 }    // namespace
 
-WallMesh with_images(const WallMesh &mesh, const PeriodicBox &box, Real depth)
+WeldedMesh with_images(const WeldedMesh &mesh, const PeriodicBox &box, Real depth)
 {
   if (!box.any_periodic()) return mesh;
   const Copies copies = copies_of(mesh, box, depth);
@@ -109,7 +109,7 @@ WallMesh with_images(const WallMesh &mesh, const PeriodicBox &box, Real depth)
   for (const auto &e : copies.bare_edges)
     if (point[e[0]] != point[e[1]]) bare_edges.push_back({point[e[0]], point[e[1]]});
 
-  WallMesh whole = assemble(std::move(welded.points), corners, bare_edges);
+  WeldedMesh whole = assemble(std::move(welded.points), corners, bare_edges);
   whole.source = mesh.source;
   const std::vector<std::array<int, 2>> ascending = whole.edges;
   const std::vector<int> number = keep_edge_numbers(mesh, whole);

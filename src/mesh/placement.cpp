@@ -38,7 +38,7 @@ void sine_cosine(Real degrees, Real &sine, Real &cosine)
     cosine = kSine[(i + 1) % 4];
     return;
   }
-  const Real radians = turn * (3.14159265358979323846 / 180);
+  const Real radians = turn * (kPi / 180);
   sine = std::sin(radians);
   cosine = std::cos(radians);
 }

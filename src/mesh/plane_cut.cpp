@@ -13,7 +13,7 @@ namespace lsdcd {
 // Corners in float lean less than this; it takes 5e-7 of a force.
 constexpr Real kUpright = 1e-3;
 
-PlaneCut plane_cut(const WallMesh &mesh)
+PlaneCut plane_cut(const WeldedMesh &mesh)
 {
   PlaneCut cut;
   for (const auto &face : mesh.faces) {
@@ -23,7 +23,7 @@ PlaneCut plane_cut(const WallMesh &mesh)
     const Real lean = std::fabs(face_plane(a, b, c).normal.z);
     if (lean <= kUpright) continue;
     cut.leaning++;
-    cut.lean = std::max(cut.lean, std::asin(std::min(lean, Real(1))) * 180 / Real(M_PI));
+    cut.lean = std::max(cut.lean, std::asin(std::min(lean, Real(1))) * 180 / kPi);
   }
   return cut;
 }

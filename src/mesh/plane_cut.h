@@ -4,7 +4,7 @@
 // How a mesh meets the plane z = 0, in which the particles of a two-dimensional run move.
 #pragma once
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <cstddef>
 
@@ -15,6 +15,6 @@ struct PlaneCut {
   Real lean = 0;              // degrees from upright, the most of them
 };
 
-PlaneCut plane_cut(const WallMesh &mesh);
+PlaneCut plane_cut(const WeldedMesh &mesh);
 
 }    // namespace lsdcd

@@ -26,12 +26,12 @@ Real distance(const Vec3 &a, const Vec3 &b)
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-int n_faces(const WallMesh &mesh, std::size_t edge)
+int n_faces(const WeldedMesh &mesh, std::size_t edge)
 {
   return mesh.edge_first[edge + 1] - mesh.edge_first[edge];
 }
 
-bool has_face_with(const WallMesh &mesh, int a, int b)
+bool has_face_with(const WeldedMesh &mesh, int a, int b)
 {
   for (int i = mesh.vertex_first[a]; i < mesh.vertex_first[a + 1]; i++) {
     const int e = mesh.vertex_edge[i];
@@ -45,7 +45,7 @@ bool has_face_with(const WallMesh &mesh, int a, int b)
 // farther from its longest side than the facet is high, and other edges may follow that side. If none
 // follows a piece of it, a point of the piece is within half its length of an end of the piece, and
 // that end is as far from the mesh as from the nearest corner.
-void measure_dropped(const WallMesh &mesh, const std::vector<int> &old_corners, Real tolerance,
+void measure_dropped(const WeldedMesh &mesh, const std::vector<int> &old_corners, Real tolerance,
                      RepairReport &report)
 {
   std::vector<char> used(mesh.vertices.size(), 0);
@@ -88,7 +88,7 @@ void measure_dropped(const WallMesh &mesh, const std::vector<int> &old_corners, 
   }
 }
 
-void name_what_is_left(const WallMesh &mesh, RepairReport &report)
+void name_what_is_left(const WeldedMesh &mesh, RepairReport &report)
 {
   Unmended open = {kOpenEdges}, many = {"edges of more than two facets"},
            against = {"edges along which windings disagree"};
@@ -117,7 +117,7 @@ void name_what_is_left(const WallMesh &mesh, RepairReport &report)
     if (one.count > 0) report.left.push_back(one);
 }
 
-TriangleSoup soup_of(const WallMesh &mesh, const std::vector<char> &turned)
+TriangleSoup soup_of(const WeldedMesh &mesh, const std::vector<char> &turned)
 {
   TriangleSoup soup;
   soup.source = mesh.source;
@@ -148,7 +148,7 @@ RepairedMesh repair(const TriangleSoup &soup, Real tolerance,
     report.welding_moved = std::max(report.welding_moved, moved);
   }
   const std::vector<int> old_corners = welded.corner_point;
-  WallMesh mesh = assemble(std::move(welded.points), old_corners, {});
+  WeldedMesh mesh = assemble(std::move(welded.points), old_corners, {});
   report.degenerate_facets = mesh.report.degenerate_facets;
   report.duplicate_facets = mesh.report.duplicate_facets;
 

@@ -4,7 +4,7 @@
 // Repairs a mesh without inventing anything: no hole is filled.
 #pragma once
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -48,7 +48,7 @@ struct RepairReport {
 
 struct RepairedMesh {
   TriangleSoup soup;    // corners are those of the old one, to the last bit
-  WallMesh mesh;        // the same welded
+  WeldedMesh mesh;      // the same welded
   RepairReport report;
 };
 

@@ -22,14 +22,14 @@ struct Piece {
   std::array<std::vector<On>, 3> on;
 };
 
-bool is_open(const WallMesh &mesh, std::size_t edge)
+bool is_open(const WeldedMesh &mesh, std::size_t edge)
 {
   return mesh.edge_first[edge + 1] - mesh.edge_first[edge] == 1;
 }
 
 class Cutter {
  public:
-  Cutter(const WallMesh &mesh, SplitFaces &out, CutBefore &before) :
+  Cutter(const WeldedMesh &mesh, SplitFaces &out, CutBefore &before) :
       x_(mesh.vertices), out_(out), before_(before)
   {
   }
@@ -93,7 +93,7 @@ class Cutter {
 
 }    // namespace
 
-SplitFaces split_faces(const WallMesh &mesh, Real tolerance, CutBefore &before)
+SplitFaces split_faces(const WeldedMesh &mesh, Real tolerance, CutBefore &before)
 {
   std::vector<char> is_end(mesh.vertices.size(), 0);
   for (std::size_t e = 0; e < mesh.edges.size(); e++)

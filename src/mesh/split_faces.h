@@ -5,7 +5,7 @@
 // edges match.
 #pragma once
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <array>
 #include <cstddef>
@@ -28,6 +28,6 @@ using CutBefore = std::set<std::array<int, 3>>;
 // Cuts at corners of open edges within `tolerance` (a length) of another open edge. A cut that would
 // give a degenerate or reversed piece is left out. Faces in `before` stay whole; those that are cut
 // are added to it.
-SplitFaces split_faces(const WallMesh &mesh, Real tolerance, CutBefore &before);
+SplitFaces split_faces(const WeldedMesh &mesh, Real tolerance, CutBefore &before);
 
 }    // namespace lsdcd

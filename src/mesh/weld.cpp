@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include "base/input_error.h"
 #include "base/input_words.h"
@@ -67,7 +67,7 @@ void count_two_sided(std::vector<Copy> copies, MeshReport &report)
 }
 
 // Sorts facets into faces and degenerate ones, of which the edges stay.
-void sort_facets(const std::vector<int> &corner_point, WallMesh &mesh,
+void sort_facets(const std::vector<int> &corner_point, WeldedMesh &mesh,
                  std::vector<FacePlane> &plane, std::vector<Pair> &bare_edges)
 {
   const std::size_t n_facets = corner_point.size() / 3;
@@ -112,7 +112,7 @@ void accumulate(std::vector<int> &first)
 
 // Every side of a face and every bare edge goes into the bucket of its lower vertex. Sorted by
 // the higher vertex, equal sides are neighbours and make an edge.
-void build_edges(WallMesh &mesh, const std::vector<Pair> &bare_edges)
+void build_edges(WeldedMesh &mesh, const std::vector<Pair> &bare_edges)
 {
   constexpr std::uint32_t kNoSide = 0xffffffff;
   const auto key = [](int higher, std::uint32_t side) {
@@ -162,7 +162,7 @@ void build_edges(WallMesh &mesh, const std::vector<Pair> &bare_edges)
 constexpr Real kFlatFold = 1e-12;    // radian
 
 // Do its two faces lie in one plane, up to the rounding of normals?
-bool seems_flat(const WallMesh &mesh, const std::vector<FacePlane> &plane, int e)
+bool seems_flat(const WeldedMesh &mesh, const std::vector<FacePlane> &plane, int e)
 {
   if (mesh.edge_first[e + 1] - mesh.edge_first[e] != 2) return false;
   const int f = mesh.edge_face[mesh.edge_first[e]], g = mesh.edge_face[mesh.edge_first[e] + 1];
@@ -170,8 +170,8 @@ bool seems_flat(const WallMesh &mesh, const std::vector<FacePlane> &plane, int e
   return norm(runs_along(mesh, f, e) == runs_along(mesh, g, e) ? a + b : a - b) <= kFlatFold;
 }
 
-// Flat edges hold no contact. They get the last numbers, so that they need no records (wall_features.h).
-void number_flat_edges_last(WallMesh &mesh, const std::vector<FacePlane> &plane)
+// Flat edges hold no contact. They get the last numbers, so that they need no records (mesh_features.h).
+void number_flat_edges_last(WeldedMesh &mesh, const std::vector<FacePlane> &plane)
 {
   const int n = static_cast<int>(mesh.edges.size());
   std::vector<int> number(n, -1);
@@ -183,7 +183,7 @@ void number_flat_edges_last(WallMesh &mesh, const std::vector<FacePlane> &plane)
   number_edges(mesh, number);
 }
 
-void build_vertex_edges(WallMesh &mesh)
+void build_vertex_edges(WeldedMesh &mesh)
 {
   check_edge_number(mesh.edges.size(), mesh.source);
   mesh.vertex_first.assign(mesh.vertices.size() + 1, 0);
@@ -206,16 +206,16 @@ void check_edge_number(std::size_t n, const std::string &source)
                      "coarser mesh");
 }
 
-WallMesh weld(const TriangleSoup &soup, Real tolerance)
+WeldedMesh weld(const TriangleSoup &soup, Real tolerance)
 {
   std::vector<int> corner_vertex;
   return weld(soup, tolerance, corner_vertex);
 }
 
-WallMesh weld(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner_vertex)
+WeldedMesh weld(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner_vertex)
 {
   const Real diagonal = checked_diagonal(soup);
-  WallMesh mesh;
+  WeldedMesh mesh;
   mesh.source = soup.source;
   mesh.report.facets = soup.n_triangles();
   mesh.report.corners = soup.corners.size();
@@ -238,10 +238,10 @@ WallMesh weld(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner
   return mesh;
 }
 
-WallMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
-                  std::vector<std::array<int, 2>> bare_edges)
+WeldedMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
+                    std::vector<std::array<int, 2>> bare_edges)
 {
-  WallMesh mesh;
+  WeldedMesh mesh;
   mesh.vertices = std::move(vertices);
   std::vector<FacePlane> plane;
   sort_facets(corners, mesh, plane, bare_edges);
@@ -249,7 +249,7 @@ WallMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
   return mesh;
 }
 
-void number_edges(WallMesh &mesh, const std::vector<int> &number)
+void number_edges(WeldedMesh &mesh, const std::vector<int> &number)
 {
   const std::size_t n = mesh.edges.size();
   std::vector<int> old(n), first, faces;
@@ -272,7 +272,7 @@ void number_edges(WallMesh &mesh, const std::vector<int> &number)
     for (int &e : face) e = number[e];
 }
 
-void connect_vertices(WallMesh &mesh)
+void connect_vertices(WeldedMesh &mesh)
 {
   build_vertex_edges(mesh);
 }

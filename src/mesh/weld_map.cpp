@@ -12,7 +12,7 @@ namespace lsdcd {
 namespace {
 
 // The face with these three corners.
-int face_with(const WallMesh &mesh, const int *corner)
+int face_with(const WeldedMesh &mesh, const int *corner)
 {
   for (int i = mesh.vertex_first[corner[0]]; i < mesh.vertex_first[corner[0] + 1]; i++) {
     const int e = mesh.vertex_edge[i];
@@ -28,7 +28,7 @@ int face_with(const WallMesh &mesh, const int *corner)
 
 }    // namespace
 
-std::vector<int> faces_of_facets(const WallMesh &mesh, const std::vector<int> &corner_vertex)
+std::vector<int> faces_of_facets(const WeldedMesh &mesh, const std::vector<int> &corner_vertex)
 {
   std::vector<int> face_of(corner_vertex.size() / 3, kNoFace);
   for (std::size_t f = 0; f < mesh.faces.size(); f++)

@@ -22,7 +22,7 @@ std::string text(const Vec3 &a)
   return number_text(a.x) + " " + number_text(a.y) + " " + number_text(a.z);
 }
 
-std::vector<Triangle> closed_facets(const WallMesh &mesh)
+std::vector<Triangle> closed_facets(const WeldedMesh &mesh)
 {
   const std::string why = why_no_inside(mesh);
   if (!why.empty()) throw InputError(mesh.source + " has no inside: " + why);
@@ -76,13 +76,13 @@ constexpr Real kWider = 1e-6, kWiderByRounding = 64 * kRoundoff,
 
 }    // namespace
 
-bool has_inside(const WallMesh &mesh)
+bool has_inside(const WeldedMesh &mesh)
 {
   if (mesh.dropped.empty() && mesh.report.open_edges > 0) return false;
   return why_no_inside(mesh).empty();
 }
 
-std::string why_no_inside(const WallMesh &mesh)
+std::string why_no_inside(const WeldedMesh &mesh)
 {
   if (is_known_closed(mesh)) return "";
   if (mesh.faces.empty()) return "it has no facets with an area";
@@ -111,7 +111,7 @@ std::string why_no_inside(const WallMesh &mesh)
          ": close the mesh, or try lsdcd repair";
 }
 
-WindingNumber::WindingNumber(const WallMesh &mesh, const ProgressListener &progress) :
+WindingNumber::WindingNumber(const WeldedMesh &mesh, const ProgressListener &progress) :
     WindingNumber(closed_facets(mesh), progress)
 {
 }

@@ -8,7 +8,7 @@
 #include "geometry/triangles_meet.h"
 #include "mesh/box_tree.h"
 #include "mesh/periodic_box.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <array>
 #include <cstddef>
@@ -23,10 +23,10 @@ namespace lsdcd {
 // other. Of two facets with the same corners and opposite windings neither counts, as of a sheet; of several
 // that are wound alike, one. Sheets may not enclose a space, as those of a double-sided export do, and
 // there must be more than sheets.
-bool has_inside(const WallMesh &mesh);
+bool has_inside(const WeldedMesh &mesh);
 
 // Why it has none: facets or edges, where the first is, and the remedy. Empty where it has.
-std::string why_no_inside(const WallMesh &mesh);
+std::string why_no_inside(const WeldedMesh &mesh);
 
 // It keeps what it needs of the mesh, and any number of threads may ask it at once.
 //
@@ -38,7 +38,7 @@ std::string why_no_inside(const WallMesh &mesh);
 class WindingNumber {
  public:
   // Throws InputError, with why_no_inside(), where a mesh has no inside.
-  explicit WindingNumber(const WallMesh &mesh, const ProgressListener &progress = {});
+  explicit WindingNumber(const WeldedMesh &mesh, const ProgressListener &progress = {});
   // The facets of a closed surface: along every edge as many run one way as the other.
   explicit WindingNumber(std::vector<Triangle> closed, const ProgressListener &progress = {});
 

@@ -47,7 +47,7 @@ Rotation rotation(const Vec3 &k, Real s, Real c)
 }
 
 // Turns the pose about an axis by an angle with sine s and cosine c and angular velocity `omega`.
-void turn(WallPose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, Real omega)
+void turn(Pose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, Real omega)
 {
   const Rotation turned = rotation(axis, s, c);
   const Vec3 angular = omega * axis;
@@ -102,18 +102,18 @@ Vec3 unit_vector(const Vec3 &a)
   return {scaled.x / length, scaled.y / length, scaled.z / length};
 }
 
-void WallMotion::begin_from(const WallPose &pose)
+void RigidMotion::begin_from(const Pose &pose)
 {
-  const WallPose at_home;
+  const Pose at_home;
   start_ = pose.still();
   start_.placed = !(pose.row[0] == at_home.row[0] && pose.row[1] == at_home.row[1] &&
                     pose.row[2] == at_home.row[2] && pose.shift == at_home.shift);
 }
 
 // Each term maps x to R (x - point) + point + shift; R is 1 where it does not turn.
-WallPose WallMotion::terms_at(Time t) const
+Pose RigidMotion::terms_at(Time t) const
 {
-  WallPose pose = start_;
+  Pose pose = start_;
   if (moves()) pose.placed = true;
   for (const MotionTerm &m : terms_) {
     Vec3 shift, velocity;
@@ -129,9 +129,9 @@ WallPose WallMotion::terms_at(Time t) const
   return pose;
 }
 
-WallPose WallMotion::pose_at(Time t) const
+Pose RigidMotion::pose_at(Time t) const
 {
-  WallPose pose = terms_at(t);
+  Pose pose = terms_at(t);
   const Servo &s = servo_;
   if (!s.present) return pose;
   pose.placed = true;
@@ -144,14 +144,14 @@ WallPose WallMotion::pose_at(Time t) const
   return pose;
 }
 
-Real WallMotion::longest_period() const
+Real RigidMotion::longest_period() const
 {
   Real longest = 0;
   for (const MotionTerm &m : terms_) longest = std::max(longest, m.period);
   return longest;
 }
 
-bool WallMotion::keeps(const Vec3 &direction) const
+bool RigidMotion::keeps(const Vec3 &direction) const
 {
   // Axes are unit vectors: parallel and perpendicular hold to this rounding.
   constexpr Real kRounding = 1e-12;
@@ -173,21 +173,21 @@ bool WallMotion::keeps(const Vec3 &direction) const
 }
 
 // A rigid motion moves a point by an affine function of it, whose size is largest at a corner.
-Real farthest_between(const WallPose &a, const WallPose &b, const Box &box)
+Real farthest_between(const Pose &a, const Pose &b, const Box &box)
 {
   Real most = 0;
   for_corners(box, [&](const Vec3 &x) { most = std::max(most, norm(b.to_box(x) - a.to_box(x))); });
   return most;
 }
 
-Real fastest_in(const WallPose &pose, const Box &box)
+Real fastest_in(const Pose &pose, const Box &box)
 {
   Real most = 0;
   for_corners(box, [&](const Vec3 &x) { most = std::max(most, norm(pose.velocity_in_mesh(x))); });
   return most;
 }
 
-Box placed_bounds(const WallPose &pose, const Box &box)
+Box placed_bounds(const Pose &pose, const Box &box)
 {
   Box around = {pose.to_box(box.lo), pose.to_box(box.lo)};
   for_corners(box, [&](const Vec3 &x) { extend(around, pose.to_box(x)); });

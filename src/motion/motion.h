@@ -6,9 +6,9 @@
 #pragma once
 
 #include "mesh/periodic_box.h"
+#include "motion/pose.h"
 #include "motion/servo.h"
 #include "motion/step_clock.h"
-#include "motion/wall_pose.h"
 
 #include <string>
 #include <vector>
@@ -36,11 +36,11 @@ struct MotionTerm {
 // A direction that is not zero, as a unit vector; (0, 0, a) becomes exactly (0, 0, 1).
 Vec3 unit_vector(const Vec3 &a);
 
-class WallMotion {
+class RigidMotion {
  public:
   // The pose that the terms act on; its velocities are left out.
-  void begin_from(const WallPose &pose);
-  const WallPose &start() const { return start_; }
+  void begin_from(const Pose &pose);
+  const Pose &start() const { return start_; }
 
   void add(const MotionTerm &term) { terms_.push_back(term); }
   void stop() { terms_.clear(); }
@@ -59,9 +59,9 @@ class WallMotion {
   // is as exact after 1e9 steps as after one. After a whole number of periods a term gives the bits that
   // it began with. A time that differs from such a number only by rounding counts as
   // that number.
-  WallPose terms_at(Time t) const;
+  Pose terms_at(Time t) const;
   // The same with the servo where it is now.
-  WallPose pose_at(Time t) const;
+  Pose pose_at(Time t) const;
 
   Real longest_period() const;    // 0: no term has one
 
@@ -69,16 +69,16 @@ class WallMotion {
   bool keeps(const Vec3 &direction) const;
 
  private:
-  WallPose start_;
+  Pose start_;
   std::vector<MotionTerm> terms_;
   Servo servo_;
 };
 
 // The largest distance between the places of a point of this box (in the mesh's frame) in two poses.
-Real farthest_between(const WallPose &a, const WallPose &b, const Box &box);
+Real farthest_between(const Pose &a, const Pose &b, const Box &box);
 // The largest speed of a point of this box.
-Real fastest_in(const WallPose &pose, const Box &box);
+Real fastest_in(const Pose &pose, const Box &box);
 // The bounds of this box where the pose puts it.
-Box placed_bounds(const WallPose &pose, const Box &box);
+Box placed_bounds(const Pose &pose, const Box &box);
 
 }    // namespace lsdcd

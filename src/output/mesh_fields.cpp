@@ -12,7 +12,7 @@ namespace lsdcd {
 
 namespace {
 
-Real face_area(const WallMesh &mesh, std::size_t face)
+Real face_area(const WeldedMesh &mesh, std::size_t face)
 {
   const auto &f = mesh.faces[face];
   const Vec3 &a = mesh.vertices[f[0]];
@@ -21,8 +21,8 @@ Real face_area(const WallMesh &mesh, std::size_t face)
 
 }    // namespace
 
-std::vector<FaceField> load_fields(const WallMesh &mesh, const WallLoads &loads,
-                                   double pressure_unit, bool with_wear, const WallPose &pose)
+std::vector<FaceField> load_fields(const WeldedMesh &mesh, const MeshLoads &loads,
+                                   double pressure_unit, bool with_wear, const Pose &pose)
 {
   std::vector<FaceField> fields = {{"normal_stress", {}}, {"shear_stress", {}}, {"contacts", {}}};
   if (with_wear) fields.insert(fields.end(), {{"worn_volume", {}}, {"worn_depth", {}}});
@@ -42,9 +42,9 @@ std::vector<FaceField> load_fields(const WallMesh &mesh, const WallLoads &loads,
   return fields;
 }
 
-void write_mesh_fields(const std::string &path, const WallMesh &mesh,
+void write_mesh_fields(const std::string &path, const WeldedMesh &mesh,
                        const std::vector<FaceField> &fields, long long step, double time,
-                       const WallPose &pose)
+                       const Pose &pose)
 {
   std::vector<double> points;
   for (const Vec3 &x : mesh.vertices) {

@@ -4,8 +4,8 @@
 // Numbers per triangle, in a file for ParaView and other VTK programs.
 #pragma once
 
-#include "motion/wall_pose.h"
-#include "output/wall_loads.h"
+#include "motion/pose.h"
+#include "output/mesh_loads.h"
 
 #include <string>
 #include <vector>
@@ -21,13 +21,13 @@ struct FaceField {
 // Stresses are averages over the time of the loads, in force/area times `pressure_unit`;
 // `with_wear` adds the volume worn off and its depth, volume over the face's area. Forces on the
 // wall are averages in the frame of the mesh, turned to where the pose has it.
-std::vector<FaceField> load_fields(const WallMesh &mesh, const WallLoads &loads,
-                                   double pressure_unit, bool with_wear, const WallPose &pose = {});
+std::vector<FaceField> load_fields(const WeldedMesh &mesh, const MeshLoads &loads,
+                                   double pressure_unit, bool with_wear, const Pose &pose = {});
 
 // The mesh as the pose puts it, in a file of VTK's XML format for polygons (.vtp), which appears
 // whole or not at all. Throws InputError that names the file.
-void write_mesh_fields(const std::string &path, const WallMesh &mesh,
+void write_mesh_fields(const std::string &path, const WeldedMesh &mesh,
                        const std::vector<FaceField> &fields, long long step, double time,
-                       const WallPose &pose = {});
+                       const Pose &pose = {});
 
 }    // namespace lsdcd

@@ -12,7 +12,7 @@ namespace {
 constexpr Real kFoldCosine = 0.8660254037844387;    // 30 degrees
 constexpr int kLongCuts = 9;    // across the longest side; one across the others
 
-Vec3 unit_normal(const WallMesh &mesh, int face)
+Vec3 unit_normal(const WeldedMesh &mesh, int face)
 {
   const auto &f = mesh.faces[face];
   const Vec3 n =
@@ -21,7 +21,7 @@ Vec3 unit_normal(const WallMesh &mesh, int face)
   return length > 0 ? (1 / length) * n : n;
 }
 
-bool is_feature(const WallMesh &mesh, std::size_t edge)
+bool is_feature(const WeldedMesh &mesh, std::size_t edge)
 {
   const int first = mesh.edge_first[edge];
   const int n_faces = mesh.edge_first[edge + 1] - first;
@@ -32,7 +32,7 @@ bool is_feature(const WallMesh &mesh, std::size_t edge)
   return std::fabs(cosine) < kFoldCosine;
 }
 
-void add_contour(const WallMesh &mesh, int axis, Real level, std::vector<ImageObject> &strokes)
+void add_contour(const WeldedMesh &mesh, int axis, Real level, std::vector<ImageObject> &strokes)
 {
   for (const auto &face : mesh.faces) {
     Vec3 cut[3];
@@ -46,7 +46,7 @@ void add_contour(const WallMesh &mesh, int axis, Real level, std::vector<ImageOb
   }
 }
 
-void add_contours(const WallMesh &mesh, std::vector<ImageObject> &strokes)
+void add_contours(const WeldedMesh &mesh, std::vector<ImageObject> &strokes)
 {
   const Vec3 lo = mesh.report.lo, side = mesh.report.hi - mesh.report.lo;
   int longest = 2;    // level cuts where sides are about equal
@@ -61,7 +61,7 @@ void add_contours(const WallMesh &mesh, std::vector<ImageObject> &strokes)
 
 }    // namespace
 
-std::vector<ImageObject> draw_mesh(const WallMesh &mesh, Draw what)
+std::vector<ImageObject> draw_mesh(const WeldedMesh &mesh, Draw what)
 {
   std::vector<ImageObject> strokes;
   if (what == Draw::faces)

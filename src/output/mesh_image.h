@@ -4,7 +4,7 @@
 // A mesh drawn with few lines that show its shape and leave the grains visible.
 #pragma once
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <vector>
 
@@ -21,6 +21,6 @@ struct ImageObject {
   Vec3 corner[3];
 };
 
-std::vector<ImageObject> draw_mesh(const WallMesh &mesh, Draw what);
+std::vector<ImageObject> draw_mesh(const WeldedMesh &mesh, Draw what);
 
 }    // namespace lsdcd

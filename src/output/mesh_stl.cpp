@@ -70,7 +70,7 @@ std::string stl_bytes(const TriangleSoup &soup)
   return are_floats(soup.corners) ? binary(soup) : text(soup);
 }
 
-void write_mesh_stl(const std::string &path, const WallMesh &mesh, const WallPose &pose)
+void write_mesh_stl(const std::string &path, const WeldedMesh &mesh, const Pose &pose)
 {
   TriangleSoup soup;
   soup.corners.reserve(3 * mesh.faces.size());

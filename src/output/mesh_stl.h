@@ -4,8 +4,8 @@
 // Triangles, or a mesh where it is, as STL files that read_stl() and other programs read.
 #pragma once
 
-#include "mesh/wall_mesh.h"
-#include "motion/wall_pose.h"
+#include "mesh/welded_mesh.h"
+#include "motion/pose.h"
 
 #include <string>
 #include <vector>
@@ -18,7 +18,7 @@ std::string stl_bytes(const TriangleSoup &soup);
 
 // Binary; corners rounded to float, in the winding of the mesh. The file appears whole or not at all;
 // throws InputError that names it.
-void write_mesh_stl(const std::string &path, const WallMesh &mesh, const WallPose &pose = {});
+void write_mesh_stl(const std::string &path, const WeldedMesh &mesh, const Pose &pose = {});
 
 // A corner rounded to float, as in a binary file.
 Vec3 rounded_as_in_stl(const Vec3 &corner);

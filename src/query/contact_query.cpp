@@ -28,7 +28,7 @@ class SphereSearch {
     find_contacts(grid, q, radius, set_);
     if (set_.overflow) return false;
     set_.sort();
-    rule_.solve(set_, radius, weight_, WallGeometry::tolerance(grid));
+    rule_.solve(set_, radius, weight_, MeshGeometry::tolerance(grid));
     for (int i = 0; i < set_.n; i++)
       found.push_back({set_.feature[i], q - set_.distance[i] * set_.normal[i], set_.normal[i],
                        set_.distance[i], radius - set_.distance[i], weight_[i]});

@@ -11,9 +11,9 @@
 namespace lsdcd {
 
 // The wall's own records, in double. Primitives are whole triangles, as in the paper.
-class WallDistances {
+class MeshDistances {
  public:
-  LSDCD_FN WallDistances(const GridView &grid, const Vec3 &q, const CellAddress &) :
+  LSDCD_FN MeshDistances(const GridView &grid, const Vec3 &q, const CellAddress &) :
       grid_(grid), q_(q)
   {
   }

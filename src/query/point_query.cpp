@@ -4,7 +4,7 @@
 #include "query/point_query.h"
 
 #include "backend/backend_cpu.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "query/near_first_cpu.h"
 #include "query/radius_error.h"
 
@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-TriangleTable::TriangleTable(const WallMesh &mesh) :
+TriangleTable::TriangleTable(const WeldedMesh &mesh) :
     of_face(mesh.face_facet.begin(), mesh.face_facet.end()),
     of_edge(mesh.edges.size(), kNoTriangle), of_vertex(mesh.vertices.size(), kNoTriangle)
 {

@@ -99,9 +99,9 @@ class CudaStreamQuery : public StreamQuery {
     else if (grid.in_floats)
       run<BrickDistances, false>(spheres, io.n, out, check);
     else if (grid.nearest == 0)
-      run<WallDistances, true>(spheres, io.n, out, check);
+      run<MeshDistances, true>(spheres, io.n, out, check);
     else
-      run<WallDistances, false>(spheres, io.n, out, check);
+      run<MeshDistances, false>(spheres, io.n, out, check);
     hand_back(io, out);
   }
 

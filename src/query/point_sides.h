@@ -17,7 +17,7 @@ namespace lsdcd {
 // The winding numbers of a mesh, borrowed, made when a point needs them. Any number of threads may ask.
 class PointSides {
  public:
-  explicit PointSides(const WallMesh &mesh) : mesh_(mesh) {}
+  explicit PointSides(const WeldedMesh &mesh) : mesh_(mesh) {}
 
   const WindingNumber &winding(const ProgressListener &progress = {}) const
   {
@@ -29,7 +29,7 @@ class PointSides {
   }
 
  private:
-  const WallMesh &mesh_;
+  const WeldedMesh &mesh_;
   MadeOnce<WindingNumber> winding_;
   MadeOnce<GeneralizedWinding> generalized_;
 };

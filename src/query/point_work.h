@@ -201,7 +201,7 @@ struct PointWork {
   };
   LSDCD_FN MeshParts<Position> parts() const
   {
-    const WallFeaturesView &wall = grid.wall;
+    const MeshFeaturesView &wall = grid.wall;
     return {names, wall.face_vertex->v, wall.edge_vertex->v, {wall.vertices}};
   }
 };
@@ -218,9 +218,9 @@ void with_point_work(const GridView &grid, const BrickTable &table, const PointA
   else if (grid.in_floats)
     run(PointWork<BrickDistances, T, false, true>{grid, table, io, names, check, only});
   else if (grid.nearest == 0)
-    run(PointWork<WallDistances, T, true, false>{grid, table, io, names, check, only});
+    run(PointWork<MeshDistances, T, true, false>{grid, table, io, names, check, only});
   else
-    run(PointWork<WallDistances, T, false, false>{grid, table, io, names, check, only});
+    run(PointWork<MeshDistances, T, false, false>{grid, table, io, names, check, only});
 }
 
 }    // namespace lsdcd

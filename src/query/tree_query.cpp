@@ -16,7 +16,7 @@ namespace lsdcd {
 
 // ---- far points ---------------------------------------------------------------------------------
 
-NearBoxes::NearBoxes(const TriangleTree &tree, const WallMesh &mesh, Real cutoff,
+NearBoxes::NearBoxes(const TriangleTree &tree, const WeldedMesh &mesh, Real cutoff,
                      const ProgressListener &progress)
 {
   // As many boxes as are made in a part of the time of the tree.

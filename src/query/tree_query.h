@@ -16,7 +16,7 @@ namespace lsdcd {
 // are far from the mesh at once.
 class NearBoxes {
  public:
-  NearBoxes(const TriangleTree &tree, const WallMesh &mesh, Real cutoff,
+  NearBoxes(const TriangleTree &tree, const WeldedMesh &mesh, Real cutoff,
             const ProgressListener &progress = {});
 
   bool may_be_near(const Vec3 &q) const

@@ -5,7 +5,7 @@
 #include "backend/backend_cuda.h"
 #include "backend/cuda_device.h"
 #include "base/curve.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "query/point_query.h"
 #include "query/radius_check.h"
 #include "query/tree_answers.h"
@@ -20,7 +20,7 @@ class DeviceTree : public DeviceCopy {
  public:
   explicit DeviceTree(const TriangleTree &tree) : view(tree.view())
   {
-    const WallMesh &mesh = tree.mesh();
+    const WeldedMesh &mesh = tree.mesh();
     const std::size_t n_faces = mesh.faces.size(), n_edges = mesh.edges.size(),
                       n_vertices = mesh.vertices.size();
     bring(view.nodes, tree.n_nodes());

@@ -83,7 +83,7 @@ struct TreeView {
   Real inv_scale;       // a power of two: the mesh lies within 1 of 0
   Vec3 lo, inv_size;    // of the mesh's box
 
-  // As in WallMesh, one number after the other.
+  // As in WeldedMesh, one number after the other.
   const Vec3 *vertices;
   const int *edges, *edge_first, *edge_face, *faces, *vertex_first, *vertex_edge;
   const std::uint32_t *face_primitive;

@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-struct WallMesh;
+struct WeldedMesh;
 
 // The mesh's triangle that a feature of the wall is, or that has the feature; kNoTriangle: none.
 constexpr std::uint32_t kNoTriangle = 0xffffffffu;
@@ -52,7 +52,7 @@ struct TriangleNames {
 struct TriangleTable {
   std::vector<std::uint32_t> of_face, of_edge, of_vertex;
 
-  explicit TriangleTable(const WallMesh &mesh);
+  explicit TriangleTable(const WeldedMesh &mesh);
   TriangleNames view() const
   {
     return {of_face.data(), of_edge.data(), of_vertex.data(),

@@ -5,7 +5,7 @@
 
 #include "backend/threads.h"
 #include "geometry/closest_point.h"
-#include "mesh/wall_features.h"
+#include "mesh/mesh_features.h"
 #include "query/tree_search.h"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ const Eight &eight(const float *at)
 
 }    // namespace
 
-TriangleTree::TriangleTree(const WallMesh &mesh, const TriangleTable &names,
+TriangleTree::TriangleTree(const WeldedMesh &mesh, const TriangleTable &names,
                            const ProgressListener &progress) :
     mesh_(mesh)
 {

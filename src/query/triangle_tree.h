@@ -9,7 +9,7 @@
 #include "backend/owned_array.h"
 #include "base/large_memory.h"
 #include "base/progress.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "query/tree_view.h"
 
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace lsdcd {
 class TriangleTree {
  public:
   // Borrows mesh and names.
-  TriangleTree(const WallMesh &mesh, const TriangleTable &names,
+  TriangleTree(const WeldedMesh &mesh, const TriangleTable &names,
                const ProgressListener &progress = {});
   TriangleTree(const TriangleTree &) = delete;
   TriangleTree &operator=(const TriangleTree &) = delete;
@@ -46,7 +46,7 @@ class TriangleTree {
   std::size_t n_primitives() const { return view_.n_primitives; }
   std::size_t n_nodes() const { return nodes_.size(); }
   std::size_t n_leaves() const { return leaves_.size(); }
-  const WallMesh &mesh() const { return mesh_; }
+  const WeldedMesh &mesh() const { return mesh_; }
   // As long as the tree, its mesh and its names are.
   const TreeView &view() const { return view_; }
   std::size_t bytes() const;
@@ -70,7 +70,7 @@ class TriangleTree {
   void search_near_plain(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const;
   void search_near_avx2(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const;
 
-  const WallMesh &mesh_;
+  const WeldedMesh &mesh_;
   std::vector<std::uint32_t> bare_edges_, bare_vertices_;
   std::vector<TreeNode> nodes_;
   OwnedArray<TreeLeaf, LargeMemory> leaves_;

@@ -5,7 +5,7 @@
 // that the cylinder's formula gives, and that the complete wall gives; and how fast.
 #pragma once
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "study/cylinder.h"
 #include "study/sphere_query.h"
 #include "study/spheres.h"
@@ -70,7 +70,7 @@ class AccuracyStudy {
   StudyRow measure(const StudyLists &lists);
 
   const std::vector<Sphere> &spheres() const { return spheres_; }
-  const WallMesh &mesh() const { return mesh_; }
+  const WeldedMesh &mesh() const { return mesh_; }
   // What (6) compares with, by sphere.
   const std::vector<std::uint8_t> &truth() const { return truth_; }
   // The grid of the last measurement.
@@ -85,7 +85,7 @@ class AccuracyStudy {
   StudySettings settings_;
   bool is_cylinder_;
   CylinderMesh shape_;
-  WallMesh mesh_;
+  WeldedMesh mesh_;
   SphereBox box_;
   std::unique_ptr<SphereQuery> query_;
   std::vector<Sphere> spheres_;

@@ -35,7 +35,7 @@ TriangleSoup make_cylinder(const CylinderMesh &shape)
   TriangleSoup soup;
   soup.source = "cylinder";
   const auto rim = [&](int i, int k) {
-    const Real a = 2 * M_PI * (i % n) / n;
+    const Real a = 2 * kPi * (i % n) / n;
     return Vec3{shape.radius * std::cos(a), shape.radius * std::sin(a), shape.height * k / rows};
   };
   for (int i = 0; i < n; i++) {

@@ -160,7 +160,7 @@ Real median(std::vector<Real> change)
 
 }    // namespace
 
-DriftStarts drift_starts(const WallMesh &mesh, const GridView &grid, Real radius, int n,
+DriftStarts drift_starts(const WeldedMesh &mesh, const GridView &grid, Real radius, int n,
                          Random &random, std::size_t memory_budget)
 {
   DriftStarts starts;
@@ -191,7 +191,7 @@ DriftStarts drift_starts(const WallMesh &mesh, const GridView &grid, Real radius
     if (!(norm(n_face) > 0)) continue;
     const Vec3 normal = ((random() & 1 ? 1 : -1) / norm(n_face)) * n_face;
     const Vec3 first = any_perpendicular(normal), second = cross(normal, first);
-    const Real turn = 2 * M_PI * uniform_below_one(random);
+    const Real turn = 2 * kPi * uniform_below_one(random);
     ContactSet<8> set;
     find_contacts(grid, point + radius * normal, Real(0.999) * radius, set);
     if (set.n > 0) continue;

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "engine/wall_engine.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "study/sphere_sample.h"
 
 #include <vector>
@@ -25,7 +25,7 @@ struct DriftStarts {
 // Up to n starts at which a sphere at rest on the face touches nothing else (`grid` is
 // asked); faces are chosen by area, sides by chance. `memory_budget`: bytes of `wall`, which is coarser where
 // that is needed; 0: as build_grid() has it.
-DriftStarts drift_starts(const WallMesh &mesh, const GridView &grid, Real radius, int n,
+DriftStarts drift_starts(const WeldedMesh &mesh, const GridView &grid, Real radius, int n,
                          Random &random, std::size_t memory_budget = 0);
 
 // Units: radius R, mass 1, a pull g along -normal that stays the same for a sphere; a linear

@@ -24,7 +24,7 @@ LSDCD_FN bool formula_five_inside(const Vec3 &a, const Vec3 &b, const Vec3 &c, c
 }
 
 // The distance to the plane if formula (5) says inside, else to the nearest side.
-LSDCD_FN Real formula_five_distance(const WallFeaturesView &wall, FeatureCode primitive,
+LSDCD_FN Real formula_five_distance(const MeshFeaturesView &wall, FeatureCode primitive,
                                     const Vec3 &q)
 {
   if (feature_kind(primitive) != FeatureKind::face) return primitive_distance(wall, primitive, q);
@@ -37,10 +37,10 @@ LSDCD_FN Real formula_five_distance(const WallFeaturesView &wall, FeatureCode pr
               fmin(segment_distance(b, c, q), segment_distance(c, a, q)));
 }
 
-class FormulaFiveDistances : public WallDistances {
+class FormulaFiveDistances : public MeshDistances {
  public:
   LSDCD_FN FormulaFiveDistances(const GridView &grid, const Vec3 &q, const CellAddress &at) :
-      WallDistances(grid, q, at)
+      MeshDistances(grid, q, at)
   {
   }
 

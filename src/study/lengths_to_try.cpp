@@ -28,7 +28,7 @@ Real rounded_up(Real length)
   return near < length ? rounded(Real(1.001) * length) : near;
 }
 
-std::vector<Real> lengths_to_try(const WallMesh &mesh, const GridSettings &settings)
+std::vector<Real> lengths_to_try(const WeldedMesh &mesh, const GridSettings &settings)
 {
   const Real standard = plan_grid(mesh, settings).length;
   const double budget = double(settings.memory_budget > 0 ? settings.memory_budget : kListBudget);

@@ -130,7 +130,7 @@ class QueryOn : public SphereQuery {
     else if (grid_.view.in_floats)
       start_with<BrickDistances>(spheres, settings);
     else
-      start_with<WallDistances>(spheres, settings);
+      start_with<MeshDistances>(spheres, settings);
   }
 
   template <class Distances, class S>

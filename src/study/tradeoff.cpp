@@ -40,7 +40,7 @@ ContactLaw law_to_time()
 
 class Measuring {
  public:
-  Measuring(const WallMesh &mesh, const TradeoffSettings &settings,
+  Measuring(const WeldedMesh &mesh, const TradeoffSettings &settings,
             const std::function<void(const TradeoffRow &)> &progress) :
       mesh_(mesh),
       settings_(settings), progress_(progress)
@@ -213,7 +213,7 @@ class Measuring {
     progress_(row);
   }
 
-  const WallMesh &mesh_;
+  const WeldedMesh &mesh_;
   const TradeoffSettings &settings_;
   const std::function<void(const TradeoffRow &)> &progress_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -281,7 +281,7 @@ void mark_front(std::vector<TradeoffRow> &rows)
                                 [&](const TradeoffRow &other) { return beats(other, row); });
 }
 
-Tradeoff measure_tradeoff(const WallMesh &mesh, const TradeoffSettings &settings,
+Tradeoff measure_tradeoff(const WeldedMesh &mesh, const TradeoffSettings &settings,
                           const std::function<void(const TradeoffRow &)> &progress)
 {
   return Measuring(mesh, settings, progress).run();

@@ -4,7 +4,7 @@
 // Accuracy and cost of each setting of a wall, for one mesh.
 #pragma once
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "study/wall_answers.h"
 
 #include <cstdint>
@@ -60,7 +60,7 @@ constexpr int kTriedNearest[] = {0, 1, 2, 3, 4, 8};
 // corner rules, each device: spheres in the order in which LAMMPS sorts them, uniform in the
 // band within the cutoff. Hooke with springs at rest for errors and times. The default comes
 // first. Errors and drifts are computed once, on the CPU: those of a GPU are the same bits.
-Tradeoff measure_tradeoff(const WallMesh &mesh, const TradeoffSettings &settings,
+Tradeoff measure_tradeoff(const WeldedMesh &mesh, const TradeoffSettings &settings,
                           const std::function<void(const TradeoffRow &)> &progress);
 
 void mark_front(std::vector<TradeoffRow> &rows);

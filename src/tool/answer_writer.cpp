@@ -5,7 +5,7 @@
 
 #include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "contact/wall_geometry.h"
+#include "contact/mesh_geometry.h"
 #include "tool/csv_file.h"
 
 #include <cmath>

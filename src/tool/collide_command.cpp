@@ -161,8 +161,8 @@ void collide(const Options &o)
   std::unique_ptr<PairWriter> pairs, segments;
   if (!o.output.empty()) pairs = open_pairs(o.output);
   if (!o.segments.empty()) segments = open_segments(o.segments);
-  const WallMesh wall = load_wall(o.wall, o.scale, o.weld),
-                 body = load_mesh(o.body, o.body_scale, o.weld, "--body-scale");
+  const WeldedMesh wall = load_wall(o.wall, o.scale, o.weld),
+                   body = load_mesh(o.body, o.body_scale, o.weld, "--body-scale");
   MeshCollisionSettings settings;
   settings.cell = o.cell;
   settings.nearest = o.nearest;

@@ -104,7 +104,7 @@ Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
   return totals;
 }
 
-void print(const Options &o, const Totals &t, const PointAnswers &answers, const WallMesh &mesh)
+void print(const Options &o, const Totals &t, const PointAnswers &answers, const WeldedMesh &mesh)
 {
   // What is told does not go between the answers.
   std::FILE *const to = o.output == "-" ? stderr : stdout;
@@ -157,7 +157,7 @@ void distance(const Options &o)
   const auto reader = open_points(o.points);
   open_answers(o.output, false,
                SideKind::none);    // throws before the work if it cannot be written
-  const WallMesh mesh = load_wall(o.mesh, o.scale, o.weld);
+  const WeldedMesh mesh = load_wall(o.mesh, o.scale, o.weld);
   Progress progress(o.progress);
   const auto answers = make_point_answers(
       mesh, o.radius, o.device, o.estimate_sides,

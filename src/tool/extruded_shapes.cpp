@@ -40,12 +40,12 @@ DrumOutline drum_outline(const DrumShape &d)
   const Real half = d.lifters > 0 ? std::asin(d.width / 2 / d.radius) : 0;
   const Real foot = d.radius * std::cos(half), tip = d.radius - d.height;
   const auto lifter_point = [&](int k, Real r, Real t) -> Vec3 {
-    const Real turn = 2 * M_PI * (k % n) / n;
+    const Real turn = 2 * kPi * (k % n) / n;
     return {r * std::cos(turn) - t * std::sin(turn), 0, r * std::sin(turn) + t * std::cos(turn)};
   };
   const int pieces =
       std::max(d.lifters > 0 ? 2 : 3,
-               static_cast<int>(std::lround(d.segments * (2 * M_PI / n - 2 * half) / (2 * M_PI))));
+               static_cast<int>(std::lround(d.segments * (2 * kPi / n - 2 * half) / (2 * kPi))));
   for (int k = 0; k < n; k++) {
     const Real w = d.width / 2;
     if (d.lifters > 0)
@@ -53,7 +53,7 @@ DrumOutline drum_outline(const DrumShape &d)
                                  lifter_point(k, tip, w), lifter_point(k, foot, w)});
     Line gap;
     for (int i = 0; i <= pieces; i++) {
-      const Real turn = 2 * M_PI * k / n + half + (2 * M_PI / n - 2 * half) * i / pieces;
+      const Real turn = 2 * kPi * k / n + half + (2 * kPi / n - 2 * half) * i / pieces;
       gap.push_back({d.radius * std::cos(turn), 0, d.radius * std::sin(turn)});
     }
     gap.front() = d.lifters > 0 ? lifter_point(k, foot, w) : Vec3{d.radius, 0, 0};
@@ -145,7 +145,7 @@ class Screw {
   // Right-handed about y, from z on.
   Vec3 point(Real r, int j, Real y) const
   {
-    const Real turn = 2 * M_PI * (j % s_.segments) / s_.segments;
+    const Real turn = 2 * kPi * (j % s_.segments) / s_.segments;
     return {r * std::sin(turn), y, r * std::cos(turn)};
   }
   Vec3 on_shaft(int j, Real y) const { return point(s_.shaft, j, y); }

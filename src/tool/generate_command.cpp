@@ -35,7 +35,7 @@ constexpr int kMaxSegments = 100000;
 int segments_of(const Output &o, double radius)
 {
   if (o.segments > 0) return o.segments;
-  const double needed = o.edge > 0 ? std::ceil(2 * M_PI * radius / (kAcross * o.edge)) : 0;
+  const double needed = o.edge > 0 ? std::ceil(2 * kPi * radius / (kAcross * o.edge)) : 0;
   return static_cast<int>(std::clamp<double>(needed, 64, kMaxSegments));
 }
 
@@ -46,7 +46,7 @@ void write(const Output &o, const Triangles &coarse)
   soup.source = o.file;
   for (const auto &t : o.edge > 0 ? refined(coarse, o.edge) : coarse)
     for (const Vec3 &corner : t) soup.corners.push_back(rounded_as_in_stl(corner));
-  const WallMesh mesh = weld(soup, -1);
+  const WeldedMesh mesh = weld(soup, -1);
   // The shape is so fine, or so long and thin, that welding would merge its corners.
   if (!problems_of(mesh.report).empty())
     throw InputError(
@@ -246,7 +246,7 @@ void add_machines(Shapes &shapes)
     if (d.lifters > 0) {
       need_less("--height", d.height, "--radius", d.radius);
       need_less("--thickness", d.width, "the room that lifters leave each other at their tips",
-                2 * (d.radius - d.height) * std::tan(M_PI / d.lifters));
+                2 * (d.radius - d.height) * std::tan(kPi / d.lifters));
       need_less("--thickness", d.width, "--radius", d.radius);
     }
     write(*o, drum_shape(d));

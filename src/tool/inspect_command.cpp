@@ -42,7 +42,7 @@ nlohmann::json as_json(const GridReport &r)
 
 void inspect(const Options &o)
 {
-  WallMesh mesh = load_mesh(o.file, o.scale, o.weld);
+  WeldedMesh mesh = load_mesh(o.file, o.scale, o.weld);
   if (mesh.report.oriented) note_meetings(mesh, meets_itself(mesh));
   if (o.json)
     std::printf("%s\n", as_json(mesh.report).dump(2).c_str());
@@ -53,7 +53,7 @@ void inspect(const Options &o)
 
 void grid(const Options &o)
 {
-  const WallMesh mesh = load_wall(o.file, o.scale, o.weld);
+  const WeldedMesh mesh = load_wall(o.file, o.scale, o.weld);
   GridSettings settings;
   settings.length = o.length;
   settings.cutoff = o.radius;

@@ -7,7 +7,7 @@
 #include "mesh/io/read_mesh.h"
 #include "mesh/measure_mesh.h"
 #include "mesh/placement.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <string>
 #include <vector>
@@ -26,8 +26,8 @@ inline void apply_scale(TriangleSoup &soup, const std::vector<double> &scale,
 }
 
 // `tolerance` is that of weld(). Throws InputError.
-inline WallMesh load_mesh(const std::string &file, const std::vector<double> &scale,
-                          double tolerance, const char *option = "--scale")
+inline WeldedMesh load_mesh(const std::string &file, const std::vector<double> &scale,
+                            double tolerance, const char *option = "--scale")
 {
   TriangleSoup soup = read_mesh(file).soup;
   apply_scale(soup, scale, option);
@@ -35,10 +35,10 @@ inline WallMesh load_mesh(const std::string &file, const std::vector<double> &sc
 }
 
 // Throws if it has no face: edges and points alone are no wall.
-inline WallMesh load_wall(const std::string &file, const std::vector<double> &scale,
-                          double tolerance)
+inline WeldedMesh load_wall(const std::string &file, const std::vector<double> &scale,
+                            double tolerance)
 {
-  WallMesh mesh = load_mesh(file, scale, tolerance);
+  WeldedMesh mesh = load_mesh(file, scale, tolerance);
   check_has_area(mesh);
   return mesh;
 }

@@ -4,7 +4,7 @@
 // The facts of a mesh as JSON, and what is wrong with it.
 #pragma once
 
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <nlohmann/json.hpp>
 

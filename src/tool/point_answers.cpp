@@ -33,14 +33,14 @@ void estimate(const PointSides &sides, const PointBlock &points, AnswerBlock &a)
                  {a.winding.data(), 1}, a.side.data(), nullptr);
 }
 
-SideKind sides_of(const WallMesh &mesh, bool estimate)
+SideKind sides_of(const WeldedMesh &mesh, bool estimate)
 {
   return has_inside(mesh) ? SideKind::exact : estimate ? SideKind::estimated : SideKind::none;
 }
 
 class CpuAnswers : public PointAnswers {
  public:
-  CpuAnswers(const WallMesh &mesh, Real cutoff, const ProgressListener &progress) :
+  CpuAnswers(const WeldedMesh &mesh, Real cutoff, const ProgressListener &progress) :
       cutoff_(cutoff), names_(mesh), tree_(mesh, names_, progress), sides_(mesh)
   {
     if (cutoff > 0) near_.emplace(tree_, mesh, cutoff, progress);
@@ -117,7 +117,7 @@ class DeviceArray {
 
 class CudaAnswers : public PointAnswers {
  public:
-  CudaAnswers(const WallMesh &mesh, Real cutoff, const ProgressListener &progress) :
+  CudaAnswers(const WeldedMesh &mesh, Real cutoff, const ProgressListener &progress) :
       cutoff_(cutoff), sides_(mesh),
       sides_by_normals_(mesh.report.closed && mesh.report.oriented && meets_itself(mesh).pairs == 0)
   {
@@ -170,7 +170,7 @@ class CudaAnswers : public PointAnswers {
 
 }    // namespace
 
-std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, Real cutoff,
+std::unique_ptr<PointAnswers> make_point_answers(const WeldedMesh &mesh, Real cutoff,
                                                  const std::string &device, bool estimate,
                                                  const ProgressListener &progress)
 {

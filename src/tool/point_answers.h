@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "tool/answer_writer.h"
 
 #include <memory>
@@ -29,7 +29,7 @@ class PointAnswers {
 
 // By a tree, the same answers on each device: auto (a GPU where there is one), cpu or cuda. `cutoff`: nothing as far as
 // this is found; 0: any distance. `estimate`: of a mesh without sides those that are probable. Throws InputError.
-std::unique_ptr<PointAnswers> make_point_answers(const WallMesh &mesh, Real cutoff,
+std::unique_ptr<PointAnswers> make_point_answers(const WeldedMesh &mesh, Real cutoff,
                                                  const std::string &device, bool estimate,
                                                  const ProgressListener &progress);
 

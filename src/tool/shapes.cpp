@@ -131,13 +131,13 @@ void add_disc(Triangles &to, const Line &rim, const Vec3 &centre, bool outward, 
   for (int i = rings - 1; i >= 0; i--) {
     const Real r = radius * i / rings;
     if (corners % 2 == 0 && corners / 2 >= kLeast &&
-        4 * r * std::sin(M_PI / Real(corners)) <= kAcross * edge)
+        4 * r * std::sin(kPi / Real(corners)) <= kAcross * edge)
       corners /= 2;
     else
-      start += M_PI / Real(corners);
+      start += kPi / Real(corners);
     Line inner;
     for (std::size_t j = 0; j < corners; j++) {
-      const Real turn = start + 2 * M_PI * Real(j) / Real(corners);
+      const Real turn = start + 2 * kPi * Real(j) / Real(corners);
       inner.push_back(centre + r * Vec3{std::cos(turn), std::sin(turn), 0});
     }
     inner.push_back(inner[0]);
@@ -173,9 +173,9 @@ Triangles turned(const Profile &profile, int segments, Real edge)
   constexpr Real kNarrow = 0.95;
   Real radius = 0;
   for (const RadiusHeight &p : profile) radius = std::max(radius, p.r);
-  const auto width = [&](Real r) { return 2 * r * std::sin(M_PI / segments); };
+  const auto width = [&](Real r) { return 2 * r * std::sin(kPi / segments); };
   const auto point = [&](const RadiusHeight &p, int j) -> Vec3 {
-    const Real turn = 2 * M_PI * (j % segments) / segments;
+    const Real turn = 2 * kPi * (j % segments) / segments;
     return {p.r * std::cos(turn), p.r * std::sin(turn), p.z};
   };
   const bool is_wide = edge > 0 && width(radius) > kNarrow * edge;
@@ -237,7 +237,7 @@ Profile rounded_corner(const RadiusHeight &before, const RadiusHeight &at,
   const auto turn_of = [&](const RadiusHeight &d) {
     return std::atan2(at.z + used * d.z - centre.z, at.r + used * d.r - centre.r);
   };
-  const Real start = turn_of(u), sweep = std::remainder(turn_of(w) - start, 2 * M_PI);
+  const Real start = turn_of(u), sweep = std::remainder(turn_of(w) - start, 2 * kPi);
   Profile arc;
   for (int i = 0; i <= steps; i++) {
     const Real turn = start + sweep * i / steps;

@@ -89,7 +89,7 @@ void run(const Options &o)
 
   // The smallest grains need the smallest timestep.
   const double least = *std::min_element(o.radius.begin(), o.radius.end());
-  const double mass = density * 4 / 3 * M_PI * least * least * least;
+  const double mass = density * 4 / 3 * kPi * least * least * least;
   const double own = contact_moduli(grains, grains).youngs,
                at_wall = contact_moduli(grains, walls).youngs;
   const double rayleigh =

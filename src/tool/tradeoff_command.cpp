@@ -82,7 +82,8 @@ std::string quoted(const std::string &text)
   return out + "\"";
 }
 
-std::string csv_of(const Tradeoff &tradeoff, const WallMesh &mesh, const TradeoffSettings &settings)
+std::string csv_of(const Tradeoff &tradeoff, const WeldedMesh &mesh,
+                   const TradeoffSettings &settings)
 {
   Real least = settings.radii[0], most = least;
   for (Real r : settings.radii) {
@@ -176,7 +177,7 @@ void tradeoff(Options &o)
   if (o.plot.empty()) o.plot = std::filesystem::path(o.csv).replace_extension(".png").string();
   check_outputs({{"--csv", o.csv, ".csv"}, {"--plot", o.plot == "none" ? "" : o.plot, ".png"}},
                 {o.file});
-  const WallMesh mesh = load_wall(o.file, o.scale, o.weld);
+  const WeldedMesh mesh = load_wall(o.file, o.scale, o.weld);
   AtomicFile file(o.csv);    // now, rather than fail when all is done
   std::printf("%s, %zu triangles\n", o.file.c_str(), mesh.faces.size());
   std::printf("      grid  nearest  precision  corner  device   missed %%  force error: mean  "

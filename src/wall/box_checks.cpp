@@ -143,8 +143,8 @@ void BoxChecks::check_gone(const PeriodicBox &box, Real cutoff, std::int64_t ste
   }
 }
 
-void BoxChecks::check_pose(const MeshPart &m, const WallPose &at, const PeriodicBox &box,
-                           Real cutoff, const std::string &when) const
+void BoxChecks::check_pose(const MeshPart &m, const Pose &at, const PeriodicBox &box, Real cutoff,
+                           const std::string &when) const
 {
   if (!box.any_periodic()) return;
   for (int k = 0; k < 3; k++) {
@@ -184,7 +184,7 @@ void BoxChecks::check_turning_out(const MeshPart &m, const PeriodicBox &box)
     bool clear = true;
     Real lo, hi, least = 0, most = 1;
     for (int i = 0; i < kSamples; i++) {
-      const WallPose at = m.motion.pose_in(period * i / kSamples);
+      const Pose at = m.motion.pose_in(period * i / kSamples);
       if (i > 0)
         for_corners(m.bounds(0), [&](const Vec3 &corner) {
           const Real f = box.fraction(at.to_box(corner))[k];
@@ -212,7 +212,7 @@ void BoxChecks::check_moving(const PeriodicBox &box, Real cutoff, const Step &no
 {
   constexpr int kSamples = 256;
   for (const MeshPart &m : meshes_) {
-    const WallMotion &motion = m.settings.motion;
+    const RigidMotion &motion = m.settings.motion;
     if (!motion.any()) continue;
     check_pose(m, m.motion.pose(), box, cutoff, " at step " + std::to_string(now.number));
     if (now.kind != Step::step) check_turning_out(m, box);

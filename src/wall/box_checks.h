@@ -54,7 +54,7 @@ class BoxChecks {
  private:
   std::string named(const MeshPart &m, const std::string &text) const;
   void check_small(const MeshPart &m, const PeriodicBox &box, Real radius) const;
-  void check_pose(const MeshPart &m, const WallPose &at, const PeriodicBox &box, Real cutoff,
+  void check_pose(const MeshPart &m, const Pose &at, const PeriodicBox &box, Real cutoff,
                   const std::string &when) const;
   void check_turning_out(const MeshPart &m, const PeriodicBox &box);
 

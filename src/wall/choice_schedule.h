@@ -6,7 +6,7 @@
 
 #include "base/vec3.h"
 #include "mesh/periodic_box.h"
-#include "motion/wall_pose.h"
+#include "motion/pose.h"
 
 #include <functional>
 #include <vector>
@@ -29,7 +29,7 @@ struct SphereDrift {
 
 // A mesh that moves, as it is in this step.
 struct MovingMesh {
-  WallPose pose;
+  Pose pose;
   Box bounds;    // length, in the mesh's own frame; around all places where a sphere touches it
 };
 
@@ -57,7 +57,7 @@ class ChoiceSchedule {
   bool any_has_gone(Real farther_than, const std::vector<MovingMesh> &moving) const;
 
   bool expired_ = true;
-  std::vector<WallPose> chosen_;    // of the moving meshes, in the step of the last choice
+  std::vector<Pose> chosen_;    // of the moving meshes, in the step of the last choice
 };
 
 }    // namespace lsdcd

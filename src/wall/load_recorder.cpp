@@ -11,7 +11,7 @@ LoadRecorder::LoadRecorder(Host &host, const WallSettings &settings) :
 }
 
 void LoadRecorder::add(int mesh, const ContactRecord *records, int n, Real dt,
-                       const WallFeaturesView &features)
+                       const MeshFeaturesView &features)
 {
   const MeshSettings &of = settings_.meshes[mesh];
   if (settings_.has_loads(of))
@@ -25,25 +25,25 @@ Real LoadRecorder::worn(int mesh) const
   return worn;
 }
 
-WallLoads LoadRecorder::gathered(int mesh) const
+MeshLoads LoadRecorder::gathered(int mesh) const
 {
   const std::vector<Real> rows = host_.gather(loads_[mesh].packed());
-  WallLoads all;
+  MeshLoads all;
   all.set_time(loads_[mesh].time());
-  all.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
+  all.add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
   return all;
 }
 
 void LoadRecorder::restore(int mesh, Real time, const std::vector<double> &rows)
 {
   loads_[mesh].set_time(time);
-  if (host_.rank() == 0) loads_[mesh].add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
+  if (host_.rank() == 0) loads_[mesh].add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
 }
 
 std::size_t LoadRecorder::bytes() const
 {
   std::size_t bytes = 0;
-  for (const WallLoads &l : loads_) bytes += l.bytes();
+  for (const MeshLoads &l : loads_) bytes += l.bytes();
   return bytes;
 }
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "input/settings.h"
-#include "output/wall_loads.h"
+#include "output/mesh_loads.h"
 #include "wall/host.h"
 
 #include <cstddef>
@@ -22,19 +22,19 @@ class LoadRecorder {
   // A step of duration `dt` (time): what contacts of this process did to all meshes. `features`: of
   // the mesh with its periodic images; empty where there are no records.
   void add(int mesh, const ContactRecord *records, int n, Real dt,
-           const WallFeaturesView &features);
+           const MeshFeaturesView &features);
 
   // Volume (length^3) worn off the mesh so far, on all processes. Collective.
   Real worn(int mesh) const;
 
   // Loads of all processes, on the first one; elsewhere only their time. Collective.
-  WallLoads gathered(int mesh) const;
+  MeshLoads gathered(int mesh) const;
 
   // The average begins anew; what has worn off stays.
   void begin_average(int mesh) { loads_[mesh].begin_average(); }
 
   // Of a restart file, before the first step: the time of the average and rows as of
-  // WallLoads::packed(), the same on all processes. The first one keeps the rows.
+  // MeshLoads::packed(), the same on all processes. The first one keeps the rows.
   void restore(int mesh, Real time, const std::vector<double> &rows);
 
   std::size_t bytes() const;    // of this process
@@ -42,7 +42,7 @@ class LoadRecorder {
  private:
   Host &host_;
   const WallSettings &settings_;
-  std::vector<WallLoads> loads_;    // of this process; one per mesh
+  std::vector<MeshLoads> loads_;    // of this process; one per mesh
 };
 
 }    // namespace lsdcd

@@ -66,7 +66,7 @@ void check_plane(Host &host, const WallSettings &settings, const MeshPart &m)
 
 void check_motion(const Host &host, const WallSettings &settings, const MeshPart &m)
 {
-  const WallMotion &motion = m.settings.motion;
+  const RigidMotion &motion = m.settings.motion;
   if (!motion.any() || motion.keeps({0, 0, 1}) || host.box().dimension == 3) return;
   std::string words = m.settings.motion_tokens;
   if (m.servo().present) words += (words.empty() ? "servo " : " servo ") + m.settings.servo_tokens;

@@ -74,7 +74,7 @@ void MeshGrid::read()
   run_collectively(host_, writes, [&] { soup.corners.resize(corners); });
   if (writes) memory_->broadcast_to_writers(soup.corners.data(), corners * sizeof(Vec3));
   run_collectively(host_, writes, [&] {
-    mesh_ = std::make_unique<WallMesh>(weld(soup, of_mesh_.weld));
+    mesh_ = std::make_unique<WeldedMesh>(weld(soup, of_mesh_.weld));
     check_has_area(*mesh_);
     report_ = mesh_->report;
     if (first) mesh_fingerprint_ = fingerprint(*mesh_);
@@ -107,7 +107,7 @@ Box MeshGrid::within(Real cutoff, const PeriodicBox &box) const
   return room;
 }
 
-WallMesh MeshGrid::whole(Real cutoff, const PeriodicBox &box) const
+WeldedMesh MeshGrid::whole(Real cutoff, const PeriodicBox &box) const
 {
   return with_images(*mesh_, box, cutoff + box.margin + kBoxTolerance * cutoff);
 }
@@ -184,10 +184,10 @@ void MeshGrid::build(Real cutoff, const PeriodicBox &box)
   box_ = box;
   within_ = want.within;
 
-  WallMesh with_images;    // the mesh itself is not copied for a box without them
+  WeldedMesh with_images;    // the mesh itself is not copied for a box without them
   run_collectively(host_, memory_->writes() && box.any_periodic(),
                    [&] { with_images = whole(cutoff, box); });
-  const WallMesh &mesh = mesh_ && !box.any_periodic() ? *mesh_ : with_images;
+  const WeldedMesh &mesh = mesh_ && !box.any_periodic() ? *mesh_ : with_images;
   NodePlace place(host_, *memory_);
   const LoadedGrid loaded = load_or_build_grid(cache_file, mesh, want, uses_gpu(), place);
   cache_text_ = loaded.cache_text;
@@ -206,7 +206,7 @@ void MeshGrid::build(Real cutoff, const PeriodicBox &box)
 }
 
 // What images are there, and where they do not fit the mesh.
-void MeshGrid::note_images(const WallMesh &whole)
+void MeshGrid::note_images(const WeldedMesh &whole)
 {
   const PeriodicImages &images = whole.images;
   if (!images.any()) return;

@@ -7,7 +7,7 @@
 #include "grid/triangle_grid.h"
 #include "input/settings.h"
 #include "mesh/periodic_images.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "wall/host.h"
 
 #include <cstdint>
@@ -56,7 +56,7 @@ class MeshGrid {
   // False where a spring names a feature that this mesh does not have.
   bool has(FeatureCode feature) const;
 
-  const WallMesh *mesh() const { return mesh_.get(); }    // null but on one process per node
+  const WeldedMesh *mesh() const { return mesh_.get(); }    // null but on one process per node
 
   std::size_t bytes() const;    // held by this process
 
@@ -68,14 +68,14 @@ class MeshGrid {
   bool uses_gpu() const;
   GridSettings grid_settings(Real cutoff, const PeriodicBox &box) const;
   Box within(Real cutoff, const PeriodicBox &box) const;
-  WallMesh whole(Real cutoff, const PeriodicBox &box) const;
-  void note_images(const WallMesh &whole);
+  WeldedMesh whole(Real cutoff, const PeriodicBox &box) const;
+  void note_images(const WeldedMesh &whole);
 
   Host &host_;
   WallSettings settings_;
   MeshSettings of_mesh_;
   std::unique_ptr<NodeMemory> memory_;
-  std::unique_ptr<WallMesh> mesh_;    // where memory_->writes()
+  std::unique_ptr<WeldedMesh> mesh_;    // where memory_->writes()
   MeshReport report_;
   std::uint64_t mesh_fingerprint_ = 0;
   std::string mesh_text_, grid_text_;

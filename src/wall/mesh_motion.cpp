@@ -18,9 +18,9 @@ namespace {
 constexpr int kClock = 5, kPose = 12, kServo = kClock + 3 * kPose, kTerms = kServo + 10,
               kOfTerm = 6;
 
-WallPose pose_from(const double *numbers)
+Pose pose_from(const double *numbers)
 {
-  WallPose p;
+  Pose p;
   for (int i = 0; i < 3; i++) p.row[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
   p.shift = {numbers[9], numbers[10], numbers[11]};
   return p;
@@ -123,12 +123,12 @@ Real MeshMotion::advance(const Step &to)
   return passed;
 }
 
-WallPose MeshMotion::pose_in(Time later) const
+Pose MeshMotion::pose_in(Time later) const
 {
   return settings().motion.pose_at(clock_.now() + later);
 }
 
-WallPose MeshMotion::pose_without_servo() const
+Pose MeshMotion::pose_without_servo() const
 {
   return settings().motion.terms_at(clock_.now());
 }
@@ -136,9 +136,9 @@ WallPose MeshMotion::pose_without_servo() const
 // Words without terms are of a motion that was stopped: restart files say so.
 void MeshMotion::change(const ModifiedMotion &to, const Step &now)
 {
-  WallMotion &motion = settings().motion;
+  RigidMotion &motion = settings().motion;
   const bool holds = servo().holds;
-  const WallPose placed = holds ? pose_ : pose_without_servo();
+  const Pose placed = holds ? pose_ : pose_without_servo();
   if (holds) servo().position = 0;
   motion.stop();
   motion.begin_from(placed);
@@ -202,7 +202,7 @@ void MeshMotion::check_snapshot(const Step &at) const
 
 std::string MeshMotion::text(const Box &bounds) const
 {
-  const WallMotion &motion = settings().motion;
+  const RigidMotion &motion = settings().motion;
   if (!motion.moves()) return motion.start().placed ? "none; the mesh stays where it is" : "";
   constexpr int kSamples = 64;
   std::string text = settings().motion_tokens;
@@ -217,11 +217,11 @@ std::string MeshMotion::text(const Box &bounds) const
 
 std::vector<double> MeshMotion::state() const
 {
-  const WallMotion &motion = settings().motion;
+  const RigidMotion &motion = settings().motion;
   const double high = static_cast<double>(clock_.base);
   std::vector<double> data = {high, static_cast<double>(clock_.base - high),
                               double(clock_.base_step), double(clock_.last_step), clock_.dt};
-  for (const WallPose &p : {motion.start(), pose_without_servo(), pose_}) {
+  for (const Pose &p : {motion.start(), pose_without_servo(), pose_}) {
     for (const Vec3 &row : p.row) data.insert(data.end(), {row.x, row.y, row.z});
     data.insert(data.end(), {p.shift.x, p.shift.y, p.shift.z});
   }
@@ -241,10 +241,10 @@ void MeshMotion::restore(const std::vector<double> &data, const Step &now)
 {
   const std::size_t n_terms = static_cast<std::size_t>(data[kTerms]);
   const std::string tokens(data.begin() + kTerms + 1 + kOfTerm * n_terms, data.end());
-  const WallPose first = pose_from(&data[kClock]), placed = pose_from(&data[kClock + kPose]),
-                 last = pose_from(&data[kClock + 2 * kPose]);
+  const Pose first = pose_from(&data[kClock]), placed = pose_from(&data[kClock + kPose]),
+             last = pose_from(&data[kClock + 2 * kPose]);
   const Servo was = servo_from(&data[kServo]);
-  WallMotion &motion = settings().motion;
+  RigidMotion &motion = settings().motion;
   const std::string &own_tokens = settings().motion_tokens;
   const bool same_line = was.position == 0 || servo().has_line_of(was),
              same = same_line && tokens == own_tokens, stopped = n_terms == 0 && !tokens.empty();

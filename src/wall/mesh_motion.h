@@ -22,7 +22,7 @@ class MeshMotion {
   // given later. Host and settings must outlive it. Its time is 0 at `now`.
   MeshMotion(Host &host, WallSettings &wall, int mesh, const Step &now);
 
-  const WallPose &pose() const { return pose_; }               // in this step
+  const Pose &pose() const { return pose_; }                   // in this step
   const SurfaceMotion &surface() const { return surface_; }    // likewise
 
   bool moves_or_varies() const;    // does the engine see a motion?
@@ -36,8 +36,8 @@ class MeshMotion {
   Real advance(const Step &to);
   // Puts the mesh where the motion and the servo have it now.
   void place() { pose_ = pose_in(0); }
-  WallPose pose_in(Time later) const;    // that much time from now
-  WallPose pose_without_servo() const;
+  Pose pose_in(Time later) const;    // that much time from now
+  Pose pose_without_servo() const;
 
   // Another motion, from where the mesh is, or none. A servo goes on with what it has added.
   void change(const ModifiedMotion &to, const Step &now);
@@ -66,7 +66,7 @@ class MeshMotion {
   WallSettings &wall_;
   int mesh_;
   StepClock clock_;
-  WallPose pose_;
+  Pose pose_;
   SurfaceMotion surface_;
 };
 

@@ -14,8 +14,7 @@ Box MeshPart::bounds(Real past) const
   return {r.lo - more, r.hi + more};
 }
 
-void MeshPart::find_range(const PeriodicBox &box, int k, const WallPose &at, Real &lo,
-                          Real &hi) const
+void MeshPart::find_range(const PeriodicBox &box, int k, const Pose &at, Real &lo, Real &hi) const
 {
   Real range[2];
   if (grid.mesh()) {

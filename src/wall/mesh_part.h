@@ -36,7 +36,7 @@ struct MeshPart {
   Box bounds(Real past) const;    // in its own frame, and `past` (length) beyond
   // From where to where its vertices go along edge k of the box at a pose, as parts of the box.
   // Collective.
-  void find_range(const PeriodicBox &box, int k, const WallPose &at, Real &lo, Real &hi) const;
+  void find_range(const PeriodicBox &box, int k, const Pose &at, Real &lo, Real &hi) const;
   // Does it look the same from each of its images across the faces that edge k joins?
   bool keeps_edge(const PeriodicBox &box, int k) const;
   PeriodicBox box_seen(const PeriodicBox &box) const;    // from its own frame

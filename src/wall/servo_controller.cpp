@@ -13,7 +13,7 @@
 namespace lsdcd {
 
 // Of as many contacts as there were in the last step, each as steep as any of them can be.
-Real ServoController::stable_gain(const ServoLoad &load, const WallPose &placed, Real dt) const
+Real ServoController::stable_gain(const ServoLoad &load, const Pose &placed, Real dt) const
 {
   const Servo &s = servo();
   Real arm = 1;
@@ -36,8 +36,7 @@ Real ServoController::stable_gain(const ServoLoad &load, const WallPose &placed,
   return servo_gain(contacts * arm * arm * one.stiffness, contacts * arm * arm * one.damping, dt);
 }
 
-void ServoController::advance(const ServoLoad &load, const WallPose &placed, Real dt,
-                              std::int64_t step)
+void ServoController::advance(const ServoLoad &load, const Pose &placed, Real dt, std::int64_t step)
 {
   Servo &s = servo();
   const Real pushes = push(load), gain = stable_gain(load, placed, dt);

@@ -38,14 +38,14 @@ class ServoController {
   // Moves a servo that acts over the time `dt` > 0 up to this step. Without the servo the mesh is where
   // `placed` has it. Logs, once for a servo, that a gain that is given would not be stable, and that a
   // limit stops it.
-  void advance(const ServoLoad &load, const WallPose &placed, Real dt, std::int64_t step);
+  void advance(const ServoLoad &load, const Pose &placed, Real dt, std::int64_t step);
 
   // Of another servo all is told again.
   void begin_anew() { gain_told_ = limit_told_ = false; }
 
  private:
   Servo &servo() const { return wall_.meshes[mesh_].motion.servo(); }
-  Real stable_gain(const ServoLoad &load, const WallPose &placed, Real dt) const;
+  Real stable_gain(const ServoLoad &load, const Pose &placed, Real dt) const;
 
   Host &host_;
   WallSettings &wall_;

@@ -13,7 +13,7 @@ void StepTotals::clear()
   reduced_ = true;
 }
 
-void StepTotals::reduce(const WallEngine *engine, const std::vector<WallPose> &poses)
+void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses)
 {
   if (reduced_) return;
   constexpr int kSums = 9;
@@ -32,7 +32,7 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<WallPose> &p
   for (int k = 0; k < n; k++) {
     const Real *const s = sum.data() + kSums * k;
     const MeshSettings &settings = settings_.meshes[k];
-    const WallPose &pose = poses[k];
+    const Pose &pose = poses[k];
     MeshTotals &m = meshes_[k];
     m.force = {s[0], s[1], s[2]};
     m.torque_at_origin = {s[3], s[4], s[5]};

@@ -40,7 +40,7 @@ class StepTotals {
 
   // Makes the sums, once a step. `engine`: null while there are no spheres. `poses`: of the meshes in
   // this step. Collective.
-  void reduce(const WallEngine *engine, const std::vector<WallPose> &poses);
+  void reduce(const WallEngine *engine, const std::vector<Pose> &poses);
 
   // Of the last reduce().
   const MeshTotals &mesh(int k) const { return meshes_[k]; }

@@ -404,7 +404,7 @@ void Wall::finish(const Spheres &spheres)
     const bool any = cutoff() > 0;
     for (const MeshPart &m : meshes_)
       loads_.add(m.index, any ? engine_->records() : nullptr, any ? engine_->n_records() : 0,
-                 step.dt, any ? m.grid.view().wall : WallFeaturesView());
+                 step.dt, any ? m.grid.view().wall : MeshFeaturesView());
   }
   if (input_.new_spheres) check_new_spheres();
   if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
@@ -452,7 +452,7 @@ void Wall::end_run(std::int64_t step, bool far, const std::string &advice, Real 
 
 const StepTotals &Wall::totals()
 {
-  std::vector<WallPose> poses;
+  std::vector<Pose> poses;
   for (const MeshPart &m : meshes_) poses.push_back(m.motion.pose());
   totals_.reduce(cutoff() > 0 ? engine_.get() : nullptr, poses);
   return totals_;
@@ -469,7 +469,7 @@ void Wall::add_virial(Real *virial) const
   if (cutoff() == 0) return;
   const ContactRecord *record = engine_->records();
   for (int k = 0; k < engine_->n_records(); k++) {
-    const WallPose &pose = meshes_[record[k].mesh].motion.pose();
+    const Pose &pose = meshes_[record[k].mesh].motion.pose();
     const Vec3 r = pose.turn_to_box(record[k].arm), f = -pose.turn_to_box(record[k].force);
     const Real part[6] = {r.x * f.x, r.y * f.y, r.z * f.z, r.x * f.y, r.x * f.z, r.y * f.z};
     for (int c = 0; c < 6; c++) virial[c] += part[c];
@@ -576,10 +576,10 @@ std::vector<Real> Wall::state() const
   std::vector<Real> data = {kFormat, static_cast<Real>(settings_.law.history_kind()),
                             static_cast<Real>(clock_.now()), static_cast<Real>(meshes_.size())};
   for (const MeshPart &m : meshes_) {
-    const WallLoads all = loads_.gathered(m.index);
+    const MeshLoads all = loads_.gathered(m.index);
     const MeshReport &r = m.grid.report();
     const std::vector<Real> rows = all.packed(), motion = m.motion.state();
-    const std::size_t n_rows = rows.size() / WallLoads::kPackedLoad;
+    const std::size_t n_rows = rows.size() / MeshLoads::kPackedLoad;
     data.push_back(static_cast<Real>(motion.size()));
     data.insert(data.end(), motion.begin(), motion.end());
     data.insert(data.end(), {all.time(), static_cast<Real>(r.facets), static_cast<Real>(r.edges),
@@ -612,7 +612,7 @@ void Wall::restore(const Real *state, std::size_t n, const Step &now)
   const std::size_t here = meshes_.size(), there = static_cast<std::size_t>(take(1)[0]);
   for (std::size_t k = 0; k < std::min(there, here); k++) {
     const std::vector<Real> motion = take(take(1)[0]), header = take(kHeader),
-                            rows = take(header[4] * WallLoads::kPackedLoad);
+                            rows = take(header[4] * MeshLoads::kPackedLoad);
     restore_mesh(meshes_[k], motion, header, rows, here > 1 || there > 1, now);
   }
   if (there == here) return;

@@ -67,7 +67,7 @@ void WallFiles::write_fields(int mesh, std::int64_t step, double time, const Pla
                              LoadRecorder &loads)
 {
   const std::string name = settings_.meshes[mesh].fields.name, file = file_of_step(name, step);
-  const WallLoads all = loads.gathered(mesh);
+  const MeshLoads all = loads.gathered(mesh);
   const auto write = [&] {
     write_mesh_fields(file, *now.mesh,
                       load_fields(*now.mesh, all, pressure_unit_, settings_.wears(), now.pose),

@@ -17,8 +17,8 @@ namespace lsdcd {
 
 // A mesh where it is in this step.
 struct PlacedMesh {
-  const WallMesh *mesh;    // of the first process; elsewhere it may be null
-  WallPose pose;
+  const WeldedMesh *mesh;    // of the first process; elsewhere it may be null
+  Pose pose;
 };
 
 // The first process writes. A file that cannot be written is warned of once a run, and the run goes

@@ -1231,7 +1231,7 @@ TEST(contacts, of_more_than_few_places_are_all_there)
   for (int i = 0; i < 10; i++)
     for (int k = 0; k < 10; k++)
       for (int v = 0; v < 3; v++) {
-        const double angle = 2 * M_PI / 3 * v, wide = v < 2 ? 0.002 : 0;
+        const double angle = 2 * std::acos(-1.0) / 3 * v, wide = v < 2 ? 0.002 : 0;
         at.insert(at.end(), {0.02 * i + wide * std::cos(angle), 0.02 * k + wide * std::sin(angle),
                              v < 2 ? -1.0 : 0.0});
         faces.push_back(static_cast<std::uint32_t>(faces.size()));

@@ -145,7 +145,7 @@ TEST(sjkr, pulls_with_k_times_the_area_of_the_cut)
 {
   const Real k = 4e4;
   for (const Real overlap : {1e-4, 0.01, 0.2}) {
-    const Real r = kRadius - overlap, area = M_PI * (kRadius * kRadius - r * r);
+    const Real r = kRadius - overlap, area = kPi * (kRadius * kRadius - r * r);
     for (const bool hertz : {false, true}) {
       const EngineSettings s =
           hertz ? hertz_history(kStiffness, kTangent, 0, 0, 0.3) : hooke(kStiffness, 0, 0, 0.3);
@@ -187,7 +187,7 @@ TEST(sjkr, energy_is_the_work_of_its_force)
     const Real slope = (at(overlap + h) - at(overlap - h)) / (2 * h);
     at(overlap);
     // The energy is a cubic: its third derivative times h^2/6.
-    EXPECT_NEAR(scene.force(0).z, slope, M_PI * 4e4 * h * h + 1e-6) << overlap;
+    EXPECT_NEAR(scene.force(0).z, slope, kPi * 4e4 * h * h + 1e-6) << overlap;
   }
 }
 

@@ -42,7 +42,7 @@ TEST(bed, comes_to_rest_and_stays_and_the_mesh_bears_its_weight)
   std::uniform_real_distribution<Real> off(-0.02, 0.02);
   // Four a layer, every other one turned, let fall from just above each other.
   for (int i = 0; i < kSpheres; i++) {
-    const Real a = M_PI / 2 * (i % 4) + 0.8 * (i / 4);
+    const Real a = kPi / 2 * (i % 4) + 0.8 * (i / 4);
     scene.add_sphere({0.75 * std::cos(a) + off(random), 0.75 * std::sin(a) + off(random),
                       0.6 + 1.1 * (i / 4) + off(random)},
                      kRadius, kMass);

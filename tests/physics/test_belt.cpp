@@ -157,9 +157,9 @@ TEST(roll, drags_along_its_circles)
   s.surface.centre = {0, 0, 0};
   Scene drum(cylinder_mesh(12, 1, 2, 4), kRadius, s);
   // Beside the middle of a facet, where the roll's surface also moves into the facet.
-  const Real a = M_PI / 12 + 0.1, apothem = 2 * std::cos(M_PI / 12);
-  const Vec3 n = {std::cos(M_PI / 12), std::sin(M_PI / 12), 0}, t = {-n.y, n.x, 0};
-  const Vec3 closest = apothem * n + (apothem * std::tan(a - M_PI / 12)) * t + Vec3{0, 0, 2.2};
+  const Real a = kPi / 12 + 0.1, apothem = 2 * std::cos(kPi / 12);
+  const Vec3 n = {std::cos(kPi / 12), std::sin(kPi / 12), 0}, t = {-n.y, n.x, 0};
+  const Vec3 closest = apothem * n + (apothem * std::tan(a - kPi / 12)) * t + Vec3{0, 0, 2.2};
   drum.add_sphere(closest + (kRadius - 0.01) * n, kRadius, kMass);
   drum.compute(kStep, false);
   EXPECT_NEAR(dot(drum.force(0), n), kStiffness * 0.01, 1e-9);

@@ -58,7 +58,7 @@ std::vector<Spot> spots()
          TriangleSoup cone;
          cone.source = "cone";
          for (int i = 0; i < 50; i++) {
-           const Real a = 2 * M_PI * i / 50, b = 2 * M_PI * ((i + 1) % 50) / 50;
+           const Real a = 2 * kPi * i / 50, b = 2 * kPi * ((i + 1) % 50) / 50;
            cone.corners.insert(
                cone.corners.end(),
                {{0, 0, 0}, {std::cos(a), std::sin(a), -0.5}, {std::cos(b), std::sin(b), -0.5}});
@@ -142,7 +142,7 @@ Oblique oblique(const TriangleSoup &soup, const Vec3 &p, const Vec3 &n, const Ve
 TEST(bounce, has_one_restitution_on_faces_edges_and_vertices)
 {
   constexpr Real kGamma = 80, kSteps = 4000;
-  const Real w = std::sqrt(kStiffness / kMass - kGamma * kGamma / 4), tc = M_PI / w;
+  const Real w = std::sqrt(kStiffness / kMass - kGamma * kGamma / 4), tc = kPi / w;
   const Real e = std::exp(-kGamma * tc / 2);
   const TriangleSoup floor = floor_mesh(4, 2), box = box_mesh({0, 0, 0}, {1, 1, 1});
   struct {
@@ -158,7 +158,7 @@ TEST(bounce, has_one_restitution_on_faces_edges_and_vertices)
     const Oblique o = oblique(place.soup, place.p, place.n, place.t, hooke(kStiffness, kGamma), 0.3,
                               0, tc / kSteps);
     expect_answer({"Bouncing", "11", std::string("restitution on ") + place.name}, e,
-                  o.v_normal / 0.3, M_PI / kSteps,
+                  o.v_normal / 0.3, kPi / kSteps,
                   "exp(-gamma tc / 2), tc = pi / sqrt(k/m - gamma^2/4); the damping sees the "
                   "velocity half a step early: pi / steps. Counted twice it would be e^2 less");
   }
@@ -167,7 +167,7 @@ TEST(bounce, has_one_restitution_on_faces_edges_and_vertices)
 TEST(oblique, gross_slip_takes_mu_times_the_normal_impulse)
 {
   const Real mu = 0.2, v = 0.1, u = 1;
-  const Real w = std::sqrt(kStiffness / kMass), dt = M_PI / w / 2000;
+  const Real w = std::sqrt(kStiffness / kMass), dt = kPi / w / 2000;
   const TriangleSoup soup = floor_mesh(4, 2);
   struct {
     const char *name;
@@ -195,7 +195,7 @@ TEST(oblique, gross_slip_takes_mu_times_the_normal_impulse)
 TEST(oblique, stick_with_two_sevenths_of_the_stiffness_turns_the_slip_round)
 {
   const Real v = 0.1, u = 0.02;
-  const Real w = std::sqrt(kStiffness / kMass), dt = M_PI / w / 2000;
+  const Real w = std::sqrt(kStiffness / kMass), dt = kPi / w / 2000;
   const TriangleSoup soup = floor_mesh(4, 2);
   struct {
     const char *name;
@@ -207,11 +207,11 @@ TEST(oblique, stick_with_two_sevenths_of_the_stiffness_turns_the_slip_round)
     expect_answer(
         {"Bouncing", "14c",
          std::string("stick with kt = 2/7 kn on ") + place.name + ": slip after over slip before"},
-        -1, o.slip / u, 2 * M_PI * M_PI / 2000 / 2000 * 4,
+        -1, o.slip / u, 2 * kPi * kPi / 2000 / 2000 * 4,
         "one period for both springs; they begin and end within a step: cos(2 dt w)");
     expect_answer({"Bouncing", "14d",
                    std::string("stick with kt = 2/7 kn on ") + place.name + ": restitution"},
-                  1, o.v_normal / v, M_PI * M_PI / 2000 / 2000, "(dt w)^2 / 4 at each end");
+                  1, o.v_normal / v, kPi * kPi / 2000 / 2000, "(dt w)^2 / 4 at each end");
   }
 }
 

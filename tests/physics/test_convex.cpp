@@ -27,7 +27,7 @@ TriangleSoup fan(int n, Real height, bool even, Random &random)
 {
   std::vector<Vec3> rim;
   for (int i = 0; i < n; i++) {
-    const Real a = 2 * M_PI * (i + (even ? 0 : uniform(random, -0.45, 0.45))) / n;
+    const Real a = 2 * kPi * (i + (even ? 0 : uniform(random, -0.45, 0.45))) / n;
     const Real r = even ? 2 : uniform(random, 1, 2), steeper = even ? 1 : uniform(random, 1, 2);
     rim.push_back({r * std::cos(a), r * std::sin(a), -height * steeper * r / 2});
   }
@@ -100,7 +100,7 @@ TEST(tip, of_any_fan_in_any_order_is_one_contact)
         const Real least = std::atan2(height, 2);
         std::vector<Vec3> normals = {{0, 0, 1}};
         for (int i = 0; i < 200; i++) {
-          const Real lean = least * uniform(random, 0, 0.99), b = uniform(random, 0, 2 * M_PI);
+          const Real lean = least * uniform(random, 0, 0.99), b = uniform(random, 0, 2 * kPi);
           normals.push_back(
               {std::sin(lean) * std::cos(b), std::sin(lean) * std::sin(b), std::cos(lean)});
         }
@@ -182,7 +182,7 @@ TEST(edge_of_a_body, is_one_contact_however_it_is_cut)
 // Drops a sphere beside an edge or a corner at `aside` from it, until it has left.
 Vec3 drop(const TriangleSoup &soup, const Vec3 &over, Real aside, const Vec3 &towards)
 {
-  const Real dt = M_PI * std::sqrt(kMass / kStiffness) / 4000, speed = 0.2;
+  const Real dt = kPi * std::sqrt(kMass / kStiffness) / 4000, speed = 0.2;
   Scene scene(soup, kRadius, hooke(kStiffness), 0, 0);
   const Real h = std::sqrt(kRadius * kRadius - aside * aside);
   scene.add_sphere(over + aside * towards + Vec3{0, 0, h + 1e-6}, kRadius, kMass, {0, 0, -speed});
@@ -203,7 +203,7 @@ TEST(drop, beside_an_edge_or_a_corner_leaves_in_the_mirrored_direction)
   // A stiff frictionless bounce mirrors the speed at the normal n = (centre - edge)/R
   // that it comes in along. While it lasts the normal turns: by the speed across,
   // v aside/R, times the contact time over R, and the speed leaves by twice that.
-  const Real turn = 0.2 * M_PI * std::sqrt(kMass / kStiffness) / kRadius;
+  const Real turn = 0.2 * kPi * std::sqrt(kMass / kStiffness) / kRadius;
   const TriangleSoup soup = box_mesh({-2, -2, -2}, {0, 0, 0});
   for (Real share : {0., 0.1, 0.3, 0.5, 0.7, 0.9})
     for (bool corner : {false, true}) {

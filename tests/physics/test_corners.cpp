@@ -21,7 +21,7 @@ constexpr Real kStiffness = 1e5, kRadius = 0.5;
 
 Real radians(Real degrees)
 {
-  return degrees * M_PI / 180;
+  return degrees * kPi / 180;
 }
 
 // The wall's force on one sphere that is put here and there.
@@ -169,7 +169,7 @@ struct Force {
 
 Force hinge_force(Wide degrees, Wide x, Wide z)
 {
-  const Wide a = degrees * static_cast<Wide>(M_PI) / 180, c = std::cos(a), s = std::sin(a);
+  const Wide a = degrees * static_cast<Wide>(kPi) / 180, c = std::cos(a), s = std::sin(a);
   struct Contact {
     Wide overlap, nx, nz;
   };
@@ -355,7 +355,7 @@ TEST(cone_tip, is_one_contact)
       for (Real lean : {0., 0.3, 0.9})
         for (Real depth : {1e-3, 0.1}) {
           // Leaning towards the cone's side, but not into the prism of a facet.
-          const Real a = lean * std::atan2(height, 1) * std::cos(M_PI / n);
+          const Real a = lean * std::atan2(height, 1) * std::cos(kPi / n);
           const Vec3 n_tip = {std::sin(a) * std::cos(0.7), std::sin(a) * std::sin(0.7),
                               std::cos(a)};
           const Vec3 f = probe.force((kRadius - depth) * n_tip);
@@ -377,7 +377,7 @@ std::array<Real, 2> drum_noise(int n, Corner corner)
   Real sum = 0, sum_sq = 0;
   constexpr int kPositions = 3000;
   for (int i = 0; i < kPositions; i++) {
-    const Real a = 2 * M_PI * (i * 0.6180339887498949 - std::floor(i * 0.6180339887498949));
+    const Real a = 2 * kPi * (i * 0.6180339887498949 - std::floor(i * 0.6180339887498949));
     const Vec3 out = {std::cos(a), std::sin(a), 0};
     const Vec3 f = probe.force((kDrum - kRadius + kOverlap) * out + Vec3{0, 0, 1});
     const Real off = -dot(f, out) / (kStiffness * kOverlap) - 1;

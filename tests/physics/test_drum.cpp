@@ -224,7 +224,7 @@ Roughness roughness(int n, bool inside)
   Scene scene(drum_mesh(n), kRadius, hooke(kStiffness));
   const Real rho = inside ? kDrum - kRadius + kOverlap : kDrum + kRadius - kOverlap;
   for (int i = 0; i < kPlaces; i++) {
-    const Real turns = i * 0.6180339887498949, a = 2 * M_PI * (turns - std::floor(turns));
+    const Real turns = i * 0.6180339887498949, a = 2 * kPi * (turns - std::floor(turns));
     scene.add_sphere({rho * std::cos(a), 1, rho * std::sin(a)}, kRadius, kMass);
   }
   scene.compute(1e-4);
@@ -256,7 +256,7 @@ TEST(drum, force_is_the_polygons_and_its_roughness_falls_with_refinement)
     Real last = HUGE_VAL;
     for (const int n : {64, 256, 1024, 4096}) {
       const Roughness r = roughness(n, inside);
-      const Real turn = 2 * M_PI / n, sagitta = kDrum * (1 - std::cos(turn / 2));
+      const Real turn = 2 * kPi / n, sagitta = kDrum * (1 - std::cos(turn / 2));
       expect_answer({"Drum", "06a", place(n, inside) + ": largest |F - F_polygon| / (k overlap)"},
                     0, r.off_exact, 64 * kRoundoff * kDrum / (turn * kOverlap),
                     "coordinates of 5 round by 1e-15; a segment's lean and the share of two sides "
@@ -292,7 +292,7 @@ TEST(drum, frictionless_sliding_keeps_its_energy)
 Law rolling_law(Real k)
 {
   const Real log_e = std::log(0.3);
-  const Real gamma = 2 * std::sqrt(k / kMass) * -log_e / std::sqrt(M_PI * M_PI + log_e * log_e);
+  const Real gamma = 2 * std::sqrt(k / kMass) * -log_e / std::sqrt(kPi * kPi + log_e * log_e);
   return {k, gamma, 2 * k / 7, gamma / 2, 0.5};
 }
 
@@ -316,7 +316,7 @@ Losses rolling_losses(int n, Real k, Corner corner = Corner::blend)
                 "the reference's step changes, twice; each seam may change the spring, which holds "
                 "(2/7 m g)^2 / (2 kt), by the square of the angle"};
   if (n == 0 || corner == Corner::sum) return out;
-  const Real turn = 2 * M_PI / n, seams = Real(s.vx) * kSeconds / (turn * kDrum);
+  const Real turn = 2 * kPi / n, seams = Real(s.vx) * kSeconds / (turn * kDrum);
   const Real held = std::pow(2 * kMass * kGravity / 7, 2) / (2 * p.k_tangent);
   out.tolerance = std::sqrt(k / kMass) * kSeconds / kSteps * out.exact +
                   2 * std::fabs(out.exact - disc(kSteps / 2)) +

@@ -73,7 +73,7 @@ struct Rest {
 
 std::vector<Rest> rests()
 {
-  const Real one = M_PI / 180;
+  const Real one = kPi / 180;
   return {
       {"a face", floor_mesh(4, 2), {0.3, 0.1, kRadius}},
       {"a vertex", floor_mesh(4, 2), {0, 0, kRadius}},

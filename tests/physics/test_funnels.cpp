@@ -37,7 +37,7 @@ std::vector<Plane> regular(int n, Real degrees)
 {
   std::vector<Plane> out;
   for (int i = 0; i < n; i++)
-    out.push_back({unit_of(degrees * M_PI / 180, 2 * M_PI * i / n), kDepth});
+    out.push_back({unit_of(degrees * kPi / 180, 2 * kPi * i / n), kDepth});
   return out;
 }
 
@@ -46,8 +46,8 @@ std::vector<Plane> uneven(int n, Real degrees, Random &random)
 {
   std::vector<Plane> out;
   for (int i = 0; i < n; i++)
-    out.push_back({unit_of(degrees * M_PI / 180 * std::sqrt(uniform(random, 0, 1)),
-                           uniform(random, 0, 2 * M_PI)),
+    out.push_back({unit_of(degrees * kPi / 180 * std::sqrt(uniform(random, 0, 1)),
+                           uniform(random, 0, 2 * kPi)),
                    kDepth * (1 + 0.3 * uniform(random, -1, 1))});
   return out;
 }
@@ -63,7 +63,7 @@ TriangleSoup mesh_of(const std::vector<Plane> &planes)
     const Vec3 s = cross(p.normal, aside), a = (1 / norm(s)) * s, b = cross(p.normal, a);
     for (int k = 0; k < 3; k++)
       soup.corners.push_back(foot +
-                             4 * (std::cos(2 * M_PI * k / 3) * a + std::sin(2 * M_PI * k / 3) * b));
+                             4 * (std::cos(2 * kPi * k / 3) * a + std::sin(2 * kPi * k / 3) * b));
   }
   return soup;
 }
@@ -171,7 +171,7 @@ TEST(cone, that_an_offset_takes_through_one_point_has_a_continuous_force)
       largest_force = std::fmax(largest_force, norm(f[0][i]));
     }
     // Shares change by 2e-12 R over the least eigenvalue of the covers, that of + - + -; doc/theory.md.
-    const Real sine_sq = std::pow(std::sin(degrees * M_PI / 180), 2);
+    const Real sine_sq = std::pow(std::sin(degrees * kPi / 180), 2);
     const Real least = 1 - 2 * cover_of(1 - sine_sq) + cover_of(1 - 2 * sine_sq);
     const Real bound = 2 * 2e-12 * kRadius / least / kDepth;
     expect_at_most({kTheme, "31",

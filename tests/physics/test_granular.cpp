@@ -17,7 +17,6 @@
 namespace lsdcd {
 namespace {
 
-constexpr Real kPi = 3.14159265358979323846;
 constexpr Real kRadius = 0.5, kMass = 2, kK = 1e5, kModulus = 0.75 * kK;
 
 const Vec3 kSpot = {0.13, 0.07, 0};    // inside a face

@@ -28,7 +28,7 @@ constexpr Real kGamma = 80;
 
 Real contact_time()
 {
-  return M_PI / std::sqrt(kStiffness / kMass - kGamma * kGamma / 4);
+  return kPi / std::sqrt(kStiffness / kMass - kGamma * kGamma / 4);
 }
 
 // Throws a sphere at point p of the wall along -n; its speed afterwards over before.
@@ -124,7 +124,7 @@ TEST(spring, crosses_t_junctions_without_a_jump)
 // of the spring, at n places.
 std::vector<Real> roll_over_hinge(Real degrees, int n, Real overlap)
 {
-  const Real a = degrees * M_PI / 180, kt = 3e4, h0 = 1e-3, dt = 1e-3;
+  const Real a = degrees * kPi / 180, kt = 3e4, h0 = 1e-3, dt = 1e-3;
   Scene scene(hinge_mesh(degrees, 3), kRadius, hooke_history(kStiffness, kt, 0, 0, 0.5));
   const Real z = kRadius - overlap, turn = -z * std::tan(a / 2), half = 0.4;
   const Vec3 along = {std::cos(a), 0, std::sin(a)};
@@ -150,7 +150,7 @@ std::vector<Real> roll_over_hinge(Real degrees, int n, Real overlap)
 // neighbour's.
 void expect_kept(const std::vector<Real> &parts, Real degrees)
 {
-  const Real a = degrees * M_PI / 180;
+  const Real a = degrees * kPi / 180;
   const auto [least, most] = std::minmax_element(parts.begin(), parts.end());
   std::printf("  %g degrees: %.6f to %.6f of the spring\n", degrees, *least, *most);
   EXPECT_GE(*least, 1 - a * a) << degrees;
@@ -181,7 +181,7 @@ TEST(spring, force_is_continuous_over_a_shallow_seam)
       return largest;
     };
     // A spring that one contact hands to the next may change by the cosine.
-    const Real a = degrees * M_PI / 180;
+    const Real a = degrees * kPi / 180;
     EXPECT_LE(largest(40000), 0.2 * largest(4000) + a * a) << degrees;
   }
 }
@@ -309,7 +309,7 @@ TEST(billiard, in_a_box_keeps_its_energy)
 {
   // Velocity Verlet: entering and leaving within a step costs (omega dt)^2 / 8 a
   // bounce at most, of either sign; 2000 bounces add up as their root.
-  const Real tc = M_PI * std::sqrt(kMass / kStiffness), dt = tc / 100, w = M_PI / 100;
+  const Real tc = kPi * std::sqrt(kMass / kStiffness), dt = tc / 100, w = kPi / 100;
   const Real drift =
       energy_drift(box_mesh({0, 0, 0}, {3, 2, 2.5}), {1, 0.9, 1.1}, {7, 4, 5.5}, dt, 200000);
   EXPECT_LE(drift, 50 * w * w);
@@ -317,7 +317,7 @@ TEST(billiard, in_a_box_keeps_its_energy)
 
 TEST(billiard, in_a_drum_of_flat_facets_keeps_its_energy)
 {
-  const Real tc = M_PI * std::sqrt(kMass / kStiffness), dt = tc / 100, w = M_PI / 100;
+  const Real tc = kPi * std::sqrt(kMass / kStiffness), dt = tc / 100, w = kPi / 100;
   const Real drift =
       energy_drift(cylinder_mesh(24, 2, 2, 3), {0.2, 0.1, 1.1}, {7, 4, 5.5}, dt, 200000);
   EXPECT_LE(drift, 50 * w * w);

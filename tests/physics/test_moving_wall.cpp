@@ -25,14 +25,14 @@ EngineSettings moving(EngineSettings s)
   return s;
 }
 
-WallMotion rotating(const Vec3 &point, const Vec3 &axis, Real period)
+RigidMotion rotating(const Vec3 &point, const Vec3 &axis, Real period)
 {
   MotionTerm m;
   m.kind = MotionKind::rotate;
   m.point = point;
   m.axis = unit_vector(axis);
   m.period = period;
-  WallMotion motion;
+  RigidMotion motion;
   motion.add(m);
   return motion;
 }
@@ -40,7 +40,7 @@ WallMotion rotating(const Vec3 &point, const Vec3 &axis, Real period)
 // Spheres that cross a wall of random triangles, in one scene at rest and in one that is turned
 // and drives past at constant velocity: all that a wall does is the same in its frame.
 struct Twins {
-  Twins(const EngineSettings &s, const WallPose &at, Precision precision) : pose(at)
+  Twins(const EngineSettings &s, const Pose &at, Precision precision) : pose(at)
   {
     EngineSettings here = s;
     here.precision = precision;
@@ -75,13 +75,13 @@ struct Twins {
     pose.shift += kStep * pose.velocity;
   }
 
-  WallPose pose;
+  Pose pose;
   std::unique_ptr<Scene> rest, driven;
 };
 
-WallPose some_pose()
+Pose some_pose()
 {
-  WallPose pose = rotating({1, 2, 3}, {1, -1, 0.5}, 1).pose_at(0.137).still();
+  Pose pose = rotating({1, 2, 3}, {1, -1, 0.5}, 1).pose_at(0.137).still();
   pose.velocity = {3, -2, 1};
   return pose;
 }
@@ -123,7 +123,7 @@ TEST(moving_wall, reports_in_the_frame_of_the_box)
 {
   Twins twins(hooke(kStiffness, 50, 20, 0.4), some_pose(), Precision::double_);
   twins.step();
-  WallPose at = twins.pose;
+  Pose at = twins.pose;
   at.shift -= kStep * at.velocity;    // step() goes on to the next
   Vec3 force = {0, 0, 0}, torque = {0, 0, 0};
   const Scene &driven = *twins.driven;
@@ -149,15 +149,15 @@ TEST(moving_wall, reports_in_the_frame_of_the_box)
 TEST(moving_wall, a_turning_drum_drags_and_pushes_with_the_velocity_at_the_contact)
 {
   const Real gamma_n = 7, gamma_t = 3, w = 4;
-  const WallMotion motion = rotating({0, 0, 0}, {0, 0, 1}, 2 * M_PI / w);
+  const RigidMotion motion = rotating({0, 0, 0}, {0, 0, 1}, 2 * kPi / w);
   Scene drum(cylinder_mesh(12, 1, 2, 4), kRadius, moving(hooke(kStiffness, gamma_n, gamma_t, 1e6)));
-  const Real apothem = 2 * std::cos(M_PI / 12), beside = 0.1, overlap = 0.01;
-  const Vec3 n = {std::cos(M_PI / 12), std::sin(M_PI / 12), 0}, t = {-n.y, n.x, 0};
+  const Real apothem = 2 * std::cos(kPi / 12), beside = 0.1, overlap = 0.01;
+  const Vec3 n = {std::cos(kPi / 12), std::sin(kPi / 12), 0}, t = {-n.y, n.x, 0};
   const Vec3 closest = apothem * n + beside * t + Vec3{0, 0, 2.2};
   const Vec3 v = {0.3, -0.2, 0.1}, omega = {1, 2, 3};
   drum.add_sphere({0, 0, 0}, kRadius, kMass, v, omega);
   for (const Real time : {0.0, 0.3, 1.1}) {
-    const WallPose pose = motion.pose_at(time);
+    const Pose pose = motion.pose_at(time);
     const Vec3 normal = pose.turn_to_box(n), at = pose.to_box(closest);
     drum.set_x(0, at + (kRadius - overlap) * normal);
     drum.engine->place_wall(pose);
@@ -177,7 +177,7 @@ TEST(moving_wall, a_turning_drum_drags_and_pushes_with_the_velocity_at_the_conta
 // the arm of a spin: without friction there is not even that.
 TEST(moving_wall, without_friction_a_turning_drum_only_pushes)
 {
-  const WallMotion motion = rotating({0, 0, 0}, {0, 0, 1}, 0.3);
+  const RigidMotion motion = rotating({0, 0, 0}, {0, 0, 1}, 0.3);
   Scene drum(cylinder_mesh(40, 3, 2, 4), kRadius, moving(hooke_history(kStiffness, 3e4, 0, 40, 0)));
   drum.add_sphere({0, 0, 2}, kRadius, kMass);
   for (int k = 0; k < 200; k++) {
@@ -193,10 +193,10 @@ TEST(moving_wall, without_friction_a_turning_drum_only_pushes)
 // A spring is kept in the frame of the wall: stretched once, it turns with it.
 TEST(moving_wall, springs_turn_with_it)
 {
-  const WallMotion motion = rotating({0, 0, 0}, {0, 0, 1}, 4);
+  const RigidMotion motion = rotating({0, 0, 0}, {0, 0, 1}, 4);
   Scene scene(floor_mesh(4, 2), kRadius, moving(hooke_history(kStiffness, 3e4, 0, 0, 1e6)));
   scene.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass, {2, 0, 0});
-  scene.engine->place_wall(WallPose());
+  scene.engine->place_wall(Pose());
   scene.compute(kStep);
   const Vec3 before = scene.force(0);
   EXPECT_NEAR(before.x, -3e4 * 2 * kStep, 1e-12);
@@ -217,7 +217,7 @@ TEST(moving_wall, rolling_and_twisting_are_relative_to_it)
   Scene turntable(floor_mesh(4, 2), kRadius, moving(law)), at_rest(floor_mesh(4, 2), kRadius, law);
   turntable.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
   at_rest.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass, {0, 0, 0}, {0, 0, -w});
-  WallPose pose = rotating({0, 0, 0}, {0, 0, 1}, 2 * M_PI / w).pose_at(0);
+  Pose pose = rotating({0, 0, 0}, {0, 0, 1}, 2 * kPi / w).pose_at(0);
   turntable.engine->place_wall(pose);
   turntable.compute(kStep);
   at_rest.compute(kStep);
@@ -234,7 +234,7 @@ TEST(moving_wall, rolling_and_twisting_are_relative_to_it)
 // which the motion of the mesh or that of its surface turns.
 struct Turntable {
   static constexpr int kSteps = 2000;
-  static constexpr Real kOmega = 2 * M_PI, kDt = 1.0 / kSteps;
+  static constexpr Real kOmega = 2 * kPi, kDt = 1.0 / kSteps;
 
   explicit Turntable(bool mesh_turns) :
       mesh_turns(mesh_turns), scene(floor_mesh(4, 2), kRadius, settings(mesh_turns)),
@@ -268,7 +268,7 @@ struct Turntable {
 
   bool mesh_turns;
   Scene scene;
-  WallMotion motion;
+  RigidMotion motion;
   int n = 0;
 };
 
@@ -281,7 +281,7 @@ TEST(moving_wall, what_it_carries_keeps_its_radius)
     table.turns(5);    // the swinging has died out
     const Real before = table.radius();
     table.turns(5);
-    EXPECT_NEAR(table.radius(), before, 5 * 2 * M_PI * 1e-5) << mesh_turns;
+    EXPECT_NEAR(table.radius(), before, 5 * 2 * kPi * 1e-5) << mesh_turns;
   }
 }
 
@@ -320,7 +320,7 @@ TEST(moving_wall, a_moving_surface_moves_with_it)
   const SurfaceMotion belt = {{1.5, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   s.surface = belt;
   Scene scene(floor_mesh(4, 2), kRadius, moving(s));
-  WallPose pose = rotating({0, 0, 0}, {0, 0, 1}, 4).pose_at(1).still();
+  Pose pose = rotating({0, 0, 0}, {0, 0, 1}, 4).pose_at(1).still();
   pose.velocity = {0.25, 0, 0};
   scene.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
   scene.engine->place_wall(pose);
@@ -333,7 +333,7 @@ TEST(moving_wall, a_moving_surface_moves_with_it)
 TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
 {
   const TriangleSoup soup = random_soup(600, 5);
-  const WallMesh mesh = weld(soup, -1);
+  const WeldedMesh mesh = weld(soup, -1);
   GridSettings g;
   g.cutoff = kRadius;
   const FlatGrid flat(build_grid(mesh, g));
@@ -350,7 +350,7 @@ TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
     const Real lo = mesh.report.lo[i % 3], hi = mesh.report.hi[i % 3];
     of[0].x[i] = of[1].x[i] = lo + place(random) * (hi - lo);
   }
-  const WallMotion motion = rotating({0.5, 0.5, 0.5}, {1, 2, -1}, 1);
+  const RigidMotion motion = rotating({0.5, 0.5, 0.5}, {1, 2, -1}, 1);
   const Box bounds = {mesh.report.lo - kRadius * Vec3{1, 1, 1},
                       mesh.report.hi + kRadius * Vec3{1, 1, 1}};
   const Real margin = 0.3;
@@ -359,14 +359,14 @@ TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
     of[which].clear_forces();
     return of[which].spheres();
   };
-  const WallPose first = motion.pose_at(0.2);
+  const Pose first = motion.pose_at(0.2);
   kept->place_wall(first);
   kept->choose(spheres(0), margin, true);
   StepSettings step;
   step.dt = kStep;
   bool moved = false;
   for (Real time = 0.2; !moved; time += 1e-4) {
-    const WallPose pose = motion.pose_at(time);
+    const Pose pose = motion.pose_at(time);
     if (farthest_between(first, pose, bounds) > margin) break;
     kept->place_wall(pose);
     fresh->place_wall(pose);

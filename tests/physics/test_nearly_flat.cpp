@@ -23,7 +23,7 @@ constexpr const char *kTheme = "Nearly flat";
 
 Real radians(Real degrees)
 {
-  return degrees * M_PI / 180;
+  return degrees * kPi / 180;
 }
 std::string text(Real value)
 {
@@ -203,7 +203,7 @@ TEST(walls, three_from_right_angles_on_add_up)
                v = cross(axis, u);
     std::array<Vec3, 3> edge, n;
     for (int k = 0; k < 3; k++) {
-      const Real b = 2 * M_PI * k / 3 + 0.4;
+      const Real b = 2 * kPi * k / 3 + 0.4;
       edge[k] = std::cos(lean) * axis + std::sin(lean) * (std::cos(b) * u + std::sin(b) * v);
     }
     for (int k = 0; k < 3; k++) n[k] = unit(cross(edge[k], edge[(k + 1) % 3]));
@@ -224,7 +224,7 @@ TEST(walls, three_from_right_angles_on_add_up)
       const Real off = norm(f[i] - expected[i]) / norm(expected[i]);
       if (!(off <= largest)) largest = off;
     }
-    const Real degrees = std::acos(dot(n[0], n[1])) * 180 / M_PI;
+    const Real degrees = std::acos(dot(n[0], n[1])) * 180 / kPi;
     expect_at_most({kTheme, "4", "three walls at " + text(degrees) + " degrees: |F/sum - 1|"},
                    largest, 1e-12, "roundings of overlaps of 1e-2 R: 16 eps / 1e-2");
   }

@@ -120,7 +120,7 @@ TEST(mixed, forces_follow_those_of_double_on_meshes_of_all_kinds)
   long touching = 0, apart = 0;
   for (std::uint64_t seed = 1; seed <= 80; seed++) {
     const RandomMesh made = random_mesh(seed);
-    const WallMesh mesh = weld(made.soup, 0);
+    const WeldedMesh mesh = weld(made.soup, 0);
     if (norm(mesh.report.hi - mesh.report.lo) > 60 * made.cutoff) continue;
     const Real k = 1, length = 0.4 * made.cutoff;
     Scene exact(made.soup, made.cutoff, hooke(k), length, 0);

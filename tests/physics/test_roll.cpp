@@ -18,7 +18,7 @@ constexpr Real kGamma = 60, kTangent = 4e4;
 
 Real radians(Real degrees)
 {
-  return degrees * M_PI / 180;
+  return degrees * kPi / 180;
 }
 
 EngineSettings law(bool history, Real mu)
@@ -176,8 +176,8 @@ TEST(groove, is_rolled_along_on_both_its_walls)
   for (const Real degrees : {20., 30., 45., 60., 80.}) {
     const Real a = radians(degrees), tilt = radians(10), n = kMass * kGravity * std::cos(tilt);
     // Up to a right angle two walls bear N/2 sin a each, beyond the rule makes them one.
-    const Real at = a <= M_PI / 4 ? (kRadius - n / (2 * std::sin(a)) / kStiffness) / std::sin(a)
-                                  : kRadius / std::sin(a) - n / kStiffness;
+    const Real at = a <= kPi / 4 ? (kRadius - n / (2 * std::sin(a)) / kStiffness) / std::sin(a)
+                                 : kRadius / std::sin(a) - n / kStiffness;
     const Rolled r = let_go(groove(a, 11), law(true, 0.5), {0, -1.3, at},
                             {0, kGravity * std::sin(tilt), -kGravity * std::cos(tilt)}, {0, 1, 0});
     const Real answer = kGravity * std::sin(tilt) / (1 + 0.4 / (std::sin(a) * std::sin(a)));

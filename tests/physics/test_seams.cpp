@@ -184,7 +184,7 @@ TriangleSoup shaken(TriangleSoup soup, Real lift, unsigned seed)
 {
   Random random(seed);
   for (Vec3 &p : soup.corners) {
-    const Real a = uniform(random, 0, 2 * M_PI), r = 0.5 * kGap * uniform(random, 0, 1);
+    const Real a = uniform(random, 0, 2 * kPi), r = 0.5 * kGap * uniform(random, 0, 1);
     p += Vec3{r * std::cos(a), r * std::sin(a), lift * uniform(random, -0.5, 0.5)};
   }
   return soup;

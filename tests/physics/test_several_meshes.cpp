@@ -35,7 +35,7 @@ std::vector<TriangleSoup> dealt(const TriangleSoup &soup, int n)
 }
 
 // Of the m-th mesh; with `turned` each has another, else all are at rest.
-WallPose pose_of(int m, bool turned)
+Pose pose_of(int m, bool turned)
 {
   if (!turned) return {};
   MotionTerm term;
@@ -43,7 +43,7 @@ WallPose pose_of(int m, bool turned)
   term.point = {0.3 * m, 1, -2};
   term.axis = unit_vector(Vec3{1, 0.2 * m, -0.5});
   term.period = 1;
-  WallMotion motion;
+  RigidMotion motion;
   motion.add(term);
   return motion.pose_at(0.05 + 0.03 * m).still();
 }

@@ -77,7 +77,7 @@ Path straight(const Vec3 &from, const Vec3 &along)
 Path over_rim(const Vec3 &rim, const Vec3 &out, Real before, Real askew)
 {
   const Vec3 axis = cross(Vec3{0, 0, 1}, out);
-  const Real across = std::sqrt(1 - askew * askew), arc = kAt * M_PI / 2;
+  const Real across = std::sqrt(1 - askew * askew), arc = kAt * kPi / 2;
   return [=](Real s) {
     const Real p = s * across - before;    // the way across, 0 where the arc begins
     const Vec3 sideways = (s * askew) * axis;
@@ -233,14 +233,14 @@ TEST(slide, round_a_drum_is_continuous)
   for (const int n : {64, 256, 1024}) {
     constexpr Real kDrum = 5;
     // The way of the centre, a quarter round, at the depth that a segment's middle has.
-    const Real turn = 2 * M_PI / n, rho = kDrum * std::cos(turn / 2) - kAt;
+    const Real turn = 2 * kPi / n, rho = kDrum * std::cos(turn / 2) - kAt;
     const Path path = [=](Real s) {
       const Real a = 0.3 + s / rho;
       return Place{{rho * std::cos(a), rho * std::sin(a), 1},
                    {-std::sin(a), std::cos(a), 0},
                    {-std::cos(a), -std::sin(a), 0}};
     };
-    const Real length = rho * M_PI / 2;
+    const Real length = rho * kPi / 2;
     const TriangleSoup drum = cylinder_mesh(n, 1, kDrum, 2);
     const std::string name = "a quarter round a drum of " + std::to_string(n) + " segments";
     const Slid below = slide(drum, path, length, 20000, 1e6);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What spheres do to a wall: forces on its triangles and wear, against hand integration.
-#include "output/wall_loads.h"
+#include "output/mesh_loads.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 
@@ -23,10 +23,10 @@ EngineSettings worn(EngineSettings s, WearModel wear)
 }
 
 // Takes a sphere along a path at constant velocity, n steps.
-WallLoads drive(Scene &scene, const Vec3 &from, const Vec3 &v, Real dt, int n, Real per_work)
+MeshLoads drive(Scene &scene, const Vec3 &from, const Vec3 &v, Real dt, int n, Real per_work)
 {
   scene.add_sphere(from, kRadius, kMass, v);
-  WallLoads loads;
+  MeshLoads loads;
   for (int i = 1; i <= n; i++) {
     scene.set_x(0, from + (i * dt) * v);
     scene.compute(dt);
@@ -44,7 +44,7 @@ TEST(wear, of_archard_is_force_times_way)
   for (const EngineSettings &law :
        {hooke(kStiffness, 0, 100, 0.3), hooke_history(kStiffness, 3e4, 0, 20, 0.3)}) {
     Scene scene(floor_mesh(16, 2, 5), kRadius, worn(law, WearModel::archard));
-    const WallLoads loads = drive(scene, from, v, dt, 3000, per_work);
+    const MeshLoads loads = drive(scene, from, v, dt, 3000, per_work);
     const Real whole = per_work * kStiffness * kOverlap * norm(v) * 3;
     EXPECT_NEAR(loads.worn(), whole, 1e-11 * whole);
 
@@ -80,7 +80,7 @@ TEST(wear, goes_with_the_slip_on_a_moving_surface)
     EngineSettings law = worn(hooke(kStiffness, 0, 100, 0.3), WearModel::archard);
     law.surface.velocity = {2, 0, 0};
     Scene scene(floor_mesh(4, 2), kRadius, law);
-    const WallLoads loads = drive(scene, {-1, 0.1, kRadius - kOverlap}, {v, 0, 0}, 1e-3, 500, 1);
+    const MeshLoads loads = drive(scene, {-1, 0.1, kRadius - kOverlap}, {v, 0, 0}, 1e-3, 500, 1);
     EXPECT_NEAR(loads.worn(), v == 0 ? kStiffness * kOverlap * 2 * 0.5 : 0, 1e-8);
   }
 }
@@ -97,17 +97,17 @@ TEST(wear, of_finnie_depends_on_the_angle)
 {
   const Real per_work = 2e-4, dt = 1e-5, depth = 0.02, speed = 1.3;
   for (const Real degrees : {5.0, 15.0, 18.0, 19.0, 30.0, 60.0, 89.0}) {
-    const Real a = degrees * M_PI / 180;
+    const Real a = degrees * kPi / 180;
     Scene scene(floor_mesh(8, 2, 3), kRadius, worn(hooke(kStiffness), WearModel::finnie));
     const Vec3 v = {speed * std::cos(a), 0, -speed * std::sin(a)};
     const int n = static_cast<int>(std::lround(depth / (speed * std::sin(a) * dt)));
     const Real reached = n * dt * speed * std::sin(a);
-    const WallLoads loads = drive(scene, {-0.8, 0.1, kRadius}, v, dt, n, per_work);
+    const MeshLoads loads = drive(scene, {-0.8, 0.1, kRadius}, v, dt, n, per_work);
     const Real exact = per_work * finnie(a) * kStiffness * reached * reached / (2 * std::sin(a));
     // A sum at the ends of steps in place of the integral: 1/n of it.
     EXPECT_NEAR(loads.worn(), exact, 1.01 * exact / n) << degrees;
 
-    WallLoads out;
+    MeshLoads out;
     scene.set_v(0, -v);
     scene.compute(dt);
     out.add(scene.engine->records(), scene.engine->n_records(), dt, per_work);
@@ -127,7 +127,7 @@ TEST(wear, of_finnie_is_none_where_a_sphere_slides)
 TEST(stress, of_a_resting_sphere_is_its_weight)
 {
   Scene scene(floor_mesh(4, 2), kRadius, worn(hooke(kStiffness, 50), WearModel::none));
-  const WallLoads loads = drive(scene, {0.3, 0.1, kRadius - 2e-4}, {0, 0, 0}, 1e-3, 10, 0);
+  const MeshLoads loads = drive(scene, {0.3, 0.1, kRadius - 2e-4}, {0, 0, 0}, 1e-3, 10, 0);
   Real normal = 0;
   int loaded = 0;
   for (const Load &l : loads.of_faces(scene.mesh)) {
@@ -141,7 +141,7 @@ TEST(stress, of_a_resting_sphere_is_its_weight)
 
   Scene box(box_mesh({0, 0, 0}, {1, 1, 1}), kRadius, worn(hooke(kStiffness), WearModel::none));
   const Real r = std::sqrt(0.5) * (kRadius - kOverlap);
-  const WallLoads edge = drive(box, {1 + r, 0.4, 1 + r}, {0, 0, 0}, 1e-3, 10, 0);
+  const MeshLoads edge = drive(box, {1 + r, 0.4, 1 + r}, {0, 0, 0}, 1e-3, 10, 0);
   const std::vector<Load> faces = edge.of_faces(box.mesh);
   int halves = 0;
   for (const Load &l : faces) {
@@ -155,7 +155,7 @@ TEST(stress, of_a_resting_sphere_is_its_weight)
 TEST(stress, in_shear_is_the_friction)
 {
   Scene scene(floor_mesh(4, 2), kRadius, worn(hooke(kStiffness, 0, 1e4, 0.3), WearModel::none));
-  const WallLoads loads = drive(scene, {-1, 0.1, kRadius - kOverlap}, {1, 0, 0}, 1e-3, 100, 0);
+  const MeshLoads loads = drive(scene, {-1, 0.1, kRadius - kOverlap}, {1, 0, 0}, 1e-3, 100, 0);
   Real shear = 0;
   for (const Load &l : loads.of_faces(scene.mesh)) shear += l.shear;
   EXPECT_NEAR(shear / loads.time(), 0.3 * kStiffness * kOverlap, 1e-9);
@@ -189,7 +189,7 @@ TEST(records, change_no_bit_of_the_forces)
 TEST(records, of_contacts_that_share_sum_to_the_force)
 {
   Scene scene(hinge_mesh(20, 4), kRadius, worn(hooke(kStiffness), WearModel::none));
-  const Real a = 20 * M_PI / 180;
+  const Real a = 20 * kPi / 180;
   const Vec3 n[] = {{0, 0, 1}, {-std::sin(a), 0, std::cos(a)}};
   // On the bisector, 2 % of the radius into both sides.
   const Vec3 out = {-std::sin(a / 2), 0, std::cos(a / 2)};
@@ -215,7 +215,7 @@ TEST(records, of_crowded_spheres_are_all_there)
   // Thin posts, further apart than a needle is thick: one contact each.
   TriangleSoup soup;
   for (int i = 0; i < 12; i++) {
-    const Real a = 2 * M_PI * i / 12;
+    const Real a = 2 * kPi * i / 12;
     const Vec3 p = {0.45 * std::cos(a), 0.45 * std::sin(a), 0};
     TriangleSoup post = box_mesh(p - Vec3{0.01, 0.01, 1}, p + Vec3{0.01, 0.01, 0});
     append(soup, post);
@@ -232,7 +232,7 @@ TEST(records, of_crowded_spheres_are_all_there)
     for (int i = 0; i < scene.engine->n_records(); i++)
       EXPECT_GT(scene.engine->records()[i].normal, 0) << i;
     EXPECT_EQ(scene.engine->n_records(), scene.engine->totals().contacts);
-    WallLoads loads;
+    MeshLoads loads;
     loads.add(scene.engine->records(), scene.engine->n_records(), 1, 0);
     // The last record is the last sphere's, on the top of a post.
     const ContactRecord &last = scene.engine->records()[scene.engine->n_records() - 1];

@@ -17,15 +17,15 @@ HEADER = """\
 // The mesh where it is, as an OFF file.
 #pragma once
 
-#include "mesh/wall_mesh.h"
-#include "motion/wall_pose.h"
+#include "mesh/welded_mesh.h"
+#include "motion/pose.h"
 
 #include <string>
 
 namespace lsdcd {
 
 // The file appears whole or not at all; throws InputError that names it.
-void write_mesh_off(const std::string &path, const WallMesh &mesh, const WallPose &pose = {});
+void write_mesh_off(const std::string &path, const WeldedMesh &mesh, const Pose &pose = {});
 
 }    // namespace lsdcd
 """
@@ -38,7 +38,7 @@ WRITER = """\
 
 namespace lsdcd {
 
-void write_mesh_off(const std::string &path, const WallMesh &mesh, const WallPose &pose)
+void write_mesh_off(const std::string &path, const WeldedMesh &mesh, const Pose &pose)
 {
   std::ostringstream text;
   text.precision(17);
@@ -54,12 +54,12 @@ void write_mesh_off(const std::string &path, const WallMesh &mesh, const WallPos
 }    // namespace lsdcd
 """
 NUMBER_OF_A_TRIANGLE = {
-    "output/wall_loads.h": [
+    "output/mesh_loads.h": [
         ("  Real contacts = 0;         // time; of the number of contacts\n",
          "  Real contacts = 0;         // time; of the number of contacts\n"
          "  Real square = 0;           // force^2 time; of the normal forces\n"),
         ("kPackedLoad = 8;", "kPackedLoad = 9;")],
-    "output/wall_loads.cpp": [
+    "output/mesh_loads.cpp": [
         ("    to.contacts += dt;\n", "    to.contacts += dt;\n    to.square += r.normal * r.normal * dt;\n"),
         ("l.force.z});", "l.force.z, l.square});"),
         ("    to.force += {r[5], r[6], r[7]};\n", "    to.force += {r[5], r[6], r[7]};\n    to.square += r[8];\n"),

@@ -10,7 +10,7 @@
 namespace lsdcd {
 namespace {
 
-WallMotion of_words(const std::vector<std::string> &motion)
+RigidMotion of_words(const std::vector<std::string> &motion)
 {
   std::vector<std::string> words = {"hooke", "1e4", "0",    "0",     "0",
                                     "0",     "0",   "mesh", "a.stl", "motion"};
@@ -22,7 +22,7 @@ WallMotion of_words(const std::vector<std::string> &motion)
 // size 3: some roundings of 2.2e-16 of that.
 TEST(recipe_motion, follows_its_closed_form)
 {
-  const WallMotion motion = of_words({"cycloid", "0", "0", "3", "0.5"});
+  const RigidMotion motion = of_words({"cycloid", "0", "0", "3", "0.5"});
   constexpr Real kInTwoPi = 0.15915494309189533577;
   const struct {
     Time t;
@@ -31,7 +31,7 @@ TEST(recipe_motion, follows_its_closed_form)
               {0.25L, 1.5, 12}, {0.375L, 3 * (0.75 + kInTwoPi), 6},
               {0.5L, 3, 0},     {2.25L, 13.5, 12}};
   for (const auto &row : rows) {
-    const WallPose pose = motion.pose_at(row.t);
+    const Pose pose = motion.pose_at(row.t);
     EXPECT_NEAR(pose.shift.z, row.z, 4e-15) << double(row.t);
     EXPECT_NEAR(pose.velocity.z, row.speed, 8e-15) << double(row.t);
     EXPECT_EQ(pose.shift.x, 0);

@@ -21,18 +21,18 @@ namespace lsdcd {
 namespace {
 
 // Loads of two steps: 3 on the second face in a step of 1, nothing in one of 3.
-WallLoads pressed()
+MeshLoads pressed()
 {
   ContactRecord record = {};
   record.feature = feature_code(FeatureKind::face, 1);
   record.normal = 3;
-  WallLoads loads;
+  MeshLoads loads;
   loads.add(&record, 1, 1, 0);
   loads.add(nullptr, 0, 3, 0);
   return loads;
 }
 
-std::vector<double> normal_rms(const WallMesh &mesh, const WallLoads &loads, bool with_wear)
+std::vector<double> normal_rms(const WeldedMesh &mesh, const MeshLoads &loads, bool with_wear)
 {
   for (const FaceField &field : load_fields(mesh, loads, 1, with_wear))
     if (field.name == "normal_rms") return field.value;
@@ -42,7 +42,7 @@ std::vector<double> normal_rms(const WallMesh &mesh, const WallLoads &loads, boo
 // A force of 3 in one of 4 units of time: sqrt(9/4).
 TEST(recipe_output, of_a_triangle_is_the_root_mean_square)
 {
-  const WallMesh mesh = weld(floor_mesh(1, 1), -1);
+  const WeldedMesh mesh = weld(floor_mesh(1, 1), -1);
   const std::vector<double> rms = {0, 1.5};
   EXPECT_EQ(normal_rms(mesh, pressed(), false), rms);
   EXPECT_EQ(normal_rms(mesh, pressed(), true), rms);
@@ -51,10 +51,10 @@ TEST(recipe_output, of_a_triangle_is_the_root_mean_square)
 // Of two such processes: sqrt(2 * 9/4).
 TEST(recipe_output, of_a_triangle_adds_up_over_processes)
 {
-  const WallMesh mesh = weld(floor_mesh(1, 1), -1);
-  WallLoads all = pressed();
+  const WeldedMesh mesh = weld(floor_mesh(1, 1), -1);
+  MeshLoads all = pressed();
   const std::vector<double> rows = all.packed();
-  all.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
+  all.add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
   EXPECT_DOUBLE_EQ(normal_rms(mesh, all, false)[1], std::sqrt(4.5));
 }
 
@@ -71,7 +71,7 @@ TEST(recipe_output, is_written_in_its_steps_where_the_mesh_is)
   const TempDir dir;
   const WallSettings settings =
       parse_settings(words("mesh_off " + dir.path("w*.off") + " every 2"));
-  const WallMesh mesh = weld(floor_mesh(1, 1), -1);
+  const WeldedMesh mesh = weld(floor_mesh(1, 1), -1);
   on_processes(1, [&](FakeHost &host) {
     WallFiles files(host, settings, 1);
     EXPECT_EQ(files.every(), 2);

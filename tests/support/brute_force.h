@@ -20,7 +20,7 @@ struct BruteContact {
 
 // Contacts of a sphere; closest points closer than `same` (length) are one contact, the
 // nearest of them.
-inline std::vector<BruteContact> brute_contacts(const WallFeaturesView &wall,
+inline std::vector<BruteContact> brute_contacts(const MeshFeaturesView &wall,
                                                 const std::vector<FeatureCode> &features,
                                                 const Vec3 &q, Real radius, Real tolerance,
                                                 Real same)

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "bodies/body_collision.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -25,7 +25,7 @@ class CgalCollision {
   using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
  public:
-  explicit CgalCollision(const WallMesh &wall)
+  explicit CgalCollision(const WeldedMesh &wall)
   {
     for (const auto &f : wall.faces)
       faces_.push_back(triangle(wall.vertices[f[0]], wall.vertices[f[1]], wall.vertices[f[2]]));

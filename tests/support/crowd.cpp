@@ -53,9 +53,9 @@ PeriodicBox box_of(const MeshReport &report)
 
 }    // namespace
 
-WallMesh mesh_of(const Case &c)
+WeldedMesh mesh_of(const Case &c)
 {
-  const WallMesh mesh = weld(c.soup, -1);
+  const WeldedMesh mesh = weld(c.soup, -1);
   if (!c.periodic) return mesh;
   const PeriodicBox box = box_of(mesh.report);
   return with_images(mesh, box, c.cutoff + box.margin);
@@ -124,7 +124,7 @@ const Wall &wall_of(const Case &c, const GridSettings &g)
   if (last.name == c.name && had.cutoff == g.cutoff && had.nearest == g.nearest &&
       had.in_floats == g.in_floats)
     return last;
-  const WallMesh mesh = mesh_of(c);
+  const WeldedMesh mesh = mesh_of(c);
   last = {c.name, g, mesh.report, FlatGrid(build_grid(mesh, g))};
   return last;
 }

@@ -25,7 +25,7 @@ struct Case {
 std::vector<Case> cases();
 
 // The wall of a case, with its periodic images, and where its grid is cut off.
-WallMesh mesh_of(const Case &c);
+WeldedMesh mesh_of(const Case &c);
 Box within(const Case &c);
 
 TriangleSoup random_soup(int n, unsigned seed);

@@ -91,7 +91,7 @@ TriangleSoup hinge_mesh(Real degrees, Real half)
 {
   TriangleSoup soup;
   soup.source = "hinge";
-  const Real a = degrees * M_PI / 180;
+  const Real a = degrees * kPi / 180;
   const Real x = half * std::cos(a), z = half * std::sin(a);
   quad(soup, {-half, -half, 0}, {0, -half, 0}, {0, half, 0}, {-half, half, 0});
   quad(soup, {0, -half, 0}, {x, -half, z}, {x, half, z}, {0, half, 0});
@@ -103,7 +103,7 @@ TriangleSoup cone_mesh(int n, Real radius, Real height)
   TriangleSoup soup;
   soup.source = "cone";
   for (int i = 0; i < n; i++) {
-    const Real a = 2 * M_PI * i / n, b = 2 * M_PI * ((i + 1) % n) / n;
+    const Real a = 2 * kPi * i / n, b = 2 * kPi * ((i + 1) % n) / n;
     soup.corners.insert(soup.corners.end(),
                         {{0, 0, 0},
                          {radius * std::cos(a), radius * std::sin(a), -height},

@@ -7,7 +7,7 @@
 #include "engine/wall_engine.h"
 #include "grid/flat_grid.h"
 #include "mesh/triangle_soup.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "support/sphere_arrays.h"
 
 #include <functional>
@@ -85,7 +85,7 @@ class Scene {
   Real radius(int i) const { return spheres_.radius[i]; }
   int n() const { return spheres_.n(); }
 
-  WallMesh mesh;
+  WeldedMesh mesh;
   TriangleGrid grid;
   ContactHistory springs;
   std::unique_ptr<WallEngine> engine;

@@ -125,7 +125,7 @@ inline RandomMesh random_mesh(std::uint64_t seed)
       const Real height = r.below(3) ? r.log_in(1e-6, 3) : 0, bumps = r.below(2) ? r.in(0, 2) : 0;
       std::vector<Vec3> rim;
       for (int i = 0; i < n; i++) {
-        const Real a = 2 * M_PI * (i + r.in(-.4, .4)) / n;
+        const Real a = 2 * kPi * (i + r.in(-.4, .4)) / n;
         rim.push_back({std::cos(a), std::sin(a), -height * (1 + bumps * r.in(0, 1))});
       }
       for (int i = 0; i < n - r.below(2); i++) add(soup, {0, 0, 0}, rim[i], rim[(i + 1) % n]);

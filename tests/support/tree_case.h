@@ -8,7 +8,7 @@
 #include "support/random_mesh.h"
 
 #include "base/input_error.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "query/triangle_tree.h"
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace lsdcd {
 
 struct TreeCase {
   TriangleSoup soup;
-  WallMesh mesh;
+  WeldedMesh mesh;
   TriangleTable names;
   TriangleTree tree;
   Real diagonal, size;    // of the mesh; its largest coordinate

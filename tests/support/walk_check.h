@@ -149,7 +149,7 @@ LSDCD_FN void compare_with_all(const GridView &grid, const FeatureCode *features
 {
   if (!grid.in_floats) {
     WalkSet all;
-    const WallGeometry geometry(grid, q);
+    const MeshGeometry geometry(grid, q);
     for (int i = 0; i < n_features && !all.overflow; i++)
       add_feature(geometry, features[i], cutoff, all);
     out.missed += not_in(all, set);
@@ -267,7 +267,7 @@ template <class T>
 LSDCD_FN Walks check_walk(const WalkMesh<T> &mesh, std::uint64_t i)
 {
   if (mesh.pairs.grid.in_floats) return check_walk_in<BrickGeometry>(mesh, i);
-  return check_walk_in<WallGeometry>(mesh, i);
+  return check_walk_in<MeshGeometry>(mesh, i);
 }
 
 }    // namespace lsdcd

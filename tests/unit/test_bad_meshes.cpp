@@ -384,7 +384,7 @@ TEST(topology, moebius_strips_are_exact)
 {
   for (int n : {5, 40}) {
     const auto at = [n](int i, Real w) {
-      const Real a = 2 * M_PI * i / n;
+      const Real a = 2 * kPi * i / n;
       const Real r = 1 + w * std::cos(a / 2);
       return Vec3{r * std::cos(a), r * std::sin(a), w * std::sin(a / 2)};
     };
@@ -488,7 +488,7 @@ TriangleSoup fan(int n, Real height, Real bumps)
   Random random(8);
   std::vector<Vec3> rim;
   for (int i = 0; i < n; i++) {
-    const Real a = 2 * M_PI * i / n;
+    const Real a = 2 * kPi * i / n;
     rim.push_back(
         {2 * std::cos(a), 2 * std::sin(a), -height * (1 + bumps * uniform(random, 0, 1))});
   }
@@ -518,7 +518,7 @@ TEST(vertex, of_1e5_facets_is_exact)
     for (int i = 0; i < 200; i++) {
       const Real overlap = log_uniform(random, 1e-3, 0.1), h = 0.3 - overlap;
       const Real lean = height > 0 ? uniform(random, 0, 0.9 * std::atan2(height, 2)) : 0;
-      const Real b = uniform(random, 0, 2 * M_PI);
+      const Real b = uniform(random, 0, 2 * kPi);
       const Real aside = height > 0 ? 0 : log_uniform(random, 1e-12, 1);
       scene.add_sphere({h * std::sin(lean) * std::cos(b) + aside * std::cos(b),
                         h * std::sin(lean) * std::sin(b) + aside * std::sin(b), h * std::cos(lean)},

@@ -31,7 +31,7 @@ BodyPose random_pose(Numbers &r, const Vec3 &from, const Vec3 &to)
 std::vector<BodyPair> all_pairs(const TriangleGrid &grid, const TriangleSoup &body,
                                 const BodyPose &pose)
 {
-  const WallFeatures &wall = grid.wall;
+  const MeshFeatures &wall = grid.wall;
   const auto at = [&](int v) { return wall.vertices[v].position; };
   std::vector<BodyPair> pairs;
   for (std::uint32_t t = 0; t < body.n_triangles(); t++) {
@@ -84,7 +84,7 @@ TEST(bodies, pairs_of_random_meshes_are_those_of_all_with_all)
   for (long seed = 1; seed <= quick(600, 150); seed++) {
     Numbers r(1000 + seed);
     const RandomMesh wall = random_mesh(2 * seed), of_body = random_mesh(2 * seed + 1);
-    const WallMesh mesh = weld(wall.soup, 0);
+    const WeldedMesh mesh = weld(wall.soup, 0);
     const Real across = norm(mesh.report.hi - mesh.report.lo);
     // The body as large as the wall, or much smaller or larger.
     TriangleSoup body = of_body.soup;
@@ -132,7 +132,7 @@ TEST(bodies, face_behind_its_neighbours_fold_is_found)
   wall.corners = {{-2, 0, 0}, {4, 0, 0}, {1, 4, 0}, {4, 0, 0}, {-2, 0, 0}, {1, -end, -0.1 * end}};
   body.source = "needle";
   body.corners = {{1, 0.85, 0.4}, {1.01, 0.85, 0.4}, {1, -0.05, -0.02}};
-  const WallMesh mesh = weld(wall, 0);
+  const WeldedMesh mesh = weld(wall, 0);
   GridSettings settings = collision_grid(body, 1);
   const TriangleGrid grid = build_grid(mesh, settings);
   const Collision found = collision_of(grid, body)->collide(BodyPose());
@@ -209,7 +209,7 @@ TEST(bodies, many_pairs_find_room)
 {
   const TriangleSoup floor = floor_mesh(220, 1);
   ASSERT_EQ(floor.n_triangles(), 96800u);
-  const WallMesh mesh = weld(floor, 0);
+  const WeldedMesh mesh = weld(floor, 0);
   TriangleSoup body;
   body.source = "blades";
   const Real a = 1e-3;    // a fifth of the floor's legs
@@ -235,7 +235,7 @@ TEST(bodies, many_pairs_find_room)
 TEST(bodies, nearest_lists_find_no_pair_too_many_and_say_where_they_were_cut_short)
 {
   const TriangleSoup body = cylinder_mesh(30, 9, 1, 2);
-  const WallMesh mesh = weld(cylinder_mesh(40, 20, 1.3, 3), 0);
+  const WeldedMesh mesh = weld(cylinder_mesh(40, 20, 1.3, 3), 0);
   const TriangleGrid all = build_grid(mesh, collision_grid(body, 0.3));
   BodyPose pose;
   pose.shift = {0.4, 0.3, 1.3};
@@ -264,7 +264,7 @@ TEST(bodies, nearest_lists_find_the_same_whichever_way_a_triangle_goes_round)
   TriangleSoup turned = body;
   for (std::size_t c = 0; c < turned.corners.size(); c += 3)
     std::swap(turned.corners[c], turned.corners[c + 1]);
-  const WallMesh mesh = weld(cylinder_mesh(40, 20, 1.3, 3), 0);
+  const WeldedMesh mesh = weld(cylinder_mesh(40, 20, 1.3, 3), 0);
   BodyPose pose;
   pose.shift = {0.4, 0.3, 1.3};
   for (const int n : {1, 2, 4}) {
@@ -278,7 +278,7 @@ TEST(bodies, nearest_lists_find_the_same_whichever_way_a_triangle_goes_round)
 TEST(bodies, wrong_use_is_an_error)
 {
   const TriangleSoup body = box_mesh({0, 0, 0}, {1, 1, 1});
-  const WallMesh mesh = weld(body, 0);
+  const WeldedMesh mesh = weld(body, 0);
   GridSettings of_features;
   of_features.cutoff = 0.1;
   auto collision = make_body_collision(test_device());

@@ -36,7 +36,7 @@ TEST(bodies_cgal, lion_meets_the_triangles_of_the_cylinder_that_cgal_finds)
   fine.segments = 200;
   fine.along = 60;
   for (const CylinderMesh &shape : {coarse, fine}) {
-    const WallMesh wall = weld(make_cylinder(shape), 0);
+    const WeldedMesh wall = weld(make_cylinder(shape), 0);
     const CgalCollision cgal(wall);
     const auto ours = make_body_collision(Device::cpu);
     ours->set_wall(build_grid(wall, collision_grid(lion, 0.5)));

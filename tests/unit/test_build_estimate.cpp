@@ -19,7 +19,7 @@ using namespace lsdcd;
 namespace {
 
 // Of long slivers: each has a part in very many bricks.
-WallMesh slivers(int n)
+WeldedMesh slivers(int n)
 {
   return weld(cylinder_mesh(n, 1, 50, 100), -1);
 }
@@ -34,7 +34,7 @@ GridSettings settings_of(Real cutoff, int nearest)
 }
 
 // An entry is a candidate; the report counts all of them, one by one.
-void compare(const WallMesh &mesh, const GridSettings &settings)
+void compare(const WeldedMesh &mesh, const GridSettings &settings)
 {
   const TriangleGrid grid = build_grid(mesh, settings);
   const double entries = double(grid.report.lists.candidates);
@@ -54,7 +54,7 @@ void compare(const WallMesh &mesh, const GridSettings &settings)
 
 BuildEstimate estimate_of_slivers(int nearest)
 {
-  const WallMesh mesh = slivers(500);
+  const WeldedMesh mesh = slivers(500);
   const GridSettings settings = settings_of(0.5, nearest);
   return estimate_build(make_features(mesh, false, true), plan_grid(mesh, settings), settings);
 }

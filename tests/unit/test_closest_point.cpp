@@ -3,7 +3,7 @@
 
 // Closest points on faces, edges and vertices against closed forms and quad precision.
 #include "geometry/closest_point.h"
-#include "mesh/wall_features.h"
+#include "mesh/mesh_features.h"
 #include "support/meshes.h"
 #include "support/random.h"
 
@@ -21,9 +21,9 @@ namespace {
 
 // The records of a soup, with the view that a query takes.
 struct Wall {
-  WallMesh mesh;
-  WallFeatures features;
-  WallFeaturesView view;
+  WeldedMesh mesh;
+  MeshFeatures features;
+  MeshFeaturesView view;
 
   explicit Wall(const std::vector<Vec3> &corners, bool sides = false) :
       mesh(weld({corners, "test"}, 0)), features(make_features(mesh, sides)), view(features.view())
@@ -433,7 +433,7 @@ std::vector<Vec3> three_on_an_edge()
 {
   std::vector<Vec3> corners;
   for (int k = 0; k < 3; k++) {
-    const Real a = 100 * k * M_PI / 180;
+    const Real a = 100 * k * kPi / 180;
     corners.insert(corners.end(), {{0, 0, 0}, {1, 0, 0}, {0.3, std::cos(a), std::sin(a)}});
   }
   return corners;
@@ -446,7 +446,7 @@ TEST(nonmanifold_edge, keeps_the_inward_normals_of_all_its_faces)
   ASSERT_EQ(e.n_faces, 3u);
   std::vector<Vec3> inward = {e.inward[0], e.inward[1], wall.features.edge_inward[e.more]};
   for (int k = 0; k < 3; k++) {
-    const Real a = 100 * k * M_PI / 180;
+    const Real a = 100 * k * kPi / 180;
     Real nearest = 2;
     for (const Vec3 &v : inward)
       nearest = std::fmin(nearest, norm(v - Vec3{0, std::cos(a), std::sin(a)}));
@@ -459,9 +459,9 @@ TEST(nonmanifold_edge, is_a_minimum_only_away_from_every_face)
   const Wall wall(three_on_an_edge());
   int found = 0;
   for (int degrees = 0; degrees < 360; degrees += 5) {
-    const Real b = degrees * M_PI / 180;
+    const Real b = degrees * kPi / 180;
     bool away = true;
-    for (int k = 0; k < 3; k++) away = away && std::cos(b - 100 * k * M_PI / 180) < -1e-9;
+    for (int k = 0; k < 3; k++) away = away && std::cos(b - 100 * k * kPi / 180) < -1e-9;
     const bool is = wall.on_edge({0, 0, 0}, {1, 0, 0}, {0.5, std::cos(b), std::sin(b)}).found;
     EXPECT_EQ(is, away) << degrees;
     found += is;
@@ -473,12 +473,12 @@ TEST(nonmanifold_edge, with_its_faces_on_one_side_answers_from_the_other)
 {
   std::vector<Vec3> corners;
   for (int k = -1; k <= 1; k++) {
-    const Real a = 30 * k * M_PI / 180;
+    const Real a = 30 * k * kPi / 180;
     corners.insert(corners.end(), {{0, 0, 0}, {1, 0, 0}, {0.3, std::cos(a), std::sin(a)}});
   }
   const Wall wall(corners);
   for (int degrees = 0; degrees < 360; degrees += 7) {
-    const Real b = degrees * M_PI / 180;
+    const Real b = degrees * kPi / 180;
     EXPECT_EQ(wall.on_edge({0, 0, 0}, {1, 0, 0}, {0.5, std::cos(b), std::sin(b)}).found,
               degrees > 120 && degrees < 240)
         << degrees;

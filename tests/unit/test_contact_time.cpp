@@ -55,10 +55,10 @@ TEST(ContactTime, of_a_linear_spring_is_half_a_period)
 {
   ContactLaw law = classic_law(NormalModel::hooke, false);
   law.k_normal = 1000;
-  EXPECT_DOUBLE_EQ(contact_time(law, 0.1, 7, 1), M_PI / 100);
+  EXPECT_DOUBLE_EQ(contact_time(law, 0.1, 7, 1), kPi / 100);
   // Damping of m gamma v: omega^2 less gamma^2/4. 100^2 - 60^2 = 80^2.
   law.eta = 120;
-  EXPECT_NEAR(contact_time(law, 0.1, 7, 1), M_PI / 80, 1e-16);
+  EXPECT_NEAR(contact_time(law, 0.1, 7, 1), kPi / 80, 1e-16);
 }
 
 TEST(ContactTime, of_a_hertz_spring_is_that_at_an_overlap_of_1_percent)
@@ -66,7 +66,7 @@ TEST(ContactTime, of_a_hertz_spring_is_that_at_an_overlap_of_1_percent)
   ContactLaw law = granular_law(NormalModel::hertz);
   law.k_normal = 4e6;
   // Slope at overlap 0.01 R: 1.5 k sqrt(0.01) R = 0.15 k R; units where force per mass is 4 accelerations.
-  EXPECT_NEAR(contact_time(law, 0.3, 0.002, 4), M_PI / std::sqrt(4 * 0.15 * 4e6 * 0.002 / 0.3),
+  EXPECT_NEAR(contact_time(law, 0.3, 0.002, 4), kPi / std::sqrt(4 * 0.15 * 4e6 * 0.002 / 0.3),
               1e-12);
 }
 
@@ -84,8 +84,8 @@ TEST(ContactTime, of_a_rayleigh_wave_solves_its_equation)
     }
     const double density = 2500, shear = 2e6, radius = 0.002;
     const double wave = std::sqrt(lo * shear / density);
-    EXPECT_NEAR(rayleigh_time(radius, density, 2 * (1 + nu) * shear, nu) * wave / (M_PI * radius),
-                1, 0.01);
+    EXPECT_NEAR(rayleigh_time(radius, density, 2 * (1 + nu) * shear, nu) * wave / (kPi * radius), 1,
+                0.01);
   }
 }
 

@@ -404,7 +404,7 @@ TEST(corner, concave_edge_has_the_weights_of_the_closed_form)
 {
   // Equal overlaps d at an angle a: l = d / (1 + cover) each.
   for (Real degrees : {1e-6, 1e-3, 1., 30., 60., 89.}) {
-    const Real a = degrees * M_PI / 180;
+    const Real a = degrees * kPi / 180;
     const Contacts c = {{{0, 0, 1}, {std::sin(a), 0, std::cos(a)}}, {0.1, 0.1}};
     const Solved s = solve(c);
     // The two slopes are differences of equal overlaps: u d, good to roundings
@@ -466,7 +466,7 @@ TEST(corner, sixty_four_contacts_of_a_fine_bowl_are_one)
   Random random(8);
   const Real d = 0.01;
   for (int i = 0; i < 64; i++) {
-    const Real a = 0.02 * std::sqrt(uniform(random, 0, 1)), b = uniform(random, 0, 2 * M_PI);
+    const Real a = 0.02 * std::sqrt(uniform(random, 0, 1)), b = uniform(random, 0, 2 * kPi);
     set.add(i, {std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)}, kRadius - d);
   }
   Real weight[64];
@@ -511,9 +511,9 @@ TEST(corner, sixty_four_random_contacts_reach_the_minimum)
 Contacts cone(int n, Real degrees, const std::vector<Real> &overlap)
 {
   Contacts c;
-  const Real tilt = degrees * M_PI / 180;
+  const Real tilt = degrees * kPi / 180;
   for (int i = 0; i < n; i++) {
-    const Real a = 2 * M_PI * i / n;
+    const Real a = 2 * kPi * i / n;
     c.normal.push_back(
         {std::sin(tilt) * std::cos(a), std::sin(tilt) * std::sin(a), std::cos(tilt)});
     c.overlap.push_back(overlap[i]);
@@ -540,7 +540,7 @@ TEST(corner, plane_that_passes_through_the_point_of_three_others_changes_no_forc
     less[0] -= 1e-12;
     more[0] += 1e-12;
     // |dl| <= |dd| / the least eigenvalue of the covers, that of + - + -.
-    const Quad sine = std::sin(degrees * M_PI / 180), sine_sq = sine * sine;
+    const Quad sine = std::sin(degrees * kPi / 180), sine_sq = sine * sine;
     const Quad least = 1 - 2 * cover_of(1 - sine_sq) + cover_of(1 - 2 * sine_sq);
     ASSERT_GT(least, 0);
     const Real moved = 2e-12 / static_cast<Real>(least);

@@ -36,7 +36,7 @@ const ContactLaw kStyles[] = {classic(NormalModel::hooke, false), classic(Normal
 TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
 {
   for (const Case &c : cases()) {
-    const WallMesh mesh = mesh_of(c);
+    const WeldedMesh mesh = mesh_of(c);
     const GridSettings g = grid_settings(c);
     const TriangleGrid cpu = build_grid(mesh, g, false), cuda = build_grid(mesh, g, true);
     EXPECT_TRUE(same_bytes(cpu.lists.brick_of, cuda.lists.brick_of)) << c.name;
@@ -50,7 +50,7 @@ TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
 TEST(cuda_grid, has_the_same_nearest_lists_and_float_records_as_the_cpu_grid)
 {
   for (const Case &c : cases()) {
-    const WallMesh mesh = mesh_of(c);
+    const WeldedMesh mesh = mesh_of(c);
     GridSettings g = grid_settings(c);
     g.nearest = 3;
     g.in_floats = true;

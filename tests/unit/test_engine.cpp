@@ -229,7 +229,7 @@ class Particles {
       host(n, 0), there_(cuda)
   {
     engine = cuda ? make_cuda_engine_in_place(settings, 0, nullptr) : make_cpu_engine(settings);
-    const WallMesh mesh = weld(floor_mesh(60, 10, 7), -1);    // of more than a CPU keeps near
+    const WeldedMesh mesh = weld(floor_mesh(60, 10, 7), -1);    // of more than a CPU keeps near
     GridSettings g;
     g.cutoff = cutoff;
     grid = build_grid(mesh, g);

@@ -15,7 +15,6 @@
 namespace lsdcd {
 namespace {
 
-constexpr Real kPi = 3.14159265358979323846;
 
 SurfaceMotion sliding(const Vec3 &velocity)
 {

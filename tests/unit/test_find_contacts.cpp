@@ -115,7 +115,7 @@ TEST(keep_side, turns_the_nearest_contact_and_drops_the_others_on_the_wrong_side
       given.push_back(g);
       set.add(g.feature, g.normal, g.distance);
     }
-    WallFeaturesView wall = {};
+    MeshFeaturesView wall = {};
     wall.faces = faces.data();
     const Real sign = random() % 2 ? 1 : -1;
     const auto expected = expected_side(faces, sign, given);
@@ -133,7 +133,7 @@ TEST(keep_side, turns_the_nearest_contact_and_drops_the_others_on_the_wrong_side
 TEST(keep_side, leaves_an_empty_set_empty)
 {
   ContactSet<8> set;
-  keep_side(WallFeaturesView{}, 1, set);
+  keep_side(MeshFeaturesView{}, 1, set);
   EXPECT_EQ(set.n, 0);
 }
 

@@ -38,7 +38,7 @@ Wide by_excess(const TriangleSoup &soup, const Vec3 &q)
       for (int a = 0; a < 3; a++) d[k].x[a] = Wide(soup.corners[t + k][a]) - q[a];
     const Wide det = d[0].dot(d[1].cross(d[2]));
     if (det == 0) continue;
-    Wide excess = -M_PIl;
+    Wide excess = -3.14159265358979323846L;
     for (int k = 0; k < 3; k++) {
       const Direction one = d[k].cross(d[(k + 1) % 3]), other = d[k].cross(d[(k + 2) % 3]),
                       both = one.cross(other);
@@ -46,7 +46,7 @@ Wide by_excess(const TriangleSoup &soup, const Vec3 &q)
     }
     sum += det > 0 ? excess : -excess;
   }
-  return sum / (4 * M_PIl);
+  return sum / (4 * 3.14159265358979323846L);
 }
 
 // The plane z = 0 with x below `x` and y below `y`, seen from (0, 0, z): so a rectangle is four of these.
@@ -65,7 +65,7 @@ Wide by_rectangle(int axis, const Vec3 &lo, const Vec3 &hi, const Vec3 &q)
     return quarter(Wide(x[u]) - q[u], Wide(y[v]) - q[v], std::fabs(z));
   };
   const Wide angle = corner(hi, hi) - corner(lo, hi) - corner(hi, lo) + corner(lo, lo);
-  return (z > 0 ? angle : -angle) / (4 * M_PIl);
+  return (z > 0 ? angle : -angle) / (4 * 3.14159265358979323846L);
 }
 
 // A box without its face at hi along x.
@@ -145,7 +145,7 @@ TEST(generalized_winding, is_the_closed_form_above_a_plate)
   plate.corners = {{-1, -2, 0}, {1, -2, 0}, {1, 2, 0}, {-1, -2, 0}, {1, 2, 0}, {-1, 2, 0}};
   const GeneralizedWinding winding(weld(plate, 0));
   for (const double z : {1e-3, 0.1, 1., 10., 1e3}) {
-    const double wanted = std::atan(2 / (z * std::sqrt(5 + z * z))) / M_PI;    // 4 atan(...) / 4 pi
+    const double wanted = std::atan(2 / (z * std::sqrt(5 + z * z))) / kPi;    // 4 atan(...) / 4 pi
     const double rounding = 1e-15 * (1 + 5 / z);    // the diagonal of the plate is at z
     EXPECT_NEAR(winding.at({0, 0, -z}).number, wanted, rounding) << z;
     EXPECT_NEAR(winding.at({0, 0, z}).number, -wanted, rounding) << z;
@@ -219,7 +219,7 @@ TEST(generalized_winding, of_a_surface_with_a_hole_tends_to_that_of_the_closed_o
                             corner(1, k + 1), corner(1, k)})
         soup.corners.push_back(x);
     const GeneralizedWinding winding(weld(soup, 0));
-    const double hole = std::atan(wide * wide / std::sqrt(2 * wide * wide + 1)) / M_PI;
+    const double hole = std::atan(wide * wide / std::sqrt(2 * wide * wide + 1)) / kPi;
     EXPECT_NEAR(winding.at({0, 0, 0}).number, 1 - hole, 1e-14) << wide;
     EXPECT_EQ(GeneralizedWinding::side(winding.at({0, 0, 0})), -1);
     EXPECT_EQ(GeneralizedWinding::side(winding.at({0, 1.5, 0})), 1);
@@ -294,7 +294,7 @@ TEST(generalized_winding, is_that_of_the_surface_where_facets_are_nearly_lines)
 TEST(generalized_winding, is_the_whole_number_of_a_closed_surface)
 {
   std::mt19937_64 dice(7);
-  const WallMesh mesh = weld(crumpled(dice, 9), 0);
+  const WeldedMesh mesh = weld(crumpled(dice, 9), 0);
   const GeneralizedWinding winding(mesh);
   const WindingNumber exact(mesh);
   for (int i = 0; i < 1000; i++) {

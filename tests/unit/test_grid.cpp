@@ -162,7 +162,7 @@ TriangleSoup needles()
   TriangleSoup soup;
   soup.source = "needles";
   for (int i = 0; i < 60; i++) {
-    const Real a = uniform(random, 0, 2 * M_PI), up = uniform(random, -0.5, 0.5);
+    const Real a = uniform(random, 0, 2 * kPi), up = uniform(random, -0.5, 0.5);
     const Real thick = std::pow(10., uniform(random, -6, -3));
     const Vec3 end = {std::cos(a), std::sin(a), up};
     const Vec3 aside = {-std::sin(a) * thick, std::cos(a) * thick, uniform(random, -1, 1) * thick};
@@ -179,7 +179,7 @@ TEST(grid, is_complete_on_needles)
 // Of a cube: its twelve edges alone, of its six diagonals the vertices alone.
 TEST(grid, flat_edges_have_no_records)
 {
-  const WallFeatures cube = make_features(weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1), true);
+  const MeshFeatures cube = make_features(weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1), true);
   EXPECT_EQ(cube.edges.size(), 12u);
   EXPECT_EQ(cube.edge_out.size(), 12u);
   EXPECT_EQ(cube.edge_vertex.size(), 18u);
@@ -235,7 +235,7 @@ TEST(grid, for_points_a_cell_goes_with_the_edges)
 
 TEST(grid, coarser_cells_for_a_gpu_come_to_those_of_a_cpu)
 {
-  const WallMesh mesh = weld(floor_mesh(100, 1), -1);
+  const WeldedMesh mesh = weld(floor_mesh(100, 1), -1);
   GridSettings settings;
   settings.cutoff = 0.5;
   GridPlan of_cpu = plan_grid(mesh, settings);
@@ -252,8 +252,8 @@ TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)
   std::uint64_t cells = 0;
   for (const TriangleSoup &soup : {tangle(12, 20, 8), needles(), box_mesh({0, 0, 0}, {1, 1, 1})})
     for (Real length : {0.0625, 0.1, 0.3}) {
-      const WallMesh mesh = weld(soup, -1);
-      const WallFeatures features = make_features(mesh, false);
+      const WeldedMesh mesh = weld(soup, -1);
+      const MeshFeatures features = make_features(mesh, false);
       GridSettings settings;
       settings.cutoff = 0.25;
       settings.length = length;
@@ -500,7 +500,7 @@ TEST(grid, one_and_two_threads_build_the_same_bytes)
 }
 #endif
 
-std::string build_error(const WallMesh &mesh, const GridSettings &settings)
+std::string build_error(const WeldedMesh &mesh, const GridSettings &settings)
 {
   try {
     build_grid(mesh, settings, test_on_cuda());
@@ -520,7 +520,7 @@ std::size_t named_bytes(const std::string &message, const std::string &before)
 
 TEST(grid, a_given_length_over_the_budget_is_refused_with_what_it_takes)
 {
-  const WallMesh mesh = weld(cylinder_mesh(40, 3, 1, 1.5), -1);
+  const WeldedMesh mesh = weld(cylinder_mesh(40, 3, 1, 1.5), -1);
   for (std::size_t budget : {400u << 10, 1u << 20, 5u << 20}) {
     GridSettings settings;
     settings.cutoff = 0.2;
@@ -536,7 +536,7 @@ TEST(grid, a_given_length_over_the_budget_is_refused_with_what_it_takes)
 
 TEST(grid, the_budget_holds_for_all_that_is_shared)
 {
-  const WallMesh mesh = weld(floor_mesh(60, 1, 3), -1);
+  const WeldedMesh mesh = weld(floor_mesh(60, 1, 3), -1);
   for (const bool in_floats : {false, true}) {
     GridSettings settings;
     settings.cutoff = 0.05;
@@ -551,7 +551,7 @@ TEST(grid, the_budget_holds_for_all_that_is_shared)
 TEST(grid, where_no_length_fits_a_budget_that_does_is_named)
 {
   for (const TriangleSoup &soup : {floor_mesh(60, 1, 3), tangle(14, 40, 6)}) {
-    const WallMesh mesh = weld(soup, -1);
+    const WeldedMesh mesh = weld(soup, -1);
     GridSettings settings;
     settings.cutoff = 0.05;
     for (const std::size_t budget : {1u << 10, 10u << 10}) {
@@ -578,7 +578,7 @@ TEST(grid, the_budget_that_does_is_named_with_its_digits)
 
 TEST(grid, cells_are_of_the_reach_by_default_and_smaller_for_nearest_lists)
 {
-  const WallMesh mesh = weld(floor_mesh(60, 1, 3), -1);
+  const WeldedMesh mesh = weld(floor_mesh(60, 1, 3), -1);
   GridSettings settings;
   settings.cutoff = 0.04;
   EXPECT_EQ(build_grid(mesh, settings, test_on_cuda()).length, settings.cutoff);
@@ -646,7 +646,7 @@ TEST(grid, pieces_very_far_apart_are_both_covered_or_refused)
 
 TEST(grid, reach_that_is_not_a_length_is_refused)
 {
-  const WallMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1);
+  const WeldedMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1);
   for (Real cutoff : {0., -1., HUGE_VAL, std::nan("")}) {
     GridSettings settings;
     settings.cutoff = cutoff;
@@ -683,7 +683,7 @@ TEST(grid, position_that_is_not_a_number_touches_nothing)
 
 TEST(grid_length, that_may_coarsen_does_where_the_budget_asks_for_it)
 {
-  const WallMesh mesh = weld(cylinder_mesh(60, 25, 1, 2.5), -1);
+  const WeldedMesh mesh = weld(cylinder_mesh(60, 25, 1, 2.5), -1);
   GridSettings settings;
   settings.cutoff = 0.1;
   settings.length = 0.01;

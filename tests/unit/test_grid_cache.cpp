@@ -73,7 +73,7 @@ struct Made {
   }
 
   GridSettings settings;
-  WallMesh mesh;
+  WeldedMesh mesh;
   TriangleGrid grid;
   std::vector<char> block;
   GridKey key;
@@ -281,11 +281,11 @@ TEST(grid_cache, another_mesh_is_told)
 TEST(grid_cache, a_moved_node_is_another_mesh)
 {
   TriangleSoup soup = floor_mesh(8, 1);
-  const WallMesh before = weld(soup, -1);
+  const WeldedMesh before = weld(soup, -1);
   const Vec3 node = before.vertices[before.vertices.size() / 2];
   for (Vec3 &x : soup.corners)
     if (x == node) x.x += 1e-3;
-  const WallMesh after = weld(soup, -1);
+  const WeldedMesh after = weld(soup, -1);
   ASSERT_EQ(after.faces, before.faces);
   ASSERT_EQ(after.report.median_edge, before.report.median_edge);
   ASSERT_EQ(after.report.volume, before.report.volume);
@@ -295,9 +295,9 @@ TEST(grid_cache, a_moved_node_is_another_mesh)
 TEST(grid_cache, another_winding_is_another_mesh)
 {
   TriangleSoup soup = floor_mesh(8, 1);
-  const WallMesh before = weld(soup, -1);
+  const WeldedMesh before = weld(soup, -1);
   std::swap(soup.corners[soup.corners.size() - 1], soup.corners[soup.corners.size() - 2]);
-  const WallMesh after = weld(soup, -1);
+  const WeldedMesh after = weld(soup, -1);
   ASSERT_TRUE(after.vertices == before.vertices);
   ASSERT_NE(after.faces, before.faces);
   ASSERT_EQ(after.report.volume, before.report.volume);

@@ -80,14 +80,14 @@ TEST(transport, quarter_turn_takes_the_old_normal_to_the_opposite_side)
 
 // A cube: faces 0 and 1 make its bottom, and so on; all of it adjacent in pairs.
 struct Cube {
-  WallMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), 0);
-  WallFeatures f = make_features(mesh, false);
-  WallFeaturesView view = f.view();
+  WeldedMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), 0);
+  MeshFeatures f = make_features(mesh, false);
+  MeshFeaturesView view = f.view();
 };
 
 Vec3 leaning(Real degrees)
 {
-  const Real a = degrees * M_PI / 180;
+  const Real a = degrees * kPi / 180;
   return {std::sin(a), 0, std::cos(a)};
 }
 
@@ -104,7 +104,7 @@ ContactSet<8> contacts(std::initializer_list<std::pair<FeatureCode, Vec3>> list)
 const Vec3 kUp = {0, 0, 1}, kShear = {0.01, -0.02, 0};
 
 // The shear displacement with which contact i begins.
-Vec3 transferred_shear(const WallFeaturesView &wall, const ContactSet<8> &set, int i,
+Vec3 transferred_shear(const MeshFeaturesView &wall, const ContactSet<8> &set, int i,
                        const Spring *old, int n_old)
 {
   const Transfer in = transfer_of(wall, set.view(), i, old, n_old);
@@ -190,7 +190,7 @@ TEST(transfer_of, of_a_contact_born_beside_one_that_stays_is_the_cosine_of_its_s
   for (Real degrees : {0., 20., 44., 46., 60., 89.}) {
     const Vec3 n = leaning(degrees);
     const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}, {kNext, n}}), 1, &old, 1);
-    EXPECT_NEAR(norm(h), std::cos(degrees * M_PI / 180) * norm(kShear), 1e-16) << degrees;
+    EXPECT_NEAR(norm(h), std::cos(degrees * kPi / 180) * norm(kShear), 1e-16) << degrees;
     EXPECT_NEAR(dot(h, n), 0, 1e-17);
   }
 }
@@ -204,7 +204,7 @@ TEST(transfer_of, of_a_contact_born_while_the_old_one_crosses_a_cut_is_the_cosin
   const FeatureCode v = feature_code(FeatureKind::vertex, cube.f.face_vertex[0].v[1]);
   const Vec3 h =
       transferred_shear(cube.view, contacts({{kNext, kUp}, {v, leaning(30)}}), 1, &old, 1);
-  EXPECT_NEAR(norm(h), std::cos(30 * M_PI / 180) * norm(kShear), 1e-16);
+  EXPECT_NEAR(norm(h), std::cos(30 * kPi / 180) * norm(kShear), 1e-16);
 }
 
 TEST(transfer_of, across_a_cut_is_the_whole_spring_where_another_contact_is_born)
@@ -241,7 +241,7 @@ TEST(transfer_of, from_a_feature_far_away_is_the_cosine_of_its_spring)
   const Cube cube;
   const Spring old = {kShear, kUp, kFar, 0};
   const Vec3 h = transferred_shear(cube.view, contacts({{kHere, leaning(20)}}), 0, &old, 1);
-  EXPECT_NEAR(norm(h), std::cos(20 * M_PI / 180) * norm(kShear), 1e-16);
+  EXPECT_NEAR(norm(h), std::cos(20 * kPi / 180) * norm(kShear), 1e-16);
 }
 
 TEST(transfer_of, takes_the_best_aligned_spring)
@@ -251,7 +251,7 @@ TEST(transfer_of, takes_the_best_aligned_spring)
                          {kShear, leaning(10), kFar + 1, 0},
                          {{2, 0, 0}, leaning(-30), kFar, 0}};
   const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, old, 3);
-  EXPECT_NEAR(norm(h), std::cos(10 * M_PI / 180) * norm(kShear), 1e-16);
+  EXPECT_NEAR(norm(h), std::cos(10 * kPi / 180) * norm(kShear), 1e-16);
 }
 
 }    // namespace

@@ -26,7 +26,7 @@ InsertionPlan plan_of(FeedSettings::Kind kind, Real rate)
   plan.feed.rate = rate;
   plan.grains.sizes = {{1, 1}};
   plan.grains.smallest = plan.grains.largest = 1;
-  plan.grains.density_lo = plan.grains.density_hi = 6 / Grain::kPi;    // a mass of 1
+  plan.grains.density_lo = plan.grains.density_hi = 6 / kPi;    // a mass of 1
   return plan;
 }
 
@@ -114,7 +114,7 @@ TEST(insertion, shares_of_mass_are_shares_of_number_over_the_cube)
   recipe.set_mass_shares({{1, 0.5}, {2, 0.5}});
   EXPECT_NEAR(recipe.sizes[0].share, 8.0 / 9, 1e-15);
   EXPECT_NEAR(recipe.sizes[1].share, 1.0 / 9, 1e-15);
-  recipe.density_lo = recipe.density_hi = 6 / Grain::kPi;
+  recipe.density_lo = recipe.density_hi = 6 / kPi;
   EXPECT_NEAR(recipe.mean_mass(), 8.0 / 9 + 8.0 / 9, 1e-14);
 }
 

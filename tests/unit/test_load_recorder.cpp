@@ -56,11 +56,11 @@ TEST(LoadRecorder, gathers_loads_of_all_processes_on_the_first)
       return;
     }
     // Rows of the two faces: feature, integral of the normal force, ...
-    ASSERT_EQ(separate.size(), 2 * WallLoads::kPackedLoad);
+    ASSERT_EQ(separate.size(), 2 * MeshLoads::kPackedLoad);
     EXPECT_EQ(separate[1], 3 * 2);
-    EXPECT_EQ(separate[WallLoads::kPackedLoad + 1], 3 * 2);
+    EXPECT_EQ(separate[MeshLoads::kPackedLoad + 1], 3 * 2);
     // One row of the face that both have pressed.
-    ASSERT_EQ(common.size(), WallLoads::kPackedLoad);
+    ASSERT_EQ(common.size(), MeshLoads::kPackedLoad);
     EXPECT_EQ(common[1], 2 * 4 * 2);
   });
 }

@@ -21,7 +21,7 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-std::size_t pairs_of_cgal(const WallMesh &mesh)
+std::size_t pairs_of_cgal(const WeldedMesh &mesh)
 {
   Mesh m;
   for (const Vec3 &x : mesh.vertices) m.add_vertex(Point(x.x, x.y, x.z));
@@ -50,7 +50,7 @@ TEST(meets_itself, has_the_pairs_of_CGAL_where_vertices_are_on_a_lattice_and_whe
     for (int i = 0; i < n * n; i++)
       x.push_back(k % 3 == 2 ? lattice[i] + Vec3{anywhere(dice), anywhere(dice), anywhere(dice)}
                              : lattice[i]);
-    const WallMesh mesh = weld(crumpled_torus(x, n), 0);
+    const WeldedMesh mesh = weld(crumpled_torus(x, n), 0);
     const SelfMeetings found = meets_itself(mesh);
     EXPECT_EQ(found.pairs, pairs_of_cgal(mesh)) << k;
     pairs += found.pairs;
@@ -70,7 +70,7 @@ TEST(meets_itself, shells_have_the_pairs_of_CGAL)
       const Vec3 at = {anywhere(dice), anywhere(dice), anywhere(dice)};
       append(soup, box_mesh(at, at + Vec3{1, 2, 0.5}));
     }
-    const WallMesh mesh = weld(soup, 0);
+    const WeldedMesh mesh = weld(soup, 0);
     EXPECT_EQ(mesh.report.meeting_pairs, pairs_of_cgal(mesh)) << k;
     pairs += mesh.report.meeting_pairs;
   }

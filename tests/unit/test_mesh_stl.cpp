@@ -28,15 +28,15 @@ TEST(mesh_stl, of_a_mesh_at_rest_has_the_bits_that_were_read)
 TEST(mesh_stl, of_a_mesh_that_moves_has_its_places_in_float_and_outward_normals)
 {
   const TempDir dir;
-  const WallMesh mesh = weld(box_mesh({0, 0, 0}, {1, 2, 3}), -1);
-  WallMotion motion;
+  const WeldedMesh mesh = weld(box_mesh({0, 0, 0}, {1, 2, 3}), -1);
+  RigidMotion motion;
   MotionTerm turn;
   turn.kind = MotionKind::rotate;
   turn.axis = unit_vector({1, 2, 3});
   turn.point = {0.3, 0.4, 0.5};
   turn.period = 1;
   motion.add(turn);
-  const WallPose pose = motion.pose_at(0.2L);
+  const Pose pose = motion.pose_at(0.2L);
   write_mesh_stl(dir.path("a.stl"), mesh, pose);
   const TriangleSoup soup = read_stl(dir.path("a.stl"));
   ASSERT_EQ(soup.n_triangles(), 12u);
@@ -46,7 +46,7 @@ TEST(mesh_stl, of_a_mesh_that_moves_has_its_places_in_float_and_outward_normals)
       for (int d = 0; d < 3; d++)
         EXPECT_EQ(static_cast<float>(soup.corners[3 * f + k][d]), static_cast<float>(p[d]));
     }
-  const WallMesh again = weld(soup, -1);
+  const WeldedMesh again = weld(soup, -1);
   EXPECT_TRUE(again.report.closed && again.report.oriented);
   // Floats of places of size 3 are off by 1.2e-7; each of 3 lengths by at most twice that.
   EXPECT_NEAR(again.report.volume, 6, 6 * 3 * 2.4e-7);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kPlaces = 512;
 
-TriangleGrid grid_of(const WallMesh &mesh, Real cutoff, Real length, int nearest)
+TriangleGrid grid_of(const WeldedMesh &mesh, Real cutoff, Real length, int nearest)
 {
   GridSettings settings;
   settings.cutoff = cutoff;
@@ -59,7 +59,7 @@ TEST(nearest_lists, hold_the_nearest_triangles_in_order_and_the_next_as_a_bound)
 {
   for (const Named &w : walls())
     for (int n : {1, 3, 8}) {
-      const WallMesh mesh = weld(w.soup, -1);
+      const WeldedMesh mesh = weld(w.soup, -1);
       const TriangleGrid grid = grid_of(mesh, w.cutoff, w.length, n);
       const GridView view = grid.view();
       const auto triangles = long_triangles<long double>(w.soup);
@@ -114,7 +114,7 @@ Shares compare_with_complete(int nearest)
   Shares shares;
   for (std::uint64_t seed = 1; seed <= 60; seed++) {
     const RandomMesh made = random_mesh(seed);
-    const WallMesh mesh = weld(made.soup, 0);
+    const WeldedMesh mesh = weld(made.soup, 0);
     if (norm(mesh.report.hi - mesh.report.lo) > 60 * made.cutoff) continue;
     const Real length = 0.4 * made.cutoff;
     const TriangleGrid some = grid_of(mesh, made.cutoff, length, nearest),

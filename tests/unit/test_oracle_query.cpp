@@ -98,7 +98,7 @@ const Mesh kMeshes[] = {
 
 // A mesh with its oracle and its spheres, made once for all facts.
 struct Wall {
-  WallMesh mesh;
+  WeldedMesh mesh;
   QueryCheckSettings settings;
   std::unique_ptr<QueryChecks> checks;
 

@@ -11,7 +11,7 @@
 #include "grid/loose_ends.h"
 #include "grid/triangle_grid.h"
 #include "mesh/likely_scale.h"
-#include "output/wall_loads.h"
+#include "output/mesh_loads.h"
 #include "support/brute_force_long.h"
 #include "support/meshes.h"
 
@@ -45,7 +45,7 @@ PeriodicBox tilted_box()
   return box;
 }
 
-TriangleGrid grid_of(const WallMesh &mesh, Real cutoff)
+TriangleGrid grid_of(const WeldedMesh &mesh, Real cutoff)
 {
   GridSettings settings;
   settings.cutoff = cutoff;
@@ -102,11 +102,11 @@ TEST(periodic_images, what_the_mesh_has_keeps_its_number)
 {
   std::mt19937_64 random(5);
   for (int round = 0; round < 20; round++) {
-    const WallMesh mesh = weld(scattered(random, 40), -1);
+    const WeldedMesh mesh = weld(scattered(random, 40), -1);
     const Vec3 size = mesh.report.hi - mesh.report.lo;
     PeriodicBox box = box_of({size.x + 0.1, size.y, 0.7 * size.z});
     box.corner = mesh.report.lo;
-    const WallMesh whole = with_images(mesh, box, 0.3);
+    const WeldedMesh whole = with_images(mesh, box, 0.3);
     ASSERT_TRUE(whole.images.any());
     for (std::size_t v = 0; v < mesh.vertices.size(); v++)
       ASSERT_TRUE(mesh.vertices[v] == whole.vertices[v]);
@@ -122,8 +122,8 @@ TEST(periodic_images, an_image_is_named_after_what_it_is_an_image_of)
 {
   std::mt19937_64 random(7);
   const PeriodicBox box = tilted_box();
-  const WallMesh mesh = weld(scattered(random, 60), -1);
-  const WallMesh whole = with_images(mesh, box, 0.5);
+  const WeldedMesh mesh = weld(scattered(random, 60), -1);
+  const WeldedMesh whole = with_images(mesh, box, 0.5);
   ASSERT_GT(whole.images.face_of.size(), 10u);
   // Moved by whole edges of the box: fractions differ by integers.
   const auto is_image = [&](const Vec3 &x, const Vec3 &of) {
@@ -139,7 +139,7 @@ TEST(periodic_images, an_image_is_named_after_what_it_is_an_image_of)
     for (int k = 0; k < 3; k++)
       EXPECT_TRUE(is_image(whole.vertices[whole.faces[mesh.faces.size() + i][k]],
                            mesh.vertices[mesh.faces[whole.images.face_of[i]][k]]));
-  const auto middle = [](const WallMesh &m, std::size_t e) {
+  const auto middle = [](const WeldedMesh &m, std::size_t e) {
     return 0.5 * (m.vertices[m.edges[e][0]] + m.vertices[m.edges[e][1]]);
   };
   for (std::size_t i = 0; i < whole.images.edge_of.size(); i++)
@@ -156,7 +156,7 @@ TEST(periodic_images, distances_near_faces_are_those_to_all_copies)
     PeriodicBox box = tilted_box();
     const Real cutoff = 0.2, margin = 0.15;
     const TriangleSoup soup = scattered(random, 30);
-    const WallMesh mesh = weld(soup, 0);
+    const WeldedMesh mesh = weld(soup, 0);
     const TriangleGrid grid = grid_of(with_images(mesh, box, cutoff + margin), cutoff);
     TriangleSoup copies;
     for (int a = -1; a <= 1; a++)
@@ -189,14 +189,14 @@ TEST(periodic_images, distances_near_faces_are_those_to_all_copies)
 
 TEST(periodic_images, seams_weld_where_the_mesh_continues_itself)
 {
-  const WallMesh whole = with_images(weld(square(4, 2), -1), box_of({2, 2, 2}), 0.3);
+  const WeldedMesh whole = with_images(weld(square(4, 2), -1), box_of({2, 2, 2}), 0.3);
   for (std::size_t e = 0; e < whole.images.n_edges; e++)
     EXPECT_EQ(whole.edge_first[e + 1] - whole.edge_first[e], 2) << "edge " << e;
 }
 
 TEST(periodic_images, a_mesh_far_from_all_faces_has_none)
 {
-  const WallMesh mesh = weld(box_mesh({1, 1, 1}, {2, 2, 2}), -1);
+  const WeldedMesh mesh = weld(box_mesh({1, 1, 1}, {2, 2, 2}), -1);
   EXPECT_FALSE(with_images(mesh, box_of({3, 3, 3}), 0.9).images.any());
 }
 
@@ -207,7 +207,7 @@ TEST(periodic_images, what_lies_several_boxes_past_a_face_has_its_image_in_the_b
   for (int away = 1; away <= 4; away++) {
     TriangleSoup soup = box_mesh(lo, lo + Vec3{0.3, 0.3, 0.3});
     for (Vec3 &x : soup.corners) x += Real(away) * (box.edge[0] - box.edge[1]);
-    const WallMesh whole = with_images(weld(soup, -1), box, 0.1);
+    const WeldedMesh whole = with_images(weld(soup, -1), box, 0.1);
     ASSERT_EQ(whole.images.face_of.size(), 12u) << away;
     for (std::size_t v = 8; v < 16; v++)
       for (int k = 0; k < 3; k++)
@@ -260,10 +260,10 @@ TEST(periodic_images, more_images_than_can_be_numbered_are_refused_before_they_a
 TEST(periodic_images, an_image_on_top_of_the_mesh_is_dropped)
 {
   // Two boxes long: each half lies on the image of the other.
-  const WallMesh mesh = weld(square(8, 4), -1);
+  const WeldedMesh mesh = weld(square(8, 4), -1);
   PeriodicBox box = box_of({2, 2, 2});
   box.periodic[2] = false;
-  const WallMesh whole = with_images(mesh, box, 0.01);
+  const WeldedMesh whole = with_images(mesh, box, 0.01);
   ASSERT_TRUE(whole.images.any());
   for (std::size_t f = mesh.faces.size(); f < whole.faces.size(); f++) {
     Vec3 lo = whole.vertices[whole.faces[f][0]];
@@ -275,7 +275,7 @@ TEST(periodic_images, an_image_on_top_of_the_mesh_is_dropped)
 
 TEST(periodic_images, a_contact_goes_on_where_its_sphere_is_wrapped)
 {
-  const WallMesh mesh = weld(square(4, 2), -1);
+  const WeldedMesh mesh = weld(square(4, 2), -1);
   const TriangleGrid grid = grid_of(with_images(mesh, box_of({2, 2, 2}), 0.3), 0.2);
   ContactSet<4> out, in;
   find_contacts(grid.view(), {2.11, 0.7, 0.1}, 0.2, out);
@@ -289,14 +289,14 @@ TEST(periodic_images, a_contact_goes_on_where_its_sphere_is_wrapped)
 
 TEST(periodic_images, loads_of_an_image_are_those_of_the_mesh)
 {
-  const WallMesh mesh = weld(square(4, 2), -1);
+  const WeldedMesh mesh = weld(square(4, 2), -1);
   const TriangleGrid grid = grid_of(with_images(mesh, box_of({2, 2, 2}), 0.3), 0.2);
   ContactSet<4> out;
   find_contacts(grid.view(), {2.11, 0.7, 0.1}, 0.2, out);
   ContactRecord record = {};
   record.feature = out.feature[0];
   record.normal = 3;
-  WallLoads loads;
+  MeshLoads loads;
   loads.add(&record, 1, 0.5, 0, grid.view().wall);
   Real sum = 0;
   for (const Load &l : loads.of_faces(mesh)) sum += l.normal;
@@ -308,7 +308,7 @@ TEST(loose_ends, a_gap_across_the_face_is_found_and_measured)
   TriangleSoup belt = square(4, 1);
   for (Vec3 &x : belt.corners) x = {0.01 + 0.97 * x.x, 0.4 + 0.2 * x.y, 0.5};
   PeriodicBox box = box_of({1, 1, 1});
-  const WallMesh whole = with_images(weld(belt, -1), box, 0.1);
+  const WeldedMesh whole = with_images(weld(belt, -1), box, 0.1);
   const TriangleGrid grid = grid_of(whole, 0.05);
   const LooseEnds loose = loose_ends(whole, grid.view().wall, box, 0.2);
   EXPECT_EQ(loose.edges, 8u);    // four at each end
@@ -322,7 +322,7 @@ TEST(loose_ends, ends_that_meet_or_overlap_are_none)
     TriangleSoup belt = square(4, 1);
     for (Vec3 &x : belt.corners) x = {length * x.x, 0.4 + 0.2 * x.y, 0.5};
     PeriodicBox box = box_of({1, 1, 1});
-    const WallMesh whole = with_images(weld(belt, -1), box, 0.1);
+    const WeldedMesh whole = with_images(weld(belt, -1), box, 0.1);
     EXPECT_EQ(loose_ends(whole, grid_of(whole, 0.05).view().wall, box, 0.2).edges, 0u) << length;
   }
 }

@@ -64,7 +64,7 @@ std::uint64_t seed_of(long mesh)
 // not fit in memory.
 struct Wall {
   RandomMesh made;
-  WallMesh mesh;
+  WeldedMesh mesh;
   TriangleGrid grid;
 
   explicit Wall(std::uint64_t seed, bool on_cuda = false, bool in_floats = false) :

@@ -29,7 +29,7 @@ namespace {
 // A wall, the grids that are asked for, spheres near it and where the wall truly is.
 struct Case {
   TriangleSoup soup;
-  WallMesh mesh;
+  WeldedMesh mesh;
   Real cutoff, length;
   std::vector<Sphere> spheres;
   std::vector<Real> truth;
@@ -406,7 +406,7 @@ TEST(query, a_list_that_lanes_read_together_ends_as_for_one)
 {
   std::size_t read = 0;
   for (const Case &c : all_cases()) {
-    expect_lanes_read_as_one<WallDistances>(c, false, read);
+    expect_lanes_read_as_one<MeshDistances>(c, false, read);
     expect_lanes_read_as_one<BrickDistances>(c, true, read);
   }
   EXPECT_GT(read, 8 * FourLanes::kSize);    // some lists take many turns

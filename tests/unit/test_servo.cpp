@@ -61,16 +61,16 @@ struct Chains {
 // needs c dt/m < 1/2 of a sphere with two contacts.
 TEST(Servo, loop_is_stable_up_to_a_tenth_of_the_contact_time)
 {
-  const Real pi = 3.14159265358979323846, k = 1e4, mass = 1, omega = std::sqrt(k / mass);
+  const Real k = 1e4, mass = 1, omega = std::sqrt(k / mass);
   int tried = 0;
   for (int n : {1, 2, 8})
     for (int parallel : {1, 100})
-      for (Real phase : {0.01, 0.1, 0.314})           // omega dt; a tenth of pi/omega
+      for (Real phase : {0.01, 0.1, 0.314})           // omega dt; a tenth of kPi/omega
         for (Real ratio : {0.03, 0.1, 0.3, 0.7}) {    // of critical damping
           const Real dt = phase / omega, c = 2 * ratio * std::sqrt(k * mass);
           if (c * dt / mass > 0.45) continue;
           // The slowest mode of the column takes longest, damped by the contacts or by the servo.
-          const Real slow = pi / (2 * (n + 1)), rate = std::min(ratio * slow, Real(0.2)) * slow;
+          const Real slow = kPi / (2 * (n + 1)), rate = std::min(ratio * slow, Real(0.2)) * slow;
           const int steps = static_cast<int>(40 / (rate * phase)) + 100;
           Chains chains(n, parallel, mass, k, c, dt);
           Servo s = servo(-100, 1e3);
@@ -95,9 +95,9 @@ TEST(Servo, loop_is_stable_up_to_a_tenth_of_the_contact_time)
 // walls: 4 sin^2(n pi/(2 (n + 1))) times one contact, and 4 where n is large.
 TEST(Servo, chains_alone_are_stable_while_their_damping_is_resolved)
 {
-  const Real pi = 3.14159265358979323846, mass = 2, k = 1e4, dt = 1e-3;
+  const Real mass = 2, k = 1e4, dt = 1e-3;
   const int n = 8;
-  const Real steepest = 4 * std::pow(std::sin(n * pi / (2 * (n + 1))), 2);
+  const Real steepest = 4 * std::pow(std::sin(n * kPi / (2 * (n + 1))), 2);
   for (Real times : {0.99, 1.01}) {
     const Real c = (times * 4 / steepest * mass - k * dt * dt) / (2 * dt);
     Chains chains(n, 1, mass, k, c, dt);
@@ -173,7 +173,7 @@ TEST(Servo, pushes_against_what_spheres_exert)
 // It is outermost: a quarter turn about z through (1, 0, 0) of a mesh that has moved by 2 in x.
 TEST(Servo, acts_on_what_motions_have_placed)
 {
-  WallMotion motion;
+  RigidMotion motion;
   MotionTerm term;
   term.velocity = {2, 0, 0};
   motion.add(term);
@@ -182,7 +182,7 @@ TEST(Servo, acts_on_what_motions_have_placed)
   motion.servo().point = {1, 0, 0};
   motion.servo().position = std::acos(0.0);
   motion.servo().velocity = 3;
-  const WallPose pose = motion.pose_at(1);
+  const Pose pose = motion.pose_at(1);
   const Vec3 at = pose.to_box({5, 0, 1});    // 7 in x, 6 from the axis
   EXPECT_NEAR(norm(at - Vec3{1, 6, 1}), 0, 1e-14);
   // Its own 2 turned into y, and 3 times 6 round the axis.
@@ -224,11 +224,11 @@ TEST(ContactSlope, is_the_derivative_of_the_force)
   s = contact_slope(law, overlap, radius, mass);
   EXPECT_EQ(s.damping, 7 * 2 * 2);
   // JKR by the contact radius x: overlap x^2/R - 2 sqrt(pi g x/E), force 4 E x^3/(3R) - 4 sqrt(pi g E x^3).
-  const Real pi = 3.14159265358979323846, e = 7.5e3, g = 5;
+  const Real e = 7.5e3, g = 5;
   Real x = a;
-  for (int i = 0; i < 200; i++) x = std::sqrt(radius * (overlap + 2 * std::sqrt(pi * g * x / e)));
-  const Real slope = (4 * e * x * x / radius - 6 * std::sqrt(pi * g * e * x)) /
-                     (2 * x / radius - std::sqrt(pi * g / (e * x)));
+  for (int i = 0; i < 200; i++) x = std::sqrt(radius * (overlap + 2 * std::sqrt(kPi * g * x / e)));
+  const Real slope = (4 * e * x * x / radius - 6 * std::sqrt(kPi * g * e * x)) /
+                     (2 * x / radius - std::sqrt(kPi * g / (e * x)));
   EXPECT_GE(s.stiffness, slope);
   EXPECT_LE(s.stiffness, 3 * slope);
 }

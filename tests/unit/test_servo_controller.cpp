@@ -46,7 +46,7 @@ Moved after(WallSettings settings, const ServoLoad &load, int steps = 1)
 {
   FakeHost host;
   ServoController controller(host, settings, 0, {{-1, -1, -1}, {1, 1, 1}});
-  for (int i = 0; i < steps; i++) controller.advance(load, WallPose(), kDt, 7);
+  for (int i = 0; i < steps; i++) controller.advance(load, Pose(), kDt, 7);
   const Servo &s = settings.meshes[0].motion.servo();
   return {s.velocity, s.position, host.lines, host.warnings};
 }
@@ -133,9 +133,9 @@ TEST(ServoController, tells_of_another_servo_again)
   settings.meshes[0].motion.servo().hi = 1e-4;
   FakeHost host;
   ServoController controller(host, settings, 0, {});
-  controller.advance(pressed(60, 1), WallPose(), kDt, 7);
+  controller.advance(pressed(60, 1), Pose(), kDt, 7);
   controller.begin_anew();
-  controller.advance(pressed(60, 1), WallPose(), kDt, 8);
+  controller.advance(pressed(60, 1), Pose(), kDt, 8);
   EXPECT_EQ(host.lines.size(), 2);
 }
 

@@ -71,7 +71,7 @@ class Floors {
 
   StepTotals totals;
   std::unique_ptr<WallEngine> engine;
-  std::vector<WallPose> poses;
+  std::vector<Pose> poses;
 
  private:
   FlatGrid grid_;

@@ -6,7 +6,7 @@
 #include "support/random_mesh.h"
 
 #include "base/input_error.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "study/accuracy.h"
 #include "study/one_triangle.h"
 #include "study/paper_values.h"
@@ -169,12 +169,12 @@ std::size_t n_obtuse(const TriangleSoup &soup)
 
 TEST(cylinder, is_the_same_closed_prism_however_it_is_cut)
 {
-  const Real sine = std::sin(2 * M_PI / 12), area_of_end = 12 * 0.5 * 50 * 50 * sine,
-             side = 2 * 50 * std::sin(M_PI / 12);
+  const Real sine = std::sin(2 * kPi / 12), area_of_end = 12 * 0.5 * 50 * 50 * sine,
+             side = 2 * 50 * std::sin(kPi / 12);
   for (const Caps caps : {Caps::centre, Caps::rim})
     for (int along : {1, 2, 7})
       for (int slant : {0, 1, 3, 20}) {
-        const WallMesh mesh = weld(make_cylinder(shape_of(12, along, slant, caps)), -1);
+        const WeldedMesh mesh = weld(make_cylinder(shape_of(12, along, slant, caps)), -1);
         const std::size_t per_end = caps == Caps::centre ? 12 : 10;
         EXPECT_EQ(mesh.faces.size(), 2 * (12 * along + per_end));
         EXPECT_TRUE(mesh.report.oriented);
@@ -230,10 +230,10 @@ TEST(study, never_touching_scores_the_space_away_from_the_cylinder)
   for (int i = 0; i < n; i++) {
     const Real t = (i + 0.5) / n;
     const Real inside =
-        M_PI * (radius * radius * height - (radius - t) * (radius - t) * (height - 2 * t));
-    const Real shell = M_PI * ((radius + t) * (radius + t) - radius * radius) * height;
-    const Real ends = 2 * M_PI * radius * radius * t;
-    const Real rims = 2 * (M_PI * t * t / 4) * 2 * M_PI * (radius + 4 * t / (3 * M_PI));
+        kPi * (radius * radius * height - (radius - t) * (radius - t) * (height - 2 * t));
+    const Real shell = kPi * ((radius + t) * (radius + t) - radius * radius) * height;
+    const Real ends = 2 * kPi * radius * radius * t;
+    const Real rims = 2 * (kPi * t * t / 4) * 2 * kPi * (radius + 4 * t / (3 * kPi));
     touching += (inside + shell + ends + rims) / n;
   }
   touching /= cube * cube * cube;

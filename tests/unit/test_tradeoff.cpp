@@ -115,7 +115,7 @@ TEST(below, corner_sum_and_another_device_are_passed_over)
 // ---- moving spheres --------------------------------------------------------------------
 
 struct Wall {
-  WallMesh mesh;
+  WeldedMesh mesh;
   TriangleGrid grid;
 
   Wall(const TriangleSoup &soup, Real cutoff, int nearest = 0) : mesh(weld(soup, -1))

@@ -74,7 +74,7 @@ TEST_F(Compare, forces_are_compared_to_their_own_size_or_a_usual_one)
 
 TEST(band_spheres, are_all_within_reach_and_none_is_deep)
 {
-  const WallMesh mesh = weld(vessel(), -1);
+  const WeldedMesh mesh = weld(vessel(), -1);
   GridSettings g;
   g.cutoff = 0.1;
   const TriangleGrid grid = build_grid(mesh, g);

@@ -20,7 +20,7 @@ namespace {
 // A wall of one mesh, a square of two faces.
 struct Wall {
   WallSettings settings;
-  WallMesh mesh = weld(floor_mesh(1, 1), -1);
+  WeldedMesh mesh = weld(floor_mesh(1, 1), -1);
 
   Wall() : settings() { settings.meshes.resize(1); }
   MeshSettings &files() { return settings.meshes[0]; }

@@ -22,7 +22,7 @@ namespace lsdcd {
 namespace {
 
 struct Wall {
-  WallMesh mesh;
+  WeldedMesh mesh;
   TriangleGrid grid;
   FlatGrid flat;
 
@@ -67,7 +67,7 @@ bool same_record(const Record &a, const Record &b)
 TEST(wall_list, keeps_copies_of_the_records_that_it_names_while_there_is_room)
 {
   const Wall box(box_mesh({2, 2, 2}, {3, 3, 3}), 0.5);
-  const WallFeaturesView wall = box.view().wall;
+  const MeshFeaturesView wall = box.view().wall;
   std::vector<FeatureCode> codes;
   for (FeatureKind kind : {FeatureKind::face, FeatureKind::edge, FeatureKind::vertex})
     for (std::uint32_t i = 0; i < 2; i++) codes.push_back(feature_code(kind, i));

@@ -5,7 +5,7 @@
 #include "mesh/assemble.h"
 #include "mesh/fingerprint.h"
 #include "mesh/measure_mesh.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TriangleSoup soup_of(const Triangles &triangles)
   return soup;
 }
 
-WallMesh weld(const Triangles &triangles, Real tolerance = -1)
+WeldedMesh weld(const Triangles &triangles, Real tolerance = -1)
 {
   return lsdcd::weld(soup_of(triangles), tolerance);
 }
@@ -378,7 +378,7 @@ TEST(weld, a_shell_that_cuts_itself_is_found_where_it_is_looked_for)
   for (auto &t : bad)
     for (Vec3 &p : t)
       if (norm(p) == 0) p = {2, 0.5, 0.25};    // through the face across
-  WallMesh mesh = weld(bad);
+  WeldedMesh mesh = weld(bad);
   EXPECT_TRUE(mesh.report.oriented);
   note_meetings(mesh, meets_itself(mesh));
   EXPECT_GT(mesh.report.meeting_pairs, 0u);
@@ -401,7 +401,7 @@ TEST(weld, three_faces_on_an_edge_are_nonmanifold)
 }
 
 // A strip of triangles in random order, with a third sheet and bare edges.
-WallMesh tangled_mesh()
+WeldedMesh tangled_mesh()
 {
   Triangles strip;
   for (int i = 0; i < 50; ++i) {
@@ -599,7 +599,7 @@ TEST(fingerprint, is_the_same_for_the_same_triangles)
 TEST(fingerprint, sees_the_last_bit_of_a_vertex)
 {
   const std::uint64_t whole = fingerprint(weld(kCube));
-  WallMesh cube = weld(kCube);
+  WeldedMesh cube = weld(kCube);
   for (Vec3 &v : cube.vertices)
     for (int d = 0; d < 3; d++) {
       const Real was = v[d];

@@ -38,7 +38,7 @@ long double by_solid_angles(const TriangleSoup &soup, const Vec3 &q)
     sum += std::atan2(det,
                       r[0] * r[1] * r[2] + dot(0, 1) * r[2] + dot(1, 2) * r[0] + dot(2, 0) * r[1]);
   }
-  return sum / (2 * M_PIl);
+  return sum / (2 * 3.14159265358979323846L);
 }
 
 TriangleSoup inverted(TriangleSoup soup)
@@ -148,7 +148,7 @@ TEST(winding_number, is_the_sum_of_solid_angles_where_rays_meet_edges_and_vertic
   for (int k = 0; k < 120; k++) {
     const int lattice = k % 2 ? 3 : 6;
     const TriangleSoup soup = crumpled(dice, 3 + k % 5, lattice);
-    const WallMesh mesh = weld(soup, 0);
+    const WeldedMesh mesh = weld(soup, 0);
     // Between two facets that cancel, a sum may be any number.
     if (mesh.report.duplicate_facets > 0) continue;
     const WindingNumber winding(mesh);
@@ -264,7 +264,7 @@ TEST(winding_number, counts_three_copies_of_a_surface_by_the_winding_of_two)
 {
   const TriangleSoup out = box_mesh({0, 0, 0}, {1, 1, 1}), in = inverted(out);
   for (const TriangleSoup &soup : {joined(joined(out, in), out), joined(joined(in, out), out)}) {
-    const WallMesh mesh = weld(soup, 0);
+    const WeldedMesh mesh = weld(soup, 0);
     EXPECT_FALSE(mesh.report.oriented);
     EXPECT_EQ(WindingNumber(mesh).at({0.5, 0.5, 0.5}).number, 1);
   }
@@ -276,7 +276,7 @@ TEST(winding_number, does_not_change_across_a_sheet_in_both_windings_and_is_of_t
   TriangleSoup sheet = box_mesh({1, 1, 1}, {2, 2, 2});
   sheet.corners.resize(6);
   const Vec3 on = Real(0.5) * (sheet.corners[0] + sheet.corners[1]);
-  const WallMesh mesh =
+  const WeldedMesh mesh =
       weld(joined(joined(box_mesh({0, 0, 0}, {3, 3, 3}), sheet), inverted(sheet)), 0);
   EXPECT_TRUE(has_inside(mesh));
   const WindingNumber winding(mesh);
@@ -314,7 +314,7 @@ TEST(winding_number, is_that_of_a_surface_with_facets_without_area)
              m = Real(0.5) * (a + b);    // on an edge of the first facet, not of its neighbour
   for (const Vec3 &x : {a, m, c, m, b, c, a, b, m}) soup.corners.push_back(x);
   soup.corners.insert(soup.corners.end(), box.corners.begin() + 3, box.corners.end());
-  const WallMesh mesh = weld(soup, 0);
+  const WeldedMesh mesh = weld(soup, 0);
   EXPECT_FALSE(mesh.report.closed);
   EXPECT_EQ(mesh.report.degenerate_facets, 1u);
   const WindingNumber winding(mesh);
@@ -359,7 +359,7 @@ TEST(winding_number, is_refused_with_the_open_edges)
 {
   TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
   soup.corners.resize(soup.corners.size() - 3);
-  const WallMesh mesh = weld(soup, 0);
+  const WeldedMesh mesh = weld(soup, 0);
   EXPECT_FALSE(has_inside(mesh));
   try {
     WindingNumber winding(mesh);
@@ -386,7 +386,7 @@ TEST(winding_number, is_refused_where_each_facet_is_there_in_both_windings)
   TriangleSoup plane = box;
   plane.corners.resize(6);
   for (const TriangleSoup &one : {box, inverted(box), plane}) {
-    const WallMesh mesh = weld(joined(one, inverted(one)), 0);
+    const WeldedMesh mesh = weld(joined(one, inverted(one)), 0);
     EXPECT_EQ(mesh.report.two_sided_faces, one.n_triangles());
     EXPECT_FALSE(mesh.report.oriented);
     EXPECT_FALSE(has_inside(mesh));
@@ -401,7 +401,7 @@ TEST(winding_number, is_refused_where_some_facets_are_there_in_both_windings)
   const TriangleSoup box = box_mesh({0, 0, 0}, {1, 1, 1});
   TriangleSoup some = box;
   some.corners.resize(6);
-  const WallMesh mesh = weld(joined(box, inverted(some)), 0);
+  const WeldedMesh mesh = weld(joined(box, inverted(some)), 0);
   EXPECT_TRUE(mesh.report.closed);
   EXPECT_FALSE(mesh.report.oriented);
   EXPECT_FALSE(has_inside(mesh));
@@ -416,7 +416,7 @@ TEST(winding_number, is_refused_where_facets_in_both_windings_enclose_a_space)
 {
   const TriangleSoup box = box_mesh({1, 1, 1}, {2, 2, 2}), twice = joined(box, inverted(box));
   for (const Vec3 &hi : {Vec3{3, 3, 3}, Vec3{0.5, 0.5, 0.5}}) {
-    const WallMesh mesh = weld(joined(box_mesh({0, 0, 0}, hi), twice), 0);
+    const WeldedMesh mesh = weld(joined(box_mesh({0, 0, 0}, hi), twice), 0);
     EXPECT_FALSE(mesh.report.oriented);
     EXPECT_FALSE(has_inside(mesh));
     const std::string why = why_no_inside(mesh);

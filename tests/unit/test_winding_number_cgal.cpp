@@ -45,7 +45,7 @@ struct Shell {
 
   explicit Shell(const TriangleSoup &soup)
   {
-    const WallMesh welded = weld(soup, 0);
+    const WeldedMesh welded = weld(soup, 0);
     EXPECT_TRUE(welded.report.closed) << soup.source;
     for (const Vec3 &x : welded.vertices) mesh.add_vertex({x.x, x.y, x.z});
     const auto vertex = [](int v) { return Mesh::Vertex_index(v); };
@@ -86,7 +86,7 @@ void expect_sides_of_CGAL(const std::vector<TriangleSoup> &parts)
   soup.source = "union";
   Box box = {soup.corners[0], soup.corners[0]};
   for (const Vec3 &x : soup.corners) extend(box, x);
-  const WallMesh mesh = weld(soup, 0);
+  const WeldedMesh mesh = weld(soup, 0);
   const WindingNumber winding(mesh);
   long wrong = 0, inside = 0, on = 0;
   double seconds = 0;

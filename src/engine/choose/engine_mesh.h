@@ -5,20 +5,20 @@
 #pragma once
 
 #include "grid/lookup/grid_on.h"
-#include "motion/wall_pose.h"
+#include "motion/pose.h"
 
 namespace lsdcd {
 
 template <class B>
 struct EngineMesh {
   GridOn<B> grid;
-  WallPose pose, chosen;    // chosen: at the last choice
+  Pose pose, chosen;    // chosen: at the last choice
 };
 
 // What making lists needs of it, where kernels run.
 struct PlacedGrid {
   GridView grid;
-  WallPose pose;
+  Pose pose;
 };
 
 }    // namespace lsdcd

@@ -17,7 +17,7 @@ namespace lsdcd {
 struct HasMoved {
   GridView grid;
   BrickTable table;
-  WallPose pose, chosen;
+  Pose pose, chosen;
   StridedView<const Real> x, was;
   Real margin_sq;
   bool cells_first;

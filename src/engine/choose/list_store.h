@@ -16,7 +16,7 @@ namespace lsdcd {
 // Makes the list of near sphere k.
 struct GatherWork {
   GridView grid;
-  WallPose pose;
+  Pose pose;
   SpheresAtChoice spheres;
   Real margin;
   WallLists lists;
@@ -69,7 +69,7 @@ class ListStore {
 
   // Makes the lists of near spheres, which will not go farther than `margin` before the next choice.
   // Early, on a GPU: of the counts->n_near that there will be, if there is room for them. Returns the room.
-  std::size_t make_early(B &b, const GridView &grid, const WallPose &pose,
+  std::size_t make_early(B &b, const GridView &grid, const Pose &pose,
                          const SpheresAtChoice &spheres, Real margin, StepCounts *counts)
   {
     if (B::kOnHost || grid.nearest > 0) return 0;
@@ -79,7 +79,7 @@ class ListStore {
     return room;
   }
   // Of spheres.n, unless they are among the `early` that there was room for.
-  void make(B &b, const GridView &grid, const WallPose &pose, const SpheresAtChoice &spheres,
+  void make(B &b, const GridView &grid, const Pose &pose, const SpheresAtChoice &spheres,
             Real margin, StepCounts *counts, std::size_t early)
   {
     const std::size_t n = spheres.n;
@@ -106,7 +106,7 @@ class ListStore {
   }
 
  private:
-  GatherWork gather(const GridView &grid, const WallPose &pose, const SpheresAtChoice &spheres,
+  GatherWork gather(const GridView &grid, const Pose &pose, const SpheresAtChoice &spheres,
                     Real margin, StepCounts *counts)
   {
     return {grid, pose, spheres, margin, lists_, several_.data(), counts};

@@ -21,7 +21,7 @@ struct NearChoice {
   BrickTable table;
   BrickFilter<Real> filter;
   Spheres spheres;
-  WallPose pose;
+  Pose pose;
   Real margin, past;     // lengths; past: what is left of it once the lists' own is taken from it
   Real pull_off;         // of the law, at a radius of 1
   bool by_features;      // test the features that cells list, too

@@ -33,7 +33,7 @@ class NearWall {
     meshes_.at(mesh).grid = GridOn<B>(b, grid);
     n_ = 0;
   }
-  void place(const WallPose &pose, int mesh) { meshes_.at(mesh).pose = pose; }
+  void place(const Pose &pose, int mesh) { meshes_.at(mesh).pose = pose; }
 
   bool has_several() const { return has_several_; }    // meshes, or kinds of spheres
   int n_meshes() const { return static_cast<int>(meshes_.size()); }

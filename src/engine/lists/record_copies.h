@@ -41,7 +41,7 @@ struct RecordCopies {
 
   // Copies the n records that list k names now; one list by one thread. Where room has run out it
   // has none, and the wall's own are read.
-  LSDCD_FN void put([[maybe_unused]] std::size_t k, [[maybe_unused]] const WallFeaturesView &wall,
+  LSDCD_FN void put([[maybe_unused]] std::size_t k, [[maybe_unused]] const MeshFeaturesView &wall,
                     [[maybe_unused]] const FeatureCode *code, [[maybe_unused]] int n) const
   {
 #if !LSDCD_ON_GPU()

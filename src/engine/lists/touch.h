@@ -72,7 +72,7 @@ LSDCD_FN void search(const GridView &grid, const SearchSettings &settings,
   if (grid.in_floats)
     search_in<kBeyondContact, BrickGeometry>(grid, settings, s, list, out);
   else
-    search_in<kBeyondContact, WallGeometry>(grid, settings, s, list, out);
+    search_in<kBeyondContact, MeshGeometry>(grid, settings, s, list, out);
 }
 
 // Can a search of this grid miss contacts?
@@ -90,7 +90,7 @@ LSDCD_FN Real may_miss(Real cutoff, Real exact_within)
 // How far apart closest points may be that count as one, by the geometry that the grid was made for.
 LSDCD_FN Real tolerance_of(const GridView &grid)
 {
-  return grid.in_floats ? BrickGeometry::tolerance(grid) : WallGeometry::tolerance(grid);
+  return grid.in_floats ? BrickGeometry::tolerance(grid) : MeshGeometry::tolerance(grid);
 }
 
 // Gives every contact its weight: overlaps are shared as those of a sphere of radius `cutoff`, so
@@ -140,14 +140,14 @@ LSDCD_NOINLINE bool can_touch(const Warp<kSize> &warp, bool mine, const GridView
 {
   if (grid.in_floats)
     return can_touch<BrickGeometry>(warp, mine, grid, s.x, s.cutoff, margin, cell);
-  return can_touch<WallGeometry>(warp, mine, grid, s.x, s.cutoff, margin, cell);
+  return can_touch<MeshGeometry>(warp, mine, grid, s.x, s.cutoff, margin, cell);
 }
 
 // Does a sphere seem to touch several of the features of its list where it is? No answer depends on this.
 LSDCD_FN bool touches_several(const GridView &grid, const QuerySphere &s, const WallList &list)
 {
   if (list.n < 2 || grid.in_floats) return false;
-  const WallGeometry geometry(grid, s.x);
+  const MeshGeometry geometry(grid, s.x);
   int n = 0;
   for (int i = 0; i < list.n; i++) n += geometry.may_be_closest(list.code[i], s.cutoff, 0);
   return n > 1;
@@ -163,7 +163,7 @@ LSDCD_NOINLINE bool gather(const Warp<kSize> &warp, bool mine, const GridView &g
   if (grid.in_floats)
     gather_for<BrickGeometry>(warp, mine, grid, s.x, s.cutoff, m, list);
   else
-    gather_for<WallGeometry>(warp, mine, grid, s.x, s.cutoff, m, list);
+    gather_for<MeshGeometry>(warp, mine, grid, s.x, s.cutoff, m, list);
   return mine && list.margin >= 0;
 }
 

@@ -62,7 +62,7 @@ struct WallLists {
     return static_cast<FeatureCode>(n[(i + 1) * column + k]);
   }
   // `keeps_cutoff`: list k already has the list's cutoff, which is not rounded up once more.
-  LSDCD_FN void put(std::size_t k, const WallList &list, const WallFeaturesView &wall,
+  LSDCD_FN void put(std::size_t k, const WallList &list, const MeshFeaturesView &wall,
                     bool keeps_cutoff = false) const
   {
     for (int d = 0; d < 3; d++) x[d * column + k] = list.x[d];

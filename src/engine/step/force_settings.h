@@ -18,7 +18,7 @@ inline SearchSettings search_settings(const EngineSettings &engine)
 
 // Of one mesh.
 inline ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step,
-                                    const WallPose &pose, int mesh)
+                                    const Pose &pose, int mesh)
 {
   ForceSettings s;
   s.mesh = static_cast<std::uint32_t>(mesh);

@@ -24,7 +24,7 @@ LSDCD_FN bool is_own(const SpringsSeen &seen, int k)
 LSDCD_FN Vec3 in_own_frame(const SpringsSeen &seen, int k, const Vec3 &h)
 {
   if (is_own(seen, k)) return h;
-  const WallPose &from = seen.meshes[seen.springs[k].mesh].settings.pose;
+  const Pose &from = seen.meshes[seen.springs[k].mesh].settings.pose;
   return seen.meshes[seen.mesh].settings.pose.turn_to_mesh(from.turn_to_box(h));
 }
 LSDCD_FN Spring SpringsSeen::operator[](int k) const
@@ -111,7 +111,7 @@ LSDCD_FN void take_out(ContactSet<kCapacity> &all, int c, int *end, int n)
 // have the same closest point it is one contact: of the nearer mesh, or of the one with the larger kind
 // of feature there, or of the earlier.
 template <int kCapacity>
-LSDCD_FN void add_mesh(const WallPose &pose, const ContactSet<kCapacity> &of_mesh, Real tolerance,
+LSDCD_FN void add_mesh(const Pose &pose, const ContactSet<kCapacity> &of_mesh, Real tolerance,
                        ContactSet<kCapacity> &all, int *end, int n)
 {
   for (int c = 0; c < of_mesh.n; c++) {
@@ -199,7 +199,7 @@ LSDCD_FN void apply_joint_law(const LawJob &job, const JointSphere &s, Touch<kCa
     if (n == 0) continue;
     const MeshWork &mesh = job.joint.meshes[job.joint.mesh[k]];
     const Law &law = law_with<Law>(job, s, job.joint.mesh[k]);
-    const WallPose &pose = mesh.settings.pose;
+    const Pose &pose = mesh.settings.pose;
     for (int c = from; c < to; c++) all.set.normal[c] = pose.turn_to_mesh(all.set.normal[c]);
     const ContactsView set = {n, all.set.feature.data() + from, all.set.normal.data() + from,
                               all.set.distance.data() + from};

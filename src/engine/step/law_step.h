@@ -21,7 +21,7 @@ LSDCD_FN Vec3 centre_of(const LawJob &job, std::size_t i)
 }
 
 // Turned back to the frame of the box.
-LSDCD_FN void to_box(const WallPose &pose, SphereResult &out)
+LSDCD_FN void to_box(const Pose &pose, SphereResult &out)
 {
   out.force = pose.turn_to_box(out.force);
   out.torque = pose.turn_to_box(out.torque);
@@ -47,7 +47,7 @@ LSDCD_FN SphereState state_at(const Law &law, const LawJob &job, std::size_t i, 
 }
 
 template <class Law, class Springs>
-LSDCD_FN void add_motion(const Law &law, const LawJob &job, const WallPose &pose, std::size_t i,
+LSDCD_FN void add_motion(const Law &law, const LawJob &job, const Pose &pose, std::size_t i,
                          SphereStateWith<Springs> &s)
 {
   s.v = job.v[i];
@@ -166,7 +166,7 @@ LSDCD_FN bool single_contact(const Law &law, const LawJob &job, std::size_t k)
   const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyondContact, pull_off_of(law));
   if (!job.lists.holds(k, x, s.cutoff)) return false;
   ContactSet<1> set;
-  find_in_list<WallGeometry>(job.grid, {job.lists, k}, x, s.cutoff, set);
+  find_in_list<MeshGeometry>(job.grid, {job.lists, k}, x, s.cutoff, set);
   keep_acting<Law::kBeyondContact>(job.grid, job.settings.search, s, set);
   if (set.overflow) return false;
   note_cutoff(job, i, s.cutoff);

@@ -86,8 +86,7 @@ auto with_granular_law(const ContactLaw &p, const Make &make)
 {
   if (p.is(NormalModel::jkr))
     return make(granular_model<true, true>(p, JkrNormal<Real>(p.modulus, p.surface_energy)));
-  const Real pull =
-      p.is(NormalModel::dmt) ? 4 * Real(3.14159265358979323846) * p.surface_energy : 0;
+  const Real pull = p.is(NormalModel::dmt) ? 4 * kPi * p.surface_energy : 0;
   const TouchingNormal<Real> normal = {p.normal, p.k_normal, pull};
   const bool full = p.rolling.is_on() || p.twisting.is_on() || p.has_heat() || p.rescales();
   if (p.has_history())

@@ -42,7 +42,7 @@ struct ForceSettings {
   Real wall_temperature;    // read only where the law has heat
   SurfaceMotion surface;    // read only where the surface moves
   bool surface_moves;       // in itself; else `surface` is left out, which changes no bit
-  WallPose pose;            // likewise
+  Pose pose;                // likewise
   // Spheres' velocities are those of half a step ago, as far back as this (time; 0 in a setup): a wall
   // that turns is seen at the same time. Else what lies still on a turntable would seem to slip outward,
   // and friction would draw it in.
@@ -54,7 +54,7 @@ struct ForceSettings {
 // What contact i begins with: its memory of the last step, turned with its normal, and about that with
 // a surface that turns.
 template <class Law, class Springs>
-LSDCD_FN auto begin_memory(const Law &law, const WallFeaturesView &wall,
+LSDCD_FN auto begin_memory(const Law &law, const MeshFeaturesView &wall,
                            const ForceSettings &settings, const ContactsView &set, int i,
                            const SphereStateWith<Springs> &s)
 {

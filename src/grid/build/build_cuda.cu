@@ -6,7 +6,7 @@
 
 namespace lsdcd {
 
-TriangleGrid build_grid_cuda(const WallMesh &mesh, const GridSettings &settings)
+TriangleGrid build_grid_cuda(const WeldedMesh &mesh, const GridSettings &settings)
 {
   return build_grid_on(CudaBackend(), mesh, settings);
 }

@@ -26,7 +26,7 @@ class GridBuilder {
 
  public:
   // The wall and the listener for progress have to outlive the builder.
-  GridBuilder(B backend, const WallFeatures &wall, const ProgressListener &progress) :
+  GridBuilder(B backend, const MeshFeatures &wall, const ProgressListener &progress) :
       b_(std::move(backend)), progress_(progress)
   {
     view_.wall.faces = put(wall.faces);
@@ -147,7 +147,7 @@ inline int least_steps(double over)
 
 // Plans and builds. If the length is chosen here, it tries coarser ones until budget and limit hold.
 template <class B>
-TriangleGrid build_grid_on(B backend, const WallMesh &mesh, const GridSettings &settings)
+TriangleGrid build_grid_on(B backend, const WeldedMesh &mesh, const GridSettings &settings)
 {
   const auto start = std::chrono::steady_clock::now();
   TriangleGrid grid;

@@ -39,7 +39,7 @@ struct Sum {
 
 }    // namespace
 
-ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool primitives)
+ListEstimate estimate_lists(const MeshFeatures &wall, const GridPlan &plan, bool primitives)
 {
   const std::vector<FeatureCode> &features = primitives ? wall.primitives : wall.contact_features;
   BuildView view = {};
@@ -82,7 +82,7 @@ ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool
           all * (kPartWork + kOctantCells * pairs.mean())};
 }
 
-BuildEstimate estimate_build(const WallFeatures &wall, const GridPlan &plan,
+BuildEstimate estimate_build(const MeshFeatures &wall, const GridPlan &plan,
                              const GridSettings &settings)
 {
   BuildEstimate out;

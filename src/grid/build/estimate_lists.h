@@ -5,7 +5,7 @@
 #pragma once
 
 #include "grid/plan/grid_plan.h"
-#include "mesh/wall_features.h"
+#include "mesh/mesh_features.h"
 
 namespace lsdcd {
 
@@ -17,14 +17,14 @@ struct ListEstimate {
   double work = 0;    // that is expected, as of BuildLimit
 };
 
-ListEstimate estimate_lists(const WallFeatures &wall, const GridPlan &plan, bool primitives);
+ListEstimate estimate_lists(const MeshFeatures &wall, const GridPlan &plan, bool primitives);
 
 // For the lists of a grid: a lower bound of their bytes; the expected bytes plus a quarter, infinite
 // if entries cannot be numbered; and the work of making them, in the units of BuildLimit.
 struct BuildEstimate {
   double least_bytes = 0, enough_bytes = 0, work = 0;
 };
-BuildEstimate estimate_build(const WallFeatures &wall, const GridPlan &plan,
+BuildEstimate estimate_build(const MeshFeatures &wall, const GridPlan &plan,
                              const GridSettings &settings);
 
 }    // namespace lsdcd

@@ -84,7 +84,7 @@ LSDCD_FN bool vertex_meets(const VertexRecord &vertex, const Vec3 *direction, co
   return true;
 }
 
-LSDCD_FN bool feature_meets(const WallFeaturesView &wall, FeatureCode feature, const Vec3 &c,
+LSDCD_FN bool feature_meets(const MeshFeaturesView &wall, FeatureCode feature, const Vec3 &c,
                             Real around, Real cutoff, Real &distance)
 {
   const std::uint32_t i = feature_index(feature);

@@ -15,7 +15,7 @@ namespace lsdcd {
 
 // The input of all kernels of the build.
 struct BuildView {
-  WallFeaturesView wall;
+  MeshFeaturesView wall;
   const FeatureCode *features;    // all that can hold a contact, or all primitives
   bool primitives;
   GridPlan plan;
@@ -41,7 +41,7 @@ LSDCD_FN void grow_box(Vec3 &lo, Vec3 &hi, const Vec3 &p)
   }
 }
 
-LSDCD_FN void feature_box(const WallFeaturesView &wall, FeatureCode feature, Vec3 &lo, Vec3 &hi)
+LSDCD_FN void feature_box(const MeshFeaturesView &wall, FeatureCode feature, Vec3 &lo, Vec3 &hi)
 {
   const std::uint32_t i = feature_index(feature);
   switch (feature_kind(feature)) {

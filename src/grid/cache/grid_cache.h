@@ -34,7 +34,7 @@ struct GridKey {
 // other function here throws InputError with the same text.
 bool cache_available(std::string *why);
 
-GridKey grid_key(const WallMesh &mesh, const GridSettings &settings);
+GridKey grid_key(const WeldedMesh &mesh, const GridSettings &settings);
 
 // What the file with a cache's name is.
 enum class CacheState {

@@ -74,7 +74,7 @@ Hash settings_hash(const GridSettings &s)
                      for_gpu, may_coarsen, within.lo, within.hi);
 }
 
-Hash mesh_hash(const WallMesh &mesh)
+Hash mesh_hash(const WeldedMesh &mesh)
 {
   const auto &[vertices, faces, face_edges, face_facet, edges, edge_first, edge_face, vertex_first,
                vertex_edge, dropped, report, source, images] = mesh;
@@ -89,7 +89,7 @@ Hash mesh_hash(const WallMesh &mesh)
 
 }    // namespace
 
-GridKey grid_key(const WallMesh &mesh, const GridSettings &settings)
+GridKey grid_key(const WeldedMesh &mesh, const GridSettings &settings)
 {
   return {version_hash(), mesh_hash(mesh), settings_hash(settings)};
 }

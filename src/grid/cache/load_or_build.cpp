@@ -50,7 +50,7 @@ bool read(const std::string &file, CachedGrid *cached, GridPlace &place, LoadedG
 }
 
 // Returns the block.
-char *build(const WallMesh &mesh, const GridSettings &settings, bool on_cuda, GridPlace &place,
+char *build(const WeldedMesh &mesh, const GridSettings &settings, bool on_cuda, GridPlace &place,
             LoadedGrid &out)
 {
   std::unique_ptr<TriangleGrid> grid;
@@ -92,7 +92,7 @@ void write(const std::string &file, const GridKey &key, const CachedGrid &cached
 
 }    // namespace
 
-LoadedGrid load_or_build_grid(const std::string &cache_file, const WallMesh &mesh,
+LoadedGrid load_or_build_grid(const std::string &cache_file, const WeldedMesh &mesh,
                               const GridSettings &settings, bool on_cuda, GridPlace &place)
 {
   LoadedGrid out;

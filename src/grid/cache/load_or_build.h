@@ -49,7 +49,7 @@ struct LoadedGrid {
 // Reads the grid from `cache_file` if that was written for this mesh, these settings and this version,
 // else builds it. A file that does not fit is replaced, one that is no grid cache is left alone; a cache
 // that cannot be written costs a warning. An empty name: no cache. Throws InputError as build_grid() does.
-LoadedGrid load_or_build_grid(const std::string &cache_file, const WallMesh &mesh,
+LoadedGrid load_or_build_grid(const std::string &cache_file, const WeldedMesh &mesh,
                               const GridSettings &settings, bool on_cuda, GridPlace &place);
 
 }    // namespace lsdcd

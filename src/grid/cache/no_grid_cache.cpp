@@ -21,7 +21,7 @@ bool cache_available(std::string *why)
   return false;
 }
 
-GridKey grid_key(const WallMesh &, const GridSettings &)
+GridKey grid_key(const WeldedMesh &, const GridSettings &)
 {
   throw InputError(kWhy);
 }

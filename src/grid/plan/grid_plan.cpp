@@ -46,7 +46,7 @@ Real area_within(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Box &box)
 
 // The ball around one point of the wall, or the slab on both sides of one face, as far as
 // spheres can be there.
-Real least_volume(const WallMesh &mesh, Real cutoff, const Box &within)
+Real least_volume(const WeldedMesh &mesh, Real cutoff, const Box &within)
 {
   Real largest = 0;
   for (const auto &f : mesh.faces) {
@@ -58,7 +58,7 @@ Real least_volume(const WallMesh &mesh, Real cutoff, const Box &within)
 }
 
 // The box of the mesh widened by the cutoff, cut to where spheres can be; never empty.
-Box covered(const WallMesh &mesh, const Box &within, Real pad, Real rim)
+Box covered(const WeldedMesh &mesh, const Box &within, Real pad, Real rim)
 {
   Box box;
   for (int k = 0; k < 3; k++) {
@@ -68,7 +68,7 @@ Box covered(const WallMesh &mesh, const Box &within, Real pad, Real rim)
   return box;
 }
 
-GridPlan plan_with_length(const WallMesh &mesh, const GridSettings &settings, Real length,
+GridPlan plan_with_length(const WeldedMesh &mesh, const GridSettings &settings, Real length,
                           Real least_volume)
 {
   const Real cutoff = settings.cutoff, diagonal = norm(mesh.report.hi - mesh.report.lo);
@@ -121,7 +121,7 @@ std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks)
   return plan.table_size() * sizeof(std::int32_t) + bricks * kBrickBytes;
 }
 
-Real default_length(const WallMesh &mesh, Real cutoff, int nearest, bool for_gpu,
+Real default_length(const WeldedMesh &mesh, Real cutoff, int nearest, bool for_gpu,
                     GridPurpose purpose)
 {
   // Each point reads a list. Two edges keep it at a few features; below a tenth of the cutoff memory grows
@@ -141,7 +141,7 @@ Real default_length(const WallMesh &mesh, Real cutoff, int nearest, bool for_gpu
   return std::clamp(Real(0.3) * mesh.report.median_edge, Real(0.2) * cutoff, cutoff);
 }
 
-GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
+GridPlan plan_grid(const WeldedMesh &mesh, const GridSettings &settings)
 {
   if (!(settings.cutoff > 0) || !std::isfinite(settings.cutoff))
     throw InputError("grid cutoff is " + number_text(settings.cutoff) +
@@ -157,12 +157,12 @@ GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings)
                           least_volume(mesh, settings.cutoff, settings.within));
 }
 
-bool is_coarsest(const GridPlan &plan, const WallMesh &mesh)
+bool is_coarsest(const GridPlan &plan, const WeldedMesh &mesh)
 {
   return plan.length > norm(mesh.report.hi - mesh.report.lo) + 2 * plan.cutoff;
 }
 
-GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings)
+GridPlan coarser(const GridPlan &plan, const WeldedMesh &mesh, const GridSettings &settings)
 {
   // Passes the cutoff, with which a CPU begins, so that a grid on a GPU is never coarser.
   const Real next = plan.length * kCoarser;

@@ -66,17 +66,17 @@ struct CellCentres {
 
 // The default length of a cell, for complete lists or nearest primitives, for steps or points, and for
 // spheres on a CPU or a GPU.
-Real default_length(const WallMesh &mesh, Real cutoff, int nearest, bool for_gpu,
+Real default_length(const WeldedMesh &mesh, Real cutoff, int nearest, bool for_gpu,
                     GridPurpose purpose = GridPurpose::step);
 
 // From the settings; if these have no length, it follows from the mesh and the cutoff.
-GridPlan plan_grid(const WallMesh &mesh, const GridSettings &settings);
+GridPlan plan_grid(const WeldedMesh &mesh, const GridSettings &settings);
 
 constexpr Real kCoarser = 1.25;
 
 // The next coarser plan of a search for one that fits, until a cell is larger than the mesh.
-bool is_coarsest(const GridPlan &plan, const WallMesh &mesh);
-GridPlan coarser(const GridPlan &plan, const WallMesh &mesh, const GridSettings &settings);
+bool is_coarsest(const GridPlan &plan, const WeldedMesh &mesh);
+GridPlan coarser(const GridPlan &plan, const WeldedMesh &mesh, const GridSettings &settings);
 
 // Bytes of the finished arrays, and of the bricks while they are built.
 std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cells,

@@ -19,12 +19,12 @@ struct SjkrCohesion {
   LSDCD_FN bool is_on() const { return k > 0; }
   LSDCD_FN T pull(const Contact<T> &c) const
   {
-    return T(3.14159265358979323846) * k * c.overlap * (2 * c.radius - c.overlap);
+    return T(kPi) * k * c.overlap * (2 * c.radius - c.overlap);
   }
   // The energy of the surfaces in contact; < 0.
   LSDCD_FN T energy(const Contact<T> &c) const
   {
-    return T(-3.14159265358979323846) * k * c.overlap * c.overlap * (c.radius - c.overlap / 3);
+    return T(-kPi) * k * c.overlap * c.overlap * (c.radius - c.overlap / 3);
   }
 };
 

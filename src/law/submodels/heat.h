@@ -19,7 +19,7 @@ struct Conduction {
   LSDCD_FN bool is_on() const { return model != HeatModel::none; }
   LSDCD_FN T flow(const Contact<T> &c, T a) const
   {
-    const T per_kelvin = model == HeatModel::area ? T(3.14159265358979323846) * a * a : 2 * a;
+    const T per_kelvin = model == HeatModel::area ? T(kPi) * a * a : 2 * a;
     return conductance * per_kelvin * c.temperature_difference;
   }
 };

@@ -97,10 +97,10 @@ struct JkrNormal {
 
   JkrNormal(T modulus_, T surface_energy_) : modulus(modulus_), surface_energy(surface_energy_)
   {
-    const Real ratio = Real(surface_energy_) / Real(modulus_), pi = 3.14159265358979323846;
-    root = static_cast<T>(sqrt(pi * Real(surface_energy_) * Real(modulus_)));
-    size = static_cast<T>(cube_root(4 * pi * ratio));
-    pull_off = cube_root(3 * pi * pi * ratio * ratio / 16);
+    const Real ratio = Real(surface_energy_) / Real(modulus_);
+    root = static_cast<T>(sqrt(kPi * Real(surface_energy_) * Real(modulus_)));
+    size = static_cast<T>(cube_root(4 * kPi * ratio));
+    pull_off = cube_root(3 * kPi * kPi * ratio * ratio / 16);
   }
 
   LSDCD_FN bool uses_contact_radius() const { return true; }
@@ -132,15 +132,14 @@ struct JkrNormal {
   }
   LSDCD_FN T limit(const Contact<T> &c, T f, T) const
   {
-    return fabs(f + T(6 * 3.14159265358979323846) * surface_energy * c.radius);
+    return fabs(f + T(6 * kPi) * surface_energy * c.radius);
   }
   // The elastic energy minus that of the surfaces in contact.
   LSDCD_FN T energy(const Contact<T> &c, T a) const
   {
     const T cubed = a * a * a, per_radius = 1 / c.radius;
     return T(8) / 15 * modulus * cubed * a * a * per_radius * per_radius -
-           T(8) / 3 * root * cubed * sqrt(a) * per_radius +
-           T(2 * 3.14159265358979323846) * surface_energy * a * a;
+           T(8) / 3 * root * cubed * sqrt(a) * per_radius + T(2 * kPi) * surface_energy * a * a;
   }
 };
 

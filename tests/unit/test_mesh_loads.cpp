@@ -26,7 +26,7 @@ ContactRecord on(FeatureKind kind, std::uint32_t index, Real normal, Real shear,
 
 TEST(loads, are_integrals_over_time)
 {
-  WallLoads loads;
+  MeshLoads loads;
   const ContactRecord first[] = {on(FeatureKind::face, 1, 2, 1, 8)};
   const ContactRecord second[] = {on(FeatureKind::face, 1, 4, 3, 16),
                                   on(FeatureKind::face, 0, -1, 0, 0)};
@@ -46,9 +46,9 @@ TEST(loads, are_integrals_over_time)
 
 TEST(loads, of_edges_and_vertices_are_shared_evenly_by_their_faces)
 {
-  const WallMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1);
+  const WeldedMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1);
   for (std::size_t e = 0; e < mesh.edges.size(); e++) {
-    WallLoads loads;
+    MeshLoads loads;
     const ContactRecord r = on(FeatureKind::edge, static_cast<std::uint32_t>(e), 6, 2, 0);
     loads.add(&r, 1, 1, 0);
     Real sum = 0;
@@ -62,7 +62,7 @@ TEST(loads, of_edges_and_vertices_are_shared_evenly_by_their_faces)
     EXPECT_EQ(sum, 2);
   }
   for (std::size_t v = 0; v < mesh.vertices.size(); v++) {
-    WallLoads loads;
+    MeshLoads loads;
     const ContactRecord r = on(FeatureKind::vertex, static_cast<std::uint32_t>(v), 0, 0, 60);
     loads.add(&r, 1, 1, 1);
     int n_around = 0;
@@ -78,7 +78,7 @@ TEST(loads, of_edges_and_vertices_are_shared_evenly_by_their_faces)
 
 TEST(loads, keep_wear_and_forget_stress_when_an_average_begins)
 {
-  WallLoads loads;
+  MeshLoads loads;
   const ContactRecord r = on(FeatureKind::face, 0, 6, 2, 5);
   loads.add(&r, 1, 1, 1);
   loads.begin_average();
@@ -93,20 +93,20 @@ TEST(loads, keep_wear_and_forget_stress_when_an_average_begins)
 
 TEST(loads, packed_and_added_up_are_those_of_all)
 {
-  WallLoads one, two, sum;
+  MeshLoads one, two, sum;
   const ContactRecord a[] = {on(FeatureKind::face, 7, 1, 2, 3),
                              on(FeatureKind::vertex, 3, 4, 5, 6)};
   const ContactRecord b[] = {on(FeatureKind::vertex, 3, 7, 8, 9),
                              on(FeatureKind::edge, 3, 1, 1, 1)};
   one.add(a, 2, 0.5, 1);
   two.add(b, 2, 0.5, 1);
-  for (const WallLoads *part : {&one, &two}) {
+  for (const MeshLoads *part : {&one, &two}) {
     const std::vector<double> rows = part->packed();
-    sum.add_packed(rows.data(), rows.size() / WallLoads::kPackedLoad);
+    sum.add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
   }
   one.add(b, 2, 0.5, 1);
   EXPECT_EQ(sum.packed(), one.packed());
-  EXPECT_EQ(sum.packed().size(), 3u * WallLoads::kPackedLoad);
+  EXPECT_EQ(sum.packed().size(), 3u * MeshLoads::kPackedLoad);
 }
 
 // The text between > and < of the array with that name, decoded.
@@ -133,8 +133,8 @@ TEST(mesh_fields, are_written_whole_and_exact)
 {
   const TempDir dir;
   const std::string path = dir.path("fields.vtp");
-  const WallMesh mesh = weld(floor_mesh(3, 1, 4), -1);
-  WallLoads loads;
+  const WeldedMesh mesh = weld(floor_mesh(3, 1, 4), -1);
+  MeshLoads loads;
   const ContactRecord r = on(FeatureKind::face, 5, 6, 2, 5);
   loads.add(&r, 1, 0.1, 1);
   loads.add(nullptr, 0, 0.1, 1);
@@ -171,12 +171,12 @@ TEST(mesh_fields, are_written_whole_and_exact)
 
 TEST(mesh_fields, forces_turn_with_the_mesh)
 {
-  const WallMesh mesh = weld(floor_mesh(1, 1), -1);
-  WallLoads loads;
+  const WeldedMesh mesh = weld(floor_mesh(1, 1), -1);
+  MeshLoads loads;
   const ContactRecord r = on(FeatureKind::face, 1, 6, 2, 0);
   loads.add(&r, 1, 0.5, 0);
   loads.add(nullptr, 0, 0.5, 0);
-  WallPose pose;    // x to y to z to x
+  Pose pose;    // x to y to z to x
   pose.row[0] = {0, 0, 1};
   pose.row[1] = {1, 0, 0};
   pose.row[2] = {0, 1, 0};

@@ -17,7 +17,7 @@ namespace {
 
 using Wide = long double;
 using WideVec = Vec3Of<Wide>;
-constexpr Wide kPi = 3.14159265358979323846264338327950288L;
+constexpr Wide kWidePi = 3.14159265358979323846264338327950288L;
 
 MotionTerm linear(const Vec3 &v)
 {
@@ -43,9 +43,9 @@ MotionTerm turning(const Vec3 &point, const Vec3 &axis, Real period, const Vec3 
   m.velocity = v;
   return m;
 }
-WallMotion motion_of(const std::vector<MotionTerm> &terms)
+RigidMotion motion_of(const std::vector<MotionTerm> &terms)
 {
-  WallMotion motion;
+  RigidMotion motion;
   for (const MotionTerm &m : terms) motion.add(m);
   return motion;
 }
@@ -55,7 +55,7 @@ WideVec where(const std::vector<MotionTerm> &terms, const Vec3 &point, Wide t)
 {
   WideVec x = vec_cast<Wide>(point);
   for (const MotionTerm &m : terms) {
-    const Wide angle = m.period > 0 ? 2 * kPi * t / m.period : 0;
+    const Wide angle = m.period > 0 ? 2 * kWidePi * t / m.period : 0;
     if (m.kind == MotionKind::wiggle) x += std::sin(angle) * vec_cast<Wide>(m.amplitude);
     if (m.kind == MotionKind::cosine) x += (1 - std::cos(angle)) * vec_cast<Wide>(m.amplitude);
     if (m.turns()) {
@@ -105,7 +105,7 @@ TEST(wall_motion, velocities_are_the_derivatives)
 {
   for (const auto &terms : kMotions)
     for (const Real t : {0.0, 0.1, 0.55, 1.0, 3.7}) {
-      const WallPose pose = motion_of(terms).pose_at(t);
+      const Pose pose = motion_of(terms).pose_at(t);
       const Vec3 v = pose.turn_to_box(pose.velocity_in_mesh(kPoint));
       EXPECT_LE(norm(vec_cast<Wide>(v) - speed(terms, kPoint, t)), 30 * 100 * 2.3e-16);
     }
@@ -113,13 +113,13 @@ TEST(wall_motion, velocities_are_the_derivatives)
 
 TEST(wall_motion, the_frame_of_the_mesh_is_the_inverse)
 {
-  const WallPose pose = motion_of(kMotions[6]).pose_at(0.61);
+  const Pose pose = motion_of(kMotions[6]).pose_at(0.61);
   // Rounding of 20 operations on numbers of size 3.
   EXPECT_LE(norm(pose.to_mesh(pose.to_box(kPoint)) - kPoint), 1e-14);
   EXPECT_LE(norm(pose.turn_to_mesh(pose.turn_to_box(kPoint)) - kPoint), 1e-14);
 }
 
-void expect_same_place(const WallPose &a, const WallPose &b)
+void expect_same_place(const Pose &a, const Pose &b)
 {
   for (int i = 0; i < 3; i++) EXPECT_EQ(a.row[i], b.row[i]);
   EXPECT_EQ(a.shift, b.shift);
@@ -127,27 +127,26 @@ void expect_same_place(const WallPose &a, const WallPose &b)
 
 TEST(wall_motion, a_whole_turn_gives_the_bits_of_none)
 {
-  const WallMotion motion = motion_of(
+  const RigidMotion motion = motion_of(
       {turning({0.3, 0.2, 0.1}, {1, 2, 3}, 0.7), wave(MotionKind::wiggle, {1, 2, 3}, 0.35)});
-  expect_same_place(motion.pose_at(0.7), WallPose());
-  expect_same_place(motion.pose_at(0.7L * 12345), WallPose());
-  expect_same_place(motion_of({wave(MotionKind::cosine, {1, 2, 3}, 0.35)}).pose_at(0.7),
-                    WallPose());
+  expect_same_place(motion.pose_at(0.7), Pose());
+  expect_same_place(motion.pose_at(0.7L * 12345), Pose());
+  expect_same_place(motion_of({wave(MotionKind::cosine, {1, 2, 3}, 0.35)}).pose_at(0.7), Pose());
 }
 
 // 1e-6 is not a double, and a million of it is 1 + 4.8e-17.
 TEST(wall_motion, a_million_steps_of_a_millionth_are_a_whole_turn)
 {
-  const WallMotion motion = motion_of({turning({0.3, 0.2, 0.1}, {1, 2, 3}, 1)});
-  expect_same_place(motion.pose_at(Time(1000000) * 1e-6), WallPose());
-  expect_same_place(motion.pose_at(Time(1000000) * 1e-6 * 1000), WallPose());
+  const RigidMotion motion = motion_of({turning({0.3, 0.2, 0.1}, {1, 2, 3}, 1)});
+  expect_same_place(motion.pose_at(Time(1000000) * 1e-6), Pose());
+  expect_same_place(motion.pose_at(Time(1000000) * 1e-6 * 1000), Pose());
   // A step earlier it is a step earlier.
   EXPECT_GT(norm(motion.pose_at(Time(999999) * 1e-6).shift), 1e-7);
 }
 
 TEST(wall_motion, quarter_turns_are_exact)
 {
-  const WallMotion motion = motion_of({turning({0, 0, 0}, {0, 0, 3}, 2)});
+  const RigidMotion motion = motion_of({turning({0, 0, 0}, {0, 0, 3}, 2)});
   EXPECT_EQ(motion.pose_at(0.5).to_box({1, 2, 3}), (Vec3{-2, 1, 3}));
   EXPECT_EQ(motion.pose_at(1).to_box({1, 2, 3}), (Vec3{-1, -2, 3}));
   EXPECT_EQ(motion.pose_at(1.5).to_box({1, 2, 3}), (Vec3{2, -1, 3}));
@@ -174,7 +173,7 @@ TEST(wall_motion, a_later_term_acts_on_what_the_earlier_ones_placed)
 
 TEST(wall_motion, begins_from_where_it_stands)
 {
-  WallMotion motion = motion_of({turning({0, 0, 0}, {0, 0, 1}, 4)});
+  RigidMotion motion = motion_of({turning({0, 0, 0}, {0, 0, 1}, 4)});
   motion.begin_from(motion.pose_at(1));
   EXPECT_EQ(motion.pose_at(0).to_box({1, 0, 0}), (Vec3{0, 1, 0}));
   EXPECT_EQ(motion.pose_at(1).to_box({1, 0, 0}), (Vec3{-1, 0, 0}));
@@ -182,17 +181,17 @@ TEST(wall_motion, begins_from_where_it_stands)
   EXPECT_EQ(motion.pose_at(7).to_box({1, 0, 0}), (Vec3{0, 1, 0}));
   EXPECT_EQ(motion.pose_at(7).velocity_in_mesh({1, 0, 0}), (Vec3{0, 0, 0}));
   EXPECT_TRUE(motion.any());
-  motion.begin_from(WallPose());
+  motion.begin_from(Pose());
   EXPECT_FALSE(motion.any());
 }
 
 TEST(wall_motion, knows_which_directions_it_keeps)
 {
   const Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-  const WallMotion drum = motion_of({turning({1, 2, 3}, z, 1)});
+  const RigidMotion drum = motion_of({turning({1, 2, 3}, z, 1)});
   EXPECT_TRUE(drum.keeps(z));
   EXPECT_FALSE(drum.keeps(x));
-  const WallMotion belt = motion_of({linear({1, 0, 1})});
+  const RigidMotion belt = motion_of({linear({1, 0, 1})});
   EXPECT_TRUE(belt.keeps(y));
   EXPECT_FALSE(belt.keeps(z));
   EXPECT_FALSE(motion_of({turning({1, 2, 3}, z, 1, {0, 0, 1})}).keeps(z));
@@ -207,11 +206,11 @@ TEST(wall_motion, knows_which_directions_it_keeps)
 // At a corner of the box: an eighth of a turn moves a point at distance 5 by 10 sin(pi/8).
 TEST(wall_motion, bounds_the_way_and_speed_of_points_of_a_box)
 {
-  const WallMotion motion = motion_of({turning({0, 0, 0}, {0, 0, 1}, 8)});
+  const RigidMotion motion = motion_of({turning({0, 0, 0}, {0, 0, 1}, 8)});
   const Box box = {{-3, -4, -1}, {1, 2, 1}};
-  EXPECT_NEAR(farthest_between(motion.pose_at(0), motion.pose_at(1), box), 10 * std::sin(M_PI / 8),
+  EXPECT_NEAR(farthest_between(motion.pose_at(0), motion.pose_at(1), box), 10 * std::sin(kPi / 8),
               1e-14);
-  EXPECT_NEAR(fastest_in(motion.pose_at(0.3), box), 5 * 2 * M_PI / 8, 1e-14);
+  EXPECT_NEAR(fastest_in(motion.pose_at(0.3), box), 5 * 2 * kPi / 8, 1e-14);
   const Box turned = placed_bounds(motion.pose_at(2), box);
   EXPECT_EQ(turned.lo, (Vec3{-2, -3, -1}));
   EXPECT_EQ(turned.hi, (Vec3{4, 1, 1}));

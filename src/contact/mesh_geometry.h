@@ -13,10 +13,10 @@ namespace lsdcd {
 // of a side, or inside.
 enum class FaceRegion { far, outside, rim, inside };
 
-class WallGeometry {
+class MeshGeometry {
  public:
-  LSDCD_FN WallGeometry(const GridView &grid, const Vec3 &q) : grid_(grid), q_(q) {}
-  LSDCD_FN WallGeometry(const GridView &grid, const Vec3 &q, const CellAddress &) :
+  LSDCD_FN MeshGeometry(const GridView &grid, const Vec3 &q) : grid_(grid), q_(q) {}
+  LSDCD_FN MeshGeometry(const GridView &grid, const Vec3 &q, const CellAddress &) :
       grid_(grid), q_(q)
   {
   }

@@ -8,7 +8,7 @@
 
 namespace lsdcd {
 
-struct WallPose {
+struct Pose {
   Vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};    // of the rotation matrix
   Vec3 shift = {0, 0, 0};                             // length; where the mesh's origin is
   // In the frame of the box: of the mesh's origin, and right-handed.
@@ -33,9 +33,9 @@ struct WallPose {
   LSDCD_FN Vec3 to_mesh(const Vec3 &x) const { return placed ? turn_to_mesh(x - shift) : x; }
 
   // The same pose at rest.
-  WallPose still() const
+  Pose still() const
   {
-    WallPose pose = *this;
+    Pose pose = *this;
     pose.velocity = pose.angular = pose.acceleration = pose.spin_up = {0, 0, 0};
     return pose;
   }

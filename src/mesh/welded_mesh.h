@@ -57,7 +57,7 @@ struct PeriodicImages {
 
 // Faces are proper triangles: three distinct welded vertices, not collinear.
 // Edges and vertices of dropped facets remain, so that nothing becomes a hole.
-struct WallMesh {
+struct WeldedMesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<int, 3>> faces;         // vertices, in the file's winding
   std::vector<std::array<int, 3>> face_edges;    // edge k joins corners k and (k+1) % 3
@@ -79,7 +79,7 @@ constexpr Real kDefaultWeld = 1e-6;    // of the bounding-box diagonal
 // Welds corners closer than `tolerance` (a length; < 0 means kDefaultWeld times
 // the bounding-box diagonal; 0 means exact equality), builds edges and adjacency.
 // Throws InputError when no proper face, edge or vertex is left.
-WallMesh weld(const TriangleSoup &soup, Real tolerance);
+WeldedMesh weld(const TriangleSoup &soup, Real tolerance);
 
 // The report as the block of lines that the log shows; no trailing newline.
 std::string describe(const MeshReport &report, const std::string &source);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "output/wall_loads.h"
+#include "output/mesh_loads.h"
 
 #include <algorithm>
 #include <numeric>
@@ -11,7 +11,7 @@ namespace lsdcd {
 namespace {
 
 // The faces that meet at an edge or a vertex, each once.
-std::vector<int> faces_at(const WallMesh &mesh, FeatureCode feature)
+std::vector<int> faces_at(const WeldedMesh &mesh, FeatureCode feature)
 {
   const std::uint32_t i = feature_index(feature);
   std::vector<int> faces;
@@ -32,7 +32,7 @@ std::vector<int> faces_at(const WallMesh &mesh, FeatureCode feature)
 
 }    // namespace
 
-Load &WallLoads::load(FeatureCode feature)
+Load &MeshLoads::load(FeatureCode feature)
 {
   const auto [at, is_new] = place_.try_emplace(feature, load_.size());
   if (is_new) {
@@ -42,8 +42,8 @@ Load &WallLoads::load(FeatureCode feature)
   return load_[at->second];
 }
 
-void WallLoads::add(const ContactRecord *records, int n, Real dt, Real per_work,
-                    const WallFeaturesView &wall, std::uint32_t mesh)
+void MeshLoads::add(const ContactRecord *records, int n, Real dt, Real per_work,
+                    const MeshFeaturesView &wall, std::uint32_t mesh)
 {
   time_ += dt;
   for (int i = 0; i < n; i++) {
@@ -58,7 +58,7 @@ void WallLoads::add(const ContactRecord *records, int n, Real dt, Real per_work,
   }
 }
 
-void WallLoads::begin_average()
+void MeshLoads::begin_average()
 {
   time_ = 0;
   for (Load &l : load_) {
@@ -68,20 +68,20 @@ void WallLoads::begin_average()
   }
 }
 
-Real WallLoads::worn() const
+Real MeshLoads::worn() const
 {
   return std::accumulate(load_.begin(), load_.end(), Real(0),
                          [](Real sum, const Load &l) { return sum + l.worn; });
 }
 
-std::size_t WallLoads::bytes() const
+std::size_t MeshLoads::bytes() const
 {
   return feature_.capacity() * sizeof(FeatureCode) + load_.capacity() * sizeof(Load) +
          place_.size() * (sizeof(*place_.begin()) + sizeof(void *)) +
          place_.bucket_count() * sizeof(void *);
 }
 
-std::vector<double> WallLoads::packed() const
+std::vector<double> MeshLoads::packed() const
 {
   std::vector<std::size_t> order(load_.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
@@ -97,7 +97,7 @@ std::vector<double> WallLoads::packed() const
   return rows;
 }
 
-void WallLoads::add_packed(const double *rows, std::size_t n_rows)
+void MeshLoads::add_packed(const double *rows, std::size_t n_rows)
 {
   for (const double *r = rows; r < rows + n_rows * kPackedLoad; r += kPackedLoad) {
     Load &to = load(static_cast<FeatureCode>(r[0]));
@@ -109,7 +109,7 @@ void WallLoads::add_packed(const double *rows, std::size_t n_rows)
   }
 }
 
-std::vector<Load> WallLoads::of_faces(const WallMesh &mesh) const
+std::vector<Load> MeshLoads::of_faces(const WeldedMesh &mesh) const
 {
   std::vector<Load> faces(mesh.faces.size());
   const std::vector<double> rows = packed();

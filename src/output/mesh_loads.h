@@ -5,8 +5,8 @@
 #pragma once
 
 #include "engine/wall_engine.h"
-#include "mesh/wall_features.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/mesh_features.h"
+#include "mesh/welded_mesh.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,14 +25,14 @@ struct Load {
   Vec3 force = {0, 0, 0};    // force time; on the wall, in the frame of the mesh
 };
 
-class WallLoads {
+class MeshLoads {
  public:
   // Adds a step of duration dt; per_work is that of Wear. Records are summed in their order, so
   // that the same records give the same bits. Records on a periodic image count for the part of
   // the mesh that it is an image of; `wall` may be empty without images. Records of other
   // meshes are left out.
   void add(const ContactRecord *records, int n, Real dt, Real per_work,
-           const WallFeaturesView &wall = {}, std::uint32_t mesh = 0);
+           const MeshFeaturesView &wall = {}, std::uint32_t mesh = 0);
 
   // Begins a new average: forgets all but what has worn off.
   void begin_average();
@@ -49,7 +49,7 @@ class WallLoads {
 
   // The load of every face. That of an edge or a vertex is shared evenly by the faces that
   // meet there; one without a face, which only a dropped triangle leaves behind, is not in.
-  std::vector<Load> of_faces(const WallMesh &mesh) const;
+  std::vector<Load> of_faces(const WeldedMesh &mesh) const;
 
  private:
   Load &load(FeatureCode feature);

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "geometry/wall_records.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace lsdcd {
 
 // Records of every face and vertex, and of edges up to the last that can hold a contact of its own. A
 // flat edge cannot: its faces, closed by a tolerance, cover it. The mesh numbers flat edges last.
-struct WallFeatures {
+struct MeshFeatures {
   std::vector<FaceRecord> faces;
   std::vector<EdgeRecord> edges;
   std::vector<VertexRecord> vertices;
@@ -29,7 +29,7 @@ struct WallFeatures {
   // edges and vertices without a face.
   std::vector<FeatureCode> primitives;
 
-  WallFeaturesView view() const;
+  MeshFeaturesView view() const;
 };
 
 // The record of one face, of three corners that are not in a line.
@@ -37,6 +37,6 @@ FaceRecord make_face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c);
 
 // `with_sides` adds the pseudonormals that tell inside from outside, `with_primitives` the
 // primitives and the parts of faces.
-WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_primitives = false);
+MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_primitives = false);
 
 }    // namespace lsdcd

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mesh/wall_features.h"
+#include "mesh/mesh_features.h"
 
 #include "base/array_list.h"
 #include "base/input_error.h"
@@ -120,7 +120,7 @@ Real corner_angle(const Vec3 &at, const Vec3 &b, const Vec3 &c)
   return std::atan2(norm(cross(b - at, c - at)), dot(b - at, c - at));
 }
 
-void add_primitives(const WallMesh &mesh, WallFeatures &out)
+void add_primitives(const WeldedMesh &mesh, MeshFeatures &out)
 {
   std::vector<bool> edge_acts(mesh.edges.size(), false), vertex_acts(mesh.vertices.size(), false),
       has_face(mesh.vertices.size(), false);
@@ -161,9 +161,9 @@ FaceRecord make_face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c)
   return f;
 }
 
-WallFeaturesView WallFeatures::view() const
+MeshFeaturesView MeshFeatures::view() const
 {
-  WallFeaturesView v = {};
+  MeshFeaturesView v = {};
   point_to(v, *this);
   v.images.n_faces = static_cast<std::uint32_t>(images.n_faces);
   v.images.n_edges = static_cast<std::uint32_t>(images.n_edges);
@@ -171,7 +171,7 @@ WallFeaturesView WallFeatures::view() const
   return v;
 }
 
-WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_primitives)
+MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_primitives)
 {
   const std::size_t n_faces = mesh.faces.size(), n_edges = mesh.edges.size(),
                     n_vertices = mesh.vertices.size();
@@ -179,7 +179,7 @@ WallFeatures make_features(const WallMesh &mesh, bool with_sides, bool with_prim
     throw InputError(mesh.source + ": " + std::to_string(n_edges) + " edges, at most " +
                      std::to_string(kMaxFeatures) + " can be used; coarsen the mesh");
 
-  WallFeatures out;
+  MeshFeatures out;
   out.images = mesh.images;
   out.faces.reserve(n_faces);
   out.face_vertex.reserve(n_faces);
