@@ -3,6 +3,8 @@
 
 #include "input/granular_words.h"
 
+#include "law/make_law.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,13 +32,6 @@ std::string choices_of(Family family)
 const Family kFamilies[] = {Family::damping, Family::tangential, Family::rolling, Family::twisting,
                             Family::heat};
 
-template <class Model>
-void choose(Chosen<Model> &chosen, const SubModel &row, const std::vector<Real> &given)
-{
-  chosen.model = static_cast<Model>(row.model);
-  std::copy(given.begin(), given.end(), chosen.numbers);
-}
-
 void read_sub_model(Tokens &w, LawDraft &d, Family family)
 {
   w.set_context(with_gap("granular", family_word(family)), choices_of(family));
@@ -45,31 +40,25 @@ void read_sub_model(Tokens &w, LawDraft &d, Family family)
     if (w.peek() != row->name) continue;
     w.take();
     w.set_context(with_gap("granular", with_gap(family_word(family), row->name)), words_of(*row));
-    if (family == Family::normal) d.normal_name = row->name;
-    if (family == Family::damping) d.damping_name = row->name;
     read_numbers(w, *row, d);
     return;
   }
   w.fail("'" + w.peek() + "' is not a sub-model");
 }
 
-// What the second number of the normal sub-model means depends on the damping model, read later.
-void resolve_damping(Tokens &w, LawDraft &d)
+// Which words an error of finish_granular() is about.
+void finish(Tokens &w, LawDraft &d)
 {
-  ContactLaw &g = d.law;
-  g.eta = d.second;
-  if (g.damping != DampingModel::stiffness) return;
-  w.set_context(std::string("granular damping ") + d.damping_name,
-                "granular hooke|hertz kn e, or hertz/material E e nu, with 0 < e <= 1");
-  if (g.normal == NormalModel::dmt || g.normal == NormalModel::jkr)
-    w.fail("the damping does not go with the adhesive sub-model '" + std::string(d.normal_name) +
-           "'");
-  const bool exact = d.damping_name == std::string("coeff_restitution");
-  if (d.second > 1 || (exact && d.second == 0))
-    w.fail("e = " + number_text(d.second) +
-           " is out of range: it must be above 0 and at most 1, as the second number of the "
-           "normal sub-model is the restitution");
-  g.eta = exact ? restitution_damping(g.normal, d.second) : tsuji_damping(d.second);
+  try {
+    finish_granular(d);
+  } catch (const LawError &e) {
+    if (e.field == "damping")
+      w.set_context(std::string("granular damping ") + d.damping_name,
+                    "granular hooke|hertz kn e, or hertz/material E e nu, with 0 < e <= 1");
+    else
+      w.set_context("granular " + e.field, granular_syntax());
+    w.fail(e.what());
+  }
 }
 
 }    // namespace
@@ -84,23 +73,13 @@ void read_numbers(Tokens &w, const SubModel &row, LawDraft &d)
       w.fail(std::string(p.name) + " must be 0 or 1");
     if (!null) continue;
     w.take();
-    if (row.with == GoesWith::granular && d.young == 0)
+    if (!can_derive(row, d))
       w.fail(std::string(p.name) +
              " can be NULL only where the normal sub-model has E and nu, not "
              "with '" +
              d.normal_name + "'");
   }
-  if (row.set) return row.set(given.data(), d);
-  switch (row.family) {
-    case Family::rolling:
-      return choose(d.law.rolling, row, given);
-    case Family::twisting:
-      return choose(d.law.twisting, row, given);
-    case Family::heat:
-      return choose(d.law.heat, row, given);
-    default:
-      return choose(d.law.cohesion, row, given);
-  }
+  add_sub_model(row, given, d);
 }
 
 std::vector<std::string> granular_families()
@@ -165,11 +144,7 @@ ContactLaw read_granular(Tokens &w, std::string &text)
     w.set_context("granular", choices_of(Family::tangential));
     w.fail("the tangential sub-model is missing");
   }
-  if (d.law.limit_damping && (d.law.is(NormalModel::dmt) || d.law.is(NormalModel::jkr))) {
-    w.set_context("granular limit_damping", granular_syntax());
-    w.fail("an adhesive sub-model, '" + std::string(d.normal_name) + "', has to pull");
-  }
-  resolve_damping(w, d);
+  finish(w, d);
   return d.law;
 }
 

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A law is made of sub-models and their numbers, whether a script or a program gives them.
+#pragma once
+
+#include "base/input_error.h"
+#include "law/sub_models.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// Sub-models that do not go together.
+struct LawError : InputError {
+  LawError(const std::string &field, const std::string &text) : InputError(text), field(field) {}
+  std::string field;    // "damping" or "limit_damping": which of them to change
+};
+
+// Adds a sub-model to the draft. `given`: a number for each parameter, NaN where it is derived.
+void add_sub_model(const SubModel &row, const std::vector<Real> &given, LawDraft &draft);
+// Can a parameter of this row be derived from what the draft has? mindlin's kt needs E and nu.
+bool can_derive(const SubModel &row, const LawDraft &draft);
+// Resolves what depends on several sub-models, once all are there. Throws LawError.
+void finish_granular(LawDraft &draft);
+
+}    // namespace lsdcd
