@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/spheres_given.h"
+
+#include "api/c_border.h"
+#include "api/device_memory.h"
+#include "base/input_words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace lsdcd {
+
+namespace {
+
+// Numbers of spheres: `width` of them in each row.
+struct Rows {
+  const double *at;
+  const char *name;
+  std::ptrdiff_t row, width;
+};
+
+// Do n rows of each have a number in common? Rows of one array may lie between those of another.
+bool share_memory(const Rows &a, const Rows &b, std::ptrdiff_t n)
+{
+  constexpr std::ptrdiff_t kNumber = sizeof(double);
+  const auto first = reinterpret_cast<std::intptr_t>(a.at),
+             second = reinterpret_cast<std::intptr_t>(b.at);
+  if (a.row == b.row) {
+    const std::ptrdiff_t row = kNumber * a.row, apart = second - first;
+    if (apart >= n * row || -apart >= n * row) return false;
+    const std::ptrdiff_t behind = (apart % row + row) % row;
+    return behind < kNumber * a.width || row - behind < kNumber * b.width;
+  }
+  if (a.row < b.row) return share_memory(b, a, n);
+  // The numbers of b have no gaps. Which row of a is the first that ends behind where they begin?
+  const std::ptrdiff_t row = kNumber * a.row, width = kNumber * a.width;
+  const std::ptrdiff_t k = second < first + width ? 0 : (second - first - width) / row + 1;
+  return k < n && first + k * row < second + n * kNumber;
+}
+
+// Arrays that are written have memory of their own: forces that are torques, too, are neither.
+void check_apart(const lsdcd_spheres &s, std::ptrdiff_t row)
+{
+  const Rows all[] = {{s.force, "force", row, 3},
+                      {s.torque, "torque", row, 3},
+                      {s.heat, "heat", 1, 1},
+                      {s.x, "x", row, 3},
+                      {s.v, "v", row, 3},
+                      {s.omega, "omega", row, 3},
+                      {s.radius, "radius", 1, 1},
+                      {s.mass, "mass", 1, 1},
+                      {s.temperature, "temperature", 1, 1}};
+  constexpr std::size_t kWritten = 3, kAll = sizeof all / sizeof all[0];
+  for (std::size_t i = 0; i < kWritten; i++)
+    for (std::size_t j = i + 1; j < kAll; j++)
+      if (all[i].at && all[j].at && share_memory(all[i], all[j], static_cast<std::ptrdiff_t>(s.n)))
+        throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("`") + all[i].name + "` and `" +
+                                                 all[j].name +
+                                                 "` share memory: give each an array of its own");
+}
+
+[[noreturn]] void refuse_sphere(const char *name, int i, const std::string &what)
+{
+  throw ApiError(LSDCD_ERROR_ARGUMENT,
+                 std::string(name) + "[" + std::to_string(i) + "] is " + what);
+}
+
+}    // namespace
+
+// Before anything is read or written there.
+void check_places(const lsdcd_spheres &s, const GpuArrays *gpu)
+{
+  const struct {
+    const void *pointer;
+    const char *name;
+  } given[] = {{s.x, "x"},           {s.v, "v"},       {s.omega, "omega"},
+               {s.radius, "radius"}, {s.mass, "mass"}, {s.force, "force"},
+               {s.torque, "torque"}, {s.type, "type"}, {s.temperature, "temperature"},
+               {s.heat, "heat"}};
+  const DeviceMemory device;
+  for (const auto &one : given) {
+    if (!one.pointer) continue;
+    if (!gpu && device.only_there(one.pointer))
+      throw ApiError(LSDCD_ERROR_DEVICE,
+                     std::string("the array `") + one.name +
+                         "` is in a GPU's memory: make the wall with device LSDCD_CUDA");
+    try {
+      if (gpu) gpu->check(one.pointer, one.name, "the wall");
+    } catch (const InputError &e) {
+      throw ApiError(LSDCD_ERROR_DEVICE,
+                     std::string(e.what()) + ": make the wall where the arrays of spheres are");
+    }
+  }
+}
+
+std::string place_text(const Vec3 &x)
+{
+  return number_text(x.x) + " " + number_text(x.y) + " " + number_text(x.z);
+}
+
+Spheres spheres_of(const lsdcd_spheres &s, bool has_heat, bool has_types)
+{
+  Spheres out;
+  out.n = static_cast<int>(s.n);
+  if (s.n == 0) return out;
+  const struct {
+    const void *pointer;
+    const char *name;
+  } needed[] = {{s.x, "x"},       {s.v, "v"},         {s.omega, "omega"},  {s.radius, "radius"},
+                {s.mass, "mass"}, {s.force, "force"}, {s.torque, "torque"}};
+  for (const auto &one : needed) need(one.pointer, one.name);
+  if (has_heat) {
+    need(s.temperature, "temperature");
+    need(s.heat, "heat");
+  }
+  if (has_types) need(s.type, "type");
+  const std::ptrdiff_t row = s.row ? s.row : 3;
+  if (row < 3 && s.n > 1)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "row is " + std::to_string(row) +
+                                             ": vectors of 3 numbers need 3 or more, 0 is 3");
+  check_apart(s, s.n > 1 ? row : 3);
+  out.x = {s.x, row, 1};
+  out.v = {s.v, row, 1};
+  out.omega = {s.omega, row, 1};
+  out.force = {s.force, row, 1};
+  out.torque = {s.torque, row, 1};
+  out.radius = s.radius;
+  out.mass = s.mass;
+  out.temperature = s.temperature;
+  out.heat_flow = s.heat;
+  out.type = s.type;
+  return out;
+}
+
+void check_types(const Spheres &s)
+{
+  for (int i = 0; i < s.n; i++)
+    if (s.type[i] < 1)
+      throw ApiError(LSDCD_ERROR_ARGUMENT, "type[" + std::to_string(i) + "] is " +
+                                               std::to_string(s.type[i]) + ", below 1");
+}
+
+// Nothing touches a radius below 0, and a mass of 0 has no damping.
+void check_sizes(const Spheres &s)
+{
+  for (int i = 0; i < s.n; i++) {
+    if (!(s.radius[i] >= 0) || !std::isfinite(s.radius[i]))
+      refuse_sphere("radius", i, number_text(s.radius[i]) + "; it is 0 or more, and finite");
+    if (!(s.mass[i] > 0) || !std::isfinite(s.mass[i]))
+      refuse_sphere("mass", i, number_text(s.mass[i]) + "; it is above 0, and finite");
+  }
+}
+
+// Nothing touches a place that is no number. In each step, so with a few operations for each sphere.
+Box checked_extents(const Spheres &s)
+{
+  Box around = {kNoLimit.hi, kNoLimit.lo};
+  Vec3 zero = {0, 0, 0};    // unless one is no number
+  for (int i = 0; i < s.n; i++) {
+    const Vec3 x = s.x[i];
+    zero += 0 * x;
+    around.lo = {std::min(around.lo.x, x.x), std::min(around.lo.y, x.y),
+                 std::min(around.lo.z, x.z)};
+    around.hi = {std::max(around.hi.x, x.x), std::max(around.hi.y, x.y),
+                 std::max(around.hi.z, x.z)};
+  }
+  for (int i = 0; i < s.n && !(norm_sq(zero) == 0); i++)
+    if (!(norm_sq(0 * s.x[i]) == 0))
+      refuse_sphere("x", i,
+                    place_text(s.x[i]) +
+                        ", which is no place: a shorter dt, or softer contacts, may help");
+  return around;
+}
+
+Outside outside(const PeriodicBox &box, const Spheres &s, const Box &extents)
+{
+  Outside found;
+  Box room = kNoLimit;
+  bool all_in = true;
+  for (int k = 0; k < 3; k++) {
+    if (box.periodic[k] || box.follows(k)) continue;
+    room.lo[k] = box.corner[k];
+    room.hi[k] = box.corner[k] + box.edge[k][k];
+    all_in = all_in && extents.lo[k] >= room.lo[k] && extents.hi[k] <= room.hi[k];
+  }
+  for (int i = all_in ? -1 : s.n - 1; i >= 0; i--) {
+    const Vec3 x = s.x[i];
+    if (overlap(Box{x, x}, room)) continue;
+    found.n++;
+    found.first = i;
+  }
+  return found;
+}
+
+}    // namespace lsdcd

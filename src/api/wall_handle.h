@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a handle lsdcd_wall holds, and what every function of one does.
+#pragma once
+
+#include "wall/wall.h"
+
+#include "api/c_border.h"
+#include "api/wall_caller.h"
+#include "backend/gpu_arrays.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+struct lsdcd_wall {
+  lsdcd::WallCaller caller;
+  std::unique_ptr<lsdcd::GpuArrays> gpu;    // that has the arrays of spheres; null: the host has
+  int threads;
+  std::int64_t number = 0;    // of the last step
+  lsdcd::Real dt = 0;
+  bool begun = false;                // since spheres were numbered anew, too
+  lsdcd::Real largest_radius = 0;    // of this process, in the last step that looked
+  lsdcd::Failure late;               // of this process, which all are told in the next call
+  std::vector<lsdcd::Real> kept;     // restored histories, until the first step
+  bool outside_told = false;
+  std::unique_ptr<lsdcd::Wall> in;
+
+  explicit lsdcd_wall(const lsdcd_wall_options &o) : caller(o), threads(o.threads) {}
+
+  // A step does not wait for other processes, nor for a GPU, to know of errors.
+  bool tells_late() const { return gpu || !caller.is_alone(); }
+};
+
+namespace lsdcd {
+
+// What every function of a wall does: its GPU is current.
+template <class Body>
+int guard_wall(lsdcd_wall *wall, const Body &body) noexcept
+{
+  return guard([&] {
+    need(wall, "wall");
+    if (wall->gpu)
+      wall->gpu->run(body);
+    else
+      body();
+  });
+}
+
+// Makes the handle, and its wall by `make`, whose Host is the handle's caller.
+lsdcd_wall *new_wall(
+    const lsdcd_wall_options *options,
+    const std::function<std::unique_ptr<Wall>(lsdcd_wall &, const lsdcd_wall_options &)> &make);
+// Where it computes.
+WallPlace place_of(const lsdcd_wall_options &options, const GpuArrays *gpu);
+
+// Throws where there is no such mesh; `least`: -1 where that is all of them.
+void check_mesh(const lsdcd_wall &wall, int mesh, int least);
+// Throws where spheres cannot change their order.
+void check_order_is_free(const lsdcd_wall &wall);
+
+// Notes what the last step has noted of spheres, where it was not told at once.
+void note_late(lsdcd_wall &wall);
+// Throws it on all processes. Collective.
+void tell_late(lsdcd_wall &wall);
+
+// Contacts of spheres get what was restored, in the first step.
+void unpack_kept(lsdcd_wall &wall);
+
+}    // namespace lsdcd

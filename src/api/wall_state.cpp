@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// lsdcd_wall_pack, unpack, save and restore: what contacts keep.
+#include "api/wall_handle.h"
+#include "base/input_words.h"
+#include "engine/step/law_job.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace lsdcd;
+
+namespace {
+
+void check_spheres(const lsdcd_wall &wall, const std::ptrdiff_t *spheres, std::size_t n,
+                   const char *name)
+{
+  const std::ptrdiff_t there = static_cast<std::ptrdiff_t>(wall.caller.tags.size());
+  for (std::size_t i = 0; i < n; i++)
+    if (spheres[i] < 0 || spheres[i] >= there)
+      throw ApiError(LSDCD_ERROR_ARGUMENT, std::string(name) + "[" + std::to_string(i) + "] is " +
+                                               std::to_string(spheres[i]) + "; there are " +
+                                               std::to_string(there) + " spheres, from 0");
+}
+
+// With which packed numbers begin: what contacts keep, and on how many meshes.
+Real packed_kind(const lsdcd_wall &wall)
+{
+  return static_cast<Real>(wall.in->settings().law.history_kind()) +
+         0x1p32 * static_cast<Real>(wall.in->meshes().size());
+}
+
+// Where the numbers of each sphere begin: its tag, then what ContactHistory packs.
+std::vector<const double *> packed_spheres(const lsdcd_wall &wall, std::size_t n,
+                                           const double *numbers, std::size_t count)
+{
+  const HistoryExchange &history = wall.in->history();
+  const std::size_t per_contact = history.is_kept() ? history.numbers_per_contact() : 0;
+  const double meshes = static_cast<double>(wall.in->meshes().size());
+  std::vector<const double *> spheres;
+  bool good = count > 0 && numbers[0] == packed_kind(wall);
+  std::size_t at = 1;
+  for (std::size_t i = 0; i < n && good; i++) {
+    good = count - at >= 2 && numbers[at] >= 0 && numbers[at] < 0x1p53;
+    if (!good) break;
+    const double contacts = numbers[at + 1];
+    good = contacts >= 0 && contacts <= (per_contact ? kMaxContacts : 0) &&
+           contacts == std::floor(contacts) &&
+           static_cast<std::size_t>(contacts) * per_contact <= count - at - 2;
+    if (!good) break;
+    spheres.push_back(numbers + at);
+    at += 2;
+    for (int k = 0; k < static_cast<int>(contacts); k++, at += per_contact)
+      good &= numbers[at] >= 0 && numbers[at] < 0x1p32 * meshes;
+  }
+  if (!good || at != count)
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "these are not the numbers that lsdcd_wall_pack() wrote for " +
+                       std::to_string(n) + " spheres of such a wall");
+  return spheres;
+}
+
+}    // namespace
+
+namespace lsdcd {
+
+// Restored numbers: of the wall, then a size and that many for each sphere.
+void unpack_kept(lsdcd_wall &wall)
+{
+  HistoryExchange &history = wall.in->history();
+  history.on_host();
+  const int n = static_cast<int>(wall.kept[0]);
+  const Real *at = wall.kept.data() + 1;
+  for (int i = 0; i < n; i++) {
+    const int size = static_cast<int>(*at++);
+    history.unpack_restart(i, at, size);
+    at += size;
+  }
+  wall.kept.clear();
+}
+
+}    // namespace lsdcd
+
+extern "C" {
+
+int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *numbers,
+                    size_t room, size_t *count)
+{
+  return guard_wall(wall, [&] {
+    need(count, "count");
+    if (n > 0) need(which, "which");
+    if (room > 0) need(numbers, "numbers");
+    check_order_is_free(*wall);
+    check_spheres(*wall, which, n, "which");
+    const bool keeps = wall->in->history().is_kept();
+    const ContactHistory &history = wall->in->history().on_host();
+    std::vector<Real> all = {packed_kind(*wall)}, packed(1);
+    for (std::size_t i = 0; i < n; i++) {
+      const int k = static_cast<int>(which[i]);
+      packed.assign(keeps ? history.packed_size(k) : 1, 0);
+      if (keeps) history.pack(k, packed.data());
+      all.push_back(static_cast<Real>(wall->caller.tags[k]));
+      all.insert(all.end(), packed.begin(), packed.end());
+    }
+    *count = all.size();
+    std::copy_n(all.begin(), std::min(room, all.size()), numbers);
+  });
+}
+
+int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n, const double *numbers,
+                      size_t count)
+{
+  return guard_wall(wall, [&] {
+    need(numbers, "numbers");
+    if (n > 0) need(to, "to");
+    check_order_is_free(*wall);
+    check_spheres(*wall, to, n, "to");
+    const std::vector<const double *> spheres = packed_spheres(*wall, n, numbers, count);
+    const bool keeps = wall->in->history().is_kept();
+    ContactHistory &history = wall->in->history().on_host();
+    for (std::size_t i = 0; i < n; i++) {
+      wall->caller.tags[to[i]] = static_cast<std::int64_t>(spheres[i][0]);
+      if (keeps) history.unpack(static_cast<int>(to[i]), spheres[i] + 1);
+    }
+  });
+}
+
+int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count)
+{
+  return guard_wall(wall, [&] {
+    need(count, "count");
+    if (room > 0) need(numbers, "numbers");
+    tell_late(*wall);
+    std::vector<Real> all = wall->in->state();
+    all.insert(all.begin(), static_cast<Real>(all.size()));
+    const std::size_t n = wall->in->history().is_kept() ? wall->caller.tags.size() : 0;
+    all.push_back(static_cast<Real>(n));
+    std::vector<Real> packed(1 + wall->in->history().max_packed_size());
+    for (std::size_t i = 0; i < n; i++) {
+      const int size = wall->in->pack_restart(static_cast<int>(i), packed.data());
+      all.push_back(size);
+      all.insert(all.end(), packed.begin(), packed.begin() + size);
+    }
+    *count = all.size();
+    std::copy_n(all.begin(), std::min(room, all.size()), numbers);
+  });
+}
+
+int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count)
+{
+  return guard_wall(wall, [&] {
+    need(numbers, "numbers");
+    if (wall->begun)
+      throw ApiError(LSDCD_ERROR_ARGUMENT, "a wall is restored before its first step");
+    // Sizes first: nothing is changed where the numbers end early.
+    const auto whole = [&](std::size_t at) {
+      return at < count && numbers[at] >= 0 && numbers[at] < static_cast<double>(count - at);
+    };
+    std::size_t at = 0;
+    bool good = whole(0);
+    if (good) at = 1 + static_cast<std::size_t>(numbers[0]);
+    const std::size_t first = at;
+    good = good && at < count && numbers[at] >= 0;
+    if (good) {
+      const double n = numbers[at++];
+      for (double i = 0; i < n && good; i++) {
+        good = whole(at);
+        if (good) at += 1 + static_cast<std::size_t>(numbers[at]);
+      }
+    }
+    if (!good || at != count)
+      throw ApiError(LSDCD_ERROR_ARGUMENT,
+                     "these are not the numbers that lsdcd_wall_save() wrote, all of them");
+    wall->in->restore(numbers + 1, first - 1, {wall->number, wall->dt});
+    wall->kept.assign(numbers + first, numbers + count);
+    if (!wall->in->history().is_kept()) wall->kept.clear();
+  });
+}
+}

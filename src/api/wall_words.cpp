@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// lsdcd_wall_make and lsdcd_wall_change: the words of a script. No other file of this room knows words.
+#include "input/settings.h"
+
+#include "api/wall_handle.h"
+#include "wall/shared_material.h"
+
+#include <string>
+#include <vector>
+
+using namespace lsdcd;
+
+namespace {
+
+std::vector<std::string> words_of(const char *const *words, std::size_t n)
+{
+  if (n > 0) need(words, "words");
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < n; i++) {
+    need(words[i], "words[i]");
+    all.push_back(words[i]);
+  }
+  return all;
+}
+
+// A word too few would be read past the end.
+void need_words(const std::vector<std::string> &words, const char *what)
+{
+  if (words.empty())
+    throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("there are no words: ") + what);
+}
+
+}    // namespace
+
+extern "C" {
+
+int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options *options,
+                    lsdcd_wall **wall)
+{
+  return guard([&] {
+    need(wall, "wall");
+    std::vector<std::string> all = words_of(words, n);
+    need_words(all, "a contact style, its numbers and `mesh FILE` make a wall");
+    *wall = new_wall(options, [&](lsdcd_wall &made, const lsdcd_wall_options &o) {
+      const FilledTokens filled = fill_material(made.caller, all, o.units ? o.units : "si");
+      return std::make_unique<Wall>(made.caller, parse_settings(filled.tokens), WallUnits(),
+                                    place_of(o, made.gpu.get()), filled.report,
+                                    StepClock{o.time, 0, 0, 0});
+    });
+  });
+}
+
+int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n)
+{
+  return guard_wall(wall, [&] {
+    const std::vector<std::string> all = words_of(words, n);
+    need_words(all, "[mesh K] motion ... or [mesh K] servo ...");
+    const int taken = wall->in->change(all, {wall->number, wall->dt});
+    if (static_cast<std::size_t>(taken) != all.size())
+      throw ApiError(LSDCD_ERROR_ARGUMENT, "'" + all[taken] +
+                                               "' is no word of [mesh K] motion ... or [mesh K] "
+                                               "servo ...");
+  });
+}
+}
