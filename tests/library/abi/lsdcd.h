@@ -1,0 +1,477 @@
+/* SPDX-FileCopyrightText: 2026 LSDCD contributors */
+/* SPDX-License-Identifier: BSD-3-Clause */
+
+/* The header of 0.9.0 as it was, which is never changed: the programs beside it are compiled with it and run with the
+ * library of today. */
+
+/* Distances from points to a triangle mesh, exact and many at once, on the CPU or an NVIDIA GPU; which
+ * triangles of a rigid body meet which of a wall; and a wall that pushes spheres, step by step.
+ *
+ *   mesh -> grid, for distances at any range or up to a cutoff -> queries of points in arrays of the caller
+ *   two meshes -> body -> its collisions with the wall, pose by pose
+ *   words of fix wall/lsdcd -> wall -> forces and torques on the caller's spheres, step by step
+ *
+ * A function returns LSDCD_OK, 0, or the code of an error, whose text lsdcd_last_error() has. It
+ * then has changed nothing but, where a query failed, the arrays of its answers, which hold
+ * nothing of use. Structs begin with their size, for later versions; what is 0 or null in them has
+ * its default. Lengths are in the unit of the mesh.
+ *
+ * Threads: each function says "any" where any number of threads may call it at once, with the same
+ * objects; "own" where no other thread may use the object that it takes at the same time.
+ * What a grid, stream or body is made from may be freed before it.
+ */
+#ifndef LSDCD_H
+#define LSDCD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__cplusplus)
+extern "C" {
+#endif
+
+#define LSDCD_VERSION_MAJOR 0
+#define LSDCD_VERSION_MINOR 9
+#define LSDCD_VERSION_PATCH 0
+
+#if defined(__GNUC__)
+#define LSDCD_API __attribute__((visibility("default")))
+#else
+#define LSDCD_API
+#endif
+
+/* ---- errors --------------------------------------------------------------------------------- */
+
+enum {
+  LSDCD_OK = 0,
+  LSDCD_ERROR_ARGUMENT = 1, /* a null pointer, a number or a struct that makes no sense */
+  LSDCD_ERROR_INPUT = 2,    /* a file, mesh or setting that cannot be used */
+  LSDCD_ERROR_CUTOFF = 3,   /* a radius beyond the grid's cutoff */
+  LSDCD_ERROR_SIDE = 4,     /* the side of a mesh that has none: open or not oriented, or, on a
+                               device, it cuts itself */
+  LSDCD_ERROR_DEVICE = 5,   /* no CUDA, or an array where it cannot be reached */
+  LSDCD_ERROR_MEMORY = 6,   /* none left */
+  LSDCD_ERROR_INTERNAL = 7, /* a defect of this library */
+  LSDCD_ERROR_CANCELLED = 8 /* `progress` asked for it */
+};
+
+/* "0.9.0". Any. */
+LSDCD_API const char *lsdcd_version(void);
+/* "cutoff" for LSDCD_ERROR_CUTOFF. Any. */
+LSDCD_API const char *lsdcd_error_name(int code);
+/* What the last call of this thread that failed has to say, and what to do; until its next call. Any. */
+LSDCD_API const char *lsdcd_last_error(void);
+
+/* Hears of a long call: what it does now, a text that lives as long as this call, and how much of that is done, from
+ * 0 to 1. If it returns not 0, the call ends with LSDCD_ERROR_CANCELLED. It is called by the thread of the call, some
+ * ten times a second, and may call any function but with objects of that call. `data` is the one beside it in a
+ * struct. */
+typedef int lsdcd_progress(void *data, const char *what, double done);
+
+/* ---- meshes --------------------------------------------------------------------------------- */
+
+typedef struct lsdcd_mesh lsdcd_mesh;
+
+/* Reads a mesh file, by the end of its name: STL, ASCII or binary; where the library was built with
+ * assimp also OBJ, PLY and OFF, in floats. Corners closer than `weld` (length) become one; < 0: 1e-6 of
+ * the diagonal of the mesh. The mesh need be neither closed nor manifold. Any. */
+LSDCD_API int lsdcd_mesh_read(const char *file, double weld, lsdcd_mesh **mesh);
+/* The same from corners: nine numbers a triangle, copied. Any. */
+LSDCD_API int lsdcd_mesh_from_corners(const double *corners, size_t n_triangles, double weld,
+                                      lsdcd_mesh **mesh);
+/* The same from vertices, three numbers each, of `type` LSDCD_DOUBLE or LSDCD_FLOAT, and faces, three
+ * vertices each, numbered from 0; copied. A vertex of no face is left out. LSDCD_ERROR_INPUT names a face
+ * whose vertex is not there or not finite. Any. */
+LSDCD_API int lsdcd_mesh_from_faces(const void *vertices, int type, size_t n_vertices,
+                                    const uint32_t *faces, size_t n_faces, double weld,
+                                    lsdcd_mesh **mesh);
+
+typedef struct lsdcd_mesh_facts {
+  size_t size;                   /* of this struct; set by the caller */
+  size_t triangles;              /* as given */
+  size_t faces, edges, vertices; /* after welding; faces without area are none */
+  size_t open_edges;             /* edges of one face */
+  int closed, oriented;          /* oriented: closed, windings agree, those of closed shells with
+                                    each other, too, and no shells meet */
+  double area, volume;           /* the volume is < 0 where normals point in; what lies in two
+                                    shells counts twice */
+  double lo[3], hi[3];
+  size_t meeting_pairs; /* of triangles of different closed shells, which cut, overlap or
+                                    touch each other there */
+} lsdcd_mesh_facts;
+/* Any. */
+LSDCD_API int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts);
+
+/* The welded mesh, copied into arrays of the caller; those that are null are not asked for. How many faces,
+ * edges and vertices there are, lsdcd_mesh_facts has. Their numbers, from 0, are those of features in
+ * answers. A face is a triangle with an area; edges and vertices of those without one may have no face. */
+typedef struct lsdcd_mesh_arrays {
+  size_t size;      /* of this struct */
+  double *vertices; /* 3 numbers each, length */
+  uint32_t *faces;  /* 3 vertices each, in the order given */
+  /* 3 edges each; edge k is from vertex k to vertex k + 1, the last one to 0 */
+  uint32_t *face_edges;
+  uint32_t *triangle; /* of each face its number as given, from 0 */
+  uint32_t *edges;    /* 2 vertices each, the lower number first */
+  /* Of edge e: edge_faces[edge_first[e]] up to before edge_faces[edge_first[e + 1]]. */
+  uint32_t *edge_first; /* edges + 1 numbers */
+  uint32_t *edge_faces; /* 3 * faces numbers */
+} lsdcd_mesh_arrays;
+/* Any. */
+LSDCD_API int lsdcd_mesh_get_arrays(const lsdcd_mesh *mesh, const lsdcd_mesh_arrays *arrays);
+/* What `lsdcd inspect` says, until the mesh is freed. Any. */
+LSDCD_API const char *lsdcd_mesh_report(const lsdcd_mesh *mesh);
+/* Null is fine. Own. */
+LSDCD_API void lsdcd_mesh_free(lsdcd_mesh *mesh);
+
+/* ---- grids ---------------------------------------------------------------------------------- */
+
+typedef struct lsdcd_grid lsdcd_grid;
+
+/* A tree answers points at any range, exactly, and the same whatever the cutoff: on the CPU in double, and on GPUs
+ * where there is no cutoff. Cells with lists serve GPUs up to a cutoff, where they are quicker, LSDCD_FLOAT,
+ * `nearest` and contacts. lsdcd_grid_build() makes them where an option from `cell` to `cache`, or `device`, is
+ * set; else the first stream or call for contacts does. */
+
+/* Distances of a grid with precision LSDCD_FLOAT are off by at most 3e-6 (cutoff + 14 cell). */
+enum { LSDCD_DOUBLE = 0, LSDCD_FLOAT = 1 };
+enum { LSDCD_CPU = 0, LSDCD_CUDA = 1 };
+
+typedef struct lsdcd_grid_options {
+  size_t size;       /* of this struct */
+  double cutoff;     /* the largest distance that will be asked for; 0: any */
+  double cell;       /* edge of a cell: time against memory; 0: chosen */
+  int nearest;       /* 0: complete lists, always exact; N: the N triangles nearest to a cell */
+  int precision;     /* of the search: LSDCD_DOUBLE, or LSDCD_FLOAT, quicker on a GPU */
+  double memory;     /* most bytes; 0: 1 GiB beside the mesh's own records */
+  const char *cache; /* file that keeps the cells; one that does not fit is replaced; null: none */
+  int threads;       /* that build it; 0: OMP_NUM_THREADS, or one */
+  int device;        /* that builds cells: LSDCD_CPU or LSDCD_CUDA; they are the same */
+  lsdcd_progress *progress; /* of this call; null: none */
+  void *data;
+} lsdcd_grid_options;
+/* Any. */
+LSDCD_API int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options,
+                               lsdcd_grid **grid);
+
+typedef struct lsdcd_grid_facts {
+  size_t size;   /* of this struct; set by the caller */
+  double cutoff; /* infinite: any */
+  double cell;   /* 0: there are no cells yet */
+  size_t bytes;
+  int nearest;
+  int has_sides;  /* do as many triangles run one way along each edge as the other? */
+  int from_cache; /* was it read, not built? */
+} lsdcd_grid_facts;
+/* Any. */
+LSDCD_API int lsdcd_grid_get_facts(const lsdcd_grid *grid, lsdcd_grid_facts *facts);
+/* What there is to know, and what became of the cache; until the grid is freed. Any. */
+LSDCD_API const char *lsdcd_grid_report(const lsdcd_grid *grid);
+/* Null is fine. Own. */
+LSDCD_API void lsdcd_grid_free(lsdcd_grid *grid);
+
+/* ---- queries -------------------------------------------------------------------------------- */
+
+/* Bits of a point's status. Only a certified answer is sure: what is FOUND is the nearest of the
+ * whole mesh, and where nothing is, nothing is within the radius. All are certified but with
+ * `nearest` N. SIDE_ESTIMATED: the side is not certified, whatever CERTIFIED says of the rest. */
+enum { LSDCD_FOUND = 1, LSDCD_CERTIFIED = 2, LSDCD_SIDE_ESTIMATED = 4 };
+
+/* A feature is 0 (face), 1 (edge) or 2 (vertex) and a number of the welded mesh, lsdcd_mesh_arrays. */
+#define LSDCD_FEATURE_KIND(feature) ((feature) >> 30)
+#define LSDCD_FEATURE_INDEX(feature) ((feature) &0x3fffffffu)
+#define LSDCD_NONE 0xffffffffu
+
+/* Points, and arrays for what is asked of them; those that are null are not asked for. Arrays of
+ * numbers are of one type. Number k of point i is at [i * row + k * column], those of one number at
+ * [i * step]; 0: packed. All others have one number a point.
+ * Nothing at `radius` or farther is found: there the distance is infinite, the closest point the
+ * point itself, the normal 0, triangle and feature LSDCD_NONE. A point that is no
+ * number is far from everything. */
+typedef struct lsdcd_query {
+  size_t size; /* of this struct */
+  size_t n;
+  int type;    /* LSDCD_DOUBLE or LSDCD_FLOAT: of all arrays of numbers here */
+  int threads; /* on the CPU; 0: OMP_NUM_THREADS, or one */
+  const void *points;
+  ptrdiff_t points_row, points_column;
+  const void *radii; /* of each point, >= 0, at 0 nothing is found; null: `radius` is that of all */
+  ptrdiff_t radii_step;
+  double radius; /* >= 0; 0: the cutoff, or any distance without one */
+  void *distance;
+  ptrdiff_t distance_step;
+  void *closest;
+  ptrdiff_t closest_row, closest_column;
+  void *normal; /* unit, from the mesh to the point */
+  ptrdiff_t normal_row, normal_column;
+  uint32_t *triangle; /* by its number as given, from 0; of several at the same distance, rounded,
+                         the lowest; LSDCD_NONE also for the edge or corner of a triangle without
+                         area */
+  uint32_t *feature;
+  int8_t *side; /* 1 outside, and on the mesh; -1 inside; at any distance, but 0 where a coordinate
+                   is no number. On a device 0 also where not found or not certified, and where an
+                   edge or corner of triangles without area is nearest */
+  uint8_t *status;
+  /* On the host, of any mesh: how often it winds round the point, the solid angle under which it is seen over
+   * 4 pi, counted > 0 where normals point away. A whole number where grids have sides; else off by rounding,
+   * at most 2e-12 for each open edge, and near edges of the mesh by 1e-15 times their length over how far
+   * they are. On the mesh the mean of both sides; no number where a coordinate is none. Takes the time of
+   * the open edges, at most of all triangles. */
+  void *winding;
+  ptrdiff_t winding_step;
+  int estimate_sides; /* on the host; 1: where the grid has no sides, `side` is -1 where the whole number
+                         nearest to `winding` is not 0, else 1, and `status` has LSDCD_SIDE_ESTIMATED.
+                         0: asking for these is an error */
+  lsdcd_progress *progress; /* on the host; with it points are answered in parts; null: none */
+  void *data;
+} lsdcd_query;
+
+/* Answers in arrays of the host. Any. */
+LSDCD_API int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query);
+
+/* Spheres, and arrays for their contacts: each place of the mesh whose distance to a centre is a local
+ * minimum below the radius, however many there are. Triangles that form one plane give one contact.
+ * Contacts of sphere i are first[i] up to before first[i + 1], ascending in features. Arrays of contacts
+ * hold `room` of them, packed; those that are null are not asked for. Steps of points and radii are as in
+ * lsdcd_query. A sphere whose centre is no number has none. */
+typedef struct lsdcd_contacts {
+  size_t size; /* of this struct */
+  size_t n;
+  int type;           /* LSDCD_DOUBLE or LSDCD_FLOAT: of all arrays of numbers here */
+  int threads;        /* 0: OMP_NUM_THREADS, or one */
+  const void *points; /* centres */
+  ptrdiff_t points_row, points_column;
+  /* Of each sphere, >= 0 and at most the cutoff; null: `radius` is that of all. */
+  const void *radii;
+  ptrdiff_t radii_step;
+  double radius; /* >= 0; 0: the cutoff */
+  size_t *first; /* n + 1 numbers, the last one how many contacts there are */
+  size_t room;
+  void *point;    /* 3 numbers each, on the mesh */
+  void *distance; /* >= 0, from there to the centre */
+  void *overlap;  /* radius - distance, > 0 */
+  void *normal;   /* 3 numbers each, unit, from the mesh to the centre */
+  /* 0 to 1: the share of the contact, by the rule with which the wall adds up forces at corners: as one where
+   * the mesh is smooth, all where faces are square to each other. */
+  void *weight;
+  uint32_t *triangle, *feature; /* as in lsdcd_query */
+  /* Answer: all there are, so the room that all take; with less room only `first` is written. */
+  size_t contacts;
+  lsdcd_progress *progress; /* null: none */
+  void *data;
+} lsdcd_contacts;
+/* In arrays of the host. The grid has a cutoff, precision LSDCD_DOUBLE, and no `nearest`; its first call
+ * makes cells. LSDCD_ERROR_CUTOFF: a radius beyond the cutoff, or no cutoff; LSDCD_ERROR_INPUT: a sphere
+ * with more than 512 contacts. Any. */
+LSDCD_API int lsdcd_contacts_host(const lsdcd_grid *grid, lsdcd_contacts *contacts);
+
+/* A grid on the CUDA device that is current, and a stream (cudaStream_t) of that device, null: the
+ * default one. Without a cutoff the grid's tree answers, with the numbers of lsdcd_query_host(). Queries
+ * need the stream. Streams of one grid share its copy on a device. Any. */
+typedef struct lsdcd_stream lsdcd_stream;
+LSDCD_API int lsdcd_stream_open(const lsdcd_grid *grid, void *cuda_stream, lsdcd_stream **stream);
+/* Answers in arrays of that device, or managed ones, in the order of the stream and without waiting
+ * for it, but for `radii`, which are checked. Distance and status alone are quickest, most of all
+ * where points and radii lie as x y z r x y z r, aligned to 16 bytes. Own. */
+LSDCD_API int lsdcd_query_stream(lsdcd_stream *stream, const lsdcd_query *query);
+/* Waits for the device; the CUDA stream may be gone. Null is fine. Own. */
+LSDCD_API void lsdcd_stream_free(lsdcd_stream *stream);
+/* 1 where there is a CUDA device that this library can use; else 0, and lsdcd_last_error() says
+ * why. Any. */
+LSDCD_API int lsdcd_has_cuda(void);
+
+/* ---- bodies --------------------------------------------------------------------------------- */
+
+/* A rigid body against a wall, both meshes, neither need be closed. Faces count, not volumes: a body
+ * that is whole inside a closed wall meets nothing. */
+typedef struct lsdcd_body lsdcd_body;
+
+typedef struct lsdcd_body_options {
+  size_t size; /* of this struct */
+  double cell; /* edge of a cell of the wall's grid, to which the body is cut; 0: the median edge of
+                    the body. Longer ones take less memory, and are quicker until the wall has many
+                    triangles in one */
+  int nearest; /* 0: exact; N, up to 32: the N triangles of the wall nearest to a cell, which may
+                    miss pairs */
+  double memory; /* most bytes of the grid; 0: 1 GiB beside the wall's own records */
+  int threads;   /* that make it, on the CPU; 0: OMP_NUM_THREADS, or one */
+  int device; /* LSDCD_CPU or LSDCD_CUDA, the device that is current: for all that the body does */
+  const lsdcd_body *same_wall; /* a body whose wall this one shares, with its grid and device: then
+                                  `wall`, and `cell` to `device`, are not given; null: none */
+  lsdcd_progress *progress;    /* of lsdcd_body_make(), on the grid; null: none */
+  void *data;
+} lsdcd_body_options;
+/* `options` may be null: all defaults. Any. */
+LSDCD_API int lsdcd_body_make(const lsdcd_mesh *wall, const lsdcd_mesh *mesh,
+                              const lsdcd_body_options *options, lsdcd_body **body);
+
+typedef struct lsdcd_body_facts {
+  size_t size;      /* of this struct; set by the caller */
+  size_t triangles; /* those with an area */
+  size_t pieces;    /* that they are cut into */
+  double cell;
+  size_t grid_bytes;
+  int nearest, device;
+} lsdcd_body_facts;
+/* Any. */
+LSDCD_API int lsdcd_body_get_facts(const lsdcd_body *body, lsdcd_body_facts *facts);
+
+/* A pose, arrays of the caller, and what is found. A pose is `matrix`, or `position`, `quaternion`
+ * or both: a point x of the body's mesh is at R x + t in the wall's frame. Corners in a pose are
+ * rounded to doubles; for these the answer is exact, and touching is meeting.
+ * Pairs ascend by the body's triangle; each array is of `room` pairs, or null: not asked for. */
+typedef struct lsdcd_collision {
+  size_t size;              /* of this struct */
+  int threads;              /* on the CPU; 0: OMP_NUM_THREADS, or one */
+  int collides;             /* answer: does any pair meet? */
+  const double *matrix;     /* 12 numbers, rows of R, each with its t behind it. R is a rotation to
+                               1e-6, as floats are, and made one */
+  const double *position;   /* 3 numbers, t; null: 0 */
+  const double *quaternion; /* 4 numbers, w x y z, R; null: as the mesh is */
+  size_t room;              /* pairs that the arrays hold; of more, the first are written */
+  uint32_t *wall_triangle;  /* by its number as given, from 0; LSDCD_NONE: one without area */
+  uint32_t *body_triangle;
+  double *segment;  /* 6 numbers a pair: from x y z to x y z, what both have in common, rounded; not
+                        numbers where they lie in one plane */
+  size_t pairs;     /* answer: all there are, so the room that all take */
+  size_t uncertain; /* answer, with `nearest` N: pieces where pairs may be missing; 0: exact */
+} lsdcd_collision;
+/* Own. */
+LSDCD_API int lsdcd_collide(lsdcd_body *body, lsdcd_collision *collision);
+/* Null is fine. Own. */
+LSDCD_API void lsdcd_body_free(lsdcd_body *body);
+
+/* ---- walls ---------------------------------------------------------------------------------- */
+
+/* The wall of fix wall/lsdcd, for any program that moves spheres: every contact law, meshes that move,
+ * servos, wear, files. Units are any that are consistent. Spheres are counted from 0, meshes too. */
+typedef struct lsdcd_wall lsdcd_wall;
+
+/* What a wall has to say: a line for the log, or with `warning` 1 what is probably not meant. */
+typedef void lsdcd_message(void *data, int warning, const char *text);
+
+/* For a program of several processes, as with MPI. Each has a wall of the same words, for spheres of its own,
+ * and all call the functions of the wall together, in the same order, but for those that say "alone". All
+ * processes then fail together, too, but for out of memory and errors of CUDA: end all of them there.
+ * A callback is called by all processes in the calls of their walls; it changes the array in place and
+ * returns 0, or what the call then fails with, as MPI_Allreduce and MPI_Bcast do. */
+typedef struct lsdcd_host {
+  size_t size;         /* of this struct */
+  int rank, processes; /* this process, from 0, of how many */
+  int node_rank; /* of this process among those of its computer, from 0: they share out the GPUs */
+  void *data;    /* handed to the callbacks */
+  /* Each of the n numbers becomes the sum, or the largest, of all processes. */
+  int (*sum)(void *data, double *numbers, int n);
+  int (*max)(void *data, double *numbers, int n);
+  /* The bytes of process `from` replace those of the others. */
+  int (*broadcast)(void *data, void *bytes, size_t n, int from);
+} lsdcd_host;
+
+typedef struct lsdcd_wall_options {
+  size_t size;            /* of this struct */
+  double lo[3], hi[3];    /* where centres of spheres can be; all 0: wherever they go */
+  int periodic[3];        /* 1: the box repeats along x, y, z. Spheres are put back by the caller */
+  double margin;          /* length > 0 with `periodic`: how far past a face a sphere may go */
+  double time;            /* of the first step, for files */
+  const char *units;      /* of material files: LAMMPS's "si", "cgs", ...; null: "si" */
+  lsdcd_message *show;    /* called in calls of this wall only; null: nothing is shown */
+  void *data;             /* handed to `show` */
+  int threads;            /* on the CPU; 0: OMP_NUM_THREADS, or one */
+  const lsdcd_host *host; /* copied; null: one process */
+  /* Where the arrays of spheres are, and so the wall computes: LSDCD_CPU, in the host's memory, or LSDCD_CUDA, on the
+   * device that is current, in the order of `stream`, as lsdcd_stream_open() takes one. The stream must outlive the
+   * wall. */
+  void *stream;
+  int device;
+} lsdcd_wall_options;
+/* `words`: n words that follow "wall/lsdcd" in a script: a contact style with its numbers, `mesh FILE`,
+ * keywords. Variables, v_name, are not there. `options` may be null: all defaults. Files are read and written,
+ * and the log is shown, by the first process. Any. */
+LSDCD_API int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options *options,
+                              lsdcd_wall **wall);
+
+/* Spheres in arrays of doubles, on the device of the wall all of them. Number k of sphere i of a vector is at
+ * [i * row + k]. */
+typedef struct lsdcd_spheres {
+  size_t size; /* of this struct */
+  size_t n;
+  ptrdiff_t row;       /* of all arrays of vectors, 3 at least; 0: 3 */
+  const double *x;     /* length */
+  const double *v;     /* length/time */
+  const double *omega; /* 1/time */
+  const double *radius;
+  const double *mass;
+  double *force;             /* added to */
+  double *torque;            /* added to, about the centre */
+  const double *temperature; /* for a law with heat; else null */
+  double *heat;              /* power into the sphere, added to; likewise */
+  const int *type;           /* from 1, for laws by type; else null */
+} lsdcd_spheres;
+
+typedef struct lsdcd_wall_step {
+  size_t size; /* of this struct */
+  double dt;   /* time since the last step; > 0 */
+  int setup; /* 1: no time has passed, and springs do not move: the forces with which a run begins */
+  int changed; /* 1: spheres came at the end, or radii grew since the last step. The first step and those
+                    with `setup` look at that anyway */
+  double reach; /* length; near spheres are chosen anew when one has gone farther; 0: a tenth of the
+                    largest radius of the last step that looked */
+} lsdcd_wall_step;
+/* Adds the wall's forces and torques of this step. Velocities are those that the caller's integrator has
+ * when it asks for forces; with velocity Verlet they are those of the half step, as in LAMMPS. `dt` and `setup`
+ * are the same on all processes; `changed` and `reach` of one hold for all.
+ *
+ * An error of a sphere names it by its order of coming, from 1; processes take turns, p of P has p + 1,
+ * p + 1 + P and so on of those that come in the same step. A wall whose step failed can only be freed.
+ *
+ * With a `host`, and on a device, a step does not wait to know of each sphere: their errors come with the next
+ * call that is not "alone", and the arrays of a step stay until then. On a device forces are there once the
+ * stream has done what it was given. Of the arrays only steps that look, see `changed`, copy some to the host, and
+ * only these check types. Own. */
+LSDCD_API int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
+                                      const lsdcd_wall_step *step);
+/* Before the next step: sphere i of n is the one that was from[i], or with -1 a new one. What its
+ * contacts keep follows it. Alone. Own. */
+LSDCD_API int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n);
+
+/* A sphere goes to another process: before lsdcd_wall_renumber() lsdcd_wall_pack() writes what the contacts
+ * of the n spheres which[i] keep, and their names, *count doubles. Those that fit in `room` are written; with
+ * `room` 0 the array may be null. There lsdcd_wall_unpack() reads them, after lsdcd_wall_renumber() has made room:
+ * sphere to[i] has them from then on. Numbers that no wall of these words packed are refused. Alone. Own. */
+LSDCD_API int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *numbers,
+                              size_t room, size_t *count);
+LSDCD_API int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n,
+                                const double *numbers, size_t count);
+
+typedef struct lsdcd_wall_totals {
+  size_t size;                /* of this struct; set by the caller */
+  double force[3], torque[3]; /* on the mesh; the torque about the point of `torque_about` */
+  double contacts;
+  double overlap;     /* the largest overlap / radius */
+  double uncertified; /* spheres whose answer was not certified exact; see `nearest` */
+  double power;       /* of the mesh on the spheres, by its motion */
+  double energy;      /* elastic */
+  double worn;        /* volume worn off so far */
+  double servo[3];    /* position, velocity, push; 0 without a servo */
+} lsdcd_wall_totals;
+/* Of a mesh in the last step, over all processes; -1: of all, without servos. Own. */
+LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals);
+/* Where a mesh is: x in the box is R x + t, 12 numbers, rows of R, each with its t behind it. Alone.
+ * Own. */
+LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
+/* The words of fix_modify: [mesh K] motion ..., [mesh K] servo ..., K from 1. Own. */
+LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n);
+/* All that the wall and the contacts of its spheres keep, to go on from: *count doubles, of this process. Those
+ * that fit in `room` are written; with `room` 0 the array may be null. Own. */
+LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count);
+/* Into a wall of the same words, before its first step, whose spheres then have the same order; process by
+ * process. Own. */
+LSDCD_API int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count);
+/* Null is fine. Alone. Own. */
+LSDCD_API void lsdcd_wall_free(lsdcd_wall *wall);
+
+#if defined(__cplusplus)
+}
+#endif
+
+#endif
