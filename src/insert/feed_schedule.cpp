@@ -78,18 +78,18 @@ void FeedSchedule::set_timestep(std::int64_t step, Real dt)
   dt_ = dt;
 }
 
-std::vector<Real> FeedSchedule::state(std::int64_t step) const
+FeedState FeedSchedule::state(std::int64_t step) const
 {
-  return {base_, static_cast<Real>(step - base_step_), dt_, static_cast<Real>(step - first_step_)};
+  return {base_, step - base_step_, step - first_step_, dt_};
 }
 
-void FeedSchedule::restore(const Real *state, std::int64_t step)
+void FeedSchedule::restore(const FeedState &state, std::int64_t step)
 {
   const Real dt = dt_;
-  base_ = state[0];
-  base_step_ = step - static_cast<std::int64_t>(state[1]);
-  dt_ = state[2];
-  first_step_ = step - static_cast<std::int64_t>(state[3]);
+  base_ = state.base;
+  base_step_ = step - state.base_before;
+  dt_ = state.dt;
+  first_step_ = step - state.first_before;
   set_timestep(step, dt);
 }
 

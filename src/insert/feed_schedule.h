@@ -25,6 +25,18 @@ struct GrainTotals {
   Real mass = 0;
 };
 
+// For a restart file. Steps are told from the step of the file, so that they hold where steps are counted anew.
+struct FeedState {
+  Real base = 0;    // mass or number that was given by the step of base_before
+  std::int64_t base_before = 0, first_before = 0;    // steps
+  Real dt = 0;
+};
+template <class Numbers>
+void each_number(Numbers &numbers, FeedState &s)
+{
+  numbers(s.base, s.base_before, s.dt, s.first_before);
+}
+
 // A grain is due when the amount that the rate gives has reached it with all of its mass. So what is drawn
 // stays below that amount by less than one grain.
 class FeedSchedule {
@@ -53,10 +65,8 @@ class FeedSchedule {
 
   void set_timestep(std::int64_t step, Real dt);    // from this step on
 
-  // Numbers for a restart file. They tell steps before `step`, so that they hold where steps are counted anew.
-  std::vector<Real> state(std::int64_t step) const;
-  static constexpr std::size_t kState = 4;
-  void restore(const Real *state, std::int64_t step);
+  FeedState state(std::int64_t step) const;
+  void restore(const FeedState &state, std::int64_t step);
   // In place of what the state says: this amount is there.
   void continue_from(Real amount, std::int64_t step);
 

@@ -3,12 +3,7 @@
 
 #include "insert/insertion.h"
 
-#include "base/input_error.h"
-#include "base/input_words.h"
-#include "base/named_numbers.h"
-
 #include <algorithm>
-#include <cstring>
 
 namespace lsdcd {
 
@@ -16,44 +11,14 @@ namespace {
 
 constexpr std::int64_t kPlaces = 3;    // part of a key, as in grain_source.cpp
 constexpr Real kSmaller = 0.9;    // a grain below that part of a radius may fit where that did not
-constexpr Real kFormat = -2;      // of the state
-// The state of 0.9.0: how many numbers follow, at least, and the first of them.
-constexpr Real kNumbersOfFirst = 14, kFirstFormat = 19790401;
+constexpr std::size_t kNumbersOf090 = 2;    // of the plan in its restart files
 
 bool comes_before(const Grain &a, const Grain &b)
 {
   return a.radius != b.radius ? a.radius > b.radius : a.number < b.number;
 }
 
-void check_format(const char *state)
-{
-  // One of 0.9.0 has a count, kFirstFormat, number and mass drawn, mass inserted.
-  Real begin[5];
-  std::memcpy(begin, state, sizeof begin[0]);
-  if (begin[0] == kFormat) return;
-  const std::string remedy =
-      "go on with that version, or give the fix another ID, and the insertion begins anew";
-  if (begin[0] >= kNumbersOfFirst) std::memcpy(begin, state, sizeof begin);
-  if (begin[0] >= kNumbersOfFirst && begin[1] == kFirstFormat) {
-    const Real owed = (begin[0] - kNumbersOfFirst) / 3;
-    throw InputError(
-        "the restart file was written by 0.9.0, whose state this version cannot read: " +
-        number_text(begin[2] - owed) + " grains of mass " + number_text(begin[4]) + " were in; " +
-        remedy + " with the amount that you give it");
-  }
-  throw InputError("the restart file was written by another version of this fix, whose data it "
-                   "cannot read: " +
-                   remedy);
-}
-
 }    // namespace
-
-void Refused::add(const Refused &more)
-{
-  no_place += more.no_place;
-  grains += more.grains;
-  walls += more.walls;
-}
 
 Insertion::Insertion(const InsertionPlan &plan, std::int64_t step, Real dt) :
     plan_(plan), source_(plan.grains, plan.seed), schedule_(plan.feed, step, dt)
@@ -186,53 +151,45 @@ std::vector<Real> Insertion::numbers_of_plan() const
   return all;
 }
 
-std::string Insertion::state(std::int64_t step) const
+State Insertion::state(std::int64_t step) const
 {
-  const auto real = [](std::int64_t number) { return static_cast<Real>(number); };
-  NamedNumbers all;
-  all.set("plan", numbers_of_plan());
-  all.set("given", {amount_given(step)});
-  all.set("inserted", {real(inserted()), inserted_mass_});
-  all.set("drawn", {real(drawn_.number), drawn_.mass, real(next_number_)});
-  all.set("refused", {real(refused_.no_place), real(refused_.grains), real(refused_.walls)});
-  all.set("schedule", schedule_.state(step));
-  all.set("retry", {real(wait_), real(retry_step_ - step)});
-  all.set("not drawn", {real(not_drawn_.number), not_drawn_.mass});
-  std::vector<Real> owed;
-  for (const Grain &grain : owed_) owed.push_back(real(grain.number));
-  all.set("owed", owed);
-  return std::string(reinterpret_cast<const char *>(&kFormat), sizeof kFormat) + all.bytes();
+  InsertionState s;
+  s.plan = {numbers_of_plan(), amount_given(step)};
+  s.schedule = schedule_.state(step);
+  s.grains = {{inserted(), inserted_mass_}, drawn_, not_drawn_, next_number_, wait_,
+              retry_step_ - step,           {}};
+  for (const Grain &grain : owed_) s.grains.owed.push_back(grain.number);
+  s.refused = refused_;
+  return s.blocks();
 }
 
-bool Insertion::restore(const char *state, std::int64_t step)
+bool Insertion::restore(const Real *numbers, std::size_t n, std::int64_t step)
 {
-  check_format(state);
-  const NamedNumbers all = NamedNumbers::from(state + sizeof kFormat);
-  const auto whole = [&all](const char *name, std::size_t k) {
-    return static_cast<std::int64_t>(all.at(name, k + 1)[k]);
-  };
-  const std::vector<Real> &plan = all.at("plan", 1);
-  schedule_.restore(all.at("schedule", FeedSchedule::kState).data(), step);
-  refused_ = {whole("refused", 0), whole("refused", 1), whole("refused", 2)};
-  inserted_mass_ = all.at("inserted", 2)[1];
-  next_number_ = whole("drawn", 2);
+  const InsertionState s = InsertionState::from(numbers, n, step);
+  const InsertionState::Grains &g = s.grains;
+  const std::vector<Real> plan = numbers_of_plan(), &former = s.plan.numbers;
+  const bool is_same = !s.plan_has_ended &&
+                       (former.size() == plan.size() || former.size() == kNumbersOf090) &&
+                       std::equal(former.begin(), former.end(), plan.begin());
+  schedule_.restore(s.schedule, step);
+  refused_ = s.refused;
+  inserted_mass_ = g.inserted.mass;
+  next_number_ = g.next_number;
   owed_.clear();
-  const bool is_same = plan == numbers_of_plan();
   if (is_same) {
-    drawn_ = {whole("drawn", 0), all.at("drawn")[1]};
-    not_drawn_ = {whole("not drawn", 0), all.at("not drawn", 2)[1]};
-    wait_ = whole("retry", 0);
-    retry_step_ = step + whole("retry", 1);
-    for (const Real number : all.at("owed"))
-      owed_.push_back(source_.grain(static_cast<std::int64_t>(number)));
+    drawn_ = g.drawn;
+    not_drawn_ = g.not_drawn;
+    wait_ = g.wait;
+    retry_step_ = step + g.retry_in;
+    for (const std::int64_t number : g.owed) owed_.push_back(source_.grain(number));
   } else {
     // Grains without a place are drawn anew.
-    drawn_ = {whole("inserted", 0), inserted_mass_};
+    drawn_ = g.inserted;
     not_drawn_ = {};
     const FeedSettings::Kind kind = plan_.feed.kind;
-    schedule_.continue_from(plan[0] == static_cast<Real>(kind) ? all.at("given", 1)[0]
-                            : kind == FeedSettings::by_mass    ? drawn_.mass
-                                                               : static_cast<Real>(drawn_.number),
+    schedule_.continue_from(former[0] == static_cast<Real>(kind) ? s.plan.given
+                            : kind == FeedSettings::by_mass      ? drawn_.mass
+                                                                 : static_cast<Real>(drawn_.number),
                             step);
   }
   find_next_step(step);

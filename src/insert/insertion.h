@@ -6,11 +6,11 @@
 
 #include "insert/feed_schedule.h"
 #include "insert/grain_source.h"
+#include "insert/insertion_state.h"
 #include "insert/packing.h"
 #include "insert/random_stream.h"
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace lsdcd {
@@ -28,14 +28,6 @@ class InsertionSite {
   virtual ~InsertionSite() = default;
   virtual bool draw(RandomStream &random, Real radius, Vec3 &at) = 0;    // false: none is found
   virtual bool is_clear_of_walls(const PackedSphere &grain) = 0;
-};
-
-// How many places were no good, by what was there.
-struct Refused {
-  std::int64_t no_place = 0, grains = 0, walls = 0;
-
-  std::int64_t all() const { return no_place + grains + walls; }
-  void add(const Refused &more);
 };
 
 // All processes keep the same state. In a step each calls draw_due(); one calls place(), and all are told
@@ -81,11 +73,12 @@ class Insertion {
   bool is_past_total() const;
 
   // For a restart file, at this step.
-  std::string state(std::int64_t step) const;
-  // Goes on in this step, whatever the number of the step was before. False: the amounts or the grains of the
-  // plan are others. The grains that are in then stay, and the amount that the former plan has given; those without a
-  // place are drawn anew. Throws InputError where the state is of another version.
-  bool restore(const char *state, std::int64_t step);
+  State state(std::int64_t step) const;
+  // Goes on in this step, whatever the number of the step was before. Takes at most n numbers, of State or what
+  // versions before 0.10.0 wrote. False: the amounts or the grains of the plan are others. The grains that are in
+  // then stay, and the amount that the former plan has given; those without a place are drawn anew. Throws StateError,
+  // and nothing has changed.
+  bool restore(const Real *numbers, std::size_t n, std::int64_t step);
 
  private:
   void find_next_step(std::int64_t now);

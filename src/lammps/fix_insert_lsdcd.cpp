@@ -9,6 +9,7 @@
 #include "lammps/host_box.h"
 #include "lammps/mpi_mesh.h"
 #include "lammps/mpi_shared.h"
+#include "lammps/restart_data.h"
 #include "mesh/outside_box.h"
 
 #include "atom.h"
@@ -450,20 +451,17 @@ double FixInsertLsdcd::compute_vector(int i)
 
 void FixInsertLsdcd::write_restart(FILE *file)
 {
-  if (comm->me != 0) return;
-  const std::string data = insertion->state(update->ntimestep);
-  const int bytes = static_cast<int>(data.size());
-  fwrite(&bytes, sizeof bytes, 1, file);
-  fwrite(data.data(), 1, data.size(), file);
+  if (comm->me == 0) write_state(file, insertion->state(update->ntimestep));
 }
 
 void FixInsertLsdcd::restart(char *buffer)
 {
   bool is_same = false;
   try {
-    is_same = insertion->restore(buffer, update->ntimestep);
-  } catch (const lsdcd::InputError &e) {
-    fatal(e.what());
+    is_same = insertion->restore(reinterpret_cast<const double *>(buffer), kAllNumbers,
+                                 update->ntimestep);
+  } catch (const lsdcd::StateError &e) {
+    fatal(unusable_state(e, "what was inserted"));
   }
   const std::string in = std::to_string(insertion->inserted()) + " grains, of mass " +
                          number_text(insertion->inserted_mass()) + ", are in";

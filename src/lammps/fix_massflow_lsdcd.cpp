@@ -182,10 +182,10 @@ void FixMassflowLsdcd::end_of_step()
   look_at_all = false;
   reduced = false;
   const double now = simulated_time();
-  window_time += now - time_seen;
+  window.time += now - time_seen;
   time_seen = now;
   // A restart file may bring more steps than this fix averages over.
-  if (++window_steps >= settings.every) end_window();
+  if (++window.steps >= settings.every) end_window();
 }
 
 // An atom that is not near was last looked at when its clearance was two skins or more, and LAMMPS

@@ -79,8 +79,16 @@ class FixMassflowLsdcd : public Fix, private OwnMessages {
   std::vector<double> mine, totals;    // totals: of all processes, where `reduced`
   bool reduced = false;
   // Of the window over which the rate is an average, on all processes.
-  double window_time = 0, window_start = 0, rate = 0;
-  int window_steps = 0;
+  struct Window {
+    double time = 0;
+    int steps = 0;
+    double start = 0, rate = 0;    // start: net mass; rate: of the window before
+    template <class Numbers>
+    friend void each_number(Numbers &numbers, Window &w)
+    {
+      numbers(w.time, w.steps, w.start, w.rate);
+    }
+  } window;
   double time_seen = 0;    // LAMMPS's, at the end of the last step
 
   lsdcd::WeldedMesh read_mesh();

@@ -5,11 +5,15 @@
 
 #include "lammps/fix_massflow_lsdcd.h"
 
+#include "lammps/restart_data.h"
+
 #include "comm.h"
 
-#include <cstring>
+#include <algorithm>
 
 using namespace LAMMPS_NS;
+
+static const char *const kKind = "mass flow";
 
 void FixMassflowLsdcd::reduce()
 {
@@ -31,10 +35,7 @@ double FixMassflowLsdcd::net_mass()
 void FixMassflowLsdcd::end_window()
 {
   const double net = net_mass();
-  rate = (net - window_start) / window_time;
-  window_start = net;
-  window_time = 0;
-  window_steps = 0;
+  window = {0, 0, net, (net - window.start) / window.time};
 }
 
 double FixMassflowLsdcd::compute_array(int type, int column)
@@ -47,39 +48,51 @@ double FixMassflowLsdcd::compute_vector(int i)
 {
   reduce();
   if (i == kColumns) return net_mass();
-  if (i == kColumns + 1) return rate;
+  if (i == kColumns + 1) return window.rate;
   if (i > kColumns + 1) return totals[kColumns * size_array_rows + i - kColumns - 2];
   double sum = 0;
   for (int type = 0; type < size_array_rows; type++) sum += totals[kColumns * type + i];
   return sum;
 }
 
-// Types, the window of the rate, then all totals.
 void FixMassflowLsdcd::write_restart(FILE *file)
 {
   reduce();
   if (comm->me != 0) return;
-  std::vector<double> data = {double(size_array_rows), window_time, double(window_steps),
-                              window_start, rate};
-  data.insert(data.end(), totals.begin(), totals.end());
-  const int bytes = static_cast<int>(data.size() * sizeof(double));
-  fwrite(&bytes, sizeof bytes, 1, file);
-  fwrite(data.data(), sizeof(double), data.size(), file);
+  lsdcd::State state(kKind);
+  state.add("totals", 1, totals);
+  state.add("rate", 1, window);
+  write_state(file, state);
 }
 
-// LAMMPS hands the same bytes to every process; the first one keeps the totals.
+// The first process keeps the totals.
 void FixMassflowLsdcd::restart(char *buffer)
 {
-  double header[5];
-  std::memcpy(header, buffer, sizeof header);
-  if (header[0] != size_array_rows) {
+  const auto *numbers = reinterpret_cast<const double *>(buffer);
+  std::vector<double> there;
+  Window then;
+  try {
+    if (numbers[0] > 0) {    // versions before 0.10.0: types, the window, all totals
+      lsdcd::StateReader in(numbers, kAllNumbers, kKind);
+      const std::size_t types = in.take_count();
+      in(then);
+      there.resize(kColumns * types + kAfterTypes);
+      std::copy_n(in.take_numbers(there.size()), there.size(), there.begin());
+    } else {
+      const lsdcd::State state(kKind, numbers, kAllNumbers);
+      state.read("totals", 1, there);
+      state.read("rate", 1, then);
+      const std::string unread = unread_state(state);
+      if (!unread.empty()) warn(unread);
+    }
+  } catch (const lsdcd::StateError &e) {
+    fatal(unusable_state(e, "what has passed"));
+  }
+  if (there.size() != mine.size()) {
     warn("totals begin at zero: the restart file was written with another number of atom types");
     return;
   }
-  window_time = header[1];
-  window_steps = static_cast<int>(header[2]);
-  window_start = header[3];
-  rate = header[4];
-  if (comm->me == 0) std::memcpy(mine.data(), buffer + sizeof header, mine.size() * sizeof(double));
+  window = then;
+  if (comm->me == 0) mine = there;
   reduced = false;
 }

@@ -3,7 +3,6 @@
 
 // Which grains are due when, how large they are, and where they fit: closed forms and brute force.
 #include "base/input_error.h"
-#include "base/named_numbers.h"
 #include "input/insert_settings.h"
 #include "insert/inlet_face.h"
 #include "insert/insertion.h"
@@ -232,6 +231,12 @@ TEST(insertion, more_than_a_million_grains_come_in_one_step_where_all_have_place
   EXPECT_EQ(insertion.next_step(), FeedSchedule::kNever);
 }
 
+void restore(Insertion &insertion, const State &state, std::int64_t step)
+{
+  const std::vector<Real> numbers = state.numbers();
+  insertion.restore(numbers.data(), numbers.size(), step);
+}
+
 TEST(insertion, goes_on_from_its_state_as_if_it_had_not_ended)
 {
   InsertionPlan plan = plan_of(FeedSettings::by_mass, 3);
@@ -249,14 +254,14 @@ TEST(insertion, goes_on_from_its_state_as_if_it_had_not_ended)
   Insertion first(plan, 0, 0.1);
   run(first, 777, parts);
   Insertion second(plan, 777, 0.1);
-  second.restore(first.state(777).data(), 777);
+  restore(second, first.state(777), 777);
   run(second, 2000, parts);
   ASSERT_EQ(parts.size(), whole.size());
   for (std::size_t i = 0; i < whole.size(); i++) {
     EXPECT_TRUE(parts[i].at == whole[i].at);
     EXPECT_EQ(parts[i].radius, whole[i].radius);
   }
-  EXPECT_EQ(second.state(2000), one.state(2000));
+  EXPECT_EQ(second.state(2000).numbers(), one.state(2000).numbers());
 }
 
 // Steps in which grains come from here on, told from here.
@@ -282,11 +287,11 @@ TEST(insertion, steps_that_are_counted_anew_change_nothing)
   Insertion first(plan, 5, 0.1);
   next_steps(first, 5, 20);
   const std::int64_t now = first.next_step() - 1;
-  const std::string state = first.state(now);
+  const State state = first.state(now);
   const std::vector<std::int64_t> wanted = next_steps(first, now, 20);
   for (const std::int64_t other : {std::int64_t(0), now, std::int64_t(1000000)}) {
     Insertion second(plan, other, 0.1);
-    second.restore(state.data(), other);
+    restore(second, state, other);
     EXPECT_EQ(next_steps(second, other, 20), wanted) << other;
   }
 }
@@ -298,7 +303,7 @@ Insertion continued(const InsertionPlan &former, const InsertionPlan &plan)
   next_steps(first, 0, 20);
   EXPECT_EQ(first.next_step(), FeedSchedule::kNever);
   Insertion second(plan, 50, 1);
-  second.restore(first.state(50).data(), 50);
+  restore(second, first.state(50), 50);
   EXPECT_EQ(second.inserted(), 20);
   return second;
 }
@@ -338,7 +343,7 @@ TEST(insertion, smaller_grains_after_a_restart_fill_up_what_is_left_of_the_mass)
   Cube site;
   std::vector<PackedSphere> there;
   EXPECT_EQ(insert(first, 1, site, there), 20U);
-  second.restore(first.state(50).data(), 50);
+  restore(second, first.state(50), 50);
   EXPECT_EQ(insert(second, second.next_step(), site, there), 7U);
   EXPECT_NEAR(second.inserted_mass(), 20.875, 1e-12);
 }
@@ -357,7 +362,7 @@ TEST(insertion, grains_without_a_place_are_of_the_new_sizes_after_a_restart)
   plan.grains.sizes = {{0.25, 1}};
   plan.grains.smallest = plan.grains.largest = 0.25;
   Insertion second(plan, 1, 1);
-  second.restore(first.state(1).data(), 1);
+  restore(second, first.state(1), 1);
   site.side = 100;
   EXPECT_EQ(insert(second, second.next_step(), site, there), 3U);
   EXPECT_EQ(there.back().radius, 0.125);
@@ -375,66 +380,107 @@ TEST(insertion, with_a_total_below_what_is_in_nothing_comes_and_it_says_so)
   EXPECT_EQ(second.next_step(), FeedSchedule::kNever);
 }
 
-std::string refusal_of(const std::vector<Real> &numbers)
+// What versions before 0.10.0 wrote.
+
+void put(std::string &bytes, const void *what, std::size_t size)
 {
-  Insertion insertion(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
-  try {
-    insertion.restore(reinterpret_cast<const char *>(numbers.data()), 0);
-  } catch (const InputError &e) {
-    return e.what();
-  }
-  return "";
+  bytes.append(static_cast<const char *>(what), size);
 }
 
-TEST(insertion, the_state_of_another_version_is_refused_with_a_remedy)
+// The lists of 0.9.0's successors: sizes are of 8 bytes, each list is its name and its numbers.
+std::vector<Real> named_lists(const std::vector<std::pair<std::string, std::vector<Real>>> &lists)
 {
-  // 0.9.0: how many numbers, its tag, number and mass drawn, mass inserted, 4 more, 6 of the schedule, 3 a grain owed.
-  std::vector<Real> first(21, 0);
-  const Real begin[] = {20, 19790401, 42, 84, 80};
-  std::copy(std::begin(begin), std::end(begin), first.begin());
-  EXPECT_NE(refusal_of(first).find(
-                "0.9.0, whose state this version cannot read: 40 grains of mass 80 were in"),
-            std::string::npos)
-      << refusal_of(first);
-  for (const Real other : {-3.0, 20.0, 1.0})
-    EXPECT_NE(refusal_of({other, 0, 0, 0, 0}).find("another version of this fix"),
-              std::string::npos)
-        << refusal_of({other, 0, 0, 0, 0});
-  EXPECT_NE(refusal_of(first).find("give the fix another ID"), std::string::npos);
+  std::string bytes, all;
+  for (const auto &[name, numbers] : lists) {
+    const std::uint64_t length = name.size(), n = numbers.size();
+    put(bytes, &length, sizeof length);
+    bytes += name;
+    put(bytes, &n, sizeof n);
+    put(bytes, numbers.data(), n * sizeof(Real));
+  }
+  const Real format = -2;
+  const std::uint64_t size = bytes.size();
+  put(all, &format, sizeof format);
+  put(all, &size, sizeof size);
+  all += bytes;
+  std::vector<Real> numbers((all.size() + sizeof(Real) - 1) / sizeof(Real));
+  std::memcpy(numbers.data(), all.data(), all.size());
+  return numbers;
+}
+
+// At step 33 of 0.1: 3 of rate 1 are given, 2 grains of mass 1 are drawn, and the second has no place.
+std::vector<Real> lists_of_former()
+{
+  return named_lists({{"drawn", {2, 2, 2}},
+                      {"given", {3.3}},
+                      {"inserted", {1, 1}},
+                      {"not drawn", {0, 0}},
+                      {"owed", {1}},
+                      {"plan", {1, 1, 0, 0}},
+                      {"refused", {1, 2, 3}},
+                      {"retry", {2, 5}},
+                      {"schedule", {0, 33, 0.1, 33}}});
+}
+
+TEST(insertion, goes_on_from_lists_of_former_versions)
+{
+  InsertionPlan plan = plan_of(FeedSettings::by_mass, 1);
+  Insertion insertion(plan, 1000, 0.1);
+  std::vector<Real> numbers = lists_of_former();
+  const std::vector<Real> now = insertion.state(1000).numbers();
+  EXPECT_FALSE(insertion.restore(numbers.data(), numbers.size(), 1000));    // other grains
+  EXPECT_EQ(insertion.inserted(), 1);
+  EXPECT_EQ(insertion.refused().all(), 6);
+  for (std::size_t n = 0; n < numbers.size(); n++)
+    EXPECT_THROW(insertion.restore(numbers.data(), n, 1000), StateError) << n;
+}
+
+// 0.9.0: how many numbers, its tag, number and mass drawn, mass inserted, 3 of refusals, the next step, kind, rate, amount
+// and step of the schedule, timestep, first step; then number, radius and density of each grain owed.
+TEST(insertion, goes_on_from_what_0_9_0_wrote)
+{
+  const InsertionPlan plan = plan_of(FeedSettings::by_mass, 1);
+  const std::vector<Real> numbers = {20, 19790401, 3,   3, 1, 1, 2, 3, 45, 1, 1,
+                                     0,  0,        0.1, 0, 1, 1, 2, 2, 1,  2};
+  Insertion insertion(plan, 33, 0.1);
+  EXPECT_TRUE(insertion.restore(numbers.data(), numbers.size(), 33));
+  EXPECT_EQ(insertion.inserted(), 1);
+  EXPECT_EQ(insertion.inserted_mass(), 1);
+  ASSERT_EQ(insertion.owed().size(), 2U);
+  EXPECT_EQ(insertion.owed()[1].number, 2);
+  EXPECT_EQ(insertion.next_step(), 40);    // 4 are due then, before the next try at step 45
+  for (std::size_t n = 0; n < numbers.size(); n++)
+    EXPECT_THROW(insertion.restore(numbers.data(), n, 33), StateError) << n;
+}
+
+TEST(insertion, whose_plan_of_0_9_0_has_ended_goes_on_by_a_larger_total)
+{
+  InsertionPlan plan = plan_of(FeedSettings::by_mass, 1);
+  plan.feed.number = 5;
+  const std::vector<Real> numbers = {14, 19790401, 3, 3, 3, 0, 0, 0, -1, 1, 1, 0, 0, 0.1, 0};
+  Insertion insertion(plan, 100, 0.1);
+  insertion.restore(numbers.data(), numbers.size(), 100);
+  EXPECT_EQ(next_steps(insertion, 100, 2), (std::vector<std::int64_t>{10, 20}));
+  EXPECT_EQ(insertion.next_step(), FeedSchedule::kNever);
+}
+
+TEST(insertion, the_state_of_another_program_is_refused_and_changes_nothing)
+{
+  Insertion insertion(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
+  const std::vector<Real> before = insertion.state(0).numbers();
+  for (const Real other : {-3.0, 20.0, 1.0}) {
+    const Real numbers[] = {other, 0, 0, 0, 0};
+    EXPECT_THROW(insertion.restore(numbers, 5, 0), StateError);
+  }
+  EXPECT_EQ(insertion.state(0).numbers(), before);
 }
 
 TEST(insertion, another_rate_after_a_restart_counts_from_there)
 {
   Insertion first(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
   Insertion second(plan_of(FeedSettings::by_mass, 2), 4, 0.1);
-  second.restore(first.state(4).data(), 4);
+  restore(second, first.state(4), 4);
   EXPECT_EQ(second.next_step(), 7);    // 0.4 is there, 0.6 are three steps
-}
-
-TEST(named_numbers, come_back_and_others_do_not_matter)
-{
-  NamedNumbers all;
-  all.set("a", {1, 2.5});
-  all.set("none", {});
-  all.set("of a later version", {7});
-  const std::string bytes = all.bytes();
-  const NamedNumbers back = NamedNumbers::from(bytes.data());
-  EXPECT_EQ(back.at("a", 2), (std::vector<Real>{1, 2.5}));
-  EXPECT_TRUE(back.at("none").empty());
-}
-
-TEST(named_numbers, that_are_missing_or_cut_are_refused)
-{
-  NamedNumbers all;
-  all.set("a", {1, 2.5});
-  EXPECT_THROW(all.at("b"), InputError);
-  EXPECT_THROW(all.at("a", 3), InputError);
-  const std::string whole = all.bytes();
-  for (std::uint64_t left = 1; left < whole.size() - sizeof left; left++) {
-    std::string cut = whole;
-    std::memcpy(&cut[0], &left, sizeof left);
-    EXPECT_THROW(NamedNumbers::from(cut.data()), InputError) << left;
-  }
 }
 
 TEST(packing, knows_what_brute_force_over_images_finds)

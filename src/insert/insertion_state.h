@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a restart file keeps of an insertion.
+#pragma once
+
+#include "base/state_blocks.h"
+#include "insert/feed_schedule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lsdcd {
+
+// How many places were no good, by what was there.
+struct Refused {
+  std::int64_t no_place = 0, grains = 0, walls = 0;
+
+  std::int64_t all() const { return no_place + grains + walls; }
+  void add(const Refused &more);
+};
+
+// Steps are told from the step of the file.
+struct InsertionState {
+  struct Plan {
+    // Of amounts and grains, beginning with the kind of the feed; of a file of 0.9.0 the first two only.
+    std::vector<Real> numbers;
+    Real given = 0;    // mass or number
+  };
+  struct Grains {
+    GrainTotals inserted, drawn, not_drawn;
+    std::int64_t next_number = 0;
+    std::int64_t wait = 1, retry_in = 0;    // steps, for owed grains
+    std::vector<std::int64_t> owed;         // their numbers
+  };
+  Plan plan;
+  FeedState schedule;
+  Grains grains;
+  Refused refused;
+  bool plan_has_ended = false;    // of a file of 0.9.0, which has no totals to compare
+
+  State blocks() const;
+  // Throws StateError.
+  static InsertionState from(const Real *numbers, std::size_t n, std::int64_t step);
+};
+
+}    // namespace lsdcd

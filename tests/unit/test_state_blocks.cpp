@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Numbers in blocks with names and versions: what was written comes back, and nothing else is taken for it.
+#include "base/state_blocks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lsdcd {
+namespace {
+
+enum class Kind { none, some };
+
+struct Part {
+  Kind kind = Kind::none;
+  bool is_on = false;
+  std::int64_t step = 0;
+  Vec3 at = {0, 0, 0};
+  long double time = 0;
+  std::string names[2];
+  std::vector<Real> row;
+};
+
+template <class Numbers>
+void each_number(Numbers &numbers, Part &p)
+{
+  numbers(p.kind, p.is_on, p.step, p.at, p.time, p.names, p.row);
+}
+
+Part some_part()
+{
+  Part p;
+  p.kind = Kind::some;
+  p.is_on = true;
+  p.step = -(std::int64_t(1) << 53);
+  p.at = {0.1, -0.2, 1e-310};
+  p.time = 1 + 0x1p-60L;
+  p.names[0] = "a name of more than twelve bytes";
+  p.names[1] = "\xc3\xa9";
+  p.row = {1, 2.5};
+  return p;
+}
+
+std::vector<Real> numbers_of(const Part &part)
+{
+  State state("thing");
+  state.add("part", 1, part);
+  return state.numbers();
+}
+
+Part part_of(const std::vector<Real> &numbers)
+{
+  Part part;
+  State("thing", numbers.data(), numbers.size()).read("part", 1, part);
+  return part;
+}
+
+TEST(State, brings_back_every_bit)
+{
+  const Part was = some_part(), is = part_of(numbers_of(was));
+  EXPECT_EQ(is.kind, was.kind);
+  EXPECT_EQ(is.is_on, was.is_on);
+  EXPECT_EQ(is.step, was.step);
+  EXPECT_EQ(is.at, was.at);
+  EXPECT_EQ(is.time, was.time);
+  EXPECT_EQ(is.names[0], was.names[0]);
+  EXPECT_EQ(is.names[1], was.names[1]);
+  EXPECT_EQ(is.row, was.row);
+}
+
+// 30 letters are 5 numbers and their count.
+TEST(State, packs_six_letters_in_a_number)
+{
+  StateWriter out;
+  out(std::string(30, 'x'));
+  EXPECT_EQ(out.all().size(), 6U);
+}
+
+std::string problem_of(const std::vector<Real> &numbers)
+{
+  try {
+    part_of(numbers);
+  } catch (const StateError &e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(State, that_is_cut_anywhere_is_refused)
+{
+  std::vector<Real> numbers = numbers_of(some_part());
+  const std::size_t whole = numbers.size();
+  while (!numbers.empty()) {
+    numbers.pop_back();
+    EXPECT_NE(problem_of(numbers), "") << numbers.size() << " of " << whole;
+  }
+}
+
+// Counts and lengths may be anything: an error, or numbers of the size that there is, but nothing past the end.
+TEST(State, with_a_wrong_number_anywhere_is_read_to_its_end_at_most)
+{
+  const std::vector<Real> whole = numbers_of(some_part());
+  const Real bad[] = {-1, 0, 0.5, 7, 1e9, 0x1p53, 1e300, std::nan("")};
+  for (std::size_t at = 0; at < whole.size(); at++)
+    for (const Real number : bad) {
+      std::vector<Real> numbers = whole;
+      numbers[at] = number;
+      numbers.shrink_to_fit();    // for a sanitizer
+      problem_of(numbers);
+    }
+}
+
+TEST(State, of_another_kind_is_refused_with_both_names)
+{
+  const std::vector<Real> numbers = State("other").numbers();
+  EXPECT_EQ(problem_of(numbers), "these are data of the other, not of the thing");
+}
+
+TEST(State, tells_numbers_that_are_none)
+{
+  EXPECT_EQ(problem_of({-6, 1, 2, 3}), "the data of the thing are of another program or version");
+}
+
+TEST(State, refuses_a_block_of_a_later_version)
+{
+  State state("thing");
+  state.add("part", 3, some_part());
+  EXPECT_EQ(problem_of(state.numbers()),
+            "the block 'part' in the data of the thing is of version 3, and this program knows it "
+            "up to version 1");
+}
+
+TEST(State, refuses_a_block_that_is_too_long)
+{
+  State state("thing");
+  state.add("number", 1, std::vector<Real>{1, 2});
+  Real number = 0;
+  EXPECT_THROW(state.read("number", 1, number), StateError);
+}
+
+TEST(State, names_a_block_that_is_missing)
+{
+  EXPECT_EQ(problem_of(State("thing").numbers()),
+            "the block 'part' in the data of the thing is missing");
+}
+
+TEST(State, has_blocks_in_blocks)
+{
+  State state("thing");
+  for (const Real number : {3.0, 4.0}) {
+    State mesh("thing");
+    mesh.add("number", 1, number);
+    state.add("mesh", 1, mesh);
+  }
+  const std::vector<Real> numbers = state.numbers();
+  const State back("thing", numbers.data(), numbers.size());
+  const std::vector<State> meshes = back.inside("mesh", 1);
+  ASSERT_EQ(meshes.size(), 2U);
+  Real number = 0;
+  meshes[1].read("number", 1, number);
+  EXPECT_EQ(number, 4);
+  EXPECT_EQ(meshes[0].unread(), "'number' of mesh 1");
+  EXPECT_EQ(meshes[1].unread(), "");
+}
+
+TEST(State, passes_over_blocks_that_nobody_asks_for_and_names_them)
+{
+  State state("thing");
+  state.add("of a later version", 1, Real(1));
+  state.add("part", 1, some_part());
+  const std::vector<Real> numbers = state.numbers();
+  const State back("thing", numbers.data(), numbers.size());
+  Part part;
+  back.read("part", 1, part);
+  EXPECT_EQ(back.unread(), "'of a later version'");
+}
+
+}    // namespace
+}    // namespace lsdcd
