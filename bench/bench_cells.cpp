@@ -79,10 +79,10 @@ class Bed {
       cuda_(device == Device::cuda), x_(cuda_), r_(cuda_), zero_(cuda_)
   {
     settings_.device = device;
-    settings_.law = classic_law(NormalModel::hertz, true);
-    settings_.law.k_normal = 1e5;
-    settings_.law.k_tangent = 3e4;
-    settings_.law.mu = Real(0.5);
+    settings_.law() = classic_law(NormalModel::hertz, true);
+    settings_.law().k_normal = 1e5;
+    settings_.law().k_tangent = 3e4;
+    settings_.law().mu = Real(0.5);
     const std::size_t n = at.r.size();
     std::vector<Real> zero(13 * n, 0);
     std::fill_n(zero.begin(), n, Real(1));
@@ -109,8 +109,7 @@ class Bed {
     StepSettings step;
     step.dt = Real(1e-9);
     for (int k = 0; k < steps; k++) {
-      engine_->start(spheres_, step);
-      engine_->collect();
+      engine_->step(spheres_, step);
     }
     engine_->read_diagnostics();
   }

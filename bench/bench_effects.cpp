@@ -82,7 +82,7 @@ std::vector<EffectCost> measure_effects(const std::vector<EffectCase> &cases, De
   const WeldedMesh mesh = weld(floor_mesh(100, kHalf), -1);
   GridSettings settings;
   Real cutoff = kRadius;
-  for (const EffectCase &c : cases) cutoff = std::max(cutoff, cutoff_of(c.settings.law, kRadius));
+  for (const EffectCase &c : cases) cutoff = std::max(cutoff, cutoff_of(c.settings.law(), kRadius));
   settings.cutoff = cutoff;
   const TriangleGrid grid = build_grid(mesh, settings);
   const FlatGrid flat(grid);
@@ -102,8 +102,7 @@ std::vector<EffectCost> measure_effects(const std::vector<EffectCase> &cases, De
     for (Runner &one : runners) {
       const bool on_cpu = one.engine->backend().compare(0, 3, "CPU") == 0;
       const double start = seconds(on_cpu);
-      one.engine->start(bed.spheres(), step);
-      one.engine->collect();
+      one.engine->step(bed.spheres(), step);
       const double took = seconds(on_cpu) - start;
       if (r >= 0) one.ns.push_back(1e9 * took / one.engine->totals().contacts);
     }

@@ -50,7 +50,7 @@ struct Style {
 constexpr double kPlaceAndRadius = 4 * sizeof(Real);
 double bytes_of_touching(const Style &style, double contacts)
 {
-  const double spring = style.law.has_history() ? 2 * sizeof(Spring) : 0;
+  const double spring = style.law().has_history() ? 2 * sizeof(Spring) : 0;
   return contacts * ((7 + 2 * 6) * sizeof(Real) + spring);
 }
 
@@ -70,12 +70,12 @@ EngineSettings engine_settings(const Style &style, Device device)
 {
   EngineSettings e;
   e.device = device;
-  e.law = style.law;
-  e.law.k_normal = 1e5;
-  e.law.k_tangent = 3e4;
-  e.law.eta = 50;
-  e.law.gamma_tangent = 25;
-  e.law.mu = 0.5;
+  e.law() = style.law();
+  e.law().k_normal = 1e5;
+  e.law().k_tangent = 3e4;
+  e.law().eta = 50;
+  e.law().gamma_tangent = 25;
+  e.law().mu = 0.5;
   return e;
 }
 
@@ -91,8 +91,7 @@ void measure_kept_and_anew(WallEngine &engine, const Spheres &s, const Style &st
     row.timing = time_it(repeats, [&] {
       for (int k = 0; k < n_steps; k++) {
         if (anew) engine.choose(s, 0);
-        engine.start(s, step);
-        engine.collect();
+        engine.step(s, step);
       }
       engine.read_diagnostics();
     });

@@ -69,12 +69,12 @@ class Drum {
     const bool cuda = device == Device::cuda;
     EngineSettings e;
     e.device = device;
-    e.law = classic_law(NormalModel::hertz, true);
-    e.law.k_normal = 1e5;
-    e.law.k_tangent = 3e4;
-    e.law.eta = 50;
-    e.law.gamma_tangent = 25;
-    e.law.mu = Real(0.5);
+    e.law() = classic_law(NormalModel::hertz, true);
+    e.law().k_normal = 1e5;
+    e.law().k_tangent = 3e4;
+    e.law().eta = 50;
+    e.law().gamma_tangent = 25;
+    e.law().mu = Real(0.5);
     e.moves = true;
     engine_ = cuda ? make_cuda_engine_in_place(e, 0, nullptr) : make_cpu_engine(e);
     engine_->set_grid(grid);
@@ -114,8 +114,7 @@ class Drum {
     for (int k = 0; k < kSteps; k++) {
       if (case_.turns) engine_->place_wall(turned(k, kDt));
       spheres_.x = x_ + k * 3 * static_cast<std::size_t>(spheres_.n);
-      engine_->start(spheres_, step);
-      engine_->collect();
+      engine_->step(spheres_, step);
     }
     lists_ = static_cast<double>(engine_->read_diagnostics().lists);
   }

@@ -148,12 +148,12 @@ CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, const Co
 
   EngineSettings e;
   e.device = device;
-  e.law = law;
-  e.law.k_normal = 1e5;
-  e.law.k_tangent = 3e4;
-  e.law.eta = 50;
-  e.law.gamma_tangent = 25;
-  e.law.mu = Real(0.5);
+  e.law() = law;
+  e.law().k_normal = 1e5;
+  e.law().k_tangent = 3e4;
+  e.law().eta = 50;
+  e.law().gamma_tangent = 25;
+  e.law().mu = Real(0.5);
   engine_ = cuda ? make_cuda_engine_in_place(e, 0, nullptr) : make_cpu_engine(e);
   engine_->set_grid(grid_.view());
   const int n = static_cast<int>(b.radius.size());
@@ -179,8 +179,7 @@ void CylinderBed::steps(int n)
   StepSettings step;
   step.dt = Real(1e-6);
   for (int k = 0; k < n; k++) {
-    engine_->start(spheres_, step);
-    engine_->collect();
+    engine_->step(spheres_, step);
   }
   engine_->read_diagnostics();
 }

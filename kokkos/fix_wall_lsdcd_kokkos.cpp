@@ -64,8 +64,9 @@ void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
     // One more for the offset of an atom's numbers in the message. A process on its own packs
     // hardly any atom, those that leave a fixed box, and need not look at all of them.
     int largest =
-        1 + (comm->nprocs > 1 ? wall->in_place().largest_packed_size(history.spheres_of_engine())
-                              : wall->in_place().most_packed_size());
+        1 + (comm->nprocs > 1
+                 ? wall->in_place().springs().largest_packed_size(history.spheres_of_engine())
+                 : wall->in_place().springs().most_packed_size());
     MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
     ask_for_room(largest);
     return;
@@ -103,7 +104,8 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::init()
 {
   FixWallLsdcd::init();
-  adds_early = others_only_add();
+  launch_mode =
+      others_only_add() ? lsdcd::LaunchMode::beside_adding_early : lsdcd::LaunchMode::beside;
 }
 
 // Do fixes before this one in the script only add forces, so that their order does not matter?
@@ -130,16 +132,17 @@ void FixWallLsdcdKokkos<DeviceType>::begin_step(const lsdcd::StepInput &input)
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int /*eflag*/, int /*vflag*/)
 {
-  if (!wall->is_running()) return;
+  if (wall->step_state() != lsdcd::StepState::begun) return;
+  const bool adds_early = launch_mode == lsdcd::LaunchMode::beside_adding_early;
   if (adds_early) atomKK->sync(execution_space, F_MASK | TORQUE_MASK);
-  run_wall([&] { wall->launch(spheres(), true, adds_early); });
+  run_wall([&] { wall->launch(spheres(), launch_mode); });
   if (adds_early) atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
 }
 
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::finish_step()
 {
-  const bool runs = wall->is_running();
+  const bool runs = wall->step_state() != lsdcd::StepState::none;
   if (runs)
     atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
                                       MASK_MASK | TYPE_MASK | F_MASK | TORQUE_MASK);

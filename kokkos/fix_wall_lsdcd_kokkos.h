@@ -50,7 +50,8 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void unpack_rows(int, const int *, const double *);
 
   Kokkos::View<double *, DeviceType> d_mass_seen;
-  bool adds_early = false;    // are forces added right behind those between atoms?
+  // Where fixes before this one only add forces, they are added right behind those between atoms.
+  lsdcd::LaunchMode launch_mode = lsdcd::LaunchMode::beside;
 };
 
 }    // namespace LAMMPS_NS

@@ -13,7 +13,7 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::grow_arrays(int nmax)
 {
   FixWallLsdcd::grow_arrays(nmax);
-  if (wall->history().is_with_engine()) wall->in_place().grow(nmax);
+  if (wall->history().is_with_engine()) wall->in_place().springs().grow(nmax);
 }
 
 #if LSDCD_DEVICE_EXCHANGE
@@ -21,7 +21,7 @@ void FixWallLsdcdKokkos<DeviceType>::grow_arrays(int nmax)
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::history_to_device()
 {
-  wall->in_place().grow(atom->nmax);
+  wall->in_place().springs().grow(atom->nmax);
   wall->history().to_engine(atom->nlocal);
 }
 
@@ -99,7 +99,7 @@ int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
   int size = pack_rows(n, leaves, comes, at);
   if (has_history()) {
     history_to_device();
-    size += wall->in_place().pack(n, leaves, comes, at + size);
+    size += wall->in_place().springs().pack(n, leaves, comes, at + size);
   }
   if (sends_from_host(space)) {
     buffer.template modify<DeviceType>();
@@ -125,7 +125,8 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffe
   if (n_second > 0) unpack_rows(n_second, places + n_first, at + second);
   if (!has_history()) return;
   history_to_device();
-  wall->in_place().unpack(n, places, at + rows, n_first, second + n_second * row_size() - rows);
+  wall->in_place().springs().unpack(n, places, at + rows, n_first,
+                                    second + n_second * row_size() - rows);
   lsdcd::HistoryExchange &history = wall->history();
   history.set_spheres_of_engine(std::max(history.spheres_of_engine(), atom->nlocal));
 }
@@ -144,8 +145,8 @@ void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, Bi
   if (!has_history()) return;
   history_to_device();
   using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  sorter.sort(LMPDeviceType(), Ints(wall->in_place().first_spring(), atom->nlocal));
-  sorter.sort(LMPDeviceType(), Ints(wall->in_place().n_springs(), atom->nlocal));
+  sorter.sort(LMPDeviceType(), Ints(wall->in_place().springs().first(), atom->nlocal));
+  sorter.sort(LMPDeviceType(), Ints(wall->in_place().springs().count(), atom->nlocal));
 }
 
 #endif

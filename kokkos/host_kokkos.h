@@ -66,7 +66,7 @@ constexpr bool kOnHost =
 template <class DeviceType>
 std::unique_ptr<WallEngine> make_engine_on(const EngineSettings &settings)
 {
-  if (!kOnHost<DeviceType> && settings.law.has_heat())
+  if (!kOnHost<DeviceType> && settings.law().has_heat())
     throw InputError("the sub-model heat is not there for atoms on a GPU, where LAMMPS keeps no "
                      "temperature: use wall/lsdcd, or wall/lsdcd/kk/host");
   if (settings.device != Device::automatic)

@@ -10,20 +10,20 @@ namespace {
 EngineSettings classic(NormalModel normal, bool history)
 {
   EngineSettings s;
-  s.law = classic_law(normal, history);
-  s.law.k_normal = 1e5;
-  s.law.k_tangent = 3e4;
-  s.law.eta = 50;
-  s.law.gamma_tangent = 25;
-  s.law.mu = 0.5;
+  s.law() = classic_law(normal, history);
+  s.law().k_normal = 1e5;
+  s.law().k_tangent = 3e4;
+  s.law().eta = 50;
+  s.law().gamma_tangent = 25;
+  s.law().mu = 0.5;
   return s;
 }
 
 EngineSettings granular(NormalModel normal, TangentialModel tangential)
 {
   EngineSettings s;
-  s.law = granular_law(NormalModel::hooke);
-  ContactLaw &g = s.law;
+  s.law() = granular_law(NormalModel::hooke);
+  ContactLaw &g = s.law();
   g.normal = normal;
   g.k_normal = 1e5;
   g.modulus = 7.5e4;
@@ -59,13 +59,13 @@ std::vector<EffectCase> effect_cases()
   begin("tangential spring", "hooke/history", "hooke", classic(NormalModel::hooke, true));
   begin("hertz stiffness", "hertz/history", "tangential spring", classic(NormalModel::hertz, true));
   add("rolling cdt", "rolling cdt", "hooke", [](EngineSettings &s) {
-    s.law.rolling = {RollingModel::cdt, {0.1}};
+    s.law().rolling = {RollingModel::cdt, {0.1}};
   });
   add("rolling epsd2", "rolling epsd2", "tangential spring", [](EngineSettings &s) {
-    s.law.rolling = {RollingModel::epsd2, {0.1}};
+    s.law().rolling = {RollingModel::epsd2, {0.1}};
   });
   add("cohesion sjkr", "cohesion sjkr", "hooke", [](EngineSettings &s) {
-    s.law.cohesion = {CohesionModel::sjkr, {1e3}};
+    s.law().cohesion = {CohesionModel::sjkr, {1e3}};
   });
   add("moving surface", "surface_vel, surface_angvel", "hooke", [](EngineSettings &s) {
     s.surface = {{1, 0, 0}, {0, 0, 0.1}, {0, 0, 0}};
@@ -78,11 +78,13 @@ std::vector<EffectCase> effect_cases()
 
   begin("granular hooke", "granular hooke ... linear_nohistory", "hooke",
         granular(NormalModel::hooke, TangentialModel::linear_nohistory));
-  const auto normal = [](NormalModel n) { return [n](EngineSettings &s) { s.law.normal = n; }; };
+  const auto normal = [](NormalModel n) { return [n](EngineSettings &s) { s.law().normal = n; }; };
   add("hertz", "granular hertz, hertz/material", "granular hooke", normal(NormalModel::hertz));
   add("dmt", "granular dmt", "hertz", normal(NormalModel::dmt));
   add("jkr", "granular jkr", "hertz", normal(NormalModel::jkr));
-  const auto damping = [](DampingModel d) { return [d](EngineSettings &s) { s.law.damping = d; }; };
+  const auto damping = [](DampingModel d) {
+    return [d](EngineSettings &s) { s.law().damping = d; };
+  };
   add("damping velocity", "damping velocity", "hertz", damping(DampingModel::velocity));
   add("damping mass_velocity", "damping mass_velocity", "hertz",
       damping(DampingModel::mass_velocity));
@@ -90,7 +92,7 @@ std::vector<EffectCase> effect_cases()
   add("damping tsuji", "damping tsuji, coeff_restitution", "hertz",
       damping(DampingModel::stiffness));
   const auto tangential = [](TangentialModel t) {
-    return [t](EngineSettings &s) { s.law.tangential = t; };
+    return [t](EngineSettings &s) { s.law().tangential = t; };
   };
   add("linear_history", "tangential linear_history", "hertz",
       tangential(TangentialModel::linear_history));
@@ -106,21 +108,21 @@ std::vector<EffectCase> effect_cases()
   add("mindlin_rescale/force", "tangential mindlin_rescale/force", "mindlin/force",
       tangential(TangentialModel::mindlin_rescale_force));
   add("rolling sds", "rolling sds", "mindlin", [](EngineSettings &s) {
-    s.law.rolling = {RollingModel::sds, {1e4, 10, 0.1}};
+    s.law().rolling = {RollingModel::sds, {1e4, 10, 0.1}};
   });
   const auto twisting = [](TwistingModel t) {
-    return [t](EngineSettings &s) { s.law.twisting = {t, {1e4, 10, 0.1}}; };
+    return [t](EngineSettings &s) { s.law().twisting = {t, {1e4, 10, 0.1}}; };
   };
   add("twisting marshall", "twisting marshall", "mindlin", twisting(TwistingModel::marshall));
   add("twisting sds", "twisting sds", "mindlin", twisting(TwistingModel::sds));
-  const auto heat = [](HeatModel h) { return [h](EngineSettings &s) { s.law.heat = {h, {1}}; }; };
+  const auto heat = [](HeatModel h) { return [h](EngineSettings &s) { s.law().heat = {h, {1}}; }; };
   add("heat radius", "heat radius", "hertz", heat(HeatModel::radius));
   add("heat area", "heat area", "hertz", heat(HeatModel::area));
 
   // In common combinations.
   EngineSettings s = classic(NormalModel::hertz, true);
-  s.law.rolling = {RollingModel::epsd2, {0.1}};
-  s.law.cohesion = {CohesionModel::sjkr, {1e3}};
+  s.law().rolling = {RollingModel::epsd2, {0.1}};
+  s.law().cohesion = {CohesionModel::sjkr, {1e3}};
   begin("sticky grains", "hertz/history, rolling epsd2, cohesion sjkr", "", s);
   s = classic(NormalModel::hertz, true);
   s.surface.velocity = {1, 0, 0};
@@ -128,13 +130,13 @@ std::vector<EffectCase> effect_cases()
   s.wear = WearModel::archard;
   begin("belt that wears", "hertz/history, surface_vel, wear archard", "", s);
   s = granular(NormalModel::hertz, TangentialModel::mindlin);
-  s.law.damping = DampingModel::stiffness;
+  s.law().damping = DampingModel::stiffness;
   begin("dry grains", "granular hertz, tsuji, mindlin", "", s);
-  s.law.rolling = {RollingModel::sds, {1e4, 0, 0.1}};
-  s.law.twisting = TwistingModel::marshall;
+  s.law().rolling = {RollingModel::sds, {1e4, 0, 0.1}};
+  s.law().twisting = TwistingModel::marshall;
   begin("rough grains", "granular hertz, tsuji, mindlin, rolling sds, twisting marshall", "", s);
-  s.law.normal = NormalModel::jkr;
-  s.law.heat = {HeatModel::area, {0}};
+  s.law().normal = NormalModel::jkr;
+  s.law().heat = {HeatModel::area, {0}};
   begin("hot powder", "granular jkr, tsuji, mindlin, rolling sds, twisting marshall, heat area", "",
         s);
   return cases;
@@ -142,13 +144,13 @@ std::vector<EffectCase> effect_cases()
 
 int bytes_per_atom(const EngineSettings &settings)
 {
-  return settings.law.has_history() ? 2 * sizeof(int) : 0;    // where its springs are
+  return settings.law().has_history() ? 2 * sizeof(int) : 0;    // where its springs are
 }
 
 int bytes_per_contact(const EngineSettings &settings)
 {
-  if (!settings.law.has_history()) return 0;
-  return static_cast<int>(sizeof(Spring) + settings.law.n_extra() * sizeof(Real));
+  if (!settings.law().has_history()) return 0;
+  return static_cast<int>(sizeof(Spring) + settings.law().n_extra() * sizeof(Real));
 }
 
 }    // namespace lsdcd

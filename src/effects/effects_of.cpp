@@ -52,7 +52,7 @@ void add_law(const ContactLaw &law, std::vector<Effect> &effects)
 std::vector<Effect> effects_of(const EngineSettings &s)
 {
   std::vector<Effect> effects;
-  add_law(s.law, effects);
+  add_law(s.law(), effects);
   if (s.surface.moves()) effects.push_back({"moving surface", 0});
   if (s.moves) effects.push_back({"moving wall", 0});
   if (s.records) effects.push_back({"loads of triangles", 0});

@@ -26,8 +26,8 @@ class EngineOn : public InPlaceEngine {
 
  public:
   EngineOn(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
-      settings_(settings), law_(law), b_(std::move(backend)), wall_(settings), springs_(law.traits),
-      counts_(1), overflow_(kOverflowScratches)
+      settings_(settings), law_(law), b_(std::move(backend)), wall_(settings), counts_(1),
+      springs_(b_, law.traits, counts_.data()), overflow_(kOverflowScratches)
   {
     if (settings.precision == Precision::single_ && !has_single(settings))
       throw InputError("precision single has neither granular, rolling, cohesion, a moving surface "
@@ -64,7 +64,7 @@ class EngineOn : public InPlaceEngine {
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
     results_.detach_from_near_list(b_);
-    springs_.grow(b_, spheres.n);
+    springs_.grow(spheres.n);
     use(spheres, wall_.choose(b_, spheres, margin, counts_, springs_.count()));
     forget_far_meshes();
     if (watch) wall_.keep_centres(b_, spheres, margin);
@@ -75,50 +75,57 @@ class EngineOn : public InPlaceEngine {
   std::vector<int> choose_among(const Spheres &spheres, Real margin)
   {
     if (wall_.has_several()) results_.detach_from_near_list(b_);
-    springs_.grow(b_, spheres.n);
+    springs_.grow(spheres.n);
     use(spheres, wall_.choose(b_, spheres, margin, counts_, nullptr, true));
     return wall_.chosen(b_, spheres.n);
   }
 
   bool has_moved(const Spheres &spheres) override { return wall_.has_moved(b_, spheres); }
 
-  void start(const Spheres &spheres, const StepSettings &step) override
+  void begin() override
   {
-    spheres_ = spheres;
-    step_ = step;
-    if (is_beside_) run(next_results_, true);
-    has_run_ = is_beside_;
+    beside_.ready(b_);
+    state_ = StepState::begun;
   }
-  bool has_begun() const override { return has_run_; }
 
-  void collect() override
+  void launch(const Spheres &spheres, const StepSettings &step, LaunchMode mode,
+              const std::function<void()> &prepare) override
   {
-    if (has_run_) {
-      std::swap(results_, next_results_);
-      if (!has_added_) results_.add_forces(b_);
+    require(StepState::begun);
+    mode_ = mode;
+    if (mode == LaunchMode::in_turn) {
+      if (prepare) prepare();
+      set_step(spheres, step);
     } else {
-      run();
+      launch_beside(spheres, step, prepare);
     }
-    has_run_ = false;
+    state_ = StepState::launched;
+  }
+  bool is_under_way() const override
+  {
+    return state_ == StepState::launched && mode_ != LaunchMode::in_turn;
+  }
+
+  void finish() override
+  {
+    require(StepState::launched);
+    if (mode_ == LaunchMode::in_turn)
+      compute(results_, false);
+    else
+      std::swap(results_, next_results_);
+    if (mode_ == LaunchMode::beside) results_.add_forces(b_);
+    state_ = StepState::none;
     fetch();
   }
 
-  void ready() override { beside_.ready(b_); }
-  void begin_beside() override
+  // For an adapter, which has its own protocol: the step, its work without waiting for it, and what is
+  // asked for of it.
+  void set_step(const Spheres &spheres, const StepSettings &step)
   {
-    beside_.begin(b_);
-    is_beside_ = true;
+    spheres_ = spheres;
+    step_ = step;
   }
-  void end_beside(bool adds_now) override
-  {
-    is_beside_ = false;
-    beside_.end(b_);
-    has_added_ = has_run_ && adds_now;
-    if (has_added_) next_results_.add_forces(b_);
-  }
-
-  // The two halves of collect(): the work, without waiting for it, and what is asked for of it.
-  void run() { run(results_, false); }
+  void compute() { compute(results_, false); }
   void fetch() { results_.fetch(b_, springs_.records(step_.update_history)); }
 
   const WallTotals &totals() const override { return const_cast<EngineOn *>(this)->sum_totals(); }
@@ -150,24 +157,9 @@ class EngineOn : public InPlaceEngine {
     return diagnostics_of(seen);
   }
 
-  void grow(int n) override { springs_.grow(b_, n); }
-  int *first_spring() override { return springs_.first(); }
-  int *n_springs() override { return springs_.count(); }
-  void springs_to(ContactHistory &store, int n) override { springs_.to_store(b_, store, n); }
-  void springs_from(const ContactHistory &store, int n) override
-  {
-    springs_.from_store(b_, store, n);
-  }
-  int largest_packed_size(int n) override { return springs_.largest_packed_size(b_, n); }
-  int most_packed_size() const override { return springs_.most_packed_size(); }
-  int pack(int n, const int *which, const int *from, double *buffer) override
-  {
-    return springs_.pack(b_, n, which, from, buffer);
-  }
-  void unpack(int n, const int *to, const double *buffer, int n_first, int second) override
-  {
-    springs_.unpack(b_, n, to, buffer, n_first, second, read_counts());
-  }
+  SpringsInPlace &springs() override { return springs_; }
+  void springs_to(ContactHistory &store, int n) override { springs_.to_store(store, n); }
+  void springs_from(const ContactHistory &store, int n) override { springs_.from_store(store, n); }
 
   std::size_t bytes() const override
   {
@@ -185,7 +177,7 @@ class EngineOn : public InPlaceEngine {
   void forget_far_meshes()
   {
     if (wall_.has_several())
-      springs_.forget_others(b_, wall_.slots().n_spheres(), wall_.slots().meshes_of());
+      springs_.forget_others(wall_.slots().n_spheres(), wall_.slots().meshes_of());
   }
 
   void unlock_scratches()
@@ -204,11 +196,10 @@ class EngineOn : public InPlaceEngine {
   void put_laws()
   {
     const std::vector<ContactLaw> &laws = settings_.laws.laws;
-    laws_ = Array<LawEntry>(std::max<std::size_t>(laws.size(), 1));
+    laws_ = Array<LawEntry>(laws.size());
     LawEntry *to = laws_.data();
     for (std::size_t k = 0; k < laws_.size(); k++, to++) {
-      const LawEntry entry = laws.empty() ? LawEntry{law_.law, settings_.law.pull_off()}
-                                          : LawEntry{law_.table[k], laws[k].pull_off()};
+      const LawEntry entry = {law_.laws[k], laws[k].pull_off()};
       b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = entry; });
     }
   }
@@ -248,8 +239,24 @@ class EngineOn : public InPlaceEngine {
     return {mesh.grid.view, force_settings(settings_, step_, mesh.pose, m)};
   }
 
-  // `adds_later`: forces are left to the results.
-  void run(StepResults<B> &results, bool adds_later)
+  void launch_beside(const Spheres &spheres, const StepSettings &step,
+                     const std::function<void()> &prepare)
+  {
+    beside_.begin(b_);
+    try {
+      if (prepare) prepare();
+      set_step(spheres, step);
+      compute(next_results_, true);
+    } catch (...) {    // a program may go on after an error
+      beside_.end(b_);
+      throw;
+    }
+    beside_.end(b_);
+    if (mode_ == LaunchMode::beside_adding_early) next_results_.add_forces(b_);
+  }
+
+  // The work of the step, without waiting for it. `adds_later`: forces are left to the results.
+  void compute(StepResults<B> &results, bool adds_later)
   {
     const std::size_t n = wall_.n();
     const bool several = wall_.has_several();
@@ -270,9 +277,9 @@ class EngineOn : public InPlaceEngine {
     if (job.pool.which == pool_written_) clear_counts(job.pool.which);
     pool_written_ = job.pool.which;
     if (several)
-      start_slots(job);
+      run_slots(job);
     else
-      start_law(job, n, law_of(0, 0));
+      run_law(job, n, law_of(0, 0));
     if (step_.update_history) springs_.swap();
   }
 
@@ -284,19 +291,19 @@ class EngineOn : public InPlaceEngine {
     step_lists_.clear(b_, wall_.n(), !wall_.has_several(), wall_.seem_several(), counts_.data());
   }
 
-  void start_law(LawJob &job, std::size_t n, const LawBytes &law)
+  void run_law(LawJob &job, std::size_t n, const LawBytes &law)
   {
     job.step_lists = step_lists_.next(counts_.data());
-    law_.start(law, job, n, b_);
+    law_.run(law, job, n, b_);
   }
 
   const LawBytes &law_of(int mesh, int kind) const
   {
-    return law_.table.empty() ? law_.law : law_.table[mesh * wall_.n_kinds() + kind];
+    return law_.laws[mesh * settings_.laws.of_mesh() + kind];
   }
 
   // Those near one mesh only, mesh after mesh and kind after kind, then those near several.
-  void start_slots(const LawJob &job)
+  void run_slots(const LawJob &job)
   {
     const NearMeshes<B> &slots = wall_.slots();
     for (int m = 0; m < wall_.n_meshes(); m++)
@@ -307,14 +314,13 @@ class EngineOn : public InPlaceEngine {
         const MeshWork work = mesh_work(m);
         of_mesh.grid = work.grid;
         of_mesh.settings = work.settings;
-        start_law(of_mesh, n, law_of(m, kind));
+        run_law(of_mesh, n, law_of(m, kind));
       }
     if (slots.n_joint() == 0) return;
     LawJob joint = job;
     joint.joint = {put_works(), slots.first(), slots.mesh()};
-    joint.joint.laws = {laws_.data(), law_.table.empty() ? 0 : wall_.n_kinds(),
-                        wall_.kinds_of(b_, spheres_)};
-    start_law(joint, slots.n_joint(), law_.law);
+    joint.joint.laws = {laws_.data(), settings_.laws.of_mesh(), wall_.kinds_of(b_, spheres_)};
+    run_law(joint, slots.n_joint(), law_of(0, 0));
   }
 
   const WallTotals &sum_totals() { return results_.totals(b_); }
@@ -337,18 +343,18 @@ class EngineOn : public InPlaceEngine {
   CompiledLaw<B> law_;
   B b_;
   typename B::SideStream beside_;
-  bool is_beside_ = false, has_run_ = false, has_added_ = false;    // the step that was started
+  LaunchMode mode_ = LaunchMode::in_turn;    // of the step that was launched
   NearWall<B> wall_;
   Spheres spheres_;
   StepSettings step_;
+  Array<StepCounts> counts_;
   ResidentSprings<B> springs_;
 
-  StepResults<B> results_, next_results_;    // of the last step, and of one begun beside
+  StepResults<B> results_, next_results_;    // of the last step, and of one launched beside
   StepListStore<B> step_lists_;
   Array<MeshWork> works_;    // of several meshes
   Array<LawEntry> laws_;     // likewise
 
-  Array<StepCounts> counts_;
   int pool_written_ = -1;
   Array<OverflowScratch> overflow_;
 };

@@ -101,8 +101,14 @@ class HostAdapter : public WallEngine {
     return centres_.has_moved(cpu_, spheres, meshes_);
   }
 
-  void start(const Spheres &spheres, const StepSettings &step) override
+  void begin() override { state_ = StepState::begun; }
+
+  // The engine's stream is no one else's: its work is always beside the host's.
+  void launch(const Spheres &spheres, const StepSettings &step, LaunchMode /*mode*/,
+              const std::function<void()> &prepare) override
   {
+    require(StepState::begun);
+    if (prepare) prepare();
     host_ = spheres;
     const std::size_t n = near_host_.size();
     B &b = engine_.backend_now();
@@ -113,23 +119,26 @@ class HostAdapter : public WallEngine {
       b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { response[k] = {}; });
       if (traits_.heat) send_heat(spheres);
     }
-    engine_.start(packed(), step);
-    engine_.run();
+    engine_.set_step(packed(), step);
+    engine_.compute();
+    state_ = StepState::launched;
     if (n == 0) return;
     if (!has_several()) b.copy_out(engine_.contacts_of_near().data(), n_contacts_.host.data(), n);
     b.copy_out(response_.device.data(), response_.host.data(), n);
     if (traits_.heat) b.copy_out(heat_.device.data(), heat_.host.data(), 2 * n);
   }
-  bool has_begun() const override { return true; }
+  bool is_under_way() const override { return state_ == StepState::launched; }
 
-  void collect() override
+  void finish() override
   {
+    require(StepState::launched);
     engine_.backend_now().wait();
     add_responses();
     engine_.fetch();
     touching_.assign(engine_.touching(), engine_.touching() + engine_.n_touching());
     for (int &i : touching_) i = near_host_[i];
     totals_known_ = false;
+    state_ = StepState::none;
   }
 
   const WallTotals &totals() const override
@@ -189,8 +198,8 @@ class HostAdapter : public WallEngine {
     std::vector<int> near;
     for (const EngineMesh<CpuBackend> &mesh : meshes_) {
       StepCounts seen = {};
-      near_.choose(cpu_, mesh, spheres, margin, largest_pull_off(settings_.law, settings_.laws),
-                   false, &seen, nullptr);
+      near_.choose(cpu_, mesh, spheres, margin, largest_pull_off(settings_.laws), false, &seen,
+                   nullptr);
       if (seen.too_large) {
         const int i = static_cast<int>(kNoSphere - seen.too_large);
         throw_too_large(i, spheres.radius[i], mesh.grid.view.cutoff);

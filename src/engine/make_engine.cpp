@@ -21,16 +21,16 @@ void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &s
 {
   if (springs) engine.springs_from(*springs, spheres.n);
   engine.choose(spheres, 0);
-  engine.start(spheres, step);
-  engine.collect();
+  engine.step(spheres, step);
   engine.read_diagnostics();    // throws where a sphere was left out
   if (springs && step.update_history) engine.springs_to(*springs, spheres.n);
 }
 
 bool has_single(const EngineSettings &settings)
 {
-  return settings.law.is_classic() && !settings.law.is_extended() && !settings.surface.moves() &&
-         !settings.moves && !has_several(settings) && !settings.records;
+  return settings.law().is_classic() && !settings.law().is_extended() &&
+         !settings.surface.moves() && !settings.moves && !has_several(settings) &&
+         !settings.records;
 }
 
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings)

@@ -29,7 +29,7 @@ LSDCD_FN std::int64_t as_integer(double bits)
 }
 
 template <class B>
-class ResidentSprings {
+class ResidentSprings : public SpringsInPlace {
   template <class T>
   using Array = typename B::template Array<T>;
 
@@ -42,29 +42,33 @@ class ResidentSprings {
   };
 
  public:
-  explicit ResidentSprings(const LawTraits &traits) : traits_(traits) {}
+  // `counts`: where kernels count what a step used of a pool. Backend and counts must outlive it.
+  ResidentSprings(B &backend, const LawTraits &traits, const StepCounts *counts) :
+      b_(backend), traits_(traits), counts_(counts)
+  {
+  }
 
-  int *first() { return first_.data(); }
-  int *count() { return count_.data(); }
+  int *first() override { return first_.data(); }
+  int *count() override { return count_.data(); }
   SpringsView view() const
   {
     const Pool &pool = pool_[now_];
     return {{first_.data()}, {count_.data()}, pool.springs.data(), pool.extra.data()};
   }
 
-  // For n more or less spheres than before; new ones have no springs.
-  void grow(B &b, std::size_t n)
+  void grow(int n_spheres) override
   {
+    const std::size_t n = n_spheres;
     if (!traits_.history || n <= count_.size()) return;
     Array<int> first(n), count(n);
     int *to_first = first.data(), *to_count = count.data();
     const int *from_first = first_.data(), *from_count = count_.data();
     const std::size_t before = count_.size();
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
       to_first[i] = i < before ? from_first[i] : 0;
       to_count[i] = i < before ? from_count[i] : 0;
     });
-    b.wait();
+    b_.wait();
     first_ = std::move(first);
     count_ = std::move(count);
   }
@@ -82,7 +86,7 @@ class ResidentSprings {
   }
 
   // Leaves of sphere i the springs on meshes of set[i].
-  void forget_others(B &b, std::size_t n, const std::uint32_t *set)
+  void forget_others(std::size_t n, const std::uint32_t *set)
   {
     if (!traits_.history) return;
     Pool &pool = pool_[now_];
@@ -91,7 +95,7 @@ class ResidentSprings {
     Spring *springs = pool.springs.data();
     Real *extra = pool.extra.data();
     const int n_extra = traits_.n_extra;
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
       const std::size_t begin = first[i];
       int kept = 0;
       for (int c = 0; c < count[i]; c++) {
@@ -136,12 +140,12 @@ class ResidentSprings {
     return pool_[moved ? now_ : 1 - now_].records.data();
   }
 
-  void to_store(B &b, ContactHistory &store, std::size_t n)
+  void to_store(ContactHistory &store, std::size_t n)
   {
     if (!traits_.history) return;
-    grow(b, n);
+    grow(static_cast<int>(n));
     Array<int> offset(n);
-    const std::size_t total = offsets(b, n, offset.data());
+    const std::size_t total = offsets(n, offset.data());
     Array<Spring> springs(total);
     Array<Real> extra(total * traits_.n_extra);
     const SpringsView from = view();
@@ -149,7 +153,7 @@ class ResidentSprings {
     const int *at = offset.data();
     Spring *to = springs.data();
     Real *to_extra = extra.data();
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
       for (int c = 0; c < from.count[i]; c++) {
         const std::size_t source = std::size_t(from.first[i]) + c, target = std::size_t(at[i]) + c;
         to[target] = from.pool[source];
@@ -157,47 +161,47 @@ class ResidentSprings {
           to_extra[target * n_extra + e] = from.extra[source * n_extra + e];
       }
     });
-    store.assign(to_host(b, offset, n), to_host(b, count_, n), to_host(b, springs, total),
-                 to_host(b, extra, total * n_extra));
+    store.assign(to_host(b_, offset, n), to_host(b_, count_, n), to_host(b_, springs, total),
+                 to_host(b_, extra, total * n_extra));
   }
 
-  void from_store(B &b, const ContactHistory &store, std::size_t n)
+  void from_store(const ContactHistory &store, std::size_t n)
   {
     if (!traits_.history) return;
-    grow(b, n);
+    grow(static_cast<int>(n));
     const SpringsView from = store.view();
     Pool &pool = pool_[now_];
     const std::size_t size = store.pool_size();
     if (pool.size < size) pool = make(size + size / 8);
-    b.copy_in(from.first.at, first_.data(), n);
-    b.copy_in(from.count.at, count_.data(), n);
+    b_.copy_in(from.first.at, first_.data(), n);
+    b_.copy_in(from.count.at, count_.data(), n);
     // What was past them lies in a pool that is no more.
     int *past = count_.data() + n;
-    b.for_each(count_.size() - n, [=] LSDCD_LAMBDA(std::size_t i) { past[i] = 0; });
-    b.copy_in(from.pool, pool.springs.data(), size);
-    if (traits_.n_extra > 0) b.copy_in(from.extra, pool.extra.data(), size * traits_.n_extra);
-    b.wait();
+    b_.for_each(count_.size() - n, [=] LSDCD_LAMBDA(std::size_t i) { past[i] = 0; });
+    b_.copy_in(from.pool, pool.springs.data(), size);
+    if (traits_.n_extra > 0) b_.copy_in(from.extra, pool.extra.data(), size * traits_.n_extra);
+    b_.wait();
     end_ = size;
   }
 
-  int largest_packed_size(B &b, std::size_t n)
+  int largest_packed_size(int n) override
   {
     const int *count = count_.data();
-    return 1 + per_spring() * b.template largest<int>(
+    return 1 + per_spring() * b_.template largest<int>(
                                   n, [=] LSDCD_LAMBDA(std::size_t i) -> int { return count[i]; });
   }
 
-  int most_packed_size() const { return 1 + per_spring() * kMaxContacts; }
+  int most_packed_size() const override { return 1 + per_spring() * kMaxContacts; }
 
-  int pack(B &b, int n, const int *which, const int *from, double *buffer)
+  int pack(int n, const int *which, const int *from, double *buffer) override
   {
     Array<int> offset(n);
     int *at = offset.data(), *first = first_.data(), *count = count_.data();
     const SpringsView springs = view();
     const int per_spring = this->per_spring(), n_extra = traits_.n_extra;
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = 1 + per_spring * count[which[k]]; });
-    const int total = b.exclusive_scan(at, n);
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = 1 + per_spring * count[which[k]]; });
+    const int total = b_.exclusive_scan(at, n);
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = which[k];
       int m = n + at[k];
       buffer[k] = as_double(m);
@@ -216,26 +220,25 @@ class ResidentSprings {
         count[i] = count[j];
       }
     });
-    b.wait();
+    b_.wait();
     return n + total;
   }
 
-  void unpack(B &b, int n, const int *to, const double *buffer, int n_first, int second,
-              const StepCounts &last)
+  void unpack(int n, const int *to, const double *buffer, int n_first, int second) override
   {
-    if (end_ == kUnknown) end_ = pool_[now_].shared + last.shared_used[now_];
+    if (end_ == kUnknown) end_ = pool_[now_].shared + read_one(b_, counts_).shared_used[now_];
     Array<int> offset(n);
     int *at = offset.data(), *first = first_.data(), *count = count_.data();
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       at[k] = to[k] < 0 ? 0 : static_cast<int>(buffer[place_of(buffer, k, n_first, second)]);
     });
-    const std::size_t total = b.exclusive_scan(at, n);
-    extend(b, end_ + total);
+    const std::size_t total = b_.exclusive_scan(at, n);
+    extend(end_ + total);
     Pool &pool = pool_[now_];
     Spring *springs = pool.springs.data();
     Real *extra = pool.extra.data();
     const int n_extra = traits_.n_extra, begin = static_cast<int>(end_);
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = to[k];
       if (i < 0) return;
       std::int64_t m = place_of(buffer, k, n_first, second);
@@ -251,7 +254,7 @@ class ResidentSprings {
         for (int e = 0; e < n_extra; e++) extra[target * n_extra + e] = buffer[m++];
       }
     });
-    b.wait();
+    b_.wait();
     end_ += total;
   }
 
@@ -265,15 +268,15 @@ class ResidentSprings {
 
   // Public because nvcc takes no device lambda from a private function.
 
-  std::size_t offsets(B &b, std::size_t n, int *to)
+  std::size_t offsets(std::size_t n, int *to)
   {
     const int *count = count_.data();
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = count[i]; });
-    return b.exclusive_scan(to, n);
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = count[i]; });
+    return b_.exclusive_scan(to, n);
   }
 
   // Room for n springs, keeping those that are there.
-  void extend(B &b, std::size_t n)
+  void extend(std::size_t n)
   {
     Pool &pool = pool_[now_];
     if (pool.size >= n) return;
@@ -283,11 +286,11 @@ class ResidentSprings {
     const Real *from_extra = pool.extra.data();
     Spring *to = wider.springs.data();
     Real *to_extra = wider.extra.data();
-    b.for_each(end_, [=] LSDCD_LAMBDA(std::size_t i) {
+    b_.for_each(end_, [=] LSDCD_LAMBDA(std::size_t i) {
       to[i] = from[i];
       for (std::size_t e = i * n_extra; e < (i + 1) * n_extra; e++) to_extra[e] = from_extra[e];
     });
-    b.wait();
+    b_.wait();
     pool = std::move(wider);
   }
 
@@ -317,7 +320,9 @@ class ResidentSprings {
     return pool;
   }
 
+  B &b_;
   LawTraits traits_;
+  const StepCounts *counts_;
   Array<int> first_, count_;
   Pool pool_[2];
   int now_ = 0;

@@ -19,7 +19,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 namespace lsdcd {
@@ -37,8 +39,7 @@ enum class Precision { double_, mixed, single_ };
 constexpr int kMaxMeshes = 32;
 
 struct EngineSettings {
-  ContactLaw law;
-  LawTable laws;    // in place of `law`, with the same sub-models, where there are several
+  LawTable laws = ContactLaw();
   Corner corner = Corner::blend;
   Side side = Side::both;
   Precision precision = Precision::double_;
@@ -49,6 +50,10 @@ struct EngineSettings {
   WearModel wear = WearModel::none;    // where records are kept
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
+
+  // The first law of the table: the only one, or the sub-models of all.
+  ContactLaw &law() { return laws.laws.front(); }
+  const ContactLaw &law() const { return laws.laws.front(); }
 };
 
 // Several meshes, or several kinds of spheres: near spheres are sorted by these.
@@ -80,7 +85,7 @@ struct StepSettings {
   bool per_sphere = false;       // fill SphereOutput
   bool records = true;           // bring what settings.records keeps
   Real wall_temperature = 0;     // where the law has heat
-  // Of each mesh, in place of what is above and of the settings'; valid until collect().
+  // Of each mesh, in place of what is above and of the settings'; valid until finish().
   const Real *mesh_temperature = nullptr;
   const SurfaceMotion *surface = nullptr;
 };
@@ -129,8 +134,20 @@ struct StepDiagnostics {
   std::int64_t lists = 0, listed = 0, by_cells = 0;
 };
 
-// Computes wall forces for the spheres of one process: choose() now and then, start() and
-// collect() in every step. Springs stay with the engine between steps and follow the spheres'
+// A step is begun, launched and finished.
+enum class StepState { none, begun, launched };
+
+// Where the work of a step runs.
+enum class LaunchMode {
+  in_turn,    // after what the host has given its stream; on a CPU finish() does it
+  // In place on a GPU: at once, on a stream of its own, after what the host had given its stream by
+  // begin(). finish() adds forces and torques.
+  beside,
+  beside_adding_early,    // likewise, but they are added after what the host has given by launch()
+};
+
+// Computes wall forces for the spheres of one process: choose() now and then, begin(), launch() and
+// finish() in every step. Springs stay with the engine between steps and follow the spheres'
 // indices; a host that moves spheres takes them out before (springs_to) and gives them back.
 class WallEngine {
  public:
@@ -142,7 +159,7 @@ class WallEngine {
   // The grid of a mesh, to use from now on; borrowed, must outlive its use. Asks for a choice.
   virtual void set_grid(const GridView &grid, int mesh = 0) = 0;
 
-  // Where a mesh is from now on, and how fast it goes; not between start() and collect(). At
+  // Where a mesh is from now on, and how fast it goes; not between launch() and finish(). At
   // first it is where the grid has it. Only an engine whose settings say that it moves may be asked.
   virtual void place_wall(const Pose &pose, int mesh = 0) = 0;
 
@@ -161,23 +178,40 @@ class WallEngine {
   // the margin of the last choice? Others may go as far as they like.
   virtual bool has_moved(const Spheres &spheres) = 0;
 
-  // Begins a step. Until collect() the host must not change x, v or omega, and may change force
-  // and torque.
-  virtual void start(const Spheres &spheres, const StepSettings &step) = 0;
+  // Begins a step: what it reads of spheres is final, in place once the host's stream has done what it
+  // has been given. Until finish() the host must not change x, v, omega or radii, and may change
+  // force and torque. A step that was begun before and not finished is given up.
+  virtual void begin() = 0;
 
-  // After start(): has the work begun, so that collect() only waits for it? Else collect() does it.
-  virtual bool has_begun() const = 0;
+  // Gives the step its spheres and settings. `prepare` is called first, where the step runs: it may
+  // ask has_moved() and choose(). Where it throws, the step stays begun.
+  virtual void launch(const Spheres &spheres, const StepSettings &step,
+                      LaunchMode mode = LaunchMode::in_turn,
+                      const std::function<void()> &prepare = {}) = 0;
 
-  // Ends it: adds forces and torques, and replaces the springs (unless update_history is false)
-  // and the totals.
-  virtual void collect() = 0;
+  // After launch(): does the work go on by itself, so that finish() only waits for it?
+  virtual bool is_under_way() const = 0;
+
+  // Finishes it: adds forces and torques, and replaces the springs (unless update_history is false)
+  // and the totals, which are those of the last step until then.
+  virtual void finish() = 0;
+
+  StepState state() const { return state_; }
+
+  // The three in one.
+  void step(const Spheres &spheres, const StepSettings &step)
+  {
+    begin();
+    launch(spheres, step);
+    finish();
+  }
 
   virtual const WallTotals &totals() const = 0;
   // What one mesh has of them, without the sphere.
   virtual WallTotals mesh_totals(int mesh) const = 0;
 
   // Of the spheres with a contact in the last step: how many, which, and what.
-  // Valid after collect() of a step with per_sphere.
+  // Valid after finish() of a step with per_sphere.
   virtual int n_touching() const = 0;
   virtual const int *touching() const = 0;
   virtual const SphereOutput *sphere_output() const = 0;
@@ -185,7 +219,7 @@ class WallEngine {
   virtual const Real *sphere_heat() const = 0;
 
   // What the contacts of the last step did to the wall, in the order of the spheres;
-  // valid after collect() where settings.records and step.records are set.
+  // valid after finish() where settings.records and step.records are set.
   virtual int n_records() const = 0;
   virtual const ContactRecord *records() const = 0;
 
@@ -200,43 +234,49 @@ class WallEngine {
   // Near spheres of the last choice; bytes held by the engine.
   virtual int n_near() const = 0;
   virtual std::size_t bytes() const = 0;
+
+ protected:
+  void require(StepState state) const
+  {
+    if (state_ != state)
+      throw std::logic_error("a step is begun, launched and finished, in this order");
+  }
+
+  StepState state_ = StepState::none;
 };
 
-// An engine for particles that live where it computes: pointers in Spheres, and those below, are
-// to memory of its backend, so that a step copies nothing and waits for nothing. start() only
-// notes what collect() does; that fetches what the step's settings ask for.
-class InPlaceEngine : public WallEngine {
+// Springs of a process's spheres in the memory of an engine's backend; so are all pointers. Per sphere
+// there are a first spring and a count, which follow it through sorting.
+class SpringsInPlace {
  public:
-  // A step beside the host's own work, where a GPU has room for both. ready(): what steps read of
-  // spheres is there once the host's stream has done what it has been given, and does not change
-  // until collect(). What is asked for between begin_beside() and end_beside() does not wait for what
-  // the host gives its stream after ready(): choose(), has_moved() and a start(), which
-  // begins at once here. Forces and torques are added by collect(), after that work, or with
-  // `adds_now` after what the host has given its stream by then; until collect() totals are those of
-  // the last step.
-  virtual void ready() = 0;
-  virtual void begin_beside() = 0;
-  virtual void end_beside(bool adds_now) = 0;
+  virtual ~SpringsInPlace() = default;
 
-  // How far a sphere is past a periodic face, at most; length. Waits.
-  virtual Real farthest_past(const Spheres &spheres, const PeriodicFaces &faces) = 0;
-
-  // Per sphere there are a first spring and a count, which follow it through sorting; `n` spheres
-  // are the process's own.
-  virtual void grow(int n) = 0;    // room for n; new spheres have none
-  virtual int *first_spring() = 0;
-  virtual int *n_springs() = 0;
+  // Room for n spheres; new ones have no springs.
+  virtual void grow(int n) = 0;
+  virtual int *first() = 0;
+  virtual int *count() = 0;
 
   // Exchange, as LAMMPS's Kokkos communication lays it out: first the offset of each
   // sphere's numbers, as an integer in a double; then for each its count of springs and
   // these. Sphere which[k] leaves and sphere from[k], if that is not -1, takes its place.
   // Returns the numbers written.
-  virtual int largest_packed_size(int n) = 0;    // numbers of one sphere; waits
+  virtual int largest_packed_size(int n) = 0;    // numbers of one of n spheres; waits
   virtual int most_packed_size() const = 0;      // that one can have
   virtual int pack(int n, const int *which, const int *from, double *buffer) = 0;
   // Sphere to[k], if that is not -1, gets the k-th of what came. From n_first on the offsets
   // are those of a second message, which begins at `second`.
   virtual void unpack(int n, const int *to, const double *buffer, int n_first, int second) = 0;
+};
+
+// An engine for particles that live where it computes: pointers in Spheres are to memory of its
+// backend, so that a step copies nothing and waits for nothing. finish() fetches what the step's
+// settings ask for.
+class InPlaceEngine : public WallEngine {
+ public:
+  virtual SpringsInPlace &springs() = 0;
+
+  // How far a sphere is past a periodic face, at most; length. Waits.
+  virtual Real farthest_past(const Spheres &spheres, const PeriodicFaces &faces) = 0;
 };
 
 // One step of a host that keeps the springs itself, from a choice of its own; `springs` may be null

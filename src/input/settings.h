@@ -93,7 +93,10 @@ struct WallSettings {
     return laws.is_empty() ? law : laws.laws[mesh * laws.kinds + kind];
   }
   // How far from its centre a sphere can feel a mesh.
-  Real cutoff(Real radius) const { return cutoff_of(radius, largest_pull_off(law, laws)); }
+  Real cutoff(Real radius) const
+  {
+    return cutoff_of(radius, laws.is_empty() ? law.pull_off() : largest_pull_off(laws));
+  }
 
   // Numbers of a sphere in the contacts array; 0 without it.
   int contact_columns() const { return contacts ? 8 + law.has_heat() : 0; }

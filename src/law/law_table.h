@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The laws of a wall whose contacts have other numbers by mesh or by atom type.
+// The laws of a wall, by mesh and by atom type.
 #pragma once
 
 #include "law/contact_law.h"
@@ -11,19 +11,25 @@
 
 namespace lsdcd {
 
-// All laws have the same sub-models. Atom types that have the same numbers with every mesh are one kind.
+// At least one law; all have the same sub-models. Atom types that have the same numbers with every mesh are
+// one kind.
 struct LawTable {
-  std::vector<ContactLaw> laws;    // of mesh m and kind k at m * kinds + k; empty: there is one law
-  int kinds = 1;                   // at least 1
+  LawTable() = default;    // to be filled
+  LawTable(const ContactLaw &law) : laws(1, law) {}
+
+  std::vector<ContactLaw> laws;     // `kinds` laws that all meshes have, or as many of each mesh
+  int kinds = 1;                    // at least 1
   std::vector<int> kind_of_type;    // of atom type t at min(t, size - 1); empty: all are of kind 0
 
   bool is_empty() const { return laws.empty(); }
+  // Laws from one mesh to the next in `laws`.
+  int of_mesh() const { return static_cast<int>(laws.size()) > kinds ? kinds : 0; }
 };
 
-// See ContactLaw::pull_off(). `one`: the law where the table is empty.
-inline Real largest_pull_off(const ContactLaw &one, const LawTable &table)
+// See ContactLaw::pull_off().
+inline Real largest_pull_off(const LawTable &table)
 {
-  Real largest = table.is_empty() ? one.pull_off() : 0;
+  Real largest = 0;
   for (const ContactLaw &law : table.laws) largest = std::max(largest, law.pull_off());
   return largest;
 }

@@ -26,10 +26,10 @@ class Motion {
   Motion(const GridView &grid, const EngineSettings &engine, const DriftStarts &starts,
          Real height) :
       engine_(make_engine(engine)),
-      starts_(starts), wall_(starts.wall.view()), n_(starts.n()), springs_(engine.law.n_extra()),
+      starts_(starts), wall_(starts.wall.view()), n_(starts.n()), springs_(engine.law().n_extra()),
       dt_(kStep * std::sqrt(starts.radius)), x_(3 * n_), v_(3 * n_), omega_(3 * n_), force_(3 * n_),
       torque_(3 * n_), radius_(n_, starts.radius), mass_(n_, 1), mask_(n_, 1),
-      has_history_(engine.law.has_history())
+      has_history_(engine.law().has_history())
   {
     engine_->set_grid(grid);
     springs_.grow(n_);
@@ -207,8 +207,8 @@ Real bounce_drift(const GridView &grid, EngineSettings engine, const DriftStarts
   constexpr Real kDrop = 0.2, kSpeed = 0.3, kTime = 13.7;
   const Real radius = starts.radius;
   engine.device = Device::cpu;
-  engine.law = ContactLaw();
-  engine.law.k_normal = kStiffness / radius;
+  engine.law() = ContactLaw();
+  engine.law().k_normal = kStiffness / radius;
   Motion motion(grid, engine, starts, (1 + kDrop) * radius);
   for (int i = 0; i < starts.n(); i++)
     motion.set_speeds(i, kSpeed * std::sqrt(radius) * starts.along[i], {0, 0, 0});
@@ -220,11 +220,11 @@ Real roll_drift(const GridView &grid, EngineSettings engine, const DriftStarts &
   constexpr Real kSpeed = 0.5, kTime = 10;
   const Real radius = starts.radius, speed = kSpeed * std::sqrt(radius);
   engine.device = Device::cpu;
-  engine.law = ContactLaw();
-  engine.law = classic_law(NormalModel::hooke, true);
-  engine.law.k_normal = kStiffness / radius;
-  engine.law.k_tangent = engine.law.k_normal * 2 / 7;
-  engine.law.mu = 10000;
+  engine.law() = ContactLaw();
+  engine.law() = classic_law(NormalModel::hooke, true);
+  engine.law().k_normal = kStiffness / radius;
+  engine.law().k_tangent = engine.law().k_normal * 2 / 7;
+  engine.law().mu = 10000;
   Motion motion(grid, engine, starts, radius - radius / kStiffness);
   for (int i = 0; i < starts.n(); i++)
     motion.set_speeds(i, speed * starts.along[i],

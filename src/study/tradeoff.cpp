@@ -52,7 +52,7 @@ class Measuring {
     };
     plan_settings_ = grid_settings_;
     plan_settings_.for_gpu = settings.cuda;
-    engine_.law = law_to_time();
+    engine_.law() = law_to_time();
   }
 
   Tradeoff run()
@@ -166,7 +166,7 @@ class Measuring {
       row.corner = corner;
       row.bytes = bytes;
       row.error = compare(reference_[corner == Corner::sum], answer(view, engine_, sample_),
-                          sample_, engine_.law.k_normal);
+                          sample_, engine_.law().k_normal);
       row.bounce_drift = bounce_drift(view, engine_, starts_);
       row.roll_drift = roll_drift(view, engine_, starts_);
       for (bool on_cuda : {false, true}) {

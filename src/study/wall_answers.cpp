@@ -89,8 +89,8 @@ WallAnswers answer(const GridView &grid, const EngineSettings &engine, const Sph
   }
 
   EngineSettings on_cpu = engine;
-  on_cpu.law = ContactLaw();
-  on_cpu.law.k_normal = engine.law.k_normal;
+  on_cpu.law() = ContactLaw();
+  on_cpu.law().k_normal = engine.law().k_normal;
   on_cpu.device = Device::cpu;
   const auto cpu = make_engine(on_cpu);
   cpu->set_grid(grid);
@@ -149,8 +149,7 @@ double step_seconds(WallEngine &engine, bool on_cuda, const SphereSample &sample
   for (int r = -1; r < repeats; r++) {    // once to warm up
     if (r >= 0) fill_caches();
     const double start = seconds_now(on_cuda);
-    engine.start(at_rest.spheres, {});
-    engine.collect();
+    engine.step(at_rest.spheres, {});
     const double seconds = seconds_now(on_cuda) - start;
     if (r == 0 || (r > 0 && seconds < quickest)) quickest = seconds;
   }

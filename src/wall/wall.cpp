@@ -116,8 +116,7 @@ std::size_t Wall::bytes() const
 EngineSettings Wall::engine_settings() const
 {
   EngineSettings want;
-  want.law = settings_.law;
-  want.laws = settings_.laws;
+  want.laws = settings_.laws.is_empty() ? LawTable(settings_.law) : settings_.laws;
   want.corner = settings_.corner;
   want.side = settings_.side;
   want.precision = settings_.precision;
@@ -216,11 +215,9 @@ void Wall::begin(const Spheres &spheres, const StepInput &input)
     if (cutoff() > 0) timestep_.check(step.dt);
     look_at_servo_spheres();
   }
-  running_ = cutoff() > 0;
-  launched_ = false;
-  if (!running_ || !place_.in_place) return;
-  if (history_.is_kept()) in_place().grow(history_.room());
-  in_place().ready();
+  if (cutoff() == 0) return;
+  if (place_.in_place && history_.is_kept()) in_place().springs().grow(history_.room());
+  engine_->begin();
 }
 
 // What follows from the time alone is right in a snapshot; what is added up from step to step is
@@ -360,42 +357,29 @@ void Wall::choose_if_due(const Spheres &spheres)
   search_.count_choice();
 }
 
-void Wall::start(const Spheres &spheres)
+void Wall::launch(const Spheres &spheres, LaunchMode mode)
 {
+  if (step_state() != StepState::begun) return;
   const StepSettings step = step_settings();
   on_this_process([&] {
     times_.begin();
-    choose_if_due(spheres);
-    times_.end(TimeReport::choice);
-    engine_->start(spheres, step);
-    if (engine_->has_begun()) times_.end(TimeReport::forces);
+    engine_->launch(spheres, step, mode, [&] {
+      choose_if_due(spheres);
+      times_.end(TimeReport::choice);
+    });
+    if (engine_->is_under_way()) times_.end(TimeReport::forces);
   });
-}
-
-void Wall::launch(const Spheres &spheres, bool beside, bool adds_early)
-{
-  if (!running_ || launched_) return;
-  if (beside) in_place().begin_beside();
-  try {
-    start(spheres);
-  } catch (...) {    // a program may go on after an error
-    if (beside) in_place().end_beside(false);
-    throw;
-  }
-  if (beside) in_place().end_beside(adds_early);
-  launched_ = true;
 }
 
 void Wall::finish(const Spheres &spheres)
 {
   const Step &step = input_.step;
   launch(spheres);
-  if (running_) {
-    const bool waits = engine_->has_begun();
+  if (step_state() == StepState::launched) {
+    const bool waits = engine_->is_under_way();
     times_.begin();
-    on_this_process([&] { engine_->collect(); });
+    on_this_process([&] { engine_->finish(); });
     times_.end(waits ? TimeReport::waiting : TimeReport::forces);
-    running_ = false;
     history_.set_spheres_of_engine(spheres.n);
     search_.count_step(step.kind != Step::step);
   }

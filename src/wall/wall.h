@@ -76,11 +76,10 @@ class Wall {
   // spheres is there once the host's stream has done what it has been given.
   void begin(const Spheres &spheres, const StepInput &input);
   // Chooses the spheres near the wall where that is due, and starts the step where the engine can work
-  // beside the host. `beside`: beside what the host's stream is at; `adds_early`: forces are added right
-  // after that, not in finish(). Not together.
-  void launch(const Spheres &spheres, bool beside = false, bool adds_early = false);
-  // Is there a step that was begun and not finished? Not together.
-  bool is_running() const { return running_; }
+  // beside the host. Not together.
+  void launch(const Spheres &spheres, LaunchMode mode = LaunchMode::in_turn);
+  // Not together. none: no step was begun, or one that has no spheres.
+  StepState step_state() const { return engine_->state(); }
   // Adds forces and torques. Launches the step where it was not launched.
   void finish(const Spheres &spheres);
 
@@ -141,7 +140,6 @@ class Wall {
 
   StepSettings step_settings();
   void choose_if_due(const Spheres &spheres);
-  void start(const Spheres &spheres);
   StepDiagnostics read_diagnostics();
   void check_new_spheres();
 
@@ -172,8 +170,7 @@ class Wall {
   GridManager grids_;
   ChoiceSchedule schedule_;
 
-  StepInput input_;    // of the last begin()
-  bool running_ = false, launched_ = false;
+  StepInput input_;           // of the last begin()
   bool continued_ = false;    // from a restart file
   bool points_warned_ = false, snapshot_told_ = false;
   Real servo_radius_ = 0, servo_mass_ = 0;    // the largest, for gains of servos

@@ -18,13 +18,13 @@ const Real kLevel = kRadius - kMass * kG / kStiffness;
 
 EngineSettings with_rolling(EngineSettings s, RollingModel rolling)
 {
-  s.law.rolling = {rolling, {kMuRoll}};
+  s.law().rolling = {rolling, {kMuRoll}};
   return s;
 }
 
 EngineSettings with_cohesion(EngineSettings s, Real k)
 {
-  s.law.cohesion = {CohesionModel::sjkr, {k}};
+  s.law().cohesion = {CohesionModel::sjkr, {k}};
   return s;
 }
 
@@ -84,7 +84,7 @@ TEST(epsd2, stops_a_rolling_sphere_at_the_analytic_distance)
     const Real yields = kMuRoll * kMass * kG / k;
     const Real exact = 0.7 * 0.3 * 0.3 / (kMuRoll * kG) + yields / 2;
     EngineSettings s = with_rolling(hooke(kStiffness, 50, 5000, 0.3), RollingModel::epsd2);
-    s.law.k_tangent = k;
+    s.law().k_tangent = k;
     Scene scene(floor_mesh(16, 2, 3), kRadius, s);
     EXPECT_NEAR(way_until_it_stops(scene, 1e-5), exact, 1e-4 * exact) << k;
   }
@@ -94,7 +94,7 @@ TEST(epsd2, holds_a_couple_that_grows_with_the_angle_up_to_its_limit)
 {
   const Real overlap = 0.01, dt = 1e-4, limit = kMuRoll * kStiffness * overlap * kRadius;
   EngineSettings s = with_rolling(hooke(kStiffness), RollingModel::epsd2);
-  s.law.k_tangent = kTangent;
+  s.law().k_tangent = kTangent;
   Scene scene(floor_mesh(4, 2), kRadius, s);
   const Vec3 omega = {0.3, -0.2, 5};    // what twists does not roll
   scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, 0}, omega);

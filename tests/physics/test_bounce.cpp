@@ -177,7 +177,7 @@ TEST(oblique, gross_slip_takes_mu_times_the_normal_impulse)
     for (const auto &place : places) {
       EngineSettings law = history ? hooke_history(kStiffness, 10 * kStiffness, 30, 0, mu)
                                    : hooke(kStiffness, 30, 1e9, mu);
-      law.law.limit_damping = true;    // F_n does not pull: its impulse is m (1 + e) v_n
+      law.law().limit_damping = true;    // F_n does not pull: its impulse is m (1 + e) v_n
       const Oblique o = oblique(soup, place.p, {0, 0, 1}, unit({1, 0.3, 0}), law, v, u, dt);
       const std::string where =
           std::string("gross slip on ") + place.name + (history ? ", history" : ", no history");

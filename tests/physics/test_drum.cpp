@@ -187,7 +187,7 @@ Outcome run_scene(int n, EngineSettings law, bool rolling, Real seconds, int ste
 {
   law.corner = corner;
   Scene scene(drum_mesh(n), kRadius, law);
-  const Disc s = start(rolling, law.law.k_normal);
+  const Disc s = start(rolling, law.law().k_normal);
   const Real dt = seconds / steps;
   // y is the axis, so that a turn from x to z is one about -y.
   scene.add_sphere({Real(s.x), 1, Real(s.z)}, kRadius, kMass, {Real(s.vx), 0, Real(s.vz)},

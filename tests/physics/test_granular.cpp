@@ -26,7 +26,7 @@ struct OneSphere {
   Scene scene;
   Real height = 0;
   explicit OneSphere(const EngineSettings &law, int n = 4, unsigned seed = 0) :
-      scene(floor_mesh(n, 2, seed), cutoff_of(law.law, kRadius), law)
+      scene(floor_mesh(n, 2, seed), cutoff_of(law.law(), kRadius), law)
   {
     scene.add_sphere(kSpot + Vec3{0, 0, 2 * kRadius}, kRadius, kMass);
   }
@@ -105,7 +105,7 @@ TEST(jkr, on_one_side_of_a_hinge_is_not_held_by_the_other)
   EngineSettings law = jkr.law();
   law.corner = Corner::sum;
   const Real angle = kPi / 18, height = kRadius - 1e-6, gap = 0.5 * jkr.pull_off();
-  Scene scene(hinge_mesh(10, 4), cutoff_of(law.law, kRadius), law);
+  Scene scene(hinge_mesh(10, 4), cutoff_of(law.law(), kRadius), law);
   // The other side is at a distance of cos(angle) z - sin(angle) x.
   scene.add_sphere({(std::cos(angle) * height - kRadius - gap) / std::sin(angle), 0.11, height},
                    kRadius, kMass);
@@ -180,9 +180,9 @@ TEST(jkr, sphere_slides_under_a_ceiling_of_triangles_without_falling)
   for (const Corner corner : {Corner::blend, Corner::sum}) {
     EngineSettings law = jkr.law();
     law.corner = corner;
-    law.law.damping = DampingModel::mass_velocity;
-    law.law.eta = 50;
-    Scene scene(floor_mesh(16, 2, 5), cutoff_of(law.law, kRadius), law);
+    law.law().damping = DampingModel::mass_velocity;
+    law.law().eta = 50;
+    Scene scene(floor_mesh(16, 2, 5), cutoff_of(law.law(), kRadius), law);
     const Real touch = -kRadius + 1e-6;
     scene.add_sphere({-1, 0.11, touch}, kRadius, kMass, {0, 0, 0});
     const Real dt = 2e-4;
@@ -206,7 +206,7 @@ TEST(jkr, on_the_faces_of_a_drum_pulls_as_one_wall)
   EngineSettings law = jkr.law();
   const Real drum = 5;
   const int n = 512;
-  Scene scene(cylinder_mesh(n, 1, drum, 4), cutoff_of(law.law, kRadius), law);
+  Scene scene(cylinder_mesh(n, 1, drum, 4), cutoff_of(law.law(), kRadius), law);
   scene.add_sphere({drum - kRadius, 0, 2}, kRadius, kMass);
   scene.compute(1e-6);
   const Real gap = 0.5 * jkr.pull_off(), sag = drum * (1 - std::cos(kPi / n));
@@ -243,8 +243,8 @@ TEST(damping, coeff_restitution_returns_what_is_set)
   for (NormalModel normal : {NormalModel::hooke, NormalModel::hertz})
     for (Real e : {0.1, 0.3, 0.5, 0.7, 0.9, 1.0}) {
       EngineSettings law = granular(normal, kK);
-      law.law.damping = DampingModel::stiffness;
-      law.law.eta = restitution_damping(normal, e);
+      law.law().damping = DampingModel::stiffness;
+      law.law().eta = restitution_damping(normal, e);
       EXPECT_NEAR(restitution(law, 0.5, 2000), e, 1e-3) << e;
     }
 }
@@ -254,8 +254,8 @@ TEST(damping, tsuji_returns_what_is_set)
   // The fit itself is off by 1.1e-3 at most (at 0.8).
   for (Real e : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
     EngineSettings law = granular(NormalModel::hertz, kK);
-    law.law.damping = DampingModel::stiffness;
-    law.law.eta = tsuji_damping(e);
+    law.law().damping = DampingModel::stiffness;
+    law.law().eta = tsuji_damping(e);
     EXPECT_NEAR(restitution(law, 0.5, 2000), e, 1.2e-3) << e;
   }
 }
@@ -266,8 +266,8 @@ TEST(damping, coefficients_are_those_of_their_names)
   const Real overlap = 0.01, speed = 0.3, eta = 7, a = std::sqrt(kRadius * overlap);
   const auto drag = [&](DampingModel model) {
     EngineSettings law = granular(NormalModel::hertz, kK);
-    law.law.damping = model;
-    law.law.eta = eta;
+    law.law().damping = model;
+    law.law().eta = eta;
     OneSphere s(law);
     const Real still = s.at(overlap).z;
     s.scene.set_v(0, {0, 0, speed});
@@ -285,9 +285,9 @@ TEST(damping, coefficients_are_those_of_their_names)
 EngineSettings with_tangential(TangentialModel model, Real k, Real mu)
 {
   EngineSettings law = granular(NormalModel::hertz, kK);
-  law.law.tangential = model;
-  law.law.k_tangent = k;
-  law.law.mu = mu;
+  law.law().tangential = model;
+  law.law().k_tangent = k;
+  law.law().mu = mu;
   return law;
 }
 
@@ -342,9 +342,9 @@ TEST(tangential, friction_of_what_adheres_counts_twice_the_pull_off)
       {jkr.law(), 3 * kPi * jkr.gamma * kRadius}};
   for (const auto &[base, pull] : laws) {
     EngineSettings law = base;
-    law.law.tangential = TangentialModel::linear_history;
-    law.law.k_tangent = 1e5;
-    law.law.mu = 0.5;
+    law.law().tangential = TangentialModel::linear_history;
+    law.law().k_tangent = 1e5;
+    law.law().mu = 0.5;
     OneSphere s(law);
     s.scene.set_v(0, {1, 0, 0});
     const Vec3 f = s.at(overlap, 0.1);
@@ -362,9 +362,9 @@ constexpr Real kSpring = 3e4, kMu = 0.4, kDashpot = 400;
 EngineSettings sliding(TangentialModel model)
 {
   EngineSettings law = with_tangential(model, kSpring, kMu);
-  law.law.damping = DampingModel::velocity;
-  law.law.eta = kDashpot;
-  law.law.xgammat = 1;
+  law.law().damping = DampingModel::velocity;
+  law.law().eta = kDashpot;
+  law.law().xgammat = 1;
   return law;
 }
 
@@ -384,8 +384,8 @@ TEST(slip, gives_a_grain_on_a_fast_belt_mu_times_its_impulse)
   // the end. Some 2000 steps, each rounded by 1e-16.
   for (TangentialModel model : kSlips) {
     EngineSettings law = sliding(model);
-    law.law.eta = 0.1 * kDashpot;    // so that it bounces
-    law.law.xgammat = 10;
+    law.law().eta = 0.1 * kDashpot;    // so that it bounces
+    law.law().xgammat = 10;
     law.surface.velocity = {10, 0, 0};
     Scene scene(floor_mesh(4, 2), kRadius, law);
     scene.add_sphere(kSpot + Vec3{0, 0, kRadius + 1e-12}, kRadius, kMass, {0, 0, -1});
@@ -446,7 +446,7 @@ TEST(slip, below_the_limit_is_the_model_without_it)
   for (auto [with, without] :
        {std::pair(M::linear_history_slip, M::linear_history), {M::mindlin_slip, M::mindlin}}) {
     EngineSettings a = sliding(with), b = sliding(without);
-    a.law.mu = b.law.mu = 100;
+    a.law().mu = b.law().mu = 100;
     OneSphere s(a), other(b);
     for (int i = 1; i < 50; i++)
       for (OneSphere *each : {&s, &other}) {
@@ -464,7 +464,7 @@ TEST(rolling, sds_stops_a_rolling_sphere_at_seven_tenths_of_v2_over_mu_g)
   // A contact torque mu_r N R against a sphere that rolls without slipping: 7/5 m v' = -mu_r m g.
   const Real g = 10, mu_roll = 0.05, v = 0.8, dt = 2e-5, k_roll = 2e4;
   EngineSettings law = granular(NormalModel::hooke, kK);
-  ContactLaw &p = law.law;
+  ContactLaw &p = law.law();
   p.damping = DampingModel::mass_velocity;
   p.eta = 100;
   p.tangential = TangentialModel::linear_history;
@@ -495,7 +495,7 @@ TEST(twisting, stops_a_spinning_sphere_at_the_angle_of_its_limit)
   const Real a = std::sqrt(kRadius * overlap), inertia = 0.4 * kMass * kRadius * kRadius;
   for (TwistingModel model : {TwistingModel::sds, TwistingModel::marshall}) {
     EngineSettings law = granular(NormalModel::hertz, kK);
-    ContactLaw &p = law.law;
+    ContactLaw &p = law.law();
     p.damping = DampingModel::mass_velocity;
     p.eta = 300;
     p.tangential = TangentialModel::linear_history;
@@ -524,7 +524,7 @@ TEST(twisting, marshall_of_a_mindlin_contact_takes_the_stiffness_at_its_size)
 {
   // Marshall 2009, equation 32: k_t a a^2/2 with k_t a the tangential stiffness.
   EngineSettings law = with_tangential(TangentialModel::mindlin, 3e4, 100);
-  law.law.twisting = TwistingModel::marshall;
+  law.law().twisting = TwistingModel::marshall;
   OneSphere s(law);
   const Real overlap = 0.01, a = std::sqrt(kRadius * overlap), angle = 1e-4;
   s.scene.set_omega(0, {0, 0, 1});
@@ -537,7 +537,7 @@ TEST(heat, flows_by_the_radius_or_the_area_of_the_contact)
   const Real overlap = 0.01, a = std::sqrt(kRadius * overlap), conductance = 0.7;
   for (HeatModel model : {HeatModel::radius, HeatModel::area}) {
     EngineSettings law = granular(NormalModel::hertz, kK);
-    law.law.heat = {model, {conductance}};
+    law.law().heat = {model, {conductance}};
     OneSphere s(law);
     s.scene.wall_temperature = 400;
     s.scene.sphere_temperature = 300;
@@ -555,7 +555,7 @@ TEST(heat, flows_by_the_radius_or_the_area_of_the_contact)
 EngineSettings everything(NormalModel normal)
 {
   EngineSettings law = granular(normal, kK, 2);
-  ContactLaw &p = law.law;
+  ContactLaw &p = law.law();
   p.damping = DampingModel::viscoelastic;
   p.eta = 40;
   p.tangential = TangentialModel::mindlin_rescale_force;
@@ -613,9 +613,9 @@ TEST(granular, a_shallow_fold_bears_heat_and_couples_as_the_flat_wall_does)
   // it: contact torques and heat of both, each whole, would be twice the flat wall's. They are its
   // to the fold's angle.
   EngineSettings law = everything(NormalModel::jkr);
-  law.law.mu = 0;    // all torque is contact torques then
-  law.law.twisting = {TwistingModel::sds, {0, 0.4, 0.1}};
-  Scene fold(hinge_mesh(2, 2), cutoff_of(law.law, kRadius), law);
+  law.law().mu = 0;    // all torque is contact torques then
+  law.law().twisting = {TwistingModel::sds, {0, 0.4, 0.1}};
+  Scene fold(hinge_mesh(2, 2), cutoff_of(law.law(), kRadius), law);
   OneSphere flat(law);
   fold.add_sphere({-0.0085, 0.07, kRadius - 0.01}, kRadius, kMass, {1, 0, 0}, {1, 2, 3});
   flat.scene.set_v(0, {1, 0, 0});
@@ -636,7 +636,7 @@ TEST(granular, two_sheets_at_one_place_bear_heat_and_couples_once)
   const EngineSettings law = everything(NormalModel::jkr);
   TriangleSoup sheets = floor_mesh(3, 2);
   append(sheets, floor_mesh(5, 2));
-  Scene twice(sheets, cutoff_of(law.law, kRadius), law, 0, 0);
+  Scene twice(sheets, cutoff_of(law.law(), kRadius), law, 0, 0);
   OneSphere once(law);
   twice.add_sphere(kSpot + Vec3{0, 0, kRadius - 0.01}, kRadius, kMass, {1, 0, 0}, {1, 2, 3});
   once.scene.set_v(0, {1, 0, 0});
@@ -652,19 +652,19 @@ TEST(granular, two_sheets_at_one_place_bear_heat_and_couples_once)
 TEST(granular, what_a_law_keeps_is_what_its_effects_need)
 {
   EngineSettings law = granular(NormalModel::hertz, kK);
-  EXPECT_FALSE(law.law.has_history());
-  EXPECT_EQ(law.law.n_extra(), 0);
-  law.law.tangential = TangentialModel::mindlin_force;
-  EXPECT_TRUE(law.law.has_history());
-  EXPECT_EQ(law.law.n_extra(), 0);
-  law.law.tangential = TangentialModel::mindlin_rescale;
-  EXPECT_EQ(law.law.n_extra(), 1);
-  law.law.twisting = TwistingModel::sds;
-  EXPECT_EQ(law.law.n_extra(), 2);
-  law.law.rolling = RollingModel::sds;
-  EXPECT_EQ(law.law.n_extra(), 5);
-  EXPECT_TRUE(granular(NormalModel::jkr, kK, 1).law.has_history());
-  EXPECT_EQ(granular(NormalModel::jkr, kK, 1).law.n_extra(), 0);
+  EXPECT_FALSE(law.law().has_history());
+  EXPECT_EQ(law.law().n_extra(), 0);
+  law.law().tangential = TangentialModel::mindlin_force;
+  EXPECT_TRUE(law.law().has_history());
+  EXPECT_EQ(law.law().n_extra(), 0);
+  law.law().tangential = TangentialModel::mindlin_rescale;
+  EXPECT_EQ(law.law().n_extra(), 1);
+  law.law().twisting = TwistingModel::sds;
+  EXPECT_EQ(law.law().n_extra(), 2);
+  law.law().rolling = RollingModel::sds;
+  EXPECT_EQ(law.law().n_extra(), 5);
+  EXPECT_TRUE(granular(NormalModel::jkr, kK, 1).law().has_history());
+  EXPECT_EQ(granular(NormalModel::jkr, kK, 1).law().n_extra(), 0);
 }
 
 TEST(granular, parameters_and_compiled_laws_agree_on_what_is_kept)
@@ -675,14 +675,14 @@ TEST(granular, parameters_and_compiled_laws_agree_on_what_is_kept)
     for (int tangential = 0; tangential < 8; tangential++)
       for (int more = 0; more < 8; more++) {
         EngineSettings s = granular(static_cast<NormalModel>(normal), kK, 1);
-        ContactLaw &g = s.law;
+        ContactLaw &g = s.law();
         g.tangential = static_cast<TangentialModel>(first + tangential);
         g.rolling = more & 1 ? RollingModel::sds : RollingModel::none;
         g.twisting = more & 2 ? TwistingModel::sds : TwistingModel::none;
         g.heat = more & 4 ? HeatModel::area : HeatModel::none;
         const LawTraits traits = law_for<CpuBackend>(s).traits;
-        laws += traits.history == s.law.has_history() && traits.heat == s.law.has_heat() &&
-                traits.n_extra == s.law.n_extra();
+        laws += traits.history == s.law().has_history() && traits.heat == s.law().has_heat() &&
+                traits.n_extra == s.law().n_extra();
       }
   EXPECT_EQ(laws, 4 * 8 * 8);
 }

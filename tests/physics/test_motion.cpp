@@ -62,7 +62,7 @@ void expect_smooth_slide(const TriangleSoup &soup, const EngineSettings &law, co
 {
   Scene scene(soup, kRadius, law);
   const Real dt = 1e-3, overlap = 0.02;
-  const Real scale = law.law.is(NormalModel::hertz) ? std::sqrt(overlap * kRadius) : 1;
+  const Real scale = law.law().is(NormalModel::hertz) ? std::sqrt(overlap * kRadius) : 1;
   scene.add_sphere(from, kRadius, kMass, v);
   Vec3 last = {0, 0, 0};
   for (int i = 1; i <= n_steps; i++) {
@@ -74,7 +74,7 @@ void expect_smooth_slide(const TriangleSoup &soup, const EngineSettings &law, co
     // Sums of i steps of v dt: a rounding of the spring's length each.
     ASSERT_LE(norm(h - last - dt * v), 1e-10 * norm(h)) << "at step " << i;
     ASSERT_LE(norm(h - path), 1e-10 * norm(path));
-    const Vec3 f = scene.force(0), expected = (-scale * law.law.k_tangent) * path;
+    const Vec3 f = scene.force(0), expected = (-scale * law.law().k_tangent) * path;
     // Overlaps round by 2e-14 of themselves here.
     ASSERT_LE(std::hypot(f.x - expected.x, f.y - expected.y), 1e-10 * norm(expected));
     last = h;

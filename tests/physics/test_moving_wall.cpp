@@ -44,7 +44,7 @@ struct Twins {
   {
     EngineSettings here = s;
     here.precision = precision;
-    const Real cutoff = cutoff_of(s.law, kRadius);
+    const Real cutoff = cutoff_of(s.law(), kRadius);
     rest = std::make_unique<Scene>(random_soup(600, 5), cutoff, here);
     driven = std::make_unique<Scene>(random_soup(600, 5), cutoff, moving(here));
     std::mt19937_64 random(3);
@@ -211,8 +211,8 @@ TEST(moving_wall, springs_turn_with_it)
 TEST(moving_wall, rolling_and_twisting_are_relative_to_it)
 {
   EngineSettings law;
-  law.law = everything(NormalModel::hooke);
-  law.law.heat = HeatModel::none;
+  law.law() = everything(NormalModel::hooke);
+  law.law().heat = HeatModel::none;
   const Real w = 1.7;
   Scene turntable(floor_mesh(4, 2), kRadius, moving(law)), at_rest(floor_mesh(4, 2), kRadius, law);
   turntable.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
@@ -299,8 +299,8 @@ TEST(moving_wall, a_surface_that_turns_carries_as_far_as_a_mesh_that_does)
 TEST(moving_wall, rolling_and_twisting_are_relative_to_a_surface_that_turns)
 {
   EngineSettings law;
-  law.law = everything(NormalModel::hooke);
-  law.law.heat = HeatModel::none;
+  law.law() = everything(NormalModel::hooke);
+  law.law().heat = HeatModel::none;
   law.surface.angular = {0.3, 0, 1.7};
   Scene scene(floor_mesh(4, 2), kRadius, law);
   scene.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
@@ -375,10 +375,8 @@ TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
     moved = kept->has_moved(a);
     EXPECT_FALSE(moved && steps < 2);
     fresh->choose(b, 0);
-    kept->start(a, step);
-    kept->collect();
-    fresh->start(b, step);
-    fresh->collect();
+    kept->step(a, step);
+    fresh->step(b, step);
     if (moved) break;
     EXPECT_EQ(of[0].force, of[1].force) << "at " << time;
     near += fresh->n_near();

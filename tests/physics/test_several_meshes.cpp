@@ -110,7 +110,7 @@ void expect_as_one(bool turned, Precision precision, Real tolerance)
   const TriangleSoup soup = random_soup(600, 5);
   for (NamedLaw &law : laws(kStiffness)) {
     law.settings.precision = precision;
-    const Real cutoff = cutoff_of(law.settings.law, kRadius);
+    const Real cutoff = cutoff_of(law.settings.law(), kRadius);
     Scene one(soup, cutoff, law.settings);
     Wall wall(dealt(soup, kMaxMeshes), cutoff, law.settings, turned);
     Scene &several = *wall.scene;
@@ -129,7 +129,7 @@ void expect_as_one(bool turned, Precision precision, Real tolerance)
       EXPECT_LE(std::fabs(several.heat(i) - one.heat(i)), tolerance) << law.name << " " << i;
       EXPECT_EQ(several.springs.count(i), one.springs.count(i)) << law.name << " " << i;
     }
-    if (law.settings.law.has_history()) {
+    if (law.settings.law().has_history()) {
       EXPECT_GT(touching, 100) << law.name;
       EXPECT_GT(joint, 30) << law.name;
     }
@@ -211,8 +211,8 @@ TEST(several_meshes, hand_springs_over_at_a_seam)
                         floor.corners.begin() + t + 3);
   }
   for (const NamedLaw &law : laws(kStiffness)) {
-    if (!law.settings.law.has_history()) continue;
-    const Real cutoff = cutoff_of(law.settings.law, kRadius);
+    if (!law.settings.law().has_history()) continue;
+    const Real cutoff = cutoff_of(law.settings.law(), kRadius);
     Scene one(floor, cutoff, law.settings);
     Wall wall(halves, cutoff, law.settings, true);
     for (Scene *s : {&one, wall.scene.get()})
@@ -357,8 +357,7 @@ struct Crossing {
     for (int t = 0; t < kSteps; t++) {
       spheres.clear_forces();
       if (t % kChoice == 0) engine.choose(now(), kChoice * kStep * 60);
-      engine.start(now(), step);
-      engine.collect();
+      engine.step(now(), step);
       on_mesh += engine.mesh_totals(1).force;
       force.insert(force.end(), spheres.force.begin(), spheres.force.end());
       spheres.move(kStep);
@@ -407,10 +406,8 @@ EngineSettings with_laws(bool differ)
   s.meshes = 7;
   s.laws.kinds = 2;
   s.laws.kind_of_type = {0, 0, 1, 0};
-  for (int k = 0; k < 14; k++) {
-    s.laws.laws.push_back(s.law);
-    if (differ) s.laws.laws.back().k_normal *= 1 + 0.1 * k;
-  }
+  s.laws.laws.resize(14, s.law());
+  for (int k = 0; differ && k < 14; k++) s.laws.laws[k].k_normal *= 1 + 0.1 * k;
   return s;
 }
 
@@ -430,7 +427,7 @@ TEST(several_meshes, with_laws_through_the_adapter_of_a_host_act_the_same)
 TEST(several_meshes, with_equal_laws_act_as_with_one)
 {
   EngineSettings s = with_laws(false), one = s;
-  one.laws = LawTable();
+  one.laws = s.law();
   const Wall wall(dealt(random_soup(600, 5), 7), kRadius, s, true);
   const auto first = on_cpu(one), second = on_cpu(s), third = on_cpu(with_laws(true));
   for (WallEngine *engine : {first.get(), second.get(), third.get()}) wall.put_into(*engine);

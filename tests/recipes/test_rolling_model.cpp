@@ -15,9 +15,9 @@ namespace {
 EngineSettings of_words()
 {
   EngineSettings s;
-  s.law = parse_settings({"granular", "hooke", "1e4", "0", "tangential", "linear_nohistory", "0",
-                          "0", "rolling", "plastic", "50", "0.1", "mesh", "a.stl"})
-              .law;
+  s.law() = parse_settings({"granular", "hooke", "1e4", "0", "tangential", "linear_nohistory", "0",
+                            "0", "rolling", "plastic", "50", "0.1", "mesh", "a.stl"})
+                .law;
   return s;
 }
 
@@ -38,10 +38,10 @@ TEST(recipe_rolling_model, is_known_to_log_exchange_and_restart)
 {
   const EngineSettings s = of_words();
   EXPECT_EQ(effects_of(s).back().name, "plastic rolling");
-  EXPECT_EQ(s.law.n_extra(), 3);
+  EXPECT_EQ(s.law().n_extra(), 3);
   EngineSettings sds = s;
-  sds.law.rolling = RollingModel::sds;
-  EXPECT_NE(s.law.history_kind(), sds.law.history_kind());
+  sds.law().rolling = RollingModel::sds;
+  EXPECT_NE(s.law().history_kind(), sds.law().history_kind());
 }
 
 }    // namespace

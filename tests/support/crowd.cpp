@@ -157,7 +157,7 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
   const Wall &built = wall_of(c, g);
 
   EngineSettings e = wall;
-  e.law = law;
+  e.law() = law;
   e.precision = search.precision;
   const auto engine = make(e);
   engine->set_grid(built.flat.view());

@@ -11,10 +11,10 @@ namespace lsdcd {
 inline EngineSettings hooke(Real k, Real gamma_normal = 0, Real gamma_tangent = 0, Real mu = 0)
 {
   EngineSettings s;
-  s.law.k_normal = k;
-  s.law.eta = gamma_normal;
-  s.law.gamma_tangent = gamma_tangent;
-  s.law.mu = mu;
+  s.law().k_normal = k;
+  s.law().eta = gamma_normal;
+  s.law().gamma_tangent = gamma_tangent;
+  s.law().mu = mu;
   return s;
 }
 
@@ -22,8 +22,8 @@ inline EngineSettings hooke_history(Real k, Real k_tangent, Real gamma_normal, R
                                     Real mu)
 {
   EngineSettings s = hooke(k, gamma_normal, gamma_tangent, mu);
-  s.law.tangential = TangentialModel::linear_history_classic;
-  s.law.k_tangent = k_tangent;
+  s.law().tangential = TangentialModel::linear_history_classic;
+  s.law().k_tangent = k_tangent;
   return s;
 }
 
@@ -31,7 +31,7 @@ inline EngineSettings hertz_history(Real k, Real k_tangent, Real gamma_normal, R
                                     Real mu)
 {
   EngineSettings s = hooke_history(k, k_tangent, gamma_normal, gamma_tangent, mu);
-  s.law.normal = NormalModel::hertz;
+  s.law().normal = NormalModel::hertz;
   return s;
 }
 
@@ -39,8 +39,8 @@ inline EngineSettings hertz_history(Real k, Real k_tangent, Real gamma_normal, R
 inline EngineSettings granular(NormalModel normal, Real k, Real cohesion = 0)
 {
   EngineSettings s;
-  s.law = granular_law(NormalModel::hooke);
-  ContactLaw &g = s.law;
+  s.law() = granular_law(NormalModel::hooke);
+  ContactLaw &g = s.law();
   g.normal = normal;
   g.k_normal = k;
   g.modulus = 0.75 * k;

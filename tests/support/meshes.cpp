@@ -175,7 +175,7 @@ void append(TriangleSoup &soup, const TriangleSoup &more)
 Scene::Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Real grid_length,
              Real weld_tolerance, int nearest) :
     mesh(weld(soup, weld_tolerance)),
-    springs(settings.law.n_extra())
+    springs(settings.law().n_extra())
 {
   GridSettings g;
   g.length = grid_length;

@@ -19,8 +19,8 @@ struct NamedLaw {
 inline std::vector<NamedLaw> laws(Real k)
 {
   EngineSettings rolling = hooke_history(k, 3e4, 50, 20, 0.4), all, records;
-  rolling.law.rolling = {RollingModel::epsd2, {0.1}};
-  all.law = everything(NormalModel::jkr);
+  rolling.law().rolling = {RollingModel::epsd2, {0.1}};
+  all.law() = everything(NormalModel::jkr);
   records = hertz_history(k, 3e4, 50, 20, 0.4);
   records.records = true;
   return {{"hooke", hooke(k, 50, 20, 0.4)},

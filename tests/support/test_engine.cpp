@@ -11,8 +11,8 @@ namespace lsdcd {
 namespace {
 
 // Copies a host's spheres to the memory of an engine, and forces back. Vectors are x x x y y y z z z in
-// one step and x y z x y z in the next. In two of four steps choice and step run beside the host's
-// work, and in one of these forces are added at once.
+// one step and x y z x y z in the next. Two of four steps run beside the host's work, and one of these
+// adds forces at once.
 class InPlaceForHost : public WallEngine {
  public:
   InPlaceForHost(std::unique_ptr<InPlaceEngine> engine, bool cuda) :
@@ -27,13 +27,17 @@ class InPlaceForHost : public WallEngine {
   Real largest_radius(const Spheres &s) override { return engine_->largest_radius(places(s)); }
   void choose(const Spheres &s, Real margin, bool watch) override
   {
-    const Spheres placed = places(s);
-    by_turns([&] { engine_->choose(placed, margin, watch); });
+    engine_->choose(places(s), margin, watch);
   }
   bool has_moved(const Spheres &s) override { return engine_->has_moved(places(s)); }
 
-  void start(const Spheres &host, const StepSettings &step) override
+  void begin() override { state_ = StepState::begun; }
+
+  void launch(const Spheres &host, const StepSettings &step, LaunchMode /*mode*/,
+              const std::function<void()> &prepare) override
   {
+    require(StepState::begun);
+    if (prepare) prepare();
     host_ = host;
     turn_++;
     const std::size_t n = host.n;
@@ -46,14 +50,20 @@ class InPlaceForHost : public WallEngine {
     s.mass = put(mass_, host.mass, n);
     s.temperature = put(temperature_, host.temperature, n);
     s.heat_flow = put(heat_, host.heat_flow, n);
-    by_turns([&] { engine_->start(s, step); });
+    constexpr LaunchMode kModes[] = {LaunchMode::in_turn, LaunchMode::in_turn, LaunchMode::beside,
+                                     LaunchMode::beside_adding_early};
+    engine_->begin();
+    engine_->launch(s, step, kModes[turn_ % 4]);
+    state_ = StepState::launched;
   }
 
-  bool has_begun() const override { return engine_->has_begun(); }
+  bool is_under_way() const override { return engine_->is_under_way(); }
 
-  void collect() override
+  void finish() override
   {
-    engine_->collect();
+    require(StepState::launched);
+    engine_->finish();
+    state_ = StepState::none;
     const std::size_t n = host_.n;
     add_vectors(host_.force, force_.get(3 * n), n);
     add_vectors(host_.torque, torque_.get(3 * n), n);
@@ -80,17 +90,6 @@ class InPlaceForHost : public WallEngine {
   std::size_t bytes() const override { return engine_->bytes(); }
 
  private:
-  template <class Work>
-  void by_turns(const Work &work)
-  {
-    const bool beside = turn_ / 2 % 2 == 1;
-    if (beside) {
-      engine_->ready();
-      engine_->begin_beside();
-    }
-    work();
-    if (beside) engine_->end_beside(turn_ % 2 == 1);
-  }
   // The arrays that a choice reads.
   Spheres places(const Spheres &host)
   {

@@ -135,8 +135,8 @@ TEST(cuda_engine, gives_what_every_effect_gives_on_the_cpu)
   for (const EffectCase &effect : effect_cases()) {
     const Case &c = walls[effect.name.size() % walls.size()];
     const EngineSettings &s = effect.settings;
-    const Outcome cpu = run_on(Device::cpu, c, s.law, kComplete, s);
-    const Outcome cuda = run_on(Device::cuda, c, s.law, kComplete, s);
+    const Outcome cpu = run_on(Device::cpu, c, s.law(), kComplete, s);
+    const Outcome cuda = run_on(Device::cuda, c, s.law(), kComplete, s);
     EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << effect.name << ", " << c.name;
     EXPECT_TRUE(same_bytes(cpu.torque, cuda.torque)) << effect.name << ", " << c.name;
     EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << effect.name << ", " << c.name;

@@ -29,7 +29,7 @@ TEST(effects, keep_the_bytes_of_the_table_and_no_others)
   constexpr int kSpheres = 300;
   for (const EffectCase &c : effect_cases()) {
     Scene scene(floor_mesh(8, 10), 0.7, c.settings);
-    if (c.settings.law.has_heat()) continue;    // the scene's spheres have no temperature
+    if (c.settings.law().has_heat()) continue;    // the scene's spheres have no temperature
     for (int i = 0; i < kSpheres; i++)
       scene.add_sphere({-9 + 1.1 * (i % 17), -9 + 1.0 * (i / 17), 0.495}, 0.5, 1, {0.1, 0, 0});
     scene.compute(1e-7);
@@ -37,10 +37,10 @@ TEST(effects, keep_the_bytes_of_the_table_and_no_others)
     int kept = 0;
     for (int i = 0; i < kSpheres; i++)
       kept += scene.springs.packed_size(i) - 1;    // 7 + n_extra numbers each
-    const bool history = c.settings.law.has_history();
-    EXPECT_EQ(kept, history ? kSpheres * (7 + c.settings.law.n_extra()) : 0) << c.name;
+    const bool history = c.settings.law().has_history();
+    EXPECT_EQ(kept, history ? kSpheres * (7 + c.settings.law().n_extra()) : 0) << c.name;
     EXPECT_EQ(bytes_per_atom(c.settings), history ? 8 : 0) << c.name;
-    EXPECT_EQ(bytes_per_contact(c.settings), history ? 56 + 8 * c.settings.law.n_extra() : 0)
+    EXPECT_EQ(bytes_per_contact(c.settings), history ? 56 + 8 * c.settings.law().n_extra() : 0)
         << c.name;
     EXPECT_EQ(scene.engine->n_records(), c.settings.records ? kSpheres : 0) << c.name;
   }
@@ -58,7 +58,7 @@ TEST(effects, of_a_wall_keep_what_its_law_keeps)
   for (const EffectCase &c : effect_cases()) {
     int bytes = 0;
     for (const Effect &e : effects_of(c.settings)) bytes += e.bytes_per_contact;
-    EXPECT_EQ(bytes, 8 * c.settings.law.n_extra()) << c.name;
+    EXPECT_EQ(bytes, 8 * c.settings.law().n_extra()) << c.name;
   }
 }
 
@@ -90,11 +90,11 @@ TEST(effects, that_are_off_take_no_memory_of_the_engine)
     const auto grown = [](std::size_t n) { return n + n / 8; };
     const std::size_t slots = 2 * grown(4 * kSpheres + 65536);
     const EngineSettings &s = c.settings;
-    const bool history = s.law.has_history();
-    const std::size_t per_slot = history * (sizeof(Spring) + s.law.n_extra() * sizeof(Real)) +
+    const bool history = s.law().has_history();
+    const std::size_t per_slot = history * (sizeof(Spring) + s.law().n_extra() * sizeof(Real)) +
                                  s.records * sizeof(ContactRecord);
     const std::size_t expected = least + slots * per_slot + history * 2 * kSpheres * sizeof(int) +
-                                 s.law.has_heat() * grown(kSpheres) * sizeof(Real) +
+                                 s.law().has_heat() * grown(kSpheres) * sizeof(Real) +
                                  s.records * grown(kSpheres) * sizeof(int);
     const std::size_t records =
         s.records ? 1024 * sizeof(ContactRecord) : 0;    // grown by doubling

@@ -137,7 +137,8 @@ struct MakeCountingLaw {
     if constexpr (!Law::kHeat || Law::kBeyondContact)
       return on_wall<WallKernels::plain_or_both>(law, effects, [](const auto &compiled) {
         using L = std::decay_t<decltype(compiled)>;
-        return CountingLaw{traits_of(compiled), LawBytes(compiled), start_law<L, CountingBackend>};
+        return CountingLaw{
+            traits_of(compiled), {LawBytes(compiled)}, run_compiled_law<L, CountingBackend>};
       });
     else
       throw std::logic_error("not compiled for this test");
@@ -147,11 +148,11 @@ struct MakeCountingLaw {
 CountingLaw counting_law(const EngineSettings &s)
 {
   const MakeCountingLaw make = {wall_effects(s)};
-  if (s.law.is_classic()) {
-    if (s.precision == Precision::single_) return with_classic_law<float>(s.law, make);
-    return with_classic_law<Real>(s.law, make);
+  if (s.law().is_classic()) {
+    if (s.precision == Precision::single_) return with_classic_law<float>(s.law(), make);
+    return with_classic_law<Real>(s.law(), make);
   }
-  return with_granular_law(s.law, make);
+  return with_granular_law(s.law(), make);
 }
 
 std::unique_ptr<WallEngine> by_two_kernels(const EngineSettings &s)
@@ -176,9 +177,9 @@ TEST(engine, gives_what_every_effect_gives_on_the_host)
   for (const EffectCase &effect : effect_cases()) {
     const Case &c = walls[effect.name.size() % walls.size()];
     const EngineSettings &s = effect.settings;
-    const Outcome cpu = run_steps(c, s.law, on_cpu, 2000, kComplete, s);
-    expect_same(cpu, run_steps(c, s.law, in_place, 2000, kComplete, s), effect.name);
-    expect_same(cpu, run_steps(c, s.law, by_adapter, 2000, kComplete, s), effect.name);
+    const Outcome cpu = run_steps(c, s.law(), on_cpu, 2000, kComplete, s);
+    expect_same(cpu, run_steps(c, s.law(), in_place, 2000, kComplete, s), effect.name);
+    expect_same(cpu, run_steps(c, s.law(), by_adapter, 2000, kComplete, s), effect.name);
   }
 }
 
@@ -198,7 +199,7 @@ TEST(engine, drops_no_contact_of_crowded_spheres)
 {
   for (int n : {9, 40, 100, 400}) {
     EngineSettings s;
-    s.law = history();
+    s.law() = history();
     s.corner = Corner::sum;
     const auto outcome = [&](const EngineMaker &make) {
       Scene scene(faces_all_round(n), 1.1, s);
@@ -235,7 +236,7 @@ class Particles {
     grid = build_grid(mesh, g);
     flat = FlatGrid(grid);
     engine->set_grid(flat.view());
-    engine->grow(n);
+    engine->springs().grow(n);
     std::mt19937_64 random(5);
     std::uniform_real_distribution<Real> at(-9, 9), up(0, 4 * cutoff), speed(-1, 1), unit(0.3, 1);
     for (int i = 0; i < n; i++) {
@@ -255,8 +256,7 @@ class Particles {
     if (choice == Choice::now) engine->choose(spheres(), 0);
     StepSettings step;
     step.dt = dt;
-    engine->start(spheres(), step);
-    engine->collect();
+    engine->step(spheres(), step);
   }
 
   Spheres spheres() { return there_.put(host); }
@@ -283,7 +283,7 @@ class Particles {
 EngineSettings with_history()
 {
   EngineSettings s;
-  s.law = history();
+  s.law() = history();
   return s;
 }
 
@@ -295,7 +295,7 @@ bool same_springs(const ContactHistory &a, int i, const ContactHistory &b, int j
   return same_bytes(of(a, i), of(b, j));
 }
 
-// `now`: to what the host has put there before the step beside has ended, and not before collect().
+// `now`: to what the host has put there by launch(), and not by finish().
 void add_forces_found_beside(bool now)
 {
   const int n = 3000;
@@ -304,18 +304,16 @@ void add_forces_found_beside(bool now)
   for (int k = 0; k < 3; k++) {
     const Spheres a = beside.spheres(), b = after.spheres();
     const std::vector<Real> others(3 * n, of_host);
-    beside.engine->ready();
-    beside.engine->begin_beside();
-    beside.engine->choose(a, 0);
-    beside.engine->start(a, StepSettings());
+    beside.engine->begin();
     if (now) beside.set_force(others);
-    beside.engine->end_beside(now);
+    beside.engine->launch(a, StepSettings(),
+                          now ? LaunchMode::beside_adding_early : LaunchMode::beside,
+                          [&] { beside.engine->choose(a, 0); });
     if (!now) beside.set_force(others);
-    beside.engine->collect();
+    beside.engine->finish();
     after.engine->choose(b, 0);
     after.set_force(others);
-    after.engine->start(b, StepSettings());
-    after.engine->collect();
+    after.engine->step(b, StepSettings());
     EXPECT_TRUE(same_bytes(beside.force(), after.force()));
     EXPECT_TRUE(same_bytes(beside.torque(), after.torque()));
     EXPECT_NE(beside.force(), others);
@@ -458,10 +456,10 @@ TEST(engine, springs_follow_through_pack_and_unpack)
   const bool cuda = test_on_cuda();
   DeviceArray<int> d_which(cuda), d_copies(cuda), d_back(cuda);
   DeviceArray<double> buffer(cuda);
-  buffer.resize(moved * (1 + from.engine->largest_packed_size(n)));
+  buffer.resize(moved * (1 + from.engine->springs().largest_packed_size(n)));
   const int size =
-      from.engine->pack(moved, d_which.put(which), d_copies.put(copies), buffer.data());
-  EXPECT_LE(size, moved * (1 + from.engine->largest_packed_size(n)));
+      from.engine->springs().pack(moved, d_which.put(which), d_copies.put(copies), buffer.data());
+  EXPECT_LE(size, moved * (1 + from.engine->springs().largest_packed_size(n)));
 
   const ContactHistory left = from.springs();
   int same = 0, carried = 0;
@@ -477,14 +475,14 @@ TEST(engine, springs_follow_through_pack_and_unpack)
   }
   std::vector<double> both = buffer.get(size);
   const int second =
-      from.engine->pack(moved, d_which.put(others), d_copies.put(stays), buffer.data());
+      from.engine->springs().pack(moved, d_which.put(others), d_copies.put(stays), buffer.data());
   const std::vector<double> behind = buffer.get(second);
   both.insert(both.end(), behind.begin(), behind.end());
   DeviceArray<double> d_both(cuda);
   d_both.put(both);
   to.step(0.01, Particles::Choice::now);
   const ContactHistory own = to.springs();
-  to.engine->unpack(2 * moved, d_back.put(places), d_both.data(), moved, size);
+  to.engine->springs().unpack(2 * moved, d_back.put(places), d_both.data(), moved, size);
   const ContactHistory after = to.springs();
   int arrived = 0;
   for (int k = 0; k < moved; k++) {
@@ -507,10 +505,11 @@ TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
   Particles particles(with_history(), 2000, 0.5, false);
   particles.engine = std::make_unique<EngineOn<CountingBackend>>(
       with_history(),
-      CompiledLaw<CountingBackend>{traits_of(law), LawBytes(law), start_law<Law, CountingBackend>},
+      CompiledLaw<CountingBackend>{
+          traits_of(law), {LawBytes(law)}, run_compiled_law<Law, CountingBackend>},
       CountingBackend());
   particles.engine->set_grid(particles.flat.view());
-  particles.engine->grow(2000);
+  particles.engine->springs().grow(2000);
   particles.engine->choose(particles.spheres(), 0.5);
   EXPECT_GT(CountingBackend::crossings(), 0);
   const auto crossings_of = [&](bool per_sphere) {
@@ -518,8 +517,7 @@ TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
     StepSettings step;
     step.dt = 0.01;
     step.per_sphere = per_sphere;
-    particles.engine->start(particles.spheres(), step);
-    particles.engine->collect();
+    particles.engine->step(particles.spheres(), step);
     return CountingBackend::crossings() - before;
   };
   for (int k = 0; k < 5; k++) EXPECT_EQ(crossings_of(false), 0);
@@ -535,8 +533,7 @@ TEST(engine, outputs_of_the_step_that_asks_for_them_are_those_of_always_asking)
     StepSettings step;
     step.dt = 0.01;
     step.per_sphere = asks;
-    p.engine->start(p.spheres(), step);
-    p.engine->collect();
+    p.engine->step(p.spheres(), step);
     const SphereOutput *first = p.engine->sphere_output();
     return std::vector<SphereOutput>(first, first + p.engine->n_touching());
   };
@@ -603,7 +600,7 @@ TEST(engine, a_sphere_that_is_pulled_from_past_the_reach_is_named)
 {
   int tried = 0;
   for (const EffectCase &effect : effect_cases()) {
-    const Real pull_off = effect.settings.law.pull_off(), cutoff = 0.5;
+    const Real pull_off = effect.settings.law().pull_off(), cutoff = 0.5;
     if (!(pull_off > 0)) continue;
     tried++;
     Particles p(effect.settings, 100, cutoff);
@@ -735,11 +732,11 @@ TEST(engine, with_two_kernels_gives_what_one_pass_gives_beyond_contact_and_with_
 {
   for (const Case &c : walls()) {
     EngineSettings s;
-    s.law = everything(NormalModel::jkr);
+    s.law() = everything(NormalModel::jkr);
     s.records = true;
     s.surface.velocity = {1, 0, 0};
-    expect_same(run_steps(c, s.law, on_cpu, 2000, kComplete, s),
-                run_steps(c, s.law, by_two_kernels, 2000, kComplete, s), c.name);
+    expect_same(run_steps(c, s.law(), on_cpu, 2000, kComplete, s),
+                run_steps(c, s.law(), by_two_kernels, 2000, kComplete, s), c.name);
   }
 }
 
@@ -747,7 +744,7 @@ TEST(engine, with_two_kernels_gives_what_one_pass_gives_on_one_side_of_the_wall)
 {
   for (Side side : {Side::in, Side::out}) {
     EngineSettings s;
-    s.law = classic(NormalModel::hooke, false);
+    s.law() = classic(NormalModel::hooke, false);
     s.side = side;
     const auto outcome = [&](const EngineMaker &make) {
       Scene scene(box_mesh({0, 0, 0}, {4, 4, 4}), 0.6, s);
@@ -788,7 +785,7 @@ TEST(engine, takes_spheres_whose_kind_of_contact_changes_from_step_to_step)
   TriangleSoup soup = faces_all_round(kAllRound);
   append(soup, box_mesh({20, 20, 20}, {30, 30, 30}));
   EngineSettings s;
-  s.law = classic(NormalModel::hertz, true);
+  s.law() = classic(NormalModel::hertz, true);
   s.corner = Corner::sum;    // each face counts
   Scene host(soup, 1.1, s), device(soup, 1.1, s), ahead(soup, 1.1, s);
   host.use(on_cpu(s));
@@ -826,7 +823,7 @@ TEST(engine, takes_more_spheres_with_several_contacts_than_a_kernel_has_threads)
 {
   const int n = kMaxLanes + 5000;
   EngineSettings s;
-  s.law = classic(NormalModel::hooke, false);
+  s.law() = classic(NormalModel::hooke, false);
   const auto outcome = [&](const EngineMaker &make) {
     Scene scene(box_mesh({20, 20, 20}, {30, 30, 30}), 1.1, s);
     scene.use(make(s));
@@ -850,14 +847,14 @@ struct AllTouching {
   AllTouching() : grid(grid_of_faces()), host(n, 1.05), there(test_on_cuda())
   {
     EngineSettings s;
-    s.law = classic(NormalModel::hertz, true);
+    s.law() = classic(NormalModel::hertz, true);
     s.corner = Corner::sum;
     engine = test_on_cuda() ? make_cuda_engine_in_place(s, 0, nullptr) : make_cpu_engine(s);
     for (int i = 0; i < n; i++) put_vector(host.x, i, place_in({0, 0, n}, i));
     spheres = there.put(host);
     step.dt = 1e-3;
     engine->set_grid(grid.view());
-    engine->grow(n);
+    engine->springs().grow(n);
     choose();
   }
 
@@ -889,8 +886,7 @@ TEST(engine, takes_no_slots_from_the_next_step)
   static_assert(n * n_steps * kAllRound > 65536 + 3 * n, "");
   AllTouching all;
   for (int k = 0; k < n_steps; k++) {
-    all.engine->start(all.spheres, all.step);
-    all.engine->collect();
+    all.engine->step(all.spheres, all.step);
   }
   EXPECT_NO_THROW(all.engine->read_diagnostics());
   EXPECT_EQ(all.engine->totals().contacts, n * kAllRound);
@@ -900,27 +896,21 @@ TEST(engine, takes_no_slots_from_the_next_step)
 void keep_the_totals_of_the_last_step(bool beside)
 {
   AllTouching all;
-  const auto begin = [&](bool begins) {
-    if (!beside) return;
-    if (begins) all.engine->ready();
-    begins ? all.engine->begin_beside() : all.engine->end_beside(false);
+  const auto launch = [&] {
+    all.engine->begin();
+    all.engine->launch(all.spheres, all.step, beside ? LaunchMode::beside : LaunchMode::in_turn,
+                       [&] { all.choose(); });
   };
   const std::vector<Real> x = all.host.x;
   for (int i = 0; i < all.n; i += 2) all.host.x[3 * i] += 100;
-  begin(true);
-  all.choose();
-  all.engine->start(all.spheres, all.step);
-  begin(false);
-  all.engine->collect();
+  launch();
+  all.engine->finish();
   // More spheres than there was memory for before, and other columns.
   all.host.x = x;
-  begin(true);
-  all.choose();
   all.step.per_sphere = true;
-  all.engine->start(all.spheres, all.step);
-  begin(false);
+  launch();
   EXPECT_EQ(all.engine->totals().contacts, all.n / 2 * kAllRound);
-  all.engine->collect();
+  all.engine->finish();
   EXPECT_EQ(all.engine->totals().contacts, all.n * kAllRound);
 }
 TEST(engine, keeps_the_totals_of_the_last_step_through_a_choice)
@@ -932,15 +922,38 @@ TEST(engine, keeps_the_totals_of_the_last_step_through_a_step_beside)
   keep_the_totals_of_the_last_step(true);
 }
 
+// One state says where a step is, also where the choice before it fails.
+TEST(engine, knows_a_step_that_is_begun_launched_or_none)
+{
+  for (const LaunchMode mode : {LaunchMode::in_turn, LaunchMode::beside}) {
+    AllTouching all;
+    WallEngine &engine = *all.engine;
+    const auto launch = [&] { engine.launch(all.spheres, all.step, mode); };
+    EXPECT_EQ(engine.state(), StepState::none);
+    EXPECT_THROW(launch(), std::logic_error);
+    engine.begin();
+    EXPECT_EQ(engine.state(), StepState::begun);
+    EXPECT_THROW(engine.finish(), std::logic_error);
+    EXPECT_THROW(engine.launch(all.spheres, all.step, mode, [] { throw InputError("too large"); }),
+                 InputError);
+    EXPECT_EQ(engine.state(), StepState::begun);
+    launch();
+    EXPECT_EQ(engine.state(), StepState::launched);
+    EXPECT_EQ(engine.is_under_way(), mode == LaunchMode::beside);
+    engine.finish();
+    EXPECT_EQ(engine.state(), StepState::none);
+    EXPECT_EQ(engine.totals().contacts, all.n * kAllRound);
+  }
+}
+
 // LAMMPS's buffers have room for so many numbers of an atom.
 TEST(engine, packs_a_sphere_into_no_more_than_any_sphere_can_have)
 {
   AllTouching all;
-  all.engine->start(all.spheres, all.step);
-  all.engine->collect();
-  const int largest = all.engine->largest_packed_size(all.n);
+  all.engine->step(all.spheres, all.step);
+  const int largest = all.engine->springs().largest_packed_size(all.n);
   EXPECT_EQ(largest, 1 + kAllRound * ContactHistory().doubles_per_spring());
-  EXPECT_LE(largest, all.engine->most_packed_size());
+  EXPECT_LE(largest, all.engine->springs().most_packed_size());
 }
 
 }    // namespace

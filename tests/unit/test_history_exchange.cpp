@@ -49,7 +49,7 @@ TEST(HistoryExchange, comes_back_from_the_engine_as_it_went)
   const WallSettings settings = wall();
   HistoryExchange history(host, settings);
   EngineSettings of_engine;
-  of_engine.law = settings.law;
+  of_engine.law() = settings.law;
   of_engine.device = Device::cpu;
   const std::unique_ptr<WallEngine> engine = make_engine(of_engine);
   history.set_engine(*engine);

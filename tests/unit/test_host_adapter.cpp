@@ -19,7 +19,7 @@ class Pair {
  public:
   Pair()
   {
-    settings_.law = classic(NormalModel::hertz, true);
+    settings_.law() = classic(NormalModel::hertz, true);
     GridSettings g;
     g.cutoff = 0.5;
     flat_ = FlatGrid(build_grid(weld(floor_mesh(10, 5, 3), -1), g));
@@ -52,8 +52,7 @@ class Pair {
     s.dt = 1e-3;
     for (int k = 0; k < 2; k++) {
       force_[k].assign(6 * kSpheres, 0);
-      both()[k]->start(spheres(force_[k]), s);
-      both()[k]->collect();
+      both()[k]->step(spheres(force_[k]), s);
     }
   }
   void move(int i, const Vec3 &by) { put_vector(spheres_.x, i, vector_at(spheres_.x, i) + by); }

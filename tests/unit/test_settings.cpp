@@ -753,7 +753,7 @@ TEST(settings, effects_name_what_a_law_turns_on_and_what_that_keeps)
   int bytes = 0;
   std::string all;
   EngineSettings engine;
-  engine.law = s.law;
+  engine.law() = s.law;
   for (const Effect &e : effects_of(engine)) {
     bytes += e.bytes_per_contact;
     all += e.name + ", ";

@@ -31,8 +31,8 @@ class Floors {
   Floors(FakeHost &host, const WallSettings &settings) : totals(host, settings)
   {
     EngineSettings of_engine;
-    of_engine.law = classic_law(NormalModel::hooke, false);
-    of_engine.law.k_normal = kStiffness;
+    of_engine.law() = classic_law(NormalModel::hooke, false);
+    of_engine.law().k_normal = kStiffness;
     of_engine.meshes = static_cast<int>(settings.meshes.size());
     of_engine.moves = true;
     of_engine.device = Device::cpu;
@@ -58,8 +58,7 @@ class Floors {
     StepSettings step;
     step.dt = 1e-3;
     engine->choose(s, 0);
-    engine->start(s, step);
-    engine->collect();
+    engine->step(s, step);
     totals.expire();
   }
 

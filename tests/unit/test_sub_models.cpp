@@ -59,7 +59,7 @@ TEST(sub_models, have_a_case_in_the_table_of_effects)
 {
   std::set<const SubModel *> seen;
   for (const EffectCase &c : effect_cases())
-    for (const SubModel *row : rows_of(c.settings.law)) seen.insert(row);
+    for (const SubModel *row : rows_of(c.settings.law())) seen.insert(row);
   for (const SubModel &row : sub_models()) {
     // Of two rows with one formula, the first stands for both.
     const auto first =

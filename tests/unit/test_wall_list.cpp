@@ -289,8 +289,7 @@ class Bed {
     torque.assign(x.size(), 0);
     StepSettings s;
     s.dt = 1e-4;
-    engine->start(spheres(), s);
-    engine->collect();
+    engine->step(spheres(), s);
   }
   Vec3 force_on(int i) const { return {force[3 * i], force[3 * i + 1], force[3 * i + 2]}; }
   std::vector<Spring> springs()
@@ -538,7 +537,7 @@ TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_s
     for (Precision precision : {Precision::double_, Precision::mixed}) {
       const Wall wall(soup, cutoff, precision == Precision::mixed);
       EngineSettings s;
-      s.law = classic(NormalModel::hertz, true);
+      s.law() = classic(NormalModel::hertz, true);
       s.precision = precision;
       Bed kept(wall, s), anew(wall, s);
       Numbers r(8);

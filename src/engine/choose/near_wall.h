@@ -23,8 +23,8 @@ class NearWall {
 
  public:
   explicit NearWall(const EngineSettings &settings) :
-      pull_off_(largest_pull_off(settings.law, settings.laws)),
-      has_several_(lsdcd::has_several(settings)), laws_(settings.laws), meshes_(settings.meshes)
+      pull_off_(largest_pull_off(settings.laws)), has_several_(lsdcd::has_several(settings)),
+      laws_(settings.laws), meshes_(settings.meshes)
   {
   }
 

@@ -9,18 +9,18 @@
 
 namespace lsdcd {
 
-// The law that the settings ask for.
+// The laws that the settings ask for.
 template <class B>
 CompiledLaw<B> law_for(const EngineSettings &settings);
 
 // Those of `granular`, of the classic styles with effects of LIGGGHTS, and of these styles on walls with
 // effects: a source file each, compiled for each backend.
 template <class B>
-CompiledLaw<B> granular_law(const EngineSettings &settings);
+CompiledLaw<B> granular_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
-CompiledLaw<B> added_law(const EngineSettings &settings);
+CompiledLaw<B> added_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
-CompiledLaw<B> on_wall_law(const EngineSettings &settings);
+CompiledLaw<B> on_wall_law(const ContactLaw &law, const WallEffects &effects);
 
 // For with_..._law() of laws.h.
 template <class B, WallKernels kernels>
@@ -32,7 +32,7 @@ struct MakeLaw {
   {
     return on_wall<kernels>(law, effects, [](const auto &compiled) {
       using L = std::decay_t<decltype(compiled)>;
-      return CompiledLaw<B>{traits_of(compiled), LawBytes(compiled), start_law<L, B>};
+      return CompiledLaw<B>{traits_of(compiled), {LawBytes(compiled)}, run_compiled_law<L, B>};
     });
   }
 };

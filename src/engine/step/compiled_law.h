@@ -28,13 +28,12 @@ LawTraits traits_of(const Law &law)
   return {Law::kHistory, heat, Law::kRecords, n_extra(law)};
 }
 
-// A law compiled for one backend; start() does the step of n near spheres, see start_law().
+// A law compiled for one backend; run() does the step of n near spheres, see run_compiled_law().
 template <class Backend>
 struct CompiledLaw {
   LawTraits traits;
-  LawBytes law;
-  void (*start)(const LawBytes &, const LawJob &, std::size_t n, Backend &);
-  std::vector<LawBytes> table = {};    // of LawTable::laws, in the same compiled form
+  std::vector<LawBytes> laws;    // of LawTable::laws
+  void (*run)(const LawBytes &, const LawJob &, std::size_t n, Backend &);
 };
 
 // The wall's effects that the settings ask for.

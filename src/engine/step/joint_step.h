@@ -322,7 +322,7 @@ struct JointStep {
 
 // Near spheres [0, n) of one mesh, or the joint spheres [0, n).
 template <class Law, class Backend>
-void start_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend &backend)
+void run_compiled_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend &backend)
 {
   if constexpr (Law::kSurface)
     if (job.joint.meshes) {

@@ -9,13 +9,12 @@
 namespace lsdcd {
 
 template <class B>
-CompiledLaw<B> one_law_for(const EngineSettings &settings)
+CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
 {
-  const ContactLaw &law = settings.law;
-  if (!law.is_classic()) return granular_law<B>(settings);
-  if (law.is_extended()) return added_law<B>(settings);
   const WallEffects effects = wall_effects(settings);
-  if (effects.surface || effects.records) return on_wall_law<B>(settings);
+  if (!law.is_classic()) return granular_law<B>(law, effects);
+  if (law.is_extended()) return added_law<B>(law, effects);
+  if (effects.surface || effects.records) return on_wall_law<B>(law, effects);
   if (settings.precision == Precision::single_)
     return with_classic_law<float>(law, MakeLaw<B, WallKernels::plain>{});
   return with_classic_law<Real>(law, MakeLaw<B, WallKernels::plain>{});
@@ -24,14 +23,12 @@ CompiledLaw<B> one_law_for(const EngineSettings &settings)
 template <class B>
 CompiledLaw<B> law_for(const EngineSettings &settings)
 {
-  CompiledLaw<B> made = one_law_for<B>(settings);
-  EngineSettings one = settings;
+  CompiledLaw<B> made = law_for<B>(settings, settings.law());
+  made.laws.clear();
   for (const ContactLaw &law : settings.laws.laws) {
-    one.law = law;
-    const CompiledLaw<B> other = one_law_for<B>(one);
-    if (other.start != made.start)
-      throw std::logic_error("laws of a wall must have the same sub-models");
-    made.table.push_back(other.law);
+    const CompiledLaw<B> one = law_for<B>(settings, law);
+    if (one.run != made.run) throw std::logic_error("laws of a wall must have the same sub-models");
+    made.laws.push_back(one.laws.front());
   }
   return made;
 }
