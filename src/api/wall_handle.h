@@ -16,6 +16,13 @@
 #include <memory>
 #include <vector>
 
+namespace lsdcd {
+
+// Of each sphere, as HistoryExchange::pack_restart() writes them.
+using SphereHistories = std::vector<std::vector<Real>>;
+
+}    // namespace lsdcd
+
 struct lsdcd_wall {
   lsdcd::WallCaller caller;
   std::unique_ptr<lsdcd::GpuArrays> gpu;    // that has the arrays of spheres; null: the host has
@@ -25,7 +32,7 @@ struct lsdcd_wall {
   bool begun = false;                // since spheres were numbered anew, too
   lsdcd::Real largest_radius = 0;    // of this process, in the last step that looked
   lsdcd::Failure late;               // of this process, which all are told in the next call
-  std::vector<lsdcd::Real> kept;     // restored histories, until the first step
+  lsdcd::SphereHistories kept;       // restored, until the first step
   bool outside_told = false;
   std::unique_ptr<lsdcd::Wall> in;
 

@@ -5,6 +5,7 @@
 #include "api/wall_handle.h"
 #include "base/input_words.h"
 #include "engine/step/law_job.h"
+#include "wall/old_wall_state.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,22 +64,38 @@ std::vector<const double *> packed_spheres(const lsdcd_wall &wall, std::size_t n
   return spheres;
 }
 
+constexpr const char *kSpheres = "springs of spheres";
+
+// Before 0.10.0: how many numbers of the wall, these, how many spheres, and of each how many numbers and these.
+void read_saved(const Real *numbers, std::size_t n, WallState &state, SphereHistories &spheres)
+{
+  StateReader in(numbers, n, "the data of the wall");
+  if (State::is_one(numbers, n)) {
+    const State all(WallState::kKind, numbers, n);
+    all.read(kSpheres, 1, spheres);
+    state = WallState::from(all);
+    in.take_numbers(all.numbers().size());
+  } else {
+    const std::size_t size = in.take_count();
+    state = read_wall_state(in.take_numbers(size), size);
+    in(spheres);
+  }
+  if (in.left() > 0) in.fail("are too long");
+  for (const std::vector<Real> &sphere : spheres)
+    if (sphere.empty()) in.fail("have a sphere without a number");
+}
+
 }    // namespace
 
 namespace lsdcd {
 
-// Restored numbers: of the wall, then a size and that many for each sphere.
 void unpack_kept(lsdcd_wall &wall)
 {
   HistoryExchange &history = wall.in->history();
   history.on_host();
-  const int n = static_cast<int>(wall.kept[0]);
-  const Real *at = wall.kept.data() + 1;
-  for (int i = 0; i < n; i++) {
-    const int size = static_cast<int>(*at++);
-    history.unpack_restart(i, at, size);
-    at += size;
-  }
+  for (std::size_t i = 0; i < wall.kept.size(); i++)
+    history.unpack_restart(static_cast<int>(i), wall.kept[i].data(),
+                           static_cast<int>(wall.kept[i].size()));
   wall.kept.clear();
 }
 
@@ -134,16 +151,15 @@ int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *coun
     need(count, "count");
     if (room > 0) need(numbers, "numbers");
     tell_late(*wall);
-    std::vector<Real> all = wall->in->state();
-    all.insert(all.begin(), static_cast<Real>(all.size()));
-    const std::size_t n = wall->in->history().is_kept() ? wall->caller.tags.size() : 0;
-    all.push_back(static_cast<Real>(n));
+    SphereHistories spheres(wall->in->history().is_kept() ? wall->caller.tags.size() : 0);
     std::vector<Real> packed(1 + wall->in->history().max_packed_size());
-    for (std::size_t i = 0; i < n; i++) {
+    for (std::size_t i = 0; i < spheres.size(); i++) {
       const int size = wall->in->pack_restart(static_cast<int>(i), packed.data());
-      all.push_back(size);
-      all.insert(all.end(), packed.begin(), packed.begin() + size);
+      spheres[i].assign(packed.begin(), packed.begin() + size);
     }
+    State state = wall->in->save().blocks();
+    state.add(kSpheres, 1, spheres);
+    const std::vector<Real> all = state.numbers();
     *count = all.size();
     std::copy_n(all.begin(), std::min(room, all.size()), numbers);
   });
@@ -155,27 +171,18 @@ int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count)
     need(numbers, "numbers");
     if (wall->begun)
       throw ApiError(LSDCD_ERROR_ARGUMENT, "a wall is restored before its first step");
-    // Sizes first: nothing is changed where the numbers end early.
-    const auto whole = [&](std::size_t at) {
-      return at < count && numbers[at] >= 0 && numbers[at] < static_cast<double>(count - at);
-    };
-    std::size_t at = 0;
-    bool good = whole(0);
-    if (good) at = 1 + static_cast<std::size_t>(numbers[0]);
-    const std::size_t first = at;
-    good = good && at < count && numbers[at] >= 0;
-    if (good) {
-      const double n = numbers[at++];
-      for (double i = 0; i < n && good; i++) {
-        good = whole(at);
-        if (good) at += 1 + static_cast<std::size_t>(numbers[at]);
-      }
-    }
-    if (!good || at != count)
+    WallState state;
+    SphereHistories spheres;
+    try {
+      read_saved(numbers, count, state, spheres);
+    } catch (const StateError &e) {
       throw ApiError(LSDCD_ERROR_ARGUMENT,
-                     "these are not the numbers that lsdcd_wall_save() wrote, all of them");
-    wall->in->restore(numbers + 1, first - 1, {wall->number, wall->dt});
-    wall->kept.assign(numbers + first, numbers + count);
+                     std::string("these are not the numbers that lsdcd_wall_save() wrote, all of "
+                                 "them: ") +
+                         e.what());
+    }
+    wall->in->restore(state, {wall->number, wall->dt});
+    wall->kept = std::move(spheres);
     if (!wall->in->history().is_kept()) wall->kept.clear();
   });
 }

@@ -29,8 +29,9 @@ void check_count(const lsdcd_wall &wall, std::size_t n)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "there are " + std::to_string(n) +
                                              " spheres and there were " + std::to_string(before) +
                                              ": say by lsdcd_wall_renumber() which are left");
-  if (!wall.kept.empty() && wall.kept[0] != static_cast<Real>(n))
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "what was restored has " + number_text(wall.kept[0]) +
+  if (!wall.kept.empty() && wall.kept.size() != n)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "what was restored has " +
+                                             std::to_string(wall.kept.size()) +
                                              " spheres, and this step has " + std::to_string(n));
 }
 

@@ -7,6 +7,8 @@
 #include "lammps/host_box.h"
 #include "lammps/other_fixes.h"
 #include "lammps/own_wall_gran.h"
+#include "lammps/restart_data.h"
+#include "wall/old_wall_state.h"
 #include "wall/shared_material.h"
 
 #include "atom.h"
@@ -502,18 +504,20 @@ void FixWallLsdcd::unpack_restart(int i, int nth)
 
 void FixWallLsdcd::write_restart(FILE *file)
 {
-  const std::vector<double> data = wall->state();
-  if (comm->me != 0) return;
-  const int bytes = static_cast<int>(data.size() * sizeof(double));
-  fwrite(&bytes, sizeof bytes, 1, file);
-  fwrite(data.data(), sizeof(double), data.size(), file);
+  const lsdcd::WallState all = wall->save();
+  if (comm->me == 0) write_state(file, all.blocks());
 }
 
-// LAMMPS hands the same bytes to every process, and does not say how many.
 void FixWallLsdcd::restart(char *buffer)
 {
-  constexpr std::size_t kAll = std::size_t(1) << 40;
-  run_wall([&] { wall->restore(reinterpret_cast<const double *>(buffer), kAll, step_now()); });
+  run_wall([&] {
+    try {
+      wall->restore(lsdcd::read_wall_state(reinterpret_cast<const double *>(buffer), kAllNumbers),
+                    step_now());
+    } catch (const lsdcd::StateError &e) {
+      throw lsdcd::InputError(unusable_state(e, "springs, motion, loads and wear"));
+    }
+  });
 }
 
 // ---- outputs -----------------------------------------------------------------------------

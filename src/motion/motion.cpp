@@ -110,6 +110,12 @@ void RigidMotion::begin_from(const Pose &pose)
                     pose.row[2] == at_home.row[2] && pose.shift == at_home.shift);
 }
 
+void RigidMotion::stop()
+{
+  if (!terms_.empty()) stopped_ = terms_;
+  terms_.clear();
+}
+
 // Each term maps x to R (x - point) + point + shift; R is 1 where it does not turn.
 Pose RigidMotion::terms_at(Time t) const
 {
@@ -170,6 +176,17 @@ bool RigidMotion::keeps(const Vec3 &direction) const
       if (!m.name[d].empty() && direction[d] != 0) return false;
   }
   return true;
+}
+
+bool are_same(const std::vector<MotionTerm> &a, const std::vector<MotionTerm> &b)
+{
+  const auto same = [](const MotionTerm &one, const MotionTerm &other) {
+    return one.kind == other.kind && one.velocity == other.velocity &&
+           one.amplitude == other.amplitude && one.point == other.point && one.axis == other.axis &&
+           one.period == other.period &&
+           std::equal(std::begin(one.name), std::end(one.name), std::begin(other.name));
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
 }
 
 // A rigid motion moves a point by an affine function of it, whose size is largest at a corner.

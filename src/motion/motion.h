@@ -42,8 +42,15 @@ class RigidMotion {
   void begin_from(const Pose &pose);
   const Pose &start() const { return start_; }
 
-  void add(const MotionTerm &term) { terms_.push_back(term); }
-  void stop() { terms_.clear(); }
+  void add(const MotionTerm &term)
+  {
+    terms_.push_back(term);
+    stopped_.clear();
+  }
+  // The mesh stays where start() has it.
+  void stop();
+  // The terms that stop() has ended, until others are added.
+  const std::vector<MotionTerm> &stopped() const { return stopped_; }
   std::vector<MotionTerm> &terms() { return terms_; }
   const std::vector<MotionTerm> &terms() const { return terms_; }
 
@@ -70,9 +77,12 @@ class RigidMotion {
 
  private:
   Pose start_;
-  std::vector<MotionTerm> terms_;
+  std::vector<MotionTerm> terms_, stopped_;
   Servo servo_;
 };
+
+// Are they the same at all times, from the same start?
+bool are_same(const std::vector<MotionTerm> &a, const std::vector<MotionTerm> &b);
 
 // The largest distance between the places of a point of this box (in the mesh's frame) in two poses.
 Real farthest_between(const Pose &a, const Pose &b, const Box &box);

@@ -13,32 +13,6 @@ namespace lsdcd {
 
 namespace {
 
-// Parts of the numbers in a restart file: the clock; poses of the start, without the servo, and last;
-// the servo; how many terms there are; their values; then the letters of their words.
-constexpr int kClock = 5, kPose = 12, kServo = kClock + 3 * kPose, kTerms = kServo + 10,
-              kOfTerm = 6;
-
-Pose pose_from(const double *numbers)
-{
-  Pose p;
-  for (int i = 0; i < 3; i++) p.row[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
-  p.shift = {numbers[9], numbers[10], numbers[11]};
-  return p;
-}
-
-Servo servo_from(const double *numbers)
-{
-  Servo s;
-  s.present = numbers[0] != 0;
-  s.holds = numbers[0] == 2;
-  s.turns = numbers[1] != 0;
-  s.axis = {numbers[2], numbers[3], numbers[4]};
-  s.point = {numbers[5], numbers[6], numbers[7]};
-  s.position = numbers[8];
-  s.velocity = numbers[9];
-  return s;
-}
-
 // Calls `visit` with the name and the value of each variable of a mesh.
 template <class Visit>
 void for_variables(MeshSettings &mesh, SurfaceMotion &surface, const Visit &visit)
@@ -157,7 +131,7 @@ void MeshMotion::change(const ModifiedServo &to)
     const Real position = s.position;
     s = to.servo;
     s.position = position;
-    check_limits("fix_modify servo");
+    check_limits(position, "fix_modify servo");
   } else {
     if (settings().motion.moves())
       throw InputError("fix_modify servo: a servo along another line cannot begin while '" +
@@ -171,11 +145,11 @@ void MeshMotion::change(const ModifiedServo &to)
 }
 
 // Of a servo that goes on where it is: the next step would take it inside of them at any speed.
-void MeshMotion::check_limits(const std::string &command) const
+void MeshMotion::check_limits(Real position, const std::string &command) const
 {
   const Servo &s = servo();
-  if (s.position < s.lo || s.position > s.hi)
-    throw InputError(named(command + ": the servo is at " + number_text(s.position) +
+  if (position < s.lo || position > s.hi)
+    throw InputError(named(command + ": the servo is at " + number_text(position) +
                            ", outside of the limits " + number_text(s.lo) + " " +
                            number_text(s.hi) + ", which count from where it began: widen them"));
 }
@@ -215,74 +189,67 @@ std::string MeshMotion::text(const Box &bounds) const
   return text + "; corners of its bounds go at up to " + number_text(most);
 }
 
-std::vector<double> MeshMotion::state() const
+MotionState MeshMotion::state() const
 {
   const RigidMotion &motion = settings().motion;
-  const double high = static_cast<double>(clock_.base);
-  std::vector<double> data = {high, static_cast<double>(clock_.base - high),
-                              double(clock_.base_step), double(clock_.last_step), clock_.dt};
-  for (const Pose &p : {motion.start(), pose_without_servo(), pose_}) {
-    for (const Vec3 &row : p.row) data.insert(data.end(), {row.x, row.y, row.z});
-    data.insert(data.end(), {p.shift.x, p.shift.y, p.shift.z});
-  }
-  const Servo &s = servo();
-  data.insert(data.end(), {double(s.present + s.holds), double(s.turns)});
-  for (const Vec3 &v : {s.axis, s.point}) data.insert(data.end(), {v.x, v.y, v.z});
-  data.insert(data.end(), {s.position, s.velocity});
-  data.push_back(double(motion.terms().size()));
-  for (const MotionTerm &m : motion.terms())
-    for (const Vec3 &v : {m.displacement, m.speed}) data.insert(data.end(), {v.x, v.y, v.z});
-  for (const char c : settings().motion_tokens) data.push_back(c);
-  return data;
+  MotionState state;
+  state.clock = clock_;
+  state.start = motion.start();
+  state.placed = pose_without_servo();
+  state.last = pose_;
+  state.servo = servo();
+  state.terms = motion.moves() ? motion.terms() : motion.stopped();
+  state.stopped = !motion.moves() && !state.terms.empty();
+  state.text = settings().motion_tokens;
+  return state;
 }
 
-// A servo goes on along the same line, whatever its target is now. What was stopped stays so.
-void MeshMotion::restore(const std::vector<double> &data, const Step &now)
+void MeshMotion::check(const MotionState &was) const
 {
-  const std::size_t n_terms = static_cast<std::size_t>(data[kTerms]);
-  const std::string tokens(data.begin() + kTerms + 1 + kOfTerm * n_terms, data.end());
-  const Pose first = pose_from(&data[kClock]), placed = pose_from(&data[kClock + kPose]),
-             last = pose_from(&data[kClock + 2 * kPose]);
-  const Servo was = servo_from(&data[kServo]);
+  if (!servo().has_line_of(was.servo)) return;
+  check_limits(was.servo.position, "read_restart");
+}
+
+// A servo goes on along the same line, whatever its target is now. A motion that was stopped stays so.
+void MeshMotion::restore(const MotionState &was, const Step &now)
+{
+  check(was);
   RigidMotion &motion = settings().motion;
-  const std::string &own_tokens = settings().motion_tokens;
-  const bool same_line = was.position == 0 || servo().has_line_of(was),
-             same = same_line && tokens == own_tokens, stopped = n_terms == 0 && !tokens.empty();
-  motion.begin_from(same ? first : same_line ? placed : last);
+  const bool same_line = was.servo.position == 0 || servo().has_line_of(was.servo),
+             same = same_line && are_same(motion.terms(), was.terms);
+  const std::string &own = settings().motion_tokens, &its = was.text;
+  motion.begin_from(same ? was.start : same_line ? was.placed : was.last);
   const std::string so =
       " was stopped when the restart file was written, and stays so: fix_modify ";
-  if (same && stopped) {
+  if (same && was.stopped) {
     motion.stop();
     host_.warn(
-        named("the motion '" + tokens + "'" + so + "motion starts another from where the mesh is"));
+        named("the motion '" + its + "'" + so + "motion starts another from where the mesh is"));
   }
-  if (servo().has_line_of(was)) {
-    servo().position = was.position;
-    servo().velocity = was.velocity;
-    servo().holds = was.holds;
-    check_limits("read_restart");
+  if (servo().has_line_of(was.servo)) {
+    servo().position = was.servo.position;
+    servo().velocity = was.servo.velocity;
+    servo().holds = was.servo.holds;
     if (servo().holds) host_.warn(named("the servo" + so + "servo lets it go on"));
   }
   begin(now);
   if (same) {
-    clock_ = {Time(data[0]) + Time(data[1]), static_cast<std::int64_t>(data[2]),
-              static_cast<std::int64_t>(data[3]), data[4]};
-    for (std::size_t i = 0; i < n_terms; i++) {
-      const double *v = &data[kTerms + 1 + kOfTerm * i];
-      motion.terms()[i].displacement = {v[0], v[1], v[2]};
-      motion.terms()[i].speed = {v[3], v[4], v[5]};
+    clock_ = was.clock;
+    for (std::size_t i = 0; i < motion.terms().size(); i++) {
+      motion.terms()[i].displacement = was.terms[i].displacement;
+      motion.terms()[i].speed = was.terms[i].speed;
     }
     place();
-  } else if (motion.moves() ? !tokens.empty() : n_terms > 0) {
-    host_.warn(
-        named("the restart file was written with the motion '" + tokens + "' and this fix has " +
-              (motion.moves() ? "'" + own_tokens + "', which begins" : "none: the mesh stays") +
-              " where the mesh was; the phase is not carried over"));
+  } else if (motion.moves() ? !was.terms.empty() : !was.terms.empty() && !was.stopped) {
+    host_.warn(named("the restart file was written with the motion '" + its +
+                     "' and this fix has " +
+                     (motion.moves() ? "'" + own + "', which begins" : "none: the mesh stays") +
+                     " where the mesh was; the phase is not carried over"));
   }
   if (!same_line)
     host_.warn(named("the restart file was written with a servo along another line, or this fix "
                      "has none: the mesh is where that had it, at " +
-                     number_text(was.position) + ", and its state is not carried over"));
+                     number_text(was.servo.position) + ", and its state is not carried over"));
 }
 
 }    // namespace lsdcd

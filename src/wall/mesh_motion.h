@@ -15,6 +15,19 @@
 
 namespace lsdcd {
 
+// What a motion has added up, for a restart.
+struct MotionState {
+  StepClock clock;
+  Pose start;     // that the terms act on
+  Pose placed;    // in the last step, without the servo
+  Pose last;      // with it
+  Servo servo;    // its line, position and velocity
+  // That move the mesh or, where `stopped`, that were stopped.
+  std::vector<MotionTerm> terms;
+  bool stopped = false;
+  std::string text;    // of the terms, for messages
+};
+
 // Functions throw InputError, the same on all processes, with a text that names the mesh.
 class MeshMotion {
  public:
@@ -50,17 +63,19 @@ class MeshMotion {
   // A line for the log; empty: nothing moves. `bounds`: of the mesh in its own frame.
   std::string text(const Box &bounds) const;
 
-  // For a restart file: numbers, the same on all processes. With the same words the motion goes on
-  // where it was. With others it begins where the mesh was, and the first process warns.
-  std::vector<double> state() const;
-  void restore(const std::vector<double> &state, const Step &now);
+  // For a restart: the same on all processes. With the same terms the motion goes on where it was. With others it
+  // begins where the mesh was, and the first process warns.
+  MotionState state() const;
+  // Throws where a servo would be outside of its limits.
+  void check(const MotionState &was) const;
+  void restore(const MotionState &was, const Step &now);
 
  private:
   MeshSettings &settings() const { return wall_.meshes[mesh_]; }
   Servo &servo() const { return settings().motion.servo(); }
   std::string named(const std::string &text) const;
   void begin(const Step &now);
-  void check_limits(const std::string &command) const;
+  void check_limits(Real position, const std::string &command) const;
 
   Host &host_;
   WallSettings &wall_;

@@ -36,12 +36,6 @@ WallSettings in_units(WallSettings settings, const WallUnits &units)
   return settings;
 }
 
-// How a restart file keeps the state: format, kind of the history, time of the run and number of meshes;
-// and of each mesh: how many numbers of its motion, these; then kHeader numbers (time of the average,
-// facets, edges and vertices of the mesh, number of rows of loads, fingerprint of the mesh), these rows.
-constexpr int kHeader = 6;
-constexpr Real kFormat = -6;
-
 // What fits a double, exactly.
 Real number_of(std::uint64_t fingerprint)
 {
@@ -555,50 +549,49 @@ int Wall::pack_restart(int sphere, Real *buffer)
   });
 }
 
-std::vector<Real> Wall::state() const
+MeshIdentity Wall::identity_of(const MeshPart &m)
 {
-  std::vector<Real> data = {kFormat, static_cast<Real>(settings_.law.history_kind()),
-                            static_cast<Real>(clock_.now()), static_cast<Real>(meshes_.size())};
-  for (const MeshPart &m : meshes_) {
-    const MeshLoads all = loads_.gathered(m.index);
-    const MeshReport &r = m.grid.report();
-    const std::vector<Real> rows = all.packed(), motion = m.motion.state();
-    const std::size_t n_rows = rows.size() / MeshLoads::kPackedLoad;
-    data.push_back(static_cast<Real>(motion.size()));
-    data.insert(data.end(), motion.begin(), motion.end());
-    data.insert(data.end(), {all.time(), static_cast<Real>(r.facets), static_cast<Real>(r.edges),
-                             static_cast<Real>(r.vertices), static_cast<Real>(n_rows),
-                             number_of(m.grid.mesh_fingerprint())});
-    data.insert(data.end(), rows.begin(), rows.end());
-  }
-  return data;
+  const MeshReport &r = m.grid.report();
+  return {static_cast<std::int64_t>(r.facets), static_cast<std::int64_t>(r.edges),
+          static_cast<std::int64_t>(r.vertices), number_of(m.grid.mesh_fingerprint())};
 }
 
-void Wall::restore(const Real *state, std::size_t n, const Step &now)
+WallState Wall::save() const
 {
+  WallState all;
+  all.history_kind = static_cast<Real>(settings_.law.history_kind());
+  all.time = clock_.now();
+  for (const MeshPart &m : meshes_) {
+    const MeshLoads loads = loads_.gathered(m.index);
+    all.meshes.push_back({identity_of(m), m.motion.state(), {loads.time(), loads.packed()}});
+  }
+  return all;
+}
+
+void Wall::restore(const WallState &was, const Step &now)
+{
+  const std::size_t here = meshes_.size(), there = was.meshes.size();
+  const bool one_of_many = here > 1 || there > 1;
+  for (std::size_t k = 0; k < std::min(there, here); k++)
+    if (is_restored(meshes_[k], was.meshes[k], one_of_many))
+      meshes_[k].motion.check(was.meshes[k].motion);
   continued_ = true;
   files_.continue_lists();
-  const Real *const end = state + n;
-  const auto take = [&state, end](Real count) {
-    if (!(count >= 0) || count > static_cast<Real>(end - state))
-      throw InputError("the state of the wall ends early, or is none");
-    const std::vector<Real> numbers(state, state + static_cast<std::size_t>(count));
-    state += numbers.size();
-    return numbers;
-  };
-  if (take(1)[0] != kFormat)
-    throw InputError(
-        "the restart file was written by another version of this fix, whose data it cannot read: "
-        "go on with that version, or give the fix another ID to begin without springs, motion, "
-        "loads and wear");
-  history_.set_kind_of_file(take(1)[0]);
-  clock_.base = take(1)[0];
-  const std::size_t here = meshes_.size(), there = static_cast<std::size_t>(take(1)[0]);
+  history_.set_kind_of_file(was.history_kind);
+  clock_.base = was.time;
   for (std::size_t k = 0; k < std::min(there, here); k++) {
-    const std::vector<Real> motion = take(take(1)[0]), header = take(kHeader),
-                            rows = take(header[4] * MeshLoads::kPackedLoad);
-    restore_mesh(meshes_[k], motion, header, rows, here > 1 || there > 1, now);
+    MeshPart &m = meshes_[k];
+    m.springs_are_foreign = !(was.meshes[k].mesh == identity_of(m));
+    if (is_restored(m, was.meshes[k], one_of_many))
+      restore_mesh(m, was.meshes[k], now);
+    else
+      host_.warn(named(m,
+                       "springs, motion, loads and wear begin anew: the restart file was written "
+                       "with another mesh in this place"));
   }
+  if (!was.unread.empty())
+    host_.warn("the restart file has " + was.unread +
+               ", which this version does not know: it is not carried over");
   if (there == here) return;
   const auto meshes = [](std::size_t n) {
     return std::to_string(n) + (n == 1 ? " mesh" : " meshes");
@@ -612,29 +605,20 @@ void Wall::restore(const Real *state, std::size_t n, const Step &now)
 }
 
 // `one_of_many`: springs tell which mesh they are of by its number alone.
-void Wall::restore_mesh(MeshPart &m, const std::vector<Real> &motion,
-                        const std::vector<Real> &header, const std::vector<Real> &rows,
-                        bool one_of_many, const Step &now)
+bool Wall::is_restored(const MeshPart &m, const MeshState &was, bool one_of_many) const
 {
-  const MeshReport &r = m.grid.report();
-  const bool other = header[1] != static_cast<Real>(r.facets) ||
-                     header[2] != static_cast<Real>(r.edges) ||
-                     header[3] != static_cast<Real>(r.vertices) ||
-                     header[5] != number_of(m.grid.mesh_fingerprint());
-  m.springs_are_foreign = other;
-  if (other && one_of_many) {
-    host_.warn(named(m, "springs, motion, loads and wear begin anew: the restart file was written "
-                        "with another mesh in this place"));
-    return;
-  }
-  m.motion.restore(motion, now);
+  return !one_of_many || was.mesh == identity_of(m);
+}
+
+void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
+{
+  m.motion.restore(was.motion, now);
   motion_has_changed(m);
   if (!settings_.has_loads(m.settings)) return;
-  if (other) {
+  if (m.springs_are_foreign)
     host_.warn("loads and wear begin at zero: the restart file was written with another mesh");
-    return;
-  }
-  loads_.restore(m.index, header[0], rows);
+  else
+    loads_.restore(m.index, was.loads.time, was.loads.rows);
 }
 
 }    // namespace lsdcd

@@ -13,6 +13,7 @@
 #include "wall/step_totals.h"
 #include "wall/timestep_check.h"
 #include "wall/wall_files.h"
+#include "wall/wall_state.h"
 
 #include <cstdint>
 #include <deque>
@@ -117,9 +118,10 @@ class Wall {
   int pack_restart(int sphere, Real *buffer);
   // For a restart file: what the wall keeps beside the histories of spheres. Only the first process has
   // the loads of all.
-  std::vector<Real> state() const;
-  // Of a file that this or another wall wrote: at most n numbers, the same on all processes.
-  void restore(const Real *state, std::size_t n, const Step &now);
+  WallState save() const;
+  // What this or another wall has saved, the same on all processes. Throws InputError, and nothing has changed then,
+  // where a servo would be outside of its limits.
+  void restore(const WallState &was, const Step &now);
 
  private:
   EngineSettings engine_settings() const;
@@ -145,8 +147,9 @@ class Wall {
 
   MeshPart &mesh_of_words(const std::vector<std::string> &words, std::size_t &taken);
   void motion_has_changed(const MeshPart &m);
-  void restore_mesh(MeshPart &m, const std::vector<Real> &motion, const std::vector<Real> &header,
-                    const std::vector<Real> &rows, bool one_of_many, const Step &now);
+  static MeshIdentity identity_of(const MeshPart &m);
+  bool is_restored(const MeshPart &m, const MeshState &was, bool one_of_many) const;
+  void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
 
   Host &host_;
   WallSettings settings_;    // motions change later

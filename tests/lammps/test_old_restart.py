@@ -105,6 +105,8 @@ def main():
     checks.fact("an old file goes on as in the program that wrote it, to the last bit", after == wanted)
     checks.fact("a motion that was stopped stays so, and no mesh has another warning", "mesh 3 'side.stl': the "
                 "motion 'linear 1 0 0' was stopped when" in text and text.count("WARNING: Fix wall wall/lsdcd: mesh ") == 1)
+    after = proceed(folder, MESHES.replace("0 0 1 5", "0 0 2 5.0").replace("wiggle 0.05", "wiggle 5e-2"))[0]
+    checks.fact("numbers that are written otherwise are the same motion", after == wanted)
     after, text = proceed(folder, MESHES.replace("0 0 1 5", "0 0 1 6"))
     checks.fact("another motion begins where the mesh was", after != wanted and
                 "the phase is not carried over" in text and "rotate 0 0 0 0 0 1 6" in text)
@@ -119,7 +121,7 @@ def main():
     # Data that are none of ours: each fix says what and what to do, and changes nothing.
     data = (folder / "today.restart").read_bytes()
     mark = struct.pack("<d", -0x4c5344434453)
-    for style in ("insert/lsdcd", "massflow/lsdcd"):
+    for style in ("wall/lsdcd", "insert/lsdcd", "massflow/lsdcd"):
         at = data.index(mark, data.index(style.encode()))
         for name, broken in (("foreign", struct.pack("<d", -5)), ("later", data[at:at + 8] + struct.pack("<d", 2))):
             (folder / "other.restart").write_bytes(data[:at] + broken + data[at + len(broken):])

@@ -10,8 +10,6 @@ two pieces through a file (equal to the last bit), and a run in one piece only
 without damping (equal but for rounding of the repeated evaluation).
 """
 
-import struct
-
 import lmp
 import scene
 
@@ -75,17 +73,6 @@ def kinds(checks, folder):
     checks.fact("kinds: a displacement is one in any law", "lose their springs" not in text)
 
 
-def another_format(checks, folder):
-    """Data of another version are refused: here only their number says so."""
-    write(LAWS["hooke"], folder, name="other", create=FEW)
-    data = (folder / "other.restart").read_bytes()
-    at = data.index(struct.pack("<d", -6), data.index(b"wall/lsdcd"))
-    (folder / "other.restart").write_bytes(data[:at] + struct.pack("<d", -5) + data[at + 8:])
-    done = lmp.run(scene.SETTINGS + "read_restart other.restart\n" + scene.forces(LAWS["hooke"]) + "run 0\n", folder)
-    checks.fact("another version is refused", done.returncode != 0 and "written by another version of this fix" in
-                done.stdout and "give the fix another ID" in done.stdout, done.stdout[-300:])
-
-
 def meshes(checks, folder):
     """A mesh is that of the file where all of it is, however often it has as many triangles."""
     law = LAWS["hooke_history"]
@@ -134,7 +121,6 @@ def main():
     scene.write_floor(folder / "floor.stl")
     rows(checks, folder)
     kinds(checks, folder)
-    another_format(checks, folder)
     meshes(checks, folder)
 
     # Settled with damping, then without it: in one piece, and in two through a file.

@@ -59,7 +59,6 @@ def check_formats():
     """doc/formats.md against the sources."""
     for row, path, pattern in (
             (r"grid cache [^|]*\| (\d+)", "src/grid/cache/cache_format.h", r"kFormat = (\d+);"),
-            (r"`fix wall/lsdcd` \| \d+, stored as (\S+) \|", "src/wall/wall.cpp", r"kFormat = (-\d+);"),
             (r"restart data: the list of blocks \| (\d+)", "src/base/state_blocks.cpp", r"kFormat = (\d+);"),
             (r"VTK XML PolyData (\S+) ", "src/output/vtk_array.h", r'"PolyData\\" version=\\"([\d.]+)'),
             (r"VTK XML Collection (\S+) ", "src/output/file_series.cpp", r'"Collection\\" version=\\"([\d.]+)'),

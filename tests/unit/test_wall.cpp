@@ -288,7 +288,7 @@ TEST(Wall, goes_on_from_its_state_and_the_histories_of_its_spheres)
   first.grains.v[0] = {0.1, 0, 0};
   first.set_up();
   first.run(10);
-  const std::vector<Real> state = first.wall->state();
+  const WallState state = first.wall->save();
   std::vector<Real> packed(first.wall->history().max_packed_size());
   const int size = first.wall->pack_restart(0, packed.data());
 
@@ -297,7 +297,7 @@ TEST(Wall, goes_on_from_its_state_and_the_histories_of_its_spheres)
   Scene second(other_host, floor.wall());
   second.grains = first.grains;
   second.wall->history().grow(1);
-  second.wall->restore(state.data(), state.size(), {10, kDt});
+  second.wall->restore(state, {10, kDt});
   second.wall->history().unpack_restart(0, packed.data(), size);
   second.now = 10;
   second.set_up();
@@ -317,7 +317,7 @@ TEST(Wall, drops_histories_where_the_mesh_is_another)
   first.grains.v[0] = {0.1, 0, 0};
   first.set_up();
   first.run(10);
-  const std::vector<Real> state = first.wall->state();
+  const WallState state = first.wall->save();
   std::vector<Real> packed(first.wall->history().max_packed_size());
   const int size = first.wall->pack_restart(0, packed.data());
 
@@ -326,7 +326,7 @@ TEST(Wall, drops_histories_where_the_mesh_is_another)
   Scene second(other_host, floor.wall({"scale", "2"}));
   second.grains = first.grains;
   second.wall->history().grow(1);
-  second.wall->restore(state.data(), state.size(), {10, kDt});
+  second.wall->restore(state, {10, kDt});
   second.wall->history().unpack_restart(0, packed.data(), size);
   second.now = 10;
   second.set_up();
