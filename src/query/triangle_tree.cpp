@@ -3,19 +3,12 @@
 
 #include "query/triangle_tree.h"
 
-#include "backend/threads.h"
 #include "geometry/closest_point.h"
 #include "mesh/mesh_features.h"
-#include "query/tree_search.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
-
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
 
 namespace lsdcd {
 
@@ -35,28 +28,6 @@ float below(Real x)
 float above(Real x)
 {
   return -below(-x);
-}
-
-typedef float Eight __attribute__((vector_size(32), may_alias));
-typedef int EightBits __attribute__((vector_size(32)));
-
-const Eight &eight(const float *at)
-{
-  return *reinterpret_cast<const Eight *>(at);
-}
-
-// A bit for each lane that is true.
-[[gnu::always_inline]] inline unsigned lanes(const EightBits &are)
-{
-#if defined(__x86_64__)
-  const __m128i *half = reinterpret_cast<const __m128i *>(&are);
-  return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(half[0]))) |
-         static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(half[1]))) << 4;
-#else
-  unsigned bits = 0;
-  for (int k = 0; k < 8; k++) bits |= (are[k] & 1u) << k;
-  return bits;
-#endif
 }
 
 }    // namespace
@@ -300,189 +271,6 @@ std::size_t TriangleTree::bytes() const
          leaves_.size() * (sizeof(TreeLeaf) + sizeof(TreeSides)) +
          view_.n_primitives * sizeof(TreePrimitive) +
          face_primitive_.size() * sizeof face_primitive_[0];
-}
-
-// ---- search -------------------------------------------------------------------------------------
-
-// Of several boxes the nearest is searched first.
-[[gnu::always_inline]] inline void TriangleTree::search_near(const Vec3 &q, const Vec3 &at,
-                                                             TreeAnswer &best) const
-{
-  const float x = static_cast<float>(at.x), y = static_cast<float>(at.y),
-              z = static_cast<float>(at.z);
-  const float rounding =
-      kBoxRounding * std::fmax(std::fabs(x), std::fmax(std::fabs(y), std::fabs(z)));
-  float most = 0, most_sq = 0;
-  const auto bound = [&] {
-    most = static_cast<float>(std::fmin(best.distance * view_.inv_scale, Real(kTreeHuge))) * kWiden;
-    most_sq = (most + rounding) * (most + rounding) * kWiden;
-  };
-  bound();
-  TreeWaiting stack[kTreeStack];
-  int n = 0;
-  std::uint32_t child = view_.root;
-  const TreeNode *const nodes = nodes_.data();
-  const TreeLeaf *const leaves = leaves_.data();
-  const std::uint32_t n_primitives = view_.n_primitives;
-  for (;;) {
-    bool is_far = false;
-    while (!(child & kTreeLeaf)) {
-      const TreeNode &node = nodes[child];
-      const Eight none = {};
-      Eight to_lo = eight(node.lo[0]) - x, to_hi = x - eight(node.hi[0]);
-      Eight out = to_lo > to_hi ? to_lo : to_hi;
-      out = out > none ? out : none;
-      Eight distance_sq = out * out;
-      to_lo = eight(node.lo[1]) - y, to_hi = y - eight(node.hi[1]);
-      out = to_lo > to_hi ? to_lo : to_hi;
-      out = out > none ? out : none;
-      distance_sq += out * out;
-      to_lo = eight(node.lo[2]) - z, to_hi = z - eight(node.hi[2]);
-      out = to_lo > to_hi ? to_lo : to_hi;
-      out = out > none ? out : none;
-      distance_sq += out * out;
-      unsigned near = lanes(distance_sq <= most_sq);
-      if (near == 0) {
-        is_far = true;
-        break;
-      }
-      alignas(32) float of_child[kTreeWidth];
-      *reinterpret_cast<Eight *>(of_child) = distance_sq;
-      int k = __builtin_ctz(near);
-      TreeWaiting first = {of_child[k], node.child[k]};
-      for (near &= near - 1; near != 0; near &= near - 1) {
-        k = __builtin_ctz(near);
-        TreeWaiting next = {of_child[k], node.child[k]};
-        if (next.far < first.far) std::swap(first, next);
-        stack[n++] = next;
-      }
-      child = first.child;
-    }
-    if (!is_far) {
-      const std::uint32_t number = child & ~kTreeLeaf, slot = number * kTreeWidth;
-      const TreeLeaf &leaf = leaves[number];
-      const float dx = static_cast<float>(at.x - leaf.origin[0]),
-                  dy = static_cast<float>(at.y - leaf.origin[1]),
-                  dz = static_cast<float>(at.z - leaf.origin[2]);
-      const Eight height = eight(leaf.normal[0]) * dx + eight(leaf.normal[1]) * dy +
-                           eight(leaf.normal[2]) * dz + eight(leaf.offset);
-      Eight past = {-kTreeHuge, -kTreeHuge, -kTreeHuge, -kTreeHuge,
-                    -kTreeHuge, -kTreeHuge, -kTreeHuge, -kTreeHuge};
-      for (int s = 0; s < 3; s++) {
-        const Eight outside = -(eight(leaf.side[s][0]) * dx + eight(leaf.side[s][1]) * dy +
-                                eight(leaf.side[s][2]) * dz + eight(leaf.side_offset[s]));
-        past = outside > past ? outside : past;
-      }
-      const Eight none = {}, beside = past > none ? past : none;
-      Eight distance_sq = height * height + beside * beside;
-      const float plane_rounding =
-          kPlaneRounding * (std::fabs(dx) + std::fabs(dy) + std::fabs(dz) + leaf.size);
-      const auto limit = [&] {
-        const float l = most + plane_rounding;
-        return l * l * kWiden;
-      };
-      unsigned near = lanes(distance_sq <= limit());
-      if (slot + kTreeWidth > n_primitives) near &= (1u << (n_primitives - slot)) - 1;
-      if ((near & (near - 1)) != 0) {
-        // Several: past a corner that was too little. Beside a triangle its sides are nearest.
-        const TreeSides &sides = sides_.data()[number];
-        Eight least = {kTreeHuge, kTreeHuge, kTreeHuge, kTreeHuge,
-                       kTreeHuge, kTreeHuge, kTreeHuge, kTreeHuge};
-        least *= least;
-        for (int s = 0; s < 3; s++) {
-          const auto &from = sides.corner[s], &to = sides.corner[s == 2 ? 0 : s + 1];
-          Eight px = dx - eight(from[0]), py = dy - eight(from[1]), pz = dz - eight(from[2]);
-          const Eight ex = eight(to[0]) - eight(from[0]), ey = eight(to[1]) - eight(from[1]),
-                      ez = eight(to[2]) - eight(from[2]);
-          Eight t = (px * ex + py * ey + pz * ez) * eight(sides.over_square[s]);
-          t = t > none ? t : none;
-          t = t < 1.0f ? t : none + 1.0f;
-          px -= t * ex, py -= t * ey, pz -= t * ez;
-          const Eight square = px * px + py * py + pz * pz;
-          least = square < least ? square : least;
-        }
-        distance_sq = past > plane_rounding ? least : distance_sq;
-        near &= lanes(distance_sq <= limit());
-      }
-      if (near != 0) {
-        alignas(32) float of_lane[kTreeWidth];
-        *reinterpret_cast<Eight *>(of_lane) = distance_sq;
-        while (near != 0) {
-          int least = __builtin_ctz(near);
-          for (unsigned others = near & (near - 1); others != 0; others &= others - 1) {
-            const int k = __builtin_ctz(others);
-            if (of_lane[k] < of_lane[least]) least = k;
-          }
-          if (of_lane[least] > limit()) break;
-          near &= ~(1u << least);
-          if (slot + least == best.primitive) continue;
-          view_.attempt(slot + least, q, best);
-          bound();
-        }
-      }
-    }
-    do {
-      if (n == 0) return;
-      n--;
-    } while (stack[n].far > most_sq);
-    child = stack[n].child;
-  }
-}
-
-void TriangleTree::search_near_plain(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const
-{
-  search_near(q, at, best);
-}
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] void TriangleTree::search_near_avx2(const Vec3 &q, const Vec3 &at,
-                                                            TreeAnswer &best) const
-{
-  search_near(q, at, best);
-}
-#endif
-
-void TriangleTree::search_far(const Vec3 &q, TreeAnswer &best) const
-{
-  TreeWaiting stack[kTreeStack];
-  search_tree<TreeBoundsDouble>(view_, Warp<1>(), q, stack, best);
-}
-
-bool &TriangleTree::wide()
-{
-#if defined(__x86_64__)
-  static bool is = __builtin_cpu_supports("avx2");
-#else
-  static bool is = false;
-#endif
-  return is;
-}
-
-TreeAnswer TriangleTree::nearest(const Vec3 &q, Real radius, std::uint32_t hint) const
-{
-  TreeAnswer best = {radius, kNoFeature, kNoPrimitive};
-  const Vec3 at = view_.scaled(q);
-  const TreeSearch search = view_.search_for(at);
-  if (search != TreeSearch::none) {
-    if (hint != kNoPrimitive) view_.attempt(hint, q, best);
-    if (search == TreeSearch::in_double) search_far(q, best);
-#if defined(__x86_64__)
-    else if (wide())
-      search_near_avx2(q, at, best);
-#endif
-    else
-      search_near_plain(q, at, best);
-  }
-  if (!best.found()) best.distance = kAnyDistance;
-  return best;
-}
-
-bool TriangleTree::is_within(const Vec3 &q, Real radius, std::uint32_t &hint) const
-{
-  FeatureCode feature = kNoFeature;
-  if (hint != kNoPrimitive && view_.exact(hint, q, feature) < radius) return true;
-  const TreeAnswer a = nearest(q, radius, kNoPrimitive);
-  if (a.found()) hint = a.primitive;
-  return a.found();
 }
 
 }    // namespace lsdcd

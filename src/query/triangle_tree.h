@@ -18,6 +18,8 @@
 
 namespace lsdcd {
 
+struct FloatBound;
+
 class TriangleTree {
  public:
   // Borrows mesh and names.
@@ -26,7 +28,7 @@ class TriangleTree {
   TriangleTree(const TriangleTree &) = delete;
   TriangleTree &operator=(const TriangleTree &) = delete;
 
-  // What is nearer to q than `radius`; kAnyDistance: at any distance. `hint`: the primitive of a point
+  // The nearest point to q within `radius`; kAnyDistance: at any distance. `hint`: the primitive found for a point
   // that may be near q, or kNoPrimitive; it changes the time alone.
   TreeAnswer nearest(const Vec3 &q, Real radius, std::uint32_t hint) const;
 
@@ -65,6 +67,8 @@ class TriangleTree {
   void make_leaf(const Item *first, const Item *last, std::uint32_t slot, Bounds &bounds);
   FeatureCode primitive_code(std::uint32_t number) const;
 
+  void search_leaf(std::uint32_t number, const Vec3 &q, const Vec3 &at, FloatBound &bound,
+                   TreeAnswer &best) const;
   void search_near(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const;
   void search_far(const Vec3 &q, TreeAnswer &best) const;
   void search_near_plain(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const;
