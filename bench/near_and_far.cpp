@@ -102,7 +102,7 @@ struct Way {
 Way library_way(const TriangleSoup &mesh, Real radius, bool in_floats)
 {
   const double start = clock_ms();
-  const auto library = std::make_shared<LibraryQuery>(mesh, radius, in_floats);
+  const auto library = std::make_shared<LibraryQuery>(mesh, LibraryGrid{radius, 0, 0, in_floats});
   const double seconds = (clock_ms() - start) / 1e3;
   const auto time = [=](const std::vector<Sphere> &points) {
     if (!in_floats) return library->time(points.data(), points.size());

@@ -7,6 +7,8 @@
 #include "query/point_query.h"
 
 #include <algorithm>
+#include <memory>
+#include <stdexcept>
 
 namespace lsdcd {
 
@@ -38,10 +40,40 @@ std::vector<double> cuda_tree_ms(const TriangleTree &tree, const std::vector<Sph
   io.radius = points[0].r;
   io.distance = {out.data(), 1};
   const auto query = copy_to_cuda(tree)->query_on(nullptr);
-  query->answer(io);    // warms up
+  query->enqueue(io);    // warms up
   std::vector<double> ms;
-  for (int k = 0; k < repeats; k++) ms.push_back(b.milliseconds([&] { query->answer(io); }));
+  for (int k = 0; k < repeats; k++) ms.push_back(b.milliseconds([&] { query->enqueue(io); }));
   distance = to_host(b, out, points.size());
+  return ms;
+}
+
+std::vector<double> cuda_query_ms(const lsdcd_grid *grid, lsdcd_query q, std::size_t bytes,
+                                  int repeats)
+{
+  CudaBackend b;
+  const std::size_t n = q.n;
+  CudaBackend::Array<char> points(4 * n * bytes), distance(q.distance ? n * bytes : 0);
+  CudaBackend::Array<std::uint8_t> status(n);
+  b.copy_in(static_cast<const char *>(q.points), points.data(), points.size());
+  char *const on_host = static_cast<char *>(q.distance);
+  std::uint8_t *const status_on_host = q.status;
+  q.points = points.data();
+  if (q.radii) q.radii = points.data() + 3 * bytes;
+  if (q.distance) q.distance = distance.data();
+  q.status = status.data();
+  lsdcd_stream *stream = nullptr;
+  const auto check = [](int code) {
+    if (code != LSDCD_OK) throw std::runtime_error(lsdcd_last_error());
+  };
+  check(lsdcd_stream_open(grid, b.stream, &stream));
+  const std::unique_ptr<lsdcd_stream, void (*)(lsdcd_stream *)> owned(stream, lsdcd_stream_free);
+  check(lsdcd_query_stream(stream, &q));    // warms up
+  std::vector<double> ms;
+  for (int k = 0; k < repeats; k++)
+    ms.push_back(b.milliseconds([&] { check(lsdcd_query_stream(stream, &q)); }));
+  if (on_host) b.copy_out(distance.data(), on_host, distance.size());
+  b.copy_out(status.data(), status_on_host, n);
+  b.wait();
   return ms;
 }
 

@@ -6,6 +6,7 @@
 
 #include "brute_force.h"
 
+#include "lsdcd.h"
 #include "query/sphere.h"
 #include "query/triangle_tree.h"
 
@@ -19,6 +20,10 @@ double cuda_copy_gb_s();
 // Of each run of a tree's query for the distances of points: milliseconds. Points come and distances go once.
 std::vector<double> cuda_tree_ms(const TriangleTree &tree, const std::vector<Sphere> &points,
                                  int repeats, std::vector<double> &distance);
+// Of each run of a query of the library on a stream: milliseconds. Its arrays are copies on the GPU of those of the host
+// that `q` has: x y z r of each point and, where `q` has them, their radii among these; `bytes` is the size of a number.
+std::vector<double> cuda_query_ms(const lsdcd_grid *grid, lsdcd_query q, std::size_t bytes,
+                                  int repeats);
 double cuda_brute_force_ms(const TriangleGrid &grid, std::size_t n, std::size_t stride);
 
 }    // namespace lsdcd

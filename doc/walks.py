@@ -123,11 +123,11 @@ WALKS = {
             BrickTable::at PointWork::far PointWork::answer nearest_from nearest_in_cell MeshDistances::feature
             closest_point_on PointWork::keep""",
         "now": """
-            lsdcd_query_host guard checked_query answer_in_parts answer_on_host arrays_of point_sides.cpp:answer_with_sides
-            point_sides.cpp:answer tree_query.cpp:answer_points TreeQuery::run
-            TreeQuery::answer_in_order TreeQuery::is_far TreeQuery::point NearBoxes::may_be_near TreeQuery::answer
-            TriangleTree::nearest TriangleTree::search_near_plain TriangleTree::search_near TreeView::attempt
-            TreeView::exact TreeView::segment TreeAnswers::keep""",
+            lsdcd_query_host guard checked_query query_in_parts query_part arrays_of point_sides.cpp:query_with_sides
+            query_then_fill tree_query.cpp:query_tree TreeQuery::run TreeQuery::search_along_curve TreeQuery::is_far
+            NearBoxes::may_be_near TreeQuery::find_nearest TriangleTree::nearest TriangleTree::search_near_plain
+            TriangleTree::search_near TriangleTree::search_leaf TreeView::attempt TreeView::exact TreeView::segment
+            TreeAnswers::store""",
     },
 }
 

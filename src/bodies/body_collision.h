@@ -16,7 +16,7 @@
 
 namespace lsdcd {
 
-// Where a body is: its point x is at rotation x + shift in the wall's frame. corner_at() rounds the
+// The pose of a body: its point x is at rotation x + shift in the wall's frame. corner_at() rounds the
 // corners of a body in a pose. For these rounded corners, answers are exact.
 struct BodyPose {
   Vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};    // of the rotation matrix
@@ -51,7 +51,7 @@ struct Collision {
   bool any() const { return !pairs.empty(); }
 };
 
-// Keeps wall and body on its device between poses.
+// Wall and body stay on its device between poses.
 class BodyCollision {
  public:
   virtual ~BodyCollision() = default;

@@ -310,7 +310,7 @@ class BodyCollisionOn : public BodyCollision {
   Real size_ = 0, unit_ = 0;    // of the body about its origin; a piece's longest edge
   std::uint32_t largest_code_ = 0;
 
-  // Of the last pose; `tally_` is what `counts_` was.
+  // Counts of the last pose; `tally_` is a copy of `counts_`.
   Array<std::uint64_t> counts_ = Array<std::uint64_t>(kCounts);
   HostArray<std::uint64_t> tally_ = HostArray<std::uint64_t>(kCounts);
   Array<BodyPair> near_, met_, unsure_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The pose of a rigid body, from the places of some of its points.
+// The pose of a rigid body, from the positions of some of its points.
 #pragma once
 
 #include "bodies/body_collision.h"
@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-// The places of these points when the body is where its mesh file has it.
+// The positions of these points when the body is where its mesh file has it.
 class PosePoints {
  public:
   // At least three, not all on one line; else throws InputError with what is wrong.
@@ -20,12 +20,12 @@ class PosePoints {
   std::size_t size() const { return from_centre_.size(); }
   Real radius() const { return radius_; }    // root mean square distance from the centre
 
-  // Sums over the present places of points, which several processes may have. `origin`: a place near
+  // Sums over the present positions of points, which several processes may have. `origin`: a point near
   // them, for less rounding; the same on all processes.
   static constexpr int kSums = 14;
   void add(std::size_t point, const Vec3 &x, const Vec3 &origin, double *sums) const;
 
-  // The rigid motion of the points to their present places with the least mean square distance (Horn
+  // The rigid motion of the points to their present positions with the least mean square distance (Horn
   // 1987), and the square root of that.
   BodyPose fit(const double *sums, const Vec3 &origin, Real &off) const;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where two triangles cut each other.
+// The segment in which two triangles cut each other.
 #pragma once
 
 #include "geometry/triangles_meet.h"
@@ -17,7 +17,7 @@ struct MeetingSegment {
 
 namespace meeting_segment_detail {
 
-// Where the plane with this normal through x cuts a triangle: on the two sides at the corner that is
+// The points at which the plane with this normal through x cuts a triangle: on the two sides at the corner that is
 // alone. The signs of `sides` are exact, distances are rounded. If they contradict each other, the
 // point stays on its side.
 template <class Sides>

@@ -23,7 +23,7 @@ struct MeshCollisionSettings {
   ProgressListener progress;    // of the grid
 };
 
-// In place of a triangle of the wall without area, of which welding left no face.
+// Instead of a triangle of the wall without area, of which welding left no face.
 constexpr std::uint32_t kNoFace = 0xffffffff;
 
 class MeshCollision {

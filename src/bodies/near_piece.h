@@ -10,10 +10,10 @@
 // edges and vertices leaves out those that cannot be closest to any point of the cell, and a
 // triangle behind its neighbour's fold is one of these though the piece cuts it.
 //
-// A primitive is left out where its distance from c, rounded, is more than the radius and the
-// grid's tolerance, which covers that rounding. Centres are rounded, too: in the body's frame by
-// one rounding a bisection, 64 at most, then by the pose, as the corners are. All that is less
-// than 128 roundings of the largest coordinate, which the cutoff must have to spare.
+// A primitive is left out if its distance from c, rounded, exceeds the radius + the grid's
+// tolerance, which covers that rounding. Centres are rounded, too, with u = 2^-53 and the largest coordinate X: by
+// u X a bisection, of which there are at most 64, and then by the pose, as the corners are. The sum is below 128 u X,
+// by which the cutoff must exceed the radius.
 #pragma once
 
 #include "bodies/body_collision.h"
@@ -75,9 +75,9 @@ LSDCD_FN bool for_each_near(const GridView &grid, const Vec3 &centre, Real radiu
   return cell.count > most;
 }
 
-// Does the previous piece of the same triangle have this primitive, too? It does if the primitive
-// overlaps its ball. Then this piece leaves it out, so that large triangles give one pair for each run
-// of pieces.
+// Was this primitive reported by the previous piece of the same triangle, whose ball it overlaps? Then this piece
+// skips it, so that large triangles give one pair for each run of
+// pieces.
 LSDCD_FN bool is_of_piece_before(const GridView &grid, const Piece *pieces, std::size_t i,
                                  const BodyPose &pose, Real unit, FeatureCode primitive)
 {

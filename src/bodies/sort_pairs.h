@@ -18,7 +18,7 @@ void sort_pairs(B &backend, BodyPair *pairs, std::size_t n, std::uint32_t larges
   if constexpr (B::kOnHost) {
     std::sort(pairs, pairs + n);
   } else {
-    // The second sort is stable, so that it keeps the order of the first.
+    // The second sort is stable, so that the order of the first remains.
     using Numbers = typename B::template Scratch<std::uint32_t>;
     Numbers triangles(n), walls(n);
     std::uint32_t *triangle = triangles.data(), *wall = walls.data();

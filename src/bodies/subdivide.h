@@ -57,7 +57,7 @@ LSDCD_FN bool for_each_piece(const Triangle &whole, Real longest, const Visit &v
   return true;
 }
 
-// With edges of at most h the radius is at most 2 h / 3: the squared distance of the corner
+// If edges are at most h, the radius is at most 2 h / 3: the squared distance of the corner
 // opposite of an edge a from the centroid is (2 b^2 + 2 c^2 - a^2) / 9.
 LSDCD_FN Piece piece_of(const Triangle &t, std::uint32_t triangle, Real longest)
 {

@@ -58,14 +58,14 @@ LSDCD_FN Vec3 shares_in_triangle(const Vec3 *corner, const Vec3 &p)
   return share;
 }
 
-// Where parts of a mesh are. Position: of a vertex by its number.
+// Corners of the triangles of a mesh. Position gives a vertex by its number.
 template <class Position>
 struct MeshParts {
   TriangleNames names;
   const int *face_vertex, *edge_vertex;    // 3 of each face, 2 of each edge
   Position position;
 
-  // Shares of the corners of the triangle that the table names for this feature, in their order as given; `point`: the
+  // Shares of the corners of the triangle that the table names for this feature, in the order of the file; `point`: the
   // closest one on the feature. No numbers where there is no such triangle.
   LSDCD_FN Vec3 barycentric(FeatureCode feature, const Vec3 &point) const
   {

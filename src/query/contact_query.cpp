@@ -18,8 +18,8 @@
 namespace lsdcd {
 namespace {
 
-// Contacts of one sphere at a time. False where there are more places than kPlaces.
-template <int kPlaces>
+// Contacts of one sphere at a time. False where there are more than kMost.
+template <int kMost>
 class SphereSearch {
  public:
   bool find(const GridView &grid, const Vec3 &q, Real radius, std::vector<SphereContact> &found)
@@ -36,12 +36,12 @@ class SphereSearch {
   }
 
  private:
-  ContactSet<kPlaces> set_;
-  CornerRule<kPlaces> rule_;
-  Real weight_[kPlaces];
+  ContactSet<kMost> set_;
+  CornerRule<kMost> rule_;
+  Real weight_[kMost];
 };
 
-constexpr int kFew = 32, kMost = 512;
+constexpr int kFew = 32, kMany = 512;
 constexpr std::size_t kChunk = 1024;    // spheres
 
 template <class T>
@@ -80,7 +80,7 @@ class ContactQuery {
   void find_chunk(std::size_t c)
   {
     SphereSearch<kFew> few;
-    std::unique_ptr<SphereSearch<kMost>> many;    // more than a stack may have room for
+    std::unique_ptr<SphereSearch<kMany>> many;    // more than a stack may have room for
     std::vector<SphereContact> &found = chunks_[c];
     for (std::size_t i = c * kChunk; i < std::min(spheres_.n, (c + 1) * kChunk); i++) {
       const std::size_t before = found.size();
@@ -88,10 +88,10 @@ class ContactQuery {
       const Real radius = radius_of(sphere);
       const Vec3 q = spheres_.centres[sphere];
       if (!few.find(grid_, q, radius, found)) {
-        if (!many) many = std::make_unique<SphereSearch<kMost>>();
+        if (!many) many = std::make_unique<SphereSearch<kMany>>();
         if (!many->find(grid_, q, radius, found))
           throw InputError("sphere " + std::to_string(sphere) + " touches the wall in more than " +
-                           std::to_string(kMost) +
+                           std::to_string(kMany) +
                            " separate places: take a smaller radius, or a coarser mesh");
       }
       out_.first[i + 1] = found.size() - before;
@@ -115,13 +115,12 @@ class ContactQuery {
 
 }    // namespace
 
-SphereContacts find_all_contacts(const GridView &grid, const SphereView<float> &spheres)
+template <class T>
+SphereContacts find_all_contacts(const GridView &grid, const SphereView<T> &spheres)
 {
-  return ContactQuery<float>(grid, spheres).run();
+  return ContactQuery<T>(grid, spheres).run();
 }
-SphereContacts find_all_contacts(const GridView &grid, const SphereView<double> &spheres)
-{
-  return ContactQuery<double>(grid, spheres).run();
-}
+template SphereContacts find_all_contacts(const GridView &, const SphereView<float> &);
+template SphereContacts find_all_contacts(const GridView &, const SphereView<double> &);
 
 }    // namespace lsdcd

@@ -28,15 +28,15 @@ struct SphereContact {
   Real weight;               // share of the force, 0 to 1
 };
 
-// Those of sphere `from` + i are found[first[i]] up to before found[first[i + 1]], in the order of their features.
+// Sphere `from` + i has found[first[i]] to found[first[i + 1] - 1], in the order of their features.
 struct SphereContacts {
   std::vector<std::size_t> first;
   std::vector<SphereContact> found;
 };
 
-// With threads() threads. The lists must be complete. Throws InputError if a radius in `radii` exceeds
+// It uses threads() threads. The lists must be complete. Throws InputError if a radius in `radii` exceeds
 // the cutoff, or where a sphere has more contacts than the corner rule takes.
-SphereContacts find_all_contacts(const GridView &grid, const SphereView<float> &spheres);
-SphereContacts find_all_contacts(const GridView &grid, const SphereView<double> &spheres);
+template <class T>
+SphereContacts find_all_contacts(const GridView &grid, const SphereView<T> &spheres);
 
 }    // namespace lsdcd

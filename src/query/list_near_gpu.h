@@ -33,13 +33,13 @@ constexpr unsigned kNearTile = kNearBlock *kNearEach<S>;
 
 // Spheres are in as many lists as a warp has threads: a list has every so many-th block's, and they
 // count in as many slots. A list grows from its front by those whose cell has one candidate, and
-// from its back by those with several.
+// from its back by those with more.
 constexpr unsigned kNearLists = kWarpSize;
 struct NearCounts {
   struct alignas(128) OfList {
-    unsigned long long n;    // one candidate: low word; several: high word
+    unsigned long long n;    // one candidate: low word; more: high word
   } list[kNearLists];
-  unsigned with_long;    // of those with several, how many have long lists
+  unsigned with_long;    // of those with more, how many have long lists
 };
 template <class S>
 struct NearLists {
@@ -87,8 +87,8 @@ struct ListNear {
     block.wait();
     wait_for_copies();    // this thread's own
 
-    // Words of the table, and in five bits for each which bit of it; all bits where it is not known
-    // which to ask for.
+    // word[k]: the table's word of sphere k. bit: 5 bits for each sphere, the number of its bit in that
+    // word. A sphere whose brick is not certain has all bits set.
     static_assert(5 * kEach <= 32, "in one number");
     std::uint32_t bit = 0, word[kEach];
 #pragma unroll
@@ -140,16 +140,15 @@ struct ListNear {
         if (cell != kNoCell) near.cell = *work.list(cell);
       }
       const bool is_near = cell != kNoCell, is_one = is_near && near.cell.count == 1;
-      const unsigned one = warp.vote(is_one), several = warp.vote(is_near && !is_one);
+      const unsigned one = warp.vote(is_one), more = warp.vote(is_near && !is_one);
       unsigned long long at = 0;
-      if (warp.rank() == 0 && (one | several) != 0)
-        at =
-            fetch_add(&lists.counts->list[mine].n,
-                      static_cast<unsigned long long>(warp.count(several)) << 32 | warp.count(one));
+      if (warp.rank() == 0 && (one | more) != 0)
+        at = fetch_add(&lists.counts->list[mine].n,
+                       static_cast<unsigned long long>(warp.count(more)) << 32 | warp.count(one));
       at = warp.of(at, 0);
       const unsigned to =
           is_one ? static_cast<unsigned>(at) + warp.count_below(one)
-                 : lists.room - 1 - static_cast<unsigned>(at >> 32) - warp.count_below(several);
+                 : lists.room - 1 - static_cast<unsigned>(at >> 32) - warp.count_below(more);
       if (is_near) lists.list(mine)[to] = near;
     }
   }

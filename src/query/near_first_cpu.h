@@ -15,17 +15,12 @@
 namespace lsdcd {
 
 struct NearFirstCpu {
-  template <class S>
-  void reserve(std::size_t)
-  {
-  }
-
   template <class B, class Work>
   void run(B &b, std::size_t n, const Work &work)
   {
-    if (n <= kBlock) return answer_block(work, 0, n);    // starting threads takes longer
+    if (n <= kBlock) return run_block(work, 0, n);    // starting threads takes longer
     b.for_each((n + kBlock - 1) / kBlock, [&](std::size_t block) {
-      answer_block(work, block * kBlock, std::min(n, (block + 1) * kBlock));
+      run_block(work, block * kBlock, std::min(n, (block + 1) * kBlock));
     });
   }
 
@@ -40,7 +35,7 @@ struct NearFirstCpu {
   };
 
   template <class Work>
-  [[gnu::noinline]] static void answer_block(const Work &work, std::size_t from, std::size_t to)
+  [[gnu::noinline]] static void run_block(const Work &work, std::size_t from, std::size_t to)
   {
     using S = typename Work::Item;
     const GridView &grid = work.grid;
@@ -68,7 +63,7 @@ struct NearFirstCpu {
     }
     for (std::size_t k = 0; k < n_near; k++) prefetch_list(grid, *work.list(near[k].cell));
     for (std::size_t k = 0; k < n_near; k++)
-      work.answer(near[k].sphere, near[k].s, *work.list(near[k].cell));
+      work.search_list(near[k].sphere, near[k].s, *work.list(near[k].cell));
   }
 
   template <class S>

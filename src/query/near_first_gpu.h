@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A query whose kernels have one kind of work each. The first is light: many threads, several
-// spheres in flight in each; it answers every sphere as if the wall were far, and lists those near
-// to it with all that their answers begin from. Those whose cell has one candidate, and those with
-// several, are answered by kernels with full warps of their kind, whatever their order in memory.
-// What one thread would read for too long is left to a warp each in the last.
+// A query whose kernels have one kind of work each. The first is light, with many threads and more than one
+// sphere in flight in each: it answers every sphere as if the wall were far, and lists those near
+// to it with what a search reads first. A kernel searches cells of one candidate, and another one cells of
+// more, both with full warps whatever the order of the spheres in memory. The last kernel searches long
+// lists, each by a warp.
 #pragma once
 
 #include "backend/backend.h"
@@ -19,25 +19,25 @@
 namespace lsdcd {
 
 // Blocks at once on a processor: 64 registers a thread for one candidate, 80 for
-// several.
+// more.
 constexpr unsigned kAnswerBlock = 256, kSinglesBlocks = 4, kSeveralBlocks = 3;
 
-// What a block takes of the lists, a sphere for each thread and of one list at a time: in the
-// order in which they grew side by side, so that what is near in memory is answered together.
-// `n`: of the list that is this thread's rank.
+// How a block walks the lists: kAnswerBlock spheres of one list, then of the next. Lists grow in
+// parallel, so that neighbours in memory are answered in the same turn.
+// `n`: the length of the list whose number is this thread's rank.
 class NearTurns {
  public:
   LSDCD_GPU_FN explicit NearTurns(unsigned n) : n_(n), longest_(GpuWarp::largest(n)) {}
 
-  // Calls answer(list, k) for the spheres of this thread.
-  template <class Answer>
-  LSDCD_GPU_FN void take(Answer answer) const
+  // Calls search(list, k) for the spheres of this thread.
+  template <class Search>
+  LSDCD_GPU_FN void take(Search search) const
   {
     for (unsigned turn = Block::number(); turn / kNearLists * kAnswerBlock < longest_;
          turn += Block::n_blocks()) {
       const unsigned list = turn % kNearLists,
                      k = turn / kNearLists * kAnswerBlock + Block::thread();
-      if (k < GpuWarp::of(n_, list)) answer(list, k);
+      if (k < GpuWarp::of(n_, list)) search(list, k);
     }
   }
 
@@ -64,12 +64,12 @@ struct AnswerSingles {
     NearTurns(static_cast<unsigned>(lists.counts->list[GpuWarp::rank()].n))
         .take([&](unsigned list, unsigned k) {
           const NearSphere<typename Work::Item> near = read_once(lists.list(list)[k]);
-          work.answer(near.sphere, near.s, Cell{near.cell.first, 1});
+          work.search_list(near.sphere, near.s, Cell{near.cell.first, 1});
         });
   }
 };
 
-// Answers those with several candidates. Those with long lists it lists again, at most `max_long`. It
+// Answers those with more candidates. It lists at most `max_long` of those with long lists again. It
 // also clears the counts of the next run. It can run beside the kernel before it, which has waited for
 // the lists.
 template <class Work>
@@ -99,9 +99,9 @@ struct AnswerSeveral {
               return;
             }
           }
-          work.answer(near.sphere, near.s, near.cell);
+          work.search_list(near.sphere, near.s, near.cell);
         });
-    // What waits for this kernel thus waits for that one, too.
+    // A kernel that waits for this one thus waits for that one, too.
     block.wait_for_last();
   }
 };
@@ -122,7 +122,7 @@ struct AnswerLong {
     for (unsigned k = block.number() * (kAnswerBlock / kWarpSize) + block.warp(); k < n;
          k += block.n_blocks() * (kAnswerBlock / kWarpSize)) {
       const NearSphere<typename Work::Item> one = long_list[k];
-      work.answer_together(one.sphere, one.s, one.cell, GpuWarp());
+      work.search_in_warp(one.sphere, one.s, one.cell, GpuWarp());
     }
   }
 };
@@ -164,7 +164,7 @@ class NearFirst {
                        AnswerSingles<Work>{mine, lists});
       b.for_each_block({blocks(kSeveralBlocks), kAnswerBlock, 0, true},
                        AnswerSeveral<Work>{mine, lists, next, long_list, kMaxLong});
-      if constexpr (Work::kTogether)
+      if constexpr (Work::kHasLong)
         b.for_each_block({limits_.processors(), kAnswerBlock},
                          AnswerLong<Work>{mine, long_list, counts, kMaxLong});
     }
@@ -173,7 +173,7 @@ class NearFirst {
  private:
   static constexpr std::size_t kRun = std::size_t(1) << 24;    // spheres of a turn of kernels
 
-  // Where there are more, their threads read them.
+  // Threads read the lists of any more.
   static constexpr unsigned kMaxLong = 1 << 16;
 
   template <class S>

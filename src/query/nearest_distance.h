@@ -4,18 +4,100 @@
 // The distance from one sphere to the wall, and whether it is certified.
 #pragma once
 
-#include "query/distances.h"
+#include "contact/brick_geometry.h"
+#include "geometry/primitive_distance.h"
 
 #include <cstdint>
 
 namespace lsdcd {
 
+// Distances to the entries of a list: to a primitive of the wall in lists of the N nearest, to a feature in complete
+// ones. Each returns kAnyDistance if there is nothing nearer than `within`.
+
+// By the wall's own records, in double. Primitives are whole triangles, as in the paper.
+class MeshDistances {
+ public:
+  static constexpr bool kFloats = false;
+
+  LSDCD_FN MeshDistances(const GridView &grid, const Vec3 &q, const CellAddress &) :
+      grid_(grid), q_(q)
+  {
+  }
+
+  LSDCD_FN Real primitive(FeatureCode code, Real) const
+  {
+    return primitive_distance(grid_.wall, code, q_);
+  }
+  LSDCD_FN Real feature(FeatureCode code, Real within) const
+  {
+    const ClosestPoint closest = closest_point_on(grid_.wall, code, q_, grid_.tolerance, within);
+    return closest.found ? closest.distance : kAnyDistance;
+  }
+
+ protected:
+  const GridView &grid_;
+  const Vec3 &q_;
+};
+
+// By copies of the records in float, in the frame of a brick. A primitive has a distance if the wall has a local
+// minimum of distance on it: past a shared side it is the neighbour that has one.
+class BrickDistances {
+ public:
+  static constexpr bool kFloats = true;
+
+  LSDCD_FN BrickDistances(const GridView &grid, const Vec3 &q, const CellAddress &at) :
+      geometry_(grid, q, at)
+  {
+  }
+
+  LSDCD_FN Real primitive(FeatureCode code, Real within) const
+  {
+    if (feature_kind(code) != FeatureKind::face) return feature(code, within);
+    const FaceRegion over = geometry_.over(code, within);
+    if (over == FaceRegion::far) return kAnyDistance;
+    Real nearest = over == FaceRegion::outside ? kAnyDistance : feature(code, within);
+    if (over == FaceRegion::inside) return nearest;
+    for (FeatureCode part : geometry_.parts(code).part)
+      if (part != kNoFeature) nearest = fmin(nearest, feature(part, within));
+    return nearest;
+  }
+  LSDCD_FN Real feature(FeatureCode code, Real within) const
+  {
+    const ClosestPoint closest = geometry_.closest_point(code, within);
+    return closest.found ? closest.distance : kAnyDistance;
+  }
+
+ private:
+  BrickGeometry geometry_;
+};
+
+// How a grid is searched: by which distances, and whether its lists are complete (grid.nearest is 0).
+template <class D, bool kAll>
+struct ListSearch {
+  using Distances = D;
+  static constexpr bool kComplete = kAll;
+};
+
+// Calls run(search) with the ListSearch that the grid's lists and records ask for.
+template <class Run>
+void with_list_search(const GridView &grid, const Run &run)
+{
+  const bool complete = grid.nearest == 0;
+  if (grid.in_floats && complete)
+    run(ListSearch<BrickDistances, true>());
+  else if (grid.in_floats)
+    run(ListSearch<BrickDistances, false>());
+  else if (complete)
+    run(ListSearch<MeshDistances, true>());
+  else
+    run(ListSearch<MeshDistances, false>());
+}
+
 struct Answer {
-  Real distance;         // from the centre to the wall; kAnyDistance: not within the radius
-  bool certified;        // nothing that the list leaves out can be nearer, or touch
-  std::uint32_t read;    // entries of lists
+  Real distance;     // from the centre to the wall; kAnyDistance: not within the radius
+  bool certified;    // nothing that the list leaves out can be nearer, or touch
   // The code in the list of what is nearest, and whether that is a primitive; not set by
-  // nearest_together().
+  // nearest_in_warp().
   FeatureCode feature = kNoFeature;
   bool primitive = false;
 
@@ -23,20 +105,20 @@ struct Answer {
 };
 
 // Bits of an answer's status.
-constexpr std::uint8_t kTouching = 1, kCertified = 2, kSideEstimated = 4;
+constexpr std::uint8_t kFound = 1, kCertified = 2, kSideEstimated = 4;
 
 LSDCD_FN std::uint8_t status_of(const Answer &a)
 {
-  return (a.found() ? kTouching : 0) | (a.certified ? kCertified : 0);
+  return (a.found() ? kFound : 0) | (a.certified ? kCertified : 0);
 }
 
 // The answer far from the wall.
 LSDCD_FN Answer far_answer()
 {
-  return {kAnyDistance, true, 0};
+  return {kAnyDistance, true};
 }
 
-// Of features at the same distance the first in the list is found.
+// The first in the list is found of features at the same distance.
 struct FirstOfEqual {
   static constexpr bool kOrders = false;
 };
@@ -63,8 +145,8 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const Vec3 &q, Real radius
     nearest = distance;
     found = code;
   };
-  const auto answer = [&](bool certified, std::uint32_t read) -> Answer {
-    return {found != kNoFeature ? nearest : kAnyDistance, certified, read, found, kPrimitives};
+  const auto answer = [&](bool certified) -> Answer {
+    return {found != kNoFeature ? nearest : kAnyDistance, certified, found, kPrimitives};
   };
   // A single candidate is in the cell itself, and there is no list to stop in.
   const bool single = cell.count == 1;
@@ -76,13 +158,13 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const Vec3 &q, Real radius
     const Candidate candidate = next;
     if (!single) {
       if (k + 1 < cell.count) next = grid.lists.candidates[cell.first + k + 1];
-      // A distance that may be wrong does not end the search.
-      const bool past = candidate.bound > (Distances::kBounded ? nearest : radius) + off_centre;
-      if (k == limit || (past && Distances::kBounded)) return answer(past, k + 1);
+      // No entry of the list from here on is nearer than this bound.
+      const bool past = candidate.bound > nearest + off_centre;
+      if (k == limit || past) return answer(past);
     }
     attempt(candidate.feature);
   }
-  return answer(true, cell.count);
+  return answer(true);
 }
 
 // The nearer of two distances, or the first: 0 and -0 are equal, and not the same bits.
@@ -91,22 +173,18 @@ LSDCD_FN Real nearer(Real first, Real second)
   return second < first ? second : first;
 }
 
-// The same from a complete list by the lanes of a warp: they call it together with the same arguments
-// and get the same answer. Each lane tries one entry, and its search radius is the nearest distance
-// before this turn. The nearest distance that one thread would have had before an entry comes from the
-// lanes below, so that the search ends at the same entry as with
-// one thread.
+// The same from a complete list by the lanes of a warp, which call it with the same arguments and get the same answer.
+// Each lane tries one entry, and its search radius is the nearest distance before this turn. The nearest distance that
+// one thread would have had before an entry comes from the lanes below, so that the search ends at the same entry as
+// with one thread.
 template <class Distances, class Threads>
-LSDCD_FN Answer nearest_together(const GridView &grid, const Vec3 &q, Real radius,
-                                 const CellAddress &at, const Cell &cell, const Threads &warp)
+LSDCD_FN Answer nearest_in_warp(const GridView &grid, const Vec3 &q, Real radius,
+                                const CellAddress &at, const Cell &cell, const Threads &warp)
 {
-  static_assert(Distances::kBounded, "a list is read to its end where bounds do not hold");
   const Distances distances(grid, q, at);
   const Real off_centre = norm(at.from_centre);
   Real nearest = radius;
-  const auto answer = [&](std::uint32_t read) -> Answer {
-    return {nearest < radius ? nearest : kAnyDistance, true, read};
-  };
+  const auto answer = [&]() -> Answer { return {nearest < radius ? nearest : kAnyDistance, true}; };
   for (std::uint32_t first = 0; first < cell.count; first += Threads::kSize) {
     const std::uint32_t k = first + warp.rank();
     const bool there = k < cell.count;
@@ -125,39 +203,39 @@ LSDCD_FN Answer nearest_together(const GridView &grid, const Vec3 &q, Real radiu
     if (warp.rank() == 0) before = nearest;
     const unsigned past = warp.vote(there && bound > before + off_centre);
     if (past) {
-      const unsigned end = lowest_bit(past);
-      nearest = warp.of(before, end);
-      return answer(first + end + 1);
+      nearest = warp.of(before, lowest_bit(past));
+      return answer();
     }
     nearest = warp.of(least, Threads::kSize - 1);
   }
-  return answer(cell.count);
+  return answer();
 }
 
 constexpr std::uint32_t kWholeList = 0xffffffffu;
 
 // The nearest point of the wall within `radius` (length, at most grid.cutoff) of q, which lies
-// at `at`, in the cell `cell` of grid.lists. kComplete: grid.nearest is 0. Certified answers are
-// exact, but for the rounding of Distances.
-template <bool kComplete, class Distances, class Before = FirstOfEqual>
+// at `at`, in the cell `cell` of grid.lists. Certified answers are exact, but for the rounding of
+// Search::Distances.
+template <class Search, class Before = FirstOfEqual>
 LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
                              const CellAddress &at, const Cell &cell, const Before &before = {})
 {
-  if (kComplete)
+  using Distances = typename Search::Distances;
+  if (Search::kComplete)
     return nearest_in_cell<false, Distances>(grid, q, radius, kWholeList, at, cell, before);
   return nearest_in_cell<true, Distances>(grid, q, radius, static_cast<std::uint32_t>(grid.nearest),
                                           at, cell, before);
 }
 
 // The same for any q.
-template <bool kComplete, class Distances, class Before = FirstOfEqual>
+template <class Search, class Before = FirstOfEqual>
 LSDCD_FN Answer nearest_distance(const GridView &grid, const Vec3 &q, Real radius,
                                  const Before &before = {})
 {
   CellAddress at;
   Cell cell;
   if (!find_cell(grid, q, at, cell)) return far_answer();
-  return nearest_from<kComplete, Distances>(grid, q, radius, at, cell, before);
+  return nearest_from<Search>(grid, q, radius, at, cell, before);
 }
 
 }    // namespace lsdcd

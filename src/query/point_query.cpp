@@ -24,10 +24,8 @@ TriangleTable::TriangleTable(const WeldedMesh &mesh) :
     }
 }
 
-namespace {
-
 template <class T>
-void answer_on_cpu(const HostGrid &grid, const TriangleTable &names, const PointArrays<T> &io)
+void query_grid(const HostGrid &grid, const TriangleTable &names, const PointArrays<T> &io)
 {
   std::uint64_t too_large = 0;
   CpuBackend b;
@@ -35,16 +33,7 @@ void answer_on_cpu(const HostGrid &grid, const TriangleTable &names, const Point
                   [&](const auto &work) { NearFirstCpu().run(b, io.n, work); });
   if (too_large != 0) throw_bad_radius("point", ~too_large, io.radii[~too_large], grid.view.cutoff);
 }
-
-}    // namespace
-
-void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<float> &io)
-{
-  answer_on_cpu(grid, names, io);
-}
-void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<double> &io)
-{
-  answer_on_cpu(grid, names, io);
-}
+template void query_grid(const HostGrid &, const TriangleTable &, const PointArrays<float> &);
+template void query_grid(const HostGrid &, const TriangleTable &, const PointArrays<double> &);
 
 }    // namespace lsdcd

@@ -22,7 +22,7 @@ struct HostGrid {
   BrickTable table;
 
   HostGrid() = default;
-  HostGrid(HostGrid &&) = default;    // keeps the words where they are
+  HostGrid(HostGrid &&) = default;    // does not move the words
   HostGrid &operator=(HostGrid &&) = default;
   explicit HostGrid(const GridView &grid) :
       view(grid), words(brick_words(grid)), table(words, words.data())
@@ -30,29 +30,29 @@ struct HostGrid {
   }
 };
 
-// On the host, with threads() threads. It keeps no memory, so that any number of threads may call it at
+// It computes on the host, with threads() threads. It has no state, so that any number of threads may call it at
 // once. Throws InputError if a radius in `radii` exceeds the grid's cutoff; the answers are then
-// undefined.
-void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<float> &io);
-void answer_points(const HostGrid &grid, const TriangleTable &names, const PointArrays<double> &io);
+// undefined. T: float or double.
+template <class T>
+void query_grid(const HostGrid &grid, const TriangleTable &names, const PointArrays<T> &io);
 
 // A query on a stream (cudaStream_t), for arrays that its device can read. It does not wait for the stream,
 // unless `radii` have to be checked. Only one thread may use it at a time.
 class StreamQuery {
  public:
   virtual ~StreamQuery() = default;
-  virtual void answer(const PointArrays<float> &io) = 0;
-  virtual void answer(const PointArrays<double> &io) = 0;
+  virtual void enqueue(const PointArrays<float> &io) = 0;
+  virtual void enqueue(const PointArrays<double> &io) = 0;
 };
 
 int current_cuda_device();
 std::string current_cuda_name();
 
-// What queries read, on the CUDA device that was current when it was made.
+// A grid or tree on the CUDA device that was current when it was copied.
 class DeviceCopy : public std::enable_shared_from_this<DeviceCopy> {
  public:
   virtual ~DeviceCopy() = default;
-  // A query on a stream of that device, null: the default one. It keeps the copy.
+  // A query on a stream of that device, null: the default one. It shares this copy.
   virtual std::unique_ptr<StreamQuery> query_on(void *stream) const = 0;
 
   const int device = current_cuda_device();

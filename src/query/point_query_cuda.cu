@@ -62,18 +62,18 @@ class CudaStreamQuery : public StreamQuery {
   }
   ~CudaStreamQuery() override { wait_for_gpu(grid_->device); }
 
-  void answer(const PointArrays<float> &io) override { answer_in(io); }
-  void answer(const PointArrays<double> &io) override { answer_in(io); }
+  void enqueue(const PointArrays<float> &io) override { enqueue_any(io); }
+  void enqueue(const PointArrays<double> &io) override { enqueue_any(io); }
 
   // Public because nvcc takes no device lambda from a private function.
 
   template <class T>
-  void answer_in(const PointArrays<T> &io)
+  void enqueue_any(const PointArrays<T> &io)
   {
     const OnGpu current(grid_->device);
     const auto check = radii_.template begin<SphereOf<T>>(b_);
     if (io.only_distance())
-      distances_in(io, check);
+      distances_alone(io, check);
     else
       with_point_work(grid_->view, grid_->table, io, grid_->names, check.first,
                       [&](const auto &work) { start(work, io.n); });
@@ -83,36 +83,25 @@ class CudaStreamQuery : public StreamQuery {
   template <class Work>
   void start(const Work &work, std::size_t n)
   {
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { work.answer(i, work.sphere(i)); });
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { work.find_nearest(i, work.sphere(i)); });
   }
 
   // Distances alone have kernels of their own, for spheres in the layout that these read.
   template <class T>
-  void distances_in(const PointArrays<T> &io, const TooLarge<SphereOf<T>> &check)
+  void distances_alone(const PointArrays<T> &io, const TooLarge<SphereOf<T>> &check)
   {
-    const SphereOf<T> *spheres = packed(io);
-    way_.template reserve<SphereOf<T>>(io.n);
-    const AnswerArrays out = answers(io);
-    const GridView &grid = grid_->view;
-    if (grid.in_floats && grid.nearest == 0)
-      run<BrickDistances, true>(spheres, io.n, out, check);
-    else if (grid.in_floats)
-      run<BrickDistances, false>(spheres, io.n, out, check);
-    else if (grid.nearest == 0)
-      run<MeshDistances, true>(spheres, io.n, out, check);
-    else
-      run<MeshDistances, false>(spheres, io.n, out, check);
-    hand_back(io, out);
-  }
-
-  template <class Distances, bool kComplete, class S>
-  void run(const S *spheres, std::size_t n, const AnswerArrays &out, const TooLarge<S> &check)
-  {
-    using Work = GridWork<Distances, S, kComplete>;
+    using S = SphereOf<T>;
+    const S *spheres = packed(io);
+    way_.template reserve<S>(io.n);
+    const AnswerArrays<T> out = answers(io);
     const DeviceGrid &g = *grid_;
-    way_.run(
-        b_, n,
-        Work{g.view, g.table, spheres, out, typename Work::Filter(g.view), g.coarse, check, 0});
+    with_list_search(g.view, [&](auto search) {
+      using Work = GridWork<decltype(search), S>;
+      way_.run(
+          b_, io.n,
+          Work{g.view, g.table, spheres, out, typename Work::Filter(g.view), g.coarse, check, 0});
+    });
+    copy_back(io, out);
   }
 
   // The points with their radii as x y z radius x y z radius; the caller's array if it has this layout.
@@ -134,38 +123,26 @@ class CudaStreamQuery : public StreamQuery {
     return to;
   }
 
-  // Where kernels write: the caller's arrays where these are packed and aligned.
+  // The arrays that kernels write: the caller's if they are packed and aligned.
   template <class T>
-  AnswerArrays answers(const PointArrays<T> &io)
+  AnswerArrays<T> answers(const PointArrays<T> &io)
   {
-    AnswerArrays out = {io.status, nullptr, nullptr, nullptr};
+    AnswerArrays<T> out = {io.status, io.distance.at};
     if (!out.status || !aligned(out.status, 4))
       out.status = static_cast<std::uint8_t *>(room(status_, io.n));
-    if (!io.distance.at) return out;
-    T *to = io.distance.at;
-    if (io.distance.step != 1 || !aligned(to, 16))
-      to = static_cast<T *>(room(distance_, io.n * sizeof(T)));
-    if constexpr (sizeof(T) == sizeof(float))
-      out.float_distance = to;
-    else
-      out.distance = to;
+    if (out.distance && (io.distance.step != 1 || !aligned(out.distance, 16)))
+      out.distance = static_cast<T *>(room(distance_, io.n * sizeof(T)));
     return out;
   }
   template <class T>
-  void hand_back(const PointArrays<T> &io, const AnswerArrays &out)
+  void copy_back(const PointArrays<T> &io, const AnswerArrays<T> &out)
   {
-    const T *from;
-    if constexpr (sizeof(T) == sizeof(float))
-      from = out.float_distance;
-    else
-      from = out.distance;
-    const Column<T> distance = from != io.distance.at ? io.distance : Column<T>();
+    const Column<T> distance = out.distance != io.distance.at ? io.distance : Column<T>();
     std::uint8_t *status = out.status != io.status ? io.status : nullptr;
-    const std::uint8_t *from_status = out.status;
     if (!distance.at && !status) return;
     b_.for_each(io.n, [=] LSDCD_LAMBDA(std::size_t i) {
-      if (distance.at) distance[i] = from[i];
-      if (status) status[i] = from_status[i];
+      if (distance.at) distance[i] = out.distance[i];
+      if (status) status[i] = out.status[i];
     });
   }
 

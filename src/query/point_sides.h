@@ -34,29 +34,30 @@ class PointSides {
   MadeOnce<GeneralizedWinding> generalized_;
 };
 
-// answer_points(), and the sides of all points. `by_normals`: the grid has sides, which nearest features
-// tell where one is found. All other sides are of winding numbers, at any distance. The mesh must have an
-// inside where sides are asked for.
-void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
-                       bool by_normals, const PointArrays<float> &io);
-void answer_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
-                       bool by_normals, const PointArrays<double> &io);
+// T is float or double.
 
-// The same by a tree. All sides are of winding numbers.
-void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const PointSides &sides,
-                       Real cutoff, const PointArrays<float> &io);
-void answer_with_sides(const TriangleTree &tree, const NearBoxes *near, const PointSides &sides,
-                       Real cutoff, const PointArrays<double> &io);
+// query_grid(), and the sides of all points. `by_normals`: the grid has sides, which nearest features
+// give where one is found. All other sides are those of winding numbers, at any distance. The mesh must have an
+// inside where sides are asked for.
+template <class T>
+void query_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
+                      bool by_normals, const PointArrays<T> &io);
+
+// The same by query_tree(). All sides are those of winding numbers.
+template <class T>
+void query_with_sides(const TriangleTree &tree, const NearBoxes *near, const PointSides &sides,
+                      Real cutoff, const PointArrays<T> &io);
 
 // Generalised winding numbers of any mesh, and the sides that are probable by them, which are not certified:
-// `status` gets kSideEstimated. What is null is not asked for. Where a coordinate is no number, neither is the
+// `status` gets kSideEstimated. Null arrays are not asked for. If a coordinate is no number, neither is the
 // winding number, and the side is 0.
-void estimate_sides(const PointSides &sides, std::size_t n, const StridedView<const float> &points,
-                    const Column<float> &number, std::int8_t *side, std::uint8_t *status);
-void estimate_sides(const PointSides &sides, std::size_t n, const StridedView<const double> &points,
-                    const Column<double> &number, std::int8_t *side, std::uint8_t *status);
+template <class T>
+void estimate_sides(const PointSides &sides, std::size_t n, const StridedView<const T> &points,
+                    const Column<T> &number, std::int8_t *side, std::uint8_t *status);
 
-// Of points whose `side` is 0; at[0, n) are packed coordinates.
-void fill_sides(const PointSides &sides, std::size_t n, const double *at, std::int8_t *side);
+// Sides by winding numbers of points whose `side` is 0; it stays 0 where a coordinate is no number.
+template <class T>
+void fill_sides(const PointSides &sides, std::size_t n, const StridedView<const T> &points,
+                std::int8_t *side);
 
 }    // namespace lsdcd

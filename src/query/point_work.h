@@ -35,6 +35,23 @@ struct PointArrays {
     return !signed_distance.at && !closest.at && !normal.at && !barycentric.at && !triangle &&
            !feature && !side;
   }
+  // Writes what is asked for of the nearest point; `found` is kNoFeature where there is none. Parts: MeshParts.
+  template <class Parts>
+  LSDCD_FN void store(std::size_t i, FeatureCode found, const Vec3 &at, const Vec3 &along,
+                      const Parts &parts) const
+  {
+    if (closest.at) closest.put(i, at);
+    if (normal.at) normal.put(i, along);
+    if (feature) feature[i] = found;
+    if (triangle) triangle[i] = found != kNoFeature ? parts.names.of(found) : kNoTriangle;
+    if (barycentric.at) barycentric.put(i, parts.barycentric(found, at));
+  }
+  LSDCD_FN bool needs_side() const { return side || signed_distance.at; }
+  LSDCD_FN void store_side(std::size_t i, Real away, std::int8_t s) const
+  {
+    if (side) side[i] = s;
+    if (signed_distance.at) signed_distance[i] = static_cast<T>(lsdcd::signed_distance(away, s));
+  }
 };
 
 // The feature of the wall that an answer found, and its closest point to q; in double even if it was
@@ -61,7 +78,7 @@ LSDCD_FN FeatureCode feature_of_wall(const GridView &grid, FeatureCode listed)
   return feature_code(kind, of[feature_index(listed)]);
 }
 
-// Of features at the same distance the one with the lowest triangle is found, then the lowest code,
+// The order of features at the same distance: the one with the lowest triangle is found, then the lowest code,
 // because the lists of two cells have them in different orders.
 template <bool kFloats>
 struct LowestTriangle {
@@ -128,10 +145,11 @@ LSDCD_FN std::int8_t side_of(const GridView &grid, const Answer &a, const Vec3 &
   return grid.outside * dot(out, nearest.normal) < 0 ? -1 : 1;
 }
 
-// With the functions of GridWork, so that the same loops run it. `table`: for loops that use cells.
-template <class Distances, class T, bool kComplete, bool kFloats>
+// It has the functions of GridWork, so that the same loops run it. `table` is for loops that use cells.
+template <class Search, class T>
 struct PointWork {
   using Item = SphereOf<T>;
+  static constexpr bool kFloats = Search::Distances::kFloats;
 
   GridView grid;
   BrickTable table;
@@ -150,21 +168,20 @@ struct PointWork {
   {
     if (io.radii.at) too_large.note(i, s);
   }
-  LSDCD_FN void answer(std::size_t i, const Item &s) const
+  LSDCD_FN void find_nearest(std::size_t i, const Item &s) const
   {
     check(i, s);
-    keep(i, s,
-         nearest_distance<kComplete, Distances>(grid, s.centre(), radius(s), lowest_triangle()));
+    store(i, s, nearest_distance<Search>(grid, s.centre(), radius(s), lowest_triangle()));
   }
 
   LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
-  LSDCD_FN void far(std::size_t i, const Item &s) const { keep(i, s, far_answer()); }
-  LSDCD_FN void answer(std::size_t i, const Item &s, const Cell &cell) const
+  LSDCD_FN void far(std::size_t i, const Item &s) const { store(i, s, far_answer()); }
+  LSDCD_FN void search_list(std::size_t i, const Item &s, const Cell &cell) const
   {
     const Vec3 q = s.centre();
-    keep(i, s,
-         nearest_from<kComplete, Distances>(grid, q, radius(s), address_inside(grid, q), cell,
-                                            lowest_triangle()));
+    store(
+        i, s,
+        nearest_from<Search>(grid, q, radius(s), address_inside(grid, q), cell, lowest_triangle()));
   }
 
  private:
@@ -173,27 +190,18 @@ struct PointWork {
   {
     return io.radii.at ? static_cast<Real>(s.r) : io.radius;
   }
-  LSDCD_FN void keep(std::size_t i, const Item &s, const Answer &a) const
+  LSDCD_FN void store(std::size_t i, const Item &s, const Answer &a) const
   {
     if (io.status) io.status[i] = status_of(a);
     if (io.distance.at) io.distance[i] = static_cast<T>(a.found() ? a.distance : HUGE_VAL);
-    if (!only_distance) keep_nearest(i, s.centre(), a);
+    if (!only_distance) store_nearest(i, s.centre(), a);
   }
-  LSDCD_FN void keep_nearest(std::size_t i, const Vec3 &q, const Answer &a) const
+  LSDCD_FN void store_nearest(std::size_t i, const Vec3 &q, const Answer &a) const
   {
     Nearest nearest = {kNoFeature, q, {0, 0, 0}};
     if (a.found()) nearest = nearest_of<kFloats>(grid, a, q);
-    if (io.closest.at) io.closest.put(i, nearest.point);
-    if (io.normal.at) io.normal.put(i, nearest.normal);
-    if (io.feature) io.feature[i] = nearest.feature;
-    if (io.triangle) io.triangle[i] = a.found() ? names.of(nearest.feature) : kNoTriangle;
-    if (io.barycentric.at)
-      io.barycentric.put(i, parts().barycentric(nearest.feature, nearest.point));
-    if (!io.side && !io.signed_distance.at) return;
-    const std::int8_t side = side_of(grid, a, q, nearest);
-    if (io.side) io.side[i] = side;
-    if (io.signed_distance.at)
-      io.signed_distance[i] = static_cast<T>(signed_distance(a.distance, side));
+    io.store(i, nearest.feature, nearest.point, nearest.normal, parts());
+    if (io.needs_side()) io.store_side(i, a.distance, side_of(grid, a, q, nearest));
   }
   struct Position {
     const VertexRecord *vertices;
@@ -212,15 +220,9 @@ void with_point_work(const GridView &grid, const BrickTable &table, const PointA
                      const TriangleNames &names, std::uint64_t *too_large, const Run &run)
 {
   const TooLarge<SphereOf<T>> check = {static_cast<T>(grid.cutoff), too_large};
-  const bool only = io.only_distance();
-  if (grid.in_floats && grid.nearest == 0)
-    run(PointWork<BrickDistances, T, true, true>{grid, table, io, names, check, only});
-  else if (grid.in_floats)
-    run(PointWork<BrickDistances, T, false, true>{grid, table, io, names, check, only});
-  else if (grid.nearest == 0)
-    run(PointWork<MeshDistances, T, true, false>{grid, table, io, names, check, only});
-  else
-    run(PointWork<MeshDistances, T, false, false>{grid, table, io, names, check, only});
+  with_list_search(grid, [&](auto search) {
+    run(PointWork<decltype(search), T>{grid, table, io, names, check, io.only_distance()});
+  });
 }
 
 }    // namespace lsdcd

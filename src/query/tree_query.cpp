@@ -32,7 +32,8 @@ NearBoxes::NearBoxes(const TriangleTree &tree, const WeldedMesh &mesh, Real cuto
   mark(tree, pad, {0, 0, 0}, n_, kNoPrimitive, progress);
 }
 
-// Boxes of a larger box, of `size` along each axis, in eight parts of which those that are far are left out.
+// Marks the boxes of a larger box, `size` along each axis, that may be near. It halves the box along each axis, and
+// leaves out parts that are far.
 void NearBoxes::mark(const TriangleTree &tree, Real cutoff, const std::array<int, 3> &at, int size,
                      std::uint32_t hint, const ProgressListener &progress)
 {
@@ -59,23 +60,23 @@ void NearBoxes::mark(const TriangleTree &tree, Real cutoff, const std::array<int
 
 namespace {
 
-// Points that are put in order at once: a few for each triangle, so that those of a small mesh stay in a
-// processor's cache. Fewer than kFewPoints are answered as they come, and so are those of a mesh that stays there.
+// How many points are sorted at once: a few for each triangle, so that the points of a small mesh stay in a
+// processor's cache. Fewer than kFewPoints are not sorted, nor are any where the whole mesh stays in the cache.
 constexpr std::size_t kChunk = std::size_t(1) << 20, kLeastChunk = std::size_t(1) << 15,
                       kPointsOfTriangle = 4, kFewPoints = 64;
 constexpr std::size_t kInCache = std::size_t(1) << 20;    // bytes
 constexpr std::size_t kAhead = 8;                         // points whose memory is on its way
 constexpr int kCurveBits = 7;                             // an axis
 
-// Numbers of points in the order of their places, less than 2^21. By digits, so that all counts of a digit
+// Sorts numbers of points by keys below 2^21: by digits, so that all counts of a digit
 // stay in a processor's cache.
 class CurveOrder {
  public:
-  explicit CurveOrder(std::size_t most) : place_(most), number_(most), from_(most) {}
-  void add(std::uint32_t number, std::uint32_t place)
+  explicit CurveOrder(std::size_t most) : key_(most), number_(most), from_(most) {}
+  void add(std::uint32_t number, std::uint32_t key)
   {
     from_.data()[n_++] = number;
-    place_.data()[number] = place;
+    key_.data()[number] = key;
   }
   std::size_t size() const { return n_; }
   const std::uint32_t *sort()
@@ -92,7 +93,7 @@ class CurveOrder {
   {
     std::uint32_t start[1 << kDigitBits] = {};
     const auto digit = [&](std::uint32_t i) {
-      return place_.data()[i] >> shift & ((1u << kDigitBits) - 1);
+      return key_.data()[i] >> shift & ((1u << kDigitBits) - 1);
     };
     for (std::size_t k = 0; k < n_; k++) start[digit(from[k])]++;
     std::uint32_t before = 0;
@@ -101,7 +102,7 @@ class CurveOrder {
   }
 
   std::size_t n_ = 0;
-  CpuBackend::Array<std::uint32_t> place_, number_, from_;
+  CpuBackend::Array<std::uint32_t> key_, number_, from_;
 };
 
 template <class T>
@@ -119,7 +120,7 @@ class TreeQuery {
   {
     const std::size_t n = io_.n;
     if (n <= kFewPoints) {
-      answer_in_turn(0, n, true);
+      search_in_turn(0, n, true);
     } else {
       const std::size_t n_threads = static_cast<std::size_t>(threads());
       const std::size_t share = n_threads > 1 ? n / (4 * n_threads) + 1 : n;
@@ -128,22 +129,17 @@ class TreeQuery {
       const std::int64_t n_chunks = static_cast<std::int64_t>((n + chunk - 1) / chunk);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads()) if (n_chunks > 1)
       for (std::int64_t c = 0; c < n_chunks; c++)
-        answer_in_order(static_cast<std::size_t>(c) * chunk,
-                        std::min(n, (static_cast<std::size_t>(c) + 1) * chunk));
+        search_along_curve(static_cast<std::size_t>(c) * chunk,
+                           std::min(n, (static_cast<std::size_t>(c) + 1) * chunk));
     }
     if (too_large_ != 0)
       throw_bad_radius("point", ~too_large_, io_.radii[~too_large_], answers_.too_large.cutoff);
   }
 
  private:
-  Vec3 point(std::size_t i) const
+  std::uint32_t curve_key(std::size_t i) const
   {
-    return io_.points[i];
-  }
-
-  std::uint32_t place(std::size_t i) const
-  {
-    return place_on_curve(tree_.view().share_of_box(point(i)), kCurveBits);
+    return place_on_curve(tree_.view().share_of_box(io_.points[i]), kCurveBits);
   }
   // Do most points follow one that is near? Some are looked at.
   bool are_in_order(std::size_t from, std::size_t to) const
@@ -152,7 +148,7 @@ class TreeQuery {
     std::size_t looks = 0, jumps = 0;
     const std::size_t step = std::max<std::size_t>(1, (to - from) / 512);
     for (std::size_t i = from; i + 1 < to; i += step, looks++)
-      jumps += (place(i) ^ place(i + 1)) >> kSteepBits != 0;
+      jumps += (curve_key(i) ^ curve_key(i + 1)) >> kSteepBits != 0;
     return jumps <= looks / 8;
   }
 
@@ -165,48 +161,48 @@ class TreeQuery {
 
   // Along a curve through the mesh's box, so that neighbours read the same triangles, and the answer of one
   // bounds that of the next.
-  void answer_in_order(std::size_t from, std::size_t to)
+  void search_along_curve(std::size_t from, std::size_t to)
   {
-    if (are_in_order(from, to)) return answer_in_turn(from, to, true);
-    if (tree_.bytes() <= kInCache) return answer_in_turn(from, to, false);
+    if (are_in_order(from, to)) return search_in_turn(from, to, true);
+    if (tree_.bytes() <= kInCache) return search_in_turn(from, to, false);
     CurveOrder order(to - from);
     for (std::size_t i = from; i < to; i++)
-      if (!is_far(i)) order.add(static_cast<std::uint32_t>(i - from), place(i));
+      if (!is_far(i)) order.add(static_cast<std::uint32_t>(i - from), curve_key(i));
     const std::uint32_t *number = order.sort();
     std::uint32_t hint = kNoPrimitive;
     for (std::size_t k = 0; k < order.size(); k++) {
       if (k + kAhead < order.size()) prefetch(from + number[k + kAhead]);
-      answer(from + number[k], hint);
+      find_nearest(from + number[k], hint);
     }
   }
 
-  void answer_in_turn(std::size_t from, std::size_t to, bool in_order)
+  void search_in_turn(std::size_t from, std::size_t to, bool in_order)
   {
     std::uint32_t hint = kNoPrimitive;
     for (std::size_t i = from; i < to; i++) {
       if (is_far(i)) continue;
-      answer(i, hint);
+      find_nearest(i, hint);
       if (!in_order) hint = kNoPrimitive;
     }
   }
 
-  // Is nothing near? Then that is its answer.
+  // Writes the answer if nothing can be near.
   bool is_far(std::size_t i) const
   {
     answers_.check(i);
     if (!near_) return false;
-    const Vec3 q = point(i);
+    const Vec3 q = io_.points[i];
     if (near_->may_be_near(q)) return false;
-    answers_.keep(i, q, {kAnyDistance, kNoFeature, kNoPrimitive}, 1);
+    answers_.store(i, q, {kAnyDistance, kNoFeature, kNoPrimitive}, 1);
     return true;
   }
-  void answer(std::size_t i, std::uint32_t &hint) const
+  void find_nearest(std::size_t i, std::uint32_t &hint) const
   {
-    const Vec3 q = point(i);
+    const Vec3 q = io_.points[i];
     const Real times = answers_.tree.times_nearer(q);
     const TreeAnswer a = tree_.nearest((1 / times) * q, answers_.radius(i, times), hint);
     hint = a.primitive;
-    answers_.keep(i, q, a, times);
+    answers_.store(i, q, a, times);
   }
 
   const TriangleTree &tree_;
@@ -218,15 +214,14 @@ class TreeQuery {
 
 }    // namespace
 
-void answer_points(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
-                   const PointArrays<float> &io)
+template <class T>
+void query_tree(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
+                const PointArrays<T> &io)
 {
-  TreeQuery<float>(tree, near, cutoff, io).run();
+  TreeQuery<T>(tree, near, cutoff, io).run();
 }
-void answer_points(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
-                   const PointArrays<double> &io)
-{
-  TreeQuery<double>(tree, near, cutoff, io).run();
-}
+template void query_tree(const TriangleTree &, const NearBoxes *, Real, const PointArrays<float> &);
+template void query_tree(const TriangleTree &, const NearBoxes *, Real,
+                         const PointArrays<double> &);
 
 }    // namespace lsdcd

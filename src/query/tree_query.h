@@ -12,8 +12,8 @@
 
 namespace lsdcd {
 
-// A bit for each of some boxes: may anything be within a cutoff of a point in there? It answers points that
-// are far from the mesh at once.
+// A bit for each of some boxes: may anything be within a cutoff of a point in there? Points in the other boxes
+// need no search.
 class NearBoxes {
  public:
   NearBoxes(const TriangleTree &tree, const WeldedMesh &mesh, Real cutoff,
@@ -42,19 +42,18 @@ class NearBoxes {
   std::vector<std::uint64_t> bits_;
 };
 
-// Of both together; each may be null.
+// The bytes of both; each may be null.
 inline std::size_t bytes_of(const TriangleTree *tree, const NearBoxes *near)
 {
   return (tree ? tree->bytes() : 0) + (near ? near->bytes() : 0);
 }
 
-// With threads() threads. It keeps no memory, so that any number of threads may call it at once. Nothing as
+// It uses threads() threads. It has no state, so that any number of threads may call it at once. Nothing as
 // far as a point's radius is found; `cutoff` is the largest radius, of `near`, too, which may be null. All but
 // the side, which must not be asked for. Throws InputError if a radius in `radii` exceeds the cutoff; the
-// answers are then undefined.
-void answer_points(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
-                   const PointArrays<float> &io);
-void answer_points(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
-                   const PointArrays<double> &io);
+// answers are then undefined. T: float or double.
+template <class T>
+void query_tree(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
+                const PointArrays<T> &io);
 
 }    // namespace lsdcd

@@ -61,7 +61,7 @@ class DeviceTree : public DeviceCopy {
 // Threads that search for a point together.
 constexpr unsigned kTogether = kTreeWidth;
 
-// The points of a turn, from the one at `from` on, in the order given.
+// Searches for the points of a turn, from the one at `from` on, by `order`.
 template <class T>
 struct SearchPoints {
   static constexpr unsigned kThreads = 128, kBlocksAtOnce = 4, kPoints = kThreads / kTogether;
@@ -90,7 +90,7 @@ struct SearchPoints {
       search_tree<TreeBoundsDouble>(tree, warp, nearer, stacks[mine], best);
     if (warp.rank() != 0) return;
     answers.check(i);
-    answers.keep(i, q, best, times);
+    answers.store(i, q, best, times);
   }
 };
 
@@ -102,11 +102,11 @@ class CudaTreeQuery : public StreamQuery {
   }
   ~CudaTreeQuery() override { wait_for_gpu(tree_->device); }
 
-  void answer(const PointArrays<float> &io) override { answer_in(io); }
-  void answer(const PointArrays<double> &io) override { answer_in(io); }
+  void enqueue(const PointArrays<float> &io) override { enqueue_any(io); }
+  void enqueue(const PointArrays<double> &io) override { enqueue_any(io); }
 
   template <class T>
-  void answer_in(const PointArrays<T> &io)
+  void enqueue_any(const PointArrays<T> &io)
   {
     const OnGpu current(tree_->device);
     const TreeAnswers<T> answers = {tree_->view, io, radii_.template begin<SphereOf<T>>(b_),

@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-// A node or leaf that waits, and a number that is lower where it is nearer, rounded down.
+// A node or leaf that waits. `far` grows with its distance, and is rounded down.
 struct TreeWaiting {
   float far;
   std::uint32_t child;
@@ -45,7 +45,7 @@ class TreeBoundsFloat {
   LSDCD_FN bool is_near(float far) const { return far <= most_sq_; }
   LSDCD_FN static float rounded_down(float far) { return far; }
 
-  // Of a leaf's triangles a bit for each that may be nearest.
+  // A bit for each triangle of a leaf that may be nearest.
   template <unsigned kSize>
   LSDCD_FN unsigned near_in(const TreeLeaf &leaf, const TreeSides &sides,
                             const Warp<kSize> &warp) const
@@ -65,7 +65,7 @@ class TreeBoundsFloat {
       near |= warp.vote(height * height + past * past <= limit) << at;
       beside |= warp.vote(past > rounding) << at;
     }
-    // Several: past a corner that was too little. Beside a triangle its sides are nearest.
+    // Past a corner the planes give less than the distance. Beside a triangle its sides are nearest.
     beside &= near;
     if ((near & (near - 1)) == 0 || beside == 0) return near;
     for (unsigned k = warp.rank(), at = 0; k < kTreeWidth; k += kSize, at += kSize) {
@@ -122,8 +122,8 @@ class TreeBoundsDouble {
   Real rounding_, most_ = 0;
 };
 
-// What is nearer to q than `best`, or equally near and before it. All threads of `warp` have the same q, `best`
-// and `stack`, which has kTreeStack places.
+// Replaces `best` by the primitive that is_before() all others. All threads of `warp` have the same q, `best`
+// and `stack`, which has room for kTreeStack.
 template <class Bounds, unsigned kSize>
 LSDCD_FN void search_tree(const TreeView &tree, const Warp<kSize> &warp, const Vec3 &q,
                           TreeWaiting *stack, TreeAnswer &best)

@@ -19,38 +19,38 @@ constexpr int kTreeWidth = 8;    // children of a node, triangles of a leaf
 constexpr std::uint32_t kTreeLeaf = 0x80000000u;
 constexpr std::uint32_t kNoPrimitive = 0xffffffffu;
 
-// In units of the mesh's size, from its centre. Bounds in float are off by rounding: those of boxes by sqrt(3)
-// half units of the point's largest coordinate, those of planes by six half units of their largest term,
-// twice. Distances are widened by more.
+// Lengths are in units of the mesh's size, from its centre. With u = 2^-24, the rounding of float, a box's distance is
+// off by at most sqrt(3) u max|x_k| = 1.04e-7 max|x_k|, and a plane's by 2 * 6 u t = 7.2e-7 t for terms of at most t.
+// These constants are larger.
 constexpr float kBoxRounding = 2e-7f, kPlaneRounding = 1.2e-6f, kWiden = 1 + 2e-6f;
-// Float holds the square of this.
+// Its square, 1e36, is in the range of float.
 constexpr float kTreeHuge = 1e18f;
 // The square of a longer length, in the unit of the mesh or in its size, may leave the range of Real.
 constexpr Real kFarthest = 1e150;
 // Farther than this the rounding of float would leave too many triangles.
 constexpr Real kFarInUnits = 16;
 constexpr float kNoBox = 3.402823466e+38f;    // both bounds of a child that is not there
-// Places of a search's stack: 7 a level, and 12 levels hold more than can be numbered.
+// Room of a search's stack: 7 a level, and 8^12 leaves are more than 32 bits number, so 7 * 12 = 84 is enough.
 constexpr int kTreeStack = 128;
 
-// Boxes of the children, rounded outward. Of a child that is not there nothing is near.
+// Boxes of the children, rounded outward. The box of a child that is not there is far from all points.
 struct alignas(64) TreeNode {
   float lo[3][kTreeWidth], hi[3][kTreeWidth];
   std::uint32_t child[kTreeWidth];    // a node, or with kTreeLeaf a leaf
 };
-// Of each triangle its plane and the planes through its sides, inside >= 0: the distance is at least that
-// from the plane and from the farthest side that the point is past.
+// The plane of each triangle and the planes through its sides, >= 0 inside. With the height h over the plane and p, the
+// most that the point is past a side (or 0), the distance d has d^2 >= h^2 + p^2.
 struct alignas(64) TreeLeaf {
   float normal[3][kTreeWidth], offset[kTreeWidth];
   float side[3][3][kTreeWidth], side_offset[3][kTreeWidth];
   float origin[3], size;    // offsets are from there, and at most so large
 };
-// The sides as segments from one corner to the next, from the origin of the leaf: exact where several
-// triangles remain. `over_square`: 1 over the length squared, 0 where that is next to nothing.
+// The sides as segments from one corner to the next, from the origin of the leaf, for more than one triangle
+// that remains. `over_square`: 1 over the length squared, 0 where that is next to nothing.
 struct alignas(64) TreeSides {
   float corner[3][3][kTreeWidth], over_square[3][kTreeWidth];
 };
-// What a distance in double reads: of a face, or of an edge or a vertex of no face.
+// The record that a distance in double reads: a face, or an edge or a vertex of no face.
 struct TreePrimitive {
   // As in a FaceRecord; not set for an edge or a vertex.
   Vec3 normal, inward[3];
@@ -59,8 +59,8 @@ struct TreePrimitive {
   std::uint32_t vertex[3], edge[3];
 };
 
-// The nearest point of a mesh. Of several features at the same distance that with the lowest triangle is
-// found, then the lowest feature.
+// The nearest point of a mesh. Features at the same distance are ordered by their triangles, then by their
+// codes, and the lowest is found.
 struct TreeAnswer {
   Real distance;              // kAnyDistance: nothing is nearer than the radius
   FeatureCode feature;        // face, edge or vertex of the mesh
@@ -98,8 +98,8 @@ struct TreeView {
     const Real largest = fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z)));
     return largest <= kFarInUnits ? TreeSearch::in_float : TreeSearch::in_double;
   }
-  // A point beyond kFarthest is answered so many times nearer, where the distance is so many times shorter, as the mesh
-  // is a point from there; else 1.
+  // The factor t by which a point beyond kFarthest is brought nearer, to q / t: the mesh is a point from there, so that
+  // d(q) = t d(q / t). 1 for all other points.
   LSDCD_FN Real times_nearer(const Vec3 &q) const
   {
     const Real largest = fmax(fabs(q.x), fmax(fabs(q.y), fabs(q.z))),

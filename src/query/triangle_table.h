@@ -47,8 +47,8 @@ struct TriangleNames {
   }
 };
 
-// The triangle of the mesh for each feature of the wall, by its number in the file; of several the
-// lowest.
+// The triangle of the mesh for each feature of the wall, by its number in the file: the lowest that has the
+// feature.
 struct TriangleTable {
   std::vector<std::uint32_t> of_face, of_edge, of_vertex;
 

@@ -73,7 +73,7 @@ void AccuracyStudy::set_spheres(std::size_t n)
 Real AccuracyStudy::agreement(const std::vector<std::uint8_t> &touching) const
 {
   std::size_t same = 0;
-  for (std::size_t i = 0; i < truth_.size(); i++) same += (touching[i] & kTouching) == truth_[i];
+  for (std::size_t i = 0; i < truth_.size(); i++) same += (touching[i] & kFound) == truth_[i];
   return truth_.empty() ? 1 : Real(same) / truth_.size();
 }
 
@@ -90,7 +90,7 @@ void AccuracyStudy::set_grid(const StudyLists &lists)
   const bool on_cuda = settings_.device != Device::cpu && cuda_available(nullptr);
   grid_ = TriangleGrid();
   grid_ = build_grid(mesh_, grid, on_cuda);
-  query_->set_grid(grid_);
+  query_->set_grid(grid_, mesh_);
   of_grid_ = lists;
   has_grid_ = true;
 }
@@ -121,11 +121,11 @@ StudyRow AccuracyStudy::measure(const StudyLists &lists)
   std::vector<std::uint8_t> status;
   row.download_ms = milliseconds([&] { status = query_->status(); });
 
-  query.distance = query.read = true;
+  query.distance = true;
   query_->run(query);
   compare(row, status, query_->distance());
   std::size_t entries = 0, readers = 0;
-  for (std::uint32_t n : query_->read()) {
+  for (std::uint32_t n : query_->entries(query)) {
     entries += n;
     readers += n > 0;
   }
@@ -141,7 +141,7 @@ void AccuracyStudy::compare(StudyRow &row, const std::vector<std::uint8_t> &stat
   std::size_t certified = 0;
   for (std::size_t i = 0; i < spheres_.size(); i++) {
     certified += (status[i] & kCertified) > 0;
-    const bool found = status[i] & kTouching, touches = exact_[i] < spheres_[i].r;
+    const bool found = status[i] & kFound, touches = exact_[i] < spheres_[i].r;
     if (!found && !touches) continue;
     row.touching += touches;
     row.missed += touches && !found;

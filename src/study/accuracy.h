@@ -46,7 +46,7 @@ struct StudyRow {
   std::size_t missed = 0;            // touch and are not found
   std::size_t false_ones = 0;        // are found and do not touch
   Real largest_overlap_error = 0;    // over the largest radius
-  // Of the overlap, thus of a Hooke force, over the overlap itself; of touching spheres.
+  // Errors of the overlap, thus of a Hooke force, over the overlap itself; of touching spheres.
   Real median_force_error = 0, mean_force_error = 0;
   Real certified = 0;    // share of answers
   Real entries = 0;      // of lists, per sphere that reads any
@@ -71,7 +71,7 @@ class AccuracyStudy {
 
   const std::vector<Sphere> &spheres() const { return spheres_; }
   const WeldedMesh &mesh() const { return mesh_; }
-  // What (6) compares with, by sphere.
+  // The status that (6) compares with, by sphere.
   const std::vector<std::uint8_t> &truth() const { return truth_; }
   // The grid of the last measurement.
   const TriangleGrid &grid() const { return grid_; }

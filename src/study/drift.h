@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Energy that a bouncing and a rolling sphere gain or lose to a wall that should keep it.
+// Energy that a bouncing and a rolling sphere gain or lose at a wall that should conserve it.
 #pragma once
 
 #include "engine/wall_engine.h"
@@ -12,12 +12,12 @@
 
 namespace lsdcd {
 
-// Where spheres start: beside a random point of a face, on the side that `normal` points
+// Starts of spheres: beside a random point of a face, on the side that `normal` points
 // to. The same for every setting that is tried.
 struct DriftStarts {
   std::vector<Vec3> point, normal, along;    // along: unit, in the face
   Real radius;
-  TriangleGrid wall;    // complete, tells who went through
+  TriangleGrid wall;    // complete; shows which spheres went through
 
   int n() const { return static_cast<int>(point.size()); }
 };

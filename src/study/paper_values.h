@@ -24,7 +24,7 @@ constexpr PaperAccuracy kPaperTable2[] = {
     {0.3, 3, 0.993997, 0.956412},  {0.4, 3, 0.993982, 0.970890},  {0.5, 3, 0.994011, 0.976490},
     {0.2, 0, 0.994025, 57.899280}, {0.3, 0, 0.994025, 58.054784}, {0.4, 0, 0.994025, 58.001506},
     {0.5, 0, 0.994025, 57.737152}};
-// With all triangles, whatever the cells; formula (7) is relative to it.
+// The accuracy with all triangles, whatever the cells; formula (7) is relative to it.
 constexpr Real kPaperBest = 0.994025;
 
 // Figure 9: N = 2, L = 0.2; times from the text. 0: only drawn.

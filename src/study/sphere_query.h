@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Distance and status of many spheres against a wall, on the CPU or a GPU.
+// Distance and status of many spheres against a wall, on the CPU or a GPU, by the library's query of points; and what
+// only the study asks: the paper's formula (5), every face, and how many entries of lists a search reads.
 #pragma once
 
 #include "engine/wall_engine.h"
 #include "grid/triangle_grid.h"
+#include "query/nearest_distance.h"
 #include "query/sphere.h"
-#include "study/formula_five.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,12 +18,22 @@
 
 namespace lsdcd {
 
+struct WeldedMesh;
+
+// Which test says that a point lies over a triangle.
+enum class InsideTest {
+  exact,
+  formula_five    // the paper's
+};
+
 struct QuerySettings {
   InsideTest inside = InsideTest::exact;
   // Tries every face for every sphere, whatever the grid holds: the paper's N = all.
   bool every_face = false;
-  // What is kept beside the status; less is faster.
-  bool distance = true, read = false;
+  bool distance = true;    // beside the status; without it a query is faster
+
+  // Is this a question that the library answers?
+  bool is_for_library() const { return inside == InsideTest::exact && !every_face; }
 };
 
 // Milliseconds of the query alone, without copies.
@@ -31,16 +42,15 @@ struct QueryTiming {
   int repeats = 0;
 };
 
-// Keeps grid, spheres and answers on its device between calls.
+// Grid, spheres and answers stay on their device between calls.
 class SphereQuery {
  public:
   virtual ~SphereQuery() = default;
 
-  // Copies the grid to the device.
-  virtual void set_grid(const TriangleGrid &grid) = 0;
+  // Copies the grid, which is that of `mesh`.
+  virtual void set_grid(const TriangleGrid &grid, const WeldedMesh &mesh) = 0;
   // Copies n spheres to the device.
   virtual void set_spheres(const Sphere *spheres, std::size_t n) = 0;
-  virtual void set_spheres(const FloatSphere *spheres, std::size_t n) = 0;
 
   // Throws InputError where a radius is more than the grid's cutoff, unless every face is
   // tried; and where the settings do not fit the grid: the paper's test needs lists of primitives
@@ -49,11 +59,12 @@ class SphereQuery {
   // The same, once to warm up and then `repeats` times.
   virtual QueryTiming time(const QuerySettings &settings, int repeats) = 0;
 
-  // Answers of the last run, copied to the host: kTouching and kCertified; distances to the
-  // wall, infinite beyond the radius; how many entries of lists were read.
+  // Answers of the last run, copied to the host: kFound and kCertified; distances to the
+  // wall, infinite beyond the radius.
   virtual std::vector<std::uint8_t> status() = 0;
   virtual std::vector<Real> distance() = 0;
-  virtual std::vector<std::uint32_t> read() = 0;
+  // How many entries of lists such a run reads for each sphere.
+  virtual std::vector<std::uint32_t> entries(const QuerySettings &settings) = 0;
 
   virtual std::string device() const = 0;
 };

@@ -3,7 +3,6 @@
 
 #include "backend/backend_cpu.h"
 #include "base/input_error.h"
-#include "query/near_first_cpu.h"
 #include "study/sphere_query_on.h"
 
 namespace lsdcd {
@@ -21,7 +20,7 @@ std::unique_ptr<SphereQuery> make_sphere_query(Device device)
 #endif
   if (!cuda && device == Device::cuda)
     throw InputError("device cuda: " + why + "; use device auto or cpu");
-  return std::make_unique<QueryOn<CpuBackend, NearFirstCpu>>(CpuBackend());
+  return std::make_unique<SphereQueryOn<CpuBackend>>(CpuBackend());
 }
 
 }    // namespace lsdcd

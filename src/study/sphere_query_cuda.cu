@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "backend/backend_cuda.h"
-#include "query/near_first_gpu.h"
 #include "study/sphere_query_on.h"
 
 namespace lsdcd {
 
 std::unique_ptr<SphereQuery> make_cuda_query()
 {
-  return std::make_unique<QueryOn<CudaBackend, NearFirst<CudaBackend>>>(CudaBackend());
+  return std::make_unique<SphereQueryOn<CudaBackend>>(CudaBackend());
 }
 
 }    // namespace lsdcd

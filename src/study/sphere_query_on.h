@@ -1,60 +1,57 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The query on one backend: one source for all.
+// The study's query on one backend: one source for all.
 #pragma once
 
 #include "base/input_error.h"
+#include "grid/flat_grid.h"
 #include "grid/lookup/grid_on.h"
-#include "query/grid_work.h"
-#include "query/radius_error.h"
-#include "study/one_pass.h"
+#include "mesh/welded_mesh.h"
+#include "query/point_query.h"
+#include "study/counted_search.h"
 #include "study/sphere_query.h"
 
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <type_traits>
 
 namespace lsdcd {
 
-// `Way`: how a backend runs a query that reads the grid.
-template <class B, class Way = OnePass>
-class QueryOn : public SphereQuery {
+template <class B>
+class SphereQueryOn : public SphereQuery {
   template <class T>
   using Array = typename B::template Array<T>;
 
  public:
-  explicit QueryOn(B backend) : b_(std::move(backend)) {}
+  explicit SphereQueryOn(B backend) : b_(std::move(backend)) {}
 
-  void set_grid(const TriangleGrid &grid) override
+  void set_grid(const TriangleGrid &grid, const WeldedMesh &mesh) override
   {
     n_faces_ = static_cast<std::uint32_t>(grid.wall.faces.size());
-    grid_ = GridOn<B>(b_, FlatGrid(grid), true);
+    flat_ = FlatGrid(grid);
+    own_.reset();
+    names_.emplace(mesh);
+    if constexpr (B::kOnHost)
+      library_.emplace(flat_.view());
+    else
+      library_ = copy_to_cuda(flat_.view(), *names_)->query_on(nullptr);
   }
 
   void set_spheres(const Sphere *spheres, std::size_t n) override
   {
-    b_.copy_in(spheres, room(n), n);
+    n_ = n;
+    if (spheres_.size() < n) spheres_ = Array<Sphere>(n);
+    b_.copy_in(spheres, spheres_.data(), n);
     b_.wait();
   }
-  void set_spheres(const FloatSphere *spheres, std::size_t n) override
-  {
-    b_.copy_in(spheres, float_room(n), n);
-    b_.wait();
-  }
-
-  // Memory on the device for n spheres that the caller fills there, of either kind.
-  Sphere *room(std::size_t n) { return room_in(sphere_, float_sphere_, n); }
-  FloatSphere *float_room(std::size_t n) { return room_in(float_sphere_, sphere_, n); }
 
   void run(const QuerySettings &settings) override
   {
     prepare(settings);
     start(settings);
     b_.wait();
-    if (settings.every_face || n_ == 0) return;
-    if (in_float_)
-      refuse_bad_radius(float_sphere_);
-    else
-      refuse_bad_radius(sphere_);
   }
 
   QueryTiming time(const QuerySettings &settings, int repeats) override
@@ -69,140 +66,110 @@ class QueryOn : public SphereQuery {
   std::vector<std::uint8_t> status() override { return to_host(b_, status_, n_); }
   std::vector<Real> distance() override
   {
-    if (float_distance_.size() < n_) return to_host(b_, distance_, distance_.size() >= n_ ? n_ : 0);
-    const std::vector<float> kept = to_host(b_, float_distance_, n_);
-    return {kept.begin(), kept.end()};
+    return to_host(b_, distance_, distance_.size() >= n_ ? n_ : 0);
   }
-  std::vector<std::uint32_t> read() override
+  std::vector<std::uint32_t> entries(const QuerySettings &settings) override
   {
-    return to_host(b_, read_, read_.size() >= n_ ? n_ : 0);
+    check(settings);
+    Array<std::uint32_t> read(n_);
+    start_own(settings, nullptr, nullptr, read.data());
+    return to_host(b_, read, n_);
   }
   std::string device() const override { return b_.name(); }
 
-  // The arrays of the last run, on the device.
-  AnswerArrays answers()
-  {
-    return {status_.data(), distance_.data(), float_distance_.data(), read_.data()};
-  }
-  const GridView &grid() const { return grid_.view; }
-  std::size_t n() const { return n_; }
-  B &backend() { return b_; }
-
   // The steps of run(). Public because nvcc takes no device lambda from a private function.
-
-  void prepare(const QuerySettings &settings)
-  {
-    const bool paper = settings.inside == InsideTest::formula_five;
-    if (paper && !settings.every_face && (grid_.view.nearest == 0 || grid_.view.in_floats))
-      throw InputError("the paper's inside test needs lists of triangles in double: give a "
-                       "grid of `nearest N`, or try every face");
-    if (settings.every_face && grid_.view.in_floats)
-      throw InputError("every face can be tried in double only; give a grid without records "
-                       "in float");
-    fit(status_, true);
-    fit(distance_, settings.distance && !grid_.view.in_floats);
-    fit(float_distance_, settings.distance && grid_.view.in_floats);
-    fit(read_, settings.read);
-    const std::uint64_t none = 0;
-    if (too_large_.size() == 0) too_large_ = Array<std::uint64_t>(1);
-    b_.copy_in(&none, too_large_.data(), 1);
-    b_.wait();
-    if (in_float_)
-      way_.template reserve<FloatSphere>(n_);
-    else
-      way_.template reserve<Sphere>(n_);
-  }
 
   void start(const QuerySettings &settings)
   {
     if (n_ == 0) return;
-    if (in_float_)
-      start_on(float_sphere_.data(), settings);
+    Real *distance = settings.distance ? distance_.data() : nullptr;
+    if (settings.is_for_library())
+      ask_library(distance);
     else
-      start_on(sphere_.data(), settings);
+      start_own(settings, status_.data(), distance, nullptr);
   }
 
-  template <class S>
-  void start_on(const S *spheres, const QuerySettings &settings)
+  // Writes to those arrays that are not null.
+  void start_own(const QuerySettings &settings, std::uint8_t *status, Real *distance,
+                 std::uint32_t *entries)
   {
+    if (!own_) own_.emplace(b_, flat_.view());
     if (settings.inside == InsideTest::formula_five)
-      start_with<FormulaFiveDistances>(spheres, settings);
-    else if (grid_.view.in_floats)
-      start_with<BrickDistances>(spheres, settings);
+      search_all<FormulaFiveDistances>(settings, status, distance, entries);
+    else if (own_->view.in_floats)
+      search_all<BrickDistances>(settings, status, distance, entries);
     else
-      start_with<MeshDistances>(spheres, settings);
+      search_all<MeshDistances>(settings, status, distance, entries);
   }
 
-  template <class Distances, class S>
-  void start_with(const S *spheres, const QuerySettings &settings)
+  template <class Distances>
+  void search_all(const QuerySettings &settings, std::uint8_t *status, Real *distance,
+                  std::uint32_t *entries)
   {
-    const GridView grid = grid_.view;
-    const AnswerArrays out = answers();
+    const GridView grid = own_->view;
+    const Sphere *spheres = spheres_.data();
     const std::uint32_t n_faces = n_faces_;
-    if (settings.every_face)
-      b_.for_each(n_, [=] LSDCD_LAMBDA(std::size_t i) {
-        const S s = spheres[i];
-        out.keep(i, nearest_of_all<Distances>(grid, n_faces, s.centre(), s.r));
-      });
-    else if (grid.nearest == 0)
-      run_grid<GridWork<Distances, S, true>>(spheres);
-    else
-      run_grid<GridWork<Distances, S, false>>(spheres);
+    const bool every_face = settings.every_face;
+    b_.for_each(n_, [=] LSDCD_LAMBDA(std::size_t i) {
+      const Vec3 q = spheres[i].centre();
+      const Real radius = spheres[i].r;
+      const CountedAnswer a = every_face ? search_every_face<Distances>(grid, n_faces, q, radius)
+                              : grid.nearest == 0
+                                  ? search_counted<true, Distances>(grid, q, radius)
+                                  : search_counted<false, Distances>(grid, q, radius);
+      if (status) status[i] = a.status();
+      if (distance) distance[i] = a.distance < kAnyDistance ? a.distance : HUGE_VAL;
+      if (entries) entries[i] = a.entries;
+    });
   }
 
  private:
-  template <class Work, class S>
-  void run_grid(const S *spheres)
+  void check(const QuerySettings &settings) const
   {
-    using Filter = typename Work::Filter;
-    const TooLarge<S> too_large = {static_cast<decltype(S::r)>(grid_.view.cutoff),
-                                   too_large_.data()};
-    way_.run(b_, n_,
-             Work{grid_.view, grid_.table, spheres, answers(), Filter(grid_.view), grid_.coarse,
-                  too_large, 0});
+    const bool paper = settings.inside == InsideTest::formula_five;
+    const GridView grid = flat_.view();
+    if (paper && !settings.every_face && (grid.nearest == 0 || grid.in_floats))
+      throw InputError("the paper's inside test needs lists of triangles in double: give a "
+                       "grid of `nearest N`, or try every face");
+    if (settings.every_face && grid.in_floats)
+      throw InputError("every face can be tried in double only; give a grid without records "
+                       "in float");
   }
 
-  template <class S>
-  void refuse_bad_radius(const Array<S> &spheres)
+  void prepare(const QuerySettings &settings)
   {
-    const std::uint64_t first = read_one(b_, too_large_.data());
-    if (first == 0) return;
-    const std::size_t i = ~first;
-    throw_bad_radius("sphere", i, read_one(b_, spheres.data() + i).r, grid_.view.cutoff);
+    check(settings);
+    if (status_.size() < n_) status_ = Array<std::uint8_t>(n_);
+    if (!settings.distance)
+      distance_ = Array<Real>();
+    else if (distance_.size() < n_)
+      distance_ = Array<Real>(n_);
   }
 
-  template <class T, class Other>
-  T *room_in(Array<T> &to, Array<Other> &other, std::size_t n)
+  void ask_library(Real *distance)
   {
-    n_ = n;
-    in_float_ = sizeof(T) == sizeof(FloatSphere);
-    other = Array<Other>();
-    if (to.size() < n) to = Array<T>(n);
-    return to.data();
-  }
-
-  template <class T>
-  void fit(Array<T> &kept, bool wanted)
-  {
-    if (!wanted)
-      kept = Array<T>();
-    else if (kept.size() < n_)
-      kept = Array<T>(n_);
+    PointArrays<Real> io;
+    io.n = n_;
+    io.points = {&spheres_.data()->x, 4, 1};
+    io.radii = {&spheres_.data()->r, 4};
+    io.status = status_.data();
+    io.distance = {distance, 1};
+    if constexpr (B::kOnHost)
+      query_grid(*library_, *names_, io);
+    else
+      library_->enqueue(io);
   }
 
   B b_;
-  Way way_;
-  GridOn<B> grid_;
+  FlatGrid flat_;    // on the host
+  std::optional<TriangleTable> names_;
+  std::conditional_t<B::kOnHost, std::optional<HostGrid>, std::unique_ptr<StreamQuery>> library_;
+  std::optional<GridOn<B>> own_;    // what the study's own search reads, made where it is asked for
   std::uint32_t n_faces_ = 0;
-  Array<Sphere> sphere_;
-  Array<FloatSphere> float_sphere_;
   std::size_t n_ = 0;
-  bool in_float_ = false;
+  Array<Sphere> spheres_;
   Array<std::uint8_t> status_;
   Array<Real> distance_;
-  Array<float> float_distance_;
-  Array<std::uint32_t> read_;
-  Array<std::uint64_t> too_large_;    // one: TooLarge::first
 };
 
 }    // namespace lsdcd

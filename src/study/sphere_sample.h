@@ -40,7 +40,7 @@ inline Real uniform_below_one(Random &random)
 void add_band_spheres(const TriangleGrid &grid, int n, const std::vector<Real> &radii,
                       Random &random, SphereSample &sample);
 
-// Spheres in the order in which LAMMPS sorts atoms: by bins of the given size, x fastest.
+// Spheres in the order in which LAMMPS sorts atoms: by bins of this size, x fastest.
 void sort_by_bins(SphereSample &sample, Real bin);
 
 }    // namespace lsdcd

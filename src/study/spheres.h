@@ -34,7 +34,7 @@ struct SphereBox {
   }
 };
 
-// The place of a point of the box on a Z-curve with 1024 steps per side.
+// The position of a point of the box along a Z-curve with 1024 steps per side.
 std::uint32_t place_on_curve(const SphereBox &box, const Vec3 &at);
 
 enum class Order { random, sorted };

@@ -137,7 +137,7 @@ class Measuring {
     for (Corner corner : {Corner::blend, Corner::sum}) {
       engine_.corner = corner;
       engine_.precision = Precision::double_;
-      reference_[corner == Corner::sum] = answer(grid.view(), engine_, sample_);
+      reference_[corner == Corner::sum] = evaluate_sample(grid.view(), engine_, sample_);
     }
     if (!settings_.cuda) return;
     for (int i = 0; i < sample_.n(); i++)
@@ -165,8 +165,8 @@ class Measuring {
       row.choice = choice;
       row.corner = corner;
       row.bytes = bytes;
-      row.error = compare(reference_[corner == Corner::sum], answer(view, engine_, sample_),
-                          sample_, engine_.law().k_normal);
+      row.error = compare(reference_[corner == Corner::sum],
+                          evaluate_sample(view, engine_, sample_), sample_, engine_.law().k_normal);
       row.bounce_drift = bounce_drift(view, engine_, starts_);
       row.roll_drift = roll_drift(view, engine_, starts_);
       for (bool on_cuda : {false, true}) {
@@ -188,7 +188,7 @@ class Measuring {
     for (int i = 0; i < sample.n(); i++)
       spheres.push_back({sample.x[i].x, sample.x[i].y, sample.x[i].z, sample.radius[i]});
     const auto query = make_sphere_query(on_cuda ? Device::cuda : Device::cpu);
-    query->set_grid(grid);
+    query->set_grid(grid, mesh_);
     query->set_spheres(spheres.data(), spheres.size());
     QuerySettings status;
     status.distance = false;

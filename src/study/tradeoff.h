@@ -25,7 +25,7 @@ struct TradeoffSettings {
   std::uint64_t seed = 1;
 };
 
-// What the keywords `grid`, `nearest` and `precision` say.
+// Values of the keywords `grid`, `nearest` and `precision`.
 struct GridChoice {
   Real length;    // of a cell
   int nearest;    // 0: complete lists
@@ -70,10 +70,10 @@ std::string nearest_word(const GridChoice &choice);
 const char *precision_word(const GridChoice &choice);
 std::string words_of(const GridChoice &choice);
 
-// Of one device the fastest row, with corner blend, whose missed contacts / contacts and largest
-// error of a force are below `bound`, and whose answers are all certified: where some are not, the
-// next sphere may miss a contact. Of rows within a tenth of the fastest, a difference that noise
-// makes, the one with the smallest error. Null: there is none.
+// The fastest row of one device with corner blend whose missed contacts / contacts and largest
+// error of a force are below `bound`, and whose answers are all certified: otherwise the
+// next sphere may miss a contact. Rows within a tenth of the fastest differ by noise: the one with the
+// smallest error is taken. Null: there is none.
 const TradeoffRow *fastest_below(const std::vector<TradeoffRow> &rows, Real bound, bool on_cuda);
 
 }    // namespace lsdcd

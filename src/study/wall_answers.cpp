@@ -45,16 +45,16 @@ struct AtRest {
 };
 
 template <int kCapacity>
-bool find_places(const GridView &grid, const SearchSettings &search, const Vec3 &x, Real radius,
-                 std::vector<WallAnswers::Place> &places, bool &certain)
+bool append_contacts(const GridView &grid, const SearchSettings &search, const Vec3 &x, Real radius,
+                     std::vector<WallAnswers::Contact> &contacts, bool &certain)
 {
   Touch<kCapacity> t;
   touch<false>(grid, search, {x, radius, radius, nullptr, 0}, nullptr, t);
   if (t.set.overflow) return false;
   certain = t.exact_within >= radius;
   for (int i = 0; i < t.set.n; i++)
-    places.push_back({-t.set.distance[i] * t.set.normal[i], radius - t.set.distance[i],
-                      t.weight[i] * (radius - t.set.distance[i]) >= kGrazing * radius});
+    contacts.push_back({-t.set.distance[i] * t.set.normal[i], radius - t.set.distance[i],
+                        t.weight[i] * (radius - t.set.distance[i]) >= kGrazing * radius});
   return true;
 }
 
@@ -75,17 +75,19 @@ double seconds_now(bool waits)
 
 }    // namespace
 
-WallAnswers answer(const GridView &grid, const EngineSettings &engine, const SphereSample &sample)
+WallAnswers evaluate_sample(const GridView &grid, const EngineSettings &engine,
+                            const SphereSample &sample)
 {
   WallAnswers out;
   const SearchSettings search = search_settings(engine);
   out.first.push_back(0);
   for (int i = 0; i < sample.n(); i++) {
     bool certain = true;
-    if (!find_places<64>(grid, search, sample.x[i], sample.radius[i], out.places, certain))
-      find_places<kMaxContacts>(grid, search, sample.x[i], sample.radius[i], out.places, certain);
+    if (!append_contacts<64>(grid, search, sample.x[i], sample.radius[i], out.contacts, certain))
+      append_contacts<kMaxContacts>(grid, search, sample.x[i], sample.radius[i], out.contacts,
+                                    certain);
     out.uncertified += !certain;
-    out.first.push_back(out.places.size());
+    out.first.push_back(out.contacts.size());
   }
 
   EngineSettings on_cpu = engine;
@@ -114,11 +116,11 @@ AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
   for (int i = 0; i < sample.n(); i++) {
     const Real radius = sample.radius[i];
     for (std::size_t k = reference.first[i]; k < reference.first[i + 1]; k++) {
-      const WallAnswers::Place &wanted = reference.places[k];
+      const WallAnswers::Contact &wanted = reference.contacts[k];
       if (!wanted.bears) continue;
       out.contacts++;
       out.missed += std::none_of(
-          trial.places.begin() + trial.first[i], trial.places.begin() + trial.first[i + 1],
+          trial.contacts.begin() + trial.first[i], trial.contacts.begin() + trial.first[i + 1],
           [&](const auto &p) { return norm(p.closest - wanted.closest) <= kSamePoint * radius; });
     }
     const bool touches =

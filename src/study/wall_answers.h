@@ -13,25 +13,26 @@ namespace lsdcd {
 
 // Contacts of spheres at rest, and forces of linear springs: all sub-models take the same contacts.
 struct WallAnswers {
-  struct Place {
+  struct Contact {
     Vec3 closest;    // from the sphere's centre to the wall, length
     Real overlap;    // length
     bool bears;      // takes a share of the force
   };
-  std::vector<std::size_t> first;    // places of sphere i: first[i] .. first[i + 1]
-  std::vector<Place> places;
+  std::vector<std::size_t> first;    // contacts of sphere i: first[i] .. first[i + 1]
+  std::vector<Contact> contacts;
   std::vector<Vec3> force;
   long uncertified = 0;    // spheres with lists that may lack a contact
 };
 
 // Computed on the CPU; every device has the same numbers. Only stiffness, corner rule and precision of
 // `engine` matter.
-WallAnswers answer(const GridView &grid, const EngineSettings &engine, const SphereSample &sample);
+WallAnswers evaluate_sample(const GridView &grid, const EngineSettings &engine,
+                            const SphereSample &sample);
 
 // Rounding decides whether there is a contact so shallow: it is not counted. Share of a radius.
 constexpr Real kGrazing = 1e-4;
 // Forces of a sphere are compared to the larger of its own and that of one contact
-// with this overlap: a grazing contact's force is all rounding. Of a radius.
+// with this overlap, because a grazing contact's force is all rounding. Share of a radius.
 constexpr Real kUsualOverlap = 1e-2;
 
 struct AnswerError {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rows of the study: printed as they come, kept as CSV.
+// Rows of the study: printed as they come, and written as CSV.
 #pragma once
 
 #include "study/accuracy.h"
@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-// What a table varies besides the row itself.
+// Columns that a table varies besides the row itself.
 struct RowContext {
   std::string table, shape, order, commit;
   Real cube = 0, largest = 1;

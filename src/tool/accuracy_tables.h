@@ -15,7 +15,7 @@ namespace lsdcd {
 struct AccuracyOptions {
   std::vector<std::string> tables = {"table2"};
   std::vector<std::string> devices = {"auto"}, orders = {"random"};
-  // Of those that `tessellation` tries, the one that gives the paper's Table 2.
+  // The one of those that `tessellation` tries that gives the paper's Table 2.
   CylinderMesh shape;
   Real cube = 100, largest = 1;
   double spheres = 1e7, most_spheres = 0, most_triangles = 1e5, memory = 16384;

@@ -59,7 +59,7 @@ std::string text_of(const Totals &t, double share)
   return text;
 }
 
-// Each pose of the file, or the one that was given.
+// Each pose of the file, or the one of the command line.
 template <class Visit>
 void each_pose(const Options &o, const Visit &visit)
 {

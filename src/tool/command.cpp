@@ -55,7 +55,7 @@ bool is_option_unknown(const CLI::App &app, const std::string &name)
   return false;
 }
 
-// A full disk is seen when the last of the output is written, or has been by an earlier write.
+// A full disk shows when the last of the output is written, or has been by an earlier write.
 void check_standard_output()
 {
   errno = 0;

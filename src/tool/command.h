@@ -21,7 +21,7 @@ namespace lsdcd {
 // Ends the program with 2, as wrong words do: names the option, and what is wrong with it.
 [[noreturn]] void throw_usage_error(const std::string &option, const std::string &what);
 
-// What is wrong with a word; nothing: it is right.
+// Why a word is wrong; empty: it is right.
 using WordCheck = std::function<std::string(const std::string &)>;
 
 // An option, borrowed from its command. Each function returns the option itself.
@@ -38,7 +38,7 @@ class Option {
   Option &range(std::size_t least, std::size_t most);
   // `what`: what --help calls a word of the option.
   Option &check(const WordCheck &check, const std::string &what = "");
-  // The words that --help shows in place of the type.
+  // The words that --help shows instead of the type.
   Option &shows_words(const std::string &text);
   Option &excludes(const Option &other);
 
@@ -51,7 +51,7 @@ class Command {
  public:
   explicit Command(CLI::App *app) : app_(app) {}
 
-  // `name`: "file" is given by its place, "-o,--output" by its name. `value` holds the default. It must
+  // `name`: "file" is positional, "-o,--output" is an option. `value` holds the default. It must
   // outlive the command, and is a string, a number, or a vector of these.
   template <class T>
   Option option(const std::string &name, T &value, const std::string &help);

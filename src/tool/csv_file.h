@@ -24,7 +24,7 @@ class CsvFile {
   }
 
   void add(const char *text) { text_ += text; }
-  // With the digits that read back the same number.
+  // Writes as many digits as read back the same number.
   template <class T>
   void add(T value, char after)
   {

@@ -65,7 +65,7 @@ std::string text_of(const Totals &t, double share, double seconds)
   return text;
 }
 
-// With several threads a block is read and another one written while a third is answered.
+// With more than one thread a block is read and another one written while a third is answered.
 Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
 {
   const auto start = std::chrono::steady_clock::now();
@@ -106,7 +106,7 @@ Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
 
 void print(const Options &o, const Totals &t, const PointAnswers &answers, const WeldedMesh &mesh)
 {
-  // What is told does not go between the answers.
+  // Messages do not go between the answers.
   std::FILE *const to = o.output == "-" ? stderr : stdout;
   const double rate = t.seconds > 0 ? static_cast<double>(t.points) / t.seconds : 0;
   if (o.json) {

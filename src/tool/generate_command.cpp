@@ -28,10 +28,10 @@ struct Output {
   bool json = false;
 };
 
-// With more, corners would be equal in the floats of an STL file.
+// More segments would make corners equal in the floats of an STL file.
 constexpr int kMaxSegments = 100000;
 
-// Segments of a circle: the given number, or 64, or as many as the given length of edges needs.
+// Segments of a circle: those of the option, or 64, or as many as the length of edges needs.
 int segments_of(const Output &o, double radius)
 {
   if (o.segments > 0) return o.segments;

@@ -14,7 +14,7 @@ using namespace lsdcd;
 
 namespace {
 
-// What the program ends with; doc/tool.md has them too.
+// Exit codes of the program; doc/tool.md has them too.
 constexpr int kDone = 0, kUnusable = 1, kUsage = 2;
 
 }    // namespace

@@ -16,7 +16,7 @@ namespace lsdcd {
 nlohmann::json as_json(const Vec3 &v);
 nlohmann::json as_json(const MeshReport &report);
 
-// What is wrong with a mesh; empty: it is clean. An open mesh may be clean: many walls are open.
+// Faults of a mesh; empty: it is clean. An open mesh may be clean: many walls are open.
 std::vector<std::string> problems_of(const MeshReport &report);
 
 // A line below describe(): "  clean       yes", or no and why not.

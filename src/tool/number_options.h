@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Options of numbers that several commands have, and their limits.
+// Options of numbers that more than one command has, and their limits.
 #pragma once
 
 #include "base/input_words.h"
@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-// Checks of words. Those of CLI11 would print the largest double in their messages.
+// Checks of words: CLI11's own would print the largest double in their messages.
 inline std::string above_zero(const std::string &word)
 {
   double value;
@@ -35,7 +35,7 @@ inline Option add_scale_option(Command &command, std::vector<double> &scale,
   return command.option(name, scale, help).words(1, 3).check(not_zero);
 }
 
-// `weld` stays below 0 where it is not given.
+// `weld` stays below 0 without the option.
 inline void add_weld_option(Command &command, double &weld)
 {
   command

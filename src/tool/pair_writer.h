@@ -23,7 +23,7 @@ class PairWriter {
 std::unique_ptr<PairWriter> open_pairs(const std::string &path);
 
 // And where each pair cuts: .csv, or .vtp, lines with pose and triangles as their data, which are
-// kept in memory until the end. Pairs in one plane have no line; their numbers in .csv are nan.
+// stored in memory until the end. Pairs in one plane have no line; their numbers in .csv are nan.
 std::unique_ptr<PairWriter> open_segments(const std::string &path);
 
 }    // namespace lsdcd

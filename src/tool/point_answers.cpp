@@ -59,7 +59,7 @@ class CpuAnswers : public PointAnswers {
     io.triangle = a.triangle.data();
     io.feature = a.feature.data();
     if (sides == SideKind::exact) io.side = a.side.data();
-    answer_with_sides(tree_, near_ ? &*near_ : nullptr, sides_, io.radius, io);
+    query_with_sides(tree_, near_ ? &*near_ : nullptr, sides_, io.radius, io);
     if (sides == SideKind::estimated) estimate(sides_, points, a);
   }
 
@@ -142,7 +142,7 @@ class CudaAnswers : public PointAnswers {
     io.triangle = triangle_.of(n);
     io.feature = feature_.of(n);
     if (sides_by_normals_) io.side = side_.of(n);
-    query_->answer(io);
+    query_->enqueue(io);
     check(cudaStreamSynchronize(nullptr), "answering");
     distance_.give(a.distance);
     closest_.give(a.closest);
@@ -152,7 +152,8 @@ class CudaAnswers : public PointAnswers {
       side_.give(a.side);
     else
       std::fill(a.side.begin(), a.side.end(), std::int8_t(0));
-    if (sides == SideKind::exact) fill_sides(sides_, n, points.xyz.data(), a.side.data());
+    if (sides == SideKind::exact)
+      fill_sides(sides_, n, packed<const double>(points.xyz.data()), a.side.data());
     if (sides == SideKind::estimated) estimate(sides_, points, a);
   }
 

@@ -19,7 +19,7 @@ class PointAnswers {
   virtual void answer(const PointBlock &points, AnswerBlock &answers) = 0;
 
   SideKind sides = SideKind::none;
-  // What was set up.
+  // The set-up, for the report.
   struct Report {
     std::size_t bytes = 0;
     double seconds = 0;

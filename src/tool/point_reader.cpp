@@ -195,11 +195,11 @@ class NpyReader : public PointReader {
     const std::string path = file.path();
     files_.push_back(std::move(file));
     if (!by_columns) return;
-    const std::size_t kept = std::max(files_[0].size() - start, 0L) / (3 * type_->bytes);
+    const std::size_t whole = std::max(files_[0].size() - start, 0L) / (3 * type_->bytes);
     if (files_[0].size() == 0)
       files_[0].fail("is in Fortran order, which cannot be read from a pipe; give the file, or "
                      "numpy.save(file, numpy.ascontiguousarray(points))");
-    if (kept < n_) fail_in_point(kept);
+    if (whole < n_) fail_in_point(whole);
     for (const long column : {1, 2}) {
       files_.emplace_back(path);
       files_.back().go_to(start + column * static_cast<long>(n_ * type_->bytes));

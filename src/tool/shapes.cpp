@@ -248,7 +248,7 @@ Profile rounded_corner(const RadiusHeight &before, const RadiusHeight &at,
 
 namespace {
 
-// A rectangle, its corners in counter-clockwise order seen from its front: columns from the first side to the third.
+// A rectangle, its corners in counter-clockwise order viewed from its front: columns from the first side to the third.
 Triangles in_columns(const Line &corners, int columns, Real edge)
 {
   const Vec3 &a = corners[0], &b = corners[1], &c = corners[2], &d = corners[3];
@@ -312,7 +312,7 @@ Vec3 middle(const Vec3 &a, const Vec3 &b)
   return 0.5 * (a + b);
 }
 
-// Splits the edges that are too long and keeps the winding.
+// Splits the edges that are too long. The winding stays.
 void split(const std::array<Vec3, 3> &t, Real edge, Triangles &out)
 {
   bool cut[3];

@@ -20,11 +20,11 @@ struct RadiusHeight {
 };
 using Profile = std::vector<RadiusHeight>;
 
-// A convex polygon; its corners are in counter-clockwise order, seen from outside.
+// A convex polygon; its corners are in counter-clockwise order, viewed from outside.
 Triangles fan(const Line &corners);
 
 // Between two lines, from the first corners of both to the last; they may have different numbers of
-// corners. Along `left`, then over to `right`, is counter-clockwise seen from behind.
+// corners. Along `left`, then over to `right`, is counter-clockwise viewed from behind.
 Triangles between(const Line &left, const Line &right);
 
 // `edge` is the longest edge that is wanted, 0: any. Shapes are made of strips with triangles that are nearly equal;
@@ -42,7 +42,7 @@ struct Rows {
   int n;
   bool shifted;
 };
-// As few as keep the edges of a strip of this width, below `edge`, and length.
+// As few as leave the edges of a strip of this width, below `edge`, and length.
 Rows rows_between(Real width, Real length, Real edge);
 Line column(const Vec3 &a, const Vec3 &b, const Rows &rows, bool odd);
 // As refined() cuts it.

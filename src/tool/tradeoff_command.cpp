@@ -63,7 +63,7 @@ std::string formatted(const char *format, double value)
   return text;
 }
 
-// "CPU, 1 thread, AMD EPYC", where the system tells.
+// "CPU, 1 thread, AMD EPYC", where the system has the name.
 std::string device_name(const TradeoffRow &row)
 {
   if (row.on_cuda) return row.device;

@@ -5,7 +5,7 @@
 // InputError; anything else, or a mesh that contradicts itself, is a failure.
 #include "base/input_error.h"
 #include "mesh/io/read_mesh.h"
-#include "mesh/wall_mesh.h"
+#include "mesh/welded_mesh.h"
 
 #include <algorithm>
 #include <cmath>

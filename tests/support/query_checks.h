@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Compares a wall's query with the oracle on one backend, where spheres, oracle and counts stay.
+// Compares the library's query of a wall with the oracle on one backend, where spheres, oracle and counts stay.
 #pragma once
 
 #include "support/query_oracle.h"
 
-#include "study/sphere_query_on.h"
+#include "backend/backend.h"
+#include "grid/flat_grid.h"
+#include "grid/lookup/grid_on.h"
+#include "query/point_query.h"
 #include "study/spheres.h"
 
 #include <memory>
@@ -14,9 +17,9 @@
 
 namespace lsdcd {
 
-// Counts over spheres; `near` have any entries to read.
+// Counts over spheres; `near` lie in a cell that lists anything.
 struct QueryCounts {
-  std::size_t spheres = 0, near = 0, touching = 0, uncertified = 0, entries = 0;
+  std::size_t spheres = 0, near = 0, touching = 0, uncertified = 0;
   // Further than the tolerance from the oracle's answer; the second only where certified.
   std::size_t missed = 0, false_ones = 0, wrong = 0;
   std::size_t certified_missed = 0, certified_false = 0, certified_wrong = 0;
@@ -29,7 +32,7 @@ class QueryChecks {
   virtual ~QueryChecks() = default;
 
   // Queries a grid for all spheres.
-  virtual QueryCounts check(const TriangleGrid &grid) = 0;
+  virtual QueryCounts check(const TriangleGrid &grid, const TriangleTable &names) = 0;
   // Largest difference between the oracle and every triangle tried, for the first n
   // spheres, where either is within the cutoff.
   virtual double oracle_error(std::size_t n) = 0;
@@ -47,16 +50,16 @@ struct QueryCheckSettings {
 std::unique_ptr<QueryChecks> query_checks_on_cpu(const Bins &bins, const QueryCheckSettings &s);
 std::unique_ptr<QueryChecks> query_checks_on_cuda(const Bins &bins, const QueryCheckSettings &s);
 
-template <class B, class Way = OnePass>
+template <class B>
 class QueryChecksOn : public QueryChecks {
   template <class T>
   using Array = typename B::template Array<T>;
 
  public:
   QueryChecksOn(const Bins &bins, const QueryCheckSettings &s) :
-      s_(s), query_(B()), corners_(from_host(b(), bins.corners)),
-      first_(from_host(b(), bins.first)), triangle_(from_host(b(), bins.triangle)),
-      truth_(s.n_spheres)
+      s_(s), corners_(from_host(b_, bins.corners)), first_(from_host(b_, bins.first)),
+      triangle_(from_host(b_, bins.triangle)), truth_(s.n_spheres),
+      spheres_(std::min(s.chunk, s.n_spheres)), status_(spheres_.size()), distance_(spheres_.size())
   {
     bins_ = {corners_.data(),
              static_cast<std::uint32_t>(bins.corners.size() / 3),
@@ -69,19 +72,32 @@ class QueryChecksOn : public QueryChecks {
     find_truth();
   }
 
-  QueryCounts check(const TriangleGrid &grid) override
+  QueryCounts check(const TriangleGrid &grid, const TriangleTable &names) override
   {
     QueryCounts total;
     total.spheres = s_.n_spheres;
-    query_.set_grid(grid);
+    const FlatGrid flat(grid);
+    const GridOn<B> on(b_, flat.view());    // for the counts
+    const auto query = [&] {
+      if constexpr (B::kOnHost)
+        return [on_host = HostGrid(flat.view()), &names](const PointArrays<Real> &io) {
+          query_grid(on_host, names, io);
+        };
+      else
+        return [stream = copy_to_cuda(flat.view(), names)->query_on(nullptr)](
+                   const PointArrays<Real> &io) { stream->enqueue(io); };
+    }();
     for (std::size_t from = 0; from < s_.n_spheres; from += s_.chunk) {
       const std::size_t n = std::min(s_.chunk, s_.n_spheres - from);
       fill(from, n);
-      QuerySettings settings;
-      settings.read = true;
-      query_.prepare(settings);
-      total.query_ms += b().milliseconds([&] { query_.start(settings); });
-      count(from, n, total);
+      PointArrays<Real> io;
+      io.n = n;
+      io.points = {&spheres_.data()->x, 4, 1};
+      io.radii = {&spheres_.data()->r, 4};
+      io.status = status_.data();
+      io.distance = {distance_.data(), 1};
+      total.query_ms += b_.milliseconds([&] { query(io); });
+      count(on.view, from, n, total);
     }
     return total;
   }
@@ -91,19 +107,17 @@ class QueryChecksOn : public QueryChecks {
     n = std::min(n, s_.n_spheres);
     Array<double> error(n);
     write_errors(error.data(), n);
-    const std::vector<double> host = to_host(b(), error, n);
+    const std::vector<double> host = to_host(b_, error, n);
     return *std::max_element(host.begin(), host.end());
   }
 
   Sphere sphere(std::size_t i) override
   {
     fill(i, 1);
-    Array<Sphere> one(1);
-    copy_one(one.data());
-    return to_host(b(), one, 1)[0];
+    return to_host(b_, spheres_, 1)[0];
   }
 
-  std::string device() const override { return query_.device(); }
+  std::string device() const override { return b_.name(); }
 
   // Public because nvcc takes no device lambda from a private function.
 
@@ -112,24 +126,17 @@ class QueryChecksOn : public QueryChecks {
     const BinsView bins = bins_;
     const SphereBox box = s_.box;
     double *truth = truth_.data();
-    b().for_each(s_.n_spheres, [=] LSDCD_LAMBDA(std::size_t i) {
+    b_.for_each(s_.n_spheres, [=] LSDCD_LAMBDA(std::size_t i) {
       truth[i] = bin_distance(bins, box.sphere(i).centre());
     });
-    b().wait();
+    b_.wait();
   }
 
   void fill(std::size_t from, std::size_t n)
   {
-    Sphere *to = query_.room(n);
+    Sphere *to = spheres_.data();
     const SphereBox box = s_.box;
-    b().for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = box.sphere(from + i); });
-  }
-
-  void copy_one(Sphere *to)
-  {
-    const Sphere *from = query_.room(1);
-    b().for_each(1, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = from[i]; });
-    b().wait();
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = box.sphere(from + i); });
   }
 
   void write_errors(double *to, std::size_t n)
@@ -138,11 +145,11 @@ class QueryChecksOn : public QueryChecks {
     const SphereBox box = s_.box;
     const double *truth = truth_.data();
     const double cutoff = s_.cutoff;
-    b().for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
       const double brute = brute_distance(bins, box.sphere(i).centre());
       to[i] = truth[i] <= cutoff || brute <= cutoff ? fabs(brute - truth[i]) : 0;
     });
-    b().wait();
+    b_.wait();
   }
 
   // A bit for each thing that can be said of an answer.
@@ -157,30 +164,32 @@ class QueryChecksOn : public QueryChecks {
     certified_shift = 3    // the bad ones once more for certified answers
   };
 
-  void count(std::size_t from, std::size_t n, QueryCounts &total)
+  void count(const GridView &grid, std::size_t from, std::size_t n, QueryCounts &total)
   {
-    const AnswerArrays a = query_.answers();
+    const std::uint8_t *status = status_.data();
+    const Real *distance = distance_.data();
     const double *truth = truth_.data() + from;
     const Real tolerance = s_.tolerance;
     const SphereBox box = s_.box;
     Array<std::uint32_t> flag(n);
     std::uint32_t *flags = flag.data();
-    b().for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
-      const Real r = box.sphere(from + i).r;
-      const bool found = a.status[i] & kTouching, certified = a.status[i] & kCertified;
-      std::uint32_t f = 0;
-      if (a.read[i] > 0) f |= near_bit;
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      const Sphere s = box.sphere(from + i);
+      const Real r = s.r;
+      const bool found = status[i] & kFound, certified = status[i] & kCertified;
+      CellAddress at;
+      Cell cell;
+      std::uint32_t f = find_cell(grid, s.centre(), at, cell) ? near_bit : 0;
       if (truth[i] < r) f |= touching_bit;
       if (!found && truth[i] < r - tolerance) f |= missed_bit;
       if (found && !(truth[i] < r + tolerance)) f |= false_bit;
-      if (found && !(fabs(a.distance_of(i) - truth[i]) <= tolerance)) f |= wrong_bit;
+      if (found && !(fabs(distance[i] - truth[i]) <= tolerance)) f |= wrong_bit;
       if (certified)
         f |= (f & bad_bits) << certified_shift;
       else
         f |= uncertified_bit;
       flags[i] = f;
     });
-    total.entries += b().exclusive_scan(a.read, n);
     total.near += with_bit(flags, n, near_bit);
     total.touching += with_bit(flags, n, touching_bit);
     total.uncertified += with_bit(flags, n, uncertified_bit);
@@ -196,18 +205,19 @@ class QueryChecksOn : public QueryChecks {
   {
     Array<std::uint32_t> has(n);
     std::uint32_t *to = has.data();
-    b().for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = flags[i] & bit ? 1 : 0; });
-    return b().exclusive_scan(to, n);
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = flags[i] & bit ? 1 : 0; });
+    return b_.exclusive_scan(to, n);
   }
 
  private:
-  B &b() { return query_.backend(); }
-
   QueryCheckSettings s_;
-  QueryOn<B, Way> query_;
+  B b_;
   Array<Vec3> corners_;
   Array<std::uint32_t> first_, triangle_;
   Array<double> truth_;
+  Array<Sphere> spheres_;    // of a chunk
+  Array<std::uint8_t> status_;
+  Array<Real> distance_;
   BinsView bins_ = {};
 };
 

@@ -7,7 +7,7 @@
 usage: check_includes.py [ROOT]
 
 * A file includes its own room and rooms on lower floors (FLOORS, from the lowest). Rooms of one
-  floor do not include each other, but for the pairs in BESIDE.
+  floor do not include each other.
 * Inside a room a file includes its own folder and lower ones (FOLDERS, from the lowest).
 * The study is for STUDY_ROOMS, bench/ and tests: what it measures is no part of a plugin or the library.
 * Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name, and of MPI.
@@ -22,9 +22,8 @@ import re
 import sys
 
 FLOORS = [["base"], ["backend"], ["geometry"], ["mesh"], ["motion"], ["grid"], ["contact"], ["law"], ["engine"],
-          ["bodies", "query", "study", "effects", "output", "material", "flow", "insert"],
-          ["input"], ["wall"], ["lammps", "tool", "api"], ["kokkos"]]
-BESIDE = {("study", "query")}
+          ["bodies", "query", "effects", "output", "material", "flow", "insert"],
+          ["study"], ["input"], ["wall"], ["lammps", "tool", "api"], ["kokkos"]]
 # Of each room with folders. "." stands for the files that lie in none, but for those that are named.
 FOLDERS = {
     "mesh": [".", "io"],
@@ -85,7 +84,7 @@ def wrong_include(room, path, included):
         return "lies in the study, which is for the tool, bench/ and tests"
     if other == room:
         return wrong_folder(room, path, included)
-    if FLOOR[other] < FLOOR[room] or (room, other) in BESIDE:
+    if FLOOR[other] < FLOOR[room]:
         return None
     return f"lies in a room {'beside' if FLOOR[other] == FLOOR[room] else 'above'} {room}"
 

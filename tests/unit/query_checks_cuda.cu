@@ -5,13 +5,12 @@
 #include "support/query_checks.h"
 
 #include "backend/backend_cuda.h"
-#include "query/near_first_gpu.h"
 
 namespace lsdcd {
 
 std::unique_ptr<QueryChecks> query_checks_on_cuda(const Bins &bins, const QueryCheckSettings &s)
 {
-  return std::make_unique<QueryChecksOn<CudaBackend, NearFirst<CudaBackend>>>(bins, s);
+  return std::make_unique<QueryChecksOn<CudaBackend>>(bins, s);
 }
 
 }    // namespace lsdcd

@@ -1,16 +1,20 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Queries against every triangle tried in more digits, and against themselves.
+// The library's query of points in cells against every triangle tried in more digits, and one backend against the other.
 #include "support/brute_force_long.h"
 #include "support/device.h"
+#include "support/device_memory.h"
 #include "support/meshes.h"
 #include "support/random_mesh.h"
 
 #include "backend/backend_cpu.h"
 #include "base/input_error.h"
 #include "contact/brick_geometry.h"
-#include "study/sphere_query_on.h"
+#include "grid/flat_grid.h"
+#include "grid/lookup/grid_on.h"
+#include "mesh/welded_mesh.h"
+#include "query/point_query.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -30,12 +34,13 @@ namespace {
 struct Case {
   TriangleSoup soup;
   WeldedMesh mesh;
+  TriangleTable names;
   Real cutoff, length;
   std::vector<Sphere> spheres;
   std::vector<Real> truth;
 
   Case(TriangleSoup given, Real cutoff_, Real length_, std::size_t n, std::uint64_t seed) :
-      soup(std::move(given)), mesh(weld(soup, 0)), cutoff(cutoff_), length(length_)
+      soup(std::move(given)), mesh(weld(soup, 0)), names(mesh), cutoff(cutoff_), length(length_)
   {
     const auto triangles = long_triangles<LongReal>(soup);
     Numbers r(seed);
@@ -77,28 +82,63 @@ struct Case {
 struct Answers {
   std::vector<std::uint8_t> status;
   std::vector<Real> distance;
-  std::vector<std::uint32_t> read;
 
-  bool touching(std::size_t i) const { return status[i] & kTouching; }
+  bool touching(std::size_t i) const { return status[i] & kFound; }
   bool certified(std::size_t i) const { return status[i] & kCertified; }
 };
 
-template <class S>
-Answers ask(SphereQuery &query, const std::vector<S> &spheres, QuerySettings settings = {})
-{
-  settings.distance = settings.read = true;
-  query.set_spheres(spheres.data(), spheres.size());
-  query.run(settings);
-  return {query.status(), query.distance(), query.read()};
-}
+// The library's query of one grid, on the CPU or on a GPU.
+class GridQuery {
+ public:
+  GridQuery(const Case &c, const TriangleGrid &grid, Device device = test_device()) :
+      names_(c.names), flat_(grid), cuda_(device == Device::cuda)
+  {
+#if defined(LSDCD_HAVE_CUDA)
+    if (cuda_) {
+      on_gpu_ = copy_to_cuda(flat_.view(), names_)->query_on(nullptr);
+      return;
+    }
+#endif
+    on_host_ = HostGrid(flat_.view());
+  }
+
+  // S: Sphere or FloatSphere, whose distances are in float.
+  template <class S>
+  Answers ask(const std::vector<S> &spheres)
+  {
+    using T = decltype(S::x);
+    const std::size_t n = spheres.size();
+    DeviceArray<S> given(cuda_);
+    DeviceArray<T> distance(cuda_);
+    DeviceArray<std::uint8_t> status(cuda_);
+    const S *at = given.put(spheres);
+    PointArrays<T> io;
+    io.n = n;
+    io.points = {&at->x, 4, 1};
+    io.radii = {&at->r, 4};
+    io.distance = {distance.resize(n), 1};
+    io.status = status.resize(n);
+    if (on_gpu_)
+      on_gpu_->enqueue(io);
+    else
+      query_grid(on_host_, names_, io);
+    const std::vector<T> found = distance.get(n);
+    return {status.get(n), {found.begin(), found.end()}};
+  }
+
+ private:
+  const TriangleTable &names_;
+  FlatGrid flat_;
+  bool cuda_;
+  HostGrid on_host_;
+  std::unique_ptr<StreamQuery> on_gpu_;
+};
 
 template <class S>
-Answers ask(const TriangleGrid &grid, const std::vector<S> &spheres, QuerySettings settings = {},
+Answers ask(const Case &c, const TriangleGrid &grid, const std::vector<S> &spheres,
             Device device = test_device())
 {
-  const auto query = make_sphere_query(device);
-  query->set_grid(grid);
-  return ask(*query, spheres, settings);
+  return GridQuery(c, grid, device).ask(spheres);
 }
 
 std::vector<Case> cases()
@@ -157,7 +197,7 @@ TEST(query, complete_lists_give_the_distance_of_every_triangle_tried)
 {
   for (const Case &c : all_cases()) {
     const TriangleGrid grid = c.grid(0);
-    const Answers a = ask(grid, c.spheres);
+    const Answers a = ask(c, grid, c.spheres);
     expect_right(c, a, c.tolerance(grid), false, "complete");
     for (std::size_t i = 0; i < c.spheres.size(); i++) ASSERT_TRUE(a.certified(i));
   }
@@ -169,7 +209,7 @@ TEST(query, certified_answers_of_nearest_lists_are_right)
   for (const Case &c : all_cases())
     for (int n = 1; n <= 8; n++) {
       const TriangleGrid grid = c.grid(n);
-      const Answers a = ask(grid, c.spheres);
+      const Answers a = ask(c, grid, c.spheres);
       expect_right(c, a, c.tolerance(grid), true, std::to_string(n));
       for (std::size_t i = 0; i < c.spheres.size(); i++)
         (a.certified(i) ? certified : uncertified)++;
@@ -184,7 +224,7 @@ TEST(query, a_list_cut_off_can_only_lose_contacts)
   for (const Case &c : all_cases())
     for (int n : {1, 2, 5}) {
       const TriangleGrid grid = c.grid(n);
-      const Answers a = ask(grid, c.spheres);
+      const Answers a = ask(c, grid, c.spheres);
       for (std::size_t i = 0; i < c.spheres.size(); i++)
         if (a.touching(i)) {
           ASSERT_GE(a.distance[i], c.truth[i] - c.tolerance(grid)) << c.soup.source;
@@ -197,7 +237,7 @@ TEST(query, some_answers_of_short_lists_are_wrong_and_none_of_these_certified)
   std::size_t wrong = 0;
   for (const Case &c : all_cases()) {
     const TriangleGrid grid = c.grid(1);
-    const Answers a = ask(grid, c.spheres);
+    const Answers a = ask(c, grid, c.spheres);
     for (std::size_t i = 0; i < c.spheres.size(); i++)
       if (fault(c, a, i, c.tolerance(grid))) {
         wrong++;
@@ -214,25 +254,9 @@ TEST(query, longer_lists_of_one_grid_are_those_of_another)
   TriangleGrid eight = c.grid(8);
   for (int n = 1; n < 8; n++) {
     eight.nearest = n;
-    const Answers a = ask(eight, c.spheres), b = ask(c.grid(n), c.spheres);
+    const Answers a = ask(c, eight, c.spheres), b = ask(c, c.grid(n), c.spheres);
     EXPECT_EQ(a.status, b.status) << n;
     EXPECT_EQ(a.distance, b.distance) << n;
-  }
-}
-
-TEST(query, trying_every_face_needs_no_lists)
-{
-  for (std::size_t k : {0, 1, 2, 3}) {
-    const Case &c = all_cases()[k];
-    const TriangleGrid grid = c.grid(1);
-    QuerySettings settings;
-    settings.every_face = true;
-    const Answers a = ask(grid, c.spheres, settings);
-    expect_right(c, a, c.tolerance(grid), false, "every face");
-    for (std::size_t i = 0; i < c.spheres.size(); i++) {
-      ASSERT_TRUE(a.certified(i));
-      ASSERT_EQ(a.read[i], c.mesh.faces.size());
-    }
   }
 }
 
@@ -242,7 +266,7 @@ TEST(query, answers_in_float_are_within_float_rounding_of_a_brick)
     const Case &c = all_cases()[k];
     for (int n : {0, 2, 4}) {
       const TriangleGrid grid = c.grid(n, true);
-      const Answers a = ask(grid, c.spheres);
+      const Answers a = ask(c, grid, c.spheres);
       expect_right(c, a, 2 * BrickGeometry::tolerance(grid.view()), n > 0,
                    "floats, " + std::to_string(n));
     }
@@ -256,27 +280,14 @@ TEST(query, gives_the_same_bits_on_both_devices)
     for (const bool in_floats : {false, true})
       for (int n : {0, 1, 3}) {
         const TriangleGrid grid = c.grid(n, in_floats);
-        const Answers cpu = ask(grid, c.spheres, {}, Device::cpu),
-                      cuda = ask(grid, c.spheres, {}, Device::cuda);
+        const Answers cpu = ask(c, grid, c.spheres, Device::cpu),
+                      cuda = ask(c, grid, c.spheres, Device::cuda);
         EXPECT_EQ(cpu.status, cuda.status) << c.soup.source;
-        EXPECT_EQ(cpu.read, cuda.read) << c.soup.source;
         EXPECT_EQ(std::memcmp(cpu.distance.data(), cuda.distance.data(),
                               cpu.distance.size() * sizeof(Real)),
                   0)
             << c.soup.source;
       }
-}
-
-TEST(query, gives_the_same_bits_on_both_devices_with_formula_five)
-{
-  if (!test_on_cuda()) GTEST_SKIP() << "compares CUDA with the CPU";
-  QuerySettings paper;
-  paper.inside = InsideTest::formula_five;
-  for (const Case &c : all_cases()) {
-    const TriangleGrid grid = c.grid(2);
-    EXPECT_EQ(ask(grid, c.spheres, paper, Device::cpu).distance,
-              ask(grid, c.spheres, paper, Device::cuda).distance);
-  }
 }
 
 // The cell's list where q has candidates, as a GPU finds it; elsewhere a list of 0.
@@ -286,28 +297,37 @@ Cell cell_by_words(const GridView &grid, const BrickTable &table, const Vec3 &q)
   return cell == kNoCell ? Cell{0, 0} : grid.lists.cells[cell];
 }
 
-// All far, four at a time, and then those near from their cell's list, as a GPU does, but on
-// the CPU.
-struct CellFirst {
-  template <class S>
-  void reserve(std::size_t)
-  {
-  }
-
-  template <class Work>
-  void run(CpuBackend &, std::size_t n, const Work &work)
-  {
+// All far, four at a time, and then those near from their cell's list: the work of the GPU's kernels for distances
+// alone, on the CPU.
+Answers ask_cells_first(const TriangleGrid &grid, const std::vector<Sphere> &spheres)
+{
+  const GridOn<CpuBackend> g(CpuBackend(), FlatGrid(grid), true);
+  const std::size_t n = spheres.size();
+  Answers found = {std::vector<std::uint8_t>(n), std::vector<Real>(n)};
+  const AnswerArrays<Real> out = {found.status.data(), found.distance.data()};
+  std::uint64_t too_large = 0;
+  with_list_search(g.view, [&](auto search) {
+    const GridWork<decltype(search), Sphere> work = {g.view,
+                                                     g.table,
+                                                     spheres.data(),
+                                                     out,
+                                                     BrickFilter<Real>(g.view),
+                                                     g.coarse,
+                                                     {g.view.cutoff, &too_large},
+                                                     0};
     std::size_t far = 0;
     for (; far + 4 <= n; far += 4) work.four_far(far);
     for (; far < n; far++) work.far(far);
     for (std::size_t i = 0; i < n; i++) {
-      const auto s = work.sphere(i);
+      const Sphere &s = spheres[i];
       work.check(i, s);
-      const Cell cell = cell_by_words(work.grid, work.table, s.centre());
-      if (cell.count > 0) work.answer(i, s, cell);
+      const Cell cell = cell_by_words(g.view, g.table, s.centre());
+      if (cell.count > 0) work.search_list(i, s, cell);
     }
-  }
-};
+  });
+  if (too_large != 0) throw InputError("a radius is too large");
+  return found;
+}
 
 TEST(query, asking_for_the_cell_first_changes_no_bit)
 {
@@ -315,12 +335,10 @@ TEST(query, asking_for_the_cell_first_changes_no_bit)
     for (const bool in_floats : {false, true})
       for (int n : {0, 1, 3}) {
         const TriangleGrid grid = c.grid(n, in_floats);
-        QueryOn<CpuBackend, CellFirst> query{CpuBackend()};
-        query.set_grid(grid);
-        const Answers a = ask(query, c.spheres), b = ask(grid, c.spheres, {}, Device::cpu);
+        const Answers a = ask_cells_first(grid, c.spheres),
+                      b = ask(c, grid, c.spheres, Device::cpu);
         EXPECT_EQ(a.status, b.status) << c.soup.source;
         EXPECT_EQ(a.distance, b.distance) << c.soup.source;
-        EXPECT_EQ(a.read, b.read) << c.soup.source;
       }
 }
 
@@ -366,7 +384,7 @@ class FourLanes {
 };
 
 template <class Distances>
-void expect_lanes_read_as_one(const Case &c, bool in_floats, std::size_t &read)
+void expect_lanes_find_as_one(const Case &c, bool in_floats, std::uint32_t &longest)
 {
   const TriangleGrid grid = c.grid(0, in_floats);
   const GridView view = grid.view();
@@ -386,30 +404,30 @@ void expect_lanes_read_as_one(const Case &c, bool in_floats, std::size_t &read)
     threads.emplace_back([&, lane] {
       for (std::size_t i = 0; i < cells.size(); i++) {
         const Vec3 q = spheres[i].centre();
-        answers[lane].push_back(nearest_together<Distances>(view, q, spheres[i].r, locate(view, q),
-                                                            cells[i], FourLanes(shared, lane)));
+        answers[lane].push_back(nearest_in_warp<Distances>(view, q, spheres[i].r, locate(view, q),
+                                                           cells[i], FourLanes(shared, lane)));
       }
     });
   for (std::thread &t : threads) t.join();
   for (std::size_t i = 0; i < cells.size(); i++) {
-    const Answer one = nearest_distance<true, Distances>(view, spheres[i].centre(), spheres[i].r);
+    const Answer one =
+        nearest_distance<ListSearch<Distances, true>>(view, spheres[i].centre(), spheres[i].r);
     for (const std::vector<Answer> &of_lane : answers) {
       ASSERT_EQ(of_lane[i].distance, one.distance) << c.soup.source << " " << i;
       ASSERT_EQ(of_lane[i].certified, one.certified) << c.soup.source << " " << i;
-      ASSERT_EQ(of_lane[i].read, one.read) << c.soup.source << " " << i;
     }
-    read = std::max<std::size_t>(read, one.read);
+    longest = std::max(longest, cells[i].count);
   }
 }
 
-TEST(query, a_list_that_lanes_read_together_ends_as_for_one)
+TEST(query, a_list_that_lanes_read_together_gives_what_one_finds)
 {
-  std::size_t read = 0;
+  std::uint32_t longest = 0;
   for (const Case &c : all_cases()) {
-    expect_lanes_read_as_one<MeshDistances>(c, false, read);
-    expect_lanes_read_as_one<BrickDistances>(c, true, read);
+    expect_lanes_find_as_one<MeshDistances>(c, false, longest);
+    expect_lanes_find_as_one<BrickDistances>(c, true, longest);
   }
-  EXPECT_GT(read, 8 * FourLanes::kSize);    // some lists take many turns
+  EXPECT_GT(longest, 8 * FourLanes::kSize);    // some lists take many turns
 }
 
 // Numbers at, next to and far from the sides of cells and of the whole grid, and no numbers.
@@ -673,20 +691,17 @@ TEST(query, a_coarse_table_has_the_cubes_of_the_bricks_and_no_others)
 
 // Wherever warps, tiles and queues of a GPU begin and end.
 template <class S>
-void expect_same_bits(const TriangleGrid &grid, const std::vector<S> &spheres,
+void expect_same_bits(const Case &c, const TriangleGrid &grid, const std::vector<S> &spheres,
                       const std::string &what)
 {
-  const auto cpu = make_sphere_query(Device::cpu), cuda = make_sphere_query(Device::cuda);
-  cpu->set_grid(grid);
-  cuda->set_grid(grid);
-  for (const std::size_t n : {0, 1, 3, 31, 32, 33, 64, 127, 128, 129, 1000, 50001, 2000003}) {
+  GridQuery cpu(c, grid, Device::cpu), cuda(c, grid, Device::cuda);
+  for (const std::size_t n : {1, 3, 31, 32, 33, 64, 127, 128, 129, 1000, 50001, 2000003}) {
     const std::vector<S> some(spheres.begin(), spheres.begin() + std::min(n, spheres.size()));
-    const Answers a = ask(*cpu, some), b = ask(*cuda, some);
+    const Answers a = cpu.ask(some), b = cuda.ask(some);
     EXPECT_EQ(a.status, b.status) << what << ", " << n;
-    EXPECT_EQ(a.read, b.read) << what << ", " << n;
     ASSERT_EQ(a.distance.size(), b.distance.size());
-    EXPECT_TRUE(some.empty() || std::memcmp(a.distance.data(), b.distance.data(),
-                                            a.distance.size() * sizeof(Real)) == 0)
+    EXPECT_EQ(std::memcmp(a.distance.data(), b.distance.data(), a.distance.size() * sizeof(Real)),
+              0)
         << what << ", " << n;
   }
 }
@@ -720,8 +735,8 @@ void expect_same_bits_of_all_kinds(const Case &c, const std::vector<Sphere> &sph
   for (const bool in_floats : {false, true})
     for (const int nearest : {0, 2}) {
       const TriangleGrid grid = c.grid(nearest, in_floats);
-      expect_same_bits(grid, spheres, what + ", double");
-      expect_same_bits(grid, as<FloatSphere>(spheres), what + ", float");
+      expect_same_bits(c, grid, spheres, what + ", double");
+      expect_same_bits(c, grid, as<FloatSphere>(spheres), what + ", float");
     }
 }
 
@@ -741,13 +756,13 @@ TEST(query, gives_the_same_bits_on_both_devices_of_any_number_of_spheres)
   };
   expect_same_bits_of_all_kinds(c, many(kManySpheres, 1, [&](std::size_t) { return anywhere(2); }),
                                 "mixed");
-  expect_same_bits(c.grid(0, true),
+  expect_same_bits(c, c.grid(0, true),
                    as<FloatSphere>(many(kManySpheres, 1,
                                         [&](std::size_t) {
                                           return Vec3{0, 0, 3 * hi.z} + anywhere(0);
                                         })),
                    "all far");
-  expect_same_bits(c.grid(0, true),
+  expect_same_bits(c, c.grid(0, true),
                    as<FloatSphere>(many(kManySpheres, 1,
                                         [&](std::size_t) {
                                           Vec3 x = anywhere(0);
@@ -847,65 +862,37 @@ TEST(query, float_spheres_are_answered_as_double_ones_in_the_same_places)
     same.back().r = floats.back().r;
   }
   const TriangleGrid grid = c.grid(2);
-  const Answers a = ask(grid, floats), b = ask(grid, same);
+  const Answers a = ask(c, grid, floats), b = ask(c, grid, same);
   EXPECT_EQ(a.status, b.status);
-  EXPECT_EQ(a.distance, b.distance);
+  for (std::size_t i = 0; i < floats.size(); i++)
+    EXPECT_EQ(a.distance[i], static_cast<float>(b.distance[i]));
 }
 
-TEST(query, grid_and_spheres_can_change_between_calls)
+TEST(query, one_query_answers_more_spheres_and_fewer)
 {
-  const Case &small = all_cases()[2], &large = all_cases()[1];
-  const auto query = make_sphere_query(test_device());
-  for (const Case *c : {&large, &small, &large})
-    for (int n : {0, 2}) {
-      const TriangleGrid grid = c->grid(n);
-      query->set_grid(grid);
-      for (const std::size_t most : {c->spheres.size(), std::size_t(100), c->spheres.size()}) {
-        const std::vector<Sphere> some(c->spheres.begin(), c->spheres.begin() + most);
-        const Answers a = ask(*query, some), b = ask(grid, some);
-        EXPECT_EQ(a.status, b.status);
-        EXPECT_EQ(a.distance, b.distance);
-        EXPECT_EQ(a.read, b.read);
-      }
+  const Case &c = all_cases()[1];
+  for (int n : {0, 2}) {
+    const TriangleGrid grid = c.grid(n);
+    GridQuery query(c, grid);
+    for (const std::size_t most : {c.spheres.size(), std::size_t(100), c.spheres.size()}) {
+      const std::vector<Sphere> some(c.spheres.begin(), c.spheres.begin() + most);
+      const Answers a = query.ask(some), b = ask(c, grid, some);
+      EXPECT_EQ(a.status, b.status);
+      EXPECT_EQ(a.distance, b.distance);
     }
+  }
 }
 
-TEST(query, keeps_only_what_is_asked_for)
-{
-  const Case &c = all_cases()[2];
-  const auto query = make_sphere_query(test_device());
-  query->set_grid(c.grid(0));
-  query->set_spheres(c.spheres.data(), c.spheres.size());
-  QuerySettings settings;
-  settings.distance = settings.read = true;
-  query->run(settings);
-  const std::vector<std::uint8_t> status = query->status();
-  settings.distance = settings.read = false;
-  const QueryTiming timing = query->time(settings, 3);
-  EXPECT_EQ(query->status(), status);
-  EXPECT_TRUE(query->distance().empty());
-  EXPECT_TRUE(query->read().empty());
-  EXPECT_EQ(timing.repeats, 3);
-  EXPECT_LE(timing.min_ms, timing.median_ms);
-  EXPECT_LE(timing.median_ms, timing.max_ms);
-}
-
-TEST(query, no_spheres_have_no_answers)
-{
-  EXPECT_TRUE(ask(all_cases()[2].grid(0), std::vector<Sphere>()).status.empty());
-}
-
-TEST(query, spheres_away_from_the_wall_read_nothing)
+TEST(query, spheres_away_from_the_wall_certainly_touch_nothing)
 {
   const Real nan = std::nan(""), inf = std::numeric_limits<Real>::infinity();
   const Case c(box_mesh({0, 0, 0}, {4, 4, 4}), 0.3, 0.1, 0, 1);
   const std::vector<Sphere> spheres = {{2, 2, 2, 0.3},   {9, 9, 9, 0.3},   {-1e300, 0, 0, 0.3},
                                        {inf, 0, 0, 0.3}, {nan, 0, 0, 0.3}, {0, nan, 0, 0.3}};
   for (int n : {0, 1}) {
-    const Answers a = ask(c.grid(n), spheres);
+    const Answers a = ask(c, c.grid(n), spheres);
     for (std::size_t i = 0; i < spheres.size(); i++) {
       EXPECT_EQ(a.status[i], kCertified) << i;
-      EXPECT_EQ(a.read[i], 0u) << i;
       EXPECT_EQ(a.distance[i], HUGE_VAL) << i;
     }
   }
@@ -913,17 +900,15 @@ TEST(query, spheres_away_from_the_wall_read_nothing)
 
 // What a query says of the 700 spheres when those at `large` have radius r.
 template <class S>
-std::string refusal(const std::vector<std::size_t> &large, Real r, bool every_face = false)
+std::string refusal(const std::vector<std::size_t> &large, Real r)
 {
   // Cutoff 0.1; spheres with the cutoff for their radius, far from the wall.
   const Case c(box_mesh({0, 0, 0}, {4, 4, 4}), 0.1, 0.1, 0, 1);
   const auto digits = [](Real x) { return static_cast<decltype(S::r)>(x); };
   std::vector<S> spheres(700, {2, 2, digits(3.5), digits(0.1)});
   for (std::size_t i : large) spheres[i].r = digits(r);
-  QuerySettings settings;
-  settings.every_face = every_face;
   try {
-    ask(c.grid(0), spheres, settings);
+    ask(c, c.grid(0), spheres);
   } catch (const InputError &e) {
     return e.what();
   }
@@ -934,7 +919,7 @@ std::string refusal(const std::vector<std::size_t> &large, Real r, bool every_fa
 TEST(query, a_sphere_larger_than_the_reach_is_refused_by_its_index_and_both_lengths)
 {
   const std::string words =
-      "sphere 600 has radius 0.6, more than the grid's cutoff 0.1: build the grid with a cutoff of "
+      "point 600 has radius 0.6, more than the grid's cutoff 0.1: build the grid with a cutoff of "
       "the largest radius";
   EXPECT_EQ(refusal<Sphere>({600, 699}, 0.6), words);
 }
@@ -942,27 +927,20 @@ TEST(query, a_sphere_larger_than_the_reach_is_refused_by_its_index_and_both_leng
 TEST(query, a_radius_in_float_is_held_against_the_reach_in_float)
 {
   EXPECT_EQ(refusal<FloatSphere>({}, 0), "");    // the nearest float to 0.1 is more than 0.1
-  EXPECT_NE(refusal<FloatSphere>({600}, 0.1000001).find("sphere 600 has radius 0.100000"),
+  EXPECT_NE(refusal<FloatSphere>({600}, 0.1000001).find("point 600 has radius 0.100000"),
             std::string::npos);
 }
 
 TEST(query, a_radius_that_is_no_number_is_refused)
 {
-  EXPECT_NE(refusal<Sphere>({5}, std::nan("")).find("sphere 5 has radius nan"), std::string::npos);
-}
-
-TEST(query, every_face_answers_spheres_of_any_radius)
-{
-  EXPECT_EQ(refusal<Sphere>({600}, 0.6, true), "");
+  EXPECT_NE(refusal<Sphere>({5}, std::nan("")).find("point 5 has radius nan"), std::string::npos);
 }
 
 TEST(query, asking_for_the_cell_first_refuses_large_spheres_too)
 {
   const Case c(box_mesh({0, 0, 0}, {4, 4, 4}), 0.1, 0.1, 0, 1);
-  QueryOn<CpuBackend, CellFirst> query{CpuBackend()};
-  query.set_grid(c.grid(0));
-  EXPECT_THROW(ask(query, std::vector<Sphere>{{2, 2, 3.5, 0.6}}), InputError);
-  EXPECT_NO_THROW(ask(query, std::vector<Sphere>{{2, 2, 3.5, 0.1}}));
+  EXPECT_THROW(ask_cells_first(c.grid(0), {{2, 2, 3.5, 0.6}}), InputError);
+  EXPECT_NO_THROW(ask_cells_first(c.grid(0), {{2, 2, 3.5, 0.1}}));
 }
 
 TEST(query, a_sphere_that_only_reaches_the_wall_does_not_touch_it)
@@ -970,136 +948,11 @@ TEST(query, a_sphere_that_only_reaches_the_wall_does_not_touch_it)
   const Case c(box_mesh({0, 0, 0}, {4, 4, 4}), 0.5, 0.25, 0, 1);
   for (int n : {0, 1, 2}) {
     const Answers a =
-        ask(c.grid(n), std::vector<Sphere>{{2, 2, 4.25, 0.25}, {2, 2, 4.25, 0.2500001}});
+        ask(c, c.grid(n), std::vector<Sphere>{{2, 2, 4.25, 0.25}, {2, 2, 4.25, 0.2500001}});
     EXPECT_FALSE(a.touching(0)) << n;
     EXPECT_TRUE(a.touching(1)) << n;
     EXPECT_EQ(a.distance[1], 0.25) << n;
   }
-}
-
-TEST(query, a_list_of_n_reads_one_more_at_most)
-{
-  const Case &c = all_cases()[3];
-  for (std::uint32_t n : {1u, 2u, 5u}) {
-    const Answers a = ask(c.grid(n), c.spheres);
-    std::uint32_t most = 0;
-    for (std::uint32_t read : a.read) most = std::max(most, read);
-    EXPECT_EQ(most, n + 1);
-  }
-}
-
-// ---- the paper's test ---------------------------------------------------------------
-
-Answers ask_one_triangle(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &q, Real radius,
-                         InsideTest inside, bool every_face)
-{
-  TriangleSoup soup;
-  soup.corners = {a, b, c};
-  const Case wall(soup, radius, radius / 2, 0, 1);
-  QuerySettings settings;
-  settings.inside = inside;
-  settings.every_face = every_face;
-  return ask(wall.grid(1), std::vector<Sphere>{{q.x, q.y, q.z, radius}}, settings);
-}
-
-TEST(formula_five, takes_a_point_outside_for_inside)
-{
-  // All six products are at or above 0, yet O lies 0.577 below the side A B.
-  for (const bool every_face : {false, true}) {
-    const auto at = [&](InsideTest inside) {
-      return ask_one_triangle({0, 0, 0}, {2, 0, 0}, {1, 1.732, 0}, {1, -0.577, 0}, 1, inside,
-                              every_face)
-          .distance[0];
-    };
-    EXPECT_EQ(at(InsideTest::formula_five), 0);
-    EXPECT_NEAR(at(InsideTest::exact), 0.577, 1e-15);
-  }
-}
-
-TEST(formula_five, takes_a_point_inside_for_outside)
-{
-  // O is inside, but A O . A B < 0: the answer is the nearest side, sqrt(2) in the plane.
-  const Vec3 a = {0, 0, 0}, b = {20, 0, 0}, c = {-20, 20, 0}, o = {-11, 13, 0.25};
-  ASSERT_LT(dot(o - a, b - a), 0);
-  for (const bool every_face : {false, true}) {
-    const auto at = [&](InsideTest inside) {
-      return ask_one_triangle(a, b, c, o, 8, inside, every_face).distance[0];
-    };
-    EXPECT_NEAR(at(InsideTest::exact), 0.25, 1e-15);
-    // The line B C: x + 2 y = 20; A C: x + y = 0, nearer here.
-    EXPECT_NEAR(at(InsideTest::formula_five), std::sqrt(0.25 * 0.25 + std::fmin(4 / 2., 25. / 5)),
-                1e-14);
-  }
-}
-
-TEST(formula_five, is_right_over_the_inside_of_acute_triangles)
-{
-  Numbers r(8);
-  const Vec3 a = {0, 0, 0}, b = {2, 0, 0}, c = {1, 1.8, 0};
-  TriangleSoup soup;
-  soup.corners = {a, b, c};
-  std::vector<Sphere> spheres;
-  for (int i = 0; i < 2000; i++) {
-    Real u = r.in(0, 1), v = r.in(0, 1);
-    if (u + v > 1) u = 1 - u, v = 1 - v;
-    const Vec3 q = a + u * (b - a) + v * (c - a) + Vec3{0, 0, r.in(-1, 1)};
-    spheres.push_back({q.x, q.y, q.z, 2});
-  }
-  QuerySettings paper;
-  paper.inside = InsideTest::formula_five;
-  const Answers answers = ask(Case(soup, 2, 1, 0, 1).grid(1), spheres, paper);
-  for (std::size_t i = 0; i < spheres.size(); i++)
-    ASSERT_NEAR(answers.distance[i], std::fabs(spheres[i].z), 1e-15);
-}
-
-TEST(formula_five, is_six_products_then_a_plane_or_three_sides)
-{
-  Numbers r(9);
-  int n_inside = 0;
-  for (int t = 0; t < 60; t++) {
-    const Vec3 corner[3] = {r.in_box(), r.in_box(), r.in_box()};
-    TriangleSoup soup;
-    soup.corners.assign(corner, corner + 3);
-    std::vector<Sphere> spheres;
-    for (int i = 0; i < 200; i++) {
-      const Vec3 q = 1.5 * r.in_box();
-      spheres.push_back({q.x, q.y, q.z, 4});
-    }
-    QuerySettings paper;
-    paper.inside = InsideTest::formula_five;
-    const Answers answers = ask(Case(soup, 4, 2, 0, 1).grid(1), spheres, paper);
-    const Vec3 across = cross(corner[1] - corner[0], corner[2] - corner[0]);
-    for (std::size_t i = 0; i < spheres.size(); i++) {
-      const Vec3 q = spheres[i].centre();
-      bool inside = true;
-      Real side = HUGE_VAL;
-      for (int k = 0; k < 3; k++)
-        for (int j = 0; j < 3; j++) {
-          if (j == k) continue;
-          const Vec3 u = corner[j] - corner[k];
-          const Real along = dot(q - corner[k], u) / norm(u);
-          inside = inside && along >= 0;
-          const Real on = std::fmin(std::fmax(along, Real(0)), norm(u));
-          side = std::fmin(side, norm(q - corner[k] - (on / norm(u)) * u));
-        }
-      n_inside += inside;
-      const Real expected = inside ? std::fabs(dot(across, q - corner[0])) / norm(across) : side;
-      ASSERT_NEAR(answers.distance[i], expected, 1e-12) << t << " " << i;
-    }
-  }
-  EXPECT_GT(n_inside, 500);
-}
-
-TEST(formula_five, is_refused_where_lists_hold_no_triangles)
-{
-  const Case &c = all_cases()[2];
-  QuerySettings paper;
-  paper.inside = InsideTest::formula_five;
-  EXPECT_THROW(ask(c.grid(0), c.spheres, paper), InputError);
-  EXPECT_THROW(ask(c.grid(2, true), c.spheres, paper), InputError);
-  EXPECT_NO_THROW(ask(c.grid(2), c.spheres, paper));
-  paper.every_face = true;
-  EXPECT_NO_THROW(ask(c.grid(0), c.spheres, paper));
 }
 
 }    // namespace

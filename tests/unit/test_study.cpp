@@ -373,7 +373,7 @@ TEST(study, force_error_of_a_missed_contact_is_all_of_it)
   // The mean once more, from the answers of both grids.
   const auto distances = [&] {
     const auto query = make_sphere_query(test_device());
-    query->set_grid(study.grid());
+    query->set_grid(study.grid(), study.mesh());
     query->set_spheres(study.spheres().data(), kMany);
     query->run(QuerySettings());
     return query->distance();

@@ -86,8 +86,8 @@ void expect_the_same_answers(Real radius, bool each)
       if (radius > 0) a->io.radius = static_cast<T>(radius * c->diagonal);
       if (each) a->io.radii = {a->radii.put(radii), 1};
     }
-    copy_to_cuda(c->tree)->query_on(nullptr)->answer(gpu.io);
-    answer_points(c->tree, nullptr, HUGE_VAL, cpu.io);
+    copy_to_cuda(c->tree)->query_on(nullptr)->enqueue(gpu.io);
+    query_tree(c->tree, nullptr, HUGE_VAL, cpu.io);
     expect_same_bits(gpu.distance.get(n), cpu.distance.get(n), *c);
     expect_same_bits(gpu.feature.get(n), cpu.feature.get(n), *c);
     expect_same_bits(gpu.triangle.get(n), cpu.triangle.get(n), *c);
@@ -123,8 +123,8 @@ TEST(tree_on_gpu, very_many_points_get_what_each_alone_gets)
   Answers<float> gpu(true, at), cpu(false, at);
   const std::size_t n = cpu.io.n;
   for (Answers<float> *a : {&gpu, &cpu}) a->io.radius = static_cast<float>(1e-3 * c.diagonal);
-  copy_to_cuda(c.tree)->query_on(nullptr)->answer(gpu.io);
-  answer_points(c.tree, nullptr, HUGE_VAL, cpu.io);
+  copy_to_cuda(c.tree)->query_on(nullptr)->enqueue(gpu.io);
+  query_tree(c.tree, nullptr, HUGE_VAL, cpu.io);
   expect_same_bits(gpu.distance.get(n), cpu.distance.get(n), c);
   expect_same_bits(gpu.feature.get(n), cpu.feature.get(n), c);
 }
@@ -143,7 +143,7 @@ TEST(tree_on_gpu, normals_tell_the_sides_that_winding_numbers_tell)
     const std::size_t n = gpu.io.n;
     gpu.io.side = gpu.side.resize(n);
     gpu.io.signed_distance = {gpu.signed_distance.resize(n), 1};
-    copy_to_cuda(c->tree)->query_on(nullptr)->answer(gpu.io);
+    copy_to_cuda(c->tree)->query_on(nullptr)->enqueue(gpu.io);
     const std::vector<std::int8_t> side = gpu.side.get(n);
     const std::vector<double> distance = gpu.distance.get(n),
                               with_sign = gpu.signed_distance.get(n);
@@ -172,7 +172,7 @@ TEST(tree_on_gpu, refuses_a_negative_radius_by_its_point)
   gpu.io.radii = {gpu.radii.put({1., 1., -2.}), 1};
   const auto query = copy_to_cuda(c.tree)->query_on(nullptr);
   try {
-    query->answer(gpu.io);
+    query->enqueue(gpu.io);
     FAIL();
   } catch (const InputError &e) {
     EXPECT_STREQ(e.what(), "point 2 has radius -2: give 0 or more");

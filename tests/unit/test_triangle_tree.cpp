@@ -188,7 +188,7 @@ TEST(triangle_tree, many_points_get_what_each_alone_gets)
     io.feature = feature.data();
     std::unique_ptr<NearBoxes> near;
     if (cutoff > 0) near = std::make_unique<NearBoxes>(c.tree, c.mesh, cutoff);
-    answer_points(c.tree, near.get(), io.radius, io);
+    query_tree(c.tree, near.get(), io.radius, io);
     std::size_t found = 0;
     for (std::size_t i = 0; i < points.size(); i++) {
       const TreeAnswer alone = c.tree.nearest(points[i], io.radius, kNoHint);

@@ -21,11 +21,11 @@ TriangleSoup vessel()
 }
 
 // One sphere of radius 1 with contacts on the given closest points, and a force along x.
-WallAnswers answers_of(const std::vector<WallAnswers::Place> &places, Real force)
+WallAnswers answers_of(const std::vector<WallAnswers::Contact> &contacts, Real force)
 {
   WallAnswers a;
-  a.places = places;
-  a.first = {0, places.size()};
+  a.contacts = contacts;
+  a.first = {0, contacts.size()};
   a.force = {{force, 0, 0}};
   return a;
 }
@@ -37,7 +37,7 @@ struct Compare : testing::Test {
     return compare(reference, trial, sample, 100);
   }
   SphereSample sample;
-  const WallAnswers::Place below = {{0, 0, -0.9}, 0.1, true}, beside = {{0.9, 0, 0}, 0.1, true};
+  const WallAnswers::Contact below = {{0, 0, -0.9}, 0.1, true}, beside = {{0.9, 0, 0}, 0.1, true};
 };
 
 TEST_F(Compare, a_contact_without_a_foot_beside_its_own_is_missed)
@@ -45,7 +45,7 @@ TEST_F(Compare, a_contact_without_a_foot_beside_its_own_is_missed)
   const WallAnswers both = answers_of({below, beside}, 10);
   EXPECT_EQ(error(both, both).missed, 0);
   EXPECT_EQ(error(both, answers_of({beside}, 10)).missed, 1);
-  WallAnswers::Place off = below;
+  WallAnswers::Contact off = below;
   off.closest.x = 0.9e-3;
   EXPECT_EQ(error(both, answers_of({off, beside}, 10)).missed, 0);
   off.closest.x = 1.1e-3;
@@ -56,7 +56,7 @@ TEST_F(Compare, a_contact_without_a_foot_beside_its_own_is_missed)
 
 TEST_F(Compare, a_contact_that_bears_nothing_cannot_be_missed)
 {
-  WallAnswers::Place idle = below;
+  WallAnswers::Contact idle = below;
   idle.bears = false;
   const AnswerError e = error(answers_of({idle, beside}, 10), answers_of({beside}, 10));
   EXPECT_EQ(e.contacts, 1);

@@ -59,7 +59,6 @@ class CachedGrid {
   const std::string &problem() const { return problem_; }    // "is damaged: ...", or empty
   const GridReport &report() const { return report_; }       // of the build
   std::size_t block_bytes() const { return block_bytes_; }
-  std::size_t file_bytes() const { return file_bytes_; }
 
   // Fills a block of block_bytes(), as flatten() made it. False if the file is damaged: state()
   // and problem() say how, and the block has no meaning.
